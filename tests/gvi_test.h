@@ -1,0 +1,62 @@
+/* What every test includes: gvi.h with its implementation, cmocka, and a
+   comparison of its own (cmocka 1.1.5 compares doubles as floats, and accepts
+   NaN against NaN).                                                          */
+#ifndef GVI_TEST_H
+#define GVI_TEST_H
+
+#define GVI_IMPLEMENTATION
+#include "gvi.h"
+
+#include <float.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+
+#if GVI__KIND == 1
+#define EPS FLT_EPSILON
+#elif GVI__KIND == 2
+#define EPS DBL_EPSILON
+#else
+#define EPS LDBL_EPSILON
+#endif
+
+#define COUNT(a) ((int)(sizeof(a)/sizeof(a)[0]))
+
+static __attribute__((unused)) void
+check_close(long double a, long double b, long double tol, const char *what, const char *file, int line)
+{
+    long double d = a > b ? a - b : b - a;
+    if (d <= tol) return;                         /* false for NaN */
+    print_error("%s:%d: %s\n  %.21Lg\n  %.21Lg differ by %.3Lg, allowed %.3Lg\n",
+                file, line, what, a, b, d, tol);
+    _fail(file, line);
+}
+
+static __attribute__((unused)) void
+check_between(long double lo, long double x, long double hi, const char *what, const char *file, int line)
+{
+    if (lo <= x && x <= hi) return;
+    print_error("%s:%d: %s = %.9Lg is not in [%.9Lg, %.9Lg]\n", file, line, what, x, lo, hi);
+    _fail(file, line);
+}
+
+/* |a - b| <= tol; a NaN fails. */
+#define assert_close(a, b, tol) \
+    check_close((long double)(a), (long double)(b), (long double)(tol), #a " against " #b, __FILE__, __LINE__)
+/* lo <= x <= hi; a NaN fails. */
+#define assert_between(lo, x, hi) \
+    check_between((long double)(lo), (long double)(x), (long double)(hi), #x, __FILE__, __LINE__)
+/* A status, by name in the message. */
+#define assert_status(call, wanted) do { \
+    gvi_status got_ = (call); \
+    if (got_ != (wanted)) print_error("%s: %s\n", #call, gvi_status_text(got_)); \
+    assert_int_equal(got_, (wanted)); } while (0)
+#define assert_ok(call) assert_status(call, GVI_OK)
+
+#endif
