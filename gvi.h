@@ -120,7 +120,7 @@
    symplectic.  The Galerkin kind [2] takes
 
      curve        q(t0 + h tau) = q0 + h sum_k Phi_k(tau) y_k     0 <= tau <= 1
-                  k = 0..s-1, phi_k = Legendre polynomial P_k(2 tau - 1),
+                  k = 0..s-1, phi_k = Legendre polynomial P_k(1 - 2 tau),
                   Phi_k(tau) = integral of phi_k from 0 to tau
      quadrature   nodes c_i, weights b_i, i = 1..r, of order u on [0,1]
      at the nodes Q_i = q0 + h sum_k Phi_k(c_i) y_k      V_i = sum_k phi_k(c_i) y_k
@@ -405,16 +405,20 @@ struct gvi__private {
     gvi_real         te, t0;          /* compensation of t; start of last step  */
     gvi_real         h_weights;       /* h for which hb holds                   */
     gvi_real         ratio;           /* h/h_last for which E holds             */
-    gvi_real         h_matrix;        /* h for which the Jacobian was made      */
+    gvi_real         h_matrix;        /* h for which J was made, 0: none        */
     unsigned         off;             /* effects switched off, one bit each     */
     int              stride, flags;   /* of the rows; what the scene needs      */
-    int              started, stepped, diagnose, lu_valid, newton_left;
+    int              started, stepped, diagnose, swapped;
+    int              has_force;       /* last.F ends with the force at (t, q)   */
+    int              has_velocity;    /* last.V holds                           */
+    int              has_factor;      /* point_mass holds a factored M          */
+    int              newton_left;     /* steps until the fixed point is tried   */
     struct gvi__rows last, work;      /* at the points of the last step, the next */
     gvi_real        *memory;
-    gvi_real        *q, *qe, *p, *pe, *q0, *p0, *v0, *ve, *dq, *dp, *change, *one;
-    gvi_real        *c, *ce, *b, *hb, *t, *row, *gend, *E, *gamma, *W;
-    gvi_real        *g, *m, *T, *N, *mass, *point_mass;
-    gvi_real        *phi, *Phi, *y, *dy, *J, *pivot, *hess, *dF, *dP;
+    gvi_real        *q, *qe, *p, *pe, *q0, *p0, *none, *v0, *ve, *dq, *dp, *change, *one;
+    gvi_real        *c, *ce, *b, *hb, *t, *row, *near, *z, *acc, *E, *gamma;
+    gvi_real        *g, *m, *T, *N, *phi, *Phi, *low, *mass, *point_mass, *Z, *own;
+    gvi_real        *y, *dy, *J, *pivot, *hess, *dF, *dP, *bF, *bP;
 };
 
 /* The stepper.  Read what stands before x; x is private.                      */
@@ -539,9 +543,2518 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 /* Rows are padded to a multiple of 4 from 5 points on, for vector registers.
    Terms: state, rule and tables, two sets of rows, mass, Newton.              */
 #define GVI__ROW(r) ((r) < 5 ? (r) : ((r) + 3)/4*4)
-#define GVI_LENGTH(n, s, r) ((n) > 0 ? 0 : 0)     /* set below with the layout */
+#define GVI_LENGTH(n, s, r) ((size_t)(                                          \
+    (26 + 6*(s) + (6 + GVI__ROW(r) + 2*(s)*(s))*(n) + 15*GVI__ROW(r))*(n)       \
+    + (11 + 5*(r) + 3*(s))*GVI__ROW(r) + ((s) + 3)*(s) + 4))
 
 #ifdef __cplusplus
 }
 #endif
 #endif /* GVI_H */
+
+#if defined(GVI_IMPLEMENTATION) && !defined(GVI_IMPLEMENTED)
+#define GVI_IMPLEMENTED
+
+#if defined(__FAST_MATH__)
+#error "gvi.h relies on IEEE arithmetic: do not compile it with -ffast-math"
+#endif
+
+/* --------------------------------------------------------------- SUPPORT */
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#if GVI__KIND == 1
+#define GVI__EPS   FLT_EPSILON
+#define GVI__MAX   FLT_MAX
+#define GVI__DIG   FLT_MANT_DIG
+#define gvi__sqrt  sqrtf
+#define gvi__floor floorf
+#define gvi__ldexp ldexpf
+#define gvi__frexp frexpf
+#define gvi__sin   sinf
+#elif GVI__KIND == 2
+#define GVI__EPS   DBL_EPSILON
+#define GVI__MAX   DBL_MAX
+#define GVI__DIG   DBL_MANT_DIG
+#define gvi__sqrt  sqrt
+#define gvi__floor floor
+#define gvi__ldexp ldexp
+#define gvi__frexp frexp
+#define gvi__sin   sin
+#else
+#define GVI__EPS   LDBL_EPSILON
+#define GVI__MAX   LDBL_MAX
+#define GVI__DIG   LDBL_MANT_DIG
+#define gvi__sqrt  sqrtl
+#define gvi__floor floorl
+#define gvi__ldexp ldexpl
+#define gvi__frexp frexpl
+#define gvi__sin   sinl
+#endif
+
+typedef char gvi__effects_fit_a_word[GVI_EFFECTS >= 1 && GVI_EFFECTS <= 32 ? 1 : -1];
+
+static gvi_real gvi__abs(gvi_real x) { return x < 0 ? -x : x; }
+
+static int gvi__finite(gvi_real x) { return gvi__abs(x) <= GVI__MAX; }
+
+// true for every x but 0 and NaN
+static int gvi__nonzero(gvi_real x) { return x < 0 || x > 0; }
+
+static int gvi__all_finite(int n, const gvi_real *x)
+{
+    for (int i = 0; i < n; ++i)
+        if (!gvi__finite(x[i])) return 0;
+    return 1;
+}
+
+static void gvi__zero(size_t n, gvi_real *x)
+{
+    for (size_t i = 0; i < n; ++i) x[i] = 0;
+}
+
+static void gvi__copy(size_t n, const gvi_real *x, gvi_real *y)
+{
+    for (size_t i = 0; i < n; ++i) y[i] = x[i];
+}
+
+/* Twofold arithmetic: an unevaluated sum hi + lo, |lo| <= ulp(hi)/2, carries
+   twice the digits of gvi_real (Dekker, Knuth).  Used for tables, where the
+   rounding of a coefficient would act in every step in the same direction.   */
+typedef struct gvi__two { gvi_real hi, lo; } gvi__two;
+
+static gvi__two gvi__sum(gvi_real a, gvi_real b)          // a + b exactly
+{
+    gvi__two z;
+    z.hi = a + b;
+    gvi_real bb = z.hi - a;
+    z.lo = (a - (z.hi - bb)) + (b - bb);
+    return z;
+}
+
+static gvi__two gvi__split(gvi_real a)                    // halves of the digits
+{
+    gvi__two z;
+    gvi_real s = (gvi__ldexp(1, (GVI__DIG + 1)/2) + 1)*a;
+    z.hi = s - (s - a);
+    z.lo = a - z.hi;
+    return z;
+}
+
+static gvi__two gvi__product(gvi_real a, gvi_real b)      // a*b exactly
+{
+    gvi__two z, x = gvi__split(a), y = gvi__split(b);
+    z.hi = a*b;
+    z.lo = ((x.hi*y.hi - z.hi) + x.hi*y.lo + x.lo*y.hi) + x.lo*y.lo;
+    return z;
+}
+
+static gvi__two gvi__real2(gvi_real a) { gvi__two z; z.hi = a; z.lo = 0; return z; }
+
+static gvi__two gvi__add2(gvi__two a, gvi__two b)
+{
+    gvi__two s = gvi__sum(a.hi, b.hi), t = gvi__sum(a.lo, b.lo);
+    s = gvi__sum(s.hi, s.lo + t.hi);
+    return gvi__sum(s.hi, s.lo + t.lo);
+}
+
+static gvi__two gvi__neg2(gvi__two a) { a.hi = -a.hi; a.lo = -a.lo; return a; }
+
+static gvi__two gvi__sub2(gvi__two a, gvi__two b) { return gvi__add2(a, gvi__neg2(b)); }
+
+static gvi__two gvi__mul2(gvi__two a, gvi__two b)
+{
+    gvi__two z = gvi__product(a.hi, b.hi);
+    return gvi__sum(z.hi, z.lo + (a.hi*b.lo + a.lo*b.hi));
+}
+
+static gvi__two gvi__scale2(gvi_real a, gvi__two b) { return gvi__mul2(gvi__real2(a), b); }
+
+static gvi__two gvi__div2(gvi__two a, gvi__two b)
+{
+    // one correction of the rounded quotient doubles its digits
+    gvi_real q = a.hi/b.hi;
+    gvi__two rest = gvi__sub2(a, gvi__scale2(q, b));
+    return gvi__sum(q, rest.hi/b.hi);
+}
+
+// nearest multiple of `unit`, a power of 2: sums of such numbers are exact
+static gvi_real gvi__grid(gvi__two a, gvi_real unit)
+{
+    return gvi__floor(a.hi/unit + (a.lo/unit + (gvi_real)0.5))*unit;
+}
+
+/* -------------------------------------------------------------- DENSE LU */
+
+// pivot[0..n-1]: row scales 1/max_j |a_ij|; pivot[n+j]: max_i of column j of the
+// scaled rows; pivot[2n]: 1-norm of A
+static gvi_status gvi__lu_scales(int n, const gvi_real *a, gvi_real *pivot)
+{
+    gvi_status status = GVI_OK;
+    for (int i = 0; i < n; ++i) {
+        gvi_real big = 0;
+        for (int j = 0; j < n; ++j) {
+            gvi_real x = gvi__abs(a[(size_t)i*(size_t)n + (size_t)j]);
+            if (!(x <= GVI__MAX)) return GVI_E_NON_FINITE;
+            if (x > big) big = x;
+        }
+        if (!(big > 0)) status = GVI_E_SINGULAR;
+        pivot[i] = big > 0 ? 1/big : 0;
+        if (!gvi__finite(pivot[i])) pivot[i] = GVI__MAX;      // subnormal row
+    }
+    pivot[2*n] = 0;
+    for (int j = 0; j < n; ++j) {
+        gvi_real sum = 0, big = 0;
+        for (int i = 0; i < n; ++i) {
+            gvi_real x = gvi__abs(a[(size_t)i*(size_t)n + (size_t)j]);
+            sum += x;
+            if (x*pivot[i] > big) big = x*pivot[i];
+        }
+        pivot[n + j] = big;
+        if (sum > pivot[2*n]) pivot[2*n] = sum;
+    }
+    return status;
+}
+
+// at: the column in which elimination ended, if it is singular
+static gvi_status gvi__lu_factor(int n, gvi_real *a, gvi_real *pivot, int *at)
+{
+    size_t N = (size_t)n;
+    *at = -1;
+    gvi_status status = gvi__lu_scales(n, a, pivot);
+    if (status != GVI_OK) return status;
+
+    for (size_t k = 0; k < N; ++k) {
+        // find pivot: largest in column k, each row measured by its own scale
+        size_t m = k;
+        gvi_real big = -1;
+        for (size_t i = k; i < N; ++i) {
+            gvi_real x = gvi__abs(a[i*N + k])*pivot[i];
+            if (x > big) { big = x; m = i; }
+        }
+
+        // check: nothing left of this column but the rounding of what was in it
+        if (!(big > (gvi_real)n*GVI__EPS*pivot[N + k])) {
+            *at = (int)k;
+            return GVI_E_SINGULAR;
+        }
+
+        // swap rows k and m, all columns; the scale of row k moves along
+        if (m != k)
+            for (size_t j = 0; j < N; ++j) {
+                gvi_real x = a[k*N + j];
+                a[k*N + j] = a[m*N + j];
+                a[m*N + j] = x;
+            }
+        pivot[m] = pivot[k];
+        pivot[k] = (gvi_real)m;
+
+        // eliminate column k from the rows below
+        for (size_t i = k + 1; i < N; ++i) {
+            gvi_real l = a[i*N + k]/a[k*N + k], *row = a + i*N;
+            const gvi_real *top = a + k*N;
+            row[k] = l;
+            if (gvi__nonzero(l))
+                for (size_t j = k + 1; j < N; ++j) row[j] -= l*top[j];
+        }
+    }
+    return GVI_OK;
+}
+
+GVI_DEF gvi_status gvi_lu_factor(int n, gvi_real *a, gvi_real *pivot)
+{
+    int at;
+    if (n < 1 || !a || !pivot) return GVI_E_ARGUMENT;
+    return gvi__lu_factor(n, a, pivot, &at);
+}
+
+GVI_DEF void gvi_lu_solve(int n, const gvi_real *lu, const gvi_real *pivot, gvi_real *x)
+{
+    size_t N = (size_t)n;
+
+    // x = P x, then forward substitution: solve L*y = x
+    for (size_t k = 0; k < N; ++k) {
+        size_t m = (size_t)pivot[k];
+        gvi_real y = x[m];
+        x[m] = x[k];
+        x[k] = y;
+    }
+    for (size_t i = 1; i < N; ++i)
+        for (size_t j = 0; j < i; ++j) x[i] -= lu[i*N + j]*x[j];
+
+    // back substitution: solve U*x = y
+    for (size_t i = N; i-- > 0; ) {
+        for (size_t j = i + 1; j < N; ++j) x[i] -= lu[i*N + j]*x[j];
+        x[i] /= lu[i*N + i];
+    }
+}
+
+// solves A' x = b: U'*y = b, L'*z = y, x = P' z; rows are used as columns
+static void gvi__lu_solve_transposed(int n, const gvi_real *lu, const gvi_real *pivot, gvi_real *x)
+{
+    size_t N = (size_t)n;
+    for (size_t i = 0; i < N; ++i) {
+        x[i] /= lu[i*N + i];
+        for (size_t j = i + 1; j < N; ++j) x[j] -= lu[i*N + j]*x[i];
+    }
+    for (size_t i = N; i-- > 0; )
+        for (size_t j = 0; j < i; ++j) x[j] -= lu[i*N + j]*x[i];
+    for (size_t k = N; k-- > 0; ) {
+        size_t m = (size_t)pivot[k];
+        gvi_real y = x[m];
+        x[m] = x[k];
+        x[k] = y;
+    }
+}
+
+static gvi_real gvi__norm1(int n, const gvi_real *x)
+{
+    gvi_real sum = 0;
+    for (int i = 0; i < n; ++i) sum += gvi__abs(x[i]);
+    return sum;
+}
+
+GVI_DEF gvi_real gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot, gvi_real *work)
+{
+    gvi_real *x = work, *z = work + n, *sign = work + 2*n, best = 0;
+
+    // climb |A^-1 x| over the corners of |x| = 1, at most 5 of them
+    for (int i = 0; i < n; ++i) x[i] = 1/(gvi_real)n, sign[i] = 0;
+    for (int step = 0, corner = -1; step < 5; ++step) {
+        gvi_lu_solve(n, lu, pivot, x);
+        gvi_real norm = gvi__norm1(n, x);
+        int same = step > 0;
+        if (norm > best) best = norm;
+        else if (step > 0) break;
+        for (int i = 0; i < n; ++i) {
+            z[i] = x[i] < 0 ? -1 : 1;
+            if (gvi__nonzero(z[i] - sign[i])) same = 0;
+            sign[i] = z[i];
+        }
+        if (same) break;
+        gvi__lu_solve_transposed(n, lu, pivot, z);
+        int next = 0;
+        for (int i = 1; i < n; ++i)
+            if (gvi__abs(z[i]) > gvi__abs(z[next])) next = i;
+        if (next == corner) break;
+        corner = next;
+        gvi__zero((size_t)n, x);
+        x[next] = 1;
+    }
+
+    // a vector of alternating signs catches what the climb may miss
+    for (int i = 0; i < n; ++i) {
+        gvi_real a = 1 + (n > 1 ? (gvi_real)i/(gvi_real)(n - 1) : 0);
+        x[i] = i % 2 ? -a : a;
+    }
+    gvi_lu_solve(n, lu, pivot, x);
+    gvi_real other = 2*gvi__norm1(n, x)/(3*(gvi_real)n);
+    if (other > best) best = other;
+    return 1/best/pivot[2*n];
+}
+
+/* ------------------------------------------------------------ QUADRATURE */
+
+/* P_m(x) and P_(m-1)(x) at x = 1 - 2c by the three-term recurrence
+   (k+1) P_(k+1) = (2k+1) x P_k - k P_(k-1), in gvi_real.                      */
+static void gvi__legendre(int m, gvi_real c, gvi_real *P, gvi_real *before)
+{
+    gvi_real x = 1 - 2*c, a = 1, b = 0;
+    for (int k = 0; k < m; ++k) {
+        gvi_real next = ((gvi_real)(2*k + 1)*x*a - (gvi_real)k*b)/(gvi_real)(k + 1);
+        b = a;
+        a = next;
+    }
+    *P = a;
+    *before = b;
+}
+
+// the same in twofold arithmetic
+static void gvi__legendre2(int m, gvi__two c, gvi__two *P, gvi__two *before)
+{
+    gvi__two x = gvi__sub2(gvi__real2(1), gvi__scale2(2, c)), a = gvi__real2(1), b = gvi__real2(0);
+    for (int k = 0; k < m; ++k) {
+        gvi__two next = gvi__sub2(gvi__scale2((gvi_real)(2*k + 1), gvi__mul2(x, a)),
+                                  gvi__scale2((gvi_real)k, b));
+        b = a;
+        a = gvi__div2(next, gvi__real2((gvi_real)(k + 1)));
+    }
+    *P = a;
+    *before = b;
+}
+
+/* Newton's correction of a node.  With m = n for Gauss, n - 1 for Lobatto and
+   (1 - x^2) P_m' = m (P_(m-1) - x P_m), ((1 - x^2) P_m')' = -m (m+1) P_m:
+
+     Gauss     P_m = 0     c += P_m 4c(1-c) / (2m (P_(m-1) - x P_m))
+     Lobatto   P_m' = 0    c -= (P_(m-1) - x P_m) / (2(m+1) P_m)               */
+static gvi_real gvi__node_correction(int lobatto, int m, gvi_real c)
+{
+    gvi_real P, before;
+    gvi__legendre(m, c, &P, &before);
+    gvi_real d = before - (1 - 2*c)*P;
+    if (lobatto) return -d/(2*(gvi_real)(m + 1)*P);
+    return P*2*c*(1 - c)/((gvi_real)m*d);
+}
+
+static gvi__two gvi__node_correction2(int lobatto, int m, gvi__two c)
+{
+    gvi__two P, before, one = gvi__real2(1);
+    gvi__legendre2(m, c, &P, &before);
+    gvi__two x = gvi__sub2(one, gvi__scale2(2, c));
+    gvi__two d = gvi__sub2(before, gvi__mul2(x, P));
+    if (lobatto) return gvi__neg2(gvi__div2(d, gvi__scale2(2*(gvi_real)(m + 1), P)));
+    gvi__two w = gvi__scale2(2, gvi__mul2(c, gvi__sub2(one, c)));
+    return gvi__div2(gvi__mul2(P, w), gvi__scale2((gvi_real)m, d));
+}
+
+/* Node j of the lower half, c = (1 - cos theta)/2 = sin^2(theta/2).  Starting
+   values: Gauss theta = pi (4j+3)/(4m+2), Lobatto from the zeros of J_1; both
+   are well within the quadratic range of Newton's method.  The last two
+   corrections are twofold: c is then accurate relative to itself, even next
+   to the end of the interval.                                                */
+static gvi__two gvi__node(int lobatto, int n, int j)
+{
+    const gvi_real pi = (gvi_real)3.14159265358979323846L;
+    int m = lobatto ? n - 1 : n;
+    gvi_real a = lobatto ? (gvi_real)j + (gvi_real)0.25 : (gvi_real)j + (gvi_real)0.75;
+    gvi_real theta = lobatto ? pi*a/(gvi_real)m - 3/(8*pi*(gvi_real)m*a)
+                             : pi*a/((gvi_real)m + (gvi_real)0.5);
+    gvi_real sine = gvi__sin(theta/2), c = sine*sine, last = 1;
+    for (int k = 0; k < 12; ++k) {
+        gvi_real dc = gvi__node_correction(lobatto, m, c);
+        c += dc;
+        if (!(gvi__abs(dc) < last) || gvi__abs(dc) < GVI__EPS*c) break;
+        last = gvi__abs(dc)/2;
+    }
+    gvi__two z = gvi__real2(c);
+    z = gvi__add2(z, gvi__node_correction2(lobatto, m, z));
+    return gvi__add2(z, gvi__node_correction2(lobatto, m, z));
+}
+
+/* Weight of node c on [0,1]:  Gauss  4c(1-c)/(m (P_(m-1) - x P_m))^2, the
+   denominator being ((1-x^2) P_m')^2;  Lobatto  1/(m (m+1) P_m^2).            */
+static gvi__two gvi__weight(int lobatto, int n, gvi__two c)
+{
+    int m = lobatto ? n - 1 : n;
+    gvi__two P, before, one = gvi__real2(1);
+    gvi__legendre2(m, c, &P, &before);
+    if (lobatto)
+        return gvi__div2(one, gvi__scale2((gvi_real)m*(gvi_real)(m + 1), gvi__mul2(P, P)));
+    gvi__two x = gvi__sub2(one, gvi__scale2(2, c));
+    gvi__two d = gvi__scale2((gvi_real)m, gvi__sub2(before, gvi__mul2(x, P)));
+    gvi__two w = gvi__scale2(4, gvi__mul2(c, gvi__sub2(one, c)));
+    return gvi__div2(w, gvi__mul2(d, d));
+}
+
+/* All nodes and weights; ce, if given, gets what rounding left of c.          */
+static void gvi__rule_make(int lobatto, int n, gvi_real *c, gvi_real *ce, gvi_real *b)
+{
+    for (int j = 0; j <= (n - 1)/2; ++j) {
+        gvi__two z = gvi__real2(0), w;
+        if (2*j + 1 == n) z.hi = (gvi_real)0.5;
+        else if (!lobatto || j > 0) z = gvi__node(lobatto, n, j);
+        w = gvi__weight(lobatto, n, z);
+        gvi__two mirror = gvi__sub2(gvi__real2(1), z);
+        c[j] = z.hi;
+        c[n-1-j] = mirror.hi;
+        if (ce) ce[j] = z.lo, ce[n-1-j] = mirror.lo;
+        b[j] = b[n-1-j] = w.hi;
+    }
+}
+
+GVI_DEF gvi_status gvi_gauss(int n, gvi_real *c, gvi_real *b)
+{
+    if (n < 1 || !c || !b) return GVI_E_ARGUMENT;
+    gvi__rule_make(0, n, c, NULL, b);
+    return GVI_OK;
+}
+
+GVI_DEF gvi_status gvi_lobatto(int n, gvi_real *c, gvi_real *b)
+{
+    if (n < 2 || !c || !b) return GVI_E_ARGUMENT;
+    gvi__rule_make(1, n, c, NULL, b);
+    return GVI_OK;
+}
+
+GVI_DEF int gvi_rule_order(int n, const gvi_real *c, const gvi_real *b)
+{
+    if (n < 1 || !c || !b) return -1;
+    gvi_real size = 0;
+    for (int i = 0; i < n; ++i) {
+        if (!(c[i] >= 0 && c[i] <= 1) || !gvi__finite(b[i])) return -1;
+        for (int j = 0; j < i; ++j)
+            if (!gvi__nonzero(c[i] - c[j])) return -1;
+        size += gvi__abs(b[i]);
+    }
+
+    // exact for degree u if sum b P_u = [u = 0]; no rule is exact for degree 2n.
+    // The rounding of c moves P_u by |P_u'| eps <= u^2 eps at the very end only
+    for (int u = 0; u < 2*n; ++u) {
+        gvi_real sum = u > 0 ? 0 : -1;
+        for (int i = 0; i < n; ++i) {
+            gvi_real P, before;
+            gvi__legendre(u, c[i], &P, &before);
+            sum += b[i]*P;
+        }
+        if (gvi__abs(sum) > 4*(gvi_real)(u + 2)*GVI__EPS*size) return u;
+    }
+    return 2*n;
+}
+
+/* --------------------------------------------------------- INTERPOLATION */
+
+/* w_j = 1/prod_(k /= j) (x_j - x_k), common factors left out.  The product is
+   kept as mantissa and exponent: it leaves the range of double at n = 1000.   */
+GVI_DEF gvi_status gvi_barycentric(int n, const gvi_real *x, gvi_real *w)
+{
+    if (n < 1 || !x || !w || !gvi__all_finite(n, x)) return GVI_E_ARGUMENT;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < i; ++j)
+            if (!gvi__nonzero(x[i] - x[j])) return GVI_E_NODES;
+
+    // twice over: first the smallest exponent, then the weights scaled by it
+    int least = 0;
+    gvi_real big = 0;
+    for (int pass = 0; pass < 2; ++pass)
+        for (int j = 0; j < n; ++j) {
+            gvi_real mantissa = 1;
+            int exponent = 0, e;
+            for (int k = 0; k < n; ++k)
+                if (k != j) {
+                    mantissa *= gvi__frexp(x[j] - x[k], &e);
+                    exponent += e;
+                    mantissa = gvi__frexp(mantissa, &e);
+                    exponent += e;
+                }
+            if (pass == 0 && (j == 0 || exponent < least)) least = exponent;
+            if (pass == 1) {
+                w[j] = gvi__ldexp(1/mantissa, least - exponent);
+                if (gvi__abs(w[j]) > big) big = gvi__abs(w[j]);
+            }
+        }
+    for (int j = 0; j < n; ++j) w[j] /= big;
+    return GVI_OK;
+}
+
+static int gvi__nearest(int n, const gvi_real *x, gvi_real t)
+{
+    int i = 0;
+    for (int j = 1; j < n; ++j)
+        if (gvi__abs(t - x[j]) < gvi__abs(t - x[i])) i = j;
+    return i;
+}
+
+/* l_j(t) = (w_j/(t - x_j)) / sum_k w_k/(t - x_k), both sides multiplied by the
+   distance d to the nearest node i: that term is w_i, the others are at most
+   w_j, and t = x_i is no exception.  Returns i.                               */
+static int gvi__term(int n, const gvi_real *x, const gvi_real *w, gvi_real t, gvi_real *d, gvi_real *sum)
+{
+    int i = gvi__nearest(n, x, t);
+    *d = t - x[i];
+    *sum = 0;
+    for (int j = 0; j < n; ++j) *sum += j == i ? w[i] : w[j]*(*d/(t - x[j]));
+    return i;
+}
+
+GVI_DEF void gvi_basis(int n, const gvi_real *x, const gvi_real *w, gvi_real t, gvi_real *l)
+{
+    gvi_real d, sum;
+    int i = gvi__term(n, x, w, t, &d, &sum);
+    for (int j = 0; j < n; ++j) l[j] = (j == i ? w[i] : w[j]*(d/(t - x[j])))/sum;
+}
+
+GVI_DEF gvi_real gvi_interpolate(int n, const gvi_real *x, const gvi_real *w, const gvi_real *f, gvi_real t)
+{
+    gvi_real d, sum, value = 0;
+    int i = gvi__term(n, x, w, t, &d, &sum);
+
+    // f_i + sum l_j (f_j - f_i): exact at nodes, exact for constants
+    for (int j = 0; j < n; ++j)
+        if (j != i) value += w[j]*(d/(t - x[j]))*(f[j] - f[i]);
+    return f[i] + value/sum;
+}
+
+/* For j /= i, i the node next to t:  l_j' = l_j (sum_(k /= j) 1/(t - x_k)), in
+   which l_j/(t - x_i) is formed first; see gvi__slope.                        */
+static gvi_real gvi__slope(int n, const gvi_real *x, const gvi_real *w, gvi_real t,
+                           int i, gvi_real d, gvi_real sum, int j)
+{
+    gvi_real l = w[j]/(t - x[j])/sum, rest = 0;       // l_j/d
+    for (int k = 0; k < n; ++k)
+        if (k != i && k != j) rest += 1/(t - x[k]);
+    return l + l*d*rest;
+}
+
+GVI_DEF void gvi_basis_derivative(int n, const gvi_real *x, const gvi_real *w, gvi_real t, gvi_real *l)
+{
+    gvi_real d, sum, others = 0;
+    int i = gvi__term(n, x, w, t, &d, &sum);
+    for (int j = 0; j < n; ++j)
+        if (j != i) {
+            l[j] = gvi__slope(n, x, w, t, i, d, sum, j);
+            others += l[j];
+        }
+    l[i] = -others;                                   // sum l_j' = 0
+}
+
+GVI_DEF gvi_real gvi_interpolate_derivative(int n, const gvi_real *x, const gvi_real *w,
+                                            const gvi_real *f, gvi_real t)
+{
+    gvi_real d, sum, value = 0;
+    int i = gvi__term(n, x, w, t, &d, &sum);
+    for (int j = 0; j < n; ++j)
+        if (j != i) value += gvi__slope(n, x, w, t, i, d, sum, j)*(f[j] - f[i]);
+    return value;
+}
+
+/* ----------------------------------------------------------------- SCENE */
+
+#define GVI__HAS_VELOCITIES 1    /* an effect reads v                          */
+#define GVI__HAS_LAGRANGIAN 2    /* an effect adds to dL/dv                    */
+#define GVI__HAS_NEWTON     4    /* Newton is used, or ready as the fall-back  */
+#define GVI__HAS_OWN        8    /* Gamma is a full matrix                     */
+
+static gvi_status gvi__fail(gvi_stepper *st, gvi_status status, int effect, int coordinate, int point)
+{
+    st->fault.effect = effect;
+    st->fault.coordinate = coordinate;
+    st->fault.point = point;
+    return st->status = status;
+}
+
+static gvi_status gvi__done(gvi_stepper *st, gvi_status status)
+{
+    if (status == GVI_OK) gvi__fail(st, GVI_OK, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
+    return st->status = status;
+}
+
+// the first entry of rows [n][count] that is not finite is the fault
+static gvi_status gvi__check_rows(gvi_stepper *st, const gvi_points *x, const gvi_real *rows, int effect)
+{
+    for (int i = 0; rows && i < x->n; ++i)
+        for (int k = 0; k < x->count; ++k)
+            if (!gvi__finite(rows[i*x->stride + k])) return gvi__fail(st, GVI_E_NON_FINITE, effect, i, k);
+    return GVI_OK;
+}
+
+// the one-point form: gather, call, scatter
+static int gvi__point_by_point(gvi_stepper *st, const gvi_effect *e, const gvi_points *x, int *point)
+{
+    int n = x->n;
+    gvi_real *q = st->x.one, *v = q + n, *f = v + n, *dldv = f + n;
+    for (int k = 0; k < x->count; ++k) {
+        *point = k;
+        for (int i = 0; i < n; ++i) {
+            q[i] = x->q[i*x->stride + k];
+            v[i] = x->v ? x->v[i*x->stride + k] : 0;
+            f[i] = dldv[i] = 0;
+        }
+        if (e->point(x->t[k], q, x->v ? v : NULL, f, x->dldv ? dldv : NULL, e->user)) return 1;
+        for (int i = 0; i < n; ++i) {
+            x->f[i*x->stride + k] += f[i];
+            if (x->dldv) x->dldv[i*x->stride + k] += dldv[i];
+        }
+    }
+    return 0;
+}
+
+/* Asks every effect that is on and, if `plain`, has no Hessian; each sees only
+   what its kind may read.  Adds to x->f and x->dldv.                          */
+static gvi_status gvi__effects(gvi_stepper *st, const gvi_points *x, int plain)
+{
+    const gvi_desc *d = &st->x.desc;
+    for (int e = 0; e < d->effect_count; ++e) {
+        const gvi_effect *effect = d->effects + e;
+        if ((st->x.off >> e & 1u) || (plain && effect->hessian)) continue;
+        gvi_points y = *x;
+        int point = GVI_FAULT_NONE;
+        if (effect->kind == GVI_POTENTIAL) y.v = NULL;
+        if (effect->kind != GVI_LAGRANGIAN) y.dldv = NULL;
+        st->counters.effect[e] += (unsigned long long)x->count;
+        if (effect->points ? effect->points(&y, effect->user) : gvi__point_by_point(st, effect, &y, &point))
+            return gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, point);
+        if (st->x.diagnose) {
+            gvi_status status = gvi__check_rows(st, x, x->f, e);
+            if (status == GVI_OK && y.dldv) status = gvi__check_rows(st, x, x->dldv, e);
+            if (status != GVI_OK) return status;
+        }
+    }
+    return GVI_OK;
+}
+
+/* L D L' of a symmetric matrix at each of `count` points, in place: entry (i,j),
+   i >= j, of point k at [(i*n + j)*stride + k].  Every loop runs over points.
+   A pivot that is nothing but rounding of its diagonal entry is a coordinate
+   without mass.                                                              */
+static gvi_status gvi__ldl_factor(gvi_stepper *st, int n, int stride, int count, gvi_real *m)
+{
+    for (int j = 0; j < n; ++j) {
+        gvi_real *d = m + (size_t)(j*n + j)*(size_t)stride;
+        for (int k = 0; k < count; ++k) {
+            gvi_real was = gvi__abs(d[k]);
+            for (int l = 0; l < j; ++l) {
+                gvi_real a = m[(size_t)(j*n + l)*(size_t)stride + (size_t)k];
+                d[k] -= a*a*m[(size_t)(l*n + l)*(size_t)stride + (size_t)k];
+            }
+            if (!(was <= GVI__MAX)) return gvi__fail(st, GVI_E_NON_FINITE, GVI_FAULT_MASS, j, k);
+            if (!(gvi__abs(d[k]) > (gvi_real)n*GVI__EPS*was))
+                return gvi__fail(st, GVI_E_SINGULAR, GVI_FAULT_MASS, j, k);
+        }
+        for (int i = j + 1; i < n; ++i) {
+            gvi_real *a = m + (size_t)(i*n + j)*(size_t)stride;
+            for (int l = 0; l < j; ++l) {
+                const gvi_real *x = m + (size_t)(i*n + l)*(size_t)stride;
+                const gvi_real *y = m + (size_t)(j*n + l)*(size_t)stride;
+                const gvi_real *z = m + (size_t)(l*n + l)*(size_t)stride;
+                for (int k = 0; k < count; ++k) a[k] -= x[k]*y[k]*z[k];
+            }
+            for (int k = 0; k < count; ++k) a[k] /= d[k];
+        }
+    }
+    st->counters.factorizations += (unsigned long long)count;
+    return GVI_OK;
+}
+
+// solves in rows z [n][stride]; the matrix has `each` = 1 entry a point, or 0:
+// one for all
+static void gvi__ldl_solve(int n, const gvi_real *m, int m_stride, int each, gvi_real *z, int stride, int count)
+{
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < i; ++j) {
+            const gvi_real *a = m + (size_t)(i*n + j)*(size_t)m_stride;
+            for (int k = 0; k < count; ++k) z[i*stride + k] -= a[k*each]*z[j*stride + k];
+        }
+    for (int i = 0; i < n; ++i) {
+        const gvi_real *d = m + (size_t)(i*n + i)*(size_t)m_stride;
+        for (int k = 0; k < count; ++k) z[i*stride + k] /= d[k*each];
+    }
+    for (int i = n; i-- > 0; )
+        for (int j = i + 1; j < n; ++j) {
+            const gvi_real *a = m + (size_t)(j*n + i)*(size_t)m_stride;
+            for (int k = 0; k < count; ++k) z[i*stride + k] -= a[k*each]*z[j*stride + k];
+        }
+}
+
+static int gvi__mass_is_constant(const gvi_desc *d) { return d->mass.kind <= GVI_MASS_DENSE; }
+
+// rows z := M^-1 z, constant mass
+static void gvi__over_mass(const gvi_stepper *st, gvi_real *z, int stride, int count)
+{
+    int n = st->n;
+    if (st->x.desc.mass.kind == GVI_MASS_DENSE) gvi__ldl_solve(n, st->x.mass, 1, 0, z, stride, count);
+    if (st->x.desc.mass.kind == GVI_MASS_DIAGONAL)
+        for (int i = 0; i < n; ++i)
+            for (int k = 0; k < count; ++k) z[i*stride + k] /= st->x.mass[i];
+}
+
+// M(q) at the points, factored
+static gvi_status gvi__mass_at(gvi_stepper *st, const gvi_points *x, int factor)
+{
+    gvi_points y = *x;
+    y.v = NULL;
+    y.f = y.dldv = NULL;
+    y.mass = st->x.point_mass;
+    st->counters.mass += (unsigned long long)x->count;
+    if (st->x.desc.mass.points(&y, st->x.desc.mass.user))
+        return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, GVI_FAULT_NONE, GVI_FAULT_NONE);
+    return factor ? gvi__ldl_factor(st, x->n, x->stride, x->count, st->x.point_mass) : GVI_OK;
+}
+
+// x->f += v' dM/dq v / 2
+static gvi_status gvi__mass_gradient(gvi_stepper *st, const gvi_points *x)
+{
+    gvi_points y = *x;
+    y.dldv = NULL;
+    if (st->x.desc.mass.gradient(&y, st->x.desc.mass.user))
+        return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, GVI_FAULT_NONE, GVI_FAULT_NONE);
+    return st->x.diagnose ? gvi__check_rows(st, x, x->f, GVI_FAULT_MASS) : GVI_OK;
+}
+
+/* The kinetic energy's share: x->dldv += M v, and for M(q) the gradient.      */
+static gvi_status gvi__kinetic(gvi_stepper *st, const gvi_points *x)
+{
+    const gvi_real *m = st->x.mass;
+    int n = x->n, R = x->stride, each = 0, dense = 1;
+    switch (st->x.desc.mass.kind) {
+    case GVI_MASS_NONE: return GVI_OK;
+    case GVI_MASS_DENSE: m = st->x.mass + (size_t)n*(size_t)n; break;
+    case GVI_MASS_POSITION: {
+        gvi_status status = gvi__mass_at(st, x, 0);
+        if (status == GVI_OK) status = gvi__mass_gradient(st, x);
+        if (status != GVI_OK) return status;
+        m = st->x.point_mass;
+        each = 1;
+        break; }
+    case GVI_MASS_UNIT: case GVI_MASS_DIAGONAL: default: dense = 0;
+    }
+    for (int i = 0; i < n; ++i) {
+        gvi_real *p = x->dldv + i*R;
+        if (!dense)
+            for (int k = 0; k < x->count; ++k) p[k] += (m ? m[i] : 1)*x->v[i*R + k];
+        for (int j = 0; dense && j < n; ++j) {
+            const gvi_real *a = m + (size_t)(i >= j ? i*n + j : j*n + i)*(size_t)(each ? R : 1);
+            for (int k = 0; k < x->count; ++k) p[k] += a[k*each]*x->v[j*R + k];
+        }
+    }
+    return GVI_OK;
+}
+
+/* F and P at the points from scratch: everything (plain = 0), or what has no
+   Hessian (plain = 1: those effects, and M(q)).                               */
+static gvi_status gvi__evaluate(gvi_stepper *st, const gvi_points *x, int plain)
+{
+    size_t length = (size_t)x->n*(size_t)x->stride;
+    gvi_status status = GVI_OK;
+    gvi__zero(length, x->f);
+    gvi__zero(length, x->dldv);
+    if (!plain || !gvi__mass_is_constant(&st->x.desc)) status = gvi__kinetic(st, x);
+    return status == GVI_OK ? gvi__effects(st, x, plain) : status;
+}
+
+// one point, as gvi_points
+static gvi_points gvi__at(const gvi_stepper *st, const gvi_real *t, const gvi_real *q, const gvi_real *v,
+                          gvi_real *f, gvi_real *dldv)
+{
+    gvi_points x;
+    memset(&x, 0, sizeof x);
+    x.n = st->n;
+    x.count = x.stride = 1;
+    x.t = t;
+    x.q = q;
+    x.v = v;
+    x.f = f;
+    x.dldv = dldv;
+    return x;
+}
+
+// d(dL/dv)/dv at one point, n*n, by Hessians where there are any, else by differences
+static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real *v, gvi_real *W)
+{
+    int n = st->n;
+    gvi_real *base = st->x.hess, *moved = base + n, *P = x->dldv, *f = x->f;
+    gvi_real size = gvi__norm1(n, v)/(gvi_real)n;
+    gvi__copy((size_t)n, P, base);
+    for (int j = 0; j < n; ++j) {
+        gvi_real was = v[j], d = gvi__sqrt(GVI__EPS)*(gvi__abs(was) > size ? gvi__abs(was) : size);
+        if (!(d > 0)) d = gvi__sqrt(GVI__EPS);
+        v[j] = was + d;
+        d = v[j] - was;
+        x->dldv = moved;
+        gvi_status status = gvi__evaluate(st, x, 0);
+        v[j] = was;
+        x->dldv = P;
+        x->f = f;
+        if (status != GVI_OK) return status;
+        for (int i = 0; i < n; ++i) W[i*n + j] = (moved[i] - base[i])/d;
+    }
+    return GVI_OK;
+}
+
+/* General Legendre transform at one point: Newton's method for dL/dv(v) = p
+   from the v given.  Ends when the correction stops shrinking.                */
+static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *p, gvi_real *v)
+{
+    int n = st->n;
+    gvi_real *f = st->x.one + 4*n, *P = f + n, *W = st->x.hess + 3*n, *pivot = W + n*n, *dv = st->x.hess + 2*n;
+    gvi_points x = gvi__at(st, &t, q, v, f, P);
+    gvi_real last = GVI__MAX;
+    st->counters.velocities += 1;
+    for (int k = 0; k < 40; ++k) {
+        gvi_real change = 0, size = 0;
+        gvi_status status = gvi__evaluate(st, &x, 0);
+        if (status == GVI_OK) status = gvi__velocity_hessian(st, &x, v, W);
+        if (status != GVI_OK) return status;
+        status = gvi_lu_factor(n, W, pivot);
+        if (status != GVI_OK) return gvi__fail(st, status, GVI_FAULT_MASS, GVI_FAULT_NONE, GVI_FAULT_NONE);
+        for (int i = 0; i < n; ++i) dv[i] = p[i] - P[i];
+        gvi_lu_solve(n, W, pivot, dv);
+        for (int i = 0; i < n; ++i) {
+            v[i] += dv[i];
+            change += gvi__abs(dv[i]);
+            size += gvi__abs(v[i]);
+        }
+        if (!(change <= GVI__MAX)) break;
+        if (!(change > 2*GVI__EPS*size) || (change >= last/2 && change <= gvi__sqrt(GVI__EPS)*size)) return GVI_OK;
+        last = change;
+    }
+    return gvi__fail(st, GVI_E_CONVERGENCE, GVI_FAULT_MASS, GVI_FAULT_NONE, GVI_FAULT_NONE);
+}
+
+/* v from p at one point.  v holds a guess on entry.                           */
+static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *p, gvi_real *v)
+{
+    const gvi_mass *mass = &st->x.desc.mass;
+    gvi_points x = gvi__at(st, &t, q, NULL, NULL, NULL);
+    if (mass->velocity) {
+        x.p = p;
+        x.velocity = v;
+        st->counters.mass += 1;
+        if (mass->velocity(&x, mass->user))
+            return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, GVI_FAULT_NONE, GVI_FAULT_NONE);
+        return gvi__check_rows(st, &x, v, GVI_FAULT_MASS);
+    }
+    if (mass->kind == GVI_MASS_NONE || (st->x.flags & GVI__HAS_LAGRANGIAN))
+        return gvi__legendre_newton(st, t, q, p, v);
+    gvi__copy((size_t)st->n, p, v);
+    if (mass->kind == GVI_MASS_POSITION) {
+        gvi_status status = gvi__mass_at(st, &x, 1);
+        if (status != GVI_OK) return status;
+        gvi__ldl_solve(st->n, st->x.point_mass, 1, 1, v, 1, 1);
+        st->counters.velocities += 1;
+    } else gvi__over_mass(st, v, 1, 1);
+    return GVI_OK;
+}
+
+/* ---------------------------------------------------------------- TABLES */
+
+/* phi_k = P_k(x) and Phi_k = (P_(k-1) - P_(k+1))(x) / (2(2k+1)), P_(-1) = 1, at
+   every node, x = 1 - 2c, in twofold arithmetic: [k*stride + node].  The low
+   parts of Phi go to E, which is not yet in use; phi is skipped where nobody
+   needs it.                                                                  */
+static void gvi__modes_at_nodes(gvi_stepper *st)
+{
+    struct gvi__private *x = &st->x;
+    for (int i = 0; i < st->r; ++i) {
+        gvi__two c, X, P = gvi__real2(1), before = gvi__real2(1);
+        c.hi = x->c[i];
+        c.lo = x->ce[i];
+        X = gvi__sub2(gvi__real2(1), gvi__scale2(2, c));
+        for (int k = 0; k < st->s; ++k) {
+            gvi__two next = gvi__sub2(gvi__scale2((gvi_real)(2*k + 1), gvi__mul2(X, P)),
+                                      gvi__scale2((gvi_real)k, before));
+            next = gvi__div2(next, gvi__real2((gvi_real)(k + 1)));
+            gvi__two Phi = gvi__div2(gvi__sub2(before, next), gvi__real2((gvi_real)(4*k + 2)));
+            int at = k*x->stride + i;
+            x->Phi[at] = Phi.hi;
+            x->E[at] = Phi.lo;
+            if (x->phi) {
+                x->phi[at] = P.hi;
+                x->low[at] = P.lo;
+            }
+            before = P;
+            P = next;
+        }
+    }
+}
+
+/* 1/Gamma_kk = 2k + 1 while the rule is exact for phi_k^2; Lobatto with r = s
+   gives s - 1 for the last.  A rule of order u < 2s - 2 makes Gamma full: its
+   LU is kept in x->own.                                                      */
+static gvi_status gvi__gamma(gvi_stepper *st)
+{
+    struct gvi__private *x = &st->x;
+    int s = st->s, r = st->r, R = x->stride;
+    for (int k = 0; k < s; ++k) x->gamma[k] = (gvi_real)(2*k + 1);
+    if (st->order == 2*s - 2) {
+        gvi_real sum = 0;
+        for (int i = 0; i < r; ++i) sum += x->b[i]*x->phi[(s-1)*R + i]*x->phi[(s-1)*R + i];
+        if (!(gvi__abs(sum) > (gvi_real)s*GVI__EPS)) return GVI_E_POINTS;
+        x->gamma[s-1] = x->desc.rule.kind == GVI_LOBATTO ? (gvi_real)(s - 1) : 1/sum;
+    }
+    if (!(x->flags & GVI__HAS_OWN)) return GVI_OK;
+    for (int k = 0; k < s; ++k)
+        for (int l = 0; l < s; ++l) {
+            gvi_real sum = 0;
+            for (int i = 0; i < r; ++i) sum += x->b[i]*x->phi[k*R + i]*x->phi[l*R + i];
+            x->own[k*s + l] = sum;
+        }
+    return gvi_lu_factor(s, x->own, x->own + s*s) == GVI_OK ? GVI_OK : GVI_E_POINTS;
+}
+
+// y[k] := (Gamma^-1 y)[k]
+static void gvi__over_gamma(const gvi_stepper *st, gvi_real *y)
+{
+    const struct gvi__private *x = &st->x;
+    if (x->flags & GVI__HAS_OWN) gvi_lu_solve(st->s, x->own, x->own + st->s*st->s, y);
+    else for (int k = 0; k < st->s; ++k) y[k] *= x->gamma[k];
+}
+
+// sum_k a[k][i] gamma_k b[k][j], twofold; high parts and low parts apart
+static gvi__two gvi__sandwich(const gvi_stepper *st, const gvi_real *a, const gvi_real *al, int i,
+                              const gvi_real *b, const gvi_real *bl, int j)
+{
+    gvi__two sum = gvi__real2(0);
+    for (int k = 0; k < st->s; ++k) {
+        gvi__two x, y;
+        x.hi = a[k*st->x.stride + i];
+        x.lo = al[k*st->x.stride + i];
+        y.hi = b[k*st->x.stride + j];
+        y.lo = bl[k*st->x.stride + j];
+        sum = gvi__add2(sum, gvi__scale2(st->x.gamma[k], gvi__mul2(x, y)));
+    }
+    return sum;
+}
+
+/* S and T on grids of eps/2 and eps (|S| <= 1, |T| < 2): what they must fulfil
+   for the step to be symplectic then holds exactly in the rounded numbers,
+   S_ij = S_ji, and for Gauss with r = s  T_ij + T_ji = 1.  Stored by columns,
+   [j*stride + i]:  g = c_i - S_ij,  m = 1 - T_ij,  T = T_ji,  N = N_ij.       */
+static void gvi__tables(gvi_stepper *st)
+{
+    struct gvi__private *x = &st->x;
+    int r = st->r, R = x->stride, gauss = x->desc.rule.kind == GVI_GAUSS && r == st->s;
+    for (int j = 0; j < r; ++j)
+        for (int i = 0; i < r; ++i) {
+            int at = j*R + i, mirror = i*R + j;
+            if (x->g && i <= j) {
+                gvi_real S = gvi__grid(gvi__sandwich(st, x->Phi, x->E, i, x->Phi, x->E, j), GVI__EPS/2);
+                x->g[at] = x->c[i] - S;
+                x->g[mirror] = x->c[j] - S;
+            }
+            if (x->m && (i <= j || !gauss)) {
+                gvi_real T = gvi__grid(gvi__sandwich(st, x->phi, x->low, i, x->Phi, x->E, j), GVI__EPS);
+                if (gauss && i == j) T = (gvi_real)0.5;
+                x->m[at] = 1 - T;
+                if (x->T) x->T[mirror] = T;
+                if (gauss) {
+                    x->m[mirror] = T;
+                    if (x->T) x->T[at] = 1 - T;
+                }
+            }
+            if (x->N) x->N[at] = gvi__sandwich(st, x->phi, x->low, i, x->phi, x->low, j).hi;
+        }
+}
+
+// the same in working precision, for an own rule that makes Gamma full
+static void gvi__tables_own(gvi_stepper *st)
+{
+    struct gvi__private *x = &st->x;
+    int s = st->s, r = st->r, R = x->stride;
+    gvi_real *y = x->row, *w = x->row + R;
+    for (int j = 0; j < r; ++j) {
+        for (int k = 0; k < s; ++k) {
+            y[k] = x->Phi[k*R + j];
+            w[k] = x->phi[k*R + j];
+        }
+        gvi__over_gamma(st, y);
+        gvi__over_gamma(st, w);
+        for (int i = 0; i < r; ++i) {
+            gvi_real S = 0, T = 0, N = 0;
+            for (int k = 0; k < s; ++k) {
+                S += x->Phi[k*R + i]*y[k];
+                T += x->phi[k*R + i]*y[k];
+                N += x->phi[k*R + i]*w[k];
+            }
+            if (x->g) x->g[j*R + i] = x->c[i] - S;
+            if (x->m) x->m[j*R + i] = 1 - T;
+            if (x->T) x->T[i*R + j] = T;
+            if (x->N) x->N[j*R + i] = N;
+        }
+    }
+}
+
+/* phi_k(tau) and Phi_k(tau), k < s, multiplied by Gamma^-1, at any tau.        */
+static void gvi__modes(const gvi_stepper *st, gvi_real tau, gvi_real *phi, gvi_real *Phi)
+{
+    gvi_real X = 1 - 2*tau, P = 1, before = 1;
+    for (int k = 0; k < st->s; ++k) {
+        gvi_real next = ((gvi_real)(2*k + 1)*X*P - (gvi_real)k*before)/(gvi_real)(k + 1);
+        phi[k] = P;
+        Phi[k] = (before - next)/(gvi_real)(4*k + 2);
+        before = P;
+        P = next;
+    }
+    gvi__over_gamma(st, phi);
+    gvi__over_gamma(st, Phi);
+}
+
+/* Weights h b_j whose sum is h exactly: rounded to multiples of ulp(h), what is
+   left over goes to the largest weight and its mirror image.                 */
+static void gvi__weights(gvi_stepper *st, gvi_real h)
+{
+    struct gvi__private *x = &st->x;
+    if (!gvi__nonzero(h - x->h_weights)) return;
+    x->h_weights = h;
+
+    int e, r = st->r, most = 0;
+    gvi_real mantissa = gvi__frexp(h, &e), rest = mantissa;
+    for (int j = 0; j < r; ++j) {
+        x->hb[j] = gvi__grid(gvi__product(x->b[j], mantissa), GVI__EPS/2);
+        rest -= x->hb[j];
+        if (x->b[j] > x->b[most]) most = j;
+    }
+    int mirror = x->desc.rule.kind == GVI_OWN ? most : r - 1 - most;
+    x->hb[most] += mirror == most ? rest : rest/2;
+    if (mirror != most) x->hb[mirror] += rest/2;
+    for (int j = 0; j < r; ++j) x->hb[j] = gvi__ldexp(x->hb[j], e);
+}
+
+/* -------------------------------------------------------- STEPPER: SET-UP */
+
+static int gvi__flags(const gvi_desc *d)
+{
+    int flags = 0;
+    for (int e = 0; e < d->effect_count; ++e) {
+        if (d->effects[e].kind != GVI_POTENTIAL) flags |= GVI__HAS_VELOCITIES;
+        if (d->effects[e].kind == GVI_LAGRANGIAN) flags |= GVI__HAS_LAGRANGIAN;
+    }
+    return flags;
+}
+
+// does formulation f cover the scene?
+static int gvi__covers(const gvi_stepper *st, gvi_formulation f)
+{
+    const gvi_desc *d = &st->x.desc;
+    int constant = gvi__mass_is_constant(d), reads_v = st->x.flags & GVI__HAS_VELOCITIES;
+    if (f == GVI_NEWTON) return 1;
+    if (st->order < st->s) return 0;
+    switch (f) {
+    case GVI_EXPLICIT:   return constant && !reads_v && st->s == 1 && st->r == 2 && d->rule.kind == GVI_LOBATTO;
+    case GVI_POSITIONS:  return constant && !reads_v;
+    case GVI_VELOCITIES: return constant;
+    case GVI_MOMENTA:    return st->r == st->s && (d->mass.velocity || d->mass.kind == GVI_MASS_POSITION
+                             || (constant && !(st->x.flags & GVI__HAS_LAGRANGIAN)));
+    case GVI_AUTO: case GVI_NEWTON: default: return 0;
+    }
+}
+
+static gvi_status gvi__check_desc(const gvi_desc *d)
+{
+    if (!d || d->n < 1 || d->n > 0xFFFFFF || d->degree < 0 || d->degree > 1024) return GVI_E_ARGUMENT;
+    if (d->rule.points < 0 || d->rule.points > 4096 || d->effect_count < 0 || d->effect_count > GVI_EFFECTS
+        || (d->effect_count && !d->effects) || d->max_iterations < 0 || !(d->tolerance >= 0 && d->tolerance < 1))
+        return GVI_E_ARGUMENT;
+    if ((int)d->formulation < GVI_AUTO || (int)d->formulation > GVI_NEWTON) return GVI_E_ARGUMENT;
+    for (int e = 0; e < d->effect_count; ++e) {
+        const gvi_effect *x = d->effects + e;
+        if ((int)x->kind < GVI_POTENTIAL || (int)x->kind > GVI_LAGRANGIAN || !x->points == !x->point)
+            return GVI_E_ARGUMENT;
+    }
+    switch (d->mass.kind) {
+    case GVI_MASS_UNIT: break;
+    case GVI_MASS_DIAGONAL: case GVI_MASS_DENSE: if (!d->mass.matrix) return GVI_E_ARGUMENT; break;
+    case GVI_MASS_POSITION: if (!d->mass.points || !d->mass.gradient) return GVI_E_ARGUMENT; break;
+    case GVI_MASS_NONE: if (!(gvi__flags(d) & GVI__HAS_LAGRANGIAN)) return GVI_E_ARGUMENT; break;
+    default: return GVI_E_ARGUMENT;
+    }
+    if (d->rule.kind == GVI_OWN)
+        return d->rule.points > 0 && d->rule.nodes && d->rule.weights ? GVI_OK : GVI_E_ARGUMENT;
+    return d->rule.kind == GVI_GAUSS || d->rule.kind == GVI_LOBATTO ? GVI_OK : GVI_E_ARGUMENT;
+}
+
+/* Fills in the defaults, measures the rule, chooses the formulation.          */
+static gvi_status gvi__resolve(gvi_stepper *st, const gvi_desc *desc)
+{
+    memset(st, 0, sizeof *st);
+    gvi_status status = gvi__check_desc(desc);
+    if (status != GVI_OK) return status;
+    gvi_desc *d = &st->x.desc;
+    *d = *desc;
+    if (d->degree == 0) d->degree = 8;
+    if (d->rule.points == 0) d->rule.points = d->rule.kind == GVI_LOBATTO ? d->degree + 1 : d->degree;
+    if (d->max_iterations == 0) d->max_iterations = 60;
+    int s = st->s = d->degree, r = st->r = d->rule.points;
+    st->n = d->n;
+    st->x.stride = GVI__ROW(r);
+    st->x.flags = gvi__flags(d);
+
+    st->order = d->rule.kind == GVI_LOBATTO ? 2*r - 2 : 2*r;
+    if (d->rule.kind == GVI_OWN) st->order = gvi_rule_order(r, d->rule.nodes, d->rule.weights);
+    if (d->rule.kind == GVI_LOBATTO && r < 2) return s > 1 ? GVI_E_POINTS : GVI_E_ARGUMENT;
+    if (st->order < 0) return GVI_E_NODES;
+    if (st->order == 0) return GVI_E_ORDER;
+    if (r < s) return GVI_E_POINTS;
+    if (st->order < 2*s - 2) st->x.flags |= GVI__HAS_OWN;
+
+    for (int f = GVI_EXPLICIT; f <= GVI_NEWTON && st->x.chosen == GVI_AUTO; ++f)
+        if (gvi__covers(st, (gvi_formulation)f)) st->x.chosen = (gvi_formulation)f;
+    if (d->formulation != GVI_AUTO) {
+        if (!gvi__covers(st, d->formulation)) return GVI_E_FORMULATION;
+        st->x.chosen = d->formulation;
+    }
+    if (st->x.chosen == GVI_NEWTON || (d->formulation == GVI_AUTO && st->x.chosen != GVI_EXPLICIT))
+        st->x.flags |= GVI__HAS_NEWTON;
+    st->formulation = st->x.chosen;
+    return GVI_OK;
+}
+
+typedef struct gvi__arena { gvi_real *base; size_t used; } gvi__arena;
+
+// a*b reals if `wanted`, else NULL; with base NULL it only counts
+static gvi_real *gvi__take(gvi__arena *arena, int wanted, size_t a, size_t b)
+{
+    const size_t most = (size_t)-1/sizeof(gvi_real)/2;
+    if (!wanted) return NULL;
+    size_t count = b && a > most/b ? most : a*b, at = arena->used;
+    arena->used = count > most - at ? most : at + count;
+    return arena->base ? arena->base + at : NULL;
+}
+
+/* The one layout: gvi_size counts with it, gvi_init hands out by it, and
+   GVI_LENGTH is its sum with everything wanted.                              */
+static size_t gvi__layout(gvi_stepper *st, gvi_real *base)
+{
+    struct gvi__private *x = &st->x;
+    gvi__arena a;
+    a.base = base;
+    a.used = 0;
+    size_t n = (size_t)st->n, s = (size_t)st->s, r = (size_t)st->r, R = (size_t)x->stride, sn = s*n;
+    gvi_mass_kind mass = x->desc.mass.kind;
+    int newton = x->flags & GVI__HAS_NEWTON, lagrangian = x->flags & GVI__HAS_LAGRANGIAN;
+    int momenta = x->chosen == GVI_MOMENTA, velocities = x->chosen == GVI_VELOCITIES;
+    int positions = x->chosen == GVI_EXPLICIT || x->chosen == GVI_POSITIONS || velocities;
+    int reads_v = velocities || momenta || newton;
+
+    // rows come first: they are aligned if the memory is
+    for (int k = 0; k < 2; ++k) {
+        struct gvi__rows *rows = k ? &x->work : &x->last;
+        rows->Q = gvi__take(&a, 1, n, R);
+        rows->F = gvi__take(&a, 1, n, R);
+        rows->V = gvi__take(&a, reads_v, n, R);
+        rows->P = gvi__take(&a, momenta || newton, n, R);
+        rows->A = gvi__take(&a, lagrangian && (velocities || momenta), n, R);
+    }
+    x->z = gvi__take(&a, 1, 1, R);
+    x->acc = gvi__take(&a, 1, 1, R);
+    x->hb = gvi__take(&a, 1, 1, R);
+    x->c = gvi__take(&a, 1, 1, R);
+    x->g = gvi__take(&a, positions, r, R);
+    x->m = gvi__take(&a, velocities || momenta, r, R);
+    x->T = gvi__take(&a, momenta || (velocities && lagrangian), r, R);
+    x->N = gvi__take(&a, velocities && lagrangian, r, R);
+    x->E = gvi__take(&a, 1, r, R);
+    x->Phi = gvi__take(&a, 1, s, R);
+    x->phi = gvi__take(&a, reads_v || st->order <= 2*st->s - 2, s, R);
+    x->low = gvi__take(&a, reads_v || st->order <= 2*st->s - 2, s, R);
+    x->Z = gvi__take(&a, positions && mass == GVI_MASS_DENSE, n, R);
+    x->point_mass = gvi__take(&a, mass == GVI_MASS_POSITION, n*n, R);
+    x->ce = gvi__take(&a, 1, 1, R);
+    x->b = gvi__take(&a, 1, 1, R);
+    x->t = gvi__take(&a, 1, 1, R);
+    x->near = gvi__take(&a, 1, 1, R);
+    x->row = gvi__take(&a, 1, 3, R);
+
+    x->q = gvi__take(&a, 1, 1, n);
+    x->qe = gvi__take(&a, 1, 1, n);
+    x->p = gvi__take(&a, 1, 1, n);
+    x->pe = gvi__take(&a, 1, 1, n);
+    x->q0 = gvi__take(&a, 1, 1, n);
+    x->p0 = gvi__take(&a, 1, 1, n);
+    x->none = gvi__take(&a, 1, 1, n);
+    x->v0 = gvi__take(&a, 1, 1, n);
+    x->ve = gvi__take(&a, 1, 1, n);
+    x->dq = gvi__take(&a, 1, 1, n);
+    x->dp = gvi__take(&a, 1, 1, n);
+    x->change = gvi__take(&a, 1, 3, n);
+    x->one = gvi__take(&a, 1, 6, n);
+    x->gamma = gvi__take(&a, 1, 1, s);
+    x->mass = gvi__take(&a, mass == GVI_MASS_DIAGONAL, 1, n);
+    if (mass == GVI_MASS_DENSE) x->mass = gvi__take(&a, 1, 2*n, n);
+    x->own = gvi__take(&a, x->flags & GVI__HAS_OWN, s*s + 2*s + 1, 1);
+
+    // J and pivots twice: queries must not touch what the steps keep
+    x->hess = gvi__take(&a, newton || lagrangian, 4*n*n + 6*n + 1, 1);
+    x->y = gvi__take(&a, newton, 1, sn);
+    x->dy = gvi__take(&a, newton, 1, sn);
+    x->J = gvi__take(&a, newton, 2*sn, sn);
+    x->pivot = gvi__take(&a, newton, 2, 2*sn + 1);
+    x->dF = gvi__take(&a, newton, n, R);
+    x->dP = gvi__take(&a, newton, n, R);
+    x->bF = gvi__take(&a, newton, n, R);
+    x->bP = gvi__take(&a, newton, n, R);
+    return a.used;
+}
+
+GVI_DEF size_t gvi_size(const gvi_desc *desc)
+{
+    gvi_stepper st;
+    if (gvi__resolve(&st, desc) != GVI_OK) return 0;
+    return gvi__layout(&st, NULL)*sizeof(gvi_real);
+}
+
+// mass matrix into the memory, factored
+static gvi_status gvi__set_mass(gvi_stepper *st)
+{
+    const gvi_mass *mass = &st->x.desc.mass;
+    int n = st->n;
+    gvi_real *m = st->x.mass;
+    if (mass->kind == GVI_MASS_DIAGONAL)
+        for (int i = 0; i < n; ++i) {
+            m[i] = mass->matrix[i];
+            if (!gvi__finite(m[i])) return gvi__fail(st, GVI_E_ARGUMENT, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
+            if (!gvi__nonzero(m[i])) return gvi__fail(st, GVI_E_SINGULAR, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
+        }
+    if (mass->kind == GVI_MASS_DENSE) {
+        size_t nn = (size_t)n*(size_t)n;
+        if (!gvi__all_finite(n*n, mass->matrix)) return gvi__fail(st, GVI_E_ARGUMENT, GVI_FAULT_MASS, -1, -1);
+        gvi__copy(nn, mass->matrix, m);
+        gvi__copy(nn, mass->matrix, m + nn);
+        gvi_status status = gvi__ldl_factor(st, n, 1, 1, m);
+        st->counters.factorizations = 0;
+        return status;
+    }
+    return GVI_OK;
+}
+
+GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *memory, size_t size)
+{
+    if (!st) return GVI_E_ARGUMENT;
+    gvi_status status = gvi__resolve(st, desc);
+    gvi__done(st, GVI_OK);
+    if (status != GVI_OK) return st->status = status;
+    if (!memory) return st->status = GVI_E_ARGUMENT;
+    struct gvi__private *x = &st->x;
+    size_t length = gvi__layout(st, NULL);
+    if (size < length*sizeof(gvi_real)) return st->status = GVI_E_MEMORY;
+
+    gvi__zero(length, memory);
+    gvi__layout(st, memory);
+    x->memory = memory;
+    x->size = length;
+    st->q = x->q;
+    st->p = x->p;
+    status = gvi__set_mass(st);
+    if (status != GVI_OK) return status;
+
+    // the rule, the modes at its nodes as exactly as they can be had, then the grid
+    if (x->desc.rule.kind == GVI_OWN) {
+        gvi__copy((size_t)st->r, x->desc.rule.nodes, x->c);
+        gvi__copy((size_t)st->r, x->desc.rule.weights, x->b);
+    } else gvi__rule_make(x->desc.rule.kind == GVI_LOBATTO, st->r, x->c, x->ce, x->b);
+    gvi__modes_at_nodes(st);
+    for (int i = 0; i < st->r; ++i) x->c[i] = gvi__grid(gvi__sum(x->c[i], x->ce[i]), GVI__EPS/2);
+    status = gvi__gamma(st);
+    if (status != GVI_OK) return st->status = status;
+    if (x->flags & GVI__HAS_OWN) gvi__tables_own(st);
+    else gvi__tables(st);
+    gvi_barycentric(st->r, x->c, x->near);
+    return gvi__done(st, GVI_OK);
+}
+
+/* --------------------------------------------------------- STEPPER: STEP */
+
+// where a step, or a query's partial step, starts
+typedef struct gvi__from { gvi_real t, te; const gvi_real *q, *qe, *p, *pe; } gvi__from;
+
+static gvi_points gvi__rows_as_points(const gvi_stepper *st, const struct gvi__rows *rows, gvi_real *dldv)
+{
+    gvi_points x = gvi__at(st, st->x.t, rows->Q, rows->V, rows->F, dldv);
+    x.count = st->r;
+    x.stride = st->x.stride;
+    return x;
+}
+
+// velocities where the mass is constant; weights and times of the points
+static void gvi__begin(gvi_stepper *st, const gvi__from *from, gvi_real h)
+{
+    struct gvi__private *x = &st->x;
+    gvi__weights(st, h);
+    for (int k = 0; k < st->r; ++k) x->t[k] = from->t + (from->te + x->c[k]*h);
+    if (!gvi__mass_is_constant(&x->desc)) return;
+    gvi__copy((size_t)st->n, from->p, x->v0);
+    gvi__copy((size_t)st->n, from->pe, x->ve);
+    gvi__over_mass(st, x->v0, 1, 1);
+    gvi__over_mass(st, x->ve, 1, 1);
+}
+
+/* z := sum_j w_j table[j][.] f_j: the product of table and row that an iteration
+   consists of.  Lanes beyond r are zero in the table.                         */
+static void gvi__apply(int r, int R, const gvi_real *table, const gvi_real *w, const gvi_real *f,
+                       gvi_real sign, gvi_real *z)
+{
+    for (int j = 0; j < r; ++j) {
+        gvi_real a = sign*(w[j]*f[j]);
+        for (int i = 0; i < R; ++i) z[i] += table[j*R + i]*a;
+    }
+}
+
+static gvi_real gvi__dot(int r, const gvi_real *a, const gvi_real *b)
+{
+    gvi_real sum = 0;
+    for (int j = 0; j < r; ++j) sum += a[j]*b[j];
+    return sum;
+}
+
+/* One set of rows of (3), (4) or (5):
+   row_i := base_i + (extra_i + factor*(c slope_i + M^-1 (table (w f_i) - minus (b a_i))))
+   slope, minus may be NULL; M^-1 if over_mass.                                */
+typedef struct gvi__stage {
+    const gvi_real *base, *extra, *slope, *table, *f, *minus, *a;
+    gvi_real        factor;
+    int             over_mass;
+} gvi__stage;
+
+static void gvi__stage_sum(const gvi_stepper *st, const gvi__stage *y, int i, gvi_real *z)
+{
+    const struct gvi__private *x = &st->x;
+    int R = x->stride;
+    gvi__zero((size_t)R, z);
+    gvi__apply(st->r, R, y->table, x->hb, y->f + i*R, 1, z);
+    if (y->minus) gvi__apply(st->r, R, y->minus, x->b, y->a + i*R, -1, z);
+}
+
+/* Forms the rows; their change relative to |base| + the last displacement goes,
+   point by point, to acc, and as it is, summed up, to change[i] if wanted.    */
+static void gvi__stage_rows(gvi_stepper *st, const gvi__stage *y, gvi_real *rows, gvi_real *change)
+{
+    struct gvi__private *x = &st->x;
+    int n = st->n, R = x->stride;
+    int dense = y->over_mass && x->desc.mass.kind == GVI_MASS_DENSE;
+    int diagonal = y->over_mass && x->desc.mass.kind == GVI_MASS_DIAGONAL;
+    if (dense) {
+        for (int i = 0; i < n; ++i) gvi__stage_sum(st, y, i, x->Z + i*R);
+        gvi__over_mass(st, x->Z, R, R);
+    }
+    for (int i = 0; i < n; ++i) {
+        gvi_real *z = dense ? x->Z + i*R : x->z, *row = rows + i*R;
+        gvi_real base = y->base[i], extra = y->extra[i], slope = y->slope ? y->slope[i] : 0;
+        gvi_real inverse = diagonal ? 1/x->mass[i] : 1;
+        if (!dense) gvi__stage_sum(st, y, i, z);
+        for (int k = 0; k < R; ++k) z[k] = extra + y->factor*(x->c[k]*slope + inverse*z[k]);
+        gvi_real size = gvi__abs(base) + gvi__abs(z[st->r - 1]), scale = size > 0 ? 1/size : 0;
+        if (change) {
+            change[i] = 0;
+            for (int k = 0; k < R; ++k) change[i] += gvi__abs(base + z[k] - row[k]);
+        }
+        for (int k = 0; k < R; ++k) {
+            gvi_real next = base + z[k];
+            x->acc[k] += gvi__abs(next - row[k])*scale;
+            row[k] = next;
+        }
+    }
+}
+
+// V := M^-1 (P - A), with the constant mass or the factored M(Q)
+static void gvi__velocity_rows(gvi_stepper *st)
+{
+    struct gvi__private *x = &st->x;
+    struct gvi__rows *w = &x->work;
+    int n = st->n, R = x->stride;
+    for (int k = 0; k < n*R; ++k) w->V[k] = w->P[k] - (w->A ? w->A[k] : 0);
+    if (gvi__mass_is_constant(&x->desc)) gvi__over_mass(st, w->V, R, st->r);
+    else gvi__ldl_solve(n, x->point_mass, R, 1, w->V, R, st->r);
+}
+
+/* The rows of the next iteration from the F, V and A of this one; returns the
+   sum over coordinates and points of their relative change.                   */
+static gvi_real gvi__stages(gvi_stepper *st, const gvi__from *from, gvi_real h, gvi_real *change)
+{
+    struct gvi__private *x = &st->x;
+    struct gvi__rows *w = &x->work;
+    int n = st->n, R = x->stride;
+    gvi__zero((size_t)R, x->acc);
+    gvi__stage q = { from->q, from->qe, x->v0, x->g, w->F, w->A ? x->T : NULL, w->A, h, 1 };
+    if (x->chosen == GVI_MOMENTA) {
+        gvi__stage p = { from->p, from->pe, NULL, x->m, w->F, NULL, NULL, 1, 0 };
+        gvi__stage by_v = { from->q, from->qe, NULL, x->T, w->V, NULL, NULL, 1, 0 };
+        gvi__stage_rows(st, &p, w->P, NULL);
+        if (x->has_factor || (gvi__mass_is_constant(&x->desc) && !x->desc.mass.velocity))
+            gvi__velocity_rows(st);       // the new P, if with the old M(Q): contracts twice as fast
+        q = by_v;
+    }
+    gvi__stage_rows(st, &q, w->Q, change);
+    if (x->chosen == GVI_VELOCITIES) {
+        gvi__stage v = { x->v0, x->ve, NULL, x->m, w->F, w->A ? x->N : NULL, w->A, 1, 1 };
+        gvi__stage_rows(st, &v, w->V, NULL);
+        st->counters.velocities += (unsigned long long)st->r;
+    }
+    gvi_real sum = 0;
+    for (int k = 0; k < st->r; ++k) sum += x->acc[k];
+    return sum;
+}
+
+// momenta: V from dL/dv(Q, V) = P, then the kinetic share of F
+static gvi_status gvi__legendre_rows(gvi_stepper *st, gvi_points *y)
+{
+    struct gvi__private *x = &st->x;
+    struct gvi__rows *w = &x->work;
+    st->counters.velocities += (unsigned long long)st->r;
+    if (x->desc.mass.velocity) {
+        gvi_points z = *y;
+        z.v = NULL;
+        z.f = z.dldv = NULL;
+        z.p = w->P;
+        z.velocity = w->V;
+        st->counters.mass += (unsigned long long)st->r;
+        if (x->desc.mass.velocity(&z, x->desc.mass.user))
+            return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, GVI_FAULT_NONE, GVI_FAULT_NONE);
+        if (x->diagnose) {
+            gvi_status status = gvi__check_rows(st, y, w->V, GVI_FAULT_MASS);
+            if (status != GVI_OK) return status;
+        }
+    } else {
+        gvi_status status = gvi__mass_is_constant(&x->desc) ? GVI_OK : gvi__mass_at(st, y, 1);
+        if (status != GVI_OK) return status;
+        x->has_factor = !gvi__mass_is_constant(&x->desc);
+        gvi__velocity_rows(st);
+    }
+    return x->desc.mass.kind == GVI_MASS_POSITION ? gvi__mass_gradient(st, y) : GVI_OK;
+}
+
+// F (and A, V) at the rows of this iteration, all points in one call an effect
+static gvi_status gvi__ask(gvi_stepper *st)
+{
+    struct gvi__rows *w = &st->x.work;
+    size_t length = (size_t)st->n*(size_t)st->x.stride;
+    gvi_points y = gvi__rows_as_points(st, w, w->A);
+    gvi_status status = GVI_OK;
+    gvi__zero(length, w->F);
+    if (st->x.chosen == GVI_MOMENTA) status = gvi__legendre_rows(st, &y);
+    if (w->A) gvi__zero(length, w->A);
+    return status == GVI_OK ? gvi__effects(st, &y, 0) : status;
+}
+
+/* Extrapolates rows of the last step to the points of the next:
+   out_i = sum_j E_ij last_j, E_ij = l_j(alpha + beta c_i), l_j on the nodes.   */
+static void gvi__extrapolate(gvi_stepper *st, const gvi_real *last, gvi_real *out)
+{
+    int R = st->x.stride;
+    for (int i = 0; last && i < st->n; ++i) {
+        gvi_real *z = out + i*R;
+        gvi__zero((size_t)R, z);
+        for (int j = 0; j < st->r; ++j)
+            for (int k = 0; k < R; ++k) z[k] += st->x.E[j*R + k]*last[i*R + j];
+    }
+}
+
+static void gvi__extrapolation(gvi_stepper *st, gvi_real alpha, gvi_real beta, int query)
+{
+    struct gvi__private *x = &st->x;
+    if (!query && !gvi__nonzero(beta - x->ratio)) return;
+    x->ratio = query ? 0 : beta;
+    for (int i = 0; i < st->r; ++i) {
+        gvi_basis(st->r, x->c, x->near, alpha + beta*x->c[i], x->row);
+        for (int j = 0; j < st->r; ++j) x->E[j*x->stride + i] = x->row[j];
+    }
+}
+
+/* Starting values: what the last step had, extrapolated; without one, or if
+   that led nowhere, no force and constant velocity.                           */
+static void gvi__guess(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate)
+{
+    struct gvi__private *x = &st->x;
+    struct gvi__rows *w = &x->work, *l = &x->last;
+    size_t length = (size_t)st->n*(size_t)x->stride;
+    x->has_factor = 0;
+    if (extrapolate) {
+        gvi__extrapolate(st, l->F, w->F);
+        if (l->A && w->A) gvi__extrapolate(st, l->A, w->A);
+        if (x->chosen == GVI_MOMENTA) gvi__extrapolate(st, l->V, w->V);
+    } else {
+        gvi__zero(length, w->F);
+        if (w->A) gvi__zero(length, w->A);
+        for (int i = 0; x->chosen == GVI_MOMENTA && i < st->n; ++i)
+            for (int k = 0; k < st->r; ++k) w->V[i*x->stride + k] = x->v0[i];
+    }
+    (void)gvi__stages(st, from, h, NULL);
+}
+
+/* Increments of q and p from the F, V and A at the end of the iteration.      */
+static void gvi__increments(gvi_stepper *st, gvi_real h)
+{
+    struct gvi__private *x = &st->x;
+    struct gvi__rows *w = &x->work;
+    int n = st->n, r = st->r, R = x->stride;
+    for (int i = 0; i < n; ++i) {
+        gvi_real sum = 0, end = 0;
+        for (int j = 0; j < r; ++j) {
+            gvi_real L = x->hb[j]*w->F[i*R + j];
+            sum += L;
+            if (x->chosen == GVI_MOMENTA) end += x->hb[j]*w->V[i*R + j];
+            else end += (1 - x->c[j])*L - (w->A ? x->b[j]*w->A[i*R + j] : 0);
+        }
+        x->dp[i] = sum;
+        x->dq[i] = end;
+    }
+    if (x->chosen == GVI_MOMENTA) return;
+    gvi__over_mass(st, x->dq, 1, 1);
+    for (int i = 0; i < n; ++i) x->dq[i] = h*x->v0[i] + h*(x->ve[i] + x->dq[i]);
+}
+
+/* Is the change that does not shrink any more nothing but rounding?  Measured
+   as energy, force times change against force times path and p v: coordinates
+   of any units may be added up.                                              */
+static int gvi__is_rounding(const gvi_stepper *st, const gvi__from *from)
+{
+    const struct gvi__private *x = &st->x;
+    int R = x->stride;
+    gvi_real noise = 0, size = 0;
+    for (int i = 0; i < st->n; ++i) {
+        gvi_real most = 0;
+        for (int k = 0; k < st->r; ++k) {
+            gvi_real F = gvi__abs(x->work.F[i*R + k]);
+            if (F > most) most = F;
+            size += F*gvi__abs(x->work.Q[i*R + k] - from->q[i]);
+        }
+        noise += x->change[i]*most;
+        size += (gvi_real)st->r*gvi__abs(from->p[i]*x->v0[i]);
+    }
+    return noise <= 10000*GVI__EPS*size;
+}
+
+static void gvi__watch(gvi_stepper *st, gvi_real change, gvi_real ratio)
+{
+    gvi_real per_value = change/(gvi_real)(st->n*st->r);
+    if (ratio > st->counters.worst_contraction && per_value > 1000*GVI__EPS) st->counters.worst_contraction = ratio;
+}
+
+/* Fixed point on the rows.  Tolerance-free end: the change after the next one,
+   D^2/D_before, is far below rounding; or the change has stopped shrinking and
+   is rounding.  Three changes in a row that fall by less than half are poor.  */
+static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate, int *used)
+{
+    struct gvi__private *x = &st->x;
+    const gvi_real enough = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/64;
+    const gvi_real rounding = 2*GVI__EPS*(gvi_real)(st->n*st->r);
+    int fall_back = x->desc.formulation == GVI_AUTO && (x->flags & GVI__HAS_NEWTON), poor = 0;
+    gvi_real before = 0;
+
+    gvi__guess(st, from, h, extrapolate);
+    for (*used = 1; *used <= x->desc.max_iterations; ++*used) {
+        gvi_status status = gvi__ask(st);
+        if (status != GVI_OK) return status;
+        gvi_real change = gvi__stages(st, from, h, poor > 1 ? x->change : NULL);
+        gvi_real ratio = before > 0 ? change/before : 1;
+        if (!(change <= GVI__MAX)) return gvi__fail(st, GVI_E_NON_FINITE, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
+        gvi__watch(st, change, before > 0 ? ratio : 0);
+        if (change*ratio <= enough || (ratio > (gvi_real)0.5 && change <= rounding)) {
+            st->counters.worst_change = change > st->counters.worst_change ? change : st->counters.worst_change;
+            return GVI_OK;
+        }
+        poor = before > 0 && ratio > (gvi_real)0.5 ? poor + 1 : 0;
+        if (poor > 2 && gvi__is_rounding(st, from)) return GVI_OK;
+        if (poor > 2 && fall_back) break;
+        before = change;
+    }
+    return gvi__fail(st, GVI_E_CONVERGENCE, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
+}
+
+/* Stoermer-Verlet, (3) with s = 1 and nodes 0, 1: the force at the start is that
+   at the end of the last step.                                               */
+static gvi_status gvi__explicit(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *force)
+{
+    struct gvi__private *x = &st->x;
+    gvi_real *Q = x->work.Q, *F = x->work.F;
+    int n = st->n, R = x->stride;
+    gvi_points y = gvi__rows_as_points(st, &x->work, NULL);
+    y.count = 1;
+    for (int i = 0; i < n; ++i) {
+        Q[i*R] = from->q[i];
+        F[i*R] = force ? force[i*R] : 0;
+        F[i*R + 1] = 0;
+    }
+    gvi_status status = force ? GVI_OK : gvi__effects(st, &y, 0);
+    if (status != GVI_OK) return status;
+
+    // q1 = q0 + h (v0 + M^-1 h/2 F_0), compensated as it will be kept
+    for (int i = 0; i < n; ++i) x->dq[i] = x->hb[0]*F[i*R];
+    gvi__over_mass(st, x->dq, 1, 1);
+    for (int i = 0; i < n; ++i) {
+        x->dq[i] = h*x->v0[i] + h*(x->ve[i] + x->dq[i]);
+        Q[i*R + 1] = from->q[i] + (x->dq[i] + from->qe[i]);
+    }
+    y.t += 1;
+    y.q += 1;
+    y.f += 1;
+    status = gvi__effects(st, &y, 0);
+    for (int i = 0; i < n; ++i) x->dp[i] = x->hb[0]*F[i*R] + x->hb[1]*F[i*R + 1];
+    return status;
+}
+
+/* Newton on (1).  Unknowns y[k*n + i]; the rows are those of (1) times 2k + 1,
+   from k0 on: k0 = 0 for a step, 1 for the boundary-value problem.            */
+
+static void gvi__newton_rows(gvi_stepper *st, const gvi__from *from, gvi_real h)
+{
+    struct gvi__private *x = &st->x;
+    int n = st->n, R = x->stride;
+    for (int i = 0; i < n; ++i) {
+        gvi_real *V = x->work.V + i*R, *Q = x->work.Q + i*R;
+        gvi__zero((size_t)R, V);
+        gvi__zero((size_t)R, Q);
+        for (int k = 0; k < st->s; ++k)
+            for (int j = 0; j < R; ++j) {
+                V[j] += x->phi[k*R + j]*x->y[k*n + i];
+                Q[j] += x->Phi[k*R + j]*x->y[k*n + i];
+            }
+        for (int j = 0; j < R; ++j) Q[j] = from->q[i] + (from->qe[i] + h*Q[j]);
+    }
+    st->counters.velocities += (unsigned long long)st->r;
+}
+
+/* dy := -residual.  P - p0 in place of P where the rule allows (u >= s): small
+   numbers.  Returns the largest residual in units of its own terms.           */
+static gvi_real gvi__residual(gvi_stepper *st, const gvi__from *from, int k0)
+{
+    struct gvi__private *x = &st->x;
+    int n = st->n, R = x->stride, shift = st->order >= st->s;
+    gvi_real worst = 0;
+    for (int i = 0; i < n; ++i) {
+        const gvi_real *P = x->work.P + i*R, *F = x->work.F + i*R;
+        for (int k = k0; k < st->s; ++k) {
+            gvi_real sum = 0, size = 0;
+            for (int j = 0; j < st->r; ++j) {
+                gvi_real W = (k == 0 ? 1 : 0) - x->Phi[k*R + j], weight = x->b[j]*x->phi[k*R + j];
+                gvi_real a = weight*(shift ? (P[j] - from->p[i]) - from->pe[i] : P[j]), b = x->hb[j]*W*F[j];
+                sum += a - b;
+                size += gvi__abs(weight*P[j]) + gvi__abs(b);
+            }
+            if (!shift && k == 0) sum -= from->p[i] + from->pe[i];
+            x->dy[(k - k0)*n + i] = -(gvi_real)(2*k + 1)*sum;
+            if (size > 0 && gvi__abs(sum)/size > worst) worst = gvi__abs(sum)/size;
+        }
+    }
+    return worst;
+}
+
+// where the derivatives of the residual go
+typedef struct gvi__matrix {
+    gvi_real *square;      /* rows and columns k0..s-1, row-major               */
+    gvi_real *ends;        /* k0 = 1: columns y_0 and q0, 2n a row; or NULL     */
+    int       k0;
+    gvi_real  h;
+} gvi__matrix;
+
+/* Adds what dF_i/du_j = f and dP_i/du_j = p at one point contribute, u = q or v:
+   du = h Phi_l dy_l or phi_l dy_l.                                           */
+static void gvi__add(const gvi_stepper *st, const gvi__matrix *J, int i, int j, int point,
+                     gvi_real f, gvi_real p, int by_v)
+{
+    const struct gvi__private *x = &st->x;
+    int n = st->n, R = x->stride, s = st->s, k0 = J->k0;
+    size_t size = (size_t)(s - k0)*(size_t)n;
+    if (!gvi__nonzero(f) && !gvi__nonzero(p)) return;
+    for (int k = k0; k < s; ++k) {
+        gvi_real W = (k == 0 ? 1 : 0) - x->Phi[k*R + point];
+        gvi_real a = (gvi_real)(2*k + 1)*(x->b[point]*x->phi[k*R + point]*p - x->hb[point]*W*f);
+        size_t row = (size_t)((k - k0)*n + i);
+        for (int l = k0; l < s; ++l)
+            J->square[row*size + (size_t)((l - k0)*n + j)]
+                += a*(by_v ? x->phi[l*R + point] : J->h*x->Phi[l*R + point]);
+        if (J->ends) {
+            J->ends[row*2*(size_t)n + (size_t)j] += a*(by_v ? 1 : J->h*x->Phi[point]);
+            if (!by_v) J->ends[row*2*(size_t)n + (size_t)(n + j)] += a;
+        }
+    }
+}
+
+// effects that bring their Hessians, and the constant mass
+static gvi_status gvi__jacobian_exact(gvi_stepper *st, const gvi__matrix *J)
+{
+    struct gvi__private *x = &st->x;
+    const gvi_desc *d = &x->desc;
+    int n = st->n, R = x->stride;
+    size_t nn = (size_t)n*(size_t)n;
+    gvi_real *fq = x->hess, *fv = fq + nn, *own = fv + nn, *pv = own + nn, *q = x->one, *v = q + n;
+    for (int k = 0; k < st->r; ++k) {
+        for (int i = 0; i < n; ++i) {
+            q[i] = x->work.Q[i*R + k];
+            v[i] = x->work.V[i*R + k];
+            for (int j = 0; j < n; ++j) {
+                gvi_real m = i == j ? 1 : 0;
+                if (d->mass.kind == GVI_MASS_DIAGONAL) m *= x->mass[i];
+                if (d->mass.kind == GVI_MASS_DENSE)
+                    m = x->mass[nn + (size_t)(i > j ? i*n + j : j*n + i)];
+                if (gvi__mass_is_constant(d)) gvi__add(st, J, i, j, k, 0, m, 1);
+            }
+        }
+        for (int e = 0; e < d->effect_count; ++e) {
+            const gvi_effect *effect = d->effects + e;
+            if ((x->off >> e & 1u) || !effect->hessian) continue;
+            int reads_v = effect->kind != GVI_POTENTIAL, term = effect->kind == GVI_LAGRANGIAN;
+            gvi__zero(4*nn, fq);
+            if (effect->hessian(x->t[k], q, reads_v ? v : NULL, fq, reads_v ? fv : NULL, term ? pv : NULL, effect->user))
+                return gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, k);
+            for (int i = 0; i < n; ++i)
+                for (int j = 0; j < n; ++j) {       // d(dL/dv)/dq is the transpose of d(dL/dq)/dv
+                    gvi__add(st, J, i, j, k, fq[i*n + j], term ? fv[j*n + i] : 0, 0);
+                    gvi__add(st, J, i, j, k, fv[i*n + j], pv[i*n + j], 1);
+                }
+        }
+    }
+    return GVI_OK;
+}
+
+// forward differences by one row, coordinate j of Q or V, at all points at once
+static gvi_status gvi__difference(gvi_stepper *st, const gvi__matrix *J, int j, int by_v, gvi_real d)
+{
+    struct gvi__private *x = &st->x;
+    int n = st->n, R = x->stride;
+    gvi_real *row = (by_v ? x->work.V : x->work.Q) + j*R;
+    gvi_points y = gvi__rows_as_points(st, &x->work, x->dP);
+    y.f = x->dF;
+    gvi__copy((size_t)R, row, x->z);
+    for (int k = 0; k < st->r; ++k) row[k] += d;
+    gvi_status status = gvi__evaluate(st, &y, 1);
+    for (int k = 0; k < st->r && status == GVI_OK; ++k) {
+        gvi_real step = row[k] - x->z[k];
+        for (int i = 0; i < n; ++i)
+            gvi__add(st, J, i, j, k, (x->dF[i*R + k] - x->bF[i*R + k])/step,
+                     (x->dP[i*R + k] - x->bP[i*R + k])/step, by_v);
+    }
+    gvi__copy((size_t)R, x->z, row);
+    return status;
+}
+
+/* Derivatives of what has no Hessian.  The difference is sqrt(eps) of what the
+   coordinate moves in a step, but no less than eps^(3/4) of the coordinate.   */
+static gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matrix *J)
+{
+    struct gvi__private *x = &st->x;
+    const gvi_desc *d = &x->desc;
+    int n = st->n, R = x->stride, any = !gvi__mass_is_constant(d), reads_v = any;
+    for (int e = 0; e < d->effect_count; ++e)
+        if (!(x->off >> e & 1u) && !d->effects[e].hessian) {
+            any = 1;
+            if (d->effects[e].kind != GVI_POTENTIAL) reads_v = 1;
+        }
+    if (!any) return GVI_OK;
+    gvi_points y = gvi__rows_as_points(st, &x->work, x->bP);
+    y.f = x->bF;
+    gvi_status status = gvi__evaluate(st, &y, 1);
+    const gvi_real root = gvi__sqrt(GVI__EPS), h = gvi__abs(J->h);
+    for (int j = 0; j < n && status == GVI_OK; ++j) {
+        gvi_real q = 0, v = 0;
+        for (int k = 0; k < st->r; ++k) {
+            if (gvi__abs(x->work.Q[j*R + k]) > q) q = gvi__abs(x->work.Q[j*R + k]);
+            if (gvi__abs(x->work.V[j*R + k]) > v) v = gvi__abs(x->work.V[j*R + k]);
+        }
+        gvi_real path = h*v > gvi__sqrt(root)*q ? h*v : gvi__sqrt(root)*q;
+        if (!(path > 0)) path = h > 0 && h < 1 ? h : 1;
+        status = gvi__difference(st, J, j, 0, root*path);
+        if (status == GVI_OK && reads_v) status = gvi__difference(st, J, j, 1, root*path/h);
+    }
+    return status;
+}
+
+static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J, gvi_real *pivot)
+{
+    int n = st->n, size = (st->s - J->k0)*n, at;
+    gvi__zero((size_t)size*(size_t)size, J->square);
+    if (J->ends) gvi__zero((size_t)size*2*(size_t)n, J->ends);
+    gvi_status status = gvi__jacobian_exact(st, J);
+    if (status == GVI_OK) status = gvi__jacobian_differences(st, J);
+    if (status != GVI_OK) return status;
+    status = gvi__lu_factor(size, J->square, pivot, &at);
+    st->counters.factorizations += 1;
+    return status == GVI_OK ? GVI_OK : gvi__fail(st, status, GVI_FAULT_NONE, at < 0 ? at : at % n, GVI_FAULT_NONE);
+}
+
+// y := modes of the extrapolated V, or constant velocity
+static void gvi__newton_guess(gvi_stepper *st, int extrapolate)
+{
+    struct gvi__private *x = &st->x;
+    int n = st->n, s = st->s, R = x->stride;
+    gvi__zero((size_t)(s*n), x->y);
+    if (!extrapolate) {
+        gvi__copy((size_t)n, x->v0, x->y);
+        return;
+    }
+    gvi__extrapolate(st, x->last.V, x->work.V);
+    for (int i = 0; i < n; ++i) {
+        for (int k = 0; k < s; ++k) {
+            x->row[k] = 0;
+            for (int j = 0; j < st->r; ++j) x->row[k] += x->phi[k*R + j]*x->b[j]*x->work.V[i*R + j];
+        }
+        gvi__over_gamma(st, x->row);
+        for (int k = 0; k < s; ++k) x->y[k*n + i] = x->row[k];
+    }
+}
+
+// y += dy from row k0 on; returns the sum over coordinates of the relative change
+static gvi_real gvi__newton_update(gvi_stepper *st, int k0)
+{
+    struct gvi__private *x = &st->x;
+    int n = st->n;
+    gvi_real sum = 0;
+    for (int i = 0; i < n; ++i) {
+        gvi_real change = 0, size = 0;
+        for (int k = 0; k < st->s; ++k) {
+            if (k >= k0) {
+                x->y[k*n + i] += x->dy[(k - k0)*n + i];
+                change += gvi__abs(x->dy[(k - k0)*n + i]);
+            }
+            size += gvi__abs(x->y[k*n + i]);
+        }
+        if (size > 0) sum += change/size;
+        else sum += change;
+    }
+    return sum;
+}
+
+/* Solves rows k0..s-1 of (1) from the y at hand and leaves F, P, Q, V at the
+   solution.  Keeps the factorisation while it contracts by 1/4 or better, over
+   iterations and, if `kept`, over steps.                                     */
+static gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi__matrix *J, gvi_real *pivot, int kept)
+{
+    struct gvi__private *x = &st->x;
+    const gvi_real enough = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/64;
+    int size = (st->s - J->k0)*st->n, have = kept && !gvi__nonzero(x->h_matrix - J->h);
+    int made = 0, poor = 0, last = size == 0;
+    gvi_real before = 0;
+    for (int k = 0; k <= x->desc.max_iterations; ++k) {
+        gvi_points y = gvi__rows_as_points(st, &x->work, x->work.P);
+        gvi__newton_rows(st, from, J->h);
+        gvi_status status = gvi__evaluate(st, &y, 0);
+        if (status != GVI_OK || last) return status;
+        if (!have) {
+            if (++made > x->desc.max_iterations/4 + 2) break;
+            status = gvi__jacobian(st, J, pivot);
+            if (status != GVI_OK) return status;
+            have = 1;
+            before = 0;
+            if (kept) x->h_matrix = J->h;
+        }
+        gvi_real residual = gvi__residual(st, from, J->k0);
+        gvi_lu_solve(size, J->square, pivot, x->dy);
+        gvi_real change = gvi__newton_update(st, J->k0), ratio = before > 0 ? change/before : 1;
+        st->counters.newton_iterations += 1;
+        if (!(change <= GVI__MAX)) return gvi__fail(st, GVI_E_NON_FINITE, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
+        gvi__watch(st, change, before > 0 ? ratio : 0);
+
+        // one more evaluation where the change after this one is rounding
+        poor = before > 0 && ratio > (gvi_real)0.5 ? poor + 1 : 0;
+        if (change*ratio <= enough || (poor && change <= 8*GVI__EPS*(gvi_real)size)
+            || (poor > 1 && residual <= 64*GVI__EPS)) last = 1;
+        else if (before > 0 && ratio > (gvi_real)0.25) have = 0;
+        before = change;
+    }
+    return gvi__fail(st, GVI_E_CONVERGENCE, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
+}
+
+static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate, int query)
+{
+    struct gvi__private *x = &st->x;
+    size_t sn = (size_t)(st->s*st->n), offset = query ? sn*sn : 0;
+    gvi__matrix J = { x->J + offset, NULL, 0, h };
+    gvi__newton_guess(st, extrapolate);
+    gvi_status status = gvi__newton(st, from, &J, x->pivot + (query ? 2*sn + 1 : 0), !query);
+    for (int i = 0; i < st->n; ++i) {
+        x->dq[i] = h*x->y[i];
+        x->dp[i] = gvi__dot(st->r, x->hb, x->work.F + i*x->stride);
+    }
+    return status;
+}
+
+/* ---- a step from its start to dq and dp, nothing of it kept yet ---- */
+
+// where the last step's rows are, seen from the step to come
+typedef struct gvi__history { int available; gvi_real alpha, beta; const gvi_real *force; } gvi__history;
+
+static gvi_status gvi__attempt(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi__history *past, int query)
+{
+    struct gvi__private *x = &st->x;
+    gvi__begin(st, from, h);
+    st->formulation = x->chosen;
+    if (x->chosen == GVI_EXPLICIT) return gvi__explicit(st, from, h, past->force);
+
+    int usable = past->available, used = 0;
+    gvi_status status = GVI_E_CONVERGENCE;
+    if (usable) gvi__extrapolation(st, past->alpha, past->beta, query);
+    if (x->chosen != GVI_NEWTON && (x->newton_left == 0 || query)) {
+        for (int plain = !usable; plain < 2; ++plain) {
+            status = gvi__fixed_point(st, from, h, !plain, &used);
+            st->counters.iterations += (unsigned long long)used;
+            if (!query) st->iterations = used;
+            if (used > st->counters.most_iterations) st->counters.most_iterations = used;
+            // only a refusal at the extrapolated values themselves is worth a second try
+            if (status == GVI_OK || status == GVI_E_CONVERGENCE || used > 1) break;
+        }
+        if (status == GVI_OK) gvi__increments(st, h);
+        if (status == GVI_OK || x->desc.formulation != GVI_AUTO || !(x->flags & GVI__HAS_NEWTON)) return status;
+        if (!query) x->newton_left = 64;
+    }
+    unsigned long long count = st->counters.newton_iterations;
+    st->formulation = GVI_NEWTON;
+    status = gvi__newton_step(st, from, h, usable && x->has_velocity, query);
+    if (!query) st->iterations = used + (int)(st->counters.newton_iterations - count);
+    return status;
+}
+
+/* An attempt; if something was not finite, the same once more with every effect
+   looked at, to say which one it was.                                        */
+static gvi_status gvi__solve(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi__history *past, int query)
+{
+    struct gvi__private *x = &st->x;
+    gvi_status status = gvi__attempt(st, from, h, past, query);
+    if (status == GVI_OK && !(gvi__all_finite(st->n, x->dq) && gvi__all_finite(st->n, x->dp)))
+        status = GVI_E_NON_FINITE;
+    if (status == GVI_E_NON_FINITE && st->fault.effect == GVI_FAULT_NONE && !x->diagnose) {
+        x->h_matrix = 0;
+        x->diagnose = 1;
+        gvi_status second = gvi__attempt(st, from, h, past, query);
+        x->diagnose = 0;
+        if (second != GVI_OK) status = second;
+    }
+    return status;
+}
+
+// the step is done: state and compensation move on, rows become those of the last step
+static void gvi__commit(gvi_stepper *st, gvi_real h)
+{
+    struct gvi__private *x = &st->x;
+    for (int i = 0; i < st->n; ++i) {
+        gvi__two q = gvi__sum(x->q[i], x->dq[i] + x->qe[i]), p = gvi__sum(x->p[i], x->dp[i] + x->pe[i]);
+        x->q0[i] = x->q[i];
+        x->p0[i] = x->p[i];
+        x->q[i] = q.hi;
+        x->qe[i] = q.lo;
+        x->p[i] = p.hi;
+        x->pe[i] = p.lo;
+    }
+    gvi__two t = gvi__sum(st->t, h + x->te);
+    x->t0 = st->t;
+    st->t = t.hi;
+    x->te = t.lo;
+    st->h = h;
+    struct gvi__rows rows = x->last;
+    x->last = x->work;
+    x->work = rows;
+    x->swapped = !x->swapped;
+    x->stepped = 1;
+    x->has_force = x->chosen == GVI_EXPLICIT;
+    x->has_velocity = st->formulation > GVI_POSITIONS;
+    if (x->newton_left > 0) x->newton_left -= 1;
+    st->counters.steps += 1;
+}
+
+GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
+{
+    if (!st) return GVI_E_ARGUMENT;
+    struct gvi__private *x = &st->x;
+    if (!x->started) return gvi__fail(st, GVI_E_STATE, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
+    gvi__done(st, GVI_OK);
+    if (!gvi__nonzero(h) || !gvi__finite(h)) return st->status = GVI_E_ARGUMENT;
+
+    gvi_formulation was = st->formulation;
+    gvi__from from = { st->t, x->te, x->q, x->qe, x->p, x->pe };
+    gvi__history past = { x->stepped, 1, 0, x->has_force ? x->last.F + 1 : NULL };
+    if (x->stepped) {
+        past.beta = h/st->h;
+        past.available = past.beta > -2 && past.beta < 8;         // farther out it says nothing
+        if (gvi__nonzero(h - st->h)) x->newton_left = 0;
+    }
+    gvi_status status = gvi__solve(st, &from, h, &past, 0);
+    for (int i = 0; i < st->n && status == GVI_OK; ++i)
+        if (!gvi__finite(x->q[i] + x->dq[i]) || !gvi__finite(x->p[i] + x->dp[i])) status = GVI_E_NON_FINITE;
+    if (status == GVI_OK && !gvi__finite(st->t + h)) status = GVI_E_ARGUMENT;
+    if (status != GVI_OK) {
+        st->counters.failures += 1;
+        st->formulation = was;
+        x->h_matrix = 0;
+        return st->status = status;
+    }
+    gvi__commit(st, h);
+    return gvi__done(st, GVI_OK);
+}
+
+/* ---- starting ---- */
+
+static gvi_status gvi__start(gvi_stepper *st, gvi_real t)
+{
+    struct gvi__private *x = &st->x;
+    size_t n = (size_t)st->n;
+    gvi__zero(n, x->qe);
+    gvi__zero(n, x->pe);
+    st->t = t;
+    st->h = 0;
+    x->te = 0;
+    x->started = 1;
+    x->stepped = x->has_force = x->has_velocity = x->newton_left = 0;
+    x->h_matrix = x->ratio = 0;
+    st->formulation = x->chosen;
+    return gvi__done(st, GVI_OK);
+}
+
+// everything a start needs is there and finite
+static gvi_status gvi__check_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *w)
+{
+    if (!st) return GVI_E_ARGUMENT;
+    gvi__done(st, GVI_OK);
+    if (!st->x.memory) return st->status = GVI_E_STATE;
+    if (!q || !w || !gvi__finite(t)) return st->status = GVI_E_ARGUMENT;
+    for (int i = 0; i < st->n; ++i)
+        if (!gvi__finite(q[i]) || !gvi__finite(w[i]))
+            return gvi__fail(st, GVI_E_ARGUMENT, GVI_FAULT_NONE, i, GVI_FAULT_NONE);
+    return GVI_OK;
+}
+
+GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
+{
+    gvi_status status = gvi__check_start(st, t, q, v);
+    if (status != GVI_OK) return status;
+    struct gvi__private *x = &st->x;
+    size_t n = (size_t)st->n;
+    gvi_real *f = x->one + 4*n, *p = f + n;
+
+    // p = dL/dv: of the kinetic energy, and of Lagrangian terms where there are any
+    gvi_points y = gvi__at(st, &t, q, v, f, p);
+    if (x->flags & GVI__HAS_LAGRANGIAN) status = gvi__evaluate(st, &y, 0);
+    else {
+        gvi__zero(n, f);
+        gvi__zero(n, p);
+        status = gvi__kinetic(st, &y);
+    }
+    if (status == GVI_OK) status = gvi__check_rows(st, &y, p, GVI_FAULT_MASS);
+    if (status != GVI_OK) return status;
+    gvi__copy(n, p, x->dp);
+    gvi__copy(n, q, x->dq);
+    gvi__copy(n, v, x->v0);
+    gvi__copy(n, x->dq, x->q);
+    gvi__copy(n, x->dp, x->p);
+    return gvi__start(st, t);
+}
+
+GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *p)
+{
+    gvi_status status = gvi__check_start(st, t, q, p);
+    if (status != GVI_OK) return status;
+    struct gvi__private *x = &st->x;
+    size_t n = (size_t)st->n;
+    gvi__copy(n, q, x->dq);
+    gvi__copy(n, p, x->dp);
+    gvi__zero(n, x->v0);
+    // the velocity to start from, where the step does not find it itself
+    if (x->chosen == GVI_MOMENTA || x->chosen == GVI_NEWTON) status = gvi__velocity(st, t, x->dq, x->dp, x->v0);
+    if (status != GVI_OK) return status;
+    gvi__copy(n, x->dq, x->q);
+    gvi__copy(n, x->dp, x->p);
+    return gvi__start(st, t);
+}
+
+GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_real h,
+                                            const gvi_real *q0, const gvi_real *q1)
+{
+    gvi_status status = gvi__check_start(st, t, q0, q1);
+    if (status != GVI_OK) return status;
+    gvi_discrete out = { NULL, NULL, NULL, NULL, NULL, NULL, NULL };
+    out.p0 = st->x.change + 2*st->n;
+    status = gvi_discrete_lagrangian(st, t, h, q0, q1, &out);
+    return status == GVI_OK ? gvi_start_momentum(st, t, q0, out.p0) : status;
+}
+
+GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
+{
+    if (!st) return GVI_E_ARGUMENT;
+    if (!st->x.memory) return st->status = GVI_E_STATE;
+    if (index < 0 || index >= st->x.desc.effect_count) return st->status = GVI_E_ARGUMENT;
+    unsigned bit = 1u << index;
+    st->x.off = on ? st->x.off & ~bit : st->x.off | bit;
+    st->x.has_force = 0;
+    st->x.h_matrix = 0;
+    return gvi__done(st, GVI_OK);
+}
+
+/* --------------------------------------------------------------- QUERIES */
+
+static gvi_status gvi__ready(gvi_stepper *st, int stepped)
+{
+    if (!st) return GVI_E_ARGUMENT;
+    gvi__done(st, GVI_OK);
+    if (!st->x.started || (stepped && !st->x.stepped)) return st->status = GVI_E_STATE;
+    return GVI_OK;
+}
+
+GVI_DEF gvi_status gvi_velocity(gvi_stepper *st, gvi_real *v)
+{
+    gvi_status status = gvi__ready(st, 0);
+    if (status != GVI_OK) return status;
+    if (!v) return st->status = GVI_E_ARGUMENT;
+    struct gvi__private *x = &st->x;
+
+    // the guess: velocity at the last point of the last step, or at the start
+    gvi_real *guess = x->change;
+    for (int i = 0; i < st->n; ++i)
+        guess[i] = x->has_velocity ? x->last.V[i*x->stride + st->r - 1] : x->v0[i];
+    status = gvi__velocity(st, st->t, x->q, x->p, guess);
+    if (status == GVI_OK) gvi__copy((size_t)st->n, guess, v);
+    return gvi__done(st, status);
+}
+
+/* Sums the values of the effects at one point: potentials into V, Lagrangian
+   terms into L.  Forces have no value.                                        */
+static gvi_status gvi__values(gvi_stepper *st, gvi_points *x, gvi_real *V, gvi_real *L)
+{
+    const gvi_desc *d = &st->x.desc;
+    *V = *L = 0;
+    for (int e = 0; e < d->effect_count; ++e) {
+        const gvi_effect *effect = d->effects + e;
+        if ((st->x.off >> e & 1u) || effect->kind == GVI_FORCE) continue;
+        if (!effect->value) return gvi__fail(st, GVI_E_VALUE, e, GVI_FAULT_NONE, GVI_FAULT_NONE);
+        gvi_points y = *x;
+        y.f = y.dldv = NULL;
+        y.value = effect->kind == GVI_POTENTIAL ? V : L;
+        if (effect->kind == GVI_POTENTIAL) y.v = NULL;
+        if (effect->value(&y, effect->user)) return gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, GVI_FAULT_NONE);
+        if (!gvi__finite(*y.value)) return gvi__fail(st, GVI_E_NON_FINITE, e, GVI_FAULT_NONE, GVI_FAULT_NONE);
+    }
+    return GVI_OK;
+}
+
+// v'Mv/2 at one point
+static gvi_status gvi__kinetic_energy(gvi_stepper *st, gvi_points *x, gvi_real *T)
+{
+    size_t n = (size_t)st->n;
+    gvi_real *f = x->f = st->x.one + 4*n, *p = x->dldv = f + n;
+    gvi__zero(n, f);
+    gvi__zero(n, p);
+    gvi_status status = gvi__kinetic(st, x);
+    *T = gvi__dot(st->n, p, x->v)/2;
+    return status;
+}
+
+GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy)
+{
+    gvi_status status = gvi__ready(st, 0);
+    if (status != GVI_OK) return status;
+    if (!energy) return st->status = GVI_E_ARGUMENT;
+    struct gvi__private *x = &st->x;
+    gvi_real V, L, T, *v = x->change + st->n;
+    status = gvi_velocity(st, v);
+    if (status != GVI_OK) return status;
+    gvi_points y = gvi__at(st, &st->t, x->q, v, NULL, NULL);
+    status = gvi__values(st, &y, &V, &L);
+    if (status == GVI_OK) status = gvi__kinetic_energy(st, &y, &T);
+    if (status != GVI_OK) return status;
+
+    // p'v - L: without Lagrangian terms the kinetic energy is p'v/2
+    gvi_real pv = gvi__dot(st->n, x->p, v);
+    *energy = x->flags & GVI__HAS_LAGRANGIAN ? (pv - T) - L + V : pv/2 + V;
+    return gvi__done(st, GVI_OK);
+}
+
+/* Curve and velocity of the last step by the same formulas as at its points,
+   with the table row that belongs to tau.                                     */
+static void gvi__curve(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v)
+{
+    const struct gvi__private *x = &st->x;
+    int n = st->n, R = x->stride, by_forces = x->chosen <= GVI_POSITIONS && st->formulation != GVI_NEWTON;
+    gvi_real *a = x->row, *b = a + R;               // at tau: phi, Phi over Gamma
+    gvi__modes(st, tau, a, b);
+    for (int i = 0; i < n; ++i) q[i] = v[i] = 0;
+    for (int j = 0; j < st->r; ++j) {
+        gvi_real S = 0, T = 0;
+        for (int k = 0; k < st->s; ++k) {
+            gvi_real mode = by_forces ? x->Phi[k*R + j] : x->phi[k*R + j];
+            S += b[k]*mode;
+            T += a[k]*mode;
+        }
+        for (int i = 0; i < n; ++i) {
+            gvi_real L = by_forces ? x->hb[j]*x->last.F[i*R + j] : x->b[j]*x->last.V[i*R + j];
+            q[i] += (by_forces ? tau - S : S)*L;
+            v[i] += (by_forces ? 1 - T : T)*L;
+        }
+    }
+    if (by_forces) {
+        gvi__over_mass(st, q, 1, 1);
+        gvi__over_mass(st, v, 1, 1);
+        gvi__copy((size_t)n, x->p0, x->v0);
+        gvi__over_mass(st, x->v0, 1, 1);
+        for (int i = 0; i < n; ++i) {
+            q[i] += tau*x->v0[i];
+            v[i] += x->v0[i];
+        }
+    }
+    for (int i = 0; i < n; ++i) q[i] = x->q0[i] + st->h*q[i];
+}
+
+GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v)
+{
+    gvi_status status = gvi__ready(st, 1);
+    if (status != GVI_OK) return status;
+    if (!(tau >= 0 && tau <= 1)) return st->status = GVI_E_ARGUMENT;
+    gvi_real *Q = st->x.change, *V = Q + st->n;
+    gvi__weights(st, st->h);
+    gvi__curve(st, tau, Q, V);
+    if (q) gvi__copy((size_t)st->n, Q, q);
+    if (v) gvi__copy((size_t)st->n, V, v);
+    return GVI_OK;
+}
+
+GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_real *v, gvi_real *p)
+{
+    gvi_status status = gvi__ready(st, 1);
+    if (status != GVI_OK) return status;
+    struct gvi__private *x = &st->x;
+    size_t n = (size_t)st->n;
+    gvi_real ahead = t - x->t0, back = t - st->t;            // one of each sign, or 0
+    if (!((ahead >= 0 && back <= 0) || (ahead <= 0 && back >= 0))) return st->status = GVI_E_STATE;
+
+    // partial step of length h from the nearer end
+    int end = gvi__abs(back) <= gvi__abs(ahead);
+    gvi_real h = end ? back - x->te : ahead;
+    gvi__from from = { x->t0, 0, x->q0, x->none, x->p0, x->none };
+    gvi__from last = { st->t, x->te, x->q, x->qe, x->p, x->pe };
+    if (end) from = last;
+    gvi__history past = { 1, end ? (gvi_real)1 : (gvi_real)0, h/st->h, x->has_force ? x->last.F + end : NULL };
+    gvi_formulation was = st->formulation;
+    if (gvi__nonzero(h)) status = gvi__solve(st, &from, h, &past, 1);
+    else {
+        gvi__zero(n, x->dq);
+        gvi__zero(n, x->dp);
+    }
+    st->formulation = was;
+    if (status != GVI_OK) return st->status = status;
+    gvi_real *Q = x->change, *P = Q + n, *V = P + n;
+    for (size_t i = 0; i < n; ++i) {
+        Q[i] = from.q[i] + (x->dq[i] + from.qe[i]);
+        P[i] = from.p[i] + (x->dp[i] + from.pe[i]);
+        V[i] = x->has_velocity ? x->last.V[i*(size_t)x->stride + (size_t)st->r - 1] : x->v0[i];
+    }
+    if (v) status = gvi__velocity(st, t, Q, P, V);
+    if (status != GVI_OK) return st->status = status;
+    if (q) gvi__copy(n, Q, q);
+    if (v) gvi__copy(n, V, v);
+    if (p) gvi__copy(n, P, p);
+    return gvi__done(st, GVI_OK);
+}
+
+// L at one point, with the kinetic energy
+static gvi_status gvi__lagrangian(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *value)
+{
+    gvi_real V, L, T;
+    gvi_points y = gvi__at(st, &t, q, v, NULL, NULL);
+    gvi_status status = gvi__values(st, &y, &V, &L);
+    if (status == GVI_OK) status = gvi__kinetic_energy(st, &y, &T);
+    if (status == GVI_OK) *value = T - V + L;
+    return status;
+}
+
+GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action)
+{
+    gvi_status status = gvi__ready(st, 1);
+    if (status != GVI_OK) return status;
+    if (!action) return st->status = GVI_E_ARGUMENT;
+    struct gvi__private *x = &st->x;
+    gvi_real sum = 0, L, *q = x->change, *v = q + st->n;
+    gvi__weights(st, st->h);
+    for (int j = 0; j < st->r; ++j) {
+        gvi__curve(st, x->c[j], q, v);
+        status = gvi__lagrangian(st, x->t0 + x->c[j]*st->h, q, v, &L);
+        if (status != GVI_OK) return status;
+        sum += x->hb[j]*L;
+    }
+    *action = sum;
+    return gvi__done(st, GVI_OK);
+}
+
+/* Discrete forces with the curve's dependence on its ends: interior rows R = 0
+   give dy/dq = -J^-1 dR/dq, and with J'^-1 g = lambda, g_k = h sum hb_i Phi_k f_i,
+   F+ = h sum b_i f_i c_i - lambda' dR/dq1 /..., one transposed solve for all.  */
+static gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__from *from, gvi__matrix *J, gvi_real *pivot,
+                                       gvi_real *minus, gvi_real *plus)
+{
+    struct gvi__private *x = &st->x;
+    const gvi_desc *d = &x->desc;
+    int n = st->n, s = st->s, R = x->stride, size = (s - 1)*n;
+    gvi_real *f = x->dF;
+    (void)from;
+
+    // the forces alone, at the points of the curve
+    unsigned off = x->off, forces = 0;
+    for (int e = 0; e < d->effect_count; ++e)
+        if (d->effects[e].kind == GVI_FORCE) forces |= 1u << e;
+    x->off = off | ~forces;
+    gvi_points y = gvi__rows_as_points(st, &x->work, NULL);
+    y.f = f;
+    gvi__zero((size_t)n*(size_t)R, f);
+    gvi_status status = gvi__effects(st, &y, 0);
+    x->off = off;
+
+    // at fixed y_k, k >= 1:  dQ_i/dq1 = c_i, dQ_i/dq0 = 1 - c_i  (Phi_0 = c)
+    for (int i = 0; i < n; ++i) {
+        minus[i] = plus[i] = 0;
+        for (int j = 0; j < st->r; ++j) {
+            plus[i] += x->hb[j]*x->Phi[j]*f[i*R + j];
+            minus[i] += x->hb[j]*(1 - x->Phi[j])*f[i*R + j];
+        }
+    }
+    if (status != GVI_OK || size == 0 || !(forces & ~off)) return status;
+
+    // the interior: a fresh Jacobian with the columns of both ends
+    status = gvi__jacobian(st, J, pivot);
+    if (status != GVI_OK) return status;
+    gvi_real *lambda = x->dy;
+    for (int i = 0; i < n; ++i)
+        for (int k = 1; k < s; ++k) {
+            gvi_real sum = 0;
+            for (int j = 0; j < st->r; ++j) sum += x->hb[j]*x->Phi[k*R + j]*f[i*R + j];
+            lambda[(k - 1)*n + i] = J->h*sum;
+        }
+    gvi__lu_solve_transposed(size, J->square, pivot, lambda);
+    for (int row = 0; row < size; ++row)
+        for (int i = 0; i < n; ++i) {
+            gvi_real by_y0 = J->ends[row*2*n + i]/J->h, by_q0 = J->ends[row*2*n + n + i];
+            plus[i] -= lambda[row]*by_y0;                 // y_0 = (q1 - q0)/h
+            minus[i] -= lambda[row]*(by_q0 - by_y0);
+        }
+    return GVI_OK;
+}
+
+static gvi_status gvi__boundary_value(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *q1,
+                                      const gvi_discrete *out)
+{
+    struct gvi__private *x = &st->x;
+    int n = st->n, s = st->s, R = x->stride;
+    size_t size = (size_t)(s - 1)*(size_t)n, sn = (size_t)s*(size_t)n;
+    gvi_real *square = x->J + sn*sn, *pivot = x->pivot + 2*sn + 1;
+    gvi__matrix J = { square, square + size*size, 1, h };
+    gvi_real *p0 = x->dq, *p1 = x->dp, *minus = x->change, *plus = minus + n;
+    gvi__zero(sn, x->y);
+    for (int i = 0; i < n; ++i) x->y[i] = (q1[i] - from->q[i])/h;
+    gvi_status status = gvi__newton(st, from, &J, pivot, 0);
+    if (status == GVI_OK && size && gvi_lu_rcond((int)size, square, pivot, x->bF) < 64*GVI__EPS) status = GVI_E_SINGULAR;
+    if (status == GVI_E_SINGULAR)
+        return gvi__fail(st, GVI_E_CONJUGATE, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
+    if (status != GVI_OK) return status;
+
+    // row 0 of (1) for p0, then (2)
+    for (int i = 0; i < n; ++i) {
+        gvi_real all = gvi__dot(st->r, x->hb, x->work.F + i*R), late = gvi__dot(st->r, x->b, x->work.P + i*R);
+        for (int j = 0; j < st->r; ++j) late -= x->hb[j]*(1 - x->Phi[j])*x->work.F[i*R + j];
+        p0[i] = late;
+        p1[i] = late + all;
+    }
+    gvi_real action = 0, L;
+    for (int j = 0; j < st->r && out->lagrangian; ++j) {
+        for (int i = 0; i < n; ++i) {
+            minus[i] = x->work.Q[i*R + j];
+            plus[i] = x->work.V[i*R + j];
+        }
+        status = gvi__lagrangian(st, x->t[j], minus, plus, &L);
+        if (status != GVI_OK) return status;
+        action += x->hb[j]*L;
+    }
+    status = gvi__discrete_forces(st, from, &J, pivot, minus, plus);
+    if (status != GVI_OK) return status;
+    if (out->lagrangian) *out->lagrangian = action;
+    for (int i = 0; i < n; ++i) {
+        if (out->d1) out->d1[i] = -p0[i] - minus[i];
+        if (out->d2) out->d2[i] = p1[i] - plus[i];
+        if (out->minus) out->minus[i] = minus[i];
+        if (out->plus) out->plus[i] = plus[i];
+        if (out->p0) out->p0[i] = p0[i];
+        if (out->p1) out->p1[i] = p1[i];
+    }
+    return GVI_OK;
+}
+
+GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real h,
+                                           const gvi_real *q0, const gvi_real *q1, const gvi_discrete *out)
+{
+    if (!st) return GVI_E_ARGUMENT;
+    gvi__done(st, GVI_OK);
+    struct gvi__private *x = &st->x;
+    if (!x->memory) return st->status = GVI_E_STATE;
+    if (!q0 || !q1 || !out || !gvi__all_finite(st->n, q0) || !gvi__all_finite(st->n, q1)
+        || !gvi__finite(t) || !gvi__finite(h) || !gvi__nonzero(h)) return st->status = GVI_E_ARGUMENT;
+    if (!(x->flags & GVI__HAS_NEWTON)) return st->status = GVI_E_FORMULATION;
+    gvi__from from = { t, 0, q0, x->none, x->none, x->none };
+    gvi__begin(st, &from, h);
+    return gvi__done(st, gvi__boundary_value(st, &from, h, q1, out));
+}
+
+/* ---- checkpoints ---- */
+
+GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const gvi_real *memory)
+{
+    if (!st) return GVI_E_ARGUMENT;
+    if (!st->x.memory) return st->status = GVI_E_STATE;
+    if (!saved || !memory || saved->n != st->n || saved->s != st->s || saved->r != st->r
+        || saved->x.size != st->x.size || saved->x.flags != st->x.flags || saved->x.chosen != st->x.chosen)
+        return st->status = GVI_E_ARGUMENT;
+    gvi_desc desc = st->x.desc;
+    gvi_real *own = st->x.memory;
+    memmove(own, memory, st->x.size*sizeof(gvi_real));
+    *st = *saved;
+    st->x.desc = desc;
+    st->x.memory = own;
+    gvi__layout(st, own);
+    if (st->x.swapped) {
+        struct gvi__rows rows = st->x.last;
+        st->x.last = st->x.work;
+        st->x.work = rows;
+    }
+    st->q = st->x.q;
+    st->p = st->x.p;
+    return GVI_OK;
+}
+
+/* ---- texts ---- */
+
+GVI_DEF const char *gvi_status_text(gvi_status status)
+{
+    switch (status) {
+    case GVI_OK:            return "ok";
+    case GVI_E_ARGUMENT:    return "bad argument: null pointer, size out of range, zero step, NaN or Inf";
+    case GVI_E_MEMORY:      return "memory too small: see gvi_size";
+    case GVI_E_NODES:       return "rule: a node is outside [0,1], or two coincide";
+    case GVI_E_ORDER:       return "rule: the weights do not sum to 1";
+    case GVI_E_POINTS:      return "rule: too few points, r >= degree is needed";
+    case GVI_E_FORMULATION: return "the formulation asked for does not cover this scene";
+    case GVI_E_SINGULAR:    return "singular matrix: a coordinate has no mass";
+    case GVI_E_CONVERGENCE: return "no convergence: the step is too large";
+    case GVI_E_CALLBACK:    return "a callback refused";
+    case GVI_E_NON_FINITE:  return "an effect gave NaN or Inf";
+    case GVI_E_VALUE:       return "an effect has no value callback";
+    case GVI_E_STATE:       return "not started, no step yet, or time outside the last step";
+    case GVI_E_CONJUGATE:   return "conjugate points: the two configurations do not determine the curve";
+    default:                return "unknown status";
+    }
+}
+
+GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st)
+{
+    if (!st) return "no stepper";
+    if (st->formulation == GVI_NEWTON && st->x.chosen != GVI_NEWTON)
+        return "Newton: the fixed point contracted badly";
+    switch (st->formulation) {
+    case GVI_EXPLICIT:   return "explicit: degree 1, Lobatto 2, constant mass, effects read only t and q";
+    case GVI_POSITIONS:  return "positions: constant mass, effects read only t and q";
+    case GVI_VELOCITIES: return "velocities: constant mass, an effect reads v";
+    case GVI_MOMENTA:    return "momenta: r = s, velocity from momentum at each point";
+    case GVI_NEWTON:     return "Newton: no fixed point covers this mass, degree and rule";
+    case GVI_AUTO: default: return "not set up";
+    }
+}
+
+#endif /* GVI_IMPLEMENTATION */
+
+/* --------------------------------------------------------------- LICENCE
+
+   This software is available under two licences: choose the one you prefer.
+
+   A. MIT
+   Copyright (c) 2026 the gvi.h authors
+
+   Permission is hereby granted, free of charge, to any person obtaining a copy
+   of this software and associated documentation files (the "Software"), to deal
+   in the Software without restriction, including without limitation the rights
+   to use, copy, modify, merge, publish, distribute, sublicense, and/or sell
+   copies of the Software, and to permit persons to whom the Software is
+   furnished to do so, subject to the following conditions:
+
+   The above copyright notice and this permission notice shall be included in
+   all copies or substantial portions of the Software.
+
+   THE SOFTWARE IS PROVIDED "AS IS", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR
+   IMPLIED, INCLUDING BUT NOT LIMITED TO THE WARRANTIES OF MERCHANTABILITY,
+   FITNESS FOR A PARTICULAR PURPOSE AND NONINFRINGEMENT. IN NO EVENT SHALL THE
+   AUTHORS OR COPYRIGHT HOLDERS BE LIABLE FOR ANY CLAIM, DAMAGES OR OTHER
+   LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR OTHERWISE, ARISING FROM,
+   OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE
+   SOFTWARE.
+
+   B. Public domain (unlicense.org)
+   This is free and unencumbered software released into the public domain.
+
+   Anyone is free to copy, modify, publish, use, compile, sell, or distribute
+   this software, either in source code form or as a compiled binary, for any
+   purpose, commercial or non-commercial, and by any means.
+
+   In jurisdictions that recognize copyright laws, the author or authors of this
+   software dedicate any and all copyright interest in the software to the
+   public domain. We make this dedication for the benefit of the public at large
+   and to the detriment of our heirs and successors. We intend this dedication
+   to be an overt act of relinquishment in perpetuity of all present and future
+   rights to this software under copyright law.
+
+   THE SOFTWARE IS PROVIDED "AS IS", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR
+   IMPLIED, INCLUDING BUT NOT LIMITED TO THE WARRANTIES OF MERCHANTABILITY,
+   FITNESS FOR A PARTICULAR PURPOSE AND NONINFRINGEMENT. IN NO EVENT SHALL THE
+   AUTHORS BE LIABLE FOR ANY CLAIM, DAMAGES OR OTHER LIABILITY, WHETHER IN AN
+   ACTION OF CONTRACT, TORT OR OTHERWISE, ARISING FROM, OUT OF OR IN CONNECTION
+   WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE SOFTWARE.             */

@@ -1,0 +1,158 @@
+# gvi.h is a single header: nothing needs to be built to use it.  This file
+# runs, tests and checks it.  Everything goes to build/.
+#
+#   make run             the outer solar system, with pictures
+#   make deps test       what a fresh machine needs, then all tests
+#   make help            the other targets
+#
+# Flags can be given on the command line:  make test CC=clang CFLAGS=-O3
+
+BUILD   = build
+PREFIX  = /usr/local
+CFLAGS  = -O2
+CXXFLAGS = $(CFLAGS)
+LDLIBS  = -lm
+Q       = @
+
+WARNINGS = -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow \
+           -Wundef -Wfloat-equal -Wvla
+FLAGS    = -ffp-contract=off $(WARNINGS) -I. $(CPPFLAGS)
+COMPILE  = $(CC) -std=c99 $(FLAGS) -MMD -MP -MF $@.d -MT $@ $(CFLAGS)
+CXXCOMPILE = $(CXX) -std=c++11 $(FLAGS) -MMD -MP -MF $@.d -MT $@ $(CXXFLAGS)
+CMOCKA_CFLAGS = $$(pkg-config --cflags cmocka 2>/dev/null)
+CMOCKA_LIBS   = $$(pkg-config --libs cmocka 2>/dev/null || echo -lcmocka)
+
+# The tests; these run in float and long double as well.
+TESTS    = $(sort $(basename $(notdir $(wildcard tests/test_*.c))))
+TYPED    = $(filter test_oracle test_quadrature test_interpolation test_lu,$(TESTS))
+PROGRAMS = $(TESTS) $(TYPED:%=%-float) $(TYPED:%=%-long)
+# Small enough to be repeated under valgrind.
+VALGRIND_TESTS = $(filter test_api test_lu test_interpolation,$(TESTS))
+VALGRIND_EXAMPLES = 04_driven_damped 06_building_blocks 07_failing_step 08_robot_joint 10_checkpoint
+
+C_EXAMPLES   = $(sort $(basename $(notdir $(wildcard examples/*.c))))
+CXX_EXAMPLES = $(sort $(basename $(notdir $(wildcard examples/*.cpp))))
+EXAMPLES     = $(C_EXAMPLES) $(CXX_EXAMPLES)
+
+.DEFAULT_GOAL = help
+.DELETE_ON_ERROR:
+.PHONY: run deps test unit examples headers symbols docs-check sanitize valgrind \
+        figures install uninstall help clean cmocka \
+        $(PROGRAMS:%=run-%) $(EXAMPLES:%=example-%) $(VALGRIND_TESTS:%=valgrind-%) \
+        $(VALGRIND_EXAMPLES:%=valgrind-%)
+
+## run          the main job: integrates the outer solar system, draws two pictures
+run: $(BUILD)/examples/02_outer_solar_system
+	$(Q)$(BUILD)/examples/02_outer_solar_system 200000 100 8 $(BUILD)
+
+## deps         installs what the tests need: cmocka; valgrind, clang, g++ where they can be had
+deps:
+	$(Q)CC='$(CC)' sh tests/tools/deps.sh
+
+## test         all tests, then examples, docs-check, headers and symbols
+test: unit examples docs-check headers symbols
+	$(Q)sh tests/tools/summary.sh $(BUILD) test unit examples docs-check headers symbols
+
+## unit         the test programs alone; one of them: make run-test_lu
+unit: $(PROGRAMS:%=run-%)
+	$(Q)sh tests/tools/summary.sh $(BUILD) unit $(PROGRAMS)
+
+## examples     every example, its output compared with its opening comment
+examples: $(EXAMPLES:%=example-%)
+	$(Q)sh tests/tools/summary.sh $(BUILD) examples $(EXAMPLES)
+
+## headers      gvi.h through every compiler, standard, type and linkage there is, no warning
+headers:
+	$(Q)sh tests/tools/headers.sh $(BUILD)
+
+## symbols      exports only gvi_, imports only libm, no data, no recursion
+symbols:
+	$(Q)CC='$(CC)' sh tests/tools/symbols.sh $(BUILD)
+
+## docs-check   the code in README, guide and header is compiled and its output compared
+docs-check:
+	$(Q)CC='$(CC)' sh tests/tools/docs.sh $(BUILD)
+
+## sanitize     tests and examples under the address and undefined behaviour sanitizers, then valgrind
+sanitize:
+	$(Q)if sh tests/tools/sanitizer.sh '$(CC)' && sh tests/tools/sanitizer.sh '$(CXX)' -xc++; then \
+	    $(MAKE) BUILD=$(BUILD)/sanitize unit examples \
+	    CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all'; fi
+	$(Q)$(MAKE) valgrind
+
+## valgrind     the smaller tests and examples under valgrind, where it is installed
+valgrind: $(VALGRIND_TESTS:%=valgrind-%) $(VALGRIND_EXAMPLES:%=valgrind-%)
+	$(Q)sh tests/tools/summary.sh $(BUILD) valgrind $(VALGRIND_TESTS:%=valgrind-%) $(VALGRIND_EXAMPLES:%=valgrind-%)
+
+## figures      makes the pictures in docs/img/ again
+figures: $(BUILD)/examples/02_outer_solar_system
+	$(Q)mkdir -p docs/img
+	$(Q)$(BUILD)/examples/02_outer_solar_system 200000 100 8 docs/img
+
+## install      copies gvi.h, the whole library, to $(DESTDIR)$(PREFIX)/include
+install:
+	mkdir -p '$(DESTDIR)$(PREFIX)/include'
+	cp gvi.h '$(DESTDIR)$(PREFIX)/include/gvi.h'
+	chmod 644 '$(DESTDIR)$(PREFIX)/include/gvi.h'
+
+## uninstall    removes it from there
+uninstall:
+	rm -f '$(DESTDIR)$(PREFIX)/include/gvi.h'
+
+## clean        removes build/
+clean:
+	rm -rf $(BUILD)
+
+## help         this list
+help:
+	$(Q)sed -n 's/^## /  make /p' Makefile
+
+# -- programs
+
+cmocka:
+	$(Q)CC='$(CC)' sh tests/tools/deps.sh --check
+
+$(BUILD)/tests/%: tests/%.c | cmocka
+	@mkdir -p $(@D)
+	@echo '  cc $@'
+	$(Q)$(COMPILE) -Itests $(CMOCKA_CFLAGS) $< -o $@ $(CMOCKA_LIBS) $(LDLIBS)
+
+$(BUILD)/tests/%-float: tests/%.c | cmocka
+	@mkdir -p $(@D)
+	@echo '  cc $@'
+	$(Q)$(COMPILE) -DGVI_REAL=float -Itests $(CMOCKA_CFLAGS) $< -o $@ $(CMOCKA_LIBS) $(LDLIBS)
+
+$(BUILD)/tests/%-long: tests/%.c | cmocka
+	@mkdir -p $(@D)
+	@echo '  cc $@'
+	$(Q)$(COMPILE) '-DGVI_REAL=long double' -Itests $(CMOCKA_CFLAGS) $< -o $@ $(CMOCKA_LIBS) $(LDLIBS)
+
+$(BUILD)/examples/%: examples/%.c
+	@mkdir -p $(@D)
+	@echo '  cc $@'
+	$(Q)$(COMPILE) $< -o $@ $(LDLIBS)
+
+# Without a C++ compiler the example is left out, visibly, when it is to run.
+$(BUILD)/examples/%: examples/%.cpp
+	@mkdir -p $(@D)
+	$(Q)if command -v $(CXX) >/dev/null 2>&1; then \
+	    echo '  c++ $@'; $(CXXCOMPILE) $< -o $@ $(LDLIBS); fi
+
+$(PROGRAMS:%=run-%): run-%: $(BUILD)/tests/%
+	$(Q)sh tests/tools/run_test.sh $(BUILD) $* $<
+
+$(EXAMPLES:%=example-%): example-%: $(BUILD)/examples/%
+	$(Q)sh tests/tools/run_example.sh $(BUILD) $* $<
+
+$(VALGRIND_TESTS:%=valgrind-%): valgrind-%: $(BUILD)/tests/%
+	$(Q)sh tests/tools/run_valgrind.sh $(BUILD) $* $<
+
+$(VALGRIND_EXAMPLES:%=valgrind-%): valgrind-%: $(BUILD)/examples/%
+	$(Q)sh tests/tools/run_valgrind.sh $(BUILD) $* $<
+
+# "make -j deps test": what is compiled against cmocka waits for its installation.
+ifneq ($(filter deps,$(MAKECMDGOALS)),)
+cmocka headers symbols docs-check $(EXAMPLES:%=$(BUILD)/examples/%): | deps
+endif
+
+-include $(wildcard $(BUILD)/tests/*.d $(BUILD)/examples/*.d)

@@ -1,0 +1,38 @@
+/* 01 - A planet on an ellipse of eccentricity 0.6, for 100 revolutions
+
+   The shortest complete program: one effect, its force at all points of a step
+   at once; a description that names n, the degree and the effects; an array on
+   which everything stands; 4000 steps, 40 a revolution.
+
+   prints
+
+     ok: q = 0.400000000 -0.000000000
+*/
+#define GVI_IMPLEMENTATION
+#include "gvi.h"
+#include <math.h>
+#include <stdio.h>
+
+static int attraction(const gvi_points *x, void *user)
+{
+    const double *X = x->q, *Y = X + x->stride;
+    double *fx = x->f, *fy = fx + x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        double d2 = X[k]*X[k] + Y[k]*Y[k], w = -1/(d2*sqrt(d2));
+        fx[k] += w*X[k];  fy[k] += w*Y[k];
+    }
+    return (void)user, 0;
+}
+
+int main(void)
+{
+    static double memory[GVI_LENGTH(2, 8, 8)];
+    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = attraction } };
+    const gvi_desc desc = { .n = 2, .degree = 8, .effects = scene, .effect_count = 1 };
+    gvi_stepper st;
+    gvi_init(&st, &desc, memory, sizeof memory);
+    gvi_start(&st, 0, (double[]){ 0.4, 0 }, (double[]){ 0, 2 });
+    for (int k = 0; k < 4000 && st.status == GVI_OK; ++k)
+        gvi_step(&st, 3.14159265358979323846/20);
+    printf("%s: q = %.9f %.9f\n", gvi_status_text(st.status), st.q[0], st.q[1]);
+}

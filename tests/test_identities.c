@@ -1,0 +1,279 @@
+/* What Galerkin variational integrators are known to coincide with, to round-off
+   over many steps: the midpoint rule, Stoermer-Verlet, Gauss collocation, the
+   Lobatto IIIA-IIIB pair.  These are written here in Hamilton's equations, with
+   the published coefficients, in long double.                                */
+#include "gvi_test.h"
+
+typedef long double real;
+
+enum { STEPS = 40, N = 2 };
+
+/* The largest difference allowed after STEPS steps, in eps.                  */
+#define LIMIT 40
+
+#define ANY __attribute__((unused))     /* used or not */
+
+/* ------------------------------------------------ two systems, each told twice:
+   to gvi.h as a Lagrangian, to the methods below as z = (q, p), dz = (dH/dp, -dH/dq) */
+
+typedef void rates_fn(const real *z, real *dz);
+
+/* separable: p0^2/(5/2) + p1^2/(3/2) + x^2/2 + 3 y^2/4 + x^2 y - y^3/3 */
+
+static const gvi_real two_masses[] = { 5/(gvi_real)4, 3/(gvi_real)4 };
+
+static int separable_points(const gvi_points *x, ANY void *user)
+{
+    int d = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        gvi_real a = x->q[k], b = x->q[d + k];
+        x->f[k] -= a + 2*a*b;
+        x->f[d + k] -= 3*b/2 + a*a - b*b;
+    }
+    return 0;
+}
+
+static void separable_rates(const real *z, real *dz)
+{
+    dz[0] = 4*z[2]/5;
+    dz[1] = 4*z[3]/3;
+    dz[2] = -z[0]*(1 + 2*z[1]);
+    dz[3] = z[1]*(z[1] - 3/2.0L) - z[0]*z[0];
+}
+
+/* double pendulum: T = a v0^2/2 + b v1^2/2 + c v0 v1 cos(q0 - q1), a = 11/4,
+   b = 7/8, c = 9/8; V = -11/2 cos q0 - 7/4 cos q1                             */
+
+#if GVI__KIND == 1
+#define SIN sinf
+#define COS cosf
+#elif GVI__KIND == 2
+#define SIN sin
+#define COS cos
+#else
+#define SIN sinl
+#define COS cosl
+#endif
+
+static int pendulum_mass(const gvi_points *x, ANY void *user)
+{
+    int d = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        x->mass[k] = 11/(gvi_real)4;
+        x->mass[2*d + k] = 9*COS(x->q[k] - x->q[d + k])/8;
+        x->mass[3*d + k] = 7/(gvi_real)8;
+    }
+    return 0;
+}
+
+static int pendulum_gradient(const gvi_points *x, ANY void *user)
+{
+    int d = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        gvi_real w = 9*x->v[k]*x->v[d + k]*SIN(x->q[k] - x->q[d + k])/8;
+        x->f[k] -= w;
+        x->f[d + k] += w;
+    }
+    return 0;
+}
+
+static int pendulum_points(const gvi_points *x, ANY void *user)
+{
+    int d = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        x->f[k] -= 11*SIN(x->q[k])/2;
+        x->f[d + k] -= 7*SIN(x->q[d + k])/4;
+    }
+    return 0;
+}
+
+/* H = (b p0^2 + a p1^2 - 2 w p0 p1)/(2D) + V,  w = c cos(q0 - q1),  D = ab - w^2 */
+static void pendulum_rates(const real *z, real *dz)
+{
+    real a = 11/4.0L, b = 7/8.0L, w = 9*cosl(z[0] - z[1])/8, dw = -9*sinl(z[0] - z[1])/8;
+    real D = a*b - w*w, numerator = b*z[2]*z[2] + a*z[3]*z[3] - 2*w*z[2]*z[3];
+    real dT = dw*(w*numerator/D - z[2]*z[3])/D;        /* by q0; by q1 its negative */
+    dz[0] = (b*z[2] - w*z[3])/D;
+    dz[1] = (a*z[3] - w*z[2])/D;
+    dz[2] = -dT - 11*sinl(z[0])/2;
+    dz[3] = dT - 7*sinl(z[1])/4;
+}
+
+struct system {
+    rates_fn   *rates;
+    gvi_mass    mass;
+    gvi_effect  effect;
+    gvi_real    q[N], p[N], h;
+};
+
+static const struct system separable = {
+    separable_rates, { .kind = GVI_MASS_DIAGONAL, .matrix = two_masses },
+    { .kind = GVI_POTENTIAL, .points = separable_points },
+    { 3/(gvi_real)8, -1/(gvi_real)4 }, { 1/(gvi_real)4, 1/(gvi_real)2 }, 1/(gvi_real)4
+};
+static const struct system pendulum = {
+    pendulum_rates, { .kind = GVI_MASS_POSITION, .points = pendulum_mass, .gradient = pendulum_gradient },
+    { .kind = GVI_POTENTIAL, .points = pendulum_points },
+    { 3/(gvi_real)4, -3/(gvi_real)8 }, { 13/(gvi_real)8, -5/(gvi_real)16 }, 1/(gvi_real)8
+};
+
+/* ------------------------------------------------------ the methods, once more */
+
+/* Partitioned Runge-Kutta: Q = q0 + h sum a V,  P = p0 + h sum ahat F */
+struct tableau {
+    int  stages;
+    real a[3][3], ahat[3][3], b[3];
+};
+
+typedef void method_fn(rates_fn *rates, const struct tableau *T, real h, real *z);
+
+/* z1 = z0 + h g((z0 + z1)/2) */
+static void midpoint(rates_fn *rates, ANY const struct tableau *T, real h, real *z)
+{
+    real dz[2*N] = { 0 }, middle[2*N];
+    for (int it = 0; it < 100; ++it) {
+        for (int i = 0; i < 2*N; ++i) middle[i] = z[i] + h*dz[i]/2;
+        rates(middle, dz);
+    }
+    for (int i = 0; i < 2*N; ++i) z[i] += h*dz[i];
+}
+
+/* kick, drift, kick */
+static void verlet(rates_fn *rates, ANY const struct tableau *T, real h, real *z)
+{
+    real dz[2*N];
+    rates(z, dz);
+    for (int i = N; i < 2*N; ++i) z[i] += h*dz[i]/2;
+    rates(z, dz);
+    for (int i = 0; i < N; ++i) z[i] += h*dz[i];
+    rates(z, dz);
+    for (int i = N; i < 2*N; ++i) z[i] += h*dz[i]/2;
+}
+
+static void partitioned(rates_fn *rates, const struct tableau *T, real h, real *z)
+{
+    real K[3][2*N] = { { 0 } }, Z[3][2*N];
+    for (int it = 0; it < 100; ++it) {
+        for (int k = 0; k < T->stages; ++k)
+            for (int i = 0; i < 2*N; ++i) {
+                real sum = 0;
+                for (int l = 0; l < T->stages; ++l) sum += (i < N ? T->a : T->ahat)[k][l]*K[l][i];
+                Z[k][i] = z[i] + h*sum;
+            }
+        for (int k = 0; k < T->stages; ++k) rates(Z[k], K[k]);
+    }
+    for (int i = 0; i < 2*N; ++i) {
+        real sum = 0;
+        for (int k = 0; k < T->stages; ++k) sum += T->b[k]*K[k][i];
+        z[i] += h*sum;
+    }
+}
+
+/* Hairer, Lubich, Wanner, tables II.1.1, II.2.1 and II.2.2 */
+#define SQRT3  1.7320508075688772935274463415058723669L
+#define SQRT15 3.8729833462074168851792653997823996108L
+#define GAUSS2 { { 1/4.0L, 1/4.0L - SQRT3/6 }, { 1/4.0L + SQRT3/6, 1/4.0L } }
+#define GAUSS3 { { 5/36.0L, 2/9.0L - SQRT15/15, 5/36.0L - SQRT15/30 }, \
+                 { 5/36.0L + SQRT15/24, 2/9.0L, 5/36.0L - SQRT15/24 }, \
+                 { 5/36.0L + SQRT15/30, 2/9.0L + SQRT15/15, 5/36.0L } }
+
+static const struct tableau gauss2 = { 2, GAUSS2, GAUSS2, { 1/2.0L, 1/2.0L } };
+static const struct tableau gauss3 = { 3, GAUSS3, GAUSS3, { 5/18.0L, 4/9.0L, 5/18.0L } };
+static const struct tableau lobatto2 = {
+    2, { { 0, 0 }, { 1/2.0L, 1/2.0L } }, { { 1/2.0L, 0 }, { 1/2.0L, 0 } }, { 1/2.0L, 1/2.0L }
+};
+static const struct tableau lobatto3 = {
+    3, { { 0, 0, 0 }, { 5/24.0L, 1/3.0L, -1/24.0L }, { 1/6.0L, 2/3.0L, 1/6.0L } },
+    { { 1/6.0L, -1/6.0L, 0 }, { 1/6.0L, 1/3.0L, 0 }, { 1/6.0L, 5/6.0L, 0 } },
+    { 1/6.0L, 2/3.0L, 1/6.0L }
+};
+
+/* ------------------------------------------------------------- the comparison */
+
+/* The largest difference from the method over STEPS steps, in eps; the step
+   size changes every five steps.  -1 if the formulation does not cover it.    */
+static real deviation(const struct system *a, gvi_rule_kind rule, int s, int r, gvi_formulation how,
+                      method_fn *method, const struct tableau *T)
+{
+    static gvi_real memory[GVI_LENGTH(N, 3, 3)];
+    const gvi_desc desc = {
+        .n = N, .degree = s, .rule = { .kind = rule, .points = r }, .mass = a->mass,
+        .effects = &a->effect, .effect_count = 1, .formulation = how
+    };
+    real z[2*N] = { a->q[0], a->q[1], a->p[0], a->p[1] }, worst = 0;
+    gvi_stepper st;
+    gvi_status status = gvi_init(&st, &desc, memory, sizeof memory);
+    if (status == GVI_E_FORMULATION) return -1;
+    assert_ok(status);
+    assert_ok(gvi_start_momentum(&st, 0, a->q, a->p));
+    for (int k = 0; k < STEPS; ++k) {
+        gvi_real h = k/5 % 2 ? a->h/2 : a->h;
+        assert_ok(gvi_step(&st, h));
+        method(a->rates, T, h, z);
+        for (int i = 0; i < N; ++i) {
+            real q = fabsl(st.q[i] - z[i]), p = fabsl(st.p[i] - z[N + i]);
+            worst = q <= worst ? worst : q;             /* a NaN stays */
+            worst = p <= worst ? worst : p;
+        }
+    }
+    return worst/EPS;
+}
+
+static void compare(const char *what, const struct system *a, gvi_rule_kind rule, int s, int r,
+                    method_fn *method, const struct tableau *T)
+{
+    real worst[6];
+    print_message("  %-38s s=%d r=%d ", what, s, r);
+    for (int how = 0; how < COUNT(worst); ++how) {
+        worst[how] = deviation(a, rule, s, r, (gvi_formulation)how, method, T);
+        if (worst[how] < 0) print_message("       -");
+        else print_message(" %7.2Lf", worst[how]);
+    }
+    print_message("\n");
+    assert_true(worst[GVI_AUTO] >= 0 && worst[GVI_NEWTON] >= 0);
+    for (int how = 0; how < COUNT(worst); ++how) assert_between(-1, worst[how], LIMIT);
+}
+
+/* ------------------------------------------------------------------- tests */
+
+static void test_midpoint(ANY void **state)
+{
+    print_message("  worst differences in eps                           "
+                  "auto    expl     pos     vel     mom  newton\n");
+    compare("midpoint rule, separable", &separable, GVI_GAUSS, 1, 1, midpoint, NULL);
+    compare("midpoint rule, double pendulum", &pendulum, GVI_GAUSS, 1, 1, midpoint, NULL);
+}
+
+static void test_verlet(ANY void **state)
+{
+    compare("Stoermer-Verlet", &separable, GVI_LOBATTO, 1, 2, verlet, NULL);
+}
+
+static void test_gauss(ANY void **state)
+{
+    compare("Gauss 2, separable", &separable, GVI_GAUSS, 2, 2, partitioned, &gauss2);
+    compare("Gauss 3, separable", &separable, GVI_GAUSS, 3, 3, partitioned, &gauss3);
+    compare("Gauss 2, double pendulum", &pendulum, GVI_GAUSS, 2, 2, partitioned, &gauss2);
+    compare("Gauss 3, double pendulum", &pendulum, GVI_GAUSS, 3, 3, partitioned, &gauss3);
+}
+
+/* With constant mass and potentials the degrees r - 1 and r give one method;
+   else it is degree r, equation (5).                                         */
+static void test_lobatto(ANY void **state)
+{
+    compare("Lobatto IIIA-IIIB 2, separable", &separable, GVI_LOBATTO, 1, 2, partitioned, &lobatto2);
+    compare("Lobatto IIIA-IIIB 2, separable", &separable, GVI_LOBATTO, 2, 2, partitioned, &lobatto2);
+    compare("Lobatto IIIA-IIIB 3, separable", &separable, GVI_LOBATTO, 2, 3, partitioned, &lobatto3);
+    compare("Lobatto IIIA-IIIB 3, separable", &separable, GVI_LOBATTO, 3, 3, partitioned, &lobatto3);
+    compare("Lobatto IIIA-IIIB 2, double pendulum", &pendulum, GVI_LOBATTO, 2, 2, partitioned, &lobatto2);
+    compare("Lobatto IIIA-IIIB 3, double pendulum", &pendulum, GVI_LOBATTO, 3, 3, partitioned, &lobatto3);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_midpoint), cmocka_unit_test(test_verlet),
+        cmocka_unit_test(test_gauss), cmocka_unit_test(test_lobatto)
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,715 @@
+/* Barycentric interpolation against Lagrange's products in twice the digits.  */
+#include "gvi_test.h"
+
+/* Twice the digits of gvi_real, or as many as there are. */
+#if GVI__KIND == 3 && defined(__SIZEOF_FLOAT128__)
+__extension__ typedef __float128 wide;
+#define WIDE_EPS 1.9e-34L
+#else
+typedef long double wide;
+#define WIDE_EPS LDBL_EPSILON
+#endif
+
+#if GVI__KIND == 1
+#define NORMAL  FLT_MIN
+#define GREAT   1e37f
+#elif GVI__KIND == 2
+#define NORMAL  DBL_MIN
+#define GREAT   1e307
+#else
+#define NORMAL  LDBL_MIN
+#define GREAT   1e4931L
+#endif
+#define LEAST   (NORMAL*EPS)                    /* the smallest subnormal */
+
+#define UNIT ((wide)EPS/2)                      /* unit roundoff */
+#define MOST 1000
+#define FEW  20
+
+static wide wide_abs(wide x) { return x < 0 ? -x : x; }
+
+static unsigned long long seed;
+static wide random_unit(void)                   /* in (-1,1), of 32 bits */
+{
+    seed = seed*6364136223846793005ULL + 1442695040888963407ULL;
+    return (wide)((long double)(seed >> 32) - 2147483647.5L)/2147483648.0L;
+}
+
+/* ------------------------------------------------------------------ oracle */
+
+/* l_j(t) by the product. */
+static wide lagrange(int n, const gvi_real *x, int j, wide t)
+{
+    wide l = 1;
+    for (int k = 0; k < n; ++k)
+        if (k != j) l *= (t - x[k])/((wide)x[j] - x[k]);
+    return l;
+}
+
+/* l_j'(t) by the product rule. */
+static wide lagrange_derivative(int n, const gvi_real *x, int j, wide t)
+{
+    wide sum = 0;
+    for (int m = 0; m < n; ++m) {
+        if (m == j) continue;
+        wide term = 1/((wide)x[j] - x[m]);
+        for (int k = 0; k < n; ++k)
+            if (k != j && k != m) term *= (t - x[k])/((wide)x[j] - x[k]);
+        sum += term;
+    }
+    return sum;
+}
+
+/* p = sum l_j f_j, lebesgue = sum |l_j|, greatest = max |f_j|. */
+struct exact { wide p, lebesgue, greatest; };
+
+static struct exact exact_value(int n, const gvi_real *x, const gvi_real *f, wide t)
+{
+    struct exact e = { 0, 0, 0 };
+    for (int j = 0; j < n; ++j) {
+        wide l = lagrange(n, x, j, t);
+        e.p += l*f[j];
+        e.lebesgue += wide_abs(l);
+        if (wide_abs(f[j]) > e.greatest) e.greatest = wide_abs(f[j]);
+    }
+    return e;
+}
+
+/* A relative error of one unit in each value may move p by lebesgue*greatest
+   units, near and far; some 4n roundings are in every term.                  */
+static wide value_bound(int n, struct exact e)
+{
+    return (4*n*UNIT + 4*n*WIDE_EPS)*e.lebesgue*e.greatest + NORMAL;
+}
+
+/* ------------------------------------------------------------------- nodes */
+
+static const wide pi = 3.14159265358979323846264338327950288L;
+
+static void equispaced(int n, gvi_real *x)
+{
+    for (int i = 0; i < n; ++i) x[i] = n > 1 ? (gvi_real)(2*i - n + 1)/(gvi_real)(n - 1) : (gvi_real)0.25;
+}
+
+static void chebyshev(int n, gvi_real *x)
+{
+    for (int i = 0; i < n; ++i) x[i] = (gvi_real)-cosl((long double)(pi*(2*i + 1)/(2*n)));
+}
+
+static void chebyshev_with_ends(int n, gvi_real *x)
+{
+    for (int i = 0; i < n; ++i) x[i] = (gvi_real)-cosl((long double)(pi*i/(n > 1 ? n - 1 : 1)));
+}
+
+static void scattered(int n, gvi_real *x)       /* in no order, 0 among them */
+{
+    seed = 17;
+    for (int i = 0; i < n; ++i) x[i] = (gvi_real)random_unit();
+    x[n/2] = 0;
+}
+
+static void clustered(int n, gvi_real *x)       /* towards 0, at 0, and beyond */
+{
+    for (int i = 0; i < n; ++i) x[i] = i == 0 ? 0 : (i % 2 ? 1 : -1)*(gvi_real)ldexp(1, -i/2);
+}
+
+typedef void nodes_fn(int n, gvi_real *x);
+static nodes_fn *const families[] = { equispaced, chebyshev, chebyshev_with_ends, scattered, clustered };
+
+static gvi_real next_after(gvi_real x, gvi_real towards)
+{
+#if GVI__KIND == 1
+    return nextafterf(x, towards);
+#elif GVI__KIND == 2
+    return nextafter(x, towards);
+#else
+    return nextafterl(x, towards);
+#endif
+}
+
+/* Where to look: nodes, closest neighbours of nodes, nearly there, between,
+   outside.  Returns how many.                                                */
+static int places(int n, const gvi_real *x, gvi_real *t)
+{
+    int count = 0;
+    for (int i = 0; i < n; ++i) {
+        t[count++] = x[i];
+        t[count++] = next_after(x[i], 9);
+        t[count++] = next_after(x[i], -9);
+        t[count++] = x[i] + 100*(gvi_real)EPS;
+        t[count++] = x[i] - (gvi_real)1e-5L;
+        t[count++] = (x[i] + x[(i + 1) % n])/2;
+        t[count++] = x[i] + (x[(i + 2) % n] - x[i])*(gvi_real)0.43L;
+    }
+    const gvi_real others[] = { -LEAST, 100*LEAST, -1/GREAT, -(gvi_real)1.3L, (gvi_real)1.01L, 2, -50 };
+    for (int i = 0; i < COUNT(others); ++i) t[count++] = others[i];
+    return count;
+}
+
+#define PLACES (7*FEW + 7)
+
+/* ----------------------------------------------------------------- weights */
+
+/* prod_(k /= j) (x_j - x_k) = mantissa 2^exponent, 2^-64 <= |mantissa| < 2^64. */
+struct scaled { wide mantissa; int exponent; };
+
+static struct scaled node_product(int n, const gvi_real *x, int j)
+{
+    const wide big = 18446744073709551616.0L;
+    struct scaled z = { 1, 0 };
+    for (int k = 0; k < n; ++k) {
+        if (k == j) continue;
+        int e;
+        z.mantissa *= frexpl((long double)((wide)x[j] - x[k]), &e);
+        z.exponent += e;
+        for (; wide_abs(z.mantissa) < 1/big; z.exponent -= 64) z.mantissa *= big;
+    }
+    return z;
+}
+
+/* |a| < |b|, roughly enough: up to a factor that changes nothing but which of
+   two equal maxima is taken.                                                 */
+static int smaller(struct scaled a, struct scaled b)
+{
+    long double d = ldexpl((long double)wide_abs(a.mantissa/b.mantissa), a.exponent - b.exponent);
+    return d < 1;
+}
+
+static void check_weights(int n, const gvi_real *x, const gvi_real *w)
+{
+    int best = 0;
+    gvi_real biggest = 0;
+    struct scaled least = node_product(n, x, 0);
+    for (int j = 1; j < n; ++j) {
+        struct scaled z = node_product(n, x, j);
+        if (smaller(z, least)) least = z, best = j;
+    }
+    for (int j = 0; j < n; ++j) {
+        /* 2n roundings for w_j, as many for the greatest by which it is divided */
+        struct scaled z = node_product(n, x, j);
+        wide exact = (wide)ldexpl((long double)(least.mantissa/z.mantissa), least.exponent - z.exponent);
+        gvi_real sign = w[best] < 0 ? -1 : 1;
+        if (node_product(n, x, best).mantissa < 0) sign = -sign;
+        if (least.mantissa < 0) exact = -exact;
+        assert_close(sign*w[j], exact, 4*n*UNIT*wide_abs(exact) + NORMAL);
+        if ((w[j] < 0 ? -w[j] : w[j]) > biggest) biggest = w[j] < 0 ? -w[j] : w[j];
+    }
+    assert_true(biggest == 1);
+}
+
+static void weights_are_the_reciprocal_products_with_a_maximum_of_one(void **state)
+{
+    (void)state;
+    gvi_real x[FEW], w[FEW];
+    for (int k = 0; k < COUNT(families); ++k)
+        for (int n = 1; n <= FEW; ++n) {
+            families[k](n, x);
+            assert_ok(gvi_barycentric(n, x, w));
+            check_weights(n, x, w);
+        }
+}
+
+static void weights_have_the_sign_of_the_products(void **state)
+{
+    (void)state;
+    const gvi_real x[] = { 3, 1, 2 };                 /* products 2, 2, -1 */
+    gvi_real w[3];
+    assert_ok(gvi_barycentric(3, x, w));
+    assert_close(w[0], 0.5L, 0);
+    assert_close(w[1], 0.5L, 0);
+    assert_close(w[2], -1, 0);
+}
+
+static gvi_real big_x[MOST], big_w[MOST], big_f[MOST], big_l[MOST];
+
+static void weights_of_1000_points_neither_overflow_nor_vanish(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 3; ++k) {
+        families[k](MOST, big_x);
+        assert_ok(gvi_barycentric(MOST, big_x, big_w));
+        check_weights(MOST, big_x, big_w);
+        int zeros = 0;
+        for (int j = 0; j < MOST; ++j) zeros += big_w[j] == 0;
+        /* equispaced, the smallest is 1e-299 of the greatest */
+        if (k > 0 || GVI__KIND > 1) assert_int_equal(zeros, 0);
+    }
+}
+
+/* x scaled by a power of 2 has the same weights to the bit, and by another
+   factor the weights of the points that rounding leaves.                     */
+static void weights_do_not_depend_on_the_unit_of_the_nodes(void **state)
+{
+    (void)state;
+    const gvi_real units[] = { (gvi_real)1e-30L, (gvi_real)1e30L, (gvi_real)ldexp(1, -100),
+                               (gvi_real)ldexp(1, 100) };
+    gvi_real x[FEW], y[FEW], w[FEW], v[FEW];
+    for (int k = 0; k < COUNT(families); ++k)
+        for (int n = 1; n <= FEW; ++n)
+            for (int unit = 0; unit < COUNT(units); ++unit) {
+                families[k](n, x);
+                for (int i = 0; i < n; ++i) y[i] = x[i]*units[unit];
+                assert_ok(gvi_barycentric(n, x, w));
+                assert_ok(gvi_barycentric(n, y, v));
+                check_weights(n, y, v);
+                for (int i = 0; unit >= 2 && i < n; ++i) assert_true(w[i] == v[i]);
+            }
+}
+
+/* ------------------------------------------------------------------ values */
+
+static void check_values(int n, const gvi_real *x, const gvi_real *f)
+{
+    gvi_real w[FEW], t[PLACES];
+    assert_ok(gvi_barycentric(n, x, w));
+    int count = places(n, x, t);
+    for (int i = 0; i < count; ++i) {
+        struct exact e = exact_value(n, x, f, t[i]);
+        assert_close(gvi_interpolate(n, x, w, f, t[i]), e.p, value_bound(n, e));
+    }
+}
+
+static void interpolation_is_that_of_lagrange_at_near_and_far_from_nodes(void **state)
+{
+    (void)state;
+    gvi_real x[FEW], f[FEW];
+    for (int k = 0; k < COUNT(families); ++k)
+        for (int n = 1; n <= FEW; ++n) {
+            families[k](n, x);
+            for (int i = 0; i < n; ++i) f[i] = (gvi_real)random_unit();
+            check_values(n, x, f);
+            for (int i = 0; i < n; ++i) f[i] = i % 2 ? -1 : 1;
+            check_values(n, x, f);
+            for (int i = 0; i < n; ++i) f[i] = i == n/2;
+            check_values(n, x, f);
+        }
+}
+
+/* (t - 1/4)(t + 1/2)^2 ..., whose values at the nodes come from the polynomial. */
+static wide sample(int degree, wide t)
+{
+    wide p = 1;
+    for (int k = 0; k < degree; ++k) p = p*(t - (wide)(k % 5)/4) + (k % 3 - 1);
+    return p;
+}
+
+static void check_reproduced(int n, const gvi_real *x, int degree)
+{
+    gvi_real w[FEW], f[FEW], t[PLACES];
+    assert_ok(gvi_barycentric(n, x, w));
+    for (int i = 0; i < n; ++i) f[i] = (gvi_real)sample(degree, x[i]);
+    int count = places(n, x, t);
+    for (int i = 0; i < count; ++i) {
+        struct exact e = exact_value(n, x, f, t[i]);
+        /* rounding f to gvi_real is one unit more */
+        assert_close(gvi_interpolate(n, x, w, f, t[i]), sample(degree, t[i]),
+                     value_bound(n, e) + UNIT*e.lebesgue*e.greatest);
+    }
+}
+
+static void polynomials_below_the_number_of_nodes_are_reproduced(void **state)
+{
+    (void)state;
+    gvi_real x[FEW];
+    for (int k = 0; k < COUNT(families); ++k)
+        for (int n = 1; n <= 12; ++n) {
+            families[k](n, x);
+            for (int degree = 0; degree < n; ++degree) check_reproduced(n, x, degree);
+        }
+}
+
+static void a_polynomial_of_the_next_degree_is_missed_by_the_node_polynomial(void **state)
+{
+    (void)state;
+    gvi_real x[8], w[8], f[8];
+    for (int n = 2; n <= 8; ++n) {
+        chebyshev(n, x);
+        assert_ok(gvi_barycentric(n, x, w));
+        for (int i = 0; i < n; ++i) f[i] = (gvi_real)sample(n, x[i]);
+        wide t = 1, product = 1;
+        for (int i = 0; i < n; ++i) product *= t - x[i];
+        /* T_n(1)/2^(n-1); nodes and values are rounded */
+        assert_close(product, ldexp(1, 1 - n), 100*EPS*product);
+        assert_close(sample(n, t) - gvi_interpolate(n, x, w, f, 1), product, 50*EPS);
+    }
+}
+
+static void interpolation_is_exact_at_nodes(void **state)
+{
+    (void)state;
+    gvi_real x[FEW], w[FEW], f[FEW], l[FEW];
+    for (int k = 0; k < COUNT(families); ++k)
+        for (int n = 1; n <= FEW; ++n) {
+            families[k](n, x);
+            assert_ok(gvi_barycentric(n, x, w));
+            for (int i = 0; i < n; ++i) f[i] = (gvi_real)random_unit();
+            for (int i = 0; i < n; ++i) {
+                assert_true(gvi_interpolate(n, x, w, f, x[i]) == f[i]);
+                gvi_basis(n, x, w, x[i], l);
+                for (int j = 0; j < n; ++j) assert_true(l[j] == (i == j));
+            }
+        }
+}
+
+static void interpolation_next_to_a_node_at_zero_survives_the_smallest_distances(void **state)
+{
+    (void)state;
+    const gvi_real x[] = { -1, 0, (gvi_real)0.5L, 2 }, f[] = { 3, -2, 7, 1 };
+    const gvi_real near[] = { LEAST, 3*LEAST, 1/GREAT, (gvi_real)1e-30L, (gvi_real)1e-30L*EPS };
+    gvi_real w[4], l[4];
+    assert_ok(gvi_barycentric(4, x, w));
+    for (int k = 0; k < COUNT(near); ++k)
+        for (int side = -1; side <= 1; side += 2) {
+            gvi_real t = (gvi_real)side*near[k];
+            assert_close(gvi_interpolate(4, x, w, f, t), -2, 0);
+            gvi_basis(4, x, w, t, l);
+            assert_close(l[1], 1, EPS);
+            assert_close(l[0], (wide)t*lagrange_derivative(4, x, 0, 0), 32*UNIT*wide_abs(t) + NORMAL);
+            assert_close(gvi_interpolate_derivative(4, x, w, f, t),
+                         gvi_interpolate_derivative(4, x, w, f, 0), 100*EPS);
+        }
+}
+
+static void values_of_any_size_are_interpolated(void **state)
+{
+    (void)state;
+    gvi_real x[9], w[9], f[9], g[9];
+    chebyshev(9, x);
+    assert_ok(gvi_barycentric(9, x, w));
+    for (int i = 0; i < 9; ++i) f[i] = (gvi_real)random_unit();
+    for (int e = -100; e <= 100; e += 200) {
+        for (int i = 0; i < 9; ++i) g[i] = f[i]*(gvi_real)ldexp(1, e);
+        for (int i = -20; i <= 20; ++i) {
+            gvi_real t = (gvi_real)i/19, p = gvi_interpolate(9, x, w, f, t);
+            assert_true(gvi_interpolate(9, x, w, g, t) == p*(gvi_real)ldexp(1, e));
+        }
+    }
+}
+
+/* ------------------------------------------------------------------- basis */
+
+static void check_basis(int n, const gvi_real *x)
+{
+    gvi_real w[FEW], l[FEW], t[PLACES];
+    assert_ok(gvi_barycentric(n, x, w));
+    int count = places(n, x, t);
+    for (int i = 0; i < count; ++i) {
+        wide sum = 0, lebesgue = 0;
+        for (int j = 0; j < n; ++j) lebesgue += wide_abs(lagrange(n, x, j, t[i]));
+        gvi_basis(n, x, w, t[i], l);
+        for (int j = 0; j < n; ++j) {
+            assert_close(l[j], lagrange(n, x, j, t[i]), 4*n*UNIT*lebesgue + NORMAL);
+            sum += l[j];
+        }
+        assert_close(sum, 1, 4*n*UNIT*lebesgue);
+    }
+}
+
+static void basis_is_that_of_lagrange_and_sums_to_one(void **state)
+{
+    (void)state;
+    gvi_real x[FEW];
+    for (int k = 0; k < COUNT(families); ++k)
+        for (int n = 1; n <= FEW; ++n) {
+            families[k](n, x);
+            check_basis(n, x);
+        }
+}
+
+static void basis_of_1000_points_sums_to_one(void **state)
+{
+    (void)state;
+    chebyshev(MOST, big_x);
+    assert_ok(gvi_barycentric(MOST, big_x, big_w));
+    for (int i = -50; i <= 50; ++i) {
+        wide sum = 0, size = 0;
+        gvi_basis(MOST, big_x, big_w, (gvi_real)i/50, big_l);
+        for (int j = 0; j < MOST; ++j) sum += big_l[j], size += wide_abs(big_l[j]);
+        assert_close(sum, 1, MOST*UNIT*size);
+        assert_true(size < 20);                       /* the Lebesgue constant: 5.4 */
+    }
+}
+
+/* ------------------------------------------------------------------- Runge */
+
+static wide runge(wide t) { return 1/(1 + 25*t*t); }
+
+/* 1.22^-1000 of truncation, and rounding that does not grow with n in practice:
+   Higham's bound would be 6000 units times the Lebesgue constant.            */
+static void runge_by_1000_chebyshev_points_is_exact_to_rounding(void **state)
+{
+    (void)state;
+    for (int k = 1; k <= 2; ++k) {
+        families[k](MOST, big_x);
+        assert_ok(gvi_barycentric(MOST, big_x, big_w));
+        for (int i = 0; i < MOST; ++i) big_f[i] = (gvi_real)runge(big_x[i]);
+        for (int i = -999; i <= 999; i += 3) {
+            gvi_real t = (gvi_real)i/999;
+            assert_close(gvi_interpolate(MOST, big_x, big_w, big_f, t), runge(t), 64*EPS);
+        }
+    }
+}
+
+/* The known greatest errors of degree 10 and 20, to the digits given. */
+static void runge_by_equispaced_points_diverges_as_known(void **state)
+{
+    (void)state;
+    const struct { int n; long double error, digits, lebesgue; } known[] = {
+        { 11, 1.91566L, 1e-4L, 30 }, { 21, 59.822L, 2e-2L, 10987 },
+    };
+    for (int k = 0; k < COUNT(known); ++k) {
+        wide worst = 0;
+        equispaced(known[k].n, big_x);
+        assert_ok(gvi_barycentric(known[k].n, big_x, big_w));
+        for (int i = 0; i < known[k].n; ++i) big_f[i] = (gvi_real)runge(big_x[i]);
+        for (int i = 0; i <= 2000; ++i) {
+            gvi_real t = (gvi_real)i/2000;
+            wide error = wide_abs(gvi_interpolate(known[k].n, big_x, big_w, big_f, t) - runge(t));
+            if (error > worst) worst = error;
+        }
+        assert_close(worst, known[k].error, known[k].digits + 40*known[k].lebesgue*EPS);
+    }
+}
+
+/* ------------------------------------------------------------- derivatives */
+
+/* What one relative unit in every difference x_j - x_k and t - x_k makes of
+   l_j': the terms of its product rule, added in absolute value.              */
+static wide derivative_condition(int n, const gvi_real *x, int j, wide t)
+{
+    wide sum = 0;
+    for (int m = 0; m < n; ++m) {
+        if (m == j) continue;
+        wide term = 1/((wide)x[j] - x[m]);
+        for (int k = 0; k < n; ++k)
+            if (k != j && k != m) term *= (t - x[k])/((wide)x[j] - x[k]);
+        sum += wide_abs(term);
+    }
+    return sum;
+}
+
+static void check_derivatives(int n, const gvi_real *x, const gvi_real *f)
+{
+    gvi_real w[FEW], l[FEW], t[PLACES];
+    assert_ok(gvi_barycentric(n, x, w));
+    int count = places(n, x, t);
+    for (int i = 0; i < count; ++i) {
+        wide sum = 0, size = 0, exact = 0, greatest = 0;
+        gvi_basis_derivative(n, x, w, t[i], l);
+        for (int j = 0; j < n; ++j) {
+            wide slope = lagrange_derivative(n, x, j, t[i]), condition = derivative_condition(n, x, j, t[i]);
+            size += condition;
+            sum += l[j];
+            exact += slope*f[j];
+            if (wide_abs(f[j]) > greatest) greatest = wide_abs(f[j]);
+        }
+        for (int j = 0; j < n; ++j)
+            assert_close(l[j], lagrange_derivative(n, x, j, t[i]), 4*n*UNIT*size + NORMAL);
+        assert_close(sum, 0, n*UNIT*size);
+        assert_close(gvi_interpolate_derivative(n, x, w, f, t[i]), exact,
+                     8*n*UNIT*size*greatest + NORMAL);
+    }
+}
+
+static void derivatives_are_those_of_lagrange_at_near_and_far_from_nodes(void **state)
+{
+    (void)state;
+    gvi_real x[FEW], f[FEW];
+    for (int k = 0; k < COUNT(families); ++k)
+        for (int n = 1; n <= FEW; n += n < 9 ? 1 : 4) {
+            families[k](n, x);
+            for (int i = 0; i < n; ++i) f[i] = (gvi_real)random_unit();
+            check_derivatives(n, x, f);
+        }
+}
+
+static void derivative_of_monomials_is_known(void **state)
+{
+    (void)state;
+    gvi_real x[10], w[10], f[10], t[PLACES];
+    chebyshev_with_ends(10, x);
+    assert_ok(gvi_barycentric(10, x, w));
+    int count = places(10, x, t);
+    for (int degree = 0; degree < 10; ++degree) {
+        for (int i = 0; i < 10; ++i) {
+            wide power = 1;
+            for (int k = 0; k < degree; ++k) power *= x[i];
+            f[i] = (gvi_real)power;
+        }
+        for (int i = 0; i < count; ++i) {
+            if (t[i] < -1 || t[i] > 1) continue;
+            wide power = degree;
+            for (int k = 1; k < degree; ++k) power *= t[i];
+            /* the derivative matrix of 10 such points has the norm 81/3 */
+            assert_close(gvi_interpolate_derivative(10, x, w, f, t[i]), power, 2*81*EPS);
+        }
+    }
+}
+
+/* 24 points: the truncation is below 1e-24; the norm of the derivative is
+   (n - 1)^2/3 at the ends.                                                   */
+static void derivative_of_exp_is_exp(void **state)
+{
+    (void)state;
+    gvi_real x[24], w[24], f[24];
+    chebyshev_with_ends(24, x);
+    assert_ok(gvi_barycentric(24, x, w));
+    for (int i = 0; i < 24; ++i) f[i] = (gvi_real)expl(x[i]);
+    for (int i = -100; i <= 100; ++i) {
+        gvi_real t = (gvi_real)i/100;
+        assert_close(gvi_interpolate(24, x, w, f, t), expl(t), 8*EPS);
+        assert_close(gvi_interpolate_derivative(24, x, w, f, t), expl(t), 200*expl(1)*EPS);
+        if (i > -80 && i < 80)
+            assert_close(gvi_interpolate_derivative(24, x, w, f, t), expl(t), 40*expl(1)*EPS);
+    }
+    for (int i = 0; i < 24; ++i)
+        assert_close(gvi_interpolate_derivative(24, x, w, f, x[i]), expl(x[i]), 200*expl(1)*EPS);
+}
+
+static void constants_have_exactly_the_derivative_zero(void **state)
+{
+    (void)state;
+    gvi_real x[FEW], w[FEW], f[FEW], t[PLACES];
+    for (int k = 0; k < COUNT(families); ++k)
+        for (int n = 1; n <= FEW; ++n) {
+            families[k](n, x);
+            assert_ok(gvi_barycentric(n, x, w));
+            for (int i = 0; i < n; ++i) f[i] = (gvi_real)0.1L;
+            int count = places(n, x, t);
+            for (int i = 0; i < count; ++i) {
+                assert_true(gvi_interpolate_derivative(n, x, w, f, t[i]) == 0);
+                assert_true(gvi_interpolate(n, x, w, f, t[i]) == f[0]);
+            }
+        }
+}
+
+static void derivative_scales_with_the_unit_of_the_nodes(void **state)
+{
+    (void)state;
+    gvi_real x[9], y[9], w[9], v[9], f[9], l[9], m[9];
+    scattered(9, x);
+    assert_ok(gvi_barycentric(9, x, w));
+    for (int i = 0; i < 9; ++i) f[i] = (gvi_real)random_unit();
+    for (int e = -90; e <= 90; e += 180) {
+        const gvi_real unit = (gvi_real)ldexp(1, e);
+        for (int i = 0; i < 9; ++i) y[i] = x[i]*unit;
+        assert_ok(gvi_barycentric(9, y, v));
+        for (int i = -20; i <= 20; ++i) {
+            gvi_real t = (gvi_real)i/17;
+            assert_true(gvi_interpolate(9, y, v, f, t*unit) == gvi_interpolate(9, x, w, f, t));
+            assert_true(gvi_interpolate_derivative(9, y, v, f, t*unit)*unit
+                        == gvi_interpolate_derivative(9, x, w, f, t));
+            gvi_basis_derivative(9, x, w, t, l);
+            gvi_basis_derivative(9, y, v, t*unit, m);
+            for (int j = 0; j < 9; ++j) assert_true(m[j]*unit == l[j]);
+        }
+    }
+}
+
+/* -------------------------------------------------------------- odds and ends */
+
+static void nodes_may_come_in_any_order(void **state)
+{
+    (void)state;
+    gvi_real x[FEW], y[FEW], w[FEW], v[FEW], f[FEW], g[FEW], t[PLACES];
+    chebyshev(FEW, x);
+    for (int i = 0; i < FEW; ++i) {
+        int j = 7*i % FEW;
+        f[i] = (gvi_real)random_unit();
+        y[j] = x[i], g[j] = f[i];
+    }
+    assert_ok(gvi_barycentric(FEW, x, w));
+    assert_ok(gvi_barycentric(FEW, y, v));
+    int count = places(FEW, x, t);
+    for (int i = 0; i < count; ++i) {
+        struct exact e = exact_value(FEW, x, f, t[i]);
+        assert_close(gvi_interpolate(FEW, y, v, g, t[i]), e.p, value_bound(FEW, e));
+        assert_close(gvi_interpolate(FEW, x, w, f, t[i]), e.p, value_bound(FEW, e));
+    }
+    for (int i = 0; i < FEW; ++i) {
+        gvi_real other = v[7*i % FEW], sign = w[0]*v[0] < 0 ? -1 : 1;
+        assert_close(sign*w[i], other, 4*FEW*EPS);
+    }
+}
+
+static void one_node_makes_a_constant(void **state)
+{
+    (void)state;
+    const gvi_real x[] = { (gvi_real)0.3L }, f[] = { (gvi_real)1.7L };
+    const gvi_real t[] = { 0, (gvi_real)0.3L, 5, -(gvi_real)1e30L };
+    gvi_real w[1], l[1];
+    assert_ok(gvi_barycentric(1, x, w));
+    assert_true(w[0] == 1);
+    for (int i = 0; i < COUNT(t); ++i) {
+        assert_true(gvi_interpolate(1, x, w, f, t[i]) == f[0]);
+        assert_true(gvi_interpolate_derivative(1, x, w, f, t[i]) == 0);
+        gvi_basis(1, x, w, t[i], l);
+        assert_true(l[0] == 1);
+        gvi_basis_derivative(1, x, w, t[i], l);
+        assert_true(l[0] == 0);
+    }
+}
+
+static void coinciding_nodes_are_refused(void **state)
+{
+    (void)state;
+    gvi_real x[] = { 0, 1, 2, 1 }, zeros[] = { 0, -(gvi_real)0 }, w[4];
+    assert_status(gvi_barycentric(4, x, w), GVI_E_NODES);
+    assert_status(gvi_barycentric(2, zeros, w), GVI_E_NODES);
+    x[3] = next_after(1, 2);
+    assert_ok(gvi_barycentric(4, x, w));
+    check_weights(4, x, w);
+    zeros[1] = LEAST;
+    assert_ok(gvi_barycentric(2, zeros, w));
+    assert_true(w[0] == -w[1]);
+}
+
+static void faulty_arguments_are_refused_and_leave_the_output_alone(void **state)
+{
+    (void)state;
+    const gvi_real x[] = { 0, 1 };
+    const gvi_real bad[] = { (gvi_real)NAN, (gvi_real)INFINITY, -(gvi_real)INFINITY };
+    gvi_real w[2] = { 7, 8 };
+    assert_status(gvi_barycentric(0, x, w), GVI_E_ARGUMENT);
+    assert_status(gvi_barycentric(-1, x, w), GVI_E_ARGUMENT);
+    assert_status(gvi_barycentric(INT32_MIN, x, w), GVI_E_ARGUMENT);
+    assert_status(gvi_barycentric(2, NULL, w), GVI_E_ARGUMENT);
+    assert_status(gvi_barycentric(2, x, NULL), GVI_E_ARGUMENT);
+    for (int k = 0; k < COUNT(bad); ++k)
+        for (int where = 0; where < 2; ++where) {
+            gvi_real y[] = { 0, 1 };
+            y[where] = bad[k];
+            assert_status(gvi_barycentric(2, y, w), GVI_E_ARGUMENT);
+        }
+    assert_true(w[0] == 7 && w[1] == 8);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(weights_are_the_reciprocal_products_with_a_maximum_of_one),
+        cmocka_unit_test(weights_have_the_sign_of_the_products),
+        cmocka_unit_test(weights_of_1000_points_neither_overflow_nor_vanish),
+        cmocka_unit_test(weights_do_not_depend_on_the_unit_of_the_nodes),
+        cmocka_unit_test(interpolation_is_that_of_lagrange_at_near_and_far_from_nodes),
+        cmocka_unit_test(polynomials_below_the_number_of_nodes_are_reproduced),
+        cmocka_unit_test(a_polynomial_of_the_next_degree_is_missed_by_the_node_polynomial),
+        cmocka_unit_test(interpolation_is_exact_at_nodes),
+        cmocka_unit_test(interpolation_next_to_a_node_at_zero_survives_the_smallest_distances),
+        cmocka_unit_test(values_of_any_size_are_interpolated),
+        cmocka_unit_test(basis_is_that_of_lagrange_and_sums_to_one),
+        cmocka_unit_test(basis_of_1000_points_sums_to_one),
+        cmocka_unit_test(runge_by_1000_chebyshev_points_is_exact_to_rounding),
+        cmocka_unit_test(runge_by_equispaced_points_diverges_as_known),
+        cmocka_unit_test(derivatives_are_those_of_lagrange_at_near_and_far_from_nodes),
+        cmocka_unit_test(derivative_of_monomials_is_known),
+        cmocka_unit_test(derivative_of_exp_is_exp),
+        cmocka_unit_test(constants_have_exactly_the_derivative_zero),
+        cmocka_unit_test(derivative_scales_with_the_unit_of_the_nodes),
+        cmocka_unit_test(nodes_may_come_in_any_order),
+        cmocka_unit_test(one_node_makes_a_constant),
+        cmocka_unit_test(coinciding_nodes_are_refused),
+        cmocka_unit_test(faulty_arguments_are_refused_and_leave_the_output_alone),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,683 @@
+/* What can be asked of a stepper: velocity, energy, the curve, the state inside
+   a step, the action, the discrete Lagrangian with all that belongs to it.
+   Against closed forms, against each other, and against differences (in long
+   double by default, so that those say something).                          */
+#ifndef GVI_REAL
+#define GVI_REAL long double
+#endif
+#include "gvi_test.h"
+#include <tgmath.h>
+
+typedef gvi_real real;
+
+#define PI 3.14159265358979323846264338327950288L
+
+static real memory[2][60000];
+
+static void set_up(gvi_stepper *st, const gvi_desc *desc, int slot)
+{
+    assert_true(gvi_size(desc) > 0 && gvi_size(desc) <= sizeof memory[slot]);
+    assert_ok(gvi_init(st, desc, memory[slot], sizeof memory[slot]));
+}
+
+static real larger(real a, real b) { return !(b <= a) ? b : a; }        /* keeps NaN */
+
+/* Not memcmp: long double has padding */
+#define assert_same(a, b) do { \
+    for (int i_ = 0; i_ < 2; ++i_) assert_true((a)[i_] == (b)[i_] && signbit((a)[i_]) == signbit((b)[i_])); \
+} while (0)
+
+static void assert_vectors_close(const real *a, const real *b, real tol)
+{
+    for (int i = 0; i < 2; ++i) assert_close(a[i], b[i], tol);
+}
+
+/* ------------------------------------------------------------------ scenes
+
+   Two degrees of freedom.  V = -g(t) (2 cos q1 + cos(q1 + q2)), g = 1 + sin(2t)/2;
+   a term linear in v, a = (-q2 (1 + q1^2), q1)/2; drag and a drive.            */
+
+static real clock_of(real t) { return 1 + sin(2*t)/2; }
+
+static real V(real t, const real *q) { return -clock_of(t)*(2*cos(q[0]) + cos(q[0] + q[1])); }
+
+static void a_of(const real *q, real *a)
+{
+    a[0] = -q[1]*(1 + q[0]*q[0])/2;
+    a[1] = q[0]/2;
+}
+
+static int potential(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    real both = clock_of(t)*sin(q[0] + q[1]);
+    (void)v; (void)dldv; (void)user;
+    f[0] -= 2*clock_of(t)*sin(q[0]) + both;
+    f[1] -= both;
+    return 0;
+}
+
+static int potential_value(const gvi_points *x, void *user)
+{
+    (void)user;
+    for (int k = 0; k < x->count; ++k)
+        x->value[k] += V(x->t[k], (const real[]){ x->q[k], x->q[x->stride + k] });
+    return 0;
+}
+
+static int field(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    real a[2];
+    (void)t; (void)user;
+    a_of(q, a);
+    dldv[0] += a[0];
+    dldv[1] += a[1];
+    f[0] += v[1]/2 - q[0]*q[1]*v[0];
+    f[1] -= v[0]*(1 + q[0]*q[0])/2;
+    return 0;
+}
+
+static int field_value(const gvi_points *x, void *user)
+{
+    int N = x->stride;
+    (void)user;
+    for (int k = 0; k < x->count; ++k) {
+        real a[2];
+        a_of((const real[]){ x->q[k], x->q[N + k] }, a);
+        x->value[k] += a[0]*x->v[k] + a[1]*x->v[N + k];
+    }
+    return 0;
+}
+
+static int drag(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    (void)dldv; (void)user;
+    f[0] += cos(t)/3 - v[0]/4;
+    f[1] -= (1 + q[0]*q[0])*v[1]/5;
+    return 0;
+}
+
+static int pendulum_mass(const gvi_points *x, void *user)
+{
+    int N = x->stride;
+    (void)user;
+    for (int k = 0; k < x->count; ++k) {
+        real c = cos(x->q[N + k]);
+        x->mass[0*N + k] = 3 + 2*c;
+        x->mass[2*N + k] = 1 + c;
+        x->mass[3*N + k] = 1;
+    }
+    return 0;
+}
+
+static int pendulum_mass_gradient(const gvi_points *x, void *user)
+{
+    int N = x->stride;
+    (void)user;
+    for (int k = 0; k < x->count; ++k)
+        x->f[N + k] -= sin(x->q[N + k])*x->v[k]*(x->v[k] + x->v[N + k]);
+    return 0;
+}
+
+static const real diagonal[2] = { 2, 0.5L }, dense[4] = { 2, 0.5L, 0.5L, 1 };
+
+/* What M is, by hand */
+static void mass_by_hand(gvi_mass_kind kind, const real *q, real *m11, real *m12, real *m22)
+{
+    real c = cos(q[1]);
+    *m11 = kind == GVI_MASS_UNIT ? 1 : kind == GVI_MASS_POSITION ? 3 + 2*c : 2;
+    *m12 = kind == GVI_MASS_DENSE ? 0.5L : kind == GVI_MASS_POSITION ? 1 + c : 0;
+    *m22 = kind == GVI_MASS_DIAGONAL ? 0.5L : 1;
+}
+
+static gvi_mass mass_of(gvi_mass_kind kind)
+{
+    gvi_mass m = { .kind = kind };
+    if (kind == GVI_MASS_DIAGONAL) m.matrix = diagonal;
+    if (kind == GVI_MASS_DENSE) m.matrix = dense;
+    if (kind == GVI_MASS_POSITION) { m.points = pendulum_mass; m.gradient = pendulum_mass_gradient; }
+    return m;
+}
+
+static const gvi_effect effects[] = {
+    { .kind = GVI_POTENTIAL, .point = potential, .value = potential_value },
+    { .kind = GVI_LAGRANGIAN, .point = field, .value = field_value },
+    { .kind = GVI_FORCE, .point = drag },
+};
+enum { CONSERVATIVE = 2, FORCED = 3 };                       /* how many of them */
+
+static const real q_start[2] = { 0.7L, -0.4L }, v_start[2] = { 0.3L, 0.5L };
+
+static gvi_desc scene(gvi_mass_kind kind, int effect_count, int s, int r)
+{
+    return (gvi_desc){ .n = 2, .degree = s, .rule = { .points = r }, .mass = mass_of(kind),
+                       .effects = effects, .effect_count = effect_count };
+}
+
+/* -------------------------------------------------------- velocity and energy */
+
+static void velocity_and_energy_are_right_for_every_mass(void **state)
+{
+    (void)state;
+    for (int kind = GVI_MASS_UNIT; kind <= GVI_MASS_POSITION; ++kind) {
+        gvi_desc desc = scene((gvi_mass_kind)kind, FORCED, 4, 4);
+        gvi_stepper st;
+        set_up(&st, &desc, 0);
+        assert_ok(gvi_start(&st, 0.3L, q_start, v_start));
+        for (int k = 0; k <= 3; ++k) {
+            real m11, m12, m22, a[2], v[2], E;
+            mass_by_hand((gvi_mass_kind)kind, st.q, &m11, &m12, &m22);
+            a_of(st.q, a);
+            assert_ok(gvi_velocity(&st, v));
+            assert_ok(gvi_energy(&st, &E));
+            assert_close(m11*v[0] + m12*v[1] + a[0], st.p[0], 16*EPS);
+            assert_close(m12*v[0] + m22*v[1] + a[1], st.p[1], 16*EPS);
+            assert_close(E, (m11*v[0]*v[0] + 2*m12*v[0]*v[1] + m22*v[1]*v[1])/2 + V(st.t, st.q), 16*EPS);
+            if (k == 0) assert_vectors_close(v, v_start, 8*EPS);
+            assert_ok(gvi_step(&st, 0.1L));
+        }
+    }
+}
+
+/* L = -sqrt(1 - v'v): p = v/sqrt(1 - v'v), so v = p/sqrt(1 + p'p) and the energy
+   is sqrt(1 + p'p).                                                          */
+static int relativistic(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    real w = 1 - v[0]*v[0] - v[1]*v[1];
+    (void)t; (void)q; (void)f; (void)user;
+    if (!(w > 0)) return 1;                                  /* faster than light */
+    dldv[0] += v[0]/sqrt(w);
+    dldv[1] += v[1]/sqrt(w);
+    return 0;
+}
+
+static int relativistic_value(const gvi_points *x, void *user)
+{
+    (void)user;
+    for (int k = 0; k < x->count; ++k) {
+        real a = x->v[k], b = x->v[x->stride + k];
+        x->value[k] -= sqrt(1 - a*a - b*b);
+    }
+    return 0;
+}
+
+static int relativistic_velocity(const gvi_points *x, void *user)
+{
+    int N = x->stride;
+    (void)user;
+    for (int k = 0; k < x->count; ++k) {
+        real w = sqrt(1 + x->p[k]*x->p[k] + x->p[N + k]*x->p[N + k]);
+        x->velocity[k] = x->p[k]/w;
+        x->velocity[N + k] = x->p[N + k]/w;
+    }
+    return 0;
+}
+
+static const gvi_effect fast[] = {
+    { .kind = GVI_LAGRANGIAN, .point = relativistic, .value = relativistic_value },
+    { .kind = GVI_POTENTIAL, .point = potential, .value = potential_value },
+};
+
+/* By Newton's method where only dL/dv is known, and by the caller's own inverse */
+static void velocity_and_energy_are_right_for_a_general_lagrangian(void **state)
+{
+    (void)state;
+    for (int given = 0; given <= 1; ++given) {
+        const gvi_desc desc = { .n = 2, .degree = 4, .effects = fast, .effect_count = 2,
+                                .mass = { .kind = GVI_MASS_NONE, .velocity = given ? relativistic_velocity : NULL } };
+        gvi_stepper st;
+        set_up(&st, &desc, 0);
+        assert_int_equal(st.formulation, given ? GVI_MOMENTA : GVI_NEWTON);
+        for (int by_momentum = 0; by_momentum <= 1; ++by_momentum) {
+            if (by_momentum) assert_ok(gvi_start_momentum(&st, 0.3L, q_start, (const real[]){ 0.5L, -0.2L }));
+            else assert_ok(gvi_start(&st, 0.3L, q_start, (const real[]){ 0.6L, 0.5L }));
+            for (int k = 0; k < 3; ++k) {
+                real v[2], E, w = sqrt(1 + st.p[0]*st.p[0] + st.p[1]*st.p[1]);
+                assert_ok(gvi_velocity(&st, v));
+                assert_ok(gvi_energy(&st, &E));
+                assert_vectors_close(v, (const real[]){ st.p[0]/w, st.p[1]/w }, 16*EPS);
+                /* p'v - L adds and subtracts numbers of the size of 1/(1 - v'v) */
+                assert_close(E, w + V(st.t, st.q), 32*EPS);
+                assert_ok(gvi_step(&st, 0.1L));
+            }
+        }
+    }
+}
+
+/* ---------------------------------------------------------------------- starts */
+
+static void the_three_starts_agree(void **state)
+{
+    (void)state;
+    for (int kind = GVI_MASS_UNIT; kind <= GVI_MASS_POSITION; ++kind)
+    for (int count = CONSERVATIVE; count <= FORCED; ++count) {
+        gvi_desc desc = scene((gvi_mass_kind)kind, count, 4, 4);
+        gvi_stepper st[2];
+        real p0[2], q1[2], p1[2], h = 0.2L;
+
+        set_up(&st[0], &desc, 0);
+        assert_ok(gvi_start(&st[0], 0.3L, q_start, v_start));
+        memcpy(p0, st[0].p, sizeof p0);
+        assert_ok(gvi_step(&st[0], h));
+        memcpy(q1, st[0].q, sizeof q1);
+        memcpy(p1, st[0].p, sizeof p1);
+
+        set_up(&st[1], &desc, 1);
+        assert_ok(gvi_start_momentum(&st[1], 0.3L, q_start, p0));
+        assert_same(st[1].q, q_start);
+        assert_same(st[1].p, p0);
+        assert_ok(gvi_step(&st[1], h));
+        assert_vectors_close(st[1].q, q1, 8*EPS);
+        assert_vectors_close(st[1].p, p1, 16*EPS);
+
+        /* p0 from q1 - q0: rounding grows by 1/h */
+        assert_ok(gvi_start_configurations(&st[1], 0.3L, h, q_start, q1));
+        assert_true(st[1].t == 0.3L || fabs(st[1].t - 0.3L) < EPS);
+        assert_same(st[1].q, q_start);
+        assert_vectors_close(st[1].p, p0, 16*EPS/h*4);
+        assert_ok(gvi_step(&st[1], h));
+        assert_vectors_close(st[1].q, q1, 16*EPS);
+        assert_vectors_close(st[1].p, p1, 16*EPS/h*4);
+    }
+}
+
+/* ---------------------------------------------------------- inside the last step */
+
+static void the_curve_begins_at_q0_and_ends_at_q1(void **state)
+{
+    (void)state;
+    for (int kind = GVI_MASS_UNIT; kind <= GVI_MASS_POSITION; ++kind)
+    for (int r = 4; r <= 5; ++r) {
+        gvi_desc desc = scene((gvi_mass_kind)kind, FORCED, 4, r);
+        gvi_stepper st;
+        real q0[2], q[2];
+        set_up(&st, &desc, 0);
+        assert_ok(gvi_start(&st, 0.3L, q_start, v_start));
+        assert_ok(gvi_step(&st, 0.2L));
+        memcpy(q0, st.q, sizeof q0);
+        assert_ok(gvi_step(&st, 0.1L));
+        assert_ok(gvi_curve(&st, 0, q, NULL));
+        assert_vectors_close(q, q0, EPS);
+        assert_ok(gvi_curve(&st, 1, q, NULL));
+        assert_vectors_close(q, st.q, 2*EPS);
+    }
+}
+
+/* v is the derivative of q: differences of order 8 of a polynomial of degree 6
+   have no truncation error, only EPS/delta.                                  */
+static void the_curve_gives_its_own_derivative(void **state)
+{
+    static const real weight[4] = { 4/5.0L, -1/5.0L, 4/105.0L, -1/280.0L };
+    gvi_desc desc = scene(GVI_MASS_POSITION, CONSERVATIVE, 6, 6);
+    gvi_stepper st;
+    real h = 0.5L, delta = 0.09L;
+    (void)state;
+    set_up(&st, &desc, 0);
+    assert_ok(gvi_start(&st, 0.3L, q_start, v_start));
+    assert_ok(gvi_step(&st, h));
+    for (int k = 0; k <= 2; ++k) {
+        real tau = 0.4L + 0.1L*k, v[2], sum[2] = { 0, 0 };
+        assert_ok(gvi_curve(&st, tau, NULL, v));
+        for (int j = 1; j <= 4; ++j) {
+            real up[2], down[2];
+            assert_ok(gvi_curve(&st, tau + j*delta, up, NULL));
+            assert_ok(gvi_curve(&st, tau - j*delta, down, NULL));
+            for (int i = 0; i < 2; ++i) sum[i] += weight[j - 1]*(up[i] - down[i])/(delta*h);
+        }
+        assert_vectors_close(v, sum, 4*EPS/(delta*h));
+    }
+}
+
+/* From the nearer end: forwards from the start, backwards from the end */
+static void the_state_inside_a_step_is_a_partial_step_from_the_nearer_end(void **state)
+{
+    (void)state;
+    for (int kind = GVI_MASS_UNIT; kind <= GVI_MASS_POSITION; ++kind)
+    for (int k = 1; k < 8; ++k) {
+        gvi_desc desc = scene((gvi_mass_kind)kind, FORCED, 3, 3 + k % 2);
+        gvi_stepper st, part;
+        real h = 0.25L, t0 = 0.5L, q[2], v[2], p[2], want[2], q1[2], p1[2];
+        if (k == 4) continue;                                /* both ends are as near */
+        set_up(&st, &desc, 0);
+        assert_ok(gvi_start(&st, t0, q_start, v_start));
+        assert_ok(gvi_step(&st, h));
+        memcpy(q1, st.q, sizeof q1);
+        memcpy(p1, st.p, sizeof p1);
+        assert_ok(gvi_state_at(&st, t0 + h*k/8, q, v, p));
+
+        set_up(&part, &desc, 1);
+        if (k < 4) assert_ok(gvi_start(&part, t0, q_start, v_start));
+        else assert_ok(gvi_start_momentum(&part, t0 + h, q1, p1));
+        assert_ok(gvi_step(&part, k < 4 ? h*k/8 : -h*(8 - k)/8));
+        assert_ok(gvi_velocity(&part, want));
+        assert_vectors_close(q, part.q, 8*EPS);
+        assert_vectors_close(p, part.p, 16*EPS);
+        assert_vectors_close(v, want, 16*EPS);
+    }
+}
+
+static void the_state_at_the_ends_of_a_step_is_the_state_there_to_the_bit(void **state)
+{
+    gvi_desc desc = scene(GVI_MASS_POSITION, FORCED, 4, 4);
+    gvi_stepper st;
+    real q0[2], p0[2], q[2], p[2], v[2], want[2], t0;
+    (void)state;
+    set_up(&st, &desc, 0);
+    assert_ok(gvi_start(&st, 0.5L, q_start, v_start));
+    assert_ok(gvi_step(&st, 0.25L));
+    memcpy(q0, st.q, sizeof q0);
+    memcpy(p0, st.p, sizeof p0);
+    t0 = st.t;
+    assert_ok(gvi_step(&st, 0.25L));
+    assert_ok(gvi_state_at(&st, t0, q, NULL, p));
+    assert_same(q, q0);
+    assert_same(p, p0);
+    assert_ok(gvi_state_at(&st, st.t, q, v, p));
+    assert_same(q, st.q);
+    assert_same(p, st.p);
+    assert_ok(gvi_velocity(&st, want));
+    assert_vectors_close(v, want, 4*EPS);
+}
+
+static void ask_everything(gvi_stepper *st, int k)
+{
+    real a[2], b[2], c[2], number, q1[2] = { st->q[0] + 0.1L, st->q[1] - 0.05L };
+    const gvi_discrete out = { .lagrangian = &number, .d1 = a, .d2 = b, .minus = c };
+    assert_ok(gvi_velocity(st, a));
+    assert_ok(gvi_energy(st, a));
+    assert_ok(gvi_curve(st, (real)k/40, a, b));
+    assert_ok(gvi_state_at(st, st->t - st->h*(1 + k % 7)/9, a, b, c));
+    assert_ok(gvi_action(st, a));
+    assert_ok(gvi_discrete_lagrangian(st, 0, 0.2L, st->q, q1, &out));
+}
+
+/* In every formulation, and where AUTO goes over to Newton's method on the way */
+static void queries_do_not_change_later_steps_to_the_bit(void **state)
+{
+    static const struct { gvi_mass_kind mass; int count, s, r; } cases[] = {
+        { GVI_MASS_DENSE,    1,            1, 1 }, { GVI_MASS_DENSE,    1,            5, 5 },
+        { GVI_MASS_DIAGONAL, FORCED,       4, 6 }, { GVI_MASS_POSITION, CONSERVATIVE, 5, 5 },
+        { GVI_MASS_POSITION, FORCED,       3, 4 },
+    };
+    (void)state;
+    for (int c = 0; c < COUNT(cases); ++c) {
+        gvi_desc desc = scene(cases[c].mass, cases[c].count, cases[c].s, cases[c].r);
+        gvi_stepper quiet, asked;
+        set_up(&quiet, &desc, 0);
+        set_up(&asked, &desc, 1);
+        assert_ok(gvi_start(&quiet, 0, q_start, v_start));
+        assert_ok(gvi_start(&asked, 0, q_start, v_start));
+        for (int k = 0; k < 40; ++k) {
+            real h = k % 5 ? 0.1L : 0.15L;
+            assert_ok(gvi_step(&quiet, h));
+            assert_ok(gvi_step(&asked, h));
+            assert_same(quiet.q, asked.q);
+            assert_same(quiet.p, asked.p);
+            ask_everything(&asked, k);
+        }
+        assert_true(quiet.t == asked.t);
+    }
+}
+
+static void the_action_of_a_step_is_the_discrete_lagrangian_of_its_ends(void **state)
+{
+    (void)state;
+    for (int count = 1; count <= FORCED; ++count)
+    for (int kind = GVI_MASS_UNIT; kind <= GVI_MASS_POSITION; ++kind) {
+        gvi_desc desc = scene((gvi_mass_kind)kind, count, 4, 5);
+        gvi_stepper st;
+        real action, Ld;
+        set_up(&st, &desc, 0);
+        assert_ok(gvi_start(&st, 0.3L, q_start, v_start));
+        assert_ok(gvi_step(&st, 0.25L));
+        assert_ok(gvi_action(&st, &action));
+        assert_ok(gvi_discrete_lagrangian(&st, 0.3L, 0.25L, q_start, st.q, &(gvi_discrete){ .lagrangian = &Ld }));
+        assert_close(Ld, action, 16*EPS);
+    }
+}
+
+/* ------------------------------------------------------- the discrete Lagrangian */
+
+#define OMEGA 1.3L
+
+static int spring(const gvi_points *x, void *user)
+{
+    (void)user;
+    for (int k = 0; k < x->count; ++k) x->f[k] -= OMEGA*OMEGA*x->q[k];
+    return 0;
+}
+
+static int spring_value(const gvi_points *x, void *user)
+{
+    (void)user;
+    for (int k = 0; k < x->count; ++k) x->value[k] += OMEGA*OMEGA*x->q[k]*x->q[k]/2;
+    return 0;
+}
+
+static const gvi_effect oscillator[] = { { .kind = GVI_POTENTIAL, .points = spring, .value = spring_value } };
+
+static void start_oscillator(gvi_stepper *st, int s, gvi_rule_kind rule)
+{
+    const gvi_desc desc = { .n = 1, .degree = s, .rule = { .kind = rule }, .effects = oscillator, .effect_count = 1 };
+    set_up(st, &desc, 0);
+    assert_ok(gvi_start(st, 0, (const real[]){ 1 }, (const real[]){ 0.5L }));
+}
+
+/* L_d = w ((q0^2 + q1^2) cos wh - 2 q0 q1)/(2 sin wh), exactly */
+static real exact_oscillator(real h, real q0, real q1, real *d1, real *d2)
+{
+    real c = cos(OMEGA*h), s = sin(OMEGA*h);
+    *d1 = OMEGA*(q0*c - q1)/s;
+    *d2 = OMEGA*(q1*c - q0)/s;
+    return OMEGA*((q0*q0 + q1*q1)*c - 2*q0*q1)/(2*s);
+}
+
+static void the_oscillators_discrete_lagrangian_converges_to_its_closed_form(void **state)
+{
+    real h = 0.7L, q0 = 0.8L, q1 = 0.5L, last = 1, e1, e2, exact = exact_oscillator(h, q0, q1, &e1, &e2);
+    (void)state;
+    for (int s = 1; s <= 10; ++s) {
+        gvi_stepper st;
+        real Ld, d1, d2, error;
+        start_oscillator(&st, s, GVI_GAUSS);
+        assert_ok(gvi_discrete_lagrangian(&st, 0, h, &q0, &q1, &(gvi_discrete){ &Ld, &d1, &d2, 0, 0, 0, 0 }));
+        error = larger(fabs(Ld - exact), larger(fabs(d1 - e1), fabs(d2 - e2)));
+        /* (w h/2)^2 = 0.2 a degree at the least, down to rounding over 1/sin(wh) */
+        if (error > 16*EPS) assert_between(0, error, 0.2L*last);
+        last = error;
+    }
+    assert_between(0, last, 16*EPS);
+}
+
+/* The two that fit on a line: midpoint and trapezoidal rule */
+static void degree_one_gives_the_discrete_lagrangians_of_the_textbook(void **state)
+{
+    real h = 0.7L, q0 = 0.8L, q1 = 0.5L, v = (q1 - q0)/h, mid = (q0 + q1)/2, w2 = OMEGA*OMEGA, Ld, d1, d2;
+    gvi_stepper st;
+    (void)state;
+    start_oscillator(&st, 1, GVI_GAUSS);
+    assert_ok(gvi_discrete_lagrangian(&st, 0, h, &q0, &q1, &(gvi_discrete){ &Ld, &d1, &d2, 0, 0, 0, 0 }));
+    assert_close(Ld, h*(v*v - w2*mid*mid)/2, 4*EPS);
+    assert_close(d1, -v - h*w2*mid/2, 4*EPS);
+    assert_close(d2, v - h*w2*mid/2, 4*EPS);
+    start_oscillator(&st, 1, GVI_LOBATTO);
+    assert_ok(gvi_discrete_lagrangian(&st, 0, h, &q0, &q1, &(gvi_discrete){ &Ld, &d1, &d2, 0, 0, 0, 0 }));
+    assert_close(Ld, h*(v*v - w2*(q0*q0 + q1*q1)/2)/2, 4*EPS);
+    assert_close(d1, -v - h*w2*q0/2, 4*EPS);
+    assert_close(d2, v - h*w2*q1/2, 4*EPS);
+}
+
+/* All of a discrete Lagrangian's parts, by name */
+typedef struct { real L, d1[2], d2[2], minus[2], plus[2], p0[2], p1[2]; } discrete;
+
+static void ask_discrete(gvi_stepper *st, real t, real h, const real *q0, const real *q1, discrete *d)
+{
+    const gvi_discrete out = { &d->L, d->d1, d->d2, d->minus, d->plus, d->p0, d->p1 };
+    assert_ok(gvi_discrete_lagrangian(st, t, h, q0, q1, &out));
+}
+
+static const real q_end[2] = { 0.8L, -0.25L };
+
+/* dL_d/dx by central differences of order 8, x one of the four boundary values */
+static real difference(gvi_stepper *st, real t, real h, int which)
+{
+    static const real weight[4] = { 4/5.0L, -1/5.0L, 4/105.0L, -1/280.0L };
+    real delta = pow((real)EPS, 1/(real)9), sum = 0;
+    for (int k = 1; k <= 4; ++k)
+        for (int sign = -1; sign <= 1; sign += 2) {
+            real x[4] = { q_start[0], q_start[1], q_end[0], q_end[1] }, L;
+            x[which] += sign*k*delta;
+            assert_ok(gvi_discrete_lagrangian(st, t, h, x, x + 2, &(gvi_discrete){ .lagrangian = &L }));
+            sum += sign*weight[k - 1]*L/delta;
+        }
+    return sum;
+}
+
+/* The derivatives that are returned are those of the value that is returned: of
+   the whole of it, so also where forces bend the curve.  Rounding of L over
+   delta = EPS^(1/9), truncation of that size too.                             */
+static void d1_and_d2_are_the_derivatives_of_the_value(void **state)
+{
+    static const int rules[][2] = { { 1, 1 }, { 3, 3 }, { 3, 5 }, { 6, 6 } };
+    real bound = 100*pow((real)EPS, 8/(real)9);
+    (void)state;
+    for (int count = 1; count <= FORCED; ++count)
+    for (int kind = GVI_MASS_UNIT; kind <= GVI_MASS_POSITION; ++kind)
+    for (int k = 0; k < COUNT(rules); ++k) {
+        gvi_desc desc = scene((gvi_mass_kind)kind, count, rules[k][0], rules[k][1]);
+        gvi_stepper st;
+        discrete d;
+        set_up(&st, &desc, 0);
+        assert_ok(gvi_start(&st, 0, q_start, v_start));
+        ask_discrete(&st, 0.3L, 0.4L, q_start, q_end, &d);
+        for (int i = 0; i < 2; ++i) {
+            assert_close(d.d1[i], difference(&st, 0.3L, 0.4L, i), bound);
+            assert_close(d.d2[i], difference(&st, 0.3L, 0.4L, 2 + i), bound);
+        }
+    }
+}
+
+/* p0 = -d1 - minus and p1 = d2 + plus are the momenta of the step from q0 to q1.
+   1/h = 2.5 is the size of the second derivatives of L_d.                     */
+static void its_momenta_are_those_of_the_step(void **state)
+{
+    (void)state;
+    for (int count = 1; count <= FORCED; ++count)
+    for (int kind = GVI_MASS_UNIT; kind <= GVI_MASS_POSITION; ++kind)
+    for (int s = 1; s <= 5; s += 2) {
+        gvi_desc desc = scene((gvi_mass_kind)kind, count, s, s + (kind + s)/2 % 2);
+        gvi_stepper st;
+        discrete d;
+        set_up(&st, &desc, 0);
+        assert_ok(gvi_start(&st, 0, q_start, v_start));
+        ask_discrete(&st, 0.3L, 0.4L, q_start, q_end, &d);
+        for (int i = 0; i < 2; ++i) {
+            assert_close(d.p0[i], -d.d1[i] - d.minus[i], 32*EPS);
+            assert_close(d.p1[i], d.d2[i] + d.plus[i], 32*EPS);
+            if (count < FORCED) assert_true(d.minus[i] == 0 && d.plus[i] == 0);
+            else assert_true(fabs(d.minus[i]) > 1e-3L && fabs(d.plus[i]) > 1e-3L);
+        }
+        assert_ok(gvi_start_momentum(&st, 0.3L, q_start, d.p0));
+        assert_ok(gvi_step(&st, 0.4L));
+        assert_vectors_close(st.q, q_end, 32*EPS);
+        assert_vectors_close(st.p, d.p1, 64*EPS);
+    }
+}
+
+/* Degree 1, Gauss 1: the curve is the chord, so F- = F+ = h f(midpoint)/2 */
+static void the_discrete_forces_of_the_midpoint_rule_are_half_the_force_each(void **state)
+{
+    gvi_desc desc = scene(GVI_MASS_POSITION, FORCED, 1, 1);
+    gvi_stepper st;
+    discrete d;
+    real h = 0.4L, q[2], v[2], f[2] = { 0, 0 };
+    (void)state;
+    set_up(&st, &desc, 0);
+    assert_ok(gvi_start(&st, 0, q_start, v_start));
+    ask_discrete(&st, 0.3L, h, q_start, q_end, &d);
+    for (int i = 0; i < 2; ++i) { q[i] = (q_start[i] + q_end[i])/2; v[i] = (q_end[i] - q_start[i])/h; }
+    drag(0.3L + h/2, q, v, f, NULL, NULL);
+    for (int i = 0; i < 2; ++i) {
+        assert_close(d.minus[i], h*f[i]/2, 8*EPS);
+        assert_close(d.plus[i], h*f[i]/2, 8*EPS);
+    }
+}
+
+/* The state is untouched, whatever the answer */
+static void the_discrete_lagrangian_leaves_the_state_alone(void **state)
+{
+    gvi_desc desc = scene(GVI_MASS_POSITION, FORCED, 4, 4);
+    gvi_stepper st;
+    discrete d;
+    real q[2], p[2], t;
+    (void)state;
+    set_up(&st, &desc, 0);
+    assert_ok(gvi_start(&st, 0.1L, q_start, v_start));
+    assert_ok(gvi_step(&st, 0.1L));
+    memcpy(q, st.q, sizeof q);
+    memcpy(p, st.p, sizeof p);
+    t = st.t;
+    ask_discrete(&st, 0.3L, 0.4L, q_start, q_end, &d);
+    assert_same(q, st.q);
+    assert_same(p, st.p);
+    assert_true(t == st.t && st.h == 0.1L);
+}
+
+/* ------------------------------------------------------------ conjugate points */
+
+/* h omega = k pi: any curve A sin(omega t) joins 0 to 0.  Degree 24 knows that to
+   rounding.  The step, which is given q0 and p0, does not care: it turns the
+   phase by k pi.                                                             */
+static void conjugate_points_are_reported_and_the_step_does_not_care(void **state)
+{
+    (void)state;
+    for (int k = 1; k <= 2; ++k) {
+        real h = k*(real)PI/(real)OMEGA, q0 = 1, q1 = k == 1 ? -1 : 1, Ld;
+        gvi_stepper st;
+        start_oscillator(&st, 24, GVI_GAUSS);
+        assert_status(gvi_discrete_lagrangian(&st, 0, h, &q0, &q1, &(gvi_discrete){ .lagrangian = &Ld }), GVI_E_CONJUGATE);
+        assert_status(gvi_start_configurations(&st, 0, h, &q0, &q1), GVI_E_CONJUGATE);
+        assert_true(st.q[0] == 1 && st.p[0] == 0.5L && st.t == 0);
+        assert_ok(gvi_step(&st, h));
+        assert_close(st.q[0], q1, 50*EPS);                   /* rounding of h*omega too */
+        assert_close(st.p[0], q1/2, 50*EPS);
+    }
+}
+
+/* Away from it by a tenth of a per cent there is an answer, with some 1000 EPS */
+static void near_a_conjugate_point_the_answer_is_as_exact_as_it_can_be(void **state)
+{
+    (void)state;
+    for (int side = -1; side <= 1; side += 2) {
+        real h = (real)PI/(real)OMEGA*(1 + side*0.001L), q0 = 1, q1 = 0.5L, Ld, e1, e2, exact;
+        gvi_stepper st;
+        start_oscillator(&st, 24, GVI_GAUSS);
+        exact = exact_oscillator(h, q0, q1, &e1, &e2);
+        assert_ok(gvi_discrete_lagrangian(&st, 0, h, &q0, &q1, &(gvi_discrete){ .lagrangian = &Ld }));
+        /* rounding of h alone moves 1/sin by 1/0.001 */
+        assert_close(Ld, exact, fabs(exact)*1000*20*EPS);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(velocity_and_energy_are_right_for_every_mass),
+        cmocka_unit_test(velocity_and_energy_are_right_for_a_general_lagrangian),
+        cmocka_unit_test(the_three_starts_agree),
+        cmocka_unit_test(the_curve_begins_at_q0_and_ends_at_q1),
+        cmocka_unit_test(the_curve_gives_its_own_derivative),
+        cmocka_unit_test(the_state_inside_a_step_is_a_partial_step_from_the_nearer_end),
+        cmocka_unit_test(the_state_at_the_ends_of_a_step_is_the_state_there_to_the_bit),
+        cmocka_unit_test(queries_do_not_change_later_steps_to_the_bit),
+        cmocka_unit_test(the_action_of_a_step_is_the_discrete_lagrangian_of_its_ends),
+        cmocka_unit_test(the_oscillators_discrete_lagrangian_converges_to_its_closed_form),
+        cmocka_unit_test(degree_one_gives_the_discrete_lagrangians_of_the_textbook),
+        cmocka_unit_test(d1_and_d2_are_the_derivatives_of_the_value),
+        cmocka_unit_test(its_momenta_are_those_of_the_step),
+        cmocka_unit_test(the_discrete_forces_of_the_midpoint_rule_are_half_the_force_each),
+        cmocka_unit_test(the_discrete_lagrangian_leaves_the_state_alone),
+        cmocka_unit_test(conjugate_points_are_reported_and_the_step_does_not_care),
+        cmocka_unit_test(near_a_conjugate_point_the_answer_is_as_exact_as_it_can_be),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,709 @@
+/* What a variational integrator keeps: the symplectic form, momentum maps, the
+   energy within bounds, reversal in time.  And what it must not confuse:
+   coordinates, and effects that are not there.  In long double by default, so
+   that differences of the step map say something; every bound is a multiple of
+   a power of EPS, so that -DGVI_REAL=double serves as well.                  */
+#ifndef GVI_REAL
+#define GVI_REAL long double
+#endif
+#include "gvi_test.h"
+#include <tgmath.h>
+
+typedef gvi_real real;
+
+/* Reproducible numbers in [0,1), the same on every machine (Knuth's MMIX) */
+static uint64_t seed;
+
+static real uniform(void)
+{
+    seed = seed*6364136223846793005u + 1442695040888963407u;
+    return (real)(seed >> 33)/(real)2147483648.0L;
+}
+
+static real larger(real a, real b) { return !(b <= a) ? b : a; }        /* keeps NaN */
+
+static real memory[40000];
+
+static gvi_stepper *set_up(const gvi_desc *desc)
+{
+    static gvi_stepper st;
+    assert_true(gvi_size(desc) > 0 && gvi_size(desc) <= sizeof memory);
+    assert_ok(gvi_init(&st, desc, memory, sizeof memory));
+    return &st;
+}
+
+/* ------------------------------------------------------------------ scenes
+
+   Two degrees of freedom: constant mass or the double pendulum's, a potential
+   that couples them and has a clock, a field that bends the path, drag.       */
+
+static int potential(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    real g = 1 + sin(2*t)/2, both = g*sin(q[0] + q[1]);
+    (void)v; (void)dldv; (void)user;
+    f[0] -= 2*g*sin(q[0]) + both;
+    f[1] -= both;
+    return 0;
+}
+
+/* L = a'v, a = (-q2 (1 + q1^2), q1)/2 */
+static int field(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    (void)t; (void)user;
+    dldv[0] -= q[1]*(1 + q[0]*q[0])/2;
+    dldv[1] += q[0]/2;
+    f[0] += v[1]/2 - q[0]*q[1]*v[0];
+    f[1] -= v[0]*(1 + q[0]*q[0])/2;
+    return 0;
+}
+
+static int drag(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    (void)t; (void)q; (void)dldv; (void)user;
+    f[0] -= v[0]/4;
+    f[1] -= v[1]/4;
+    return 0;
+}
+
+static int pendulum_mass(const gvi_points *x, void *user)
+{
+    int N = x->stride;
+    (void)user;
+    for (int k = 0; k < x->count; ++k) {
+        real c = cos(x->q[N + k]);
+        x->mass[0*N + k] = 3 + 2*c;
+        x->mass[2*N + k] = 1 + c;
+        x->mass[3*N + k] = 1;
+    }
+    return 0;
+}
+
+static int pendulum_mass_gradient(const gvi_points *x, void *user)
+{
+    int N = x->stride;
+    (void)user;
+    for (int k = 0; k < x->count; ++k)
+        x->f[N + k] -= sin(x->q[N + k])*x->v[k]*(x->v[k] + x->v[N + k]);
+    return 0;
+}
+
+enum { FIELD = 1, DRAG = 2 };
+
+typedef struct {
+    gvi_formulation formulation;
+    int             moving_mass, extra;          /* FIELD, DRAG */
+    int             s;
+    gvi_rule_kind   rule;
+    int             r;
+} variant;
+
+static gvi_stepper *set_up_variant(const variant *a)
+{
+    static const real dense[4] = { 2, 0.5L, 0.5L, 1 };
+    static gvi_effect effects[3];
+    gvi_desc desc = { .n = 2, .degree = a->s, .rule = { .kind = a->rule, .points = a->r },
+                      .effects = effects, .formulation = a->formulation };
+    int n = 0;
+    effects[n++] = (gvi_effect){ .kind = GVI_POTENTIAL, .point = potential };
+    if (a->extra & FIELD) effects[n++] = (gvi_effect){ .kind = GVI_LAGRANGIAN, .point = field };
+    if (a->extra & DRAG) effects[n++] = (gvi_effect){ .kind = GVI_FORCE, .point = drag };
+    desc.effect_count = n;
+    if (a->moving_mass)
+        desc.mass = (gvi_mass){ .kind = GVI_MASS_POSITION, .points = pendulum_mass,
+                                .gradient = pendulum_mass_gradient };
+    else
+        desc.mass = (gvi_mass){ .kind = GVI_MASS_DENSE, .matrix = dense };
+    return set_up(&desc);
+}
+
+static const variant variants[] = {
+    { GVI_EXPLICIT,   0, 0,     1, GVI_LOBATTO, 2 },
+    { GVI_POSITIONS,  0, 0,     1, GVI_GAUSS,   1 },
+    { GVI_POSITIONS,  0, 0,     2, GVI_GAUSS,   2 },
+    { GVI_POSITIONS,  0, 0,     3, GVI_GAUSS,   5 },
+    { GVI_POSITIONS,  0, 0,     4, GVI_LOBATTO, 4 },
+    { GVI_POSITIONS,  0, 0,     4, GVI_LOBATTO, 5 },
+    { GVI_POSITIONS,  0, 0,     8, GVI_GAUSS,   8 },
+    { GVI_VELOCITIES, 0, 0,     3, GVI_GAUSS,   3 },
+    { GVI_VELOCITIES, 0, FIELD, 1, GVI_GAUSS,   1 },
+    { GVI_VELOCITIES, 0, FIELD, 2, GVI_LOBATTO, 3 },
+    { GVI_VELOCITIES, 0, FIELD, 4, GVI_LOBATTO, 4 },
+    { GVI_VELOCITIES, 0, FIELD, 5, GVI_GAUSS,   7 },
+    { GVI_MOMENTA,    1, 0,     1, GVI_GAUSS,   1 },
+    { GVI_MOMENTA,    1, 0,     3, GVI_GAUSS,   3 },
+    { GVI_MOMENTA,    1, FIELD, 4, GVI_GAUSS,   4 },
+    { GVI_MOMENTA,    1, FIELD, 3, GVI_LOBATTO, 3 },
+    { GVI_NEWTON,     0, 0,     1, GVI_LOBATTO, 2 },
+    { GVI_NEWTON,     0, 0,     4, GVI_GAUSS,   4 },
+    { GVI_NEWTON,     0, FIELD, 3, GVI_GAUSS,   4 },
+    { GVI_NEWTON,     0, FIELD, 3, GVI_LOBATTO, 3 },
+    { GVI_NEWTON,     1, 0,     2, GVI_GAUSS,   2 },
+    { GVI_NEWTON,     1, 0,     2, GVI_LOBATTO, 3 },
+    { GVI_NEWTON,     1, FIELD, 3, GVI_GAUSS,   5 },
+    { GVI_NEWTON,     1, FIELD, 6, GVI_GAUSS,   6 },
+};
+
+static const real start[4] = { 0.7L, -0.4L, 1.1L, 0.6L };              /* q, p */
+
+/* -------------------------------------------------------------- symplecticity */
+
+/* x = (q, p) at t = 0.3 -> one step -> y; a stepper of its own each time, so
+   that nothing but x can matter                                              */
+static void step_map(const variant *a, real h, const real *x, real *y)
+{
+    gvi_stepper *st = set_up_variant(a);
+    assert_ok(gvi_start_momentum(st, 0.3L, x, x + 2));
+    assert_ok(gvi_step(st, h));
+    for (int i = 0; i < 2; ++i) { y[i] = st->q[i]; y[2 + i] = st->p[i]; }
+}
+
+/* M = dy/dx by central differences of order 8.  With the distance EPS^(1/9)
+   truncation and rounding are both of the size EPS^(8/9).                    */
+static void differentiate(const variant *a, real h, real M[4][4])
+{
+    static const real weight[4] = { 4/5.0L, -1/5.0L, 4/105.0L, -1/280.0L };
+    real delta = pow((real)EPS, 1/(real)9);
+    memset(M, 0, 16*sizeof M[0][0]);
+    for (int j = 0; j < 4; ++j)
+    for (int k = 1; k <= 4; ++k) {
+        real x[4], up[4], down[4];
+        memcpy(x, start, sizeof x);
+        x[j] = start[j] + k*delta;
+        step_map(a, h, x, up);
+        x[j] = start[j] - k*delta;
+        step_map(a, h, x, down);
+        for (int i = 0; i < 4; ++i) M[i][j] += weight[k - 1]*(up[i] - down[i])/delta;
+    }
+}
+
+/* max |M'JM - J|, J = (0 1; -1 0) in blocks of 2 */
+static real symplectic_defect(const variant *a, real h)
+{
+    real M[4][4], worst = 0;
+    differentiate(a, h, M);
+    for (int j = 0; j < 4; ++j)
+    for (int k = 0; k < 4; ++k) {
+        real sum = k == j + 2 ? -1 : j == k + 2 ? 1 : 0;
+        for (int i = 0; i < 2; ++i) sum += M[i][j]*M[i + 2][k] - M[i + 2][j]*M[i][k];
+        worst = larger(worst, fabs(sum));
+    }
+    return worst;
+}
+
+/* What is left is the differencing: entries of M wrong by a few EPS^(8/9), four
+   products of two entries in each sum.                                       */
+static void the_step_map_is_symplectic(void **state)
+{
+    real bound = 100*pow((real)EPS, 8/(real)9);
+    int misses = 0;
+    (void)state;
+    for (int i = 0; i < COUNT(variants); ++i) {
+        real defect = symplectic_defect(&variants[i], 0.25L);
+        if (defect <= bound) continue;
+        ++misses;
+        print_error("variant %d: defect %.3Lg, allowed %.3Lg\n", i, (long double)defect, (long double)bound);
+    }
+    assert_int_equal(misses, 0);
+}
+
+/* The same measurement must see drag: the map contracts areas by about c h */
+static void drag_is_not_symplectic(void **state)
+{
+    const variant damped[] = {
+        { GVI_VELOCITIES, 0, DRAG,         3, GVI_GAUSS, 3 },
+        { GVI_MOMENTA,    1, DRAG | FIELD, 3, GVI_GAUSS, 3 },
+        { GVI_NEWTON,     1, DRAG,         3, GVI_GAUSS, 4 },
+    };
+    (void)state;
+    for (int i = 0; i < COUNT(damped); ++i)
+        assert_between(0.01L, symplectic_defect(&damped[i], 0.25L), 1);
+}
+
+/* All formulations solve the same equations.  Steps of size 1 in the state,
+   well-conditioned equations: what differs is a few roundings of each.        */
+static void every_formulation_finds_the_same_step(void **state)
+{
+    static const gvi_formulation all[] = { GVI_AUTO, GVI_EXPLICIT, GVI_POSITIONS, GVI_VELOCITIES, GVI_MOMENTA };
+    int compared = 0;
+    (void)state;
+    for (int i = 0; i < COUNT(variants); ++i) {
+        variant a = variants[i];
+        real want[4], y[4];
+        a.formulation = GVI_NEWTON;
+        step_map(&a, 0.25L, start, want);
+        for (int k = 0; k < COUNT(all); ++k) {
+            int covers = all[k] == GVI_AUTO
+                || (all[k] == GVI_EXPLICIT && !a.moving_mass && !a.extra && a.s == 1 && a.rule == GVI_LOBATTO && a.r == 2)
+                || (all[k] == GVI_POSITIONS && !a.moving_mass && !a.extra)
+                || (all[k] == GVI_VELOCITIES && !a.moving_mass)
+                || (all[k] == GVI_MOMENTA && a.moving_mass && a.r == a.s);
+            if (!covers) continue;
+            a.formulation = all[k];
+            step_map(&a, 0.25L, start, y);
+            for (int j = 0; j < 4; ++j) assert_close(y[j], want[j], 20*EPS);
+            ++compared;
+        }
+    }
+    assert_true(compared > COUNT(variants));
+}
+
+/* ------------------------------------------------------------------- momentum */
+
+static int attraction(const gvi_points *x, void *user)
+{
+    const real *X = x->q, *Y = X + x->stride;
+    real *fx = x->f, *fy = fx + x->stride;
+    (void)user;
+    for (int k = 0; k < x->count; ++k) {
+        real d2 = X[k]*X[k] + Y[k]*Y[k], w = -1/(d2*sqrt(d2));
+        fx[k] += w*X[k];
+        fy[k] += w*Y[k];
+    }
+    return 0;
+}
+
+static const gvi_effect sun[] = { { .kind = GVI_POTENTIAL, .points = attraction } };
+
+static gvi_stepper *start_planet(int s, gvi_rule_kind rule, int r, gvi_formulation formulation)
+{
+    const gvi_desc desc = { .n = 2, .degree = s, .rule = { .kind = rule, .points = r },
+                            .effects = sun, .effect_count = 1, .formulation = formulation };
+    gvi_stepper *st = set_up(&desc);
+    assert_ok(gvi_start(st, 0, (const real[]){ 0.4L, 0 }, (const real[]){ 0, 2 }));
+    return st;
+}
+
+static real angular_momentum(const gvi_stepper *st)
+{
+    return st->q[0]*st->p[1] - st->q[1]*st->p[0];
+}
+
+/* Each step adds a rounding to L = q x p: increments are at most of the size of
+   q and p and wrong by about EPS/2 of themselves, which at the perihelion makes
+   |q||dp| + |p||dq| = 1 times EPS at the most.  Independent from step to step,
+   N of them have a standard deviation below sqrt(N) EPS/2; four of those are
+   allowed, and 2 EPS for reading L from rounded q and p.                      */
+static void expect_constant_angular_momentum(gvi_stepper *st, int steps)
+{
+    real L0 = angular_momentum(st), worst = 0;
+    for (int k = 1; k <= steps; ++k) {
+        assert_ok(gvi_step(st, 0.15L));
+        real d = fabs(angular_momentum(st) - L0), bound = (2 + 2*sqrt((real)k))*EPS;
+        if (!(d <= bound)) assert_close(angular_momentum(st), L0, bound);
+        worst = larger(worst, d);
+    }
+    print_message("    %s: angular momentum within %.1Lf EPS in %d steps\n",
+                  gvi_formulation_text(st), (long double)(worst/EPS), steps);
+}
+
+static void angular_momentum_is_constant_over_1e5_steps(void **state)
+{
+    (void)state;
+    expect_constant_angular_momentum(start_planet(8, GVI_GAUSS, 8, GVI_AUTO), 100000);
+}
+
+static void angular_momentum_is_constant_in_every_formulation(void **state)
+{
+    (void)state;
+    expect_constant_angular_momentum(start_planet(5, GVI_LOBATTO, 6, GVI_POSITIONS), 5000);
+    expect_constant_angular_momentum(start_planet(6, GVI_GAUSS, 6, GVI_VELOCITIES), 5000);
+    expect_constant_angular_momentum(start_planet(6, GVI_GAUSS, 8, GVI_NEWTON), 5000);
+    expect_constant_angular_momentum(start_planet(6, GVI_LOBATTO, 6, GVI_NEWTON), 5000);
+}
+
+/* No systematic part: the mean change over blocks is within four standard
+   errors of nothing.                                                         */
+static void angular_momentum_has_no_drift(void **state)
+{
+    enum { BLOCKS = 500, BLOCK = 41 };
+    gvi_stepper *st = start_planet(8, GVI_GAUSS, 8, GVI_AUTO);
+    real last = angular_momentum(st), sum = 0, squares = 0;
+    (void)state;
+    for (int b = 0; b < BLOCKS; ++b) {
+        for (int k = 0; k < BLOCK; ++k) assert_ok(gvi_step(st, 0.15L));
+        real now = angular_momentum(st), d = (now - last)/EPS;
+        sum += d;
+        squares += d*d;
+        last = now;
+    }
+    assert_close(sum/BLOCKS, 0, 4*sqrt(squares)/BLOCKS);
+}
+
+/* -------------------------------------------------------------------- reversal */
+
+/* One step and back.  The curve is the same read from its other end, so what is
+   left are roundings of increments: a few EPS of a state of size 1.           */
+static void a_step_back_returns(void **state)
+{
+    (void)state;
+    for (int i = 0; i < COUNT(variants); ++i) {
+        gvi_stepper *st = set_up_variant(&variants[i]);
+        assert_ok(gvi_start_momentum(st, 0.3L, start, start + 2));
+        assert_ok(gvi_step(st, 0.25L));
+        assert_ok(gvi_step(st, -0.25L));
+        for (int j = 0; j < 2; ++j) {
+            assert_close(st->q[j], start[j], 8*EPS);
+            assert_close(st->p[j], start[2 + j], 8*EPS);
+        }
+        assert_close(st->t, 0.3L, EPS);
+    }
+}
+
+/* 200 steps of different lengths, and the same back.  Independent errors of 2
+   EPS a step, and a motion that is regular: neighbours part linearly, by less
+   than 20 times in the 20 units of time.  sqrt(400) * 2 * 20 = 800.          */
+static void many_different_steps_and_back_return(void **state)
+{
+    enum { STEPS = 200 };
+    static const int chosen[] = { 3, 5, 9, 13, 18, 20 };
+    real h[STEPS];
+    (void)state;
+    seed = 7;
+    for (int k = 0; k < STEPS; ++k) h[k] = 0.05L + 0.1L*uniform();
+    for (int i = 0; i < COUNT(chosen); ++i) {
+        gvi_stepper *st = set_up_variant(&variants[chosen[i]]);
+        const real q[2] = { 0.2L, -0.1L }, p[2] = { 0.1L, 0.1L };
+        assert_ok(gvi_start_momentum(st, 0, q, p));
+        for (int k = 0; k < STEPS; ++k) assert_ok(gvi_step(st, h[k]));
+        assert_true(fabs(st->q[0] - q[0]) + fabs(st->p[0] - p[0]) > 0.01L);
+        for (int k = STEPS; k-- > 0; ) assert_ok(gvi_step(st, -h[k]));
+        for (int j = 0; j < 2; ++j) {
+            assert_close(st->q[j], q[j], 800*EPS);
+            assert_close(st->p[j], p[j], 800*EPS);
+        }
+        assert_close(st->t, 0, 4*EPS);
+    }
+}
+
+/* ---------------------------------------------------------------------- energy */
+
+static int free_pendulum(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    (void)t; (void)v; (void)dldv; (void)user;
+    f[0] -= 2*sin(q[0]) + sin(q[0] + q[1]);
+    f[1] -= sin(q[0] + q[1]);
+    return 0;
+}
+
+/* H = p'M^-1 p/2 + V, by hand */
+static real pendulum_energy(const real *q, const real *p)
+{
+    real m12 = 1 + cos(q[1]), m11 = 3 + 2*cos(q[1]);
+    return (p[0]*p[0] - 2*m12*p[0]*p[1] + m11*p[1]*p[1])/(m11 - m12*m12)/2
+         - 2*cos(q[0]) - cos(q[0] + q[1]);
+}
+
+/* A chaotic double pendulum at a step where truncation is seen.  The energy
+   follows a nearby one that is kept, so its error is a function of the state,
+   bounded by C h^6; in the second half it cannot be larger than in the first
+   except by the luck of visiting a worse state.  A drift of even a hundredth
+   of the band per 1000 steps would double it.                                */
+static void the_energy_of_a_chaotic_pendulum_stays_in_its_band(void **state)
+{
+    enum { STEPS = 60000 };
+    static const gvi_effect effects[] = { { .kind = GVI_POTENTIAL, .point = free_pendulum } };
+    const gvi_desc desc = { .n = 2, .degree = 3, .effects = effects, .effect_count = 1,
+                            .mass = { .kind = GVI_MASS_POSITION, .points = pendulum_mass,
+                                      .gradient = pendulum_mass_gradient } };
+    gvi_stepper *st = set_up(&desc);
+    real band[2] = { 0, 0 }, E0, mean[2] = { 0, 0 };
+    (void)state;
+    assert_ok(gvi_start(st, 0, (const real[]){ 2, 1 }, (const real[]){ 0, 0 }));
+    E0 = pendulum_energy(st->q, st->p);
+    for (int k = 0; k < STEPS; ++k) {
+        int half = k >= STEPS/2;
+        assert_ok(gvi_step(st, 0.1L));
+        real d = pendulum_energy(st->q, st->p) - E0;
+        band[half] = larger(band[half], fabs(d));
+        mean[half] += d/(STEPS/2);
+    }
+    print_message("    band %.2Lg then %.2Lg, mean %.2Lg then %.2Lg\n", (long double)band[0],
+                  (long double)band[1], (long double)mean[0], (long double)mean[1]);
+    assert_between(1e-9L, band[0], 1e-2L);                   /* it is truncation that is seen */
+    assert_between(band[0]/2, band[1], 2*band[0]);
+    assert_close(mean[0], mean[1], band[0]/10);
+}
+
+/* ---------------------------------------------------------------------- layout */
+
+enum { OSCILLATORS = 5 };
+static const real mass_of[OSCILLATORS] = { 1, 2, 0.5L, 3, 0.75L };
+static const real spring_of[OSCILLATORS] = { 1, 0.7L, 1.3L, 6, 2 };
+static const real damping_of[OSCILLATORS] = { 0.1L, 0.5L, 0.2L, 0.9L, 0.3L };
+static const real q_of[OSCILLATORS] = { 1, -0.5L, 0.3L, 0.8L, -1.1L };
+static const real v_of[OSCILLATORS] = { 0.2L, 0.4L, -0.9L, 1.5L, -0.7L };
+
+static int springs(const gvi_points *x, void *user)
+{
+    (void)user;
+    for (int i = 0; i < x->n; ++i)
+        for (int k = 0; k < x->count; ++k)
+            x->f[i*x->stride + k] -= spring_of[i]*x->q[i*x->stride + k];
+    return 0;
+}
+
+static int dampers(const gvi_points *x, void *user)
+{
+    (void)user;
+    for (int i = 0; i < x->n; ++i)
+        for (int k = 0; k < x->count; ++k)
+            x->f[i*x->stride + k] -= damping_of[i]*x->v[i*x->stride + k];
+    return 0;
+}
+
+static int spring_constants(real t, const real *q, const real *v, real *fq, real *fv, real *pv, void *user)
+{
+    (void)t; (void)q; (void)v; (void)fv; (void)pv; (void)user;
+    for (int i = 0; i < OSCILLATORS; ++i) fq[i*OSCILLATORS + i] -= spring_of[i];
+    return 0;
+}
+
+static int damping_constants(real t, const real *q, const real *v, real *fq, real *fv, real *pv, void *user)
+{
+    (void)t; (void)q; (void)v; (void)fq; (void)pv; (void)user;
+    for (int i = 0; i < OSCILLATORS; ++i) fv[i*OSCILLATORS + i] -= damping_of[i];
+    return 0;
+}
+
+static int constant_mass_by_callback(const gvi_points *x, void *user)
+{
+    (void)user;
+    for (int i = 0; i < x->n; ++i)
+        for (int j = 0; j <= i; ++j)
+            for (int k = 0; k < x->count; ++k)
+                x->mass[(i*x->n + j)*x->stride + k] = i == j ? mass_of[i] : 0;
+    return 0;
+}
+
+static int no_gradient(const gvi_points *x, void *user) { (void)x; (void)user; return 0; }
+
+/* q and momentum of m q'' = -k q - c q' after t, underdamped */
+static void oscillator(int i, int damped, real t, real *q, real *p)
+{
+    real m = mass_of[i], g = damped ? damping_of[i]/(2*m) : 0;
+    real w = sqrt(spring_of[i]/m - g*g), e = exp(-g*t), b = (v_of[i] + g*q_of[i])/w;
+    *q = e*(q_of[i]*cos(w*t) + b*sin(w*t));
+    *p = m*(-g**q + w*e*(b*cos(w*t) - q_of[i]*sin(w*t)));
+}
+
+typedef struct {
+    gvi_formulation formulation;
+    gvi_mass_kind   mass;
+    int             damped, hessian, s, r;
+} oscillator_case;
+
+static const gvi_effect *oscillator_effects(const oscillator_case *c)
+{
+    static gvi_effect e[2];
+    e[0] = (gvi_effect){ .kind = GVI_POTENTIAL, .points = springs, .hessian = c->hessian ? spring_constants : NULL };
+    e[1] = (gvi_effect){ .kind = GVI_FORCE, .points = dampers, .hessian = c->hessian ? damping_constants : NULL };
+    return e;
+}
+
+static gvi_stepper *start_oscillators(const oscillator_case *c)
+{
+    static real dense[OSCILLATORS*OSCILLATORS];
+    gvi_desc desc = { .n = OSCILLATORS, .degree = c->s, .rule = { .points = c->r },
+                      .effects = oscillator_effects(c), .effect_count = 1 + c->damped,
+                      .formulation = c->formulation, .mass = { .kind = c->mass } };
+    for (int i = 0; i < OSCILLATORS; ++i) dense[i*OSCILLATORS + i] = mass_of[i];
+    desc.mass.matrix = c->mass == GVI_MASS_DIAGONAL ? mass_of : c->mass == GVI_MASS_DENSE ? dense : NULL;
+    if (c->mass == GVI_MASS_POSITION) {
+        desc.mass.points = constant_mass_by_callback;
+        desc.mass.gradient = no_gradient;
+    }
+    gvi_stepper *st = set_up(&desc);
+    assert_ok(gvi_start(st, 0, q_of, v_of));
+    return st;
+}
+
+/* Padded rows (5 to 7 points) and rows without padding; steps of different
+   lengths, so that the guess is never right by chance.  The truncation error
+   of degree 7 at h omega < 0.3 is below 1e-22 a step; 60 steps of independent
+   roundings, 2 EPS each, and the rounding of the closed form.                */
+static void uncoupled_oscillators_keep_to_themselves(void **state)
+{
+    static const oscillator_case cases[] = {
+        { GVI_AUTO,       GVI_MASS_DIAGONAL, 0, 0, 7, 7 },
+        { GVI_AUTO,       GVI_MASS_DENSE,    0, 0, 7, 7 },
+        { GVI_POSITIONS,  GVI_MASS_DIAGONAL, 0, 0, 8, 10 },
+        { GVI_AUTO,       GVI_MASS_DIAGONAL, 1, 0, 7, 7 },
+        { GVI_VELOCITIES, GVI_MASS_DENSE,    1, 0, 8, 9 },
+        { GVI_AUTO,       GVI_MASS_POSITION, 0, 0, 7, 7 },
+        { GVI_MOMENTA,    GVI_MASS_POSITION, 1, 0, 8, 8 },
+        { GVI_NEWTON,     GVI_MASS_DIAGONAL, 1, 0, 7, 7 },
+        { GVI_NEWTON,     GVI_MASS_DENSE,    1, 1, 7, 9 },
+        { GVI_NEWTON,     GVI_MASS_POSITION, 1, 1, 7, 7 },
+    };
+    (void)state;
+    for (int k = 0; k < COUNT(cases); ++k) {
+        gvi_stepper *st = start_oscillators(&cases[k]);
+        seed = 11;
+        for (int j = 0; j < 60; ++j) {
+            assert_ok(gvi_step(st, 0.1L + 0.1L*uniform()));
+            for (int i = 0; i < OSCILLATORS; ++i) {
+                real q, p, bound = (8 + 8*sqrt((real)j))*EPS;
+                oscillator(i, cases[k].damped, st->t, &q, &p);
+                assert_close(st->q[i], q, bound);
+                assert_close(st->p[i], p, bound*mass_of[i]*3);      /* omega < 2 */
+            }
+        }
+    }
+}
+
+/* x = B q are oscillators of unit mass, so M = B'B is full and V = |W B q|^2/2.
+   A transposed or half-read matrix cannot give the closed form in x.          */
+enum { MIXED = 3 };
+static const real B[MIXED][MIXED] = { { 1, 0, 0 }, { 0.5L, 1, 0 }, { -0.3L, 0.7L, 1 } };
+static const real omega2[MIXED] = { 1, 2, 3.5L };
+
+static real mixed_mass(int i, int j)
+{
+    real sum = 0;
+    for (int k = 0; k < MIXED; ++k) sum += B[k][i]*B[k][j];
+    return sum;
+}
+
+static int mixed_springs(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    (void)t; (void)v; (void)dldv; (void)user;
+    for (int k = 0; k < MIXED; ++k) {
+        real x = 0;
+        for (int j = 0; j < MIXED; ++j) x += B[k][j]*q[j];
+        for (int i = 0; i < MIXED; ++i) f[i] -= B[k][i]*omega2[k]*x;
+    }
+    return 0;
+}
+
+/* Writes what is asked for, the lower triangle, and NaN in the upper one */
+static int mixed_mass_by_callback(const gvi_points *x, void *user)
+{
+    (void)user;
+    for (int i = 0; i < MIXED; ++i)
+        for (int j = 0; j < MIXED; ++j)
+            for (int k = 0; k < x->count; ++k)
+                x->mass[(i*MIXED + j)*x->stride + k] = i >= j ? mixed_mass(i, j) : (real)NAN;
+    return 0;
+}
+
+static void a_full_mass_matrix_is_read_by_its_lower_triangle(void **state)
+{
+    static const gvi_effect effects[] = { { .kind = GVI_POTENTIAL, .point = mixed_springs } };
+    real matrix[MIXED*MIXED];
+    (void)state;
+    for (int i = 0; i < MIXED*MIXED; ++i) matrix[i] = i/MIXED >= i%MIXED ? mixed_mass(i/MIXED, i%MIXED) : (real)NAN;
+    for (int way = 0; way < 4; ++way) {
+        gvi_desc desc = { .n = MIXED, .degree = 7, .effects = effects, .effect_count = 1 };
+        if (way < 2) desc.mass = (gvi_mass){ .kind = GVI_MASS_DENSE, .matrix = matrix };
+        else desc.mass = (gvi_mass){ .kind = GVI_MASS_POSITION, .points = mixed_mass_by_callback, .gradient = no_gradient };
+        desc.formulation = way & 1 ? GVI_NEWTON : GVI_AUTO;
+        gvi_stepper *st = set_up(&desc);
+        /* x(0) = (1, 1, 1), x'(0) = 0, so q(0) by forward substitution */
+        assert_ok(gvi_start(st, 0, (const real[]){ 1, 0.5L, 0.95L }, (const real[]){ 0, 0, 0 }));
+        for (int j = 0; j < 40; ++j) assert_ok(gvi_step(st, 0.1L));
+        for (int k = 0; k < MIXED; ++k) {
+            real x = 0;
+            for (int j = 0; j < MIXED; ++j) x += B[k][j]*st->q[j];
+            assert_close(x, cos(sqrt(omega2[k])*st->t), 60*EPS);        /* 8 sqrt(40) */
+        }
+    }
+}
+
+/* -------------------------------------------------------------------- counters */
+
+static int must_not_be_called(const gvi_points *x, void *user)
+{
+    (void)x;
+    ++*(int *)user;
+    return 0;
+}
+
+static void a_conservative_scene_forms_no_velocity_and_no_matrix(void **state)
+{
+    const gvi_counters *count;
+    gvi_stepper *st = start_planet(8, GVI_GAUSS, 8, GVI_AUTO);
+    (void)state;
+    for (int k = 0; k < 100; ++k) assert_ok(gvi_step(st, 0.05L));
+    count = &st->counters;
+    assert_int_equal(st->formulation, GVI_POSITIONS);
+    assert_int_equal(count->steps, 100);
+    assert_int_equal(count->failures, 0);
+    assert_int_equal(count->velocities, 0);
+    assert_int_equal(count->factorizations, 0);
+    assert_int_equal(count->newton_iterations, 0);
+    assert_int_equal(count->mass, 0);
+    /* an iteration asks for 8 points, and for the guess's new one at the most once a step */
+    assert_between((real)(8*count->iterations), (real)count->effect[0], (real)(8*count->iterations + 100));
+    for (int i = 1; i < GVI_EFFECTS; ++i) assert_int_equal(count->effect[i], 0);
+}
+
+/* The callback counts for itself, and agrees with st.counters */
+static int counting_springs(const gvi_points *x, void *user)
+{
+    *(unsigned long long *)user += (unsigned long long)x->count;
+    return springs(x, NULL);
+}
+
+static void the_counters_say_how_often_an_effect_was_asked(void **state)
+{
+    static const gvi_formulation ways[] = { GVI_POSITIONS, GVI_VELOCITIES, GVI_NEWTON };
+    (void)state;
+    for (int w = 0; w < COUNT(ways); ++w) {
+        unsigned long long asked = 0;
+        const gvi_effect effects[] = { { .kind = GVI_POTENTIAL, .points = counting_springs, .user = &asked } };
+        const gvi_desc desc = { .n = OSCILLATORS, .degree = 6, .effects = effects, .effect_count = 1,
+                                .formulation = ways[w] };
+        gvi_stepper *st = set_up(&desc);
+        assert_ok(gvi_start(st, 0, q_of, v_of));
+        for (int k = 0; k < 20; ++k) assert_ok(gvi_step(st, 0.1L));
+        assert_true(asked > 0);
+        assert_int_equal(st->counters.effect[0], asked);
+        assert_int_equal(st->counters.velocities > 0, ways[w] != GVI_POSITIONS);
+        assert_int_equal(st->counters.factorizations > 0, ways[w] == GVI_NEWTON);
+    }
+}
+
+/* Off, an effect costs nothing; on again, it acts */
+static void an_effect_that_is_switched_off_is_not_evaluated(void **state)
+{
+    int calls = 0;
+    const gvi_effect effects[] = {
+        { .kind = GVI_POTENTIAL, .points = springs },
+        { .kind = GVI_FORCE, .points = must_not_be_called, .user = &calls },
+    };
+    const gvi_desc desc = { .n = OSCILLATORS, .degree = 6, .effects = effects, .effect_count = 2 };
+    gvi_stepper *st = set_up(&desc);
+    real v[OSCILLATORS];
+    (void)state;
+    assert_ok(gvi_switch(st, 1, 0));
+    assert_ok(gvi_start(st, 0, q_of, v_of));
+    for (int k = 0; k < 20; ++k) assert_ok(gvi_step(st, 0.1L));
+    assert_ok(gvi_state_at(st, st->t - 0.03L, NULL, v, NULL));
+    assert_int_equal(calls, 0);
+    assert_int_equal(st->counters.effect[1], 0);
+    assert_ok(gvi_switch(st, 1, 1));
+    assert_ok(gvi_step(st, 0.1L));
+    assert_true(calls > 0);
+    assert_true(st->counters.effect[1] > 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_step_map_is_symplectic),
+        cmocka_unit_test(drag_is_not_symplectic),
+        cmocka_unit_test(every_formulation_finds_the_same_step),
+        cmocka_unit_test(angular_momentum_is_constant_over_1e5_steps),
+        cmocka_unit_test(angular_momentum_is_constant_in_every_formulation),
+        cmocka_unit_test(angular_momentum_has_no_drift),
+        cmocka_unit_test(a_step_back_returns),
+        cmocka_unit_test(many_different_steps_and_back_return),
+        cmocka_unit_test(the_energy_of_a_chaotic_pendulum_stays_in_its_band),
+        cmocka_unit_test(uncoupled_oscillators_keep_to_themselves),
+        cmocka_unit_test(a_full_mass_matrix_is_read_by_its_lower_triangle),
+        cmocka_unit_test(a_conservative_scene_forms_no_velocity_and_no_matrix),
+        cmocka_unit_test(the_counters_say_how_often_an_effect_was_asked),
+        cmocka_unit_test(an_effect_that_is_switched_off_is_not_evaluated),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

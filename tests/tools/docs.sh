@@ -1,0 +1,76 @@
+#!/bin/sh
+# docs.sh BUILD: what the documents show is what the files are.
+#   1  gvi.h's SYNOPSIS, examples/01_kepler.c and the README: the same program, the same output
+#   2  every complete program in README and guide: compiled, run, compared with the output below it
+#   3  every other piece of C in them stands in an example or in tests/compile
+#   4  the version: first line and macro of gvi.h, first entry of the changelog
+#   5  every relative link leads to a file
+build=$1
+CC=${CC:-cc}
+dir=$build/docs
+mkdir -p "$dir" "$build/result"
+rm -rf "${dir:?}"/* "$build/result/docs-check"
+fail() { echo "FAILED: docs-check: $*"; exit 1; }
+count=0
+
+# -- 1
+awk '/^   SYNOPSIS/ { s = 1 } /^   prints$/ { exit } s && /^     #define/ { on = 1 } on' gvi.h |
+    sed 's/^     //' | awk '{ line[++n] = $0; if ($0 != "") last = n } END { for (i = 1; i <= last; ++i) print line[i] }' >"$dir/synopsis.c"
+awk 'on; /\*\// { on = 1 }' examples/01_kepler.c >"$dir/kepler.c"
+[ -s "$dir/synopsis.c" ] && diff -u "$dir/synopsis.c" "$dir/kepler.c" || fail "SYNOPSIS of gvi.h and examples/01_kepler.c differ"
+awk '/^   SYNOPSIS/ { s = 1 } s' gvi.h >"$dir/from_synopsis"
+awk 's && /^     / { sub(/^     /, ""); print; n = 1; next } s && n { exit } /^   prints$/ { s = 1 }' "$dir/from_synopsis" >"$dir/synopsis.out"
+sh tests/tools/expected.sh examples/01_kepler.c | diff -u "$dir/synopsis.out" - || fail "the outputs of SYNOPSIS and examples/01_kepler.c differ"
+awk '/^```c$/ { on = 1; next } on && /^```/ { exit } on' README.md | diff -u "$dir/synopsis.c" - || fail "the README's program is not the SYNOPSIS"
+count=$((count + 3))
+
+# -- 2 and 3: blocks as files, NAME-k.c and the block after it as NAME-k.out
+for page in README.md docs/guide.md; do
+    name=$(basename "$page" .md)
+    awk -v base="$dir/$name" '
+        /^```/ && !on { on = 1; language = substr($0, 4); file = ""
+                        if (language == "c" || language == "cpp") { file = sprintf("%s-%02d.%s", base, ++k, language); open = file }
+                        else if (language == "" && open != "") { file = open ".out" }
+                        if (file != "") printf "" >file
+                        next }
+        /^```/ && on  { on = 0; if (file ~ /\.out$/) open = ""; next }
+        on && file != "" { print >file }' "$page"
+done
+cat examples/*.c examples/*.cpp examples/*.h tests/compile/*.c | sed 's/^ *//; s/ *$//' | grep -v '^$' >"$dir/all-code"
+for block in "$dir"/*-[0-9][0-9].c "$dir"/*-[0-9][0-9].cpp; do
+    [ -f "$block" ] || continue
+    if grep -q 'int main' "$block"; then
+        [ -f "$block.out" ] || fail "$(basename "$block"): a program without its output"
+        $CC -std=c99 -O2 -I. "$block" -o "$block.run" -lm && "$block.run" >"$block.real" || fail "$block does not run"
+        diff -u "$block.out" "$block.real" || fail "$block prints something else"
+    else
+        sed 's/^ *//; s/ *$//' "$block" | grep -v '^$' >"$block.flat"
+        awk 'NR == FNR { part[++n] = $0; next } { text[++m] = $0 }
+             END { for (i = 1; i + n - 1 <= m; ++i) { for (j = 1; j <= n && text[i+j-1] == part[j]; ++j) {} if (j > n) exit 0 } exit 1 }' \
+            "$block.flat" "$dir/all-code" || { cat "$block"; fail "the lines above stand in no example and not in tests/compile"; }
+    fi
+    count=$((count + 1))
+done
+
+# -- 4
+macro=$(sed -n 's/^#define GVI_VERSION "\(.*\)"$/\1/p' gvi.h)
+first=$(sed -n '1s/^.* - v\([0-9.]*\) - .*/\1/p' gvi.h)
+log=$(sed -n 's/^## \([0-9][0-9.]*\).*/\1/p' docs/changelog.md | head -1)
+[ -n "$macro" ] && [ "$macro" = "$first" ] && [ "$macro" = "$log" ] ||
+    fail "versions: macro $macro, first line $first, changelog $log"
+count=$((count + 1))
+
+# -- 5
+for page in README.md docs/*.md; do
+    for link in $(sed 's/`[^`]*`//g' "$page" | grep -o '](\([^)]*\))' | sed 's/^](//; s/)$//; s/#.*//' | grep -v '^[a-z]*:'); do
+        [ -z "$link" ] || [ -e "$(dirname "$page")/$link" ] || fail "$page links to $link, which does not exist"
+        count=$((count + 1))
+    done
+    for image in $(grep -o '<img[^>]* src="[^"]*"' "$page" | sed 's/.* src="//; s/"$//'); do
+        [ -e "$(dirname "$page")/$image" ] || fail "$page shows $image, which does not exist"
+        count=$((count + 1))
+    done
+done
+
+echo "$count" >"$build/result/docs-check"
+echo "docs-check: $count passed, 0 failed"

@@ -1,0 +1,91 @@
+#!/bin/sh
+# headers.sh BUILD: gvi.h compiled without a single warning by every compiler
+# that is there, in every standard, type and linkage; then the programs of
+# tests/compile, which link several translation units; then what must be refused.
+build=$1
+dir=$build/headers
+mkdir -p "$dir" "$build/log" "$build/result"
+rm -f "$dir"/* "$build/result/headers"
+
+strict='-Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow -Wundef -Wfloat-equal -Wvla -Werror -I.'
+have() { command -v "$1" >/dev/null 2>&1; }
+fail() { echo "FAILED: headers: $*"; exit 1; }
+accepts() { echo 'int main(void) { return 0; }' | $1 -x$2 -std=$3 -fsyntax-only - 2>/dev/null; }
+
+# the matrix: -O0 for all standards, -O2 for the first and the last
+matrix() {  # compiler language standards...
+    compiler=$1 language=$2
+    shift 2
+    for standard in "$@"; do
+        if ! accepts "$compiler" "$language" "$standard"; then
+            echo "  skipped: $compiler does not know $standard" >&2
+            continue
+        fi
+        case $standard in c99|c2x|c++11|c++20) levels='-O0 -O2' ;; *) levels=-O0 ;; esac
+        for level in $levels; do for type in float double 'long double'; do for linkage in extern static; do
+            static=; [ $linkage = static ] && static=-DGVI_STATIC
+            echo "$compiler -x$language -std=$standard $level $static $strict \"-DGVI_REAL=$type\" -c tests/compile/implementation.c -o /dev/null"
+            [ $level = -O0 ] && [ $linkage = extern ] &&
+                echo "$compiler -x$language -std=$standard $level $strict \"-DGVI_REAL=$type\" -c tests/compile/declarations.c -o /dev/null"
+        done; done; done
+    done
+}
+{
+    for compiler in gcc clang; do
+        if have $compiler; then matrix $compiler c c99 c11 c17 c2x
+        else echo "  skipped: no $compiler" >&2; fi
+    done
+    for compiler in g++ clang++; do
+        if have $compiler; then matrix $compiler c++ c++11 c++14 c++17 c++20
+        else echo "  skipped: no $compiler" >&2; fi
+    done
+    if ! have gcc && ! have clang; then matrix cc c c99 c11 c17; fi
+} >"$dir/matrix"
+jobs=$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)
+tr '\n' '\0' <"$dir/matrix" |
+    xargs -0 -n 1 -P "$jobs" sh -c 'out=$(eval "$1" 2>&1) || { echo "$1"; echo "$out"; exit 255; }' sh ||
+    fail "the command above"
+count=$(wc -l <"$dir/matrix")
+printf '  %-28s %3d clean\n' 'compilations' "$count"
+
+# several translation units
+for compiler in gcc clang; do
+    have $compiler || continue
+    cc="$compiler -std=c99 $strict"
+    for type in float double 'long double'; do
+        $cc "-DGVI_REAL=$type" tests/compile/units_main.c tests/compile/units_other.c tests/compile/implementation.c \
+            -o "$dir/units" -lm && "$dir/units" || fail "$compiler: two units that share one implementation, $type"
+        count=$((count + 1))
+    done
+    $cc tests/compile/static_main.c tests/compile/static_float.c tests/compile/static_double.c \
+        -o "$dir/static" -lm && "$dir/static" || fail "$compiler: float and double in one program"
+    $cc -c tests/compile/guide.c -o /dev/null || fail "$compiler: tests/compile/guide.c"
+    count=$((count + 2))
+done
+for pair in 'gcc g++' 'clang clang++'; do
+    set -- $pair
+    have $1 && have $2 || continue
+    $1 -std=c99 $strict -c tests/compile/implementation.c -o "$dir/implementation.o" &&
+    $2 -std=c++11 -xc++ $strict -c tests/compile/units_main.c -o "$dir/units_main.o" &&
+    $2 -std=c++11 -xc++ $strict -c tests/compile/units_other.c -o "$dir/units_other.o" &&
+    $2 "$dir"/units_main.o "$dir"/units_other.o "$dir"/implementation.o -o "$dir/mixed" -lm && "$dir/mixed" ||
+        fail "$2: C++ units with an implementation in C"
+    count=$((count + 1))
+done
+
+# what must be refused, with a sentence that says why
+refused() {  # sentence flags...
+    sentence=$1
+    shift
+    if out=$(${first} -std=c99 -I. "$@" -c tests/compile/implementation.c -o /dev/null 2>&1); then
+        fail "$* was accepted"
+    fi
+    echo "$out" | grep -q "$sentence" || fail "$*: the message is not \"$sentence\""
+    count=$((count + 1))
+}
+for first in gcc clang cc; do have $first && break; done
+refused 'GVI_REAL must be' -DGVI_REAL=int
+refused 'fast-math' -O2 -ffast-math
+
+echo "$count" >"$build/result/headers"
+echo "headers: $count passed, 0 failed"
