@@ -1047,15 +1047,17 @@ static int gvi__nearest(int n, const gvi_real *x, gvi_real t)
     return i;
 }
 
-/* l_j(t) = (w_j/(t - x_j)) / sum_k w_k/(t - x_k), both sides multiplied by the
-   distance d to the nearest node i: that term is w_i, the others are at most
-   w_j, and t = x_i is no exception.  Returns i.                               */
+/* l_j(t) = (w_j/(t - x_j)) / sum_k w_k/(t - x_k).  Both sides multiplied by the
+   distance d to the nearest node i, so that t = x_i is no exception; and the
+   sum, which may cancel, by what it is equal to: w_i prod_(k /= i)
+   (x_i - x_k)/(t - x_k), factors in (0,2] [6, the first form].  Returns i.     */
 static int gvi__term(int n, const gvi_real *x, const gvi_real *w, gvi_real t, gvi_real *d, gvi_real *sum)
 {
     int i = gvi__nearest(n, x, t);
     *d = t - x[i];
-    *sum = 0;
-    for (int j = 0; j < n; ++j) *sum += j == i ? w[i] : w[j]*(*d/(t - x[j]));
+    *sum = w[i];
+    for (int k = 0; k < n; ++k)
+        if (k != i) *sum *= (x[i] - x[k])/(t - x[k]);
     return i;
 }
 
@@ -1605,8 +1607,7 @@ static int gvi__covers(const gvi_stepper *st, gvi_formulation f)
     case GVI_EXPLICIT:   return constant && !reads_v && st->s == 1 && st->r == 2 && d->rule.kind == GVI_LOBATTO;
     case GVI_POSITIONS:  return constant && !reads_v;
     case GVI_VELOCITIES: return constant;
-    case GVI_MOMENTA:    return st->r == st->s && (d->mass.velocity || d->mass.kind == GVI_MASS_POSITION
-                             || (constant && !(st->x.flags & GVI__HAS_LAGRANGIAN)));
+    case GVI_MOMENTA:    return st->r == st->s && (d->mass.velocity || d->mass.kind == GVI_MASS_POSITION || constant);
     case GVI_AUTO: case GVI_NEWTON: default: return 0;
     }
 }

@@ -141,7 +141,7 @@ static int places(int n, const gvi_real *x, gvi_real *t)
         t[count++] = (x[i] + x[(i + 1) % n])/2;
         t[count++] = x[i] + (x[(i + 2) % n] - x[i])*(gvi_real)0.43L;
     }
-    const gvi_real others[] = { -LEAST, 100*LEAST, -1/GREAT, -(gvi_real)1.3L, (gvi_real)1.01L, 2, -50 };
+    const gvi_real others[] = { -LEAST, 100*LEAST, -1/GREAT, -(gvi_real)1.3L, (gvi_real)1.01L, 2, -3 };
     for (int i = 0; i < COUNT(others); ++i) t[count++] = others[i];
     return count;
 }
@@ -315,6 +315,26 @@ static void polynomials_below_the_number_of_nodes_are_reproduced(void **state)
         for (int n = 1; n <= 12; ++n) {
             families[k](n, x);
             for (int degree = 0; degree < n; ++degree) check_reproduced(n, x, degree);
+        }
+}
+
+/* 1, t, ... at t = 10^3 and 10^5, where the l_j are 10^15 and more: what they
+   have in common must not cancel before the values are seen.                 */
+static void polynomials_are_reproduced_far_outside(void **state)
+{
+    (void)state;
+    const gvi_real far[] = { -50, 1000, -100000 };
+    gvi_real x[6], w[6], f[6];
+    for (int k = 0; k < COUNT(families); ++k)
+        for (int n = 1; n <= 6; ++n) {
+            families[k](n, x);
+            assert_ok(gvi_barycentric(n, x, w));
+            for (int degree = 0; degree < n; ++degree)
+                for (int i = 0; i < COUNT(far); ++i) {
+                    for (int j = 0; j < n; ++j) f[j] = (gvi_real)sample(degree, x[j]);
+                    struct exact e = exact_value(n, x, f, far[i]);
+                    assert_close(gvi_interpolate(n, x, w, f, far[i]), e.p, value_bound(n, e));
+                }
         }
 }
 
@@ -693,6 +713,7 @@ int main(void)
         cmocka_unit_test(weights_do_not_depend_on_the_unit_of_the_nodes),
         cmocka_unit_test(interpolation_is_that_of_lagrange_at_near_and_far_from_nodes),
         cmocka_unit_test(polynomials_below_the_number_of_nodes_are_reproduced),
+        cmocka_unit_test(polynomials_are_reproduced_far_outside),
         cmocka_unit_test(a_polynomial_of_the_next_degree_is_missed_by_the_node_polynomial),
         cmocka_unit_test(interpolation_is_exact_at_nodes),
         cmocka_unit_test(interpolation_next_to_a_node_at_zero_survives_the_smallest_distances),

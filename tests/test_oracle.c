@@ -1,11 +1,11 @@
 /* One step of every formulation against a 50-digit solution of the equations in
    control points (tests/gen/oracle.py): q1, p1, the curve and the action, for
-   six problems, degrees 1 to 8, Gauss and Lobatto rules.                     */
+   seven problems, degrees 1 to 8, Gauss and Lobatto rules.                     */
 #include "gvi_test.h"
 #include "data/oracle.h"
 #include <tgmath.h>
 
-enum { N_MAX = 3, FORMULATIONS = 6 };
+enum { N_MAX = 3, TERMS = 3, FORMULATIONS = 6 };
 
 /* The largest error allowed, in eps of the magnitudes of q, p and the action. */
 #define LIMIT 8
@@ -26,7 +26,7 @@ struct term {
 struct problem {
     gvi_mass    mass;
     int         count;
-    struct term terms[2];
+    struct term terms[TERMS];
 };
 
 #define ANY __attribute__((unused))     /* used or not */
@@ -269,6 +269,24 @@ HESSIAN(drag_hessian)
     return 0;
 }
 
+/* mixed: the pendulum, with the drag and this, which reads t, q and v */
+
+POINT(extra_point)
+{
+    gvi_real w = v[0]*v[0] + 2*v[1]*v[1];
+    f[0] += 3*q[1]*v[1]/8;
+    f[1] += (2*t*v[0] + 3*q[0]*v[1])/8;
+    dldv[0] += (2*t*q[1] + w*v[0])/8;
+    dldv[1] += (3*q[0]*q[1] + 2*w*v[1])/8;
+    return 0;
+}
+
+VALUE(extra_value)
+{
+    gvi_real w = v[0]*v[0] + 2*v[1]*v[1];
+    return (2*t*q[1]*v[0] + 3*q[0]*q[1]*v[1])/8 + w*w/32;
+}
+
 /* In the order of oracle_problems. */
 static struct problem problems[] = {
     { { .kind = GVI_MASS_DIAGONAL, .matrix = two_masses }, 1,
@@ -285,7 +303,11 @@ static struct problem problems[] = {
       { { GVI_POTENTIAL, driven_point, driven_value, NULL } } },
     { { .kind = GVI_MASS_DENSE, .matrix = damped_mass }, 2,
       { { GVI_POTENTIAL, swing_point, swing_value, swing_hessian },
-        { GVI_FORCE, drag_point, NULL, drag_hessian } } }
+        { GVI_FORCE, drag_point, NULL, drag_hessian } } },
+    { { .kind = GVI_MASS_POSITION, .points = pendulum_mass, .gradient = pendulum_gradient }, 3,
+      { { GVI_POTENTIAL, pendulum_point, pendulum_value, NULL },
+        { GVI_FORCE, drag_point, NULL, drag_hessian },
+        { GVI_LAGRANGIAN, extra_point, extra_value, NULL } } }
 };
 
 /* A term's functions of one point as callbacks for all points. */
@@ -325,22 +347,23 @@ enum { ONE_POINT = 1, WITH_HESSIAN = 2, WITH_VELOCITY = 4 };
 
 struct work { unsigned long long newton, points; };
 
-static int only_potentials(const struct problem *a)
+static int has(const struct problem *a, gvi_kind kind)
 {
-    for (int e = 0; e < a->count; ++e)
-        if (a->terms[e].kind != GVI_POTENTIAL) return 0;
-    return 1;
+    int count = 0;
+    for (int e = 0; e < a->count; ++e) count += a->terms[e].kind == kind;
+    return count;
 }
 
-/* What the documentation of the formulations promises. */
+/* Which formulations the library must accept; it must refuse the others. */
 static int covered(const struct problem *a, int options, const struct oracle_case *o, gvi_formulation how)
 {
-    int constant = a->mass.kind <= GVI_MASS_DENSE, simple = constant && only_potentials(a);
+    int constant = a->mass.kind <= GVI_MASS_DENSE, simple = constant && has(a, GVI_POTENTIAL) == a->count;
     switch (how) {
     case GVI_EXPLICIT:   return simple && o->lobatto && o->s == 1 && o->r == 2;
     case GVI_POSITIONS:  return simple;
     case GVI_VELOCITIES: return constant;
-    case GVI_MOMENTA:    return o->s == o->r && (a->mass.kind != GVI_MASS_NONE || options & WITH_VELOCITY);
+    case GVI_MOMENTA:    return o->s == o->r && (options & WITH_VELOCITY || a->mass.kind == GVI_MASS_POSITION
+                                                 || (constant && !has(a, GVI_LAGRANGIAN)));
     default:             return 1;
     }
 }
@@ -406,7 +429,7 @@ static long double step_error(gvi_stepper *st, const struct oracle_case *o)
 static long double run_case(const struct oracle_case *o, int options, gvi_formulation how, struct work *work)
 {
     static gvi_real memory[GVI_LENGTH(N_MAX, 8, 11)];
-    gvi_effect effects[2];
+    gvi_effect effects[TERMS];
     gvi_desc desc;
     gvi_stepper st;
     long double e;

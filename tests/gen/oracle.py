@@ -165,7 +165,19 @@ class Damped(Problem):          # dense mass, linear and quadratic drag, a torqu
                 -0.625*v[1] - 0.125*speed*v[1] + 0.5*cos(q[0] + 3*t)]
 
 
-PROBLEMS = [Separable(), Pendulum(), Magnetic(), Relativistic(), Driven(), Damped()]
+class Mixed(Pendulum):          # the pendulum with everything at once
+    name, t0, h = "mixed", 1.25, 0.125
+    q0, p0, v = (0.5, -0.4375), (1.375, -0.625), (0.75, -1)
+
+    def lagrangian(self, t, q, v):
+        w = v[0]*v[0] + 2*v[1]*v[1]
+        return super().lagrangian(t, q, v) + [0.25*t*q[1]*v[0] + 0.375*q[0]*q[1]*v[1], 0.03125*w*w]
+
+    def force(self, t, q, v):
+        return Damped.force(self, t, q, v)
+
+
+PROBLEMS = [Separable(), Pendulum(), Magnetic(), Relativistic(), Driven(), Damped(), Mixed()]
 
 
 def at_point(P, t, Q, V):
@@ -375,7 +387,7 @@ def check():
 # ------------------------------------------------------------------- writing
 
 HEADER = """\
-/* One step of the Galerkin variational integrator on six problems, made by
+/* One step of the Galerkin variational integrator on seven problems, made by
    tests/gen/oracle.py (mpmath, {dps} digits, control points, automatic
    differentiation): do not edit.  Problems in the order of that file.         */
 struct oracle_problem {{
