@@ -37,13 +37,13 @@ EXAMPLES     = $(C_EXAMPLES) $(CXX_EXAMPLES)
 .DEFAULT_GOAL = help
 .DELETE_ON_ERROR:
 .PHONY: run deps test unit examples headers symbols docs-check sanitize valgrind \
-        figures install uninstall help clean cmocka \
+        figures synopsis install uninstall help clean cmocka \
         $(PROGRAMS:%=run-%) $(EXAMPLES:%=example-%) $(VALGRIND_TESTS:%=valgrind-%) \
         $(VALGRIND_EXAMPLES:%=valgrind-%)
 
 ## run          the main job: integrates the outer solar system, draws two pictures
 run: $(BUILD)/examples/02_outer_solar_system
-	$(Q)$(BUILD)/examples/02_outer_solar_system 200000 100 8 $(BUILD)
+	$(Q)$(BUILD)/examples/02_outer_solar_system 200000 200 8 $(BUILD)
 
 ## deps         installs what the tests need: cmocka; valgrind, clang, g++ where they can be had
 deps:
@@ -84,10 +84,14 @@ sanitize:
 valgrind: $(VALGRIND_TESTS:%=valgrind-%) $(VALGRIND_EXAMPLES:%=valgrind-%)
 	$(Q)sh tests/tools/summary.sh $(BUILD) valgrind $(VALGRIND_TESTS:%=valgrind-%) $(VALGRIND_EXAMPLES:%=valgrind-%)
 
+## synopsis     copies the program at the top of gvi.h to examples/01_kepler.c and README.md
+synopsis:
+	$(Q)sh tests/tools/synopsis.sh
+
 ## figures      makes the pictures in docs/img/ again
 figures: $(BUILD)/examples/02_outer_solar_system
 	$(Q)mkdir -p docs/img
-	$(Q)$(BUILD)/examples/02_outer_solar_system 200000 100 8 docs/img
+	$(Q)$(BUILD)/examples/02_outer_solar_system 200000 200 8 docs/img
 
 ## install      copies gvi.h, the whole library, to $(DESTDIR)$(PREFIX)/include
 install:

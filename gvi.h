@@ -250,7 +250,8 @@ typedef enum gvi_status {
     GVI_E_ARGUMENT    = -1,  /* null pointer, size out of range, h = 0, NaN or Inf given */
     GVI_E_MEMORY      = -2,  /* the memory is smaller than gvi_size(desc)               */
     GVI_E_NODES       = -3,  /* own rule: a node outside [0,1], or two that coincide    */
-    GVI_E_ORDER       = -4,  /* own rule: the weights do not sum to 1 (order 0)         */
+    GVI_E_ORDER       = -4,  /* own rule of order u < s, so also weights that do not sum
+                                to 1: not even free motion would come out           */
     GVI_E_POINTS      = -5,  /* r < s, or a rule that does not see every mode           */
     GVI_E_FORMULATION = -6,  /* the pinned formulation does not cover this scene        */
     GVI_E_SINGULAR    = -7,  /* singular matrix: massless coordinate (fault.coordinate) */
@@ -486,7 +487,9 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action);
    (oscillator: h omega = k pi).  Needs GVI_AUTO or GVI_NEWTON if s > 1.
    Forced systems: d1, d2 are total derivatives, and F-, F+ are
    h sum b_i f_i dQ_i/dq0, dQ_i/dq1 with the curve's own dependence on its
-   ends, as the exact discrete forces are [1, sec. 3.2].  State untouched.     */
+   ends, as the exact discrete forces are [1, sec. 3.2]; how they share p0 and
+   p1 is as exact as the Hessians (sqrt(eps), where differences stand in for
+   them), p0 and p1 themselves are exact.  State untouched.                    */
 GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real h,
                                            const gvi_real *q0, const gvi_real *q1,
                                            const gvi_discrete *out);
@@ -551,6 +554,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 }
 #endif
 #endif /* GVI_H */
+
 
 #if defined(GVI_IMPLEMENTATION) && !defined(GVI_IMPLEMENTED)
 #define GVI_IMPLEMENTED
@@ -690,7 +694,7 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 
 // pivot[0..n-1]: row scales 1/max_j |a_ij|; pivot[n+j]: max_i of column j of the
 // scaled rows; pivot[2n]: 1-norm of A
-static gvi_status gvi__lu_scales(int n, const gvi_real *a, gvi_real *pivot)
+static gvi_status gvi__lu_scales(int n, const gvi_real *a, gvi_real *pivot, int *at)
 {
     gvi_status status = GVI_OK;
     for (int i = 0; i < n; ++i) {
@@ -700,7 +704,10 @@ static gvi_status gvi__lu_scales(int n, const gvi_real *a, gvi_real *pivot)
             if (!(x <= GVI__MAX)) return GVI_E_NON_FINITE;
             if (x > big) big = x;
         }
-        if (!(big > 0)) status = GVI_E_SINGULAR;
+        if (!(big > 0)) {
+            status = GVI_E_SINGULAR;
+            *at = i;
+        }
         pivot[i] = big > 0 ? 1/big : 0;
         if (!gvi__finite(pivot[i])) pivot[i] = GVI__MAX;      // subnormal row
     }
@@ -718,12 +725,12 @@ static gvi_status gvi__lu_scales(int n, const gvi_real *a, gvi_real *pivot)
     return status;
 }
 
-// at: the column in which elimination ended, if it is singular
+// at: the row of zeros or the column in which elimination ended, if it is singular
 static gvi_status gvi__lu_factor(int n, gvi_real *a, gvi_real *pivot, int *at)
 {
     size_t N = (size_t)n;
     *at = -1;
-    gvi_status status = gvi__lu_scales(n, a, pivot);
+    gvi_status status = gvi__lu_scales(n, a, pivot, at);
     if (status != GVI_OK) return status;
 
     for (size_t k = 0; k < N; ++k) {
@@ -1163,6 +1170,16 @@ static int gvi__point_by_point(gvi_stepper *st, const gvi_effect *e, const gvi_p
     return 0;
 }
 
+/* In the diagnosing repetition: were the points finite that the effects will get?
+   If not the step itself has run away.                                        */
+static gvi_status gvi__check_points(gvi_stepper *st, const gvi_points *x)
+{
+    if (!st->x.diagnose) return GVI_OK;
+    if (gvi__check_rows(st, x, x->q, GVI_FAULT_NONE) == GVI_OK
+        && gvi__check_rows(st, x, x->v, GVI_FAULT_NONE) == GVI_OK) return GVI_OK;
+    return gvi__fail(st, GVI_E_CONVERGENCE, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
+}
+
 /* Asks every effect that is on and, if `plain`, has no Hessian; each sees only
    what its kind may read.  Adds to x->f and x->dldv.                          */
 static gvi_status gvi__effects(gvi_stepper *st, const gvi_points *x, int plain)
@@ -1301,7 +1318,7 @@ static gvi_status gvi__kinetic(gvi_stepper *st, const gvi_points *x)
             for (int k = 0; k < x->count; ++k) p[k] += a[k*each]*x->v[j*R + k];
         }
     }
-    return GVI_OK;
+    return st->x.diagnose ? gvi__check_rows(st, x, x->dldv, GVI_FAULT_MASS) : GVI_OK;
 }
 
 /* F and P at the points from scratch: everything (plain = 0), or what has no
@@ -1309,7 +1326,8 @@ static gvi_status gvi__kinetic(gvi_stepper *st, const gvi_points *x)
 static gvi_status gvi__evaluate(gvi_stepper *st, const gvi_points *x, int plain)
 {
     size_t length = (size_t)x->n*(size_t)x->stride;
-    gvi_status status = GVI_OK;
+    gvi_status status = gvi__check_points(st, x);
+    if (status != GVI_OK) return status;
     gvi__zero(length, x->f);
     gvi__zero(length, x->dldv);
     if (!plain || !gvi__mass_is_constant(&st->x.desc)) status = gvi__kinetic(st, x);
@@ -1332,7 +1350,7 @@ static gvi_points gvi__at(const gvi_stepper *st, const gvi_real *t, const gvi_re
     return x;
 }
 
-// d(dL/dv)/dv at one point, n*n, by Hessians where there are any, else by differences
+// d(dL/dv)/dv at one point, n*n, by differences
 static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real *v, gvi_real *W)
 {
     int n = st->n;
@@ -1367,10 +1385,21 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_real t, const gvi_re
     for (int k = 0; k < 40; ++k) {
         gvi_real change = 0, size = 0;
         gvi_status status = gvi__evaluate(st, &x, 0);
+
+        // beyond the domain of L (faster than light): half the way
+        if (k > 0 && status == GVI_OK && !gvi__all_finite(n, P)) {
+            for (int i = 0; i < n; ++i) {
+                dv[i] /= 2;
+                v[i] -= dv[i];
+            }
+            continue;
+        }
         if (status == GVI_OK) status = gvi__velocity_hessian(st, &x, v, W);
         if (status != GVI_OK) return status;
-        status = gvi_lu_factor(n, W, pivot);
-        if (status != GVI_OK) return gvi__fail(st, status, GVI_FAULT_MASS, GVI_FAULT_NONE, GVI_FAULT_NONE);
+        int at;
+        status = gvi__lu_factor(n, W, pivot, &at);
+        st->counters.factorizations += 1;
+        if (status != GVI_OK) return gvi__fail(st, status, GVI_FAULT_MASS, at, GVI_FAULT_NONE);
         for (int i = 0; i < n; ++i) dv[i] = p[i] - P[i];
         gvi_lu_solve(n, W, pivot, dv);
         for (int i = 0; i < n; ++i) {
@@ -1601,14 +1630,13 @@ static int gvi__covers(const gvi_stepper *st, gvi_formulation f)
 {
     const gvi_desc *d = &st->x.desc;
     int constant = gvi__mass_is_constant(d), reads_v = st->x.flags & GVI__HAS_VELOCITIES;
-    if (f == GVI_NEWTON) return 1;
-    if (st->order < st->s) return 0;
     switch (f) {
     case GVI_EXPLICIT:   return constant && !reads_v && st->s == 1 && st->r == 2 && d->rule.kind == GVI_LOBATTO;
     case GVI_POSITIONS:  return constant && !reads_v;
     case GVI_VELOCITIES: return constant;
     case GVI_MOMENTA:    return st->r == st->s && (d->mass.velocity || d->mass.kind == GVI_MASS_POSITION || constant);
-    case GVI_AUTO: case GVI_NEWTON: default: return 0;
+    case GVI_NEWTON:     return 1;
+    case GVI_AUTO: default: return 0;
     }
 }
 
@@ -1656,8 +1684,8 @@ static gvi_status gvi__resolve(gvi_stepper *st, const gvi_desc *desc)
     if (d->rule.kind == GVI_OWN) st->order = gvi_rule_order(r, d->rule.nodes, d->rule.weights);
     if (d->rule.kind == GVI_LOBATTO && r < 2) return s > 1 ? GVI_E_POINTS : GVI_E_ARGUMENT;
     if (st->order < 0) return GVI_E_NODES;
-    if (st->order == 0) return GVI_E_ORDER;
     if (r < s) return GVI_E_POINTS;
+    if (st->order < s) return GVI_E_ORDER;
     if (st->order < 2*s - 2) st->x.flags |= GVI__HAS_OWN;
 
     for (int f = GVI_EXPLICIT; f <= GVI_NEWTON && st->x.chosen == GVI_AUTO; ++f)
@@ -1747,7 +1775,7 @@ static size_t gvi__layout(gvi_stepper *st, gvi_real *base)
     x->own = gvi__take(&a, x->flags & GVI__HAS_OWN, s*s + 2*s + 1, 1);
 
     // J and pivots twice: queries must not touch what the steps keep
-    x->hess = gvi__take(&a, newton || lagrangian, 4*n*n + 6*n + 1, 1);
+    x->hess = gvi__take(&a, newton || lagrangian, 4*n*n + 5*n + 1, 1);
     x->y = gvi__take(&a, newton, 1, sn);
     x->dy = gvi__take(&a, newton, 1, sn);
     x->J = gvi__take(&a, newton, 2*sn, sn);
@@ -1780,9 +1808,11 @@ static gvi_status gvi__set_mass(gvi_stepper *st)
         }
     if (mass->kind == GVI_MASS_DENSE) {
         size_t nn = (size_t)n*(size_t)n;
-        if (!gvi__all_finite(n*n, mass->matrix)) return gvi__fail(st, GVI_E_ARGUMENT, GVI_FAULT_MASS, -1, -1);
-        gvi__copy(nn, mass->matrix, m);
-        gvi__copy(nn, mass->matrix, m + nn);
+        for (int i = 0; i < n; ++i)
+            for (int j = 0; j <= i; ++j) {
+                m[i*n + j] = m[nn + (size_t)(i*n + j)] = mass->matrix[i*n + j];
+                if (!gvi__finite(m[i*n + j])) return gvi__fail(st, GVI_E_ARGUMENT, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
+            }
         gvi_status status = gvi__ldl_factor(st, n, 1, 1, m);
         st->counters.factorizations = 0;
         return status;
@@ -1851,17 +1881,6 @@ static void gvi__begin(gvi_stepper *st, const gvi__from *from, gvi_real h)
     gvi__over_mass(st, x->ve, 1, 1);
 }
 
-/* z := sum_j w_j table[j][.] f_j: the product of table and row that an iteration
-   consists of.  Lanes beyond r are zero in the table.                         */
-static void gvi__apply(int r, int R, const gvi_real *table, const gvi_real *w, const gvi_real *f,
-                       gvi_real sign, gvi_real *z)
-{
-    for (int j = 0; j < r; ++j) {
-        gvi_real a = sign*(w[j]*f[j]);
-        for (int i = 0; i < R; ++i) z[i] += table[j*R + i]*a;
-    }
-}
-
 static gvi_real gvi__dot(int r, const gvi_real *a, const gvi_real *b)
 {
     gvi_real sum = 0;
@@ -1878,43 +1897,69 @@ typedef struct gvi__stage {
     int             over_mass;
 } gvi__stage;
 
-static void gvi__stage_sum(const gvi_stepper *st, const gvi__stage *y, int i, gvi_real *z)
+/* z := table (w f) - minus (b a), and what becomes of a row by it.  R is a
+   constant where these are inlined: the loops over it become vector code.    */
+static inline void gvi__sum_row(const gvi_stepper *st, const gvi__stage *y, int i, int R, gvi_real *z)
 {
-    const struct gvi__private *x = &st->x;
-    int R = x->stride;
-    gvi__zero((size_t)R, z);
-    gvi__apply(st->r, R, y->table, x->hb, y->f + i*R, 1, z);
-    if (y->minus) gvi__apply(st->r, R, y->minus, x->b, y->a + i*R, -1, z);
+    const gvi_real *f = y->f + i*R, *a = y->a ? y->a + i*R : NULL, *hb = st->x.hb, *b = st->x.b;
+    const int r = st->r;
+    for (int k = 0; k < R; ++k) z[k] = 0;
+    for (int j = 0; j < r; ++j) {
+        const gvi_real L = hb[j]*f[j], *column = y->table + j*R;
+        for (int k = 0; k < R; ++k) z[k] += column[k]*L;
+    }
+    for (int j = 0; a && j < r; ++j) {
+        const gvi_real L = b[j]*a[j], *column = y->minus + j*R;
+        for (int k = 0; k < R; ++k) z[k] -= column[k]*L;
+    }
 }
 
-/* Forms the rows; their change relative to |base| + the last displacement goes,
-   point by point, to acc, and as it is, summed up, to change[i] if wanted.    */
+/* The change of the row relative to |base| + the last displacement goes, point
+   by point, to acc, and as it is, summed up, to change[i] if wanted.          */
+static inline void gvi__move_row(gvi_stepper *st, const gvi__stage *y, int i, int R, gvi_real *z,
+                                 gvi_real *row, gvi_real *change)
+{
+    struct gvi__private *x = &st->x;
+    const gvi_real base = y->base[i], extra = y->extra[i], slope = y->slope ? y->slope[i] : 0;
+    const gvi_real inverse = y->over_mass && x->desc.mass.kind == GVI_MASS_DIAGONAL ? 1/x->mass[i] : 1;
+    for (int k = 0; k < R; ++k) z[k] = extra + y->factor*(x->c[k]*slope + inverse*z[k]);
+    const gvi_real size = gvi__abs(base) + gvi__abs(z[st->r - 1]), scale = size > 0 ? 1/size : 0;
+    if (change) {
+        change[i] = 0;
+        for (int k = 0; k < R; ++k) change[i] += gvi__abs(base + z[k] - row[k]);
+    }
+    for (int k = 0; k < R; ++k) {
+        const gvi_real next = base + z[k];
+        x->acc[k] += gvi__abs(next - row[k])*scale;
+        row[k] = next;
+    }
+}
+
+static inline void gvi__all_rows(gvi_stepper *st, const gvi__stage *y, int R, gvi_real *z,
+                                 gvi_real *rows, gvi_real *change)
+{
+    for (int i = 0; i < st->n; ++i) {
+        gvi__sum_row(st, y, i, R, z);
+        gvi__move_row(st, y, i, R, z, rows + i*R, change);
+    }
+}
+
 static void gvi__stage_rows(gvi_stepper *st, const gvi__stage *y, gvi_real *rows, gvi_real *change)
 {
     struct gvi__private *x = &st->x;
     int n = st->n, R = x->stride;
-    int dense = y->over_mass && x->desc.mass.kind == GVI_MASS_DENSE;
-    int diagonal = y->over_mass && x->desc.mass.kind == GVI_MASS_DIAGONAL;
-    if (dense) {
-        for (int i = 0; i < n; ++i) gvi__stage_sum(st, y, i, x->Z + i*R);
+    gvi_real z[16];                       // for the usual sizes: stays in registers
+    if (y->over_mass && x->desc.mass.kind == GVI_MASS_DENSE) {
+        for (int i = 0; i < n; ++i) gvi__sum_row(st, y, i, R, x->Z + i*R);
         gvi__over_mass(st, x->Z, R, R);
+        for (int i = 0; i < n; ++i) gvi__move_row(st, y, i, R, x->Z + i*R, rows + i*R, change);
+        return;
     }
-    for (int i = 0; i < n; ++i) {
-        gvi_real *z = dense ? x->Z + i*R : x->z, *row = rows + i*R;
-        gvi_real base = y->base[i], extra = y->extra[i], slope = y->slope ? y->slope[i] : 0;
-        gvi_real inverse = diagonal ? 1/x->mass[i] : 1;
-        if (!dense) gvi__stage_sum(st, y, i, z);
-        for (int k = 0; k < R; ++k) z[k] = extra + y->factor*(x->c[k]*slope + inverse*z[k]);
-        gvi_real size = gvi__abs(base) + gvi__abs(z[st->r - 1]), scale = size > 0 ? 1/size : 0;
-        if (change) {
-            change[i] = 0;
-            for (int k = 0; k < R; ++k) change[i] += gvi__abs(base + z[k] - row[k]);
-        }
-        for (int k = 0; k < R; ++k) {
-            gvi_real next = base + z[k];
-            x->acc[k] += gvi__abs(next - row[k])*scale;
-            row[k] = next;
-        }
+    switch (R) {
+    case 4:  gvi__all_rows(st, y, 4, z, rows, change); break;
+    case 8:  gvi__all_rows(st, y, 8, z, rows, change); break;
+    case 16: gvi__all_rows(st, y, 16, z, rows, change); break;
+    default: gvi__all_rows(st, y, R, x->z, rows, change);
     }
 }
 
@@ -1935,8 +1980,7 @@ static gvi_real gvi__stages(gvi_stepper *st, const gvi__from *from, gvi_real h, 
 {
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work;
-    int n = st->n, R = x->stride;
-    gvi__zero((size_t)R, x->acc);
+    gvi__zero((size_t)x->stride, x->acc);
     gvi__stage q = { from->q, from->qe, x->v0, x->g, w->F, w->A ? x->T : NULL, w->A, h, 1 };
     if (x->chosen == GVI_MOMENTA) {
         gvi__stage p = { from->p, from->pe, NULL, x->m, w->F, NULL, NULL, 1, 0 };
@@ -1991,9 +2035,9 @@ static gvi_status gvi__ask(gvi_stepper *st)
     struct gvi__rows *w = &st->x.work;
     size_t length = (size_t)st->n*(size_t)st->x.stride;
     gvi_points y = gvi__rows_as_points(st, w, w->A);
-    gvi_status status = GVI_OK;
+    gvi_status status = gvi__check_points(st, &y);
     gvi__zero(length, w->F);
-    if (st->x.chosen == GVI_MOMENTA) status = gvi__legendre_rows(st, &y);
+    if (status == GVI_OK && st->x.chosen == GVI_MOMENTA) status = gvi__legendre_rows(st, &y);
     if (w->A) gvi__zero(length, w->A);
     return status == GVI_OK ? gvi__effects(st, &y, 0) : status;
 }
@@ -2083,7 +2127,7 @@ static int gvi__is_rounding(const gvi_stepper *st, const gvi__from *from)
         noise += x->change[i]*most;
         size += (gvi_real)st->r*gvi__abs(from->p[i]*x->v0[i]);
     }
-    return noise <= 10000*GVI__EPS*size;
+    return size <= GVI__MAX && noise <= 10000*GVI__EPS*size;
 }
 
 static void gvi__watch(gvi_stepper *st, gvi_real change, gvi_real ratio)
@@ -2098,9 +2142,9 @@ static void gvi__watch(gvi_stepper *st, gvi_real change, gvi_real ratio)
 static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate, int *used)
 {
     struct gvi__private *x = &st->x;
-    const gvi_real enough = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/64;
+    const gvi_real enough = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/4096;
     const gvi_real rounding = 2*GVI__EPS*(gvi_real)(st->n*st->r);
-    int fall_back = x->desc.formulation == GVI_AUTO && (x->flags & GVI__HAS_NEWTON), poor = 0;
+    int fall_back = x->desc.formulation == GVI_AUTO && (x->flags & GVI__HAS_NEWTON), poor = 0, grows = 0;
     gvi_real before = 0;
 
     gvi__guess(st, from, h, extrapolate);
@@ -2109,8 +2153,10 @@ static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_r
         if (status != GVI_OK) return status;
         gvi_real change = gvi__stages(st, from, h, poor > 1 ? x->change : NULL);
         gvi_real ratio = before > 0 ? change/before : 1;
-        if (!(change <= GVI__MAX)) return gvi__fail(st, GVI_E_NON_FINITE, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
+        if (!(change <= GVI__MAX))
+            return gvi__fail(st, grows ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
         gvi__watch(st, change, before > 0 ? ratio : 0);
+        grows = before > 0 && ratio >= (gvi_real)0.5;
         if (change*ratio <= enough || (ratio > (gvi_real)0.5 && change <= rounding)) {
             st->counters.worst_change = change > st->counters.worst_change ? change : st->counters.worst_change;
             return GVI_OK;
@@ -2176,12 +2222,12 @@ static void gvi__newton_rows(gvi_stepper *st, const gvi__from *from, gvi_real h)
     st->counters.velocities += (unsigned long long)st->r;
 }
 
-/* dy := -residual.  P - p0 in place of P where the rule allows (u >= s): small
-   numbers.  Returns the largest residual in units of its own terms.           */
+/* dy := -residual.  P - p0 in place of P, which is the same since sum_i b_i phi_k
+   is [k=0], and small.  Returns the largest residual in units of its own terms.           */
 static gvi_real gvi__residual(gvi_stepper *st, const gvi__from *from, int k0)
 {
     struct gvi__private *x = &st->x;
-    int n = st->n, R = x->stride, shift = st->order >= st->s;
+    int n = st->n, R = x->stride;
     gvi_real worst = 0;
     for (int i = 0; i < n; ++i) {
         const gvi_real *P = x->work.P + i*R, *F = x->work.F + i*R;
@@ -2189,11 +2235,10 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__from *from, int k0)
             gvi_real sum = 0, size = 0;
             for (int j = 0; j < st->r; ++j) {
                 gvi_real W = (k == 0 ? 1 : 0) - x->Phi[k*R + j], weight = x->b[j]*x->phi[k*R + j];
-                gvi_real a = weight*(shift ? (P[j] - from->p[i]) - from->pe[i] : P[j]), b = x->hb[j]*W*F[j];
+                gvi_real a = weight*((P[j] - from->p[i]) - from->pe[i]), b = x->hb[j]*W*F[j];
                 sum += a - b;
                 size += gvi__abs(weight*P[j]) + gvi__abs(b);
             }
-            if (!shift && k == 0) sum -= from->p[i] + from->pe[i];
             x->dy[(k - k0)*n + i] = -(gvi_real)(2*k + 1)*sum;
             if (size > 0 && gvi__abs(sum)/size > worst) worst = gvi__abs(sum)/size;
         }
@@ -2321,12 +2366,33 @@ static gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matrix *
     return status;
 }
 
+/* A Lagrangian whose d2L/dv2 is singular (linear in v, a coordinate without mass)
+   would make (1) solvable all the same, and its solution worthless.           */
+static gvi_status gvi__check_regular(gvi_stepper *st)
+{
+    struct gvi__private *x = &st->x;
+    int n = st->n, R = x->stride, at;
+    if (gvi__mass_is_constant(&x->desc) && !(x->flags & GVI__HAS_LAGRANGIAN)) return GVI_OK;
+    gvi_real *W = x->hess + 3*n, *q = W + n*n + 2*n + 1, *v = q + n, *f = x->one + 4*n, *P = f + n;
+    for (int i = 0; i < n; ++i) {
+        q[i] = x->work.Q[i*R];
+        v[i] = x->work.V[i*R];
+    }
+    gvi_points y = gvi__at(st, x->t, q, v, f, P);
+    gvi_status status = gvi__evaluate(st, &y, 0);
+    if (status == GVI_OK) status = gvi__velocity_hessian(st, &y, v, W);
+    if (status != GVI_OK) return status;
+    status = gvi__lu_factor(n, W, W + n*n, &at);
+    return status == GVI_E_SINGULAR ? gvi__fail(st, status, GVI_FAULT_MASS, at, GVI_FAULT_NONE) : GVI_OK;
+}
+
 static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J, gvi_real *pivot)
 {
     int n = st->n, size = (st->s - J->k0)*n, at;
     gvi__zero((size_t)size*(size_t)size, J->square);
     if (J->ends) gvi__zero((size_t)size*2*(size_t)n, J->ends);
-    gvi_status status = gvi__jacobian_exact(st, J);
+    gvi_status status = gvi__check_regular(st);
+    if (status == GVI_OK) status = gvi__jacobian_exact(st, J);
     if (status == GVI_OK) status = gvi__jacobian_differences(st, J);
     if (status != GVI_OK) return status;
     status = gvi__lu_factor(size, J->square, pivot, &at);
@@ -2382,21 +2448,21 @@ static gvi_real gvi__newton_update(gvi_stepper *st, int k0)
 static gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi__matrix *J, gvi_real *pivot, int kept)
 {
     struct gvi__private *x = &st->x;
-    const gvi_real enough = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/64;
+    const gvi_real enough = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/4096;
     int size = (st->s - J->k0)*st->n, have = kept && !gvi__nonzero(x->h_matrix - J->h);
-    int made = 0, poor = 0, last = size == 0;
+    int made = 0, last = size == 0;
     gvi_real before = 0;
     for (int k = 0; k <= x->desc.max_iterations; ++k) {
         gvi_points y = gvi__rows_as_points(st, &x->work, x->work.P);
+        int fresh = !have;
         gvi__newton_rows(st, from, J->h);
         gvi_status status = gvi__evaluate(st, &y, 0);
         if (status != GVI_OK || last) return status;
-        if (!have) {
+        if (fresh) {
             if (++made > x->desc.max_iterations/4 + 2) break;
             status = gvi__jacobian(st, J, pivot);
             if (status != GVI_OK) return status;
             have = 1;
-            before = 0;
             if (kept) x->h_matrix = J->h;
         }
         gvi_real residual = gvi__residual(st, from, J->k0);
@@ -2406,10 +2472,13 @@ static gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi_
         if (!(change <= GVI__MAX)) return gvi__fail(st, GVI_E_NON_FINITE, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
         gvi__watch(st, change, before > 0 ? ratio : 0);
 
-        // one more evaluation where the change after this one is rounding
-        poor = before > 0 && ratio > (gvi_real)0.5 ? poor + 1 : 0;
-        if (change*ratio <= enough || (poor && change <= 8*GVI__EPS*(gvi_real)size)
-            || (poor > 1 && residual <= 64*GVI__EPS)) last = 1;
+        // one more evaluation, then done: if the change after this one is below
+        // rounding, or this one is: it does not shrink although it is at the
+        // rounding of y or of the residual, or small and the Jacobian new
+        int stagnant = before > 0 && ratio > (gvi_real)0.5;
+        if (change*ratio <= enough
+            || (stagnant && (change <= 64*GVI__EPS*(gvi_real)size || residual <= 16*GVI__EPS
+                             || (fresh && change <= gvi__sqrt(GVI__EPS))))) last = 1;
         else if (before > 0 && ratio > (gvi_real)0.25) have = 0;
         before = change;
     }
@@ -2448,6 +2517,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__from *from, gvi_real 
     if (x->chosen != GVI_NEWTON && (x->newton_left == 0 || query)) {
         for (int plain = !usable; plain < 2; ++plain) {
             status = gvi__fixed_point(st, from, h, !plain, &used);
+            used = used > x->desc.max_iterations ? x->desc.max_iterations : used;
             st->counters.iterations += (unsigned long long)used;
             if (!query) st->iterations = used;
             if (used > st->counters.most_iterations) st->counters.most_iterations = used;
@@ -2608,9 +2678,10 @@ GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_rea
     gvi__copy(n, q, x->dq);
     gvi__copy(n, p, x->dp);
     gvi__zero(n, x->v0);
-    // the velocity to start from, where the step does not find it itself
+    // a velocity to start the first iteration from; where there is none, the step says so
     if (x->chosen == GVI_MOMENTA || x->chosen == GVI_NEWTON) status = gvi__velocity(st, t, x->dq, x->dp, x->v0);
-    if (status != GVI_OK) return status;
+    if (status == GVI_E_SINGULAR || status == GVI_E_CONVERGENCE) gvi__zero(n, x->v0);
+    else if (status != GVI_OK) return status;
     gvi__copy(n, x->dq, x->q);
     gvi__copy(n, x->dp, x->p);
     return gvi__start(st, t);
@@ -2832,17 +2903,17 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action)
     return gvi__done(st, GVI_OK);
 }
 
-/* Discrete forces with the curve's dependence on its ends: interior rows R = 0
-   give dy/dq = -J^-1 dR/dq, and with J'^-1 g = lambda, g_k = h sum hb_i Phi_k f_i,
-   F+ = h sum b_i f_i c_i - lambda' dR/dq1 /..., one transposed solve for all.  */
-static gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__from *from, gvi__matrix *J, gvi_real *pivot,
+/* Discrete forces h sum b_i f_i dQ_i/dq0, dQ_i/dq1 with the curve's dependence on
+   its ends.  The interior rows R = 0 give dy/dq = -J^-1 dR/dq, so the part of y is
+   -lambda' dR/dq with J' lambda = g, g_k = h sum h b_i Phi_k f_i: one transposed
+   solve for all of it.                                                        */
+static gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__matrix *J, const gvi_real *pivot,
                                        gvi_real *minus, gvi_real *plus)
 {
     struct gvi__private *x = &st->x;
     const gvi_desc *d = &x->desc;
     int n = st->n, s = st->s, R = x->stride, size = (s - 1)*n;
-    gvi_real *f = x->dF;
-    (void)from;
+    gvi_real *f = x->work.F;                // not needed any more
 
     // the forces alone, at the points of the curve
     unsigned off = x->off, forces = 0;
@@ -2865,9 +2936,7 @@ static gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__from *from, g
     }
     if (status != GVI_OK || size == 0 || !(forces & ~off)) return status;
 
-    // the interior: a fresh Jacobian with the columns of both ends
-    status = gvi__jacobian(st, J, pivot);
-    if (status != GVI_OK) return status;
+    // the interior: J is that of the solution, with the columns of both ends
     gvi_real *lambda = x->dy;
     for (int i = 0; i < n; ++i)
         for (int k = 1; k < s; ++k) {
@@ -2885,41 +2954,90 @@ static gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__from *from, g
     return GVI_OK;
 }
 
+// the Jacobian's own relative error: no smaller reciprocal condition means anything
+static gvi_real gvi__jacobian_error(const gvi_stepper *st)
+{
+    const gvi_desc *d = &st->x.desc;
+    int exact = gvi__mass_is_constant(d);
+    for (int e = 0; e < d->effect_count; ++e)
+        if (!(st->x.off >> e & 1u) && !d->effects[e].hessian) exact = 0;
+    return 16*(exact ? GVI__EPS : gvi__sqrt(GVI__EPS));
+}
+
+/* The curve between the boundary values: F at its points in work.F, and the sum
+   of b_i P_i in p.  Degree 1 is a chord, point by point: nothing to solve.     */
+static gvi_status gvi__chord(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *q1, gvi_real *p)
+{
+    struct gvi__private *x = &st->x;
+    int n = st->n, R = x->stride;
+    gvi_real *q = x->change, *v = q + n, *f = x->one + 4*n, *P = f + n;
+    gvi__zero((size_t)n, p);
+    for (int j = 0; j < st->r; ++j) {
+        for (int i = 0; i < n; ++i) {
+            v[i] = (q1[i] - from->q[i])/h;
+            q[i] = x->work.Q[i*R + j] = from->q[i] + x->c[j]*(q1[i] - from->q[i]);
+            if (x->work.V) x->work.V[i*R + j] = v[i];
+        }
+        gvi_points y = gvi__at(st, x->t + j, q, v, f, P);
+        gvi_status status = gvi__evaluate(st, &y, 0);
+        if (status != GVI_OK) return status;
+        for (int i = 0; i < n; ++i) {
+            x->work.F[i*R + j] = f[i];
+            p[i] += x->b[j]*P[i];
+        }
+    }
+    return GVI_OK;
+}
+
+static gvi_status gvi__interior(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *q1,
+                                const gvi__matrix *J, gvi_real *pivot, gvi_real *p)
+{
+    struct gvi__private *x = &st->x;
+    int n = st->n, size = (st->s - 1)*n;
+    if (size == 0) return gvi__chord(st, from, h, q1, p);
+    gvi__zero((size_t)(st->s*n), x->y);
+    for (int i = 0; i < n; ++i) x->y[i] = (q1[i] - from->q[i])/h;
+    gvi_status status = gvi__newton(st, from, J, pivot, 0);
+    if (status != GVI_OK && status != GVI_E_CONVERGENCE) return status;
+
+    // the Jacobian where it ended says whether there was anything to find
+    gvi_status second = gvi__jacobian(st, J, pivot);
+    if (second != GVI_OK) return second;
+    if (gvi_lu_rcond(size, J->square, pivot, x->dF) < gvi__jacobian_error(st)) status = GVI_E_CONJUGATE;
+    for (int i = 0; i < n; ++i) p[i] = gvi__dot(st->r, x->b, x->work.P + i*x->stride);
+    return status;
+}
+
 static gvi_status gvi__boundary_value(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *q1,
                                       const gvi_discrete *out)
 {
     struct gvi__private *x = &st->x;
     int n = st->n, s = st->s, R = x->stride;
     size_t size = (size_t)(s - 1)*(size_t)n, sn = (size_t)s*(size_t)n;
-    gvi_real *square = x->J + sn*sn, *pivot = x->pivot + 2*sn + 1;
-    gvi__matrix J = { square, square + size*size, 1, h };
+    gvi_real *square = s > 1 ? x->J + sn*sn : NULL, *pivot = s > 1 ? x->pivot + 2*sn + 1 : NULL;
+    gvi__matrix J = { square, s > 1 ? square + size*size : NULL, 1, h };
     gvi_real *p0 = x->dq, *p1 = x->dp, *minus = x->change, *plus = minus + n;
-    gvi__zero(sn, x->y);
-    for (int i = 0; i < n; ++i) x->y[i] = (q1[i] - from->q[i])/h;
-    gvi_status status = gvi__newton(st, from, &J, pivot, 0);
-    if (status == GVI_OK && size && gvi_lu_rcond((int)size, square, pivot, x->bF) < 64*GVI__EPS) status = GVI_E_SINGULAR;
-    if (status == GVI_E_SINGULAR)
+    gvi_status status = gvi__interior(st, from, h, q1, &J, pivot, p0);
+    if (status == GVI_E_CONJUGATE || (status == GVI_E_SINGULAR && st->fault.effect == GVI_FAULT_NONE))
         return gvi__fail(st, GVI_E_CONJUGATE, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
     if (status != GVI_OK) return status;
 
-    // row 0 of (1) for p0, then (2)
-    for (int i = 0; i < n; ++i) {
-        gvi_real all = gvi__dot(st->r, x->hb, x->work.F + i*R), late = gvi__dot(st->r, x->b, x->work.P + i*R);
-        for (int j = 0; j < st->r; ++j) late -= x->hb[j]*(1 - x->Phi[j])*x->work.F[i*R + j];
-        p0[i] = late;
-        p1[i] = late + all;
-    }
+    // the action, row 0 of (1) for p0, then (2)
     gvi_real action = 0, L;
     for (int j = 0; j < st->r && out->lagrangian; ++j) {
         for (int i = 0; i < n; ++i) {
             minus[i] = x->work.Q[i*R + j];
-            plus[i] = x->work.V[i*R + j];
+            plus[i] = x->work.V ? x->work.V[i*R + j] : (q1[i] - from->q[i])/h;
         }
         status = gvi__lagrangian(st, x->t[j], minus, plus, &L);
         if (status != GVI_OK) return status;
         action += x->hb[j]*L;
     }
-    status = gvi__discrete_forces(st, from, &J, pivot, minus, plus);
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < st->r; ++j) p0[i] -= x->hb[j]*(1 - x->Phi[j])*x->work.F[i*R + j];
+        p1[i] = p0[i] + gvi__dot(st->r, x->hb, x->work.F + i*R);
+    }
+    status = gvi__discrete_forces(st, &J, pivot, minus, plus);
     if (status != GVI_OK) return status;
     if (out->lagrangian) *out->lagrangian = action;
     for (int i = 0; i < n; ++i) {
@@ -2942,7 +3060,7 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
     if (!x->memory) return st->status = GVI_E_STATE;
     if (!q0 || !q1 || !out || !gvi__all_finite(st->n, q0) || !gvi__all_finite(st->n, q1)
         || !gvi__finite(t) || !gvi__finite(h) || !gvi__nonzero(h)) return st->status = GVI_E_ARGUMENT;
-    if (!(x->flags & GVI__HAS_NEWTON)) return st->status = GVI_E_FORMULATION;
+    if (st->s > 1 && !(x->flags & GVI__HAS_NEWTON)) return st->status = GVI_E_FORMULATION;
     gvi__from from = { t, 0, q0, x->none, x->none, x->none };
     gvi__begin(st, &from, h);
     return gvi__done(st, gvi__boundary_value(st, &from, h, q1, out));
@@ -2983,7 +3101,7 @@ GVI_DEF const char *gvi_status_text(gvi_status status)
     case GVI_E_ARGUMENT:    return "bad argument: null pointer, size out of range, zero step, NaN or Inf";
     case GVI_E_MEMORY:      return "memory too small: see gvi_size";
     case GVI_E_NODES:       return "rule: a node is outside [0,1], or two coincide";
-    case GVI_E_ORDER:       return "rule: the weights do not sum to 1";
+    case GVI_E_ORDER:       return "rule: its order is below the degree (0: the weights do not sum to 1)";
     case GVI_E_POINTS:      return "rule: too few points, r >= degree is needed";
     case GVI_E_FORMULATION: return "the formulation asked for does not cover this scene";
     case GVI_E_SINGULAR:    return "singular matrix: a coordinate has no mass";

@@ -1,14 +1,13 @@
 /* 02 - The outer solar system from a file, over 200,000 days
 
-   Gravity acts between all pairs: one loop over pairs, the points of the step
-   inside.  How many bodies there are is known only when the file has been read,
-   so the caller allocates what gvi_size says.  The system runs with a quarter,
-   half and all of the degree: the errors of the energy are level lines.
+   Gravity acts between all pairs.  How many bodies there are is known only when
+   the file has been read, so the caller allocates what gvi_size says.  The system
+   runs with a quarter, half and all of the degree; energy errors are level lines.
 
    02_outer_solar_system [days [step [degree [directory for the pictures]]]]
    prints
 
-     6 bodies, 200000 days in steps of 100, degree 8
+     6 bodies, 200000 days in steps of 200, degree 8
      relative error of the energy, never above: 1e-14
      against the 25-digit end state, AU:        1e-11
      pictures: build/orbits.svg build/energy.svg
@@ -20,9 +19,11 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-enum { BODIES = 32, POINTS = 2000, RUNS = 3 };
-typedef struct bodies { int n; char name[BODIES][16]; double gm[BODIES], mass[3*BODIES], q[3*BODIES], v[3*BODIES]; } bodies;
-typedef struct trace { double x[BODIES][POINTS], y[BODIES][POINTS], t[POINTS], error[POINTS], worst; int orbit, count; } trace;
+enum { BODIES = 32, POINTS = 1000, RUNS = 3 };
+typedef struct bodies {
+    int n; char name[BODIES][16]; double gm[BODIES], mass[3*BODIES], q[3*BODIES], v[3*BODIES];
+} bodies;
+typedef struct trace { double x[BODIES][POINTS], y[BODIES][POINTS], t[64], error[64], worst; int orbit, count; } trace;
 
 /* Both in one: the potential if x->value is wanted, else the force.           */
 static int gravity(const gvi_points *x, void *user)
@@ -64,49 +65,40 @@ static gvi_status integrate(bodies *b, int degree, double days, double h, trace 
     const gvi_effect effect = { .kind = GVI_POTENTIAL, .points = gravity, .value = gravity, .user = b };
     const gvi_desc desc = { .n = 3*b->n, .degree = degree, .effects = &effect, .effect_count = 1,
                             .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = b->mass } };
-    const long steps = lround(days/h), block = steps/200 + 1, show = steps > 100000 && isatty(2) ? steps/100 : 0;
+    const long steps = lround(days/h), block = steps/40 + 1, show = steps > 100000 && isatty(2) ? steps/100 : 0;
     double *memory = malloc(gvi_size(&desc)), e0 = 0, e = 0, high = 0;
     gvi_stepper st;
-    if (!memory) return GVI_E_MEMORY;
-    gvi_init(&st, &desc, memory, gvi_size(&desc));
-    if (!st.status) gvi_start(&st, 0, b->q, b->v);
-    if (!st.status) gvi_energy(&st, &e0);
-    for (long k = 1; k <= steps && !st.status; ++k) {
-        if (gvi_step(&st, h) || gvi_energy(&st, &e)) break;
+    if (!gvi_init(&st, &desc, memory, gvi_size(&desc)) && !gvi_start(&st, 0, b->q, b->v)) gvi_energy(&st, &e0);
+    for (long k = 1; k <= steps && !st.status && !gvi_step(&st, h) && !gvi_energy(&st, &e); ++k) {
         high = fmax(high, fabs((e - e0)/e0));
-        for (int i = 0; i < b->n && k <= POINTS; ++i) {  // from the Sun, turned into the ecliptic
-            double x = st.q[3*i] - st.q[0], y = st.q[3*i+1] - st.q[1], z = st.q[3*i+2] - st.q[2];
-            out->x[i][out->orbit] = x;
-            out->y[i][out->orbit] = 0.917482*y + 0.397777*z;
+        for (int i = 0; i < b->n && k <= POINTS; ++i, out->orbit = (int)k) {  // from the Sun, turned into the ecliptic
+            out->x[i][k-1] = st.q[3*i] - st.q[0];
+            out->y[i][k-1] = 0.917482*(st.q[3*i+1] - st.q[1]) + 0.397777*(st.q[3*i+2] - st.q[2]);
         }
-        out->orbit += k <= POINTS;
         if (show && k % show == 0) fprintf(stderr, "\rdegree %d: %3ld %%%s", degree, k/show, k == steps ? "\n" : "");
-        if (k % block) continue;
-        out->t[out->count] = st.t/365.25;
+        if (k % block && k < steps) continue;
+        out->t[out->count] = (st.t - (double)block*h)/365.25;
         out->error[out->count++] = high;
-        out->worst = fmax(out->worst, high);
-        high = 0;
+        out->worst = fmax(out->worst, high), high = 0;
     }
-    for (int i = 0; i < desc.n; ++i) q[i] = st.q[i];
-    free(memory);
     if (st.status) fprintf(stderr, "t = %g: %s\n", st.t, gvi_status_text(st.status));
+    for (int i = 0; i < desc.n && !st.status; ++i) q[i] = st.q[i];
+    free(memory);
     return st.status;
 }
-
-static double above(double x) { return pow(10, ceil(log10(x))); }
 
 int main(int argc, char **argv)
 {
     static bodies b, end;
     static trace out[RUNS];
-    const double days = argc > 1 ? atof(argv[1]) : 200000, h = argc > 2 ? atof(argv[2]) : 100;
+    const double days = argc > 1 ? atof(argv[1]) : 200000, h = argc > 2 ? atof(argv[2]) : 200;
     const int top = argc > 3 ? atoi(argv[3]) : 8, degree[RUNS] = { (top + 3)/4, (top + 1)/2, top };
     char path[2][256], name[RUNS][16];
     double q[3*BODIES], miss = 0;
     svg_line orbit[BODIES], level[RUNS];
-    svg_plot plots[2] = { { .title = "Outer solar system", .x_label = "AU", .y_label = "AU", .equal = 1, .lines = orbit },
-                          { .title = "Error of the energy", .x_label = "years", .y_label = "|E - E(0)| / |E(0)|",
-                            .log_y = 1, .lines = level, .line_count = RUNS } };
+    svg_plot orbits = { .title = "Outer solar system", .x_label = "AU", .y_label = "AU", .equal = 1, .lines = orbit };
+    const svg_plot energy = { .title = "Error of the energy", .x_label = "years", .y_label = "|E - E(0)| / |E(0)|",
+                              .log_y = 1, .lines = level, .line_count = RUNS };
     if (read_bodies("examples/outer_solar_system.txt", &b)) return perror("examples/outer_solar_system.txt"), 1;
     printf("%d bodies, %g days in steps of %g, degree %d\n", b.n, days, h, top);
     for (int i = 0; i < RUNS; ++i) {
@@ -114,17 +106,15 @@ int main(int argc, char **argv)
         snprintf(name[i], sizeof name[i], "degree %d", degree[i]);
         level[i] = (svg_line){ name[i], out[i].t, out[i].error, out[i].count };
     }
-    printf("relative error of the energy, never above: %.0e\n", above(out[RUNS-1].worst));
+    printf("relative error of the energy, never above: 1e%.0f\n", ceil(log10(fmax(out[RUNS-1].worst, 2e-15))));
     if (fabs(days - 200000) < 1 && !read_bodies("examples/outer_solar_system_reference.txt", &end)) {
         for (int i = 0; i < 3*b.n; ++i) miss = fmax(miss, fabs(q[i] - end.q[i]));
-        printf("against the 25-digit end state, AU:        %.0e\n", above(miss));
+        printf("against the 25-digit end state, AU:        1e%.0f\n", ceil(log10(fmax(miss, 2e-12))));
     }
     for (int i = 1; i < b.n; ++i)
-        orbit[plots[0].line_count++] = (svg_line){ b.name[i], out[RUNS-1].x[i], out[RUNS-1].y[i], out[RUNS-1].orbit };
-    for (int i = 0; i < 2; ++i) {
-        snprintf(path[i], sizeof path[i], "%s/%s.svg", argc > 4 ? argv[4] : "build", i ? "energy" : "orbits");
-        if (svg_write(path[i], &plots[i])) return perror(path[i]), 1;
-    }
+        orbit[orbits.line_count++] = (svg_line){ b.name[i], out[RUNS-1].x[i], out[RUNS-1].y[i], out[RUNS-1].orbit };
+    snprintf(path[0], sizeof path[0], "%s/orbits.svg", argc > 4 ? argv[4] : "build");
+    snprintf(path[1], sizeof path[1], "%s/energy.svg", argc > 4 ? argv[4] : "build");
+    if (svg_write(path[0], &orbits) || svg_write(path[1], &energy)) return perror(path[0]), 1;
     printf("pictures: %s %s\n", path[0], path[1]);
-    return 0;
 }

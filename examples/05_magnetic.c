@@ -7,14 +7,15 @@
    The magnetic part is a term of its own: it adds dL/dq to f and dL/dv to dldv,
    so that the momentum is p = v + A.  The field is symmetric about the origin,
    and x p_y - y p_x is conserved: exactly, whatever the step.  The same field
-   as a force f = B (v_y, -v_x) follows the same orbit, but a force is not asked
-   for its symmetries.
+   as a force f = B (v_y, -v_x) follows the same orbit to the order of the
+   method, but a force is not asked for its symmetries.  The energy is conserved
+   by neither exactly; its error stays level in both.
 
    prints
 
      degree 2, steps of 0.1, t = 2000       as Lagrangian term   as force
      x p_y - y p_x kept to 1e-12            yes                  no
-     largest relative error of the energy   1e-02                1e-02
+     largest relative error of the energy   2e-08                9e-10
 */
 #define GVI_IMPLEMENTATION
 #include "gvi.h"

@@ -8,7 +8,7 @@
 
    prints
 
-     after 3 s: joints at 0.600 and 0.900 rad
+     after 6 s: joints at 0.600 and 0.900 rad
      steps that failed: 0
      iterations in one step, at most 10: yes
 */
@@ -95,11 +95,11 @@ int main(void)
     gvi_stepper st;
     gvi_init(&st, &desc, memory, sizeof memory);
     gvi_start(&st, 0, rest, rest);
-    for (int k = 0; k < 3000 && st.status == GVI_OK; ++k) {
+    for (int k = 0; k < 6000 && st.status == GVI_OK; ++k) {
         control(&st, &m, sum);
         gvi_step(&st, 0.001f);
     }
-    printf("after 3 s: joints at %.3f and %.3f rad\n", (double)st.q[0], (double)st.q[1]);
+    printf("after 6 s: joints at %.3f and %.3f rad\n", (double)st.q[0], (double)st.q[1]);
     printf("steps that failed: %d\n", (int)st.counters.failures);
     printf("iterations in one step, at most 10: %s\n", st.counters.most_iterations <= 10 ? "yes" : "no");
     return 0;

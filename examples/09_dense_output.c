@@ -9,7 +9,8 @@
 
    prints
 
-     first passage at   2.295...
+     first passage at 2.087438232, exactly 2.087438232
+     40 passages: error by the curve 1e-09 or less, by gvi_state_at 1e-11 or less
 */
 #define GVI_IMPLEMENTATION
 #include "gvi.h"
@@ -32,6 +33,8 @@ static double quarter_period(double amplitude)
     }
     return 1.5707963267948966/a;
 }
+
+static double above(double x) { return pow(10, ceil(log10(x))); }
 
 /* The angle at fraction tau of the last step, by the curve or at full order.  */
 static double angle(gvi_stepper *st, double tau, int full)
@@ -73,7 +76,7 @@ int main(void)
         by_state = fmax(by_state, fabs(passage(&st, 1) - exact));
         if (found == 1) printf("first passage at %.9f, exactly %.9f\n", passage(&st, 1), exact);
     }
-    printf("40 passages, largest error by the curve:    %.0e\n", by_curve);
-    printf("             largest error by gvi_state_at: %.0e\n", by_state);
+    printf("40 passages: error by the curve %.0e or less, by gvi_state_at %.0e or less\n",
+           above(by_curve), above(by_state));
     return 0;
 }

@@ -7,8 +7,8 @@
 
    prints
 
-     1000 steps, checkpoint, 1000 steps:  q = 0.037 ...
-     restored, 1000 steps: the same to the bit
+     without a stop:  t = 400, q = 0.104090266 -0.073997961
+     from checkpoint: t = 400, the same to the bit
 */
 #define GVI_IMPLEMENTATION
 #include "gvi.h"

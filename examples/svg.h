@@ -137,7 +137,8 @@ static int svg_write(const char *path, const svg_plot *plot)
         fprintf(f, "<text x=\"%.0f\" y=\"%d\">%s</text>\n", x.b + 45, 75 + 24*i, plot->lines[i].name);
     }
     fprintf(f, "<text x=\"%.0f\" y=\"28\" font-size=\"17\" font-weight=\"bold\">%s</text>\n", x.a, plot->title);
-    fprintf(f, "<text x=\"%.0f\" y=\"%.0f\" text-anchor=\"middle\">%s</text>\n", (x.a + x.b)/2, height - 12, plot->x_label);
+    fprintf(f, "<text x=\"%.0f\" y=\"%.0f\" text-anchor=\"middle\">%s</text>\n",
+            (x.a + x.b)/2, height - 12, plot->x_label);
     fprintf(f, "<text transform=\"translate(22 %.0f) rotate(-90)\" text-anchor=\"middle\">%s</text>\n</svg>\n",
             (y.a + y.b)/2, plot->y_label);
     return fclose(f) ? -1 : 0;

@@ -167,11 +167,11 @@ class Damped(Problem):          # dense mass, linear and quadratic drag, a torqu
 
 class Mixed(Pendulum):          # the pendulum with everything at once
     name, t0, h = "mixed", 1.25, 0.125
-    q0, p0, v = (0.5, -0.4375), (1.375, -0.625), (0.75, -1)
+    q0, p0, v = (0.5, -0.4375), (0.75, -0.25), (0.5, -0.5)
 
     def lagrangian(self, t, q, v):
         w = v[0]*v[0] + 2*v[1]*v[1]
-        return super().lagrangian(t, q, v) + [0.25*t*q[1]*v[0] + 0.375*q[0]*q[1]*v[1], 0.03125*w*w]
+        return super().lagrangian(t, q, v) + [0.25*t*q[1]*v[0] + 0.375*q[0]*q[1]*v[1], 0.0078125*w*w]
 
     def force(self, t, q, v):
         return Damped.force(self, t, q, v)

@@ -1,0 +1,834 @@
+/* Dense LU against residuals and inverses formed in twice the digits, never
+   against its own numbers.                                                   */
+#include "gvi_test.h"
+
+#ifdef __SIZEOF_FLOAT128__
+__extension__ typedef __float128 wide;
+#define WIDE_IS_WIDER 1
+#else
+typedef long double wide;
+#define WIDE_IS_WIDER (GVI__KIND < 3)
+#endif
+
+#define UNIT ((wide)EPS/2)                      /* unit roundoff */
+#define MOST 60
+
+/* Powers of 2 by which rows and columns are scaled: products stay in range.  */
+#if GVI__KIND == 1
+#define SPAN 25
+#elif GVI__KIND == 2
+#define SPAN 200
+#else
+#define SPAN 3000
+#endif
+
+static wide wide_abs(wide x) { return x < 0 ? -x : x; }
+/* Equal once both are rounded to gvi_real, which registers may put off (x87). */
+static int same(gvi_real one, gvi_real other)
+{
+    volatile gvi_real u = one, v = other;
+    return u == v;
+}
+
+static gvi_real power(int e) { return (gvi_real)ldexpl(1, e); }
+
+static unsigned long long seed;
+static unsigned random_bits(void)
+{
+    seed = seed*6364136223846793005ULL + 1442695040888963407ULL;
+    return (unsigned)(seed >> 32);
+}
+static gvi_real random_unit(void)               /* in (-1,1) */
+{
+    return (gvi_real)(((long double)random_bits() - 2147483647.5L)/2147483648.0L);
+}
+static int random_exponent(void) { return (int)(random_bits() % (2*SPAN + 1)) - SPAN; }
+
+/* ------------------------------------------------------------------ oracle */
+
+static gvi_real a[MOST*MOST], f[MOST*MOST], pivot[2*MOST + 1], x[MOST], b[MOST], work[3*MOST];
+static wide inverse[MOST*MOST], table[MOST*2*MOST];
+
+/* Inverse of a by Gauss-Jordan with the largest of all entries as pivot, on
+   rows and columns scaled by powers of 2 until their largest entry is near 1.  */
+static void equilibrate(int n, const gvi_real *matrix, int *row, int *column)
+{
+    for (int i = 0; i < n; ++i) row[i] = column[i] = 0;
+    for (int sweep = 0; sweep < 20; ++sweep)
+        for (int i = 0; i < n; ++i) {
+            int r = -100000, c = -100000, e;
+            for (int j = 0; j < n; ++j) {
+                if (matrix[i*n + j] != 0) {
+                    (void)frexpl(matrix[i*n + j], &e);
+                    if (e + column[j] > r) r = e + column[j];
+                }
+                if (matrix[j*n + i] != 0) {
+                    (void)frexpl(matrix[j*n + i], &e);
+                    if (e + row[j] > c) c = e + row[j];
+                }
+            }
+            if (sweep % 2 == 0) row[i] = -r;
+            else column[i] = -c;
+        }
+}
+
+static void invert(int n, const gvi_real *matrix)
+{
+    int row[MOST], column[MOST], at_row[MOST], at_column[MOST], used_row[MOST] = { 0 }, used[MOST] = { 0 };
+    equilibrate(n, matrix, row, column);
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+            table[i*2*n + j] = ldexpl(matrix[i*n + j], row[i] + column[j]);
+            table[i*2*n + n + j] = i == j;
+        }
+    for (int k = 0; k < n; ++k) {
+        int r = -1, c = -1;
+        for (int i = 0; i < n; ++i)
+            for (int j = 0; j < n; ++j)
+                if (!used_row[i] && !used[j]
+                    && (r < 0 || wide_abs(table[i*2*n + j]) > wide_abs(table[r*2*n + c]))) r = i, c = j;
+        used_row[r] = used[c] = 1;
+        at_row[k] = r, at_column[k] = c;
+        wide scale = 1/table[r*2*n + c];
+        for (int j = 0; j < 2*n; ++j) table[r*2*n + j] *= scale;
+        for (int i = 0; i < n; ++i) {
+            wide l = table[i*2*n + c];
+            if (i == r || l == 0) continue;
+            for (int j = 0; j < 2*n; ++j) table[i*2*n + j] -= l*table[r*2*n + j];
+        }
+    }
+    for (int k = 0; k < n; ++k)
+        for (int j = 0; j < n; ++j) {
+            wide scaled = table[at_row[k]*2*n + n + j];
+            inverse[at_column[k]*n + j] = scaled*(wide)ldexpl(1, column[at_column[k]])*(wide)ldexpl(1, row[j]);
+        }
+}
+
+static wide norm1(int n, const wide *matrix)
+{
+    wide norm = 0;
+    for (int j = 0; j < n; ++j) {
+        wide sum = 0;
+        for (int i = 0; i < n; ++i) sum += wide_abs(matrix[i*n + j]);
+        if (sum > norm) norm = sum;
+    }
+    return norm;
+}
+
+/* 1/(|a| |a^-1|); leaves the inverse. */
+static wide true_rcond(int n)
+{
+    static wide copy[MOST*MOST];
+    for (int i = 0; i < n*n; ++i) copy[i] = a[i];
+    invert(n, a);
+    return 1/norm1(n, copy)/norm1(n, inverse);
+}
+
+static gvi_status factor(int n)
+{
+    for (int i = 0; i < n*n; ++i) f[i] = a[i];
+    return gvi_lu_factor(n, f, pivot);
+}
+
+static void permutation(int n, int *p)
+{
+    for (int i = 0; i < n; ++i) p[i] = i;
+    for (int k = 0; k < n; ++k) {
+        int m = (int)pivot[k], swap = p[k];
+        assert_true(m >= k && m < n && pivot[k] == (gvi_real)m);
+        p[k] = p[m];
+        p[m] = swap;
+    }
+}
+
+/* (|L||U|)_ij and (L U)_ij */
+static wide product(int n, int i, int j, wide *size)
+{
+    wide sum = 0;
+    *size = 0;
+    for (int k = 0; k <= i && k <= j; ++k) {
+        wide term = (k == i ? 1 : (wide)f[i*n + k])*f[k*n + j];
+        sum += term;
+        *size += wide_abs(term);
+    }
+    return sum;
+}
+
+static wide row_maximum(int n, int i)
+{
+    wide big = 0;
+    for (int j = 0; j < n; ++j)
+        if (wide_abs(a[i*n + j]) > big) big = wide_abs(a[i*n + j]);
+    return big;
+}
+
+/* Higham, theorem 9.3: |P A - L U| <= n u/(1 - n u) |L||U|, whatever the pivots.
+   That they were the largest of rows measured by their largest entry bounds L. */
+static void check_factors(int n)
+{
+    int p[MOST];
+    permutation(n, p);
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+            wide size, lu = product(n, i, j, &size);
+            assert_between(0, wide_abs(a[p[i]*n + j] - lu), n*UNIT/(1 - n*UNIT)*size);
+            if (j < i)
+                assert_between(0, wide_abs(f[i*n + j])*row_maximum(n, p[j]),
+                               (1 + 8*UNIT)*row_maximum(n, p[i]));
+        }
+}
+
+/* Higham, theorem 9.4: (A + E) x = b with |E| <= 3n u/(1 - 3n u) P'|L||U|.  What
+   that does to x is seen through the inverse.                                */
+static void check_solution(int n)
+{
+    int p[MOST];
+    static wide bound[MOST], exact[MOST];
+    permutation(n, p);
+    for (int i = 0; i < n; ++i) b[i] = x[i] = random_unit()*(gvi_real)row_maximum(n, i);
+    gvi_lu_solve(n, f, pivot, x);
+    for (int i = 0; i < n; ++i) {
+        wide rest = b[p[i]], size;
+        bound[p[i]] = 0;
+        for (int j = 0; j < n; ++j) {
+            (void)product(n, i, j, &size);
+            rest -= (wide)a[p[i]*n + j]*x[j];
+            bound[p[i]] += 3*n*UNIT/(1 - 3*n*UNIT)*size*wide_abs(x[j]);
+        }
+        assert_between(0, wide_abs(rest), bound[p[i]]);
+    }
+    for (int i = 0; i < n; ++i) {
+        wide allowed = 0;
+        exact[i] = 0;
+        for (int j = 0; j < n; ++j) {
+            exact[i] += inverse[i*n + j]*b[j];
+            allowed += wide_abs(inverse[i*n + j])*bound[j];
+        }
+        assert_between(0, wide_abs(x[i] - exact[i]), allowed*(1 + 1e-6L));
+    }
+}
+
+/* Greatest error of x over the greatest x, for a random right-hand side. */
+static wide solution_error(int n)
+{
+    wide error = 0, size = 0;
+    for (int i = 0; i < n; ++i) b[i] = x[i] = random_unit();
+    gvi_lu_solve(n, f, pivot, x);
+    for (int i = 0; i < n; ++i) {
+        wide exact = 0;
+        for (int j = 0; j < n; ++j) exact += inverse[i*n + j]*b[j];
+        if (wide_abs(exact) > size) size = wide_abs(exact);
+        if (wide_abs(x[i] - exact) > error) error = wide_abs(x[i] - exact);
+    }
+    return error/size;
+}
+
+/* Never below the truth but for the rounding of the solutions.  Returns how many
+   times the truth it is.                                                     */
+static wide check_rcond(int n)
+{
+    wide truth = true_rcond(n), ratio = gvi_lu_rcond(n, f, pivot, work)/truth;
+    wide slack = 8*n*(wide)EPS + 2*n*UNIT/truth;
+    assert_between(1 - slack, ratio, 10);
+    return ratio;
+}
+
+static void check_all(int n)
+{
+    assert_ok(factor(n));
+    invert(n, a);
+    check_factors(n);
+    check_solution(n);
+}
+
+/* ---------------------------------------------------------------- matrices */
+
+static void random_matrix(int n) { for (int i = 0; i < n*n; ++i) a[i] = random_unit(); }
+
+static void random_tridiagonal(int n)
+{
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j)
+            a[i*n + j] = i == j ? 3 + random_unit() : abs(i - j) == 1 ? random_unit() : 0;
+}
+
+static void random_triangular(int n, int upper)
+{
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j)
+            a[i*n + j] = i == j ? 2 + random_unit() : (i < j) == upper ? random_unit() : 0;
+}
+
+static void random_mass_matrix(int n)           /* symmetric, positive definite */
+{
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j <= i; ++j)
+            a[i*n + j] = a[j*n + i] = i == j ? (gvi_real)n + 1 + random_unit() : random_unit();
+}
+
+static void integer_matrix(int n, const int *m) { for (int i = 0; i < n*n; ++i) a[i] = (gvi_real)m[i]; }
+
+static void hilbert(int n)
+{
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) a[i*n + j] = 1/(gvi_real)(i + j + 1);
+}
+
+static void scale_rows(int n, const int *e)
+{
+    for (int i = 0; i < n*n; ++i) a[i] *= power(e[i/n]);
+}
+
+static void scale_columns(int n, const int *e)
+{
+    for (int i = 0; i < n*n; ++i) a[i] *= power(e[i%n]);
+}
+
+static void scale_all(int n, gvi_real unit) { for (int i = 0; i < n*n; ++i) a[i] *= unit; }
+
+static void random_exponents(int n, int *e) { for (int i = 0; i < n; ++i) e[i] = random_exponent(); }
+
+/* Kinds of regular matrices of condition n or so. */
+#define KINDS 5
+static void regular(int kind, int n)
+{
+    seed = 100ULL*(unsigned)kind + (unsigned)n;
+    if (kind == 0) {
+        random_matrix(n);
+        for (int i = 0; i < n; ++i) a[i*n + (i + 1) % n] += 2;
+    }
+    if (kind == 1) random_tridiagonal(n);
+    if (kind == 2) random_mass_matrix(n);
+    if (kind >= 3) random_triangular(n, kind == 3);
+}
+
+static const int sizes[] = { 1, 2, 3, 4, 5, 8, 13, 20 };
+
+/* ------------------------------------------------------- factors, solution */
+
+static void lu_reproduces_the_matrix_and_solves(void **state)
+{
+    (void)state;
+    seed = 1;
+    for (int k = 0; k < COUNT(sizes); ++k)
+        for (int trial = 0; trial < 20; ++trial) {
+            random_matrix(sizes[k]);
+            check_all(sizes[k]);
+        }
+    random_matrix(MOST);
+    check_all(MOST);
+    for (int kind = 0; kind < KINDS; ++kind)
+        for (int k = 0; k < COUNT(sizes); ++k) {
+            regular(kind, sizes[k]);
+            check_all(sizes[k]);
+        }
+}
+
+static void lu_of_a_permutation_is_exact(void **state)
+{
+    (void)state;
+    seed = 2;
+    for (int n = 1; n <= 20; ++n) {
+        int p[MOST];
+        for (int i = 0; i < n; ++i) p[i] = i;
+        for (int i = n - 1; i > 0; --i) {
+            int j = (int)(random_bits() % (unsigned)(i + 1)), swap = p[i];
+            p[i] = p[j], p[j] = swap;
+        }
+        for (int i = 0; i < n*n; ++i) a[i] = p[i/n] == i%n;
+        assert_ok(factor(n));
+        for (int i = 0; i < n; ++i) x[i] = b[i] = random_unit();
+        gvi_lu_solve(n, f, pivot, x);
+        for (int i = 0; i < n; ++i) assert_true(x[p[i]] == b[i]);
+        assert_close(gvi_lu_rcond(n, f, pivot, work), 1, 4*EPS);
+    }
+}
+
+static void lu_needs_pivots_where_the_diagonal_is_zero(void **state)
+{
+    (void)state;
+    static const int m[] = { 0, 2, 1, 0,  1, 0, 0, 3,  0, 0, 0, 1,  2, 0, 5, 0 };
+    integer_matrix(4, m);
+    check_all(4);
+    check_rcond(4);
+}
+
+static void lu_of_one_number_divides(void **state)
+{
+    (void)state;
+    const gvi_real numbers[] = { 3, -7, power(-120), power(120), (gvi_real)1e-30L };
+    for (int k = 0; k < COUNT(numbers); ++k) {
+        a[0] = numbers[k];
+        assert_ok(factor(1));
+        assert_true(f[0] == a[0] && pivot[0] == 0);
+        x[0] = 5;
+        gvi_lu_solve(1, f, pivot, x);
+        assert_true(same(x[0], 5/a[0]));
+        assert_close(gvi_lu_rcond(1, f, pivot, work), 1, 4*EPS);
+    }
+}
+
+static void wilkinsons_matrix_grows_and_is_factored_exactly(void **state)
+{
+    (void)state;
+    for (int n = 2; n <= MOST; n += 2) {
+        for (int i = 0; i < n; ++i)
+            for (int j = 0; j < n; ++j) a[i*n + j] = i == j || j == n - 1 ? 1 : i > j ? -1 : 0;
+        assert_ok(factor(n));
+        assert_true(f[n*n - 1] == power(n - 1));
+        for (int i = 0; i < n; ++i)
+            for (int j = 0; j < n; ++j) {
+                wide size;
+                assert_true(product(n, i, j, &size) == a[i*n + j]);
+            }
+        if (n < 20) check_rcond(n);
+    }
+}
+
+/* ------------------------------------------------------------------- units */
+
+static void lu_is_the_same_in_any_unit(void **state)
+{
+    (void)state;
+    static gvi_real copy[MOST*MOST], kept[MOST];
+    const gvi_real units[] = { (gvi_real)1e-30L, (gvi_real)1e30L, power(-90), power(90) };
+    for (int kind = 0; kind < KINDS; ++kind)
+        for (int k = 0; k < COUNT(sizes); ++k)
+            for (int u = 0; u < COUNT(units); ++u) {
+                int n = sizes[k];
+                regular(kind, n);
+                assert_ok(factor(n));
+                for (int i = 0; i < n*n; ++i) copy[i] = f[i];
+                for (int i = 0; i < n; ++i) kept[i] = pivot[i];
+                scale_all(n, units[u]);
+                check_all(n);
+                for (int i = 0; i < n; ++i) assert_true(pivot[i] == kept[i]);
+                for (int i = 0; u >= 2 && i < n*n; ++i)      /* a power of 2: to the bit */
+                    assert_true(same(f[i], i/n > i%n ? copy[i] : copy[i]*units[u]));
+            }
+}
+
+static void badly_scaled_rows_change_neither_pivots_nor_accuracy(void **state)
+{
+    (void)state;
+    static gvi_real plain[MOST];
+    int e[MOST], p[MOST], q[MOST];
+    for (int kind = 0; kind < KINDS; ++kind)
+        for (int k = 0; k < COUNT(sizes); ++k) {
+            int n = sizes[k];
+            regular(kind, n);
+            assert_ok(factor(n));
+            permutation(n, p);
+            for (int i = 0; i < n; ++i) plain[i] = (gvi_real)i - 2;
+            gvi_lu_solve(n, f, pivot, plain);
+
+            random_exponents(n, e);
+            scale_rows(n, e);
+            check_all(n);
+            permutation(n, q);
+            for (int i = 0; i < n; ++i) x[i] = ((gvi_real)i - 2)*power(e[i]);
+            gvi_lu_solve(n, f, pivot, x);
+            for (int i = 0; i < n; ++i) {
+                assert_int_equal(p[i], q[i]);
+                assert_true(x[i] == plain[i]);               /* powers of 2: to the bit */
+            }
+        }
+}
+
+/* D1 A D2 is as regular as A: both verdict and accuracy must stay.           */
+static void badly_scaled_columns_and_rows_are_accepted_and_solved(void **state)
+{
+    (void)state;
+    int e[MOST];
+    for (int kind = 0; kind < KINDS; ++kind)
+        for (int k = 0; k < COUNT(sizes); ++k)
+            for (int trial = 0; trial < 8; ++trial) {
+                int n = sizes[k];
+                regular(kind, n);
+                seed += (unsigned)trial;
+                random_exponents(n, e);
+                scale_columns(n, e);
+                if (trial % 2) {
+                    random_exponents(n, e);
+                    scale_rows(n, e);
+                }
+                check_all(n);
+            }
+}
+
+/* Mass matrix in units of its coordinates, metres and radians say.           */
+static void badly_scaled_coordinates_are_accepted_and_solved(void **state)
+{
+    (void)state;
+    int e[MOST];
+    for (int kind = 1; kind <= 2; ++kind)
+        for (int k = 0; k < COUNT(sizes); ++k)
+            for (int trial = 0; trial < 8; ++trial) {
+                int n = sizes[k];
+                regular(kind, n);
+                seed += (unsigned)trial;
+                random_exponents(n, e);
+                scale_rows(n, e);
+                scale_columns(n, e);
+                check_all(n);
+            }
+}
+
+static void graded_matrices_are_solved_to_every_component(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < KINDS; ++kind)
+        for (int direction = -1; direction <= 1; direction += 2)
+            for (int k = 0; k < COUNT(sizes); ++k) {
+                int n = sizes[k], e[MOST];
+                regular(kind, n);
+                for (int i = 0; i < n; ++i) e[i] = direction*i*SPAN/MOST;
+                scale_rows(n, e);
+                scale_columns(n, e);
+                check_all(n);
+                for (int i = 0; i < n; ++i) {
+                    wide exact = 0, size = 0;
+                    for (int j = 0; j < n; ++j) {
+                        exact += inverse[i*n + j]*b[j];
+                        size += wide_abs(inverse[i*n + j]*b[j]);
+                    }
+                    assert_close(x[i], exact, 64*n*UNIT*size);
+                }
+            }
+}
+
+/* Not a rounding error is made in these: the small pivot is what was given.  */
+static void a_small_pivot_that_no_rounding_touched_is_no_singularity(void **state)
+{
+    (void)state;
+    const gvi_real small = power(-100);
+    const gvi_real upper[] = { 1, 1, 0,  0, small, 1,  0, 0, 1 };
+    const gvi_real block[] = { 0, small, 0, 1,  1, 0, 0, 0,  0, 1, 0, 0,  0, 0, 1, 0 };
+    int e[MOST] = { 0, 100, 0 };
+    for (int i = 0; i < 9; ++i) a[i] = upper[i];
+    check_all(3);
+    scale_columns(3, e);
+    check_all(3);
+    for (int i = 0; i < 16; ++i) a[i] = block[i];
+    check_all(4);
+}
+
+#if GVI__KIND > 1
+static void a_mass_matrix_over_sixty_decades_is_regular(void **state)
+{
+    (void)state;
+    const gvi_real small = (gvi_real)1e-35L, smaller = (gvi_real)2e-60L;
+    const gvi_real given[] = { 1, small, small, smaller }, turned[] = { smaller, small, small, 1 };
+    for (int i = 0; i < 4; ++i) a[i] = given[i];
+    check_all(2);
+    assert_close(f[3]/smaller, 1 - 5e-11L, 4*EPS);       /* 2e-60 - 1e-35 1e-35 */
+    for (int i = 0; i < 4; ++i) a[i] = turned[i];
+    check_all(2);
+
+    /* a chain of three in units of 1, 1e10 and 1e30 */
+    const gvi_real ten = (gvi_real)1e10L, thirty = (gvi_real)1e30L;
+    const gvi_real chain[] = { 2, ten, 0,  ten, 2*ten*ten, ten*thirty,  0, ten*thirty, 2*thirty*thirty };
+    for (int i = 0; i < 9; ++i) a[i] = chain[i];
+    check_all(3);
+}
+#endif
+
+/* --------------------------------------------------------------- condition */
+
+/* H1 D H2 with reflections H and D from 1 down to 1/condition. */
+static void matrix_of_condition(int n, long double condition)
+{
+    static wide m[MOST*MOST];
+    for (int i = 0; i < n*n; ++i)
+        m[i] = i/n == i%n ? (wide)powl(condition, -(long double)(i/n)/(long double)(n - 1)) : 0;
+    for (int side = 0; side < 2; ++side) {
+        wide v[MOST], square = 0;
+        for (int i = 0; i < n; ++i) v[i] = random_unit(), square += v[i]*v[i];
+        for (int i = 0; i < n; ++i) {
+            wide sum = 0;
+            for (int j = 0; j < n; ++j) sum += v[j]*(side ? m[i*n + j] : m[j*n + i]);
+            for (int j = 0; j < n; ++j) m[side ? i*n + j : j*n + i] -= 2*sum*v[j]/square;
+        }
+    }
+    for (int i = 0; i < n*n; ++i) a[i] = (gvi_real)m[i];
+}
+
+/* 1e12 in double, and what is as far from the limit in the other types.      */
+static void matrix_of_condition_1e12_is_accepted_and_solved_to_condition_times_eps(void **state)
+{
+    (void)state;
+    const long double condition = 2.2e-4L/(long double)EPS;      /* of the 2-norm */
+    seed = 7;
+    for (int n = 2; n <= 20; n += 3)
+        for (int trial = 0; trial < 5; ++trial) {
+            matrix_of_condition(n, condition);
+            check_all(n);
+            wide rcond = true_rcond(n);
+            assert_between(0.99L/(n*condition), rcond, 1.01L*n/condition);
+            assert_between(0, solution_error(n), (wide)EPS/rcond);
+            check_rcond(n);
+        }
+}
+
+/* As long as condition*eps is small the verdict must be "regular"; from where
+   it is of the order of 1 either is right, but then rcond has to tell.       */
+static void hilbert_matrices_are_solved_to_condition_times_eps(void **state)
+{
+    (void)state;
+    if (!WIDE_IS_WIDER) skip();
+    int solved = 0;
+    seed = 8;
+    for (int n = 3; n <= 12; ++n) {
+        hilbert(n);
+        wide rcond = true_rcond(n);
+        gvi_status status = factor(n);
+        if (rcond > 100*(wide)EPS) {
+            assert_int_equal(status, GVI_OK);
+            check_factors(n);
+            check_solution(n);
+            assert_between(0, solution_error(n), (wide)EPS/rcond);
+            check_rcond(n);
+            ++solved;
+        } else if (status == GVI_OK) {
+            check_factors(n);
+            assert_between(0, gvi_lu_rcond(n, f, pivot, work), 1000*EPS);
+        } else
+            assert_int_equal(status, GVI_E_SINGULAR);
+    }
+    assert_int_equal(solved, GVI__KIND == 1 ? 2 : GVI__KIND == 2 ? 8 : 10);
+}
+
+/* Usually: 499 of these 500, and most of them are met. */
+static void rcond_is_usually_within_a_factor_3_above_the_truth(void **state)
+{
+    (void)state;
+    int met = 0, within = 0, all = 0;
+    seed = 9;
+    for (int n = 1; n <= 20; ++n)
+        for (int trial = 0; trial < 25; ++trial, ++all) {
+            random_matrix(n);
+            assert_ok(factor(n));
+            wide ratio = check_rcond(n);
+            met += ratio < (wide)1.1L;
+            within += ratio < 3;
+        }
+    assert_between(0.99L*all, within, all);
+    assert_between(0.85L*all, met, all);
+}
+
+/* A^-1 = I + 1000 C where C vanishes on (1,1,1,1), where the climb starts, on the
+   corner that it tries next, and transposed.                                 */
+static void rcond_sees_an_inverse_that_hides_from_the_climb(void **state)
+{
+    (void)state;
+    static const int hidden[] = { 0, 1, -1, 0,  0, 0, 0, 0,  0, 0, 0, 0,  0, -1, 1, 0 };
+    for (int i = 0; i < 16; ++i) a[i] = (gvi_real)((i/4 == i%4) - 1000*hidden[i]);
+    assert_ok(factor(4));
+    assert_between(1, check_rcond(4), 3);
+}
+
+static void rcond_is_that_of_the_matrix_as_given(void **state)
+{
+    (void)state;
+    int e[MOST];
+    a[0] = 1, a[1] = a[2] = 0, a[3] = power(-100);
+    assert_ok(factor(2));
+    assert_close(gvi_lu_rcond(2, f, pivot, work)*power(100), 1, 4*EPS);
+    for (int kind = 0; kind < KINDS; ++kind)
+        for (int k = 0; k < COUNT(sizes); ++k) {
+            int n = sizes[k];
+            for (int what = 0; what < 3; ++what) {
+                regular(kind, n);
+                for (int i = 0; i < n; ++i) e[i] = (int)(random_bits() % 7) - 3;
+                if (what == 0) scale_rows(n, e);
+                if (what == 1) scale_columns(n, e);
+                if (what == 2) scale_all(n, (gvi_real)1e-30L);
+                assert_ok(factor(n));
+                check_rcond(n);
+            }
+        }
+}
+
+/* ------------------------------------------------------------- singularity */
+
+static const struct { int n, m[36]; } singular[] = {
+    { 1, { 0 } },
+    { 2, { 1, 2, 2, 4 } },
+    { 2, { 0, 1, 0, 2 } },
+    { 2, { 0, 0, 1, 2 } },
+    { 2, { 0 } },
+    { 3, { 1, 2, 3, 4, 5, 6, 7, 8, 9 } },
+    { 3, { 1, 2, 3, 1, 2, 3, 5, 1, 4 } },                         /* equal rows    */
+    { 3, { 1, 1, 3, 7, 7, 2, 5, 5, 4 } },                         /* equal columns */
+    { 3, { 3, 1, 4, 0, 0, 0, 1, 5, 9 } },                         /* zero row      */
+    { 3, { 3, 0, 4, 1, 0, 5, 9, 0, 2 } },                         /* zero column   */
+    { 4, { 16, 3, 2, 13, 5, 10, 11, 8, 9, 6, 7, 12, 4, 15, 14, 1 } },
+    { 4, { 1, -1, 0, 0, -1, 2, -1, 0, 0, -1, 2, -1, 0, 0, -1, 1 } },   /* free chain */
+    { 5, { 17, 24, 1, 8, 15, 23, 5, 7, 14, 16, 4, 6, 13, 20, 22, 10, 12, 19, 21, 3,
+           17 + 23 + 4 + 10, 24 + 5 + 6 + 12, 1 + 7 + 13 + 19, 8 + 14 + 20 + 21, 15 + 16 + 22 + 3 } },
+};
+
+static void check_singular_in_all_units(int n)
+{
+    static gvi_real kept[MOST*MOST];
+    int e[MOST];
+    for (int i = 0; i < n*n; ++i) kept[i] = a[i];
+    for (int how = 0; how < 8; ++how) {
+        for (int i = 0; i < n*n; ++i) a[i] = how == 5 ? kept[i%n*n + i/n] : kept[i];
+        if (how == 1) scale_all(n, (gvi_real)1e-30L);
+        if (how == 2) scale_all(n, (gvi_real)1e30L);
+        random_exponents(n, e);
+        if (how == 3 || how == 6) scale_rows(n, e);
+        if (how == 4 || how == 6) scale_columns(n, e);
+        if (how == 7) scale_all(n, 1/(gvi_real)3);
+        assert_status(factor(n), GVI_E_SINGULAR);
+    }
+    for (int i = 0; i < n*n; ++i) a[i] = kept[i];
+}
+
+static void lu_reports_exact_singularity(void **state)
+{
+    (void)state;
+    seed = 10;
+    for (int k = 0; k < COUNT(singular); ++k) {
+        integer_matrix(singular[k].n, singular[k].m);
+        check_singular_in_all_units(singular[k].n);
+    }
+}
+
+static void random_of_rank(int n, int rank)
+{
+    int left[MOST], right[MOST];
+    for (int i = 0; i < n*n; ++i) a[i] = 0;
+    for (int k = 0; k < rank; ++k) {
+        for (int i = 0; i < n; ++i) {
+            left[i] = (int)(random_bits() % 19) - 9;
+            right[i] = (int)(random_bits() % 19) - 9;
+        }
+        for (int i = 0; i < n*n; ++i) a[i] += (gvi_real)(left[i/n]*right[i%n]);
+    }
+}
+
+/* What a singular leading block nearly as bad as the whole makes of rounding
+   can look like a pivot: then rcond shows it.  1 in 100 may do so.           */
+static void a_deficiency_of_rank_is_reported_or_else_seen_in_rcond(void **state)
+{
+    (void)state;
+    int reported = 0, all = 0;
+    seed = 11;
+    for (int n = 2; n <= 12; ++n)
+        for (int rank = 0; rank < n; ++rank)
+            for (int trial = 0; trial < 50; ++trial, ++all) {
+                random_of_rank(n, rank);
+                gvi_status status = factor(n);
+                reported += status == GVI_E_SINGULAR;
+                if (status == GVI_OK) assert_between(0, gvi_lu_rcond(n, f, pivot, work), n*(wide)EPS);
+            }
+    assert_between(0.98L*all, reported, all);
+}
+
+static void a_deficiency_of_rank_by_two_is_reported_in_all_units(void **state)
+{
+    (void)state;
+    seed = 12;
+    for (int n = 2; n <= 12; ++n)
+        for (int rank = 0; rank < n - 1; ++rank)
+            for (int trial = 0; trial < 5; ++trial) {
+                random_of_rank(n, rank);
+                check_singular_in_all_units(n);
+            }
+}
+
+/* A difference of one bit may be taken for rounding, one of 8 bits may not.    */
+static void lu_tells_singular_from_nearly_singular(void **state)
+{
+    (void)state;
+    static const int m[] = { 1, 2, 3, 4, 5, 6, 7, 8, 9 };
+    integer_matrix(3, m);
+    a[8] += 1000*EPS;
+    check_all(3);
+    for (int i = 0; i < 4; ++i) a[i] = 1;
+    assert_status(factor(2), GVI_E_SINGULAR);
+    a[3] += EPS;
+    gvi_status status = factor(2);
+    assert_true(status == GVI_E_SINGULAR || status == GVI_OK);
+    a[3] = 1 + 8*EPS;
+    check_all(2);
+}
+
+/* --------------------------------------------------------------- arguments */
+
+static void lu_refuses_numbers_that_are_not_finite(void **state)
+{
+    (void)state;
+    const gvi_real bad[] = { (gvi_real)NAN, (gvi_real)INFINITY, -(gvi_real)INFINITY };
+    for (int n = 1; n <= 4; ++n)
+        for (int k = 0; k < COUNT(bad); ++k)
+            for (int i = 0; i < n*n; ++i) {
+                regular(0, n);
+                a[i] = bad[k];
+                assert_status(factor(n), GVI_E_NON_FINITE);
+                for (int j = 0; j < n*n; ++j) a[j] = 0;      /* singular besides */
+                a[i] = bad[k];
+                assert_status(factor(n), GVI_E_NON_FINITE);
+            }
+}
+
+static void lu_refuses_faulty_arguments(void **state)
+{
+    (void)state;
+    gvi_real m[1] = { 3 }, p[3] = { 7, 8, 9 };
+    assert_status(gvi_lu_factor(0, m, p), GVI_E_ARGUMENT);
+    assert_status(gvi_lu_factor(-1, m, p), GVI_E_ARGUMENT);
+    assert_status(gvi_lu_factor(INT32_MIN, m, p), GVI_E_ARGUMENT);
+    assert_status(gvi_lu_factor(1, NULL, p), GVI_E_ARGUMENT);
+    assert_status(gvi_lu_factor(1, m, NULL), GVI_E_ARGUMENT);
+    assert_true(m[0] == 3 && p[0] == 7 && p[1] == 8 && p[2] == 9);
+}
+
+static void lu_writes_nothing_beyond_its_arrays(void **state)
+{
+    (void)state;
+    gvi_real m[4*4 + 1], p[2*4 + 2], y[4 + 1], w[3*4 + 1];
+    regular(0, 4);
+    for (int i = 0; i < 16; ++i) m[i] = a[i];
+    for (int i = 0; i < 4; ++i) y[i] = 1;
+    m[16] = p[9] = y[4] = w[12] = 77;
+    assert_ok(gvi_lu_factor(4, m, p));
+    gvi_lu_solve(4, m, p, y);
+    (void)gvi_lu_rcond(4, m, p, w);
+    assert_true(m[16] == 77 && p[9] == 77 && y[4] == 77 && w[12] == 77);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lu_reproduces_the_matrix_and_solves),
+        cmocka_unit_test(lu_of_a_permutation_is_exact),
+        cmocka_unit_test(lu_needs_pivots_where_the_diagonal_is_zero),
+        cmocka_unit_test(lu_of_one_number_divides),
+        cmocka_unit_test(wilkinsons_matrix_grows_and_is_factored_exactly),
+        cmocka_unit_test(lu_is_the_same_in_any_unit),
+        cmocka_unit_test(badly_scaled_rows_change_neither_pivots_nor_accuracy),
+        cmocka_unit_test(badly_scaled_columns_and_rows_are_accepted_and_solved),
+        cmocka_unit_test(badly_scaled_coordinates_are_accepted_and_solved),
+        cmocka_unit_test(graded_matrices_are_solved_to_every_component),
+        cmocka_unit_test(a_small_pivot_that_no_rounding_touched_is_no_singularity),
+#if GVI__KIND > 1
+        cmocka_unit_test(a_mass_matrix_over_sixty_decades_is_regular),
+#endif
+        cmocka_unit_test(matrix_of_condition_1e12_is_accepted_and_solved_to_condition_times_eps),
+        cmocka_unit_test(hilbert_matrices_are_solved_to_condition_times_eps),
+        cmocka_unit_test(rcond_is_usually_within_a_factor_3_above_the_truth),
+        cmocka_unit_test(rcond_sees_an_inverse_that_hides_from_the_climb),
+        cmocka_unit_test(rcond_is_that_of_the_matrix_as_given),
+        cmocka_unit_test(lu_reports_exact_singularity),
+        cmocka_unit_test(a_deficiency_of_rank_is_reported_or_else_seen_in_rcond),
+        cmocka_unit_test(a_deficiency_of_rank_by_two_is_reported_in_all_units),
+        cmocka_unit_test(lu_tells_singular_from_nearly_singular),
+        cmocka_unit_test(lu_refuses_numbers_that_are_not_finite),
+        cmocka_unit_test(lu_refuses_faulty_arguments),
+        cmocka_unit_test(lu_writes_nothing_beyond_its_arrays),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
