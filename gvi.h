@@ -176,9 +176,11 @@
    at round-off.
 
    Order.  |q1 - exact| = O(h^(min(2s,u)+1)) a step: twice the degree, which
-   is the superconvergence theorem [2, thm. 4.1].  The curve in between is
-   less exact, min(s, u/2) + 1 in the maximum norm [2, sec. 5].  r < s cannot
-   work: the kinetic term would not see every mode.
+   is the superconvergence theorem [2, thm. 4.1].  It holds for u >= 2s - 2; a
+   weaker rule does not see its highest modes properly, and their error enters
+   squared: order min(u, 2(u-s+1)) is what the tests find.  The curve in between
+   is less exact, min(s, u/2) + 1 in the maximum norm [2, sec. 5].  r < s or
+   u < s cannot work: a mode without kinetic energy, or free motion not exact.
 
    NOTATION       n degrees of freedom   s degree   r points   h step
                   q, v, p, t, F, P, V, Q, c, b, S, T, N   as above
@@ -532,10 +534,10 @@ GVI_DEF void       gvi_basis_derivative(int n, const gvi_real *x, const gvi_real
 /* Dense LU with partial pivoting on equilibrated rows [7, ch. 9]:  P A = L U.
    a      n*n row-major, in: A, out: unit lower L below the diagonal, U on and
           above
-   pivot  out, length 2n + 1: row pivot[k] was exchanged with row k; the rest
-          serves gvi_lu_rcond
-   Returns GVI_E_SINGULAR, scale-free: a pivot is nothing but rounding, compared
-   with its own row and column of A; GVI_E_NON_FINITE if an entry is.
+   pivot  out, length n + 1: row pivot[k] was exchanged with row k; pivot[n] is
+          the 1-norm of A, for gvi_lu_rcond
+   Returns GVI_E_SINGULAR, scale-free: a pivot is nothing but the rounding of the
+   terms that made it; GVI_E_NON_FINITE if an entry is.
    gvi_lu_solve: x in: right-hand side, out: solution, length n.
    gvi_lu_rcond: estimate of 1/(|A| |A^-1|), 1-norm [7, alg. 15.1], usually
    within a factor 3 and never below the truth; work of length 3n.             */
@@ -547,8 +549,8 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
    Terms: state, rule and tables, two sets of rows, mass, Newton.              */
 #define GVI__ROW(r) ((r) < 5 ? (r) : ((r) + 3)/4*4)
 #define GVI_LENGTH(n, s, r) ((size_t)(                                          \
-    (26 + 6*(s) + (6 + GVI__ROW(r) + 2*(s)*(s))*(n) + 15*GVI__ROW(r))*(n)       \
-    + (11 + 5*(r) + 3*(s))*GVI__ROW(r) + ((s) + 3)*(s) + 4))
+    (24 + 4*(s) + (6 + GVI__ROW(r) + 2*(s)*(s))*(n) + 15*GVI__ROW(r))*(n)       \
+    + (11 + 5*(r) + 3*(s))*GVI__ROW(r) + ((s) + 2)*(s) + 4))
 
 #ifdef __cplusplus
 }
@@ -692,35 +694,30 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 
 /* -------------------------------------------------------------- DENSE LU */
 
-// pivot[0..n-1]: row scales 1/max_j |a_ij|; pivot[n+j]: max_i of column j of the
-// scaled rows; pivot[2n]: 1-norm of A
+// pivot[0..n-1]: row scales 1/max_j |a_ij|; pivot[n]: 1-norm of A
 static gvi_status gvi__lu_scales(int n, const gvi_real *a, gvi_real *pivot, int *at)
 {
     gvi_status status = GVI_OK;
-    for (int i = 0; i < n; ++i) {
+    size_t N = (size_t)n;
+    for (size_t i = 0; i < N; ++i) {
         gvi_real big = 0;
-        for (int j = 0; j < n; ++j) {
-            gvi_real x = gvi__abs(a[(size_t)i*(size_t)n + (size_t)j]);
+        for (size_t j = 0; j < N; ++j) {
+            gvi_real x = gvi__abs(a[i*N + j]);
             if (!(x <= GVI__MAX)) return GVI_E_NON_FINITE;
             if (x > big) big = x;
         }
         if (!(big > 0)) {
             status = GVI_E_SINGULAR;
-            *at = i;
+            *at = (int)i;
         }
         pivot[i] = big > 0 ? 1/big : 0;
         if (!gvi__finite(pivot[i])) pivot[i] = GVI__MAX;      // subnormal row
     }
-    pivot[2*n] = 0;
-    for (int j = 0; j < n; ++j) {
-        gvi_real sum = 0, big = 0;
-        for (int i = 0; i < n; ++i) {
-            gvi_real x = gvi__abs(a[(size_t)i*(size_t)n + (size_t)j]);
-            sum += x;
-            if (x*pivot[i] > big) big = x*pivot[i];
-        }
-        pivot[n + j] = big;
-        if (sum > pivot[2*n]) pivot[2*n] = sum;
+    pivot[n] = 0;
+    for (size_t j = 0; j < N; ++j) {
+        gvi_real sum = 0;
+        for (size_t i = 0; i < N; ++i) sum += gvi__abs(a[i*N + j]);
+        if (sum > pivot[n]) pivot[n] = sum;
     }
     return status;
 }
@@ -742,12 +739,6 @@ static gvi_status gvi__lu_factor(int n, gvi_real *a, gvi_real *pivot, int *at)
             if (x > big) { big = x; m = i; }
         }
 
-        // check: nothing left of this column but the rounding of what was in it
-        if (!(big > (gvi_real)n*GVI__EPS*pivot[N + k])) {
-            *at = (int)k;
-            return GVI_E_SINGULAR;
-        }
-
         // swap rows k and m, all columns; the scale of row k moves along
         if (m != k)
             for (size_t j = 0; j < N; ++j) {
@@ -757,6 +748,14 @@ static gvi_status gvi__lu_factor(int n, gvi_real *a, gvi_real *pivot, int *at)
             }
         pivot[m] = pivot[k];
         pivot[k] = (gvi_real)m;
+
+        // check singularity: of the terms that made this pivot only rounding is left
+        gvi_real terms = 0;
+        for (size_t j = 0; j < k; ++j) terms += gvi__abs(a[k*N + j]*a[j*N + k]);
+        if (!(gvi__abs(a[k*N + k]) > (gvi_real)n*GVI__EPS*terms)) {
+            *at = (int)k;
+            return GVI_E_SINGULAR;
+        }
 
         // eliminate column k from the rows below
         for (size_t i = k + 1; i < N; ++i) {
@@ -859,7 +858,7 @@ GVI_DEF gvi_real gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot, 
     gvi_lu_solve(n, lu, pivot, x);
     gvi_real other = 2*gvi__norm1(n, x)/(3*(gvi_real)n);
     if (other > best) best = other;
-    return 1/best/pivot[2*n];
+    return 1/best/pivot[n];
 }
 
 /* ------------------------------------------------------------ QUADRATURE */
@@ -1772,14 +1771,14 @@ static size_t gvi__layout(gvi_stepper *st, gvi_real *base)
     x->gamma = gvi__take(&a, 1, 1, s);
     x->mass = gvi__take(&a, mass == GVI_MASS_DIAGONAL, 1, n);
     if (mass == GVI_MASS_DENSE) x->mass = gvi__take(&a, 1, 2*n, n);
-    x->own = gvi__take(&a, x->flags & GVI__HAS_OWN, s*s + 2*s + 1, 1);
+    x->own = gvi__take(&a, x->flags & GVI__HAS_OWN, s*s + s + 1, 1);
 
     // J and pivots twice: queries must not touch what the steps keep
-    x->hess = gvi__take(&a, newton || lagrangian, 4*n*n + 5*n + 1, 1);
+    x->hess = gvi__take(&a, newton || lagrangian, 4*n*n + 4*n + 1, 1);
     x->y = gvi__take(&a, newton, 1, sn);
     x->dy = gvi__take(&a, newton, 1, sn);
     x->J = gvi__take(&a, newton, 2*sn, sn);
-    x->pivot = gvi__take(&a, newton, 2, 2*sn + 1);
+    x->pivot = gvi__take(&a, newton, 2, sn + 1);
     x->dF = gvi__take(&a, newton, n, R);
     x->dP = gvi__take(&a, newton, n, R);
     x->bF = gvi__take(&a, newton, n, R);
@@ -2373,7 +2372,7 @@ static gvi_status gvi__check_regular(gvi_stepper *st)
     struct gvi__private *x = &st->x;
     int n = st->n, R = x->stride, at;
     if (gvi__mass_is_constant(&x->desc) && !(x->flags & GVI__HAS_LAGRANGIAN)) return GVI_OK;
-    gvi_real *W = x->hess + 3*n, *q = W + n*n + 2*n + 1, *v = q + n, *f = x->one + 4*n, *P = f + n;
+    gvi_real *W = x->hess + 3*n, *q = W + n*n + n + 1, *v = q + n, *f = x->one + 4*n, *P = f + n;
     for (int i = 0; i < n; ++i) {
         q[i] = x->work.Q[i*R];
         v[i] = x->work.V[i*R];
@@ -2491,7 +2490,7 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, gvi_r
     size_t sn = (size_t)(st->s*st->n), offset = query ? sn*sn : 0;
     gvi__matrix J = { x->J + offset, NULL, 0, h };
     gvi__newton_guess(st, extrapolate);
-    gvi_status status = gvi__newton(st, from, &J, x->pivot + (query ? 2*sn + 1 : 0), !query);
+    gvi_status status = gvi__newton(st, from, &J, x->pivot + (query ? sn + 1 : 0), !query);
     for (int i = 0; i < st->n; ++i) {
         x->dq[i] = h*x->y[i];
         x->dp[i] = gvi__dot(st->r, x->hb, x->work.F + i*x->stride);
@@ -3014,7 +3013,7 @@ static gvi_status gvi__boundary_value(gvi_stepper *st, const gvi__from *from, gv
     struct gvi__private *x = &st->x;
     int n = st->n, s = st->s, R = x->stride;
     size_t size = (size_t)(s - 1)*(size_t)n, sn = (size_t)s*(size_t)n;
-    gvi_real *square = s > 1 ? x->J + sn*sn : NULL, *pivot = s > 1 ? x->pivot + 2*sn + 1 : NULL;
+    gvi_real *square = s > 1 ? x->J + sn*sn : NULL, *pivot = s > 1 ? x->pivot + sn + 1 : NULL;
     gvi__matrix J = { square, s > 1 ? square + size*size : NULL, 1, h };
     gvi_real *p0 = x->dq, *p1 = x->dp, *minus = x->change, *plus = minus + n;
     gvi_status status = gvi__interior(st, from, h, q1, &J, pivot, p0);
