@@ -419,7 +419,7 @@ struct gvi__private {
     struct gvi__rows last, work;      /* at the points of the last step, the next */
     gvi_real        *memory;
     gvi_real        *q, *qe, *p, *pe, *q0, *p0, *none, *v0, *ve, *dq, *dp, *change, *one;
-    gvi_real        *c, *ce, *b, *hb, *t, *row, *near, *z, *acc, *E, *gamma;
+    gvi_real        *c, *ce, *b, *hb, *t, *row, *near, *z, *less, *ones, *E, *gamma;
     gvi_real        *g, *m, *T, *N, *phi, *Phi, *low, *mass, *point_mass, *Z, *own;
     gvi_real        *y, *dy, *J, *pivot, *hess, *dF, *dP, *bF, *bP;
 };
@@ -545,9 +545,9 @@ GVI_DEF gvi_status gvi_lu_factor(int n, gvi_real *a, gvi_real *pivot);
 GVI_DEF void       gvi_lu_solve(int n, const gvi_real *lu, const gvi_real *pivot, gvi_real *x);
 GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot, gvi_real *work);
 
-/* Rows are padded to a multiple of 4 from 5 points on, for vector registers.
+/* Rows are padded to a multiple of 8 from 5 points on, for vector registers.
    Terms: state, rule and tables, two sets of rows, mass, Newton.              */
-#define GVI__ROW(r) ((r) < 5 ? (r) : ((r) + 3)/4*4)
+#define GVI__ROW(r) ((r) < 5 ? (r) : ((r) + 7)/8*8)
 #define GVI_LENGTH(n, s, r) ((size_t)(                                          \
     (24 + 4*(s) + (6 + GVI__ROW(r) + 2*(s)*(s))*(n) + 15*GVI__ROW(r))*(n)       \
     + (11 + 5*(r) + 3*(s))*GVI__ROW(r) + ((s) + 2)*(s) + 4))
@@ -1736,7 +1736,8 @@ static size_t gvi__layout(gvi_stepper *st, gvi_real *base)
         rows->A = gvi__take(&a, lagrangian && (velocities || momenta), n, R);
     }
     x->z = gvi__take(&a, 1, 1, R);
-    x->acc = gvi__take(&a, 1, 1, R);
+    x->less = gvi__take(&a, 1, 1, R);
+    x->ones = gvi__take(&a, 1, 1, R);
     x->hb = gvi__take(&a, 1, 1, R);
     x->c = gvi__take(&a, 1, 1, R);
     x->g = gvi__take(&a, positions, r, R);
@@ -1845,6 +1846,7 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
         gvi__copy((size_t)st->r, x->desc.rule.weights, x->b);
     } else gvi__rule_make(x->desc.rule.kind == GVI_LOBATTO, st->r, x->c, x->ce, x->b);
     gvi__modes_at_nodes(st);
+    for (int i = 0; i < st->r; ++i) x->ones[i] = 1;
     for (int i = 0; i < st->r; ++i) x->c[i] = gvi__grid(gvi__sum(x->c[i], x->ce[i]), GVI__EPS/2);
     status = gvi__gamma(st);
     if (status != GVI_OK) return st->status = status;
@@ -1892,74 +1894,124 @@ static gvi_real gvi__dot(int r, const gvi_real *a, const gvi_real *b)
    slope, minus may be NULL; M^-1 if over_mass.                                */
 typedef struct gvi__stage {
     const gvi_real *base, *extra, *slope, *table, *f, *minus, *a;
-    gvi_real        factor;
+    gvi_real        factor, *rows;
     int             over_mass;
 } gvi__stage;
 
-/* z := table (w f) - minus (b a), and what becomes of a row by it.  R is a
-   constant where these are inlined: the loops over it become vector code.    */
-static inline void gvi__sum_row(const gvi_stepper *st, const gvi__stage *y, int i, int R, gvi_real *z)
-{
-    const gvi_real *f = y->f + i*R, *a = y->a ? y->a + i*R : NULL, *hb = st->x.hb, *b = st->x.b;
-    const int r = st->r;
-    for (int k = 0; k < R; ++k) z[k] = 0;
-    for (int j = 0; j < r; ++j) {
-        const gvi_real L = hb[j]*f[j], *column = y->table + j*R;
-        for (int k = 0; k < R; ++k) z[k] += column[k]*L;
-    }
-    for (int j = 0; a && j < r; ++j) {
-        const gvi_real L = b[j]*a[j], *column = y->minus + j*R;
-        for (int k = 0; k < R; ++k) z[k] -= column[k]*L;
-    }
-}
+/* The products of r*r table and row are what an iteration consists of.  Eight
+   points are one vector for the compiler, whatever registers the machine has;
+   where it knows no vectors, and for fewer than 5 points, loops do the same.   */
+#if defined(__GNUC__) && GVI__KIND < 3
+#define GVI__VECTORS
+typedef gvi_real gvi__vector __attribute__((vector_size(8*sizeof(gvi_real)), aligned(sizeof(gvi_real)), may_alias));
 
-/* The change of the row relative to |base| + the last displacement goes, point
-   by point, to acc, and as it is, summed up, to change[i] if wanted.          */
-static inline void gvi__move_row(gvi_stepper *st, const gvi__stage *y, int i, int R, gvi_real *z,
-                                 gvi_real *row, gvi_real *change)
+// sum_j w_j table[j][0..7] f_j in two sums, so that one need not wait for the other
+#define GVI__AT(p) (*(const gvi__vector *)(p))
+static inline void gvi__sum_lanes(int r, int R, const gvi_real *table, const gvi_real *w, const gvi_real *f, gvi__vector *z)
 {
-    struct gvi__private *x = &st->x;
-    const gvi_real base = y->base[i], extra = y->extra[i], slope = y->slope ? y->slope[i] : 0;
-    const gvi_real inverse = y->over_mass && x->desc.mass.kind == GVI_MASS_DIAGONAL ? 1/x->mass[i] : 1;
-    for (int k = 0; k < R; ++k) z[k] = extra + y->factor*(x->c[k]*slope + inverse*z[k]);
-    const gvi_real size = gvi__abs(base) + gvi__abs(z[st->r - 1]), scale = size > 0 ? 1/size : 0;
-    if (change) {
-        change[i] = 0;
-        for (int k = 0; k < R; ++k) change[i] += gvi__abs(base + z[k] - row[k]);
+    gvi__vector even = { 0 }, odd = { 0 };
+    for (int j = 0; j + 1 < r; j += 2) {
+        even += GVI__AT(table + j*R)*(w[j]*f[j]);
+        odd += GVI__AT(table + (j + 1)*R)*(w[j + 1]*f[j + 1]);
     }
-    for (int k = 0; k < R; ++k) {
-        const gvi_real next = base + z[k];
-        x->acc[k] += gvi__abs(next - row[k])*scale;
-        row[k] = next;
-    }
+    if (r % 2) even += GVI__AT(table + (r - 1)*R)*(w[r - 1]*f[r - 1]);
+    *z = even + odd;
 }
+#endif
 
-static inline void gvi__all_rows(gvi_stepper *st, const gvi__stage *y, int R, gvi_real *z,
-                                 gvi_real *rows, gvi_real *change)
+// z := sum_j w_j table[j][.] f_j, all R points
+static inline void gvi__sum_row(int r, int R, const gvi_real *table, const gvi_real *w, const gvi_real *f, gvi_real *z)
 {
-    for (int i = 0; i < st->n; ++i) {
-        gvi__sum_row(st, y, i, R, z);
-        gvi__move_row(st, y, i, R, z, rows + i*R, change);
-    }
-}
-
-static void gvi__stage_rows(gvi_stepper *st, const gvi__stage *y, gvi_real *rows, gvi_real *change)
-{
-    struct gvi__private *x = &st->x;
-    int n = st->n, R = x->stride;
-    gvi_real z[16];                       // for the usual sizes: stays in registers
-    if (y->over_mass && x->desc.mass.kind == GVI_MASS_DENSE) {
-        for (int i = 0; i < n; ++i) gvi__sum_row(st, y, i, R, x->Z + i*R);
-        gvi__over_mass(st, x->Z, R, R);
-        for (int i = 0; i < n; ++i) gvi__move_row(st, y, i, R, x->Z + i*R, rows + i*R, change);
+#ifdef GVI__VECTORS
+    if (R % 8 == 0) {
+        for (int o = 0; o < R; o += 8) gvi__sum_lanes(r, R, table + o, w, f, (gvi__vector *)(z + o));
         return;
     }
-    switch (R) {
-    case 4:  gvi__all_rows(st, y, 4, z, rows, change); break;
-    case 8:  gvi__all_rows(st, y, 8, z, rows, change); break;
-    case 16: gvi__all_rows(st, y, 16, z, rows, change); break;
-    default: gvi__all_rows(st, y, R, x->z, rows, change);
+#endif
+    for (int k = 0; k < R; ++k) z[k] = 0;
+    for (int j = 0; j < r; ++j) {
+        const gvi_real L = w[j]*f[j], *column = table + j*R;
+        for (int k = 0; k < R; ++k) z[k] += column[k]*L;
     }
+}
+
+/* row := base + (extra + (c a + b z)), z of coordinate i as in gvi__stage.  Returns
+   the sum of the squares of the changes, in units of |base| + the displacement
+   at the last point.  r and R are constants where this is inlined for the usual
+   sizes.                                                                      */
+static inline gvi_real gvi__stage_row(const gvi_stepper *st, const gvi__stage *y, int i, int r, int R)
+{
+    const struct gvi__private *x = &st->x;
+    const gvi_real *f = y->f + i*R, *c = x->c;
+    gvi_real *row = y->rows + i*R, sum = 0;
+    const gvi_real base = y->base[i], extra = y->extra[i], a = y->slope ? y->factor*y->slope[i] : 0;
+    const gvi_real b = y->over_mass && x->desc.mass.kind == GVI_MASS_DIAGONAL ? y->factor/x->mass[i] : y->factor;
+    const gvi_real size = gvi__abs(base) + gvi__abs(row[r - 1] - base), scale = size > 0 ? 1/size : 0;
+#ifdef GVI__VECTORS
+    if (R % 8 == 0) {
+        gvi__vector squares = { 0 };
+        for (int o = 0; o < R; o += 8) {
+            gvi__vector z, less, next, moved;
+            gvi__sum_lanes(r, R, y->table + o, x->hb, f, &z);
+            if (y->minus) {
+                gvi__sum_lanes(r, R, y->minus + o, x->b, y->a + i*R, &less);
+                z -= less;
+            }
+            next = base + (extra + (GVI__AT(c + o)*a + z*b));
+            moved = (next - GVI__AT(row + o))*scale;
+            *(gvi__vector *)(row + o) = next;
+            squares += moved*moved;
+        }
+        for (int k = 0; k < 4; ++k) sum += squares[k] + squares[k + 4];
+        return sum;
+    }
+#endif
+    gvi__sum_row(r, R, y->table, x->hb, f, x->z);
+    if (y->minus) gvi__sum_row(r, R, y->minus, x->b, y->a + i*R, x->less);
+    for (int k = 0; k < R; ++k) {
+        const gvi_real next = base + (extra + (c[k]*a + (x->z[k] - (y->minus ? x->less[k] : 0))*b));
+        const gvi_real moved = (next - row[k])*scale;
+        sum += moved*moved;
+        row[k] = next;
+    }
+    return sum;
+}
+
+// the same where M is a full matrix: all sums first, then M^-1 of them
+static gvi_real gvi__stage_rows_dense(gvi_stepper *st, const gvi__stage *y)
+{
+    struct gvi__private *x = &st->x;
+    int R = x->stride;
+    gvi_real sum = 0;
+    for (int i = 0; i < st->n; ++i) {
+        gvi__sum_row(st->r, R, y->table, x->hb, y->f + i*R, x->Z + i*R);
+        if (y->minus) gvi__sum_row(st->r, R, y->minus, x->b, y->a + i*R, x->less);
+        for (int k = 0; y->minus && k < R; ++k) x->Z[i*R + k] -= x->less[k];
+    }
+    gvi__over_mass(st, x->Z, R, R);
+    for (int i = 0; i < st->n; ++i) {
+        gvi_real base = y->base[i], *row = y->rows + i*R, slope = y->slope ? y->slope[i] : 0;
+        gvi_real size = gvi__abs(base) + gvi__abs(row[st->r - 1] - base), scale = size > 0 ? 1/size : 0;
+        for (int k = 0; k < R; ++k) {
+            gvi_real next = base + (y->extra[i] + y->factor*(x->c[k]*slope + x->Z[i*R + k]));
+            gvi_real moved = (next - row[k])*scale;
+            sum += moved*moved;
+            row[k] = next;
+        }
+    }
+    return sum;
+}
+
+static gvi_real gvi__stage_rows(gvi_stepper *st, const gvi__stage *y)
+{
+    const int n = st->n, r = st->r, R = st->x.stride;
+    gvi_real sum = 0;
+    if (y->over_mass && st->x.desc.mass.kind == GVI_MASS_DENSE) return gvi__stage_rows_dense(st, y);
+    if (r == 8) for (int i = 0; i < n; ++i) sum += gvi__stage_row(st, y, i, 8, 8);
+    else if (R == 8) for (int i = 0; i < n; ++i) sum += gvi__stage_row(st, y, i, r, 8);
+    else if (r == 4) for (int i = 0; i < n; ++i) sum += gvi__stage_row(st, y, i, 4, 4);
+    else for (int i = 0; i < n; ++i) sum += gvi__stage_row(st, y, i, r, R);
+    return sum;
 }
 
 // V := M^-1 (P - A), with the constant mass or the factored M(Q)
@@ -1973,31 +2025,34 @@ static void gvi__velocity_rows(gvi_stepper *st)
     else gvi__ldl_solve(n, x->point_mass, R, 1, w->V, R, st->r);
 }
 
-/* The rows of the next iteration from the F, V and A of this one; returns the
-   sum over coordinates and points of their relative change.                   */
-static gvi_real gvi__stages(gvi_stepper *st, const gvi__from *from, gvi_real h, gvi_real *change)
+/* What an iteration computes, fixed for a step: positions (3); velocities (3),
+   (4); momenta (5), P first.  Returns how many.                               */
+static int gvi__plan(gvi_stepper *st, const gvi__from *from, gvi_real h, gvi__stage y[2])
 {
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work;
-    gvi__zero((size_t)x->stride, x->acc);
-    gvi__stage q = { from->q, from->qe, x->v0, x->g, w->F, w->A ? x->T : NULL, w->A, h, 1 };
-    if (x->chosen == GVI_MOMENTA) {
-        gvi__stage p = { from->p, from->pe, NULL, x->m, w->F, NULL, NULL, 1, 0 };
-        gvi__stage by_v = { from->q, from->qe, NULL, x->T, w->V, NULL, NULL, 1, 0 };
-        gvi__stage_rows(st, &p, w->P, NULL);
-        if (x->has_factor || (gvi__mass_is_constant(&x->desc) && !x->desc.mass.velocity))
-            gvi__velocity_rows(st);       // the new P, if with the old M(Q): contracts twice as fast
-        q = by_v;
-    }
-    gvi__stage_rows(st, &q, w->Q, change);
-    if (x->chosen == GVI_VELOCITIES) {
-        gvi__stage v = { x->v0, x->ve, NULL, x->m, w->F, w->A ? x->N : NULL, w->A, 1, 1 };
-        gvi__stage_rows(st, &v, w->V, NULL);
-        st->counters.velocities += (unsigned long long)st->r;
-    }
-    gvi_real sum = 0;
-    for (int k = 0; k < st->r; ++k) sum += x->acc[k];
-    return sum;
+    const gvi_real *minus = w->A ? x->T : NULL, *minus_v = w->A ? x->N : NULL;
+    const gvi__stage q = { from->q, from->qe, x->v0, x->g, w->F, minus, w->A, h, w->Q, 1 };
+    const gvi__stage v = { x->v0, x->ve, NULL, x->m, w->F, minus_v, w->A, 1, w->V, 1 };
+    const gvi__stage p = { from->p, from->pe, NULL, x->m, w->F, NULL, NULL, 1, w->P, 0 };
+    const gvi__stage by_v = { from->q, from->qe, NULL, x->T, w->V, NULL, NULL, 1, w->Q, 0 };
+    y[0] = x->chosen == GVI_MOMENTA ? p : q;
+    y[1] = x->chosen == GVI_MOMENTA ? by_v : v;
+    return x->chosen == GVI_POSITIONS ? 1 : 2;
+}
+
+/* The rows of the next iteration from the F, V and A of this one; returns the
+   root of the sum of squares of their relative changes.                       */
+static gvi_real gvi__stages(gvi_stepper *st, const gvi__stage *y, int count)
+{
+    struct gvi__private *x = &st->x;
+    int momenta = x->chosen == GVI_MOMENTA;
+    gvi_real sum = gvi__stage_rows(st, y);
+    if (count == 1) return gvi__sqrt(sum);
+    if (momenta && (x->has_factor || (gvi__mass_is_constant(&x->desc) && !x->desc.mass.velocity)))
+        gvi__velocity_rows(st);           // the new P, if with the old M(Q): contracts twice as fast
+    st->counters.velocities += (unsigned long long)st->r;
+    return gvi__sqrt(sum + gvi__stage_rows(st, y + 1));
 }
 
 // momenta: V from dL/dv(Q, V) = P, then the kinetic share of F
@@ -2047,10 +2102,7 @@ static void gvi__extrapolate(gvi_stepper *st, const gvi_real *last, gvi_real *ou
 {
     int R = st->x.stride;
     for (int i = 0; last && i < st->n; ++i) {
-        gvi_real *z = out + i*R;
-        gvi__zero((size_t)R, z);
-        for (int j = 0; j < st->r; ++j)
-            for (int k = 0; k < R; ++k) z[k] += st->x.E[j*R + k]*last[i*R + j];
+        gvi__sum_row(st->r, R, st->x.E, st->x.ones, last + i*R, out + i*R);
     }
 }
 
@@ -2067,7 +2119,7 @@ static void gvi__extrapolation(gvi_stepper *st, gvi_real alpha, gvi_real beta, i
 
 /* Starting values: what the last step had, extrapolated; without one, or if
    that led nowhere, no force and constant velocity.                           */
-static void gvi__guess(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate)
+static void gvi__guess(gvi_stepper *st, int extrapolate)
 {
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work, *l = &x->last;
@@ -2083,7 +2135,6 @@ static void gvi__guess(gvi_stepper *st, const gvi__from *from, gvi_real h, int e
         for (int i = 0; x->chosen == GVI_MOMENTA && i < st->n; ++i)
             for (int k = 0; k < st->r; ++k) w->V[i*x->stride + k] = x->v0[i];
     }
-    (void)gvi__stages(st, from, h, NULL);
 }
 
 /* Increments of q and p from the F, V and A at the end of the iteration.      */
@@ -2109,8 +2160,8 @@ static void gvi__increments(gvi_stepper *st, gvi_real h)
 }
 
 /* Is the change that does not shrink any more nothing but rounding?  Measured
-   as energy, force times change against force times path and p v: coordinates
-   of any units may be added up.                                              */
+   at the last point, as energy, force times change against force times path and
+   p v: coordinates of any units may be added up.                             */
 static int gvi__is_rounding(const gvi_stepper *st, const gvi__from *from)
 {
     const struct gvi__private *x = &st->x;
@@ -2123,7 +2174,7 @@ static int gvi__is_rounding(const gvi_stepper *st, const gvi__from *from)
             if (F > most) most = F;
             size += F*gvi__abs(x->work.Q[i*R + k] - from->q[i]);
         }
-        noise += x->change[i]*most;
+        noise += (gvi_real)st->r*gvi__abs(x->work.Q[i*R + st->r - 1] - x->change[i])*most;
         size += (gvi_real)st->r*gvi__abs(from->p[i]*x->v0[i]);
     }
     return size <= GVI__MAX && noise <= 10000*GVI__EPS*size;
@@ -2131,8 +2182,7 @@ static int gvi__is_rounding(const gvi_stepper *st, const gvi__from *from)
 
 static void gvi__watch(gvi_stepper *st, gvi_real change, gvi_real ratio)
 {
-    gvi_real per_value = change/(gvi_real)(st->n*st->r);
-    if (ratio > st->counters.worst_contraction && per_value > 1000*GVI__EPS) st->counters.worst_contraction = ratio;
+    if (ratio > st->counters.worst_contraction && change > 1000*GVI__EPS) st->counters.worst_contraction = ratio;
 }
 
 /* Fixed point on the rows.  Tolerance-free end: the change after the next one,
@@ -2142,15 +2192,19 @@ static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_r
 {
     struct gvi__private *x = &st->x;
     const gvi_real enough = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/4096;
-    const gvi_real rounding = 2*GVI__EPS*(gvi_real)(st->n*st->r);
+    const gvi_real rounding = 4*GVI__EPS*gvi__sqrt((gvi_real)(st->n*st->r));
     int fall_back = x->desc.formulation == GVI_AUTO && (x->flags & GVI__HAS_NEWTON), poor = 0, grows = 0;
     gvi_real before = 0;
 
-    gvi__guess(st, from, h, extrapolate);
+    gvi__stage y[2];
+    const int count = gvi__plan(st, from, h, y);
+    gvi__guess(st, extrapolate);
+    (void)gvi__stages(st, y, count);
     for (*used = 1; *used <= x->desc.max_iterations; ++*used) {
         gvi_status status = gvi__ask(st);
         if (status != GVI_OK) return status;
-        gvi_real change = gvi__stages(st, from, h, poor > 1 ? x->change : NULL);
+        for (int i = 0; poor > 1 && i < st->n; ++i) x->change[i] = x->work.Q[i*x->stride + st->r - 1];
+        gvi_real change = gvi__stages(st, y, count);
         gvi_real ratio = before > 0 ? change/before : 1;
         if (!(change <= GVI__MAX))
             return gvi__fail(st, grows ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);

@@ -709,13 +709,15 @@ static gvi_status init_with_rule(int s, int r, const real *c, const real *b)
     const gvi_desc desc = { .n = 2, .degree = s, .rule = { GVI_OWN, r, c, b }, .effects = only, .effect_count = 1 };
     gvi_stepper st;
     gvi_status got = gvi_init(&st, &desc, memory, sizeof memory);
-    if (got) assert_int_equal(gvi_size(&desc), 0);
+    if (got == GVI_E_NODES || got == GVI_E_ORDER || r < s) assert_int_equal(gvi_size(&desc), 0);
     return got;
 }
 
 static void rules_that_cannot_work_are_refused(void **state)
 {
     const real third[] = { 0, 0.5, 1 }, simpson[] = { 1/(real)6, 4/(real)6, 1/(real)6 };
+    const real hole[] = { 0.5, 0, 0.5 };
+    real gauss[3], weights[2];
     (void)state;
     assert_ok(init_with_rule(2, 3, third, simpson));
     assert_status(init_with_rule(2, 3, (const real[]){ -0.001, 0.5, 1 }, simpson), GVI_E_NODES);
@@ -725,9 +727,14 @@ static void rules_that_cannot_work_are_refused(void **state)
     assert_status(init_with_rule(2, 3, third, (const real[]){ 0.2, 0.5, 0.2 }), GVI_E_ORDER);
     assert_status(init_with_rule(2, 3, third, (const real[]){ 0, 0, 0 }), GVI_E_ORDER);
     assert_status(init_with_rule(4, 3, third, simpson), GVI_E_POINTS);            /* r < s */
-    /* three points of which the rule sees two, for three modes */
-    assert_status(init_with_rule(3, 3, third, (const real[]){ 0.5, 0, 0.5 }), GVI_E_POINTS);
-    assert_ok(init_with_rule(1, 3, third, (const real[]){ 0.5, 0, 0.5 }));
+    assert_ok(init_with_rule(1, 3, third, hole));
+    assert_status(init_with_rule(3, 3, third, hole), GVI_E_ORDER);                /* u = 2 < s */
+    /* Gauss 2 with a point of no weight: of order 4, but for three modes it is blind */
+    assert_ok(gvi_gauss(2, gauss, weights));
+    gauss[2] = gauss[1];
+    gauss[1] = 0.5;
+    assert_status(init_with_rule(3, 3, gauss, hole), GVI_E_POINTS);
+    assert_ok(init_with_rule(2, 3, gauss, hole));
 }
 
 /* The caller's own copy of a built-in rule is the built-in rule */
@@ -989,10 +996,13 @@ static void a_singular_mass_matrix_in_a_step_is_named_and_changes_nothing(void *
         desc.mass.gradient = nothing;
         memory = malloc(gvi_size(&desc));
         assert_ok(gvi_init(&st, &desc, memory, gvi_size(&desc)));
-        assert_ok(gvi_start_momentum(&st, 0, q_start, (const real[]){ 1, 0.1, 1 }));
+        assert_ok(gvi_start(&st, 0, q_start, v_start));            /* p = M v needs no inverse */
         assert_status(gvi_step(&st, 0.1), GVI_E_SINGULAR);
         assert_int_equal(st.fault.coordinate, 1);
-        assert_true(st.t == 0 && st.q[1] == q_start[1] && st.p[1] == (real)0.1);
+        assert_true(st.t == 0 && st.q[1] == q_start[1] && st.p[0] == v_start[0] && st.p[1] == 0);
+        if (gvi_start_momentum(&st, 5, v_start, q_start) == GVI_OK) (void)gvi_step(&st, 0.1);
+        assert_int_equal(st.status, GVI_E_SINGULAR);
+        assert_int_equal(st.fault.coordinate, 1);
         free(memory);
     }
 }
@@ -1027,20 +1037,23 @@ static void a_lagrangian_without_kinetic_energy_for_a_coordinate_is_named(void *
 static const real h_good = 0.125;
 
 /* A step that fails, with all that it may not change */
-static void expect_failure(bench *b, real h, gvi_status wanted)
+static void expect_failure(bench *b, real h, gvi_status wanted, gvi_status or_this)
 {
     enum harm was = harm, mass_was = mass_harm;
     snapshot before, after;
     unsigned long long failures, steps = b->st.counters.steps;
     gvi_fault fault;
+    gvi_status got;
 
     harm = mass_harm = NO_HARM;
     before = take(&b->st);
     harm = was;
     mass_harm = mass_was;
     failures = b->st.counters.failures;
-    assert_status(gvi_step(&b->st, h), wanted);
-    assert_int_equal(b->st.status, wanted);
+    got = gvi_step(&b->st, h);
+    if (got != wanted && got != or_this) print_error("h = %g: %s\n", (double)h, gvi_status_text(got));
+    assert_true(got == wanted || got == or_this);
+    assert_int_equal(b->st.status, got);
     assert_int_equal(b->st.counters.failures, failures + 1);
     assert_int_equal(b->st.counters.steps, steps);
     fault = b->st.fault;
@@ -1048,6 +1061,7 @@ static void expect_failure(bench *b, real h, gvi_status wanted)
     after = take(&b->st);
     assert_same(&before, &after);
     b->st.fault = fault;
+    b->st.status = got;
 }
 
 /* Fails, is healed, goes on; a twin without the failure ends at the same state */
@@ -1056,7 +1070,7 @@ static void expect_recovery(const scene *a, enum harm what, gvi_status wanted)
     bench b = start(a), twin;
     for (int k = 0; k < 3; ++k) assert_ok(gvi_step(&b.st, h_good));
     harm = what;
-    expect_failure(&b, h_good, wanted);
+    expect_failure(&b, h_good, wanted, wanted);
     assert_int_equal(b.st.fault.effect, b.desc.effect_count - 1);
     if (wanted == GVI_E_NON_FINITE) {
         assert_int_equal(b.st.fault.coordinate, a->n - 1);
@@ -1099,25 +1113,30 @@ static void a_mass_callback_that_fails_is_named(void **state)
             bench b = start(&scenes[k]);
             assert_ok(gvi_step(&b.st, h_good));
             mass_harm = (enum harm)what;
-            expect_failure(&b, h_good, wanted[what]);
+            expect_failure(&b, h_good, wanted[what], wanted[what]);
             assert_int_equal(b.st.fault.effect, GVI_FAULT_MASS);
             assert_ok(gvi_step(&b.st, h_good));
             tear_down(&b);
         }
 }
 
-/* Twisted further than any iteration can follow; not EXPLICIT, which has none */
+/* Further than a fixed point can follow; its divergence, which overflows, must not
+   pass for convergence.  (An effect may be the first to overflow, v^2 say.)  Not
+   EXPLICIT, which does not iterate.                                          */
 static void a_step_that_is_too_large_leaves_everything_and_a_smaller_one_works(void **state)
 {
     (void)state;
     for (int k = 1; k < COUNT(scenes); ++k) {
         scene a = scenes[k];
         if (a.formulation == GVI_AUTO || a.formulation == GVI_NEWTON) continue;
-        bench b = start(&a);
-        assert_ok(gvi_step(&b.st, h_good));
-        expect_failure(&b, 1000, GVI_E_CONVERGENCE);
-        assert_ok(gvi_step(&b.st, h_good));
-        tear_down(&b);
+        for (real h = 10; h < 2e9; h *= 10) {
+            bench b = start(&a);
+            assert_ok(gvi_step(&b.st, h_good));
+            expect_failure(&b, h, GVI_E_CONVERGENCE, GVI_E_NON_FINITE);
+            if (b.st.status == GVI_E_NON_FINITE) assert_int_not_equal(b.st.fault.effect, GVI_FAULT_NONE);
+            assert_ok(gvi_step(&b.st, h_good));
+            tear_down(&b);
+        }
     }
 }
 

@@ -86,43 +86,72 @@ static void report(const gvi_stepper *st, const long double *dE, long double wor
     print_message("    q = %.12f %.12f\n", st->q[0], st->q[1]);
 }
 
-static void half_a_million_steps_keep_the_energy_to_round_off(void **state)
+static gvi_stepper *start(const double *q, const double *p)
 {
     static const gvi_effect effects[] = { { .kind = GVI_POTENTIAL, .points = gravity } };
-    static double memory[5000];
-    static long double dE[SAMPLES + 1];
+    static double memory[GVI_LENGTH(2, 6, 6)];
+    static gvi_stepper st;
     const gvi_desc desc = { .n = 2, .degree = 6, .effects = effects, .effect_count = 1,
                             .mass = { .kind = GVI_MASS_POSITION, .points = mass, .gradient = mass_gradient } };
-    const double q[2] = { 1.1, -1.1 }, p[2] = { 2.7746, 2.7746 };
-    long double E0 = energy(q, p), worst = 0;
-    gvi_stepper st;
-    clock_t begin;
-    (void)state;
-
-    assert_close(E0, -14.39989L, 1e-5L);
     assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
     assert_int_equal(st.formulation, GVI_MOMENTA);
     assert_ok(gvi_start_momentum(&st, 0, q, p));
-    begin = clock();
+    return &st;
+}
+
+static void half_a_million_steps_keep_the_energy_to_round_off(void **state)
+{
+    static long double dE[SAMPLES + 1];
+    const double q[2] = { 1.1, -1.1 }, p[2] = { 2.7746, 2.7746 };
+    long double E0 = energy(q, p), worst = 0;
+    gvi_stepper *st = start(q, p);
+    clock_t begin = clock();
+    (void)state;
+
+    assert_close(E0, -14.39988748L, 1e-8L);
     for (int k = 1; k <= STEPS; ++k) {
-        if (gvi_step(&st, 1.0/128) != GVI_OK) break;
+        if (gvi_step(st, 1.0/128) != GVI_OK) break;
         if (k % EVERY) continue;
-        dE[k/EVERY] = (energy(st.q, st.p) - E0)/E0;
+        dE[k/EVERY] = (energy(st->q, st->p) - E0)/E0;
         if (!(fabsl(dE[k/EVERY]) <= worst)) worst = fabsl(dE[k/EVERY]);
     }
-    report(&st, dE, worst, (double)(clock() - begin)/CLOCKS_PER_SEC);
-    assert_ok(st.status);
-    assert_int_equal(st.formulation, GVI_MOMENTA);
-    assert_true(st.t == 4096);
+    report(st, dE, worst, (double)(clock() - begin)/CLOCKS_PER_SEC);
+    assert_ok(st->status);
+    assert_int_equal(st->formulation, GVI_MOMENTA);
+    assert_true(st->t == 4096);
     assert_between(0, worst, 5e-15L);
-    assert_close(st.q[0], -0.540054552496L, 1e-10L);
-    assert_close(st.q[1], 1.762261020480L, 1e-10L);
+    assert_close(st->q[0], -0.540054552496L, 1e-10L);
+    assert_close(st->q[1], 1.762261020480L, 1e-10L);
+}
+
+/* One run's error is one walk.  Neighbours walk independently: their mean is no
+   drift as long as it is within four of its standard errors.  A step's roundings
+   are worth about EPS/2 (|f||dq| + |v||dp|) = EPS/2 * 2 * 20 * 3/128 at the most,
+   7e-18 of E; 256 times that after 2^16 steps.                               */
+static void the_energy_error_of_an_ensemble_is_a_random_walk_without_drift(void **state)
+{
+    enum { RUNS = 10, LENGTH = 1 << 16 };
+    long double sum = 0, squares = 0;
+    (void)state;
+    for (int r = 0; r < RUNS; ++r) {
+        const double q[2] = { 1.1 + 1e-5*r, -1.1 - 2e-5*r }, p[2] = { 2.7746, 2.7746 };
+        gvi_stepper *st = start(q, p);
+        long double E0 = energy(q, p), d;
+        for (int k = 0; k < LENGTH; ++k) assert_ok(gvi_step(st, 1.0/128));
+        d = (energy(st->q, st->p) - E0)/E0;
+        sum += d;
+        squares += d*d;
+    }
+    print_message("    mean %.2Lg, root mean square %.2Lg\n", sum/RUNS, sqrtl(squares/RUNS));
+    assert_close(sum/RUNS, 0, 4*sqrtl(squares)/RUNS);
+    assert_between(0, sqrtl(squares/RUNS), 256*7e-18L);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(half_a_million_steps_keep_the_energy_to_round_off),
+        cmocka_unit_test(the_energy_error_of_an_ensemble_is_a_random_walk_without_drift),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
