@@ -550,7 +550,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__ROW(r) ((r) < 5 ? (r) : ((r) + 7)/8*8)
 #define GVI_LENGTH(n, s, r) ((size_t)(                                          \
     (24 + 4*(s) + (6 + GVI__ROW(r) + 2*(s)*(s))*(n) + 15*GVI__ROW(r))*(n)       \
-    + (11 + 5*(r) + 3*(s))*GVI__ROW(r) + ((s) + 2)*(s) + 4))
+    + (12 + 5*(r) + 3*(s))*GVI__ROW(r) + ((s) + 2)*(s) + 4))
 
 #ifdef __cplusplus
 }
