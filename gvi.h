@@ -257,7 +257,7 @@ typedef enum gvi_status {
     GVI_E_POINTS      = -5,  /* r < s, or a rule that does not see every mode           */
     GVI_E_FORMULATION = -6,  /* the pinned formulation does not cover this scene        */
     GVI_E_SINGULAR    = -7,  /* singular matrix: massless coordinate (fault.coordinate) */
-    GVI_E_CONVERGENCE = -8,  /* the iteration did not converge: h too large             */
+    GVI_E_CONVERGENCE = -8,  /* the iteration diverges or creeps: h too large           */
     GVI_E_CALLBACK    = -9,  /* a callback refused (fault.effect)                       */
     GVI_E_NON_FINITE  = -10, /* NaN or Inf came out of an effect (fault.effect)         */
     GVI_E_VALUE       = -11, /* energy or action wanted, but fault.effect has no value  */
@@ -2185,6 +2185,14 @@ static void gvi__watch(gvi_stepper *st, gvi_real change, gvi_real ratio)
     if (ratio > st->counters.worst_contraction && change > 1000*GVI__EPS) st->counters.worst_contraction = ratio;
 }
 
+/* A change that is not finite: of an iteration that was growing, or whose effects
+   have all been looked at, it is divergence; else gvi__solve looks at them.    */
+static gvi_status gvi__not_finite(gvi_stepper *st, int grows)
+{
+    gvi_status status = grows || st->x.diagnose ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE;
+    return gvi__fail(st, status, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
+}
+
 /* Fixed point on the rows.  Tolerance-free end: the change after the next one,
    D^2/D_before, is far below rounding; or the change has stopped shrinking and
    is rounding.  Three changes in a row that fall by less than half are poor.  */
@@ -2207,7 +2215,7 @@ static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_r
         gvi_real change = gvi__stages(st, y, count);
         gvi_real ratio = before > 0 ? change/before : 1;
         if (!(change <= GVI__MAX))
-            return gvi__fail(st, grows ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
+            return gvi__not_finite(st, grows);
         gvi__watch(st, change, before > 0 ? ratio : 0);
         grows = before > 0 && ratio >= (gvi_real)0.5;
         if (change*ratio <= enough || (ratio > (gvi_real)0.5 && change <= rounding)) {
@@ -2522,7 +2530,7 @@ static gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi_
         gvi_lu_solve(size, J->square, pivot, x->dy);
         gvi_real change = gvi__newton_update(st, J->k0), ratio = before > 0 ? change/before : 1;
         st->counters.newton_iterations += 1;
-        if (!(change <= GVI__MAX)) return gvi__fail(st, GVI_E_NON_FINITE, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
+        if (!(change <= GVI__MAX)) return gvi__not_finite(st, 0);
         gvi__watch(st, change, before > 0 ? ratio : 0);
 
         // one more evaluation, then done: if the change after this one is below
@@ -2601,7 +2609,8 @@ static gvi_status gvi__solve(gvi_stepper *st, const gvi__from *from, gvi_real h,
         x->diagnose = 1;
         gvi_status second = gvi__attempt(st, from, h, past, query);
         x->diagnose = 0;
-        if (second != GVI_OK) status = second;
+        status = second != GVI_OK ? second
+               : gvi__fail(st, GVI_E_CONVERGENCE, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
     }
     return status;
 }
@@ -2653,7 +2662,7 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
     }
     gvi_status status = gvi__solve(st, &from, h, &past, 0);
     for (int i = 0; i < st->n && status == GVI_OK; ++i)
-        if (!gvi__finite(x->q[i] + x->dq[i]) || !gvi__finite(x->p[i] + x->dp[i])) status = GVI_E_NON_FINITE;
+        if (!gvi__finite(x->q[i] + x->dq[i]) || !gvi__finite(x->p[i] + x->dp[i])) status = GVI_E_CONVERGENCE;
     if (status == GVI_OK && !gvi__finite(st->t + h)) status = GVI_E_ARGUMENT;
     if (status != GVI_OK) {
         st->counters.failures += 1;

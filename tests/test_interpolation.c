@@ -1,6 +1,10 @@
 /* Barycentric interpolation against Lagrange's products in twice the digits.  */
 #include "gvi_test.h"
 
+#ifdef __clang__
+#pragma clang diagnostic ignored "-Wdouble-promotion"    /* widening is the purpose here */
+#endif
+
 /* Twice the digits of gvi_real, or as many as there are. */
 #if GVI__KIND == 3 && defined(__SIZEOF_FLOAT128__)
 __extension__ typedef __float128 wide;

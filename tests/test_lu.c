@@ -2,6 +2,10 @@
    against its own numbers.                                                   */
 #include "gvi_test.h"
 
+#ifdef __clang__
+#pragma clang diagnostic ignored "-Wdouble-promotion"    /* widening is the purpose here */
+#endif
+
 #ifdef __SIZEOF_FLOAT128__
 __extension__ typedef __float128 wide;
 #define WIDE_IS_WIDER 1

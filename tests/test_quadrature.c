@@ -3,6 +3,10 @@
 #include "gvi_test.h"
 #include "data/nodes.h"
 
+#ifdef __clang__
+#pragma clang diagnostic ignored "-Wdouble-promotion"    /* widening is the purpose here */
+#endif
+
 #define MOST 1024
 static gvi_real c[MOST], b[MOST];
 
