@@ -14,7 +14,7 @@
 
    SYNOPSIS
 
-   A planet on an ellipse of eccentricity 0.6, for 100 revolutions:
+   A planet on an ellipse of eccentricity 0.6, for 159 revolutions:
 
      #define GVI_IMPLEMENTATION
      #include "gvi.h"
@@ -40,14 +40,14 @@
          gvi_stepper st;
          gvi_init(&st, &desc, memory, sizeof memory);
          gvi_start(&st, 0, (double[]){ 0.4, 0 }, (double[]){ 0, 2 });
-         for (int k = 0; k < 4000 && st.status == GVI_OK; ++k)
-             gvi_step(&st, 3.14159265358979323846/20);
+         for (int k = 0; k < 10000 && st.status == GVI_OK; ++k)
+             gvi_step(&st, 0.1);
          printf("%s: q = %.9f %.9f\n", gvi_status_text(st.status), st.q[0], st.q[1]);
      }
 
    prints
 
-     ok: q = 0.400000000 -0.000000000
+     ok: q = -0.602737580 0.799997002
 
    Adding drag is one more row in effects[].  Taking it out again takes its
    whole cost away.

@@ -1,4 +1,4 @@
-/* 01 - A planet on an ellipse of eccentricity 0.6, for 100 revolutions
+/* 01 - A planet on an ellipse of eccentricity 0.6, for 159 revolutions
 
    The shortest complete program: one effect, its force at all points of a step
    at once; a description that names n, the degree and the effects; an array on
@@ -6,7 +6,7 @@
 
    prints
 
-     ok: q = 0.400000000 -0.000000000
+     ok: q = -0.602737580 0.799997002
 */
 #define GVI_IMPLEMENTATION
 #include "gvi.h"
@@ -32,7 +32,7 @@ int main(void)
     gvi_stepper st;
     gvi_init(&st, &desc, memory, sizeof memory);
     gvi_start(&st, 0, (double[]){ 0.4, 0 }, (double[]){ 0, 2 });
-    for (int k = 0; k < 4000 && st.status == GVI_OK; ++k)
-        gvi_step(&st, 3.14159265358979323846/20);
+    for (int k = 0; k < 10000 && st.status == GVI_OK; ++k)
+        gvi_step(&st, 0.1);
     printf("%s: q = %.9f %.9f\n", gvi_status_text(st.status), st.q[0], st.q[1]);
 }
