@@ -1,5 +1,6 @@
-/* The contract: defaults, memory, every status and what it leaves behind, moved
-   steppers, checkpoints, pinned formulations, switched effects.               */
+/* The contract: defaults, memory, every status and what it leaves behind (conjugate
+   points: test_queries.c), moved steppers, checkpoints, pinned formulations,
+   switched effects.                                                          */
 #ifndef GVI_REAL
 #define GVI_REAL double
 #endif
@@ -217,7 +218,8 @@ static gvi_desc describe(const scene *a)
         for (int j = 0; j < a->n; ++j) dense[i*a->n + j] = i == j ? 2 : (real)0.25;
     }
     if (a->has & POT) effects[e++] = (gvi_effect){ .kind = GVI_POTENTIAL, .points = chain, .value = chain_value };
-    if (a->has & COUP) effects[e++] = (gvi_effect){ .kind = GVI_LAGRANGIAN, .points = coupling, .value = coupling_value };
+    if (a->has & COUP)
+        effects[e++] = (gvi_effect){ .kind = GVI_LAGRANGIAN, .points = coupling, .value = coupling_value };
     if (a->has & KIN) effects[e++] = (gvi_effect){ .kind = GVI_LAGRANGIAN, .points = kinetic, .value = kinetic_value };
     if (a->has & DRAG) effects[e++] = (gvi_effect){ .kind = GVI_FORCE, .points = drag };
     effects[e++] = (gvi_effect){ .kind = GVI_POTENTIAL, .points = troublemaker, .value = troublesome_value };
@@ -498,8 +500,6 @@ static void the_size_is_exact_and_one_byte_less_is_refused(void **state)
     assert_true(scenes_used > 2000);
 }
 
-/* The last real is used: after some work it is no longer what it was.  The size
-   is not exact otherwise.                                                     */
 static void nothing_outside_the_memory_is_touched(void **state)
 {
     (void)state;
@@ -863,6 +863,36 @@ static void a_pinned_fixed_point_fails_on_a_stiff_scene_and_leaves_it_alone(void
     assert_ok(gvi_step(st, 0.005));                            /* halve h and go on */
 }
 
+static int unit_spring(const gvi_points *x, void *user)
+{
+    (void)user;
+    for (int k = 0; k < x->count; ++k) x->f[k] -= x->q[k];
+    return 0;
+}
+
+/* Up to h omega = 4 the fixed point of degree 8 contracts: a tolerance of 1e-14 is
+   reached in 17 iterations.  Then the end at rounding must be seen too, at every
+   phase: also where q begins and ends the step near zero, and is large inside.
+   Roundings of a few EPS h a step, independent, 300 steps.                    */
+static void a_fixed_point_that_contracts_is_never_called_divergent(void **state)
+{
+    static const gvi_effect only[] = { { .kind = GVI_POTENTIAL, .points = unit_spring } };
+    const gvi_desc desc = { .n = 1, .effects = only, .effect_count = 1, .formulation = GVI_POSITIONS };
+    real *memory = malloc(gvi_size(&desc));
+    (void)state;
+    for (int k = 1; k <= 10; ++k) {
+        gvi_stepper st;
+        int failures = 0;
+        assert_ok(gvi_init(&st, &desc, memory, gvi_size(&desc)));
+        assert_ok(gvi_start(&st, 0, (const real[]){ 1 }, (const real[]){ 0 }));
+        for (int j = 0; j < 300; ++j) failures += gvi_step(&st, (real)0.4*(real)k) != GVI_OK;
+        if (failures) print_error("h omega = %.1f: %d of 300 steps failed\n", 0.4*k, failures);
+        assert_int_equal(failures, 0);
+        assert_close(st.q[0]*st.q[0] + st.p[0]*st.p[0], 1, 600*EPS);
+    }
+    free(memory);
+}
+
 static void too_few_iterations_are_a_failure(void **state)
 {
     gvi_desc desc = { .n = 2, .degree = 4, .effects = stiff, .effect_count = 1,
@@ -1021,7 +1051,8 @@ static void a_lagrangian_without_kinetic_energy_for_a_coordinate_is_named(void *
         { .kind = GVI_LAGRANGIAN, .points = half_kinetic },
     };
     static real memory[20000], v[2];
-    const gvi_desc desc = { .n = 2, .degree = 3, .effects = some, .effect_count = 1, .mass = { .kind = GVI_MASS_NONE } };
+    const gvi_desc desc = { .n = 2, .degree = 3, .effects = some, .effect_count = 1,
+                            .mass = { .kind = GVI_MASS_NONE } };
     gvi_stepper st;
     (void)state;
     assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
@@ -1401,6 +1432,7 @@ int main(void)
         cmocka_unit_test(the_boundary_value_problem_needs_newtons_memory),
         cmocka_unit_test(auto_goes_over_to_newton_on_a_stiff_scene_and_says_so),
         cmocka_unit_test(a_pinned_fixed_point_fails_on_a_stiff_scene_and_leaves_it_alone),
+        cmocka_unit_test(a_fixed_point_that_contracts_is_never_called_divergent),
         cmocka_unit_test(too_few_iterations_are_a_failure),
         cmocka_unit_test(a_tolerance_buys_iterations),
         cmocka_unit_test(one_point_a_call_and_all_at_once_are_the_same),

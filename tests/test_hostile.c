@@ -10,7 +10,7 @@
 
 typedef gvi_real real;
 
-enum { SCENES = 6000, STEPS = 8, N_MAX = 4, S_MAX = 12, R_MAX = S_MAX + 4, EFFECTS_MAX = 4 };
+enum { SCENES = 30000, STEPS = 8, N_MAX = 4, S_MAX = 12, R_MAX = S_MAX + 4, EFFECTS_MAX = 4 };
 
 /* Reproducible numbers, the same on every machine (Knuth's MMIX) */
 static uint64_t seed;

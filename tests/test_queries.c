@@ -423,32 +423,65 @@ static void ask_everything(gvi_stepper *st, int k)
     assert_ok(gvi_discrete_lagrangian(st, 0, 0.2L, st->q, q1, &out));
 }
 
-/* In every formulation, and where AUTO goes over to Newton's method on the way */
+/* Two runs, one of which is asked everything after each step */
+static void expect_queries_to_change_nothing(const gvi_desc *desc, real h, gvi_formulation used)
+{
+    gvi_stepper quiet, asked;
+    set_up(&quiet, desc, 0);
+    set_up(&asked, desc, 1);
+    assert_ok(gvi_start(&quiet, 0, q_start, v_start));
+    assert_ok(gvi_start(&asked, 0, q_start, v_start));
+    for (int k = 0; k < 40; ++k) {
+        assert_ok(gvi_step(&quiet, k % 5 ? h : 1.5L*h));
+        assert_ok(gvi_step(&asked, k % 5 ? h : 1.5L*h));
+        assert_same(quiet.q, asked.q);
+        assert_same(quiet.p, asked.p);
+        assert_int_equal(quiet.formulation, used);
+        assert_int_equal(asked.formulation, used);
+        ask_everything(&asked, k);
+    }
+    assert_true(quiet.t == asked.t);
+}
+
+static int stiff_springs(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    (void)t; (void)v; (void)dldv; (void)user;
+    f[0] -= 10000*q[0];
+    f[1] -= q[1];
+    return 0;
+}
+
+static int stiff_value(const gvi_points *x, void *user)
+{
+    (void)user;
+    for (int k = 0; k < x->count; ++k) {
+        real a = x->q[k], b = x->q[x->stride + k];
+        x->value[k] += (10000*a*a + b*b)/2;
+    }
+    return 0;
+}
+
+/* In every formulation, and where AUTO has gone over to Newton's method */
 static void queries_do_not_change_later_steps_to_the_bit(void **state)
 {
-    static const struct { gvi_mass_kind mass; int count, s, r; } cases[] = {
-        { GVI_MASS_DENSE,    1,            1, 1 }, { GVI_MASS_DENSE,    1,            5, 5 },
-        { GVI_MASS_DIAGONAL, FORCED,       4, 6 }, { GVI_MASS_POSITION, CONSERVATIVE, 5, 5 },
-        { GVI_MASS_POSITION, FORCED,       3, 4 },
+    static const struct { gvi_mass_kind mass; int count, s, r; gvi_formulation used; } cases[] = {
+        { GVI_MASS_DENSE,    1,            1, 1, GVI_POSITIONS },
+        { GVI_MASS_DENSE,    1,            5, 5, GVI_POSITIONS },
+        { GVI_MASS_DIAGONAL, FORCED,       4, 6, GVI_VELOCITIES },
+        { GVI_MASS_POSITION, CONSERVATIVE, 5, 5, GVI_MOMENTA },
+        { GVI_MASS_POSITION, FORCED,       3, 4, GVI_NEWTON },
     };
+    static const gvi_effect stiff[] = { { .kind = GVI_POTENTIAL, .point = stiff_springs, .value = stiff_value } };
     (void)state;
     for (int c = 0; c < COUNT(cases); ++c) {
         gvi_desc desc = scene(cases[c].mass, cases[c].count, cases[c].s, cases[c].r);
-        gvi_stepper quiet, asked;
-        set_up(&quiet, &desc, 0);
-        set_up(&asked, &desc, 1);
-        assert_ok(gvi_start(&quiet, 0, q_start, v_start));
-        assert_ok(gvi_start(&asked, 0, q_start, v_start));
-        for (int k = 0; k < 40; ++k) {
-            real h = k % 5 ? 0.1L : 0.15L;
-            assert_ok(gvi_step(&quiet, h));
-            assert_ok(gvi_step(&asked, h));
-            assert_same(quiet.q, asked.q);
-            assert_same(quiet.p, asked.p);
-            ask_everything(&asked, k);
-        }
-        assert_true(quiet.t == asked.t);
+        expect_queries_to_change_nothing(&desc, 0.1L, cases[c].used);
     }
+    gvi_desc verlet = scene(GVI_MASS_DENSE, 1, 1, 2);
+    verlet.rule.kind = GVI_LOBATTO;
+    expect_queries_to_change_nothing(&verlet, 0.1L, GVI_EXPLICIT);
+    const gvi_desc desc = { .n = 2, .degree = 4, .effects = stiff, .effect_count = 1 };
+    expect_queries_to_change_nothing(&desc, 0.5L, GVI_NEWTON);
 }
 
 static void the_action_of_a_step_is_the_discrete_lagrangian_of_its_ends(void **state)
@@ -653,7 +686,7 @@ static void the_discrete_lagrangian_leaves_the_state_alone(void **state)
     ask_discrete(&st, 0.3L, 0.4L, q_start, q_end, &d);
     assert_same(q, st.q);
     assert_same(p, st.p);
-    assert_true(t == st.t && st.h == 0.1L);
+    assert_true(t == st.t && st.h == (real)0.1L);
 }
 
 /* ------------------------------------------------------------ conjugate points */
@@ -668,7 +701,8 @@ static void conjugate_points_are_reported_and_the_step_does_not_care(void **stat
         real h = k*(real)PI/(real)OMEGA, q0 = 1, q1 = k == 1 ? -1 : 1, Ld;
         gvi_stepper st;
         start_oscillator(&st, 24, GVI_GAUSS);
-        assert_status(gvi_discrete_lagrangian(&st, 0, h, &q0, &q1, &(gvi_discrete){ .lagrangian = &Ld }), GVI_E_CONJUGATE);
+        assert_status(gvi_discrete_lagrangian(&st, 0, h, &q0, &q1, &(gvi_discrete){ .lagrangian = &Ld }),
+                      GVI_E_CONJUGATE);
         assert_status(gvi_start_configurations(&st, 0, h, &q0, &q1), GVI_E_CONJUGATE);
         assert_true(st.q[0] == 1 && st.p[0] == 0.5L && st.t == 0);
         assert_ok(gvi_step(&st, h));

@@ -234,7 +234,8 @@ static void every_formulation_finds_the_same_step(void **state)
         step_map(&a, 0.25L, start, want);
         for (int k = 0; k < COUNT(all); ++k) {
             int covers = all[k] == GVI_AUTO
-                || (all[k] == GVI_EXPLICIT && !a.moving_mass && !a.extra && a.s == 1 && a.rule == GVI_LOBATTO && a.r == 2)
+                || (all[k] == GVI_EXPLICIT && !a.moving_mass && !a.extra
+                    && a.s == 1 && a.rule == GVI_LOBATTO && a.r == 2)
                 || (all[k] == GVI_POSITIONS && !a.moving_mass && !a.extra)
                 || (all[k] == GVI_VELOCITIES && !a.moving_mass)
                 || (all[k] == GVI_MOMENTA && a.moving_mass && a.r == a.s);
@@ -596,7 +597,8 @@ static void a_full_mass_matrix_is_read_by_its_lower_triangle(void **state)
     for (int way = 0; way < 4; ++way) {
         gvi_desc desc = { .n = MIXED, .degree = 7, .effects = effects, .effect_count = 1 };
         if (way < 2) desc.mass = (gvi_mass){ .kind = GVI_MASS_DENSE, .matrix = matrix };
-        else desc.mass = (gvi_mass){ .kind = GVI_MASS_POSITION, .points = mixed_mass_by_callback, .gradient = no_gradient };
+        else desc.mass = (gvi_mass){ .kind = GVI_MASS_POSITION, .points = mixed_mass_by_callback,
+                                     .gradient = no_gradient };
         desc.formulation = way & 1 ? GVI_NEWTON : GVI_AUTO;
         gvi_stepper *st = set_up(&desc);
         /* x(0) = (1, 1, 1), x'(0) = 0, so q(0) by forward substitution */
