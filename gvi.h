@@ -370,8 +370,9 @@ typedef struct gvi_desc {
     const gvi_effect *effects;
     int               effect_count;    /* 0 to GVI_EFFECTS                     */
     gvi_formulation   formulation;     /* pinned: no fall-back and no memory for one */
-    gvi_real          tolerance;       /* iterate until the change in q is below
-                                          tolerance*|q|.  0: until round-off   */
+    gvi_real          tolerance;       /* stop when the change of q yet to come,
+                                          as the last two changes predict it, is
+                                          below tolerance*|q|.  0: at round-off */
     int               max_iterations;  /* 0: 60                                */
 } gvi_desc;
 
@@ -630,29 +631,38 @@ static void gvi__copy(size_t n, const gvi_real *x, gvi_real *y)
    twice the digits of gvi_real (Dekker, Knuth).  Used for tables, where the
    rounding of a coefficient would act in every step in the same direction.   */
 typedef struct gvi__two { gvi_real hi, lo; } gvi__two;
+#if FLT_EVAL_METHOD == 0
+typedef gvi_real gvi__stored;
+#else
+typedef volatile gvi_real gvi__stored;     // registers are wider: round for certain
+#endif
 
-static gvi__two gvi__sum(gvi_real a, gvi_real b)          // a + b exactly
+static gvi__two gvi__sum(gvi_real x, gvi_real y)          // x + y exactly
 {
+    gvi__stored a = x, b = y, hi = a + b, bb = hi - a, aa = hi - bb, da = a - aa, db = b - bb;
     gvi__two z;
-    z.hi = a + b;
-    gvi_real bb = z.hi - a;
-    z.lo = (a - (z.hi - bb)) + (b - bb);
+    z.hi = hi;
+    z.lo = da + db;
     return z;
 }
 
-static gvi__two gvi__split(gvi_real a)                    // halves of the digits
+// 2^k + 1, k half the digits: a number times it shows where to cut it in two
+#define GVI__CUT ((gvi_real)(1ULL << (GVI__DIG + 1)/2) + 1)
+
+static gvi__two gvi__split(gvi_real x)                    // halves of the digits
 {
+    gvi__stored a = x, s = GVI__CUT*a, d = s - a, hi = s - d, lo = a - hi;
     gvi__two z;
-    gvi_real s = (gvi__ldexp(1, (GVI__DIG + 1)/2) + 1)*a;
-    z.hi = s - (s - a);
-    z.lo = a - z.hi;
+    z.hi = hi;
+    z.lo = lo;
     return z;
 }
 
 static gvi__two gvi__product(gvi_real a, gvi_real b)      // a*b exactly
 {
     gvi__two z, x = gvi__split(a), y = gvi__split(b);
-    z.hi = a*b;
+    gvi__stored hi = a*b;
+    z.hi = hi;
     z.lo = ((x.hi*y.hi - z.hi) + x.hi*y.lo + x.lo*y.hi) + x.lo*y.lo;
     return z;
 }
@@ -1901,7 +1911,7 @@ typedef struct gvi__stage {
 /* The products of r*r table and row are what an iteration consists of.  Eight
    points are one vector for the compiler, whatever registers the machine has;
    where it knows no vectors, and for fewer than 5 points, loops do the same.   */
-#if defined(__GNUC__) && GVI__KIND < 3
+#if defined(__GNUC__) && GVI__KIND < 3 && FLT_EVAL_METHOD == 0
 #define GVI__VECTORS
 typedef gvi_real gvi__vector __attribute__((vector_size(8*sizeof(gvi_real)), aligned(sizeof(gvi_real)), may_alias));
 
@@ -2194,16 +2204,16 @@ static gvi_status gvi__not_finite(gvi_stepper *st, int grows)
 }
 
 /* Fixed point on the rows.  Tolerance-free end: the change after the next one,
-   D^2/D_before, is far below rounding; or the change has stopped shrinking and
-   is rounding.  Three changes in a row that fall by less than half are poor.  */
+   D^2/D_before, is far below rounding; or the change is rounding: small, or
+   without a new least by a tenth in three iterations, and of no energy.  Three
+   changes in a row that fall by less than half are poor.                      */
 static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate, int *used)
 {
     struct gvi__private *x = &st->x;
-    const gvi_real enough = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/4096;
+    const gvi_real enough = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/4096, half = (gvi_real)0.5;
     const gvi_real rounding = 4*GVI__EPS*gvi__sqrt((gvi_real)(st->n*st->r));
-    int fall_back = x->desc.formulation == GVI_AUTO && (x->flags & GVI__HAS_NEWTON), poor = 0, grows = 0;
-    gvi_real before = 0;
-
+    int fall_back = x->desc.formulation == GVI_AUTO && (x->flags & GVI__HAS_NEWTON), poor = 0, idle = 0, grows = 0;
+    gvi_real before = 0, least = GVI__MAX;
     gvi__stage y[2];
     const int count = gvi__plan(st, from, h, y);
     gvi__guess(st, extrapolate);
@@ -2211,19 +2221,18 @@ static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_r
     for (*used = 1; *used <= x->desc.max_iterations; ++*used) {
         gvi_status status = gvi__ask(st);
         if (status != GVI_OK) return status;
-        for (int i = 0; poor > 1 && i < st->n; ++i) x->change[i] = x->work.Q[i*x->stride + st->r - 1];
-        gvi_real change = gvi__stages(st, y, count);
-        gvi_real ratio = before > 0 ? change/before : 1;
-        if (!(change <= GVI__MAX))
-            return gvi__not_finite(st, grows);
+        for (int i = 0; idle > 1 && i < st->n; ++i) x->change[i] = x->work.Q[i*x->stride + st->r - 1];
+        gvi_real change = gvi__stages(st, y, count), ratio = before > 0 ? change/before : 1;
+        if (!(change <= GVI__MAX)) return gvi__not_finite(st, grows);
         gvi__watch(st, change, before > 0 ? ratio : 0);
-        grows = before > 0 && ratio >= (gvi_real)0.5;
-        if (change*ratio <= enough || (ratio > (gvi_real)0.5 && change <= rounding)) {
-            st->counters.worst_change = change > st->counters.worst_change ? change : st->counters.worst_change;
+        grows = before > 0 && ratio >= half;
+        poor = grows ? poor + 1 : 0;
+        idle = change < least*9/10 ? 0 : idle + 1;
+        if (change < least) least = change;
+        if (change*ratio <= enough || (grows && change <= rounding) || (idle > 2 && gvi__is_rounding(st, from))) {
+            if (change > st->counters.worst_change) st->counters.worst_change = change;
             return GVI_OK;
         }
-        poor = before > 0 && ratio > (gvi_real)0.5 ? poor + 1 : 0;
-        if (poor > 2 && gvi__is_rounding(st, from)) return GVI_OK;
         if (poor > 2 && fall_back) break;
         before = change;
     }

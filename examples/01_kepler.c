@@ -2,7 +2,7 @@
 
    The shortest complete program: one effect, its force at all points of a step
    at once; a description that names n, the degree and the effects; an array on
-   which everything stands; 4000 steps, 40 a revolution.
+   which everything stands; 10000 steps, 63 a revolution.
 
    prints
 
