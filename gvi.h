@@ -57,10 +57,10 @@
 
      CONVENTIONS          memory, threads, errors, arrays, units, rounding
      OPTIONS              the macros
-     HOW IT WORKS         the method in 70 lines, with the notation
+     HOW IT WORKS         the method on a page, with the notation
      TYPES                effects, mass, rule, description, stepper
      FUNCTIONS            stepper first, then the building blocks
-     -- implementation, a course in seven lessons --
+     -- implementation, to be read as a course --
      SUPPORT              real functions, twofold arithmetic
      DENSE LU
      QUADRATURE           Gauss and Lobatto nodes, order of a rule
@@ -78,27 +78,30 @@
    memory     Nothing is allocated, ever.  The caller hands gvi_init one array
               and keeps it as long as the stepper is used; there is nothing to
               free.  The stepper points into that array, never into itself: it
-              may be moved.  Copy of stepper and array = checkpoint.
+              may be moved.  Copy of stepper and array = checkpoint, see
+              gvi_restore.
    threads    No mutable static data.  Different steppers are independent.
    errors     0 (GVI_OK) or a negative gvi_status; also kept in st->status,
               with st->fault naming the effect, coordinate and point.  A call
-              that fails leaves t, q, p, the last curve and everything that
+              that fails, but gvi_init, leaves t, q, p, the last curve and everything that
               the queries read bit for bit as they were: halve h and go on.
    arrays     Row-major, A[i*n + j].  Values of one coordinate at the points
               of a step are contiguous: coordinate i at point k is
               [i*stride + k].  Inputs are const.  Arrays of one call do not
               overlap unless it is said that they may.
-   units      None: time, lengths and masses are the caller's, and no
-              tolerance or test of the library depends on them.
+   units      None: time, lengths and masses are the caller's, coordinate by
+              coordinate; no tolerance or test of the library depends on them.
    rounding   Round to nearest, subnormals kept; -ffast-math is refused.
               q, p and t carry compensation terms, so 1e9 steps of t + h are
               as exact as one.  Same bits on every IEEE machine when compiled
-              with -ffp-contract=off and the callbacks give the same bits.
-   work       A step evaluates each effect at most max_iterations*(r+1) times
-              r points in the fixed point, plus, where Newton is used, 2n+1
-              times r points for each of at most max_iterations/4 + 2 Jacobians,
-              and the same again once when a value was not finite, to name the
-              effect.  Nothing in it waits for anything else.
+              with -ffp-contract=off, as far as callbacks and sin do.
+   work       With m = max_iterations, a step evaluates an effect at no more than
+              (m+1)*r points in the fixed point and, where Newton is used or may
+              be, (m+1)*r more and (2n+1)*r + n+1 for each of at most m/4 + 2
+              Jacobians, each with one LU of size s*n; all of it once more when a
+              value was not finite, to name the effect.  Explicit: 2 points.  A
+              pinned fixed point: no LU, at most 2(m+1)*r.  gvi_velocity and
+              gvi_energy: one point, or 40(n+1) with Lagrangian terms.
 
    gvi.h does not: choose or adapt the step, treat constraints or contact,
    run in parallel, or read or write anything.
@@ -142,8 +145,8 @@
    boundary-value problem of the discrete Lagrangian L_d(q0, q1).
 
    Constant mass.  P_i = M V_i turns (1) into y = Gamma^-1 (...) with the s*s
-   matrix Gamma_kl = sum_i b_i phi_k(c_i) phi_l(c_i), which is 1/(2k+1) on the
-   diagonal if u >= 2s - 1.  Put into Q and V,
+   matrix Gamma_kl = sum_i b_i phi_k(c_i) phi_l(c_i), which is diagonal,
+   1/(2k+1), if u >= 2s - 1.  Put into Q and V,
 
      Q_i = q0 + h c_i v0 + h M^-1 sum_j (c_i - S_ij) h b_j F_j              (3)
      V_i = v0 + M^-1 sum_j (1 - T_ij) h b_j F_j                             (4)
@@ -330,7 +333,7 @@ typedef struct gvi_mass {
     const gvi_real *matrix;
     gvi_points_fn  *points;    /* GVI_MASS_POSITION: writes x->mass from x->q   */
     gvi_points_fn  *gradient;  /* and adds v' dM/dq v / 2 to x->f, called after
-                                  points at the same x->q                     */
+                                  points, or velocity, at the same x->q       */
     gvi_points_fn  *velocity;  /* optional: writes x->velocity, the v at which
                                   dL/dv(t,q,v) = p, L being ALL of the scene   */
     void           *user;
@@ -344,7 +347,7 @@ typedef enum gvi_rule_kind {
 
 typedef struct gvi_rule {
     gvi_rule_kind   kind;
-    int             points;    /* r.  0: s for Gauss, s + 1 for Lobatto        */
+    int             points;    /* r, to 4000.  0: s for Gauss, s+1 for Lobatto */
     const gvi_real *nodes;     /* GVI_OWN: distinct, in [0,1]; read by gvi_init */
     const gvi_real *weights;   /* GVI_OWN: sum to 1                            */
 } gvi_rule;
@@ -363,8 +366,10 @@ typedef enum gvi_formulation {
    the effects must be set.  The effects array is not copied: it must live as
    long as the stepper.                                                       */
 typedef struct gvi_desc {
-    int               n;               /* degrees of freedom, >= 1             */
-    int               degree;          /* s.  0: 8                             */
+    int               n;               /* degrees of freedom, 1 to 524,287; with
+                                          matrices (all but pinned fixed points
+                                          with simple mass) to 32,767           */
+    int               degree;          /* s, to 1024.  0: 8                    */
     gvi_rule          rule;            /* zero: Gauss with s points            */
     gvi_mass          mass;            /* zero: unit mass                      */
     const gvi_effect *effects;
@@ -373,7 +378,7 @@ typedef struct gvi_desc {
     gvi_real          tolerance;       /* stop when the change of q yet to come,
                                           as the last two changes predict it, is
                                           below tolerance*|q|.  0: at round-off */
-    int               max_iterations;  /* 0: 60                                */
+    int               max_iterations;  /* to 1,000,000.  0: 60                 */
 } gvi_desc;
 
 #define GVI_FAULT_NONE (-1)
@@ -395,9 +400,9 @@ typedef struct gvi_counters {
     unsigned long long velocities;        /* points at which v was formed       */
     unsigned long long mass;              /* points given to mass callbacks     */
     unsigned long long effect[GVI_EFFECTS]; /* points given to each effect      */
-    int                most_iterations;   /* in one step                        */
+    int                most_iterations;   /* in one step or gvi_state_at        */
     gvi_real           worst_contraction; /* largest ratio of two changes       */
-    gvi_real           worst_change;      /* largest last change, relative to q */
+    gvi_real           worst_change;      /* largest last change of a fixed point, relative */
 } gvi_counters;
 
 struct gvi__rows { gvi_real *Q, *V, *F, *P, *A; };   /* [n][stride] each     */
@@ -419,7 +424,7 @@ struct gvi__private {
     int              newton_left;     /* steps until the fixed point is tried   */
     struct gvi__rows last, work;      /* at the points of the last step, the next */
     gvi_real        *memory;
-    gvi_real        *q, *qe, *p, *pe, *q0, *p0, *none, *v0, *ve, *dq, *dp, *change, *one;
+    gvi_real        *q, *qe, *p, *pe, *q0, *p0, *none, *start, *v0, *ve, *dq, *dp, *change, *one;
     gvi_real        *c, *ce, *b, *hb, *t, *row, *near, *z, *less, *ones, *E, *gamma;
     gvi_real        *g, *m, *T, *N, *phi, *Phi, *low, *mass, *point_mass, *Z, *own;
     gvi_real        *y, *dy, *J, *pivot, *hess, *dF, *dP, *bF, *bP;
@@ -465,7 +470,9 @@ GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_rea
                                             const gvi_real *q0, const gvi_real *q1);
 
 /* One step to t + h; h < 0 steps back; h may differ from step to step (which
-   keeps the map symplectic but not the energy's long-time bound).             */
+   keeps the map symplectic but not the energy's long-time bound).  If what an
+   effect reads through `user` changes between steps, call gvi_switch(st, i, 1):
+   the explicit formulation keeps the force at the end of a step for the next.  */
 GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h);
 
 /* Switches effect `index` off (on = 0) or on again, between steps.           */
@@ -479,7 +486,8 @@ GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy);
 /* In the last step.  gvi_curve: the polynomial at tau in [0,1] and its
    derivative, error O(h^(min(s,u/2)+1)) and one order less.  gvi_state_at: the
    state at time t, at the full order, by a partial step from the nearer end.
-   gvi_action: the quadrature of L over it.  q, v, p of length n, or NULL.
+   gvi_action: the quadrature of L over it, both with the effects that are on now.
+   q, v, p of length n, or NULL.
    None of them changes what later steps compute, to the bit.                 */
 GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v);
 GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_real *v, gvi_real *p);
@@ -519,8 +527,9 @@ GVI_DEF gvi_status gvi_lobatto(int n, gvi_real *c, gvi_real *b);
 GVI_DEF int        gvi_rule_order(int n, const gvi_real *c, const gvi_real *b);
 
 /* Barycentric interpolation [6] through n distinct nodes x in any order.
-   gvi_barycentric: the weights w, scaled so that max |w| = 1.  Then, at any t,
-   also at and near a node, inside and outside:
+   gvi_barycentric: the weights w, scaled so that max |w| = 1; GVI_E_NODES if two
+   nodes coincide, or if the smallest weight leaves the range of gvi_real.  Then,
+   at any t, also at and near a node, inside and outside:
      gvi_interpolate             sum_j f[j] l_j(t)
      gvi_interpolate_derivative  its derivative; exactly 0 for a constant
      gvi_basis                   l[j] = l_j(t)
@@ -549,9 +558,10 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 /* Rows are padded to a multiple of 8 from 5 points on, for vector registers.
    Terms: state, rule and tables, two sets of rows, mass, Newton.              */
 #define GVI__ROW(r) ((r) < 5 ? (r) : ((r) + 7)/8*8)
-#define GVI_LENGTH(n, s, r) ((size_t)(                                          \
-    (24 + 4*(s) + (6 + GVI__ROW(r) + 2*(s)*(s))*(n) + 15*GVI__ROW(r))*(n)       \
-    + (12 + 5*(r) + 3*(s))*GVI__ROW(r) + ((s) + 2)*(s) + 4))
+#define GVI_LENGTH(n, s, r) (                                                   \
+    (size_t)(26 + 4*(s) + (6 + GVI__ROW(r) + 2*(s)*(s))*(size_t)(n)             \
+             + 15*GVI__ROW(r))*(size_t)(n)                                      \
+    + (size_t)((12 + 5*(r) + 3*(s))*GVI__ROW(r) + ((s) + 2)*(s) + 3))
 
 #ifdef __cplusplus
 }
@@ -562,7 +572,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #if defined(GVI_IMPLEMENTATION) && !defined(GVI_IMPLEMENTED)
 #define GVI_IMPLEMENTED
 
-#if defined(__FAST_MATH__)
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
 #error "gvi.h relies on IEEE arithmetic: do not compile it with -ffast-math"
 #endif
 
@@ -575,6 +585,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #if GVI__KIND == 1
 #define GVI__EPS   FLT_EPSILON
 #define GVI__MAX   FLT_MAX
+#define GVI__MIN   FLT_MIN
 #define GVI__DIG   FLT_MANT_DIG
 #define gvi__sqrt  sqrtf
 #define gvi__floor floorf
@@ -584,6 +595,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #elif GVI__KIND == 2
 #define GVI__EPS   DBL_EPSILON
 #define GVI__MAX   DBL_MAX
+#define GVI__MIN   DBL_MIN
 #define GVI__DIG   DBL_MANT_DIG
 #define gvi__sqrt  sqrt
 #define gvi__floor floor
@@ -593,12 +605,17 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #else
 #define GVI__EPS   LDBL_EPSILON
 #define GVI__MAX   LDBL_MAX
+#define GVI__MIN   LDBL_MIN
 #define GVI__DIG   LDBL_MANT_DIG
 #define gvi__sqrt  sqrtl
 #define gvi__floor floorl
 #define gvi__ldexp ldexpl
 #define gvi__frexp frexpl
 #define gvi__sin   sinl
+#endif
+
+#if GVI__KIND == 3 && LDBL_MANT_DIG == 106
+#error "gvi.h needs IEEE arithmetic: this long double is a pair of doubles"
 #endif
 
 typedef char gvi__effects_fit_a_word[GVI_EFFECTS >= 1 && GVI_EFFECTS <= 32 ? 1 : -1];
@@ -1051,7 +1068,10 @@ GVI_DEF gvi_status gvi_barycentric(int n, const gvi_real *x, gvi_real *w)
                 if (gvi__abs(w[j]) > big) big = gvi__abs(w[j]);
             }
         }
-    for (int j = 0; j < n; ++j) w[j] /= big;
+    for (int j = 0; j < n; ++j) {
+        w[j] /= big;
+        if (!gvi__nonzero(w[j])) return GVI_E_NODES;
+    }
     return GVI_OK;
 }
 
@@ -1143,6 +1163,13 @@ static gvi_status gvi__fail(gvi_stepper *st, gvi_status status, int effect, int 
     return st->status = status;
 }
 
+/* Of a stepper that is not set up or not started: the first failure stands, so
+   that a chain of calls ends with its cause.                                  */
+static gvi_status gvi__unready(gvi_stepper *st)
+{
+    return st->status != GVI_OK ? st->status : (st->status = GVI_E_STATE);
+}
+
 static gvi_status gvi__done(gvi_stepper *st, gvi_status status)
 {
     if (status == GVI_OK) gvi__fail(st, GVI_OK, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
@@ -1227,7 +1254,7 @@ static gvi_status gvi__ldl_factor(gvi_stepper *st, int n, int stride, int count,
                 gvi_real a = m[(size_t)(j*n + l)*(size_t)stride + (size_t)k];
                 d[k] -= a*a*m[(size_t)(l*n + l)*(size_t)stride + (size_t)k];
             }
-            if (!(was <= GVI__MAX)) return gvi__fail(st, GVI_E_NON_FINITE, GVI_FAULT_MASS, j, k);
+            if (!(was <= GVI__MAX) || !gvi__finite(d[k])) return gvi__fail(st, GVI_E_NON_FINITE, GVI_FAULT_MASS, j, k);
             if (!(gvi__abs(d[k]) > (gvi_real)n*GVI__EPS*was))
                 return gvi__fail(st, GVI_E_SINGULAR, GVI_FAULT_MASS, j, k);
         }
@@ -1367,7 +1394,7 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real
     gvi_real size = gvi__norm1(n, v)/(gvi_real)n;
     gvi__copy((size_t)n, P, base);
     for (int j = 0; j < n; ++j) {
-        gvi_real was = v[j], d = gvi__sqrt(GVI__EPS)*(gvi__abs(was) > size ? gvi__abs(was) : size);
+        gvi_real was = v[j], d = gvi__sqrt(GVI__EPS)*(gvi__nonzero(was) ? gvi__abs(was) : size);
         if (!(d > 0)) d = gvi__sqrt(GVI__EPS);
         v[j] = was + d;
         d = v[j] - was;
@@ -1392,7 +1419,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_real t, const gvi_re
     gvi_real last = GVI__MAX;
     st->counters.velocities += 1;
     for (int k = 0; k < 40; ++k) {
-        gvi_real change = 0, size = 0;
+        gvi_real change = 0;
         gvi_status status = gvi__evaluate(st, &x, 0);
 
         // beyond the domain of L (faster than light): half the way
@@ -1413,14 +1440,19 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_real t, const gvi_re
         gvi_lu_solve(n, W, pivot, dv);
         for (int i = 0; i < n; ++i) {
             v[i] += dv[i];
-            change += gvi__abs(dv[i]);
-            size += gvi__abs(v[i]);
+            if (gvi__nonzero(dv[i])) change += gvi__abs(dv[i])/(gvi__abs(dv[i]) + gvi__abs(v[i]));
         }
         if (!(change <= GVI__MAX)) break;
-        if (!(change > 2*GVI__EPS*size) || (change >= last/2 && change <= gvi__sqrt(GVI__EPS)*size)) return GVI_OK;
+        if (!(change > 2*GVI__EPS) || (change >= last/2 && change <= gvi__sqrt(GVI__EPS))) return GVI_OK;
         last = change;
     }
     return gvi__fail(st, GVI_E_CONVERGENCE, GVI_FAULT_MASS, GVI_FAULT_NONE, GVI_FAULT_NONE);
+}
+
+// a velocity near the present one: that at the end of the last step, or the start's
+static gvi_real gvi__velocity_guess(const gvi_stepper *st, int i)
+{
+    return st->x.has_velocity ? st->x.last.V[i*st->x.stride + st->r - 1] : st->x.start[i];
 }
 
 /* v from p at one point.  v holds a guess on entry.                           */
@@ -1651,9 +1683,9 @@ static int gvi__covers(const gvi_stepper *st, gvi_formulation f)
 
 static gvi_status gvi__check_desc(const gvi_desc *d)
 {
-    if (!d || d->n < 1 || d->n > 0xFFFFFF || d->degree < 0 || d->degree > 1024) return GVI_E_ARGUMENT;
-    if (d->rule.points < 0 || d->rule.points > 4096 || d->effect_count < 0 || d->effect_count > GVI_EFFECTS
-        || (d->effect_count && !d->effects) || d->max_iterations < 0 || !(d->tolerance >= 0 && d->tolerance < 1))
+    if (!d || d->n < 1 || d->n > 0x7FFFF || d->degree < 0 || d->degree > 1024) return GVI_E_ARGUMENT;
+    if (d->rule.points < 0 || d->rule.points > 4000 || d->effect_count < 0 || d->effect_count > GVI_EFFECTS
+        || (d->effect_count && !d->effects) || d->max_iterations < 0 || d->max_iterations > 1000000 || !(d->tolerance >= 0 && d->tolerance < 1))
         return GVI_E_ARGUMENT;
     if ((int)d->formulation < GVI_AUTO || (int)d->formulation > GVI_NEWTON) return GVI_E_ARGUMENT;
     for (int e = 0; e < d->effect_count; ++e) {
@@ -1706,6 +1738,10 @@ static gvi_status gvi__resolve(gvi_stepper *st, const gvi_desc *desc)
     if (st->x.chosen == GVI_NEWTON || (d->formulation == GVI_AUTO && st->x.chosen != GVI_EXPLICIT))
         st->x.flags |= GVI__HAS_NEWTON;
     st->formulation = st->x.chosen;
+
+    // indices are int: n*n and s*n where there are matrices
+    int matrices = d->mass.kind >= GVI_MASS_DENSE || (st->x.flags & (GVI__HAS_NEWTON | GVI__HAS_LAGRANGIAN));
+    if (matrices && (d->n > 0x7FFF || (st->x.flags & GVI__HAS_NEWTON && s > 0x7FFFFFF/d->n))) return GVI_E_ARGUMENT;
     return GVI_OK;
 }
 
@@ -1759,7 +1795,7 @@ static size_t gvi__layout(gvi_stepper *st, gvi_real *base)
     x->phi = gvi__take(&a, reads_v || st->order <= 2*st->s - 2, s, R);
     x->low = gvi__take(&a, reads_v || st->order <= 2*st->s - 2, s, R);
     x->Z = gvi__take(&a, positions && mass == GVI_MASS_DENSE, n, R);
-    x->point_mass = gvi__take(&a, mass == GVI_MASS_POSITION, n*n, R);
+    x->point_mass = gvi__take(&a, mass == GVI_MASS_POSITION, n, n*R);
     x->ce = gvi__take(&a, 1, 1, R);
     x->b = gvi__take(&a, 1, 1, R);
     x->t = gvi__take(&a, 1, 1, R);
@@ -1773,6 +1809,7 @@ static size_t gvi__layout(gvi_stepper *st, gvi_real *base)
     x->q0 = gvi__take(&a, 1, 1, n);
     x->p0 = gvi__take(&a, 1, 1, n);
     x->none = gvi__take(&a, 1, 1, n);
+    x->start = gvi__take(&a, 1, 1, n);
     x->v0 = gvi__take(&a, 1, 1, n);
     x->ve = gvi__take(&a, 1, 1, n);
     x->dq = gvi__take(&a, 1, 1, n);
@@ -1785,7 +1822,7 @@ static size_t gvi__layout(gvi_stepper *st, gvi_real *base)
     x->own = gvi__take(&a, x->flags & GVI__HAS_OWN, s*s + s + 1, 1);
 
     // J and pivots twice: queries must not touch what the steps keep
-    x->hess = gvi__take(&a, newton || lagrangian, 4*n*n + 4*n + 1, 1);
+    x->hess = gvi__take(&a, newton || lagrangian, n, newton ? 4*n + 5 : n + 5);
     x->y = gvi__take(&a, newton, 1, sn);
     x->dy = gvi__take(&a, newton, 1, sn);
     x->J = gvi__take(&a, newton, 2*sn, sn);
@@ -1843,7 +1880,6 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
 
     gvi__zero(length, memory);
     gvi__layout(st, memory);
-    x->memory = memory;
     x->size = length;
     st->q = x->q;
     st->p = x->p;
@@ -1863,6 +1899,7 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     if (x->flags & GVI__HAS_OWN) gvi__tables_own(st);
     else gvi__tables(st);
     gvi_barycentric(st->r, x->c, x->near);
+    x->memory = memory;                      // from here on it can be used
     return gvi__done(st, GVI_OK);
 }
 
@@ -1908,16 +1945,18 @@ typedef struct gvi__stage {
     int             over_mass;
 } gvi__stage;
 
-/* The products of r*r table and row are what an iteration consists of.  Eight
-   points are one vector for the compiler, whatever registers the machine has;
-   where it knows no vectors, and for fewer than 5 points, loops do the same.   */
-#if defined(__GNUC__) && GVI__KIND < 3 && FLT_EVAL_METHOD == 0
+/* The products of r*r table and row are what an iteration consists of.  Rows go in
+   blocks of eight points, or of r below 5.  Where there are vector registers a
+   block is one vector for the compiler; the loops for the rest add in the same
+   order, so that both give the same bits.                                     */
+#if defined(__GNUC__) && GVI__KIND < 3 && FLT_EVAL_METHOD == 0 \
+    && (defined(__SSE2__) || defined(__ARM_NEON) || defined(__ALTIVEC__) || defined(__riscv_vector))
 #define GVI__VECTORS
 typedef gvi_real gvi__vector __attribute__((vector_size(8*sizeof(gvi_real)), aligned(sizeof(gvi_real)), may_alias));
+#define GVI__AT(p) (*(const gvi__vector *)(p))
 
 // sum_j w_j table[j][0..7] f_j in two sums, so that one need not wait for the other
-#define GVI__AT(p) (*(const gvi__vector *)(p))
-static inline void gvi__sum_lanes(int r, int R, const gvi_real *table, const gvi_real *w, const gvi_real *f, gvi__vector *z)
+static inline void gvi__sum_vector(int r, int R, const gvi_real *table, const gvi_real *w, const gvi_real *f, gvi__vector *z)
 {
     gvi__vector even = { 0 }, odd = { 0 };
     for (int j = 0; j + 1 < r; j += 2) {
@@ -1934,64 +1973,78 @@ static inline void gvi__sum_row(int r, int R, const gvi_real *table, const gvi_r
 {
 #ifdef GVI__VECTORS
     if (R % 8 == 0) {
-        for (int o = 0; o < R; o += 8) gvi__sum_lanes(r, R, table + o, w, f, (gvi__vector *)(z + o));
+        for (int o = 0; o < R; o += 8) gvi__sum_vector(r, R, table + o, w, f, (gvi__vector *)(z + o));
         return;
     }
 #endif
-    for (int k = 0; k < R; ++k) z[k] = 0;
-    for (int j = 0; j < r; ++j) {
-        const gvi_real L = w[j]*f[j], *column = table + j*R;
-        for (int k = 0; k < R; ++k) z[k] += column[k]*L;
+    for (int k = 0; k < R; ++k) {
+        gvi_real even = 0, odd = 0;
+        for (int j = 0; j < r; j += 2) even += table[j*R + k]*(w[j]*f[j]);
+        for (int j = 1; j < r; j += 2) odd += table[j*R + k]*(w[j]*f[j]);
+        z[k] = even + odd;
     }
 }
 
+/* In what units changes of a row are measured: |base| + the displacements at the
+   last point of the block, before and after.  0 where these have no sure digit. */
+static inline gvi_real gvi__scale(gvi_real base, gvi_real was, gvi_real is)
+{
+    const gvi_real size = gvi__abs(base) + gvi__abs(was - base) + gvi__abs(is - base);
+    return size > GVI__MIN/GVI__EPS ? 1/size : 0;
+}
+
 /* row := base + (extra + (c a + b z)), z of coordinate i as in gvi__stage.  Returns
-   the sum of the squares of the changes, in units of |base| + the displacement
-   at the last point.  r and R are constants where this is inlined for the usual
-   sizes.                                                                      */
+   the sum of the squares of the changes, scaled.  r and R are constants where
+   this is inlined for the usual sizes.                                        */
 static inline gvi_real gvi__stage_row(const gvi_stepper *st, const gvi__stage *y, int i, int r, int R)
 {
     const struct gvi__private *x = &st->x;
     const gvi_real *f = y->f + i*R, *c = x->c;
-    gvi_real *row = y->rows + i*R, sum = 0;
+    gvi_real *row = y->rows + i*R;
     const gvi_real base = y->base[i], extra = y->extra[i], a = y->slope ? y->factor*y->slope[i] : 0;
     const gvi_real b = y->over_mass && x->desc.mass.kind == GVI_MASS_DIAGONAL ? y->factor/x->mass[i] : y->factor;
-    const gvi_real size = gvi__abs(base) + gvi__abs(row[r - 1] - base), scale = size > 0 ? 1/size : 0;
 #ifdef GVI__VECTORS
     if (R % 8 == 0) {
         gvi__vector squares = { 0 };
         for (int o = 0; o < R; o += 8) {
+            const int last = r - 1 - o < 7 ? r - 1 - o : 7;
             gvi__vector z, less, next, moved;
-            gvi__sum_lanes(r, R, y->table + o, x->hb, f, &z);
+            gvi__sum_vector(r, R, y->table + o, x->hb, f, &z);
             if (y->minus) {
-                gvi__sum_lanes(r, R, y->minus + o, x->b, y->a + i*R, &less);
+                gvi__sum_vector(r, R, y->minus + o, x->b, y->a + i*R, &less);
                 z -= less;
             }
             next = base + (extra + (GVI__AT(c + o)*a + z*b));
-            moved = (next - GVI__AT(row + o))*scale;
+            moved = (next - GVI__AT(row + o))*gvi__scale(base, row[o + last], next[last]);
             *(gvi__vector *)(row + o) = next;
             squares += moved*moved;
         }
-        for (int k = 0; k < 4; ++k) sum += squares[k] + squares[k + 4];
-        return sum;
+        return ((squares[0] + squares[4]) + (squares[1] + squares[5])) + ((squares[2] + squares[6]) + (squares[3] + squares[7]));
     }
 #endif
+    gvi_real lane[8] = { 0, 0, 0, 0, 0, 0, 0, 0 };
+    const int block = R < 8 ? R : 8;
     gvi__sum_row(r, R, y->table, x->hb, f, x->z);
     if (y->minus) gvi__sum_row(r, R, y->minus, x->b, y->a + i*R, x->less);
-    for (int k = 0; k < R; ++k) {
-        const gvi_real next = base + (extra + (c[k]*a + (x->z[k] - (y->minus ? x->less[k] : 0))*b));
-        const gvi_real moved = (next - row[k])*scale;
-        sum += moved*moved;
-        row[k] = next;
+    for (int o = 0; o < R; o += block) {
+        const int last = r - o < block ? r - 1 : o + block - 1;
+        for (int k = o; k < o + block; ++k)
+            x->z[k] = base + (extra + (c[k]*a + (y->minus ? x->z[k] - x->less[k] : x->z[k])*b));
+        const gvi_real scale = gvi__scale(base, row[last], x->z[last]);
+        for (int k = o; k < o + block; ++k) {
+            const gvi_real moved = (x->z[k] - row[k])*scale;
+            lane[k - o] += moved*moved;
+            row[k] = x->z[k];
+        }
     }
-    return sum;
+    return ((lane[0] + lane[4]) + (lane[1] + lane[5])) + ((lane[2] + lane[6]) + (lane[3] + lane[7]));
 }
 
 // the same where M is a full matrix: all sums first, then M^-1 of them
 static gvi_real gvi__stage_rows_dense(gvi_stepper *st, const gvi__stage *y)
 {
     struct gvi__private *x = &st->x;
-    int R = x->stride;
+    int R = x->stride, last = st->r - 1;
     gvi_real sum = 0;
     for (int i = 0; i < st->n; ++i) {
         gvi__sum_row(st->r, R, y->table, x->hb, y->f + i*R, x->Z + i*R);
@@ -2000,13 +2053,13 @@ static gvi_real gvi__stage_rows_dense(gvi_stepper *st, const gvi__stage *y)
     }
     gvi__over_mass(st, x->Z, R, R);
     for (int i = 0; i < st->n; ++i) {
-        gvi_real base = y->base[i], *row = y->rows + i*R, slope = y->slope ? y->slope[i] : 0;
-        gvi_real size = gvi__abs(base) + gvi__abs(row[st->r - 1] - base), scale = size > 0 ? 1/size : 0;
+        gvi_real *z = x->Z + i*R, *row = y->rows + i*R, slope = y->slope ? y->slope[i] : 0;
+        for (int k = 0; k < R; ++k) z[k] = y->base[i] + (y->extra[i] + y->factor*(x->c[k]*slope + z[k]));
+        gvi_real scale = gvi__scale(y->base[i], row[last], z[last]);
         for (int k = 0; k < R; ++k) {
-            gvi_real next = base + (y->extra[i] + y->factor*(x->c[k]*slope + x->Z[i*R + k]));
-            gvi_real moved = (next - row[k])*scale;
+            gvi_real moved = (z[k] - row[k])*scale;
             sum += moved*moved;
-            row[k] = next;
+            row[k] = z[k];
         }
     }
     return sum;
@@ -2143,7 +2196,7 @@ static void gvi__guess(gvi_stepper *st, int extrapolate)
         gvi__zero(length, w->F);
         if (w->A) gvi__zero(length, w->A);
         for (int i = 0; x->chosen == GVI_MOMENTA && i < st->n; ++i)
-            for (int k = 0; k < st->r; ++k) w->V[i*x->stride + k] = x->v0[i];
+            for (int k = 0; k < st->r; ++k) w->V[i*x->stride + k] = gvi__velocity_guess(st, i);
     }
 }
 
@@ -2169,23 +2222,26 @@ static void gvi__increments(gvi_stepper *st, gvi_real h)
     for (int i = 0; i < n; ++i) x->dq[i] = h*x->v0[i] + h*(x->ve[i] + x->dq[i]);
 }
 
-/* Is the change that does not shrink any more nothing but rounding?  Measured
-   at the last point, as energy, force times change against force times path and
-   p v: coordinates of any units may be added up.                             */
+/* Is the change that does not shrink any more nothing but rounding?  It is as far
+   as it is within a few units of the last place of q.  What is beyond that is
+   measured as energy, force times change against force times path and p v, so
+   that coordinates of any units may be added up; at the last point.           */
 static int gvi__is_rounding(const gvi_stepper *st, const gvi__from *from)
 {
     const struct gvi__private *x = &st->x;
-    int R = x->stride;
+    const gvi_real r = (gvi_real)st->r;
+    int R = x->stride, last = st->r - 1;
     gvi_real noise = 0, size = 0;
     for (int i = 0; i < st->n; ++i) {
-        gvi_real most = 0;
+        gvi_real most = 0, Q = x->work.Q[i*R + last], v = x->chosen > GVI_POSITIONS ? x->work.V[i*R + last] : x->v0[i];
         for (int k = 0; k < st->r; ++k) {
             gvi_real F = gvi__abs(x->work.F[i*R + k]);
             if (F > most) most = F;
             size += F*gvi__abs(x->work.Q[i*R + k] - from->q[i]);
         }
-        noise += (gvi_real)st->r*gvi__abs(x->work.Q[i*R + st->r - 1] - x->change[i])*most;
-        size += (gvi_real)st->r*gvi__abs(from->p[i]*x->v0[i]);
+        gvi_real beyond = gvi__abs(Q - x->change[i]) - 4*GVI__EPS*gvi__abs(Q);
+        if (!(beyond <= 0)) noise += r*beyond*most;
+        size += r*gvi__abs(from->p[i]*v);
     }
     return size <= GVI__MAX && noise <= 10000*GVI__EPS*size;
 }
@@ -2229,7 +2285,7 @@ static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_r
         poor = grows ? poor + 1 : 0;
         idle = change < least*9/10 ? 0 : idle + 1;
         if (change < least) least = change;
-        if (change*ratio <= enough || (grows && change <= rounding) || (idle > 2 && gvi__is_rounding(st, from))) {
+        if (change*ratio <= enough || (idle > 0 && change <= rounding) || (idle > 2 && gvi__is_rounding(st, from))) {
             if (change > st->counters.worst_change) st->counters.worst_change = change;
             return GVI_OK;
         }
@@ -2322,6 +2378,7 @@ typedef struct gvi__matrix {
     gvi_real *ends;        /* k0 = 1: columns y_0 and q0, 2n a row; or NULL     */
     int       k0;
     gvi_real  h;
+    int       scaled;      /* rows by their largest entry, for a condition without units */
 } gvi__matrix;
 
 /* Adds what dF_i/du_j = f and dP_i/du_j = p at one point contribute, u = q or v:
@@ -2456,6 +2513,17 @@ static gvi_status gvi__check_regular(gvi_stepper *st)
     return status == GVI_E_SINGULAR ? gvi__fail(st, status, GVI_FAULT_MASS, at, GVI_FAULT_NONE) : GVI_OK;
 }
 
+static void gvi__scale_rows(int n, int size, const gvi__matrix *J)
+{
+    for (int row = 0; row < size; ++row) {
+        gvi_real big = 0, *a = J->square + (size_t)row*(size_t)size, *ends = J->ends + (size_t)row*2*(size_t)n;
+        for (int j = 0; j < size; ++j)
+            if (gvi__abs(a[j]) > big) big = gvi__abs(a[j]);
+        for (int j = 0; big > 0 && j < size; ++j) a[j] /= big;
+        for (int j = 0; big > 0 && j < 2*n; ++j) ends[j] /= big;
+    }
+}
+
 static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J, gvi_real *pivot)
 {
     int n = st->n, size = (st->s - J->k0)*n, at;
@@ -2465,6 +2533,7 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J, gvi_real 
     if (status == GVI_OK) status = gvi__jacobian_exact(st, J);
     if (status == GVI_OK) status = gvi__jacobian_differences(st, J);
     if (status != GVI_OK) return status;
+    if (J->scaled) gvi__scale_rows(n, size, J);
     status = gvi__lu_factor(size, J->square, pivot, &at);
     st->counters.factorizations += 1;
     return status == GVI_OK ? GVI_OK : gvi__fail(st, status, GVI_FAULT_NONE, at < 0 ? at : at % n, GVI_FAULT_NONE);
@@ -2477,7 +2546,7 @@ static void gvi__newton_guess(gvi_stepper *st, int extrapolate)
     int n = st->n, s = st->s, R = x->stride;
     gvi__zero((size_t)(s*n), x->y);
     if (!extrapolate) {
-        gvi__copy((size_t)n, x->v0, x->y);
+        for (int i = 0; i < n; ++i) x->y[i] = gvi__velocity_guess(st, i);
         return;
     }
     gvi__extrapolate(st, x->last.V, x->work.V);
@@ -2520,7 +2589,7 @@ static gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi_
     struct gvi__private *x = &st->x;
     const gvi_real enough = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/4096;
     int size = (st->s - J->k0)*st->n, have = kept && !gvi__nonzero(x->h_matrix - J->h);
-    int made = 0, last = size == 0;
+    int made = 0, last = 0;
     gvi_real before = 0;
     for (int k = 0; k <= x->desc.max_iterations; ++k) {
         gvi_points y = gvi__rows_as_points(st, &x->work, x->work.P);
@@ -2559,7 +2628,7 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, gvi_r
 {
     struct gvi__private *x = &st->x;
     size_t sn = (size_t)(st->s*st->n), offset = query ? sn*sn : 0;
-    gvi__matrix J = { x->J + offset, NULL, 0, h };
+    gvi__matrix J = { x->J + offset, NULL, 0, h, 0 };
     gvi__newton_guess(st, extrapolate);
     gvi_status status = gvi__newton(st, from, &J, x->pivot + (query ? sn + 1 : 0), !query);
     for (int i = 0; i < st->n; ++i) {
@@ -2596,7 +2665,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__from *from, gvi_real 
         }
         if (status == GVI_OK) gvi__increments(st, h);
         if (status == GVI_OK || x->desc.formulation != GVI_AUTO || !(x->flags & GVI__HAS_NEWTON)) return status;
-        if (!query) x->newton_left = 64;
+        if (!query && status == GVI_E_CONVERGENCE) x->newton_left = 64;
     }
     unsigned long long count = st->counters.newton_iterations;
     st->formulation = GVI_NEWTON;
@@ -2614,7 +2683,7 @@ static gvi_status gvi__solve(gvi_stepper *st, const gvi__from *from, gvi_real h,
     if (status == GVI_OK && !(gvi__all_finite(st->n, x->dq) && gvi__all_finite(st->n, x->dp)))
         status = GVI_E_NON_FINITE;
     if (status == GVI_E_NON_FINITE && st->fault.effect == GVI_FAULT_NONE && !x->diagnose) {
-        x->h_matrix = 0;
+        if (!query) x->h_matrix = 0;
         x->diagnose = 1;
         gvi_status second = gvi__attempt(st, from, h, past, query);
         x->diagnose = 0;
@@ -2657,11 +2726,12 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
 {
     if (!st) return GVI_E_ARGUMENT;
     struct gvi__private *x = &st->x;
-    if (!x->started) return gvi__fail(st, GVI_E_STATE, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
+    if (!x->started) return gvi__unready(st);
     gvi__done(st, GVI_OK);
     if (!gvi__nonzero(h) || !gvi__finite(h)) return st->status = GVI_E_ARGUMENT;
 
-    gvi_formulation was = st->formulation;
+    const gvi_formulation was = st->formulation;
+    const int left = x->newton_left;
     gvi__from from = { st->t, x->te, x->q, x->qe, x->p, x->pe };
     gvi__history past = { x->stepped, 1, 0, x->has_force ? x->last.F + 1 : NULL };
     if (x->stepped) {
@@ -2672,10 +2742,12 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
     gvi_status status = gvi__solve(st, &from, h, &past, 0);
     for (int i = 0; i < st->n && status == GVI_OK; ++i)
         if (!gvi__finite(x->q[i] + x->dq[i]) || !gvi__finite(x->p[i] + x->dp[i])) status = GVI_E_CONVERGENCE;
-    if (status == GVI_OK && !gvi__finite(st->t + h)) status = GVI_E_ARGUMENT;
+    if (status == GVI_OK && !gvi__finite(st->t + h))
+        status = gvi__fail(st, GVI_E_ARGUMENT, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
     if (status != GVI_OK) {
         st->counters.failures += 1;
         st->formulation = was;
+        x->newton_left = left;
         x->h_matrix = 0;
         return st->status = status;
     }
@@ -2705,8 +2777,8 @@ static gvi_status gvi__start(gvi_stepper *st, gvi_real t)
 static gvi_status gvi__check_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *w)
 {
     if (!st) return GVI_E_ARGUMENT;
+    if (!st->x.memory) return gvi__unready(st);
     gvi__done(st, GVI_OK);
-    if (!st->x.memory) return st->status = GVI_E_STATE;
     if (!q || !w || !gvi__finite(t)) return st->status = GVI_E_ARGUMENT;
     for (int i = 0; i < st->n; ++i)
         if (!gvi__finite(q[i]) || !gvi__finite(w[i]))
@@ -2724,17 +2796,18 @@ GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, con
 
     // p = dL/dv: of the kinetic energy, and of Lagrangian terms where there are any
     gvi_points y = gvi__at(st, &t, q, v, f, p);
+    x->diagnose = 1;
     if (x->flags & GVI__HAS_LAGRANGIAN) status = gvi__evaluate(st, &y, 0);
     else {
         gvi__zero(n, f);
         gvi__zero(n, p);
         status = gvi__kinetic(st, &y);
     }
-    if (status == GVI_OK) status = gvi__check_rows(st, &y, p, GVI_FAULT_MASS);
+    x->diagnose = 0;
     if (status != GVI_OK) return status;
     gvi__copy(n, p, x->dp);
     gvi__copy(n, q, x->dq);
-    gvi__copy(n, v, x->v0);
+    gvi__copy(n, v, x->start);
     gvi__copy(n, x->dq, x->q);
     gvi__copy(n, x->dp, x->p);
     return gvi__start(st, t);
@@ -2748,11 +2821,13 @@ GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_rea
     size_t n = (size_t)st->n;
     gvi__copy(n, q, x->dq);
     gvi__copy(n, p, x->dp);
-    gvi__zero(n, x->v0);
     // a velocity to start the first iteration from; where there is none, the step says so
-    if (x->chosen == GVI_MOMENTA || x->chosen == GVI_NEWTON) status = gvi__velocity(st, t, x->dq, x->dp, x->v0);
-    if (status == GVI_E_SINGULAR || status == GVI_E_CONVERGENCE) gvi__zero(n, x->v0);
+    gvi_real *v = x->change;
+    gvi__zero(n, v);
+    status = gvi__velocity(st, t, x->dq, x->dp, v);
+    if (status == GVI_E_SINGULAR || status == GVI_E_CONVERGENCE) gvi__zero(n, v);
     else if (status != GVI_OK) return status;
+    gvi__copy(n, v, x->start);
     gvi__copy(n, x->dq, x->q);
     gvi__copy(n, x->dp, x->p);
     return gvi__start(st, t);
@@ -2772,7 +2847,8 @@ GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_rea
 GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
 {
     if (!st) return GVI_E_ARGUMENT;
-    if (!st->x.memory) return st->status = GVI_E_STATE;
+    if (!st->x.memory) return gvi__unready(st);
+    gvi__done(st, GVI_OK);
     if (index < 0 || index >= st->x.desc.effect_count) return st->status = GVI_E_ARGUMENT;
     unsigned bit = 1u << index;
     st->x.off = on ? st->x.off & ~bit : st->x.off | bit;
@@ -2786,9 +2862,9 @@ GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
 static gvi_status gvi__ready(gvi_stepper *st, int stepped)
 {
     if (!st) return GVI_E_ARGUMENT;
+    if (!st->x.started) return gvi__unready(st);
     gvi__done(st, GVI_OK);
-    if (!st->x.started || (stepped && !st->x.stepped)) return st->status = GVI_E_STATE;
-    return GVI_OK;
+    return stepped && !st->x.stepped ? (st->status = GVI_E_STATE) : GVI_OK;
 }
 
 GVI_DEF gvi_status gvi_velocity(gvi_stepper *st, gvi_real *v)
@@ -2801,7 +2877,7 @@ GVI_DEF gvi_status gvi_velocity(gvi_stepper *st, gvi_real *v)
     // the guess: velocity at the last point of the last step, or at the start
     gvi_real *guess = x->change;
     for (int i = 0; i < st->n; ++i)
-        guess[i] = x->has_velocity ? x->last.V[i*x->stride + st->r - 1] : x->v0[i];
+        guess[i] = gvi__velocity_guess(st, i);
     status = gvi__velocity(st, st->t, x->q, x->p, guess);
     if (status == GVI_OK) gvi__copy((size_t)st->n, guess, v);
     return gvi__done(st, status);
@@ -2913,6 +2989,7 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
     if (status != GVI_OK) return status;
     struct gvi__private *x = &st->x;
     size_t n = (size_t)st->n;
+    if (!gvi__finite(t)) return st->status = GVI_E_ARGUMENT;
     gvi_real ahead = t - x->t0, back = t - st->t;            // one of each sign, or 0
     if (!((ahead >= 0 && back <= 0) || (ahead <= 0 && back >= 0))) return st->status = GVI_E_STATE;
 
@@ -2935,7 +3012,7 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
     for (size_t i = 0; i < n; ++i) {
         Q[i] = from.q[i] + (x->dq[i] + from.qe[i]);
         P[i] = from.p[i] + (x->dp[i] + from.pe[i]);
-        V[i] = x->has_velocity ? x->last.V[i*(size_t)x->stride + (size_t)st->r - 1] : x->v0[i];
+        V[i] = gvi__velocity_guess(st, (int)i);
     }
     if (v) status = gvi__velocity(st, t, Q, P, V);
     if (status != GVI_OK) return st->status = status;
@@ -3042,22 +3119,24 @@ static gvi_status gvi__chord(gvi_stepper *st, const gvi__from *from, gvi_real h,
     struct gvi__private *x = &st->x;
     int n = st->n, R = x->stride;
     gvi_real *q = x->change, *v = q + n, *f = x->one + 4*n, *P = f + n;
+    gvi_status status = GVI_OK;
     gvi__zero((size_t)n, p);
-    for (int j = 0; j < st->r; ++j) {
+    for (int j = 0; j < st->r && status == GVI_OK; ++j) {
         for (int i = 0; i < n; ++i) {
             v[i] = (q1[i] - from->q[i])/h;
             q[i] = x->work.Q[i*R + j] = from->q[i] + x->c[j]*(q1[i] - from->q[i]);
             if (x->work.V) x->work.V[i*R + j] = v[i];
         }
         gvi_points y = gvi__at(st, x->t + j, q, v, f, P);
-        gvi_status status = gvi__evaluate(st, &y, 0);
-        if (status != GVI_OK) return status;
+        x->diagnose = 1;
+        status = gvi__evaluate(st, &y, 0);
+        x->diagnose = 0;
         for (int i = 0; i < n; ++i) {
             x->work.F[i*R + j] = f[i];
             p[i] += x->b[j]*P[i];
         }
     }
-    return GVI_OK;
+    return status;
 }
 
 static gvi_status gvi__interior(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *q1,
@@ -3066,13 +3145,20 @@ static gvi_status gvi__interior(gvi_stepper *st, const gvi__from *from, gvi_real
     struct gvi__private *x = &st->x;
     int n = st->n, size = (st->s - 1)*n;
     if (size == 0) return gvi__chord(st, from, h, q1, p);
-    gvi__zero((size_t)(st->s*n), x->y);
-    for (int i = 0; i < n; ++i) x->y[i] = (q1[i] - from->q[i])/h;
-    gvi_status status = gvi__newton(st, from, J, pivot, 0);
+    gvi_status status = GVI_E_NON_FINITE;
+    for (int look = 0; look < 2 && status == GVI_E_NON_FINITE; ++look) {    // as in gvi__solve
+        gvi__zero((size_t)(st->s*n), x->y);
+        for (int i = 0; i < n; ++i) x->y[i] = (q1[i] - from->q[i])/h;
+        x->diagnose = look;
+        status = gvi__newton(st, from, J, pivot, 0);
+        x->diagnose = 0;
+    }
     if (status != GVI_OK && status != GVI_E_CONVERGENCE) return status;
 
     // the Jacobian where it ended says whether there was anything to find
-    gvi_status second = gvi__jacobian(st, J, pivot);
+    gvi__matrix scaled = *J;
+    scaled.scaled = 1;
+    gvi_status second = gvi__jacobian(st, &scaled, pivot);
     if (second != GVI_OK) return second;
     if (gvi_lu_rcond(size, J->square, pivot, x->dF) < gvi__jacobian_error(st)) status = GVI_E_CONJUGATE;
     for (int i = 0; i < n; ++i) p[i] = gvi__dot(st->r, x->b, x->work.P + i*x->stride);
@@ -3086,7 +3172,7 @@ static gvi_status gvi__boundary_value(gvi_stepper *st, const gvi__from *from, gv
     int n = st->n, s = st->s, R = x->stride;
     size_t size = (size_t)(s - 1)*(size_t)n, sn = (size_t)s*(size_t)n;
     gvi_real *square = s > 1 ? x->J + sn*sn : NULL, *pivot = s > 1 ? x->pivot + sn + 1 : NULL;
-    gvi__matrix J = { square, s > 1 ? square + size*size : NULL, 1, h };
+    gvi__matrix J = { square, s > 1 ? square + size*size : NULL, 1, h, 0 };
     gvi_real *p0 = x->dq, *p1 = x->dp, *minus = x->change, *plus = minus + n;
     gvi_status status = gvi__interior(st, from, h, q1, &J, pivot, p0);
     if (status == GVI_E_CONJUGATE || (status == GVI_E_SINGULAR && st->fault.effect == GVI_FAULT_NONE))
@@ -3126,9 +3212,9 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
                                            const gvi_real *q0, const gvi_real *q1, const gvi_discrete *out)
 {
     if (!st) return GVI_E_ARGUMENT;
-    gvi__done(st, GVI_OK);
     struct gvi__private *x = &st->x;
-    if (!x->memory) return st->status = GVI_E_STATE;
+    if (!x->memory) return gvi__unready(st);
+    gvi__done(st, GVI_OK);
     if (!q0 || !q1 || !out || !gvi__all_finite(st->n, q0) || !gvi__all_finite(st->n, q1)
         || !gvi__finite(t) || !gvi__finite(h) || !gvi__nonzero(h)) return st->status = GVI_E_ARGUMENT;
     if (st->s > 1 && !(x->flags & GVI__HAS_NEWTON)) return st->status = GVI_E_FORMULATION;
@@ -3142,7 +3228,8 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
 GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const gvi_real *memory)
 {
     if (!st) return GVI_E_ARGUMENT;
-    if (!st->x.memory) return st->status = GVI_E_STATE;
+    if (!st->x.memory) return gvi__unready(st);
+    gvi__done(st, GVI_OK);
     if (!saved || !memory || saved->n != st->n || saved->s != st->s || saved->r != st->r
         || saved->x.size != st->x.size || saved->x.flags != st->x.flags || saved->x.chosen != st->x.chosen)
         return st->status = GVI_E_ARGUMENT;
@@ -3160,7 +3247,7 @@ GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const 
     }
     st->q = st->x.q;
     st->p = st->x.p;
-    return GVI_OK;
+    return gvi__done(st, GVI_OK);
 }
 
 /* ---- texts ---- */
@@ -3189,6 +3276,7 @@ GVI_DEF const char *gvi_status_text(gvi_status status)
 GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st)
 {
     if (!st) return "no stepper";
+    if (st->x.desc.formulation != GVI_AUTO) return "pinned by the description";
     if (st->formulation == GVI_NEWTON && st->x.chosen != GVI_NEWTON)
         return "Newton: the fixed point contracted badly";
     switch (st->formulation) {
