@@ -2261,7 +2261,7 @@ static gvi_status gvi__not_finite(gvi_stepper *st, int grows)
 
 /* Fixed point on the rows.  Tolerance-free end: the change after the next one,
    D^2/D_before, is far below rounding; or the change is rounding: small, or
-   without a new least by a tenth in three iterations, and of no energy.  Three
+   without a new least by a tenth in two iterations, and of no energy.  Three
    changes in a row that fall by less than half are poor.                      */
 static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate, int *used)
 {
@@ -2277,7 +2277,7 @@ static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_r
     for (*used = 1; *used <= x->desc.max_iterations; ++*used) {
         gvi_status status = gvi__ask(st);
         if (status != GVI_OK) return status;
-        for (int i = 0; idle > 1 && i < st->n; ++i) x->change[i] = x->work.Q[i*x->stride + st->r - 1];
+        for (int i = 0; idle > 0 && i < st->n; ++i) x->change[i] = x->work.Q[i*x->stride + st->r - 1];
         gvi_real change = gvi__stages(st, y, count), ratio = before > 0 ? change/before : 1;
         if (!(change <= GVI__MAX)) return gvi__not_finite(st, grows);
         gvi__watch(st, change, before > 0 ? ratio : 0);
@@ -2285,7 +2285,7 @@ static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_r
         poor = grows ? poor + 1 : 0;
         idle = change < least*9/10 ? 0 : idle + 1;
         if (change < least) least = change;
-        if (change*ratio <= enough || (idle > 0 && change <= rounding) || (idle > 2 && gvi__is_rounding(st, from))) {
+        if (change*ratio <= enough || (idle > 0 && change <= rounding) || (idle > 1 && gvi__is_rounding(st, from))) {
             if (change > st->counters.worst_change) st->counters.worst_change = change;
             return GVI_OK;
         }
@@ -2560,8 +2560,9 @@ static void gvi__newton_guess(gvi_stepper *st, int extrapolate)
     }
 }
 
-// y += dy from row k0 on; returns the sum over coordinates of the relative change
-static gvi_real gvi__newton_update(gvi_stepper *st, int k0)
+/* y += dy from row k0 on; returns the sum over coordinates of the relative change.
+   still: all of it within a few units of the last place of q                  */
+static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__from *from, gvi_real h, int k0, int *still)
 {
     struct gvi__private *x = &st->x;
     int n = st->n;
@@ -2576,7 +2577,7 @@ static gvi_real gvi__newton_update(gvi_stepper *st, int k0)
             size += gvi__abs(x->y[k*n + i]);
         }
         if (size > 0) sum += change/size;
-        else sum += change;
+        if (!(gvi__abs(h)*change <= 4*GVI__EPS*gvi__abs(from->q[i]))) *still = 0;
     }
     return sum;
 }
@@ -2606,17 +2607,18 @@ static gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi_
         }
         gvi_real residual = gvi__residual(st, from, J->k0);
         gvi_lu_solve(size, J->square, pivot, x->dy);
-        gvi_real change = gvi__newton_update(st, J->k0), ratio = before > 0 ? change/before : 1;
+        int still = 1;
+        gvi_real change = gvi__newton_update(st, from, J->h, J->k0, &still), ratio = before > 0 ? change/before : 1;
         st->counters.newton_iterations += 1;
         if (!(change <= GVI__MAX)) return gvi__not_finite(st, 0);
         gvi__watch(st, change, before > 0 ? ratio : 0);
 
         // one more evaluation, then done: if the change after this one is below
         // rounding, or this one is: it does not shrink although it is at the
-        // rounding of y or of the residual, or small and the Jacobian new
+        // rounding of y, q or the residual, or small and the Jacobian new
         int stagnant = before > 0 && ratio > (gvi_real)0.5;
         if (change*ratio <= enough
-            || (stagnant && (change <= 64*GVI__EPS*(gvi_real)size || residual <= 16*GVI__EPS
+            || (stagnant && (change <= 64*GVI__EPS*(gvi_real)size || still || residual <= 16*GVI__EPS
                              || (fresh && change <= gvi__sqrt(GVI__EPS))))) last = 1;
         else if (before > 0 && ratio > (gvi_real)0.25) have = 0;
         before = change;
