@@ -1395,7 +1395,7 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real
     gvi__copy((size_t)n, P, base);
     for (int j = 0; j < n; ++j) {
         gvi_real was = v[j], d = gvi__sqrt(GVI__EPS)*(gvi__nonzero(was) ? gvi__abs(was) : size);
-        if (!(d > 0)) d = gvi__sqrt(GVI__EPS);
+        if (!(d > GVI__MIN/GVI__EPS)) d = gvi__sqrt(GVI__EPS);
         v[j] = was + d;
         d = v[j] - was;
         x->dldv = moved;
@@ -2389,7 +2389,7 @@ static void gvi__add(const gvi_stepper *st, const gvi__matrix *J, int i, int j, 
     const struct gvi__private *x = &st->x;
     int n = st->n, R = x->stride, s = st->s, k0 = J->k0;
     size_t size = (size_t)(s - k0)*(size_t)n;
-    if (!gvi__nonzero(f) && !gvi__nonzero(p)) return;
+    if (f <= 0 && f >= 0 && p <= 0 && p >= 0) return;
     for (int k = k0; k < s; ++k) {
         gvi_real W = (k == 0 ? 1 : 0) - x->Phi[k*R + point];
         gvi_real a = (gvi_real)(2*k + 1)*(x->b[point]*x->phi[k*R + point]*p - x->hb[point]*W*f);
@@ -2486,7 +2486,7 @@ static gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matrix *
             if (gvi__abs(x->work.V[j*R + k]) > v) v = gvi__abs(x->work.V[j*R + k]);
         }
         gvi_real path = h*v > gvi__sqrt(root)*q ? h*v : gvi__sqrt(root)*q;
-        if (!(path > 0)) path = h > 0 && h < 1 ? h : 1;
+        if (!(root*path > GVI__MIN/GVI__EPS)) path = h < 1 ? h : 1;     // at rest at 0
         status = gvi__difference(st, J, j, 0, root*path);
         if (status == GVI_OK && reads_v) status = gvi__difference(st, J, j, 1, root*path/h);
     }
@@ -2576,7 +2576,7 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__from *from, gvi_r
             }
             size += gvi__abs(x->y[k*n + i]);
         }
-        if (size > 0) sum += change/size;
+        if (!(size <= GVI__MIN/GVI__EPS)) sum += change/size; // as gvi__scale; a NaN goes on
         if (!(gvi__abs(h)*change <= 4*GVI__EPS*gvi__abs(from->q[i]))) *still = 0;
     }
     return sum;

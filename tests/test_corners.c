@@ -1,0 +1,223 @@
+/* Corners that went wrong once: each a few lines, each its own reason.        */
+#ifndef GVI_REAL
+#define GVI_REAL double
+#endif
+#include "gvi_test.h"
+
+typedef gvi_real real;
+static real memory[4000], more[4000];
+
+static int spring(const gvi_points *x, void *user)
+{
+    (void)user;
+    for (int i = 0; i < x->n; ++i)
+        for (int k = 0; k < x->count; ++k) x->f[i*x->stride + k] -= x->q[i*x->stride + k];
+    return 0;
+}
+
+static int drag(const gvi_points *x, void *user)
+{
+    (void)user;
+    for (int i = 0; i < x->n; ++i)
+        for (int k = 0; k < x->count; ++k) x->f[i*x->stride + k] -= x->v[i*x->stride + k];
+    return 0;
+}
+
+static int not_a_number(const gvi_points *x, void *user)
+{
+    const int *sick = (const int *)user;
+    for (int k = 0; k < x->count; ++k) x->f[k] += *sick ? (real)NAN : 0;
+    return 0;
+}
+
+/* L = sum m_i (v_i^2/2 + v_i^4/(4 u^2)): momentum v + v^3/u^2 in units of u */
+static int quartic(const gvi_points *x, void *user)
+{
+    const real *unit = (const real *)user;
+    for (int i = 0; i < x->n; ++i)
+        for (int k = 0; k < x->count; ++k) {
+            real v = x->v[i*x->stride + k]/unit[i];
+            x->dldv[i*x->stride + k] += (v + v*v*v)*unit[i];
+        }
+    return 0;
+}
+
+static gvi_stepper *set_up(gvi_stepper *st, gvi_desc desc, real *where)
+{
+    assert_true(gvi_size(&desc) > 0 && gvi_size(&desc) <= sizeof memory);
+    assert_ok(gvi_init(st, &desc, where, sizeof memory));
+    return st;
+}
+
+/* It decays through the subnormals to 0, where no change has a sure digit */
+static void a_damped_motion_may_die_out(void **state)
+{
+    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = spring }, { .kind = GVI_FORCE, .points = drag } };
+    const gvi_formulation pins[] = { GVI_AUTO, GVI_VELOCITIES, GVI_MOMENTA, GVI_NEWTON };
+    (void)state;
+    for (int f = 0; f < COUNT(pins); ++f) {
+        gvi_stepper st;
+        set_up(&st, (gvi_desc){ .n = 1, .degree = 3, .effects = scene, .effect_count = 2, .formulation = pins[f] }, memory);
+        assert_ok(gvi_start(&st, 0, (real[]){ 1 }, (real[]){ 0 }));
+        for (int k = 0; k < 50000; ++k) assert_ok(gvi_step(&st, (real)0.125));
+        assert_between(-(long double)1e-30, st.q[0], (long double)1e-30);
+    }
+}
+
+/* A velocity of 1e-25 beside a position of 1: no scale to measure it by but its own */
+static void a_start_from_next_to_nothing_is_a_start(void **state)
+{
+    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = spring }, { .kind = GVI_FORCE, .points = drag } };
+    gvi_stepper st;
+    (void)state;
+    set_up(&st, (gvi_desc){ .n = 2, .degree = 3, .effects = scene, .effect_count = 2, .formulation = GVI_VELOCITIES }, memory);
+    assert_ok(gvi_start(&st, 0, (real[]){ 0, 1 }, (real[]){ (real)1e-25, 0 }));
+    for (int k = 0; k < 100; ++k) assert_ok(gvi_step(&st, (real)0.125));
+    assert_between(0, fabsl((long double)st.q[0]), 1e-25L);
+}
+
+/* v = 2u, p = 10u, whatever the unit u of the coordinate and that of the other */
+static void velocities_of_different_units_come_out_alike(void **state)
+{
+    (void)state;
+    for (int e = -12; e <= 12; e += 4) {
+        real unit[2] = { 1, (real)pow(10, e) }, q[2] = { 0, 0 }, v[2], p[2];
+        const gvi_effect scene[] = { { .kind = GVI_LAGRANGIAN, .points = quartic, .user = unit } };
+        gvi_stepper st;
+        for (int i = 0; i < 2; ++i) p[i] = 10*unit[i];
+        set_up(&st, (gvi_desc){ .n = 2, .degree = 2, .effects = scene, .effect_count = 1, .mass = { .kind = GVI_MASS_NONE } }, memory);
+        assert_ok(gvi_start_momentum(&st, 0, q, p));
+        assert_ok(gvi_velocity(&st, v));
+        for (int i = 0; i < 2; ++i) assert_close(v[i]/unit[i], 2, 8*EPS);
+    }
+}
+
+/* Two free oscillators, one 1e20 times heavier (and as stiff): nothing conjugate */
+static void heavy_and_light_are_no_conjugate_points(void **state)
+{
+    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = spring } };
+    (void)state;
+    for (int e = 0; e <= 20; e += 4) {
+        const real mass[2] = { 1, (real)pow(10, e) }, q0[2] = { 1, 1 }, q1[2] = { (real)1.1, (real)0.9 };
+        real p0[2], h = (real)0.125;
+        gvi_stepper st;
+        set_up(&st, (gvi_desc){ .n = 2, .degree = 5, .effects = scene, .effect_count = 1,
+                                .mass = { GVI_MASS_DIAGONAL, mass, 0, 0, 0, 0 } }, memory);
+        assert_ok(gvi_discrete_lagrangian(&st, 0, h, q0, q1, &(gvi_discrete){ .p0 = p0 }));
+        for (int i = 0; i < 2; ++i) {               // m omega (q1 - q0 cos)/sin
+            double w = 1/sqrt((double)mass[i]), m = (double)mass[i];
+            double s = sin(w*(double)h), c1 = 2*sin(w*(double)h/2)*sin(w*(double)h/2);
+            double exact = m*w*(((double)q1[i] - (double)q0[i]) + (double)q0[i]*c1)/s;
+            assert_close(p0[i]/(real)exact, 1, 64*(EPS > DBL_EPSILON ? EPS : DBL_EPSILON));
+        }
+    }
+}
+
+/* The first failure of a chain of calls is the one that is left at its end */
+static void a_chain_of_calls_keeps_its_first_cause(void **state)
+{
+    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = spring } };
+    const real massless[1] = { 0 }, q[1] = { 1 }, v[1] = { 0 };
+    const gvi_desc heavy = { .n = 1, .effects = scene, .effect_count = 1 };
+    const gvi_desc light = { .n = 1, .effects = scene, .effect_count = 1, .mass = { GVI_MASS_DIAGONAL, massless, 0, 0, 0, 0 } };
+    gvi_stepper st;
+    real x;
+    (void)state;
+    assert_status(gvi_init(&st, &heavy, memory, 8), GVI_E_MEMORY);
+    assert_status(gvi_start(&st, 0, q, v), GVI_E_MEMORY);
+    assert_status(gvi_step(&st, 1), GVI_E_MEMORY);
+    assert_status(gvi_velocity(&st, &x), GVI_E_MEMORY);
+    assert_status(gvi_init(&st, &light, memory, sizeof memory), GVI_E_SINGULAR);
+    assert_int_equal(st.fault.coordinate, 0);
+    assert_status(gvi_start(&st, 0, q, v), GVI_E_SINGULAR);
+    assert_status(gvi_step(&st, 1), GVI_E_SINGULAR);
+}
+
+/* Not through the boundary values either */
+static void no_nan_passes_for_a_momentum(void **state)
+{
+    int sick = 1;
+    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = not_a_number, .user = &sick } };
+    (void)state;
+    for (int s = 1; s <= 4; ++s) {
+        gvi_stepper st;
+        real p0 = 7, q0 = 0, q1 = 1;
+        set_up(&st, (gvi_desc){ .n = 1, .degree = s, .effects = scene, .effect_count = 1 }, memory);
+        assert_status(gvi_discrete_lagrangian(&st, 0, 1, &q0, &q1, &(gvi_discrete){ .p0 = &p0 }), GVI_E_NON_FINITE);
+        assert_int_equal(st.fault.effect, 0);
+        assert_true(p0 == 7);
+        assert_status(gvi_start_configurations(&st, 0, 1, &q0, &q1), GVI_E_NON_FINITE);
+    }
+}
+
+/* Failed steps and failed queries, in either of two twins, leave no trace */
+static void failures_leave_no_trace_in_later_steps(void **state)
+{
+    const gvi_formulation pins[] = { GVI_AUTO, GVI_POSITIONS, GVI_NEWTON };
+    (void)state;
+    for (int f = 0; f < COUNT(pins); ++f) {
+        int sick = 0;
+        const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = spring },
+                                     { .kind = GVI_POTENTIAL, .points = not_a_number, .user = &sick } };
+        const gvi_desc desc = { .n = 2, .degree = 4, .effects = scene, .effect_count = 2, .formulation = pins[f] };
+        const real q[2] = { 1, 2 }, v[2] = { 0, 1 };
+        gvi_stepper a, b;
+        real x[2];
+        set_up(&a, desc, memory);
+        set_up(&b, desc, more);
+        assert_ok(gvi_start(&a, 0, q, v));
+        assert_ok(gvi_start(&b, 0, q, v));
+        for (int k = 0; k < 40; ++k) {
+            assert_ok(gvi_step(&a, (real)0.25));
+            assert_ok(gvi_step(&b, (real)0.25));
+            sick = 1;
+            assert_status(gvi_state_at(&b, b.t - (real)0.0625, x, NULL, NULL), GVI_E_NON_FINITE);
+            if (pins[f] != GVI_NEWTON) assert_status(gvi_step(&b, (real)0.25), GVI_E_NON_FINITE);
+            sick = 0;
+            assert_memory_equal(a.q, b.q, sizeof q);
+            assert_memory_equal(a.p, b.p, sizeof q);
+        }
+        assert_int_equal(a.counters.newton_iterations > 0, pins[f] == GVI_NEWTON);
+    }
+}
+
+/* Sizes whose products leave size_t or int are refused, not wrapped */
+static void sizes_that_do_not_fit_are_refused(void **state)
+{
+    static const gvi_effect scene[] = { { .kind = GVI_LAGRANGIAN, .points = quartic } };
+    gvi_desc desc = { .n = 40000, .degree = 2, .effects = scene, .effect_count = 1 };
+    (void)state;
+    assert_int_equal(gvi_size(&desc), 0);
+    desc.n = 10000000;
+    desc.effect_count = 0;
+    desc.formulation = GVI_POSITIONS;
+    assert_int_equal(gvi_size(&desc), 0);
+    desc.n = 100000;
+    assert_true(gvi_size(&desc) > 0);
+}
+
+/* The ends' weights of too many equispaced points are 0 in this type: no basis */
+static void weights_that_vanish_are_refused(void **state)
+{
+    enum { MANY = 20000 };
+    static real x[MANY], w[MANY];
+    (void)state;
+    for (int i = 0; i < MANY; ++i) x[i] = (real)i;
+    assert_status(gvi_barycentric(sizeof(real) > 8 ? MANY : 1200, x, w), GVI_E_NODES);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_damped_motion_may_die_out),
+        cmocka_unit_test(a_start_from_next_to_nothing_is_a_start),
+        cmocka_unit_test(velocities_of_different_units_come_out_alike),
+        cmocka_unit_test(heavy_and_light_are_no_conjugate_points),
+        cmocka_unit_test(a_chain_of_calls_keeps_its_first_cause),
+        cmocka_unit_test(no_nan_passes_for_a_momentum),
+        cmocka_unit_test(failures_leave_no_trace_in_later_steps),
+        cmocka_unit_test(sizes_that_do_not_fit_are_refused),
+        cmocka_unit_test(weights_that_vanish_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
