@@ -558,10 +558,12 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 /* Rows are padded to a multiple of 8 from 5 points on, for vector registers.
    Terms: state, rule and tables, two sets of rows, mass, Newton.              */
 #define GVI__ROW(r) ((r) < 5 ? (r) : ((r) + 7)/8*8)
-#define GVI_LENGTH(n, s, r) (                                                   \
-    (size_t)(26 + 4*(s) + (6 + GVI__ROW(r) + 2*(s)*(s))*(size_t)(n)             \
-             + 15*GVI__ROW(r))*(size_t)(n)                                      \
-    + (size_t)((12 + 5*(r) + 3*(s))*GVI__ROW(r) + ((s) + 2)*(s) + 3))
+#define GVI__SIZE(a) ((size_t)(a))
+#define GVI_LENGTH(n, s, r) (                                                    \
+    (26 + 4*GVI__SIZE(s) + 15*GVI__SIZE(GVI__ROW(r))                             \
+     + (6 + GVI__SIZE(GVI__ROW(r)) + 2*GVI__SIZE(s)*GVI__SIZE(s))*GVI__SIZE(n))*GVI__SIZE(n) \
+    + (12 + 5*GVI__SIZE(r) + 3*GVI__SIZE(s))*GVI__SIZE(GVI__ROW(r))              \
+    + (GVI__SIZE(s) + 2)*GVI__SIZE(s) + 3)
 
 #ifdef __cplusplus
 }

@@ -238,12 +238,13 @@ static void weights_of_1000_points_neither_overflow_nor_vanish(void **state)
     (void)state;
     for (int k = 0; k < 3; ++k) {
         families[k](MOST, big_x);
+        if (k == 0 && GVI__KIND == 1) {     /* equispaced, from 1e-299 to 1: not in float */
+            assert_status(gvi_barycentric(MOST, big_x, big_w), GVI_E_NODES);
+            continue;
+        }
         assert_ok(gvi_barycentric(MOST, big_x, big_w));
         check_weights(MOST, big_x, big_w);
-        int zeros = 0;
-        for (int j = 0; j < MOST; ++j) zeros += same(big_w[j], 0);
-        /* equispaced, the smallest is 1e-299 of the greatest */
-        if (k > 0 || GVI__KIND > 1) assert_int_equal(zeros, 0);
+        for (int j = 0; j < MOST; ++j) assert_false(same(big_w[j], 0));
     }
 }
 
