@@ -401,7 +401,7 @@ typedef struct gvi_counters {
     unsigned long long mass;              /* points given to mass callbacks     */
     unsigned long long effect[GVI_EFFECTS]; /* points given to each effect      */
     int                most_iterations;   /* in one step or gvi_state_at        */
-    gvi_real           worst_contraction; /* largest ratio of two changes       */
+    gvi_real           worst_contraction; /* of an iteration, mean of two       */
     gvi_real           worst_change;      /* largest last change of a fixed point, relative */
 } gvi_counters;
 
@@ -2248,9 +2248,12 @@ static int gvi__is_rounding(const gvi_stepper *st, const gvi__from *from)
     return size <= GVI__MAX && noise <= 10000*GVI__EPS*size;
 }
 
-static void gvi__watch(gvi_stepper *st, gvi_real change, gvi_real ratio)
+// contraction over two iterations, as long as it is not about rounding
+static void gvi__watch(gvi_stepper *st, gvi_real change, gvi_real earlier)
 {
-    if (ratio > st->counters.worst_contraction && change > 1000*GVI__EPS) st->counters.worst_contraction = ratio;
+    if (!(earlier > 0 && change > 1000*GVI__EPS)) return;
+    gvi_real contraction = gvi__sqrt(change/earlier);
+    if (contraction > st->counters.worst_contraction) st->counters.worst_contraction = contraction;
 }
 
 /* A change that is not finite: of an iteration that was growing, or whose effects
@@ -2271,7 +2274,7 @@ static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_r
     const gvi_real enough = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/4096, half = (gvi_real)0.5;
     const gvi_real rounding = 4*GVI__EPS*gvi__sqrt((gvi_real)(st->n*st->r));
     int fall_back = x->desc.formulation == GVI_AUTO && (x->flags & GVI__HAS_NEWTON), poor = 0, idle = 0, grows = 0;
-    gvi_real before = 0, least = GVI__MAX;
+    gvi_real before = 0, earlier = 0, least = GVI__MAX;
     gvi__stage y[2];
     const int count = gvi__plan(st, from, h, y);
     gvi__guess(st, extrapolate);
@@ -2282,7 +2285,7 @@ static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_r
         for (int i = 0; idle > 0 && i < st->n; ++i) x->change[i] = x->work.Q[i*x->stride + st->r - 1];
         gvi_real change = gvi__stages(st, y, count), ratio = before > 0 ? change/before : 1;
         if (!(change <= GVI__MAX)) return gvi__not_finite(st, grows);
-        gvi__watch(st, change, before > 0 ? ratio : 0);
+        gvi__watch(st, change, earlier);
         grows = before > 0 && ratio >= half;
         poor = grows ? poor + 1 : 0;
         idle = change < least*9/10 ? 0 : idle + 1;
@@ -2291,7 +2294,8 @@ static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_r
             if (change > st->counters.worst_change) st->counters.worst_change = change;
             return GVI_OK;
         }
-        if (poor > 2 && fall_back) break;
+        if (poor > 2 && fall_back && change > 256*rounding) break;      // nearer, idle decides
+        earlier = before;
         before = change;
     }
     return gvi__fail(st, GVI_E_CONVERGENCE, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
@@ -2593,7 +2597,7 @@ static gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi_
     const gvi_real enough = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/4096;
     int size = (st->s - J->k0)*st->n, have = kept && !gvi__nonzero(x->h_matrix - J->h);
     int made = 0, last = 0;
-    gvi_real before = 0;
+    gvi_real before = 0, earlier = 0;
     for (int k = 0; k <= x->desc.max_iterations; ++k) {
         gvi_points y = gvi__rows_as_points(st, &x->work, x->work.P);
         int fresh = !have;
@@ -2613,7 +2617,7 @@ static gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi_
         gvi_real change = gvi__newton_update(st, from, J->h, J->k0, &still), ratio = before > 0 ? change/before : 1;
         st->counters.newton_iterations += 1;
         if (!(change <= GVI__MAX)) return gvi__not_finite(st, 0);
-        gvi__watch(st, change, before > 0 ? ratio : 0);
+        gvi__watch(st, change, earlier);
 
         // one more evaluation, then done: if the change after this one is below
         // rounding, or this one is: it does not shrink although it is at the
@@ -2623,6 +2627,7 @@ static gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi_
             || (stagnant && (change <= 64*GVI__EPS*(gvi_real)size || still || residual <= 16*GVI__EPS
                              || (fresh && change <= gvi__sqrt(GVI__EPS))))) last = 1;
         else if (before > 0 && ratio > (gvi_real)0.25) have = 0;
+        earlier = before;
         before = change;
     }
     return gvi__fail(st, GVI_E_CONVERGENCE, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
