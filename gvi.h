@@ -282,7 +282,8 @@ typedef struct gvi_points {
     const gvi_real *p;         /* [n][count] momentum; for mass.velocity only  */
     gvi_real       *f;         /* [n][count] add dL/dq: -dV/dq or the force    */
     gvi_real       *dldv;      /* [n][count] add dL/dv; Lagrangian terms only  */
-    gvi_real       *value;     /* [count]    add V, or L of a Lagrangian term  */
+    gvi_real       *value;     /* [count]    value callbacks, which get nothing
+                                  else to fill: add V, or L of a Lagrangian term */
     gvi_real       *mass;      /* [n*n][count] write M_ij, i >= j, row i*n + j */
     gvi_real       *velocity;  /* [n][count] write v                           */
 } gvi_points;
@@ -423,11 +424,24 @@ struct gvi__private {
     int              has_factor;      /* point_mass holds a factored M          */
     int              newton_left;     /* steps until the fixed point is tried   */
     struct gvi__rows last, work;      /* at the points of the last step, the next */
-    gvi_real        *memory;
-    gvi_real        *q, *qe, *p, *pe, *q0, *p0, *none, *start, *v0, *ve, *dq, *dp, *change, *one;
-    gvi_real        *c, *ce, *b, *hb, *t, *row, *near, *z, *less, *ones, *E, *gamma;
-    gvi_real        *g, *m, *T, *N, *phi, *Phi, *low, *mass, *point_mass, *Z, *own;
-    gvi_real        *y, *dy, *J, *pivot, *hess, *dF, *dP, *bF, *bP;
+    /* parts of the caller's memory; R = stride */
+    gvi_real *memory;
+    gvi_real *q, *qe, *p, *pe;        /* [n] state and what rounding left of it */
+    gvi_real *q0, *p0, *zeros;        /* [n] start of the last step, its (no) rest */
+    gvi_real *start;                  /* [n] velocity that a start was given    */
+    gvi_real *v0, *ve;                /* [n] M^-1 p, M^-1 pe of the step at work */
+    gvi_real *dq, *dp;                /* [n] increments of it                   */
+    gvi_real *change, *one;           /* [3n], [6n] scratch                     */
+    gvi_real *c, *ce, *b, *hb;        /* [R] nodes, their rest, weights, h b    */
+    gvi_real *t, *ones, *w_bary;      /* [R] times; 1; barycentric weights of c */
+    gvi_real *z, *less, *row;         /* [R], [R], [3R] scratch                 */
+    gvi_real *phi, *Phi, *low;        /* [s][R] modes at the nodes; rest of phi */
+    gvi_real *inv_gamma, *own;        /* [s] 1/Gamma_kk; LU of Gamma if full    */
+    gvi_real *g, *m, *T, *N;          /* [r][R] c_i - S_ij, 1 - T_ij, T_ji, N_ij */
+    gvi_real *E;                      /* [r][R] extrapolation; at set-up rest of Phi */
+    gvi_real *mass, *point_mass, *Z;  /* M; M at the points [n*n][R]; [n][R] scratch */
+    gvi_real *y, *dy, *J, *pivot;     /* Newton: [s*n] twice; two matrices of s*n */
+    gvi_real *hess, *dF, *dP, *bF, *bP; /* scratch; the last four stand in a row */
 };
 
 /* The stepper.  Read what stands before x; x is private.                      */
@@ -456,8 +470,9 @@ typedef struct gvi_discrete {
 
 /* ------------------------------------------------------------- FUNCTIONS */
 
-/* Set-up.  Bytes of memory that desc needs; 0 if the description is faulty
-   (gvi_init says how).  GVI_LENGTH: array length, a constant expression, that
+/* Set-up.  Bytes of memory that desc needs; 0 if the description is faulty.
+   gvi_init says how, also of a NULL memory; a chain of calls after a failure
+   keeps its first status.  GVI_LENGTH: array length, a constant expression, that
    is enough for every scene of n degrees of freedom, degree s, r points.      */
 GVI_DEF size_t     gvi_size(const gvi_desc *desc);
 GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *memory, size_t size);
@@ -485,7 +500,8 @@ GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy);
 
 /* In the last step.  gvi_curve: the polynomial at tau in [0,1] and its
    derivative, error O(h^(min(s,u/2)+1)) and one order less.  gvi_state_at: the
-   state at time t, at the full order, by a partial step from the nearer end.
+   state at time t (a time, not tau) inside it, at the full order, by a partial
+   step from the nearer end.
    gvi_action: the quadrature of L over it, both with the effects that are on now.
    q, v, p of length n, or NULL.
    None of them changes what later steps compute, to the bit.                 */
@@ -1521,12 +1537,12 @@ static gvi_status gvi__gamma(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
     int s = st->s, r = st->r, R = x->stride;
-    for (int k = 0; k < s; ++k) x->gamma[k] = (gvi_real)(2*k + 1);
+    for (int k = 0; k < s; ++k) x->inv_gamma[k] = (gvi_real)(2*k + 1);
     if (st->order == 2*s - 2) {
         gvi_real sum = 0;
         for (int i = 0; i < r; ++i) sum += x->b[i]*x->phi[(s-1)*R + i]*x->phi[(s-1)*R + i];
         if (!(gvi__abs(sum) > (gvi_real)s*GVI__EPS)) return GVI_E_POINTS;
-        x->gamma[s-1] = x->desc.rule.kind == GVI_LOBATTO ? (gvi_real)(s - 1) : 1/sum;
+        x->inv_gamma[s-1] = x->desc.rule.kind == GVI_LOBATTO ? (gvi_real)(s - 1) : 1/sum;
     }
     if (!(x->flags & GVI__HAS_OWN)) return GVI_OK;
     for (int k = 0; k < s; ++k)
@@ -1543,7 +1559,7 @@ static void gvi__over_gamma(const gvi_stepper *st, gvi_real *y)
 {
     const struct gvi__private *x = &st->x;
     if (x->flags & GVI__HAS_OWN) gvi_lu_solve(st->s, x->own, x->own + st->s*st->s, y);
-    else for (int k = 0; k < st->s; ++k) y[k] *= x->gamma[k];
+    else for (int k = 0; k < st->s; ++k) y[k] *= x->inv_gamma[k];
 }
 
 // sum_k a[k][i] gamma_k b[k][j], twofold; high parts and low parts apart
@@ -1557,7 +1573,7 @@ static gvi__two gvi__sandwich(const gvi_stepper *st, const gvi_real *a, const gv
         x.lo = al[k*st->x.stride + i];
         y.hi = b[k*st->x.stride + j];
         y.lo = bl[k*st->x.stride + j];
-        sum = gvi__add2(sum, gvi__scale2(st->x.gamma[k], gvi__mul2(x, y)));
+        sum = gvi__add2(sum, gvi__scale2(st->x.inv_gamma[k], gvi__mul2(x, y)));
     }
     return sum;
 }
@@ -1801,7 +1817,7 @@ static size_t gvi__layout(gvi_stepper *st, gvi_real *base)
     x->ce = gvi__take(&a, 1, 1, R);
     x->b = gvi__take(&a, 1, 1, R);
     x->t = gvi__take(&a, 1, 1, R);
-    x->near = gvi__take(&a, 1, 1, R);
+    x->w_bary = gvi__take(&a, 1, 1, R);
     x->row = gvi__take(&a, 1, 3, R);
 
     x->q = gvi__take(&a, 1, 1, n);
@@ -1810,7 +1826,7 @@ static size_t gvi__layout(gvi_stepper *st, gvi_real *base)
     x->pe = gvi__take(&a, 1, 1, n);
     x->q0 = gvi__take(&a, 1, 1, n);
     x->p0 = gvi__take(&a, 1, 1, n);
-    x->none = gvi__take(&a, 1, 1, n);
+    x->zeros = gvi__take(&a, 1, 1, n);
     x->start = gvi__take(&a, 1, 1, n);
     x->v0 = gvi__take(&a, 1, 1, n);
     x->ve = gvi__take(&a, 1, 1, n);
@@ -1818,7 +1834,7 @@ static size_t gvi__layout(gvi_stepper *st, gvi_real *base)
     x->dp = gvi__take(&a, 1, 1, n);
     x->change = gvi__take(&a, 1, 3, n);
     x->one = gvi__take(&a, 1, 6, n);
-    x->gamma = gvi__take(&a, 1, 1, s);
+    x->inv_gamma = gvi__take(&a, 1, 1, s);
     x->mass = gvi__take(&a, mass == GVI_MASS_DIAGONAL, 1, n);
     if (mass == GVI_MASS_DENSE) x->mass = gvi__take(&a, 1, 2*n, n);
     x->own = gvi__take(&a, x->flags & GVI__HAS_OWN, s*s + s + 1, 1);
@@ -1900,7 +1916,7 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     if (status != GVI_OK) return st->status = status;
     if (x->flags & GVI__HAS_OWN) gvi__tables_own(st);
     else gvi__tables(st);
-    gvi_barycentric(st->r, x->c, x->near);
+    gvi_barycentric(st->r, x->c, x->w_bary);
     x->memory = memory;                      // from here on it can be used
     return gvi__done(st, GVI_OK);
 }
@@ -2177,7 +2193,7 @@ static void gvi__extrapolation(gvi_stepper *st, gvi_real alpha, gvi_real beta, i
     if (!query && !gvi__nonzero(beta - x->ratio)) return;
     x->ratio = query ? 0 : beta;
     for (int i = 0; i < st->r; ++i) {
-        gvi_basis(st->r, x->c, x->near, alpha + beta*x->c[i], x->row);
+        gvi_basis(st->r, x->c, x->w_bary, alpha + beta*x->c[i], x->row);
         for (int j = 0; j < st->r; ++j) x->E[j*x->stride + i] = x->row[j];
     }
 }
@@ -3005,7 +3021,7 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
     // partial step of length h from the nearer end
     int end = gvi__abs(back) <= gvi__abs(ahead);
     gvi_real h = end ? back - x->te : ahead;
-    gvi__from from = { x->t0, 0, x->q0, x->none, x->p0, x->none };
+    gvi__from from = { x->t0, 0, x->q0, x->zeros, x->p0, x->zeros };
     gvi__from last = { st->t, x->te, x->q, x->qe, x->p, x->pe };
     if (end) from = last;
     gvi__history past = { 1, end ? (gvi_real)1 : (gvi_real)0, h/st->h, x->has_force ? x->last.F + end : NULL };
@@ -3227,7 +3243,7 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
     if (!q0 || !q1 || !out || !gvi__all_finite(st->n, q0) || !gvi__all_finite(st->n, q1)
         || !gvi__finite(t) || !gvi__finite(h) || !gvi__nonzero(h)) return st->status = GVI_E_ARGUMENT;
     if (st->s > 1 && !(x->flags & GVI__HAS_NEWTON)) return st->status = GVI_E_FORMULATION;
-    gvi__from from = { t, 0, q0, x->none, x->none, x->none };
+    gvi__from from = { t, 0, q0, x->zeros, x->zeros, x->zeros };
     gvi__begin(st, &from, h);
     return gvi__done(st, gvi__boundary_value(st, &from, h, q1, out));
 }
