@@ -1181,6 +1181,12 @@ static gvi_status gvi__fail(gvi_stepper *st, gvi_status status, int effect, int 
     return st->status = status;
 }
 
+// a status that no effect, coordinate or point is to blame for
+static gvi_status gvi__give(gvi_stepper *st, gvi_status status)
+{
+    return gvi__fail(st, status, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
+}
+
 /* Of a stepper that is not set up or not started: the first failure stands, so
    that a chain of calls ends with its cause.                                  */
 static gvi_status gvi__unready(gvi_stepper *st)
@@ -1190,8 +1196,7 @@ static gvi_status gvi__unready(gvi_stepper *st)
 
 static gvi_status gvi__done(gvi_stepper *st, gvi_status status)
 {
-    if (status == GVI_OK) gvi__fail(st, GVI_OK, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
-    return st->status = status;
+    return status == GVI_OK ? gvi__give(st, GVI_OK) : (st->status = status);
 }
 
 // the first entry of rows [n][count] that is not finite is the fault
@@ -1231,7 +1236,7 @@ static gvi_status gvi__check_points(gvi_stepper *st, const gvi_points *x)
     if (!st->x.diagnose) return GVI_OK;
     if (gvi__check_rows(st, x, x->q, GVI_FAULT_NONE) == GVI_OK
         && gvi__check_rows(st, x, x->v, GVI_FAULT_NONE) == GVI_OK) return GVI_OK;
-    return gvi__fail(st, GVI_E_CONVERGENCE, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
+    return gvi__give(st, GVI_E_CONVERGENCE);
 }
 
 /* Asks every effect that is on and, if `plain`, has no Hessian; each sees only
@@ -1272,7 +1277,8 @@ static gvi_status gvi__ldl_factor(gvi_stepper *st, int n, int stride, int count,
                 gvi_real a = m[(size_t)(j*n + l)*(size_t)stride + (size_t)k];
                 d[k] -= a*a*m[(size_t)(l*n + l)*(size_t)stride + (size_t)k];
             }
-            if (!(was <= GVI__MAX) || !gvi__finite(d[k])) return gvi__fail(st, GVI_E_NON_FINITE, GVI_FAULT_MASS, j, k);
+            if (!(was <= GVI__MAX) || !gvi__finite(d[k]))
+                return gvi__fail(st, GVI_E_NON_FINITE, GVI_FAULT_MASS, j, k);
             if (!(gvi__abs(d[k]) > (gvi_real)n*GVI__EPS*was))
                 return gvi__fail(st, GVI_E_SINGULAR, GVI_FAULT_MASS, j, k);
         }
@@ -1332,7 +1338,7 @@ static gvi_status gvi__mass_at(gvi_stepper *st, const gvi_points *x, int factor)
     y.mass = st->x.point_mass;
     st->counters.mass += (unsigned long long)x->count;
     if (st->x.desc.mass.points(&y, st->x.desc.mass.user))
-        return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, GVI_FAULT_NONE, GVI_FAULT_NONE);
+        return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, -1, -1);
     return factor ? gvi__ldl_factor(st, x->n, x->stride, x->count, st->x.point_mass) : GVI_OK;
 }
 
@@ -1342,7 +1348,7 @@ static gvi_status gvi__mass_gradient(gvi_stepper *st, const gvi_points *x)
     gvi_points y = *x;
     y.dldv = NULL;
     if (st->x.desc.mass.gradient(&y, st->x.desc.mass.user))
-        return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, GVI_FAULT_NONE, GVI_FAULT_NONE);
+        return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, -1, -1);
     return st->x.diagnose ? gvi__check_rows(st, x, x->f, GVI_FAULT_MASS) : GVI_OK;
 }
 
@@ -1464,7 +1470,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_real t, const gvi_re
         if (!(change > 2*GVI__EPS) || (change >= last/2 && change <= gvi__sqrt(GVI__EPS))) return GVI_OK;
         last = change;
     }
-    return gvi__fail(st, GVI_E_CONVERGENCE, GVI_FAULT_MASS, GVI_FAULT_NONE, GVI_FAULT_NONE);
+    return gvi__fail(st, GVI_E_CONVERGENCE, GVI_FAULT_MASS, -1, -1);
 }
 
 // a velocity near the present one: that at the end of the last step, or the start's
@@ -1483,7 +1489,7 @@ static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, 
         x.velocity = v;
         st->counters.mass += 1;
         if (mass->velocity(&x, mass->user))
-            return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, GVI_FAULT_NONE, GVI_FAULT_NONE);
+            return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, -1, -1);
         return gvi__check_rows(st, &x, v, GVI_FAULT_MASS);
     }
     if (mass->kind == GVI_MASS_NONE || (st->x.flags & GVI__HAS_LAGRANGIAN))
@@ -1703,7 +1709,8 @@ static gvi_status gvi__check_desc(const gvi_desc *d)
 {
     if (!d || d->n < 1 || d->n > 0x7FFFF || d->degree < 0 || d->degree > 1024) return GVI_E_ARGUMENT;
     if (d->rule.points < 0 || d->rule.points > 4000 || d->effect_count < 0 || d->effect_count > GVI_EFFECTS
-        || (d->effect_count && !d->effects) || d->max_iterations < 0 || d->max_iterations > 1000000 || !(d->tolerance >= 0 && d->tolerance < 1))
+        || (d->effect_count && !d->effects) || d->max_iterations < 0 || d->max_iterations > 1000000
+        || !(d->tolerance >= 0 && d->tolerance < 1))
         return GVI_E_ARGUMENT;
     if ((int)d->formulation < GVI_AUTO || (int)d->formulation > GVI_NEWTON) return GVI_E_ARGUMENT;
     for (int e = 0; e < d->effect_count; ++e) {
@@ -1974,7 +1981,8 @@ typedef gvi_real gvi__vector __attribute__((vector_size(8*sizeof(gvi_real)), ali
 #define GVI__AT(p) (*(const gvi__vector *)(p))
 
 // sum_j w_j table[j][0..7] f_j in two sums, so that one need not wait for the other
-static inline void gvi__sum_vector(int r, int R, const gvi_real *table, const gvi_real *w, const gvi_real *f, gvi__vector *z)
+static inline void gvi__sum_vector(int r, int R, const gvi_real *table, const gvi_real *w,
+                                   const gvi_real *f, gvi__vector *z)
 {
     gvi__vector even = { 0 }, odd = { 0 };
     for (int j = 0; j + 1 < r; j += 2) {
@@ -1987,7 +1995,8 @@ static inline void gvi__sum_vector(int r, int R, const gvi_real *table, const gv
 #endif
 
 // z := sum_j w_j table[j][.] f_j, all R points
-static inline void gvi__sum_row(int r, int R, const gvi_real *table, const gvi_real *w, const gvi_real *f, gvi_real *z)
+static inline void gvi__sum_row(int r, int R, const gvi_real *table, const gvi_real *w,
+                                const gvi_real *f, gvi_real *z)
 {
 #ifdef GVI__VECTORS
     if (R % 8 == 0) {
@@ -2037,7 +2046,8 @@ static inline gvi_real gvi__stage_row(const gvi_stepper *st, const gvi__stage *y
             *(gvi__vector *)(row + o) = next;
             squares += moved*moved;
         }
-        return ((squares[0] + squares[4]) + (squares[1] + squares[5])) + ((squares[2] + squares[6]) + (squares[3] + squares[7]));
+        return ((squares[0] + squares[4]) + (squares[1] + squares[5]))
+             + ((squares[2] + squares[6]) + (squares[3] + squares[7]));
     }
 #endif
     gvi_real lane[8] = { 0, 0, 0, 0, 0, 0, 0, 0 };
@@ -2150,7 +2160,7 @@ static gvi_status gvi__legendre_rows(gvi_stepper *st, gvi_points *y)
         z.velocity = w->V;
         st->counters.mass += (unsigned long long)st->r;
         if (x->desc.mass.velocity(&z, x->desc.mass.user))
-            return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, GVI_FAULT_NONE, GVI_FAULT_NONE);
+            return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, -1, -1);
         if (x->diagnose) {
             gvi_status status = gvi__check_rows(st, y, w->V, GVI_FAULT_MASS);
             if (status != GVI_OK) return status;
@@ -2251,7 +2261,8 @@ static int gvi__is_rounding(const gvi_stepper *st, const gvi__from *from)
     int R = x->stride, last = st->r - 1;
     gvi_real noise = 0, size = 0;
     for (int i = 0; i < st->n; ++i) {
-        gvi_real most = 0, Q = x->work.Q[i*R + last], v = x->chosen > GVI_POSITIONS ? x->work.V[i*R + last] : x->v0[i];
+        gvi_real most = 0, Q = x->work.Q[i*R + last];
+        gvi_real v = x->chosen > GVI_POSITIONS ? x->work.V[i*R + last] : x->v0[i];
         for (int k = 0; k < st->r; ++k) {
             gvi_real F = gvi__abs(x->work.F[i*R + k]);
             if (F > most) most = F;
@@ -2277,7 +2288,7 @@ static void gvi__watch(gvi_stepper *st, gvi_real change, gvi_real earlier)
 static gvi_status gvi__not_finite(gvi_stepper *st, int grows)
 {
     gvi_status status = grows || st->x.diagnose ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE;
-    return gvi__fail(st, status, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
+    return gvi__give(st, status);
 }
 
 /* Fixed point on the rows.  Tolerance-free end: the change after the next one,
@@ -2314,7 +2325,7 @@ static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_r
         earlier = before;
         before = change;
     }
-    return gvi__fail(st, GVI_E_CONVERGENCE, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
+    return gvi__give(st, GVI_E_CONVERGENCE);
 }
 
 /* Stoermer-Verlet, (3) with s = 1 and nodes 0, 1: the force at the start is that
@@ -2451,7 +2462,8 @@ static gvi_status gvi__jacobian_exact(gvi_stepper *st, const gvi__matrix *J)
             if ((x->off >> e & 1u) || !effect->hessian) continue;
             int reads_v = effect->kind != GVI_POTENTIAL, term = effect->kind == GVI_LAGRANGIAN;
             gvi__zero(4*nn, fq);
-            if (effect->hessian(x->t[k], q, reads_v ? v : NULL, fq, reads_v ? fv : NULL, term ? pv : NULL, effect->user))
+            if (effect->hessian(x->t[k], q, reads_v ? v : NULL, fq, reads_v ? fv : NULL, term ? pv : NULL,
+                                effect->user))
                 return gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, k);
             for (int i = 0; i < n; ++i)
                 for (int j = 0; j < n; ++j) {       // d(dL/dv)/dq is the transpose of d(dL/dq)/dv
@@ -2646,7 +2658,7 @@ static gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi_
         earlier = before;
         before = change;
     }
-    return gvi__fail(st, GVI_E_CONVERGENCE, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
+    return gvi__give(st, GVI_E_CONVERGENCE);
 }
 
 static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate, int query)
@@ -2668,7 +2680,8 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, gvi_r
 // where the last step's rows are, seen from the step to come
 typedef struct gvi__history { int available; gvi_real alpha, beta; const gvi_real *force; } gvi__history;
 
-static gvi_status gvi__attempt(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi__history *past, int query)
+static gvi_status gvi__attempt(gvi_stepper *st, const gvi__from *from, gvi_real h,
+                               const gvi__history *past, int query)
 {
     struct gvi__private *x = &st->x;
     gvi__begin(st, from, h);
@@ -2713,7 +2726,7 @@ static gvi_status gvi__solve(gvi_stepper *st, const gvi__from *from, gvi_real h,
         gvi_status second = gvi__attempt(st, from, h, past, query);
         x->diagnose = 0;
         status = second != GVI_OK ? second
-               : gvi__fail(st, GVI_E_CONVERGENCE, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
+               : gvi__give(st, GVI_E_CONVERGENCE);
     }
     return status;
 }
@@ -2768,7 +2781,7 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
     for (int i = 0; i < st->n && status == GVI_OK; ++i)
         if (!gvi__finite(x->q[i] + x->dq[i]) || !gvi__finite(x->p[i] + x->dp[i])) status = GVI_E_CONVERGENCE;
     if (status == GVI_OK && !gvi__finite(st->t + h))
-        status = gvi__fail(st, GVI_E_ARGUMENT, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
+        status = gvi__give(st, GVI_E_ARGUMENT);
     if (status != GVI_OK) {
         st->counters.failures += 1;
         st->formulation = was;
@@ -3201,7 +3214,7 @@ static gvi_status gvi__boundary_value(gvi_stepper *st, const gvi__from *from, gv
     gvi_real *p0 = x->dq, *p1 = x->dp, *minus = x->change, *plus = minus + n;
     gvi_status status = gvi__interior(st, from, h, q1, &J, pivot, p0);
     if (status == GVI_E_CONJUGATE || (status == GVI_E_SINGULAR && st->fault.effect == GVI_FAULT_NONE))
-        return gvi__fail(st, GVI_E_CONJUGATE, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
+        return gvi__give(st, GVI_E_CONJUGATE);
     if (status != GVI_OK) return status;
 
     // the action, row 0 of (1) for p0, then (2)
