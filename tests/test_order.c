@@ -13,6 +13,7 @@
 #include <tgmath.h>
 
 typedef gvi_real real;
+#include "pendulum.h"
 
 /* ---------------------------------------------------------- the problem
 
@@ -55,29 +56,6 @@ static int damping_and_drive(real t, const real *q, const real *v, real *f, real
     (void)dldv; (void)user;
     f[0] += -0.2L*v[0] + 0.3L*cos(3*t);
     f[1] += -0.1L*(1 + q[0]*q[0])*v[1];
-    return 0;
-}
-
-static int pendulum_mass(const gvi_points *x, void *user)
-{
-    int N = x->stride;
-    (void)user;
-    for (int k = 0; k < x->count; ++k) {
-        real c = cos(x->q[N + k]);
-        x->mass[0*N + k] = 3 + 2*c;
-        x->mass[2*N + k] = 1 + c;
-        x->mass[3*N + k] = 1;
-    }
-    return 0;
-}
-
-/* v' dM/dq2 v / 2; M does not depend on q1 */
-static int pendulum_mass_gradient(const gvi_points *x, void *user)
-{
-    int N = x->stride;
-    (void)user;
-    for (int k = 0; k < x->count; ++k)
-        x->f[N + k] -= sin(x->q[N + k])*x->v[k]*(x->v[k] + x->v[N + k]);
     return 0;
 }
 

@@ -9,6 +9,7 @@
 #include <tgmath.h>
 
 typedef gvi_real real;
+#include "pendulum.h"
 
 #define PI 3.14159265358979323846264338327950288L
 
@@ -126,28 +127,6 @@ static int drag_hessian(real t, const real *q, const real *v, real *fq, real *fv
     fv[0] -= 0.25L;
     fq[2] -= 2*q[0]*v[1]/5;
     fv[3] -= (1 + q[0]*q[0])/5;
-    return 0;
-}
-
-static int pendulum_mass(const gvi_points *x, void *user)
-{
-    int N = x->stride;
-    (void)user;
-    for (int k = 0; k < x->count; ++k) {
-        real c = cos(x->q[N + k]);
-        x->mass[0*N + k] = 3 + 2*c;
-        x->mass[2*N + k] = 1 + c;
-        x->mass[3*N + k] = 1;
-    }
-    return 0;
-}
-
-static int pendulum_mass_gradient(const gvi_points *x, void *user)
-{
-    int N = x->stride;
-    (void)user;
-    for (int k = 0; k < x->count; ++k)
-        x->f[N + k] -= sin(x->q[N + k])*x->v[k]*(x->v[k] + x->v[N + k]);
     return 0;
 }
 

@@ -10,6 +10,7 @@
 #include <tgmath.h>
 
 typedef gvi_real real;
+#include "pendulum.h"
 
 /* Reproducible numbers in [0,1), the same on every machine (Knuth's MMIX) */
 static uint64_t seed;
@@ -62,28 +63,6 @@ static int drag(real t, const real *q, const real *v, real *f, real *dldv, void 
     (void)t; (void)q; (void)dldv; (void)user;
     f[0] -= v[0]/4;
     f[1] -= v[1]/4;
-    return 0;
-}
-
-static int pendulum_mass(const gvi_points *x, void *user)
-{
-    int N = x->stride;
-    (void)user;
-    for (int k = 0; k < x->count; ++k) {
-        real c = cos(x->q[N + k]);
-        x->mass[0*N + k] = 3 + 2*c;
-        x->mass[2*N + k] = 1 + c;
-        x->mass[3*N + k] = 1;
-    }
-    return 0;
-}
-
-static int pendulum_mass_gradient(const gvi_points *x, void *user)
-{
-    int N = x->stride;
-    (void)user;
-    for (int k = 0; k < x->count; ++k)
-        x->f[N + k] -= sin(x->q[N + k])*x->v[k]*(x->v[k] + x->v[N + k]);
     return 0;
 }
 
