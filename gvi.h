@@ -1924,6 +1924,7 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     if (x->flags & GVI__HAS_OWN) gvi__tables_own(st);
     else gvi__tables(st);
     gvi_barycentric(st->r, x->c, x->w_bary);
+    gvi__copy((size_t)st->r, x->c, x->Phi);  // Phi_0 = c on its grid: 1 - Phi_0 is exact
     x->memory = memory;                      // from here on it can be used
     return gvi__done(st, GVI_OK);
 }
@@ -2251,10 +2252,11 @@ static void gvi__increments(gvi_stepper *st, gvi_real h)
 }
 
 /* Is the change that does not shrink any more nothing but rounding?  It is as far
-   as it is within a few units of the last place of q.  What is beyond that is
-   measured as energy, force times change against force times path and p v, so
-   that coordinates of any units may be added up; at the last point.           */
-static int gvi__is_rounding(const gvi_stepper *st, const gvi__from *from)
+   as it is within a few units of the last place of q.  What is beyond that must
+   have been idle for longer, and is measured as energy, force times change
+   against force times path and p v, so that coordinates of any units may be
+   added up; at the last point.                                                */
+static int gvi__is_rounding(const gvi_stepper *st, const gvi__from *from, int idle)
 {
     const struct gvi__private *x = &st->x;
     const gvi_real r = (gvi_real)st->r;
@@ -2272,7 +2274,7 @@ static int gvi__is_rounding(const gvi_stepper *st, const gvi__from *from)
         if (!(beyond <= 0)) noise += r*beyond*most;
         size += r*gvi__abs(from->p[i]*v);
     }
-    return size <= GVI__MAX && noise <= 10000*GVI__EPS*size;
+    return noise <= 0 || (idle > 4 && size <= GVI__MAX && noise <= 1000*GVI__EPS*size);
 }
 
 // contraction over two iterations, as long as it is not about rounding
@@ -2293,7 +2295,7 @@ static gvi_status gvi__not_finite(gvi_stepper *st, int grows)
 
 /* Fixed point on the rows.  Tolerance-free end: the change after the next one,
    D^2/D_before, is far below rounding; or the change is rounding: small, or
-   without a new least by a tenth in two iterations, and of no energy.  Three
+   without a new least by a tenth for some iterations, and of no energy.  Three
    changes in a row that fall by less than half are poor.                      */
 static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate, int *used)
 {
@@ -2317,7 +2319,7 @@ static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_r
         poor = grows ? poor + 1 : 0;
         idle = change < least*9/10 ? 0 : idle + 1;
         if (change < least) least = change;
-        if (change*ratio <= enough || (idle > 0 && change <= rounding) || (idle > 1 && gvi__is_rounding(st, from))) {
+        if (change*ratio <= enough || (idle > 0 && change <= rounding) || (idle > 1 && gvi__is_rounding(st, from, idle))) {
             if (change > st->counters.worst_change) st->counters.worst_change = change;
             return GVI_OK;
         }
@@ -2381,23 +2383,26 @@ static void gvi__newton_rows(gvi_stepper *st, const gvi__from *from, gvi_real h)
     st->counters.velocities += (unsigned long long)st->r;
 }
 
-/* dy := -residual.  P - p0 in place of P, which is the same since sum_i b_i phi_k
-   is [k=0], and small.  Returns the largest residual in units of its own terms.           */
+/* dy := -residual.  The weights of P are h b_i/h, those that F has, and Phi_0 = c
+   is on its grid: then the rows are exactly those of a discrete action, also as
+   rounded.  Returns the largest residual in units of its own terms.           */
 static gvi_real gvi__residual(gvi_stepper *st, const gvi__from *from, int k0)
 {
     struct gvi__private *x = &st->x;
     int n = st->n, R = x->stride;
-    gvi_real worst = 0;
+    gvi_real worst = 0, h = x->h_weights;
     for (int i = 0; i < n; ++i) {
         const gvi_real *P = x->work.P + i*R, *F = x->work.F + i*R;
         for (int k = k0; k < st->s; ++k) {
-            gvi_real sum = 0, size = 0;
+            gvi_real momentum = k == 0 ? -(h*from->p[i] + h*from->pe[i]) : 0, force = 0, size = 0;
             for (int j = 0; j < st->r; ++j) {
-                gvi_real W = (k == 0 ? 1 : 0) - x->Phi[k*R + j], weight = x->b[j]*x->phi[k*R + j];
-                gvi_real a = weight*((P[j] - from->p[i]) - from->pe[i]), b = x->hb[j]*W*F[j];
-                sum += a - b;
-                size += gvi__abs(weight*P[j]) + gvi__abs(b);
+                gvi_real W = (k == 0 ? 1 : 0) - x->Phi[k*R + j];
+                gvi_real a = x->hb[j]*x->phi[k*R + j]*P[j], b = x->hb[j]*W*F[j];
+                momentum += a;
+                force += b;
+                size += gvi__abs(a/h) + gvi__abs(b);
             }
+            gvi_real sum = momentum/h - force;
             x->dy[(k - k0)*n + i] = -(gvi_real)(2*k + 1)*sum;
             if (size > 0 && gvi__abs(sum)/size > worst) worst = gvi__abs(sum)/size;
         }
