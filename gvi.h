@@ -2319,7 +2319,7 @@ static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_r
         poor = grows ? poor + 1 : 0;
         idle = change < least*9/10 ? 0 : idle + 1;
         if (change < least) least = change;
-        if (change*ratio <= enough || (idle > 0 && change <= rounding) || (idle > 1 && gvi__is_rounding(st, from, idle))) {
+        if (change*ratio <= enough || (idle > 2 && change <= rounding) || (idle > 1 && gvi__is_rounding(st, from, idle))) {
             if (change > st->counters.worst_change) st->counters.worst_change = change;
             return GVI_OK;
         }
