@@ -206,6 +206,27 @@ static void weights_that_vanish_are_refused(void **state)
     assert_status(gvi_barycentric(sizeof(real) > 8 ? MANY : 1200, x, w), GVI_E_NODES);
 }
 
+/* What rounding is known to leave, as docs/theory.md quotes it from here: 200,000
+   steps of an oscillator by Newton's method and by a fixed point at large h omega. */
+static void the_drift_that_rounding_leaves_is_no_larger_than_documented(void **state)
+{
+    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = spring } };
+    const gvi_formulation pins[] = { GVI_NEWTON, GVI_POSITIONS };
+    const struct { int s; double h; } runs[] = { { 4, 2.7 }, { 2, 2.7 }, { 8, 1.6 } };
+    (void)state;
+    for (int k = 0; k < COUNT(runs)*2; ++k) {
+        gvi_stepper st;
+        set_up(&st, (gvi_desc){ .n = 1, .degree = runs[k/2].s, .effects = scene, .effect_count = 1,
+                                .formulation = pins[k%2], .max_iterations = 1000 }, memory);
+        assert_ok(gvi_start(&st, 0, (real[]){ 1 }, (real[]){ 0 }));
+        for (int i = 0; i < 200000; ++i) assert_ok(gvi_step(&st, (real)runs[k/2].h));
+        long double q = st.q[0], p = st.p[0], error = q*q + p*p - 1;
+        print_message("    degree %d, h omega %.1f, %s: %.2Lg\n", runs[k/2].s, runs[k/2].h,
+                      k % 2 ? "positions" : "Newton", error);
+        assert_between(-2e5L*EPS, error, 2e5L*EPS);                     /* one EPS a step */
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -218,6 +239,7 @@ int main(void)
         cmocka_unit_test(failures_leave_no_trace_in_later_steps),
         cmocka_unit_test(sizes_that_do_not_fit_are_refused),
         cmocka_unit_test(weights_that_vanish_are_refused),
+        cmocka_unit_test(the_drift_that_rounding_leaves_is_no_larger_than_documented),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
