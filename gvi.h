@@ -411,34 +411,38 @@ struct gvi__rows { gvi_real *Q, *V, *F, *P, *A; };   /* [n][stride] each     */
 struct gvi__private {
     gvi_desc         desc;
     gvi_formulation  chosen;          /* by the scene, or pinned                */
-    size_t           size;
+    size_t           size, skip;      /* numbers in use; left out for alignment */
     gvi_real         te, t0;          /* compensation of t; start of last step  */
     gvi_real         h_weights;       /* h for which hb holds                   */
     gvi_real         ratio;           /* h/h_last for which E holds             */
+    int              alike;           /* last steps of the same length: 0, 1, 2 */
+    int              two;             /* E is for two of them                   */
     gvi_real         h_matrix;        /* h for which J was made, 0: none        */
     unsigned         off;             /* effects switched off, one bit each     */
     int              stride, flags;   /* of the rows; what the scene needs      */
-    int              started, stepped, diagnose, swapped;
+    int              started, stepped, diagnose, turns;
     int              has_force;       /* last.F ends with the force at (t, q)   */
     int              has_velocity;    /* last.V holds                           */
     int              has_factor;      /* point_mass holds a factored M          */
     int              newton_left;     /* steps until the fixed point is tried   */
     struct gvi__rows last, work;      /* at the points of the last step, the next */
+    struct gvi__rows older;           /* F, V, A of the step before the last      */
     /* parts of the caller's memory; R = stride */
-    gvi_real *memory;
+    gvi_real *memory;                 /* from its first aligned number on       */
     gvi_real *q, *qe, *p, *pe;        /* [n] state and what rounding left of it */
     gvi_real *q0, *p0, *zeros;        /* [n] start of the last step, its (no) rest */
     gvi_real *start;                  /* [n] velocity that a start was given    */
     gvi_real *v0, *ve;                /* [n] M^-1 p, M^-1 pe of the step at work */
     gvi_real *dq, *dp;                /* [n] increments of it                   */
+    gvi_real *scale;                  /* [2n] units of changes, of two sets of rows */
     gvi_real *change, *one;           /* [3n], [6n] scratch                     */
     gvi_real *c, *ce, *b, *hb;        /* [R] nodes, their rest, weights, h b    */
     gvi_real *t, *ones, *w_bary;      /* [R] times; 1; barycentric weights of c */
-    gvi_real *z, *less, *row;         /* [R], [R], [3R] scratch                 */
+    gvi_real *z, *less, *row;         /* [R], [R], [6R] scratch                 */
     gvi_real *phi, *Phi, *low;        /* [s][R] modes at the nodes; rest of phi */
     gvi_real *inv_gamma, *own;        /* [s] 1/Gamma_kk; LU of Gamma if full    */
     gvi_real *g, *m, *T, *N;          /* [r][R] c_i - S_ij, 1 - T_ij, T_ji, N_ij */
-    gvi_real *E;                      /* [r][R] extrapolation; at set-up rest of Phi */
+    gvi_real *E;                      /* [r or 2r][R] extrapolation; at set-up rest of Phi */
     gvi_real *mass, *point_mass, *Z;  /* M; M at the points [n*n][R]; [n][R] scratch */
     gvi_real *y, *dy, *J, *pivot;     /* Newton: [s*n] twice; two matrices of s*n */
     gvi_real *hess, *dF, *dP, *bF, *bP; /* scratch; the last four stand in a row */
@@ -575,11 +579,12 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
    Terms: state, rule and tables, two sets of rows, mass, Newton.              */
 #define GVI__ROW(r) ((r) < 5 ? (r) : ((r) + 7)/8*8)
 #define GVI__SIZE(a) ((size_t)(a))
+#define GVI__SLACK (64/sizeof(gvi_real) - 1)
 #define GVI_LENGTH(n, s, r) (                                                    \
-    (26 + 4*GVI__SIZE(s) + 15*GVI__SIZE(GVI__ROW(r))                             \
+    (28 + 4*GVI__SIZE(s) + 18*GVI__SIZE(GVI__ROW(r))                             \
      + (6 + GVI__SIZE(GVI__ROW(r)) + 2*GVI__SIZE(s)*GVI__SIZE(s))*GVI__SIZE(n))*GVI__SIZE(n) \
-    + (12 + 5*GVI__SIZE(r) + 3*GVI__SIZE(s))*GVI__SIZE(GVI__ROW(r))              \
-    + (GVI__SIZE(s) + 2)*GVI__SIZE(s) + 3)
+    + (15 + 6*GVI__SIZE(r) + 3*GVI__SIZE(s))*GVI__SIZE(GVI__ROW(r))              \
+    + (GVI__SIZE(s) + 2)*GVI__SIZE(s) + 3 + GVI__SLACK)
 
 #ifdef __cplusplus
 }
@@ -598,6 +603,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 
 #include <float.h>
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 #if GVI__KIND == 1
@@ -606,6 +612,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__MIN   FLT_MIN
 #define GVI__DIG   FLT_MANT_DIG
 #define gvi__sqrt  sqrtf
+#define gvi__abs   fabsf
 #define gvi__floor floorf
 #define gvi__ldexp ldexpf
 #define gvi__frexp frexpf
@@ -616,6 +623,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__MIN   DBL_MIN
 #define GVI__DIG   DBL_MANT_DIG
 #define gvi__sqrt  sqrt
+#define gvi__abs   fabs
 #define gvi__floor floor
 #define gvi__ldexp ldexp
 #define gvi__frexp frexp
@@ -626,6 +634,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__MIN   LDBL_MIN
 #define GVI__DIG   LDBL_MANT_DIG
 #define gvi__sqrt  sqrtl
+#define gvi__abs   fabsl
 #define gvi__floor floorl
 #define gvi__ldexp ldexpl
 #define gvi__frexp frexpl
@@ -637,8 +646,6 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #endif
 
 typedef char gvi__effects_fit_a_word[GVI_EFFECTS >= 1 && GVI_EFFECTS <= 32 ? 1 : -1];
-
-static gvi_real gvi__abs(gvi_real x) { return x < 0 ? -x : x; }
 
 static int gvi__finite(gvi_real x) { return gvi__abs(x) <= GVI__MAX; }
 
@@ -1239,28 +1246,36 @@ static gvi_status gvi__check_points(gvi_stepper *st, const gvi_points *x)
     return gvi__give(st, GVI_E_CONVERGENCE);
 }
 
-/* Asks every effect that is on and, if `plain`, has no Hessian; each sees only
-   what its kind may read.  Adds to x->f and x->dldv.                          */
-static gvi_status gvi__effects(gvi_stepper *st, const gvi_points *x, int plain)
+/* Asks effect e, which sees only what its kind may read.  Fields of x are lent and
+   taken back one by one: a copied struct would have to wait for its stores.   */
+static gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e)
+{
+    const gvi_effect *effect = st->x.desc.effects + e;
+    const gvi_real *v = x->v;
+    gvi_real *dldv = x->dldv;
+    int point = GVI_FAULT_NONE;
+    if (effect->kind == GVI_POTENTIAL) x->v = NULL;
+    if (effect->kind != GVI_LAGRANGIAN) x->dldv = NULL;
+    st->counters.effect[e] += (unsigned long long)x->count;
+    int refused = effect->points ? effect->points(x, effect->user) : gvi__point_by_point(st, effect, x, &point);
+    gvi_status status = refused ? gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, point) : GVI_OK;
+    if (st->x.diagnose && status == GVI_OK) {
+        status = gvi__check_rows(st, x, x->f, e);
+        if (status == GVI_OK && x->dldv) status = gvi__check_rows(st, x, x->dldv, e);
+    }
+    x->v = v;
+    x->dldv = dldv;
+    return status;
+}
+
+/* Every effect that is on and, if `plain`, has no Hessian: adds to x->f and x->dldv. */
+static gvi_status gvi__effects(gvi_stepper *st, gvi_points *x, int plain)
 {
     const gvi_desc *d = &st->x.desc;
-    for (int e = 0; e < d->effect_count; ++e) {
-        const gvi_effect *effect = d->effects + e;
-        if ((st->x.off >> e & 1u) || (plain && effect->hessian)) continue;
-        gvi_points y = *x;
-        int point = GVI_FAULT_NONE;
-        if (effect->kind == GVI_POTENTIAL) y.v = NULL;
-        if (effect->kind != GVI_LAGRANGIAN) y.dldv = NULL;
-        st->counters.effect[e] += (unsigned long long)x->count;
-        if (effect->points ? effect->points(&y, effect->user) : gvi__point_by_point(st, effect, &y, &point))
-            return gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, point);
-        if (st->x.diagnose) {
-            gvi_status status = gvi__check_rows(st, x, x->f, e);
-            if (status == GVI_OK && y.dldv) status = gvi__check_rows(st, x, x->dldv, e);
-            if (status != GVI_OK) return status;
-        }
-    }
-    return GVI_OK;
+    gvi_status status = GVI_OK;
+    for (int e = 0; e < d->effect_count && status == GVI_OK; ++e)
+        if (!(st->x.off >> e & 1u) && !(plain && d->effects[e].hessian)) status = gvi__effect(st, x, e);
+    return status;
 }
 
 /* L D L' of a symmetric matrix at each of `count` points, in place: entry (i,j),
@@ -1330,30 +1345,36 @@ static void gvi__over_mass(const gvi_stepper *st, gvi_real *z, int stride, int c
 }
 
 // M(q) at the points, factored
-static gvi_status gvi__mass_at(gvi_stepper *st, const gvi_points *x, int factor)
+static gvi_status gvi__mass_at(gvi_stepper *st, gvi_points *x, int factor)
 {
-    gvi_points y = *x;
-    y.v = NULL;
-    y.f = y.dldv = NULL;
-    y.mass = st->x.point_mass;
+    const gvi_real *v = x->v;
+    gvi_real *f = x->f, *dldv = x->dldv;
+    x->v = NULL;
+    x->f = x->dldv = NULL;
+    x->mass = st->x.point_mass;
     st->counters.mass += (unsigned long long)x->count;
-    if (st->x.desc.mass.points(&y, st->x.desc.mass.user))
-        return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, -1, -1);
+    int refused = st->x.desc.mass.points(x, st->x.desc.mass.user);
+    x->mass = NULL;
+    x->v = v;
+    x->f = f;
+    x->dldv = dldv;
+    if (refused) return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, -1, -1);
     return factor ? gvi__ldl_factor(st, x->n, x->stride, x->count, st->x.point_mass) : GVI_OK;
 }
 
 // x->f += v' dM/dq v / 2
-static gvi_status gvi__mass_gradient(gvi_stepper *st, const gvi_points *x)
+static gvi_status gvi__mass_gradient(gvi_stepper *st, gvi_points *x)
 {
-    gvi_points y = *x;
-    y.dldv = NULL;
-    if (st->x.desc.mass.gradient(&y, st->x.desc.mass.user))
-        return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, -1, -1);
+    gvi_real *dldv = x->dldv;
+    x->dldv = NULL;
+    int refused = st->x.desc.mass.gradient(x, st->x.desc.mass.user);
+    x->dldv = dldv;
+    if (refused) return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, -1, -1);
     return st->x.diagnose ? gvi__check_rows(st, x, x->f, GVI_FAULT_MASS) : GVI_OK;
 }
 
 /* The kinetic energy's share: x->dldv += M v, and for M(q) the gradient.      */
-static gvi_status gvi__kinetic(gvi_stepper *st, const gvi_points *x)
+static gvi_status gvi__kinetic(gvi_stepper *st, gvi_points *x)
 {
     const gvi_real *m = st->x.mass;
     int n = x->n, R = x->stride, each = 0, dense = 1;
@@ -1383,7 +1404,7 @@ static gvi_status gvi__kinetic(gvi_stepper *st, const gvi_points *x)
 
 /* F and P at the points from scratch: everything (plain = 0), or what has no
    Hessian (plain = 1: those effects, and M(q)).                               */
-static gvi_status gvi__evaluate(gvi_stepper *st, const gvi_points *x, int plain)
+static gvi_status gvi__evaluate(gvi_stepper *st, gvi_points *x, int plain)
 {
     size_t length = (size_t)x->n*(size_t)x->stride;
     gvi_status status = gvi__check_points(st, x);
@@ -1395,19 +1416,18 @@ static gvi_status gvi__evaluate(gvi_stepper *st, const gvi_points *x, int plain)
 }
 
 // one point, as gvi_points
-static gvi_points gvi__at(const gvi_stepper *st, const gvi_real *t, const gvi_real *q, const gvi_real *v,
-                          gvi_real *f, gvi_real *dldv)
+static void gvi__at(gvi_points *x, const gvi_stepper *st, const gvi_real *t, const gvi_real *q, const gvi_real *v,
+                    gvi_real *f, gvi_real *dldv)
 {
-    gvi_points x;
-    memset(&x, 0, sizeof x);
-    x.n = st->n;
-    x.count = x.stride = 1;
-    x.t = t;
-    x.q = q;
-    x.v = v;
-    x.f = f;
-    x.dldv = dldv;
-    return x;
+    x->n = st->n;
+    x->count = x->stride = 1;
+    x->t = t;
+    x->q = q;
+    x->v = v;
+    x->p = NULL;
+    x->f = f;
+    x->dldv = dldv;
+    x->value = x->mass = x->velocity = NULL;
 }
 
 // d(dL/dv)/dv at one point, n*n, by differences
@@ -1439,7 +1459,8 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_real t, const gvi_re
 {
     int n = st->n;
     gvi_real *f = st->x.one + 4*n, *P = f + n, *W = st->x.hess + 3*n, *pivot = W + n*n, *dv = st->x.hess + 2*n;
-    gvi_points x = gvi__at(st, &t, q, v, f, P);
+    gvi_points x;
+    gvi__at(&x, st, &t, q, v, f, P);
     gvi_real last = GVI__MAX;
     st->counters.velocities += 1;
     for (int k = 0; k < 40; ++k) {
@@ -1483,7 +1504,8 @@ static gvi_real gvi__velocity_guess(const gvi_stepper *st, int i)
 static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *p, gvi_real *v)
 {
     const gvi_mass *mass = &st->x.desc.mass;
-    gvi_points x = gvi__at(st, &t, q, NULL, NULL, NULL);
+    gvi_points x;
+    gvi__at(&x, st, &t, q, NULL, NULL, NULL);
     if (mass->velocity) {
         x.p = p;
         x.velocity = v;
@@ -1770,6 +1792,13 @@ static gvi_status gvi__resolve(gvi_stepper *st, const gvi_desc *desc)
     return GVI_OK;
 }
 
+/* Extrapolation from two steps saves iterations up to ten points; with more of
+   them, and in float, it would amplify rounding too much.                     */
+static int gvi__fits_two(const gvi_stepper *st)
+{
+    return st->r < 10 && GVI__KIND > 1 && st->x.chosen >= GVI_POSITIONS && st->x.chosen <= GVI_MOMENTA;
+}
+
 typedef struct gvi__arena { gvi_real *base; size_t used; } gvi__arena;
 
 // a*b reals if `wanted`, else NULL; with base NULL it only counts
@@ -1806,6 +1835,10 @@ static size_t gvi__layout(gvi_stepper *st, gvi_real *base)
         rows->P = gvi__take(&a, momenta || newton, n, R);
         rows->A = gvi__take(&a, lagrangian && (velocities || momenta), n, R);
     }
+    int two = gvi__fits_two(st);
+    x->older.F = gvi__take(&a, two, n, R);
+    x->older.V = gvi__take(&a, momenta && two, n, R);
+    x->older.A = gvi__take(&a, lagrangian && (velocities || momenta) && two, n, R);
     x->z = gvi__take(&a, 1, 1, R);
     x->less = gvi__take(&a, 1, 1, R);
     x->ones = gvi__take(&a, 1, 1, R);
@@ -1815,7 +1848,7 @@ static size_t gvi__layout(gvi_stepper *st, gvi_real *base)
     x->m = gvi__take(&a, velocities || momenta, r, R);
     x->T = gvi__take(&a, momenta || (velocities && lagrangian), r, R);
     x->N = gvi__take(&a, velocities && lagrangian, r, R);
-    x->E = gvi__take(&a, 1, r, R);
+    x->E = gvi__take(&a, 1, two ? 2*r : r, R);
     x->Phi = gvi__take(&a, 1, s, R);
     x->phi = gvi__take(&a, reads_v || st->order <= 2*st->s - 2, s, R);
     x->low = gvi__take(&a, reads_v || st->order <= 2*st->s - 2, s, R);
@@ -1825,7 +1858,7 @@ static size_t gvi__layout(gvi_stepper *st, gvi_real *base)
     x->b = gvi__take(&a, 1, 1, R);
     x->t = gvi__take(&a, 1, 1, R);
     x->w_bary = gvi__take(&a, 1, 1, R);
-    x->row = gvi__take(&a, 1, 3, R);
+    x->row = gvi__take(&a, 1, 6, R);
 
     x->q = gvi__take(&a, 1, 1, n);
     x->qe = gvi__take(&a, 1, 1, n);
@@ -1839,6 +1872,7 @@ static size_t gvi__layout(gvi_stepper *st, gvi_real *base)
     x->ve = gvi__take(&a, 1, 1, n);
     x->dq = gvi__take(&a, 1, 1, n);
     x->dp = gvi__take(&a, 1, 1, n);
+    x->scale = gvi__take(&a, 1, 2, n);
     x->change = gvi__take(&a, 1, 3, n);
     x->one = gvi__take(&a, 1, 6, n);
     x->inv_gamma = gvi__take(&a, 1, 1, s);
@@ -1859,11 +1893,18 @@ static size_t gvi__layout(gvi_stepper *st, gvi_real *base)
     return a.used;
 }
 
+/* Rows of whole vectors are to start where a cache line does: up to this many
+   numbers are left out at the beginning of the memory.                        */
+static size_t gvi__slack(const gvi_stepper *st)
+{
+    return st->x.stride % 8 == 0 ? GVI__SLACK : 0;
+}
+
 GVI_DEF size_t gvi_size(const gvi_desc *desc)
 {
     gvi_stepper st;
     if (gvi__resolve(&st, desc) != GVI_OK) return 0;
-    return gvi__layout(&st, NULL)*sizeof(gvi_real);
+    return (gvi__layout(&st, NULL) + gvi__slack(&st))*sizeof(gvi_real);
 }
 
 // mass matrix into the memory, factored
@@ -1900,9 +1941,11 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     if (status != GVI_OK) return st->status = status;
     if (!memory) return st->status = GVI_E_ARGUMENT;
     struct gvi__private *x = &st->x;
-    size_t length = gvi__layout(st, NULL);
-    if (size < length*sizeof(gvi_real)) return st->status = GVI_E_MEMORY;
+    size_t length = gvi__layout(st, NULL), slack = gvi__slack(st);
+    if (size < (length + slack)*sizeof(gvi_real)) return st->status = GVI_E_MEMORY;
 
+    if (slack) x->skip = (size_t)(-(uintptr_t)memory & 63)/sizeof(gvi_real);
+    memory += x->skip;
     gvi__zero(length, memory);
     gvi__layout(st, memory);
     x->size = length;
@@ -1934,12 +1977,11 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
 // where a step, or a query's partial step, starts
 typedef struct gvi__from { gvi_real t, te; const gvi_real *q, *qe, *p, *pe; } gvi__from;
 
-static gvi_points gvi__rows_as_points(const gvi_stepper *st, const struct gvi__rows *rows, gvi_real *dldv)
+static void gvi__rows_as_points(gvi_points *x, const gvi_stepper *st, const struct gvi__rows *rows, gvi_real *dldv)
 {
-    gvi_points x = gvi__at(st, st->x.t, rows->Q, rows->V, rows->F, dldv);
-    x.count = st->r;
-    x.stride = st->x.stride;
-    return x;
+    gvi__at(x, st, st->x.t, rows->Q, rows->V, rows->F, dldv);
+    x->count = st->r;
+    x->stride = st->x.stride;
 }
 
 // velocities where the mass is constant; weights and times of the points
@@ -1955,19 +1997,27 @@ static void gvi__begin(gvi_stepper *st, const gvi__from *from, gvi_real h)
     gvi__over_mass(st, x->ve, 1, 1);
 }
 
+// four sums at a time: none waits for another
 static gvi_real gvi__dot(int r, const gvi_real *a, const gvi_real *b)
 {
-    gvi_real sum = 0;
-    for (int j = 0; j < r; ++j) sum += a[j]*b[j];
-    return sum;
+    gvi_real sum[4] = { 0, 0, 0, 0 };
+    int j = 0;
+    for (; j + 3 < r; j += 4) {
+        sum[0] += a[j]*b[j];
+        sum[1] += a[j + 1]*b[j + 1];
+        sum[2] += a[j + 2]*b[j + 2];
+        sum[3] += a[j + 3]*b[j + 3];
+    }
+    for (; j < r; ++j) sum[0] += a[j]*b[j];
+    return (sum[0] + sum[2]) + (sum[1] + sum[3]);
 }
 
 /* One set of rows of (3), (4) or (5):
    row_i := base_i + (extra_i + factor*(c slope_i + M^-1 (table (w f_i) - minus (b a_i))))
    slope, minus may be NULL; M^-1 if over_mass.                                */
 typedef struct gvi__stage {
-    const gvi_real *base, *extra, *slope, *table, *f, *minus, *a;
-    gvi_real        factor, *rows;
+    const gvi_real *base, *extra, *slope, *table, *f, *minus;
+    gvi_real        factor, *rows, *scale;
     int             over_mass;
 } gvi__stage;
 
@@ -1981,12 +2031,12 @@ typedef struct gvi__stage {
 typedef gvi_real gvi__vector __attribute__((vector_size(8*sizeof(gvi_real)), aligned(sizeof(gvi_real)), may_alias));
 #define GVI__AT(p) (*(const gvi__vector *)(p))
 
-// sum_j w_j table[j][0..7] f_j in two sums, so that one need not wait for the other
+// z := sum_j table[j][0..7] w_j f_j in two sums, so that one need not wait for the other
 static inline void gvi__sum_vector(int r, int R, const gvi_real *table, const gvi_real *w,
                                    const gvi_real *f, gvi__vector *z)
 {
-    gvi__vector even = { 0 }, odd = { 0 };
-    for (int j = 0; j + 1 < r; j += 2) {
+    gvi__vector even = GVI__AT(table)*(w[0]*f[0]), odd = GVI__AT(table + R)*(w[1]*f[1]);
+    for (int j = 2; j + 1 < r; j += 2) {
         even += GVI__AT(table + j*R)*(w[j]*f[j]);
         odd += GVI__AT(table + (j + 1)*R)*(w[j + 1]*f[j + 1]);
     }
@@ -1995,78 +2045,107 @@ static inline void gvi__sum_vector(int r, int R, const gvi_real *table, const gv
 }
 #endif
 
-// z := sum_j w_j table[j][.] f_j, all R points
-static inline void gvi__sum_row(int r, int R, const gvi_real *table, const gvi_real *w,
-                                const gvi_real *f, gvi_real *z)
+// the same for block points, by loops
+static inline void gvi__sum_block(int r, int R, int block, const gvi_real *table, const gvi_real *w,
+                                  const gvi_real *f, gvi_real *z)
 {
-#ifdef GVI__VECTORS
-    if (R % 8 == 0) {
-        for (int o = 0; o < R; o += 8) gvi__sum_vector(r, R, table + o, w, f, (gvi__vector *)(z + o));
-        return;
-    }
-#endif
-    for (int k = 0; k < R; ++k) {
-        gvi_real even = 0, odd = 0;
-        for (int j = 0; j < r; j += 2) even += table[j*R + k]*(w[j]*f[j]);
-        for (int j = 1; j < r; j += 2) odd += table[j*R + k]*(w[j]*f[j]);
+    for (int k = 0; k < block; ++k) {
+        gvi_real even = table[k]*(w[0]*f[0]), odd = r > 1 ? table[R + k]*(w[1]*f[1]) : 0;
+        for (int j = 2; j < r; j += 2) even += table[j*R + k]*(w[j]*f[j]);
+        for (int j = 3; j < r; j += 2) odd += table[j*R + k]*(w[j]*f[j]);
         z[k] = even + odd;
     }
 }
 
-/* In what units changes of a row are measured: |base| + the displacements at the
-   last point of the block, before and after.  0 where these have no sure digit. */
-static inline gvi_real gvi__scale(gvi_real base, gvi_real was, gvi_real is)
+// z := sum_j table[j][.] w_j f_j, all R points
+static inline void gvi__sum_row(int r, int R, const gvi_real *table, const gvi_real *w,
+                                const gvi_real *f, gvi_real *z)
 {
-    const gvi_real size = gvi__abs(base) + gvi__abs(was - base) + gvi__abs(is - base);
-    return size > GVI__MIN/GVI__EPS ? 1/size : 0;
+#ifdef GVI__VECTORS
+    for (int o = 0; R % 8 == 0 && o < R; o += 8) gvi__sum_vector(r, R, table + o, w, f, (gvi__vector *)(z + o));
+    if (R % 8 == 0) return;
+#endif
+    gvi__sum_block(r, R, R, table, w, f, z);
 }
 
-/* row := base + (extra + (c a + b z)), z of coordinate i as in gvi__stage.  Returns
-   the sum of the squares of the changes, scaled.  r and R are constants where
-   this is inlined for the usual sizes.                                        */
-static inline gvi_real gvi__stage_row(const gvi_stepper *st, const gvi__stage *y, int i, int r, int R)
+/* 1/unit in which changes of a row are measured: |base| + the displacements at the
+   last point, before and after; 0 where these have no sure digit.  Kept while it is
+   right within a factor of 2, so that as a rule nothing waits for a quotient.  */
+static inline void gvi__rescale(gvi_real base, gvi_real was, gvi_real is, gvi_real *scale)
+{
+    const gvi_real size = gvi__abs(base) + gvi__abs(was - base) + gvi__abs(is - base), ratio = size * *scale;
+    if (!(ratio > (gvi_real)0.5 && ratio < 2)) *scale = size > GVI__MIN/GVI__EPS ? 1/size : 0;
+}
+
+static inline gvi_real gvi__sum_lanes(const gvi_real *z)
+{
+    return ((z[0] + z[4]) + (z[1] + z[5])) + ((z[2] + z[6]) + (z[3] + z[7]));
+}
+
+/* What gvi__stage_rows_of puts into a row: row := base + (extra + (c a + b z))  */
+typedef struct gvi__affine { gvi_real base, extra, a, b; } gvi__affine;
+
+static inline gvi__affine gvi__affine_of(const gvi__stage *y, const gvi_real *diagonal, int i)
+{
+    gvi__affine p;
+    p.base = y->base[i];
+    p.extra = y->extra[i];
+    p.a = y->slope ? y->factor*y->slope[i] : 0;
+    p.b = diagonal ? y->factor/diagonal[i] : y->factor;
+    return p;
+}
+
+/* The rows of a stage, M^-1 being a number for each.  Returns the sum of the squares
+   of the changes, scaled.  r and R are constants where this is inlined for the
+   usual sizes.                                                                */
+static inline gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stage *y, int r, int R)
 {
     const struct gvi__private *x = &st->x;
-    const gvi_real *f = y->f + i*R, *c = x->c;
-    gvi_real *row = y->rows + i*R;
-    const gvi_real base = y->base[i], extra = y->extra[i], a = y->slope ? y->factor*y->slope[i] : 0;
-    const gvi_real b = y->over_mass && x->desc.mass.kind == GVI_MASS_DIAGONAL ? y->factor/x->mass[i] : y->factor;
+    const gvi_real *diagonal = y->over_mass && x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->mass : NULL;
+    const gvi_real *c = x->c;
+    const int n = st->n;
 #ifdef GVI__VECTORS
     if (R % 8 == 0) {
         gvi__vector squares = { 0 };
-        for (int o = 0; o < R; o += 8) {
-            const int last = r - 1 - o < 7 ? r - 1 - o : 7;
-            gvi__vector z, less, next, moved;
-            gvi__sum_vector(r, R, y->table + o, x->hb, f, &z);
-            if (y->minus) {
-                gvi__sum_vector(r, R, y->minus + o, x->b, y->a + i*R, &less);
-                z -= less;
+        for (int i = 0; i < n; ++i)
+            for (int o = R - 8; o >= 0; o -= 8) {
+                const gvi__affine p = gvi__affine_of(y, diagonal, i);
+                const int last = r - 1 - o;
+                gvi_real *row = y->rows + i*R + o;
+                gvi__vector z, less, next, moved;
+                gvi__sum_vector(r, R, y->table + o, x->hb, y->f + i*R, &z);
+                if (y->minus) {
+                    gvi__sum_vector(r, R, y->minus + o, x->b, x->work.A + i*R, &less);
+                    z -= less;
+                }
+                next = p.base + (p.extra + (GVI__AT(c + o)*p.a + z*p.b));
+                if (last < 8) gvi__rescale(p.base, row[last], next[last], y->scale + i);
+                moved = (next - GVI__AT(row))*y->scale[i];
+                squares += moved*moved;
+                *(gvi__vector *)row = next;
             }
-            next = base + (extra + (GVI__AT(c + o)*a + z*b));
-            moved = (next - GVI__AT(row + o))*gvi__scale(base, row[o + last], next[last]);
-            *(gvi__vector *)(row + o) = next;
-            squares += moved*moved;
-        }
-        return ((squares[0] + squares[4]) + (squares[1] + squares[5]))
-             + ((squares[2] + squares[6]) + (squares[3] + squares[7]));
+        return gvi__sum_lanes((const gvi_real *)&squares);
     }
 #endif
     gvi_real lane[8] = { 0, 0, 0, 0, 0, 0, 0, 0 };
     const int block = R < 8 ? R : 8;
-    gvi__sum_row(r, R, y->table, x->hb, f, x->z);
-    if (y->minus) gvi__sum_row(r, R, y->minus, x->b, y->a + i*R, x->less);
-    for (int o = 0; o < R; o += block) {
-        const int last = r - o < block ? r - 1 : o + block - 1;
-        for (int k = o; k < o + block; ++k)
-            x->z[k] = base + (extra + (c[k]*a + (y->minus ? x->z[k] - x->less[k] : x->z[k])*b));
-        const gvi_real scale = gvi__scale(base, row[last], x->z[last]);
-        for (int k = o; k < o + block; ++k) {
-            const gvi_real moved = (x->z[k] - row[k])*scale;
-            lane[k - o] += moved*moved;
-            row[k] = x->z[k];
+    for (int i = 0; i < n; ++i)
+        for (int o = R - block; o >= 0; o -= block) {
+            const gvi__affine p = gvi__affine_of(y, diagonal, i);
+            const int last = r - 1 - o;
+            gvi_real *row = y->rows + i*R + o, z[8], less[8];
+            gvi__sum_block(r, R, block, y->table + o, x->hb, y->f + i*R, z);
+            if (y->minus) gvi__sum_block(r, R, block, y->minus + o, x->b, x->work.A + i*R, less);
+            for (int k = 0; k < block; ++k)
+                z[k] = p.base + (p.extra + (c[k + o]*p.a + (y->minus ? z[k] - less[k] : z[k])*p.b));
+            if (last < block) gvi__rescale(p.base, row[last], z[last], y->scale + i);
+            for (int k = 0; k < block; ++k) {
+                const gvi_real moved = (z[k] - row[k])*y->scale[i];
+                lane[k] += moved*moved;
+                row[k] = z[k];
+            }
         }
-    }
-    return ((lane[0] + lane[4]) + (lane[1] + lane[5])) + ((lane[2] + lane[6]) + (lane[3] + lane[7]));
+    return gvi__sum_lanes(lane);
 }
 
 // the same where M is a full matrix: all sums first, then M^-1 of them
@@ -2077,16 +2156,16 @@ static gvi_real gvi__stage_rows_dense(gvi_stepper *st, const gvi__stage *y)
     gvi_real sum = 0;
     for (int i = 0; i < st->n; ++i) {
         gvi__sum_row(st->r, R, y->table, x->hb, y->f + i*R, x->Z + i*R);
-        if (y->minus) gvi__sum_row(st->r, R, y->minus, x->b, y->a + i*R, x->less);
+        if (y->minus) gvi__sum_row(st->r, R, y->minus, x->b, x->work.A + i*R, x->less);
         for (int k = 0; y->minus && k < R; ++k) x->Z[i*R + k] -= x->less[k];
     }
     gvi__over_mass(st, x->Z, R, R);
     for (int i = 0; i < st->n; ++i) {
         gvi_real *z = x->Z + i*R, *row = y->rows + i*R, slope = y->slope ? y->slope[i] : 0;
         for (int k = 0; k < R; ++k) z[k] = y->base[i] + (y->extra[i] + y->factor*(x->c[k]*slope + z[k]));
-        gvi_real scale = gvi__scale(y->base[i], row[last], z[last]);
+        gvi__rescale(y->base[i], row[last], z[last], y->scale + i);
         for (int k = 0; k < R; ++k) {
-            gvi_real moved = (z[k] - row[k])*scale;
+            gvi_real moved = (z[k] - row[k])*y->scale[i];
             sum += moved*moved;
             row[k] = z[k];
         }
@@ -2096,14 +2175,17 @@ static gvi_real gvi__stage_rows_dense(gvi_stepper *st, const gvi__stage *y)
 
 static gvi_real gvi__stage_rows(gvi_stepper *st, const gvi__stage *y)
 {
-    const int n = st->n, r = st->r, R = st->x.stride;
-    gvi_real sum = 0;
+    const int r = st->r, R = st->x.stride;
     if (y->over_mass && st->x.desc.mass.kind == GVI_MASS_DENSE) return gvi__stage_rows_dense(st, y);
-    if (r == 8) for (int i = 0; i < n; ++i) sum += gvi__stage_row(st, y, i, 8, 8);
-    else if (R == 8) for (int i = 0; i < n; ++i) sum += gvi__stage_row(st, y, i, r, 8);
-    else if (r == 4) for (int i = 0; i < n; ++i) sum += gvi__stage_row(st, y, i, 4, 4);
-    else for (int i = 0; i < n; ++i) sum += gvi__stage_row(st, y, i, r, R);
-    return sum;
+    switch (r) {
+    case 2:  return gvi__stage_rows_of(st, y, 2, 2);
+    case 3:  return gvi__stage_rows_of(st, y, 3, 3);
+    case 4:  return gvi__stage_rows_of(st, y, 4, 4);
+    case 6:  return gvi__stage_rows_of(st, y, 6, 8);
+    case 8:  return gvi__stage_rows_of(st, y, 8, 8);
+    case 16: return gvi__stage_rows_of(st, y, 16, 16);
+    default: return R == 8 ? gvi__stage_rows_of(st, y, r, 8) : gvi__stage_rows_of(st, y, r, R);
+    }
 }
 
 // V := M^-1 (P - A), with the constant mass or the factored M(Q)
@@ -2117,34 +2199,55 @@ static void gvi__velocity_rows(gvi_stepper *st)
     else gvi__ldl_solve(n, x->point_mass, R, 1, w->V, R, st->r);
 }
 
+static void gvi__stage_set(gvi__stage *y, const gvi_real *base, const gvi_real *extra, const gvi_real *slope,
+                           const gvi_real *table, const gvi_real *f, gvi_real factor, gvi_real *rows,
+                           gvi_real *scale)
+{
+    y->base = base;
+    y->extra = extra;
+    y->slope = slope;
+    y->table = table;
+    y->f = f;
+    y->minus = NULL;
+    y->factor = factor;
+    y->rows = rows;
+    y->over_mass = 0;
+    y->scale = scale;
+}
+
 /* What an iteration computes, fixed for a step: positions (3); velocities (3),
    (4); momenta (5), P first.  Returns how many.                               */
 static int gvi__plan(gvi_stepper *st, const gvi__from *from, gvi_real h, gvi__stage y[2])
 {
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work;
-    const gvi_real *minus = w->A ? x->T : NULL, *minus_v = w->A ? x->N : NULL;
-    const gvi__stage q = { from->q, from->qe, x->v0, x->g, w->F, minus, w->A, h, w->Q, 1 };
-    const gvi__stage v = { x->v0, x->ve, NULL, x->m, w->F, minus_v, w->A, 1, w->V, 1 };
-    const gvi__stage p = { from->p, from->pe, NULL, x->m, w->F, NULL, NULL, 1, w->P, 0 };
-    const gvi__stage by_v = { from->q, from->qe, NULL, x->T, w->V, NULL, NULL, 1, w->Q, 0 };
-    y[0] = x->chosen == GVI_MOMENTA ? p : q;
-    y[1] = x->chosen == GVI_MOMENTA ? by_v : v;
-    return x->chosen == GVI_POSITIONS ? 1 : 2;
+    if (x->chosen == GVI_MOMENTA) {
+        gvi__stage_set(y, from->p, from->pe, NULL, x->m, w->F, 1, w->P, x->scale);
+        gvi__stage_set(y + 1, from->q, from->qe, NULL, x->T, w->V, 1, w->Q, x->scale + st->n);
+        return 2;
+    }
+    gvi__stage_set(y, from->q, from->qe, x->v0, x->g, w->F, h, w->Q, x->scale);
+    y->minus = w->A ? x->T : NULL;
+    y->over_mass = 1;
+    if (x->chosen == GVI_POSITIONS) return 1;
+    gvi__stage_set(y + 1, x->v0, x->ve, NULL, x->m, w->F, 1, w->V, x->scale + st->n);
+    y[1].minus = w->A ? x->N : NULL;
+    y[1].over_mass = 1;
+    return 2;
 }
 
 /* The rows of the next iteration from the F, V and A of this one; returns the
-   root of the sum of squares of their relative changes.                       */
+   sum of squares of their relative changes.                                   */
 static gvi_real gvi__stages(gvi_stepper *st, const gvi__stage *y, int count)
 {
     struct gvi__private *x = &st->x;
     int momenta = x->chosen == GVI_MOMENTA;
     gvi_real sum = gvi__stage_rows(st, y);
-    if (count == 1) return gvi__sqrt(sum);
+    if (count == 1) return sum;
     if (momenta && (x->has_factor || (gvi__mass_is_constant(&x->desc) && !x->desc.mass.velocity)))
         gvi__velocity_rows(st);           // the new P, if with the old M(Q): contracts twice as fast
     st->counters.velocities += (unsigned long long)st->r;
-    return gvi__sqrt(sum + gvi__stage_rows(st, y + 1));
+    return sum + gvi__stage_rows(st, y + 1);
 }
 
 // momenta: V from dL/dv(Q, V) = P, then the kinetic share of F
@@ -2154,14 +2257,20 @@ static gvi_status gvi__legendre_rows(gvi_stepper *st, gvi_points *y)
     struct gvi__rows *w = &x->work;
     st->counters.velocities += (unsigned long long)st->r;
     if (x->desc.mass.velocity) {
-        gvi_points z = *y;
-        z.v = NULL;
-        z.f = z.dldv = NULL;
-        z.p = w->P;
-        z.velocity = w->V;
+        const gvi_real *v = y->v;
+        gvi_real *f = y->f, *dldv = y->dldv;
+        y->v = NULL;
+        y->f = y->dldv = NULL;
+        y->p = w->P;
+        y->velocity = w->V;
         st->counters.mass += (unsigned long long)st->r;
-        if (x->desc.mass.velocity(&z, x->desc.mass.user))
-            return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, -1, -1);
+        int refused = x->desc.mass.velocity(y, x->desc.mass.user);
+        y->velocity = NULL;
+        y->p = NULL;
+        y->v = v;
+        y->f = f;
+        y->dldv = dldv;
+        if (refused) return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, -1, -1);
         if (x->diagnose) {
             gvi_status status = gvi__check_rows(st, y, w->V, GVI_FAULT_MASS);
             if (status != GVI_OK) return status;
@@ -2176,37 +2285,100 @@ static gvi_status gvi__legendre_rows(gvi_stepper *st, gvi_points *y)
 }
 
 // F (and A, V) at the rows of this iteration, all points in one call an effect
-static gvi_status gvi__ask(gvi_stepper *st)
+static gvi_status gvi__ask(gvi_stepper *st, gvi_points *y)
 {
-    struct gvi__rows *w = &st->x.work;
     size_t length = (size_t)st->n*(size_t)st->x.stride;
-    gvi_points y = gvi__rows_as_points(st, w, w->A);
-    gvi_status status = gvi__check_points(st, &y);
-    gvi__zero(length, w->F);
-    if (status == GVI_OK && st->x.chosen == GVI_MOMENTA) status = gvi__legendre_rows(st, &y);
-    if (w->A) gvi__zero(length, w->A);
-    return status == GVI_OK ? gvi__effects(st, &y, 0) : status;
+    gvi_status status = gvi__check_points(st, y);
+    gvi__zero(length, y->f);
+    if (status == GVI_OK && st->x.chosen == GVI_MOMENTA) status = gvi__legendre_rows(st, y);
+    if (y->dldv) gvi__zero(length, y->dldv);
+    return status == GVI_OK ? gvi__effects(st, y, 0) : status;
 }
 
-/* Extrapolates rows of the last step to the points of the next:
-   out_i = sum_j E_ij last_j, E_ij = l_j(alpha + beta c_i), l_j on the nodes.   */
-static void gvi__extrapolate(gvi_stepper *st, const gvi_real *last, gvi_real *out)
+/* Extrapolates rows of the last step, or of the last two, to the points of the
+   next:  out_i = sum_j E_ij last_j (+ sum_j E_i,r+j older_j).                  */
+static inline void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const gvi_real *last,
+                                         const gvi_real *older, gvi_real *out)
 {
-    int R = st->x.stride;
-    for (int i = 0; last && i < st->n; ++i) {
-        gvi__sum_row(st->r, R, st->x.E, st->x.ones, last + i*R, out + i*R);
+    const struct gvi__private *x = &st->x;
+    for (int i = 0; i < st->n; ++i) {
+#ifdef GVI__VECTORS
+        for (int o = 0; older && R % 8 == 0 && o < R; o += 8) {
+            gvi__vector z, y;
+            gvi__sum_vector(r, R, x->E + r*R + o, x->ones, older + i*R, &y);
+            gvi__sum_vector(r, R, x->E + o, x->ones, last + i*R, &z);
+            *(gvi__vector *)(out + i*R + o) = z + y;
+        }
+        if (older && R % 8 == 0) continue;
+#endif
+        gvi__sum_row(r, R, x->E, x->ones, last + i*R, out + i*R);
+        if (older) gvi__sum_row(r, R, x->E + r*R, x->ones, older + i*R, x->z);
+        for (int k = 0; older && k < R; ++k) out[i*R + k] += x->z[k];
     }
 }
 
-static void gvi__extrapolation(gvi_stepper *st, gvi_real alpha, gvi_real beta, int query)
+static void gvi__extrapolate(gvi_stepper *st, const gvi_real *last, const gvi_real *older, gvi_real *out)
+{
+    if (!st->x.two) older = NULL;
+    if (st->r == 8) gvi__extrapolate_rows(st, 8, 8, last, older, out);
+    else if (st->r == 4) gvi__extrapolate_rows(st, 4, 4, last, older, out);
+    else gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, out);
+}
+
+// one step's rows: the polynomial through them, E_ij = l_j(alpha + beta c_i)
+static void gvi__extrapolation(gvi_stepper *st, gvi_real alpha, gvi_real beta)
 {
     struct gvi__private *x = &st->x;
-    if (!query && !gvi__nonzero(beta - x->ratio)) return;
-    x->ratio = query ? 0 : beta;
     for (int i = 0; i < st->r; ++i) {
         gvi_basis(st->r, x->c, x->w_bary, alpha + beta*x->c[i], x->row);
         for (int j = 0; j < st->r; ++j) x->E[j*x->stride + i] = x->row[j];
     }
+}
+
+/* Two steps' rows: least squares with polynomials of degree r + r/2 - r/8, a
+   compromise between truncation and amplified rounding that tests/cost found.
+   By polynomials p_k orthonormal on the 2r nodes (Forsythe 1957),
+   E_ij = sum_k p_k(1 + c_i) p_k(x_j), x = c, then c - 1; row holds p_k and p_(k-1)
+   at c - 1, c and c + 1.                                                       */
+static void gvi__extrapolation_two(gvi_stepper *st)
+{
+    struct gvi__private *x = &st->x;
+    const int r = st->r, R = x->stride, degree = r + r/2 - r/8;
+    gvi_real *p = x->row, *before = p + 3*R, norm = 1/gvi__sqrt((gvi_real)(2*r)), coupling = 0;
+    gvi__zero((size_t)(2*r*R), x->E);
+    for (int m = 0; m < 3*R; ++m) p[m] = m % R < r ? norm : 0, before[m] = 0;
+    for (int k = 0; k <= degree; ++k) {
+        for (int j = 0; j < r; ++j)
+            for (int i = 0; i < r; ++i) {
+                x->E[j*R + i] += p[2*R + i]*p[R + j];
+                x->E[(r + j)*R + i] += p[2*R + i]*p[j];
+            }
+
+        // p_(k+1) ~ (x - <x p_k, p_k>) p_k - coupling p_(k-1), over its norm
+        gvi_real middle = 0, size = 0;
+        for (int m = 0; m < 2*R; ++m) middle += (x->c[m % R] + (gvi_real)(m/R - 1))*p[m]*p[m];
+        for (int m = 0; m < 3*R; ++m) {
+            gvi_real next = (x->c[m % R] + (gvi_real)(m/R - 1) - middle)*p[m] - coupling*before[m];
+            before[m] = p[m];
+            p[m] = next;
+            if (m < 2*R) size += next*next;
+        }
+        coupling = gvi__sqrt(size);
+        if (!gvi__nonzero(coupling)) break;
+        for (int m = 0; m < 3*R; ++m) p[m] /= coupling;
+    }
+}
+
+// makes E what this step needs, if it is not
+static void gvi__prepare_guess(gvi_stepper *st, gvi_real alpha, gvi_real beta, int query)
+{
+    struct gvi__private *x = &st->x;
+    const int two = !query && x->alike == 2 && x->older.F && !gvi__nonzero(beta - 1);
+    if (!query && !gvi__nonzero(beta - x->ratio) && two == x->two) return;
+    x->ratio = query ? 0 : beta;
+    x->two = two;
+    if (two) gvi__extrapolation_two(st);
+    else gvi__extrapolation(st, alpha, beta);
 }
 
 /* Starting values: what the last step had, extrapolated; without one, or if
@@ -2218,9 +2390,9 @@ static void gvi__guess(gvi_stepper *st, int extrapolate)
     size_t length = (size_t)st->n*(size_t)x->stride;
     x->has_factor = 0;
     if (extrapolate) {
-        gvi__extrapolate(st, l->F, w->F);
-        if (l->A && w->A) gvi__extrapolate(st, l->A, w->A);
-        if (x->chosen == GVI_MOMENTA) gvi__extrapolate(st, l->V, w->V);
+        gvi__extrapolate(st, l->F, x->older.F, w->F);
+        if (l->A && w->A) gvi__extrapolate(st, l->A, x->older.A, w->A);
+        if (x->chosen == GVI_MOMENTA) gvi__extrapolate(st, l->V, x->older.V, w->V);
     } else {
         gvi__zero(length, w->F);
         if (w->A) gvi__zero(length, w->A);
@@ -2235,16 +2407,15 @@ static void gvi__increments(gvi_stepper *st, gvi_real h)
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work;
     int n = st->n, r = st->r, R = x->stride;
+    for (int j = 0; j < R; ++j) x->less[j] = 1 - x->c[j];
     for (int i = 0; i < n; ++i) {
-        gvi_real sum = 0, end = 0;
-        for (int j = 0; j < r; ++j) {
-            gvi_real L = x->hb[j]*w->F[i*R + j];
-            sum += L;
-            if (x->chosen == GVI_MOMENTA) end += x->hb[j]*w->V[i*R + j];
-            else end += (1 - x->c[j])*L - (w->A ? x->b[j]*w->A[i*R + j] : 0);
+        const gvi_real *F = w->F + i*R;
+        x->dp[i] = gvi__dot(r, x->hb, F);
+        if (x->chosen == GVI_MOMENTA) x->dq[i] = gvi__dot(r, x->hb, w->V + i*R);
+        else {
+            for (int j = 0; j < R; ++j) x->z[j] = x->hb[j]*F[j];
+            x->dq[i] = gvi__dot(r, x->less, x->z) - (w->A ? gvi__dot(r, x->b, w->A + i*R) : 0);
         }
-        x->dp[i] = sum;
-        x->dq[i] = end;
     }
     if (x->chosen == GVI_MOMENTA) return;
     gvi__over_mass(st, x->dq, 1, 1);
@@ -2277,12 +2448,18 @@ static int gvi__is_rounding(const gvi_stepper *st, const gvi__from *from, int id
     return noise <= 0 || (idle > 4 && size <= GVI__MAX && noise <= 1000*GVI__EPS*size);
 }
 
-// contraction over two iterations, as long as it is not about rounding
+// contraction over two iterations, as long as it is not about rounding; squares of changes
 static void gvi__watch(gvi_stepper *st, gvi_real change, gvi_real earlier)
 {
-    if (!(earlier > 0 && change > 1000*GVI__EPS)) return;
-    gvi_real contraction = gvi__sqrt(change/earlier);
-    if (contraction > st->counters.worst_contraction) st->counters.worst_contraction = contraction;
+    const gvi_real worst = st->counters.worst_contraction*st->counters.worst_contraction;
+    if (change > (1000*GVI__EPS)*(1000*GVI__EPS) && earlier > 0 && change > worst*worst*earlier)
+        st->counters.worst_contraction = gvi__sqrt(gvi__sqrt(change/earlier));
+}
+
+static void gvi__watch_last(gvi_stepper *st, gvi_real change)
+{
+    const gvi_real worst = st->counters.worst_change;
+    if (change > worst*worst) st->counters.worst_change = gvi__sqrt(change);
 }
 
 /* A change that is not finite: of an iteration that was growing, or whose effects
@@ -2296,34 +2473,38 @@ static gvi_status gvi__not_finite(gvi_stepper *st, int grows)
 /* Fixed point on the rows.  Tolerance-free end: the change after the next one,
    D^2/D_before, is far below rounding; or the change is rounding: small, or
    without a new least by a tenth for some iterations, and of no energy.  Three
-   changes in a row that fall by less than half are poor.                      */
+   changes in a row that fall by less than half are poor.  All of it in squares
+   of changes: no root or quotient between an iteration and the next.          */
 static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate, int *used)
 {
     struct gvi__private *x = &st->x;
-    const gvi_real enough = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/4096, half = (gvi_real)0.5;
-    const gvi_real rounding = 4*GVI__EPS*gvi__sqrt((gvi_real)(st->n*st->r));
-    int fall_back = x->desc.formulation == GVI_AUTO && (x->flags & GVI__HAS_NEWTON), poor = 0, idle = 0, grows = 0;
+    const gvi_real tolerance = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/4096;
+    const gvi_real enough = tolerance*tolerance, rounding = 16*GVI__EPS*GVI__EPS*(gvi_real)(st->n*st->r);
+    const int fall_back = x->desc.formulation == GVI_AUTO && (x->flags & GVI__HAS_NEWTON);
+    int poor = 0, idle = 0, grows = 0;
     gvi_real before = 0, earlier = 0, least = GVI__MAX;
     gvi__stage y[2];
     const int count = gvi__plan(st, from, h, y);
+    gvi_points points;
+    gvi__rows_as_points(&points, st, &x->work, x->work.A);
     gvi__guess(st, extrapolate);
     (void)gvi__stages(st, y, count);
+    gvi__zero(2*(size_t)st->n, x->scale);    // of rows that were there before
     for (*used = 1; *used <= x->desc.max_iterations; ++*used) {
-        gvi_status status = gvi__ask(st);
+        gvi_status status = gvi__ask(st, &points);
         if (status != GVI_OK) return status;
         for (int i = 0; idle > 0 && i < st->n; ++i) x->change[i] = x->work.Q[i*x->stride + st->r - 1];
-        gvi_real change = gvi__stages(st, y, count), ratio = before > 0 ? change/before : 1;
+        const gvi_real change = gvi__stages(st, y, count);
         if (!(change <= GVI__MAX)) return gvi__not_finite(st, grows);
+        if (change*change <= enough*(before > 0 ? before : change)) return gvi__watch_last(st, change), GVI_OK;
         gvi__watch(st, change, earlier);
-        grows = before > 0 && ratio >= half;
+        grows = before > 0 && change >= before/4;
         poor = grows ? poor + 1 : 0;
-        idle = change < least*9/10 ? 0 : idle + 1;
+        idle = change < least*81/100 ? 0 : idle + 1;
         if (change < least) least = change;
-        if (change*ratio <= enough || (idle > 2 && change <= rounding) || (idle > 1 && gvi__is_rounding(st, from, idle))) {
-            if (change > st->counters.worst_change) st->counters.worst_change = change;
-            return GVI_OK;
-        }
-        if (poor > 2 && fall_back && change > 256*rounding) break;      // nearer, idle decides
+        if ((idle > 2 && change <= rounding) || (idle > 1 && gvi__is_rounding(st, from, idle)))
+            return gvi__watch_last(st, change), GVI_OK;
+        if (poor > 2 && fall_back && change > 65536*rounding) break;    // nearer, idle decides
         earlier = before;
         before = change;
     }
@@ -2337,7 +2518,8 @@ static gvi_status gvi__explicit(gvi_stepper *st, const gvi__from *from, gvi_real
     struct gvi__private *x = &st->x;
     gvi_real *Q = x->work.Q, *F = x->work.F;
     int n = st->n, R = x->stride;
-    gvi_points y = gvi__rows_as_points(st, &x->work, NULL);
+    gvi_points y;
+    gvi__rows_as_points(&y, st, &x->work, NULL);
     y.count = 1;
     for (int i = 0; i < n; ++i) {
         Q[i*R] = from->q[i];
@@ -2486,7 +2668,8 @@ static gvi_status gvi__difference(gvi_stepper *st, const gvi__matrix *J, int j, 
     struct gvi__private *x = &st->x;
     int n = st->n, R = x->stride;
     gvi_real *row = (by_v ? x->work.V : x->work.Q) + j*R;
-    gvi_points y = gvi__rows_as_points(st, &x->work, x->dP);
+    gvi_points y;
+    gvi__rows_as_points(&y, st, &x->work, x->dP);
     y.f = x->dF;
     gvi__copy((size_t)R, row, x->z);
     for (int k = 0; k < st->r; ++k) row[k] += d;
@@ -2514,7 +2697,8 @@ static gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matrix *
             if (d->effects[e].kind != GVI_POTENTIAL) reads_v = 1;
         }
     if (!any) return GVI_OK;
-    gvi_points y = gvi__rows_as_points(st, &x->work, x->bP);
+    gvi_points y;
+    gvi__rows_as_points(&y, st, &x->work, x->bP);
     y.f = x->bF;
     gvi_status status = gvi__evaluate(st, &y, 1);
     const gvi_real root = gvi__sqrt(GVI__EPS), h = gvi__abs(J->h);
@@ -2544,7 +2728,8 @@ static gvi_status gvi__check_regular(gvi_stepper *st)
         q[i] = x->work.Q[i*R];
         v[i] = x->work.V[i*R];
     }
-    gvi_points y = gvi__at(st, x->t, q, v, f, P);
+    gvi_points y;
+    gvi__at(&y, st, x->t, q, v, f, P);
     gvi_status status = gvi__evaluate(st, &y, 0);
     if (status == GVI_OK) status = gvi__velocity_hessian(st, &y, v, W);
     if (status != GVI_OK) return status;
@@ -2588,7 +2773,7 @@ static void gvi__newton_guess(gvi_stepper *st, int extrapolate)
         for (int i = 0; i < n; ++i) x->y[i] = gvi__velocity_guess(st, i);
         return;
     }
-    gvi__extrapolate(st, x->last.V, x->work.V);
+    if (x->last.V) gvi__extrapolate(st, x->last.V, NULL, x->work.V);
     for (int i = 0; i < n; ++i) {
         for (int k = 0; k < s; ++k) {
             x->row[k] = 0;
@@ -2632,7 +2817,8 @@ static gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi_
     int made = 0, last = 0;
     gvi_real before = 0, earlier = 0;
     for (int k = 0; k <= x->desc.max_iterations; ++k) {
-        gvi_points y = gvi__rows_as_points(st, &x->work, x->work.P);
+        gvi_points y;
+        gvi__rows_as_points(&y, st, &x->work, x->work.P);
         int fresh = !have;
         gvi__newton_rows(st, from, J->h);
         gvi_status status = gvi__evaluate(st, &y, 0);
@@ -2695,7 +2881,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__from *from, gvi_real 
 
     int usable = past->available, used = 0;
     gvi_status status = GVI_E_CONVERGENCE;
-    if (usable) gvi__extrapolation(st, past->alpha, past->beta, query);
+    if (usable) gvi__prepare_guess(st, past->alpha, past->beta, query);
     if (x->chosen != GVI_NEWTON && (x->newton_left == 0 || query)) {
         for (int plain = !usable; plain < 2; ++plain) {
             status = gvi__fixed_point(st, from, h, !plain, &used);
@@ -2736,6 +2922,27 @@ static gvi_status gvi__solve(gvi_stepper *st, const gvi__from *from, gvi_real h,
     return status;
 }
 
+// work becomes last, last becomes older (where rows are kept that long), and the
+// oldest are free for the next step
+static void gvi__rotate(gvi_real **older, gvi_real **last, gvi_real **work)
+{
+    gvi_real *free = older && *older ? *older : *last;
+    if (older && *older) *older = *last;
+    *last = *work;
+    *work = free;
+}
+
+static void gvi__rotate_rows(gvi_stepper *st)
+{
+    struct gvi__private *x = &st->x;
+    gvi__rotate(NULL, &x->last.Q, &x->work.Q);
+    gvi__rotate(NULL, &x->last.P, &x->work.P);
+    gvi__rotate(&x->older.F, &x->last.F, &x->work.F);
+    gvi__rotate(&x->older.V, &x->last.V, &x->work.V);
+    gvi__rotate(&x->older.A, &x->last.A, &x->work.A);
+    x->turns = (x->turns + 1) % 6;
+}
+
 // the step is done: state and compensation move on, rows become those of the last step
 static void gvi__commit(gvi_stepper *st, gvi_real h)
 {
@@ -2749,15 +2956,13 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
         x->p[i] = p.hi;
         x->pe[i] = p.lo;
     }
+    x->alike = x->stepped && !gvi__nonzero(h - st->h) ? 2 : 1;
     gvi__two t = gvi__sum(st->t, h + x->te);
     x->t0 = st->t;
     st->t = t.hi;
     x->te = t.lo;
     st->h = h;
-    struct gvi__rows rows = x->last;
-    x->last = x->work;
-    x->work = rows;
-    x->swapped = !x->swapped;
+    gvi__rotate_rows(st);
     x->stepped = 1;
     x->has_force = x->chosen == GVI_EXPLICIT;
     x->has_velocity = st->formulation > GVI_POSITIONS;
@@ -2810,7 +3015,7 @@ static gvi_status gvi__start(gvi_stepper *st, gvi_real t)
     st->h = 0;
     x->te = 0;
     x->started = 1;
-    x->stepped = x->has_force = x->has_velocity = x->newton_left = 0;
+    x->stepped = x->has_force = x->has_velocity = x->newton_left = x->alike = x->two = 0;
     x->h_matrix = x->ratio = 0;
     st->formulation = x->chosen;
     return gvi__done(st, GVI_OK);
@@ -2838,7 +3043,8 @@ GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, con
     gvi_real *f = x->one + 4*n, *p = f + n;
 
     // p = dL/dv: of the kinetic energy, and of Lagrangian terms where there are any
-    gvi_points y = gvi__at(st, &t, q, v, f, p);
+    gvi_points y;
+    gvi__at(&y, st, &t, q, v, f, p);
     x->diagnose = 1;
     if (x->flags & GVI__HAS_LAGRANGIAN) status = gvi__evaluate(st, &y, 0);
     else {
@@ -2967,7 +3173,8 @@ GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy)
     gvi_real V, L, T, *v = x->change + st->n;
     status = gvi_velocity(st, v);
     if (status != GVI_OK) return status;
-    gvi_points y = gvi__at(st, &st->t, x->q, v, NULL, NULL);
+    gvi_points y;
+    gvi__at(&y, st, &st->t, x->q, v, NULL, NULL);
     status = gvi__values(st, &y, &V, &L);
     if (status == GVI_OK) status = gvi__kinetic_energy(st, &y, &T);
     if (status != GVI_OK) return status;
@@ -3069,7 +3276,8 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
 static gvi_status gvi__lagrangian(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *value)
 {
     gvi_real V, L, T;
-    gvi_points y = gvi__at(st, &t, q, v, NULL, NULL);
+    gvi_points y;
+    gvi__at(&y, st, &t, q, v, NULL, NULL);
     gvi_status status = gvi__values(st, &y, &V, &L);
     if (status == GVI_OK) status = gvi__kinetic_energy(st, &y, &T);
     if (status == GVI_OK) *value = T - V + L;
@@ -3111,7 +3319,8 @@ static gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__matrix *J, co
     for (int e = 0; e < d->effect_count; ++e)
         if (d->effects[e].kind == GVI_FORCE) forces |= 1u << e;
     x->off = off | ~forces;
-    gvi_points y = gvi__rows_as_points(st, &x->work, NULL);
+    gvi_points y;
+    gvi__rows_as_points(&y, st, &x->work, NULL);
     y.f = f;
     gvi__zero((size_t)n*(size_t)R, f);
     gvi_status status = gvi__effects(st, &y, 0);
@@ -3170,7 +3379,8 @@ static gvi_status gvi__chord(gvi_stepper *st, const gvi__from *from, gvi_real h,
             q[i] = x->work.Q[i*R + j] = from->q[i] + x->c[j]*(q1[i] - from->q[i]);
             if (x->work.V) x->work.V[i*R + j] = v[i];
         }
-        gvi_points y = gvi__at(st, x->t + j, q, v, f, P);
+        gvi_points y;
+        gvi__at(&y, st, x->t + j, q, v, f, P);
         x->diagnose = 1;
         status = gvi__evaluate(st, &y, 0);
         x->diagnose = 0;
@@ -3278,16 +3488,15 @@ GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const 
         return st->status = GVI_E_ARGUMENT;
     gvi_desc desc = st->x.desc;
     gvi_real *own = st->x.memory;
-    memmove(own, memory, st->x.size*sizeof(gvi_real));
+    size_t skip = st->x.skip;
+    memmove(own, memory + saved->x.skip, st->x.size*sizeof(gvi_real));
     *st = *saved;
+    st->x.skip = skip;
     st->x.desc = desc;
     st->x.memory = own;
     gvi__layout(st, own);
-    if (st->x.swapped) {
-        struct gvi__rows rows = st->x.last;
-        st->x.last = st->x.work;
-        st->x.work = rows;
-    }
+    for (int turns = st->x.turns; turns > 0; --turns) gvi__rotate_rows(st);
+    st->x.turns = saved->x.turns;
     st->q = st->x.q;
     st->p = st->x.p;
     return gvi__done(st, GVI_OK);

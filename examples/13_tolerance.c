@@ -6,9 +6,9 @@
 
    prints
 
-     tolerance 0      iterations a step 4.8   energy error below 1e-12
-     tolerance 1e-10  iterations a step 2.4   energy error below 1e-05
-     tolerance 1e-08  iterations a step 1.8   energy error below 1e-03
+     tolerance 0      iterations a step 4.5   energy error below 1e-12
+     tolerance 1e-10  iterations a step 2.3   energy error below 1e-06
+     tolerance 1e-08  iterations a step 2.1   energy error below 1e-06
 */
 #define GVI_IMPLEMENTATION
 #include "gvi.h"
