@@ -165,10 +165,16 @@
    with V_i from dL/dv(Q_i, V_i) = P_i: Gauss collocation for Gauss nodes, the
    Lobatto IIIA-IIIB pair for Lobatto's [3, II.1, VI.6], [4].
 
+   Kicks.  On a broken line with corners Q_j at t0 + c_j h, c_1 = 0, c_r = 1, the
+   action sum_j |Q_(j+1) - Q_j|^2/(2 (c_(j+1) - c_j) h) - h sum_j b_j V(Q_j) is
+   stationary when the momentum jumps by h b_j F_j at each corner [1, 2.5]: kick,
+   drift, kick ...  Stoermer-Verlet has c = 0, 1 and b = 1/2, 1/2; every
+   composition of it, and every kick-drift splitting, is such a table.
+
    FORMULATIONS.  One step, five ways to find it; the scene decides which:
 
-     explicit     s = 1, Lobatto 2, constant mass, effects read only t and q:
-                  Stoermer-Verlet, one evaluation a step, no iteration
+     explicit     s = 1, Lobatto 2 or kicks, constant mass, effects read only
+                  t and q: Stoermer-Verlet and splittings, no iteration
      positions    constant mass, effects read only t and q: (3) as fixed point
      velocities   constant mass, any effects: (3) and (4) as fixed point
      momenta      M(q), or velocity from momentum given, and r = s: (5)
@@ -343,14 +349,16 @@ typedef struct gvi_mass {
 typedef enum gvi_rule_kind {
     GVI_GAUSS   = 0,   /* order 2r                                             */
     GVI_LOBATTO = 1,   /* order 2r - 2, r >= 2, nodes at both ends             */
-    GVI_OWN     = 2    /* nodes and weights of the caller                      */
+    GVI_OWN     = 2,   /* nodes and weights of the caller                      */
+    GVI_KICKS   = 3    /* degree 1, the curve a broken line with its corners at
+                          the nodes, in the order given: explicit              */
 } gvi_rule_kind;
 
 typedef struct gvi_rule {
     gvi_rule_kind   kind;
     int             points;    /* r, to 4000.  0: s for Gauss, s+1 for Lobatto */
-    const gvi_real *nodes;     /* GVI_OWN: distinct, in [0,1]; read by gvi_init */
-    const gvi_real *weights;   /* GVI_OWN: sum to 1                            */
+    const gvi_real *nodes;     /* GVI_OWN: distinct, in [0,1]; GVI_KICKS: any   */
+    const gvi_real *weights;   /* sum to 1; both are read by gvi_init only     */
 } gvi_rule;
 
 typedef enum gvi_formulation {
@@ -441,6 +449,7 @@ struct gvi__private {
     gvi_real *z, *less, *row;         /* [R], [R], [6R] scratch                 */
     gvi_real *phi, *Phi, *low;        /* [s][R] modes at the nodes; rest of phi */
     gvi_real *inv_gamma, *own;        /* [s] 1/Gamma_kk; LU of Gamma if full    */
+    gvi_real *drift;                  /* [r+1] explicit: time from corner to corner */
     gvi_real *g, *m, *T, *N;          /* [r][R] c_i - S_ij, 1 - T_ij, T_ji, N_ij */
     gvi_real *E;                      /* [r or 2r][R] extrapolation; at set-up rest of Phi */
     gvi_real *mass, *point_mass, *Z;  /* M; M at the points [n*n][R]; [n][R] scratch */
@@ -457,7 +466,7 @@ typedef struct gvi_stepper {
     gvi_status      status;           /* of the last call                       */
     gvi_fault       fault;
     gvi_formulation formulation;      /* used by the last step, or the next     */
-    int             order;            /* u of the rule                          */
+    int             order;            /* u of the rule; 0 for GVI_KICKS         */
     int             iterations;       /* in the last step                       */
     gvi_counters    counters;
     struct gvi__private x;
@@ -639,6 +648,15 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define gvi__ldexp ldexpl
 #define gvi__frexp frexpl
 #define gvi__sin   sinl
+#endif
+
+// arrays that do not overlap
+#if defined(__GNUC__) || defined(_MSC_VER)
+#define GVI__RESTRICT __restrict
+#elif !defined(__cplusplus)
+#define GVI__RESTRICT restrict
+#else
+#define GVI__RESTRICT
 #endif
 
 #if GVI__KIND == 3 && LDBL_MANT_DIG == 106
@@ -1694,10 +1712,19 @@ static void gvi__weights(gvi_stepper *st, gvi_real h)
         rest -= x->hb[j];
         if (x->b[j] > x->b[most]) most = j;
     }
-    int mirror = x->desc.rule.kind == GVI_OWN ? most : r - 1 - most;
+    int mirror = x->desc.rule.kind >= GVI_OWN ? most : r - 1 - most;
     x->hb[most] += mirror == most ? rest : rest/2;
     if (mirror != most) x->hb[mirror] += rest/2;
     for (int j = 0; j < r; ++j) x->hb[j] = gvi__ldexp(x->hb[j], e);
+    if (!x->drift) return;
+
+    // the drifts sum to h exactly as well: differences of numbers on that grid
+    gvi_real at = 0;
+    for (int j = 0; j <= r; ++j) {
+        gvi_real next = j < r ? gvi__grid(gvi__product(x->c[j], mantissa), GVI__EPS/2) : mantissa;
+        x->drift[j] = gvi__ldexp(next - at, e);
+        at = next;
+    }
 }
 
 /* -------------------------------------------------------- STEPPER: SET-UP */
@@ -1717,8 +1744,10 @@ static int gvi__covers(const gvi_stepper *st, gvi_formulation f)
 {
     const gvi_desc *d = &st->x.desc;
     int constant = gvi__mass_is_constant(d), reads_v = st->x.flags & GVI__HAS_VELOCITIES;
+    int kicks = d->rule.kind == GVI_KICKS;
+    if (kicks && f != GVI_EXPLICIT) return 0;
     switch (f) {
-    case GVI_EXPLICIT:   return constant && !reads_v && st->s == 1 && st->r == 2 && d->rule.kind == GVI_LOBATTO;
+    case GVI_EXPLICIT:   return constant && !reads_v && ((st->s == 1 && st->r == 2 && d->rule.kind == GVI_LOBATTO) || kicks);
     case GVI_POSITIONS:  return constant && !reads_v;
     case GVI_VELOCITIES: return constant;
     case GVI_MOMENTA:    return st->r == st->s && (d->mass.velocity || d->mass.kind == GVI_MASS_POSITION || constant);
@@ -1747,9 +1776,21 @@ static gvi_status gvi__check_desc(const gvi_desc *d)
     case GVI_MASS_NONE: if (!(gvi__flags(d) & GVI__HAS_LAGRANGIAN)) return GVI_E_ARGUMENT; break;
     default: return GVI_E_ARGUMENT;
     }
-    if (d->rule.kind == GVI_OWN)
+    if (d->rule.kind == GVI_OWN || d->rule.kind == GVI_KICKS)
         return d->rule.points > 0 && d->rule.nodes && d->rule.weights ? GVI_OK : GVI_E_ARGUMENT;
     return d->rule.kind == GVI_GAUSS || d->rule.kind == GVI_LOBATTO ? GVI_OK : GVI_E_ARGUMENT;
+}
+
+// finite, and weights that sum to 1
+static gvi_status gvi__check_kicks(int r, const gvi_real *c, const gvi_real *b)
+{
+    gvi_real sum = 0, size = 0;
+    for (int j = 0; j < r; ++j) {
+        sum += b[j];
+        size += gvi__abs(b[j]);
+    }
+    if (!gvi__all_finite(r, c) || !gvi__all_finite(r, b)) return GVI_E_NODES;
+    return gvi__abs(sum - 1) <= 4*(gvi_real)(r + 2)*GVI__EPS*size ? GVI_OK : GVI_E_ORDER;
 }
 
 /* Fills in the defaults, measures the rule, chooses the formulation.          */
@@ -1760,7 +1801,7 @@ static gvi_status gvi__resolve(gvi_stepper *st, const gvi_desc *desc)
     if (status != GVI_OK) return status;
     gvi_desc *d = &st->x.desc;
     *d = *desc;
-    if (d->degree == 0) d->degree = 8;
+    if (d->degree == 0) d->degree = d->rule.kind == GVI_KICKS ? 1 : 8;
     if (d->rule.points == 0) d->rule.points = d->rule.kind == GVI_LOBATTO ? d->degree + 1 : d->degree;
     if (d->max_iterations == 0) d->max_iterations = 60;
     int s = st->s = d->degree, r = st->r = d->rule.points;
@@ -1770,6 +1811,11 @@ static gvi_status gvi__resolve(gvi_stepper *st, const gvi_desc *desc)
 
     st->order = d->rule.kind == GVI_LOBATTO ? 2*r - 2 : 2*r;
     if (d->rule.kind == GVI_OWN) st->order = gvi_rule_order(r, d->rule.nodes, d->rule.weights);
+    if (d->rule.kind == GVI_KICKS) {
+        status = s == 1 ? gvi__check_kicks(r, d->rule.nodes, d->rule.weights) : GVI_E_ARGUMENT;
+        if (status != GVI_OK) return status;
+        st->order = s;                        // passes what is asked of a rule below
+    }
     if (d->rule.kind == GVI_LOBATTO && r < 2) return s > 1 ? GVI_E_POINTS : GVI_E_ARGUMENT;
     if (st->order < 0) return GVI_E_NODES;
     if (r < s) return GVI_E_POINTS;
@@ -1784,6 +1830,8 @@ static gvi_status gvi__resolve(gvi_stepper *st, const gvi_desc *desc)
     }
     if (st->x.chosen == GVI_NEWTON || (d->formulation == GVI_AUTO && st->x.chosen != GVI_EXPLICIT))
         st->x.flags |= GVI__HAS_NEWTON;
+    if (st->x.chosen == GVI_AUTO) return GVI_E_FORMULATION;         // kicks, of what is not explicit
+    if (d->rule.kind == GVI_KICKS) st->order = 0;
     st->formulation = st->x.chosen;
 
     // indices are int: n*n and s*n where there are matrices
@@ -1827,10 +1875,11 @@ static size_t gvi__layout(gvi_stepper *st, gvi_real *base)
     int reads_v = velocities || momenta || newton;
 
     // rows come first: they are aligned if the memory is
+    int kicks = x->desc.rule.kind == GVI_KICKS;
     for (int k = 0; k < 2; ++k) {
         struct gvi__rows *rows = k ? &x->work : &x->last;
-        rows->Q = gvi__take(&a, 1, n, R);
-        rows->F = gvi__take(&a, 1, n, R);
+        rows->Q = gvi__take(&a, 1, n, kicks ? 1 : R);
+        rows->F = gvi__take(&a, 1, n, kicks ? 1 : R);
         rows->V = gvi__take(&a, reads_v, n, R);
         rows->P = gvi__take(&a, momenta || newton, n, R);
         rows->A = gvi__take(&a, lagrangian && (velocities || momenta), n, R);
@@ -1844,14 +1893,15 @@ static size_t gvi__layout(gvi_stepper *st, gvi_real *base)
     x->ones = gvi__take(&a, 1, 1, R);
     x->hb = gvi__take(&a, 1, 1, R);
     x->c = gvi__take(&a, 1, 1, R);
-    x->g = gvi__take(&a, positions, r, R);
+    x->drift = gvi__take(&a, x->chosen == GVI_EXPLICIT, 1, r + 1);
+    x->g = gvi__take(&a, positions && !kicks, r, R);
     x->m = gvi__take(&a, velocities || momenta, r, R);
     x->T = gvi__take(&a, momenta || (velocities && lagrangian), r, R);
     x->N = gvi__take(&a, velocities && lagrangian, r, R);
-    x->E = gvi__take(&a, 1, two ? 2*r : r, R);
-    x->Phi = gvi__take(&a, 1, s, R);
-    x->phi = gvi__take(&a, reads_v || st->order <= 2*st->s - 2, s, R);
-    x->low = gvi__take(&a, reads_v || st->order <= 2*st->s - 2, s, R);
+    x->E = gvi__take(&a, !kicks, two ? 2*r : r, R);
+    x->Phi = gvi__take(&a, !kicks, s, R);
+    x->phi = gvi__take(&a, reads_v || (!kicks && st->order <= 2*st->s - 2), s, R);
+    x->low = gvi__take(&a, reads_v || (!kicks && st->order <= 2*st->s - 2), s, R);
     x->Z = gvi__take(&a, positions && mass == GVI_MASS_DENSE, n, R);
     x->point_mass = gvi__take(&a, mass == GVI_MASS_POSITION, n, n*R);
     x->ce = gvi__take(&a, 1, 1, R);
@@ -1955,20 +2005,24 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     if (status != GVI_OK) return status;
 
     // the rule, the modes at its nodes as exactly as they can be had, then the grid
-    if (x->desc.rule.kind == GVI_OWN) {
+    if (x->desc.rule.kind == GVI_OWN || x->desc.rule.kind == GVI_KICKS) {
         gvi__copy((size_t)st->r, x->desc.rule.nodes, x->c);
         gvi__copy((size_t)st->r, x->desc.rule.weights, x->b);
     } else gvi__rule_make(x->desc.rule.kind == GVI_LOBATTO, st->r, x->c, x->ce, x->b);
+    x->memory = memory;                      // from here on it can be used
+    if (x->desc.rule.kind == GVI_KICKS) return gvi__done(st, GVI_OK);
     gvi__modes_at_nodes(st);
     for (int i = 0; i < st->r; ++i) x->ones[i] = 1;
     for (int i = 0; i < st->r; ++i) x->c[i] = gvi__grid(gvi__sum(x->c[i], x->ce[i]), GVI__EPS/2);
     status = gvi__gamma(st);
-    if (status != GVI_OK) return st->status = status;
+    if (status != GVI_OK) {
+        x->memory = NULL;
+        return st->status = status;
+    }
     if (x->flags & GVI__HAS_OWN) gvi__tables_own(st);
     else gvi__tables(st);
     gvi_barycentric(st->r, x->c, x->w_bary);
     gvi__copy((size_t)st->r, x->c, x->Phi);  // Phi_0 = c on its grid: 1 - Phi_0 is exact
-    x->memory = memory;                      // from here on it can be used
     return gvi__done(st, GVI_OK);
 }
 
@@ -1989,7 +2043,7 @@ static void gvi__begin(gvi_stepper *st, const gvi__from *from, gvi_real h)
 {
     struct gvi__private *x = &st->x;
     gvi__weights(st, h);
-    for (int k = 0; k < st->r; ++k) x->t[k] = from->t + (from->te + x->c[k]*h);
+    for (int k = 0; k < st->r && !x->drift; ++k) x->t[k] = from->t + (from->te + x->c[k]*h);
     if (!gvi__mass_is_constant(&x->desc)) return;
     gvi__copy((size_t)st->n, from->p, x->v0);
     gvi__copy((size_t)st->n, from->pe, x->ve);
@@ -2511,37 +2565,68 @@ static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_r
     return gvi__give(st, GVI_E_CONVERGENCE);
 }
 
-/* Stoermer-Verlet, (3) with s = 1 and nodes 0, 1: the force at the start is that
-   at the end of the last step.                                               */
+/* Kick and drift of the explicit formulation: dp += b F, then dq += a (v0 + M^-1 dp)
+   and Q = q0 + dq.  dq and dp start with what rounding left of q and p.  n is a
+   constant where this is inlined for the smallest scenes.                      */
+static inline void gvi__kick_drift(int n, gvi_real b, gvi_real a, const gvi_real *m, const gvi_real *GVI__RESTRICT v0,
+                                   const gvi_real *GVI__RESTRICT q0, const gvi_real *GVI__RESTRICT F,
+                                   gvi_real *GVI__RESTRICT dp, gvi_real *GVI__RESTRICT dq, gvi_real *GVI__RESTRICT Q)
+{
+    if (m)
+        for (int i = 0; i < n; ++i) {
+            dp[i] += b*F[i];
+            dq[i] += a*(v0[i] + dp[i]/m[i]);
+            Q[i] = q0[i] + dq[i];
+        }
+    else
+        for (int i = 0; i < n; ++i) {
+            dp[i] += b*F[i];
+            dq[i] += a*(v0[i] + dp[i]);
+            Q[i] = q0[i] + dq[i];
+        }
+}
+
+static void gvi__kick(gvi_stepper *st, const gvi__from *from, gvi_real b, gvi_real a, const gvi_real *F)
+{
+    struct gvi__private *x = &st->x;
+    const int n = st->n;
+    const gvi_real *m = x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->mass : NULL;
+    gvi_real *Q = x->work.Q, *z = x->change;
+    if (x->desc.mass.kind == GVI_MASS_DENSE) {
+        for (int i = 0; i < n; ++i) z[i] = x->dp[i] += b*F[i];
+        gvi__over_mass(st, z, 1, 1);
+        for (int i = 0; i < n; ++i) Q[i] = from->q[i] + (x->dq[i] += a*(x->v0[i] + z[i]));
+    }
+    else if (n == 2 && !m) gvi__kick_drift(2, b, a, m, x->v0, from->q, F, x->dp, x->dq, Q);
+    else gvi__kick_drift(n, b, a, m, x->v0, from->q, F, x->dp, x->dq, Q);
+}
+
+/* Kicks h b_j F_j at the nodes and drifts from each to the next, one evaluation a
+   kick.  `force` is that at the start, if it is known: after a step whose last node
+   was 1.                                                                      */
 static gvi_status gvi__explicit(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *force)
 {
     struct gvi__private *x = &st->x;
-    gvi_real *Q = x->work.Q, *F = x->work.F;
-    int n = st->n, R = x->stride;
+    const size_t n = (size_t)st->n;
+    gvi_real *F = x->work.F, t = from->t + from->te;
     gvi_points y;
-    gvi__rows_as_points(&y, st, &x->work, NULL);
-    y.count = 1;
-    for (int i = 0; i < n; ++i) {
-        Q[i*R] = from->q[i];
-        F[i*R] = force ? force[i*R] : 0;
-        F[i*R + 1] = 0;
+    gvi__at(&y, st, &t, x->work.Q, NULL, F, NULL);
+    gvi__copy(n, from->qe, x->dq);
+    gvi__copy(n, from->pe, x->dp);
+    gvi__zero(n, F);
+    gvi__kick(st, from, 0, x->drift[0], F);
+    for (int j = 0; j < st->r; ++j) {
+        gvi_status status = GVI_OK;
+        t = from->t + (from->te + x->c[j]*h);
+        if (j > 0 || !force) {
+            gvi__zero(n, F);
+            status = gvi__check_points(st, &y);
+            if (status == GVI_OK) status = gvi__effects(st, &y, 0);
+            if (status != GVI_OK) return status;
+        }
+        gvi__kick(st, from, x->hb[j], x->drift[j + 1], j == 0 && force ? force : F);
     }
-    gvi_status status = force ? GVI_OK : gvi__effects(st, &y, 0);
-    if (status != GVI_OK) return status;
-
-    // q1 = q0 + h (v0 + M^-1 h/2 F_0), compensated as it will be kept
-    for (int i = 0; i < n; ++i) x->dq[i] = x->hb[0]*F[i*R];
-    gvi__over_mass(st, x->dq, 1, 1);
-    for (int i = 0; i < n; ++i) {
-        x->dq[i] = h*x->v0[i] + h*(x->ve[i] + x->dq[i]);
-        Q[i*R + 1] = from->q[i] + (x->dq[i] + from->qe[i]);
-    }
-    y.t += 1;
-    y.q += 1;
-    y.f += 1;
-    status = gvi__effects(st, &y, 0);
-    for (int i = 0; i < n; ++i) x->dp[i] = x->hb[0]*F[i*R] + x->hb[1]*F[i*R + 1];
-    return status;
+    return GVI_OK;
 }
 
 /* Newton on (1).  Unknowns y[k*n + i]; the rows are those of (1) times 2k + 1,
@@ -2909,6 +2994,10 @@ static gvi_status gvi__solve(gvi_stepper *st, const gvi__from *from, gvi_real h,
 {
     struct gvi__private *x = &st->x;
     gvi_status status = gvi__attempt(st, from, h, past, query);
+    for (int i = 0; i < st->n && status == GVI_OK && x->chosen != GVI_EXPLICIT; ++i) {
+        x->dq[i] += from->qe[i];
+        x->dp[i] += from->pe[i];
+    }
     if (status == GVI_OK && !(gvi__all_finite(st->n, x->dq) && gvi__all_finite(st->n, x->dp)))
         status = GVI_E_NON_FINITE;
     if (status == GVI_E_NON_FINITE && st->fault.effect == GVI_FAULT_NONE && !x->diagnose) {
@@ -2948,7 +3037,7 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
 {
     struct gvi__private *x = &st->x;
     for (int i = 0; i < st->n; ++i) {
-        gvi__two q = gvi__sum(x->q[i], x->dq[i] + x->qe[i]), p = gvi__sum(x->p[i], x->dp[i] + x->pe[i]);
+        gvi__two q = gvi__sum(x->q[i], x->dq[i]), p = gvi__sum(x->p[i], x->dp[i]);
         x->q0[i] = x->q[i];
         x->p0[i] = x->p[i];
         x->q[i] = q.hi;
@@ -2964,7 +3053,7 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     st->h = h;
     gvi__rotate_rows(st);
     x->stepped = 1;
-    x->has_force = x->chosen == GVI_EXPLICIT;
+    x->has_force = x->chosen == GVI_EXPLICIT && x->c[0] <= 0 && x->c[0] >= 0 && x->c[st->r - 1] >= 1 && x->c[st->r - 1] <= 1;
     x->has_velocity = st->formulation > GVI_POSITIONS;
     if (x->newton_left > 0) x->newton_left -= 1;
     st->counters.steps += 1;
@@ -2981,7 +3070,7 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
     const gvi_formulation was = st->formulation;
     const int left = x->newton_left;
     gvi__from from = { st->t, x->te, x->q, x->qe, x->p, x->pe };
-    gvi__history past = { x->stepped, 1, 0, x->has_force ? x->last.F + 1 : NULL };
+    gvi__history past = { x->stepped, 1, 0, x->has_force ? x->last.F : NULL };
     if (x->stepped) {
         past.beta = h/st->h;
         past.available = past.beta > -2 && past.beta < 8;         // farther out it says nothing
@@ -3192,6 +3281,14 @@ static void gvi__curve(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
     const struct gvi__private *x = &st->x;
     int n = st->n, R = x->stride, by_forces = x->chosen <= GVI_POSITIONS && st->formulation != GVI_NEWTON;
     gvi_real *a = x->row, *b = a + R;               // at tau: phi, Phi over Gamma
+    if (x->drift) {                                 // explicit: a straight line
+        for (int i = 0; i < n; ++i) {
+            gvi_real way = (x->q[i] - x->q0[i]) + x->qe[i];
+            q[i] = tau < (gvi_real)0.5 ? x->q0[i] + tau*way : x->q[i] - (1 - tau)*way;
+            v[i] = way/st->h;
+        }
+        return;
+    }
     gvi__modes(st, tau, a, b);
     for (int i = 0; i < n; ++i) q[i] = v[i] = 0;
     for (int j = 0; j < st->r; ++j) {
@@ -3225,6 +3322,7 @@ GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
     gvi_status status = gvi__ready(st, 1);
     if (status != GVI_OK) return status;
     if (!(tau >= 0 && tau <= 1)) return st->status = GVI_E_ARGUMENT;
+    if (st->x.desc.rule.kind == GVI_KICKS) return st->status = GVI_E_FORMULATION;
     gvi_real *Q = st->x.change, *V = Q + st->n;
     gvi__weights(st, st->h);
     gvi__curve(st, tau, Q, V);
@@ -3249,19 +3347,19 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
     gvi__from from = { x->t0, 0, x->q0, x->zeros, x->p0, x->zeros };
     gvi__from last = { st->t, x->te, x->q, x->qe, x->p, x->pe };
     if (end) from = last;
-    gvi__history past = { 1, end ? (gvi_real)1 : (gvi_real)0, h/st->h, x->has_force ? x->last.F + end : NULL };
+    gvi__history past = { 1, end ? (gvi_real)1 : (gvi_real)0, h/st->h, x->has_force && end ? x->last.F : NULL };
     gvi_formulation was = st->formulation;
     if (gvi__nonzero(h)) status = gvi__solve(st, &from, h, &past, 1);
     else {
-        gvi__zero(n, x->dq);
-        gvi__zero(n, x->dp);
+        gvi__copy(n, from.qe, x->dq);
+        gvi__copy(n, from.pe, x->dp);
     }
     st->formulation = was;
     if (status != GVI_OK) return st->status = status;
     gvi_real *Q = x->change, *P = Q + n, *V = P + n;
     for (size_t i = 0; i < n; ++i) {
-        Q[i] = from.q[i] + (x->dq[i] + from.qe[i]);
-        P[i] = from.p[i] + (x->dp[i] + from.pe[i]);
+        Q[i] = from.q[i] + x->dq[i];
+        P[i] = from.p[i] + x->dp[i];
         V[i] = gvi__velocity_guess(st, (int)i);
     }
     if (v) status = gvi__velocity(st, t, Q, P, V);
@@ -3289,6 +3387,7 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action)
     gvi_status status = gvi__ready(st, 1);
     if (status != GVI_OK) return status;
     if (!action) return st->status = GVI_E_ARGUMENT;
+    if (st->x.desc.rule.kind == GVI_KICKS) return st->status = GVI_E_FORMULATION;
     struct gvi__private *x = &st->x;
     gvi_real sum = 0, L, *q = x->change, *v = q + st->n;
     gvi__weights(st, st->h);
@@ -3470,7 +3569,8 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
     gvi__done(st, GVI_OK);
     if (!q0 || !q1 || !out || !gvi__all_finite(st->n, q0) || !gvi__all_finite(st->n, q1)
         || !gvi__finite(t) || !gvi__finite(h) || !gvi__nonzero(h)) return st->status = GVI_E_ARGUMENT;
-    if (st->s > 1 && !(x->flags & GVI__HAS_NEWTON)) return st->status = GVI_E_FORMULATION;
+    if ((st->s > 1 && !(x->flags & GVI__HAS_NEWTON)) || x->desc.rule.kind == GVI_KICKS)
+        return st->status = GVI_E_FORMULATION;
     gvi__from from = { t, 0, q0, x->zeros, x->zeros, x->zeros };
     gvi__begin(st, &from, h);
     return gvi__done(st, gvi__boundary_value(st, &from, h, q1, out));
@@ -3532,7 +3632,7 @@ GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st)
     if (st->formulation == GVI_NEWTON && st->x.chosen != GVI_NEWTON)
         return "Newton: the fixed point contracted badly";
     switch (st->formulation) {
-    case GVI_EXPLICIT:   return "explicit: degree 1, Lobatto 2, constant mass, effects read only t and q";
+    case GVI_EXPLICIT:   return "explicit: Lobatto 2 or kicks, constant mass, effects read only t and q";
     case GVI_POSITIONS:  return "positions: constant mass, effects read only t and q";
     case GVI_VELOCITIES: return "velocities: constant mass, an effect reads v";
     case GVI_MOMENTA:    return "momenta: r = s, velocity from momentum at each point";
