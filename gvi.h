@@ -180,6 +180,15 @@
      momenta      M(q), or velocity from momentum given, and r = s: (5)
      Newton       anything: (1) by Newton's method, dense LU of size s*n
 
+   A clock, an effect g(q) > 0, makes time run as dt = g dtau, and h is a step in
+   tau: small where g is small, and the map is as symplectic as with fixed steps.
+   The curves of energy E are the zero-energy curves of g L(q, q'/g) + g E, so
+   momenta takes, with v = M^-1 p as before,
+
+     V_i = g v        F_i = g (dL/dq + f) - dg/dq (H - E)        t' = g
+
+   E is what the energy was at the start, plus the work of forces.
+
    The fixed points contract like (h omega)^2 or h omega; where they do not,
    GVI_AUTO goes over to Newton.  All solve the same equations, and all stop
    at round-off.
@@ -271,7 +280,8 @@ typedef enum gvi_status {
     GVI_E_NON_FINITE  = -10, /* NaN or Inf came out of an effect (fault.effect)         */
     GVI_E_VALUE       = -11, /* energy or action wanted, but fault.effect has no value  */
     GVI_E_STATE       = -12, /* not started; no step yet; time outside the last step    */
-    GVI_E_CONJUGATE   = -13  /* boundary values do not determine the curve              */
+    GVI_E_CONJUGATE   = -13, /* boundary values do not determine the curve              */
+    GVI_E_CLOCK       = -14  /* a clock's g is not positive (fault.effect, fault.point) */
 } gvi_status;
 
 /* What a callback gets: `count` points.  Coordinate i of point k is at
@@ -288,8 +298,9 @@ typedef struct gvi_points {
     const gvi_real *p;         /* [n][count] momentum; for mass.velocity only  */
     gvi_real       *f;         /* [n][count] add dL/dq: -dV/dq or the force    */
     gvi_real       *dldv;      /* [n][count] add dL/dv; Lagrangian terms only  */
-    gvi_real       *value;     /* [count]    value callbacks, which get nothing
-                                  else to fill: add V, or L of a Lagrangian term */
+    gvi_real       *value;     /* [count]    add V, or L of a Lagrangian term; g.
+                                  A function given as points and as value fills
+                                  what is not NULL of f and value              */
     gvi_real       *mass;      /* [n*n][count] write M_ij, i >= j, row i*n + j */
     gvi_real       *velocity;  /* [n][count] write v                           */
 } gvi_points;
@@ -313,7 +324,8 @@ typedef int gvi_hessian_fn(gvi_real t, const gvi_real *q, const gvi_real *v,
 typedef enum gvi_kind {
     GVI_POTENTIAL  = 0,  /* V(t,q):   reads t, q;    adds -dV/dq to f              */
     GVI_FORCE      = 1,  /* f(t,q,v): reads t, q, v; adds f to f                   */
-    GVI_LAGRANGIAN = 2   /* L(t,q,v): reads t, q, v; adds dL/dq to f, dL/dv to dldv */
+    GVI_LAGRANGIAN = 2,  /* L(t,q,v): reads t, q, v; adds dL/dq to f, dL/dv to dldv */
+    GVI_CLOCK      = 3   /* g(q) > 0: adds g to value and dg/dq to f; at most one   */
 } gvi_kind;
 
 /* One thing that acts in a scene.  Give one of points and point.             */
@@ -420,7 +432,9 @@ struct gvi__private {
     gvi_desc         desc;
     gvi_formulation  chosen;          /* by the scene, or pinned                */
     size_t           size, skip;      /* numbers in use; left out for alignment */
-    gvi_real         te, t0;          /* compensation of t; start of last step  */
+    gvi_real         te, t0, dt;      /* compensation of t; start of last step; its length */
+    gvi_real         H, He, dH, H0;   /* clock: energy, its rest, increment; at the start */
+    int              clock, has_rate; /* effect that is one, or -1; rate holds  */
     gvi_real         h_weights;       /* h for which hb holds                   */
     gvi_real         ratio;           /* h/h_last for which E holds             */
     int              alike;           /* last steps of the same length: 0, 1, 2 */
@@ -452,6 +466,8 @@ struct gvi__private {
     gvi_real *drift;                  /* [r+1] explicit: time from corner to corner */
     gvi_real *g, *m, *T, *N;          /* [r][R] c_i - S_ij, 1 - T_ij, T_ji, N_ij */
     gvi_real *E;                      /* [r or 2r][R] extrapolation; at set-up rest of Phi */
+    gvi_real *rate, *power, *level;   /* [R] clock: g; f'v; H, then H - E       */
+    gvi_real *slope;                  /* [n][R] clock: dg/dq                    */
     gvi_real *mass, *point_mass, *Z;  /* M; M at the points [n*n][R]; [n][R] scratch */
     gvi_real *y, *dy, *J, *pivot;     /* Newton: [s*n] twice; two matrices of s*n */
     gvi_real *hess, *dF, *dP, *bF, *bP; /* scratch; the last four stand in a row */
@@ -497,7 +513,7 @@ GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_rea
 GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_real h,
                                             const gvi_real *q0, const gvi_real *q1);
 
-/* One step to t + h; h < 0 steps back; h may differ from step to step (which
+/* One step to t + h (with a clock: to tau + h); h < 0 steps back; h may differ from step to step (which
    keeps the map symplectic but not the energy's long-time bound).  If what an
    effect reads through `user` changes between steps, call gvi_switch(st, i, 1):
    the explicit formulation keeps the force at the end of a step for the next.  */
@@ -590,9 +606,9 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__SIZE(a) ((size_t)(a))
 #define GVI__SLACK (64/sizeof(gvi_real) - 1)
 #define GVI_LENGTH(n, s, r) (                                                    \
-    (28 + 4*GVI__SIZE(s) + 18*GVI__SIZE(GVI__ROW(r))                             \
+    (28 + 4*GVI__SIZE(s) + 19*GVI__SIZE(GVI__ROW(r))                             \
      + (6 + GVI__SIZE(GVI__ROW(r)) + 2*GVI__SIZE(s)*GVI__SIZE(s))*GVI__SIZE(n))*GVI__SIZE(n) \
-    + (15 + 6*GVI__SIZE(r) + 3*GVI__SIZE(s))*GVI__SIZE(GVI__ROW(r))              \
+    + (18 + 6*GVI__SIZE(r) + 3*GVI__SIZE(s))*GVI__SIZE(GVI__ROW(r))              \
     + (GVI__SIZE(s) + 2)*GVI__SIZE(s) + 3 + GVI__SLACK)
 
 #ifdef __cplusplus
@@ -1264,16 +1280,32 @@ static gvi_status gvi__check_points(gvi_stepper *st, const gvi_points *x)
     return gvi__give(st, GVI_E_CONVERGENCE);
 }
 
+/* The value callback of effect e: adds to `value` at the points.               */
+static gvi_status gvi__value(gvi_stepper *st, gvi_points *x, int e, gvi_real *value)
+{
+    const gvi_effect *effect = st->x.desc.effects + e;
+    if (!effect->value) return gvi__fail(st, GVI_E_VALUE, e, GVI_FAULT_NONE, GVI_FAULT_NONE);
+    gvi_points y = *x;
+    y.f = y.dldv = NULL;
+    y.value = value;
+    if (effect->kind == GVI_POTENTIAL) y.v = NULL;
+    if (effect->value(&y, effect->user)) return gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, GVI_FAULT_NONE);
+    return GVI_OK;
+}
+
 /* Asks effect e, which sees only what its kind may read.  Fields of x are lent and
-   taken back one by one: a copied struct would have to wait for its stores.   */
+   taken back one by one: a copied struct would have to wait for its stores.  With
+   x->value (clock) V goes there and L to x.less, in the same call if it can be.  */
 static gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e)
 {
     const gvi_effect *effect = st->x.desc.effects + e;
     const gvi_real *v = x->v;
-    gvi_real *dldv = x->dldv;
-    int point = GVI_FAULT_NONE;
+    gvi_real *dldv = x->dldv, *value = x->value;
+    gvi_real *own = value && effect->kind == GVI_LAGRANGIAN ? st->x.less : effect->kind == GVI_FORCE ? NULL : value;
+    int point = GVI_FAULT_NONE, together = own && effect->points && effect->value == effect->points;
     if (effect->kind == GVI_POTENTIAL) x->v = NULL;
     if (effect->kind != GVI_LAGRANGIAN) x->dldv = NULL;
+    x->value = together ? own : NULL;
     st->counters.effect[e] += (unsigned long long)x->count;
     int refused = effect->points ? effect->points(x, effect->user) : gvi__point_by_point(st, effect, x, &point);
     gvi_status status = refused ? gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, point) : GVI_OK;
@@ -1283,17 +1315,41 @@ static gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e)
     }
     x->v = v;
     x->dldv = dldv;
+    x->value = value;
+    return status == GVI_OK && own && !together ? gvi__value(st, x, e, own) : status;
+}
+
+static unsigned gvi__clock_bit(const gvi_stepper *st) { return st->x.clock < 0 ? 0 : 1u << st->x.clock; }
+
+// is there a clock, and is it on?
+static int gvi__has_clock(const gvi_stepper *st) { return (gvi__clock_bit(st) & ~st->x.off) != 0; }
+
+/* Every effect that is on, but the clock and what has its bit in `skip`: adds to
+   x->f and x->dldv.                                                           */
+static gvi_status gvi__effects(gvi_stepper *st, gvi_points *x, unsigned skip)
+{
+    gvi_status status = GVI_OK;
+    skip |= st->x.off | gvi__clock_bit(st);
+    for (int e = 0; e < st->x.desc.effect_count && status == GVI_OK; ++e)
+        if (!(skip >> e & 1u)) status = gvi__effect(st, x, e);
     return status;
 }
 
-/* Every effect that is on and, if `plain`, has no Hessian: adds to x->f and x->dldv. */
-static gvi_status gvi__effects(gvi_stepper *st, gvi_points *x, int plain)
+// the bits of all effects of a kind; of those with a Hessian
+static unsigned gvi__of_kind(const gvi_stepper *st, gvi_kind kind)
 {
-    const gvi_desc *d = &st->x.desc;
-    gvi_status status = GVI_OK;
-    for (int e = 0; e < d->effect_count && status == GVI_OK; ++e)
-        if (!(st->x.off >> e & 1u) && !(plain && d->effects[e].hessian)) status = gvi__effect(st, x, e);
-    return status;
+    unsigned bits = 0;
+    for (int e = 0; e < st->x.desc.effect_count; ++e)
+        if (st->x.desc.effects[e].kind == kind) bits |= 1u << e;
+    return bits;
+}
+
+static unsigned gvi__with_hessian(const gvi_stepper *st)
+{
+    unsigned bits = 0;
+    for (int e = 0; e < st->x.desc.effect_count; ++e)
+        if (st->x.desc.effects[e].hessian) bits |= 1u << e;
+    return bits;
 }
 
 /* L D L' of a symmetric matrix at each of `count` points, in place: entry (i,j),
@@ -1383,10 +1439,11 @@ static gvi_status gvi__mass_at(gvi_stepper *st, gvi_points *x, int factor)
 // x->f += v' dM/dq v / 2
 static gvi_status gvi__mass_gradient(gvi_stepper *st, gvi_points *x)
 {
-    gvi_real *dldv = x->dldv;
-    x->dldv = NULL;
+    gvi_real *dldv = x->dldv, *value = x->value;
+    x->dldv = x->value = NULL;
     int refused = st->x.desc.mass.gradient(x, st->x.desc.mass.user);
     x->dldv = dldv;
+    x->value = value;
     if (refused) return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, -1, -1);
     return st->x.diagnose ? gvi__check_rows(st, x, x->f, GVI_FAULT_MASS) : GVI_OK;
 }
@@ -1430,7 +1487,7 @@ static gvi_status gvi__evaluate(gvi_stepper *st, gvi_points *x, int plain)
     gvi__zero(length, x->f);
     gvi__zero(length, x->dldv);
     if (!plain || !gvi__mass_is_constant(&st->x.desc)) status = gvi__kinetic(st, x);
-    return status == GVI_OK ? gvi__effects(st, x, plain) : status;
+    return status == GVI_OK ? gvi__effects(st, x, plain ? gvi__with_hessian(st) : 0) : status;
 }
 
 // one point, as gvi_points
@@ -1733,7 +1790,7 @@ static int gvi__flags(const gvi_desc *d)
 {
     int flags = 0;
     for (int e = 0; e < d->effect_count; ++e) {
-        if (d->effects[e].kind != GVI_POTENTIAL) flags |= GVI__HAS_VELOCITIES;
+        if (d->effects[e].kind == GVI_FORCE || d->effects[e].kind == GVI_LAGRANGIAN) flags |= GVI__HAS_VELOCITIES;
         if (d->effects[e].kind == GVI_LAGRANGIAN) flags |= GVI__HAS_LAGRANGIAN;
     }
     return flags;
@@ -1745,7 +1802,7 @@ static int gvi__covers(const gvi_stepper *st, gvi_formulation f)
     const gvi_desc *d = &st->x.desc;
     int constant = gvi__mass_is_constant(d), reads_v = st->x.flags & GVI__HAS_VELOCITIES;
     int kicks = d->rule.kind == GVI_KICKS;
-    if (kicks && f != GVI_EXPLICIT) return 0;
+    if ((kicks && f != GVI_EXPLICIT) || (st->x.clock >= 0 && f != GVI_MOMENTA)) return 0;
     switch (f) {
     case GVI_EXPLICIT:   return constant && !reads_v && ((st->s == 1 && st->r == 2 && d->rule.kind == GVI_LOBATTO) || kicks);
     case GVI_POSITIONS:  return constant && !reads_v;
@@ -1764,10 +1821,11 @@ static gvi_status gvi__check_desc(const gvi_desc *d)
         || !(d->tolerance >= 0 && d->tolerance < 1))
         return GVI_E_ARGUMENT;
     if ((int)d->formulation < GVI_AUTO || (int)d->formulation > GVI_NEWTON) return GVI_E_ARGUMENT;
+    int clocks = 0;
     for (int e = 0; e < d->effect_count; ++e) {
         const gvi_effect *x = d->effects + e;
-        if ((int)x->kind < GVI_POTENTIAL || (int)x->kind > GVI_LAGRANGIAN || !x->points == !x->point)
-            return GVI_E_ARGUMENT;
+        if ((int)x->kind < GVI_POTENTIAL || (int)x->kind > GVI_CLOCK || !x->points == !x->point) return GVI_E_ARGUMENT;
+        if (x->kind == GVI_CLOCK && (clocks++ || !x->points)) return GVI_E_ARGUMENT;
     }
     switch (d->mass.kind) {
     case GVI_MASS_UNIT: break;
@@ -1808,6 +1866,9 @@ static gvi_status gvi__resolve(gvi_stepper *st, const gvi_desc *desc)
     st->n = d->n;
     st->x.stride = GVI__ROW(r);
     st->x.flags = gvi__flags(d);
+    st->x.clock = -1;
+    for (int e = 0; e < d->effect_count; ++e)
+        if (d->effects[e].kind == GVI_CLOCK) st->x.clock = e;
 
     st->order = d->rule.kind == GVI_LOBATTO ? 2*r - 2 : 2*r;
     if (d->rule.kind == GVI_OWN) st->order = gvi_rule_order(r, d->rule.nodes, d->rule.weights);
@@ -1828,9 +1889,10 @@ static gvi_status gvi__resolve(gvi_stepper *st, const gvi_desc *desc)
         if (!gvi__covers(st, d->formulation)) return GVI_E_FORMULATION;
         st->x.chosen = d->formulation;
     }
-    if (st->x.chosen == GVI_NEWTON || (d->formulation == GVI_AUTO && st->x.chosen != GVI_EXPLICIT))
+    if (st->x.chosen == GVI_NEWTON
+        || (d->formulation == GVI_AUTO && st->x.chosen != GVI_EXPLICIT && st->x.clock < 0))
         st->x.flags |= GVI__HAS_NEWTON;
-    if (st->x.chosen == GVI_AUTO) return GVI_E_FORMULATION;         // kicks, of what is not explicit
+    if (st->x.chosen == GVI_AUTO) return GVI_E_FORMULATION;         // kicks, or a clock, and nothing fits
     if (d->rule.kind == GVI_KICKS) st->order = 0;
     st->formulation = st->x.chosen;
 
@@ -1888,6 +1950,10 @@ static size_t gvi__layout(gvi_stepper *st, gvi_real *base)
     x->older.F = gvi__take(&a, two, n, R);
     x->older.V = gvi__take(&a, momenta && two, n, R);
     x->older.A = gvi__take(&a, lagrangian && (velocities || momenta) && two, n, R);
+    x->slope = gvi__take(&a, x->clock >= 0, n, R);
+    x->rate = gvi__take(&a, x->clock >= 0, 1, R);
+    x->power = gvi__take(&a, x->clock >= 0, 1, R);
+    x->level = gvi__take(&a, x->clock >= 0, 1, R);
     x->z = gvi__take(&a, 1, 1, R);
     x->less = gvi__take(&a, 1, 1, R);
     x->ones = gvi__take(&a, 1, 1, R);
@@ -2029,7 +2095,7 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
 /* --------------------------------------------------------- STEPPER: STEP */
 
 // where a step, or a query's partial step, starts
-typedef struct gvi__from { gvi_real t, te; const gvi_real *q, *qe, *p, *pe; } gvi__from;
+typedef struct gvi__from { gvi_real t, te; const gvi_real *q, *qe, *p, *pe; gvi_real E, Ee; } gvi__from;
 
 static void gvi__rows_as_points(gvi_points *x, const gvi_stepper *st, const struct gvi__rows *rows, gvi_real *dldv)
 {
@@ -2043,6 +2109,8 @@ static void gvi__begin(gvi_stepper *st, const gvi__from *from, gvi_real h)
 {
     struct gvi__private *x = &st->x;
     gvi__weights(st, h);
+    x->dt = h;
+    x->dH = 0;
     for (int k = 0; k < st->r && !x->drift; ++k) x->t[k] = from->t + (from->te + x->c[k]*h);
     if (!gvi__mass_is_constant(&x->desc)) return;
     gvi__copy((size_t)st->n, from->p, x->v0);
@@ -2298,13 +2366,16 @@ static gvi_real gvi__stages(gvi_stepper *st, const gvi__stage *y, int count)
     int momenta = x->chosen == GVI_MOMENTA;
     gvi_real sum = gvi__stage_rows(st, y);
     if (count == 1) return sum;
-    if (momenta && (x->has_factor || (gvi__mass_is_constant(&x->desc) && !x->desc.mass.velocity)))
-        gvi__velocity_rows(st);           // the new P, if with the old M(Q): contracts twice as fast
+    const int clock = gvi__has_clock(st), factor = x->has_factor || gvi__mass_is_constant(&x->desc);
+    if (momenta && factor && !x->desc.mass.velocity && (!clock || x->has_rate)) {
+        gvi__velocity_rows(st);           // the new P, if with the old M(Q) and g: contracts twice as fast
+        for (int k = 0; clock && k < st->n*x->stride; ++k) x->work.V[k] *= x->rate[k % x->stride];
+    }
     st->counters.velocities += (unsigned long long)st->r;
     return sum + gvi__stage_rows(st, y + 1);
 }
 
-// momenta: V from dL/dv(Q, V) = P, then the kinetic share of F
+// momenta: V from dL/dv(Q, V) = P
 static gvi_status gvi__legendre_rows(gvi_stepper *st, gvi_points *y)
 {
     struct gvi__private *x = &st->x;
@@ -2335,17 +2406,86 @@ static gvi_status gvi__legendre_rows(gvi_stepper *st, gvi_points *y)
         x->has_factor = !gvi__mass_is_constant(&x->desc);
         gvi__velocity_rows(st);
     }
-    return x->desc.mass.kind == GVI_MASS_POSITION ? gvi__mass_gradient(st, y) : GVI_OK;
+    return GVI_OK;
+}
+
+// the clock's g and dg/dq at the points
+static gvi_status gvi__rate(gvi_stepper *st, gvi_points *x, gvi_real *rate, gvi_real *slope)
+{
+    const gvi_effect *clock = st->x.desc.effects + st->x.clock;
+    const size_t length = (size_t)x->n*(size_t)x->stride;
+    gvi_points y = *x;
+    y.v = NULL;
+    y.dldv = NULL;
+    y.f = slope;
+    y.value = rate;
+    gvi__zero(length, slope);
+    gvi__zero((size_t)x->stride, rate);
+    st->counters.effect[st->x.clock] += (unsigned long long)x->count;
+    if (clock->points(&y, clock->user)) return gvi__fail(st, GVI_E_CALLBACK, st->x.clock, -1, -1);
+    for (int k = 0; k < x->count; ++k)
+        if (rate[k] <= 0) return gvi__fail(st, GVI_E_CLOCK, st->x.clock, GVI_FAULT_NONE, k);
+    return st->x.diagnose ? gvi__check_rows(st, x, slope, st->x.clock) : GVI_OK;
+}
+
+/* What a clock makes of F and V:  F := g F - dg/dq (H - E),  V := g v, with
+   H = (P + A)'V/2 + V_pot - L, and E and the times by the rule of Q: sums with T. */
+static void gvi__transform(gvi_stepper *st, const gvi__from *from, const gvi_points *y)
+{
+    struct gvi__private *x = &st->x;
+    struct gvi__rows *w = &x->work;
+    const int n = st->n, r = st->r, R = x->stride;
+    for (int k = 0; k < R; ++k) x->power[k] *= x->rate[k];
+    gvi__sum_row(r, R, x->T, x->hb, x->power, x->z);
+    for (int k = 0; k < R; ++k) x->level[k] -= x->less[k] + (from->E + (from->Ee + x->z[k]));
+    for (int i = 0; i < n; ++i)
+        for (int k = 0; k < R; ++k) {
+            const int at = i*R + k;
+            x->level[k] += (w->P[at] + (y->dldv ? w->A[at] : 0))*w->V[at]/2;
+        }
+    for (int i = 0; i < n; ++i)
+        for (int k = 0; k < R; ++k) {
+            const int at = i*R + k;
+            w->F[at] = x->rate[k]*w->F[at] - x->slope[at]*x->level[k];
+            w->V[at] *= x->rate[k];
+        }
+    gvi__sum_row(r, R, x->T, x->hb, x->rate, x->z);
+    for (int k = 0; k < r; ++k) x->t[k] = from->t + (from->te + x->z[k]);
+    x->has_rate = 1;
+}
+
+// with a clock: forces first, for their power; then all else, with values
+static gvi_status gvi__ask_clock(gvi_stepper *st, const gvi__from *from, gvi_points *y)
+{
+    struct gvi__private *x = &st->x;
+    const unsigned forces = gvi__of_kind(st, GVI_FORCE);
+    const int R = x->stride;
+    gvi_status status = forces & ~x->off ? gvi__effects(st, y, ~forces) : GVI_OK;
+    gvi__zero((size_t)R, x->power);
+    for (int i = 0; i < st->n && forces; ++i)
+        for (int k = 0; k < st->r; ++k) x->power[k] += y->f[i*R + k]*y->v[i*R + k];
+    gvi__zero((size_t)R, x->level);
+    gvi__zero((size_t)R, x->less);
+    y->value = x->level;
+    if (status == GVI_OK && x->desc.mass.kind == GVI_MASS_POSITION) status = gvi__mass_gradient(st, y);
+    if (status == GVI_OK) status = gvi__effects(st, y, forces);
+    y->value = NULL;
+    if (status == GVI_OK) status = gvi__rate(st, y, x->rate, x->slope);
+    if (status == GVI_OK) gvi__transform(st, from, y);
+    return status;
 }
 
 // F (and A, V) at the rows of this iteration, all points in one call an effect
-static gvi_status gvi__ask(gvi_stepper *st, gvi_points *y)
+static gvi_status gvi__ask(gvi_stepper *st, const gvi__from *from, gvi_points *y)
 {
     size_t length = (size_t)st->n*(size_t)st->x.stride;
     gvi_status status = gvi__check_points(st, y);
     gvi__zero(length, y->f);
     if (status == GVI_OK && st->x.chosen == GVI_MOMENTA) status = gvi__legendre_rows(st, y);
     if (y->dldv) gvi__zero(length, y->dldv);
+    if (status != GVI_OK) return status;
+    if (gvi__has_clock(st)) return gvi__ask_clock(st, from, y);
+    if (st->x.chosen == GVI_MOMENTA && st->x.desc.mass.kind == GVI_MASS_POSITION) status = gvi__mass_gradient(st, y);
     return status == GVI_OK ? gvi__effects(st, y, 0) : status;
 }
 
@@ -2436,13 +2576,13 @@ static void gvi__prepare_guess(gvi_stepper *st, gvi_real alpha, gvi_real beta, i
 }
 
 /* Starting values: what the last step had, extrapolated; without one, or if
-   that led nowhere, no force and constant velocity.                           */
-static void gvi__guess(gvi_stepper *st, int extrapolate)
+   that led nowhere, no force and constant velocity; `rate` is the clock's.     */
+static void gvi__guess(gvi_stepper *st, int extrapolate, gvi_real rate)
 {
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work, *l = &x->last;
     size_t length = (size_t)st->n*(size_t)x->stride;
-    x->has_factor = 0;
+    x->has_factor = x->has_rate = 0;
     if (extrapolate) {
         gvi__extrapolate(st, l->F, x->older.F, w->F);
         if (l->A && w->A) gvi__extrapolate(st, l->A, x->older.A, w->A);
@@ -2451,7 +2591,7 @@ static void gvi__guess(gvi_stepper *st, int extrapolate)
         gvi__zero(length, w->F);
         if (w->A) gvi__zero(length, w->A);
         for (int i = 0; x->chosen == GVI_MOMENTA && i < st->n; ++i)
-            for (int k = 0; k < st->r; ++k) w->V[i*x->stride + k] = gvi__velocity_guess(st, i);
+            for (int k = 0; k < st->r; ++k) w->V[i*x->stride + k] = rate*gvi__velocity_guess(st, i);
     }
 }
 
@@ -2461,6 +2601,10 @@ static void gvi__increments(gvi_stepper *st, gvi_real h)
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work;
     int n = st->n, r = st->r, R = x->stride;
+    if (gvi__has_clock(st)) {
+        x->dt = gvi__dot(r, x->hb, x->rate);
+        x->dH = gvi__dot(r, x->hb, x->power);
+    }
     for (int j = 0; j < R; ++j) x->less[j] = 1 - x->c[j];
     for (int i = 0; i < n; ++i) {
         const gvi_real *F = w->F + i*R;
@@ -2502,6 +2646,23 @@ static int gvi__is_rounding(const gvi_stepper *st, const gvi__from *from, int id
     return noise <= 0 || (idle > 4 && size <= GVI__MAX && noise <= 1000*GVI__EPS*size);
 }
 
+// g at one configuration; slope of length n gets dg/dq
+static gvi_status gvi__rate_at(gvi_stepper *st, gvi_real t, const gvi_real *q, gvi_real *rate, gvi_real *slope)
+{
+    gvi_points y;
+    gvi__at(&y, st, &t, q, NULL, NULL, NULL);
+    return gvi__rate(st, &y, rate, slope);
+}
+
+// with a clock: g at the start, and times of the points as if it stayed
+static gvi_status gvi__clock_guess(gvi_stepper *st, const gvi__from *from, gvi_real h, gvi_real *rate)
+{
+    struct gvi__private *x = &st->x;
+    gvi_status status = gvi__rate_at(st, from->t, from->q, rate, x->one);
+    for (int k = 0; k < st->r && status == GVI_OK; ++k) x->t[k] = from->t + (from->te + x->c[k]*h* *rate);
+    return status;
+}
+
 // contraction over two iterations, as long as it is not about rounding; squares of changes
 static void gvi__watch(gvi_stepper *st, gvi_real change, gvi_real earlier)
 {
@@ -2541,11 +2702,16 @@ static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_r
     const int count = gvi__plan(st, from, h, y);
     gvi_points points;
     gvi__rows_as_points(&points, st, &x->work, x->work.A);
-    gvi__guess(st, extrapolate);
+    gvi_real rate = 1;
+    if (gvi__has_clock(st)) {
+        gvi_status status = gvi__clock_guess(st, from, h, &rate);
+        if (status != GVI_OK) return status;
+    }
+    gvi__guess(st, extrapolate, rate);
     (void)gvi__stages(st, y, count);
     gvi__zero(2*(size_t)st->n, x->scale);    // of rows that were there before
     for (*used = 1; *used <= x->desc.max_iterations; ++*used) {
-        gvi_status status = gvi__ask(st, &points);
+        gvi_status status = gvi__ask(st, from, &points);
         if (status != GVI_OK) return status;
         for (int i = 0; idle > 0 && i < st->n; ++i) x->change[i] = x->work.Q[i*x->stride + st->r - 1];
         const gvi_real change = gvi__stages(st, y, count);
@@ -3046,7 +3212,10 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
         x->pe[i] = p.lo;
     }
     x->alike = x->stepped && !gvi__nonzero(h - st->h) ? 2 : 1;
-    gvi__two t = gvi__sum(st->t, h + x->te);
+    gvi__two t = gvi__sum(st->t, x->dt + x->te), H = gvi__sum(x->H, x->dH + x->He);
+    x->H0 = x->H;
+    x->H = H.hi;
+    x->He = H.lo;
     x->t0 = st->t;
     st->t = t.hi;
     x->te = t.lo;
@@ -3069,7 +3238,7 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
 
     const gvi_formulation was = st->formulation;
     const int left = x->newton_left;
-    gvi__from from = { st->t, x->te, x->q, x->qe, x->p, x->pe };
+    gvi__from from = { st->t, x->te, x->q, x->qe, x->p, x->pe, x->H, x->He };
     gvi__history past = { x->stepped, 1, 0, x->has_force ? x->last.F : NULL };
     if (x->stepped) {
         past.beta = h/st->h;
@@ -3079,7 +3248,7 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
     gvi_status status = gvi__solve(st, &from, h, &past, 0);
     for (int i = 0; i < st->n && status == GVI_OK; ++i)
         if (!gvi__finite(x->q[i] + x->dq[i]) || !gvi__finite(x->p[i] + x->dp[i])) status = GVI_E_CONVERGENCE;
-    if (status == GVI_OK && !gvi__finite(st->t + h))
+    if (status == GVI_OK && !gvi__finite(st->t + x->dt))
         status = gvi__give(st, GVI_E_ARGUMENT);
     if (status != GVI_OK) {
         st->counters.failures += 1;
@@ -3094,10 +3263,69 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
 
 /* ---- starting ---- */
 
-static gvi_status gvi__start(gvi_stepper *st, gvi_real t)
+/* Sums the values of the effects at one point: potentials into V, Lagrangian
+   terms into L.  Forces have no value.                                        */
+static gvi_status gvi__values(gvi_stepper *st, gvi_points *x, gvi_real *V, gvi_real *L)
+{
+    const gvi_desc *d = &st->x.desc;
+    *V = *L = 0;
+    for (int e = 0; e < d->effect_count; ++e) {
+        const gvi_kind kind = d->effects[e].kind;
+        gvi_real *value = kind == GVI_POTENTIAL ? V : L;
+        if ((st->x.off >> e & 1u) || kind == GVI_FORCE || kind == GVI_CLOCK) continue;
+        gvi_status status = gvi__value(st, x, e, value);
+        if (status != GVI_OK) return status;
+        if (!gvi__finite(*value)) return gvi__fail(st, GVI_E_NON_FINITE, e, GVI_FAULT_NONE, GVI_FAULT_NONE);
+    }
+    return GVI_OK;
+}
+
+// v'Mv/2 at one point
+static gvi_status gvi__kinetic_energy(gvi_stepper *st, gvi_points *x, gvi_real *T)
+{
+    size_t n = (size_t)st->n;
+    gvi_real *f = x->f = st->x.one + 4*n, *p = x->dldv = f + n;
+    gvi__zero(n, f);
+    gvi__zero(n, p);
+    gvi_status status = gvi__kinetic(st, x);
+    *T = gvi__dot(st->n, p, x->v)/2;
+    return status;
+}
+
+/* H = p'v - L, v being a guess on entry and the velocity on return.  Without
+   Lagrangian terms the kinetic energy is p'v/2.                               */
+static gvi_status gvi__energy(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *p,
+                              gvi_real *v, gvi_real *energy)
+{
+    gvi_real V, L, T;
+    gvi_status status = gvi__velocity(st, t, q, p, v);
+    if (status != GVI_OK) return status;
+    gvi_points y;
+    gvi__at(&y, st, &t, q, v, NULL, NULL);
+    status = gvi__values(st, &y, &V, &L);
+    if (status == GVI_OK) status = gvi__kinetic_energy(st, &y, &T);
+    if (status != GVI_OK) return status;
+    gvi_real pv = gvi__dot(st->n, p, v);
+    *energy = st->x.flags & GVI__HAS_LAGRANGIAN ? (pv - T) - L + V : pv/2 + V;
+    return GVI_OK;
+}
+
+// from q, p in dq, dp and a velocity v, all of them seen to be good
+static gvi_status gvi__start(gvi_stepper *st, gvi_real t, const gvi_real *v)
 {
     struct gvi__private *x = &st->x;
     size_t n = (size_t)st->n;
+    if (gvi__has_clock(st)) {                     // its level
+        gvi_real E, *V = x->change;
+        gvi__copy(n, v, V);
+        gvi_status status = gvi__energy(st, t, x->dq, x->dp, V, &E);
+        if (status != GVI_OK) return status;
+        x->H = E;
+        x->He = 0;
+    }
+    gvi__copy(n, v, x->start);
+    gvi__copy(n, x->dq, x->q);
+    gvi__copy(n, x->dp, x->p);
     gvi__zero(n, x->qe);
     gvi__zero(n, x->pe);
     st->t = t;
@@ -3143,12 +3371,11 @@ GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, con
     }
     x->diagnose = 0;
     if (status != GVI_OK) return status;
+    gvi_real *start = x->one + 3*n;               // v may be what a query wrote over st
     gvi__copy(n, p, x->dp);
     gvi__copy(n, q, x->dq);
-    gvi__copy(n, v, x->start);
-    gvi__copy(n, x->dq, x->q);
-    gvi__copy(n, x->dp, x->p);
-    return gvi__start(st, t);
+    gvi__copy(n, v, start);
+    return gvi__start(st, t, start);
 }
 
 GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *p)
@@ -3165,10 +3392,7 @@ GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_rea
     status = gvi__velocity(st, t, x->dq, x->dp, v);
     if (status == GVI_E_SINGULAR || status == GVI_E_CONVERGENCE) gvi__zero(n, v);
     else if (status != GVI_OK) return status;
-    gvi__copy(n, v, x->start);
-    gvi__copy(n, x->dq, x->q);
-    gvi__copy(n, x->dp, x->p);
-    return gvi__start(st, t);
+    return gvi__start(st, t, v);
 }
 
 GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_real h,
@@ -3188,8 +3412,15 @@ GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
     if (!st->x.memory) return gvi__unready(st);
     gvi__done(st, GVI_OK);
     if (index < 0 || index >= st->x.desc.effect_count) return st->status = GVI_E_ARGUMENT;
-    unsigned bit = 1u << index;
-    st->x.off = on ? st->x.off & ~bit : st->x.off | bit;
+    const unsigned bit = 1u << index, was = st->x.off;
+    st->x.off = on ? was & ~bit : was | bit;
+    if (gvi__has_clock(st) && st->x.started && st->x.off != was) {      // another energy
+        gvi_real E;
+        gvi_status status = gvi_energy(st, &E);
+        if (status != GVI_OK) return st->x.off = was, st->status = status;
+        st->x.H = E;
+        st->x.He = 0;
+    }
     st->x.has_force = 0;
     st->x.h_matrix = 0;
     return gvi__done(st, GVI_OK);
@@ -3221,57 +3452,17 @@ GVI_DEF gvi_status gvi_velocity(gvi_stepper *st, gvi_real *v)
     return gvi__done(st, status);
 }
 
-/* Sums the values of the effects at one point: potentials into V, Lagrangian
-   terms into L.  Forces have no value.                                        */
-static gvi_status gvi__values(gvi_stepper *st, gvi_points *x, gvi_real *V, gvi_real *L)
-{
-    const gvi_desc *d = &st->x.desc;
-    *V = *L = 0;
-    for (int e = 0; e < d->effect_count; ++e) {
-        const gvi_effect *effect = d->effects + e;
-        if ((st->x.off >> e & 1u) || effect->kind == GVI_FORCE) continue;
-        if (!effect->value) return gvi__fail(st, GVI_E_VALUE, e, GVI_FAULT_NONE, GVI_FAULT_NONE);
-        gvi_points y = *x;
-        y.f = y.dldv = NULL;
-        y.value = effect->kind == GVI_POTENTIAL ? V : L;
-        if (effect->kind == GVI_POTENTIAL) y.v = NULL;
-        if (effect->value(&y, effect->user)) return gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, GVI_FAULT_NONE);
-        if (!gvi__finite(*y.value)) return gvi__fail(st, GVI_E_NON_FINITE, e, GVI_FAULT_NONE, GVI_FAULT_NONE);
-    }
-    return GVI_OK;
-}
-
-// v'Mv/2 at one point
-static gvi_status gvi__kinetic_energy(gvi_stepper *st, gvi_points *x, gvi_real *T)
-{
-    size_t n = (size_t)st->n;
-    gvi_real *f = x->f = st->x.one + 4*n, *p = x->dldv = f + n;
-    gvi__zero(n, f);
-    gvi__zero(n, p);
-    gvi_status status = gvi__kinetic(st, x);
-    *T = gvi__dot(st->n, p, x->v)/2;
-    return status;
-}
-
 GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy)
 {
     gvi_status status = gvi__ready(st, 0);
     if (status != GVI_OK) return status;
     if (!energy) return st->status = GVI_E_ARGUMENT;
     struct gvi__private *x = &st->x;
-    gvi_real V, L, T, *v = x->change + st->n;
-    status = gvi_velocity(st, v);
-    if (status != GVI_OK) return status;
-    gvi_points y;
-    gvi__at(&y, st, &st->t, x->q, v, NULL, NULL);
-    status = gvi__values(st, &y, &V, &L);
-    if (status == GVI_OK) status = gvi__kinetic_energy(st, &y, &T);
-    if (status != GVI_OK) return status;
-
-    // p'v - L: without Lagrangian terms the kinetic energy is p'v/2
-    gvi_real pv = gvi__dot(st->n, x->p, v);
-    *energy = x->flags & GVI__HAS_LAGRANGIAN ? (pv - T) - L + V : pv/2 + V;
-    return gvi__done(st, GVI_OK);
+    gvi_real E, *v = x->change + st->n;
+    for (int i = 0; i < st->n; ++i) v[i] = gvi__velocity_guess(st, i);
+    status = gvi__energy(st, st->t, x->q, x->p, v, &E);
+    if (status == GVI_OK) *energy = E;
+    return gvi__done(st, status);
 }
 
 /* Curve and velocity of the last step by the same formulas as at its points,
@@ -3326,8 +3517,45 @@ GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
     gvi_real *Q = st->x.change, *V = Q + st->n;
     gvi__weights(st, st->h);
     gvi__curve(st, tau, Q, V);
+    if (gvi__has_clock(st)) {                     // v = q'/g
+        gvi_real rate;
+        status = gvi__rate_at(st, st->t, Q, &rate, st->x.one);
+        if (status != GVI_OK) return st->status = status;
+        for (int i = 0; i < st->n; ++i) V[i] /= rate;
+    }
     if (q) gvi__copy((size_t)st->n, Q, q);
     if (v) gvi__copy((size_t)st->n, V, v);
+    return GVI_OK;
+}
+
+// dq and dp of a partial step of length h from one end of the last step
+static gvi_status gvi__partial(gvi_stepper *st, const gvi__from *from, int end, gvi_real h)
+{
+    struct gvi__private *x = &st->x;
+    gvi__history past = { 1, end ? (gvi_real)1 : (gvi_real)0, h/st->h, x->has_force && end ? x->last.F : NULL };
+    return gvi__solve(st, from, h, &past, 1);
+}
+
+/* The same with a clock, for a time dt from that end: Newton's method for the h
+   that takes dt, its derivative being g, kept inside the step by bisection.    */
+static gvi_status gvi__partial_clock(gvi_stepper *st, const gvi__from *from, int end, gvi_real dt)
+{
+    struct gvi__private *x = &st->x;
+    gvi_real near = 0, far = end ? -st->h : st->h, h = st->h*(dt/(st->t - x->t0)), rate, *q = x->change;
+    for (int k = 0; k < 60; ++k) {
+        gvi_status status = gvi__partial(st, from, end, h);
+        gvi_real miss = x->dt - dt;
+        if (status != GVI_OK || gvi__abs(miss) <= 2*GVI__EPS*gvi__abs(dt)) return status;
+        if (gvi__abs(x->dt) > gvi__abs(dt)) far = h;
+        else near = h;
+        for (int i = 0; i < st->n; ++i) q[i] = from->q[i] + x->dq[i];
+        status = gvi__rate_at(st, from->t, q, &rate, x->one);
+        if (status != GVI_OK) return status;
+        gvi_real next = h - miss/rate;
+        if (!((next - near)*(far - next) > 0)) next = near + (far - near)/2;
+        if (gvi__abs(next - h) <= GVI__EPS*gvi__abs(st->h)) return GVI_OK;
+        h = next;
+    }
     return GVI_OK;
 }
 
@@ -3344,12 +3572,11 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
     // partial step of length h from the nearer end
     int end = gvi__abs(back) <= gvi__abs(ahead);
     gvi_real h = end ? back - x->te : ahead;
-    gvi__from from = { x->t0, 0, x->q0, x->zeros, x->p0, x->zeros };
-    gvi__from last = { st->t, x->te, x->q, x->qe, x->p, x->pe };
+    gvi__from from = { x->t0, 0, x->q0, x->zeros, x->p0, x->zeros, x->H0, 0 };
+    gvi__from last = { st->t, x->te, x->q, x->qe, x->p, x->pe, x->H, x->He };
     if (end) from = last;
-    gvi__history past = { 1, end ? (gvi_real)1 : (gvi_real)0, h/st->h, x->has_force && end ? x->last.F : NULL };
     gvi_formulation was = st->formulation;
-    if (gvi__nonzero(h)) status = gvi__solve(st, &from, h, &past, 1);
+    if (gvi__nonzero(h)) status = gvi__has_clock(st) ? gvi__partial_clock(st, &from, end, h) : gvi__partial(st, &from, end, h);
     else {
         gvi__copy(n, from.qe, x->dq);
         gvi__copy(n, from.pe, x->dp);
@@ -3387,7 +3614,7 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action)
     gvi_status status = gvi__ready(st, 1);
     if (status != GVI_OK) return status;
     if (!action) return st->status = GVI_E_ARGUMENT;
-    if (st->x.desc.rule.kind == GVI_KICKS) return st->status = GVI_E_FORMULATION;
+    if (st->x.desc.rule.kind == GVI_KICKS || gvi__has_clock(st)) return st->status = GVI_E_FORMULATION;
     struct gvi__private *x = &st->x;
     gvi_real sum = 0, L, *q = x->change, *v = q + st->n;
     gvi__weights(st, st->h);
@@ -3409,21 +3636,16 @@ static gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__matrix *J, co
                                        gvi_real *minus, gvi_real *plus)
 {
     struct gvi__private *x = &st->x;
-    const gvi_desc *d = &x->desc;
     int n = st->n, s = st->s, R = x->stride, size = (s - 1)*n;
     gvi_real *f = x->work.F;                // not needed any more
 
     // the forces alone, at the points of the curve
-    unsigned off = x->off, forces = 0;
-    for (int e = 0; e < d->effect_count; ++e)
-        if (d->effects[e].kind == GVI_FORCE) forces |= 1u << e;
-    x->off = off | ~forces;
+    const unsigned forces = gvi__of_kind(st, GVI_FORCE);
     gvi_points y;
     gvi__rows_as_points(&y, st, &x->work, NULL);
     y.f = f;
     gvi__zero((size_t)n*(size_t)R, f);
-    gvi_status status = gvi__effects(st, &y, 0);
-    x->off = off;
+    gvi_status status = gvi__effects(st, &y, ~forces);
 
     // at fixed y_k, k >= 1:  dQ_i/dq1 = c_i, dQ_i/dq0 = 1 - c_i  (Phi_0 = c)
     for (int i = 0; i < n; ++i) {
@@ -3433,7 +3655,7 @@ static gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__matrix *J, co
             minus[i] += x->hb[j]*(1 - x->Phi[j])*f[i*R + j];
         }
     }
-    if (status != GVI_OK || size == 0 || !(forces & ~off)) return status;
+    if (status != GVI_OK || size == 0 || !(forces & ~x->off)) return status;
 
     // the interior: J is that of the solution, with the columns of both ends
     gvi_real *lambda = x->dy;
@@ -3569,9 +3791,9 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
     gvi__done(st, GVI_OK);
     if (!q0 || !q1 || !out || !gvi__all_finite(st->n, q0) || !gvi__all_finite(st->n, q1)
         || !gvi__finite(t) || !gvi__finite(h) || !gvi__nonzero(h)) return st->status = GVI_E_ARGUMENT;
-    if ((st->s > 1 && !(x->flags & GVI__HAS_NEWTON)) || x->desc.rule.kind == GVI_KICKS)
+    if ((st->s > 1 && !(x->flags & GVI__HAS_NEWTON)) || x->desc.rule.kind == GVI_KICKS || x->clock >= 0)
         return st->status = GVI_E_FORMULATION;
-    gvi__from from = { t, 0, q0, x->zeros, x->zeros, x->zeros };
+    gvi__from from = { t, 0, q0, x->zeros, x->zeros, x->zeros, 0, 0 };
     gvi__begin(st, &from, h);
     return gvi__done(st, gvi__boundary_value(st, &from, h, q1, out));
 }
@@ -3621,6 +3843,7 @@ GVI_DEF const char *gvi_status_text(gvi_status status)
     case GVI_E_VALUE:       return "an effect has no value callback";
     case GVI_E_STATE:       return "not started, no step yet, or time outside the last step";
     case GVI_E_CONJUGATE:   return "conjugate points: the two configurations do not determine the curve";
+    case GVI_E_CLOCK:       return "a clock must be positive: g <= 0";
     default:                return "unknown status";
     }
 }
