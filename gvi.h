@@ -2358,6 +2358,12 @@ static int gvi__plan(gvi_stepper *st, const gvi__from *from, gvi_real h, gvi__st
     return 2;
 }
 
+// row := a row, element by element
+static inline void gvi__scale_row(int R, const gvi_real *GVI__RESTRICT a, gvi_real *GVI__RESTRICT row)
+{
+    for (int k = 0; k < R; ++k) row[k] *= a[k];
+}
+
 /* The rows of the next iteration from the F, V and A of this one; returns the
    sum of squares of their relative changes.                                   */
 static gvi_real gvi__stages(gvi_stepper *st, const gvi__stage *y, int count)
@@ -2369,7 +2375,7 @@ static gvi_real gvi__stages(gvi_stepper *st, const gvi__stage *y, int count)
     const int clock = gvi__has_clock(st), factor = x->has_factor || gvi__mass_is_constant(&x->desc);
     if (momenta && factor && !x->desc.mass.velocity && (!clock || x->has_rate)) {
         gvi__velocity_rows(st);           // the new P, if with the old M(Q) and g: contracts twice as fast
-        for (int k = 0; clock && k < st->n*x->stride; ++k) x->work.V[k] *= x->rate[k % x->stride];
+        for (int i = 0; clock && i < st->n; ++i) gvi__scale_row(x->stride, x->rate, x->work.V + i*x->stride);
     }
     st->counters.velocities += (unsigned long long)st->r;
     return sum + gvi__stage_rows(st, y + 1);
@@ -2413,44 +2419,65 @@ static gvi_status gvi__legendre_rows(gvi_stepper *st, gvi_points *y)
 static gvi_status gvi__rate(gvi_stepper *st, gvi_points *x, gvi_real *rate, gvi_real *slope)
 {
     const gvi_effect *clock = st->x.desc.effects + st->x.clock;
-    const size_t length = (size_t)x->n*(size_t)x->stride;
-    gvi_points y = *x;
-    y.v = NULL;
-    y.dldv = NULL;
-    y.f = slope;
-    y.value = rate;
-    gvi__zero(length, slope);
+    const gvi_real *v = x->v;
+    gvi_real *f = x->f, *dldv = x->dldv;
+    x->v = NULL;
+    x->dldv = NULL;
+    x->f = slope;
+    x->value = rate;
+    gvi__zero((size_t)x->n*(size_t)x->stride, slope);
     gvi__zero((size_t)x->stride, rate);
     st->counters.effect[st->x.clock] += (unsigned long long)x->count;
-    if (clock->points(&y, clock->user)) return gvi__fail(st, GVI_E_CALLBACK, st->x.clock, -1, -1);
+    int refused = clock->points(x, clock->user);
+    x->v = v;
+    x->dldv = dldv;
+    x->f = f;
+    x->value = NULL;
+    if (refused) return gvi__fail(st, GVI_E_CALLBACK, st->x.clock, -1, -1);
     for (int k = 0; k < x->count; ++k)
         if (rate[k] <= 0) return gvi__fail(st, GVI_E_CLOCK, st->x.clock, GVI_FAULT_NONE, k);
     return st->x.diagnose ? gvi__check_rows(st, x, slope, st->x.clock) : GVI_OK;
 }
 
+// sum += a b/2
+static inline void gvi__add_products(int R, const gvi_real *GVI__RESTRICT a, const gvi_real *GVI__RESTRICT b,
+                                     gvi_real *GVI__RESTRICT sum)
+{
+    for (int k = 0; k < R; ++k) sum[k] += a[k]*b[k]/2;
+}
+
+// F := g F - dg/dq (H - E)
+static inline void gvi__transform_row(int R, const gvi_real *GVI__RESTRICT g, const gvi_real *GVI__RESTRICT slope,
+                                      const gvi_real *GVI__RESTRICT excess, gvi_real *GVI__RESTRICT F)
+{
+    for (int k = 0; k < R; ++k) F[k] = g[k]*F[k] - slope[k]*excess[k];
+}
+
 /* What a clock makes of F and V:  F := g F - dg/dq (H - E),  V := g v, with
    H = (P + A)'V/2 + V_pot - L, and E and the times by the rule of Q: sums with T. */
-static void gvi__transform(gvi_stepper *st, const gvi__from *from, const gvi_points *y)
+static void gvi__transform(gvi_stepper *st, const gvi__from *from, int lagrangian)
 {
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work;
     const int n = st->n, r = st->r, R = x->stride;
-    for (int k = 0; k < R; ++k) x->power[k] *= x->rate[k];
-    gvi__sum_row(r, R, x->T, x->hb, x->power, x->z);
-    for (int k = 0; k < R; ++k) x->level[k] -= x->less[k] + (from->E + (from->Ee + x->z[k]));
-    for (int i = 0; i < n; ++i)
-        for (int k = 0; k < R; ++k) {
-            const int at = i*R + k;
-            x->level[k] += (w->P[at] + (y->dldv ? w->A[at] : 0))*w->V[at]/2;
-        }
-    for (int i = 0; i < n; ++i)
-        for (int k = 0; k < R; ++k) {
-            const int at = i*R + k;
-            w->F[at] = x->rate[k]*w->F[at] - x->slope[at]*x->level[k];
-            w->V[at] *= x->rate[k];
-        }
-    gvi__sum_row(r, R, x->T, x->hb, x->rate, x->z);
-    for (int k = 0; k < r; ++k) x->t[k] = from->t + (from->te + x->z[k]);
+    const gvi_real E = from->E + from->Ee;
+    for (int k = 0; k < R; ++k) x->level[k] -= x->less[k] + E;
+    if (x->flags & GVI__HAS_VELOCITIES) {
+        gvi__scale_row(R, x->rate, x->power);
+        gvi__sum_row(r, R, x->T, x->hb, x->power, x->z);
+        for (int k = 0; k < R; ++k) x->level[k] -= x->z[k];
+    }
+    for (int i = 0; i < n; ++i) {
+        gvi__add_products(R, w->P + i*R, w->V + i*R, x->level);
+        if (lagrangian) gvi__add_products(R, w->A + i*R, w->V + i*R, x->level);
+    }
+    for (int i = 0; i < n; ++i) {
+        gvi__transform_row(R, x->rate, x->slope + i*R, x->level, w->F + i*R);
+        gvi__scale_row(R, x->rate, w->V + i*R);
+    }
+    if (r == 8) gvi__sum_row(8, 8, x->T, x->hb, x->rate, x->z);
+    else gvi__sum_row(r, R, x->T, x->hb, x->rate, x->z);
+    for (int k = 0; k < R; ++k) x->t[k] = from->t + (from->te + x->z[k]);
     x->has_rate = 1;
 }
 
@@ -2458,7 +2485,7 @@ static void gvi__transform(gvi_stepper *st, const gvi__from *from, const gvi_poi
 static gvi_status gvi__ask_clock(gvi_stepper *st, const gvi__from *from, gvi_points *y)
 {
     struct gvi__private *x = &st->x;
-    const unsigned forces = gvi__of_kind(st, GVI_FORCE);
+    const unsigned forces = x->flags & GVI__HAS_VELOCITIES ? gvi__of_kind(st, GVI_FORCE) : 0;
     const int R = x->stride;
     gvi_status status = forces & ~x->off ? gvi__effects(st, y, ~forces) : GVI_OK;
     gvi__zero((size_t)R, x->power);
@@ -2471,7 +2498,7 @@ static gvi_status gvi__ask_clock(gvi_stepper *st, const gvi__from *from, gvi_poi
     if (status == GVI_OK) status = gvi__effects(st, y, forces);
     y->value = NULL;
     if (status == GVI_OK) status = gvi__rate(st, y, x->rate, x->slope);
-    if (status == GVI_OK) gvi__transform(st, from, y);
+    if (status == GVI_OK) gvi__transform(st, from, y->dldv != NULL);
     return status;
 }
 

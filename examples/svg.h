@@ -23,8 +23,9 @@ typedef struct svg_plot {
     int             line_count;
 } svg_plot;
 
-/* An axis shows the numbers lo..hi (or their logarithms) at pixels a..b.      */
-typedef struct svg_axis { int log; double lo, hi, a, b; } svg_axis;
+/* An axis shows the numbers lo..hi (or their logarithms) at pixels a..b, with at
+   most `most` ticks.                                                         */
+typedef struct svg_axis { int log; double lo, hi, a, b; int most; } svg_axis;
 
 static double svg_value(const svg_axis *axis, double x) { return axis->log ? log10(x) : x; }
 
@@ -33,14 +34,14 @@ static double svg_pixel(const svg_axis *axis, double value)
     return axis->a + (value - axis->lo)/(axis->hi - axis->lo)*(axis->b - axis->a);
 }
 
-/* The smallest of 1, 2, 5 times a power of ten that makes at most 8 ticks.    */
+/* The smallest of 1, 2, 5 times a power of ten that makes few enough ticks.    */
 static double svg_tick(const svg_axis *axis)
 {
-    double step = pow(10, floor(log10((axis->hi - axis->lo)/8)));
+    double step = pow(10, floor(log10((axis->hi - axis->lo)/axis->most)));
     static const double factor[] = { 1, 2, 5, 10 };
     int k = 0;
     if (axis->log && step < 1) return 1;
-    while (k < 3 && (axis->hi - axis->lo)/(factor[k]*step) > 8) ++k;
+    while (k < 3 && (axis->hi - axis->lo)/(factor[k]*step) > axis->most) ++k;
     return factor[k]*step;
 }
 
@@ -113,11 +114,11 @@ static void svg_curve(FILE *f, const svg_line *line, const svg_axis *x, const sv
 }
 
 /* Writes the picture.  Returns 0, or -1 if the file cannot be written.        */
-static int svg_write(const char *path, const svg_plot *plot)
+static inline int svg_write(const char *path, const svg_plot *plot)
 {
     static const char *const colour[] = { "#0072b2", "#d55e00", "#009e73", "#aa4499", "#b8860b", "#444444" };
     const double width = 760, height = 460;
-    svg_axis x = { plot->log_x, 0, 1, 80, 610 }, y = { plot->log_y, 0, 1, 400, 50 };
+    svg_axis x = { plot->log_x, 0, 1, 80, 610, 8 }, y = { plot->log_y, 0, 1, 400, 50, 8 };
     FILE *f = fopen(path, "w");
     if (!f) return -1;
     svg_fit(&x, plot, plot->equal);
