@@ -1,0 +1,923 @@
+/* baselines.c - explicit, splitting, Nystroem and point-by-point Gauss integrators
+
+   Written from the published coefficients, each to be as fast as its author would wish it: n is
+   a constant of the inner functions, state and stages are whole vectors (which also spares the
+   processor to put a wide load together from narrow stores), tables are scaled with h once,
+   loops skip the zeros of the tables, kicks and drifts of adjacent steps are merged.  Compensated
+   variants carry what rounding leaves of q and v, and what rounding leaves of the weights.  The
+   right-hand side is called through a pointer, one point a call.                              */
+#include "baselines.h"
+#include "coefficients.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#define COUNT(a) ((int)(sizeof(a)/sizeof(a)[0]))
+#if defined(__GNUC__)
+#define INLINE static inline __attribute__((always_inline))
+typedef double lane2 __attribute__((vector_size(16), aligned(8), may_alias));
+typedef double lane4 __attribute__((vector_size(32), aligned(8), may_alias));
+typedef double lane8 __attribute__((vector_size(64), aligned(8), may_alias));
+#else
+#error "the baselines are written with the vector types of gcc and clang"
+#endif
+
+/* ------------------------------------------------------- vectors of n */
+
+/* op(type) for at = 0, 8, ..., then 4, then 2 of what is left: n is even and constant.         */
+#define LANES(n, op) do {                                     \
+    int at = 0;                                               \
+    for (; at + 8 <= (n); at += 8) { op(lane8); }             \
+    if ((n) & 4) { op(lane4); at += 4; }                      \
+    if ((n) & 2) { op(lane2); }                               \
+} while (0)
+#define AT(type, x)  (*(type *)((x) + at))
+#define OF(type, x)  (*(const type *)((x) + at))
+
+INLINE void copy(const int n, const double *x, double *y)
+{
+#define OP(L) AT(L, y) = OF(L, x)
+    LANES(n, OP);
+#undef OP
+}
+
+INLINE void zero(const int n, double *x)
+{
+    for (int i = 0; i < n; ++i) x[i] = 0;
+}
+
+/* y += h x                                                                                    */
+INLINE void add(const int n, double h, const double *x, double *y)
+{
+#define OP(L) AT(L, y) += h*OF(L, x)
+    LANES(n, OP);
+#undef OP
+}
+
+/* y + rest += h x, rest being what rounding leaves of y; |y| > |h x| is supposed              */
+INLINE void add_compensated(const int n, double h, const double *x, double *y, double *rest)
+{
+#define OP(L) L d = h*OF(L, x) + OF(L, rest), a = OF(L, y), b = a + d; AT(L, y) = b; AT(L, rest) = d - (b - a)
+    LANES(n, OP);
+#undef OP
+}
+
+/* x = q + h v + sum a_j k_j, j = 0 and lo..hi-1: the latest k last, which the others wait for */
+INLINE void combine(const int n, const double *q, double h, const double *v,
+                    const double *a, int lo, int hi, const double *k, double *x)
+{
+#define OP(L) L s = OF(L, q) + h*OF(L, v) + a[0]*OF(L, k);        \
+    for (int j = lo; j < hi; ++j) s += a[j]*OF(L, k + j*n);       \
+    AT(L, x) = s
+    LANES(n, OP);
+#undef OP
+}
+
+/* d = sum a_j k_j over the same j                                                             */
+INLINE void sum(const int n, const double *a, int lo, int hi, const double *k, double *d)
+{
+#define OP(L) L s = a[0]*OF(L, k);                                \
+    for (int j = lo; j < hi; ++j) s += a[j]*OF(L, k + j*n);       \
+    AT(L, d) = s
+    LANES(n, OP);
+#undef OP
+}
+
+INLINE double square(const int n, const double *x)
+{
+    double total = 0;
+    lane8 s8 = { 0 };
+    lane4 s4 = { 0 };
+    lane2 s2 = { 0 };
+    int at = 0;
+    for (; at + 8 <= n; at += 8) s8 += OF(lane8, x)*OF(lane8, x);
+    if (n & 4) s4 += OF(lane4, x)*OF(lane4, x), at += 4;
+    if (n & 2) s2 += OF(lane2, x)*OF(lane2, x);
+    if (n >= 8) for (int i = 0; i < 8; ++i) total += s8[i];
+    if (n & 4) total += (s4[0] + s4[1]) + (s4[2] + s4[3]);
+    if (n & 2) total += s2[0] + s2[1];
+    return total;
+}
+
+INLINE double norm(const int n, const double *x) { return sqrt(square(n, x)); }
+
+/* n as a constant: those of the problems                                                      */
+#define BY_SIZE(n, call) do {                                     \
+    switch (n) {                                                  \
+    case 2:   call(2);   break;                                   \
+    case 4:   call(4);   break;                                   \
+    case 6:   call(6);   break;                                   \
+    case 18:  call(18);  break;                                   \
+    case 100: call(100); break;                                   \
+    default:  o->failed = 1;                                      \
+    } } while (0)
+
+static void begin(const problem *p, outcome *o)
+{
+    memset(o, 0, sizeof *o);
+    memcpy(o->q, p->q, sizeof(double)*(size_t)p->n);
+    memcpy(o->v, p->v, sizeof(double)*(size_t)p->n);
+}
+
+/* -------------------------------------- compositions and splittings */
+
+enum { KICKS = 40 };
+/* kick[0], then drift[i], kick[i+1] (kick first), or drift[0], then kick[i], drift[i+1].      */
+typedef struct splitting { int stages, drift_first; double kick[KICKS], drift[KICKS]; } splitting;
+
+enum { VERLET, YOSHIDA8, KAHAN_LI8, SOFRONIOU10, BLANES_MOAN11, BLANES_MOAN14, SPLITTINGS };
+static splitting splittings[SPLITTINGS];
+
+/* All of a symmetric row from its first half; the next one closes the sum to 1.               */
+static void mirror(int count, const long double *half, long double *all)
+{
+    int given = (count - 1)/2;
+    long double rest = 1;
+    for (int i = 0; i < given; ++i) rest -= 2*half[i];
+    for (int i = 0; i < count; ++i) {
+        int k = i < count - 1 - i ? i : count - 1 - i;
+        all[i] = k < given ? half[k] : count % 2 ? rest : rest/2;
+    }
+}
+
+/* Composition of kick-drift-kick steps gamma_1..gamma_m: adjacent kicks are one.              */
+static void compose(splitting *s, int half, const long double *gamma)
+{
+    long double g[KICKS];
+    int m = s->stages = 2*half + 1;
+    mirror(m, gamma, g);
+    for (int i = 0; i <= m; ++i) {
+        s->kick[i] = (double)(((i > 0 ? g[i-1] : 0) + (i < m ? g[i] : 0))/2);
+        if (i < m) s->drift[i] = (double)g[i];
+    }
+}
+
+static void split(splitting *s, int stages, int drift_first, const long double *kick,
+                  const long double *drift)
+{
+    long double k[KICKS], d[KICKS];
+    int kicks = drift_first ? stages : stages + 1, drifts = drift_first ? stages + 1 : stages;
+    mirror(kicks, kick, k);
+    mirror(drifts, drift, d);
+    for (int i = 0; i < kicks; ++i) s->kick[i] = (double)k[i];
+    for (int i = 0; i < drifts; ++i) s->drift[i] = (double)d[i];
+    s->stages = stages;
+    s->drift_first = drift_first;
+}
+
+static void splittings_begin(void)
+{
+    compose(splittings + VERLET, 0, NULL);
+    compose(splittings + YOSHIDA8, COUNT(yoshida8), yoshida8);
+    compose(splittings + KAHAN_LI8, COUNT(kahan_li8), kahan_li8);
+    compose(splittings + SOFRONIOU10, COUNT(sofroniou10), sofroniou10);
+    split(splittings + BLANES_MOAN11, 11, 0, blanes_moan11_b, blanes_moan11_a);
+    split(splittings + BLANES_MOAN14, 14, 1, blanes_moan14_b, blanes_moan14_a);
+}
+
+INLINE void move(const int n, int compensated, double h, const double *x, double *y, double *rest)
+{
+    if (compensated) add_compensated(n, h, x, y, rest);
+    else add(n, h, x, y);
+}
+
+/* The part that begins a step ends it too: the two are one, but for the first and the last.   */
+INLINE void splitting_loop(const int n, const int compensated, const problem *p, const splitting *s,
+                           long steps, watch *w, outcome *o)
+{
+    double q[MOST_COORDINATES], v[MOST_COORDINATES], a[MOST_COORDINATES], qe[MOST_COORDINATES] = { 0 },
+           ve[MOST_COORDINATES] = { 0 }, kick[KICKS], drift[KICKS], h = p->end/(double)steps;
+    const int m = s->stages;
+    for (int i = 0; i <= m; ++i) kick[i] = h*s->kick[i], drift[i] = h*s->drift[i];
+    copy(n, o->q, q);
+    copy(n, o->v, v);
+    kick[m] += kick[0];
+    p->acceleration(q, a);
+    move(n, compensated, kick[0], a, v, ve);
+    for (long k = 0; k < steps; ++k) {
+        for (int i = 0; i < m; ++i) {
+            move(n, compensated, drift[i], v, q, qe);
+            p->acceleration(q, a);
+            move(n, compensated, kick[i+1], a, v, ve);
+        }
+        if (watch_due(w)) {
+            copy(n, v, o->v);
+            add(n, -kick[0], a, o->v);
+            watch_look(w, q, o->v);
+        }
+    }
+    move(n, compensated, -kick[0], a, v, ve);
+    copy(n, q, o->q);
+    copy(n, v, o->v);
+    o->evaluations = steps*m + 1;
+}
+
+INLINE void splitting_drift_loop(const int n, const int compensated, const problem *p, const splitting *s,
+                                 long steps, watch *w, outcome *o)
+{
+    double q[MOST_COORDINATES], v[MOST_COORDINATES], a[MOST_COORDINATES], qe[MOST_COORDINATES] = { 0 },
+           ve[MOST_COORDINATES] = { 0 }, kick[KICKS], drift[KICKS], h = p->end/(double)steps;
+    const int m = s->stages;
+    for (int i = 0; i <= m; ++i) kick[i] = h*s->kick[i], drift[i] = h*s->drift[i];
+    copy(n, o->q, q);
+    copy(n, o->v, v);
+    drift[m] += drift[0];
+    move(n, compensated, drift[0], v, q, qe);
+    for (long k = 0; k < steps; ++k) {
+        for (int i = 0; i < m; ++i) {
+            p->acceleration(q, a);
+            move(n, compensated, kick[i], a, v, ve);
+            move(n, compensated, drift[i+1], v, q, qe);
+        }
+        if (watch_due(w)) {
+            copy(n, q, o->q);
+            add(n, -drift[0], v, o->q);
+            watch_look(w, o->q, v);
+        }
+    }
+    move(n, compensated, -drift[0], v, q, qe);
+    copy(n, q, o->q);
+    copy(n, v, o->v);
+    o->evaluations = steps*m;
+}
+
+static void run_splitting(const problem *p, const baseline *m, double parameter, watch *w, outcome *o)
+{
+    const splitting *s = splittings + m->option;
+    long steps = (long)parameter;
+    begin(p, o);
+#define CALL(n) if (s->drift_first) splitting_drift_loop(n, 0, p, s, steps, w, o); \
+                else if (m->compensated) splitting_loop(n, 1, p, s, steps, w, o);  \
+                else splitting_loop(n, 0, p, s, steps, w, o)
+    BY_SIZE(p->n, CALL);
+#undef CALL
+    o->steps = steps;
+}
+
+/* ------------------------------------------------------ Nystroem pairs */
+
+enum { STAGES = 17 };
+enum { RKN86, RKN1210, NYSTROEMS };
+
+/* One sum: coefficients, and the range lo..hi-1 that they fill besides the first one.         */
+typedef struct row { double a[STAGES]; int lo, hi; } row;
+
+typedef struct nystroem_rows {
+    int stages, order, reuse;
+    double c[STAGES];
+    row A[STAGES], b, w, e, f, b_rest, w_rest;       /* rest: b - (double)b                    */
+} nystroem_rows;
+static nystroem_rows nystroems[NYSTROEMS];
+
+static void make_row(row *r, int count, const long double *a)
+{
+    r->lo = r->hi = 1;
+    for (int j = 0; j < count; ++j) {
+        r->a[j] = (double)a[j];
+        if (a[j] < 0 || a[j] > 0) r->hi = j + 1;
+    }
+    if (r->hi < 1) r->hi = 1;
+    while (r->lo < r->hi && !(a[r->lo] < 0 || a[r->lo] > 0)) ++r->lo;
+}
+
+static void make_rest(row *r, int count, const long double *a)
+{
+    long double rest[STAGES];
+    for (int j = 0; j < count; ++j) rest[j] = a[j] - (double)a[j];
+    make_row(r, count, rest);
+}
+
+/* The sums over b and w that must hold exactly, sum w = 1 and sum b = 1/2, hold to the digits
+   that the tables are printed with.                                                           */
+static void nystroem_begin(nystroem_rows *t, const nystroem *s)
+{
+    t->stages = s->reuse ? s->stages - 1 : s->stages;
+    t->order = s->order;
+    t->reuse = s->reuse;
+    for (int i = 0; i < s->stages; ++i) {
+        t->c[i] = (double)s->c[i];
+        make_row(t->A + i, i, s->A[i]);
+    }
+    make_row(&t->b, s->stages, s->b);
+    make_row(&t->w, s->stages, s->w);
+    make_row(&t->e, s->stages, s->e);
+    make_row(&t->f, s->stages, s->f);
+    make_rest(&t->b_rest, s->stages, s->b);
+    make_rest(&t->w_rest, s->stages, s->w);
+}
+
+INLINE void scale_row(const row *r, double h, row *s)
+{
+    s->lo = r->lo;
+    s->hi = r->hi;
+    for (int j = 0; j < STAGES; ++j) s->a[j] = h*r->a[j];
+}
+
+/* The table for a step h.                                                                     */
+typedef struct scaled { double c[STAGES]; row A[STAGES]; } scaled;
+
+static void scale(const nystroem_rows *t, double h, scaled *s)
+{
+    for (int i = 0; i < t->stages; ++i) {
+        s->c[i] = h*t->c[i];
+        scale_row(t->A + i, h*h, s->A + i);
+    }
+}
+
+typedef struct nystroem_state {
+    double q[MOST_COORDINATES], v[MOST_COORDINATES], qe[MOST_COORDINATES], ve[MOST_COORDINATES];
+    double x[MOST_COORDINATES], dq[MOST_COORDINATES], dv[MOST_COORDINATES], k[STAGES*MOST_COORDINATES];
+} nystroem_state;
+
+INLINE void stages(const int n, const problem *p, const nystroem_rows *t, const scaled *s, nystroem_state *z)
+{
+    for (int i = 1; i < t->stages; ++i) {
+        const row *r = s->A + i;
+        combine(n, z->q, s->c[i], z->v, r->a, r->lo, r->hi, z->k, z->x);
+        p->acceleration(z->x, z->k + i*n);
+    }
+}
+
+/* q + qe += h v + h^2 (b + rest) k, v + ve += h (w + rest) k.                                 */
+INLINE void advance(const int n, const int compensated, const nystroem_rows *t, double h, double h_rest,
+                    nystroem_state *z)
+{
+    sum(n, t->b.a, t->b.lo, t->b.hi, z->k, z->dq);
+    sum(n, t->w.a, t->w.lo, t->w.hi, z->k, z->dv);
+    if (!compensated) {
+#define OP(L) AT(L, z->q) += h*(OF(L, z->v) + h*OF(L, z->dq)); AT(L, z->v) += h*OF(L, z->dv)
+        LANES(n, OP);
+#undef OP
+        return;
+    }
+    double bk[MOST_COORDINATES], wk[MOST_COORDINATES];
+    sum(n, t->b_rest.a, t->b_rest.lo, t->b_rest.hi, z->k, bk);
+    sum(n, t->w_rest.a, t->w_rest.lo, t->w_rest.hi, z->k, wk);
+#define OP(L) \
+    L v = OF(L, z->v), q = OF(L, z->q), ve = OF(L, z->ve);                                               \
+    L d = h*v + (OF(L, z->qe) + h_rest*v + h*ve + h*h*OF(L, bk)) + h*h*OF(L, z->dq), r = q + d;          \
+    L f = h*OF(L, z->dv) + (ve + h*OF(L, wk) + h_rest*OF(L, z->dv)), u = v + f;                          \
+    AT(L, z->q) = r; AT(L, z->qe) = d - (r - q); AT(L, z->v) = u; AT(L, z->ve) = f - (u - v)
+    LANES(n, OP);
+#undef OP
+}
+
+INLINE void nystroem_begin_state(const int n, const outcome *o, nystroem_state *z)
+{
+    copy(n, o->q, z->q);
+    copy(n, o->v, z->v);
+    zero(n, z->qe);
+    zero(n, z->ve);
+}
+
+INLINE void nystroem_fixed(const int n, const int compensated, const problem *p, const nystroem_rows *t,
+                           long steps, watch *w, outcome *o)
+{
+    nystroem_state z;
+    scaled s;
+    double h = p->end/(double)steps, h_rest = (double)((long double)p->end/steps - h);
+    nystroem_begin_state(n, o, &z);
+    scale(t, h, &s);
+    for (long k = 0; k < steps; ++k) {
+        p->acceleration(z.q, z.k);
+        stages(n, p, t, &s, &z);
+        advance(n, compensated, t, h, h_rest, &z);
+        if (watch_due(w)) watch_look(w, z.q, z.v);
+    }
+    copy(n, z.q, o->q);
+    copy(n, z.v, o->v);
+    o->evaluations = steps*t->stages;
+    o->steps = steps;
+}
+
+/* The larger of the errors of q and v, each against the size of the whole vector.             */
+INLINE double nystroem_error(const int n, const nystroem_rows *t, double h, nystroem_state *z)
+{
+    double eq[MOST_COORDINATES], ev[MOST_COORDINATES];
+    sum(n, t->e.a, t->e.lo, t->e.hi, z->k, eq);
+    sum(n, t->f.a, t->f.lo, t->f.hi, z->k, ev);
+    double q = norm(n, z->q), v = norm(n, z->v), a = norm(n, z->k);
+    double of_q = h*h*norm(n, eq)/(q + h*v + 1e-300), of_v = h*norm(n, ev)/(v + h*a + 1e-300);
+    return of_q > of_v ? of_q : of_v;
+}
+
+/* Error per step; a controller with a little of the error before in it. Returns h_new/h.      */
+static double control(double err, double *before, double tolerance, int power)
+{
+    double x = err/tolerance;
+    if (!(x > 1e-10)) x = 1e-10;
+    double factor = 0.9*pow(x, -0.85/power)*pow(*before, 0.15/power);
+    if (x <= 1) *before = x;
+    return factor < 0.2 ? 0.2 : factor > 4 ? 4 : factor;
+}
+
+INLINE void nystroem_adaptive(const int n, const int compensated, const problem *p, const nystroem_rows *t,
+                              double tolerance, watch *w, outcome *o)
+{
+    nystroem_state z;
+    scaled s;
+    long double time = 0, end = p->end;
+    nystroem_begin_state(n, o, &z);
+    p->acceleration(z.q, z.k);
+    o->evaluations = 1;
+    double before = 1, power = t->order - 1;
+    double h = 0.1*sqrt(norm(n, z.q)/(1e-300 + norm(n, z.k)))*pow(tolerance*1e6, 1/power);
+    if (!(h < p->end/10)) h = p->end/10;
+    for (long tries = 0; time < end; ++tries) {
+        if (tries > 1000000 || !(h > 1e-12*p->end)) { o->failed = 1; return; }
+        if (time + h >= end) h = (double)(end - time);
+        scale(t, h, &s);
+        stages(n, p, t, &s, &z);
+        if (t->reuse) {
+            double hb[STAGES];
+            for (int j = 0; j < STAGES; ++j) hb[j] = h*h*t->b.a[j];
+            combine(n, z.q, h, z.v, hb, t->b.lo, t->b.hi, z.k, z.x);
+            p->acceleration(z.x, z.k + t->stages*n);
+        }
+        o->evaluations += t->stages - 1 + t->reuse;
+        double err = nystroem_error(n, t, h, &z), factor = control(err, &before, tolerance, (int)power);
+        if (!(err <= tolerance)) { h *= factor < 0.9 ? factor : 0.9; continue; }
+        advance(n, compensated, t, h, 0, &z);
+        time += h;
+        h *= factor;
+        ++o->steps;
+        if (watch_due(w)) watch_look(w, z.q, z.v);
+        if (t->reuse) copy(n, z.k + t->stages*n, z.k);
+        else { p->acceleration(z.q, z.k); ++o->evaluations; }
+    }
+    copy(n, z.q, o->q);
+    copy(n, z.v, o->v);
+}
+
+static void run_nystroem(const problem *p, const baseline *m, double parameter, watch *w, outcome *o)
+{
+    const nystroem_rows *t = nystroems + m->option;
+    begin(p, o);
+#define CALL(n) if (m->adaptive && m->compensated) nystroem_adaptive(n, 1, p, t, parameter, w, o);     \
+                else if (m->adaptive) nystroem_adaptive(n, 0, p, t, parameter, w, o);                  \
+                else if (m->compensated) nystroem_fixed(n, 1, p, t, (long)parameter, w, o);            \
+                else nystroem_fixed(n, 0, p, t, (long)parameter, w, o)
+    BY_SIZE(p->n, CALL);
+#undef CALL
+}
+
+/* ------------------------------------------ Gauss, one point after another */
+
+/* Collocation in the Nystroem form, as in Hairer's gni_irk2: fixed point, start extrapolated from
+   the forces of the last step, compensated sums.  One point a call.                           */
+enum { GAUSS_STAGES = 8 };
+typedef struct gauss_rows {
+    nystroem_rows second;                                   /* A^2, for q'' = a(q)            */
+    double A[GAUSS_STAGES][GAUSS_STAGES], b[GAUSS_STAGES], E[GAUSS_STAGES][GAUSS_STAGES];
+} gauss_rows;
+static gauss_rows gausses[GAUSS_STAGES + 1];
+
+/* P_0..P_m at u                                                                               */
+static void legendre(int m, long double u, long double *P)
+{
+    P[0] = 1;
+    P[1] = u;
+    for (int k = 1; k < m; ++k) P[k+1] = ((2*k + 1)*u*P[k] - k*P[k-1])/(k + 1);
+}
+
+static void gauss_nodes(int s, long double *c, long double *b)
+{
+    long double P[GAUSS_STAGES + 2];
+    for (int i = 0; i < s; ++i) {
+        long double u = cosl(3.14159265358979323846L*(i + 0.75L)/(s + 0.5L)), slope = 1;
+        for (int k = 0; k < 8; ++k) {
+            legendre(s, u, P);
+            slope = s*(P[s-1] - u*P[s])/(1 - u*u);
+            u -= P[s]/slope;
+        }
+        c[i] = (1 - u)/2;
+        b[i] = 1/((1 - u*u)*slope*slope);
+    }
+}
+
+/* a_ij = b_j sum_k (2k+1) Phi_k(c_i) P_k(1 - 2 c_j), Phi_k = integral of P_k(1 - 2x), 0 to c.
+   E: the polynomial through the forces of the last step, at the nodes of this one.            */
+static void gauss_begin(gauss_rows *t, int s)
+{
+    long double c[GAUSS_STAGES], b[GAUSS_STAGES], A[GAUSS_STAGES][GAUSS_STAGES], P[GAUSS_STAGES + 2],
+                at[GAUSS_STAGES][GAUSS_STAGES + 2], row2[GAUSS_STAGES], bq[GAUSS_STAGES];
+    gauss_nodes(s, c, b);
+    for (int i = 0; i < s; ++i) legendre(s + 1, 1 - 2*c[i], at[i]);
+    for (int i = 0; i < s; ++i)
+        for (int j = 0; j < s; ++j) {
+            A[i][j] = c[i];
+            for (int k = 1; k < s; ++k) A[i][j] += (at[i][k-1] - at[i][k+1])/2*at[j][k];
+            A[i][j] *= b[j];
+            t->A[i][j] = (double)A[i][j];
+            t->b[j] = (double)b[j];
+            P[0] = 1;
+            for (int k = 0; k < s; ++k) if (k != j) P[0] *= (1 + c[i] - c[k])/(c[j] - c[k]);
+            t->E[i][j] = (double)P[0];
+        }
+    t->second.stages = s;
+    t->second.order = 2*s;
+    for (int i = 0; i < s; ++i) {
+        for (int j = 0; j < s; ++j) {
+            row2[j] = 0;
+            for (int k = 0; k < s; ++k) row2[j] += A[i][k]*A[k][j];
+        }
+        make_row(t->second.A + i, s, row2);
+        t->second.c[i] = (double)c[i];
+        bq[i] = b[i]*(1 - c[i]);
+    }
+    make_row(&t->second.b, s, bq);
+    make_row(&t->second.w, s, b);
+    make_rest(&t->second.b_rest, s, bq);
+    make_rest(&t->second.w_rest, s, b);
+}
+
+/* Done when the points change by less than stop |q|, or no longer less than before.           */
+INLINE int settled(double change, double before, double stop, double scale, int round)
+{
+    if (change <= stop*stop*scale) return 1;
+    return round > 2 && change >= before && change <= 1e-24*scale;
+}
+
+INLINE void gauss_second(const int n, const problem *p, const gauss_rows *t, double stop,
+                         long steps, watch *w, outcome *o)
+{
+    nystroem_state z;
+    scaled s;
+    const int m = t->second.stages;
+    double h = p->end/(double)steps, h_rest = (double)((long double)p->end/steps - h);
+    double x[GAUSS_STAGES*MOST_COORDINATES], d[MOST_COORDINATES], old[GAUSS_STAGES*MOST_COORDINATES];
+    nystroem_begin_state(n, o, &z);
+    scale(&t->second, h, &s);
+    p->acceleration(z.q, z.k);
+    for (int i = 1; i < m; ++i) copy(n, z.k, z.k + i*n);
+    for (long k = 0; k < steps; ++k) {
+        double before = HUGE_VAL, size = square(n, z.q);
+        int round = 1;
+        if (k > 0) {
+            copy(m*n, z.k, old);
+            for (int i = 0; i < m; ++i) sum(n, t->E[i], 1, m, old, z.k + i*n);
+        }
+        for (;; ++round) {
+            double change = 0;
+            for (int i = 0; i < m; ++i) {
+                combine(n, z.q, s.c[i], z.v, s.A[i].a, 1, m, z.k, z.x);
+                if (round > 1) {
+#define OP(L) AT(L, d) = OF(L, z.x) - OF(L, x + i*n)
+                    LANES(n, OP);
+#undef OP
+                    change += square(n, d);
+                }
+                copy(n, z.x, x + i*n);
+            }
+            if (round > 1 && settled(change, before, stop, size, round)) break;
+            if (round > 60 || !(change <= 1e6*size)) { o->failed = 1; return; }
+            if (round > 1) before = change;
+            for (int i = 0; i < m; ++i) p->acceleration(x + i*n, z.k + i*n);
+        }
+        o->iterations += round - 1;
+        advance(n, 1, &t->second, h, h_rest, &z);
+        if (watch_due(w)) watch_look(w, z.q, z.v);
+    }
+    copy(n, z.q, o->q);
+    copy(n, z.v, o->v);
+    o->steps = steps;
+    o->evaluations = o->iterations*m;
+}
+
+/* The same for y' = f(y), y = (q, p).                                                         */
+static void gauss_first(const problem *p, const gauss_rows *t, double stop, long steps, watch *w, outcome *o)
+{
+    enum { n = 4 };
+    const int m = t->second.stages;
+    double y[n], rest[n] = { 0 }, x[GAUSS_STAGES*n], k[GAUSS_STAGES*n], old[GAUSS_STAGES*n], next[n], d[n];
+    double h = p->end/(double)steps, hA[GAUSS_STAGES][GAUSS_STAGES], zeros[n] = { 0 };
+    for (int i = 0; i < m; ++i)
+        for (int j = 0; j < m; ++j) hA[i][j] = h*t->A[i][j];
+    memcpy(y, o->q, 2*sizeof *y);
+    memcpy(y + 2, o->v, 2*sizeof *y);
+    p->slope(y, k);
+    for (int i = 1; i < m; ++i) copy(n, k, k + i*n);
+    for (long step = 0; step < steps; ++step) {
+        double before = HUGE_VAL, size = square(n, y);
+        int round = 1;
+        if (step > 0) {
+            copy(GAUSS_STAGES*n, k, old);
+            for (int i = 0; i < m; ++i) sum(n, t->E[i], 1, m, old, k + i*n);
+        }
+        for (;; ++round) {
+            double change = 0;
+            for (int i = 0; i < m; ++i) {
+                combine(n, y, 0, zeros, hA[i], 1, m, k, next);
+                if (round > 1) *(lane4 *)d = *(lane4 *)next - *(lane4 *)(x + i*n), change += square(n, d);
+                copy(n, next, x + i*n);
+            }
+            if (round > 1 && settled(change, before, stop, size, round)) break;
+            if (round > 60 || !(change <= 1e6*size)) { o->failed = 1; return; }
+            if (round > 1) before = change;
+            for (int i = 0; i < m; ++i) p->slope(x + i*n, k + i*n);
+        }
+        o->iterations += round - 1;
+        sum(n, t->b, 1, m, k, d);
+        add_compensated(n, h, d, y, rest);
+        if (watch_due(w)) watch_look(w, y, y + 2);
+    }
+    memcpy(o->q, y, 2*sizeof *y);
+    memcpy(o->v, y + 2, 2*sizeof *y);
+    o->steps = steps;
+    o->evaluations = o->iterations*m;
+}
+
+static void run_gauss(const problem *p, const baseline *m, double parameter, watch *w, outcome *o)
+{
+    const gauss_rows *t = gausses + m->option;
+    begin(p, o);
+    if (p->slope) {
+        gauss_first(p, t, m->stop, (long)parameter, w, o);
+        return;
+    }
+#define CALL(n) gauss_second(n, p, t, m->stop, (long)parameter, w, o)
+    BY_SIZE(p->n, CALL);
+#undef CALL
+}
+
+/* ------------------------------------------- Runge-Kutta for y' = f(y) */
+
+enum { CLASSICAL, DOP853, RUNGE_KUTTAS };
+typedef struct runge_kutta_rows { int stages, order; row A[12], b, e, f; } runge_kutta_rows;
+static runge_kutta_rows runge_kuttas[RUNGE_KUTTAS];
+
+static void runge_kutta_begin(runge_kutta_rows *t, const runge_kutta *s)
+{
+    long double f[12];
+    t->stages = s->stages;
+    t->order = s->order;
+    for (int i = 0; i < s->stages; ++i) {
+        make_row(t->A + i, i, s->A[i]);
+        f[i] = s->b[i] - s->third[i];
+    }
+    make_row(&t->b, s->stages, s->b);
+    make_row(&t->e, s->stages, s->e);
+    make_row(&t->f, s->stages, f);
+}
+
+INLINE void runge_kutta_stages(const int n, const problem *p, const runge_kutta_rows *t, const row *hA,
+                               const double *y, double *k)
+{
+    double x[MOST_COORDINATES];
+    for (int i = 1; i < t->stages; ++i) {
+        combine(n, y, 0, y, hA[i].a, hA[i].lo, hA[i].hi, k, x);
+        p->slope(x, k + i*n);
+    }
+}
+
+INLINE void runge_kutta_end(const double *y, outcome *o)
+{
+    memcpy(o->q, y, 2*sizeof *y);
+    memcpy(o->v, y + 2, 2*sizeof *y);
+}
+
+static void runge_kutta_fixed(const problem *p, const runge_kutta_rows *t, int compensated, long steps,
+                              watch *w, outcome *o)
+{
+    enum { n = 4 };
+    double y[n], rest[n] = { 0 }, k[12*n], d[n], h = p->end/(double)steps;
+    row hA[12];
+    memcpy(y, o->q, 2*sizeof *y);
+    memcpy(y + 2, o->v, 2*sizeof *y);
+    for (int i = 0; i < t->stages; ++i) scale_row(t->A + i, h, hA + i);
+    for (long step = 0; step < steps; ++step) {
+        p->slope(y, k);
+        runge_kutta_stages(n, p, t, hA, y, k);
+        sum(n, t->b.a, t->b.lo, t->b.hi, k, d);
+        if (compensated) add_compensated(n, h, d, y, rest);
+        else add(n, h, d, y);
+        if (watch_due(w)) watch_look(w, y, y + 2);
+    }
+    runge_kutta_end(y, o);
+    o->steps = steps;
+    o->evaluations = steps*t->stages;
+}
+
+/* As in DOP853: the estimate of order 5, damped where that of order 3 is larger.              */
+static void runge_kutta_adaptive(const problem *p, const runge_kutta_rows *t, int compensated,
+                                 double tolerance, watch *w, outcome *o)
+{
+    enum { n = 4 };
+    double y[n], rest[n] = { 0 }, k[12*n], d[n], e[n], f[n], before = 1, h = 0.01*p->end;
+    long double time = 0, end = p->end;
+    row hA[12];
+    memcpy(y, o->q, 2*sizeof *y);
+    memcpy(y + 2, o->v, 2*sizeof *y);
+    p->slope(y, k);
+    for (long tries = 0; time < end; ++tries) {
+        if (tries > 1000000 || !(h > 1e-12*p->end)) { o->failed = 1; return; }
+        if (time + h >= end) h = (double)(end - time);
+        for (int i = 0; i < t->stages; ++i) scale_row(t->A + i, h, hA + i);
+        runge_kutta_stages(n, p, t, hA, y, k);
+        o->evaluations += t->stages;
+        sum(n, t->b.a, t->b.lo, t->b.hi, k, d);
+        sum(n, t->e.a, t->e.lo, t->e.hi, k, e);
+        sum(n, t->f.a, t->f.lo, t->f.hi, k, f);
+        double e2 = square(n, e), f2 = square(n, f), err = h*e2/(1e-300 + sqrt(e2 + 0.01*f2)*norm(n, y));
+        double factor = control(err, &before, tolerance, 8);
+        if (!(err <= tolerance)) { h *= factor < 0.9 ? factor : 0.9; continue; }
+        if (compensated) add_compensated(n, h, d, y, rest);
+        else add(n, h, d, y);
+        time += h;
+        h *= factor;
+        ++o->steps;
+        p->slope(y, k);
+        if (watch_due(w)) watch_look(w, y, y + 2);
+    }
+    runge_kutta_end(y, o);
+}
+
+static void run_runge_kutta(const problem *p, const baseline *m, double parameter, watch *w, outcome *o)
+{
+    const runge_kutta_rows *t = runge_kuttas + m->option;
+    begin(p, o);
+    if (m->adaptive) runge_kutta_adaptive(p, t, m->compensated, parameter, w, o);
+    else runge_kutta_fixed(p, t, m->compensated, (long)parameter, w, o);
+}
+
+/* RK4 for q'' = a(q), as q' = v, v' = a: k of q is v of the stage.                            */
+INLINE void rk4_loop(const int n, const problem *p, long steps, watch *w, outcome *o)
+{
+    double q[MOST_COORDINATES], v[MOST_COORDINATES], x[MOST_COORDINATES], k[4*MOST_COORDINATES];
+    double h = p->end/(double)steps;
+    copy(n, o->q, q);
+    copy(n, o->v, v);
+    for (long step = 0; step < steps; ++step) {
+        double *k1 = k, *k2 = k + n, *k3 = k2 + n, *k4 = k3 + n;
+        p->acceleration(q, k1);
+#define OP(L) AT(L, x) = OF(L, q) + h/2*OF(L, v)
+        LANES(n, OP);
+#undef OP
+        p->acceleration(x, k2);
+#define OP(L) AT(L, x) = OF(L, q) + h/2*OF(L, v) + h*h/4*OF(L, k1)
+        LANES(n, OP);
+#undef OP
+        p->acceleration(x, k3);
+#define OP(L) AT(L, x) = OF(L, q) + h*OF(L, v) + h*h/2*OF(L, k2)
+        LANES(n, OP);
+#undef OP
+        p->acceleration(x, k4);
+#define OP(L) AT(L, q) += h*OF(L, v) + h*h/6*(OF(L, k1) + OF(L, k2) + OF(L, k3));  \
+              AT(L, v) += h/6*(OF(L, k1) + 2*OF(L, k2) + 2*OF(L, k3) + OF(L, k4))
+        LANES(n, OP);
+#undef OP
+        if (watch_due(w)) watch_look(w, q, v);
+    }
+    copy(n, q, o->q);
+    copy(n, v, o->v);
+    o->steps = steps;
+    o->evaluations = 4*steps;
+}
+
+static void run_rk4(const problem *p, const baseline *m, double parameter, watch *w, outcome *o)
+{
+    (void)m;
+    begin(p, o);
+#define CALL(n) rk4_loop(n, p, (long)parameter, w, o)
+    BY_SIZE(p->n, CALL);
+#undef CALL
+}
+
+/* ------------------------------- extrapolation (Gragg, Bulirsch, Stoer) */
+
+/* Modified midpoint with 2, 4, 6, ... steps, extrapolated in h^2 to `columns` columns: order
+   2 columns.  The step follows the difference of the last two columns [Hairer, Noersett, Wanner:
+   Solving ordinary differential equations I, II.9].                                           */
+enum { COLUMNS = 10 };
+
+INLINE void midpoint(const int n, const problem *p, const double *y, const double *slope, double h, int m,
+                     double *z)
+{
+    double a[MOST_COORDINATES], b[MOST_COORDINATES], k[MOST_COORDINATES];
+    copy(n, y, a);
+    copy(n, y, b);
+    add(n, h, slope, b);
+    for (int i = 1; i < m; i += 2) {
+        p->slope(b, k);
+        add(n, 2*h, k, a);
+        if (i + 1 == m) break;
+        p->slope(a, k);
+        add(n, 2*h, k, b);
+    }
+    copy(n, a, z);
+}
+
+static void run_extrapolation(const problem *p, const baseline *m, double tolerance, watch *w, outcome *o)
+{
+    enum { n = 4 };
+    const int columns = m->option;
+    double y[n], slope[n], T[COLUMNS][n], d[n], before = 1, h = 0.02*p->end;
+    long double time = 0, end = p->end;
+    begin(p, o);
+    memcpy(y, o->q, 2*sizeof *y);
+    memcpy(y + 2, o->v, 2*sizeof *y);
+    p->slope(y, slope);
+    for (long tries = 0; time < end; ++tries) {
+        if (tries > 1000000 || !(h > 1e-12*p->end)) { o->failed = 1; return; }
+        if (time + h >= end) h = (double)(end - time);
+        double last[n] = { 0 };
+        for (int j = 0; j < columns; ++j) {
+            int count = 2*(j + 1);
+            midpoint(n, p, y, slope, h/count, count, T[j]);
+            o->evaluations += count - 1;
+            copy(n, T[0], last);
+            for (int i = j - 1; i >= 0; --i) {
+                double r = (double)count/(2*(i + 1)), g = 1/(r*r - 1);
+#define OP(L) AT(L, T[i]) = OF(L, T[i+1]) + g*(OF(L, T[i+1]) - OF(L, T[i]))
+                LANES(n, OP);
+#undef OP
+            }
+        }
+#define OP(L) AT(L, d) = OF(L, T[0]) - OF(L, last)
+        LANES(n, OP);
+#undef OP
+        double err = norm(n, d)/(1e-300 + norm(n, y));
+        double factor = control(err, &before, tolerance, 2*columns - 1);
+        if (!(err <= tolerance)) { h *= factor < 0.9 ? factor : 0.9; continue; }
+        copy(n, T[0], y);
+        time += h;
+        h *= factor;
+        ++o->steps;
+        p->slope(y, slope);
+        ++o->evaluations;
+        if (watch_due(w)) watch_look(w, y, y + 2);
+    }
+    runge_kutta_end(y, o);
+}
+
+/* ------------------------------------------------------------- the list */
+
+/* Of the Gauss methods gni_irk2 has 4 and 6 stages (and 2), with a stop that the caller may loosen;
+   8 is there to show what gvi.h gains by asking for all points at once.                       */
+#define SPLIT(label, kind, of, work)                                                                     \
+    { .name = label, .family = kind, .structure = 1, .cost = work, .run = run_splitting, .option = of }, \
+    { .name = label " c", .family = kind, .structure = 1, .cost = work, .run = run_splitting, .option = of, \
+      .compensated = 1 }
+#define PAIR(label, of, work)                                                                            \
+    { .name = label " fixed", .family = label, .cost = work, .run = run_nystroem, .option = of },        \
+    { .name = label " fixed c", .family = label, .cost = work, .run = run_nystroem, .option = of,        \
+      .compensated = 1 },                                                                                \
+    { .name = label, .family = label, .adaptive = 1, .cost = work, .run = run_nystroem, .option = of },  \
+    { .name = label " c", .family = label, .adaptive = 1, .cost = work, .run = run_nystroem, .option = of, \
+      .compensated = 1 }
+#define GAUSS(stages, label, first, end) {                                                               \
+      .name = "Gauss " #stages label, .family = "Gauss, one point a call", .structure = 1,               \
+      .reference = stages > 6, .first_order = first, .cost = 4*stages, .run = run_gauss,                 \
+      .option = stages, .stop = end }
+#define GAUSSES(stages, first)                                                                           \
+    GAUSS(stages, "", first, 1e-18), GAUSS(stages, " 1e-16", first, 1e-16),                              \
+    GAUSS(stages, " 1e-12", first, 1e-12), GAUSS(stages, " 1e-9", first, 1e-9)
+#define EXTRAPOLATE(columns)                                                                             \
+    { .name = "GBS order " #columns " x 2", .family = "GBS extrapolation", .adaptive = 1, .first_order = 1, \
+      .run = run_extrapolation, .option = columns }
+
+const baseline baselines[] = {
+    { .name = "Stoermer-Verlet", .family = "Stoermer-Verlet", .structure = 1, .cost = 1, .run = run_splitting,
+      .option = VERLET },
+    { .name = "RK4", .family = "RK4", .cost = 4, .run = run_rk4 },
+    SPLIT("Yoshida 8", "compositions 8, 10", YOSHIDA8, 15),
+    SPLIT("Kahan-Li 8", "compositions 8, 10", KAHAN_LI8, 17),
+    SPLIT("Sofroniou-Spaletta 10", "compositions 8, 10", SOFRONIOU10, 35),
+    SPLIT("Blanes-Moan SRKN11", "Blanes-Moan SRKN", BLANES_MOAN11, 11),
+    { .name = "Blanes-Moan SRKN14", .family = "Blanes-Moan SRKN", .structure = 1, .cost = 14,
+      .run = run_splitting, .option = BLANES_MOAN14 },
+    PAIR("RKN8(6)", RKN86, 8),
+    PAIR("RKN12(10)", RKN1210, 17),
+    GAUSSES(4, 0), GAUSSES(6, 0), GAUSSES(8, 0),
+    { .name = "RK4", .family = "RK4", .first_order = 1, .cost = 4, .run = run_runge_kutta,
+      .option = CLASSICAL },
+    { .name = "DOP853 fixed", .family = "DOP853", .first_order = 1, .cost = 12, .run = run_runge_kutta,
+      .option = DOP853 },
+    { .name = "DOP853 fixed c", .family = "DOP853", .first_order = 1, .cost = 12, .run = run_runge_kutta,
+      .option = DOP853, .compensated = 1 },
+    { .name = "DOP853", .family = "DOP853", .first_order = 1, .adaptive = 1, .run = run_runge_kutta,
+      .option = DOP853 },
+    { .name = "DOP853 c", .family = "DOP853", .first_order = 1, .adaptive = 1, .run = run_runge_kutta,
+      .option = DOP853, .compensated = 1 },
+    EXTRAPOLATE(4), EXTRAPOLATE(5), EXTRAPOLATE(6), EXTRAPOLATE(7), EXTRAPOLATE(8), EXTRAPOLATE(9),
+    GAUSSES(4, 1), GAUSSES(6, 1), GAUSSES(8, 1),
+};
+const int baseline_count = COUNT(baselines);
+
+const baseline *baseline_named(const char *name)
+{
+    for (int i = 0; i < baseline_count; ++i)
+        if (!strcmp(baselines[i].name, name)) return baselines + i;
+    return NULL;
+}
+
+void baselines_begin(void)
+{
+    splittings_begin();
+    nystroem_begin(nystroems + RKN86, &rkn86_table);
+    nystroem_begin(nystroems + RKN1210, &rkn1210_table);
+    for (int s = 2; s <= GAUSS_STAGES; ++s) gauss_begin(gausses + s, s);
+    runge_kutta_begin(runge_kuttas + CLASSICAL, &classical_table);
+    runge_kutta_begin(runge_kuttas + DOP853, &dop853_table);
+}

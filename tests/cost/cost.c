@@ -1,0 +1,506 @@
+/* cost.c - what accuracy costs: gvi.h and its rivals on the problems of problems.c
+
+     cost [--quick] [--problem P4] [--only gvi|peers] [--out DIR]     the study
+     cost --horizon [--out DIR]       P4 at 1, 10 and 100 times its length
+     cost --list                      methods and settings
+
+   Time: the smallest CPU time of at least five runs, from the first line of set-up to the last
+   step.  Error: max |q_i - reference| at the end.  Time to an error: where the curve of one
+   method and setting, over its steps or tolerances, first falls to it, by logarithms between
+   two points, if the next finer point confirms it (at most twice the error).  Energy: largest
+   |E - E0|/|E0| at about 400 times, in a run of its own that is not timed.
+   Written: DIR/P1.csv and P1.svg and so on; the tables and the summary to stdout.             */
+#define _POSIX_C_SOURCE 200809L
+
+#include "baselines.h"
+#include "gvi_run.h"
+#include "plot.h"
+#include "horizon.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#define COUNT(a) ((int)(sizeof(a)/sizeof(a)[0]))
+enum { SAMPLES = 80, CURVES = 120, ERRORS = 4 };
+
+static const double wanted[ERRORS] = { 1e-4, 1e-7, 1e-10, 1e-12 };
+
+/* What is aimed at: time of the best rival divided by ours.  0: no aim.                       */
+static const struct target { const char *key; double ratio[ERRORS]; } targets[] = {
+    { "P1", { 1.5, 2.5, 2.0, 3.0 } }, { "P2",  { 1.0, 1.2, 1.5, 1.5 } }, { "P3", { 1.0, 1.5, 1.7, 2.0 } },
+    { "P4", { 1.0, 1.1, 1.2, 2.0 } }, { "P5",  { 0.8, 1.0, 1.2, 1.5 } }, { "P6", { 1.0, 1.2, 2.0, 0 } },
+    { "P6b", { 1.0, 1.0, 1.5, 1.5 } }, { "P7", { 0.9, 0.9, 0.9, 1.0 } } };
+
+typedef struct options { int quick, gvi, peers; const char *problem, *out; } options;
+
+typedef struct sample {
+    double    parameter, ms, error, energy;
+    long long steps, evaluations, iterations;
+} sample;
+
+/* One method with one setting over its parameter, coarse to fine.                             */
+typedef struct curve {
+    char        name[64];
+    const char *family;
+    int         ours, structure, reference, count;
+    sample      samples[SAMPLES];
+} curve;
+
+typedef struct study { const problem *p; int count; curve curves[CURVES]; } study;
+
+/* --------------------------------------------------------------- one run */
+
+typedef struct job {
+    const problem     *p;
+    const baseline    *rival;          /* or                                                   */
+    const gvi_setting *setting;
+    double            *memory;
+} job;
+
+static double cpu_ms(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return (double)t.tv_sec*1e3 + (double)t.tv_nsec*1e-6;
+}
+
+/* Returns the CPU time; an error that is not finite where it gave up.                         */
+static double run_once(const job *j, double parameter, watch *w, sample *s)
+{
+    static outcome o;
+    static gvi_result r;
+    double begin = cpu_ms(), time;
+    if (j->rival) j->rival->run(j->p, j->rival, parameter, w, &o);
+    else gvi_run(j->p, j->setting, (long)parameter, j->memory, w, &r);
+    time = cpu_ms() - begin;
+    s->parameter = parameter;
+    s->steps = j->rival ? o.steps : r.steps;
+    s->evaluations = j->rival ? o.evaluations : r.evaluations;
+    s->iterations = j->rival ? o.iterations : r.iterations + r.newton_iterations;
+    int failed = j->rival ? o.failed : r.status != GVI_OK;
+    s->error = failed ? HUGE_VAL : problem_error(j->p, j->rival ? o.q : r.q);
+    return time;
+}
+
+/* At least five runs, and more where they are short.                                          */
+static void measure(const job *j, int runs, sample *s)
+{
+    double total = s->ms;
+    for (int k = 1; k < runs || (total < 2 && k < 40); ++k) {
+        double ms = run_once(j, s->parameter, NULL, s);
+        total += ms;
+        if (ms < s->ms) s->ms = ms;
+    }
+    sample ignored;
+    watch w = watch_begin(j->p, (long)(s->steps/400));
+    run_once(j, s->parameter, &w, &ignored);
+    s->energy = (double)w.worst;
+}
+
+/* ----------------------------------------------------------- one curve */
+
+typedef struct sweep { double first, factor, limit, smallest; int runs; } sweep;
+
+/* From coarse to fine until it takes too long or three settings bring nothing any more.       */
+static void run_curve(const job *j, const sweep *w, curve *c)
+{
+    double best = HUGE_VAL, before = 0;
+    int vain = 0, adaptive = j->rival && j->rival->adaptive;
+    c->count = 0;
+    for (double x = w->first; c->count < SAMPLES; x *= w->factor) {
+        sample s;
+        if (adaptive ? x < w->smallest : x > 1e9) return;
+        s.ms = run_once(j, adaptive ? x : floor(x + 0.5), NULL, &s);
+        if (s.ms > w->limit && s.ms >= before) return;
+        before = s.ms;
+        if (!(s.error < 1) || s.ms > w->limit) continue;
+        measure(j, w->runs, &s);
+        c->samples[c->count++] = s;
+        vain = s.error < 0.7*best ? 0 : vain + 1;
+        if (s.error < best) best = s.error;
+        if (vain >= 4 && best < 1e-9) return;
+    }
+}
+
+/* Logarithms between two samples.                                                             */
+static double between(const sample *a, const sample *b, double error)
+{
+    double share = log(a->error/error)/log(a->error/b->error);
+    return a->ms*pow(b->ms/a->ms, share);
+}
+
+/* Time to an error, or infinity; *at: the sample that reaches it.                             */
+static double time_to(const curve *c, double error, const sample **at)
+{
+    for (int k = 0; k + 1 < c->count; ++k) {
+        const sample *s = c->samples + k;
+        if (!(s->error <= error && s[1].error <= 2*error)) continue;
+        *at = s;
+        return k > 0 && s[-1].error > error ? between(s - 1, s, error) : s->ms;
+    }
+    return HUGE_VAL;
+}
+
+/* ---------------------------------------------------------- one problem */
+
+enum { SETTINGS = 80 };
+static gvi_setting settings[SETTINGS];
+static int setting_count;
+
+static void add_setting(int degree, gvi_rule_kind rule, gvi_formulation formulation, double tolerance)
+{
+    gvi_setting s = { .degree = degree, .rule = rule, .formulation = formulation, .tolerance = tolerance };
+    if (setting_count < SETTINGS) settings[setting_count++] = s;
+}
+
+/* Degrees times tolerances in the formulation that suits the scene, without Newton's memory;
+   then what gvi.h chooses by itself; then Stoermer-Verlet.                                    */
+static void settings_for(const problem *p)
+{
+    static const int degrees[] = { 2, 3, 4, 6, 8, 10, 12, 16 };
+    static const double tolerances[] = { 0, 1e-12, 1e-9, 1e-6 };
+    gvi_formulation pinned = p->slope ? GVI_MOMENTA : GVI_POSITIONS;
+    setting_count = 0;
+    for (int i = 0; i < COUNT(degrees); ++i)
+        for (int k = 0; k < COUNT(tolerances); ++k) add_setting(degrees[i], GVI_GAUSS, pinned, tolerances[k]);
+    for (int i = 2; i < COUNT(degrees) - 1; ++i) add_setting(degrees[i], GVI_GAUSS, GVI_AUTO, 0);
+    if (!p->slope) add_setting(1, GVI_LOBATTO, GVI_EXPLICIT, 0);
+}
+
+static curve *new_curve(study *y, const char *family, int ours, int structure)
+{
+    curve *c = y->curves + y->count;
+    memset(c, 0, sizeof *c);
+    c->family = family;
+    c->ours = ours;
+    c->structure = structure;
+    return c;
+}
+
+static void keep_curve(study *y, const curve *c)
+{
+    fprintf(stderr, "  %-4s %-40s %2d points, smallest error %.1e\n", y->p->key, c->name, c->count,
+            c->count ? c->samples[c->count-1].error : HUGE_VAL);
+    if (c->count > 0 && y->count < CURVES - 1) ++y->count;
+}
+
+static sweep steps_from(double first, double limit, const options *o)
+{
+    sweep w = { first, o->quick ? 1.35 : 1.15, limit, 0, o->quick ? 3 : 5 };
+    return w;
+}
+
+static void study_gvi(study *y, const options *o, double length)
+{
+    for (int i = 0; i < setting_count; ++i) {
+        const gvi_setting *g = settings + i;
+        double work = g->degree > 1 ? 6*g->degree : 1;
+        sweep w = steps_from(y->p->evaluations*length/work, y->p->limit*length, o);
+        job j = { y->p, NULL, g, malloc(sizeof(double)*(size_t)gvi_run_memory(y->p, g)) };
+        curve *c = new_curve(y, "gvi.h", 1, 1);
+        gvi_setting_name(g, sizeof c->name, c->name);
+        if (j.memory) run_curve(&j, &w, c);
+        free(j.memory);
+        keep_curve(y, c);
+    }
+}
+
+static int fits(const baseline *b, const problem *p) { return b->first_order == (p->slope != NULL); }
+
+static void study_rival(study *y, const options *o, const baseline *b, double length)
+{
+    sweep w = steps_from(y->p->evaluations*length/b->cost, y->p->limit*length, o);
+    if (b->adaptive) {
+        w.first = 1e-2;
+        w.factor = o->quick ? 0.2 : 0.5;
+        w.smallest = 2e-16;
+    }
+    job j = { y->p, b, NULL, NULL };
+    curve *c = new_curve(y, b->family, 0, b->structure);
+    c->reference = b->reference;
+    snprintf(c->name, sizeof c->name, "%s", b->name);
+    run_curve(&j, &w, c);
+    keep_curve(y, c);
+}
+
+static void study_problem(study *y, const options *o)
+{
+    settings_for(y->p);
+    if (o->gvi) study_gvi(y, o, 1);
+    for (int i = 0; o->peers && i < baseline_count; ++i)
+        if (fits(baselines + i, y->p)) study_rival(y, o, baselines + i, 1);
+}
+
+/* ----------------------------------------------------------------- output */
+
+static FILE *create(const options *o, const char *key, const char *ending)
+{
+    char path[512];
+    snprintf(path, sizeof path, "%s/%s%s", o->out, key, ending);
+    FILE *f = fopen(path, "w");
+    if (!f) perror(path);
+    return f;
+}
+
+static void write_csv(const study *y, const options *o)
+{
+    FILE *f = create(o, y->p->key, ".csv");
+    if (!f) return;
+    fprintf(f, "family,method,parameter,steps,cpu_ms,error,energy_error,evaluations,iterations\n");
+    for (int i = 0; i < y->count; ++i)
+        for (int k = 0; k < y->curves[i].count; ++k) {
+            const curve *c = y->curves + i;
+            const sample *s = c->samples + k;
+            fprintf(f, "\"%s\",\"%s\",%.6g,%lld,%.6f,%.4e,%.4e,%lld,%lld\n", c->family, c->name, s->parameter,
+                    s->steps, s->ms, s->error, s->energy, s->evaluations, s->iterations);
+        }
+    fclose(f);
+}
+
+static void print_ms(double ms)
+{
+    if (isfinite(ms)) printf(" %9.4f", ms);
+    else printf(" %9s", "-");
+}
+
+static void print_table(const study *y)
+{
+    printf("\n%s  %s: CPU ms to an error\n  %-22s %-30s", y->p->key, y->p->title, "", "");
+    for (int e = 0; e < ERRORS; ++e) printf(" %9.0e", wanted[e]);
+    printf("  best error\n");
+    for (int i = 0; i < y->count; ++i) {
+        const curve *c = y->curves + i;
+        const sample *at;
+        double best = HUGE_VAL;
+        for (int k = 0; k < c->count; ++k) if (c->samples[k].error < best) best = c->samples[k].error;
+        printf("  %-22s %-30s", c->family, c->name);
+        for (int e = 0; e < ERRORS; ++e) print_ms(time_to(c, wanted[e], &at));
+        printf("  %.0e\n", best);
+    }
+}
+
+/* What no point of the family betters both in time and in y.                                  */
+typedef struct envelope { double x[SAMPLES*4], y[SAMPLES*4]; int count; } envelope;
+
+static int by_time(const void *a, const void *b)
+{
+    double x = (*(const sample *const *)a)->ms, y = (*(const sample *const *)b)->ms;
+    return (x > y) - (x < y);
+}
+
+static void make_envelope(const study *y, const char *family, int of_energy, envelope *v)
+{
+    static const sample *all[CURVES*SAMPLES];
+    int n = 0;
+    double best = HUGE_VAL;
+    for (int i = 0; i < y->count; ++i)
+        for (int k = 0; !strcmp(y->curves[i].family, family) && k < y->curves[i].count; ++k)
+            all[n++] = y->curves[i].samples + k;
+    qsort(all, (size_t)n, sizeof *all, by_time);
+    v->count = 0;
+    for (int k = 0; k < n; ++k) {
+        double z = of_energy ? all[k]->energy : all[k]->error;
+        if (!(z < 0.8*best) || !(z > 0) || v->count == COUNT(v->x)) continue;
+        best = z;
+        v->x[v->count] = all[k]->ms;
+        v->y[v->count++] = z;
+    }
+}
+
+static void write_picture(const study *y, const options *o)
+{
+    static envelope envelopes[2][12];
+    plot_line lines[2][12];
+    int count = 0;
+    for (int i = 0; i < y->count && count < 12; ++i) {
+        int known = 0;
+        for (int k = 0; k < count; ++k) known |= !strcmp(lines[0][k].name, y->curves[i].family);
+        if (known) continue;
+        for (int e = 0; e < 2; ++e) {
+            envelope *v = &envelopes[e][count];
+            make_envelope(y, y->curves[i].family, e, v);
+            plot_line line = { y->curves[i].family, y->curves[i].ours, v->count, v->x, v->y };
+            lines[e][count] = line;
+        }
+        ++count;
+    }
+    char path[512];
+    snprintf(path, sizeof path, "%s/%s.svg", o->out, y->p->key);
+    plot_panel panels[2] = {
+        { y->p->title, "CPU time, ms", "error of q at the end", 0, lines[0], count },
+        { "", "CPU time, ms", "largest relative error of the energy", 0, lines[1], count } };
+    if (plot_write(path, panels, 2)) perror(path);
+}
+
+/* ---------------------------------------------------------------- summary */
+
+typedef struct winner { double ms; const curve *c; const sample *s; } winner;
+
+/* The fastest of ours or theirs; of all that preserve structure; or of those that exist.      */
+static winner fastest(const study *y, int ours, int structure, double error)
+{
+    winner w = { HUGE_VAL, NULL, NULL };
+    for (int i = 0; i < y->count; ++i) {
+        const curve *c = y->curves + i;
+        const sample *s;
+        if (c->ours != ours || (structure ? !c->structure : c->reference)) continue;
+        double ms = time_to(c, error, &s);
+        if (ms < w.ms) w.ms = ms, w.c = c, w.s = s;
+    }
+    return w;
+}
+
+static double target_of(const char *key, int e)
+{
+    for (int i = 0; i < COUNT(targets); ++i)
+        if (!strcmp(targets[i].key, key)) return targets[i].ratio[e];
+    return 0;
+}
+
+typedef struct score { int cells, met, structure_cells, structure_met; } score;
+
+static void summary_head(void)
+{
+    puts("\nSUMMARY: CPU ms to an error of q; ratio = best rival / gvi.h; kept = the same against the best\n"
+         "rival that preserves structure; ev, it = evaluations and iterations a step\n");
+    printf("%-4s %6s  %-22s %9s  %-26s %9s %6s %6s %5s  %6s %6s %4s  %-22s %6s\n", "", "error", "best rival",
+           "ms", "gvi.h", "ms", "steps", "ev", "it", "ratio", "aim", "", "best that preserves", "kept");
+}
+
+static void summary_row(const study *y, int e, score *total)
+{
+    winner theirs = fastest(y, 0, 0, wanted[e]), kept = fastest(y, 0, 1, wanted[e]);
+    winner ours = fastest(y, 1, 0, wanted[e]);
+    double aim = target_of(y->p->key, e), ratio = theirs.ms/ours.ms, k = kept.ms/ours.ms;
+    printf("%-4s %6.0e  %-22s", y->p->key, wanted[e], theirs.c ? theirs.c->name : "-");
+    print_ms(theirs.ms);
+    printf("  %-26s", ours.c ? ours.c->name : "-");
+    print_ms(ours.ms);
+    if (ours.s)
+        printf(" %6lld %6.1f %5.2f", ours.s->steps, (double)ours.s->evaluations/(double)ours.s->steps,
+               (double)ours.s->iterations/(double)ours.s->steps);
+    else printf(" %6s %6s %5s", "-", "-", "-");
+    int known = ours.c && theirs.c, met = ours.c && (!theirs.c || ratio >= aim);
+    if (known) printf("  %6.2f", ratio);
+    else printf("  %6s", "-");
+    if (aim > 0) printf(" %6.1f %4s", aim, met ? "met" : "");
+    else printf(" %6s %4s", "-", "");
+    printf("  %-22s", kept.c ? kept.c->name : "-");
+    if (ours.c && kept.c) printf(" %6.2f\n", k);
+    else printf(" %6s\n", "-");
+    total->cells += aim > 0;
+    total->met += aim > 0 && met;
+    if (e > 0 && strcmp(y->p->key, "P7") && ours.c) {
+        ++total->structure_cells;
+        total->structure_met += !kept.c || k >= 2;
+    }
+}
+
+static void summarise(const study *studies, int count)
+{
+    score total = { 0, 0, 0, 0 };
+    summary_head();
+    for (int i = 0; i < count; ++i)
+        for (int e = 0; e < ERRORS; ++e) summary_row(studies + i, e, &total);
+    printf("\naims met: %d of %d\nat least twice as fast as the best rival that preserves structure, from"
+           " 1e-7 on, P7 aside: %d of %d\n", total.met, total.cells,
+           total.structure_met, total.structure_cells);
+}
+
+/* ---------------------------------------------------------------- horizon */
+
+/* P4 over longer times; the reference from tests/gen/horizon.c.                               */
+static void study_horizon(const options *o)
+{
+    static const char *const rivals[] = { "RKN12(10) fixed c", "RKN12(10) c" };
+    static study y;
+    double length[3], ms[3][3], ratio[3][3];
+    printf("P4 over longer times: CPU ms to an error of 1e-7; RKN12(10) with compensated sums\n"
+           "%8s %9s %9s %9s %9s\n", "length", "gvi.h", "fixed", "adaptive", "ratio");
+    for (int i = 0; i < COUNT(horizons); ++i) {
+        problem p = *problem_named("P4");
+        const sample *at;
+        length[i] = horizons[i].length;
+        p.end *= length[i];
+        p.reference = horizons[i].q;
+        y.p = &p;
+        y.count = setting_count = 0;
+        for (int s = 6; s <= 12; s += 2) add_setting(s, GVI_GAUSS, GVI_POSITIONS, 0);
+        for (int s = 8; s <= 12; s += 2) add_setting(s, GVI_GAUSS, GVI_POSITIONS, 1e-12);
+        p.evaluations *= 2;
+        p.limit = 2;
+        options quick = *o;
+        quick.quick = 1;
+        study_gvi(&y, &quick, length[i]);
+        ms[0][i] = fastest(&y, 1, 0, 1e-7).ms;
+        for (int r = 0; r < 2; ++r) {
+            study_rival(&y, &quick, baseline_named(rivals[r]), length[i]);
+            ms[r+1][i] = time_to(y.curves + y.count - 1, 1e-7, &at);
+        }
+        char key[32];
+        snprintf(key, sizeof key, "horizon-%d", horizons[i].length);
+        p.key = key;
+        write_csv(&y, o);
+        for (int r = 0; r < 3; ++r) ratio[r][i] = ms[r][i]/ms[0][i];
+        printf("%8.0f", length[i]);
+        for (int r = 0; r < 3; ++r) print_ms(ms[r][i]);
+        printf(" %9.2f\n", fmin(ratio[1][i], ratio[2][i]));
+    }
+    plot_line lines[] = { { "gvi.h", 1, 3, length, ratio[0] }, { rivals[0], 0, 3, length, ratio[1] },
+                          { rivals[1], 0, 3, length, ratio[2] } };
+    plot_panel panel = { "P4: time to an error of 1e-7, relative to gvi.h", "length in units of 548 years",
+                         "times the time of gvi.h", 1, lines, 3 };
+    char path[512];
+    snprintf(path, sizeof path, "%s/horizon.svg", o->out);
+    if (plot_write(path, &panel, 1)) perror(path);
+}
+
+/* ------------------------------------------------------------------- main */
+
+static void list(void)
+{
+    for (int i = 0; i < baseline_count; ++i)
+        printf("%-26s %-24s %s\n", baselines[i].name, baselines[i].family,
+               baselines[i].first_order ? "y' = f(y)" : "q'' = a(q)");
+}
+
+static int usage(void)
+{
+    fputs("cost [--quick] [--problem KEY] [--only gvi|peers] [--out DIR] | --horizon | --list\n", stderr);
+    return 2;
+}
+
+int main(int argc, char **argv)
+{
+    static study studies[16];
+    options o = { 0, 1, 1, NULL, "." };
+    int horizon = 0;
+    baselines_begin();
+    for (int i = 1; i < argc; ++i) {
+        if (!strcmp(argv[i], "--quick")) o.quick = 1;
+        else if (!strcmp(argv[i], "--horizon")) horizon = 1;
+        else if (!strcmp(argv[i], "--list")) return list(), 0;
+        else if (!strcmp(argv[i], "--problem") && i + 1 < argc) o.problem = argv[++i];
+        else if (!strcmp(argv[i], "--out") && i + 1 < argc) o.out = argv[++i];
+        else if (!strcmp(argv[i], "--only") && i + 1 < argc) {
+            o.gvi = !strcmp(argv[++i], "gvi");
+            o.peers = !o.gvi;
+        } else return usage();
+    }
+    if (o.problem && !problem_named(o.problem)) return usage();
+    if (horizon) return study_horizon(&o), 0;
+
+    int count = 0;
+    for (int i = 0; i < problem_count; ++i) {
+        if (o.problem && strcmp(o.problem, problems[i].key)) continue;
+        study *y = studies + count++;
+        y->p = problems + i;
+        study_problem(y, &o);
+        write_csv(y, &o);
+        write_picture(y, &o);
+        print_table(y);
+    }
+    summarise(studies, count);
+    return 0;
+}

@@ -1,0 +1,459 @@
+/* problems.c - initial data, energies and right-hand sides of the problems of `make cost`
+
+   Every formula is there once, as a small inline function; the loop over points around it is
+   written once per problem and called with the usual numbers of points as constants, so that
+   the compiler makes straight vector code of it.  The potentials are those of Hairer, Lubich,
+   Wanner, Geometric Numerical Integration, I.2, I.3, I.5.                                     */
+#include "problems.h"
+#include "references.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+#define INLINE static inline __attribute__((always_inline))
+#define COUNT(a) ((int)(sizeof(a)/sizeof(a)[0]))
+
+/* Before a loop over points: they do not depend on each other.                                */
+#if defined(__GNUC__) && !defined(__clang__)
+#define INDEPENDENT _Pragma("GCC ivdep")
+#define UNROLL _Pragma("GCC unroll 6")
+#else
+#define INDEPENDENT
+#define UNROLL
+#endif
+
+#define BY_COUNT(kernel, x) (                            \
+    (x)->count ==  8 ? kernel(x,  8, 8)                  \
+  : (x)->count == 16 ? kernel(x, 16, 16)                 \
+  : (x)->count ==  6 && (x)->stride == 8 ? kernel(x, 6, 8) \
+  : (x)->count ==  4 ? kernel(x,  4, (x)->stride)        \
+  : kernel(x, (x)->count, (x)->stride))
+
+/* ------------------------------------------------------- P1, P2: Kepler */
+
+static const double kepler6_q[] = { 0x1.999999999999ap-2, 0 }, kepler6_v[] = { 0, 2 };
+static const double kepler9_q[] = { 0x1.9999999999998p-4, 0 }, kepler9_v[] = { 0, 0x1.16f8334644df9p+2 };
+
+static long double kepler_energy(const double *q, const double *v)
+{
+    long double x = q[0], y = q[1], u = v[0], w = v[1];
+    return (u*u + w*w)/2 - 1/sqrtl(x*x + y*y);
+}
+
+static void kepler_acceleration(const double *q, double *a)
+{
+    double x = q[0], y = q[1], d2 = x*x + y*y, w = -1/(d2*sqrt(d2));
+    a[0] = w*x;
+    a[1] = w*y;
+}
+
+INLINE int kepler_points(const gvi_points *p, int count, int stride)
+{
+    const double *restrict X = p->q, *restrict Y = X + stride;
+    double *restrict fx = p->f, *restrict fy = fx + stride;
+    INDEPENDENT for (int k = 0; k < count; ++k) {
+        double d2 = X[k]*X[k] + Y[k]*Y[k], w = -1/(d2*sqrt(d2));
+        fx[k] += w*X[k];
+        fy[k] += w*Y[k];
+    }
+    return 0;
+}
+
+static int kepler(const gvi_points *p, void *user) { return (void)user, BY_COUNT(kepler_points, p); }
+
+/* ----------------------------------------------------- P3: Henon-Heiles */
+
+static const double henon_q[] = { 0, 0x1.999999999999ap-4 }, henon_v[] = { 0x1.f65a0cefb0839p-2, 0 };
+
+static long double henon_energy(const double *q, const double *v)
+{
+    long double x = q[0], y = q[1], u = v[0], w = v[1];
+    return (u*u + w*w + x*x + y*y)/2 + x*x*y - y*y*y/3;
+}
+
+static void henon_acceleration(const double *q, double *a)
+{
+    double x = q[0], y = q[1];
+    a[0] = -x - 2*x*y;
+    a[1] = -y - (x*x - y*y);
+}
+
+INLINE int henon_points(const gvi_points *p, int count, int stride)
+{
+    const double *restrict X = p->q, *restrict Y = X + stride;
+    double *restrict fx = p->f, *restrict fy = fx + stride;
+    INDEPENDENT for (int k = 0; k < count; ++k) {
+        double x = X[k], y = Y[k];
+        fx[k] += -x - 2*x*y;
+        fy[k] += -y - (x*x - y*y);
+    }
+    return 0;
+}
+
+static int henon(const gvi_points *p, void *user) { return (void)user, BY_COUNT(henon_points, p); }
+
+/* ----------------------------------------------- P4: outer solar system */
+
+/* Sun, Jupiter, Saturn, Uranus, Neptune, Pluto; astronomical units and days [GNI, I.2.4].
+   Masses times the constant of gravitation.                                                   */
+static const double gm[6] = { 0x1.3649cda6c4954p-12, 0x1.2f5e0adcea3e9p-22, 0x1.6af5369599412p-24,
+                              0x1.bc9893d604ea6p-27, 0x1.073705365b3cdp-26, 0x1.405a77e6ee075p-39 };
+#define THRICE(a) a, a, a
+static const double solar_mass[18] = {
+    THRICE(0x1.3649cda6c4954p-12), THRICE(0x1.2f5e0adcea3e9p-22), THRICE(0x1.6af5369599412p-24),
+    THRICE(0x1.bc9893d604ea6p-27), THRICE(0x1.073705365b3cdp-26), THRICE(0x1.405a77e6ee075p-39) };
+static const double solar_q[18] = {
+    0, 0, 0, -3.5023653, -3.8169847, -1.5507963, 9.0755314, -3.0458353, -1.6483708,
+    8.3101420, -16.2901086, -7.2521278, 11.4707666, -25.7294829, -10.8169456,
+    -15.5387357, -25.2225594, -3.1902382 };
+static const double solar_v[18] = {
+    0, 0, 0, 0.00565429, -0.00412490, -0.00190589, 0.00168318, 0.00483525, 0.00192462,
+    0.00354178, 0.00137102, 0.00055029, 0.00288930, 0.00114527, 0.00039677,
+    0.00276725, -0.00170702, -0.00136504 };
+
+static long double solar_energy(const double *q, const double *v)
+{
+    long double e = 0;
+    for (int i = 0; i < 6; ++i) {
+        for (int c = 0; c < 3; ++c) e += (long double)gm[i]*v[3*i+c]*v[3*i+c]/2;
+        for (int j = 0; j < i; ++j) {
+            long double x = (long double)q[3*i] - q[3*j], y = (long double)q[3*i+1] - q[3*j+1],
+                        z = (long double)q[3*i+2] - q[3*j+2];
+            e -= (long double)gm[i]*gm[j]/sqrtl(x*x + y*y + z*z);
+        }
+    }
+    return e;
+}
+
+/* Each pair once; the 15 roots and quotients in one vector loop.  The bodies' own loops are
+   unrolled, so that the sums stay in registers.                                               */
+static void solar_acceleration(const double *q, double *a)
+{
+    double x[16], y[16], z[16], w[16];
+    int m = 0;
+    x[15] = y[15] = z[15] = 1;
+    UNROLL for (int i = 0; i < 5; ++i)
+        UNROLL for (int j = i + 1; j < 6; ++j, ++m) {
+            x[m] = q[3*j] - q[3*i];
+            y[m] = q[3*j+1] - q[3*i+1];
+            z[m] = q[3*j+2] - q[3*i+2];
+        }
+    for (m = 0; m < 16; ++m) {
+        double d2 = x[m]*x[m] + y[m]*y[m] + z[m]*z[m];
+        w[m] = 1/(d2*sqrt(d2));
+    }
+    double s[18] = { 0 };
+    m = 0;
+    UNROLL for (int i = 0; i < 5; ++i)
+        UNROLL for (int j = i + 1; j < 6; ++j, ++m) {
+            double to = gm[j]*w[m], from = gm[i]*w[m];
+            s[3*i] += to*x[m];    s[3*i+1] += to*y[m];    s[3*i+2] += to*z[m];
+            s[3*j] -= from*x[m];  s[3*j+1] -= from*y[m];  s[3*j+2] -= from*z[m];
+        }
+    for (int i = 0; i < 18; ++i) a[i] = s[i];
+}
+
+/* Forces, for the masses go with the scene.                                                   */
+INLINE int solar_points(const gvi_points *p, int count, int stride)
+{
+    const double *restrict q = p->q;
+    double *restrict f = p->f;
+    for (int i = 0; i < 5; ++i)
+        for (int j = i + 1; j < 6; ++j) {
+            const double *restrict a = q + 3*i*stride, *restrict b = q + 3*j*stride;
+            double *restrict s = f + 3*i*stride, *restrict t = f + 3*j*stride, g = gm[i]*gm[j];
+            INDEPENDENT for (int k = 0; k < count; ++k) {
+                double x = b[k] - a[k], y = b[stride+k] - a[stride+k], z = b[2*stride+k] - a[2*stride+k];
+                double d2 = x*x + y*y + z*z, w = g/(d2*sqrt(d2));
+                s[k] += w*x;  s[stride+k] += w*y;  s[2*stride+k] += w*z;
+                t[k] -= w*x;  t[stride+k] -= w*y;  t[2*stride+k] -= w*z;
+            }
+        }
+    return 0;
+}
+
+static int solar(const gvi_points *p, void *user) { return (void)user, BY_COUNT(solar_points, p); }
+
+/* -------------------------------------------------- P5: double pendulum */
+
+#define G 9.81
+static const double pendulum_q[] = { 0x1.999999999999ap-1, 0.5 }, pendulum_p[] = { 0, 0 };
+
+/* sin and cos without a branch, the same for one point and for many: x = k pi/2 + r, pi/2 in
+   33 + 53 bits, and Taylor's series on |r| <= pi/4, cut where the next term is below 1e-19.
+   Error below 1.5 ulp for |x| < 1e5 (largest seen in 2e7 arguments).                          */
+INLINE void sine_and_cosine(double x, double *sine, double *cosine)
+{
+    double k = rint(x*0x1.45f306dc9c883p-1), h = 0.5*k, g = floor(h), e = 0.5*g;
+    double r = (x - k*0x1.921fb544p+0) - k*0x1.0b4611a626331p-34, z = r*r, z2 = z*z, z4 = z2*z2;
+    double s = ((-1/6.0 + z/120) + z2*(-1/5040.0 + z*(1/362880.0)))
+             + z4*((-1/39916800.0 + z*(1/6227020800.0)) + z2*(-1/1307674368e3 + z*(1/355687428096e3)));
+    double c = ((1/24.0 - z*(1/720.0)) + z2*(1/40320.0 - z*(1/3628800.0)))
+             + z4*((1/479001600.0 - z*(1/87178291200.0)) + z2*(1/20922789888e3));
+    s = r + r*z*s;
+    c = 1 - (0.5*z - z2*c);
+    double odd = 2*(h - g), less = 1 - 4*(e - floor(e));     // k odd: 1; sign of sin: 1 or -1
+    double a = odd > 0.5 ? c : s, b = odd > 0.5 ? -s : c;
+    *sine = less*a;
+    *cosine = less*b;
+}
+
+static long double pendulum_energy(const double *q, const double *p)
+{
+    long double c = cosl((long double)q[0] - q[1]), u = p[0], v = p[1];
+    return (u*u - 2*c*u*v + 2*v*v)/(2 - c*c)/2 - (long double)G*(2*cosl(q[0]) + cosl(q[1]));
+}
+
+/* v = M^-1 p, M = (2, c; c, 1), c = cos(q1 - q2), det M = 1 + sin^2                           */
+static void pendulum_slope(const double *y, double *dy)
+{
+    double s[2], c[2];
+    for (int i = 0; i < 2; ++i) sine_and_cosine(y[i], s + i, c + i);
+    double cd = c[0]*c[1] + s[0]*s[1], sd = s[0]*c[1] - c[0]*s[1], d = 1/(1 + sd*sd);
+    double u = (y[2] - cd*y[3])*d, v = (2*y[3] - cd*y[2])*d, f = sd*u*v;
+    dy[0] = u;
+    dy[1] = v;
+    dy[2] = -2*G*s[0] - f;
+    dy[3] = f - G*s[1];
+}
+
+/* What the velocity needs and the gradient, which gvi.h calls next at the same points, as well. */
+enum { MOST_POINTS = 64 };
+static double pendulum_sines[MOST_POINTS];
+
+INLINE int pendulum_velocity_points(const gvi_points *x, int count, int stride)
+{
+    const double *restrict q = x->q, *restrict p = x->p;
+    double *restrict v = x->velocity;
+    INDEPENDENT for (int k = 0; k < count; ++k) {
+        double s, c, p1 = p[k], p2 = p[stride+k];
+        sine_and_cosine(q[k] - q[stride+k], &s, &c);
+        double d = 1/(1 + s*s);
+        v[k] = (p1 - c*p2)*d;
+        v[stride+k] = (2*p2 - c*p1)*d;
+        pendulum_sines[k] = s;
+    }
+    return 0;
+}
+
+INLINE int pendulum_gradient_points(const gvi_points *x, int count, int stride)
+{
+    const double *restrict v = x->v;
+    double *restrict f = x->f;
+    INDEPENDENT for (int k = 0; k < count; ++k) {
+        double w = pendulum_sines[k]*v[k]*v[stride+k];
+        f[k] -= w;
+        f[stride+k] += w;
+    }
+    return 0;
+}
+
+INLINE int pendulum_weight_points(const gvi_points *x, int count, int stride)
+{
+    const double *restrict q = x->q;
+    double *restrict f = x->f;
+    INDEPENDENT for (int k = 0; k < count; ++k) {
+        double s, t, c;
+        sine_and_cosine(q[k], &s, &c);
+        sine_and_cosine(q[stride+k], &t, &c);
+        f[k] -= 2*G*s;
+        f[stride+k] -= G*t;
+    }
+    return 0;
+}
+
+static int pendulum_velocity(const gvi_points *x, void *user)
+{
+    (void)user;
+    return x->count > MOST_POINTS ? 1 : BY_COUNT(pendulum_velocity_points, x);
+}
+
+static int pendulum_gradient(const gvi_points *x, void *user)
+{
+    return (void)user, BY_COUNT(pendulum_gradient_points, x);
+}
+
+static int pendulum_weight(const gvi_points *x, void *user)
+{
+    return (void)user, BY_COUNT(pendulum_weight_points, x);
+}
+
+/* For Newton's method; velocity stands in for it everywhere else.                             */
+static int pendulum_mass(const gvi_points *x, void *user)
+{
+    double *m11 = x->mass, *m21 = m11 + 2*x->stride, *m22 = m11 + 3*x->stride;
+    (void)user;
+    for (int k = 0; k < x->count; ++k) {
+        double s = sin(x->q[k] - x->q[x->stride+k]);
+        m11[k] = 2;
+        m21[k] = cos(x->q[k] - x->q[x->stride+k]);
+        m22[k] = 1;
+        if (k < MOST_POINTS) pendulum_sines[k] = s;
+    }
+    return 0;
+}
+
+/* ---------------------------------------------- P6: Fermi, Pasta, Ulam */
+
+/* Three stiff springs, frequency 50, between soft quartic ones [GNI, I.5.1]; q = centres and
+   lengths of the stiff springs.                                                               */
+#define STIFF 2500.0
+static const double fpu_q[8] = { 1, 0, 0, 0x1.47ae147ae147bp-6 }, fpu_v[8] = { 1, 0, 0, 1 };
+
+static long double fpu_energy(const double *q, const double *v)
+{
+    long double a = q[0], b = q[1], c = q[2], d = q[3], e = q[4], f = q[5], kinetic = 0;
+    long double s[4] = { a - d, b - e - a - d, c - f - b - e, c + f }, potential = (d*d + e*e + f*f)*STIFF/2;
+    for (int i = 0; i < 6; ++i) kinetic += (long double)v[i]*v[i]/2;
+    for (int i = 0; i < 4; ++i) potential += s[i]*s[i]*s[i]*s[i]/4;
+    return kinetic + potential;
+}
+
+INLINE double cube(double x) { return x*x*x; }
+
+static void fpu_acceleration(const double *q, double *a)
+{
+    double s0 = cube(q[0] - q[3]), s1 = cube(q[1] - q[4] - (q[0] + q[3]));
+    double s2 = cube(q[2] - q[5] - (q[1] + q[4])), s3 = cube(q[2] + q[5]);
+    double f[6] = { s1 - s0, s2 - s1, -s2 - s3,
+                    s0 + s1 - STIFF*q[3], s1 + s2 - STIFF*q[4], s2 - s3 - STIFF*q[5] };
+    for (int i = 0; i < 6; ++i) a[i] = f[i];
+}
+
+INLINE int fpu_points(const gvi_points *p, int count, int stride)
+{
+    const double *restrict a = p->q, *restrict b = a + stride, *restrict c = b + stride;
+    const double *restrict d = c + stride, *restrict e = d + stride, *restrict g = e + stride;
+    double *restrict f = p->f;
+    INDEPENDENT for (int k = 0; k < count; ++k) {
+        double s0 = cube(a[k] - d[k]), s1 = cube(b[k] - e[k] - (a[k] + d[k]));
+        double s2 = cube(c[k] - g[k] - (b[k] + e[k])), s3 = cube(c[k] + g[k]);
+        f[k] += s1 - s0;
+        f[stride+k] += s2 - s1;
+        f[2*stride+k] -= s2 + s3;
+        f[3*stride+k] += s0 + s1 - STIFF*d[k];
+        f[4*stride+k] += s1 + s2 - STIFF*e[k];
+        f[5*stride+k] += s2 - s3 - STIFF*g[k];
+    }
+    return 0;
+}
+
+static int fpu(const gvi_points *p, void *user) { return (void)user, BY_COUNT(fpu_points, p); }
+
+/* ------------------------------------------------------ P7: chain of 100 */
+
+/* Springs d + d^3 between fixed walls.                                                        */
+enum { LINKS = 100 };
+static const double chain_v[MOST_COORDINATES];
+
+static long double chain_energy(const double *q, const double *v)
+{
+    long double e = 0;
+    for (int i = 0; i <= LINKS; ++i) {
+        long double d = (i < LINKS ? (long double)q[i] : 0) - (i > 0 ? (long double)q[i-1] : 0);
+        e += d*d/2 + d*d*d*d/4;
+        if (i < LINKS) e += (long double)v[i]*v[i]/2;
+    }
+    return e;
+}
+
+INLINE double spring(double d) { return d + d*d*d; }
+
+static void chain_acceleration(const double *q, double *a)
+{
+    const double *restrict x = q;
+    double *restrict y = a;
+    y[0] = spring(x[1] - x[0]) - spring(x[0]);
+    for (int i = 1; i < LINKS - 1; ++i) y[i] = spring(x[i+1] - x[i]) - spring(x[i] - x[i-1]);
+    y[LINKS-1] = spring(-x[LINKS-1]) - spring(x[LINKS-1] - x[LINKS-2]);
+}
+
+INLINE int chain_points(const gvi_points *p, int count, int stride)
+{
+    const double *q = p->q, *last = q + (LINKS - 1)*stride;
+    double *f = p->f;
+    INDEPENDENT for (int k = 0; k < count; ++k) f[k] += spring(q[stride+k] - q[k]) - spring(q[k]);
+    for (int i = 1; i < LINKS - 1; ++i) {
+        const double *x = q + i*stride;
+        double *g = f + i*stride;
+        INDEPENDENT for (int k = 0; k < count; ++k)
+            g[k] += spring(x[stride+k] - x[k]) - spring(x[k] - x[k-stride]);
+    }
+    f += (LINKS - 1)*stride;
+    INDEPENDENT for (int k = 0; k < count; ++k) f[k] -= spring(last[k]) + spring(last[k] - last[k-stride]);
+    return 0;
+}
+
+static int chain(const gvi_points *p, void *user) { return (void)user, BY_COUNT(chain_points, p); }
+
+/* ------------------------------------------------------------- the list */
+
+static const gvi_effect kepler_scene[] = { { .kind = GVI_POTENTIAL, .points = kepler } };
+static const gvi_effect henon_scene[] = { { .kind = GVI_POTENTIAL, .points = henon } };
+static const gvi_effect solar_scene[] = { { .kind = GVI_POTENTIAL, .points = solar } };
+static const gvi_effect pendulum_scene[] = { { .kind = GVI_POTENTIAL, .points = pendulum_weight } };
+static const gvi_effect fpu_scene[] = { { .kind = GVI_POTENTIAL, .points = fpu } };
+static const gvi_effect chain_scene[] = { { .kind = GVI_POTENTIAL, .points = chain } };
+#define SCENE(s) .effects = s, .effect_count = COUNT(s)
+
+/* Ends: 100 and 20 revolutions of 2 pi; 548 years; times.                                     */
+const problem problems[] = {
+    { .key = "P1", .title = "Kepler, eccentricity 0.6, 100 revolutions", .n = 2, .end = 0x1.3a28c59d5433bp+9,
+      .q = kepler6_q, .v = kepler6_v, .reference = reference_P1, .energy = kepler_energy,
+      .acceleration = kepler_acceleration, SCENE(kepler_scene), .evaluations = 8e3, .limit = 16 },
+    { .key = "P2", .title = "Kepler, eccentricity 0.9, 20 revolutions", .n = 2, .end = 0x1.f6a7a2955385ep+6,
+      .q = kepler9_q, .v = kepler9_v, .reference = reference_P2, .energy = kepler_energy,
+      .acceleration = kepler_acceleration, SCENE(kepler_scene), .evaluations = 4e3, .limit = 4 },
+    { .key = "P3", .title = "Henon-Heiles, energy 1/8, t = 1000", .n = 2, .end = 1000,
+      .q = henon_q, .v = henon_v, .reference = reference_P3, .energy = henon_energy,
+      .acceleration = henon_acceleration, SCENE(henon_scene), .evaluations = 2e3, .limit = 2 },
+    { .key = "P4", .title = "Outer solar system, 548 years", .n = 18, .end = 200000,
+      .q = solar_q, .v = solar_v, .reference = reference_P4, .energy = solar_energy,
+      .acceleration = solar_acceleration, .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = solar_mass },
+      SCENE(solar_scene), .evaluations = 1e3, .limit = 10 },
+    { .key = "P5", .title = "Double pendulum, t = 100", .n = 2, .end = 100,
+      .q = pendulum_q, .v = pendulum_p, .reference = reference_P5, .energy = pendulum_energy,
+      .slope = pendulum_slope, .mass = { .kind = GVI_MASS_POSITION, .points = pendulum_mass,
+      .velocity = pendulum_velocity, .gradient = pendulum_gradient },
+      SCENE(pendulum_scene), .evaluations = 3e3, .limit = 12 },
+    { .key = "P6", .title = "Fermi-Pasta-Ulam, frequency 50, t = 200", .n = 6, .end = 200,
+      .q = fpu_q, .v = fpu_v, .reference = reference_P6, .energy = fpu_energy,
+      .acceleration = fpu_acceleration, SCENE(fpu_scene), .evaluations = 1e4, .limit = 16 },
+    { .key = "P6b", .title = "Fermi-Pasta-Ulam, frequency 50, t = 50", .n = 6, .end = 50,
+      .q = fpu_q, .v = fpu_v, .reference = reference_P6b, .energy = fpu_energy,
+      .acceleration = fpu_acceleration, SCENE(fpu_scene), .evaluations = 2500, .limit = 3 },
+    { .key = "P7", .title = "Chain of 100, t = 100", .n = LINKS, .end = 100,
+      .q = start_P7, .v = chain_v, .reference = reference_P7, .energy = chain_energy,
+      .acceleration = chain_acceleration, SCENE(chain_scene), .evaluations = 100, .limit = 2 },
+};
+const int problem_count = COUNT(problems);
+
+const problem *problem_named(const char *key)
+{
+    for (int i = 0; i < problem_count; ++i)
+        if (!strcmp(problems[i].key, key)) return problems + i;
+    return NULL;
+}
+
+double problem_error(const problem *p, const double *q)
+{
+    long double worst = 0;
+    for (int i = 0; i < p->n; ++i) {
+        long double d = fabsl(q[i] - p->reference[i]);
+        if (!(d <= worst)) worst = d;
+    }
+    return (double)worst;
+}
+
+watch watch_begin(const problem *p, long every)
+{
+    watch w = { p, every > 0 ? every : 1, 0, p->energy(p->q, p->v), 0 };
+    return w;
+}
+
+void watch_look(watch *w, const double *q, const double *v)
+{
+    long double d = fabsl((w->p->energy(q, v) - w->first)/w->first);
+    if (!(d <= w->worst)) w->worst = d;
+}

@@ -1,0 +1,57 @@
+/* problems.h - the problems on which `make cost` compares integrators
+
+   Seven mechanical systems, one of them over two lengths.  Each is there in three forms with
+   the same formulas, so that no method gets a better right-hand side than another:
+
+     acceleration   q'' = a(q), one point a call             the explicit baselines
+     slope          y' = f(y), y = (q, p), one point a call  baselines, where M depends on q
+     effects, mass  all points of a step at once             gvi.h                             */
+#ifndef PROBLEMS_H
+#define PROBLEMS_H
+
+#include "gvi.h"
+
+enum { MOST_COORDINATES = 104 };        /* 100, rounded up to whole vectors    */
+
+/* One point.                                                                                  */
+typedef void acceleration_fn(const double *q, double *a);
+typedef void slope_fn(const double *y, double *dy);
+typedef long double energy_fn(const double *q, const double *v);
+
+typedef struct problem {
+    const char        *key, *title;
+    int                n;
+    double             end;            /* from t = 0                                           */
+    const double      *q, *v;          /* at t = 0; v is the momentum where there is a slope   */
+    const long double *reference;      /* q at the end, to 25 digits and more                  */
+    energy_fn         *energy;
+    acceleration_fn   *acceleration;   /* NULL where M depends on q                            */
+    slope_fn          *slope;          /* NULL where it does not                               */
+    gvi_mass           mass;
+    const gvi_effect  *effects;
+    int                effect_count;
+    double             evaluations;    /* of q'' for an error of about 0.1: where sweeps begin */
+    double             limit;          /* CPU ms above which no setting is of interest         */
+} problem;
+
+extern const problem problems[];
+extern const int problem_count;
+
+const problem *problem_named(const char *key);
+
+/* max |q_i - reference_i|, subtracted in long double; NaN stays NaN                           */
+double problem_error(const problem *p, const double *q);
+
+/* Largest |E - E0|/|E0| at every `every`-th step: NULL where nobody watches.                  */
+typedef struct watch {
+    const problem *p;
+    long           every, count;
+    long double    first, worst;
+} watch;
+
+watch watch_begin(const problem *p, long every);
+void  watch_look(watch *w, const double *q, const double *v);
+
+static inline int watch_due(watch *w) { return w && ++w->count % w->every == 0; }
+
+#endif

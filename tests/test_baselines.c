@@ -1,0 +1,286 @@
+/* The integrators that `make cost` compares gvi.h with: each has the order that it is published
+   with, no less and no more; the tables fulfil the conditions that can be summed directly.
+
+   The system for q'' = a(q) is Kepler's, eccentricity 0.3, up to t = 20 and a little more; the exact
+   state comes from Kepler's equation in long double.  The order is the slope of log error over
+   log steps, by least squares over the errors between 1e-10 and 1e-4.                         */
+#define GVI_REAL double
+#include "gvi_test.h"
+#include "cost/problems.h"
+#include "cost/baselines.c"
+
+static const double ellipse_q[] = { 0.7, 0 }, ellipse_v[] = { 0, 1.36277028773849 };  /* sqrt(1.3/0.7) */
+
+static void ellipse_acceleration(const double *q, double *a)
+{
+    double d2 = q[0]*q[0] + q[1]*q[1], w = -1/(d2*sqrt(d2));
+    a[0] = w*q[0];
+    a[1] = w*q[1];
+}
+
+static void ellipse_slope(const double *y, double *dy)
+{
+    ellipse_acceleration(y, dy + 2);
+    dy[0] = y[2];
+    dy[1] = y[3];
+}
+
+/* For explicit methods for y' = f(y): three equations with known solutions, and the time; all
+   errors stay where they are made.  (On an ellipse the drift of a dissipative method's energy,
+   one order higher, grows with t^2 in the phase and covers the order looked for.)             */
+static const double known_q[] = { 1, 1 }, known_v[] = { 1, 0 };
+
+static void known_slope(const double *y, double *dy)
+{
+    dy[0] = -y[0]*y[0]*y[0]/2;
+    dy[1] = y[1]/4*(1 - y[1]/20);
+    dy[2] = y[2]*cos(y[3]);
+    dy[3] = 1;
+}
+
+static void known(long double t, long double *y)
+{
+    y[0] = 1/sqrtl(1 + t);
+    y[1] = 20/(1 + 19*expl(-t/4));
+    y[2] = expl(sinl(t));
+}
+
+/* Here nobody watches; the functions of problems.c that the baselines refer to.               */
+void watch_look(watch *w, const double *q, const double *v) { (void)w, (void)q, (void)v; }
+
+/* From the elements that belong to the rounded start, which is at an apsis.                   */
+static void exact(long double t, long double *q)
+{
+    long double r = ellipse_q[0], v = ellipse_v[1], a = 1/(2/r - v*v), e = 1 - r/a, n = 1/(a*sqrtl(a));
+    long double E = n*t;
+    for (int k = 0; k < 30; ++k) E -= (E - e*sinl(E) - n*t)/(1 - e*cosl(E));
+    q[0] = a*(cosl(E) - e);
+    q[1] = a*sqrtl(1 - e*e)*sinl(E);
+}
+
+static problem problem_for(const baseline *b, double end, long double *reference)
+{
+    problem p = { .key = "test", .n = 2, .end = end, .q = ellipse_q, .v = ellipse_v, .reference = reference };
+    exact(end, reference);
+    if (!b->first_order) p.acceleration = ellipse_acceleration;
+    else p.slope = ellipse_slope;
+    if (!b->first_order || b->structure) return p;
+    known(end, reference);
+    p.q = known_q;
+    p.v = known_v;
+    p.slope = known_slope;
+    return p;
+}
+
+static long double error_at(const problem *p, const outcome *o)
+{
+    long double e = fmaxl(fabsl(o->q[0] - p->reference[0]), fabsl(o->q[1] - p->reference[1]));
+    return p->slope == known_slope ? fmaxl(e, fabsl(o->v[0] - p->reference[2])) : e;
+}
+
+static long double error_of(const problem *p, const baseline *b, double parameter, outcome *o)
+{
+    b->run(p, b, parameter, NULL, o);
+    assert_false(o->failed);
+    return error_at(p, o);
+}
+
+typedef struct fit { int count; long double x, y, xx, xy; } fit;
+
+static void add_point(fit *f, long double x, long double y)
+{
+    ++f->count;
+    f->x += x;
+    f->y += y;
+    f->xx += x*x;
+    f->xy += x*y;
+}
+
+static long double slope_of(const fit *f)
+{
+    return (f->count*f->xy - f->x*f->y)/(f->count*f->xx - f->x*f->x);
+}
+
+/* The largest error at four times, which no zero of the error function can hide; *failed where
+   an iteration did not converge.                                                              */
+static long double errors_of(const baseline *b, double parameter, int *failed)
+{
+    static const double ends[] = { 20, 21.3, 22.9, 24.1 };
+    static outcome o;
+    long double worst = 0, reference[3];
+    *failed = 0;
+    for (int i = 0; i < COUNT(ends); ++i) {
+        problem p = problem_for(b, ends[i], reference);
+        b->run(&p, b, b->adaptive ? parameter : floor(parameter*ends[i]/20), NULL, &o);
+        if (o.failed) *failed = 1;
+        else worst = fmaxl(worst, error_at(&p, &o));
+    }
+    return worst;
+}
+
+/* Over steps; for adaptive methods over their tolerance, from 1e-3 to 1e-11.                  */
+static long double order_of(const baseline *b)
+{
+    fit f = { 0, 0, 0, 0, 0 };
+    for (int k = 0; k < 80; ++k) {
+        long double e;
+        int failed;
+        double parameter = b->adaptive ? 1e-3*pow(0.6, k) : 4*pow(1.15, k);
+        e = errors_of(b, parameter, &failed);
+        if (failed || (!b->adaptive && !(e < 1e-4L))) continue;
+        if (b->adaptive ? parameter < 1e-11 : e < 1e-10L) break;
+        add_point(&f, logl(parameter), b->adaptive ? logl(e) : -logl(e));
+    }
+    assert_true(f.count >= 4);
+    return slope_of(&f);
+}
+
+static void check_order(const char *name, double order, double allowed)
+{
+    int found = 0;
+    for (int i = 0; i < baseline_count; ++i) {
+        if (strcmp(baselines[i].name, name)) continue;
+        long double measured = order_of(baselines + i);
+        print_message("    %-24s %5.2f: %.2Lf\n", name, order, measured);
+        assert_close(measured, order, allowed);
+        ++found;
+    }
+    assert_true(found > 0);
+}
+
+static void compositions_and_splittings_have_their_orders(void **state)
+{
+    (void)state;
+    check_order("Stoermer-Verlet", 2, 0.1);
+    check_order("Yoshida 8", 8, 0.5);
+    check_order("Yoshida 8 c", 8, 0.5);
+    check_order("Kahan-Li 8", 8, 0.5);
+    check_order("Kahan-Li 8 c", 8, 0.5);
+    check_order("Sofroniou-Spaletta 10", 10, 0.7);
+    check_order("Sofroniou-Spaletta 10 c", 10, 0.7);
+    check_order("Blanes-Moan SRKN11", 6, 0.5);
+    check_order("Blanes-Moan SRKN11 c", 6, 0.5);
+    check_order("Blanes-Moan SRKN14", 6, 0.5);
+}
+
+static void nystroem_pairs_have_their_orders(void **state)
+{
+    (void)state;
+    check_order("RKN8(6) fixed", 8, 0.5);
+    check_order("RKN8(6) fixed c", 8, 0.5);
+    check_order("RKN12(10) fixed", 12, 0.8);
+    check_order("RKN12(10) fixed c", 12, 0.8);
+}
+
+static void first_order_methods_have_their_orders(void **state)
+{
+    (void)state;
+    check_order("RK4", 4, 0.5);
+    check_order("DOP853 fixed", 8, 0.5);
+    check_order("DOP853 fixed c", 8, 0.5);
+}
+
+/* An error per step of order q, held at the tolerance, and the global one of order p of the
+   solution that is carried on: p/q, which is between 1 and 8/7.                               */
+static void adaptive_methods_follow_their_tolerance(void **state)
+{
+    (void)state;
+    check_order("RKN8(6)", 8/7.0, 0.2);
+    check_order("RKN8(6) c", 8/7.0, 0.2);
+    check_order("RKN12(10)", 12/11.0, 0.2);
+    check_order("RKN12(10) c", 12/11.0, 0.2);
+    check_order("DOP853", 1, 0.2);
+    check_order("DOP853 c", 1, 0.2);
+    check_order("GBS order 4 x 2", 8/7.0, 0.2);
+    check_order("GBS order 5 x 2", 10/9.0, 0.2);
+    check_order("GBS order 6 x 2", 12/11.0, 0.2);
+    check_order("GBS order 7 x 2", 14/13.0, 0.2);
+    check_order("GBS order 8 x 2", 16/15.0, 0.2);
+    check_order("GBS order 9 x 2", 18/17.0, 0.2);
+}
+
+static void gauss_methods_have_their_orders(void **state)
+{
+    (void)state;
+    check_order("Gauss 4", 8, 0.5);
+    check_order("Gauss 6", 12, 0.8);
+}
+
+/* sum_j A_ij = c_i^2/2; sum w c^k = 1/(k+1), sum b c^k = 1/((k+1)(k+2)) up to the order.  The
+   coefficients of 40 are printed to 25 digits.                                                */
+static void check_quadrature(const nystroem *t)
+{
+    for (int i = 0; i < t->stages; ++i) {
+        long double sum = 0;
+        for (int j = 0; j < i; ++j) sum += t->A[i][j];
+        assert_close(sum, t->c[i]*t->c[i]/2, 2e-17L);
+    }
+    for (int k = 0; k < t->order; ++k) {
+        long double w = 0, b = 0;
+        for (int i = 0; i < t->stages; ++i) w += t->w[i]*powl(t->c[i], k), b += t->b[i]*powl(t->c[i], k);
+        assert_close(w, 1/(k + 1.0L), 2e-17L);
+        if (k < t->order - 1) assert_close(b, 1/((k + 1.0L)*(k + 2)), 2e-17L);
+    }
+}
+
+static void nystroem_tables_fulfil_the_quadrature_conditions(void **state)
+{
+    (void)state;
+    check_quadrature(&rkn86_table);
+    check_quadrature(&rkn1210_table);
+}
+
+static void dop853_fulfils_the_quadrature_conditions(void **state)
+{
+    const runge_kutta *t = &dop853_table;
+    (void)state;
+    for (int i = 0; i < t->stages; ++i) {
+        long double sum = 0;
+        for (int j = 0; j < i; ++j) sum += t->A[i][j];
+        assert_close(sum, t->c[i], 2e-17L);
+    }
+    for (int k = 0; k < 8; ++k) {
+        long double sum = 0;
+        for (int i = 0; i < t->stages; ++i) sum += t->b[i]*powl(t->c[i], k);
+        assert_close(sum, 1/(k + 1.0L), 2e-17L);
+    }
+}
+
+/* A hundred thousand steps far below the error of the method: only rounding is left.          */
+static void compensated_sums_lower_what_rounding_leaves(void **state)
+{
+    static outcome o;
+    long double reference[3];
+    problem p = problem_for(baseline_named("Kahan-Li 8"), 200, reference);
+    (void)state;
+    static const char *const names[][2] = { { "Kahan-Li 8", "Kahan-Li 8 c" },
+        { "RKN8(6) fixed", "RKN8(6) fixed c" } };
+    for (int i = 0; i < COUNT(names); ++i) {
+        long double plain = error_of(&p, baseline_named(names[i][0]), 100000, &o);
+        long double compensated = error_of(&p, baseline_named(names[i][1]), 100000, &o);
+        print_message("    %-16s %.1Le, compensated %.1Le\n", names[i][0], plain, compensated);
+        assert_true(compensated < plain/3);
+    }
+}
+
+static int tables(void **state)
+{
+    (void)state;
+    baselines_begin();
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(compositions_and_splittings_have_their_orders),
+        cmocka_unit_test(nystroem_pairs_have_their_orders),
+        cmocka_unit_test(first_order_methods_have_their_orders),
+        cmocka_unit_test(adaptive_methods_follow_their_tolerance),
+        cmocka_unit_test(gauss_methods_have_their_orders),
+        cmocka_unit_test(nystroem_tables_fulfil_the_quadrature_conditions),
+        cmocka_unit_test(dop853_fulfils_the_quadrature_conditions),
+        cmocka_unit_test(compensated_sums_lower_what_rounding_leaves),
+    };
+    return cmocka_run_group_tests(tests, tables, NULL);
+}
