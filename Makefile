@@ -18,7 +18,7 @@ WARNINGS = -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow \
            -Wundef -Wfloat-equal -Wvla
 FLAGS    = -ffp-contract=off $(WARNINGS) -I. $(CPPFLAGS)
 # Tests compare to the bit on purpose.
-TESTFLAGS = -Wno-float-equal -Wno-double-promotion -Itests
+TESTFLAGS = -Wno-float-equal -Wno-double-promotion -Itests -Iexamples
 COMPILE  = $(CC) -std=c99 $(FLAGS) -MMD -MP -MF $@.d -MT $@ $(CFLAGS)
 CXXCOMPILE = $(CXX) -std=c++11 $(FLAGS) -MMD -MP -MF $@.d -MT $@ $(CXXFLAGS)
 CMOCKA_CFLAGS = $$(pkg-config --cflags cmocka 2>/dev/null)
@@ -26,7 +26,7 @@ CMOCKA_LIBS   = $$(pkg-config --libs cmocka 2>/dev/null || echo -lcmocka)
 
 # The tests; these run in float and long double as well.
 TESTS    = $(sort $(basename $(notdir $(wildcard tests/test_*.c))))
-TYPED    = $(filter test_oracle test_quadrature test_interpolation test_lu test_corners,$(TESTS))
+TYPED    = $(filter test_oracle test_quadrature test_interpolation test_lu test_corners test_effects,$(TESTS))
 PROGRAMS = $(TESTS) $(TYPED:%=%-float) $(TYPED:%=%-long)
 # Small enough to be repeated under valgrind.
 VALGRIND_TESTS = $(filter test_api test_lu test_interpolation,$(TESTS))
@@ -35,11 +35,22 @@ VALGRIND_EXAMPLES = 04_driven_damped 06_building_blocks 07_failing_step 08_robot
 C_EXAMPLES   = $(sort $(basename $(notdir $(wildcard examples/*.c))))
 CXX_EXAMPLES = $(sort $(basename $(notdir $(wildcard examples/*.cpp))))
 EXAMPLES     = $(C_EXAMPLES) $(CXX_EXAMPLES)
+SCENES       = $(filter-out scene scenes,$(basename $(notdir $(wildcard examples/scenes/*.c))))
+
+# The theorems of docs/theorems.md; QUADRUPLE needs more digits than long double has on x86.
+THEOREMS  = order lagrangian curve forced doubled spectral identities inertia stability
+QUADRUPLE = order lagrangian forced
+
+# What accuracy costs: optimised as a user in a hurry would.
+COST_CFLAGS  = -O3 -march=native -ffp-contract=fast -fno-math-errno -fno-trapping-math
+COST_ARGS    =
+COST_OBJECTS = $(patsubst %,$(BUILD)/cost/%.o,problems baselines gvi_run cost)
 
 .DEFAULT_GOAL = help
 .DELETE_ON_ERROR:
 .PHONY: run deps test unit examples headers symbols docs-check sanitize valgrind \
         figures synopsis install uninstall help clean cmocka \
+        cost cost-horizon scenes $(SCENES:%=scene-%) theorems $(THEOREMS:%=theorem-%) \
         $(PROGRAMS:%=run-%) $(EXAMPLES:%=example-%) $(VALGRIND_TESTS:%=valgrind-%) \
         $(VALGRIND_EXAMPLES:%=valgrind-%)
 
@@ -95,6 +106,20 @@ figures: $(BUILD)/examples/02_outer_solar_system
 	$(Q)mkdir -p docs/img
 	$(Q)$(BUILD)/examples/02_outer_solar_system 200000 200 8 docs/img
 
+## scenes       runs every scene and draws it in docs/img/scenes/; one: make scene-net
+scenes: $(SCENES:%=scene-%)
+
+## cost         gvi.h and its rivals: time to an error on eight problems; tables, CSV and pictures in build/cost
+cost: $(BUILD)/cost/cost
+	$(Q)$< --out $(BUILD)/cost $(COST_ARGS) | tee $(BUILD)/cost/table.txt
+
+## cost-horizon the outer solar system at 1, 10 and 100 times its length
+cost-horizon: $(BUILD)/cost/cost
+	$(Q)$< --horizon --out $(BUILD)/cost
+
+## theorems     docs/theorems.md measured again, with its pictures (a few minutes); one: make theorem-curve
+theorems: $(THEOREMS:%=theorem-%)
+
 ## install      copies gvi.h, the whole library, to $(DESTDIR)$(PREFIX)/include
 install:
 	mkdir -p '$(DESTDIR)$(PREFIX)/include'
@@ -144,6 +169,35 @@ $(BUILD)/examples/%: examples/%.cpp
 	$(Q)if command -v $(CXX) >/dev/null 2>&1; then \
 	    echo '  c++ $@'; $(CXXCOMPILE) $< -o $@ $(LDLIBS); fi
 
+$(BUILD)/examples/scene: examples/scenes/scene.c
+	@mkdir -p $(@D)
+	@echo '  cc $@'
+	$(Q)$(COMPILE) -Iexamples $< -o $@ $(LDLIBS)
+
+$(SCENES:%=scene-%): scene-%: $(BUILD)/examples/scene
+	$(Q)mkdir -p docs/img/scenes
+	$(Q)$< $* --svg docs/img/scenes/$*.svg
+
+$(BUILD)/theorems/%: tests/theorems/%.c
+	@mkdir -p $(@D)
+	@echo '  cc $@'
+	$(Q)$(COMPILE) $(TESTFLAGS) $< -o $@ $(LDLIBS)
+
+$(QUADRUPLE:%=$(BUILD)/theorems/%): TESTFLAGS += $(shell CC='$(CC)' sh tests/theorems/quad.sh)
+
+$(THEOREMS:%=theorem-%): theorem-%: $(BUILD)/theorems/%
+	$(Q)mkdir -p docs/img
+	$(Q)$< docs/img
+
+$(BUILD)/cost/%.o: tests/cost/%.c
+	@mkdir -p $(@D)
+	@echo '  cc $@'
+	$(Q)$(CC) -std=c99 $(WARNINGS) -Wno-double-promotion -I. $(CPPFLAGS) -MMD -MP -MF $@.d -MT $@ $(COST_CFLAGS) -c $< -o $@
+
+$(BUILD)/cost/cost: $(COST_OBJECTS)
+	@echo '  ld $@'
+	$(Q)$(CC) $(COST_OBJECTS) -o $@ $(LDLIBS)
+
 $(PROGRAMS:%=run-%): run-%: $(BUILD)/tests/%
 	$(Q)sh tests/tools/run_test.sh $(BUILD) $* $<
 
@@ -161,4 +215,4 @@ ifneq ($(filter deps,$(MAKECMDGOALS)),)
 cmocka headers symbols docs-check $(EXAMPLES:%=$(BUILD)/examples/%): | deps
 endif
 
--include $(wildcard $(BUILD)/tests/*.d $(BUILD)/examples/*.d)
+-include $(wildcard $(BUILD)/tests/*.d $(BUILD)/examples/*.d $(BUILD)/cost/*.d $(BUILD)/theorems/*.d)

@@ -97,9 +97,9 @@
               with -ffp-contract=off, as far as callbacks and sin do.
    work       With m = max_iterations, a step evaluates an effect at no more than
               (m+1)*r points in the fixed point and, where Newton is used or may
-              be, (m+1)*r more and (2n+1)*r + n+1 for each of at most m/4 + 2
-              Jacobians, each with one LU of size s*n; all of it once more when a
-              value was not finite, to name the effect.  Explicit: 2 points.  A
+              be, twice (m+1)*r more and (2n+1)*r + n+1 for each of at most
+              m/4 + 2 Jacobians, each with one LU of size s*n; all of it once more
+              when a value was not finite, to name the effect.  Explicit: 2 points.  A
               pinned fixed point: no LU, at most 2(m+1)*r.  gvi_velocity and
               gvi_energy: one point, or 40(n+1) with Lagrangian terms.
 
@@ -459,7 +459,7 @@ struct gvi__private {
     gvi_real *scale;                  /* [2n] units of changes, of two sets of rows */
     gvi_real *change, *one;           /* [3n], [6n] scratch                     */
     gvi_real *c, *ce, *b, *hb;        /* [R] nodes, their rest, weights, h b    */
-    gvi_real *t, *ones, *w_bary;      /* [R] times; 1; barycentric weights of c */
+    gvi_real *t, *ones, *place;       /* [R] times; 1; [3R] scratch             */
     gvi_real *z, *less, *row;         /* [R], [R], [6R] scratch                 */
     gvi_real *phi, *Phi, *low;        /* [s][R] modes at the nodes; rest of phi */
     gvi_real *inv_gamma, *own;        /* [s] 1/Gamma_kk; LU of Gamma if full    */
@@ -608,7 +608,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI_LENGTH(n, s, r) (                                                    \
     (28 + 4*GVI__SIZE(s) + 19*GVI__SIZE(GVI__ROW(r))                             \
      + (6 + GVI__SIZE(GVI__ROW(r)) + 2*GVI__SIZE(s)*GVI__SIZE(s))*GVI__SIZE(n))*GVI__SIZE(n) \
-    + (18 + 6*GVI__SIZE(r) + 3*GVI__SIZE(s))*GVI__SIZE(GVI__ROW(r))              \
+    + (20 + 6*GVI__SIZE(r) + 3*GVI__SIZE(s))*GVI__SIZE(GVI__ROW(r))              \
     + (GVI__SIZE(s) + 2)*GVI__SIZE(s) + 3 + GVI__SLACK)
 
 #ifdef __cplusplus
@@ -1973,7 +1973,7 @@ static size_t gvi__layout(gvi_stepper *st, gvi_real *base)
     x->ce = gvi__take(&a, 1, 1, R);
     x->b = gvi__take(&a, 1, 1, R);
     x->t = gvi__take(&a, 1, 1, R);
-    x->w_bary = gvi__take(&a, 1, 1, R);
+    x->place = gvi__take(&a, !kicks, 3, R);
     x->row = gvi__take(&a, 1, 6, R);
 
     x->q = gvi__take(&a, 1, 1, n);
@@ -2087,7 +2087,6 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     }
     if (x->flags & GVI__HAS_OWN) gvi__tables_own(st);
     else gvi__tables(st);
-    gvi_barycentric(st->r, x->c, x->w_bary);
     gvi__copy((size_t)st->r, x->c, x->Phi);  // Phi_0 = c on its grid: 1 - Phi_0 is exact
     return gvi__done(st, GVI_OK);
 }
@@ -2546,43 +2545,41 @@ static void gvi__extrapolate(gvi_stepper *st, const gvi_real *last, const gvi_re
     else gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, out);
 }
 
-// one step's rows: the polynomial through them, E_ij = l_j(alpha + beta c_i)
-static void gvi__extrapolation(gvi_stepper *st, gvi_real alpha, gvi_real beta)
+/* Least squares through the rows of one step or two, with polynomials p_k that are
+   orthonormal on the nodes x_j = c, and c - 1 for the step before (Forsythe 1957):
+   E_ij = sum_k p_k(y_i) p_k(x_j) at the targets y_i = alpha + beta c_i.  row holds
+   p_k and p_(k-1) at c, c - 1 and y.  Degree: r - 1, through all of one step's; of
+   two, what tests/cost found to be best; and no more than amplifies rounding, by
+   about 5.8^degree at the end of the step, to 1e-4.                            */
+static void gvi__fit(gvi_stepper *st, gvi_real alpha, gvi_real beta)
 {
     struct gvi__private *x = &st->x;
-    for (int i = 0; i < st->r; ++i) {
-        gvi_basis(st->r, x->c, x->w_bary, alpha + beta*x->c[i], x->row);
-        for (int j = 0; j < st->r; ++j) x->E[j*x->stride + i] = x->row[j];
+    const int r = st->r, R = x->stride, nodes = x->two ? 2*R : R, most = GVI__DIG*2/7;
+    const int wanted = x->two ? r + r/2 - r/8 : r - 1, degree = wanted < most ? wanted : most;
+    gvi_real *p = x->row, *before = p + 3*R, *at = x->place;
+    gvi_real coupling = 0, norm = 1/gvi__sqrt((gvi_real)(x->two ? 2*r : r));
+    for (int m = 0; m < 3*R; ++m) {
+        const gvi_real c = x->c[m % R];
+        at[m] = m < R ? c : m < 2*R ? c - 1 : alpha + beta*c;
+        p[m] = m % R < r ? norm : 0;
+        before[m] = 0;
     }
-}
-
-/* Two steps' rows: least squares with polynomials of degree r + r/2 - r/8, a
-   compromise between truncation and amplified rounding that tests/cost found.
-   By polynomials p_k orthonormal on the 2r nodes (Forsythe 1957),
-   E_ij = sum_k p_k(1 + c_i) p_k(x_j), x = c, then c - 1; row holds p_k and p_(k-1)
-   at c - 1, c and c + 1.                                                       */
-static void gvi__extrapolation_two(gvi_stepper *st)
-{
-    struct gvi__private *x = &st->x;
-    const int r = st->r, R = x->stride, degree = r + r/2 - r/8;
-    gvi_real *p = x->row, *before = p + 3*R, norm = 1/gvi__sqrt((gvi_real)(2*r)), coupling = 0;
-    gvi__zero((size_t)(2*r*R), x->E);
-    for (int m = 0; m < 3*R; ++m) p[m] = m % R < r ? norm : 0, before[m] = 0;
+    gvi__zero((size_t)(x->two ? 2*r*R : r*R), x->E);
     for (int k = 0; k <= degree; ++k) {
         for (int j = 0; j < r; ++j)
             for (int i = 0; i < r; ++i) {
-                x->E[j*R + i] += p[2*R + i]*p[R + j];
-                x->E[(r + j)*R + i] += p[2*R + i]*p[j];
+                x->E[j*R + i] += p[2*R + i]*p[j];
+                if (x->two) x->E[(r + j)*R + i] += p[2*R + i]*p[R + j];
             }
 
         // p_(k+1) ~ (x - <x p_k, p_k>) p_k - coupling p_(k-1), over its norm
         gvi_real middle = 0, size = 0;
-        for (int m = 0; m < 2*R; ++m) middle += (x->c[m % R] + (gvi_real)(m/R - 1))*p[m]*p[m];
+        for (int m = 0; m < nodes; ++m) middle += at[m]*p[m]*p[m];
         for (int m = 0; m < 3*R; ++m) {
-            gvi_real next = (x->c[m % R] + (gvi_real)(m/R - 1) - middle)*p[m] - coupling*before[m];
+            gvi_real next = (at[m] - middle)*p[m] - coupling*before[m];
             before[m] = p[m];
             p[m] = next;
-            if (m < 2*R) size += next*next;
+            if (m < nodes) size += next*next;
         }
         coupling = gvi__sqrt(size);
         if (!gvi__nonzero(coupling)) break;
@@ -2598,8 +2595,7 @@ static void gvi__prepare_guess(gvi_stepper *st, gvi_real alpha, gvi_real beta, i
     if (!query && !gvi__nonzero(beta - x->ratio) && two == x->two) return;
     x->ratio = query ? 0 : beta;
     x->two = two;
-    if (two) gvi__extrapolation_two(st);
-    else gvi__extrapolation(st, alpha, beta);
+    gvi__fit(st, alpha, beta);
 }
 
 /* Starting values: what the last step had, extrapolated; without one, or if
@@ -2651,26 +2647,29 @@ static void gvi__increments(gvi_stepper *st, gvi_real h)
    as it is within a few units of the last place of q.  What is beyond that must
    have been idle for longer, and is measured as energy, force times change
    against force times path and p v, so that coordinates of any units may be
-   added up; at the last point.                                                */
+   added up, or against force times q, where everything is at rest and nothing
+   but rounding is left to be compared; at the last point.                     */
 static int gvi__is_rounding(const gvi_stepper *st, const gvi__from *from, int idle)
 {
     const struct gvi__private *x = &st->x;
     const gvi_real r = (gvi_real)st->r;
     int R = x->stride, last = st->r - 1;
-    gvi_real noise = 0, size = 0;
+    gvi_real noise = 0, size = 0, place = 0;
     for (int i = 0; i < st->n; ++i) {
         gvi_real most = 0, Q = x->work.Q[i*R + last];
-        gvi_real v = x->chosen > GVI_POSITIONS ? x->work.V[i*R + last] : x->v0[i];
+        int by_v = x->chosen > GVI_POSITIONS || st->formulation == GVI_NEWTON;
+        gvi_real v = by_v ? x->work.V[i*R + last] : x->v0[i];
         for (int k = 0; k < st->r; ++k) {
             gvi_real F = gvi__abs(x->work.F[i*R + k]);
             if (F > most) most = F;
             size += F*gvi__abs(x->work.Q[i*R + k] - from->q[i]);
+            place += F*gvi__abs(x->work.Q[i*R + k]);
         }
         gvi_real beyond = gvi__abs(Q - x->change[i]) - 4*GVI__EPS*gvi__abs(Q);
         if (!(beyond <= 0)) noise += r*beyond*most;
         size += r*gvi__abs(from->p[i]*v);
     }
-    return noise <= 0 || (idle > 4 && size <= GVI__MAX && noise <= 1000*GVI__EPS*size);
+    return noise <= 0 || (idle > 4 && size + place <= GVI__MAX && noise <= 1000*GVI__EPS*size + 4*GVI__EPS*place);
 }
 
 // g at one configuration; slope of length n gets dg/dq
@@ -2740,7 +2739,7 @@ static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_r
     for (*used = 1; *used <= x->desc.max_iterations; ++*used) {
         gvi_status status = gvi__ask(st, from, &points);
         if (status != GVI_OK) return status;
-        for (int i = 0; idle > 0 && i < st->n; ++i) x->change[i] = x->work.Q[i*x->stride + st->r - 1];
+        for (int i = 0; idle + poor > 0 && i < st->n; ++i) x->change[i] = x->work.Q[i*x->stride + st->r - 1];
         const gvi_real change = gvi__stages(st, y, count);
         if (!(change <= GVI__MAX)) return gvi__not_finite(st, grows);
         if (change*change <= enough*(before > 0 ? before : change)) return gvi__watch_last(st, change), GVI_OK;
@@ -2749,7 +2748,7 @@ static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_r
         poor = grows ? poor + 1 : 0;
         idle = change < least*81/100 ? 0 : idle + 1;
         if (change < least) least = change;
-        if ((idle > 2 && change <= rounding) || (idle > 1 && gvi__is_rounding(st, from, idle)))
+        if ((idle > 2 && change <= rounding) || ((idle > 1 || poor > 2) && gvi__is_rounding(st, from, idle)))
             return gvi__watch_last(st, change), GVI_OK;
         if (poor > 2 && fall_back && change > 65536*rounding) break;    // nearer, idle decides
         earlier = before;
@@ -3051,7 +3050,11 @@ static void gvi__newton_guess(gvi_stepper *st, int extrapolate)
         for (int i = 0; i < n; ++i) x->y[i] = gvi__velocity_guess(st, i);
         return;
     }
-    if (x->last.V) gvi__extrapolate(st, x->last.V, NULL, x->work.V);
+    if (x->two) {                                 // E is for one step here
+        x->two = 0;
+        gvi__fit(st, 1, 1);
+    }
+    gvi__extrapolate(st, x->last.V, NULL, x->work.V);
     for (int i = 0; i < n; ++i) {
         for (int k = 0; k < s; ++k) {
             x->row[k] = 0;
@@ -3078,8 +3081,9 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__from *from, gvi_r
             }
             size += gvi__abs(x->y[k*n + i]);
         }
-        if (!(size <= GVI__MIN/GVI__EPS)) sum += change/size; // as gvi__scale; a NaN goes on
+        if (!(size <= GVI__MIN/GVI__EPS)) sum += change/size; // as gvi__rescale; a NaN goes on
         if (!(gvi__abs(h)*change <= 4*GVI__EPS*gvi__abs(from->q[i]))) *still = 0;
+        x->change[i] = x->work.Q[i*x->stride + st->r - 1] - gvi__abs(h)*change;     // for gvi__is_rounding
     }
     return sum;
 }
@@ -3092,7 +3096,7 @@ static gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi_
     struct gvi__private *x = &st->x;
     const gvi_real enough = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/4096;
     int size = (st->s - J->k0)*st->n, have = kept && !gvi__nonzero(x->h_matrix - J->h);
-    int made = 0, last = 0;
+    int made = 0, last = 0, idle = 0;
     gvi_real before = 0, earlier = 0;
     for (int k = 0; k <= x->desc.max_iterations; ++k) {
         gvi_points y;
@@ -3120,9 +3124,11 @@ static gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi_
         // rounding, or this one is: it does not shrink although it is at the
         // rounding of y, q or the residual, or small and the Jacobian new
         int stagnant = before > 0 && ratio > (gvi_real)0.5;
+        idle = stagnant ? idle + 1 : 0;
         if (change*ratio <= enough
             || (stagnant && (change <= 64*GVI__EPS*(gvi_real)size || still || residual <= 16*GVI__EPS
-                             || (fresh && change <= gvi__sqrt(GVI__EPS))))) last = 1;
+                             || (fresh && change <= gvi__sqrt(GVI__EPS))
+                             || (idle > 1 && gvi__is_rounding(st, from, idle))))) last = 1;
         else if (before > 0 && ratio > (gvi_real)0.25) have = 0;
         earlier = before;
         before = change;
@@ -3177,6 +3183,10 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__from *from, gvi_real 
     unsigned long long count = st->counters.newton_iterations;
     st->formulation = GVI_NEWTON;
     status = gvi__newton_step(st, from, h, usable && x->has_velocity, query);
+    if (usable && x->has_velocity && (status == GVI_E_CONVERGENCE || status == GVI_E_SINGULAR)) {
+        if (!query) x->h_matrix = 0;              // the extrapolation may be to blame
+        status = gvi__newton_step(st, from, h, 0, query);
+    }
     if (!query) st->iterations = used + (int)(st->counters.newton_iterations - count);
     return status;
 }

@@ -284,7 +284,7 @@ static int is_finite_state(const state *s)
 static unsigned long long most_points(const gvi_stepper *st, const gvi_desc *d)
 {
     int iterations = d->max_iterations ? d->max_iterations : 60, n = st->n, r = st->r;
-    int fixed_point = iterations*(r + 1), newton = iterations + 2 + (2*n + 1)*(iterations/4 + 3);
+    int fixed_point = iterations*(r + 1), newton = 2*(iterations + 2 + (2*n + 1)*(iterations/4 + 3));
     return 2ull*(unsigned long long)((fixed_point + newton)*r + 40*(n + 2))
          * (unsigned long long)(d->effect_count + 3);
 }

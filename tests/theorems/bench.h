@@ -1,0 +1,202 @@
+/* bench.h - a stepper on a problem, and slopes
+
+   What goes wrong in a call comes out as NaN, which no bound accepts.         */
+#ifndef BENCH_H
+#define BENCH_H
+
+#include "reference.h"
+
+typedef struct method { int s; gvi_rule rule; } method;
+
+static real bench_memory[150000];
+static MAYBE gvi_stepper bench_stepper;
+
+static MAYBE gvi_desc bench_desc(const problem *pb, const method *m)
+{
+    return (gvi_desc){ .n = pb->n, .degree = m->s, .rule = m->rule, .mass = pb->mass,
+                       .effects = pb->effects, .effect_count = pb->effect_count };
+}
+
+/* Ready to step from y = (q, p, ...) at time t; the status is in it */
+static MAYBE gvi_stepper *bench(const problem *pb, const method *m, real t, const real *y)
+{
+    const gvi_desc desc = bench_desc(pb, m);
+    if (gvi_init(&bench_stepper, &desc, bench_memory, sizeof bench_memory) == GVI_OK)
+        gvi_start_momentum(&bench_stepper, t, y, y + pb->n);
+    return &bench_stepper;
+}
+
+static MAYBE real square_distance(int n, const real *a, const real *b)
+{
+    real sum = 0;
+    for (int i = 0; i < n; ++i) sum += (a[i] - b[i])*(a[i] - b[i]);
+    return sum;
+}
+
+/* Keeps NaN */
+static MAYBE real larger(real a, real b) { return isnan(a) || b <= a ? a : b; }
+static MAYBE int smaller_int(int a, int b) { return a < b ? a : b; }
+
+/* Distance of (q, p) from the exact state after pb->time in steps of h, root
+   mean square over the starts                                                */
+static MAYBE real end_error(const problem *pb, const method *m, real h)
+{
+    int steps = (int)(pb->time/h + 0.5L), n = pb->n;
+    real sum = 0;
+    for (int start = 0; start < STARTS; ++start) {
+        real y[MAX_Y];
+        const real *end = run_state(pb, start, 1);
+        start_state(pb, start, y);
+        gvi_stepper *st = bench(pb, m, 0, y);
+        for (int k = 0; k < steps && st->status == GVI_OK; ++k) gvi_step(st, pb->time/steps);
+        if (st->status != GVI_OK) return (real)NAN;
+        sum += square_distance(n, st->q, end) + square_distance(n, st->p, end + n);
+    }
+    return sqrt(sum/STARTS);
+}
+
+/* The start of the step of exact_step() */
+static MAYBE real step_time(const problem *pb, real h) { return pb->time/2 - h/2; }
+
+/* Distance of (q, p) after one step from the exact state, root mean square over
+   the starts                                                                 */
+static MAYBE real step_error(const problem *pb, const method *m, real h)
+{
+    real sum = 0;
+    int n = pb->n;
+    for (int start = 0; start < STARTS; ++start) {
+        real y0[MAX_Y], y1[MAX_Y];
+        exact_step(pb, start, h, y0, y1);
+        gvi_stepper *st = bench(pb, m, step_time(pb, h), y0);
+        if (st->status != GVI_OK || gvi_step(st, h) != GVI_OK) return (real)NAN;
+        sum += square_distance(n, st->q, y1) + square_distance(n, st->p, y1 + n);
+    }
+    return sqrt(sum/STARTS);
+}
+
+/* L_d of the two ends of an exact solution against its action, root mean square
+   over the starts.  The oscillator: against its closed form.                  */
+static MAYBE real lagrangian_error(const problem *pb, const method *m, real h)
+{
+    real sum = 0;
+    for (int start = 0; start < STARTS; ++start) {
+        real y0[MAX_Y], y1[MAX_Y], Ld, exact;
+        exact_step(pb, start, h, y0, y1);
+        exact = y1[2*pb->n];
+        if (pb == &oscillator) exact = ((y0[0]*y0[0] + y1[0]*y1[0])*cos(h) - 2*y0[0]*y1[0])/(2*sin(h));
+        gvi_stepper *st = bench(pb, m, step_time(pb, h), y0);
+        if (st->status != GVI_OK || gvi_discrete_lagrangian(st, st->t, h, y0, y1,
+                                        &(gvi_discrete){ .lagrangian = &Ld }) != GVI_OK) return (real)NAN;
+        sum += (Ld - exact)*(Ld - exact);
+    }
+    return sqrt(sum/STARTS);
+}
+
+/* -D1 L_d against the exact initial momentum of the same solution: of a
+   conservative problem                                                       */
+static MAYBE real momentum_error(const problem *pb, const method *m, real h)
+{
+    real sum = 0;
+    for (int start = 0; start < STARTS; ++start) {
+        real y0[MAX_Y], y1[MAX_Y], p0[MAX_N];
+        exact_step(pb, start, h, y0, y1);
+        gvi_stepper *st = bench(pb, m, step_time(pb, h), y0);
+        if (st->status != GVI_OK || gvi_discrete_lagrangian(st, st->t, h, y0, y1,
+                                        &(gvi_discrete){ .p0 = p0 }) != GVI_OK) return (real)NAN;
+        sum += square_distance(pb->n, p0, y0 + pb->n);
+    }
+    return sqrt(sum/STARTS);
+}
+
+/* ------------------------------------------------------- inside one exact step
+
+   Distances of a curve from the solution in a step: the largest and the integral
+   over the step, of the position and of its velocity, root mean square over the
+   starts                                                                     */
+enum { INSIDE = 48, NORMS = 4 };
+typedef enum curve_kind { OF_THE_STEP, INTERPOLATED, STATE_AT } curve_kind;
+
+/* The polynomial of degree s through the solution at s + 1 Lobatto points */
+static MAYBE gvi_status interpolant(const problem *pb, int s, real h, const real *y0, real tau,
+                                    real *q, real *v)
+{
+    static real x[40], w[40], f[MAX_N][40];
+    if (!(tau > 0)) {                            /* the first of a step */
+        real y[MAX_Y];
+        gvi_status status = gvi_lobatto(s + 1, x, w);
+        if (status != GVI_OK || gvi_barycentric(s + 1, x, w) != GVI_OK) return GVI_E_NODES;
+        memcpy(y, y0, sizeof y);
+        for (int k = 0; k <= s; ++k) {
+            if (k) flow(pb, step_time(pb, h) + x[k - 1]*h, step_time(pb, h) + x[k]*h, y);
+            for (int i = 0; i < pb->n; ++i) f[i][k] = y[i] - y0[i];     /* rounding relative to h */
+        }
+    }
+    for (int i = 0; i < pb->n; ++i) {
+        q[i] = y0[i] + gvi_interpolate(s + 1, x, w, f[i], tau);
+        v[i] = gvi_interpolate_derivative(s + 1, x, w, f[i], tau)/h;
+    }
+    return GVI_OK;
+}
+
+/* |position| and |velocity| of the difference at tau = k/INSIDE, in one step */
+static MAYBE int curve_errors(const problem *pb, const method *m, int start, real h, curve_kind kind,
+                              real *of_q, real *of_v)
+{
+    real y0[MAX_Y], y[MAX_Y], dy[MAX_Y], q[MAX_N], v[MAX_N], t0 = step_time(pb, h);
+    exact_step(pb, start, h, y0, y);
+    memcpy(y, y0, sizeof y);
+    gvi_stepper *st = bench(pb, m, t0, y0);
+    if (st->status != GVI_OK || gvi_step(st, h) != GVI_OK) return 0;
+    for (int k = 0; k <= INSIDE; ++k) {
+        real tau = (real)k/INSIDE, t = k < INSIDE ? t0 + tau*h : st->t;
+        if (k) flow(pb, t0 + (real)(k - 1)/INSIDE*h, t, y);
+        rates(pb, t, y, dy);
+        gvi_status status = kind == OF_THE_STEP ? gvi_curve(st, tau, q, v)
+                          : kind == STATE_AT ? gvi_state_at(st, t, q, v, NULL)
+                          : interpolant(pb, m->s, h, y0, tau, q, v);
+        if (status != GVI_OK) return 0;
+        of_q[k] = sqrt(square_distance(pb->n, q, y));
+        of_v[k] = sqrt(square_distance(pb->n, v, dy));
+    }
+    return 1;
+}
+
+/* Largest |q|, integral of |q|, largest |v|, integral of |v| */
+static MAYBE void curve_norms(const problem *pb, const method *m, real h, curve_kind kind, real *norm)
+{
+    for (int i = 0; i < NORMS; ++i) norm[i] = 0;
+    for (int start = 0; start < STARTS; ++start) {
+        real e[2][INSIDE + 1];
+        int known = curve_errors(pb, m, start, h, kind, e[0], e[1]);
+        for (int i = 0; i < 2; ++i) {
+            real most = 0, sum = -(e[i][0] + e[i][INSIDE])/2;
+            for (int k = 0; k <= INSIDE; ++k) { most = larger(most, e[i][k]); sum += e[i][k]; }
+            if (!known) most = sum = (real)NAN;
+            norm[2*i] += most*most/STARTS;
+            norm[2*i + 1] += h*h*sum*sum/(INSIDE*INSIDE*STARTS);
+        }
+    }
+    for (int i = 0; i < NORMS; ++i) norm[i] = sqrt(norm[i]);
+}
+
+/* ----------------------------------------------------------------------- slopes
+
+   What converges with h, and where it is looked at                            */
+typedef real error_fn(const problem *pb, const method *m, real h);
+
+/* The exponent in error = C h^exponent, from two step sizes T/N and T/M, M near
+   2N/3, T the length of a run.  N: as far as rounding allows, where the error is
+   still 1000 or more units of it, and no more than `most` steps: what converges
+   slowly has shown its slope by then.  `expected` only says where to look.     */
+static MAYBE real slope(error_fn *error, const problem *pb, const method *m, real expected, int most)
+{
+    real T = pb->time, first = error(pb, m, T/12), least = 1e3L*UNIT, e;
+    int N = most, M;
+    if (first > 0 && first < 1) N = (int)fmin((real)most, 12*pow(first/least, 1/expected));
+    if (N < 5) N = 5;
+    while ((e = error(pb, m, T/N)) < least && N > 5) N -= N < 32 ? 1 : N/16;
+    M = (2*N + 1)/3;
+    return log(error(pb, m, T/M)/e)/log((real)N/M);
+}
+
+#endif

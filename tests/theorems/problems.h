@@ -1,0 +1,429 @@
+/* problems.h - the mechanical systems of the studies in this directory
+
+   Four that are nonlinear and not separable, in one way each, and the harmonic
+   oscillator, whose closed forms are known:
+
+     oscillator   L = v^2/2 - q^2/2                                     (omega = 1)
+     Kepler       L = v'v/2 + 1/|q|
+     pendulum     L = v'M(q)v/2 + 2 cos q1 + cos(q1 + q2)         double pendulum
+     magnetic     L = v'v/2 + a(q)'v - q1^2/2 - q2^2 - q1^2 q2/2
+                  a = (-q2 (1 + q1^2), q1)/2
+     length       L = l(t)^2 v^2/2 + l(t) cos q      a pendulum being pulled up and
+                  l = 1 + sin(2t)/4                  down: time in the kinetic term
+
+   and the forces of the forced ones:
+
+     drag         -0.2 v                                             on magnetic
+     air          -0.05 |v| v       (whose speed must not come near 0) on Kepler
+     motor        cos(3t) (1 - v1/4), less 0.1 v2 on the other joint on pendulum
+                  (a torque of t alone would be a potential: -q tau(t))
+
+   Each is told to gvi.h as a scene, and once more to the reference as what
+   reference.h needs: kinetic energy, its derivatives, v from p.              */
+#ifndef PROBLEMS_H
+#define PROBLEMS_H
+
+#ifndef GVI_REAL
+#define GVI_REAL long double
+#endif
+#ifndef GVI_IMPLEMENTATION
+#define GVI_IMPLEMENTATION
+#endif
+#include "gvi.h"
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+#include <tgmath.h>
+
+typedef gvi_real real;
+#include "tests/pendulum.h"
+
+#define MAYBE __attribute__((unused))     /* not every study needs everything */
+#define HESSIAN(name) static MAYBE int name(real t, const real *q, const real *v, \
+                                            real *fq, real *fv, real *pv, void *user)
+#define UNIT  ((real)LDBL_EPSILON)
+#define TAU   6.28318530717958647692528676655900577L
+
+enum { MAX_N = 2, STARTS = 3, MAX_EFFECTS = 3 };
+
+typedef struct problem {
+    const char *name;
+    int         n;
+    gvi_mass    mass;
+    gvi_effect  effects[MAX_EFFECTS];     /* the force, if any, last */
+    int         effect_count, forced;
+    real      (*lagrangian)(real t, const real *q, const real *v);
+    /* adds dT/dq and dT/dv of a kinetic energy that no effect holds */
+    void      (*kinetic)(const real *q, const real *v, real *dq, real *dv);
+    void      (*velocity)(real t, const real *q, const real *p, real *v);
+    real        q[STARTS][MAX_N], v[STARTS][MAX_N];
+    real        time;                     /* of a run */
+} problem;
+
+/* ------------------------------------------------------- kinetic energies */
+
+static MAYBE void unit_1(const real *q, const real *v, real *dq, real *dv)
+{
+    (void)q; (void)dq;
+    dv[0] += v[0];
+}
+
+static MAYBE void unit_2(const real *q, const real *v, real *dq, real *dv)
+{
+    (void)q; (void)dq;
+    dv[0] += v[0];
+    dv[1] += v[1];
+}
+
+static MAYBE void no_kinetic(const real *q, const real *v, real *dq, real *dv)
+{
+    (void)q; (void)v; (void)dq; (void)dv;
+}
+
+static MAYBE void pendulum_kinetic(const real *q, const real *v, real *dq, real *dv)
+{
+    real c = cos(q[1]);
+    dv[0] += (3 + 2*c)*v[0] + (1 + c)*v[1];
+    dv[1] += (1 + c)*v[0] + v[1];
+    dq[1] -= sin(q[1])*v[0]*(v[0] + v[1]);
+}
+
+/* -------------------------------------------------------------- oscillator */
+
+static MAYBE int spring(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    (void)t; (void)v; (void)dldv; (void)user;
+    f[0] -= q[0];
+    return 0;
+}
+
+HESSIAN(spring_hessian)
+{
+    (void)t; (void)q; (void)v; (void)fv; (void)pv; (void)user;
+    fq[0] -= 1;
+    return 0;
+}
+
+static MAYBE int spring_value(const gvi_points *x, void *user)
+{
+    (void)user;
+    for (int k = 0; k < x->count; ++k) x->value[k] += x->q[k]*x->q[k]/2;
+    return 0;
+}
+
+static MAYBE real oscillator_lagrangian(real t, const real *q, const real *v)
+{
+    (void)t;
+    return (v[0]*v[0] - q[0]*q[0])/2;
+}
+
+static MAYBE void momentum_is_velocity_1(real t, const real *q, const real *p, real *v)
+{
+    (void)t; (void)q;
+    v[0] = p[0];
+}
+
+/* ------------------------------------------------------------------ Kepler */
+
+static MAYBE int attraction(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    real r2 = q[0]*q[0] + q[1]*q[1], w = -1/(r2*sqrt(r2));
+    (void)t; (void)v; (void)dldv; (void)user;
+    f[0] += w*q[0];
+    f[1] += w*q[1];
+    return 0;
+}
+
+HESSIAN(attraction_hessian)
+{
+    real r2 = q[0]*q[0] + q[1]*q[1], w = -1/(r2*sqrt(r2)), u = -3*w/r2;
+    (void)t; (void)v; (void)fv; (void)pv; (void)user;
+    for (int i = 0; i < 2; ++i)
+        for (int j = 0; j < 2; ++j) fq[2*i + j] += (i == j ? w : 0) + u*q[i]*q[j];
+    return 0;
+}
+
+static MAYBE int attraction_value(const gvi_points *x, void *user)
+{
+    const real *X = x->q, *Y = X + x->stride;
+    (void)user;
+    for (int k = 0; k < x->count; ++k) x->value[k] -= 1/sqrt(X[k]*X[k] + Y[k]*Y[k]);
+    return 0;
+}
+
+static MAYBE real kepler_lagrangian(real t, const real *q, const real *v)
+{
+    (void)t;
+    return (v[0]*v[0] + v[1]*v[1])/2 + 1/sqrt(q[0]*q[0] + q[1]*q[1]);
+}
+
+static MAYBE void momentum_is_velocity_2(real t, const real *q, const real *p, real *v)
+{
+    (void)t; (void)q;
+    v[0] = p[0];
+    v[1] = p[1];
+}
+
+/* ---------------------------------------------------------- double pendulum */
+
+static MAYBE int weights(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    real both = sin(q[0] + q[1]);
+    (void)t; (void)v; (void)dldv; (void)user;
+    f[0] -= 2*sin(q[0]) + both;
+    f[1] -= both;
+    return 0;
+}
+
+HESSIAN(weights_hessian)
+{
+    real both = cos(q[0] + q[1]);
+    (void)t; (void)v; (void)fv; (void)pv; (void)user;
+    fq[0] -= 2*cos(q[0]) + both;
+    fq[1] -= both;
+    fq[2] -= both;
+    fq[3] -= both;
+    return 0;
+}
+
+static MAYBE int weights_value(const gvi_points *x, void *user)
+{
+    const real *a = x->q, *b = a + x->stride;
+    (void)user;
+    for (int k = 0; k < x->count; ++k) x->value[k] -= 2*cos(a[k]) + cos(a[k] + b[k]);
+    return 0;
+}
+
+static MAYBE real pendulum_lagrangian(real t, const real *q, const real *v)
+{
+    real c = cos(q[1]);
+    (void)t;
+    return ((3 + 2*c)*v[0]*v[0] + 2*(1 + c)*v[0]*v[1] + v[1]*v[1])/2 + 2*cos(q[0]) + cos(q[0] + q[1]);
+}
+
+/* M^-1 p in closed form: det M = 3 + 2c - (1 + c)^2 = 2 - c^2 */
+static MAYBE void pendulum_velocity(real t, const real *q, const real *p, real *v)
+{
+    real c = cos(q[1]), det = 2 - c*c;
+    (void)t;
+    v[0] = (p[0] - (1 + c)*p[1])/det;
+    v[1] = ((3 + 2*c)*p[1] - (1 + c)*p[0])/det;
+}
+
+/* ----------------------------------------------------------------- magnetic */
+
+static MAYBE int trap(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    (void)t; (void)v; (void)dldv; (void)user;
+    f[0] -= q[0] + q[0]*q[1];
+    f[1] -= 2*q[1] + q[0]*q[0]/2;
+    return 0;
+}
+
+HESSIAN(trap_hessian)
+{
+    (void)t; (void)v; (void)fv; (void)pv; (void)user;
+    fq[0] -= 1 + q[1];
+    fq[1] -= q[0];
+    fq[2] -= q[0];
+    fq[3] -= 2;
+    return 0;
+}
+
+static MAYBE int trap_value(const gvi_points *x, void *user)
+{
+    const real *a = x->q, *b = a + x->stride;
+    (void)user;
+    for (int k = 0; k < x->count; ++k) x->value[k] += a[k]*a[k]/2 + b[k]*b[k] + a[k]*a[k]*b[k]/2;
+    return 0;
+}
+
+static MAYBE int field(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    (void)t; (void)user;
+    dldv[0] -= q[1]*(1 + q[0]*q[0])/2;
+    dldv[1] += q[0]/2;
+    f[0] += v[1]/2 - q[0]*q[1]*v[0];
+    f[1] -= v[0]*(1 + q[0]*q[0])/2;
+    return 0;
+}
+
+HESSIAN(field_hessian)
+{
+    (void)t; (void)pv; (void)user;
+    fq[0] -= q[1]*v[0];
+    fq[1] -= q[0]*v[0];
+    fq[2] -= q[0]*v[0];
+    fv[0] -= q[0]*q[1];
+    fv[1] += 0.5L;
+    fv[2] -= (1 + q[0]*q[0])/2;
+    return 0;
+}
+
+static MAYBE int field_value(const gvi_points *x, void *user)
+{
+    const real *a = x->q, *b = a + x->stride, *u = x->v, *v = u + x->stride;
+    (void)user;
+    for (int k = 0; k < x->count; ++k) x->value[k] += (a[k]*v[k] - b[k]*(1 + a[k]*a[k])*u[k])/2;
+    return 0;
+}
+
+static MAYBE real magnetic_lagrangian(real t, const real *q, const real *v)
+{
+    (void)t;
+    return (v[0]*v[0] + v[1]*v[1])/2 + (q[0]*v[1] - q[1]*(1 + q[0]*q[0])*v[0])/2
+         - q[0]*q[0]/2 - q[1]*q[1] - q[0]*q[0]*q[1]/2;
+}
+
+static MAYBE void magnetic_velocity(real t, const real *q, const real *p, real *v)
+{
+    (void)t;
+    v[0] = p[0] + q[1]*(1 + q[0]*q[0])/2;
+    v[1] = p[1] - q[0]/2;
+}
+
+/* ----------------------------------------------- pendulum of changing length */
+
+static MAYBE real length_at(real t) { return 1 + sin(2*t)/4; }
+
+static MAYBE int swing(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    real l = length_at(t);
+    (void)user;
+    f[0] -= l*sin(q[0]);
+    dldv[0] += l*l*v[0];
+    return 0;
+}
+
+HESSIAN(swing_hessian)
+{
+    real l = length_at(t);
+    (void)v; (void)fv; (void)user;
+    fq[0] -= l*cos(q[0]);
+    pv[0] += l*l;
+    return 0;
+}
+
+static MAYBE real swing_lagrangian(real t, const real *q, const real *v)
+{
+    real l = length_at(t);
+    return l*l*v[0]*v[0]/2 + l*cos(q[0]);
+}
+
+static MAYBE int swing_value(const gvi_points *x, void *user)
+{
+    (void)user;
+    for (int k = 0; k < x->count; ++k) x->value[k] += swing_lagrangian(x->t[k], x->q + k, x->v + k);
+    return 0;
+}
+
+static MAYBE void swing_velocity(real t, const real *q, const real *p, real *v)
+{
+    real l = length_at(t);
+    (void)q;
+    v[0] = p[0]/(l*l);
+}
+
+/* ------------------------------------------------------------------- forces */
+
+static MAYBE int drag(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    (void)t; (void)q; (void)dldv; (void)user;
+    f[0] -= 0.2L*v[0];
+    f[1] -= 0.2L*v[1];
+    return 0;
+}
+
+HESSIAN(drag_hessian)
+{
+    (void)t; (void)q; (void)v; (void)fq; (void)pv; (void)user;
+    fv[0] -= 0.2L;
+    fv[3] -= 0.2L;
+    return 0;
+}
+
+static MAYBE int air(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    real speed = sqrt(v[0]*v[0] + v[1]*v[1]);
+    (void)t; (void)q; (void)dldv; (void)user;
+    f[0] -= 0.05L*speed*v[0];
+    f[1] -= 0.05L*speed*v[1];
+    return 0;
+}
+
+HESSIAN(air_hessian)
+{
+    real speed = sqrt(v[0]*v[0] + v[1]*v[1]);
+    (void)t; (void)q; (void)fq; (void)pv; (void)user;
+    if (!(speed > 0)) return 0;
+    for (int i = 0; i < 2; ++i)
+        for (int j = 0; j < 2; ++j) fv[2*i + j] -= 0.05L*((i == j ? speed : 0) + v[i]*v[j]/speed);
+    return 0;
+}
+
+static MAYBE int motor(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    (void)q; (void)dldv; (void)user;
+    f[0] += cos(3*t)*(1 - v[0]/4);
+    f[1] -= 0.1L*v[1];
+    return 0;
+}
+
+HESSIAN(motor_hessian)
+{
+    (void)q; (void)v; (void)fq; (void)pv; (void)user;
+    fv[0] -= cos(3*t)/4;
+    fv[3] -= 0.1L;
+    return 0;
+}
+
+/* ---------------------------------------------------------------- the tables
+
+   Several starts, so that no leading term of an error is small by accident   */
+
+#define SPRING     { GVI_POTENTIAL, NULL, spring, spring_value, spring_hessian, NULL }
+#define ATTRACTION { GVI_POTENTIAL, NULL, attraction, attraction_value, attraction_hessian, NULL }
+#define WEIGHTS    { GVI_POTENTIAL, NULL, weights, weights_value, weights_hessian, NULL }
+#define TRAP       { GVI_POTENTIAL, NULL, trap, trap_value, trap_hessian, NULL }
+#define FIELD      { GVI_LAGRANGIAN, NULL, field, field_value, field_hessian, NULL }
+#define SWING      { GVI_LAGRANGIAN, NULL, swing, swing_value, swing_hessian, NULL }
+#define FORCE(f)   { GVI_FORCE, NULL, f, NULL, f##_hessian, NULL }
+#define PENDULUM_MASS { GVI_MASS_POSITION, NULL, pendulum_mass, pendulum_mass_gradient, NULL, NULL }
+
+#define KEPLER_STARTS   { { 0.7L, 0 }, { 0.2L, 0.8L }, { -0.9L, 0.1L } }, \
+                        { { 0.1L, 1.3L }, { -1.1L, 0.2L }, { 0.1L, -1 } }, 2
+#define PENDULUM_STARTS { { 0.7L, -0.4L }, { -0.3L, 1.1L }, { 0.2L, 0.5L } }, \
+                        { { 0.5L, 0.9L }, { 0.8L, -0.2L }, { -0.6L, 0.4L } }, 2
+#define MAGNETIC_STARTS { { 0.7L, -0.4L }, { -0.3L, 0.8L }, { 0.2L, 0.5L } }, \
+                        { { 0.5L, 0.9L }, { 0.8L, -0.2L }, { -0.6L, 0.8L } }, 2
+
+static const MAYBE problem oscillator = {
+    "oscillator", 1, { .kind = GVI_MASS_UNIT }, { SPRING }, 1, 0,
+    oscillator_lagrangian, unit_1, momentum_is_velocity_1,
+    { { 0.7L }, { -0.4L }, { 1.1L } }, { { 0.5L }, { 1 }, { -0.2L } }, 2
+};
+
+enum { PROBLEMS = 4, FORCED = 3 };
+
+static const MAYBE problem problems[PROBLEMS] = {
+    { "Kepler", 2, { .kind = GVI_MASS_UNIT }, { ATTRACTION }, 1, 0,
+      kepler_lagrangian, unit_2, momentum_is_velocity_2, KEPLER_STARTS },
+    { "double pendulum", 2, PENDULUM_MASS, { WEIGHTS }, 1, 0,
+      pendulum_lagrangian, pendulum_kinetic, pendulum_velocity, PENDULUM_STARTS },
+    { "magnetic", 2, { .kind = GVI_MASS_UNIT }, { TRAP, FIELD }, 2, 0,
+      magnetic_lagrangian, unit_2, magnetic_velocity, MAGNETIC_STARTS },
+    { "changing length", 1, { .kind = GVI_MASS_NONE }, { SWING }, 1, 0,
+      swing_lagrangian, no_kinetic, swing_velocity,
+      { { 0.7L }, { -1.2L }, { 0.3L } }, { { 0.5L }, { 0.9L }, { -1.6L } }, 2 },
+};
+
+static const MAYBE problem forced_problems[FORCED] = {
+    { "magnetic, drag", 2, { .kind = GVI_MASS_UNIT }, { TRAP, FIELD, FORCE(drag) }, 3, 1,
+      magnetic_lagrangian, unit_2, magnetic_velocity, MAGNETIC_STARTS },
+    { "Kepler, air", 2, { .kind = GVI_MASS_UNIT }, { ATTRACTION, FORCE(air) }, 2, 1,
+      kepler_lagrangian, unit_2, momentum_is_velocity_2, KEPLER_STARTS },
+    { "pendulum, motor", 2, PENDULUM_MASS, { WEIGHTS, FORCE(motor) }, 2, 1,
+      pendulum_lagrangian, pendulum_kinetic, pendulum_velocity, PENDULUM_STARTS },
+};
+
+#endif

@@ -1,0 +1,144 @@
+/* rules.h - quadrature rules and Runge-Kutta tables, written from their
+   definitions, without gvi.h: for rules of the caller, and as expected values  */
+#ifndef RULES_H
+#define RULES_H
+
+#include "reference.h"
+
+enum { MAX_R = 12 };
+
+typedef struct own_rule { const char *name; int r, u; real c[MAX_R], b[MAX_R]; } own_rule;
+
+/* What a rule of order u makes of degree s: theorem 4.1, and below u = 2s - 2 what
+   docs/theory.md says; 0: refused                                            */
+static MAYBE int order_expected(int s, int u)
+{
+    int order = 2*s < u ? 2*s : u, weak = 2*(u - s + 1);
+    return u < s ? 0 : u < 2*s - 2 && weak < order ? weak : order;
+}
+
+/* P_n and P_n' at x in (-1, 1) */
+static MAYBE real legendre(int n, real x, real *slope_)
+{
+    real a = 1, b = x;
+    if (n == 0) return *slope_ = 0, (real)1;
+    for (int k = 2; k <= n; ++k) { real next = ((2*k - 1)*x*b - (k - 1)*a)/k; a = b; b = next; }
+    *slope_ = n*(x*b - a)/(x*x - 1);
+    return b;
+}
+
+/* Interpolatory weights on [0,1]: exact for Legendre polynomials of degree < r */
+static MAYBE void weights_for(own_rule *rule)
+{
+    real A[MAX_R*MAX_R], unused;
+    int r = rule->r;
+    for (int k = 0; k < r; ++k) {
+        for (int i = 0; i < r; ++i) {
+            real x = 2*rule->c[i] - 1;
+            A[k*r + i] = x*x < 1 ? legendre(k, x, &unused) : x < 0 && k%2 ? -1 : 1;
+        }
+        rule->b[k] = k == 0;
+    }
+    solve(r, A, rule->b);
+}
+
+/* Equal distances, ends included; order r, or r + 1 for odd r */
+static MAYBE own_rule newton_cotes(int r)
+{
+    own_rule rule = { "Newton-Cotes", r, r + r%2, { 0 }, { 0 } };
+    for (int i = 0; i < r; ++i) rule.c[i] = (real)i/(r - 1);
+    weights_for(&rule);
+    return rule;
+}
+
+/* Extrema of Chebyshev polynomials; order as above */
+static MAYBE own_rule clenshaw_curtis(int r)
+{
+    own_rule rule = { "Clenshaw-Curtis", r, r + r%2, { 0 }, { 0 } };
+    for (int i = 0; i < r; ++i) { real x = sin(TAU*i/(real)(4*(r - 1))); rule.c[i] = x*x; }
+    weights_for(&rule);
+    return rule;
+}
+
+/* A zero of g = P_a + w P_b (w = 0: of P_a) by Newton's method, deflated by the
+   zeros that are known and by (1 + x) if `end`                               */
+static MAYBE real next_zero(int a, int b, int w, int end, const real *known, int count)
+{
+    real x = -0.99L, last = 1;
+    for (int it = 0; it < 200 && fabs(last) > UNIT/8; ++it) {
+        real da, db = 0, f = legendre(a, x, &da) + (w ? w*legendre(b, x, &db) : 0), s = (da + w*db)/f;
+        if (!(fabs(f) > 0)) break;
+        if (end) s -= 1/(1 + x);
+        for (int k = 0; k < count; ++k) s -= 1/(x - known[k]);
+        last = 1/s;
+        x -= last;
+    }
+    return x;
+}
+
+/* Left Radau: -1 and the other zeros of P_{r-1} + P_r; order 2r - 1 */
+static MAYBE own_rule radau(int r)
+{
+    own_rule rule = { "Radau", r, 2*r - 1, { 0 }, { 0 } };
+    real x[MAX_R];
+    for (int i = 0; i < r - 1; ++i) x[i] = next_zero(r, r - 1, 1, 1, x, i);
+    for (int i = 1; i < r; ++i) rule.c[i] = (1 + x[i - 1])/2;
+    weights_for(&rule);
+    return rule;
+}
+
+/* Gauss, by the zeros of P_r; order 2r */
+static MAYBE own_rule gauss(int r)
+{
+    own_rule rule = { "Gauss", r, 2*r, { 0 }, { 0 } };
+    real x[MAX_R];
+    for (int i = 0; i < r; ++i) x[i] = next_zero(r, 0, 0, 0, x, i);
+    for (int i = 0; i < r; ++i) rule.c[i] = (1 + x[i])/2;
+    weights_for(&rule);
+    return rule;
+}
+
+/* Lobatto: the ends and the zeros of P_{r-1}', that is of (P_r - P_{r-2})/(1 - x^2) */
+static MAYBE own_rule lobatto(int r)
+{
+    own_rule rule = { "Lobatto", r, 2*r - 2, { 0 }, { 0 } };
+    real x[MAX_R];
+    x[0] = 1;
+    for (int i = 1; i < r - 1; ++i) x[i] = next_zero(r, r - 2, -1, 1, x, i);
+    rule.c[r - 1] = 1;
+    for (int i = 1; i < r - 1; ++i) rule.c[i] = (1 + x[i])/2;
+    weights_for(&rule);
+    return rule;
+}
+
+/* Collocation: a[i][j] = integral of the j-th Lagrange polynomial from 0 to c_i,
+   that is, sum_j a_ij P_k(c_j) = integral of P_k from 0 to c_i, k < r; with P_k on
+   [0,1], whose integral is (P_{k+1} - P_{k-1})/(2(2k+1)), 0 at c = 0.           */
+static MAYBE void collocation(const own_rule *rule, real *a)
+{
+    int r = rule->r;
+    for (int i = 0; i < r; ++i) {
+        real A[MAX_R*MAX_R], unused, xi = 2*rule->c[i] - 1;
+        for (int k = 0; k < r; ++k) {
+            for (int j = 0; j < r; ++j) {
+                real x = 2*rule->c[j] - 1;
+                A[k*r + j] = x*x < 1 ? legendre(k, x, &unused) : x < 0 && k%2 ? -1 : 1;
+            }
+            if (k == 0) a[i*r] = rule->c[i];
+            else if (xi*xi < 1)
+                a[i*r + k] = (legendre(k + 1, xi, &unused) - legendre(k - 1, xi, &unused))/(4*k + 2);
+            else a[i*r + k] = 0;                         /* both ends */
+        }
+        solve(r, A, a + i*r);
+    }
+}
+
+/* The partner of a symplectic pair: b_i ahat_ij + b_j a_ji = b_i b_j */
+static MAYBE void partner(const own_rule *rule, const real *a, real *ahat)
+{
+    int r = rule->r;
+    for (int i = 0; i < r; ++i)
+        for (int j = 0; j < r; ++j) ahat[i*r + j] = rule->b[j] - rule->b[j]*a[j*r + i]/rule->b[i];
+}
+
+#endif
