@@ -722,6 +722,15 @@ static gvi__two gvi__sum(gvi_real x, gvi_real y)          // x + y exactly
     return z;
 }
 
+#if defined(FP_FAST_FMA) && GVI__KIND == 2
+static gvi__two gvi__product(gvi_real a, gvi_real b)      // a*b exactly
+{
+    gvi__two z;
+    z.hi = a*b;
+    z.lo = fma(a, b, -z.hi);
+    return z;
+}
+#else
 // 2^k + 1, k half the digits: a number times it shows where to cut it in two
 #define GVI__CUT ((gvi_real)(1ULL << (GVI__DIG + 1)/2) + 1)
 
@@ -742,6 +751,7 @@ static gvi__two gvi__product(gvi_real a, gvi_real b)      // a*b exactly
     z.lo = ((x.hi*y.hi - z.hi) + x.hi*y.lo + x.lo*y.hi) + x.lo*y.lo;
     return z;
 }
+#endif
 
 static gvi__two gvi__real2(gvi_real a) { gvi__two z; z.hi = a; z.lo = 0; return z; }
 
@@ -770,6 +780,12 @@ static gvi__two gvi__div2(gvi__two a, gvi__two b)
     gvi_real q = a.hi/b.hi;
     gvi__two rest = gvi__sub2(a, gvi__scale2(q, b));
     return gvi__sum(q, rest.hi/b.hi);
+}
+
+// a/k; the quotient 1/k need not wait for a
+static gvi__two gvi__over2(gvi__two a, int k)
+{
+    return gvi__mul2(a, gvi__div2(gvi__real2(1), gvi__real2((gvi_real)k)));
 }
 
 // nearest multiple of `unit`, a power of 2: sums of such numbers are exact
@@ -971,7 +987,7 @@ static void gvi__legendre2(int m, gvi__two c, gvi__two *P, gvi__two *before)
         gvi__two next = gvi__sub2(gvi__scale2((gvi_real)(2*k + 1), gvi__mul2(x, a)),
                                   gvi__scale2((gvi_real)k, b));
         b = a;
-        a = gvi__div2(next, gvi__real2((gvi_real)(k + 1)));
+        a = gvi__over2(next, k + 1);
     }
     *P = a;
     *before = b;
@@ -1618,8 +1634,8 @@ static void gvi__modes_at_nodes(gvi_stepper *st)
         for (int k = 0; k < st->s; ++k) {
             gvi__two next = gvi__sub2(gvi__scale2((gvi_real)(2*k + 1), gvi__mul2(X, P)),
                                       gvi__scale2((gvi_real)k, before));
-            next = gvi__div2(next, gvi__real2((gvi_real)(k + 1)));
-            gvi__two Phi = gvi__div2(gvi__sub2(before, next), gvi__real2((gvi_real)(4*k + 2)));
+            next = gvi__over2(next, k + 1);
+            gvi__two Phi = gvi__over2(gvi__sub2(before, next), 4*k + 2);
             int at = k*x->stride + i;
             x->Phi[at] = Phi.hi;
             x->E[at] = Phi.lo;
@@ -1665,7 +1681,8 @@ static void gvi__over_gamma(const gvi_stepper *st, gvi_real *y)
     else for (int k = 0; k < st->s; ++k) y[k] *= x->inv_gamma[k];
 }
 
-// sum_k a[k][i] gamma_k b[k][j], twofold; high parts and low parts apart
+// sum_k a[k][i] gamma_k b[k][j], twofold; high parts and low parts apart.  A product
+// does not wait for the sum, whose rounding is added up separately
 static gvi__two gvi__sandwich(const gvi_stepper *st, const gvi_real *a, const gvi_real *al, int i,
                               const gvi_real *b, const gvi_real *bl, int j)
 {
@@ -1676,9 +1693,12 @@ static gvi__two gvi__sandwich(const gvi_stepper *st, const gvi_real *a, const gv
         x.lo = al[k*st->x.stride + i];
         y.hi = b[k*st->x.stride + j];
         y.lo = bl[k*st->x.stride + j];
-        sum = gvi__add2(sum, gvi__scale2(st->x.inv_gamma[k], gvi__mul2(x, y)));
+        x = gvi__scale2(st->x.inv_gamma[k], gvi__mul2(x, y));
+        y = gvi__sum(sum.hi, x.hi);
+        sum.hi = y.hi;
+        sum.lo += y.lo + x.lo;
     }
-    return sum;
+    return gvi__sum(sum.hi, sum.lo);
 }
 
 /* S and T on grids of eps/2 and eps (|S| <= 1, |T| < 2): what they must fulfil
@@ -2000,12 +2020,12 @@ static size_t gvi__layout(gvi_stepper *st, gvi_real *base)
     x->hess = gvi__take(&a, newton || lagrangian, n, newton ? 4*n + 5 : n + 5);
     x->y = gvi__take(&a, newton, 1, sn);
     x->dy = gvi__take(&a, newton, 1, sn);
-    x->J = gvi__take(&a, newton, 2*sn, sn);
     x->pivot = gvi__take(&a, newton, 2, sn + 1);
     x->dF = gvi__take(&a, newton, n, R);
     x->dP = gvi__take(&a, newton, n, R);
     x->bF = gvi__take(&a, newton, n, R);
     x->bP = gvi__take(&a, newton, n, R);
+    x->J = gvi__take(&a, newton, 2*sn, sn);
     return a.used;
 }
 
@@ -2062,8 +2082,8 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
 
     if (slack) x->skip = (size_t)(-(uintptr_t)memory & 63)/sizeof(gvi_real);
     memory += x->skip;
-    gvi__zero(length, memory);
     gvi__layout(st, memory);
+    gvi__zero(x->J ? (size_t)(x->J - memory) : length, memory);         // J is written before it is read
     x->size = length;
     st->q = x->q;
     st->p = x->p;

@@ -912,6 +912,23 @@ const baseline *baseline_named(const char *name)
     return NULL;
 }
 
+int baseline_kicks(const baseline *b, double *nodes, double *weights)
+{
+    if (b->run != run_splitting) return 0;
+    const splitting *s = splittings + b->option;
+    const int kicks = s->drift_first ? s->stages : s->stages + 1;
+    long double at = s->drift_first ? s->drift[0] : 0, rest = 1;
+    for (int i = 0; i < kicks; ++i) {
+        nodes[i] = (double)at;
+        weights[i] = s->kick[i];
+        rest -= s->kick[i];
+        if (i + 1 < kicks) at += s->drift_first ? s->drift[i+1] : s->drift[i];
+    }
+    if (!s->drift_first) nodes[kicks-1] = 1;
+    weights[kicks/2] += (double)rest;
+    return kicks;
+}
+
 void baselines_begin(void)
 {
     splittings_begin();

@@ -29,6 +29,10 @@ extern const int baseline_count;
 
 const baseline *baseline_named(const char *name);
 
+/* The table of a splitting that a baseline uses, as fractions of a step: nodes, the drifts added up,
+   and weights, the kicks.  Returns how many; 0 for any other baseline.  40 of each is enough.  */
+int baseline_kicks(const baseline *b, double *nodes, double *weights);
+
 /* Once, before any other call: the tables that the coefficients make.                         */
 void baselines_begin(void);
 

@@ -22,7 +22,7 @@
 #include <time.h>
 
 #define COUNT(a) ((int)(sizeof(a)/sizeof(a)[0]))
-enum { SAMPLES = 80, CURVES = 120, ERRORS = 4 };
+enum { SAMPLES = 80, CURVES = 260, ERRORS = 4 };
 
 static const double wanted[ERRORS] = { 1e-4, 1e-7, 1e-10, 1e-12 };
 
@@ -102,8 +102,19 @@ static void measure(const job *j, int runs, sample *s)
 
 typedef struct sweep { double first, factor, limit, smallest; int runs; } sweep;
 
+/* Is there a sample of ours as exact and in clearly less time?  Then one run of this one will do. */
+static int surpassed(const study *y, const sample *s)
+{
+    for (int i = 0; i < y->count; ++i)
+        for (int k = 0; y->curves[i].ours && k < y->curves[i].count; ++k) {
+            const sample *z = y->curves[i].samples + k;
+            if (z->error <= s->error && z->ms < 0.6*s->ms) return 1;
+        }
+    return 0;
+}
+
 /* From coarse to fine until it takes too long or three settings bring nothing any more.       */
-static void run_curve(const job *j, const sweep *w, curve *c)
+static void run_curve(const study *y, const job *j, const sweep *w, curve *c)
 {
     double best = HUGE_VAL, before = 0;
     int vain = 0, adaptive = j->rival && j->rival->adaptive;
@@ -112,14 +123,15 @@ static void run_curve(const job *j, const sweep *w, curve *c)
         sample s;
         if (adaptive ? x < w->smallest : x > 1e9) return;
         s.ms = run_once(j, adaptive ? x : floor(x + 0.5), NULL, &s);
+        s.energy = NAN;
         if (s.ms > w->limit && s.ms >= before) return;
         before = s.ms;
         if (!(s.error < 1) || s.ms > w->limit) continue;
-        measure(j, w->runs, &s);
+        if (j->rival || !surpassed(y, &s)) measure(j, w->runs, &s);
         c->samples[c->count++] = s;
         vain = s.error < 0.7*best ? 0 : vain + 1;
         if (s.error < best) best = s.error;
-        if (vain >= 4 && best < 1e-9) return;
+        if (vain >= 4 && (best < 1e-9 || (j->setting && j->setting->tolerance > 0))) return;
     }
 }
 
@@ -144,28 +156,63 @@ static double time_to(const curve *c, double error, const sample **at)
 
 /* ---------------------------------------------------------- one problem */
 
-enum { SETTINGS = 80 };
+enum { SETTINGS = 240, TABLE = 40 };
 static gvi_setting settings[SETTINGS];
 static int setting_count;
 
-static void add_setting(int degree, gvi_rule_kind rule, gvi_formulation formulation, double tolerance)
+static gvi_setting *add_setting(int degree, gvi_rule_kind rule, gvi_formulation formulation, double tolerance)
 {
+    static gvi_setting none;
     gvi_setting s = { .degree = degree, .rule = rule, .formulation = formulation, .tolerance = tolerance };
-    if (setting_count < SETTINGS) settings[setting_count++] = s;
+    if (setting_count == SETTINGS) return &none;
+    settings[setting_count] = s;
+    return settings + setting_count++;
+}
+
+/* The baselines' splittings as tables of kicks.                                               */
+static void add_kicks(void)
+{
+    static const char *const names[] = { "Stoermer-Verlet", "Kahan-Li 8", "Sofroniou-Spaletta 10",
+                                         "Blanes-Moan SRKN11", "Blanes-Moan SRKN14" };
+    static double nodes[COUNT(names)][TABLE], weights[COUNT(names)][TABLE];
+    for (int i = 0; i < COUNT(names); ++i) {
+        gvi_setting *s = add_setting(1, GVI_KICKS, GVI_EXPLICIT, 0);
+        s->name = names[i];
+        s->points = baseline_kicks(baseline_named(names[i]), nodes[i], weights[i]);
+        s->nodes = nodes[i];
+        s->weights = weights[i];
+    }
+}
+
+/* Kepler's ellipses with a clock.                                                             */
+static void add_clocks(const problem *p)
+{
+    static const int degrees[] = { 8, 6, 7, 10, 12, 16 };
+    static const double tolerances[] = { 1e-12, 0, 1e-15, 1e-14, 1e-10, 1e-8 }, powers[] = { 1.5, 1 };
+    for (int a = 0; a < COUNT(powers); ++a)
+        for (int i = 0; i < COUNT(degrees); ++i)
+            for (int k = 0; k < COUNT(tolerances); ++k) {
+                gvi_setting *s = add_setting(degrees[i], GVI_GAUSS, GVI_MOMENTA, tolerances[k]);
+                s->scene = p->clocks[powers[a] < 1.25];
+                s->power = powers[a];
+                s->tau = p->revolutions*kepler_tau(p->eccentricity, powers[a]);
+            }
 }
 
 /* Degrees times tolerances in the formulation that suits the scene, without Newton's memory;
-   then what gvi.h chooses by itself; then Stoermer-Verlet.                                    */
+   what gvi.h chooses by itself; splittings; clocks.  The likely ones first.                   */
 static void settings_for(const problem *p)
 {
-    static const int degrees[] = { 2, 3, 4, 6, 8, 10, 12, 16 };
-    static const double tolerances[] = { 0, 1e-12, 1e-9, 1e-6 };
+    static const int degrees[] = { 8, 6, 7, 5, 4, 10, 12, 16, 3, 2 };
+    static const double tolerances[] = { 1e-12, 0, 1e-16, 1e-15, 1e-14, 1e-13, 1e-10, 1e-8, 1e-6 };
     gvi_formulation pinned = p->slope ? GVI_MOMENTA : GVI_POSITIONS;
     setting_count = 0;
     for (int i = 0; i < COUNT(degrees); ++i)
         for (int k = 0; k < COUNT(tolerances); ++k) add_setting(degrees[i], GVI_GAUSS, pinned, tolerances[k]);
-    for (int i = 2; i < COUNT(degrees) - 1; ++i) add_setting(degrees[i], GVI_GAUSS, GVI_AUTO, 0);
-    if (!p->slope) add_setting(1, GVI_LOBATTO, GVI_EXPLICIT, 0);
+    add_setting(8, GVI_GAUSS, GVI_AUTO, 0);
+    add_setting(12, GVI_GAUSS, GVI_AUTO, 0);
+    if (!p->slope) add_kicks();
+    if (p->clocks[0]) add_clocks(p);
 }
 
 static curve *new_curve(study *y, const char *family, int ours, int structure)
@@ -195,12 +242,13 @@ static void study_gvi(study *y, const options *o, double length)
 {
     for (int i = 0; i < setting_count; ++i) {
         const gvi_setting *g = settings + i;
-        double work = g->degree > 1 ? 6*g->degree : 1;
-        sweep w = steps_from(y->p->evaluations*length/work, y->p->limit*length, o);
+        double work = g->rule == GVI_KICKS ? g->points : 6*g->degree;
+        sweep w = steps_from(g->scene ? 5*y->p->revolutions : y->p->evaluations*length/work,
+                             y->p->limit*length, o);
         job j = { y->p, NULL, g, malloc(sizeof(double)*(size_t)gvi_run_memory(y->p, g)) };
         curve *c = new_curve(y, "gvi.h", 1, 1);
         gvi_setting_name(g, sizeof c->name, c->name);
-        if (j.memory) run_curve(&j, &w, c);
+        if (j.memory) run_curve(y, &j, &w, c);
         free(j.memory);
         keep_curve(y, c);
     }
@@ -220,7 +268,7 @@ static void study_rival(study *y, const options *o, const baseline *b, double le
     curve *c = new_curve(y, b->family, 0, b->structure);
     c->reference = b->reference;
     snprintf(c->name, sizeof c->name, "%s", b->name);
-    run_curve(&j, &w, c);
+    run_curve(y, &j, &w, c);
     keep_curve(y, c);
 }
 
@@ -403,8 +451,8 @@ static void summarise(const study *studies, int count)
     summary_head();
     for (int i = 0; i < count; ++i)
         for (int e = 0; e < ERRORS; ++e) summary_row(studies + i, e, &total);
-    printf("\naims met: %d of %d\nat least twice as fast as the best rival that preserves structure, from"
-           " 1e-7 on, P7 aside: %d of %d\n", total.met, total.cells,
+    printf("\naims met: %d of %d (two thirds of them is the least)\nat least twice as fast as the best rival"
+           " that preserves structure, from 1e-7 on, P7 aside: %d of %d\n", total.met, total.cells,
            total.structure_met, total.structure_cells);
 }
 

@@ -10,17 +10,25 @@ static gvi_desc describe(const problem *p, const gvi_setting *g)
     gvi_desc desc = { .n = p->n, .degree = g->degree, .rule = { .kind = g->rule, .points = g->points },
                       .mass = p->mass, .effects = p->effects, .effect_count = p->effect_count,
                       .formulation = g->formulation, .tolerance = g->tolerance };
+    desc.rule.nodes = g->nodes;
+    desc.rule.weights = g->weights;
+    if (g->scene) {
+        desc.effects = g->scene;
+        desc.effect_count = 2;
+    }
     return desc;
 }
 
 void gvi_setting_name(const gvi_setting *g, int size, char *name)
 {
     static const char *const pinned[] = { "", "explicit", "positions", "velocities", "momenta", "Newton" };
+    if (g->rule == GVI_KICKS) { snprintf(name, (size_t)size, "kicks %s", g->name); return; }
     const char *rule = g->rule == GVI_LOBATTO ? " Lobatto" : "", *how = pinned[g->formulation];
-    char points[24] = "", tolerance[24] = "";
+    char points[24] = "", tolerance[24] = "", clock[24] = "";
     if (g->points) snprintf(points, sizeof points, ", r = %d", g->points);
     if (g->tolerance > 0) snprintf(tolerance, sizeof tolerance, ", tol %.0e", g->tolerance);
-    snprintf(name, (size_t)size, "s = %d%s%s%s%s%s", g->degree, rule, points, tolerance,
+    if (g->scene) { snprintf(clock, sizeof clock, ", clock %g", g->power); how = ""; }
+    snprintf(name, (size_t)size, "s = %d%s%s%s%s%s%s", g->degree, rule, points, clock, tolerance,
              *how ? ", " : "", how);
 }
 
@@ -39,25 +47,41 @@ static void look(const problem *p, gvi_stepper *st, watch *w)
     watch_look(w, st->q, v);
 }
 
+/* With a clock: steps in tau until the end is passed, then the state at the end.               */
+static void run_clock(const problem *p, const gvi_setting *g, long steps, gvi_stepper *st, watch *w, gvi_result *r)
+{
+    const double h = g->tau/(double)steps;
+    for (long k = 0; st->t < p->end && k < 2*steps && st->status == GVI_OK; ++k) {
+        gvi_step(st, h);
+        if (watch_due(w) && st->status == GVI_OK) look(p, st, w);
+    }
+    gvi_state_at(st, p->end, r->q, NULL, r->p);
+}
+
+static void run_steps(const problem *p, long steps, gvi_stepper *st, watch *w, gvi_result *r)
+{
+    const double h = p->end/(double)steps;
+    for (long k = 0; k < steps && st->status == GVI_OK; ++k) {
+        gvi_step(st, h);
+        if (watch_due(w) && st->status == GVI_OK) look(p, st, w);
+    }
+    memcpy(r->q, st->q, sizeof(double)*(size_t)p->n);
+    memcpy(r->p, st->p, sizeof(double)*(size_t)p->n);
+}
+
 void gvi_run(const problem *p, const gvi_setting *g, long steps, double *memory, watch *w, gvi_result *r)
 {
     gvi_stepper st;
     gvi_desc desc = describe(p, g);
-    double h = p->end/(double)steps;
     memset(r, 0, sizeof *r);
     gvi_init(&st, &desc, memory, gvi_size(&desc));
-    if (st.status == GVI_OK) {
-        if (p->slope) gvi_start_momentum(&st, 0, p->q, p->v);
-        else gvi_start(&st, 0, p->q, p->v);
-    }
-    for (long k = 0; k < steps && st.status == GVI_OK; ++k) {
-        gvi_step(&st, h);
-        if (watch_due(w) && st.status == GVI_OK) look(p, &st, w);
-    }
     r->status = st.status;
-    if (st.status == GVI_E_ARGUMENT || st.status == GVI_E_MEMORY || st.status == GVI_E_FORMULATION) return;
-    memcpy(r->q, st.q, sizeof(double)*(size_t)p->n);
-    memcpy(r->p, st.p, sizeof(double)*(size_t)p->n);
+    if (st.status != GVI_OK) return;
+    if (p->slope) gvi_start_momentum(&st, 0, p->q, p->v);
+    else gvi_start(&st, 0, p->q, p->v);
+    if (g->scene) run_clock(p, g, steps, &st, w, r);
+    else run_steps(p, steps, &st, w, r);
+    r->status = st.status;
     r->steps = (long long)st.counters.steps;
     r->iterations = (long long)st.counters.iterations;
     r->newton_iterations = (long long)st.counters.newton_iterations;

@@ -11,6 +11,11 @@ typedef struct gvi_setting {
     int             points;
     gvi_formulation formulation;
     double          tolerance;
+    const char     *name;              /* GVI_KICKS: of the splitting, and its table           */
+    const double   *nodes, *weights;
+    const gvi_effect *scene;           /* not NULL: two effects, the second a clock            */
+    double          power;             /* of the distance, the clock                           */
+    double          tau;               /* of the whole way                                     */
 } gvi_setting;
 
 typedef struct gvi_result {
@@ -23,7 +28,7 @@ typedef struct gvi_result {
 /* "s = 8", "s = 8, tol 1e-09", ...                                                            */
 void gvi_setting_name(const gvi_setting *g, int size, char *name);
 
-/* Everything from gvi_init to the last step; memory: of gvi_run_memory doubles.               */
+/* Everything from gvi_init to the last step, with a clock to the state at the end; memory: of gvi_run_memory doubles.               */
 int  gvi_run_memory(const problem *p, const gvi_setting *g);
 void gvi_run(const problem *p, const gvi_setting *g, long steps, double *memory, watch *w, gvi_result *r);
 

@@ -30,6 +30,8 @@ typedef struct problem {
     gvi_mass           mass;
     const gvi_effect  *effects;
     int                effect_count;
+    const gvi_effect  *clocks[2];      /* two effects each: the scene with the clock d, d^(3/2); or NULL */
+    double             eccentricity, revolutions;      /* of the orbit that they are for       */
     double             evaluations;    /* of q'' for an error of about 0.1: where sweeps begin */
     double             limit;          /* CPU ms above which no setting is of interest         */
 } problem;
@@ -38,6 +40,9 @@ extern const problem problems[];
 extern const int problem_count;
 
 const problem *problem_named(const char *key);
+
+/* Length in tau of a revolution on Kepler's ellipse of half-axis 1, with dt = |q|^a dtau.     */
+double kepler_tau(double eccentricity, double a);
 
 /* max |q_i - reference_i|, subtracted in long double; NaN stays NaN                           */
 double problem_error(const problem *p, const double *q);
