@@ -609,7 +609,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
     (28 + 4*GVI__SIZE(s) + 19*GVI__SIZE(GVI__ROW(r))                             \
      + (6 + GVI__SIZE(GVI__ROW(r)) + 2*GVI__SIZE(s)*GVI__SIZE(s))*GVI__SIZE(n))*GVI__SIZE(n) \
     + (20 + 6*GVI__SIZE(r) + 3*GVI__SIZE(s))*GVI__SIZE(GVI__ROW(r))              \
-    + (GVI__SIZE(s) + 2)*GVI__SIZE(s) + 3 + GVI__SLACK)
+    + (GVI__SIZE(s) + 2)*GVI__SIZE(s) + 3 + GVI__SLACK + ((n) < 8 ? 0 : 112))
 
 #ifdef __cplusplus
 }
@@ -688,9 +688,9 @@ static int gvi__nonzero(gvi_real x) { return x < 0 || x > 0; }
 
 static int gvi__all_finite(int n, const gvi_real *x)
 {
-    for (int i = 0; i < n; ++i)
-        if (!gvi__finite(x[i])) return 0;
-    return 1;
+    int finite = 1;
+    for (int i = 0; i < n; ++i) finite &= gvi__finite(x[i]);
+    return finite;
 }
 
 static void gvi__zero(size_t n, gvi_real *x)
@@ -1950,6 +1950,7 @@ static size_t gvi__layout(gvi_stepper *st, gvi_real *base)
     a.base = base;
     a.used = 0;
     size_t n = (size_t)st->n, s = (size_t)st->s, r = (size_t)st->r, R = (size_t)x->stride, sn = s*n;
+    size_t N = n < 8 ? n : (n + 7)/8*8;            // whole vectors
     gvi_mass_kind mass = x->desc.mass.kind;
     int newton = x->flags & GVI__HAS_NEWTON, lagrangian = x->flags & GVI__HAS_LAGRANGIAN;
     int momenta = x->chosen == GVI_MOMENTA, velocities = x->chosen == GVI_VELOCITIES;
@@ -1960,8 +1961,8 @@ static size_t gvi__layout(gvi_stepper *st, gvi_real *base)
     int kicks = x->desc.rule.kind == GVI_KICKS;
     for (int k = 0; k < 2; ++k) {
         struct gvi__rows *rows = k ? &x->work : &x->last;
-        rows->Q = gvi__take(&a, 1, n, kicks ? 1 : R);
-        rows->F = gvi__take(&a, 1, n, kicks ? 1 : R);
+        rows->Q = gvi__take(&a, 1, kicks ? N : n, kicks ? 1 : R);
+        rows->F = gvi__take(&a, 1, kicks ? N : n, kicks ? 1 : R);
         rows->V = gvi__take(&a, reads_v, n, R);
         rows->P = gvi__take(&a, momenta || newton, n, R);
         rows->A = gvi__take(&a, lagrangian && (velocities || momenta), n, R);
@@ -1996,18 +1997,18 @@ static size_t gvi__layout(gvi_stepper *st, gvi_real *base)
     x->place = gvi__take(&a, !kicks, 3, R);
     x->row = gvi__take(&a, 1, 6, R);
 
-    x->q = gvi__take(&a, 1, 1, n);
-    x->qe = gvi__take(&a, 1, 1, n);
-    x->p = gvi__take(&a, 1, 1, n);
-    x->pe = gvi__take(&a, 1, 1, n);
-    x->q0 = gvi__take(&a, 1, 1, n);
-    x->p0 = gvi__take(&a, 1, 1, n);
-    x->zeros = gvi__take(&a, 1, 1, n);
-    x->start = gvi__take(&a, 1, 1, n);
-    x->v0 = gvi__take(&a, 1, 1, n);
-    x->ve = gvi__take(&a, 1, 1, n);
-    x->dq = gvi__take(&a, 1, 1, n);
-    x->dp = gvi__take(&a, 1, 1, n);
+    x->q = gvi__take(&a, 1, 1, N);
+    x->qe = gvi__take(&a, 1, 1, N);
+    x->p = gvi__take(&a, 1, 1, N);
+    x->pe = gvi__take(&a, 1, 1, N);
+    x->q0 = gvi__take(&a, 1, 1, N);
+    x->p0 = gvi__take(&a, 1, 1, N);
+    x->zeros = gvi__take(&a, 1, 1, N);
+    x->start = gvi__take(&a, 1, 1, N);
+    x->v0 = gvi__take(&a, 1, 1, N);
+    x->ve = gvi__take(&a, 1, 1, N);
+    x->dq = gvi__take(&a, 1, 1, N);
+    x->dp = gvi__take(&a, 1, 1, N);
     x->scale = gvi__take(&a, 1, 2, n);
     x->change = gvi__take(&a, 1, 3, n);
     x->one = gvi__take(&a, 1, 6, n);
@@ -2777,25 +2778,29 @@ static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_r
     return gvi__give(st, GVI_E_CONVERGENCE);
 }
 
-/* Kick and drift of the explicit formulation: dp += b F, then dq += a (v0 + M^-1 dp)
-   and Q = q0 + dq.  dq and dp start with what rounding left of q and p.  n is a
-   constant where this is inlined for the smallest scenes.                      */
+/* Kick and drift of the explicit formulation: dp += b F, then dq += a (v0 + dp/m)
+   and Q = q0 + dq.  dq and dp start with what rounding left of q and p.        */
 static inline void gvi__kick_drift(int n, gvi_real b, gvi_real a, const gvi_real *m, const gvi_real *GVI__RESTRICT v0,
                                    const gvi_real *GVI__RESTRICT q0, const gvi_real *GVI__RESTRICT F,
                                    gvi_real *GVI__RESTRICT dp, gvi_real *GVI__RESTRICT dq, gvi_real *GVI__RESTRICT Q)
 {
-    if (m)
-        for (int i = 0; i < n; ++i) {
-            dp[i] += b*F[i];
-            dq[i] += a*(v0[i] + dp[i]/m[i]);
-            Q[i] = q0[i] + dq[i];
-        }
-    else
-        for (int i = 0; i < n; ++i) {
-            dp[i] += b*F[i];
-            dq[i] += a*(v0[i] + dp[i]);
-            Q[i] = q0[i] + dq[i];
-        }
+    int i = 0;
+#ifdef GVI__VECTORS
+    for (; i + 8 <= n; i += 8) {
+        const gvi__vector p = GVI__AT(dp + i) + b*GVI__AT(F + i);
+        gvi__vector v = p, q;
+        if (m) v = p/GVI__AT(m + i);
+        q = GVI__AT(dq + i) + a*(GVI__AT(v0 + i) + v);
+        *(gvi__vector *)(dp + i) = p;
+        *(gvi__vector *)(dq + i) = q;
+        *(gvi__vector *)(Q + i) = GVI__AT(q0 + i) + q;
+    }
+#endif
+    for (; i < n; ++i) {
+        dp[i] += b*F[i];
+        dq[i] += a*(v0[i] + (m ? dp[i]/m[i] : dp[i]));
+        Q[i] = q0[i] + dq[i];
+    }
 }
 
 static void gvi__kick(gvi_stepper *st, const gvi__from *from, gvi_real b, gvi_real a, const gvi_real *F)
@@ -3255,19 +3260,24 @@ static void gvi__rotate_rows(gvi_stepper *st)
     x->turns = (x->turns + 1) % 6;
 }
 
+// was := x, x + rest := x + dx without an error
+static void gvi__move(int n, const gvi_real *GVI__RESTRICT dx, gvi_real *GVI__RESTRICT x,
+                      gvi_real *GVI__RESTRICT rest, gvi_real *GVI__RESTRICT was)
+{
+    for (int i = 0; i < n; ++i) {
+        const gvi__two sum = gvi__sum(x[i], dx[i]);
+        was[i] = x[i];
+        x[i] = sum.hi;
+        rest[i] = sum.lo;
+    }
+}
+
 // the step is done: state and compensation move on, rows become those of the last step
 static void gvi__commit(gvi_stepper *st, gvi_real h)
 {
     struct gvi__private *x = &st->x;
-    for (int i = 0; i < st->n; ++i) {
-        gvi__two q = gvi__sum(x->q[i], x->dq[i]), p = gvi__sum(x->p[i], x->dp[i]);
-        x->q0[i] = x->q[i];
-        x->p0[i] = x->p[i];
-        x->q[i] = q.hi;
-        x->qe[i] = q.lo;
-        x->p[i] = p.hi;
-        x->pe[i] = p.lo;
-    }
+    gvi__move(st->n, x->dq, x->q, x->qe, x->q0);
+    gvi__move(st->n, x->dp, x->p, x->pe, x->p0);
     x->alike = x->stepped && !gvi__nonzero(h - st->h) ? 2 : 1;
     gvi__two t = gvi__sum(st->t, x->dt + x->te), H = gvi__sum(x->H, x->dH + x->He);
     x->H0 = x->H;
@@ -3303,8 +3313,9 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
         if (gvi__nonzero(h - st->h)) x->newton_left = 0;
     }
     gvi_status status = gvi__solve(st, &from, h, &past, 0);
-    for (int i = 0; i < st->n && status == GVI_OK; ++i)
-        if (!gvi__finite(x->q[i] + x->dq[i]) || !gvi__finite(x->p[i] + x->dp[i])) status = GVI_E_CONVERGENCE;
+    int finite = 1;
+    for (int i = 0; i < st->n; ++i) finite &= gvi__finite(x->q[i] + x->dq[i]) & gvi__finite(x->p[i] + x->dp[i]);
+    if (status == GVI_OK && !finite) status = GVI_E_CONVERGENCE;
     if (status == GVI_OK && !gvi__finite(st->t + x->dt))
         status = gvi__give(st, GVI_E_ARGUMENT);
     if (status != GVI_OK) {

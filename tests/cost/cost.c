@@ -123,7 +123,7 @@ static void run_curve(const study *y, const job *j, const sweep *w, curve *c)
         sample s;
         if (adaptive ? x < w->smallest : x > 1e9) return;
         s.ms = run_once(j, adaptive ? x : floor(x + 0.5), NULL, &s);
-        s.energy = NAN;
+        s.energy = (double)NAN;
         if (s.ms > w->limit && s.ms >= before) return;
         before = s.ms;
         if (!(s.error < 1) || s.ms > w->limit) continue;

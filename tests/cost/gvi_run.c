@@ -48,7 +48,8 @@ static void look(const problem *p, gvi_stepper *st, watch *w)
 }
 
 /* With a clock: steps in tau until the end is passed, then the state at the end.               */
-static void run_clock(const problem *p, const gvi_setting *g, long steps, gvi_stepper *st, watch *w, gvi_result *r)
+static void run_clock(const problem *p, const gvi_setting *g, long steps, gvi_stepper *st, watch *w,
+                      gvi_result *r)
 {
     const double h = g->tau/(double)steps;
     for (long k = 0; st->t < p->end && k < 2*steps && st->status == GVI_OK; ++k) {

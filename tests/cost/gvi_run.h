@@ -28,8 +28,10 @@ typedef struct gvi_result {
 /* "s = 8", "s = 8, tol 1e-09", ...                                                            */
 void gvi_setting_name(const gvi_setting *g, int size, char *name);
 
-/* Everything from gvi_init to the last step, with a clock to the state at the end; memory: of gvi_run_memory doubles.               */
+/* Everything from gvi_init to the last step, with a clock to the state at the end; memory: of
+   gvi_run_memory doubles.                                                                     */
 int  gvi_run_memory(const problem *p, const gvi_setting *g);
-void gvi_run(const problem *p, const gvi_setting *g, long steps, double *memory, watch *w, gvi_result *r);
+void gvi_run(const problem *p, const gvi_setting *g, long steps, double *memory, watch *w,
+             gvi_result *r);
 
 #endif

@@ -480,10 +480,9 @@ static int chain(const gvi_points *p, void *user)
 /* ------------------------------------------------------------- the list */
 
 static const gvi_effect kepler_scene[] = { { .kind = GVI_POTENTIAL, .points = kepler } };
-static const gvi_effect kepler_clock_1[] = { { .kind = GVI_POTENTIAL, .points = kepler_both, .value = kepler_both },
-                                             { .kind = GVI_CLOCK, .points = clock_1 } };
-static const gvi_effect kepler_clock_32[] = { { .kind = GVI_POTENTIAL, .points = kepler_both, .value = kepler_both },
-                                              { .kind = GVI_CLOCK, .points = clock_32 } };
+#define WITH_CLOCK(g) { { .kind = GVI_POTENTIAL, .points = kepler_both, .value = kepler_both }, \
+                        { .kind = GVI_CLOCK, .points = g } }
+static const gvi_effect kepler_clock_1[] = WITH_CLOCK(clock_1), kepler_clock_32[] = WITH_CLOCK(clock_32);
 static const gvi_effect henon_scene[] = { { .kind = GVI_POTENTIAL, .points = henon } };
 static const gvi_effect solar_scene[] = { { .kind = GVI_POTENTIAL, .points = solar } };
 static const gvi_effect pendulum_scene[] = { { .kind = GVI_POTENTIAL, .points = pendulum_weight } };
@@ -491,7 +490,8 @@ static const gvi_effect fpu_scene[] = { { .kind = GVI_POTENTIAL, .points = fpu }
 static const gvi_effect chain_scene[] = { { .kind = GVI_POTENTIAL, .points = chain } };
 #define SCENE(s) .effects = s, .effect_count = COUNT(s)
 
-#define KEPLER_CLOCKS(e, turns) .clocks = { kepler_clock_1, kepler_clock_32 }, .eccentricity = e, .revolutions = turns
+#define KEPLER_CLOCKS(e, turns) \
+    .clocks = { kepler_clock_1, kepler_clock_32 }, .eccentricity = e, .revolutions = turns
 
 /* Ends: 100 and 20 revolutions of 2 pi; 548 years; times.                                     */
 const problem problems[] = {
