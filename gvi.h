@@ -455,11 +455,11 @@ struct gvi__private {
     gvi_real *q0, *p0, *zeros;        /* [n] start of the last step, its (no) rest */
     gvi_real *start;                  /* [n] velocity that a start was given    */
     gvi_real *v0, *ve;                /* [n] M^-1 p, M^-1 pe of the step at work */
-    gvi_real *dq, *dp;                /* [n] increments of it                   */
+    gvi_real *dq, *dp, *dqe, *dpe;    /* [n] increments of it, and their rests  */
     gvi_real *scale;                  /* [2n] units of changes, of two sets of rows */
     gvi_real *change, *one;           /* [3n], [6n] scratch                     */
     gvi_real *c, *ce, *b, *hb;        /* [R] nodes, their rest, weights, h b    */
-    gvi_real *t, *ones, *place;       /* [R] times; 1; [3R] scratch             */
+    gvi_real *t, *place;              /* [R] times; [3R] scratch                */
     gvi_real *z, *less, *row;         /* [R], [R], [6R] scratch                 */
     gvi_real *phi, *Phi, *low;        /* [s][R] modes at the nodes; rest of phi */
     gvi_real *inv_gamma, *own;        /* [s] 1/Gamma_kk; LU of Gamma if full    */
@@ -468,6 +468,7 @@ struct gvi__private {
     gvi_real *E;                      /* [r or 2r][R] extrapolation; at set-up rest of Phi */
     gvi_real *rate, *power, *level;   /* [R] clock: g; f'v; H, then H - E       */
     gvi_real *slope;                  /* [n][R] clock: dg/dq                    */
+    gvi_real *over;                   /* [n] 1/m of a diagonal mass             */
     gvi_real *mass, *point_mass, *Z;  /* M; M at the points [n*n][R]; [n][R] scratch */
     gvi_real *y, *dy, *J, *pivot;     /* Newton: [s*n] twice; two matrices of s*n */
     gvi_real *hess, *dF, *dP, *bF, *bP; /* scratch; the last four stand in a row */
@@ -606,10 +607,10 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__SIZE(a) ((size_t)(a))
 #define GVI__SLACK (64/sizeof(gvi_real) - 1)
 #define GVI_LENGTH(n, s, r) (                                                    \
-    (28 + 4*GVI__SIZE(s) + 19*GVI__SIZE(GVI__ROW(r))                             \
+    (31 + 4*GVI__SIZE(s) + 19*GVI__SIZE(GVI__ROW(r))                             \
      + (6 + GVI__SIZE(GVI__ROW(r)) + 2*GVI__SIZE(s)*GVI__SIZE(s))*GVI__SIZE(n))*GVI__SIZE(n) \
     + (20 + 6*GVI__SIZE(r) + 3*GVI__SIZE(s))*GVI__SIZE(GVI__ROW(r))              \
-    + (GVI__SIZE(s) + 2)*GVI__SIZE(s) + 3 + GVI__SLACK + ((n) < 8 ? 0 : 112))
+    + (GVI__SIZE(s) + 2)*GVI__SIZE(s) + 3 + GVI__SLACK + ((n) < 8 ? 0 : 126))
 
 #ifdef __cplusplus
 }
@@ -1431,7 +1432,7 @@ static void gvi__over_mass(const gvi_stepper *st, gvi_real *z, int stride, int c
     if (st->x.desc.mass.kind == GVI_MASS_DENSE) gvi__ldl_solve(n, st->x.mass, 1, 0, z, stride, count);
     if (st->x.desc.mass.kind == GVI_MASS_DIAGONAL)
         for (int i = 0; i < n; ++i)
-            for (int k = 0; k < count; ++k) z[i*stride + k] /= st->x.mass[i];
+            for (int k = 0; k < count; ++k) z[i*stride + k] *= st->x.over[i];
 }
 
 // M(q) at the points, factored
@@ -1789,7 +1790,7 @@ static void gvi__weights(gvi_stepper *st, gvi_real h)
         rest -= x->hb[j];
         if (x->b[j] > x->b[most]) most = j;
     }
-    int mirror = x->desc.rule.kind >= GVI_OWN ? most : r - 1 - most;
+    int mirror = gvi__nonzero(x->b[r - 1 - most] - x->b[most]) ? most : r - 1 - most;
     x->hb[most] += mirror == most ? rest : rest/2;
     if (mirror != most) x->hb[mirror] += rest/2;
     for (int j = 0; j < r; ++j) x->hb[j] = gvi__ldexp(x->hb[j], e);
@@ -1977,7 +1978,6 @@ static size_t gvi__layout(gvi_stepper *st, gvi_real *base)
     x->level = gvi__take(&a, x->clock >= 0, 1, R);
     x->z = gvi__take(&a, 1, 1, R);
     x->less = gvi__take(&a, 1, 1, R);
-    x->ones = gvi__take(&a, 1, 1, R);
     x->hb = gvi__take(&a, 1, 1, R);
     x->c = gvi__take(&a, 1, 1, R);
     x->drift = gvi__take(&a, x->chosen == GVI_EXPLICIT, 1, r + 1);
@@ -2009,11 +2009,14 @@ static size_t gvi__layout(gvi_stepper *st, gvi_real *base)
     x->ve = gvi__take(&a, 1, 1, N);
     x->dq = gvi__take(&a, 1, 1, N);
     x->dp = gvi__take(&a, 1, 1, N);
+    x->dqe = gvi__take(&a, 1, 1, N);
+    x->dpe = gvi__take(&a, 1, 1, N);
     x->scale = gvi__take(&a, 1, 2, n);
     x->change = gvi__take(&a, 1, 3, n);
     x->one = gvi__take(&a, 1, 6, n);
     x->inv_gamma = gvi__take(&a, 1, 1, s);
     x->mass = gvi__take(&a, mass == GVI_MASS_DIAGONAL, 1, n);
+    x->over = gvi__take(&a, mass == GVI_MASS_DIAGONAL, 1, n);
     if (mass == GVI_MASS_DENSE) x->mass = gvi__take(&a, 1, 2*n, n);
     x->own = gvi__take(&a, x->flags & GVI__HAS_OWN, s*s + s + 1, 1);
 
@@ -2054,7 +2057,9 @@ static gvi_status gvi__set_mass(gvi_stepper *st)
         for (int i = 0; i < n; ++i) {
             m[i] = mass->matrix[i];
             if (!gvi__finite(m[i])) return gvi__fail(st, GVI_E_ARGUMENT, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
-            if (!gvi__nonzero(m[i])) return gvi__fail(st, GVI_E_SINGULAR, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
+            if (!gvi__nonzero(m[i]) || !gvi__finite(1/m[i]))
+                return gvi__fail(st, GVI_E_SINGULAR, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
+            st->x.over[i] = 1/m[i];
         }
     if (mass->kind == GVI_MASS_DENSE) {
         size_t nn = (size_t)n*(size_t)n;
@@ -2099,7 +2104,6 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     x->memory = memory;                      // from here on it can be used
     if (x->desc.rule.kind == GVI_KICKS) return gvi__done(st, GVI_OK);
     gvi__modes_at_nodes(st);
-    for (int i = 0; i < st->r; ++i) x->ones[i] = 1;
     for (int i = 0; i < st->r; ++i) x->c[i] = gvi__grid(gvi__sum(x->c[i], x->ce[i]), GVI__EPS/2);
     status = gvi__gamma(st);
     if (status != GVI_OK) {
@@ -2173,50 +2177,63 @@ typedef struct gvi__stage {
 typedef gvi_real gvi__vector __attribute__((vector_size(8*sizeof(gvi_real)), aligned(sizeof(gvi_real)), may_alias));
 #define GVI__AT(p) (*(const gvi__vector *)(p))
 
-// z := sum_j table[j][0..7] w_j f_j in two sums, so that one need not wait for the other
-static inline void gvi__sum_vector(int r, int R, const gvi_real *table, const gvi_real *w,
-                                   const gvi_real *f, gvi__vector *z)
+// z := sum_j table[j][0..7] L_j in four sums, so that none need wait for another; r > 4
+static inline void gvi__sum_vector(int r, int R, const gvi_real *table, const gvi_real *L, gvi__vector *z)
 {
-    gvi__vector even = GVI__AT(table)*(w[0]*f[0]), odd = GVI__AT(table + R)*(w[1]*f[1]);
-    for (int j = 2; j + 1 < r; j += 2) {
-        even += GVI__AT(table + j*R)*(w[j]*f[j]);
-        odd += GVI__AT(table + (j + 1)*R)*(w[j + 1]*f[j + 1]);
+    gvi__vector a = GVI__AT(table)*L[0], b = GVI__AT(table + R)*L[1];
+    gvi__vector c = GVI__AT(table + 2*R)*L[2], d = GVI__AT(table + 3*R)*L[3];
+    int j = 4;
+    for (; j + 3 < r; j += 4) {
+        a += GVI__AT(table + j*R)*L[j];
+        b += GVI__AT(table + (j + 1)*R)*L[j + 1];
+        c += GVI__AT(table + (j + 2)*R)*L[j + 2];
+        d += GVI__AT(table + (j + 3)*R)*L[j + 3];
     }
-    if (r % 2) even += GVI__AT(table + (r - 1)*R)*(w[r - 1]*f[r - 1]);
-    *z = even + odd;
+    if (j < r) a += GVI__AT(table + j*R)*L[j];
+    if (j + 1 < r) b += GVI__AT(table + (j + 1)*R)*L[j + 1];
+    if (j + 2 < r) c += GVI__AT(table + (j + 2)*R)*L[j + 2];
+    *z = (a + b) + (c + d);
 }
 #endif
 
-// the same for block points, by loops
-static inline void gvi__sum_block(int r, int R, int block, const gvi_real *table, const gvi_real *w,
-                                  const gvi_real *f, gvi_real *z)
+// the same for `block` points, by loops, any r
+static inline void gvi__sum_block(int r, int R, int block, const gvi_real *table, const gvi_real *L, gvi_real *z)
 {
     for (int k = 0; k < block; ++k) {
-        gvi_real even = table[k]*(w[0]*f[0]), odd = r > 1 ? table[R + k]*(w[1]*f[1]) : 0;
-        for (int j = 2; j < r; j += 2) even += table[j*R + k]*(w[j]*f[j]);
-        for (int j = 3; j < r; j += 2) odd += table[j*R + k]*(w[j]*f[j]);
-        z[k] = even + odd;
+        gvi_real sum[4] = { 0, 0, 0, 0 };
+        for (int j = 0; j < r; ++j) {
+            const gvi_real term = table[j*R + k]*L[j];
+            sum[j % 4] = j < 4 ? term : sum[j % 4] + term;
+        }
+        z[k] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
     }
 }
 
-// z := sum_j table[j][.] w_j f_j, all R points
-static inline void gvi__sum_row(int r, int R, const gvi_real *table, const gvi_real *w,
-                                const gvi_real *f, gvi_real *z)
+// z := sum_j table[j][.] L_j, all R points
+static inline void gvi__sum_row(int r, int R, const gvi_real *table, const gvi_real *L, gvi_real *z)
 {
 #ifdef GVI__VECTORS
-    for (int o = 0; R % 8 == 0 && o < R; o += 8) gvi__sum_vector(r, R, table + o, w, f, (gvi__vector *)(z + o));
+    for (int o = 0; R % 8 == 0 && o < R; o += 8) gvi__sum_vector(r, R, table + o, L, (gvi__vector *)(z + o));
     if (R % 8 == 0) return;
 #endif
-    gvi__sum_block(r, R, R, table, w, f, z);
+    gvi__sum_block(r, R, R, table, L, z);
+}
+
+// L := w f, element by element
+static inline void gvi__weigh(int R, const gvi_real *GVI__RESTRICT w, const gvi_real *GVI__RESTRICT f,
+                              gvi_real *GVI__RESTRICT L)
+{
+    for (int j = 0; j < R; ++j) L[j] = w[j]*f[j];
 }
 
 /* 1/unit in which changes of a row are measured: |base| + the displacements at the
-   last point, before and after; 0 where these have no sure digit.  Kept while it is
-   right within a factor of 2, so that as a rule nothing waits for a quotient.  */
+   last point, before and after; 0 where these have no sure digit.  Made when it is
+   0: gvi__fixed_point clears it, so that as a rule nothing waits for a quotient. */
 static inline void gvi__rescale(gvi_real base, gvi_real was, gvi_real is, gvi_real *scale)
 {
-    const gvi_real size = gvi__abs(base) + gvi__abs(was - base) + gvi__abs(is - base), ratio = size * *scale;
-    if (!(ratio > (gvi_real)0.5 && ratio < 2)) *scale = size > GVI__MIN/GVI__EPS ? 1/size : 0;
+    if (*scale > 0) return;
+    const gvi_real size = gvi__abs(base) + gvi__abs(was - base) + gvi__abs(is - base);
+    *scale = size > GVI__MIN/GVI__EPS ? 1/size : 0;
 }
 
 static inline gvi_real gvi__sum_lanes(const gvi_real *z)
@@ -2233,7 +2250,7 @@ static inline gvi__affine gvi__affine_of(const gvi__stage *y, const gvi_real *di
     p.base = y->base[i];
     p.extra = y->extra[i];
     p.a = y->slope ? y->factor*y->slope[i] : 0;
-    p.b = diagonal ? y->factor/diagonal[i] : y->factor;
+    p.b = diagonal ? y->factor*diagonal[i] : y->factor;
     return p;
 }
 
@@ -2243,21 +2260,28 @@ static inline gvi__affine gvi__affine_of(const gvi__stage *y, const gvi_real *di
 static inline gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stage *y, int r, int R)
 {
     const struct gvi__private *x = &st->x;
-    const gvi_real *diagonal = y->over_mass && x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->mass : NULL;
+    const gvi_real *diagonal = y->over_mass && x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
     const gvi_real *c = x->c;
     const int n = st->n;
 #ifdef GVI__VECTORS
     if (R % 8 == 0) {
+        // h b F of a few rows ahead of their sums, which would have to wait for it
+        gvi_real ahead[64], *L = R == 8 ? ahead : x->z;
+        const int few = R == 8 ? 8 : 1;
         gvi__vector squares = { 0 };
-        for (int i = 0; i < n; ++i)
+        for (int i = 0; i < n; ++i) {
+            const gvi__affine p = gvi__affine_of(y, diagonal, i);
+            if (i % few == 0)
+                for (int o = 0; o < few*R && i*R + o < n*R; o += 8)
+                    *(gvi__vector *)(L + o) = GVI__AT(x->hb + o % R)*GVI__AT(y->f + i*R + o);
+            if (y->minus) gvi__weigh(R, x->b, x->work.A + i*R, x->less);
             for (int o = R - 8; o >= 0; o -= 8) {
-                const gvi__affine p = gvi__affine_of(y, diagonal, i);
                 const int last = r - 1 - o;
                 gvi_real *row = y->rows + i*R + o;
                 gvi__vector z, less, next, moved;
-                gvi__sum_vector(r, R, y->table + o, x->hb, y->f + i*R, &z);
+                gvi__sum_vector(r, R, y->table + o, L + i % few*R, &z);
                 if (y->minus) {
-                    gvi__sum_vector(r, R, y->minus + o, x->b, x->work.A + i*R, &less);
+                    gvi__sum_vector(r, R, y->minus + o, x->less, &less);
                     z -= less;
                 }
                 next = p.base + (p.extra + (GVI__AT(c + o)*p.a + z*p.b));
@@ -2266,18 +2290,22 @@ static inline gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stag
                 squares += moved*moved;
                 *(gvi__vector *)row = next;
             }
+        }
         return gvi__sum_lanes((const gvi_real *)&squares);
     }
 #endif
     gvi_real lane[8] = { 0, 0, 0, 0, 0, 0, 0, 0 };
     const int block = R < 8 ? R : 8;
-    for (int i = 0; i < n; ++i)
+    for (int i = 0; i < n; ++i) {
+        const gvi__affine p = gvi__affine_of(y, diagonal, i);
+        gvi_real few[8], *L = R > 8 ? x->z : few;
+        gvi__weigh(R, x->hb, y->f + i*R, L);
+        if (y->minus) gvi__weigh(R, x->b, x->work.A + i*R, x->less);
         for (int o = R - block; o >= 0; o -= block) {
-            const gvi__affine p = gvi__affine_of(y, diagonal, i);
             const int last = r - 1 - o;
             gvi_real *row = y->rows + i*R + o, z[8], less[8];
-            gvi__sum_block(r, R, block, y->table + o, x->hb, y->f + i*R, z);
-            if (y->minus) gvi__sum_block(r, R, block, y->minus + o, x->b, x->work.A + i*R, less);
+            gvi__sum_block(r, R, block, y->table + o, L, z);
+            if (y->minus) gvi__sum_block(r, R, block, y->minus + o, x->less, less);
             for (int k = 0; k < block; ++k)
                 z[k] = p.base + (p.extra + (c[k + o]*p.a + (y->minus ? z[k] - less[k] : z[k])*p.b));
             if (last < block) gvi__rescale(p.base, row[last], z[last], y->scale + i);
@@ -2287,6 +2315,7 @@ static inline gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stag
                 row[k] = z[k];
             }
         }
+    }
     return gvi__sum_lanes(lane);
 }
 
@@ -2297,9 +2326,12 @@ static gvi_real gvi__stage_rows_dense(gvi_stepper *st, const gvi__stage *y)
     int R = x->stride, last = st->r - 1;
     gvi_real sum = 0;
     for (int i = 0; i < st->n; ++i) {
-        gvi__sum_row(st->r, R, y->table, x->hb, y->f + i*R, x->Z + i*R);
-        if (y->minus) gvi__sum_row(st->r, R, y->minus, x->b, x->work.A + i*R, x->less);
-        for (int k = 0; y->minus && k < R; ++k) x->Z[i*R + k] -= x->less[k];
+        gvi__weigh(R, x->hb, y->f + i*R, x->z);
+        gvi__sum_row(st->r, R, y->table, x->z, x->Z + i*R);
+        if (!y->minus) continue;
+        gvi__weigh(R, x->b, x->work.A + i*R, x->z);
+        gvi__sum_row(st->r, R, y->minus, x->z, x->less);
+        for (int k = 0; k < R; ++k) x->Z[i*R + k] -= x->less[k];
     }
     gvi__over_mass(st, x->Z, R, R);
     for (int i = 0; i < st->n; ++i) {
@@ -2484,7 +2516,8 @@ static void gvi__transform(gvi_stepper *st, const gvi__from *from, int lagrangia
     for (int k = 0; k < R; ++k) x->level[k] -= x->less[k] + E;
     if (x->flags & GVI__HAS_VELOCITIES) {
         gvi__scale_row(R, x->rate, x->power);
-        gvi__sum_row(r, R, x->T, x->hb, x->power, x->z);
+        gvi__weigh(R, x->hb, x->power, x->less);
+        gvi__sum_row(r, R, x->T, x->less, x->z);
         for (int k = 0; k < R; ++k) x->level[k] -= x->z[k];
     }
     for (int i = 0; i < n; ++i) {
@@ -2495,8 +2528,9 @@ static void gvi__transform(gvi_stepper *st, const gvi__from *from, int lagrangia
         gvi__transform_row(R, x->rate, x->slope + i*R, x->level, w->F + i*R);
         gvi__scale_row(R, x->rate, w->V + i*R);
     }
-    if (r == 8) gvi__sum_row(8, 8, x->T, x->hb, x->rate, x->z);
-    else gvi__sum_row(r, R, x->T, x->hb, x->rate, x->z);
+    gvi__weigh(R, x->hb, x->rate, x->less);
+    if (r == 8) gvi__sum_row(8, 8, x->T, x->less, x->z);
+    else gvi__sum_row(r, R, x->T, x->less, x->z);
     for (int k = 0; k < R; ++k) x->t[k] = from->t + (from->te + x->z[k]);
     x->has_rate = 1;
 }
@@ -2546,14 +2580,14 @@ static inline void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, co
 #ifdef GVI__VECTORS
         for (int o = 0; older && R % 8 == 0 && o < R; o += 8) {
             gvi__vector z, y;
-            gvi__sum_vector(r, R, x->E + r*R + o, x->ones, older + i*R, &y);
-            gvi__sum_vector(r, R, x->E + o, x->ones, last + i*R, &z);
+            gvi__sum_vector(r, R, x->E + r*R + o, older + i*R, &y);
+            gvi__sum_vector(r, R, x->E + o, last + i*R, &z);
             *(gvi__vector *)(out + i*R + o) = z + y;
         }
         if (older && R % 8 == 0) continue;
 #endif
-        gvi__sum_row(r, R, x->E, x->ones, last + i*R, out + i*R);
-        if (older) gvi__sum_row(r, R, x->E + r*R, x->ones, older + i*R, x->z);
+        gvi__sum_row(r, R, x->E, last + i*R, out + i*R);
+        if (older) gvi__sum_row(r, R, x->E + r*R, older + i*R, x->z);
         for (int k = 0; older && k < R; ++k) out[i*R + k] += x->z[k];
     }
 }
@@ -2639,8 +2673,26 @@ static void gvi__guess(gvi_stepper *st, int extrapolate, gvi_real rate)
     }
 }
 
-/* Increments of q and p from the F, V and A at the end of the iteration.      */
-static void gvi__increments(gvi_stepper *st, gvi_real h)
+// the exact product overflows before a*b does: then there is no rest
+static gvi_real gvi__rest(gvi_real x) { return gvi__finite(x) ? x : 0; }
+
+/* sum_j a_j b_j + rest, the sum carried with its rounding: an increment is what
+   errors add up in, step by step.                                             */
+static gvi__two gvi__exact_dot(int r, const gvi_real *a, const gvi_real *b, gvi_real rest)
+{
+    gvi__two sum = gvi__real2(0);
+    for (int j = 0; j < r; ++j) {
+        const gvi__two term = gvi__product(a[j], b[j]), next = gvi__sum(sum.hi, term.hi);
+        sum.hi = next.hi;
+        sum.lo += next.lo + term.lo;
+    }
+    sum.lo = gvi__rest(sum.lo + rest);
+    return sum;
+}
+
+/* Increments of q and p from the F, V and A at the end of the iteration, what is
+   left of them going to dqe and dpe.                                          */
+static void gvi__increments(gvi_stepper *st, const gvi__from *from, gvi_real h)
 {
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work;
@@ -2652,16 +2704,28 @@ static void gvi__increments(gvi_stepper *st, gvi_real h)
     for (int j = 0; j < R; ++j) x->less[j] = 1 - x->c[j];
     for (int i = 0; i < n; ++i) {
         const gvi_real *F = w->F + i*R;
-        x->dp[i] = gvi__dot(r, x->hb, F);
-        if (x->chosen == GVI_MOMENTA) x->dq[i] = gvi__dot(r, x->hb, w->V + i*R);
-        else {
-            for (int j = 0; j < R; ++j) x->z[j] = x->hb[j]*F[j];
+        const gvi__two p = gvi__exact_dot(r, x->hb, F, from->pe[i]);
+        x->dp[i] = p.hi;
+        x->dpe[i] = p.lo;
+        x->dqe[i] = 0;
+        if (x->chosen == GVI_MOMENTA) {
+            const gvi__two q = gvi__exact_dot(r, x->hb, w->V + i*R, from->qe[i]);
+            x->dq[i] = q.hi;
+            x->dqe[i] = q.lo;
+        } else {
+            gvi__weigh(R, x->hb, F, x->z);
             x->dq[i] = gvi__dot(r, x->less, x->z) - (w->A ? gvi__dot(r, x->b, w->A + i*R) : 0);
         }
     }
     if (x->chosen == GVI_MOMENTA) return;
+
+    // h v0 exactly; the rest is smaller by h omega
     gvi__over_mass(st, x->dq, 1, 1);
-    for (int i = 0; i < n; ++i) x->dq[i] = h*x->v0[i] + h*(x->ve[i] + x->dq[i]);
+    for (int i = 0; i < n; ++i) {
+        const gvi__two path = gvi__product(h, x->v0[i]), q = gvi__sum(path.hi, h*(x->ve[i] + x->dq[i]));
+        x->dq[i] = q.hi;
+        x->dqe[i] = gvi__rest(q.lo + path.lo + from->qe[i]);
+    }
 }
 
 /* Is the change that does not shrink any more nothing but rounding?  It is as far
@@ -2763,9 +2827,11 @@ static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_r
         for (int i = 0; idle + poor > 0 && i < st->n; ++i) x->change[i] = x->work.Q[i*x->stride + st->r - 1];
         const gvi_real change = gvi__stages(st, y, count);
         if (!(change <= GVI__MAX)) return gvi__not_finite(st, grows);
-        if (change*change <= enough*(before > 0 ? before : change)) return gvi__watch_last(st, change), GVI_OK;
+        const gvi_real known = before > 1 ? 1 : before > 0 ? before : change;
+        if (change*change <= enough*known) return gvi__watch_last(st, change), GVI_OK;
         gvi__watch(st, change, earlier);
         grows = before > 0 && change >= before/4;
+        if (*used == 1 || grows) gvi__zero(2*(size_t)st->n, x->scale);
         poor = grows ? poor + 1 : 0;
         idle = change < least*81/100 ? 0 : idle + 1;
         if (change < least) least = change;
@@ -2789,7 +2855,7 @@ static inline void gvi__kick_drift(int n, gvi_real b, gvi_real a, const gvi_real
     for (; i + 8 <= n; i += 8) {
         const gvi__vector p = GVI__AT(dp + i) + b*GVI__AT(F + i);
         gvi__vector v = p, q;
-        if (m) v = p/GVI__AT(m + i);
+        if (m) v = p*GVI__AT(m + i);
         q = GVI__AT(dq + i) + a*(GVI__AT(v0 + i) + v);
         *(gvi__vector *)(dp + i) = p;
         *(gvi__vector *)(dq + i) = q;
@@ -2798,7 +2864,7 @@ static inline void gvi__kick_drift(int n, gvi_real b, gvi_real a, const gvi_real
 #endif
     for (; i < n; ++i) {
         dp[i] += b*F[i];
-        dq[i] += a*(v0[i] + (m ? dp[i]/m[i] : dp[i]));
+        dq[i] += a*(v0[i] + (m ? dp[i]*m[i] : dp[i]));
         Q[i] = q0[i] + dq[i];
     }
 }
@@ -2807,7 +2873,7 @@ static void gvi__kick(gvi_stepper *st, const gvi__from *from, gvi_real b, gvi_re
 {
     struct gvi__private *x = &st->x;
     const int n = st->n;
-    const gvi_real *m = x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->mass : NULL;
+    const gvi_real *m = x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
     gvi_real *Q = x->work.Q, *z = x->change;
     if (x->desc.mass.kind == GVI_MASS_DENSE) {
         for (int i = 0; i < n; ++i) z[i] = x->dp[i] += b*F[i];
@@ -2831,6 +2897,8 @@ static gvi_status gvi__explicit(gvi_stepper *st, const gvi__from *from, gvi_real
     gvi__copy(n, from->qe, x->dq);
     gvi__copy(n, from->pe, x->dp);
     gvi__zero(n, F);
+    gvi__zero(n, x->dqe);
+    gvi__zero(n, x->dpe);
     gvi__kick(st, from, 0, x->drift[0], F);
     for (int j = 0; j < st->r; ++j) {
         gvi_status status = GVI_OK;
@@ -3169,8 +3237,12 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, gvi_r
     gvi__newton_guess(st, extrapolate);
     gvi_status status = gvi__newton(st, from, &J, x->pivot + (query ? sn + 1 : 0), !query);
     for (int i = 0; i < st->n; ++i) {
-        x->dq[i] = h*x->y[i];
-        x->dp[i] = gvi__dot(st->r, x->hb, x->work.F + i*x->stride);
+        const gvi__two q = gvi__product(h, x->y[i]);
+        const gvi__two p = gvi__exact_dot(st->r, x->hb, x->work.F + i*x->stride, from->pe[i]);
+        x->dq[i] = q.hi;
+        x->dqe[i] = gvi__rest(q.lo + from->qe[i]);
+        x->dp[i] = p.hi;
+        x->dpe[i] = p.lo;
     }
     return status;
 }
@@ -3201,7 +3273,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__from *from, gvi_real 
             // only a refusal at the extrapolated values themselves is worth a second try
             if (status == GVI_OK || status == GVI_E_CONVERGENCE || used > 1) break;
         }
-        if (status == GVI_OK) gvi__increments(st, h);
+        if (status == GVI_OK) gvi__increments(st, from, h);
         if (status == GVI_OK || x->desc.formulation != GVI_AUTO || !(x->flags & GVI__HAS_NEWTON)) return status;
         if (!query && status == GVI_E_CONVERGENCE) x->newton_left = 64;
     }
@@ -3222,10 +3294,6 @@ static gvi_status gvi__solve(gvi_stepper *st, const gvi__from *from, gvi_real h,
 {
     struct gvi__private *x = &st->x;
     gvi_status status = gvi__attempt(st, from, h, past, query);
-    for (int i = 0; i < st->n && status == GVI_OK && x->chosen != GVI_EXPLICIT; ++i) {
-        x->dq[i] += from->qe[i];
-        x->dp[i] += from->pe[i];
-    }
     if (status == GVI_OK && !(gvi__all_finite(st->n, x->dq) && gvi__all_finite(st->n, x->dp)))
         status = GVI_E_NON_FINITE;
     if (status == GVI_E_NON_FINITE && st->fault.effect == GVI_FAULT_NONE && !x->diagnose) {
@@ -3260,15 +3328,15 @@ static void gvi__rotate_rows(gvi_stepper *st)
     x->turns = (x->turns + 1) % 6;
 }
 
-// was := x, x + rest := x + dx without an error
-static void gvi__move(int n, const gvi_real *GVI__RESTRICT dx, gvi_real *GVI__RESTRICT x,
-                      gvi_real *GVI__RESTRICT rest, gvi_real *GVI__RESTRICT was)
+// was := x, x + rest := x + dx + dxe
+static void gvi__move(int n, const gvi_real *GVI__RESTRICT dx, const gvi_real *GVI__RESTRICT dxe,
+                      gvi_real *GVI__RESTRICT x, gvi_real *GVI__RESTRICT rest, gvi_real *GVI__RESTRICT was)
 {
     for (int i = 0; i < n; ++i) {
-        const gvi__two sum = gvi__sum(x[i], dx[i]);
+        const gvi__two sum = gvi__sum(x[i], dx[i]), all = gvi__sum(sum.hi, sum.lo + dxe[i]);
         was[i] = x[i];
-        x[i] = sum.hi;
-        rest[i] = sum.lo;
+        x[i] = all.hi;
+        rest[i] = all.lo;
     }
 }
 
@@ -3276,8 +3344,8 @@ static void gvi__move(int n, const gvi_real *GVI__RESTRICT dx, gvi_real *GVI__RE
 static void gvi__commit(gvi_stepper *st, gvi_real h)
 {
     struct gvi__private *x = &st->x;
-    gvi__move(st->n, x->dq, x->q, x->qe, x->q0);
-    gvi__move(st->n, x->dp, x->p, x->pe, x->p0);
+    gvi__move(st->n, x->dq, x->dqe, x->q, x->qe, x->q0);
+    gvi__move(st->n, x->dp, x->dpe, x->p, x->pe, x->p0);
     x->alike = x->stepped && !gvi__nonzero(h - st->h) ? 2 : 1;
     gvi__two t = gvi__sum(st->t, x->dt + x->te), H = gvi__sum(x->H, x->dH + x->He);
     x->H0 = x->H;
@@ -3648,13 +3716,15 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
     else {
         gvi__copy(n, from.qe, x->dq);
         gvi__copy(n, from.pe, x->dp);
+        gvi__zero(n, x->dqe);
+        gvi__zero(n, x->dpe);
     }
     st->formulation = was;
     if (status != GVI_OK) return st->status = status;
     gvi_real *Q = x->change, *P = Q + n, *V = P + n;
     for (size_t i = 0; i < n; ++i) {
-        Q[i] = from.q[i] + x->dq[i];
-        P[i] = from.p[i] + x->dp[i];
+        Q[i] = from.q[i] + (x->dq[i] + x->dqe[i]);
+        P[i] = from.p[i] + (x->dp[i] + x->dpe[i]);
         V[i] = gvi__velocity_guess(st, (int)i);
     }
     if (v) status = gvi__velocity(st, t, Q, P, V);

@@ -6,7 +6,7 @@
 
    prints
 
-     tolerance 0      iterations a step 4.5   energy error below 1e-12
+     tolerance 0      iterations a step 4.6   energy error below 1e-12
      tolerance 1e-10  iterations a step 2.3   energy error below 1e-06
      tolerance 1e-08  iterations a step 2.1   energy error below 1e-06
 */

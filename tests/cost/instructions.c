@@ -1,0 +1,281 @@
+/* instructions.c - five fixed runs, whose work tests/tools/instructions.sh counts
+
+     instructions --compiler     which one made this program, for which machine
+     instructions --counts       all runs: name, steps, points evaluated, iterations
+     instructions NAME           one run, under callgrind: what is collected is run_steps
+
+   Right-hand sides without libm but for square roots, which are exact everywhere: with
+   -ffp-contract=off points and iterations are the same on every machine, with every compiler. */
+#define GVI_REAL double
+#define GVI_IMPLEMENTATION
+#include "gvi.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define COUNT(a) ((int)(sizeof(a)/sizeof(a)[0]))
+
+/* ---------------------------------------------------------------- scenes */
+
+/* -1/|q|, force or value or both                                                              */
+static int attraction(const gvi_points *x, void *user)
+{
+    const double *X = x->q, *Y = X + x->stride;
+    double *f = x->f, *value = x->value;
+    (void)user;
+    for (int k = 0; k < x->count && f; ++k) {
+        double d2 = X[k]*X[k] + Y[k]*Y[k], w = -1/(d2*sqrt(d2));
+        f[k] += w*X[k];
+        f[x->stride+k] += w*Y[k];
+    }
+    for (int k = 0; k < x->count && value; ++k) value[k] -= 1/sqrt(X[k]*X[k] + Y[k]*Y[k]);
+    return 0;
+}
+
+/* g = |q|                                                                                     */
+static int distance(const gvi_points *x, void *user)
+{
+    const double *X = x->q, *Y = X + x->stride;
+    (void)user;
+    for (int k = 0; k < x->count; ++k) {
+        double d = sqrt(X[k]*X[k] + Y[k]*Y[k]), w = 1/d;
+        x->value[k] += d;
+        x->f[k] += w*X[k];
+        x->f[x->stride+k] += w*Y[k];
+    }
+    return 0;
+}
+
+/* Henon-Heiles                                                                                */
+static int well(const gvi_points *x, void *user)
+{
+    const double *X = x->q, *Y = X + x->stride;
+    (void)user;
+    for (int k = 0; k < x->count; ++k) {
+        x->f[k] -= X[k] + 2*X[k]*Y[k];
+        x->f[x->stride+k] -= Y[k] + (X[k]*X[k] - Y[k]*Y[k]);
+    }
+    return 0;
+}
+
+/* Sun, Jupiter, Saturn, Uranus, Neptune, Pluto; astronomical units and days [Hairer, Lubich, Wanner:
+   Geometric numerical integration, I.2.4].  Masses times the constant of gravitation.          */
+#define THRICE(a) a, a, a
+#define GRAVITY 2.95912208286e-4
+static const double gm[18] = {
+    THRICE(1.00000597682*GRAVITY), THRICE(9.54786104043e-4*GRAVITY), THRICE(2.85583733151e-4*GRAVITY),
+    THRICE(4.37273164546e-5*GRAVITY), THRICE(5.17759138449e-5*GRAVITY), THRICE(GRAVITY/1.3e8) };
+static const double solar_q[18] = {
+    0, 0, 0, -3.5023653, -3.8169847, -1.5507963, 9.0755314, -3.0458353, -1.6483708,
+    8.3101420, -16.2901086, -7.2521278, 11.4707666, -25.7294829, -10.8169456,
+    -15.5387357, -25.2225594, -3.1902382 };
+static const double solar_v[18] = {
+    0, 0, 0, 0.00565429, -0.00412490, -0.00190589, 0.00168318, 0.00483525, 0.00192462,
+    0.00354178, 0.00137102, 0.00055029, 0.00288930, 0.00114527, 0.00039677,
+    0.00276725, -0.00170702, -0.00136504 };
+
+static int pair(const gvi_points *x, int i, int j)
+{
+    const int R = x->stride;
+    const double *a = x->q + 3*i*R, *b = x->q + 3*j*R, g = gm[3*i]*gm[3*j];
+    double *s = x->f + 3*i*R, *t = x->f + 3*j*R;
+    for (int k = 0; k < x->count; ++k) {
+        double u = b[k] - a[k], v = b[R+k] - a[R+k], w = b[2*R+k] - a[2*R+k];
+        double d2 = u*u + v*v + w*w, z = g/(d2*sqrt(d2));
+        s[k] += z*u;  s[R+k] += z*v;  s[2*R+k] += z*w;
+        t[k] -= z*u;  t[R+k] -= z*v;  t[2*R+k] -= z*w;
+    }
+    return 0;
+}
+
+static int gravitation(const gvi_points *x, void *user)
+{
+    (void)user;
+    for (int i = 0; i < 5; ++i)
+        for (int j = i + 1; j < 6; ++j) pair(x, i, j);
+    return 0;
+}
+
+/* sin and cos for |x| < 4 by Taylor's series, halved twice: right to about 1e-15              */
+static void sines(double x, double *sine, double *cosine)
+{
+    double z = x*x/16, s = 1, c = 1;
+    for (int k = 15; k > 1; k -= 2) {
+        s = 1 - z/(k*(k - 1))*s;
+        c = 1 - z/((k - 1)*(k - 2))*c;
+    }
+    s *= x/4;
+    for (int k = 0; k < 2; ++k) {
+        double twice = 2*s*c;
+        c = 1 - 2*s*s;
+        s = twice;
+    }
+    *sine = s;
+    *cosine = c;
+}
+
+/* Double pendulum, second angle relative to the first, m = l = 1: as in tests/test_ncdp.c      */
+static int weight(const gvi_points *x, void *user)
+{
+    const double *a = x->q, *b = a + x->stride;
+    (void)user;
+    for (int k = 0; k < x->count; ++k) {
+        double first, both, c;
+        sines(a[k], &first, &c);
+        sines(a[k] + b[k], &both, &c);
+        x->f[k] -= 9.8*(2*first + both);
+        x->f[x->stride+k] -= 9.8*both;
+    }
+    return 0;
+}
+
+static int velocity(const gvi_points *x, void *user)
+{
+    const double *b = x->q + x->stride, *p = x->p;
+    (void)user;
+    for (int k = 0; k < x->count; ++k) {
+        double s, c, p2 = p[x->stride+k], less = p[k] - p2;
+        sines(b[k], &s, &c);
+        x->velocity[k] = (less - c*p2)/(1 + s*s);
+        x->velocity[x->stride+k] = ((2 + c)*p2 - (1 + c)*less)/(1 + s*s);
+    }
+    return 0;
+}
+
+static int mass(const gvi_points *x, void *user)
+{
+    const int R = x->stride;
+    (void)user;
+    for (int k = 0; k < x->count; ++k) {
+        double s, c;
+        sines(x->q[R+k], &s, &c);
+        x->mass[k] = 3 + 2*c;
+        x->mass[2*R+k] = 1 + c;
+        x->mass[3*R+k] = 1;
+    }
+    return 0;
+}
+
+static int mass_gradient(const gvi_points *x, void *user)
+{
+    const double *u = x->v, *v = u + x->stride;
+    (void)user;
+    for (int k = 0; k < x->count; ++k) {
+        double s, c;
+        sines(x->q[x->stride+k], &s, &c);
+        x->f[x->stride+k] -= s*u[k]*(u[k] + v[k]);
+    }
+    return 0;
+}
+
+/* ------------------------------------------------------------------ runs */
+
+/* Yoshida's triple jump of Stoermer-Verlet, gamma = 1/(2 - 2^(1/3)): order 4                  */
+#define GAMMA 1.3512071919596576
+static const double corners[] = { 0, GAMMA, 1 - GAMMA, 1 };
+static const double kicks[] = { GAMMA/2, (1 - GAMMA)/2, (1 - GAMMA)/2, GAMMA/2 };
+
+static const gvi_effect kepler_scene[] = { { .kind = GVI_POTENTIAL, .points = attraction } };
+static const gvi_effect solar_scene[] = { { .kind = GVI_POTENTIAL, .points = gravitation } };
+static const gvi_effect pendulum_scene[] = { { .kind = GVI_POTENTIAL, .points = weight } };
+static const gvi_effect well_scene[] = { { .kind = GVI_POTENTIAL, .points = well } };
+static const gvi_effect clock_scene[] = {
+    { .kind = GVI_POTENTIAL, .points = attraction, .value = attraction },
+    { .kind = GVI_CLOCK, .points = distance } };
+
+/* Start: configuration and velocity, in the pendulum momentum                                  */
+static const double kepler_q[] = { 0.4, 0 }, kepler_v[] = { 0, 2 };
+static const double pendulum_q[] = { 1.1, -1.1 }, pendulum_p[] = { 2.7746, 2.7746 };
+static const double well_q[] = { 0, 0.1 }, well_v[] = { 0.49, 0 };
+static const double far_q[] = { 0.1, 0 }, far_v[] = { 0, 4.358898943540674 };
+
+typedef struct run {
+    const char   *name;
+    gvi_desc      desc;
+    const double *q, *v;
+    double        h;
+    long          steps;
+} run;
+
+#define SCENE(s) .effects = s, .effect_count = COUNT(s)
+static const run runs[] = {
+    { "kepler", { .n = 2, .degree = 8, SCENE(kepler_scene), .formulation = GVI_POSITIONS },
+      kepler_q, kepler_v, 0.1, 2000 },
+    { "solar", { .n = 18, .degree = 8, SCENE(solar_scene),
+      .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = gm } },
+      solar_q, solar_v, 200, 500 },
+    { "pendulum", { .n = 2, .degree = 6, SCENE(pendulum_scene), .formulation = GVI_MOMENTA,
+      .mass = { .kind = GVI_MASS_POSITION, .points = mass, .gradient = mass_gradient,
+                .velocity = velocity } },
+      pendulum_q, pendulum_p, 1.0/128, 2000 },
+    { "kicks", { .n = 2, SCENE(well_scene),
+      .rule = { .kind = GVI_KICKS, .points = 4, .nodes = corners, .weights = kicks } },
+      well_q, well_v, 0.1, 20000 },
+    { "clock", { .n = 2, .degree = 8, SCENE(clock_scene) }, far_q, far_v, 0.1, 1000 },
+};
+
+/* What callgrind collects, called through a pointer that no compiler sees through              */
+void run_steps(gvi_stepper *st, double h, long steps);
+void run_steps(gvi_stepper *st, double h, long steps)
+{
+    for (long k = 0; k < steps && st->status == GVI_OK; ++k) gvi_step(st, h);
+}
+static void (*volatile steps_of)(gvi_stepper *, double, long) = run_steps;
+
+static gvi_status perform(const run *r, gvi_stepper *st)
+{
+    static double memory[GVI_LENGTH(18, 8, 8)];
+    gvi_init(st, &r->desc, memory, sizeof memory);
+    if (r->desc.mass.kind == GVI_MASS_POSITION) gvi_start_momentum(st, 0, r->q, r->v);
+    else gvi_start(st, 0, r->q, r->v);
+    steps_of(st, r->h, r->steps);
+    return st->status;
+}
+
+static int say_counts(void)
+{
+    for (int i = 0; i < COUNT(runs); ++i) {
+        gvi_stepper st;
+        gvi_status status = perform(runs + i, &st);
+        if (status != GVI_OK) return fprintf(stderr, "%s: %s\n", runs[i].name, gvi_status_text(status)), 1;
+        printf("%s %llu %llu %llu\n", runs[i].name, st.counters.steps, st.counters.effect[0],
+               st.counters.iterations + st.counters.newton_iterations);
+    }
+    return 0;
+}
+
+static int say_compiler(void)
+{
+#if defined(__clang__)
+    const char *name = "clang";
+#elif defined(__GNUC__)
+    const char *name = "gcc";
+#else
+    const char *name = "unknown";
+#endif
+#if defined(__VERSION__)
+    const char *version = __VERSION__;
+#else
+    const char *version = "?";
+#endif
+#if defined(__x86_64__)
+    const char *machine = "x86-64";
+#elif defined(__aarch64__)
+    const char *machine = "aarch64";
+#else
+    const char *machine = "other";
+#endif
+    return printf("%s %s %s\n", name, version, machine) < 0;
+}
+
+int main(int argc, char **argv)
+{
+    gvi_stepper st;
+    if (argc == 2 && !strcmp(argv[1], "--compiler")) return say_compiler();
+    if (argc == 2 && !strcmp(argv[1], "--counts")) return say_counts();
+    for (int i = 0; argc == 2 && i < COUNT(runs); ++i)
+        if (!strcmp(argv[1], runs[i].name)) return perform(runs + i, &st) != GVI_OK;
+    fputs("instructions --compiler | --counts | NAME\n", stderr);
+    return 2;
+}
