@@ -496,6 +496,11 @@ typedef struct gvi_discrete {
     gvi_real *d1, *d2;                /* its derivatives by q0 and q1           */
     gvi_real *minus, *plus;           /* discrete forces F-, F+                 */
     gvi_real *p0, *p1;                /* -d1 - minus and d2 + plus              */
+    int      *negative;               /* negative eigenvalues of the action's second
+                                         variation over the interior, forces left
+                                         out: 0, the curve is a minimum; as many as
+                                         conjugate points lie inside (Morse), up to
+                                         what n (s - 1) modes can show          */
 } gvi_discrete;
 
 /* ------------------------------------------------------------- FUNCTIONS */
@@ -3118,14 +3123,20 @@ static void gvi__scale_rows(int n, int size, const gvi__matrix *J)
     }
 }
 
-static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J, gvi_real *pivot)
+static gvi_status gvi__jacobian_fill(gvi_stepper *st, const gvi__matrix *J)
 {
-    int n = st->n, size = (st->s - J->k0)*n, at;
+    int n = st->n, size = (st->s - J->k0)*n;
     gvi__zero((size_t)size*(size_t)size, J->square);
     if (J->ends) gvi__zero((size_t)size*2*(size_t)n, J->ends);
     gvi_status status = gvi__check_regular(st);
     if (status == GVI_OK) status = gvi__jacobian_exact(st, J);
-    if (status == GVI_OK) status = gvi__jacobian_differences(st, J);
+    return status == GVI_OK ? gvi__jacobian_differences(st, J) : status;
+}
+
+static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J, gvi_real *pivot)
+{
+    int n = st->n, size = (st->s - J->k0)*n, at;
+    gvi_status status = gvi__jacobian_fill(st, J);
     if (status != GVI_OK) return status;
     if (J->scaled) gvi__scale_rows(n, size, J);
     status = gvi__lu_factor(size, J->square, pivot, &at);
@@ -3536,7 +3547,7 @@ GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_rea
 {
     gvi_status status = gvi__check_start(st, t, q0, q1);
     if (status != GVI_OK) return status;
-    gvi_discrete out = { NULL, NULL, NULL, NULL, NULL, NULL, NULL };
+    gvi_discrete out = { NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL };
     out.p0 = st->x.change + 2*st->n;
     status = gvi_discrete_lagrangian(st, t, h, q0, q1, &out);
     return status == GVI_OK ? gvi_start_momentum(st, t, q0, out.p0) : status;
@@ -3877,6 +3888,72 @@ static gvi_status gvi__interior(gvi_stepper *st, const gvi__from *from, gvi_real
     return status;
 }
 
+// rows and columns i and j of a symmetric matrix change places
+static void gvi__exchange(int n, gvi_real *a, int i, int j)
+{
+    for (int k = 0; k < n && i != j; ++k) {
+        gvi_real x = a[i*n + k];
+        a[i*n + k] = a[j*n + k];
+        a[j*n + k] = x;
+    }
+    for (int k = 0; k < n && i != j; ++k) {
+        gvi_real x = a[k*n + i];
+        a[k*n + i] = a[k*n + j];
+        a[k*n + j] = x;
+    }
+}
+
+/* Negative eigenvalues of a symmetric matrix, which is overwritten: by Sylvester's
+   law those of D in L D L', D with blocks of 1 or 2, complete pivoting (Bunch and
+   Parlett 1971).  A block of 2 has one of each sign.                          */
+static int gvi__negative(int n, gvi_real *a)
+{
+    int count = 0;
+    for (int k = 0, width = 1; k < n; k += width) {
+        int p = k, q = k, r = k;
+        gvi_real diagonal = -1, off = -1;
+        for (int i = k; i < n; ++i) {
+            if (gvi__abs(a[i*n + i]) > diagonal) diagonal = gvi__abs(a[i*n + i]), p = i;
+            for (int j = k; j < i; ++j)
+                if (gvi__abs(a[i*n + j]) > off) off = gvi__abs(a[i*n + j]), q = j, r = i;
+        }
+        width = diagonal >= (gvi_real)0.6404*off ? 1 : 2;
+        if (width == 1 && !(diagonal > 0)) break;
+        gvi__exchange(n, a, k, width == 1 ? p : q);
+        if (width == 2) gvi__exchange(n, a, k + 1, r == k ? q : r);
+        count += width == 2 || a[k*n + k] < 0;
+        gvi_real d = a[k*n + k], e = width == 2 ? a[(k + 1)*n + k] : 0, f = width == 2 ? a[(k + 1)*n + k + 1] : 1;
+        for (int i = k + width; i < n; ++i) {
+            gvi_real x = a[i*n + k], y = width == 2 ? a[i*n + k + 1] : 0, det = d*f - e*e;
+            gvi_real u = (f*x - e*y)/det, v = (d*y - e*x)/det;          // the block's inverse
+            for (int j = k + width; j < n; ++j) a[i*n + j] -= u*a[k*n + j] + (width == 2 ? v*a[(k + 1)*n + j] : 0);
+        }
+    }
+    return count;
+}
+
+// the second variation is h J without the factors 2k + 1 of its rows
+static gvi_status gvi__count_negative(gvi_stepper *st, const gvi__matrix *J, int *negative)
+{
+    struct gvi__private *x = &st->x;
+    const int n = st->n, size = (st->s - 1)*n;
+    const unsigned off = x->off;
+    *negative = 0;
+    if (size == 0) return GVI_OK;
+    x->off |= gvi__of_kind(st, GVI_FORCE);
+    gvi_status status = gvi__jacobian_fill(st, J);
+    x->off = off;
+    if (status != GVI_OK) return status;
+    gvi_real *a = J->square;
+    for (int i = 0; i < size; ++i)
+        for (int j = 0; j <= i; ++j) {
+            gvi_real lower = a[i*size + j]/(gvi_real)(2*(i/n) + 3), upper = a[j*size + i]/(gvi_real)(2*(j/n) + 3);
+            a[i*size + j] = a[j*size + i] = (lower + upper)/2*J->h;
+        }
+    *negative = gvi__negative(size, a);
+    return GVI_OK;
+}
+
 static gvi_status gvi__boundary_value(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *q1,
                                       const gvi_discrete *out)
 {
@@ -3907,7 +3984,10 @@ static gvi_status gvi__boundary_value(gvi_stepper *st, const gvi__from *from, gv
         p1[i] = p0[i] + gvi__dot(st->r, x->hb, x->work.F + i*R);
     }
     status = gvi__discrete_forces(st, &J, pivot, minus, plus);
+    int negative = 0;
+    if (status == GVI_OK && out->negative) status = gvi__count_negative(st, &J, &negative);
     if (status != GVI_OK) return status;
+    if (out->negative) *out->negative = negative;
     if (out->lagrangian) *out->lagrangian = action;
     for (int i = 0; i < n; ++i) {
         if (out->d1) out->d1[i] = -p0[i] - minus[i];

@@ -347,7 +347,8 @@ static void start_somehow(gvi_stepper *st)
 static void ask_something(gvi_stepper *st)
 {
     real a[N_MAX], b[N_MAX], c[N_MAX], d[N_MAX], number;
-    const gvi_discrete out = { &number, a, b, c, d, NULL, NULL };
+    int negative = 0;
+    const gvi_discrete out = { &number, a, b, c, d, NULL, NULL, below(2) ? &negative : NULL };
     random_vector(a);
     random_vector(b);
     switch (below(7)) {

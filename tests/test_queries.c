@@ -524,7 +524,7 @@ static void the_oscillators_discrete_lagrangian_converges_to_its_closed_form(voi
         gvi_stepper st;
         real Ld, d1, d2, error;
         start_oscillator(&st, s, GVI_GAUSS);
-        assert_ok(gvi_discrete_lagrangian(&st, 0, h, &q0, &q1, &(gvi_discrete){ &Ld, &d1, &d2, 0, 0, 0, 0 }));
+        assert_ok(gvi_discrete_lagrangian(&st, 0, h, &q0, &q1, &(gvi_discrete){ .lagrangian = &Ld, .d1 = &d1, .d2 = &d2 }));
         error = larger(fabs(Ld - exact), larger(fabs(d1 - e1), fabs(d2 - e2)));
         /* (w h/2)^2 = 0.2 a degree at the least, down to rounding over 1/sin(wh) */
         if (error > 16*EPS) assert_between(0, error, 0.2L*last);
@@ -540,12 +540,12 @@ static void degree_one_gives_the_discrete_lagrangians_of_the_textbook(void **sta
     gvi_stepper st;
     (void)state;
     start_oscillator(&st, 1, GVI_GAUSS);
-    assert_ok(gvi_discrete_lagrangian(&st, 0, h, &q0, &q1, &(gvi_discrete){ &Ld, &d1, &d2, 0, 0, 0, 0 }));
+    assert_ok(gvi_discrete_lagrangian(&st, 0, h, &q0, &q1, &(gvi_discrete){ .lagrangian = &Ld, .d1 = &d1, .d2 = &d2 }));
     assert_close(Ld, h*(v*v - w2*mid*mid)/2, 4*EPS);
     assert_close(d1, -v - h*w2*mid/2, 4*EPS);
     assert_close(d2, v - h*w2*mid/2, 4*EPS);
     start_oscillator(&st, 1, GVI_LOBATTO);
-    assert_ok(gvi_discrete_lagrangian(&st, 0, h, &q0, &q1, &(gvi_discrete){ &Ld, &d1, &d2, 0, 0, 0, 0 }));
+    assert_ok(gvi_discrete_lagrangian(&st, 0, h, &q0, &q1, &(gvi_discrete){ .lagrangian = &Ld, .d1 = &d1, .d2 = &d2 }));
     assert_close(Ld, h*(v*v - w2*(q0*q0 + q1*q1)/2)/2, 4*EPS);
     assert_close(d1, -v - h*w2*q0/2, 4*EPS);
     assert_close(d2, v - h*w2*q1/2, 4*EPS);
@@ -556,7 +556,7 @@ typedef struct { real L, d1[2], d2[2], minus[2], plus[2], p0[2], p1[2]; } discre
 
 static void ask_discrete(gvi_stepper *st, real t, real h, const real *q0, const real *q1, discrete *d)
 {
-    const gvi_discrete out = { &d->L, d->d1, d->d2, d->minus, d->plus, d->p0, d->p1 };
+    const gvi_discrete out = { &d->L, d->d1, d->d2, d->minus, d->plus, d->p0, d->p1, NULL };
     assert_ok(gvi_discrete_lagrangian(st, t, h, q0, q1, &out));
 }
 

@@ -239,6 +239,7 @@ static void negative_directions_of_the_oscillator_count_half_turns(void **state)
         for (int side = 0; side < 2; ++side) {
             real h = (k + (side ? 0.999L : 0.001L))*TAU/2;
             assert_int_equal(index_of_step(&oscillator, &m, 0, y, h), k);
+            assert_int_equal(index_by_query(&oscillator, &m, 0, y, h), k);
         }
 }
 
@@ -251,7 +252,7 @@ static void negative_directions_are_as_many_as_conjugate_points(void **state)
     for (int i = 0; i < COUNT(cases); ++i) {
         const problem *pb = &problems[cases[i].problem];
         real y[MAX_Y], last, step = 0.05L;
-        int count = 0;
+        int count = 0, asked = 0;
         start_state(pb, cases[i].start, y);
         last = jacobi_determinant(pb, 0, y, step);
         for (real h = 2*step; h < cases[i].top; h += step) {
@@ -259,8 +260,11 @@ static void negative_directions_are_as_many_as_conjugate_points(void **state)
             count += (now < 0) != (last < 0);
             last = now;
             assert_int_equal(index_of_step(pb, &m, 0, y, h), count);
+            int by_query = index_by_query(pb, &m, 0, y, h);      // -1: it found another curve
+            assert_true(by_query == count || by_query == -1);
+            asked += by_query == count && count > 0;
         }
-        assert_true(count >= 1);
+        assert_true(count >= 1 && asked >= 5);
     }
 }
 

@@ -104,7 +104,7 @@ static MAYBE void diagonalise(int N, real *H)
 }
 
 /* The number of negative eigenvalues: 0 minimum, else saddle; -1: no step.
-   This is what a query of the library is to give.                             */
+   The library's own count is index_by_query.                                  */
 static MAYBE int index_of_step(const problem *pb, const method *m, real t, const real *y, real h)
 {
     static action a;
@@ -114,6 +114,22 @@ static MAYBE int index_of_step(const problem *pb, const method *m, real t, const
     int N = second_variation(&a, H);
     diagonalise(N, H);
     for (int i = 0; i < N; ++i) if (H[i*N + i] < 0) ++count;
+    return count;
+}
+
+/* The same as gvi_discrete_lagrangian counts it, between the ends of that step; -1
+   if its boundary-value problem has found no curve, or another one.           */
+static MAYBE int index_by_query(const problem *pb, const method *m, real t, const real *y, real h)
+{
+    real q1[MAX_N], p0[MAX_N];
+    int count = -1;
+    gvi_stepper *st = bench(pb, m, t, y);
+    const gvi_discrete out = { .p0 = p0, .negative = &count };
+    if (st->status != GVI_OK || gvi_step(st, h) != GVI_OK) return -1;
+    for (int i = 0; i < pb->n; ++i) q1[i] = st->q[i];
+    if (gvi_discrete_lagrangian(st, t, h, y, q1, &out) != GVI_OK) return -1;
+    for (int i = 0; i < pb->n; ++i)
+        if (!(fabs(p0[i] - y[pb->n + i]) < 1e-6L*(1 + fabs(y[pb->n + i])))) return -1;
     return count;
 }
 
