@@ -15,13 +15,14 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Both in one: the potential if x->value is wanted, else the force.           */
+/* Both in one: the potential if x->value is wanted, the force if x->f is.     */
 static int attraction(const gvi_points *x, void *user)
 {
     const double *X = x->q, *Y = X + x->stride;
     for (int k = 0; k < x->count; ++k) {
         double d2 = X[k]*X[k] + Y[k]*Y[k], d = sqrt(d2);
-        if (x->value) { x->value[k] -= 1/d; continue; }
+        if (x->value) x->value[k] -= 1/d;
+        if (!x->f) continue;
         x->f[k] -= X[k]/(d2*d);
         x->f[x->stride + k] -= Y[k]/(d2*d);
     }
