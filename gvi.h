@@ -99,9 +99,11 @@
               (m+1)*r points in the fixed point and, where Newton is used or may
               be, twice (m+1)*r more and (2n+1)*r + n+1 for each of at most
               m/4 + 2 Jacobians, each with one LU of size s*n; all of it once more
-              when a value was not finite, to name the effect.  Explicit: 2 points.  A
-              pinned fixed point: no LU, at most 2(m+1)*r.  gvi_velocity and
-              gvi_energy: one point, or 40(n+1) with Lagrangian terms.
+              when a value was not finite, to name the effect.  Explicit: r points.
+              A pinned fixed point, and any with a clock: no LU, at most 2(m+1)*r,
+              one more for the clock.  gvi_velocity and gvi_energy: one point, or
+              40(n+1) with Lagrangian terms.  gvi_state_at: as a step; with a
+              clock, 60 of them.
 
    gvi.h does not: choose or adapt the step, treat constraints or contact,
    run in parallel, or read or write anything.
@@ -180,18 +182,20 @@
      momenta      M(q), or velocity from momentum given, and r = s: (5)
      Newton       anything: (1) by Newton's method, dense LU of size s*n
 
-   A clock, an effect g(q) > 0, makes time run as dt = g dtau, and h is a step in
-   tau: small where g is small, and the map is as symplectic as with fixed steps.
-   The curves of energy E are the zero-energy curves of g L(q, q'/g) + g E, so
-   momenta takes, with v = M^-1 p as before,
-
-     V_i = g v        F_i = g (dL/dq + f) - dg/dq (H - E)        t' = g
-
-   E is what the energy was at the start, plus the work of forces.
-
    The fixed points contract like (h omega)^2 or h omega; where they do not,
    GVI_AUTO goes over to Newton.  All solve the same equations, and all stop
    at round-off.
+
+   CLOCK.  An effect g(q) > 0 makes time run as dt = g dtau, and h is a step in
+   tau: t moves fast or slow, and the map is as symplectic as with fixed steps
+   [3, VIII.2].  The curves of energy E are the zero-energy curves of
+   g L(q, q'/g) + g E, a Lagrangian like any other, so momenta takes
+
+     V_i = g v        F_i = g (dL/dq + f) - dg/dq (H - E)        t' = g
+
+   with v = M^-1 p as before.  E is what the energy was at the start, plus the
+   work of forces, so every potential needs its value; and no potential may
+   depend on t: what does is to be listed as a force.
 
    Order.  |q1 - exact| = O(h^(min(2s,u)+1)) a step: twice the degree, which
    is the superconvergence theorem [2, thm. 4.1].  It holds for u >= 2s - 2; a
@@ -534,10 +538,12 @@ GVI_DEF gvi_status gvi_velocity(gvi_stepper *st, gvi_real *v);
 GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy);
 
 /* In the last step.  gvi_curve: the polynomial at tau in [0,1] and its
-   derivative, error O(h^(min(s,u/2)+1)) and one order less.  gvi_state_at: the
+   derivative, error O(h^(min(s,u/2)+1)) and one order less; with a clock tau is
+   its own time, and v still dq/dt.  gvi_state_at: the
    state at time t (a time, not tau) inside it, at the full order, by a partial
    step from the nearer end.
    gvi_action: the quadrature of L over it, both with the effects that are on now.
+   A broken line has neither curve nor action, a clock no action: GVI_E_FORMULATION.
    q, v, p of length n, or NULL.
    None of them changes what later steps compute, to the bit.                 */
 GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v);
@@ -546,7 +552,8 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action);
 
 /* L_d(q0, q1; t, h): boundary values given, rows k >= 1 of (1) solved by
    Newton's method.  GVI_E_CONJUGATE where they do not determine the curve
-   (oscillator: h omega = k pi).  Needs GVI_AUTO or GVI_NEWTON if s > 1.
+   (oscillator: h omega = k pi).  Needs GVI_AUTO or GVI_NEWTON if s > 1, and is
+   not for kicks or a clock.
    Forced systems: d1, d2 are total derivatives, and F-, F+ are
    h sum b_i f_i dQ_i/dq0, dQ_i/dq1 with the curve's own dependence on its
    ends, as the exact discrete forces are [1, sec. 3.2]; how they share p0 and
@@ -1827,10 +1834,10 @@ static int gvi__covers(const gvi_stepper *st, gvi_formulation f)
 {
     const gvi_desc *d = &st->x.desc;
     int constant = gvi__mass_is_constant(d), reads_v = st->x.flags & GVI__HAS_VELOCITIES;
-    int kicks = d->rule.kind == GVI_KICKS;
+    int kicks = d->rule.kind == GVI_KICKS, verlet = st->s == 1 && st->r == 2 && d->rule.kind == GVI_LOBATTO;
     if ((kicks && f != GVI_EXPLICIT) || (st->x.clock >= 0 && f != GVI_MOMENTA)) return 0;
     switch (f) {
-    case GVI_EXPLICIT:   return constant && !reads_v && ((st->s == 1 && st->r == 2 && d->rule.kind == GVI_LOBATTO) || kicks);
+    case GVI_EXPLICIT:   return constant && !reads_v && (kicks || verlet);
     case GVI_POSITIONS:  return constant && !reads_v;
     case GVI_VELOCITIES: return constant;
     case GVI_MOMENTA:    return st->r == st->s && (d->mass.velocity || d->mass.kind == GVI_MASS_POSITION || constant);
@@ -1850,7 +1857,8 @@ static gvi_status gvi__check_desc(const gvi_desc *d)
     int clocks = 0;
     for (int e = 0; e < d->effect_count; ++e) {
         const gvi_effect *x = d->effects + e;
-        if ((int)x->kind < GVI_POTENTIAL || (int)x->kind > GVI_CLOCK || !x->points == !x->point) return GVI_E_ARGUMENT;
+        if ((int)x->kind < GVI_POTENTIAL || (int)x->kind > GVI_CLOCK || !x->points == !x->point)
+            return GVI_E_ARGUMENT;
         if (x->kind == GVI_CLOCK && (clocks++ || !x->points)) return GVI_E_ARGUMENT;
     }
     switch (d->mass.kind) {
@@ -3368,7 +3376,7 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     st->h = h;
     gvi__rotate_rows(st);
     x->stepped = 1;
-    x->has_force = x->chosen == GVI_EXPLICIT && x->c[0] <= 0 && x->c[0] >= 0 && x->c[st->r - 1] >= 1 && x->c[st->r - 1] <= 1;
+    x->has_force = x->chosen == GVI_EXPLICIT && !gvi__nonzero(x->c[0]) && !gvi__nonzero(x->c[st->r - 1] - 1);
     x->has_velocity = st->formulation > GVI_POSITIONS;
     if (x->newton_left > 0) x->newton_left -= 1;
     st->counters.steps += 1;
@@ -3723,7 +3731,8 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
     gvi__from last = { st->t, x->te, x->q, x->qe, x->p, x->pe, x->H, x->He };
     if (end) from = last;
     gvi_formulation was = st->formulation;
-    if (gvi__nonzero(h)) status = gvi__has_clock(st) ? gvi__partial_clock(st, &from, end, h) : gvi__partial(st, &from, end, h);
+    if (gvi__nonzero(h) && gvi__has_clock(st)) status = gvi__partial_clock(st, &from, end, h);
+    else if (gvi__nonzero(h)) status = gvi__partial(st, &from, end, h);
     else {
         gvi__copy(n, from.qe, x->dq);
         gvi__copy(n, from.pe, x->dp);
