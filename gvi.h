@@ -1956,93 +1956,121 @@ static gvi_real *gvi__take(gvi__arena *arena, int wanted, size_t a, size_t b)
 }
 
 /* The one layout: gvi_size counts with it, gvi_init hands out by it, and
-   GVI_LENGTH is its sum with everything wanted.                              */
-static size_t gvi__layout(gvi_stepper *st, gvi_real *base)
+   GVI_LENGTH is its sum with everything wanted.  What the scene needs of it:   */
+typedef struct gvi__needs { int newton, lagrangian, momenta, velocities, positions, reads_v, kicks, two, clock; } gvi__needs;
+
+static gvi__needs gvi__needs_of(const gvi_stepper *st)
+{
+    const struct gvi__private *x = &st->x;
+    gvi__needs u;
+    u.newton = x->flags & GVI__HAS_NEWTON;
+    u.lagrangian = x->flags & GVI__HAS_LAGRANGIAN;
+    u.momenta = x->chosen == GVI_MOMENTA;
+    u.velocities = x->chosen == GVI_VELOCITIES;
+    u.positions = x->chosen == GVI_EXPLICIT || x->chosen == GVI_POSITIONS || u.velocities;
+    u.reads_v = u.velocities || u.momenta || u.newton;
+    u.kicks = x->desc.rule.kind == GVI_KICKS;
+    u.two = gvi__fits_two(st);
+    u.clock = x->clock >= 0;
+    return u;
+}
+
+// rows come first: they are aligned if the memory is
+static void gvi__layout_rows(gvi_stepper *st, gvi__arena *a, const gvi__needs *u, size_t n, size_t N)
 {
     struct gvi__private *x = &st->x;
+    const size_t R = (size_t)x->stride;
+    const int A = u->lagrangian && (u->velocities || u->momenta);
+    for (int k = 0; k < 2; ++k) {
+        struct gvi__rows *rows = k ? &x->work : &x->last;
+        rows->Q = gvi__take(a, 1, u->kicks ? N : n, u->kicks ? 1 : R);
+        rows->F = gvi__take(a, 1, u->kicks ? N : n, u->kicks ? 1 : R);
+        rows->V = gvi__take(a, u->reads_v, n, R);
+        rows->P = gvi__take(a, u->momenta || u->newton, n, R);
+        rows->A = gvi__take(a, A, n, R);
+    }
+    x->older.F = gvi__take(a, u->two, n, R);
+    x->older.V = gvi__take(a, u->momenta && u->two, n, R);
+    x->older.A = gvi__take(a, A && u->two, n, R);
+    x->slope = gvi__take(a, u->clock, n, R);
+    x->rate = gvi__take(a, u->clock, 1, R);
+    x->power = gvi__take(a, u->clock, 1, R);
+    x->level = gvi__take(a, u->clock, 1, R);
+    x->z = gvi__take(a, 1, 1, R);
+    x->less = gvi__take(a, 1, 1, R);
+}
+
+static void gvi__layout_tables(gvi_stepper *st, gvi__arena *a, const gvi__needs *u, size_t n)
+{
+    struct gvi__private *x = &st->x;
+    const size_t s = (size_t)st->s, r = (size_t)st->r, R = (size_t)x->stride;
+    const int modes = u->reads_v || (!u->kicks && st->order <= 2*st->s - 2);
+    const gvi_mass_kind mass = x->desc.mass.kind;
+    x->hb = gvi__take(a, 1, 1, R);
+    x->c = gvi__take(a, 1, 1, R);
+    x->g = gvi__take(a, u->positions && !u->kicks, r, R);
+    x->m = gvi__take(a, u->velocities || u->momenta, r, R);
+    x->T = gvi__take(a, u->momenta || (u->velocities && u->lagrangian), r, R);
+    x->N = gvi__take(a, u->velocities && u->lagrangian, r, R);
+    x->E = gvi__take(a, !u->kicks, u->two ? 2*r : r, R);
+    x->Phi = gvi__take(a, !u->kicks, s, R);
+    x->phi = gvi__take(a, modes, s, R);
+    x->low = gvi__take(a, modes, s, R);
+    x->Z = gvi__take(a, u->positions && mass == GVI_MASS_DENSE, n, R);
+    x->point_mass = gvi__take(a, mass == GVI_MASS_POSITION, n, n*R);
+    x->ce = gvi__take(a, 1, 1, R);
+    x->b = gvi__take(a, 1, 1, R);
+    x->t = gvi__take(a, 1, 1, R);
+    x->place = gvi__take(a, !u->kicks, 3, R);
+    x->row = gvi__take(a, 1, 6, R);
+    x->drift = gvi__take(a, x->chosen == GVI_EXPLICIT, 1, r + 1);
+    x->inv_gamma = gvi__take(a, 1, 1, s);
+    x->own = gvi__take(a, x->flags & GVI__HAS_OWN, s*s + s + 1, 1);
+}
+
+static void gvi__layout_state(gvi_stepper *st, gvi__arena *a, size_t n, size_t N)
+{
+    struct gvi__private *x = &st->x;
+    const gvi_mass_kind mass = x->desc.mass.kind;
+    gvi_real **const vectors[] = { &x->q, &x->qe, &x->p, &x->pe, &x->q0, &x->p0, &x->zeros, &x->start, &x->v0, &x->ve,
+                                   &x->dq, &x->dp, &x->dqe, &x->dpe };
+    for (size_t k = 0; k < sizeof vectors/sizeof *vectors; ++k) *vectors[k] = gvi__take(a, 1, 1, N);
+    x->scale = gvi__take(a, 1, 2, n);
+    x->change = gvi__take(a, 1, 3, n);
+    x->one = gvi__take(a, 1, 6, n);
+    x->mass = gvi__take(a, mass == GVI_MASS_DIAGONAL, 1, n);
+    x->over = gvi__take(a, mass == GVI_MASS_DIAGONAL, 1, n);
+    if (mass == GVI_MASS_DENSE) x->mass = gvi__take(a, 1, 2*n, n);
+}
+
+// J and pivots twice: queries must not touch what the steps keep
+static void gvi__layout_newton(gvi_stepper *st, gvi__arena *a, const gvi__needs *u, size_t n)
+{
+    struct gvi__private *x = &st->x;
+    const size_t R = (size_t)x->stride, sn = (size_t)st->s*n;
+    x->hess = gvi__take(a, u->newton || u->lagrangian, n, u->newton ? 4*n + 5 : n + 5);
+    x->y = gvi__take(a, u->newton, 1, sn);
+    x->dy = gvi__take(a, u->newton, 1, sn);
+    x->pivot = gvi__take(a, u->newton, 2, sn + 1);
+    x->dF = gvi__take(a, u->newton, n, R);
+    x->dP = gvi__take(a, u->newton, n, R);
+    x->bF = gvi__take(a, u->newton, n, R);
+    x->bP = gvi__take(a, u->newton, n, R);
+    x->J = gvi__take(a, u->newton, 2*sn, sn);
+}
+
+// with base NULL it only counts
+static size_t gvi__layout(gvi_stepper *st, gvi_real *base)
+{
+    const gvi__needs u = gvi__needs_of(st);
+    const size_t n = (size_t)st->n, N = n < 8 ? n : (n + 7)/8*8;      // N: whole vectors
     gvi__arena a;
     a.base = base;
     a.used = 0;
-    size_t n = (size_t)st->n, s = (size_t)st->s, r = (size_t)st->r, R = (size_t)x->stride, sn = s*n;
-    size_t N = n < 8 ? n : (n + 7)/8*8;            // whole vectors
-    gvi_mass_kind mass = x->desc.mass.kind;
-    int newton = x->flags & GVI__HAS_NEWTON, lagrangian = x->flags & GVI__HAS_LAGRANGIAN;
-    int momenta = x->chosen == GVI_MOMENTA, velocities = x->chosen == GVI_VELOCITIES;
-    int positions = x->chosen == GVI_EXPLICIT || x->chosen == GVI_POSITIONS || velocities;
-    int reads_v = velocities || momenta || newton;
-
-    // rows come first: they are aligned if the memory is
-    int kicks = x->desc.rule.kind == GVI_KICKS;
-    for (int k = 0; k < 2; ++k) {
-        struct gvi__rows *rows = k ? &x->work : &x->last;
-        rows->Q = gvi__take(&a, 1, kicks ? N : n, kicks ? 1 : R);
-        rows->F = gvi__take(&a, 1, kicks ? N : n, kicks ? 1 : R);
-        rows->V = gvi__take(&a, reads_v, n, R);
-        rows->P = gvi__take(&a, momenta || newton, n, R);
-        rows->A = gvi__take(&a, lagrangian && (velocities || momenta), n, R);
-    }
-    int two = gvi__fits_two(st);
-    x->older.F = gvi__take(&a, two, n, R);
-    x->older.V = gvi__take(&a, momenta && two, n, R);
-    x->older.A = gvi__take(&a, lagrangian && (velocities || momenta) && two, n, R);
-    x->slope = gvi__take(&a, x->clock >= 0, n, R);
-    x->rate = gvi__take(&a, x->clock >= 0, 1, R);
-    x->power = gvi__take(&a, x->clock >= 0, 1, R);
-    x->level = gvi__take(&a, x->clock >= 0, 1, R);
-    x->z = gvi__take(&a, 1, 1, R);
-    x->less = gvi__take(&a, 1, 1, R);
-    x->hb = gvi__take(&a, 1, 1, R);
-    x->c = gvi__take(&a, 1, 1, R);
-    x->drift = gvi__take(&a, x->chosen == GVI_EXPLICIT, 1, r + 1);
-    x->g = gvi__take(&a, positions && !kicks, r, R);
-    x->m = gvi__take(&a, velocities || momenta, r, R);
-    x->T = gvi__take(&a, momenta || (velocities && lagrangian), r, R);
-    x->N = gvi__take(&a, velocities && lagrangian, r, R);
-    x->E = gvi__take(&a, !kicks, two ? 2*r : r, R);
-    x->Phi = gvi__take(&a, !kicks, s, R);
-    x->phi = gvi__take(&a, reads_v || (!kicks && st->order <= 2*st->s - 2), s, R);
-    x->low = gvi__take(&a, reads_v || (!kicks && st->order <= 2*st->s - 2), s, R);
-    x->Z = gvi__take(&a, positions && mass == GVI_MASS_DENSE, n, R);
-    x->point_mass = gvi__take(&a, mass == GVI_MASS_POSITION, n, n*R);
-    x->ce = gvi__take(&a, 1, 1, R);
-    x->b = gvi__take(&a, 1, 1, R);
-    x->t = gvi__take(&a, 1, 1, R);
-    x->place = gvi__take(&a, !kicks, 3, R);
-    x->row = gvi__take(&a, 1, 6, R);
-
-    x->q = gvi__take(&a, 1, 1, N);
-    x->qe = gvi__take(&a, 1, 1, N);
-    x->p = gvi__take(&a, 1, 1, N);
-    x->pe = gvi__take(&a, 1, 1, N);
-    x->q0 = gvi__take(&a, 1, 1, N);
-    x->p0 = gvi__take(&a, 1, 1, N);
-    x->zeros = gvi__take(&a, 1, 1, N);
-    x->start = gvi__take(&a, 1, 1, N);
-    x->v0 = gvi__take(&a, 1, 1, N);
-    x->ve = gvi__take(&a, 1, 1, N);
-    x->dq = gvi__take(&a, 1, 1, N);
-    x->dp = gvi__take(&a, 1, 1, N);
-    x->dqe = gvi__take(&a, 1, 1, N);
-    x->dpe = gvi__take(&a, 1, 1, N);
-    x->scale = gvi__take(&a, 1, 2, n);
-    x->change = gvi__take(&a, 1, 3, n);
-    x->one = gvi__take(&a, 1, 6, n);
-    x->inv_gamma = gvi__take(&a, 1, 1, s);
-    x->mass = gvi__take(&a, mass == GVI_MASS_DIAGONAL, 1, n);
-    x->over = gvi__take(&a, mass == GVI_MASS_DIAGONAL, 1, n);
-    if (mass == GVI_MASS_DENSE) x->mass = gvi__take(&a, 1, 2*n, n);
-    x->own = gvi__take(&a, x->flags & GVI__HAS_OWN, s*s + s + 1, 1);
-
-    // J and pivots twice: queries must not touch what the steps keep
-    x->hess = gvi__take(&a, newton || lagrangian, n, newton ? 4*n + 5 : n + 5);
-    x->y = gvi__take(&a, newton, 1, sn);
-    x->dy = gvi__take(&a, newton, 1, sn);
-    x->pivot = gvi__take(&a, newton, 2, sn + 1);
-    x->dF = gvi__take(&a, newton, n, R);
-    x->dP = gvi__take(&a, newton, n, R);
-    x->bF = gvi__take(&a, newton, n, R);
-    x->bP = gvi__take(&a, newton, n, R);
-    x->J = gvi__take(&a, newton, 2*sn, sn);
+    gvi__layout_rows(st, &a, &u, n, N);
+    gvi__layout_tables(st, &a, &u, n);
+    gvi__layout_state(st, &a, n, N);
+    gvi__layout_newton(st, &a, &u, n);
     return a.used;
 }
 
