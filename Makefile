@@ -161,7 +161,7 @@ $(BUILD)/tests/%-long: tests/%.c | cmocka
 $(BUILD)/examples/%: examples/%.c
 	@mkdir -p $(@D)
 	@echo '  cc $@'
-	$(Q)$(COMPILE) $< -o $@ $(LDLIBS)
+	$(Q)$(COMPILE) -Iexamples $< -o $@ $(LDLIBS)
 
 # Without a C++ compiler the example is left out, visibly, when it is to run.
 $(BUILD)/examples/%: examples/%.cpp

@@ -2527,8 +2527,11 @@ static gvi_status gvi__rate(gvi_stepper *st, gvi_points *x, gvi_real *rate, gvi_
     x->f = f;
     x->value = NULL;
     if (refused) return gvi__fail(st, GVI_E_CALLBACK, st->x.clock, -1, -1);
-    for (int k = 0; k < x->count; ++k)
+    for (int k = 0; k < x->count; ++k) {
         if (rate[k] <= 0) return gvi__fail(st, GVI_E_CLOCK, st->x.clock, GVI_FAULT_NONE, k);
+        if (st->x.diagnose && !gvi__finite(rate[k]))
+            return gvi__fail(st, GVI_E_NON_FINITE, st->x.clock, GVI_FAULT_NONE, k);
+    }
     return st->x.diagnose ? gvi__check_rows(st, x, slope, st->x.clock) : GVI_OK;
 }
 

@@ -1,0 +1,524 @@
+/* GVI_KICKS: compositions of Stoermer-Verlet and kick-drift splittings by a table.
+   In long double, so that order 8 is seen well above rounding; the coefficients
+   of most tables have 15 digits, so errors are compared where they are above 1e-14. */
+#ifndef GVI_REAL
+#define GVI_REAL long double
+#endif
+#include "gvi_test.h"
+#include "cost/coefficients.h"
+#include <tgmath.h>
+
+typedef gvi_real real;
+#include "hard/extrapolate.h"
+
+/* ------------------------------------------------------------------- tables */
+
+enum { MOST = 64 };
+typedef struct table { const char *name; int order, r, symmetric; real c[MOST], b[MOST]; } table;
+
+/* Verlet steps h g_1, h g_2, ...: half a kick at both ends of each, one after the other */
+static void compose(table *a, int m, const long double *g)
+{
+    long double at = 0;
+    a->r = m + 1;
+    for (int j = 0; j <= m; ++j) {
+        a->c[j] = j < m ? (real)at : 1;
+        a->b[j] = (real)(((j > 0 ? g[j - 1] : 0) + (j < m ? g[j] : 0))/2);
+        if (j < m) at += g[j];
+    }
+}
+
+/* Symmetric composition from its first half; the middle one closes the sum to 1 */
+static void compose_half(table *a, int half, const long double *g)
+{
+    long double all[MOST], sum = 0;
+    for (int j = 0; j < half; ++j) sum += all[j] = all[2*half - j] = g[j];
+    all[half] = 1 - 2*sum;
+    compose(a, 2*half + 1, all);
+}
+
+/* Symmetric splitting from the first halves of its kicks and drifts; `drift_first` has
+   one drift more before the first kick                                        */
+static void split(table *a, int kicks, const long double *b, const long double *drifts, int drift_first)
+{
+    long double at = 0;
+    a->r = 2*kicks;
+    for (int j = 0; j < kicks; ++j) {
+        if (drift_first) at += drifts[j];
+        a->c[j] = (real)at;
+        a->b[j] = a->b[2*kicks - 1 - j] = (real)b[j];
+        a->c[2*kicks - 1 - j] = (real)(1 - at);
+        if (!drift_first && j < kicks - 1) at += drifts[j];
+    }
+}
+
+static const table *tables(int *count)
+{
+    static table all[7];
+    const long double root = cbrtl(2), five = 1/(4 - cbrtl(4));
+    const long double yoshida4[] = { 1/(2 - root), -root/(2 - root), 1/(2 - root) };
+    const long double suzuki4[] = { five, five, 1 - 4*five, five, five }, one[] = { 1 };
+    long double b[7], sum = 0;
+    *count = COUNT(all);
+    if (all[0].r) return all;
+    all[0] = (table){ "Stoermer-Verlet", 2, 0, 1, { 0 }, { 0 } };
+    compose(&all[0], 1, one);
+    all[1] = (table){ "Yoshida 4", 4, 0, 1, { 0 }, { 0 } };
+    compose(&all[1], 3, yoshida4);
+    all[2] = (table){ "Suzuki 4", 4, 0, 1, { 0 }, { 0 } };
+    compose(&all[2], 5, suzuki4);
+    all[3] = (table){ "Kahan-Li 8", 8, 0, 1, { 0 }, { 0 } };
+    compose_half(&all[3], COUNT(kahan_li8), kahan_li8);
+
+    all[4] = (table){ "Blanes-Moan 11", 6, 0, 1, { 0 }, { 0 } };
+    for (int j = 0; j < 5; ++j) sum += b[j] = blanes_moan11_b[j];
+    b[5] = 0.5L - sum;
+    split(&all[4], 6, b, blanes_moan11_a, 0);
+    all[5] = (table){ "Blanes-Moan 14, drift first", 6, 0, 1, { 0 }, { 0 } };
+    sum = 0;
+    for (int j = 0; j < 6; ++j) sum += b[j] = blanes_moan14_b[j];
+    b[6] = 0.5L - sum;
+    split(&all[5], 7, b, blanes_moan14_a, 1);
+
+    // Ruth 1983: back to the first node for the last kick
+    all[6] = (table){ "Ruth 3", 3, 3, 0, { 0, 2/(real)3, 0 }, { 7/(real)24, 3/(real)4, -1/(real)24 } };
+    return all;
+}
+
+/* ------------------------------------------------------------------- the scene */
+
+static real dense[4] = { 2, 0.5L, 0.5L, 1 };
+static real diagonal[2] = { 2, 0.75L };
+
+static void force(real t, const real *q, real *f)
+{
+    const real g = 1 + sin(2*t)/2, both = g*sin(q[0] + q[1]);
+    f[0] -= 2*g*sin(q[0]) + both;
+    f[1] -= both;
+}
+
+static int potential(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    (void)v; (void)dldv; (void)user;
+    force(t, q, f);
+    return 0;
+}
+
+static void over_mass(gvi_mass_kind mass, const real *p, real *v)
+{
+    const real det = dense[0]*dense[3] - dense[1]*dense[2];
+    v[0] = mass == GVI_MASS_DENSE ? (dense[3]*p[0] - dense[1]*p[1])/det : mass == GVI_MASS_UNIT ? p[0] : p[0]/diagonal[0];
+    v[1] = mass == GVI_MASS_DENSE ? (dense[0]*p[1] - dense[2]*p[0])/det : mass == GVI_MASS_UNIT ? p[1] : p[1]/diagonal[1];
+}
+
+static void rates(real t, const real *y, real *dy, void *user)
+{
+    over_mass(*(gvi_mass_kind *)user, y + 2, dy);
+    dy[2] = dy[3] = 0;
+    force(t, y, dy + 2);
+}
+
+static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .point = potential } };
+static const real start[4] = { 0.7L, -0.4L, 1.1L, 0.6L };
+static const real when = 0.3L, length = 1.5L;
+static real memory[4000], more[4000];
+
+static gvi_desc describe(const table *a, gvi_mass_kind mass)
+{
+    const real *matrix = mass == GVI_MASS_DENSE ? dense : diagonal;
+    return (gvi_desc){ .n = 2, .rule = { GVI_KICKS, a->r, a->c, a->b }, .effects = scene, .effect_count = 1,
+                       .mass = { .kind = mass, .matrix = mass == GVI_MASS_UNIT ? NULL : matrix } };
+}
+
+static gvi_stepper *set_up(gvi_stepper *st, const gvi_desc *desc, const real *y, real *where)
+{
+    assert_true(gvi_size(desc) > 0 && gvi_size(desc) <= sizeof memory);
+    assert_ok(gvi_init(st, desc, where, sizeof memory));
+    assert_ok(gvi_start_momentum(st, when, y, y + 2));
+    return st;
+}
+
+static real distance(const real *q, const real *p, const real *y)
+{
+    return hypot(hypot(q[0] - y[0], q[1] - y[1]), hypot(p[0] - y[2], p[1] - y[3]));
+}
+
+/* -------------------------------------------------------------------- order */
+
+/* Errors at the end of N steps, and of the state at 3/8 of the last one */
+static void errors(const table *a, gvi_mass_kind mass, int N, real *end, real *inside)
+{
+    const motion exact = { 4, rates, &mass };
+    const real h = length/N, last = when + length - h*5/8;
+    const gvi_desc desc = describe(a, mass);
+    gvi_stepper st;
+    real y[4], q[2], p[2];
+    set_up(&st, &desc, start, memory);
+    assert_int_equal(st.formulation, GVI_EXPLICIT);
+    for (int k = 0; k < N; ++k) assert_ok(gvi_step(&st, h));
+    memcpy(y, start, sizeof y);
+    flow(&exact, when, last, 1/16.0L, y);
+    assert_ok(gvi_state_at(&st, last, q, NULL, p));
+    *inside = distance(q, p, y);
+    flow(&exact, last, when + length, 1/16.0L, y);
+    *end = distance(st.q, st.p, y);
+}
+
+/* Two-sided: the next term of the expansion is 1/8 or less of the first by then */
+static void every_table_has_its_order_on_both_sides(void **state)
+{
+    int count;
+    const table *all = tables(&count);
+    (void)state;
+    for (int i = 0; i < count; ++i)
+    for (int mass = GVI_MASS_UNIT; mass <= GVI_MASS_DENSE; ++mass) {
+        const int N = all[i].order == 8 ? 12 : all[i].order == 6 ? 10 : 64;
+        real end[2], inside[2];
+        for (int k = 0; k < 2; ++k) errors(&all[i], (gvi_mass_kind)mass, N << k, &end[k], &inside[k]);
+        const real order = log2(end[0]/end[1]), within = log2(inside[0]/inside[1]);
+        print_message("    %-28s %.2Lf, inside a step %.2Lf, error %.1Le\n", all[i].name,
+                      (long double)order, (long double)within, (long double)end[1]);
+        assert_true(end[1] > 1e-14L);
+        assert_between(all[i].order - 0.3L, order, all[i].order + 0.3L);
+        assert_between(all[i].order - 0.3L, within, all[i].order + 0.3L);
+    }
+}
+
+/* ------------------------------------------------------- the same by other means */
+
+/* Drift to each node, kick, drift to the end */
+static void by_hand(const table *a, gvi_mass_kind mass, real t, real h, real *y)
+{
+    real at = 0, v[2];
+    for (int j = 0; j <= a->r; ++j) {
+        const real to = j < a->r ? a->c[j] : 1;
+        real f[2] = { 0, 0 };
+        over_mass(mass, y + 2, v);
+        for (int i = 0; i < 2; ++i) y[i] += (to - at)*h*v[i];
+        at = to;
+        if (j == a->r) break;
+        force(t + at*h, y, f);
+        for (int i = 0; i < 2; ++i) y[2 + i] += h*a->b[j]*f[i];
+    }
+}
+
+/* 50 steps of a regular motion: a rounding each of 2r sums a step, passed on about 1:1 */
+static void steps_are_those_of_a_splitting_written_by_hand(void **state)
+{
+    int count;
+    const table *all = tables(&count);
+    (void)state;
+    for (int i = 0; i < count; ++i)
+    for (int mass = GVI_MASS_UNIT; mass <= GVI_MASS_DENSE; ++mass) {
+        const gvi_desc desc = describe(&all[i], (gvi_mass_kind)mass);
+        gvi_stepper st;
+        real y[4];
+        memcpy(y, start, sizeof y);
+        set_up(&st, &desc, start, memory);
+        for (int k = 0; k < 50; ++k) {
+            by_hand(&all[i], (gvi_mass_kind)mass, when + k*0.0625L, 0.0625L, y);
+            assert_ok(gvi_step(&st, 0.0625L));
+        }
+        assert_between(0, distance(st.q, st.p, y), 8*EPS*sqrt((real)100*all[i].r));
+        assert_close(st.t, when + 50*0.0625L, 2*EPS);
+    }
+}
+
+static void two_kicks_are_lobatto_of_degree_one_to_the_bit(void **state)
+{
+    const real c[] = { 0, 1 }, b[] = { 0.5L, 0.5L };
+    (void)state;
+    for (int mass = GVI_MASS_UNIT; mass <= GVI_MASS_DENSE; ++mass) {
+        table two = { "", 2, 2, 1, { 0 }, { 0 } };
+        gvi_desc kicks, lobatto;
+        gvi_stepper x, y;
+        memcpy(two.c, c, sizeof c);
+        memcpy(two.b, b, sizeof b);
+        kicks = lobatto = describe(&two, (gvi_mass_kind)mass);
+        lobatto.degree = 1;
+        lobatto.rule = (gvi_rule){ GVI_LOBATTO, 2, NULL, NULL };
+        set_up(&x, &kicks, start, memory);
+        set_up(&y, &lobatto, start, more);
+        assert_int_equal(y.formulation, GVI_EXPLICIT);
+        for (int k = 0; k < 1000; ++k) {
+            assert_ok(gvi_step(&x, 0.01L*(k % 3 + 1)));
+            assert_ok(gvi_step(&y, 0.01L*(k % 3 + 1)));
+            for (int i = 0; i < 2; ++i) assert_true(x.q[i] == y.q[i] && x.p[i] == y.p[i]);
+            assert_true(x.t == y.t);
+        }
+    }
+}
+
+/* ---------------------------------------------------------------- structure */
+
+static void step_map(const table *a, gvi_mass_kind mass, const real *x, real *y)
+{
+    const gvi_desc desc = describe(a, mass);
+    gvi_stepper st;
+    set_up(&st, &desc, x, memory);
+    assert_ok(gvi_step(&st, 0.25L));
+    for (int i = 0; i < 2; ++i) { y[i] = st.q[i]; y[2 + i] = st.p[i]; }
+}
+
+/* max |M'JM - J| of the map's derivative by differences of order 8, as in test_structure */
+static real symplectic_defect(const table *a, gvi_mass_kind mass)
+{
+    static const real weight[4] = { 4/5.0L, -1/5.0L, 4/105.0L, -1/280.0L };
+    const real delta = pow((real)EPS, 1/(real)9)/4;
+    real M[4][4] = { { 0 } }, worst = 0;
+    for (int j = 0; j < 4; ++j)
+    for (int k = 1; k <= 4; ++k) {
+        real x[4], up[4], down[4];
+        memcpy(x, start, sizeof x);
+        x[j] = start[j] + k*delta;
+        step_map(a, mass, x, up);
+        x[j] = start[j] - k*delta;
+        step_map(a, mass, x, down);
+        for (int i = 0; i < 4; ++i) M[i][j] += weight[k - 1]*(up[i] - down[i])/delta;
+    }
+    for (int j = 0; j < 4; ++j)
+    for (int k = 0; k < 4; ++k) {
+        real sum = k == j + 2 ? -1 : j == k + 2 ? 1 : 0;
+        for (int i = 0; i < 2; ++i) sum += M[i][j]*M[i + 2][k] - M[i + 2][j]*M[i][k];
+        worst = fmax(worst, isnan(sum) ? (real)INFINITY : fabs(sum));
+    }
+    return worst;
+}
+
+static void every_table_gives_a_symplectic_map(void **state)
+{
+    int count;
+    const table *all = tables(&count);
+    (void)state;
+    for (int i = 0; i < count; ++i)
+    for (int mass = GVI_MASS_UNIT; mass <= GVI_MASS_DENSE; ++mass)
+        assert_between(0, symplectic_defect(&all[i], (gvi_mass_kind)mass), 100*pow((real)EPS, 8/(real)9));
+}
+
+static int attraction(const gvi_points *x, void *user)
+{
+    const real *X = x->q, *Y = X + x->stride;
+    (void)user;
+    for (int k = 0; k < x->count; ++k) {
+        const real d2 = X[k]*X[k] + Y[k]*Y[k], w = -1/(d2*sqrt(d2));
+        x->f[k] += w*X[k];
+        x->f[x->stride + k] += w*Y[k];
+    }
+    return 0;
+}
+
+/* A rounding of a kick or a drift changes q x p by EPS/2 of |q||p| or less, at most 2
+   here; r + 1 of them a step, independent: the bound is four standard deviations  */
+static void angular_momentum_is_kept_by_every_kick(void **state)
+{
+    static const gvi_effect sun[] = { { .kind = GVI_POTENTIAL, .points = attraction } };
+    int count;
+    const table *all = tables(&count);
+    (void)state;
+    for (int i = 0; i < count; ++i) {
+        gvi_desc desc = describe(&all[i], GVI_MASS_UNIT);
+        gvi_stepper st;
+        desc.effects = sun;
+        set_up(&st, &desc, (const real[]){ 0.4L, 0, 0, 2 }, memory);
+        const real L0 = st.q[0]*st.p[1] - st.q[1]*st.p[0];
+        for (int k = 1; k <= 2000; ++k) {
+            assert_ok(gvi_step(&st, 0.05L));
+            assert_close(st.q[0]*st.p[1] - st.q[1]*st.p[0], L0, (2 + 4*sqrt((real)k*(all[i].r + 1)))*EPS);
+        }
+    }
+}
+
+/* A symmetric table steps back where it came from; Ruth's does not */
+static void symmetric_tables_are_reversible(void **state)
+{
+    int count;
+    const table *all = tables(&count);
+    (void)state;
+    for (int i = 0; i < count; ++i) {
+        const gvi_desc desc = describe(&all[i], GVI_MASS_DENSE);
+        gvi_stepper st;
+        set_up(&st, &desc, start, memory);
+        for (int k = 0; k < 20; ++k) assert_ok(gvi_step(&st, 0.125L));
+        for (int k = 0; k < 20; ++k) assert_ok(gvi_step(&st, -0.125L));
+        const real d = distance(st.q, st.p, start);
+        if (all[i].symmetric) assert_between(0, d, 40*EPS*sqrt((real)all[i].r));
+        else assert_between(1e-9L, d, 1e-3L);
+        assert_close(st.t, when, 2*EPS);
+    }
+}
+
+/* --------------------------------------------------------------------- work */
+
+/* The force at the end of a step is that at the start of the next, if both are nodes */
+static void the_last_kick_is_not_asked_for_twice(void **state)
+{
+    int count;
+    const table *all = tables(&count);
+    (void)state;
+    for (int i = 0; i < count; ++i) {
+        const gvi_desc desc = describe(&all[i], GVI_MASS_UNIT);
+        const int r = all[i].r, shared = all[i].c[0] == 0 && all[i].c[r - 1] == 1;
+        gvi_stepper st;
+        set_up(&st, &desc, start, memory);
+        for (int k = 0; k < 100; ++k) assert_ok(gvi_step(&st, 0.01L));
+        assert_int_equal(st.counters.effect[0], shared ? 100*(r - 1) + 1 : 100*r);
+        assert_int_equal(st.counters.iterations + st.counters.newton_iterations + st.counters.factorizations, 0);
+    }
+}
+
+/* ------------------------------------------------------------------ statuses */
+
+static int reads_v(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    (void)t; (void)q; (void)user;
+    f[0] -= v[0];
+    if (dldv) dldv[0] += v[0];
+    return 0;
+}
+
+static gvi_status status_of(const gvi_desc *desc)
+{
+    gvi_stepper st;
+    const gvi_status status = gvi_init(&st, desc, memory, sizeof memory);
+    assert_int_equal(gvi_size(desc) > 0, status == GVI_OK);
+    return status;
+}
+
+static void faulty_tables_are_refused(void **state)
+{
+    int count;
+    table bad = tables(&count)[1];
+    gvi_desc desc = describe(&bad, GVI_MASS_UNIT);
+    (void)state;
+    assert_int_equal(status_of(&desc), GVI_OK);
+    bad.b[1] += 1e-6L;
+    assert_int_equal(status_of(&desc), GVI_E_ORDER);
+    bad.b[1] = NAN;
+    assert_int_equal(status_of(&desc), GVI_E_NODES);
+    bad = tables(&count)[1];
+    bad.c[2] = INFINITY;
+    assert_int_equal(status_of(&desc), GVI_E_NODES);
+    bad = tables(&count)[1];
+    desc.rule.weights = NULL;
+    assert_int_equal(status_of(&desc), GVI_E_ARGUMENT);
+    desc = describe(&bad, GVI_MASS_UNIT);
+    desc.degree = 2;
+    assert_int_equal(status_of(&desc), GVI_E_ARGUMENT);
+    desc.degree = 1;
+    assert_int_equal(status_of(&desc), GVI_OK);
+    desc.formulation = GVI_POSITIONS;
+    assert_int_equal(status_of(&desc), GVI_E_FORMULATION);
+}
+
+static void scenes_that_no_kick_can_move_are_refused(void **state)
+{
+    int count;
+    const table *a = tables(&count);
+    (void)state;
+    for (int kind = GVI_FORCE; kind <= GVI_LAGRANGIAN; ++kind) {
+        const gvi_effect effects[] = { scene[0], { .kind = (gvi_kind)kind, .point = reads_v } };
+        gvi_desc desc = describe(a, GVI_MASS_UNIT);
+        desc.effects = effects;
+        desc.effect_count = 2;
+        assert_int_equal(status_of(&desc), GVI_E_FORMULATION);
+    }
+}
+
+static void questions_that_a_broken_line_cannot_answer_are_refused(void **state)
+{
+    int count;
+    const table *all = tables(&count);
+    const gvi_desc desc = describe(&all[3], GVI_MASS_UNIT);
+    gvi_stepper st;
+    real q[2] = { 7, 7 }, number = 7;
+    (void)state;
+    set_up(&st, &desc, start, memory);
+    assert_ok(gvi_step(&st, 0.125L));
+    assert_status(gvi_curve(&st, 0.5L, q, NULL), GVI_E_FORMULATION);
+    assert_status(gvi_action(&st, &number), GVI_E_FORMULATION);
+    assert_status(gvi_discrete_lagrangian(&st, 0, 0.125L, start, start + 2, &(gvi_discrete){ .p0 = q }), GVI_E_FORMULATION);
+    assert_status(gvi_start_configurations(&st, 0, 0.125L, start, start + 2), GVI_E_FORMULATION);
+    assert_true(q[0] == 7 && q[1] == 7 && number == 7);
+    assert_ok(gvi_step(&st, 0.125L));
+}
+
+/* --------------------------------------------------- checkpoint and switching */
+
+static void a_checkpoint_continues_to_the_bit(void **state)
+{
+    static real saved_memory[4000];
+    int count;
+    const table *all = tables(&count);
+    (void)state;
+    for (int i = 0; i < count; ++i) {
+        const gvi_desc desc = describe(&all[i], GVI_MASS_DENSE);
+        gvi_stepper a, b, saved;
+        set_up(&a, &desc, start, memory);
+        for (int k = 0; k < 7; ++k) assert_ok(gvi_step(&a, 0.125L));
+        saved = a;
+        memcpy(saved_memory, memory, sizeof memory);
+        assert_ok(gvi_init(&b, &desc, more, sizeof more));
+        assert_ok(gvi_restore(&b, &saved, saved_memory));
+        for (int k = 0; k < 7; ++k) {
+            assert_ok(gvi_step(&a, 0.125L));
+            assert_ok(gvi_step(&b, 0.125L));
+            for (int j = 0; j < 2; ++j) assert_true(a.q[j] == b.q[j] && a.p[j] == b.p[j]);
+        }
+        assert_int_equal(a.counters.effect[0], b.counters.effect[0]);
+    }
+}
+
+/* Off is as if not listed, and the kept force is not used over a switch */
+static void a_switched_effect_is_in_the_next_kick(void **state)
+{
+    const gvi_effect twice[] = { scene[0], scene[0] };
+    int count;
+    const table *all = tables(&count);
+    (void)state;
+    for (int i = 0; i < count; ++i) {
+        const gvi_desc one = describe(&all[i], GVI_MASS_DIAGONAL);
+        gvi_desc two = one;
+        gvi_stepper a, b;
+        real y[4];
+        two.effects = twice;
+        two.effect_count = 2;
+        set_up(&a, &one, start, memory);
+        set_up(&b, &two, start, more);
+        assert_ok(gvi_switch(&b, 1, 0));
+        for (int k = 0; k < 5; ++k) {
+            assert_ok(gvi_step(&a, 0.125L));
+            assert_ok(gvi_step(&b, 0.125L));
+            for (int j = 0; j < 2; ++j) assert_true(a.q[j] == b.q[j] && a.p[j] == b.p[j]);
+        }
+        assert_int_equal(b.counters.effect[1], 0);
+
+        // both on: the step from here is that of a stepper that starts here
+        gvi_stepper fresh;
+        for (int j = 0; j < 2; ++j) { y[j] = b.q[j]; y[2 + j] = b.p[j]; }
+        assert_ok(gvi_switch(&b, 1, 1));
+        assert_ok(gvi_step(&b, 0.125L));
+        assert_ok(gvi_init(&fresh, &two, memory, sizeof memory));
+        assert_ok(gvi_start_momentum(&fresh, b.t - 0.125L, y, y + 2));
+        assert_ok(gvi_step(&fresh, 0.125L));
+        assert_between(0, distance(b.q, b.p, (const real[]){ fresh.q[0], fresh.q[1], fresh.p[0], fresh.p[1] }), 8*EPS);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_table_has_its_order_on_both_sides),
+        cmocka_unit_test(steps_are_those_of_a_splitting_written_by_hand),
+        cmocka_unit_test(two_kicks_are_lobatto_of_degree_one_to_the_bit),
+        cmocka_unit_test(every_table_gives_a_symplectic_map),
+        cmocka_unit_test(angular_momentum_is_kept_by_every_kick),
+        cmocka_unit_test(symmetric_tables_are_reversible),
+        cmocka_unit_test(the_last_kick_is_not_asked_for_twice),
+        cmocka_unit_test(faulty_tables_are_refused),
+        cmocka_unit_test(scenes_that_no_kick_can_move_are_refused),
+        cmocka_unit_test(questions_that_a_broken_line_cannot_answer_are_refused),
+        cmocka_unit_test(a_checkpoint_continues_to_the_bit),
+        cmocka_unit_test(a_switched_effect_is_in_the_next_kick),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
