@@ -45,12 +45,15 @@ QUADRUPLE = order lagrangian forced
 COST_CFLAGS  = -O3 -march=native -ffp-contract=fast -fno-math-errno -fno-trapping-math
 COST_ARGS    =
 COST_OBJECTS = $(patsubst %,$(BUILD)/cost/%.o,problems baselines gvi_run cost)
+PEER_LIBS    = -lgsl -lgslcblas -lsundials_cvode -lsundials_arkode -lsundials_nvecserial \
+               -lsundials_sunnonlinsolfixedpoint
+RECORD       =
 
 .DEFAULT_GOAL = help
 .DELETE_ON_ERROR:
 .PHONY: run deps test unit examples headers symbols docs-check sanitize valgrind \
         figures synopsis install uninstall help clean cmocka \
-        cost cost-horizon scenes $(SCENES:%=scene-%) theorems $(THEOREMS:%=theorem-%) \
+        cost cost-horizon ncdp scaling cost-peers deps-compare instructions scenes $(SCENES:%=scene-%) theorems $(THEOREMS:%=theorem-%) \
         $(PROGRAMS:%=run-%) $(EXAMPLES:%=example-%) $(VALGRIND_TESTS:%=valgrind-%) \
         $(VALGRIND_EXAMPLES:%=valgrind-%)
 
@@ -62,9 +65,9 @@ run: $(BUILD)/examples/02_outer_solar_system
 deps:
 	$(Q)CC='$(CC)' sh tests/tools/deps.sh
 
-## test         all tests, then examples, docs-check, headers and symbols
-test: unit examples docs-check headers symbols
-	$(Q)sh tests/tools/summary.sh $(BUILD) test unit examples docs-check headers symbols
+## test         all tests, then examples, docs-check, headers, symbols and instructions
+test: unit examples docs-check headers symbols instructions
+	$(Q)sh tests/tools/summary.sh $(BUILD) test unit examples docs-check headers symbols instructions
 
 ## unit         the test programs alone; one of them: make run-test_lu
 unit: $(PROGRAMS:%=run-%)
@@ -116,6 +119,26 @@ cost: $(BUILD)/cost/cost
 ## cost-horizon the outer solar system at 1, 10 and 100 times its length
 cost-horizon: $(BUILD)/cost/cost
 	$(Q)$< --horizon --out $(BUILD)/cost
+
+## ncdp         rounding over half a million steps, and its price, against the published standard
+ncdp: $(BUILD)/cost/ncdp
+	$(Q)$< $(COST_ARGS)
+
+## scaling      time and memory against degree, coordinates and points; CSV and pictures in build/cost
+scaling: $(BUILD)/cost/scaling
+	$(Q)$< --out $(BUILD)/cost $(COST_ARGS)
+
+## deps-compare installs what cost-peers needs: GSL, SUNDIALS, Boost
+deps-compare:
+	$(Q)sh tests/tools/deps.sh --compare
+
+## cost-peers   GSL, SUNDIALS and Boost.odeint on the problems of make cost
+cost-peers: $(BUILD)/cost/peers
+	$(Q)$< --out $(BUILD)/cost $(COST_ARGS)
+
+## instructions points, iterations and instructions of five fixed runs; RECORD=--record writes them anew
+instructions:
+	$(Q)CC='$(CC)' sh tests/tools/instructions.sh $(BUILD) $(RECORD)
 
 ## theorems     docs/theorems.md measured again, with its pictures (a few minutes); one: make theorem-curve
 theorems: $(THEOREMS:%=theorem-%)
@@ -194,6 +217,19 @@ $(BUILD)/cost/%.o: tests/cost/%.c
 	@echo '  cc $@'
 	$(Q)$(CC) -std=c99 $(WARNINGS) -Wno-double-promotion -I. $(CPPFLAGS) -MMD -MP -MF $@.d -MT $@ $(COST_CFLAGS) -c $< -o $@
 
+$(BUILD)/cost/ncdp $(BUILD)/cost/scaling: %: %.o
+	@echo '  ld $@'
+	$(Q)$(CC) $< -o $@ $(LDLIBS)
+
+$(BUILD)/cost/peers_odeint.o: tests/cost/peers_odeint.cpp
+	@mkdir -p $(@D)
+	@echo '  c++ $@'
+	$(Q)$(CXX) -std=c++14 $(COST_CFLAGS) -I. -c $< -o $@
+
+$(BUILD)/cost/peers: $(BUILD)/cost/peers.o $(BUILD)/cost/problems.o $(BUILD)/cost/peers_odeint.o
+	@echo '  ld $@'
+	$(Q)$(CXX) $^ -o $@ $(PEER_LIBS) $(LDLIBS)
+
 $(BUILD)/cost/cost: $(COST_OBJECTS)
 	@echo '  ld $@'
 	$(Q)$(CC) $(COST_OBJECTS) -o $@ $(LDLIBS)
@@ -212,7 +248,7 @@ $(VALGRIND_EXAMPLES:%=valgrind-%): valgrind-%: $(BUILD)/examples/%
 
 # "make -j deps test": what is compiled against cmocka waits for its installation.
 ifneq ($(filter deps,$(MAKECMDGOALS)),)
-cmocka headers symbols docs-check $(EXAMPLES:%=$(BUILD)/examples/%): | deps
+cmocka headers symbols docs-check instructions $(EXAMPLES:%=$(BUILD)/examples/%): | deps
 endif
 
 -include $(wildcard $(BUILD)/tests/*.d $(BUILD)/examples/*.d $(BUILD)/cost/*.d $(BUILD)/theorems/*.d)

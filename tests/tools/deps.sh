@@ -2,7 +2,8 @@
 # Installs what the tests need, with the package manager that is there.
 #   needed    cmocka
 #   welcome   clang, g++, valgrind: more compilers and checks; what is missing is skipped by the tests
-# deps.sh --check only says whether cmocka can be compiled against.
+# deps.sh --check only says whether cmocka can be compiled against; deps.sh --compare installs the
+# libraries that `make cost-peers` compares with.
 
 CC=${CC:-cc}
 
@@ -26,6 +27,17 @@ elif have apk;     then manager=apk;     names='cmocka-dev clang g++ valgrind'
 elif have brew;    then manager=brew;    names='cmocka - - -'
 else                    manager=none;    names='cmocka clang g++ valgrind'
 fi
+compare=no
+if [ "$1" = --compare ]; then
+    compare=yes
+    case $manager in
+    apt-get) libraries='libgsl-dev libsundials-dev libboost-dev g++' ;;
+    dnf)     libraries='gsl-devel sundials-devel boost-devel gcc-c++' ;;
+    pacman)  libraries='gsl sundials boost gcc' ;;
+    brew)    libraries='gsl sundials boost' ;;
+    *)       echo "deps: please install by hand: GSL, SUNDIALS, Boost, a C++ compiler" >&2; exit 1 ;;
+    esac
+fi
 set -- $names
 needed=; welcome=
 have_cmocka || needed=$1
@@ -34,7 +46,7 @@ have g++ || welcome="$welcome $3"
 have valgrind || welcome="$welcome $4"
 welcome=$(echo $welcome | tr ' ' '\n' | grep -v '^-$' | tr '\n' ' ')
 
-if [ -z "$needed" ] && [ -z "$(echo $welcome)" ]; then
+if [ $compare = no ] && [ -z "$needed" ] && [ -z "$(echo $welcome)" ]; then
     echo "deps: everything is there"
     exit 0
 fi
@@ -54,6 +66,12 @@ install() {
     *)       return 1 ;;
     esac
 }
+
+if [ $compare = yes ]; then
+    if [ "$manager" = apt-get ]; then $sudo apt-get update || true; fi
+    install $libraries
+    exit
+fi
 
 if [ "$manager" = none ]; then
     if [ -z "$needed" ]; then
