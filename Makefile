@@ -32,10 +32,10 @@ PROGRAMS = $(TESTS) $(TYPED:%=%-float) $(TYPED:%=%-long)
 VALGRIND_TESTS = $(filter test_api test_lu test_interpolation,$(TESTS))
 VALGRIND_EXAMPLES = 04_driven_damped 06_building_blocks 07_failing_step 08_robot_joint 10_checkpoint
 
-C_EXAMPLES   = $(sort $(basename $(notdir $(wildcard examples/*.c))))
+C_EXAMPLES   = $(sort $(filter-out advise,$(basename $(notdir $(wildcard examples/*.c)))))
 CXX_EXAMPLES = $(sort $(basename $(notdir $(wildcard examples/*.cpp))))
 EXAMPLES     = $(C_EXAMPLES) $(CXX_EXAMPLES)
-SCENES       = $(filter-out scene scenes,$(basename $(notdir $(wildcard examples/scenes/*.c))))
+SCENES       = $(filter-out scene scenes price,$(basename $(notdir $(wildcard examples/scenes/*.c))))
 
 # The theorems of docs/theorems.md; QUADRUPLE needs more digits than long double has on x86.
 THEOREMS  = order lagrangian curve forced doubled spectral identities inertia stability
@@ -53,7 +53,7 @@ RECORD       =
 .DELETE_ON_ERROR:
 .PHONY: run deps test unit examples headers symbols docs-check sanitize valgrind \
         figures synopsis install uninstall help clean cmocka \
-        cost cost-horizon ncdp scaling cost-peers deps-compare instructions scenes $(SCENES:%=scene-%) theorems $(THEOREMS:%=theorem-%) \
+        cost cost-horizon ncdp scaling cost-peers deps-compare instructions prices advise scenes $(SCENES:%=scene-%) theorems $(THEOREMS:%=theorem-%) \
         $(PROGRAMS:%=run-%) $(EXAMPLES:%=example-%) $(VALGRIND_TESTS:%=valgrind-%) \
         $(VALGRIND_EXAMPLES:%=valgrind-%)
 
@@ -65,9 +65,9 @@ run: $(BUILD)/examples/02_outer_solar_system
 deps:
 	$(Q)CC='$(CC)' sh tests/tools/deps.sh
 
-## test         all tests, then examples, docs-check, headers, symbols and instructions
-test: unit examples docs-check headers symbols instructions
-	$(Q)sh tests/tools/summary.sh $(BUILD) test unit examples docs-check headers symbols instructions
+## test         all tests, then examples, docs-check, headers, symbols, instructions and prices
+test: unit examples docs-check headers symbols instructions prices
+	$(Q)sh tests/tools/summary.sh $(BUILD) test unit examples docs-check headers symbols instructions prices
 
 ## unit         the test programs alone; one of them: make run-test_lu
 unit: $(PROGRAMS:%=run-%)
@@ -113,8 +113,17 @@ figures: $(BUILD)/examples/02_outer_solar_system
 scenes: $(SCENES:%=scene-%)
 
 ## cost         gvi.h and its rivals: time to an error on eight problems; tables, CSV and pictures in build/cost
+##              SCENE=net: what each effect of a scene costs
+ifdef SCENE
+cost: $(BUILD)/examples/price
+	$(Q)$< $(SCENE)
+else
 cost: $(BUILD)/cost/cost
 	$(Q)$< --out $(BUILD)/cost $(COST_ARGS) | tee $(BUILD)/cost/table.txt
+endif
+
+## advise       builds build/examples/advise: degree, step and tolerance for a wanted error
+advise: $(BUILD)/examples/advise
 
 ## cost-horizon the outer solar system at 1, 10 and 100 times its length
 cost-horizon: $(BUILD)/cost/cost
@@ -139,6 +148,10 @@ cost-peers: $(BUILD)/cost/peers
 ## instructions points, iterations and instructions of five fixed runs; RECORD=--record writes them anew
 instructions:
 	$(Q)CC='$(CC)' sh tests/tools/instructions.sh $(BUILD) $(RECORD)
+
+## prices       what an unlisted effect costs in instructions (valgrind): nothing
+prices:
+	$(Q)CC='$(CC)' sh tests/tools/prices.sh $(BUILD)
 
 ## theorems     docs/theorems.md measured again, with its pictures (a few minutes); one: make theorem-curve
 theorems: $(THEOREMS:%=theorem-%)
@@ -191,6 +204,16 @@ $(BUILD)/examples/%: examples/%.cpp
 	@mkdir -p $(@D)
 	$(Q)if command -v $(CXX) >/dev/null 2>&1; then \
 	    echo '  c++ $@'; $(CXXCOMPILE) $< -o $@ $(LDLIBS); fi
+
+$(BUILD)/examples/price: examples/scenes/price.c
+	@mkdir -p $(@D)
+	@echo '  cc $@'
+	$(Q)$(COMPILE) -Iexamples $< -o $@ $(LDLIBS)
+
+$(BUILD)/examples/advise: examples/advise.c $(BUILD)/cost/problems.o $(BUILD)/cost/baselines.o
+	@mkdir -p $(@D)
+	@echo '  cc $@'
+	$(Q)$(COMPILE) -Iexamples $^ -o $@ $(LDLIBS)
 
 $(BUILD)/examples/scene: examples/scenes/scene.c
 	@mkdir -p $(@D)
@@ -248,7 +271,7 @@ $(VALGRIND_EXAMPLES:%=valgrind-%): valgrind-%: $(BUILD)/examples/%
 
 # "make -j deps test": what is compiled against cmocka waits for its installation.
 ifneq ($(filter deps,$(MAKECMDGOALS)),)
-cmocka headers symbols docs-check instructions $(EXAMPLES:%=$(BUILD)/examples/%): | deps
+cmocka headers symbols docs-check instructions prices $(EXAMPLES:%=$(BUILD)/examples/%): | deps
 endif
 
 -include $(wildcard $(BUILD)/tests/*.d $(BUILD)/examples/*.d $(BUILD)/cost/*.d $(BUILD)/theorems/*.d)

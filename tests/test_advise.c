@@ -1,0 +1,215 @@
+/* examples/advise.h: its choice has the wanted error, by references that it does
+   not know, and costs at most 1.5 times what the best of a full sweep does.
+   Costs are counted, not measured, so that this comes out the same everywhere. */
+#include "gvi_test.h"
+#include "cost/problems.c"
+#include "cost/baselines.c"
+#include "advise.h"
+
+enum { TABLES = 5 };                    /* of KICKS at most */
+
+static const char *const names[TABLES] = { "Stoermer-Verlet", "Blanes-Moan SRKN11", "Blanes-Moan SRKN14",
+                                           "Kahan-Li 8", "Sofroniou-Spaletta 10" };
+static const int orders[TABLES] = { 2, 6, 6, 8, 10 };
+
+static advise_case make_case(const char *key, double weight)
+{
+    static double nodes[TABLES][KICKS], weights[TABLES][KICKS];
+    const problem *p = problem_named(key);
+    advise_case a = { .desc = { .n = p->n, .mass = p->mass, .effects = p->effects,
+                                .effect_count = p->effect_count },
+                      .q = p->q, .v = p->v, .momentum = p->slope != NULL, .horizon = p->end,
+                      .h = 48*p->end/p->evaluations/2, .weight = { weight } };
+    for (int i = 0; !p->slope && i < TABLES; ++i) {
+        const int points = baseline_kicks(baseline_named(names[i]), nodes[i], weights[i]);
+        a.kicks[a.kicks_count++] = (advise_kicks){ names[i], orders[i], points, nodes[i], weights[i] };
+    }
+    return a;
+}
+
+/* ------------------------------------------------------------- the full sweep */
+
+/* Of q over the whole motion.                                                  */
+static double largest_coordinate(const advise_case *a)
+{
+    static double memory[200000];
+    double size = 0;
+    gvi_stepper st;
+    gvi_desc d = a->desc;
+    d.formulation = GVI_POSITIONS;
+    gvi_init(&st, &d, memory, sizeof memory);
+    gvi_start(&st, 0, a->q, a->v);
+    for (int k = 0; k < 5000 && st.status == GVI_OK; ++k) {
+        gvi_step(&st, a->horizon/5000);
+        for (int i = 0; i < st.n; ++i) size = fmax(size, fabs(st.q[i]));
+    }
+    assert_ok(st.status);
+    return size;
+}
+
+/* Error at the end against the published reference, and counted cost.          */
+static double run(const advise_case *a, const problem *p, const advise_setting *s, long steps, double *cost)
+{
+    gvi_desc d = advise_desc(a, s);
+    if (!s->kicks) d.formulation = GVI_POSITIONS;             // no Newton: that is never the cheapest here
+    static double memory[200000];
+    gvi_stepper st;
+    assert_true(gvi_size(&d) <= sizeof memory);
+    gvi_init(&st, &d, memory, sizeof memory);
+    if (a->momentum) gvi_start_momentum(&st, 0, a->q, a->v);
+    else gvi_start(&st, 0, a->q, a->v);
+    for (long k = 0; k < steps && st.status == GVI_OK; ++k) gvi_step(&st, a->horizon/(double)steps);
+    *cost = advise_counted(a, &st);
+    return st.status == GVI_OK ? problem_error(p, st.q) : HUGE_VAL;
+}
+
+/* The least cost at which this setting has the error, steps in factors of 1.07;
+   no further than where it costs more than the best.                          */
+static double sweep(const advise_case *a, const problem *p, const advise_setting *s, double error,
+                    double best)
+{
+    double before = HUGE_VAL, cost;
+    for (double steps = a->horizon/a->h/6; steps < 1e6; steps *= 1.07, before = cost) {
+        const double off = run(a, p, s, lround(steps), &cost);
+        if (off <= error) return cost;
+        if (cost > best && cost > before && off < HUGE_VAL) return HUGE_VAL;   // at first it may fall
+    }
+    return HUGE_VAL;
+}
+
+static double best_of_sweep(const advise_case *a, const problem *p, double error, char *name, size_t size)
+{
+    static const int degrees[] = { 7, 6, 5, 8, 4, 10, 12, 3 };
+    static const double tolerances[] = { 1e-12, 1e-13, 1e-11, 1e-14, 1e-10, 1e-9, 1e-8, 0 };
+    double best = HUGE_VAL;
+    for (int i = 0; i < COUNT(degrees); ++i)
+        for (int k = 0; k < COUNT(tolerances); ++k) {
+            const advise_setting s = { .degree = degrees[i], .tolerance = tolerances[k] };
+            const double cost = sweep(a, p, &s, error, best);
+            if (cost < best) best = cost, advise_name(&s, name, size);
+        }
+    for (int i = 0; i < a->kicks_count; ++i) {
+        const advise_setting s = { .degree = 1, .kicks = &a->kicks[i] };
+        const double cost = sweep(a, p, &s, error, best);
+        if (cost < best) best = cost, advise_name(&s, name, size);
+    }
+    return best;
+}
+
+static void say(const char *line)
+{
+    if (getenv("ADVISE_SAYS")) print_message("%s\n", line);
+}
+
+/* weight: operations of a point, 15 for a root or a quotient. */
+static void advise_well(const char *key, double weight, double error)
+{
+    const problem *p = problem_named(key);
+    const advise_case a = make_case(key, weight);
+    const advise_options o = { .error = error, .seconds = 20, .counted = 1, .say = say };
+    const double size = largest_coordinate(&a);
+    advise_result r;
+    char name[64], best_name[64] = "none";
+    double cost, best, real;
+    assert_int_equal(advise_find(&a, &o, &r), 0);
+    real = run(&a, p, &r.setting, r.steps, &cost)/size;
+    best = best_of_sweep(&a, p, real*size > error*size ? real*size : error*size, best_name, sizeof best_name);
+    print_message("  %s, %.0e: %s, h = %.4g: error %.1e (said %.1e), cost %.4g\n", key, error,
+                  advise_name(&r.setting, name, sizeof name), r.h, real, r.error, cost);
+    print_message("      best of all %.4g, %s; trials cost %.0f such runs\n", best, best_name, r.spent/cost);
+    assert_true(r.proved);
+    assert_between(error/10, real, 10*error);
+    assert_between(real/3, r.error, 3*real);
+    assert_true(cost <= 1.5*best);
+}
+
+static void kepler_06(void **state)
+{
+    advise_well("P1", 36, 1e-5);
+    advise_well("P1", 36, 1e-8);
+    (void)state;
+}
+
+static void henon_heiles(void **state)
+{
+    advise_well("P3", 10, 1e-5);
+    advise_well("P3", 10, 1e-9);
+    (void)state;
+}
+
+static void solar_system(void **state)
+{
+    advise_well("P4", 15*47, 1e-6);
+    advise_well("P4", 15*47, 1e-9);
+    (void)state;
+}
+
+/* Eccentricity 0.9; stiff springs; a chain of 100, where splittings are cheap.  */
+static void other_problems(void **state)
+{
+    advise_well("P2", 36, 1e-7);
+    advise_well("P6b", 60, 1e-7);
+    advise_well("P7", 5*100, 1e-8);
+    (void)state;
+}
+
+/* An oscillator, x'' = -x: the error grows like t, its size is known, and what is
+   extrapolated where the horizon may not be visited comes out within a factor 10. */
+static int oscillator_points(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k) x->f[k] -= x->q[k];
+    return (void)user, 0;
+}
+
+static void growth_is_measured_and_extrapolated(void **state)
+{
+    const gvi_effect spring[] = { { .kind = GVI_POTENTIAL, .points = oscillator_points } };
+    const double q[] = { 1 }, v[] = { 0 };
+    for (int far = 0; far < 2; ++far) {
+        const advise_case a = { .desc = { .n = 1, .effects = spring, .effect_count = 1 }, .q = q, .v = v,
+                                .horizon = far ? 400000 : 1000, .h = 1, .weight = { 2 } };
+        const advise_options o = { .error = 1e-6, .seconds = far ? 0.02 : 20, .counted = 1, .say = say };
+        advise_result r;
+        double end[1] = { 0 };
+        gvi_stepper st;
+        double memory[20000];
+        assert_int_equal(advise_find(&a, &o, &r), 0);
+        const gvi_desc d = advise_desc(&a, &r.setting);
+        assert_ok(gvi_init(&st, &d, memory, sizeof memory));
+        assert_ok(gvi_start(&st, 0, q, v));
+        for (long k = 0; k < r.steps; ++k) assert_ok(gvi_step(&st, r.h));
+        // the phase error, from both q and p, whatever the phase is
+        const double t = a.horizon, x = st.q[0] - cos(t), y = st.p[0] + sin(t);
+        end[0] = hypot(x, y);
+        print_message("  horizon %g: growth %.3g, t^%.2f, error %.1e, %s\n", t, r.growth, r.power, end[0],
+                      r.proved ? "proved" : "extrapolated");
+        assert_int_equal(r.proved, !far);
+        assert_between(1e-7, end[0], 1e-5);
+        if (!far) assert_between(0.7, r.power, 1.3);
+    }
+    (void)state;
+}
+
+/* A horizon or error that cannot be had is said to be so.                      */
+static void what_cannot_be_had_is_refused(void **state)
+{
+    const advise_case a = make_case("P1", 36);
+    const advise_options o = { .error = 1e-19, .seconds = 20, .counted = 1, .say = say };
+    advise_result r;
+    assert_int_equal(advise_find(&a, &o, &r), -1);
+    (void)state;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(kepler_06),
+        cmocka_unit_test(henon_heiles),
+        cmocka_unit_test(solar_system),
+        cmocka_unit_test(other_problems),
+        cmocka_unit_test(growth_is_measured_and_extrapolated),
+        cmocka_unit_test(what_cannot_be_had_is_refused),
+    };
+    baselines_begin();
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,762 @@
+/* examples/check.h: right scenes pass, and every planted slip is found and named:
+   which effect, which derivative, which coordinates.  Slips are planted by
+   callbacks that ask the right ones and then spoil one entry.                  */
+#include "gvi_test.h"
+#include "scenes/scenes.c"
+#include "check.h"
+
+enum { ROOM = 64, ROWS = SCENE_MAX*64 };
+
+static scene_setup made;
+static check_finding list[ROOM];
+static check_report report;
+static char line[240];
+
+static int check(void)
+{
+    report.list = list;
+    report.room = ROOM;
+    return check_scene(&made.desc, 0, made.q, made.v, &report);
+}
+
+static const scene *build(const char *name)
+{
+    const scene *a = scene_find(name);
+    assert_non_null(a);
+    scene_build(a, &made, NULL);
+    return a;
+}
+
+/* ------------------------------------------------------------- right scenes */
+
+static void right_scenes_pass(void **state)
+{
+    long checked = 0;
+    for (int i = 0; i < scene_count; ++i) {
+        build(scenes[i]->name);
+        const int count = check();
+        for (int k = 0; k < count && k < ROOM; ++k)
+            print_error("  %s: %s\n", scenes[i]->name, check_line(list + k, line, sizeof line));
+        assert_int_equal(count, 0);
+        assert_int_equal(report.unchecked, 0);
+        assert_true(report.checked > 20);
+        print_message("  %-20s %6ld entries, errors from %.1e on would be seen\n", scenes[i]->name,
+                      report.checked, report.worst);
+        assert_between(1e-10, report.worst, made.desc.n > 40 ? 1e-4 : 1e-8);    // a net's soft direction
+        checked += report.checked;
+    }
+    assert_true(checked > 100000);
+    (void)state;
+}
+
+/* Also after some steps, where no symmetry of the initial data is left.        */
+static void right_scenes_pass_on_the_way(void **state)
+{
+    static gvi_stepper st;
+    for (int i = 0; i < scene_count; ++i) {
+        const scene *a = build(scenes[i]->name);
+        double *memory = malloc(gvi_size(&made.desc)), v[SCENE_MAX];
+        assert_non_null(memory);
+        assert_ok(gvi_init(&st, &made.desc, memory, gvi_size(&made.desc)));
+        assert_ok(gvi_start(&st, 0, made.q, made.v));
+        for (int part = 0; part < 3; ++part) {
+            for (int k = 0; k < 37; ++k) assert_ok(gvi_step(&st, a->h));
+            assert_ok(gvi_velocity(&st, v));
+            report = (check_report){ .list = list, .room = ROOM };
+            const int count = check_scene(&made.desc, st.t, st.q, v, &report);
+            if (count) print_error("  %s: %s\n", a->name, check_line(list, line, sizeof line));
+            assert_int_equal(count, 0);
+        }
+        free(memory);
+    }
+    (void)state;
+}
+
+/* ------------------------------------------------------------------- slips */
+
+typedef enum slip_kind {
+    NONE, FACTOR, INDEX, OVERWRITES, LAST_POINT, PAST_POINTS, PAST_ROWS, READS_V, REFUSES
+} slip_kind;
+
+/* Of one output: "f", "dldv", "value", "fq", "fv", "pv", "mass", "gradient", "velocity". */
+typedef struct slip {
+    gvi_effect  right;
+    gvi_mass    mass;
+    slip_kind   kind;
+    const char *entry;
+    int         i, j;
+    double      factor;
+} slip;
+
+static slip planted;
+
+/* Output `own` of the right callback, spoiled, then added to (or put in) `out`. */
+static void spoil(const gvi_points *x, const char *entry, double *own, double *out, int rows, int add)
+{
+    const slip *s = &planted;
+    const int at = rows == x->n*x->n ? s->i*x->n + s->j : s->i, d = x->stride;
+    const int here = !strcmp(entry, s->entry);
+    if (here && s->kind == FACTOR)
+        for (int k = 0; k < x->count; ++k) own[at*d+k] *= s->factor;
+    if (here && s->kind == INDEX)                              // i's goes to j
+        for (int k = 0; k < x->count; ++k) own[s->j*d+k] += own[s->i*d+k], own[s->i*d+k] = 0;
+    if (here && s->kind == LAST_POINT && x->count > 1) own[at*d + x->count - 1] = 0;
+    if (here && s->kind == READS_V && x->v)
+        for (int k = 0; k < x->count; ++k) own[at*d+k] += 1e-3*x->v[k];
+    const int left = here && s->kind == INDEX && !add ? s->i : -1;
+    for (int r = 0; r < rows; ++r)
+        for (int k = 0; k < x->count; ++k) {
+            if (!add && r/x->n < r % x->n && rows == x->n*x->n) continue;         // lower triangle
+            if (r == left) continue;
+            out[r*d+k] = own[r*d+k] + (add && !(here && s->kind == OVERWRITES && r == at) ? out[r*d+k] : 0);
+        }
+    if (here && s->kind == PAST_POINTS) out[at*d + x->count] += 1;
+    if (here && s->kind == PAST_ROWS) out[rows*d] += 1;
+}
+
+static double scratch[3][ROWS];
+
+static gvi_points on_scratch(const gvi_points *x, int square)
+{
+    gvi_points y = *x;
+    const size_t rows = (size_t)(square ? x->n*x->n : x->n)*(size_t)x->stride;
+    assert_true(rows <= ROWS);
+    for (int m = 0; m < 3; ++m) memset(scratch[m], 0, rows*sizeof(double));
+    if (x->f) y.f = scratch[0];
+    if (x->dldv) y.dldv = scratch[1];
+    if (x->value) y.value = scratch[2];
+    if (x->mass) y.mass = scratch[0];
+    if (x->velocity) y.velocity = scratch[0];
+    return y;
+}
+
+static int bad_points(const gvi_points *x, void *user)
+{
+    const gvi_points y = on_scratch(x, 0);
+    if (planted.kind == REFUSES && !strcmp(planted.entry, "f")) return 1;
+    if (planted.right.points ? planted.right.points(&y, user) : 1) return 1;
+    if (x->f) spoil(x, "f", y.f, x->f, x->n, 1);
+    if (x->dldv) spoil(x, "dldv", y.dldv, x->dldv, x->n, 1);
+    if (x->value) spoil(x, "value", y.value, x->value, 1, 1);
+    return 0;
+}
+
+static int bad_value(const gvi_points *x, void *user)
+{
+    const gvi_points y = on_scratch(x, 0);
+    if (planted.right.value(&y, user)) return 1;
+    spoil(x, "value", y.value, x->value, 1, 1);
+    return 0;
+}
+
+static void spoil_matrix(const char *entry, int n, double *own, double *out)
+{
+    const slip *s = &planted;
+    for (int k = 0; out && k < n*n; ++k) {
+        const int here = !strcmp(entry, s->entry), at = here && k == s->i*n + s->j;
+        double x = own[k];
+        if (at && s->kind == FACTOR) x *= s->factor;
+        if (here && s->kind == INDEX) x = own[k % n*n + k/n];                     // all transposed
+        out[k] = x + (at && s->kind == OVERWRITES ? 0 : out[k]);
+    }
+    if (out && !strcmp(entry, s->entry) && s->kind == PAST_ROWS) out[n*n] += 1;
+}
+
+static int bad_hessian(double t, const double *q, const double *v,
+                       double *fq, double *fv, double *pv, void *user)
+{
+    static double own[3][SCENE_MAX*SCENE_MAX];
+    const int n = made.desc.n;
+    memset(own, 0, sizeof own);
+    if (planted.right.hessian(t, q, v, own[0], fv ? own[1] : NULL, pv ? own[2] : NULL, user)) return 1;
+    spoil_matrix("fq", n, own[0], fq);
+    spoil_matrix("fv", n, own[1], fv);
+    spoil_matrix("pv", n, own[2], pv);
+    return 0;
+}
+
+static int bad_mass(const gvi_points *x, void *user)
+{
+    const gvi_points y = on_scratch(x, 1);
+    if (planted.mass.points(&y, user)) return 1;
+    spoil(x, "mass", y.mass, x->mass, x->n*x->n, 0);
+    if (planted.kind == FACTOR && !strcmp(planted.entry, "upper"))               // the other triangle differs
+        for (int k = 0; k < x->count; ++k)
+            x->mass[(planted.i*x->n + planted.j)*x->stride+k] =
+                planted.factor*x->mass[(planted.j*x->n + planted.i)*x->stride+k];
+    return 0;
+}
+
+static int bad_gradient(const gvi_points *x, void *user)
+{
+    const gvi_points y = on_scratch(x, 0);
+    if (planted.mass.gradient(&y, user)) return 1;
+    spoil(x, "gradient", y.f, x->f, x->n, 1);
+    return 0;
+}
+
+static int bad_velocity(const gvi_points *x, void *user)
+{
+    const gvi_points y = on_scratch(x, 0);
+    if (planted.mass.velocity(&y, user)) return 1;
+    spoil(x, "velocity", y.velocity, x->velocity, x->n, 0);
+    return 0;
+}
+
+/* Plants a slip in effect e (or the mass, GVI_FAULT_MASS) of the scene as built. */
+static void plant(int e, slip_kind kind, const char *entry, int i, int j, double factor)
+{
+    planted = (slip){ .kind = kind, .entry = entry, .i = i, .j = j, .factor = factor,
+                      .mass = made.desc.mass };
+    if (e == GVI_FAULT_MASS) {
+        made.desc.mass.points = bad_mass;
+        made.desc.mass.gradient = bad_gradient;
+        if (made.desc.mass.velocity) made.desc.mass.velocity = bad_velocity;
+        return;
+    }
+    planted.right = made.effects[e];
+    made.effects[e].points = bad_points;
+    if (made.effects[e].value) made.effects[e].value = bad_value;
+    if (made.effects[e].hessian) made.effects[e].hessian = bad_hessian;
+}
+
+static const check_finding *found(check_what what, int e, const char *entry, int i, int j)
+{
+    for (int k = 0; k < report.count && k < ROOM; ++k)
+        if (list[k].what == what && list[k].effect == e && !strcmp(list[k].entry, entry) && list[k].i == i
+            && list[k].j == j) return list + k;
+    return NULL;
+}
+
+static void assert_found(check_what what, int e, const char *entry, int i, int j)
+{
+    if (found(what, e, entry, i, j)) return;
+    for (int k = 0; k < report.count && k < ROOM; ++k)
+        print_error("  %s\n", check_line(list + k, line, sizeof line));
+    print_error("%d, effect %d, %s[%d][%d] is not among these\n", (int)what, e, entry, i, j);
+    fail();
+}
+
+/* The only findings are the one planted, and of Hessians and batches what follows from it. */
+static int findings_about(int e)
+{
+    int about = 0;
+    for (int k = 0; k < report.count && k < ROOM; ++k) about += list[k].effect == e;
+    return about;
+}
+
+static void ask(int e, const double *q, const double *v, double *f, double *dldv)
+{
+    static const double t = 0;
+    const gvi_effect *a = made.effects + e;
+    const gvi_points x = { .n = made.desc.n, .count = 1, .stride = 1, .t = &t, .q = q, .f = f,
+                           .v = a->kind == GVI_POTENTIAL ? NULL : v,
+                           .dldv = a->kind == GVI_LAGRANGIAN ? dldv : NULL };
+    memset(f, 0, sizeof(double)*SCENE_MAX);
+    memset(dldv, 0, sizeof(double)*SCENE_MAX);
+    assert_int_equal(a->points(&x, a->user), 0);
+}
+
+/* Entries of no more than rounding cannot be right or wrong.                   */
+static double largest(const double *f)
+{
+    double most = 0;
+    for (int i = 0; i < made.desc.n; ++i) most = fmax(most, fabs(f[i]));
+    return most;
+}
+
+/* Every coordinate of every effect that has a value, in every scene: a wrong sign,
+   a factor 2, one part in a million.  The effect and coordinate are named, the value
+   that should be there is given, and no other coordinate is accused.            */
+static void wrong_entries_of_f_are_named(void **state)
+{
+    static const double factors[] = { -1, 2, 0, 1 + 1e-6 };
+    static const check_hint hints[] = { CHECK_SIGN, CHECK_TWICE, CHECK_MISSING, CHECK_NO_HINT };
+    int planted_count = 0;
+    for (int a = 0; a < scene_count; ++a)
+        for (int e = 0; e == 0 || e < made.desc.effect_count; ++e) {
+            double f[SCENE_MAX], p[SCENE_MAX];
+            build(scenes[a]->name);
+            if (made.effects[e].kind == GVI_FORCE) continue;
+            ask(e, made.q, made.v, f, p);
+            for (int i = 0; i < made.desc.n; i += made.desc.n > 40 ? 61 : 1)
+                for (int k = 0; k < COUNT(factors); ++k) {
+                    build(scenes[a]->name);
+                    if (fabs(f[i]) < 1e-6*largest(f) || !(largest(f) > 0)) continue;
+                    plant(e, FACTOR, "f", i, 0, factors[k]);
+                    check();
+                    assert_found(CHECK_DERIVATIVE, e, "f", i, -1);
+                    const check_finding *y = found(CHECK_DERIVATIVE, e, "f", i, -1);
+                    assert_int_equal(y->point, 0);
+                    assert_close(y->right, f[i], 1e-8*fabs(f[i]));
+                    assert_close(y->found, factors[k]*f[i], 1e-14*fabs(f[i]));
+                    assert_int_equal(y->hint, hints[k]);
+                    assert_int_equal(report.count, 1);
+                    ++planted_count;
+                }
+        }
+    print_message("  %d planted, %d found\n", planted_count, planted_count);
+    assert_true(planted_count > 150);
+    (void)state;
+}
+
+static void wrong_index_is_two_findings(void **state)
+{
+    static const struct { const char *scene; int e, i, j; } cases[] = {
+        { "outer_solar_system", 0, 3, 4 }, { "satellite", 0, 0, 2 }, { "satellite", 1, 0, 1 },
+        { "elastic_pendulum", 1, 0, 1 }, { "figure_eight", 0, 2, 5 }, { "double_pendulum", 0, 0, 1 } };
+    for (int k = 0; k < COUNT(cases); ++k) {
+        build(cases[k].scene);
+        plant(cases[k].e, INDEX, "f", cases[k].i, cases[k].j, 1);
+        check();
+        assert_found(CHECK_DERIVATIVE, cases[k].e, "f", cases[k].i, -1);
+        assert_found(CHECK_DERIVATIVE, cases[k].e, "f", cases[k].j, -1);
+        assert_int_equal(report.count, 2);
+    }
+    (void)state;
+}
+
+static void wrong_entries_of_dldv_are_named(void **state)
+{
+    static const char *const where[] = { "crossed_fields", "arenstorf" };
+    for (int a = 0; a < COUNT(where); ++a) {
+        double f[SCENE_MAX], p[SCENE_MAX];
+        build(where[a]);
+        const int e = made.desc.effect_count - 1;
+        ask(e, made.q, made.v, f, p);
+        assert_int_equal(made.effects[e].kind, GVI_LAGRANGIAN);
+        for (int i = 0; i < 2; ++i)
+            for (int k = 0; k < 2; ++k) {
+                build(where[a]);
+                if (!k && !(fabs(p[i]) > 0)) continue;        // a small part of 0
+                plant(e, FACTOR, "dldv", i, 0, k ? -1 : 1 + 1e-6);
+                check();
+                assert_found(CHECK_DERIVATIVE, e, "dldv", i, -1);
+                for (int m = 0; m < report.count; ++m) assert_string_equal(list[m].entry, "dldv");
+            }
+    }
+    (void)state;
+}
+
+/* Each nonzero entry of each Hessian that the effects bring (every 401st of large ones). */
+static void wrong_entries_of_hessians_are_named(void **state)
+{
+    static double H[3][SCENE_MAX*SCENE_MAX];
+    static const char *const entry[] = { "fq", "fv", "pv" };
+    int planted_count = 0;
+    for (int a = 0; a < scene_count; ++a)
+        for (int e = 0; e == 0 || e < made.desc.effect_count; ++e) {
+            build(scenes[a]->name);
+            const gvi_effect *y = made.effects + e;
+            const int n = made.desc.n, forced = y->kind == GVI_FORCE;
+            double v[SCENE_MAX];
+            if (!y->hessian || y->kind == GVI_LAGRANGIAN) continue;
+            for (int i = 0; i < n; ++i) v[i] = made.v[i];
+            memset(H, 0, sizeof H);
+            assert_int_equal(y->hessian(0, made.q, v, H[0], forced ? H[1] : NULL, NULL, y->user), 0);
+            for (int m = 0; m <= forced; ++m)
+                for (int k = 0, seen = 0; k < n*n; ++k) {
+                    if (fabs(H[m][k]) < 1e-3 || (n > 40 && seen++ % 401)) continue;
+                    build(scenes[a]->name);
+                    plant(e, FACTOR, entry[m], k/n, k % n, k % 2 ? -1 : 1 + 1e-5);
+                    check();
+                    assert_found(CHECK_DERIVATIVE, e, entry[m], k/n, k % n);
+                    assert_int_equal(report.count, 1);
+                    ++planted_count;
+                }
+        }
+    print_message("  %d planted, %d found\n", planted_count, planted_count);
+    assert_true(planted_count >= 8);
+    (void)state;
+}
+
+/* A Hessian that is not symmetric, transposed: two blocks of it differ.        */
+static int turn_points(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k) {
+        x->f[k] += x->q[k]*x->q[x->stride+k];
+        x->f[x->stride+k] -= 2*x->q[k] + x->v[k]*x->v[x->stride+k];
+    }
+    return (void)user, 0;
+}
+
+static int turn_hessian(double t, const double *q, const double *v,
+                        double *fq, double *fv, double *pv, void *user)
+{
+    fq[0] += q[1];
+    fq[1] += q[0];
+    fq[2] -= 2;
+    fv[2] -= v[1];
+    fv[3] -= v[0];
+    return (void)t, (void)pv, (void)user, 0;
+}
+
+static void build_turn(void)
+{
+    memset(&made, 0, sizeof made);
+    made.desc = (gvi_desc){ .n = 2, .effects = made.effects, .effect_count = 1 };
+    made.effects[0] = (gvi_effect){ .kind = GVI_FORCE, .points = turn_points, .hessian = turn_hessian };
+    made.q[0] = 0.7, made.q[1] = -1.3, made.v[0] = 0.4, made.v[1] = 1.9;
+}
+
+static void transposed_hessians_are_named(void **state)
+{
+    build_turn();
+    assert_int_equal(check(), 0);
+    for (int m = 0; m < 2; ++m) {
+        build_turn();
+        plant(0, INDEX, m ? "fv" : "fq", 0, 0, 1);
+        check();
+        assert_int_equal(report.count, 2);
+        for (int k = 0; k < 2; ++k) {
+            assert_found(CHECK_DERIVATIVE, 0, m ? "fv" : "fq", k, 1 - k);
+            assert_int_equal(found(CHECK_DERIVATIVE, 0, m ? "fv" : "fq", k, 1 - k)->hint, CHECK_TRANSPOSED);
+        }
+        assert_string_not_equal(check_line(list, line, sizeof line), "");
+        assert_non_null(strstr(line, "transposed?"));
+    }
+    (void)state;
+}
+
+/* A potential without value: its force must be a gradient of something.        */
+static void forces_without_value_must_have_a_potential(void **state)
+{
+    build("outer_solar_system");
+    made.effects[0].value = NULL;
+    assert_int_equal(check(), 0);
+    plant(0, FACTOR, "f", 4, 0, 1 + 1e-5);
+    check();
+    assert_true(report.count > 0 && findings_about(0) == report.count);
+    for (int k = 0; k < report.count && k < ROOM; ++k) {
+        assert_int_equal(list[k].what, CHECK_CURL);
+        assert_true(list[k].i == 4 || list[k].j == 4);
+    }
+    (void)state;
+}
+
+/* ----------------------------------------------------- how callbacks behave */
+
+/* For every effect of every scene: overwriting, a forgotten last point, writing past
+   the points of a row and past the rows; of all outputs that it has.           */
+static void manners_are_checked(void **state)
+{
+    static const struct { slip_kind slip; check_what what; } cases[] = {
+        { OVERWRITES, CHECK_ADDS }, { LAST_POINT, CHECK_BATCH }, { PAST_POINTS, CHECK_BEYOND },
+        { PAST_ROWS, CHECK_BEYOND } };
+    int planted_count = 0;
+    for (int a = 0; a < scene_count; ++a)
+        for (int e = 0; e == 0 || e < made.desc.effect_count; ++e) {
+            double f[SCENE_MAX], p[SCENE_MAX];
+            int i = 0;
+            build(scenes[a]->name);
+            if (made.desc.n > 40) continue;
+            ask(e, made.q, made.v, f, p);
+            while (i < made.desc.n - 1 && !(fabs(f[i]) > 0.1*largest(f) && largest(f) > 0)) ++i;
+            for (int k = 0; k < COUNT(cases); ++k)
+                for (int output = 0; output < 2; ++output) {
+                    const char *entry = output ? "value" : "f";
+                    build(scenes[a]->name);
+                    if (output && !made.effects[e].value) continue;
+                    plant(e, cases[k].slip, entry, output ? 0 : i, 0, 0);
+                    check();
+                    const int at = cases[k].slip == PAST_ROWS ? -1 : output ? 0 : i;
+                    int named = 0;
+                    for (int m = 0; m < report.count && m < ROOM; ++m) {
+                        assert_int_equal(list[m].effect, e);
+                        named |= list[m].what == cases[k].what && !strcmp(list[m].entry, entry)
+                              && (list[m].i == at || cases[k].what == CHECK_BEYOND);
+                    }
+                    if (!named) print_error("  %s:%s, %d of %s\n", scenes[a]->name, made.names[e], k, entry);
+                    assert_true(named);
+                    ++planted_count;
+                }
+        }
+    print_message("  %d planted, %d found\n", planted_count, planted_count);
+    assert_true(planted_count > 100);
+    (void)state;
+}
+
+static void hessians_add_and_stay_inside(void **state)
+{
+    build("elastic_pendulum");
+    plant(1, OVERWRITES, "fq", 0, 1, 1);
+    check();
+    assert_found(CHECK_ADDS, 1, "fq", 0, 1);
+    assert_int_equal(report.count, 1);
+    build("elastic_pendulum");
+    plant(1, PAST_ROWS, "fq", 0, 1, 1);
+    check();
+    assert_found(CHECK_BEYOND, 1, "fq", -1, -1);
+    assert_int_equal(report.count, 1);
+    (void)state;
+}
+
+static void a_potential_that_reads_the_velocity_is_named(void **state)
+{
+    build("elastic_pendulum");
+    plant(1, READS_V, "f", 1, 0, 1);
+    check();
+    assert_found(CHECK_READS_V, 1, "f", 1, -1);
+    build("elastic_pendulum");
+    plant(1, READS_V, "value", 0, 0, 1);
+    check();
+    assert_found(CHECK_READS_V, 1, "value", -1, -1);
+    (void)state;
+}
+
+static void refusals_are_named(void **state)
+{
+    build("duffing");
+    plant(0, REFUSES, "f", 0, 0, 1);
+    check();
+    assert_found(CHECK_REFUSED, 0, "f", -1, -1);
+    (void)state;
+}
+
+/* One function for f and value that leaves f out when value is wanted, too.     */
+static int either(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k) {
+        if (x->value) x->value[k] += x->q[k]*x->q[k]/2;
+        else x->f[k] -= x->q[k];
+    }
+    return (void)user, 0;
+}
+
+static int each(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k) {
+        if (x->value) x->value[k] += x->q[k]*x->q[k]/2;
+        if (x->f) x->f[k] -= x->q[k];
+    }
+    return (void)user, 0;
+}
+
+static void f_and_value_in_one_call(void **state)
+{
+    memset(&made, 0, sizeof made);
+    made.desc = (gvi_desc){ .n = 1, .effects = made.effects, .effect_count = 1 };
+    made.effects[0] = (gvi_effect){ .kind = GVI_POTENTIAL, .points = each, .value = each };
+    made.q[0] = 0.6;
+    assert_int_equal(check(), 0);
+    made.effects[0].points = made.effects[0].value = either;
+    check();
+    assert_found(CHECK_BOTH, 0, "f", 0, -1);
+    assert_int_equal(report.count, 1);
+    (void)state;
+}
+
+/* ------------------------------------------------------------- mass and clock */
+
+static void slips_of_a_mass_are_named(void **state)
+{
+    static const char *const where[] = { "double_pendulum", "robot_arm", "lagrange_top" };
+    for (int a = 0; a < COUNT(where); ++a) {
+        build(where[a]);
+        assert_int_equal(check(), 0);
+        const int n = made.desc.n;
+        for (int k = 0; k < n*n; ++k) {                       // every entry of the lower triangle forgotten
+            if (k/n < k % n) continue;
+            build(where[a]);
+            plant(GVI_FAULT_MASS, INDEX, "mass", k, 0, 1);
+            check();
+            assert_found(CHECK_WRITTEN, GVI_FAULT_MASS, "mass", k/n, k % n);
+        }
+        build(where[a]);
+        plant(GVI_FAULT_MASS, FACTOR, "upper", 0, n - 1, 1 + 1e-6);
+        made.desc.mass.velocity = NULL;
+        check();
+        if (a < 2) assert_found(CHECK_SYMMETRY, GVI_FAULT_MASS, "mass", 0, n - 1);
+        build(where[a]);
+        plant(GVI_FAULT_MASS, FACTOR, "mass", n - 1, n - 1, -1);
+        check();
+        assert_found(CHECK_DEFINITE, GVI_FAULT_MASS, "mass", n - 1, n - 1);
+        build(where[a]);
+        plant(GVI_FAULT_MASS, LAST_POINT, "mass", 0, 0, 1);
+        check();
+        assert_found(CHECK_BATCH, GVI_FAULT_MASS, "mass", 0, 0);
+        for (int i = 0; i < n; ++i) {
+            build(where[a]);
+            plant(GVI_FAULT_MASS, FACTOR, "velocity", i, 0, 1 + 1e-4);
+            check();
+            assert_found(CHECK_VELOCITY, GVI_FAULT_MASS, "velocity", i, -1);
+            assert_int_equal(report.count, 1);
+        }
+    }
+    (void)state;
+}
+
+static void slips_of_a_mass_gradient_are_named(void **state)
+{
+    static const struct { const char *scene; int n; } where[] = {
+        { "double_pendulum", 2 }, { "lagrange_top", 1 } };
+    static const double factors[] = { -1, 0, 2, 1 + 1e-5 };
+    for (int a = 0; a < COUNT(where); ++a)
+        for (int i = 0; i < where[a].n; ++i) {
+            for (int k = 0; k < COUNT(factors); ++k) {
+                build(where[a].scene);
+                plant(GVI_FAULT_MASS, FACTOR, "gradient", i, 0, factors[k]);
+                check();
+                assert_found(CHECK_DERIVATIVE, GVI_FAULT_MASS, "gradient", i, -1);
+                assert_int_equal(report.count, 1);
+            }
+            build(where[a].scene);
+            plant(GVI_FAULT_MASS, OVERWRITES, "gradient", i, 0, 1);
+            check();
+            assert_found(CHECK_ADDS, GVI_FAULT_MASS, "gradient", i, -1);
+            build(where[a].scene);
+            plant(GVI_FAULT_MASS, LAST_POINT, "gradient", i, 0, 1);
+            check();
+            assert_found(CHECK_BATCH, GVI_FAULT_MASS, "gradient", i, -1);
+        }
+    (void)state;
+}
+
+/* velocity must undo all of p: here the charge's canonical momentum, M = 1.     */
+static int forgetful(const gvi_points *x, void *user)
+{
+    const double *p = x->p, half = *(const double *)user;
+    for (int k = 0; k < x->count; ++k) {
+        x->velocity[k] = p[k] + half*x->q[x->stride+k];
+        x->velocity[x->stride+k] = p[x->stride+k] - half*x->q[k];
+    }
+    return 0;
+}
+
+static void velocity_counts_lagrangian_terms(void **state)
+{
+    static const double charge[] = { 1 }, mass[] = { 1 };
+    static const struct rotating_frame frame = { { 0, 1, 2 }, mass, 0.6 };
+    static double half[] = { 0.6, 0 };
+    for (int k = 0; k < 2; ++k) {
+        memset(&made, 0, sizeof made);
+        made.desc = (gvi_desc){ .n = 2, .effects = made.effects, .effect_count = 1,
+                                .mass = { .velocity = forgetful, .user = half + k } };
+        made.effects[0] = rotating_frame(&frame);
+        made.q[0] = 1.1, made.q[1] = -0.4, made.v[0] = 0.2, made.v[1] = 0.9;
+        check();
+        if (k == 0) assert_int_equal(report.count, 0);
+        else {
+            assert_found(CHECK_VELOCITY, GVI_FAULT_MASS, "velocity", 0, -1);
+            assert_found(CHECK_VELOCITY, GVI_FAULT_MASS, "velocity", 1, -1);
+            assert_int_equal(report.count, 2);
+        }
+    }
+    (void)charge, (void)state;
+}
+
+/* A constant matrix: which of its two triangles is meant?                       */
+static void a_dense_matrix_must_be_symmetric_and_definite(void **state)
+{
+    double M[9] = { 2, 0.5, 0, 0.5, 3, 0.1, 0, 0.1, 1 };
+    memset(&made, 0, sizeof made);
+    made.desc = (gvi_desc){ .n = 3, .mass = { .kind = GVI_MASS_DENSE, .matrix = M } };
+    assert_int_equal(check(), 0);
+    M[5] = 0.2;
+    check();
+    assert_found(CHECK_SYMMETRY, GVI_FAULT_MASS, "mass", 1, 2);
+    M[5] = M[7] = 2;
+    check();
+    assert_found(CHECK_DEFINITE, GVI_FAULT_MASS, "mass", 2, 2);
+    assert_int_equal(report.count, 1);
+    (void)state;
+}
+
+/* g = |q|, with a slip on demand.                                               */
+static double clock_sign = 1, clock_factor = 1;
+
+static int distance_clock(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k) {
+        double d = hypot(x->q[k], x->q[x->stride+k]);
+        x->value[k] += clock_sign*d;
+        x->f[k] += clock_sign*x->q[k]/d;
+        x->f[x->stride+k] += clock_sign*clock_factor*x->q[x->stride+k]/d;
+    }
+    return (void)user, 0;
+}
+
+static void clocks_are_checked(void **state)
+{
+    memset(&made, 0, sizeof made);
+    made.desc = (gvi_desc){ .n = 2, .effects = made.effects, .effect_count = 1 };
+    made.effects[0] = (gvi_effect){ .kind = GVI_CLOCK, .points = distance_clock };
+    made.q[0] = 0.3, made.q[1] = 0.8;
+    assert_int_equal(check(), 0);
+    clock_factor = 1 + 1e-7;
+    check();
+    assert_found(CHECK_DERIVATIVE, 0, "f", 1, -1);
+    assert_int_equal(report.count, 1);
+    clock_factor = 1;
+    clock_sign = -1;
+    check();
+    assert_found(CHECK_POSITIVE, 0, "value", -1, -1);
+    assert_int_equal(report.count, 1);
+    clock_sign = 1;
+    (void)state;
+}
+
+/* ---------------------------------------------------------------- sensitivity */
+
+/* The smallest relative error of the largest entry of f that is found, by halves. */
+static double smallest_found(const scene *a, int e)
+{
+    double f[SCENE_MAX], p[SCENE_MAX], error = 1e-3;
+    int i = 0;
+    build(a->name);
+    ask(e, made.q, made.v, f, p);
+    for (int k = 0; k < made.desc.n; ++k)
+        if (fabs(f[k]) > fabs(f[i])) i = k;
+    if (made.effects[e].kind == GVI_FORCE || !(fabs(f[i]) > 0)) return 0;
+    for (; error > 1e-13; error /= 2) {
+        build(a->name);
+        plant(e, FACTOR, "f", i, 0, 1 + error);
+        check();
+        if (!found(CHECK_DERIVATIVE, e, "f", i, -1)) return 2*error;
+        assert_int_equal(report.count, 1);
+    }
+    return 2*error;
+}
+
+static void small_errors_are_found(void **state)
+{
+    double worst = 0;
+    for (int a = 0; a < scene_count; ++a) {
+        if (scenes[a]->n > 40) continue;
+        for (int e = 0; e == 0 || e < made.desc.effect_count; ++e) {
+            const double smallest = smallest_found(scenes[a], e);
+            if (!(smallest > 0)) continue;
+            print_message("  %-20s %-12s from %.1e on\n", scenes[a]->name, made.names[e], smallest);
+            assert_between(1e-10, smallest, 2e-8);
+            worst = fmax(worst, smallest);
+        }
+    }
+    print_message("  a relative error of %.1e is found everywhere\n", worst);
+    (void)state;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(right_scenes_pass),
+        cmocka_unit_test(right_scenes_pass_on_the_way),
+        cmocka_unit_test(wrong_entries_of_f_are_named),
+        cmocka_unit_test(wrong_index_is_two_findings),
+        cmocka_unit_test(wrong_entries_of_dldv_are_named),
+        cmocka_unit_test(wrong_entries_of_hessians_are_named),
+        cmocka_unit_test(transposed_hessians_are_named),
+        cmocka_unit_test(forces_without_value_must_have_a_potential),
+        cmocka_unit_test(manners_are_checked),
+        cmocka_unit_test(hessians_add_and_stay_inside),
+        cmocka_unit_test(a_potential_that_reads_the_velocity_is_named),
+        cmocka_unit_test(refusals_are_named),
+        cmocka_unit_test(f_and_value_in_one_call),
+        cmocka_unit_test(slips_of_a_mass_are_named),
+        cmocka_unit_test(slips_of_a_mass_gradient_are_named),
+        cmocka_unit_test(velocity_counts_lagrangian_terms),
+        cmocka_unit_test(a_dense_matrix_must_be_symmetric_and_definite),
+        cmocka_unit_test(clocks_are_checked),
+        cmocka_unit_test(small_errors_are_found),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,192 @@
+/* The price list of examples/scenes/price.c, and the promise behind it: what a
+   scene does not list is not asked, not once, takes no byte, and leaves no trace.
+   Instructions are counted by tests/tools/prices.sh; results to the bit and
+   switching are in test_scenes.c.                                             */
+#include "gvi_test.h"
+#include "scenes/scenes.c"
+#define PRICE_NO_MAIN
+#include "scenes/price.c"
+
+static scene_setup made;
+static gvi_stepper st;
+
+/* In the place of an effect that is not listed: whoever asks it is counted.     */
+static int asked;
+
+static int trap_points(const gvi_points *x, void *user) { return (void)x, (void)user, ++asked, 0; }
+
+static int trap_hessian(gvi_real t, const gvi_real *q, const gvi_real *v,
+                        gvi_real *fq, gvi_real *fv, gvi_real *pv, void *user)
+{
+    return (void)t, (void)q, (void)v, (void)fq, (void)fv, (void)pv, (void)user, ++asked, 0;
+}
+
+/* Puts effect e at the end of the array and leaves it out of the count, its
+   callbacks trapped.                                                          */
+static gvi_effect unlist(int e)
+{
+    const gvi_effect was = made.effects[e];
+    const int last = --made.desc.effect_count;
+    for (int k = e; k < last; ++k) made.effects[k] = made.effects[k+1];
+    made.effects[last] = (gvi_effect){ .kind = was.kind, .points = trap_points, .value = trap_points,
+                                       .hessian = trap_hessian };
+    return was;
+}
+
+/* Every scene, every effect: the rest of the scene is all that is asked, in steps
+   and in all queries, and it has no counter.                                  */
+static void unlisted_effects_are_never_asked(void **state)
+{
+    int seen = 0;
+    for (int a = 0; a < scene_count; ++a) {
+        scene_build(scenes[a], &made, NULL);
+        for (int e = 0, all = made.desc.effect_count; e < all; ++e, ++seen) {
+            double energy, q[SCENE_MAX], v[SCENE_MAX], action;
+            scene_build(scenes[a], &made, NULL);
+            unlist(e);
+            double *memory = malloc(gvi_size(&made.desc));
+            assert_non_null(memory);
+            asked = 0;
+            assert_ok(gvi_init(&st, &made.desc, memory, gvi_size(&made.desc)));
+            assert_ok(gvi_start(&st, 0, made.q, made.v));
+            for (int k = 0; k < 20; ++k) assert_ok(gvi_step(&st, scenes[a]->h));
+            assert_ok(gvi_energy(&st, &energy));
+            assert_ok(gvi_velocity(&st, v));
+            assert_ok(gvi_action(&st, &action));
+            assert_ok(gvi_curve(&st, 0.3, q, v));
+            assert_ok(gvi_state_at(&st, st.t - 0.4*scenes[a]->h, q, v, NULL));
+            assert_int_equal(asked, 0);
+            for (int k = 0; k < GVI_EFFECTS; ++k)
+                assert_true((st.counters.effect[k] > 0) == (k < made.desc.effect_count));
+            free(memory);
+        }
+    }
+    assert_int_equal(seen, 29);
+    (void)state;
+}
+
+/* The trap works: listed, it is asked.                                         */
+static void the_trap_counts(void **state)
+{
+    double memory[20000];
+    scene_build(scene_find("elastic_pendulum"), &made, NULL);
+    made.effects[1].points = trap_points;
+    asked = 0;
+    assert_ok(gvi_init(&st, &made.desc, memory, sizeof memory));
+    assert_ok(gvi_start(&st, 0, made.q, made.v));
+    assert_ok(gvi_step(&st, 0.05));
+    assert_true(asked > 0);
+    (void)state;
+}
+
+/* Memory depends on what the list as a whole asks for, not on its length: for every
+   scene and effect, leaving it out gives the bytes of a scene with whatever other
+   effect of the kinds that are left; and as many as the scene with all of them
+   unless the formulation is another, which then is smaller.                    */
+static void unlisted_effects_take_no_bytes(void **state)
+{
+    int less = 0;
+    for (int a = 0; a < scene_count; ++a) {
+        scene_build(scenes[a], &made, NULL);
+        const size_t all = gvi_size(&made.desc);
+        for (int e = 0, count = made.desc.effect_count; e < count; ++e) {
+            scene_build(scenes[a], &made, NULL);
+            unlist(e);
+            const size_t without = gvi_size(&made.desc);
+            assert_true(without > 0 && without <= all);
+            less += without < all;
+            // what is left, each twice: no more
+            gvi_effect twice[2*GVI_EFFECTS];
+            const int left = made.desc.effect_count;
+            if (left == 0 || 2*left > GVI_EFFECTS) continue;
+            for (int k = 0; k < 2*left; ++k) twice[k] = made.effects[k % left];
+            made.desc.effects = twice;
+            made.desc.effect_count = 2*left;
+            assert_true(gvi_size(&made.desc) == without);
+        }
+    }
+    print_message("  %d of them, unlisted, make the memory smaller\n", less);
+    assert_true(less >= 3);
+    (void)state;
+}
+
+/* ----------------------------------------------------------- the list itself */
+
+static const price *without_effect(const scene *a, const price *without, const char *name)
+{
+    scene_build(a, &made, NULL);
+    return without + scene_effect(&made, name);
+}
+
+/* Points are what counters say they are: whole iterations of r points a step; and the
+   formulation with and without what asks for velocities.                       */
+static void the_price_list_is_right(void **state)
+{
+    static const struct { const char *scene, *effect; gvi_formulation with, without; } known[] = {
+        { "net", "air", GVI_VELOCITIES, GVI_POSITIONS },
+        { "net", "hooks", GVI_VELOCITIES, GVI_VELOCITIES },
+        { "satellite", "air", GVI_VELOCITIES, GVI_POSITIONS },
+        { "satellite", "oblateness", GVI_VELOCITIES, GVI_VELOCITIES },
+        { "arenstorf", "frame", GVI_VELOCITIES, GVI_POSITIONS },
+        { "robot_arm", "weight", GVI_MOMENTA, GVI_MOMENTA } };
+    for (int k = 0; k < COUNT(known); ++k) {
+        const scene *a = scene_find(known[k].scene);
+        price all = { .status = GVI_OK }, without[GVI_EFFECTS];
+        memset(without, 0, sizeof without);
+        assert_ok(price_scene(a, 30, 1, &all, without));
+        const price *p = without_effect(a, without, known[k].effect);
+        assert_int_equal(all.formulation, known[k].with);
+        assert_int_equal(p->formulation, known[k].without);
+        assert_true(p->bytes <= all.bytes && all.bytes > 0);
+        assert_true(all.step >= 0 && p->step >= 0);
+        // each point of each iteration: all effects alike, as many as iterations times r or a few more
+        const int count = made.desc.effect_count;
+        for (int e = 1; e < count; ++e) assert_true(all.points[e] == all.points[0]);
+        assert_between(all.iterations*a->degree, all.points[0], (all.iterations + 2)*a->degree + 1);
+        for (int e = count; e < GVI_EFFECTS; ++e) assert_true(all.points[e] == 0);
+        for (int e = count - 1; e < GVI_EFFECTS; ++e) assert_true(p->points[e] == 0);
+    }
+    (void)state;
+}
+
+/* An effect that does so much work that it must be most of the time is shown so. */
+static int busy_points(const gvi_points *x, void *user)
+{
+    static volatile double sink;
+    double sum = 0;
+    for (int k = 0; k < 3000*x->count; ++k) sum += sin((double)k);
+    sink = sum;
+    return (void)sink, (void)user, 0;
+}
+
+static void busy_build(scene_setup *s)
+{
+    elastic_pendulum_build(s);
+    scene_add(s, "busy", (gvi_effect){ .kind = GVI_POTENTIAL, .points = busy_points, .value = busy_points });
+}
+
+static void shares_of_time_are_seen(void **state)
+{
+    scene busy = elastic_pendulum;
+    price all = { .status = GVI_OK }, without[GVI_EFFECTS];
+    busy.build = busy_build;
+    memset(without, 0, sizeof without);
+    assert_ok(price_scene(&busy, 40, 3, &all, without));
+    const double share = 1 - without[2].step/all.step, other = 1 - without[0].step/all.step;
+    print_message("  busy: %.1f %% of the time; weight: %.1f %%\n", 100*share, 100*other);
+    assert_true(share > 0.9);
+    assert_true(other < 0.5);
+    (void)state;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(unlisted_effects_are_never_asked),
+        cmocka_unit_test(the_trap_counts),
+        cmocka_unit_test(unlisted_effects_take_no_bytes),
+        cmocka_unit_test(the_price_list_is_right),
+        cmocka_unit_test(shares_of_time_are_seen),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
