@@ -94,7 +94,7 @@ int main(void)
     for (; slips >= 0; --slips) {
         check_finding list[10];
         check_report report = { .list = list, .room = 10 };
-        char line[200];
+        char line[300];
         int count = check_scene(&desc, 0, (double[]){ 1.2, 0.5 }, (double[]){ -3, 4 }, &report);
         printf("%s: %d found\n", slips ? "with slips" : "mended", count);
         for (int i = 0; i < count && i < 10; ++i) printf("  %s\n", check_line(&list[i], line, sizeof line));

@@ -114,7 +114,7 @@ static void print_table(const char *name, int count, const double *x)
 static void print_result(const advise_case *a, const advise_result *r)
 {
     const advise_setting *s = &r->setting;
-    char name[64];
+    char name[96];
     printf("\n%s: error %.1e%s, %.3g s for %ld steps\n\n", advise_name(s, name, sizeof name), r->error,
            r->proved ? "" : " (extrapolated)", r->cost, r->steps);
     if (s->kicks) {

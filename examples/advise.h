@@ -295,7 +295,7 @@ static inline void advise_list(struct advise *x, advise_setting s)
 
 static inline void advise_try(struct advise *x, advise_setting s)
 {
-    char name[64], line[160];
+    char name[96], line[240];
     const gvi_desc d = advise_desc(x->a, &s);
     if (gvi_size(&d) == 0) return;                            // the scene has no such formulation
     if (!(s.steps > 0)) s.steps = advise_fours(x->guess/(s.kicks ? s.points/6.0 : s.degree));
@@ -360,7 +360,7 @@ static inline double advise_growth(struct advise *x, double h)
 {
     const double span = x->a->horizon, ratio = span/x->window;
     advise_setting pilot = { .degree = 6, .order = 12 };
-    char line[160];
+    char line[240];
     double early, late, power = 1;
     for (double goal = 1e-7; goal > 1e-12; goal /= 30) {
         x->target = goal;
@@ -394,7 +394,7 @@ static inline void advise_prove(struct advise *x, advise_setting *s)
 {
     const double span = x->a->horizon, wanted = x->o->error;
     double steps = advise_fours(s->steps*span/x->window), power = s->order, before = 0, error_before = 0;
-    char name[64], line[200];
+    char name[96], line[280];
     for (int k = 0; k < 5; ++k) {
         const struct advise_run run = advise_go(x, s, span, steps);
         double error = HUGE_VAL;
@@ -457,7 +457,7 @@ static inline int advise_find(const advise_case *a, const advise_options *o, adv
 {
     static struct advise x;
     const size_t room = (size_t)(2*ADVISE_SAMPLES*a->desc.n)*sizeof(double);
-    char line[160];
+    char line[240];
     int found = -1, shrunk = 0;
     memset(result, 0, sizeof *result);
     x = (struct advise){ .a = a, .o = o, .result = result, .proof = 1, .best = HUGE_VAL,

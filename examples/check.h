@@ -2,7 +2,7 @@
 
      check_finding list[20];
      check_report report = { .list = list, .room = 20 };
-     char line[200];
+     char line[300];
      check_scene(&desc, t, q, v, &report);
      for (int i = 0; i < report.count && i < 20; ++i)
          puts(check_line(&list[i], line, sizeof line));

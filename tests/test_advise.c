@@ -109,7 +109,7 @@ static void advise_well(const char *key, double weight, double error)
     const advise_options o = { .error = error, .seconds = 20, .counted = 1, .say = say };
     const double size = largest_coordinate(&a);
     advise_result r;
-    char name[64], best_name[64] = "none";
+    char name[96], best_name[96] = "none";
     double cost, best, real;
     assert_int_equal(advise_find(&a, &o, &r), 0);
     real = run(&a, p, &r.setting, r.steps, &cost)/size;
