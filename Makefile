@@ -41,6 +41,10 @@ SCENES       = $(filter-out scene scenes price,$(basename $(notdir $(wildcard ex
 THEOREMS  = order lagrangian curve forced doubled spectral identities inertia stability
 QUADRUPLE = order lagrangian forced
 
+# The long studies of docs/hard-cases.md.
+HARD         = eccentric pythagorean corners stiff long brouwer brouwer-float
+FUZZ_SECONDS = 60
+
 # What accuracy costs: optimised as a user in a hurry would.
 COST_CFLAGS  = -O3 -march=native -ffp-contract=fast -fno-math-errno -fno-trapping-math
 COST_ARGS    =
@@ -53,7 +57,7 @@ RECORD       =
 .DELETE_ON_ERROR:
 .PHONY: run deps test unit examples headers symbols docs-check sanitize valgrind \
         figures synopsis install uninstall help clean cmocka \
-        cost cost-horizon ncdp scaling cost-peers deps-compare instructions prices advise scenes $(SCENES:%=scene-%) theorems $(THEOREMS:%=theorem-%) \
+        cost cost-horizon ncdp scaling cost-peers deps-compare instructions prices advise hard fuzz $(HARD:%=hard-%) scenes $(SCENES:%=scene-%) theorems $(THEOREMS:%=theorem-%) \
         $(PROGRAMS:%=run-%) $(EXAMPLES:%=example-%) $(VALGRIND_TESTS:%=valgrind-%) \
         $(VALGRIND_EXAMPLES:%=valgrind-%)
 
@@ -153,6 +157,14 @@ instructions:
 prices:
 	$(Q)CC='$(CC)' sh tests/tools/prices.sh $(BUILD)
 
+## hard         hard cases at length, docs/hard-cases.md (two minutes); one: make hard-brouwer
+hard: $(HARD:%=hard-%)
+
+## fuzz         a minute of libFuzzer on descriptions and calls (clang)
+fuzz: $(BUILD)/fuzz/fuzz_scene
+	$(Q)mkdir -p $(BUILD)/fuzz/corpus
+	$(Q)$< -max_total_time=$(FUZZ_SECONDS) -max_len=800 -timeout=10 -artifact_prefix=$(BUILD)/fuzz/ $(BUILD)/fuzz/corpus
+
 ## theorems     docs/theorems.md measured again, with its pictures (a few minutes); one: make theorem-curve
 theorems: $(THEOREMS:%=theorem-%)
 
@@ -224,6 +236,25 @@ $(SCENES:%=scene-%): scene-%: $(BUILD)/examples/scene
 	$(Q)mkdir -p docs/img/scenes
 	$(Q)$< $* --svg docs/img/scenes/$*.svg
 
+$(BUILD)/hard/%: tests/hard/%.c
+	@mkdir -p $(@D)
+	@echo '  cc $@'
+	$(Q)$(COMPILE) $(TESTFLAGS) $< -o $@ $(LDLIBS)
+
+$(BUILD)/hard/%-float: tests/hard/%.c
+	@mkdir -p $(@D)
+	@echo '  cc $@'
+	$(Q)$(COMPILE) -DGVI_REAL=float $(TESTFLAGS) $< -o $@ $(LDLIBS)
+
+$(HARD:%=hard-%): hard-%: $(BUILD)/hard/%
+	$(Q)$< $(if $(filter stiff,$*),docs/img)
+
+$(BUILD)/fuzz/fuzz_scene: tests/fuzz/fuzz_scene.c gvi.h
+	@mkdir -p $(@D)
+	@echo '  clang $@'
+	$(Q)clang -std=c99 -g -O1 -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all $(WARNINGS) \
+	    -Wno-float-equal -Wno-double-promotion -I. $< -o $@ $(LDLIBS)
+
 $(BUILD)/theorems/%: tests/theorems/%.c
 	@mkdir -p $(@D)
 	@echo '  cc $@'
@@ -274,4 +305,4 @@ ifneq ($(filter deps,$(MAKECMDGOALS)),)
 cmocka headers symbols docs-check instructions prices $(EXAMPLES:%=$(BUILD)/examples/%): | deps
 endif
 
--include $(wildcard $(BUILD)/tests/*.d $(BUILD)/examples/*.d $(BUILD)/cost/*.d $(BUILD)/theorems/*.d)
+-include $(wildcard $(BUILD)/tests/*.d $(BUILD)/examples/*.d $(BUILD)/cost/*.d $(BUILD)/theorems/*.d $(BUILD)/hard/*.d)

@@ -804,7 +804,8 @@ static gvi__two gvi__over2(gvi__two a, int k)
 // nearest multiple of `unit`, a power of 2: sums of such numbers are exact
 static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 {
-    return gvi__floor(a.hi/unit + (a.lo/unit + (gvi_real)0.5))*unit;
+    const gvi_real whole = gvi__floor(a.hi/unit);      // the sum with 1/2 would round once more
+    return (whole + gvi__floor((a.hi/unit - whole) + (a.lo/unit + (gvi_real)0.5)))*unit;
 }
 
 /* -------------------------------------------------------------- DENSE LU */
@@ -2879,8 +2880,12 @@ static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_r
         poor = grows ? poor + 1 : 0;
         idle = change < least*81/100 ? 0 : idle + 1;
         if (change < least) least = change;
-        if ((idle > 2 && change <= rounding) || ((idle > 1 || poor > 2) && gvi__is_rounding(st, from, idle)))
-            return gvi__watch_last(st, change), GVI_OK;
+        if ((idle > 2 && change <= rounding) || ((idle > 1 || poor > 2) && gvi__is_rounding(st, from, idle))) {
+            // rows that go to and fro in their last places: their own F, not that of the
+            // side that they came from, which would be a bias
+            gvi__watch_last(st, change);
+            return gvi__ask(st, from, &points);
+        }
         if (poor > 2 && fall_back && change > 65536*rounding) break;    // nearer, idle decides
         earlier = before;
         before = change;
@@ -2993,7 +2998,7 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__from *from, int k0)
             gvi_real momentum = k == 0 ? -(h*from->p[i] + h*from->pe[i]) : 0, force = 0, size = 0;
             for (int j = 0; j < st->r; ++j) {
                 gvi_real W = (k == 0 ? 1 : 0) - x->Phi[k*R + j];
-                gvi_real a = x->hb[j]*x->phi[k*R + j]*P[j], b = x->hb[j]*W*F[j];
+                gvi_real a = x->phi[k*R + j]*(x->hb[j]*P[j]), b = W*(x->hb[j]*F[j]);
                 momentum += a;
                 force += b;
                 size += gvi__abs(a/h) + gvi__abs(b);

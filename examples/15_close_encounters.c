@@ -55,8 +55,11 @@ int main(void)
     double e0 = 0, energy = 0, farthest = 0, q[2];
     gvi_init(&st, &desc, memory, sizeof memory);
     gvi_start(&st, 0, start, v);
-    for (int k = 0; k < 20*400 && gvi_step(&st, turn/400) == GVI_OK; ++k) farthest = fmax(farthest, hypot(st.q[0], st.q[1]));
-    printf("fixed step, 400 a revolution: %s, worst contraction above 1/4: %s\n", farthest > 10 ? "thrown out" : "bound",
+    for (int k = 0; k < 20*400 && gvi_step(&st, turn/400) == GVI_OK; ++k) farthest = fmax(farthest,
+                                                                                          hypot(st.q[0],
+                                                                                                st.q[1]));
+    printf("fixed step, 400 a revolution: %s, worst contraction above 1/4: %s\n",
+           farthest > 10 ? "thrown out" : "bound",
            st.counters.worst_contraction > 0.25 ? "yes" : "no");
 
     desc.effect_count = 2;

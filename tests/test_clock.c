@@ -156,7 +156,8 @@ static void by_tau(real tau, const real *y, real *dy, void *user)
 static gvi_desc describe(scene_name a, int s)
 {
     static const gvi_effect kepler[] = { { .kind = GVI_POTENTIAL, .points = attraction, .value = attraction },
-                                         { .kind = GVI_CLOCK, .points = distance_clock, .user = &power_one } };
+                                         { .kind = GVI_CLOCK, .points = distance_clock,
+                                           .user = &power_one } };
     static const gvi_effect others[] = { { .kind = GVI_POTENTIAL, .point = gravity, .value = gravity_value },
                                          { .kind = GVI_CLOCK, .points = smooth_clock },
                                          { .kind = GVI_LAGRANGIAN, .point = field, .value = field_value } };
@@ -235,8 +236,10 @@ static void the_order_is_twice_the_degree(void **state)
     for (int s = 1; s <= 4; ++s) {
         const int N = steps[a][s];
         const errors e = errors_of((scene_name)a, s, 2*N), f = errors_of((scene_name)a, s, 4*N);
-        const real by_state = log2(e.state/f.state), by_time_too = log2(e.time/f.time), inside = log2(e.inside/f.inside);
-        print_message("    %-18s degree %d: order %.2f, of t %.2f, at a wanted time %.2f; error %.1e\n", names[a], s,
+        const real by_state = log2(e.state/f.state), by_time_too = log2(e.time/f.time);
+        const real inside = log2(e.inside/f.inside);
+        print_message("    %-18s degree %d: order %.2f, of t %.2f, at a wanted time %.2f; error %.1e\n",
+                      names[a], s,
                       (double)by_state, (double)by_time_too, (double)inside, (double)f.state);
         assert_true(f.state > 50*EPS);
         assert_between(2*s - 0.3, by_state, 2*s + 0.4);
@@ -379,7 +382,10 @@ static void a_constant_clock_is_a_longer_step(void **state)
         int n = 0;
         memcpy(effects, with.effects, (size_t)with.effect_count*sizeof effects[0]);
         for (int e = 0; e < with.effect_count; ++e)
-            if (effects[e].kind == GVI_CLOCK) effects[e] = (gvi_effect){ .kind = GVI_CLOCK, .points = constant_clock, .user = &c };
+            if (effects[e].kind == GVI_CLOCK) {
+                effects[e].points = constant_clock;
+                effects[e].user = &c;
+            }
         with.effects = effects;
         without = with;
         static gvi_effect rest[3];
@@ -615,7 +621,8 @@ static void questions_about_the_action_are_refused(void **state)
     begin(&st, PENDULUM, 4, start);
     assert_ok(gvi_step(&st, (real)0.125));
     assert_status(gvi_action(&st, &number), GVI_E_FORMULATION);
-    assert_status(gvi_discrete_lagrangian(&st, 0, (real)0.125, start, start + 2, &(gvi_discrete){ .p0 = q }), GVI_E_FORMULATION);
+    assert_status(gvi_discrete_lagrangian(&st, 0, (real)0.125, start, start + 2, &(gvi_discrete){ .p0 = q }),
+                  GVI_E_FORMULATION);
     assert_status(gvi_start_configurations(&st, 0, (real)0.125, start, start + 2), GVI_E_FORMULATION);
     assert_status(gvi_state_at(&st, st.t*2, q, NULL, NULL), GVI_E_STATE);
     assert_true(q[0] == 7 && q[1] == 7 && number == 7);
@@ -676,8 +683,8 @@ static long double excess(long double E)
     return sum;
 }
 
-/* Where the planet is at time t after the perihelion, or the aphelion: (E - sin E) + (1 - e) sin E = M, by Newton's method
-   kept inside an interval by bisection                                        */
+/* Where the planet is at time t after the perihelion, or the aphelion:
+   (E - sin E) + (1 - e) sin E = M, by Newton's method kept inside an interval by bisection */
 static void kepler(const ellipse *o, int far, long double t, long double *x, long double *y)
 {
     const long double e = 1 - o->rest, turns = t/o->period + far/2.0L;

@@ -107,8 +107,10 @@ static int potential(real t, const real *q, const real *v, real *f, real *dldv, 
 static void over_mass(gvi_mass_kind mass, const real *p, real *v)
 {
     const real det = dense[0]*dense[3] - dense[1]*dense[2];
-    v[0] = mass == GVI_MASS_DENSE ? (dense[3]*p[0] - dense[1]*p[1])/det : mass == GVI_MASS_UNIT ? p[0] : p[0]/diagonal[0];
-    v[1] = mass == GVI_MASS_DENSE ? (dense[0]*p[1] - dense[2]*p[0])/det : mass == GVI_MASS_UNIT ? p[1] : p[1]/diagonal[1];
+    for (int i = 0; i < 2; ++i) v[i] = mass == GVI_MASS_UNIT ? p[i] : p[i]/diagonal[i];
+    if (mass != GVI_MASS_DENSE) return;
+    v[0] = (dense[3]*p[0] - dense[1]*p[1])/det;
+    v[1] = (dense[0]*p[1] - dense[2]*p[0])/det;
 }
 
 static void rates(real t, const real *y, real *dy, void *user)
@@ -362,7 +364,8 @@ static void the_last_kick_is_not_asked_for_twice(void **state)
         set_up(&st, &desc, start, memory);
         for (int k = 0; k < 100; ++k) assert_ok(gvi_step(&st, 0.01L));
         assert_int_equal(st.counters.effect[0], shared ? 100*(r - 1) + 1 : 100*r);
-        assert_int_equal(st.counters.iterations + st.counters.newton_iterations + st.counters.factorizations, 0);
+        assert_int_equal(st.counters.iterations + st.counters.newton_iterations, 0);
+        assert_int_equal(st.counters.factorizations, 0);
     }
 }
 
@@ -436,7 +439,8 @@ static void questions_that_a_broken_line_cannot_answer_are_refused(void **state)
     assert_ok(gvi_step(&st, 0.125L));
     assert_status(gvi_curve(&st, 0.5L, q, NULL), GVI_E_FORMULATION);
     assert_status(gvi_action(&st, &number), GVI_E_FORMULATION);
-    assert_status(gvi_discrete_lagrangian(&st, 0, 0.125L, start, start + 2, &(gvi_discrete){ .p0 = q }), GVI_E_FORMULATION);
+    assert_status(gvi_discrete_lagrangian(&st, 0, 0.125L, start, start + 2, &(gvi_discrete){ .p0 = q }),
+                  GVI_E_FORMULATION);
     assert_status(gvi_start_configurations(&st, 0, 0.125L, start, start + 2), GVI_E_FORMULATION);
     assert_true(q[0] == 7 && q[1] == 7 && number == 7);
     assert_ok(gvi_step(&st, 0.125L));
@@ -500,7 +504,8 @@ static void a_switched_effect_is_in_the_next_kick(void **state)
         assert_ok(gvi_init(&fresh, &two, memory, sizeof memory));
         assert_ok(gvi_start_momentum(&fresh, b.t - 0.125L, y, y + 2));
         assert_ok(gvi_step(&fresh, 0.125L));
-        assert_between(0, distance(b.q, b.p, (const real[]){ fresh.q[0], fresh.q[1], fresh.p[0], fresh.p[1] }), 8*EPS);
+        for (int j = 0; j < 2; ++j) { y[j] = fresh.q[j]; y[2 + j] = fresh.p[j]; }
+        assert_between(0, distance(b.q, b.p, y), 8*EPS);
     }
 }
 

@@ -18,7 +18,8 @@ typedef struct motion { int n; rates_fn *rates; void *user; } motion;
 
 static void midpoints(const motion *a, real t, real H, int m, const real *y, real *out)
 {
-    real now[EXTRAPOLATE_MOST], old[EXTRAPOLATE_MOST], d[EXTRAPOLATE_MOST], x[EXTRAPOLATE_MOST], h = H/(real)m;
+    real now[EXTRAPOLATE_MOST], old[EXTRAPOLATE_MOST], d[EXTRAPOLATE_MOST], x[EXTRAPOLATE_MOST];
+    const real h = H/(real)m;
     a->rates(t, y, d, a->user);
     for (int i = 0; i < a->n; ++i) { old[i] = 0; now[i] = h*d[i]; }
     for (int k = 1; k <= m; ++k) {
