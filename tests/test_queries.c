@@ -21,7 +21,7 @@ static void set_up(gvi_stepper *st, const gvi_desc *desc, int slot)
     assert_ok(gvi_init(st, desc, memory[slot], sizeof memory[slot]));
 }
 
-static real larger(real a, real b) { return !(b <= a) ? b : a; }        /* keeps NaN */
+static real larger(real a, real b) { return isnan(a) || b <= a ? a : b; }       /* keeps NaN */
 
 /* Not memcmp: long double has padding */
 #define assert_same(a, b) do { \

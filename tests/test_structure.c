@@ -21,7 +21,7 @@ static real uniform(void)
     return (real)(seed >> 33)/(real)2147483648.0L;
 }
 
-static real larger(real a, real b) { return !(b <= a) ? b : a; }        /* keeps NaN */
+static real larger(real a, real b) { return isnan(a) || b <= a ? a : b; }       /* keeps NaN */
 
 static real memory[40000];
 
