@@ -523,10 +523,10 @@ GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_rea
 GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_real h,
                                             const gvi_real *q0, const gvi_real *q1);
 
-/* One step to t + h (with a clock: to tau + h); h < 0 steps back; h may differ from step to step (which
-   keeps the map symplectic but not the energy's long-time bound).  If what an
-   effect reads through `user` changes between steps, call gvi_switch(st, i, 1):
-   the explicit formulation keeps the force at the end of a step for the next.  */
+/* One step to t + h (with a clock: to tau + h); h < 0 steps back; h may differ
+   from step to step (which keeps the map symplectic but not the energy's
+   long-time bound).  If what an effect reads through `user` changes between
+   steps, call gvi_switch(st, i, 1): the explicit formulation keeps the force at the end of a step for the next.  */
 GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h);
 
 /* Switches effect `index` off (on = 0) or on again, between steps.           */
@@ -539,9 +539,9 @@ GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy);
 
 /* In the last step.  gvi_curve: the polynomial at tau in [0,1] and its
    derivative, error O(h^(min(s,u/2)+1)) and one order less; with a clock tau is
-   its own time, and v still dq/dt.  gvi_state_at: the
-   state at time t (a time, not tau) inside it, at the full order, by a partial
-   step from the nearer end.
+   its own time, and v still dq/dt.
+   gvi_state_at: the state at time t (a time, not tau) inside it, at the full
+   order, by a partial step from the nearer end.
    gvi_action: the quadrature of L over it, both with the effects that are on now.
    A broken line has neither curve nor action, a clock no action: GVI_E_FORMULATION.
    q, v, p of length n, or NULL.
