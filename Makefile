@@ -55,7 +55,7 @@ RECORD       =
 
 .DEFAULT_GOAL = help
 .DELETE_ON_ERROR:
-.PHONY: run deps test unit examples headers symbols docs-check sanitize valgrind \
+.PHONY: run deps test unit examples headers symbols parts docs-check sanitize valgrind \
         figures synopsis install uninstall help clean cmocka \
         cost cost-horizon ncdp scaling cost-peers deps-compare instructions prices advise hard fuzz $(HARD:%=hard-%) scenes $(SCENES:%=scene-%) theorems $(THEOREMS:%=theorem-%) \
         $(PROGRAMS:%=run-%) $(EXAMPLES:%=example-%) $(VALGRIND_TESTS:%=valgrind-%) \
@@ -69,9 +69,9 @@ run: $(BUILD)/examples/02_outer_solar_system
 deps:
 	$(Q)CC='$(CC)' sh tests/tools/deps.sh
 
-## test         all tests, then examples, docs-check, headers, symbols, instructions and prices
-test: unit examples docs-check headers symbols instructions prices
-	$(Q)sh tests/tools/summary.sh $(BUILD) test unit examples docs-check headers symbols instructions prices
+## test         all tests, then examples, docs-check, headers, symbols, parts, instructions and prices
+test: unit examples docs-check headers symbols parts instructions prices
+	$(Q)sh tests/tools/summary.sh $(BUILD) test unit examples docs-check headers symbols parts instructions prices
 
 ## unit         the test programs alone; one of them: make run-test_lu
 unit: $(PROGRAMS:%=run-%)
@@ -88,6 +88,10 @@ headers:
 ## symbols      exports only gvi_, imports only libm, no data, no recursion
 symbols:
 	$(Q)CC='$(CC)' sh tests/tools/symbols.sh $(BUILD)
+
+## parts        every macro that leaves code out: refusals, the same bits, less code
+parts:
+	$(Q)CC='$(CC)' sh tests/tools/parts.sh $(BUILD)
 
 ## docs-check   the code in README, guide and header is compiled and its output compared
 docs-check:
@@ -302,7 +306,7 @@ $(VALGRIND_EXAMPLES:%=valgrind-%): valgrind-%: $(BUILD)/examples/%
 
 # "make -j deps test": what is compiled against cmocka waits for its installation.
 ifneq ($(filter deps,$(MAKECMDGOALS)),)
-cmocka headers symbols docs-check instructions prices $(EXAMPLES:%=$(BUILD)/examples/%): | deps
+cmocka headers symbols parts docs-check instructions prices $(EXAMPLES:%=$(BUILD)/examples/%): | deps
 endif
 
 -include $(wildcard $(BUILD)/tests/*.d $(BUILD)/examples/*.d $(BUILD)/cost/*.d $(BUILD)/theorems/*.d $(BUILD)/hard/*.d)

@@ -115,6 +115,21 @@
      GVI_STATIC          [that file]   everything static: private copy
      GVI_REAL            [everywhere]  float, double (default), long double
      GVI_EFFECTS         [everywhere]  most effects a scene may list: 16, to 32
+
+   Less code, for small machines (docs/embedded.md), all in [that file]:
+
+     GVI_ONLY_EXPLICIT, GVI_ONLY_POSITIONS, GVI_ONLY_VELOCITIES, GVI_ONLY_MOMENTA,
+     GVI_ONLY_NEWTON      these formulations and no others (see HOW IT WORKS)
+     GVI_NO_LAGRANGIAN    no effects of kind GVI_LAGRANGIAN, no GVI_MASS_NONE
+     GVI_NO_CLOCK         no effects of kind GVI_CLOCK
+     GVI_NO_DENSE         no GVI_MASS_DENSE
+     GVI_NO_OWN           no GVI_OWN
+
+   A description that asks for what was left out is refused: GVI_E_FORMULATION.
+   With GVI_STATIC, functions that are not called vanish as well.
+
+     GVI_SQRT(x) GVI_SIN(x) GVI_ABS(x) GVI_FLOOR(x) GVI_LDEXP(x, e) GVI_FREXP(x, &e)
+                          given all, in gvi_real: <math.h> is not included
 */
 /* ------------------------------------------------------------- HOW IT WORKS
 
@@ -404,6 +419,10 @@ typedef struct gvi_desc {
                                           as the last two changes predict it, is
                                           below tolerance*|q|.  0: at round-off */
     int               max_iterations;  /* to 1,000,000.  0: 60                 */
+    int               iterations;      /* N: exactly N of the fixed point in every step, for
+                                          a loop with a deadline, and no Newton.  It fails if
+                                          the last change is neither half the one before nor
+                                          rounding.  0: as many as it takes    */
 } gvi_desc;
 
 #define GVI_FAULT_NONE (-1)
@@ -640,43 +659,94 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 /* --------------------------------------------------------------- SUPPORT */
 
 #include <float.h>
-#include <math.h>
 #include <stdint.h>
-#include <string.h>
+
+#ifndef GVI_SQRT
+#include <math.h>
+#if GVI__KIND == 1
+#define GVI__MATH(name) name##f
+#elif GVI__KIND == 2
+#define GVI__MATH(name) name
+#else
+#define GVI__MATH(name) name##l
+#endif
+#define GVI_SQRT(x)      GVI__MATH(sqrt)(x)
+#define GVI_SIN(x)       GVI__MATH(sin)(x)
+#define GVI_ABS(x)       GVI__MATH(fabs)(x)
+#define GVI_FLOOR(x)     GVI__MATH(floor)(x)
+#define GVI_LDEXP(x, e)  GVI__MATH(ldexp)(x, e)
+#define GVI_FREXP(x, pe) GVI__MATH(frexp)(x, pe)
+#endif
 
 #if GVI__KIND == 1
-#define GVI__EPS   FLT_EPSILON
-#define GVI__MAX   FLT_MAX
-#define GVI__MIN   FLT_MIN
-#define GVI__DIG   FLT_MANT_DIG
-#define gvi__sqrt  sqrtf
-#define gvi__abs   fabsf
-#define gvi__floor floorf
-#define gvi__ldexp ldexpf
-#define gvi__frexp frexpf
-#define gvi__sin   sinf
+#define GVI__EPS FLT_EPSILON
+#define GVI__MAX FLT_MAX
+#define GVI__MIN FLT_MIN
+#define GVI__DIG FLT_MANT_DIG
 #elif GVI__KIND == 2
-#define GVI__EPS   DBL_EPSILON
-#define GVI__MAX   DBL_MAX
-#define GVI__MIN   DBL_MIN
-#define GVI__DIG   DBL_MANT_DIG
-#define gvi__sqrt  sqrt
-#define gvi__abs   fabs
-#define gvi__floor floor
-#define gvi__ldexp ldexp
-#define gvi__frexp frexp
-#define gvi__sin   sin
+#define GVI__EPS DBL_EPSILON
+#define GVI__MAX DBL_MAX
+#define GVI__MIN DBL_MIN
+#define GVI__DIG DBL_MANT_DIG
 #else
-#define GVI__EPS   LDBL_EPSILON
-#define GVI__MAX   LDBL_MAX
-#define GVI__MIN   LDBL_MIN
-#define GVI__DIG   LDBL_MANT_DIG
-#define gvi__sqrt  sqrtl
-#define gvi__abs   fabsl
-#define gvi__floor floorl
-#define gvi__ldexp ldexpl
-#define gvi__frexp frexpl
-#define gvi__sin   sinl
+#define GVI__EPS LDBL_EPSILON
+#define GVI__MAX LDBL_MAX
+#define GVI__MIN LDBL_MIN
+#define GVI__DIG LDBL_MANT_DIG
+#endif
+
+/* What is compiled.  Whatever was left out stands behind a constant 0, and so no
+   compiler keeps it.                                                         */
+#if defined(GVI_ONLY_EXPLICIT) || defined(GVI_ONLY_POSITIONS) || defined(GVI_ONLY_VELOCITIES) \
+    || defined(GVI_ONLY_MOMENTA) || defined(GVI_ONLY_NEWTON)
+#define GVI__ONLY(yes) yes
+#else
+#define GVI__ONLY(yes) 1
+#endif
+#ifdef GVI_ONLY_EXPLICIT
+#define GVI__EXPLICIT 1
+#else
+#define GVI__EXPLICIT GVI__ONLY(0)
+#endif
+#ifdef GVI_ONLY_POSITIONS
+#define GVI__POSITIONS 1
+#else
+#define GVI__POSITIONS GVI__ONLY(0)
+#endif
+#ifdef GVI_ONLY_VELOCITIES
+#define GVI__VELOCITIES 1
+#else
+#define GVI__VELOCITIES GVI__ONLY(0)
+#endif
+#ifdef GVI_ONLY_MOMENTA
+#define GVI__MOMENTA 1
+#else
+#define GVI__MOMENTA GVI__ONLY(0)
+#endif
+#ifdef GVI_ONLY_NEWTON
+#define GVI__NEWTON 1
+#else
+#define GVI__NEWTON GVI__ONLY(0)
+#endif
+#ifdef GVI_NO_LAGRANGIAN
+#define GVI__LAGRANGIAN 0
+#else
+#define GVI__LAGRANGIAN (GVI__VELOCITIES || GVI__MOMENTA || GVI__NEWTON)
+#endif
+#ifdef GVI_NO_CLOCK
+#define GVI__CLOCK 0
+#else
+#define GVI__CLOCK GVI__MOMENTA
+#endif
+#ifdef GVI_NO_DENSE
+#define GVI__DENSE 0
+#else
+#define GVI__DENSE 1
+#endif
+#ifdef GVI_NO_OWN
+#define GVI__OWN 0
+#else
+#define GVI__OWN 1
 #endif
 
 // arrays that do not overlap
@@ -694,7 +764,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 
 typedef char gvi__effects_fit_a_word[GVI_EFFECTS >= 1 && GVI_EFFECTS <= 32 ? 1 : -1];
 
-static int gvi__finite(gvi_real x) { return gvi__abs(x) <= GVI__MAX; }
+static int gvi__finite(gvi_real x) { return GVI_ABS(x) <= GVI__MAX; }
 
 // true for every x but 0 and NaN
 static int gvi__nonzero(gvi_real x) { return x < 0 || x > 0; }
@@ -804,8 +874,8 @@ static gvi__two gvi__over2(gvi__two a, int k)
 // nearest multiple of `unit`, a power of 2: sums of such numbers are exact
 static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 {
-    const gvi_real whole = gvi__floor(a.hi/unit);      // the sum with 1/2 would round once more
-    return (whole + gvi__floor((a.hi/unit - whole) + (a.lo/unit + (gvi_real)0.5)))*unit;
+    const gvi_real whole = GVI_FLOOR(a.hi/unit);      // the sum with 1/2 would round once more
+    return (whole + GVI_FLOOR((a.hi/unit - whole) + (a.lo/unit + (gvi_real)0.5)))*unit;
 }
 
 /* -------------------------------------------------------------- DENSE LU */
@@ -818,7 +888,7 @@ static gvi_status gvi__lu_scales(int n, const gvi_real *a, gvi_real *pivot, int 
     for (size_t i = 0; i < N; ++i) {
         gvi_real big = 0;
         for (size_t j = 0; j < N; ++j) {
-            gvi_real x = gvi__abs(a[i*N + j]);
+            gvi_real x = GVI_ABS(a[i*N + j]);
             if (!(x <= GVI__MAX)) return GVI_E_NON_FINITE;
             if (x > big) big = x;
         }
@@ -832,7 +902,7 @@ static gvi_status gvi__lu_scales(int n, const gvi_real *a, gvi_real *pivot, int 
     pivot[n] = 0;
     for (size_t j = 0; j < N; ++j) {
         gvi_real sum = 0;
-        for (size_t i = 0; i < N; ++i) sum += gvi__abs(a[i*N + j]);
+        for (size_t i = 0; i < N; ++i) sum += GVI_ABS(a[i*N + j]);
         if (sum > pivot[n]) pivot[n] = sum;
     }
     return status;
@@ -851,7 +921,7 @@ static gvi_status gvi__lu_factor(int n, gvi_real *a, gvi_real *pivot, int *at)
         size_t m = k;
         gvi_real big = -1;
         for (size_t i = k; i < N; ++i) {
-            gvi_real x = gvi__abs(a[i*N + k])*pivot[i];
+            gvi_real x = GVI_ABS(a[i*N + k])*pivot[i];
             if (x > big) { big = x; m = i; }
         }
 
@@ -867,8 +937,8 @@ static gvi_status gvi__lu_factor(int n, gvi_real *a, gvi_real *pivot, int *at)
 
         // check singularity: of the terms that made this pivot only rounding is left
         gvi_real terms = 0;
-        for (size_t j = 0; j < k; ++j) terms += gvi__abs(a[k*N + j]*a[j*N + k]);
-        if (!(gvi__abs(a[k*N + k]) > (gvi_real)n*GVI__EPS*terms)) {
+        for (size_t j = 0; j < k; ++j) terms += GVI_ABS(a[k*N + j]*a[j*N + k]);
+        if (!(GVI_ABS(a[k*N + k]) > (gvi_real)n*GVI__EPS*terms)) {
             *at = (int)k;
             return GVI_E_SINGULAR;
         }
@@ -934,7 +1004,7 @@ static void gvi__lu_solve_transposed(int n, const gvi_real *lu, const gvi_real *
 static gvi_real gvi__norm1(int n, const gvi_real *x)
 {
     gvi_real sum = 0;
-    for (int i = 0; i < n; ++i) sum += gvi__abs(x[i]);
+    for (int i = 0; i < n; ++i) sum += GVI_ABS(x[i]);
     return sum;
 }
 
@@ -959,7 +1029,7 @@ GVI_DEF gvi_real gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot, 
         gvi__lu_solve_transposed(n, lu, pivot, z);
         int next = 0;
         for (int i = 1; i < n; ++i)
-            if (gvi__abs(z[i]) > gvi__abs(z[next])) next = i;
+            if (GVI_ABS(z[i]) > GVI_ABS(z[next])) next = i;
         if (next == corner) break;
         corner = next;
         gvi__zero((size_t)n, x);
@@ -1044,12 +1114,12 @@ static gvi__two gvi__node(int lobatto, int n, int j)
     gvi_real a = lobatto ? (gvi_real)j + (gvi_real)0.25 : (gvi_real)j + (gvi_real)0.75;
     gvi_real theta = lobatto ? pi*a/(gvi_real)m - 3/(8*pi*(gvi_real)m*a)
                              : pi*a/((gvi_real)m + (gvi_real)0.5);
-    gvi_real sine = gvi__sin(theta/2), c = sine*sine, last = 1;
+    gvi_real sine = GVI_SIN(theta/2), c = sine*sine, last = 1;
     for (int k = 0; k < 12; ++k) {
         gvi_real dc = gvi__node_correction(lobatto, m, c);
         c += dc;
-        if (!(gvi__abs(dc) < last) || gvi__abs(dc) < GVI__EPS*c) break;
-        last = gvi__abs(dc)/2;
+        if (!(GVI_ABS(dc) < last) || GVI_ABS(dc) < GVI__EPS*c) break;
+        last = GVI_ABS(dc)/2;
     }
     gvi__two z = gvi__real2(c);
     z = gvi__add2(z, gvi__node_correction2(lobatto, m, z));
@@ -1109,7 +1179,7 @@ GVI_DEF int gvi_rule_order(int n, const gvi_real *c, const gvi_real *b)
         if (!(c[i] >= 0 && c[i] <= 1) || !gvi__finite(b[i])) return -1;
         for (int j = 0; j < i; ++j)
             if (!gvi__nonzero(c[i] - c[j])) return -1;
-        size += gvi__abs(b[i]);
+        size += GVI_ABS(b[i]);
     }
 
     // exact for degree u if sum b P_u = [u = 0]; no rule is exact for degree 2n.
@@ -1121,7 +1191,7 @@ GVI_DEF int gvi_rule_order(int n, const gvi_real *c, const gvi_real *b)
             gvi__legendre(u, c[i], &P, &before);
             sum += b[i]*P;
         }
-        if (gvi__abs(sum) > 4*(gvi_real)(u + 2)*GVI__EPS*size) return u;
+        if (GVI_ABS(sum) > 4*(gvi_real)(u + 2)*GVI__EPS*size) return u;
     }
     return 2*n;
 }
@@ -1146,15 +1216,15 @@ GVI_DEF gvi_status gvi_barycentric(int n, const gvi_real *x, gvi_real *w)
             int exponent = 0, e;
             for (int k = 0; k < n; ++k)
                 if (k != j) {
-                    mantissa *= gvi__frexp(x[j] - x[k], &e);
+                    mantissa *= GVI_FREXP(x[j] - x[k], &e);
                     exponent += e;
-                    mantissa = gvi__frexp(mantissa, &e);
+                    mantissa = GVI_FREXP(mantissa, &e);
                     exponent += e;
                 }
             if (pass == 0 && (j == 0 || exponent < least)) least = exponent;
             if (pass == 1) {
-                w[j] = gvi__ldexp(1/mantissa, least - exponent);
-                if (gvi__abs(w[j]) > big) big = gvi__abs(w[j]);
+                w[j] = GVI_LDEXP(1/mantissa, least - exponent);
+                if (GVI_ABS(w[j]) > big) big = GVI_ABS(w[j]);
             }
         }
     for (int j = 0; j < n; ++j) {
@@ -1168,7 +1238,7 @@ static int gvi__nearest(int n, const gvi_real *x, gvi_real t)
 {
     int i = 0;
     for (int j = 1; j < n; ++j)
-        if (gvi__abs(t - x[j]) < gvi__abs(t - x[i])) i = j;
+        if (GVI_ABS(t - x[j]) < GVI_ABS(t - x[i])) i = j;
     return i;
 }
 
@@ -1243,6 +1313,35 @@ GVI_DEF gvi_real gvi_interpolate_derivative(int n, const gvi_real *x, const gvi_
 #define GVI__HAS_LAGRANGIAN 2    /* an effect adds to dL/dv                    */
 #define GVI__HAS_NEWTON     4    /* Newton is used, or ready as the fall-back  */
 #define GVI__HAS_OWN        8    /* Gamma is a full matrix                     */
+#define GVI__POSSIBLE ((GVI__VELOCITIES || GVI__MOMENTA || GVI__NEWTON ? GVI__HAS_VELOCITIES : 0)        \
+                       | (GVI__LAGRANGIAN ? GVI__HAS_LAGRANGIAN : 0) | (GVI__NEWTON ? GVI__HAS_NEWTON : 0) \
+                       | (GVI__OWN ? GVI__HAS_OWN : 0))
+
+static inline int gvi__has(const gvi_stepper *st, int flag) { return (st->x.flags & GVI__POSSIBLE & flag) != 0; }
+
+static inline int gvi__compiled(gvi_formulation f)
+{
+    return f == GVI_EXPLICIT ? GVI__EXPLICIT : f == GVI_POSITIONS ? GVI__POSITIONS : f == GVI_VELOCITIES ? GVI__VELOCITIES
+         : f == GVI_MOMENTA ? GVI__MOMENTA : f == GVI_NEWTON ? GVI__NEWTON : 0;
+}
+
+// is f the formulation of this scene?
+static inline int gvi__uses(const gvi_stepper *st, gvi_formulation f)
+{
+    const int one = GVI__EXPLICIT + GVI__POSITIONS + GVI__VELOCITIES + GVI__MOMENTA + GVI__NEWTON == 1;
+    return gvi__compiled(f) && (one || st->x.chosen == f);
+}
+
+static inline int gvi__mass_is(const gvi_stepper *st, gvi_mass_kind kind)
+{
+    return (kind != GVI_MASS_DENSE || GVI__DENSE) && (kind != GVI_MASS_POSITION || GVI__MOMENTA || GVI__NEWTON)
+        && (kind != GVI_MASS_NONE || GVI__LAGRANGIAN) && st->x.desc.mass.kind == kind;
+}
+
+static inline int gvi__rule_is(const gvi_stepper *st, gvi_rule_kind kind)
+{
+    return (kind != GVI_OWN || GVI__OWN) && (kind != GVI_KICKS || GVI__EXPLICIT) && st->x.desc.rule.kind == kind;
+}
 
 static gvi_status gvi__fail(gvi_stepper *st, gvi_status status, int effect, int coordinate, int point)
 {
@@ -1330,7 +1429,7 @@ static gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e)
 {
     const gvi_effect *effect = st->x.desc.effects + e;
     const gvi_real *v = x->v;
-    gvi_real *dldv = x->dldv, *value = x->value;
+    gvi_real *dldv = x->dldv, *value = GVI__CLOCK ? x->value : NULL;
     gvi_real *own = value && effect->kind == GVI_LAGRANGIAN ? st->x.less : effect->kind == GVI_FORCE ? NULL : value;
     int point = GVI_FAULT_NONE, together = own && effect->points && effect->value == effect->points;
     if (effect->kind == GVI_POTENTIAL) x->v = NULL;
@@ -1349,7 +1448,7 @@ static gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e)
     return status == GVI_OK && own && !together ? gvi__value(st, x, e, own) : status;
 }
 
-static unsigned gvi__clock_bit(const gvi_stepper *st) { return st->x.clock < 0 ? 0 : 1u << st->x.clock; }
+static unsigned gvi__clock_bit(const gvi_stepper *st) { return GVI__CLOCK && st->x.clock >= 0 ? 1u << st->x.clock : 0; }
 
 // is there a clock, and is it on?
 static int gvi__has_clock(const gvi_stepper *st) { return (gvi__clock_bit(st) & ~st->x.off) != 0; }
@@ -1391,14 +1490,14 @@ static gvi_status gvi__ldl_factor(gvi_stepper *st, int n, int stride, int count,
     for (int j = 0; j < n; ++j) {
         gvi_real *d = m + (size_t)(j*n + j)*(size_t)stride;
         for (int k = 0; k < count; ++k) {
-            gvi_real was = gvi__abs(d[k]);
+            gvi_real was = GVI_ABS(d[k]);
             for (int l = 0; l < j; ++l) {
                 gvi_real a = m[(size_t)(j*n + l)*(size_t)stride + (size_t)k];
                 d[k] -= a*a*m[(size_t)(l*n + l)*(size_t)stride + (size_t)k];
             }
             if (!(was <= GVI__MAX) || !gvi__finite(d[k]))
                 return gvi__fail(st, GVI_E_NON_FINITE, GVI_FAULT_MASS, j, k);
-            if (!(gvi__abs(d[k]) > (gvi_real)n*GVI__EPS*was))
+            if (!(GVI_ABS(d[k]) > (gvi_real)n*GVI__EPS*was))
                 return gvi__fail(st, GVI_E_SINGULAR, GVI_FAULT_MASS, j, k);
         }
         for (int i = j + 1; i < n; ++i) {
@@ -1436,13 +1535,16 @@ static void gvi__ldl_solve(int n, const gvi_real *m, int m_stride, int each, gvi
         }
 }
 
-static int gvi__mass_is_constant(const gvi_desc *d) { return d->mass.kind <= GVI_MASS_DENSE; }
+static int gvi__mass_is_constant(const gvi_desc *d)
+{
+    return !(GVI__MOMENTA || GVI__NEWTON || GVI__LAGRANGIAN) || d->mass.kind <= GVI_MASS_DENSE;
+}
 
 // rows z := M^-1 z, constant mass
 static void gvi__over_mass(const gvi_stepper *st, gvi_real *z, int stride, int count)
 {
     int n = st->n;
-    if (st->x.desc.mass.kind == GVI_MASS_DENSE) gvi__ldl_solve(n, st->x.mass, 1, 0, z, stride, count);
+    if (gvi__mass_is(st, GVI_MASS_DENSE)) gvi__ldl_solve(n, st->x.mass, 1, 0, z, stride, count);
     if (st->x.desc.mass.kind == GVI_MASS_DIAGONAL)
         for (int i = 0; i < n; ++i)
             for (int k = 0; k < count; ++k) z[i*stride + k] *= st->x.over[i];
@@ -1483,18 +1585,16 @@ static gvi_status gvi__kinetic(gvi_stepper *st, gvi_points *x)
 {
     const gvi_real *m = st->x.mass;
     int n = x->n, R = x->stride, each = 0, dense = 1;
-    switch (st->x.desc.mass.kind) {
-    case GVI_MASS_NONE: return GVI_OK;
-    case GVI_MASS_DENSE: m = st->x.mass + (size_t)n*(size_t)n; break;
-    case GVI_MASS_POSITION: {
+    if (gvi__mass_is(st, GVI_MASS_NONE)) return GVI_OK;
+    if (gvi__mass_is(st, GVI_MASS_DENSE)) m = st->x.mass + (size_t)n*(size_t)n;
+    else if (gvi__mass_is(st, GVI_MASS_POSITION)) {
         gvi_status status = gvi__mass_at(st, x, 0);
         if (status == GVI_OK) status = gvi__mass_gradient(st, x);
         if (status != GVI_OK) return status;
         m = st->x.point_mass;
         each = 1;
-        break; }
-    case GVI_MASS_UNIT: case GVI_MASS_DIAGONAL: default: dense = 0;
     }
+    else dense = 0;
     for (int i = 0; i < n; ++i) {
         gvi_real *p = x->dldv + i*R;
         if (!dense)
@@ -1543,8 +1643,8 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real
     gvi_real size = gvi__norm1(n, v)/(gvi_real)n;
     gvi__copy((size_t)n, P, base);
     for (int j = 0; j < n; ++j) {
-        gvi_real was = v[j], d = gvi__sqrt(GVI__EPS)*(gvi__nonzero(was) ? gvi__abs(was) : size);
-        if (!(d > GVI__MIN/GVI__EPS)) d = gvi__sqrt(GVI__EPS);
+        gvi_real was = v[j], d = GVI_SQRT(GVI__EPS)*(gvi__nonzero(was) ? GVI_ABS(was) : size);
+        if (!(d > GVI__MIN/GVI__EPS)) d = GVI_SQRT(GVI__EPS);
         v[j] = was + d;
         d = v[j] - was;
         x->dldv = moved;
@@ -1590,10 +1690,10 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_real t, const gvi_re
         gvi_lu_solve(n, W, pivot, dv);
         for (int i = 0; i < n; ++i) {
             v[i] += dv[i];
-            if (gvi__nonzero(dv[i])) change += gvi__abs(dv[i])/(gvi__abs(dv[i]) + gvi__abs(v[i]));
+            if (gvi__nonzero(dv[i])) change += GVI_ABS(dv[i])/(GVI_ABS(dv[i]) + GVI_ABS(v[i]));
         }
         if (!(change <= GVI__MAX)) break;
-        if (!(change > 2*GVI__EPS) || (change >= last/2 && change <= gvi__sqrt(GVI__EPS))) return GVI_OK;
+        if (!(change > 2*GVI__EPS) || (change >= last/2 && change <= GVI_SQRT(GVI__EPS))) return GVI_OK;
         last = change;
     }
     return gvi__fail(st, GVI_E_CONVERGENCE, GVI_FAULT_MASS, -1, -1);
@@ -1619,10 +1719,10 @@ static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, 
             return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, -1, -1);
         return gvi__check_rows(st, &x, v, GVI_FAULT_MASS);
     }
-    if (mass->kind == GVI_MASS_NONE || (st->x.flags & GVI__HAS_LAGRANGIAN))
+    if (gvi__mass_is(st, GVI_MASS_NONE) || gvi__has(st, GVI__HAS_LAGRANGIAN))
         return gvi__legendre_newton(st, t, q, p, v);
     gvi__copy((size_t)st->n, p, v);
-    if (mass->kind == GVI_MASS_POSITION) {
+    if (gvi__mass_is(st, GVI_MASS_POSITION)) {
         gvi_status status = gvi__mass_at(st, &x, 1);
         if (status != GVI_OK) return status;
         gvi__ldl_solve(st->n, st->x.point_mass, 1, 1, v, 1, 1);
@@ -1674,10 +1774,10 @@ static gvi_status gvi__gamma(gvi_stepper *st)
     if (st->order == 2*s - 2) {
         gvi_real sum = 0;
         for (int i = 0; i < r; ++i) sum += x->b[i]*x->phi[(s-1)*R + i]*x->phi[(s-1)*R + i];
-        if (!(gvi__abs(sum) > (gvi_real)s*GVI__EPS)) return GVI_E_POINTS;
+        if (!(GVI_ABS(sum) > (gvi_real)s*GVI__EPS)) return GVI_E_POINTS;
         x->inv_gamma[s-1] = x->desc.rule.kind == GVI_LOBATTO ? (gvi_real)(s - 1) : 1/sum;
     }
-    if (!(x->flags & GVI__HAS_OWN)) return GVI_OK;
+    if (!gvi__has(st, GVI__HAS_OWN)) return GVI_OK;
     for (int k = 0; k < s; ++k)
         for (int l = 0; l < s; ++l) {
             gvi_real sum = 0;
@@ -1691,7 +1791,7 @@ static gvi_status gvi__gamma(gvi_stepper *st)
 static void gvi__over_gamma(const gvi_stepper *st, gvi_real *y)
 {
     const struct gvi__private *x = &st->x;
-    if (x->flags & GVI__HAS_OWN) gvi_lu_solve(st->s, x->own, x->own + st->s*st->s, y);
+    if (gvi__has(st, GVI__HAS_OWN)) gvi_lu_solve(st->s, x->own, x->own + st->s*st->s, y);
     else for (int k = 0; k < st->s; ++k) y[k] *= x->inv_gamma[k];
 }
 
@@ -1797,7 +1897,7 @@ static void gvi__weights(gvi_stepper *st, gvi_real h)
     x->h_weights = h;
 
     int e, r = st->r, most = 0;
-    gvi_real mantissa = gvi__frexp(h, &e), rest = mantissa;
+    gvi_real mantissa = GVI_FREXP(h, &e), rest = mantissa;
     for (int j = 0; j < r; ++j) {
         x->hb[j] = gvi__grid(gvi__product(x->b[j], mantissa), GVI__EPS/2);
         rest -= x->hb[j];
@@ -1806,14 +1906,14 @@ static void gvi__weights(gvi_stepper *st, gvi_real h)
     int mirror = gvi__nonzero(x->b[r - 1 - most] - x->b[most]) ? most : r - 1 - most;
     x->hb[most] += mirror == most ? rest : rest/2;
     if (mirror != most) x->hb[mirror] += rest/2;
-    for (int j = 0; j < r; ++j) x->hb[j] = gvi__ldexp(x->hb[j], e);
-    if (!x->drift) return;
+    for (int j = 0; j < r; ++j) x->hb[j] = GVI_LDEXP(x->hb[j], e);
+    if (!gvi__uses(st, GVI_EXPLICIT)) return;
 
     // the drifts sum to h exactly as well: differences of numbers on that grid
     gvi_real at = 0;
     for (int j = 0; j <= r; ++j) {
         gvi_real next = j < r ? gvi__grid(gvi__product(x->c[j], mantissa), GVI__EPS/2) : mantissa;
-        x->drift[j] = gvi__ldexp(next - at, e);
+        x->drift[j] = GVI_LDEXP(next - at, e);
         at = next;
     }
 }
@@ -1836,7 +1936,7 @@ static int gvi__covers(const gvi_stepper *st, gvi_formulation f)
     const gvi_desc *d = &st->x.desc;
     int constant = gvi__mass_is_constant(d), reads_v = st->x.flags & GVI__HAS_VELOCITIES;
     int kicks = d->rule.kind == GVI_KICKS, verlet = st->s == 1 && st->r == 2 && d->rule.kind == GVI_LOBATTO;
-    if ((kicks && f != GVI_EXPLICIT) || (st->x.clock >= 0 && f != GVI_MOMENTA)) return 0;
+    if (!gvi__compiled(f) || (kicks && f != GVI_EXPLICIT) || (st->x.clock >= 0 && f != GVI_MOMENTA)) return 0;
     switch (f) {
     case GVI_EXPLICIT:   return constant && !reads_v && (kicks || verlet);
     case GVI_POSITIONS:  return constant && !reads_v;
@@ -1852,6 +1952,7 @@ static gvi_status gvi__check_desc(const gvi_desc *d)
     if (!d || d->n < 1 || d->n > 0x7FFFF || d->degree < 0 || d->degree > 1024) return GVI_E_ARGUMENT;
     if (d->rule.points < 0 || d->rule.points > 4000 || d->effect_count < 0 || d->effect_count > GVI_EFFECTS
         || (d->effect_count && !d->effects) || d->max_iterations < 0 || d->max_iterations > 1000000
+        || d->iterations < 0 || d->iterations > 1000000
         || !(d->tolerance >= 0 && d->tolerance < 1))
         return GVI_E_ARGUMENT;
     if ((int)d->formulation < GVI_AUTO || (int)d->formulation > GVI_NEWTON) return GVI_E_ARGUMENT;
@@ -1880,16 +1981,26 @@ static gvi_status gvi__check_kicks(int r, const gvi_real *c, const gvi_real *b)
     gvi_real sum = 0, size = 0;
     for (int j = 0; j < r; ++j) {
         sum += b[j];
-        size += gvi__abs(b[j]);
+        size += GVI_ABS(b[j]);
     }
     if (!gvi__all_finite(r, c) || !gvi__all_finite(r, b)) return GVI_E_NODES;
-    return gvi__abs(sum - 1) <= 4*(gvi_real)(r + 2)*GVI__EPS*size ? GVI_OK : GVI_E_ORDER;
+    return GVI_ABS(sum - 1) <= 4*(gvi_real)(r + 2)*GVI__EPS*size ? GVI_OK : GVI_E_ORDER;
+}
+
+// does the description ask for what is not compiled?
+static int gvi__left_out(const gvi_stepper *st)
+{
+    const gvi_desc *d = &st->x.desc;
+    return (st->x.flags & GVI__HAS_LAGRANGIAN && !GVI__LAGRANGIAN) || (st->x.clock >= 0 && !GVI__CLOCK)
+        || (d->mass.kind != GVI_MASS_UNIT && d->mass.kind != GVI_MASS_DIAGONAL && !gvi__mass_is(st, d->mass.kind))
+        || !gvi__rule_is(st, d->rule.kind);
 }
 
 /* Fills in the defaults, measures the rule, chooses the formulation.          */
 static gvi_status gvi__resolve(gvi_stepper *st, const gvi_desc *desc)
 {
-    memset(st, 0, sizeof *st);
+    unsigned char *bytes = (unsigned char *)st;
+    for (size_t i = 0; i < sizeof *st; ++i) bytes[i] = 0;
     gvi_status status = gvi__check_desc(desc);
     if (status != GVI_OK) return status;
     gvi_desc *d = &st->x.desc;
@@ -1904,10 +2015,11 @@ static gvi_status gvi__resolve(gvi_stepper *st, const gvi_desc *desc)
     st->x.clock = -1;
     for (int e = 0; e < d->effect_count; ++e)
         if (d->effects[e].kind == GVI_CLOCK) st->x.clock = e;
+    if (gvi__left_out(st)) return GVI_E_FORMULATION;
 
     st->order = d->rule.kind == GVI_LOBATTO ? 2*r - 2 : 2*r;
-    if (d->rule.kind == GVI_OWN) st->order = gvi_rule_order(r, d->rule.nodes, d->rule.weights);
-    if (d->rule.kind == GVI_KICKS) {
+    if (gvi__rule_is(st, GVI_OWN)) st->order = gvi_rule_order(r, d->rule.nodes, d->rule.weights);
+    if (gvi__rule_is(st, GVI_KICKS)) {
         status = s == 1 ? gvi__check_kicks(r, d->rule.nodes, d->rule.weights) : GVI_E_ARGUMENT;
         if (status != GVI_OK) return status;
         st->order = s;                        // passes what is asked of a rule below
@@ -1924,16 +2036,18 @@ static gvi_status gvi__resolve(gvi_stepper *st, const gvi_desc *desc)
         if (!gvi__covers(st, d->formulation)) return GVI_E_FORMULATION;
         st->x.chosen = d->formulation;
     }
+    if (st->x.chosen == GVI_AUTO) return GVI_E_FORMULATION;         // nothing fits
+    if (st->x.chosen == GVI_NEWTON && d->iterations > 0) return GVI_E_FORMULATION;
     if (st->x.chosen == GVI_NEWTON
-        || (d->formulation == GVI_AUTO && st->x.chosen != GVI_EXPLICIT && st->x.clock < 0))
+        || (GVI__NEWTON && d->formulation == GVI_AUTO && st->x.chosen != GVI_EXPLICIT && st->x.clock < 0
+            && d->iterations == 0))
         st->x.flags |= GVI__HAS_NEWTON;
-    if (st->x.chosen == GVI_AUTO) return GVI_E_FORMULATION;         // kicks, or a clock, and nothing fits
     if (d->rule.kind == GVI_KICKS) st->order = 0;
     st->formulation = st->x.chosen;
 
     // indices are int: n*n and s*n where there are matrices
-    int matrices = d->mass.kind >= GVI_MASS_DENSE || (st->x.flags & (GVI__HAS_NEWTON | GVI__HAS_LAGRANGIAN));
-    if (matrices && (d->n > 0x7FFF || (st->x.flags & GVI__HAS_NEWTON && s > 0x7FFFFFF/d->n))) return GVI_E_ARGUMENT;
+    int matrices = d->mass.kind >= GVI_MASS_DENSE || gvi__has(st, GVI__HAS_NEWTON | GVI__HAS_LAGRANGIAN);
+    if (matrices && (d->n > 0x7FFF || (gvi__has(st, GVI__HAS_NEWTON) && s > 0x7FFFFFF/d->n))) return GVI_E_ARGUMENT;
     return GVI_OK;
 }
 
@@ -1943,6 +2057,9 @@ static int gvi__fits_two(const gvi_stepper *st)
 {
     return st->r < 10 && GVI__KIND > 1 && st->x.chosen >= GVI_POSITIONS && st->x.chosen <= GVI_MOMENTA;
 }
+
+// does E extrapolate from two steps now?
+static inline int gvi__two_now(const gvi_stepper *st) { return GVI__KIND > 1 && st->x.two; }
 
 typedef struct gvi__arena { gvi_real *base; size_t used; } gvi__arena;
 
@@ -1964,15 +2081,15 @@ static gvi__needs gvi__needs_of(const gvi_stepper *st)
 {
     const struct gvi__private *x = &st->x;
     gvi__needs u;
-    u.newton = x->flags & GVI__HAS_NEWTON;
-    u.lagrangian = x->flags & GVI__HAS_LAGRANGIAN;
-    u.momenta = x->chosen == GVI_MOMENTA;
-    u.velocities = x->chosen == GVI_VELOCITIES;
-    u.positions = x->chosen == GVI_EXPLICIT || x->chosen == GVI_POSITIONS || u.velocities;
+    u.newton = gvi__has(st, GVI__HAS_NEWTON);
+    u.lagrangian = gvi__has(st, GVI__HAS_LAGRANGIAN);
+    u.momenta = gvi__uses(st, GVI_MOMENTA);
+    u.velocities = gvi__uses(st, GVI_VELOCITIES);
+    u.positions = gvi__uses(st, GVI_EXPLICIT) || gvi__uses(st, GVI_POSITIONS) || u.velocities;
     u.reads_v = u.velocities || u.momenta || u.newton;
-    u.kicks = x->desc.rule.kind == GVI_KICKS;
+    u.kicks = gvi__rule_is(st, GVI_KICKS);
     u.two = gvi__fits_two(st);
-    u.clock = x->clock >= 0;
+    u.clock = GVI__CLOCK && x->clock >= 0;
     return u;
 }
 
@@ -2006,7 +2123,6 @@ static void gvi__layout_tables(gvi_stepper *st, gvi__arena *a, const gvi__needs 
     struct gvi__private *x = &st->x;
     const size_t s = (size_t)st->s, r = (size_t)st->r, R = (size_t)x->stride;
     const int modes = u->reads_v || (!u->kicks && st->order <= 2*st->s - 2);
-    const gvi_mass_kind mass = x->desc.mass.kind;
     x->hb = gvi__take(a, 1, 1, R);
     x->c = gvi__take(a, 1, 1, R);
     x->g = gvi__take(a, u->positions && !u->kicks, r, R);
@@ -2017,16 +2133,16 @@ static void gvi__layout_tables(gvi_stepper *st, gvi__arena *a, const gvi__needs 
     x->Phi = gvi__take(a, !u->kicks, s, R);
     x->phi = gvi__take(a, modes, s, R);
     x->low = gvi__take(a, modes, s, R);
-    x->Z = gvi__take(a, u->positions && mass == GVI_MASS_DENSE, n, R);
-    x->point_mass = gvi__take(a, mass == GVI_MASS_POSITION, n, n*R);
+    x->Z = gvi__take(a, u->positions && gvi__mass_is(st, GVI_MASS_DENSE), n, R);
+    x->point_mass = gvi__take(a, gvi__mass_is(st, GVI_MASS_POSITION), n, n*R);
     x->ce = gvi__take(a, 1, 1, R);
     x->b = gvi__take(a, 1, 1, R);
     x->t = gvi__take(a, 1, 1, R);
     x->place = gvi__take(a, !u->kicks, 3, R);
     x->row = gvi__take(a, 1, 6, R);
-    x->drift = gvi__take(a, x->chosen == GVI_EXPLICIT, 1, r + 1);
+    x->drift = gvi__take(a, gvi__uses(st, GVI_EXPLICIT), 1, r + 1);
     x->inv_gamma = gvi__take(a, 1, 1, s);
-    x->own = gvi__take(a, x->flags & GVI__HAS_OWN, s*s + s + 1, 1);
+    x->own = gvi__take(a, gvi__has(st, GVI__HAS_OWN), s*s + s + 1, 1);
 }
 
 static void gvi__layout_state(gvi_stepper *st, gvi__arena *a, size_t n, size_t N)
@@ -2041,7 +2157,7 @@ static void gvi__layout_state(gvi_stepper *st, gvi__arena *a, size_t n, size_t N
     x->one = gvi__take(a, 1, 6, n);
     x->mass = gvi__take(a, mass == GVI_MASS_DIAGONAL, 1, n);
     x->over = gvi__take(a, mass == GVI_MASS_DIAGONAL, 1, n);
-    if (mass == GVI_MASS_DENSE) x->mass = gvi__take(a, 1, 2*n, n);
+    if (gvi__mass_is(st, GVI_MASS_DENSE)) x->mass = gvi__take(a, 1, 2*n, n);
 }
 
 // J and pivots twice: queries must not touch what the steps keep
@@ -2103,7 +2219,7 @@ static gvi_status gvi__set_mass(gvi_stepper *st)
                 return gvi__fail(st, GVI_E_SINGULAR, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
             st->x.over[i] = 1/m[i];
         }
-    if (mass->kind == GVI_MASS_DENSE) {
+    if (gvi__mass_is(st, GVI_MASS_DENSE)) {
         size_t nn = (size_t)n*(size_t)n;
         for (int i = 0; i < n; ++i)
             for (int j = 0; j <= i; ++j) {
@@ -2139,12 +2255,12 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     if (status != GVI_OK) return status;
 
     // the rule, the modes at its nodes as exactly as they can be had, then the grid
-    if (x->desc.rule.kind == GVI_OWN || x->desc.rule.kind == GVI_KICKS) {
+    if (gvi__rule_is(st, GVI_OWN) || gvi__rule_is(st, GVI_KICKS)) {
         gvi__copy((size_t)st->r, x->desc.rule.nodes, x->c);
         gvi__copy((size_t)st->r, x->desc.rule.weights, x->b);
     } else gvi__rule_make(x->desc.rule.kind == GVI_LOBATTO, st->r, x->c, x->ce, x->b);
     x->memory = memory;                      // from here on it can be used
-    if (x->desc.rule.kind == GVI_KICKS) return gvi__done(st, GVI_OK);
+    if (gvi__rule_is(st, GVI_KICKS)) return gvi__done(st, GVI_OK);
     gvi__modes_at_nodes(st);
     for (int i = 0; i < st->r; ++i) x->c[i] = gvi__grid(gvi__sum(x->c[i], x->ce[i]), GVI__EPS/2);
     status = gvi__gamma(st);
@@ -2152,7 +2268,7 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
         x->memory = NULL;
         return st->status = status;
     }
-    if (x->flags & GVI__HAS_OWN) gvi__tables_own(st);
+    if (gvi__has(st, GVI__HAS_OWN)) gvi__tables_own(st);
     else gvi__tables(st);
     gvi__copy((size_t)st->r, x->c, x->Phi);  // Phi_0 = c on its grid: 1 - Phi_0 is exact
     return gvi__done(st, GVI_OK);
@@ -2162,6 +2278,9 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
 
 // where a step, or a query's partial step, starts
 typedef struct gvi__from { gvi_real t, te; const gvi_real *q, *qe, *p, *pe; gvi_real E, Ee; } gvi__from;
+
+// rows of the Lagrangian terms' dL/dv, where there are any
+static inline gvi_real *gvi__A(const struct gvi__rows *rows) { return GVI__LAGRANGIAN ? rows->A : NULL; }
 
 static void gvi__rows_as_points(gvi_points *x, const gvi_stepper *st, const struct gvi__rows *rows, gvi_real *dldv)
 {
@@ -2177,7 +2296,7 @@ static void gvi__begin(gvi_stepper *st, const gvi__from *from, gvi_real h)
     gvi__weights(st, h);
     x->dt = h;
     x->dH = 0;
-    for (int k = 0; k < st->r && !x->drift; ++k) x->t[k] = from->t + (from->te + x->c[k]*h);
+    for (int k = 0; k < st->r && !gvi__uses(st, GVI_EXPLICIT); ++k) x->t[k] = from->t + (from->te + x->c[k]*h);
     if (!gvi__mass_is_constant(&x->desc)) return;
     gvi__copy((size_t)st->n, from->p, x->v0);
     gvi__copy((size_t)st->n, from->pe, x->ve);
@@ -2274,7 +2393,7 @@ static inline void gvi__weigh(int R, const gvi_real *GVI__RESTRICT w, const gvi_
 static inline void gvi__rescale(gvi_real base, gvi_real was, gvi_real is, gvi_real *scale)
 {
     if (*scale > 0) return;
-    const gvi_real size = gvi__abs(base) + gvi__abs(was - base) + gvi__abs(is - base);
+    const gvi_real size = GVI_ABS(base) + GVI_ABS(was - base) + GVI_ABS(is - base);
     *scale = size > GVI__MIN/GVI__EPS ? 1/size : 0;
 }
 
@@ -2303,7 +2422,7 @@ static inline gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stag
 {
     const struct gvi__private *x = &st->x;
     const gvi_real *diagonal = y->over_mass && x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
-    const gvi_real *c = x->c;
+    const gvi_real *c = x->c, *minus = GVI__LAGRANGIAN ? y->minus : NULL;
     const int n = st->n;
 #ifdef GVI__VECTORS
     if (R % 8 == 0) {
@@ -2316,14 +2435,14 @@ static inline gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stag
             if (i % few == 0)
                 for (int o = 0; o < few*R && i*R + o < n*R; o += 8)
                     *(gvi__vector *)(L + o) = GVI__AT(x->hb + o % R)*GVI__AT(y->f + i*R + o);
-            if (y->minus) gvi__weigh(R, x->b, x->work.A + i*R, x->less);
+            if (minus) gvi__weigh(R, x->b, x->work.A + i*R, x->less);
             for (int o = R - 8; o >= 0; o -= 8) {
                 const int last = r - 1 - o;
                 gvi_real *row = y->rows + i*R + o;
                 gvi__vector z, less, next, moved;
                 gvi__sum_vector(r, R, y->table + o, L + i % few*R, &z);
-                if (y->minus) {
-                    gvi__sum_vector(r, R, y->minus + o, x->less, &less);
+                if (minus) {
+                    gvi__sum_vector(r, R, minus + o, x->less, &less);
                     z -= less;
                 }
                 next = p.base + (p.extra + (GVI__AT(c + o)*p.a + z*p.b));
@@ -2342,14 +2461,14 @@ static inline gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stag
         const gvi__affine p = gvi__affine_of(y, diagonal, i);
         gvi_real few[8], *L = R > 8 ? x->z : few;
         gvi__weigh(R, x->hb, y->f + i*R, L);
-        if (y->minus) gvi__weigh(R, x->b, x->work.A + i*R, x->less);
+        if (minus) gvi__weigh(R, x->b, x->work.A + i*R, x->less);
         for (int o = R - block; o >= 0; o -= block) {
             const int last = r - 1 - o;
             gvi_real *row = y->rows + i*R + o, z[8], less[8];
             gvi__sum_block(r, R, block, y->table + o, L, z);
-            if (y->minus) gvi__sum_block(r, R, block, y->minus + o, x->less, less);
+            if (minus) gvi__sum_block(r, R, block, minus + o, x->less, less);
             for (int k = 0; k < block; ++k)
-                z[k] = p.base + (p.extra + (c[k + o]*p.a + (y->minus ? z[k] - less[k] : z[k])*p.b));
+                z[k] = p.base + (p.extra + (c[k + o]*p.a + (minus ? z[k] - less[k] : z[k])*p.b));
             if (last < block) gvi__rescale(p.base, row[last], z[last], y->scale + i);
             for (int k = 0; k < block; ++k) {
                 const gvi_real moved = (z[k] - row[k])*y->scale[i];
@@ -2392,7 +2511,7 @@ static gvi_real gvi__stage_rows_dense(gvi_stepper *st, const gvi__stage *y)
 static gvi_real gvi__stage_rows(gvi_stepper *st, const gvi__stage *y)
 {
     const int r = st->r, R = st->x.stride;
-    if (y->over_mass && st->x.desc.mass.kind == GVI_MASS_DENSE) return gvi__stage_rows_dense(st, y);
+    if (y->over_mass && gvi__mass_is(st, GVI_MASS_DENSE)) return gvi__stage_rows_dense(st, y);
     switch (r) {
     case 2:  return gvi__stage_rows_of(st, y, 2, 2);
     case 3:  return gvi__stage_rows_of(st, y, 3, 3);
@@ -2410,7 +2529,7 @@ static void gvi__velocity_rows(gvi_stepper *st)
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work;
     int n = st->n, R = x->stride;
-    for (int k = 0; k < n*R; ++k) w->V[k] = w->P[k] - (w->A ? w->A[k] : 0);
+    for (int k = 0; k < n*R; ++k) w->V[k] = w->P[k] - (gvi__A(w) ? w->A[k] : 0);
     if (gvi__mass_is_constant(&x->desc)) gvi__over_mass(st, w->V, R, st->r);
     else gvi__ldl_solve(n, x->point_mass, R, 1, w->V, R, st->r);
 }
@@ -2437,17 +2556,17 @@ static int gvi__plan(gvi_stepper *st, const gvi__from *from, gvi_real h, gvi__st
 {
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work;
-    if (x->chosen == GVI_MOMENTA) {
+    if (gvi__uses(st, GVI_MOMENTA)) {
         gvi__stage_set(y, from->p, from->pe, NULL, x->m, w->F, 1, w->P, x->scale);
         gvi__stage_set(y + 1, from->q, from->qe, NULL, x->T, w->V, 1, w->Q, x->scale + st->n);
         return 2;
     }
     gvi__stage_set(y, from->q, from->qe, x->v0, x->g, w->F, h, w->Q, x->scale);
-    y->minus = w->A ? x->T : NULL;
+    y->minus = gvi__A(w) ? x->T : NULL;
     y->over_mass = 1;
-    if (x->chosen == GVI_POSITIONS) return 1;
+    if (gvi__uses(st, GVI_POSITIONS)) return 1;
     gvi__stage_set(y + 1, x->v0, x->ve, NULL, x->m, w->F, 1, w->V, x->scale + st->n);
-    y[1].minus = w->A ? x->N : NULL;
+    y[1].minus = gvi__A(w) ? x->N : NULL;
     y[1].over_mass = 1;
     return 2;
 }
@@ -2463,7 +2582,7 @@ static inline void gvi__scale_row(int R, const gvi_real *GVI__RESTRICT a, gvi_re
 static gvi_real gvi__stages(gvi_stepper *st, const gvi__stage *y, int count)
 {
     struct gvi__private *x = &st->x;
-    int momenta = x->chosen == GVI_MOMENTA;
+    const int momenta = gvi__uses(st, GVI_MOMENTA);
     gvi_real sum = gvi__stage_rows(st, y);
     if (count == 1) return sum;
     const int clock = gvi__has_clock(st), factor = x->has_factor || gvi__mass_is_constant(&x->desc);
@@ -2559,7 +2678,7 @@ static void gvi__transform(gvi_stepper *st, const gvi__from *from, int lagrangia
     const int n = st->n, r = st->r, R = x->stride;
     const gvi_real E = from->E + from->Ee;
     for (int k = 0; k < R; ++k) x->level[k] -= x->less[k] + E;
-    if (x->flags & GVI__HAS_VELOCITIES) {
+    if (gvi__has(st, GVI__HAS_VELOCITIES)) {
         gvi__scale_row(R, x->rate, x->power);
         gvi__weigh(R, x->hb, x->power, x->less);
         gvi__sum_row(r, R, x->T, x->less, x->z);
@@ -2584,7 +2703,7 @@ static void gvi__transform(gvi_stepper *st, const gvi__from *from, int lagrangia
 static gvi_status gvi__ask_clock(gvi_stepper *st, const gvi__from *from, gvi_points *y)
 {
     struct gvi__private *x = &st->x;
-    const unsigned forces = x->flags & GVI__HAS_VELOCITIES ? gvi__of_kind(st, GVI_FORCE) : 0;
+    const unsigned forces = gvi__has(st, GVI__HAS_VELOCITIES) ? gvi__of_kind(st, GVI_FORCE) : 0;
     const int R = x->stride;
     gvi_status status = forces & ~x->off ? gvi__effects(st, y, ~forces) : GVI_OK;
     gvi__zero((size_t)R, x->power);
@@ -2593,7 +2712,7 @@ static gvi_status gvi__ask_clock(gvi_stepper *st, const gvi__from *from, gvi_poi
     gvi__zero((size_t)R, x->level);
     gvi__zero((size_t)R, x->less);
     y->value = x->level;
-    if (status == GVI_OK && x->desc.mass.kind == GVI_MASS_POSITION) status = gvi__mass_gradient(st, y);
+    if (status == GVI_OK && gvi__mass_is(st, GVI_MASS_POSITION)) status = gvi__mass_gradient(st, y);
     if (status == GVI_OK) status = gvi__effects(st, y, forces);
     y->value = NULL;
     if (status == GVI_OK) status = gvi__rate(st, y, x->rate, x->slope);
@@ -2607,11 +2726,11 @@ static gvi_status gvi__ask(gvi_stepper *st, const gvi__from *from, gvi_points *y
     size_t length = (size_t)st->n*(size_t)st->x.stride;
     gvi_status status = gvi__check_points(st, y);
     gvi__zero(length, y->f);
-    if (status == GVI_OK && st->x.chosen == GVI_MOMENTA) status = gvi__legendre_rows(st, y);
+    if (status == GVI_OK && gvi__uses(st, GVI_MOMENTA)) status = gvi__legendre_rows(st, y);
     if (y->dldv) gvi__zero(length, y->dldv);
     if (status != GVI_OK) return status;
     if (gvi__has_clock(st)) return gvi__ask_clock(st, from, y);
-    if (st->x.chosen == GVI_MOMENTA && st->x.desc.mass.kind == GVI_MASS_POSITION) status = gvi__mass_gradient(st, y);
+    if (gvi__uses(st, GVI_MOMENTA) && gvi__mass_is(st, GVI_MASS_POSITION)) status = gvi__mass_gradient(st, y);
     return status == GVI_OK ? gvi__effects(st, y, 0) : status;
 }
 
@@ -2639,7 +2758,7 @@ static inline void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, co
 
 static void gvi__extrapolate(gvi_stepper *st, const gvi_real *last, const gvi_real *older, gvi_real *out)
 {
-    if (!st->x.two) older = NULL;
+    if (!gvi__two_now(st)) older = NULL;
     if (st->r == 8) gvi__extrapolate_rows(st, 8, 8, last, older, out);
     else if (st->r == 4) gvi__extrapolate_rows(st, 4, 4, last, older, out);
     else gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, out);
@@ -2654,22 +2773,22 @@ static void gvi__extrapolate(gvi_stepper *st, const gvi_real *last, const gvi_re
 static void gvi__fit(gvi_stepper *st, gvi_real alpha, gvi_real beta)
 {
     struct gvi__private *x = &st->x;
-    const int r = st->r, R = x->stride, nodes = x->two ? 2*R : R, most = GVI__DIG*2/7;
-    const int wanted = x->two ? r + r/2 - r/8 : r - 1, degree = wanted < most ? wanted : most;
+    const int r = st->r, R = x->stride, two = gvi__two_now(st), nodes = two ? 2*R : R, most = GVI__DIG*2/7;
+    const int wanted = two ? r + r/2 - r/8 : r - 1, degree = wanted < most ? wanted : most;
     gvi_real *p = x->row, *before = p + 3*R, *at = x->place;
-    gvi_real coupling = 0, norm = 1/gvi__sqrt((gvi_real)(x->two ? 2*r : r));
+    gvi_real coupling = 0, norm = 1/GVI_SQRT((gvi_real)(two ? 2*r : r));
     for (int m = 0; m < 3*R; ++m) {
         const gvi_real c = x->c[m % R];
         at[m] = m < R ? c : m < 2*R ? c - 1 : alpha + beta*c;
         p[m] = m % R < r ? norm : 0;
         before[m] = 0;
     }
-    gvi__zero((size_t)(x->two ? 2*r*R : r*R), x->E);
+    gvi__zero((size_t)(two ? 2*r*R : r*R), x->E);
     for (int k = 0; k <= degree; ++k) {
         for (int j = 0; j < r; ++j)
             for (int i = 0; i < r; ++i) {
                 x->E[j*R + i] += p[2*R + i]*p[j];
-                if (x->two) x->E[(r + j)*R + i] += p[2*R + i]*p[R + j];
+                if (two) x->E[(r + j)*R + i] += p[2*R + i]*p[R + j];
             }
 
         // p_(k+1) ~ (x - <x p_k, p_k>) p_k - coupling p_(k-1), over its norm
@@ -2681,7 +2800,7 @@ static void gvi__fit(gvi_stepper *st, gvi_real alpha, gvi_real beta)
             p[m] = next;
             if (m < nodes) size += next*next;
         }
-        coupling = gvi__sqrt(size);
+        coupling = GVI_SQRT(size);
         if (!gvi__nonzero(coupling)) break;
         for (int m = 0; m < 3*R; ++m) p[m] /= coupling;
     }
@@ -2708,12 +2827,12 @@ static void gvi__guess(gvi_stepper *st, int extrapolate, gvi_real rate)
     x->has_factor = x->has_rate = 0;
     if (extrapolate) {
         gvi__extrapolate(st, l->F, x->older.F, w->F);
-        if (l->A && w->A) gvi__extrapolate(st, l->A, x->older.A, w->A);
-        if (x->chosen == GVI_MOMENTA) gvi__extrapolate(st, l->V, x->older.V, w->V);
+        if (gvi__A(l) && w->A) gvi__extrapolate(st, l->A, x->older.A, w->A);
+        if (gvi__uses(st, GVI_MOMENTA)) gvi__extrapolate(st, l->V, x->older.V, w->V);
     } else {
         gvi__zero(length, w->F);
-        if (w->A) gvi__zero(length, w->A);
-        for (int i = 0; x->chosen == GVI_MOMENTA && i < st->n; ++i)
+        if (gvi__A(w)) gvi__zero(length, w->A);
+        for (int i = 0; gvi__uses(st, GVI_MOMENTA) && i < st->n; ++i)
             for (int k = 0; k < st->r; ++k) w->V[i*x->stride + k] = rate*gvi__velocity_guess(st, i);
     }
 }
@@ -2753,16 +2872,16 @@ static void gvi__increments(gvi_stepper *st, const gvi__from *from, gvi_real h)
         x->dp[i] = p.hi;
         x->dpe[i] = p.lo;
         x->dqe[i] = 0;
-        if (x->chosen == GVI_MOMENTA) {
+        if (gvi__uses(st, GVI_MOMENTA)) {
             const gvi__two q = gvi__exact_dot(r, x->hb, w->V + i*R, from->qe[i]);
             x->dq[i] = q.hi;
             x->dqe[i] = q.lo;
         } else {
             gvi__weigh(R, x->hb, F, x->z);
-            x->dq[i] = gvi__dot(r, x->less, x->z) - (w->A ? gvi__dot(r, x->b, w->A + i*R) : 0);
+            x->dq[i] = gvi__dot(r, x->less, x->z) - (gvi__A(w) ? gvi__dot(r, x->b, w->A + i*R) : 0);
         }
     }
-    if (x->chosen == GVI_MOMENTA) return;
+    if (gvi__uses(st, GVI_MOMENTA)) return;
 
     // h v0 exactly; the rest is smaller by h omega
     gvi__over_mass(st, x->dq, 1, 1);
@@ -2790,14 +2909,14 @@ static int gvi__is_rounding(const gvi_stepper *st, const gvi__from *from, int id
         int by_v = x->chosen > GVI_POSITIONS || st->formulation == GVI_NEWTON;
         gvi_real v = by_v ? x->work.V[i*R + last] : x->v0[i];
         for (int k = 0; k < st->r; ++k) {
-            gvi_real F = gvi__abs(x->work.F[i*R + k]);
+            gvi_real F = GVI_ABS(x->work.F[i*R + k]);
             if (F > most) most = F;
-            size += F*gvi__abs(x->work.Q[i*R + k] - from->q[i]);
-            place += F*gvi__abs(x->work.Q[i*R + k]);
+            size += F*GVI_ABS(x->work.Q[i*R + k] - from->q[i]);
+            place += F*GVI_ABS(x->work.Q[i*R + k]);
         }
-        gvi_real beyond = gvi__abs(Q - x->change[i]) - 4*GVI__EPS*gvi__abs(Q);
+        gvi_real beyond = GVI_ABS(Q - x->change[i]) - 4*GVI__EPS*GVI_ABS(Q);
         if (!(beyond <= 0)) noise += r*beyond*most;
-        size += r*gvi__abs(from->p[i]*v);
+        size += r*GVI_ABS(from->p[i]*v);
     }
     return noise <= 0 || (idle > 4 && size + place <= GVI__MAX && noise <= 1000*GVI__EPS*size + 4*GVI__EPS*place);
 }
@@ -2824,13 +2943,13 @@ static void gvi__watch(gvi_stepper *st, gvi_real change, gvi_real earlier)
 {
     const gvi_real worst = st->counters.worst_contraction*st->counters.worst_contraction;
     if (change > (1000*GVI__EPS)*(1000*GVI__EPS) && earlier > 0 && change > worst*worst*earlier)
-        st->counters.worst_contraction = gvi__sqrt(gvi__sqrt(change/earlier));
+        st->counters.worst_contraction = GVI_SQRT(GVI_SQRT(change/earlier));
 }
 
 static void gvi__watch_last(gvi_stepper *st, gvi_real change)
 {
     const gvi_real worst = st->counters.worst_change;
-    if (change > worst*worst) st->counters.worst_change = gvi__sqrt(change);
+    if (change > worst*worst) st->counters.worst_change = GVI_SQRT(change);
 }
 
 /* A change that is not finite: of an iteration that was growing, or whose effects
@@ -2845,19 +2964,21 @@ static gvi_status gvi__not_finite(gvi_stepper *st, int grows)
    D^2/D_before, is far below rounding; or the change is rounding: small, or
    without a new least by a tenth for some iterations, and of no energy.  Three
    changes in a row that fall by less than half are poor.  All of it in squares
-   of changes: no root or quotient between an iteration and the next.          */
+   of changes: no root or quotient between an iteration and the next.  A given
+   number of iterations ends there, if the last change is not poor.            */
 static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate, int *used)
 {
     struct gvi__private *x = &st->x;
     const gvi_real tolerance = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/4096;
     const gvi_real enough = tolerance*tolerance, rounding = 16*GVI__EPS*GVI__EPS*(gvi_real)(st->n*st->r);
-    const int fall_back = x->desc.formulation == GVI_AUTO && (x->flags & GVI__HAS_NEWTON);
+    const int fall_back = x->desc.formulation == GVI_AUTO && gvi__has(st, GVI__HAS_NEWTON);
+    const int fixed = x->desc.iterations, most = fixed > 0 ? fixed : x->desc.max_iterations;
     int poor = 0, idle = 0, grows = 0;
     gvi_real before = 0, earlier = 0, least = GVI__MAX;
     gvi__stage y[2];
     const int count = gvi__plan(st, from, h, y);
     gvi_points points;
-    gvi__rows_as_points(&points, st, &x->work, x->work.A);
+    gvi__rows_as_points(&points, st, &x->work, gvi__A(&x->work));
     gvi_real rate = 1;
     if (gvi__has_clock(st)) {
         gvi_status status = gvi__clock_guess(st, from, h, &rate);
@@ -2866,20 +2987,23 @@ static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_r
     gvi__guess(st, extrapolate, rate);
     (void)gvi__stages(st, y, count);
     gvi__zero(2*(size_t)st->n, x->scale);    // of rows that were there before
-    for (*used = 1; *used <= x->desc.max_iterations; ++*used) {
+    for (*used = 1; *used <= most; ++*used) {
         gvi_status status = gvi__ask(st, from, &points);
         if (status != GVI_OK) return status;
         for (int i = 0; idle + poor > 0 && i < st->n; ++i) x->change[i] = x->work.Q[i*x->stride + st->r - 1];
         const gvi_real change = gvi__stages(st, y, count);
         if (!(change <= GVI__MAX)) return gvi__not_finite(st, grows);
         const gvi_real known = before > 1 ? 1 : before > 0 ? before : change;
-        if (change*change <= enough*known) return gvi__watch_last(st, change), GVI_OK;
+        const int good = fixed > 0 ? *used == most && (before <= 0 || change < before/4 || change <= 65536*rounding)
+                                   : change*change <= enough*known;
+        if (good) return gvi__watch_last(st, change), GVI_OK;
         gvi__watch(st, change, earlier);
         grows = before > 0 && change >= before/4;
         if (*used == 1 || grows) gvi__zero(2*(size_t)st->n, x->scale);
         poor = grows ? poor + 1 : 0;
         idle = change < least*81/100 ? 0 : idle + 1;
         if (change < least) least = change;
+        if (fixed > 0) idle = poor = 0;               // no other end
         if ((idle > 2 && change <= rounding) || ((idle > 1 || poor > 2) && gvi__is_rounding(st, from, idle))) {
             // rows that go to and fro in their last places: their own F, not that of the
             // side that they came from, which would be a bias
@@ -2890,6 +3014,7 @@ static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_r
         earlier = before;
         before = change;
     }
+    if (*used > most) *used = most;
     return gvi__give(st, GVI_E_CONVERGENCE);
 }
 
@@ -2924,7 +3049,7 @@ static void gvi__kick(gvi_stepper *st, const gvi__from *from, gvi_real b, gvi_re
     const int n = st->n;
     const gvi_real *m = x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
     gvi_real *Q = x->work.Q, *z = x->change;
-    if (x->desc.mass.kind == GVI_MASS_DENSE) {
+    if (gvi__mass_is(st, GVI_MASS_DENSE)) {
         for (int i = 0; i < n; ++i) z[i] = x->dp[i] += b*F[i];
         gvi__over_mass(st, z, 1, 1);
         for (int i = 0; i < n; ++i) Q[i] = from->q[i] + (x->dq[i] += a*(x->v0[i] + z[i]));
@@ -3001,11 +3126,11 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__from *from, int k0)
                 gvi_real a = x->phi[k*R + j]*(x->hb[j]*P[j]), b = W*(x->hb[j]*F[j]);
                 momentum += a;
                 force += b;
-                size += gvi__abs(a/h) + gvi__abs(b);
+                size += GVI_ABS(a/h) + GVI_ABS(b);
             }
             gvi_real sum = momentum/h - force;
             x->dy[(k - k0)*n + i] = -(gvi_real)(2*k + 1)*sum;
-            if (size > 0 && gvi__abs(sum)/size > worst) worst = gvi__abs(sum)/size;
+            if (size > 0 && GVI_ABS(sum)/size > worst) worst = GVI_ABS(sum)/size;
         }
     }
     return worst;
@@ -3058,7 +3183,7 @@ static gvi_status gvi__jacobian_exact(gvi_stepper *st, const gvi__matrix *J)
             for (int j = 0; j < n; ++j) {
                 gvi_real m = i == j ? 1 : 0;
                 if (d->mass.kind == GVI_MASS_DIAGONAL) m *= x->mass[i];
-                if (d->mass.kind == GVI_MASS_DENSE)
+                if (gvi__mass_is(st, GVI_MASS_DENSE))
                     m = x->mass[nn + (size_t)(i > j ? i*n + j : j*n + i)];
                 if (gvi__mass_is_constant(d)) gvi__add(st, J, i, j, k, 0, m, 1);
             }
@@ -3120,14 +3245,14 @@ static gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matrix *
     gvi__rows_as_points(&y, st, &x->work, x->bP);
     y.f = x->bF;
     gvi_status status = gvi__evaluate(st, &y, 1);
-    const gvi_real root = gvi__sqrt(GVI__EPS), h = gvi__abs(J->h);
+    const gvi_real root = GVI_SQRT(GVI__EPS), h = GVI_ABS(J->h);
     for (int j = 0; j < n && status == GVI_OK; ++j) {
         gvi_real q = 0, v = 0;
         for (int k = 0; k < st->r; ++k) {
-            if (gvi__abs(x->work.Q[j*R + k]) > q) q = gvi__abs(x->work.Q[j*R + k]);
-            if (gvi__abs(x->work.V[j*R + k]) > v) v = gvi__abs(x->work.V[j*R + k]);
+            if (GVI_ABS(x->work.Q[j*R + k]) > q) q = GVI_ABS(x->work.Q[j*R + k]);
+            if (GVI_ABS(x->work.V[j*R + k]) > v) v = GVI_ABS(x->work.V[j*R + k]);
         }
-        gvi_real path = h*v > gvi__sqrt(root)*q ? h*v : gvi__sqrt(root)*q;
+        gvi_real path = h*v > GVI_SQRT(root)*q ? h*v : GVI_SQRT(root)*q;
         if (!(root*path > GVI__MIN/GVI__EPS)) path = h < 1 ? h : 1;     // at rest at 0
         status = gvi__difference(st, J, j, 0, root*path);
         if (status == GVI_OK && reads_v) status = gvi__difference(st, J, j, 1, root*path/h);
@@ -3141,7 +3266,7 @@ static gvi_status gvi__check_regular(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
     int n = st->n, R = x->stride, at;
-    if (gvi__mass_is_constant(&x->desc) && !(x->flags & GVI__HAS_LAGRANGIAN)) return GVI_OK;
+    if (gvi__mass_is_constant(&x->desc) && !gvi__has(st, GVI__HAS_LAGRANGIAN)) return GVI_OK;
     gvi_real *W = x->hess + 3*n, *q = W + n*n + n + 1, *v = q + n, *f = x->one + 4*n, *P = f + n;
     for (int i = 0; i < n; ++i) {
         q[i] = x->work.Q[i*R];
@@ -3161,7 +3286,7 @@ static void gvi__scale_rows(int n, int size, const gvi__matrix *J)
     for (int row = 0; row < size; ++row) {
         gvi_real big = 0, *a = J->square + (size_t)row*(size_t)size, *ends = J->ends + (size_t)row*2*(size_t)n;
         for (int j = 0; j < size; ++j)
-            if (gvi__abs(a[j]) > big) big = gvi__abs(a[j]);
+            if (GVI_ABS(a[j]) > big) big = GVI_ABS(a[j]);
         for (int j = 0; big > 0 && j < size; ++j) a[j] /= big;
         for (int j = 0; big > 0 && j < 2*n; ++j) ends[j] /= big;
     }
@@ -3198,7 +3323,7 @@ static void gvi__newton_guess(gvi_stepper *st, int extrapolate)
         for (int i = 0; i < n; ++i) x->y[i] = gvi__velocity_guess(st, i);
         return;
     }
-    if (x->two) {                                 // E is for one step here
+    if (gvi__two_now(st)) {                       // E is for one step here
         x->two = 0;
         gvi__fit(st, 1, 1);
     }
@@ -3225,13 +3350,13 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__from *from, gvi_r
         for (int k = 0; k < st->s; ++k) {
             if (k >= k0) {
                 x->y[k*n + i] += x->dy[(k - k0)*n + i];
-                change += gvi__abs(x->dy[(k - k0)*n + i]);
+                change += GVI_ABS(x->dy[(k - k0)*n + i]);
             }
-            size += gvi__abs(x->y[k*n + i]);
+            size += GVI_ABS(x->y[k*n + i]);
         }
         if (!(size <= GVI__MIN/GVI__EPS)) sum += change/size; // as gvi__rescale; a NaN goes on
-        if (!(gvi__abs(h)*change <= 4*GVI__EPS*gvi__abs(from->q[i]))) *still = 0;
-        x->change[i] = x->work.Q[i*x->stride + st->r - 1] - gvi__abs(h)*change;     // for gvi__is_rounding
+        if (!(GVI_ABS(h)*change <= 4*GVI__EPS*GVI_ABS(from->q[i]))) *still = 0;
+        x->change[i] = x->work.Q[i*x->stride + st->r - 1] - GVI_ABS(h)*change;     // for gvi__is_rounding
     }
     return sum;
 }
@@ -3275,7 +3400,7 @@ static gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi_
         idle = stagnant ? idle + 1 : 0;
         if (change*ratio <= enough
             || (stagnant && (change <= 64*GVI__EPS*(gvi_real)size || still || residual <= 16*GVI__EPS
-                             || (fresh && change <= gvi__sqrt(GVI__EPS))
+                             || (fresh && change <= GVI_SQRT(GVI__EPS))
                              || (idle > 1 && gvi__is_rounding(st, from, idle))))) last = 1;
         else if (before > 0 && ratio > (gvi_real)0.25) have = 0;
         earlier = before;
@@ -3313,15 +3438,14 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__from *from, gvi_real 
     struct gvi__private *x = &st->x;
     gvi__begin(st, from, h);
     st->formulation = x->chosen;
-    if (x->chosen == GVI_EXPLICIT) return gvi__explicit(st, from, h, past->force);
+    if (gvi__uses(st, GVI_EXPLICIT)) return gvi__explicit(st, from, h, past->force);
 
     int usable = past->available, used = 0;
     gvi_status status = GVI_E_CONVERGENCE;
     if (usable) gvi__prepare_guess(st, past->alpha, past->beta, query);
-    if (x->chosen != GVI_NEWTON && (x->newton_left == 0 || query)) {
+    if (!gvi__uses(st, GVI_NEWTON) && (!gvi__has(st, GVI__HAS_NEWTON) || x->newton_left == 0 || query)) {
         for (int plain = !usable; plain < 2; ++plain) {
             status = gvi__fixed_point(st, from, h, !plain, &used);
-            used = used > x->desc.max_iterations ? x->desc.max_iterations : used;
             st->counters.iterations += (unsigned long long)used;
             if (!query) st->iterations = used;
             if (used > st->counters.most_iterations) st->counters.most_iterations = used;
@@ -3329,7 +3453,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__from *from, gvi_real 
             if (status == GVI_OK || status == GVI_E_CONVERGENCE || used > 1) break;
         }
         if (status == GVI_OK) gvi__increments(st, from, h);
-        if (status == GVI_OK || x->desc.formulation != GVI_AUTO || !(x->flags & GVI__HAS_NEWTON)) return status;
+        if (status == GVI_OK || x->desc.formulation != GVI_AUTO || !gvi__has(st, GVI__HAS_NEWTON)) return status;
         if (!query && status == GVI_E_CONVERGENCE) x->newton_left = 64;
     }
     unsigned long long count = st->counters.newton_iterations;
@@ -3379,7 +3503,7 @@ static void gvi__rotate_rows(gvi_stepper *st)
     gvi__rotate(NULL, &x->last.P, &x->work.P);
     gvi__rotate(&x->older.F, &x->last.F, &x->work.F);
     gvi__rotate(&x->older.V, &x->last.V, &x->work.V);
-    gvi__rotate(&x->older.A, &x->last.A, &x->work.A);
+    if (GVI__LAGRANGIAN) gvi__rotate(&x->older.A, &x->last.A, &x->work.A);
     x->turns = (x->turns + 1) % 6;
 }
 
@@ -3402,17 +3526,20 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     gvi__move(st->n, x->dq, x->dqe, x->q, x->qe, x->q0);
     gvi__move(st->n, x->dp, x->dpe, x->p, x->pe, x->p0);
     x->alike = x->stepped && !gvi__nonzero(h - st->h) ? 2 : 1;
-    gvi__two t = gvi__sum(st->t, x->dt + x->te), H = gvi__sum(x->H, x->dH + x->He);
-    x->H0 = x->H;
-    x->H = H.hi;
-    x->He = H.lo;
+    gvi__two t = gvi__sum(st->t, x->dt + x->te);
+    if (GVI__CLOCK) {
+        const gvi__two H = gvi__sum(x->H, x->dH + x->He);
+        x->H0 = x->H;
+        x->H = H.hi;
+        x->He = H.lo;
+    }
     x->t0 = st->t;
     st->t = t.hi;
     x->te = t.lo;
     st->h = h;
     gvi__rotate_rows(st);
     x->stepped = 1;
-    x->has_force = x->chosen == GVI_EXPLICIT && !gvi__nonzero(x->c[0]) && !gvi__nonzero(x->c[st->r - 1] - 1);
+    x->has_force = gvi__uses(st, GVI_EXPLICIT) && !gvi__nonzero(x->c[0]) && !gvi__nonzero(x->c[st->r - 1] - 1);
     x->has_velocity = st->formulation > GVI_POSITIONS;
     if (x->newton_left > 0) x->newton_left -= 1;
     st->counters.steps += 1;
@@ -3497,7 +3624,7 @@ static gvi_status gvi__energy(gvi_stepper *st, gvi_real t, const gvi_real *q, co
     if (status == GVI_OK) status = gvi__kinetic_energy(st, &y, &T);
     if (status != GVI_OK) return status;
     gvi_real pv = gvi__dot(st->n, p, v);
-    *energy = st->x.flags & GVI__HAS_LAGRANGIAN ? (pv - T) - L + V : pv/2 + V;
+    *energy = gvi__has(st, GVI__HAS_LAGRANGIAN) ? (pv - T) - L + V : pv/2 + V;
     return GVI_OK;
 }
 
@@ -3554,7 +3681,7 @@ GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, con
     gvi_points y;
     gvi__at(&y, st, &t, q, v, f, p);
     x->diagnose = 1;
-    if (x->flags & GVI__HAS_LAGRANGIAN) status = gvi__evaluate(st, &y, 0);
+    if (gvi__has(st, GVI__HAS_LAGRANGIAN)) status = gvi__evaluate(st, &y, 0);
     else {
         gvi__zero(n, f);
         gvi__zero(n, p);
@@ -3663,7 +3790,7 @@ static void gvi__curve(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
     const struct gvi__private *x = &st->x;
     int n = st->n, R = x->stride, by_forces = x->chosen <= GVI_POSITIONS && st->formulation != GVI_NEWTON;
     gvi_real *a = x->row, *b = a + R;               // at tau: phi, Phi over Gamma
-    if (x->drift) {                                 // explicit: a straight line
+    if (gvi__uses(st, GVI_EXPLICIT)) {              // a straight line
         for (int i = 0; i < n; ++i) {
             gvi_real way = (x->q[i] - x->q0[i]) + x->qe[i];
             q[i] = tau < (gvi_real)0.5 ? x->q0[i] + tau*way : x->q[i] - (1 - tau)*way;
@@ -3704,7 +3831,7 @@ GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
     gvi_status status = gvi__ready(st, 1);
     if (status != GVI_OK) return status;
     if (!(tau >= 0 && tau <= 1)) return st->status = GVI_E_ARGUMENT;
-    if (st->x.desc.rule.kind == GVI_KICKS) return st->status = GVI_E_FORMULATION;
+    if (gvi__rule_is(st, GVI_KICKS)) return st->status = GVI_E_FORMULATION;
     gvi_real *Q = st->x.change, *V = Q + st->n;
     gvi__weights(st, st->h);
     gvi__curve(st, tau, Q, V);
@@ -3736,15 +3863,15 @@ static gvi_status gvi__partial_clock(gvi_stepper *st, const gvi__from *from, int
     for (int k = 0; k < 60; ++k) {
         gvi_status status = gvi__partial(st, from, end, h);
         gvi_real miss = x->dt - dt;
-        if (status != GVI_OK || gvi__abs(miss) <= 2*GVI__EPS*gvi__abs(dt)) return status;
-        if (gvi__abs(x->dt) > gvi__abs(dt)) far = h;
+        if (status != GVI_OK || GVI_ABS(miss) <= 2*GVI__EPS*GVI_ABS(dt)) return status;
+        if (GVI_ABS(x->dt) > GVI_ABS(dt)) far = h;
         else near = h;
         for (int i = 0; i < st->n; ++i) q[i] = from->q[i] + x->dq[i];
         status = gvi__rate_at(st, from->t, q, &rate, x->one);
         if (status != GVI_OK) return status;
         gvi_real next = h - miss/rate;
         if (!((next - near)*(far - next) > 0)) next = near + (far - near)/2;
-        if (gvi__abs(next - h) <= GVI__EPS*gvi__abs(st->h)) return GVI_OK;
+        if (GVI_ABS(next - h) <= GVI__EPS*GVI_ABS(st->h)) return GVI_OK;
         h = next;
     }
     return GVI_OK;
@@ -3761,7 +3888,7 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
     if (!((ahead >= 0 && back <= 0) || (ahead <= 0 && back >= 0))) return st->status = GVI_E_STATE;
 
     // partial step of length h from the nearer end
-    int end = gvi__abs(back) <= gvi__abs(ahead);
+    int end = GVI_ABS(back) <= GVI_ABS(ahead);
     gvi_real h = end ? back - x->te : ahead;
     gvi__from from = { x->t0, 0, x->q0, x->zeros, x->p0, x->zeros, x->H0, 0 };
     gvi__from last = { st->t, x->te, x->q, x->qe, x->p, x->pe, x->H, x->He };
@@ -3808,7 +3935,7 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action)
     gvi_status status = gvi__ready(st, 1);
     if (status != GVI_OK) return status;
     if (!action) return st->status = GVI_E_ARGUMENT;
-    if (st->x.desc.rule.kind == GVI_KICKS || gvi__has_clock(st)) return st->status = GVI_E_FORMULATION;
+    if (gvi__rule_is(st, GVI_KICKS) || gvi__has_clock(st)) return st->status = GVI_E_FORMULATION;
     struct gvi__private *x = &st->x;
     gvi_real sum = 0, L, *q = x->change, *v = q + st->n;
     gvi__weights(st, st->h);
@@ -3876,7 +4003,7 @@ static gvi_real gvi__jacobian_error(const gvi_stepper *st)
     int exact = gvi__mass_is_constant(d);
     for (int e = 0; e < d->effect_count; ++e)
         if (!(st->x.off >> e & 1u) && !d->effects[e].hessian) exact = 0;
-    return 16*(exact ? GVI__EPS : gvi__sqrt(GVI__EPS));
+    return 16*(exact ? GVI__EPS : GVI_SQRT(GVI__EPS));
 }
 
 /* The curve between the boundary values: F at its points in work.F, and the sum
@@ -3958,9 +4085,9 @@ static int gvi__negative(int n, gvi_real *a)
         int p = k, q = k, r = k;
         gvi_real diagonal = -1, off = -1;
         for (int i = k; i < n; ++i) {
-            if (gvi__abs(a[i*n + i]) > diagonal) diagonal = gvi__abs(a[i*n + i]), p = i;
+            if (GVI_ABS(a[i*n + i]) > diagonal) diagonal = GVI_ABS(a[i*n + i]), p = i;
             for (int j = k; j < i; ++j)
-                if (gvi__abs(a[i*n + j]) > off) off = gvi__abs(a[i*n + j]), q = j, r = i;
+                if (GVI_ABS(a[i*n + j]) > off) off = GVI_ABS(a[i*n + j]), q = j, r = i;
         }
         width = diagonal >= (gvi_real)0.6404*off ? 1 : 2;
         if (width == 1 && !(diagonal > 0)) break;
@@ -4054,7 +4181,7 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
     gvi__done(st, GVI_OK);
     if (!q0 || !q1 || !out || !gvi__all_finite(st->n, q0) || !gvi__all_finite(st->n, q1)
         || !gvi__finite(t) || !gvi__finite(h) || !gvi__nonzero(h)) return st->status = GVI_E_ARGUMENT;
-    if ((st->s > 1 && !(x->flags & GVI__HAS_NEWTON)) || x->desc.rule.kind == GVI_KICKS || x->clock >= 0)
+    if ((st->s > 1 && !gvi__has(st, GVI__HAS_NEWTON)) || gvi__rule_is(st, GVI_KICKS) || x->clock >= 0)
         return st->status = GVI_E_FORMULATION;
     gvi__from from = { t, 0, q0, x->zeros, x->zeros, x->zeros, 0, 0 };
     gvi__begin(st, &from, h);
@@ -4074,7 +4201,7 @@ GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const 
     gvi_desc desc = st->x.desc;
     gvi_real *own = st->x.memory;
     size_t skip = st->x.skip;
-    memmove(own, memory + saved->x.skip, st->x.size*sizeof(gvi_real));
+    gvi__copy(st->x.size, memory + saved->x.skip, own);
     *st = *saved;
     st->x.skip = skip;
     st->x.desc = desc;

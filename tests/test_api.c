@@ -598,6 +598,8 @@ static int spoil(gvi_desc *d, int k)
     case 20: d->tolerance = -1; break;
     case 21: d->tolerance = (real)NAN; break;
     case 22: d->max_iterations = -1; break;
+    case 23: d->iterations = -1; break;
+    case 24: d->iterations = 1000001; break;
     default: return 0;
     }
     return 1;
@@ -925,6 +927,62 @@ static void a_tolerance_buys_iterations(void **state)
     }
     assert_true(iterations[1] < iterations[0]);
     for (int i = 0; i < 3; ++i) assert_close(q[0][i], q[1][i], 100*sqrt((real)EPS));
+}
+
+/* ------------------------------------------------- a given number of iterations */
+
+/* 20 steps of N iterations on q'' = -q, each with N evaluations at all points.
+   Returns the largest error against cos, sin.                                 */
+static real run_given(int N, gvi_formulation formulation, size_t *size)
+{
+    static const gvi_effect only[] = { { .kind = GVI_POTENTIAL, .points = unit_spring } };
+    const gvi_desc desc = { .n = 1, .degree = 4, .effects = only, .effect_count = 1,
+                            .formulation = formulation, .iterations = N };
+    static real memory[2000];
+    gvi_stepper st;
+    real worst = 0;
+    *size = gvi_size(&desc);
+    assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+    assert_ok(gvi_start(&st, 0, (const real[]){ 1 }, (const real[]){ 0 }));
+    for (int k = 1; k <= 20; ++k) {
+        assert_ok(gvi_step(&st, 0.125));
+        assert_int_equal(st.iterations, N);
+        assert_int_equal(st.counters.effect[0], (unsigned long long)(4*N*k));
+        worst = fmax(worst, fabs(st.q[0] - cos(st.t)) + fabs(st.p[0] + sin(st.t)));
+    }
+    assert_int_equal(st.counters.newton_iterations, 0);
+    return worst;
+}
+
+/* An iteration of (3) changes Q by no more than h^2/2 of what the one before did:
+   what is left after N falls by that or better, until it is rounding.         */
+static void a_given_number_of_iterations_is_made(void **state)
+{
+    size_t size, pinned;
+    (void)state;
+    for (int N = 1; N < 12; ++N) {
+        const real first = run_given(N, GVI_AUTO, &size), next = run_given(N + 1, GVI_POSITIONS, &pinned);
+        assert_true(next <= first/50 + 100*EPS);
+        assert_int_equal(size, pinned);                       /* no memory for Newton */
+        if (N == 1) assert_true(first > 1e-6);                /* one is not enough */
+    }
+    assert_true(run_given(12, GVI_AUTO, &size) < 100*EPS);
+}
+
+static void given_iterations_that_diverge_are_a_failure(void **state)
+{
+    const gvi_desc desc = { .n = 2, .effects = stiff, .effect_count = 1, .iterations = 5 };
+    gvi_desc newton = desc;
+    static real memory[20000];
+    gvi_stepper st;
+    (void)state;
+    assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+    assert_ok(gvi_start(&st, 0, (const real[]){ 0.01, 1 }, (const real[]){ 1, 0 }));
+    assert_status(gvi_step(&st, 0.5), GVI_E_CONVERGENCE);
+    assert_true(st.t == 0 && st.q[0] == (real)0.01 && st.p[0] == 1);
+    assert_ok(gvi_step(&st, 0.005));
+    newton.formulation = GVI_NEWTON;                          /* it has no fixed point */
+    assert_status(gvi_init(&st, &newton, memory, sizeof memory), GVI_E_FORMULATION);
 }
 
 /* ------------------------------------------------------ equivalent callbacks */
@@ -1435,6 +1493,8 @@ int main(void)
         cmocka_unit_test(a_fixed_point_that_contracts_is_never_called_divergent),
         cmocka_unit_test(too_few_iterations_are_a_failure),
         cmocka_unit_test(a_tolerance_buys_iterations),
+        cmocka_unit_test(a_given_number_of_iterations_is_made),
+        cmocka_unit_test(given_iterations_that_diverge_are_a_failure),
         cmocka_unit_test(one_point_a_call_and_all_at_once_are_the_same),
         cmocka_unit_test(newton_with_second_derivatives_and_with_differences_agree),
         cmocka_unit_test(the_callers_velocity_replaces_the_linear_algebra),

@@ -230,6 +230,7 @@ static void random_scene(scene *a)
     if (below(2)) a->desc.formulation = (gvi_formulation)below(6);
     if (below(5) == 0) a->desc.tolerance = uniform()/100;
     a->desc.max_iterations = iterations[below(COUNT(iterations))];
+    if (below(5) == 0) a->desc.iterations = (int)below(6);
 }
 
 /* -------------------------------------------------------------- guarded memory */
@@ -283,7 +284,8 @@ static int is_finite_state(const state *s)
    for the velocity at a point takes 40(n + 1) more.                          */
 static unsigned long long most_points(const gvi_stepper *st, const gvi_desc *d)
 {
-    int iterations = d->max_iterations ? d->max_iterations : 60, n = st->n, r = st->r;
+    int most = d->max_iterations ? d->max_iterations : 60, n = st->n, r = st->r;
+    int iterations = d->iterations > most ? d->iterations : most;
     int fixed_point = iterations*(r + 1), newton = 2*(iterations + 2 + (2*n + 1)*(iterations/4 + 3));
     return 2ull*(unsigned long long)((fixed_point + newton)*r + 40*(n + 2))
          * (unsigned long long)(d->effect_count + 3);

@@ -174,6 +174,7 @@ static gvi_desc describe(void)
     d.formulation = (gvi_formulation)below(6);
     if (below(6) == 0) d.tolerance = number();
     d.max_iterations = (int)below(100);
+    if (below(4) == 0) d.iterations = (int)below(8);
     return d;
 }
 
@@ -189,7 +190,8 @@ static void check(const gvi_stepper *st, const gvi_desc *d, const double *before
                   int changes)
 {
     double after[2*N + 1] = { st->t };
-    const unsigned long long m = d->max_iterations ? (unsigned long long)d->max_iterations : 60;
+    const int most = d->max_iterations ? d->max_iterations : 60;
+    const unsigned long long m = (unsigned long long)(d->iterations > most ? d->iterations : most);
     const unsigned long long n = (unsigned long long)st->n, r = (unsigned long long)st->r;
     const unsigned long long step = (m + 1)*r + 2*(m + 1)*r + ((2*n + 1)*r + n + 1)*(m/4 + 2) + 40*(n + 2);
     int finite = isfinite(st->t);

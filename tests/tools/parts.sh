@@ -1,0 +1,46 @@
+#!/bin/sh
+# parts.sh BUILD: each macro that leaves code out, alone: the scenes that need what it leaves out are refused,
+# all others come out to the bit as with everything compiled; and the code gets smaller.
+build=$1 dir=$1/parts
+mkdir -p "$dir" "$build/result"
+rm -f "$build/result/parts"
+CC=${CC:-cc}
+fail() { echo "FAILED: parts: $*"; exit 1; }
+flags='-std=c99 -Os -ffp-contract=off -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow -Wundef -Wfloat-equal -Wvla -Werror -I.'
+
+make_one() {  # name flags...
+    name=$1
+    shift
+    $CC $flags "$@" -c tests/compile/parts.c -o "$dir/$name.o" && $CC "$dir/$name.o" -o "$dir/$name" -lm &&
+        "$dir/$name" >"$dir/$name.txt" || fail "$name does not compile or run"
+}
+code() { size "$1" | awk 'NR == 2 { print $1 }'; }
+
+count=0
+part() {  # type macro scenes that are refused
+    name=$2-$1
+    make_one "$name" "-DGVI_REAL=$1" "-D$2"
+    for refused in $3; do sed -i "s/^$refused .*/$refused refused/" "$dir/wanted.txt"; done
+    diff "$dir/wanted.txt" "$dir/$name.txt" || fail "$2, $1"
+    [ "$(code "$dir/$name.o")" -lt "$(code "$dir/all-$1.o")" ] || fail "$2 does not make the code smaller"
+    cp "$dir/all-$1.txt" "$dir/wanted.txt"
+    count=$((count + 1))
+}
+
+for type in float double; do
+    make_one "all-$type" "-DGVI_REAL=$type"
+    grep -q refused "$dir/all-$type.txt" && fail "$type: a scene was refused with everything there"
+    grep -cv ' ok ' "$dir/all-$type.txt" | grep -q '^0$' || fail "$type: a scene failed with everything there"
+    cp "$dir/all-$type.txt" "$dir/wanted.txt"
+    part $type GVI_ONLY_EXPLICIT   'positions velocities momenta newton lagrangian clock dense own'
+    part $type GVI_ONLY_POSITIONS  'explicit velocities momenta newton lagrangian clock'
+    part $type GVI_ONLY_VELOCITIES 'explicit positions momenta newton clock dense own'
+    part $type GVI_ONLY_MOMENTA    'explicit positions velocities newton lagrangian dense own'
+    part $type GVI_ONLY_NEWTON     'explicit positions velocities momenta lagrangian clock dense own'
+    part $type GVI_NO_LAGRANGIAN   'lagrangian'
+    part $type GVI_NO_CLOCK        'clock'
+    part $type GVI_NO_DENSE        'dense'
+    part $type GVI_NO_OWN          'own'
+done
+echo "$count" >"$build/result/parts"
+echo "parts: $count passed, 0 failed"
