@@ -94,7 +94,7 @@
    rounding   Round to nearest, subnormals kept; -ffast-math is refused.
               q, p and t carry compensation terms, so 1e9 steps of t + h are
               as exact as one.  Same bits on every IEEE machine when compiled
-              with -ffp-contract=off, as far as callbacks and sin do.
+              with -ffp-contract=off, as far as callbacks do.
    work       With m = max_iterations, a step evaluates an effect at no more than
               (m+1)*r points in the fixed point and, where Newton is used or may
               be, twice (m+1)*r more and (2n+1)*r + n+1 for each of at most
@@ -128,7 +128,7 @@
    A description that asks for what was left out is refused: GVI_E_FORMULATION.
    With GVI_STATIC, functions that are not called vanish as well.
 
-     GVI_SQRT(x) GVI_SIN(x) GVI_ABS(x) GVI_FLOOR(x) GVI_LDEXP(x, e) GVI_FREXP(x, &e)
+     GVI_SQRT(x) GVI_ABS(x) GVI_FLOOR(x) GVI_LDEXP(x, e) GVI_FREXP(x, &e)
                           given all, in gvi_real: <math.h> is not included
 */
 /* ------------------------------------------------------------- HOW IT WORKS
@@ -420,9 +420,10 @@ typedef struct gvi_desc {
                                           below tolerance*|q|.  0: at round-off */
     int               max_iterations;  /* to 1,000,000.  0: 60                 */
     int               iterations;      /* N: exactly N of the fixed point in every step, for
-                                          a loop with a deadline, and no Newton.  It fails if
-                                          the last change is neither half the one before nor
-                                          rounding.  0: as many as it takes    */
+                                          a loop with a deadline, and no Newton.  A step whose
+                                          last change is neither half of that two iterations
+                                          before (N = 2: less than the first) nor rounding fails.
+                                          0: as many as it takes               */
 } gvi_desc;
 
 #define GVI_FAULT_NONE (-1)
@@ -458,6 +459,7 @@ struct gvi__private {
     gvi_real         te, t0, dt;      /* compensation of t; start of last step; its length */
     gvi_real         H, He, dH, H0;   /* clock: energy, its rest, increment; at the start */
     int              clock, has_rate; /* effect that is one, or -1; rate holds  */
+    int              single;          /* effect that is the only one, or -1     */
     gvi_real         h_weights;       /* h for which hb holds                   */
     gvi_real         ratio;           /* h/h_last for which E holds             */
     int              alike;           /* last steps of the same length: 0, 1, 2 */
@@ -671,7 +673,6 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__MATH(name) name##l
 #endif
 #define GVI_SQRT(x)      GVI__MATH(sqrt)(x)
-#define GVI_SIN(x)       GVI__MATH(sin)(x)
 #define GVI_ABS(x)       GVI__MATH(fabs)(x)
 #define GVI_FLOOR(x)     GVI__MATH(floor)(x)
 #define GVI_LDEXP(x, e)  GVI__MATH(ldexp)(x, e)
@@ -762,7 +763,8 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #error "gvi.h needs IEEE arithmetic: this long double is a pair of doubles"
 #endif
 
-typedef char gvi__effects_fit_a_word[GVI_EFFECTS >= 1 && GVI_EFFECTS <= 32 ? 1 : -1];
+typedef char gvi__effects_fit_a_word[GVI_EFFECTS >= 1 && GVI_EFFECTS <= 32
+                                     && GVI_EFFECTS <= 8*sizeof(unsigned) ? 1 : -1];
 
 static int gvi__finite(gvi_real x) { return GVI_ABS(x) <= GVI__MAX; }
 
@@ -790,7 +792,10 @@ static void gvi__copy(size_t n, const gvi_real *x, gvi_real *y)
    twice the digits of gvi_real (Dekker, Knuth).  Used for tables, where the
    rounding of a coefficient would act in every step in the same direction.   */
 typedef struct gvi__two { gvi_real hi, lo; } gvi__two;
-#if FLT_EVAL_METHOD == 0
+#if FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 16    // 16: as 0, and _Float16 in its own range
+#define GVI__EXACT_TYPES
+#endif
+#ifdef GVI__EXACT_TYPES
 typedef gvi_real gvi__stored;
 #else
 typedef volatile gvi_real gvi__stored;     // registers are wider: round for certain
@@ -805,12 +810,12 @@ static gvi__two gvi__sum(gvi_real x, gvi_real y)          // x + y exactly
     return z;
 }
 
-#if defined(FP_FAST_FMA) && GVI__KIND == 2
+#if (defined(FP_FAST_FMA) && GVI__KIND == 2) || (defined(FP_FAST_FMAF) && GVI__KIND == 1)
 static gvi__two gvi__product(gvi_real a, gvi_real b)      // a*b exactly
 {
     gvi__two z;
     z.hi = a*b;
-    z.lo = fma(a, b, -z.hi);
+    z.lo = GVI__MATH(fma)(a, b, -z.hi);
     return z;
 }
 #else
@@ -1114,7 +1119,8 @@ static gvi__two gvi__node(int lobatto, int n, int j)
     gvi_real a = lobatto ? (gvi_real)j + (gvi_real)0.25 : (gvi_real)j + (gvi_real)0.75;
     gvi_real theta = lobatto ? pi*a/(gvi_real)m - 3/(8*pi*(gvi_real)m*a)
                              : pi*a/((gvi_real)m + (gvi_real)0.5);
-    gvi_real sine = GVI_SIN(theta/2), c = sine*sine, last = 1;
+    const gvi_real y = theta*theta/4, sine = theta/2*(1 - y/6*(1 - y/20*(1 - y/42)));      // to 3e-7, and Newton's method
+    gvi_real c = sine*sine, last = 1;
     for (int k = 0; k < 12; ++k) {
         gvi_real dc = gvi__node_correction(lobatto, m, c);
         c += dc;
@@ -1422,28 +1428,22 @@ static gvi_status gvi__value(gvi_stepper *st, gvi_points *x, int e, gvi_real *va
     return GVI_OK;
 }
 
-/* Asks effect e, which sees only what its kind may read.  Fields of x are lent and
-   taken back one by one: a copied struct would have to wait for its stores.  With
-   x->value (clock) V goes there and L to x.less, in the same call if it can be.  */
+/* Asks effect e where it is not one call for all points and no more: one point a
+   call; with x->value (clock) V goes there and L to x.less, in the same call if it
+   can be; and in the diagnosing repetition what it added is looked at.        */
 static gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e)
 {
     const gvi_effect *effect = st->x.desc.effects + e;
-    const gvi_real *v = x->v;
-    gvi_real *dldv = x->dldv, *value = GVI__CLOCK ? x->value : NULL;
+    gvi_real *value = GVI__CLOCK ? x->value : NULL;
     gvi_real *own = value && effect->kind == GVI_LAGRANGIAN ? st->x.less : effect->kind == GVI_FORCE ? NULL : value;
     int point = GVI_FAULT_NONE, together = own && effect->points && effect->value == effect->points;
-    if (effect->kind == GVI_POTENTIAL) x->v = NULL;
-    if (effect->kind != GVI_LAGRANGIAN) x->dldv = NULL;
     x->value = together ? own : NULL;
-    st->counters.effect[e] += (unsigned long long)x->count;
     int refused = effect->points ? effect->points(x, effect->user) : gvi__point_by_point(st, effect, x, &point);
     gvi_status status = refused ? gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, point) : GVI_OK;
     if (st->x.diagnose && status == GVI_OK) {
         status = gvi__check_rows(st, x, x->f, e);
         if (status == GVI_OK && x->dldv) status = gvi__check_rows(st, x, x->dldv, e);
     }
-    x->v = v;
-    x->dldv = dldv;
     x->value = value;
     return status == GVI_OK && own && !together ? gvi__value(st, x, e, own) : status;
 }
@@ -1454,14 +1454,58 @@ static unsigned gvi__clock_bit(const gvi_stepper *st) { return GVI__CLOCK && st-
 static int gvi__has_clock(const gvi_stepper *st) { return (gvi__clock_bit(st) & ~st->x.off) != 0; }
 
 /* Every effect that is on, but the clock and what has its bit in `skip`: adds to
-   x->f and x->dldv.                                                           */
+   x->f and x->dldv.  An effect sees only what its kind may read.  Fields of x are
+   lent and taken back one by one: a copied struct would have to wait for its stores. */
 static gvi_status gvi__effects(gvi_stepper *st, gvi_points *x, unsigned skip)
 {
+    const gvi_effect *effect = st->x.desc.effects;
+    const gvi_real *v = x->v;
+    gvi_real *dldv = x->dldv;
     gvi_status status = GVI_OK;
+    const int plain = !x->value && !st->x.diagnose;
     skip |= st->x.off | gvi__clock_bit(st);
-    for (int e = 0; e < st->x.desc.effect_count && status == GVI_OK; ++e)
-        if (!(skip >> e & 1u)) status = gvi__effect(st, x, e);
+    for (int e = 0; e < st->x.desc.effect_count && status == GVI_OK; ++e, ++effect) {
+        if (skip >> e & 1u) continue;
+        x->v = effect->kind == GVI_POTENTIAL ? NULL : v;
+        x->dldv = effect->kind == GVI_LAGRANGIAN ? dldv : NULL;
+        st->counters.effect[e] += (unsigned long long)x->count;
+        if (!plain || !effect->points) status = gvi__effect(st, x, e);
+        else if (effect->points(x, effect->user)) status = gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, GVI_FAULT_NONE);
+    }
+    x->v = v;
+    x->dldv = dldv;
     return status;
+}
+
+/* The only effect that is on, if it takes all points in a call and is neither a
+   Lagrangian term nor beside a clock; or -1.                                  */
+static int gvi__single(const gvi_stepper *st)
+{
+    int single = -1;
+    for (int e = 0; e < st->x.desc.effect_count; ++e) {
+        const gvi_effect *effect = st->x.desc.effects + e;
+        if (st->x.off >> e & 1u) continue;
+        if (single >= 0 || !effect->points || effect->kind > GVI_FORCE) return -1;
+        single = e;
+    }
+    return single;
+}
+
+// all effects that are on; nothing stands between a step and its only effect
+static inline gvi_status gvi__all_effects(gvi_stepper *st, gvi_points *x)
+{
+    const int e = st->x.single;
+    if (e < 0 || st->x.diagnose) return gvi__effects(st, x, 0);
+    const gvi_effect *effect = st->x.desc.effects + e;
+    const gvi_real *v = x->v;
+    gvi_real *dldv = x->dldv;
+    if (effect->kind == GVI_POTENTIAL) x->v = NULL;
+    x->dldv = NULL;
+    st->counters.effect[e] += (unsigned long long)x->count;
+    const int refused = effect->points(x, effect->user);
+    x->v = v;
+    x->dldv = dldv;
+    return refused ? gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, GVI_FAULT_NONE) : GVI_OK;
 }
 
 // the bits of all effects of a kind; of those with a Hessian
@@ -1955,11 +1999,11 @@ static gvi_status gvi__check_desc(const gvi_desc *d)
         || d->iterations < 0 || d->iterations > 1000000
         || !(d->tolerance >= 0 && d->tolerance < 1))
         return GVI_E_ARGUMENT;
-    if ((int)d->formulation < GVI_AUTO || (int)d->formulation > GVI_NEWTON) return GVI_E_ARGUMENT;
+    if ((unsigned)d->formulation > GVI_NEWTON) return GVI_E_ARGUMENT;
     int clocks = 0;
     for (int e = 0; e < d->effect_count; ++e) {
         const gvi_effect *x = d->effects + e;
-        if ((int)x->kind < GVI_POTENTIAL || (int)x->kind > GVI_CLOCK || !x->points == !x->point)
+        if ((unsigned)x->kind > GVI_CLOCK || !x->points == !x->point)
             return GVI_E_ARGUMENT;
         if (x->kind == GVI_CLOCK && (clocks++ || !x->points)) return GVI_E_ARGUMENT;
     }
@@ -2044,6 +2088,7 @@ static gvi_status gvi__resolve(gvi_stepper *st, const gvi_desc *desc)
         st->x.flags |= GVI__HAS_NEWTON;
     if (d->rule.kind == GVI_KICKS) st->order = 0;
     st->formulation = st->x.chosen;
+    st->x.single = gvi__single(st);
 
     // indices are int: n*n and s*n where there are matrices
     int matrices = d->mass.kind >= GVI_MASS_DENSE || gvi__has(st, GVI__HAS_NEWTON | GVI__HAS_LAGRANGIAN);
@@ -2093,7 +2138,6 @@ static gvi__needs gvi__needs_of(const gvi_stepper *st)
     return u;
 }
 
-// rows come first: they are aligned if the memory is
 static void gvi__layout_rows(gvi_stepper *st, gvi__arena *a, const gvi__needs *u, size_t n, size_t N)
 {
     struct gvi__private *x = &st->x;
@@ -2145,18 +2189,23 @@ static void gvi__layout_tables(gvi_stepper *st, gvi__arena *a, const gvi__needs 
     x->own = gvi__take(a, gvi__has(st, GVI__HAS_OWN), s*s + s + 1, 1);
 }
 
-static void gvi__layout_state(gvi_stepper *st, gvi__arena *a, size_t n, size_t N)
+// N: n, in whole vectors if n >= 8
+static void gvi__layout_vectors(gvi_stepper *st, gvi__arena *a, size_t N)
 {
     struct gvi__private *x = &st->x;
-    const gvi_mass_kind mass = x->desc.mass.kind;
     gvi_real **const vectors[] = { &x->q, &x->qe, &x->p, &x->pe, &x->q0, &x->p0, &x->zeros, &x->start, &x->v0, &x->ve,
                                    &x->dq, &x->dp, &x->dqe, &x->dpe };
     for (size_t k = 0; k < sizeof vectors/sizeof *vectors; ++k) *vectors[k] = gvi__take(a, 1, 1, N);
+    x->mass = gvi__take(a, x->desc.mass.kind == GVI_MASS_DIAGONAL, 1, N);
+    x->over = gvi__take(a, x->desc.mass.kind == GVI_MASS_DIAGONAL, 1, N);
+}
+
+static void gvi__layout_scratch(gvi_stepper *st, gvi__arena *a, size_t n)
+{
+    struct gvi__private *x = &st->x;
     x->scale = gvi__take(a, 1, 2, n);
     x->change = gvi__take(a, 1, 3, n);
     x->one = gvi__take(a, 1, 6, n);
-    x->mass = gvi__take(a, mass == GVI_MASS_DIAGONAL, 1, n);
-    x->over = gvi__take(a, mass == GVI_MASS_DIAGONAL, 1, n);
     if (gvi__mass_is(st, GVI_MASS_DENSE)) x->mass = gvi__take(a, 1, 2*n, n);
 }
 
@@ -2184,18 +2233,20 @@ static size_t gvi__layout(gvi_stepper *st, gvi_real *base)
     gvi__arena a;
     a.base = base;
     a.used = 0;
+    if (n >= 8) gvi__layout_vectors(st, &a, N);   // what is not in whole vectors comes last
     gvi__layout_rows(st, &a, &u, n, N);
     gvi__layout_tables(st, &a, &u, n);
-    gvi__layout_state(st, &a, n, N);
+    if (n < 8) gvi__layout_vectors(st, &a, N);
+    gvi__layout_scratch(st, &a, n);
     gvi__layout_newton(st, &a, &u, n);
     return a.used;
 }
 
-/* Rows of whole vectors are to start where a cache line does: up to this many
-   numbers are left out at the beginning of the memory.                        */
+/* Whole vectors are to start where a cache line does: up to this many numbers are
+   left out at the beginning of the memory.                                    */
 static size_t gvi__slack(const gvi_stepper *st)
 {
-    return st->x.stride % 8 == 0 ? GVI__SLACK : 0;
+    return st->x.stride % 8 == 0 || st->n >= 8 ? GVI__SLACK : 0;
 }
 
 GVI_DEF size_t gvi_size(const gvi_desc *desc)
@@ -2277,7 +2328,12 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
 /* --------------------------------------------------------- STEPPER: STEP */
 
 // where a step, or a query's partial step, starts
-typedef struct gvi__from { gvi_real t, te; const gvi_real *q, *qe, *p, *pe; gvi_real E, Ee; } gvi__from;
+typedef struct gvi__from {
+    gvi_real t, te;
+    const gvi_real *q, *qe, *p, *pe;
+    gvi_real E, Ee;                   /* clock                                  */
+    const gvi_real *v, *ve;           /* M^-1 p, M^-1 pe, where M is constant   */
+} gvi__from;
 
 // rows of the Lagrangian terms' dL/dv, where there are any
 static inline gvi_real *gvi__A(const struct gvi__rows *rows) { return GVI__LAGRANGIAN ? rows->A : NULL; }
@@ -2289,19 +2345,31 @@ static void gvi__rows_as_points(gvi_points *x, const gvi_stepper *st, const stru
     x->stride = st->x.stride;
 }
 
+// out := t + (te + c h)
+static inline void gvi__times(int R, gvi_real t, gvi_real te, gvi_real h, const gvi_real *GVI__RESTRICT c,
+                              gvi_real *GVI__RESTRICT out)
+{
+    for (int k = 0; k < R; ++k) out[k] = t + (te + c[k]*h);
+}
+
 // velocities where the mass is constant; weights and times of the points
-static void gvi__begin(gvi_stepper *st, const gvi__from *from, gvi_real h)
+static void gvi__begin(gvi_stepper *st, gvi__from *from, gvi_real h)
 {
     struct gvi__private *x = &st->x;
+    const int R = x->stride;
     gvi__weights(st, h);
     x->dt = h;
     x->dH = 0;
-    for (int k = 0; k < st->r && !gvi__uses(st, GVI_EXPLICIT); ++k) x->t[k] = from->t + (from->te + x->c[k]*h);
-    if (!gvi__mass_is_constant(&x->desc)) return;
+    if (!gvi__uses(st, GVI_EXPLICIT)) gvi__times(R, from->t, from->te, h, x->c, x->t);
+    from->v = from->p;
+    from->ve = from->pe;
+    if (x->desc.mass.kind == GVI_MASS_UNIT || !gvi__mass_is_constant(&x->desc)) return;
     gvi__copy((size_t)st->n, from->p, x->v0);
     gvi__copy((size_t)st->n, from->pe, x->ve);
     gvi__over_mass(st, x->v0, 1, 1);
     gvi__over_mass(st, x->ve, 1, 1);
+    from->v = x->v0;
+    from->ve = x->ve;
 }
 
 // four sums at a time: none waits for another
@@ -2330,15 +2398,21 @@ typedef struct gvi__stage {
 
 /* The products of r*r table and row are what an iteration consists of.  Rows go in
    blocks of eight points, or of r below 5.  Where there are vector registers a
-   block is one vector for the compiler; the loops for the rest add in the same
-   order, so that both give the same bits.                                     */
-#if defined(__GNUC__) && GVI__KIND < 3 && FLT_EVAL_METHOD == 0 \
+   block is one vector for the compiler, or two; the loops for the rest add in the
+   same order, so that both give the same bits.                                */
+#if defined(__GNUC__) && GVI__KIND < 3 && defined(GVI__EXACT_TYPES) \
     && (defined(__SSE2__) || defined(__ARM_NEON) || defined(__ALTIVEC__) || defined(__riscv_vector))
 #define GVI__VECTORS
-typedef gvi_real gvi__vector __attribute__((vector_size(8*sizeof(gvi_real)), aligned(sizeof(gvi_real)), may_alias));
+#if defined(__AVX__) && !defined(__AVX512F__) && GVI__KIND == 2
+#define GVI__LANES 4                                  // of eight it would keep sums in memory: twice the time
+#else
+#define GVI__LANES 8
+#endif
+typedef gvi_real gvi__vector
+    __attribute__((vector_size(GVI__LANES*sizeof(gvi_real)), aligned(sizeof(gvi_real)), may_alias));
 #define GVI__AT(p) (*(const gvi__vector *)(p))
 
-// z := sum_j table[j][0..7] L_j in four sums, so that none need wait for another; r > 4
+// z := sum_j table[j][0..] L_j, one vector, in four sums, so that none need wait for another; r > 4
 static inline void gvi__sum_vector(int r, int R, const gvi_real *table, const gvi_real *L, gvi__vector *z)
 {
     gvi__vector a = GVI__AT(table)*L[0], b = GVI__AT(table + R)*L[1];
@@ -2361,12 +2435,19 @@ static inline void gvi__sum_vector(int r, int R, const gvi_real *table, const gv
 static inline void gvi__sum_block(int r, int R, int block, const gvi_real *table, const gvi_real *L, gvi_real *z)
 {
     for (int k = 0; k < block; ++k) {
-        gvi_real sum[4] = { 0, 0, 0, 0 };
-        for (int j = 0; j < r; ++j) {
-            const gvi_real term = table[j*R + k]*L[j];
-            sum[j % 4] = j < 4 ? term : sum[j % 4] + term;
+        const gvi_real *t = table + k;
+        gvi_real a = t[0]*L[0], b = r > 1 ? t[R]*L[1] : 0, c = r > 2 ? t[2*R]*L[2] : 0, d = r > 3 ? t[3*R]*L[3] : 0;
+        int j = 4;
+        for (; j + 3 < r; j += 4) {
+            a += t[j*R]*L[j];
+            b += t[(j + 1)*R]*L[j + 1];
+            c += t[(j + 2)*R]*L[j + 2];
+            d += t[(j + 3)*R]*L[j + 3];
         }
-        z[k] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+        if (j < r) a += t[j*R]*L[j];
+        if (j + 1 < r) b += t[(j + 1)*R]*L[j + 1];
+        if (j + 2 < r) c += t[(j + 2)*R]*L[j + 2];
+        z[k] = (a + b) + (c + d);
     }
 }
 
@@ -2374,7 +2455,8 @@ static inline void gvi__sum_block(int r, int R, int block, const gvi_real *table
 static inline void gvi__sum_row(int r, int R, const gvi_real *table, const gvi_real *L, gvi_real *z)
 {
 #ifdef GVI__VECTORS
-    for (int o = 0; R % 8 == 0 && o < R; o += 8) gvi__sum_vector(r, R, table + o, L, (gvi__vector *)(z + o));
+    for (int o = 0; R % 8 == 0 && o < R; o += GVI__LANES)
+        gvi__sum_vector(r, R, table + o, L, (gvi__vector *)(z + o));
     if (R % 8 == 0) return;
 #endif
     gvi__sum_block(r, R, R, table, L, z);
@@ -2427,32 +2509,40 @@ static inline gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stag
 #ifdef GVI__VECTORS
     if (R % 8 == 0) {
         // h b F of a few rows ahead of their sums, which would have to wait for it
-        gvi_real ahead[64], *L = R == 8 ? ahead : x->z;
+        enum { VECTORS = 8/GVI__LANES };              // in a block
+        gvi_real ahead[64], lane[8], *L = R == 8 ? ahead : x->z;
         const int few = R == 8 ? 8 : 1;
-        gvi__vector squares = { 0 };
+        gvi__vector squares[VECTORS] = { { 0 } };
         for (int i = 0; i < n; ++i) {
             const gvi__affine p = gvi__affine_of(y, diagonal, i);
             if (i % few == 0)
-                for (int o = 0; o < few*R && i*R + o < n*R; o += 8)
+                for (int o = 0; o < few*R && i*R + o < n*R; o += GVI__LANES)
                     *(gvi__vector *)(L + o) = GVI__AT(x->hb + o % R)*GVI__AT(y->f + i*R + o);
             if (minus) gvi__weigh(R, x->b, x->work.A + i*R, x->less);
             for (int o = R - 8; o >= 0; o -= 8) {
                 const int last = r - 1 - o;
                 gvi_real *row = y->rows + i*R + o;
-                gvi__vector z, less, next, moved;
-                gvi__sum_vector(r, R, y->table + o, L + i % few*R, &z);
-                if (minus) {
-                    gvi__sum_vector(r, R, minus + o, x->less, &less);
-                    z -= less;
+                gvi__vector next[VECTORS];
+                for (int k = 0; k < VECTORS; ++k) {
+                    const int at = o + k*GVI__LANES;
+                    gvi__vector z, less;
+                    gvi__sum_vector(r, R, y->table + at, L + i % few*R, &z);
+                    if (minus) {
+                        gvi__sum_vector(r, R, minus + at, x->less, &less);
+                        z -= less;
+                    }
+                    next[k] = p.base + (p.extra + (GVI__AT(c + at)*p.a + z*p.b));
                 }
-                next = p.base + (p.extra + (GVI__AT(c + o)*p.a + z*p.b));
-                if (last < 8) gvi__rescale(p.base, row[last], next[last], y->scale + i);
-                moved = (next - GVI__AT(row))*y->scale[i];
-                squares += moved*moved;
-                *(gvi__vector *)row = next;
+                if (last < 8) gvi__rescale(p.base, row[last], next[last/GVI__LANES][last % GVI__LANES], y->scale + i);
+                for (int k = 0; k < VECTORS; ++k) {
+                    const gvi__vector moved = (next[k] - GVI__AT(row + k*GVI__LANES))*y->scale[i];
+                    squares[k] += moved*moved;
+                    *(gvi__vector *)(row + k*GVI__LANES) = next[k];
+                }
             }
         }
-        return gvi__sum_lanes((const gvi_real *)&squares);
+        for (int k = 0; k < VECTORS; ++k) *(gvi__vector *)(lane + k*GVI__LANES) = squares[k];
+        return gvi__sum_lanes(lane);
     }
 #endif
     gvi_real lane[8] = { 0, 0, 0, 0, 0, 0, 0, 0 };
@@ -2513,12 +2603,15 @@ static gvi_real gvi__stage_rows(gvi_stepper *st, const gvi__stage *y)
     const int r = st->r, R = st->x.stride;
     if (y->over_mass && gvi__mass_is(st, GVI_MASS_DENSE)) return gvi__stage_rows_dense(st, y);
     switch (r) {
+    case 1:  return gvi__stage_rows_of(st, y, 1, 1);
     case 2:  return gvi__stage_rows_of(st, y, 2, 2);
     case 3:  return gvi__stage_rows_of(st, y, 3, 3);
     case 4:  return gvi__stage_rows_of(st, y, 4, 4);
+#ifdef GVI__VECTORS
     case 6:  return gvi__stage_rows_of(st, y, 6, 8);
     case 8:  return gvi__stage_rows_of(st, y, 8, 8);
     case 16: return gvi__stage_rows_of(st, y, 16, 16);
+#endif
     default: return R == 8 ? gvi__stage_rows_of(st, y, r, 8) : gvi__stage_rows_of(st, y, r, R);
     }
 }
@@ -2561,11 +2654,11 @@ static int gvi__plan(gvi_stepper *st, const gvi__from *from, gvi_real h, gvi__st
         gvi__stage_set(y + 1, from->q, from->qe, NULL, x->T, w->V, 1, w->Q, x->scale + st->n);
         return 2;
     }
-    gvi__stage_set(y, from->q, from->qe, x->v0, x->g, w->F, h, w->Q, x->scale);
+    gvi__stage_set(y, from->q, from->qe, from->v, x->g, w->F, h, w->Q, x->scale);
     y->minus = gvi__A(w) ? x->T : NULL;
     y->over_mass = 1;
     if (gvi__uses(st, GVI_POSITIONS)) return 1;
-    gvi__stage_set(y + 1, x->v0, x->ve, NULL, x->m, w->F, 1, w->V, x->scale + st->n);
+    gvi__stage_set(y + 1, from->v, from->ve, NULL, x->m, w->F, 1, w->V, x->scale + st->n);
     y[1].minus = gvi__A(w) ? x->N : NULL;
     y[1].over_mass = 1;
     return 2;
@@ -2582,11 +2675,10 @@ static inline void gvi__scale_row(int R, const gvi_real *GVI__RESTRICT a, gvi_re
 static gvi_real gvi__stages(gvi_stepper *st, const gvi__stage *y, int count)
 {
     struct gvi__private *x = &st->x;
-    const int momenta = gvi__uses(st, GVI_MOMENTA);
-    gvi_real sum = gvi__stage_rows(st, y);
+    const gvi_real sum = gvi__stage_rows(st, y);
     if (count == 1) return sum;
     const int clock = gvi__has_clock(st), factor = x->has_factor || gvi__mass_is_constant(&x->desc);
-    if (momenta && factor && !x->desc.mass.velocity && (!clock || x->has_rate)) {
+    if (gvi__uses(st, GVI_MOMENTA) && factor && !x->desc.mass.velocity && (!clock || x->has_rate)) {
         gvi__velocity_rows(st);           // the new P, if with the old M(Q) and g: contracts twice as fast
         for (int i = 0; clock && i < st->n; ++i) gvi__scale_row(x->stride, x->rate, x->work.V + i*x->stride);
     }
@@ -2720,18 +2812,29 @@ static gvi_status gvi__ask_clock(gvi_stepper *st, const gvi__from *from, gvi_poi
     return status;
 }
 
+// rows [n][stride] := 0, in whole vectors where they are
+static inline void gvi__zero_rows(const gvi_stepper *st, gvi_real *rows)
+{
+    const int R = st->x.stride, length = st->n*R;
+#ifdef GVI__VECTORS
+    const gvi__vector none = { 0 };
+    for (int k = 0; R % 8 == 0 && k < length; k += GVI__LANES) *(gvi__vector *)(rows + k) = none;
+    if (R % 8 == 0) return;
+#endif
+    gvi__zero((size_t)length, rows);
+}
+
 // F (and A, V) at the rows of this iteration, all points in one call an effect
 static gvi_status gvi__ask(gvi_stepper *st, const gvi__from *from, gvi_points *y)
 {
-    size_t length = (size_t)st->n*(size_t)st->x.stride;
     gvi_status status = gvi__check_points(st, y);
-    gvi__zero(length, y->f);
+    gvi__zero_rows(st, y->f);
     if (status == GVI_OK && gvi__uses(st, GVI_MOMENTA)) status = gvi__legendre_rows(st, y);
-    if (y->dldv) gvi__zero(length, y->dldv);
+    if (y->dldv) gvi__zero_rows(st, y->dldv);
     if (status != GVI_OK) return status;
     if (gvi__has_clock(st)) return gvi__ask_clock(st, from, y);
     if (gvi__uses(st, GVI_MOMENTA) && gvi__mass_is(st, GVI_MASS_POSITION)) status = gvi__mass_gradient(st, y);
-    return status == GVI_OK ? gvi__effects(st, y, 0) : status;
+    return status == GVI_OK ? gvi__all_effects(st, y) : status;
 }
 
 /* Extrapolates rows of the last step, or of the last two, to the points of the
@@ -2742,7 +2845,7 @@ static inline void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, co
     const struct gvi__private *x = &st->x;
     for (int i = 0; i < st->n; ++i) {
 #ifdef GVI__VECTORS
-        for (int o = 0; older && R % 8 == 0 && o < R; o += 8) {
+        for (int o = 0; older && R % 8 == 0 && o < R; o += GVI__LANES) {
             gvi__vector z, y;
             gvi__sum_vector(r, R, x->E + r*R + o, older + i*R, &y);
             gvi__sum_vector(r, R, x->E + o, last + i*R, &z);
@@ -2854,42 +2957,56 @@ static gvi__two gvi__exact_dot(int r, const gvi_real *a, const gvi_real *b, gvi_
     return sum;
 }
 
+// sum_j (1 - c_j) h b_j F_j; z: scratch
+static inline gvi_real gvi__lever(int r, const gvi_real *GVI__RESTRICT c, const gvi_real *GVI__RESTRICT hb,
+                                  const gvi_real *GVI__RESTRICT F, gvi_real *GVI__RESTRICT z)
+{
+    gvi_real sum[4] = { 0, 0, 0, 0 };
+    for (int j = 0; j < r; ++j) z[j] = (1 - c[j])*(hb[j]*F[j]);
+    for (int j = 0; j < r; ++j) sum[j % 4] += z[j];
+    return (sum[0] + sum[2]) + (sum[1] + sum[3]);
+}
+
 /* Increments of q and p from the F, V and A at the end of the iteration, what is
-   left of them going to dqe and dpe.                                          */
-static void gvi__increments(gvi_stepper *st, const gvi__from *from, gvi_real h)
+   left of them going to dqe and dpe.  r, R: constants for the usual sizes.     */
+static inline void gvi__increments_of(gvi_stepper *st, const gvi__from *from, gvi_real h, int r, int R)
 {
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work;
-    int n = st->n, r = st->r, R = x->stride;
-    if (gvi__has_clock(st)) {
-        x->dt = gvi__dot(r, x->hb, x->rate);
-        x->dH = gvi__dot(r, x->hb, x->power);
-    }
-    for (int j = 0; j < R; ++j) x->less[j] = 1 - x->c[j];
+    const int n = st->n, momenta = gvi__uses(st, GVI_MOMENTA);
     for (int i = 0; i < n; ++i) {
         const gvi_real *F = w->F + i*R;
         const gvi__two p = gvi__exact_dot(r, x->hb, F, from->pe[i]);
         x->dp[i] = p.hi;
         x->dpe[i] = p.lo;
-        x->dqe[i] = 0;
-        if (gvi__uses(st, GVI_MOMENTA)) {
+        if (momenta) {
             const gvi__two q = gvi__exact_dot(r, x->hb, w->V + i*R, from->qe[i]);
             x->dq[i] = q.hi;
             x->dqe[i] = q.lo;
-        } else {
-            gvi__weigh(R, x->hb, F, x->z);
-            x->dq[i] = gvi__dot(r, x->less, x->z) - (gvi__A(w) ? gvi__dot(r, x->b, w->A + i*R) : 0);
         }
+        else x->dq[i] = gvi__lever(r, x->c, x->hb, F, x->z) - (gvi__A(w) ? gvi__dot(r, x->b, w->A + i*R) : 0);
     }
-    if (gvi__uses(st, GVI_MOMENTA)) return;
+    if (momenta) return;
 
     // h v0 exactly; the rest is smaller by h omega
     gvi__over_mass(st, x->dq, 1, 1);
     for (int i = 0; i < n; ++i) {
-        const gvi__two path = gvi__product(h, x->v0[i]), q = gvi__sum(path.hi, h*(x->ve[i] + x->dq[i]));
+        const gvi__two path = gvi__product(h, from->v[i]), q = gvi__sum(path.hi, h*(from->ve[i] + x->dq[i]));
         x->dq[i] = q.hi;
         x->dqe[i] = gvi__rest(q.lo + path.lo + from->qe[i]);
     }
+}
+
+static void gvi__increments(gvi_stepper *st, const gvi__from *from, gvi_real h)
+{
+    struct gvi__private *x = &st->x;
+    if (gvi__has_clock(st)) {
+        x->dt = gvi__dot(st->r, x->hb, x->rate);
+        x->dH = gvi__dot(st->r, x->hb, x->power);
+    }
+    if (st->r == 8) gvi__increments_of(st, from, h, 8, 8);
+    else if (st->r == 4) gvi__increments_of(st, from, h, 4, 4);
+    else gvi__increments_of(st, from, h, st->r, x->stride);
 }
 
 /* Is the change that does not shrink any more nothing but rounding?  It is as far
@@ -2907,7 +3024,7 @@ static int gvi__is_rounding(const gvi_stepper *st, const gvi__from *from, int id
     for (int i = 0; i < st->n; ++i) {
         gvi_real most = 0, Q = x->work.Q[i*R + last];
         int by_v = x->chosen > GVI_POSITIONS || st->formulation == GVI_NEWTON;
-        gvi_real v = by_v ? x->work.V[i*R + last] : x->v0[i];
+        gvi_real v = by_v ? x->work.V[i*R + last] : from->v[i];
         for (int k = 0; k < st->r; ++k) {
             gvi_real F = GVI_ABS(x->work.F[i*R + k]);
             if (F > most) most = F;
@@ -2960,21 +3077,51 @@ static gvi_status gvi__not_finite(gvi_stepper *st, int grows)
     return gvi__give(st, status);
 }
 
-/* Fixed point on the rows.  Tolerance-free end: the change after the next one,
+/* Where an iteration stands: squares of the last changes, the least of them; how
+   often they were poor or without a new least.                                */
+typedef struct gvi__progress { gvi_real before, earlier, least; int poor, idle, grows; } gvi__progress;
+
+enum { GVI__GO_ON, GVI__DONE, GVI__ASK_ONCE_MORE, GVI__BEYOND };
+
+/* The verdict on a change.  Tolerance-free end: the change after the next one,
    D^2/D_before, is far below rounding; or the change is rounding: small, or
    without a new least by a tenth for some iterations, and of no energy.  Three
    changes in a row that fall by less than half are poor.  All of it in squares
    of changes: no root or quotient between an iteration and the next.  A given
-   number of iterations ends there, if the last change is not poor.            */
-static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate, int *used)
+   number of iterations ends there, if the change is half of that two before.  */
+static inline int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *p, gvi_real change, int used)
 {
     struct gvi__private *x = &st->x;
     const gvi_real tolerance = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/4096;
-    const gvi_real enough = tolerance*tolerance, rounding = 16*GVI__EPS*GVI__EPS*(gvi_real)(st->n*st->r);
+    const gvi_real rounding = 16*GVI__EPS*GVI__EPS*(gvi_real)(st->n*st->r), before = p->before;
+    const gvi_real known = before > 1 ? 1 : before > 0 ? before : change;
+    const int fixed = x->desc.iterations;
+    if (fixed == 0 && change*change <= tolerance*tolerance*known) return GVI__DONE;
+    if (fixed > 0 && used == fixed) {
+        const int falls = p->earlier > 0 ? change < p->earlier/4 : before <= 0 || change < before;
+        return falls || change <= 65536*rounding ? GVI__DONE : GVI__BEYOND;
+    }
+    gvi__watch(st, change, p->earlier);
+    p->grows = before > 0 && change >= before/4;
+    if (used == 1 || p->grows) gvi__zero(2*(size_t)st->n, x->scale);
+    p->earlier = before;
+    p->before = change;
+    if (fixed > 0) return GVI__GO_ON;
+    p->poor = p->grows ? p->poor + 1 : 0;
+    p->idle = change < p->least*81/100 ? 0 : p->idle + 1;
+    if (change < p->least) p->least = change;
+    if ((p->idle > 2 && change <= rounding)
+        || ((p->idle > 1 || p->poor > 2) && gvi__is_rounding(st, from, p->idle))) return GVI__ASK_ONCE_MORE;
     const int fall_back = x->desc.formulation == GVI_AUTO && gvi__has(st, GVI__HAS_NEWTON);
-    const int fixed = x->desc.iterations, most = fixed > 0 ? fixed : x->desc.max_iterations;
-    int poor = 0, idle = 0, grows = 0;
-    gvi_real before = 0, earlier = 0, least = GVI__MAX;
+    return p->poor > 2 && fall_back && change > 65536*rounding ? GVI__BEYOND : GVI__GO_ON;   // nearer, idle decides
+}
+
+/* Fixed point on the rows: F, V and A make the rows, the effects are asked there. */
+static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate, int *used)
+{
+    struct gvi__private *x = &st->x;
+    const int most = x->desc.iterations > 0 ? x->desc.iterations : x->desc.max_iterations;
+    gvi__progress p = { 0, 0, GVI__MAX, 0, 0, 0 };
     gvi__stage y[2];
     const int count = gvi__plan(st, from, h, y);
     gvi_points points;
@@ -2985,107 +3132,92 @@ static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_r
         if (status != GVI_OK) return status;
     }
     gvi__guess(st, extrapolate, rate);
-    (void)gvi__stages(st, y, count);
-    gvi__zero(2*(size_t)st->n, x->scale);    // of rows that were there before
-    for (*used = 1; *used <= most; ++*used) {
-        gvi_status status = gvi__ask(st, from, &points);
-        if (status != GVI_OK) return status;
-        for (int i = 0; idle + poor > 0 && i < st->n; ++i) x->change[i] = x->work.Q[i*x->stride + st->r - 1];
+    for (*used = 0; ; ) {
+        for (int i = 0; p.idle + p.poor > 0 && i < st->n; ++i) x->change[i] = x->work.Q[i*x->stride + st->r - 1];
         const gvi_real change = gvi__stages(st, y, count);
-        if (!(change <= GVI__MAX)) return gvi__not_finite(st, grows);
-        const gvi_real known = before > 1 ? 1 : before > 0 ? before : change;
-        const int good = fixed > 0 ? *used == most && (before <= 0 || change < before/4 || change <= 65536*rounding)
-                                   : change*change <= enough*known;
-        if (good) return gvi__watch_last(st, change), GVI_OK;
-        gvi__watch(st, change, earlier);
-        grows = before > 0 && change >= before/4;
-        if (*used == 1 || grows) gvi__zero(2*(size_t)st->n, x->scale);
-        poor = grows ? poor + 1 : 0;
-        idle = change < least*81/100 ? 0 : idle + 1;
-        if (change < least) least = change;
-        if (fixed > 0) idle = poor = 0;               // no other end
-        if ((idle > 2 && change <= rounding) || ((idle > 1 || poor > 2) && gvi__is_rounding(st, from, idle))) {
-            // rows that go to and fro in their last places: their own F, not that of the
-            // side that they came from, which would be a bias
-            gvi__watch_last(st, change);
-            return gvi__ask(st, from, &points);
-        }
-        if (poor > 2 && fall_back && change > 65536*rounding) break;    // nearer, idle decides
-        earlier = before;
-        before = change;
+        int verdict = GVI__GO_ON;
+        if (*used > 0) {
+            if (!(change <= GVI__MAX)) return gvi__not_finite(st, p.grows);
+            verdict = gvi__judge(st, from, &p, change, *used);
+            if (verdict == GVI__DONE || verdict == GVI__ASK_ONCE_MORE) gvi__watch_last(st, change);
+            if (verdict == GVI__DONE) return GVI_OK;
+            if (verdict == GVI__BEYOND || (verdict == GVI__GO_ON && *used == most)) break;
+        } else gvi__zero(2*(size_t)st->n, x->scale);        // of rows that were there before
+
+        // rows that go to and fro in their last places end with their own F, not that of
+        // the side that they came from, which would be a bias
+        *used += verdict == GVI__GO_ON;
+        gvi_status status = gvi__ask(st, from, &points);
+        if (status != GVI_OK || verdict == GVI__ASK_ONCE_MORE) return status;
     }
-    if (*used > most) *used = most;
     return gvi__give(st, GVI_E_CONVERGENCE);
 }
 
-/* Kick and drift of the explicit formulation: dp += b F, then dq += a (v0 + dp/m)
-   and Q = q0 + dq.  dq and dp start with what rounding left of q and p.        */
-static inline void gvi__kick_drift(int n, gvi_real b, gvi_real a, const gvi_real *m, const gvi_real *GVI__RESTRICT v0,
-                                   const gvi_real *GVI__RESTRICT q0, const gvi_real *GVI__RESTRICT F,
+/* Kick and drift of the explicit formulation: dp += b F, then dq += a (v + dp/m) and
+   Q = q + dq.  What does not depend on F is added up first, so that little waits for
+   F; but a (b F) is two products: the rounding of a b, the same in every step, would
+   make the map no longer symplectic and let the energy drift.                 */
+static inline void gvi__kick_drift(int n, gvi_real b, gvi_real a, const gvi_real *m, const gvi_real *GVI__RESTRICT v,
+                                   const gvi_real *GVI__RESTRICT q, const gvi_real *GVI__RESTRICT F,
                                    gvi_real *GVI__RESTRICT dp, gvi_real *GVI__RESTRICT dq, gvi_real *GVI__RESTRICT Q)
 {
-    int i = 0;
-#ifdef GVI__VECTORS
-    for (; i + 8 <= n; i += 8) {
-        const gvi__vector p = GVI__AT(dp + i) + b*GVI__AT(F + i);
-        gvi__vector v = p, q;
-        if (m) v = p*GVI__AT(m + i);
-        q = GVI__AT(dq + i) + a*(GVI__AT(v0 + i) + v);
-        *(gvi__vector *)(dp + i) = p;
-        *(gvi__vector *)(dq + i) = q;
-        *(gvi__vector *)(Q + i) = GVI__AT(q0 + i) + q;
-    }
-#endif
-    for (; i < n; ++i) {
-        dp[i] += b*F[i];
-        dq[i] += a*(v0[i] + (m ? dp[i]*m[i] : dp[i]));
-        Q[i] = q0[i] + dq[i];
+    for (int i = 0; i < n; ++i) {
+        const gvi_real p = dp[i], kick = b*F[i];
+        dq[i] = (dq[i] + a*(v[i] + (m ? p*m[i] : p))) + a*(m ? kick*m[i] : kick);
+        dp[i] = p + kick;
+        Q[i] = q[i] + dq[i];
     }
 }
 
-static void gvi__kick(gvi_stepper *st, const gvi__from *from, gvi_real b, gvi_real a, const gvi_real *F)
+// the same with a full mass matrix
+static void gvi__kick_drift_dense(gvi_stepper *st, const gvi__from *from, gvi_real b, gvi_real a, const gvi_real *F)
 {
     struct gvi__private *x = &st->x;
-    const int n = st->n;
+    gvi_real *z = x->change;
+    for (int i = 0; i < st->n; ++i) z[i] = x->dp[i] += b*F[i];
+    gvi__over_mass(st, z, 1, 1);
+    for (int i = 0; i < st->n; ++i) x->work.Q[i] = from->q[i] + (x->dq[i] += a*(from->v[i] + z[i]));
+}
+
+static inline void gvi__kick(gvi_stepper *st, const gvi__from *from, gvi_real b, gvi_real a, const gvi_real *F, int n)
+{
+    struct gvi__private *x = &st->x;
     const gvi_real *m = x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
-    gvi_real *Q = x->work.Q, *z = x->change;
-    if (gvi__mass_is(st, GVI_MASS_DENSE)) {
-        for (int i = 0; i < n; ++i) z[i] = x->dp[i] += b*F[i];
-        gvi__over_mass(st, z, 1, 1);
-        for (int i = 0; i < n; ++i) Q[i] = from->q[i] + (x->dq[i] += a*(x->v0[i] + z[i]));
-    }
-    else if (n == 2 && !m) gvi__kick_drift(2, b, a, m, x->v0, from->q, F, x->dp, x->dq, Q);
-    else gvi__kick_drift(n, b, a, m, x->v0, from->q, F, x->dp, x->dq, Q);
+    if (gvi__mass_is(st, GVI_MASS_DENSE)) gvi__kick_drift_dense(st, from, b, a, F);
+    else gvi__kick_drift(n, b, a, m, from->v, from->q, F, x->dp, x->dq, x->work.Q);
 }
 
 /* Kicks h b_j F_j at the nodes and drifts from each to the next, one evaluation a
    kick.  `force` is that at the start, if it is known: after a step whose last node
-   was 1.                                                                      */
-static gvi_status gvi__explicit(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *force)
+   was 1.  dqe and dpe are never anything but 0 here.                          */
+static inline gvi_status gvi__explicit_of(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *force,
+                                          int n)
 {
     struct gvi__private *x = &st->x;
-    const size_t n = (size_t)st->n;
     gvi_real *F = x->work.F, t = from->t + from->te;
     gvi_points y;
     gvi__at(&y, st, &t, x->work.Q, NULL, F, NULL);
-    gvi__copy(n, from->qe, x->dq);
-    gvi__copy(n, from->pe, x->dp);
-    gvi__zero(n, F);
-    gvi__zero(n, x->dqe);
-    gvi__zero(n, x->dpe);
-    gvi__kick(st, from, 0, x->drift[0], F);
+    gvi__copy((size_t)n, from->qe, x->dq);
+    gvi__copy((size_t)n, from->pe, x->dp);
+    gvi__zero((size_t)n, F);
+    gvi__kick(st, from, 0, x->drift[0], F, n);
     for (int j = 0; j < st->r; ++j) {
         gvi_status status = GVI_OK;
         t = from->t + (from->te + x->c[j]*h);
         if (j > 0 || !force) {
-            gvi__zero(n, F);
+            gvi__zero((size_t)n, F);
             status = gvi__check_points(st, &y);
-            if (status == GVI_OK) status = gvi__effects(st, &y, 0);
+            if (status == GVI_OK) status = gvi__all_effects(st, &y);
             if (status != GVI_OK) return status;
         }
-        gvi__kick(st, from, x->hb[j], x->drift[j + 1], j == 0 && force ? force : F);
+        gvi__kick(st, from, x->hb[j], x->drift[j + 1], j == 0 && force ? force : F, n);
     }
     return GVI_OK;
+}
+
+static gvi_status gvi__explicit(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *force)
+{
+    return st->n == 2 ? gvi__explicit_of(st, from, h, force, 2) : gvi__explicit_of(st, from, h, force, st->n);
 }
 
 /* Newton on (1).  Unknowns y[k*n + i]; the rows are those of (1) times 2k + 1,
@@ -3432,7 +3564,7 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, gvi_r
 // where the last step's rows are, seen from the step to come
 typedef struct gvi__history { int available; gvi_real alpha, beta; const gvi_real *force; } gvi__history;
 
-static gvi_status gvi__attempt(gvi_stepper *st, const gvi__from *from, gvi_real h,
+static gvi_status gvi__attempt(gvi_stepper *st, gvi__from *from, gvi_real h,
                                const gvi__history *past, int query)
 {
     struct gvi__private *x = &st->x;
@@ -3467,14 +3599,25 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__from *from, gvi_real 
     return status;
 }
 
+// are q + dq and p + dp finite?  x - x is 0 or NaN
+static int gvi__finite_end(const gvi_stepper *st, const gvi__from *from)
+{
+    const struct gvi__private *x = &st->x;
+    gvi_real none = 0;
+    for (int i = 0; i < st->n; ++i) {
+        const gvi_real q = from->q[i] + x->dq[i], p = from->p[i] + x->dp[i];
+        none += (q - q) + (p - p);
+    }
+    return none >= 0;
+}
+
 /* An attempt; if something was not finite, the same once more with every effect
-   looked at, to say which one it was.                                        */
-static gvi_status gvi__solve(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi__history *past, int query)
+   looked at, to say which one it was; what is not finite then is divergence.  */
+static gvi_status gvi__solve(gvi_stepper *st, gvi__from *from, gvi_real h, const gvi__history *past, int query)
 {
     struct gvi__private *x = &st->x;
     gvi_status status = gvi__attempt(st, from, h, past, query);
-    if (status == GVI_OK && !(gvi__all_finite(st->n, x->dq) && gvi__all_finite(st->n, x->dp)))
-        status = GVI_E_NON_FINITE;
+    if (status == GVI_OK && !gvi__finite_end(st, from)) status = gvi__give(st, GVI_E_NON_FINITE);
     if (status == GVI_E_NON_FINITE && st->fault.effect == GVI_FAULT_NONE && !x->diagnose) {
         if (!query) x->h_matrix = 0;
         x->diagnose = 1;
@@ -3499,12 +3642,16 @@ static void gvi__rotate(gvi_real **older, gvi_real **last, gvi_real **work)
 static void gvi__rotate_rows(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
+    x->turns = (x->turns + 1) % 6;
+    if (gvi__uses(st, GVI_EXPLICIT)) {            // no more is kept
+        gvi__rotate(NULL, &x->last.F, &x->work.F);
+        return;
+    }
     gvi__rotate(NULL, &x->last.Q, &x->work.Q);
     gvi__rotate(NULL, &x->last.P, &x->work.P);
     gvi__rotate(&x->older.F, &x->last.F, &x->work.F);
     gvi__rotate(&x->older.V, &x->last.V, &x->work.V);
     if (GVI__LAGRANGIAN) gvi__rotate(&x->older.A, &x->last.A, &x->work.A);
-    x->turns = (x->turns + 1) % 6;
 }
 
 // was := x, x + rest := x + dx + dxe
@@ -3555,7 +3702,7 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
 
     const gvi_formulation was = st->formulation;
     const int left = x->newton_left;
-    gvi__from from = { st->t, x->te, x->q, x->qe, x->p, x->pe, x->H, x->He };
+    gvi__from from = { st->t, x->te, x->q, x->qe, x->p, x->pe, x->H, x->He, NULL, NULL };
     gvi__history past = { x->stepped, 1, 0, x->has_force ? x->last.F : NULL };
     if (x->stepped) {
         past.beta = h/st->h;
@@ -3563,11 +3710,7 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
         if (gvi__nonzero(h - st->h)) x->newton_left = 0;
     }
     gvi_status status = gvi__solve(st, &from, h, &past, 0);
-    int finite = 1;
-    for (int i = 0; i < st->n; ++i) finite &= gvi__finite(x->q[i] + x->dq[i]) & gvi__finite(x->p[i] + x->dp[i]);
-    if (status == GVI_OK && !finite) status = GVI_E_CONVERGENCE;
-    if (status == GVI_OK && !gvi__finite(st->t + x->dt))
-        status = gvi__give(st, GVI_E_ARGUMENT);
+    if (status == GVI_OK && !gvi__finite(st->t + x->dt)) status = gvi__give(st, GVI_E_ARGUMENT);
     if (status != GVI_OK) {
         st->counters.failures += 1;
         st->formulation = was;
@@ -3674,7 +3817,7 @@ GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, con
     gvi_status status = gvi__check_start(st, t, q, v);
     if (status != GVI_OK) return status;
     struct gvi__private *x = &st->x;
-    size_t n = (size_t)st->n;
+    size_t n = (size_t)(unsigned)st->n;           // n > 0, which not every compiler sees
     gvi_real *f = x->one + 4*n, *p = f + n;
 
     // p = dL/dv: of the kinetic energy, and of Lagrangian terms where there are any
@@ -3739,6 +3882,7 @@ GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
         st->x.H = E;
         st->x.He = 0;
     }
+    st->x.single = gvi__single(st);
     st->x.has_force = 0;
     st->x.h_matrix = 0;
     return gvi__done(st, GVI_OK);
@@ -3847,7 +3991,7 @@ GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
 }
 
 // dq and dp of a partial step of length h from one end of the last step
-static gvi_status gvi__partial(gvi_stepper *st, const gvi__from *from, int end, gvi_real h)
+static gvi_status gvi__partial(gvi_stepper *st, gvi__from *from, int end, gvi_real h)
 {
     struct gvi__private *x = &st->x;
     gvi__history past = { 1, end ? (gvi_real)1 : (gvi_real)0, h/st->h, x->has_force && end ? x->last.F : NULL };
@@ -3856,7 +4000,7 @@ static gvi_status gvi__partial(gvi_stepper *st, const gvi__from *from, int end, 
 
 /* The same with a clock, for a time dt from that end: Newton's method for the h
    that takes dt, its derivative being g, kept inside the step by bisection.    */
-static gvi_status gvi__partial_clock(gvi_stepper *st, const gvi__from *from, int end, gvi_real dt)
+static gvi_status gvi__partial_clock(gvi_stepper *st, gvi__from *from, int end, gvi_real dt)
 {
     struct gvi__private *x = &st->x;
     gvi_real near = 0, far = end ? -st->h : st->h, h = st->h*(dt/(st->t - x->t0)), rate, *q = x->change;
@@ -3890,8 +4034,8 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
     // partial step of length h from the nearer end
     int end = GVI_ABS(back) <= GVI_ABS(ahead);
     gvi_real h = end ? back - x->te : ahead;
-    gvi__from from = { x->t0, 0, x->q0, x->zeros, x->p0, x->zeros, x->H0, 0 };
-    gvi__from last = { st->t, x->te, x->q, x->qe, x->p, x->pe, x->H, x->He };
+    gvi__from from = { x->t0, 0, x->q0, x->zeros, x->p0, x->zeros, x->H0, 0, NULL, NULL };
+    gvi__from last = { st->t, x->te, x->q, x->qe, x->p, x->pe, x->H, x->He, NULL, NULL };
     if (end) from = last;
     gvi_formulation was = st->formulation;
     if (gvi__nonzero(h) && gvi__has_clock(st)) status = gvi__partial_clock(st, &from, end, h);
@@ -4183,7 +4327,7 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
         || !gvi__finite(t) || !gvi__finite(h) || !gvi__nonzero(h)) return st->status = GVI_E_ARGUMENT;
     if ((st->s > 1 && !gvi__has(st, GVI__HAS_NEWTON)) || gvi__rule_is(st, GVI_KICKS) || x->clock >= 0)
         return st->status = GVI_E_FORMULATION;
-    gvi__from from = { t, 0, q0, x->zeros, x->zeros, x->zeros, 0, 0 };
+    gvi__from from = { t, 0, q0, x->zeros, x->zeros, x->zeros, 0, 0, NULL, NULL };
     gvi__begin(st, &from, h);
     return gvi__done(st, gvi__boundary_value(st, &from, h, q1, out));
 }
