@@ -52,11 +52,13 @@ COST_OBJECTS = $(patsubst %,$(BUILD)/cost/%.o,problems baselines gvi_run cost)
 PEER_LIBS    = -lgsl -lgslcblas -lsundials_cvode -lsundials_arkode -lsundials_nvecserial \
                -lsundials_sunnonlinsolfixedpoint
 RECORD       =
+DETAIL       =
 
 .DEFAULT_GOAL = help
 .DELETE_ON_ERROR:
 .PHONY: run deps test unit examples headers symbols parts docs-check sanitize valgrind \
         figures synopsis install uninstall help clean cmocka \
+        firmware size deps-firmware \
         cost cost-horizon ncdp scaling cost-peers deps-compare instructions prices advise hard fuzz $(HARD:%=hard-%) scenes $(SCENES:%=scene-%) theorems $(THEOREMS:%=theorem-%) \
         $(PROGRAMS:%=run-%) $(EXAMPLES:%=example-%) $(VALGRIND_TESTS:%=valgrind-%) \
         $(VALGRIND_EXAMPLES:%=valgrind-%)
@@ -152,6 +154,18 @@ deps-compare:
 ## cost-peers   GSL, SUNDIALS and Boost.odeint on the problems of make cost
 cost-peers: $(BUILD)/cost/peers
 	$(Q)$< --out $(BUILD)/cost $(COST_ARGS)
+
+## deps-firmware installs what firmware and size need: compilers for Arm, RISC-V and AVR, qemu
+deps-firmware:
+	$(Q)sh tests/tools/deps.sh --firmware
+
+## firmware     two programs without an operating system, run as Cortex-M3 and M4F by qemu, against this machine
+firmware:
+	$(Q)CC='$(CC)' sh tests/tools/firmware.sh $(BUILD)
+
+## size         code, stack and RAM on Cortex-M0, Cortex-M4F, RISC-V 32 and AVR; DETAIL=--detail: by function
+size:
+	$(Q)CC='$(CC)' sh tests/tools/size.sh $(BUILD) $(DETAIL)
 
 ## instructions points, iterations and instructions of five fixed runs; RECORD=--record writes them anew
 instructions:
@@ -303,6 +317,10 @@ $(VALGRIND_TESTS:%=valgrind-%): valgrind-%: $(BUILD)/tests/%
 
 $(VALGRIND_EXAMPLES:%=valgrind-%): valgrind-%: $(BUILD)/examples/%
 	$(Q)sh tests/tools/run_valgrind.sh $(BUILD) $* $<
+
+ifneq ($(filter deps-firmware,$(MAKECMDGOALS)),)
+firmware size: | deps-firmware
+endif
 
 # "make -j deps test": what is compiled against cmocka waits for its installation.
 ifneq ($(filter deps,$(MAKECMDGOALS)),)

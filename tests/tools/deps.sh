@@ -3,7 +3,8 @@
 #   needed    cmocka
 #   welcome   clang, g++, valgrind: more compilers and checks; what is missing is skipped by the tests
 # deps.sh --check only says whether cmocka can be compiled against; deps.sh --compare installs the
-# libraries that `make cost-peers` compares with.
+# libraries that `make cost-peers` compares with; deps.sh --firmware the compilers for small machines
+# and the emulator that `make firmware size` needs.
 
 CC=${CC:-cc}
 
@@ -36,6 +37,17 @@ if [ "$1" = --compare ]; then
     pacman)  libraries='gsl sundials boost gcc' ;;
     brew)    libraries='gsl sundials boost' ;;
     *)       echo "deps: please install by hand: GSL, SUNDIALS, Boost, a C++ compiler" >&2; exit 1 ;;
+    esac
+fi
+if [ "$1" = --firmware ]; then
+    compare=yes
+    case $manager in
+    apt-get) libraries='gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm
+                        gcc-riscv64-unknown-elf picolibc-riscv64-unknown-elf gcc-avr avr-libc' ;;
+    dnf)     libraries='arm-none-eabi-gcc-cs arm-none-eabi-newlib qemu-system-arm avr-gcc avr-libc' ;;
+    pacman)  libraries='arm-none-eabi-gcc arm-none-eabi-newlib qemu-system-arm avr-gcc avr-libc' ;;
+    brew)    libraries='gcc-arm-embedded qemu coreutils' ;;
+    *)       echo "deps: please install by hand: arm-none-eabi-gcc with newlib, qemu-system-arm" >&2; exit 1 ;;
     esac
 fi
 set -- $names

@@ -1,0 +1,58 @@
+/* What size.sh compiles for a machine: the three calls that every program makes, and
+   the length of a stepper as that of an array.  With SIZE_SCENES, for this machine: a
+   program that prints the numbers (gvi_real) of memory that some scenes need.        */
+#define GVI_IMPLEMENTATION
+#define GVI_STATIC
+#include "gvi.h"
+
+#ifndef SIZE_SCENES
+gvi_status size_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *memory, size_t size);
+gvi_status size_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v);
+gvi_status size_step(gvi_stepper *st, gvi_real h);
+extern char size_stepper[sizeof(gvi_stepper)];
+
+char size_stepper[sizeof(gvi_stepper)];
+
+gvi_status size_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *memory, size_t size)
+{
+    return gvi_init(st, desc, memory, size);
+}
+
+gvi_status size_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
+{
+    return gvi_start(st, t, q, v);
+}
+
+gvi_status size_step(gvi_stepper *st, gvi_real h) { return gvi_step(st, h); }
+
+#else
+#include <stdio.h>
+
+static int anything(const gvi_points *x, void *user) { return (void)x, (void)user, 0; }
+
+static void print(const char *name, int n, int s, gvi_formulation formulation)
+{
+    static const gvi_effect both[] = { { .kind = GVI_POTENTIAL, .points = anything },
+                                       { .kind = GVI_FORCE, .points = anything } };
+    gvi_desc desc = { .n = n, .degree = s, .effects = both, .effect_count = 2, .formulation = formulation };
+    if (formulation == GVI_EXPLICIT) desc.rule.kind = GVI_LOBATTO;
+    if (formulation <= GVI_POSITIONS) desc.effect_count = 1;
+    if (formulation >= GVI_MOMENTA)
+        desc.mass = (gvi_mass){ .kind = GVI_MASS_POSITION, .points = anything, .gradient = anything };
+    const int r = formulation == GVI_EXPLICIT ? s + 1 : s;
+    printf("%s|%u|%u\n", name, (unsigned)(gvi_size(&desc)/sizeof(gvi_real)), (unsigned)GVI_LENGTH(n, s, r));
+}
+
+int main(void)
+{
+    print("planet, Verlet: explicit", 2, 1, GVI_EXPLICIT);
+    print("pendulum, s = 3: positions", 1, 3, GVI_POSITIONS);
+    print("planet, s = 3: positions", 2, 3, GVI_POSITIONS);
+    print("driven pendulum, s = 3: velocities", 1, 3, GVI_VELOCITIES);
+    print("arm of two joints, s = 2: momenta", 2, 2, GVI_MOMENTA);
+    print("arm of two joints, s = 3: momenta", 2, 3, GVI_MOMENTA);
+    print("arm of six joints, s = 2: momenta", 6, 2, GVI_MOMENTA);
+    print("arm of two joints, s = 3: Newton", 2, 3, GVI_NEWTON);
+    return 0;
+}
+#endif

@@ -1,0 +1,145 @@
+#!/bin/sh
+# size.sh BUILD [--detail]: how large gvi.h is on small machines, with GVI_REAL float and -Os:
+# code and constants of gvi.h alone, what it takes of libm and libgcc, the deepest stack; then
+# RAM.  Rows: every function, then gvi_init, gvi_start and gvi_step with one formulation
+# (GVI_ONLY_...), whole and without Lagrangian terms, clock, dense mass and own rules
+# (GVI_NO_..., "least").  --detail: also the largest functions and the deepest chain of calls.
+build=$1 detail=$2
+CC=${CC:-cc}
+dir=$build/size
+mkdir -p "$dir"
+rm -f "$dir"/*
+fail() { echo "FAILED: size: $*"; exit 1; }
+least='-DGVI_NO_LAGRANGIAN -DGVI_NO_CLOCK -DGVI_NO_DENSE -DGVI_NO_OWN'
+entries='size_init size_start size_step'
+cc_flags='-std=c99 -Os -fno-math-errno -ffp-contract=off -ffunction-sections -fdata-sections
+          -DGVI_REAL=float -I.'
+
+echo 'int main(void) { return 0; }' >"$dir/empty.c"
+printf '#define GVI_IMPLEMENTATION\n#include "gvi.h"\n' >"$dir/everything.c"
+
+# frames and calls as stack.awk reads them: from gcc's call graph, or where there is none from
+# its frames and the disassembled image
+calls_of_graph() {  # file.ci
+    sed -n 's/^node: { title: "\([^"]*\)".*\\n\([0-9]*\) bytes (.*/frame \1 \2/p
+            s/^edge: { sourcename: "\([^"]*\)" targetname: "\([^"]*\)".*/call \1 \2/p' "$1" |
+        sed 's/ [^ ]*\.[ch]:/ /g'
+}
+calls_of_image() {  # file.su image
+    tab=$(printf '\t')
+    sed "s/^[^$tab]*:\([^:$tab]*\)$tab\([0-9]*\).*/frame \1 \2/; s/\.[0-9]* / /" "$1"
+    ${prefix}objdump -d "$2" | awk '
+        function name(text) { gsub(/[<>:]/, "", text); sub(/\.[0-9]+$/, "", text); return text }
+        /^[0-9a-f]+ <.*>:$/ { f = name($2); next }
+        /\te?icall/ { print "call", f, "__indirect_call" }
+        /\tr?(call|jmp)\t/ && $NF ~ /^<[^+]*>$/ && name($NF) != f { print "call", f, name($NF) }'
+}
+
+# code is measured in the image, where the linker has shortened calls
+code_of() {  # object image
+    { ${prefix}nm "$1"; ${prefix}nm -S -t d "$2"; } | awk '
+        NF == 3 && $2 ~ /[tT]/ { own[$3] = 1 }
+        NF == 4 && $3 ~ /[tT]/ && ($4 in own) { n += $2 }
+        END { print n + 0 }'
+}
+constants_of() { ${prefix}size -A "$1" | awk '$1 ~ /^\.s?(ro)?data/ { n += $2 } END { print n + 0 }'; }
+whole() { ${prefix}size "$1" | awk 'NR == 2 { print $1 + $2 }'; }
+
+link_object() {  # object roots: an image with these functions and nothing else
+    $compiler $link "$dir/empty.c" "$1.o" $(for f in $2; do echo "-Wl,-u,$f"; done) -lm -o "$1.elf"
+}
+
+stack_of() {  # object roots: bytes, under a callback, under a library function, the chain
+    if [ -n "$graph" ]; then calls_of_graph "$1.ci"
+    else calls_of_image "$1.su" "$1.elf"; fi >"$1.calls"
+    awk -v roots="$2" -f tests/tools/stack.awk "$1.calls" >"$1.stack"
+}
+
+row() {  # name source roots flags...
+    name=$1 source=$2 roots=$3
+    shift 3
+    object=$dir/$target-$(echo "$name" | tr -d ' ' | tr ',' '-')
+    $compiler $cc_flags $graph -fstack-usage "$@" -c "$source" -o "$object.o" ||
+        fail "$target, $name: compilation"
+    [ -n "$roots" ] || roots=$(${prefix}nm "$object.o" | awk '$2 == "T" { printf "%s ", $3 }')
+    link_object "$object" "$roots" || fail "$target, $name: linking"
+    stack_of "$object" "$roots" || fail "$target, $name: stack"
+    read -r stack callback library chain <"$object.stack"
+    code=$(code_of "$object.o" "$object.elf")
+    constants=$(constants_of "$object.o")
+    libraries=$(($(whole "$object.elf") - $(whole "$dir/$target-empty.elf") - code - constants))
+    printf '  %-22s %7d %7d %10d %7d %9d %8d\n' "$name" $code $constants $libraries $stack $callback $library
+    echo "$target|$name|$code|$stack" >>"$dir/rows"
+    [ "$detail" = --detail ] || return 0
+    echo "      deepest chain: $chain"
+    echo "      largest:" $(${prefix}nm -S --size-sort -t d "$object.o" |
+        awk '$3 ~ /[tT]/ { print $4, $2 + 0 }' | tail -10)
+}
+
+stepper() {  # flags: bytes of a gvi_stepper
+    $compiler $cc_flags -DGVI_ONLY_EXPLICIT "$@" -c tests/tools/size.c -o "$dir/stepper.o" ||
+        fail "$target: stepper"
+    ${prefix}nm -S -t d "$dir/stepper.o" | awk '$NF == "size_stepper" { print $2 + 0 }'
+}
+
+table() {  # target title prefix flags link-flags
+    target=$1 prefix=$3 compiler="$3gcc $4" link="-Os -Wl,--gc-sections $5"
+    if ! command -v ${prefix}gcc >/dev/null 2>&1; then
+        echo "$2: skipped, no ${prefix}gcc (make deps-firmware installs it)"
+        return
+    fi
+    graph=-fcallgraph-info=su
+    $compiler $graph -c "$dir/empty.c" -o "$dir/$target-empty.o" 2>/dev/null || graph=
+    $compiler $link "$dir/empty.c" -o "$dir/$target-empty.elf" || fail "$target: linking"
+    echo "$2, gcc $(${prefix}gcc -dumpfullversion -dumpversion), bytes"
+    printf '  %-22s %7s %7s %10s %7s %9s %8s\n' '' code const libraries stack callback library
+    row everything "$dir/everything.c" ''
+    for f in explicit positions velocities momenta newton; do
+        only=-DGVI_ONLY_$(echo $f | tr a-z A-Z)
+        row $f tests/tools/size.c "$entries" $only
+        row "$f, least" tests/tools/size.c "$entries" $only $least
+    done
+    echo "$target $(stepper) $(stepper -DGVI_EFFECTS=4)" >>"$dir/steppers"
+}
+
+# a scene needs as many numbers on every machine; the stepper is pointers and counters
+ram() {
+    $CC -std=c99 -DSIZE_SCENES -DGVI_REAL=float -I. tests/tools/size.c -o "$dir/scenes" -lm &&
+        "$dir/scenes" >"$dir/scenes.txt" || fail 'scenes'
+    echo 'RAM, bytes: gvi_size of a scene, in brackets GVI_LENGTH, enough for every scene of that size;'
+    echo 'with the stepper; the same with GVI_EFFECTS 4'
+    while read -r target full small; do
+        echo "  $target: stepper $full ($small)"
+        awk -F'|' -v full="$full" -v small="$small" -v target="$target" -v rows="$dir/ram" '{
+            printf "    %-36s %5d (%5d) %6d %6d\n", $1, 4*$2, 4*$3, 4*$2 + full, 4*$2 + small
+            print target "|" $1 "|" 4*$2 + full "|" 4*$2 + small >>rows }' "$dir/scenes.txt"
+    done <"$dir/steppers"
+}
+
+aim() {  # what found wanted
+    [ -n "$2" ] && awk -v what="$1" -v found="$2" -v wanted="$3" 'BEGIN {
+        printf "  %-52s %6d  aim %6d  %s\n", what, found, wanted, found + 0 <= wanted + 0 ? "yes" : "no" }'
+}
+found() {  # table row field, of m4f
+    awk -F"|" -v name="$2" -v field="$3" '$1 == "m4f" && $2 == name { print $field }' "$dir/$1"
+}
+
+arm='--specs=nano.specs -nostartfiles -Wl,-e,main'
+m4f='-mthumb -mcpu=cortex-m4 -mfloat-abi=hard -mfpu=fpv4-sp-d16'
+table m0  Cortex-M0  arm-none-eabi- '-mthumb -mcpu=cortex-m0' "$arm"
+table m4f Cortex-M4F arm-none-eabi- "$m4f" "$arm"
+table rv  'RISC-V 32 (rv32imc)' riscv64-unknown-elf- '-march=rv32imc -mabi=ilp32 --specs=picolibc.specs'
+table avr 'AVR (ATmega1284P)' avr- -mmcu=atmega1284p
+[ -f "$dir/steppers" ] || fail 'no compiler for a small machine (make deps-firmware installs some)'
+echo 'libraries: of libm and libgcc, arithmetic in software included'
+echo 'stack: of gvi.h alone; so much of it, last columns, lies under a callback and a library function'
+ram
+echo 'aims on Cortex-M4F'
+aim 'code of everything'                             "$(found rows everything 3)" 16384
+aim 'code for potentials only: positions'            "$(found rows positions 3)" 5120
+aim 'code for potentials only: positions, least'     "$(found rows 'positions, least' 3)" 5120
+aim 'stack of everything'                            "$(found rows everything 4)" 512
+aim 'stack for potentials only: positions, least'    "$(found rows 'positions, least' 4)" 512
+aim 'RAM of the arm, s = 3'                          "$(found ram 'arm of two joints, s = 3: momenta' 3)" 1536
+aim 'RAM of the arm, s = 3, GVI_EFFECTS 4'           "$(found ram 'arm of two joints, s = 3: momenta' 4)" 1536
+exit 0
