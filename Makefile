@@ -58,7 +58,7 @@ DETAIL       =
 .DELETE_ON_ERROR:
 .PHONY: run deps test unit examples headers symbols parts docs-check sanitize valgrind \
         figures synopsis install uninstall help clean cmocka \
-        firmware size deps-firmware \
+        firmware size deps-firmware cost-embedded bound everywhere deps-everywhere own-quadrature float \
         cost cost-horizon ncdp scaling cost-peers deps-compare instructions prices advise hard fuzz $(HARD:%=hard-%) scenes $(SCENES:%=scene-%) theorems $(THEOREMS:%=theorem-%) \
         $(PROGRAMS:%=run-%) $(EXAMPLES:%=example-%) $(VALGRIND_TESTS:%=valgrind-%) \
         $(VALGRIND_EXAMPLES:%=valgrind-%)
@@ -71,9 +71,9 @@ run: $(BUILD)/examples/02_outer_solar_system
 deps:
 	$(Q)CC='$(CC)' sh tests/tools/deps.sh
 
-## test         all tests, then examples, docs-check, headers, symbols, parts, instructions and prices
-test: unit examples docs-check headers symbols parts instructions prices
-	$(Q)sh tests/tools/summary.sh $(BUILD) test unit examples docs-check headers symbols parts instructions prices
+## test         all tests, then examples, docs-check, headers, symbols, parts, bound, instructions and prices
+test: unit examples docs-check headers symbols parts bound instructions prices
+	$(Q)sh tests/tools/summary.sh $(BUILD) test unit examples docs-check headers symbols parts bound instructions prices
 
 ## unit         the test programs alone; one of them: make run-test_lu
 unit: $(PROGRAMS:%=run-%)
@@ -166,6 +166,28 @@ firmware:
 ## size         code, stack and RAM on Cortex-M0, Cortex-M4F, RISC-V 32 and AVR; DETAIL=--detail: by function
 size:
 	$(Q)CC='$(CC)' sh tests/tools/size.sh $(BUILD) $(DETAIL)
+
+## cost-embedded instructions of a step on Cortex-M4F and Cortex-M3 and what they buy (qemu-system-arm; 4 minutes)
+cost-embedded:
+	$(Q)mkdir -p $(BUILD)/embedded
+	$(Q)CC='$(CC)' CXX='$(CXX)' sh tests/tools/embedded_cost.sh $(BUILD)
+
+## bound        operations of a step, counted one by one, against the bound that gvi.h states (C++)
+bound:
+	$(Q)CXX='$(CXX)' sh tests/tools/bound.sh $(BUILD)
+
+## everywhere   every machine that can be compiled for and imitated here: warnings, tests, bits (20 minutes)
+##              RECORD=--record puts its tables into docs/embedded.md; ONLY="armhf tcc": these alone
+everywhere:
+	$(Q)CC='$(CC)' ONLY='$(ONLY)' sh tests/tools/everywhere.sh $(BUILD) $(RECORD)
+
+## deps-everywhere installs compilers, C libraries and emulators for everywhere (Debian 12)
+deps-everywhere:
+	$(Q)sh tests/tools/everywhere.sh --deps
+
+## own-quadrature weak effects with fewer points, or asked less often: the study behind docs/design.md (a minute)
+own-quadrature: $(BUILD)/cost/own_quadrature
+	$(Q)$<
 
 ## instructions points, iterations and instructions of five fixed runs; RECORD=--record writes them anew
 instructions:
@@ -289,7 +311,7 @@ $(BUILD)/cost/%.o: tests/cost/%.c
 	@echo '  cc $@'
 	$(Q)$(CC) -std=c99 $(WARNINGS) -Wno-double-promotion -I. $(CPPFLAGS) -MMD -MP -MF $@.d -MT $@ $(COST_CFLAGS) -c $< -o $@
 
-$(BUILD)/cost/ncdp $(BUILD)/cost/scaling: %: %.o
+$(BUILD)/cost/ncdp $(BUILD)/cost/scaling $(BUILD)/cost/own_quadrature: %: %.o
 	@echo '  ld $@'
 	$(Q)$(CC) $< -o $@ $(LDLIBS)
 
@@ -324,7 +346,7 @@ endif
 
 # "make -j deps test": what is compiled against cmocka waits for its installation.
 ifneq ($(filter deps,$(MAKECMDGOALS)),)
-cmocka headers symbols parts docs-check instructions prices $(EXAMPLES:%=$(BUILD)/examples/%): | deps
+cmocka headers symbols parts bound docs-check instructions prices $(EXAMPLES:%=$(BUILD)/examples/%): | deps
 endif
 
 -include $(wildcard $(BUILD)/tests/*.d $(BUILD)/examples/*.d $(BUILD)/cost/*.d $(BUILD)/theorems/*.d $(BUILD)/hard/*.d)

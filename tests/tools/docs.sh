@@ -25,7 +25,7 @@ awk '/^```c$/ { on = 1; next } on && /^```/ { exit } on' README.md | diff -u "$d
 count=$((count + 3))
 
 # -- 2 and 3: blocks as files, NAME-k.c and the block after it as NAME-k.out
-for page in README.md docs/guide.md; do
+for page in README.md docs/guide.md docs/embedded.md; do
     name=$(basename "$page" .md)
     awk -v base="$dir/$name" '
         /^```/ && !on { on = 1; language = substr($0, 4); file = ""

@@ -59,8 +59,10 @@ for compiler in gcc clang; do
     done
     $cc tests/compile/static_main.c tests/compile/static_float.c tests/compile/static_double.c \
         -o "$dir/static" -lm && "$dir/static" || fail "$compiler: float and double in one program"
-    $cc -c tests/compile/guide.c -o /dev/null || fail "$compiler: tests/compile/guide.c"
-    count=$((count + 2))
+    for page in guide embedded; do
+        $cc -c tests/compile/$page.c -o /dev/null || fail "$compiler: tests/compile/$page.c"
+    done
+    count=$((count + 3))
 done
 for pair in 'gcc g++' 'clang clang++'; do
     set -- $pair
