@@ -555,7 +555,8 @@ GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_rea
 /* One step to t + h (with a clock: to tau + h); h < 0 steps back; h may differ
    from step to step (which keeps the map symplectic but not the energy's
    long-time bound).  If what an effect reads through `user` changes between
-   steps, call gvi_switch(st, i, 1): the explicit formulation keeps the force at the end of a step for the next.  */
+   steps, call gvi_switch(st, i, 1): the explicit formulation keeps the force at
+   the end of a step for the next.                                            */
 GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h);
 
 /* Switches effect `index` off (on = 0) or on again, between steps.           */
@@ -1127,7 +1128,7 @@ static gvi__two gvi__node(int lobatto, int n, int j)
     gvi_real a = lobatto ? (gvi_real)j + (gvi_real)0.25 : (gvi_real)j + (gvi_real)0.75;
     gvi_real theta = lobatto ? pi*a/(gvi_real)m - 3/(8*pi*(gvi_real)m*a)
                              : pi*a/((gvi_real)m + (gvi_real)0.5);
-    const gvi_real y = theta*theta/4, sine = theta/2*(1 - y/6*(1 - y/20*(1 - y/42)));      // to 3e-7, and Newton's method
+    const gvi_real y = theta*theta/4, sine = theta/2*(1 - y/6*(1 - y/20*(1 - y/42)));      // to 3e-7
     gvi_real c = sine*sine, last = 1;
     for (int k = 0; k < 12; ++k) {
         gvi_real dc = gvi__node_correction(lobatto, m, c);
@@ -1335,8 +1336,9 @@ static inline int gvi__has(const gvi_stepper *st, int flag) { return (st->x.flag
 
 static inline int gvi__compiled(gvi_formulation f)
 {
-    return f == GVI_EXPLICIT ? GVI__EXPLICIT : f == GVI_POSITIONS ? GVI__POSITIONS : f == GVI_VELOCITIES ? GVI__VELOCITIES
-         : f == GVI_MOMENTA ? GVI__MOMENTA : f == GVI_NEWTON ? GVI__NEWTON : 0;
+    return f == GVI_EXPLICIT ? GVI__EXPLICIT : f == GVI_POSITIONS ? GVI__POSITIONS
+         : f == GVI_VELOCITIES ? GVI__VELOCITIES : f == GVI_MOMENTA ? GVI__MOMENTA
+         : f == GVI_NEWTON ? GVI__NEWTON : 0;
 }
 
 // is f the formulation of this scene?
@@ -1456,7 +1458,10 @@ static gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e)
     return status == GVI_OK && own && !together ? gvi__value(st, x, e, own) : status;
 }
 
-static unsigned gvi__clock_bit(const gvi_stepper *st) { return GVI__CLOCK && st->x.clock >= 0 ? 1u << st->x.clock : 0; }
+static unsigned gvi__clock_bit(const gvi_stepper *st)
+{
+    return GVI__CLOCK && st->x.clock >= 0 ? 1u << st->x.clock : 0;
+}
 
 // is there a clock, and is it on?
 static int gvi__has_clock(const gvi_stepper *st) { return (gvi__clock_bit(st) & ~st->x.off) != 0; }
@@ -1478,7 +1483,8 @@ static gvi_status gvi__effects(gvi_stepper *st, gvi_points *x, unsigned skip)
         x->dldv = effect->kind == GVI_LAGRANGIAN ? dldv : NULL;
         st->counters.effect[e] += (unsigned long long)x->count;
         if (!plain || !effect->points) status = gvi__effect(st, x, e);
-        else if (effect->points(x, effect->user)) status = gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, GVI_FAULT_NONE);
+        else if (effect->points(x, effect->user))
+            status = gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, GVI_FAULT_NONE);
     }
     x->v = v;
     x->dldv = dldv;
@@ -2128,7 +2134,9 @@ static gvi_real *gvi__take(gvi__arena *arena, int wanted, size_t a, size_t b)
 
 /* The one layout: gvi_size counts with it, gvi_init hands out by it, and
    GVI_LENGTH is its sum with everything wanted.  What the scene needs of it:   */
-typedef struct gvi__needs { int newton, lagrangian, momenta, velocities, positions, reads_v, kicks, two, clock; } gvi__needs;
+typedef struct gvi__needs {
+    int newton, lagrangian, momenta, velocities, positions, reads_v, kicks, two, clock;
+} gvi__needs;
 
 static gvi__needs gvi__needs_of(const gvi_stepper *st)
 {
@@ -3121,7 +3129,8 @@ static inline int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progre
     if ((p->idle > 2 && change <= rounding)
         || ((p->idle > 1 || p->poor > 2) && gvi__is_rounding(st, from, p->idle))) return GVI__ASK_ONCE_MORE;
     const int fall_back = x->desc.formulation == GVI_AUTO && gvi__has(st, GVI__HAS_NEWTON);
-    return p->poor > 2 && fall_back && change > 65536*rounding ? GVI__BEYOND : GVI__GO_ON;   // nearer, idle decides
+    // nearer to rounding idle decides
+    return p->poor > 2 && fall_back && change > 65536*rounding ? GVI__BEYOND : GVI__GO_ON;
 }
 
 /* Fixed point on the rows: F, V and A make the rows, the effects are asked there. */
