@@ -42,7 +42,7 @@ THEOREMS  = order lagrangian curve forced doubled spectral identities inertia st
 QUADRUPLE = order lagrangian forced
 
 # The long studies of docs/hard-cases.md.
-HARD         = eccentric pythagorean corners stiff long brouwer brouwer-float
+HARD         = eccentric pythagorean corners stiff long brouwer brouwer-float single
 FUZZ_SECONDS = 60
 
 # What accuracy costs: optimised as a user in a hurry would.
@@ -71,9 +71,9 @@ run: $(BUILD)/examples/02_outer_solar_system
 deps:
 	$(Q)CC='$(CC)' sh tests/tools/deps.sh
 
-## test         all tests, then examples, docs-check, headers, symbols, parts, bound, instructions and prices
-test: unit examples docs-check headers symbols parts bound instructions prices
-	$(Q)sh tests/tools/summary.sh $(BUILD) test unit examples docs-check headers symbols parts bound instructions prices
+## test         all tests, then examples, docs-check, headers, symbols, parts, bound, float, instructions and prices
+test: unit examples docs-check headers symbols parts bound float instructions prices
+	$(Q)sh tests/tools/summary.sh $(BUILD) test unit examples docs-check headers symbols parts bound float instructions prices
 
 ## unit         the test programs alone; one of them: make run-test_lu
 unit: $(PROGRAMS:%=run-%)
@@ -189,6 +189,10 @@ deps-everywhere:
 own-quadrature: $(BUILD)/cost/own_quadrature
 	$(Q)$<
 
+## float        the object code of a float build: nothing is computed in double
+float:
+	$(Q)CC='$(CC)' sh tests/tools/float.sh $(BUILD)
+
 ## instructions points, iterations and instructions of five fixed runs; RECORD=--record writes them anew
 instructions:
 	$(Q)CC='$(CC)' sh tests/tools/instructions.sh $(BUILD) $(RECORD)
@@ -197,7 +201,7 @@ instructions:
 prices:
 	$(Q)CC='$(CC)' sh tests/tools/prices.sh $(BUILD)
 
-## hard         hard cases at length, docs/hard-cases.md (two minutes); one: make hard-brouwer
+## hard         hard cases at length, docs/hard-cases.md (five minutes); one: make hard-brouwer
 hard: $(HARD:%=hard-%)
 
 ## fuzz         a minute of libFuzzer on descriptions and calls (clang)
@@ -346,7 +350,7 @@ endif
 
 # "make -j deps test": what is compiled against cmocka waits for its installation.
 ifneq ($(filter deps,$(MAKECMDGOALS)),)
-cmocka headers symbols parts bound docs-check instructions prices $(EXAMPLES:%=$(BUILD)/examples/%): | deps
+cmocka headers symbols parts bound float docs-check instructions prices $(EXAMPLES:%=$(BUILD)/examples/%): | deps
 endif
 
 -include $(wildcard $(BUILD)/tests/*.d $(BUILD)/examples/*.d $(BUILD)/cost/*.d $(BUILD)/theorems/*.d $(BUILD)/hard/*.d)

@@ -1,0 +1,1 @@
+/* WebAssembly has no setjmp: cmocka.h of this folder does without. */
