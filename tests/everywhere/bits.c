@@ -6,13 +6,11 @@
    hexadecimal, most significant digit first, whatever the order of the bytes is;
    counts of steps and iterations are decimal.  In float or double.
 
-   -DSHAKE=k adds k units in the last place to every sine.  -DFREESTANDING takes all
-   mathematics from freestanding.h, includes nothing that -ffreestanding lacks, and
-   gives the text character by character to bits_put (driver.c).                */
+   -DFREESTANDING takes all mathematics from freestanding.h, includes nothing that
+   -ffreestanding lacks, and gives the text character by character to bits_put
+   (driver.c).                                                                  */
 #ifdef FREESTANDING
 #include "freestanding.h"
-#elif defined(SHAKE)
-#include "shake.h"
 #endif
 #define GVI_IMPLEMENTATION
 #include "gvi.h"

@@ -1,8 +1,7 @@
 /* The mathematics of a program without a C library, given to gvi.h by its macros,
    in the type of GVI_REAL, float or double in IEEE format:
      sqrt         correctly rounded: the root of an integer, digit by digit
-     floor, ldexp, frexp   exact, by the bits of the number
-     sin          on [0, pi/2], where gvi.h asks for it, by its series            */
+     floor, ldexp, frexp   exact, by the bits of the number                       */
 #ifndef GVI_FREESTANDING_H
 #define GVI_FREESTANDING_H
 
@@ -102,18 +101,7 @@ static own_real own_sqrt(own_real x)
     return own_ldexp((own_real)root, e/2 - OWN_FRACTION - 3);
 }
 
-static own_real own_sin(own_real x)
-{
-    own_real term = x, sum = x;
-    for (int k = 1; k < 12; ++k) {
-        term *= -x*x/(own_real)(2*k*(2*k + 1));
-        sum += term;
-    }
-    return sum;
-}
-
 #define GVI_SQRT(x)     own_sqrt(x)
-#define GVI_SIN(x)      own_sin(x)
 #define GVI_ABS(x)      own_abs(x)
 #define GVI_FLOOR(x)    own_floor(x)
 #define GVI_LDEXP(x, e) own_ldexp(x, e)
