@@ -3269,13 +3269,15 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__from *from, int k0)
     for (int i = 0; i < n; ++i) {
         const gvi_real *P = x->work.P + i*R, *F = x->work.F + i*R;
         for (int k = k0; k < st->s; ++k) {
-            gvi_real momentum = k == 0 ? -(h*from->p[i] + h*from->pe[i]) : 0, force = 0, size = 0;
+            // P - p is summed where p is asked for: the rounding of P then is not in the sum
+            const gvi_real base = k == 0 ? from->p[i] : 0;
+            gvi_real momentum = k == 0 ? -(h*from->pe[i]) : 0, force = 0, size = 0;
             for (int j = 0; j < st->r; ++j) {
                 gvi_real W = (k == 0 ? 1 : 0) - x->Phi[k*R + j];
-                gvi_real a = x->phi[k*R + j]*(x->hb[j]*P[j]), b = W*(x->hb[j]*F[j]);
+                gvi_real a = x->phi[k*R + j]*(x->hb[j]*(P[j] - base)), b = W*(x->hb[j]*F[j]);
                 momentum += a;
                 force += b;
-                size += GVI_ABS(a/h) + GVI_ABS(b);
+                size += GVI_ABS(x->phi[k*R + j]*(x->hb[j]*P[j])/h) + GVI_ABS(b);
             }
             gvi_real sum = momentum/h - force;
             x->dy[(k - k0)*n + i] = -(gvi_real)(2*k + 1)*sum;
@@ -3423,6 +3425,7 @@ static gvi_status gvi__check_regular(gvi_stepper *st)
     }
     gvi_points y;
     gvi__at(&y, st, x->t, q, v, f, P);
+    if (!gvi__has(st, GVI__HAS_LAGRANGIAN)) return gvi__mass_at(st, &y, 1);
     gvi_status status = gvi__evaluate(st, &y, 0);
     if (status == GVI_OK) status = gvi__velocity_hessian(st, &y, v, W);
     if (status != GVI_OK) return status;
@@ -3519,7 +3522,7 @@ static gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi_
     const gvi_real enough = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/4096;
     int size = (st->s - J->k0)*st->n, have = kept && !gvi__nonzero(x->h_matrix - J->h);
     int made = 0, last = 0, idle = 0;
-    gvi_real before = 0, earlier = 0;
+    gvi_real before = 0, earlier = 0, rho = (gvi_real)0.25, left = GVI__MAX;
     for (int k = 0; k <= x->desc.max_iterations; ++k) {
         gvi_points y;
         gvi__rows_as_points(&y, st, &x->work, x->work.P);
@@ -3542,16 +3545,21 @@ static gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi_
         if (!(change <= GVI__MAX)) return gvi__not_finite(st, 0);
         gvi__watch(st, change, earlier);
 
-        // one more evaluation, then done: if the change after this one is below
-        // rounding, or this one is: it does not shrink although it is at the
-        // rounding of y, q or the residual, or small and the Jacobian new
+        // a change is rounding if it does not shrink although it is at the rounding
+        // of y, q or the residual, or small and the Jacobian new; what is then left
+        // of the error shrinks on by the contraction seen before
         int stagnant = before > 0 && ratio > (gvi_real)0.5;
         idle = stagnant ? idle + 1 : 0;
-        if (change*ratio <= enough
+        if (before > 0 && !stagnant) rho = ratio;
+        int rounding = left < GVI__MAX
             || (stagnant && (change <= 64*GVI__EPS*(gvi_real)size || still || residual <= 16*GVI__EPS
                              || (fresh && change <= GVI_SQRT(GVI__EPS))
-                             || (idle > 1 && gvi__is_rounding(st, from, idle))))) last = 1;
-        else if (before > 0 && ratio > (gvi_real)0.25) have = 0;
+                             || (idle > 1 && gvi__is_rounding(st, from, idle))));
+        if (rounding) left = rho*(left < GVI__MAX ? left : before);
+
+        // one more evaluation, then done
+        if (change*ratio <= enough || left <= GVI__EPS/1024 || left <= enough) last = 1;
+        else if (!rounding && before > 0 && ratio > (gvi_real)0.25) have = 0;
         earlier = before;
         before = change;
     }
