@@ -42,7 +42,7 @@ THEOREMS  = order lagrangian curve forced doubled spectral identities inertia st
 QUADRUPLE = order lagrangian forced
 
 # The long studies of docs/hard-cases.md.
-HARD         = eccentric pythagorean corners stiff long brouwer brouwer-float single
+HARD         = eccentric eccentric-float pythagorean corners stiff long brouwer brouwer-float single
 FUZZ_SECONDS = 60
 
 # What accuracy costs: optimised as a user in a hurry would.

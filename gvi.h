@@ -1608,6 +1608,14 @@ static void gvi__over_mass(const gvi_stepper *st, gvi_real *z, int stride, int c
             for (int k = 0; k < count; ++k) z[i*stride + k] *= st->x.over[i];
 }
 
+// v := M^-1 p at one point, constant mass
+static void gvi__over_constant_mass(const gvi_stepper *st, const gvi_real *GVI__RESTRICT p, gvi_real *GVI__RESTRICT v)
+{
+    const int diagonal = st->x.desc.mass.kind == GVI_MASS_DIAGONAL;
+    for (int i = 0; i < st->n; ++i) v[i] = diagonal ? p[i]*st->x.over[i] : p[i];
+    if (gvi__mass_is(st, GVI_MASS_DENSE)) gvi__over_mass(st, v, 1, 1);
+}
+
 // M(q) at the points, factored
 static gvi_status gvi__mass_at(gvi_stepper *st, gvi_points *x, int factor)
 {
@@ -1951,7 +1959,6 @@ static void gvi__modes(const gvi_stepper *st, gvi_real tau, gvi_real *phi, gvi_r
 static void gvi__weights(gvi_stepper *st, gvi_real h)
 {
     struct gvi__private *x = &st->x;
-    if (!gvi__nonzero(h - x->h_weights)) return;
     x->h_weights = h;
 
     int e, r = st->r, most = 0;
@@ -2369,21 +2376,19 @@ static inline void gvi__times(int R, gvi_real t, gvi_real te, gvi_real h, const 
 }
 
 // velocities where the mass is constant; weights and times of the points
-static void gvi__begin(gvi_stepper *st, gvi__from *from, gvi_real h)
+static inline void gvi__begin(gvi_stepper *st, gvi__from *from, gvi_real h)
 {
     struct gvi__private *x = &st->x;
     const int R = x->stride;
-    gvi__weights(st, h);
+    if (gvi__nonzero(h - x->h_weights)) gvi__weights(st, h);
     x->dt = h;
     x->dH = 0;
     if (!gvi__uses(st, GVI_EXPLICIT)) gvi__times(R, from->t, from->te, h, x->c, x->t);
     from->v = from->p;
     from->ve = from->pe;
     if (x->desc.mass.kind == GVI_MASS_UNIT || !gvi__mass_is_constant(&x->desc)) return;
-    gvi__copy((size_t)st->n, from->p, x->v0);
-    gvi__copy((size_t)st->n, from->pe, x->ve);
-    gvi__over_mass(st, x->v0, 1, 1);
-    gvi__over_mass(st, x->ve, 1, 1);
+    gvi__over_constant_mass(st, from->p, x->v0);
+    gvi__over_constant_mass(st, from->pe, x->ve);
     from->v = x->v0;
     from->ve = x->ve;
 }
@@ -3170,10 +3175,31 @@ static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_r
     return gvi__give(st, GVI_E_CONVERGENCE);
 }
 
-/* Kick and drift of the explicit formulation: dp += b F, then dq += a (v + dp/m) and
-   Q = q + dq.  What does not depend on F is added up first, so that little waits for
-   F; but a (b F) is two products: the rounding of a b, the same in every step, would
-   make the map no longer symplectic and let the energy drift.                 */
+/* The explicit formulation: kicks h b_j F_j at the nodes, and drifts from each to
+   the next.  Its loops are short and wait for each other.  A zero that the compiler
+   does not know keeps it from calling memset and memcpy: they take as long as the
+   rest, and write blocks of other widths than the next loads, which then wait.   */
+
+// the drift to the first node: dp := pe, dq := qe + a v, Q := q + dq; F := 0
+static inline void gvi__drift(int n, gvi_real a, gvi_real zero, const gvi_real *m, const gvi__from *from,
+                              gvi_real *GVI__RESTRICT dp, gvi_real *GVI__RESTRICT dq, gvi_real *GVI__RESTRICT Q,
+                              gvi_real *GVI__RESTRICT F)
+{
+    const gvi_real *GVI__RESTRICT v = from->v, *GVI__RESTRICT q = from->q;
+    const gvi_real *GVI__RESTRICT qe = from->qe, *GVI__RESTRICT pe = from->pe;
+    for (int i = 0; i < n; ++i) {
+        const gvi_real p = pe[i] + zero;
+        dq[i] = qe[i] + a*(v[i] + (m ? p*m[i] : p));
+        dp[i] = p;
+        Q[i] = q[i] + dq[i];
+        F[i] = zero;
+    }
+}
+
+/* Kick and drift: dp += b F, then dq += a (v + dp/m) and Q = q + dq.  What does not
+   depend on F is added up first, so that little waits for F; but a (b F) is two
+   products: the rounding of a b, the same in every step, would make the map no
+   longer symplectic and let the energy drift.                                 */
 static inline void gvi__kick_drift(int n, gvi_real b, gvi_real a, const gvi_real *m, const gvi_real *GVI__RESTRICT v,
                                    const gvi_real *GVI__RESTRICT q, const gvi_real *GVI__RESTRICT F,
                                    gvi_real *GVI__RESTRICT dp, gvi_real *GVI__RESTRICT dq, gvi_real *GVI__RESTRICT Q)
@@ -3186,48 +3212,46 @@ static inline void gvi__kick_drift(int n, gvi_real b, gvi_real a, const gvi_real
     }
 }
 
-// the same with a full mass matrix
-static void gvi__kick_drift_dense(gvi_stepper *st, const gvi__from *from, gvi_real b, gvi_real a, const gvi_real *F)
+// both with a full mass matrix
+static void gvi__drift_dense(gvi_stepper *st, const gvi__from *from, gvi_real a)
 {
     struct gvi__private *x = &st->x;
     gvi_real *z = x->change;
-    for (int i = 0; i < st->n; ++i) z[i] = x->dp[i] += b*F[i];
+    for (int i = 0; i < st->n; ++i) z[i] = x->dp[i];
     gvi__over_mass(st, z, 1, 1);
     for (int i = 0; i < st->n; ++i) x->work.Q[i] = from->q[i] + (x->dq[i] += a*(from->v[i] + z[i]));
 }
 
-static inline void gvi__kick(gvi_stepper *st, const gvi__from *from, gvi_real b, gvi_real a, const gvi_real *F, int n)
-{
-    struct gvi__private *x = &st->x;
-    const gvi_real *m = x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
-    if (gvi__mass_is(st, GVI_MASS_DENSE)) gvi__kick_drift_dense(st, from, b, a, F);
-    else gvi__kick_drift(n, b, a, m, from->v, from->q, F, x->dp, x->dq, x->work.Q);
-}
-
-/* Kicks h b_j F_j at the nodes and drifts from each to the next, one evaluation a
-   kick.  `force` is that at the start, if it is known: after a step whose last node
-   was 1.  dqe and dpe are never anything but 0 here.                          */
+/* One evaluation a kick.  `force` is that at the start, if it is known: after a step
+   whose last node was 1.  dqe and dpe are never anything but 0 here.          */
 static inline gvi_status gvi__explicit_of(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *force,
                                           int n)
 {
     struct gvi__private *x = &st->x;
-    gvi_real *F = x->work.F, t = from->t + from->te;
+    const int dense = gvi__mass_is(st, GVI_MASS_DENSE), r = st->r;
+    const gvi_real *m = x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
+    const gvi_effect *only = x->single >= 0 && !x->diagnose ? x->desc.effects + x->single : NULL;
+    gvi_real *F = x->work.F, *Q = x->work.Q, *dp = x->dp, *dq = x->dq, t;
+    const gvi_real zero = h - h;
     gvi_points y;
-    gvi__at(&y, st, &t, x->work.Q, NULL, F, NULL);
-    gvi__copy((size_t)n, from->qe, x->dq);
-    gvi__copy((size_t)n, from->pe, x->dp);
-    gvi__zero((size_t)n, F);
-    gvi__kick(st, from, 0, x->drift[0], F, n);
-    for (int j = 0; j < st->r; ++j) {
-        gvi_status status = GVI_OK;
+    gvi__at(&y, st, &t, Q, NULL, F, NULL);
+    gvi__drift(n, dense ? 0 : x->drift[0], zero, m, from, dp, dq, Q, F);
+    if (dense) gvi__drift_dense(st, from, x->drift[0]);
+    for (int j = 0; j < r; ++j) {
+        const gvi_real *f = j == 0 && force ? force : F;
         t = from->t + (from->te + x->c[j]*h);
-        if (j > 0 || !force) {
-            gvi__zero((size_t)n, F);
-            status = gvi__check_points(st, &y);
-            if (status == GVI_OK) status = gvi__all_effects(st, &y);
+        for (int i = 0; j > 0 && i < n; ++i) F[i] = zero;
+        if (f == F && only) {
+            st->counters.effect[x->single] += 1;
+            if (only->points(&y, only->user))
+                return gvi__fail(st, GVI_E_CALLBACK, x->single, GVI_FAULT_NONE, GVI_FAULT_NONE);
+        } else if (f == F) {
+            gvi_status status = gvi__check_points(st, &y);
+            if (status == GVI_OK) status = gvi__effects(st, &y, 0);
             if (status != GVI_OK) return status;
         }
-        gvi__kick(st, from, x->hb[j], x->drift[j + 1], j == 0 && force ? force : F, n);
+        gvi__kick_drift(n, x->hb[j], dense ? 0 : x->drift[j + 1], m, from->v, from->q, f, dp, dq, Q);
+        if (dense) gvi__drift_dense(st, from, x->drift[j + 1]);
     }
     return GVI_OK;
 }
@@ -3624,16 +3648,17 @@ static gvi_status gvi__attempt(gvi_stepper *st, gvi__from *from, gvi_real h,
     return status;
 }
 
-// are q + dq and p + dp finite?  x - x is 0 or NaN
+// are q + dq and p + dp finite?  0 x is 0 or NaN
 static int gvi__finite_end(const gvi_stepper *st, const gvi__from *from)
 {
     const struct gvi__private *x = &st->x;
-    gvi_real none = 0;
-    for (int i = 0; i < st->n; ++i) {
-        const gvi_real q = from->q[i] + x->dq[i], p = from->p[i] + x->dp[i];
-        none += (q - q) + (p - p);
-    }
-    return none >= 0;
+    const gvi_real *q = from->q, *p = from->p, *dq = x->dq, *dp = x->dp;
+    gvi_real none[4] = { 0, 0, 0, 0 };
+    int i = 0;
+    for (; i + 3 < st->n; i += 4)                      // four sums, none waits for another
+        for (int k = i; k < i + 4; ++k) none[k - i] += 0*(q[k] + dq[k]) + 0*(p[k] + dp[k]);
+    for (; i < st->n; ++i) none[0] += 0*(q[i] + dq[i]) + 0*(p[i] + dp[i]);
+    return (none[0] + none[1]) + (none[2] + none[3]) >= 0;
 }
 
 /* An attempt; if something was not finite, the same once more with every effect
@@ -3667,7 +3692,7 @@ static void gvi__rotate(gvi_real **older, gvi_real **last, gvi_real **work)
 static void gvi__rotate_rows(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
-    x->turns = (x->turns + 1) % 6;
+    x->turns = x->turns < 5 ? x->turns + 1 : 0;
     if (gvi__uses(st, GVI_EXPLICIT)) {            // no more is kept
         gvi__rotate(NULL, &x->last.F, &x->work.F);
         return;
@@ -3679,27 +3704,36 @@ static void gvi__rotate_rows(gvi_stepper *st)
     if (GVI__LAGRANGIAN) gvi__rotate(&x->older.A, &x->last.A, &x->work.A);
 }
 
-// was := x, x + rest := x + dx + dxe
-static void gvi__move(int n, const gvi_real *GVI__RESTRICT dx, const gvi_real *GVI__RESTRICT dxe,
-                      gvi_real *GVI__RESTRICT x, gvi_real *GVI__RESTRICT rest, gvi_real *GVI__RESTRICT was)
+// was := x, x + rest := x + dx + dxe; dxe may be NULL, for 0
+static inline void gvi__move_of(int n, const gvi_real *GVI__RESTRICT dx, const gvi_real *GVI__RESTRICT dxe,
+                                gvi_real *GVI__RESTRICT x, gvi_real *GVI__RESTRICT rest, gvi_real *GVI__RESTRICT was)
 {
     for (int i = 0; i < n; ++i) {
-        const gvi__two sum = gvi__sum(x[i], dx[i]), all = gvi__sum(sum.hi, sum.lo + dxe[i]);
+        gvi__two sum = gvi__sum(x[i], dx[i]);
+        if (dxe) sum = gvi__sum(sum.hi, sum.lo + dxe[i]);
         was[i] = x[i];
-        x[i] = all.hi;
-        rest[i] = all.lo;
+        x[i] = sum.hi;
+        rest[i] = sum.lo;
     }
+}
+
+static void gvi__move(int n, const gvi_real *dx, const gvi_real *dxe, gvi_real *x, gvi_real *rest, gvi_real *was)
+{
+    if (n == 2 && dxe) gvi__move_of(2, dx, dxe, x, rest, was);
+    else if (n == 2) gvi__move_of(2, dx, NULL, x, rest, was);
+    else gvi__move_of(n, dx, dxe, x, rest, was);
 }
 
 // the step is done: state and compensation move on, rows become those of the last step
 static void gvi__commit(gvi_stepper *st, gvi_real h)
 {
     struct gvi__private *x = &st->x;
-    gvi__move(st->n, x->dq, x->dqe, x->q, x->qe, x->q0);
-    gvi__move(st->n, x->dp, x->dpe, x->p, x->pe, x->p0);
+    const int explicit_one = gvi__uses(st, GVI_EXPLICIT);    // its increments have no rest
+    gvi__move(st->n, x->dq, explicit_one ? NULL : x->dqe, x->q, x->qe, x->q0);
+    gvi__move(st->n, x->dp, explicit_one ? NULL : x->dpe, x->p, x->pe, x->p0);
     x->alike = x->stepped && !gvi__nonzero(h - st->h) ? 2 : 1;
     gvi__two t = gvi__sum(st->t, x->dt + x->te);
-    if (GVI__CLOCK) {
+    if (GVI__CLOCK && x->clock >= 0) {
         const gvi__two H = gvi__sum(x->H, x->dH + x->He);
         x->H0 = x->H;
         x->H = H.hi;
@@ -3711,10 +3745,19 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     st->h = h;
     gvi__rotate_rows(st);
     x->stepped = 1;
-    x->has_force = gvi__uses(st, GVI_EXPLICIT) && !gvi__nonzero(x->c[0]) && !gvi__nonzero(x->c[st->r - 1] - 1);
+    x->has_force = explicit_one && !gvi__nonzero(x->c[0]) && !gvi__nonzero(x->c[st->r - 1] - 1);
     x->has_velocity = st->formulation > GVI_POSITIONS;
     if (x->newton_left > 0) x->newton_left -= 1;
     st->counters.steps += 1;
+}
+
+// the explicit formulation has no more to do; what is not finite is looked into
+static gvi_status gvi__solve_explicit(gvi_stepper *st, gvi__from *from, gvi_real h, const gvi__history *past)
+{
+    gvi__begin(st, from, h);
+    gvi_status status = gvi__explicit(st, from, h, past->force);
+    if (status != GVI_OK || gvi__finite_end(st, from)) return status;
+    return gvi__solve(st, from, h, past, 0);
 }
 
 GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
@@ -3734,7 +3777,8 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
         past.available = past.beta > -2 && past.beta < 8;         // farther out it says nothing
         if (gvi__nonzero(h - st->h)) x->newton_left = 0;
     }
-    gvi_status status = gvi__solve(st, &from, h, &past, 0);
+    gvi_status status = gvi__uses(st, GVI_EXPLICIT) ? gvi__solve_explicit(st, &from, h, &past)
+                                                    : gvi__solve(st, &from, h, &past, 0);
     if (status == GVI_OK && !gvi__finite(st->t + x->dt)) status = gvi__give(st, GVI_E_ARGUMENT);
     if (status != GVI_OK) {
         st->counters.failures += 1;
