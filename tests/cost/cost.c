@@ -525,6 +525,8 @@ int main(int argc, char **argv)
     options o = { 0, 1, 1, NULL, "." };
     int horizon = 0;
     baselines_begin();
+    problems_begin();
+    printf("P4: %s\n", problems_roots());
     for (int i = 1; i < argc; ++i) {
         if (!strcmp(argv[i], "--quick")) o.quick = 1;
         else if (!strcmp(argv[i], "--horizon")) horizon = 1;

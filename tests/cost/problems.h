@@ -41,6 +41,11 @@ extern const int problem_count;
 
 const problem *problem_named(const char *key);
 
+/* Once, for those who measure: takes the faster of two forms of the solar system's right-hand
+   side, for one point and for many each.  And which it took.                                  */
+void        problems_begin(void);
+const char *problems_roots(void);
+
 /* Length in tau of a revolution on Kepler's ellipse of half-axis 1, with dt = |q|^a dtau.     */
 double kepler_tau(double eccentricity, double a);
 
