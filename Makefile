@@ -201,7 +201,7 @@ instructions:
 prices:
 	$(Q)CC='$(CC)' sh tests/tools/prices.sh $(BUILD)
 
-## hard         hard cases at length, docs/hard-cases.md (five minutes); one: make hard-brouwer
+## hard         hard cases at length, docs/hard-cases.md (six minutes); one: make hard-brouwer
 hard: $(HARD:%=hard-%)
 
 ## fuzz         a minute of libFuzzer on descriptions and calls (clang)
