@@ -1065,112 +1065,88 @@ GVI_DEF gvi_real gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot, 
 
 /* ------------------------------------------------------------ QUADRATURE */
 
-/* P_m(x) and P_(m-1)(x) at x = 1 - 2c by the three-term recurrence
+/* P_m(x) at x = 1 - 2c by the three-term recurrence
    (k+1) P_(k+1) = (2k+1) x P_k - k P_(k-1), in gvi_real.                      */
-static void gvi__legendre(int m, gvi_real c, gvi_real *P, gvi_real *before)
+static gvi_real gvi__legendre(int m, gvi_real c)
 {
-    gvi_real x = 1 - 2*c, a = 1, b = 0;
+    gvi_real x = 1 - 2*c, P = 1, before = 0;
     for (int k = 0; k < m; ++k) {
-        gvi_real next = ((gvi_real)(2*k + 1)*x*a - (gvi_real)k*b)/(gvi_real)(k + 1);
-        b = a;
-        a = next;
+        gvi_real next = ((gvi_real)(2*k + 1)*x*P - (gvi_real)k*before)/(gvi_real)(k + 1);
+        before = P;
+        P = next;
     }
-    *P = a;
-    *before = b;
+    return P;
 }
 
-// the same in twofold arithmetic
-static void gvi__legendre2(int m, gvi__two c, gvi__two *P, gvi__two *before)
+// x = 1 - 2c in twofold arithmetic
+static gvi__two gvi__argument2(gvi__two c) { return gvi__sub2(gvi__real2(1), gvi__scale2(2, c)); }
+
+// P_(k+1)(x) from P_k and P_(k-1), the same recurrence
+static gvi__two gvi__legendre2(int k, gvi__two x, gvi__two P, gvi__two before)
 {
-    gvi__two x = gvi__sub2(gvi__real2(1), gvi__scale2(2, c)), a = gvi__real2(1), b = gvi__real2(0);
+    const gvi__two sum = gvi__sub2(gvi__scale2((gvi_real)(2*k + 1), gvi__mul2(x, P)),
+                                   gvi__scale2((gvi_real)k, before));
+    return gvi__over2(sum, k + 1);
+}
+
+/* Newton's correction of node c on [0,1], and the weight that belongs to c.  With
+   m = n for Gauss, n - 1 for Lobatto, d = P_(m-1) - x P_m,
+   (1 - x^2) P_m' = m d and ((1 - x^2) P_m')' = -m (m+1) P_m:
+
+     Gauss     P_m = 0     c += P_m 2c(1-c) / (m d)    b = 4c(1-c) / (m d)^2
+     Lobatto   P_m' = 0    c -= d / (2(m+1) P_m)       b = 1 / (m (m+1) P_m^2)  */
+static gvi__two gvi__node_correction(int lobatto, int m, gvi__two c, gvi_real *b)
+{
+    const gvi__two one = gvi__real2(1), x = gvi__argument2(c);
+    gvi__two P = one, before = gvi__real2(0);
     for (int k = 0; k < m; ++k) {
-        gvi__two next = gvi__sub2(gvi__scale2((gvi_real)(2*k + 1), gvi__mul2(x, a)),
-                                  gvi__scale2((gvi_real)k, b));
-        b = a;
-        a = gvi__over2(next, k + 1);
+        const gvi__two next = gvi__legendre2(k, x, P, before);
+        before = P;
+        P = next;
     }
-    *P = a;
-    *before = b;
-}
-
-/* Newton's correction of a node.  With m = n for Gauss, n - 1 for Lobatto and
-   (1 - x^2) P_m' = m (P_(m-1) - x P_m), ((1 - x^2) P_m')' = -m (m+1) P_m:
-
-     Gauss     P_m = 0     c += P_m 4c(1-c) / (2m (P_(m-1) - x P_m))
-     Lobatto   P_m' = 0    c -= (P_(m-1) - x P_m) / (2(m+1) P_m)               */
-static gvi_real gvi__node_correction(int lobatto, int m, gvi_real c)
-{
-    gvi_real P, before;
-    gvi__legendre(m, c, &P, &before);
-    gvi_real d = before - (1 - 2*c)*P;
-    if (lobatto) return -d/(2*(gvi_real)(m + 1)*P);
-    return P*2*c*(1 - c)/((gvi_real)m*d);
-}
-
-static gvi__two gvi__node_correction2(int lobatto, int m, gvi__two c)
-{
-    gvi__two P, before, one = gvi__real2(1);
-    gvi__legendre2(m, c, &P, &before);
-    gvi__two x = gvi__sub2(one, gvi__scale2(2, c));
     gvi__two d = gvi__sub2(before, gvi__mul2(x, P));
-    if (lobatto) return gvi__neg2(gvi__div2(d, gvi__scale2(2*(gvi_real)(m + 1), P)));
-    gvi__two w = gvi__scale2(2, gvi__mul2(c, gvi__sub2(one, c)));
-    return gvi__div2(gvi__mul2(P, w), gvi__scale2((gvi_real)m, d));
-}
-
-/* Node j of the lower half, c = (1 - cos theta)/2 = sin^2(theta/2).  Starting
-   values: Gauss theta = pi (4j+3)/(4m+2), Lobatto from the zeros of J_1; both
-   are well within the quadratic range of Newton's method.  The last two
-   corrections are twofold: c is then accurate relative to itself, even next
-   to the end of the interval.                                                */
-static gvi__two gvi__node(int lobatto, int n, int j)
-{
-    const gvi_real pi = (gvi_real)3.14159265358979323846L;
-    int m = lobatto ? n - 1 : n;
-    gvi_real a = lobatto ? (gvi_real)j + (gvi_real)0.25 : (gvi_real)j + (gvi_real)0.75;
-    gvi_real theta = lobatto ? pi*a/(gvi_real)m - 3/(8*pi*(gvi_real)m*a)
-                             : pi*a/((gvi_real)m + (gvi_real)0.5);
-    const gvi_real y = theta*theta/4, sine = theta/2*(1 - y/6*(1 - y/20*(1 - y/42)));      // to 3e-7
-    gvi_real c = sine*sine, last = 1;
-    for (int k = 0; k < 12; ++k) {
-        gvi_real dc = gvi__node_correction(lobatto, m, c);
-        c += dc;
-        if (!(GVI_ABS(dc) < last) || GVI_ABS(dc) < GVI__EPS*c) break;
-        last = GVI_ABS(dc)/2;
+    if (lobatto) {
+        *b = gvi__div2(one, gvi__scale2((gvi_real)m*(gvi_real)(m + 1), gvi__mul2(P, P))).hi;
+        return gvi__neg2(gvi__div2(d, gvi__scale2(2*(gvi_real)(m + 1), P)));
     }
-    gvi__two z = gvi__real2(c);
-    z = gvi__add2(z, gvi__node_correction2(lobatto, m, z));
-    return gvi__add2(z, gvi__node_correction2(lobatto, m, z));
+    const gvi__two w = gvi__scale2(2, gvi__mul2(c, gvi__sub2(one, c)));
+    d = gvi__scale2((gvi_real)m, d);
+    *b = 2*gvi__div2(w, gvi__mul2(d, d)).hi;
+    return gvi__div2(gvi__mul2(P, w), d);
 }
 
-/* Weight of node c on [0,1]:  Gauss  4c(1-c)/(m (P_(m-1) - x P_m))^2, the
-   denominator being ((1-x^2) P_m')^2;  Lobatto  1/(m (m+1) P_m^2).            */
-static gvi__two gvi__weight(int lobatto, int n, gvi__two c)
+/* Where Newton's method for node j of the lower half starts,
+   c = (1 - cos theta)/2 = sin^2(theta/2):  Gauss theta = pi (4j+3)/(4m+2), Lobatto
+   from the zeros of J_1; both are well within its quadratic range.            */
+static gvi_real gvi__node_guess(int lobatto, int n, int j)
 {
-    int m = lobatto ? n - 1 : n;
-    gvi__two P, before, one = gvi__real2(1);
-    gvi__legendre2(m, c, &P, &before);
-    if (lobatto)
-        return gvi__div2(one, gvi__scale2((gvi_real)m*(gvi_real)(m + 1), gvi__mul2(P, P)));
-    gvi__two x = gvi__sub2(one, gvi__scale2(2, c));
-    gvi__two d = gvi__scale2((gvi_real)m, gvi__sub2(before, gvi__mul2(x, P)));
-    gvi__two w = gvi__scale2(4, gvi__mul2(c, gvi__sub2(one, c)));
-    return gvi__div2(w, gvi__mul2(d, d));
+    const gvi_real pi = (gvi_real)3.14159265358979323846L, m = (gvi_real)(n - lobatto);
+    const gvi_real a = (gvi_real)j + (lobatto ? (gvi_real)0.25 : (gvi_real)0.75);
+    const gvi_real theta = lobatto ? pi*a/m - 3/(8*pi*m*a) : pi*a/(m + (gvi_real)0.5);
+    const gvi_real y = theta*theta/4, sine = theta/2*(1 - y/6*(1 - y/20*(1 - y/42)));      // to 3e-7
+    return sine*sine;
 }
 
-/* All nodes and weights; ce, if given, gets what rounding left of c.          */
+/* All nodes and weights; ce, if given, gets what rounding left of c.  After a
+   correction below eps the next one would be below its square: c is then accurate
+   relative to itself, even next to the end of the interval.                   */
 static void gvi__rule_make(int lobatto, int n, gvi_real *c, gvi_real *ce, gvi_real *b)
 {
     for (int j = 0; j <= (n - 1)/2; ++j) {
-        gvi__two z = gvi__real2(0), w;
-        if (2*j + 1 == n) z.hi = (gvi_real)0.5;
-        else if (!lobatto || j > 0) z = gvi__node(lobatto, n, j);
-        w = gvi__weight(lobatto, n, z);
-        gvi__two mirror = gvi__sub2(gvi__real2(1), z);
+        const int middle = 2*j + 1 == n, known = middle || (lobatto && j == 0);
+        gvi__two z = gvi__real2(middle ? (gvi_real)0.5 : known ? 0 : gvi__node_guess(lobatto, n, j));
+        gvi_real last = known ? 0 : 1;
+        for (int k = 0; ; ++k) {
+            const gvi__two dc = gvi__node_correction(lobatto, n - lobatto, z, &b[j]);
+            if (!(last > GVI__EPS*z.hi) || k == 12) break;
+            z = gvi__add2(z, dc);
+            last = GVI_ABS(dc.hi);
+        }
+        const gvi__two mirror = gvi__sub2(gvi__real2(1), z);
         c[j] = z.hi;
         c[n-1-j] = mirror.hi;
         if (ce) ce[j] = z.lo, ce[n-1-j] = mirror.lo;
-        b[j] = b[n-1-j] = w.hi;
+        b[n-1-j] = b[j];
     }
 }
 
@@ -1203,11 +1179,7 @@ GVI_DEF int gvi_rule_order(int n, const gvi_real *c, const gvi_real *b)
     // The rounding of c moves P_u by |P_u'| eps <= u^2 eps at the very end only
     for (int u = 0; u < 2*n; ++u) {
         gvi_real sum = u > 0 ? 0 : -1;
-        for (int i = 0; i < n; ++i) {
-            gvi_real P, before;
-            gvi__legendre(u, c[i], &P, &before);
-            sum += b[i]*P;
-        }
+        for (int i = 0; i < n; ++i) sum += b[i]*gvi__legendre(u, c[i]);
         if (GVI_ABS(sum) > 4*(gvi_real)(u + 2)*GVI__EPS*size) return u;
     }
     return 2*n;
@@ -1801,16 +1773,14 @@ static void gvi__modes_at_nodes(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
     for (int i = 0; i < st->r; ++i) {
-        gvi__two c, X, P = gvi__real2(1), before = gvi__real2(1);
+        gvi__two c, P = gvi__real2(1), before = gvi__real2(1);
         c.hi = x->c[i];
         c.lo = x->ce[i];
-        X = gvi__sub2(gvi__real2(1), gvi__scale2(2, c));
+        const gvi__two X = gvi__argument2(c);
         for (int k = 0; k < st->s; ++k) {
-            gvi__two next = gvi__sub2(gvi__scale2((gvi_real)(2*k + 1), gvi__mul2(X, P)),
-                                      gvi__scale2((gvi_real)k, before));
-            next = gvi__over2(next, k + 1);
-            gvi__two Phi = gvi__over2(gvi__sub2(before, next), 4*k + 2);
-            int at = k*x->stride + i;
+            const gvi__two next = gvi__legendre2(k, X, P, before);
+            const gvi__two Phi = gvi__over2(gvi__sub2(before, next), 4*k + 2);
+            const int at = k*x->stride + i;
             x->Phi[at] = Phi.hi;
             x->E[at] = Phi.lo;
             if (x->phi) {
