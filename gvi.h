@@ -464,8 +464,8 @@ struct gvi__rows { gvi_real *Q, *V, *F, *P, *A; };   /* [n][stride] each     */
    fewer bytes.                                                                */
 struct gvi__private {
     int              stride, flags;   /* of the rows; what the scene needs      */
+    /* parts of the caller's memory, handed out by gvi__layout; R = stride */
     struct gvi__rows work, last;      /* at the points of the next step, the last */
-    /* parts of the caller's memory; R = stride */
     gvi_real *c, *hb, *b, *ce;        /* [R] nodes, h b, weights; rest of nodes */
     gvi_real *q, *p, *dq, *dp;        /* [n] state and its increments           */
     gvi_real *qe, *pe, *dqe, *dpe;    /* [n] what rounding left of them         */
@@ -486,27 +486,26 @@ struct gvi__private {
     gvi_real *over;                   /* [n] 1/m of a diagonal mass             */
     gvi_real *mass, *point_mass, *Z;  /* M; M at the points [n*n][R]; [n][R] scratch */
     gvi_real *y, *dy, *J, *pivot;     /* Newton: [s*n] twice; two matrices of s*n */
-    gvi_real *hess, *dF, *dP, *bF, *bP; /* scratch; the last four stand in a row */
-    struct gvi__rows older;           /* F, V, A of the step before the last      */
+    gvi_real *hess, *dF;              /* scratch; F and P, moved and not, [4][n][R] */
+    gvi_real *older_F, *older_V, *older_A;  /* rows of the step before the last   */
     gvi_real *memory;                 /* from its first aligned number on       */
     size_t           size, skip;      /* numbers in use; left out for alignment */
     gvi_desc         desc;
     gvi_formulation  chosen;          /* by the scene, or pinned                */
     gvi_real         te, t0, dt;      /* compensation of t; start of last step; its length */
     gvi_real         H, He, dH, H0;   /* clock: energy, its rest, increment; at the start */
-    int              clock, has_rate; /* effect that is one, or -1; rate holds  */
-    int              single;          /* effect that is the only one, or -1     */
     gvi_real         h_weights;       /* h for which hb holds                   */
     gvi_real         ratio;           /* h/h_last for which E holds             */
-    int              alike;           /* last steps of the same length: 0, 1, 2 */
-    int              two;             /* E is for two of them                   */
     gvi_real         h_matrix;        /* h for which J was made, 0: none        */
     unsigned         off;             /* effects switched off, one bit each     */
-    int              started, stepped, diagnose, turns;
-    int              has_force;       /* last.F ends with the force at (t, q)   */
-    int              has_velocity;    /* last.V holds                           */
-    int              has_factor;      /* point_mass holds a factored M          */
     int              newton_left;     /* steps until the fixed point is tried   */
+    signed char      clock, single;   /* effect that is one; the only one; or -1 */
+    signed char      alike, two;      /* last steps of the same length: 0, 1, 2; E is for two */
+    signed char      started, stepped, diagnose, turns;
+    signed char      has_rate;        /* rate holds                             */
+    signed char      has_force;       /* last.F ends with the force at (t, q)   */
+    signed char      has_velocity;    /* last.V holds                           */
+    signed char      has_factor;      /* point_mass holds a factored M          */
 };
 
 /* The stepper, to be read; x is private.                                      */
@@ -1467,14 +1466,14 @@ static gvi_status gvi__effects(gvi_stepper *st, gvi_points *x, unsigned skip)
 
 /* The only effect that is on, if it takes all points in a call and is neither a
    Lagrangian term nor beside a clock; or -1.                                  */
-static int gvi__single(const gvi_stepper *st)
+static signed char gvi__single(const gvi_stepper *st)
 {
-    int single = -1;
+    signed char single = -1;
     for (int e = 0; e < st->x.desc.effect_count; ++e) {
         const gvi_effect *effect = st->x.desc.effects + e;
         if (st->x.off >> e & 1u) continue;
         if (single >= 0 || !effect->points || effect->kind > GVI_FORCE) return -1;
-        single = e;
+        single = (signed char)e;
     }
     return single;
 }
@@ -2044,7 +2043,7 @@ static gvi_status gvi__resolve(gvi_stepper *st, const gvi_desc *desc)
     st->x.flags = gvi__flags(d);
     st->x.clock = -1;
     for (int e = 0; e < d->effect_count; ++e)
-        if (d->effects[e].kind == GVI_CLOCK) st->x.clock = e;
+        if (d->effects[e].kind == GVI_CLOCK) st->x.clock = (signed char)e;
     if (gvi__left_out(st)) return GVI_E_FORMULATION;
 
     st->order = d->rule.kind == GVI_LOBATTO ? 2*r - 2 : 2*r;
@@ -2094,139 +2093,142 @@ static inline int gvi__two_now(const gvi_stepper *st) { return GVI__KIND > 1 && 
 
 typedef struct gvi__arena { gvi_real *base; size_t used; } gvi__arena;
 
-// a*b reals if `wanted`, else NULL; with base NULL it only counts
-static gvi_real *gvi__take(gvi__arena *arena, int wanted, size_t a, size_t b)
+// a*b reals, or NULL for none; with base NULL it only counts
+static gvi_real *gvi__take(gvi__arena *arena, size_t a, size_t b)
 {
     const size_t most = (size_t)-1/sizeof(gvi_real)/2;
-    if (!wanted) return NULL;
-    size_t count = b && a > most/b ? most : a*b, at = arena->used;
+    if (a == 0) return NULL;
+    size_t count = a > most/b ? most : a*b, at = arena->used;
     arena->used = count > most - at ? most : at + count;
     return arena->base ? arena->base + at : NULL;
 }
 
 /* The one layout: gvi_size counts with it, gvi_init hands out by it, and
-   GVI_LENGTH is its sum with everything wanted.  What the scene needs of it:   */
-typedef struct gvi__needs {
-    int newton, lagrangian, momenta, velocities, positions, reads_v, kicks, two, clock;
-} gvi__needs;
+   GVI_LENGTH is its sum with everything wanted.  A part of the memory has rows and
+   columns out of these lengths, which gvi__lengths fills in; no row, no part.  Of
+   what a scene may do without, the length is named after it.                  */
+enum {
+    GVI__1, GVI__2, GVI__3, GVI__6, GVI__n, GVI__N, GVI__R, GVI__s,      // N: n, in whole vectors if n >= 8
+    GVI__STATE, GVI__POINTS, GVI__V, GVI__P, GVI__A_, GVI__OLDER_F, GVI__OLDER_V, GVI__OLDER_A,
+    GVI__SLOPE, GVI__RATE, GVI__G, GVI__M, GVI__T, GVI__NN, GVI__E, GVI__PHI, GVI__MODES, GVI__PLACE, GVI__DRIFT,
+    GVI__GAMMA, GVI__DIAGONAL, GVI__Z, GVI__AT_POINTS, GVI__nR, GVI__HESS, GVI__HESSIANS,
+    GVI__sn, GVI__PIVOT, GVI__DIFFERENCES, GVI__J, GVI__LENGTHS
+};
 
-static gvi__needs gvi__needs_of(const gvi_stepper *st)
+static void gvi__lengths(const gvi_stepper *st, size_t *length)
 {
     const struct gvi__private *x = &st->x;
-    gvi__needs u;
-    u.newton = gvi__has(st, GVI__HAS_NEWTON);
-    u.lagrangian = gvi__has(st, GVI__HAS_LAGRANGIAN);
-    u.momenta = gvi__uses(st, GVI_MOMENTA);
-    u.velocities = gvi__uses(st, GVI_VELOCITIES);
-    u.positions = gvi__uses(st, GVI_EXPLICIT) || gvi__uses(st, GVI_POSITIONS) || u.velocities;
-    u.reads_v = u.velocities || u.momenta || u.newton;
-    u.kicks = gvi__rule_is(st, GVI_KICKS);
-    u.two = gvi__fits_two(st);
-    u.clock = GVI__CLOCK && x->clock >= 0;
-    return u;
+    const size_t n = (size_t)st->n, s = (size_t)st->s, r = (size_t)st->r, R = (size_t)x->stride;
+    const int newton = gvi__has(st, GVI__HAS_NEWTON), lagrangian = gvi__has(st, GVI__HAS_LAGRANGIAN);
+    const int momenta = gvi__uses(st, GVI_MOMENTA), velocities = gvi__uses(st, GVI_VELOCITIES);
+    const int kicks = gvi__rule_is(st, GVI_KICKS), two = gvi__fits_two(st), clock = GVI__CLOCK && x->clock >= 0;
+    const int positions = gvi__uses(st, GVI_EXPLICIT) || gvi__uses(st, GVI_POSITIONS) || velocities;
+    const int reads_v = velocities || momenta || newton, A = lagrangian && (velocities || momenta);
+    const int dense = gvi__mass_is(st, GVI_MASS_DENSE);
+    length[GVI__1] = 1;
+    length[GVI__2] = 2;
+    length[GVI__3] = 3;
+    length[GVI__6] = 6;
+    length[GVI__n] = n;
+    length[GVI__N] = n < 8 ? n : (n + 7)/8*8;
+    length[GVI__R] = R;
+    length[GVI__s] = s;
+    length[GVI__STATE] = kicks ? length[GVI__N] : n;
+    length[GVI__POINTS] = kicks ? 1 : R;
+    length[GVI__V] = reads_v ? n : 0;
+    length[GVI__P] = momenta || newton ? n : 0;
+    length[GVI__A_] = A ? n : 0;
+    length[GVI__OLDER_F] = two ? n : 0;
+    length[GVI__OLDER_V] = two && momenta ? n : 0;
+    length[GVI__OLDER_A] = two && A ? n : 0;
+    length[GVI__SLOPE] = clock ? n : 0;
+    length[GVI__RATE] = clock ? 1 : 0;
+    length[GVI__G] = positions && !kicks ? r : 0;
+    length[GVI__M] = velocities || momenta ? r : 0;
+    length[GVI__T] = momenta || (velocities && lagrangian) ? r : 0;
+    length[GVI__NN] = velocities && lagrangian ? r : 0;
+    length[GVI__E] = kicks ? 0 : two ? 2*r : r;
+    length[GVI__PHI] = kicks ? 0 : s;
+    length[GVI__MODES] = reads_v || (!kicks && st->order <= 2*st->s - 2) ? s : 0;
+    length[GVI__PLACE] = kicks ? 0 : 3;
+    length[GVI__DRIFT] = gvi__uses(st, GVI_EXPLICIT) ? r + 1 : 0;
+    length[GVI__GAMMA] = gvi__has(st, GVI__HAS_OWN) ? s*s + s + 1 : 0;
+    length[GVI__DIAGONAL] = x->desc.mass.kind == GVI_MASS_DIAGONAL ? length[GVI__N] : 0;
+    length[GVI__Z] = dense && positions ? n : 0;
+    length[GVI__AT_POINTS] = gvi__mass_is(st, GVI_MASS_POSITION) ? n : 0;
+    length[GVI__nR] = n*R;
+    length[GVI__HESS] = newton || lagrangian ? n : 0;
+    length[GVI__HESSIANS] = (newton ? 4*n : n) + 5;
+    length[GVI__sn] = newton ? s*n : 0;
+    length[GVI__PIVOT] = newton ? s*n + 1 : 0;
+    length[GVI__DIFFERENCES] = newton ? 4*n : 0;
+    length[GVI__J] = newton ? 2*s*n : 0;
 }
 
-static void gvi__layout_rows(gvi_stepper *st, gvi__arena *a, const gvi__needs *u, size_t n, size_t N)
+// which pointer of gvi__private, and which lengths make the part
+typedef struct gvi__part { unsigned char pointer, rows, columns; } gvi__part;
+#define GVI__PART(member, rows, columns) \
+    { offsetof(struct gvi__private, member)/sizeof(gvi_real *), GVI__##rows, GVI__##columns }
+
+static void gvi__place(gvi_stepper *st, gvi__arena *a, const size_t *length, const gvi__part *part, size_t count)
 {
-    struct gvi__private *x = &st->x;
-    const size_t R = (size_t)x->stride;
-    const int A = u->lagrangian && (u->velocities || u->momenta);
-    for (int k = 0; k < 2; ++k) {
-        struct gvi__rows *rows = k ? &x->work : &x->last;
-        rows->Q = gvi__take(a, 1, u->kicks ? N : n, u->kicks ? 1 : R);
-        rows->F = gvi__take(a, 1, u->kicks ? N : n, u->kicks ? 1 : R);
-        rows->V = gvi__take(a, u->reads_v, n, R);
-        rows->P = gvi__take(a, u->momenta || u->newton, n, R);
-        rows->A = gvi__take(a, A, n, R);
-    }
-    x->older.F = gvi__take(a, u->two, n, R);
-    x->older.V = gvi__take(a, u->momenta && u->two, n, R);
-    x->older.A = gvi__take(a, A && u->two, n, R);
-    x->slope = gvi__take(a, u->clock, n, R);
-    x->rate = gvi__take(a, u->clock, 1, R);
-    x->power = gvi__take(a, u->clock, 1, R);
-    x->level = gvi__take(a, u->clock, 1, R);
-    x->z = gvi__take(a, 1, 1, R);
-    x->less = gvi__take(a, 1, 1, R);
+    for (; count > 0; --count, ++part)
+        ((gvi_real **)(void *)&st->x)[part->pointer] = gvi__take(a, length[part->rows], length[part->columns]);
 }
 
-static void gvi__layout_tables(gvi_stepper *st, gvi__arena *a, const gvi__needs *u, size_t n)
+static void gvi__layout_vectors(gvi_stepper *st, gvi__arena *a, const size_t *length)
 {
-    struct gvi__private *x = &st->x;
-    const size_t s = (size_t)st->s, r = (size_t)st->r, R = (size_t)x->stride;
-    const int modes = u->reads_v || (!u->kicks && st->order <= 2*st->s - 2);
-    x->hb = gvi__take(a, 1, 1, R);
-    x->c = gvi__take(a, 1, 1, R);
-    x->g = gvi__take(a, u->positions && !u->kicks, r, R);
-    x->m = gvi__take(a, u->velocities || u->momenta, r, R);
-    x->T = gvi__take(a, u->momenta || (u->velocities && u->lagrangian), r, R);
-    x->N = gvi__take(a, u->velocities && u->lagrangian, r, R);
-    x->E = gvi__take(a, !u->kicks, u->two ? 2*r : r, R);
-    x->Phi = gvi__take(a, !u->kicks, s, R);
-    x->phi = gvi__take(a, modes, s, R);
-    x->low = gvi__take(a, modes, s, R);
-    x->Z = gvi__take(a, u->positions && gvi__mass_is(st, GVI_MASS_DENSE), n, R);
-    x->point_mass = gvi__take(a, gvi__mass_is(st, GVI_MASS_POSITION), n, n*R);
-    x->ce = gvi__take(a, 1, 1, R);
-    x->b = gvi__take(a, 1, 1, R);
-    x->t = gvi__take(a, 1, 1, R);
-    x->place = gvi__take(a, !u->kicks, 3, R);
-    x->row = gvi__take(a, 1, 6, R);
-    x->drift = gvi__take(a, gvi__uses(st, GVI_EXPLICIT), 1, r + 1);
-    x->inv_gamma = gvi__take(a, 1, 1, s);
-    x->own = gvi__take(a, gvi__has(st, GVI__HAS_OWN), s*s + s + 1, 1);
+    static const gvi__part parts[] = {
+        GVI__PART(q, 1, N), GVI__PART(qe, 1, N), GVI__PART(p, 1, N), GVI__PART(pe, 1, N), GVI__PART(q0, 1, N),
+        GVI__PART(p0, 1, N), GVI__PART(zeros, 1, N), GVI__PART(start, 1, N), GVI__PART(v0, 1, N), GVI__PART(ve, 1, N),
+        GVI__PART(dq, 1, N), GVI__PART(dp, 1, N), GVI__PART(dqe, 1, N), GVI__PART(dpe, 1, N),
+        GVI__PART(mass, DIAGONAL, 1), GVI__PART(over, DIAGONAL, 1)
+    };
+    gvi__place(st, a, length, parts, sizeof parts/sizeof *parts);
 }
 
-// N: n, in whole vectors if n >= 8
-static void gvi__layout_vectors(gvi_stepper *st, gvi__arena *a, size_t N)
+static void gvi__layout_rows(gvi_stepper *st, gvi__arena *a, const size_t *length)
 {
-    struct gvi__private *x = &st->x;
-    gvi_real **const vectors[] = { &x->q, &x->qe, &x->p, &x->pe, &x->q0, &x->p0, &x->zeros, &x->start, &x->v0, &x->ve,
-                                   &x->dq, &x->dp, &x->dqe, &x->dpe };
-    for (size_t k = 0; k < sizeof vectors/sizeof *vectors; ++k) *vectors[k] = gvi__take(a, 1, 1, N);
-    x->mass = gvi__take(a, x->desc.mass.kind == GVI_MASS_DIAGONAL, 1, N);
-    x->over = gvi__take(a, x->desc.mass.kind == GVI_MASS_DIAGONAL, 1, N);
+    static const gvi__part parts[] = {
+        GVI__PART(last.Q, STATE, POINTS), GVI__PART(last.F, STATE, POINTS), GVI__PART(last.V, V, R),
+        GVI__PART(last.P, P, R), GVI__PART(last.A, A_, R),
+        GVI__PART(work.Q, STATE, POINTS), GVI__PART(work.F, STATE, POINTS), GVI__PART(work.V, V, R),
+        GVI__PART(work.P, P, R), GVI__PART(work.A, A_, R),
+        GVI__PART(older_F, OLDER_F, R), GVI__PART(older_V, OLDER_V, R), GVI__PART(older_A, OLDER_A, R),
+        GVI__PART(slope, SLOPE, R), GVI__PART(rate, RATE, R), GVI__PART(power, RATE, R), GVI__PART(level, RATE, R),
+        GVI__PART(z, 1, R), GVI__PART(less, 1, R), GVI__PART(hb, 1, R), GVI__PART(c, 1, R), GVI__PART(g, G, R),
+        GVI__PART(m, M, R), GVI__PART(T, T, R), GVI__PART(N, NN, R), GVI__PART(E, E, R), GVI__PART(Phi, PHI, R),
+        GVI__PART(phi, MODES, R), GVI__PART(low, MODES, R), GVI__PART(Z, Z, R), GVI__PART(point_mass, AT_POINTS, nR),
+        GVI__PART(ce, 1, R), GVI__PART(b, 1, R), GVI__PART(t, 1, R), GVI__PART(place, PLACE, R), GVI__PART(row, 6, R),
+        GVI__PART(drift, DRIFT, 1), GVI__PART(inv_gamma, 1, s), GVI__PART(own, GAMMA, 1)
+    };
+    gvi__place(st, a, length, parts, sizeof parts/sizeof *parts);
 }
 
-static void gvi__layout_scratch(gvi_stepper *st, gvi__arena *a, size_t n)
+// J and pivots twice: queries must not touch what the steps keep.  J comes last
+static void gvi__layout_scratch(gvi_stepper *st, gvi__arena *a, const size_t *length)
 {
-    struct gvi__private *x = &st->x;
-    x->scale = gvi__take(a, 1, 2, n);
-    x->change = gvi__take(a, 1, 3, n);
-    x->one = gvi__take(a, 1, 6, n);
-    if (gvi__mass_is(st, GVI_MASS_DENSE)) x->mass = gvi__take(a, 1, 2*n, n);
-}
-
-// J and pivots twice: queries must not touch what the steps keep
-static void gvi__layout_newton(gvi_stepper *st, gvi__arena *a, const gvi__needs *u, size_t n)
-{
-    struct gvi__private *x = &st->x;
-    const size_t R = (size_t)x->stride, sn = (size_t)st->s*n;
-    x->hess = gvi__take(a, u->newton || u->lagrangian, n, u->newton ? 4*n + 5 : n + 5);
-    x->y = gvi__take(a, u->newton, 1, sn);
-    x->dy = gvi__take(a, u->newton, 1, sn);
-    x->pivot = gvi__take(a, u->newton, 2, sn + 1);
-    x->dF = gvi__take(a, u->newton, n, R);
-    x->dP = gvi__take(a, u->newton, n, R);
-    x->bF = gvi__take(a, u->newton, n, R);
-    x->bP = gvi__take(a, u->newton, n, R);
-    x->J = gvi__take(a, u->newton, 2*sn, sn);
+    static const gvi__part parts[] = {
+        GVI__PART(scale, 2, n), GVI__PART(change, 3, n), GVI__PART(one, 6, n),
+        GVI__PART(hess, HESS, HESSIANS), GVI__PART(y, sn, 1), GVI__PART(dy, sn, 1), GVI__PART(pivot, PIVOT, 2),
+        GVI__PART(dF, DIFFERENCES, R), GVI__PART(J, J, sn)
+    };
+    if (gvi__mass_is(st, GVI_MASS_DENSE)) st->x.mass = gvi__take(a, 2*length[GVI__n], length[GVI__n]);
+    gvi__place(st, a, length, parts, sizeof parts/sizeof *parts);
 }
 
 // with base NULL it only counts
 static size_t gvi__layout(gvi_stepper *st, gvi_real *base)
 {
-    const gvi__needs u = gvi__needs_of(st);
-    const size_t n = (size_t)st->n, N = n < 8 ? n : (n + 7)/8*8;      // N: whole vectors
+    size_t length[GVI__LENGTHS];
     gvi__arena a;
     a.base = base;
     a.used = 0;
-    if (n >= 8) gvi__layout_vectors(st, &a, N);   // what is not in whole vectors comes last
-    gvi__layout_rows(st, &a, &u, n, N);
-    gvi__layout_tables(st, &a, &u, n);
-    if (n < 8) gvi__layout_vectors(st, &a, N);
-    gvi__layout_scratch(st, &a, n);
-    gvi__layout_newton(st, &a, &u, n);
+    gvi__lengths(st, length);
+    if (st->n >= 8) gvi__layout_vectors(st, &a, length);      // what is not in whole vectors comes last
+    gvi__layout_rows(st, &a, length);
+    if (st->n < 8) gvi__layout_vectors(st, &a, length);
+    gvi__layout_scratch(st, &a, length);
     return a.used;
 }
 
@@ -2360,18 +2362,12 @@ static void gvi__begin(gvi_stepper *st, gvi__from *from, gvi_real h)
     from->ve = x->ve;
 }
 
-// four sums at a time: none waits for another
+// four sums, so that none need wait for another; what is left over goes to the first
 static gvi_real gvi__dot(int r, const gvi_real *a, const gvi_real *b)
 {
     gvi_real sum[4] = { 0, 0, 0, 0 };
-    int j = 0;
-    for (; j + 3 < r; j += 4) {
-        sum[0] += a[j]*b[j];
-        sum[1] += a[j + 1]*b[j + 1];
-        sum[2] += a[j + 2]*b[j + 2];
-        sum[3] += a[j + 3]*b[j + 3];
-    }
-    for (; j < r; ++j) sum[0] += a[j]*b[j];
+    const int whole = r & ~3;
+    for (int j = 0; j < r; ++j) sum[j < whole ? j & 3 : 0] += a[j]*b[j];
     return (sum[0] + sum[2]) + (sum[1] + sum[3]);
 }
 
@@ -2419,11 +2415,16 @@ static inline void gvi__sum_vector(int r, int R, const gvi_real *table, const gv
 }
 #endif
 
-// the same for `block` points, by loops, any r
+// the same for `block` points, by loops, any r; where size counts, four sums by a loop as well
 static inline void gvi__sum_block(int r, int R, int block, const gvi_real *table, const gvi_real *L, gvi_real *z)
 {
     for (int k = 0; k < block; ++k) {
         const gvi_real *t = table + k;
+#ifdef __OPTIMIZE_SIZE__
+        gvi_real sum[4] = { 0, 0, 0, 0 };
+        for (int j = 0; j < r; ++j, t += R) sum[j & 3] = j < 4 ? *t*L[j] : sum[j & 3] + *t*L[j];
+        z[k] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+#else
         gvi_real a = t[0]*L[0], b = r > 1 ? t[R]*L[1] : 0, c = r > 2 ? t[2*R]*L[2] : 0, d = r > 3 ? t[3*R]*L[3] : 0;
         int j = 4;
         for (; j + 3 < r; j += 4) {
@@ -2436,6 +2437,7 @@ static inline void gvi__sum_block(int r, int R, int block, const gvi_real *table
         if (j + 1 < r) b += t[(j + 1)*R]*L[j + 1];
         if (j + 2 < r) c += t[(j + 2)*R]*L[j + 2];
         z[k] = (a + b) + (c + d);
+#endif
     }
 }
 
@@ -2901,10 +2903,10 @@ static void gvi__fit(gvi_stepper *st, gvi_real alpha, gvi_real beta)
 static void gvi__prepare_guess(gvi_stepper *st, gvi_real alpha, gvi_real beta, int query)
 {
     struct gvi__private *x = &st->x;
-    const int two = !query && x->alike == 2 && x->older.F && !gvi__nonzero(beta - 1);
+    const int two = !query && x->alike == 2 && x->older_F && !gvi__nonzero(beta - 1);
     if (!query && !gvi__nonzero(beta - x->ratio) && two == x->two) return;
     x->ratio = query ? 0 : beta;
-    x->two = two;
+    x->two = (signed char)two;
     gvi__fit(st, alpha, beta);
 }
 
@@ -2917,9 +2919,9 @@ static void gvi__guess(gvi_stepper *st, int extrapolate, gvi_real rate)
     size_t length = (size_t)st->n*(size_t)x->stride;
     x->has_factor = x->has_rate = 0;
     if (extrapolate) {
-        gvi__extrapolate(st, l->F, x->older.F, w->F);
-        if (gvi__A(l) && w->A) gvi__extrapolate(st, l->A, x->older.A, w->A);
-        if (gvi__uses(st, GVI_MOMENTA)) gvi__extrapolate(st, l->V, x->older.V, w->V);
+        gvi__extrapolate(st, l->F, x->older_F, w->F);
+        if (gvi__A(l) && w->A) gvi__extrapolate(st, l->A, x->older_A, w->A);
+        if (gvi__uses(st, GVI_MOMENTA)) gvi__extrapolate(st, l->V, x->older_V, w->V);
     } else {
         gvi__zero(length, w->F);
         if (gvi__A(w)) gvi__zero(length, w->A);
@@ -2951,7 +2953,7 @@ static inline gvi_real gvi__lever(int r, const gvi_real *GVI__RESTRICT c, const 
 {
     gvi_real sum[4] = { 0, 0, 0, 0 };
     for (int j = 0; j < r; ++j) z[j] = (1 - c[j])*(hb[j]*F[j]);
-    for (int j = 0; j < r; ++j) sum[j % 4] += z[j];
+    for (int j = 0; j < r; ++j) sum[j & 3] += z[j];
     return (sum[0] + sum[2]) + (sum[1] + sum[3]);
 }
 
@@ -3335,17 +3337,17 @@ static gvi_status gvi__difference(gvi_stepper *st, const gvi__matrix *J, int j, 
     struct gvi__private *x = &st->x;
     int n = st->n, R = x->stride;
     gvi_real *row = (by_v ? x->work.V : x->work.Q) + j*R;
+    gvi_real *dF = x->dF, *dP = dF + n*R, *bF = dP + n*R, *bP = bF + n*R;
     gvi_points y;
-    gvi__rows_as_points(&y, st, &x->work, x->dP);
-    y.f = x->dF;
+    gvi__rows_as_points(&y, st, &x->work, dP);
+    y.f = dF;
     gvi__copy((size_t)R, row, x->z);
     for (int k = 0; k < st->r; ++k) row[k] += d;
     gvi_status status = gvi__evaluate(st, &y, 1);
     for (int k = 0; k < st->r && status == GVI_OK; ++k) {
         gvi_real step = row[k] - x->z[k];
         for (int i = 0; i < n; ++i)
-            gvi__add(st, J, i, j, k, (x->dF[i*R + k] - x->bF[i*R + k])/step,
-                     (x->dP[i*R + k] - x->bP[i*R + k])/step, by_v);
+            gvi__add(st, J, i, j, k, (dF[i*R + k] - bF[i*R + k])/step, (dP[i*R + k] - bP[i*R + k])/step, by_v);
     }
     gvi__copy((size_t)R, x->z, row);
     return status;
@@ -3365,8 +3367,8 @@ static gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matrix *
         }
     if (!any) return GVI_OK;
     gvi_points y;
-    gvi__rows_as_points(&y, st, &x->work, x->bP);
-    y.f = x->bF;
+    gvi__rows_as_points(&y, st, &x->work, x->dF + 3*n*R);
+    y.f = x->dF + 2*n*R;
     gvi_status status = gvi__evaluate(st, &y, 1);
     const gvi_real root = GVI_SQRT(GVI__EPS), h = GVI_ABS(J->h);
     for (int j = 0; j < n && status == GVI_OK; ++j) {
@@ -3639,16 +3641,16 @@ static void gvi__rotate(gvi_real **older, gvi_real **last, gvi_real **work)
 static void gvi__rotate_rows(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
-    x->turns = (x->turns + 1) % 6;
+    x->turns = (signed char)((x->turns + 1) % 6);
     if (gvi__uses(st, GVI_EXPLICIT)) {            // no more is kept
         gvi__rotate(NULL, &x->last.F, &x->work.F);
         return;
     }
     gvi__rotate(NULL, &x->last.Q, &x->work.Q);
     gvi__rotate(NULL, &x->last.P, &x->work.P);
-    gvi__rotate(&x->older.F, &x->last.F, &x->work.F);
-    gvi__rotate(&x->older.V, &x->last.V, &x->work.V);
-    if (GVI__LAGRANGIAN) gvi__rotate(&x->older.A, &x->last.A, &x->work.A);
+    gvi__rotate(&x->older_F, &x->last.F, &x->work.F);
+    gvi__rotate(&x->older_V, &x->last.V, &x->work.V);
+    if (GVI__LAGRANGIAN) gvi__rotate(&x->older_A, &x->last.A, &x->work.A);
 }
 
 // was := x, x + rest := x + dx + dxe
@@ -3790,7 +3792,8 @@ static gvi_status gvi__start(gvi_stepper *st, gvi_real t, const gvi_real *v)
     st->h = 0;
     x->te = 0;
     x->started = 1;
-    x->stepped = x->has_force = x->has_velocity = x->newton_left = x->alike = x->two = 0;
+    x->stepped = x->has_force = x->has_velocity = x->alike = x->two = 0;
+    x->newton_left = 0;
     x->h_matrix = x->ratio = 0;
     st->formulation = x->chosen;
     return gvi__done(st, GVI_OK);
@@ -4185,7 +4188,7 @@ static gvi_status gvi__interior(gvi_stepper *st, const gvi__from *from, gvi_real
     for (int look = 0; look < 2 && status == GVI_E_NON_FINITE; ++look) {    // as in gvi__solve
         gvi__zero((size_t)(st->s*n), x->y);
         for (int i = 0; i < n; ++i) x->y[i] = (q1[i] - from->q[i])/h;
-        x->diagnose = look;
+        x->diagnose = (signed char)look;
         status = gvi__newton(st, from, J, pivot, 0);
         x->diagnose = 0;
     }
