@@ -760,6 +760,21 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__OWN 1
 #endif
 
+/* Compiled for size: one loop in place of several for the usual lengths, scratch in
+   the caller's memory in place of registers, and GVI__APART, a function of its own
+   even where it is called once: what it needs of the stack is not held by those that
+   call it.                                                                    */
+#ifdef __OPTIMIZE_SIZE__
+#define GVI__SMALL 1
+#else
+#define GVI__SMALL 0
+#endif
+#if GVI__SMALL && defined(__GNUC__)
+#define GVI__APART static __attribute__((noinline))
+#else
+#define GVI__APART static
+#endif
+
 // arrays that do not overlap
 #if defined(__GNUC__) || defined(_MSC_VER)
 #define GVI__RESTRICT __restrict
@@ -1481,7 +1496,7 @@ static signed char gvi__single(const gvi_stepper *st)
 // all effects that are on; nothing stands between a step and its only effect
 static inline gvi_status gvi__all_effects(gvi_stepper *st, gvi_points *x)
 {
-    const int e = st->x.single;
+    const int e = GVI__SMALL ? -1 : st->x.single;
     if (e < 0 || st->x.diagnose) return gvi__effects(st, x, 0);
     const gvi_effect *effect = st->x.desc.effects + e;
     const gvi_real *v = x->v;
@@ -2073,7 +2088,7 @@ static gvi_status gvi__resolve(gvi_stepper *st, const gvi_desc *desc)
         st->x.flags |= GVI__HAS_NEWTON;
     if (d->rule.kind == GVI_KICKS) st->order = 0;
     st->formulation = st->x.chosen;
-    st->x.single = gvi__single(st);
+    st->x.single = GVI__SMALL ? (signed char)-1 : gvi__single(st);
 
     // indices are int: n*n and s*n where there are matrices
     int matrices = d->mass.kind >= GVI_MASS_DENSE || gvi__has(st, GVI__HAS_NEWTON | GVI__HAS_LAGRANGIAN);
@@ -2415,16 +2430,11 @@ static inline void gvi__sum_vector(int r, int R, const gvi_real *table, const gv
 }
 #endif
 
-// the same for `block` points, by loops, any r; where size counts, four sums by a loop as well
+// the same for `block` points, by loops, any r
 static inline void gvi__sum_block(int r, int R, int block, const gvi_real *table, const gvi_real *L, gvi_real *z)
 {
     for (int k = 0; k < block; ++k) {
         const gvi_real *t = table + k;
-#ifdef __OPTIMIZE_SIZE__
-        gvi_real sum[4] = { 0, 0, 0, 0 };
-        for (int j = 0; j < r; ++j, t += R) sum[j & 3] = j < 4 ? *t*L[j] : sum[j & 3] + *t*L[j];
-        z[k] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
-#else
         gvi_real a = t[0]*L[0], b = r > 1 ? t[R]*L[1] : 0, c = r > 2 ? t[2*R]*L[2] : 0, d = r > 3 ? t[3*R]*L[3] : 0;
         int j = 4;
         for (; j + 3 < r; j += 4) {
@@ -2437,8 +2447,24 @@ static inline void gvi__sum_block(int r, int R, int block, const gvi_real *table
         if (j + 1 < r) b += t[(j + 1)*R]*L[j + 1];
         if (j + 2 < r) c += t[(j + 2)*R]*L[j + 2];
         z[k] = (a + b) + (c + d);
-#endif
     }
+}
+
+// the same in less code
+static inline void gvi__sum_small(int r, int R, int block, const gvi_real *table, const gvi_real *L, gvi_real *z)
+{
+    for (int k = 0; k < block; ++k) {
+        const gvi_real *t = table + k;
+        gvi_real sum[4] = { 0, 0, 0, 0 };
+        for (int j = 0; j < r; ++j, t += R) sum[j & 3] = j < 4 ? *t*L[j] : sum[j & 3] + *t*L[j];
+        z[k] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+    }
+}
+
+static inline void gvi__sum_points(int r, int R, int block, const gvi_real *table, const gvi_real *L, gvi_real *z)
+{
+    if (GVI__SMALL) gvi__sum_small(r, R, block, table, L, z);
+    else gvi__sum_block(r, R, block, table, L, z);
 }
 
 // z := sum_j table[j][.] L_j, all R points
@@ -2449,7 +2475,7 @@ static inline void gvi__sum_row(int r, int R, const gvi_real *table, const gvi_r
         gvi__sum_vector(r, R, table + o, L, (gvi__vector *)(z + o));
     if (R % 8 == 0) return;
 #endif
-    gvi__sum_block(r, R, R, table, L, z);
+    gvi__sum_points(r, R, R, table, L, z);
 }
 
 // L := w f, element by element
@@ -2537,16 +2563,17 @@ static inline gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stag
 #endif
     gvi_real lane[8] = { 0, 0, 0, 0, 0, 0, 0, 0 };
     const int block = R < 8 ? R : 8;
+    gvi_real few[8], sums[8], others[8], *L = GVI__SMALL || R > 8 ? x->z : few;
+    gvi_real *z = GVI__SMALL ? x->row : sums, *less = GVI__SMALL ? x->row + R : others;
     for (int i = 0; i < n; ++i) {
         const gvi__affine p = gvi__affine_of(y, diagonal, i);
-        gvi_real few[8], *L = R > 8 ? x->z : few;
         gvi__weigh(R, x->hb, y->f + i*R, L);
         if (minus) gvi__weigh(R, x->b, x->work.A + i*R, x->less);
         for (int o = R - block; o >= 0; o -= block) {
             const int last = r - 1 - o;
-            gvi_real *row = y->rows + i*R + o, z[8], less[8];
-            gvi__sum_block(r, R, block, y->table + o, L, z);
-            if (minus) gvi__sum_block(r, R, block, minus + o, x->less, less);
+            gvi_real *row = y->rows + i*R + o;
+            gvi__sum_points(r, R, block, y->table + o, L, z);
+            if (minus) gvi__sum_points(r, R, block, minus + o, x->less, less);
             for (int k = 0; k < block; ++k)
                 z[k] = p.base + (p.extra + (c[k + o]*p.a + (minus ? z[k] - less[k] : z[k])*p.b));
             if (last < block) gvi__rescale(p.base, row[last], z[last], y->scale + i);
@@ -2592,6 +2619,7 @@ static gvi_real gvi__stage_rows(gvi_stepper *st, const gvi__stage *y)
 {
     const int r = st->r, R = st->x.stride;
     if (y->over_mass && gvi__mass_is(st, GVI_MASS_DENSE)) return gvi__stage_rows_dense(st, y);
+    if (GVI__SMALL) return gvi__stage_rows_of(st, y, r, R);
     switch (r) {
     case 1:  return gvi__stage_rows_of(st, y, 1, 1);
     case 2:  return gvi__stage_rows_of(st, y, 2, 2);
@@ -2617,6 +2645,8 @@ static void gvi__velocity_rows(gvi_stepper *st)
     else gvi__ldl_solve(n, x->point_mass, R, 1, w->V, R, st->r);
 }
 
+#define GVI__STAGES (GVI__VELOCITIES || GVI__MOMENTA ? 2 : 1)       // of an iteration, at most
+
 static void gvi__stage_set(gvi__stage *y, const gvi_real *base, const gvi_real *extra, const gvi_real *slope,
                            const gvi_real *table, const gvi_real *f, gvi_real factor, gvi_real *rows,
                            gvi_real *scale)
@@ -2635,7 +2665,7 @@ static void gvi__stage_set(gvi__stage *y, const gvi_real *base, const gvi_real *
 
 /* What an iteration computes, fixed for a step: positions (3); velocities (3),
    (4); momenta (5), P first.  Returns how many.                               */
-static int gvi__plan(gvi_stepper *st, const gvi__from *from, gvi_real h, gvi__stage y[2])
+static int gvi__plan(gvi_stepper *st, const gvi__from *from, gvi_real h, gvi__stage y[GVI__STAGES])
 {
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work;
@@ -2647,7 +2677,7 @@ static int gvi__plan(gvi_stepper *st, const gvi__from *from, gvi_real h, gvi__st
     gvi__stage_set(y, from->q, from->qe, from->v, x->g, w->F, h, w->Q, x->scale);
     y->minus = gvi__A(w) ? x->T : NULL;
     y->over_mass = 1;
-    if (gvi__uses(st, GVI_POSITIONS)) return 1;
+    if (gvi__uses(st, GVI_POSITIONS) || GVI__STAGES == 1) return 1;
     gvi__stage_set(y + 1, from->v, from->ve, NULL, x->m, w->F, 1, w->V, x->scale + st->n);
     y[1].minus = gvi__A(w) ? x->N : NULL;
     y[1].over_mass = 1;
@@ -2775,7 +2805,7 @@ static void gvi__transform(gvi_stepper *st, const gvi__from *from, int lagrangia
         gvi__scale_row(R, x->rate, w->V + i*R);
     }
     gvi__weigh(R, x->hb, x->rate, x->less);
-    if (r == 8) gvi__sum_row(8, 8, x->T, x->less, x->z);
+    if (r == 8 && !GVI__SMALL) gvi__sum_row(8, 8, x->T, x->less, x->z);
     else gvi__sum_row(r, R, x->T, x->less, x->z);
     for (int k = 0; k < R; ++k) x->t[k] = from->t + (from->te + x->z[k]);
     x->has_rate = 1;
@@ -2852,7 +2882,8 @@ static inline void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, co
 static void gvi__extrapolate(gvi_stepper *st, const gvi_real *last, const gvi_real *older, gvi_real *out)
 {
     if (!gvi__two_now(st)) older = NULL;
-    if (st->r == 8) gvi__extrapolate_rows(st, 8, 8, last, older, out);
+    if (GVI__SMALL) gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, out);
+    else if (st->r == 8) gvi__extrapolate_rows(st, 8, 8, last, older, out);
     else if (st->r == 4) gvi__extrapolate_rows(st, 4, 4, last, older, out);
     else gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, out);
 }
@@ -2994,7 +3025,8 @@ static void gvi__increments(gvi_stepper *st, const gvi__from *from, gvi_real h)
         x->dt = gvi__dot(st->r, x->hb, x->rate);
         x->dH = gvi__dot(st->r, x->hb, x->power);
     }
-    if (st->r == 8) gvi__increments_of(st, from, h, 8, 8);
+    if (GVI__SMALL) gvi__increments_of(st, from, h, st->r, x->stride);
+    else if (st->r == 8) gvi__increments_of(st, from, h, 8, 8);
     else if (st->r == 4) gvi__increments_of(st, from, h, 4, 4);
     else gvi__increments_of(st, from, h, st->r, x->stride);
 }
@@ -3113,7 +3145,7 @@ static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_r
     struct gvi__private *x = &st->x;
     const int most = x->desc.iterations > 0 ? x->desc.iterations : x->desc.max_iterations;
     gvi__progress p = { 0, 0, GVI__MAX, 0, 0, 0 };
-    gvi__stage y[2];
+    gvi__stage y[GVI__STAGES];
     const int count = gvi__plan(st, from, h, y);
     gvi_points points;
     gvi__rows_as_points(&points, st, &x->work, gvi__A(&x->work));
@@ -3882,7 +3914,7 @@ GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
         st->x.H = E;
         st->x.He = 0;
     }
-    st->x.single = gvi__single(st);
+    st->x.single = GVI__SMALL ? (signed char)-1 : gvi__single(st);
     st->x.has_force = 0;
     st->x.h_matrix = 0;
     return gvi__done(st, GVI_OK);
