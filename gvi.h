@@ -739,10 +739,11 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #else
 #define GVI__NEWTON GVI__ONLY(0)
 #endif
+#define GVI__READS_V (GVI__VELOCITIES || GVI__MOMENTA || GVI__NEWTON)
 #ifdef GVI_NO_LAGRANGIAN
 #define GVI__LAGRANGIAN 0
 #else
-#define GVI__LAGRANGIAN (GVI__VELOCITIES || GVI__MOMENTA || GVI__NEWTON)
+#define GVI__LAGRANGIAN GVI__READS_V
 #endif
 #ifdef GVI_NO_CLOCK
 #define GVI__CLOCK 0
@@ -1144,7 +1145,7 @@ static gvi_real gvi__node_guess(int lobatto, int n, int j)
 /* All nodes and weights; ce, if given, gets what rounding left of c.  After a
    correction below eps the next one would be below its square: c is then accurate
    relative to itself, even next to the end of the interval.                   */
-static void gvi__rule_make(int lobatto, int n, gvi_real *c, gvi_real *ce, gvi_real *b)
+GVI__APART void gvi__rule_make(int lobatto, int n, gvi_real *c, gvi_real *ce, gvi_real *b)
 {
     for (int j = 0; j <= (n - 1)/2; ++j) {
         const int middle = 2*j + 1 == n, known = middle || (lobatto && j == 0);
@@ -1316,7 +1317,7 @@ GVI_DEF gvi_real gvi_interpolate_derivative(int n, const gvi_real *x, const gvi_
 #define GVI__HAS_LAGRANGIAN 2    /* an effect adds to dL/dv                    */
 #define GVI__HAS_NEWTON     4    /* Newton is used, or ready as the fall-back  */
 #define GVI__HAS_OWN        8    /* Gamma is a full matrix                     */
-#define GVI__POSSIBLE ((GVI__VELOCITIES || GVI__MOMENTA || GVI__NEWTON ? GVI__HAS_VELOCITIES : 0)        \
+#define GVI__POSSIBLE ((GVI__READS_V ? GVI__HAS_VELOCITIES : 0)                                        \
                        | (GVI__LAGRANGIAN ? GVI__HAS_LAGRANGIAN : 0) | (GVI__NEWTON ? GVI__HAS_NEWTON : 0) \
                        | (GVI__OWN ? GVI__HAS_OWN : 0))
 
@@ -1385,19 +1386,19 @@ static gvi_status gvi__check_rows(gvi_stepper *st, const gvi_points *x, const gv
 // the one-point form: gather, call, scatter
 static int gvi__point_by_point(gvi_stepper *st, const gvi_effect *e, const gvi_points *x, int *point)
 {
-    int n = x->n;
+    const int n = x->n, reads_v = GVI__READS_V && x->v, term = GVI__LAGRANGIAN && x->dldv;
     gvi_real *q = st->x.one, *v = q + n, *f = v + n, *dldv = f + n;
     for (int k = 0; k < x->count; ++k) {
         *point = k;
-        for (int i = 0; i < n; ++i) {
-            q[i] = x->q[i*x->stride + k];
-            v[i] = x->v ? x->v[i*x->stride + k] : 0;
+        for (int i = 0, at = k; i < n; ++i, at += x->stride) {
+            q[i] = x->q[at];
+            if (reads_v) v[i] = x->v[at];
             f[i] = dldv[i] = 0;
         }
-        if (e->point(x->t[k], q, x->v ? v : NULL, f, x->dldv ? dldv : NULL, e->user)) return 1;
-        for (int i = 0; i < n; ++i) {
-            x->f[i*x->stride + k] += f[i];
-            if (x->dldv) x->dldv[i*x->stride + k] += dldv[i];
+        if (e->point(x->t[k], q, reads_v ? v : NULL, f, term ? dldv : NULL, e->user)) return 1;
+        for (int i = 0, at = k; i < n; ++i, at += x->stride) {
+            x->f[at] += f[i];
+            if (term) x->dldv[at] += dldv[i];
         }
     }
     return 0;
@@ -1409,7 +1410,7 @@ static gvi_status gvi__check_points(gvi_stepper *st, const gvi_points *x)
 {
     if (!st->x.diagnose) return GVI_OK;
     if (gvi__check_rows(st, x, x->q, GVI_FAULT_NONE) == GVI_OK
-        && gvi__check_rows(st, x, x->v, GVI_FAULT_NONE) == GVI_OK) return GVI_OK;
+        && (!GVI__READS_V || gvi__check_rows(st, x, x->v, GVI_FAULT_NONE) == GVI_OK)) return GVI_OK;
     return gvi__give(st, GVI_E_CONVERGENCE);
 }
 
@@ -1440,7 +1441,7 @@ static gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e)
     gvi_status status = refused ? gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, point) : GVI_OK;
     if (st->x.diagnose && status == GVI_OK) {
         status = gvi__check_rows(st, x, x->f, e);
-        if (status == GVI_OK && x->dldv) status = gvi__check_rows(st, x, x->dldv, e);
+        if (status == GVI_OK && GVI__LAGRANGIAN) status = gvi__check_rows(st, x, x->dldv, e);
     }
     x->value = value;
     return status == GVI_OK && own && !together ? gvi__value(st, x, e, own) : status;
@@ -1463,12 +1464,12 @@ static gvi_status gvi__effects(gvi_stepper *st, gvi_points *x, unsigned skip)
     const gvi_real *v = x->v;
     gvi_real *dldv = x->dldv;
     gvi_status status = GVI_OK;
-    const int plain = !x->value && !st->x.diagnose;
+    const int plain = !(GVI__CLOCK && x->value) && !st->x.diagnose;
     skip |= st->x.off | gvi__clock_bit(st);
     for (int e = 0; e < st->x.desc.effect_count && status == GVI_OK; ++e, ++effect) {
         if (skip >> e & 1u) continue;
-        x->v = effect->kind == GVI_POTENTIAL ? NULL : v;
-        x->dldv = effect->kind == GVI_LAGRANGIAN ? dldv : NULL;
+        x->v = GVI__READS_V && effect->kind != GVI_POTENTIAL ? v : NULL;
+        x->dldv = GVI__LAGRANGIAN && effect->kind == GVI_LAGRANGIAN ? dldv : NULL;
         st->counters.effect[e] += (unsigned long long)x->count;
         if (!plain || !effect->points) status = gvi__effect(st, x, e);
         else if (effect->points(x, effect->user))
@@ -1783,7 +1784,7 @@ static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, 
    every node, x = 1 - 2c, in twofold arithmetic: [k*stride + node].  The low
    parts of Phi go to E, which is not yet in use; phi is skipped where nobody
    needs it.                                                                  */
-static void gvi__modes_at_nodes(gvi_stepper *st)
+GVI__APART void gvi__modes_at_nodes(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
     for (int i = 0; i < st->r; ++i) {
@@ -1863,19 +1864,19 @@ static gvi__two gvi__sandwich(const gvi_stepper *st, const gvi_real *a, const gv
    for the step to be symplectic then holds exactly in the rounded numbers,
    S_ij = S_ji, and for Gauss with r = s  T_ij + T_ji = 1.  Stored by columns,
    [j*stride + i]:  g = c_i - S_ij,  m = 1 - T_ij,  T = T_ji,  N = N_ij.       */
-static void gvi__tables(gvi_stepper *st)
+GVI__APART void gvi__tables(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
     int r = st->r, R = x->stride, gauss = x->desc.rule.kind == GVI_GAUSS && r == st->s;
     for (int j = 0; j < r; ++j)
         for (int i = 0; i < r; ++i) {
             int at = j*R + i, mirror = i*R + j;
-            if (x->g && i <= j) {
+            if ((GVI__POSITIONS || GVI__VELOCITIES) && x->g && i <= j) {
                 gvi_real S = gvi__grid(gvi__sandwich(st, x->Phi, x->E, i, x->Phi, x->E, j), GVI__EPS/2);
                 x->g[at] = x->c[i] - S;
                 x->g[mirror] = x->c[j] - S;
             }
-            if (x->m && (i <= j || !gauss)) {
+            if ((GVI__VELOCITIES || GVI__MOMENTA) && x->m && (i <= j || !gauss)) {
                 gvi_real T = gvi__grid(gvi__sandwich(st, x->phi, x->low, i, x->Phi, x->E, j), GVI__EPS);
                 if (gauss && i == j) T = (gvi_real)0.5;
                 x->m[at] = 1 - T;
@@ -1885,7 +1886,7 @@ static void gvi__tables(gvi_stepper *st)
                     if (x->T) x->T[at] = 1 - T;
                 }
             }
-            if (x->N) x->N[at] = gvi__sandwich(st, x->phi, x->low, i, x->phi, x->low, j).hi;
+            if (GVI__VELOCITIES && GVI__LAGRANGIAN && x->N) x->N[at] = gvi__sandwich(st, x->phi, x->low, i, x->phi, x->low, j).hi;
         }
 }
 
@@ -2137,7 +2138,7 @@ static void gvi__lengths(const gvi_stepper *st, size_t *length)
     const int newton = gvi__has(st, GVI__HAS_NEWTON), lagrangian = gvi__has(st, GVI__HAS_LAGRANGIAN);
     const int momenta = gvi__uses(st, GVI_MOMENTA), velocities = gvi__uses(st, GVI_VELOCITIES);
     const int kicks = gvi__rule_is(st, GVI_KICKS), two = gvi__fits_two(st), clock = GVI__CLOCK && x->clock >= 0;
-    const int positions = gvi__uses(st, GVI_EXPLICIT) || gvi__uses(st, GVI_POSITIONS) || velocities;
+    const int positions = gvi__uses(st, GVI_POSITIONS) || velocities, iterates = !gvi__uses(st, GVI_EXPLICIT);
     const int reads_v = velocities || momenta || newton, A = lagrangian && (velocities || momenta);
     const int dense = gvi__mass_is(st, GVI_MASS_DENSE);
     length[GVI__1] = 1;
@@ -2158,15 +2159,15 @@ static void gvi__lengths(const gvi_stepper *st, size_t *length)
     length[GVI__OLDER_A] = two && A ? n : 0;
     length[GVI__SLOPE] = clock ? n : 0;
     length[GVI__RATE] = clock ? 1 : 0;
-    length[GVI__G] = positions && !kicks ? r : 0;
+    length[GVI__G] = positions ? r : 0;
     length[GVI__M] = velocities || momenta ? r : 0;
     length[GVI__T] = momenta || (velocities && lagrangian) ? r : 0;
     length[GVI__NN] = velocities && lagrangian ? r : 0;
-    length[GVI__E] = kicks ? 0 : two ? 2*r : r;
+    length[GVI__E] = !iterates ? 0 : two ? 2*r : r;
     length[GVI__PHI] = kicks ? 0 : s;
-    length[GVI__MODES] = reads_v || (!kicks && st->order <= 2*st->s - 2) ? s : 0;
-    length[GVI__PLACE] = kicks ? 0 : 3;
-    length[GVI__DRIFT] = gvi__uses(st, GVI_EXPLICIT) ? r + 1 : 0;
+    length[GVI__MODES] = reads_v || (iterates && st->order <= 2*st->s - 2) ? s : 0;
+    length[GVI__PLACE] = iterates ? 3 : 0;
+    length[GVI__DRIFT] = iterates ? 0 : r + 1;
     length[GVI__GAMMA] = gvi__has(st, GVI__HAS_OWN) ? s*s + s + 1 : 0;
     length[GVI__DIAGONAL] = x->desc.mass.kind == GVI_MASS_DIAGONAL ? length[GVI__N] : 0;
     length[GVI__Z] = dense && positions ? n : 0;
@@ -2314,9 +2315,15 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     if (gvi__rule_is(st, GVI_OWN) || gvi__rule_is(st, GVI_KICKS)) {
         gvi__copy((size_t)st->r, x->desc.rule.nodes, x->c);
         gvi__copy((size_t)st->r, x->desc.rule.weights, x->b);
+    } else if (gvi__uses(st, GVI_EXPLICIT)) {                // Stoermer-Verlet: c = 0, 1
+        x->c[1] = 1;
+        x->b[0] = x->b[1] = (gvi_real)0.5;
     } else gvi__rule_make(x->desc.rule.kind == GVI_LOBATTO, st->r, x->c, x->ce, x->b);
     x->memory = memory;                      // from here on it can be used
-    if (gvi__rule_is(st, GVI_KICKS)) return gvi__done(st, GVI_OK);
+    if (gvi__uses(st, GVI_EXPLICIT)) {
+        if (x->Phi) gvi__copy((size_t)st->r, x->c, x->Phi);
+        return gvi__done(st, GVI_OK);
+    }
     gvi__modes_at_nodes(st);
     for (int i = 0; i < st->r; ++i) x->c[i] = gvi__grid(gvi__sum(x->c[i], x->ce[i]), GVI__EPS/2);
     status = gvi__gamma(st);
@@ -2934,7 +2941,7 @@ static void gvi__fit(gvi_stepper *st, gvi_real alpha, gvi_real beta)
 static void gvi__prepare_guess(gvi_stepper *st, gvi_real alpha, gvi_real beta, int query)
 {
     struct gvi__private *x = &st->x;
-    const int two = !query && x->alike == 2 && x->older_F && !gvi__nonzero(beta - 1);
+    const int two = GVI__KIND > 1 && !query && x->alike == 2 && x->older_F && !gvi__nonzero(beta - 1);
     if (!query && !gvi__nonzero(beta - x->ratio) && two == x->two) return;
     x->ratio = query ? 0 : beta;
     x->two = (signed char)two;
@@ -3045,7 +3052,7 @@ static int gvi__is_rounding(const gvi_stepper *st, const gvi__from *from, int id
     gvi_real noise = 0, size = 0, place = 0;
     for (int i = 0; i < st->n; ++i) {
         gvi_real most = 0, Q = x->work.Q[i*R + last];
-        int by_v = x->chosen > GVI_POSITIONS || st->formulation == GVI_NEWTON;
+        const int by_v = GVI__READS_V && (x->chosen > GVI_POSITIONS || st->formulation == GVI_NEWTON);
         gvi_real v = by_v ? x->work.V[i*R + last] : from->v[i];
         for (int k = 0; k < st->r; ++k) {
             gvi_real F = GVI_ABS(x->work.F[i*R + k]);
@@ -3111,7 +3118,7 @@ enum { GVI__GO_ON, GVI__DONE, GVI__ASK_ONCE_MORE, GVI__BEYOND };
    changes in a row that fall by less than half are poor.  All of it in squares
    of changes: no root or quotient between an iteration and the next.  A given
    number of iterations ends there, if the change is half of that two before.  */
-static inline int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *p, gvi_real change, int used)
+GVI__APART int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *p, gvi_real change, int used)
 {
     struct gvi__private *x = &st->x;
     const gvi_real tolerance = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/4096;
@@ -3140,7 +3147,7 @@ static inline int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progre
 }
 
 /* Fixed point on the rows: F, V and A make the rows, the effects are asked there. */
-static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate, int *used)
+GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate, int *used)
 {
     struct gvi__private *x = &st->x;
     const int most = x->desc.iterations > 0 ? x->desc.iterations : x->desc.max_iterations;
@@ -3326,7 +3333,7 @@ static void gvi__add(const gvi_stepper *st, const gvi__matrix *J, int i, int j, 
 }
 
 // effects that bring their Hessians, and the constant mass
-static gvi_status gvi__jacobian_exact(gvi_stepper *st, const gvi__matrix *J)
+GVI__APART gvi_status gvi__jacobian_exact(gvi_stepper *st, const gvi__matrix *J)
 {
     struct gvi__private *x = &st->x;
     const gvi_desc *d = &x->desc;
@@ -3387,7 +3394,7 @@ static gvi_status gvi__difference(gvi_stepper *st, const gvi__matrix *J, int j, 
 
 /* Derivatives of what has no Hessian.  The difference is sqrt(eps) of what the
    coordinate moves in a step, but no less than eps^(3/4) of the coordinate.   */
-static gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matrix *J)
+GVI__APART gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matrix *J)
 {
     struct gvi__private *x = &st->x;
     const gvi_desc *d = &x->desc;
@@ -3419,7 +3426,7 @@ static gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matrix *
 
 /* A Lagrangian whose d2L/dv2 is singular (linear in v, a coordinate without mass)
    would make (1) solvable all the same, and its solution worthless.           */
-static gvi_status gvi__check_regular(gvi_stepper *st)
+GVI__APART gvi_status gvi__check_regular(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
     int n = st->n, R = x->stride, at;
@@ -3522,7 +3529,7 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__from *from, gvi_r
 /* Solves rows k0..s-1 of (1) from the y at hand and leaves F, P, Q, V at the
    solution.  Keeps the factorisation while it contracts by 1/4 or better, over
    iterations and, if `kept`, over steps.                                     */
-static gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi__matrix *J, gvi_real *pivot, int kept)
+GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi__matrix *J, gvi_real *pivot, int kept)
 {
     struct gvi__private *x = &st->x;
     const gvi_real enough = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/4096;
@@ -3572,7 +3579,7 @@ static gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi_
     return gvi__give(st, GVI_E_CONVERGENCE);
 }
 
-static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate, int query)
+GVI__APART gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate, int query)
 {
     struct gvi__private *x = &st->x;
     size_t sn = (size_t)(st->s*st->n), offset = query ? sn*sn : 0;
@@ -3679,9 +3686,9 @@ static void gvi__rotate_rows(gvi_stepper *st)
         return;
     }
     gvi__rotate(NULL, &x->last.Q, &x->work.Q);
-    gvi__rotate(NULL, &x->last.P, &x->work.P);
     gvi__rotate(&x->older_F, &x->last.F, &x->work.F);
-    gvi__rotate(&x->older_V, &x->last.V, &x->work.V);
+    if (GVI__MOMENTA || GVI__NEWTON) gvi__rotate(NULL, &x->last.P, &x->work.P);
+    if (GVI__READS_V) gvi__rotate(&x->older_V, &x->last.V, &x->work.V);
     if (GVI__LAGRANGIAN) gvi__rotate(&x->older_A, &x->last.A, &x->work.A);
 }
 
@@ -3719,7 +3726,7 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     x->stepped = 1;
     x->has_force = gvi__uses(st, GVI_EXPLICIT) && !gvi__nonzero(x->c[0]) && !gvi__nonzero(x->c[st->r - 1] - 1);
     x->has_velocity = st->formulation > GVI_POSITIONS;
-    if (x->newton_left > 0) x->newton_left -= 1;
+    if (GVI__NEWTON && x->newton_left > 0) x->newton_left -= 1;
     st->counters.steps += 1;
 }
 
