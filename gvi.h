@@ -896,10 +896,13 @@ static gvi__two gvi__div2(gvi__two a, gvi__two b)
     return gvi__sum(q, rest.hi/b.hi);
 }
 
-// a/k; the quotient 1/k need not wait for a
+// a/k; the quotient 1/k need not wait for a.  1 - q k is exact but for the last rounding
 static gvi__two gvi__over2(gvi__two a, int k)
 {
-    return gvi__mul2(a, gvi__div2(gvi__real2(1), gvi__real2((gvi_real)k)));
+    const gvi_real d = (gvi_real)k, q = 1/d;
+    const gvi__two p = gvi__product(q, d);
+    const gvi__stored rest = (1 - p.hi) - p.lo;
+    return gvi__mul2(a, gvi__sum(q, rest/d));
 }
 
 // nearest multiple of `unit`, a power of 2: sums of such numbers are exact
@@ -1099,9 +1102,8 @@ static gvi__two gvi__argument2(gvi__two c) { return gvi__sub2(gvi__real2(1), gvi
 // P_(k+1)(x) from P_k and P_(k-1), the same recurrence
 static gvi__two gvi__legendre2(int k, gvi__two x, gvi__two P, gvi__two before)
 {
-    const gvi__two sum = gvi__sub2(gvi__scale2((gvi_real)(2*k + 1), gvi__mul2(x, P)),
-                                   gvi__scale2((gvi_real)k, before));
-    return gvi__over2(sum, k + 1);
+    const gvi__two next = gvi__scale2((gvi_real)(2*k + 1), gvi__mul2(x, P));
+    return gvi__over2(gvi__add2(next, gvi__scale2(-(gvi_real)k, before)), k + 1);
 }
 
 /* Newton's correction of node c on [0,1], and the weight that belongs to c.  With
@@ -1133,7 +1135,7 @@ static gvi__two gvi__node_correction(int lobatto, int m, gvi__two c, gvi_real *b
 /* Where Newton's method for node j of the lower half starts,
    c = (1 - cos theta)/2 = sin^2(theta/2):  Gauss theta = pi (4j+3)/(4m+2), Lobatto
    from the zeros of J_1; both are well within its quadratic range.            */
-static gvi_real gvi__node_guess(int lobatto, int n, int j)
+GVI__APART gvi_real gvi__node_guess(int lobatto, int n, int j)
 {
     const gvi_real pi = (gvi_real)3.14159265358979323846L, m = (gvi_real)(n - lobatto);
     const gvi_real a = (gvi_real)j + (lobatto ? (gvi_real)0.25 : (gvi_real)0.75);
@@ -1384,7 +1386,7 @@ static gvi_status gvi__check_rows(gvi_stepper *st, const gvi_points *x, const gv
 }
 
 // the one-point form: gather, call, scatter
-static int gvi__point_by_point(gvi_stepper *st, const gvi_effect *e, const gvi_points *x, int *point)
+GVI__APART int gvi__point_by_point(gvi_stepper *st, const gvi_effect *e, const gvi_points *x, int *point)
 {
     const int n = x->n, reads_v = GVI__READS_V && x->v, term = GVI__LAGRANGIAN && x->dldv;
     gvi_real *q = st->x.one, *v = q + n, *f = v + n, *dldv = f + n;
@@ -1430,7 +1432,7 @@ static gvi_status gvi__value(gvi_stepper *st, gvi_points *x, int e, gvi_real *va
 /* Asks effect e where it is not one call for all points and no more: one point a
    call; with x->value (clock) V goes there and L to x.less, in the same call if it
    can be; and in the diagnosing repetition what it added is looked at.        */
-static gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e)
+GVI__APART gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e)
 {
     const gvi_effect *effect = st->x.desc.effects + e;
     gvi_real *value = GVI__CLOCK ? x->value : NULL;
@@ -2714,7 +2716,7 @@ static gvi_real gvi__stages(gvi_stepper *st, const gvi__stage *y, int count)
 }
 
 // momenta: V from dL/dv(Q, V) = P
-static gvi_status gvi__legendre_rows(gvi_stepper *st, gvi_points *y)
+GVI__APART gvi_status gvi__legendre_rows(gvi_stepper *st, gvi_points *y)
 {
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work;
@@ -2938,7 +2940,7 @@ static void gvi__fit(gvi_stepper *st, gvi_real alpha, gvi_real beta)
 }
 
 // makes E what this step needs, if it is not
-static void gvi__prepare_guess(gvi_stepper *st, gvi_real alpha, gvi_real beta, int query)
+GVI__APART void gvi__prepare_guess(gvi_stepper *st, gvi_real alpha, gvi_real beta, int query)
 {
     struct gvi__private *x = &st->x;
     const int two = GVI__KIND > 1 && !query && x->alike == 2 && x->older_F && !gvi__nonzero(beta - 1);
@@ -2997,7 +2999,7 @@ static inline gvi_real gvi__lever(int r, const gvi_real *GVI__RESTRICT c, const 
 
 /* Increments of q and p from the F, V and A at the end of the iteration, what is
    left of them going to dqe and dpe.  r, R: constants for the usual sizes.     */
-static inline void gvi__increments_of(gvi_stepper *st, const gvi__from *from, gvi_real h, int r, int R)
+GVI__APART void gvi__increments_of(gvi_stepper *st, const gvi__from *from, gvi_real h, int r, int R)
 {
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work;
