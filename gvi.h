@@ -1937,7 +1937,7 @@ static void gvi__modes(const gvi_stepper *st, gvi_real tau, gvi_real *phi, gvi_r
 
 /* Weights h b_j whose sum is h exactly: rounded to multiples of ulp(h), what is
    left over goes to the largest weight and its mirror image.                 */
-static void gvi__weights(gvi_stepper *st, gvi_real h)
+GVI__APART void gvi__weights(gvi_stepper *st, gvi_real h)
 {
     struct gvi__private *x = &st->x;
     if (!gvi__nonzero(h - x->h_weights)) return;
@@ -2459,21 +2459,15 @@ static inline void gvi__sum_block(int r, int R, int block, const gvi_real *table
     }
 }
 
-// the same in less code
-static inline void gvi__sum_small(int r, int R, int block, const gvi_real *table, const gvi_real *L, gvi_real *z)
+// the same in less code, for all R points
+static void gvi__sum_small(int r, int R, const gvi_real *table, const gvi_real *L, gvi_real *z)
 {
-    for (int k = 0; k < block; ++k) {
+    for (int k = 0; k < R; ++k) {
         const gvi_real *t = table + k;
         gvi_real sum[4] = { 0, 0, 0, 0 };
         for (int j = 0; j < r; ++j, t += R) sum[j & 3] = j < 4 ? *t*L[j] : sum[j & 3] + *t*L[j];
         z[k] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
     }
-}
-
-static inline void gvi__sum_points(int r, int R, int block, const gvi_real *table, const gvi_real *L, gvi_real *z)
-{
-    if (GVI__SMALL) gvi__sum_small(r, R, block, table, L, z);
-    else gvi__sum_block(r, R, block, table, L, z);
 }
 
 // z := sum_j table[j][.] L_j, all R points
@@ -2484,7 +2478,8 @@ static inline void gvi__sum_row(int r, int R, const gvi_real *table, const gvi_r
         gvi__sum_vector(r, R, table + o, L, (gvi__vector *)(z + o));
     if (R % 8 == 0) return;
 #endif
-    gvi__sum_points(r, R, R, table, L, z);
+    if (GVI__SMALL) gvi__sum_small(r, R, table, L, z);
+    else gvi__sum_block(r, R, R, table, L, z);
 }
 
 // L := w f, element by element
@@ -2572,17 +2567,16 @@ static inline gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stag
 #endif
     gvi_real lane[8] = { 0, 0, 0, 0, 0, 0, 0, 0 };
     const int block = R < 8 ? R : 8;
-    gvi_real few[8], sums[8], others[8], *L = GVI__SMALL || R > 8 ? x->z : few;
-    gvi_real *z = GVI__SMALL ? x->row : sums, *less = GVI__SMALL ? x->row + R : others;
     for (int i = 0; i < n; ++i) {
         const gvi__affine p = gvi__affine_of(y, diagonal, i);
+        gvi_real few[8], *L = R > 8 ? x->z : few;
         gvi__weigh(R, x->hb, y->f + i*R, L);
         if (minus) gvi__weigh(R, x->b, x->work.A + i*R, x->less);
         for (int o = R - block; o >= 0; o -= block) {
             const int last = r - 1 - o;
-            gvi_real *row = y->rows + i*R + o;
-            gvi__sum_points(r, R, block, y->table + o, L, z);
-            if (minus) gvi__sum_points(r, R, block, minus + o, x->less, less);
+            gvi_real *row = y->rows + i*R + o, z[8], less[8];
+            gvi__sum_block(r, R, block, y->table + o, L, z);
+            if (minus) gvi__sum_block(r, R, block, minus + o, x->less, less);
             for (int k = 0; k < block; ++k)
                 z[k] = p.base + (p.extra + (c[k + o]*p.a + (minus ? z[k] - less[k] : z[k])*p.b));
             if (last < block) gvi__rescale(p.base, row[last], z[last], y->scale + i);
@@ -2591,6 +2585,33 @@ static inline gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stag
                 lane[k] += moved*moved;
                 row[k] = z[k];
             }
+        }
+    }
+    return gvi__sum_lanes(lane);
+}
+
+// the same in less code and without blocks; sums of squares from the last point on, as there
+static gvi_real gvi__stage_rows_small(const gvi_stepper *st, const gvi__stage *y)
+{
+    const struct gvi__private *x = &st->x;
+    const gvi_real *diagonal = y->over_mass && x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
+    const int r = st->r, R = x->stride;
+    gvi_real lane[8] = { 0, 0, 0, 0, 0, 0, 0, 0 }, *z = x->row, *row = y->rows;
+    for (int i = 0; i < st->n; ++i, row += R) {
+        const gvi__affine p = gvi__affine_of(y, diagonal, i);
+        gvi__weigh(R, x->hb, y->f + i*R, x->z);
+        gvi__sum_small(r, R, y->table, x->z, z);
+        if (GVI__LAGRANGIAN && y->minus) {
+            gvi__weigh(R, x->b, x->work.A + i*R, x->z);
+            gvi__sum_small(r, R, y->minus, x->z, x->less);
+            for (int k = 0; k < R; ++k) z[k] -= x->less[k];
+        }
+        for (int k = 0; k < R; ++k) z[k] = p.base + (p.extra + (x->c[k]*p.a + z[k]*p.b));
+        gvi__rescale(p.base, row[r - 1], z[r - 1], y->scale + i);
+        for (int k = R; k-- > 0; ) {
+            const gvi_real moved = (z[k] - row[k])*y->scale[i];
+            lane[k & 7] += moved*moved;
+            row[k] = z[k];
         }
     }
     return gvi__sum_lanes(lane);
@@ -2628,7 +2649,7 @@ static gvi_real gvi__stage_rows(gvi_stepper *st, const gvi__stage *y)
 {
     const int r = st->r, R = st->x.stride;
     if (y->over_mass && gvi__mass_is(st, GVI_MASS_DENSE)) return gvi__stage_rows_dense(st, y);
-    if (GVI__SMALL) return gvi__stage_rows_of(st, y, r, R);
+    if (GVI__SMALL) return gvi__stage_rows_small(st, y);
     switch (r) {
     case 1:  return gvi__stage_rows_of(st, y, 1, 1);
     case 2:  return gvi__stage_rows_of(st, y, 2, 2);
@@ -2854,16 +2875,18 @@ static inline void gvi__zero_rows(const gvi_stepper *st, gvi_real *rows)
 }
 
 // F (and A, V) at the rows of this iteration, all points in one call an effect
-static gvi_status gvi__ask(gvi_stepper *st, const gvi__from *from, gvi_points *y)
+GVI__APART gvi_status gvi__ask(gvi_stepper *st, const gvi__from *from)
 {
-    gvi_status status = gvi__check_points(st, y);
-    gvi__zero_rows(st, y->f);
-    if (status == GVI_OK && gvi__uses(st, GVI_MOMENTA)) status = gvi__legendre_rows(st, y);
-    if (y->dldv) gvi__zero_rows(st, y->dldv);
+    gvi_points y;
+    gvi__rows_as_points(&y, st, &st->x.work, gvi__A(&st->x.work));
+    gvi_status status = gvi__check_points(st, &y);
+    gvi__zero_rows(st, y.f);
+    if (status == GVI_OK && gvi__uses(st, GVI_MOMENTA)) status = gvi__legendre_rows(st, &y);
+    if (y.dldv) gvi__zero_rows(st, y.dldv);
     if (status != GVI_OK) return status;
-    if (gvi__has_clock(st)) return gvi__ask_clock(st, from, y);
-    if (gvi__uses(st, GVI_MOMENTA) && gvi__mass_is(st, GVI_MASS_POSITION)) status = gvi__mass_gradient(st, y);
-    return status == GVI_OK ? gvi__all_effects(st, y) : status;
+    if (gvi__has_clock(st)) return gvi__ask_clock(st, from, &y);
+    if (gvi__uses(st, GVI_MOMENTA) && gvi__mass_is(st, GVI_MASS_POSITION)) status = gvi__mass_gradient(st, &y);
+    return status == GVI_OK ? gvi__all_effects(st, &y) : status;
 }
 
 /* Extrapolates rows of the last step, or of the last two, to the points of the
@@ -2952,7 +2975,7 @@ GVI__APART void gvi__prepare_guess(gvi_stepper *st, gvi_real alpha, gvi_real bet
 
 /* Starting values: what the last step had, extrapolated; without one, or if
    that led nowhere, no force and constant velocity; `rate` is the clock's.     */
-static void gvi__guess(gvi_stepper *st, int extrapolate, gvi_real rate)
+GVI__APART void gvi__guess(gvi_stepper *st, int extrapolate, gvi_real rate)
 {
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work, *l = &x->last;
@@ -3156,8 +3179,6 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
     gvi__progress p = { 0, 0, GVI__MAX, 0, 0, 0 };
     gvi__stage y[GVI__STAGES];
     const int count = gvi__plan(st, from, h, y);
-    gvi_points points;
-    gvi__rows_as_points(&points, st, &x->work, gvi__A(&x->work));
     gvi_real rate = 1;
     if (gvi__has_clock(st)) {
         gvi_status status = gvi__clock_guess(st, from, h, &rate);
@@ -3179,7 +3200,7 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
         // rows that go to and fro in their last places end with their own F, not that of
         // the side that they came from, which would be a bias
         *used += verdict == GVI__GO_ON;
-        gvi_status status = gvi__ask(st, from, &points);
+        gvi_status status = gvi__ask(st, from);
         if (status != GVI_OK || verdict == GVI__ASK_ONCE_MORE) return status;
     }
     return gvi__give(st, GVI_E_CONVERGENCE);
