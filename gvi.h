@@ -892,7 +892,7 @@ static gvi__two gvi__div2(gvi__two a, gvi__two b)
 {
     // one correction of the rounded quotient doubles its digits
     gvi_real q = a.hi/b.hi;
-    gvi__two rest = gvi__sub2(a, gvi__scale2(q, b));
+    gvi__two rest = gvi__add2(a, gvi__scale2(-q, b));
     return gvi__sum(q, rest.hi/b.hi);
 }
 
@@ -1107,29 +1107,34 @@ static gvi__two gvi__legendre2(int k, gvi__two x, gvi__two P, gvi__two before)
 }
 
 /* Newton's correction of node c on [0,1], and the weight that belongs to c.  With
-   m = n for Gauss, n - 1 for Lobatto, d = P_(m-1) - x P_m,
+   m = n for Gauss, n - 1 for Lobatto, P = P_m, d = P_(m-1) - x P_m,
    (1 - x^2) P_m' = m d and ((1 - x^2) P_m')' = -m (m+1) P_m:
 
      Gauss     P_m = 0     c += P_m 2c(1-c) / (m d)    b = 4c(1-c) / (m d)^2
      Lobatto   P_m' = 0    c -= d / (2(m+1) P_m)       b = 1 / (m (m+1) P_m^2)  */
-static gvi__two gvi__node_correction(int lobatto, int m, gvi__two c, gvi_real *b)
+GVI__APART gvi__two gvi__node_newton(int lobatto, int m, gvi__two c, gvi__two P, gvi__two d, gvi_real *b)
 {
-    const gvi__two one = gvi__real2(1), x = gvi__argument2(c);
-    gvi__two P = one, before = gvi__real2(0);
+    const gvi__two one = gvi__real2(1);
+    if (lobatto) {
+        *b = gvi__div2(one, gvi__scale2((gvi_real)m*(gvi_real)(m + 1), gvi__mul2(P, P))).hi;
+        return gvi__div2(d, gvi__scale2(-2*(gvi_real)(m + 1), P));
+    }
+    c = gvi__scale2(2, gvi__mul2(c, gvi__sub2(one, c)));
+    d = gvi__scale2((gvi_real)m, d);
+    *b = 2*gvi__div2(c, gvi__mul2(d, d)).hi;
+    return gvi__div2(gvi__mul2(P, c), d);
+}
+
+GVI__APART gvi__two gvi__node_correction(int lobatto, int m, gvi__two c, gvi_real *b)
+{
+    const gvi__two x = gvi__argument2(c);
+    gvi__two P = gvi__real2(1), before = gvi__real2(0);
     for (int k = 0; k < m; ++k) {
         const gvi__two next = gvi__legendre2(k, x, P, before);
         before = P;
         P = next;
     }
-    gvi__two d = gvi__sub2(before, gvi__mul2(x, P));
-    if (lobatto) {
-        *b = gvi__div2(one, gvi__scale2((gvi_real)m*(gvi_real)(m + 1), gvi__mul2(P, P))).hi;
-        return gvi__neg2(gvi__div2(d, gvi__scale2(2*(gvi_real)(m + 1), P)));
-    }
-    const gvi__two w = gvi__scale2(2, gvi__mul2(c, gvi__sub2(one, c)));
-    d = gvi__scale2((gvi_real)m, d);
-    *b = 2*gvi__div2(w, gvi__mul2(d, d)).hi;
-    return gvi__div2(gvi__mul2(P, w), d);
+    return gvi__node_newton(lobatto, m, c, P, gvi__sub2(before, gvi__mul2(x, P)), b);
 }
 
 /* Where Newton's method for node j of the lower half starts,
@@ -1147,7 +1152,7 @@ GVI__APART gvi_real gvi__node_guess(int lobatto, int n, int j)
 /* All nodes and weights; ce, if given, gets what rounding left of c.  After a
    correction below eps the next one would be below its square: c is then accurate
    relative to itself, even next to the end of the interval.                   */
-GVI__APART void gvi__rule_make(int lobatto, int n, gvi_real *c, gvi_real *ce, gvi_real *b)
+static void gvi__rule_make(int lobatto, int n, gvi_real *c, gvi_real *ce, gvi_real *b)
 {
     for (int j = 0; j <= (n - 1)/2; ++j) {
         const int middle = 2*j + 1 == n, known = middle || (lobatto && j == 0);
