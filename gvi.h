@@ -460,41 +460,23 @@ typedef struct gvi_counters {
 
 struct gvi__rows { gvi_real *Q, *V, *F, *P, *A; };   /* [n][stride] each     */
 
+/* What most functions name comes first: on small machines an offset below 128 takes
+   fewer bytes.                                                                */
 struct gvi__private {
-    gvi_desc         desc;
-    gvi_formulation  chosen;          /* by the scene, or pinned                */
-    size_t           size, skip;      /* numbers in use; left out for alignment */
-    gvi_real         te, t0, dt;      /* compensation of t; start of last step; its length */
-    gvi_real         H, He, dH, H0;   /* clock: energy, its rest, increment; at the start */
-    int              clock, has_rate; /* effect that is one, or -1; rate holds  */
-    int              single;          /* effect that is the only one, or -1     */
-    gvi_real         h_weights;       /* h for which hb holds                   */
-    gvi_real         ratio;           /* h/h_last for which E holds             */
-    int              alike;           /* last steps of the same length: 0, 1, 2 */
-    int              two;             /* E is for two of them                   */
-    gvi_real         h_matrix;        /* h for which J was made, 0: none        */
-    unsigned         off;             /* effects switched off, one bit each     */
     int              stride, flags;   /* of the rows; what the scene needs      */
-    int              started, stepped, diagnose, turns;
-    int              has_force;       /* last.F ends with the force at (t, q)   */
-    int              has_velocity;    /* last.V holds                           */
-    int              has_factor;      /* point_mass holds a factored M          */
-    int              newton_left;     /* steps until the fixed point is tried   */
-    struct gvi__rows last, work;      /* at the points of the last step, the next */
-    struct gvi__rows older;           /* F, V, A of the step before the last      */
-    /* parts of the caller's memory; R = stride */
-    gvi_real *memory;                 /* from its first aligned number on       */
-    gvi_real *q, *qe, *p, *pe;        /* [n] state and what rounding left of it */
+    /* parts of the caller's memory, handed out by gvi__layout; R = stride */
+    struct gvi__rows work, last;      /* at the points of the next step, the last */
+    gvi_real *c, *hb, *b, *ce;        /* [R] nodes, h b, weights; rest of nodes */
+    gvi_real *q, *p, *dq, *dp;        /* [n] state and its increments           */
+    gvi_real *qe, *pe, *dqe, *dpe;    /* [n] what rounding left of them         */
+    gvi_real *change, *one;           /* [3n], [6n] scratch                     */
+    gvi_real *phi, *Phi, *low;        /* [s][R] modes at the nodes; rest of phi */
     gvi_real *q0, *p0, *zeros;        /* [n] start of the last step, its (no) rest */
     gvi_real *start;                  /* [n] velocity that a start was given    */
     gvi_real *v0, *ve;                /* [n] M^-1 p, M^-1 pe of the step at work */
-    gvi_real *dq, *dp, *dqe, *dpe;    /* [n] increments of it, and their rests  */
     gvi_real *scale;                  /* [2n] units of changes, of two sets of rows */
-    gvi_real *change, *one;           /* [3n], [6n] scratch                     */
-    gvi_real *c, *ce, *b, *hb;        /* [R] nodes, their rest, weights, h b    */
     gvi_real *t, *place;              /* [R] times; [3R] scratch                */
     gvi_real *z, *less, *row;         /* [R], [R], [6R] scratch                 */
-    gvi_real *phi, *Phi, *low;        /* [s][R] modes at the nodes; rest of phi */
     gvi_real *inv_gamma, *own;        /* [s] 1/Gamma_kk; LU of Gamma if full    */
     gvi_real *drift;                  /* [r+1] explicit: time from corner to corner */
     gvi_real *g, *m, *T, *N;          /* [r][R] c_i - S_ij, 1 - T_ij, T_ji, N_ij */
@@ -504,10 +486,29 @@ struct gvi__private {
     gvi_real *over;                   /* [n] 1/m of a diagonal mass             */
     gvi_real *mass, *point_mass, *Z;  /* M; M at the points [n*n][R]; [n][R] scratch */
     gvi_real *y, *dy, *J, *pivot;     /* Newton: [s*n] twice; two matrices of s*n */
-    gvi_real *hess, *dF, *dP, *bF, *bP; /* scratch; the last four stand in a row */
+    gvi_real *hess, *dF;              /* scratch; F and P, moved and not, [4][n][R] */
+    gvi_real *older_F, *older_V, *older_A;  /* rows of the step before the last   */
+    gvi_real *memory;                 /* from its first aligned number on       */
+    size_t           size, skip;      /* numbers in use; left out for alignment */
+    gvi_desc         desc;
+    gvi_formulation  chosen;          /* by the scene, or pinned                */
+    gvi_real         te, t0, dt;      /* compensation of t; start of last step; its length */
+    gvi_real         H, He, dH, H0;   /* clock: energy, its rest, increment; at the start */
+    gvi_real         h_weights;       /* h for which hb holds                   */
+    gvi_real         ratio;           /* h/h_last for which E holds             */
+    gvi_real         h_matrix;        /* h for which J was made, 0: none        */
+    unsigned         off;             /* effects switched off, one bit each     */
+    int              newton_left;     /* steps until the fixed point is tried   */
+    signed char      clock, single;   /* effect that is one; the only one; or -1 */
+    signed char      alike, two;      /* last steps of the same length: 0, 1, 2; E is for two */
+    signed char      started, stepped, diagnose, turns;
+    signed char      has_rate;        /* rate holds                             */
+    signed char      has_force;       /* last.F ends with the force at (t, q)   */
+    signed char      has_velocity;    /* last.V holds                           */
+    signed char      has_factor;      /* point_mass holds a factored M          */
 };
 
-/* The stepper.  Read what stands before x; x is private.                      */
+/* The stepper, to be read; x is private.                                      */
 typedef struct gvi_stepper {
     int             n, s, r;          /* as resolved from the description       */
     gvi_real        t;                /* time                                   */
@@ -518,8 +519,8 @@ typedef struct gvi_stepper {
     gvi_formulation formulation;      /* used by the last step, or the next     */
     int             order;            /* u of the rule; 0 for GVI_KICKS         */
     int             iterations;       /* in the last step                       */
-    gvi_counters    counters;
     struct gvi__private x;
+    gvi_counters    counters;
 } gvi_stepper;
 
 /* The discrete Lagrangian and what belongs to it; pointers may be NULL for
@@ -738,10 +739,11 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #else
 #define GVI__NEWTON GVI__ONLY(0)
 #endif
+#define GVI__READS_V (GVI__VELOCITIES || GVI__MOMENTA || GVI__NEWTON)
 #ifdef GVI_NO_LAGRANGIAN
 #define GVI__LAGRANGIAN 0
 #else
-#define GVI__LAGRANGIAN (GVI__VELOCITIES || GVI__MOMENTA || GVI__NEWTON)
+#define GVI__LAGRANGIAN GVI__READS_V
 #endif
 #ifdef GVI_NO_CLOCK
 #define GVI__CLOCK 0
@@ -757,6 +759,21 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__OWN 0
 #else
 #define GVI__OWN 1
+#endif
+
+/* Compiled for size: one loop in place of several for the usual lengths, scratch in
+   the caller's memory in place of registers, and GVI__APART, a function of its own
+   even where it is called once: what it needs of the stack is not held by those that
+   call it.                                                                    */
+#ifdef __OPTIMIZE_SIZE__
+#define GVI__SMALL 1
+#else
+#define GVI__SMALL 0
+#endif
+#if GVI__SMALL && defined(__GNUC__)
+#define GVI__APART static __attribute__((noinline))
+#else
+#define GVI__APART static
 #endif
 
 // arrays that do not overlap
@@ -875,14 +892,17 @@ static gvi__two gvi__div2(gvi__two a, gvi__two b)
 {
     // one correction of the rounded quotient doubles its digits
     gvi_real q = a.hi/b.hi;
-    gvi__two rest = gvi__sub2(a, gvi__scale2(q, b));
+    gvi__two rest = gvi__add2(a, gvi__scale2(-q, b));
     return gvi__sum(q, rest.hi/b.hi);
 }
 
-// a/k; the quotient 1/k need not wait for a
+// a/k; the quotient 1/k need not wait for a.  1 - q k is exact but for the last rounding
 static gvi__two gvi__over2(gvi__two a, int k)
 {
-    return gvi__mul2(a, gvi__div2(gvi__real2(1), gvi__real2((gvi_real)k)));
+    const gvi_real d = (gvi_real)k, q = 1/d;
+    const gvi__two p = gvi__product(q, d);
+    const gvi__stored rest = (1 - p.hi) - p.lo;
+    return gvi__mul2(a, gvi__sum(q, rest/d));
 }
 
 // nearest multiple of `unit`, a power of 2: sums of such numbers are exact
@@ -1063,112 +1083,92 @@ GVI_DEF gvi_real gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot, 
 
 /* ------------------------------------------------------------ QUADRATURE */
 
-/* P_m(x) and P_(m-1)(x) at x = 1 - 2c by the three-term recurrence
+/* P_m(x) at x = 1 - 2c by the three-term recurrence
    (k+1) P_(k+1) = (2k+1) x P_k - k P_(k-1), in gvi_real.                      */
-static void gvi__legendre(int m, gvi_real c, gvi_real *P, gvi_real *before)
+static gvi_real gvi__legendre(int m, gvi_real c)
 {
-    gvi_real x = 1 - 2*c, a = 1, b = 0;
+    gvi_real x = 1 - 2*c, P = 1, before = 0;
     for (int k = 0; k < m; ++k) {
-        gvi_real next = ((gvi_real)(2*k + 1)*x*a - (gvi_real)k*b)/(gvi_real)(k + 1);
-        b = a;
-        a = next;
+        gvi_real next = ((gvi_real)(2*k + 1)*x*P - (gvi_real)k*before)/(gvi_real)(k + 1);
+        before = P;
+        P = next;
     }
-    *P = a;
-    *before = b;
+    return P;
 }
 
-// the same in twofold arithmetic
-static void gvi__legendre2(int m, gvi__two c, gvi__two *P, gvi__two *before)
+// x = 1 - 2c in twofold arithmetic
+static gvi__two gvi__argument2(gvi__two c) { return gvi__sub2(gvi__real2(1), gvi__scale2(2, c)); }
+
+// P_(k+1)(x) from P_k and P_(k-1), the same recurrence
+static gvi__two gvi__legendre2(int k, gvi__two x, gvi__two P, gvi__two before)
 {
-    gvi__two x = gvi__sub2(gvi__real2(1), gvi__scale2(2, c)), a = gvi__real2(1), b = gvi__real2(0);
+    const gvi__two next = gvi__scale2((gvi_real)(2*k + 1), gvi__mul2(x, P));
+    return gvi__over2(gvi__add2(next, gvi__scale2(-(gvi_real)k, before)), k + 1);
+}
+
+/* Newton's correction of node c on [0,1], and the weight that belongs to c.  With
+   m = n for Gauss, n - 1 for Lobatto, P = P_m, d = P_(m-1) - x P_m,
+   (1 - x^2) P_m' = m d and ((1 - x^2) P_m')' = -m (m+1) P_m:
+
+     Gauss     P_m = 0     c += P_m 2c(1-c) / (m d)    b = 4c(1-c) / (m d)^2
+     Lobatto   P_m' = 0    c -= d / (2(m+1) P_m)       b = 1 / (m (m+1) P_m^2)  */
+GVI__APART gvi__two gvi__node_newton(int lobatto, int m, gvi__two c, gvi__two P, gvi__two d, gvi_real *b)
+{
+    const gvi__two one = gvi__real2(1);
+    if (lobatto) {
+        *b = gvi__div2(one, gvi__scale2((gvi_real)m*(gvi_real)(m + 1), gvi__mul2(P, P))).hi;
+        return gvi__div2(d, gvi__scale2(-2*(gvi_real)(m + 1), P));
+    }
+    c = gvi__scale2(2, gvi__mul2(c, gvi__sub2(one, c)));
+    d = gvi__scale2((gvi_real)m, d);
+    *b = 2*gvi__div2(c, gvi__mul2(d, d)).hi;
+    return gvi__div2(gvi__mul2(P, c), d);
+}
+
+GVI__APART gvi__two gvi__node_correction(int lobatto, int m, gvi__two c, gvi_real *b)
+{
+    const gvi__two x = gvi__argument2(c);
+    gvi__two P = gvi__real2(1), before = gvi__real2(0);
     for (int k = 0; k < m; ++k) {
-        gvi__two next = gvi__sub2(gvi__scale2((gvi_real)(2*k + 1), gvi__mul2(x, a)),
-                                  gvi__scale2((gvi_real)k, b));
-        b = a;
-        a = gvi__over2(next, k + 1);
+        const gvi__two next = gvi__legendre2(k, x, P, before);
+        before = P;
+        P = next;
     }
-    *P = a;
-    *before = b;
+    return gvi__node_newton(lobatto, m, c, P, gvi__sub2(before, gvi__mul2(x, P)), b);
 }
 
-/* Newton's correction of a node.  With m = n for Gauss, n - 1 for Lobatto and
-   (1 - x^2) P_m' = m (P_(m-1) - x P_m), ((1 - x^2) P_m')' = -m (m+1) P_m:
-
-     Gauss     P_m = 0     c += P_m 4c(1-c) / (2m (P_(m-1) - x P_m))
-     Lobatto   P_m' = 0    c -= (P_(m-1) - x P_m) / (2(m+1) P_m)               */
-static gvi_real gvi__node_correction(int lobatto, int m, gvi_real c)
+/* Where Newton's method for node j of the lower half starts,
+   c = (1 - cos theta)/2 = sin^2(theta/2):  Gauss theta = pi (4j+3)/(4m+2), Lobatto
+   from the zeros of J_1; both are well within its quadratic range.            */
+GVI__APART gvi_real gvi__node_guess(int lobatto, int n, int j)
 {
-    gvi_real P, before;
-    gvi__legendre(m, c, &P, &before);
-    gvi_real d = before - (1 - 2*c)*P;
-    if (lobatto) return -d/(2*(gvi_real)(m + 1)*P);
-    return P*2*c*(1 - c)/((gvi_real)m*d);
-}
-
-static gvi__two gvi__node_correction2(int lobatto, int m, gvi__two c)
-{
-    gvi__two P, before, one = gvi__real2(1);
-    gvi__legendre2(m, c, &P, &before);
-    gvi__two x = gvi__sub2(one, gvi__scale2(2, c));
-    gvi__two d = gvi__sub2(before, gvi__mul2(x, P));
-    if (lobatto) return gvi__neg2(gvi__div2(d, gvi__scale2(2*(gvi_real)(m + 1), P)));
-    gvi__two w = gvi__scale2(2, gvi__mul2(c, gvi__sub2(one, c)));
-    return gvi__div2(gvi__mul2(P, w), gvi__scale2((gvi_real)m, d));
-}
-
-/* Node j of the lower half, c = (1 - cos theta)/2 = sin^2(theta/2).  Starting
-   values: Gauss theta = pi (4j+3)/(4m+2), Lobatto from the zeros of J_1; both
-   are well within the quadratic range of Newton's method.  The last two
-   corrections are twofold: c is then accurate relative to itself, even next
-   to the end of the interval.                                                */
-static gvi__two gvi__node(int lobatto, int n, int j)
-{
-    const gvi_real pi = (gvi_real)3.14159265358979323846L;
-    int m = lobatto ? n - 1 : n;
-    gvi_real a = lobatto ? (gvi_real)j + (gvi_real)0.25 : (gvi_real)j + (gvi_real)0.75;
-    gvi_real theta = lobatto ? pi*a/(gvi_real)m - 3/(8*pi*(gvi_real)m*a)
-                             : pi*a/((gvi_real)m + (gvi_real)0.5);
+    const gvi_real pi = (gvi_real)3.14159265358979323846L, m = (gvi_real)(n - lobatto);
+    const gvi_real a = (gvi_real)j + (lobatto ? (gvi_real)0.25 : (gvi_real)0.75);
+    const gvi_real theta = lobatto ? pi*a/m - 3/(8*pi*m*a) : pi*a/(m + (gvi_real)0.5);
     const gvi_real y = theta*theta/4, sine = theta/2*(1 - y/6*(1 - y/20*(1 - y/42)));      // to 3e-7
-    gvi_real c = sine*sine, last = 1;
-    for (int k = 0; k < 12; ++k) {
-        gvi_real dc = gvi__node_correction(lobatto, m, c);
-        c += dc;
-        if (!(GVI_ABS(dc) < last) || GVI_ABS(dc) < GVI__EPS*c) break;
-        last = GVI_ABS(dc)/2;
-    }
-    gvi__two z = gvi__real2(c);
-    z = gvi__add2(z, gvi__node_correction2(lobatto, m, z));
-    return gvi__add2(z, gvi__node_correction2(lobatto, m, z));
+    return sine*sine;
 }
 
-/* Weight of node c on [0,1]:  Gauss  4c(1-c)/(m (P_(m-1) - x P_m))^2, the
-   denominator being ((1-x^2) P_m')^2;  Lobatto  1/(m (m+1) P_m^2).            */
-static gvi__two gvi__weight(int lobatto, int n, gvi__two c)
-{
-    int m = lobatto ? n - 1 : n;
-    gvi__two P, before, one = gvi__real2(1);
-    gvi__legendre2(m, c, &P, &before);
-    if (lobatto)
-        return gvi__div2(one, gvi__scale2((gvi_real)m*(gvi_real)(m + 1), gvi__mul2(P, P)));
-    gvi__two x = gvi__sub2(one, gvi__scale2(2, c));
-    gvi__two d = gvi__scale2((gvi_real)m, gvi__sub2(before, gvi__mul2(x, P)));
-    gvi__two w = gvi__scale2(4, gvi__mul2(c, gvi__sub2(one, c)));
-    return gvi__div2(w, gvi__mul2(d, d));
-}
-
-/* All nodes and weights; ce, if given, gets what rounding left of c.          */
+/* All nodes and weights; ce, if given, gets what rounding left of c.  After a
+   correction below eps the next one would be below its square: c is then accurate
+   relative to itself, even next to the end of the interval.                   */
 static void gvi__rule_make(int lobatto, int n, gvi_real *c, gvi_real *ce, gvi_real *b)
 {
     for (int j = 0; j <= (n - 1)/2; ++j) {
-        gvi__two z = gvi__real2(0), w;
-        if (2*j + 1 == n) z.hi = (gvi_real)0.5;
-        else if (!lobatto || j > 0) z = gvi__node(lobatto, n, j);
-        w = gvi__weight(lobatto, n, z);
-        gvi__two mirror = gvi__sub2(gvi__real2(1), z);
+        const int middle = 2*j + 1 == n, known = middle || (lobatto && j == 0);
+        gvi__two z = gvi__real2(middle ? (gvi_real)0.5 : known ? 0 : gvi__node_guess(lobatto, n, j));
+        gvi_real last = known ? 0 : 1;
+        for (int k = 0; ; ++k) {
+            const gvi__two dc = gvi__node_correction(lobatto, n - lobatto, z, &b[j]);
+            if (!(last > GVI__EPS*z.hi) || k == 12) break;
+            z = gvi__add2(z, dc);
+            last = GVI_ABS(dc.hi);
+        }
+        const gvi__two mirror = gvi__sub2(gvi__real2(1), z);
         c[j] = z.hi;
         c[n-1-j] = mirror.hi;
         if (ce) ce[j] = z.lo, ce[n-1-j] = mirror.lo;
-        b[j] = b[n-1-j] = w.hi;
+        b[n-1-j] = b[j];
     }
 }
 
@@ -1201,11 +1201,7 @@ GVI_DEF int gvi_rule_order(int n, const gvi_real *c, const gvi_real *b)
     // The rounding of c moves P_u by |P_u'| eps <= u^2 eps at the very end only
     for (int u = 0; u < 2*n; ++u) {
         gvi_real sum = u > 0 ? 0 : -1;
-        for (int i = 0; i < n; ++i) {
-            gvi_real P, before;
-            gvi__legendre(u, c[i], &P, &before);
-            sum += b[i]*P;
-        }
+        for (int i = 0; i < n; ++i) sum += b[i]*gvi__legendre(u, c[i]);
         if (GVI_ABS(sum) > 4*(gvi_real)(u + 2)*GVI__EPS*size) return u;
     }
     return 2*n;
@@ -1328,7 +1324,7 @@ GVI_DEF gvi_real gvi_interpolate_derivative(int n, const gvi_real *x, const gvi_
 #define GVI__HAS_LAGRANGIAN 2    /* an effect adds to dL/dv                    */
 #define GVI__HAS_NEWTON     4    /* Newton is used, or ready as the fall-back  */
 #define GVI__HAS_OWN        8    /* Gamma is a full matrix                     */
-#define GVI__POSSIBLE ((GVI__VELOCITIES || GVI__MOMENTA || GVI__NEWTON ? GVI__HAS_VELOCITIES : 0)        \
+#define GVI__POSSIBLE ((GVI__READS_V ? GVI__HAS_VELOCITIES : 0)                                        \
                        | (GVI__LAGRANGIAN ? GVI__HAS_LAGRANGIAN : 0) | (GVI__NEWTON ? GVI__HAS_NEWTON : 0) \
                        | (GVI__OWN ? GVI__HAS_OWN : 0))
 
@@ -1395,21 +1391,21 @@ static gvi_status gvi__check_rows(gvi_stepper *st, const gvi_points *x, const gv
 }
 
 // the one-point form: gather, call, scatter
-static int gvi__point_by_point(gvi_stepper *st, const gvi_effect *e, const gvi_points *x, int *point)
+GVI__APART int gvi__point_by_point(gvi_stepper *st, const gvi_effect *e, const gvi_points *x, int *point)
 {
-    int n = x->n;
+    const int n = x->n, reads_v = GVI__READS_V && x->v, term = GVI__LAGRANGIAN && x->dldv;
     gvi_real *q = st->x.one, *v = q + n, *f = v + n, *dldv = f + n;
     for (int k = 0; k < x->count; ++k) {
         *point = k;
-        for (int i = 0; i < n; ++i) {
-            q[i] = x->q[i*x->stride + k];
-            v[i] = x->v ? x->v[i*x->stride + k] : 0;
+        for (int i = 0, at = k; i < n; ++i, at += x->stride) {
+            q[i] = x->q[at];
+            if (reads_v) v[i] = x->v[at];
             f[i] = dldv[i] = 0;
         }
-        if (e->point(x->t[k], q, x->v ? v : NULL, f, x->dldv ? dldv : NULL, e->user)) return 1;
-        for (int i = 0; i < n; ++i) {
-            x->f[i*x->stride + k] += f[i];
-            if (x->dldv) x->dldv[i*x->stride + k] += dldv[i];
+        if (e->point(x->t[k], q, reads_v ? v : NULL, f, term ? dldv : NULL, e->user)) return 1;
+        for (int i = 0, at = k; i < n; ++i, at += x->stride) {
+            x->f[at] += f[i];
+            if (term) x->dldv[at] += dldv[i];
         }
     }
     return 0;
@@ -1421,7 +1417,7 @@ static gvi_status gvi__check_points(gvi_stepper *st, const gvi_points *x)
 {
     if (!st->x.diagnose) return GVI_OK;
     if (gvi__check_rows(st, x, x->q, GVI_FAULT_NONE) == GVI_OK
-        && gvi__check_rows(st, x, x->v, GVI_FAULT_NONE) == GVI_OK) return GVI_OK;
+        && (!GVI__READS_V || gvi__check_rows(st, x, x->v, GVI_FAULT_NONE) == GVI_OK)) return GVI_OK;
     return gvi__give(st, GVI_E_CONVERGENCE);
 }
 
@@ -1441,7 +1437,7 @@ static gvi_status gvi__value(gvi_stepper *st, gvi_points *x, int e, gvi_real *va
 /* Asks effect e where it is not one call for all points and no more: one point a
    call; with x->value (clock) V goes there and L to x.less, in the same call if it
    can be; and in the diagnosing repetition what it added is looked at.        */
-static gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e)
+GVI__APART gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e)
 {
     const gvi_effect *effect = st->x.desc.effects + e;
     gvi_real *value = GVI__CLOCK ? x->value : NULL;
@@ -1452,7 +1448,7 @@ static gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e)
     gvi_status status = refused ? gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, point) : GVI_OK;
     if (st->x.diagnose && status == GVI_OK) {
         status = gvi__check_rows(st, x, x->f, e);
-        if (status == GVI_OK && x->dldv) status = gvi__check_rows(st, x, x->dldv, e);
+        if (status == GVI_OK && GVI__LAGRANGIAN) status = gvi__check_rows(st, x, x->dldv, e);
     }
     x->value = value;
     return status == GVI_OK && own && !together ? gvi__value(st, x, e, own) : status;
@@ -1475,12 +1471,12 @@ static gvi_status gvi__effects(gvi_stepper *st, gvi_points *x, unsigned skip)
     const gvi_real *v = x->v;
     gvi_real *dldv = x->dldv;
     gvi_status status = GVI_OK;
-    const int plain = !x->value && !st->x.diagnose;
+    const int plain = !(GVI__CLOCK && x->value) && !st->x.diagnose;
     skip |= st->x.off | gvi__clock_bit(st);
     for (int e = 0; e < st->x.desc.effect_count && status == GVI_OK; ++e, ++effect) {
         if (skip >> e & 1u) continue;
-        x->v = effect->kind == GVI_POTENTIAL ? NULL : v;
-        x->dldv = effect->kind == GVI_LAGRANGIAN ? dldv : NULL;
+        x->v = GVI__READS_V && effect->kind != GVI_POTENTIAL ? v : NULL;
+        x->dldv = GVI__LAGRANGIAN && effect->kind == GVI_LAGRANGIAN ? dldv : NULL;
         st->counters.effect[e] += (unsigned long long)x->count;
         if (!plain || !effect->points) status = gvi__effect(st, x, e);
         else if (effect->points(x, effect->user))
@@ -1493,14 +1489,14 @@ static gvi_status gvi__effects(gvi_stepper *st, gvi_points *x, unsigned skip)
 
 /* The only effect that is on, if it takes all points in a call and is neither a
    Lagrangian term nor beside a clock; or -1.                                  */
-static int gvi__single(const gvi_stepper *st)
+static signed char gvi__single(const gvi_stepper *st)
 {
-    int single = -1;
+    signed char single = -1;
     for (int e = 0; e < st->x.desc.effect_count; ++e) {
         const gvi_effect *effect = st->x.desc.effects + e;
         if (st->x.off >> e & 1u) continue;
         if (single >= 0 || !effect->points || effect->kind > GVI_FORCE) return -1;
-        single = e;
+        single = (signed char)e;
     }
     return single;
 }
@@ -1508,7 +1504,7 @@ static int gvi__single(const gvi_stepper *st)
 // all effects that are on; nothing stands between a step and its only effect
 static inline gvi_status gvi__all_effects(gvi_stepper *st, gvi_points *x)
 {
-    const int e = st->x.single;
+    const int e = GVI__SMALL ? -1 : st->x.single;
     if (e < 0 || st->x.diagnose) return gvi__effects(st, x, 0);
     const gvi_effect *effect = st->x.desc.effects + e;
     const gvi_real *v = x->v;
@@ -1803,20 +1799,18 @@ static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, 
    every node, x = 1 - 2c, in twofold arithmetic: [k*stride + node].  The low
    parts of Phi go to E, which is not yet in use; phi is skipped where nobody
    needs it.                                                                  */
-static void gvi__modes_at_nodes(gvi_stepper *st)
+GVI__APART void gvi__modes_at_nodes(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
     for (int i = 0; i < st->r; ++i) {
-        gvi__two c, X, P = gvi__real2(1), before = gvi__real2(1);
+        gvi__two c, P = gvi__real2(1), before = gvi__real2(1);
         c.hi = x->c[i];
         c.lo = x->ce[i];
-        X = gvi__sub2(gvi__real2(1), gvi__scale2(2, c));
+        const gvi__two X = gvi__argument2(c);
         for (int k = 0; k < st->s; ++k) {
-            gvi__two next = gvi__sub2(gvi__scale2((gvi_real)(2*k + 1), gvi__mul2(X, P)),
-                                      gvi__scale2((gvi_real)k, before));
-            next = gvi__over2(next, k + 1);
-            gvi__two Phi = gvi__over2(gvi__sub2(before, next), 4*k + 2);
-            int at = k*x->stride + i;
+            const gvi__two next = gvi__legendre2(k, X, P, before);
+            const gvi__two Phi = gvi__over2(gvi__sub2(before, next), 4*k + 2);
+            const int at = k*x->stride + i;
             x->Phi[at] = Phi.hi;
             x->E[at] = Phi.lo;
             if (x->phi) {
@@ -1885,19 +1879,19 @@ static gvi__two gvi__sandwich(const gvi_stepper *st, const gvi_real *a, const gv
    for the step to be symplectic then holds exactly in the rounded numbers,
    S_ij = S_ji, and for Gauss with r = s  T_ij + T_ji = 1.  Stored by columns,
    [j*stride + i]:  g = c_i - S_ij,  m = 1 - T_ij,  T = T_ji,  N = N_ij.       */
-static void gvi__tables(gvi_stepper *st)
+GVI__APART void gvi__tables(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
     int r = st->r, R = x->stride, gauss = x->desc.rule.kind == GVI_GAUSS && r == st->s;
     for (int j = 0; j < r; ++j)
         for (int i = 0; i < r; ++i) {
             int at = j*R + i, mirror = i*R + j;
-            if (x->g && i <= j) {
+            if ((GVI__POSITIONS || GVI__VELOCITIES) && x->g && i <= j) {
                 gvi_real S = gvi__grid(gvi__sandwich(st, x->Phi, x->E, i, x->Phi, x->E, j), GVI__EPS/2);
                 x->g[at] = x->c[i] - S;
                 x->g[mirror] = x->c[j] - S;
             }
-            if (x->m && (i <= j || !gauss)) {
+            if ((GVI__VELOCITIES || GVI__MOMENTA) && x->m && (i <= j || !gauss)) {
                 gvi_real T = gvi__grid(gvi__sandwich(st, x->phi, x->low, i, x->Phi, x->E, j), GVI__EPS);
                 if (gauss && i == j) T = (gvi_real)0.5;
                 x->m[at] = 1 - T;
@@ -1907,7 +1901,7 @@ static void gvi__tables(gvi_stepper *st)
                     if (x->T) x->T[at] = 1 - T;
                 }
             }
-            if (x->N) x->N[at] = gvi__sandwich(st, x->phi, x->low, i, x->phi, x->low, j).hi;
+            if (GVI__VELOCITIES && GVI__LAGRANGIAN && x->N) x->N[at] = gvi__sandwich(st, x->phi, x->low, i, x->phi, x->low, j).hi;
         }
 }
 
@@ -1956,7 +1950,7 @@ static void gvi__modes(const gvi_stepper *st, gvi_real tau, gvi_real *phi, gvi_r
 
 /* Weights h b_j whose sum is h exactly: rounded to multiples of ulp(h), what is
    left over goes to the largest weight and its mirror image.                 */
-static void gvi__weights(gvi_stepper *st, gvi_real h)
+GVI__APART void gvi__weights(gvi_stepper *st, gvi_real h)
 {
     struct gvi__private *x = &st->x;
     x->h_weights = h;
@@ -2079,7 +2073,7 @@ static gvi_status gvi__resolve(gvi_stepper *st, const gvi_desc *desc)
     st->x.flags = gvi__flags(d);
     st->x.clock = -1;
     for (int e = 0; e < d->effect_count; ++e)
-        if (d->effects[e].kind == GVI_CLOCK) st->x.clock = e;
+        if (d->effects[e].kind == GVI_CLOCK) st->x.clock = (signed char)e;
     if (gvi__left_out(st)) return GVI_E_FORMULATION;
 
     st->order = d->rule.kind == GVI_LOBATTO ? 2*r - 2 : 2*r;
@@ -2109,7 +2103,7 @@ static gvi_status gvi__resolve(gvi_stepper *st, const gvi_desc *desc)
         st->x.flags |= GVI__HAS_NEWTON;
     if (d->rule.kind == GVI_KICKS) st->order = 0;
     st->formulation = st->x.chosen;
-    st->x.single = gvi__single(st);
+    st->x.single = GVI__SMALL ? (signed char)-1 : gvi__single(st);
 
     // indices are int: n*n and s*n where there are matrices
     int matrices = d->mass.kind >= GVI_MASS_DENSE || gvi__has(st, GVI__HAS_NEWTON | GVI__HAS_LAGRANGIAN);
@@ -2129,139 +2123,142 @@ static inline int gvi__two_now(const gvi_stepper *st) { return GVI__KIND > 1 && 
 
 typedef struct gvi__arena { gvi_real *base; size_t used; } gvi__arena;
 
-// a*b reals if `wanted`, else NULL; with base NULL it only counts
-static gvi_real *gvi__take(gvi__arena *arena, int wanted, size_t a, size_t b)
+// a*b reals, or NULL for none; with base NULL it only counts
+static gvi_real *gvi__take(gvi__arena *arena, size_t a, size_t b)
 {
     const size_t most = (size_t)-1/sizeof(gvi_real)/2;
-    if (!wanted) return NULL;
-    size_t count = b && a > most/b ? most : a*b, at = arena->used;
+    if (a == 0) return NULL;
+    size_t count = a > most/b ? most : a*b, at = arena->used;
     arena->used = count > most - at ? most : at + count;
     return arena->base ? arena->base + at : NULL;
 }
 
 /* The one layout: gvi_size counts with it, gvi_init hands out by it, and
-   GVI_LENGTH is its sum with everything wanted.  What the scene needs of it:   */
-typedef struct gvi__needs {
-    int newton, lagrangian, momenta, velocities, positions, reads_v, kicks, two, clock;
-} gvi__needs;
+   GVI_LENGTH is its sum with everything wanted.  A part of the memory has rows and
+   columns out of these lengths, which gvi__lengths fills in; no row, no part.  Of
+   what a scene may do without, the length is named after it.                  */
+enum {
+    GVI__1, GVI__2, GVI__3, GVI__6, GVI__n, GVI__N, GVI__R, GVI__s,      // N: n, in whole vectors if n >= 8
+    GVI__STATE, GVI__POINTS, GVI__V, GVI__P, GVI__A_, GVI__OLDER_F, GVI__OLDER_V, GVI__OLDER_A,
+    GVI__SLOPE, GVI__RATE, GVI__G, GVI__M, GVI__T, GVI__NN, GVI__E, GVI__PHI, GVI__MODES, GVI__PLACE, GVI__DRIFT,
+    GVI__GAMMA, GVI__DIAGONAL, GVI__Z, GVI__AT_POINTS, GVI__nR, GVI__HESS, GVI__HESSIANS,
+    GVI__sn, GVI__PIVOT, GVI__DIFFERENCES, GVI__J, GVI__LENGTHS
+};
 
-static gvi__needs gvi__needs_of(const gvi_stepper *st)
+static void gvi__lengths(const gvi_stepper *st, size_t *length)
 {
     const struct gvi__private *x = &st->x;
-    gvi__needs u;
-    u.newton = gvi__has(st, GVI__HAS_NEWTON);
-    u.lagrangian = gvi__has(st, GVI__HAS_LAGRANGIAN);
-    u.momenta = gvi__uses(st, GVI_MOMENTA);
-    u.velocities = gvi__uses(st, GVI_VELOCITIES);
-    u.positions = gvi__uses(st, GVI_EXPLICIT) || gvi__uses(st, GVI_POSITIONS) || u.velocities;
-    u.reads_v = u.velocities || u.momenta || u.newton;
-    u.kicks = gvi__rule_is(st, GVI_KICKS);
-    u.two = gvi__fits_two(st);
-    u.clock = GVI__CLOCK && x->clock >= 0;
-    return u;
+    const size_t n = (size_t)st->n, s = (size_t)st->s, r = (size_t)st->r, R = (size_t)x->stride;
+    const int newton = gvi__has(st, GVI__HAS_NEWTON), lagrangian = gvi__has(st, GVI__HAS_LAGRANGIAN);
+    const int momenta = gvi__uses(st, GVI_MOMENTA), velocities = gvi__uses(st, GVI_VELOCITIES);
+    const int kicks = gvi__rule_is(st, GVI_KICKS), two = gvi__fits_two(st), clock = GVI__CLOCK && x->clock >= 0;
+    const int positions = gvi__uses(st, GVI_POSITIONS) || velocities, iterates = !gvi__uses(st, GVI_EXPLICIT);
+    const int reads_v = velocities || momenta || newton, A = lagrangian && (velocities || momenta);
+    const int dense = gvi__mass_is(st, GVI_MASS_DENSE);
+    length[GVI__1] = 1;
+    length[GVI__2] = 2;
+    length[GVI__3] = 3;
+    length[GVI__6] = 6;
+    length[GVI__n] = n;
+    length[GVI__N] = n < 8 ? n : (n + 7)/8*8;
+    length[GVI__R] = R;
+    length[GVI__s] = s;
+    length[GVI__STATE] = kicks ? length[GVI__N] : n;
+    length[GVI__POINTS] = kicks ? 1 : R;
+    length[GVI__V] = reads_v ? n : 0;
+    length[GVI__P] = momenta || newton ? n : 0;
+    length[GVI__A_] = A ? n : 0;
+    length[GVI__OLDER_F] = two ? n : 0;
+    length[GVI__OLDER_V] = two && momenta ? n : 0;
+    length[GVI__OLDER_A] = two && A ? n : 0;
+    length[GVI__SLOPE] = clock ? n : 0;
+    length[GVI__RATE] = clock ? 1 : 0;
+    length[GVI__G] = positions ? r : 0;
+    length[GVI__M] = velocities || momenta ? r : 0;
+    length[GVI__T] = momenta || (velocities && lagrangian) ? r : 0;
+    length[GVI__NN] = velocities && lagrangian ? r : 0;
+    length[GVI__E] = !iterates ? 0 : two ? 2*r : r;
+    length[GVI__PHI] = kicks ? 0 : s;
+    length[GVI__MODES] = reads_v || (iterates && st->order <= 2*st->s - 2) ? s : 0;
+    length[GVI__PLACE] = iterates ? 3 : 0;
+    length[GVI__DRIFT] = iterates ? 0 : r + 1;
+    length[GVI__GAMMA] = gvi__has(st, GVI__HAS_OWN) ? s*s + s + 1 : 0;
+    length[GVI__DIAGONAL] = x->desc.mass.kind == GVI_MASS_DIAGONAL ? length[GVI__N] : 0;
+    length[GVI__Z] = dense && positions ? n : 0;
+    length[GVI__AT_POINTS] = gvi__mass_is(st, GVI_MASS_POSITION) ? n : 0;
+    length[GVI__nR] = n*R;
+    length[GVI__HESS] = newton || lagrangian ? n : 0;
+    length[GVI__HESSIANS] = (newton ? 4*n : n) + 5;
+    length[GVI__sn] = newton ? s*n : 0;
+    length[GVI__PIVOT] = newton ? s*n + 1 : 0;
+    length[GVI__DIFFERENCES] = newton ? 4*n : 0;
+    length[GVI__J] = newton ? 2*s*n : 0;
 }
 
-static void gvi__layout_rows(gvi_stepper *st, gvi__arena *a, const gvi__needs *u, size_t n, size_t N)
+// which pointer of gvi__private, and which lengths make the part
+typedef struct gvi__part { unsigned char pointer, rows, columns; } gvi__part;
+#define GVI__PART(member, rows, columns) \
+    { offsetof(struct gvi__private, member)/sizeof(gvi_real *), GVI__##rows, GVI__##columns }
+
+static void gvi__place(gvi_stepper *st, gvi__arena *a, const size_t *length, const gvi__part *part, size_t count)
 {
-    struct gvi__private *x = &st->x;
-    const size_t R = (size_t)x->stride;
-    const int A = u->lagrangian && (u->velocities || u->momenta);
-    for (int k = 0; k < 2; ++k) {
-        struct gvi__rows *rows = k ? &x->work : &x->last;
-        rows->Q = gvi__take(a, 1, u->kicks ? N : n, u->kicks ? 1 : R);
-        rows->F = gvi__take(a, 1, u->kicks ? N : n, u->kicks ? 1 : R);
-        rows->V = gvi__take(a, u->reads_v, n, R);
-        rows->P = gvi__take(a, u->momenta || u->newton, n, R);
-        rows->A = gvi__take(a, A, n, R);
-    }
-    x->older.F = gvi__take(a, u->two, n, R);
-    x->older.V = gvi__take(a, u->momenta && u->two, n, R);
-    x->older.A = gvi__take(a, A && u->two, n, R);
-    x->slope = gvi__take(a, u->clock, n, R);
-    x->rate = gvi__take(a, u->clock, 1, R);
-    x->power = gvi__take(a, u->clock, 1, R);
-    x->level = gvi__take(a, u->clock, 1, R);
-    x->z = gvi__take(a, 1, 1, R);
-    x->less = gvi__take(a, 1, 1, R);
+    for (; count > 0; --count, ++part)
+        ((gvi_real **)(void *)&st->x)[part->pointer] = gvi__take(a, length[part->rows], length[part->columns]);
 }
 
-static void gvi__layout_tables(gvi_stepper *st, gvi__arena *a, const gvi__needs *u, size_t n)
+static void gvi__layout_vectors(gvi_stepper *st, gvi__arena *a, const size_t *length)
 {
-    struct gvi__private *x = &st->x;
-    const size_t s = (size_t)st->s, r = (size_t)st->r, R = (size_t)x->stride;
-    const int modes = u->reads_v || (!u->kicks && st->order <= 2*st->s - 2);
-    x->hb = gvi__take(a, 1, 1, R);
-    x->c = gvi__take(a, 1, 1, R);
-    x->g = gvi__take(a, u->positions && !u->kicks, r, R);
-    x->m = gvi__take(a, u->velocities || u->momenta, r, R);
-    x->T = gvi__take(a, u->momenta || (u->velocities && u->lagrangian), r, R);
-    x->N = gvi__take(a, u->velocities && u->lagrangian, r, R);
-    x->E = gvi__take(a, !u->kicks, u->two ? 2*r : r, R);
-    x->Phi = gvi__take(a, !u->kicks, s, R);
-    x->phi = gvi__take(a, modes, s, R);
-    x->low = gvi__take(a, modes, s, R);
-    x->Z = gvi__take(a, u->positions && gvi__mass_is(st, GVI_MASS_DENSE), n, R);
-    x->point_mass = gvi__take(a, gvi__mass_is(st, GVI_MASS_POSITION), n, n*R);
-    x->ce = gvi__take(a, 1, 1, R);
-    x->b = gvi__take(a, 1, 1, R);
-    x->t = gvi__take(a, 1, 1, R);
-    x->place = gvi__take(a, !u->kicks, 3, R);
-    x->row = gvi__take(a, 1, 6, R);
-    x->drift = gvi__take(a, gvi__uses(st, GVI_EXPLICIT), 1, r + 1);
-    x->inv_gamma = gvi__take(a, 1, 1, s);
-    x->own = gvi__take(a, gvi__has(st, GVI__HAS_OWN), s*s + s + 1, 1);
+    static const gvi__part parts[] = {
+        GVI__PART(q, 1, N), GVI__PART(qe, 1, N), GVI__PART(p, 1, N), GVI__PART(pe, 1, N), GVI__PART(q0, 1, N),
+        GVI__PART(p0, 1, N), GVI__PART(zeros, 1, N), GVI__PART(start, 1, N), GVI__PART(v0, 1, N), GVI__PART(ve, 1, N),
+        GVI__PART(dq, 1, N), GVI__PART(dp, 1, N), GVI__PART(dqe, 1, N), GVI__PART(dpe, 1, N),
+        GVI__PART(mass, DIAGONAL, 1), GVI__PART(over, DIAGONAL, 1)
+    };
+    gvi__place(st, a, length, parts, sizeof parts/sizeof *parts);
 }
 
-// N: n, in whole vectors if n >= 8
-static void gvi__layout_vectors(gvi_stepper *st, gvi__arena *a, size_t N)
+static void gvi__layout_rows(gvi_stepper *st, gvi__arena *a, const size_t *length)
 {
-    struct gvi__private *x = &st->x;
-    gvi_real **const vectors[] = { &x->q, &x->qe, &x->p, &x->pe, &x->q0, &x->p0, &x->zeros, &x->start, &x->v0, &x->ve,
-                                   &x->dq, &x->dp, &x->dqe, &x->dpe };
-    for (size_t k = 0; k < sizeof vectors/sizeof *vectors; ++k) *vectors[k] = gvi__take(a, 1, 1, N);
-    x->mass = gvi__take(a, x->desc.mass.kind == GVI_MASS_DIAGONAL, 1, N);
-    x->over = gvi__take(a, x->desc.mass.kind == GVI_MASS_DIAGONAL, 1, N);
+    static const gvi__part parts[] = {
+        GVI__PART(last.Q, STATE, POINTS), GVI__PART(last.F, STATE, POINTS), GVI__PART(last.V, V, R),
+        GVI__PART(last.P, P, R), GVI__PART(last.A, A_, R),
+        GVI__PART(work.Q, STATE, POINTS), GVI__PART(work.F, STATE, POINTS), GVI__PART(work.V, V, R),
+        GVI__PART(work.P, P, R), GVI__PART(work.A, A_, R),
+        GVI__PART(older_F, OLDER_F, R), GVI__PART(older_V, OLDER_V, R), GVI__PART(older_A, OLDER_A, R),
+        GVI__PART(slope, SLOPE, R), GVI__PART(rate, RATE, R), GVI__PART(power, RATE, R), GVI__PART(level, RATE, R),
+        GVI__PART(z, 1, R), GVI__PART(less, 1, R), GVI__PART(hb, 1, R), GVI__PART(c, 1, R), GVI__PART(g, G, R),
+        GVI__PART(m, M, R), GVI__PART(T, T, R), GVI__PART(N, NN, R), GVI__PART(E, E, R), GVI__PART(Phi, PHI, R),
+        GVI__PART(phi, MODES, R), GVI__PART(low, MODES, R), GVI__PART(Z, Z, R), GVI__PART(point_mass, AT_POINTS, nR),
+        GVI__PART(ce, 1, R), GVI__PART(b, 1, R), GVI__PART(t, 1, R), GVI__PART(place, PLACE, R), GVI__PART(row, 6, R),
+        GVI__PART(drift, DRIFT, 1), GVI__PART(inv_gamma, 1, s), GVI__PART(own, GAMMA, 1)
+    };
+    gvi__place(st, a, length, parts, sizeof parts/sizeof *parts);
 }
 
-static void gvi__layout_scratch(gvi_stepper *st, gvi__arena *a, size_t n)
+// J and pivots twice: queries must not touch what the steps keep.  J comes last
+static void gvi__layout_scratch(gvi_stepper *st, gvi__arena *a, const size_t *length)
 {
-    struct gvi__private *x = &st->x;
-    x->scale = gvi__take(a, 1, 2, n);
-    x->change = gvi__take(a, 1, 3, n);
-    x->one = gvi__take(a, 1, 6, n);
-    if (gvi__mass_is(st, GVI_MASS_DENSE)) x->mass = gvi__take(a, 1, 2*n, n);
-}
-
-// J and pivots twice: queries must not touch what the steps keep
-static void gvi__layout_newton(gvi_stepper *st, gvi__arena *a, const gvi__needs *u, size_t n)
-{
-    struct gvi__private *x = &st->x;
-    const size_t R = (size_t)x->stride, sn = (size_t)st->s*n;
-    x->hess = gvi__take(a, u->newton || u->lagrangian, n, u->newton ? 4*n + 5 : n + 5);
-    x->y = gvi__take(a, u->newton, 1, sn);
-    x->dy = gvi__take(a, u->newton, 1, sn);
-    x->pivot = gvi__take(a, u->newton, 2, sn + 1);
-    x->dF = gvi__take(a, u->newton, n, R);
-    x->dP = gvi__take(a, u->newton, n, R);
-    x->bF = gvi__take(a, u->newton, n, R);
-    x->bP = gvi__take(a, u->newton, n, R);
-    x->J = gvi__take(a, u->newton, 2*sn, sn);
+    static const gvi__part parts[] = {
+        GVI__PART(scale, 2, n), GVI__PART(change, 3, n), GVI__PART(one, 6, n),
+        GVI__PART(hess, HESS, HESSIANS), GVI__PART(y, sn, 1), GVI__PART(dy, sn, 1), GVI__PART(pivot, PIVOT, 2),
+        GVI__PART(dF, DIFFERENCES, R), GVI__PART(J, J, sn)
+    };
+    if (gvi__mass_is(st, GVI_MASS_DENSE)) st->x.mass = gvi__take(a, 2*length[GVI__n], length[GVI__n]);
+    gvi__place(st, a, length, parts, sizeof parts/sizeof *parts);
 }
 
 // with base NULL it only counts
 static size_t gvi__layout(gvi_stepper *st, gvi_real *base)
 {
-    const gvi__needs u = gvi__needs_of(st);
-    const size_t n = (size_t)st->n, N = n < 8 ? n : (n + 7)/8*8;      // N: whole vectors
+    size_t length[GVI__LENGTHS];
     gvi__arena a;
     a.base = base;
     a.used = 0;
-    if (n >= 8) gvi__layout_vectors(st, &a, N);   // what is not in whole vectors comes last
-    gvi__layout_rows(st, &a, &u, n, N);
-    gvi__layout_tables(st, &a, &u, n);
-    if (n < 8) gvi__layout_vectors(st, &a, N);
-    gvi__layout_scratch(st, &a, n);
-    gvi__layout_newton(st, &a, &u, n);
+    gvi__lengths(st, length);
+    if (st->n >= 8) gvi__layout_vectors(st, &a, length);      // what is not in whole vectors comes last
+    gvi__layout_rows(st, &a, length);
+    if (st->n < 8) gvi__layout_vectors(st, &a, length);
+    gvi__layout_scratch(st, &a, length);
     return a.used;
 }
 
@@ -2332,9 +2329,15 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     if (gvi__rule_is(st, GVI_OWN) || gvi__rule_is(st, GVI_KICKS)) {
         gvi__copy((size_t)st->r, x->desc.rule.nodes, x->c);
         gvi__copy((size_t)st->r, x->desc.rule.weights, x->b);
+    } else if (gvi__uses(st, GVI_EXPLICIT)) {                // Stoermer-Verlet: c = 0, 1
+        x->c[1] = 1;
+        x->b[0] = x->b[1] = (gvi_real)0.5;
     } else gvi__rule_make(x->desc.rule.kind == GVI_LOBATTO, st->r, x->c, x->ce, x->b);
     x->memory = memory;                      // from here on it can be used
-    if (gvi__rule_is(st, GVI_KICKS)) return gvi__done(st, GVI_OK);
+    if (gvi__uses(st, GVI_EXPLICIT)) {
+        if (x->Phi) gvi__copy((size_t)st->r, x->c, x->Phi);
+        return gvi__done(st, GVI_OK);
+    }
     gvi__modes_at_nodes(st);
     for (int i = 0; i < st->r; ++i) x->c[i] = gvi__grid(gvi__sum(x->c[i], x->ce[i]), GVI__EPS/2);
     status = gvi__gamma(st);
@@ -2393,18 +2396,12 @@ static inline void gvi__begin(gvi_stepper *st, gvi__from *from, gvi_real h)
     from->ve = x->ve;
 }
 
-// four sums at a time: none waits for another
+// four sums, so that none need wait for another; what is left over goes to the first
 static gvi_real gvi__dot(int r, const gvi_real *a, const gvi_real *b)
 {
     gvi_real sum[4] = { 0, 0, 0, 0 };
-    int j = 0;
-    for (; j + 3 < r; j += 4) {
-        sum[0] += a[j]*b[j];
-        sum[1] += a[j + 1]*b[j + 1];
-        sum[2] += a[j + 2]*b[j + 2];
-        sum[3] += a[j + 3]*b[j + 3];
-    }
-    for (; j < r; ++j) sum[0] += a[j]*b[j];
+    const int whole = r & ~3;
+    for (int j = 0; j < r; ++j) sum[j < whole ? j & 3 : 0] += a[j]*b[j];
     return (sum[0] + sum[2]) + (sum[1] + sum[3]);
 }
 
@@ -2472,6 +2469,17 @@ static inline void gvi__sum_block(int r, int R, int block, const gvi_real *table
     }
 }
 
+// the same in less code, for all R points
+static void gvi__sum_small(int r, int R, const gvi_real *table, const gvi_real *L, gvi_real *z)
+{
+    for (int k = 0; k < R; ++k) {
+        const gvi_real *t = table + k;
+        gvi_real sum[4] = { 0, 0, 0, 0 };
+        for (int j = 0; j < r; ++j, t += R) sum[j & 3] = j < 4 ? *t*L[j] : sum[j & 3] + *t*L[j];
+        z[k] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+    }
+}
+
 // z := sum_j table[j][.] L_j, all R points
 static inline void gvi__sum_row(int r, int R, const gvi_real *table, const gvi_real *L, gvi_real *z)
 {
@@ -2480,7 +2488,8 @@ static inline void gvi__sum_row(int r, int R, const gvi_real *table, const gvi_r
         gvi__sum_vector(r, R, table + o, L, (gvi__vector *)(z + o));
     if (R % 8 == 0) return;
 #endif
-    gvi__sum_block(r, R, R, table, L, z);
+    if (GVI__SMALL) gvi__sum_small(r, R, table, L, z);
+    else gvi__sum_block(r, R, R, table, L, z);
 }
 
 // L := w f, element by element
@@ -2591,6 +2600,33 @@ static inline gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stag
     return gvi__sum_lanes(lane);
 }
 
+// the same in less code and without blocks; sums of squares from the last point on, as there
+static gvi_real gvi__stage_rows_small(const gvi_stepper *st, const gvi__stage *y)
+{
+    const struct gvi__private *x = &st->x;
+    const gvi_real *diagonal = y->over_mass && x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
+    const int r = st->r, R = x->stride;
+    gvi_real lane[8] = { 0, 0, 0, 0, 0, 0, 0, 0 }, *z = x->row, *row = y->rows;
+    for (int i = 0; i < st->n; ++i, row += R) {
+        const gvi__affine p = gvi__affine_of(y, diagonal, i);
+        gvi__weigh(R, x->hb, y->f + i*R, x->z);
+        gvi__sum_small(r, R, y->table, x->z, z);
+        if (GVI__LAGRANGIAN && y->minus) {
+            gvi__weigh(R, x->b, x->work.A + i*R, x->z);
+            gvi__sum_small(r, R, y->minus, x->z, x->less);
+            for (int k = 0; k < R; ++k) z[k] -= x->less[k];
+        }
+        for (int k = 0; k < R; ++k) z[k] = p.base + (p.extra + (x->c[k]*p.a + z[k]*p.b));
+        gvi__rescale(p.base, row[r - 1], z[r - 1], y->scale + i);
+        for (int k = R; k-- > 0; ) {
+            const gvi_real moved = (z[k] - row[k])*y->scale[i];
+            lane[k & 7] += moved*moved;
+            row[k] = z[k];
+        }
+    }
+    return gvi__sum_lanes(lane);
+}
+
 // the same where M is a full matrix: all sums first, then M^-1 of them
 static gvi_real gvi__stage_rows_dense(gvi_stepper *st, const gvi__stage *y)
 {
@@ -2623,6 +2659,7 @@ static gvi_real gvi__stage_rows(gvi_stepper *st, const gvi__stage *y)
 {
     const int r = st->r, R = st->x.stride;
     if (y->over_mass && gvi__mass_is(st, GVI_MASS_DENSE)) return gvi__stage_rows_dense(st, y);
+    if (GVI__SMALL) return gvi__stage_rows_small(st, y);
     switch (r) {
     case 1:  return gvi__stage_rows_of(st, y, 1, 1);
     case 2:  return gvi__stage_rows_of(st, y, 2, 2);
@@ -2648,6 +2685,8 @@ static void gvi__velocity_rows(gvi_stepper *st)
     else gvi__ldl_solve(n, x->point_mass, R, 1, w->V, R, st->r);
 }
 
+#define GVI__STAGES (GVI__VELOCITIES || GVI__MOMENTA ? 2 : 1)       // of an iteration, at most
+
 static void gvi__stage_set(gvi__stage *y, const gvi_real *base, const gvi_real *extra, const gvi_real *slope,
                            const gvi_real *table, const gvi_real *f, gvi_real factor, gvi_real *rows,
                            gvi_real *scale)
@@ -2666,7 +2705,7 @@ static void gvi__stage_set(gvi__stage *y, const gvi_real *base, const gvi_real *
 
 /* What an iteration computes, fixed for a step: positions (3); velocities (3),
    (4); momenta (5), P first.  Returns how many.                               */
-static int gvi__plan(gvi_stepper *st, const gvi__from *from, gvi_real h, gvi__stage y[2])
+static int gvi__plan(gvi_stepper *st, const gvi__from *from, gvi_real h, gvi__stage y[GVI__STAGES])
 {
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work;
@@ -2678,7 +2717,7 @@ static int gvi__plan(gvi_stepper *st, const gvi__from *from, gvi_real h, gvi__st
     gvi__stage_set(y, from->q, from->qe, from->v, x->g, w->F, h, w->Q, x->scale);
     y->minus = gvi__A(w) ? x->T : NULL;
     y->over_mass = 1;
-    if (gvi__uses(st, GVI_POSITIONS)) return 1;
+    if (gvi__uses(st, GVI_POSITIONS) || GVI__STAGES == 1) return 1;
     gvi__stage_set(y + 1, from->v, from->ve, NULL, x->m, w->F, 1, w->V, x->scale + st->n);
     y[1].minus = gvi__A(w) ? x->N : NULL;
     y[1].over_mass = 1;
@@ -2708,7 +2747,7 @@ static gvi_real gvi__stages(gvi_stepper *st, const gvi__stage *y, int count)
 }
 
 // momenta: V from dL/dv(Q, V) = P
-static gvi_status gvi__legendre_rows(gvi_stepper *st, gvi_points *y)
+GVI__APART gvi_status gvi__legendre_rows(gvi_stepper *st, gvi_points *y)
 {
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work;
@@ -2806,7 +2845,7 @@ static void gvi__transform(gvi_stepper *st, const gvi__from *from, int lagrangia
         gvi__scale_row(R, x->rate, w->V + i*R);
     }
     gvi__weigh(R, x->hb, x->rate, x->less);
-    if (r == 8) gvi__sum_row(8, 8, x->T, x->less, x->z);
+    if (r == 8 && !GVI__SMALL) gvi__sum_row(8, 8, x->T, x->less, x->z);
     else gvi__sum_row(r, R, x->T, x->less, x->z);
     for (int k = 0; k < R; ++k) x->t[k] = from->t + (from->te + x->z[k]);
     x->has_rate = 1;
@@ -2846,16 +2885,18 @@ static inline void gvi__zero_rows(const gvi_stepper *st, gvi_real *rows)
 }
 
 // F (and A, V) at the rows of this iteration, all points in one call an effect
-static gvi_status gvi__ask(gvi_stepper *st, const gvi__from *from, gvi_points *y)
+GVI__APART gvi_status gvi__ask(gvi_stepper *st, const gvi__from *from)
 {
-    gvi_status status = gvi__check_points(st, y);
-    gvi__zero_rows(st, y->f);
-    if (status == GVI_OK && gvi__uses(st, GVI_MOMENTA)) status = gvi__legendre_rows(st, y);
-    if (y->dldv) gvi__zero_rows(st, y->dldv);
+    gvi_points y;
+    gvi__rows_as_points(&y, st, &st->x.work, gvi__A(&st->x.work));
+    gvi_status status = gvi__check_points(st, &y);
+    gvi__zero_rows(st, y.f);
+    if (status == GVI_OK && gvi__uses(st, GVI_MOMENTA)) status = gvi__legendre_rows(st, &y);
+    if (y.dldv) gvi__zero_rows(st, y.dldv);
     if (status != GVI_OK) return status;
-    if (gvi__has_clock(st)) return gvi__ask_clock(st, from, y);
-    if (gvi__uses(st, GVI_MOMENTA) && gvi__mass_is(st, GVI_MASS_POSITION)) status = gvi__mass_gradient(st, y);
-    return status == GVI_OK ? gvi__all_effects(st, y) : status;
+    if (gvi__has_clock(st)) return gvi__ask_clock(st, from, &y);
+    if (gvi__uses(st, GVI_MOMENTA) && gvi__mass_is(st, GVI_MASS_POSITION)) status = gvi__mass_gradient(st, &y);
+    return status == GVI_OK ? gvi__all_effects(st, &y) : status;
 }
 
 /* Extrapolates rows of the last step, or of the last two, to the points of the
@@ -2883,7 +2924,8 @@ static inline void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, co
 static void gvi__extrapolate(gvi_stepper *st, const gvi_real *last, const gvi_real *older, gvi_real *out)
 {
     if (!gvi__two_now(st)) older = NULL;
-    if (st->r == 8) gvi__extrapolate_rows(st, 8, 8, last, older, out);
+    if (GVI__SMALL) gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, out);
+    else if (st->r == 8) gvi__extrapolate_rows(st, 8, 8, last, older, out);
     else if (st->r == 4) gvi__extrapolate_rows(st, 4, 4, last, older, out);
     else gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, out);
 }
@@ -2931,28 +2973,28 @@ static void gvi__fit(gvi_stepper *st, gvi_real alpha, gvi_real beta)
 }
 
 // makes E what this step needs, if it is not
-static void gvi__prepare_guess(gvi_stepper *st, gvi_real alpha, gvi_real beta, int query)
+GVI__APART void gvi__prepare_guess(gvi_stepper *st, gvi_real alpha, gvi_real beta, int query)
 {
     struct gvi__private *x = &st->x;
-    const int two = !query && x->alike == 2 && x->older.F && !gvi__nonzero(beta - 1);
+    const int two = GVI__KIND > 1 && !query && x->alike == 2 && x->older_F && !gvi__nonzero(beta - 1);
     if (!query && !gvi__nonzero(beta - x->ratio) && two == x->two) return;
     x->ratio = query ? 0 : beta;
-    x->two = two;
+    x->two = (signed char)two;
     gvi__fit(st, alpha, beta);
 }
 
 /* Starting values: what the last step had, extrapolated; without one, or if
    that led nowhere, no force and constant velocity; `rate` is the clock's.     */
-static void gvi__guess(gvi_stepper *st, int extrapolate, gvi_real rate)
+GVI__APART void gvi__guess(gvi_stepper *st, int extrapolate, gvi_real rate)
 {
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work, *l = &x->last;
     size_t length = (size_t)st->n*(size_t)x->stride;
     x->has_factor = x->has_rate = 0;
     if (extrapolate) {
-        gvi__extrapolate(st, l->F, x->older.F, w->F);
-        if (gvi__A(l) && w->A) gvi__extrapolate(st, l->A, x->older.A, w->A);
-        if (gvi__uses(st, GVI_MOMENTA)) gvi__extrapolate(st, l->V, x->older.V, w->V);
+        gvi__extrapolate(st, l->F, x->older_F, w->F);
+        if (gvi__A(l) && w->A) gvi__extrapolate(st, l->A, x->older_A, w->A);
+        if (gvi__uses(st, GVI_MOMENTA)) gvi__extrapolate(st, l->V, x->older_V, w->V);
     } else {
         gvi__zero(length, w->F);
         if (gvi__A(w)) gvi__zero(length, w->A);
@@ -2984,13 +3026,13 @@ static inline gvi_real gvi__lever(int r, const gvi_real *GVI__RESTRICT c, const 
 {
     gvi_real sum[4] = { 0, 0, 0, 0 };
     for (int j = 0; j < r; ++j) z[j] = (1 - c[j])*(hb[j]*F[j]);
-    for (int j = 0; j < r; ++j) sum[j % 4] += z[j];
+    for (int j = 0; j < r; ++j) sum[j & 3] += z[j];
     return (sum[0] + sum[2]) + (sum[1] + sum[3]);
 }
 
 /* Increments of q and p from the F, V and A at the end of the iteration, what is
    left of them going to dqe and dpe.  r, R: constants for the usual sizes.     */
-static inline void gvi__increments_of(gvi_stepper *st, const gvi__from *from, gvi_real h, int r, int R)
+GVI__APART void gvi__increments_of(gvi_stepper *st, const gvi__from *from, gvi_real h, int r, int R)
 {
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work;
@@ -3025,7 +3067,8 @@ static void gvi__increments(gvi_stepper *st, const gvi__from *from, gvi_real h)
         x->dt = gvi__dot(st->r, x->hb, x->rate);
         x->dH = gvi__dot(st->r, x->hb, x->power);
     }
-    if (st->r == 8) gvi__increments_of(st, from, h, 8, 8);
+    if (GVI__SMALL) gvi__increments_of(st, from, h, st->r, x->stride);
+    else if (st->r == 8) gvi__increments_of(st, from, h, 8, 8);
     else if (st->r == 4) gvi__increments_of(st, from, h, 4, 4);
     else gvi__increments_of(st, from, h, st->r, x->stride);
 }
@@ -3044,7 +3087,7 @@ static int gvi__is_rounding(const gvi_stepper *st, const gvi__from *from, int id
     gvi_real noise = 0, size = 0, place = 0;
     for (int i = 0; i < st->n; ++i) {
         gvi_real most = 0, Q = x->work.Q[i*R + last];
-        int by_v = x->chosen > GVI_POSITIONS || st->formulation == GVI_NEWTON;
+        const int by_v = GVI__READS_V && (x->chosen > GVI_POSITIONS || st->formulation == GVI_NEWTON);
         gvi_real v = by_v ? x->work.V[i*R + last] : from->v[i];
         for (int k = 0; k < st->r; ++k) {
             gvi_real F = GVI_ABS(x->work.F[i*R + k]);
@@ -3110,7 +3153,7 @@ enum { GVI__GO_ON, GVI__DONE, GVI__ASK_ONCE_MORE, GVI__BEYOND };
    changes in a row that fall by less than half are poor.  All of it in squares
    of changes: no root or quotient between an iteration and the next.  A given
    number of iterations ends there, if the change is half of that two before.  */
-static inline int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *p, gvi_real change, int used)
+GVI__APART int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *p, gvi_real change, int used)
 {
     struct gvi__private *x = &st->x;
     const gvi_real tolerance = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/4096;
@@ -3139,15 +3182,13 @@ static inline int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progre
 }
 
 /* Fixed point on the rows: F, V and A make the rows, the effects are asked there. */
-static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate, int *used)
+GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate, int *used)
 {
     struct gvi__private *x = &st->x;
     const int most = x->desc.iterations > 0 ? x->desc.iterations : x->desc.max_iterations;
     gvi__progress p = { 0, 0, GVI__MAX, 0, 0, 0 };
-    gvi__stage y[2];
+    gvi__stage y[GVI__STAGES];
     const int count = gvi__plan(st, from, h, y);
-    gvi_points points;
-    gvi__rows_as_points(&points, st, &x->work, gvi__A(&x->work));
     gvi_real rate = 1;
     if (gvi__has_clock(st)) {
         gvi_status status = gvi__clock_guess(st, from, h, &rate);
@@ -3169,7 +3210,7 @@ static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_r
         // rows that go to and fro in their last places end with their own F, not that of
         // the side that they came from, which would be a bias
         *used += verdict == GVI__GO_ON;
-        gvi_status status = gvi__ask(st, from, &points);
+        gvi_status status = gvi__ask(st, from);
         if (status != GVI_OK || verdict == GVI__ASK_ONCE_MORE) return status;
     }
     return gvi__give(st, GVI_E_CONVERGENCE);
@@ -3230,7 +3271,7 @@ static inline gvi_status gvi__explicit_of(gvi_stepper *st, const gvi__from *from
     struct gvi__private *x = &st->x;
     const int dense = gvi__mass_is(st, GVI_MASS_DENSE), r = st->r;
     const gvi_real *m = x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
-    const gvi_effect *only = x->single >= 0 && !x->diagnose ? x->desc.effects + x->single : NULL;
+    const gvi_effect *only = !GVI__SMALL && x->single >= 0 && !x->diagnose ? x->desc.effects + x->single : NULL;
     gvi_real *F = x->work.F, *Q = x->work.Q, *dp = x->dp, *dq = x->dq, t;
     const gvi_real zero = h - h;
     gvi_points y;
@@ -3256,9 +3297,10 @@ static inline gvi_status gvi__explicit_of(gvi_stepper *st, const gvi__from *from
     return GVI_OK;
 }
 
-static gvi_status gvi__explicit(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *force)
+GVI__APART gvi_status gvi__explicit(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *force)
 {
-    return st->n == 2 ? gvi__explicit_of(st, from, h, force, 2) : gvi__explicit_of(st, from, h, force, st->n);
+    return st->n == 2 && !GVI__SMALL ? gvi__explicit_of(st, from, h, force, 2)
+                                     : gvi__explicit_of(st, from, h, force, st->n);
 }
 
 /* Newton on (1).  Unknowns y[k*n + i]; the rows are those of (1) times 2k + 1,
@@ -3344,7 +3386,7 @@ static void gvi__add(const gvi_stepper *st, const gvi__matrix *J, int i, int j, 
 }
 
 // effects that bring their Hessians, and the constant mass
-static gvi_status gvi__jacobian_exact(gvi_stepper *st, const gvi__matrix *J)
+GVI__APART gvi_status gvi__jacobian_exact(gvi_stepper *st, const gvi__matrix *J)
 {
     struct gvi__private *x = &st->x;
     const gvi_desc *d = &x->desc;
@@ -3387,17 +3429,17 @@ static gvi_status gvi__difference(gvi_stepper *st, const gvi__matrix *J, int j, 
     struct gvi__private *x = &st->x;
     int n = st->n, R = x->stride;
     gvi_real *row = (by_v ? x->work.V : x->work.Q) + j*R;
+    gvi_real *dF = x->dF, *dP = dF + n*R, *bF = dP + n*R, *bP = bF + n*R;
     gvi_points y;
-    gvi__rows_as_points(&y, st, &x->work, x->dP);
-    y.f = x->dF;
+    gvi__rows_as_points(&y, st, &x->work, dP);
+    y.f = dF;
     gvi__copy((size_t)R, row, x->z);
     for (int k = 0; k < st->r; ++k) row[k] += d;
     gvi_status status = gvi__evaluate(st, &y, 1);
     for (int k = 0; k < st->r && status == GVI_OK; ++k) {
         gvi_real step = row[k] - x->z[k];
         for (int i = 0; i < n; ++i)
-            gvi__add(st, J, i, j, k, (x->dF[i*R + k] - x->bF[i*R + k])/step,
-                     (x->dP[i*R + k] - x->bP[i*R + k])/step, by_v);
+            gvi__add(st, J, i, j, k, (dF[i*R + k] - bF[i*R + k])/step, (dP[i*R + k] - bP[i*R + k])/step, by_v);
     }
     gvi__copy((size_t)R, x->z, row);
     return status;
@@ -3405,7 +3447,7 @@ static gvi_status gvi__difference(gvi_stepper *st, const gvi__matrix *J, int j, 
 
 /* Derivatives of what has no Hessian.  The difference is sqrt(eps) of what the
    coordinate moves in a step, but no less than eps^(3/4) of the coordinate.   */
-static gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matrix *J)
+GVI__APART gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matrix *J)
 {
     struct gvi__private *x = &st->x;
     const gvi_desc *d = &x->desc;
@@ -3417,8 +3459,8 @@ static gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matrix *
         }
     if (!any) return GVI_OK;
     gvi_points y;
-    gvi__rows_as_points(&y, st, &x->work, x->bP);
-    y.f = x->bF;
+    gvi__rows_as_points(&y, st, &x->work, x->dF + 3*n*R);
+    y.f = x->dF + 2*n*R;
     gvi_status status = gvi__evaluate(st, &y, 1);
     const gvi_real root = GVI_SQRT(GVI__EPS), h = GVI_ABS(J->h);
     for (int j = 0; j < n && status == GVI_OK; ++j) {
@@ -3437,7 +3479,7 @@ static gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matrix *
 
 /* A Lagrangian whose d2L/dv2 is singular (linear in v, a coordinate without mass)
    would make (1) solvable all the same, and its solution worthless.           */
-static gvi_status gvi__check_regular(gvi_stepper *st)
+GVI__APART gvi_status gvi__check_regular(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
     int n = st->n, R = x->stride, at;
@@ -3540,7 +3582,7 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__from *from, gvi_r
 /* Solves rows k0..s-1 of (1) from the y at hand and leaves F, P, Q, V at the
    solution.  Keeps the factorisation while it contracts by 1/4 or better, over
    iterations and, if `kept`, over steps.                                     */
-static gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi__matrix *J, gvi_real *pivot, int kept)
+GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi__matrix *J, gvi_real *pivot, int kept)
 {
     struct gvi__private *x = &st->x;
     const gvi_real enough = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/4096;
@@ -3590,7 +3632,7 @@ static gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi_
     return gvi__give(st, GVI_E_CONVERGENCE);
 }
 
-static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate, int query)
+GVI__APART gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate, int query)
 {
     struct gvi__private *x = &st->x;
     size_t sn = (size_t)(st->s*st->n), offset = query ? sn*sn : 0;
@@ -3655,7 +3697,7 @@ static int gvi__finite_end(const gvi_stepper *st, const gvi__from *from)
     const gvi_real *q = from->q, *p = from->p, *dq = x->dq, *dp = x->dp;
     gvi_real none[4] = { 0, 0, 0, 0 };
     int i = 0;
-    for (; i + 3 < st->n; i += 4)                      // four sums, none waits for another
+    for (; i + 3 < st->n && !GVI__SMALL; i += 4)       // four sums, none waits for another
         for (int k = i; k < i + 4; ++k) none[k - i] += 0*(q[k] + dq[k]) + 0*(p[k] + dp[k]);
     for (; i < st->n; ++i) none[0] += 0*(q[i] + dq[i]) + 0*(p[i] + dp[i]);
     return (none[0] + none[1]) + (none[2] + none[3]) >= 0;
@@ -3692,16 +3734,16 @@ static void gvi__rotate(gvi_real **older, gvi_real **last, gvi_real **work)
 static void gvi__rotate_rows(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
-    x->turns = x->turns < 5 ? x->turns + 1 : 0;
+    x->turns = x->turns < 5 ? (signed char)(x->turns + 1) : 0;
     if (gvi__uses(st, GVI_EXPLICIT)) {            // no more is kept
         gvi__rotate(NULL, &x->last.F, &x->work.F);
         return;
     }
     gvi__rotate(NULL, &x->last.Q, &x->work.Q);
-    gvi__rotate(NULL, &x->last.P, &x->work.P);
-    gvi__rotate(&x->older.F, &x->last.F, &x->work.F);
-    gvi__rotate(&x->older.V, &x->last.V, &x->work.V);
-    if (GVI__LAGRANGIAN) gvi__rotate(&x->older.A, &x->last.A, &x->work.A);
+    gvi__rotate(&x->older_F, &x->last.F, &x->work.F);
+    if (GVI__MOMENTA || GVI__NEWTON) gvi__rotate(NULL, &x->last.P, &x->work.P);
+    if (GVI__READS_V) gvi__rotate(&x->older_V, &x->last.V, &x->work.V);
+    if (GVI__LAGRANGIAN) gvi__rotate(&x->older_A, &x->last.A, &x->work.A);
 }
 
 // was := x, x + rest := x + dx + dxe; dxe may be NULL, for 0
@@ -3719,8 +3761,8 @@ static inline void gvi__move_of(int n, const gvi_real *GVI__RESTRICT dx, const g
 
 static void gvi__move(int n, const gvi_real *dx, const gvi_real *dxe, gvi_real *x, gvi_real *rest, gvi_real *was)
 {
-    if (n == 2 && dxe) gvi__move_of(2, dx, dxe, x, rest, was);
-    else if (n == 2) gvi__move_of(2, dx, NULL, x, rest, was);
+    if (n == 2 && dxe && !GVI__SMALL) gvi__move_of(2, dx, dxe, x, rest, was);
+    else if (n == 2 && !GVI__SMALL) gvi__move_of(2, dx, NULL, x, rest, was);
     else gvi__move_of(n, dx, dxe, x, rest, was);
 }
 
@@ -3747,7 +3789,7 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     x->stepped = 1;
     x->has_force = explicit_one && !gvi__nonzero(x->c[0]) && !gvi__nonzero(x->c[st->r - 1] - 1);
     x->has_velocity = st->formulation > GVI_POSITIONS;
-    if (x->newton_left > 0) x->newton_left -= 1;
+    if (GVI__NEWTON && x->newton_left > 0) x->newton_left -= 1;
     st->counters.steps += 1;
 }
 
@@ -3777,8 +3819,8 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
         past.available = past.beta > -2 && past.beta < 8;         // farther out it says nothing
         if (gvi__nonzero(h - st->h)) x->newton_left = 0;
     }
-    gvi_status status = gvi__uses(st, GVI_EXPLICIT) ? gvi__solve_explicit(st, &from, h, &past)
-                                                    : gvi__solve(st, &from, h, &past, 0);
+    gvi_status status = gvi__uses(st, GVI_EXPLICIT) && !GVI__SMALL ? gvi__solve_explicit(st, &from, h, &past)
+                                                                   : gvi__solve(st, &from, h, &past, 0);
     if (status == GVI_OK && !gvi__finite(st->t + x->dt)) status = gvi__give(st, GVI_E_ARGUMENT);
     if (status != GVI_OK) {
         st->counters.failures += 1;
@@ -3862,7 +3904,8 @@ static gvi_status gvi__start(gvi_stepper *st, gvi_real t, const gvi_real *v)
     st->h = 0;
     x->te = 0;
     x->started = 1;
-    x->stepped = x->has_force = x->has_velocity = x->newton_left = x->alike = x->two = 0;
+    x->stepped = x->has_force = x->has_velocity = x->alike = x->two = 0;
+    x->newton_left = 0;
     x->h_matrix = x->ratio = 0;
     st->formulation = x->chosen;
     return gvi__done(st, GVI_OK);
@@ -3951,7 +3994,7 @@ GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
         st->x.H = E;
         st->x.He = 0;
     }
-    st->x.single = gvi__single(st);
+    st->x.single = GVI__SMALL ? (signed char)-1 : gvi__single(st);
     st->x.has_force = 0;
     st->x.h_matrix = 0;
     return gvi__done(st, GVI_OK);
@@ -4257,7 +4300,7 @@ static gvi_status gvi__interior(gvi_stepper *st, const gvi__from *from, gvi_real
     for (int look = 0; look < 2 && status == GVI_E_NON_FINITE; ++look) {    // as in gvi__solve
         gvi__zero((size_t)(st->s*n), x->y);
         for (int i = 0; i < n; ++i) x->y[i] = (q1[i] - from->q[i])/h;
-        x->diagnose = look;
+        x->diagnose = (signed char)look;
         status = gvi__newton(st, from, J, pivot, 0);
         x->diagnose = 0;
     }

@@ -138,6 +138,7 @@ echo 'aims on Cortex-M4F'
 aim 'code of everything'                             "$(found rows everything 3)" 16384
 aim 'code for potentials only: positions'            "$(found rows positions 3)" 5120
 aim 'code for potentials only: positions, least'     "$(found rows 'positions, least' 3)" 5120
+aim 'code for potentials only: explicit, least'      "$(found rows 'explicit, least' 3)" 5120
 aim 'stack of everything'                            "$(found rows everything 4)" 512
 aim 'stack for potentials only: positions, least'    "$(found rows 'positions, least' 4)" 512
 aim 'RAM of the arm, s = 3'                          "$(found ram 'arm of two joints, s = 3: momenta' 3)" 1536
