@@ -176,7 +176,7 @@ cost-embedded:
 bound:
 	$(Q)CXX='$(CXX)' sh tests/tools/bound.sh $(BUILD)
 
-## everywhere   every machine that can be compiled for and imitated here: warnings, tests, bits (an hour)
+## everywhere   every machine that can be compiled for and imitated here: warnings, tests, bits (half an hour)
 ##              RECORD=--record puts its tables into docs/embedded.md; ONLY="armhf tcc": these alone
 everywhere:
 	$(Q)CC='$(CC)' ONLY='$(ONLY)' sh tests/tools/everywhere.sh $(BUILD) $(RECORD)

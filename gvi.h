@@ -2006,12 +2006,15 @@ static int gvi__covers(const gvi_stepper *st, gvi_formulation f)
     }
 }
 
+// in long: an int may have 16 bits
+static int gvi__within(long x, long most) { return x >= 0 && x <= most; }
+
 static gvi_status gvi__check_desc(const gvi_desc *d)
 {
-    if (!d || d->n < 1 || d->n > 0x7FFFF || d->degree < 0 || d->degree > 1024) return GVI_E_ARGUMENT;
-    if (d->rule.points < 0 || d->rule.points > 4000 || d->effect_count < 0 || d->effect_count > GVI_EFFECTS
-        || (d->effect_count && !d->effects) || d->max_iterations < 0 || d->max_iterations > 1000000
-        || d->iterations < 0 || d->iterations > 1000000
+    if (!d || d->n < 1 || !gvi__within(d->n, 0x7FFFF) || !gvi__within(d->degree, 1024)) return GVI_E_ARGUMENT;
+    if (!gvi__within(d->rule.points, 4000) || !gvi__within(d->effect_count, GVI_EFFECTS)
+        || (d->effect_count && !d->effects) || !gvi__within(d->max_iterations, 1000000)
+        || !gvi__within(d->iterations, 1000000)
         || !(d->tolerance >= 0 && d->tolerance < 1))
         return GVI_E_ARGUMENT;
     if ((unsigned)d->formulation > GVI_NEWTON) return GVI_E_ARGUMENT;

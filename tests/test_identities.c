@@ -180,24 +180,14 @@ static void add(real *z, real *e, const real *dz)
     }
 }
 
-/* Hairer, Lubich, Wanner, tables II.1.1, II.2.1 and II.2.2 */
+/* Hairer, Lubich, Wanner, tables II.1.1, II.2.1 and II.2.2; in the functions,
+   since a long double of two doubles has no constant quotients.               */
 #define SQRT3  1.7320508075688772935274463415058723669L
 #define SQRT15 3.8729833462074168851792653997823996108L
 #define GAUSS2 { { 1/4.0L, 1/4.0L - SQRT3/6 }, { 1/4.0L + SQRT3/6, 1/4.0L } }
 #define GAUSS3 { { 5/36.0L, 2/9.0L - SQRT15/15, 5/36.0L - SQRT15/30 }, \
                  { 5/36.0L + SQRT15/24, 2/9.0L, 5/36.0L - SQRT15/24 }, \
                  { 5/36.0L + SQRT15/30, 2/9.0L + SQRT15/15, 5/36.0L } }
-
-static const struct tableau gauss2 = { 2, GAUSS2, GAUSS2, { 1/2.0L, 1/2.0L } };
-static const struct tableau gauss3 = { 3, GAUSS3, GAUSS3, { 5/18.0L, 4/9.0L, 5/18.0L } };
-static const struct tableau lobatto2 = {
-    2, { { 0, 0 }, { 1/2.0L, 1/2.0L } }, { { 1/2.0L, 0 }, { 1/2.0L, 0 } }, { 1/2.0L, 1/2.0L }
-};
-static const struct tableau lobatto3 = {
-    3, { { 0, 0, 0 }, { 5/24.0L, 1/3.0L, -1/24.0L }, { 1/6.0L, 2/3.0L, 1/6.0L } },
-    { { 1/6.0L, -1/6.0L, 0 }, { 1/6.0L, 1/3.0L, 0 }, { 1/6.0L, 5/6.0L, 0 } },
-    { 1/6.0L, 2/3.0L, 1/6.0L }
-};
 
 /* ------------------------------------------------------------- the comparison */
 
@@ -263,6 +253,8 @@ static void test_verlet(ANY void **state)
 
 static void test_gauss(ANY void **state)
 {
+    const struct tableau gauss2 = { 2, GAUSS2, GAUSS2, { 1/2.0L, 1/2.0L } };
+    const struct tableau gauss3 = { 3, GAUSS3, GAUSS3, { 5/18.0L, 4/9.0L, 5/18.0L } };
     compare("Gauss 2, separable", &separable, GVI_GAUSS, 2, 2, partitioned, &gauss2);
     compare("Gauss 3, separable", &separable, GVI_GAUSS, 3, 3, partitioned, &gauss3);
     compare("Gauss 2, double pendulum", &pendulum, GVI_GAUSS, 2, 2, partitioned, &gauss2);
@@ -273,6 +265,14 @@ static void test_gauss(ANY void **state)
    else it is degree r, equation (5).                                         */
 static void test_lobatto(ANY void **state)
 {
+    const struct tableau lobatto2 = {
+        2, { { 0, 0 }, { 1/2.0L, 1/2.0L } }, { { 1/2.0L, 0 }, { 1/2.0L, 0 } }, { 1/2.0L, 1/2.0L }
+    };
+    const struct tableau lobatto3 = {
+        3, { { 0, 0, 0 }, { 5/24.0L, 1/3.0L, -1/24.0L }, { 1/6.0L, 2/3.0L, 1/6.0L } },
+        { { 1/6.0L, -1/6.0L, 0 }, { 1/6.0L, 1/3.0L, 0 }, { 1/6.0L, 5/6.0L, 0 } },
+        { 1/6.0L, 2/3.0L, 1/6.0L }
+    };
     compare("Lobatto IIIA-IIIB 2, separable", &separable, GVI_LOBATTO, 1, 2, partitioned, &lobatto2);
     compare("Lobatto IIIA-IIIB 2, separable", &separable, GVI_LOBATTO, 2, 2, partitioned, &lobatto2);
     compare("Lobatto IIIA-IIIB 3, separable", &separable, GVI_LOBATTO, 2, 3, partitioned, &lobatto3);

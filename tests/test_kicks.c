@@ -265,7 +265,7 @@ static void step_map(const table *a, gvi_mass_kind mass, const real *x, real *y)
 /* max |M'JM - J| of the map's derivative by differences of order 8, as in test_structure */
 static real symplectic_defect(const table *a, gvi_mass_kind mass)
 {
-    static const real weight[4] = { 4/5.0L, -1/5.0L, 4/105.0L, -1/280.0L };
+    static const real weight[4] = { (real)4/5, -(real)1/5, (real)4/105, -(real)1/280 };
     const real delta = pow((real)EPS, 1/(real)9)/4;
     real M[4][4] = { { 0 } }, worst = 0;
     for (int j = 0; j < 4; ++j)

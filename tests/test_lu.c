@@ -8,11 +8,12 @@
 
 #ifdef __SIZEOF_FLOAT128__
 __extension__ typedef __float128 wide;
-#define WIDE_IS_WIDER 1
+#define WIDE_DIG 113
 #else
 typedef long double wide;
-#define WIDE_IS_WIDER (GVI__KIND < 3)
+#define WIDE_DIG LDBL_MANT_DIG
 #endif
+#define WIDE_IS_WIDER (WIDE_DIG > GVI__DIG)
 
 #define UNIT ((wide)EPS/2)                      /* unit roundoff */
 #define MOST 60
@@ -375,7 +376,7 @@ static void lu_of_one_number_divides(void **state)
 static void wilkinsons_matrix_grows_and_is_factored_exactly(void **state)
 {
     (void)state;
-    for (int n = 2; n <= MOST; n += 2) {
+    for (int n = 2; n <= MOST && n <= WIDE_DIG; n += 2) {         /* sums of the oracle reach 2^(n-1) */
         for (int i = 0; i < n; ++i)
             for (int j = 0; j < n; ++j) a[i*n + j] = i == j || j == n - 1 ? 1 : i > j ? -1 : 0;
         assert_ok(factor(n));

@@ -13,8 +13,10 @@ static gvi_real c[MOST], b[MOST];
 /* Twice the digits of gvi_real, or as many as there are. */
 #if GVI__KIND == 3 && defined(__SIZEOF_FLOAT128__)
 __extension__ typedef __float128 wide;
+#define WIDE_IS_WIDER 1
 #else
 typedef long double wide;
+#define WIDE_IS_WIDER (LDBL_MANT_DIG > GVI__DIG)
 #endif
 
 static wide wide_abs(wide x) { return x < 0 ? -x : x; }
@@ -121,6 +123,7 @@ static void only_lobatto_has_the_ends_as_nodes(void **state)
 static void weights_sum_to_one(void **state)
 {
     (void)state;
+    if (!WIDE_IS_WIDER) skip();       /* the sum would round as much as it may be off */
     for (int k = 0; k < COUNT(kinds); ++k)
         for (int n = k + 1; n <= 100; ++n) {
             wide sum = 0;
@@ -184,6 +187,7 @@ static void check_degrees(int k, int n)
 static void rules_are_exact_to_their_degree_and_wrong_by_the_known_amount_beyond(void **state)
 {
     (void)state;
+    if (!WIDE_IS_WIDER) skip();       /* the sum would round as much as it may be off */
     for (int k = 0; k < COUNT(kinds); ++k) {
         for (int n = k + 1; n <= 32; ++n) check_degrees(k, n);
         check_degrees(k, 64);

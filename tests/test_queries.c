@@ -318,7 +318,7 @@ static void the_curve_begins_at_q0_and_ends_at_q1(void **state)
    have no truncation error, only EPS/delta.                                  */
 static void the_curve_gives_its_own_derivative(void **state)
 {
-    static const real weight[4] = { 4/5.0L, -1/5.0L, 4/105.0L, -1/280.0L };
+    static const real weight[4] = { (real)4/5, -(real)1/5, (real)4/105, -(real)1/280 };
     gvi_desc desc = scene(GVI_MASS_POSITION, CONSERVATIVE, 6, 6);
     gvi_stepper st;
     real h = 0.5L, delta = 0.09L;
@@ -565,7 +565,7 @@ static const real q_end[2] = { 0.8L, -0.25L };
 /* dL_d/dx by central differences of order 8, x one of the four boundary values */
 static real difference(gvi_stepper *st, real t, real h, int which)
 {
-    static const real weight[4] = { 4/5.0L, -1/5.0L, 4/105.0L, -1/280.0L };
+    static const real weight[4] = { (real)4/5, -(real)1/5, (real)4/105, -(real)1/280 };
     real delta = pow((real)EPS, 1/(real)9), sum = 0;
     for (int k = 1; k <= 4; ++k)
         for (int sign = -1; sign <= 1; sign += 2) {

@@ -141,7 +141,7 @@ static void step_map(const variant *a, real h, const real *x, real *y)
    the size of some EPS^(8/9).                                                */
 static void differentiate(const variant *a, real h, real M[4][4])
 {
-    static const real weight[4] = { 4/5.0L, -1/5.0L, 4/105.0L, -1/280.0L };
+    static const real weight[4] = { (real)4/5, -(real)1/5, (real)4/105, -(real)1/280 };
     real delta = pow((real)EPS, 1/(real)9)/4;
     memset(M, 0, 16*sizeof M[0][0]);
     for (int j = 0; j < 4; ++j)

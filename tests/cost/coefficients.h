@@ -253,8 +253,11 @@ static const runge_kutta dop853_table = {
         1.23605671757943030647266201528e1L, 6.43392746015763530355970484046e-1L }
     }
 };
+/* not 1/6.0L: a long double of two doubles has no constant quotients */
+#define SIXTH 0.1666666666666666666666666666666666666667L
+#define THIRD 0.3333333333333333333333333333333333333333L
 static const runge_kutta classical_table = {
-    4, 4, { 0, 0.5L, 0.5L, 1 }, { 1/6.0L, 1/3.0L, 1/3.0L, 1/6.0L }, { 0 }, { 0 },
+    4, 4, { 0, 0.5L, 0.5L, 1 }, { SIXTH, THIRD, THIRD, SIXTH }, { 0 }, { 0 },
     { { 0 }, { 0.5L }, { 0, 0.5L }, { 0, 0, 1 } }
 };
 
