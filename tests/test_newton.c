@@ -194,7 +194,8 @@ static int springs(const gvi_points *x, void *user)
     const int n = x->n, d = x->stride;
     for (int i = 0; i < n; ++i)
         for (int k = 0; k < x->count; ++k) {
-            const gvi_real u = (i + 1 < n ? x->q[(i + 1)*d + k] : 0) - x->q[i*d + k], f = spring_of(i)*u + a->cubic*u*u*u;
+            const gvi_real u = (i + 1 < n ? x->q[(i + 1)*d + k] : 0) - x->q[i*d + k];
+            const gvi_real f = spring_of(i)*u + a->cubic*u*u*u;
             x->f[i*d + k] += f;
             if (i + 1 < n) x->f[(i + 1)*d + k] -= f;
         }
@@ -284,7 +285,8 @@ static int mass(const gvi_points *x, void *user)
         for (int i = 0; i < n; ++i)
             for (int j = 0; j <= i; ++j) {
                 const gvi_real a = x->q[i*d + k], b = x->q[j*d + k];
-                x->mass[(i*n + j)*d + k] = i == j ? 3 + (gvi_real)sin((double)a) : i == j + 1 ? (gvi_real)cos((double)(a + b))/2 : 0;
+                x->mass[(i*n + j)*d + k] = i == j ? 3 + (gvi_real)sin((double)a)
+                                         : i == j + 1 ? (gvi_real)cos((double)(a + b))/2 : 0;
             }
     return 0;
 }
@@ -318,9 +320,11 @@ static gvi_desc describe(int n, int s, int what, gvi_formulation formulation)
     const int h = what & HESSIANS;
     scene[0] = (gvi_effect){ GVI_POTENTIAL, springs, NULL, NULL, h ? springs_hessian : NULL, &parameters };
     if (what & DAMPED)
-        scene[desc.effect_count++] = (gvi_effect){ GVI_FORCE, damper, NULL, NULL, h ? damper_hessian : NULL, &parameters };
+        scene[desc.effect_count++] = (gvi_effect){ GVI_FORCE, damper, NULL, NULL, h ? damper_hessian : NULL,
+                                                   &parameters };
     if (what & TURNED)
-        scene[desc.effect_count++] = (gvi_effect){ GVI_LAGRANGIAN, magnet, NULL, NULL, h ? magnet_hessian : NULL, &parameters };
+        scene[desc.effect_count++] = (gvi_effect){ GVI_LAGRANGIAN, magnet, NULL, NULL, h ? magnet_hessian : NULL,
+                                                   &parameters };
     if (what & MOVING_MASS)
         desc.mass = (gvi_mass){ .kind = GVI_MASS_POSITION, .points = mass, .gradient = mass_gradient };
     if (what & DENSE) {
@@ -554,13 +558,14 @@ static void where_blocks_are_used(void **state)
     (void)state;
     gvi_stepper st;
     static const struct { int n, s, r, lobatto, blocks; } wanted[] = {
-        { 1, 8, 8, 0, 0 }, { 2, 2, 2, 0, 0 }, { 2, 4, 4, 0, 0 }, { 3, 4, 4, 0, 1 }, { MOST, 2, 2, 0, 1 }, { MOST, 1, 1, 0, 0 },
+        { 1, 8, 8, 0, 0 }, { 2, 2, 2, 0, 0 }, { 2, 4, 4, 0, 0 }, { 3, 4, 4, 0, 1 }, { MOST, 2, 2, 0, 1 },
+        { MOST, 1, 1, 0, 0 },
         { MOST, 8, 8, 0, 1 }, { MOST, 8, 9, 0, 0 }, { MOST, 8, 8, 1, 0 }, { MOST, 8, 9, 1, 0 }, { MOST, 17, 17, 0, 0 },
         { MOST, 16, 16, 0, GVI__KIND > 1 },       // in float the eigenvectors are too nearly parallel
     };
     for (int k = 0; k < COUNT(wanted); ++k) {
-        const gvi_desc desc = { .n = wanted[k].n, .degree = wanted[k].s, .formulation = GVI_NEWTON,
-                                .rule = { .kind = wanted[k].lobatto ? GVI_LOBATTO : GVI_GAUSS, .points = wanted[k].r } };
+        const gvi_rule rule = { .kind = wanted[k].lobatto ? GVI_LOBATTO : GVI_GAUSS, .points = wanted[k].r };
+        const gvi_desc desc = { .n = wanted[k].n, .degree = wanted[k].s, .formulation = GVI_NEWTON, .rule = rule };
         assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
         assert_int_equal(gvi__use_blocks(&st), wanted[k].blocks);
     }
