@@ -3568,6 +3568,9 @@ typedef struct gvi__matrix {
     int       blocks;      /* in place of square: matrices of n, derivatives at one point */
 } gvi__matrix;
 
+// never in the boundary-value problem, which is there without Newton's steps as well
+static inline int gvi__in_blocks(const gvi__matrix *J) { return GVI__NEWTON && J->blocks; }
+
 /* Points at which derivatives are taken: all those of the rule, or one.       */
 typedef struct gvi__sites { const gvi_real *t; gvi_real *q, *v; int count, stride; } gvi__sites;
 
@@ -3637,7 +3640,7 @@ static void gvi__add(const gvi_stepper *st, const gvi__matrix *J, int i, int j, 
     int n = st->n, R = x->stride, s = st->s, k0 = J->k0;
     size_t size = (size_t)(s - k0)*(size_t)n;
     if (f <= 0 && f >= 0 && p <= 0 && p >= 0) return;
-    if (J->blocks) {
+    if (gvi__in_blocks(J)) {
         gvi__add_to_blocks(st, J, i, j, f, p, by_v);
         return;
     }
@@ -3808,8 +3811,8 @@ static gvi_status gvi__jacobian_fill(gvi_stepper *st, const gvi__matrix *J)
     int n = st->n, size = (st->s - J->k0)*n;
     gvi_real t;
     const gvi__sites all = { x->t, x->work.Q, x->work.V, st->r, x->stride };
-    const gvi__sites at = J->blocks ? gvi__middle(st, &t) : all;
-    gvi__zero(J->blocks ? (size_t)(st->s + 1)*(size_t)n*(size_t)n : (size_t)size*(size_t)size, J->square);
+    const gvi__sites at = gvi__in_blocks(J) ? gvi__middle(st, &t) : all;
+    gvi__zero(gvi__in_blocks(J) ? (size_t)(st->s + 1)*(size_t)n*(size_t)n : (size_t)size*(size_t)size, J->square);
     if (J->ends) gvi__zero((size_t)size*2*(size_t)n, J->ends);
     gvi_status status = gvi__check_regular(st);
     if (status == GVI_OK) status = gvi__jacobian_exact(st, J, &at);
@@ -3821,7 +3824,7 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J, gvi_real 
     int n = st->n, size = (st->s - J->k0)*n, at;
     gvi_status status = gvi__jacobian_fill(st, J);
     if (status != GVI_OK) return status;
-    if (J->blocks) return gvi__factor_blocks(st, J, pivot);
+    if (gvi__in_blocks(J)) return gvi__factor_blocks(st, J, pivot);
     if (J->scaled) gvi__scale_rows(n, size, J);
     status = gvi__lu_factor(size, J->square, pivot, &at);
     st->counters.factorizations += 1;
@@ -3905,7 +3908,7 @@ static gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi_
             }
         }
         gvi_real residual = gvi__residual(st, from, J->k0);
-        if (J->blocks) gvi__solve_blocks(st, J, pivot);
+        if (gvi__in_blocks(J)) gvi__solve_blocks(st, J, pivot);
         else gvi_lu_solve(size, J->square, pivot, x->dy);
         int still = 1;
         gvi_real change = gvi__newton_update(st, from, J->h, J->k0, &still), ratio = before > 0 ? change/before : 1;
@@ -3928,7 +3931,7 @@ static gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi_
         // one more evaluation, then done
         if (change*ratio <= enough || left <= GVI__EPS/1024 || left <= enough) last = 1;
         else if (!rounding && before > 0 && ratio > (gvi_real)0.25) {
-            if (J->blocks && was_fresh && ratio > (gvi_real)0.5) break;
+            if (gvi__in_blocks(J) && was_fresh && ratio > (gvi_real)0.5) break;
             have = 0;
         }
         was_fresh = fresh;
