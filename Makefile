@@ -26,7 +26,7 @@ CMOCKA_LIBS   = $$(pkg-config --libs cmocka 2>/dev/null || echo -lcmocka)
 
 # The tests; these run in float and long double as well.
 TESTS    = $(sort $(basename $(notdir $(wildcard tests/test_*.c))))
-TYPED    = $(filter test_oracle test_quadrature test_interpolation test_lu test_corners test_effects,$(TESTS))
+TYPED    = $(filter test_oracle test_quadrature test_interpolation test_lu test_corners test_effects test_newton,$(TESTS))
 PROGRAMS = $(TESTS) $(TYPED:%=%-float) $(TYPED:%=%-long)
 # Small enough to be repeated under valgrind.
 VALGRIND_TESTS = $(filter test_api test_lu test_interpolation,$(TESTS))
@@ -59,7 +59,7 @@ DETAIL       =
 .PHONY: run deps test unit examples headers symbols parts docs-check sanitize valgrind \
         figures synopsis install uninstall help clean cmocka \
         firmware size deps-firmware cost-embedded bound everywhere deps-everywhere own-quadrature float \
-        cost cost-horizon ncdp scaling cost-peers deps-compare instructions prices advise hard fuzz $(HARD:%=hard-%) scenes $(SCENES:%=scene-%) theorems $(THEOREMS:%=theorem-%) \
+        cost cost-horizon ncdp scaling newton cost-peers deps-compare instructions prices advise hard fuzz $(HARD:%=hard-%) scenes $(SCENES:%=scene-%) theorems $(THEOREMS:%=theorem-%) \
         $(PROGRAMS:%=run-%) $(EXAMPLES:%=example-%) $(VALGRIND_TESTS:%=valgrind-%) \
         $(VALGRIND_EXAMPLES:%=valgrind-%)
 
@@ -142,6 +142,10 @@ cost-horizon: $(BUILD)/cost/cost
 ## ncdp         rounding over half a million steps, and its price, against the published standard
 ncdp: $(BUILD)/cost/ncdp
 	$(Q)$< $(COST_ARGS)
+
+## newton       a step by Newton's method: one matrix against blocks, docs/design.md
+newton: $(BUILD)/cost/newton
+	$(Q)$<
 
 ## scaling      time and memory against degree, coordinates and points; CSV and pictures in build/cost
 scaling: $(BUILD)/cost/scaling
@@ -315,7 +319,7 @@ $(BUILD)/cost/%.o: tests/cost/%.c
 	@echo '  cc $@'
 	$(Q)$(CC) -std=c99 $(WARNINGS) -Wno-double-promotion -I. $(CPPFLAGS) -MMD -MP -MF $@.d -MT $@ $(COST_CFLAGS) -c $< -o $@
 
-$(BUILD)/cost/ncdp $(BUILD)/cost/scaling $(BUILD)/cost/own_quadrature: %: %.o
+$(BUILD)/cost/ncdp $(BUILD)/cost/scaling $(BUILD)/cost/own_quadrature $(BUILD)/cost/newton: %: %.o
 	@echo '  ld $@'
 	$(Q)$(CC) $< -o $@ $(LDLIBS)
 

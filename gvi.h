@@ -97,8 +97,9 @@
               with -ffp-contract=off, as far as callbacks do.
    work       With m = max_iterations, a step evaluates an effect at no more than
               (m+1)*r points in the fixed point and, where Newton is used or may
-              be, twice (m+1)*r more and (2n+1)*r + n+1 for each of at most
-              m/4 + 2 Jacobians, each with one LU of size s*n; all of it once more
+              be, three times (m+1)*r more and (2n+1)*r + n+1 for each of at most
+              m/4 + 2 Jacobians, each with one LU of size s*n or (s+1)/2 complex ones
+              of size n; all of it once more
               when a value was not finite, to name the effect.  Explicit: r points.
               A pinned fixed point, and any with a clock: no LU, at most 2(m+1)*r,
               one more for the clock.  gvi_velocity and gvi_energy: one point, or
@@ -203,7 +204,8 @@
      positions    constant mass, effects read only t and q: (3) as fixed point
      velocities   constant mass, any effects: (3) and (4) as fixed point
      momenta      M(q), or velocity from momentum given, and r = s: (5)
-     Newton       anything: (1) by Newton's method, dense LU of size s*n
+     Newton       anything: (1) by Newton's method, dense LU of size s*n, or
+                  for Gauss with r = s complex ones of size n
 
    The fixed points contract like (h omega)^2 or h omega; where they do not,
    GVI_AUTO goes over to Newton.  All solve the same equations, and all stop
@@ -449,7 +451,7 @@ typedef struct gvi_counters {
     unsigned long long failures;          /* steps that did not                 */
     unsigned long long iterations;        /* of the fixed point                 */
     unsigned long long newton_iterations;
-    unsigned long long factorizations;    /* LU of s*n, or of M at a point      */
+    unsigned long long factorizations;    /* LU of s*n or of n, or of M at a point */
     unsigned long long velocities;        /* points at which v was formed       */
     unsigned long long mass;              /* points given to mass callbacks     */
     unsigned long long effect[GVI_EFFECTS]; /* points given to each effect      */
@@ -478,6 +480,7 @@ struct gvi__private {
     gvi_real *t, *place;              /* [R] times; [3R] scratch                */
     gvi_real *z, *less, *row;         /* [R], [R], [6R] scratch                 */
     gvi_real *inv_gamma, *own;        /* [s] 1/Gamma_kk; LU of Gamma if full    */
+    gvi_real *eigen;                  /* [(s+1)/2][2s] of integration, Gauss with r = s */
     gvi_real *drift;                  /* [r+1] explicit: time from corner to corner */
     gvi_real *g, *m, *T, *N;          /* [r][R] c_i - S_ij, 1 - T_ij, T_ji, N_ij */
     gvi_real *E;                      /* [r or 2r][R] extrapolation; at set-up rest of Phi */
@@ -499,6 +502,7 @@ struct gvi__private {
     gvi_real         h_matrix;        /* h for which J was made, 0: none        */
     unsigned         off;             /* effects switched off, one bit each     */
     int              newton_left;     /* steps until the fixed point is tried   */
+    int              whole_left;      /* steps until blocks are tried again     */
     signed char      clock, single;   /* effect that is one; the only one; or -1 */
     signed char      alike, two;      /* last steps of the same length: 0, 1, 2; E is for two */
     signed char      started, stepped, diagnose, turns;
@@ -506,6 +510,8 @@ struct gvi__private {
     signed char      has_force;       /* last.F ends with the force at (t, q)   */
     signed char      has_velocity;    /* last.V holds                           */
     signed char      has_factor;      /* point_mass holds a factored M          */
+    signed char      blocks;          /* Newton's J as blocks: 1 can be, 0 not, -1 see eigen */
+    signed char      has_blocks;      /* J holds blocks                         */
 };
 
 /* The stepper, to be read; x is private.                                      */
@@ -1032,6 +1038,124 @@ static void gvi__lu_solve_transposed(int n, const gvi_real *lu, const gvi_real *
         gvi_real y = x[m];
         x[m] = x[k];
         x[k] = y;
+    }
+}
+
+/* Complex numbers: <complex.h> is not C++, and from C11 on not in every C.      */
+typedef struct gvi__complex { gvi_real re, im; } gvi__complex;
+
+static gvi__complex gvi__complex_of(gvi_real re, gvi_real im) { gvi__complex z; z.re = re; z.im = im; return z; }
+
+static gvi_real gvi__modulus(gvi_real re, gvi_real im) { return GVI_ABS(re) + GVI_ABS(im); }
+
+static gvi__complex gvi__times_complex(gvi__complex a, gvi__complex b)
+{
+    return gvi__complex_of(a.re*b.re - a.im*b.im, a.re*b.im + a.im*b.re);
+}
+
+// 1/(re + i im); no square leaves the range of gvi_real
+static gvi__complex gvi__inverse(gvi_real re, gvi_real im)
+{
+    const gvi_real size = gvi__modulus(re, im), a = re/size, b = im/size, d = (a*a + b*b)*size;
+    return gvi__complex_of(a/d, -b/d);
+}
+
+// row += z top from column k on; a row of a complex matrix is n real parts, then n imaginary ones
+static void gvi__add_row(size_t n, size_t k, gvi__complex z, const gvi_real *GVI__RESTRICT top,
+                         gvi_real *GVI__RESTRICT row)
+{
+    for (size_t j = k; j < n; ++j) {
+        row[j] += z.re*top[j] - z.im*top[n + j];
+        row[n + j] += z.re*top[n + j] + z.im*top[j];
+    }
+}
+
+// of the rows from k on, that with the largest entry in column k, each measured by its scale
+static size_t gvi__pivot_row(size_t n, size_t k, const gvi_real *a, const gvi_real *scale)
+{
+    size_t m = k;
+    gvi_real big = -1;
+    for (size_t i = k; i < n; ++i) {
+        const gvi_real x = gvi__modulus(a[2*i*n + k], a[(2*i + 1)*n + k])*scale[i];
+        if (x > big) { big = x; m = i; }
+    }
+    return m;
+}
+
+/* The same as gvi__lu_factor for a complex matrix, with |re| + |im| as size; of a
+   pivot its inverse is kept.                                                  */
+static gvi_status gvi__lu_factor_complex(int count, gvi_real *a, gvi_real *pivot)
+{
+    const size_t n = (size_t)count;
+    for (size_t i = 0; i < n; ++i) {
+        gvi_real big = 0;
+        for (size_t j = 0; j < n; ++j) {
+            const gvi_real x = gvi__modulus(a[2*i*n + j], a[(2*i + 1)*n + j]);
+            if (!(x <= big)) big = x;
+        }
+        pivot[i] = 1/big;
+        if (!gvi__finite(big) || !gvi__finite(pivot[i])) return GVI_E_SINGULAR;
+    }
+    for (size_t k = 0; k < n; ++k) {
+        const size_t m = gvi__pivot_row(n, k, a, pivot);
+        gvi_real *top = a + 2*k*n, terms = 0;
+        for (size_t j = 0; m != k && j < 2*n; ++j) {
+            const gvi_real x = top[j];
+            top[j] = a[2*m*n + j];
+            a[2*m*n + j] = x;
+        }
+        pivot[m] = pivot[k];
+        pivot[k] = (gvi_real)m;
+        for (size_t j = 0; j < k; ++j)
+            terms += gvi__modulus(top[j], top[n + j])*gvi__modulus(a[2*j*n + k], a[(2*j + 1)*n + k]);
+        if (!(gvi__modulus(top[k], top[n + k]) > (gvi_real)n*GVI__EPS*terms)) return GVI_E_SINGULAR;
+        const gvi__complex inverse = gvi__inverse(top[k], top[n + k]);
+        top[k] = inverse.re;
+        top[n + k] = inverse.im;
+        for (size_t i = k + 1; i < n; ++i) {
+            gvi_real *row = a + 2*i*n;
+            const gvi__complex l = gvi__times_complex(gvi__complex_of(row[k], row[n + k]), inverse);
+            row[k] = l.re;
+            row[n + k] = l.im;
+            if (gvi__modulus(l.re, l.im) > 0) gvi__add_row(n, k + 1, gvi__complex_of(-l.re, -l.im), top, row);
+        }
+    }
+    return GVI_OK;
+}
+
+// x_i := x_i - sum over columns j0..j1 - 1 of row i times x
+static void gvi__take_row(size_t n, size_t i, size_t j0, size_t j1, const gvi_real *lu, gvi_real *x)
+{
+    const gvi_real *re = lu + 2*i*n, *im = re + n;
+    gvi_real a = 0, b = 0, c = 0, d = 0;              // four sums, none waits for another
+    for (size_t j = j0; j < j1; ++j) {
+        a += re[j]*x[j];
+        b += im[j]*x[n + j];
+        c += re[j]*x[n + j];
+        d += im[j]*x[j];
+    }
+    x[i] -= a - b;
+    x[n + i] -= c + d;
+}
+
+static void gvi__lu_solve_complex(int count, const gvi_real *lu, const gvi_real *pivot, gvi_real *x)
+{
+    const size_t n = (size_t)count;
+    for (size_t k = 0; k < n; ++k) {
+        const size_t m = (size_t)pivot[k];
+        const gvi__complex y = gvi__complex_of(x[m], x[n + m]);
+        x[m] = x[k];
+        x[n + m] = x[n + k];
+        x[k] = y.re;
+        x[n + k] = y.im;
+    }
+    for (size_t i = 1; i < n; ++i) gvi__take_row(n, i, 0, i, lu, x);
+    for (size_t i = n; i-- > 0; ) {
+        gvi__take_row(n, i, i + 1, n, lu, x);
+        const gvi__complex y = gvi__times_complex(gvi__complex_of(x[i], x[n + i]),
+                                                  gvi__complex_of(lu[2*i*n + i], lu[(2*i + 1)*n + i]));
+        x[i] = y.re;
+        x[n + i] = y.im;
     }
 }
 
@@ -1933,6 +2057,113 @@ static void gvi__tables_own(gvi_stepper *st)
     }
 }
 
+/* Gauss, r = s.  In Legendre modes integration from 0 to tau, which makes Q from V
+   and P from F, is a matrix with three diagonals (Hairer, Wanner, Solving ordinary
+   differential equations II, IV.5): Phi_0 = (phi_0 - phi_1)/2 and Phi_k =
+   (phi_(k-1) - phi_(k+1))/(2(2k+1)), phi_s being 0 at the nodes.  Its eigenvectors
+   are (2k+1) z_k from the right and (-1)^k z_k from the left,
+
+     z_(-1) = -1    z_0 = 1    z_(k+1) = 2(2k+1) lambda z_k + z_(k-1)
+
+   and lambda is where z_s = 0: z_k = (-1)^k y_k(-2 lambda), y_k the Bessel
+   polynomials (Krall and Frink 1949), whose zeros are simple, real for odd s once.  */
+
+/* z_0..z_s at lambda = a + i b to re and im, rounded once: eigenvalues of a matrix with
+   such eigenvectors are ill-conditioned, and what twofold arithmetic loses is not missed. */
+static void gvi__bessel(int s, gvi__two a, gvi__two b, gvi_real *re, gvi_real *im)
+{
+    gvi__two x = gvi__real2(1), y = gvi__real2(0), last_x = gvi__real2(-1), last_y = y;
+    for (int k = 0; k <= s; ++k) {
+        const gvi_real w = (gvi_real)(4*k + 2);
+        const gvi__two u = gvi__sub2(gvi__mul2(a, x), gvi__mul2(b, y)), v = gvi__add2(gvi__mul2(a, y), gvi__mul2(b, x));
+        const gvi__two next_x = gvi__add2(gvi__scale2(w, u), last_x), next_y = gvi__add2(gvi__scale2(w, v), last_y);
+        re[k] = x.hi;
+        im[k] = y.hi;
+        last_x = x;
+        last_y = y;
+        x = next_x;
+        y = next_y;
+    }
+}
+
+// the eigenvector of block m: s real parts, then s imaginary ones, scaled to z_(s-1) = 2 lambda
+static gvi_real *gvi__eigenvector(const gvi_stepper *st, int m) { return st->x.eigen + (size_t)(2*m*st->s); }
+
+static gvi__complex gvi__eigenvalue(const gvi_stepper *st, int m)
+{
+    const gvi_real *z = gvi__eigenvector(st, m);
+    return gvi__complex_of(z[st->s - 1]/2, z[2*st->s - 1]/2);
+}
+
+/* Newton's correction u = z_s/z_s' with z_s' = ((2 s lambda + 1) z_s + z_(s-1))/(2 lambda^2),
+   then u/(1 - u sum 1/(lambda - zero)), which keeps away from the zeros of the
+   blocks from m on, and their mirror images (Maehly 1954).                    */
+static gvi__complex gvi__bessel_correction(const gvi_stepper *st, int m, const gvi__two lambda[2])
+{
+    const int s = st->s;
+    const gvi_real a = 2*(gvi_real)s;
+    const gvi__complex l = gvi__complex_of(lambda[0].hi, lambda[1].hi);
+    gvi_real *re = st->x.row, *im = re + s + 1;
+    gvi__bessel(s, lambda[0], lambda[1], re, im);
+    const gvi__complex z = gvi__complex_of(re[s], im[s]), square = gvi__times_complex(l, l);
+    const gvi__complex slope = gvi__times_complex(gvi__complex_of(a*l.re + 1, a*l.im), z);
+    const gvi__complex u = gvi__times_complex(gvi__times_complex(gvi__complex_of(2*square.re, 2*square.im), z),
+                                              gvi__inverse(slope.re + re[s - 1], slope.im + im[s - 1]));
+    gvi__complex sum = gvi__complex_of(0, 0);
+    for (; m < (s + 1)/2; ++m) {
+        const gvi__complex zero = gvi__eigenvalue(st, m);
+        for (int side = gvi__nonzero(zero.im) ? -1 : 1; side < 2; side += 2) {
+            const gvi__complex pole = gvi__inverse(l.re - zero.re, l.im - (gvi_real)side*zero.im);
+            sum.re += pole.re;
+            sum.im += pole.im;
+        }
+    }
+    sum = gvi__times_complex(u, sum);
+    return gvi__times_complex(u, gvi__inverse(1 - sum.re, -sum.im));
+}
+
+// lambda of block m, those of the blocks behind it being known; 0 if it is not found
+static int gvi__bessel_zero(const gvi_stepper *st, int m, gvi__two lambda[2])
+{
+    const int s = st->s, all = (s + 1)/2;
+    int near = 0;
+    lambda[0] = gvi__real2(1/(gvi_real)s);
+    lambda[1] = gvi__real2(2*m + 1 == s ? 0 : 1/(gvi_real)(2*s));        // a real start stays real
+    for (int k = 0; k < 100 && near < 4; ++k) {       // three times more among all zeros
+        const gvi__complex d = gvi__bessel_correction(st, near ? all : m + 1, lambda);
+        lambda[0] = gvi__add2(lambda[0], gvi__real2(-d.re));
+        lambda[1] = gvi__add2(lambda[1], gvi__real2(-d.im));
+        near += near || gvi__modulus(d.re, d.im) <= GVI_SQRT(GVI__EPS)*gvi__modulus(lambda[0].hi, lambda[1].hi);
+    }
+    return near == 4;
+}
+
+/* One eigenvector of each conjugate pair, and last, for odd s, the real one.  With
+   z_(s-1) = 2 lambda the product of both sides, sum (-1)^k (2k+1) z_k^2 =
+   (-1)^(s-1) z_(s-1)^2/(4 lambda^2) (Christoffel and Darboux), is 1 or -1.  Returns
+   the largest product of their lengths: what a change of basis costs in digits.  */
+static gvi_real gvi__eigenvectors(gvi_stepper *st)
+{
+    const int s = st->s;
+    gvi_real *re = st->x.row, *im = re + s + 1, worst = 0;
+    for (int m = (s + 1)/2; m-- > 0; ) {
+        gvi__two l[2];
+        if (!gvi__bessel_zero(st, m, l)) return GVI__MAX;
+        gvi__bessel(s, l[0], l[1], re, im);
+        const gvi__complex scale = gvi__times_complex(gvi__complex_of(2*l[0].hi, 2*l[1].hi),
+                                                      gvi__inverse(re[s - 1], im[s - 1]));
+        gvi_real *z = gvi__eigenvector(st, m), size = 0;
+        for (int k = 0; k < s; ++k) {
+            const gvi__complex y = gvi__times_complex(scale, gvi__complex_of(re[k], im[k]));
+            z[k] = y.re;
+            z[s + k] = y.im;
+            size += (gvi_real)(2*k + 1)*(y.re*y.re + y.im*y.im);
+        }
+        if (size > worst) worst = size;
+    }
+    return worst;
+}
+
 /* phi_k(tau) and Phi_k(tau), k < s, multiplied by Gamma^-1, at any tau.        */
 static void gvi__modes(const gvi_stepper *st, gvi_real tau, gvi_real *phi, gvi_real *Phi)
 {
@@ -2124,6 +2355,20 @@ static int gvi__fits_two(const gvi_stepper *st)
 // does E extrapolate from two steps now?
 static inline int gvi__two_now(const gvi_stepper *st) { return GVI__KIND > 1 && st->x.two; }
 
+/* Is Newton's matrix of s*n to be b = (s+1)/2 complex ones of n?  Where that is less
+   work, in real multiplications for one factorisation and twelve solutions, about
+   as many as a step takes:
+
+     whole    s^3 n^3/3 + 12 s^2 n^2      blocks    4 b n^3/3 + 12 (4 b n^2 + 4 b s n)
+
+   Beyond degree 16 the eigenvectors are too nearly parallel.                   */
+static int gvi__falls_apart(const gvi_stepper *st)
+{
+    const gvi_real n = (gvi_real)st->n, s = (gvi_real)st->s, b = (gvi_real)((st->s + 1)/2);
+    const gvi_real whole = s*s*s*n*n/3 + 12*s*s*n, blocks = 4*b*n*n/3 + 48*b*(n + s);      // over n
+    return !GVI__SMALL && gvi__rule_is(st, GVI_GAUSS) && st->r == st->s && st->s > 1 && st->s <= 16 && blocks < whole;
+}
+
 typedef struct gvi__arena { gvi_real *base; size_t used; } gvi__arena;
 
 // a*b reals, or NULL for none; with base NULL it only counts
@@ -2145,7 +2390,7 @@ enum {
     GVI__STATE, GVI__POINTS, GVI__V, GVI__P, GVI__A_, GVI__OLDER_F, GVI__OLDER_V, GVI__OLDER_A,
     GVI__SLOPE, GVI__RATE, GVI__G, GVI__M, GVI__T, GVI__NN, GVI__E, GVI__PHI, GVI__MODES, GVI__PLACE, GVI__DRIFT,
     GVI__GAMMA, GVI__DIAGONAL, GVI__Z, GVI__AT_POINTS, GVI__nR, GVI__HESS, GVI__HESSIANS,
-    GVI__sn, GVI__PIVOT, GVI__DIFFERENCES, GVI__J, GVI__LENGTHS
+    GVI__sn, GVI__PIVOT, GVI__DIFFERENCES, GVI__J, GVI__EIGEN, GVI__LENGTHS
 };
 
 static void gvi__lengths(const gvi_stepper *st, size_t *length)
@@ -2196,6 +2441,7 @@ static void gvi__lengths(const gvi_stepper *st, size_t *length)
     length[GVI__PIVOT] = newton ? s*n + 1 : 0;
     length[GVI__DIFFERENCES] = newton ? 4*n : 0;
     length[GVI__J] = newton ? 2*s*n : 0;
+    length[GVI__EIGEN] = newton && gvi__falls_apart(st) ? (s + 1)/2*2 : 0;    // never beside an own rule
 }
 
 // which pointer of gvi__private, and which lengths make the part
@@ -2233,7 +2479,8 @@ static void gvi__layout_rows(gvi_stepper *st, gvi__arena *a, const size_t *lengt
         GVI__PART(m, M, R), GVI__PART(T, T, R), GVI__PART(N, NN, R), GVI__PART(E, E, R), GVI__PART(Phi, PHI, R),
         GVI__PART(phi, MODES, R), GVI__PART(low, MODES, R), GVI__PART(Z, Z, R), GVI__PART(point_mass, AT_POINTS, nR),
         GVI__PART(ce, 1, R), GVI__PART(b, 1, R), GVI__PART(t, 1, R), GVI__PART(place, PLACE, R), GVI__PART(row, 6, R),
-        GVI__PART(drift, DRIFT, 1), GVI__PART(inv_gamma, 1, s), GVI__PART(own, GAMMA, 1)
+        GVI__PART(drift, DRIFT, 1), GVI__PART(inv_gamma, 1, s), GVI__PART(own, GAMMA, 1),
+        GVI__PART(eigen, EIGEN, s)
     };
     gvi__place(st, a, length, parts, sizeof parts/sizeof *parts);
 }
@@ -2350,6 +2597,7 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     }
     if (gvi__has(st, GVI__HAS_OWN)) gvi__tables_own(st);
     else gvi__tables(st);
+    x->blocks = x->eigen ? -1 : 0;           // most scenes never need Newton's method
     gvi__copy((size_t)st->r, x->c, x->Phi);  // Phi_0 = c on its grid: 1 - Phi_0 is exact
     return gvi__done(st, GVI_OK);
 }
@@ -3363,7 +3611,72 @@ typedef struct gvi__matrix {
     int       k0;
     gvi_real  h;
     int       scaled;      /* rows by their largest entry, for a condition without units */
+    int       blocks;      /* in place of square: matrices of n, derivatives at one point */
 } gvi__matrix;
+
+// never in the boundary-value problem, which is there without Newton's steps as well;
+// and not where size counts: the whole matrix is needed besides
+static inline int gvi__in_blocks(const gvi__matrix *J) { return GVI__NEWTON && !GVI__SMALL && J->blocks; }
+
+/* Points at which derivatives are taken: all those of the rule, or one.       */
+typedef struct gvi__sites { const gvi_real *t; gvi_real *q, *v; int count, stride; } gvi__sites;
+
+/* With the derivatives at one point, and integration as a matrix X, the Jacobian is
+
+     dP/dv + h X (dP/dq - dF/dv) - h^2 X^2 dF/dq
+
+   n*n times s*s.  In the basis of X's eigenvectors it falls apart into blocks, X
+   being lambda in each; of a conjugate pair one is enough.  Adds f and p as below. */
+static void gvi__add_to_blocks(const gvi_stepper *st, const gvi__matrix *J, int i, int j, gvi_real f, gvi_real p,
+                               int by_v)
+{
+    const size_t n = (size_t)st->n;
+    gvi_real *a = J->square + 2*n*(size_t)i + (size_t)j;
+    for (int m = 0; m < (st->s + 1)/2; ++m, a += 2*n*n) {
+        const gvi__complex l = gvi__eigenvalue(st, m);
+        const gvi__complex x = gvi__complex_of(J->h*l.re, J->h*l.im), y = gvi__complex_of(p - x.re*f, -x.im*f);
+        const gvi__complex z = by_v ? y : gvi__times_complex(x, y);
+        a[0] += z.re;
+        a[n] += z.im;
+    }
+}
+
+static gvi_status gvi__factor_blocks(gvi_stepper *st, const gvi__matrix *J, gvi_real *pivot)
+{
+    const size_t n = (size_t)st->n;
+    gvi_status status = GVI_OK;
+    for (int m = 0; m < (st->s + 1)/2 && status == GVI_OK; ++m)
+        status = gvi__lu_factor_complex(st->n, J->square + 2*n*n*(size_t)m, pivot + n*(size_t)m);
+    st->counters.factorizations += (unsigned long long)(st->s + 1)/2;
+    return status == GVI_OK ? GVI_OK : gvi__give(st, status);
+}
+
+/* x->dy := J^-1 x->dy by blocks: each gets the share (-1)^(s-1-k) z_k of row k, and
+   gives (2k+1) z_k of what it solves, a pair twice the real part.             */
+static void gvi__solve_blocks(gvi_stepper *st, const gvi__matrix *J, const gvi_real *pivot)
+{
+    struct gvi__private *x = &st->x;
+    const int n = st->n, s = st->s;
+    gvi_real *sum = x->dF, *u = x->hess;              // at least s*n and 2n long
+    gvi__zero((size_t)(s*n), sum);
+    for (int m = 0; m < (s + 1)/2; ++m) {
+        const gvi_real *re = gvi__eigenvector(st, m), *im = re + s;
+        gvi__zero(2*(size_t)n, u);
+        for (int k = 0; k < s; ++k) {
+            const gvi_real a = (s - k) % 2 ? re[k] : -re[k], b = (s - k) % 2 ? im[k] : -im[k];
+            for (int i = 0; i < n; ++i) {
+                u[i] += a*x->dy[k*n + i];
+                u[n + i] += b*x->dy[k*n + i];
+            }
+        }
+        gvi__lu_solve_complex(n, J->square + 2*(size_t)n*(size_t)n*(size_t)m, pivot + (size_t)n*(size_t)m, u);
+        for (int k = 0; k < s; ++k) {
+            const gvi_real w = (gvi_real)((2*m + 1 == s ? 1 : 2)*(2*k + 1));
+            for (int i = 0; i < n; ++i) sum[k*n + i] += w*(re[k]*u[i] - im[k]*u[n + i]);
+        }
+    }
+    gvi__copy((size_t)(s*n), sum, x->dy);
+}
 
 /* Adds what dF_i/du_j = f and dP_i/du_j = p at one point contribute, u = q or v:
    du = h Phi_l dy_l or phi_l dy_l.                                           */
@@ -3374,6 +3687,10 @@ static void gvi__add(const gvi_stepper *st, const gvi__matrix *J, int i, int j, 
     int n = st->n, R = x->stride, s = st->s, k0 = J->k0;
     size_t size = (size_t)(s - k0)*(size_t)n;
     if (f <= 0 && f >= 0 && p <= 0 && p >= 0) return;
+    if (gvi__in_blocks(J)) {
+        gvi__add_to_blocks(st, J, i, j, f, p, by_v);
+        return;
+    }
     for (int k = k0; k < s; ++k) {
         gvi_real W = (k == 0 ? 1 : 0) - x->Phi[k*R + point];
         gvi_real a = (gvi_real)(2*k + 1)*(x->b[point]*x->phi[k*R + point]*p - x->hb[point]*W*f);
@@ -3389,17 +3706,17 @@ static void gvi__add(const gvi_stepper *st, const gvi__matrix *J, int i, int j, 
 }
 
 // effects that bring their Hessians, and the constant mass
-GVI__APART gvi_status gvi__jacobian_exact(gvi_stepper *st, const gvi__matrix *J)
+GVI__APART gvi_status gvi__jacobian_exact(gvi_stepper *st, const gvi__matrix *J, const gvi__sites *at)
 {
     struct gvi__private *x = &st->x;
     const gvi_desc *d = &x->desc;
-    int n = st->n, R = x->stride;
+    int n = st->n, R = at->stride;
     size_t nn = (size_t)n*(size_t)n;
     gvi_real *fq = x->hess, *fv = fq + nn, *own = fv + nn, *pv = own + nn, *q = x->one, *v = q + n;
-    for (int k = 0; k < st->r; ++k) {
+    for (int k = 0; k < at->count; ++k) {
         for (int i = 0; i < n; ++i) {
-            q[i] = x->work.Q[i*R + k];
-            v[i] = x->work.V[i*R + k];
+            q[i] = at->q[i*R + k];
+            v[i] = at->v[i*R + k];
             for (int j = 0; j < n; ++j) {
                 gvi_real m = i == j ? 1 : 0;
                 if (d->mass.kind == GVI_MASS_DIAGONAL) m *= x->mass[i];
@@ -3413,7 +3730,7 @@ GVI__APART gvi_status gvi__jacobian_exact(gvi_stepper *st, const gvi__matrix *J)
             if ((x->off >> e & 1u) || !effect->hessian) continue;
             int reads_v = effect->kind != GVI_POTENTIAL, term = effect->kind == GVI_LAGRANGIAN;
             gvi__zero(4*nn, fq);
-            if (effect->hessian(x->t[k], q, reads_v ? v : NULL, fq, reads_v ? fv : NULL, term ? pv : NULL,
+            if (effect->hessian(at->t[k], q, reads_v ? v : NULL, fq, reads_v ? fv : NULL, term ? pv : NULL,
                                 effect->user))
                 return gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, k);
             for (int i = 0; i < n; ++i)
@@ -3426,20 +3743,28 @@ GVI__APART gvi_status gvi__jacobian_exact(gvi_stepper *st, const gvi__matrix *J)
     return GVI_OK;
 }
 
+static void gvi__sites_as_points(gvi_points *y, const gvi_stepper *st, const gvi__sites *at, gvi_real *f,
+                                 gvi_real *dldv)
+{
+    gvi__at(y, st, at->t, at->q, at->v, f, dldv);
+    y->count = at->count;
+    y->stride = at->stride;
+}
+
 // forward differences by one row, coordinate j of Q or V, at all points at once
-static gvi_status gvi__difference(gvi_stepper *st, const gvi__matrix *J, int j, int by_v, gvi_real d)
+static gvi_status gvi__difference(gvi_stepper *st, const gvi__matrix *J, const gvi__sites *at, int j, int by_v,
+                                  gvi_real d)
 {
     struct gvi__private *x = &st->x;
-    int n = st->n, R = x->stride;
-    gvi_real *row = (by_v ? x->work.V : x->work.Q) + j*R;
+    int n = st->n, R = at->stride;
+    gvi_real *row = (by_v ? at->v : at->q) + j*R;
     gvi_real *dF = x->dF, *dP = dF + n*R, *bF = dP + n*R, *bP = bF + n*R;
     gvi_points y;
-    gvi__rows_as_points(&y, st, &x->work, dP);
-    y.f = dF;
+    gvi__sites_as_points(&y, st, at, dF, dP);
     gvi__copy((size_t)R, row, x->z);
-    for (int k = 0; k < st->r; ++k) row[k] += d;
+    for (int k = 0; k < at->count; ++k) row[k] += d;
     gvi_status status = gvi__evaluate(st, &y, 1);
-    for (int k = 0; k < st->r && status == GVI_OK; ++k) {
+    for (int k = 0; k < at->count && status == GVI_OK; ++k) {
         gvi_real step = row[k] - x->z[k];
         for (int i = 0; i < n; ++i)
             gvi__add(st, J, i, j, k, (dF[i*R + k] - bF[i*R + k])/step, (dP[i*R + k] - bP[i*R + k])/step, by_v);
@@ -3450,11 +3775,11 @@ static gvi_status gvi__difference(gvi_stepper *st, const gvi__matrix *J, int j, 
 
 /* Derivatives of what has no Hessian.  The difference is sqrt(eps) of what the
    coordinate moves in a step, but no less than eps^(3/4) of the coordinate.   */
-GVI__APART gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matrix *J)
+GVI__APART gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matrix *J, const gvi__sites *at)
 {
     struct gvi__private *x = &st->x;
     const gvi_desc *d = &x->desc;
-    int n = st->n, R = x->stride, any = !gvi__mass_is_constant(d), reads_v = any;
+    int n = st->n, R = at->stride, any = !gvi__mass_is_constant(d), reads_v = any;
     for (int e = 0; e < d->effect_count; ++e)
         if (!(x->off >> e & 1u) && !d->effects[e].hessian) {
             any = 1;
@@ -3462,20 +3787,19 @@ GVI__APART gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matr
         }
     if (!any) return GVI_OK;
     gvi_points y;
-    gvi__rows_as_points(&y, st, &x->work, x->dF + 3*n*R);
-    y.f = x->dF + 2*n*R;
+    gvi__sites_as_points(&y, st, at, x->dF + 2*n*R, x->dF + 3*n*R);
     gvi_status status = gvi__evaluate(st, &y, 1);
     const gvi_real root = GVI_SQRT(GVI__EPS), h = GVI_ABS(J->h);
     for (int j = 0; j < n && status == GVI_OK; ++j) {
         gvi_real q = 0, v = 0;
-        for (int k = 0; k < st->r; ++k) {
-            if (GVI_ABS(x->work.Q[j*R + k]) > q) q = GVI_ABS(x->work.Q[j*R + k]);
-            if (GVI_ABS(x->work.V[j*R + k]) > v) v = GVI_ABS(x->work.V[j*R + k]);
+        for (int k = 0; k < at->count; ++k) {
+            if (GVI_ABS(at->q[j*R + k]) > q) q = GVI_ABS(at->q[j*R + k]);
+            if (GVI_ABS(at->v[j*R + k]) > v) v = GVI_ABS(at->v[j*R + k]);
         }
         gvi_real path = h*v > GVI_SQRT(root)*q ? h*v : GVI_SQRT(root)*q;
         if (!(root*path > GVI__MIN/GVI__EPS)) path = h < 1 ? h : 1;     // at rest at 0
-        status = gvi__difference(st, J, j, 0, root*path);
-        if (status == GVI_OK && reads_v) status = gvi__difference(st, J, j, 1, root*path/h);
+        status = gvi__difference(st, J, at, j, 0, root*path);
+        if (status == GVI_OK && reads_v) status = gvi__difference(st, J, at, j, 1, root*path/h);
     }
     return status;
 }
@@ -3513,14 +3837,33 @@ static void gvi__scale_rows(int n, int size, const gvi__matrix *J)
     }
 }
 
+// the middle of the step, between the two points next to it
+static gvi__sites gvi__middle(gvi_stepper *st, gvi_real *t)
+{
+    struct gvi__private *x = &st->x;
+    const int a = (st->r - 1)/2, b = st->r/2;
+    gvi__sites at = { t, x->change, x->change + st->n, 1, 1 };
+    *t = (x->t[a] + x->t[b])/2;
+    for (int i = 0; i < st->n; ++i) {
+        const gvi_real *Q = x->work.Q + i*x->stride, *V = x->work.V + i*x->stride;
+        at.q[i] = (Q[a] + Q[b])/2;
+        at.v[i] = (V[a] + V[b])/2;
+    }
+    return at;
+}
+
 static gvi_status gvi__jacobian_fill(gvi_stepper *st, const gvi__matrix *J)
 {
+    struct gvi__private *x = &st->x;
     int n = st->n, size = (st->s - J->k0)*n;
-    gvi__zero((size_t)size*(size_t)size, J->square);
+    gvi_real t;
+    const gvi__sites all = { x->t, x->work.Q, x->work.V, st->r, x->stride };
+    const gvi__sites at = gvi__in_blocks(J) ? gvi__middle(st, &t) : all;
+    gvi__zero(gvi__in_blocks(J) ? (size_t)(st->s + 1)*(size_t)n*(size_t)n : (size_t)size*(size_t)size, J->square);
     if (J->ends) gvi__zero((size_t)size*2*(size_t)n, J->ends);
     gvi_status status = gvi__check_regular(st);
-    if (status == GVI_OK) status = gvi__jacobian_exact(st, J);
-    return status == GVI_OK ? gvi__jacobian_differences(st, J) : status;
+    if (status == GVI_OK) status = gvi__jacobian_exact(st, J, &at);
+    return status == GVI_OK ? gvi__jacobian_differences(st, J, &at) : status;
 }
 
 static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J, gvi_real *pivot)
@@ -3528,6 +3871,7 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J, gvi_real 
     int n = st->n, size = (st->s - J->k0)*n, at;
     gvi_status status = gvi__jacobian_fill(st, J);
     if (status != GVI_OK) return status;
+    if (gvi__in_blocks(J)) return gvi__factor_blocks(st, J, pivot);
     if (J->scaled) gvi__scale_rows(n, size, J);
     status = gvi__lu_factor(size, J->square, pivot, &at);
     st->counters.factorizations += 1;
@@ -3584,13 +3928,14 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__from *from, gvi_r
 
 /* Solves rows k0..s-1 of (1) from the y at hand and leaves F, P, Q, V at the
    solution.  Keeps the factorisation while it contracts by 1/4 or better, over
-   iterations and, if `kept`, over steps.                                     */
+   iterations and, if `kept`, over steps.  Gives up blocks that contract by no more
+   than 1/2 when they are new: derivatives at one point are not enough.        */
 GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi__matrix *J, gvi_real *pivot, int kept)
 {
     struct gvi__private *x = &st->x;
     const gvi_real enough = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/4096;
-    int size = (st->s - J->k0)*st->n, have = kept && !gvi__nonzero(x->h_matrix - J->h);
-    int made = 0, last = 0, idle = 0;
+    int size = (st->s - J->k0)*st->n, have = kept && !gvi__nonzero(x->h_matrix - J->h) && x->has_blocks == J->blocks;
+    int made = 0, last = 0, idle = 0, was_fresh = 0;
     gvi_real before = 0, earlier = 0, rho = (gvi_real)0.25, left = GVI__MAX;
     for (int k = 0; k <= x->desc.max_iterations; ++k) {
         gvi_points y;
@@ -3604,10 +3949,14 @@ GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const 
             status = gvi__jacobian(st, J, pivot);
             if (status != GVI_OK) return status;
             have = 1;
-            if (kept) x->h_matrix = J->h;
+            if (kept) {
+                x->h_matrix = J->h;
+                x->has_blocks = (signed char)J->blocks;
+            }
         }
         gvi_real residual = gvi__residual(st, from, J->k0);
-        gvi_lu_solve(size, J->square, pivot, x->dy);
+        if (gvi__in_blocks(J)) gvi__solve_blocks(st, J, pivot);
+        else gvi_lu_solve(size, J->square, pivot, x->dy);
         int still = 1;
         gvi_real change = gvi__newton_update(st, from, J->h, J->k0, &still), ratio = before > 0 ? change/before : 1;
         st->counters.newton_iterations += 1;
@@ -3628,20 +3977,43 @@ GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const 
 
         // one more evaluation, then done
         if (change*ratio <= enough || left <= GVI__EPS/1024 || left <= enough) last = 1;
-        else if (!rounding && before > 0 && ratio > (gvi_real)0.25) have = 0;
+        else if (!rounding && before > 0 && ratio > (gvi_real)0.25) {
+            if (gvi__in_blocks(J) && was_fresh && ratio > (gvi_real)0.5) break;
+            have = 0;
+        }
+        was_fresh = fresh;
         earlier = before;
         before = change;
     }
     return gvi__give(st, GVI_E_CONVERGENCE);
 }
 
+// eigenvectors at first use; they may cost all digits but eight bits
+static int gvi__use_blocks(gvi_stepper *st)
+{
+    struct gvi__private *x = &st->x;
+    if (GVI__SMALL) return 0;
+    if (x->blocks < 0) x->blocks = gvi__eigenvectors(st) < 1/(256*GVI__EPS);
+    return x->blocks && x->whole_left == 0;
+}
+
+// by blocks, if they may be used; where they fail the whole matrix starts anew, and stays
 GVI__APART gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate, int query)
 {
     struct gvi__private *x = &st->x;
     size_t sn = (size_t)(st->s*st->n), offset = query ? sn*sn : 0;
-    gvi__matrix J = { x->J + offset, NULL, 0, h, 0 };
+    gvi_real *pivot = x->pivot + (query ? sn + 1 : 0);
+    gvi__matrix J = { x->J + offset, NULL, 0, h, 0, gvi__use_blocks(st) };
     gvi__newton_guess(st, extrapolate);
-    gvi_status status = gvi__newton(st, from, &J, x->pivot + (query ? sn + 1 : 0), !query);
+    const unsigned long long count = st->counters.newton_iterations;
+    gvi_status status = gvi__newton(st, from, &J, pivot, !query);
+    const int refused = status == GVI_E_CALLBACK && st->counters.newton_iterations == count;   // as with any matrix
+    if (gvi__in_blocks(&J) && status != GVI_OK && !refused) {
+        J.blocks = 0;
+        if (!query) x->whole_left = 64;
+        gvi__newton_guess(st, extrapolate);
+        status = gvi__newton(st, from, &J, pivot, !query);
+    }
     for (int i = 0; i < st->n; ++i) {
         const gvi__two q = gvi__product(h, x->y[i]);
         const gvi__two p = gvi__exact_dot(st->r, x->hb, x->work.F + i*x->stride, from->pe[i]);
@@ -3793,6 +4165,7 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     x->has_force = explicit_one && !gvi__nonzero(x->c[0]) && !gvi__nonzero(x->c[st->r - 1] - 1);
     x->has_velocity = st->formulation > GVI_POSITIONS;
     if (GVI__NEWTON && x->newton_left > 0) x->newton_left -= 1;
+    if (GVI__NEWTON && x->whole_left > 0) x->whole_left -= 1;
     st->counters.steps += 1;
 }
 
@@ -3814,13 +4187,13 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
     if (!gvi__nonzero(h) || !gvi__finite(h)) return st->status = GVI_E_ARGUMENT;
 
     const gvi_formulation was = st->formulation;
-    const int left = x->newton_left;
+    const int left = x->newton_left, whole = x->whole_left;
     gvi__from from = { st->t, x->te, x->q, x->qe, x->p, x->pe, x->H, x->He, NULL, NULL };
     gvi__history past = { x->stepped, 1, 0, x->has_force ? x->last.F : NULL };
     if (x->stepped) {
         past.beta = h/st->h;
         past.available = past.beta > -2 && past.beta < 8;         // farther out it says nothing
-        if (gvi__nonzero(h - st->h)) x->newton_left = 0;
+        if (gvi__nonzero(h - st->h)) x->newton_left = x->whole_left = 0;
     }
     gvi_status status = gvi__uses(st, GVI_EXPLICIT) && !GVI__SMALL ? gvi__solve_explicit(st, &from, h, &past)
                                                                    : gvi__solve(st, &from, h, &past, 0);
@@ -3829,6 +4202,7 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
         st->counters.failures += 1;
         st->formulation = was;
         x->newton_left = left;
+        x->whole_left = whole;
         x->h_matrix = 0;
         return st->status = status;
     }
@@ -3908,7 +4282,7 @@ static gvi_status gvi__start(gvi_stepper *st, gvi_real t, const gvi_real *v)
     x->te = 0;
     x->started = 1;
     x->stepped = x->has_force = x->has_velocity = x->alike = x->two = 0;
-    x->newton_left = 0;
+    x->newton_left = x->whole_left = 0;
     x->h_matrix = x->ratio = 0;
     st->formulation = x->chosen;
     return gvi__done(st, GVI_OK);
@@ -4392,7 +4766,7 @@ static gvi_status gvi__boundary_value(gvi_stepper *st, const gvi__from *from, gv
     int n = st->n, s = st->s, R = x->stride;
     size_t size = (size_t)(s - 1)*(size_t)n, sn = (size_t)s*(size_t)n;
     gvi_real *square = s > 1 ? x->J + sn*sn : NULL, *pivot = s > 1 ? x->pivot + sn + 1 : NULL;
-    gvi__matrix J = { square, s > 1 ? square + size*size : NULL, 1, h, 0 };
+    gvi__matrix J = { square, s > 1 ? square + size*size : NULL, 1, h, 0, 0 };
     gvi_real *p0 = x->dq, *p1 = x->dp, *minus = x->change, *plus = minus + n;
     gvi_status status = gvi__interior(st, from, h, q1, &J, pivot, p0);
     if (status == GVI_E_CONJUGATE || (status == GVI_E_SINGULAR && st->fault.effect == GVI_FAULT_NONE))
