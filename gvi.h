@@ -501,8 +501,8 @@ struct gvi__private {
     gvi_real         ratio;           /* h/h_last for which E holds             */
     gvi_real         h_matrix;        /* h for which J was made, 0: none        */
     unsigned         off;             /* effects switched off, one bit each     */
-    int              newton_left;     /* steps until the fixed point is tried   */
-    int              whole_left;      /* steps until blocks are tried again     */
+    signed char      newton_left;     /* steps until the fixed point is tried   */
+    signed char      whole_left;      /* steps until blocks are tried again     */
     signed char      clock, single;   /* effect that is one; the only one; or -1 */
     signed char      alike, two;      /* last steps of the same length: 0, 1, 2; E is for two */
     signed char      started, stepped, diagnose, turns;
@@ -4164,8 +4164,8 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     x->stepped = 1;
     x->has_force = explicit_one && !gvi__nonzero(x->c[0]) && !gvi__nonzero(x->c[st->r - 1] - 1);
     x->has_velocity = st->formulation > GVI_POSITIONS;
-    if (GVI__NEWTON && x->newton_left > 0) x->newton_left -= 1;
-    if (GVI__NEWTON && x->whole_left > 0) x->whole_left -= 1;
+    if (GVI__NEWTON && x->newton_left > 0) x->newton_left = (signed char)(x->newton_left - 1);
+    if (GVI__NEWTON && x->whole_left > 0) x->whole_left = (signed char)(x->whole_left - 1);
     st->counters.steps += 1;
 }
 
@@ -4187,7 +4187,7 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
     if (!gvi__nonzero(h) || !gvi__finite(h)) return st->status = GVI_E_ARGUMENT;
 
     const gvi_formulation was = st->formulation;
-    const int left = x->newton_left, whole = x->whole_left;
+    const signed char left = x->newton_left, whole = x->whole_left;
     gvi__from from = { st->t, x->te, x->q, x->qe, x->p, x->pe, x->H, x->He, NULL, NULL };
     gvi__history past = { x->stepped, 1, 0, x->has_force ? x->last.F : NULL };
     if (x->stepped) {
