@@ -3,6 +3,9 @@
    with the fixed points, and with Newton's method with the whole matrix.              */
 #include "gvi_test.h"
 
+/* Compiled for size there is the whole matrix alone.                          */
+#define NEEDS_BLOCKS if (GVI__SMALL) skip()
+
 typedef long double wide;
 enum { MOST = 20, DEGREES = 16 };
 
@@ -73,6 +76,7 @@ static gvi_stepper bare(int n, int s)
 static void eigenvectors_are_those_of_A(void **state)
 {
     (void)state;
+    NEEDS_BLOCKS;
     for (int s = 2; s <= DEGREES; ++s) {
         wide A[DEGREES][DEGREES], c[DEGREES], trace = 0, modulus = 1;
         const gvi_stepper st = bare(MOST, s);
@@ -118,6 +122,7 @@ static void eigenvectors_are_those_of_A(void **state)
 static void both_sides_make_the_identity(void **state)
 {
     (void)state;
+    NEEDS_BLOCKS;
     for (int s = 2; s <= DEGREES; ++s) {
         const gvi_stepper st = bare(MOST, s);
         for (int k = 0; k < s; ++k)
@@ -369,6 +374,7 @@ static const int degrees[] = { 2, 3, 4, 5, 7, 8 };
 static void linear_scenes_need_one_factorisation(void **state)
 {
     (void)state;
+    NEEDS_BLOCKS;
     static const int kinds[] = { 0, DAMPED, TURNED, DAMPED | TURNED, DENSE | DAMPED };
     parameters = (row){ 0, (gvi_real)0.7, 3, 1 };
     for (int d = 0; d < COUNT(degrees); ++d)
@@ -395,6 +401,7 @@ static void linear_scenes_need_one_factorisation(void **state)
 static void blocks_and_the_whole_matrix_end_at_the_same_point(void **state)
 {
     (void)state;
+    NEEDS_BLOCKS;
     static const int kinds[] = { 0, HESSIANS, DAMPED | HESSIANS, DAMPED, TURNED | HESSIANS, TURNED, MOVING_MASS,
                                  MOVING_MASS | DAMPED | TURNED, DENSE | DAMPED | TURNED | HESSIANS };
     parameters = (row){ 1, (gvi_real)0.3, 1, 1 };
@@ -428,6 +435,7 @@ static void blocks_and_the_whole_matrix_end_at_the_same_point(void **state)
 static void a_step_that_blocks_cannot_make_is_made_by_the_whole_matrix(void **state)
 {
     (void)state;
+    NEEDS_BLOCKS;
     const int s = 6;
     gvi_stepper one, many;
     parameters = (row){ 400, 0, 0, 1 };
@@ -464,6 +472,7 @@ static void a_step_that_blocks_cannot_make_is_made_by_the_whole_matrix(void **st
 static void after_64_steps_blocks_are_tried_again(void **state)
 {
     (void)state;
+    NEEDS_BLOCKS;
     gvi_stepper st;
     parameters = (row){ 400, 0, 0, 1 };
     const gvi_desc desc = describe(MOST, 4, HESSIANS, GVI_NEWTON);
@@ -538,6 +547,7 @@ static int asked_hessian(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_r
 static void derivatives_are_taken_in_the_middle(void **state)
 {
     (void)state;
+    NEEDS_BLOCKS;
     for (int s = 4; s <= 7; ++s) {
         gvi_stepper st;
         parameters = (row){ 1, 0, 0, 1 };
@@ -556,6 +566,7 @@ static void derivatives_are_taken_in_the_middle(void **state)
 static void where_blocks_are_used(void **state)
 {
     (void)state;
+    NEEDS_BLOCKS;
     gvi_stepper st;
     static const struct { int n, s, r, lobatto, blocks; } wanted[] = {
         { 1, 8, 8, 0, 0 }, { 2, 2, 2, 0, 0 }, { 2, 4, 4, 0, 0 }, { 3, 4, 4, 0, 1 }, { MOST, 2, 2, 0, 1 },
@@ -576,6 +587,7 @@ static void where_blocks_are_used(void **state)
 static void partial_steps_fall_apart_too(void **state)
 {
     (void)state;
+    NEEDS_BLOCKS;
     gvi_stepper st, half;
     parameters = (row){ 0, (gvi_real)0.3, 1, 1 };
     const gvi_desc desc = describe(MOST, 8, DAMPED | TURNED | HESSIANS, GVI_NEWTON);
