@@ -309,15 +309,17 @@ static void the_map_is_symplectic(void **state)
 
 /* The energy stays on the level it started from: within truncation for ever, which is
    shown by what it is over the second half against the first; and to rounding at a
-   high degree                                                                 */
+   high degree.  The pendulum swings gently: a chaotic orbit is another one with every
+   rounding, and its halves differ by more than a drift would make them          */
 static void the_energy_keeps_to_its_level(void **state)
 {
+    static const real gentle[4] = { 0.2, -0.1, 0.1, 0.2 };
     (void)state;
     for (int a = KEPLER; a < FORCED; ++a)
     for (int s = 2; s <= 8; s += 6) {
         gvi_stepper st;
         real E0, E, worst[2] = { 0, 0 };
-        begin(&st, (scene_name)a, s, start);
+        begin(&st, (scene_name)a, s, a == PENDULUM ? gentle : start);
         assert_ok(gvi_energy(&st, &E0));
         for (int k = 0; k < 20000; ++k) {
             assert_ok(gvi_step(&st, (real)(s == 2 ? 0.1 : 0.03)));
