@@ -99,10 +99,10 @@ parts:
 docs-check:
 	$(Q)CC='$(CC)' sh tests/tools/docs.sh $(BUILD)
 
-## sanitize     tests and examples under the address and undefined behaviour sanitizers, then valgrind
+## sanitize     tests (not those in long double) and examples under the address and undefined behaviour sanitizers, then valgrind
 sanitize:
 	$(Q)if sh tests/tools/sanitizer.sh '$(CC)' && sh tests/tools/sanitizer.sh '$(CXX)' -xc++; then \
-	    $(MAKE) BUILD=$(BUILD)/sanitize unit examples \
+	    $(MAKE) BUILD=$(BUILD)/sanitize PROGRAMS='$(TESTS) $(TYPED:%=%-float)' unit examples \
 	    CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all'; fi
 	$(Q)$(MAKE) valgrind
 
