@@ -4073,8 +4073,14 @@ static int gvi__finite_end(const gvi_stepper *st, const gvi__from *from)
     gvi_real none[4] = { 0, 0, 0, 0 };
     int i = 0;
     for (; i + 3 < st->n && !GVI__SMALL; i += 4)       // four sums, none waits for another
-        for (int k = i; k < i + 4; ++k) none[k - i] += 0*(q[k] + dq[k]) + 0*(p[k] + dp[k]);
-    for (; i < st->n; ++i) none[0] += 0*(q[i] + dq[i]) + 0*(p[i] + dp[i]);
+        for (int k = i; k < i + 4; ++k) {
+            const gvi__stored a = q[k] + dq[k], b = p[k] + dp[k];     // where registers are wider: what will be kept
+            none[k - i] += 0*a + 0*b;
+        }
+    for (; i < st->n; ++i) {
+        const gvi__stored a = q[i] + dq[i], b = p[i] + dp[i];
+        none[0] += 0*a + 0*b;
+    }
     return (none[0] + none[1]) + (none[2] + none[3]) >= 0;
 }
 
