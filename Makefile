@@ -59,7 +59,7 @@ DETAIL       =
 .PHONY: run deps test unit examples headers symbols parts docs-check sanitize valgrind \
         figures synopsis install uninstall help clean cmocka \
         firmware size deps-firmware cost-embedded bound everywhere deps-everywhere own-quadrature float \
-        cost cost-horizon ncdp scaling newton cost-peers deps-compare instructions prices advise hard fuzz $(HARD:%=hard-%) scenes $(SCENES:%=scene-%) theorems $(THEOREMS:%=theorem-%) \
+        cost cost-horizon ncdp scaling newton kicks cost-peers deps-compare instructions prices advise hard fuzz $(HARD:%=hard-%) scenes $(SCENES:%=scene-%) theorems $(THEOREMS:%=theorem-%) \
         $(PROGRAMS:%=run-%) $(EXAMPLES:%=example-%) $(VALGRIND_TESTS:%=valgrind-%) \
         $(VALGRIND_EXAMPLES:%=valgrind-%)
 
@@ -145,6 +145,10 @@ ncdp: $(BUILD)/cost/ncdp
 
 ## newton       a step by Newton's method: one matrix against blocks, docs/design.md
 newton: $(BUILD)/cost/newton
+	$(Q)$<
+
+## kicks        splittings as tables of kicks against the same written by hand, docs/cost.md (ten seconds)
+kicks: $(BUILD)/cost/kicks
 	$(Q)$<
 
 ## scaling      time and memory against degree, coordinates and points; CSV and pictures in build/cost
@@ -331,6 +335,10 @@ $(BUILD)/cost/peers_odeint.o: tests/cost/peers_odeint.cpp
 $(BUILD)/cost/peers: $(BUILD)/cost/peers.o $(BUILD)/cost/problems.o $(BUILD)/cost/peers_odeint.o
 	@echo '  ld $@'
 	$(Q)$(CXX) $^ -o $@ $(PEER_LIBS) $(LDLIBS)
+
+$(BUILD)/cost/kicks: $(patsubst %,$(BUILD)/cost/%.o,problems baselines gvi_run kicks)
+	@echo '  ld $@'
+	$(Q)$(CC) $^ -o $@ $(LDLIBS)
 
 $(BUILD)/cost/cost: $(COST_OBJECTS)
 	@echo '  ld $@'
