@@ -11,7 +11,9 @@
                its own energy error: Student's t with 63 degrees of freedom, beyond 3.5
                once in a thousand
    The root mean square of 64 is known to 1/sqrt(128), so the exponent over a factor of 64
-   in time to about 0.03.                                                      */
+   in time to about 0.03.
+
+     brouwer [seed]     of the random numbers that move the starts, 1 if not given */
 #include "hard.h"
 
 enum { STARTS = 64, TIMES = 7, MOST = 18 };
@@ -204,8 +206,9 @@ static void study(const system_ *a)
     expect("t of the mean drift", -3.5, mean/spread, 3.5);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
+    if (argc > 1) seed = strtoull(argv[1], NULL, 10);
     static const gvi_effect falling[] = { { .kind = GVI_POTENTIAL, .points = pendulum_gravity } };
     static const gvi_effect attracting[] = { { .kind = GVI_POTENTIAL, .points = gravity } };
     const int single = sizeof(real) == sizeof(float);

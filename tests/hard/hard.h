@@ -60,9 +60,9 @@ HARD_MAYBE void progress(const char *what, long done, long all)
 }
 
 /* Uniform in [-1, 1) (Knuth's MMIX) */
+HARD_MAYBE uint64_t seed = 1;
 HARD_MAYBE double uniform(void)
 {
-    static uint64_t seed = 1;
     seed = seed*6364136223846793005u + 1442695040888963407u;
     return (double)(seed >> 33)/1073741824.0 - 1;
 }
