@@ -11,6 +11,7 @@
 enum { MOST = 100, MOST_DEGREE = 8 };
 static double memory[GVI_LENGTH(MOST, MOST_DEGREE, MOST_DEGREE)];
 static const double omega = 50;
+#include "../fermi_pasta_ulam.h"
 
 /* Spring i between masses i and i + 1, the last one to the wall: even ones stiff, odd ones u + u^3 */
 static double tension(int i, double u) { return i % 2 ? u + u*u*u : omega*omega*u; }
@@ -45,30 +46,6 @@ static int springs_hessian(gvi_real t, const gvi_real *q, const gvi_real *v, gvi
     return 0;
 }
 
-/* Hairer, Lubich, Wanner, Geometric numerical integration, I.5.1, three stiff springs */
-static int fermi_pasta_ulam(const gvi_points *x, void *user)
-{
-    const int d = x->stride, M = x->n/2;
-    (void)user;
-    for (int k = 0; k < x->count; ++k)
-        for (int j = 0; j <= M; ++j) {
-            const double *slow = x->q + k, *fast = slow + M*d;
-            double u = 0, w;
-            if (j < M) u += slow[j*d] - fast[j*d];
-            if (j > 0) u -= slow[(j - 1)*d] + fast[(j - 1)*d];
-            w = u*u*u;
-            if (j < M) {
-                x->f[j*d + k] -= w;
-                x->f[(M + j)*d + k] += w - omega*omega*fast[j*d];
-            }
-            if (j > 0) {
-                x->f[(j - 1)*d + k] += w;
-                x->f[(M + j - 1)*d + k] += w;
-            }
-        }
-    return 0;
-}
-
 typedef struct problem {
     const char *name;
     int n, steps;
@@ -82,7 +59,7 @@ static int sizes[] = { 20, 100 };
 static const problem problems[] = {
     { "pendulum", 2, 4000, 1.0/128, { GVI_POTENTIAL, pendulum_forces, NULL, NULL, NULL, NULL },
       { GVI_MASS_POSITION, NULL, pendulum_mass, pendulum_gradient, pendulum_velocity, NULL } },
-    { "Fermi-Pasta-Ulam", 6, 2000, 0.1, { GVI_POTENTIAL, fermi_pasta_ulam, NULL, NULL, NULL, NULL },
+    { "Fermi-Pasta-Ulam", 6, 2000, 0.1, { GVI_POTENTIAL, fermi_pasta_ulam_forces, NULL, NULL, NULL, NULL },
       { GVI_MASS_UNIT, NULL, NULL, NULL, NULL, NULL } },
     { "springs", 20, 400, 0.04, { GVI_POTENTIAL, springs, NULL, NULL, springs_hessian, sizes },
       { GVI_MASS_UNIT, NULL, NULL, NULL, NULL, NULL } },

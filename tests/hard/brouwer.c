@@ -14,7 +14,8 @@
    in time to about 0.03.
 
      brouwer [seed]     of the random numbers that move the starts, 1 if not given */
-#include "hard.h"
+#include "pendulum.h"
+#include "planets.h"
 
 enum { STARTS = 64, TIMES = 7, MOST = 18 };
 
@@ -26,81 +27,11 @@ typedef struct system_ {
     long double (*energy)(const long double *q, const long double *p);
 } system_;
 
-/* ------------------------------------------------------------- double pendulum */
+/* ---------------------------------------------------------------- energies */
 
-/* tests/test_ncdp.c: relative angles, m = l = 1, g = 9.8 */
-static int pendulum_gravity(const gvi_points *x, void *user)
+static long double energy_of_pendulum(const long double *q, const long double *p)
 {
-    const real *q1 = x->q, *q2 = q1 + x->stride;
-    (void)user;
-    for (int k = 0; k < x->count; ++k) {
-        const real both = (real)9.8*(real)sin((double)(q1[k] + q2[k]));
-        x->f[k] -= 2*(real)9.8*(real)sin((double)q1[k]) + both;
-        x->f[x->stride + k] -= both;
-    }
-    return 0;
-}
-
-static int pendulum_mass(const gvi_points *x, void *user)
-{
-    (void)user;
-    for (int k = 0; k < x->count; ++k) {
-        const real c = (real)cos((double)x->q[x->stride + k]);
-        x->mass[k] = 3 + 2*c;
-        x->mass[2*x->stride + k] = 1 + c;
-        x->mass[3*x->stride + k] = 1;
-    }
-    return 0;
-}
-
-static int pendulum_velocity(const gvi_points *x, void *user)
-{
-    const real *q2 = x->q + x->stride, *p1 = x->p, *p2 = p1 + x->stride;
-    (void)user;
-    for (int k = 0; k < x->count; ++k) {
-        const real c = (real)cos((double)q2[k]), s = (real)sin((double)q2[k]), p = p1[k] - p2[k];
-        x->velocity[k] = (p - c*p2[k])/(1 + s*s);
-        x->velocity[x->stride + k] = ((2 + c)*p2[k] - (1 + c)*p)/(1 + s*s);
-    }
-    return 0;
-}
-
-static int pendulum_gradient(const gvi_points *x, void *user)
-{
-    const real *q2 = x->q + x->stride, *v1 = x->v, *v2 = v1 + x->stride;
-    (void)user;
-    for (int k = 0; k < x->count; ++k)
-        x->f[x->stride + k] -= (real)sin((double)q2[k])*v1[k]*(v1[k] + v2[k]);
-    return 0;
-}
-
-static long double pendulum_energy(const long double *q, const long double *p)
-{
-    const long double a = q[0], b = q[1], u = p[0], v = p[1], c = cosl(b), g = (real)9.8;
-    return (u*u - 2*(1 + c)*u*v + (3 + 2*c)*v*v)/(2 - c*c)/2 - 2*g*cosl(a) - g*cosl(a + b);
-}
-
-/* -------------------------------------------------------------- outer solar system */
-
-enum { BODIES = 6 };
-static double gm[BODIES];
-static real   mass_of[3*BODIES];
-
-static int gravity(const gvi_points *x, void *user)
-{
-    const int d = x->stride;
-    (void)user;
-    for (int i = 1; i < BODIES; ++i)
-        for (int j = 0; j < i; ++j)
-            for (int k = 0; k < x->count; ++k) {
-                const real *a = x->q + 3*i*d + k, *c = x->q + 3*j*d + k;
-                const real u = c[0] - a[0], v = c[d] - a[d], w = c[2*d] - a[2*d];
-                const real r2 = u*u + v*v + w*w, s = (real)(gm[i]*gm[j])/(r2*(real)sqrt((double)r2));
-                real *f = x->f + 3*i*d + k, *g = x->f + 3*j*d + k;
-                f[0] += s*u;  f[d] += s*v;  f[2*d] += s*w;
-                g[0] -= s*u;  g[d] -= s*v;  g[2*d] -= s*w;
-            }
-    return 0;
+    return pendulum_energy_at(q[0], q[1], p[0], p[1]);
 }
 
 static long double solar_energy(const long double *q, const long double *p)
@@ -111,35 +42,10 @@ static long double solar_energy(const long double *q, const long double *p)
         E += (u[0]*u[0] + u[1]*u[1] + u[2]*u[2])/(2*(long double)mass_of[3*i]);
         for (int j = 0; j < i; ++j) {
             const long double *c = q + 3*j, x = a[0] - c[0], y = a[1] - c[1], z = a[2] - c[2];
-            E -= (long double)(real)(gm[i]*gm[j])/sqrtl(x*x + y*y + z*z);
+            E -= (long double)(gm[i]*gm[j])/sqrtl(x*x + y*y + z*z);
         }
     }
     return E;
-}
-
-/* examples/outer_solar_system.txt, moved to the centre of mass */
-static void read_bodies(const char *path, system_ *a)
-{
-    double G = 0, m, x[6], centre[6] = { 0 }, all[BODIES][6], total = 0;
-    char line[512];
-    int n = 0;
-    FILE *file = fopen(path, "r");
-    while (file && n < BODIES && fgets(line, sizeof line, file)) {
-        if (line[0] == '#' || sscanf(line, "G %lf", &G) == 1) continue;
-        if (sscanf(line, "%*s %lf %lf %lf %lf %lf %lf %lf", &m, x, x + 1, x + 2, x + 3, x + 4,
-                   x + 5) != 7) continue;
-        gm[n] = G*m;
-        memcpy(all[n], x, sizeof x);
-        for (int i = 0; i < 6; ++i) centre[i] += gm[n]*x[i];
-        total += gm[n++];
-    }
-    if (!file || n < BODIES) { printf("  FAILED: %s cannot be read\n", path); exit(1); }
-    fclose(file);
-    for (int i = 0; i < 3*BODIES; ++i) {
-        mass_of[i] = (real)gm[i/3];
-        a->q[i] = (real)(all[i/3][i%3] - centre[i%3]/total);
-        a->p[i] = mass_of[i]*(real)(all[i/3][3 + i%3] - centre[3 + i%3]/total);
-    }
 }
 
 /* --------------------------------------------------------------------- a run */
@@ -209,20 +115,18 @@ static void study(const system_ *a)
 int main(int argc, char **argv)
 {
     if (argc > 1) seed = strtoull(argv[1], NULL, 10);
-    static const gvi_effect falling[] = { { .kind = GVI_POTENTIAL, .points = pendulum_gravity } };
+    static const gvi_effect falling[] = { { .kind = GVI_POTENTIAL, .points = pendulum_forces } };
     static const gvi_effect attracting[] = { { .kind = GVI_POTENTIAL, .points = gravity } };
     const int single = sizeof(real) == sizeof(float);
     system_ pendulum = { "double pendulum", { .n = 2, .degree = 6, .effects = falling, .effect_count = 1 },
                          1/(real)128, { (real)1.1, -(real)1.1 }, { (real)2.7746,
-                                                                   (real)2.7746 }, 1 << 17, pendulum_energy };
+                                                                   (real)2.7746 }, 1 << 17, energy_of_pendulum };
     system_ planets = { "outer solar system", { .n = 18, .degree = 8, .effects = attracting,
                                                 .effect_count = 1 },
                         single ? 200 : 100, { 0 }, { 0 }, 1 << 15, solar_energy };
-    pendulum.desc.mass = (gvi_mass){ .kind = GVI_MASS_POSITION, .points = pendulum_mass,
-                                     .gradient = pendulum_gradient,
-                                     .velocity = pendulum_velocity };
+    pendulum.desc.mass = pendulum_inertia;
     planets.desc.mass = (gvi_mass){ .kind = GVI_MASS_DIAGONAL, .matrix = mass_of };
-    read_bodies("examples/outer_solar_system.txt", &planets);
+    read_planets(planets.q, planets.p);
     printf("Brouwer's law in %s\n", single ? "float" : "double");
     study(&pendulum);
     study(&planets);

@@ -5,30 +5,15 @@
    every constant different, each against its cosine.  Top: a heavy symmetric top by its
    three Euler angles; upright ("sleeping") it is stable if it spins faster than
    2 sqrt(m g l I1)/I3, and there Euler angles are singular: the start is 0.05 beside it. */
-#include "hard.h"
+#include "corners.h"
 
 /* -------------------------------------------------------------------- units */
-
-typedef struct units { double length, time; } units;
-
-/* Attraction with GM = length^3/time^2 in these units */
-static int attraction(const gvi_points *x, void *user)
-{
-    const units *a = user;
-    for (int k = 0; k < x->count; ++k) {
-        const double X = x->q[k]/a->length, Y = x->q[x->stride + k]/a->length, d2 = X*X + Y*Y;
-        const double w = -a->length/(a->time*a->time)/(d2*sqrt(d2));
-        x->f[k] += w*X;
-        x->f[x->stride + k] += w*Y;
-    }
-    return 0;
-}
 
 static double end_in_units(int length, int time, gvi_formulation formulation, double *q)
 {
     static double memory[GVI_LENGTH(2, 8, 8)];
     units a = { ldexp(1, length), ldexp(1, time) };
-    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = attraction, .user = &a } };
+    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = attraction_in_units, .user = &a } };
     const gvi_desc desc = { .n = 2, .effects = scene, .effect_count = 1, .formulation = formulation };
     const double q0[2] = { 0.4*a.length, 0 }, v0[2] = { 0, 2*a.length/a.time };
     gvi_stepper st;
@@ -64,22 +49,12 @@ static void any_unit(void)
 /* -------------------------------------------------------------- oscillators */
 
 enum { MANY = 32 };
-static double stiff[MANY];
-
-static int springs(const gvi_points *x, void *user)
-{
-    (void)user;
-    for (int i = 0; i < x->n; ++i)
-        for (int k = 0; k < x->count; ++k) x->f[i*x->stride + k] -= stiff[i]*x->q[i*x->stride + k];
-    return 0;
-}
-
 /* Frequencies from 0.5 to 2, to t = 100 in 800 steps of degree 8: an error of 800 roundings */
 static void oscillators(gvi_formulation formulation)
 {
     static double memory[GVI_LENGTH(MANY, 8, 8)];
-    static double m[MANY], q[MANY], v[MANY];
-    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = springs } };
+    static double stiff[MANY], m[MANY], q[MANY], v[MANY];
+    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = springs, .user = stiff } };
     const gvi_desc desc = { .n = MANY, .effects = scene, .effect_count = 1, .formulation = formulation,
                             .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = m } };
     gvi_stepper st;
@@ -104,53 +79,13 @@ static void oscillators(gvi_formulation formulation)
 
 /* ---------------------------------------------------------------------- top */
 
-/* I1 = 1, I3 = 0.5, m g l = 1; q = (theta, phi, psi).  M from
-     T = (th'^2 + sin^2 th ph'^2)/2 + I3 (ps' + cos th ph')^2/2                 */
-static const double I3 = 0.5;
-
-static int top_mass(const gvi_points *x, void *user)
-{
-    const int d = x->stride;
-    (void)user;
-    for (int k = 0; k < x->count; ++k) {
-        const double c = cos(x->q[k]), s = sin(x->q[k]);
-        for (int e = 0; e < 9; ++e) x->mass[e*d + k] = 0;
-        x->mass[k] = 1;
-        x->mass[4*d + k] = s*s + I3*c*c;
-        x->mass[7*d + k] = I3*c;
-        x->mass[8*d + k] = I3;
-    }
-    return 0;
-}
-
-static int top_gradient(const gvi_points *x, void *user)
-{
-    const int d = x->stride;
-    (void)user;
-    for (int k = 0; k < x->count; ++k) {
-        const double c = cos(x->q[k]), s = sin(x->q[k]), ph = x->v[d + k], ps = x->v[2*d + k];
-        x->f[k] += s*c*ph*ph - I3*(ps + c*ph)*s*ph;
-    }
-    return 0;
-}
-
-static int weight(const gvi_points *x, void *user)
-{
-    (void)user;
-    for (int k = 0; k < x->count; ++k) {
-        if (x->value) x->value[k] += cos(x->q[k]);
-        else x->f[k] += sin(x->q[k]);
-    }
-    return 0;
-}
-
 typedef struct top { double lowest, energy, p_phi, p_psi; gvi_status status; } top;
 
 /* Started at an angle beside the vertical, with the momenta of an upright top of that spin */
 static top spin(double speed, double angle, double t)
 {
     static double memory[GVI_LENGTH(3, 8, 8)];
-    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = weight, .value = weight } };
+    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = top_weight, .value = top_weight } };
     const gvi_desc desc = { .n = 3, .effects = scene, .effect_count = 1,
                             .mass = { .kind = GVI_MASS_POSITION, .points = top_mass,
                                       .gradient = top_gradient } };

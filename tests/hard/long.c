@@ -17,9 +17,7 @@ static gvi_stepper *start_pendulum(double turns)
     static gvi_stepper st;
     static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = pendulum_forces } };
     const gvi_desc desc = { .n = 2, .degree = 8, .effects = scene, .effect_count = 1,
-                            .mass = { .kind = GVI_MASS_POSITION, .points = pendulum_mass,
-                                      .gradient = pendulum_gradient,
-                                      .velocity = pendulum_velocity } };
+                            .mass = pendulum_inertia };
     const double q[2] = { 2 + 2*acos(-1)*turns, 1 }, p[2] = { 0, 0 };
     must(gvi_init(&st, &desc, memory, sizeof memory));
     must(gvi_start_momentum(&st, 0, q, p));

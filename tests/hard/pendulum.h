@@ -1,18 +1,23 @@
-/* pendulum.h - the double pendulum of long.c and stiff.c: relative angles, m = l = 1, g = 9.8,
-   a spring of the given stiffness in the joint; M(q), and the velocity in closed form */
+/* pendulum.h - the double pendulum of long.c, stiff.c, brouwer.c and single.c: relative angles,
+   m = l = 1, g = 9.8, a spring of the given stiffness in the joint; M(q), and the velocity in
+   closed form.  Functions of the type of their argument: <tgmath.h>.                       */
 #ifndef HARD_PENDULUM_H
 #define HARD_PENDULUM_H
 
 #include "hard.h"
 
-static double stiffness;
+#include <tgmath.h>
+#undef I                                          // of <complex.h>, which it includes
+
+static real stiffness;
+static const real pendulum_g = (real)9.8;
 
 static int pendulum_forces(const gvi_points *x, void *user)
 {
     (void)user;
     for (int k = 0; k < x->count; ++k) {
-        const double a = x->q[k], b = x->q[x->stride + k], both = 9.8*sin(a + b);
-        x->f[k] -= 19.6*sin(a) + both;
+        const real a = x->q[k], b = x->q[x->stride + k], both = pendulum_g*sin(a + b);
+        x->f[k] -= 2*pendulum_g*sin(a) + both;
         x->f[x->stride + k] -= both + stiffness*b;
     }
     return 0;
@@ -22,7 +27,7 @@ static int pendulum_mass(const gvi_points *x, void *user)
 {
     (void)user;
     for (int k = 0; k < x->count; ++k) {
-        const double c = cos(x->q[x->stride + k]);
+        const real c = cos(x->q[x->stride + k]);
         x->mass[k] = 3 + 2*c;
         x->mass[2*x->stride + k] = 1 + c;
         x->mass[3*x->stride + k] = 1;
@@ -32,10 +37,10 @@ static int pendulum_mass(const gvi_points *x, void *user)
 
 static int pendulum_velocity(const gvi_points *x, void *user)
 {
-    const double *q2 = x->q + x->stride, *p1 = x->p, *p2 = p1 + x->stride;
+    const real *q2 = x->q + x->stride, *p1 = x->p, *p2 = p1 + x->stride;
     (void)user;
     for (int k = 0; k < x->count; ++k) {
-        const double c = cos(q2[k]), s = sin(q2[k]), p = p1[k] - p2[k];
+        const real c = cos(q2[k]), s = sin(q2[k]), p = p1[k] - p2[k];
         x->velocity[k] = (p - c*p2[k])/(1 + s*s);
         x->velocity[x->stride + k] = ((2 + c)*p2[k] - (1 + c)*p)/(1 + s*s);
     }
@@ -44,16 +49,25 @@ static int pendulum_velocity(const gvi_points *x, void *user)
 
 static int pendulum_gradient(const gvi_points *x, void *user)
 {
-    const double *q2 = x->q + x->stride, *v1 = x->v, *v2 = v1 + x->stride;
+    const real *q2 = x->q + x->stride, *v1 = x->v, *v2 = v1 + x->stride;
     (void)user;
     for (int k = 0; k < x->count; ++k) x->f[x->stride + k] -= sin(q2[k])*v1[k]*(v1[k] + v2[k]);
     return 0;
 }
 
-static long double pendulum_energy(const double *q, const double *p)
+static const gvi_mass pendulum_inertia = { .kind = GVI_MASS_POSITION, .points = pendulum_mass,
+                                           .gradient = pendulum_gradient, .velocity = pendulum_velocity };
+
+/* At angles a, b with momenta u, v */
+static long double pendulum_energy_at(long double a, long double b, long double u, long double v)
 {
-    const long double a = q[0], b = q[1], u = p[0], v = p[1], c = cosl(b), g = 9.8;
+    const long double c = cosl(b), g = pendulum_g;
     return (u*u - 2*(1 + c)*u*v + (3 + 2*c)*v*v)/(2 - c*c)/2 - 2*g*cosl(a) - g*cosl(a + b) + stiffness*b*b/2;
+}
+
+HARD_MAYBE long double pendulum_energy(const real *q, const real *p)
+{
+    return pendulum_energy_at(q[0], q[1], p[0], p[1]);
 }
 
 #endif

@@ -17,7 +17,9 @@
 
      single [steps of the long runs, 10000000]                                              */
 #define GVI_REAL float
-#include "hard.h"
+#include "corners.h"
+#include "pendulum.h"
+#include "planets.h"
 #include "cost/coefficients.h"
 
 enum { MOST = 18 };
@@ -118,70 +120,20 @@ static trace follow(const problem *a, long steps, int compensated)
 
 /* ----------------------------------------------------------- double pendulum */
 
-/* Relative angles, m = l = 1, g = 9.8, a spring in the joint: pendulum.h in float */
-static real spring;
-static const real g1 = (real)9.8, g2 = 2*(real)9.8;
-
-static int pendulum_forces(const gvi_points *x, void *user)
+static double energy_of_pendulum(const double *q, const double *p)
 {
-    (void)user;
-    for (int k = 0; k < x->count; ++k) {
-        const real a = x->q[k], b = x->q[x->stride + k], both = g1*sinf(a + b);
-        x->f[k] -= g2*sinf(a) + both;
-        x->f[x->stride + k] -= both + spring*b;
-    }
-    return 0;
-}
-
-static int pendulum_mass(const gvi_points *x, void *user)
-{
-    (void)user;
-    for (int k = 0; k < x->count; ++k) {
-        const real c = cosf(x->q[x->stride + k]);
-        x->mass[k] = 3 + 2*c;
-        x->mass[2*x->stride + k] = 1 + c;
-        x->mass[3*x->stride + k] = 1;
-    }
-    return 0;
-}
-
-static int pendulum_velocity(const gvi_points *x, void *user)
-{
-    const real *q2 = x->q + x->stride, *p1 = x->p, *p2 = p1 + x->stride;
-    (void)user;
-    for (int k = 0; k < x->count; ++k) {
-        const real c = cosf(q2[k]), s = sinf(q2[k]), p = p1[k] - p2[k];
-        x->velocity[k] = (p - c*p2[k])/(1 + s*s);
-        x->velocity[x->stride + k] = ((2 + c)*p2[k] - (1 + c)*p)/(1 + s*s);
-    }
-    return 0;
-}
-
-static int pendulum_gradient(const gvi_points *x, void *user)
-{
-    const real *q2 = x->q + x->stride, *v1 = x->v, *v2 = v1 + x->stride;
-    (void)user;
-    for (int k = 0; k < x->count; ++k) x->f[x->stride + k] -= sinf(q2[k])*v1[k]*(v1[k] + v2[k]);
-    return 0;
-}
-
-static double pendulum_energy(const double *q, const double *p)
-{
-    const double a = q[0], b = q[1], u = p[0], v = p[1], c = cos(b);
-    return (u*u - 2*(1 + c)*u*v + (3 + 2*c)*v*v)/(2 - c*c)/2 - (double)g2*cos(a) - (double)g1*cos(a + b)
-         + (double)spring*b*b/2;
+    return (double)pendulum_energy_at(q[0], q[1], p[0], p[1]);
 }
 
 static problem pendulum(int s, real h, real K, gvi_formulation formulation)
 {
     static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = pendulum_forces } };
     problem a = { .name = "double pendulum", .h = h, .q = { (real)1.1, (real)-1.1/sqrtf(1 + 100*K) },
-                  .p = { (real)2.7746, (real)2.7746 }, .energy = pendulum_energy };
-    spring = K;
+                  .p = { (real)2.7746, (real)2.7746 }, .energy = energy_of_pendulum };
+    stiffness = K;
     a.desc = (gvi_desc){ .n = 2, .degree = s, .effects = scene, .effect_count = 1,
                          .formulation = formulation,
-                         .mass = { .kind = GVI_MASS_POSITION, .points = pendulum_mass,
-                                   .gradient = pendulum_gradient, .velocity = pendulum_velocity } };
+                         .mass = pendulum_inertia };
     return a;
 }
 
@@ -238,26 +190,6 @@ static void pendulums(long steps)
 
 /* -------------------------------------------------------------- outer solar system */
 
-enum { BODIES = 6 };
-static real gm[BODIES], mass_of[3*BODIES];
-
-static int gravity(const gvi_points *x, void *user)
-{
-    const int d = x->stride;
-    (void)user;
-    for (int i = 1; i < BODIES; ++i)
-        for (int j = 0; j < i; ++j)
-            for (int k = 0; k < x->count; ++k) {
-                const real *a = x->q + 3*i*d + k, *c = x->q + 3*j*d + k;
-                const real u = c[0] - a[0], v = c[d] - a[d], w = c[2*d] - a[2*d];
-                const real r2 = u*u + v*v + w*w, s = gm[i]*gm[j]/(r2*sqrtf(r2));
-                real *f = x->f + 3*i*d + k, *g = x->f + 3*j*d + k;
-                f[0] += s*u;  f[d] += s*v;  f[2*d] += s*w;
-                g[0] -= s*u;  g[d] -= s*v;  g[2*d] -= s*w;
-            }
-    return 0;
-}
-
 static double solar_energy(const double *q, const double *p)
 {
     double E = 0;
@@ -270,34 +202,11 @@ static double solar_energy(const double *q, const double *p)
     return E;
 }
 
-/* examples/outer_solar_system.txt, moved to the centre of mass */
 static problem planets(void)
 {
     static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = gravity } };
     problem a = { .name = "outer solar system", .h = 200, .energy = solar_energy };
-    double G = 0, m, x[6], centre[6] = { 0 }, all[BODIES][6], total = 0;
-    char line[512];
-    int n = 0;
-    FILE *file = fopen("examples/outer_solar_system.txt", "r");
-    while (file && n < BODIES && fgets(line, sizeof line, file)) {
-        if (line[0] == '#' || sscanf(line, "G %lf", &G) == 1) continue;
-        if (sscanf(line, "%*s %lf %lf %lf %lf %lf %lf %lf", &m, x, x + 1, x + 2, x + 3, x + 4,
-                   x + 5) != 7) continue;
-        gm[n] = (real)(G*m);
-        memcpy(all[n], x, sizeof x);
-        for (int i = 0; i < 6; ++i) centre[i] += (double)gm[n]*x[i];
-        total += (double)gm[n++];
-    }
-    if (!file || n < BODIES) {
-        printf("  FAILED: examples/outer_solar_system.txt cannot be read\n");
-        exit(1);
-    }
-    fclose(file);
-    for (int i = 0; i < 3*BODIES; ++i) {
-        mass_of[i] = gm[i/3];
-        a.q[i] = (real)(all[i/3][i%3] - centre[i%3]/total);
-        a.p[i] = mass_of[i]*(real)(all[i/3][3 + i%3] - centre[3 + i%3]/total);
-    }
+    read_planets(a.q, a.p);
     a.desc = (gvi_desc){ .n = 3*BODIES, .degree = 8, .effects = scene, .effect_count = 1,
                          .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = mass_of } };
     return a;
@@ -600,21 +509,6 @@ static void late(void)
 
 /* ---------------------------------------------------------- units, oscillators */
 
-typedef struct units { real length, time; } units;
-
-/* Attraction with GM = length^3/time^2 in these units */
-static int attraction_in_units(const gvi_points *x, void *user)
-{
-    const units *a = user;
-    for (int k = 0; k < x->count; ++k) {
-        const real X = x->q[k]/a->length, Y = x->q[x->stride + k]/a->length, d2 = X*X + Y*Y;
-        const real w = -a->length/(a->time*a->time)/(d2*sqrtf(d2));
-        x->f[k] += w*X;
-        x->f[x->stride + k] += w*Y;
-    }
-    return 0;
-}
-
 static void end_in_units(int length, int time, gvi_formulation formulation, real *q)
 {
     units a = { ldexpf(1, length), ldexpf(1, time) };
@@ -649,22 +543,12 @@ static void any_unit(void)
 }
 
 enum { MANY = 18 };
-static real stiff[MANY];
-
-static int springs(const gvi_points *x, void *user)
-{
-    (void)user;
-    for (int i = 0; i < x->n; ++i)
-        for (int k = 0; k < x->count; ++k) x->f[i*x->stride + k] -= stiff[i]*x->q[i*x->stride + k];
-    return 0;
-}
-
 /* corners.c in float: frequencies from 0.5 to 2, masses over 12 decades, every constant different, to
    t = 100 in 800 steps of degree 8                                                         */
 static void oscillators(gvi_formulation formulation)
 {
-    static real m[MANY], q[MANY], v[MANY];
-    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = springs } };
+    static real stiff[MANY], m[MANY], q[MANY], v[MANY];
+    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = springs, .user = stiff } };
     const gvi_desc desc = { .n = MANY, .effects = scene, .effect_count = 1, .formulation = formulation,
                             .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = m } };
     gvi_stepper st;
@@ -688,45 +572,9 @@ static void oscillators(gvi_formulation formulation)
 
 /* ---------------------------------------------------------------------- top */
 
-/* corners.c in float: I1 = 1, I3 = 1/2, m g l = 1, q = (theta, phi, psi); no velocity given, so M is
-   factored at the points.  Upright it is stable if it spins faster than 2/I3, and M is singular.
+/* corners.c in float.  Upright the top is stable if it spins faster than 2/I3, and M is singular.
    corners.c swings through the vertical; within sqrt(EPS) of it there is no velocity, which in double
    no point ever met.  Here it is let go with phi' = 0: the vertical is left, and never reached   */
-static const real I3 = (real)0.5;
-
-static int top_mass(const gvi_points *x, void *user)
-{
-    const int d = x->stride;
-    (void)user;
-    for (int k = 0; k < x->count; ++k) {
-        const real c = cosf(x->q[k]), s = sinf(x->q[k]);
-        for (int e = 0; e < 9; ++e) x->mass[e*d + k] = 0;
-        x->mass[k] = 1;
-        x->mass[4*d + k] = s*s + I3*c*c;
-        x->mass[7*d + k] = I3*c;
-        x->mass[8*d + k] = I3;
-    }
-    return 0;
-}
-
-static int top_gradient(const gvi_points *x, void *user)
-{
-    const int d = x->stride;
-    (void)user;
-    for (int k = 0; k < x->count; ++k) {
-        const real c = cosf(x->q[k]), s = sinf(x->q[k]), ph = x->v[d + k], ps = x->v[2*d + k];
-        x->f[k] += s*c*ph*ph - I3*(ps + c*ph)*s*ph;
-    }
-    return 0;
-}
-
-static int weight(const gvi_points *x, void *user)
-{
-    (void)user;
-    for (int k = 0; k < x->count; ++k) x->f[k] += sinf(x->q[k]);
-    return 0;
-}
-
 static double top_energy(const double *q, const double *p)
 {
     const double c = cos(q[0]), s = sin(q[0]), along = p[1] - p[2]*c;
@@ -735,7 +583,7 @@ static double top_energy(const double *q, const double *p)
 
 static problem top(real speed, real angle)
 {
-    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = weight } };
+    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = top_weight } };
     problem a = { .name = "top", .h = (real)0.0078125, .q = { angle, 0, 0 },
                   .p = { 0, I3*speed*cosf(angle), I3*speed }, .energy = top_energy };
     a.desc = (gvi_desc){ .n = 3, .effects = scene, .effect_count = 1,
@@ -781,7 +629,7 @@ int main(int argc, char **argv)
     printf("Kicks, and the same without\n");
     kicks(steps);
     printf("Compensation\n");
-    spring = 0;
+    stiffness = 0;
     compensation(&joint, steps/10);
     compensation(&solar, steps/10);
     printf("Eccentric orbits with a clock, 100 revolutions\n");

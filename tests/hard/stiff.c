@@ -10,9 +10,12 @@
    Gauss's method turns by no more than s pi in all.
 
      stiff [folder for hard_fpu.svg]                                            */
-#include "irk_newton.h"
 #include "pendulum.h"
+#include "irk_newton.h"
 #include "svg.h"
+
+static const double omega = 50;
+#include "fermi_pasta_ulam.h"
 
 /* ------------------------------------------------------------- stiff pendulum */
 
@@ -24,9 +27,7 @@ static void start_pendulum(double K, int s, gvi_formulation formulation, gvi_ste
     static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = pendulum_forces } };
     const gvi_desc desc = { .n = 2, .degree = s, .effects = scene, .effect_count = 1,
                             .formulation = formulation,
-                            .mass = { .kind = GVI_MASS_POSITION, .points = pendulum_mass,
-                                      .gradient = pendulum_gradient,
-                                      .velocity = pendulum_velocity } };
+                            .mass = pendulum_inertia };
     const double q[2] = { 1.1, -1.1/sqrt(1 + 100*K) }, p[2] = { 2.7746, 2.7746 };
     stiffness = K;
     must(gvi_init(st, &desc, memory, sizeof memory));
@@ -113,9 +114,8 @@ typedef struct walk_ { long double E0, worst, last, squares; long steps; } walk_
 
 static long double energy_with_rests(const double *q, const double *p, const double *qe, const double *pe)
 {
-    const long double a = (long double)q[0] + qe[0], b = (long double)q[1] + qe[1], c = cosl(b), g = 9.8;
-    const long double u = (long double)p[0] + pe[0], v = (long double)p[1] + pe[1];
-    return (u*u - 2*(1 + c)*u*v + (3 + 2*c)*v*v)/(2 - c*c)/2 - 2*g*cosl(a) - g*cosl(a + b) + stiffness*b*b/2;
+    return pendulum_energy_at((long double)q[0] + qe[0], (long double)q[1] + qe[1], (long double)p[0] + pe[0],
+                              (long double)p[1] + pe[1]);
 }
 
 static void look(walk_ *w, const double *q, const double *p, const double *qe, const double *pe)
@@ -196,31 +196,6 @@ static void against_irk_newton(double K)
 /* ------------------------------------------------------------------------ FPU */
 
 enum { M = 3, POINTS = 240 };
-static double omega = 50;
-
-/* 1/4 sum of fourth powers of the soft springs' lengths, and the stiff ones */
-static int chain(const gvi_points *x, void *user)
-{
-    const int d = x->stride;
-    (void)user;
-    for (int k = 0; k < x->count; ++k)
-        for (int j = 0; j <= M; ++j) {
-            const double *slow = x->q + k, *fast = slow + M*d;
-            double u = 0, w;
-            if (j < M) u += slow[j*d] - fast[j*d];
-            if (j > 0) u -= slow[(j - 1)*d] + fast[(j - 1)*d];
-            w = u*u*u;
-            if (j < M) {
-                x->f[j*d + k] -= w;
-                x->f[(M + j)*d + k] += w - omega*omega*fast[j*d];
-            }
-            if (j > 0) {
-                x->f[(j - 1)*d + k] += w;
-                x->f[(M + j - 1)*d + k] += w;
-            }
-        }
-    return 0;
-}
 
 static double stiff_energy(const double *q, const double *p)
 {
@@ -246,7 +221,7 @@ typedef struct outcome { double invariant, energy; gvi_status status; } outcome;
 static outcome run_chain(int s, double h_omega)
 {
     static double memory[GVI_LENGTH(6, 8, 8)];
-    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = chain } };
+    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = fermi_pasta_ulam_forces } };
     const gvi_desc desc = { .n = 2*M, .degree = s, .effects = scene, .effect_count = 1 };
     const double q[6] = { 1, 0, 0, 1/omega, 0, 0 }, p[6] = { 1, 0, 0, 1, 0, 0 }, h = h_omega/omega;
     const double I0 = stiff_energy(q, p), E0 = chain_energy(q, p);
