@@ -2,6 +2,7 @@
    Runge-Kutta matrix A.  A is made here from its definition; steps are compared with exact solutions,
    with the fixed points, and with Newton's method with the whole matrix.              */
 #include "gvi_test.h"
+#include "springs.h"
 
 /* Compiled for size there is the whole matrix alone.                          */
 #define NEEDS_BLOCKS if (GVI__SMALL) skip()
@@ -188,7 +189,7 @@ static void singular_complex_matrices_are_refused(void **state)
 
 /* ------------------------------------------------------------------- scenes */
 
-/* Masses in a row, springs of different stiffness, the last to the wall; `cubic` of u^3 in all of them */
+/* Springs of different stiffness; `cubic` of u^3 in all of them */
 typedef struct row { gvi_real cubic, damping, turning; int hessians; } row;
 
 static gvi_real spring_of(int i) { return (gvi_real)(1 + 400*(i % 2)); }
@@ -199,10 +200,8 @@ static int springs(const gvi_points *x, void *user)
     const int n = x->n, d = x->stride;
     for (int i = 0; i < n; ++i)
         for (int k = 0; k < x->count; ++k) {
-            const gvi_real u = (i + 1 < n ? x->q[(i + 1)*d + k] : 0) - x->q[i*d + k];
-            const gvi_real f = spring_of(i)*u + a->cubic*u*u*u;
-            x->f[i*d + k] += f;
-            if (i + 1 < n) x->f[(i + 1)*d + k] -= f;
+            const gvi_real u = stretch(n, i, d, x->q + k);
+            add_tension(n, i, d, spring_of(i)*u + a->cubic*u*u*u, x->f + k);
         }
     return 0;
 }
@@ -214,12 +213,8 @@ static int springs_hessian(gvi_real t, const gvi_real *q, const gvi_real *v, gvi
     const row *a = user;
     const int n = MOST;
     for (int i = 0; i < n; ++i) {
-        const gvi_real u = (i + 1 < n ? q[i + 1] : 0) - q[i], k = spring_of(i) + 3*a->cubic*u*u;
-        fq[i*n + i] -= k;
-        if (i + 1 == n) continue;
-        fq[(i + 1)*n + i + 1] -= k;
-        fq[i*n + i + 1] += k;
-        fq[(i + 1)*n + i] += k;
+        const gvi_real u = stretch(n, i, 1, q);
+        add_stiffness(n, i, spring_of(i) + 3*a->cubic*u*u, fq);
     }
     return 0;
 }

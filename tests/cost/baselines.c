@@ -8,6 +8,7 @@
    right-hand side is called through a pointer, one point a call.                              */
 #include "baselines.h"
 #include "coefficients.h"
+#include "../gauss.h"
 
 #include <float.h>
 #include <math.h>
@@ -472,29 +473,6 @@ typedef struct gauss_rows {
     double A[GAUSS_STAGES][GAUSS_STAGES], b[GAUSS_STAGES], E[GAUSS_STAGES][GAUSS_STAGES];
 } gauss_rows;
 static gauss_rows gausses[GAUSS_STAGES + 1];
-
-/* P_0..P_m at u                                                                               */
-static void legendre(int m, long double u, long double *P)
-{
-    P[0] = 1;
-    P[1] = u;
-    for (int k = 1; k < m; ++k) P[k+1] = ((2*k + 1)*u*P[k] - k*P[k-1])/(k + 1);
-}
-
-static void gauss_nodes(int s, long double *c, long double *b)
-{
-    long double P[GAUSS_STAGES + 2];
-    for (int i = 0; i < s; ++i) {
-        long double u = cosl(3.14159265358979323846L*(i + 0.75L)/(s + 0.5L)), slope = 1;
-        for (int k = 0; k < 8; ++k) {
-            legendre(s, u, P);
-            slope = s*(P[s-1] - u*P[s])/(1 - u*u);
-            u -= P[s]/slope;
-        }
-        c[i] = (1 - u)/2;
-        b[i] = 1/((1 - u*u)*slope*slope);
-    }
-}
 
 /* a_ij = b_j sum_k (2k+1) Phi_k(c_i) P_k(1 - 2 c_j), Phi_k = integral of P_k(1 - 2x), 0 to c.
    E: the polynomial through the forces of the last step, at the nodes of this one.            */

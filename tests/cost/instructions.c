@@ -9,6 +9,7 @@
 #define GVI_REAL double
 #define GVI_IMPLEMENTATION
 #include "gvi.h"
+#include "solar.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -59,26 +60,10 @@ static int well(const gvi_points *x, void *user)
     return 0;
 }
 
-/* Sun, Jupiter, Saturn, Uranus, Neptune, Pluto; astronomical units and days [Hairer, Lubich, Wanner:
-   Geometric numerical integration, I.2.4].  Masses times the constant of gravitation.          */
-#define THRICE(a) a, a, a
-#define GRAVITY 2.95912208286e-4
-static const double gm[18] = {
-    THRICE(1.00000597682*GRAVITY), THRICE(9.54786104043e-4*GRAVITY), THRICE(2.85583733151e-4*GRAVITY),
-    THRICE(4.37273164546e-5*GRAVITY), THRICE(5.17759138449e-5*GRAVITY), THRICE(GRAVITY/1.3e8) };
-static const double solar_q[18] = {
-    0, 0, 0, -3.5023653, -3.8169847, -1.5507963, 9.0755314, -3.0458353, -1.6483708,
-    8.3101420, -16.2901086, -7.2521278, 11.4707666, -25.7294829, -10.8169456,
-    -15.5387357, -25.2225594, -3.1902382 };
-static const double solar_v[18] = {
-    0, 0, 0, 0.00565429, -0.00412490, -0.00190589, 0.00168318, 0.00483525, 0.00192462,
-    0.00354178, 0.00137102, 0.00055029, 0.00288930, 0.00114527, 0.00039677,
-    0.00276725, -0.00170702, -0.00136504 };
-
 static int pair(const gvi_points *x, int i, int j)
 {
     const int R = x->stride;
-    const double *a = x->q + 3*i*R, *b = x->q + 3*j*R, g = gm[3*i]*gm[3*j];
+    const double *a = x->q + 3*i*R, *b = x->q + 3*j*R, g = solar_mass[3*i]*solar_mass[3*j];
     double *s = x->f + 3*i*R, *t = x->f + 3*j*R;
     for (int k = 0; k < x->count; ++k) {
         double u = b[k] - a[k], v = b[R+k] - a[R+k], w = b[2*R+k] - a[2*R+k];
@@ -203,7 +188,7 @@ static const run runs[] = {
     { "kepler", { .n = 2, .degree = 8, SCENE(kepler_scene), .formulation = GVI_POSITIONS },
       kepler_q, kepler_v, 0.1, 2000 },
     { "solar", { .n = 18, .degree = 8, SCENE(solar_scene),
-      .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = gm } },
+      .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = solar_mass } },
       solar_q, solar_v, 200, 500 },
     { "pendulum", { .n = 2, .degree = 6, SCENE(pendulum_scene), .formulation = GVI_MOMENTA,
       .mass = { .kind = GVI_MASS_POSITION, .points = mass, .gradient = mass_gradient,

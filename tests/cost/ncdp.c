@@ -21,6 +21,7 @@
 #define _POSIX_C_SOURCE 200809L
 #define GVI_IMPLEMENTATION
 #include "gvi.h"
+#include "../gauss.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -196,28 +197,6 @@ static int mass(const gvi_points *x, void *user)
    sum, small increments first.                                                                */
 typedef struct coefficients { double mu[S][S], hb[S], nu[S][S]; int order[S]; } coefficients;
 
-static void legendre(int m, long double u, long double *P)
-{
-    P[0] = 1;
-    P[1] = u;
-    for (int k = 1; k < m; ++k) P[k+1] = ((2*k + 1)*u*P[k] - k*P[k-1])/(k + 1);
-}
-
-static void nodes(long double *c, long double *b)
-{
-    long double P[S+2];
-    for (int i = 0; i < S; ++i) {
-        long double u = cosl(3.14159265358979323846L*(i + 0.75L)/(S + 0.5L)), d = 1;
-        for (int k = 0; k < 8; ++k) {
-            legendre(S, u, P);
-            d = S*(P[S-1] - u*P[S])/(1 - u*u);
-            u -= P[S]/d;
-        }
-        c[i] = (1 - u)/2;
-        b[i] = 1/((1 - u*u)*d*d);
-    }
-}
-
 /* sum_k (2k+1) P_k(1 - 2 c_j) times the integral of P_k(1 - 2x) from 0 to x                   */
 static long double integral(long double x, long double node)
 {
@@ -232,7 +211,7 @@ static void coefficients_begin(coefficients *t)
 {
     long double c[S], b[S];
     double sum = 0;
-    nodes(c, b);
+    gauss_nodes(S, c, b);
     for (int i = 0; i < S; ++i)
         for (int j = 0; j < S; ++j) {
             long double ahead = integral(1 + c[i], c[j]) - 1;

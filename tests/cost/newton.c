@@ -12,8 +12,9 @@ enum { MOST = 100, MOST_DEGREE = 8 };
 static double memory[GVI_LENGTH(MOST, MOST_DEGREE, MOST_DEGREE)];
 static const double omega = 50;
 #include "../fermi_pasta_ulam.h"
+#include "../springs.h"
 
-/* Spring i between masses i and i + 1, the last one to the wall: even ones stiff, odd ones u + u^3 */
+/* Even springs stiff, odd ones u + u^3 */
 static double tension(int i, double u) { return i % 2 ? u + u*u*u : omega*omega*u; }
 static double stiffness_of(int i, double u) { return i % 2 ? 1 + 3*u*u : omega*omega; }
 
@@ -22,11 +23,8 @@ static int springs(const gvi_points *x, void *user)
     const int d = x->stride, n = x->n;
     (void)user;
     for (int i = 0; i < n; ++i)
-        for (int k = 0; k < x->count; ++k) {
-            const double f = tension(i, (i + 1 < n ? x->q[(i + 1)*d + k] : 0) - x->q[i*d + k]);
-            x->f[i*d + k] += f;
-            if (i + 1 < n) x->f[(i + 1)*d + k] -= f;
-        }
+        for (int k = 0; k < x->count; ++k)
+            add_tension(n, i, d, tension(i, stretch(n, i, d, x->q + k)), x->f + k);
     return 0;
 }
 
@@ -35,14 +33,7 @@ static int springs_hessian(gvi_real t, const gvi_real *q, const gvi_real *v, gvi
 {
     const int n = *(const int *)user;
     (void)t, (void)v, (void)fv, (void)pv;
-    for (int i = 0; i < n; ++i) {
-        const double k = stiffness_of(i, (i + 1 < n ? q[i + 1] : 0) - q[i]);
-        fq[i*n + i] -= k;
-        if (i + 1 == n) continue;
-        fq[(i + 1)*n + i + 1] -= k;
-        fq[i*n + i + 1] += k;
-        fq[(i + 1)*n + i] += k;
-    }
+    for (int i = 0; i < n; ++i) add_stiffness(n, i, stiffness_of(i, stretch(n, i, 1, q)), fq);
     return 0;
 }
 

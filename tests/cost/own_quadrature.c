@@ -24,6 +24,7 @@
 #define _POSIX_C_SOURCE 200809L
 #define GVI_IMPLEMENTATION
 #include "gvi.h"
+#include "solar.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -285,21 +286,7 @@ INLINE void pair(const gvi_points *p, int i, int j, double g, int count, int str
     }
 }
 
-/* Sun, Jupiter, Saturn, Uranus, Neptune, Pluto: Hairer, Lubich, Wanner, Geometric numerical
-   integration, I.2.4; astronomical units, days.  The leading pairs are those with the Sun.       */
-static const double solar_unit = 2.95912208286e-4;
-static const double solar_ratio[6] = { 1.00000597682, 9.54786104043e-4, 2.85583733151e-4, 4.37273164546e-5,
-                                       5.17759138449e-5, 1/1.3e8 };
-static double solar_mass[18];
-static const double solar_q[18] = {
-    0, 0, 0, -3.5023653, -3.8169847, -1.5507963, 9.0755314, -3.0458353, -1.6483708,
-    8.3101420, -16.2901086, -7.2521278, 11.4707666, -25.7294829, -10.8169456,
-    -15.5387357, -25.2225594, -3.1902382 };
-static const double solar_v[18] = {
-    0, 0, 0, 0.00565429, -0.00412490, -0.00190589, 0.00168318, 0.00483525, 0.00192462,
-    0.00354178, 0.00137102, 0.00055029, 0.00288930, 0.00114527, 0.00039677,
-    0.00276725, -0.00170702, -0.00136504 };
-
+/* The leading pairs are those with the Sun.                                                     */
 INLINE int sun_points(const gvi_points *p, void *user, int count, int stride)
 {
     (void)user;
@@ -418,7 +405,6 @@ static void set_up(void)
     orbit(1.1113, 0.01, 0.9, low_q, low_v);
     orbit(4.164, 0.01, 0.96, high_q, high_v);
     orbit(1.05, 0.005, 0.9, air_q, air_v);
-    for (int i = 0; i < 18; ++i) solar_mass[i] = solar_unit*solar_ratio[i/3];
     for (int i = 0; i < COUNT(scenes); ++i) {
         scene *p = scenes + i;
         const double a = p->q == low_q ? 1.1113 : p->q == high_q ? 4.164 : 1.05;

@@ -21,6 +21,8 @@
 #ifndef IRK_NEWTON_H
 #define IRK_NEWTON_H
 
+#include "../gauss.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -45,34 +47,12 @@ typedef struct newton {
 
 /* -------------------------------------------------------------- coefficients */
 
-static void newton_legendre(int m, long double u, long double *P)
-{
-    P[0] = 1;
-    P[1] = u;
-    for (int k = 1; k < m; ++k) P[k + 1] = ((2*k + 1)*u*P[k] - k*P[k - 1])/(k + 1);
-}
-
-static void newton_nodes(int s, long double *c, long double *b)
-{
-    long double P[NEWTON_S + 2];
-    for (int i = 0; i < s; ++i) {
-        long double u = cosl(3.14159265358979323846L*(s - i - 0.25L)/(s + 0.5L)), d = 1;
-        for (int k = 0; k < 8; ++k) {
-            newton_legendre(s, u, P);
-            d = s*(P[s - 1] - u*P[s])/(1 - u*u);
-            u -= P[s]/d;
-        }
-        c[i] = (1 + u)/2;
-        b[i] = 1/((1 - u*u)*d*d);
-    }
-}
-
 /* a_ij/b_j = sum over k of (2k+1) P_k(2 c_j - 1) times the integral of P_k from 0 to c_i */
 static long double newton_share(int s, long double ci, long double cj)
 {
     long double at[NEWTON_S + 2], of[NEWTON_S + 2], sum = ci;
-    newton_legendre(s + 1, 2*ci - 1, at);
-    newton_legendre(s + 1, 2*cj - 1, of);
+    legendre(s + 1, 2*ci - 1, at);
+    legendre(s + 1, 2*cj - 1, of);
     for (int k = 1; k < s; ++k) sum += (at[k + 1] - at[k - 1])/2*of[k];
     return sum;
 }
@@ -81,7 +61,7 @@ static void newton_modes(newton *w, const long double *c, const long double *b)
 {
     for (int i = 0; i < w->s; ++i) {
         long double P[NEWTON_S + 2];
-        newton_legendre(w->s, 2*c[i] - 1, P);
+        legendre(w->s, 2*c[i] - 1, P);
         for (int k = 0; k < w->s; ++k) {
             w->in[k][i] = (double)(sqrtl(2*k + 1)*P[k]);
             w->out[i][k] = (double)(b[i]*sqrtl(2*k + 1)*P[k]);
@@ -99,7 +79,7 @@ static void newton_begin(newton *w, int s, double h, newton_slope_fn *slope, new
     w->h = h;
     w->slope = slope;
     w->jacobian = jacobian;
-    newton_nodes(s, c, b);
+    gauss_nodes(s, c, b);
     newton_modes(w, c, b);
     for (int i = 0; i < s; ++i) {
         w->m[i][i] = 0.5;
