@@ -44,6 +44,7 @@ QUADRUPLE = order lagrangian forced
 # The long studies of docs/hard-cases.md.
 HARD         = eccentric eccentric-float pythagorean corners stiff long brouwer brouwer-float single
 FUZZ_SECONDS = 60
+SEED         =
 
 # What accuracy costs: optimised as a user in a hurry would.
 COST_CFLAGS  = -O3 -march=native -ffp-contract=fast -fno-math-errno -fno-trapping-math
@@ -209,7 +210,7 @@ instructions:
 prices:
 	$(Q)CC='$(CC)' sh tests/tools/prices.sh $(BUILD)
 
-## hard         hard cases at length, docs/hard-cases.md (six minutes); one: make hard-brouwer
+## hard         hard cases at length, docs/hard-cases.md (six minutes); one: make hard-brouwer, with other random numbers: SEED=11
 hard: $(HARD:%=hard-%)
 
 ## fuzz         a minute of libFuzzer on descriptions and calls (clang)
@@ -299,7 +300,7 @@ $(BUILD)/hard/%-float: tests/hard/%.c
 	$(Q)$(COMPILE) -DGVI_REAL=float $(TESTFLAGS) $< -o $@ $(LDLIBS)
 
 $(HARD:%=hard-%): hard-%: $(BUILD)/hard/%
-	$(Q)$< $(if $(filter stiff,$*),docs/img)
+	$(Q)$< $(if $(filter stiff,$*),docs/img) $(if $(filter brouwer%,$*),$(SEED))
 
 $(BUILD)/fuzz/fuzz_scene: tests/fuzz/fuzz_scene.c gvi.h
 	@mkdir -p $(@D)

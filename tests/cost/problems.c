@@ -212,9 +212,8 @@ static long double solar_energy(const double *q, const double *v)
 /* 1/d^3 of d^2: by the processor's root and quotient, or without either, from a shift of the bits
    (error 3.4 %) by a step of fourth order for 1/d and one for its cube; both right to 1 or 2 in
    the last place.  The first is sooner there where one waits for it, the second takes some
-   processors less time where there are many: 8 of many take 15 and 7 ns on Sapphire Rapids, 3.0 and
-   4.0 ns on Zen 5.  So each form of the right-hand side exists with both, and problems_begin takes
-   the faster on the processor at hand.                                                        */
+   processors less time where there are many.  So each form of the right-hand side exists with both,
+   and problems_begin takes the faster on the processor at hand.                               */
 INLINE double over_cube(double d2, const int processor)
 {
     if (processor) return 1/(d2*sqrt(d2));
