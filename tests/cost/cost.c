@@ -495,9 +495,9 @@ static void study_horizon(const options *o)
         for (int r = 0; r < 3; ++r) print_ms(ms[r][i]);
         printf(" %9.2f\n", fmin(ratio[1][i], ratio[2][i]));
     }
-    plot_line lines[] = { { "gvi.h", 1, 3, length, ratio[0] }, { rivals[0], 0, 3, length, ratio[1] },
-                          { rivals[1], 0, 3, length, ratio[2] } };
-    plot_panel panel = { "P4: time to an error of 1e-7, relative to gvi.h", "length in units of 548 years",
+    plot_line lines[] = { { "gvi.h", 1, 3, length, ratio[0] }, { "RKN12(10), fixed step", 0, 3, length, ratio[1] },
+                          { "RKN12(10), adaptive", 0, 3, length, ratio[2] } };
+    plot_panel panel = { "Outer solar system: time to an error of 1e-7", "length in units of 548 years",
                          "times the time of gvi.h", 1, lines, 3 };
     char path[512];
     snprintf(path, sizeof path, "%s/horizon.svg", o->out);

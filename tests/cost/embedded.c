@@ -396,7 +396,7 @@ static void choice_table(void)
 
 /* ------------------------------------------------------------------- picture */
 
-typedef struct family { const char *name; int setting, thick; double x[SIZES], y[SIZES]; int count; } family;
+typedef struct family { const char *name; int setting, style; double x[SIZES], y[SIZES]; int count; } family;
 
 static void points_of(const scene *s, family *f)
 {
@@ -414,7 +414,7 @@ static void panel_of(const scene *s, const char *title, family *f, plot_line *li
 {
     for (int k = 0; k < LINES; ++k) {
         points_of(s, f + k);
-        const plot_line line = { f[k].name, f[k].thick, f[k].count, f[k].x, f[k].y };
+        const plot_line line = { f[k].name, f[k].style, f[k].count, f[k].x, f[k].y };
         lines[k] = line;
         if (f[k].count == 0 && s->verlet) complain("no point in the picture", s, settings + f[k].setting);
     }
@@ -438,7 +438,7 @@ static int picture(const char *path)
         const setting *t = &wanted[k%LINES].setting;
         x->name = wanted[k%LINES].name;
         x->setting = find(t->method, t->degree, t->iterations);
-        x->thick = k%LINES == 0;
+        x->style = t->method == RK4 || t->method == RK4_CARRIED ? PLOT_DASHED : PLOT_THIN;
     }
     panel_of(scenes + ORBIT, "orbit, 298 revolutions", f[0], lines[0], panels);
     panel_of(scenes + ARM, "arm of two links, 300 s", f[1], lines[1], panels + 1);

@@ -5,9 +5,10 @@
 #include <math.h>
 #include <stdio.h>
 
+enum { PLOT_THIN, PLOT_THICK, PLOT_DASHED };
 typedef struct plot_line {
     const char   *name;
-    int           thick;
+    int           style;
     int           count;
     const double *x, *y;
 } plot_line;
@@ -69,7 +70,8 @@ static void plot_tick(FILE *f, const plot_axis *axis, const plot_axis *other, in
     }
 }
 
-/* Every second or third decade upwards if there are many; 1, 2, 5 along the time.             */
+/* Every second or third decade upwards if there are many; 1, 2, 5 along the time, up to three
+   decades, beyond which their numbers would touch.                                            */
 static void plot_ticks(FILE *f, const plot_axis *axis, const plot_axis *other, int vertical)
 {
     double decades = axis->hi - axis->lo;
@@ -83,7 +85,7 @@ static void plot_ticks(FILE *f, const plot_axis *axis, const plot_axis *other, i
     } else {
         static const double of_decade[] = { 1, 2, 5 };
         for (int k = (int)floor(axis->lo + 1e-9); k <= axis->hi + 1e-9; ++k)
-            for (int m = 0; m < (decades > 3.5 ? 1 : 3); ++m) {
+            for (int m = 0; m < (decades > 3.01 ? 1 : 3); ++m) {
                 double x = of_decade[m]*pow(10, k);
                 double z = log10(x);
                 if (z > axis->lo - 1e-9 && z < axis->hi + 1e-9) plot_tick(f, axis, other, 0, x, 0);
@@ -94,16 +96,21 @@ static void plot_ticks(FILE *f, const plot_axis *axis, const plot_axis *other, i
 static const char *plot_colour(const plot_line *line, int index)
 {
     static const char *const colour[] = { "#d55e00", "#0072b2", "#009e73", "#aa4499", "#b8860b",
-                                          "#56b4e9", "#88562b", "#999999" };
-    return line->thick ? "#111111" : colour[(index + 8) % 8];
+                                          "#56b4e9", "#88562b", "#444444" };
+    return line->style == PLOT_THICK ? "#111111" : colour[(index + 8) % 8];
+}
+
+static const char *plot_dashes(const plot_line *line)
+{
+    return line->style == PLOT_DASHED ? " stroke-dasharray=\"6 3\"" : "";
 }
 
 static void plot_curve(FILE *f, const plot_line *line, const plot_axis *x, const plot_axis *y,
                        const char *colour)
 {
     int drawing = 0;
-    fprintf(f, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%s\" stroke-linejoin=\"round\" d=\"", colour,
-            line->thick ? "3.6" : "1.7");
+    fprintf(f, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%s\"%s stroke-linejoin=\"round\" d=\"", colour,
+            line->style == PLOT_THICK ? "3.6" : "1.7", plot_dashes(line));
     for (int k = 0; k < line->count; ++k) {
         double a = plot_at(x, line->x[k]), b = plot_at(y, line->y[k]);
         int shown = isfinite(a) && isfinite(b);
@@ -144,10 +151,10 @@ static int plot_write(const char *path, const plot_panel *panels, int count)
     for (int k = 0; k < count; ++k) plot_one(f, panels + k, 80 + 480*k, 440 + 480*k);
     for (int i = 0; i < panels->line_count; ++i) {
         const plot_line *line = panels->lines + i;
-        fprintf(f, "<path d=\"M%.0f %dh22\" stroke=\"%s\" stroke-width=\"%s\"/>", end + 20, 70 + 26*i,
-                plot_colour(line, i - 1), line->thick ? "4.5" : "3");
+        fprintf(f, "<path d=\"M%.0f %dh22\" stroke=\"%s\" stroke-width=\"%s\"%s/>", end + 20, 70 + 26*i,
+                plot_colour(line, i - 1), line->style == PLOT_THICK ? "4.5" : "3", plot_dashes(line));
         fprintf(f, "<text x=\"%.0f\" y=\"%d\"%s>%s</text>\n", end + 50, 75 + 26*i,
-                line->thick ? " font-weight=\"bold\"" : "", line->name);
+                line->style == PLOT_THICK ? " font-weight=\"bold\"" : "", line->name);
     }
     fprintf(f, "</svg>\n");
     return fclose(f) ? -1 : 0;
