@@ -768,9 +768,9 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #endif
 
 /* Compiled for size: one loop in place of several for the usual lengths, scratch in
-   the caller's memory in place of registers, and GVI__APART, a function of its own
-   even where it is called once: what it needs of the stack is not held by those that
-   call it.                                                                    */
+   the caller's memory in place of registers, and GVI__APART, a function of its own:
+   called once, so that what it needs of the stack is not held by those that call it,
+   or short and called often.                                                  */
 #ifdef __OPTIMIZE_SIZE__
 #define GVI__SMALL 1
 #else
@@ -798,10 +798,10 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 typedef char gvi__effects_fit_a_word[GVI_EFFECTS >= 1 && GVI_EFFECTS <= 32
                                      && GVI_EFFECTS <= 8*sizeof(unsigned) ? 1 : -1];
 
-static int gvi__finite(gvi_real x) { return GVI_ABS(x) <= GVI__MAX; }
+GVI__APART int gvi__finite(gvi_real x) { return GVI_ABS(x) <= GVI__MAX; }
 
 // true for every x but 0 and NaN
-static int gvi__nonzero(gvi_real x) { return x < 0 || x > 0; }
+GVI__APART int gvi__nonzero(gvi_real x) { return x < 0 || x > 0; }
 
 static int gvi__all_finite(int n, const gvi_real *x)
 {
