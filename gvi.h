@@ -1806,18 +1806,16 @@ static gvi_status gvi__evaluate(gvi_stepper *st, gvi_points *x, int plain)
     return status == GVI_OK ? gvi__effects(st, x, plain ? gvi__with_hessian(st) : 0) : status;
 }
 
-// one point, as gvi_points
-static void gvi__at(gvi_points *x, const gvi_stepper *st, const gvi_real *t, const gvi_real *q, const gvi_real *v,
-                    gvi_real *f, gvi_real *dldv)
+// one point, as gvi_points; f and dldv go to scratch
+GVI__APART void gvi__at(gvi_points *x, const gvi_stepper *st, const gvi_real *t, const gvi_real *q)
 {
     x->n = st->n;
     x->count = x->stride = 1;
     x->t = t;
     x->q = q;
-    x->v = v;
-    x->p = NULL;
-    x->f = f;
-    x->dldv = dldv;
+    x->v = x->p = NULL;
+    x->f = st->x.one + 4*st->n;
+    x->dldv = x->f + st->n;
     x->value = x->mass = x->velocity = NULL;
 }
 
@@ -1849,9 +1847,11 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real
 static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *p, gvi_real *v)
 {
     int n = st->n;
-    gvi_real *f = st->x.one + 4*n, *P = f + n, *W = st->x.hess + 3*n, *pivot = W + n*n, *dv = st->x.hess + 2*n;
+    gvi_real *W = st->x.hess + 3*n, *pivot = W + n*n, *dv = st->x.hess + 2*n;
     gvi_points x;
-    gvi__at(&x, st, &t, q, v, f, P);
+    gvi__at(&x, st, &t, q);
+    x.v = v;
+    const gvi_real *P = x.dldv;
     gvi_real last = GVI__MAX;
     st->counters.velocities += 1;
     for (int k = 0; k < 40; ++k) {
@@ -1896,7 +1896,8 @@ static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, 
 {
     const gvi_mass *mass = &st->x.desc.mass;
     gvi_points x;
-    gvi__at(&x, st, &t, q, NULL, NULL, NULL);
+    gvi__at(&x, st, &t, q);
+    x.f = x.dldv = NULL;
     if (mass->velocity) {
         x.p = p;
         x.velocity = v;
@@ -2617,7 +2618,10 @@ static inline gvi_real *gvi__A(const struct gvi__rows *rows) { return GVI__LAGRA
 
 static void gvi__rows_as_points(gvi_points *x, const gvi_stepper *st, const struct gvi__rows *rows, gvi_real *dldv)
 {
-    gvi__at(x, st, st->x.t, rows->Q, rows->V, rows->F, dldv);
+    gvi__at(x, st, st->x.t, rows->Q);
+    x->v = rows->V;
+    x->f = rows->F;
+    x->dldv = dldv;
     x->count = st->r;
     x->stride = st->x.stride;
 }
@@ -3354,10 +3358,10 @@ static int gvi__is_rounding(const gvi_stepper *st, const gvi__from *from, int id
 }
 
 // g at one configuration; slope of length n gets dg/dq
-static gvi_status gvi__rate_at(gvi_stepper *st, gvi_real t, const gvi_real *q, gvi_real *rate, gvi_real *slope)
+GVI__APART gvi_status gvi__rate_at(gvi_stepper *st, gvi_real t, const gvi_real *q, gvi_real *rate, gvi_real *slope)
 {
     gvi_points y;
-    gvi__at(&y, st, &t, q, NULL, NULL, NULL);
+    gvi__at(&y, st, &t, q);
     return gvi__rate(st, &y, rate, slope);
 }
 
@@ -3526,7 +3530,9 @@ static inline gvi_status gvi__explicit_of(gvi_stepper *st, const gvi__from *from
     gvi_real *F = x->work.F, *Q = x->work.Q, *dp = x->dp, *dq = x->dq, t;
     const gvi_real zero = h - h;
     gvi_points y;
-    gvi__at(&y, st, &t, Q, NULL, F, NULL);
+    gvi__at(&y, st, &t, Q);
+    y.f = F;
+    y.dldv = NULL;
     gvi__drift(n, dense ? 0 : x->drift[0], zero, m, from, dp, dq, Q, F);
     if (dense) gvi__drift_dense(st, from, x->drift[0]);
     for (int j = 0; j < r; ++j) {
@@ -3746,7 +3752,10 @@ GVI__APART gvi_status gvi__jacobian_exact(gvi_stepper *st, const gvi__matrix *J,
 static void gvi__sites_as_points(gvi_points *y, const gvi_stepper *st, const gvi__sites *at, gvi_real *f,
                                  gvi_real *dldv)
 {
-    gvi__at(y, st, at->t, at->q, at->v, f, dldv);
+    gvi__at(y, st, at->t, at->q);
+    y->v = at->v;
+    y->f = f;
+    y->dldv = dldv;
     y->count = at->count;
     y->stride = at->stride;
 }
@@ -3811,13 +3820,14 @@ GVI__APART gvi_status gvi__check_regular(gvi_stepper *st)
     struct gvi__private *x = &st->x;
     int n = st->n, R = x->stride, at;
     if (gvi__mass_is_constant(&x->desc) && !gvi__has(st, GVI__HAS_LAGRANGIAN)) return GVI_OK;
-    gvi_real *W = x->hess + 3*n, *q = W + n*n + n + 1, *v = q + n, *f = x->one + 4*n, *P = f + n;
+    gvi_real *W = x->hess + 3*n, *q = W + n*n + n + 1, *v = q + n;
     for (int i = 0; i < n; ++i) {
         q[i] = x->work.Q[i*R];
         v[i] = x->work.V[i*R];
     }
     gvi_points y;
-    gvi__at(&y, st, x->t, q, v, f, P);
+    gvi__at(&y, st, x->t, q);
+    y.v = v;
     if (!gvi__has(st, GVI__HAS_LAGRANGIAN)) return gvi__mass_at(st, &y, 1);
     gvi_status status = gvi__evaluate(st, &y, 0);
     if (status == GVI_OK) status = gvi__velocity_hessian(st, &y, v, W);
@@ -4238,12 +4248,9 @@ static gvi_status gvi__values(gvi_stepper *st, gvi_points *x, gvi_real *V, gvi_r
 // v'Mv/2 at one point
 static gvi_status gvi__kinetic_energy(gvi_stepper *st, gvi_points *x, gvi_real *T)
 {
-    size_t n = (size_t)st->n;
-    gvi_real *f = x->f = st->x.one + 4*n, *p = x->dldv = f + n;
-    gvi__zero(n, f);
-    gvi__zero(n, p);
+    gvi__zero(2*(size_t)st->n, x->f);             // and x->dldv
     gvi_status status = gvi__kinetic(st, x);
-    *T = gvi__dot(st->n, p, x->v)/2;
+    *T = gvi__dot(st->n, x->dldv, x->v)/2;
     return status;
 }
 
@@ -4256,7 +4263,8 @@ static gvi_status gvi__energy(gvi_stepper *st, gvi_real t, const gvi_real *q, co
     gvi_status status = gvi__velocity(st, t, q, p, v);
     if (status != GVI_OK) return status;
     gvi_points y;
-    gvi__at(&y, st, &t, q, v, NULL, NULL);
+    gvi__at(&y, st, &t, q);
+    y.v = v;
     status = gvi__values(st, &y, &V, &L);
     if (status == GVI_OK) status = gvi__kinetic_energy(st, &y, &T);
     if (status != GVI_OK) return status;
@@ -4313,22 +4321,21 @@ GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, con
     if (status != GVI_OK) return status;
     struct gvi__private *x = &st->x;
     size_t n = (size_t)(unsigned)st->n;           // n > 0, which not every compiler sees
-    gvi_real *f = x->one + 4*n, *p = f + n;
 
     // p = dL/dv: of the kinetic energy, and of Lagrangian terms where there are any
     gvi_points y;
-    gvi__at(&y, st, &t, q, v, f, p);
+    gvi__at(&y, st, &t, q);
+    y.v = v;
     x->diagnose = 1;
     if (gvi__has(st, GVI__HAS_LAGRANGIAN)) status = gvi__evaluate(st, &y, 0);
     else {
-        gvi__zero(n, f);
-        gvi__zero(n, p);
+        gvi__zero(2*n, y.f);                      // and y.dldv
         status = gvi__kinetic(st, &y);
     }
     x->diagnose = 0;
     if (status != GVI_OK) return status;
     gvi_real *start = x->one + 3*n;               // v may be what a query wrote over st
-    gvi__copy(n, p, x->dp);
+    gvi__copy(n, y.dldv, x->dp);
     gvi__copy(n, q, x->dq);
     gvi__copy(n, v, start);
     return gvi__start(st, t, start);
@@ -4529,9 +4536,11 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
     // partial step of length h from the nearer end
     int end = GVI_ABS(back) <= GVI_ABS(ahead);
     gvi_real h = end ? back - x->te : ahead;
-    gvi__from from = { x->t0, 0, x->q0, x->zeros, x->p0, x->zeros, x->H0, 0, NULL, NULL };
-    gvi__from last = { st->t, x->te, x->q, x->qe, x->p, x->pe, x->H, x->He, NULL, NULL };
-    if (end) from = last;
+    gvi__from from = { st->t, x->te, x->q, x->qe, x->p, x->pe, x->H, x->He, NULL, NULL };
+    if (!end) {
+        const gvi__from first = { x->t0, 0, x->q0, x->zeros, x->p0, x->zeros, x->H0, 0, NULL, NULL };
+        from = first;
+    }
     gvi_formulation was = st->formulation;
     if (gvi__nonzero(h) && gvi__has_clock(st)) status = gvi__partial_clock(st, &from, end, h);
     else if (gvi__nonzero(h)) status = gvi__partial(st, &from, end, h);
@@ -4562,7 +4571,8 @@ static gvi_status gvi__lagrangian(gvi_stepper *st, gvi_real t, const gvi_real *q
 {
     gvi_real V, L, T;
     gvi_points y;
-    gvi__at(&y, st, &t, q, v, NULL, NULL);
+    gvi__at(&y, st, &t, q);
+    y.v = v;
     gvi_status status = gvi__values(st, &y, &V, &L);
     if (status == GVI_OK) status = gvi__kinetic_energy(st, &y, &T);
     if (status == GVI_OK) *value = T - V + L;
@@ -4651,7 +4661,7 @@ static gvi_status gvi__chord(gvi_stepper *st, const gvi__from *from, gvi_real h,
 {
     struct gvi__private *x = &st->x;
     int n = st->n, R = x->stride;
-    gvi_real *q = x->change, *v = q + n, *f = x->one + 4*n, *P = f + n;
+    gvi_real *q = x->change, *v = q + n;
     gvi_status status = GVI_OK;
     gvi__zero((size_t)n, p);
     for (int j = 0; j < st->r && status == GVI_OK; ++j) {
@@ -4661,13 +4671,14 @@ static gvi_status gvi__chord(gvi_stepper *st, const gvi__from *from, gvi_real h,
             if (x->work.V) x->work.V[i*R + j] = v[i];
         }
         gvi_points y;
-        gvi__at(&y, st, x->t + j, q, v, f, P);
+        gvi__at(&y, st, x->t + j, q);
+        y.v = v;
         x->diagnose = 1;
         status = gvi__evaluate(st, &y, 0);
         x->diagnose = 0;
         for (int i = 0; i < n; ++i) {
-            x->work.F[i*R + j] = f[i];
-            p[i] += x->b[j]*P[i];
+            x->work.F[i*R + j] = y.f[i];
+            p[i] += x->b[j]*y.dldv[i];
         }
     }
     return status;
