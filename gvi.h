@@ -133,8 +133,11 @@
      GVI_NO_CLOCK         no effects of kind GVI_CLOCK
      GVI_NO_DENSE         no GVI_MASS_DENSE
      GVI_NO_OWN           no GVI_OWN
+     GVI_NO_TOLERANCE     no fixed point without desc.iterations
+     GVI_NO_DIAGNOSIS     where a value is not finite, st->fault names no effect
 
    A description that asks for what was left out is refused: GVI_E_FORMULATION.
+   Without diagnosis a step that came to NaN or Inf is not repeated to find the effect.
    With GVI_STATIC, functions that are not called vanish as well.
 
      GVI_SQRT(x) GVI_ABS(x) GVI_FLOOR(x) GVI_LDEXP(x, e) GVI_FREXP(x, &e)
@@ -765,6 +768,16 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__OWN 0
 #else
 #define GVI__OWN 1
+#endif
+#ifdef GVI_NO_TOLERANCE
+#define GVI__TOLERANCE 0
+#else
+#define GVI__TOLERANCE 1
+#endif
+#ifdef GVI_NO_DIAGNOSIS
+#define GVI__DIAGNOSIS 0
+#else
+#define GVI__DIAGNOSIS 1
 #endif
 
 /* Compiled for size: one loop in place of several for the usual lengths, scratch in
@@ -1479,6 +1492,12 @@ static inline int gvi__rule_is(const gvi_stepper *st, gvi_rule_kind kind)
     return (kind != GVI_OWN || GVI__OWN) && (kind != GVI_KICKS || GVI__EXPLICIT) && st->x.desc.rule.kind == kind;
 }
 
+// does a step, or a start, look for the effect whose values are not finite?
+static inline int gvi__diagnoses(const gvi_stepper *st) { return GVI__DIAGNOSIS && st->x.diagnose; }
+
+// is the number of iterations given, and not a matter of a tolerance?
+static inline int gvi__counts(const gvi_stepper *st) { return !GVI__TOLERANCE || st->x.desc.iterations > 0; }
+
 static gvi_status gvi__fail(gvi_stepper *st, gvi_status status, int effect, int coordinate, int point)
 {
     st->fault.effect = effect;
@@ -1539,10 +1558,16 @@ GVI__APART int gvi__point_by_point(gvi_stepper *st, const gvi_effect *e, const g
    If not the step itself has run away.                                        */
 static gvi_status gvi__check_points(gvi_stepper *st, const gvi_points *x)
 {
-    if (!st->x.diagnose) return GVI_OK;
+    if (!gvi__diagnoses(st)) return GVI_OK;
     if (gvi__check_rows(st, x, x->q, GVI_FAULT_NONE) == GVI_OK
         && (!GVI__READS_V || gvi__check_rows(st, x, x->v, GVI_FAULT_NONE) == GVI_OK)) return GVI_OK;
     return gvi__give(st, GVI_E_CONVERGENCE);
+}
+
+// without diagnosis: are f and dldv finite, which gvi__at has put side by side?
+static inline gvi_status gvi__finite_here(gvi_stepper *st, const gvi_points *x)
+{
+    return GVI__DIAGNOSIS || gvi__all_finite(2*x->n, x->f) ? GVI_OK : gvi__give(st, GVI_E_NON_FINITE);
 }
 
 /* The value callback of effect e: adds to `value` at the points.               */
@@ -1570,7 +1595,7 @@ GVI__APART gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e)
     x->value = together ? own : NULL;
     int refused = effect->points ? effect->points(x, effect->user) : gvi__point_by_point(st, effect, x, &point);
     gvi_status status = refused ? gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, point) : GVI_OK;
-    if (st->x.diagnose && status == GVI_OK) {
+    if (gvi__diagnoses(st) && status == GVI_OK) {
         status = gvi__check_rows(st, x, x->f, e);
         if (status == GVI_OK && GVI__LAGRANGIAN) status = gvi__check_rows(st, x, x->dldv, e);
     }
@@ -1595,7 +1620,7 @@ static gvi_status gvi__effects(gvi_stepper *st, gvi_points *x, unsigned skip)
     const gvi_real *v = x->v;
     gvi_real *dldv = x->dldv;
     gvi_status status = GVI_OK;
-    const int plain = !(GVI__CLOCK && x->value) && !st->x.diagnose;
+    const int plain = !(GVI__CLOCK && x->value) && !gvi__diagnoses(st);
     skip |= st->x.off | gvi__clock_bit(st);
     for (int e = 0; e < st->x.desc.effect_count && status == GVI_OK; ++e, ++effect) {
         if (skip >> e & 1u) continue;
@@ -1629,7 +1654,7 @@ static signed char gvi__single(const gvi_stepper *st)
 static inline gvi_status gvi__all_effects(gvi_stepper *st, gvi_points *x)
 {
     const int e = GVI__SMALL ? -1 : st->x.single;
-    if (e < 0 || st->x.diagnose) return gvi__effects(st, x, 0);
+    if (e < 0 || gvi__diagnoses(st)) return gvi__effects(st, x, 0);
     const gvi_effect *effect = st->x.desc.effects + e;
     const gvi_real *v = x->v;
     gvi_real *dldv = x->dldv;
@@ -1763,7 +1788,7 @@ static gvi_status gvi__mass_gradient(gvi_stepper *st, gvi_points *x)
     x->dldv = dldv;
     x->value = value;
     if (refused) return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, -1, -1);
-    return st->x.diagnose ? gvi__check_rows(st, x, x->f, GVI_FAULT_MASS) : GVI_OK;
+    return gvi__diagnoses(st) ? gvi__check_rows(st, x, x->f, GVI_FAULT_MASS) : GVI_OK;
 }
 
 /* The kinetic energy's share: x->dldv += M v, and for M(q) the gradient.      */
@@ -1790,7 +1815,7 @@ static gvi_status gvi__kinetic(gvi_stepper *st, gvi_points *x)
             for (int k = 0; k < x->count; ++k) p[k] += a[k*each]*x->v[j*R + k];
         }
     }
-    return st->x.diagnose ? gvi__check_rows(st, x, x->dldv, GVI_FAULT_MASS) : GVI_OK;
+    return gvi__diagnoses(st) ? gvi__check_rows(st, x, x->dldv, GVI_FAULT_MASS) : GVI_OK;
 }
 
 /* F and P at the points from scratch: everything (plain = 0), or what has no
@@ -2332,6 +2357,8 @@ static gvi_status gvi__resolve(gvi_stepper *st, const gvi_desc *desc)
     }
     if (st->x.chosen == GVI_AUTO) return GVI_E_FORMULATION;         // nothing fits
     if (st->x.chosen == GVI_NEWTON && d->iterations > 0) return GVI_E_FORMULATION;
+    if (!GVI__TOLERANCE && d->iterations == 0 && !gvi__uses(st, GVI_EXPLICIT) && !gvi__uses(st, GVI_NEWTON))
+        return GVI_E_FORMULATION;
     if (st->x.chosen == GVI_NEWTON
         || (GVI__NEWTON && d->formulation == GVI_AUTO && st->x.chosen != GVI_EXPLICIT && st->x.clock < 0
             && d->iterations == 0))
@@ -3022,7 +3049,7 @@ GVI__APART gvi_status gvi__legendre_rows(gvi_stepper *st, gvi_points *y)
         y->f = f;
         y->dldv = dldv;
         if (refused) return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, -1, -1);
-        if (x->diagnose) {
+        if (gvi__diagnoses(st)) {
             gvi_status status = gvi__check_rows(st, y, w->V, GVI_FAULT_MASS);
             if (status != GVI_OK) return status;
         }
@@ -3056,10 +3083,10 @@ static gvi_status gvi__rate(gvi_stepper *st, gvi_points *x, gvi_real *rate, gvi_
     if (refused) return gvi__fail(st, GVI_E_CALLBACK, st->x.clock, -1, -1);
     for (int k = 0; k < x->count; ++k) {
         if (rate[k] <= 0) return gvi__fail(st, GVI_E_CLOCK, st->x.clock, GVI_FAULT_NONE, k);
-        if (st->x.diagnose && !gvi__finite(rate[k]))
+        if (gvi__diagnoses(st) && !gvi__finite(rate[k]))
             return gvi__fail(st, GVI_E_NON_FINITE, st->x.clock, GVI_FAULT_NONE, k);
     }
-    return st->x.diagnose ? gvi__check_rows(st, x, slope, st->x.clock) : GVI_OK;
+    return gvi__diagnoses(st) ? gvi__check_rows(st, x, slope, st->x.clock) : GVI_OK;
 }
 
 // sum += a b/2
@@ -3392,7 +3419,7 @@ static void gvi__watch_last(gvi_stepper *st, gvi_real change)
    have all been looked at, it is divergence; else gvi__solve looks at them.    */
 static gvi_status gvi__not_finite(gvi_stepper *st, int grows)
 {
-    gvi_status status = grows || st->x.diagnose ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE;
+    gvi_status status = grows || gvi__diagnoses(st) ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE;
     return gvi__give(st, status);
 }
 
@@ -3414,9 +3441,9 @@ GVI__APART int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress 
     const gvi_real tolerance = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/4096;
     const gvi_real rounding = 16*GVI__EPS*GVI__EPS*(gvi_real)(st->n*st->r), before = p->before;
     const gvi_real known = before > 1 ? 1 : before > 0 ? before : change;
-    const int fixed = x->desc.iterations;
-    if (fixed == 0 && change*change <= tolerance*tolerance*known) return GVI__DONE;
-    if (fixed > 0 && used == fixed) {
+    const int given = gvi__counts(st);
+    if (!given && change*change <= tolerance*tolerance*known) return GVI__DONE;
+    if (given && used == x->desc.iterations) {
         const int falls = p->earlier > 0 ? change < p->earlier/4 : before <= 0 || change < before;
         return falls || change <= 65536*rounding ? GVI__DONE : GVI__BEYOND;
     }
@@ -3425,7 +3452,7 @@ GVI__APART int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress 
     if (used == 1 || p->grows) gvi__zero(2*(size_t)st->n, x->scale);
     p->earlier = before;
     p->before = change;
-    if (fixed > 0) return GVI__GO_ON;
+    if (given) return GVI__GO_ON;
     p->poor = p->grows ? p->poor + 1 : 0;
     p->idle = change < p->least*81/100 ? 0 : p->idle + 1;
     if (change < p->least) p->least = change;
@@ -3440,7 +3467,7 @@ GVI__APART int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress 
 GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate, int *used)
 {
     struct gvi__private *x = &st->x;
-    const int most = x->desc.iterations > 0 ? x->desc.iterations : x->desc.max_iterations;
+    const int given = gvi__counts(st), most = given ? x->desc.iterations : x->desc.max_iterations;
     gvi__progress p = { 0, 0, GVI__MAX, 0, 0, 0 };
     gvi__stage y[GVI__STAGES];
     const int count = gvi__plan(st, from, h, y);
@@ -3451,7 +3478,7 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
     }
     gvi__guess(st, extrapolate, rate);
     for (*used = 0; ; ) {
-        for (int i = 0; p.idle + p.poor > 0 && i < st->n; ++i) x->change[i] = x->work.Q[i*x->stride + st->r - 1];
+        for (int i = 0; !given && p.idle + p.poor > 0 && i < st->n; ++i) x->change[i] = x->work.Q[i*x->stride + st->r - 1];
         const gvi_real change = gvi__stages(st, y, count);
         int verdict = GVI__GO_ON;
         if (*used > 0) {
@@ -3527,7 +3554,7 @@ static inline gvi_status gvi__explicit_of(gvi_stepper *st, const gvi__from *from
     const int dense = gvi__mass_is(st, GVI_MASS_DENSE), r = st->r;
     const gvi_real *m = x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
     const gvi_effect *only = !GVI__SMALL && x->single >= 0 && !x->diagnose ? x->desc.effects + x->single : NULL;
-    gvi_real *F = x->work.F, *Q = x->work.Q, *dp = x->dp, *dq = x->dq, t;
+    gvi_real *F = x->work.F, *Q = x->work.Q, *dp = x->dp, *dq = x->dq, t = from->t;
     const gvi_real zero = h - h;
     gvi_points y;
     gvi__at(&y, st, &t, Q);
@@ -4101,7 +4128,7 @@ static gvi_status gvi__solve(gvi_stepper *st, gvi__from *from, gvi_real h, const
     struct gvi__private *x = &st->x;
     gvi_status status = gvi__attempt(st, from, h, past, query);
     if (status == GVI_OK && !gvi__finite_end(st, from)) status = gvi__give(st, GVI_E_NON_FINITE);
-    if (status == GVI_E_NON_FINITE && st->fault.effect == GVI_FAULT_NONE && !x->diagnose) {
+    if (GVI__DIAGNOSIS && status == GVI_E_NON_FINITE && st->fault.effect == GVI_FAULT_NONE) {
         if (!query) x->h_matrix = 0;
         x->diagnose = 1;
         gvi_status second = gvi__attempt(st, from, h, past, query);
@@ -4333,6 +4360,7 @@ GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, con
         status = gvi__kinetic(st, &y);
     }
     x->diagnose = 0;
+    if (status == GVI_OK) status = gvi__finite_here(st, &y);
     if (status != GVI_OK) return status;
     gvi_real *start = x->one + 3*n;               // v may be what a query wrote over st
     gvi__copy(n, y.dldv, x->dp);
@@ -4676,6 +4704,7 @@ static gvi_status gvi__chord(gvi_stepper *st, const gvi__from *from, gvi_real h,
         x->diagnose = 1;
         status = gvi__evaluate(st, &y, 0);
         x->diagnose = 0;
+        if (status == GVI_OK) status = gvi__finite_here(st, &y);
         for (int i = 0; i < n; ++i) {
             x->work.F[i*R + j] = y.f[i];
             p[i] += x->b[j]*y.dldv[i];
@@ -4691,7 +4720,7 @@ static gvi_status gvi__interior(gvi_stepper *st, const gvi__from *from, gvi_real
     int n = st->n, size = (st->s - 1)*n;
     if (size == 0) return gvi__chord(st, from, h, q1, p);
     gvi_status status = GVI_E_NON_FINITE;
-    for (int look = 0; look < 2 && status == GVI_E_NON_FINITE; ++look) {    // as in gvi__solve
+    for (int look = 0; look < 1 + GVI__DIAGNOSIS && status == GVI_E_NON_FINITE; ++look) {    // as in gvi__solve
         gvi__zero((size_t)(st->s*n), x->y);
         for (int i = 0; i < n; ++i) x->y[i] = (q1[i] - from->q[i])/h;
         x->diagnose = (signed char)look;
