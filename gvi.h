@@ -133,6 +133,9 @@
      GVI_NO_CLOCK         no effects of kind GVI_CLOCK
      GVI_NO_DENSE         no GVI_MASS_DENSE
      GVI_NO_OWN           no GVI_OWN
+     GVI_NO_RULES         no rule but Gauss with r = s <= 4, and in GVI_EXPLICIT those
+                          that it takes; no Lagrangian terms.  Nodes and tables
+                          then are constants, not code
      GVI_NO_TOLERANCE     no fixed point without desc.iterations
      GVI_NO_DIAGNOSIS     where a value is not finite, st->fault names no effect
 
@@ -749,7 +752,15 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__NEWTON GVI__ONLY(0)
 #endif
 #define GVI__READS_V (GVI__VELOCITIES || GVI__MOMENTA || GVI__NEWTON)
-#ifdef GVI_NO_LAGRANGIAN
+#ifdef GVI_NO_RULES
+#define GVI__RULES 0
+#if GVI__KIND == 3
+#error "GVI_NO_RULES is for float and double"
+#endif
+#else
+#define GVI__RULES 1
+#endif
+#if defined(GVI_NO_LAGRANGIAN) || defined(GVI_NO_RULES)
 #define GVI__LAGRANGIAN 0
 #else
 #define GVI__LAGRANGIAN GVI__READS_V
@@ -764,7 +775,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #else
 #define GVI__DENSE 1
 #endif
-#ifdef GVI_NO_OWN
+#if defined(GVI_NO_OWN) || defined(GVI_NO_RULES)
 #define GVI__OWN 0
 #else
 #define GVI__OWN 1
@@ -1981,7 +1992,7 @@ static gvi_status gvi__gamma(gvi_stepper *st)
     struct gvi__private *x = &st->x;
     int s = st->s, r = st->r, R = x->stride;
     for (int k = 0; k < s; ++k) x->inv_gamma[k] = (gvi_real)(2*k + 1);
-    if (st->order == 2*s - 2) {
+    if (GVI__RULES && st->order == 2*s - 2) {
         gvi_real sum = 0;
         for (int i = 0; i < r; ++i) sum += x->b[i]*x->phi[(s-1)*R + i]*x->phi[(s-1)*R + i];
         if (!(GVI_ABS(sum) > (gvi_real)s*GVI__EPS)) return GVI_E_POINTS;
@@ -2025,6 +2036,93 @@ static gvi__two gvi__sandwich(const gvi_stepper *st, const gvi_real *a, const gv
     return gvi__sum(sum.hi, sum.lo);
 }
 
+/* Without other rules: what Gauss has with r = s = 1..4, one after the other, from
+   tests/gen/few.py: b; Phi and phi; S_ij, i <= j, and T_ij, i < j.  To be on their
+   grids in any type, Phi_0 and S below 1/2 are there less 1, T plus 1/2.       */
+#if !GVI__RULES
+#if GVI__KIND == 1
+#define GVI__C(x) x##f
+#else
+#define GVI__C(x) x
+#endif
+static const gvi_real gvi__few_b[] = {
+    GVI__C(1.0), GVI__C(0.5), GVI__C(0.5), GVI__C(0.277777777777777777778), GVI__C(0.444444444444444444444),
+    GVI__C(0.277777777777777777778), GVI__C(0.173927422568726928687), GVI__C(0.326072577431273071313),
+    GVI__C(0.326072577431273071313), GVI__C(0.173927422568726928687)
+};
+static const gvi_real gvi__few_Phi[] = {
+    GVI__C(0.5), GVI__C(-0.788675134594812882255), GVI__C(0.788675134594812882255), GVI__C(0.166666666666666666667),
+    GVI__C(0.166666666666666666667), GVI__C(-0.887298334620741688518), GVI__C(0.5), GVI__C(0.887298334620741688518),
+    GVI__C(0.1), GVI__C(0.25), GVI__C(0.1), GVI__C(0.0774596669241483377036), GVI__C(0.0),
+    GVI__C(-0.0774596669241483377036), GVI__C(-0.930568155797026287612), GVI__C(-0.669990521792428132401),
+    GVI__C(0.669990521792428132401), GVI__C(0.930568155797026287612), GVI__C(0.0646110632135476980776),
+    GVI__C(0.221103222500738016208), GVI__C(0.221103222500738016208), GVI__C(0.0646110632135476980776),
+    GVI__C(0.055638932663884638435), GVI__C(0.0751709043257755838678), GVI__C(-0.0751709043257755838678),
+    GVI__C(-0.055638932663884638435), GVI__C(0.0437381157656224151096), GVI__C(-0.0233299525003162926606),
+    GVI__C(-0.0233299525003162926606), GVI__C(0.0437381157656224151096)
+};
+static const gvi_real gvi__few_phi[] = {
+    GVI__C(1.0), GVI__C(1.0), GVI__C(1.0), GVI__C(0.577350269189625764509), GVI__C(-0.577350269189625764509),
+    GVI__C(1.0), GVI__C(1.0), GVI__C(1.0), GVI__C(0.774596669241483377036), GVI__C(0.0),
+    GVI__C(-0.774596669241483377036), GVI__C(0.4), GVI__C(-0.5), GVI__C(0.4), GVI__C(1.0), GVI__C(1.0), GVI__C(1.0),
+    GVI__C(1.0), GVI__C(0.861136311594052575224), GVI__C(0.339981043584856264803), GVI__C(-0.339981043584856264803),
+    GVI__C(-0.861136311594052575224), GVI__C(0.612333620718713811535), GVI__C(-0.326619335004428097249),
+    GVI__C(-0.326619335004428097249), GVI__C(0.612333620718713811535), GVI__C(0.304746984955206190874),
+    GVI__C(-0.411727999672899573875), GVI__C(0.411727999672899573875), GVI__C(-0.304746984955206190874)
+};
+static const gvi_real gvi__few_S[] = {
+    GVI__C(-0.75), GVI__C(-0.872008467928146215588), GVI__C(-0.75), GVI__C(0.705341801261479548921),
+    GVI__C(-0.927298334620741688518), GVI__C(-0.868649167310370844259), GVI__C(-0.5625), GVI__C(-0.9),
+    GVI__C(0.518649167310370844259), GVI__C(0.847298334620741688518), GVI__C(-0.953785837006848454724),
+    GVI__C(-0.920460403188975796283), GVI__C(-0.712370508221089930304), GVI__C(-0.938679181179479062757),
+    GVI__C(-0.656680189998734829357), GVI__C(0.627610535363766334498), GVI__C(-0.924952463062489660438),
+    GVI__C(-0.678101547174880907547), GVI__C(0.68009827440047862373), GVI__C(0.9073504745872041205)
+};
+static const gvi_real gvi__few_T[] = {
+    GVI__C(1.57735026918962576451), GVI__C(1.58094750193111253278), GVI__C(1.46475800154489002622),
+    GVI__C(1.58094750193111253278), GVI__C(1.58158975003227987256), GVI__C(1.46127407343211423994),
+    GVI__C(1.58550375141051935117), GVI__C(1.52044042068404064243), GVI__C(1.46127407343211423994),
+    GVI__C(1.58158975003227987256)
+};
+
+static gvi_real gvi__few(gvi_real x) { return x < 0 ? 1 + x : x; }
+
+// the constants in place of gvi__rule_make and gvi__modes_at_nodes
+static void gvi__few_modes(gvi_stepper *st)
+{
+    struct gvi__private *x = &st->x;
+    const size_t r = (size_t)st->r, at = (r - 1)*r*(2*r - 1)/6;
+    gvi__copy(r, gvi__few_b + (r - 1)*r/2, x->b);
+    gvi__copy(r*r, gvi__few_Phi + at, x->Phi);
+    if (GVI__READS_V && x->phi) gvi__copy(r*r, gvi__few_phi + at, x->phi);
+    for (size_t i = 0; i < r; ++i) x->c[i] = gvi__few(x->Phi[i]);
+}
+
+static gvi_real gvi__S(const gvi_stepper *st, int i, int j)
+{
+    const int r = st->r;
+    return gvi__few(gvi__few_S[(r - 1)*r*(r + 1)/6 + j*(j + 1)/2 + i]);
+}
+
+static gvi_real gvi__T(const gvi_stepper *st, int i, int j)
+{
+    const int r = st->r;
+    return gvi__few_T[(r - 2)*(r - 1)*r/6 + (j - 1)*j/2 + i] - (gvi_real)0.5;
+}
+#else
+static gvi_real gvi__S(const gvi_stepper *st, int i, int j)
+{
+    const struct gvi__private *x = &st->x;
+    return gvi__grid(gvi__sandwich(st, x->Phi, x->E, i, x->Phi, x->E, j), GVI__EPS/2);
+}
+
+static gvi_real gvi__T(const gvi_stepper *st, int i, int j)
+{
+    const struct gvi__private *x = &st->x;
+    return gvi__grid(gvi__sandwich(st, x->phi, x->low, i, x->Phi, x->E, j), GVI__EPS);
+}
+#endif
+
 /* S and T on grids of eps/2 and eps (|S| <= 1, |T| < 2): what they must fulfil
    for the step to be symplectic then holds exactly in the rounded numbers,
    S_ij = S_ji, and for Gauss with r = s  T_ij + T_ji = 1.  Stored by columns,
@@ -2032,18 +2130,17 @@ static gvi__two gvi__sandwich(const gvi_stepper *st, const gvi_real *a, const gv
 GVI__APART void gvi__tables(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
-    int r = st->r, R = x->stride, gauss = x->desc.rule.kind == GVI_GAUSS && r == st->s;
+    int r = st->r, R = x->stride, gauss = !GVI__RULES || (x->desc.rule.kind == GVI_GAUSS && r == st->s);
     for (int j = 0; j < r; ++j)
         for (int i = 0; i < r; ++i) {
             int at = j*R + i, mirror = i*R + j;
             if ((GVI__POSITIONS || GVI__VELOCITIES) && x->g && i <= j) {
-                gvi_real S = gvi__grid(gvi__sandwich(st, x->Phi, x->E, i, x->Phi, x->E, j), GVI__EPS/2);
+                const gvi_real S = gvi__S(st, i, j);
                 x->g[at] = x->c[i] - S;
                 x->g[mirror] = x->c[j] - S;
             }
             if ((GVI__VELOCITIES || GVI__MOMENTA) && x->m && (i <= j || !gauss)) {
-                gvi_real T = gvi__grid(gvi__sandwich(st, x->phi, x->low, i, x->Phi, x->E, j), GVI__EPS);
-                if (gauss && i == j) T = (gvi_real)0.5;
+                const gvi_real T = gauss && i == j ? (gvi_real)0.5 : gvi__T(st, i, j);
                 x->m[at] = 1 - T;
                 if (x->T) x->T[mirror] = T;
                 if (gauss) {
@@ -2357,6 +2454,8 @@ static gvi_status gvi__resolve(gvi_stepper *st, const gvi_desc *desc)
     }
     if (st->x.chosen == GVI_AUTO) return GVI_E_FORMULATION;         // nothing fits
     if (st->x.chosen == GVI_NEWTON && d->iterations > 0) return GVI_E_FORMULATION;
+    if (!GVI__RULES && !gvi__uses(st, GVI_EXPLICIT) && (d->rule.kind != GVI_GAUSS || r != s || s > 4))
+        return GVI_E_FORMULATION;
     if (!GVI__TOLERANCE && d->iterations == 0 && !gvi__uses(st, GVI_EXPLICIT) && !gvi__uses(st, GVI_NEWTON))
         return GVI_E_FORMULATION;
     if (st->x.chosen == GVI_NEWTON
@@ -2610,13 +2709,18 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     } else if (gvi__uses(st, GVI_EXPLICIT)) {                // Stoermer-Verlet: c = 0, 1
         x->c[1] = 1;
         x->b[0] = x->b[1] = (gvi_real)0.5;
-    } else gvi__rule_make(x->desc.rule.kind == GVI_LOBATTO, st->r, x->c, x->ce, x->b);
+    }
+#if GVI__RULES
+    else gvi__rule_make(x->desc.rule.kind == GVI_LOBATTO, st->r, x->c, x->ce, x->b);
+#else
+    else gvi__few_modes(st);
+#endif
     x->memory = memory;                      // from here on it can be used
     if (gvi__uses(st, GVI_EXPLICIT)) {
         if (x->Phi) gvi__copy((size_t)st->r, x->c, x->Phi);
         return gvi__done(st, GVI_OK);
     }
-    gvi__modes_at_nodes(st);
+    if (GVI__RULES) gvi__modes_at_nodes(st);
     for (int i = 0; i < st->r; ++i) x->c[i] = gvi__grid(gvi__sum(x->c[i], x->ce[i]), GVI__EPS/2);
     status = gvi__gamma(st);
     if (status != GVI_OK) {

@@ -1,4 +1,4 @@
-/* parts.c - ten scenes, one a line: name and state to the bit, or "refused"; then one that fails
+/* parts.c - scenes, one a line: name, state and a point of the curve to the bit, or "refused"; then one that fails
 
    tests/tools/parts.sh compiles it with each macro that leaves code out, and compares. */
 #define GVI_STATIC
@@ -89,8 +89,10 @@ static void run(const char *name, const gvi_desc *desc)
     }
     gvi_start(&st, 0, q, v);
     for (int k = 0; k < 20; ++k) gvi_step(&st, (real)0.125);
-    printf("%s %s %La %La %La %La\n", name, gvi_status_text(st.status), (long double)st.q[0], (long double)st.q[1],
-           (long double)st.p[0], (long double)st.p[1]);
+    real curve[2];
+    if (gvi_curve(&st, (real)0.25, curve, NULL) != GVI_OK) curve[0] = 0;
+    printf("%s %s %La %La %La %La %La\n", name, gvi_status_text(st.status), (long double)st.q[0], (long double)st.q[1],
+           (long double)st.p[0], (long double)st.p[1], (long double)curve[0]);
 }
 
 // the status and the fault of the first step that fails; what it left is where it was
@@ -133,6 +135,7 @@ int main(void)
     d.effect_count = 2;
     d.formulation = GVI_VELOCITIES;
     run("velocities", &d);
+    for (d.degree = 1; d.degree < 4; ++d.degree) run("few", &d);
     d.effects = bad;
     d.iterations = 3;
     run_broken(&d);
