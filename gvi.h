@@ -1544,6 +1544,17 @@ static gvi_status gvi__check_rows(gvi_stepper *st, const gvi_points *x, const gv
     return GVI_OK;
 }
 
+// a column of rows [n][stride], and back
+static void gvi__gather(int n, int stride, const gvi_real *rows, gvi_real *out)
+{
+    for (int i = 0; i < n; ++i) out[i] = rows[i*stride];
+}
+
+static void gvi__scatter(int n, int stride, const gvi_real *in, gvi_real *rows)
+{
+    for (int i = 0; i < n; ++i) rows[i*stride] += in[i];
+}
+
 // the one-point form: gather, call, scatter
 GVI__APART int gvi__point_by_point(gvi_stepper *st, const gvi_effect *e, const gvi_points *x, int *point)
 {
@@ -1551,16 +1562,12 @@ GVI__APART int gvi__point_by_point(gvi_stepper *st, const gvi_effect *e, const g
     gvi_real *q = st->x.one, *v = q + n, *f = v + n, *dldv = f + n;
     for (int k = 0; k < x->count; ++k) {
         *point = k;
-        for (int i = 0, at = k; i < n; ++i, at += x->stride) {
-            q[i] = x->q[at];
-            if (reads_v) v[i] = x->v[at];
-            f[i] = dldv[i] = 0;
-        }
+        gvi__gather(n, x->stride, x->q + k, q);
+        if (reads_v) gvi__gather(n, x->stride, x->v + k, v);
+        gvi__zero(2*(size_t)n, f);                    // and dldv
         if (e->point(x->t[k], q, reads_v ? v : NULL, f, term ? dldv : NULL, e->user)) return 1;
-        for (int i = 0, at = k; i < n; ++i, at += x->stride) {
-            x->f[at] += f[i];
-            if (term) x->dldv[at] += dldv[i];
-        }
+        gvi__scatter(n, x->stride, f, x->f + k);
+        if (term) gvi__scatter(n, x->stride, dldv, x->dldv + k);
     }
     return 0;
 }
@@ -1772,8 +1779,8 @@ static void gvi__over_constant_mass(const gvi_stepper *st, const gvi_real *GVI__
     if (gvi__mass_is(st, GVI_MASS_DENSE)) gvi__over_mass(st, v, 1, 1);
 }
 
-// M(q) at the points, factored
-static gvi_status gvi__mass_at(gvi_stepper *st, gvi_points *x, int factor)
+// M(q) at the points
+static gvi_status gvi__mass_at(gvi_stepper *st, gvi_points *x)
 {
     const gvi_real *v = x->v;
     gvi_real *f = x->f, *dldv = x->dldv;
@@ -1786,8 +1793,14 @@ static gvi_status gvi__mass_at(gvi_stepper *st, gvi_points *x, int factor)
     x->v = v;
     x->f = f;
     x->dldv = dldv;
-    if (refused) return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, -1, -1);
-    return factor ? gvi__ldl_factor(st, x->n, x->stride, x->count, st->x.point_mass) : GVI_OK;
+    return refused ? gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, -1, -1) : GVI_OK;
+}
+
+// the same, factored
+static gvi_status gvi__factor_at(gvi_stepper *st, gvi_points *x)
+{
+    const gvi_status status = gvi__mass_at(st, x);
+    return status == GVI_OK ? gvi__ldl_factor(st, x->n, x->stride, x->count, st->x.point_mass) : status;
 }
 
 // x->f += v' dM/dq v / 2
@@ -1810,7 +1823,7 @@ static gvi_status gvi__kinetic(gvi_stepper *st, gvi_points *x)
     if (gvi__mass_is(st, GVI_MASS_NONE)) return GVI_OK;
     if (gvi__mass_is(st, GVI_MASS_DENSE)) m = st->x.mass + (size_t)n*(size_t)n;
     else if (gvi__mass_is(st, GVI_MASS_POSITION)) {
-        gvi_status status = gvi__mass_at(st, x, 0);
+        gvi_status status = gvi__mass_at(st, x);
         if (status == GVI_OK) status = gvi__mass_gradient(st, x);
         if (status != GVI_OK) return status;
         m = st->x.point_mass;
@@ -1921,10 +1934,12 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_real t, const gvi_re
     return gvi__fail(st, GVI_E_CONVERGENCE, GVI_FAULT_MASS, -1, -1);
 }
 
-// a velocity near the present one: that at the end of the last step, or the start's
-static gvi_real gvi__velocity_guess(const gvi_stepper *st, int i)
+// velocities near the present ones: those at the end of the last step, or the start's
+static void gvi__velocity_guess(const gvi_stepper *st, gvi_real *v)
 {
-    return st->x.has_velocity ? st->x.last.V[i*st->x.stride + st->r - 1] : st->x.start[i];
+    const struct gvi__private *x = &st->x;
+    if (x->has_velocity) gvi__gather(st->n, x->stride, x->last.V + st->r - 1, v);
+    else gvi__copy((size_t)st->n, x->start, v);
 }
 
 /* v from p at one point.  v holds a guess on entry.                           */
@@ -1946,7 +1961,7 @@ static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, 
         return gvi__legendre_newton(st, t, q, p, v);
     gvi__copy((size_t)st->n, p, v);
     if (gvi__mass_is(st, GVI_MASS_POSITION)) {
-        gvi_status status = gvi__mass_at(st, &x, 1);
+        gvi_status status = gvi__factor_at(st, &x);
         if (status != GVI_OK) return status;
         gvi__ldl_solve(st->n, st->x.point_mass, 1, 1, v, 1, 1);
         st->counters.velocities += 1;
@@ -2520,7 +2535,7 @@ enum {
     GVI__sn, GVI__PIVOT, GVI__DIFFERENCES, GVI__J, GVI__EIGEN, GVI__LENGTHS
 };
 
-static void gvi__lengths(const gvi_stepper *st, size_t *length)
+GVI__APART void gvi__lengths(const gvi_stepper *st, size_t *length)
 {
     const struct gvi__private *x = &st->x;
     const size_t n = (size_t)st->n, s = (size_t)st->s, r = (size_t)st->r, R = (size_t)x->stride;
@@ -2576,7 +2591,7 @@ typedef struct gvi__part { unsigned char pointer, rows, columns; } gvi__part;
 #define GVI__PART(member, rows, columns) \
     { offsetof(struct gvi__private, member)/sizeof(gvi_real *), GVI__##rows, GVI__##columns }
 
-static void gvi__place(gvi_stepper *st, gvi__arena *a, const size_t *length, const gvi__part *part, size_t count)
+GVI__APART void gvi__place(gvi_stepper *st, gvi__arena *a, const size_t *length, const gvi__part *part, size_t count)
 {
     for (; count > 0; --count, ++part)
         ((gvi_real **)(void *)&st->x)[part->pointer] = gvi__take(a, length[part->rows], length[part->columns]);
@@ -3158,7 +3173,7 @@ GVI__APART gvi_status gvi__legendre_rows(gvi_stepper *st, gvi_points *y)
             if (status != GVI_OK) return status;
         }
     } else {
-        gvi_status status = gvi__mass_is_constant(&x->desc) ? GVI_OK : gvi__mass_at(st, y, 1);
+        gvi_status status = gvi__mass_is_constant(&x->desc) ? GVI_OK : gvi__factor_at(st, y);
         if (status != GVI_OK) return status;
         x->has_factor = !gvi__mass_is_constant(&x->desc);
         gvi__velocity_rows(st);
@@ -3384,8 +3399,9 @@ GVI__APART void gvi__guess(gvi_stepper *st, int extrapolate, gvi_real rate)
     } else {
         gvi__zero(length, w->F);
         if (gvi__A(w)) gvi__zero(length, w->A);
+        if (gvi__uses(st, GVI_MOMENTA)) gvi__velocity_guess(st, x->one);
         for (int i = 0; gvi__uses(st, GVI_MOMENTA) && i < st->n; ++i)
-            for (int k = 0; k < st->r; ++k) w->V[i*x->stride + k] = rate*gvi__velocity_guess(st, i);
+            for (int k = 0; k < st->r; ++k) w->V[i*x->stride + k] = rate*x->one[i];
     }
 }
 
@@ -3571,7 +3587,7 @@ GVI__APART int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress 
 GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate, int *used)
 {
     struct gvi__private *x = &st->x;
-    const int given = gvi__counts(st), most = given ? x->desc.iterations : x->desc.max_iterations;
+    const int most = gvi__counts(st) ? x->desc.iterations : x->desc.max_iterations;
     gvi__progress p = { 0, 0, GVI__MAX, 0, 0, 0 };
     gvi__stage y[GVI__STAGES];
     const int count = gvi__plan(st, from, h, y);
@@ -3582,7 +3598,7 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
     }
     gvi__guess(st, extrapolate, rate);
     for (*used = 0; ; ) {
-        for (int i = 0; !given && p.idle + p.poor > 0 && i < st->n; ++i) x->change[i] = x->work.Q[i*x->stride + st->r - 1];
+        if (GVI__TOLERANCE && p.idle + p.poor > 0) gvi__gather(st->n, x->stride, x->work.Q + st->r - 1, x->change);
         const gvi_real change = gvi__stages(st, y, count);
         int verdict = GVI__GO_ON;
         if (*used > 0) {
@@ -3712,10 +3728,19 @@ static void gvi__newton_rows(gvi_stepper *st, const gvi__from *from, gvi_real h)
     st->counters.velocities += (unsigned long long)st->r;
 }
 
+// F and P at the rows of y
+GVI__APART gvi_status gvi__newton_ask(gvi_stepper *st, const gvi__from *from, gvi_real h)
+{
+    gvi_points y;
+    gvi__newton_rows(st, from, h);
+    gvi__rows_as_points(&y, st, &st->x.work, st->x.work.P);
+    return gvi__evaluate(st, &y, 0);
+}
+
 /* dy := -residual.  The weights of P are h b_i/h, those that F has, and Phi_0 = c
    is on its grid: then the rows are exactly those of a discrete action, also as
    rounded.  Returns the largest residual in units of its own terms.           */
-static gvi_real gvi__residual(gvi_stepper *st, const gvi__from *from, int k0)
+GVI__APART gvi_real gvi__residual(gvi_stepper *st, const gvi__from *from, int k0)
 {
     struct gvi__private *x = &st->x;
     int n = st->n, R = x->stride;
@@ -3851,9 +3876,9 @@ GVI__APART gvi_status gvi__jacobian_exact(gvi_stepper *st, const gvi__matrix *J,
     size_t nn = (size_t)n*(size_t)n;
     gvi_real *fq = x->hess, *fv = fq + nn, *own = fv + nn, *pv = own + nn, *q = x->one, *v = q + n;
     for (int k = 0; k < at->count; ++k) {
+        gvi__gather(n, R, at->q + k, q);
+        gvi__gather(n, R, at->v + k, v);
         for (int i = 0; i < n; ++i) {
-            q[i] = at->q[i*R + k];
-            v[i] = at->v[i*R + k];
             for (int j = 0; j < n; ++j) {
                 gvi_real m = i == j ? 1 : 0;
                 if (d->mass.kind == GVI_MASS_DIAGONAL) m *= x->mass[i];
@@ -3880,66 +3905,80 @@ GVI__APART gvi_status gvi__jacobian_exact(gvi_stepper *st, const gvi__matrix *J,
     return GVI_OK;
 }
 
-static void gvi__sites_as_points(gvi_points *y, const gvi_stepper *st, const gvi__sites *at, gvi_real *f,
-                                 gvi_real *dldv)
+// F and P of what has no Hessian, one behind the other
+GVI__APART gvi_status gvi__ask_sites(gvi_stepper *st, const gvi__sites *at, gvi_real *F)
 {
-    gvi__at(y, st, at->t, at->q);
-    y->v = at->v;
-    y->f = f;
-    y->dldv = dldv;
-    y->count = at->count;
-    y->stride = at->stride;
+    gvi_points y;
+    gvi__at(&y, st, at->t, at->q);
+    y.v = at->v;
+    y.f = F;
+    y.dldv = F + st->n*at->stride;
+    y.count = at->count;
+    y.stride = at->stride;
+    return gvi__evaluate(st, &y, 1);
 }
 
-// forward differences by one row, coordinate j of Q or V, at all points at once
-static gvi_status gvi__difference(gvi_stepper *st, const gvi__matrix *J, const gvi__sites *at, int j, int by_v,
-                                  gvi_real d)
+// x->dF holds F and P, moved and not; x->z the row of coordinate j before it was moved
+GVI__APART void gvi__add_differences(const gvi_stepper *st, const gvi__matrix *J, const gvi__sites *at, int j, int by_v)
 {
-    struct gvi__private *x = &st->x;
-    int n = st->n, R = at->stride;
-    gvi_real *row = (by_v ? at->v : at->q) + j*R;
-    gvi_real *dF = x->dF, *dP = dF + n*R, *bF = dP + n*R, *bP = bF + n*R;
-    gvi_points y;
-    gvi__sites_as_points(&y, st, at, dF, dP);
-    gvi__copy((size_t)R, row, x->z);
-    for (int k = 0; k < at->count; ++k) row[k] += d;
-    gvi_status status = gvi__evaluate(st, &y, 1);
-    for (int k = 0; k < at->count && status == GVI_OK; ++k) {
-        gvi_real step = row[k] - x->z[k];
+    const int n = st->n, R = at->stride;
+    const gvi_real *row = (by_v ? at->v : at->q) + j*R;
+    const gvi_real *dF = st->x.dF, *dP = dF + n*R, *bF = dP + n*R, *bP = bF + n*R;
+    for (int k = 0; k < at->count; ++k) {
+        const gvi_real step = row[k] - st->x.z[k];
         for (int i = 0; i < n; ++i)
             gvi__add(st, J, i, j, k, (dF[i*R + k] - bF[i*R + k])/step, (dP[i*R + k] - bP[i*R + k])/step, by_v);
     }
-    gvi__copy((size_t)R, x->z, row);
+}
+
+// forward differences by one row, coordinate j of Q or V, at all points at once
+GVI__APART gvi_status gvi__difference(gvi_stepper *st, const gvi__matrix *J, const gvi__sites *at, int j, int by_v,
+                                      gvi_real d)
+{
+    struct gvi__private *x = &st->x;
+    const size_t R = (size_t)at->stride;
+    gvi_real *row = (by_v ? at->v : at->q) + (size_t)j*R;
+    gvi__copy(R, row, x->z);
+    for (int k = 0; k < at->count; ++k) row[k] += d;
+    gvi_status status = gvi__ask_sites(st, at, x->dF);
+    if (status == GVI_OK) gvi__add_differences(st, J, at, j, by_v);
+    gvi__copy(R, x->z, row);
     return status;
 }
 
-/* Derivatives of what has no Hessian.  The difference is sqrt(eps) of what the
-   coordinate moves in a step, but no less than eps^(3/4) of the coordinate.   */
+/* The difference for coordinate j: sqrt(eps) of what it moves in a step, but no less
+   than eps^(3/4) of itself.                                                   */
+GVI__APART gvi_real gvi__nudge(const gvi__sites *at, int j, gvi_real h)
+{
+    const gvi_real root = GVI_SQRT(GVI__EPS), *Q = at->q + j*at->stride, *V = at->v + j*at->stride;
+    gvi_real q = 0, v = 0;
+    for (int k = 0; k < at->count; ++k) {
+        if (GVI_ABS(Q[k]) > q) q = GVI_ABS(Q[k]);
+        if (GVI_ABS(V[k]) > v) v = GVI_ABS(V[k]);
+    }
+    const gvi_real path = h*v > GVI_SQRT(root)*q ? h*v : GVI_SQRT(root)*q;
+    if (root*path > GVI__MIN/GVI__EPS) return root*path;
+    return h < 1 ? root*h : root;                     // at rest at 0
+}
+
+// derivatives of what has no Hessian
 GVI__APART gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matrix *J, const gvi__sites *at)
 {
     struct gvi__private *x = &st->x;
     const gvi_desc *d = &x->desc;
-    int n = st->n, R = at->stride, any = !gvi__mass_is_constant(d), reads_v = any;
+    int n = st->n, any = !gvi__mass_is_constant(d), reads_v = any;
     for (int e = 0; e < d->effect_count; ++e)
         if (!(x->off >> e & 1u) && !d->effects[e].hessian) {
             any = 1;
             if (d->effects[e].kind != GVI_POTENTIAL) reads_v = 1;
         }
     if (!any) return GVI_OK;
-    gvi_points y;
-    gvi__sites_as_points(&y, st, at, x->dF + 2*n*R, x->dF + 3*n*R);
-    gvi_status status = gvi__evaluate(st, &y, 1);
-    const gvi_real root = GVI_SQRT(GVI__EPS), h = GVI_ABS(J->h);
+    gvi_status status = gvi__ask_sites(st, at, x->dF + 2*n*at->stride);
+    const gvi_real h = GVI_ABS(J->h);
     for (int j = 0; j < n && status == GVI_OK; ++j) {
-        gvi_real q = 0, v = 0;
-        for (int k = 0; k < at->count; ++k) {
-            if (GVI_ABS(at->q[j*R + k]) > q) q = GVI_ABS(at->q[j*R + k]);
-            if (GVI_ABS(at->v[j*R + k]) > v) v = GVI_ABS(at->v[j*R + k]);
-        }
-        gvi_real path = h*v > GVI_SQRT(root)*q ? h*v : GVI_SQRT(root)*q;
-        if (!(root*path > GVI__MIN/GVI__EPS)) path = h < 1 ? h : 1;     // at rest at 0
-        status = gvi__difference(st, J, at, j, 0, root*path);
-        if (status == GVI_OK && reads_v) status = gvi__difference(st, J, at, j, 1, root*path/h);
+        const gvi_real step = gvi__nudge(at, j, h);
+        status = gvi__difference(st, J, at, j, 0, step);
+        if (status == GVI_OK && reads_v) status = gvi__difference(st, J, at, j, 1, step/h);
     }
     return status;
 }
@@ -3949,17 +3988,15 @@ GVI__APART gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matr
 GVI__APART gvi_status gvi__check_regular(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
-    int n = st->n, R = x->stride, at;
+    int n = st->n, at;
     if (gvi__mass_is_constant(&x->desc) && !gvi__has(st, GVI__HAS_LAGRANGIAN)) return GVI_OK;
     gvi_real *W = x->hess + 3*n, *q = W + n*n + n + 1, *v = q + n;
-    for (int i = 0; i < n; ++i) {
-        q[i] = x->work.Q[i*R];
-        v[i] = x->work.V[i*R];
-    }
+    gvi__gather(n, x->stride, x->work.Q, q);
+    gvi__gather(n, x->stride, x->work.V, v);
     gvi_points y;
     gvi__at(&y, st, x->t, q);
     y.v = v;
-    if (!gvi__has(st, GVI__HAS_LAGRANGIAN)) return gvi__mass_at(st, &y, 1);
+    if (!gvi__has(st, GVI__HAS_LAGRANGIAN)) return gvi__factor_at(st, &y);
     gvi_status status = gvi__evaluate(st, &y, 0);
     if (status == GVI_OK) status = gvi__velocity_hessian(st, &y, v, W);
     if (status != GVI_OK) return status;
@@ -4020,13 +4057,13 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J, gvi_real 
 }
 
 // y := modes of the extrapolated V, or constant velocity
-static void gvi__newton_guess(gvi_stepper *st, int extrapolate)
+GVI__APART void gvi__newton_guess(gvi_stepper *st, int extrapolate)
 {
     struct gvi__private *x = &st->x;
     int n = st->n, s = st->s, R = x->stride;
     gvi__zero((size_t)(s*n), x->y);
     if (!extrapolate) {
-        for (int i = 0; i < n; ++i) x->y[i] = gvi__velocity_guess(st, i);
+        gvi__velocity_guess(st, x->y);
         return;
     }
     if (gvi__two_now(st)) {                       // E is for one step here
@@ -4079,11 +4116,8 @@ GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const 
     int made = 0, last = 0, idle = 0, was_fresh = 0;
     gvi_real before = 0, earlier = 0, rho = (gvi_real)0.25, left = GVI__MAX;
     for (int k = 0; k <= x->desc.max_iterations; ++k) {
-        gvi_points y;
-        gvi__rows_as_points(&y, st, &x->work, x->work.P);
         int fresh = !have;
-        gvi__newton_rows(st, from, J->h);
-        gvi_status status = gvi__evaluate(st, &y, 0);
+        gvi_status status = gvi__newton_ask(st, from, J->h);
         if (status != GVI_OK || last) return status;
         if (fresh) {
             if (++made > x->desc.max_iterations/4 + 2) break;
@@ -4138,6 +4172,20 @@ static int gvi__use_blocks(gvi_stepper *st)
     return x->blocks && x->whole_left == 0;
 }
 
+// dq and dp of a step that y solves
+GVI__APART void gvi__newton_increments(gvi_stepper *st, const gvi__from *from, gvi_real h)
+{
+    struct gvi__private *x = &st->x;
+    for (int i = 0; i < st->n; ++i) {
+        const gvi__two q = gvi__product(h, x->y[i]);
+        const gvi__two p = gvi__exact_dot(st->r, x->hb, x->work.F + i*x->stride, from->pe[i]);
+        x->dq[i] = q.hi;
+        x->dqe[i] = gvi__rest(q.lo + from->qe[i]);
+        x->dp[i] = p.hi;
+        x->dpe[i] = p.lo;
+    }
+}
+
 // by blocks, if they may be used; where they fail the whole matrix starts anew, and stays
 GVI__APART gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate, int query)
 {
@@ -4155,14 +4203,7 @@ GVI__APART gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, g
         gvi__newton_guess(st, extrapolate);
         status = gvi__newton(st, from, &J, pivot, !query);
     }
-    for (int i = 0; i < st->n; ++i) {
-        const gvi__two q = gvi__product(h, x->y[i]);
-        const gvi__two p = gvi__exact_dot(st->r, x->hb, x->work.F + i*x->stride, from->pe[i]);
-        x->dq[i] = q.hi;
-        x->dqe[i] = gvi__rest(q.lo + from->qe[i]);
-        x->dp[i] = p.hi;
-        x->dpe[i] = p.lo;
-    }
+    gvi__newton_increments(st, from, h);
     return status;
 }
 
@@ -4541,8 +4582,7 @@ GVI_DEF gvi_status gvi_velocity(gvi_stepper *st, gvi_real *v)
 
     // the guess: velocity at the last point of the last step, or at the start
     gvi_real *guess = x->change;
-    for (int i = 0; i < st->n; ++i)
-        guess[i] = gvi__velocity_guess(st, i);
+    gvi__velocity_guess(st, guess);
     status = gvi__velocity(st, st->t, x->q, x->p, guess);
     if (status == GVI_OK) gvi__copy((size_t)st->n, guess, v);
     return gvi__done(st, status);
@@ -4555,7 +4595,7 @@ GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy)
     if (!energy) return st->status = GVI_E_ARGUMENT;
     struct gvi__private *x = &st->x;
     gvi_real E, *v = x->change + st->n;
-    for (int i = 0; i < st->n; ++i) v[i] = gvi__velocity_guess(st, i);
+    gvi__velocity_guess(st, v);
     status = gvi__energy(st, st->t, x->q, x->p, v, &E);
     if (status == GVI_OK) *energy = E;
     return gvi__done(st, status);
@@ -4688,8 +4728,8 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
     for (size_t i = 0; i < n; ++i) {
         Q[i] = from.q[i] + (x->dq[i] + x->dqe[i]);
         P[i] = from.p[i] + (x->dp[i] + x->dpe[i]);
-        V[i] = gvi__velocity_guess(st, (int)i);
     }
+    gvi__velocity_guess(st, V);
     if (v) status = gvi__velocity(st, t, Q, P, V);
     if (status != GVI_OK) return st->status = status;
     if (q) gvi__copy(n, Q, q);
@@ -4818,7 +4858,7 @@ static gvi_status gvi__chord(gvi_stepper *st, const gvi__from *from, gvi_real h,
 }
 
 static gvi_status gvi__interior(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *q1,
-                                const gvi__matrix *J, gvi_real *pivot, gvi_real *p)
+                                gvi__matrix *J, gvi_real *pivot, gvi_real *p)
 {
     struct gvi__private *x = &st->x;
     int n = st->n, size = (st->s - 1)*n;
@@ -4834,9 +4874,8 @@ static gvi_status gvi__interior(gvi_stepper *st, const gvi__from *from, gvi_real
     if (status != GVI_OK && status != GVI_E_CONVERGENCE) return status;
 
     // the Jacobian where it ended says whether there was anything to find
-    gvi__matrix scaled = *J;
-    scaled.scaled = 1;
-    gvi_status second = gvi__jacobian(st, &scaled, pivot);
+    J->scaled = 1;
+    gvi_status second = gvi__jacobian(st, J, pivot);
     if (second != GVI_OK) return second;
     if (gvi_lu_rcond(size, J->square, pivot, x->dF) < gvi__jacobian_error(st)) status = GVI_E_CONJUGATE;
     for (int i = 0; i < n; ++i) p[i] = gvi__dot(st->r, x->b, x->work.P + i*x->stride);
