@@ -936,7 +936,7 @@ static gvi__two gvi__over2(gvi__two a, int k)
 }
 
 // nearest multiple of `unit`, a power of 2: sums of such numbers are exact
-static gvi_real gvi__grid(gvi__two a, gvi_real unit)
+GVI__APART gvi_real gvi__grid(gvi__two a, gvi_real unit)
 {
     const gvi_real whole = GVI_FLOOR(a.hi/unit);      // the sum with 1/2 would round once more
     return (whole + GVI_FLOOR((a.hi/unit - whole) + (a.lo/unit + (gvi_real)0.5)))*unit;
@@ -1856,7 +1856,7 @@ static gvi_status gvi__evaluate(gvi_stepper *st, gvi_points *x, int plain)
 }
 
 // one point, as gvi_points; f and dldv go to scratch
-GVI__APART void gvi__at(gvi_points *x, const gvi_stepper *st, const gvi_real *t, const gvi_real *q)
+static void gvi__at(gvi_points *x, const gvi_stepper *st, const gvi_real *t, const gvi_real *q)
 {
     x->n = st->n;
     x->count = x->stride = 1;
