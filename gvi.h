@@ -133,6 +133,7 @@
      GVI_NO_CLOCK         no effects of kind GVI_CLOCK
      GVI_NO_DENSE         no GVI_MASS_DENSE
      GVI_NO_OWN           no GVI_OWN
+     GVI_NO_POINT         no effects that are given as .point
      GVI_NO_RULES         no rule but Gauss with r = s <= 4, and in GVI_EXPLICIT those
                           that it takes; no Lagrangian terms.  Nodes and tables
                           then are constants, not code
@@ -779,6 +780,11 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__OWN 0
 #else
 #define GVI__OWN 1
+#endif
+#ifdef GVI_NO_POINT
+#define GVI__POINT 0
+#else
+#define GVI__POINT 1
 #endif
 #ifdef GVI_NO_TOLERANCE
 #define GVI__TOLERANCE 0
@@ -1611,7 +1617,8 @@ GVI__APART gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e)
     gvi_real *own = value && effect->kind == GVI_LAGRANGIAN ? st->x.less : effect->kind == GVI_FORCE ? NULL : value;
     int point = GVI_FAULT_NONE, together = own && effect->points && effect->value == effect->points;
     x->value = together ? own : NULL;
-    int refused = effect->points ? effect->points(x, effect->user) : gvi__point_by_point(st, effect, x, &point);
+    const int whole = !GVI__POINT || effect->points;
+    int refused = whole ? effect->points(x, effect->user) : gvi__point_by_point(st, effect, x, &point);
     gvi_status status = refused ? gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, point) : GVI_OK;
     if (gvi__diagnoses(st) && status == GVI_OK) {
         status = gvi__check_rows(st, x, x->f, e);
@@ -1645,7 +1652,7 @@ static gvi_status gvi__effects(gvi_stepper *st, gvi_points *x, unsigned skip)
         x->v = GVI__READS_V && effect->kind != GVI_POTENTIAL ? v : NULL;
         x->dldv = GVI__LAGRANGIAN && effect->kind == GVI_LAGRANGIAN ? dldv : NULL;
         st->counters.effect[e] += (unsigned long long)x->count;
-        if (!plain || !effect->points) status = gvi__effect(st, x, e);
+        if (!plain || (GVI__POINT && !effect->points)) status = gvi__effect(st, x, e);
         else if (effect->points(x, effect->user))
             status = gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, GVI_FAULT_NONE);
     }
@@ -2444,8 +2451,10 @@ static gvi_status gvi__resolve(gvi_stepper *st, const gvi_desc *desc)
     st->x.stride = GVI__ROW(r);
     st->x.flags = gvi__flags(d);
     st->x.clock = -1;
-    for (int e = 0; e < d->effect_count; ++e)
+    for (int e = 0; e < d->effect_count; ++e) {
         if (d->effects[e].kind == GVI_CLOCK) st->x.clock = (signed char)e;
+        if (!GVI__POINT && d->effects[e].point) return GVI_E_FORMULATION;
+    }
     if (gvi__left_out(st)) return GVI_E_FORMULATION;
 
     st->order = d->rule.kind == GVI_LOBATTO ? 2*r - 2 : 2*r;

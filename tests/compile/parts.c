@@ -30,6 +30,12 @@ static int broken(const gvi_points *x, void *user)
     return 0;
 }
 
+static int quartic_point(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    for (int i = 0; i < 2; ++i) f[i] -= q[i]*q[i]*q[i];
+    return (void)t, (void)v, (void)dldv, (void)user, 0;
+}
+
 static int drag(const gvi_points *x, void *user)
 {
     (void)user;
@@ -122,6 +128,7 @@ int main(void)
                                         { .kind = GVI_CLOCK, .points = slow } };
     static const gvi_effect bad[] = { { .kind = GVI_FORCE, .points = drag },
                                       { .kind = GVI_POTENTIAL, .points = broken } };
+    static const gvi_effect point[] = { { .kind = GVI_POTENTIAL, .point = quartic_point } };
     const gvi_rule verlet = { .kind = GVI_LOBATTO, .points = 2 };
     gvi_desc d = { .n = 2, .degree = 4, .effects = potential, .effect_count = 1 }, e = d;
     e.degree = 1;
@@ -132,6 +139,10 @@ int main(void)
     run("positions", &e);
     e.iterations = 3;
     run("given", &e);
+    d.effects = point;
+    d.formulation = GVI_POSITIONS;
+    run("point", &d);
+    d.effects = potential;
     d.effect_count = 2;
     d.formulation = GVI_VELOCITIES;
     run("velocities", &d);

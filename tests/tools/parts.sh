@@ -33,17 +33,18 @@ for type in float double; do
     grep -q refused "$dir/all-$type.txt" && fail "$type: a scene was refused with everything there"
     grep -v '^broken: an effect gave NaN or Inf, effect 1,' "$dir/all-$type.txt" | grep -cv ' ok ' | grep -q '^0$' || fail "$type: a scene failed with everything there"
     cp "$dir/all-$type.txt" "$dir/wanted.txt"
-    part $type GVI_ONLY_EXPLICIT   'positions given velocities few broken momenta newton lagrangian clock dense own'
+    part $type GVI_ONLY_EXPLICIT   'positions given point velocities few broken momenta newton lagrangian clock dense own'
     part $type GVI_ONLY_POSITIONS  'explicit velocities few broken momenta newton lagrangian clock'
-    part $type GVI_ONLY_VELOCITIES 'explicit positions given momenta newton clock dense own'
-    part $type GVI_ONLY_MOMENTA    'explicit positions given velocities few broken newton lagrangian dense own'
-    part $type GVI_ONLY_NEWTON     'explicit positions given velocities few broken momenta lagrangian clock dense own'
+    part $type GVI_ONLY_VELOCITIES 'explicit positions given point momenta newton clock dense own'
+    part $type GVI_ONLY_MOMENTA    'explicit positions given point velocities few broken newton lagrangian dense own'
+    part $type GVI_ONLY_NEWTON     'explicit positions given point velocities few broken momenta lagrangian clock dense own'
     part $type GVI_NO_LAGRANGIAN   'lagrangian'
     part $type GVI_NO_CLOCK        'clock'
     part $type GVI_NO_DENSE        'dense'
     part $type GVI_NO_OWN          'own'
+    part $type GVI_NO_POINT        'point'
     part $type GVI_NO_RULES        'positions given lagrangian own'
-    part $type GVI_NO_TOLERANCE    'positions velocities few momenta lagrangian clock dense own'
+    part $type GVI_NO_TOLERANCE    'positions point velocities few momenta lagrangian clock dense own'
     part $type GVI_NO_DIAGNOSIS    '' 's/effect 1,/effect -1,/'
 done
 echo "$count" >"$build/result/parts"

@@ -3,8 +3,8 @@
 # code and constants of gvi.h alone, what it takes of libm and libgcc, the deepest stack; then
 # RAM.  Rows: every function, then gvi_init, gvi_start and gvi_step with one formulation
 # (GVI_ONLY_...), whole and without Lagrangian terms, clock, dense mass and own rules
-# (GVI_NO_..., "least"), also with few numbers as constants, a given number of iterations and no
-# diagnosis ("fixed").  Then, on Cortex-M4F, what each part costs.  --detail: also the largest functions and the deepest chain of calls.
+# (GVI_NO_..., "least"), also with few numbers as constants, a given number of iterations, no
+# diagnosis and no effects of one point ("fixed").  Then, on Cortex-M4F, what each part costs.  --detail: also the largest functions and the deepest chain of calls.
 build=$1 detail=$2
 CC=${CC:-cc}
 dir=$build/size
@@ -12,7 +12,7 @@ mkdir -p "$dir"
 rm -f "$dir"/*
 fail() { echo "FAILED: size: $*"; exit 1; }
 least='-DGVI_NO_LAGRANGIAN -DGVI_NO_CLOCK -DGVI_NO_DENSE -DGVI_NO_OWN'
-fixed='-DGVI_NO_RULES -DGVI_NO_TOLERANCE -DGVI_NO_DIAGNOSIS'
+fixed='-DGVI_NO_RULES -DGVI_NO_TOLERANCE -DGVI_NO_DIAGNOSIS -DGVI_NO_POINT'
 entries='size_init size_start size_step'
 cc_flags='-std=c99 -Os -fno-math-errno -ffp-contract=off -ffunction-sections -fdata-sections
           -DGVI_REAL=float -I.'
@@ -132,6 +132,7 @@ Lagrangian terms: GVI_NO_LAGRANGIAN|-DGVI_NO_LAGRANGIAN
 clocks: GVI_NO_CLOCK|-DGVI_NO_CLOCK
 dense mass: GVI_NO_DENSE|-DGVI_NO_DENSE
 own rules: GVI_NO_OWN|-DGVI_NO_OWN
+effects of one point: GVI_NO_POINT|-DGVI_NO_POINT
 nodes and tables: GVI_NO_RULES, NO_LAGRANGIAN, NO_OWN|-DGVI_NO_RULES
 iterating as long as it takes: GVI_NO_TOLERANCE|-DGVI_NO_TOLERANCE
 naming the effect that gave NaN: GVI_NO_DIAGNOSIS|-DGVI_NO_DIAGNOSIS
