@@ -102,6 +102,7 @@ table() {  # target title prefix flags link-flags
         row "$f, least" tests/tools/size.c "$entries" $only $least
         row "$f, fixed" tests/tools/size.c "$entries" $only $least $fixed
     done
+    row "positions, described" tests/tools/size.c "$entries" -DGVI_ONLY_POSITIONS $least $fixed -DSIZE_DESCRIBED
     echo "$target $(stepper) $(stepper -DGVI_EFFECTS=4)" >>"$dir/steppers"
 }
 
@@ -189,6 +190,7 @@ aim 'code of everything'                             "$(found rows everything 3)
 aim 'code for potentials only: positions'            "$(found rows positions 3)" 5120
 aim 'code for potentials only: positions, least'     "$(found rows 'positions, least' 3)" 5120
 aim 'code for potentials only: positions, fixed'     "$(found rows 'positions, fixed' 3)" 5120
+aim 'code for potentials only: positions, described' "$(found rows 'positions, described' 3)" 5120
 aim 'code for potentials only: explicit, least'      "$(found rows 'explicit, least' 3)" 5120
 aim 'stack of everything'                            "$(found rows everything 4)" 512
 aim 'stack for potentials only: positions, least'    "$(found rows 'positions, least' 4)" 512
