@@ -133,8 +133,15 @@
      GVI_NO_CLOCK         no effects of kind GVI_CLOCK
      GVI_NO_DENSE         no GVI_MASS_DENSE
      GVI_NO_OWN           no GVI_OWN
+     GVI_NO_POINT         no effects that are given as .point
+     GVI_NO_RULES         no rule but Gauss with r = s <= 4, and in GVI_EXPLICIT those
+                          that it takes; no Lagrangian terms.  Nodes and tables
+                          then are constants, not code
+     GVI_NO_TOLERANCE     no fixed point without desc.iterations
+     GVI_NO_DIAGNOSIS     where a value is not finite, st->fault names no effect
 
    A description that asks for what was left out is refused: GVI_E_FORMULATION.
+   Without diagnosis a step that came to NaN or Inf is not repeated to find the effect.
    With GVI_STATIC, functions that are not called vanish as well.
 
      GVI_SQRT(x) GVI_ABS(x) GVI_FLOOR(x) GVI_LDEXP(x, e) GVI_FREXP(x, &e)
@@ -746,7 +753,15 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__NEWTON GVI__ONLY(0)
 #endif
 #define GVI__READS_V (GVI__VELOCITIES || GVI__MOMENTA || GVI__NEWTON)
-#ifdef GVI_NO_LAGRANGIAN
+#ifdef GVI_NO_RULES
+#define GVI__RULES 0
+#if GVI__KIND == 3
+#error "GVI_NO_RULES is for float and double"
+#endif
+#else
+#define GVI__RULES 1
+#endif
+#if defined(GVI_NO_LAGRANGIAN) || defined(GVI_NO_RULES)
 #define GVI__LAGRANGIAN 0
 #else
 #define GVI__LAGRANGIAN GVI__READS_V
@@ -761,16 +776,31 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #else
 #define GVI__DENSE 1
 #endif
-#ifdef GVI_NO_OWN
+#if defined(GVI_NO_OWN) || defined(GVI_NO_RULES)
 #define GVI__OWN 0
 #else
 #define GVI__OWN 1
 #endif
+#ifdef GVI_NO_POINT
+#define GVI__POINT 0
+#else
+#define GVI__POINT 1
+#endif
+#ifdef GVI_NO_TOLERANCE
+#define GVI__TOLERANCE 0
+#else
+#define GVI__TOLERANCE 1
+#endif
+#ifdef GVI_NO_DIAGNOSIS
+#define GVI__DIAGNOSIS 0
+#else
+#define GVI__DIAGNOSIS 1
+#endif
 
 /* Compiled for size: one loop in place of several for the usual lengths, scratch in
-   the caller's memory in place of registers, and GVI__APART, a function of its own
-   even where it is called once: what it needs of the stack is not held by those that
-   call it.                                                                    */
+   the caller's memory in place of registers, and GVI__APART, a function of its own:
+   called once, so that what it needs of the stack is not held by those that call it,
+   or short and called often.                                                  */
 #ifdef __OPTIMIZE_SIZE__
 #define GVI__SMALL 1
 #else
@@ -798,10 +828,10 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 typedef char gvi__effects_fit_a_word[GVI_EFFECTS >= 1 && GVI_EFFECTS <= 32
                                      && GVI_EFFECTS <= 8*sizeof(unsigned) ? 1 : -1];
 
-static int gvi__finite(gvi_real x) { return GVI_ABS(x) <= GVI__MAX; }
+GVI__APART int gvi__finite(gvi_real x) { return GVI_ABS(x) <= GVI__MAX; }
 
 // true for every x but 0 and NaN
-static int gvi__nonzero(gvi_real x) { return x < 0 || x > 0; }
+GVI__APART int gvi__nonzero(gvi_real x) { return x < 0 || x > 0; }
 
 static int gvi__all_finite(int n, const gvi_real *x)
 {
@@ -912,7 +942,7 @@ static gvi__two gvi__over2(gvi__two a, int k)
 }
 
 // nearest multiple of `unit`, a power of 2: sums of such numbers are exact
-static gvi_real gvi__grid(gvi__two a, gvi_real unit)
+GVI__APART gvi_real gvi__grid(gvi__two a, gvi_real unit)
 {
     const gvi_real whole = GVI_FLOOR(a.hi/unit);      // the sum with 1/2 would round once more
     return (whole + GVI_FLOOR((a.hi/unit - whole) + (a.lo/unit + (gvi_real)0.5)))*unit;
@@ -1479,6 +1509,12 @@ static inline int gvi__rule_is(const gvi_stepper *st, gvi_rule_kind kind)
     return (kind != GVI_OWN || GVI__OWN) && (kind != GVI_KICKS || GVI__EXPLICIT) && st->x.desc.rule.kind == kind;
 }
 
+// does a step, or a start, look for the effect whose values are not finite?
+static inline int gvi__diagnoses(const gvi_stepper *st) { return GVI__DIAGNOSIS && st->x.diagnose; }
+
+// is the number of iterations given, and not a matter of a tolerance?
+static inline int gvi__counts(const gvi_stepper *st) { return !GVI__TOLERANCE || st->x.desc.iterations > 0; }
+
 static gvi_status gvi__fail(gvi_stepper *st, gvi_status status, int effect, int coordinate, int point)
 {
     st->fault.effect = effect;
@@ -1514,6 +1550,17 @@ static gvi_status gvi__check_rows(gvi_stepper *st, const gvi_points *x, const gv
     return GVI_OK;
 }
 
+// a column of rows [n][stride], and back
+static void gvi__gather(int n, int stride, const gvi_real *rows, gvi_real *out)
+{
+    for (int i = 0; i < n; ++i) out[i] = rows[i*stride];
+}
+
+static void gvi__scatter(int n, int stride, const gvi_real *in, gvi_real *rows)
+{
+    for (int i = 0; i < n; ++i) rows[i*stride] += in[i];
+}
+
 // the one-point form: gather, call, scatter
 GVI__APART int gvi__point_by_point(gvi_stepper *st, const gvi_effect *e, const gvi_points *x, int *point)
 {
@@ -1521,16 +1568,12 @@ GVI__APART int gvi__point_by_point(gvi_stepper *st, const gvi_effect *e, const g
     gvi_real *q = st->x.one, *v = q + n, *f = v + n, *dldv = f + n;
     for (int k = 0; k < x->count; ++k) {
         *point = k;
-        for (int i = 0, at = k; i < n; ++i, at += x->stride) {
-            q[i] = x->q[at];
-            if (reads_v) v[i] = x->v[at];
-            f[i] = dldv[i] = 0;
-        }
+        gvi__gather(n, x->stride, x->q + k, q);
+        if (reads_v) gvi__gather(n, x->stride, x->v + k, v);
+        gvi__zero(2*(size_t)n, f);                    // and dldv
         if (e->point(x->t[k], q, reads_v ? v : NULL, f, term ? dldv : NULL, e->user)) return 1;
-        for (int i = 0, at = k; i < n; ++i, at += x->stride) {
-            x->f[at] += f[i];
-            if (term) x->dldv[at] += dldv[i];
-        }
+        gvi__scatter(n, x->stride, f, x->f + k);
+        if (term) gvi__scatter(n, x->stride, dldv, x->dldv + k);
     }
     return 0;
 }
@@ -1539,10 +1582,16 @@ GVI__APART int gvi__point_by_point(gvi_stepper *st, const gvi_effect *e, const g
    If not the step itself has run away.                                        */
 static gvi_status gvi__check_points(gvi_stepper *st, const gvi_points *x)
 {
-    if (!st->x.diagnose) return GVI_OK;
+    if (!gvi__diagnoses(st)) return GVI_OK;
     if (gvi__check_rows(st, x, x->q, GVI_FAULT_NONE) == GVI_OK
         && (!GVI__READS_V || gvi__check_rows(st, x, x->v, GVI_FAULT_NONE) == GVI_OK)) return GVI_OK;
     return gvi__give(st, GVI_E_CONVERGENCE);
+}
+
+// without diagnosis: are f and dldv finite, which gvi__at has put side by side?
+static inline gvi_status gvi__finite_here(gvi_stepper *st, const gvi_points *x)
+{
+    return GVI__DIAGNOSIS || gvi__all_finite(2*x->n, x->f) ? GVI_OK : gvi__give(st, GVI_E_NON_FINITE);
 }
 
 /* The value callback of effect e: adds to `value` at the points.               */
@@ -1568,9 +1617,10 @@ GVI__APART gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e)
     gvi_real *own = value && effect->kind == GVI_LAGRANGIAN ? st->x.less : effect->kind == GVI_FORCE ? NULL : value;
     int point = GVI_FAULT_NONE, together = own && effect->points && effect->value == effect->points;
     x->value = together ? own : NULL;
-    int refused = effect->points ? effect->points(x, effect->user) : gvi__point_by_point(st, effect, x, &point);
+    const int whole = !GVI__POINT || effect->points;
+    int refused = whole ? effect->points(x, effect->user) : gvi__point_by_point(st, effect, x, &point);
     gvi_status status = refused ? gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, point) : GVI_OK;
-    if (st->x.diagnose && status == GVI_OK) {
+    if (gvi__diagnoses(st) && status == GVI_OK) {
         status = gvi__check_rows(st, x, x->f, e);
         if (status == GVI_OK && GVI__LAGRANGIAN) status = gvi__check_rows(st, x, x->dldv, e);
     }
@@ -1595,14 +1645,14 @@ static gvi_status gvi__effects(gvi_stepper *st, gvi_points *x, unsigned skip)
     const gvi_real *v = x->v;
     gvi_real *dldv = x->dldv;
     gvi_status status = GVI_OK;
-    const int plain = !(GVI__CLOCK && x->value) && !st->x.diagnose;
+    const int plain = !(GVI__CLOCK && x->value) && !gvi__diagnoses(st);
     skip |= st->x.off | gvi__clock_bit(st);
     for (int e = 0; e < st->x.desc.effect_count && status == GVI_OK; ++e, ++effect) {
         if (skip >> e & 1u) continue;
         x->v = GVI__READS_V && effect->kind != GVI_POTENTIAL ? v : NULL;
         x->dldv = GVI__LAGRANGIAN && effect->kind == GVI_LAGRANGIAN ? dldv : NULL;
         st->counters.effect[e] += (unsigned long long)x->count;
-        if (!plain || !effect->points) status = gvi__effect(st, x, e);
+        if (!plain || (GVI__POINT && !effect->points)) status = gvi__effect(st, x, e);
         else if (effect->points(x, effect->user))
             status = gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, GVI_FAULT_NONE);
     }
@@ -1629,7 +1679,7 @@ static signed char gvi__single(const gvi_stepper *st)
 static inline gvi_status gvi__all_effects(gvi_stepper *st, gvi_points *x)
 {
     const int e = GVI__SMALL ? -1 : st->x.single;
-    if (e < 0 || st->x.diagnose) return gvi__effects(st, x, 0);
+    if (e < 0 || gvi__diagnoses(st)) return gvi__effects(st, x, 0);
     const gvi_effect *effect = st->x.desc.effects + e;
     const gvi_real *v = x->v;
     gvi_real *dldv = x->dldv;
@@ -1736,8 +1786,8 @@ static void gvi__over_constant_mass(const gvi_stepper *st, const gvi_real *GVI__
     if (gvi__mass_is(st, GVI_MASS_DENSE)) gvi__over_mass(st, v, 1, 1);
 }
 
-// M(q) at the points, factored
-static gvi_status gvi__mass_at(gvi_stepper *st, gvi_points *x, int factor)
+// M(q) at the points
+static gvi_status gvi__mass_at(gvi_stepper *st, gvi_points *x)
 {
     const gvi_real *v = x->v;
     gvi_real *f = x->f, *dldv = x->dldv;
@@ -1750,8 +1800,14 @@ static gvi_status gvi__mass_at(gvi_stepper *st, gvi_points *x, int factor)
     x->v = v;
     x->f = f;
     x->dldv = dldv;
-    if (refused) return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, -1, -1);
-    return factor ? gvi__ldl_factor(st, x->n, x->stride, x->count, st->x.point_mass) : GVI_OK;
+    return refused ? gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, -1, -1) : GVI_OK;
+}
+
+// the same, factored
+static gvi_status gvi__factor_at(gvi_stepper *st, gvi_points *x)
+{
+    const gvi_status status = gvi__mass_at(st, x);
+    return status == GVI_OK ? gvi__ldl_factor(st, x->n, x->stride, x->count, st->x.point_mass) : status;
 }
 
 // x->f += v' dM/dq v / 2
@@ -1763,7 +1819,7 @@ static gvi_status gvi__mass_gradient(gvi_stepper *st, gvi_points *x)
     x->dldv = dldv;
     x->value = value;
     if (refused) return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, -1, -1);
-    return st->x.diagnose ? gvi__check_rows(st, x, x->f, GVI_FAULT_MASS) : GVI_OK;
+    return gvi__diagnoses(st) ? gvi__check_rows(st, x, x->f, GVI_FAULT_MASS) : GVI_OK;
 }
 
 /* The kinetic energy's share: x->dldv += M v, and for M(q) the gradient.      */
@@ -1774,7 +1830,7 @@ static gvi_status gvi__kinetic(gvi_stepper *st, gvi_points *x)
     if (gvi__mass_is(st, GVI_MASS_NONE)) return GVI_OK;
     if (gvi__mass_is(st, GVI_MASS_DENSE)) m = st->x.mass + (size_t)n*(size_t)n;
     else if (gvi__mass_is(st, GVI_MASS_POSITION)) {
-        gvi_status status = gvi__mass_at(st, x, 0);
+        gvi_status status = gvi__mass_at(st, x);
         if (status == GVI_OK) status = gvi__mass_gradient(st, x);
         if (status != GVI_OK) return status;
         m = st->x.point_mass;
@@ -1790,7 +1846,7 @@ static gvi_status gvi__kinetic(gvi_stepper *st, gvi_points *x)
             for (int k = 0; k < x->count; ++k) p[k] += a[k*each]*x->v[j*R + k];
         }
     }
-    return st->x.diagnose ? gvi__check_rows(st, x, x->dldv, GVI_FAULT_MASS) : GVI_OK;
+    return gvi__diagnoses(st) ? gvi__check_rows(st, x, x->dldv, GVI_FAULT_MASS) : GVI_OK;
 }
 
 /* F and P at the points from scratch: everything (plain = 0), or what has no
@@ -1806,18 +1862,16 @@ static gvi_status gvi__evaluate(gvi_stepper *st, gvi_points *x, int plain)
     return status == GVI_OK ? gvi__effects(st, x, plain ? gvi__with_hessian(st) : 0) : status;
 }
 
-// one point, as gvi_points
-static void gvi__at(gvi_points *x, const gvi_stepper *st, const gvi_real *t, const gvi_real *q, const gvi_real *v,
-                    gvi_real *f, gvi_real *dldv)
+// one point, as gvi_points; f and dldv go to scratch
+static void gvi__at(gvi_points *x, const gvi_stepper *st, const gvi_real *t, const gvi_real *q)
 {
     x->n = st->n;
     x->count = x->stride = 1;
     x->t = t;
     x->q = q;
-    x->v = v;
-    x->p = NULL;
-    x->f = f;
-    x->dldv = dldv;
+    x->v = x->p = NULL;
+    x->f = st->x.one + 4*st->n;
+    x->dldv = x->f + st->n;
     x->value = x->mass = x->velocity = NULL;
 }
 
@@ -1849,9 +1903,11 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real
 static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *p, gvi_real *v)
 {
     int n = st->n;
-    gvi_real *f = st->x.one + 4*n, *P = f + n, *W = st->x.hess + 3*n, *pivot = W + n*n, *dv = st->x.hess + 2*n;
+    gvi_real *W = st->x.hess + 3*n, *pivot = W + n*n, *dv = st->x.hess + 2*n;
     gvi_points x;
-    gvi__at(&x, st, &t, q, v, f, P);
+    gvi__at(&x, st, &t, q);
+    x.v = v;
+    const gvi_real *P = x.dldv;
     gvi_real last = GVI__MAX;
     st->counters.velocities += 1;
     for (int k = 0; k < 40; ++k) {
@@ -1885,10 +1941,12 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_real t, const gvi_re
     return gvi__fail(st, GVI_E_CONVERGENCE, GVI_FAULT_MASS, -1, -1);
 }
 
-// a velocity near the present one: that at the end of the last step, or the start's
-static gvi_real gvi__velocity_guess(const gvi_stepper *st, int i)
+// velocities near the present ones: those at the end of the last step, or the start's
+static void gvi__velocity_guess(const gvi_stepper *st, gvi_real *v)
 {
-    return st->x.has_velocity ? st->x.last.V[i*st->x.stride + st->r - 1] : st->x.start[i];
+    const struct gvi__private *x = &st->x;
+    if (x->has_velocity) gvi__gather(st->n, x->stride, x->last.V + st->r - 1, v);
+    else gvi__copy((size_t)st->n, x->start, v);
 }
 
 /* v from p at one point.  v holds a guess on entry.                           */
@@ -1896,7 +1954,8 @@ static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, 
 {
     const gvi_mass *mass = &st->x.desc.mass;
     gvi_points x;
-    gvi__at(&x, st, &t, q, NULL, NULL, NULL);
+    gvi__at(&x, st, &t, q);
+    x.f = x.dldv = NULL;
     if (mass->velocity) {
         x.p = p;
         x.velocity = v;
@@ -1909,7 +1968,7 @@ static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, 
         return gvi__legendre_newton(st, t, q, p, v);
     gvi__copy((size_t)st->n, p, v);
     if (gvi__mass_is(st, GVI_MASS_POSITION)) {
-        gvi_status status = gvi__mass_at(st, &x, 1);
+        gvi_status status = gvi__factor_at(st, &x);
         if (status != GVI_OK) return status;
         gvi__ldl_solve(st->n, st->x.point_mass, 1, 1, v, 1, 1);
         st->counters.velocities += 1;
@@ -1955,7 +2014,7 @@ static gvi_status gvi__gamma(gvi_stepper *st)
     struct gvi__private *x = &st->x;
     int s = st->s, r = st->r, R = x->stride;
     for (int k = 0; k < s; ++k) x->inv_gamma[k] = (gvi_real)(2*k + 1);
-    if (st->order == 2*s - 2) {
+    if (GVI__RULES && st->order == 2*s - 2) {
         gvi_real sum = 0;
         for (int i = 0; i < r; ++i) sum += x->b[i]*x->phi[(s-1)*R + i]*x->phi[(s-1)*R + i];
         if (!(GVI_ABS(sum) > (gvi_real)s*GVI__EPS)) return GVI_E_POINTS;
@@ -1999,6 +2058,93 @@ static gvi__two gvi__sandwich(const gvi_stepper *st, const gvi_real *a, const gv
     return gvi__sum(sum.hi, sum.lo);
 }
 
+/* Without other rules: what Gauss has with r = s = 1..4, one after the other, from
+   tests/gen/few.py: b; Phi and phi; S_ij, i <= j, and T_ij, i < j.  To be on their
+   grids in any type, Phi_0 and S below 1/2 are there less 1, T plus 1/2.       */
+#if !GVI__RULES
+#if GVI__KIND == 1
+#define GVI__C(x) x##f
+#else
+#define GVI__C(x) x
+#endif
+static const gvi_real gvi__few_b[] = {
+    GVI__C(1.0), GVI__C(0.5), GVI__C(0.5), GVI__C(0.277777777777777777778), GVI__C(0.444444444444444444444),
+    GVI__C(0.277777777777777777778), GVI__C(0.173927422568726928687), GVI__C(0.326072577431273071313),
+    GVI__C(0.326072577431273071313), GVI__C(0.173927422568726928687)
+};
+static const gvi_real gvi__few_Phi[] = {
+    GVI__C(0.5), GVI__C(-0.788675134594812882255), GVI__C(0.788675134594812882255), GVI__C(0.166666666666666666667),
+    GVI__C(0.166666666666666666667), GVI__C(-0.887298334620741688518), GVI__C(0.5), GVI__C(0.887298334620741688518),
+    GVI__C(0.1), GVI__C(0.25), GVI__C(0.1), GVI__C(0.0774596669241483377036), GVI__C(0.0),
+    GVI__C(-0.0774596669241483377036), GVI__C(-0.930568155797026287612), GVI__C(-0.669990521792428132401),
+    GVI__C(0.669990521792428132401), GVI__C(0.930568155797026287612), GVI__C(0.0646110632135476980776),
+    GVI__C(0.221103222500738016208), GVI__C(0.221103222500738016208), GVI__C(0.0646110632135476980776),
+    GVI__C(0.055638932663884638435), GVI__C(0.0751709043257755838678), GVI__C(-0.0751709043257755838678),
+    GVI__C(-0.055638932663884638435), GVI__C(0.0437381157656224151096), GVI__C(-0.0233299525003162926606),
+    GVI__C(-0.0233299525003162926606), GVI__C(0.0437381157656224151096)
+};
+static const gvi_real gvi__few_phi[] = {
+    GVI__C(1.0), GVI__C(1.0), GVI__C(1.0), GVI__C(0.577350269189625764509), GVI__C(-0.577350269189625764509),
+    GVI__C(1.0), GVI__C(1.0), GVI__C(1.0), GVI__C(0.774596669241483377036), GVI__C(0.0),
+    GVI__C(-0.774596669241483377036), GVI__C(0.4), GVI__C(-0.5), GVI__C(0.4), GVI__C(1.0), GVI__C(1.0), GVI__C(1.0),
+    GVI__C(1.0), GVI__C(0.861136311594052575224), GVI__C(0.339981043584856264803), GVI__C(-0.339981043584856264803),
+    GVI__C(-0.861136311594052575224), GVI__C(0.612333620718713811535), GVI__C(-0.326619335004428097249),
+    GVI__C(-0.326619335004428097249), GVI__C(0.612333620718713811535), GVI__C(0.304746984955206190874),
+    GVI__C(-0.411727999672899573875), GVI__C(0.411727999672899573875), GVI__C(-0.304746984955206190874)
+};
+static const gvi_real gvi__few_S[] = {
+    GVI__C(-0.75), GVI__C(-0.872008467928146215588), GVI__C(-0.75), GVI__C(0.705341801261479548921),
+    GVI__C(-0.927298334620741688518), GVI__C(-0.868649167310370844259), GVI__C(-0.5625), GVI__C(-0.9),
+    GVI__C(0.518649167310370844259), GVI__C(0.847298334620741688518), GVI__C(-0.953785837006848454724),
+    GVI__C(-0.920460403188975796283), GVI__C(-0.712370508221089930304), GVI__C(-0.938679181179479062757),
+    GVI__C(-0.656680189998734829357), GVI__C(0.627610535363766334498), GVI__C(-0.924952463062489660438),
+    GVI__C(-0.678101547174880907547), GVI__C(0.68009827440047862373), GVI__C(0.9073504745872041205)
+};
+static const gvi_real gvi__few_T[] = {
+    GVI__C(1.57735026918962576451), GVI__C(1.58094750193111253278), GVI__C(1.46475800154489002622),
+    GVI__C(1.58094750193111253278), GVI__C(1.58158975003227987256), GVI__C(1.46127407343211423994),
+    GVI__C(1.58550375141051935117), GVI__C(1.52044042068404064243), GVI__C(1.46127407343211423994),
+    GVI__C(1.58158975003227987256)
+};
+
+static gvi_real gvi__few(gvi_real x) { return x < 0 ? 1 + x : x; }
+
+// the constants in place of gvi__rule_make and gvi__modes_at_nodes
+static void gvi__few_modes(gvi_stepper *st)
+{
+    struct gvi__private *x = &st->x;
+    const size_t r = (size_t)st->r, at = (r - 1)*r*(2*r - 1)/6;
+    gvi__copy(r, gvi__few_b + (r - 1)*r/2, x->b);
+    gvi__copy(r*r, gvi__few_Phi + at, x->Phi);
+    if (GVI__READS_V && x->phi) gvi__copy(r*r, gvi__few_phi + at, x->phi);
+    for (size_t i = 0; i < r; ++i) x->c[i] = gvi__few(x->Phi[i]);
+}
+
+static gvi_real gvi__S(const gvi_stepper *st, int i, int j)
+{
+    const int r = st->r;
+    return gvi__few(gvi__few_S[(r - 1)*r*(r + 1)/6 + j*(j + 1)/2 + i]);
+}
+
+static gvi_real gvi__T(const gvi_stepper *st, int i, int j)
+{
+    const int r = st->r;
+    return gvi__few_T[(r - 2)*(r - 1)*r/6 + (j - 1)*j/2 + i] - (gvi_real)0.5;
+}
+#else
+static gvi_real gvi__S(const gvi_stepper *st, int i, int j)
+{
+    const struct gvi__private *x = &st->x;
+    return gvi__grid(gvi__sandwich(st, x->Phi, x->E, i, x->Phi, x->E, j), GVI__EPS/2);
+}
+
+static gvi_real gvi__T(const gvi_stepper *st, int i, int j)
+{
+    const struct gvi__private *x = &st->x;
+    return gvi__grid(gvi__sandwich(st, x->phi, x->low, i, x->Phi, x->E, j), GVI__EPS);
+}
+#endif
+
 /* S and T on grids of eps/2 and eps (|S| <= 1, |T| < 2): what they must fulfil
    for the step to be symplectic then holds exactly in the rounded numbers,
    S_ij = S_ji, and for Gauss with r = s  T_ij + T_ji = 1.  Stored by columns,
@@ -2006,18 +2152,17 @@ static gvi__two gvi__sandwich(const gvi_stepper *st, const gvi_real *a, const gv
 GVI__APART void gvi__tables(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
-    int r = st->r, R = x->stride, gauss = x->desc.rule.kind == GVI_GAUSS && r == st->s;
+    int r = st->r, R = x->stride, gauss = !GVI__RULES || (x->desc.rule.kind == GVI_GAUSS && r == st->s);
     for (int j = 0; j < r; ++j)
         for (int i = 0; i < r; ++i) {
             int at = j*R + i, mirror = i*R + j;
             if ((GVI__POSITIONS || GVI__VELOCITIES) && x->g && i <= j) {
-                gvi_real S = gvi__grid(gvi__sandwich(st, x->Phi, x->E, i, x->Phi, x->E, j), GVI__EPS/2);
+                const gvi_real S = gvi__S(st, i, j);
                 x->g[at] = x->c[i] - S;
                 x->g[mirror] = x->c[j] - S;
             }
             if ((GVI__VELOCITIES || GVI__MOMENTA) && x->m && (i <= j || !gauss)) {
-                gvi_real T = gvi__grid(gvi__sandwich(st, x->phi, x->low, i, x->Phi, x->E, j), GVI__EPS);
-                if (gauss && i == j) T = (gvi_real)0.5;
+                const gvi_real T = gauss && i == j ? (gvi_real)0.5 : gvi__T(st, i, j);
                 x->m[at] = 1 - T;
                 if (x->T) x->T[mirror] = T;
                 if (gauss) {
@@ -2306,8 +2451,10 @@ static gvi_status gvi__resolve(gvi_stepper *st, const gvi_desc *desc)
     st->x.stride = GVI__ROW(r);
     st->x.flags = gvi__flags(d);
     st->x.clock = -1;
-    for (int e = 0; e < d->effect_count; ++e)
+    for (int e = 0; e < d->effect_count; ++e) {
         if (d->effects[e].kind == GVI_CLOCK) st->x.clock = (signed char)e;
+        if (!GVI__POINT && d->effects[e].point) return GVI_E_FORMULATION;
+    }
     if (gvi__left_out(st)) return GVI_E_FORMULATION;
 
     st->order = d->rule.kind == GVI_LOBATTO ? 2*r - 2 : 2*r;
@@ -2331,6 +2478,10 @@ static gvi_status gvi__resolve(gvi_stepper *st, const gvi_desc *desc)
     }
     if (st->x.chosen == GVI_AUTO) return GVI_E_FORMULATION;         // nothing fits
     if (st->x.chosen == GVI_NEWTON && d->iterations > 0) return GVI_E_FORMULATION;
+    if (!GVI__RULES && !gvi__uses(st, GVI_EXPLICIT) && (d->rule.kind != GVI_GAUSS || r != s || s > 4))
+        return GVI_E_FORMULATION;
+    if (!GVI__TOLERANCE && d->iterations == 0 && !gvi__uses(st, GVI_EXPLICIT) && !gvi__uses(st, GVI_NEWTON))
+        return GVI_E_FORMULATION;
     if (st->x.chosen == GVI_NEWTON
         || (GVI__NEWTON && d->formulation == GVI_AUTO && st->x.chosen != GVI_EXPLICIT && st->x.clock < 0
             && d->iterations == 0))
@@ -2393,7 +2544,7 @@ enum {
     GVI__sn, GVI__PIVOT, GVI__DIFFERENCES, GVI__J, GVI__EIGEN, GVI__LENGTHS
 };
 
-static void gvi__lengths(const gvi_stepper *st, size_t *length)
+GVI__APART void gvi__lengths(const gvi_stepper *st, size_t *length)
 {
     const struct gvi__private *x = &st->x;
     const size_t n = (size_t)st->n, s = (size_t)st->s, r = (size_t)st->r, R = (size_t)x->stride;
@@ -2449,7 +2600,7 @@ typedef struct gvi__part { unsigned char pointer, rows, columns; } gvi__part;
 #define GVI__PART(member, rows, columns) \
     { offsetof(struct gvi__private, member)/sizeof(gvi_real *), GVI__##rows, GVI__##columns }
 
-static void gvi__place(gvi_stepper *st, gvi__arena *a, const size_t *length, const gvi__part *part, size_t count)
+GVI__APART void gvi__place(gvi_stepper *st, gvi__arena *a, const size_t *length, const gvi__part *part, size_t count)
 {
     for (; count > 0; --count, ++part)
         ((gvi_real **)(void *)&st->x)[part->pointer] = gvi__take(a, length[part->rows], length[part->columns]);
@@ -2582,13 +2733,18 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     } else if (gvi__uses(st, GVI_EXPLICIT)) {                // Stoermer-Verlet: c = 0, 1
         x->c[1] = 1;
         x->b[0] = x->b[1] = (gvi_real)0.5;
-    } else gvi__rule_make(x->desc.rule.kind == GVI_LOBATTO, st->r, x->c, x->ce, x->b);
+    }
+#if GVI__RULES
+    else gvi__rule_make(x->desc.rule.kind == GVI_LOBATTO, st->r, x->c, x->ce, x->b);
+#else
+    else gvi__few_modes(st);
+#endif
     x->memory = memory;                      // from here on it can be used
     if (gvi__uses(st, GVI_EXPLICIT)) {
         if (x->Phi) gvi__copy((size_t)st->r, x->c, x->Phi);
         return gvi__done(st, GVI_OK);
     }
-    gvi__modes_at_nodes(st);
+    if (GVI__RULES) gvi__modes_at_nodes(st);
     for (int i = 0; i < st->r; ++i) x->c[i] = gvi__grid(gvi__sum(x->c[i], x->ce[i]), GVI__EPS/2);
     status = gvi__gamma(st);
     if (status != GVI_OK) {
@@ -2617,7 +2773,10 @@ static inline gvi_real *gvi__A(const struct gvi__rows *rows) { return GVI__LAGRA
 
 static void gvi__rows_as_points(gvi_points *x, const gvi_stepper *st, const struct gvi__rows *rows, gvi_real *dldv)
 {
-    gvi__at(x, st, st->x.t, rows->Q, rows->V, rows->F, dldv);
+    gvi__at(x, st, st->x.t, rows->Q);
+    x->v = rows->V;
+    x->f = rows->F;
+    x->dldv = dldv;
     x->count = st->r;
     x->stride = st->x.stride;
 }
@@ -3018,12 +3177,12 @@ GVI__APART gvi_status gvi__legendre_rows(gvi_stepper *st, gvi_points *y)
         y->f = f;
         y->dldv = dldv;
         if (refused) return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, -1, -1);
-        if (x->diagnose) {
+        if (gvi__diagnoses(st)) {
             gvi_status status = gvi__check_rows(st, y, w->V, GVI_FAULT_MASS);
             if (status != GVI_OK) return status;
         }
     } else {
-        gvi_status status = gvi__mass_is_constant(&x->desc) ? GVI_OK : gvi__mass_at(st, y, 1);
+        gvi_status status = gvi__mass_is_constant(&x->desc) ? GVI_OK : gvi__factor_at(st, y);
         if (status != GVI_OK) return status;
         x->has_factor = !gvi__mass_is_constant(&x->desc);
         gvi__velocity_rows(st);
@@ -3052,10 +3211,10 @@ static gvi_status gvi__rate(gvi_stepper *st, gvi_points *x, gvi_real *rate, gvi_
     if (refused) return gvi__fail(st, GVI_E_CALLBACK, st->x.clock, -1, -1);
     for (int k = 0; k < x->count; ++k) {
         if (rate[k] <= 0) return gvi__fail(st, GVI_E_CLOCK, st->x.clock, GVI_FAULT_NONE, k);
-        if (st->x.diagnose && !gvi__finite(rate[k]))
+        if (gvi__diagnoses(st) && !gvi__finite(rate[k]))
             return gvi__fail(st, GVI_E_NON_FINITE, st->x.clock, GVI_FAULT_NONE, k);
     }
-    return st->x.diagnose ? gvi__check_rows(st, x, slope, st->x.clock) : GVI_OK;
+    return gvi__diagnoses(st) ? gvi__check_rows(st, x, slope, st->x.clock) : GVI_OK;
 }
 
 // sum += a b/2
@@ -3249,8 +3408,9 @@ GVI__APART void gvi__guess(gvi_stepper *st, int extrapolate, gvi_real rate)
     } else {
         gvi__zero(length, w->F);
         if (gvi__A(w)) gvi__zero(length, w->A);
+        if (gvi__uses(st, GVI_MOMENTA)) gvi__velocity_guess(st, x->one);
         for (int i = 0; gvi__uses(st, GVI_MOMENTA) && i < st->n; ++i)
-            for (int k = 0; k < st->r; ++k) w->V[i*x->stride + k] = rate*gvi__velocity_guess(st, i);
+            for (int k = 0; k < st->r; ++k) w->V[i*x->stride + k] = rate*x->one[i];
     }
 }
 
@@ -3354,10 +3514,10 @@ static int gvi__is_rounding(const gvi_stepper *st, const gvi__from *from, int id
 }
 
 // g at one configuration; slope of length n gets dg/dq
-static gvi_status gvi__rate_at(gvi_stepper *st, gvi_real t, const gvi_real *q, gvi_real *rate, gvi_real *slope)
+GVI__APART gvi_status gvi__rate_at(gvi_stepper *st, gvi_real t, const gvi_real *q, gvi_real *rate, gvi_real *slope)
 {
     gvi_points y;
-    gvi__at(&y, st, &t, q, NULL, NULL, NULL);
+    gvi__at(&y, st, &t, q);
     return gvi__rate(st, &y, rate, slope);
 }
 
@@ -3388,7 +3548,7 @@ static void gvi__watch_last(gvi_stepper *st, gvi_real change)
    have all been looked at, it is divergence; else gvi__solve looks at them.    */
 static gvi_status gvi__not_finite(gvi_stepper *st, int grows)
 {
-    gvi_status status = grows || st->x.diagnose ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE;
+    gvi_status status = grows || gvi__diagnoses(st) ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE;
     return gvi__give(st, status);
 }
 
@@ -3410,9 +3570,9 @@ GVI__APART int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress 
     const gvi_real tolerance = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/4096;
     const gvi_real rounding = 16*GVI__EPS*GVI__EPS*(gvi_real)(st->n*st->r), before = p->before;
     const gvi_real known = before > 1 ? 1 : before > 0 ? before : change;
-    const int fixed = x->desc.iterations;
-    if (fixed == 0 && change*change <= tolerance*tolerance*known) return GVI__DONE;
-    if (fixed > 0 && used == fixed) {
+    const int given = gvi__counts(st);
+    if (!given && change*change <= tolerance*tolerance*known) return GVI__DONE;
+    if (given && used == x->desc.iterations) {
         const int falls = p->earlier > 0 ? change < p->earlier/4 : before <= 0 || change < before;
         return falls || change <= 65536*rounding ? GVI__DONE : GVI__BEYOND;
     }
@@ -3421,7 +3581,7 @@ GVI__APART int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress 
     if (used == 1 || p->grows) gvi__zero(2*(size_t)st->n, x->scale);
     p->earlier = before;
     p->before = change;
-    if (fixed > 0) return GVI__GO_ON;
+    if (given) return GVI__GO_ON;
     p->poor = p->grows ? p->poor + 1 : 0;
     p->idle = change < p->least*81/100 ? 0 : p->idle + 1;
     if (change < p->least) p->least = change;
@@ -3436,7 +3596,7 @@ GVI__APART int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress 
 GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate, int *used)
 {
     struct gvi__private *x = &st->x;
-    const int most = x->desc.iterations > 0 ? x->desc.iterations : x->desc.max_iterations;
+    const int most = gvi__counts(st) ? x->desc.iterations : x->desc.max_iterations;
     gvi__progress p = { 0, 0, GVI__MAX, 0, 0, 0 };
     gvi__stage y[GVI__STAGES];
     const int count = gvi__plan(st, from, h, y);
@@ -3447,7 +3607,7 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
     }
     gvi__guess(st, extrapolate, rate);
     for (*used = 0; ; ) {
-        for (int i = 0; p.idle + p.poor > 0 && i < st->n; ++i) x->change[i] = x->work.Q[i*x->stride + st->r - 1];
+        if (GVI__TOLERANCE && p.idle + p.poor > 0) gvi__gather(st->n, x->stride, x->work.Q + st->r - 1, x->change);
         const gvi_real change = gvi__stages(st, y, count);
         int verdict = GVI__GO_ON;
         if (*used > 0) {
@@ -3523,10 +3683,12 @@ static inline gvi_status gvi__explicit_of(gvi_stepper *st, const gvi__from *from
     const int dense = gvi__mass_is(st, GVI_MASS_DENSE), r = st->r;
     const gvi_real *m = x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
     const gvi_effect *only = !GVI__SMALL && x->single >= 0 && !x->diagnose ? x->desc.effects + x->single : NULL;
-    gvi_real *F = x->work.F, *Q = x->work.Q, *dp = x->dp, *dq = x->dq, t;
+    gvi_real *F = x->work.F, *Q = x->work.Q, *dp = x->dp, *dq = x->dq, t = from->t;
     const gvi_real zero = h - h;
     gvi_points y;
-    gvi__at(&y, st, &t, Q, NULL, F, NULL);
+    gvi__at(&y, st, &t, Q);
+    y.f = F;
+    y.dldv = NULL;
     gvi__drift(n, dense ? 0 : x->drift[0], zero, m, from, dp, dq, Q, F);
     if (dense) gvi__drift_dense(st, from, x->drift[0]);
     for (int j = 0; j < r; ++j) {
@@ -3575,10 +3737,19 @@ static void gvi__newton_rows(gvi_stepper *st, const gvi__from *from, gvi_real h)
     st->counters.velocities += (unsigned long long)st->r;
 }
 
+// F and P at the rows of y
+GVI__APART gvi_status gvi__newton_ask(gvi_stepper *st, const gvi__from *from, gvi_real h)
+{
+    gvi_points y;
+    gvi__newton_rows(st, from, h);
+    gvi__rows_as_points(&y, st, &st->x.work, st->x.work.P);
+    return gvi__evaluate(st, &y, 0);
+}
+
 /* dy := -residual.  The weights of P are h b_i/h, those that F has, and Phi_0 = c
    is on its grid: then the rows are exactly those of a discrete action, also as
    rounded.  Returns the largest residual in units of its own terms.           */
-static gvi_real gvi__residual(gvi_stepper *st, const gvi__from *from, int k0)
+GVI__APART gvi_real gvi__residual(gvi_stepper *st, const gvi__from *from, int k0)
 {
     struct gvi__private *x = &st->x;
     int n = st->n, R = x->stride;
@@ -3714,9 +3885,9 @@ GVI__APART gvi_status gvi__jacobian_exact(gvi_stepper *st, const gvi__matrix *J,
     size_t nn = (size_t)n*(size_t)n;
     gvi_real *fq = x->hess, *fv = fq + nn, *own = fv + nn, *pv = own + nn, *q = x->one, *v = q + n;
     for (int k = 0; k < at->count; ++k) {
+        gvi__gather(n, R, at->q + k, q);
+        gvi__gather(n, R, at->v + k, v);
         for (int i = 0; i < n; ++i) {
-            q[i] = at->q[i*R + k];
-            v[i] = at->v[i*R + k];
             for (int j = 0; j < n; ++j) {
                 gvi_real m = i == j ? 1 : 0;
                 if (d->mass.kind == GVI_MASS_DIAGONAL) m *= x->mass[i];
@@ -3743,63 +3914,80 @@ GVI__APART gvi_status gvi__jacobian_exact(gvi_stepper *st, const gvi__matrix *J,
     return GVI_OK;
 }
 
-static void gvi__sites_as_points(gvi_points *y, const gvi_stepper *st, const gvi__sites *at, gvi_real *f,
-                                 gvi_real *dldv)
+// F and P of what has no Hessian, one behind the other
+GVI__APART gvi_status gvi__ask_sites(gvi_stepper *st, const gvi__sites *at, gvi_real *F)
 {
-    gvi__at(y, st, at->t, at->q, at->v, f, dldv);
-    y->count = at->count;
-    y->stride = at->stride;
+    gvi_points y;
+    gvi__at(&y, st, at->t, at->q);
+    y.v = at->v;
+    y.f = F;
+    y.dldv = F + st->n*at->stride;
+    y.count = at->count;
+    y.stride = at->stride;
+    return gvi__evaluate(st, &y, 1);
 }
 
-// forward differences by one row, coordinate j of Q or V, at all points at once
-static gvi_status gvi__difference(gvi_stepper *st, const gvi__matrix *J, const gvi__sites *at, int j, int by_v,
-                                  gvi_real d)
+// x->dF holds F and P, moved and not; x->z the row of coordinate j before it was moved
+GVI__APART void gvi__add_differences(const gvi_stepper *st, const gvi__matrix *J, const gvi__sites *at, int j, int by_v)
 {
-    struct gvi__private *x = &st->x;
-    int n = st->n, R = at->stride;
-    gvi_real *row = (by_v ? at->v : at->q) + j*R;
-    gvi_real *dF = x->dF, *dP = dF + n*R, *bF = dP + n*R, *bP = bF + n*R;
-    gvi_points y;
-    gvi__sites_as_points(&y, st, at, dF, dP);
-    gvi__copy((size_t)R, row, x->z);
-    for (int k = 0; k < at->count; ++k) row[k] += d;
-    gvi_status status = gvi__evaluate(st, &y, 1);
-    for (int k = 0; k < at->count && status == GVI_OK; ++k) {
-        gvi_real step = row[k] - x->z[k];
+    const int n = st->n, R = at->stride;
+    const gvi_real *row = (by_v ? at->v : at->q) + j*R;
+    const gvi_real *dF = st->x.dF, *dP = dF + n*R, *bF = dP + n*R, *bP = bF + n*R;
+    for (int k = 0; k < at->count; ++k) {
+        const gvi_real step = row[k] - st->x.z[k];
         for (int i = 0; i < n; ++i)
             gvi__add(st, J, i, j, k, (dF[i*R + k] - bF[i*R + k])/step, (dP[i*R + k] - bP[i*R + k])/step, by_v);
     }
-    gvi__copy((size_t)R, x->z, row);
+}
+
+// forward differences by one row, coordinate j of Q or V, at all points at once
+GVI__APART gvi_status gvi__difference(gvi_stepper *st, const gvi__matrix *J, const gvi__sites *at, int j, int by_v,
+                                      gvi_real d)
+{
+    struct gvi__private *x = &st->x;
+    const size_t R = (size_t)at->stride;
+    gvi_real *row = (by_v ? at->v : at->q) + (size_t)j*R;
+    gvi__copy(R, row, x->z);
+    for (int k = 0; k < at->count; ++k) row[k] += d;
+    gvi_status status = gvi__ask_sites(st, at, x->dF);
+    if (status == GVI_OK) gvi__add_differences(st, J, at, j, by_v);
+    gvi__copy(R, x->z, row);
     return status;
 }
 
-/* Derivatives of what has no Hessian.  The difference is sqrt(eps) of what the
-   coordinate moves in a step, but no less than eps^(3/4) of the coordinate.   */
+/* The difference for coordinate j: sqrt(eps) of what it moves in a step, but no less
+   than eps^(3/4) of itself.                                                   */
+GVI__APART gvi_real gvi__nudge(const gvi__sites *at, int j, gvi_real h)
+{
+    const gvi_real root = GVI_SQRT(GVI__EPS), *Q = at->q + j*at->stride, *V = at->v + j*at->stride;
+    gvi_real q = 0, v = 0;
+    for (int k = 0; k < at->count; ++k) {
+        if (GVI_ABS(Q[k]) > q) q = GVI_ABS(Q[k]);
+        if (GVI_ABS(V[k]) > v) v = GVI_ABS(V[k]);
+    }
+    const gvi_real path = h*v > GVI_SQRT(root)*q ? h*v : GVI_SQRT(root)*q;
+    if (root*path > GVI__MIN/GVI__EPS) return root*path;
+    return h < 1 ? root*h : root;                     // at rest at 0
+}
+
+// derivatives of what has no Hessian
 GVI__APART gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matrix *J, const gvi__sites *at)
 {
     struct gvi__private *x = &st->x;
     const gvi_desc *d = &x->desc;
-    int n = st->n, R = at->stride, any = !gvi__mass_is_constant(d), reads_v = any;
+    int n = st->n, any = !gvi__mass_is_constant(d), reads_v = any;
     for (int e = 0; e < d->effect_count; ++e)
         if (!(x->off >> e & 1u) && !d->effects[e].hessian) {
             any = 1;
             if (d->effects[e].kind != GVI_POTENTIAL) reads_v = 1;
         }
     if (!any) return GVI_OK;
-    gvi_points y;
-    gvi__sites_as_points(&y, st, at, x->dF + 2*n*R, x->dF + 3*n*R);
-    gvi_status status = gvi__evaluate(st, &y, 1);
-    const gvi_real root = GVI_SQRT(GVI__EPS), h = GVI_ABS(J->h);
+    gvi_status status = gvi__ask_sites(st, at, x->dF + 2*n*at->stride);
+    const gvi_real h = GVI_ABS(J->h);
     for (int j = 0; j < n && status == GVI_OK; ++j) {
-        gvi_real q = 0, v = 0;
-        for (int k = 0; k < at->count; ++k) {
-            if (GVI_ABS(at->q[j*R + k]) > q) q = GVI_ABS(at->q[j*R + k]);
-            if (GVI_ABS(at->v[j*R + k]) > v) v = GVI_ABS(at->v[j*R + k]);
-        }
-        gvi_real path = h*v > GVI_SQRT(root)*q ? h*v : GVI_SQRT(root)*q;
-        if (!(root*path > GVI__MIN/GVI__EPS)) path = h < 1 ? h : 1;     // at rest at 0
-        status = gvi__difference(st, J, at, j, 0, root*path);
-        if (status == GVI_OK && reads_v) status = gvi__difference(st, J, at, j, 1, root*path/h);
+        const gvi_real step = gvi__nudge(at, j, h);
+        status = gvi__difference(st, J, at, j, 0, step);
+        if (status == GVI_OK && reads_v) status = gvi__difference(st, J, at, j, 1, step/h);
     }
     return status;
 }
@@ -3809,16 +3997,15 @@ GVI__APART gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matr
 GVI__APART gvi_status gvi__check_regular(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
-    int n = st->n, R = x->stride, at;
+    int n = st->n, at;
     if (gvi__mass_is_constant(&x->desc) && !gvi__has(st, GVI__HAS_LAGRANGIAN)) return GVI_OK;
-    gvi_real *W = x->hess + 3*n, *q = W + n*n + n + 1, *v = q + n, *f = x->one + 4*n, *P = f + n;
-    for (int i = 0; i < n; ++i) {
-        q[i] = x->work.Q[i*R];
-        v[i] = x->work.V[i*R];
-    }
+    gvi_real *W = x->hess + 3*n, *q = W + n*n + n + 1, *v = q + n;
+    gvi__gather(n, x->stride, x->work.Q, q);
+    gvi__gather(n, x->stride, x->work.V, v);
     gvi_points y;
-    gvi__at(&y, st, x->t, q, v, f, P);
-    if (!gvi__has(st, GVI__HAS_LAGRANGIAN)) return gvi__mass_at(st, &y, 1);
+    gvi__at(&y, st, x->t, q);
+    y.v = v;
+    if (!gvi__has(st, GVI__HAS_LAGRANGIAN)) return gvi__factor_at(st, &y);
     gvi_status status = gvi__evaluate(st, &y, 0);
     if (status == GVI_OK) status = gvi__velocity_hessian(st, &y, v, W);
     if (status != GVI_OK) return status;
@@ -3879,13 +4066,13 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J, gvi_real 
 }
 
 // y := modes of the extrapolated V, or constant velocity
-static void gvi__newton_guess(gvi_stepper *st, int extrapolate)
+GVI__APART void gvi__newton_guess(gvi_stepper *st, int extrapolate)
 {
     struct gvi__private *x = &st->x;
     int n = st->n, s = st->s, R = x->stride;
     gvi__zero((size_t)(s*n), x->y);
     if (!extrapolate) {
-        for (int i = 0; i < n; ++i) x->y[i] = gvi__velocity_guess(st, i);
+        gvi__velocity_guess(st, x->y);
         return;
     }
     if (gvi__two_now(st)) {                       // E is for one step here
@@ -3938,11 +4125,8 @@ GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const 
     int made = 0, last = 0, idle = 0, was_fresh = 0;
     gvi_real before = 0, earlier = 0, rho = (gvi_real)0.25, left = GVI__MAX;
     for (int k = 0; k <= x->desc.max_iterations; ++k) {
-        gvi_points y;
-        gvi__rows_as_points(&y, st, &x->work, x->work.P);
         int fresh = !have;
-        gvi__newton_rows(st, from, J->h);
-        gvi_status status = gvi__evaluate(st, &y, 0);
+        gvi_status status = gvi__newton_ask(st, from, J->h);
         if (status != GVI_OK || last) return status;
         if (fresh) {
             if (++made > x->desc.max_iterations/4 + 2) break;
@@ -3997,6 +4181,20 @@ static int gvi__use_blocks(gvi_stepper *st)
     return x->blocks && x->whole_left == 0;
 }
 
+// dq and dp of a step that y solves
+GVI__APART void gvi__newton_increments(gvi_stepper *st, const gvi__from *from, gvi_real h)
+{
+    struct gvi__private *x = &st->x;
+    for (int i = 0; i < st->n; ++i) {
+        const gvi__two q = gvi__product(h, x->y[i]);
+        const gvi__two p = gvi__exact_dot(st->r, x->hb, x->work.F + i*x->stride, from->pe[i]);
+        x->dq[i] = q.hi;
+        x->dqe[i] = gvi__rest(q.lo + from->qe[i]);
+        x->dp[i] = p.hi;
+        x->dpe[i] = p.lo;
+    }
+}
+
 // by blocks, if they may be used; where they fail the whole matrix starts anew, and stays
 GVI__APART gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate, int query)
 {
@@ -4014,14 +4212,7 @@ GVI__APART gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, g
         gvi__newton_guess(st, extrapolate);
         status = gvi__newton(st, from, &J, pivot, !query);
     }
-    for (int i = 0; i < st->n; ++i) {
-        const gvi__two q = gvi__product(h, x->y[i]);
-        const gvi__two p = gvi__exact_dot(st->r, x->hb, x->work.F + i*x->stride, from->pe[i]);
-        x->dq[i] = q.hi;
-        x->dqe[i] = gvi__rest(q.lo + from->qe[i]);
-        x->dp[i] = p.hi;
-        x->dpe[i] = p.lo;
-    }
+    gvi__newton_increments(st, from, h);
     return status;
 }
 
@@ -4091,7 +4282,7 @@ static gvi_status gvi__solve(gvi_stepper *st, gvi__from *from, gvi_real h, const
     struct gvi__private *x = &st->x;
     gvi_status status = gvi__attempt(st, from, h, past, query);
     if (status == GVI_OK && !gvi__finite_end(st, from)) status = gvi__give(st, GVI_E_NON_FINITE);
-    if (status == GVI_E_NON_FINITE && st->fault.effect == GVI_FAULT_NONE && !x->diagnose) {
+    if (GVI__DIAGNOSIS && status == GVI_E_NON_FINITE && st->fault.effect == GVI_FAULT_NONE) {
         if (!query) x->h_matrix = 0;
         x->diagnose = 1;
         gvi_status second = gvi__attempt(st, from, h, past, query);
@@ -4238,12 +4429,9 @@ static gvi_status gvi__values(gvi_stepper *st, gvi_points *x, gvi_real *V, gvi_r
 // v'Mv/2 at one point
 static gvi_status gvi__kinetic_energy(gvi_stepper *st, gvi_points *x, gvi_real *T)
 {
-    size_t n = (size_t)st->n;
-    gvi_real *f = x->f = st->x.one + 4*n, *p = x->dldv = f + n;
-    gvi__zero(n, f);
-    gvi__zero(n, p);
+    gvi__zero(2*(size_t)st->n, x->f);             // and x->dldv
     gvi_status status = gvi__kinetic(st, x);
-    *T = gvi__dot(st->n, p, x->v)/2;
+    *T = gvi__dot(st->n, x->dldv, x->v)/2;
     return status;
 }
 
@@ -4256,7 +4444,8 @@ static gvi_status gvi__energy(gvi_stepper *st, gvi_real t, const gvi_real *q, co
     gvi_status status = gvi__velocity(st, t, q, p, v);
     if (status != GVI_OK) return status;
     gvi_points y;
-    gvi__at(&y, st, &t, q, v, NULL, NULL);
+    gvi__at(&y, st, &t, q);
+    y.v = v;
     status = gvi__values(st, &y, &V, &L);
     if (status == GVI_OK) status = gvi__kinetic_energy(st, &y, &T);
     if (status != GVI_OK) return status;
@@ -4313,22 +4502,22 @@ GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, con
     if (status != GVI_OK) return status;
     struct gvi__private *x = &st->x;
     size_t n = (size_t)(unsigned)st->n;           // n > 0, which not every compiler sees
-    gvi_real *f = x->one + 4*n, *p = f + n;
 
     // p = dL/dv: of the kinetic energy, and of Lagrangian terms where there are any
     gvi_points y;
-    gvi__at(&y, st, &t, q, v, f, p);
+    gvi__at(&y, st, &t, q);
+    y.v = v;
     x->diagnose = 1;
     if (gvi__has(st, GVI__HAS_LAGRANGIAN)) status = gvi__evaluate(st, &y, 0);
     else {
-        gvi__zero(n, f);
-        gvi__zero(n, p);
+        gvi__zero(2*n, y.f);                      // and y.dldv
         status = gvi__kinetic(st, &y);
     }
     x->diagnose = 0;
+    if (status == GVI_OK) status = gvi__finite_here(st, &y);
     if (status != GVI_OK) return status;
     gvi_real *start = x->one + 3*n;               // v may be what a query wrote over st
-    gvi__copy(n, p, x->dp);
+    gvi__copy(n, y.dldv, x->dp);
     gvi__copy(n, q, x->dq);
     gvi__copy(n, v, start);
     return gvi__start(st, t, start);
@@ -4402,8 +4591,7 @@ GVI_DEF gvi_status gvi_velocity(gvi_stepper *st, gvi_real *v)
 
     // the guess: velocity at the last point of the last step, or at the start
     gvi_real *guess = x->change;
-    for (int i = 0; i < st->n; ++i)
-        guess[i] = gvi__velocity_guess(st, i);
+    gvi__velocity_guess(st, guess);
     status = gvi__velocity(st, st->t, x->q, x->p, guess);
     if (status == GVI_OK) gvi__copy((size_t)st->n, guess, v);
     return gvi__done(st, status);
@@ -4416,7 +4604,7 @@ GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy)
     if (!energy) return st->status = GVI_E_ARGUMENT;
     struct gvi__private *x = &st->x;
     gvi_real E, *v = x->change + st->n;
-    for (int i = 0; i < st->n; ++i) v[i] = gvi__velocity_guess(st, i);
+    gvi__velocity_guess(st, v);
     status = gvi__energy(st, st->t, x->q, x->p, v, &E);
     if (status == GVI_OK) *energy = E;
     return gvi__done(st, status);
@@ -4529,9 +4717,11 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
     // partial step of length h from the nearer end
     int end = GVI_ABS(back) <= GVI_ABS(ahead);
     gvi_real h = end ? back - x->te : ahead;
-    gvi__from from = { x->t0, 0, x->q0, x->zeros, x->p0, x->zeros, x->H0, 0, NULL, NULL };
-    gvi__from last = { st->t, x->te, x->q, x->qe, x->p, x->pe, x->H, x->He, NULL, NULL };
-    if (end) from = last;
+    gvi__from from = { st->t, x->te, x->q, x->qe, x->p, x->pe, x->H, x->He, NULL, NULL };
+    if (!end) {
+        const gvi__from first = { x->t0, 0, x->q0, x->zeros, x->p0, x->zeros, x->H0, 0, NULL, NULL };
+        from = first;
+    }
     gvi_formulation was = st->formulation;
     if (gvi__nonzero(h) && gvi__has_clock(st)) status = gvi__partial_clock(st, &from, end, h);
     else if (gvi__nonzero(h)) status = gvi__partial(st, &from, end, h);
@@ -4547,8 +4737,8 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
     for (size_t i = 0; i < n; ++i) {
         Q[i] = from.q[i] + (x->dq[i] + x->dqe[i]);
         P[i] = from.p[i] + (x->dp[i] + x->dpe[i]);
-        V[i] = gvi__velocity_guess(st, (int)i);
     }
+    gvi__velocity_guess(st, V);
     if (v) status = gvi__velocity(st, t, Q, P, V);
     if (status != GVI_OK) return st->status = status;
     if (q) gvi__copy(n, Q, q);
@@ -4562,7 +4752,8 @@ static gvi_status gvi__lagrangian(gvi_stepper *st, gvi_real t, const gvi_real *q
 {
     gvi_real V, L, T;
     gvi_points y;
-    gvi__at(&y, st, &t, q, v, NULL, NULL);
+    gvi__at(&y, st, &t, q);
+    y.v = v;
     gvi_status status = gvi__values(st, &y, &V, &L);
     if (status == GVI_OK) status = gvi__kinetic_energy(st, &y, &T);
     if (status == GVI_OK) *value = T - V + L;
@@ -4651,7 +4842,7 @@ static gvi_status gvi__chord(gvi_stepper *st, const gvi__from *from, gvi_real h,
 {
     struct gvi__private *x = &st->x;
     int n = st->n, R = x->stride;
-    gvi_real *q = x->change, *v = q + n, *f = x->one + 4*n, *P = f + n;
+    gvi_real *q = x->change, *v = q + n;
     gvi_status status = GVI_OK;
     gvi__zero((size_t)n, p);
     for (int j = 0; j < st->r && status == GVI_OK; ++j) {
@@ -4661,26 +4852,28 @@ static gvi_status gvi__chord(gvi_stepper *st, const gvi__from *from, gvi_real h,
             if (x->work.V) x->work.V[i*R + j] = v[i];
         }
         gvi_points y;
-        gvi__at(&y, st, x->t + j, q, v, f, P);
+        gvi__at(&y, st, x->t + j, q);
+        y.v = v;
         x->diagnose = 1;
         status = gvi__evaluate(st, &y, 0);
         x->diagnose = 0;
+        if (status == GVI_OK) status = gvi__finite_here(st, &y);
         for (int i = 0; i < n; ++i) {
-            x->work.F[i*R + j] = f[i];
-            p[i] += x->b[j]*P[i];
+            x->work.F[i*R + j] = y.f[i];
+            p[i] += x->b[j]*y.dldv[i];
         }
     }
     return status;
 }
 
 static gvi_status gvi__interior(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *q1,
-                                const gvi__matrix *J, gvi_real *pivot, gvi_real *p)
+                                gvi__matrix *J, gvi_real *pivot, gvi_real *p)
 {
     struct gvi__private *x = &st->x;
     int n = st->n, size = (st->s - 1)*n;
     if (size == 0) return gvi__chord(st, from, h, q1, p);
     gvi_status status = GVI_E_NON_FINITE;
-    for (int look = 0; look < 2 && status == GVI_E_NON_FINITE; ++look) {    // as in gvi__solve
+    for (int look = 0; look < 1 + GVI__DIAGNOSIS && status == GVI_E_NON_FINITE; ++look) {    // as in gvi__solve
         gvi__zero((size_t)(st->s*n), x->y);
         for (int i = 0; i < n; ++i) x->y[i] = (q1[i] - from->q[i])/h;
         x->diagnose = (signed char)look;
@@ -4690,9 +4883,8 @@ static gvi_status gvi__interior(gvi_stepper *st, const gvi__from *from, gvi_real
     if (status != GVI_OK && status != GVI_E_CONVERGENCE) return status;
 
     // the Jacobian where it ended says whether there was anything to find
-    gvi__matrix scaled = *J;
-    scaled.scaled = 1;
-    gvi_status second = gvi__jacobian(st, &scaled, pivot);
+    J->scaled = 1;
+    gvi_status second = gvi__jacobian(st, J, pivot);
     if (second != GVI_OK) return second;
     if (gvi_lu_rcond(size, J->square, pivot, x->dF) < gvi__jacobian_error(st)) status = GVI_E_CONJUGATE;
     for (int i = 0; i < n; ++i) p[i] = gvi__dot(st->r, x->b, x->work.P + i*x->stride);

@@ -1,4 +1,4 @@
-/* parts.c - nine scenes, one a line: name and state to the bit, or "refused"
+/* parts.c - scenes, one a line: name, state and a point of the curve to the bit, or "refused"; then one that fails
 
    tests/tools/parts.sh compiles it with each macro that leaves code out, and compares. */
 #define GVI_STATIC
@@ -20,6 +20,20 @@ static int quartic(const gvi_points *x, void *user)
             if (x->value) x->value[k] += q*q*q*q/4;
         }
     return 0;
+}
+
+// a constant force, and NaN beyond 2
+static int broken(const gvi_points *x, void *user)
+{
+    (void)user;
+    for (int k = 0; k < x->count; ++k) x->f[k] += x->q[k] > 2 ? x->q[k]*0/(x->q[k]*0) : 1;
+    return 0;
+}
+
+static int quartic_point(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    for (int i = 0; i < 2; ++i) f[i] -= q[i]*q[i]*q[i];
+    return (void)t, (void)v, (void)dldv, (void)user, 0;
 }
 
 static int drag(const gvi_points *x, void *user)
@@ -81,8 +95,26 @@ static void run(const char *name, const gvi_desc *desc)
     }
     gvi_start(&st, 0, q, v);
     for (int k = 0; k < 20; ++k) gvi_step(&st, (real)0.125);
-    printf("%s %s %La %La %La %La\n", name, gvi_status_text(st.status), (long double)st.q[0], (long double)st.q[1],
-           (long double)st.p[0], (long double)st.p[1]);
+    real curve[2];
+    if (gvi_curve(&st, (real)0.25, curve, NULL) != GVI_OK) curve[0] = 0;
+    printf("%s %s %La %La %La %La %La\n", name, gvi_status_text(st.status), (long double)st.q[0], (long double)st.q[1],
+           (long double)st.p[0], (long double)st.p[1], (long double)curve[0]);
+}
+
+// the status and the fault of the first step that fails; what it left is where it was
+static void run_broken(const gvi_desc *desc)
+{
+    static real memory[2000];
+    const real q[] = { 1, 0 }, v[] = { 0, 1 };
+    gvi_stepper st;
+    if (gvi_init(&st, desc, memory, sizeof memory) == GVI_E_FORMULATION) {
+        printf("broken refused\n");
+        return;
+    }
+    gvi_start(&st, 0, q, v);
+    while (gvi_step(&st, (real)0.125) == GVI_OK) {}
+    printf("broken: %s, effect %d, t %La q %La\n", gvi_status_text(st.status), st.fault.effect, (long double)st.t,
+           (long double)st.q[0]);
 }
 
 int main(void)
@@ -94,6 +126,9 @@ int main(void)
                                        { .kind = GVI_LAGRANGIAN, .points = gyroscope } };
     static const gvi_effect clock[] = { { .kind = GVI_POTENTIAL, .points = quartic, .value = quartic },
                                         { .kind = GVI_CLOCK, .points = slow } };
+    static const gvi_effect bad[] = { { .kind = GVI_FORCE, .points = drag },
+                                      { .kind = GVI_POTENTIAL, .points = broken } };
+    static const gvi_effect point[] = { { .kind = GVI_POTENTIAL, .point = quartic_point } };
     const gvi_rule verlet = { .kind = GVI_LOBATTO, .points = 2 };
     gvi_desc d = { .n = 2, .degree = 4, .effects = potential, .effect_count = 1 }, e = d;
     e.degree = 1;
@@ -102,9 +137,21 @@ int main(void)
     run("explicit", &e);
     e.formulation = GVI_POSITIONS;
     run("positions", &e);
+    e.iterations = 3;
+    run("given", &e);
+    d.effects = point;
+    d.formulation = GVI_POSITIONS;
+    run("point", &d);
+    d.effects = potential;
     d.effect_count = 2;
     d.formulation = GVI_VELOCITIES;
     run("velocities", &d);
+    for (d.degree = 1; d.degree < 4; ++d.degree) run("few", &d);
+    d.effects = bad;
+    d.iterations = 3;
+    run_broken(&d);
+    d.effects = potential;
+    d.iterations = 0;
     d.formulation = GVI_MOMENTA;
     d.mass.kind = GVI_MASS_POSITION;
     d.mass.points = mass;

@@ -3,7 +3,8 @@
 # code and constants of gvi.h alone, what it takes of libm and libgcc, the deepest stack; then
 # RAM.  Rows: every function, then gvi_init, gvi_start and gvi_step with one formulation
 # (GVI_ONLY_...), whole and without Lagrangian terms, clock, dense mass and own rules
-# (GVI_NO_..., "least").  --detail: also the largest functions and the deepest chain of calls.
+# (GVI_NO_..., "least"), also with few numbers as constants, a given number of iterations, no
+# diagnosis and no effects of one point ("fixed").  Then, on Cortex-M4F, what each part costs.  --detail: also the largest functions and the deepest chain of calls.
 build=$1 detail=$2
 CC=${CC:-cc}
 dir=$build/size
@@ -11,6 +12,7 @@ mkdir -p "$dir"
 rm -f "$dir"/*
 fail() { echo "FAILED: size: $*"; exit 1; }
 least='-DGVI_NO_LAGRANGIAN -DGVI_NO_CLOCK -DGVI_NO_DENSE -DGVI_NO_OWN'
+fixed='-DGVI_NO_RULES -DGVI_NO_TOLERANCE -DGVI_NO_DIAGNOSIS -DGVI_NO_POINT'
 entries='size_init size_start size_step'
 cc_flags='-std=c99 -Os -fno-math-errno -ffp-contract=off -ffunction-sections -fdata-sections
           -DGVI_REAL=float -I.'
@@ -98,8 +100,56 @@ table() {  # target title prefix flags link-flags
         only=-DGVI_ONLY_$(echo $f | tr a-z A-Z)
         row $f tests/tools/size.c "$entries" $only
         row "$f, least" tests/tools/size.c "$entries" $only $least
+        row "$f, fixed" tests/tools/size.c "$entries" $only $least $fixed
     done
+    row "positions, described" tests/tools/size.c "$entries" -DGVI_ONLY_POSITIONS $least $fixed -DSIZE_DESCRIBED
     echo "$target $(stepper) $(stepper -DGVI_EFFECTS=4)" >>"$dir/steppers"
+}
+
+# code of everything in an image with these functions
+linked() {  # roots flags...
+    roots=$1
+    shift
+    $compiler $cc_flags "$@" -c "$dir/everything.c" -o "$dir/part.o" && link_object "$dir/part" "$roots" ||
+        fail "$target: part"
+    code_of "$dir/part.o" "$dir/part.elf"
+}
+part_line() { printf '  %-58s %6d\n' "$1" "$2"; }
+
+parts() {  # of the last table's machine
+    target=$1 steps='gvi_init gvi_start gvi_step' all= base=$(linked 'gvi_init gvi_start gvi_step')
+    for f in EXPLICIT POSITIONS VELOCITIES MOMENTA NEWTON; do all="$all -DGVI_ONLY_$f"; done
+    echo "What parts cost on $target, bytes of code"
+    part_line 'gvi_init, gvi_start, gvi_step with everything' $base
+    while IFS='|' read -r name flags; do
+        part_line "  of it $name" $((base - $(linked "$steps" $flags)))
+    done <<END
+the explicit formulation|$(echo "$all" | sed 's/-DGVI_ONLY_EXPLICIT//')
+positions|$(echo "$all" | sed 's/-DGVI_ONLY_POSITIONS//')
+velocities|$(echo "$all" | sed 's/-DGVI_ONLY_VELOCITIES//')
+momenta|$(echo "$all" | sed 's/-DGVI_ONLY_MOMENTA//')
+Newton's method|$(echo "$all" | sed 's/-DGVI_ONLY_NEWTON//')
+Lagrangian terms: GVI_NO_LAGRANGIAN|-DGVI_NO_LAGRANGIAN
+clocks: GVI_NO_CLOCK|-DGVI_NO_CLOCK
+dense mass: GVI_NO_DENSE|-DGVI_NO_DENSE
+own rules: GVI_NO_OWN|-DGVI_NO_OWN
+effects of one point: GVI_NO_POINT|-DGVI_NO_POINT
+nodes and tables: GVI_NO_RULES, NO_LAGRANGIAN, NO_OWN|-DGVI_NO_RULES
+iterating as long as it takes: GVI_NO_TOLERANCE|-DGVI_NO_TOLERANCE
+naming the effect that gave NaN: GVI_NO_DIAGNOSIS|-DGVI_NO_DIAGNOSIS
+END
+    while IFS='|' read -r name roots; do
+        part_line "added by $name" $(($(linked "$steps $roots") - base))
+    done <<END
+gvi_velocity, gvi_energy|gvi_velocity gvi_energy
+gvi_curve|gvi_curve
+gvi_state_at|gvi_state_at
+gvi_discrete_lagrangian, gvi_start_configurations|gvi_start_configurations
+all of these, gvi_action and gvi_start_momentum|gvi_velocity gvi_energy gvi_curve gvi_state_at gvi_start_configurations gvi_action
+gvi_switch, gvi_restore, gvi_size|gvi_switch gvi_restore gvi_size
+the building blocks|gvi_gauss gvi_lobatto gvi_rule_order gvi_barycentric gvi_interpolate \
+gvi_interpolate_derivative gvi_basis gvi_basis_derivative gvi_lu_factor gvi_lu_solve gvi_lu_rcond
+END
 }
 
 # a scene needs as many numbers on every machine; the stepper is pointers and counters
@@ -128,6 +178,7 @@ arm='--specs=nano.specs -nostartfiles -Wl,-e,main'
 m4f='-mthumb -mcpu=cortex-m4 -mfloat-abi=hard -mfpu=fpv4-sp-d16'
 table m0  Cortex-M0  arm-none-eabi- '-mthumb -mcpu=cortex-m0' "$arm"
 table m4f Cortex-M4F arm-none-eabi- "$m4f" "$arm"
+command -v arm-none-eabi-gcc >/dev/null 2>&1 && parts m4f
 table rv  'RISC-V 32 (rv32imc)' riscv64-unknown-elf- '-march=rv32imc -mabi=ilp32 --specs=picolibc.specs'
 table avr 'AVR (ATmega1284P)' avr- -mmcu=atmega1284p
 [ -f "$dir/steppers" ] || fail 'no compiler for a small machine (make deps-firmware installs some)'
@@ -138,6 +189,8 @@ echo 'aims on Cortex-M4F'
 aim 'code of everything'                             "$(found rows everything 3)" 16384
 aim 'code for potentials only: positions'            "$(found rows positions 3)" 5120
 aim 'code for potentials only: positions, least'     "$(found rows 'positions, least' 3)" 5120
+aim 'code for potentials only: positions, fixed'     "$(found rows 'positions, fixed' 3)" 5120
+aim 'code for potentials only: positions, described' "$(found rows 'positions, described' 3)" 5120
 aim 'code for potentials only: explicit, least'      "$(found rows 'explicit, least' 3)" 5120
 aim 'stack of everything'                            "$(found rows everything 4)" 512
 aim 'stack for potentials only: positions, least'    "$(found rows 'positions, least' 4)" 512
