@@ -526,7 +526,7 @@ int main(int argc, char **argv)
     int horizon = 0;
     baselines_begin();
     problems_begin();
-    printf("P4: %s\n", problems_roots());
+    problems_tell(stdout);
     for (int i = 1; i < argc; ++i) {
         if (!strcmp(argv[i], "--quick")) o.quick = 1;
         else if (!strcmp(argv[i], "--horizon")) horizon = 1;

@@ -52,6 +52,32 @@
     return 0;                                                \
     } while (0)
 
+/* ---------------------------------------------------------------- roots */
+
+/* 1/d^3 of d^2: by the processor's root and quotient, or without either, from a shift of the bits
+   (error 3.4 %) by a step of fourth order for 1/d and one for its cube; both right to 1 or 2 in
+   the last place.  The first is sooner there where one waits for it, the second takes some
+   processors less time where there are many.  So each form of the right-hand side exists with both,
+   and problems_begin takes the faster on the processor at hand.                               */
+INLINE double over_cube(double d2, const int processor)
+{
+    if (processor) return 1/(d2*sqrt(d2));
+    unsigned long long bits;
+    double y;
+    memcpy(&bits, &d2, sizeof y);
+    bits = 0x5fe6eb50c7b537a9ULL - (bits >> 1);
+    memcpy(&y, &bits, sizeof y);
+    double e = 1 - d2*(y*y);
+    y += y*e*(0.5 + e*(0.375 + e*0.3125));
+    const double y2 = y*y, y3 = y2*y;
+    e = 1 - d2*y2;
+    return y3 + (y3*e)*(1.5 + e*(1.875 + e*2.1875));
+}
+
+/* Whether the processor's, at one point and at many, as problems_begin finds it.               */
+typedef struct roots { int one, many; } roots;
+static roots kepler_roots = { 1, 1 }, solar_roots = { 1, 1 };
+
 /* ------------------------------------------------------- P1, P2: Kepler */
 
 static const double kepler6_q[] = { 0x1.999999999999ap-2, 0 }, kepler6_v[] = { 0, 2 };
@@ -65,37 +91,41 @@ static long double kepler_energy(const double *q, const double *v)
 
 INLINE void kepler_acceleration(const double *q, double *a)
 {
-    double x = q[0], y = q[1], d2 = x*x + y*y, w = -1/(d2*sqrt(d2));
+    double x = q[0], y = q[1], d2 = x*x + y*y, w = kepler_roots.one ? -over_cube(d2, 1) : -over_cube(d2, 0);
     a[0] = w*x;
     a[1] = w*y;
 }
 
-INLINE int kepler_points(const gvi_points *p, int count, int stride)
+INLINE int kepler_points(const gvi_points *p, int count, int stride, const int processor)
 {
     const double *restrict X = p->q, *restrict Y = X + stride;
     double *restrict fx = p->f, *restrict fy = fx + stride;
     INDEPENDENT for (int k = 0; k < count; ++k) {
-        double d2 = X[k]*X[k] + Y[k]*Y[k], w = -1/(d2*sqrt(d2));
+        double w = -over_cube(X[k]*X[k] + Y[k]*Y[k], processor);
         fx[k] += w*X[k];
         fy[k] += w*Y[k];
     }
     return 0;
 }
 
-static int kepler(const gvi_points *p, void *user)
+INLINE int kepler_by_processor(const gvi_points *p, int count, int stride) { return kepler_points(p, count, stride, 1); }
+INLINE int kepler_from_bits(const gvi_points *p, int count, int stride) { return kepler_points(p, count, stride, 0); }
+
+WIDE static int kepler(const gvi_points *p, void *user)
 {
     (void)user;
-    if (p->count > 1) return BY_COUNT(kepler_points, p);
+    if (p->count > 1 && kepler_roots.many) return BY_COUNT(kepler_by_processor, p);
+    if (p->count > 1) return BY_COUNT(kepler_from_bits, p);
     ONE_POINT(2, kepler_acceleration, p, 1);
 }
 
 /* The same and the potential beside it, which a clock needs: what is not NULL of f and value. */
-INLINE int kepler_both_points(const gvi_points *p, int count, int stride)
+INLINE int kepler_both_points(const gvi_points *p, int count, int stride, const int processor)
 {
     const double *restrict X = p->q, *restrict Y = X + stride;
     double *restrict fx = p->f, *restrict fy = fx + stride, *restrict value = p->value;
     INDEPENDENT for (int k = 0; k < count; ++k) {
-        double d2 = X[k]*X[k] + Y[k]*Y[k], d = sqrt(d2), w = -1/(d2*d);
+        double d2 = X[k]*X[k] + Y[k]*Y[k], w = -over_cube(d2, processor);
         fx[k] += w*X[k];
         fy[k] += w*Y[k];
         value[k] += w*d2;
@@ -103,11 +133,15 @@ INLINE int kepler_both_points(const gvi_points *p, int count, int stride)
     return 0;
 }
 
-static int kepler_both(const gvi_points *p, void *user)
+INLINE int both_by_processor(const gvi_points *p, int count, int stride) { return kepler_both_points(p, count, stride, 1); }
+INLINE int both_from_bits(const gvi_points *p, int count, int stride) { return kepler_both_points(p, count, stride, 0); }
+
+WIDE static int kepler_both(const gvi_points *p, void *user)
 {
     (void)user;
     if (!p->value) return kepler(p, user);
-    if (p->f) return BY_COUNT(kepler_both_points, p);
+    if (p->f && kepler_roots.many) return BY_COUNT(both_by_processor, p);
+    if (p->f) return BY_COUNT(both_from_bits, p);
     for (int k = 0; k < p->count; ++k)
         p->value[k] -= 1/sqrt(p->q[k]*p->q[k] + p->q[p->stride+k]*p->q[p->stride+k]);
     return 0;
@@ -209,26 +243,6 @@ static long double solar_energy(const double *q, const double *v)
     return e;
 }
 
-/* 1/d^3 of d^2: by the processor's root and quotient, or without either, from a shift of the bits
-   (error 3.4 %) by a step of fourth order for 1/d and one for its cube; both right to 1 or 2 in
-   the last place.  The first is sooner there where one waits for it, the second takes some
-   processors less time where there are many.  So each form of the right-hand side exists with both,
-   and problems_begin takes the faster on the processor at hand.                               */
-INLINE double over_cube(double d2, const int processor)
-{
-    if (processor) return 1/(d2*sqrt(d2));
-    unsigned long long bits;
-    double y;
-    memcpy(&bits, &d2, sizeof y);
-    bits = 0x5fe6eb50c7b537a9ULL - (bits >> 1);
-    memcpy(&y, &bits, sizeof y);
-    double e = 1 - d2*(y*y);
-    y += y*e*(0.5 + e*(0.375 + e*0.3125));
-    const double y2 = y*y, y3 = y2*y;
-    e = 1 - d2*y2;
-    return y3 + (y3*e)*(1.5 + e*(1.875 + e*2.1875));
-}
-
 /* Each pair once; the 15 roots and quotients in one vector loop.  The bodies' own loops are
    unrolled, so that the sums stay in registers.                                               */
 INLINE void solar_pairs(const double *q, const int processor, double *a)
@@ -280,64 +294,18 @@ INLINE int solar_points(const gvi_points *p, int count, int stride, const int pr
 INLINE int solar_by_processor(const gvi_points *p, int count, int stride) { return solar_points(p, count, stride, 1); }
 INLINE int solar_from_bits(const gvi_points *p, int count, int stride) { return solar_points(p, count, stride, 0); }
 
-static int processor_for_one = 1, processor_for_many = 1;
-
 static void solar_acceleration(const double *q, double *a)
 {
-    if (processor_for_one) solar_pairs(q, 1, a);
+    if (solar_roots.one) solar_pairs(q, 1, a);
     else solar_pairs(q, 0, a);
 }
 
 WIDE static int solar(const gvi_points *p, void *user)
 {
     (void)user;
-    if (p->count > 1 && processor_for_many) return BY_COUNT(solar_by_processor, p);
+    if (p->count > 1 && solar_roots.many) return BY_COUNT(solar_by_processor, p);
     if (p->count > 1) return BY_COUNT(solar_from_bits, p);
     ONE_POINT(18, solar_acceleration, p, solar_mass[i]);
-}
-
-/* The time of calls that wait for each other, as an integrator's do.                          */
-static clock_t time_of(int count)
-{
-    double q[18*8], f[18*8], t[8] = { 0 };
-    gvi_points x = { .n = 18, .count = count, .stride = count, .t = t, .q = q, .f = f };
-    for (int i = 0; i < 18*count; ++i) {
-        q[i] = solar_q[i/count];
-        f[i] = 0;
-    }
-    const clock_t begin = clock();
-    for (int call = 0; call < 2000; ++call) {
-        if (count == 1) solar_acceleration(q, f);
-        else solar(&x, NULL);
-        for (int i = 0; i < 18*count; ++i) q[i] += 1e-30*f[i];
-    }
-    return clock() - begin;
-}
-
-/* The least times of both, taken in turn, so that what else the machine does meets both.      */
-static void choose(int count, int *processor)
-{
-    clock_t least[2] = { 0, 0 };
-    for (int trial = 0; trial < 80; ++trial) {
-        *processor = trial % 2;
-        const clock_t time = time_of(count);
-        if (trial < 2 || time < least[*processor]) least[*processor] = time;
-    }
-    *processor = least[1] <= least[0];
-}
-
-void problems_begin(void)
-{
-    choose(1, &processor_for_one);
-    choose(8, &processor_for_many);
-}
-
-const char *problems_roots(void)
-{
-    return processor_for_one ? processor_for_many ? "the processor's roots for one point and many"
-                                                  : "the processor's roots for one point, none for many"
-                             : processor_for_many ? "no roots for one point, the processor's for many"
-                                                  : "no roots";
 }
 
 /* -------------------------------------------------- P5: double pendulum */
@@ -625,6 +593,57 @@ const problem *problem_named(const char *key)
     for (int i = 0; i < problem_count; ++i)
         if (!strcmp(problems[i].key, key)) return problems + i;
     return NULL;
+}
+
+/* The time of calls that wait for each other, as an integrator's do.                          */
+static clock_t time_of(const problem *p, int count)
+{
+    double q[18*8], f[18*8], t[8] = { 0 };
+    gvi_points x = { .n = p->n, .count = count, .stride = count, .t = t, .q = q, .f = f };
+    for (int i = 0; i < p->n*count; ++i) {
+        q[i] = p->q[i/count];
+        f[i] = 0;
+    }
+    const clock_t begin = clock();
+    for (int call = 0; call < 2000; ++call) {
+        if (count == 1) p->acceleration(q, f);
+        else p->effects->points(&x, NULL);
+        for (int i = 0; i < p->n*count; ++i) q[i] += 1e-30*f[i];
+    }
+    return clock() - begin;
+}
+
+/* The least times of both, taken in turn, so that what else the machine does meets both.      */
+static void choose(const problem *p, int count, int *processor)
+{
+    clock_t least[2] = { 0, 0 };
+    for (int trial = 0; trial < 80; ++trial) {
+        *processor = trial % 2;
+        const clock_t time = time_of(p, count);
+        if (trial < 2 || time < least[*processor]) least[*processor] = time;
+    }
+    *processor = least[1] <= least[0];
+}
+
+void problems_begin(void)
+{
+    choose(problem_named("P1"), 1, &kepler_roots.one);
+    choose(problem_named("P1"), 8, &kepler_roots.many);
+    choose(problem_named("P4"), 1, &solar_roots.one);
+    choose(problem_named("P4"), 8, &solar_roots.many);
+}
+
+static const char *told(roots r)
+{
+    return r.one ? r.many ? "the processor's roots for one point and many"
+                          : "the processor's roots for one point, none for many"
+                 : r.many ? "no roots for one point, the processor's for many"
+                          : "no roots";
+}
+
+void problems_tell(FILE *f)
+{
+    fprintf(f, "P1, P2: %s\nP4: %s\n", told(kepler_roots), told(solar_roots));
 }
 
 double problem_error(const problem *p, const double *q)

@@ -11,6 +11,8 @@
 
 #include "gvi.h"
 
+#include <stdio.h>
+
 enum { MOST_COORDINATES = 104 };        /* 100, rounded up to whole vectors    */
 
 /* One point.                                                                                  */
@@ -41,10 +43,10 @@ extern const int problem_count;
 
 const problem *problem_named(const char *key);
 
-/* Once, for those who measure: takes the faster of two forms of the solar system's right-hand
-   side, for one point and for many each.  And which it took.                                  */
-void        problems_begin(void);
-const char *problems_roots(void);
+/* Once, for those who measure: takes the faster of two forms of Kepler's right-hand side and of
+   the solar system's, for one point and for many each; and says which.                        */
+void problems_begin(void);
+void problems_tell(FILE *f);
 
 /* Length in tau of a revolution on Kepler's ellipse of half-axis 1, with dt = |q|^a dtau.     */
 double kepler_tau(double eccentricity, double a);
