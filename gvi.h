@@ -109,10 +109,10 @@
               (N+2)(K n R (2r+14) + 30) + 30 K n r + 70 n at most, R = r below 5 points,
               else the next multiple of 8, K = 1 for positions, 2 for velocities and
               momenta; full M: 2n^2 ((N+2) K R + 3) more; M(q): (N+1) r (n^3/2 + 6n^2).
-              Explicit: 8n(r+1) + 60n + 8r + 50.  A new h: 6r^3 + 40rR + 60r + 60 more, in
-              its step and the next two.  Twice that where the extrapolated start leads
-              nowhere, four times where the step fails.  Without a clock or Lagrangian
-              terms; counted by make bound.
+              Explicit: 8n(r+1) + 60n + 8r + 46.  A new h: 6r^3 + 4(r+10)rR + 60r + 60
+              more, in its step and the next two.  Twice that where the extrapolated
+              start leads nowhere, four times where the step fails.  Without a clock or
+              Lagrangian terms; counted by make bound.
 
    gvi.h does not: choose or adapt the step, treat constraints or contact,
    run in parallel, or read or write anything.
@@ -512,6 +512,7 @@ struct gvi__private {
     signed char      whole_left;      /* steps until blocks are tried again     */
     signed char      clock, single;   /* effect that is one; the only one; or -1 */
     signed char      alike, two;      /* last steps of the same length: 0, 1, 2; E is for two */
+    signed char      sums;            /* E gives the sums of (3), not F         */
     signed char      started, stepped, diagnose, turns;
     signed char      has_rate;        /* rate holds                             */
     signed char      has_force;       /* last.F ends with the force at (t, q)   */
@@ -810,6 +811,13 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__APART static __attribute__((noinline))
 #else
 #define GVI__APART static
+#endif
+
+// a loop whose lengths are constants where it is called: always a copy of its own
+#if defined(__GNUC__) && !GVI__SMALL
+#define GVI__COPY static inline __attribute__((always_inline))
+#else
+#define GVI__COPY static inline
 #endif
 
 // arrays that do not overlap
@@ -1616,6 +1624,7 @@ GVI__APART gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e)
     gvi_real *value = GVI__CLOCK ? x->value : NULL;
     gvi_real *own = value && effect->kind == GVI_LAGRANGIAN ? st->x.less : effect->kind == GVI_FORCE ? NULL : value;
     int point = GVI_FAULT_NONE, together = own && effect->points && effect->value == effect->points;
+    st->counters.effect[e] += (unsigned long long)x->count;
     x->value = together ? own : NULL;
     const int whole = !GVI__POINT || effect->points;
     int refused = whole ? effect->points(x, effect->user) : gvi__point_by_point(st, effect, x, &point);
@@ -1636,6 +1645,14 @@ static unsigned gvi__clock_bit(const gvi_stepper *st)
 // is there a clock, and is it on?
 static int gvi__has_clock(const gvi_stepper *st) { return (gvi__clock_bit(st) & ~st->x.off) != 0; }
 
+// an effect that takes all points in a call
+static inline gvi_status gvi__call(gvi_stepper *st, const gvi_points *x, int e)
+{
+    const gvi_effect *effect = st->x.desc.effects + e;
+    st->counters.effect[e] += (unsigned long long)x->count;
+    return effect->points(x, effect->user) ? gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, GVI_FAULT_NONE) : GVI_OK;
+}
+
 /* Every effect that is on, but the clock and what has its bit in `skip`: adds to
    x->f and x->dldv.  An effect sees only what its kind may read.  Fields of x are
    lent and taken back one by one: a copied struct would have to wait for its stores. */
@@ -1651,10 +1668,7 @@ static gvi_status gvi__effects(gvi_stepper *st, gvi_points *x, unsigned skip)
         if (skip >> e & 1u) continue;
         x->v = GVI__READS_V && effect->kind != GVI_POTENTIAL ? v : NULL;
         x->dldv = GVI__LAGRANGIAN && effect->kind == GVI_LAGRANGIAN ? dldv : NULL;
-        st->counters.effect[e] += (unsigned long long)x->count;
-        if (!plain || (GVI__POINT && !effect->points)) status = gvi__effect(st, x, e);
-        else if (effect->points(x, effect->user))
-            status = gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, GVI_FAULT_NONE);
+        status = plain && (!GVI__POINT || effect->points) ? gvi__call(st, x, e) : gvi__effect(st, x, e);
     }
     x->v = v;
     x->dldv = dldv;
@@ -1685,11 +1699,10 @@ static inline gvi_status gvi__all_effects(gvi_stepper *st, gvi_points *x)
     gvi_real *dldv = x->dldv;
     if (effect->kind == GVI_POTENTIAL) x->v = NULL;
     x->dldv = NULL;
-    st->counters.effect[e] += (unsigned long long)x->count;
-    const int refused = effect->points(x, effect->user);
+    const gvi_status status = gvi__call(st, x, e);
     x->v = v;
     x->dldv = dldv;
-    return refused ? gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, GVI_FAULT_NONE) : GVI_OK;
+    return status;
 }
 
 // the bits of all effects of a kind; of those with a Hessian
@@ -2330,6 +2343,7 @@ GVI__APART void gvi__weights(gvi_stepper *st, gvi_real h)
 {
     struct gvi__private *x = &st->x;
     x->h_weights = h;
+    x->ratio = 0;                                  // E may hold sums with the old ones
 
     int e, r = st->r, most = 0;
     gvi_real mantissa = GVI_FREXP(h, &e), rest = mantissa;
@@ -2818,10 +2832,13 @@ static gvi_real gvi__dot(int r, const gvi_real *a, const gvi_real *b)
 /* One set of rows of (3), (4) or (5):
    row_i := base_i + (extra_i + factor*(c slope_i + M^-1 (table (w f_i) - minus (b a_i))))
    slope, minus may be NULL; M^-1 if over_mass.                                */
+struct gvi__stage;
+typedef gvi_real gvi__kernel(gvi_stepper *st, const struct gvi__stage *y);   // returns the change: below
 typedef struct gvi__stage {
     const gvi_real *base, *extra, *slope, *table, *f, *minus;
     gvi_real        factor, *rows, *scale;
     int             over_mass;
+    gvi__kernel    *kernel;
 } gvi__stage;
 
 /* The products of r*r table and row are what an iteration consists of.  Rows go in
@@ -2841,7 +2858,7 @@ typedef gvi_real gvi__vector
 #define GVI__AT(p) (*(const gvi__vector *)(p))
 
 // z := sum_j table[j][0..] L_j, one vector, in four sums, so that none need wait for another; r > 4
-static inline void gvi__sum_vector(int r, int R, const gvi_real *table, const gvi_real *L, gvi__vector *z)
+GVI__COPY void gvi__sum_vector(int r, int R, const gvi_real *table, const gvi_real *L, gvi__vector *z)
 {
     gvi__vector a = GVI__AT(table)*L[0], b = GVI__AT(table + R)*L[1];
     gvi__vector c = GVI__AT(table + 2*R)*L[2], d = GVI__AT(table + 3*R)*L[3];
@@ -2924,7 +2941,8 @@ static inline gvi_real gvi__sum_lanes(const gvi_real *z)
     return ((z[0] + z[4]) + (z[1] + z[5])) + ((z[2] + z[6]) + (z[3] + z[7]));
 }
 
-/* What gvi__stage_rows_of puts into a row: row := base + (extra + (c a + b z))  */
+/* What gvi__stage_rows_of puts into a row: row := base + ((extra + c a) + b z), so
+   that little waits for z                                                     */
 typedef struct gvi__affine { gvi_real base, extra, a, b; } gvi__affine;
 
 static inline gvi__affine gvi__affine_of(const gvi__stage *y, const gvi_real *diagonal, int i)
@@ -2940,7 +2958,7 @@ static inline gvi__affine gvi__affine_of(const gvi__stage *y, const gvi_real *di
 /* The rows of a stage, M^-1 being a number for each.  Returns the sum of the squares
    of the changes, scaled.  r and R are constants where this is inlined for the
    usual sizes.                                                                */
-static inline gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stage *y, int r, int R)
+GVI__COPY gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stage *y, int r, int R)
 {
     const struct gvi__private *x = &st->x;
     const gvi_real *diagonal = y->over_mass && x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
@@ -2971,7 +2989,7 @@ static inline gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stag
                         gvi__sum_vector(r, R, minus + at, x->less, &less);
                         z -= less;
                     }
-                    next[k] = p.base + (p.extra + (GVI__AT(c + at)*p.a + z*p.b));
+                    next[k] = p.base + ((p.extra + GVI__AT(c + at)*p.a) + z*p.b);
                 }
                 if (last < 8) gvi__rescale(p.base, row[last], next[last/GVI__LANES][last % GVI__LANES], y->scale + i);
                 for (int k = 0; k < VECTORS; ++k) {
@@ -2998,7 +3016,7 @@ static inline gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stag
             gvi__sum_block(r, R, block, y->table + o, L, z);
             if (minus) gvi__sum_block(r, R, block, minus + o, x->less, less);
             for (int k = 0; k < block; ++k)
-                z[k] = p.base + (p.extra + (c[k + o]*p.a + (minus ? z[k] - less[k] : z[k])*p.b));
+                z[k] = p.base + ((p.extra + c[k + o]*p.a) + (minus ? z[k] - less[k] : z[k])*p.b);
             if (last < block) gvi__rescale(p.base, row[last], z[last], y->scale + i);
             for (int k = 0; k < block; ++k) {
                 const gvi_real moved = (z[k] - row[k])*y->scale[i];
@@ -3010,8 +3028,63 @@ static inline gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stag
     return gvi__sum_lanes(lane);
 }
 
+#ifdef GVI__VECTORS
+#if defined(__AVX512F__) || (defined(__AVX__) && GVI__KIND == 1)
+#define GVI__KEPT 1                                   // eight vectors of the table stay in registers
+#else
+#define GVI__KEPT 0
+#endif
+
+GVI__COPY const gvi_real *gvi__keep(int r, const gvi_real *table, gvi__vector *kept)
+{
+    if (!GVI__KEPT) return table;
+    for (int j = 0; j < 4; ++j) kept[j] = GVI__AT(table + 8*j);
+    if (r > 4) kept[4] = GVI__AT(table + 32);         // not in a loop of r, which would become a copy in memory
+    if (r > 5) kept[5] = GVI__AT(table + 40);
+    if (r > 6) kept[6] = GVI__AT(table + 48);
+    if (r > 7) kept[7] = GVI__AT(table + 56);
+    return (const gvi_real *)kept;
+}
+
+/* The same for five to eight points and no Lagrangian terms.                   */
+GVI__COPY gvi_real gvi__stage_rows_8(const gvi_stepper *st, const gvi__stage *y, int r)
+{
+    enum { VECTORS = 8/GVI__LANES };
+    const struct gvi__private *x = &st->x;
+    const gvi_real *diagonal = y->over_mass && x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
+    const gvi_real *base = y->base, *extra = y->extra, *slope = y->slope, *f = y->f, factor = y->factor;
+    const int n = st->n;
+    gvi_real *row = y->rows, *scale = y->scale, lane[8], ahead[64];
+    gvi__vector kept[8], c[VECTORS], hb[VECTORS], squares[VECTORS] = { { 0 } };
+    const gvi_real *table = gvi__keep(r, y->table, kept);
+    for (int k = 0; k < VECTORS; ++k) {
+        c[k] = GVI__AT(x->c + k*GVI__LANES);
+        hb[k] = GVI__AT(x->hb + k*GVI__LANES);
+    }
+    for (int i = 0; i < n; ++i, row += 8) {
+        if (i % 8 == 0)
+            for (int o = 0; o < 64 && o < 8*(n - i); o += GVI__LANES, f += GVI__LANES)
+                *(gvi__vector *)(ahead + o) = hb[o/GVI__LANES % VECTORS]*GVI__AT(f);
+        const gvi_real a = slope ? factor*slope[i] : 0, b = diagonal ? factor*diagonal[i] : factor;
+        gvi__vector next[VECTORS];
+        for (int k = 0; k < VECTORS; ++k) {
+            gvi__sum_vector(r, 8, table + k*GVI__LANES, ahead + i % 8*8, next + k);
+            next[k] = base[i] + ((extra[i] + c[k]*a) + next[k]*b);
+        }
+        gvi__rescale(base[i], row[r - 1], next[(r - 1)/GVI__LANES][(r - 1) % GVI__LANES], scale + i);
+        for (int k = 0; k < VECTORS; ++k) {
+            const gvi__vector moved = (next[k] - GVI__AT(row + k*GVI__LANES))*scale[i];
+            squares[k] += moved*moved;
+            *(gvi__vector *)(row + k*GVI__LANES) = next[k];
+        }
+    }
+    for (int k = 0; k < VECTORS; ++k) *(gvi__vector *)(lane + k*GVI__LANES) = squares[k];
+    return gvi__sum_lanes(lane);
+}
+#endif
+
 // the same in less code and without blocks; sums of squares from the last point on, as there
-static gvi_real gvi__stage_rows_small(const gvi_stepper *st, const gvi__stage *y)
+GVI__APART gvi_real gvi__stage_rows_small(gvi_stepper *st, const gvi__stage *y)
 {
     const struct gvi__private *x = &st->x;
     const gvi_real *diagonal = y->over_mass && x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
@@ -3026,7 +3099,7 @@ static gvi_real gvi__stage_rows_small(const gvi_stepper *st, const gvi__stage *y
             gvi__sum_small(r, R, y->minus, x->z, x->less);
             for (int k = 0; k < R; ++k) z[k] -= x->less[k];
         }
-        for (int k = 0; k < R; ++k) z[k] = p.base + (p.extra + (x->c[k]*p.a + z[k]*p.b));
+        for (int k = 0; k < R; ++k) z[k] = p.base + ((p.extra + x->c[k]*p.a) + z[k]*p.b);
         gvi__rescale(p.base, row[r - 1], z[r - 1], y->scale + i);
         for (int k = R; k-- > 0; ) {
             const gvi_real moved = (z[k] - row[k])*y->scale[i];
@@ -3053,8 +3126,8 @@ static gvi_real gvi__stage_rows_dense(gvi_stepper *st, const gvi__stage *y)
     }
     gvi__over_mass(st, x->Z, R, R);
     for (int i = 0; i < st->n; ++i) {
-        gvi_real *z = x->Z + i*R, *row = y->rows + i*R, slope = y->slope ? y->slope[i] : 0;
-        for (int k = 0; k < R; ++k) z[k] = y->base[i] + (y->extra[i] + y->factor*(x->c[k]*slope + z[k]));
+        gvi_real *z = x->Z + i*R, *row = y->rows + i*R, slope = y->slope ? y->factor*y->slope[i] : 0;
+        for (int k = 0; k < R; ++k) z[k] = y->base[i] + ((y->extra[i] + x->c[k]*slope) + y->factor*z[k]);
         gvi__rescale(y->base[i], row[last], z[last], y->scale + i);
         for (int k = 0; k < R; ++k) {
             gvi_real moved = (z[k] - row[k])*y->scale[i];
@@ -3065,23 +3138,48 @@ static gvi_real gvi__stage_rows_dense(gvi_stepper *st, const gvi__stage *y)
     return sum;
 }
 
-static gvi_real gvi__stage_rows(gvi_stepper *st, const gvi__stage *y)
+/* One function for each usual number of points.                                */
+static gvi_real gvi__rows_1(gvi_stepper *st, const gvi__stage *y) { return gvi__stage_rows_of(st, y, 1, 1); }
+static gvi_real gvi__rows_2(gvi_stepper *st, const gvi__stage *y) { return gvi__stage_rows_of(st, y, 2, 2); }
+static gvi_real gvi__rows_3(gvi_stepper *st, const gvi__stage *y) { return gvi__stage_rows_of(st, y, 3, 3); }
+static gvi_real gvi__rows_4(gvi_stepper *st, const gvi__stage *y) { return gvi__stage_rows_of(st, y, 4, 4); }
+static gvi_real gvi__rows_any(gvi_stepper *st, const gvi__stage *y)
 {
-    const int r = st->r, R = st->x.stride;
-    if (y->over_mass && gvi__mass_is(st, GVI_MASS_DENSE)) return gvi__stage_rows_dense(st, y);
-    if (GVI__SMALL) return gvi__stage_rows_small(st, y);
-    switch (r) {
-    case 1:  return gvi__stage_rows_of(st, y, 1, 1);
-    case 2:  return gvi__stage_rows_of(st, y, 2, 2);
-    case 3:  return gvi__stage_rows_of(st, y, 3, 3);
-    case 4:  return gvi__stage_rows_of(st, y, 4, 4);
+    return gvi__stage_rows_of(st, y, st->r, st->x.stride);
+}
 #ifdef GVI__VECTORS
-    case 6:  return gvi__stage_rows_of(st, y, 6, 8);
-    case 8:  return gvi__stage_rows_of(st, y, 8, 8);
-    case 16: return gvi__stage_rows_of(st, y, 16, 16);
+static gvi_real gvi__rows_6(gvi_stepper *st, const gvi__stage *y) { return gvi__stage_rows_8(st, y, 6); }
+static gvi_real gvi__rows_8(gvi_stepper *st, const gvi__stage *y) { return gvi__stage_rows_8(st, y, 8); }
+static gvi_real gvi__rows_16(gvi_stepper *st, const gvi__stage *y) { return gvi__stage_rows_of(st, y, 16, 16); }
+static gvi_real gvi__rows_5_to_8(gvi_stepper *st, const gvi__stage *y) { return gvi__stage_rows_8(st, y, st->r); }
+static gvi_real gvi__rows_8_less(gvi_stepper *st, const gvi__stage *y) { return gvi__stage_rows_of(st, y, 8, 8); }
 #endif
-    default: return R == 8 ? gvi__stage_rows_of(st, y, r, 8) : gvi__stage_rows_of(st, y, r, R);
+
+static gvi__kernel *gvi__kernel_of(const gvi_stepper *st, const gvi__stage *y)
+{
+    if (y->over_mass && gvi__mass_is(st, GVI_MASS_DENSE)) return gvi__stage_rows_dense;
+    switch (st->r) {
+    case 1:  return gvi__rows_1;
+    case 2:  return gvi__rows_2;
+    case 3:  return gvi__rows_3;
+    case 4:  return gvi__rows_4;
+#ifdef GVI__VECTORS
+    case 5:
+    case 7:  return y->minus ? gvi__rows_any : gvi__rows_5_to_8;
+    case 6:  return y->minus ? gvi__rows_any : gvi__rows_6;
+    case 8:  return y->minus ? gvi__rows_8_less : gvi__rows_8;
+    case 16: return gvi__rows_16;
+#endif
+    default: return gvi__rows_any;
     }
+}
+
+// the new rows of a stage and their change
+static inline gvi_real gvi__stage_rows(gvi_stepper *st, const gvi__stage *y)
+{
+    if (!GVI__SMALL) return y->kernel(st, y);
+    return y->over_mass && gvi__mass_is(st, GVI_MASS_DENSE) ? gvi__stage_rows_dense(st, y)
+                                                            : gvi__stage_rows_small(st, y);
 }
 
 // V := M^-1 (P - A), with the constant mass or the factored M(Q)
@@ -3122,15 +3220,18 @@ static int gvi__plan(gvi_stepper *st, const gvi__from *from, gvi_real h, gvi__st
     if (gvi__uses(st, GVI_MOMENTA)) {
         gvi__stage_set(y, from->p, from->pe, NULL, x->m, w->F, 1, w->P, x->scale);
         gvi__stage_set(y + 1, from->q, from->qe, NULL, x->T, w->V, 1, w->Q, x->scale + st->n);
+        y[0].kernel = y[1].kernel = GVI__SMALL ? NULL : gvi__kernel_of(st, y);
         return 2;
     }
     gvi__stage_set(y, from->q, from->qe, from->v, x->g, w->F, h, w->Q, x->scale);
     y->minus = gvi__A(w) ? x->T : NULL;
     y->over_mass = 1;
+    y->kernel = GVI__SMALL ? NULL : gvi__kernel_of(st, y);
     if (gvi__uses(st, GVI_POSITIONS) || GVI__STAGES == 1) return 1;
     gvi__stage_set(y + 1, from->v, from->ve, NULL, x->m, w->F, 1, w->V, x->scale + st->n);
     y[1].minus = gvi__A(w) ? x->N : NULL;
     y[1].over_mass = 1;
+    y[1].kernel = y->kernel;
     return 2;
 }
 
@@ -3282,62 +3383,74 @@ static gvi_status gvi__ask_clock(gvi_stepper *st, const gvi__from *from, gvi_poi
     return status;
 }
 
-// rows [n][stride] := 0, in whole vectors where they are
-static inline void gvi__zero_rows(const gvi_stepper *st, gvi_real *rows)
+/* rows [n][stride] := zero, in whole vectors where they are.  A zero that the compiler
+   does not know keeps it from calling memset, which takes longer.             */
+static inline void gvi__zero_rows(const gvi_stepper *st, gvi_real zero, gvi_real *rows)
 {
     const int R = st->x.stride, length = st->n*R;
 #ifdef GVI__VECTORS
-    const gvi__vector none = { 0 };
+    gvi__vector none = { 0 };
+    none += zero;
     for (int k = 0; R % 8 == 0 && k < length; k += GVI__LANES) *(gvi__vector *)(rows + k) = none;
     if (R % 8 == 0) return;
 #endif
-    gvi__zero((size_t)length, rows);
+    for (int k = 0; k < length; ++k) rows[k] = zero;
 }
 
 // F (and A, V) at the rows of this iteration, all points in one call an effect
-GVI__APART gvi_status gvi__ask(gvi_stepper *st, const gvi__from *from)
+GVI__APART gvi_status gvi__ask(gvi_stepper *st, const gvi__from *from, gvi_real zero, gvi_points *y)
 {
-    gvi_points y;
-    gvi__rows_as_points(&y, st, &st->x.work, gvi__A(&st->x.work));
-    gvi_status status = gvi__check_points(st, &y);
-    gvi__zero_rows(st, y.f);
-    if (status == GVI_OK && gvi__uses(st, GVI_MOMENTA)) status = gvi__legendre_rows(st, &y);
-    if (y.dldv) gvi__zero_rows(st, y.dldv);
+    gvi_points own;
+    if (GVI__SMALL) gvi__rows_as_points(y = &own, st, &st->x.work, gvi__A(&st->x.work));
+    gvi_status status = gvi__check_points(st, y);
+    gvi__zero_rows(st, zero, y->f);
+    if (status == GVI_OK && gvi__uses(st, GVI_MOMENTA)) status = gvi__legendre_rows(st, y);
+    if (GVI__LAGRANGIAN && y->dldv) gvi__zero_rows(st, zero, y->dldv);
     if (status != GVI_OK) return status;
-    if (gvi__has_clock(st)) return gvi__ask_clock(st, from, &y);
-    if (gvi__uses(st, GVI_MOMENTA) && gvi__mass_is(st, GVI_MASS_POSITION)) status = gvi__mass_gradient(st, &y);
-    return status == GVI_OK ? gvi__all_effects(st, &y) : status;
+    if (gvi__has_clock(st)) return gvi__ask_clock(st, from, y);
+    if (gvi__uses(st, GVI_MOMENTA) && gvi__mass_is(st, GVI_MASS_POSITION)) status = gvi__mass_gradient(st, y);
+    return status == GVI_OK ? gvi__all_effects(st, y) : status;
 }
 
 /* Extrapolates rows of the last step, or of the last two, to the points of the
-   next:  out_i = sum_j E_ij last_j (+ sum_j E_i,r+j older_j).                  */
-static inline void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const gvi_real *last,
-                                         const gvi_real *older, gvi_real *out)
+   next:  out_i = sum_j E_ij last_j (+ sum_j E_i,r+j older_j).  y, if not NULL: E is
+   gvi__fit_sums', and what it gives is put into that stage's row.              */
+GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const gvi_real *last,
+                                     const gvi_real *older, const gvi__stage *y, gvi_real *out)
 {
     const struct gvi__private *x = &st->x;
+    const gvi_real *diagonal = y && x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
+    gvi__affine p = { 0, 0, 0, 1 };
     for (int i = 0; i < st->n; ++i) {
+        gvi_real *row = out + i*R;
+        if (y) p = gvi__affine_of(y, diagonal, i);
 #ifdef GVI__VECTORS
         for (int o = 0; older && R % 8 == 0 && o < R; o += GVI__LANES) {
-            gvi__vector z, y;
-            gvi__sum_vector(r, R, x->E + r*R + o, older + i*R, &y);
+            gvi__vector z, before;
+            gvi__sum_vector(r, R, x->E + r*R + o, older + i*R, &before);
             gvi__sum_vector(r, R, x->E + o, last + i*R, &z);
-            *(gvi__vector *)(out + i*R + o) = z + y;
+            z += before;
+            if (y) z = p.base + ((p.extra + GVI__AT(x->c + o)*p.a) + z*p.b);
+            *(gvi__vector *)(row + o) = z;
         }
         if (older && R % 8 == 0) continue;
 #endif
-        gvi__sum_row(r, R, x->E, last + i*R, out + i*R);
+        gvi__sum_row(r, R, x->E, last + i*R, row);
         if (older) gvi__sum_row(r, R, x->E + r*R, older + i*R, x->z);
-        for (int k = 0; older && k < R; ++k) out[i*R + k] += x->z[k];
+        for (int k = 0; older && k < R; ++k) row[k] += x->z[k];
+        for (int k = 0; y && k < R; ++k) row[k] = p.base + ((p.extra + x->c[k]*p.a) + row[k]*p.b);
     }
 }
 
-static void gvi__extrapolate(gvi_stepper *st, const gvi_real *last, const gvi_real *older, gvi_real *out)
+GVI__APART void gvi__extrapolate(gvi_stepper *st, const gvi_real *last, const gvi_real *older, const gvi__stage *y,
+                             gvi_real *out)
 {
     if (!gvi__two_now(st)) older = NULL;
-    if (GVI__SMALL) gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, out);
-    else if (st->r == 8) gvi__extrapolate_rows(st, 8, 8, last, older, out);
-    else if (st->r == 4) gvi__extrapolate_rows(st, 4, 4, last, older, out);
-    else gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, out);
+    if (GVI__SMALL) gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, y, out);
+    else if (st->r == 8 && y) gvi__extrapolate_rows(st, 8, 8, last, older, y, out);
+    else if (st->r == 8) gvi__extrapolate_rows(st, 8, 8, last, older, NULL, out);
+    else if (st->r == 4) gvi__extrapolate_rows(st, 4, 4, last, older, y, out);
+    else gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, y, out);
 }
 
 /* Least squares through the rows of one step or two, with polynomials p_k that are
@@ -3382,15 +3495,31 @@ static void gvi__fit(gvi_stepper *st, gvi_real alpha, gvi_real beta)
     }
 }
 
+/* The sums of (3) over what E extrapolates, in place: E := g h b E.  Where the rows
+   of Q are all that the first forces are for, they come from the last ones at once. */
+static void gvi__fit_sums(gvi_stepper *st)
+{
+    struct gvi__private *x = &st->x;
+    const int R = x->stride, rows = gvi__two_now(st) ? 2*st->r : st->r;
+    for (int j = 0; j < rows; ++j) {
+        gvi__weigh(R, x->hb, x->E + j*R, x->z);
+        gvi__sum_row(st->r, R, x->g, x->z, x->E + j*R);
+    }
+}
+
 // makes E what this step needs, if it is not
 GVI__APART void gvi__prepare_guess(gvi_stepper *st, gvi_real alpha, gvi_real beta, int query)
 {
     struct gvi__private *x = &st->x;
-    const int two = GVI__KIND > 1 && !query && x->alike == 2 && x->older_F && !gvi__nonzero(beta - 1);
-    if (!query && !gvi__nonzero(beta - x->ratio) && two == x->two) return;
+    const int step = !query && st->formulation != GVI_NEWTON;   // which wants V of the last step
+    const int two = GVI__KIND > 1 && step && x->alike == 2 && x->older_F && !gvi__nonzero(beta - 1);
+    const int sums = step && gvi__uses(st, GVI_POSITIONS) && !gvi__mass_is(st, GVI_MASS_DENSE) && !gvi__A(&x->work);
+    if (!query && !gvi__nonzero(beta - x->ratio) && two == x->two && sums == x->sums) return;
     x->ratio = query ? 0 : beta;
     x->two = (signed char)two;
+    x->sums = (signed char)sums;
     gvi__fit(st, alpha, beta);
+    if (sums) gvi__fit_sums(st);
 }
 
 /* Starting values: what the last step had, extrapolated; without one, or if
@@ -3402,9 +3531,9 @@ GVI__APART void gvi__guess(gvi_stepper *st, int extrapolate, gvi_real rate)
     size_t length = (size_t)st->n*(size_t)x->stride;
     x->has_factor = x->has_rate = 0;
     if (extrapolate) {
-        gvi__extrapolate(st, l->F, x->older_F, w->F);
-        if (gvi__A(l) && w->A) gvi__extrapolate(st, l->A, x->older_A, w->A);
-        if (gvi__uses(st, GVI_MOMENTA)) gvi__extrapolate(st, l->V, x->older_V, w->V);
+        gvi__extrapolate(st, l->F, x->older_F, NULL, w->F);
+        if (gvi__A(l) && w->A) gvi__extrapolate(st, l->A, x->older_A, NULL, w->A);
+        if (gvi__uses(st, GVI_MOMENTA)) gvi__extrapolate(st, l->V, x->older_V, NULL, w->V);
     } else {
         gvi__zero(length, w->F);
         if (gvi__A(w)) gvi__zero(length, w->A);
@@ -3414,31 +3543,119 @@ GVI__APART void gvi__guess(gvi_stepper *st, int extrapolate, gvi_real rate)
     }
 }
 
+// (x + xe) + (y + ye): what is lost of x + y goes to the low parts
+static gvi__two gvi__join(gvi_real x, gvi_real xe, gvi_real y, gvi_real ye)
+{
+    gvi__two sum = gvi__sum(x, y);
+    sum.lo = (xe + ye) + sum.lo;
+    return sum;
+}
+
 // the exact product overflows before a*b does: then there is no rest
 static gvi_real gvi__rest(gvi_real x) { return gvi__finite(x) ? x : 0; }
 
 /* sum_j a_j b_j + rest, the sum carried with its rounding: an increment is what
-   errors add up in, step by step.                                             */
-static gvi__two gvi__exact_dot(int r, const gvi_real *a, const gvi_real *b, gvi_real rest)
+   errors add up in, step by step.  Eight partial sums, then these by halves;
+   z: scratch for them, of two rows.                                           */
+static gvi__two gvi__exact_dot(int r, const gvi_real *a, const gvi_real *b, gvi_real rest, gvi_real *z)
 {
-    gvi__two sum = gvi__real2(0);
+    const int lanes = r < 8 ? r : 8;
+    gvi_real own[16], *hi = GVI__SMALL ? z : own, *lo = hi + lanes;
+    gvi__two sum;
     for (int j = 0; j < r; ++j) {
-        const gvi__two term = gvi__product(a[j], b[j]), next = gvi__sum(sum.hi, term.hi);
-        sum.hi = next.hi;
-        sum.lo += next.lo + term.lo;
+        sum = gvi__product(a[j], b[j]);
+        if (j >= 8) sum = gvi__join(hi[j & 7], lo[j & 7], sum.hi, sum.lo);
+        hi[j & 7] = sum.hi;
+        lo[j & 7] = sum.lo;
     }
+    for (int half = 4; half > 0; half /= 2)
+        for (int k = 0; k < half && k + half < lanes; ++k) {
+            sum = gvi__join(hi[k], lo[k], hi[k + half], lo[k + half]);
+            hi[k] = sum.hi;
+            lo[k] = sum.lo;
+        }
+    sum.hi = hi[0];
+    sum.lo = gvi__rest(lo[0] + rest);
+    return sum;
+}
+
+// sum_j (1 - c_j) h b_j F_j
+static gvi_real gvi__lever_sum(int r, const gvi_real *c, const gvi_real *hb, const gvi_real *F)
+{
+    gvi_real sum[4] = { 0, 0, 0, 0 };
+    for (int j = 0; j < r; ++j) sum[j & 3] += (1 - c[j])*(hb[j]*F[j]);
+    return (sum[0] + sum[2]) + (sum[1] + sum[3]);
+}
+
+#ifdef GVI__VECTORS
+typedef gvi_real gvi__half __attribute__((vector_size(4*sizeof(gvi_real)), aligned(sizeof(gvi_real)), may_alias));
+typedef gvi_real gvi__pair __attribute__((vector_size(2*sizeof(gvi_real)), aligned(sizeof(gvi_real)), may_alias));
+#define GVI__HALF(p) (*(const gvi__half *)(p))
+#define GVI__PAIR(p) (*(const gvi__pair *)(p))
+
+// both for vectors of points, in the same order
+static inline gvi__two gvi__exact_dot_vector(int R, const gvi_real *a, const gvi_real *b, gvi_real rest)
+{
+    gvi_real hi[8], lo[8];
+    for (int k = 0; k < 8; ++k) {
+        const gvi__two term = gvi__product(a[k], b[k]);
+        hi[k] = term.hi;
+        lo[k] = term.lo;
+    }
+    for (int o = 8; o < R; o += 8)
+        for (int k = 0; k < 8; ++k) {
+            const gvi__two term = gvi__product(a[o + k], b[o + k]), sum = gvi__join(hi[k], lo[k], term.hi, term.lo);
+            hi[k] = sum.hi;
+            lo[k] = sum.lo;
+        }
+    const gvi__half x = GVI__HALF(hi), y = GVI__HALF(hi + 4), s = x + y, z = s - x;
+    *(gvi__half *)hi = s;
+    *(gvi__half *)lo = (GVI__HALF(lo) + GVI__HALF(lo + 4)) + ((x - (s - z)) + (y - z));
+    const gvi__pair u = GVI__PAIR(hi), v = GVI__PAIR(hi + 2), t = u + v, w = t - u;
+    *(gvi__pair *)hi = t;
+    *(gvi__pair *)lo = (GVI__PAIR(lo) + GVI__PAIR(lo + 2)) + ((u - (t - w)) + (v - w));
+    gvi__two sum = gvi__join(hi[0], lo[0], hi[1], lo[1]);
     sum.lo = gvi__rest(sum.lo + rest);
     return sum;
 }
 
-// sum_j (1 - c_j) h b_j F_j; z: scratch
-static inline gvi_real gvi__lever(int r, const gvi_real *GVI__RESTRICT c, const gvi_real *GVI__RESTRICT hb,
-                                  const gvi_real *GVI__RESTRICT F, gvi_real *GVI__RESTRICT z)
+static inline gvi_real gvi__lever_vector(int R, const gvi_real *c, const gvi_real *hb, const gvi_real *F)
 {
-    gvi_real sum[4] = { 0, 0, 0, 0 };
-    for (int j = 0; j < r; ++j) z[j] = (1 - c[j])*(hb[j]*F[j]);
-    for (int j = 0; j < r; ++j) sum[j & 3] += z[j];
+    gvi__half sum = { 0 };
+    for (int o = 0; o < R; o += 4) sum += (1 - GVI__HALF(c + o))*(GVI__HALF(hb + o)*GVI__HALF(F + o));
     return (sum[0] + sum[2]) + (sum[1] + sum[3]);
+}
+#endif
+
+// whichever is there
+static inline gvi__two gvi__increment(int r, int R, const gvi_real *a, const gvi_real *b, gvi_real rest, gvi_real *z)
+{
+#ifdef GVI__VECTORS
+    if (!GVI__SMALL && R % 8 == 0) return gvi__exact_dot_vector(R, a, b, rest);
+#endif
+    (void)R;
+    return gvi__exact_dot(r, a, b, rest, z);
+}
+
+static inline gvi_real gvi__lever(int r, int R, const gvi_real *c, const gvi_real *hb, const gvi_real *F)
+{
+#ifdef GVI__VECTORS
+    if (!GVI__SMALL && R % 8 == 0) return gvi__lever_vector(R, c, hb, F);
+#endif
+    (void)R;
+    return gvi__lever_sum(r, c, hb, F);
+}
+
+// dq + dqe := h v + dq + qe: h v exactly, the rest is smaller by h omega
+static inline void gvi__add_path(int n, gvi_real h, const gvi_real *GVI__RESTRICT v, const gvi_real *GVI__RESTRICT ve,
+                                 const gvi_real *GVI__RESTRICT qe, gvi_real *GVI__RESTRICT dq,
+                                 gvi_real *GVI__RESTRICT dqe)
+{
+    for (int i = 0; i < n; ++i) {
+        const gvi__two path = gvi__product(h, v[i]), q = gvi__sum(path.hi, h*(ve[i] + dq[i]));
+        dq[i] = q.hi;
+        dqe[i] = gvi__rest(q.lo + path.lo + qe[i]);
+    }
 }
 
 /* Increments of q and p from the F, V and A at the end of the iteration, what is
@@ -3450,25 +3667,19 @@ GVI__APART void gvi__increments_of(gvi_stepper *st, const gvi__from *from, gvi_r
     const int n = st->n, momenta = gvi__uses(st, GVI_MOMENTA);
     for (int i = 0; i < n; ++i) {
         const gvi_real *F = w->F + i*R;
-        const gvi__two p = gvi__exact_dot(r, x->hb, F, from->pe[i]);
+        const gvi__two p = gvi__increment(r, R, x->hb, F, from->pe[i], x->row);
         x->dp[i] = p.hi;
         x->dpe[i] = p.lo;
         if (momenta) {
-            const gvi__two q = gvi__exact_dot(r, x->hb, w->V + i*R, from->qe[i]);
+            const gvi__two q = gvi__increment(r, R, x->hb, w->V + i*R, from->qe[i], x->row);
             x->dq[i] = q.hi;
             x->dqe[i] = q.lo;
         }
-        else x->dq[i] = gvi__lever(r, x->c, x->hb, F, x->z) - (gvi__A(w) ? gvi__dot(r, x->b, w->A + i*R) : 0);
+        else x->dq[i] = gvi__lever(r, R, x->c, x->hb, F) - (gvi__A(w) ? gvi__dot(r, x->b, w->A + i*R) : 0);
     }
     if (momenta) return;
-
-    // h v0 exactly; the rest is smaller by h omega
     gvi__over_mass(st, x->dq, 1, 1);
-    for (int i = 0; i < n; ++i) {
-        const gvi__two path = gvi__product(h, from->v[i]), q = gvi__sum(path.hi, h*(from->ve[i] + x->dq[i]));
-        x->dq[i] = q.hi;
-        x->dqe[i] = gvi__rest(q.lo + path.lo + from->qe[i]);
-    }
+    gvi__add_path(n, h, from->v, from->ve, from->qe, x->dq, x->dqe);
 }
 
 static void gvi__increments(gvi_stepper *st, const gvi__from *from, gvi_real h)
@@ -3533,9 +3744,9 @@ static gvi_status gvi__clock_guess(gvi_stepper *st, const gvi__from *from, gvi_r
 // contraction over two iterations, as long as it is not about rounding; squares of changes
 static void gvi__watch(gvi_stepper *st, gvi_real change, gvi_real earlier)
 {
+    if (!(earlier > 0) || change <= (1000*GVI__EPS)*(1000*GVI__EPS)) return;
     const gvi_real worst = st->counters.worst_contraction*st->counters.worst_contraction;
-    if (change > (1000*GVI__EPS)*(1000*GVI__EPS) && earlier > 0 && change > worst*worst*earlier)
-        st->counters.worst_contraction = GVI_SQRT(GVI_SQRT(change/earlier));
+    if (change > worst*worst*earlier) st->counters.worst_contraction = GVI_SQRT(GVI_SQRT(change/earlier));
 }
 
 static void gvi__watch_last(gvi_stepper *st, gvi_real change)
@@ -3552,9 +3763,12 @@ static gvi_status gvi__not_finite(gvi_stepper *st, int grows)
     return gvi__give(st, status);
 }
 
-/* Where an iteration stands: squares of the last changes, the least of them; how
-   often they were poor or without a new least.                                */
-typedef struct gvi__progress { gvi_real before, earlier, least; int poor, idle, grows; } gvi__progress;
+/* Where an iteration stands: squares of the last changes, the least of them, the
+   tolerance and what is rounding; how often they were poor or without a new least. */
+typedef struct gvi__progress {
+    gvi_real before, earlier, least, tolerance, rounding;
+    int      poor, idle, grows;
+} gvi__progress;
 
 enum { GVI__GO_ON, GVI__DONE, GVI__ASK_ONCE_MORE, GVI__BEYOND };
 
@@ -3567,18 +3781,16 @@ enum { GVI__GO_ON, GVI__DONE, GVI__ASK_ONCE_MORE, GVI__BEYOND };
 GVI__APART int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *p, gvi_real change, int used)
 {
     struct gvi__private *x = &st->x;
-    const gvi_real tolerance = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/4096;
-    const gvi_real rounding = 16*GVI__EPS*GVI__EPS*(gvi_real)(st->n*st->r), before = p->before;
-    const gvi_real known = before > 1 ? 1 : before > 0 ? before : change;
+    const gvi_real rounding = p->rounding, before = p->before, known = before > 1 ? 1 : before > 0 ? before : change;
     const int given = gvi__counts(st);
-    if (!given && change*change <= tolerance*tolerance*known) return GVI__DONE;
+    if (!given && change*change <= p->tolerance*known) return GVI__DONE;
     if (given && used == x->desc.iterations) {
         const int falls = p->earlier > 0 ? change < p->earlier/4 : before <= 0 || change < before;
         return falls || change <= 65536*rounding ? GVI__DONE : GVI__BEYOND;
     }
     gvi__watch(st, change, p->earlier);
     p->grows = before > 0 && change >= before/4;
-    if (used == 1 || p->grows) gvi__zero(2*(size_t)st->n, x->scale);
+    if ((used == 1 && change > (gvi_real)0.0625) || p->grows) gvi__zero(2*(size_t)st->n, x->scale);
     p->earlier = before;
     p->before = change;
     if (given) return GVI__GO_ON;
@@ -3587,9 +3799,9 @@ GVI__APART int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress 
     if (change < p->least) p->least = change;
     if ((p->idle > 2 && change <= rounding)
         || ((p->idle > 1 || p->poor > 2) && gvi__is_rounding(st, from, p->idle))) return GVI__ASK_ONCE_MORE;
-    const int fall_back = x->desc.formulation == GVI_AUTO && gvi__has(st, GVI__HAS_NEWTON);
     // nearer to rounding idle decides
-    return p->poor > 2 && fall_back && change > 65536*rounding ? GVI__BEYOND : GVI__GO_ON;
+    return p->poor > 2 && change > 65536*rounding && x->desc.formulation == GVI_AUTO && gvi__has(st, GVI__HAS_NEWTON)
+         ? GVI__BEYOND : GVI__GO_ON;
 }
 
 /* Fixed point on the rows: F, V and A make the rows, the effects are asked there. */
@@ -3597,18 +3809,23 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
 {
     struct gvi__private *x = &st->x;
     const int most = gvi__counts(st) ? x->desc.iterations : x->desc.max_iterations;
-    gvi__progress p = { 0, 0, GVI__MAX, 0, 0, 0 };
+    const gvi_real tolerance = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/4096;
+    gvi__progress p = { 0, 0, GVI__MAX, tolerance*tolerance, 16*GVI__EPS*GVI__EPS*(gvi_real)(st->n*st->r), 0, 0, 0 };
     gvi__stage y[GVI__STAGES];
+    gvi_points at;
     const int count = gvi__plan(st, from, h, y);
+    if (!GVI__SMALL) gvi__rows_as_points(&at, st, &x->work, gvi__A(&x->work));   // else no longer on the stack than needed
     gvi_real rate = 1;
     if (gvi__has_clock(st)) {
         gvi_status status = gvi__clock_guess(st, from, h, &rate);
         if (status != GVI_OK) return status;
     }
-    gvi__guess(st, extrapolate, rate);
+    const int sums = extrapolate && x->sums;
+    if (sums) gvi__extrapolate(st, x->last.F, x->older_F, y, x->work.Q);
+    else gvi__guess(st, extrapolate, rate);
     for (*used = 0; ; ) {
         if (GVI__TOLERANCE && p.idle + p.poor > 0) gvi__gather(st->n, x->stride, x->work.Q + st->r - 1, x->change);
-        const gvi_real change = gvi__stages(st, y, count);
+        const gvi_real change = sums && *used == 0 ? 0 : gvi__stages(st, y, count);
         int verdict = GVI__GO_ON;
         if (*used > 0) {
             if (!(change <= GVI__MAX)) return gvi__not_finite(st, p.grows);
@@ -3616,12 +3833,12 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
             if (verdict == GVI__DONE || verdict == GVI__ASK_ONCE_MORE) gvi__watch_last(st, change);
             if (verdict == GVI__DONE) return GVI_OK;
             if (verdict == GVI__BEYOND || (verdict == GVI__GO_ON && *used == most)) break;
-        } else gvi__zero(2*(size_t)st->n, x->scale);        // of rows that were there before
+        } else gvi__zero(2*(size_t)st->n, x->scale);        // of rows of another step
 
         // rows that go to and fro in their last places end with their own F, not that of
         // the side that they came from, which would be a bias
         *used += verdict == GVI__GO_ON;
-        gvi_status status = gvi__ask(st, from);
+        gvi_status status = gvi__ask(st, from, h - h, GVI__SMALL ? NULL : &at);
         if (status != GVI_OK || verdict == GVI__ASK_ONCE_MORE) return status;
     }
     return gvi__give(st, GVI_E_CONVERGENCE);
@@ -3682,7 +3899,7 @@ static inline gvi_status gvi__explicit_of(gvi_stepper *st, const gvi__from *from
     struct gvi__private *x = &st->x;
     const int dense = gvi__mass_is(st, GVI_MASS_DENSE), r = st->r;
     const gvi_real *m = x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
-    const gvi_effect *only = !GVI__SMALL && x->single >= 0 && !x->diagnose ? x->desc.effects + x->single : NULL;
+    const int only = !GVI__SMALL && x->single >= 0 && !x->diagnose;
     gvi_real *F = x->work.F, *Q = x->work.Q, *dp = x->dp, *dq = x->dq, t = from->t;
     const gvi_real zero = h - h;
     gvi_points y;
@@ -3696,9 +3913,8 @@ static inline gvi_status gvi__explicit_of(gvi_stepper *st, const gvi__from *from
         t = from->t + (from->te + x->c[j]*h);
         for (int i = 0; j > 0 && i < n; ++i) F[i] = zero;
         if (f == F && only) {
-            st->counters.effect[x->single] += 1;
-            if (only->points(&y, only->user))
-                return gvi__fail(st, GVI_E_CALLBACK, x->single, GVI_FAULT_NONE, GVI_FAULT_NONE);
+            gvi_status status = gvi__call(st, &y, x->single);
+            if (status != GVI_OK) return status;
         } else if (f == F) {
             gvi_status status = gvi__check_points(st, &y);
             if (status == GVI_OK) status = gvi__effects(st, &y, 0);
@@ -4075,11 +4291,7 @@ GVI__APART void gvi__newton_guess(gvi_stepper *st, int extrapolate)
         gvi__velocity_guess(st, x->y);
         return;
     }
-    if (gvi__two_now(st)) {                       // E is for one step here
-        x->two = 0;
-        gvi__fit(st, 1, 1);
-    }
-    gvi__extrapolate(st, x->last.V, NULL, x->work.V);
+    gvi__extrapolate(st, x->last.V, NULL, NULL, x->work.V);
     for (int i = 0; i < n; ++i) {
         for (int k = 0; k < s; ++k) {
             x->row[k] = 0;
@@ -4187,7 +4399,7 @@ GVI__APART void gvi__newton_increments(gvi_stepper *st, const gvi__from *from, g
     struct gvi__private *x = &st->x;
     for (int i = 0; i < st->n; ++i) {
         const gvi__two q = gvi__product(h, x->y[i]);
-        const gvi__two p = gvi__exact_dot(st->r, x->hb, x->work.F + i*x->stride, from->pe[i]);
+        const gvi__two p = gvi__increment(st->r, x->stride, x->hb, x->work.F + i*x->stride, from->pe[i], x->row);
         x->dq[i] = q.hi;
         x->dqe[i] = gvi__rest(q.lo + from->qe[i]);
         x->dp[i] = p.hi;
@@ -4231,8 +4443,8 @@ static gvi_status gvi__attempt(gvi_stepper *st, gvi__from *from, gvi_real h,
 
     int usable = past->available, used = 0;
     gvi_status status = GVI_E_CONVERGENCE;
-    if (usable) gvi__prepare_guess(st, past->alpha, past->beta, query);
     if (!gvi__uses(st, GVI_NEWTON) && (!gvi__has(st, GVI__HAS_NEWTON) || x->newton_left == 0 || query)) {
+        if (usable) gvi__prepare_guess(st, past->alpha, past->beta, query);
         for (int plain = !usable; plain < 2; ++plain) {
             status = gvi__fixed_point(st, from, h, !plain, &used);
             st->counters.iterations += (unsigned long long)used;
@@ -4247,6 +4459,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, gvi__from *from, gvi_real h,
     }
     unsigned long long count = st->counters.newton_iterations;
     st->formulation = GVI_NEWTON;
+    if (usable) gvi__prepare_guess(st, past->alpha, past->beta, query);
     status = gvi__newton_step(st, from, h, usable && x->has_velocity, query);
     if (usable && x->has_velocity && (status == GVI_E_CONVERGENCE || status == GVI_E_SINGULAR)) {
         if (!query) x->h_matrix = 0;              // the extrapolation may be to blame
@@ -4261,18 +4474,19 @@ static int gvi__finite_end(const gvi_stepper *st, const gvi__from *from)
 {
     const struct gvi__private *x = &st->x;
     const gvi_real *q = from->q, *p = from->p, *dq = x->dq, *dp = x->dp;
-    gvi_real none[4] = { 0, 0, 0, 0 };
+    gvi_real none = 0;
     int i = 0;
-    for (; i + 3 < st->n && !GVI__SMALL; i += 4)       // four sums, none waits for another
-        for (int k = i; k < i + 4; ++k) {
-            const gvi__stored a = q[k] + dq[k], b = p[k] + dp[k];     // where registers are wider: what will be kept
-            none[k - i] += 0*a + 0*b;
-        }
+#ifdef GVI__VECTORS
+    gvi__vector nones = { 0 };
+    for (; i + GVI__LANES <= st->n; i += GVI__LANES)
+        nones += 0*(GVI__AT(q + i) + GVI__AT(dq + i)) + 0*(GVI__AT(p + i) + GVI__AT(dp + i));
+    for (int k = 0; i > 0 && k < GVI__LANES; ++k) none += nones[k];
+#endif
     for (; i < st->n; ++i) {
-        const gvi__stored a = q[i] + dq[i], b = p[i] + dp[i];
-        none[0] += 0*a + 0*b;
+        const gvi__stored a = q[i] + dq[i], b = p[i] + dp[i];     // where registers are wider: what will be kept
+        none += 0*a + 0*b;
     }
-    return (none[0] + none[1]) + (none[2] + none[3]) >= 0;
+    return none >= 0;
 }
 
 /* An attempt; if something was not finite, the same once more with every effect
@@ -4476,7 +4690,7 @@ static gvi_status gvi__start(gvi_stepper *st, gvi_real t, const gvi_real *v)
     st->h = 0;
     x->te = 0;
     x->started = 1;
-    x->stepped = x->has_force = x->has_velocity = x->alike = x->two = 0;
+    x->stepped = x->has_force = x->has_velocity = x->alike = x->two = x->sums = 0;
     x->newton_left = x->whole_left = 0;
     x->h_matrix = x->ratio = 0;
     st->formulation = x->chosen;
