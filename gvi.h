@@ -511,8 +511,7 @@ struct gvi__private {
     signed char      newton_left;     /* steps until the fixed point is tried   */
     signed char      whole_left;      /* steps until blocks are tried again     */
     signed char      clock, single;   /* effect that is one; the only one; or -1 */
-    signed char      alike, two;      /* last steps of the same length: 0, 1, 2; E is for two */
-    signed char      sums;            /* E gives the sums of (3), not F         */
+    signed char      alike, E_is;     /* last steps of the same length: 0, 1, 2; see GVI__OF_TWO */
     signed char      started, stepped, diagnose, turns;
     signed char      has_rate;        /* rate holds                             */
     signed char      has_force;       /* last.F ends with the force at (t, q)   */
@@ -2518,7 +2517,9 @@ static int gvi__fits_two(const gvi_stepper *st)
 }
 
 // does E extrapolate from two steps now?
-static inline int gvi__two_now(const gvi_stepper *st) { return GVI__KIND > 1 && st->x.two; }
+// what E makes: of two steps, not of one; the sums of (3), not the row itself
+enum { GVI__OF_TWO = 1, GVI__SUMS = 2 };
+static inline int gvi__two_now(const gvi_stepper *st) { return GVI__KIND > 1 && (st->x.E_is & GVI__OF_TWO); }
 
 /* Is Newton's matrix of s*n to be b = (s+1)/2 complex ones of n?  Where that is less
    work, in real multiplications for one factorisation and twelve solutions, about
@@ -3514,10 +3515,10 @@ GVI__APART void gvi__prepare_guess(gvi_stepper *st, gvi_real alpha, gvi_real bet
     const int step = !query && st->formulation != GVI_NEWTON;   // which wants V of the last step
     const int two = GVI__KIND > 1 && step && x->alike == 2 && x->older_F && !gvi__nonzero(beta - 1);
     const int sums = step && gvi__uses(st, GVI_POSITIONS) && !gvi__mass_is(st, GVI_MASS_DENSE) && !gvi__A(&x->work);
-    if (!query && !gvi__nonzero(beta - x->ratio) && two == x->two && sums == x->sums) return;
+    const signed char is = (signed char)((two ? GVI__OF_TWO : 0) + (sums ? GVI__SUMS : 0));
+    if (!query && !gvi__nonzero(beta - x->ratio) && is == x->E_is) return;
     x->ratio = query ? 0 : beta;
-    x->two = (signed char)two;
-    x->sums = (signed char)sums;
+    x->E_is = is;
     gvi__fit(st, alpha, beta);
     if (sums) gvi__fit_sums(st);
 }
@@ -3809,7 +3810,7 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
 {
     struct gvi__private *x = &st->x;
     const int most = gvi__counts(st) ? x->desc.iterations : x->desc.max_iterations;
-    const gvi_real tolerance = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/4096;
+    const gvi_real tolerance = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/65536;
     gvi__progress p = { 0, 0, GVI__MAX, tolerance*tolerance, 16*GVI__EPS*GVI__EPS*(gvi_real)(st->n*st->r), 0, 0, 0 };
     gvi__stage y[GVI__STAGES];
     gvi_points at;
@@ -3820,7 +3821,7 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
         gvi_status status = gvi__clock_guess(st, from, h, &rate);
         if (status != GVI_OK) return status;
     }
-    const int sums = extrapolate && x->sums;
+    const int sums = extrapolate && (x->E_is & GVI__SUMS);
     if (sums) gvi__extrapolate(st, x->last.F, x->older_F, y, x->work.Q);
     else gvi__guess(st, extrapolate, rate);
     for (*used = 0; ; ) {
@@ -4690,7 +4691,7 @@ static gvi_status gvi__start(gvi_stepper *st, gvi_real t, const gvi_real *v)
     st->h = 0;
     x->te = 0;
     x->started = 1;
-    x->stepped = x->has_force = x->has_velocity = x->alike = x->two = x->sums = 0;
+    x->stepped = x->has_force = x->has_velocity = x->alike = x->E_is = 0;
     x->newton_left = x->whole_left = 0;
     x->h_matrix = x->ratio = 0;
     st->formulation = x->chosen;

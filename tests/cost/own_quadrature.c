@@ -541,7 +541,7 @@ static void begin(stepper *st, const scene *p, const setting *u, double h, const
     st->h = h;
     st->rules = u->points ? 2 : 1;
     st->seldom = u->seldom;
-    st->tolerance = u->tolerance > 0 ? u->tolerance : GVI__EPS/4096;
+    st->tolerance = u->tolerance > 0 ? u->tolerance : GVI__EPS/65536;
     st->learned = st->extra = 1;
     st->most = u->start ? u->start > 0 : 3;
     set_rule(st->rule, s, s, h);
