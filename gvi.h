@@ -3558,7 +3558,7 @@ static gvi_real gvi__rest(gvi_real x) { return gvi__finite(x) ? x : 0; }
 /* sum_j a_j b_j + rest, the sum carried with its rounding: an increment is what
    errors add up in, step by step.  Eight partial sums, then these by halves;
    z: scratch for them, of two rows.                                           */
-static gvi__two gvi__exact_dot(int r, const gvi_real *a, const gvi_real *b, gvi_real rest, gvi_real *z)
+GVI__APART gvi__two gvi__exact_dot(int r, const gvi_real *a, const gvi_real *b, gvi_real rest, gvi_real *z)
 {
     const int lanes = r < 8 ? r : 8;
     gvi_real own[16], *hi = GVI__SMALL ? z : own, *lo = hi + lanes;
