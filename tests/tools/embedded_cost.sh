@@ -83,9 +83,10 @@ trace() {  # scene-formulation, index of the setting
 plain() {
     mkdir -p "$dir/plain"
     cat >"$dir/plain/dot" <<'END'
-static gvi__two gvi__exact_dot(int r, const gvi_real *a, const gvi_real *b, gvi_real rest)
+GVI__APART gvi__two gvi__exact_dot(int r, const gvi_real *a, const gvi_real *b, gvi_real rest, gvi_real *z)
 {
     gvi__two sum = gvi__real2(rest);
+    (void)z;
     for (int j = 0; j < r; ++j) sum.hi += a[j]*b[j];
     return sum;
 }
@@ -96,7 +97,7 @@ static void gvi__move(int n, const gvi_real *dx, const gvi_real *dxe, gvi_real *
 {
     for (int i = 0; i < n; ++i) {
         was[i] = x[i];
-        x[i] += dx[i] + dxe[i];
+        x[i] += dxe ? dx[i] + dxe[i] : dx[i];
         rest[i] = 0;
     }
 }
@@ -107,7 +108,7 @@ END
             ++found
             while ((getline line < (dir name)) > 0) print line
         }
-        /^static gvi__two gvi__exact_dot\(/ { instead("dot") }
+        /^GVI__APART gvi__two gvi__exact_dot\(/ { instead("dot") }
         /^static void gvi__move\(/ { instead("move") }
         !skip { print }
         /^}/ { skip = 0 }
