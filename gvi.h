@@ -3887,8 +3887,7 @@ static void gvi__drift_dense(gvi_stepper *st, const gvi__from *from, gvi_real a)
 {
     struct gvi__private *x = &st->x;
     gvi_real *z = x->change;
-    for (int i = 0; i < st->n; ++i) z[i] = x->dp[i];
-    gvi__over_mass(st, z, 1, 1);
+    gvi__over_constant_mass(st, x->dp, z);
     for (int i = 0; i < st->n; ++i) x->work.Q[i] = from->q[i] + (x->dq[i] += a*(from->v[i] + z[i]));
 }
 
@@ -4858,8 +4857,7 @@ static void gvi__curve(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
     if (by_forces) {
         gvi__over_mass(st, q, 1, 1);
         gvi__over_mass(st, v, 1, 1);
-        gvi__copy((size_t)n, x->p0, x->v0);
-        gvi__over_mass(st, x->v0, 1, 1);
+        gvi__over_constant_mass(st, x->p0, x->v0);
         for (int i = 0; i < n; ++i) {
             q[i] += tau*x->v0[i];
             v[i] += x->v0[i];
