@@ -812,8 +812,8 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__APART static
 #endif
 
-// a loop whose lengths are constants where it is called: always a copy of its own
-#if defined(__GNUC__) && !GVI__SMALL
+// a loop whose lengths, or a struct whose members, are known where it is called: always a copy
+#if defined(__GNUC__)
 #define GVI__COPY static inline __attribute__((always_inline))
 #else
 #define GVI__COPY static inline
@@ -2946,7 +2946,7 @@ static inline gvi_real gvi__sum_lanes(const gvi_real *z)
    that little waits for z                                                     */
 typedef struct gvi__affine { gvi_real base, extra, a, b; } gvi__affine;
 
-static inline gvi__affine gvi__affine_of(const gvi__stage *y, const gvi_real *diagonal, int i)
+GVI__COPY gvi__affine gvi__affine_of(const gvi__stage *y, const gvi_real *diagonal, int i)
 {
     gvi__affine p;
     p.base = y->base[i];
@@ -3569,8 +3569,8 @@ GVI__APART gvi__two gvi__exact_dot(int r, const gvi_real *a, const gvi_real *b, 
         hi[j & 7] = sum.hi;
         lo[j & 7] = sum.lo;
     }
-    for (int half = 4; half > 0; half /= 2)
-        for (int k = 0; k < half && k + half < lanes; ++k) {
+    for (int half = r > 4 ? 4 : r > 2 ? 2 : 1; half > 0; half /= 2)
+        for (int k = 0; k + half < lanes && k < half; ++k) {
             sum = gvi__join(hi[k], lo[k], hi[k + half], lo[k + half]);
             hi[k] = sum.hi;
             lo[k] = sum.lo;
