@@ -1649,7 +1649,8 @@ static inline gvi_status gvi__call(gvi_stepper *st, const gvi_points *x, int e)
 {
     const gvi_effect *effect = st->x.desc.effects + e;
     st->counters.effect[e] += (unsigned long long)x->count;
-    return effect->points(x, effect->user) ? gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, GVI_FAULT_NONE) : GVI_OK;
+    const int refused = effect->points(x, effect->user);
+    return refused ? gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, GVI_FAULT_NONE) : GVI_OK;
 }
 
 /* Every effect that is on, but the clock and what has its bit in `skip`: adds to
@@ -3039,8 +3040,9 @@ GVI__COPY gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stage *y
 GVI__COPY const gvi_real *gvi__keep(int r, const gvi_real *table, gvi__vector *kept)
 {
     if (!GVI__KEPT) return table;
+    // not in a loop of r, which would become a copy in memory
     for (int j = 0; j < 4; ++j) kept[j] = GVI__AT(table + 8*j);
-    if (r > 4) kept[4] = GVI__AT(table + 32);         // not in a loop of r, which would become a copy in memory
+    if (r > 4) kept[4] = GVI__AT(table + 32);
     if (r > 5) kept[5] = GVI__AT(table + 40);
     if (r > 6) kept[6] = GVI__AT(table + 48);
     if (r > 7) kept[7] = GVI__AT(table + 56);
@@ -3140,20 +3142,18 @@ static gvi_real gvi__stage_rows_dense(gvi_stepper *st, const gvi__stage *y)
 }
 
 /* One function for each usual number of points.                                */
-static gvi_real gvi__rows_1(gvi_stepper *st, const gvi__stage *y) { return gvi__stage_rows_of(st, y, 1, 1); }
-static gvi_real gvi__rows_2(gvi_stepper *st, const gvi__stage *y) { return gvi__stage_rows_of(st, y, 2, 2); }
-static gvi_real gvi__rows_3(gvi_stepper *st, const gvi__stage *y) { return gvi__stage_rows_of(st, y, 3, 3); }
-static gvi_real gvi__rows_4(gvi_stepper *st, const gvi__stage *y) { return gvi__stage_rows_of(st, y, 4, 4); }
-static gvi_real gvi__rows_any(gvi_stepper *st, const gvi__stage *y)
-{
-    return gvi__stage_rows_of(st, y, st->r, st->x.stride);
-}
+#define GVI__ROWS(name, call) static gvi_real name(gvi_stepper *st, const gvi__stage *y) { return call; }
+GVI__ROWS(gvi__rows_1, gvi__stage_rows_of(st, y, 1, 1))
+GVI__ROWS(gvi__rows_2, gvi__stage_rows_of(st, y, 2, 2))
+GVI__ROWS(gvi__rows_3, gvi__stage_rows_of(st, y, 3, 3))
+GVI__ROWS(gvi__rows_4, gvi__stage_rows_of(st, y, 4, 4))
+GVI__ROWS(gvi__rows_any, gvi__stage_rows_of(st, y, st->r, st->x.stride))
 #ifdef GVI__VECTORS
-static gvi_real gvi__rows_6(gvi_stepper *st, const gvi__stage *y) { return gvi__stage_rows_8(st, y, 6); }
-static gvi_real gvi__rows_8(gvi_stepper *st, const gvi__stage *y) { return gvi__stage_rows_8(st, y, 8); }
-static gvi_real gvi__rows_16(gvi_stepper *st, const gvi__stage *y) { return gvi__stage_rows_of(st, y, 16, 16); }
-static gvi_real gvi__rows_5_to_8(gvi_stepper *st, const gvi__stage *y) { return gvi__stage_rows_8(st, y, st->r); }
-static gvi_real gvi__rows_8_less(gvi_stepper *st, const gvi__stage *y) { return gvi__stage_rows_of(st, y, 8, 8); }
+GVI__ROWS(gvi__rows_6, gvi__stage_rows_8(st, y, 6))
+GVI__ROWS(gvi__rows_8, gvi__stage_rows_8(st, y, 8))
+GVI__ROWS(gvi__rows_5_to_8, gvi__stage_rows_8(st, y, st->r))
+GVI__ROWS(gvi__rows_8_less, gvi__stage_rows_of(st, y, 8, 8))
+GVI__ROWS(gvi__rows_16, gvi__stage_rows_of(st, y, 16, 16))
 #endif
 
 static gvi__kernel *gvi__kernel_of(const gvi_stepper *st, const gvi__stage *y)
@@ -3443,8 +3443,8 @@ GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const 
     }
 }
 
-GVI__APART void gvi__extrapolate(gvi_stepper *st, const gvi_real *last, const gvi_real *older, const gvi__stage *y,
-                             gvi_real *out)
+GVI__APART void gvi__extrapolate(gvi_stepper *st, const gvi_real *last, const gvi_real *older,
+                                 const gvi__stage *y, gvi_real *out)
 {
     if (!gvi__two_now(st)) older = NULL;
     if (GVI__SMALL) gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, y, out);
@@ -3514,7 +3514,8 @@ GVI__APART void gvi__prepare_guess(gvi_stepper *st, gvi_real alpha, gvi_real bet
     struct gvi__private *x = &st->x;
     const int step = !query && st->formulation != GVI_NEWTON;   // which wants V of the last step
     const int two = GVI__KIND > 1 && step && x->alike == 2 && x->older_F && !gvi__nonzero(beta - 1);
-    const int sums = step && gvi__uses(st, GVI_POSITIONS) && !gvi__mass_is(st, GVI_MASS_DENSE) && !gvi__A(&x->work);
+    const int sums = step && gvi__uses(st, GVI_POSITIONS) && !gvi__mass_is(st, GVI_MASS_DENSE)
+                     && !gvi__A(&x->work);
     const signed char is = (signed char)((two ? GVI__OF_TWO : 0) + (sums ? GVI__SUMS : 0));
     if (!query && !gvi__nonzero(beta - x->ratio) && is == x->E_is) return;
     x->ratio = query ? 0 : beta;
@@ -3589,8 +3590,10 @@ static gvi_real gvi__lever_sum(int r, const gvi_real *c, const gvi_real *hb, con
 }
 
 #ifdef GVI__VECTORS
-typedef gvi_real gvi__half __attribute__((vector_size(4*sizeof(gvi_real)), aligned(sizeof(gvi_real)), may_alias));
-typedef gvi_real gvi__pair __attribute__((vector_size(2*sizeof(gvi_real)), aligned(sizeof(gvi_real)), may_alias));
+typedef gvi_real gvi__half
+    __attribute__((vector_size(4*sizeof(gvi_real)), aligned(sizeof(gvi_real)), may_alias));
+typedef gvi_real gvi__pair
+    __attribute__((vector_size(2*sizeof(gvi_real)), aligned(sizeof(gvi_real)), may_alias));
 #define GVI__HALF(p) (*(const gvi__half *)(p))
 #define GVI__PAIR(p) (*(const gvi__pair *)(p))
 
@@ -3605,7 +3608,8 @@ static inline gvi__two gvi__exact_dot_vector(int R, const gvi_real *a, const gvi
     }
     for (int o = 8; o < R; o += 8)
         for (int k = 0; k < 8; ++k) {
-            const gvi__two term = gvi__product(a[o + k], b[o + k]), sum = gvi__join(hi[k], lo[k], term.hi, term.lo);
+            const gvi__two term = gvi__product(a[o + k], b[o + k]);
+            const gvi__two sum = gvi__join(hi[k], lo[k], term.hi, term.lo);
             hi[k] = sum.hi;
             lo[k] = sum.lo;
         }
@@ -3629,7 +3633,8 @@ static inline gvi_real gvi__lever_vector(int R, const gvi_real *c, const gvi_rea
 #endif
 
 // whichever is there
-static inline gvi__two gvi__increment(int r, int R, const gvi_real *a, const gvi_real *b, gvi_real rest, gvi_real *z)
+static inline gvi__two gvi__increment(int r, int R, const gvi_real *a, const gvi_real *b, gvi_real rest,
+                                      gvi_real *z)
 {
 #ifdef GVI__VECTORS
     if (!GVI__SMALL && R % 8 == 0) return gvi__exact_dot_vector(R, a, b, rest);
@@ -3648,9 +3653,9 @@ static inline gvi_real gvi__lever(int r, int R, const gvi_real *c, const gvi_rea
 }
 
 // dq + dqe := h v + dq + qe: h v exactly, the rest is smaller by h omega
-static inline void gvi__add_path(int n, gvi_real h, const gvi_real *GVI__RESTRICT v, const gvi_real *GVI__RESTRICT ve,
-                                 const gvi_real *GVI__RESTRICT qe, gvi_real *GVI__RESTRICT dq,
-                                 gvi_real *GVI__RESTRICT dqe)
+static inline void gvi__add_path(int n, gvi_real h, const gvi_real *GVI__RESTRICT v,
+                                 const gvi_real *GVI__RESTRICT ve, const gvi_real *GVI__RESTRICT qe,
+                                 gvi_real *GVI__RESTRICT dq, gvi_real *GVI__RESTRICT dqe)
 {
     for (int i = 0; i < n; ++i) {
         const gvi__two path = gvi__product(h, v[i]), q = gvi__sum(path.hi, h*(ve[i] + dq[i]));
@@ -3782,7 +3787,8 @@ enum { GVI__GO_ON, GVI__DONE, GVI__ASK_ONCE_MORE, GVI__BEYOND };
 GVI__APART int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *p, gvi_real change, int used)
 {
     struct gvi__private *x = &st->x;
-    const gvi_real rounding = p->rounding, before = p->before, known = before > 1 ? 1 : before > 0 ? before : change;
+    const gvi_real rounding = p->rounding, before = p->before;
+    const gvi_real known = before > 1 ? 1 : before > 0 ? before : change;
     const int given = gvi__counts(st);
     if (!given && change*change <= p->tolerance*known) return GVI__DONE;
     if (given && used == x->desc.iterations) {
@@ -3800,9 +3806,8 @@ GVI__APART int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress 
     if (change < p->least) p->least = change;
     if ((p->idle > 2 && change <= rounding)
         || ((p->idle > 1 || p->poor > 2) && gvi__is_rounding(st, from, p->idle))) return GVI__ASK_ONCE_MORE;
-    // nearer to rounding idle decides
-    return p->poor > 2 && change > 65536*rounding && x->desc.formulation == GVI_AUTO && gvi__has(st, GVI__HAS_NEWTON)
-         ? GVI__BEYOND : GVI__GO_ON;
+    if (p->poor <= 2 || change <= 65536*rounding) return GVI__GO_ON;       // nearer to rounding idle decides
+    return x->desc.formulation == GVI_AUTO && gvi__has(st, GVI__HAS_NEWTON) ? GVI__BEYOND : GVI__GO_ON;
 }
 
 /* Fixed point on the rows: F, V and A make the rows, the effects are asked there. */
@@ -3811,11 +3816,13 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
     struct gvi__private *x = &st->x;
     const int most = gvi__counts(st) ? x->desc.iterations : x->desc.max_iterations;
     const gvi_real tolerance = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/65536;
-    gvi__progress p = { 0, 0, GVI__MAX, tolerance*tolerance, 16*GVI__EPS*GVI__EPS*(gvi_real)(st->n*st->r), 0, 0, 0 };
+    const gvi_real rounding = 16*GVI__EPS*GVI__EPS*(gvi_real)(st->n*st->r);
+    gvi__progress p = { 0, 0, GVI__MAX, tolerance*tolerance, rounding, 0, 0, 0 };
     gvi__stage y[GVI__STAGES];
     gvi_points at;
     const int count = gvi__plan(st, from, h, y);
-    if (!GVI__SMALL) gvi__rows_as_points(&at, st, &x->work, gvi__A(&x->work));   // else no longer on the stack than needed
+    // where size counts, gvi__ask makes them: no longer on the stack than needed
+    if (!GVI__SMALL) gvi__rows_as_points(&at, st, &x->work, gvi__A(&x->work));
     gvi_real rate = 1;
     if (gvi__has_clock(st)) {
         gvi_status status = gvi__clock_guess(st, from, h, &rate);
@@ -3825,7 +3832,8 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
     if (sums) gvi__extrapolate(st, x->last.F, x->older_F, y, x->work.Q);
     else gvi__guess(st, extrapolate, rate);
     for (*used = 0; ; ) {
-        if (GVI__TOLERANCE && p.idle + p.poor > 0) gvi__gather(st->n, x->stride, x->work.Q + st->r - 1, x->change);
+        if (GVI__TOLERANCE && p.idle + p.poor > 0)
+            gvi__gather(st->n, x->stride, x->work.Q + st->r - 1, x->change);
         const gvi_real change = sums && *used == 0 ? 0 : gvi__stages(st, y, count);
         int verdict = GVI__GO_ON;
         if (*used > 0) {
@@ -4399,7 +4407,8 @@ GVI__APART void gvi__newton_increments(gvi_stepper *st, const gvi__from *from, g
     struct gvi__private *x = &st->x;
     for (int i = 0; i < st->n; ++i) {
         const gvi__two q = gvi__product(h, x->y[i]);
-        const gvi__two p = gvi__increment(st->r, x->stride, x->hb, x->work.F + i*x->stride, from->pe[i], x->row);
+        const gvi_real *F = x->work.F + i*x->stride;
+        const gvi__two p = gvi__increment(st->r, x->stride, x->hb, F, from->pe[i], x->row);
         x->dq[i] = q.hi;
         x->dqe[i] = gvi__rest(q.lo + from->qe[i]);
         x->dp[i] = p.hi;
@@ -4483,7 +4492,7 @@ static int gvi__finite_end(const gvi_stepper *st, const gvi__from *from)
     for (int k = 0; i > 0 && k < GVI__LANES; ++k) none += nones[k];
 #endif
     for (; i < st->n; ++i) {
-        const gvi__stored a = q[i] + dq[i], b = p[i] + dp[i];     // where registers are wider: what will be kept
+        const gvi__stored a = q[i] + dq[i], b = p[i] + dp[i];   // where registers are wider: what will be kept
         none += 0*a + 0*b;
     }
     return none >= 0;
