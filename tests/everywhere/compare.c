@@ -6,7 +6,7 @@
    1 if one is beyond its bound.  Bounds, where N steps round by eps each at random, which
    is sqrt(N) eps in all: a planet that was moved by d is 3/2 v t d/a ahead or behind,
    some 100 d here, so 16 N eps for N = 100; a spring of frequency 64 makes 64 d/|p| of it,
-   |p| = 1/3, so 192 N eps.  A table or matrix of N rows: N eps.  Nodes and weights, which are twofold
+   so 64 N eps.  A table or matrix of N rows: N eps.  Nodes and weights, which are twofold
    but for the registers: 2 eps.                                                 */
 #include <math.h>
 #include <stdint.h>
@@ -48,7 +48,7 @@ static double bound_of(const char *scene, const char *what)
     if (!strcmp(scene, "interpolation")) return 12;
     if (!strcmp(scene, "lu")) return 20;
     if (strcmp(what, "t") && strcmp(what, "q") && strcmp(what, "p")) return HUGE_VAL;
-    if (!strcmp(scene, "newton-stiff")) return 3*64*100;
+    if (!strcmp(scene, "newton-stiff")) return 64*100;
     return 16*100;
 }
 
