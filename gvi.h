@@ -218,6 +218,16 @@
    GVI_AUTO goes over to Newton.  All solve the same equations, and all stop
    at round-off.
 
+   WEAK EFFECTS.  A force that hardly changes while an iteration closes in need not
+   be asked in each of its turns: one that is marked as weak stands still while the
+   others iterate, and is asked again when the change that it would bring is greater
+   than the one that the others have yet to bring.  Of forces that are the smaller
+   part by a factor of 1000 it takes half of the evaluations or less, and now and then
+   a turn more.  The equations, and so the step, are the same; a mark on an effect that
+   is not weak costs turns, not digits.  Potentials and forces, in the fixed points,
+   without a clock or desc.iterations, and not compiled for size: elsewhere a marked
+   effect is asked as any other.
+
    CLOCK.  An effect g(q) > 0 makes time run as dt = g dtau, and h is a step in
    tau: t moves fast or slow, and the map is as symplectic as with fixed steps
    [3, VIII.2].  The curves of energy E are the zero-energy curves of
@@ -372,6 +382,7 @@ typedef struct gvi_effect {
     gvi_points_fn  *value;    /* V or L, for energy and action; NULL: unknown   */
     gvi_hessian_fn *hessian;  /* for Newton; NULL: differences of f and dldv    */
     void           *user;     /* handed to the callbacks                        */
+    int             weak;     /* not 0: asked in some iterations only (WEAK EFFECTS) */
 } gvi_effect;
 
 typedef enum gvi_mass_kind {
@@ -494,6 +505,7 @@ struct gvi__private {
     gvi_real *rate, *power, *level;   /* [R] clock: g; f'v; H, then H - E       */
     gvi_real *slope;                  /* [n][R] clock: dg/dq                    */
     gvi_real *over;                   /* [n] 1/m of a diagonal mass             */
+    gvi_real *weak;                   /* [n][R] forces of the weak effects, as last asked */
     gvi_real *mass, *point_mass, *Z;  /* M; M at the points [n*n][R]; [n][R] scratch */
     gvi_real *y, *dy, *J, *pivot;     /* Newton: [s*n] twice; two matrices of s*n */
     gvi_real *hess, *dF;              /* scratch; F and P, moved and not, [4][n][R] */
@@ -508,6 +520,8 @@ struct gvi__private {
     gvi_real         ratio;           /* h/h_last for which E holds             */
     gvi_real         h_matrix;        /* h for which J was made, 0: none        */
     unsigned         off;             /* effects switched off, one bit each     */
+    unsigned         seldom;          /* those that need not be asked in each iteration */
+    gvi_real         answer, learned; /* of theirs to a change of the rows, squared: gvi__settled */
     signed char      newton_left;     /* steps until the fixed point is tried   */
     signed char      whole_left;      /* steps until blocks are tried again     */
     signed char      clock, single;   /* effect that is one; the only one; or -1 */
@@ -663,7 +677,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__SIZE(a) ((size_t)(a))
 #define GVI__SLACK (64/sizeof(gvi_real) - 1)
 #define GVI_LENGTH(n, s, r) (                                                    \
-    (31 + 4*GVI__SIZE(s) + 19*GVI__SIZE(GVI__ROW(r))                             \
+    (31 + 4*GVI__SIZE(s) + 20*GVI__SIZE(GVI__ROW(r))                             \
      + (6 + GVI__SIZE(GVI__ROW(r)) + 2*GVI__SIZE(s)*GVI__SIZE(s))*GVI__SIZE(n))*GVI__SIZE(n) \
     + (20 + 6*GVI__SIZE(r) + 3*GVI__SIZE(s))*GVI__SIZE(GVI__ROW(r))              \
     + (GVI__SIZE(s) + 2)*GVI__SIZE(s) + 3 + GVI__SLACK + ((n) < 8 ? 0 : 126))
@@ -791,6 +805,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #else
 #define GVI__TOLERANCE 1
 #endif
+#define GVI__WEAK (GVI__TOLERANCE && !GVI__SMALL && (GVI__POSITIONS || GVI__VELOCITIES || GVI__MOMENTA))
 #ifdef GVI_NO_DIAGNOSIS
 #define GVI__DIAGNOSIS 0
 #else
@@ -1689,6 +1704,16 @@ static signed char gvi__single(const gvi_stepper *st)
     return single;
 }
 
+// the bits of the effects that are marked as weak, are on and may stand still for a while
+static unsigned gvi__weak(const gvi_stepper *st)
+{
+    unsigned bits = 0;
+    const gvi_effect *effect = st->x.desc.effects;
+    for (int e = 0; GVI__WEAK && st->x.clock < 0 && !gvi__counts(st) && e < st->x.desc.effect_count; ++e, ++effect)
+        if (effect->weak && effect->kind <= GVI_FORCE) bits |= 1u << e;
+    return bits & ~st->x.off;
+}
+
 // all effects that are on; nothing stands between a step and its only effect
 static inline gvi_status gvi__all_effects(gvi_stepper *st, gvi_points *x)
 {
@@ -2556,7 +2581,7 @@ enum {
     GVI__1, GVI__2, GVI__3, GVI__6, GVI__n, GVI__N, GVI__R, GVI__s,      // N: n, in whole vectors if n >= 8
     GVI__STATE, GVI__POINTS, GVI__V, GVI__P, GVI__A_, GVI__OLDER_F, GVI__OLDER_V, GVI__OLDER_A,
     GVI__SLOPE, GVI__RATE, GVI__G, GVI__M, GVI__T, GVI__NN, GVI__E, GVI__PHI, GVI__MODES, GVI__PLACE, GVI__DRIFT,
-    GVI__GAMMA, GVI__DIAGONAL, GVI__Z, GVI__AT_POINTS, GVI__nR, GVI__HESS, GVI__HESSIANS,
+    GVI__GAMMA, GVI__DIAGONAL, GVI__STILL, GVI__Z, GVI__AT_POINTS, GVI__nR, GVI__HESS, GVI__HESSIANS,
     GVI__sn, GVI__PIVOT, GVI__DIFFERENCES, GVI__J, GVI__EIGEN, GVI__LENGTHS
 };
 
@@ -2599,6 +2624,7 @@ GVI__APART void gvi__lengths(const gvi_stepper *st, size_t *length)
     length[GVI__DRIFT] = iterates ? 0 : r + 1;
     length[GVI__GAMMA] = gvi__has(st, GVI__HAS_OWN) ? s*s + s + 1 : 0;
     length[GVI__DIAGONAL] = x->desc.mass.kind == GVI_MASS_DIAGONAL ? length[GVI__N] : 0;
+    length[GVI__STILL] = iterates && gvi__weak(st) ? n : 0;
     length[GVI__Z] = dense && positions ? n : 0;
     length[GVI__AT_POINTS] = gvi__mass_is(st, GVI_MASS_POSITION) ? n : 0;
     length[GVI__nR] = n*R;
@@ -2641,7 +2667,7 @@ static void gvi__layout_rows(gvi_stepper *st, gvi__arena *a, const size_t *lengt
         GVI__PART(work.Q, STATE, POINTS), GVI__PART(work.F, STATE, POINTS), GVI__PART(work.V, V, R),
         GVI__PART(work.P, P, R), GVI__PART(work.A, A_, R),
         GVI__PART(older_F, OLDER_F, R), GVI__PART(older_V, OLDER_V, R), GVI__PART(older_A, OLDER_A, R),
-        GVI__PART(slope, SLOPE, R), GVI__PART(rate, RATE, R), GVI__PART(power, RATE, R), GVI__PART(level, RATE, R),
+        GVI__PART(weak, STILL, R), GVI__PART(slope, SLOPE, R), GVI__PART(rate, RATE, R), GVI__PART(power, RATE, R), GVI__PART(level, RATE, R),
         GVI__PART(z, 1, R), GVI__PART(less, 1, R), GVI__PART(hb, 1, R), GVI__PART(c, 1, R), GVI__PART(g, G, R),
         GVI__PART(m, M, R), GVI__PART(T, T, R), GVI__PART(N, NN, R), GVI__PART(E, E, R), GVI__PART(Phi, PHI, R),
         GVI__PART(phi, MODES, R), GVI__PART(low, MODES, R), GVI__PART(Z, Z, R), GVI__PART(point_mass, AT_POINTS, nR),
@@ -3398,8 +3424,24 @@ static inline void gvi__zero_rows(const gvi_stepper *st, gvi_real zero, gvi_real
     for (int k = 0; k < length; ++k) rows[k] = zero;
 }
 
-// F (and A, V) at the rows of this iteration, all points in one call an effect
-GVI__APART gvi_status gvi__ask(gvi_stepper *st, const gvi__from *from, gvi_real zero, gvi_points *y)
+// y->f := the weak forces, asked anew or as they were
+static gvi_status gvi__ask_weak(gvi_stepper *st, gvi_real zero, gvi_points *y, int anew)
+{
+    struct gvi__private *x = &st->x;
+    gvi_real *f = y->f;
+    gvi_status status = GVI_OK;
+    if (anew) {
+        gvi__zero_rows(st, zero, y->f = x->weak);
+        status = gvi__effects(st, y, ~x->seldom);
+        y->f = f;
+    }
+    gvi__copy((size_t)st->n*(size_t)x->stride, x->weak, f);
+    return status;
+}
+
+// F (and A, V) at the rows of this iteration, all points in one call an effect; the weak ones
+// only if they are wanted anew
+GVI__APART gvi_status gvi__ask(gvi_stepper *st, const gvi__from *from, gvi_real zero, gvi_points *y, int anew)
 {
     gvi_points own;
     if (GVI__SMALL) gvi__rows_as_points(y = &own, st, &st->x.work, gvi__A(&st->x.work));
@@ -3409,8 +3451,12 @@ GVI__APART gvi_status gvi__ask(gvi_stepper *st, const gvi__from *from, gvi_real 
     if (GVI__LAGRANGIAN && y->dldv) gvi__zero_rows(st, zero, y->dldv);
     if (status != GVI_OK) return status;
     if (gvi__has_clock(st)) return gvi__ask_clock(st, from, y);
-    if (gvi__uses(st, GVI_MOMENTA) && gvi__mass_is(st, GVI_MASS_POSITION)) status = gvi__mass_gradient(st, y);
-    return status == GVI_OK ? gvi__all_effects(st, y) : status;
+    const int some = GVI__WEAK && st->x.seldom;
+    if (some) status = gvi__ask_weak(st, zero, y, anew);
+    if (status == GVI_OK && gvi__uses(st, GVI_MOMENTA) && gvi__mass_is(st, GVI_MASS_POSITION))
+        status = gvi__mass_gradient(st, y);
+    if (status != GVI_OK) return status;
+    return some ? gvi__effects(st, y, st->x.seldom) : gvi__all_effects(st, y);
 }
 
 /* Extrapolates rows of the last step, or of the last two, to the points of the
@@ -3774,7 +3820,37 @@ static gvi_status gvi__not_finite(gvi_stepper *st, int grows)
 typedef struct gvi__progress {
     gvi_real before, earlier, least, tolerance, rounding;
     int      poor, idle, grows;
+    int      anew, asked;             /* the weak effects: last time, or next; more than once */
+    gvi_real way, steady;             /* of the rows since then; how others alone contract */
+    gvi_real pending;                 /* the change that asking them would bring */
 } gvi__progress;
+
+/* Beside weak effects: has the iteration ended?  And are they to be asked next?  `lead`
+   is the change to come from the others.  That from asking them anew, `pending`, is the
+   way that the rows went since then times the answer that such a way had before; beside
+   the others' it counts ten times.  Where the change may be the others', an answer is at
+   most what it seems.  None is taken on trust: without a second one no step ends.
+   All of it in squares.                                                        */
+GVI__APART int gvi__settled(gvi_stepper *st, gvi__progress *p, gvi_real change)
+{
+    struct gvi__private *x = &st->x;
+    const gvi_real sure = (1000*GVI__EPS)*(1000*GVI__EPS), before = p->before > 1 ? 1 : p->before;
+    gvi_real rate = before > 0 ? change/before : 1;
+    if (p->anew) {
+        const gvi_real answer = p->way > sure ? change/p->way : x->learned;
+        if (answer < x->learned || change > 16*p->steady*before) x->learned = answer;
+        if (rate > p->steady) rate = p->steady;
+        p->asked = before > 0;
+        p->way = change;
+    } else {
+        if (before > sure) p->steady = rate;
+        if (change > p->way) p->way = change;
+    }
+    const gvi_real lead = change*rate, guess = x->learned*p->way, enough = p->tolerance;
+    p->pending = p->asked ? guess : p->way;
+    p->anew = 100*guess >= lead || (lead*rate <= enough && p->pending > enough);
+    return lead <= enough && p->pending <= enough;
+}
 
 enum { GVI__GO_ON, GVI__DONE, GVI__ASK_ONCE_MORE, GVI__BEYOND };
 
@@ -3789,13 +3865,14 @@ GVI__APART int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress 
     struct gvi__private *x = &st->x;
     const gvi_real rounding = p->rounding, before = p->before;
     const gvi_real known = before > 1 ? 1 : before > 0 ? before : change;
-    const int given = gvi__counts(st);
-    if (!given && change*change <= p->tolerance*known) return GVI__DONE;
+    const int given = gvi__counts(st), watch = !(GVI__WEAK && x->seldom && p->anew);
+    if (GVI__WEAK && x->seldom ? gvi__settled(st, p, change) : !given && change*change <= p->tolerance*known)
+        return GVI__DONE;
     if (given && used == x->desc.iterations) {
         const int falls = p->earlier > 0 ? change < p->earlier/4 : before <= 0 || change < before;
         return falls || change <= 65536*rounding ? GVI__DONE : GVI__BEYOND;
     }
-    gvi__watch(st, change, p->earlier);
+    if (watch) gvi__watch(st, change, p->earlier);
     p->grows = before > 0 && change >= before/4;
     if ((used == 1 && change > (gvi_real)0.0625) || p->grows) gvi__zero(2*(size_t)st->n, x->scale);
     p->earlier = before;
@@ -3805,7 +3882,12 @@ GVI__APART int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress 
     p->idle = change < p->least*81/100 ? 0 : p->idle + 1;
     if (change < p->least) p->least = change;
     if ((p->idle > 2 && change <= rounding)
-        || ((p->idle > 1 || p->poor > 2) && gvi__is_rounding(st, from, p->idle))) return GVI__ASK_ONCE_MORE;
+        || ((p->idle > 1 || p->poor > 2) && gvi__is_rounding(st, from, p->idle))) {
+        if (!GVI__WEAK || p->pending <= rounding) return GVI__ASK_ONCE_MORE;
+        p->idle = p->poor = 0;
+        p->anew = 1;
+        return GVI__GO_ON;
+    }
     if (p->poor <= 2 || change <= 65536*rounding) return GVI__GO_ON;       // nearer to rounding idle decides
     return x->desc.formulation == GVI_AUTO && gvi__has(st, GVI__HAS_NEWTON) ? GVI__BEYOND : GVI__GO_ON;
 }
@@ -3817,7 +3899,7 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
     const int most = gvi__counts(st) ? x->desc.iterations : x->desc.max_iterations;
     const gvi_real tolerance = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/65536;
     const gvi_real rounding = 16*GVI__EPS*GVI__EPS*(gvi_real)(st->n*st->r);
-    gvi__progress p = { 0, 0, GVI__MAX, tolerance*tolerance, rounding, 0, 0, 0 };
+    gvi__progress p = { 0, 0, GVI__MAX, tolerance*tolerance, rounding, 0, 0, 0, 1, 0, 0, 1, 0 };
     gvi__stage y[GVI__STAGES];
     gvi_points at;
     const int count = gvi__plan(st, from, h, y);
@@ -3847,7 +3929,8 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
         // rows that go to and fro in their last places end with their own F, not that of
         // the side that they came from, which would be a bias
         *used += verdict == GVI__GO_ON;
-        gvi_status status = gvi__ask(st, from, h - h, GVI__SMALL ? NULL : &at);
+        const int anew = p.anew || verdict == GVI__ASK_ONCE_MORE;
+        gvi_status status = gvi__ask(st, from, h - h, GVI__SMALL ? NULL : &at, anew);
         if (status != GVI_OK || verdict == GVI__ASK_ONCE_MORE) return status;
     }
     return gvi__give(st, GVI_E_CONVERGENCE);
@@ -4458,6 +4541,8 @@ static gvi_status gvi__attempt(gvi_stepper *st, gvi__from *from, gvi_real h,
     st->formulation = x->chosen;
     if (gvi__uses(st, GVI_EXPLICIT)) return gvi__explicit(st, from, h, past->force);
 
+    x->seldom = x->diagnose ? 0 : gvi__weak(st);
+    x->learned = gvi__nonzero(h - st->h) ? 1 : x->answer;
     int usable = past->available, used = 0;
     gvi_status status = GVI_E_CONVERGENCE;
     if (!gvi__uses(st, GVI_NEWTON) && (!gvi__has(st, GVI__HAS_NEWTON) || x->newton_left == 0 || query)) {
@@ -4590,6 +4675,7 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     st->h = h;
     gvi__rotate_rows(st);
     x->stepped = 1;
+    x->answer = x->learned;
     x->has_force = explicit_one && !gvi__nonzero(x->c[0]) && !gvi__nonzero(x->c[st->r - 1] - 1);
     x->has_velocity = st->formulation > GVI_POSITIONS;
     if (GVI__NEWTON && x->newton_left > 0) x->newton_left = (signed char)(x->newton_left - 1);
@@ -4710,6 +4796,7 @@ static gvi_status gvi__start(gvi_stepper *st, gvi_real t, const gvi_real *v)
     x->stepped = x->has_force = x->has_velocity = x->alike = x->E_is = 0;
     x->newton_left = x->whole_left = 0;
     x->h_matrix = x->ratio = 0;
+    x->answer = 1;
     st->formulation = x->chosen;
     return gvi__done(st, GVI_OK);
 }
@@ -4800,6 +4887,7 @@ GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
     st->x.single = GVI__SMALL ? (signed char)-1 : gvi__single(st);
     st->x.has_force = 0;
     st->x.h_matrix = 0;
+    st->x.answer = 1;
     return gvi__done(st, GVI_OK);
 }
 

@@ -17,9 +17,6 @@
 #define COUNT(a) ((int)(sizeof(a)/sizeof(a)[0]))
 #if defined(__GNUC__)
 #define INLINE static inline __attribute__((always_inline))
-typedef double lane2 __attribute__((vector_size(16), aligned(8), may_alias));
-typedef double lane4 __attribute__((vector_size(32), aligned(8), may_alias));
-typedef double lane8 __attribute__((vector_size(64), aligned(8), may_alias));
 #else
 #error "the baselines are written with the vector types of gcc and clang"
 #endif

@@ -446,9 +446,6 @@ static long double fpu_energy(const double *q, const double *v)
     return kinetic + potential;
 }
 
-typedef double lane2 __attribute__((vector_size(16), aligned(8), may_alias));
-typedef double lane4 __attribute__((vector_size(32), aligned(8), may_alias));
-
 INLINE double cube(double x) { return x*x*x; }
 
 INLINE void fpu_acceleration(const double *q, double *a)

@@ -15,6 +15,12 @@
 
 enum { MOST_COORDINATES = 104 };        /* 100, rounded up to whole vectors    */
 
+#if defined(__GNUC__)
+typedef double lane2 __attribute__((vector_size(16), aligned(8), may_alias));
+typedef double lane4 __attribute__((vector_size(32), aligned(8), may_alias));
+typedef double lane8 __attribute__((vector_size(64), aligned(8), may_alias));
+#endif
+
 /* One point.                                                                                  */
 typedef void acceleration_fn(const double *q, double *a);
 typedef void slope_fn(const double *y, double *dy);
