@@ -3968,17 +3968,28 @@ static inline void gvi__drift(int n, gvi_real a, gvi_real zero, const gvi_real *
 /* Kick and drift: dp += b F, then dq += a (v + dp/m) and Q = q + dq.  What does not
    depend on F is added up first, so that little waits for F; but a (b F) is two
    products: the rounding of a b, the same in every step, would make the map no
-   longer symplectic and let the energy drift.                                 */
-static inline void gvi__kick_drift(int n, gvi_real b, gvi_real a, const gvi_real *m, const gvi_real *GVI__RESTRICT v,
-                                   const gvi_real *GVI__RESTRICT q, const gvi_real *GVI__RESTRICT F,
-                                   gvi_real *GVI__RESTRICT dp, gvi_real *GVI__RESTRICT dq, gvi_real *GVI__RESTRICT Q)
+   longer symplectic and let the energy drift.  F is 0 then for the next call, but
+   that of the last kick is kept.                                              */
+static inline void gvi__kick_drift_of(int n, gvi_real b, gvi_real a, const gvi_real *m, const gvi__from *from,
+                                      gvi_real zero, int last, gvi_real *GVI__RESTRICT F, gvi_real *GVI__RESTRICT dp,
+                                      gvi_real *GVI__RESTRICT dq, gvi_real *GVI__RESTRICT Q)
 {
+    const gvi_real *GVI__RESTRICT v = from->v, *GVI__RESTRICT q = from->q;
     for (int i = 0; i < n; ++i) {
         const gvi_real p = dp[i], kick = b*F[i];
         dq[i] = (dq[i] + a*(v[i] + (m ? p*m[i] : p))) + a*(m ? kick*m[i] : kick);
         dp[i] = p + kick;
         Q[i] = q[i] + dq[i];
+        if (!last) F[i] = zero;
     }
+}
+
+static inline void gvi__kick_drift(int n, gvi_real b, gvi_real a, const gvi_real *m, const gvi__from *from,
+                                   gvi_real zero, int last, gvi_real *F, gvi_real *dp, gvi_real *dq, gvi_real *Q)
+{
+    if (last) gvi__kick_drift_of(n, b, a, m, from, zero, 1, F, dp, dq, Q);
+    else if (m || GVI__SMALL) gvi__kick_drift_of(n, b, a, m, from, zero, 0, F, dp, dq, Q);
+    else gvi__kick_drift_of(n, b, a, NULL, from, zero, 0, F, dp, dq, Q);
 }
 
 // both with a full mass matrix
@@ -3999,7 +4010,7 @@ static inline gvi_status gvi__explicit_of(gvi_stepper *st, const gvi__from *from
     const int dense = gvi__mass_is(st, GVI_MASS_DENSE), r = st->r;
     const gvi_real *m = x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
     const int only = !GVI__SMALL && x->single >= 0 && !x->diagnose;
-    gvi_real *F = x->work.F, *Q = x->work.Q, *dp = x->dp, *dq = x->dq, t = from->t;
+    gvi_real *F = x->work.F, *Q = x->work.Q, *dp = x->dp, *dq = x->dq, *last = x->last.F, t = from->t;
     const gvi_real zero = h - h;
     gvi_points y;
     gvi__at(&y, st, &t, Q);
@@ -4008,9 +4019,9 @@ static inline gvi_status gvi__explicit_of(gvi_stepper *st, const gvi__from *from
     gvi__drift(n, dense ? 0 : x->drift[0], zero, m, from, dp, dq, Q, F);
     if (dense) gvi__drift_dense(st, from, x->drift[0]);
     for (int j = 0; j < r; ++j) {
-        const gvi_real *f = j == 0 && force ? force : F;
+        gvi_real *f = j == 0 && force ? last : F;
         t = from->t + (from->te + x->c[j]*h);
-        for (int i = 0; j > 0 && i < n; ++i) F[i] = zero;
+        for (int i = 0; n == 2 && j > 0 && i < n; ++i) F[i] = zero;
         if (f == F && only) {
             gvi_status status = gvi__call(st, &y, x->single);
             if (status != GVI_OK) return status;
@@ -4019,7 +4030,7 @@ static inline gvi_status gvi__explicit_of(gvi_stepper *st, const gvi__from *from
             if (status == GVI_OK) status = gvi__effects(st, &y, 0);
             if (status != GVI_OK) return status;
         }
-        gvi__kick_drift(n, x->hb[j], dense ? 0 : x->drift[j + 1], m, from->v, from->q, f, dp, dq, Q);
+        gvi__kick_drift(n, x->hb[j], dense ? 0 : x->drift[j + 1], m, from, zero, n == 2 || f == last || j == r - 1, f, dp, dq, Q);
         if (dense) gvi__drift_dense(st, from, x->drift[j + 1]);
     }
     return GVI_OK;
