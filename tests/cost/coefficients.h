@@ -47,6 +47,25 @@ static const long double blanes_moan14_b[] = {
     9.171915262446165e-2L, 0.183983170005006L, -5.653436583288827e-2L, 4.914688774712854e-3L,
     0.143761127168358L, 0.328567693746804L };
 
+/* A splitting for q'' = a(q) of order 8 and 22 stages, kick first: b1 a1 ... b12 ... a1 b1; b12 =
+   1 - 2 sum, a11 = 1/2 - sum.  Not published: found for this project from the order conditions by
+   a search, and proved by tests/gen/splitting.py; b4 b5 b10 b11 a6 were free, and are exact.  The
+   family is that of Blanes, Casas, Escorihuela-Tomas: Runge-Kutta-Nystroem symplectic splitting
+   methods of order 8, Appl. Numer. Math. 182, 2022.                                           */
+static const long double splitting8_b[] = {
+    0.0225515135725998099904720424057839062L, 0.107521286683449695449275881015666851L,
+    0.0334430394546972752601381074015586200L, -0.02079L,
+    -0.03742L, 0.0542183599287459899552746436017893329L,
+    -0.0226746046291929422782359800662364596L, 0.160867065298316234829168140294445408L,
+    0.447403623989002844222699180945827628L, 0.01473L,
+    -0.3303L };
+static const long double splitting8_a[] = {
+    0.0689361112761536936193338005362460688L, 0.230588449256193427777073162750683673L,
+    -0.127027307986821196939523433670458090L, 0.110403563299958638819709053587849705L,
+    -0.169830953393129907526631857011938524L, -0.04837L,
+    0.158277195984003787335146388510263290L, 0.128674709815504786573306722967879490L,
+    -0.0240290180035201818678592004386776785L, 0.0191924596617539095181969891049248332L };
+
 /* Pairs for q'' = a(q) [D]: q1 = q0 + h v0 + h^2 sum b_i k_i, v1 = v0 + h sum w_i k_i, with
    k_i = a(q0 + c_i h v0 + h^2 sum_j<i A_ij k_j); the same sums with e and f estimate the errors
    of q and v.                                                                                */
