@@ -3854,12 +3854,21 @@ GVI__APART int gvi__settled(gvi_stepper *st, gvi__progress *p, gvi_real change)
 
 enum { GVI__GO_ON, GVI__DONE, GVI__ASK_ONCE_MORE, GVI__BEYOND };
 
+// to Newton's method
+static int gvi__may_turn(const gvi_stepper *st)
+{
+    return st->x.desc.formulation == GVI_AUTO && gvi__has(st, GVI__HAS_NEWTON);
+}
+
 /* The verdict on a change.  Tolerance-free end: the change after the next one,
    D^2/D_before, is far below rounding; or the change is rounding: small, or
    without a new least by a tenth for some iterations, and of no energy.  Three
-   changes in a row that fall by less than half are poor.  All of it in squares
-   of changes: no root or quotient between an iteration and the next.  A given
-   number of iterations ends there, if the change is half of that two before.  */
+   changes in a row that fall by less than half are poor; so is a descent to
+   rounding by less than a quarter each: such an iteration lets errors grow before
+   they shrink, so that the rounding of the forces is left some tenfold, and more.
+   All of it in squares of changes: no root or quotient between an iteration and
+   the next.  A given number of iterations ends there, if the change is half of
+   that two before.                                                            */
 GVI__APART int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *p, gvi_real change, int used)
 {
     struct gvi__private *x = &st->x;
@@ -3883,13 +3892,14 @@ GVI__APART int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress 
     if (change < p->least) p->least = change;
     if ((p->idle > 2 && change <= rounding)
         || ((p->idle > 1 || p->poor > 2) && gvi__is_rounding(st, from, p->idle))) {
-        if (!GVI__WEAK || p->pending <= rounding) return GVI__ASK_ONCE_MORE;
+        if (!GVI__WEAK || p->pending <= rounding)
+            return used - p->idle > GVI__DIG/2 && gvi__may_turn(st) ? GVI__BEYOND : GVI__ASK_ONCE_MORE;
         p->idle = p->poor = 0;
         p->anew = 1;
         return GVI__GO_ON;
     }
     if (p->poor <= 2 || change <= 65536*rounding) return GVI__GO_ON;       // nearer to rounding idle decides
-    return x->desc.formulation == GVI_AUTO && gvi__has(st, GVI__HAS_NEWTON) ? GVI__BEYOND : GVI__GO_ON;
+    return gvi__may_turn(st) ? GVI__BEYOND : GVI__GO_ON;
 }
 
 /* Fixed point on the rows: F, V and A make the rows, the effects are asked there. */
@@ -4567,7 +4577,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, gvi__from *from, gvi_real h,
             if (status == GVI_OK || status == GVI_E_CONVERGENCE || used > 1) break;
         }
         if (status == GVI_OK) gvi__increments(st, from, h);
-        if (status == GVI_OK || x->desc.formulation != GVI_AUTO || !gvi__has(st, GVI__HAS_NEWTON)) return status;
+        if (status == GVI_OK || !gvi__may_turn(st)) return status;
         if (!query && status == GVI_E_CONVERGENCE) x->newton_left = 64;
     }
     unsigned long long count = st->counters.newton_iterations;
