@@ -29,7 +29,7 @@ static void say(const char *line)
 static void add_kicks(advise_case *a)
 {
     static const char *const names[TABLES] = { "Stoermer-Verlet", "Blanes-Moan SRKN11", "Blanes-Moan SRKN14",
-                                               "Kahan-Li 8", "Sofroniou-Spaletta 10" };
+                                               "Splitting 8", "Sofroniou-Spaletta 10" };
     static const int orders[TABLES] = { 2, 6, 6, 8, 10 };
     static double nodes[TABLES][KICKS], weights[TABLES][KICKS];
     baselines_begin();

@@ -9,7 +9,7 @@
 enum { TABLES = 5 };                    /* of KICKS at most */
 
 static const char *const names[TABLES] = { "Stoermer-Verlet", "Blanes-Moan SRKN11", "Blanes-Moan SRKN14",
-                                           "Kahan-Li 8", "Sofroniou-Spaletta 10" };
+                                           "Splitting 8", "Sofroniou-Spaletta 10" };
 static const int orders[TABLES] = { 2, 6, 6, 8, 10 };
 
 static advise_case make_case(const char *key, double weight)

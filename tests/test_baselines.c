@@ -161,6 +161,7 @@ static void compositions_and_splittings_have_their_orders(void **state)
     check_order("Blanes-Moan SRKN11", 6, 0.5);
     check_order("Blanes-Moan SRKN11 c", 6, 0.5);
     check_order("Blanes-Moan SRKN14", 6, 0.5);
+    check_order("Splitting 8", 8, 0.5);
 }
 
 static void nystroem_pairs_have_their_orders(void **state)

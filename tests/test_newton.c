@@ -691,7 +691,7 @@ static wide error_of_step(const gauss *g, gvi_stepper *st, gvi_real h)
 /* The error of p in a step, rms over orbits of 100 steps, in units of a kick K EPS h sqrt(sum b^2) */
 static wide error_in_kicks(gvi_formulation formulation)
 {
-    const gvi_effect effect = { GVI_POTENTIAL, pendulum, NULL, NULL, NULL, NULL };
+    const gvi_effect effect = { GVI_POTENTIAL, pendulum, NULL, NULL, NULL, NULL, 0 };
     const gvi_desc desc = { .n = 2, .degree = POINTS, .effects = &effect, .effect_count = 1,
                             .formulation = formulation };
     const gauss g = gauss_rule();

@@ -124,7 +124,7 @@ enum { KICKS = 40 };
 /* kick[0], then drift[i], kick[i+1] (kick first), or drift[0], then kick[i], drift[i+1].      */
 typedef struct splitting { int stages, drift_first; double kick[KICKS], drift[KICKS]; } splitting;
 
-enum { VERLET, YOSHIDA8, KAHAN_LI8, SOFRONIOU10, BLANES_MOAN11, BLANES_MOAN14, SPLITTINGS };
+enum { VERLET, YOSHIDA8, KAHAN_LI8, SOFRONIOU10, BLANES_MOAN11, BLANES_MOAN14, SPLITTING8, SPLITTINGS };
 static splitting splittings[SPLITTINGS];
 
 /* All of a symmetric row from its first half; the next one closes the sum to 1.               */
@@ -172,6 +172,7 @@ static void splittings_begin(void)
     compose(splittings + SOFRONIOU10, COUNT(sofroniou10), sofroniou10);
     split(splittings + BLANES_MOAN11, 11, 0, blanes_moan11_b, blanes_moan11_a);
     split(splittings + BLANES_MOAN14, 14, 1, blanes_moan14_b, blanes_moan14_a);
+    split(splittings + SPLITTING8, 22, 0, splitting8_b, splitting8_a);
 }
 
 INLINE void move(const int n, int compensated, double h, const double *x, double *y, double *rest)
@@ -862,6 +863,8 @@ const baseline baselines[] = {
     SPLIT("Blanes-Moan SRKN11", "Blanes-Moan SRKN", BLANES_MOAN11, 11),
     { .name = "Blanes-Moan SRKN14", .family = "Blanes-Moan SRKN", .structure = 1, .cost = 14,
       .run = run_splitting, .option = BLANES_MOAN14 },
+    { .name = "Splitting 8", .family = "splitting 8 by hand", .structure = 1, .reference = 1, .cost = 22,
+      .run = run_splitting, .option = SPLITTING8 },
     PAIR("RKN8(6)", RKN86, 8),
     PAIR("RKN12(10)", RKN1210, 17),
     GAUSSES(4, 0), GAUSSES(6, 0), GAUSSES(8, 0),

@@ -173,7 +173,7 @@ static gvi_setting *add_setting(int degree, gvi_rule_kind rule, gvi_formulation 
 static void add_kicks(void)
 {
     static const char *const names[] = { "Stoermer-Verlet", "Kahan-Li 8", "Sofroniou-Spaletta 10",
-                                         "Blanes-Moan SRKN11", "Blanes-Moan SRKN14" };
+                                         "Blanes-Moan SRKN11", "Blanes-Moan SRKN14", "Splitting 8" };
     static double nodes[COUNT(names)][TABLE], weights[COUNT(names)][TABLE];
     for (int i = 0; i < COUNT(names); ++i) {
         gvi_setting *s = add_setting(1, GVI_KICKS, GVI_EXPLICIT, 0);
