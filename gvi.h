@@ -2882,8 +2882,9 @@ GVI__COPY void gvi__sum_vector(int r, int R, const gvi_real *table, const gvi_re
 static inline void gvi__sum_block(int r, int R, int block, const gvi_real *table, const gvi_real *L, gvi_real *z)
 {
     for (int k = 0; k < block; ++k) {
-        const gvi_real *t = table + k;
-        gvi_real a = t[0]*L[0], b = r > 1 ? t[R]*L[1] : 0, c = r > 2 ? t[2*R]*L[2] : 0, d = r > 3 ? t[3*R]*L[3] : 0;
+        const gvi_real *t = table + k, none = -(gvi_real)0;          // x + -0 is x, also for -0
+        gvi_real a = t[0]*L[0], b = r > 1 ? t[R]*L[1] : none;
+        gvi_real c = r > 2 ? t[2*R]*L[2] : none, d = r > 3 ? t[3*R]*L[3] : none;
         int j = 4;
         for (; j + 3 < r; j += 4) {
             a += t[j*R]*L[j];
@@ -2902,10 +2903,15 @@ static inline void gvi__sum_block(int r, int R, int block, const gvi_real *table
 static void gvi__sum_small(int r, int R, const gvi_real *table, const gvi_real *L, gvi_real *z)
 {
     for (int k = 0; k < R; ++k) {
-        const gvi_real *t = table + k;
-        gvi_real sum[4] = { 0, 0, 0, 0 };
-        for (int j = 0; j < r; ++j, t += R) sum[j & 3] = j < 4 ? *t*L[j] : sum[j & 3] + *t*L[j];
-        z[k] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+        const gvi_real *t = table + k, none = -(gvi_real)0;
+        gvi_real a = none, b = none, c = none, d = none;
+        for (int j = 0; j < r; j += 4, t += 4*R) {
+            a += t[0]*L[j];
+            if (j + 1 < r) b += t[R]*L[j + 1];
+            if (j + 2 < r) c += t[2*R]*L[j + 2];
+            if (j + 3 < r) d += t[3*R]*L[j + 3];
+        }
+        z[k] = (a + b) + (c + d);
     }
 }
 
@@ -2928,6 +2934,14 @@ static inline void gvi__weigh(int R, const gvi_real *GVI__RESTRICT w, const gvi_
     for (int j = 0; j < R; ++j) L[j] = w[j]*f[j];
 }
 
+// z := sum_j table[j][.] w_j f_j, by way of x->z
+GVI__APART void gvi__weighted_sums(const gvi_stepper *st, const gvi_real *table, const gvi_real *w,
+                                   const gvi_real *f, gvi_real *z)
+{
+    gvi__weigh(st->x.stride, w, f, st->x.z);
+    gvi__sum_row(st->r, st->x.stride, table, st->x.z, z);
+}
+
 /* 1/unit in which changes of a row are measured: |base| + the displacements at the
    last point, before and after; 0 where these have no sure digit.  Made when it is
    0: gvi__fixed_point clears it, so that as a rule nothing waits for a quotient. */
@@ -2947,6 +2961,12 @@ static inline gvi_real gvi__sum_lanes(const gvi_real *z)
    that little waits for z                                                     */
 typedef struct gvi__affine { gvi_real base, extra, a, b; } gvi__affine;
 
+// 1/m of a stage over a diagonal mass, else NULL
+static inline const gvi_real *gvi__diagonal(const gvi_stepper *st, const gvi__stage *y)
+{
+    return y->over_mass && st->x.desc.mass.kind == GVI_MASS_DIAGONAL ? st->x.over : NULL;
+}
+
 GVI__COPY gvi__affine gvi__affine_of(const gvi__stage *y, const gvi_real *diagonal, int i)
 {
     gvi__affine p;
@@ -2957,13 +2977,22 @@ GVI__COPY gvi__affine gvi__affine_of(const gvi__stage *y, const gvi_real *diagon
     return p;
 }
 
+// row := base + ((extra + c a) + b row)
+GVI__APART void gvi__affine_row(const gvi_stepper *st, const gvi__stage *y, int i, gvi_real *row)
+{
+    const struct gvi__private *x = &st->x;
+    const gvi__affine p = gvi__affine_of(y, gvi__diagonal(st, y), i);
+    const gvi_real *c = x->c;
+    for (int k = 0; k < x->stride; ++k) row[k] = p.base + ((p.extra + c[k]*p.a) + row[k]*p.b);
+}
+
 /* The rows of a stage, M^-1 being a number for each.  Returns the sum of the squares
    of the changes, scaled.  r and R are constants where this is inlined for the
    usual sizes.                                                                */
 GVI__COPY gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stage *y, int r, int R)
 {
     const struct gvi__private *x = &st->x;
-    const gvi_real *diagonal = y->over_mass && x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
+    const gvi_real *diagonal = gvi__diagonal(st, y);
     const gvi_real *c = x->c, *minus = GVI__LAGRANGIAN ? y->minus : NULL;
     const int n = st->n;
 #ifdef GVI__VECTORS
@@ -3054,7 +3083,7 @@ GVI__COPY gvi_real gvi__stage_rows_8(const gvi_stepper *st, const gvi__stage *y,
 {
     enum { VECTORS = 8/GVI__LANES };
     const struct gvi__private *x = &st->x;
-    const gvi_real *diagonal = y->over_mass && x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
+    const gvi_real *diagonal = gvi__diagonal(st, y);
     const gvi_real *base = y->base, *extra = y->extra, *slope = y->slope, *f = y->f, factor = y->factor;
     const int n = st->n;
     gvi_real *row = y->rows, *scale = y->scale, lane[8], ahead[64];
@@ -3086,24 +3115,31 @@ GVI__COPY gvi_real gvi__stage_rows_8(const gvi_stepper *st, const gvi__stage *y,
 }
 #endif
 
-// the same in less code and without blocks; sums of squares from the last point on, as there
-GVI__APART gvi_real gvi__stage_rows_small(gvi_stepper *st, const gvi__stage *y)
+// z := table (h b f_i) - minus (b a_i)
+static void gvi__row_sums(const gvi_stepper *st, const gvi__stage *y, int i, gvi_real *z)
 {
     const struct gvi__private *x = &st->x;
-    const gvi_real *diagonal = y->over_mass && x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
-    const int r = st->r, R = x->stride;
-    gvi_real lane[8] = { 0, 0, 0, 0, 0, 0, 0, 0 }, *z = x->row, *row = y->rows;
-    for (int i = 0; i < st->n; ++i, row += R) {
-        const gvi__affine p = gvi__affine_of(y, diagonal, i);
-        gvi__weigh(R, x->hb, y->f + i*R, x->z);
-        gvi__sum_small(r, R, y->table, x->z, z);
-        if (GVI__LAGRANGIAN && y->minus) {
-            gvi__weigh(R, x->b, x->work.A + i*R, x->z);
-            gvi__sum_small(r, R, y->minus, x->z, x->less);
-            for (int k = 0; k < R; ++k) z[k] -= x->less[k];
-        }
-        for (int k = 0; k < R; ++k) z[k] = p.base + ((p.extra + x->c[k]*p.a) + z[k]*p.b);
-        gvi__rescale(p.base, row[r - 1], z[r - 1], y->scale + i);
+    const int R = x->stride;
+    gvi__weighted_sums(st, y->table, x->hb, y->f + i*R, z);
+    if (!GVI__LAGRANGIAN || !y->minus) return;
+    gvi__weighted_sums(st, y->minus, x->b, x->work.A + i*R, x->less);
+    for (int k = 0; k < R; ++k) z[k] -= x->less[k];
+}
+
+/* The same in less code and without blocks, sums of squares from the last point on, as
+   there; also where M is a full matrix: then all sums first, and M^-1 of them.   */
+GVI__APART gvi_real gvi__stage_rows_plain(gvi_stepper *st, const gvi__stage *y)
+{
+    const struct gvi__private *x = &st->x;
+    const int n = st->n, R = x->stride, last = st->r - 1, dense = y->over_mass && gvi__mass_is(st, GVI_MASS_DENSE);
+    gvi_real lane[8] = { 0, 0, 0, 0, 0, 0, 0, 0 }, *z = dense ? x->Z : x->row, *row = y->rows;
+    for (int i = 0; dense && i < n; ++i) gvi__row_sums(st, y, i, z + i*R);
+    if (dense) gvi__over_mass(st, z, R, R);
+    for (int i = 0; i < n; ++i, row += R) {
+        if (dense) z = x->Z + i*R;
+        else gvi__row_sums(st, y, i, z);
+        gvi__affine_row(st, y, i, z);
+        gvi__rescale(y->base[i], row[last], z[last], y->scale + i);
         for (int k = R; k-- > 0; ) {
             const gvi_real moved = (z[k] - row[k])*y->scale[i];
             lane[k & 7] += moved*moved;
@@ -3111,34 +3147,6 @@ GVI__APART gvi_real gvi__stage_rows_small(gvi_stepper *st, const gvi__stage *y)
         }
     }
     return gvi__sum_lanes(lane);
-}
-
-// the same where M is a full matrix: all sums first, then M^-1 of them
-static gvi_real gvi__stage_rows_dense(gvi_stepper *st, const gvi__stage *y)
-{
-    struct gvi__private *x = &st->x;
-    int R = x->stride, last = st->r - 1;
-    gvi_real sum = 0;
-    for (int i = 0; i < st->n; ++i) {
-        gvi__weigh(R, x->hb, y->f + i*R, x->z);
-        gvi__sum_row(st->r, R, y->table, x->z, x->Z + i*R);
-        if (!y->minus) continue;
-        gvi__weigh(R, x->b, x->work.A + i*R, x->z);
-        gvi__sum_row(st->r, R, y->minus, x->z, x->less);
-        for (int k = 0; k < R; ++k) x->Z[i*R + k] -= x->less[k];
-    }
-    gvi__over_mass(st, x->Z, R, R);
-    for (int i = 0; i < st->n; ++i) {
-        gvi_real *z = x->Z + i*R, *row = y->rows + i*R, slope = y->slope ? y->factor*y->slope[i] : 0;
-        for (int k = 0; k < R; ++k) z[k] = y->base[i] + ((y->extra[i] + x->c[k]*slope) + y->factor*z[k]);
-        gvi__rescale(y->base[i], row[last], z[last], y->scale + i);
-        for (int k = 0; k < R; ++k) {
-            gvi_real moved = (z[k] - row[k])*y->scale[i];
-            sum += moved*moved;
-            row[k] = z[k];
-        }
-    }
-    return sum;
 }
 
 /* One function for each usual number of points.                                */
@@ -3158,7 +3166,7 @@ GVI__ROWS(gvi__rows_16, gvi__stage_rows_of(st, y, 16, 16))
 
 static gvi__kernel *gvi__kernel_of(const gvi_stepper *st, const gvi__stage *y)
 {
-    if (y->over_mass && gvi__mass_is(st, GVI_MASS_DENSE)) return gvi__stage_rows_dense;
+    if (y->over_mass && gvi__mass_is(st, GVI_MASS_DENSE)) return gvi__stage_rows_plain;
     switch (st->r) {
     case 1:  return gvi__rows_1;
     case 2:  return gvi__rows_2;
@@ -3178,9 +3186,7 @@ static gvi__kernel *gvi__kernel_of(const gvi_stepper *st, const gvi__stage *y)
 // the new rows of a stage and their change
 static inline gvi_real gvi__stage_rows(gvi_stepper *st, const gvi__stage *y)
 {
-    if (!GVI__SMALL) return y->kernel(st, y);
-    return y->over_mass && gvi__mass_is(st, GVI_MASS_DENSE) ? gvi__stage_rows_dense(st, y)
-                                                            : gvi__stage_rows_small(st, y);
+    return GVI__SMALL ? gvi__stage_rows_plain(st, y) : y->kernel(st, y);
 }
 
 // V := M^-1 (P - A), with the constant mass or the factored M(Q)
@@ -3188,8 +3194,10 @@ static void gvi__velocity_rows(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work;
+    const gvi_real *P = w->P, *A = gvi__A(w);
+    gvi_real *V = w->V;
     int n = st->n, R = x->stride;
-    for (int k = 0; k < n*R; ++k) w->V[k] = w->P[k] - (gvi__A(w) ? w->A[k] : 0);
+    for (int k = 0; k < n*R; ++k) V[k] = P[k] - (A ? A[k] : 0);
     if (gvi__mass_is_constant(&x->desc)) gvi__over_mass(st, w->V, R, st->r);
     else gvi__ldl_solve(n, x->point_mass, R, 1, w->V, R, st->r);
 }
@@ -3344,9 +3352,8 @@ static void gvi__transform(gvi_stepper *st, const gvi__from *from, int lagrangia
     for (int k = 0; k < R; ++k) x->level[k] -= x->less[k] + E;
     if (gvi__has(st, GVI__HAS_VELOCITIES)) {
         gvi__scale_row(R, x->rate, x->power);
-        gvi__weigh(R, x->hb, x->power, x->less);
-        gvi__sum_row(r, R, x->T, x->less, x->z);
-        for (int k = 0; k < R; ++k) x->level[k] -= x->z[k];
+        gvi__weighted_sums(st, x->T, x->hb, x->power, x->less);
+        for (int k = 0; k < R; ++k) x->level[k] -= x->less[k];
     }
     for (int i = 0; i < n; ++i) {
         gvi__add_products(R, w->P + i*R, w->V + i*R, x->level);
@@ -3420,12 +3427,11 @@ GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const 
                                      const gvi_real *older, const gvi__stage *y, gvi_real *out)
 {
     const struct gvi__private *x = &st->x;
-    const gvi_real *diagonal = y && x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
-    gvi__affine p = { 0, 0, 0, 1 };
     for (int i = 0; i < st->n; ++i) {
         gvi_real *row = out + i*R;
-        if (y) p = gvi__affine_of(y, diagonal, i);
 #ifdef GVI__VECTORS
+        gvi__affine p = { 0, 0, 0, 1 };
+        if (y) p = gvi__affine_of(y, gvi__diagonal(st, y), i);
         for (int o = 0; older && R % 8 == 0 && o < R; o += GVI__LANES) {
             gvi__vector z, before;
             gvi__sum_vector(r, R, x->E + r*R + o, older + i*R, &before);
@@ -3439,7 +3445,7 @@ GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const 
         gvi__sum_row(r, R, x->E, last + i*R, row);
         if (older) gvi__sum_row(r, R, x->E + r*R, older + i*R, x->z);
         for (int k = 0; older && k < R; ++k) row[k] += x->z[k];
-        for (int k = 0; y && k < R; ++k) row[k] = p.base + ((p.extra + x->c[k]*p.a) + row[k]*p.b);
+        if (y) gvi__affine_row(st, y, i, row);
     }
 }
 
@@ -3502,10 +3508,7 @@ static void gvi__fit_sums(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
     const int R = x->stride, rows = gvi__two_now(st) ? 2*st->r : st->r;
-    for (int j = 0; j < rows; ++j) {
-        gvi__weigh(R, x->hb, x->E + j*R, x->z);
-        gvi__sum_row(st->r, R, x->g, x->z, x->E + j*R);
-    }
+    for (int j = 0; j < rows; ++j) gvi__weighted_sums(st, x->g, x->hb, x->E + j*R, x->E + j*R);
 }
 
 // makes E what this step needs, if it is not
