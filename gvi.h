@@ -879,12 +879,23 @@ static gvi__two gvi__sum(gvi_real x, gvi_real y)          // x + y exactly
     return z;
 }
 
-#if (defined(FP_FAST_FMA) && GVI__KIND == 2) || (defined(FP_FAST_FMAF) && GVI__KIND == 1)
-static gvi__two gvi__product(gvi_real a, gvi_real b)      // a*b exactly
+// a b + c with one rounding, where it is an instruction; newlib's <math.h> does not say so, gcc does
+#if GVI__KIND == 1 && defined(__FP_FAST_FMAF)
+#define GVI__FMA __builtin_fmaf
+#elif GVI__KIND == 2 && defined(__FP_FAST_FMA)
+#define GVI__FMA __builtin_fma
+#elif GVI__KIND == 1 && defined(FP_FAST_FMAF) && defined(GVI__MATH)
+#define GVI__FMA fmaf
+#elif GVI__KIND == 2 && defined(FP_FAST_FMA) && defined(GVI__MATH)
+#define GVI__FMA fma
+#endif
+
+#ifdef GVI__FMA
+static inline gvi__two gvi__product(gvi_real a, gvi_real b)      // a*b exactly
 {
     gvi__two z;
     z.hi = a*b;
-    z.lo = GVI__MATH(fma)(a, b, -z.hi);
+    z.lo = GVI__FMA(a, b, -z.hi);
     return z;
 }
 #else
