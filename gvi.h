@@ -1500,7 +1500,8 @@ GVI_DEF gvi_real gvi_interpolate_derivative(int n, const gvi_real *x, const gvi_
                        | (GVI__LAGRANGIAN ? GVI__HAS_LAGRANGIAN : 0) | (GVI__NEWTON ? GVI__HAS_NEWTON : 0) \
                        | (GVI__OWN ? GVI__HAS_OWN : 0))
 
-static inline int gvi__has(const gvi_stepper *st, int flag) { return (st->x.flags & GVI__POSSIBLE & flag) != 0; }
+static inline int gvi__flag(int flags, int flag) { return (flags & GVI__POSSIBLE & flag) != 0; }
+static inline int gvi__has(const gvi_stepper *st, int flag) { return gvi__flag(st->x.flags, flag); }
 
 static inline int gvi__compiled(gvi_formulation f)
 {
@@ -1509,22 +1510,44 @@ static inline int gvi__compiled(gvi_formulation f)
          : f == GVI_NEWTON ? GVI__NEWTON : 0;
 }
 
-// is f the formulation of this scene?
+// the only formulation that is compiled, else GVI_AUTO
+static inline gvi_formulation gvi__only(void)
+{
+    const int several = GVI__EXPLICIT + GVI__POSITIONS + GVI__VELOCITIES + GVI__MOMENTA + GVI__NEWTON > 1;
+    return several ? GVI_AUTO : GVI__EXPLICIT ? GVI_EXPLICIT : GVI__POSITIONS ? GVI_POSITIONS
+         : GVI__VELOCITIES ? GVI_VELOCITIES : GVI__MOMENTA ? GVI_MOMENTA : GVI_NEWTON;
+}
+
+static inline int gvi__chosen_is(gvi_formulation chosen, gvi_formulation f)
+{
+    return gvi__compiled(f) && (gvi__only() == f || chosen == f);
+}
+
+static inline int gvi__has_mass(const gvi_desc *d, gvi_mass_kind kind)
+{
+    return (kind != GVI_MASS_DENSE || GVI__DENSE) && (kind != GVI_MASS_POSITION || GVI__MOMENTA || GVI__NEWTON)
+        && (kind != GVI_MASS_NONE || GVI__LAGRANGIAN) && d->mass.kind == kind;
+}
+
+static inline int gvi__has_rule(const gvi_desc *d, gvi_rule_kind kind)
+{
+    return (kind != GVI_OWN || GVI__OWN) && (kind != GVI_KICKS || GVI__EXPLICIT) && d->rule.kind == kind;
+}
+
+// is f the formulation of this scene?  and the same of its mass and its rule
 static inline int gvi__uses(const gvi_stepper *st, gvi_formulation f)
 {
-    const int one = GVI__EXPLICIT + GVI__POSITIONS + GVI__VELOCITIES + GVI__MOMENTA + GVI__NEWTON == 1;
-    return gvi__compiled(f) && (one || st->x.chosen == f);
+    return gvi__chosen_is(st->x.chosen, f);
 }
 
 static inline int gvi__mass_is(const gvi_stepper *st, gvi_mass_kind kind)
 {
-    return (kind != GVI_MASS_DENSE || GVI__DENSE) && (kind != GVI_MASS_POSITION || GVI__MOMENTA || GVI__NEWTON)
-        && (kind != GVI_MASS_NONE || GVI__LAGRANGIAN) && st->x.desc.mass.kind == kind;
+    return gvi__has_mass(&st->x.desc, kind);
 }
 
 static inline int gvi__rule_is(const gvi_stepper *st, gvi_rule_kind kind)
 {
-    return (kind != GVI_OWN || GVI__OWN) && (kind != GVI_KICKS || GVI__EXPLICIT) && st->x.desc.rule.kind == kind;
+    return gvi__has_rule(&st->x.desc, kind);
 }
 
 // does a step, or a start, look for the effect whose values are not finite?
@@ -2380,31 +2403,32 @@ GVI__APART void gvi__weights(gvi_stepper *st, gvi_real h)
 
 /* -------------------------------------------------------- STEPPER: SET-UP */
 
-static int gvi__flags(const gvi_desc *d)
-{
-    int flags = 0;
-    for (int e = 0; e < d->effect_count; ++e) {
-        if (d->effects[e].kind == GVI_FORCE || d->effects[e].kind == GVI_LAGRANGIAN) flags |= GVI__HAS_VELOCITIES;
-        if (d->effects[e].kind == GVI_LAGRANGIAN) flags |= GVI__HAS_LAGRANGIAN;
-    }
-    return flags;
-}
+/* What a description comes to: enough to lay out the memory, so that gvi_size needs no
+   stepper.                                                                   */
+typedef struct gvi__scene {
+    const gvi_desc *desc;             /* its defaults filled in                 */
+    int             order, flags;
+    int             clock;            /* the effect that is one, or -1          */
+    gvi_formulation chosen;
+} gvi__scene;
 
-// does formulation f cover the scene?
-static int gvi__covers(const gvi_stepper *st, gvi_formulation f)
+// the kinds of effects, and what they read
+static gvi_status gvi__read_effects(gvi__scene *x)
 {
-    const gvi_desc *d = &st->x.desc;
-    int constant = gvi__mass_is_constant(d), reads_v = st->x.flags & GVI__HAS_VELOCITIES;
-    int kicks = d->rule.kind == GVI_KICKS, verlet = st->s == 1 && st->r == 2 && d->rule.kind == GVI_LOBATTO;
-    if (!gvi__compiled(f) || (kicks && f != GVI_EXPLICIT) || (st->x.clock >= 0 && f != GVI_MOMENTA)) return 0;
-    switch (f) {
-    case GVI_EXPLICIT:   return constant && !reads_v && (kicks || verlet);
-    case GVI_POSITIONS:  return constant && !reads_v;
-    case GVI_VELOCITIES: return constant;
-    case GVI_MOMENTA:    return st->r == st->s && (d->mass.velocity || d->mass.kind == GVI_MASS_POSITION || constant);
-    case GVI_NEWTON:     return 1;
-    case GVI_AUTO: default: return 0;
+    enum { V = GVI__HAS_VELOCITIES, L = GVI__HAS_LAGRANGIAN };
+    static const unsigned char reads[] = { 0, V, V | L, 0 };     // potential, force, Lagrangian, clock
+    const gvi_desc *d = x->desc;
+    x->flags = 0;
+    x->clock = -1;
+    for (int e = 0; e < d->effect_count; ++e) {
+        const gvi_effect *effect = d->effects + e;
+        if ((unsigned)effect->kind > GVI_CLOCK || !effect->points == !effect->point) return GVI_E_ARGUMENT;
+        x->flags |= reads[effect->kind];
+        if (effect->kind != GVI_CLOCK) continue;
+        if (x->clock >= 0 || !effect->points) return GVI_E_ARGUMENT;
+        x->clock = e;
     }
+    return GVI_OK;
 }
 
 // in long: an int may have 16 bits
@@ -2419,23 +2443,22 @@ static gvi_status gvi__check_desc(const gvi_desc *d)
         || !(d->tolerance >= 0 && d->tolerance < 1))
         return GVI_E_ARGUMENT;
     if ((unsigned)d->formulation > GVI_NEWTON) return GVI_E_ARGUMENT;
-    int clocks = 0;
-    for (int e = 0; e < d->effect_count; ++e) {
-        const gvi_effect *x = d->effects + e;
-        if ((unsigned)x->kind > GVI_CLOCK || !x->points == !x->point)
-            return GVI_E_ARGUMENT;
-        if (x->kind == GVI_CLOCK && (clocks++ || !x->points)) return GVI_E_ARGUMENT;
-    }
-    switch (d->mass.kind) {
-    case GVI_MASS_UNIT: break;
-    case GVI_MASS_DIAGONAL: case GVI_MASS_DENSE: if (!d->mass.matrix) return GVI_E_ARGUMENT; break;
-    case GVI_MASS_POSITION: if (!d->mass.points || !d->mass.gradient) return GVI_E_ARGUMENT; break;
-    case GVI_MASS_NONE: if (!(gvi__flags(d) & GVI__HAS_LAGRANGIAN)) return GVI_E_ARGUMENT; break;
-    default: return GVI_E_ARGUMENT;
-    }
     if (d->rule.kind == GVI_OWN || d->rule.kind == GVI_KICKS)
         return d->rule.points > 0 && d->rule.nodes && d->rule.weights ? GVI_OK : GVI_E_ARGUMENT;
     return d->rule.kind == GVI_GAUSS || d->rule.kind == GVI_LOBATTO ? GVI_OK : GVI_E_ARGUMENT;
+}
+
+// is what the kind of mass needs there?  without a mass, Lagrangian terms
+static int gvi__mass_given(const gvi_mass *m, int lagrangian)
+{
+    switch (m->kind) {
+    case GVI_MASS_UNIT:     return 1;
+    case GVI_MASS_DIAGONAL:
+    case GVI_MASS_DENSE:    return m->matrix != NULL;
+    case GVI_MASS_POSITION: return m->points && m->gradient;
+    case GVI_MASS_NONE:     return lagrangian;
+    default:                return 0;
+    }
 }
 
 // finite, and weights that sum to 1
@@ -2451,81 +2474,105 @@ static gvi_status gvi__check_kicks(int r, const gvi_real *c, const gvi_real *b)
 }
 
 // does the description ask for what is not compiled?
-static int gvi__left_out(const gvi_stepper *st)
+static int gvi__left_out(const gvi__scene *x)
 {
-    const gvi_desc *d = &st->x.desc;
-    return (st->x.flags & GVI__HAS_LAGRANGIAN && !GVI__LAGRANGIAN) || (st->x.clock >= 0 && !GVI__CLOCK)
-        || (d->mass.kind != GVI_MASS_UNIT && d->mass.kind != GVI_MASS_DIAGONAL && !gvi__mass_is(st, d->mass.kind))
-        || !gvi__rule_is(st, d->rule.kind);
+    const gvi_desc *d = x->desc;
+    for (int e = 0; !GVI__POINT && e < d->effect_count; ++e)
+        if (d->effects[e].point) return 1;
+    return (x->flags & GVI__HAS_LAGRANGIAN && !GVI__LAGRANGIAN) || (x->clock >= 0 && !GVI__CLOCK)
+        || (d->mass.kind > GVI_MASS_DIAGONAL && !gvi__has_mass(d, d->mass.kind))
+        || !gvi__has_rule(d, d->rule.kind);
 }
 
-/* Fills in the defaults, measures the rule, chooses the formulation.          */
-static gvi_status gvi__resolve(gvi_stepper *st, const gvi_desc *desc)
+// the order of the rule: will it do?
+static gvi_status gvi__measure(gvi__scene *x)
 {
-    unsigned char *bytes = (unsigned char *)st;
-    for (size_t i = 0; i < sizeof *st; ++i) bytes[i] = 0;
+    const gvi_rule *rule = &x->desc->rule;
+    const int s = x->desc->degree, r = rule->points;
+    x->order = rule->kind == GVI_LOBATTO ? 2*r - 2 : 2*r;
+    if (gvi__has_rule(x->desc, GVI_OWN)) x->order = gvi_rule_order(r, rule->nodes, rule->weights);
+    if (gvi__has_rule(x->desc, GVI_KICKS)) {
+        x->order = 0;
+        return s == 1 ? gvi__check_kicks(r, rule->nodes, rule->weights) : GVI_E_ARGUMENT;
+    }
+    if (rule->kind == GVI_LOBATTO && r < 2) return s > 1 ? GVI_E_POINTS : GVI_E_ARGUMENT;
+    if (x->order < 0) return GVI_E_NODES;
+    if (r < s) return GVI_E_POINTS;
+    if (x->order < s) return GVI_E_ORDER;
+    if (x->order < 2*s - 2) x->flags |= GVI__HAS_OWN;
+    return GVI_OK;
+}
+
+// what a scene may ask for that not every formulation can do
+enum { GVI__READS = 1, GVI__TIMED = 2, GVI__KICKED = 4, GVI__NOT_KICKED = 8, GVI__MORE_POINTS = 16,
+       GVI__VARIES = 32, GVI__NO_VELOCITY = 64 };
+
+static int gvi__asks(const gvi__scene *x)
+{
+    const gvi_desc *d = x->desc;
+    const int s = d->degree, r = d->rule.points, kicks = d->rule.kind == GVI_KICKS;
+    const int verlet = s == 1 && r == 2 && d->rule.kind == GVI_LOBATTO, constant = gvi__mass_is_constant(d);
+    const int v_of_p = constant || d->mass.velocity || d->mass.kind == GVI_MASS_POSITION;
+    return (x->flags & GVI__HAS_VELOCITIES ? GVI__READS : 0) | (x->clock >= 0 ? GVI__TIMED : 0)
+        | (kicks ? GVI__KICKED : verlet ? 0 : GVI__NOT_KICKED) | (r != s ? GVI__MORE_POINTS : 0)
+        | (constant ? 0 : GVI__VARIES) | (v_of_p ? 0 : GVI__NO_VELOCITY);
+}
+
+// the first formulation that can do what is asked, or the one pinned; Newton's method as a fall-back
+static gvi_status gvi__choose(gvi__scene *x)
+{
+    static const unsigned char cannot[] = {
+        255,                                                             // GVI_AUTO
+        GVI__READS | GVI__TIMED | GVI__NOT_KICKED | GVI__VARIES,         // GVI_EXPLICIT
+        GVI__READS | GVI__TIMED | GVI__KICKED | GVI__VARIES,             // GVI_POSITIONS
+        GVI__TIMED | GVI__KICKED | GVI__VARIES,                          // GVI_VELOCITIES
+        GVI__KICKED | GVI__MORE_POINTS | GVI__NO_VELOCITY,               // GVI_MOMENTA
+        GVI__TIMED | GVI__KICKED                                         // GVI_NEWTON
+    };
+    const gvi_desc *d = x->desc;
+    const int pinned = d->formulation != GVI_AUTO, given = d->iterations > 0, asked = gvi__asks(x);
+    const gvi_formulation only = gvi__only();
+    if (pinned && only && d->formulation != only) return GVI_E_FORMULATION;
+    int f = only ? (int)only : pinned ? (int)d->formulation : GVI_EXPLICIT;
+    while (!gvi__compiled((gvi_formulation)f) || (asked & cannot[f]))
+        if (pinned || only || f++ == GVI_NEWTON) return GVI_E_FORMULATION;
+    x->chosen = (gvi_formulation)f;
+    if (f == GVI_NEWTON && given) return GVI_E_FORMULATION;
+    if (f == GVI_NEWTON || (GVI__NEWTON && !pinned && f != GVI_EXPLICIT && x->clock < 0 && !given))
+        x->flags |= GVI__HAS_NEWTON;
+    if (gvi__chosen_is(x->chosen, GVI_EXPLICIT)) return GVI_OK;
+    if (!GVI__RULES && (d->rule.kind != GVI_GAUSS || d->rule.points != d->degree || d->degree > 4))
+        return GVI_E_FORMULATION;
+    return GVI__TOLERANCE || given || gvi__chosen_is(x->chosen, GVI_NEWTON) ? GVI_OK : GVI_E_FORMULATION;
+}
+
+// fills in the defaults (d: a copy of desc), measures the rule, chooses the formulation
+static gvi_status gvi__resolve(gvi__scene *x, gvi_desc *d, const gvi_desc *desc)
+{
     gvi_status status = gvi__check_desc(desc);
     if (status != GVI_OK) return status;
-    gvi_desc *d = &st->x.desc;
     *d = *desc;
     if (d->degree == 0) d->degree = d->rule.kind == GVI_KICKS ? 1 : 8;
     if (d->rule.points == 0) d->rule.points = d->rule.kind == GVI_LOBATTO ? d->degree + 1 : d->degree;
     if (d->max_iterations == 0) d->max_iterations = 60;
-    int s = st->s = d->degree, r = st->r = d->rule.points;
-    st->n = d->n;
-    st->x.stride = GVI__ROW(r);
-    st->x.flags = gvi__flags(d);
-    st->x.clock = -1;
-    for (int e = 0; e < d->effect_count; ++e) {
-        if (d->effects[e].kind == GVI_CLOCK) st->x.clock = (signed char)e;
-        if (!GVI__POINT && d->effects[e].point) return GVI_E_FORMULATION;
-    }
-    if (gvi__left_out(st)) return GVI_E_FORMULATION;
-
-    st->order = d->rule.kind == GVI_LOBATTO ? 2*r - 2 : 2*r;
-    if (gvi__rule_is(st, GVI_OWN)) st->order = gvi_rule_order(r, d->rule.nodes, d->rule.weights);
-    if (gvi__rule_is(st, GVI_KICKS)) {
-        status = s == 1 ? gvi__check_kicks(r, d->rule.nodes, d->rule.weights) : GVI_E_ARGUMENT;
-        if (status != GVI_OK) return status;
-        st->order = s;                        // passes what is asked of a rule below
-    }
-    if (d->rule.kind == GVI_LOBATTO && r < 2) return s > 1 ? GVI_E_POINTS : GVI_E_ARGUMENT;
-    if (st->order < 0) return GVI_E_NODES;
-    if (r < s) return GVI_E_POINTS;
-    if (st->order < s) return GVI_E_ORDER;
-    if (st->order < 2*s - 2) st->x.flags |= GVI__HAS_OWN;
-
-    for (int f = GVI_EXPLICIT; f <= GVI_NEWTON && st->x.chosen == GVI_AUTO; ++f)
-        if (gvi__covers(st, (gvi_formulation)f)) st->x.chosen = (gvi_formulation)f;
-    if (d->formulation != GVI_AUTO) {
-        if (!gvi__covers(st, d->formulation)) return GVI_E_FORMULATION;
-        st->x.chosen = d->formulation;
-    }
-    if (st->x.chosen == GVI_AUTO) return GVI_E_FORMULATION;         // nothing fits
-    if (st->x.chosen == GVI_NEWTON && d->iterations > 0) return GVI_E_FORMULATION;
-    if (!GVI__RULES && !gvi__uses(st, GVI_EXPLICIT) && (d->rule.kind != GVI_GAUSS || r != s || s > 4))
-        return GVI_E_FORMULATION;
-    if (!GVI__TOLERANCE && d->iterations == 0 && !gvi__uses(st, GVI_EXPLICIT) && !gvi__uses(st, GVI_NEWTON))
-        return GVI_E_FORMULATION;
-    if (st->x.chosen == GVI_NEWTON
-        || (GVI__NEWTON && d->formulation == GVI_AUTO && st->x.chosen != GVI_EXPLICIT && st->x.clock < 0
-            && d->iterations == 0))
-        st->x.flags |= GVI__HAS_NEWTON;
-    if (d->rule.kind == GVI_KICKS) st->order = 0;
-    st->formulation = st->x.chosen;
-    st->x.single = GVI__SMALL ? (signed char)-1 : gvi__single(st);
-
-    // indices are int: n*n and s*n where there are matrices
-    int matrices = d->mass.kind >= GVI_MASS_DENSE || gvi__has(st, GVI__HAS_NEWTON | GVI__HAS_LAGRANGIAN);
-    if (matrices && (d->n > 0x7FFF || (gvi__has(st, GVI__HAS_NEWTON) && s > 0x7FFFFFF/d->n))) return GVI_E_ARGUMENT;
-    return GVI_OK;
+    x->desc = d;
+    status = gvi__read_effects(x);
+    if (status != GVI_OK || !gvi__mass_given(&d->mass, x->flags & GVI__HAS_LAGRANGIAN)) return GVI_E_ARGUMENT;
+    if (gvi__left_out(x)) return GVI_E_FORMULATION;
+    status = gvi__measure(x);
+    if (status == GVI_OK) status = gvi__choose(x);
+    if (status != GVI_OK) return status;
+    const int wanted = gvi__flag(x->flags, GVI__HAS_NEWTON | GVI__HAS_LAGRANGIAN);
+    const int matrices = wanted || d->mass.kind >= GVI_MASS_DENSE;
+    return matrices && d->n > 0x7FFF ? GVI_E_ARGUMENT : GVI_OK;          // indices are int: n*n and s*n
 }
 
 /* Extrapolation from two steps saves iterations up to ten points; with more of
    them, and in float, it would amplify rounding too much.                     */
-static int gvi__fits_two(const gvi_stepper *st)
+static int gvi__fits_two(const gvi__scene *x)
 {
-    return st->r < 10 && GVI__KIND > 1 && st->x.chosen >= GVI_POSITIONS && st->x.chosen <= GVI_MOMENTA;
+    const int iterates = x->chosen >= GVI_POSITIONS && x->chosen <= GVI_MOMENTA;
+    return x->desc->rule.points < 10 && GVI__KIND > 1 && iterates;
 }
 
 // does E extrapolate from two steps now?
@@ -2540,14 +2587,15 @@ static inline int gvi__two_now(const gvi_stepper *st) { return GVI__KIND > 1 && 
      whole    s^3 n^3/3 + 12 s^2 n^2      blocks    4 b n^3/3 + 12 (4 b n^2 + 4 b s n)
 
    Beyond degree 16 the eigenvectors are too nearly parallel.                   */
-static int gvi__falls_apart(const gvi_stepper *st)
+static int gvi__falls_apart(const gvi_desc *d)
 {
-    const gvi_real n = (gvi_real)st->n, s = (gvi_real)st->s, b = (gvi_real)((st->s + 1)/2);
+    const gvi_real n = (gvi_real)d->n, s = (gvi_real)d->degree, b = (gvi_real)((d->degree + 1)/2);
     const gvi_real whole = s*s*s*n*n/3 + 12*s*s*n, blocks = 4*b*n*n/3 + 48*b*(n + s);      // over n
-    return !GVI__SMALL && gvi__rule_is(st, GVI_GAUSS) && st->r == st->s && st->s > 1 && st->s <= 16 && blocks < whole;
+    return !GVI__SMALL && gvi__has_rule(d, GVI_GAUSS) && d->rule.points == d->degree
+        && d->degree > 1 && d->degree <= 16 && blocks < whole;
 }
 
-typedef struct gvi__arena { gvi_real *base; size_t used; } gvi__arena;
+typedef struct gvi__arena { struct gvi__private *to; gvi_real *base; size_t used; } gvi__arena;
 
 // a*b reals, or NULL for none; with base NULL it only counts
 static gvi_real *gvi__take(gvi__arena *arena, size_t a, size_t b)
@@ -2567,20 +2615,22 @@ enum {
     GVI__1, GVI__2, GVI__3, GVI__6, GVI__n, GVI__N, GVI__R, GVI__s,      // N: n, in whole vectors if n >= 8
     GVI__STATE, GVI__POINTS, GVI__V, GVI__P, GVI__A_, GVI__OLDER_F, GVI__OLDER_V, GVI__OLDER_A,
     GVI__SLOPE, GVI__RATE, GVI__G, GVI__M, GVI__T, GVI__NN, GVI__E, GVI__PHI, GVI__MODES, GVI__PLACE, GVI__DRIFT,
-    GVI__GAMMA, GVI__DIAGONAL, GVI__Z, GVI__AT_POINTS, GVI__nR, GVI__HESS, GVI__HESSIANS,
+    GVI__GAMMA, GVI__DIAGONAL, GVI__TWO_MASSES, GVI__Z, GVI__AT_POINTS, GVI__nR, GVI__HESS, GVI__HESSIANS,
     GVI__sn, GVI__PIVOT, GVI__DIFFERENCES, GVI__J, GVI__EIGEN, GVI__LENGTHS
 };
 
-GVI__APART void gvi__lengths(const gvi_stepper *st, size_t *length)
+GVI__APART void gvi__lengths(const gvi__scene *x, size_t *length)
 {
-    const struct gvi__private *x = &st->x;
-    const size_t n = (size_t)st->n, s = (size_t)st->s, r = (size_t)st->r, R = (size_t)x->stride;
-    const int newton = gvi__has(st, GVI__HAS_NEWTON), lagrangian = gvi__has(st, GVI__HAS_LAGRANGIAN);
-    const int momenta = gvi__uses(st, GVI_MOMENTA), velocities = gvi__uses(st, GVI_VELOCITIES);
-    const int kicks = gvi__rule_is(st, GVI_KICKS), two = gvi__fits_two(st), clock = GVI__CLOCK && x->clock >= 0;
-    const int positions = gvi__uses(st, GVI_POSITIONS) || velocities, iterates = !gvi__uses(st, GVI_EXPLICIT);
+    const gvi_desc *d = x->desc;
+    const size_t n = (size_t)d->n, s = (size_t)d->degree, r = (size_t)d->rule.points, R = (size_t)GVI__ROW(r);
+    const gvi_formulation f = x->chosen;
+    const int newton = gvi__flag(x->flags, GVI__HAS_NEWTON), two = gvi__fits_two(x);
+    const int lagrangian = gvi__flag(x->flags, GVI__HAS_LAGRANGIAN), clock = GVI__CLOCK && x->clock >= 0;
+    const int momenta = gvi__chosen_is(f, GVI_MOMENTA), velocities = gvi__chosen_is(f, GVI_VELOCITIES);
+    const int positions = gvi__chosen_is(f, GVI_POSITIONS) || velocities, kicks = gvi__has_rule(d, GVI_KICKS);
+    const int iterates = !gvi__chosen_is(f, GVI_EXPLICIT);
     const int reads_v = velocities || momenta || newton, A = lagrangian && (velocities || momenta);
-    const int dense = gvi__mass_is(st, GVI_MASS_DENSE);
+    const int dense = gvi__has_mass(d, GVI_MASS_DENSE);
     length[GVI__1] = 1;
     length[GVI__2] = 2;
     length[GVI__3] = 3;
@@ -2605,13 +2655,14 @@ GVI__APART void gvi__lengths(const gvi_stepper *st, size_t *length)
     length[GVI__NN] = velocities && lagrangian ? r : 0;
     length[GVI__E] = !iterates ? 0 : two ? 2*r : r;
     length[GVI__PHI] = kicks ? 0 : s;
-    length[GVI__MODES] = reads_v || (iterates && st->order <= 2*st->s - 2) ? s : 0;
+    length[GVI__MODES] = reads_v || (iterates && x->order <= 2*d->degree - 2) ? s : 0;
     length[GVI__PLACE] = iterates ? 3 : 0;
     length[GVI__DRIFT] = iterates ? 0 : r + 1;
-    length[GVI__GAMMA] = gvi__has(st, GVI__HAS_OWN) ? s*s + s + 1 : 0;
-    length[GVI__DIAGONAL] = x->desc.mass.kind == GVI_MASS_DIAGONAL ? length[GVI__N] : 0;
+    length[GVI__GAMMA] = gvi__flag(x->flags, GVI__HAS_OWN) ? s*s + s + 1 : 0;
+    length[GVI__DIAGONAL] = d->mass.kind == GVI_MASS_DIAGONAL ? length[GVI__N] : 0;
+    length[GVI__TWO_MASSES] = dense ? 2*n : 0;                 // factored, and as it is
     length[GVI__Z] = dense && positions ? n : 0;
-    length[GVI__AT_POINTS] = gvi__mass_is(st, GVI_MASS_POSITION) ? n : 0;
+    length[GVI__AT_POINTS] = gvi__has_mass(d, GVI_MASS_POSITION) ? n : 0;
     length[GVI__nR] = n*R;
     length[GVI__HESS] = newton || lagrangian ? n : 0;
     length[GVI__HESSIANS] = (newton ? 4*n : n) + 5;
@@ -2619,7 +2670,7 @@ GVI__APART void gvi__lengths(const gvi_stepper *st, size_t *length)
     length[GVI__PIVOT] = newton ? s*n + 1 : 0;
     length[GVI__DIFFERENCES] = newton ? 4*n : 0;
     length[GVI__J] = newton ? 2*s*n : 0;
-    length[GVI__EIGEN] = newton && gvi__falls_apart(st) ? (s + 1)/2*2 : 0;    // never beside an own rule
+    length[GVI__EIGEN] = newton && gvi__falls_apart(d) ? (s + 1)/2*2 : 0;    // never beside an own rule
 }
 
 // which pointer of gvi__private, and which lengths make the part
@@ -2627,13 +2678,15 @@ typedef struct gvi__part { unsigned char pointer, rows, columns; } gvi__part;
 #define GVI__PART(member, rows, columns) \
     { offsetof(struct gvi__private, member)/sizeof(gvi_real *), GVI__##rows, GVI__##columns }
 
-GVI__APART void gvi__place(gvi_stepper *st, gvi__arena *a, const size_t *length, const gvi__part *part, size_t count)
+GVI__APART void gvi__place(gvi__arena *a, const size_t *length, const gvi__part *part, size_t count)
 {
-    for (; count > 0; --count, ++part)
-        ((gvi_real **)(void *)&st->x)[part->pointer] = gvi__take(a, length[part->rows], length[part->columns]);
+    for (; count > 0; --count, ++part) {
+        gvi_real *place = gvi__take(a, length[part->rows], length[part->columns]);
+        if (place) ((gvi_real **)(void *)a->to)[part->pointer] = place;
+    }
 }
 
-static void gvi__layout_vectors(gvi_stepper *st, gvi__arena *a, const size_t *length)
+static void gvi__layout_vectors(gvi__arena *a, const size_t *length)
 {
     static const gvi__part parts[] = {
         GVI__PART(q, 1, N), GVI__PART(qe, 1, N), GVI__PART(p, 1, N), GVI__PART(pe, 1, N), GVI__PART(q0, 1, N),
@@ -2641,10 +2694,10 @@ static void gvi__layout_vectors(gvi_stepper *st, gvi__arena *a, const size_t *le
         GVI__PART(dq, 1, N), GVI__PART(dp, 1, N), GVI__PART(dqe, 1, N), GVI__PART(dpe, 1, N),
         GVI__PART(mass, DIAGONAL, 1), GVI__PART(over, DIAGONAL, 1)
     };
-    gvi__place(st, a, length, parts, sizeof parts/sizeof *parts);
+    gvi__place(a, length, parts, sizeof parts/sizeof *parts);
 }
 
-static void gvi__layout_rows(gvi_stepper *st, gvi__arena *a, const size_t *length)
+static void gvi__layout_rows(gvi__arena *a, const size_t *length)
 {
     static const gvi__part parts[] = {
         GVI__PART(last.Q, STATE, POINTS), GVI__PART(last.F, STATE, POINTS), GVI__PART(last.V, V, R),
@@ -2660,48 +2713,46 @@ static void gvi__layout_rows(gvi_stepper *st, gvi__arena *a, const size_t *lengt
         GVI__PART(drift, DRIFT, 1), GVI__PART(inv_gamma, 1, s), GVI__PART(own, GAMMA, 1),
         GVI__PART(eigen, EIGEN, s)
     };
-    gvi__place(st, a, length, parts, sizeof parts/sizeof *parts);
+    gvi__place(a, length, parts, sizeof parts/sizeof *parts);
 }
 
 // J and pivots twice: queries must not touch what the steps keep.  J comes last
-static void gvi__layout_scratch(gvi_stepper *st, gvi__arena *a, const size_t *length)
+static void gvi__layout_scratch(gvi__arena *a, const size_t *length)
 {
     static const gvi__part parts[] = {
-        GVI__PART(scale, 2, n), GVI__PART(change, 3, n), GVI__PART(one, 6, n),
+        GVI__PART(mass, TWO_MASSES, n), GVI__PART(scale, 2, n), GVI__PART(change, 3, n), GVI__PART(one, 6, n),
         GVI__PART(hess, HESS, HESSIANS), GVI__PART(y, sn, 1), GVI__PART(dy, sn, 1), GVI__PART(pivot, PIVOT, 2),
         GVI__PART(dF, DIFFERENCES, R), GVI__PART(J, J, sn)
     };
-    if (gvi__mass_is(st, GVI_MASS_DENSE)) st->x.mass = gvi__take(a, 2*length[GVI__n], length[GVI__n]);
-    gvi__place(st, a, length, parts, sizeof parts/sizeof *parts);
+    gvi__place(a, length, parts, sizeof parts/sizeof *parts);
 }
 
-// with base NULL it only counts
-static size_t gvi__layout(gvi_stepper *st, gvi_real *base)
+// pointers into the memory at base; with base NULL it only counts
+static size_t gvi__layout(const gvi__scene *x, struct gvi__private *to, gvi_real *base)
 {
     size_t length[GVI__LENGTHS];
     gvi__arena a;
+    a.to = to;
     a.base = base;
     a.used = 0;
-    gvi__lengths(st, length);
-    if (st->n >= 8) gvi__layout_vectors(st, &a, length);      // what is not in whole vectors comes last
-    gvi__layout_rows(st, &a, length);
-    if (st->n < 8) gvi__layout_vectors(st, &a, length);
-    gvi__layout_scratch(st, &a, length);
+    gvi__lengths(x, length);
+    if (x->desc->n >= 8) gvi__layout_vectors(&a, length);     // what is not in whole vectors comes last
+    gvi__layout_rows(&a, length);
+    if (x->desc->n < 8) gvi__layout_vectors(&a, length);
+    gvi__layout_scratch(&a, length);
     return a.used;
 }
 
 /* Whole vectors are to start where a cache line does: up to this many numbers are
    left out at the beginning of the memory.                                    */
-static size_t gvi__slack(const gvi_stepper *st)
-{
-    return st->x.stride % 8 == 0 || st->n >= 8 ? GVI__SLACK : 0;
-}
+static size_t gvi__slack(const gvi_desc *d) { return d->rule.points > 4 || d->n >= 8 ? GVI__SLACK : 0; }
 
 GVI_DEF size_t gvi_size(const gvi_desc *desc)
 {
-    gvi_stepper st;
-    if (gvi__resolve(&st, desc) != GVI_OK) return 0;
-    return (gvi__layout(&st, NULL) + gvi__slack(&st))*sizeof(gvi_real);
+    gvi_desc d;
+    gvi__scene scene;
+    if (gvi__resolve(&scene, &d, desc) != GVI_OK) return 0;
+    return (gvi__layout(&scene, NULL, NULL) + gvi__slack(&d))*sizeof(gvi_real);
 }
 
 // mass matrix into the memory, factored
@@ -2732,22 +2783,44 @@ static gvi_status gvi__set_mass(gvi_stepper *st)
     return GVI_OK;
 }
 
-GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *memory, size_t size)
+// the scene into the stepper, the memory in parts
+static gvi_status gvi__hand_out(gvi_stepper *st, const gvi_desc *desc, gvi_real *memory, size_t size)
 {
-    if (!st) return GVI_E_ARGUMENT;
-    gvi_status status = gvi__resolve(st, desc);
-    gvi__done(st, GVI_OK);
-    if (status != GVI_OK) return st->status = status;
-    if (!memory) return st->status = GVI_E_ARGUMENT;
     struct gvi__private *x = &st->x;
-    size_t length = gvi__layout(st, NULL), slack = gvi__slack(st);
-    if (size < (length + slack)*sizeof(gvi_real)) return st->status = GVI_E_MEMORY;
+    gvi__scene scene;
+    gvi_status status = gvi__resolve(&scene, &x->desc, desc);
+    if (status != GVI_OK) return status;
+    if (!memory) return GVI_E_ARGUMENT;
+    st->n = x->desc.n;
+    st->s = x->desc.degree;
+    st->r = x->desc.rule.points;
+    st->order = scene.order;
+    st->formulation = x->chosen = scene.chosen;
+    x->stride = GVI__ROW(st->r);
+    x->flags = scene.flags;
+    x->clock = (signed char)scene.clock;
+    x->single = GVI__SMALL ? (signed char)-1 : gvi__single(st);
+    x->size = gvi__layout(&scene, NULL, NULL);
+    const size_t slack = gvi__slack(&x->desc);
+    if (size < (x->size + slack)*sizeof(gvi_real)) return GVI_E_MEMORY;
 
     if (slack) x->skip = (size_t)(-(uintptr_t)memory & 63)/sizeof(gvi_real);
     memory += x->skip;
-    gvi__layout(st, memory);
-    gvi__zero(x->J ? (size_t)(x->J - memory) : length, memory);         // J is written before it is read
-    x->size = length;
+    gvi__layout(&scene, x, memory);
+    gvi__zero(x->J ? (size_t)(x->J - memory) : x->size, memory);        // J is written before it is read
+    return GVI_OK;
+}
+
+GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *memory, size_t size)
+{
+    if (!st) return GVI_E_ARGUMENT;
+    struct gvi__private *x = &st->x;
+    unsigned char *bytes = (unsigned char *)st;
+    for (size_t i = 0; i < sizeof *st; ++i) bytes[i] = 0;
+    gvi__done(st, GVI_OK);
+    gvi_status status = gvi__hand_out(st, desc, memory, size);
+    if (status != GVI_OK) return st->status = status;
+    memory += x->skip;
     st->q = x->q;
     st->p = x->p;
     status = gvi__set_mass(st);
@@ -5273,7 +5346,8 @@ GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const 
     st->x.skip = skip;
     st->x.desc = desc;
     st->x.memory = own;
-    gvi__layout(st, own);
+    const gvi__scene scene = { &st->x.desc, st->order, st->x.flags, st->x.clock, st->x.chosen };
+    gvi__layout(&scene, &st->x, own);
     for (int turns = st->x.turns; turns > 0; --turns) gvi__rotate_rows(st);
     st->x.turns = saved->x.turns;
     st->q = st->x.q;
