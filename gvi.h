@@ -3671,7 +3671,8 @@ GVI__APART gvi__two gvi__exact_dot(int r, const gvi_real *a, const gvi_real *b, 
 // sum_j (1 - c_j) h b_j F_j
 static gvi_real gvi__lever_sum(int r, const gvi_real *c, const gvi_real *hb, const gvi_real *F)
 {
-    gvi_real sum[4] = { 0, 0, 0, 0 };
+    gvi_real sum[4];
+    sum[0] = sum[1] = sum[2] = sum[3] = 0;        // an initialiser would be a call of memset
     for (int j = 0; j < r; ++j) sum[j & 3] += (1 - c[j])*(hb[j]*F[j]);
     return (sum[0] + sum[2]) + (sum[1] + sum[3]);
 }
