@@ -894,12 +894,23 @@ static gvi__two gvi__sum(gvi_real x, gvi_real y)          // x + y exactly
     return z;
 }
 
-#if (defined(FP_FAST_FMA) && GVI__KIND == 2) || (defined(FP_FAST_FMAF) && GVI__KIND == 1)
-static gvi__two gvi__product(gvi_real a, gvi_real b)      // a*b exactly
+// a b + c with one rounding, where it is an instruction; newlib's <math.h> does not say so, gcc does
+#if GVI__KIND == 1 && defined(__FP_FAST_FMAF)
+#define GVI__FMA __builtin_fmaf
+#elif GVI__KIND == 2 && defined(__FP_FAST_FMA)
+#define GVI__FMA __builtin_fma
+#elif GVI__KIND == 1 && defined(FP_FAST_FMAF) && defined(GVI__MATH)
+#define GVI__FMA fmaf
+#elif GVI__KIND == 2 && defined(FP_FAST_FMA) && defined(GVI__MATH)
+#define GVI__FMA fma
+#endif
+
+#ifdef GVI__FMA
+static inline gvi__two gvi__product(gvi_real a, gvi_real b)      // a*b exactly
 {
     gvi__two z;
     z.hi = a*b;
-    z.lo = GVI__MATH(fma)(a, b, -z.hi);
+    z.lo = GVI__FMA(a, b, -z.hi);
     return z;
 }
 #else
@@ -1504,7 +1515,8 @@ GVI_DEF gvi_real gvi_interpolate_derivative(int n, const gvi_real *x, const gvi_
                        | (GVI__LAGRANGIAN ? GVI__HAS_LAGRANGIAN : 0) | (GVI__NEWTON ? GVI__HAS_NEWTON : 0) \
                        | (GVI__OWN ? GVI__HAS_OWN : 0))
 
-static inline int gvi__has(const gvi_stepper *st, int flag) { return (st->x.flags & GVI__POSSIBLE & flag) != 0; }
+static inline int gvi__flag(int flags, int flag) { return (flags & GVI__POSSIBLE & flag) != 0; }
+static inline int gvi__has(const gvi_stepper *st, int flag) { return gvi__flag(st->x.flags, flag); }
 
 static inline int gvi__compiled(gvi_formulation f)
 {
@@ -1513,22 +1525,44 @@ static inline int gvi__compiled(gvi_formulation f)
          : f == GVI_NEWTON ? GVI__NEWTON : 0;
 }
 
-// is f the formulation of this scene?
+// the only formulation that is compiled, else GVI_AUTO
+static inline gvi_formulation gvi__only(void)
+{
+    const int several = GVI__EXPLICIT + GVI__POSITIONS + GVI__VELOCITIES + GVI__MOMENTA + GVI__NEWTON > 1;
+    return several ? GVI_AUTO : GVI__EXPLICIT ? GVI_EXPLICIT : GVI__POSITIONS ? GVI_POSITIONS
+         : GVI__VELOCITIES ? GVI_VELOCITIES : GVI__MOMENTA ? GVI_MOMENTA : GVI_NEWTON;
+}
+
+static inline int gvi__chosen_is(gvi_formulation chosen, gvi_formulation f)
+{
+    return gvi__compiled(f) && (gvi__only() == f || chosen == f);
+}
+
+static inline int gvi__has_mass(const gvi_desc *d, gvi_mass_kind kind)
+{
+    return (kind != GVI_MASS_DENSE || GVI__DENSE) && (kind != GVI_MASS_POSITION || GVI__MOMENTA || GVI__NEWTON)
+        && (kind != GVI_MASS_NONE || GVI__LAGRANGIAN) && d->mass.kind == kind;
+}
+
+static inline int gvi__has_rule(const gvi_desc *d, gvi_rule_kind kind)
+{
+    return (kind != GVI_OWN || GVI__OWN) && (kind != GVI_KICKS || GVI__EXPLICIT) && d->rule.kind == kind;
+}
+
+// is f the formulation of this scene?  and the same of its mass and its rule
 static inline int gvi__uses(const gvi_stepper *st, gvi_formulation f)
 {
-    const int one = GVI__EXPLICIT + GVI__POSITIONS + GVI__VELOCITIES + GVI__MOMENTA + GVI__NEWTON == 1;
-    return gvi__compiled(f) && (one || st->x.chosen == f);
+    return gvi__chosen_is(st->x.chosen, f);
 }
 
 static inline int gvi__mass_is(const gvi_stepper *st, gvi_mass_kind kind)
 {
-    return (kind != GVI_MASS_DENSE || GVI__DENSE) && (kind != GVI_MASS_POSITION || GVI__MOMENTA || GVI__NEWTON)
-        && (kind != GVI_MASS_NONE || GVI__LAGRANGIAN) && st->x.desc.mass.kind == kind;
+    return gvi__has_mass(&st->x.desc, kind);
 }
 
 static inline int gvi__rule_is(const gvi_stepper *st, gvi_rule_kind kind)
 {
-    return (kind != GVI_OWN || GVI__OWN) && (kind != GVI_KICKS || GVI__EXPLICIT) && st->x.desc.rule.kind == kind;
+    return gvi__has_rule(&st->x.desc, kind);
 }
 
 // does a step, or a start, look for the effect whose values are not finite?
@@ -1704,14 +1738,15 @@ static signed char gvi__single(const gvi_stepper *st)
     return single;
 }
 
-// the bits of the effects that are marked as weak, are on and may stand still for a while
-static unsigned gvi__weak(const gvi_stepper *st)
+// the bits of the effects that are marked as weak and may stand still for a while
+static unsigned gvi__weak(const gvi_desc *d)
 {
     unsigned bits = 0;
-    const gvi_effect *effect = st->x.desc.effects;
-    for (int e = 0; GVI__WEAK && st->x.clock < 0 && !gvi__counts(st) && e < st->x.desc.effect_count; ++e, ++effect)
-        if (effect->weak && effect->kind <= GVI_FORCE) bits |= 1u << e;
-    return bits & ~st->x.off;
+    for (int e = 0; GVI__WEAK && d->iterations == 0 && e < d->effect_count; ++e) {
+        if (d->effects[e].kind == GVI_CLOCK) return 0;
+        if (d->effects[e].weak && d->effects[e].kind <= GVI_FORCE) bits |= 1u << e;
+    }
+    return bits;
 }
 
 // all effects that are on; nothing stands between a step and its only effect
@@ -2394,31 +2429,32 @@ GVI__APART void gvi__weights(gvi_stepper *st, gvi_real h)
 
 /* -------------------------------------------------------- STEPPER: SET-UP */
 
-static int gvi__flags(const gvi_desc *d)
-{
-    int flags = 0;
-    for (int e = 0; e < d->effect_count; ++e) {
-        if (d->effects[e].kind == GVI_FORCE || d->effects[e].kind == GVI_LAGRANGIAN) flags |= GVI__HAS_VELOCITIES;
-        if (d->effects[e].kind == GVI_LAGRANGIAN) flags |= GVI__HAS_LAGRANGIAN;
-    }
-    return flags;
-}
+/* What a description comes to: enough to lay out the memory, so that gvi_size needs no
+   stepper.                                                                   */
+typedef struct gvi__scene {
+    const gvi_desc *desc;             /* its defaults filled in                 */
+    int             order, flags;
+    int             clock;            /* the effect that is one, or -1          */
+    gvi_formulation chosen;
+} gvi__scene;
 
-// does formulation f cover the scene?
-static int gvi__covers(const gvi_stepper *st, gvi_formulation f)
+// the kinds of effects, and what they read
+static gvi_status gvi__read_effects(gvi__scene *x)
 {
-    const gvi_desc *d = &st->x.desc;
-    int constant = gvi__mass_is_constant(d), reads_v = st->x.flags & GVI__HAS_VELOCITIES;
-    int kicks = d->rule.kind == GVI_KICKS, verlet = st->s == 1 && st->r == 2 && d->rule.kind == GVI_LOBATTO;
-    if (!gvi__compiled(f) || (kicks && f != GVI_EXPLICIT) || (st->x.clock >= 0 && f != GVI_MOMENTA)) return 0;
-    switch (f) {
-    case GVI_EXPLICIT:   return constant && !reads_v && (kicks || verlet);
-    case GVI_POSITIONS:  return constant && !reads_v;
-    case GVI_VELOCITIES: return constant;
-    case GVI_MOMENTA:    return st->r == st->s && (d->mass.velocity || d->mass.kind == GVI_MASS_POSITION || constant);
-    case GVI_NEWTON:     return 1;
-    case GVI_AUTO: default: return 0;
+    enum { V = GVI__HAS_VELOCITIES, L = GVI__HAS_LAGRANGIAN };
+    static const unsigned char reads[] = { 0, V, V | L, 0 };     // potential, force, Lagrangian, clock
+    const gvi_desc *d = x->desc;
+    x->flags = 0;
+    x->clock = -1;
+    for (int e = 0; e < d->effect_count; ++e) {
+        const gvi_effect *effect = d->effects + e;
+        if ((unsigned)effect->kind > GVI_CLOCK || !effect->points == !effect->point) return GVI_E_ARGUMENT;
+        x->flags |= reads[effect->kind];
+        if (effect->kind != GVI_CLOCK) continue;
+        if (x->clock >= 0 || !effect->points) return GVI_E_ARGUMENT;
+        x->clock = e;
     }
+    return GVI_OK;
 }
 
 // in long: an int may have 16 bits
@@ -2433,23 +2469,22 @@ static gvi_status gvi__check_desc(const gvi_desc *d)
         || !(d->tolerance >= 0 && d->tolerance < 1))
         return GVI_E_ARGUMENT;
     if ((unsigned)d->formulation > GVI_NEWTON) return GVI_E_ARGUMENT;
-    int clocks = 0;
-    for (int e = 0; e < d->effect_count; ++e) {
-        const gvi_effect *x = d->effects + e;
-        if ((unsigned)x->kind > GVI_CLOCK || !x->points == !x->point)
-            return GVI_E_ARGUMENT;
-        if (x->kind == GVI_CLOCK && (clocks++ || !x->points)) return GVI_E_ARGUMENT;
-    }
-    switch (d->mass.kind) {
-    case GVI_MASS_UNIT: break;
-    case GVI_MASS_DIAGONAL: case GVI_MASS_DENSE: if (!d->mass.matrix) return GVI_E_ARGUMENT; break;
-    case GVI_MASS_POSITION: if (!d->mass.points || !d->mass.gradient) return GVI_E_ARGUMENT; break;
-    case GVI_MASS_NONE: if (!(gvi__flags(d) & GVI__HAS_LAGRANGIAN)) return GVI_E_ARGUMENT; break;
-    default: return GVI_E_ARGUMENT;
-    }
     if (d->rule.kind == GVI_OWN || d->rule.kind == GVI_KICKS)
         return d->rule.points > 0 && d->rule.nodes && d->rule.weights ? GVI_OK : GVI_E_ARGUMENT;
     return d->rule.kind == GVI_GAUSS || d->rule.kind == GVI_LOBATTO ? GVI_OK : GVI_E_ARGUMENT;
+}
+
+// is what the kind of mass needs there?  without a mass, Lagrangian terms
+static int gvi__mass_given(const gvi_mass *m, int lagrangian)
+{
+    switch (m->kind) {
+    case GVI_MASS_UNIT:     return 1;
+    case GVI_MASS_DIAGONAL:
+    case GVI_MASS_DENSE:    return m->matrix != NULL;
+    case GVI_MASS_POSITION: return m->points && m->gradient;
+    case GVI_MASS_NONE:     return lagrangian;
+    default:                return 0;
+    }
 }
 
 // finite, and weights that sum to 1
@@ -2465,81 +2500,105 @@ static gvi_status gvi__check_kicks(int r, const gvi_real *c, const gvi_real *b)
 }
 
 // does the description ask for what is not compiled?
-static int gvi__left_out(const gvi_stepper *st)
+static int gvi__left_out(const gvi__scene *x)
 {
-    const gvi_desc *d = &st->x.desc;
-    return (st->x.flags & GVI__HAS_LAGRANGIAN && !GVI__LAGRANGIAN) || (st->x.clock >= 0 && !GVI__CLOCK)
-        || (d->mass.kind != GVI_MASS_UNIT && d->mass.kind != GVI_MASS_DIAGONAL && !gvi__mass_is(st, d->mass.kind))
-        || !gvi__rule_is(st, d->rule.kind);
+    const gvi_desc *d = x->desc;
+    for (int e = 0; !GVI__POINT && e < d->effect_count; ++e)
+        if (d->effects[e].point) return 1;
+    return (x->flags & GVI__HAS_LAGRANGIAN && !GVI__LAGRANGIAN) || (x->clock >= 0 && !GVI__CLOCK)
+        || (d->mass.kind > GVI_MASS_DIAGONAL && !gvi__has_mass(d, d->mass.kind))
+        || !gvi__has_rule(d, d->rule.kind);
 }
 
-/* Fills in the defaults, measures the rule, chooses the formulation.          */
-static gvi_status gvi__resolve(gvi_stepper *st, const gvi_desc *desc)
+// the order of the rule: will it do?
+static gvi_status gvi__measure(gvi__scene *x)
 {
-    unsigned char *bytes = (unsigned char *)st;
-    for (size_t i = 0; i < sizeof *st; ++i) bytes[i] = 0;
+    const gvi_rule *rule = &x->desc->rule;
+    const int s = x->desc->degree, r = rule->points;
+    x->order = rule->kind == GVI_LOBATTO ? 2*r - 2 : 2*r;
+    if (gvi__has_rule(x->desc, GVI_OWN)) x->order = gvi_rule_order(r, rule->nodes, rule->weights);
+    if (gvi__has_rule(x->desc, GVI_KICKS)) {
+        x->order = 0;
+        return s == 1 ? gvi__check_kicks(r, rule->nodes, rule->weights) : GVI_E_ARGUMENT;
+    }
+    if (rule->kind == GVI_LOBATTO && r < 2) return s > 1 ? GVI_E_POINTS : GVI_E_ARGUMENT;
+    if (x->order < 0) return GVI_E_NODES;
+    if (r < s) return GVI_E_POINTS;
+    if (x->order < s) return GVI_E_ORDER;
+    if (x->order < 2*s - 2) x->flags |= GVI__HAS_OWN;
+    return GVI_OK;
+}
+
+// what a scene may ask for that not every formulation can do
+enum { GVI__READS = 1, GVI__TIMED = 2, GVI__KICKED = 4, GVI__NOT_KICKED = 8, GVI__MORE_POINTS = 16,
+       GVI__VARIES = 32, GVI__NO_VELOCITY = 64 };
+
+static int gvi__asks(const gvi__scene *x)
+{
+    const gvi_desc *d = x->desc;
+    const int s = d->degree, r = d->rule.points, kicks = d->rule.kind == GVI_KICKS;
+    const int verlet = s == 1 && r == 2 && d->rule.kind == GVI_LOBATTO, constant = gvi__mass_is_constant(d);
+    const int v_of_p = constant || d->mass.velocity || d->mass.kind == GVI_MASS_POSITION;
+    return (x->flags & GVI__HAS_VELOCITIES ? GVI__READS : 0) | (x->clock >= 0 ? GVI__TIMED : 0)
+        | (kicks ? GVI__KICKED : verlet ? 0 : GVI__NOT_KICKED) | (r != s ? GVI__MORE_POINTS : 0)
+        | (constant ? 0 : GVI__VARIES) | (v_of_p ? 0 : GVI__NO_VELOCITY);
+}
+
+// the first formulation that can do what is asked, or the one pinned; Newton's method as a fall-back
+static gvi_status gvi__choose(gvi__scene *x)
+{
+    static const unsigned char cannot[] = {
+        255,                                                             // GVI_AUTO
+        GVI__READS | GVI__TIMED | GVI__NOT_KICKED | GVI__VARIES,         // GVI_EXPLICIT
+        GVI__READS | GVI__TIMED | GVI__KICKED | GVI__VARIES,             // GVI_POSITIONS
+        GVI__TIMED | GVI__KICKED | GVI__VARIES,                          // GVI_VELOCITIES
+        GVI__KICKED | GVI__MORE_POINTS | GVI__NO_VELOCITY,               // GVI_MOMENTA
+        GVI__TIMED | GVI__KICKED                                         // GVI_NEWTON
+    };
+    const gvi_desc *d = x->desc;
+    const int pinned = d->formulation != GVI_AUTO, given = d->iterations > 0, asked = gvi__asks(x);
+    const gvi_formulation only = gvi__only();
+    if (pinned && only && d->formulation != only) return GVI_E_FORMULATION;
+    int f = only ? (int)only : pinned ? (int)d->formulation : GVI_EXPLICIT;
+    while (!gvi__compiled((gvi_formulation)f) || (asked & cannot[f]))
+        if (pinned || only || f++ == GVI_NEWTON) return GVI_E_FORMULATION;
+    x->chosen = (gvi_formulation)f;
+    if (f == GVI_NEWTON && given) return GVI_E_FORMULATION;
+    if (f == GVI_NEWTON || (GVI__NEWTON && !pinned && f != GVI_EXPLICIT && x->clock < 0 && !given))
+        x->flags |= GVI__HAS_NEWTON;
+    if (gvi__chosen_is(x->chosen, GVI_EXPLICIT)) return GVI_OK;
+    if (!GVI__RULES && (d->rule.kind != GVI_GAUSS || d->rule.points != d->degree || d->degree > 4))
+        return GVI_E_FORMULATION;
+    return GVI__TOLERANCE || given || gvi__chosen_is(x->chosen, GVI_NEWTON) ? GVI_OK : GVI_E_FORMULATION;
+}
+
+// fills in the defaults (d: a copy of desc), measures the rule, chooses the formulation
+static gvi_status gvi__resolve(gvi__scene *x, gvi_desc *d, const gvi_desc *desc)
+{
     gvi_status status = gvi__check_desc(desc);
     if (status != GVI_OK) return status;
-    gvi_desc *d = &st->x.desc;
     *d = *desc;
     if (d->degree == 0) d->degree = d->rule.kind == GVI_KICKS ? 1 : 8;
     if (d->rule.points == 0) d->rule.points = d->rule.kind == GVI_LOBATTO ? d->degree + 1 : d->degree;
     if (d->max_iterations == 0) d->max_iterations = 60;
-    int s = st->s = d->degree, r = st->r = d->rule.points;
-    st->n = d->n;
-    st->x.stride = GVI__ROW(r);
-    st->x.flags = gvi__flags(d);
-    st->x.clock = -1;
-    for (int e = 0; e < d->effect_count; ++e) {
-        if (d->effects[e].kind == GVI_CLOCK) st->x.clock = (signed char)e;
-        if (!GVI__POINT && d->effects[e].point) return GVI_E_FORMULATION;
-    }
-    if (gvi__left_out(st)) return GVI_E_FORMULATION;
-
-    st->order = d->rule.kind == GVI_LOBATTO ? 2*r - 2 : 2*r;
-    if (gvi__rule_is(st, GVI_OWN)) st->order = gvi_rule_order(r, d->rule.nodes, d->rule.weights);
-    if (gvi__rule_is(st, GVI_KICKS)) {
-        status = s == 1 ? gvi__check_kicks(r, d->rule.nodes, d->rule.weights) : GVI_E_ARGUMENT;
-        if (status != GVI_OK) return status;
-        st->order = s;                        // passes what is asked of a rule below
-    }
-    if (d->rule.kind == GVI_LOBATTO && r < 2) return s > 1 ? GVI_E_POINTS : GVI_E_ARGUMENT;
-    if (st->order < 0) return GVI_E_NODES;
-    if (r < s) return GVI_E_POINTS;
-    if (st->order < s) return GVI_E_ORDER;
-    if (st->order < 2*s - 2) st->x.flags |= GVI__HAS_OWN;
-
-    for (int f = GVI_EXPLICIT; f <= GVI_NEWTON && st->x.chosen == GVI_AUTO; ++f)
-        if (gvi__covers(st, (gvi_formulation)f)) st->x.chosen = (gvi_formulation)f;
-    if (d->formulation != GVI_AUTO) {
-        if (!gvi__covers(st, d->formulation)) return GVI_E_FORMULATION;
-        st->x.chosen = d->formulation;
-    }
-    if (st->x.chosen == GVI_AUTO) return GVI_E_FORMULATION;         // nothing fits
-    if (st->x.chosen == GVI_NEWTON && d->iterations > 0) return GVI_E_FORMULATION;
-    if (!GVI__RULES && !gvi__uses(st, GVI_EXPLICIT) && (d->rule.kind != GVI_GAUSS || r != s || s > 4))
-        return GVI_E_FORMULATION;
-    if (!GVI__TOLERANCE && d->iterations == 0 && !gvi__uses(st, GVI_EXPLICIT) && !gvi__uses(st, GVI_NEWTON))
-        return GVI_E_FORMULATION;
-    if (st->x.chosen == GVI_NEWTON
-        || (GVI__NEWTON && d->formulation == GVI_AUTO && st->x.chosen != GVI_EXPLICIT && st->x.clock < 0
-            && d->iterations == 0))
-        st->x.flags |= GVI__HAS_NEWTON;
-    if (d->rule.kind == GVI_KICKS) st->order = 0;
-    st->formulation = st->x.chosen;
-    st->x.single = GVI__SMALL ? (signed char)-1 : gvi__single(st);
-
-    // indices are int: n*n and s*n where there are matrices
-    int matrices = d->mass.kind >= GVI_MASS_DENSE || gvi__has(st, GVI__HAS_NEWTON | GVI__HAS_LAGRANGIAN);
-    if (matrices && (d->n > 0x7FFF || (gvi__has(st, GVI__HAS_NEWTON) && s > 0x7FFFFFF/d->n))) return GVI_E_ARGUMENT;
-    return GVI_OK;
+    x->desc = d;
+    status = gvi__read_effects(x);
+    if (status != GVI_OK || !gvi__mass_given(&d->mass, x->flags & GVI__HAS_LAGRANGIAN)) return GVI_E_ARGUMENT;
+    if (gvi__left_out(x)) return GVI_E_FORMULATION;
+    status = gvi__measure(x);
+    if (status == GVI_OK) status = gvi__choose(x);
+    if (status != GVI_OK) return status;
+    const int wanted = gvi__flag(x->flags, GVI__HAS_NEWTON | GVI__HAS_LAGRANGIAN);
+    const int matrices = wanted || d->mass.kind >= GVI_MASS_DENSE;
+    return matrices && d->n > 0x7FFF ? GVI_E_ARGUMENT : GVI_OK;          // indices are int: n*n and s*n
 }
 
 /* Extrapolation from two steps saves iterations up to ten points; with more of
    them, and in float, it would amplify rounding too much.                     */
-static int gvi__fits_two(const gvi_stepper *st)
+static int gvi__fits_two(const gvi__scene *x)
 {
-    return st->r < 10 && GVI__KIND > 1 && st->x.chosen >= GVI_POSITIONS && st->x.chosen <= GVI_MOMENTA;
+    const int iterates = x->chosen >= GVI_POSITIONS && x->chosen <= GVI_MOMENTA;
+    return x->desc->rule.points < 10 && GVI__KIND > 1 && iterates;
 }
 
 // does E extrapolate from two steps now?
@@ -2554,14 +2613,15 @@ static inline int gvi__two_now(const gvi_stepper *st) { return GVI__KIND > 1 && 
      whole    s^3 n^3/3 + 12 s^2 n^2      blocks    4 b n^3/3 + 12 (4 b n^2 + 4 b s n)
 
    Beyond degree 16 the eigenvectors are too nearly parallel.                   */
-static int gvi__falls_apart(const gvi_stepper *st)
+static int gvi__falls_apart(const gvi_desc *d)
 {
-    const gvi_real n = (gvi_real)st->n, s = (gvi_real)st->s, b = (gvi_real)((st->s + 1)/2);
+    const gvi_real n = (gvi_real)d->n, s = (gvi_real)d->degree, b = (gvi_real)((d->degree + 1)/2);
     const gvi_real whole = s*s*s*n*n/3 + 12*s*s*n, blocks = 4*b*n*n/3 + 48*b*(n + s);      // over n
-    return !GVI__SMALL && gvi__rule_is(st, GVI_GAUSS) && st->r == st->s && st->s > 1 && st->s <= 16 && blocks < whole;
+    return !GVI__SMALL && gvi__has_rule(d, GVI_GAUSS) && d->rule.points == d->degree
+        && d->degree > 1 && d->degree <= 16 && blocks < whole;
 }
 
-typedef struct gvi__arena { gvi_real *base; size_t used; } gvi__arena;
+typedef struct gvi__arena { struct gvi__private *to; gvi_real *base; size_t used; } gvi__arena;
 
 // a*b reals, or NULL for none; with base NULL it only counts
 static gvi_real *gvi__take(gvi__arena *arena, size_t a, size_t b)
@@ -2581,20 +2641,23 @@ enum {
     GVI__1, GVI__2, GVI__3, GVI__6, GVI__n, GVI__N, GVI__R, GVI__s,      // N: n, in whole vectors if n >= 8
     GVI__STATE, GVI__POINTS, GVI__V, GVI__P, GVI__A_, GVI__OLDER_F, GVI__OLDER_V, GVI__OLDER_A,
     GVI__SLOPE, GVI__RATE, GVI__G, GVI__M, GVI__T, GVI__NN, GVI__E, GVI__PHI, GVI__MODES, GVI__PLACE, GVI__DRIFT,
-    GVI__GAMMA, GVI__DIAGONAL, GVI__STILL, GVI__Z, GVI__AT_POINTS, GVI__nR, GVI__HESS, GVI__HESSIANS,
+    GVI__GAMMA, GVI__DIAGONAL, GVI__TWO_MASSES, GVI__STILL, GVI__Z, GVI__AT_POINTS, GVI__nR, GVI__HESS,
+    GVI__HESSIANS,
     GVI__sn, GVI__PIVOT, GVI__DIFFERENCES, GVI__J, GVI__EIGEN, GVI__LENGTHS
 };
 
-GVI__APART void gvi__lengths(const gvi_stepper *st, size_t *length)
+GVI__APART void gvi__lengths(const gvi__scene *x, size_t *length)
 {
-    const struct gvi__private *x = &st->x;
-    const size_t n = (size_t)st->n, s = (size_t)st->s, r = (size_t)st->r, R = (size_t)x->stride;
-    const int newton = gvi__has(st, GVI__HAS_NEWTON), lagrangian = gvi__has(st, GVI__HAS_LAGRANGIAN);
-    const int momenta = gvi__uses(st, GVI_MOMENTA), velocities = gvi__uses(st, GVI_VELOCITIES);
-    const int kicks = gvi__rule_is(st, GVI_KICKS), two = gvi__fits_two(st), clock = GVI__CLOCK && x->clock >= 0;
-    const int positions = gvi__uses(st, GVI_POSITIONS) || velocities, iterates = !gvi__uses(st, GVI_EXPLICIT);
+    const gvi_desc *d = x->desc;
+    const size_t n = (size_t)d->n, s = (size_t)d->degree, r = (size_t)d->rule.points, R = (size_t)GVI__ROW(r);
+    const gvi_formulation f = x->chosen;
+    const int newton = gvi__flag(x->flags, GVI__HAS_NEWTON), two = gvi__fits_two(x);
+    const int lagrangian = gvi__flag(x->flags, GVI__HAS_LAGRANGIAN), clock = GVI__CLOCK && x->clock >= 0;
+    const int momenta = gvi__chosen_is(f, GVI_MOMENTA), velocities = gvi__chosen_is(f, GVI_VELOCITIES);
+    const int positions = gvi__chosen_is(f, GVI_POSITIONS) || velocities, kicks = gvi__has_rule(d, GVI_KICKS);
+    const int iterates = !gvi__chosen_is(f, GVI_EXPLICIT);
     const int reads_v = velocities || momenta || newton, A = lagrangian && (velocities || momenta);
-    const int dense = gvi__mass_is(st, GVI_MASS_DENSE);
+    const int dense = gvi__has_mass(d, GVI_MASS_DENSE);
     length[GVI__1] = 1;
     length[GVI__2] = 2;
     length[GVI__3] = 3;
@@ -2619,14 +2682,15 @@ GVI__APART void gvi__lengths(const gvi_stepper *st, size_t *length)
     length[GVI__NN] = velocities && lagrangian ? r : 0;
     length[GVI__E] = !iterates ? 0 : two ? 2*r : r;
     length[GVI__PHI] = kicks ? 0 : s;
-    length[GVI__MODES] = reads_v || (iterates && st->order <= 2*st->s - 2) ? s : 0;
+    length[GVI__MODES] = reads_v || (iterates && x->order <= 2*d->degree - 2) ? s : 0;
     length[GVI__PLACE] = iterates ? 3 : 0;
     length[GVI__DRIFT] = iterates ? 0 : r + 1;
-    length[GVI__GAMMA] = gvi__has(st, GVI__HAS_OWN) ? s*s + s + 1 : 0;
-    length[GVI__DIAGONAL] = x->desc.mass.kind == GVI_MASS_DIAGONAL ? length[GVI__N] : 0;
-    length[GVI__STILL] = iterates && gvi__weak(st) ? n : 0;
+    length[GVI__GAMMA] = gvi__flag(x->flags, GVI__HAS_OWN) ? s*s + s + 1 : 0;
+    length[GVI__DIAGONAL] = d->mass.kind == GVI_MASS_DIAGONAL ? length[GVI__N] : 0;
+    length[GVI__TWO_MASSES] = dense ? 2*n : 0;                 // factored, and as it is
+    length[GVI__STILL] = iterates && gvi__weak(d) ? n : 0;
     length[GVI__Z] = dense && positions ? n : 0;
-    length[GVI__AT_POINTS] = gvi__mass_is(st, GVI_MASS_POSITION) ? n : 0;
+    length[GVI__AT_POINTS] = gvi__has_mass(d, GVI_MASS_POSITION) ? n : 0;
     length[GVI__nR] = n*R;
     length[GVI__HESS] = newton || lagrangian ? n : 0;
     length[GVI__HESSIANS] = (newton ? 4*n : n) + 5;
@@ -2634,7 +2698,7 @@ GVI__APART void gvi__lengths(const gvi_stepper *st, size_t *length)
     length[GVI__PIVOT] = newton ? s*n + 1 : 0;
     length[GVI__DIFFERENCES] = newton ? 4*n : 0;
     length[GVI__J] = newton ? 2*s*n : 0;
-    length[GVI__EIGEN] = newton && gvi__falls_apart(st) ? (s + 1)/2*2 : 0;    // never beside an own rule
+    length[GVI__EIGEN] = newton && gvi__falls_apart(d) ? (s + 1)/2*2 : 0;    // never beside an own rule
 }
 
 // which pointer of gvi__private, and which lengths make the part
@@ -2642,13 +2706,15 @@ typedef struct gvi__part { unsigned char pointer, rows, columns; } gvi__part;
 #define GVI__PART(member, rows, columns) \
     { offsetof(struct gvi__private, member)/sizeof(gvi_real *), GVI__##rows, GVI__##columns }
 
-GVI__APART void gvi__place(gvi_stepper *st, gvi__arena *a, const size_t *length, const gvi__part *part, size_t count)
+GVI__APART void gvi__place(gvi__arena *a, const size_t *length, const gvi__part *part, size_t count)
 {
-    for (; count > 0; --count, ++part)
-        ((gvi_real **)(void *)&st->x)[part->pointer] = gvi__take(a, length[part->rows], length[part->columns]);
+    for (; count > 0; --count, ++part) {
+        gvi_real *place = gvi__take(a, length[part->rows], length[part->columns]);
+        if (place) ((gvi_real **)(void *)a->to)[part->pointer] = place;
+    }
 }
 
-static void gvi__layout_vectors(gvi_stepper *st, gvi__arena *a, const size_t *length)
+static void gvi__layout_vectors(gvi__arena *a, const size_t *length)
 {
     static const gvi__part parts[] = {
         GVI__PART(q, 1, N), GVI__PART(qe, 1, N), GVI__PART(p, 1, N), GVI__PART(pe, 1, N), GVI__PART(q0, 1, N),
@@ -2656,10 +2722,10 @@ static void gvi__layout_vectors(gvi_stepper *st, gvi__arena *a, const size_t *le
         GVI__PART(dq, 1, N), GVI__PART(dp, 1, N), GVI__PART(dqe, 1, N), GVI__PART(dpe, 1, N),
         GVI__PART(mass, DIAGONAL, 1), GVI__PART(over, DIAGONAL, 1)
     };
-    gvi__place(st, a, length, parts, sizeof parts/sizeof *parts);
+    gvi__place(a, length, parts, sizeof parts/sizeof *parts);
 }
 
-static void gvi__layout_rows(gvi_stepper *st, gvi__arena *a, const size_t *length)
+static void gvi__layout_rows(gvi__arena *a, const size_t *length)
 {
     static const gvi__part parts[] = {
         GVI__PART(last.Q, STATE, POINTS), GVI__PART(last.F, STATE, POINTS), GVI__PART(last.V, V, R),
@@ -2675,48 +2741,46 @@ static void gvi__layout_rows(gvi_stepper *st, gvi__arena *a, const size_t *lengt
         GVI__PART(drift, DRIFT, 1), GVI__PART(inv_gamma, 1, s), GVI__PART(own, GAMMA, 1),
         GVI__PART(eigen, EIGEN, s)
     };
-    gvi__place(st, a, length, parts, sizeof parts/sizeof *parts);
+    gvi__place(a, length, parts, sizeof parts/sizeof *parts);
 }
 
 // J and pivots twice: queries must not touch what the steps keep.  J comes last
-static void gvi__layout_scratch(gvi_stepper *st, gvi__arena *a, const size_t *length)
+static void gvi__layout_scratch(gvi__arena *a, const size_t *length)
 {
     static const gvi__part parts[] = {
-        GVI__PART(scale, 2, n), GVI__PART(change, 3, n), GVI__PART(one, 6, n),
+        GVI__PART(mass, TWO_MASSES, n), GVI__PART(scale, 2, n), GVI__PART(change, 3, n), GVI__PART(one, 6, n),
         GVI__PART(hess, HESS, HESSIANS), GVI__PART(y, sn, 1), GVI__PART(dy, sn, 1), GVI__PART(pivot, PIVOT, 2),
         GVI__PART(dF, DIFFERENCES, R), GVI__PART(J, J, sn)
     };
-    if (gvi__mass_is(st, GVI_MASS_DENSE)) st->x.mass = gvi__take(a, 2*length[GVI__n], length[GVI__n]);
-    gvi__place(st, a, length, parts, sizeof parts/sizeof *parts);
+    gvi__place(a, length, parts, sizeof parts/sizeof *parts);
 }
 
-// with base NULL it only counts
-static size_t gvi__layout(gvi_stepper *st, gvi_real *base)
+// pointers into the memory at base; with base NULL it only counts
+static size_t gvi__layout(const gvi__scene *x, struct gvi__private *to, gvi_real *base)
 {
     size_t length[GVI__LENGTHS];
     gvi__arena a;
+    a.to = to;
     a.base = base;
     a.used = 0;
-    gvi__lengths(st, length);
-    if (st->n >= 8) gvi__layout_vectors(st, &a, length);      // what is not in whole vectors comes last
-    gvi__layout_rows(st, &a, length);
-    if (st->n < 8) gvi__layout_vectors(st, &a, length);
-    gvi__layout_scratch(st, &a, length);
+    gvi__lengths(x, length);
+    if (x->desc->n >= 8) gvi__layout_vectors(&a, length);     // what is not in whole vectors comes last
+    gvi__layout_rows(&a, length);
+    if (x->desc->n < 8) gvi__layout_vectors(&a, length);
+    gvi__layout_scratch(&a, length);
     return a.used;
 }
 
 /* Whole vectors are to start where a cache line does: up to this many numbers are
    left out at the beginning of the memory.                                    */
-static size_t gvi__slack(const gvi_stepper *st)
-{
-    return st->x.stride % 8 == 0 || st->n >= 8 ? GVI__SLACK : 0;
-}
+static size_t gvi__slack(const gvi_desc *d) { return d->rule.points > 4 || d->n >= 8 ? GVI__SLACK : 0; }
 
 GVI_DEF size_t gvi_size(const gvi_desc *desc)
 {
-    gvi_stepper st;
-    if (gvi__resolve(&st, desc) != GVI_OK) return 0;
-    return (gvi__layout(&st, NULL) + gvi__slack(&st))*sizeof(gvi_real);
+    gvi_desc d;
+    gvi__scene scene;
+    if (gvi__resolve(&scene, &d, desc) != GVI_OK) return 0;
+    return (gvi__layout(&scene, NULL, NULL) + gvi__slack(&d))*sizeof(gvi_real);
 }
 
 // mass matrix into the memory, factored
@@ -2747,22 +2811,44 @@ static gvi_status gvi__set_mass(gvi_stepper *st)
     return GVI_OK;
 }
 
-GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *memory, size_t size)
+// the scene into the stepper, the memory in parts
+static gvi_status gvi__hand_out(gvi_stepper *st, const gvi_desc *desc, gvi_real *memory, size_t size)
 {
-    if (!st) return GVI_E_ARGUMENT;
-    gvi_status status = gvi__resolve(st, desc);
-    gvi__done(st, GVI_OK);
-    if (status != GVI_OK) return st->status = status;
-    if (!memory) return st->status = GVI_E_ARGUMENT;
     struct gvi__private *x = &st->x;
-    size_t length = gvi__layout(st, NULL), slack = gvi__slack(st);
-    if (size < (length + slack)*sizeof(gvi_real)) return st->status = GVI_E_MEMORY;
+    gvi__scene scene;
+    gvi_status status = gvi__resolve(&scene, &x->desc, desc);
+    if (status != GVI_OK) return status;
+    if (!memory) return GVI_E_ARGUMENT;
+    st->n = x->desc.n;
+    st->s = x->desc.degree;
+    st->r = x->desc.rule.points;
+    st->order = scene.order;
+    st->formulation = x->chosen = scene.chosen;
+    x->stride = GVI__ROW(st->r);
+    x->flags = scene.flags;
+    x->clock = (signed char)scene.clock;
+    x->single = GVI__SMALL ? (signed char)-1 : gvi__single(st);
+    x->size = gvi__layout(&scene, NULL, NULL);
+    const size_t slack = gvi__slack(&x->desc);
+    if (size < (x->size + slack)*sizeof(gvi_real)) return GVI_E_MEMORY;
 
     if (slack) x->skip = (size_t)(-(uintptr_t)memory & 63)/sizeof(gvi_real);
     memory += x->skip;
-    gvi__layout(st, memory);
-    gvi__zero(x->J ? (size_t)(x->J - memory) : length, memory);         // J is written before it is read
-    x->size = length;
+    gvi__layout(&scene, x, memory);
+    gvi__zero(x->J ? (size_t)(x->J - memory) : x->size, memory);        // J is written before it is read
+    return GVI_OK;
+}
+
+GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *memory, size_t size)
+{
+    if (!st) return GVI_E_ARGUMENT;
+    struct gvi__private *x = &st->x;
+    unsigned char *bytes = (unsigned char *)st;
+    for (size_t i = 0; i < sizeof *st; ++i) bytes[i] = 0;
+    gvi__done(st, GVI_OK);
+    gvi_status status = gvi__hand_out(st, desc, memory, size);
+    if (status != GVI_OK) return st->status = status;
+    memory += x->skip;
     st->q = x->q;
     st->p = x->p;
     status = gvi__set_mass(st);
@@ -2908,8 +2994,9 @@ GVI__COPY void gvi__sum_vector(int r, int R, const gvi_real *table, const gvi_re
 static inline void gvi__sum_block(int r, int R, int block, const gvi_real *table, const gvi_real *L, gvi_real *z)
 {
     for (int k = 0; k < block; ++k) {
-        const gvi_real *t = table + k;
-        gvi_real a = t[0]*L[0], b = r > 1 ? t[R]*L[1] : 0, c = r > 2 ? t[2*R]*L[2] : 0, d = r > 3 ? t[3*R]*L[3] : 0;
+        const gvi_real *t = table + k, none = -(gvi_real)0;          // x + -0 is x, also for -0
+        gvi_real a = t[0]*L[0], b = r > 1 ? t[R]*L[1] : none;
+        gvi_real c = r > 2 ? t[2*R]*L[2] : none, d = r > 3 ? t[3*R]*L[3] : none;
         int j = 4;
         for (; j + 3 < r; j += 4) {
             a += t[j*R]*L[j];
@@ -2928,10 +3015,15 @@ static inline void gvi__sum_block(int r, int R, int block, const gvi_real *table
 static void gvi__sum_small(int r, int R, const gvi_real *table, const gvi_real *L, gvi_real *z)
 {
     for (int k = 0; k < R; ++k) {
-        const gvi_real *t = table + k;
-        gvi_real sum[4] = { 0, 0, 0, 0 };
-        for (int j = 0; j < r; ++j, t += R) sum[j & 3] = j < 4 ? *t*L[j] : sum[j & 3] + *t*L[j];
-        z[k] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+        const gvi_real *t = table + k, none = -(gvi_real)0;
+        gvi_real a = none, b = none, c = none, d = none;
+        for (int j = 0; j < r; j += 4, t += 4*R) {
+            a += t[0]*L[j];
+            if (j + 1 < r) b += t[R]*L[j + 1];
+            if (j + 2 < r) c += t[2*R]*L[j + 2];
+            if (j + 3 < r) d += t[3*R]*L[j + 3];
+        }
+        z[k] = (a + b) + (c + d);
     }
 }
 
@@ -2954,6 +3046,14 @@ static inline void gvi__weigh(int R, const gvi_real *GVI__RESTRICT w, const gvi_
     for (int j = 0; j < R; ++j) L[j] = w[j]*f[j];
 }
 
+// z := sum_j table[j][.] w_j f_j, by way of x->z
+GVI__APART void gvi__weighted_sums(const gvi_stepper *st, const gvi_real *table, const gvi_real *w,
+                                   const gvi_real *f, gvi_real *z)
+{
+    gvi__weigh(st->x.stride, w, f, st->x.z);
+    gvi__sum_row(st->r, st->x.stride, table, st->x.z, z);
+}
+
 /* 1/unit in which changes of a row are measured: |base| + the displacements at the
    last point, before and after; 0 where these have no sure digit.  Made when it is
    0: gvi__fixed_point clears it, so that as a rule nothing waits for a quotient. */
@@ -2973,6 +3073,12 @@ static inline gvi_real gvi__sum_lanes(const gvi_real *z)
    that little waits for z                                                     */
 typedef struct gvi__affine { gvi_real base, extra, a, b; } gvi__affine;
 
+// 1/m of a stage over a diagonal mass, else NULL
+static inline const gvi_real *gvi__diagonal(const gvi_stepper *st, const gvi__stage *y)
+{
+    return y->over_mass && st->x.desc.mass.kind == GVI_MASS_DIAGONAL ? st->x.over : NULL;
+}
+
 GVI__COPY gvi__affine gvi__affine_of(const gvi__stage *y, const gvi_real *diagonal, int i)
 {
     gvi__affine p;
@@ -2983,13 +3089,22 @@ GVI__COPY gvi__affine gvi__affine_of(const gvi__stage *y, const gvi_real *diagon
     return p;
 }
 
+// row := base + ((extra + c a) + b row)
+GVI__APART void gvi__affine_row(const gvi_stepper *st, const gvi__stage *y, int i, gvi_real *row)
+{
+    const struct gvi__private *x = &st->x;
+    const gvi__affine p = gvi__affine_of(y, gvi__diagonal(st, y), i);
+    const gvi_real *c = x->c;
+    for (int k = 0; k < x->stride; ++k) row[k] = p.base + ((p.extra + c[k]*p.a) + row[k]*p.b);
+}
+
 /* The rows of a stage, M^-1 being a number for each.  Returns the sum of the squares
    of the changes, scaled.  r and R are constants where this is inlined for the
    usual sizes.                                                                */
 GVI__COPY gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stage *y, int r, int R)
 {
     const struct gvi__private *x = &st->x;
-    const gvi_real *diagonal = y->over_mass && x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
+    const gvi_real *diagonal = gvi__diagonal(st, y);
     const gvi_real *c = x->c, *minus = GVI__LAGRANGIAN ? y->minus : NULL;
     const int n = st->n;
 #ifdef GVI__VECTORS
@@ -3080,7 +3195,7 @@ GVI__COPY gvi_real gvi__stage_rows_8(const gvi_stepper *st, const gvi__stage *y,
 {
     enum { VECTORS = 8/GVI__LANES };
     const struct gvi__private *x = &st->x;
-    const gvi_real *diagonal = y->over_mass && x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
+    const gvi_real *diagonal = gvi__diagonal(st, y);
     const gvi_real *base = y->base, *extra = y->extra, *slope = y->slope, *f = y->f, factor = y->factor;
     const int n = st->n;
     gvi_real *row = y->rows, *scale = y->scale, lane[8], ahead[64];
@@ -3112,24 +3227,31 @@ GVI__COPY gvi_real gvi__stage_rows_8(const gvi_stepper *st, const gvi__stage *y,
 }
 #endif
 
-// the same in less code and without blocks; sums of squares from the last point on, as there
-GVI__APART gvi_real gvi__stage_rows_small(gvi_stepper *st, const gvi__stage *y)
+// z := table (h b f_i) - minus (b a_i)
+static void gvi__row_sums(const gvi_stepper *st, const gvi__stage *y, int i, gvi_real *z)
 {
     const struct gvi__private *x = &st->x;
-    const gvi_real *diagonal = y->over_mass && x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
-    const int r = st->r, R = x->stride;
-    gvi_real lane[8] = { 0, 0, 0, 0, 0, 0, 0, 0 }, *z = x->row, *row = y->rows;
-    for (int i = 0; i < st->n; ++i, row += R) {
-        const gvi__affine p = gvi__affine_of(y, diagonal, i);
-        gvi__weigh(R, x->hb, y->f + i*R, x->z);
-        gvi__sum_small(r, R, y->table, x->z, z);
-        if (GVI__LAGRANGIAN && y->minus) {
-            gvi__weigh(R, x->b, x->work.A + i*R, x->z);
-            gvi__sum_small(r, R, y->minus, x->z, x->less);
-            for (int k = 0; k < R; ++k) z[k] -= x->less[k];
-        }
-        for (int k = 0; k < R; ++k) z[k] = p.base + ((p.extra + x->c[k]*p.a) + z[k]*p.b);
-        gvi__rescale(p.base, row[r - 1], z[r - 1], y->scale + i);
+    const int R = x->stride;
+    gvi__weighted_sums(st, y->table, x->hb, y->f + i*R, z);
+    if (!GVI__LAGRANGIAN || !y->minus) return;
+    gvi__weighted_sums(st, y->minus, x->b, x->work.A + i*R, x->less);
+    for (int k = 0; k < R; ++k) z[k] -= x->less[k];
+}
+
+/* The same in less code and without blocks, sums of squares from the last point on, as
+   there; also where M is a full matrix: then all sums first, and M^-1 of them.   */
+GVI__APART gvi_real gvi__stage_rows_plain(gvi_stepper *st, const gvi__stage *y)
+{
+    const struct gvi__private *x = &st->x;
+    const int n = st->n, R = x->stride, last = st->r - 1, dense = y->over_mass && gvi__mass_is(st, GVI_MASS_DENSE);
+    gvi_real lane[8] = { 0, 0, 0, 0, 0, 0, 0, 0 }, *z = dense ? x->Z : x->row, *row = y->rows;
+    for (int i = 0; dense && i < n; ++i) gvi__row_sums(st, y, i, z + i*R);
+    if (dense) gvi__over_mass(st, z, R, R);
+    for (int i = 0; i < n; ++i, row += R) {
+        if (dense) z = x->Z + i*R;
+        else gvi__row_sums(st, y, i, z);
+        gvi__affine_row(st, y, i, z);
+        gvi__rescale(y->base[i], row[last], z[last], y->scale + i);
         for (int k = R; k-- > 0; ) {
             const gvi_real moved = (z[k] - row[k])*y->scale[i];
             lane[k & 7] += moved*moved;
@@ -3137,34 +3259,6 @@ GVI__APART gvi_real gvi__stage_rows_small(gvi_stepper *st, const gvi__stage *y)
         }
     }
     return gvi__sum_lanes(lane);
-}
-
-// the same where M is a full matrix: all sums first, then M^-1 of them
-static gvi_real gvi__stage_rows_dense(gvi_stepper *st, const gvi__stage *y)
-{
-    struct gvi__private *x = &st->x;
-    int R = x->stride, last = st->r - 1;
-    gvi_real sum = 0;
-    for (int i = 0; i < st->n; ++i) {
-        gvi__weigh(R, x->hb, y->f + i*R, x->z);
-        gvi__sum_row(st->r, R, y->table, x->z, x->Z + i*R);
-        if (!y->minus) continue;
-        gvi__weigh(R, x->b, x->work.A + i*R, x->z);
-        gvi__sum_row(st->r, R, y->minus, x->z, x->less);
-        for (int k = 0; k < R; ++k) x->Z[i*R + k] -= x->less[k];
-    }
-    gvi__over_mass(st, x->Z, R, R);
-    for (int i = 0; i < st->n; ++i) {
-        gvi_real *z = x->Z + i*R, *row = y->rows + i*R, slope = y->slope ? y->factor*y->slope[i] : 0;
-        for (int k = 0; k < R; ++k) z[k] = y->base[i] + ((y->extra[i] + x->c[k]*slope) + y->factor*z[k]);
-        gvi__rescale(y->base[i], row[last], z[last], y->scale + i);
-        for (int k = 0; k < R; ++k) {
-            gvi_real moved = (z[k] - row[k])*y->scale[i];
-            sum += moved*moved;
-            row[k] = z[k];
-        }
-    }
-    return sum;
 }
 
 /* One function for each usual number of points.                                */
@@ -3184,7 +3278,7 @@ GVI__ROWS(gvi__rows_16, gvi__stage_rows_of(st, y, 16, 16))
 
 static gvi__kernel *gvi__kernel_of(const gvi_stepper *st, const gvi__stage *y)
 {
-    if (y->over_mass && gvi__mass_is(st, GVI_MASS_DENSE)) return gvi__stage_rows_dense;
+    if (y->over_mass && gvi__mass_is(st, GVI_MASS_DENSE)) return gvi__stage_rows_plain;
     switch (st->r) {
     case 1:  return gvi__rows_1;
     case 2:  return gvi__rows_2;
@@ -3204,9 +3298,7 @@ static gvi__kernel *gvi__kernel_of(const gvi_stepper *st, const gvi__stage *y)
 // the new rows of a stage and their change
 static inline gvi_real gvi__stage_rows(gvi_stepper *st, const gvi__stage *y)
 {
-    if (!GVI__SMALL) return y->kernel(st, y);
-    return y->over_mass && gvi__mass_is(st, GVI_MASS_DENSE) ? gvi__stage_rows_dense(st, y)
-                                                            : gvi__stage_rows_small(st, y);
+    return GVI__SMALL ? gvi__stage_rows_plain(st, y) : y->kernel(st, y);
 }
 
 // V := M^-1 (P - A), with the constant mass or the factored M(Q)
@@ -3214,8 +3306,10 @@ static void gvi__velocity_rows(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work;
+    const gvi_real *P = w->P, *A = gvi__A(w);
+    gvi_real *V = w->V;
     int n = st->n, R = x->stride;
-    for (int k = 0; k < n*R; ++k) w->V[k] = w->P[k] - (gvi__A(w) ? w->A[k] : 0);
+    for (int k = 0; k < n*R; ++k) V[k] = P[k] - (A ? A[k] : 0);
     if (gvi__mass_is_constant(&x->desc)) gvi__over_mass(st, w->V, R, st->r);
     else gvi__ldl_solve(n, x->point_mass, R, 1, w->V, R, st->r);
 }
@@ -3370,9 +3464,8 @@ static void gvi__transform(gvi_stepper *st, const gvi__from *from, int lagrangia
     for (int k = 0; k < R; ++k) x->level[k] -= x->less[k] + E;
     if (gvi__has(st, GVI__HAS_VELOCITIES)) {
         gvi__scale_row(R, x->rate, x->power);
-        gvi__weigh(R, x->hb, x->power, x->less);
-        gvi__sum_row(r, R, x->T, x->less, x->z);
-        for (int k = 0; k < R; ++k) x->level[k] -= x->z[k];
+        gvi__weighted_sums(st, x->T, x->hb, x->power, x->less);
+        for (int k = 0; k < R; ++k) x->level[k] -= x->less[k];
     }
     for (int i = 0; i < n; ++i) {
         gvi__add_products(R, w->P + i*R, w->V + i*R, x->level);
@@ -3466,12 +3559,11 @@ GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const 
                                      const gvi_real *older, const gvi__stage *y, gvi_real *out)
 {
     const struct gvi__private *x = &st->x;
-    const gvi_real *diagonal = y && x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
-    gvi__affine p = { 0, 0, 0, 1 };
     for (int i = 0; i < st->n; ++i) {
         gvi_real *row = out + i*R;
-        if (y) p = gvi__affine_of(y, diagonal, i);
 #ifdef GVI__VECTORS
+        gvi__affine p = { 0, 0, 0, 1 };
+        if (y) p = gvi__affine_of(y, gvi__diagonal(st, y), i);
         for (int o = 0; older && R % 8 == 0 && o < R; o += GVI__LANES) {
             gvi__vector z, before;
             gvi__sum_vector(r, R, x->E + r*R + o, older + i*R, &before);
@@ -3485,7 +3577,7 @@ GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const 
         gvi__sum_row(r, R, x->E, last + i*R, row);
         if (older) gvi__sum_row(r, R, x->E + r*R, older + i*R, x->z);
         for (int k = 0; older && k < R; ++k) row[k] += x->z[k];
-        for (int k = 0; y && k < R; ++k) row[k] = p.base + ((p.extra + x->c[k]*p.a) + row[k]*p.b);
+        if (y) gvi__affine_row(st, y, i, row);
     }
 }
 
@@ -3548,10 +3640,7 @@ static void gvi__fit_sums(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
     const int R = x->stride, rows = gvi__two_now(st) ? 2*st->r : st->r;
-    for (int j = 0; j < rows; ++j) {
-        gvi__weigh(R, x->hb, x->E + j*R, x->z);
-        gvi__sum_row(st->r, R, x->g, x->z, x->E + j*R);
-    }
+    for (int j = 0; j < rows; ++j) gvi__weighted_sums(st, x->g, x->hb, x->E + j*R, x->E + j*R);
 }
 
 // makes E what this step needs, if it is not
@@ -3630,7 +3719,8 @@ GVI__APART gvi__two gvi__exact_dot(int r, const gvi_real *a, const gvi_real *b, 
 // sum_j (1 - c_j) h b_j F_j
 static gvi_real gvi__lever_sum(int r, const gvi_real *c, const gvi_real *hb, const gvi_real *F)
 {
-    gvi_real sum[4] = { 0, 0, 0, 0 };
+    gvi_real sum[4];
+    sum[0] = sum[1] = sum[2] = sum[3] = 0;        // an initialiser would be a call of memset
     for (int j = 0; j < r; ++j) sum[j & 3] += (1 - c[j])*(hb[j]*F[j]);
     return (sum[0] + sum[2]) + (sum[1] + sum[3]);
 }
@@ -4562,7 +4652,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, gvi__from *from, gvi_real h,
     st->formulation = x->chosen;
     if (gvi__uses(st, GVI_EXPLICIT)) return gvi__explicit(st, from, h, past->force);
 
-    x->seldom = x->diagnose ? 0 : gvi__weak(st);
+    x->seldom = x->diagnose ? 0 : gvi__weak(&x->desc) & ~x->off;
     x->learned = gvi__nonzero(h - st->h) ? 1 : x->answer;
     int usable = past->available, used = 0;
     gvi_status status = GVI_E_CONVERGENCE;
@@ -5376,7 +5466,8 @@ GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const 
     st->x.skip = skip;
     st->x.desc = desc;
     st->x.memory = own;
-    gvi__layout(st, own);
+    const gvi__scene scene = { &st->x.desc, st->order, st->x.flags, st->x.clock, st->x.chosen };
+    gvi__layout(&scene, &st->x, own);
     for (int turns = st->x.turns; turns > 0; --turns) gvi__rotate_rows(st);
     st->x.turns = saved->x.turns;
     st->q = st->x.q;
