@@ -4069,9 +4069,9 @@ static inline void gvi__drift(int n, gvi_real a, gvi_real zero, const gvi_real *
    depend on F is added up first, so that little waits for F; but a (b F) is two
    products: the rounding of a b, the same in every step, would make the map no
    longer symplectic and let the energy drift.  F is 0 then for the next call, but
-   that of the last kick is kept.                                              */
+   where it is to be kept.                                                     */
 static inline void gvi__kick_drift_of(int n, gvi_real b, gvi_real a, const gvi_real *m, const gvi__from *from,
-                                      gvi_real zero, int last, gvi_real *GVI__RESTRICT F, gvi_real *GVI__RESTRICT dp,
+                                      gvi_real zero, int keep, gvi_real *GVI__RESTRICT F, gvi_real *GVI__RESTRICT dp,
                                       gvi_real *GVI__RESTRICT dq, gvi_real *GVI__RESTRICT Q)
 {
     const gvi_real *GVI__RESTRICT v = from->v, *GVI__RESTRICT q = from->q;
@@ -4080,16 +4080,43 @@ static inline void gvi__kick_drift_of(int n, gvi_real b, gvi_real a, const gvi_r
         dq[i] = (dq[i] + a*(v[i] + (m ? p*m[i] : p))) + a*(m ? kick*m[i] : kick);
         dp[i] = p + kick;
         Q[i] = q[i] + dq[i];
-        if (!last) F[i] = zero;
+        if (!keep) F[i] = zero;
     }
 }
 
 static inline void gvi__kick_drift(int n, gvi_real b, gvi_real a, const gvi_real *m, const gvi__from *from,
-                                   gvi_real zero, int last, gvi_real *F, gvi_real *dp, gvi_real *dq, gvi_real *Q)
+                                   gvi_real zero, int keep, gvi_real *F, gvi_real *dp, gvi_real *dq, gvi_real *Q)
 {
-    if (last) gvi__kick_drift_of(n, b, a, m, from, zero, 1, F, dp, dq, Q);
-    else if (m || GVI__SMALL) gvi__kick_drift_of(n, b, a, m, from, zero, 0, F, dp, dq, Q);
+    if (GVI__SMALL) gvi__kick_drift_of(n, b, a, m, from, zero, keep, F, dp, dq, Q);
+    else if (keep && m) gvi__kick_drift_of(n, b, a, m, from, zero, 1, F, dp, dq, Q);
+    else if (keep) gvi__kick_drift_of(n, b, a, NULL, from, zero, 1, F, dp, dq, Q);
+    else if (m) gvi__kick_drift_of(n, b, a, m, from, zero, 0, F, dp, dq, Q);
     else gvi__kick_drift_of(n, b, a, NULL, from, zero, 0, F, dp, dq, Q);
+}
+
+// the same at the first node, time 0, by a force that is known: the drift to it is none
+static inline void gvi__first_kick_of(int n, gvi_real b, gvi_real a, const gvi_real *m, const gvi__from *from,
+                                      gvi_real zero, const gvi_real *GVI__RESTRICT known, gvi_real *GVI__RESTRICT F,
+                                      gvi_real *GVI__RESTRICT dp, gvi_real *GVI__RESTRICT dq,
+                                      gvi_real *GVI__RESTRICT Q)
+{
+    const gvi_real *GVI__RESTRICT v = from->v, *GVI__RESTRICT q = from->q;
+    const gvi_real *GVI__RESTRICT qe = from->qe, *GVI__RESTRICT pe = from->pe;
+    for (int i = 0; i < n; ++i) {
+        const gvi_real p = pe[i], kick = b*known[i];
+        dq[i] = (qe[i] + a*(v[i] + (m ? p*m[i] : p))) + a*(m ? kick*m[i] : kick);
+        dp[i] = p + kick;
+        Q[i] = q[i] + dq[i];
+        F[i] = zero;
+    }
+}
+
+static inline void gvi__first_kick(int n, gvi_real b, gvi_real a, const gvi_real *m, const gvi__from *from,
+                                   gvi_real zero, const gvi_real *known, gvi_real *F, gvi_real *dp, gvi_real *dq,
+                                   gvi_real *Q)
+{
+    if (m) gvi__first_kick_of(n, b, a, m, from, zero, known, F, dp, dq, Q);
+    else gvi__first_kick_of(n, b, a, NULL, from, zero, known, F, dp, dq, Q);
 }
 
 // both with a full mass matrix
@@ -4116,9 +4143,11 @@ static inline gvi_status gvi__explicit_of(gvi_stepper *st, const gvi__from *from
     gvi__at(&y, st, &t, Q);
     y.f = F;
     y.dldv = NULL;
-    gvi__drift(n, dense ? 0 : x->drift[0], zero, m, from, dp, dq, Q, F);
+    const int known = !GVI__SMALL && force && !dense;
+    if (known) gvi__first_kick(n, x->hb[0], x->drift[1], m, from, zero, last, F, dp, dq, Q);
+    else gvi__drift(n, dense ? 0 : x->drift[0], zero, m, from, dp, dq, Q, F);
     if (dense) gvi__drift_dense(st, from, x->drift[0]);
-    for (int j = 0; j < r; ++j) {
+    for (int j = known; j < r; ++j) {
         gvi_real *f = j == 0 && force ? last : F;
         t = from->t + (from->te + x->c[j]*h);
         for (int i = 0; n == 2 && j > 0 && i < n; ++i) F[i] = zero;
@@ -4130,7 +4159,8 @@ static inline gvi_status gvi__explicit_of(gvi_stepper *st, const gvi__from *from
             if (status == GVI_OK) status = gvi__effects(st, &y, 0);
             if (status != GVI_OK) return status;
         }
-        gvi__kick_drift(n, x->hb[j], dense ? 0 : x->drift[j + 1], m, from, zero, n == 2 || f == last || j == r - 1, f, dp, dq, Q);
+        const int keep = n == 2 || f == last || j == r - 1;
+        gvi__kick_drift(n, x->hb[j], dense ? 0 : x->drift[j + 1], m, from, zero, keep, f, dp, dq, Q);
         if (dense) gvi__drift_dense(st, from, x->drift[j + 1]);
     }
     return GVI_OK;
