@@ -194,7 +194,7 @@ everywhere:
 deps-everywhere:
 	$(Q)sh tests/tools/everywhere.sh --deps
 
-## own-quadrature weak effects with fewer points, or asked less often: the study behind docs/design.md (a minute)
+## own-quadrature weak effects with fewer points, or marked as weak: the study behind docs/design.md (a minute)
 own-quadrature: $(BUILD)/cost/own_quadrature
 	$(Q)$<
 

@@ -225,8 +225,8 @@
    part by a factor of 1000 it takes half of the evaluations or less, and now and then
    a turn more.  The equations, and so the step, are the same; a mark on an effect that
    is not weak costs turns, not digits.  Potentials and forces, in the fixed points,
-   without a clock or desc.iterations, and not compiled for size: elsewhere a marked
-   effect is asked as any other.
+   without a clock or desc.iterations, of degree 1 with Gauss's rule alone, and not
+   compiled for size: elsewhere a marked effect is asked as any other.
 
    CLOCK.  An effect g(q) > 0 makes time run as dt = g dtau, and h is a step in
    tau: t moves fast or slow, and the map is as symplectic as with fixed steps
@@ -1742,6 +1742,7 @@ static signed char gvi__single(const gvi_stepper *st)
 static unsigned gvi__weak(const gvi_desc *d)
 {
     unsigned bits = 0;
+    if (d->degree == 1 && d->rule.kind != GVI_GAUSS) return 0;     // the rows do not see a force at the end
     for (int e = 0; GVI__WEAK && d->iterations == 0 && e < d->effect_count; ++e) {
         if (d->effects[e].kind == GVI_CLOCK) return 0;
         if (d->effects[e].weak && d->effects[e].kind <= GVI_FORCE) bits |= 1u << e;
@@ -3905,12 +3906,13 @@ static gvi_status gvi__not_finite(gvi_stepper *st, int grows)
     return gvi__give(st, status);
 }
 
-/* Where an iteration stands: squares of the last changes, the least of them, the
-   tolerance and what is rounding; how often they were poor or without a new least. */
+/* Where an iteration stands: squares of the last changes, the tolerance and what is
+   rounding; the least change, and how often they were poor or without a new least. */
 typedef struct gvi__progress {
-    gvi_real before, earlier, least, tolerance, rounding;
+    gvi_real before, earlier, tolerance, rounding;
+    gvi_real least[2];                /* where the weak stood still or there are none; else */
     int      poor, idle, grows;
-    int      anew, asked;             /* the weak effects: last time, or next; more than once */
+    int      anew, asked;             /* the weak effects: last time, or next; how often */
     gvi_real way, steady;             /* of the rows since then; how others alone contract */
     gvi_real pending;                 /* the change that asking them would bring */
 } gvi__progress;
@@ -3927,17 +3929,17 @@ GVI__APART int gvi__settled(gvi_stepper *st, gvi__progress *p, gvi_real change)
     const gvi_real sure = (1000*GVI__EPS)*(1000*GVI__EPS), before = p->before > 1 ? 1 : p->before;
     gvi_real rate = before > 0 ? change/before : 1;
     if (p->anew) {
-        const gvi_real answer = p->way > sure ? change/p->way : x->learned;
+        const gvi_real answer = p->way > 1 ? change : p->way > sure ? change/p->way : x->learned;
         if (answer < x->learned || change > 16*p->steady*before) x->learned = answer;
         if (rate > p->steady) rate = p->steady;
-        p->asked = before > 0;
+        p->asked += 1;
         p->way = change;
     } else {
         if (before > sure) p->steady = rate;
         if (change > p->way) p->way = change;
     }
     const gvi_real lead = change*rate, guess = x->learned*p->way, enough = p->tolerance;
-    p->pending = p->asked ? guess : p->way;
+    p->pending = p->asked > 1 ? guess : p->way;
     p->anew = 100*guess >= lead || (lead*rate <= enough && p->pending > enough);
     return lead <= enough && p->pending <= enough;
 }
@@ -3964,25 +3966,25 @@ GVI__APART int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress 
     struct gvi__private *x = &st->x;
     const gvi_real rounding = p->rounding, before = p->before;
     const gvi_real known = before > 1 ? 1 : before > 0 ? before : change;
-    const int given = gvi__counts(st), watch = !(GVI__WEAK && x->seldom && p->anew);
+    const int given = gvi__counts(st), moved = GVI__WEAK && x->seldom && p->anew;
     if (GVI__WEAK && x->seldom ? gvi__settled(st, p, change) : !given && change*change <= p->tolerance*known)
         return GVI__DONE;
     if (given && used == x->desc.iterations) {
         const int falls = p->earlier > 0 ? change < p->earlier/4 : before <= 0 || change < before;
         return falls || change <= 65536*rounding ? GVI__DONE : GVI__BEYOND;
     }
-    if (watch) gvi__watch(st, change, p->earlier);
+    if (!moved) gvi__watch(st, change, p->earlier);
     p->grows = before > 0 && change >= before/4;
     if ((used == 1 && change > (gvi_real)0.0625) || p->grows) gvi__zero(2*(size_t)st->n, x->scale);
     p->earlier = before;
     p->before = change;
     if (given) return GVI__GO_ON;
     p->poor = p->grows ? p->poor + 1 : 0;
-    p->idle = change < p->least*81/100 ? 0 : p->idle + 1;
-    if (change < p->least) p->least = change;
+    p->idle = change < p->least[moved]*81/100 ? 0 : p->idle + 1;
+    if (change < p->least[moved]) p->least[moved] = change;
     if ((p->idle > 2 && change <= rounding)
         || ((p->idle > 1 || p->poor > 2) && gvi__is_rounding(st, from, p->idle))) {
-        if (!GVI__WEAK || p->pending <= rounding)
+        if (!GVI__WEAK || moved || p->pending <= rounding)
             return used - p->idle > GVI__DIG/2 && gvi__may_turn(st) ? GVI__BEYOND : GVI__ASK_ONCE_MORE;
         p->idle = p->poor = 0;
         p->anew = 1;
@@ -3999,7 +4001,7 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
     const int most = gvi__counts(st) ? x->desc.iterations : x->desc.max_iterations;
     const gvi_real tolerance = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/65536;
     const gvi_real rounding = 16*GVI__EPS*GVI__EPS*(gvi_real)(st->n*st->r);
-    gvi__progress p = { 0, 0, GVI__MAX, tolerance*tolerance, rounding, 0, 0, 0, 1, 0, 0, 1, 0 };
+    gvi__progress p = { 0, 0, tolerance*tolerance, rounding, { GVI__MAX, GVI__MAX }, 0, 0, 0, 1, 0, 0, 1, 0 };
     gvi__stage y[GVI__STAGES];
     gvi_points at;
     const int count = gvi__plan(st, from, h, y);

@@ -667,6 +667,33 @@ static void test_off_is_unlisted(void **state)
     (void)state;
 }
 
+/* Any mark on any effect (gvi_effect.weak), most of them wrong: the same way to the step,
+   and at most a third more iterations, down to where the net hangs and only rounding
+   moves; no fewer, which would be an iteration left too early.  -1: all effects.     */
+static double marked_iterations(const scene *a, int e, gvi_formulation *found)
+{
+    build(a->name, NULL);
+    for (int k = 0; k < made.desc.effect_count; ++k) made.effects[k].weak = e == -1 || k == e;
+    start();
+    steps(lround(fmin(a->duration/a->h, 800)), a->h);
+    *found = st.formulation;
+    return (double)st.counters.iterations + 100*(double)st.counters.newton_iterations;
+}
+
+static void test_any_mark(void **state)
+{
+    for (int i = 0; i < scene_count; ++i) {
+        gvi_formulation plain, marked;
+        const double all = marked_iterations(scenes[i], -2, &plain);
+        for (int e = -1; e < made.desc.effect_count; ++e) {
+            const double more = marked_iterations(scenes[i], e, &marked)/all;
+            assert_between(0.98, more, 1.35);
+            assert_int_equal(plain, marked);
+        }
+    }
+    (void)state;
+}
+
 /* Off and on again between steps: its counter stands still while it is off, and
    the others' does not.                                                      */
 static void test_switching_between_steps(void **state)
@@ -760,6 +787,7 @@ int main(void)
         cmocka_unit_test(test_duffing_attractors),
         cmocka_unit_test(test_net),
         cmocka_unit_test(test_off_is_unlisted),
+        cmocka_unit_test(test_any_mark),
         cmocka_unit_test(test_switching_between_steps),
         cmocka_unit_test(test_unlisted_costs_nothing),
         cmocka_unit_test(test_lists),

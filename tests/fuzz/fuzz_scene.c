@@ -153,6 +153,7 @@ static gvi_desc describe(void)
         else effects[e].point = point;
         if (how & 2) effects[e].value = points;
         if (how & 4) effects[e].hessian = hessian;
+        effects[e].weak = how >> 3 & 1;
         moods[e] = any_mood();
     }
     d.mass.kind = (gvi_mass_kind)below(5);
