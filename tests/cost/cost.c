@@ -184,6 +184,16 @@ static void add_kicks(void)
     }
 }
 
+/* The scene in two effects, one of them marked as weak.                                       */
+static void add_marked(const problem *p)
+{
+    static const int degrees[] = { 8, 7, 16 };
+    static const double tolerances[] = { 1e-12, 0, 1e-16, 1e-15, 1e-14, 1e-13, 1e-10, 1e-8 };
+    for (int i = 0; i < COUNT(degrees); ++i)
+        for (int k = 0; k < COUNT(tolerances); ++k)
+            add_setting(degrees[i], GVI_GAUSS, GVI_POSITIONS, tolerances[k])->scene = p->marked;
+}
+
 /* Kepler's ellipses with a clock.                                                             */
 static void add_clocks(const problem *p)
 {
@@ -213,6 +223,7 @@ static void settings_for(const problem *p)
     add_setting(12, GVI_GAUSS, GVI_AUTO, 0);
     if (!p->slope) add_kicks();
     if (p->clocks[0]) add_clocks(p);
+    if (p->marked) add_marked(p);
 }
 
 static curve *new_curve(study *y, const char *family, int ours, int structure)
@@ -243,7 +254,7 @@ static void study_gvi(study *y, const options *o, double length)
     for (int i = 0; i < setting_count; ++i) {
         const gvi_setting *g = settings + i;
         double work = g->rule == GVI_KICKS ? g->points : 6*g->degree;
-        sweep w = steps_from(g->scene ? 5*y->p->revolutions : y->p->evaluations*length/work,
+        sweep w = steps_from(g->power > 0 ? 5*y->p->revolutions : y->p->evaluations*length/work,
                              y->p->limit*length, o);
         job j = { y->p, NULL, g, malloc(sizeof(double)*(size_t)gvi_run_memory(y->p, g)) };
         curve *c = new_curve(y, "gvi.h", 1, 1);

@@ -27,7 +27,8 @@ void gvi_setting_name(const gvi_setting *g, int size, char *name)
     char points[24] = "", tolerance[24] = "", clock[24] = "";
     if (g->points) snprintf(points, sizeof points, ", r = %d", g->points);
     if (g->tolerance > 0) snprintf(tolerance, sizeof tolerance, ", tol %.0e", g->tolerance);
-    if (g->scene) { snprintf(clock, sizeof clock, ", clock %g", g->power); how = ""; }
+    if (g->power > 0) { snprintf(clock, sizeof clock, ", clock %g", g->power); how = ""; }
+    else if (g->scene) { snprintf(clock, sizeof clock, ", marked"); how = ""; }
     snprintf(name, (size_t)size, "s = %d%s%s%s%s%s%s", g->degree, rule, points, clock, tolerance,
              *how ? ", " : "", how);
 }
@@ -80,7 +81,7 @@ void gvi_run(const problem *p, const gvi_setting *g, long steps, double *memory,
     if (st.status != GVI_OK) return;
     if (p->slope) gvi_start_momentum(&st, 0, p->q, p->v);
     else gvi_start(&st, 0, p->q, p->v);
-    if (g->scene) run_clock(p, g, steps, &st, w, r);
+    if (g->power > 0) run_clock(p, g, steps, &st, w, r);
     else run_steps(p, steps, &st, w, r);
     r->status = st.status;
     r->steps = (long long)st.counters.steps;

@@ -13,8 +13,8 @@ typedef struct gvi_setting {
     double          tolerance;
     const char     *name;              /* GVI_KICKS: of the splitting, and its table           */
     const double   *nodes, *weights;
-    const gvi_effect *scene;           /* not NULL: two effects, the second a clock            */
-    double          power;             /* of the distance, the clock                           */
+    const gvi_effect *scene;           /* not NULL: two effects, the second a clock or weak    */
+    double          power;             /* of the distance, the clock; 0: there is none         */
     double          tau;               /* of the whole way                                     */
 } gvi_setting;
 

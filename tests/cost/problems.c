@@ -271,14 +271,15 @@ INLINE void solar_pairs(const double *q, const int processor, double *a)
     for (int i = 0; i < 18; ++i) a[i] = s[i];
 }
 
-/* Forces, for the masses go with the scene.                                                   */
-INLINE int solar_points(const gvi_points *p, int count, int stride, const int processor)
+/* Forces, for the masses go with the scene: of the pairs whose first body is one of first..last */
+INLINE int solar_points(const gvi_points *p, int count, int stride, const int first, const int last,
+                        const int processor)
 {
     const double *restrict q = p->q;
     double *restrict f = p->f;
     INDEPENDENT for (int k = 0; k < count; ++k) {
         double s[18] = { 0 };
-        UNROLL for (int i = 0; i < 5; ++i)
+        UNROLL for (int i = first; i <= last; ++i)
             UNROLL for (int j = i + 1; j < 6; ++j) {
                 const double *a = q + 3*i*stride + k, *b = q + 3*j*stride + k;
                 double x = b[0] - a[0], y = b[stride] - a[stride], z = b[2*stride] - a[2*stride];
@@ -286,13 +287,19 @@ INLINE int solar_points(const gvi_points *p, int count, int stride, const int pr
                 s[3*i] += w*x;  s[3*i+1] += w*y;  s[3*i+2] += w*z;
                 s[3*j] -= w*x;  s[3*j+1] -= w*y;  s[3*j+2] -= w*z;
             }
-        UNROLL18 for (int i = 0; i < 18; ++i) f[i*stride+k] += s[i];
+        UNROLL18 for (int i = 3*first; i < 18; ++i) f[i*stride+k] += s[i];
     }
     return 0;
 }
 
-INLINE int solar_by_processor(const gvi_points *p, int count, int stride) { return solar_points(p, count, stride, 1); }
-INLINE int solar_from_bits(const gvi_points *p, int count, int stride) { return solar_points(p, count, stride, 0); }
+#define SOLAR(name, first, last, processor) \
+    INLINE int name(const gvi_points *p, int count, int stride) { return solar_points(p, count, stride, first, last, processor); }
+SOLAR(solar_by_processor, 0, 4, 1)
+SOLAR(solar_from_bits, 0, 4, 0)
+SOLAR(sun_by_processor, 0, 0, 1)
+SOLAR(sun_from_bits, 0, 0, 0)
+SOLAR(planets_by_processor, 1, 4, 1)
+SOLAR(planets_from_bits, 1, 4, 0)
 
 static void solar_acceleration(const double *q, double *a)
 {
@@ -306,6 +313,21 @@ WIDE static int solar(const gvi_points *p, void *user)
     if (p->count > 1 && solar_roots.many) return BY_COUNT(solar_by_processor, p);
     if (p->count > 1) return BY_COUNT(solar_from_bits, p);
     ONE_POINT(18, solar_acceleration, p, solar_mass[i]);
+}
+
+/* The same in two effects: pairs with the Sun, and the others, which are weak                  */
+WIDE static int solar_sun(const gvi_points *p, void *user)
+{
+    (void)user;
+    if (solar_roots.many) return BY_COUNT(sun_by_processor, p);
+    return BY_COUNT(sun_from_bits, p);
+}
+
+WIDE static int solar_planets(const gvi_points *p, void *user)
+{
+    (void)user;
+    if (solar_roots.many) return BY_COUNT(planets_by_processor, p);
+    return BY_COUNT(planets_from_bits, p);
 }
 
 /* -------------------------------------------------- P5: double pendulum */
@@ -550,6 +572,8 @@ static const gvi_effect kepler_scene[] = { { .kind = GVI_POTENTIAL, .points = ke
 static const gvi_effect kepler_clock_1[] = WITH_CLOCK(clock_1), kepler_clock_32[] = WITH_CLOCK(clock_32);
 static const gvi_effect henon_scene[] = { { .kind = GVI_POTENTIAL, .points = henon } };
 static const gvi_effect solar_scene[] = { { .kind = GVI_POTENTIAL, .points = solar } };
+static const gvi_effect solar_marked[] = { { .kind = GVI_POTENTIAL, .points = solar_sun },
+                                           { .kind = GVI_POTENTIAL, .points = solar_planets, .weak = 1 } };
 static const gvi_effect pendulum_scene[] = { { .kind = GVI_POTENTIAL, .points = pendulum_weight } };
 static const gvi_effect fpu_scene[] = { { .kind = GVI_POTENTIAL, .points = fpu } };
 static const gvi_effect chain_scene[] = { { .kind = GVI_POTENTIAL, .points = chain } };
@@ -574,7 +598,7 @@ const problem problems[] = {
     { .key = "P4", .title = "Outer solar system, 548 years", .n = 18, .end = 200000,
       .q = solar_q, .v = solar_v, .reference = reference_P4, .energy = solar_energy,
       .acceleration = solar_acceleration, .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = solar_mass },
-      SCENE(solar_scene), .evaluations = 1e3, .limit = 10 },
+      SCENE(solar_scene), .marked = solar_marked, .evaluations = 1e3, .limit = 10 },
     { .key = "P5", .title = "Double pendulum, t = 100", .n = 2, .end = 100,
       .q = pendulum_q, .v = pendulum_p, .reference = reference_P5, .energy = pendulum_energy,
       .slope = pendulum_slope, .mass = { .kind = GVI_MASS_POSITION, .points = pendulum_mass,
