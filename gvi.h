@@ -520,7 +520,7 @@ struct gvi__private {
     gvi_real         ratio;           /* h/h_last for which E holds             */
     gvi_real         h_matrix;        /* h for which J was made, 0: none        */
     unsigned         off;             /* effects switched off, one bit each     */
-    unsigned         seldom;          /* those that need not be asked in each iteration */
+    unsigned         marks, seldom;   /* marked as weak; and now not to be asked in each iteration */
     gvi_real         answer, learned; /* of theirs to a change of the rows, squared: gvi__settled */
     signed char      newton_left;     /* steps until the fixed point is tried   */
     signed char      whole_left;      /* steps until blocks are tried again     */
@@ -2829,6 +2829,7 @@ static gvi_status gvi__hand_out(gvi_stepper *st, const gvi_desc *desc, gvi_real 
     x->flags = scene.flags;
     x->clock = (signed char)scene.clock;
     x->single = GVI__SMALL ? (signed char)-1 : gvi__single(st);
+    x->marks = gvi__weak(&x->desc);
     x->size = gvi__layout(&scene, NULL, NULL);
     const size_t slack = gvi__slack(&x->desc);
     if (size < (x->size + slack)*sizeof(gvi_real)) return GVI_E_MEMORY;
@@ -4684,7 +4685,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, gvi__from *from, gvi_real h,
     st->formulation = x->chosen;
     if (gvi__uses(st, GVI_EXPLICIT)) return gvi__explicit(st, from, h, past->force);
 
-    x->seldom = x->diagnose ? 0 : gvi__weak(&x->desc) & ~x->off;
+    x->seldom = x->diagnose ? 0 : x->marks & ~x->off;
     x->learned = gvi__nonzero(h - st->h) ? 1 : x->answer;
     int usable = past->available, used = 0;
     gvi_status status = GVI_E_CONVERGENCE;
