@@ -2829,7 +2829,7 @@ static gvi_status gvi__hand_out(gvi_stepper *st, const gvi_desc *desc, gvi_real 
     x->flags = scene.flags;
     x->clock = (signed char)scene.clock;
     x->single = GVI__SMALL ? (signed char)-1 : gvi__single(st);
-    x->marks = gvi__weak(&x->desc);
+    if (GVI__WEAK) x->marks = gvi__weak(&x->desc);
     x->size = gvi__layout(&scene, NULL, NULL);
     const size_t slack = gvi__slack(&x->desc);
     if (size < (x->size + slack)*sizeof(gvi_real)) return GVI_E_MEMORY;
@@ -4685,8 +4685,10 @@ static gvi_status gvi__attempt(gvi_stepper *st, gvi__from *from, gvi_real h,
     st->formulation = x->chosen;
     if (gvi__uses(st, GVI_EXPLICIT)) return gvi__explicit(st, from, h, past->force);
 
-    x->seldom = x->diagnose ? 0 : x->marks & ~x->off;
-    x->learned = gvi__nonzero(h - st->h) ? 1 : x->answer;
+    if (GVI__WEAK) {
+        x->seldom = x->diagnose ? 0 : x->marks & ~x->off;
+        x->learned = gvi__nonzero(h - st->h) ? 1 : x->answer;
+    }
     int usable = past->available, used = 0;
     gvi_status status = GVI_E_CONVERGENCE;
     if (!gvi__uses(st, GVI_NEWTON) && (!gvi__has(st, GVI__HAS_NEWTON) || x->newton_left == 0 || query)) {
@@ -4819,7 +4821,7 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     st->h = h;
     gvi__rotate_rows(st);
     x->stepped = 1;
-    x->answer = x->learned;
+    if (GVI__WEAK) x->answer = x->learned;
     x->has_force = explicit_one && !gvi__nonzero(x->c[0]) && !gvi__nonzero(x->c[st->r - 1] - 1);
     x->has_velocity = st->formulation > GVI_POSITIONS;
     if (GVI__NEWTON && x->newton_left > 0) x->newton_left = (signed char)(x->newton_left - 1);
@@ -4940,7 +4942,7 @@ static gvi_status gvi__start(gvi_stepper *st, gvi_real t, const gvi_real *v)
     x->stepped = x->has_force = x->has_velocity = x->alike = x->E_is = 0;
     x->newton_left = x->whole_left = 0;
     x->h_matrix = x->ratio = 0;
-    x->answer = 1;
+    if (GVI__WEAK) x->answer = 1;
     st->formulation = x->chosen;
     return gvi__done(st, GVI_OK);
 }
@@ -5031,7 +5033,7 @@ GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
     st->x.single = GVI__SMALL ? (signed char)-1 : gvi__single(st);
     st->x.has_force = 0;
     st->x.h_matrix = 0;
-    st->x.answer = 1;
+    if (GVI__WEAK) st->x.answer = 1;
     return gvi__done(st, GVI_OK);
 }
 
