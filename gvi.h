@@ -106,10 +106,10 @@
               40(n+1) with Lagrangian terms.  gvi_state_at: as a step; with a
               clock, 60 of them.
               Floating-point operations of a step of N iterations, callbacks apart:
-              (N+2)(K n R (2r+14) + 30) + 30 K n r + 70 n at most, R = r below 5 points,
+              (N+2)(K n R (2r+16) + 30) + 30 K n r + 70 n at most, R = r below 5 points,
               else the next multiple of 8, K = 1 for positions, 2 for velocities and
               momenta; full M: 2n^2 ((N+2) K R + 3) more; M(q): (N+1) r (n^3/2 + 6n^2).
-              Explicit: 8n(r+1) + 60n + 8r + 46.  A new h: 6r^3 + 4(r+10)rR + 60r + 60
+              Explicit: 8n(r+1) + 32n + 8r + 16.  A new h: 6r^3 + 4(r+10)rR + 70r + 60
               more, in its step and the next two.  Twice that where the extrapolated
               start leads nowhere, four times where the step fails.  Without a clock or
               Lagrangian terms; counted by make bound.
