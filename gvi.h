@@ -111,8 +111,8 @@
               momenta; full M: 2n^2 ((N+2) K R + 3) more; M(q): (N+1) r (n^3/2 + 6n^2).
               Explicit: 8n(r+1) + 32n + 8r + 16.  A new h: 6r^3 + 4(r+10)rR + 70r + 60
               more, in its step and the next two.  Twice that where the extrapolated
-              start leads nowhere, four times where the step fails.  Without a clock or
-              Lagrangian terms; counted by make bound.
+              start leads nowhere, four times where the step fails.  Without a clock,
+              Lagrangian terms or marks; counted by make bound.
 
    gvi.h does not: choose or adapt the step, treat constraints or contact,
    run in parallel, or read or write anything.
@@ -224,7 +224,7 @@
    than the one that the others have yet to bring.  Of forces that are the smaller
    part by a factor of 1000 it takes half of the evaluations or less, and now and then
    a turn more.  The equations, and so the step, are the same; a mark on an effect that
-   is not weak costs turns, not digits.  Potentials and forces, in the fixed points,
+   is not weak costs turns, and no more digits than any end that is foretold.  Potentials and forces, in the fixed points,
    without a clock or desc.iterations, of degree 1 with Gauss's rule alone, and not
    compiled for size: elsewhere a marked effect is asked as any other.
 
@@ -3914,7 +3914,7 @@ typedef struct gvi__progress {
     gvi_real least[2];                /* where the weak stood still or there are none; else */
     int      poor, idle, grows;
     int      anew, asked;             /* the weak effects: last time, or next; how often */
-    gvi_real way, steady;             /* of the rows since then; how others alone contract */
+    gvi_real way, steady;             /* of the rows since then; how others alone contract, at worst */
     gvi_real pending;                 /* the change that asking them would bring */
 } gvi__progress;
 
@@ -3936,7 +3936,8 @@ GVI__APART int gvi__settled(gvi_stepper *st, gvi__progress *p, gvi_real change)
         p->asked += 1;
         p->way = change;
     } else {
-        if (before > sure) p->steady = rate;
+        const gvi_real seen = change > p->rounding ? rate : p->rounding/before;    // below it no more is known
+        if (before > sure && (p->steady >= 1 || seen > p->steady)) p->steady = seen;
         if (change > p->way) p->way = change;
     }
     const gvi_real lead = change*rate, guess = x->learned*p->way, enough = p->tolerance;
@@ -3957,7 +3958,7 @@ static int gvi__may_turn(const gvi_stepper *st)
    D^2/D_before, is far below rounding; or the change is rounding: small, or
    without a new least by a tenth for some iterations, and of no energy.  Three
    changes in a row that fall by less than half are poor; so is a descent to
-   rounding by less than a quarter each: such an iteration lets errors grow before
+   rounding by factors of less than 4: such an iteration lets errors grow before
    they shrink, so that the rounding of the forces is left some tenfold, and more.
    All of it in squares of changes: no root or quotient between an iteration and
    the next.  A given number of iterations ends there, if the change is half of
