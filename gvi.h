@@ -219,14 +219,15 @@
    at round-off.
 
    WEAK EFFECTS.  A force that hardly changes while an iteration closes in need not
-   be asked in each of its turns: one that is marked as weak stands still while the
+   be asked in each of its rounds: one that is marked as weak stands still while the
    others iterate, and is asked again when the change that it would bring is greater
    than the one that the others have yet to bring.  Of forces that are the smaller
    part by a factor of 1000 it takes half of the evaluations or less, and now and then
-   a turn more.  The equations, and so the step, are the same; a mark on an effect that
-   is not weak costs turns, and no more digits than any end that is foretold.  Potentials and forces, in the fixed points,
-   without a clock or desc.iterations, of degree 1 with Gauss's rule alone, and not
-   compiled for size: elsewhere a marked effect is asked as any other.
+   a round more.  The equations, and so the step, are the same; a mark on an effect
+   that is not weak costs rounds, and no more digits than any end that is foretold.
+   Marks take n R more numbers of memory.  They are for potentials and forces in the
+   fixed points, without a clock or desc.iterations, of degree 1 with Gauss's rule
+   alone, and not compiled for size: elsewhere a marked effect is asked as any other.
 
    CLOCK.  An effect g(q) > 0 makes time run as dt = g dtau, and h is a step in
    tau: t moves fast or slow, and the map is as symplectic as with fixed steps
@@ -1739,7 +1740,7 @@ static signed char gvi__single(const gvi_stepper *st)
 }
 
 // the bits of the effects that are marked as weak and may stand still for a while
-static unsigned gvi__weak(const gvi_desc *d)
+static unsigned gvi__marks(const gvi_desc *d)
 {
     unsigned bits = 0;
     if (d->degree == 1 && d->rule.kind != GVI_GAUSS) return 0;     // the rows do not see a force at the end
@@ -2244,7 +2245,8 @@ GVI__APART void gvi__tables(gvi_stepper *st)
                     if (x->T) x->T[at] = 1 - T;
                 }
             }
-            if (GVI__VELOCITIES && GVI__LAGRANGIAN && x->N) x->N[at] = gvi__sandwich(st, x->phi, x->low, i, x->phi, x->low, j).hi;
+            if (GVI__VELOCITIES && GVI__LAGRANGIAN && x->N)
+                x->N[at] = gvi__sandwich(st, x->phi, x->low, i, x->phi, x->low, j).hi;
         }
 }
 
@@ -2294,7 +2296,8 @@ static void gvi__bessel(int s, gvi__two a, gvi__two b, gvi_real *re, gvi_real *i
     gvi__two x = gvi__real2(1), y = gvi__real2(0), last_x = gvi__real2(-1), last_y = y;
     for (int k = 0; k <= s; ++k) {
         const gvi_real w = (gvi_real)(4*k + 2);
-        const gvi__two u = gvi__sub2(gvi__mul2(a, x), gvi__mul2(b, y)), v = gvi__add2(gvi__mul2(a, y), gvi__mul2(b, x));
+        const gvi__two u = gvi__sub2(gvi__mul2(a, x), gvi__mul2(b, y));
+        const gvi__two v = gvi__add2(gvi__mul2(a, y), gvi__mul2(b, x));
         const gvi__two next_x = gvi__add2(gvi__scale2(w, u), last_x), next_y = gvi__add2(gvi__scale2(w, v), last_y);
         re[k] = x.hi;
         im[k] = y.hi;
@@ -2689,7 +2692,7 @@ GVI__APART void gvi__lengths(const gvi__scene *x, size_t *length)
     length[GVI__GAMMA] = gvi__flag(x->flags, GVI__HAS_OWN) ? s*s + s + 1 : 0;
     length[GVI__DIAGONAL] = d->mass.kind == GVI_MASS_DIAGONAL ? length[GVI__N] : 0;
     length[GVI__TWO_MASSES] = dense ? 2*n : 0;                 // factored, and as it is
-    length[GVI__STILL] = iterates && gvi__weak(d) ? n : 0;
+    length[GVI__STILL] = iterates && gvi__marks(d) ? n : 0;
     length[GVI__Z] = dense && positions ? n : 0;
     length[GVI__AT_POINTS] = gvi__has_mass(d, GVI_MASS_POSITION) ? n : 0;
     length[GVI__nR] = n*R;
@@ -2707,6 +2710,7 @@ typedef struct gvi__part { unsigned char pointer, rows, columns; } gvi__part;
 #define GVI__PART(member, rows, columns) \
     { offsetof(struct gvi__private, member)/sizeof(gvi_real *), GVI__##rows, GVI__##columns }
 
+// what is not there stays NULL
 GVI__APART void gvi__place(gvi__arena *a, const size_t *length, const gvi__part *part, size_t count)
 {
     for (; count > 0; --count, ++part) {
@@ -2830,7 +2834,7 @@ static gvi_status gvi__hand_out(gvi_stepper *st, const gvi_desc *desc, gvi_real 
     x->flags = scene.flags;
     x->clock = (signed char)scene.clock;
     x->single = GVI__SMALL ? (signed char)-1 : gvi__single(st);
-    if (GVI__WEAK) x->marks = gvi__weak(&x->desc);
+    if (GVI__WEAK) x->marks = gvi__marks(&x->desc);
     x->size = gvi__layout(&scene, NULL, NULL);
     const size_t slack = gvi__slack(&x->desc);
     if (size < (x->size + slack)*sizeof(gvi_real)) return GVI_E_MEMORY;
@@ -3018,13 +3022,13 @@ static inline void gvi__sum_block(int r, int R, int block, const gvi_real *table
 static void gvi__sum_small(int r, int R, const gvi_real *table, const gvi_real *L, gvi_real *z)
 {
     for (int k = 0; k < R; ++k) {
-        const gvi_real *t = table + k, none = -(gvi_real)0;
+        const gvi_real none = -(gvi_real)0;
         gvi_real a = none, b = none, c = none, d = none;
-        for (int j = 0; j < r; j += 4, t += 4*R) {
-            a += t[0]*L[j];
-            if (j + 1 < r) b += t[R]*L[j + 1];
-            if (j + 2 < r) c += t[2*R]*L[j + 2];
-            if (j + 3 < r) d += t[3*R]*L[j + 3];
+        for (int j = 0, o = k; j < r; j += 4, o += 4*R) {
+            a += table[o]*L[j];
+            if (j + 1 < r) b += table[o + R]*L[j + 1];
+            if (j + 2 < r) c += table[o + 2*R]*L[j + 2];
+            if (j + 3 < r) d += table[o + 3*R]*L[j + 3];
         }
         z[k] = (a + b) + (c + d);
     }
@@ -3911,13 +3915,18 @@ static gvi_status gvi__not_finite(gvi_stepper *st, int grows)
 /* Where an iteration stands: squares of the last changes, the tolerance and what is
    rounding; the least change, and how often they were poor or without a new least. */
 typedef struct gvi__progress {
-    gvi_real before, earlier, tolerance, rounding;
-    gvi_real least[2];                /* where the weak stood still or there are none; else */
+    gvi_real before, earlier, tolerance, rounding, least;
     int      poor, idle, grows;
-    int      anew, asked;             /* the weak effects: last time, or next; how often */
-    gvi_real way, steady;             /* of the rows since then; how others alone contract, at worst */
-    gvi_real pending;                 /* the change that asking them would bring */
 } gvi__progress;
+
+/* The weak effects: asked last time, or next, and how often; the way of the rows since
+   then; how the others contract, at worst; the change that asking would bring; the
+   least change when they were asked, that of gvi__progress being when they were not.
+   Not there, NULL, where none is ever weak.                                    */
+typedef struct gvi__still {
+    int      anew, asked;
+    gvi_real way, steady, pending, least;
+} gvi__still;
 
 /* Beside weak effects: has the iteration ended?  And are they to be asked next?  `lead`
    is the change to come from the others.  That from asking them anew, `pending`, is the
@@ -3925,26 +3934,26 @@ typedef struct gvi__progress {
    the others' it counts ten times.  Where the change may be the others', an answer is at
    most what it seems.  None is taken on trust: without a second one no step ends.
    All of it in squares.                                                        */
-GVI__APART int gvi__settled(gvi_stepper *st, gvi__progress *p, gvi_real change)
+GVI__APART int gvi__settled(gvi_stepper *st, const gvi__progress *p, gvi__still *w, gvi_real change)
 {
     struct gvi__private *x = &st->x;
     const gvi_real sure = (1000*GVI__EPS)*(1000*GVI__EPS), before = p->before > 1 ? 1 : p->before;
     gvi_real rate = before > 0 ? change/before : 1;
-    if (p->anew) {
-        const gvi_real answer = p->way > 1 ? change : p->way > sure ? change/p->way : x->learned;
-        if (answer < x->learned || change > 16*p->steady*before) x->learned = answer;
-        if (rate > p->steady) rate = p->steady;
-        p->asked += 1;
-        p->way = change;
+    if (w->anew) {
+        const gvi_real answer = w->way > 1 ? change : w->way > sure ? change/w->way : x->learned;
+        if (answer < x->learned || change > 16*w->steady*before) x->learned = answer;
+        if (rate > w->steady) rate = w->steady;
+        w->asked += 1;
+        w->way = change;
     } else {
         const gvi_real seen = change > p->rounding ? rate : p->rounding/before;    // below it no more is known
-        if (before > sure && (p->steady >= 1 || seen > p->steady)) p->steady = seen;
-        if (change > p->way) p->way = change;
+        if (before > sure && (w->steady >= 1 || seen > w->steady)) w->steady = seen;
+        if (change > w->way) w->way = change;
     }
-    const gvi_real lead = change*rate, guess = x->learned*p->way, enough = p->tolerance;
-    p->pending = p->asked > 1 ? guess : p->way;
-    p->anew = 100*guess >= lead || (lead*rate <= enough && p->pending > enough);
-    return lead <= enough && p->pending <= enough;
+    const gvi_real lead = change*rate, guess = x->learned*w->way, enough = p->tolerance;
+    w->pending = w->asked > 1 ? guess : w->way;
+    w->anew = 100*guess >= lead || (lead*rate <= enough && w->pending > enough);
+    return lead <= enough && w->pending <= enough;
 }
 
 enum { GVI__GO_ON, GVI__DONE, GVI__ASK_ONCE_MORE, GVI__BEYOND };
@@ -3964,13 +3973,15 @@ static int gvi__may_turn(const gvi_stepper *st)
    All of it in squares of changes: no root or quotient between an iteration and
    the next.  A given number of iterations ends there, if the change is half of
    that two before.                                                            */
-GVI__APART int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *p, gvi_real change, int used)
+GVI__APART int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *p, gvi__still *weak, gvi_real change,
+                          int used)
 {
     struct gvi__private *x = &st->x;
     const gvi_real rounding = p->rounding, before = p->before;
     const gvi_real known = before > 1 ? 1 : before > 0 ? before : change;
-    const int given = gvi__counts(st), moved = GVI__WEAK && x->seldom && p->anew;
-    if (GVI__WEAK && x->seldom ? gvi__settled(st, p, change) : !given && change*change <= p->tolerance*known)
+    const int given = gvi__counts(st), moved = GVI__WEAK && x->seldom && weak->anew;
+    gvi_real *least = moved ? &weak->least : &p->least;
+    if (GVI__WEAK && x->seldom ? gvi__settled(st, p, weak, change) : !given && change*change <= p->tolerance*known)
         return GVI__DONE;
     if (given && used == x->desc.iterations) {
         const int falls = p->earlier > 0 ? change < p->earlier/4 : before <= 0 || change < before;
@@ -3983,14 +3994,14 @@ GVI__APART int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress 
     p->before = change;
     if (given) return GVI__GO_ON;
     p->poor = p->grows ? p->poor + 1 : 0;
-    p->idle = change < p->least[moved]*81/100 ? 0 : p->idle + 1;
-    if (change < p->least[moved]) p->least[moved] = change;
+    p->idle = change < *least*81/100 ? 0 : p->idle + 1;
+    if (change < *least) *least = change;
     if ((p->idle > 2 && change <= rounding)
         || ((p->idle > 1 || p->poor > 2) && gvi__is_rounding(st, from, p->idle))) {
-        if (!GVI__WEAK || moved || p->pending <= rounding)
+        if (!GVI__WEAK || moved || weak->pending <= rounding)
             return used - p->idle > GVI__DIG/2 && gvi__may_turn(st) ? GVI__BEYOND : GVI__ASK_ONCE_MORE;
         p->idle = p->poor = 0;
-        p->anew = 1;
+        weak->anew = 1;
         return GVI__GO_ON;
     }
     if (p->poor <= 2 || change <= 65536*rounding) return GVI__GO_ON;       // nearer to rounding idle decides
@@ -4004,7 +4015,8 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
     const int most = gvi__counts(st) ? x->desc.iterations : x->desc.max_iterations;
     const gvi_real tolerance = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/65536;
     const gvi_real rounding = 16*GVI__EPS*GVI__EPS*(gvi_real)(st->n*st->r);
-    gvi__progress p = { 0, 0, tolerance*tolerance, rounding, { GVI__MAX, GVI__MAX }, 0, 0, 0, 1, 0, 0, 1, 0 };
+    gvi__progress p = { 0, 0, tolerance*tolerance, rounding, GVI__MAX, 0, 0, 0 };
+    gvi__still weak = { 1, 0, 0, 1, 0, GVI__MAX };
     gvi__stage y[GVI__STAGES];
     gvi_points at;
     const int count = gvi__plan(st, from, h, y);
@@ -4025,7 +4037,7 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
         int verdict = GVI__GO_ON;
         if (*used > 0) {
             if (!(change <= GVI__MAX)) return gvi__not_finite(st, p.grows);
-            verdict = gvi__judge(st, from, &p, change, *used);
+            verdict = gvi__judge(st, from, &p, GVI__WEAK ? &weak : NULL, change, *used);
             if (verdict == GVI__DONE || verdict == GVI__ASK_ONCE_MORE) gvi__watch_last(st, change);
             if (verdict == GVI__DONE) return GVI_OK;
             if (verdict == GVI__BEYOND || (verdict == GVI__GO_ON && *used == most)) break;
@@ -4034,7 +4046,7 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
         // rows that go to and fro in their last places end with their own F, not that of
         // the side that they came from, which would be a bias
         *used += verdict == GVI__GO_ON;
-        const int anew = p.anew || verdict == GVI__ASK_ONCE_MORE;
+        const int anew = weak.anew || verdict == GVI__ASK_ONCE_MORE;
         gvi_status status = gvi__ask(st, from, h - h, GVI__SMALL ? NULL : &at, anew);
         if (status != GVI_OK || verdict == GVI__ASK_ONCE_MORE) return status;
     }
@@ -4048,8 +4060,8 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
 
 // the drift to the first node: dp := pe, dq := qe + a v, Q := q + dq; F := 0
 static inline void gvi__drift_of(int n, gvi_real a, gvi_real zero, const gvi_real *m, const gvi__from *from,
-                              gvi_real *GVI__RESTRICT dp, gvi_real *GVI__RESTRICT dq, gvi_real *GVI__RESTRICT Q,
-                              gvi_real *GVI__RESTRICT F)
+                                 gvi_real *GVI__RESTRICT dp, gvi_real *GVI__RESTRICT dq, gvi_real *GVI__RESTRICT Q,
+                                 gvi_real *GVI__RESTRICT F)
 {
     const gvi_real *GVI__RESTRICT v = from->v, *GVI__RESTRICT q = from->q;
     const gvi_real *GVI__RESTRICT qe = from->qe, *GVI__RESTRICT pe = from->pe;
@@ -4074,54 +4086,33 @@ static inline void gvi__drift(int n, gvi_real a, gvi_real zero, const gvi_real *
    depend on F is added up first, so that little waits for F; but a (b F) is two
    products: the rounding of a b, the same in every step, would make the map no
    longer symplectic and let the energy drift.  F is 0 then for the next call, but
-   where it is to be kept.                                                     */
-static inline void gvi__kick_drift_of(int n, gvi_real b, gvi_real a, const gvi_real *m, const gvi__from *from,
-                                      gvi_real zero, int keep, gvi_real *GVI__RESTRICT F, gvi_real *GVI__RESTRICT dp,
+   the last is kept.  The first, at time 0, may be by a force that is known: then the
+   step begins with it, no drift before.                                       */
+enum { GVI__KICK, GVI__LAST_KICK, GVI__FIRST_KICK };
+
+static inline void gvi__kick_drift_of(int n, int kind, gvi_real b, gvi_real a, const gvi_real *m,
+                                      const gvi__from *from, gvi_real zero, const gvi_real *known,
+                                      gvi_real *GVI__RESTRICT F, gvi_real *GVI__RESTRICT dp,
                                       gvi_real *GVI__RESTRICT dq, gvi_real *GVI__RESTRICT Q)
 {
-    const gvi_real *GVI__RESTRICT v = from->v, *GVI__RESTRICT q = from->q;
-    for (int i = 0; i < n; ++i) {
-        const gvi_real p = dp[i], kick = b*F[i];
-        dq[i] = (dq[i] + a*(v[i] + (m ? p*m[i] : p))) + a*(m ? kick*m[i] : kick);
-        dp[i] = p + kick;
-        Q[i] = q[i] + dq[i];
-        if (!keep) F[i] = zero;
-    }
-}
-
-static inline void gvi__kick_drift(int n, gvi_real b, gvi_real a, const gvi_real *m, const gvi__from *from,
-                                   gvi_real zero, int keep, gvi_real *F, gvi_real *dp, gvi_real *dq, gvi_real *Q)
-{
-    if (GVI__SMALL) gvi__kick_drift_of(n, b, a, m, from, zero, keep, F, dp, dq, Q);
-    else if (keep && m) gvi__kick_drift_of(n, b, a, m, from, zero, 1, F, dp, dq, Q);
-    else if (keep) gvi__kick_drift_of(n, b, a, NULL, from, zero, 1, F, dp, dq, Q);
-    else if (m) gvi__kick_drift_of(n, b, a, m, from, zero, 0, F, dp, dq, Q);
-    else gvi__kick_drift_of(n, b, a, NULL, from, zero, 0, F, dp, dq, Q);
-}
-
-// the same at the first node, time 0, by a force that is known: the drift to it is none
-static inline void gvi__first_kick_of(int n, gvi_real b, gvi_real a, const gvi_real *m, const gvi__from *from,
-                                      gvi_real zero, const gvi_real *GVI__RESTRICT known, gvi_real *GVI__RESTRICT F,
-                                      gvi_real *GVI__RESTRICT dp, gvi_real *GVI__RESTRICT dq,
-                                      gvi_real *GVI__RESTRICT Q)
-{
-    const gvi_real *GVI__RESTRICT v = from->v, *GVI__RESTRICT q = from->q;
+    const gvi_real *GVI__RESTRICT v = from->v, *GVI__RESTRICT q = from->q, *GVI__RESTRICT force = known;
     const gvi_real *GVI__RESTRICT qe = from->qe, *GVI__RESTRICT pe = from->pe;
+    const int first = kind == GVI__FIRST_KICK;
     for (int i = 0; i < n; ++i) {
-        const gvi_real p = pe[i], kick = b*known[i];
-        dq[i] = (qe[i] + a*(v[i] + (m ? p*m[i] : p))) + a*(m ? kick*m[i] : kick);
+        const gvi_real p = first ? pe[i] : dp[i], d = first ? qe[i] : dq[i], kick = b*(first ? force[i] : F[i]);
+        dq[i] = (d + a*(v[i] + (m ? p*m[i] : p))) + a*(m ? kick*m[i] : kick);
         dp[i] = p + kick;
         Q[i] = q[i] + dq[i];
-        F[i] = zero;
+        if (kind != GVI__LAST_KICK) F[i] = zero;
     }
 }
 
-static inline void gvi__first_kick(int n, gvi_real b, gvi_real a, const gvi_real *m, const gvi__from *from,
+static inline void gvi__kick_drift(int n, int kind, gvi_real b, gvi_real a, const gvi_real *m, const gvi__from *from,
                                    gvi_real zero, const gvi_real *known, gvi_real *F, gvi_real *dp, gvi_real *dq,
                                    gvi_real *Q)
 {
-    if (m) gvi__first_kick_of(n, b, a, m, from, zero, known, F, dp, dq, Q);
-    else gvi__first_kick_of(n, b, a, NULL, from, zero, known, F, dp, dq, Q);
+    if (m || GVI__SMALL) gvi__kick_drift_of(n, kind, b, a, m, from, zero, known, F, dp, dq, Q);
+    else gvi__kick_drift_of(n, kind, b, a, NULL, from, zero, known, F, dp, dq, Q);
 }
 
 // both with a full mass matrix
@@ -4142,30 +4133,31 @@ static inline gvi_status gvi__explicit_of(gvi_stepper *st, const gvi__from *from
     const int dense = gvi__mass_is(st, GVI_MASS_DENSE), r = st->r;
     const gvi_real *m = x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
     const int only = !GVI__SMALL && x->single >= 0 && !x->diagnose;
-    gvi_real *F = x->work.F, *Q = x->work.Q, *dp = x->dp, *dq = x->dq, *last = x->last.F, t = from->t;
+    gvi_real *F = x->work.F, *Q = x->work.Q, *dp = x->dp, *dq = x->dq, t = from->t;
     const gvi_real zero = h - h;
     gvi_points y;
     gvi__at(&y, st, &t, Q);
     y.f = F;
     y.dldv = NULL;
-    const int known = !GVI__SMALL && force && !dense;
-    if (known) gvi__first_kick(n, x->hb[0], x->drift[1], m, from, zero, last, F, dp, dq, Q);
-    else gvi__drift(n, dense ? 0 : x->drift[0], zero, m, from, dp, dq, Q, F);
-    if (dense) gvi__drift_dense(st, from, x->drift[0]);
-    for (int j = known; j < r; ++j) {
-        gvi_real *f = j == 0 && force ? last : F;
+    int j = force != NULL;
+    gvi_real a = dense ? 0 : x->drift[j];
+    if (force) gvi__kick_drift(n, GVI__FIRST_KICK, x->hb[0], a, m, from, zero, force, F, dp, dq, Q);
+    else gvi__drift(n, a, zero, m, from, dp, dq, Q, F);
+    if (dense) gvi__drift_dense(st, from, x->drift[j]);
+    for (; j < r; ++j) {
+        const gvi_real b = x->hb[j];
+        a = dense ? 0 : x->drift[j + 1];
         t = from->t + (from->te + x->c[j]*h);
-        for (int i = 0; n == 2 && j > 0 && i < n; ++i) F[i] = zero;
-        if (f == F && only) {
+        if (only) {
             gvi_status status = gvi__call(st, &y, x->single);
             if (status != GVI_OK) return status;
-        } else if (f == F) {
+        } else {
             gvi_status status = gvi__check_points(st, &y);
             if (status == GVI_OK) status = gvi__effects(st, &y, 0);
             if (status != GVI_OK) return status;
         }
-        const int keep = n == 2 || f == last || j == r - 1;
-        gvi__kick_drift(n, x->hb[j], dense ? 0 : x->drift[j + 1], m, from, zero, keep, f, dp, dq, Q);
+        if (j < r - 1) gvi__kick_drift(n, GVI__KICK, b, a, m, from, zero, NULL, F, dp, dq, Q);
+        else gvi__kick_drift(n, GVI__LAST_KICK, b, a, m, from, zero, NULL, F, dp, dq, Q);
         if (dense) gvi__drift_dense(st, from, x->drift[j + 1]);
     }
     return GVI_OK;
@@ -4389,7 +4381,8 @@ GVI__APART gvi_status gvi__ask_sites(gvi_stepper *st, const gvi__sites *at, gvi_
 }
 
 // x->dF holds F and P, moved and not; x->z the row of coordinate j before it was moved
-GVI__APART void gvi__add_differences(const gvi_stepper *st, const gvi__matrix *J, const gvi__sites *at, int j, int by_v)
+GVI__APART void gvi__add_differences(const gvi_stepper *st, const gvi__matrix *J, const gvi__sites *at, int j,
+                                     int by_v)
 {
     const int n = st->n, R = at->stride;
     const gvi_real *row = (by_v ? at->v : at->q) + j*R;
@@ -4574,7 +4567,8 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__from *from, gvi_r
    solution.  Keeps the factorisation while it contracts by 1/4 or better, over
    iterations and, if `kept`, over steps.  Gives up blocks that contract by no more
    than 1/2 when they are new: derivatives at one point are not enough.        */
-GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi__matrix *J, gvi_real *pivot, int kept)
+GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi__matrix *J, gvi_real *pivot,
+                                  int kept)
 {
     struct gvi__private *x = &st->x;
     const gvi_real enough = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/4096;

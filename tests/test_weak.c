@@ -169,7 +169,8 @@ static void test_same_steps(void **state)
     compare((1u << EFFECTS) - 1, 1u << FAR | 1u << RING | 1u << AIR, GVI_AUTO, 0.8);
 }
 
-/* A mark where nothing is weak: the leading effect, all of them, the only one   */
+/* A mark where nothing is weak: the leading effect, all of them, the only one.  It costs a
+   round a step, for the second answer, and another one in float, where there are three     */
 static void test_wrong_marks(void **state)
 {
     static const unsigned wrong[][2] = {
@@ -182,7 +183,8 @@ static void test_wrong_marks(void **state)
         steps(&plain, STEPS);
         steps(&marked, STEPS);
         assert_between(0, apart(&plain, &marked), 2000*EPS);
-        assert_between(0, marked.st.counters.iterations, 1.6*(double)plain.st.counters.iterations);
+        assert_in_range(marked.st.counters.iterations, 0,
+                        plain.st.counters.iterations + STEPS*(GVI__KIND == 1 ? 2 : 1));
     }
 }
 
@@ -198,20 +200,23 @@ static void test_any_strength(void **state)
     }
 }
 
-/* With a tolerance: as far from the truth as the unmarked scene may be           */
+/* With a tolerance: no further from the truth than twice the unmarked scene, which may
+   leave the tolerance in q each step, and of the orbit's phase t^2 times that        */
 static void test_tolerance(void **state)
 {
     const real tolerance = GVI__KIND == 1 ? (real)1e-4L : (real)1e-8L;
-    const gvi_desc loose = { .tolerance = tolerance };
+    const unsigned scene = 1u << SUN | 1u << FAR;
+    real error[2];
     (void)state;
-    set_up(&plain, 1u << SUN | 1u << FAR, 0, (gvi_desc){ 0 });
+    set_up(&plain, scene, 0, (gvi_desc){ 0 });
     steps(&plain, STEPS);
-    for (unsigned weak = 0; weak <= 1u << FAR; weak += 1u << FAR) {
-        set_up(&marked, 1u << SUN | 1u << FAR, weak, loose);
+    for (int i = 0; i < 2; ++i) {
+        set_up(&marked, scene, i ? 1u << FAR : 0, (gvi_desc){ .tolerance = tolerance });
         steps(&marked, STEPS);
-        // each step may leave the tolerance in q; of the orbit's phase t^2 times that
-        assert_between(0, apart(&plain, &marked), tolerance*STEPS*STEPS/4);
+        error[i] = apart(&plain, &marked);
     }
+    assert_between(0, error[0], tolerance*STEPS*STEPS/4);
+    assert_between(0, error[1], 2*error[0]);
 }
 
 /* Over 4000 steps: momentum about the axis to rounding, energy without a trend       */
