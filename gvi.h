@@ -1337,6 +1337,23 @@ GVI__APART gvi_real gvi__node_guess(int lobatto, int n, int j)
     return sine*sine;
 }
 
+/* Newton's method in working precision, in place of the first corrections, where speed counts */
+static gvi_real gvi__node_start(int lobatto, int m, gvi_real c)
+{
+    for (int k = 0; k < 3; ++k) {
+        const gvi_real x = 1 - 2*c;
+        gvi_real P = 1, before = 0;
+        for (int i = 0; i < m; ++i) {
+            const gvi_real w = 1/(gvi_real)(i + 1), next = (2 - w)*x*P - (1 - w)*before;
+            before = P;
+            P = next;
+        }
+        const gvi_real d = before - x*P;
+        c += lobatto ? -d/(2*(gvi_real)(m + 1)*P) : P*2*c*(1 - c)/((gvi_real)m*d);
+    }
+    return c;
+}
+
 /* All nodes and weights; ce, if given, gets what rounding left of c.  After a
    correction below eps the next one would be below its square: c is then accurate
    relative to itself, even next to the end of the interval.                   */
@@ -1346,6 +1363,7 @@ static void gvi__rule_make(int lobatto, int n, gvi_real *c, gvi_real *ce, gvi_re
         const int middle = 2*j + 1 == n, known = middle || (lobatto && j == 0);
         gvi__two z = gvi__real2(middle ? (gvi_real)0.5 : known ? 0 : gvi__node_guess(lobatto, n, j));
         gvi_real last = known ? 0 : 1;
+        if (!known && !GVI__SMALL) z.hi = gvi__node_start(lobatto, n - lobatto, z.hi);
         for (int k = 0; ; ++k) {
             const gvi__two dc = gvi__node_correction(lobatto, n - lobatto, z, &b[j]);
             if (!(last > GVI__EPS*z.hi) || k == 12) break;
@@ -2054,31 +2072,54 @@ static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, 
 /* ---------------------------------------------------------------- TABLES */
 
 /* phi_k = P_k(x) and Phi_k = (P_(k-1) - P_(k+1))(x) / (2(2k+1)), P_(-1) = 1, at
-   every node, x = 1 - 2c, in twofold arithmetic: [k*stride + node].  The low
-   parts of Phi go to E, which is not yet in use; phi is skipped where nobody
-   needs it.                                                                  */
-GVI__APART void gvi__modes_at_nodes(gvi_stepper *st)
+   node i, x = 1 - 2c, in twofold arithmetic: [k*stride + node].  The low parts of
+   Phi go to E, which is not yet in use; phi is skipped where nobody needs it.   */
+GVI__APART void gvi__modes_at(gvi_stepper *st, int i)
 {
     struct gvi__private *x = &st->x;
-    for (int i = 0; i < st->r; ++i) {
-        gvi__two c, P = gvi__real2(1), before = gvi__real2(1);
-        c.hi = x->c[i];
-        c.lo = x->ce[i];
-        const gvi__two X = gvi__argument2(c);
-        for (int k = 0; k < st->s; ++k) {
-            const gvi__two next = gvi__legendre2(k, X, P, before);
-            const gvi__two Phi = gvi__over2(gvi__sub2(before, next), 4*k + 2);
-            const int at = k*x->stride + i;
-            x->Phi[at] = Phi.hi;
-            x->E[at] = Phi.lo;
-            if (x->phi) {
-                x->phi[at] = P.hi;
-                x->low[at] = P.lo;
-            }
-            before = P;
-            P = next;
+    gvi__two c, P = gvi__real2(1), before = gvi__real2(1);
+    c.hi = x->c[i];
+    c.lo = x->ce[i];
+    const gvi__two X = gvi__argument2(c);
+    for (int k = 0; k < st->s; ++k) {
+        const gvi__two next = gvi__legendre2(k, X, P, before);
+        const gvi__two Phi = gvi__over2(gvi__sub2(before, next), 4*k + 2);
+        const int at = k*x->stride + i;
+        x->Phi[at] = Phi.hi;
+        x->E[at] = Phi.lo;
+        if (x->phi) {
+            x->phi[at] = P.hi;
+            x->low[at] = P.lo;
+        }
+        before = P;
+        P = next;
+    }
+}
+
+// the same at node i, which is 1 - c of another: P_k(-x) = (-1)^k P_k(x)
+static void gvi__modes_mirrored(gvi_stepper *st, int i)
+{
+    struct gvi__private *x = &st->x;
+    const int back = st->r - 1 - 2*i;
+    x->Phi[i] = x->c[i];
+    x->E[i] = x->ce[i];
+    for (int k = 0, at = i; k < st->s; ++k, at += x->stride) {
+        const gvi_real sign = k % 2 ? -(gvi_real)1 : (gvi_real)1;
+        if (k > 0) x->Phi[at] = 0 - sign*x->Phi[at + back];
+        if (k > 0) x->E[at] = 0 - sign*x->E[at + back];
+        if (x->phi) {
+            x->phi[at] = sign*x->phi[at + back];
+            x->low[at] = sign*x->low[at + back];
         }
     }
+}
+
+static void gvi__modes_at_nodes(gvi_stepper *st)
+{
+    const int mirrored = !GVI__SMALL && !gvi__rule_is(st, GVI_OWN);
+    for (int i = 0; i < st->r; ++i)
+        if (mirrored && 2*i >= st->r) gvi__modes_mirrored(st, i);
+        else gvi__modes_at(st, i);
 }
 
 /* 1/Gamma_kk = 2k + 1 while the rule is exact for phi_k^2; Lobatto with r = s
@@ -2111,26 +2152,6 @@ static void gvi__over_gamma(const gvi_stepper *st, gvi_real *y)
     const struct gvi__private *x = &st->x;
     if (gvi__has(st, GVI__HAS_OWN)) gvi_lu_solve(st->s, x->own, x->own + st->s*st->s, y);
     else for (int k = 0; k < st->s; ++k) y[k] *= x->inv_gamma[k];
-}
-
-// sum_k a[k][i] gamma_k b[k][j], twofold; high parts and low parts apart.  A product
-// does not wait for the sum, whose rounding is added up separately
-static gvi__two gvi__sandwich(const gvi_stepper *st, const gvi_real *a, const gvi_real *al, int i,
-                              const gvi_real *b, const gvi_real *bl, int j)
-{
-    gvi__two sum = gvi__real2(0);
-    for (int k = 0; k < st->s; ++k) {
-        gvi__two x, y;
-        x.hi = a[k*st->x.stride + i];
-        x.lo = al[k*st->x.stride + i];
-        y.hi = b[k*st->x.stride + j];
-        y.lo = bl[k*st->x.stride + j];
-        x = gvi__scale2(st->x.inv_gamma[k], gvi__mul2(x, y));
-        y = gvi__sum(sum.hi, x.hi);
-        sum.hi = y.hi;
-        sum.lo += y.lo + x.lo;
-    }
-    return gvi__sum(sum.hi, sum.lo);
 }
 
 /* Without other rules: what Gauss has with r = s = 1..4, one after the other, from
@@ -2206,17 +2227,66 @@ static gvi_real gvi__T(const gvi_stepper *st, int i, int j)
     const int r = st->r;
     return gvi__few_T[(r - 2)*(r - 1)*r/6 + (j - 1)*j/2 + i] - (gvi_real)0.5;
 }
-#else
-static gvi_real gvi__S(const gvi_stepper *st, int i, int j)
+
+static void gvi__S_column(gvi_stepper *st, int j, gvi_real *S)
 {
-    const struct gvi__private *x = &st->x;
-    return gvi__grid(gvi__sandwich(st, x->Phi, x->E, i, x->Phi, x->E, j), GVI__EPS/2);
+    for (int i = 0; i <= j; ++i) S[i] = gvi__S(st, i, j);
 }
 
-static gvi_real gvi__T(const gvi_stepper *st, int i, int j)
+static void gvi__T_column(gvi_stepper *st, int j, gvi_real *T)
 {
-    const struct gvi__private *x = &st->x;
-    return gvi__grid(gvi__sandwich(st, x->phi, x->low, i, x->Phi, x->E, j), GVI__EPS);
+    for (int i = 0; i < j; ++i) T[i] = gvi__T(st, i, j);
+}
+#else
+/* z_i := sum_k a[k][i] w_k, twofold, low parts R further, at all points: fit for
+   vectors.  A product does not wait for the sum, whose rounding is added up apart. */
+static void gvi__twofold_sums(int s, int R, const gvi_real *GVI__RESTRICT a, const gvi_real *GVI__RESTRICT low,
+                              const gvi_real *GVI__RESTRICT w, gvi_real *GVI__RESTRICT z)
+{
+    gvi__zero(2*(size_t)R, z);
+    for (int k = 0; k < s; ++k)
+        for (int i = 0; i < R; ++i) {
+            gvi__two x, y;
+            x.hi = a[k*R + i];
+            x.lo = low[k*R + i];
+            y.hi = w[k];
+            y.lo = w[s + k];
+            x = gvi__mul2(x, y);
+            y = gvi__sum(z[i], x.hi);
+            z[i] = y.hi;
+            z[R + i] += y.lo + x.lo;
+        }
+}
+
+// z[i] := sum_k a[k][i] gamma_k b[k][j], to the nearest multiple of unit, if that is not 0
+static void gvi__column(gvi_stepper *st, const gvi_real *a, const gvi_real *a_low, const gvi_real *b,
+                        const gvi_real *b_low, int j, gvi_real unit, gvi_real *z)
+{
+    const int s = st->s, R = st->x.stride;
+    gvi_real *w = z + 2*R;
+    for (int k = 0; k < s; ++k) {
+        gvi__two x;
+        x.hi = b[k*R + j];
+        x.lo = b_low[k*R + j];
+        x = gvi__scale2(st->x.inv_gamma[k], x);
+        w[k] = x.hi;
+        w[s + k] = x.lo;
+    }
+    gvi__twofold_sums(s, R, a, a_low, w, z);
+    for (int i = 0; i < st->r; ++i) {
+        const gvi__two sum = gvi__sum(z[i], z[R + i]);
+        z[i] = unit > 0 ? gvi__grid(sum, unit) : sum.hi;
+    }
+}
+
+static void gvi__S_column(gvi_stepper *st, int j, gvi_real *S)
+{
+    gvi__column(st, st->x.Phi, st->x.E, st->x.Phi, st->x.E, j, GVI__EPS/2, S);
+}
+
+static void gvi__T_column(gvi_stepper *st, int j, gvi_real *T)
+{
+    gvi__column(st, st->x.phi, st->x.low, st->x.Phi, st->x.E, j, GVI__EPS, T);
 }
 #endif
 
@@ -2227,27 +2297,30 @@ static gvi_real gvi__T(const gvi_stepper *st, int i, int j)
 GVI__APART void gvi__tables(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
-    int r = st->r, R = x->stride, gauss = !GVI__RULES || (x->desc.rule.kind == GVI_GAUSS && r == st->s);
-    for (int j = 0; j < r; ++j)
-        for (int i = 0; i < r; ++i) {
-            int at = j*R + i, mirror = i*R + j;
-            if ((GVI__POSITIONS || GVI__VELOCITIES) && x->g && i <= j) {
-                const gvi_real S = gvi__S(st, i, j);
-                x->g[at] = x->c[i] - S;
-                x->g[mirror] = x->c[j] - S;
-            }
-            if ((GVI__VELOCITIES || GVI__MOMENTA) && x->m && (i <= j || !gauss)) {
-                const gvi_real T = gauss && i == j ? (gvi_real)0.5 : gvi__T(st, i, j);
-                x->m[at] = 1 - T;
-                if (x->T) x->T[mirror] = T;
-                if (gauss) {
-                    x->m[mirror] = T;
-                    if (x->T) x->T[at] = 1 - T;
-                }
-            }
-            if (GVI__VELOCITIES && GVI__LAGRANGIAN && x->N)
-                x->N[at] = gvi__sandwich(st, x->phi, x->low, i, x->phi, x->low, j).hi;
+    const int r = st->r, R = x->stride, gauss = !GVI__RULES || (x->desc.rule.kind == GVI_GAUSS && r == st->s);
+    const int has_g = (GVI__POSITIONS || GVI__VELOCITIES) && x->g, has_m = (GVI__VELOCITIES || GVI__MOMENTA) && x->m;
+    gvi_real *a = x->row;
+    for (int j = 0; j < r; ++j) {
+        if (has_g) gvi__S_column(st, j, a);
+        for (int i = 0; has_g && i <= j; ++i) {
+            x->g[j*R + i] = x->c[i] - a[i];
+            x->g[i*R + j] = x->c[j] - a[i];
         }
+        if (has_m) gvi__T_column(st, j, a);
+        if (gauss) a[j] = (gvi_real)0.5;
+        for (int i = 0; has_m && i < (gauss ? j + 1 : r); ++i) {
+            x->m[j*R + i] = 1 - a[i];
+            if (gauss) x->m[i*R + j] = a[i];
+            if (x->T) x->T[i*R + j] = a[i];
+            if (x->T && gauss) x->T[j*R + i] = 1 - a[i];
+        }
+#if GVI__RULES
+        if (GVI__VELOCITIES && GVI__LAGRANGIAN && x->N) {
+            gvi__column(st, x->phi, x->low, x->phi, x->low, j, 0, a);
+            gvi__copy((size_t)r, a, x->N + j*R);
+        }
+#endif
+    }
 }
 
 // the same in working precision, for an own rule that makes Gamma full
