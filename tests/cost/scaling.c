@@ -6,7 +6,8 @@
    the formulation by positions: a sparse effect, so that the cost is to be linear in n.  An iteration
    multiplies n rows by a table of r*r numbers, so it should grow like n r^2 where the table is what
    counts, like n r where the effect is.  Rows are padded to whole vectors of eight points.
-   Time: CPU, best of several runs, per iteration and per step; iterations a step are beside it.
+   Time: CPU, best of several runs, per iteration and per step; iterations a step are beside it;
+   and of gvi_init.
    Exponents: least squares through logarithms, over the part that is named.
    Written: DIR/scaling.csv, scaling-n.svg, scaling-s.svg.                                      */
 #define _POSIX_C_SOURCE 200809L
@@ -63,7 +64,7 @@ static int chain(const gvi_points *x, void *user)
 typedef struct sample {
     const char *sweep;
     int         s, n, r;
-    double      step, iteration, iterations, bytes;      /* ns, ns, a step, in all              */
+    double      step, iteration, iterations, bytes, init;    /* ns, ns, a step, in all, ns       */
 } sample;
 
 static double cpu_ns(void)
@@ -108,7 +109,12 @@ static int measure(int runs, sample *m)
     gvi_stepper st;
     for (int i = 0; i < m->n; ++i) q[i] = sin(3.14159265358979324*(i + 1)/(m->n + 1));
     m->bytes = (double)size;
-    gvi_init(&st, &desc, memory, size);
+    m->init = HUGE_VAL;
+    for (int k = 0; k < 2*runs; ++k) {
+        const double begin = cpu_ns();
+        gvi_init(&st, &desc, memory, size);
+        m->init = fmin(m->init, cpu_ns() - begin);
+    }
     gvi_start(&st, 0, q, v);
     if (st.status == GVI_OK) time_steps(&st, runs, m);
     free(memory);
@@ -165,18 +171,18 @@ typedef struct curves { double x[SAMPLES], time[LINES][SAMPLES], bytes[LINES][SA
 
 static void print_sample(FILE *csv, const sample *m)
 {
-    printf("  %3d %6d %3d %12.1f %8.2f %12.1f %11.3f %14.0f %10.1f\n", m->s, m->n, m->r, m->step*1e-3,
-           m->iterations, m->iteration, m->iteration/m->n/m->r, m->bytes, m->bytes/m->n);
+    printf("  %3d %6d %3d %12.1f %8.2f %12.1f %11.3f %14.0f %10.1f %9.1f\n", m->s, m->n, m->r, m->step*1e-3,
+           m->iterations, m->iteration, m->iteration/m->n/m->r, m->bytes, m->bytes/m->n, m->init*1e-3);
     if (csv)
-        fprintf(csv, "%s,%d,%d,%d,%.3f,%.4f,%.3f,%.0f,%.2f\n", m->sweep, m->s, m->n, m->r, m->step,
-                m->iterations, m->iteration, m->bytes, m->bytes/m->n);
+        fprintf(csv, "%s,%d,%d,%d,%.3f,%.4f,%.3f,%.0f,%.2f,%.0f\n", m->sweep, m->s, m->n, m->r, m->step,
+                m->iterations, m->iteration, m->bytes, m->bytes/m->n, m->init);
 }
 
 static int run_sweep(const sweep *w, int runs, FILE *csv, curves *c)
 {
     int failed = 0;
-    printf("\nOver %s: %s\n  %3s %6s %3s %12s %8s %12s %11s %14s %10s\n", w->name, w->varied, "s", "n", "r",
-           "us a step", "it", "ns an it", "ns/(n r)", "bytes", "bytes/n");
+    printf("\nOver %s: %s\n  %3s %6s %3s %12s %8s %12s %11s %14s %10s %9s\n", w->name, w->varied, "s", "n", "r",
+           "us a step", "it", "ns an it", "ns/(n r)", "bytes", "bytes/n", "us set-up");
     for (int line = 0; line < LINES; ++line)
         for (int k = 0; k < w->count; ++k) {
             sample m = sample_of(w, line, k);
@@ -237,7 +243,7 @@ int main(int argc, char **argv)
     snprintf(path, sizeof path, "%s/scaling.csv", out);
     FILE *csv = fopen(path, "w");
     if (!csv) return perror(path), 1;
-    fprintf(csv, "sweep,s,n,r,ns_per_step,iterations,ns_per_iteration,bytes,bytes_per_n\n");
+    fprintf(csv, "sweep,s,n,r,ns_per_step,iterations,ns_per_iteration,bytes,bytes_per_n,ns_set_up\n");
     for (int i = 0; i < COUNT(sweeps); ++i) failed |= run_sweep(sweeps + i, runs, csv, c + i);
     failed |= draw(out, c);
     return fclose(csv) || failed;
