@@ -827,7 +827,8 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__APART static
 #endif
 
-// a loop whose lengths, or a struct whose members, are known where it is called: always a copy
+// a loop whose lengths, a struct whose members, or a question whose answer is known where it is called:
+// always a copy
 #if defined(__GNUC__)
 #define GVI__COPY static inline __attribute__((always_inline))
 #else
@@ -1515,10 +1516,10 @@ GVI_DEF gvi_real gvi_interpolate_derivative(int n, const gvi_real *x, const gvi_
                        | (GVI__LAGRANGIAN ? GVI__HAS_LAGRANGIAN : 0) | (GVI__NEWTON ? GVI__HAS_NEWTON : 0) \
                        | (GVI__OWN ? GVI__HAS_OWN : 0))
 
-static inline int gvi__flag(int flags, int flag) { return (flags & GVI__POSSIBLE & flag) != 0; }
-static inline int gvi__has(const gvi_stepper *st, int flag) { return gvi__flag(st->x.flags, flag); }
+GVI__COPY int gvi__flag(int flags, int flag) { return (flags & GVI__POSSIBLE & flag) != 0; }
+GVI__COPY int gvi__has(const gvi_stepper *st, int flag) { return gvi__flag(st->x.flags, flag); }
 
-static inline int gvi__compiled(gvi_formulation f)
+GVI__COPY int gvi__compiled(gvi_formulation f)
 {
     return f == GVI_EXPLICIT ? GVI__EXPLICIT : f == GVI_POSITIONS ? GVI__POSITIONS
          : f == GVI_VELOCITIES ? GVI__VELOCITIES : f == GVI_MOMENTA ? GVI__MOMENTA
@@ -1526,50 +1527,50 @@ static inline int gvi__compiled(gvi_formulation f)
 }
 
 // the only formulation that is compiled, else GVI_AUTO
-static inline gvi_formulation gvi__only(void)
+GVI__COPY gvi_formulation gvi__only(void)
 {
     const int several = GVI__EXPLICIT + GVI__POSITIONS + GVI__VELOCITIES + GVI__MOMENTA + GVI__NEWTON > 1;
     return several ? GVI_AUTO : GVI__EXPLICIT ? GVI_EXPLICIT : GVI__POSITIONS ? GVI_POSITIONS
          : GVI__VELOCITIES ? GVI_VELOCITIES : GVI__MOMENTA ? GVI_MOMENTA : GVI_NEWTON;
 }
 
-static inline int gvi__chosen_is(gvi_formulation chosen, gvi_formulation f)
+GVI__COPY int gvi__chosen_is(gvi_formulation chosen, gvi_formulation f)
 {
     return gvi__compiled(f) && (gvi__only() == f || chosen == f);
 }
 
-static inline int gvi__has_mass(const gvi_desc *d, gvi_mass_kind kind)
+GVI__COPY int gvi__has_mass(const gvi_desc *d, gvi_mass_kind kind)
 {
     return (kind != GVI_MASS_DENSE || GVI__DENSE) && (kind != GVI_MASS_POSITION || GVI__MOMENTA || GVI__NEWTON)
         && (kind != GVI_MASS_NONE || GVI__LAGRANGIAN) && d->mass.kind == kind;
 }
 
-static inline int gvi__has_rule(const gvi_desc *d, gvi_rule_kind kind)
+GVI__COPY int gvi__has_rule(const gvi_desc *d, gvi_rule_kind kind)
 {
     return (kind != GVI_OWN || GVI__OWN) && (kind != GVI_KICKS || GVI__EXPLICIT) && d->rule.kind == kind;
 }
 
 // is f the formulation of this scene?  and the same of its mass and its rule
-static inline int gvi__uses(const gvi_stepper *st, gvi_formulation f)
+GVI__COPY int gvi__uses(const gvi_stepper *st, gvi_formulation f)
 {
     return gvi__chosen_is(st->x.chosen, f);
 }
 
-static inline int gvi__mass_is(const gvi_stepper *st, gvi_mass_kind kind)
+GVI__COPY int gvi__mass_is(const gvi_stepper *st, gvi_mass_kind kind)
 {
     return gvi__has_mass(&st->x.desc, kind);
 }
 
-static inline int gvi__rule_is(const gvi_stepper *st, gvi_rule_kind kind)
+GVI__COPY int gvi__rule_is(const gvi_stepper *st, gvi_rule_kind kind)
 {
     return gvi__has_rule(&st->x.desc, kind);
 }
 
 // does a step, or a start, look for the effect whose values are not finite?
-static inline int gvi__diagnoses(const gvi_stepper *st) { return GVI__DIAGNOSIS && st->x.diagnose; }
+GVI__COPY int gvi__diagnoses(const gvi_stepper *st) { return GVI__DIAGNOSIS && st->x.diagnose; }
 
 // is the number of iterations given, and not a matter of a tolerance?
-static inline int gvi__counts(const gvi_stepper *st) { return !GVI__TOLERANCE || st->x.desc.iterations > 0; }
+GVI__COPY int gvi__counts(const gvi_stepper *st) { return !GVI__TOLERANCE || st->x.desc.iterations > 0; }
 
 static gvi_status gvi__fail(gvi_stepper *st, gvi_status status, int effect, int coordinate, int point)
 {
