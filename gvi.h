@@ -1566,6 +1566,9 @@ GVI__COPY int gvi__rule_is(const gvi_stepper *st, gvi_rule_kind kind)
     return gvi__has_rule(&st->x.desc, kind);
 }
 
+// was it Newton's method that made the step, or is it now?
+GVI__COPY int gvi__by_newton(const gvi_stepper *st) { return GVI__NEWTON && st->formulation == GVI_NEWTON; }
+
 // does a step, or a start, look for the effect whose values are not finite?
 GVI__COPY int gvi__diagnoses(const gvi_stepper *st) { return GVI__DIAGNOSIS && st->x.diagnose; }
 
@@ -2020,7 +2023,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_real t, const gvi_re
 static void gvi__velocity_guess(const gvi_stepper *st, gvi_real *v)
 {
     const struct gvi__private *x = &st->x;
-    if (x->has_velocity) gvi__gather(st->n, x->stride, x->last.V + st->r - 1, v);
+    if (GVI__READS_V && x->has_velocity) gvi__gather(st->n, x->stride, x->last.V + st->r - 1, v);
     else gvi__copy((size_t)st->n, x->start, v);
 }
 
@@ -2056,7 +2059,7 @@ static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, 
 /* phi_k = P_k(x) and Phi_k = (P_(k-1) - P_(k+1))(x) / (2(2k+1)), P_(-1) = 1, at
    every node, x = 1 - 2c, in twofold arithmetic: [k*stride + node].  The low
    parts of Phi go to E, which is not yet in use; phi is skipped where nobody
-   needs it.                                                                  */
+   needs it.  Then the nodes go to their grid.                                */
 GVI__APART void gvi__modes_at_nodes(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
@@ -2078,6 +2081,7 @@ GVI__APART void gvi__modes_at_nodes(gvi_stepper *st)
             before = P;
             P = next;
         }
+        x->c[i] = gvi__grid(gvi__sum(c.hi, c.lo), GVI__EPS/2);
     }
 }
 
@@ -2089,7 +2093,7 @@ static gvi_status gvi__gamma(gvi_stepper *st)
     struct gvi__private *x = &st->x;
     int s = st->s, r = st->r, R = x->stride;
     for (int k = 0; k < s; ++k) x->inv_gamma[k] = (gvi_real)(2*k + 1);
-    if (GVI__RULES && st->order == 2*s - 2) {
+    if (st->order == 2*s - 2) {
         gvi_real sum = 0;
         for (int i = 0; i < r; ++i) sum += x->b[i]*x->phi[(s-1)*R + i]*x->phi[(s-1)*R + i];
         if (!(GVI_ABS(sum) > (gvi_real)s*GVI__EPS)) return GVI_E_POINTS;
@@ -2110,7 +2114,7 @@ static void gvi__over_gamma(const gvi_stepper *st, gvi_real *y)
 {
     const struct gvi__private *x = &st->x;
     if (gvi__has(st, GVI__HAS_OWN)) gvi_lu_solve(st->s, x->own, x->own + st->s*st->s, y);
-    else for (int k = 0; k < st->s; ++k) y[k] *= x->inv_gamma[k];
+    else for (int k = 0; k < st->s; ++k) y[k] *= GVI__RULES ? x->inv_gamma[k] : (gvi_real)(2*k + 1);
 }
 
 // sum_k a[k][i] gamma_k b[k][j], twofold; high parts and low parts apart.  A product
@@ -2578,14 +2582,14 @@ static gvi_status gvi__choose(gvi__scene *x)
 static gvi_status gvi__resolve(gvi__scene *x, gvi_desc *d, const gvi_desc *desc)
 {
     gvi_status status = gvi__check_desc(desc);
-    if (status != GVI_OK) return status;
+    x->desc = desc;
+    if (status == GVI_OK) status = gvi__read_effects(x);
+    if (status != GVI_OK || !gvi__mass_given(&desc->mass, x->flags & GVI__HAS_LAGRANGIAN)) return GVI_E_ARGUMENT;
     *d = *desc;
+    x->desc = d;
     if (d->degree == 0) d->degree = d->rule.kind == GVI_KICKS ? 1 : 8;
     if (d->rule.points == 0) d->rule.points = d->rule.kind == GVI_LOBATTO ? d->degree + 1 : d->degree;
     if (d->max_iterations == 0) d->max_iterations = 60;
-    x->desc = d;
-    status = gvi__read_effects(x);
-    if (status != GVI_OK || !gvi__mass_given(&d->mass, x->flags & GVI__HAS_LAGRANGIAN)) return GVI_E_ARGUMENT;
     if (gvi__left_out(x)) return GVI_E_FORMULATION;
     status = gvi__measure(x);
     if (status == GVI_OK) status = gvi__choose(x);
@@ -2787,9 +2791,8 @@ GVI_DEF size_t gvi_size(const gvi_desc *desc)
 }
 
 // mass matrix into the memory, factored
-static gvi_status gvi__set_mass(gvi_stepper *st)
+static gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
 {
-    const gvi_mass *mass = &st->x.desc.mass;
     int n = st->n;
     gvi_real *m = st->x.mass;
     if (mass->kind == GVI_MASS_DIAGONAL)
@@ -2839,7 +2842,7 @@ static gvi_status gvi__hand_out(gvi_stepper *st, const gvi_desc *desc, gvi_real 
     if (slack) x->skip = (size_t)(-(uintptr_t)memory & 63)/sizeof(gvi_real);
     memory += x->skip;
     gvi__layout(&scene, x, memory);
-    gvi__zero(x->J ? (size_t)(x->J - memory) : x->size, memory);        // J is written before it is read
+    gvi__zero(GVI__NEWTON && x->J ? (size_t)(x->J - memory) : x->size, memory);        // J is written before it is read
     return GVI_OK;
 }
 
@@ -2855,7 +2858,7 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     memory += x->skip;
     st->q = x->q;
     st->p = x->p;
-    status = gvi__set_mass(st);
+    status = gvi__set_mass(st, &desc->mass);
     if (status != GVI_OK) return status;
 
     // the rule, the modes at its nodes as exactly as they can be had, then the grid
@@ -2876,16 +2879,17 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
         if (x->Phi) gvi__copy((size_t)st->r, x->c, x->Phi);
         return gvi__done(st, GVI_OK);
     }
-    if (GVI__RULES) gvi__modes_at_nodes(st);
-    for (int i = 0; i < st->r; ++i) x->c[i] = gvi__grid(gvi__sum(x->c[i], x->ce[i]), GVI__EPS/2);
-    status = gvi__gamma(st);
+    if (GVI__RULES) {
+        gvi__modes_at_nodes(st);
+        status = gvi__gamma(st);
+    }
     if (status != GVI_OK) {
         x->memory = NULL;
         return st->status = status;
     }
     if (gvi__has(st, GVI__HAS_OWN)) gvi__tables_own(st);
     else gvi__tables(st);
-    x->blocks = x->eigen ? -1 : 0;           // most scenes never need Newton's method
+    x->blocks = GVI__NEWTON && x->eigen ? -1 : 0;           // most scenes never need Newton's method
     gvi__copy((size_t)st->r, x->c, x->Phi);  // Phi_0 = c on its grid: 1 - Phi_0 is exact
     return gvi__done(st, GVI_OK);
 }
@@ -3070,6 +3074,7 @@ static inline void gvi__rescale(gvi_real base, gvi_real was, gvi_real is, gvi_re
 
 static inline gvi_real gvi__sum_lanes(const gvi_real *z)
 {
+    if (!GVI__RULES) return (z[0] + z[1]) + (z[2] + z[3]);           // no more than four points
     return ((z[0] + z[4]) + (z[1] + z[5])) + ((z[2] + z[6]) + (z[3] + z[7]));
 }
 
@@ -3651,7 +3656,7 @@ static void gvi__fit_sums(gvi_stepper *st)
 GVI__APART void gvi__prepare_guess(gvi_stepper *st, gvi_real alpha, gvi_real beta, int query)
 {
     struct gvi__private *x = &st->x;
-    const int step = !query && st->formulation != GVI_NEWTON;   // which wants V of the last step
+    const int step = !query && !gvi__by_newton(st);   // which wants V of the last step
     const int two = GVI__KIND > 1 && step && x->alike == 2 && x->older_F && !gvi__nonzero(beta - 1);
     const int sums = step && gvi__uses(st, GVI_POSITIONS) && !gvi__mass_is(st, GVI_MASS_DENSE)
                      && !gvi__A(&x->work);
@@ -3705,7 +3710,7 @@ GVI__APART gvi__two gvi__exact_dot(int r, const gvi_real *a, const gvi_real *b, 
     gvi__two sum;
     for (int j = 0; j < r; ++j) {
         sum = gvi__product(a[j], b[j]);
-        if (j >= 8) sum = gvi__join(hi[j & 7], lo[j & 7], sum.hi, sum.lo);
+        if (GVI__RULES && j >= 8) sum = gvi__join(hi[j & 7], lo[j & 7], sum.hi, sum.lo);
         hi[j & 7] = sum.hi;
         lo[j & 7] = sum.lo;
     }
@@ -3855,7 +3860,7 @@ static int gvi__is_rounding(const gvi_stepper *st, const gvi__from *from, int id
     gvi_real noise = 0, size = 0, place = 0;
     for (int i = 0; i < st->n; ++i) {
         gvi_real most = 0, Q = x->work.Q[i*R + last];
-        const int by_v = GVI__READS_V && (x->chosen > GVI_POSITIONS || st->formulation == GVI_NEWTON);
+        const int by_v = GVI__READS_V && (x->chosen > GVI_POSITIONS || gvi__by_newton(st));
         gvi_real v = by_v ? x->work.V[i*R + last] : from->v[i];
         for (int k = 0; k < st->r; ++k) {
             gvi_real F = GVI_ABS(x->work.F[i*R + k]);
@@ -4003,7 +4008,7 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
 {
     struct gvi__private *x = &st->x;
     const int most = gvi__counts(st) ? x->desc.iterations : x->desc.max_iterations;
-    const gvi_real tolerance = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/65536;
+    const gvi_real tolerance = GVI__TOLERANCE && x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/65536;
     const gvi_real rounding = 16*GVI__EPS*GVI__EPS*(gvi_real)(st->n*st->r);
     gvi__progress p = { 0, 0, tolerance*tolerance, rounding, { GVI__MAX, GVI__MAX }, 0, 0, 0, 1, 0, 0, 1, 0 };
     gvi__stage y[GVI__STAGES];
@@ -4762,8 +4767,9 @@ static gvi_status gvi__solve(gvi_stepper *st, gvi__from *from, gvi_real h, const
 // oldest are free for the next step
 static void gvi__rotate(gvi_real **older, gvi_real **last, gvi_real **work)
 {
-    gvi_real *free = older && *older ? *older : *last;
-    if (older && *older) *older = *last;
+    const int keep = GVI__KIND > 1 && older && *older;
+    gvi_real *free = keep ? *older : *last;
+    if (keep) *older = *last;
     *last = *work;
     *work = free;
 }
@@ -4810,7 +4816,7 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     const int explicit_one = gvi__uses(st, GVI_EXPLICIT);    // its increments have no rest
     gvi__move(st->n, x->dq, explicit_one ? NULL : x->dqe, x->q, x->qe, x->q0);
     gvi__move(st->n, x->dp, explicit_one ? NULL : x->dpe, x->p, x->pe, x->p0);
-    x->alike = x->stepped && !gvi__nonzero(h - st->h) ? 2 : 1;
+    if (GVI__KIND > 1) x->alike = x->stepped && !gvi__nonzero(h - st->h) ? 2 : 1;
     gvi__two t = gvi__sum(st->t, x->dt + x->te);
     if (GVI__CLOCK && x->clock >= 0) {
         const gvi__two H = gvi__sum(x->H, x->dH + x->He);
@@ -4826,7 +4832,7 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     x->stepped = 1;
     if (GVI__WEAK) x->answer = x->learned;
     x->has_force = explicit_one && !gvi__nonzero(x->c[0]) && !gvi__nonzero(x->c[st->r - 1] - 1);
-    x->has_velocity = st->formulation > GVI_POSITIONS;
+    x->has_velocity = GVI__READS_V && st->formulation > GVI_POSITIONS;
     if (GVI__NEWTON && x->newton_left > 0) x->newton_left = (signed char)(x->newton_left - 1);
     if (GVI__NEWTON && x->whole_left > 0) x->whole_left = (signed char)(x->whole_left - 1);
     st->counters.steps += 1;
@@ -4856,7 +4862,7 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
     if (x->stepped) {
         past.beta = h/st->h;
         past.available = past.beta > -2 && past.beta < 8;         // farther out it says nothing
-        if (gvi__nonzero(h - st->h)) x->newton_left = x->whole_left = 0;
+        if (GVI__NEWTON && gvi__nonzero(h - st->h)) x->newton_left = x->whole_left = 0;
     }
     gvi_status status = gvi__uses(st, GVI_EXPLICIT) && !GVI__SMALL ? gvi__solve_explicit(st, &from, h, &past)
                                                                    : gvi__solve(st, &from, h, &past, 0);
@@ -5083,7 +5089,7 @@ GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy)
 static void gvi__curve(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v)
 {
     const struct gvi__private *x = &st->x;
-    int n = st->n, R = x->stride, by_forces = x->chosen <= GVI_POSITIONS && st->formulation != GVI_NEWTON;
+    int n = st->n, R = x->stride, by_forces = x->chosen <= GVI_POSITIONS && !gvi__by_newton(st);
     gvi_real *a = x->row, *b = a + R;               // at tau: phi, Phi over Gamma
     if (gvi__uses(st, GVI_EXPLICIT)) {              // a straight line
         for (int i = 0; i < n; ++i) {
