@@ -976,7 +976,7 @@ static gvi__two gvi__over2(gvi__two a, int k)
 }
 
 // nearest multiple of `unit`, a power of 2: sums of such numbers are exact
-GVI__APART gvi_real gvi__grid(gvi__two a, gvi_real unit)
+static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 {
     const gvi_real whole = GVI_FLOOR(a.hi/unit);      // the sum with 1/2 would round once more
     return (whole + GVI_FLOOR((a.hi/unit - whole) + (a.lo/unit + (gvi_real)0.5)))*unit;
@@ -1575,6 +1575,8 @@ GVI__COPY int gvi__diagnoses(const gvi_stepper *st) { return GVI__DIAGNOSIS && s
 // is the number of iterations given, and not a matter of a tolerance?
 GVI__COPY int gvi__counts(const gvi_stepper *st) { return !GVI__TOLERANCE || st->x.desc.iterations > 0; }
 
+GVI__APART void gvi__count(unsigned long long *counter, int more) { *counter += (unsigned long long)more; }
+
 static gvi_status gvi__fail(gvi_stepper *st, gvi_status status, int effect, int coordinate, int point)
 {
     st->fault.effect = effect;
@@ -1676,7 +1678,7 @@ GVI__APART gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e)
     gvi_real *value = GVI__CLOCK ? x->value : NULL;
     gvi_real *own = value && effect->kind == GVI_LAGRANGIAN ? st->x.less : effect->kind == GVI_FORCE ? NULL : value;
     int point = GVI_FAULT_NONE, together = own && effect->points && effect->value == effect->points;
-    st->counters.effect[e] += (unsigned long long)x->count;
+    gvi__count(&st->counters.effect[e], x->count);
     x->value = together ? own : NULL;
     const int whole = !GVI__POINT || effect->points;
     int refused = whole ? effect->points(x, effect->user) : gvi__point_by_point(st, effect, x, &point);
@@ -1701,7 +1703,7 @@ static int gvi__has_clock(const gvi_stepper *st) { return (gvi__clock_bit(st) & 
 static inline gvi_status gvi__call(gvi_stepper *st, const gvi_points *x, int e)
 {
     const gvi_effect *effect = st->x.desc.effects + e;
-    st->counters.effect[e] += (unsigned long long)x->count;
+    gvi__count(&st->counters.effect[e], x->count);
     const int refused = effect->points(x, effect->user);
     return refused ? gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, GVI_FAULT_NONE) : GVI_OK;
 }
@@ -1817,7 +1819,7 @@ static gvi_status gvi__ldl_factor(gvi_stepper *st, int n, int stride, int count,
             for (int k = 0; k < count; ++k) a[k] /= d[k];
         }
     }
-    st->counters.factorizations += (unsigned long long)count;
+    gvi__count(&st->counters.factorizations, count);
     return GVI_OK;
 }
 
@@ -1872,7 +1874,7 @@ static gvi_status gvi__mass_at(gvi_stepper *st, gvi_points *x)
     x->v = NULL;
     x->f = x->dldv = NULL;
     x->mass = st->x.point_mass;
-    st->counters.mass += (unsigned long long)x->count;
+    gvi__count(&st->counters.mass, x->count);
     int refused = st->x.desc.mass.points(x, st->x.desc.mass.user);
     x->mass = NULL;
     x->v = v;
@@ -1987,7 +1989,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_real t, const gvi_re
     x.v = v;
     const gvi_real *P = x.dldv;
     gvi_real last = GVI__MAX;
-    st->counters.velocities += 1;
+    gvi__count(&st->counters.velocities, 1);
     for (int k = 0; k < 40; ++k) {
         gvi_real change = 0;
         gvi_status status = gvi__evaluate(st, &x, 0);
@@ -2004,7 +2006,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_real t, const gvi_re
         if (status != GVI_OK) return status;
         int at;
         status = gvi__lu_factor(n, W, pivot, &at);
-        st->counters.factorizations += 1;
+        gvi__count(&st->counters.factorizations, 1);
         if (status != GVI_OK) return gvi__fail(st, status, GVI_FAULT_MASS, at, GVI_FAULT_NONE);
         for (int i = 0; i < n; ++i) dv[i] = p[i] - P[i];
         gvi_lu_solve(n, W, pivot, dv);
@@ -2037,7 +2039,7 @@ static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, 
     if (mass->velocity) {
         x.p = p;
         x.velocity = v;
-        st->counters.mass += 1;
+        gvi__count(&st->counters.mass, 1);
         if (mass->velocity(&x, mass->user))
             return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, -1, -1);
         return gvi__check_rows(st, &x, v, GVI_FAULT_MASS);
@@ -2049,7 +2051,7 @@ static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, 
         gvi_status status = gvi__factor_at(st, &x);
         if (status != GVI_OK) return status;
         gvi__ldl_solve(st->n, st->x.point_mass, 1, 1, v, 1, 1);
-        st->counters.velocities += 1;
+        gvi__count(&st->counters.velocities, 1);
     } else gvi__over_mass(st, v, 1, 1);
     return GVI_OK;
 }
@@ -3383,7 +3385,7 @@ static gvi_real gvi__stages(gvi_stepper *st, const gvi__stage *y, int count)
         gvi__velocity_rows(st);           // the new P, if with the old M(Q) and g: contracts twice as fast
         for (int i = 0; clock && i < st->n; ++i) gvi__scale_row(x->stride, x->rate, x->work.V + i*x->stride);
     }
-    st->counters.velocities += (unsigned long long)st->r;
+    gvi__count(&st->counters.velocities, st->r);
     return sum + gvi__stage_rows(st, y + 1);
 }
 
@@ -3392,7 +3394,7 @@ GVI__APART gvi_status gvi__legendre_rows(gvi_stepper *st, gvi_points *y)
 {
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work;
-    st->counters.velocities += (unsigned long long)st->r;
+    gvi__count(&st->counters.velocities, st->r);
     if (x->desc.mass.velocity) {
         const gvi_real *v = y->v;
         gvi_real *f = y->f, *dldv = y->dldv;
@@ -3400,7 +3402,7 @@ GVI__APART gvi_status gvi__legendre_rows(gvi_stepper *st, gvi_points *y)
         y->f = y->dldv = NULL;
         y->p = w->P;
         y->velocity = w->V;
-        st->counters.mass += (unsigned long long)st->r;
+        gvi__count(&st->counters.mass, st->r);
         int refused = x->desc.mass.velocity(y, x->desc.mass.user);
         y->velocity = NULL;
         y->p = NULL;
@@ -3433,7 +3435,7 @@ static gvi_status gvi__rate(gvi_stepper *st, gvi_points *x, gvi_real *rate, gvi_
     x->value = rate;
     gvi__zero((size_t)x->n*(size_t)x->stride, slope);
     gvi__zero((size_t)x->stride, rate);
-    st->counters.effect[st->x.clock] += (unsigned long long)x->count;
+    gvi__count(&st->counters.effect[st->x.clock], x->count);
     int refused = clock->points(x, clock->user);
     x->v = v;
     x->dldv = dldv;
@@ -3709,10 +3711,11 @@ GVI__APART gvi__two gvi__exact_dot(int r, const gvi_real *a, const gvi_real *b, 
     gvi_real own[16], *hi = GVI__SMALL ? z : own, *lo = hi + lanes;
     gvi__two sum;
     for (int j = 0; j < r; ++j) {
+        const int k = GVI__RULES ? j & 7 : j;
         sum = gvi__product(a[j], b[j]);
-        if (GVI__RULES && j >= 8) sum = gvi__join(hi[j & 7], lo[j & 7], sum.hi, sum.lo);
-        hi[j & 7] = sum.hi;
-        lo[j & 7] = sum.lo;
+        if (GVI__RULES && j >= 8) sum = gvi__join(hi[k], lo[k], sum.hi, sum.lo);
+        hi[k] = sum.hi;
+        lo[k] = sum.lo;
     }
     for (int half = r > 4 ? 4 : r > 2 ? 2 : 1; half > 0; half /= 2)
         for (int k = 0; k + half < lanes && k < half; ++k) {
@@ -4032,17 +4035,18 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
         if (*used > 0) {
             if (!(change <= GVI__MAX)) return gvi__not_finite(st, p.grows);
             verdict = gvi__judge(st, from, &p, change, *used);
-            if (verdict == GVI__DONE || verdict == GVI__ASK_ONCE_MORE) gvi__watch_last(st, change);
+            if (verdict == GVI__GO_ON && GVI__TOLERANCE && *used == most) verdict = GVI__BEYOND;
+            if (verdict == GVI__BEYOND) break;
+            if (verdict != GVI__GO_ON) gvi__watch_last(st, change);
             if (verdict == GVI__DONE) return GVI_OK;
-            if (verdict == GVI__BEYOND || (verdict == GVI__GO_ON && *used == most)) break;
         } else gvi__zero(2*(size_t)st->n, x->scale);        // of rows of another step
 
         // rows that go to and fro in their last places end with their own F, not that of
         // the side that they came from, which would be a bias
-        *used += verdict == GVI__GO_ON;
-        const int anew = p.anew || verdict == GVI__ASK_ONCE_MORE;
+        const int last = GVI__TOLERANCE && verdict == GVI__ASK_ONCE_MORE, anew = p.anew || last;
+        *used += !last;
         gvi_status status = gvi__ask(st, from, h - h, GVI__SMALL ? NULL : &at, anew);
-        if (status != GVI_OK || verdict == GVI__ASK_ONCE_MORE) return status;
+        if (status != GVI_OK || last) return status;
     }
     return gvi__give(st, GVI_E_CONVERGENCE);
 }
@@ -4201,7 +4205,7 @@ static void gvi__newton_rows(gvi_stepper *st, const gvi__from *from, gvi_real h)
             }
         for (int j = 0; j < R; ++j) Q[j] = from->q[i] + (from->qe[i] + h*Q[j]);
     }
-    st->counters.velocities += (unsigned long long)st->r;
+    gvi__count(&st->counters.velocities, st->r);
 }
 
 // F and P at the rows of y
@@ -4285,7 +4289,7 @@ static gvi_status gvi__factor_blocks(gvi_stepper *st, const gvi__matrix *J, gvi_
     gvi_status status = GVI_OK;
     for (int m = 0; m < (st->s + 1)/2 && status == GVI_OK; ++m)
         status = gvi__lu_factor_complex(st->n, J->square + 2*n*n*(size_t)m, pivot + n*(size_t)m);
-    st->counters.factorizations += (unsigned long long)(st->s + 1)/2;
+    gvi__count(&st->counters.factorizations, (st->s + 1)/2);
     return status == GVI_OK ? GVI_OK : gvi__give(st, status);
 }
 
@@ -4528,7 +4532,7 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J, gvi_real 
     if (gvi__in_blocks(J)) return gvi__factor_blocks(st, J, pivot);
     if (J->scaled) gvi__scale_rows(n, size, J);
     status = gvi__lu_factor(size, J->square, pivot, &at);
-    st->counters.factorizations += 1;
+    gvi__count(&st->counters.factorizations, 1);
     return status == GVI_OK ? GVI_OK : gvi__fail(st, status, GVI_FAULT_NONE, at < 0 ? at : at % n, GVI_FAULT_NONE);
 }
 
@@ -4606,7 +4610,7 @@ GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const 
         else gvi_lu_solve(size, J->square, pivot, x->dy);
         int still = 1;
         gvi_real change = gvi__newton_update(st, from, J->h, J->k0, &still), ratio = before > 0 ? change/before : 1;
-        st->counters.newton_iterations += 1;
+        gvi__count(&st->counters.newton_iterations, 1);
         if (!(change <= GVI__MAX)) return gvi__not_finite(st, 0);
         gvi__watch(st, change, earlier);
 
@@ -4703,7 +4707,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, gvi__from *from, gvi_real h,
         if (usable) gvi__prepare_guess(st, past->alpha, past->beta, query);
         for (int plain = !usable; plain < 2; ++plain) {
             status = gvi__fixed_point(st, from, h, !plain, &used);
-            st->counters.iterations += (unsigned long long)used;
+            gvi__count(&st->counters.iterations, used);
             if (!query) st->iterations = used;
             if (used > st->counters.most_iterations) st->counters.most_iterations = used;
             // only a refusal at the extrapolated values themselves is worth a second try
@@ -4767,9 +4771,9 @@ static gvi_status gvi__solve(gvi_stepper *st, gvi__from *from, gvi_real h, const
 // oldest are free for the next step
 static void gvi__rotate(gvi_real **older, gvi_real **last, gvi_real **work)
 {
-    const int keep = GVI__KIND > 1 && older && *older;
-    gvi_real *free = keep ? *older : *last;
-    if (keep) *older = *last;
+    if (GVI__KIND == 1) older = NULL;             // in float no extrapolation reads it
+    gvi_real *free = older && *older ? *older : *last;
+    if (older && *older) *older = *last;
     *last = *work;
     *work = free;
 }
@@ -4835,7 +4839,7 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     x->has_velocity = GVI__READS_V && st->formulation > GVI_POSITIONS;
     if (GVI__NEWTON && x->newton_left > 0) x->newton_left = (signed char)(x->newton_left - 1);
     if (GVI__NEWTON && x->whole_left > 0) x->whole_left = (signed char)(x->whole_left - 1);
-    st->counters.steps += 1;
+    gvi__count(&st->counters.steps, 1);
 }
 
 // the explicit formulation has no more to do; what is not finite is looked into
@@ -4868,7 +4872,7 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
                                                                    : gvi__solve(st, &from, h, &past, 0);
     if (status == GVI_OK && !gvi__finite(st->t + x->dt)) status = gvi__give(st, GVI_E_ARGUMENT);
     if (status != GVI_OK) {
-        st->counters.failures += 1;
+        gvi__count(&st->counters.failures, 1);
         st->formulation = was;
         x->newton_left = left;
         x->whole_left = whole;
@@ -4939,7 +4943,7 @@ static gvi_status gvi__start(gvi_stepper *st, gvi_real t, const gvi_real *v)
         x->H = E;
         x->He = 0;
     }
-    gvi__copy(n, v, x->start);
+    if (GVI__READS_V) gvi__copy(n, v, x->start);
     gvi__copy(n, x->dq, x->q);
     gvi__copy(n, x->dp, x->p);
     gvi__zero(n, x->qe);
@@ -4992,7 +4996,7 @@ GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, con
     gvi_real *start = x->one + 3*n;               // v may be what a query wrote over st
     gvi__copy(n, y.dldv, x->dp);
     gvi__copy(n, q, x->dq);
-    gvi__copy(n, v, start);
+    if (GVI__READS_V) gvi__copy(n, v, start);
     return gvi__start(st, t, start);
 }
 
