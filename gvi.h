@@ -1793,7 +1793,7 @@ static unsigned gvi__with_hessian(const gvi_stepper *st)
    i >= j, of point k at [(i*n + j)*stride + k].  Every loop runs over points.
    A pivot that is nothing but rounding of its diagonal entry is a coordinate
    without mass.                                                              */
-static gvi_status gvi__ldl_factor(gvi_stepper *st, int n, int stride, int count, gvi_real *m)
+GVI__APART gvi_status gvi__ldl_factor(gvi_stepper *st, int n, int stride, int count, gvi_real *m)
 {
     for (int j = 0; j < n; ++j) {
         gvi_real *d = m + (size_t)(j*n + j)*(size_t)stride;
@@ -2191,10 +2191,10 @@ static const gvi_real gvi__few_T[] = {
 static gvi_real gvi__few(gvi_real x) { return x < 0 ? 1 + x : x; }
 
 // the constants in place of gvi__rule_make and gvi__modes_at_nodes
-static void gvi__few_modes(gvi_stepper *st)
+static void gvi__few_modes(gvi_stepper *st, size_t r)
 {
     struct gvi__private *x = &st->x;
-    const size_t r = (size_t)st->r, at = (r - 1)*r*(2*r - 1)/6;
+    const size_t at = (r - 1)*r*(2*r - 1)/6;
     gvi__copy(r, gvi__few_b + (r - 1)*r/2, x->b);
     gvi__copy(r*r, gvi__few_Phi + at, x->Phi);
     if (GVI__READS_V && x->phi) gvi__copy(r*r, gvi__few_phi + at, x->phi);
@@ -2874,7 +2874,7 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
 #if GVI__RULES
     else gvi__rule_make(x->desc.rule.kind == GVI_LOBATTO, st->r, x->c, x->ce, x->b);
 #else
-    else gvi__few_modes(st);
+    else gvi__few_modes(st, (size_t)desc->degree);           // r = s, and known if the description is
 #endif
     x->memory = memory;                      // from here on it can be used
     if (gvi__uses(st, GVI_EXPLICIT)) {
@@ -2891,7 +2891,7 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     }
     if (gvi__has(st, GVI__HAS_OWN)) gvi__tables_own(st);
     else gvi__tables(st);
-    x->blocks = GVI__NEWTON && x->eigen ? -1 : 0;           // most scenes never need Newton's method
+    if (GVI__NEWTON && x->eigen) x->blocks = -1;            // most scenes never need Newton's method
     gvi__copy((size_t)st->r, x->c, x->Phi);  // Phi_0 = c on its grid: 1 - Phi_0 is exact
     return gvi__done(st, GVI_OK);
 }
@@ -4694,7 +4694,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, gvi__from *from, gvi_real h,
 {
     struct gvi__private *x = &st->x;
     gvi__begin(st, from, h);
-    st->formulation = x->chosen;
+    if (GVI__NEWTON) st->formulation = x->chosen;
     if (gvi__uses(st, GVI_EXPLICIT)) return gvi__explicit(st, from, h, past->force);
 
     if (GVI__WEAK) {
@@ -4873,10 +4873,12 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
     if (status == GVI_OK && !gvi__finite(st->t + x->dt)) status = gvi__give(st, GVI_E_ARGUMENT);
     if (status != GVI_OK) {
         gvi__count(&st->counters.failures, 1);
-        st->formulation = was;
-        x->newton_left = left;
-        x->whole_left = whole;
-        x->h_matrix = 0;
+        if (GVI__NEWTON) {
+            st->formulation = was;
+            x->newton_left = left;
+            x->whole_left = whole;
+            x->h_matrix = 0;
+        }
         return st->status = status;
     }
     gvi__commit(st, h);
