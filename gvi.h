@@ -1672,7 +1672,7 @@ static gvi_status gvi__value(gvi_stepper *st, gvi_points *x, int e, gvi_real *va
 /* Asks effect e where it is not one call for all points and no more: one point a
    call; with x->value (clock) V goes there and L to x.less, in the same call if it
    can be; and in the diagnosing repetition what it added is looked at.        */
-GVI__APART gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e)
+static gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e)
 {
     const gvi_effect *effect = st->x.desc.effects + e;
     gvi_real *value = GVI__CLOCK ? x->value : NULL;
@@ -3494,7 +3494,7 @@ static void gvi__transform(gvi_stepper *st, const gvi__from *from, int lagrangia
 }
 
 // with a clock: forces first, for their power; then all else, with values
-static gvi_status gvi__ask_clock(gvi_stepper *st, const gvi__from *from, gvi_points *y)
+GVI__APART gvi_status gvi__ask_clock(gvi_stepper *st, const gvi__from *from, gvi_points *y)
 {
     struct gvi__private *x = &st->x;
     const unsigned forces = gvi__has(st, GVI__HAS_VELOCITIES) ? gvi__of_kind(st, GVI_FORCE) : 0;
