@@ -1575,6 +1575,7 @@ GVI__COPY int gvi__diagnoses(const gvi_stepper *st) { return GVI__DIAGNOSIS && s
 // is the number of iterations given, and not a matter of a tolerance?
 GVI__COPY int gvi__counts(const gvi_stepper *st) { return !GVI__TOLERANCE || st->x.desc.iterations > 0; }
 
+// 64 bits, which take a small machine several instructions
 GVI__APART void gvi__count(unsigned long long *counter, int more) { *counter += (unsigned long long)more; }
 
 static gvi_status gvi__fail(gvi_stepper *st, gvi_status status, int effect, int coordinate, int point)
@@ -2523,15 +2524,17 @@ static gvi_status gvi__measure(gvi__scene *x)
 {
     const gvi_rule *rule = &x->desc->rule;
     const int s = x->desc->degree, r = rule->points;
+    const int own = gvi__has_rule(x->desc, GVI_OWN);
     x->order = rule->kind == GVI_LOBATTO ? 2*r - 2 : 2*r;
-    if (gvi__has_rule(x->desc, GVI_OWN)) x->order = gvi_rule_order(r, rule->nodes, rule->weights);
+    if (own) x->order = gvi_rule_order(r, rule->nodes, rule->weights);
     if (gvi__has_rule(x->desc, GVI_KICKS)) {
         x->order = 0;
         return s == 1 ? gvi__check_kicks(r, rule->nodes, rule->weights) : GVI_E_ARGUMENT;
     }
     if (rule->kind == GVI_LOBATTO && r < 2) return s > 1 ? GVI_E_POINTS : GVI_E_ARGUMENT;
-    if (x->order < 0) return GVI_E_NODES;
+    if (own && x->order < 0) return GVI_E_NODES;
     if (r < s) return GVI_E_POINTS;
+    if (!own) return GVI_OK;                       // r >= s points of Gauss or Lobatto are good enough
     if (x->order < s) return GVI_E_ORDER;
     if (x->order < 2*s - 2) x->flags |= GVI__HAS_OWN;
     return GVI_OK;
