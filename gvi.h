@@ -225,7 +225,7 @@
    part by a factor of 1000 it takes half of the evaluations or less, and now and then
    a round more.  The equations, and so the step, are the same; a mark on an effect
    that is not weak costs rounds, and no more digits than any end that is foretold.
-   Marks take n R more numbers of memory.  They are for potentials and forces in the
+   Marks take (n + 2) R more numbers of memory.  They are for potentials and forces in the
    fixed points, without a clock or desc.iterations, of degree 1 with Gauss's rule
    alone, and not compiled for size: elsewhere a marked effect is asked as any other.
 
@@ -503,10 +503,10 @@ struct gvi__private {
     gvi_real *drift;                  /* [r+1] explicit: time from corner to corner */
     gvi_real *g, *m, *T, *N;          /* [r][R] c_i - S_ij, 1 - T_ij, T_ji, N_ij */
     gvi_real *E;                      /* [r or 2r][R] extrapolation; at set-up rest of Phi */
-    gvi_real *rate, *power, *level;   /* [R] clock: g; f'v; H, then H - E       */
+    gvi_real *rate;                   /* [3][R] clock: g; f'v; H, then H - E    */
     gvi_real *slope;                  /* [n][R] clock: dg/dq                    */
     gvi_real *over;                   /* [n] 1/m of a diagonal mass             */
-    gvi_real *weak;                   /* [n][R] forces of the weak effects, as last asked */
+    gvi_real *weak;                   /* [n][R] forces of the weak effects, as last asked; gvi__answers */
     gvi_real *mass, *point_mass, *Z;  /* M; M at the points [n*n][R]; [n][R] scratch */
     gvi_real *y, *dy, *J, *pivot;     /* Newton: [s*n] twice; two matrices of s*n */
     gvi_real *hess, *dF;              /* scratch; F and P, moved and not, [4][n][R] */
@@ -521,8 +521,7 @@ struct gvi__private {
     gvi_real         ratio;           /* h/h_last for which E holds             */
     gvi_real         h_matrix;        /* h for which J was made, 0: none        */
     unsigned         off;             /* effects switched off, one bit each     */
-    unsigned         marks, seldom;   /* marked as weak; and now not to be asked in each iteration */
-    gvi_real         answer, learned; /* of theirs to a change of the rows, squared: gvi__settled */
+    unsigned         marks;           /* effects marked as weak, likewise       */
     signed char      newton_left;     /* steps until the fixed point is tried   */
     signed char      whole_left;      /* steps until blocks are tried again     */
     signed char      clock, single;   /* effect that is one; the only one; or -1 */
@@ -828,7 +827,8 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__APART static
 #endif
 
-// a loop whose lengths, or a struct whose members, are known where it is called: always a copy
+// a loop whose lengths, a struct whose members, or a question whose answer is known where it is called:
+// always a copy
 #if defined(__GNUC__)
 #define GVI__COPY static inline __attribute__((always_inline))
 #else
@@ -976,7 +976,7 @@ static gvi__two gvi__over2(gvi__two a, int k)
 }
 
 // nearest multiple of `unit`, a power of 2: sums of such numbers are exact
-GVI__APART gvi_real gvi__grid(gvi__two a, gvi_real unit)
+static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 {
     const gvi_real whole = GVI_FLOOR(a.hi/unit);      // the sum with 1/2 would round once more
     return (whole + GVI_FLOOR((a.hi/unit - whole) + (a.lo/unit + (gvi_real)0.5)))*unit;
@@ -1534,10 +1534,10 @@ GVI_DEF gvi_real gvi_interpolate_derivative(int n, const gvi_real *x, const gvi_
                        | (GVI__LAGRANGIAN ? GVI__HAS_LAGRANGIAN : 0) | (GVI__NEWTON ? GVI__HAS_NEWTON : 0) \
                        | (GVI__OWN ? GVI__HAS_OWN : 0))
 
-static inline int gvi__flag(int flags, int flag) { return (flags & GVI__POSSIBLE & flag) != 0; }
-static inline int gvi__has(const gvi_stepper *st, int flag) { return gvi__flag(st->x.flags, flag); }
+GVI__COPY int gvi__flag(int flags, int flag) { return (flags & GVI__POSSIBLE & flag) != 0; }
+GVI__COPY int gvi__has(const gvi_stepper *st, int flag) { return gvi__flag(st->x.flags, flag); }
 
-static inline int gvi__compiled(gvi_formulation f)
+GVI__COPY int gvi__compiled(gvi_formulation f)
 {
     return f == GVI_EXPLICIT ? GVI__EXPLICIT : f == GVI_POSITIONS ? GVI__POSITIONS
          : f == GVI_VELOCITIES ? GVI__VELOCITIES : f == GVI_MOMENTA ? GVI__MOMENTA
@@ -1545,50 +1545,56 @@ static inline int gvi__compiled(gvi_formulation f)
 }
 
 // the only formulation that is compiled, else GVI_AUTO
-static inline gvi_formulation gvi__only(void)
+GVI__COPY gvi_formulation gvi__only(void)
 {
     const int several = GVI__EXPLICIT + GVI__POSITIONS + GVI__VELOCITIES + GVI__MOMENTA + GVI__NEWTON > 1;
     return several ? GVI_AUTO : GVI__EXPLICIT ? GVI_EXPLICIT : GVI__POSITIONS ? GVI_POSITIONS
          : GVI__VELOCITIES ? GVI_VELOCITIES : GVI__MOMENTA ? GVI_MOMENTA : GVI_NEWTON;
 }
 
-static inline int gvi__chosen_is(gvi_formulation chosen, gvi_formulation f)
+GVI__COPY int gvi__chosen_is(gvi_formulation chosen, gvi_formulation f)
 {
     return gvi__compiled(f) && (gvi__only() == f || chosen == f);
 }
 
-static inline int gvi__has_mass(const gvi_desc *d, gvi_mass_kind kind)
+GVI__COPY int gvi__has_mass(const gvi_desc *d, gvi_mass_kind kind)
 {
     return (kind != GVI_MASS_DENSE || GVI__DENSE) && (kind != GVI_MASS_POSITION || GVI__MOMENTA || GVI__NEWTON)
         && (kind != GVI_MASS_NONE || GVI__LAGRANGIAN) && d->mass.kind == kind;
 }
 
-static inline int gvi__has_rule(const gvi_desc *d, gvi_rule_kind kind)
+GVI__COPY int gvi__has_rule(const gvi_desc *d, gvi_rule_kind kind)
 {
     return (kind != GVI_OWN || GVI__OWN) && (kind != GVI_KICKS || GVI__EXPLICIT) && d->rule.kind == kind;
 }
 
 // is f the formulation of this scene?  and the same of its mass and its rule
-static inline int gvi__uses(const gvi_stepper *st, gvi_formulation f)
+GVI__COPY int gvi__uses(const gvi_stepper *st, gvi_formulation f)
 {
     return gvi__chosen_is(st->x.chosen, f);
 }
 
-static inline int gvi__mass_is(const gvi_stepper *st, gvi_mass_kind kind)
+GVI__COPY int gvi__mass_is(const gvi_stepper *st, gvi_mass_kind kind)
 {
     return gvi__has_mass(&st->x.desc, kind);
 }
 
-static inline int gvi__rule_is(const gvi_stepper *st, gvi_rule_kind kind)
+GVI__COPY int gvi__rule_is(const gvi_stepper *st, gvi_rule_kind kind)
 {
     return gvi__has_rule(&st->x.desc, kind);
 }
 
+// was it Newton's method that made the step, or is it now?
+GVI__COPY int gvi__by_newton(const gvi_stepper *st) { return GVI__NEWTON && st->formulation == GVI_NEWTON; }
+
 // does a step, or a start, look for the effect whose values are not finite?
-static inline int gvi__diagnoses(const gvi_stepper *st) { return GVI__DIAGNOSIS && st->x.diagnose; }
+GVI__COPY int gvi__diagnoses(const gvi_stepper *st) { return GVI__DIAGNOSIS && st->x.diagnose; }
 
 // is the number of iterations given, and not a matter of a tolerance?
-static inline int gvi__counts(const gvi_stepper *st) { return !GVI__TOLERANCE || st->x.desc.iterations > 0; }
+GVI__COPY int gvi__counts(const gvi_stepper *st) { return !GVI__TOLERANCE || st->x.desc.iterations > 0; }
+
+// 64 bits, which take a small machine several instructions
+GVI__APART void gvi__count(unsigned long long *counter, int more) { *counter += (unsigned long long)more; }
 
 static gvi_status gvi__fail(gvi_stepper *st, gvi_status status, int effect, int coordinate, int point)
 {
@@ -1685,13 +1691,13 @@ static gvi_status gvi__value(gvi_stepper *st, gvi_points *x, int e, gvi_real *va
 /* Asks effect e where it is not one call for all points and no more: one point a
    call; with x->value (clock) V goes there and L to x.less, in the same call if it
    can be; and in the diagnosing repetition what it added is looked at.        */
-GVI__APART gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e)
+static gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e)
 {
     const gvi_effect *effect = st->x.desc.effects + e;
     gvi_real *value = GVI__CLOCK ? x->value : NULL;
     gvi_real *own = value && effect->kind == GVI_LAGRANGIAN ? st->x.less : effect->kind == GVI_FORCE ? NULL : value;
     int point = GVI_FAULT_NONE, together = own && effect->points && effect->value == effect->points;
-    st->counters.effect[e] += (unsigned long long)x->count;
+    gvi__count(&st->counters.effect[e], x->count);
     x->value = together ? own : NULL;
     const int whole = !GVI__POINT || effect->points;
     int refused = whole ? effect->points(x, effect->user) : gvi__point_by_point(st, effect, x, &point);
@@ -1716,7 +1722,7 @@ static int gvi__has_clock(const gvi_stepper *st) { return (gvi__clock_bit(st) & 
 static inline gvi_status gvi__call(gvi_stepper *st, const gvi_points *x, int e)
 {
     const gvi_effect *effect = st->x.desc.effects + e;
-    st->counters.effect[e] += (unsigned long long)x->count;
+    gvi__count(&st->counters.effect[e], x->count);
     const int refused = effect->points(x, effect->user);
     return refused ? gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, GVI_FAULT_NONE) : GVI_OK;
 }
@@ -1806,7 +1812,7 @@ static unsigned gvi__with_hessian(const gvi_stepper *st)
    i >= j, of point k at [(i*n + j)*stride + k].  Every loop runs over points.
    A pivot that is nothing but rounding of its diagonal entry is a coordinate
    without mass.                                                              */
-static gvi_status gvi__ldl_factor(gvi_stepper *st, int n, int stride, int count, gvi_real *m)
+GVI__APART gvi_status gvi__ldl_factor(gvi_stepper *st, int n, int stride, int count, gvi_real *m)
 {
     for (int j = 0; j < n; ++j) {
         gvi_real *d = m + (size_t)(j*n + j)*(size_t)stride;
@@ -1832,7 +1838,7 @@ static gvi_status gvi__ldl_factor(gvi_stepper *st, int n, int stride, int count,
             for (int k = 0; k < count; ++k) a[k] /= d[k];
         }
     }
-    st->counters.factorizations += (unsigned long long)count;
+    gvi__count(&st->counters.factorizations, count);
     return GVI_OK;
 }
 
@@ -1887,7 +1893,7 @@ static gvi_status gvi__mass_at(gvi_stepper *st, gvi_points *x)
     x->v = NULL;
     x->f = x->dldv = NULL;
     x->mass = st->x.point_mass;
-    st->counters.mass += (unsigned long long)x->count;
+    gvi__count(&st->counters.mass, x->count);
     int refused = st->x.desc.mass.points(x, st->x.desc.mass.user);
     x->mass = NULL;
     x->v = v;
@@ -2002,7 +2008,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_real t, const gvi_re
     x.v = v;
     const gvi_real *P = x.dldv;
     gvi_real last = GVI__MAX;
-    st->counters.velocities += 1;
+    gvi__count(&st->counters.velocities, 1);
     for (int k = 0; k < 40; ++k) {
         gvi_real change = 0;
         gvi_status status = gvi__evaluate(st, &x, 0);
@@ -2019,7 +2025,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_real t, const gvi_re
         if (status != GVI_OK) return status;
         int at;
         status = gvi__lu_factor(n, W, pivot, &at);
-        st->counters.factorizations += 1;
+        gvi__count(&st->counters.factorizations, 1);
         if (status != GVI_OK) return gvi__fail(st, status, GVI_FAULT_MASS, at, GVI_FAULT_NONE);
         for (int i = 0; i < n; ++i) dv[i] = p[i] - P[i];
         gvi_lu_solve(n, W, pivot, dv);
@@ -2038,7 +2044,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_real t, const gvi_re
 static void gvi__velocity_guess(const gvi_stepper *st, gvi_real *v)
 {
     const struct gvi__private *x = &st->x;
-    if (x->has_velocity) gvi__gather(st->n, x->stride, x->last.V + st->r - 1, v);
+    if (GVI__READS_V && x->has_velocity) gvi__gather(st->n, x->stride, x->last.V + st->r - 1, v);
     else gvi__copy((size_t)st->n, x->start, v);
 }
 
@@ -2052,7 +2058,7 @@ static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, 
     if (mass->velocity) {
         x.p = p;
         x.velocity = v;
-        st->counters.mass += 1;
+        gvi__count(&st->counters.mass, 1);
         if (mass->velocity(&x, mass->user))
             return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, -1, -1);
         return gvi__check_rows(st, &x, v, GVI_FAULT_MASS);
@@ -2064,7 +2070,7 @@ static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, 
         gvi_status status = gvi__factor_at(st, &x);
         if (status != GVI_OK) return status;
         gvi__ldl_solve(st->n, st->x.point_mass, 1, 1, v, 1, 1);
-        st->counters.velocities += 1;
+        gvi__count(&st->counters.velocities, 1);
     } else gvi__over_mass(st, v, 1, 1);
     return GVI_OK;
 }
@@ -2114,12 +2120,16 @@ static void gvi__modes_mirrored(gvi_stepper *st, int i)
     }
 }
 
+// at all of them, which then go to their grid
 static void gvi__modes_at_nodes(gvi_stepper *st)
 {
+    struct gvi__private *x = &st->x;
     const int mirrored = !GVI__SMALL && !gvi__rule_is(st, GVI_OWN);
-    for (int i = 0; i < st->r; ++i)
+    for (int i = 0; i < st->r; ++i) {
         if (mirrored && 2*i >= st->r) gvi__modes_mirrored(st, i);
         else gvi__modes_at(st, i);
+        x->c[i] = gvi__grid(gvi__sum(x->c[i], x->ce[i]), GVI__EPS/2);
+    }
 }
 
 /* 1/Gamma_kk = 2k + 1 while the rule is exact for phi_k^2; Lobatto with r = s
@@ -2130,7 +2140,7 @@ static gvi_status gvi__gamma(gvi_stepper *st)
     struct gvi__private *x = &st->x;
     int s = st->s, r = st->r, R = x->stride;
     for (int k = 0; k < s; ++k) x->inv_gamma[k] = (gvi_real)(2*k + 1);
-    if (GVI__RULES && st->order == 2*s - 2) {
+    if (st->order == 2*s - 2) {
         gvi_real sum = 0;
         for (int i = 0; i < r; ++i) sum += x->b[i]*x->phi[(s-1)*R + i]*x->phi[(s-1)*R + i];
         if (!(GVI_ABS(sum) > (gvi_real)s*GVI__EPS)) return GVI_E_POINTS;
@@ -2151,8 +2161,10 @@ static void gvi__over_gamma(const gvi_stepper *st, gvi_real *y)
 {
     const struct gvi__private *x = &st->x;
     if (gvi__has(st, GVI__HAS_OWN)) gvi_lu_solve(st->s, x->own, x->own + st->s*st->s, y);
-    else for (int k = 0; k < st->s; ++k) y[k] *= x->inv_gamma[k];
+    else for (int k = 0; k < st->s; ++k) y[k] *= GVI__RULES ? x->inv_gamma[k] : (gvi_real)(2*k + 1);
 }
+
+enum { GVI__OF_S, GVI__OF_T, GVI__OF_N };
 
 /* Without other rules: what Gauss has with r = s = 1..4, one after the other, from
    tests/gen/few.py: b; Phi and phi; S_ij, i <= j, and T_ij, i < j.  To be on their
@@ -2206,10 +2218,10 @@ static const gvi_real gvi__few_T[] = {
 static gvi_real gvi__few(gvi_real x) { return x < 0 ? 1 + x : x; }
 
 // the constants in place of gvi__rule_make and gvi__modes_at_nodes
-static void gvi__few_modes(gvi_stepper *st)
+static void gvi__few_modes(gvi_stepper *st, size_t r)
 {
     struct gvi__private *x = &st->x;
-    const size_t r = (size_t)st->r, at = (r - 1)*r*(2*r - 1)/6;
+    const size_t at = (r - 1)*r*(2*r - 1)/6;
     gvi__copy(r, gvi__few_b + (r - 1)*r/2, x->b);
     gvi__copy(r*r, gvi__few_Phi + at, x->Phi);
     if (GVI__READS_V && x->phi) gvi__copy(r*r, gvi__few_phi + at, x->phi);
@@ -2228,15 +2240,8 @@ static gvi_real gvi__T(const gvi_stepper *st, int i, int j)
     return gvi__few_T[(r - 2)*(r - 1)*r/6 + (j - 1)*j/2 + i] - (gvi_real)0.5;
 }
 
-static void gvi__S_column(gvi_stepper *st, int j, gvi_real *S)
-{
-    for (int i = 0; i <= j; ++i) S[i] = gvi__S(st, i, j);
-}
-
-static void gvi__T_column(gvi_stepper *st, int j, gvi_real *T)
-{
-    for (int i = 0; i < j; ++i) T[i] = gvi__T(st, i, j);
-}
+// constants: there is nothing to be made
+static void gvi__column(gvi_stepper *st, int which, int j) { (void)st, (void)which, (void)j; }
 #else
 /* z_i := sum_k a[k][i] w_k, twofold, low parts R further, at all points: fit for
    vectors.  A product does not wait for the sum, whose rounding is added up apart. */
@@ -2258,36 +2263,33 @@ static void gvi__twofold_sums(int s, int R, const gvi_real *GVI__RESTRICT a, con
         }
 }
 
-// z[i] := sum_k a[k][i] gamma_k b[k][j], to the nearest multiple of unit, if that is not 0
-static void gvi__column(gvi_stepper *st, const gvi_real *a, const gvi_real *a_low, const gvi_real *b,
-                        const gvi_real *b_low, int j, gvi_real unit, gvi_real *z)
+// row[i] := sum_k a[k][i] gamma_k b[k][j] at all points, S and T on their grids
+static void gvi__column(gvi_stepper *st, int which, int j)
 {
-    const int s = st->s, R = st->x.stride;
-    gvi_real *w = z + 2*R;
+    const struct gvi__private *x = &st->x;
+    const int s = st->s, R = x->stride;
+    const gvi_real *b = which == GVI__OF_N ? x->phi : x->Phi, *b_low = which == GVI__OF_N ? x->low : x->E;
+    const gvi_real unit = which == GVI__OF_S ? GVI__EPS/2 : GVI__EPS;
+    gvi_real *z = x->row, *w = z + 2*R;
     for (int k = 0; k < s; ++k) {
-        gvi__two x;
-        x.hi = b[k*R + j];
-        x.lo = b_low[k*R + j];
-        x = gvi__scale2(st->x.inv_gamma[k], x);
-        w[k] = x.hi;
-        w[s + k] = x.lo;
+        gvi__two a;
+        a.hi = b[k*R + j];
+        a.lo = b_low[k*R + j];
+        a = gvi__scale2(x->inv_gamma[k], a);
+        w[k] = a.hi;
+        w[s + k] = a.lo;
     }
-    gvi__twofold_sums(s, R, a, a_low, w, z);
+    if (which == GVI__OF_S) gvi__twofold_sums(s, R, x->Phi, x->E, w, z);
+    else gvi__twofold_sums(s, R, x->phi, x->low, w, z);
     for (int i = 0; i < st->r; ++i) {
         const gvi__two sum = gvi__sum(z[i], z[R + i]);
-        z[i] = unit > 0 ? gvi__grid(sum, unit) : sum.hi;
+        z[i] = which == GVI__OF_N ? sum.hi : gvi__grid(sum, unit);
     }
 }
 
-static void gvi__S_column(gvi_stepper *st, int j, gvi_real *S)
-{
-    gvi__column(st, st->x.Phi, st->x.E, st->x.Phi, st->x.E, j, GVI__EPS/2, S);
-}
-
-static void gvi__T_column(gvi_stepper *st, int j, gvi_real *T)
-{
-    gvi__column(st, st->x.phi, st->x.low, st->x.Phi, st->x.E, j, GVI__EPS, T);
-}
+// from the column that was made last
+static gvi_real gvi__S(const gvi_stepper *st, int i, int j) { return (void)j, st->x.row[i]; }
+static gvi_real gvi__T(const gvi_stepper *st, int i, int j) { return (void)j, st->x.row[i]; }
 #endif
 
 /* S and T on grids of eps/2 and eps (|S| <= 1, |T| < 2): what they must fulfil
@@ -2299,27 +2301,25 @@ GVI__APART void gvi__tables(gvi_stepper *st)
     struct gvi__private *x = &st->x;
     const int r = st->r, R = x->stride, gauss = !GVI__RULES || (x->desc.rule.kind == GVI_GAUSS && r == st->s);
     const int has_g = (GVI__POSITIONS || GVI__VELOCITIES) && x->g, has_m = (GVI__VELOCITIES || GVI__MOMENTA) && x->m;
-    gvi_real *a = x->row;
     for (int j = 0; j < r; ++j) {
-        if (has_g) gvi__S_column(st, j, a);
+        if (has_g) gvi__column(st, GVI__OF_S, j);
         for (int i = 0; has_g && i <= j; ++i) {
-            x->g[j*R + i] = x->c[i] - a[i];
-            x->g[i*R + j] = x->c[j] - a[i];
+            const gvi_real S = gvi__S(st, i, j);
+            x->g[j*R + i] = x->c[i] - S;
+            x->g[i*R + j] = x->c[j] - S;
         }
-        if (has_m) gvi__T_column(st, j, a);
-        if (gauss) a[j] = (gvi_real)0.5;
+        if (has_m) gvi__column(st, GVI__OF_T, j);
         for (int i = 0; has_m && i < (gauss ? j + 1 : r); ++i) {
-            x->m[j*R + i] = 1 - a[i];
-            if (gauss) x->m[i*R + j] = a[i];
-            if (x->T) x->T[i*R + j] = a[i];
-            if (x->T && gauss) x->T[j*R + i] = 1 - a[i];
+            const gvi_real T = gauss && i == j ? (gvi_real)0.5 : gvi__T(st, i, j);
+            x->m[j*R + i] = 1 - T;
+            if (gauss) x->m[i*R + j] = T;
+            if (x->T) x->T[i*R + j] = T;
+            if (x->T && gauss) x->T[j*R + i] = 1 - T;
         }
-#if GVI__RULES
         if (GVI__VELOCITIES && GVI__LAGRANGIAN && x->N) {
-            gvi__column(st, x->phi, x->low, x->phi, x->low, j, 0, a);
-            gvi__copy((size_t)r, a, x->N + j*R);
+            gvi__column(st, GVI__OF_N, j);
+            gvi__copy((size_t)r, x->row, x->N + j*R);
         }
-#endif
     }
 }
 
@@ -2592,15 +2592,17 @@ static gvi_status gvi__measure(gvi__scene *x)
 {
     const gvi_rule *rule = &x->desc->rule;
     const int s = x->desc->degree, r = rule->points;
+    const int own = gvi__has_rule(x->desc, GVI_OWN);
     x->order = rule->kind == GVI_LOBATTO ? 2*r - 2 : 2*r;
-    if (gvi__has_rule(x->desc, GVI_OWN)) x->order = gvi_rule_order(r, rule->nodes, rule->weights);
+    if (own) x->order = gvi_rule_order(r, rule->nodes, rule->weights);
     if (gvi__has_rule(x->desc, GVI_KICKS)) {
         x->order = 0;
         return s == 1 ? gvi__check_kicks(r, rule->nodes, rule->weights) : GVI_E_ARGUMENT;
     }
     if (rule->kind == GVI_LOBATTO && r < 2) return s > 1 ? GVI_E_POINTS : GVI_E_ARGUMENT;
-    if (x->order < 0) return GVI_E_NODES;
+    if (own && x->order < 0) return GVI_E_NODES;
     if (r < s) return GVI_E_POINTS;
+    if (!own) return GVI_OK;                       // r >= s points of Gauss or Lobatto are good enough
     if (x->order < s) return GVI_E_ORDER;
     if (x->order < 2*s - 2) x->flags |= GVI__HAS_OWN;
     return GVI_OK;
@@ -2653,14 +2655,14 @@ static gvi_status gvi__choose(gvi__scene *x)
 static gvi_status gvi__resolve(gvi__scene *x, gvi_desc *d, const gvi_desc *desc)
 {
     gvi_status status = gvi__check_desc(desc);
-    if (status != GVI_OK) return status;
+    x->desc = desc;
+    if (status == GVI_OK) status = gvi__read_effects(x);
+    if (status != GVI_OK || !gvi__mass_given(&desc->mass, x->flags & GVI__HAS_LAGRANGIAN)) return GVI_E_ARGUMENT;
     *d = *desc;
+    x->desc = d;
     if (d->degree == 0) d->degree = d->rule.kind == GVI_KICKS ? 1 : 8;
     if (d->rule.points == 0) d->rule.points = d->rule.kind == GVI_LOBATTO ? d->degree + 1 : d->degree;
     if (d->max_iterations == 0) d->max_iterations = 60;
-    x->desc = d;
-    status = gvi__read_effects(x);
-    if (status != GVI_OK || !gvi__mass_given(&d->mass, x->flags & GVI__HAS_LAGRANGIAN)) return GVI_E_ARGUMENT;
     if (gvi__left_out(x)) return GVI_E_FORMULATION;
     status = gvi__measure(x);
     if (status == GVI_OK) status = gvi__choose(x);
@@ -2752,7 +2754,7 @@ GVI__APART void gvi__lengths(const gvi__scene *x, size_t *length)
     length[GVI__OLDER_V] = two && momenta ? n : 0;
     length[GVI__OLDER_A] = two && A ? n : 0;
     length[GVI__SLOPE] = clock ? n : 0;
-    length[GVI__RATE] = clock ? 1 : 0;
+    length[GVI__RATE] = clock ? 3 : 0;
     length[GVI__G] = positions ? r : 0;
     length[GVI__M] = velocities || momenta ? r : 0;
     length[GVI__T] = momenta || (velocities && lagrangian) ? r : 0;
@@ -2765,7 +2767,7 @@ GVI__APART void gvi__lengths(const gvi__scene *x, size_t *length)
     length[GVI__GAMMA] = gvi__flag(x->flags, GVI__HAS_OWN) ? s*s + s + 1 : 0;
     length[GVI__DIAGONAL] = d->mass.kind == GVI_MASS_DIAGONAL ? length[GVI__N] : 0;
     length[GVI__TWO_MASSES] = dense ? 2*n : 0;                 // factored, and as it is
-    length[GVI__STILL] = iterates && gvi__marks(d) ? n : 0;
+    length[GVI__STILL] = iterates && gvi__marks(d) ? n + 2 : 0;
     length[GVI__Z] = dense && positions ? n : 0;
     length[GVI__AT_POINTS] = gvi__has_mass(d, GVI_MASS_POSITION) ? n : 0;
     length[GVI__nR] = n*R;
@@ -2812,7 +2814,7 @@ static void gvi__layout_rows(gvi__arena *a, const size_t *length)
         GVI__PART(work.P, P, R), GVI__PART(work.A, A_, R),
         GVI__PART(older_F, OLDER_F, R), GVI__PART(older_V, OLDER_V, R), GVI__PART(older_A, OLDER_A, R),
         GVI__PART(weak, STILL, R), GVI__PART(slope, SLOPE, R),
-        GVI__PART(rate, RATE, R), GVI__PART(power, RATE, R), GVI__PART(level, RATE, R),
+        GVI__PART(rate, RATE, R),
         GVI__PART(z, 1, R), GVI__PART(less, 1, R), GVI__PART(hb, 1, R), GVI__PART(c, 1, R), GVI__PART(g, G, R),
         GVI__PART(m, M, R), GVI__PART(T, T, R), GVI__PART(N, NN, R), GVI__PART(E, E, R), GVI__PART(Phi, PHI, R),
         GVI__PART(phi, MODES, R), GVI__PART(low, MODES, R), GVI__PART(Z, Z, R), GVI__PART(point_mass, AT_POINTS, nR),
@@ -2863,9 +2865,8 @@ GVI_DEF size_t gvi_size(const gvi_desc *desc)
 }
 
 // mass matrix into the memory, factored
-static gvi_status gvi__set_mass(gvi_stepper *st)
+static gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
 {
-    const gvi_mass *mass = &st->x.desc.mass;
     int n = st->n;
     gvi_real *m = st->x.mass;
     if (mass->kind == GVI_MASS_DIAGONAL)
@@ -2915,7 +2916,7 @@ static gvi_status gvi__hand_out(gvi_stepper *st, const gvi_desc *desc, gvi_real 
     if (slack) x->skip = (size_t)(-(uintptr_t)memory & 63)/sizeof(gvi_real);
     memory += x->skip;
     gvi__layout(&scene, x, memory);
-    gvi__zero(x->J ? (size_t)(x->J - memory) : x->size, memory);        // J is written before it is read
+    gvi__zero(GVI__NEWTON && x->J ? (size_t)(x->J - memory) : x->size, memory);        // J is written before it is read
     return GVI_OK;
 }
 
@@ -2931,7 +2932,7 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     memory += x->skip;
     st->q = x->q;
     st->p = x->p;
-    status = gvi__set_mass(st);
+    status = gvi__set_mass(st, &desc->mass);
     if (status != GVI_OK) return status;
 
     // the rule, the modes at its nodes as exactly as they can be had, then the grid
@@ -2945,23 +2946,24 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
 #if GVI__RULES
     else gvi__rule_make(x->desc.rule.kind == GVI_LOBATTO, st->r, x->c, x->ce, x->b);
 #else
-    else gvi__few_modes(st);
+    else gvi__few_modes(st, (size_t)desc->degree);           // r = s, and known if the description is
 #endif
     x->memory = memory;                      // from here on it can be used
     if (gvi__uses(st, GVI_EXPLICIT)) {
         if (x->Phi) gvi__copy((size_t)st->r, x->c, x->Phi);
         return gvi__done(st, GVI_OK);
     }
-    if (GVI__RULES) gvi__modes_at_nodes(st);
-    for (int i = 0; i < st->r; ++i) x->c[i] = gvi__grid(gvi__sum(x->c[i], x->ce[i]), GVI__EPS/2);
-    status = gvi__gamma(st);
+    if (GVI__RULES) {
+        gvi__modes_at_nodes(st);
+        status = gvi__gamma(st);
+    }
     if (status != GVI_OK) {
         x->memory = NULL;
         return st->status = status;
     }
     if (gvi__has(st, GVI__HAS_OWN)) gvi__tables_own(st);
     else gvi__tables(st);
-    x->blocks = x->eigen ? -1 : 0;           // most scenes never need Newton's method
+    if (GVI__NEWTON && x->eigen) x->blocks = -1;            // most scenes never need Newton's method
     gvi__copy((size_t)st->r, x->c, x->Phi);  // Phi_0 = c on its grid: 1 - Phi_0 is exact
     return gvi__done(st, GVI_OK);
 }
@@ -3146,6 +3148,7 @@ static inline void gvi__rescale(gvi_real base, gvi_real was, gvi_real is, gvi_re
 
 static inline gvi_real gvi__sum_lanes(const gvi_real *z)
 {
+    if (!GVI__RULES) return (z[0] + z[1]) + (z[2] + z[3]);           // no more than four points
     return ((z[0] + z[4]) + (z[1] + z[5])) + ((z[2] + z[6]) + (z[3] + z[7]));
 }
 
@@ -3454,7 +3457,7 @@ static gvi_real gvi__stages(gvi_stepper *st, const gvi__stage *y, int count)
         gvi__velocity_rows(st);           // the new P, if with the old M(Q) and g: contracts twice as fast
         for (int i = 0; clock && i < st->n; ++i) gvi__scale_row(x->stride, x->rate, x->work.V + i*x->stride);
     }
-    st->counters.velocities += (unsigned long long)st->r;
+    gvi__count(&st->counters.velocities, st->r);
     return sum + gvi__stage_rows(st, y + 1);
 }
 
@@ -3463,7 +3466,7 @@ GVI__APART gvi_status gvi__legendre_rows(gvi_stepper *st, gvi_points *y)
 {
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work;
-    st->counters.velocities += (unsigned long long)st->r;
+    gvi__count(&st->counters.velocities, st->r);
     if (x->desc.mass.velocity) {
         const gvi_real *v = y->v;
         gvi_real *f = y->f, *dldv = y->dldv;
@@ -3471,7 +3474,7 @@ GVI__APART gvi_status gvi__legendre_rows(gvi_stepper *st, gvi_points *y)
         y->f = y->dldv = NULL;
         y->p = w->P;
         y->velocity = w->V;
-        st->counters.mass += (unsigned long long)st->r;
+        gvi__count(&st->counters.mass, st->r);
         int refused = x->desc.mass.velocity(y, x->desc.mass.user);
         y->velocity = NULL;
         y->p = NULL;
@@ -3504,7 +3507,7 @@ static gvi_status gvi__rate(gvi_stepper *st, gvi_points *x, gvi_real *rate, gvi_
     x->value = rate;
     gvi__zero((size_t)x->n*(size_t)x->stride, slope);
     gvi__zero((size_t)x->stride, rate);
-    st->counters.effect[st->x.clock] += (unsigned long long)x->count;
+    gvi__count(&st->counters.effect[st->x.clock], x->count);
     int refused = clock->points(x, clock->user);
     x->v = v;
     x->dldv = dldv;
@@ -3541,18 +3544,19 @@ static void gvi__transform(gvi_stepper *st, const gvi__from *from, int lagrangia
     struct gvi__rows *w = &x->work;
     const int n = st->n, r = st->r, R = x->stride;
     const gvi_real E = from->E + from->Ee;
-    for (int k = 0; k < R; ++k) x->level[k] -= x->less[k] + E;
+    gvi_real *power = x->rate + R, *level = power + R;
+    for (int k = 0; k < R; ++k) level[k] -= x->less[k] + E;
     if (gvi__has(st, GVI__HAS_VELOCITIES)) {
-        gvi__scale_row(R, x->rate, x->power);
-        gvi__weighted_sums(st, x->T, x->hb, x->power, x->less);
-        for (int k = 0; k < R; ++k) x->level[k] -= x->less[k];
+        gvi__scale_row(R, x->rate, power);
+        gvi__weighted_sums(st, x->T, x->hb, power, x->less);
+        for (int k = 0; k < R; ++k) level[k] -= x->less[k];
     }
     for (int i = 0; i < n; ++i) {
-        gvi__add_products(R, w->P + i*R, w->V + i*R, x->level);
-        if (lagrangian) gvi__add_products(R, w->A + i*R, w->V + i*R, x->level);
+        gvi__add_products(R, w->P + i*R, w->V + i*R, level);
+        if (lagrangian) gvi__add_products(R, w->A + i*R, w->V + i*R, level);
     }
     for (int i = 0; i < n; ++i) {
-        gvi__transform_row(R, x->rate, x->slope + i*R, x->level, w->F + i*R);
+        gvi__transform_row(R, x->rate, x->slope + i*R, level, w->F + i*R);
         gvi__scale_row(R, x->rate, w->V + i*R);
     }
     gvi__weigh(R, x->hb, x->rate, x->less);
@@ -3563,18 +3567,19 @@ static void gvi__transform(gvi_stepper *st, const gvi__from *from, int lagrangia
 }
 
 // with a clock: forces first, for their power; then all else, with values
-static gvi_status gvi__ask_clock(gvi_stepper *st, const gvi__from *from, gvi_points *y)
+GVI__APART gvi_status gvi__ask_clock(gvi_stepper *st, const gvi__from *from, gvi_points *y)
 {
     struct gvi__private *x = &st->x;
     const unsigned forces = gvi__has(st, GVI__HAS_VELOCITIES) ? gvi__of_kind(st, GVI_FORCE) : 0;
     const int R = x->stride;
+    gvi_real *power = x->rate + R, *level = power + R;
     gvi_status status = forces & ~x->off ? gvi__effects(st, y, ~forces) : GVI_OK;
-    gvi__zero((size_t)R, x->power);
+    gvi__zero((size_t)R, power);
     for (int i = 0; i < st->n && forces; ++i)
-        for (int k = 0; k < st->r; ++k) x->power[k] += y->f[i*R + k]*y->v[i*R + k];
-    gvi__zero((size_t)R, x->level);
+        for (int k = 0; k < st->r; ++k) power[k] += y->f[i*R + k]*y->v[i*R + k];
+    gvi__zero((size_t)R, level);
     gvi__zero((size_t)R, x->less);
-    y->value = x->level;
+    y->value = level;
     if (status == GVI_OK && gvi__mass_is(st, GVI_MASS_POSITION)) status = gvi__mass_gradient(st, y);
     if (status == GVI_OK) status = gvi__effects(st, y, forces);
     y->value = NULL;
@@ -3597,6 +3602,15 @@ static inline void gvi__zero_rows(const gvi_stepper *st, gvi_real zero, gvi_real
     for (int k = 0; k < length; ++k) rows[k] = zero;
 }
 
+// the weak effects that are not to be asked in each iteration
+static inline unsigned gvi__seldom(const gvi_stepper *st)
+{
+    return GVI__WEAK && !st->x.diagnose ? st->x.marks & ~st->x.off : 0;
+}
+
+// their answers to a change of the rows, squared: of the last step, and as known in this one
+static inline gvi_real *gvi__answers(gvi_stepper *st) { return st->x.weak + st->n*st->x.stride; }
+
 // y->f := the weak forces, asked anew or as they were
 static gvi_status gvi__ask_weak(gvi_stepper *st, gvi_real zero, gvi_points *y, int anew)
 {
@@ -3605,7 +3619,7 @@ static gvi_status gvi__ask_weak(gvi_stepper *st, gvi_real zero, gvi_points *y, i
     gvi_status status = GVI_OK;
     if (anew) {
         gvi__zero_rows(st, zero, y->f = x->weak);
-        status = gvi__effects(st, y, ~x->seldom);
+        status = gvi__effects(st, y, ~gvi__seldom(st));
         y->f = f;
     }
     gvi__copy((size_t)st->n*(size_t)x->stride, x->weak, f);
@@ -3624,12 +3638,12 @@ GVI__APART gvi_status gvi__ask(gvi_stepper *st, const gvi__from *from, gvi_real 
     if (GVI__LAGRANGIAN && y->dldv) gvi__zero_rows(st, zero, y->dldv);
     if (status != GVI_OK) return status;
     if (gvi__has_clock(st)) return gvi__ask_clock(st, from, y);
-    const int some = GVI__WEAK && st->x.seldom;
+    const unsigned some = gvi__seldom(st);
     if (some) status = gvi__ask_weak(st, zero, y, anew);
     if (status == GVI_OK && gvi__uses(st, GVI_MOMENTA) && gvi__mass_is(st, GVI_MASS_POSITION))
         status = gvi__mass_gradient(st, y);
     if (status != GVI_OK) return status;
-    return some ? gvi__effects(st, y, st->x.seldom) : gvi__all_effects(st, y);
+    return some ? gvi__effects(st, y, some) : gvi__all_effects(st, y);
 }
 
 /* Extrapolates rows of the last step, or of the last two, to the points of the
@@ -3727,7 +3741,7 @@ static void gvi__fit_sums(gvi_stepper *st)
 GVI__APART void gvi__prepare_guess(gvi_stepper *st, gvi_real alpha, gvi_real beta, int query)
 {
     struct gvi__private *x = &st->x;
-    const int step = !query && st->formulation != GVI_NEWTON;   // which wants V of the last step
+    const int step = !query && !gvi__by_newton(st);   // which wants V of the last step
     const int two = GVI__KIND > 1 && step && x->alike == 2 && x->older_F && !gvi__nonzero(beta - 1);
     const int sums = step && gvi__uses(st, GVI_POSITIONS) && !gvi__mass_is(st, GVI_MASS_DENSE)
                      && !gvi__A(&x->work);
@@ -3780,10 +3794,11 @@ GVI__APART gvi__two gvi__exact_dot(int r, const gvi_real *a, const gvi_real *b, 
     gvi_real own[16], *hi = GVI__SMALL ? z : own, *lo = hi + lanes;
     gvi__two sum;
     for (int j = 0; j < r; ++j) {
+        const int k = GVI__RULES ? j & 7 : j;
         sum = gvi__product(a[j], b[j]);
-        if (j >= 8) sum = gvi__join(hi[j & 7], lo[j & 7], sum.hi, sum.lo);
-        hi[j & 7] = sum.hi;
-        lo[j & 7] = sum.lo;
+        if (GVI__RULES && j >= 8) sum = gvi__join(hi[k], lo[k], sum.hi, sum.lo);
+        hi[k] = sum.hi;
+        lo[k] = sum.lo;
     }
     for (int half = r > 4 ? 4 : r > 2 ? 2 : 1; half > 0; half /= 2)
         for (int k = 0; k + half < lanes && k < half; ++k) {
@@ -3909,7 +3924,7 @@ static void gvi__increments(gvi_stepper *st, const gvi__from *from, gvi_real h)
     struct gvi__private *x = &st->x;
     if (gvi__has_clock(st)) {
         x->dt = gvi__dot(st->r, x->hb, x->rate);
-        x->dH = gvi__dot(st->r, x->hb, x->power);
+        x->dH = gvi__dot(st->r, x->hb, x->rate + x->stride);
     }
     if (GVI__SMALL) gvi__increments_of(st, from, h, st->r, x->stride);
     else if (st->r == 8) gvi__increments_of(st, from, h, 8, 8);
@@ -3931,7 +3946,7 @@ static int gvi__is_rounding(const gvi_stepper *st, const gvi__from *from, int id
     gvi_real noise = 0, size = 0, place = 0;
     for (int i = 0; i < st->n; ++i) {
         gvi_real most = 0, Q = x->work.Q[i*R + last];
-        const int by_v = GVI__READS_V && (x->chosen > GVI_POSITIONS || st->formulation == GVI_NEWTON);
+        const int by_v = GVI__READS_V && (x->chosen > GVI_POSITIONS || gvi__by_newton(st));
         gvi_real v = by_v ? x->work.V[i*R + last] : from->v[i];
         for (int k = 0; k < st->r; ++k) {
             gvi_real F = GVI_ABS(x->work.F[i*R + k]);
@@ -4009,12 +4024,12 @@ typedef struct gvi__still {
    All of it in squares.                                                        */
 GVI__APART int gvi__settled(gvi_stepper *st, const gvi__progress *p, gvi__still *w, gvi_real change)
 {
-    struct gvi__private *x = &st->x;
+    gvi_real *learned = gvi__answers(st) + 1;
     const gvi_real sure = (1000*GVI__EPS)*(1000*GVI__EPS), before = p->before > 1 ? 1 : p->before;
     gvi_real rate = before > 0 ? change/before : 1;
     if (w->anew) {
-        const gvi_real answer = w->way > 1 ? change : w->way > sure ? change/w->way : x->learned;
-        if (answer < x->learned || change > 16*w->steady*before) x->learned = answer;
+        const gvi_real answer = w->way > 1 ? change : w->way > sure ? change/w->way : *learned;
+        if (answer < *learned || change > 16*w->steady*before) *learned = answer;
         if (rate > w->steady) rate = w->steady;
         w->asked += 1;
         w->way = change;
@@ -4023,7 +4038,7 @@ GVI__APART int gvi__settled(gvi_stepper *st, const gvi__progress *p, gvi__still 
         if (before > sure && (w->steady >= 1 || seen > w->steady)) w->steady = seen;
         if (change > w->way) w->way = change;
     }
-    const gvi_real lead = change*rate, guess = x->learned*w->way, enough = p->tolerance;
+    const gvi_real lead = change*rate, guess = *learned*w->way, enough = p->tolerance;
     w->pending = w->asked > 1 ? guess : w->way;
     w->anew = 100*guess >= lead || (lead*rate <= enough && w->pending > enough);
     return lead <= enough && w->pending <= enough;
@@ -4046,15 +4061,15 @@ static int gvi__may_turn(const gvi_stepper *st)
    All of it in squares of changes: no root or quotient between an iteration and
    the next.  A given number of iterations ends there, if the change is half of
    that two before.                                                            */
-GVI__APART int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *p, gvi__still *weak, gvi_real change,
-                          int used)
+static int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *p, gvi__still *weak, gvi_real change,
+                      int used)
 {
     struct gvi__private *x = &st->x;
     const gvi_real rounding = p->rounding, before = p->before;
     const gvi_real known = before > 1 ? 1 : before > 0 ? before : change;
-    const int given = gvi__counts(st), moved = GVI__WEAK && x->seldom && weak->anew;
+    const int given = gvi__counts(st), some = gvi__seldom(st) != 0, moved = some && weak->anew;
     gvi_real *least = moved ? &weak->least : &p->least;
-    if (GVI__WEAK && x->seldom ? gvi__settled(st, p, weak, change) : !given && change*change <= p->tolerance*known)
+    if (some ? gvi__settled(st, p, weak, change) : !given && change*change <= p->tolerance*known)
         return GVI__DONE;
     if (given && used == x->desc.iterations) {
         const int falls = p->earlier > 0 ? change < p->earlier/4 : before <= 0 || change < before;
@@ -4086,7 +4101,7 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
 {
     struct gvi__private *x = &st->x;
     const int most = gvi__counts(st) ? x->desc.iterations : x->desc.max_iterations;
-    const gvi_real tolerance = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/65536;
+    const gvi_real tolerance = GVI__TOLERANCE && x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/65536;
     const gvi_real rounding = 16*GVI__EPS*GVI__EPS*(gvi_real)(st->n*st->r);
     gvi__progress p = { 0, 0, tolerance*tolerance, rounding, GVI__MAX, 0, 0, 0 };
     gvi__still weak = { 1, 0, 0, 1, 0, GVI__MAX };
@@ -4111,17 +4126,18 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
         if (*used > 0) {
             if (!(change <= GVI__MAX)) return gvi__not_finite(st, p.grows);
             verdict = gvi__judge(st, from, &p, GVI__WEAK ? &weak : NULL, change, *used);
-            if (verdict == GVI__DONE || verdict == GVI__ASK_ONCE_MORE) gvi__watch_last(st, change);
+            if (verdict == GVI__GO_ON && GVI__TOLERANCE && *used == most) verdict = GVI__BEYOND;
+            if (verdict == GVI__BEYOND) break;
+            if (verdict != GVI__GO_ON) gvi__watch_last(st, change);
             if (verdict == GVI__DONE) return GVI_OK;
-            if (verdict == GVI__BEYOND || (verdict == GVI__GO_ON && *used == most)) break;
         } else gvi__zero(2*(size_t)st->n, x->scale);        // of rows of another step
 
         // rows that go to and fro in their last places end with their own F, not that of
         // the side that they came from, which would be a bias
-        *used += verdict == GVI__GO_ON;
-        const int anew = weak.anew || verdict == GVI__ASK_ONCE_MORE;
+        const int last = GVI__TOLERANCE && verdict == GVI__ASK_ONCE_MORE, anew = weak.anew || last;
+        *used += !last;
         gvi_status status = gvi__ask(st, from, h - h, GVI__SMALL ? NULL : &at, anew);
-        if (status != GVI_OK || verdict == GVI__ASK_ONCE_MORE) return status;
+        if (status != GVI_OK || last) return status;
     }
     return gvi__give(st, GVI_E_CONVERGENCE);
 }
@@ -4260,7 +4276,7 @@ static void gvi__newton_rows(gvi_stepper *st, const gvi__from *from, gvi_real h)
             }
         for (int j = 0; j < R; ++j) Q[j] = from->q[i] + (from->qe[i] + h*Q[j]);
     }
-    st->counters.velocities += (unsigned long long)st->r;
+    gvi__count(&st->counters.velocities, st->r);
 }
 
 // F and P at the rows of y
@@ -4344,7 +4360,7 @@ static gvi_status gvi__factor_blocks(gvi_stepper *st, const gvi__matrix *J, gvi_
     gvi_status status = GVI_OK;
     for (int m = 0; m < (st->s + 1)/2 && status == GVI_OK; ++m)
         status = gvi__lu_factor_complex(st->n, J->square + 2*n*n*(size_t)m, pivot + n*(size_t)m);
-    st->counters.factorizations += (unsigned long long)(st->s + 1)/2;
+    gvi__count(&st->counters.factorizations, (st->s + 1)/2);
     return status == GVI_OK ? GVI_OK : gvi__give(st, status);
 }
 
@@ -4588,7 +4604,7 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J, gvi_real 
     if (gvi__in_blocks(J)) return gvi__factor_blocks(st, J, pivot);
     if (J->scaled) gvi__scale_rows(n, size, J);
     status = gvi__lu_factor(size, J->square, pivot, &at);
-    st->counters.factorizations += 1;
+    gvi__count(&st->counters.factorizations, 1);
     return status == GVI_OK ? GVI_OK : gvi__fail(st, status, GVI_FAULT_NONE, at < 0 ? at : at % n, GVI_FAULT_NONE);
 }
 
@@ -4667,7 +4683,7 @@ GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const 
         else gvi_lu_solve(size, J->square, pivot, x->dy);
         int still = 1;
         gvi_real change = gvi__newton_update(st, from, J->h, J->k0, &still), ratio = before > 0 ? change/before : 1;
-        st->counters.newton_iterations += 1;
+        gvi__count(&st->counters.newton_iterations, 1);
         if (!(change <= GVI__MAX)) return gvi__not_finite(st, 0);
         gvi__watch(st, change, earlier);
 
@@ -4751,20 +4767,17 @@ static gvi_status gvi__attempt(gvi_stepper *st, gvi__from *from, gvi_real h,
 {
     struct gvi__private *x = &st->x;
     gvi__begin(st, from, h);
-    st->formulation = x->chosen;
+    if (GVI__NEWTON) st->formulation = x->chosen;
     if (gvi__uses(st, GVI_EXPLICIT)) return gvi__explicit(st, from, h, past->force);
 
-    if (GVI__WEAK) {
-        x->seldom = x->diagnose ? 0 : x->marks & ~x->off;
-        x->learned = gvi__nonzero(h - st->h) ? 1 : x->answer;
-    }
+    if (GVI__WEAK && x->weak) gvi__answers(st)[1] = gvi__nonzero(h - st->h) ? 1 : *gvi__answers(st);
     int usable = past->available, used = 0;
     gvi_status status = GVI_E_CONVERGENCE;
     if (!gvi__uses(st, GVI_NEWTON) && (!gvi__has(st, GVI__HAS_NEWTON) || x->newton_left == 0 || query)) {
         if (usable) gvi__prepare_guess(st, past->alpha, past->beta, query);
         for (int plain = !usable; plain < 2; ++plain) {
             status = gvi__fixed_point(st, from, h, !plain, &used);
-            st->counters.iterations += (unsigned long long)used;
+            gvi__count(&st->counters.iterations, used);
             if (!query) st->iterations = used;
             if (used > st->counters.most_iterations) st->counters.most_iterations = used;
             // only a refusal at the extrapolated values themselves is worth a second try
@@ -4828,6 +4841,7 @@ static gvi_status gvi__solve(gvi_stepper *st, gvi__from *from, gvi_real h, const
 // oldest are free for the next step
 static void gvi__rotate(gvi_real **older, gvi_real **last, gvi_real **work)
 {
+    if (GVI__KIND == 1) older = NULL;             // in float no extrapolation reads it
     gvi_real *free = older && *older ? *older : *last;
     if (older && *older) *older = *last;
     *last = *work;
@@ -4876,7 +4890,7 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     const int explicit_one = gvi__uses(st, GVI_EXPLICIT);    // its increments have no rest
     gvi__move(st->n, x->dq, explicit_one ? NULL : x->dqe, x->q, x->qe, x->q0);
     gvi__move(st->n, x->dp, explicit_one ? NULL : x->dpe, x->p, x->pe, x->p0);
-    x->alike = x->stepped && !gvi__nonzero(h - st->h) ? 2 : 1;
+    if (GVI__KIND > 1) x->alike = x->stepped && !gvi__nonzero(h - st->h) ? 2 : 1;
     gvi__two t = gvi__sum(st->t, x->dt + x->te);
     if (GVI__CLOCK && x->clock >= 0) {
         const gvi__two H = gvi__sum(x->H, x->dH + x->He);
@@ -4890,12 +4904,12 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     st->h = h;
     gvi__rotate_rows(st);
     x->stepped = 1;
-    if (GVI__WEAK) x->answer = x->learned;
+    if (GVI__WEAK && x->weak) *gvi__answers(st) = gvi__answers(st)[1];
     x->has_force = explicit_one && !gvi__nonzero(x->c[0]) && !gvi__nonzero(x->c[st->r - 1] - 1);
-    x->has_velocity = st->formulation > GVI_POSITIONS;
+    x->has_velocity = GVI__READS_V && st->formulation > GVI_POSITIONS;
     if (GVI__NEWTON && x->newton_left > 0) x->newton_left = (signed char)(x->newton_left - 1);
     if (GVI__NEWTON && x->whole_left > 0) x->whole_left = (signed char)(x->whole_left - 1);
-    st->counters.steps += 1;
+    gvi__count(&st->counters.steps, 1);
 }
 
 // the explicit formulation has no more to do; what is not finite is looked into
@@ -4922,17 +4936,19 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
     if (x->stepped) {
         past.beta = h/st->h;
         past.available = past.beta > -2 && past.beta < 8;         // farther out it says nothing
-        if (gvi__nonzero(h - st->h)) x->newton_left = x->whole_left = 0;
+        if (GVI__NEWTON && gvi__nonzero(h - st->h)) x->newton_left = x->whole_left = 0;
     }
     gvi_status status = gvi__uses(st, GVI_EXPLICIT) && !GVI__SMALL ? gvi__solve_explicit(st, &from, h, &past)
                                                                    : gvi__solve(st, &from, h, &past, 0);
     if (status == GVI_OK && !gvi__finite(st->t + x->dt)) status = gvi__give(st, GVI_E_ARGUMENT);
     if (status != GVI_OK) {
-        st->counters.failures += 1;
-        st->formulation = was;
-        x->newton_left = left;
-        x->whole_left = whole;
-        x->h_matrix = 0;
+        gvi__count(&st->counters.failures, 1);
+        if (GVI__NEWTON) {
+            st->formulation = was;
+            x->newton_left = left;
+            x->whole_left = whole;
+            x->h_matrix = 0;
+        }
         return st->status = status;
     }
     gvi__commit(st, h);
@@ -4999,7 +5015,7 @@ static gvi_status gvi__start(gvi_stepper *st, gvi_real t, const gvi_real *v)
         x->H = E;
         x->He = 0;
     }
-    gvi__copy(n, v, x->start);
+    if (GVI__READS_V) gvi__copy(n, v, x->start);
     gvi__copy(n, x->dq, x->q);
     gvi__copy(n, x->dp, x->p);
     gvi__zero(n, x->qe);
@@ -5011,7 +5027,7 @@ static gvi_status gvi__start(gvi_stepper *st, gvi_real t, const gvi_real *v)
     x->stepped = x->has_force = x->has_velocity = x->alike = x->E_is = 0;
     x->newton_left = x->whole_left = 0;
     x->h_matrix = x->ratio = 0;
-    if (GVI__WEAK) x->answer = 1;
+    if (GVI__WEAK && x->weak) *gvi__answers(st) = 1;
     st->formulation = x->chosen;
     return gvi__done(st, GVI_OK);
 }
@@ -5052,7 +5068,7 @@ GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, con
     gvi_real *start = x->one + 3*n;               // v may be what a query wrote over st
     gvi__copy(n, y.dldv, x->dp);
     gvi__copy(n, q, x->dq);
-    gvi__copy(n, v, start);
+    if (GVI__READS_V) gvi__copy(n, v, start);
     return gvi__start(st, t, start);
 }
 
@@ -5102,7 +5118,7 @@ GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
     st->x.single = GVI__SMALL ? (signed char)-1 : gvi__single(st);
     st->x.has_force = 0;
     st->x.h_matrix = 0;
-    if (GVI__WEAK) st->x.answer = 1;
+    if (GVI__WEAK && st->x.weak) *gvi__answers(st) = 1;
     return gvi__done(st, GVI_OK);
 }
 
@@ -5149,7 +5165,7 @@ GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy)
 static void gvi__curve(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v)
 {
     const struct gvi__private *x = &st->x;
-    int n = st->n, R = x->stride, by_forces = x->chosen <= GVI_POSITIONS && st->formulation != GVI_NEWTON;
+    int n = st->n, R = x->stride, by_forces = x->chosen <= GVI_POSITIONS && !gvi__by_newton(st);
     gvi_real *a = x->row, *b = a + R;               // at tau: phi, Phi over Gamma
     if (gvi__uses(st, GVI_EXPLICIT)) {              // a straight line
         for (int i = 0; i < n; ++i) {

@@ -1,6 +1,7 @@
 #!/bin/sh
 # parts.sh BUILD: each macro that leaves code out, alone: the scenes that need what it leaves out are refused,
-# all others come out to the bit as with everything compiled; and the code gets smaller.
+# all others come out to the bit as with everything compiled; and the code gets smaller.  Without GVI_STATIC
+# too, what is left out leaves no function behind.
 build=$1 dir=$1/parts
 mkdir -p "$dir" "$build/result"
 rm -f "$build/result/parts"
@@ -47,5 +48,18 @@ for type in float double; do
     part $type GVI_NO_TOLERANCE    'positions point velocities few momenta lagrangian clock dense own'
     part $type GVI_NO_DIAGNOSIS    '' 's/effect 1,/effect -1,/'
 done
+
+# functions that some scene could reach, if the compiler did not see that none is left
+gone() {  # functions, flags...
+    left=$1
+    shift
+    printf '#define GVI_IMPLEMENTATION\n#include "gvi.h"\n' >"$dir/gone.c"
+    $CC $flags "$@" -c "$dir/gone.c" -o "$dir/gone.o" || fail "$* does not compile"
+    ! nm "$dir/gone.o" | grep -E " gvi__($left)" || fail "$* leaves these functions behind"
+    count=$((count + 1))
+}
+gone 'ldl_|drift_dense' -DGVI_ONLY_EXPLICIT -DGVI_NO_DENSE
+gone 'ldl_' -DGVI_ONLY_POSITIONS -DGVI_NO_DENSE
+gone 'rate|transform' -DGVI_ONLY_MOMENTA -DGVI_NO_CLOCK
 echo "$count" >"$build/result/parts"
 echo "parts: $count passed, 0 failed"
