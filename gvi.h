@@ -80,10 +80,11 @@
               free.  The stepper points into that array, never into itself: it
               may be moved.  Copy of stepper and array = checkpoint, see
               gvi_restore.
-   threads    No mutable static data.  Different steppers are independent.
+   threads    No mutable static data.  Different steppers are independent.  A callback
+              must not call a function with the stepper that called it.
    errors     0 (GVI_OK) or a negative gvi_status; also kept in st->status,
               with st->fault naming the effect, coordinate and point.  A call
-              that fails, but gvi_init, leaves t, q, p, the last curve and everything that
+              that fails, other than gvi_init, leaves t, q, p, the last curve and everything that
               the queries read bit for bit as they were: halve h and go on.
    arrays     Row-major, A[i*n + j].  Values of one coordinate at the points
               of a step are contiguous: coordinate i at point k is
@@ -95,16 +96,16 @@
               q, p and t carry compensation terms, so 1e9 steps of t + h are
               as exact as one.  Same bits on every IEEE machine when compiled
               with -ffp-contract=off, as far as callbacks do.
-   work       With m = max_iterations, a step evaluates an effect at no more than
-              (m+1)*r points in the fixed point and, where Newton is used or may
-              be, three times (m+1)*r more and (2n+1)*r + n+1 for each of at most
-              m/4 + 2 Jacobians, each with one LU of size s*n or (s+1)/2 complex ones
-              of size n; all of it once more
-              when a value was not finite, to name the effect.  Explicit: r points.
-              A pinned fixed point, and any with a clock: no LU, at most 2(m+1)*r,
-              one more for the clock.  gvi_velocity and gvi_energy: one point, or
-              40(n+1) with Lagrangian terms.  gvi_state_at: as a step; with a
-              clock, 60 of them.
+   work       Points at which a step evaluates an effect, at most; m = max_iterations:
+                explicit               r
+                pinned fixed point     2(m+2) r
+                fixed point, clock     2(m+2) r, and 1 for the clock
+                Newton, AUTO with it   (m+2) r, then three attempts of (m+1) r, each with
+                                       m/4 + 2 Jacobians of (2n+1) r + n+1 points and
+                                       one LU of size s n, or (s+1)/2 complex ones of n
+              All of it once more when a value was not finite, to name the effect.
+              gvi_velocity, gvi_energy: 1, with Lagrangian terms 40(12n+1).
+              gvi_state_at: as a step; with a clock, 60 of them.
               Floating-point operations of a step of N iterations, callbacks apart:
               (N+2)(K n R (2r+16) + 30) + 30 K n r + 70 n at most, R = r below 5 points,
               else the next multiple of 8, K = 1 for positions, 2 for velocities and
@@ -188,7 +189,9 @@
    so for effects that read only q the unknowns are the forces: put F in, get
    Q out, ask the effects at all r points at once, repeat.  No velocity, no
    matrix.  S is symmetric: that is what symplecticity asks of (3), and it
-   survives rounding, since S and c are rounded to one grid.
+   survives rounding, since S and c are rounded to one grid.  A Lagrangian term adds
+   A_i = dL/dv to P_i:  h M^-1 sum_j T_ji b_j A_j is then taken from (3),
+   M^-1 sum_j N_ij b_j A_j from (4).
 
    r = s.  Then V_i is free at each node, Gamma^-1 phi' diag(b) = phi^-1, and
    (1) is the partitioned Runge-Kutta method
@@ -221,10 +224,11 @@
    WEAK EFFECTS.  A force that hardly changes while an iteration closes in need not
    be asked in each of its rounds: one that is marked as weak stands still while the
    others iterate, and is asked again when the change that it would bring is greater
-   than the one that the others have yet to bring.  Of forces that are the smaller
-   part by a factor of 1000 it takes half of the evaluations or less, and now and then
-   a round more.  The equations, and so the step, are the same; a mark on an effect
-   that is not weak costs rounds, and no more digits than any end that is foretold.
+   than the one that the others have yet to bring: twice a step at least, and a step
+   then takes about a round more.  So it pays from about five rounds a step on, where
+   a force that is smaller by 1000 is asked half to two thirds as often.  The equations,
+   and so the step, are the same; a mark on an effect that is not weak costs rounds, or
+   Newton's method, and no more digits than any end that is foretold.
    Marks take (n + 2) R more numbers of memory.  They are for potentials and forces in the
    fixed points, without a clock or desc.iterations, of degree 1 with Gauss's rule
    alone, and not compiled for size: elsewhere a marked effect is asked as any other.
@@ -237,8 +241,8 @@
      V_i = g v        F_i = g (dL/dq + f) - dg/dq (H - E)        t' = g
 
    with v = M^-1 p as before.  E is what the energy was at the start, plus the
-   work of forces, so every potential needs its value; and no potential may
-   depend on t: what does is to be listed as a force.
+   work of forces, so every potential and Lagrangian term needs its value; and
+   none of them may depend on t: what does is to be listed as a force.
 
    Order.  |q1 - exact| = O(h^(min(2s,u)+1)) a step: twice the degree, which
    is the superconvergence theorem [2, thm. 4.1].  It holds for u >= 2s - 2; a
@@ -314,7 +318,8 @@ typedef GVI_REAL gvi_real;
 
 typedef enum gvi_status {
     GVI_OK            =  0,
-    GVI_E_ARGUMENT    = -1,  /* null pointer, size out of range, h = 0, NaN or Inf given */
+    GVI_E_ARGUMENT    = -1,  /* null pointer, memory not aligned as a gvi_real is, size out
+                                of range, h = 0, NaN or Inf given                   */
     GVI_E_MEMORY      = -2,  /* the memory is smaller than gvi_size(desc)               */
     GVI_E_NODES       = -3,  /* own rule: a node outside [0,1], or two that coincide    */
     GVI_E_ORDER       = -4,  /* own rule of order u < s, so also weights that do not sum
@@ -325,8 +330,10 @@ typedef enum gvi_status {
     GVI_E_CONVERGENCE = -8,  /* the iteration diverges or creeps: h too large           */
     GVI_E_CALLBACK    = -9,  /* a callback refused (fault.effect)                       */
     GVI_E_NON_FINITE  = -10, /* NaN or Inf came out of an effect (fault.effect)         */
-    GVI_E_VALUE       = -11, /* energy or action wanted, but fault.effect has no value  */
-    GVI_E_STATE       = -12, /* not started; no step yet; time outside the last step    */
+    GVI_E_VALUE       = -11, /* energy or action wanted, or a clock on, but fault.effect
+                                has no value                                        */
+    GVI_E_STATE       = -12, /* not started; no step yet; time outside the last step; a
+                                clock was switched on since                         */
     GVI_E_CONJUGATE   = -13, /* boundary values do not determine the curve              */
     GVI_E_CLOCK       = -14  /* a clock's g is not positive (fault.effect, fault.point) */
 } gvi_status;
@@ -380,7 +387,8 @@ typedef struct gvi_effect {
     gvi_kind        kind;
     gvi_points_fn  *points;   /* the effect at all points of a step at once     */
     gvi_point_fn   *point;    /* or one point a call                            */
-    gvi_points_fn  *value;    /* V or L, for energy and action; NULL: unknown   */
+    gvi_points_fn  *value;    /* V or L, for energy and action, and every step of a
+                                 clock; NULL: unknown                           */
     gvi_hessian_fn *hessian;  /* for Newton; NULL: differences of f and dldv    */
     void           *user;     /* handed to the callbacks                        */
     int             weak;     /* not 0: asked in some iterations only (WEAK EFFECTS) */
@@ -451,7 +459,8 @@ typedef struct gvi_desc {
     int               iterations;      /* N: exactly N of the fixed point in every step, for
                                           a loop with a deadline, and no Newton.  A step whose
                                           last change is neither half of that two iterations
-                                          before (N = 2: less than the first) nor rounding fails.
+                                          before (N = 2: less than the first) nor rounding fails;
+                                          N = 1 does not: look at counters.worst_change.
                                           0: as many as it takes               */
 } gvi_desc;
 
@@ -472,7 +481,7 @@ typedef struct gvi_counters {
     unsigned long long newton_iterations;
     unsigned long long factorizations;    /* LU of s*n or of n, or of M at a point */
     unsigned long long velocities;        /* points at which v was formed       */
-    unsigned long long mass;              /* points given to mass callbacks     */
+    unsigned long long mass;              /* points given to mass.points, mass.velocity */
     unsigned long long effect[GVI_EFFECTS]; /* points given to each effect      */
     int                most_iterations;   /* in one step or gvi_state_at        */
     gvi_real           worst_contraction; /* of an iteration, mean of two       */
@@ -495,7 +504,7 @@ struct gvi__private {
     gvi_real *q0, *p0, *zeros;        /* [n] start of the last step, its (no) rest */
     gvi_real *start;                  /* [n] velocity that a start was given    */
     gvi_real *v0, *ve;                /* [n] M^-1 p, M^-1 pe of the step at work */
-    gvi_real *scale;                  /* [2n] units of changes, of two sets of rows */
+    gvi_real *scale;                  /* [2n] 1/unit of changes, of two sets of rows */
     gvi_real *t, *place;              /* [R] times; [3R] scratch                */
     gvi_real *z, *less, *row;         /* [R], [R], [6R] scratch                 */
     gvi_real *inv_gamma, *own;        /* [s] 1/Gamma_kk; LU of Gamma if full    */
@@ -526,7 +535,8 @@ struct gvi__private {
     signed char      whole_left;      /* steps until blocks are tried again     */
     signed char      clock, single;   /* effect that is one; the only one; or -1 */
     signed char      alike, E_is;     /* last steps of the same length: 0, 1, 2; see GVI__OF_TWO */
-    signed char      started, stepped, diagnose, turns;
+    signed char      started, stepped;  /* stepped: 2 by a clock               */
+    signed char      diagnose, turns;
     signed char      has_rate;        /* rate holds                             */
     signed char      has_force;       /* last.F ends with the force at (t, q)   */
     signed char      has_velocity;    /* last.V holds                           */
@@ -600,7 +610,8 @@ GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy);
    its own time, and v still dq/dt.
    gvi_state_at: the state at time t (a time, not tau) inside it, at the full
    order, by a partial step from the nearer end.
-   gvi_action: the quadrature of L over it, both with the effects that are on now.
+   gvi_action: the quadrature of L over it.  This and gvi_state_at use the effects that
+   are on now.
    A broken line has neither curve nor action, a clock no action: GVI_E_FORMULATION.
    q, v, p of length n, or NULL.
    None of them changes what later steps compute, to the bit.                 */
@@ -639,7 +650,8 @@ GVI_DEF gvi_status gvi_lobatto(int n, gvi_real *c, gvi_real *b);
 
 /* The measured order of a rule: the largest u such that polynomials of degree
    < u are integrated exactly, to rounding.  0: the weights do not sum to 1.
-   -1: nodes outside [0,1], or not distinct, or not finite.                   */
+   -1: nodes outside [0,1], or not distinct, or not finite.  Its time grows like n^3, and
+   gvi_size and gvi_init ask it of GVI_OWN: a quarter of a second at n = 250.   */
 GVI_DEF int        gvi_rule_order(int n, const gvi_real *c, const gvi_real *b);
 
 /* Barycentric interpolation [6] through n distinct nodes x in any order.
@@ -675,7 +687,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
    Terms: state, rule and tables, two sets of rows, mass, Newton.              */
 #define GVI__ROW(r) ((r) < 5 ? (r) : ((r) + 7)/8*8)
 #define GVI__SIZE(a) ((size_t)(a))
-#define GVI__SLACK (64/sizeof(gvi_real) - 1)
+#define GVI__SLACK (63/sizeof(gvi_real))
 #define GVI_LENGTH(n, s, r) (                                                    \
     (31 + 4*GVI__SIZE(s) + 20*GVI__SIZE(GVI__ROW(r))                             \
      + (6 + GVI__SIZE(GVI__ROW(r)) + 2*GVI__SIZE(s)*GVI__SIZE(s))*GVI__SIZE(n))*GVI__SIZE(n) \
@@ -691,8 +703,9 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #if defined(GVI_IMPLEMENTATION) && !defined(GVI_IMPLEMENTED)
 #define GVI_IMPLEMENTED
 
-#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
-#error "gvi.h relies on IEEE arithmetic: do not compile it with -ffast-math"
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) \
+    || (defined(__ASSOCIATIVE_MATH__) && __ASSOCIATIVE_MATH__)
+#error "gvi.h relies on IEEE arithmetic: no -ffast-math, no part of it that changes sums"
 #endif
 
 /* --------------------------------------------------------------- SUPPORT */
@@ -1707,7 +1720,10 @@ static gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e)
         if (status == GVI_OK && GVI__LAGRANGIAN) status = gvi__check_rows(st, x, x->dldv, e);
     }
     x->value = value;
-    return status == GVI_OK && own && !together ? gvi__value(st, x, e, own) : status;
+    if (status == GVI_OK && own && !together) status = gvi__value(st, x, e, own);
+    for (int k = 0; own && gvi__diagnoses(st) && status == GVI_OK && k < x->count; ++k)
+        if (!gvi__finite(own[k])) status = gvi__fail(st, GVI_E_NON_FINITE, e, GVI_FAULT_NONE, k);
+    return status;
 }
 
 static unsigned gvi__clock_bit(const gvi_stepper *st)
@@ -1982,16 +1998,23 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real
     gvi_real size = gvi__norm1(n, v)/(gvi_real)n;
     gvi__copy((size_t)n, P, base);
     for (int j = 0; j < n; ++j) {
-        gvi_real was = v[j], d = GVI_SQRT(GVI__EPS)*(gvi__nonzero(was) ? GVI_ABS(was) : size);
-        if (!(d > GVI__MIN/GVI__EPS)) d = GVI_SQRT(GVI__EPS);
-        v[j] = was + d;
-        d = v[j] - was;
-        x->dldv = moved;
-        gvi_status status = gvi__evaluate(st, x, 0);
-        v[j] = was;
-        x->dldv = P;
-        x->f = f;
-        if (status != GVI_OK) return status;
+        const gvi_real was = v[j], root = GVI_SQRT(GVI__EPS);
+        gvi_real d = root*(gvi__nonzero(was) ? GVI_ABS(was) : size);
+        if (!(d > GVI__MIN/GVI__EPS)) d = root;
+        // less where that leaves the domain of L, more where P_j, which need not be 0 with v, hides it
+        for (int k = 0; k < 12; ++k) {
+            v[j] = was + d;
+            d = v[j] - was;
+            x->dldv = moved;
+            gvi_status status = gvi__evaluate(st, x, 0);
+            v[j] = was;
+            x->dldv = P;
+            x->f = f;
+            if (status != GVI_OK) return status;
+            if (!gvi__finite(moved[j])) d *= root;
+            else if (GVI_ABS(moved[j] - base[j]) < root*GVI_ABS(base[j])/2) d /= GVI_SQRT(root);
+            else break;
+        }
         for (int i = 0; i < n; ++i) W[i*n + j] = (moved[i] - base[i])/d;
     }
     return GVI_OK;
@@ -2680,9 +2703,10 @@ static int gvi__fits_two(const gvi__scene *x)
     return x->desc->rule.points < 10 && GVI__KIND > 1 && iterates;
 }
 
-// does E extrapolate from two steps now?
 // what E makes: of two steps, not of one; the sums of (3), not the row itself
 enum { GVI__OF_TWO = 1, GVI__SUMS = 2 };
+
+// does E extrapolate from two steps now?
 static inline int gvi__two_now(const gvi_stepper *st) { return GVI__KIND > 1 && (st->x.E_is & GVI__OF_TWO); }
 
 /* Is Newton's matrix of s*n to be b = (s+1)/2 complex ones of n?  Where that is less
@@ -2705,7 +2729,7 @@ typedef struct gvi__arena { struct gvi__private *to; gvi_real *base; size_t used
 // a*b reals, or NULL for none; with base NULL it only counts
 static gvi_real *gvi__take(gvi__arena *arena, size_t a, size_t b)
 {
-    const size_t most = (size_t)-1/sizeof(gvi_real)/2;
+    const size_t most = (size_t)-1/sizeof(gvi_real) - 64;      // more than anyone has, with slack
     if (a == 0) return NULL;
     size_t count = a > most/b ? most : a*b, at = arena->used;
     arena->used = count > most - at ? most : at + count;
@@ -2892,13 +2916,15 @@ static gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
 }
 
 // the scene into the stepper, the memory in parts
+typedef struct gvi__aligned { char byte; gvi_real number; } gvi__aligned;
+
 static gvi_status gvi__hand_out(gvi_stepper *st, const gvi_desc *desc, gvi_real *memory, size_t size)
 {
     struct gvi__private *x = &st->x;
     gvi__scene scene;
     gvi_status status = gvi__resolve(&scene, &x->desc, desc);
     if (status != GVI_OK) return status;
-    if (!memory) return GVI_E_ARGUMENT;
+    if (!memory || (uintptr_t)memory % offsetof(gvi__aligned, number)) return GVI_E_ARGUMENT;
     st->n = x->desc.n;
     st->s = x->desc.degree;
     st->r = x->desc.rule.points;
@@ -2916,7 +2942,7 @@ static gvi_status gvi__hand_out(gvi_stepper *st, const gvi_desc *desc, gvi_real 
     if (slack) x->skip = (size_t)(-(uintptr_t)memory & 63)/sizeof(gvi_real);
     memory += x->skip;
     gvi__layout(&scene, x, memory);
-    gvi__zero(GVI__NEWTON && x->J ? (size_t)(x->J - memory) : x->size, memory);        // J is written before it is read
+    gvi__zero(GVI__NEWTON && x->J ? (size_t)(x->J - memory) : x->size, memory);    // J is written first
     return GVI_OK;
 }
 
@@ -3691,7 +3717,7 @@ GVI__APART void gvi__extrapolate(gvi_stepper *st, const gvi_real *last, const gv
    E_ij = sum_k p_k(y_i) p_k(x_j) at the targets y_i = alpha + beta c_i.  row holds
    p_k and p_(k-1) at c, c - 1 and y.  Degree: r - 1, through all of one step's; of
    two, what tests/cost found to be best; and no more than amplifies rounding, by
-   about 5.8^degree at the end of the step, to 1e-4.                            */
+   about 5.8^degree at the end of the step, to 1e-4 in double.                          */
 static void gvi__fit(gvi_stepper *st, gvi_real alpha, gvi_real beta)
 {
     struct gvi__private *x = &st->x;
@@ -4052,7 +4078,7 @@ static int gvi__may_turn(const gvi_stepper *st)
     return st->x.desc.formulation == GVI_AUTO && gvi__has(st, GVI__HAS_NEWTON);
 }
 
-/* The verdict on a change.  Tolerance-free end: the change after the next one,
+/* The verdict on a change.  Tolerance-free end: the next change,
    D^2/D_before, is far below rounding; or the change is rounding: small, or
    without a new least by a tenth for some iterations, and of no energy.  Three
    changes in a row that fall by less than half are poor; so is a descent to
@@ -4445,7 +4471,7 @@ GVI__APART gvi_status gvi__jacobian_exact(gvi_stepper *st, const gvi__matrix *J,
             gvi__zero(4*nn, fq);
             if (effect->hessian(at->t[k], q, reads_v ? v : NULL, fq, reads_v ? fv : NULL, term ? pv : NULL,
                                 effect->user))
-                return gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, k);
+                return gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, gvi__in_blocks(J) ? GVI_FAULT_NONE : k);
             for (int i = 0; i < n; ++i)
                 for (int j = 0; j < n; ++j) {       // d(dL/dv)/dq is the transpose of d(dL/dq)/dv
                     gvi__add(st, J, i, j, k, fq[i*n + j], term ? fv[j*n + i] : 0, 0);
@@ -4499,18 +4525,20 @@ GVI__APART gvi_status gvi__difference(gvi_stepper *st, const gvi__matrix *J, con
 }
 
 /* The difference for coordinate j: sqrt(eps) of what it moves in a step, but no less
-   than eps^(3/4) of itself.                                                   */
-GVI__APART gvi_real gvi__nudge(const gvi__sites *at, int j, gvi_real h)
+   than eps^(3/4) of itself; or for its velocity, that over h.                 */
+GVI__APART gvi_real gvi__nudge(const gvi__sites *at, int j, gvi_real h, int by_v)
 {
-    const gvi_real root = GVI_SQRT(GVI__EPS), *Q = at->q + j*at->stride, *V = at->v + j*at->stride;
+    const gvi_real root = GVI_SQRT(GVI__EPS), small = GVI_SQRT(root);
+    const gvi_real *Q = at->q + j*at->stride, *V = at->v + j*at->stride;
     gvi_real q = 0, v = 0;
     for (int k = 0; k < at->count; ++k) {
         if (GVI_ABS(Q[k]) > q) q = GVI_ABS(Q[k]);
         if (GVI_ABS(V[k]) > v) v = GVI_ABS(V[k]);
     }
-    const gvi_real path = h*v > GVI_SQRT(root)*q ? h*v : GVI_SQRT(root)*q;
-    if (root*path > GVI__MIN/GVI__EPS) return root*path;
-    return h < 1 ? root*h : root;                     // at rest at 0
+    const gvi_real path = h*v > small*q ? h*v : small*q;
+    const gvi_real step = root*path > GVI__MIN/GVI__EPS ? root*path : h < 1 ? root*h : root;      // at rest at 0
+    if (!by_v) return step;
+    return v > 0 && step/h > small*v ? small*v : step/h;          // short steps: no velocity beyond all others
 }
 
 // derivatives of what has no Hessian
@@ -4528,9 +4556,8 @@ GVI__APART gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matr
     gvi_status status = gvi__ask_sites(st, at, x->dF + 2*n*at->stride);
     const gvi_real h = GVI_ABS(J->h);
     for (int j = 0; j < n && status == GVI_OK; ++j) {
-        const gvi_real step = gvi__nudge(at, j, h);
-        status = gvi__difference(st, J, at, j, 0, step);
-        if (status == GVI_OK && reads_v) status = gvi__difference(st, J, at, j, 1, step/h);
+        status = gvi__difference(st, J, at, j, 0, gvi__nudge(at, j, h, 0));
+        if (status == GVI_OK && reads_v) status = gvi__difference(st, J, at, j, 1, gvi__nudge(at, j, h, 1));
     }
     return status;
 }
@@ -4819,22 +4846,25 @@ static int gvi__finite_end(const gvi_stepper *st, const gvi__from *from)
     return none >= 0;
 }
 
-/* An attempt; if something was not finite, the same once more with every effect
-   looked at, to say which one it was; what is not finite then is divergence.  */
-static gvi_status gvi__solve(gvi_stepper *st, gvi__from *from, gvi_real h, const gvi__history *past, int query)
+/* An attempt at which something was not finite, once more with every effect looked at,
+   to say which one it was; what is not finite then is divergence.             */
+static gvi_status gvi__diagnosed(gvi_stepper *st, gvi__from *from, gvi_real h, const gvi__history *past, int query,
+                                 gvi_status status)
 {
     struct gvi__private *x = &st->x;
+    if (!GVI__DIAGNOSIS || status != GVI_E_NON_FINITE || st->fault.effect != GVI_FAULT_NONE) return status;
+    if (!query) x->h_matrix = 0;
+    x->diagnose = 1;
+    status = gvi__attempt(st, from, h, past, query);
+    x->diagnose = 0;
+    return status != GVI_OK ? status : gvi__give(st, GVI_E_CONVERGENCE);
+}
+
+static gvi_status gvi__solve(gvi_stepper *st, gvi__from *from, gvi_real h, const gvi__history *past, int query)
+{
     gvi_status status = gvi__attempt(st, from, h, past, query);
     if (status == GVI_OK && !gvi__finite_end(st, from)) status = gvi__give(st, GVI_E_NON_FINITE);
-    if (GVI__DIAGNOSIS && status == GVI_E_NON_FINITE && st->fault.effect == GVI_FAULT_NONE) {
-        if (!query) x->h_matrix = 0;
-        x->diagnose = 1;
-        gvi_status second = gvi__attempt(st, from, h, past, query);
-        x->diagnose = 0;
-        status = second != GVI_OK ? second
-               : gvi__give(st, GVI_E_CONVERGENCE);
-    }
-    return status;
+    return gvi__diagnosed(st, from, h, past, query, status);
 }
 
 // work becomes last, last becomes older (where rows are kept that long), and the
@@ -4903,7 +4933,7 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     x->te = t.lo;
     st->h = h;
     gvi__rotate_rows(st);
-    x->stepped = 1;
+    x->stepped = gvi__has_clock(st) ? 2 : 1;
     if (GVI__WEAK && x->weak) *gvi__answers(st) = gvi__answers(st)[1];
     x->has_force = explicit_one && !gvi__nonzero(x->c[0]) && !gvi__nonzero(x->c[st->r - 1] - 1);
     x->has_velocity = GVI__READS_V && st->formulation > GVI_POSITIONS;
@@ -4918,7 +4948,7 @@ static gvi_status gvi__solve_explicit(gvi_stepper *st, gvi__from *from, gvi_real
     gvi__begin(st, from, h);
     gvi_status status = gvi__explicit(st, from, h, past->force);
     if (status != GVI_OK || gvi__finite_end(st, from)) return status;
-    return gvi__solve(st, from, h, past, 0);
+    return gvi__diagnosed(st, from, h, past, 0, gvi__give(st, GVI_E_NON_FINITE));
 }
 
 GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
@@ -5108,12 +5138,15 @@ GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
     if (index < 0 || index >= st->x.desc.effect_count) return st->status = GVI_E_ARGUMENT;
     const unsigned bit = 1u << index, was = st->x.off;
     st->x.off = on ? was & ~bit : was | bit;
-    if (gvi__has_clock(st) && st->x.started && st->x.off != was) {      // another energy
-        gvi_real E;
+    if (gvi__has_clock(st) && st->x.started && st->x.off != was) {      // another energy, also at the start
+        struct gvi__private *x = &st->x;
+        gvi_real E, E0 = x->H0, *v = x->change + st->n;
         gvi_status status = gvi_energy(st, &E);
-        if (status != GVI_OK) return st->x.off = was, st->status = status;
-        st->x.H = E;
-        st->x.He = 0;
+        if (status == GVI_OK && x->stepped) status = gvi__energy(st, x->t0, x->q0, x->p0, v, &E0);
+        if (status != GVI_OK) return x->off = was, st->status = status;
+        x->H = E;
+        x->He = 0;
+        x->H0 = E0;
     }
     st->x.single = GVI__SMALL ? (signed char)-1 : gvi__single(st);
     st->x.has_force = 0;
@@ -5211,7 +5244,7 @@ GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
     gvi_real *Q = st->x.change, *V = Q + st->n;
     gvi__weights(st, st->h);
     gvi__curve(st, tau, Q, V);
-    if (gvi__has_clock(st)) {                     // v = q'/g
+    if (st->x.stepped == 2) {                     // v = q'/g
         gvi_real rate;
         status = gvi__rate_at(st, st->t, Q, &rate, st->x.one);
         if (status != GVI_OK) return st->status = status;
@@ -5236,6 +5269,7 @@ static gvi_status gvi__partial_clock(gvi_stepper *st, gvi__from *from, int end, 
 {
     struct gvi__private *x = &st->x;
     gvi_real near = 0, far = end ? -st->h : st->h, h = st->h*(dt/(st->t - x->t0)), rate, *q = x->change;
+    if (!(GVI_ABS(h) <= GVI_ABS(far))) h = far/2;             // t did not move, or less than it should
     for (int k = 0; k < 60; ++k) {
         gvi_status status = gvi__partial(st, from, end, h);
         gvi_real miss = x->dt - dt;
@@ -5262,8 +5296,9 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
     if (!gvi__finite(t)) return st->status = GVI_E_ARGUMENT;
     gvi_real ahead = t - x->t0, back = t - st->t;            // one of each sign, or 0
     if (!((ahead >= 0 && back <= 0) || (ahead <= 0 && back >= 0))) return st->status = GVI_E_STATE;
+    if (gvi__has_clock(st) && x->stepped != 2) return st->status = GVI_E_STATE;
 
-    // partial step of length h from the nearer end
+    // partial step of length h from the nearer end, or none for a rounding of the whole
     int end = GVI_ABS(back) <= GVI_ABS(ahead);
     gvi_real h = end ? back - x->te : ahead;
     gvi__from from = { st->t, x->te, x->q, x->qe, x->p, x->pe, x->H, x->He, NULL, NULL };
@@ -5272,8 +5307,9 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
         from = first;
     }
     gvi_formulation was = st->formulation;
-    if (gvi__nonzero(h) && gvi__has_clock(st)) status = gvi__partial_clock(st, &from, end, h);
-    else if (gvi__nonzero(h)) status = gvi__partial(st, &from, end, h);
+    const int moves = GVI_ABS(h) > GVI__EPS*(GVI_ABS(ahead) + GVI_ABS(back));
+    if (moves && gvi__has_clock(st)) status = gvi__partial_clock(st, &from, end, h);
+    else if (moves) status = gvi__partial(st, &from, end, h);
     else {
         gvi__copy(n, from.qe, x->dq);
         gvi__copy(n, from.pe, x->dp);
@@ -5314,7 +5350,7 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action)
     gvi_status status = gvi__ready(st, 1);
     if (status != GVI_OK) return status;
     if (!action) return st->status = GVI_E_ARGUMENT;
-    if (gvi__rule_is(st, GVI_KICKS) || gvi__has_clock(st)) return st->status = GVI_E_FORMULATION;
+    if (gvi__rule_is(st, GVI_KICKS) || st->x.stepped == 2) return st->status = GVI_E_FORMULATION;
     struct gvi__private *x = &st->x;
     gvi_real sum = 0, L, *q = x->change, *v = q + st->n;
     gvi__weights(st, st->h);

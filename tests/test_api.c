@@ -486,6 +486,7 @@ static void expect_memory_to_be_exact(const scene *a)
     assert_int_equal(size % sizeof(real), 0);
     got = gvi_init(&st, &desc, g.memory, size - 1);
     assert_int_equal(got, GVI_E_MEMORY);
+    assert_status(gvi_init(&st, &desc, (real *)(void *)((char *)g.memory + 1), size), GVI_E_ARGUMENT);
     assert_ok(gvi_init(&st, &desc, g.memory, size));
     assert_true(is_whole(&g));
     free(g.base);

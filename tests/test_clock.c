@@ -462,11 +462,84 @@ static void a_clock_that_is_off_is_as_if_it_were_not_listed(void **state)
     }
 }
 
+/* Queries about a step are of its own measure of time, and of the effects that are on now */
+static void switching_beside_a_clock_does_not_confuse_the_last_step(void **state)
+{
+    enum { ATTRACTION, CLOCK };
+    gvi_stepper st;
+    real before[4], after[4], q[2], p[2], number = 7;
+    (void)state;
+    begin(&st, KEPLER, 4, start);
+    assert_ok(gvi_step(&st, (real)0.125));
+    assert_ok(gvi_curve(&st, (real)0.25, before, before + 2));
+
+    // without attraction the first quarter is a straight line
+    assert_ok(gvi_switch(&st, ATTRACTION, 0));
+    assert_ok(gvi_state_at(&st, st.t/4, q, NULL, p));
+    for (int i = 0; i < 2; ++i) {
+        assert_close(p[i], start[2 + i], 4*EPS);
+        assert_close(q[i], start[i] + start[2 + i]*st.t/4, 4*EPS);
+    }
+
+    // the curve is still in tau, and v on it dq/dt
+    assert_ok(gvi_switch(&st, CLOCK, 0));
+    assert_ok(gvi_curve(&st, (real)0.25, after, after + 2));
+    assert_memory_equal(before, after, sizeof before);
+    assert_status(gvi_action(&st, &number), GVI_E_FORMULATION);
+    assert_ok(gvi_step(&st, (real)0.125));
+    assert_ok(gvi_switch(&st, CLOCK, 1));
+    assert_status(gvi_state_at(&st, st.t - (real)0.01, q, NULL, NULL), GVI_E_STATE);
+    assert_true(number == 7);
+}
+
 static int attraction_alone(const gvi_points *x, void *user)
 {
     gvi_points y = *x;
     y.value = NULL;
     return attraction(&y, user);
+}
+
+static int value_without_number(const gvi_points *x, void *user)
+{
+    (void)user;
+    for (int k = 0; k < x->count; ++k)
+        x->value[k] += x->q[k] < (real)0.6 ? (real)NAN : -1/hypot(x->q[k], x->q[x->stride + k]);
+    return 0;
+}
+
+static void a_value_that_is_not_a_number_is_named(void **state)
+{
+    gvi_desc desc = describe(KEPLER, 4);
+    gvi_effect effects[2];
+    gvi_stepper st;
+    (void)state;
+    memcpy(effects, desc.effects, sizeof effects);
+    effects[0].points = attraction_alone;
+    effects[0].value = value_without_number;
+    desc.effects = effects;
+    set_up(&st, &desc, memory);
+    assert_ok(gvi_start_momentum(&st, 0, start, start + 2));
+    while (gvi_step(&st, (real)0.03125) == GVI_OK) assert_true(st.t < 10);
+    assert_int_equal(st.status, GVI_E_NON_FINITE);
+    assert_int_equal(st.fault.effect, 0);
+}
+
+/* Late: t has too few digits left to move by g h */
+static void the_state_at_a_time_that_stands_still(void **state)
+{
+    const gvi_desc desc = describe(KEPLER, 4);
+    const real late = 1/EPS;
+    real q[2];
+    gvi_stepper st;
+    (void)state;
+    set_up(&st, &desc, memory);
+    assert_ok(gvi_start_momentum(&st, late, start, start + 2));
+    for (int k = 0; k < 8; ++k) {
+        assert_ok(gvi_step(&st, (real)0.001));
+        assert_true(st.t == late);
+        assert_ok(gvi_state_at(&st, st.t, q, NULL, NULL));
+        assert_close(hypot(q[0] - st.q[0], q[1] - st.q[1]), 0, 2*8*0.001);      // where t is that, |v| < 2
+    }
 }
 
 static int attraction_value(const gvi_points *x, void *user)
@@ -862,6 +935,9 @@ int main(void)
         cmocka_unit_test(questions_about_the_action_are_refused),
         cmocka_unit_test(the_curve_runs_from_end_to_end),
 #if GVI__KIND == 2
+        cmocka_unit_test(switching_beside_a_clock_does_not_confuse_the_last_step),
+        cmocka_unit_test(a_value_that_is_not_a_number_is_named),
+        cmocka_unit_test(the_state_at_a_time_that_stands_still),
         cmocka_unit_test(kepler_is_solved_to_its_own_rounding),
         cmocka_unit_test(eccentric_orbits_are_followed),
         cmocka_unit_test(fewer_steps_are_worse_by_the_order),

@@ -527,6 +527,36 @@ static void a_switched_effect_is_in_the_next_kick(void **state)
     }
 }
 
+/* The last kick gives no number: r points, and once more to see whose they are  */
+static int no_number_late(const gvi_points *x, void *user)
+{
+    (void)user;
+    for (int k = 0; k < x->count; ++k) x->f[k] += x->t[k] > when + 0.24L ? (real)NAN : -x->q[k];
+    return 0;
+}
+
+static void no_number_is_looked_for_once(void **state)
+{
+    int count;
+    const table *all = tables(&count);
+    (void)state;
+    for (int i = 0; i < count; ++i) {
+        const gvi_effect two[] = { { .kind = GVI_POTENTIAL, .point = potential },
+                                   { .kind = GVI_POTENTIAL, .points = no_number_late } };
+        gvi_desc desc = describe(&all[i], GVI_MASS_UNIT);
+        gvi_stepper st;
+        desc.effects = two;
+        desc.effect_count = 2;
+        set_up(&st, &desc, start, memory);
+        const gvi_status status = gvi_step(&st, 0.25L);
+        if (all[i].c[all[i].r - 1] < 0.96L) continue;                  // no kick so late
+        assert_int_equal(status, GVI_E_NON_FINITE);
+        assert_int_equal(st.fault.effect, 1);
+        assert_in_range(st.counters.effect[1], all[i].r, 2*(unsigned)all[i].r);
+        assert_true(st.t == when && st.q[0] == start[0] && st.p[1] == start[3]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -542,6 +572,7 @@ int main(void)
         cmocka_unit_test(questions_that_a_broken_line_cannot_answer_are_refused),
         cmocka_unit_test(a_checkpoint_continues_to_the_bit),
         cmocka_unit_test(a_switched_effect_is_in_the_next_kick),
+        cmocka_unit_test(no_number_is_looked_for_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

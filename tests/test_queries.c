@@ -255,6 +255,64 @@ static void velocity_and_energy_are_right_for_a_general_lagrangian(void **state)
     }
 }
 
+/* A charge in a field, dL/dv = v + a(q): a difference of dL/dv by a v_i next to 0 must not be lost in a */
+static int uniform_field(const gvi_points *x, void *user)
+{
+    const int R = x->stride;
+    (void)user;
+    for (int k = 0; k < x->count; ++k) {
+        if (x->f) x->f[k] += x->v[R + k]/2, x->f[R + k] -= x->v[k]/2;
+        if (x->dldv) x->dldv[k] -= x->q[R + k]/2, x->dldv[R + k] += x->q[k]/2;
+    }
+    return 0;
+}
+
+static void velocities_next_to_0_are_found_beside_a_vector_potential(void **state)
+{
+    const gvi_effect charge[] = { { .kind = GVI_LAGRANGIAN, .points = uniform_field } };
+    gvi_desc desc = { .n = 2, .degree = 4, .effects = charge, .effect_count = 1 };
+    (void)state;
+    for (int newton = 0; newton <= 1; ++newton)
+        for (real small = 1; small > 1e-30L; small /= 1000) {
+            gvi_stepper st;
+            real v[2];
+            desc.formulation = newton ? GVI_NEWTON : GVI_AUTO;
+            set_up(&st, &desc, 0);
+            assert_ok(gvi_start(&st, 0, (const real[]){ 1, 1 }, (const real[]){ 1, small }));
+            assert_ok(gvi_velocity(&st, v));
+            assert_vectors_close(v, (const real[]){ 1, small }, 4*EPS);
+            assert_ok(gvi_step(&st, 0.1L));                      // it turns, at unit speed
+            assert_ok(gvi_velocity(&st, v));
+            assert_close(hypot(v[0], v[1]), hypot(1, small), 16*EPS);
+        }
+}
+
+/* Differences for Newton's matrix: however short the step, no velocity beyond that of light */
+static void short_steps_stay_in_the_domain_of_L(void **state)
+{
+    const gvi_desc desc = { .n = 2, .degree = 4, .effects = fast, .effect_count = 2, .mass = { .kind = GVI_MASS_NONE } };
+    const real v0[] = { 0.6L, 0.5L };
+    gvi_stepper st;
+    (void)state;
+    set_up(&st, &desc, 0);
+    for (real h = 0.1L; h > 1e-25L; h /= 100) {
+        real v[2];
+        assert_ok(gvi_start(&st, 0.3L, q_start, v0));
+        assert_ok(gvi_step(&st, h));
+        assert_ok(gvi_velocity(&st, v));
+        assert_vectors_close(v, v0, 2*h + 16*EPS);               // |a| < 2
+    }
+    assert_ok(gvi_start(&st, 0.3L, q_start, v0));
+    for (int k = 0; k < 100; ++k) {
+        real q[2], back = 1e-16L;
+        assert_ok(gvi_step(&st, 0.1L));
+        assert_ok(gvi_state_at(&st, st.t, q, NULL, NULL));
+        assert_vectors_close(q, st.q, EPS*st.t + 4*EPS);          // t is rounded, and speeds are below 1
+        assert_ok(gvi_state_at(&st, st.t - back, q, NULL, NULL));
+        assert_vectors_close(q, st.q, back + EPS*st.t + 4*EPS);
+    }
+}
+
 /* ---------------------------------------------------------------------- starts */
 
 static void the_three_starts_agree(void **state)
@@ -710,6 +768,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(velocity_and_energy_are_right_for_every_mass),
         cmocka_unit_test(velocity_and_energy_are_right_for_a_general_lagrangian),
+        cmocka_unit_test(velocities_next_to_0_are_found_beside_a_vector_potential),
+        cmocka_unit_test(short_steps_stay_in_the_domain_of_L),
         cmocka_unit_test(the_three_starts_agree),
         cmocka_unit_test(the_curve_begins_at_q0_and_ends_at_q1),
         cmocka_unit_test(the_curve_gives_its_own_derivative),
