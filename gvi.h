@@ -5244,7 +5244,7 @@ GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
     gvi_real *Q = st->x.change, *V = Q + st->n;
     gvi__weights(st, st->h);
     gvi__curve(st, tau, Q, V);
-    if (st->x.stepped == 2) {                     // v = q'/g
+    if (GVI__CLOCK && st->x.stepped == 2) {       // v = q'/g
         gvi_real rate;
         status = gvi__rate_at(st, st->t, Q, &rate, st->x.one);
         if (status != GVI_OK) return st->status = status;
