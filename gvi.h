@@ -1999,21 +1999,21 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real
     gvi__copy((size_t)n, P, base);
     for (int j = 0; j < n; ++j) {
         const gvi_real was = v[j], root = GVI_SQRT(GVI__EPS);
-        gvi_real d = root*(gvi__nonzero(was) ? GVI_ABS(was) : size);
-        if (!(d > GVI__MIN/GVI__EPS)) d = root;
+        gvi_real d = 0, next = root*(gvi__nonzero(was) ? GVI_ABS(was) : size);
+        if (!(next > GVI__MIN/GVI__EPS)) next = root;
         // less where that leaves the domain of L, more where P_j, which need not be 0 with v, hides it
-        for (int k = 0; k < 12; ++k) {
-            v[j] = was + d;
+        for (int k = 0; k < 12 && next > 0; ++k) {
+            v[j] = was + next;
             d = v[j] - was;
+            next = 0;
             x->dldv = moved;
             gvi_status status = gvi__evaluate(st, x, 0);
             v[j] = was;
             x->dldv = P;
             x->f = f;
             if (status != GVI_OK) return status;
-            if (!gvi__finite(moved[j])) d *= root;
-            else if (GVI_ABS(moved[j] - base[j]) < root*GVI_ABS(base[j])/2) d /= GVI_SQRT(root);
-            else break;
+            if (!gvi__finite(moved[j])) next = d*root;
+            else if (GVI_ABS(moved[j] - base[j]) < root*GVI_ABS(base[j])/2) next = d/GVI_SQRT(root);
         }
         for (int i = 0; i < n; ++i) W[i*n + j] = (moved[i] - base[i])/d;
     }
@@ -2915,9 +2915,9 @@ static gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
     return GVI_OK;
 }
 
-// the scene into the stepper, the memory in parts
 typedef struct gvi__aligned { char byte; gvi_real number; } gvi__aligned;
 
+// the scene into the stepper, the memory in parts
 static gvi_status gvi__hand_out(gvi_stepper *st, const gvi_desc *desc, gvi_real *memory, size_t size)
 {
     struct gvi__private *x = &st->x;
@@ -3717,7 +3717,7 @@ GVI__APART void gvi__extrapolate(gvi_stepper *st, const gvi_real *last, const gv
    E_ij = sum_k p_k(y_i) p_k(x_j) at the targets y_i = alpha + beta c_i.  row holds
    p_k and p_(k-1) at c, c - 1 and y.  Degree: r - 1, through all of one step's; of
    two, what tests/cost found to be best; and no more than amplifies rounding, by
-   about 5.8^degree at the end of the step, to 1e-4 in double.                          */
+   about 5.8^degree at the end of the step, to 1e-4 in double.                  */
 static void gvi__fit(gvi_stepper *st, gvi_real alpha, gvi_real beta)
 {
     struct gvi__private *x = &st->x;
@@ -4206,15 +4206,15 @@ static inline void gvi__drift(int n, gvi_real a, gvi_real zero, const gvi_real *
 enum { GVI__KICK, GVI__LAST_KICK, GVI__FIRST_KICK };
 
 static inline void gvi__kick_drift_of(int n, int kind, gvi_real b, gvi_real a, const gvi_real *m,
-                                      const gvi__from *from, gvi_real zero, const gvi_real *known,
+                                      const gvi__from *from, gvi_real zero, const gvi_real *GVI__RESTRICT known,
                                       gvi_real *GVI__RESTRICT F, gvi_real *GVI__RESTRICT dp,
                                       gvi_real *GVI__RESTRICT dq, gvi_real *GVI__RESTRICT Q)
 {
-    const gvi_real *GVI__RESTRICT v = from->v, *GVI__RESTRICT q = from->q, *GVI__RESTRICT force = known;
+    const gvi_real *GVI__RESTRICT v = from->v, *GVI__RESTRICT q = from->q;
     const gvi_real *GVI__RESTRICT qe = from->qe, *GVI__RESTRICT pe = from->pe;
     const int first = kind == GVI__FIRST_KICK;
     for (int i = 0; i < n; ++i) {
-        const gvi_real p = first ? pe[i] : dp[i], d = first ? qe[i] : dq[i], kick = b*(first ? force[i] : F[i]);
+        const gvi_real p = first ? pe[i] : dp[i], d = first ? qe[i] : dq[i], kick = b*(first ? known[i] : F[i]);
         dq[i] = (d + a*(v[i] + (m ? p*m[i] : p))) + a*(m ? kick*m[i] : kick);
         dp[i] = p + kick;
         Q[i] = q[i] + dq[i];

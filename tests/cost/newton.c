@@ -48,13 +48,13 @@ typedef struct problem {
 static int sizes[] = { 20, 100 };
 
 static const problem problems[] = {
-    { "pendulum", 2, 4000, 1.0/128, { GVI_POTENTIAL, pendulum_forces, NULL, NULL, NULL, NULL },
+    { "pendulum", 2, 4000, 1.0/128, { .kind = GVI_POTENTIAL, .points = pendulum_forces },
       { GVI_MASS_POSITION, NULL, pendulum_mass, pendulum_gradient, pendulum_velocity, NULL } },
-    { "Fermi-Pasta-Ulam", 6, 2000, 0.1, { GVI_POTENTIAL, fermi_pasta_ulam_forces, NULL, NULL, NULL, NULL },
+    { "Fermi-Pasta-Ulam", 6, 2000, 0.1, { .kind = GVI_POTENTIAL, .points = fermi_pasta_ulam_forces },
       { GVI_MASS_UNIT, NULL, NULL, NULL, NULL, NULL } },
-    { "springs", 20, 400, 0.04, { GVI_POTENTIAL, springs, NULL, NULL, springs_hessian, sizes },
+    { "springs", 20, 400, 0.04, { .kind = GVI_POTENTIAL, .points = springs, .hessian = springs_hessian, .user = sizes },
       { GVI_MASS_UNIT, NULL, NULL, NULL, NULL, NULL } },
-    { "springs", 100, 40, 0.04, { GVI_POTENTIAL, springs, NULL, NULL, springs_hessian, sizes + 1 },
+    { "springs", 100, 40, 0.04, { .kind = GVI_POTENTIAL, .points = springs, .hessian = springs_hessian, .user = sizes + 1 },
       { GVI_MASS_UNIT, NULL, NULL, NULL, NULL, NULL } },
 };
 
