@@ -70,8 +70,8 @@ static void plot_tick(FILE *f, const plot_axis *axis, const plot_axis *other, in
     }
 }
 
-/* Every second or third decade upwards if there are many; 1, 2, 5 along the time, up to three
-   decades, beyond which their numbers would touch.                                            */
+/* Every second or third decade upwards if there are many; 1, 2, 5 along the time, up to two and
+   a half, beyond which their numbers would touch.                                            */
 static void plot_ticks(FILE *f, const plot_axis *axis, const plot_axis *other, int vertical)
 {
     double decades = axis->hi - axis->lo;
@@ -85,7 +85,7 @@ static void plot_ticks(FILE *f, const plot_axis *axis, const plot_axis *other, i
     } else {
         static const double of_decade[] = { 1, 2, 5 };
         for (int k = (int)floor(axis->lo + 1e-9); k <= axis->hi + 1e-9; ++k)
-            for (int m = 0; m < (decades > 3.01 ? 1 : 3); ++m) {
+            for (int m = 0; m < (decades > 2.51 ? 1 : 3); ++m) {
                 double x = of_decade[m]*pow(10, k);
                 double z = log10(x);
                 if (z > axis->lo - 1e-9 && z < axis->hi + 1e-9) plot_tick(f, axis, other, 0, x, 0);
