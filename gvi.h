@@ -3024,6 +3024,9 @@ static inline void gvi__times(int R, gvi_real t, gvi_real te, gvi_real h, const 
     for (int k = 0; k < R; ++k) out[k] = t + (te + c[k]*h);
 }
 
+// the exact product overflows before a*b does: then there is no rest
+static gvi_real gvi__rest(gvi_real x) { return gvi__finite(x) ? x : 0; }
+
 // velocities where the mass is constant; weights and times of the points
 static inline void gvi__begin(gvi_stepper *st, gvi__from *from, gvi_real h)
 {
@@ -3038,6 +3041,8 @@ static inline void gvi__begin(gvi_stepper *st, gvi__from *from, gvi_real h)
     if (x->desc.mass.kind == GVI_MASS_UNIT || !gvi__mass_is_constant(&x->desc)) return;
     gvi__over_constant_mass(st, from->p, x->v0);
     gvi__over_constant_mass(st, from->pe, x->ve);
+    for (int i = 0; x->desc.mass.kind == GVI_MASS_DIAGONAL && i < st->n; ++i)
+        x->ve[i] += gvi__rest(gvi__product(from->p[i], x->over[i]).lo);   // of v, as large as what is left of p
     from->v = x->v0;
     from->ve = x->ve;
 }
@@ -3147,18 +3152,19 @@ static inline void gvi__sum_row(int r, int R, const gvi_real *table, const gvi_r
     else gvi__sum_block(r, R, R, table, L, z);
 }
 
-// L := w f, element by element
+// L := w f, element by element, times *over where it is not NULL
 static inline void gvi__weigh(int R, const gvi_real *GVI__RESTRICT w, const gvi_real *GVI__RESTRICT f,
-                              gvi_real *GVI__RESTRICT L)
+                              const gvi_real *over, gvi_real *GVI__RESTRICT L)
 {
     for (int j = 0; j < R; ++j) L[j] = w[j]*f[j];
+    for (int j = 0; over && j < R; ++j) L[j] *= *over;
 }
 
-// z := sum_j table[j][.] w_j f_j, by way of x->z
+// z := sum_j table[j][.] w_j f_j, times *over if there is one, by way of x->z
 GVI__APART void gvi__weighted_sums(const gvi_stepper *st, const gvi_real *table, const gvi_real *w,
-                                   const gvi_real *f, gvi_real *z)
+                                   const gvi_real *f, const gvi_real *over, gvi_real *z)
 {
-    gvi__weigh(st->x.stride, w, f, st->x.z);
+    gvi__weigh(st->x.stride, w, f, over, st->x.z);
     gvi__sum_row(st->r, st->x.stride, table, st->x.z, z);
 }
 
@@ -3179,7 +3185,9 @@ static inline gvi_real gvi__sum_lanes(const gvi_real *z)
 }
 
 /* What gvi__stage_rows_of puts into a row: row := base + ((extra + c a) + b z), so
-   that little waits for z                                                     */
+   that little waits for z.  A diagonal mass is in z: h times 1/m, rounded once, would
+   be the inverse of another mass in every step than the one that makes v of p, the
+   map no longer symplectic, and energy would drift.                           */
 typedef struct gvi__affine { gvi_real base, extra, a, b; } gvi__affine;
 
 // 1/m of a stage over a diagonal mass, else NULL
@@ -3188,21 +3196,23 @@ static inline const gvi_real *gvi__diagonal(const gvi_stepper *st, const gvi__st
     return y->over_mass && st->x.desc.mass.kind == GVI_MASS_DIAGONAL ? st->x.over : NULL;
 }
 
-GVI__COPY gvi__affine gvi__affine_of(const gvi__stage *y, const gvi_real *diagonal, int i)
+// over: 1/m where it is not in z, which no more than a start may be
+GVI__COPY gvi__affine gvi__affine_of(const gvi__stage *y, const gvi_real *over, int i)
 {
     gvi__affine p;
     p.base = y->base[i];
     p.extra = y->extra[i];
     p.a = y->slope ? y->factor*y->slope[i] : 0;
-    p.b = diagonal ? y->factor*diagonal[i] : y->factor;
+    p.b = over ? y->factor*over[i] : y->factor;
     return p;
 }
 
 // row := base + ((extra + c a) + b row)
-GVI__APART void gvi__affine_row(const gvi_stepper *st, const gvi__stage *y, int i, gvi_real *row)
+GVI__APART void gvi__affine_row(const gvi_stepper *st, const gvi__stage *y, const gvi_real *over, int i,
+                                gvi_real *row)
 {
     const struct gvi__private *x = &st->x;
-    const gvi__affine p = gvi__affine_of(y, gvi__diagonal(st, y), i);
+    const gvi__affine p = gvi__affine_of(y, over, i);
     const gvi_real *c = x->c;
     for (int k = 0; k < x->stride; ++k) row[k] = p.base + ((p.extra + c[k]*p.a) + row[k]*p.b);
 }
@@ -3224,11 +3234,14 @@ GVI__COPY gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stage *y
         const int few = R == 8 ? 8 : 1;
         gvi__vector squares[VECTORS] = { { 0 } };
         for (int i = 0; i < n; ++i) {
-            const gvi__affine p = gvi__affine_of(y, diagonal, i);
+            const gvi__affine p = gvi__affine_of(y, NULL, i);
             if (i % few == 0)
-                for (int o = 0; o < few*R && i*R + o < n*R; o += GVI__LANES)
-                    *(gvi__vector *)(L + o) = GVI__AT(x->hb + o % R)*GVI__AT(y->f + i*R + o);
-            if (minus) gvi__weigh(R, x->b, x->work.A + i*R, x->less);
+                for (int o = 0; o < few*R && i*R + o < n*R; o += GVI__LANES) {
+                    gvi__vector term = GVI__AT(x->hb + o % R)*GVI__AT(y->f + i*R + o);
+                    if (diagonal) term *= diagonal[i + o/R];
+                    *(gvi__vector *)(L + o) = term;
+                }
+            if (minus) gvi__weigh(R, x->b, x->work.A + i*R, diagonal ? diagonal + i : NULL, x->less);
             for (int o = R - 8; o >= 0; o -= 8) {
                 const int last = r - 1 - o;
                 gvi_real *row = y->rows + i*R + o;
@@ -3258,10 +3271,11 @@ GVI__COPY gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stage *y
     gvi_real lane[8] = { 0, 0, 0, 0, 0, 0, 0, 0 };
     const int block = R < 8 ? R : 8;
     for (int i = 0; i < n; ++i) {
-        const gvi__affine p = gvi__affine_of(y, diagonal, i);
+        const gvi__affine p = gvi__affine_of(y, NULL, i);
+        const gvi_real *over = diagonal ? diagonal + i : NULL;
         gvi_real few[8], *L = R > 8 ? x->z : few;
-        gvi__weigh(R, x->hb, y->f + i*R, L);
-        if (minus) gvi__weigh(R, x->b, x->work.A + i*R, x->less);
+        gvi__weigh(R, x->hb, y->f + i*R, over, L);
+        if (minus) gvi__weigh(R, x->b, x->work.A + i*R, over, x->less);
         for (int o = R - block; o >= 0; o -= block) {
             const int last = r - 1 - o;
             gvi_real *row = y->rows + i*R + o, z[8], less[8];
@@ -3316,13 +3330,16 @@ GVI__COPY gvi_real gvi__stage_rows_8(const gvi_stepper *st, const gvi__stage *y,
     }
     for (int i = 0; i < n; ++i, row += 8) {
         if (i % 8 == 0)
-            for (int o = 0; o < 64 && o < 8*(n - i); o += GVI__LANES, f += GVI__LANES)
-                *(gvi__vector *)(ahead + o) = hb[o/GVI__LANES % VECTORS]*GVI__AT(f);
-        const gvi_real a = slope ? factor*slope[i] : 0, b = diagonal ? factor*diagonal[i] : factor;
+            for (int o = 0; o < 64 && o < 8*(n - i); o += GVI__LANES, f += GVI__LANES) {
+                gvi__vector term = hb[o/GVI__LANES % VECTORS]*GVI__AT(f);
+                if (diagonal) term *= diagonal[i + o/8];
+                *(gvi__vector *)(ahead + o) = term;
+            }
+        const gvi_real a = slope ? factor*slope[i] : 0;
         gvi__vector next[VECTORS];
         for (int k = 0; k < VECTORS; ++k) {
             gvi__sum_vector(r, 8, table + k*GVI__LANES, ahead + i % 8*8, next + k);
-            next[k] = base[i] + ((extra[i] + c[k]*a) + next[k]*b);
+            next[k] = base[i] + ((extra[i] + c[k]*a) + next[k]*factor);
         }
         gvi__rescale(base[i], row[r - 1], next[(r - 1)/GVI__LANES][(r - 1) % GVI__LANES], scale + i);
         for (int k = 0; k < VECTORS; ++k) {
@@ -3336,14 +3353,16 @@ GVI__COPY gvi_real gvi__stage_rows_8(const gvi_stepper *st, const gvi__stage *y,
 }
 #endif
 
-// z := table (h b f_i) - minus (b a_i)
+// z := table (h b f_i) - minus (b a_i), over a diagonal mass
 static void gvi__row_sums(const gvi_stepper *st, const gvi__stage *y, int i, gvi_real *z)
 {
     const struct gvi__private *x = &st->x;
     const int R = x->stride;
-    gvi__weighted_sums(st, y->table, x->hb, y->f + i*R, z);
+    const gvi_real *over = gvi__diagonal(st, y);
+    if (over) over += i;
+    gvi__weighted_sums(st, y->table, x->hb, y->f + i*R, over, z);
     if (!GVI__LAGRANGIAN || !y->minus) return;
-    gvi__weighted_sums(st, y->minus, x->b, x->work.A + i*R, x->less);
+    gvi__weighted_sums(st, y->minus, x->b, x->work.A + i*R, over, x->less);
     for (int k = 0; k < R; ++k) z[k] -= x->less[k];
 }
 
@@ -3359,7 +3378,7 @@ GVI__APART gvi_real gvi__stage_rows_plain(gvi_stepper *st, const gvi__stage *y)
     for (int i = 0; i < n; ++i, row += R) {
         if (dense) z = x->Z + i*R;
         else gvi__row_sums(st, y, i, z);
-        gvi__affine_row(st, y, i, z);
+        gvi__affine_row(st, y, NULL, i, z);
         gvi__rescale(y->base[i], row[last], z[last], y->scale + i);
         for (int k = R; k-- > 0; ) {
             const gvi_real moved = (z[k] - row[k])*y->scale[i];
@@ -3574,7 +3593,7 @@ static void gvi__transform(gvi_stepper *st, const gvi__from *from, int lagrangia
     for (int k = 0; k < R; ++k) level[k] -= x->less[k] + E;
     if (gvi__has(st, GVI__HAS_VELOCITIES)) {
         gvi__scale_row(R, x->rate, power);
-        gvi__weighted_sums(st, x->T, x->hb, power, x->less);
+        gvi__weighted_sums(st, x->T, x->hb, power, NULL, x->less);
         for (int k = 0; k < R; ++k) level[k] -= x->less[k];
     }
     for (int i = 0; i < n; ++i) {
@@ -3585,7 +3604,7 @@ static void gvi__transform(gvi_stepper *st, const gvi__from *from, int lagrangia
         gvi__transform_row(R, x->rate, x->slope + i*R, level, w->F + i*R);
         gvi__scale_row(R, x->rate, w->V + i*R);
     }
-    gvi__weigh(R, x->hb, x->rate, x->less);
+    gvi__weigh(R, x->hb, x->rate, NULL, x->less);
     if (r == 8 && !GVI__SMALL) gvi__sum_row(8, 8, x->T, x->less, x->z);
     else gvi__sum_row(r, R, x->T, x->less, x->z);
     for (int k = 0; k < R; ++k) x->t[k] = from->t + (from->te + x->z[k]);
@@ -3697,7 +3716,7 @@ GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const 
         gvi__sum_row(r, R, x->E, last + i*R, row);
         if (older) gvi__sum_row(r, R, x->E + r*R, older + i*R, x->z);
         for (int k = 0; older && k < R; ++k) row[k] += x->z[k];
-        if (y) gvi__affine_row(st, y, i, row);
+        if (y) gvi__affine_row(st, y, gvi__diagonal(st, y), i, row);
     }
 }
 
@@ -3716,8 +3735,10 @@ GVI__APART void gvi__extrapolate(gvi_stepper *st, const gvi_real *last, const gv
    orthonormal on the nodes x_j = c, and c - 1 for the step before (Forsythe 1957):
    E_ij = sum_k p_k(y_i) p_k(x_j) at the targets y_i = alpha + beta c_i.  row holds
    p_k and p_(k-1) at c, c - 1 and y.  Degree: r - 1, through all of one step's; of
-   two, what tests/cost found to be best; and no more than amplifies rounding, by
-   about 5.8^degree at the end of the step, to 1e-4 in double.                  */
+   two, what tests/cost found to be best; no more than amplifies rounding, by about
+   5.8^degree at the end of the step, to 1e-4 in double; and none that only points
+   tell apart that nearly coincide, as 0 and 1 - 1 do in two steps of Lobatto's: its
+   coupling is then small, elsewhere it is above 0.1.                          */
 static void gvi__fit(gvi_stepper *st, gvi_real alpha, gvi_real beta)
 {
     struct gvi__private *x = &st->x;
@@ -3749,7 +3770,7 @@ static void gvi__fit(gvi_stepper *st, gvi_real alpha, gvi_real beta)
             if (m < nodes) size += next*next;
         }
         coupling = GVI_SQRT(size);
-        if (!gvi__nonzero(coupling)) break;
+        if (coupling < (gvi_real)0.015625) break;
         for (int m = 0; m < 3*R; ++m) p[m] /= coupling;
     }
 }
@@ -3760,7 +3781,7 @@ static void gvi__fit_sums(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
     const int R = x->stride, rows = gvi__two_now(st) ? 2*st->r : st->r;
-    for (int j = 0; j < rows; ++j) gvi__weighted_sums(st, x->g, x->hb, x->E + j*R, x->E + j*R);
+    for (int j = 0; j < rows; ++j) gvi__weighted_sums(st, x->g, x->hb, x->E + j*R, NULL, x->E + j*R);
 }
 
 // makes E what this step needs, if it is not
@@ -3807,9 +3828,6 @@ static gvi__two gvi__join(gvi_real x, gvi_real xe, gvi_real y, gvi_real ye)
     sum.lo = (xe + ye) + sum.lo;
     return sum;
 }
-
-// the exact product overflows before a*b does: then there is no rest
-static gvi_real gvi__rest(gvi_real x) { return gvi__finite(x) ? x : 0; }
 
 /* sum_j a_j b_j + rest, the sum carried with its rounding: an increment is what
    errors add up in, step by step.  Eight partial sums, then these by halves;
