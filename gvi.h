@@ -5601,6 +5601,7 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
         return st->status = GVI_E_FORMULATION;
     gvi__from from = { t, 0, q0, x->zeros, x->zeros, x->zeros, 0, 0, NULL, NULL };
     gvi__begin(st, &from, h);
+    if (gvi__uses(st, GVI_EXPLICIT)) gvi__times(st->r, t, 0, h, x->c, x->t);     // its steps need none
     return gvi__done(st, gvi__boundary_value(st, &from, h, q1, out));
 }
 
