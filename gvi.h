@@ -5120,7 +5120,7 @@ GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, con
     x->diagnose = 0;
     if (status == GVI_OK) status = gvi__finite_here(st, &y);
     if (status != GVI_OK) return status;
-    gvi_real *start = x->one + 3*n;               // v may be what a query wrote over st
+    gvi_real *start = x->change + n;              // v may be what a query wrote over st
     gvi__copy(n, y.dldv, x->dp);
     gvi__copy(n, q, x->dq);
     if (GVI__READS_V) gvi__copy(n, v, start);
