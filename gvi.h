@@ -3490,18 +3490,35 @@ static inline void gvi__scale_row(int R, const gvi_real *GVI__RESTRICT a, gvi_re
     for (int k = 0; k < R; ++k) row[k] *= a[k];
 }
 
+/* V from the new P, with the old M(Q) and dL/dv.  Where Lagrangian terms make V it
+   contracts alike at any h, also when Q and P, a short step away, feel no more of it:
+   returns the squares of its relative changes at the last point, as of all points. */
+static gvi_real gvi__velocity_change(gvi_stepper *st, int clock)
+{
+    struct gvi__private *x = &st->x;
+    const int n = st->n, R = x->stride, made = gvi__A(&x->work) != NULL;
+    const gvi_real *V = x->work.V + st->r - 1;
+    gvi_real *was = x->change + 2*n, sum = 0;
+    if (made) gvi__gather(n, R, V, was);
+    gvi__velocity_rows(st);
+    for (int i = 0; clock && i < n; ++i) gvi__scale_row(R, x->rate, x->work.V + i*R);
+    for (int i = 0; made && i < n; ++i) {
+        const gvi_real size = GVI_ABS(V[i*R]) + GVI_ABS(was[i]), moved = V[i*R] - was[i];
+        if (size > GVI__MIN/GVI__EPS) sum += moved/size*(moved/size);
+    }
+    return (gvi_real)st->r*sum;
+}
+
 /* The rows of the next iteration from the F, V and A of this one; returns the
    sum of squares of their relative changes.                                   */
 static gvi_real gvi__stages(gvi_stepper *st, const gvi__stage *y, int count)
 {
     struct gvi__private *x = &st->x;
-    const gvi_real sum = gvi__stage_rows(st, y);
+    gvi_real sum = gvi__stage_rows(st, y);
     if (count == 1) return sum;
     const int clock = gvi__has_clock(st), factor = x->has_factor || gvi__mass_is_constant(&x->desc);
-    if (gvi__uses(st, GVI_MOMENTA) && factor && !x->desc.mass.velocity && (!clock || x->has_rate)) {
-        gvi__velocity_rows(st);           // the new P, if with the old M(Q) and g: contracts twice as fast
-        for (int i = 0; clock && i < st->n; ++i) gvi__scale_row(x->stride, x->rate, x->work.V + i*x->stride);
-    }
+    if (gvi__uses(st, GVI_MOMENTA) && factor && !x->desc.mass.velocity && (!clock || x->has_rate))
+        sum += gvi__velocity_change(st, clock);         // contracts twice as fast
     gvi__count(&st->counters.velocities, st->r);
     return sum + gvi__stage_rows(st, y + 1);
 }
@@ -3981,7 +3998,9 @@ static void gvi__increments(gvi_stepper *st, const gvi__from *from, gvi_real h)
    have been idle for longer, and is measured as energy, force times change
    against force times path and p v, so that coordinates of any units may be
    added up, or against force times q, where everything is at rest and nothing
-   but rounding is left to be compared; at the last point.                     */
+   but rounding is left to be compared; at the last point.  Where Lagrangian terms
+   make V, it can go astray while Q, a short step away, does not feel it: v times
+   the change of dL/dv counts as well.                                         */
 static int gvi__is_rounding(const gvi_stepper *st, const gvi__from *from, int idle)
 {
     const struct gvi__private *x = &st->x;
@@ -4001,6 +4020,10 @@ static int gvi__is_rounding(const gvi_stepper *st, const gvi__from *from, int id
         gvi_real beyond = GVI_ABS(Q - x->change[i]) - 4*GVI__EPS*GVI_ABS(Q);
         if (!(beyond <= 0)) noise += r*beyond*most;
         size += r*GVI_ABS(from->p[i]*v);
+        if (!gvi__A(&x->work)) continue;
+        const gvi_real A = x->work.A[i*R + last], more = GVI_ABS(A - x->change[st->n + i]) - 4*GVI__EPS*GVI_ABS(A);
+        if (!(more <= 0)) noise += r*more*GVI_ABS(v);
+        size += r*GVI_ABS(A*v);
     }
     return noise <= 0 || (idle > 4 && size + place <= GVI__MAX && noise <= 1000*GVI__EPS*size + 4*GVI__EPS*place);
 }
@@ -4180,6 +4203,8 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
         // the side that they came from, which would be a bias
         const int last = GVI__TOLERANCE && verdict == GVI__ASK_ONCE_MORE, anew = weak.anew || last;
         *used += !last;
+        if (GVI__TOLERANCE && gvi__A(&x->work) && p.idle + p.poor > 0)
+            gvi__gather(st->n, x->stride, x->work.A + st->r - 1, x->change + st->n);
         gvi_status status = gvi__ask(st, from, h - h, GVI__SMALL ? NULL : &at, anew);
         if (status != GVI_OK || last) return status;
     }
@@ -5113,7 +5138,7 @@ GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, con
     x->diagnose = 0;
     if (status == GVI_OK) status = gvi__finite_here(st, &y);
     if (status != GVI_OK) return status;
-    gvi_real *start = x->one + 3*n;               // v may be what a query wrote over st
+    gvi_real *start = x->change + n;              // v may be what a query wrote over st
     gvi__copy(n, y.dldv, x->dp);
     gvi__copy(n, q, x->dq);
     if (GVI__READS_V) gvi__copy(n, v, start);
@@ -5619,6 +5644,7 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
         return st->status = GVI_E_FORMULATION;
     gvi__from from = { t, 0, q0, x->zeros, x->zeros, x->zeros, 0, 0, NULL, NULL };
     gvi__begin(st, &from, h);
+    if (gvi__uses(st, GVI_EXPLICIT)) gvi__times(st->r, t, 0, h, x->c, x->t);     // its steps need none
     return gvi__done(st, gvi__boundary_value(st, &from, h, q1, out));
 }
 

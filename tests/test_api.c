@@ -896,6 +896,62 @@ static void a_fixed_point_that_contracts_is_never_called_divergent(void **state)
     free(memory);
 }
 
+/* Mass 1 and L = a v^2/2 beside it: q = cos(t) for a spring of 1 + a.  V = (P - a V)/1 is
+   found by iterations that contract like a, at any h */
+static real more_mass;
+
+static int added_mass(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k) x->dldv[k] += more_mass*x->v[k];
+    return (void)user, 0;
+}
+
+static int strong_spring(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k) x->f[k] -= (1 + more_mass)*x->q[k];
+    return (void)user, 0;
+}
+
+static const gvi_effect added[] = { { .kind = GVI_LAGRANGIAN, .points = added_mass },
+                                    { .kind = GVI_POTENTIAL, .points = strong_spring } };
+
+static void short_steps_do_not_hide_velocities_that_diverge(void **state)
+{
+    (void)state;
+    more_mass = 3;
+    for (int f = GVI_VELOCITIES; f <= GVI_NEWTON; ++f)
+    for (real h = 1e-15; h < 2e-3; h *= 100) {
+        const gvi_desc desc = { .n = 1, .degree = 2, .effects = added, .effect_count = 2,
+                                .formulation = (gvi_formulation)f };
+        static real memory[20000];
+        gvi_stepper st;
+        gvi_status got;
+        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+        assert_ok(gvi_start(&st, 0, (const real[]){ 1 }, (const real[]){ 1 }));
+        got = gvi_step(&st, h);
+        if (f == GVI_NEWTON) assert_ok(got);
+        if (got == GVI_OK) assert_close(st.q[0], cos(h) + sin(h), 4*EPS);
+        else assert_status(got, GVI_E_CONVERGENCE);
+    }
+}
+
+static void short_steps_do_not_leave_velocities_half_way(void **state)
+{
+    (void)state;
+    more_mass = 0.5;
+    for (int f = GVI_VELOCITIES; f <= GVI_NEWTON; ++f) {
+        const gvi_desc desc = { .n = 1, .degree = 3, .effects = added, .effect_count = 2,
+                                .formulation = (gvi_formulation)f };
+        static const real share[] = { 1.25, 0.75, 1 };
+        static real memory[20000];
+        gvi_stepper st;
+        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+        assert_ok(gvi_start(&st, 0, (const real[]){ 1 }, (const real[]){ 0 }));
+        for (int k = 0; k < 30000; ++k) assert_ok(gvi_step(&st, 1e-5*share[k % 3]));
+        assert_close(st.q[0], cos(st.t), 4*EPS);
+    }
+}
+
 static void too_few_iterations_are_a_failure(void **state)
 {
     gvi_desc desc = { .n = 2, .degree = 4, .effects = stiff, .effect_count = 1,
@@ -1492,6 +1548,8 @@ int main(void)
         cmocka_unit_test(auto_goes_over_to_newton_on_a_stiff_scene_and_says_so),
         cmocka_unit_test(a_pinned_fixed_point_fails_on_a_stiff_scene_and_leaves_it_alone),
         cmocka_unit_test(a_fixed_point_that_contracts_is_never_called_divergent),
+        cmocka_unit_test(short_steps_do_not_hide_velocities_that_diverge),
+        cmocka_unit_test(short_steps_do_not_leave_velocities_half_way),
         cmocka_unit_test(too_few_iterations_are_a_failure),
         cmocka_unit_test(a_tolerance_buys_iterations),
         cmocka_unit_test(a_given_number_of_iterations_is_made),

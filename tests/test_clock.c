@@ -572,6 +572,55 @@ static void value_and_force_from_one_function_or_two_are_the_same_bits(void **st
     }
 }
 
+/* A one-point effect, handed over by `user`, at all points of a call */
+static int all_points(const gvi_points *x, void *user)
+{
+    gvi_point_fn *const point = *(gvi_point_fn *const *)user;
+    const int far = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        real f[2] = { 0, 0 }, dldv[2] = { 0, 0 };
+        const real q[2] = { x->q[k], x->q[far + k] };
+        const real v[2] = { x->v ? x->v[k] : 0, x->v ? x->v[far + k] : 0 };
+        if (point(x->t[k], q, x->v ? v : NULL, f, x->dldv ? dldv : NULL, NULL)) return 1;
+        for (int i = 0; i < 2; ++i) {
+            x->f[i*far + k] += f[i];
+            if (x->dldv) x->dldv[i*far + k] += dldv[i];
+        }
+    }
+    return 0;
+}
+
+/* The level at the start asks the effects; the velocity that was given must survive it:
+   the first iteration begins there */
+static void one_point_a_call_and_all_at_once_start_alike(void **state)
+{
+    static gvi_point_fn *fn[2] = { gravity, field };
+    const gvi_desc one = describe(MAGNETIC, 6);
+    gvi_effect effects[3];
+    gvi_desc all = one;
+    gvi_stepper x, y;
+    (void)state;
+    memcpy(effects, one.effects, sizeof effects);
+    for (int e = 0; e < 3; ++e) {
+        if (effects[e].kind == GVI_CLOCK) continue;
+        effects[e].user = &fn[effects[e].kind == GVI_LAGRANGIAN];
+        effects[e].points = all_points;
+        effects[e].point = NULL;
+    }
+    all.effects = effects;
+    set_up(&x, &one, memory);
+    set_up(&y, &all, more);
+    assert_ok(gvi_start(&x, 0, (const real[]){ (real)0.5, -100 }, (const real[]){ 1, -1 }));
+    assert_ok(gvi_start(&y, 0, (const real[]){ (real)0.5, -100 }, (const real[]){ 1, -1 }));
+    for (int k = 0; k < 20; ++k) {
+        assert_ok(gvi_step(&x, (real)0.0625));
+        assert_ok(gvi_step(&y, (real)0.0625));
+        assert_int_equal(x.iterations, y.iterations);
+        for (int i = 0; i < 2; ++i) assert_true(x.q[i] == y.q[i] && x.p[i] == y.p[i]);
+        assert_true(x.t == y.t);
+    }
+}
+
 /* ------------------------------------------------------------------ statuses */
 
 /* g = q1, or what sick says */
@@ -928,6 +977,7 @@ int main(void)
         cmocka_unit_test(time_is_added_up_with_compensation),
         cmocka_unit_test(a_clock_that_is_off_is_as_if_it_were_not_listed),
         cmocka_unit_test(value_and_force_from_one_function_or_two_are_the_same_bits),
+        cmocka_unit_test(one_point_a_call_and_all_at_once_start_alike),
         cmocka_unit_test(a_clock_that_is_not_positive_is_named_and_changes_nothing),
         cmocka_unit_test(a_clock_that_turns_negative_on_the_way_is_seen),
         cmocka_unit_test(clocks_that_cannot_run_are_refused),

@@ -609,6 +609,43 @@ static void degree_one_gives_the_discrete_lagrangians_of_the_textbook(void **sta
     assert_close(d2, v - h*w2*q1/2, 4*EPS);
 }
 
+/* V = -t q, a force that grows with time: at degree 1 with Lobatto's points the action is
+   h v^2/2 + h/2 (t q0 + (t + h) q1), also where steps are explicit and need no times */
+static int growing(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k) {
+        if (x->f) x->f[k] += x->t[k];
+        if (x->value) x->value[k] -= x->t[k]*x->q[k];
+    }
+    return (void)user, 0;
+}
+
+static void the_discrete_lagrangian_knows_the_time_in_every_formulation(void **state)
+{
+    static const gvi_effect effect[] = { { .kind = GVI_POTENTIAL, .points = growing, .value = growing } };
+    const real t = 3, h = 0.5L, q0 = 0.75L, q1 = 0.5L, v = (q1 - q0)/h;
+    (void)state;
+    for (int f = GVI_AUTO; f <= GVI_NEWTON; ++f) {
+        gvi_stepper st;
+        real Ld, d1, d2, p0, p1;
+        if (f == GVI_MOMENTA) continue;                           /* needs r = s */
+        const gvi_desc desc = { .n = 1, .degree = 1, .rule = { .kind = GVI_LOBATTO, .points = 2 }, .effects = effect,
+                                .effect_count = 1, .formulation = (gvi_formulation)f };
+        set_up(&st, &desc, 0);
+        assert_ok(gvi_discrete_lagrangian(&st, t, h, &q0, &q1, &(gvi_discrete){
+            .lagrangian = &Ld, .d1 = &d1, .d2 = &d2, .p0 = &p0, .p1 = &p1 }));
+        assert_close(Ld, h*v*v/2 + h*(t*q0 + (t + h)*q1)/2, 8*EPS);
+        assert_close(d1, -v + h*t/2, 8*EPS);
+        assert_close(d2, v + h*(t + h)/2, 8*EPS);
+        assert_close(p0, -d1, 8*EPS);
+        assert_close(p1, d2, 8*EPS);
+        assert_ok(gvi_start_configurations(&st, t, h, &q0, &q1));
+        assert_ok(gvi_step(&st, h));
+        assert_close(st.q[0], q1, 8*EPS);
+        assert_close(st.p[0], p1, 8*EPS);
+    }
+}
+
 /* All of a discrete Lagrangian's parts, by name */
 typedef struct { real L, d1[2], d2[2], minus[2], plus[2], p0[2], p1[2]; } discrete;
 
@@ -779,6 +816,7 @@ int main(void)
         cmocka_unit_test(the_action_of_a_step_is_the_discrete_lagrangian_of_its_ends),
         cmocka_unit_test(the_oscillators_discrete_lagrangian_converges_to_its_closed_form),
         cmocka_unit_test(degree_one_gives_the_discrete_lagrangians_of_the_textbook),
+        cmocka_unit_test(the_discrete_lagrangian_knows_the_time_in_every_formulation),
         cmocka_unit_test(d1_and_d2_are_the_derivatives_of_the_value),
         cmocka_unit_test(its_momenta_are_those_of_the_step),
         cmocka_unit_test(the_discrete_forces_of_the_midpoint_rule_are_half_the_force_each),
