@@ -886,10 +886,20 @@ static void gvi__copy(size_t n, const gvi_real *x, gvi_real *y)
     for (size_t i = 0; i < n; ++i) y[i] = x[i];
 }
 
+static void gvi__swap(gvi_real *a, gvi_real *b)
+{
+    const gvi_real was = *a;
+    *a = *b;
+    *b = was;
+}
+
 /* Twofold arithmetic: an unevaluated sum hi + lo, |lo| <= ulp(hi)/2, carries
    twice the digits of gvi_real (Dekker, Knuth).  Used for tables, where the
    rounding of a coefficient would act in every step in the same direction.   */
 typedef struct gvi__two { gvi_real hi, lo; } gvi__two;
+
+static gvi__two gvi__two_of(gvi_real hi, gvi_real lo) { gvi__two z; z.hi = hi; z.lo = lo; return z; }
+
 #if FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 16    // 16: as 0, and _Float16 in its own range
 #define GVI__EXACT_TYPES
 #endif
@@ -902,10 +912,7 @@ typedef volatile gvi_real gvi__stored;     // registers are wider: round for cer
 static gvi__two gvi__sum(gvi_real x, gvi_real y)          // x + y exactly
 {
     gvi__stored a = x, b = y, hi = a + b, bb = hi - a, aa = hi - bb, da = a - aa, db = b - bb;
-    gvi__two z;
-    z.hi = hi;
-    z.lo = da + db;
-    return z;
+    return gvi__two_of(hi, da + db);
 }
 
 // a b + c with one rounding, where it is an instruction; newlib's <math.h> does not say so, gcc does
@@ -922,10 +929,7 @@ static gvi__two gvi__sum(gvi_real x, gvi_real y)          // x + y exactly
 #ifdef GVI__FMA
 static inline gvi__two gvi__product(gvi_real a, gvi_real b)      // a*b exactly
 {
-    gvi__two z;
-    z.hi = a*b;
-    z.lo = GVI__FMA(a, b, -z.hi);
-    return z;
+    return gvi__two_of(a*b, GVI__FMA(a, b, -(a*b)));
 }
 #else
 // 2^k + 1, k half the digits: a number times it shows where to cut it in two
@@ -934,23 +938,18 @@ static inline gvi__two gvi__product(gvi_real a, gvi_real b)      // a*b exactly
 static gvi__two gvi__split(gvi_real x)                    // halves of the digits
 {
     gvi__stored a = x, s = GVI__CUT*a, d = s - a, hi = s - d, lo = a - hi;
-    gvi__two z;
-    z.hi = hi;
-    z.lo = lo;
-    return z;
+    return gvi__two_of(hi, lo);
 }
 
 static gvi__two gvi__product(gvi_real a, gvi_real b)      // a*b exactly
 {
-    gvi__two z, x = gvi__split(a), y = gvi__split(b);
-    gvi__stored hi = a*b;
-    z.hi = hi;
-    z.lo = ((x.hi*y.hi - z.hi) + x.hi*y.lo + x.lo*y.hi) + x.lo*y.lo;
-    return z;
+    const gvi__two x = gvi__split(a), y = gvi__split(b);
+    const gvi__stored hi = a*b;
+    return gvi__two_of(hi, ((x.hi*y.hi - hi) + x.hi*y.lo + x.lo*y.hi) + x.lo*y.lo);
 }
 #endif
 
-static gvi__two gvi__real2(gvi_real a) { gvi__two z; z.hi = a; z.lo = 0; return z; }
+static gvi__two gvi__real2(gvi_real a) { return gvi__two_of(a, 0); }
 
 static gvi__two gvi__add2(gvi__two a, gvi__two b)
 {
@@ -959,9 +958,7 @@ static gvi__two gvi__add2(gvi__two a, gvi__two b)
     return gvi__sum(s.hi, s.lo + t.lo);
 }
 
-static gvi__two gvi__neg2(gvi__two a) { a.hi = -a.hi; a.lo = -a.lo; return a; }
-
-static gvi__two gvi__sub2(gvi__two a, gvi__two b) { return gvi__add2(a, gvi__neg2(b)); }
+static gvi__two gvi__sub2(gvi__two a, gvi__two b) { return gvi__add2(a, gvi__two_of(-b.hi, -b.lo)); }
 
 static gvi__two gvi__mul2(gvi__two a, gvi__two b)
 {
@@ -1044,11 +1041,7 @@ static gvi_status gvi__lu_factor(int n, gvi_real *a, gvi_real *pivot, int *at)
 
         // swap rows k and m, all columns; the scale of row k moves along
         if (m != k)
-            for (size_t j = 0; j < N; ++j) {
-                gvi_real x = a[k*N + j];
-                a[k*N + j] = a[m*N + j];
-                a[m*N + j] = x;
-            }
+            for (size_t j = 0; j < N; ++j) gvi__swap(a + k*N + j, a + m*N + j);
         pivot[m] = pivot[k];
         pivot[k] = (gvi_real)m;
 
@@ -1084,12 +1077,7 @@ GVI_DEF void gvi_lu_solve(int n, const gvi_real *lu, const gvi_real *pivot, gvi_
     size_t N = (size_t)n;
 
     // x = P x, then forward substitution: solve L*y = x
-    for (size_t k = 0; k < N; ++k) {
-        size_t m = (size_t)pivot[k];
-        gvi_real y = x[m];
-        x[m] = x[k];
-        x[k] = y;
-    }
+    for (size_t k = 0; k < N; ++k) gvi__swap(x + k, x + (size_t)pivot[k]);
     for (size_t i = 1; i < N; ++i)
         for (size_t j = 0; j < i; ++j) x[i] -= lu[i*N + j]*x[j];
 
@@ -1110,12 +1098,7 @@ static void gvi__lu_solve_transposed(int n, const gvi_real *lu, const gvi_real *
     }
     for (size_t i = N; i-- > 0; )
         for (size_t j = 0; j < i; ++j) x[j] -= lu[i*N + j]*x[i];
-    for (size_t k = N; k-- > 0; ) {
-        size_t m = (size_t)pivot[k];
-        gvi_real y = x[m];
-        x[m] = x[k];
-        x[k] = y;
-    }
+    for (size_t k = N; k-- > 0; ) gvi__swap(x + k, x + (size_t)pivot[k]);
 }
 
 /* Complex numbers: <complex.h> is not C++, and from C11 on not in every C.      */
@@ -1176,11 +1159,7 @@ static gvi_status gvi__lu_factor_complex(int count, gvi_real *a, gvi_real *pivot
     for (size_t k = 0; k < n; ++k) {
         const size_t m = gvi__pivot_row(n, k, a, pivot);
         gvi_real *top = a + 2*k*n, terms = 0;
-        for (size_t j = 0; m != k && j < 2*n; ++j) {
-            const gvi_real x = top[j];
-            top[j] = a[2*m*n + j];
-            a[2*m*n + j] = x;
-        }
+        for (size_t j = 0; m != k && j < 2*n; ++j) gvi__swap(top + j, a + 2*m*n + j);
         pivot[m] = pivot[k];
         pivot[k] = (gvi_real)m;
         for (size_t j = 0; j < k; ++j)
@@ -1220,11 +1199,8 @@ static void gvi__lu_solve_complex(int count, const gvi_real *lu, const gvi_real 
     const size_t n = (size_t)count;
     for (size_t k = 0; k < n; ++k) {
         const size_t m = (size_t)pivot[k];
-        const gvi__complex y = gvi__complex_of(x[m], x[n + m]);
-        x[m] = x[k];
-        x[n + m] = x[n + k];
-        x[k] = y.re;
-        x[n + k] = y.im;
+        gvi__swap(x + k, x + m);
+        gvi__swap(x + n + k, x + n + m);
     }
     for (size_t i = 1; i < n; ++i) gvi__take_row(n, i, 0, i, lu, x);
     for (size_t i = n; i-- > 0; ) {
@@ -2106,10 +2082,8 @@ static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, 
 GVI__APART void gvi__modes_at(gvi_stepper *st, int i)
 {
     struct gvi__private *x = &st->x;
-    gvi__two c, P = gvi__real2(1), before = gvi__real2(1);
-    c.hi = x->c[i];
-    c.lo = x->ce[i];
-    const gvi__two X = gvi__argument2(c);
+    gvi__two P = gvi__real2(1), before = gvi__real2(1);
+    const gvi__two X = gvi__argument2(gvi__two_of(x->c[i], x->ce[i]));
     for (int k = 0; k < st->s; ++k) {
         const gvi__two next = gvi__legendre2(k, X, P, before);
         const gvi__two Phi = gvi__over2(gvi__sub2(before, next), 4*k + 2);
@@ -2274,15 +2248,11 @@ static void gvi__twofold_sums(int s, int R, const gvi_real *GVI__RESTRICT a, con
     gvi__zero(2*(size_t)R, z);
     for (int k = 0; k < s; ++k)
         for (int i = 0; i < R; ++i) {
-            gvi__two x, y;
-            x.hi = a[k*R + i];
-            x.lo = low[k*R + i];
-            y.hi = w[k];
-            y.lo = w[s + k];
+            gvi__two x = gvi__two_of(a[k*R + i], low[k*R + i]), y = gvi__two_of(w[k], w[s + k]);
             x = gvi__mul2(x, y);
-            y = gvi__sum(z[i], x.hi);
-            z[i] = y.hi;
-            z[R + i] += y.lo + x.lo;
+            const gvi__two sum = gvi__sum(z[i], x.hi);
+            z[i] = sum.hi;
+            z[R + i] += sum.lo + x.lo;
         }
 }
 
@@ -2295,9 +2265,7 @@ static void gvi__column(gvi_stepper *st, int which, int j)
     const gvi_real unit = which == GVI__OF_S ? GVI__EPS/2 : GVI__EPS;
     gvi_real *z = x->row, *w = z + 2*R;
     for (int k = 0; k < s; ++k) {
-        gvi__two a;
-        a.hi = b[k*R + j];
-        a.lo = b_low[k*R + j];
+        gvi__two a = gvi__two_of(b[k*R + j], b_low[k*R + j]);
         a = gvi__scale2(x->inv_gamma[k], a);
         w[k] = a.hi;
         w[s + k] = a.lo;
@@ -3803,9 +3771,8 @@ GVI__APART void gvi__guess(gvi_stepper *st, int extrapolate, gvi_real rate)
 // (x + xe) + (y + ye): what is lost of x + y goes to the low parts
 static gvi__two gvi__join(gvi_real x, gvi_real xe, gvi_real y, gvi_real ye)
 {
-    gvi__two sum = gvi__sum(x, y);
-    sum.lo = (xe + ye) + sum.lo;
-    return sum;
+    const gvi__two sum = gvi__sum(x, y);
+    return gvi__two_of(sum.hi, (xe + ye) + sum.lo);
 }
 
 // the exact product overflows before a*b does: then there is no rest
@@ -3832,9 +3799,7 @@ GVI__APART gvi__two gvi__exact_dot(int r, const gvi_real *a, const gvi_real *b, 
             hi[k] = sum.hi;
             lo[k] = sum.lo;
         }
-    sum.hi = hi[0];
-    sum.lo = gvi__rest(lo[0] + rest);
-    return sum;
+    return gvi__two_of(hi[0], gvi__rest(lo[0] + rest));
 }
 
 // sum_j (1 - c_j) h b_j F_j
@@ -3876,9 +3841,8 @@ static inline gvi__two gvi__exact_dot_vector(int R, const gvi_real *a, const gvi
     const gvi__pair u = GVI__PAIR(hi), v = GVI__PAIR(hi + 2), t = u + v, w = t - u;
     *(gvi__pair *)hi = t;
     *(gvi__pair *)lo = (GVI__PAIR(lo) + GVI__PAIR(lo + 2)) + ((u - (t - w)) + (v - w));
-    gvi__two sum = gvi__join(hi[0], lo[0], hi[1], lo[1]);
-    sum.lo = gvi__rest(sum.lo + rest);
-    return sum;
+    const gvi__two sum = gvi__join(hi[0], lo[0], hi[1], lo[1]);
+    return gvi__two_of(sum.hi, gvi__rest(sum.lo + rest));
 }
 
 static inline gvi_real gvi__lever_vector(int R, const gvi_real *c, const gvi_real *hb, const gvi_real *F)
@@ -5479,16 +5443,8 @@ static gvi_status gvi__interior(gvi_stepper *st, const gvi__from *from, gvi_real
 // rows and columns i and j of a symmetric matrix change places
 static void gvi__exchange(int n, gvi_real *a, int i, int j)
 {
-    for (int k = 0; k < n && i != j; ++k) {
-        gvi_real x = a[i*n + k];
-        a[i*n + k] = a[j*n + k];
-        a[j*n + k] = x;
-    }
-    for (int k = 0; k < n && i != j; ++k) {
-        gvi_real x = a[k*n + i];
-        a[k*n + i] = a[k*n + j];
-        a[k*n + j] = x;
-    }
+    for (int k = 0; k < n; ++k) gvi__swap(a + i*n + k, a + j*n + k);
+    for (int k = 0; k < n; ++k) gvi__swap(a + k*n + i, a + k*n + j);
 }
 
 /* Negative eigenvalues of a symmetric matrix, which is overwritten: by Sylvester's
