@@ -1593,11 +1593,13 @@ static gvi_status gvi__fail(gvi_stepper *st, gvi_status status, int effect, int 
     return st->status = status;
 }
 
-// a status that no effect, coordinate or point is to blame for
-static gvi_status gvi__give(gvi_stepper *st, gvi_status status)
+// an effect is to blame, or the mass, but no coordinate or point; or none of them
+static gvi_status gvi__blame(gvi_stepper *st, gvi_status status, int effect)
 {
-    return gvi__fail(st, status, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
+    return gvi__fail(st, status, effect, GVI_FAULT_NONE, GVI_FAULT_NONE);
 }
+
+static gvi_status gvi__give(gvi_stepper *st, gvi_status status) { return gvi__blame(st, status, GVI_FAULT_NONE); }
 
 /* Of a stepper that is not set up or not started: the first failure stands, so
    that a chain of calls ends with its cause.                                  */
@@ -1668,12 +1670,12 @@ static inline gvi_status gvi__finite_here(gvi_stepper *st, const gvi_points *x)
 static gvi_status gvi__value(gvi_stepper *st, gvi_points *x, int e, gvi_real *value)
 {
     const gvi_effect *effect = st->x.desc.effects + e;
-    if (!effect->value) return gvi__fail(st, GVI_E_VALUE, e, GVI_FAULT_NONE, GVI_FAULT_NONE);
+    if (!effect->value) return gvi__blame(st, GVI_E_VALUE, e);
     gvi_points y = *x;
     y.f = y.dldv = NULL;
     y.value = value;
     if (effect->kind == GVI_POTENTIAL) y.v = NULL;
-    if (effect->value(&y, effect->user)) return gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, GVI_FAULT_NONE);
+    if (effect->value(&y, effect->user)) return gvi__blame(st, GVI_E_CALLBACK, e);
     return GVI_OK;
 }
 
@@ -1716,7 +1718,7 @@ static inline gvi_status gvi__call(gvi_stepper *st, const gvi_points *x, int e)
     const gvi_effect *effect = st->x.desc.effects + e;
     gvi__count(&st->counters.effect[e], x->count);
     const int refused = effect->points(x, effect->user);
-    return refused ? gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, GVI_FAULT_NONE) : GVI_OK;
+    return refused ? gvi__blame(st, GVI_E_CALLBACK, e) : GVI_OK;
 }
 
 /* Every effect that is on, but the clock and what has its bit in `skip`: adds to
@@ -1877,27 +1879,25 @@ static void gvi__over_constant_mass(const gvi_stepper *st, const gvi_real *GVI__
     if (gvi__mass_is(st, GVI_MASS_DENSE)) gvi__over_mass(st, v, 1, 1);
 }
 
-// M(q) at the points
-static gvi_status gvi__mass_at(gvi_stepper *st, gvi_points *x)
+/* Asks mass.points for M(q) at the points, or mass.velocity, which reads p, for v.   */
+static gvi_status gvi__ask_mass(gvi_stepper *st, const gvi_points *x, const gvi_real *p, gvi_real *v)
 {
-    const gvi_real *v = x->v;
-    gvi_real *f = x->f, *dldv = x->dldv;
-    x->v = NULL;
-    x->f = x->dldv = NULL;
-    x->mass = st->x.point_mass;
+    const gvi_mass *mass = &st->x.desc.mass;
+    gvi_points y = *x;
+    y.v = NULL;
+    y.f = y.dldv = NULL;
+    y.p = p;
+    y.velocity = v;
+    y.mass = v ? NULL : st->x.point_mass;
     gvi__count(&st->counters.mass, x->count);
-    int refused = st->x.desc.mass.points(x, st->x.desc.mass.user);
-    x->mass = NULL;
-    x->v = v;
-    x->f = f;
-    x->dldv = dldv;
-    return refused ? gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, -1, -1) : GVI_OK;
+    const int refused = v ? mass->velocity(&y, mass->user) : mass->points(&y, mass->user);
+    return refused ? gvi__blame(st, GVI_E_CALLBACK, GVI_FAULT_MASS) : GVI_OK;
 }
 
-// the same, factored
-static gvi_status gvi__factor_at(gvi_stepper *st, gvi_points *x)
+// M(q) at the points, factored
+static gvi_status gvi__factor_at(gvi_stepper *st, const gvi_points *x)
 {
-    const gvi_status status = gvi__mass_at(st, x);
+    const gvi_status status = gvi__ask_mass(st, x, NULL, NULL);
     return status == GVI_OK ? gvi__ldl_factor(st, x->n, x->stride, x->count, st->x.point_mass) : status;
 }
 
@@ -1909,7 +1909,7 @@ static gvi_status gvi__mass_gradient(gvi_stepper *st, gvi_points *x)
     int refused = st->x.desc.mass.gradient(x, st->x.desc.mass.user);
     x->dldv = dldv;
     x->value = value;
-    if (refused) return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, -1, -1);
+    if (refused) return gvi__blame(st, GVI_E_CALLBACK, GVI_FAULT_MASS);
     return gvi__diagnoses(st) ? gvi__check_rows(st, x, x->f, GVI_FAULT_MASS) : GVI_OK;
 }
 
@@ -1921,7 +1921,7 @@ static gvi_status gvi__kinetic(gvi_stepper *st, gvi_points *x)
     if (gvi__mass_is(st, GVI_MASS_NONE)) return GVI_OK;
     if (gvi__mass_is(st, GVI_MASS_DENSE)) m = st->x.mass + (size_t)n*(size_t)n;
     else if (gvi__mass_is(st, GVI_MASS_POSITION)) {
-        gvi_status status = gvi__mass_at(st, x);
+        gvi_status status = gvi__ask_mass(st, x, NULL, NULL);
         if (status == GVI_OK) status = gvi__mass_gradient(st, x);
         if (status != GVI_OK) return status;
         m = st->x.point_mass;
@@ -2036,7 +2036,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_real t, const gvi_re
         if (!(change > 2*GVI__EPS) || (change >= last/2 && change <= GVI_SQRT(GVI__EPS))) return GVI_OK;
         last = change;
     }
-    return gvi__fail(st, GVI_E_CONVERGENCE, GVI_FAULT_MASS, -1, -1);
+    return gvi__blame(st, GVI_E_CONVERGENCE, GVI_FAULT_MASS);
 }
 
 // velocities near the present ones: those at the end of the last step, or the start's
@@ -2050,17 +2050,11 @@ static void gvi__velocity_guess(const gvi_stepper *st, gvi_real *v)
 /* v from p at one point.  v holds a guess on entry.                           */
 static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *p, gvi_real *v)
 {
-    const gvi_mass *mass = &st->x.desc.mass;
     gvi_points x;
     gvi__at(&x, st, &t, q);
-    x.f = x.dldv = NULL;
-    if (mass->velocity) {
-        x.p = p;
-        x.velocity = v;
-        gvi__count(&st->counters.mass, 1);
-        if (mass->velocity(&x, mass->user))
-            return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, -1, -1);
-        return gvi__check_rows(st, &x, v, GVI_FAULT_MASS);
+    if (st->x.desc.mass.velocity) {
+        const gvi_status status = gvi__ask_mass(st, &x, p, v);
+        return status == GVI_OK ? gvi__check_rows(st, &x, v, GVI_FAULT_MASS) : status;
     }
     if (gvi__mass_is(st, GVI_MASS_NONE) || gvi__has(st, GVI__HAS_LAGRANGIAN))
         return gvi__legendre_newton(st, t, q, p, v);
@@ -3456,36 +3450,18 @@ static gvi_real gvi__stages(gvi_stepper *st, const gvi__stage *y, int count)
 }
 
 // momenta: V from dL/dv(Q, V) = P
-GVI__APART gvi_status gvi__legendre_rows(gvi_stepper *st, gvi_points *y)
+GVI__APART gvi_status gvi__legendre_rows(gvi_stepper *st, const gvi_points *y)
 {
     struct gvi__private *x = &st->x;
-    struct gvi__rows *w = &x->work;
     gvi__count(&st->counters.velocities, st->r);
     if (x->desc.mass.velocity) {
-        const gvi_real *v = y->v;
-        gvi_real *f = y->f, *dldv = y->dldv;
-        y->v = NULL;
-        y->f = y->dldv = NULL;
-        y->p = w->P;
-        y->velocity = w->V;
-        gvi__count(&st->counters.mass, st->r);
-        int refused = x->desc.mass.velocity(y, x->desc.mass.user);
-        y->velocity = NULL;
-        y->p = NULL;
-        y->v = v;
-        y->f = f;
-        y->dldv = dldv;
-        if (refused) return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, -1, -1);
-        if (gvi__diagnoses(st)) {
-            gvi_status status = gvi__check_rows(st, y, w->V, GVI_FAULT_MASS);
-            if (status != GVI_OK) return status;
-        }
-    } else {
-        gvi_status status = gvi__mass_is_constant(&x->desc) ? GVI_OK : gvi__factor_at(st, y);
-        if (status != GVI_OK) return status;
-        x->has_factor = !gvi__mass_is_constant(&x->desc);
-        gvi__velocity_rows(st);
+        const gvi_status status = gvi__ask_mass(st, y, x->work.P, x->work.V);
+        return status == GVI_OK && gvi__diagnoses(st) ? gvi__check_rows(st, y, x->work.V, GVI_FAULT_MASS) : status;
     }
+    const gvi_status status = gvi__mass_is_constant(&x->desc) ? GVI_OK : gvi__factor_at(st, y);
+    if (status != GVI_OK) return status;
+    x->has_factor = !gvi__mass_is_constant(&x->desc);
+    gvi__velocity_rows(st);
     return GVI_OK;
 }
 
@@ -3507,7 +3483,7 @@ static gvi_status gvi__rate(gvi_stepper *st, gvi_points *x, gvi_real *rate, gvi_
     x->dldv = dldv;
     x->f = f;
     x->value = NULL;
-    if (refused) return gvi__fail(st, GVI_E_CALLBACK, st->x.clock, -1, -1);
+    if (refused) return gvi__blame(st, GVI_E_CALLBACK, st->x.clock);
     for (int k = 0; k < x->count; ++k) {
         if (rate[k] <= 0) return gvi__fail(st, GVI_E_CLOCK, st->x.clock, GVI_FAULT_NONE, k);
         if (gvi__diagnoses(st) && !gvi__finite(rate[k]))
@@ -4963,7 +4939,7 @@ static gvi_status gvi__values(gvi_stepper *st, gvi_points *x, gvi_real *V, gvi_r
         if ((st->x.off >> e & 1u) || kind == GVI_FORCE || kind == GVI_CLOCK) continue;
         gvi_status status = gvi__value(st, x, e, value);
         if (status != GVI_OK) return status;
-        if (!gvi__finite(*value)) return gvi__fail(st, GVI_E_NON_FINITE, e, GVI_FAULT_NONE, GVI_FAULT_NONE);
+        if (!gvi__finite(*value)) return gvi__blame(st, GVI_E_NON_FINITE, e);
     }
     return GVI_OK;
 }
