@@ -1260,13 +1260,19 @@ GVI_DEF gvi_real gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot, 
 
 /* ------------------------------------------------------------ QUADRATURE */
 
-/* P_m(x) at x = 1 - 2c by the three-term recurrence
-   (k+1) P_(k+1) = (2k+1) x P_k - k P_(k-1), in gvi_real.                      */
+/* Legendre polynomials by the three-term recurrence (k+1) P_(k+1) = (2k+1) x P_k -
+   k P_(k-1), always at x = 1 - 2c for c in [0,1]: P_(k+1)(x) from P_k and P_(k-1).  */
+static gvi_real gvi__legendre_next(int k, gvi_real x, gvi_real P, gvi_real before)
+{
+    return ((gvi_real)(2*k + 1)*x*P - (gvi_real)k*before)/(gvi_real)(k + 1);
+}
+
+// P_m(x)
 static gvi_real gvi__legendre(int m, gvi_real c)
 {
-    gvi_real x = 1 - 2*c, P = 1, before = 0;
+    gvi_real P = 1, before = 0;
     for (int k = 0; k < m; ++k) {
-        gvi_real next = ((gvi_real)(2*k + 1)*x*P - (gvi_real)k*before)/(gvi_real)(k + 1);
+        const gvi_real next = gvi__legendre_next(k, 1 - 2*c, P, before);
         before = P;
         P = next;
     }
@@ -1276,7 +1282,7 @@ static gvi_real gvi__legendre(int m, gvi_real c)
 // x = 1 - 2c in twofold arithmetic
 static gvi__two gvi__argument2(gvi__two c) { return gvi__sub2(gvi__real2(1), gvi__scale2(2, c)); }
 
-// P_(k+1)(x) from P_k and P_(k-1), the same recurrence
+// gvi__legendre_next in twofold arithmetic
 static gvi__two gvi__legendre2(int k, gvi__two x, gvi__two P, gvi__two before)
 {
     const gvi__two next = gvi__scale2((gvi_real)(2*k + 1), gvi__mul2(x, P));
@@ -1785,7 +1791,7 @@ static inline gvi_status gvi__all_effects(gvi_stepper *st, gvi_points *x)
     return status;
 }
 
-// the bits of all effects of a kind; of those with a Hessian
+// the bits of all effects of a kind
 static unsigned gvi__of_kind(const gvi_stepper *st, gvi_kind kind)
 {
     unsigned bits = 0;
@@ -1794,12 +1800,13 @@ static unsigned gvi__of_kind(const gvi_stepper *st, gvi_kind kind)
     return bits;
 }
 
-static unsigned gvi__with_hessian(const gvi_stepper *st)
+// the bits of those that are on and bring no Hessian
+static unsigned gvi__without_hessian(const gvi_stepper *st)
 {
     unsigned bits = 0;
     for (int e = 0; e < st->x.desc.effect_count; ++e)
-        if (st->x.desc.effects[e].hessian) bits |= 1u << e;
-    return bits;
+        if (!st->x.desc.effects[e].hessian) bits |= 1u << e;
+    return bits & ~st->x.off;
 }
 
 /* L D L' of a symmetric matrix at each of `count` points, in place: entry (i,j),
@@ -1902,14 +1909,11 @@ static gvi_status gvi__factor_at(gvi_stepper *st, const gvi_points *x)
 }
 
 // x->f += v' dM/dq v / 2
-static gvi_status gvi__mass_gradient(gvi_stepper *st, gvi_points *x)
+static gvi_status gvi__mass_gradient(gvi_stepper *st, const gvi_points *x)
 {
-    gvi_real *dldv = x->dldv, *value = x->value;
-    x->dldv = x->value = NULL;
-    int refused = st->x.desc.mass.gradient(x, st->x.desc.mass.user);
-    x->dldv = dldv;
-    x->value = value;
-    if (refused) return gvi__blame(st, GVI_E_CALLBACK, GVI_FAULT_MASS);
+    gvi_points y = *x;
+    y.dldv = y.value = NULL;
+    if (st->x.desc.mass.gradient(&y, st->x.desc.mass.user)) return gvi__blame(st, GVI_E_CALLBACK, GVI_FAULT_MASS);
     return gvi__diagnoses(st) ? gvi__check_rows(st, x, x->f, GVI_FAULT_MASS) : GVI_OK;
 }
 
@@ -1950,7 +1954,7 @@ static gvi_status gvi__evaluate(gvi_stepper *st, gvi_points *x, int plain)
     gvi__zero(length, x->f);
     gvi__zero(length, x->dldv);
     if (!plain || !gvi__mass_is_constant(&st->x.desc)) status = gvi__kinetic(st, x);
-    return status == GVI_OK ? gvi__effects(st, x, plain ? gvi__with_hessian(st) : 0) : status;
+    return status == GVI_OK ? gvi__effects(st, x, plain ? ~gvi__without_hessian(st) : 0) : status;
 }
 
 // one point, as gvi_points; f and dldv go to scratch
@@ -2447,9 +2451,10 @@ static gvi_real gvi__eigenvectors(gvi_stepper *st)
 /* phi_k(tau) and Phi_k(tau), k < s, multiplied by Gamma^-1, at any tau.        */
 static void gvi__modes(const gvi_stepper *st, gvi_real tau, gvi_real *phi, gvi_real *Phi)
 {
-    gvi_real X = 1 - 2*tau, P = 1, before = 1;
+    const gvi_real X = 1 - 2*tau;
+    gvi_real P = 1, before = 1;
     for (int k = 0; k < st->s; ++k) {
-        gvi_real next = ((gvi_real)(2*k + 1)*X*P - (gvi_real)k*before)/(gvi_real)(k + 1);
+        const gvi_real next = gvi__legendre_next(k, X, P, before);
         phi[k] = P;
         Phi[k] = (before - next)/(gvi_real)(4*k + 2);
         before = P;
@@ -2936,23 +2941,18 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
 #else
     else gvi__few_modes(st, (size_t)desc->degree);           // r = s, and known if the description is
 #endif
-    x->memory = memory;                      // from here on it can be used
-    if (gvi__uses(st, GVI_EXPLICIT)) {
-        if (x->Phi) gvi__copy((size_t)st->r, x->c, x->Phi);
-        return gvi__done(st, GVI_OK);
+    if (!gvi__uses(st, GVI_EXPLICIT)) {
+        if (GVI__RULES) {
+            gvi__modes_at_nodes(st);
+            status = gvi__gamma(st);
+            if (status != GVI_OK) return st->status = status;
+        }
+        if (gvi__has(st, GVI__HAS_OWN)) gvi__tables_own(st);
+        else gvi__tables(st);
+        if (GVI__NEWTON && x->eigen) x->blocks = -1;        // most scenes never need Newton's method
     }
-    if (GVI__RULES) {
-        gvi__modes_at_nodes(st);
-        status = gvi__gamma(st);
-    }
-    if (status != GVI_OK) {
-        x->memory = NULL;
-        return st->status = status;
-    }
-    if (gvi__has(st, GVI__HAS_OWN)) gvi__tables_own(st);
-    else gvi__tables(st);
-    if (GVI__NEWTON && x->eigen) x->blocks = -1;            // most scenes never need Newton's method
-    gvi__copy((size_t)st->r, x->c, x->Phi);  // Phi_0 = c on its grid: 1 - Phi_0 is exact
+    if (x->Phi) gvi__copy((size_t)st->r, x->c, x->Phi);     // Phi_0 = c on its grid: 1 - Phi_0 is exact
+    x->memory = memory;                                     // from here on it can be used
     return gvi__done(st, GVI_OK);
 }
 
@@ -3466,24 +3466,17 @@ GVI__APART gvi_status gvi__legendre_rows(gvi_stepper *st, const gvi_points *y)
 }
 
 // the clock's g and dg/dq at the points
-static gvi_status gvi__rate(gvi_stepper *st, gvi_points *x, gvi_real *rate, gvi_real *slope)
+static gvi_status gvi__rate(gvi_stepper *st, const gvi_points *x, gvi_real *rate, gvi_real *slope)
 {
-    const gvi_effect *clock = st->x.desc.effects + st->x.clock;
-    const gvi_real *v = x->v;
-    gvi_real *f = x->f, *dldv = x->dldv;
-    x->v = NULL;
-    x->dldv = NULL;
-    x->f = slope;
-    x->value = rate;
+    gvi_points y = *x;
+    y.v = NULL;
+    y.f = slope;
+    y.dldv = NULL;
+    y.value = rate;
     gvi__zero((size_t)x->n*(size_t)x->stride, slope);
     gvi__zero((size_t)x->stride, rate);
-    gvi__count(&st->counters.effect[st->x.clock], x->count);
-    int refused = clock->points(x, clock->user);
-    x->v = v;
-    x->dldv = dldv;
-    x->f = f;
-    x->value = NULL;
-    if (refused) return gvi__blame(st, GVI_E_CALLBACK, st->x.clock);
+    const gvi_status status = gvi__call(st, &y, st->x.clock);
+    if (status != GVI_OK) return status;
     for (int k = 0; k < x->count; ++k) {
         if (rate[k] <= 0) return gvi__fail(st, GVI_E_CLOCK, st->x.clock, GVI_FAULT_NONE, k);
         if (gvi__diagnoses(st) && !gvi__finite(rate[k]))
@@ -3512,7 +3505,7 @@ static void gvi__transform(gvi_stepper *st, const gvi__from *from, int lagrangia
 {
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work;
-    const int n = st->n, r = st->r, R = x->stride;
+    const int n = st->n, R = x->stride;
     const gvi_real E = from->E + from->Ee;
     gvi_real *power = x->rate + R, *level = power + R;
     for (int k = 0; k < R; ++k) level[k] -= x->less[k] + E;
@@ -3530,8 +3523,8 @@ static void gvi__transform(gvi_stepper *st, const gvi__from *from, int lagrangia
         gvi__scale_row(R, x->rate, w->V + i*R);
     }
     gvi__weigh(R, x->hb, x->rate, x->less);
-    if (r == 8 && !GVI__SMALL) gvi__sum_row(8, 8, x->T, x->less, x->z);
-    else gvi__sum_row(r, R, x->T, x->less, x->z);
+    if (st->r == 8 && !GVI__SMALL) gvi__sum_row(8, 8, x->T, x->less, x->z);
+    else gvi__sum_row(st->r, R, x->T, x->less, x->z);
     for (int k = 0; k < R; ++k) x->t[k] = from->t + (from->te + x->z[k]);
     x->has_rate = 1;
 }
@@ -4203,14 +4196,9 @@ static inline gvi_status gvi__explicit_of(gvi_stepper *st, const gvi__from *from
         const gvi_real b = x->hb[j];
         a = dense ? 0 : x->drift[j + 1];
         t = from->t + (from->te + x->c[j]*h);
-        if (only) {
-            gvi_status status = gvi__call(st, &y, x->single);
-            if (status != GVI_OK) return status;
-        } else {
-            gvi_status status = gvi__check_points(st, &y);
-            if (status == GVI_OK) status = gvi__effects(st, &y, 0);
-            if (status != GVI_OK) return status;
-        }
+        gvi_status status = only ? gvi__call(st, &y, x->single) : gvi__check_points(st, &y);
+        if (!only && status == GVI_OK) status = gvi__effects(st, &y, 0);
+        if (status != GVI_OK) return status;
         if (j < r - 1) gvi__kick_drift(n, GVI__KICK, b, a, m, from, zero, NULL, F, dp, dq, Q);
         else gvi__kick_drift(n, GVI__LAST_KICK, b, a, m, from, zero, NULL, F, dp, dq, Q);
         if (dense) gvi__drift_dense(st, from, x->drift[j + 1]);
@@ -4395,15 +4383,12 @@ GVI__APART gvi_status gvi__jacobian_exact(gvi_stepper *st, const gvi__matrix *J,
     for (int k = 0; k < at->count; ++k) {
         gvi__gather(n, R, at->q + k, q);
         gvi__gather(n, R, at->v + k, v);
-        for (int i = 0; i < n; ++i) {
+        for (int i = 0; i < n && gvi__mass_is_constant(d); ++i)
             for (int j = 0; j < n; ++j) {
-                gvi_real m = i == j ? 1 : 0;
-                if (d->mass.kind == GVI_MASS_DIAGONAL) m *= x->mass[i];
-                if (gvi__mass_is(st, GVI_MASS_DENSE))
-                    m = x->mass[nn + (size_t)(i > j ? i*n + j : j*n + i)];
-                if (gvi__mass_is_constant(d)) gvi__add(st, J, i, j, k, 0, m, 1);
+                gvi_real m = i != j ? 0 : d->mass.kind == GVI_MASS_DIAGONAL ? x->mass[i] : 1;
+                if (gvi__mass_is(st, GVI_MASS_DENSE)) m = x->mass[nn + (size_t)(i > j ? i*n + j : j*n + i)];
+                gvi__add(st, J, i, j, k, 0, m, 1);
             }
-        }
         for (int e = 0; e < d->effect_count; ++e) {
             const gvi_effect *effect = d->effects + e;
             if ((x->off >> e & 1u) || !effect->hessian) continue;
@@ -4485,14 +4470,10 @@ GVI__APART gvi_real gvi__nudge(const gvi__sites *at, int j, gvi_real h, int by_v
 GVI__APART gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matrix *J, const gvi__sites *at)
 {
     struct gvi__private *x = &st->x;
-    const gvi_desc *d = &x->desc;
-    int n = st->n, any = !gvi__mass_is_constant(d), reads_v = any;
-    for (int e = 0; e < d->effect_count; ++e)
-        if (!(x->off >> e & 1u) && !d->effects[e].hessian) {
-            any = 1;
-            if (d->effects[e].kind != GVI_POTENTIAL) reads_v = 1;
-        }
-    if (!any) return GVI_OK;
+    const unsigned plain = gvi__without_hessian(st);
+    const int n = st->n, varies = !gvi__mass_is_constant(&x->desc);
+    const int reads_v = varies || (plain & ~gvi__of_kind(st, GVI_POTENTIAL));
+    if (!varies && !plain) return GVI_OK;
     gvi_status status = gvi__ask_sites(st, at, x->dF + 2*n*at->stride);
     const gvi_real h = GVI_ABS(J->h);
     for (int j = 0; j < n && status == GVI_OK; ++j) {
@@ -5354,10 +5335,7 @@ static gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__matrix *J, co
 // the Jacobian's own relative error: no smaller reciprocal condition means anything
 static gvi_real gvi__jacobian_error(const gvi_stepper *st)
 {
-    const gvi_desc *d = &st->x.desc;
-    int exact = gvi__mass_is_constant(d);
-    for (int e = 0; e < d->effect_count; ++e)
-        if (!(st->x.off >> e & 1u) && !d->effects[e].hessian) exact = 0;
+    const int exact = gvi__mass_is_constant(&st->x.desc) && !gvi__without_hessian(st);
     return 16*(exact ? GVI__EPS : GVI_SQRT(GVI__EPS));
 }
 
