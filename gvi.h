@@ -68,7 +68,7 @@
      SCENE                asking the effects, Legendre transform
      TABLES               what the rule and the degree have to say
      STEPPER: SET-UP      the choice of a formulation, the memory
-     STEPPER: STEP        explicit, fixed point, Newton
+     STEPPER: STEP        explicit, fixed point, Newton, start
      QUERIES              velocity, energy, curve, discrete Lagrangian
      LICENCE
 
@@ -2340,130 +2340,6 @@ static void gvi__tables_own(gvi_stepper *st)
     }
 }
 
-/* Gauss, r = s.  In Legendre modes integration from 0 to tau, which makes Q from V
-   and P from F, is a matrix with three diagonals (Hairer, Wanner, Solving ordinary
-   differential equations II, IV.5): Phi_0 = (phi_0 - phi_1)/2 and Phi_k =
-   (phi_(k-1) - phi_(k+1))/(2(2k+1)), phi_s being 0 at the nodes.  Its eigenvectors
-   are (2k+1) z_k from the right and (-1)^k z_k from the left,
-
-     z_(-1) = -1    z_0 = 1    z_(k+1) = 2(2k+1) lambda z_k + z_(k-1)
-
-   and lambda is where z_s = 0: z_k = (-1)^k y_k(-2 lambda), y_k the Bessel
-   polynomials (Krall and Frink 1949), whose zeros are simple, real for odd s once.  */
-
-/* z_0..z_s at lambda = a + i b to re and im, rounded once: eigenvalues of a matrix with
-   such eigenvectors are ill-conditioned, and what twofold arithmetic loses is not missed. */
-static void gvi__bessel(int s, gvi__two a, gvi__two b, gvi_real *re, gvi_real *im)
-{
-    gvi__two x = gvi__real2(1), y = gvi__real2(0), last_x = gvi__real2(-1), last_y = y;
-    for (int k = 0; k <= s; ++k) {
-        const gvi_real w = (gvi_real)(4*k + 2);
-        const gvi__two u = gvi__sub2(gvi__mul2(a, x), gvi__mul2(b, y));
-        const gvi__two v = gvi__add2(gvi__mul2(a, y), gvi__mul2(b, x));
-        const gvi__two next_x = gvi__add2(gvi__scale2(w, u), last_x), next_y = gvi__add2(gvi__scale2(w, v), last_y);
-        re[k] = x.hi;
-        im[k] = y.hi;
-        last_x = x;
-        last_y = y;
-        x = next_x;
-        y = next_y;
-    }
-}
-
-// the eigenvector of block m: s real parts, then s imaginary ones, scaled to z_(s-1) = 2 lambda
-static gvi_real *gvi__eigenvector(const gvi_stepper *st, int m) { return st->x.eigen + (size_t)(2*m*st->s); }
-
-static gvi__complex gvi__eigenvalue(const gvi_stepper *st, int m)
-{
-    const gvi_real *z = gvi__eigenvector(st, m);
-    return gvi__complex_of(z[st->s - 1]/2, z[2*st->s - 1]/2);
-}
-
-/* Newton's correction u = z_s/z_s' with z_s' = ((2 s lambda + 1) z_s + z_(s-1))/(2 lambda^2),
-   then u/(1 - u sum 1/(lambda - zero)), which keeps away from the zeros of the
-   blocks from m on, and their mirror images (Maehly 1954).                    */
-static gvi__complex gvi__bessel_correction(const gvi_stepper *st, int m, const gvi__two lambda[2])
-{
-    const int s = st->s;
-    const gvi_real a = 2*(gvi_real)s;
-    const gvi__complex l = gvi__complex_of(lambda[0].hi, lambda[1].hi);
-    gvi_real *re = st->x.row, *im = re + s + 1;
-    gvi__bessel(s, lambda[0], lambda[1], re, im);
-    const gvi__complex z = gvi__complex_of(re[s], im[s]), square = gvi__times_complex(l, l);
-    const gvi__complex slope = gvi__times_complex(gvi__complex_of(a*l.re + 1, a*l.im), z);
-    const gvi__complex u = gvi__times_complex(gvi__times_complex(gvi__complex_of(2*square.re, 2*square.im), z),
-                                              gvi__inverse(slope.re + re[s - 1], slope.im + im[s - 1]));
-    gvi__complex sum = gvi__complex_of(0, 0);
-    for (; m < (s + 1)/2; ++m) {
-        const gvi__complex zero = gvi__eigenvalue(st, m);
-        for (int side = gvi__nonzero(zero.im) ? -1 : 1; side < 2; side += 2) {
-            const gvi__complex pole = gvi__inverse(l.re - zero.re, l.im - (gvi_real)side*zero.im);
-            sum.re += pole.re;
-            sum.im += pole.im;
-        }
-    }
-    sum = gvi__times_complex(u, sum);
-    return gvi__times_complex(u, gvi__inverse(1 - sum.re, -sum.im));
-}
-
-// lambda of block m, those of the blocks behind it being known; 0 if it is not found
-static int gvi__bessel_zero(const gvi_stepper *st, int m, gvi__two lambda[2])
-{
-    const int s = st->s, all = (s + 1)/2;
-    int near = 0;
-    lambda[0] = gvi__real2(1/(gvi_real)s);
-    lambda[1] = gvi__real2(2*m + 1 == s ? 0 : 1/(gvi_real)(2*s));        // a real start stays real
-    for (int k = 0; k < 100 && near < 4; ++k) {       // three times more among all zeros
-        const gvi__complex d = gvi__bessel_correction(st, near ? all : m + 1, lambda);
-        lambda[0] = gvi__add2(lambda[0], gvi__real2(-d.re));
-        lambda[1] = gvi__add2(lambda[1], gvi__real2(-d.im));
-        near += near || gvi__modulus(d.re, d.im) <= GVI_SQRT(GVI__EPS)*gvi__modulus(lambda[0].hi, lambda[1].hi);
-    }
-    return near == 4;
-}
-
-/* One eigenvector of each conjugate pair, and last, for odd s, the real one.  With
-   z_(s-1) = 2 lambda the product of both sides, sum (-1)^k (2k+1) z_k^2 =
-   (-1)^(s-1) z_(s-1)^2/(4 lambda^2) (Christoffel and Darboux), is 1 or -1.  Returns
-   the largest product of their lengths: what a change of basis costs in digits.  */
-static gvi_real gvi__eigenvectors(gvi_stepper *st)
-{
-    const int s = st->s;
-    gvi_real *re = st->x.row, *im = re + s + 1, worst = 0;
-    for (int m = (s + 1)/2; m-- > 0; ) {
-        gvi__two l[2];
-        if (!gvi__bessel_zero(st, m, l)) return GVI__MAX;
-        gvi__bessel(s, l[0], l[1], re, im);
-        const gvi__complex scale = gvi__times_complex(gvi__complex_of(2*l[0].hi, 2*l[1].hi),
-                                                      gvi__inverse(re[s - 1], im[s - 1]));
-        gvi_real *z = gvi__eigenvector(st, m), size = 0;
-        for (int k = 0; k < s; ++k) {
-            const gvi__complex y = gvi__times_complex(scale, gvi__complex_of(re[k], im[k]));
-            z[k] = y.re;
-            z[s + k] = y.im;
-            size += (gvi_real)(2*k + 1)*(y.re*y.re + y.im*y.im);
-        }
-        if (size > worst) worst = size;
-    }
-    return worst;
-}
-
-/* phi_k(tau) and Phi_k(tau), k < s, multiplied by Gamma^-1, at any tau.        */
-static void gvi__modes(const gvi_stepper *st, gvi_real tau, gvi_real *phi, gvi_real *Phi)
-{
-    const gvi_real X = 1 - 2*tau;
-    gvi_real P = 1, before = 1;
-    for (int k = 0; k < st->s; ++k) {
-        const gvi_real next = gvi__legendre_next(k, X, P, before);
-        phi[k] = P;
-        Phi[k] = (before - next)/(gvi_real)(4*k + 2);
-        before = P;
-        P = next;
-    }
-    gvi__over_gamma(st, phi);
-    gvi__over_gamma(st, Phi);
-}
-
 /* Weights h b_j whose sum is h exactly: rounded to multiples of ulp(h), what is
    left over goes to the largest weight and its mirror image.                 */
 GVI__APART void gvi__weights(gvi_stepper *st, gvi_real h)
@@ -3003,6 +2879,121 @@ static inline void gvi__begin(gvi_stepper *st, gvi__from *from, gvi_real h)
     from->v = x->v0;
     from->ve = x->ve;
 }
+
+/* ---- explicit ---- */
+
+/* The explicit formulation: kicks h b_j F_j at the nodes, and drifts from each to
+   the next.  Its loops are short and wait for each other.  A zero that the compiler
+   does not know keeps it from calling memset and memcpy: they take as long as the
+   rest, and write blocks of other widths than the next loads, which then wait.   */
+
+// the drift to the first node: dp := pe, dq := qe + a v, Q := q + dq; F := 0
+static inline void gvi__drift_of(int n, gvi_real a, gvi_real zero, const gvi_real *m, const gvi__from *from,
+                                 gvi_real *GVI__RESTRICT dp, gvi_real *GVI__RESTRICT dq, gvi_real *GVI__RESTRICT Q,
+                                 gvi_real *GVI__RESTRICT F)
+{
+    const gvi_real *GVI__RESTRICT v = from->v, *GVI__RESTRICT q = from->q;
+    const gvi_real *GVI__RESTRICT qe = from->qe, *GVI__RESTRICT pe = from->pe;
+    for (int i = 0; i < n; ++i) {
+        const gvi_real p = pe[i] + zero;
+        dq[i] = qe[i] + a*(v[i] + (m ? p*m[i] : p));
+        dp[i] = p;
+        Q[i] = q[i] + dq[i];
+        F[i] = zero;
+    }
+}
+
+// m is seen to be NULL, lest the compiler load from it under a mask: that takes 50 ns
+static inline void gvi__drift(int n, gvi_real a, gvi_real zero, const gvi_real *m, const gvi__from *from,
+                              gvi_real *dp, gvi_real *dq, gvi_real *Q, gvi_real *F)
+{
+    if (m || GVI__SMALL) gvi__drift_of(n, a, zero, m, from, dp, dq, Q, F);
+    else gvi__drift_of(n, a, zero, NULL, from, dp, dq, Q, F);
+}
+
+/* Kick and drift: dp += b F, then dq += a (v + dp/m) and Q = q + dq.  What does not
+   depend on F is added up first, so that little waits for F; but a (b F) is two
+   products: the rounding of a b, the same in every step, would make the map no
+   longer symplectic and let the energy drift.  F is 0 then for the next call, but
+   the last is kept.  The first, at time 0, may be by a force that is known: then the
+   step begins with it, no drift before.                                       */
+enum { GVI__KICK, GVI__LAST_KICK, GVI__FIRST_KICK };
+
+static inline void gvi__kick_drift_of(int n, int kind, gvi_real b, gvi_real a, const gvi_real *m,
+                                      const gvi__from *from, gvi_real zero, const gvi_real *GVI__RESTRICT known,
+                                      gvi_real *GVI__RESTRICT F, gvi_real *GVI__RESTRICT dp,
+                                      gvi_real *GVI__RESTRICT dq, gvi_real *GVI__RESTRICT Q)
+{
+    const gvi_real *GVI__RESTRICT v = from->v, *GVI__RESTRICT q = from->q;
+    const gvi_real *GVI__RESTRICT qe = from->qe, *GVI__RESTRICT pe = from->pe;
+    const int first = kind == GVI__FIRST_KICK;
+    for (int i = 0; i < n; ++i) {
+        const gvi_real p = first ? pe[i] : dp[i], d = first ? qe[i] : dq[i], kick = b*(first ? known[i] : F[i]);
+        dq[i] = (d + a*(v[i] + (m ? p*m[i] : p))) + a*(m ? kick*m[i] : kick);
+        dp[i] = p + kick;
+        Q[i] = q[i] + dq[i];
+        if (kind != GVI__LAST_KICK) F[i] = zero;
+    }
+}
+
+static inline void gvi__kick_drift(int n, int kind, gvi_real b, gvi_real a, const gvi_real *m, const gvi__from *from,
+                                   gvi_real zero, const gvi_real *known, gvi_real *F, gvi_real *dp, gvi_real *dq,
+                                   gvi_real *Q)
+{
+    if (m || GVI__SMALL) gvi__kick_drift_of(n, kind, b, a, m, from, zero, known, F, dp, dq, Q);
+    else gvi__kick_drift_of(n, kind, b, a, NULL, from, zero, known, F, dp, dq, Q);
+}
+
+// both with a full mass matrix
+static void gvi__drift_dense(gvi_stepper *st, const gvi__from *from, gvi_real a)
+{
+    struct gvi__private *x = &st->x;
+    gvi_real *z = x->change;
+    gvi__over_constant_mass(st, x->dp, z);
+    for (int i = 0; i < st->n; ++i) x->work.Q[i] = from->q[i] + (x->dq[i] += a*(from->v[i] + z[i]));
+}
+
+/* One evaluation a kick.  `force` is that at the start, if it is known: after a step
+   whose last node was 1.  dqe and dpe are never anything but 0 here.          */
+static inline gvi_status gvi__explicit_of(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *force,
+                                          int n)
+{
+    struct gvi__private *x = &st->x;
+    const int dense = gvi__mass_is(st, GVI_MASS_DENSE), r = st->r;
+    const gvi_real *m = x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
+    const int only = !GVI__SMALL && x->single >= 0 && !x->diagnose;
+    gvi_real *F = x->work.F, *Q = x->work.Q, *dp = x->dp, *dq = x->dq, t = from->t;
+    const gvi_real zero = h - h;
+    gvi_points y;
+    gvi__at(&y, st, &t, Q);
+    y.f = F;
+    y.dldv = NULL;
+    int j = force != NULL;
+    gvi_real a = dense ? 0 : x->drift[j];
+    if (force) gvi__kick_drift(n, GVI__FIRST_KICK, x->hb[0], a, m, from, zero, force, F, dp, dq, Q);
+    else gvi__drift(n, a, zero, m, from, dp, dq, Q, F);
+    if (dense) gvi__drift_dense(st, from, x->drift[j]);
+    for (; j < r; ++j) {
+        const gvi_real b = x->hb[j];
+        a = dense ? 0 : x->drift[j + 1];
+        t = from->t + (from->te + x->c[j]*h);
+        gvi_status status = only ? gvi__call(st, &y, x->single) : gvi__check_points(st, &y);
+        if (!only && status == GVI_OK) status = gvi__effects(st, &y, 0);
+        if (status != GVI_OK) return status;
+        if (j < r - 1) gvi__kick_drift(n, GVI__KICK, b, a, m, from, zero, NULL, F, dp, dq, Q);
+        else gvi__kick_drift(n, GVI__LAST_KICK, b, a, m, from, zero, NULL, F, dp, dq, Q);
+        if (dense) gvi__drift_dense(st, from, x->drift[j + 1]);
+    }
+    return GVI_OK;
+}
+
+GVI__APART gvi_status gvi__explicit(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *force)
+{
+    return st->n == 2 && !GVI__SMALL ? gvi__explicit_of(st, from, h, force, 2)
+                                     : gvi__explicit_of(st, from, h, force, st->n);
+}
+
+/* ---- fixed point ---- */
 
 // four sums, so that none need wait for another; what is left over goes to the first
 static gvi_real gvi__dot(int r, const gvi_real *a, const gvi_real *b)
@@ -3609,46 +3600,6 @@ GVI__APART gvi_status gvi__ask(gvi_stepper *st, const gvi__from *from, gvi_real 
     return some ? gvi__effects(st, y, some) : gvi__all_effects(st, y);
 }
 
-/* Extrapolates rows of the last step, or of the last two, to the points of the
-   next:  out_i = sum_j E_ij last_j (+ sum_j E_i,r+j older_j).  y, if not NULL: E is
-   gvi__fit_sums', and what it gives is put into that stage's row.              */
-GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const gvi_real *last,
-                                     const gvi_real *older, const gvi__stage *y, gvi_real *out)
-{
-    const struct gvi__private *x = &st->x;
-    for (int i = 0; i < st->n; ++i) {
-        gvi_real *row = out + i*R;
-#ifdef GVI__VECTORS
-        gvi__affine p = { 0, 0, 0, 1 };
-        if (y) p = gvi__affine_of(y, gvi__diagonal(st, y), i);
-        for (int o = 0; older && R % 8 == 0 && o < R; o += GVI__LANES) {
-            gvi__vector z, before;
-            gvi__sum_vector(r, R, x->E + r*R + o, older + i*R, &before);
-            gvi__sum_vector(r, R, x->E + o, last + i*R, &z);
-            z += before;
-            if (y) z = p.base + ((p.extra + GVI__AT(x->c + o)*p.a) + z*p.b);
-            *(gvi__vector *)(row + o) = z;
-        }
-        if (older && R % 8 == 0) continue;
-#endif
-        gvi__sum_row(r, R, x->E, last + i*R, row);
-        if (older) gvi__sum_row(r, R, x->E + r*R, older + i*R, x->z);
-        for (int k = 0; older && k < R; ++k) row[k] += x->z[k];
-        if (y) gvi__affine_row(st, y, i, row);
-    }
-}
-
-GVI__APART void gvi__extrapolate(gvi_stepper *st, const gvi_real *last, const gvi_real *older,
-                                 const gvi__stage *y, gvi_real *out)
-{
-    if (!gvi__two_now(st)) older = NULL;
-    if (GVI__SMALL) gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, y, out);
-    else if (st->r == 8 && y) gvi__extrapolate_rows(st, 8, 8, last, older, y, out);
-    else if (st->r == 8) gvi__extrapolate_rows(st, 8, 8, last, older, NULL, out);
-    else if (st->r == 4) gvi__extrapolate_rows(st, 4, 4, last, older, y, out);
-    else gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, y, out);
-}
-
 /* Least squares through the rows of one step or two, with polynomials p_k that are
    orthonormal on the nodes x_j = c, and c - 1 for the step before (Forsythe 1957):
    E_ij = sum_k p_k(y_i) p_k(x_j) at the targets y_i = alpha + beta c_i.  row holds
@@ -3698,6 +3649,46 @@ static void gvi__fit_sums(gvi_stepper *st)
     struct gvi__private *x = &st->x;
     const int R = x->stride, rows = gvi__two_now(st) ? 2*st->r : st->r;
     for (int j = 0; j < rows; ++j) gvi__weighted_sums(st, x->g, x->hb, x->E + j*R, x->E + j*R);
+}
+
+/* Extrapolates rows of the last step, or of the last two, to the points of the
+   next:  out_i = sum_j E_ij last_j (+ sum_j E_i,r+j older_j).  y, if not NULL: E is
+   gvi__fit_sums', and what it gives is put into that stage's row.              */
+GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const gvi_real *last,
+                                     const gvi_real *older, const gvi__stage *y, gvi_real *out)
+{
+    const struct gvi__private *x = &st->x;
+    for (int i = 0; i < st->n; ++i) {
+        gvi_real *row = out + i*R;
+#ifdef GVI__VECTORS
+        gvi__affine p = { 0, 0, 0, 1 };
+        if (y) p = gvi__affine_of(y, gvi__diagonal(st, y), i);
+        for (int o = 0; older && R % 8 == 0 && o < R; o += GVI__LANES) {
+            gvi__vector z, before;
+            gvi__sum_vector(r, R, x->E + r*R + o, older + i*R, &before);
+            gvi__sum_vector(r, R, x->E + o, last + i*R, &z);
+            z += before;
+            if (y) z = p.base + ((p.extra + GVI__AT(x->c + o)*p.a) + z*p.b);
+            *(gvi__vector *)(row + o) = z;
+        }
+        if (older && R % 8 == 0) continue;
+#endif
+        gvi__sum_row(r, R, x->E, last + i*R, row);
+        if (older) gvi__sum_row(r, R, x->E + r*R, older + i*R, x->z);
+        for (int k = 0; older && k < R; ++k) row[k] += x->z[k];
+        if (y) gvi__affine_row(st, y, i, row);
+    }
+}
+
+GVI__APART void gvi__extrapolate(gvi_stepper *st, const gvi_real *last, const gvi_real *older,
+                                 const gvi__stage *y, gvi_real *out)
+{
+    if (!gvi__two_now(st)) older = NULL;
+    if (GVI__SMALL) gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, y, out);
+    else if (st->r == 8 && y) gvi__extrapolate_rows(st, 8, 8, last, older, y, out);
+    else if (st->r == 8) gvi__extrapolate_rows(st, 8, 8, last, older, NULL, out);
+    else if (st->r == 4) gvi__extrapolate_rows(st, 4, 4, last, older, y, out);
+    else gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, y, out);
 }
 
 // makes E what this step needs, if it is not
@@ -4101,116 +4092,7 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
     return gvi__give(st, GVI_E_CONVERGENCE);
 }
 
-/* The explicit formulation: kicks h b_j F_j at the nodes, and drifts from each to
-   the next.  Its loops are short and wait for each other.  A zero that the compiler
-   does not know keeps it from calling memset and memcpy: they take as long as the
-   rest, and write blocks of other widths than the next loads, which then wait.   */
-
-// the drift to the first node: dp := pe, dq := qe + a v, Q := q + dq; F := 0
-static inline void gvi__drift_of(int n, gvi_real a, gvi_real zero, const gvi_real *m, const gvi__from *from,
-                                 gvi_real *GVI__RESTRICT dp, gvi_real *GVI__RESTRICT dq, gvi_real *GVI__RESTRICT Q,
-                                 gvi_real *GVI__RESTRICT F)
-{
-    const gvi_real *GVI__RESTRICT v = from->v, *GVI__RESTRICT q = from->q;
-    const gvi_real *GVI__RESTRICT qe = from->qe, *GVI__RESTRICT pe = from->pe;
-    for (int i = 0; i < n; ++i) {
-        const gvi_real p = pe[i] + zero;
-        dq[i] = qe[i] + a*(v[i] + (m ? p*m[i] : p));
-        dp[i] = p;
-        Q[i] = q[i] + dq[i];
-        F[i] = zero;
-    }
-}
-
-// m is seen to be NULL, lest the compiler load from it under a mask: that takes 50 ns
-static inline void gvi__drift(int n, gvi_real a, gvi_real zero, const gvi_real *m, const gvi__from *from,
-                              gvi_real *dp, gvi_real *dq, gvi_real *Q, gvi_real *F)
-{
-    if (m || GVI__SMALL) gvi__drift_of(n, a, zero, m, from, dp, dq, Q, F);
-    else gvi__drift_of(n, a, zero, NULL, from, dp, dq, Q, F);
-}
-
-/* Kick and drift: dp += b F, then dq += a (v + dp/m) and Q = q + dq.  What does not
-   depend on F is added up first, so that little waits for F; but a (b F) is two
-   products: the rounding of a b, the same in every step, would make the map no
-   longer symplectic and let the energy drift.  F is 0 then for the next call, but
-   the last is kept.  The first, at time 0, may be by a force that is known: then the
-   step begins with it, no drift before.                                       */
-enum { GVI__KICK, GVI__LAST_KICK, GVI__FIRST_KICK };
-
-static inline void gvi__kick_drift_of(int n, int kind, gvi_real b, gvi_real a, const gvi_real *m,
-                                      const gvi__from *from, gvi_real zero, const gvi_real *GVI__RESTRICT known,
-                                      gvi_real *GVI__RESTRICT F, gvi_real *GVI__RESTRICT dp,
-                                      gvi_real *GVI__RESTRICT dq, gvi_real *GVI__RESTRICT Q)
-{
-    const gvi_real *GVI__RESTRICT v = from->v, *GVI__RESTRICT q = from->q;
-    const gvi_real *GVI__RESTRICT qe = from->qe, *GVI__RESTRICT pe = from->pe;
-    const int first = kind == GVI__FIRST_KICK;
-    for (int i = 0; i < n; ++i) {
-        const gvi_real p = first ? pe[i] : dp[i], d = first ? qe[i] : dq[i], kick = b*(first ? known[i] : F[i]);
-        dq[i] = (d + a*(v[i] + (m ? p*m[i] : p))) + a*(m ? kick*m[i] : kick);
-        dp[i] = p + kick;
-        Q[i] = q[i] + dq[i];
-        if (kind != GVI__LAST_KICK) F[i] = zero;
-    }
-}
-
-static inline void gvi__kick_drift(int n, int kind, gvi_real b, gvi_real a, const gvi_real *m, const gvi__from *from,
-                                   gvi_real zero, const gvi_real *known, gvi_real *F, gvi_real *dp, gvi_real *dq,
-                                   gvi_real *Q)
-{
-    if (m || GVI__SMALL) gvi__kick_drift_of(n, kind, b, a, m, from, zero, known, F, dp, dq, Q);
-    else gvi__kick_drift_of(n, kind, b, a, NULL, from, zero, known, F, dp, dq, Q);
-}
-
-// both with a full mass matrix
-static void gvi__drift_dense(gvi_stepper *st, const gvi__from *from, gvi_real a)
-{
-    struct gvi__private *x = &st->x;
-    gvi_real *z = x->change;
-    gvi__over_constant_mass(st, x->dp, z);
-    for (int i = 0; i < st->n; ++i) x->work.Q[i] = from->q[i] + (x->dq[i] += a*(from->v[i] + z[i]));
-}
-
-/* One evaluation a kick.  `force` is that at the start, if it is known: after a step
-   whose last node was 1.  dqe and dpe are never anything but 0 here.          */
-static inline gvi_status gvi__explicit_of(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *force,
-                                          int n)
-{
-    struct gvi__private *x = &st->x;
-    const int dense = gvi__mass_is(st, GVI_MASS_DENSE), r = st->r;
-    const gvi_real *m = x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
-    const int only = !GVI__SMALL && x->single >= 0 && !x->diagnose;
-    gvi_real *F = x->work.F, *Q = x->work.Q, *dp = x->dp, *dq = x->dq, t = from->t;
-    const gvi_real zero = h - h;
-    gvi_points y;
-    gvi__at(&y, st, &t, Q);
-    y.f = F;
-    y.dldv = NULL;
-    int j = force != NULL;
-    gvi_real a = dense ? 0 : x->drift[j];
-    if (force) gvi__kick_drift(n, GVI__FIRST_KICK, x->hb[0], a, m, from, zero, force, F, dp, dq, Q);
-    else gvi__drift(n, a, zero, m, from, dp, dq, Q, F);
-    if (dense) gvi__drift_dense(st, from, x->drift[j]);
-    for (; j < r; ++j) {
-        const gvi_real b = x->hb[j];
-        a = dense ? 0 : x->drift[j + 1];
-        t = from->t + (from->te + x->c[j]*h);
-        gvi_status status = only ? gvi__call(st, &y, x->single) : gvi__check_points(st, &y);
-        if (!only && status == GVI_OK) status = gvi__effects(st, &y, 0);
-        if (status != GVI_OK) return status;
-        if (j < r - 1) gvi__kick_drift(n, GVI__KICK, b, a, m, from, zero, NULL, F, dp, dq, Q);
-        else gvi__kick_drift(n, GVI__LAST_KICK, b, a, m, from, zero, NULL, F, dp, dq, Q);
-        if (dense) gvi__drift_dense(st, from, x->drift[j + 1]);
-    }
-    return GVI_OK;
-}
-
-GVI__APART gvi_status gvi__explicit(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *force)
-{
-    return st->n == 2 && !GVI__SMALL ? gvi__explicit_of(st, from, h, force, 2)
-                                     : gvi__explicit_of(st, from, h, force, st->n);
-}
+/* ---- Newton's method ---- */
 
 /* Newton on (1).  Unknowns y[k*n + i]; the rows are those of (1) times 2k + 1,
    from k0 on: k0 = 0 for a step, 1 for the boundary-value problem.            */
@@ -4287,6 +4169,114 @@ static inline int gvi__in_blocks(const gvi__matrix *J) { return GVI__NEWTON && !
 
 /* Points at which derivatives are taken: all those of the rule, or one.       */
 typedef struct gvi__sites { const gvi_real *t; gvi_real *q, *v; int count, stride; } gvi__sites;
+
+/* Gauss, r = s.  In Legendre modes integration from 0 to tau, which makes Q from V
+   and P from F, is a matrix with three diagonals (Hairer, Wanner, Solving ordinary
+   differential equations II, IV.5): Phi_0 = (phi_0 - phi_1)/2 and Phi_k =
+   (phi_(k-1) - phi_(k+1))/(2(2k+1)), phi_s being 0 at the nodes.  Its eigenvectors
+   are (2k+1) z_k from the right and (-1)^k z_k from the left,
+
+     z_(-1) = -1    z_0 = 1    z_(k+1) = 2(2k+1) lambda z_k + z_(k-1)
+
+   and lambda is where z_s = 0: z_k = (-1)^k y_k(-2 lambda), y_k the Bessel
+   polynomials (Krall and Frink 1949), whose zeros are simple, real for odd s once.  */
+
+/* z_0..z_s at lambda = a + i b to re and im, rounded once: eigenvalues of a matrix with
+   such eigenvectors are ill-conditioned, and what twofold arithmetic loses is not missed. */
+static void gvi__bessel(int s, gvi__two a, gvi__two b, gvi_real *re, gvi_real *im)
+{
+    gvi__two x = gvi__real2(1), y = gvi__real2(0), last_x = gvi__real2(-1), last_y = y;
+    for (int k = 0; k <= s; ++k) {
+        const gvi_real w = (gvi_real)(4*k + 2);
+        const gvi__two u = gvi__sub2(gvi__mul2(a, x), gvi__mul2(b, y));
+        const gvi__two v = gvi__add2(gvi__mul2(a, y), gvi__mul2(b, x));
+        const gvi__two next_x = gvi__add2(gvi__scale2(w, u), last_x), next_y = gvi__add2(gvi__scale2(w, v), last_y);
+        re[k] = x.hi;
+        im[k] = y.hi;
+        last_x = x;
+        last_y = y;
+        x = next_x;
+        y = next_y;
+    }
+}
+
+// the eigenvector of block m: s real parts, then s imaginary ones, scaled to z_(s-1) = 2 lambda
+static gvi_real *gvi__eigenvector(const gvi_stepper *st, int m) { return st->x.eigen + (size_t)(2*m*st->s); }
+
+static gvi__complex gvi__eigenvalue(const gvi_stepper *st, int m)
+{
+    const gvi_real *z = gvi__eigenvector(st, m);
+    return gvi__complex_of(z[st->s - 1]/2, z[2*st->s - 1]/2);
+}
+
+/* Newton's correction u = z_s/z_s' with z_s' = ((2 s lambda + 1) z_s + z_(s-1))/(2 lambda^2),
+   then u/(1 - u sum 1/(lambda - zero)), which keeps away from the zeros of the
+   blocks from m on, and their mirror images (Maehly 1954).                    */
+static gvi__complex gvi__bessel_correction(const gvi_stepper *st, int m, const gvi__two lambda[2])
+{
+    const int s = st->s;
+    const gvi_real a = 2*(gvi_real)s;
+    const gvi__complex l = gvi__complex_of(lambda[0].hi, lambda[1].hi);
+    gvi_real *re = st->x.row, *im = re + s + 1;
+    gvi__bessel(s, lambda[0], lambda[1], re, im);
+    const gvi__complex z = gvi__complex_of(re[s], im[s]), square = gvi__times_complex(l, l);
+    const gvi__complex slope = gvi__times_complex(gvi__complex_of(a*l.re + 1, a*l.im), z);
+    const gvi__complex u = gvi__times_complex(gvi__times_complex(gvi__complex_of(2*square.re, 2*square.im), z),
+                                              gvi__inverse(slope.re + re[s - 1], slope.im + im[s - 1]));
+    gvi__complex sum = gvi__complex_of(0, 0);
+    for (; m < (s + 1)/2; ++m) {
+        const gvi__complex zero = gvi__eigenvalue(st, m);
+        for (int side = gvi__nonzero(zero.im) ? -1 : 1; side < 2; side += 2) {
+            const gvi__complex pole = gvi__inverse(l.re - zero.re, l.im - (gvi_real)side*zero.im);
+            sum.re += pole.re;
+            sum.im += pole.im;
+        }
+    }
+    sum = gvi__times_complex(u, sum);
+    return gvi__times_complex(u, gvi__inverse(1 - sum.re, -sum.im));
+}
+
+// lambda of block m, those of the blocks behind it being known; 0 if it is not found
+static int gvi__bessel_zero(const gvi_stepper *st, int m, gvi__two lambda[2])
+{
+    const int s = st->s, all = (s + 1)/2;
+    int near = 0;
+    lambda[0] = gvi__real2(1/(gvi_real)s);
+    lambda[1] = gvi__real2(2*m + 1 == s ? 0 : 1/(gvi_real)(2*s));        // a real start stays real
+    for (int k = 0; k < 100 && near < 4; ++k) {       // three times more among all zeros
+        const gvi__complex d = gvi__bessel_correction(st, near ? all : m + 1, lambda);
+        lambda[0] = gvi__add2(lambda[0], gvi__real2(-d.re));
+        lambda[1] = gvi__add2(lambda[1], gvi__real2(-d.im));
+        near += near || gvi__modulus(d.re, d.im) <= GVI_SQRT(GVI__EPS)*gvi__modulus(lambda[0].hi, lambda[1].hi);
+    }
+    return near == 4;
+}
+
+/* One eigenvector of each conjugate pair, and last, for odd s, the real one.  With
+   z_(s-1) = 2 lambda the product of both sides, sum (-1)^k (2k+1) z_k^2 =
+   (-1)^(s-1) z_(s-1)^2/(4 lambda^2) (Christoffel and Darboux), is 1 or -1.  Returns
+   the largest product of their lengths: what a change of basis costs in digits.  */
+static gvi_real gvi__eigenvectors(gvi_stepper *st)
+{
+    const int s = st->s;
+    gvi_real *re = st->x.row, *im = re + s + 1, worst = 0;
+    for (int m = (s + 1)/2; m-- > 0; ) {
+        gvi__two l[2];
+        if (!gvi__bessel_zero(st, m, l)) return GVI__MAX;
+        gvi__bessel(s, l[0], l[1], re, im);
+        const gvi__complex scale = gvi__times_complex(gvi__complex_of(2*l[0].hi, 2*l[1].hi),
+                                                      gvi__inverse(re[s - 1], im[s - 1]));
+        gvi_real *z = gvi__eigenvector(st, m), size = 0;
+        for (int k = 0; k < s; ++k) {
+            const gvi__complex y = gvi__times_complex(scale, gvi__complex_of(re[k], im[k]));
+            z[k] = y.re;
+            z[s + k] = y.im;
+            size += (gvi_real)(2*k + 1)*(y.re*y.re + y.im*y.im);
+        }
+        if (size > worst) worst = size;
+    }
+    return worst;
+}
 
 /* With the derivatives at one point, and integration as a matrix X, the Jacobian is
 
@@ -5112,6 +5102,22 @@ GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy)
     status = gvi__energy(st, st->t, x->q, x->p, v, &E);
     if (status == GVI_OK) *energy = E;
     return gvi__done(st, status);
+}
+
+/* phi_k(tau) and Phi_k(tau), k < s, multiplied by Gamma^-1, at any tau.        */
+static void gvi__modes(const gvi_stepper *st, gvi_real tau, gvi_real *phi, gvi_real *Phi)
+{
+    const gvi_real X = 1 - 2*tau;
+    gvi_real P = 1, before = 1;
+    for (int k = 0; k < st->s; ++k) {
+        const gvi_real next = gvi__legendre_next(k, X, P, before);
+        phi[k] = P;
+        Phi[k] = (before - next)/(gvi_real)(4*k + 2);
+        before = P;
+        P = next;
+    }
+    gvi__over_gamma(st, phi);
+    gvi__over_gamma(st, Phi);
 }
 
 /* Curve and velocity of the last step by the same formulas as at its points,
