@@ -2789,6 +2789,24 @@ static gvi_status gvi__hand_out(gvi_stepper *st, const gvi_desc *desc, gvi_real 
     return GVI_OK;
 }
 
+// nodes, what rounding left of them, weights
+static void gvi__set_rule(gvi_stepper *st, const gvi_desc *desc)
+{
+    struct gvi__private *x = &st->x;
+    if (gvi__rule_is(st, GVI_OWN) || gvi__rule_is(st, GVI_KICKS)) {
+        gvi__copy((size_t)st->r, desc->rule.nodes, x->c);
+        gvi__copy((size_t)st->r, desc->rule.weights, x->b);
+    } else if (gvi__uses(st, GVI_EXPLICIT)) {                // Stoermer-Verlet: c = 0, 1
+        x->c[1] = 1;
+        x->b[0] = x->b[1] = (gvi_real)0.5;
+    }
+#if GVI__RULES
+    else gvi__rule_make(x->desc.rule.kind == GVI_LOBATTO, st->r, x->c, x->ce, x->b);
+#else
+    else gvi__few_modes(st, (size_t)desc->degree);           // r = s, and known if the description is
+#endif
+}
+
 GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *memory, size_t size)
 {
     if (!st) return GVI_E_ARGUMENT;
@@ -2805,18 +2823,7 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     if (status != GVI_OK) return status;
 
     // the rule, the modes at its nodes as exactly as they can be had, then the grid
-    if (gvi__rule_is(st, GVI_OWN) || gvi__rule_is(st, GVI_KICKS)) {
-        gvi__copy((size_t)st->r, x->desc.rule.nodes, x->c);
-        gvi__copy((size_t)st->r, x->desc.rule.weights, x->b);
-    } else if (gvi__uses(st, GVI_EXPLICIT)) {                // Stoermer-Verlet: c = 0, 1
-        x->c[1] = 1;
-        x->b[0] = x->b[1] = (gvi_real)0.5;
-    }
-#if GVI__RULES
-    else gvi__rule_make(x->desc.rule.kind == GVI_LOBATTO, st->r, x->c, x->ce, x->b);
-#else
-    else gvi__few_modes(st, (size_t)desc->degree);           // r = s, and known if the description is
-#endif
+    gvi__set_rule(st, desc);
     if (!gvi__uses(st, GVI_EXPLICIT)) {
         if (GVI__RULES) {
             gvi__modes_at_nodes(st);
