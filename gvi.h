@@ -515,7 +515,7 @@ struct gvi__private {
     gvi_real *rate;                   /* [3][R] clock: g; f'v; H, then H - E    */
     gvi_real *slope;                  /* [n][R] clock: dg/dq                    */
     gvi_real *over;                   /* [n] 1/m of a diagonal mass             */
-    gvi_real *weak;                   /* [n][R] forces of the weak effects, as last asked; gvi__answers */
+    gvi_real *weak;                   /* [n+2][R] weak forces, as last asked; gvi__answers */
     gvi_real *mass, *point_mass, *Z;  /* M; M at the points [n*n][R]; [n][R] scratch */
     gvi_real *y, *dy, *J, *pivot;     /* Newton: [s*n] twice; two matrices of s*n */
     gvi_real *hess, *dF;              /* scratch; F and P, moved and not, [4][n][R] */
@@ -536,7 +536,8 @@ struct gvi__private {
     signed char      clock, single;   /* effect that is one; the only one; or -1 */
     signed char      alike, E_is;     /* last steps of the same length: 0, 1, 2; see GVI__OF_TWO */
     signed char      started, stepped;  /* stepped: 2 by a clock               */
-    signed char      diagnose, turns;
+    signed char      diagnose;        /* repeated, to find what is not finite   */
+    signed char      turns;           /* of the rows since gvi_init, modulo 6: gvi__rotate_rows */
     signed char      has_rate;        /* rate holds                             */
     signed char      has_force;       /* last.F ends with the force at (t, q)   */
     signed char      has_velocity;    /* last.V holds                           */
@@ -677,7 +678,7 @@ GVI_DEF void       gvi_basis_derivative(int n, const gvi_real *x, const gvi_real
    Returns GVI_E_SINGULAR, scale-free: a pivot is nothing but the rounding of the
    terms that made it; GVI_E_NON_FINITE if an entry is.
    gvi_lu_solve: x in: right-hand side, out: solution, length n.
-   gvi_lu_rcond: estimate of 1/(|A| |A^-1|), 1-norm [7, alg. 15.1], usually
+   gvi_lu_rcond: estimate of 1/(|A| |A^-1|), 1-norm [7, sec. 15.3], usually
    within a factor 3 and never below the truth; work of length 3n.             */
 GVI_DEF gvi_status gvi_lu_factor(int n, gvi_real *a, gvi_real *pivot);
 GVI_DEF void       gvi_lu_solve(int n, const gvi_real *lu, const gvi_real *pivot, gvi_real *x);
@@ -894,8 +895,9 @@ static void gvi__swap(gvi_real *a, gvi_real *b)
 }
 
 /* Twofold arithmetic: an unevaluated sum hi + lo, |lo| <= ulp(hi)/2, carries
-   twice the digits of gvi_real (Dekker, Knuth).  Used for tables, where the
-   rounding of a coefficient would act in every step in the same direction.   */
+   twice the digits of gvi_real (Dekker, Numer. Math. 18, 1971; Joldes, Muller,
+   Popescu, ACM Trans. Math. Softw. 44, 2017).  Used for tables, where the rounding
+   of a coefficient would act in every step in the same direction.             */
 typedef struct gvi__two { gvi_real hi, lo; } gvi__two;
 
 static gvi__two gvi__two_of(gvi_real hi, gvi_real lo) { gvi__two z; z.hi = hi; z.lo = lo; return z; }
@@ -909,7 +911,8 @@ typedef gvi_real gvi__stored;
 typedef volatile gvi_real gvi__stored;     // registers are wider: round for certain
 #endif
 
-static gvi__two gvi__sum(gvi_real x, gvi_real y)          // x + y exactly
+// x + y exactly, whichever is larger (Knuth, The art of computer programming 2, 4.2.2)
+static gvi__two gvi__sum(gvi_real x, gvi_real y)
 {
     gvi__stored a = x, b = y, hi = a + b, bb = hi - a, aa = hi - bb, da = a - aa, db = b - bb;
     return gvi__two_of(hi, da + db);
@@ -932,10 +935,11 @@ static inline gvi__two gvi__product(gvi_real a, gvi_real b)      // a*b exactly
     return gvi__two_of(a*b, GVI__FMA(a, b, -(a*b)));
 }
 #else
-// 2^k + 1, k half the digits: a number times it shows where to cut it in two
+// 2^k + 1, k half the digits: x times it shows where to cut x in two (Veltkamp; Dekker)
 #define GVI__CUT ((gvi_real)(1ULL << (GVI__DIG + 1)/2) + 1)
 
-static gvi__two gvi__split(gvi_real x)                    // halves of the digits
+// x = hi + lo, half of the digits each: their products are exact
+static gvi__two gvi__split(gvi_real x)
 {
     gvi__stored a = x, s = GVI__CUT*a, d = s - a, hi = s - d, lo = a - hi;
     return gvi__two_of(hi, lo);
@@ -951,6 +955,7 @@ static gvi__two gvi__product(gvi_real a, gvi_real b)      // a*b exactly
 
 static gvi__two gvi__real2(gvi_real a) { return gvi__two_of(a, 0); }
 
+// a + b to 3 (eps/2)^2 of the sum (Joldes et al., algorithm 6)
 static gvi__two gvi__add2(gvi__two a, gvi__two b)
 {
     gvi__two s = gvi__sum(a.hi, b.hi), t = gvi__sum(a.lo, b.lo);
@@ -960,6 +965,7 @@ static gvi__two gvi__add2(gvi__two a, gvi__two b)
 
 static gvi__two gvi__sub2(gvi__two a, gvi__two b) { return gvi__add2(a, gvi__two_of(-b.hi, -b.lo)); }
 
+// a b, without the product of the low parts (Joldes et al., algorithm 10)
 static gvi__two gvi__mul2(gvi__two a, gvi__two b)
 {
     gvi__two z = gvi__product(a.hi, b.hi);
@@ -1045,7 +1051,8 @@ static gvi_status gvi__lu_factor(int n, gvi_real *a, gvi_real *pivot, int *at)
         pivot[m] = pivot[k];
         pivot[k] = (gvi_real)m;
 
-        // check singularity: of the terms that made this pivot only rounding is left
+        // check singularity: of the terms that made this pivot only rounding, n eps |L||U|, is
+        // left [7, thm. 9.3]
         gvi_real terms = 0;
         for (size_t j = 0; j < k; ++j) terms += GVI_ABS(a[k*N + j]*a[j*N + k]);
         if (!(GVI_ABS(a[k*N + k]) > (gvi_real)n*GVI__EPS*terms)) {
@@ -1120,7 +1127,8 @@ static gvi__complex gvi__inverse(gvi_real re, gvi_real im)
     return gvi__complex_of(a/d, -b/d);
 }
 
-// row += z top from column k on; a row of a complex matrix is n real parts, then n imaginary ones
+// row += z top from column k on; a row of a complex matrix, and a complex vector, is n real
+// parts, then n imaginary ones
 static void gvi__add_row(size_t n, size_t k, gvi__complex z, const gvi_real *GVI__RESTRICT top,
                          gvi_real *GVI__RESTRICT row)
 {
@@ -1332,7 +1340,8 @@ GVI__APART gvi_real gvi__node_guess(int lobatto, int n, int j)
     return sine*sine;
 }
 
-/* Newton's method in working precision, in place of the first corrections, where speed counts */
+/* Newton's method in working precision, in place of the first corrections, where speed
+   counts; the recurrence has its quotients first, so that nothing waits for them.    */
 static gvi_real gvi__node_start(int lobatto, int m, gvi_real c)
 {
     for (int k = 0; k < 3; ++k) {
@@ -1351,7 +1360,8 @@ static gvi_real gvi__node_start(int lobatto, int m, gvi_real c)
 
 /* All nodes and weights; ce, if given, gets what rounding left of c.  After a
    correction below eps the next one would be below its square: c is then accurate
-   relative to itself, even next to the end of the interval.                   */
+   relative to itself, even next to the end of the interval.  Nodes are symmetric
+   about 1/2: one half is computed, by no more than 12 corrections each.       */
 static void gvi__rule_make(int lobatto, int n, gvi_real *c, gvi_real *ce, gvi_real *b)
 {
     for (int j = 0; j <= (n - 1)/2; ++j) {
@@ -1457,7 +1467,7 @@ static int gvi__nearest(int n, const gvi_real *x, gvi_real t)
 /* l_j(t) = (w_j/(t - x_j)) / sum_k w_k/(t - x_k).  Both sides multiplied by the
    distance d to the nearest node i, so that t = x_i is no exception; and the
    sum, which may cancel, by what it is equal to: w_i prod_(k /= i)
-   (x_i - x_k)/(t - x_k), factors in (0,2] [6, the first form].  Returns i.     */
+   (x_i - x_k)/(t - x_k), factors in (0,2] [6, sec. 3, the first form].  Returns i. */
 static int gvi__term(int n, const gvi_real *x, const gvi_real *w, gvi_real t, gvi_real *d, gvi_real *sum)
 {
     int i = gvi__nearest(n, x, t);
@@ -1486,8 +1496,8 @@ GVI_DEF gvi_real gvi_interpolate(int n, const gvi_real *x, const gvi_real *w, co
     return f[i] + value/sum;
 }
 
-/* For j /= i, i the node next to t:  l_j' = l_j (sum_(k /= j) 1/(t - x_k)), in
-   which l_j/(t - x_i) is formed first; see gvi__slope.                        */
+/* For j /= i, i the node next to t:  l_j' = l_j sum_(k /= j) 1/(t - x_k).  The term
+   k = i, which has no bound, is never formed: l_j/(t - x_i) has one.          */
 static gvi_real gvi__slope(int n, const gvi_real *x, const gvi_real *w, gvi_real t,
                            int i, gvi_real d, gvi_real sum, int j)
 {
@@ -2115,7 +2125,7 @@ static void gvi__modes_mirrored(gvi_stepper *st, int i)
     }
 }
 
-// at all of them, which then go to their grid
+// the same at all nodes, which then go to the grid of S, see gvi__tables
 static void gvi__modes_at_nodes(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
@@ -2254,7 +2264,8 @@ static void gvi__twofold_sums(int s, int R, const gvi_real *GVI__RESTRICT a, con
         }
 }
 
-// row[i] := sum_k a[k][i] gamma_k b[k][j] at all points, S and T on their grids
+// row[i] := sum_k a[k][i] b[k][j]/Gamma_kk at all points i, a and b being Phi for S, phi for N,
+// phi and Phi for T; S and T on their grids
 static void gvi__column(gvi_stepper *st, int which, int j)
 {
     const struct gvi__private *x = &st->x;
@@ -2758,6 +2769,7 @@ static gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
     return GVI_OK;
 }
 
+// where number stands: the alignment of a gvi_real
 typedef struct gvi__aligned { char byte; gvi_real number; } gvi__aligned;
 
 // the scene into the stepper, the memory in parts
@@ -2845,7 +2857,7 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
 typedef struct gvi__from {
     gvi_real t, te;
     const gvi_real *q, *qe, *p, *pe;
-    gvi_real E, Ee;                   /* clock                                  */
+    gvi_real E, Ee;                   /* clock: energy, and what rounding left of it */
     const gvi_real *v, *ve;           /* M^-1 p, M^-1 pe, where M is constant   */
 } gvi__from;
 
@@ -2894,7 +2906,7 @@ static inline void gvi__begin(gvi_stepper *st, gvi__from *from, gvi_real h)
    does not know keeps it from calling memset and memcpy: they take as long as the
    rest, and write blocks of other widths than the next loads, which then wait.   */
 
-// the drift to the first node: dp := pe, dq := qe + a v, Q := q + dq; F := 0
+// the drift to the first node: dp := pe, dq := qe + a (v + pe/m), Q := q + dq; F := 0
 static inline void gvi__drift_of(int n, gvi_real a, gvi_real zero, const gvi_real *m, const gvi__from *from,
                                  gvi_real *GVI__RESTRICT dp, gvi_real *GVI__RESTRICT dq, gvi_real *GVI__RESTRICT Q,
                                  gvi_real *GVI__RESTRICT F)
@@ -2922,8 +2934,8 @@ static inline void gvi__drift(int n, gvi_real a, gvi_real zero, const gvi_real *
    depend on F is added up first, so that little waits for F; but a (b F) is two
    products: the rounding of a b, the same in every step, would make the map no
    longer symplectic and let the energy drift.  F is 0 then for the next call, but
-   the last is kept.  The first, at time 0, may be by a force that is known: then the
-   step begins with it, no drift before.                                       */
+   the last is kept.  A step whose first node is its start may begin with a kick by
+   the force that the last step ended with, and no drift before.               */
 enum { GVI__KICK, GVI__LAST_KICK, GVI__FIRST_KICK };
 
 static inline void gvi__kick_drift_of(int n, int kind, gvi_real b, gvi_real a, const gvi_real *m,
@@ -2951,7 +2963,7 @@ static inline void gvi__kick_drift(int n, int kind, gvi_real b, gvi_real a, cons
     else gvi__kick_drift_of(n, kind, b, a, NULL, from, zero, known, F, dp, dq, Q);
 }
 
-// both with a full mass matrix
+// the drift that both leave out, a = 0, where M is a full matrix
 static void gvi__drift_dense(gvi_stepper *st, const gvi__from *from, gvi_real a)
 {
     struct gvi__private *x = &st->x;
@@ -3012,7 +3024,7 @@ static gvi_real gvi__dot(int r, const gvi_real *a, const gvi_real *b)
 }
 
 /* One set of rows of (3), (4) or (5):
-   row_i := base_i + (extra_i + factor*(c slope_i + M^-1 (table (w f_i) - minus (b a_i))))
+   row_i := base_i + (extra_i + factor*(c slope_i + M^-1 (table (h b f_i) - minus (b a_i))))
    slope, minus may be NULL; M^-1 if over_mass.                                */
 struct gvi__stage;
 typedef gvi_real gvi__kernel(gvi_stepper *st, const struct gvi__stage *y);   // returns the change: below
@@ -3124,7 +3136,7 @@ GVI__APART void gvi__weighted_sums(const gvi_stepper *st, const gvi_real *table,
 
 /* 1/unit in which changes of a row are measured: |base| + the displacements at the
    last point, before and after; 0 where these have no sure digit.  Made when it is
-   0: gvi__fixed_point clears it, so that as a rule nothing waits for a quotient. */
+   0, as gvi__fixed_point and gvi__judge leave it: as a rule nothing waits for a quotient. */
 static inline void gvi__rescale(gvi_real base, gvi_real was, gvi_real is, gvi_real *scale)
 {
     if (*scale > 0) return;
@@ -3132,6 +3144,7 @@ static inline void gvi__rescale(gvi_real base, gvi_real was, gvi_real is, gvi_re
     *scale = size > GVI__MIN/GVI__EPS ? 1/size : 0;
 }
 
+// the lanes of a vector of eight, added up in one order everywhere
 static inline gvi_real gvi__sum_lanes(const gvi_real *z)
 {
     if (!GVI__RULES) return (z[0] + z[1]) + (z[2] + z[3]);           // no more than four points
@@ -3307,8 +3320,8 @@ static void gvi__row_sums(const gvi_stepper *st, const gvi__stage *y, int i, gvi
     for (int k = 0; k < R; ++k) z[k] -= x->less[k];
 }
 
-/* The same in less code and without blocks, sums of squares from the last point on, as
-   there; also where M is a full matrix: then all sums first, and M^-1 of them.   */
+/* gvi__stage_rows_of in less code and without blocks, squares added up from the last
+   point on, as there.  Also where M is a full matrix: all sums first, then M^-1 of them. */
 GVI__APART gvi_real gvi__stage_rows_plain(gvi_stepper *st, const gvi__stage *y)
 {
     const struct gvi__private *x = &st->x;
@@ -3440,7 +3453,7 @@ static gvi_real gvi__stages(gvi_stepper *st, const gvi__stage *y, int count)
     if (count == 1) return sum;
     const int clock = gvi__has_clock(st), factor = x->has_factor || gvi__mass_is_constant(&x->desc);
     if (gvi__uses(st, GVI_MOMENTA) && factor && !x->desc.mass.velocity && (!clock || x->has_rate)) {
-        gvi__velocity_rows(st);           // the new P, if with the old M(Q) and g: contracts twice as fast
+        gvi__velocity_rows(st);       // V of the new P, with the last M(Q) and g: contracts twice as fast
         for (int i = 0; clock && i < st->n; ++i) gvi__scale_row(x->stride, x->rate, x->work.V + i*x->stride);
     }
     gvi__count(&st->counters.velocities, st->r);
@@ -3569,7 +3582,8 @@ static inline unsigned gvi__seldom(const gvi_stepper *st)
     return GVI__WEAK && !st->x.diagnose ? st->x.marks & ~st->x.off : 0;
 }
 
-// their answers to a change of the rows, squared: of the last step, and as known in this one
+// what asking them anew changes, over what the rows had changed, squared: learned in the last
+// step, and in this one
 static inline gvi_real *gvi__answers(gvi_stepper *st) { return st->x.weak + st->n*st->x.stride; }
 
 // y->f := the weak forces, asked anew or as they were
@@ -3698,11 +3712,11 @@ GVI__APART void gvi__extrapolate(gvi_stepper *st, const gvi_real *last, const gv
     else gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, y, out);
 }
 
-// makes E what this step needs, if it is not
+// E for this step, if it is not that already
 GVI__APART void gvi__prepare_guess(gvi_stepper *st, gvi_real alpha, gvi_real beta, int query)
 {
     struct gvi__private *x = &st->x;
-    const int step = !query && !gvi__by_newton(st);   // which wants V of the last step
+    const int step = !query && !gvi__by_newton(st);   // Newton's method wants V, of the last step alone
     const int two = GVI__KIND > 1 && step && x->alike == 2 && x->older_F && !gvi__nonzero(beta - 1);
     const int sums = step && gvi__uses(st, GVI_POSITIONS) && !gvi__mass_is(st, GVI_MASS_DENSE)
                      && !gvi__A(&x->work);
@@ -3769,7 +3783,7 @@ GVI__APART gvi__two gvi__exact_dot(int r, const gvi_real *a, const gvi_real *b, 
     return gvi__two_of(hi[0], gvi__rest(lo[0] + rest));
 }
 
-// sum_j (1 - c_j) h b_j F_j
+// sum_j (1 - c_j) h b_j F_j: what (3) is at tau = 1, where S_j = c_j
 static gvi_real gvi__lever_sum(int r, const gvi_real *c, const gvi_real *hb, const gvi_real *F)
 {
     gvi_real sum[4];
@@ -3786,7 +3800,7 @@ typedef gvi_real gvi__pair
 #define GVI__HALF(p) (*(const gvi__half *)(p))
 #define GVI__PAIR(p) (*(const gvi__pair *)(p))
 
-// both for vectors of points, in the same order
+// both sums in vectors of points: the same terms in the same order
 static inline gvi__two gvi__exact_dot_vector(int R, const gvi_real *a, const gvi_real *b, gvi_real rest)
 {
     gvi_real hi[8], lo[8];
@@ -3820,7 +3834,7 @@ static inline gvi_real gvi__lever_vector(int R, const gvi_real *c, const gvi_rea
 }
 #endif
 
-// whichever is there
+// in vectors, where there are any
 static inline gvi__two gvi__increment(int r, int R, const gvi_real *a, const gvi_real *b, gvi_real rest,
                                       gvi_real *z)
 {
@@ -3840,7 +3854,7 @@ static inline gvi_real gvi__lever(int r, int R, const gvi_real *c, const gvi_rea
     return gvi__lever_sum(r, c, hb, F);
 }
 
-// dq + dqe := h v + dq + qe: h v exactly, the rest is smaller by h omega
+// dq + dqe := h (v + ve + dq) + qe: h v exactly, h dq is smaller by h omega
 static inline void gvi__add_path(int n, gvi_real h, const gvi_real *GVI__RESTRICT v,
                                  const gvi_real *GVI__RESTRICT ve, const gvi_real *GVI__RESTRICT qe,
                                  gvi_real *GVI__RESTRICT dq, gvi_real *GVI__RESTRICT dqe)
@@ -3974,11 +3988,13 @@ typedef struct gvi__still {
 } gvi__still;
 
 /* Beside weak effects: has the iteration ended?  And are they to be asked next?  `lead`
-   is the change to come from the others.  That from asking them anew, `pending`, is the
-   way that the rows went since then times the answer that such a way had before; beside
-   the others' it counts ten times.  Where the change may be the others', an answer is at
-   most what it seems.  None is taken on trust: without a second one no step ends.
-   All of it in squares.                                                        */
+   is the next change that the others bring, as the last one and their rate foretell it;
+   `pending` that of asking the weak ones: the way that the rows went since they were
+   asked, times `learned`, the answer to such a way before.  They are asked when ten
+   times that is more than lead, or when the others are done.  A change that may be the
+   others' own, no more than four times what they contract to, can only lower what is
+   learned.  Nothing learned is taken on trust: where anything moves, no step ends
+   before they were asked twice.  All of it in squares.                         */
 GVI__APART int gvi__settled(gvi_stepper *st, const gvi__progress *p, gvi__still *w, gvi_real change)
 {
     gvi_real *learned = gvi__answers(st) + 1;
@@ -4003,15 +4019,15 @@ GVI__APART int gvi__settled(gvi_stepper *st, const gvi__progress *p, gvi__still 
 
 enum { GVI__GO_ON, GVI__DONE, GVI__ASK_ONCE_MORE, GVI__BEYOND };
 
-// to Newton's method
+// may a step that does not converge turn to Newton's method?
 static int gvi__may_turn(const gvi_stepper *st)
 {
     return st->x.desc.formulation == GVI_AUTO && gvi__has(st, GVI__HAS_NEWTON);
 }
 
-/* The verdict on a change.  Tolerance-free end: the next change,
-   D^2/D_before, is far below rounding; or the change is rounding: small, or
-   without a new least by a tenth for some iterations, and of no energy.  Three
+/* The verdict on a change D.  The iteration ends when the next change, D^2/D_before,
+   is within the tolerance, or without one far below rounding; or when D is rounding:
+   small, or without a new least by a tenth for some iterations, and of no energy.  Three
    changes in a row that fall by less than half are poor; so is a descent to
    rounding by factors of less than 4: such an iteration lets errors grow before
    they shrink, so that the rounding of the forces is left some tenfold, and more.
@@ -4170,8 +4186,8 @@ typedef struct gvi__matrix {
     int       blocks;      /* in place of square: matrices of n, derivatives at one point */
 } gvi__matrix;
 
-// never in the boundary-value problem, which is there without Newton's steps as well;
-// and not where size counts: the whole matrix is needed besides
+// Is it in blocks?  Never in the boundary-value problem, which is there without Newton's
+// steps as well; and not where size counts: the whole matrix is needed besides
 static inline int gvi__in_blocks(const gvi__matrix *J) { return GVI__NEWTON && !GVI__SMALL && J->blocks; }
 
 /* Points at which derivatives are taken: all those of the rule, or one.       */
@@ -4657,7 +4673,8 @@ GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const 
     return gvi__give(st, GVI_E_CONVERGENCE);
 }
 
-// eigenvectors at first use; they may cost all digits but eight bits
+// eigenvectors at first use; blocks may cost all digits of J but eight bits, enough for
+// Newton's method to contract
 static int gvi__use_blocks(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
@@ -4705,7 +4722,11 @@ GVI__APART gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, g
 /* ---- a step from its start to dq and dp, nothing of it kept yet ---- */
 
 // where the last step's rows are, seen from the step to come
-typedef struct gvi__history { int available; gvi_real alpha, beta; const gvi_real *force; } gvi__history;
+typedef struct gvi__history {
+    int             available;        /* they are, and say something about it   */
+    gvi_real        alpha, beta;      /* its node c is at alpha + beta c of theirs */
+    const gvi_real *force;            /* at their end, if it is known           */
+} gvi__history;
 
 static gvi_status gvi__attempt(gvi_stepper *st, gvi__from *from, gvi_real h,
                                const gvi__history *past, int query)
@@ -4715,6 +4736,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, gvi__from *from, gvi_real h,
     if (GVI__NEWTON) st->formulation = x->chosen;
     if (gvi__uses(st, GVI_EXPLICIT)) return gvi__explicit(st, from, h, past->force);
 
+    // what a step of another length has learned of weak effects is not taken over
     if (GVI__WEAK && x->weak) gvi__answers(st)[1] = gvi__nonzero(h - st->h) ? 1 : *gvi__answers(st);
     int usable = past->available, used = 0;
     gvi_status status = GVI_E_CONVERGENCE;
@@ -5416,7 +5438,8 @@ static void gvi__exchange(int n, gvi_real *a, int i, int j)
 
 /* Negative eigenvalues of a symmetric matrix, which is overwritten: by Sylvester's
    law those of D in L D L', D with blocks of 1 or 2, complete pivoting (Bunch and
-   Parlett 1971).  A block of 2 has one of each sign.                          */
+   Parlett, SIAM J. Numer. Anal. 8, 1971; their alpha, (1 + sqrt 17)/8 = 0.6404, says
+   when a block of 1 is large enough).  A block of 2 has one of each sign.     */
 static int gvi__negative(int n, gvi_real *a)
 {
     int count = 0;
@@ -5431,7 +5454,7 @@ static int gvi__negative(int n, gvi_real *a)
         width = diagonal >= (gvi_real)0.6404*off ? 1 : 2;
         if (width == 1 && !(diagonal > 0)) break;
         gvi__exchange(n, a, k, width == 1 ? p : q);
-        if (width == 2) gvi__exchange(n, a, k + 1, r == k ? q : r);
+        if (width == 2) gvi__exchange(n, a, k + 1, r == k ? q : r);        // k has just gone to q
         count += width == 2 || a[k*n + k] < 0;
         gvi_real d = a[k*n + k], e = width == 2 ? a[(k + 1)*n + k] : 0, f = width == 2 ? a[(k + 1)*n + k + 1] : 1;
         for (int i = k + width; i < n; ++i) {
