@@ -664,7 +664,8 @@ GVI_DEF int        gvi_rule_order(int n, const gvi_real *c, const gvi_real *b);
      gvi_basis                   l[j] = l_j(t)
      gvi_basis_derivative        l[j] = l_j'(t)                               */
 GVI_DEF gvi_status gvi_barycentric(int n, const gvi_real *x, gvi_real *w);
-GVI_DEF gvi_real   gvi_interpolate(int n, const gvi_real *x, const gvi_real *w, const gvi_real *f, gvi_real t);
+GVI_DEF gvi_real   gvi_interpolate(int n, const gvi_real *x, const gvi_real *w,
+                                   const gvi_real *f, gvi_real t);
 GVI_DEF gvi_real   gvi_interpolate_derivative(int n, const gvi_real *x, const gvi_real *w,
                                               const gvi_real *f, gvi_real t);
 GVI_DEF void       gvi_basis(int n, const gvi_real *x, const gvi_real *w, gvi_real t, gvi_real *l);
@@ -1111,7 +1112,13 @@ static void gvi__lu_solve_transposed(int n, const gvi_real *lu, const gvi_real *
 /* Complex numbers: <complex.h> is not C++, and from C11 on not in every C.      */
 typedef struct gvi__complex { gvi_real re, im; } gvi__complex;
 
-static gvi__complex gvi__complex_of(gvi_real re, gvi_real im) { gvi__complex z; z.re = re; z.im = im; return z; }
+static gvi__complex gvi__complex_of(gvi_real re, gvi_real im)
+{
+    gvi__complex z;
+    z.re = re;
+    z.im = im;
+    return z;
+}
 
 static gvi_real gvi__modulus(gvi_real re, gvi_real im) { return GVI_ABS(re) + GVI_ABS(im); }
 
@@ -1564,8 +1571,8 @@ GVI__COPY int gvi__chosen_is(gvi_formulation chosen, gvi_formulation f)
 
 GVI__COPY int gvi__has_mass(const gvi_desc *d, gvi_mass_kind kind)
 {
-    return (kind != GVI_MASS_DENSE || GVI__DENSE) && (kind != GVI_MASS_POSITION || GVI__MOMENTA || GVI__NEWTON)
-        && (kind != GVI_MASS_NONE || GVI__LAGRANGIAN) && d->mass.kind == kind;
+    return (kind != GVI_MASS_DENSE || GVI__DENSE) && (kind != GVI_MASS_NONE || GVI__LAGRANGIAN)
+        && (kind != GVI_MASS_POSITION || GVI__MOMENTA || GVI__NEWTON) && d->mass.kind == kind;
 }
 
 GVI__COPY int gvi__has_rule(const gvi_desc *d, gvi_rule_kind kind)
@@ -1615,7 +1622,10 @@ static gvi_status gvi__blame(gvi_stepper *st, gvi_status status, int effect)
     return gvi__fail(st, status, effect, GVI_FAULT_NONE, GVI_FAULT_NONE);
 }
 
-static gvi_status gvi__give(gvi_stepper *st, gvi_status status) { return gvi__blame(st, status, GVI_FAULT_NONE); }
+static gvi_status gvi__give(gvi_stepper *st, gvi_status status)
+{
+    return gvi__blame(st, status, GVI_FAULT_NONE);
+}
 
 /* Of a stepper that is not set up or not started: the first failure stands, so
    that a chain of calls ends with its cause.                                  */
@@ -1702,7 +1712,8 @@ static gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e)
 {
     const gvi_effect *effect = st->x.desc.effects + e;
     gvi_real *value = GVI__CLOCK ? x->value : NULL;
-    gvi_real *own = value && effect->kind == GVI_LAGRANGIAN ? st->x.less : effect->kind == GVI_FORCE ? NULL : value;
+    gvi_real *own = value && effect->kind == GVI_LAGRANGIAN ? st->x.less
+                  : effect->kind == GVI_FORCE ? NULL : value;
     int point = GVI_FAULT_NONE, together = own && effect->points && effect->value == effect->points;
     gvi__count(&st->counters.effect[e], x->count);
     x->value = together ? own : NULL;
@@ -1855,7 +1866,8 @@ GVI__APART gvi_status gvi__ldl_factor(gvi_stepper *st, int n, int stride, int co
 
 // solves in rows z [n][stride]; the matrix has `each` = 1 entry a point, or 0:
 // one for all
-static void gvi__ldl_solve(int n, const gvi_real *m, int m_stride, int each, gvi_real *z, int stride, int count)
+static void gvi__ldl_solve(int n, const gvi_real *m, int m_stride, int each,
+                           gvi_real *z, int stride, int count)
 {
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < i; ++j) {
@@ -1889,7 +1901,8 @@ static void gvi__over_mass(const gvi_stepper *st, gvi_real *z, int stride, int c
 }
 
 // v := M^-1 p at one point, constant mass
-static void gvi__over_constant_mass(const gvi_stepper *st, const gvi_real *GVI__RESTRICT p, gvi_real *GVI__RESTRICT v)
+static void gvi__over_constant_mass(const gvi_stepper *st, const gvi_real *GVI__RESTRICT p,
+                                    gvi_real *GVI__RESTRICT v)
 {
     const int diagonal = st->x.desc.mass.kind == GVI_MASS_DIAGONAL;
     for (int i = 0; i < st->n; ++i) v[i] = diagonal ? p[i]*st->x.over[i] : p[i];
@@ -1921,9 +1934,10 @@ static gvi_status gvi__factor_at(gvi_stepper *st, const gvi_points *x)
 // x->f += v' dM/dq v / 2
 static gvi_status gvi__mass_gradient(gvi_stepper *st, const gvi_points *x)
 {
+    const gvi_mass *mass = &st->x.desc.mass;
     gvi_points y = *x;
     y.dldv = y.value = NULL;
-    if (st->x.desc.mass.gradient(&y, st->x.desc.mass.user)) return gvi__blame(st, GVI_E_CALLBACK, GVI_FAULT_MASS);
+    if (mass->gradient(&y, mass->user)) return gvi__blame(st, GVI_E_CALLBACK, GVI_FAULT_MASS);
     return gvi__diagnoses(st) ? gvi__check_rows(st, x, x->f, GVI_FAULT_MASS) : GVI_OK;
 }
 
@@ -2012,7 +2026,8 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real
 
 /* General Legendre transform at one point: Newton's method for dL/dv(v) = p
    from the v given.  Ends when the correction stops shrinking.                */
-static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *p, gvi_real *v)
+static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *p,
+                                       gvi_real *v)
 {
     int n = st->n;
     gvi_real *W = st->x.hess + 3*n, *pivot = W + n*n, *dv = st->x.hess + 2*n;
@@ -2062,7 +2077,8 @@ static void gvi__velocity_guess(const gvi_stepper *st, gvi_real *v)
 }
 
 /* v from p at one point.  v holds a guess on entry.                           */
-static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *p, gvi_real *v)
+static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *p,
+                                gvi_real *v)
 {
     gvi_points x;
     gvi__at(&x, st, &t, q);
@@ -2186,24 +2202,26 @@ static const gvi_real gvi__few_b[] = {
     GVI__C(0.326072577431273071313), GVI__C(0.173927422568726928687)
 };
 static const gvi_real gvi__few_Phi[] = {
-    GVI__C(0.5), GVI__C(-0.788675134594812882255), GVI__C(0.788675134594812882255), GVI__C(0.166666666666666666667),
-    GVI__C(0.166666666666666666667), GVI__C(-0.887298334620741688518), GVI__C(0.5), GVI__C(0.887298334620741688518),
-    GVI__C(0.1), GVI__C(0.25), GVI__C(0.1), GVI__C(0.0774596669241483377036), GVI__C(0.0),
-    GVI__C(-0.0774596669241483377036), GVI__C(-0.930568155797026287612), GVI__C(-0.669990521792428132401),
-    GVI__C(0.669990521792428132401), GVI__C(0.930568155797026287612), GVI__C(0.0646110632135476980776),
-    GVI__C(0.221103222500738016208), GVI__C(0.221103222500738016208), GVI__C(0.0646110632135476980776),
-    GVI__C(0.055638932663884638435), GVI__C(0.0751709043257755838678), GVI__C(-0.0751709043257755838678),
-    GVI__C(-0.055638932663884638435), GVI__C(0.0437381157656224151096), GVI__C(-0.0233299525003162926606),
-    GVI__C(-0.0233299525003162926606), GVI__C(0.0437381157656224151096)
+    GVI__C(0.5), GVI__C(-0.788675134594812882255), GVI__C(0.788675134594812882255),
+    GVI__C(0.166666666666666666667), GVI__C(0.166666666666666666667), GVI__C(-0.887298334620741688518),
+    GVI__C(0.5), GVI__C(0.887298334620741688518), GVI__C(0.1), GVI__C(0.25), GVI__C(0.1),
+    GVI__C(0.0774596669241483377036), GVI__C(0.0), GVI__C(-0.0774596669241483377036),
+    GVI__C(-0.930568155797026287612), GVI__C(-0.669990521792428132401), GVI__C(0.669990521792428132401),
+    GVI__C(0.930568155797026287612), GVI__C(0.0646110632135476980776), GVI__C(0.221103222500738016208),
+    GVI__C(0.221103222500738016208), GVI__C(0.0646110632135476980776), GVI__C(0.055638932663884638435),
+    GVI__C(0.0751709043257755838678), GVI__C(-0.0751709043257755838678), GVI__C(-0.055638932663884638435),
+    GVI__C(0.0437381157656224151096), GVI__C(-0.0233299525003162926606), GVI__C(-0.0233299525003162926606),
+    GVI__C(0.0437381157656224151096)
 };
 static const gvi_real gvi__few_phi[] = {
     GVI__C(1.0), GVI__C(1.0), GVI__C(1.0), GVI__C(0.577350269189625764509), GVI__C(-0.577350269189625764509),
     GVI__C(1.0), GVI__C(1.0), GVI__C(1.0), GVI__C(0.774596669241483377036), GVI__C(0.0),
-    GVI__C(-0.774596669241483377036), GVI__C(0.4), GVI__C(-0.5), GVI__C(0.4), GVI__C(1.0), GVI__C(1.0), GVI__C(1.0),
-    GVI__C(1.0), GVI__C(0.861136311594052575224), GVI__C(0.339981043584856264803), GVI__C(-0.339981043584856264803),
-    GVI__C(-0.861136311594052575224), GVI__C(0.612333620718713811535), GVI__C(-0.326619335004428097249),
-    GVI__C(-0.326619335004428097249), GVI__C(0.612333620718713811535), GVI__C(0.304746984955206190874),
-    GVI__C(-0.411727999672899573875), GVI__C(0.411727999672899573875), GVI__C(-0.304746984955206190874)
+    GVI__C(-0.774596669241483377036), GVI__C(0.4), GVI__C(-0.5), GVI__C(0.4), GVI__C(1.0), GVI__C(1.0),
+    GVI__C(1.0), GVI__C(1.0), GVI__C(0.861136311594052575224), GVI__C(0.339981043584856264803),
+    GVI__C(-0.339981043584856264803), GVI__C(-0.861136311594052575224), GVI__C(0.612333620718713811535),
+    GVI__C(-0.326619335004428097249), GVI__C(-0.326619335004428097249), GVI__C(0.612333620718713811535),
+    GVI__C(0.304746984955206190874), GVI__C(-0.411727999672899573875), GVI__C(0.411727999672899573875),
+    GVI__C(-0.304746984955206190874)
 };
 static const gvi_real gvi__few_S[] = {
     GVI__C(-0.75), GVI__C(-0.872008467928146215588), GVI__C(-0.75), GVI__C(0.705341801261479548921),
@@ -2250,8 +2268,9 @@ static void gvi__column(gvi_stepper *st, int which, int j) { (void)st, (void)whi
 #else
 /* z_i := sum_k a[k][i] w_k, twofold, low parts R further, at all points: fit for
    vectors.  A product does not wait for the sum, whose rounding is added up apart. */
-static void gvi__twofold_sums(int s, int R, const gvi_real *GVI__RESTRICT a, const gvi_real *GVI__RESTRICT low,
-                              const gvi_real *GVI__RESTRICT w, gvi_real *GVI__RESTRICT z)
+static void gvi__twofold_sums(int s, int R, const gvi_real *GVI__RESTRICT a,
+                              const gvi_real *GVI__RESTRICT low, const gvi_real *GVI__RESTRICT w,
+                              gvi_real *GVI__RESTRICT z)
 {
     gvi__zero(2*(size_t)R, z);
     for (int k = 0; k < s; ++k)
@@ -2300,7 +2319,8 @@ GVI__APART void gvi__tables(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
     const int r = st->r, R = x->stride, gauss = !GVI__RULES || (x->desc.rule.kind == GVI_GAUSS && r == st->s);
-    const int has_g = (GVI__POSITIONS || GVI__VELOCITIES) && x->g, has_m = (GVI__VELOCITIES || GVI__MOMENTA) && x->m;
+    const int has_g = (GVI__POSITIONS || GVI__VELOCITIES) && x->g;
+    const int has_m = (GVI__VELOCITIES || GVI__MOMENTA) && x->m;
     for (int j = 0; j < r; ++j) {
         if (has_g) gvi__column(st, GVI__OF_S, j);
         for (int i = 0; has_g && i <= j; ++i) {
@@ -2534,7 +2554,8 @@ static gvi_status gvi__resolve(gvi__scene *x, gvi_desc *d, const gvi_desc *desc)
     gvi_status status = gvi__check_desc(desc);
     x->desc = desc;
     if (status == GVI_OK) status = gvi__read_effects(x);
-    if (status != GVI_OK || !gvi__mass_given(&desc->mass, x->flags & GVI__HAS_LAGRANGIAN)) return GVI_E_ARGUMENT;
+    if (status != GVI_OK) return status;
+    if (!gvi__mass_given(&desc->mass, x->flags & GVI__HAS_LAGRANGIAN)) return GVI_E_ARGUMENT;
     *d = *desc;
     x->desc = d;
     if (d->degree == 0) d->degree = d->rule.kind == GVI_KICKS ? 1 : 8;
@@ -2597,10 +2618,9 @@ static gvi_real *gvi__take(gvi__arena *arena, size_t a, size_t b)
 enum {
     GVI__1, GVI__2, GVI__3, GVI__6, GVI__n, GVI__N, GVI__R, GVI__s,      // N: n, in whole vectors if n >= 8
     GVI__STATE, GVI__POINTS, GVI__V, GVI__P, GVI__A_, GVI__OLDER_F, GVI__OLDER_V, GVI__OLDER_A,
-    GVI__SLOPE, GVI__RATE, GVI__G, GVI__M, GVI__T, GVI__NN, GVI__E, GVI__PHI, GVI__MODES, GVI__PLACE, GVI__DRIFT,
-    GVI__GAMMA, GVI__DIAGONAL, GVI__TWO_MASSES, GVI__STILL, GVI__Z, GVI__AT_POINTS, GVI__nR, GVI__HESS,
-    GVI__HESSIANS,
-    GVI__sn, GVI__PIVOT, GVI__DIFFERENCES, GVI__J, GVI__EIGEN, GVI__LENGTHS
+    GVI__SLOPE, GVI__RATE, GVI__G, GVI__M, GVI__T, GVI__NN, GVI__E, GVI__PHI, GVI__MODES, GVI__PLACE,
+    GVI__DRIFT, GVI__GAMMA, GVI__DIAGONAL, GVI__TWO_MASSES, GVI__STILL, GVI__Z, GVI__AT_POINTS, GVI__nR,
+    GVI__HESS, GVI__HESSIANS, GVI__sn, GVI__PIVOT, GVI__DIFFERENCES, GVI__J, GVI__EIGEN, GVI__LENGTHS
 };
 
 GVI__APART void gvi__lengths(const gvi__scene *x, size_t *length)
@@ -2676,9 +2696,9 @@ static void gvi__layout_vectors(gvi__arena *a, const size_t *length)
 {
     static const gvi__part parts[] = {
         GVI__PART(q, 1, N), GVI__PART(qe, 1, N), GVI__PART(p, 1, N), GVI__PART(pe, 1, N), GVI__PART(q0, 1, N),
-        GVI__PART(p0, 1, N), GVI__PART(zeros, 1, N), GVI__PART(start, 1, N), GVI__PART(v0, 1, N), GVI__PART(ve, 1, N),
-        GVI__PART(dq, 1, N), GVI__PART(dp, 1, N), GVI__PART(dqe, 1, N), GVI__PART(dpe, 1, N),
-        GVI__PART(mass, DIAGONAL, 1), GVI__PART(over, DIAGONAL, 1)
+        GVI__PART(p0, 1, N), GVI__PART(zeros, 1, N), GVI__PART(start, 1, N), GVI__PART(v0, 1, N),
+        GVI__PART(ve, 1, N), GVI__PART(dq, 1, N), GVI__PART(dp, 1, N), GVI__PART(dqe, 1, N),
+        GVI__PART(dpe, 1, N), GVI__PART(mass, DIAGONAL, 1), GVI__PART(over, DIAGONAL, 1)
     };
     gvi__place(a, length, parts, sizeof parts/sizeof *parts);
 }
@@ -2687,18 +2707,16 @@ static void gvi__layout_rows(gvi__arena *a, const size_t *length)
 {
     static const gvi__part parts[] = {
         GVI__PART(last.Q, STATE, POINTS), GVI__PART(last.F, STATE, POINTS), GVI__PART(last.V, V, R),
-        GVI__PART(last.P, P, R), GVI__PART(last.A, A_, R),
-        GVI__PART(work.Q, STATE, POINTS), GVI__PART(work.F, STATE, POINTS), GVI__PART(work.V, V, R),
-        GVI__PART(work.P, P, R), GVI__PART(work.A, A_, R),
-        GVI__PART(older_F, OLDER_F, R), GVI__PART(older_V, OLDER_V, R), GVI__PART(older_A, OLDER_A, R),
-        GVI__PART(weak, STILL, R), GVI__PART(slope, SLOPE, R),
-        GVI__PART(rate, RATE, R),
-        GVI__PART(z, 1, R), GVI__PART(less, 1, R), GVI__PART(hb, 1, R), GVI__PART(c, 1, R), GVI__PART(g, G, R),
-        GVI__PART(m, M, R), GVI__PART(T, T, R), GVI__PART(N, NN, R), GVI__PART(E, E, R), GVI__PART(Phi, PHI, R),
-        GVI__PART(phi, MODES, R), GVI__PART(low, MODES, R), GVI__PART(Z, Z, R), GVI__PART(point_mass, AT_POINTS, nR),
-        GVI__PART(ce, 1, R), GVI__PART(b, 1, R), GVI__PART(t, 1, R), GVI__PART(place, PLACE, R), GVI__PART(row, 6, R),
-        GVI__PART(drift, DRIFT, 1), GVI__PART(inv_gamma, 1, s), GVI__PART(own, GAMMA, 1),
-        GVI__PART(eigen, EIGEN, s)
+        GVI__PART(last.P, P, R), GVI__PART(last.A, A_, R), GVI__PART(work.Q, STATE, POINTS),
+        GVI__PART(work.F, STATE, POINTS), GVI__PART(work.V, V, R), GVI__PART(work.P, P, R),
+        GVI__PART(work.A, A_, R), GVI__PART(older_F, OLDER_F, R), GVI__PART(older_V, OLDER_V, R),
+        GVI__PART(older_A, OLDER_A, R), GVI__PART(weak, STILL, R), GVI__PART(slope, SLOPE, R),
+        GVI__PART(rate, RATE, R), GVI__PART(z, 1, R), GVI__PART(less, 1, R), GVI__PART(hb, 1, R),
+        GVI__PART(c, 1, R), GVI__PART(g, G, R), GVI__PART(m, M, R), GVI__PART(T, T, R), GVI__PART(N, NN, R),
+        GVI__PART(E, E, R), GVI__PART(Phi, PHI, R), GVI__PART(phi, MODES, R), GVI__PART(low, MODES, R),
+        GVI__PART(Z, Z, R), GVI__PART(point_mass, AT_POINTS, nR), GVI__PART(ce, 1, R), GVI__PART(b, 1, R),
+        GVI__PART(t, 1, R), GVI__PART(place, PLACE, R), GVI__PART(row, 6, R), GVI__PART(drift, DRIFT, 1),
+        GVI__PART(inv_gamma, 1, s), GVI__PART(own, GAMMA, 1), GVI__PART(eigen, EIGEN, s)
     };
     gvi__place(a, length, parts, sizeof parts/sizeof *parts);
 }
@@ -2708,8 +2726,8 @@ static void gvi__layout_scratch(gvi__arena *a, const size_t *length)
 {
     static const gvi__part parts[] = {
         GVI__PART(mass, TWO_MASSES, n), GVI__PART(scale, 2, n), GVI__PART(change, 3, n), GVI__PART(one, 6, n),
-        GVI__PART(hess, HESS, HESSIANS), GVI__PART(y, sn, 1), GVI__PART(dy, sn, 1), GVI__PART(pivot, PIVOT, 2),
-        GVI__PART(dF, DIFFERENCES, R), GVI__PART(J, J, sn)
+        GVI__PART(hess, HESS, HESSIANS), GVI__PART(y, sn, 1), GVI__PART(dy, sn, 1),
+        GVI__PART(pivot, PIVOT, 2), GVI__PART(dF, DIFFERENCES, R), GVI__PART(J, J, sn)
     };
     gvi__place(a, length, parts, sizeof parts/sizeof *parts);
 }
@@ -2760,7 +2778,8 @@ static gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
         for (int i = 0; i < n; ++i)
             for (int j = 0; j <= i; ++j) {
                 m[i*n + j] = m[nn + (size_t)(i*n + j)] = mass->matrix[i*n + j];
-                if (!gvi__finite(m[i*n + j])) return gvi__fail(st, GVI_E_ARGUMENT, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
+                if (!gvi__finite(m[i*n + j]))
+                    return gvi__fail(st, GVI_E_ARGUMENT, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
             }
         gvi_status status = gvi__ldl_factor(st, n, 1, 1, m);
         st->counters.factorizations = 0;
@@ -2864,7 +2883,8 @@ typedef struct gvi__from {
 // rows of the Lagrangian terms' dL/dv, where there are any
 static inline gvi_real *gvi__A(const struct gvi__rows *rows) { return GVI__LAGRANGIAN ? rows->A : NULL; }
 
-static void gvi__rows_as_points(gvi_points *x, const gvi_stepper *st, const struct gvi__rows *rows, gvi_real *dldv)
+static void gvi__rows_as_points(gvi_points *x, const gvi_stepper *st, const struct gvi__rows *rows,
+                                gvi_real *dldv)
 {
     gvi__at(x, st, st->x.t, rows->Q);
     x->v = rows->V;
@@ -2908,8 +2928,8 @@ static inline void gvi__begin(gvi_stepper *st, gvi__from *from, gvi_real h)
 
 // the drift to the first node: dp := pe, dq := qe + a (v + pe/m), Q := q + dq; F := 0
 static inline void gvi__drift_of(int n, gvi_real a, gvi_real zero, const gvi_real *m, const gvi__from *from,
-                                 gvi_real *GVI__RESTRICT dp, gvi_real *GVI__RESTRICT dq, gvi_real *GVI__RESTRICT Q,
-                                 gvi_real *GVI__RESTRICT F)
+                                 gvi_real *GVI__RESTRICT dp, gvi_real *GVI__RESTRICT dq,
+                                 gvi_real *GVI__RESTRICT Q, gvi_real *GVI__RESTRICT F)
 {
     const gvi_real *GVI__RESTRICT v = from->v, *GVI__RESTRICT q = from->q;
     const gvi_real *GVI__RESTRICT qe = from->qe, *GVI__RESTRICT pe = from->pe;
@@ -2939,15 +2959,17 @@ static inline void gvi__drift(int n, gvi_real a, gvi_real zero, const gvi_real *
 enum { GVI__KICK, GVI__LAST_KICK, GVI__FIRST_KICK };
 
 static inline void gvi__kick_drift_of(int n, int kind, gvi_real b, gvi_real a, const gvi_real *m,
-                                      const gvi__from *from, gvi_real zero, const gvi_real *GVI__RESTRICT known,
-                                      gvi_real *GVI__RESTRICT F, gvi_real *GVI__RESTRICT dp,
-                                      gvi_real *GVI__RESTRICT dq, gvi_real *GVI__RESTRICT Q)
+                                      const gvi__from *from, gvi_real zero,
+                                      const gvi_real *GVI__RESTRICT known, gvi_real *GVI__RESTRICT F,
+                                      gvi_real *GVI__RESTRICT dp, gvi_real *GVI__RESTRICT dq,
+                                      gvi_real *GVI__RESTRICT Q)
 {
     const gvi_real *GVI__RESTRICT v = from->v, *GVI__RESTRICT q = from->q;
     const gvi_real *GVI__RESTRICT qe = from->qe, *GVI__RESTRICT pe = from->pe;
     const int first = kind == GVI__FIRST_KICK;
     for (int i = 0; i < n; ++i) {
-        const gvi_real p = first ? pe[i] : dp[i], d = first ? qe[i] : dq[i], kick = b*(first ? known[i] : F[i]);
+        const gvi_real p = first ? pe[i] : dp[i], d = first ? qe[i] : dq[i];
+        const gvi_real kick = b*(first ? known[i] : F[i]);
         dq[i] = (d + a*(v[i] + (m ? p*m[i] : p))) + a*(m ? kick*m[i] : kick);
         dp[i] = p + kick;
         Q[i] = q[i] + dq[i];
@@ -2955,9 +2977,9 @@ static inline void gvi__kick_drift_of(int n, int kind, gvi_real b, gvi_real a, c
     }
 }
 
-static inline void gvi__kick_drift(int n, int kind, gvi_real b, gvi_real a, const gvi_real *m, const gvi__from *from,
-                                   gvi_real zero, const gvi_real *known, gvi_real *F, gvi_real *dp, gvi_real *dq,
-                                   gvi_real *Q)
+static inline void gvi__kick_drift(int n, int kind, gvi_real b, gvi_real a, const gvi_real *m,
+                                   const gvi__from *from, gvi_real zero, const gvi_real *known, gvi_real *F,
+                                   gvi_real *dp, gvi_real *dq, gvi_real *Q)
 {
     if (m || GVI__SMALL) gvi__kick_drift_of(n, kind, b, a, m, from, zero, known, F, dp, dq, Q);
     else gvi__kick_drift_of(n, kind, b, a, NULL, from, zero, known, F, dp, dq, Q);
@@ -2974,8 +2996,8 @@ static void gvi__drift_dense(gvi_stepper *st, const gvi__from *from, gvi_real a)
 
 /* One evaluation a kick.  `force` is that at the start, if it is known: after a step
    whose last node was 1.  dqe and dpe are never anything but 0 here.          */
-static inline gvi_status gvi__explicit_of(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *force,
-                                          int n)
+static inline gvi_status gvi__explicit_of(gvi_stepper *st, const gvi__from *from, gvi_real h,
+                                          const gvi_real *force, int n)
 {
     struct gvi__private *x = &st->x;
     const int dense = gvi__mass_is(st, GVI_MASS_DENSE), r = st->r;
@@ -3071,7 +3093,8 @@ GVI__COPY void gvi__sum_vector(int r, int R, const gvi_real *table, const gvi_re
 #endif
 
 // the same for `block` points, by loops, any r
-static inline void gvi__sum_block(int r, int R, int block, const gvi_real *table, const gvi_real *L, gvi_real *z)
+static inline void gvi__sum_block(int r, int R, int block, const gvi_real *table, const gvi_real *L,
+                                  gvi_real *z)
 {
     for (int k = 0; k < block; ++k) {
         const gvi_real *t = table + k, none = -(gvi_real)0;          // x + -0 is x, also for -0
@@ -3216,7 +3239,8 @@ GVI__COPY gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stage *y
                     }
                     next[k] = p.base + ((p.extra + GVI__AT(c + at)*p.a) + z*p.b);
                 }
-                if (last < 8) gvi__rescale(p.base, row[last], next[last/GVI__LANES][last % GVI__LANES], y->scale + i);
+                if (last < 8)
+                    gvi__rescale(p.base, row[last], next[last/GVI__LANES][last % GVI__LANES], y->scale + i);
                 for (int k = 0; k < VECTORS; ++k) {
                     const gvi__vector moved = (next[k] - GVI__AT(row + k*GVI__LANES))*y->scale[i];
                     squares[k] += moved*moved;
@@ -3325,7 +3349,8 @@ static void gvi__row_sums(const gvi_stepper *st, const gvi__stage *y, int i, gvi
 GVI__APART gvi_real gvi__stage_rows_plain(gvi_stepper *st, const gvi__stage *y)
 {
     const struct gvi__private *x = &st->x;
-    const int n = st->n, R = x->stride, last = st->r - 1, dense = y->over_mass && gvi__mass_is(st, GVI_MASS_DENSE);
+    const int n = st->n, R = x->stride, last = st->r - 1;
+    const int dense = y->over_mass && gvi__mass_is(st, GVI_MASS_DENSE);
     gvi_real lane[8] = { 0, 0, 0, 0, 0, 0, 0, 0 }, *z = dense ? x->Z : x->row, *row = y->rows;
     for (int i = 0; dense && i < n; ++i) gvi__row_sums(st, y, i, z + i*R);
     if (dense) gvi__over_mass(st, z, R, R);
@@ -3467,7 +3492,8 @@ GVI__APART gvi_status gvi__legendre_rows(gvi_stepper *st, const gvi_points *y)
     gvi__count(&st->counters.velocities, st->r);
     if (x->desc.mass.velocity) {
         const gvi_status status = gvi__ask_mass(st, y, x->work.P, x->work.V);
-        return status == GVI_OK && gvi__diagnoses(st) ? gvi__check_rows(st, y, x->work.V, GVI_FAULT_MASS) : status;
+        if (status != GVI_OK || !gvi__diagnoses(st)) return status;
+        return gvi__check_rows(st, y, x->work.V, GVI_FAULT_MASS);
     }
     const gvi_status status = gvi__mass_is_constant(&x->desc) ? GVI_OK : gvi__factor_at(st, y);
     if (status != GVI_OK) return status;
@@ -3504,7 +3530,8 @@ static inline void gvi__add_products(int R, const gvi_real *GVI__RESTRICT a, con
 }
 
 // F := g F - dg/dq (H - E)
-static inline void gvi__transform_row(int R, const gvi_real *GVI__RESTRICT g, const gvi_real *GVI__RESTRICT slope,
+static inline void gvi__transform_row(int R, const gvi_real *GVI__RESTRICT g,
+                                      const gvi_real *GVI__RESTRICT slope,
                                       const gvi_real *GVI__RESTRICT excess, gvi_real *GVI__RESTRICT F)
 {
     for (int k = 0; k < R; ++k) F[k] = g[k]*F[k] - slope[k]*excess[k];
@@ -3929,11 +3956,13 @@ static int gvi__is_rounding(const gvi_stepper *st, const gvi__from *from, int id
         if (!(beyond <= 0)) noise += r*beyond*most;
         size += r*GVI_ABS(from->p[i]*v);
     }
-    return noise <= 0 || (idle > 4 && size + place <= GVI__MAX && noise <= 1000*GVI__EPS*size + 4*GVI__EPS*place);
+    return noise <= 0
+        || (idle > 4 && size + place <= GVI__MAX && noise <= 1000*GVI__EPS*size + 4*GVI__EPS*place);
 }
 
 // g at one configuration; slope of length n gets dg/dq
-GVI__APART gvi_status gvi__rate_at(gvi_stepper *st, gvi_real t, const gvi_real *q, gvi_real *rate, gvi_real *slope)
+GVI__APART gvi_status gvi__rate_at(gvi_stepper *st, gvi_real t, const gvi_real *q, gvi_real *rate,
+                                   gvi_real *slope)
 {
     gvi_points y;
     gvi__at(&y, st, &t, q);
@@ -4007,7 +4036,7 @@ GVI__APART int gvi__settled(gvi_stepper *st, const gvi__progress *p, gvi__still 
         w->asked += 1;
         w->way = change;
     } else {
-        const gvi_real seen = change > p->rounding ? rate : p->rounding/before;    // below it no more is known
+        const gvi_real seen = change > p->rounding ? rate : p->rounding/before;  // below it no more is known
         if (before > sure && (w->steady >= 1 || seen > w->steady)) w->steady = seen;
         if (change > w->way) w->way = change;
     }
@@ -4034,8 +4063,8 @@ static int gvi__may_turn(const gvi_stepper *st)
    All of it in squares of changes: no root or quotient between an iteration and
    the next.  A given number of iterations ends there, if the change is half of
    that two before.                                                            */
-static int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *p, gvi__still *weak, gvi_real change,
-                      int used)
+static int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *p, gvi__still *weak,
+                      gvi_real change, int used)
 {
     struct gvi__private *x = &st->x;
     const gvi_real rounding = p->rounding, before = p->before;
@@ -4070,7 +4099,8 @@ static int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *p, 
 }
 
 /* Fixed point on the rows: F, V and A make the rows, the effects are asked there. */
-GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate, int *used)
+GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate,
+                                       int *used)
 {
     struct gvi__private *x = &st->x;
     const int most = gvi__counts(st) ? x->desc.iterations : x->desc.max_iterations;
@@ -4213,7 +4243,8 @@ static void gvi__bessel(int s, gvi__two a, gvi__two b, gvi_real *re, gvi_real *i
         const gvi_real w = (gvi_real)(4*k + 2);
         const gvi__two u = gvi__sub2(gvi__mul2(a, x), gvi__mul2(b, y));
         const gvi__two v = gvi__add2(gvi__mul2(a, y), gvi__mul2(b, x));
-        const gvi__two next_x = gvi__add2(gvi__scale2(w, u), last_x), next_y = gvi__add2(gvi__scale2(w, v), last_y);
+        const gvi__two next_x = gvi__add2(gvi__scale2(w, u), last_x);
+        const gvi__two next_y = gvi__add2(gvi__scale2(w, v), last_y);
         re[k] = x.hi;
         im[k] = y.hi;
         last_x = x;
@@ -4244,8 +4275,8 @@ static gvi__complex gvi__bessel_correction(const gvi_stepper *st, int m, const g
     gvi__bessel(s, lambda[0], lambda[1], re, im);
     const gvi__complex z = gvi__complex_of(re[s], im[s]), square = gvi__times_complex(l, l);
     const gvi__complex slope = gvi__times_complex(gvi__complex_of(a*l.re + 1, a*l.im), z);
-    const gvi__complex u = gvi__times_complex(gvi__times_complex(gvi__complex_of(2*square.re, 2*square.im), z),
-                                              gvi__inverse(slope.re + re[s - 1], slope.im + im[s - 1]));
+    const gvi__complex top = gvi__times_complex(gvi__complex_of(2*square.re, 2*square.im), z);
+    const gvi__complex u = gvi__times_complex(top, gvi__inverse(slope.re + re[s - 1], slope.im + im[s - 1]));
     gvi__complex sum = gvi__complex_of(0, 0);
     for (; m < (s + 1)/2; ++m) {
         const gvi__complex zero = gvi__eigenvalue(st, m);
@@ -4270,7 +4301,8 @@ static int gvi__bessel_zero(const gvi_stepper *st, int m, gvi__two lambda[2])
         const gvi__complex d = gvi__bessel_correction(st, near ? all : m + 1, lambda);
         lambda[0] = gvi__add2(lambda[0], gvi__real2(-d.re));
         lambda[1] = gvi__add2(lambda[1], gvi__real2(-d.im));
-        near += near || gvi__modulus(d.re, d.im) <= GVI_SQRT(GVI__EPS)*gvi__modulus(lambda[0].hi, lambda[1].hi);
+        const gvi_real size = gvi__modulus(lambda[0].hi, lambda[1].hi);
+        near += near || gvi__modulus(d.re, d.im) <= GVI_SQRT(GVI__EPS)*size;
     }
     return near == 4;
 }
@@ -4307,14 +4339,15 @@ static gvi_real gvi__eigenvectors(gvi_stepper *st)
 
    n*n times s*s.  In the basis of X's eigenvectors it falls apart into blocks, X
    being lambda in each; of a conjugate pair one is enough.  Adds f and p as below. */
-static void gvi__add_to_blocks(const gvi_stepper *st, const gvi__matrix *J, int i, int j, gvi_real f, gvi_real p,
-                               int by_v)
+static void gvi__add_to_blocks(const gvi_stepper *st, const gvi__matrix *J, int i, int j,
+                               gvi_real f, gvi_real p, int by_v)
 {
     const size_t n = (size_t)st->n;
     gvi_real *a = J->square + 2*n*(size_t)i + (size_t)j;
     for (int m = 0; m < (st->s + 1)/2; ++m, a += 2*n*n) {
         const gvi__complex l = gvi__eigenvalue(st, m);
-        const gvi__complex x = gvi__complex_of(J->h*l.re, J->h*l.im), y = gvi__complex_of(p - x.re*f, -x.im*f);
+        const gvi__complex x = gvi__complex_of(J->h*l.re, J->h*l.im);
+        const gvi__complex y = gvi__complex_of(p - x.re*f, -x.im*f);
         const gvi__complex z = by_v ? y : gvi__times_complex(x, y);
         a[0] += z.re;
         a[n] += z.im;
@@ -4409,7 +4442,8 @@ GVI__APART gvi_status gvi__jacobian_exact(gvi_stepper *st, const gvi__matrix *J,
             gvi__zero(4*nn, fq);
             if (effect->hessian(at->t[k], q, reads_v ? v : NULL, fq, reads_v ? fv : NULL, term ? pv : NULL,
                                 effect->user))
-                return gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, gvi__in_blocks(J) ? GVI_FAULT_NONE : k);
+                return gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE,
+                                 gvi__in_blocks(J) ? GVI_FAULT_NONE : k);
             for (int i = 0; i < n; ++i)
                 for (int j = 0; j < n; ++j) {       // d(dL/dv)/dq is the transpose of d(dL/dq)/dv
                     gvi__add(st, J, i, j, k, fq[i*n + j], term ? fv[j*n + i] : 0, 0);
@@ -4442,14 +4476,14 @@ GVI__APART void gvi__add_differences(const gvi_stepper *st, const gvi__matrix *J
     const gvi_real *dF = st->x.dF, *dP = dF + n*R, *bF = dP + n*R, *bP = bF + n*R;
     for (int k = 0; k < at->count; ++k) {
         const gvi_real step = row[k] - st->x.z[k];
-        for (int i = 0; i < n; ++i)
-            gvi__add(st, J, i, j, k, (dF[i*R + k] - bF[i*R + k])/step, (dP[i*R + k] - bP[i*R + k])/step, by_v);
+        for (int i = 0, o = k; i < n; ++i, o += R)
+            gvi__add(st, J, i, j, k, (dF[o] - bF[o])/step, (dP[o] - bP[o])/step, by_v);
     }
 }
 
 // forward differences by one row, coordinate j of Q or V, at all points at once
-GVI__APART gvi_status gvi__difference(gvi_stepper *st, const gvi__matrix *J, const gvi__sites *at, int j, int by_v,
-                                      gvi_real d)
+GVI__APART gvi_status gvi__difference(gvi_stepper *st, const gvi__matrix *J, const gvi__sites *at, int j,
+                                      int by_v, gvi_real d)
 {
     struct gvi__private *x = &st->x;
     const size_t R = (size_t)at->stride;
@@ -4474,9 +4508,10 @@ GVI__APART gvi_real gvi__nudge(const gvi__sites *at, int j, gvi_real h, int by_v
         if (GVI_ABS(V[k]) > v) v = GVI_ABS(V[k]);
     }
     const gvi_real path = h*v > small*q ? h*v : small*q;
-    const gvi_real step = root*path > GVI__MIN/GVI__EPS ? root*path : h < 1 ? root*h : root;      // at rest at 0
+    const gvi_real step = root*path > GVI__MIN/GVI__EPS ? root*path
+                        : h < 1 ? root*h : root;              // at rest at 0
     if (!by_v) return step;
-    return v > 0 && step/h > small*v ? small*v : step/h;          // short steps: no velocity beyond all others
+    return v > 0 && step/h > small*v ? small*v : step/h;      // short steps: no velocity beyond all others
 }
 
 // derivatives of what has no Hessian
@@ -4520,7 +4555,8 @@ GVI__APART gvi_status gvi__check_regular(gvi_stepper *st)
 static void gvi__scale_rows(int n, int size, const gvi__matrix *J)
 {
     for (int row = 0; row < size; ++row) {
-        gvi_real big = 0, *a = J->square + (size_t)row*(size_t)size, *ends = J->ends + (size_t)row*2*(size_t)n;
+        gvi_real *a = J->square + (size_t)row*(size_t)size, *ends = J->ends + (size_t)row*2*(size_t)n;
+        gvi_real big = 0;
         for (int j = 0; j < size; ++j)
             if (GVI_ABS(a[j]) > big) big = GVI_ABS(a[j]);
         for (int j = 0; big > 0 && j < size; ++j) a[j] /= big;
@@ -4546,11 +4582,12 @@ static gvi__sites gvi__middle(gvi_stepper *st, gvi_real *t)
 static gvi_status gvi__jacobian_fill(gvi_stepper *st, const gvi__matrix *J)
 {
     struct gvi__private *x = &st->x;
-    int n = st->n, size = (st->s - J->k0)*n;
+    const int n = st->n, size = (st->s - J->k0)*n;
+    const size_t whole = (size_t)size*(size_t)size, blocks = (size_t)(st->s + 1)*(size_t)n*(size_t)n;
     gvi_real t;
     const gvi__sites all = { x->t, x->work.Q, x->work.V, st->r, x->stride };
     const gvi__sites at = gvi__in_blocks(J) ? gvi__middle(st, &t) : all;
-    gvi__zero(gvi__in_blocks(J) ? (size_t)(st->s + 1)*(size_t)n*(size_t)n : (size_t)size*(size_t)size, J->square);
+    gvi__zero(gvi__in_blocks(J) ? blocks : whole, J->square);
     if (J->ends) gvi__zero((size_t)size*2*(size_t)n, J->ends);
     gvi_status status = gvi__check_regular(st);
     if (status == GVI_OK) status = gvi__jacobian_exact(st, J, &at);
@@ -4566,7 +4603,8 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J, gvi_real 
     if (J->scaled) gvi__scale_rows(n, size, J);
     status = gvi__lu_factor(size, J->square, pivot, &at);
     gvi__count(&st->counters.factorizations, 1);
-    return status == GVI_OK ? GVI_OK : gvi__fail(st, status, GVI_FAULT_NONE, at < 0 ? at : at % n, GVI_FAULT_NONE);
+    if (status == GVI_OK) return GVI_OK;
+    return gvi__fail(st, status, GVI_FAULT_NONE, at < 0 ? GVI_FAULT_NONE : at % n, GVI_FAULT_NONE);
 }
 
 // y := modes of the extrapolated V, or constant velocity
@@ -4617,12 +4655,13 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__from *from, gvi_r
    solution.  Keeps the factorisation while it contracts by 1/4 or better, over
    iterations and, if `kept`, over steps.  Gives up blocks that contract by no more
    than 1/2 when they are new: derivatives at one point are not enough.        */
-GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi__matrix *J, gvi_real *pivot,
-                                  int kept)
+GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi__matrix *J,
+                                  gvi_real *pivot, int kept)
 {
     struct gvi__private *x = &st->x;
     const gvi_real enough = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/4096;
-    int size = (st->s - J->k0)*st->n, have = kept && !gvi__nonzero(x->h_matrix - J->h) && x->has_blocks == J->blocks;
+    const int size = (st->s - J->k0)*st->n;
+    int have = kept && !gvi__nonzero(x->h_matrix - J->h) && x->has_blocks == J->blocks;
     int made = 0, last = 0, idle = 0, was_fresh = 0;
     gvi_real before = 0, earlier = 0, rho = (gvi_real)0.25, left = GVI__MAX;
     for (int k = 0; k <= x->desc.max_iterations; ++k) {
@@ -4643,7 +4682,8 @@ GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const 
         if (gvi__in_blocks(J)) gvi__solve_blocks(st, J, pivot);
         else gvi_lu_solve(size, J->square, pivot, x->dy);
         int still = 1;
-        gvi_real change = gvi__newton_update(st, from, J->h, J->k0, &still), ratio = before > 0 ? change/before : 1;
+        const gvi_real change = gvi__newton_update(st, from, J->h, J->k0, &still);
+        const gvi_real ratio = before > 0 ? change/before : 1;
         gvi__count(&st->counters.newton_iterations, 1);
         if (!(change <= GVI__MAX)) return gvi__not_finite(st, 0);
         gvi__watch(st, change, earlier);
@@ -4699,7 +4739,8 @@ GVI__APART void gvi__newton_increments(gvi_stepper *st, const gvi__from *from, g
 }
 
 // by blocks, if they may be used; where they fail the whole matrix starts anew, and stays
-GVI__APART gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate, int query)
+GVI__APART gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate,
+                                       int query)
 {
     struct gvi__private *x = &st->x;
     size_t sn = (size_t)(st->s*st->n), offset = query ? sn*sn : 0;
@@ -4708,7 +4749,8 @@ GVI__APART gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, g
     gvi__newton_guess(st, extrapolate);
     const unsigned long long count = st->counters.newton_iterations;
     gvi_status status = gvi__newton(st, from, &J, pivot, !query);
-    const int refused = status == GVI_E_CALLBACK && st->counters.newton_iterations == count;   // as with any matrix
+    // a callback that refused the first points would refuse them with any matrix
+    const int refused = status == GVI_E_CALLBACK && st->counters.newton_iterations == count;
     if (gvi__in_blocks(&J) && status != GVI_OK && !refused) {
         J.blocks = 0;
         if (!query) x->whole_left = 64;
@@ -4780,7 +4822,7 @@ static int gvi__finite_end(const gvi_stepper *st, const gvi__from *from)
     for (int k = 0; i > 0 && k < GVI__LANES; ++k) none += nones[k];
 #endif
     for (; i < st->n; ++i) {
-        const gvi__stored a = q[i] + dq[i], b = p[i] + dp[i];   // where registers are wider: what will be kept
+        const gvi__stored a = q[i] + dq[i], b = p[i] + dp[i];   // as it will be kept, not in wide registers
         none += 0*a + 0*b;
     }
     return none >= 0;
@@ -4788,8 +4830,8 @@ static int gvi__finite_end(const gvi_stepper *st, const gvi__from *from)
 
 /* An attempt at which something was not finite, once more with every effect looked at,
    to say which one it was; what is not finite then is divergence.             */
-static gvi_status gvi__diagnosed(gvi_stepper *st, gvi__from *from, gvi_real h, const gvi__history *past, int query,
-                                 gvi_status status)
+static gvi_status gvi__diagnosed(gvi_stepper *st, gvi__from *from, gvi_real h, const gvi__history *past,
+                                 int query, gvi_status status)
 {
     struct gvi__private *x = &st->x;
     if (!GVI__DIAGNOSIS || status != GVI_E_NON_FINITE || st->fault.effect != GVI_FAULT_NONE) return status;
@@ -4800,7 +4842,8 @@ static gvi_status gvi__diagnosed(gvi_stepper *st, gvi__from *from, gvi_real h, c
     return status != GVI_OK ? status : gvi__give(st, GVI_E_CONVERGENCE);
 }
 
-static gvi_status gvi__solve(gvi_stepper *st, gvi__from *from, gvi_real h, const gvi__history *past, int query)
+static gvi_status gvi__solve(gvi_stepper *st, gvi__from *from, gvi_real h, const gvi__history *past,
+                             int query)
 {
     gvi_status status = gvi__attempt(st, from, h, past, query);
     if (status == GVI_OK && !gvi__finite_end(st, from)) status = gvi__give(st, GVI_E_NON_FINITE);
@@ -4835,7 +4878,8 @@ static void gvi__rotate_rows(gvi_stepper *st)
 
 // was := x, x + rest := x + dx + dxe; dxe may be NULL, for 0
 static inline void gvi__move_of(int n, const gvi_real *GVI__RESTRICT dx, const gvi_real *GVI__RESTRICT dxe,
-                                gvi_real *GVI__RESTRICT x, gvi_real *GVI__RESTRICT rest, gvi_real *GVI__RESTRICT was)
+                                gvi_real *GVI__RESTRICT x, gvi_real *GVI__RESTRICT rest,
+                                gvi_real *GVI__RESTRICT was)
 {
     for (int i = 0; i < n; ++i) {
         gvi__two sum = gvi__sum(x[i], dx[i]);
@@ -4846,7 +4890,8 @@ static inline void gvi__move_of(int n, const gvi_real *GVI__RESTRICT dx, const g
     }
 }
 
-static void gvi__move(int n, const gvi_real *dx, const gvi_real *dxe, gvi_real *x, gvi_real *rest, gvi_real *was)
+static void gvi__move(int n, const gvi_real *dx, const gvi_real *dxe, gvi_real *x, gvi_real *rest,
+                      gvi_real *was)
 {
     if (n == 2 && dxe && !GVI__SMALL) gvi__move_of(2, dx, dxe, x, rest, was);
     else if (n == 2 && !GVI__SMALL) gvi__move_of(2, dx, NULL, x, rest, was);
@@ -5215,7 +5260,8 @@ GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
 static gvi_status gvi__partial(gvi_stepper *st, gvi__from *from, int end, gvi_real h)
 {
     struct gvi__private *x = &st->x;
-    gvi__history past = { 1, end ? (gvi_real)1 : (gvi_real)0, h/st->h, x->has_force && end ? x->last.F : NULL };
+    gvi__history past = { 1, end ? (gvi_real)1 : (gvi_real)0, h/st->h, NULL };
+    if (x->has_force && end) past.force = x->last.F;
     return gvi__solve(st, from, h, &past, 1);
 }
 
@@ -5289,7 +5335,8 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
 }
 
 // L at one point, with the kinetic energy
-static gvi_status gvi__lagrangian(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *value)
+static gvi_status gvi__lagrangian(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v,
+                                  gvi_real *value)
 {
     gvi_real V, L, T;
     gvi_points y;
@@ -5376,7 +5423,8 @@ static gvi_real gvi__jacobian_error(const gvi_stepper *st)
 
 /* The curve between the boundary values: F at its points in work.F, and the sum
    of b_i P_i in p.  Degree 1 is a chord, point by point: nothing to solve.     */
-static gvi_status gvi__chord(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *q1, gvi_real *p)
+static gvi_status gvi__chord(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *q1,
+                             gvi_real *p)
 {
     struct gvi__private *x = &st->x;
     int n = st->n, R = x->stride;
@@ -5410,8 +5458,8 @@ static gvi_status gvi__interior(gvi_stepper *st, const gvi__from *from, gvi_real
     struct gvi__private *x = &st->x;
     int n = st->n, size = (st->s - 1)*n;
     if (size == 0) return gvi__chord(st, from, h, q1, p);
-    gvi_status status = GVI_E_NON_FINITE;
-    for (int look = 0; look < 1 + GVI__DIAGNOSIS && status == GVI_E_NON_FINITE; ++look) {    // as in gvi__solve
+    gvi_status status = GVI_E_NON_FINITE;         // once more to see why, as in gvi__solve
+    for (int look = 0; look < 1 + GVI__DIAGNOSIS && status == GVI_E_NON_FINITE; ++look) {
         gvi__zero((size_t)(st->s*n), x->y);
         for (int i = 0; i < n; ++i) x->y[i] = (q1[i] - from->q[i])/h;
         x->diagnose = (signed char)look;
@@ -5456,11 +5504,12 @@ static int gvi__negative(int n, gvi_real *a)
         gvi__exchange(n, a, k, width == 1 ? p : q);
         if (width == 2) gvi__exchange(n, a, k + 1, r == k ? q : r);        // k has just gone to q
         count += width == 2 || a[k*n + k] < 0;
-        gvi_real d = a[k*n + k], e = width == 2 ? a[(k + 1)*n + k] : 0, f = width == 2 ? a[(k + 1)*n + k + 1] : 1;
+        const int two = width == 2;
+        gvi_real d = a[k*n + k], e = two ? a[(k + 1)*n + k] : 0, f = two ? a[(k + 1)*n + k + 1] : 1;
         for (int i = k + width; i < n; ++i) {
-            gvi_real x = a[i*n + k], y = width == 2 ? a[i*n + k + 1] : 0, det = d*f - e*e;
+            gvi_real x = a[i*n + k], y = two ? a[i*n + k + 1] : 0, det = d*f - e*e;
             gvi_real u = (f*x - e*y)/det, v = (d*y - e*x)/det;          // the block's inverse
-            for (int j = k + width; j < n; ++j) a[i*n + j] -= u*a[k*n + j] + (width == 2 ? v*a[(k + 1)*n + j] : 0);
+            for (int j = k + width; j < n; ++j) a[i*n + j] -= u*a[k*n + j] + (two ? v*a[(k + 1)*n + j] : 0);
         }
     }
     return count;
@@ -5481,7 +5530,8 @@ static gvi_status gvi__count_negative(gvi_stepper *st, const gvi__matrix *J, int
     gvi_real *a = J->square;
     for (int i = 0; i < size; ++i)
         for (int j = 0; j <= i; ++j) {
-            gvi_real lower = a[i*size + j]/(gvi_real)(2*(i/n) + 3), upper = a[j*size + i]/(gvi_real)(2*(j/n) + 3);
+            const gvi_real lower = a[i*size + j]/(gvi_real)(2*(i/n) + 3);
+            const gvi_real upper = a[j*size + i]/(gvi_real)(2*(j/n) + 3);
             a[i*size + j] = a[j*size + i] = (lower + upper)/2*J->h;
         }
     *negative = gvi__negative(size, a);
