@@ -4972,29 +4972,27 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
 
 /* ---- starting ---- */
 
-/* Sums the values of the effects at one point: potentials into V, Lagrangian
-   terms into L.  Forces have no value.                                        */
-static gvi_status gvi__values(gvi_stepper *st, gvi_points *x, gvi_real *V, gvi_real *L)
+/* At one point: V and L, the sums of the potentials and of the Lagrangian terms, and
+   the kinetic energy T = v'Mv/2.  Forces have no value.                       */
+static gvi_status gvi__values(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v,
+                              gvi_real *V, gvi_real *L, gvi_real *T)
 {
     const gvi_desc *d = &st->x.desc;
+    gvi_points y;
+    gvi__at(&y, st, &t, q);
+    y.v = v;
     *V = *L = 0;
     for (int e = 0; e < d->effect_count; ++e) {
         const gvi_kind kind = d->effects[e].kind;
         gvi_real *value = kind == GVI_POTENTIAL ? V : L;
         if ((st->x.off >> e & 1u) || kind == GVI_FORCE || kind == GVI_CLOCK) continue;
-        gvi_status status = gvi__value(st, x, e, value);
+        gvi_status status = gvi__value(st, &y, e, value);
         if (status != GVI_OK) return status;
         if (!gvi__finite(*value)) return gvi__blame(st, GVI_E_NON_FINITE, e);
     }
-    return GVI_OK;
-}
-
-// v'Mv/2 at one point
-static gvi_status gvi__kinetic_energy(gvi_stepper *st, gvi_points *x, gvi_real *T)
-{
-    gvi__zero(2*(size_t)st->n, x->f);             // and x->dldv
-    gvi_status status = gvi__kinetic(st, x);
-    *T = gvi__dot(st->n, x->dldv, x->v)/2;
+    gvi__zero(2*(size_t)st->n, y.f);              // and y.dldv
+    gvi_status status = gvi__kinetic(st, &y);
+    *T = gvi__dot(st->n, y.dldv, v)/2;
     return status;
 }
 
@@ -5005,12 +5003,7 @@ static gvi_status gvi__energy(gvi_stepper *st, gvi_real t, const gvi_real *q, co
 {
     gvi_real V, L, T;
     gvi_status status = gvi__velocity(st, t, q, p, v);
-    if (status != GVI_OK) return status;
-    gvi_points y;
-    gvi__at(&y, st, &t, q);
-    y.v = v;
-    status = gvi__values(st, &y, &V, &L);
-    if (status == GVI_OK) status = gvi__kinetic_energy(st, &y, &T);
+    if (status == GVI_OK) status = gvi__values(st, t, q, v, &V, &L, &T);
     if (status != GVI_OK) return status;
     gvi_real pv = gvi__dot(st->n, p, v);
     *energy = gvi__has(st, GVI__HAS_LAGRANGIAN) ? (pv - T) - L + V : pv/2 + V;
@@ -5339,11 +5332,7 @@ static gvi_status gvi__lagrangian(gvi_stepper *st, gvi_real t, const gvi_real *q
                                   gvi_real *value)
 {
     gvi_real V, L, T;
-    gvi_points y;
-    gvi__at(&y, st, &t, q);
-    y.v = v;
-    gvi_status status = gvi__values(st, &y, &V, &L);
-    if (status == GVI_OK) status = gvi__kinetic_energy(st, &y, &T);
+    const gvi_status status = gvi__values(st, t, q, v, &V, &L, &T);
     if (status == GVI_OK) *value = T - V + L;
     return status;
 }
