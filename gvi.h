@@ -1910,34 +1910,43 @@ static void gvi__over_constant_mass(const gvi_stepper *st, const gvi_real *GVI__
 }
 
 /* Asks mass.points for M(q) at the points, or mass.velocity, which reads p, for v.   */
-static gvi_status gvi__ask_mass(gvi_stepper *st, const gvi_points *x, const gvi_real *p, gvi_real *v)
+static gvi_status gvi__ask_mass(gvi_stepper *st, gvi_points *x, const gvi_real *p, gvi_real *v)
 {
     const gvi_mass *mass = &st->x.desc.mass;
-    gvi_points y = *x;
-    y.v = NULL;
-    y.f = y.dldv = NULL;
-    y.p = p;
-    y.velocity = v;
-    y.mass = v ? NULL : st->x.point_mass;
+    const gvi_real *reads = x->v;
+    gvi_real *f = x->f, *dldv = x->dldv;
+    x->v = NULL;
+    x->f = x->dldv = NULL;
+    x->p = p;
+    x->velocity = v;
+    x->mass = v ? NULL : st->x.point_mass;
     gvi__count(&st->counters.mass, x->count);
-    const int refused = v ? mass->velocity(&y, mass->user) : mass->points(&y, mass->user);
+    const int refused = v ? mass->velocity(x, mass->user) : mass->points(x, mass->user);
+    x->p = NULL;
+    x->mass = x->velocity = NULL;
+    x->v = reads;
+    x->f = f;
+    x->dldv = dldv;
     return refused ? gvi__blame(st, GVI_E_CALLBACK, GVI_FAULT_MASS) : GVI_OK;
 }
 
 // M(q) at the points, factored
-static gvi_status gvi__factor_at(gvi_stepper *st, const gvi_points *x)
+static gvi_status gvi__factor_at(gvi_stepper *st, gvi_points *x)
 {
     const gvi_status status = gvi__ask_mass(st, x, NULL, NULL);
     return status == GVI_OK ? gvi__ldl_factor(st, x->n, x->stride, x->count, st->x.point_mass) : status;
 }
 
 // x->f += v' dM/dq v / 2
-static gvi_status gvi__mass_gradient(gvi_stepper *st, const gvi_points *x)
+static gvi_status gvi__mass_gradient(gvi_stepper *st, gvi_points *x)
 {
     const gvi_mass *mass = &st->x.desc.mass;
-    gvi_points y = *x;
-    y.dldv = y.value = NULL;
-    if (mass->gradient(&y, mass->user)) return gvi__blame(st, GVI_E_CALLBACK, GVI_FAULT_MASS);
+    gvi_real *dldv = x->dldv, *value = x->value;
+    x->dldv = x->value = NULL;
+    const int refused = mass->gradient(x, mass->user);
+    x->dldv = dldv;
+    x->value = value;
+    if (refused) return gvi__blame(st, GVI_E_CALLBACK, GVI_FAULT_MASS);
     return gvi__diagnoses(st) ? gvi__check_rows(st, x, x->f, GVI_FAULT_MASS) : GVI_OK;
 }
 
@@ -2277,9 +2286,9 @@ static void gvi__twofold_sums(int s, int R, const gvi_real *GVI__RESTRICT a,
         for (int i = 0; i < R; ++i) {
             gvi__two x = gvi__two_of(a[k*R + i], low[k*R + i]), y = gvi__two_of(w[k], w[s + k]);
             x = gvi__mul2(x, y);
-            const gvi__two sum = gvi__sum(z[i], x.hi);
-            z[i] = sum.hi;
-            z[R + i] += sum.lo + x.lo;
+            y = gvi__sum(z[i], x.hi);
+            z[i] = y.hi;
+            z[R + i] += y.lo + x.lo;
         }
 }
 
@@ -3486,7 +3495,7 @@ static gvi_real gvi__stages(gvi_stepper *st, const gvi__stage *y, int count)
 }
 
 // momenta: V from dL/dv(Q, V) = P
-GVI__APART gvi_status gvi__legendre_rows(gvi_stepper *st, const gvi_points *y)
+GVI__APART gvi_status gvi__legendre_rows(gvi_stepper *st, gvi_points *y)
 {
     struct gvi__private *x = &st->x;
     gvi__count(&st->counters.velocities, st->r);
