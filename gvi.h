@@ -68,7 +68,7 @@
      SCENE                asking the effects, Legendre transform
      TABLES               what the rule and the degree have to say
      STEPPER: SET-UP      the choice of a formulation, the memory
-     STEPPER: STEP        explicit, fixed point, Newton
+     STEPPER: STEP        explicit, fixed point, Newton, start
      QUERIES              velocity, energy, curve, discrete Lagrangian
      LICENCE
 
@@ -515,7 +515,7 @@ struct gvi__private {
     gvi_real *rate;                   /* [3][R] clock: g; f'v; H, then H - E    */
     gvi_real *slope;                  /* [n][R] clock: dg/dq                    */
     gvi_real *over;                   /* [n] 1/m of a diagonal mass             */
-    gvi_real *weak;                   /* [n][R] forces of the weak effects, as last asked; gvi__answers */
+    gvi_real *weak;                   /* [n+2][R] weak forces, as last asked; gvi__answers */
     gvi_real *mass, *point_mass, *Z;  /* M; M at the points [n*n][R]; [n][R] scratch */
     gvi_real *y, *dy, *J, *pivot;     /* Newton: [s*n] twice; two matrices of s*n */
     gvi_real *hess, *dF;              /* scratch; F and P, moved and not, [4][n][R] */
@@ -536,7 +536,8 @@ struct gvi__private {
     signed char      clock, single;   /* effect that is one; the only one; or -1 */
     signed char      alike, E_is;     /* last steps of the same length: 0, 1, 2; see GVI__OF_TWO */
     signed char      started, stepped;  /* stepped: 2 by a clock               */
-    signed char      diagnose, turns;
+    signed char      diagnose;        /* repeated, to find what is not finite   */
+    signed char      turns;           /* of the rows since gvi_init, modulo 6: gvi__rotate_rows */
     signed char      has_rate;        /* rate holds                             */
     signed char      has_force;       /* last.F ends with the force at (t, q)   */
     signed char      has_velocity;    /* last.V holds                           */
@@ -663,7 +664,8 @@ GVI_DEF int        gvi_rule_order(int n, const gvi_real *c, const gvi_real *b);
      gvi_basis                   l[j] = l_j(t)
      gvi_basis_derivative        l[j] = l_j'(t)                               */
 GVI_DEF gvi_status gvi_barycentric(int n, const gvi_real *x, gvi_real *w);
-GVI_DEF gvi_real   gvi_interpolate(int n, const gvi_real *x, const gvi_real *w, const gvi_real *f, gvi_real t);
+GVI_DEF gvi_real   gvi_interpolate(int n, const gvi_real *x, const gvi_real *w,
+                                   const gvi_real *f, gvi_real t);
 GVI_DEF gvi_real   gvi_interpolate_derivative(int n, const gvi_real *x, const gvi_real *w,
                                               const gvi_real *f, gvi_real t);
 GVI_DEF void       gvi_basis(int n, const gvi_real *x, const gvi_real *w, gvi_real t, gvi_real *l);
@@ -677,7 +679,7 @@ GVI_DEF void       gvi_basis_derivative(int n, const gvi_real *x, const gvi_real
    Returns GVI_E_SINGULAR, scale-free: a pivot is nothing but the rounding of the
    terms that made it; GVI_E_NON_FINITE if an entry is.
    gvi_lu_solve: x in: right-hand side, out: solution, length n.
-   gvi_lu_rcond: estimate of 1/(|A| |A^-1|), 1-norm [7, alg. 15.1], usually
+   gvi_lu_rcond: estimate of 1/(|A| |A^-1|), 1-norm [7, sec. 15.3], usually
    within a factor 3 and never below the truth; work of length 3n.             */
 GVI_DEF gvi_status gvi_lu_factor(int n, gvi_real *a, gvi_real *pivot);
 GVI_DEF void       gvi_lu_solve(int n, const gvi_real *lu, const gvi_real *pivot, gvi_real *x);
@@ -886,10 +888,21 @@ static void gvi__copy(size_t n, const gvi_real *x, gvi_real *y)
     for (size_t i = 0; i < n; ++i) y[i] = x[i];
 }
 
+static void gvi__swap(gvi_real *a, gvi_real *b)
+{
+    const gvi_real was = *a;
+    *a = *b;
+    *b = was;
+}
+
 /* Twofold arithmetic: an unevaluated sum hi + lo, |lo| <= ulp(hi)/2, carries
-   twice the digits of gvi_real (Dekker, Knuth).  Used for tables, where the
-   rounding of a coefficient would act in every step in the same direction.   */
+   twice the digits of gvi_real (Dekker, Numer. Math. 18, 1971; Joldes, Muller,
+   Popescu, ACM Trans. Math. Softw. 44, 2017).  Used for tables, where the rounding
+   of a coefficient would act in every step in the same direction.             */
 typedef struct gvi__two { gvi_real hi, lo; } gvi__two;
+
+static gvi__two gvi__two_of(gvi_real hi, gvi_real lo) { gvi__two z; z.hi = hi; z.lo = lo; return z; }
+
 #if FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 16    // 16: as 0, and _Float16 in its own range
 #define GVI__EXACT_TYPES
 #endif
@@ -899,13 +912,11 @@ typedef gvi_real gvi__stored;
 typedef volatile gvi_real gvi__stored;     // registers are wider: round for certain
 #endif
 
-static gvi__two gvi__sum(gvi_real x, gvi_real y)          // x + y exactly
+// x + y exactly, whichever is larger (Knuth, The art of computer programming 2, 4.2.2)
+static gvi__two gvi__sum(gvi_real x, gvi_real y)
 {
     gvi__stored a = x, b = y, hi = a + b, bb = hi - a, aa = hi - bb, da = a - aa, db = b - bb;
-    gvi__two z;
-    z.hi = hi;
-    z.lo = da + db;
-    return z;
+    return gvi__two_of(hi, da + db);
 }
 
 // a b + c with one rounding, where it is an instruction; newlib's <math.h> does not say so, gcc does
@@ -922,36 +933,30 @@ static gvi__two gvi__sum(gvi_real x, gvi_real y)          // x + y exactly
 #ifdef GVI__FMA
 static inline gvi__two gvi__product(gvi_real a, gvi_real b)      // a*b exactly
 {
-    gvi__two z;
-    z.hi = a*b;
-    z.lo = GVI__FMA(a, b, -z.hi);
-    return z;
+    return gvi__two_of(a*b, GVI__FMA(a, b, -(a*b)));
 }
 #else
-// 2^k + 1, k half the digits: a number times it shows where to cut it in two
+// 2^k + 1, k half the digits: x times it shows where to cut x in two (Veltkamp; Dekker)
 #define GVI__CUT ((gvi_real)(1ULL << (GVI__DIG + 1)/2) + 1)
 
-static gvi__two gvi__split(gvi_real x)                    // halves of the digits
+// x = hi + lo, half of the digits each: their products are exact
+static gvi__two gvi__split(gvi_real x)
 {
     gvi__stored a = x, s = GVI__CUT*a, d = s - a, hi = s - d, lo = a - hi;
-    gvi__two z;
-    z.hi = hi;
-    z.lo = lo;
-    return z;
+    return gvi__two_of(hi, lo);
 }
 
 static gvi__two gvi__product(gvi_real a, gvi_real b)      // a*b exactly
 {
-    gvi__two z, x = gvi__split(a), y = gvi__split(b);
-    gvi__stored hi = a*b;
-    z.hi = hi;
-    z.lo = ((x.hi*y.hi - z.hi) + x.hi*y.lo + x.lo*y.hi) + x.lo*y.lo;
-    return z;
+    const gvi__two x = gvi__split(a), y = gvi__split(b);
+    const gvi__stored hi = a*b;
+    return gvi__two_of(hi, ((x.hi*y.hi - hi) + x.hi*y.lo + x.lo*y.hi) + x.lo*y.lo);
 }
 #endif
 
-static gvi__two gvi__real2(gvi_real a) { gvi__two z; z.hi = a; z.lo = 0; return z; }
+static gvi__two gvi__real2(gvi_real a) { return gvi__two_of(a, 0); }
 
+// a + b to 3 (eps/2)^2 of the sum (Joldes et al., algorithm 6)
 static gvi__two gvi__add2(gvi__two a, gvi__two b)
 {
     gvi__two s = gvi__sum(a.hi, b.hi), t = gvi__sum(a.lo, b.lo);
@@ -959,10 +964,9 @@ static gvi__two gvi__add2(gvi__two a, gvi__two b)
     return gvi__sum(s.hi, s.lo + t.lo);
 }
 
-static gvi__two gvi__neg2(gvi__two a) { a.hi = -a.hi; a.lo = -a.lo; return a; }
+static gvi__two gvi__sub2(gvi__two a, gvi__two b) { return gvi__add2(a, gvi__two_of(-b.hi, -b.lo)); }
 
-static gvi__two gvi__sub2(gvi__two a, gvi__two b) { return gvi__add2(a, gvi__neg2(b)); }
-
+// a b, without the product of the low parts (Joldes et al., algorithm 10)
 static gvi__two gvi__mul2(gvi__two a, gvi__two b)
 {
     gvi__two z = gvi__product(a.hi, b.hi);
@@ -1044,15 +1048,12 @@ static gvi_status gvi__lu_factor(int n, gvi_real *a, gvi_real *pivot, int *at)
 
         // swap rows k and m, all columns; the scale of row k moves along
         if (m != k)
-            for (size_t j = 0; j < N; ++j) {
-                gvi_real x = a[k*N + j];
-                a[k*N + j] = a[m*N + j];
-                a[m*N + j] = x;
-            }
+            for (size_t j = 0; j < N; ++j) gvi__swap(a + k*N + j, a + m*N + j);
         pivot[m] = pivot[k];
         pivot[k] = (gvi_real)m;
 
-        // check singularity: of the terms that made this pivot only rounding is left
+        // check singularity: of the terms that made this pivot only rounding, n eps |L||U|, is
+        // left [7, thm. 9.3]
         gvi_real terms = 0;
         for (size_t j = 0; j < k; ++j) terms += GVI_ABS(a[k*N + j]*a[j*N + k]);
         if (!(GVI_ABS(a[k*N + k]) > (gvi_real)n*GVI__EPS*terms)) {
@@ -1084,12 +1085,7 @@ GVI_DEF void gvi_lu_solve(int n, const gvi_real *lu, const gvi_real *pivot, gvi_
     size_t N = (size_t)n;
 
     // x = P x, then forward substitution: solve L*y = x
-    for (size_t k = 0; k < N; ++k) {
-        size_t m = (size_t)pivot[k];
-        gvi_real y = x[m];
-        x[m] = x[k];
-        x[k] = y;
-    }
+    for (size_t k = 0; k < N; ++k) gvi__swap(x + k, x + (size_t)pivot[k]);
     for (size_t i = 1; i < N; ++i)
         for (size_t j = 0; j < i; ++j) x[i] -= lu[i*N + j]*x[j];
 
@@ -1110,18 +1106,19 @@ static void gvi__lu_solve_transposed(int n, const gvi_real *lu, const gvi_real *
     }
     for (size_t i = N; i-- > 0; )
         for (size_t j = 0; j < i; ++j) x[j] -= lu[i*N + j]*x[i];
-    for (size_t k = N; k-- > 0; ) {
-        size_t m = (size_t)pivot[k];
-        gvi_real y = x[m];
-        x[m] = x[k];
-        x[k] = y;
-    }
+    for (size_t k = N; k-- > 0; ) gvi__swap(x + k, x + (size_t)pivot[k]);
 }
 
 /* Complex numbers: <complex.h> is not C++, and from C11 on not in every C.      */
 typedef struct gvi__complex { gvi_real re, im; } gvi__complex;
 
-static gvi__complex gvi__complex_of(gvi_real re, gvi_real im) { gvi__complex z; z.re = re; z.im = im; return z; }
+static gvi__complex gvi__complex_of(gvi_real re, gvi_real im)
+{
+    gvi__complex z;
+    z.re = re;
+    z.im = im;
+    return z;
+}
 
 static gvi_real gvi__modulus(gvi_real re, gvi_real im) { return GVI_ABS(re) + GVI_ABS(im); }
 
@@ -1137,7 +1134,8 @@ static gvi__complex gvi__inverse(gvi_real re, gvi_real im)
     return gvi__complex_of(a/d, -b/d);
 }
 
-// row += z top from column k on; a row of a complex matrix is n real parts, then n imaginary ones
+// row += z top from column k on; a row of a complex matrix, and a complex vector, is n real
+// parts, then n imaginary ones
 static void gvi__add_row(size_t n, size_t k, gvi__complex z, const gvi_real *GVI__RESTRICT top,
                          gvi_real *GVI__RESTRICT row)
 {
@@ -1176,11 +1174,7 @@ static gvi_status gvi__lu_factor_complex(int count, gvi_real *a, gvi_real *pivot
     for (size_t k = 0; k < n; ++k) {
         const size_t m = gvi__pivot_row(n, k, a, pivot);
         gvi_real *top = a + 2*k*n, terms = 0;
-        for (size_t j = 0; m != k && j < 2*n; ++j) {
-            const gvi_real x = top[j];
-            top[j] = a[2*m*n + j];
-            a[2*m*n + j] = x;
-        }
+        for (size_t j = 0; m != k && j < 2*n; ++j) gvi__swap(top + j, a + 2*m*n + j);
         pivot[m] = pivot[k];
         pivot[k] = (gvi_real)m;
         for (size_t j = 0; j < k; ++j)
@@ -1220,11 +1214,8 @@ static void gvi__lu_solve_complex(int count, const gvi_real *lu, const gvi_real 
     const size_t n = (size_t)count;
     for (size_t k = 0; k < n; ++k) {
         const size_t m = (size_t)pivot[k];
-        const gvi__complex y = gvi__complex_of(x[m], x[n + m]);
-        x[m] = x[k];
-        x[n + m] = x[n + k];
-        x[k] = y.re;
-        x[n + k] = y.im;
+        gvi__swap(x + k, x + m);
+        gvi__swap(x + n + k, x + n + m);
     }
     for (size_t i = 1; i < n; ++i) gvi__take_row(n, i, 0, i, lu, x);
     for (size_t i = n; i-- > 0; ) {
@@ -1284,13 +1275,19 @@ GVI_DEF gvi_real gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot, 
 
 /* ------------------------------------------------------------ QUADRATURE */
 
-/* P_m(x) at x = 1 - 2c by the three-term recurrence
-   (k+1) P_(k+1) = (2k+1) x P_k - k P_(k-1), in gvi_real.                      */
+/* Legendre polynomials by the three-term recurrence (k+1) P_(k+1) = (2k+1) x P_k -
+   k P_(k-1), always at x = 1 - 2c for c in [0,1]: P_(k+1)(x) from P_k and P_(k-1).  */
+static gvi_real gvi__legendre_next(int k, gvi_real x, gvi_real P, gvi_real before)
+{
+    return ((gvi_real)(2*k + 1)*x*P - (gvi_real)k*before)/(gvi_real)(k + 1);
+}
+
+// P_m(x)
 static gvi_real gvi__legendre(int m, gvi_real c)
 {
-    gvi_real x = 1 - 2*c, P = 1, before = 0;
+    gvi_real P = 1, before = 0;
     for (int k = 0; k < m; ++k) {
-        gvi_real next = ((gvi_real)(2*k + 1)*x*P - (gvi_real)k*before)/(gvi_real)(k + 1);
+        const gvi_real next = gvi__legendre_next(k, 1 - 2*c, P, before);
         before = P;
         P = next;
     }
@@ -1300,7 +1297,7 @@ static gvi_real gvi__legendre(int m, gvi_real c)
 // x = 1 - 2c in twofold arithmetic
 static gvi__two gvi__argument2(gvi__two c) { return gvi__sub2(gvi__real2(1), gvi__scale2(2, c)); }
 
-// P_(k+1)(x) from P_k and P_(k-1), the same recurrence
+// gvi__legendre_next in twofold arithmetic
 static gvi__two gvi__legendre2(int k, gvi__two x, gvi__two P, gvi__two before)
 {
     const gvi__two next = gvi__scale2((gvi_real)(2*k + 1), gvi__mul2(x, P));
@@ -1350,7 +1347,8 @@ GVI__APART gvi_real gvi__node_guess(int lobatto, int n, int j)
     return sine*sine;
 }
 
-/* Newton's method in working precision, in place of the first corrections, where speed counts */
+/* Newton's method in working precision, in place of the first corrections, where speed
+   counts; the recurrence has its quotients first, so that nothing waits for them.    */
 static gvi_real gvi__node_start(int lobatto, int m, gvi_real c)
 {
     for (int k = 0; k < 3; ++k) {
@@ -1369,7 +1367,8 @@ static gvi_real gvi__node_start(int lobatto, int m, gvi_real c)
 
 /* All nodes and weights; ce, if given, gets what rounding left of c.  After a
    correction below eps the next one would be below its square: c is then accurate
-   relative to itself, even next to the end of the interval.                   */
+   relative to itself, even next to the end of the interval.  Nodes are symmetric
+   about 1/2: one half is computed, by no more than 12 corrections each.       */
 static void gvi__rule_make(int lobatto, int n, gvi_real *c, gvi_real *ce, gvi_real *b)
 {
     for (int j = 0; j <= (n - 1)/2; ++j) {
@@ -1475,7 +1474,7 @@ static int gvi__nearest(int n, const gvi_real *x, gvi_real t)
 /* l_j(t) = (w_j/(t - x_j)) / sum_k w_k/(t - x_k).  Both sides multiplied by the
    distance d to the nearest node i, so that t = x_i is no exception; and the
    sum, which may cancel, by what it is equal to: w_i prod_(k /= i)
-   (x_i - x_k)/(t - x_k), factors in (0,2] [6, the first form].  Returns i.     */
+   (x_i - x_k)/(t - x_k), factors in (0,2] [6, sec. 3, the first form].  Returns i. */
 static int gvi__term(int n, const gvi_real *x, const gvi_real *w, gvi_real t, gvi_real *d, gvi_real *sum)
 {
     int i = gvi__nearest(n, x, t);
@@ -1504,8 +1503,8 @@ GVI_DEF gvi_real gvi_interpolate(int n, const gvi_real *x, const gvi_real *w, co
     return f[i] + value/sum;
 }
 
-/* For j /= i, i the node next to t:  l_j' = l_j (sum_(k /= j) 1/(t - x_k)), in
-   which l_j/(t - x_i) is formed first; see gvi__slope.                        */
+/* For j /= i, i the node next to t:  l_j' = l_j sum_(k /= j) 1/(t - x_k).  The term
+   k = i, which has no bound, is never formed: l_j/(t - x_i) has one.          */
 static gvi_real gvi__slope(int n, const gvi_real *x, const gvi_real *w, gvi_real t,
                            int i, gvi_real d, gvi_real sum, int j)
 {
@@ -1572,8 +1571,8 @@ GVI__COPY int gvi__chosen_is(gvi_formulation chosen, gvi_formulation f)
 
 GVI__COPY int gvi__has_mass(const gvi_desc *d, gvi_mass_kind kind)
 {
-    return (kind != GVI_MASS_DENSE || GVI__DENSE) && (kind != GVI_MASS_POSITION || GVI__MOMENTA || GVI__NEWTON)
-        && (kind != GVI_MASS_NONE || GVI__LAGRANGIAN) && d->mass.kind == kind;
+    return (kind != GVI_MASS_DENSE || GVI__DENSE) && (kind != GVI_MASS_NONE || GVI__LAGRANGIAN)
+        && (kind != GVI_MASS_POSITION || GVI__MOMENTA || GVI__NEWTON) && d->mass.kind == kind;
 }
 
 GVI__COPY int gvi__has_rule(const gvi_desc *d, gvi_rule_kind kind)
@@ -1617,10 +1616,15 @@ static gvi_status gvi__fail(gvi_stepper *st, gvi_status status, int effect, int 
     return st->status = status;
 }
 
-// a status that no effect, coordinate or point is to blame for
+// an effect is to blame, or the mass, but no coordinate or point; or none of them
+static gvi_status gvi__blame(gvi_stepper *st, gvi_status status, int effect)
+{
+    return gvi__fail(st, status, effect, GVI_FAULT_NONE, GVI_FAULT_NONE);
+}
+
 static gvi_status gvi__give(gvi_stepper *st, gvi_status status)
 {
-    return gvi__fail(st, status, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
+    return gvi__blame(st, status, GVI_FAULT_NONE);
 }
 
 /* Of a stepper that is not set up or not started: the first failure stands, so
@@ -1692,12 +1696,12 @@ static inline gvi_status gvi__finite_here(gvi_stepper *st, const gvi_points *x)
 static gvi_status gvi__value(gvi_stepper *st, gvi_points *x, int e, gvi_real *value)
 {
     const gvi_effect *effect = st->x.desc.effects + e;
-    if (!effect->value) return gvi__fail(st, GVI_E_VALUE, e, GVI_FAULT_NONE, GVI_FAULT_NONE);
+    if (!effect->value) return gvi__blame(st, GVI_E_VALUE, e);
     gvi_points y = *x;
     y.f = y.dldv = NULL;
     y.value = value;
     if (effect->kind == GVI_POTENTIAL) y.v = NULL;
-    if (effect->value(&y, effect->user)) return gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, GVI_FAULT_NONE);
+    if (effect->value(&y, effect->user)) return gvi__blame(st, GVI_E_CALLBACK, e);
     return GVI_OK;
 }
 
@@ -1708,7 +1712,8 @@ static gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e)
 {
     const gvi_effect *effect = st->x.desc.effects + e;
     gvi_real *value = GVI__CLOCK ? x->value : NULL;
-    gvi_real *own = value && effect->kind == GVI_LAGRANGIAN ? st->x.less : effect->kind == GVI_FORCE ? NULL : value;
+    gvi_real *own = value && effect->kind == GVI_LAGRANGIAN ? st->x.less
+                  : effect->kind == GVI_FORCE ? NULL : value;
     int point = GVI_FAULT_NONE, together = own && effect->points && effect->value == effect->points;
     gvi__count(&st->counters.effect[e], x->count);
     x->value = together ? own : NULL;
@@ -1740,7 +1745,7 @@ static inline gvi_status gvi__call(gvi_stepper *st, const gvi_points *x, int e)
     const gvi_effect *effect = st->x.desc.effects + e;
     gvi__count(&st->counters.effect[e], x->count);
     const int refused = effect->points(x, effect->user);
-    return refused ? gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, GVI_FAULT_NONE) : GVI_OK;
+    return refused ? gvi__blame(st, GVI_E_CALLBACK, e) : GVI_OK;
 }
 
 /* Every effect that is on, but the clock and what has its bit in `skip`: adds to
@@ -1807,7 +1812,7 @@ static inline gvi_status gvi__all_effects(gvi_stepper *st, gvi_points *x)
     return status;
 }
 
-// the bits of all effects of a kind; of those with a Hessian
+// the bits of all effects of a kind
 static unsigned gvi__of_kind(const gvi_stepper *st, gvi_kind kind)
 {
     unsigned bits = 0;
@@ -1816,12 +1821,13 @@ static unsigned gvi__of_kind(const gvi_stepper *st, gvi_kind kind)
     return bits;
 }
 
-static unsigned gvi__with_hessian(const gvi_stepper *st)
+// the bits of those that are on and bring no Hessian
+static unsigned gvi__without_hessian(const gvi_stepper *st)
 {
     unsigned bits = 0;
     for (int e = 0; e < st->x.desc.effect_count; ++e)
-        if (st->x.desc.effects[e].hessian) bits |= 1u << e;
-    return bits;
+        if (!st->x.desc.effects[e].hessian) bits |= 1u << e;
+    return bits & ~st->x.off;
 }
 
 /* L D L' of a symmetric matrix at each of `count` points, in place: entry (i,j),
@@ -1860,7 +1866,8 @@ GVI__APART gvi_status gvi__ldl_factor(gvi_stepper *st, int n, int stride, int co
 
 // solves in rows z [n][stride]; the matrix has `each` = 1 entry a point, or 0:
 // one for all
-static void gvi__ldl_solve(int n, const gvi_real *m, int m_stride, int each, gvi_real *z, int stride, int count)
+static void gvi__ldl_solve(int n, const gvi_real *m, int m_stride, int each,
+                           gvi_real *z, int stride, int count)
 {
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < i; ++j) {
@@ -1894,46 +1901,52 @@ static void gvi__over_mass(const gvi_stepper *st, gvi_real *z, int stride, int c
 }
 
 // v := M^-1 p at one point, constant mass
-static void gvi__over_constant_mass(const gvi_stepper *st, const gvi_real *GVI__RESTRICT p, gvi_real *GVI__RESTRICT v)
+static void gvi__over_constant_mass(const gvi_stepper *st, const gvi_real *GVI__RESTRICT p,
+                                    gvi_real *GVI__RESTRICT v)
 {
     const int diagonal = st->x.desc.mass.kind == GVI_MASS_DIAGONAL;
     for (int i = 0; i < st->n; ++i) v[i] = diagonal ? p[i]*st->x.over[i] : p[i];
     if (gvi__mass_is(st, GVI_MASS_DENSE)) gvi__over_mass(st, v, 1, 1);
 }
 
-// M(q) at the points
-static gvi_status gvi__mass_at(gvi_stepper *st, gvi_points *x)
+/* Asks mass.points for M(q) at the points, or mass.velocity, which reads p, for v.   */
+static gvi_status gvi__ask_mass(gvi_stepper *st, gvi_points *x, const gvi_real *p, gvi_real *v)
 {
-    const gvi_real *v = x->v;
+    const gvi_mass *mass = &st->x.desc.mass;
+    const gvi_real *reads = x->v;
     gvi_real *f = x->f, *dldv = x->dldv;
     x->v = NULL;
     x->f = x->dldv = NULL;
-    x->mass = st->x.point_mass;
+    x->p = p;
+    x->velocity = v;
+    x->mass = v ? NULL : st->x.point_mass;
     gvi__count(&st->counters.mass, x->count);
-    int refused = st->x.desc.mass.points(x, st->x.desc.mass.user);
-    x->mass = NULL;
-    x->v = v;
+    const int refused = v ? mass->velocity(x, mass->user) : mass->points(x, mass->user);
+    x->p = NULL;
+    x->mass = x->velocity = NULL;
+    x->v = reads;
     x->f = f;
     x->dldv = dldv;
-    return refused ? gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, -1, -1) : GVI_OK;
+    return refused ? gvi__blame(st, GVI_E_CALLBACK, GVI_FAULT_MASS) : GVI_OK;
 }
 
-// the same, factored
+// M(q) at the points, factored
 static gvi_status gvi__factor_at(gvi_stepper *st, gvi_points *x)
 {
-    const gvi_status status = gvi__mass_at(st, x);
+    const gvi_status status = gvi__ask_mass(st, x, NULL, NULL);
     return status == GVI_OK ? gvi__ldl_factor(st, x->n, x->stride, x->count, st->x.point_mass) : status;
 }
 
 // x->f += v' dM/dq v / 2
 static gvi_status gvi__mass_gradient(gvi_stepper *st, gvi_points *x)
 {
+    const gvi_mass *mass = &st->x.desc.mass;
     gvi_real *dldv = x->dldv, *value = x->value;
     x->dldv = x->value = NULL;
-    int refused = st->x.desc.mass.gradient(x, st->x.desc.mass.user);
+    const int refused = mass->gradient(x, mass->user);
     x->dldv = dldv;
     x->value = value;
-    if (refused) return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, -1, -1);
+    if (refused) return gvi__blame(st, GVI_E_CALLBACK, GVI_FAULT_MASS);
     return gvi__diagnoses(st) ? gvi__check_rows(st, x, x->f, GVI_FAULT_MASS) : GVI_OK;
 }
 
@@ -1945,7 +1958,7 @@ static gvi_status gvi__kinetic(gvi_stepper *st, gvi_points *x)
     if (gvi__mass_is(st, GVI_MASS_NONE)) return GVI_OK;
     if (gvi__mass_is(st, GVI_MASS_DENSE)) m = st->x.mass + (size_t)n*(size_t)n;
     else if (gvi__mass_is(st, GVI_MASS_POSITION)) {
-        gvi_status status = gvi__mass_at(st, x);
+        gvi_status status = gvi__ask_mass(st, x, NULL, NULL);
         if (status == GVI_OK) status = gvi__mass_gradient(st, x);
         if (status != GVI_OK) return status;
         m = st->x.point_mass;
@@ -1974,7 +1987,7 @@ static gvi_status gvi__evaluate(gvi_stepper *st, gvi_points *x, int plain)
     gvi__zero(length, x->f);
     gvi__zero(length, x->dldv);
     if (!plain || !gvi__mass_is_constant(&st->x.desc)) status = gvi__kinetic(st, x);
-    return status == GVI_OK ? gvi__effects(st, x, plain ? gvi__with_hessian(st) : 0) : status;
+    return status == GVI_OK ? gvi__effects(st, x, plain ? ~gvi__without_hessian(st) : 0) : status;
 }
 
 // one point, as gvi_points; f and dldv go to scratch
@@ -2022,7 +2035,8 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real
 
 /* General Legendre transform at one point: Newton's method for dL/dv(v) = p
    from the v given.  Ends when the correction stops shrinking.                */
-static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *p, gvi_real *v)
+static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *p,
+                                       gvi_real *v)
 {
     int n = st->n;
     gvi_real *W = st->x.hess + 3*n, *pivot = W + n*n, *dv = st->x.hess + 2*n;
@@ -2060,7 +2074,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_real t, const gvi_re
         if (!(change > 2*GVI__EPS) || (change >= last/2 && change <= GVI_SQRT(GVI__EPS))) return GVI_OK;
         last = change;
     }
-    return gvi__fail(st, GVI_E_CONVERGENCE, GVI_FAULT_MASS, -1, -1);
+    return gvi__blame(st, GVI_E_CONVERGENCE, GVI_FAULT_MASS);
 }
 
 // velocities near the present ones: those at the end of the last step, or the start's
@@ -2072,19 +2086,14 @@ static void gvi__velocity_guess(const gvi_stepper *st, gvi_real *v)
 }
 
 /* v from p at one point.  v holds a guess on entry.                           */
-static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *p, gvi_real *v)
+static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *p,
+                                gvi_real *v)
 {
-    const gvi_mass *mass = &st->x.desc.mass;
     gvi_points x;
     gvi__at(&x, st, &t, q);
-    x.f = x.dldv = NULL;
-    if (mass->velocity) {
-        x.p = p;
-        x.velocity = v;
-        gvi__count(&st->counters.mass, 1);
-        if (mass->velocity(&x, mass->user))
-            return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, -1, -1);
-        return gvi__check_rows(st, &x, v, GVI_FAULT_MASS);
+    if (st->x.desc.mass.velocity) {
+        const gvi_status status = gvi__ask_mass(st, &x, p, v);
+        return status == GVI_OK ? gvi__check_rows(st, &x, v, GVI_FAULT_MASS) : status;
     }
     if (gvi__mass_is(st, GVI_MASS_NONE) || gvi__has(st, GVI__HAS_LAGRANGIAN))
         return gvi__legendre_newton(st, t, q, p, v);
@@ -2106,10 +2115,8 @@ static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, 
 GVI__APART void gvi__modes_at(gvi_stepper *st, int i)
 {
     struct gvi__private *x = &st->x;
-    gvi__two c, P = gvi__real2(1), before = gvi__real2(1);
-    c.hi = x->c[i];
-    c.lo = x->ce[i];
-    const gvi__two X = gvi__argument2(c);
+    gvi__two P = gvi__real2(1), before = gvi__real2(1);
+    const gvi__two X = gvi__argument2(gvi__two_of(x->c[i], x->ce[i]));
     for (int k = 0; k < st->s; ++k) {
         const gvi__two next = gvi__legendre2(k, X, P, before);
         const gvi__two Phi = gvi__over2(gvi__sub2(before, next), 4*k + 2);
@@ -2143,7 +2150,7 @@ static void gvi__modes_mirrored(gvi_stepper *st, int i)
     }
 }
 
-// at all of them, which then go to their grid
+// the same at all nodes, which then go to the grid of S, see gvi__tables
 static void gvi__modes_at_nodes(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
@@ -2204,24 +2211,26 @@ static const gvi_real gvi__few_b[] = {
     GVI__C(0.326072577431273071313), GVI__C(0.173927422568726928687)
 };
 static const gvi_real gvi__few_Phi[] = {
-    GVI__C(0.5), GVI__C(-0.788675134594812882255), GVI__C(0.788675134594812882255), GVI__C(0.166666666666666666667),
-    GVI__C(0.166666666666666666667), GVI__C(-0.887298334620741688518), GVI__C(0.5), GVI__C(0.887298334620741688518),
-    GVI__C(0.1), GVI__C(0.25), GVI__C(0.1), GVI__C(0.0774596669241483377036), GVI__C(0.0),
-    GVI__C(-0.0774596669241483377036), GVI__C(-0.930568155797026287612), GVI__C(-0.669990521792428132401),
-    GVI__C(0.669990521792428132401), GVI__C(0.930568155797026287612), GVI__C(0.0646110632135476980776),
-    GVI__C(0.221103222500738016208), GVI__C(0.221103222500738016208), GVI__C(0.0646110632135476980776),
-    GVI__C(0.055638932663884638435), GVI__C(0.0751709043257755838678), GVI__C(-0.0751709043257755838678),
-    GVI__C(-0.055638932663884638435), GVI__C(0.0437381157656224151096), GVI__C(-0.0233299525003162926606),
-    GVI__C(-0.0233299525003162926606), GVI__C(0.0437381157656224151096)
+    GVI__C(0.5), GVI__C(-0.788675134594812882255), GVI__C(0.788675134594812882255),
+    GVI__C(0.166666666666666666667), GVI__C(0.166666666666666666667), GVI__C(-0.887298334620741688518),
+    GVI__C(0.5), GVI__C(0.887298334620741688518), GVI__C(0.1), GVI__C(0.25), GVI__C(0.1),
+    GVI__C(0.0774596669241483377036), GVI__C(0.0), GVI__C(-0.0774596669241483377036),
+    GVI__C(-0.930568155797026287612), GVI__C(-0.669990521792428132401), GVI__C(0.669990521792428132401),
+    GVI__C(0.930568155797026287612), GVI__C(0.0646110632135476980776), GVI__C(0.221103222500738016208),
+    GVI__C(0.221103222500738016208), GVI__C(0.0646110632135476980776), GVI__C(0.055638932663884638435),
+    GVI__C(0.0751709043257755838678), GVI__C(-0.0751709043257755838678), GVI__C(-0.055638932663884638435),
+    GVI__C(0.0437381157656224151096), GVI__C(-0.0233299525003162926606), GVI__C(-0.0233299525003162926606),
+    GVI__C(0.0437381157656224151096)
 };
 static const gvi_real gvi__few_phi[] = {
     GVI__C(1.0), GVI__C(1.0), GVI__C(1.0), GVI__C(0.577350269189625764509), GVI__C(-0.577350269189625764509),
     GVI__C(1.0), GVI__C(1.0), GVI__C(1.0), GVI__C(0.774596669241483377036), GVI__C(0.0),
-    GVI__C(-0.774596669241483377036), GVI__C(0.4), GVI__C(-0.5), GVI__C(0.4), GVI__C(1.0), GVI__C(1.0), GVI__C(1.0),
-    GVI__C(1.0), GVI__C(0.861136311594052575224), GVI__C(0.339981043584856264803), GVI__C(-0.339981043584856264803),
-    GVI__C(-0.861136311594052575224), GVI__C(0.612333620718713811535), GVI__C(-0.326619335004428097249),
-    GVI__C(-0.326619335004428097249), GVI__C(0.612333620718713811535), GVI__C(0.304746984955206190874),
-    GVI__C(-0.411727999672899573875), GVI__C(0.411727999672899573875), GVI__C(-0.304746984955206190874)
+    GVI__C(-0.774596669241483377036), GVI__C(0.4), GVI__C(-0.5), GVI__C(0.4), GVI__C(1.0), GVI__C(1.0),
+    GVI__C(1.0), GVI__C(1.0), GVI__C(0.861136311594052575224), GVI__C(0.339981043584856264803),
+    GVI__C(-0.339981043584856264803), GVI__C(-0.861136311594052575224), GVI__C(0.612333620718713811535),
+    GVI__C(-0.326619335004428097249), GVI__C(-0.326619335004428097249), GVI__C(0.612333620718713811535),
+    GVI__C(0.304746984955206190874), GVI__C(-0.411727999672899573875), GVI__C(0.411727999672899573875),
+    GVI__C(-0.304746984955206190874)
 };
 static const gvi_real gvi__few_S[] = {
     GVI__C(-0.75), GVI__C(-0.872008467928146215588), GVI__C(-0.75), GVI__C(0.705341801261479548921),
@@ -2268,17 +2277,14 @@ static void gvi__column(gvi_stepper *st, int which, int j) { (void)st, (void)whi
 #else
 /* z_i := sum_k a[k][i] w_k, twofold, low parts R further, at all points: fit for
    vectors.  A product does not wait for the sum, whose rounding is added up apart. */
-static void gvi__twofold_sums(int s, int R, const gvi_real *GVI__RESTRICT a, const gvi_real *GVI__RESTRICT low,
-                              const gvi_real *GVI__RESTRICT w, gvi_real *GVI__RESTRICT z)
+static void gvi__twofold_sums(int s, int R, const gvi_real *GVI__RESTRICT a,
+                              const gvi_real *GVI__RESTRICT low, const gvi_real *GVI__RESTRICT w,
+                              gvi_real *GVI__RESTRICT z)
 {
     gvi__zero(2*(size_t)R, z);
     for (int k = 0; k < s; ++k)
         for (int i = 0; i < R; ++i) {
-            gvi__two x, y;
-            x.hi = a[k*R + i];
-            x.lo = low[k*R + i];
-            y.hi = w[k];
-            y.lo = w[s + k];
+            gvi__two x = gvi__two_of(a[k*R + i], low[k*R + i]), y = gvi__two_of(w[k], w[s + k]);
             x = gvi__mul2(x, y);
             y = gvi__sum(z[i], x.hi);
             z[i] = y.hi;
@@ -2286,7 +2292,8 @@ static void gvi__twofold_sums(int s, int R, const gvi_real *GVI__RESTRICT a, con
         }
 }
 
-// row[i] := sum_k a[k][i] gamma_k b[k][j] at all points, S and T on their grids
+// row[i] := sum_k a[k][i] b[k][j]/Gamma_kk at all points i, a and b being Phi for S, phi for N,
+// phi and Phi for T; S and T on their grids
 static void gvi__column(gvi_stepper *st, int which, int j)
 {
     const struct gvi__private *x = &st->x;
@@ -2295,9 +2302,7 @@ static void gvi__column(gvi_stepper *st, int which, int j)
     const gvi_real unit = which == GVI__OF_S ? GVI__EPS/2 : GVI__EPS;
     gvi_real *z = x->row, *w = z + 2*R;
     for (int k = 0; k < s; ++k) {
-        gvi__two a;
-        a.hi = b[k*R + j];
-        a.lo = b_low[k*R + j];
+        gvi__two a = gvi__two_of(b[k*R + j], b_low[k*R + j]);
         a = gvi__scale2(x->inv_gamma[k], a);
         w[k] = a.hi;
         w[s + k] = a.lo;
@@ -2323,7 +2328,8 @@ GVI__APART void gvi__tables(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
     const int r = st->r, R = x->stride, gauss = !GVI__RULES || (x->desc.rule.kind == GVI_GAUSS && r == st->s);
-    const int has_g = (GVI__POSITIONS || GVI__VELOCITIES) && x->g, has_m = (GVI__VELOCITIES || GVI__MOMENTA) && x->m;
+    const int has_g = (GVI__POSITIONS || GVI__VELOCITIES) && x->g;
+    const int has_m = (GVI__VELOCITIES || GVI__MOMENTA) && x->m;
     for (int j = 0; j < r; ++j) {
         if (has_g) gvi__column(st, GVI__OF_S, j);
         for (int i = 0; has_g && i <= j; ++i) {
@@ -2372,129 +2378,6 @@ static void gvi__tables_own(gvi_stepper *st)
             if (x->N) x->N[j*R + i] = N;
         }
     }
-}
-
-/* Gauss, r = s.  In Legendre modes integration from 0 to tau, which makes Q from V
-   and P from F, is a matrix with three diagonals (Hairer, Wanner, Solving ordinary
-   differential equations II, IV.5): Phi_0 = (phi_0 - phi_1)/2 and Phi_k =
-   (phi_(k-1) - phi_(k+1))/(2(2k+1)), phi_s being 0 at the nodes.  Its eigenvectors
-   are (2k+1) z_k from the right and (-1)^k z_k from the left,
-
-     z_(-1) = -1    z_0 = 1    z_(k+1) = 2(2k+1) lambda z_k + z_(k-1)
-
-   and lambda is where z_s = 0: z_k = (-1)^k y_k(-2 lambda), y_k the Bessel
-   polynomials (Krall and Frink 1949), whose zeros are simple, real for odd s once.  */
-
-/* z_0..z_s at lambda = a + i b to re and im, rounded once: eigenvalues of a matrix with
-   such eigenvectors are ill-conditioned, and what twofold arithmetic loses is not missed. */
-static void gvi__bessel(int s, gvi__two a, gvi__two b, gvi_real *re, gvi_real *im)
-{
-    gvi__two x = gvi__real2(1), y = gvi__real2(0), last_x = gvi__real2(-1), last_y = y;
-    for (int k = 0; k <= s; ++k) {
-        const gvi_real w = (gvi_real)(4*k + 2);
-        const gvi__two u = gvi__sub2(gvi__mul2(a, x), gvi__mul2(b, y));
-        const gvi__two v = gvi__add2(gvi__mul2(a, y), gvi__mul2(b, x));
-        const gvi__two next_x = gvi__add2(gvi__scale2(w, u), last_x), next_y = gvi__add2(gvi__scale2(w, v), last_y);
-        re[k] = x.hi;
-        im[k] = y.hi;
-        last_x = x;
-        last_y = y;
-        x = next_x;
-        y = next_y;
-    }
-}
-
-// the eigenvector of block m: s real parts, then s imaginary ones, scaled to z_(s-1) = 2 lambda
-static gvi_real *gvi__eigenvector(const gvi_stepper *st, int m) { return st->x.eigen + (size_t)(2*m*st->s); }
-
-static gvi__complex gvi__eigenvalue(const gvi_stepper *st, int m)
-{
-    const gvi_real *z = gvi__eigenvector(st, m);
-    return gvi__complex_of(z[st->s - 1]/2, z[2*st->s - 1]/2);
-}
-
-/* Newton's correction u = z_s/z_s' with z_s' = ((2 s lambda + 1) z_s + z_(s-1))/(2 lambda^2),
-   then u/(1 - u sum 1/(lambda - zero)), which keeps away from the zeros of the
-   blocks from m on, and their mirror images (Maehly 1954).                    */
-static gvi__complex gvi__bessel_correction(const gvi_stepper *st, int m, const gvi__two lambda[2])
-{
-    const int s = st->s;
-    const gvi_real a = 2*(gvi_real)s;
-    const gvi__complex l = gvi__complex_of(lambda[0].hi, lambda[1].hi);
-    gvi_real *re = st->x.row, *im = re + s + 1;
-    gvi__bessel(s, lambda[0], lambda[1], re, im);
-    const gvi__complex z = gvi__complex_of(re[s], im[s]), square = gvi__times_complex(l, l);
-    const gvi__complex slope = gvi__times_complex(gvi__complex_of(a*l.re + 1, a*l.im), z);
-    const gvi__complex u = gvi__times_complex(gvi__times_complex(gvi__complex_of(2*square.re, 2*square.im), z),
-                                              gvi__inverse(slope.re + re[s - 1], slope.im + im[s - 1]));
-    gvi__complex sum = gvi__complex_of(0, 0);
-    for (; m < (s + 1)/2; ++m) {
-        const gvi__complex zero = gvi__eigenvalue(st, m);
-        for (int side = gvi__nonzero(zero.im) ? -1 : 1; side < 2; side += 2) {
-            const gvi__complex pole = gvi__inverse(l.re - zero.re, l.im - (gvi_real)side*zero.im);
-            sum.re += pole.re;
-            sum.im += pole.im;
-        }
-    }
-    sum = gvi__times_complex(u, sum);
-    return gvi__times_complex(u, gvi__inverse(1 - sum.re, -sum.im));
-}
-
-// lambda of block m, those of the blocks behind it being known; 0 if it is not found
-static int gvi__bessel_zero(const gvi_stepper *st, int m, gvi__two lambda[2])
-{
-    const int s = st->s, all = (s + 1)/2;
-    int near = 0;
-    lambda[0] = gvi__real2(1/(gvi_real)s);
-    lambda[1] = gvi__real2(2*m + 1 == s ? 0 : 1/(gvi_real)(2*s));        // a real start stays real
-    for (int k = 0; k < 100 && near < 4; ++k) {       // three times more among all zeros
-        const gvi__complex d = gvi__bessel_correction(st, near ? all : m + 1, lambda);
-        lambda[0] = gvi__add2(lambda[0], gvi__real2(-d.re));
-        lambda[1] = gvi__add2(lambda[1], gvi__real2(-d.im));
-        near += near || gvi__modulus(d.re, d.im) <= GVI_SQRT(GVI__EPS)*gvi__modulus(lambda[0].hi, lambda[1].hi);
-    }
-    return near == 4;
-}
-
-/* One eigenvector of each conjugate pair, and last, for odd s, the real one.  With
-   z_(s-1) = 2 lambda the product of both sides, sum (-1)^k (2k+1) z_k^2 =
-   (-1)^(s-1) z_(s-1)^2/(4 lambda^2) (Christoffel and Darboux), is 1 or -1.  Returns
-   the largest product of their lengths: what a change of basis costs in digits.  */
-static gvi_real gvi__eigenvectors(gvi_stepper *st)
-{
-    const int s = st->s;
-    gvi_real *re = st->x.row, *im = re + s + 1, worst = 0;
-    for (int m = (s + 1)/2; m-- > 0; ) {
-        gvi__two l[2];
-        if (!gvi__bessel_zero(st, m, l)) return GVI__MAX;
-        gvi__bessel(s, l[0], l[1], re, im);
-        const gvi__complex scale = gvi__times_complex(gvi__complex_of(2*l[0].hi, 2*l[1].hi),
-                                                      gvi__inverse(re[s - 1], im[s - 1]));
-        gvi_real *z = gvi__eigenvector(st, m), size = 0;
-        for (int k = 0; k < s; ++k) {
-            const gvi__complex y = gvi__times_complex(scale, gvi__complex_of(re[k], im[k]));
-            z[k] = y.re;
-            z[s + k] = y.im;
-            size += (gvi_real)(2*k + 1)*(y.re*y.re + y.im*y.im);
-        }
-        if (size > worst) worst = size;
-    }
-    return worst;
-}
-
-/* phi_k(tau) and Phi_k(tau), k < s, multiplied by Gamma^-1, at any tau.        */
-static void gvi__modes(const gvi_stepper *st, gvi_real tau, gvi_real *phi, gvi_real *Phi)
-{
-    gvi_real X = 1 - 2*tau, P = 1, before = 1;
-    for (int k = 0; k < st->s; ++k) {
-        gvi_real next = ((gvi_real)(2*k + 1)*X*P - (gvi_real)k*before)/(gvi_real)(k + 1);
-        phi[k] = P;
-        Phi[k] = (before - next)/(gvi_real)(4*k + 2);
-        before = P;
-        P = next;
-    }
-    gvi__over_gamma(st, phi);
-    gvi__over_gamma(st, Phi);
 }
 
 /* Weights h b_j whose sum is h exactly: rounded to multiples of ulp(h), what is
@@ -2680,7 +2563,8 @@ static gvi_status gvi__resolve(gvi__scene *x, gvi_desc *d, const gvi_desc *desc)
     gvi_status status = gvi__check_desc(desc);
     x->desc = desc;
     if (status == GVI_OK) status = gvi__read_effects(x);
-    if (status != GVI_OK || !gvi__mass_given(&desc->mass, x->flags & GVI__HAS_LAGRANGIAN)) return GVI_E_ARGUMENT;
+    if (status != GVI_OK) return status;
+    if (!gvi__mass_given(&desc->mass, x->flags & GVI__HAS_LAGRANGIAN)) return GVI_E_ARGUMENT;
     *d = *desc;
     x->desc = d;
     if (d->degree == 0) d->degree = d->rule.kind == GVI_KICKS ? 1 : 8;
@@ -2743,10 +2627,9 @@ static gvi_real *gvi__take(gvi__arena *arena, size_t a, size_t b)
 enum {
     GVI__1, GVI__2, GVI__3, GVI__6, GVI__n, GVI__N, GVI__R, GVI__s,      // N: n, in whole vectors if n >= 8
     GVI__STATE, GVI__POINTS, GVI__V, GVI__P, GVI__A_, GVI__OLDER_F, GVI__OLDER_V, GVI__OLDER_A,
-    GVI__SLOPE, GVI__RATE, GVI__G, GVI__M, GVI__T, GVI__NN, GVI__E, GVI__PHI, GVI__MODES, GVI__PLACE, GVI__DRIFT,
-    GVI__GAMMA, GVI__DIAGONAL, GVI__TWO_MASSES, GVI__STILL, GVI__Z, GVI__AT_POINTS, GVI__nR, GVI__HESS,
-    GVI__HESSIANS,
-    GVI__sn, GVI__PIVOT, GVI__DIFFERENCES, GVI__J, GVI__EIGEN, GVI__LENGTHS
+    GVI__SLOPE, GVI__RATE, GVI__G, GVI__M, GVI__T, GVI__NN, GVI__E, GVI__PHI, GVI__MODES, GVI__PLACE,
+    GVI__DRIFT, GVI__GAMMA, GVI__DIAGONAL, GVI__TWO_MASSES, GVI__STILL, GVI__Z, GVI__AT_POINTS, GVI__nR,
+    GVI__HESS, GVI__HESSIANS, GVI__sn, GVI__PIVOT, GVI__DIFFERENCES, GVI__J, GVI__EIGEN, GVI__LENGTHS
 };
 
 GVI__APART void gvi__lengths(const gvi__scene *x, size_t *length)
@@ -2822,9 +2705,9 @@ static void gvi__layout_vectors(gvi__arena *a, const size_t *length)
 {
     static const gvi__part parts[] = {
         GVI__PART(q, 1, N), GVI__PART(qe, 1, N), GVI__PART(p, 1, N), GVI__PART(pe, 1, N), GVI__PART(q0, 1, N),
-        GVI__PART(p0, 1, N), GVI__PART(zeros, 1, N), GVI__PART(start, 1, N), GVI__PART(v0, 1, N), GVI__PART(ve, 1, N),
-        GVI__PART(dq, 1, N), GVI__PART(dp, 1, N), GVI__PART(dqe, 1, N), GVI__PART(dpe, 1, N),
-        GVI__PART(mass, DIAGONAL, 1), GVI__PART(over, DIAGONAL, 1)
+        GVI__PART(p0, 1, N), GVI__PART(zeros, 1, N), GVI__PART(start, 1, N), GVI__PART(v0, 1, N),
+        GVI__PART(ve, 1, N), GVI__PART(dq, 1, N), GVI__PART(dp, 1, N), GVI__PART(dqe, 1, N),
+        GVI__PART(dpe, 1, N), GVI__PART(mass, DIAGONAL, 1), GVI__PART(over, DIAGONAL, 1)
     };
     gvi__place(a, length, parts, sizeof parts/sizeof *parts);
 }
@@ -2833,18 +2716,16 @@ static void gvi__layout_rows(gvi__arena *a, const size_t *length)
 {
     static const gvi__part parts[] = {
         GVI__PART(last.Q, STATE, POINTS), GVI__PART(last.F, STATE, POINTS), GVI__PART(last.V, V, R),
-        GVI__PART(last.P, P, R), GVI__PART(last.A, A_, R),
-        GVI__PART(work.Q, STATE, POINTS), GVI__PART(work.F, STATE, POINTS), GVI__PART(work.V, V, R),
-        GVI__PART(work.P, P, R), GVI__PART(work.A, A_, R),
-        GVI__PART(older_F, OLDER_F, R), GVI__PART(older_V, OLDER_V, R), GVI__PART(older_A, OLDER_A, R),
-        GVI__PART(weak, STILL, R), GVI__PART(slope, SLOPE, R),
-        GVI__PART(rate, RATE, R),
-        GVI__PART(z, 1, R), GVI__PART(less, 1, R), GVI__PART(hb, 1, R), GVI__PART(c, 1, R), GVI__PART(g, G, R),
-        GVI__PART(m, M, R), GVI__PART(T, T, R), GVI__PART(N, NN, R), GVI__PART(E, E, R), GVI__PART(Phi, PHI, R),
-        GVI__PART(phi, MODES, R), GVI__PART(low, MODES, R), GVI__PART(Z, Z, R), GVI__PART(point_mass, AT_POINTS, nR),
-        GVI__PART(ce, 1, R), GVI__PART(b, 1, R), GVI__PART(t, 1, R), GVI__PART(place, PLACE, R), GVI__PART(row, 6, R),
-        GVI__PART(drift, DRIFT, 1), GVI__PART(inv_gamma, 1, s), GVI__PART(own, GAMMA, 1),
-        GVI__PART(eigen, EIGEN, s)
+        GVI__PART(last.P, P, R), GVI__PART(last.A, A_, R), GVI__PART(work.Q, STATE, POINTS),
+        GVI__PART(work.F, STATE, POINTS), GVI__PART(work.V, V, R), GVI__PART(work.P, P, R),
+        GVI__PART(work.A, A_, R), GVI__PART(older_F, OLDER_F, R), GVI__PART(older_V, OLDER_V, R),
+        GVI__PART(older_A, OLDER_A, R), GVI__PART(weak, STILL, R), GVI__PART(slope, SLOPE, R),
+        GVI__PART(rate, RATE, R), GVI__PART(z, 1, R), GVI__PART(less, 1, R), GVI__PART(hb, 1, R),
+        GVI__PART(c, 1, R), GVI__PART(g, G, R), GVI__PART(m, M, R), GVI__PART(T, T, R), GVI__PART(N, NN, R),
+        GVI__PART(E, E, R), GVI__PART(Phi, PHI, R), GVI__PART(phi, MODES, R), GVI__PART(low, MODES, R),
+        GVI__PART(Z, Z, R), GVI__PART(point_mass, AT_POINTS, nR), GVI__PART(ce, 1, R), GVI__PART(b, 1, R),
+        GVI__PART(t, 1, R), GVI__PART(place, PLACE, R), GVI__PART(row, 6, R), GVI__PART(drift, DRIFT, 1),
+        GVI__PART(inv_gamma, 1, s), GVI__PART(own, GAMMA, 1), GVI__PART(eigen, EIGEN, s)
     };
     gvi__place(a, length, parts, sizeof parts/sizeof *parts);
 }
@@ -2854,8 +2735,8 @@ static void gvi__layout_scratch(gvi__arena *a, const size_t *length)
 {
     static const gvi__part parts[] = {
         GVI__PART(mass, TWO_MASSES, n), GVI__PART(scale, 2, n), GVI__PART(change, 3, n), GVI__PART(one, 6, n),
-        GVI__PART(hess, HESS, HESSIANS), GVI__PART(y, sn, 1), GVI__PART(dy, sn, 1), GVI__PART(pivot, PIVOT, 2),
-        GVI__PART(dF, DIFFERENCES, R), GVI__PART(J, J, sn)
+        GVI__PART(hess, HESS, HESSIANS), GVI__PART(y, sn, 1), GVI__PART(dy, sn, 1),
+        GVI__PART(pivot, PIVOT, 2), GVI__PART(dF, DIFFERENCES, R), GVI__PART(J, J, sn)
     };
     gvi__place(a, length, parts, sizeof parts/sizeof *parts);
 }
@@ -2906,7 +2787,8 @@ static gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
         for (int i = 0; i < n; ++i)
             for (int j = 0; j <= i; ++j) {
                 m[i*n + j] = m[nn + (size_t)(i*n + j)] = mass->matrix[i*n + j];
-                if (!gvi__finite(m[i*n + j])) return gvi__fail(st, GVI_E_ARGUMENT, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
+                if (!gvi__finite(m[i*n + j]))
+                    return gvi__fail(st, GVI_E_ARGUMENT, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
             }
         gvi_status status = gvi__ldl_factor(st, n, 1, 1, m);
         st->counters.factorizations = 0;
@@ -2915,6 +2797,7 @@ static gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
     return GVI_OK;
 }
 
+// where number stands: the alignment of a gvi_real
 typedef struct gvi__aligned { char byte; gvi_real number; } gvi__aligned;
 
 // the scene into the stepper, the memory in parts
@@ -2946,6 +2829,24 @@ static gvi_status gvi__hand_out(gvi_stepper *st, const gvi_desc *desc, gvi_real 
     return GVI_OK;
 }
 
+// nodes, what rounding left of them, weights
+static void gvi__set_rule(gvi_stepper *st, const gvi_desc *desc)
+{
+    struct gvi__private *x = &st->x;
+    if (gvi__rule_is(st, GVI_OWN) || gvi__rule_is(st, GVI_KICKS)) {
+        gvi__copy((size_t)st->r, desc->rule.nodes, x->c);
+        gvi__copy((size_t)st->r, desc->rule.weights, x->b);
+    } else if (gvi__uses(st, GVI_EXPLICIT)) {                // Stoermer-Verlet: c = 0, 1
+        x->c[1] = 1;
+        x->b[0] = x->b[1] = (gvi_real)0.5;
+    }
+#if GVI__RULES
+    else gvi__rule_make(x->desc.rule.kind == GVI_LOBATTO, st->r, x->c, x->ce, x->b);
+#else
+    else gvi__few_modes(st, (size_t)desc->degree);           // r = s, and known if the description is
+#endif
+}
+
 GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *memory, size_t size)
 {
     if (!st) return GVI_E_ARGUMENT;
@@ -2962,35 +2863,19 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     if (status != GVI_OK) return status;
 
     // the rule, the modes at its nodes as exactly as they can be had, then the grid
-    if (gvi__rule_is(st, GVI_OWN) || gvi__rule_is(st, GVI_KICKS)) {
-        gvi__copy((size_t)st->r, x->desc.rule.nodes, x->c);
-        gvi__copy((size_t)st->r, x->desc.rule.weights, x->b);
-    } else if (gvi__uses(st, GVI_EXPLICIT)) {                // Stoermer-Verlet: c = 0, 1
-        x->c[1] = 1;
-        x->b[0] = x->b[1] = (gvi_real)0.5;
+    gvi__set_rule(st, desc);
+    if (!gvi__uses(st, GVI_EXPLICIT)) {
+        if (GVI__RULES) {
+            gvi__modes_at_nodes(st);
+            status = gvi__gamma(st);
+            if (status != GVI_OK) return st->status = status;
+        }
+        if (gvi__has(st, GVI__HAS_OWN)) gvi__tables_own(st);
+        else gvi__tables(st);
+        if (GVI__NEWTON && x->eigen) x->blocks = -1;        // most scenes never need Newton's method
     }
-#if GVI__RULES
-    else gvi__rule_make(x->desc.rule.kind == GVI_LOBATTO, st->r, x->c, x->ce, x->b);
-#else
-    else gvi__few_modes(st, (size_t)desc->degree);           // r = s, and known if the description is
-#endif
-    x->memory = memory;                      // from here on it can be used
-    if (gvi__uses(st, GVI_EXPLICIT)) {
-        if (x->Phi) gvi__copy((size_t)st->r, x->c, x->Phi);
-        return gvi__done(st, GVI_OK);
-    }
-    if (GVI__RULES) {
-        gvi__modes_at_nodes(st);
-        status = gvi__gamma(st);
-    }
-    if (status != GVI_OK) {
-        x->memory = NULL;
-        return st->status = status;
-    }
-    if (gvi__has(st, GVI__HAS_OWN)) gvi__tables_own(st);
-    else gvi__tables(st);
-    if (GVI__NEWTON && x->eigen) x->blocks = -1;            // most scenes never need Newton's method
-    gvi__copy((size_t)st->r, x->c, x->Phi);  // Phi_0 = c on its grid: 1 - Phi_0 is exact
+    if (x->Phi) gvi__copy((size_t)st->r, x->c, x->Phi);     // Phi_0 = c on its grid: 1 - Phi_0 is exact
+    x->memory = memory;                                     // from here on it can be used
     return gvi__done(st, GVI_OK);
 }
 
@@ -3000,14 +2885,15 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
 typedef struct gvi__from {
     gvi_real t, te;
     const gvi_real *q, *qe, *p, *pe;
-    gvi_real E, Ee;                   /* clock                                  */
+    gvi_real E, Ee;                   /* clock: energy, and what rounding left of it */
     const gvi_real *v, *ve;           /* M^-1 p, M^-1 pe, where M is constant   */
 } gvi__from;
 
 // rows of the Lagrangian terms' dL/dv, where there are any
 static inline gvi_real *gvi__A(const struct gvi__rows *rows) { return GVI__LAGRANGIAN ? rows->A : NULL; }
 
-static void gvi__rows_as_points(gvi_points *x, const gvi_stepper *st, const struct gvi__rows *rows, gvi_real *dldv)
+static void gvi__rows_as_points(gvi_points *x, const gvi_stepper *st, const struct gvi__rows *rows,
+                                gvi_real *dldv)
 {
     gvi__at(x, st, st->x.t, rows->Q);
     x->v = rows->V;
@@ -3041,11 +2927,129 @@ static inline void gvi__begin(gvi_stepper *st, gvi__from *from, gvi_real h)
     if (x->desc.mass.kind == GVI_MASS_UNIT || !gvi__mass_is_constant(&x->desc)) return;
     gvi__over_constant_mass(st, from->p, x->v0);
     gvi__over_constant_mass(st, from->pe, x->ve);
+    // v is rounded, too, and what is left of it as large as what is left of p
     for (int i = 0; x->desc.mass.kind == GVI_MASS_DIAGONAL && i < st->n; ++i)
-        x->ve[i] += gvi__rest(gvi__product(from->p[i], x->over[i]).lo);   // of v, as large as what is left of p
+        x->ve[i] += gvi__rest(gvi__product(from->p[i], x->over[i]).lo);
     from->v = x->v0;
     from->ve = x->ve;
 }
+
+/* ---- explicit ---- */
+
+/* The explicit formulation: kicks h b_j F_j at the nodes, and drifts from each to
+   the next.  Its loops are short and wait for each other.  A zero that the compiler
+   does not know keeps it from calling memset and memcpy: they take as long as the
+   rest, and write blocks of other widths than the next loads, which then wait.   */
+
+// the drift to the first node: dp := pe, dq := qe + a (v + pe/m), Q := q + dq; F := 0
+static inline void gvi__drift_of(int n, gvi_real a, gvi_real zero, const gvi_real *m, const gvi__from *from,
+                                 gvi_real *GVI__RESTRICT dp, gvi_real *GVI__RESTRICT dq,
+                                 gvi_real *GVI__RESTRICT Q, gvi_real *GVI__RESTRICT F)
+{
+    const gvi_real *GVI__RESTRICT v = from->v, *GVI__RESTRICT q = from->q;
+    const gvi_real *GVI__RESTRICT qe = from->qe, *GVI__RESTRICT pe = from->pe;
+    for (int i = 0; i < n; ++i) {
+        const gvi_real p = pe[i] + zero;
+        dq[i] = qe[i] + a*(v[i] + (m ? p*m[i] : p));
+        dp[i] = p;
+        Q[i] = q[i] + dq[i];
+        F[i] = zero;
+    }
+}
+
+// m is seen to be NULL, lest the compiler load from it under a mask: that takes 50 ns
+static inline void gvi__drift(int n, gvi_real a, gvi_real zero, const gvi_real *m, const gvi__from *from,
+                              gvi_real *dp, gvi_real *dq, gvi_real *Q, gvi_real *F)
+{
+    if (m || GVI__SMALL) gvi__drift_of(n, a, zero, m, from, dp, dq, Q, F);
+    else gvi__drift_of(n, a, zero, NULL, from, dp, dq, Q, F);
+}
+
+/* Kick and drift: dp += b F, then dq += a (v + dp/m) and Q = q + dq.  What does not
+   depend on F is added up first, so that little waits for F; but a (b F) is two
+   products: the rounding of a b, the same in every step, would make the map no
+   longer symplectic and let the energy drift.  F is 0 then for the next call, but
+   the last is kept.  A step whose first node is its start may begin with a kick by
+   the force that the last step ended with, and no drift before.               */
+enum { GVI__KICK, GVI__LAST_KICK, GVI__FIRST_KICK };
+
+static inline void gvi__kick_drift_of(int n, int kind, gvi_real b, gvi_real a, const gvi_real *m,
+                                      const gvi__from *from, gvi_real zero,
+                                      const gvi_real *GVI__RESTRICT known, gvi_real *GVI__RESTRICT F,
+                                      gvi_real *GVI__RESTRICT dp, gvi_real *GVI__RESTRICT dq,
+                                      gvi_real *GVI__RESTRICT Q)
+{
+    const gvi_real *GVI__RESTRICT v = from->v, *GVI__RESTRICT q = from->q;
+    const gvi_real *GVI__RESTRICT qe = from->qe, *GVI__RESTRICT pe = from->pe;
+    const int first = kind == GVI__FIRST_KICK;
+    for (int i = 0; i < n; ++i) {
+        const gvi_real p = first ? pe[i] : dp[i], d = first ? qe[i] : dq[i];
+        const gvi_real kick = b*(first ? known[i] : F[i]);
+        dq[i] = (d + a*(v[i] + (m ? p*m[i] : p))) + a*(m ? kick*m[i] : kick);
+        dp[i] = p + kick;
+        Q[i] = q[i] + dq[i];
+        if (kind != GVI__LAST_KICK) F[i] = zero;
+    }
+}
+
+static inline void gvi__kick_drift(int n, int kind, gvi_real b, gvi_real a, const gvi_real *m,
+                                   const gvi__from *from, gvi_real zero, const gvi_real *known, gvi_real *F,
+                                   gvi_real *dp, gvi_real *dq, gvi_real *Q)
+{
+    if (m || GVI__SMALL) gvi__kick_drift_of(n, kind, b, a, m, from, zero, known, F, dp, dq, Q);
+    else gvi__kick_drift_of(n, kind, b, a, NULL, from, zero, known, F, dp, dq, Q);
+}
+
+// the drift that both leave out, a = 0, where M is a full matrix
+static void gvi__drift_dense(gvi_stepper *st, const gvi__from *from, gvi_real a)
+{
+    struct gvi__private *x = &st->x;
+    gvi_real *z = x->change;
+    gvi__over_constant_mass(st, x->dp, z);
+    for (int i = 0; i < st->n; ++i) x->work.Q[i] = from->q[i] + (x->dq[i] += a*(from->v[i] + z[i]));
+}
+
+/* One evaluation a kick.  `force` is that at the start, if it is known: after a step
+   whose last node was 1.  dqe and dpe are never anything but 0 here.          */
+static inline gvi_status gvi__explicit_of(gvi_stepper *st, const gvi__from *from, gvi_real h,
+                                          const gvi_real *force, int n)
+{
+    struct gvi__private *x = &st->x;
+    const int dense = gvi__mass_is(st, GVI_MASS_DENSE), r = st->r;
+    const gvi_real *m = x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
+    const int only = !GVI__SMALL && x->single >= 0 && !x->diagnose;
+    gvi_real *F = x->work.F, *Q = x->work.Q, *dp = x->dp, *dq = x->dq, t = from->t;
+    const gvi_real zero = h - h;
+    gvi_points y;
+    gvi__at(&y, st, &t, Q);
+    y.f = F;
+    y.dldv = NULL;
+    int j = force != NULL;
+    gvi_real a = dense ? 0 : x->drift[j];
+    if (force) gvi__kick_drift(n, GVI__FIRST_KICK, x->hb[0], a, m, from, zero, force, F, dp, dq, Q);
+    else gvi__drift(n, a, zero, m, from, dp, dq, Q, F);
+    if (dense) gvi__drift_dense(st, from, x->drift[j]);
+    for (; j < r; ++j) {
+        const gvi_real b = x->hb[j];
+        a = dense ? 0 : x->drift[j + 1];
+        t = from->t + (from->te + x->c[j]*h);
+        gvi_status status = only ? gvi__call(st, &y, x->single) : gvi__check_points(st, &y);
+        if (!only && status == GVI_OK) status = gvi__effects(st, &y, 0);
+        if (status != GVI_OK) return status;
+        if (j < r - 1) gvi__kick_drift(n, GVI__KICK, b, a, m, from, zero, NULL, F, dp, dq, Q);
+        else gvi__kick_drift(n, GVI__LAST_KICK, b, a, m, from, zero, NULL, F, dp, dq, Q);
+        if (dense) gvi__drift_dense(st, from, x->drift[j + 1]);
+    }
+    return GVI_OK;
+}
+
+GVI__APART gvi_status gvi__explicit(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *force)
+{
+    return st->n == 2 && !GVI__SMALL ? gvi__explicit_of(st, from, h, force, 2)
+                                     : gvi__explicit_of(st, from, h, force, st->n);
+}
+
+/* ---- fixed point ---- */
 
 // four sums, so that none need wait for another; what is left over goes to the first
 static gvi_real gvi__dot(int r, const gvi_real *a, const gvi_real *b)
@@ -3057,7 +3061,7 @@ static gvi_real gvi__dot(int r, const gvi_real *a, const gvi_real *b)
 }
 
 /* One set of rows of (3), (4) or (5):
-   row_i := base_i + (extra_i + factor*(c slope_i + M^-1 (table (w f_i) - minus (b a_i))))
+   row_i := base_i + (extra_i + factor*(c slope_i + M^-1 (table (h b f_i) - minus (b a_i))))
    slope, minus may be NULL; M^-1 if over_mass.                                */
 struct gvi__stage;
 typedef gvi_real gvi__kernel(gvi_stepper *st, const struct gvi__stage *y);   // returns the change: below
@@ -3104,7 +3108,8 @@ GVI__COPY void gvi__sum_vector(int r, int R, const gvi_real *table, const gvi_re
 #endif
 
 // the same for `block` points, by loops, any r
-static inline void gvi__sum_block(int r, int R, int block, const gvi_real *table, const gvi_real *L, gvi_real *z)
+static inline void gvi__sum_block(int r, int R, int block, const gvi_real *table, const gvi_real *L,
+                                  gvi_real *z)
 {
     for (int k = 0; k < block; ++k) {
         const gvi_real *t = table + k, none = -(gvi_real)0;          // x + -0 is x, also for -0
@@ -3170,7 +3175,7 @@ GVI__APART void gvi__weighted_sums(const gvi_stepper *st, const gvi_real *table,
 
 /* 1/unit in which changes of a row are measured: |base| + the displacements at the
    last point, before and after; 0 where these have no sure digit.  Made when it is
-   0: gvi__fixed_point clears it, so that as a rule nothing waits for a quotient. */
+   0, as gvi__fixed_point and gvi__judge leave it: as a rule nothing waits for a quotient. */
 static inline void gvi__rescale(gvi_real base, gvi_real was, gvi_real is, gvi_real *scale)
 {
     if (*scale > 0) return;
@@ -3178,6 +3183,7 @@ static inline void gvi__rescale(gvi_real base, gvi_real was, gvi_real is, gvi_re
     *scale = size > GVI__MIN/GVI__EPS ? 1/size : 0;
 }
 
+// the lanes of a vector of eight, added up in one order everywhere
 static inline gvi_real gvi__sum_lanes(const gvi_real *z)
 {
     if (!GVI__RULES) return (z[0] + z[1]) + (z[2] + z[3]);           // no more than four points
@@ -3256,7 +3262,8 @@ GVI__COPY gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stage *y
                     }
                     next[k] = p.base + ((p.extra + GVI__AT(c + at)*p.a) + z*p.b);
                 }
-                if (last < 8) gvi__rescale(p.base, row[last], next[last/GVI__LANES][last % GVI__LANES], y->scale + i);
+                if (last < 8)
+                    gvi__rescale(p.base, row[last], next[last/GVI__LANES][last % GVI__LANES], y->scale + i);
                 for (int k = 0; k < VECTORS; ++k) {
                     const gvi__vector moved = (next[k] - GVI__AT(row + k*GVI__LANES))*y->scale[i];
                     squares[k] += moved*moved;
@@ -3366,12 +3373,13 @@ static void gvi__row_sums(const gvi_stepper *st, const gvi__stage *y, int i, gvi
     for (int k = 0; k < R; ++k) z[k] -= x->less[k];
 }
 
-/* The same in less code and without blocks, sums of squares from the last point on, as
-   there; also where M is a full matrix: then all sums first, and M^-1 of them.   */
+/* gvi__stage_rows_of in less code and without blocks, squares added up from the last
+   point on, as there.  Also where M is a full matrix: all sums first, then M^-1 of them. */
 GVI__APART gvi_real gvi__stage_rows_plain(gvi_stepper *st, const gvi__stage *y)
 {
     const struct gvi__private *x = &st->x;
-    const int n = st->n, R = x->stride, last = st->r - 1, dense = y->over_mass && gvi__mass_is(st, GVI_MASS_DENSE);
+    const int n = st->n, R = x->stride, last = st->r - 1;
+    const int dense = y->over_mass && gvi__mass_is(st, GVI_MASS_DENSE);
     gvi_real lane[8] = { 0, 0, 0, 0, 0, 0, 0, 0 }, *z = dense ? x->Z : x->row, *row = y->rows;
     for (int i = 0; dense && i < n; ++i) gvi__row_sums(st, y, i, z + i*R);
     if (dense) gvi__over_mass(st, z, R, R);
@@ -3527,55 +3535,31 @@ static gvi_real gvi__stages(gvi_stepper *st, const gvi__stage *y, int count)
 GVI__APART gvi_status gvi__legendre_rows(gvi_stepper *st, gvi_points *y)
 {
     struct gvi__private *x = &st->x;
-    struct gvi__rows *w = &x->work;
     gvi__count(&st->counters.velocities, st->r);
     if (x->desc.mass.velocity) {
-        const gvi_real *v = y->v;
-        gvi_real *f = y->f, *dldv = y->dldv;
-        y->v = NULL;
-        y->f = y->dldv = NULL;
-        y->p = w->P;
-        y->velocity = w->V;
-        gvi__count(&st->counters.mass, st->r);
-        int refused = x->desc.mass.velocity(y, x->desc.mass.user);
-        y->velocity = NULL;
-        y->p = NULL;
-        y->v = v;
-        y->f = f;
-        y->dldv = dldv;
-        if (refused) return gvi__fail(st, GVI_E_CALLBACK, GVI_FAULT_MASS, -1, -1);
-        if (gvi__diagnoses(st)) {
-            gvi_status status = gvi__check_rows(st, y, w->V, GVI_FAULT_MASS);
-            if (status != GVI_OK) return status;
-        }
-    } else {
-        gvi_status status = gvi__mass_is_constant(&x->desc) ? GVI_OK : gvi__factor_at(st, y);
-        if (status != GVI_OK) return status;
-        x->has_factor = !gvi__mass_is_constant(&x->desc);
-        gvi__velocity_rows(st);
+        const gvi_status status = gvi__ask_mass(st, y, x->work.P, x->work.V);
+        if (status != GVI_OK || !gvi__diagnoses(st)) return status;
+        return gvi__check_rows(st, y, x->work.V, GVI_FAULT_MASS);
     }
+    const gvi_status status = gvi__mass_is_constant(&x->desc) ? GVI_OK : gvi__factor_at(st, y);
+    if (status != GVI_OK) return status;
+    x->has_factor = !gvi__mass_is_constant(&x->desc);
+    gvi__velocity_rows(st);
     return GVI_OK;
 }
 
 // the clock's g and dg/dq at the points
-static gvi_status gvi__rate(gvi_stepper *st, gvi_points *x, gvi_real *rate, gvi_real *slope)
+static gvi_status gvi__rate(gvi_stepper *st, const gvi_points *x, gvi_real *rate, gvi_real *slope)
 {
-    const gvi_effect *clock = st->x.desc.effects + st->x.clock;
-    const gvi_real *v = x->v;
-    gvi_real *f = x->f, *dldv = x->dldv;
-    x->v = NULL;
-    x->dldv = NULL;
-    x->f = slope;
-    x->value = rate;
+    gvi_points y = *x;
+    y.v = NULL;
+    y.f = slope;
+    y.dldv = NULL;
+    y.value = rate;
     gvi__zero((size_t)x->n*(size_t)x->stride, slope);
     gvi__zero((size_t)x->stride, rate);
-    gvi__count(&st->counters.effect[st->x.clock], x->count);
-    int refused = clock->points(x, clock->user);
-    x->v = v;
-    x->dldv = dldv;
-    x->f = f;
-    x->value = NULL;
-    if (refused) return gvi__fail(st, GVI_E_CALLBACK, st->x.clock, -1, -1);
+    const gvi_status status = gvi__call(st, &y, st->x.clock);
+    if (status != GVI_OK) return status;
     for (int k = 0; k < x->count; ++k) {
         if (rate[k] <= 0) return gvi__fail(st, GVI_E_CLOCK, st->x.clock, GVI_FAULT_NONE, k);
         if (gvi__diagnoses(st) && !gvi__finite(rate[k]))
@@ -3592,7 +3576,8 @@ static inline void gvi__add_products(int R, const gvi_real *GVI__RESTRICT a, con
 }
 
 // F := g F - dg/dq (H - E)
-static inline void gvi__transform_row(int R, const gvi_real *GVI__RESTRICT g, const gvi_real *GVI__RESTRICT slope,
+static inline void gvi__transform_row(int R, const gvi_real *GVI__RESTRICT g,
+                                      const gvi_real *GVI__RESTRICT slope,
                                       const gvi_real *GVI__RESTRICT excess, gvi_real *GVI__RESTRICT F)
 {
     for (int k = 0; k < R; ++k) F[k] = g[k]*F[k] - slope[k]*excess[k];
@@ -3604,7 +3589,7 @@ static void gvi__transform(gvi_stepper *st, const gvi__from *from, int lagrangia
 {
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work;
-    const int n = st->n, r = st->r, R = x->stride;
+    const int n = st->n, R = x->stride;
     const gvi_real E = from->E + from->Ee;
     gvi_real *power = x->rate + R, *level = power + R;
     for (int k = 0; k < R; ++k) level[k] -= x->less[k] + E;
@@ -3622,8 +3607,8 @@ static void gvi__transform(gvi_stepper *st, const gvi__from *from, int lagrangia
         gvi__scale_row(R, x->rate, w->V + i*R);
     }
     gvi__weigh(R, x->hb, x->rate, NULL, x->less);
-    if (r == 8 && !GVI__SMALL) gvi__sum_row(8, 8, x->T, x->less, x->z);
-    else gvi__sum_row(r, R, x->T, x->less, x->z);
+    if (st->r == 8 && !GVI__SMALL) gvi__sum_row(8, 8, x->T, x->less, x->z);
+    else gvi__sum_row(st->r, R, x->T, x->less, x->z);
     for (int k = 0; k < R; ++k) x->t[k] = from->t + (from->te + x->z[k]);
     x->has_rate = 1;
 }
@@ -3670,7 +3655,8 @@ static inline unsigned gvi__seldom(const gvi_stepper *st)
     return GVI__WEAK && !st->x.diagnose ? st->x.marks & ~st->x.off : 0;
 }
 
-// their answers to a change of the rows, squared: of the last step, and as known in this one
+// what asking them anew changes, over what the rows had changed, squared: learned in the last
+// step, and in this one
 static inline gvi_real *gvi__answers(gvi_stepper *st) { return st->x.weak + st->n*st->x.stride; }
 
 // y->f := the weak forces, asked anew or as they were
@@ -3706,46 +3692,6 @@ GVI__APART gvi_status gvi__ask(gvi_stepper *st, const gvi__from *from, gvi_real 
         status = gvi__mass_gradient(st, y);
     if (status != GVI_OK) return status;
     return some ? gvi__effects(st, y, some) : gvi__all_effects(st, y);
-}
-
-/* Extrapolates rows of the last step, or of the last two, to the points of the
-   next:  out_i = sum_j E_ij last_j (+ sum_j E_i,r+j older_j).  y, if not NULL: E is
-   gvi__fit_sums', and what it gives is put into that stage's row.              */
-GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const gvi_real *last,
-                                     const gvi_real *older, const gvi__stage *y, gvi_real *out)
-{
-    const struct gvi__private *x = &st->x;
-    for (int i = 0; i < st->n; ++i) {
-        gvi_real *row = out + i*R;
-#ifdef GVI__VECTORS
-        gvi__affine p = { 0, 0, 0, 1 };
-        if (y) p = gvi__affine_of(y, gvi__diagonal(st, y), i);
-        for (int o = 0; older && R % 8 == 0 && o < R; o += GVI__LANES) {
-            gvi__vector z, before;
-            gvi__sum_vector(r, R, x->E + r*R + o, older + i*R, &before);
-            gvi__sum_vector(r, R, x->E + o, last + i*R, &z);
-            z += before;
-            if (y) z = p.base + ((p.extra + GVI__AT(x->c + o)*p.a) + z*p.b);
-            *(gvi__vector *)(row + o) = z;
-        }
-        if (older && R % 8 == 0) continue;
-#endif
-        gvi__sum_row(r, R, x->E, last + i*R, row);
-        if (older) gvi__sum_row(r, R, x->E + r*R, older + i*R, x->z);
-        for (int k = 0; older && k < R; ++k) row[k] += x->z[k];
-        if (y) gvi__affine_row(st, y, gvi__diagonal(st, y), i, row);
-    }
-}
-
-GVI__APART void gvi__extrapolate(gvi_stepper *st, const gvi_real *last, const gvi_real *older,
-                                 const gvi__stage *y, gvi_real *out)
-{
-    if (!gvi__two_now(st)) older = NULL;
-    if (GVI__SMALL) gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, y, out);
-    else if (st->r == 8 && y) gvi__extrapolate_rows(st, 8, 8, last, older, y, out);
-    else if (st->r == 8) gvi__extrapolate_rows(st, 8, 8, last, older, NULL, out);
-    else if (st->r == 4) gvi__extrapolate_rows(st, 4, 4, last, older, y, out);
-    else gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, y, out);
 }
 
 /* Least squares through the rows of one step or two, with polynomials p_k that are
@@ -3801,11 +3747,51 @@ static void gvi__fit_sums(gvi_stepper *st)
     for (int j = 0; j < rows; ++j) gvi__weighted_sums(st, x->g, x->hb, x->E + j*R, NULL, x->E + j*R);
 }
 
-// makes E what this step needs, if it is not
+/* Extrapolates rows of the last step, or of the last two, to the points of the
+   next:  out_i = sum_j E_ij last_j (+ sum_j E_i,r+j older_j).  y, if not NULL: E is
+   gvi__fit_sums', and what it gives is put into that stage's row.              */
+GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const gvi_real *last,
+                                     const gvi_real *older, const gvi__stage *y, gvi_real *out)
+{
+    const struct gvi__private *x = &st->x;
+    for (int i = 0; i < st->n; ++i) {
+        gvi_real *row = out + i*R;
+#ifdef GVI__VECTORS
+        gvi__affine p = { 0, 0, 0, 1 };
+        if (y) p = gvi__affine_of(y, gvi__diagonal(st, y), i);
+        for (int o = 0; older && R % 8 == 0 && o < R; o += GVI__LANES) {
+            gvi__vector z, before;
+            gvi__sum_vector(r, R, x->E + r*R + o, older + i*R, &before);
+            gvi__sum_vector(r, R, x->E + o, last + i*R, &z);
+            z += before;
+            if (y) z = p.base + ((p.extra + GVI__AT(x->c + o)*p.a) + z*p.b);
+            *(gvi__vector *)(row + o) = z;
+        }
+        if (older && R % 8 == 0) continue;
+#endif
+        gvi__sum_row(r, R, x->E, last + i*R, row);
+        if (older) gvi__sum_row(r, R, x->E + r*R, older + i*R, x->z);
+        for (int k = 0; older && k < R; ++k) row[k] += x->z[k];
+        if (y) gvi__affine_row(st, y, gvi__diagonal(st, y), i, row);
+    }
+}
+
+GVI__APART void gvi__extrapolate(gvi_stepper *st, const gvi_real *last, const gvi_real *older,
+                                 const gvi__stage *y, gvi_real *out)
+{
+    if (!gvi__two_now(st)) older = NULL;
+    if (GVI__SMALL) gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, y, out);
+    else if (st->r == 8 && y) gvi__extrapolate_rows(st, 8, 8, last, older, y, out);
+    else if (st->r == 8) gvi__extrapolate_rows(st, 8, 8, last, older, NULL, out);
+    else if (st->r == 4) gvi__extrapolate_rows(st, 4, 4, last, older, y, out);
+    else gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, y, out);
+}
+
+// E for this step, if it is not that already
 GVI__APART void gvi__prepare_guess(gvi_stepper *st, gvi_real alpha, gvi_real beta, int query)
 {
     struct gvi__private *x = &st->x;
-    const int step = !query && !gvi__by_newton(st);   // which wants V of the last step
+    const int step = !query && !gvi__by_newton(st);   // Newton's method wants V, of the last step alone
     const int two = GVI__KIND > 1 && step && x->alike == 2 && x->older_F && !gvi__nonzero(beta - 1);
     const int sums = step && gvi__uses(st, GVI_POSITIONS) && !gvi__mass_is(st, GVI_MASS_DENSE)
                      && !gvi__A(&x->work);
@@ -3841,9 +3827,8 @@ GVI__APART void gvi__guess(gvi_stepper *st, int extrapolate, gvi_real rate)
 // (x + xe) + (y + ye): what is lost of x + y goes to the low parts
 static gvi__two gvi__join(gvi_real x, gvi_real xe, gvi_real y, gvi_real ye)
 {
-    gvi__two sum = gvi__sum(x, y);
-    sum.lo = (xe + ye) + sum.lo;
-    return sum;
+    const gvi__two sum = gvi__sum(x, y);
+    return gvi__two_of(sum.hi, (xe + ye) + sum.lo);
 }
 
 /* sum_j a_j b_j + rest, the sum carried with its rounding: an increment is what
@@ -3867,12 +3852,10 @@ GVI__APART gvi__two gvi__exact_dot(int r, const gvi_real *a, const gvi_real *b, 
             hi[k] = sum.hi;
             lo[k] = sum.lo;
         }
-    sum.hi = hi[0];
-    sum.lo = gvi__rest(lo[0] + rest);
-    return sum;
+    return gvi__two_of(hi[0], gvi__rest(lo[0] + rest));
 }
 
-// sum_j (1 - c_j) h b_j F_j
+// sum_j (1 - c_j) h b_j F_j: what (3) is at tau = 1, where S_j = c_j
 static gvi_real gvi__lever_sum(int r, const gvi_real *c, const gvi_real *hb, const gvi_real *F)
 {
     gvi_real sum[4];
@@ -3889,7 +3872,7 @@ typedef gvi_real gvi__pair
 #define GVI__HALF(p) (*(const gvi__half *)(p))
 #define GVI__PAIR(p) (*(const gvi__pair *)(p))
 
-// both for vectors of points, in the same order
+// both sums in vectors of points: the same terms in the same order
 static inline gvi__two gvi__exact_dot_vector(int R, const gvi_real *a, const gvi_real *b, gvi_real rest)
 {
     gvi_real hi[8], lo[8];
@@ -3911,9 +3894,8 @@ static inline gvi__two gvi__exact_dot_vector(int R, const gvi_real *a, const gvi
     const gvi__pair u = GVI__PAIR(hi), v = GVI__PAIR(hi + 2), t = u + v, w = t - u;
     *(gvi__pair *)hi = t;
     *(gvi__pair *)lo = (GVI__PAIR(lo) + GVI__PAIR(lo + 2)) + ((u - (t - w)) + (v - w));
-    gvi__two sum = gvi__join(hi[0], lo[0], hi[1], lo[1]);
-    sum.lo = gvi__rest(sum.lo + rest);
-    return sum;
+    const gvi__two sum = gvi__join(hi[0], lo[0], hi[1], lo[1]);
+    return gvi__two_of(sum.hi, gvi__rest(sum.lo + rest));
 }
 
 static inline gvi_real gvi__lever_vector(int R, const gvi_real *c, const gvi_real *hb, const gvi_real *F)
@@ -3924,7 +3906,7 @@ static inline gvi_real gvi__lever_vector(int R, const gvi_real *c, const gvi_rea
 }
 #endif
 
-// whichever is there
+// in vectors, where there are any
 static inline gvi__two gvi__increment(int r, int R, const gvi_real *a, const gvi_real *b, gvi_real rest,
                                       gvi_real *z)
 {
@@ -3944,7 +3926,7 @@ static inline gvi_real gvi__lever(int r, int R, const gvi_real *c, const gvi_rea
     return gvi__lever_sum(r, c, hb, F);
 }
 
-// dq + dqe := h v + dq + qe: h v exactly, the rest is smaller by h omega
+// dq + dqe := h (v + ve + dq) + qe: h v exactly, h dq is smaller by h omega
 static inline void gvi__add_path(int n, gvi_real h, const gvi_real *GVI__RESTRICT v,
                                  const gvi_real *GVI__RESTRICT ve, const gvi_real *GVI__RESTRICT qe,
                                  gvi_real *GVI__RESTRICT dq, gvi_real *GVI__RESTRICT dqe)
@@ -4021,15 +4003,18 @@ static int gvi__is_rounding(const gvi_stepper *st, const gvi__from *from, int id
         if (!(beyond <= 0)) noise += r*beyond*most;
         size += r*GVI_ABS(from->p[i]*v);
         if (!gvi__A(&x->work)) continue;
-        const gvi_real A = x->work.A[i*R + last], more = GVI_ABS(A - x->change[st->n + i]) - 4*GVI__EPS*GVI_ABS(A);
+        const gvi_real A = x->work.A[i*R + last];
+        const gvi_real more = GVI_ABS(A - x->change[st->n + i]) - 4*GVI__EPS*GVI_ABS(A);
         if (!(more <= 0)) noise += r*more*GVI_ABS(v);
         size += r*GVI_ABS(A*v);
     }
-    return noise <= 0 || (idle > 4 && size + place <= GVI__MAX && noise <= 1000*GVI__EPS*size + 4*GVI__EPS*place);
+    return noise <= 0
+        || (idle > 4 && size + place <= GVI__MAX && noise <= 1000*GVI__EPS*size + 4*GVI__EPS*place);
 }
 
 // g at one configuration; slope of length n gets dg/dq
-GVI__APART gvi_status gvi__rate_at(gvi_stepper *st, gvi_real t, const gvi_real *q, gvi_real *rate, gvi_real *slope)
+GVI__APART gvi_status gvi__rate_at(gvi_stepper *st, gvi_real t, const gvi_real *q, gvi_real *rate,
+                                   gvi_real *slope)
 {
     gvi_points y;
     gvi__at(&y, st, &t, q);
@@ -4084,11 +4069,13 @@ typedef struct gvi__still {
 } gvi__still;
 
 /* Beside weak effects: has the iteration ended?  And are they to be asked next?  `lead`
-   is the change to come from the others.  That from asking them anew, `pending`, is the
-   way that the rows went since then times the answer that such a way had before; beside
-   the others' it counts ten times.  Where the change may be the others', an answer is at
-   most what it seems.  None is taken on trust: without a second one no step ends.
-   All of it in squares.                                                        */
+   is the next change that the others bring, as the last one and their rate foretell it;
+   `pending` that of asking the weak ones: the way that the rows went since they were
+   asked, times `learned`, the answer to such a way before.  They are asked when ten
+   times that is more than lead, or when the others are done.  A change that may be the
+   others' own, no more than four times what they contract to, can only lower what is
+   learned.  Nothing learned is taken on trust: where anything moves, no step ends
+   before they were asked twice.  All of it in squares.                         */
 GVI__APART int gvi__settled(gvi_stepper *st, const gvi__progress *p, gvi__still *w, gvi_real change)
 {
     gvi_real *learned = gvi__answers(st) + 1;
@@ -4101,7 +4088,7 @@ GVI__APART int gvi__settled(gvi_stepper *st, const gvi__progress *p, gvi__still 
         w->asked += 1;
         w->way = change;
     } else {
-        const gvi_real seen = change > p->rounding ? rate : p->rounding/before;    // below it no more is known
+        const gvi_real seen = change > p->rounding ? rate : p->rounding/before;  // below it no more is known
         if (before > sure && (w->steady >= 1 || seen > w->steady)) w->steady = seen;
         if (change > w->way) w->way = change;
     }
@@ -4113,23 +4100,23 @@ GVI__APART int gvi__settled(gvi_stepper *st, const gvi__progress *p, gvi__still 
 
 enum { GVI__GO_ON, GVI__DONE, GVI__ASK_ONCE_MORE, GVI__BEYOND };
 
-// to Newton's method
+// may a step that does not converge turn to Newton's method?
 static int gvi__may_turn(const gvi_stepper *st)
 {
     return st->x.desc.formulation == GVI_AUTO && gvi__has(st, GVI__HAS_NEWTON);
 }
 
-/* The verdict on a change.  Tolerance-free end: the next change,
-   D^2/D_before, is far below rounding; or the change is rounding: small, or
-   without a new least by a tenth for some iterations, and of no energy.  Three
+/* The verdict on a change D.  The iteration ends when the next change, D^2/D_before,
+   is within the tolerance, or without one far below rounding; or when D is rounding:
+   small, or without a new least by a tenth for some iterations, and of no energy.  Three
    changes in a row that fall by less than half are poor; so is a descent to
    rounding by factors of less than 4: such an iteration lets errors grow before
    they shrink, so that the rounding of the forces is left some tenfold, and more.
    All of it in squares of changes: no root or quotient between an iteration and
    the next.  A given number of iterations ends there, if the change is half of
    that two before.                                                            */
-static int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *p, gvi__still *weak, gvi_real change,
-                      int used)
+static int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *p, gvi__still *weak,
+                      gvi_real change, int used)
 {
     struct gvi__private *x = &st->x;
     const gvi_real rounding = p->rounding, before = p->before;
@@ -4164,7 +4151,8 @@ static int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *p, 
 }
 
 /* Fixed point on the rows: F, V and A make the rows, the effects are asked there. */
-GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate, int *used)
+GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate,
+                                       int *used)
 {
     struct gvi__private *x = &st->x;
     const int most = gvi__counts(st) ? x->desc.iterations : x->desc.max_iterations;
@@ -4211,121 +4199,7 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
     return gvi__give(st, GVI_E_CONVERGENCE);
 }
 
-/* The explicit formulation: kicks h b_j F_j at the nodes, and drifts from each to
-   the next.  Its loops are short and wait for each other.  A zero that the compiler
-   does not know keeps it from calling memset and memcpy: they take as long as the
-   rest, and write blocks of other widths than the next loads, which then wait.   */
-
-// the drift to the first node: dp := pe, dq := qe + a v, Q := q + dq; F := 0
-static inline void gvi__drift_of(int n, gvi_real a, gvi_real zero, const gvi_real *m, const gvi__from *from,
-                                 gvi_real *GVI__RESTRICT dp, gvi_real *GVI__RESTRICT dq, gvi_real *GVI__RESTRICT Q,
-                                 gvi_real *GVI__RESTRICT F)
-{
-    const gvi_real *GVI__RESTRICT v = from->v, *GVI__RESTRICT q = from->q;
-    const gvi_real *GVI__RESTRICT qe = from->qe, *GVI__RESTRICT pe = from->pe;
-    for (int i = 0; i < n; ++i) {
-        const gvi_real p = pe[i] + zero;
-        dq[i] = qe[i] + a*(v[i] + (m ? p*m[i] : p));
-        dp[i] = p;
-        Q[i] = q[i] + dq[i];
-        F[i] = zero;
-    }
-}
-
-// m is seen to be NULL, lest the compiler load from it under a mask: that takes 50 ns
-static inline void gvi__drift(int n, gvi_real a, gvi_real zero, const gvi_real *m, const gvi__from *from,
-                              gvi_real *dp, gvi_real *dq, gvi_real *Q, gvi_real *F)
-{
-    if (m || GVI__SMALL) gvi__drift_of(n, a, zero, m, from, dp, dq, Q, F);
-    else gvi__drift_of(n, a, zero, NULL, from, dp, dq, Q, F);
-}
-
-/* Kick and drift: dp += b F, then dq += a (v + dp/m) and Q = q + dq.  What does not
-   depend on F is added up first, so that little waits for F; but a (b F) is two
-   products: the rounding of a b, the same in every step, would make the map no
-   longer symplectic and let the energy drift.  F is 0 then for the next call, but
-   the last is kept.  The first, at time 0, may be by a force that is known: then the
-   step begins with it, no drift before.                                       */
-enum { GVI__KICK, GVI__LAST_KICK, GVI__FIRST_KICK };
-
-static inline void gvi__kick_drift_of(int n, int kind, gvi_real b, gvi_real a, const gvi_real *m,
-                                      const gvi__from *from, gvi_real zero, const gvi_real *GVI__RESTRICT known,
-                                      gvi_real *GVI__RESTRICT F, gvi_real *GVI__RESTRICT dp,
-                                      gvi_real *GVI__RESTRICT dq, gvi_real *GVI__RESTRICT Q)
-{
-    const gvi_real *GVI__RESTRICT v = from->v, *GVI__RESTRICT q = from->q;
-    const gvi_real *GVI__RESTRICT qe = from->qe, *GVI__RESTRICT pe = from->pe;
-    const int first = kind == GVI__FIRST_KICK;
-    for (int i = 0; i < n; ++i) {
-        const gvi_real p = first ? pe[i] : dp[i], d = first ? qe[i] : dq[i], kick = b*(first ? known[i] : F[i]);
-        dq[i] = (d + a*(v[i] + (m ? p*m[i] : p))) + a*(m ? kick*m[i] : kick);
-        dp[i] = p + kick;
-        Q[i] = q[i] + dq[i];
-        if (kind != GVI__LAST_KICK) F[i] = zero;
-    }
-}
-
-static inline void gvi__kick_drift(int n, int kind, gvi_real b, gvi_real a, const gvi_real *m, const gvi__from *from,
-                                   gvi_real zero, const gvi_real *known, gvi_real *F, gvi_real *dp, gvi_real *dq,
-                                   gvi_real *Q)
-{
-    if (m || GVI__SMALL) gvi__kick_drift_of(n, kind, b, a, m, from, zero, known, F, dp, dq, Q);
-    else gvi__kick_drift_of(n, kind, b, a, NULL, from, zero, known, F, dp, dq, Q);
-}
-
-// both with a full mass matrix
-static void gvi__drift_dense(gvi_stepper *st, const gvi__from *from, gvi_real a)
-{
-    struct gvi__private *x = &st->x;
-    gvi_real *z = x->change;
-    gvi__over_constant_mass(st, x->dp, z);
-    for (int i = 0; i < st->n; ++i) x->work.Q[i] = from->q[i] + (x->dq[i] += a*(from->v[i] + z[i]));
-}
-
-/* One evaluation a kick.  `force` is that at the start, if it is known: after a step
-   whose last node was 1.  dqe and dpe are never anything but 0 here.          */
-static inline gvi_status gvi__explicit_of(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *force,
-                                          int n)
-{
-    struct gvi__private *x = &st->x;
-    const int dense = gvi__mass_is(st, GVI_MASS_DENSE), r = st->r;
-    const gvi_real *m = x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
-    const int only = !GVI__SMALL && x->single >= 0 && !x->diagnose;
-    gvi_real *F = x->work.F, *Q = x->work.Q, *dp = x->dp, *dq = x->dq, t = from->t;
-    const gvi_real zero = h - h;
-    gvi_points y;
-    gvi__at(&y, st, &t, Q);
-    y.f = F;
-    y.dldv = NULL;
-    int j = force != NULL;
-    gvi_real a = dense ? 0 : x->drift[j];
-    if (force) gvi__kick_drift(n, GVI__FIRST_KICK, x->hb[0], a, m, from, zero, force, F, dp, dq, Q);
-    else gvi__drift(n, a, zero, m, from, dp, dq, Q, F);
-    if (dense) gvi__drift_dense(st, from, x->drift[j]);
-    for (; j < r; ++j) {
-        const gvi_real b = x->hb[j];
-        a = dense ? 0 : x->drift[j + 1];
-        t = from->t + (from->te + x->c[j]*h);
-        if (only) {
-            gvi_status status = gvi__call(st, &y, x->single);
-            if (status != GVI_OK) return status;
-        } else {
-            gvi_status status = gvi__check_points(st, &y);
-            if (status == GVI_OK) status = gvi__effects(st, &y, 0);
-            if (status != GVI_OK) return status;
-        }
-        if (j < r - 1) gvi__kick_drift(n, GVI__KICK, b, a, m, from, zero, NULL, F, dp, dq, Q);
-        else gvi__kick_drift(n, GVI__LAST_KICK, b, a, m, from, zero, NULL, F, dp, dq, Q);
-        if (dense) gvi__drift_dense(st, from, x->drift[j + 1]);
-    }
-    return GVI_OK;
-}
-
-GVI__APART gvi_status gvi__explicit(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *force)
-{
-    return st->n == 2 && !GVI__SMALL ? gvi__explicit_of(st, from, h, force, 2)
-                                     : gvi__explicit_of(st, from, h, force, st->n);
-}
+/* ---- Newton's method ---- */
 
 /* Newton on (1).  Unknowns y[k*n + i]; the rows are those of (1) times 2k + 1,
    from k0 on: k0 = 0 for a step, 1 for the boundary-value problem.            */
@@ -4396,12 +4270,122 @@ typedef struct gvi__matrix {
     int       blocks;      /* in place of square: matrices of n, derivatives at one point */
 } gvi__matrix;
 
-// never in the boundary-value problem, which is there without Newton's steps as well;
-// and not where size counts: the whole matrix is needed besides
+// Is it in blocks?  Never in the boundary-value problem, which is there without Newton's
+// steps as well; and not where size counts: the whole matrix is needed besides
 static inline int gvi__in_blocks(const gvi__matrix *J) { return GVI__NEWTON && !GVI__SMALL && J->blocks; }
 
 /* Points at which derivatives are taken: all those of the rule, or one.       */
 typedef struct gvi__sites { const gvi_real *t; gvi_real *q, *v; int count, stride; } gvi__sites;
+
+/* Gauss, r = s.  In Legendre modes integration from 0 to tau, which makes Q from V
+   and P from F, is a matrix with three diagonals (Hairer, Wanner, Solving ordinary
+   differential equations II, IV.5): Phi_0 = (phi_0 - phi_1)/2 and Phi_k =
+   (phi_(k-1) - phi_(k+1))/(2(2k+1)), phi_s being 0 at the nodes.  Its eigenvectors
+   are (2k+1) z_k from the right and (-1)^k z_k from the left,
+
+     z_(-1) = -1    z_0 = 1    z_(k+1) = 2(2k+1) lambda z_k + z_(k-1)
+
+   and lambda is where z_s = 0: z_k = (-1)^k y_k(-2 lambda), y_k the Bessel
+   polynomials (Krall and Frink 1949), whose zeros are simple, real for odd s once.  */
+
+/* z_0..z_s at lambda = a + i b to re and im, rounded once: eigenvalues of a matrix with
+   such eigenvectors are ill-conditioned, and what twofold arithmetic loses is not missed. */
+static void gvi__bessel(int s, gvi__two a, gvi__two b, gvi_real *re, gvi_real *im)
+{
+    gvi__two x = gvi__real2(1), y = gvi__real2(0), last_x = gvi__real2(-1), last_y = y;
+    for (int k = 0; k <= s; ++k) {
+        const gvi_real w = (gvi_real)(4*k + 2);
+        const gvi__two u = gvi__sub2(gvi__mul2(a, x), gvi__mul2(b, y));
+        const gvi__two v = gvi__add2(gvi__mul2(a, y), gvi__mul2(b, x));
+        const gvi__two next_x = gvi__add2(gvi__scale2(w, u), last_x);
+        const gvi__two next_y = gvi__add2(gvi__scale2(w, v), last_y);
+        re[k] = x.hi;
+        im[k] = y.hi;
+        last_x = x;
+        last_y = y;
+        x = next_x;
+        y = next_y;
+    }
+}
+
+// the eigenvector of block m: s real parts, then s imaginary ones, scaled to z_(s-1) = 2 lambda
+static gvi_real *gvi__eigenvector(const gvi_stepper *st, int m) { return st->x.eigen + (size_t)(2*m*st->s); }
+
+static gvi__complex gvi__eigenvalue(const gvi_stepper *st, int m)
+{
+    const gvi_real *z = gvi__eigenvector(st, m);
+    return gvi__complex_of(z[st->s - 1]/2, z[2*st->s - 1]/2);
+}
+
+/* Newton's correction u = z_s/z_s' with z_s' = ((2 s lambda + 1) z_s + z_(s-1))/(2 lambda^2),
+   then u/(1 - u sum 1/(lambda - zero)), which keeps away from the zeros of the
+   blocks from m on, and their mirror images (Maehly 1954).                    */
+static gvi__complex gvi__bessel_correction(const gvi_stepper *st, int m, const gvi__two lambda[2])
+{
+    const int s = st->s;
+    const gvi_real a = 2*(gvi_real)s;
+    const gvi__complex l = gvi__complex_of(lambda[0].hi, lambda[1].hi);
+    gvi_real *re = st->x.row, *im = re + s + 1;
+    gvi__bessel(s, lambda[0], lambda[1], re, im);
+    const gvi__complex z = gvi__complex_of(re[s], im[s]), square = gvi__times_complex(l, l);
+    const gvi__complex slope = gvi__times_complex(gvi__complex_of(a*l.re + 1, a*l.im), z);
+    const gvi__complex top = gvi__times_complex(gvi__complex_of(2*square.re, 2*square.im), z);
+    const gvi__complex u = gvi__times_complex(top, gvi__inverse(slope.re + re[s - 1], slope.im + im[s - 1]));
+    gvi__complex sum = gvi__complex_of(0, 0);
+    for (; m < (s + 1)/2; ++m) {
+        const gvi__complex zero = gvi__eigenvalue(st, m);
+        for (int side = gvi__nonzero(zero.im) ? -1 : 1; side < 2; side += 2) {
+            const gvi__complex pole = gvi__inverse(l.re - zero.re, l.im - (gvi_real)side*zero.im);
+            sum.re += pole.re;
+            sum.im += pole.im;
+        }
+    }
+    sum = gvi__times_complex(u, sum);
+    return gvi__times_complex(u, gvi__inverse(1 - sum.re, -sum.im));
+}
+
+// lambda of block m, those of the blocks behind it being known; 0 if it is not found
+static int gvi__bessel_zero(const gvi_stepper *st, int m, gvi__two lambda[2])
+{
+    const int s = st->s, all = (s + 1)/2;
+    int near = 0;
+    lambda[0] = gvi__real2(1/(gvi_real)s);
+    lambda[1] = gvi__real2(2*m + 1 == s ? 0 : 1/(gvi_real)(2*s));        // a real start stays real
+    for (int k = 0; k < 100 && near < 4; ++k) {       // three times more among all zeros
+        const gvi__complex d = gvi__bessel_correction(st, near ? all : m + 1, lambda);
+        lambda[0] = gvi__add2(lambda[0], gvi__real2(-d.re));
+        lambda[1] = gvi__add2(lambda[1], gvi__real2(-d.im));
+        const gvi_real size = gvi__modulus(lambda[0].hi, lambda[1].hi);
+        near += near || gvi__modulus(d.re, d.im) <= GVI_SQRT(GVI__EPS)*size;
+    }
+    return near == 4;
+}
+
+/* One eigenvector of each conjugate pair, and last, for odd s, the real one.  With
+   z_(s-1) = 2 lambda the product of both sides, sum (-1)^k (2k+1) z_k^2 =
+   (-1)^(s-1) z_(s-1)^2/(4 lambda^2) (Christoffel and Darboux), is 1 or -1.  Returns
+   the largest product of their lengths: what a change of basis costs in digits.  */
+static gvi_real gvi__eigenvectors(gvi_stepper *st)
+{
+    const int s = st->s;
+    gvi_real *re = st->x.row, *im = re + s + 1, worst = 0;
+    for (int m = (s + 1)/2; m-- > 0; ) {
+        gvi__two l[2];
+        if (!gvi__bessel_zero(st, m, l)) return GVI__MAX;
+        gvi__bessel(s, l[0], l[1], re, im);
+        const gvi__complex scale = gvi__times_complex(gvi__complex_of(2*l[0].hi, 2*l[1].hi),
+                                                      gvi__inverse(re[s - 1], im[s - 1]));
+        gvi_real *z = gvi__eigenvector(st, m), size = 0;
+        for (int k = 0; k < s; ++k) {
+            const gvi__complex y = gvi__times_complex(scale, gvi__complex_of(re[k], im[k]));
+            z[k] = y.re;
+            z[s + k] = y.im;
+            size += (gvi_real)(2*k + 1)*(y.re*y.re + y.im*y.im);
+        }
+        if (size > worst) worst = size;
+    }
+    return worst;
+}
 
 /* With the derivatives at one point, and integration as a matrix X, the Jacobian is
 
@@ -4409,14 +4393,15 @@ typedef struct gvi__sites { const gvi_real *t; gvi_real *q, *v; int count, strid
 
    n*n times s*s.  In the basis of X's eigenvectors it falls apart into blocks, X
    being lambda in each; of a conjugate pair one is enough.  Adds f and p as below. */
-static void gvi__add_to_blocks(const gvi_stepper *st, const gvi__matrix *J, int i, int j, gvi_real f, gvi_real p,
-                               int by_v)
+static void gvi__add_to_blocks(const gvi_stepper *st, const gvi__matrix *J, int i, int j,
+                               gvi_real f, gvi_real p, int by_v)
 {
     const size_t n = (size_t)st->n;
     gvi_real *a = J->square + 2*n*(size_t)i + (size_t)j;
     for (int m = 0; m < (st->s + 1)/2; ++m, a += 2*n*n) {
         const gvi__complex l = gvi__eigenvalue(st, m);
-        const gvi__complex x = gvi__complex_of(J->h*l.re, J->h*l.im), y = gvi__complex_of(p - x.re*f, -x.im*f);
+        const gvi__complex x = gvi__complex_of(J->h*l.re, J->h*l.im);
+        const gvi__complex y = gvi__complex_of(p - x.re*f, -x.im*f);
         const gvi__complex z = by_v ? y : gvi__times_complex(x, y);
         a[0] += z.re;
         a[n] += z.im;
@@ -4498,15 +4483,12 @@ GVI__APART gvi_status gvi__jacobian_exact(gvi_stepper *st, const gvi__matrix *J,
     for (int k = 0; k < at->count; ++k) {
         gvi__gather(n, R, at->q + k, q);
         gvi__gather(n, R, at->v + k, v);
-        for (int i = 0; i < n; ++i) {
+        for (int i = 0; i < n && gvi__mass_is_constant(d); ++i)
             for (int j = 0; j < n; ++j) {
-                gvi_real m = i == j ? 1 : 0;
-                if (d->mass.kind == GVI_MASS_DIAGONAL) m *= x->mass[i];
-                if (gvi__mass_is(st, GVI_MASS_DENSE))
-                    m = x->mass[nn + (size_t)(i > j ? i*n + j : j*n + i)];
-                if (gvi__mass_is_constant(d)) gvi__add(st, J, i, j, k, 0, m, 1);
+                gvi_real m = i != j ? 0 : d->mass.kind == GVI_MASS_DIAGONAL ? x->mass[i] : 1;
+                if (gvi__mass_is(st, GVI_MASS_DENSE)) m = x->mass[nn + (size_t)(i > j ? i*n + j : j*n + i)];
+                gvi__add(st, J, i, j, k, 0, m, 1);
             }
-        }
         for (int e = 0; e < d->effect_count; ++e) {
             const gvi_effect *effect = d->effects + e;
             if ((x->off >> e & 1u) || !effect->hessian) continue;
@@ -4514,7 +4496,8 @@ GVI__APART gvi_status gvi__jacobian_exact(gvi_stepper *st, const gvi__matrix *J,
             gvi__zero(4*nn, fq);
             if (effect->hessian(at->t[k], q, reads_v ? v : NULL, fq, reads_v ? fv : NULL, term ? pv : NULL,
                                 effect->user))
-                return gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, gvi__in_blocks(J) ? GVI_FAULT_NONE : k);
+                return gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE,
+                                 gvi__in_blocks(J) ? GVI_FAULT_NONE : k);
             for (int i = 0; i < n; ++i)
                 for (int j = 0; j < n; ++j) {       // d(dL/dv)/dq is the transpose of d(dL/dq)/dv
                     gvi__add(st, J, i, j, k, fq[i*n + j], term ? fv[j*n + i] : 0, 0);
@@ -4547,14 +4530,14 @@ GVI__APART void gvi__add_differences(const gvi_stepper *st, const gvi__matrix *J
     const gvi_real *dF = st->x.dF, *dP = dF + n*R, *bF = dP + n*R, *bP = bF + n*R;
     for (int k = 0; k < at->count; ++k) {
         const gvi_real step = row[k] - st->x.z[k];
-        for (int i = 0; i < n; ++i)
-            gvi__add(st, J, i, j, k, (dF[i*R + k] - bF[i*R + k])/step, (dP[i*R + k] - bP[i*R + k])/step, by_v);
+        for (int i = 0, o = k; i < n; ++i, o += R)
+            gvi__add(st, J, i, j, k, (dF[o] - bF[o])/step, (dP[o] - bP[o])/step, by_v);
     }
 }
 
 // forward differences by one row, coordinate j of Q or V, at all points at once
-GVI__APART gvi_status gvi__difference(gvi_stepper *st, const gvi__matrix *J, const gvi__sites *at, int j, int by_v,
-                                      gvi_real d)
+GVI__APART gvi_status gvi__difference(gvi_stepper *st, const gvi__matrix *J, const gvi__sites *at, int j,
+                                      int by_v, gvi_real d)
 {
     struct gvi__private *x = &st->x;
     const size_t R = (size_t)at->stride;
@@ -4579,23 +4562,20 @@ GVI__APART gvi_real gvi__nudge(const gvi__sites *at, int j, gvi_real h, int by_v
         if (GVI_ABS(V[k]) > v) v = GVI_ABS(V[k]);
     }
     const gvi_real path = h*v > small*q ? h*v : small*q;
-    const gvi_real step = root*path > GVI__MIN/GVI__EPS ? root*path : h < 1 ? root*h : root;      // at rest at 0
+    const gvi_real step = root*path > GVI__MIN/GVI__EPS ? root*path
+                        : h < 1 ? root*h : root;              // at rest at 0
     if (!by_v) return step;
-    return v > 0 && step/h > small*v ? small*v : step/h;          // short steps: no velocity beyond all others
+    return v > 0 && step/h > small*v ? small*v : step/h;      // short steps: no velocity beyond all others
 }
 
 // derivatives of what has no Hessian
 GVI__APART gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matrix *J, const gvi__sites *at)
 {
     struct gvi__private *x = &st->x;
-    const gvi_desc *d = &x->desc;
-    int n = st->n, any = !gvi__mass_is_constant(d), reads_v = any;
-    for (int e = 0; e < d->effect_count; ++e)
-        if (!(x->off >> e & 1u) && !d->effects[e].hessian) {
-            any = 1;
-            if (d->effects[e].kind != GVI_POTENTIAL) reads_v = 1;
-        }
-    if (!any) return GVI_OK;
+    const unsigned plain = gvi__without_hessian(st);
+    const int n = st->n, varies = !gvi__mass_is_constant(&x->desc);
+    const int reads_v = varies || (plain & ~gvi__of_kind(st, GVI_POTENTIAL));
+    if (!varies && !plain) return GVI_OK;
     gvi_status status = gvi__ask_sites(st, at, x->dF + 2*n*at->stride);
     const gvi_real h = GVI_ABS(J->h);
     for (int j = 0; j < n && status == GVI_OK; ++j) {
@@ -4629,7 +4609,8 @@ GVI__APART gvi_status gvi__check_regular(gvi_stepper *st)
 static void gvi__scale_rows(int n, int size, const gvi__matrix *J)
 {
     for (int row = 0; row < size; ++row) {
-        gvi_real big = 0, *a = J->square + (size_t)row*(size_t)size, *ends = J->ends + (size_t)row*2*(size_t)n;
+        gvi_real *a = J->square + (size_t)row*(size_t)size, *ends = J->ends + (size_t)row*2*(size_t)n;
+        gvi_real big = 0;
         for (int j = 0; j < size; ++j)
             if (GVI_ABS(a[j]) > big) big = GVI_ABS(a[j]);
         for (int j = 0; big > 0 && j < size; ++j) a[j] /= big;
@@ -4655,11 +4636,12 @@ static gvi__sites gvi__middle(gvi_stepper *st, gvi_real *t)
 static gvi_status gvi__jacobian_fill(gvi_stepper *st, const gvi__matrix *J)
 {
     struct gvi__private *x = &st->x;
-    int n = st->n, size = (st->s - J->k0)*n;
+    const int n = st->n, size = (st->s - J->k0)*n;
+    const size_t whole = (size_t)size*(size_t)size, blocks = (size_t)(st->s + 1)*(size_t)n*(size_t)n;
     gvi_real t;
     const gvi__sites all = { x->t, x->work.Q, x->work.V, st->r, x->stride };
     const gvi__sites at = gvi__in_blocks(J) ? gvi__middle(st, &t) : all;
-    gvi__zero(gvi__in_blocks(J) ? (size_t)(st->s + 1)*(size_t)n*(size_t)n : (size_t)size*(size_t)size, J->square);
+    gvi__zero(gvi__in_blocks(J) ? blocks : whole, J->square);
     if (J->ends) gvi__zero((size_t)size*2*(size_t)n, J->ends);
     gvi_status status = gvi__check_regular(st);
     if (status == GVI_OK) status = gvi__jacobian_exact(st, J, &at);
@@ -4675,7 +4657,8 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J, gvi_real 
     if (J->scaled) gvi__scale_rows(n, size, J);
     status = gvi__lu_factor(size, J->square, pivot, &at);
     gvi__count(&st->counters.factorizations, 1);
-    return status == GVI_OK ? GVI_OK : gvi__fail(st, status, GVI_FAULT_NONE, at < 0 ? at : at % n, GVI_FAULT_NONE);
+    if (status == GVI_OK) return GVI_OK;
+    return gvi__fail(st, status, GVI_FAULT_NONE, at < 0 ? GVI_FAULT_NONE : at % n, GVI_FAULT_NONE);
 }
 
 // y := modes of the extrapolated V, or constant velocity
@@ -4726,12 +4709,13 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__from *from, gvi_r
    solution.  Keeps the factorisation while it contracts by 1/4 or better, over
    iterations and, if `kept`, over steps.  Gives up blocks that contract by no more
    than 1/2 when they are new: derivatives at one point are not enough.        */
-GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi__matrix *J, gvi_real *pivot,
-                                  int kept)
+GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi__matrix *J,
+                                  gvi_real *pivot, int kept)
 {
     struct gvi__private *x = &st->x;
     const gvi_real enough = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/4096;
-    int size = (st->s - J->k0)*st->n, have = kept && !gvi__nonzero(x->h_matrix - J->h) && x->has_blocks == J->blocks;
+    const int size = (st->s - J->k0)*st->n;
+    int have = kept && !gvi__nonzero(x->h_matrix - J->h) && x->has_blocks == J->blocks;
     int made = 0, last = 0, idle = 0, was_fresh = 0;
     gvi_real before = 0, earlier = 0, rho = (gvi_real)0.25, left = GVI__MAX;
     for (int k = 0; k <= x->desc.max_iterations; ++k) {
@@ -4752,7 +4736,8 @@ GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const 
         if (gvi__in_blocks(J)) gvi__solve_blocks(st, J, pivot);
         else gvi_lu_solve(size, J->square, pivot, x->dy);
         int still = 1;
-        gvi_real change = gvi__newton_update(st, from, J->h, J->k0, &still), ratio = before > 0 ? change/before : 1;
+        const gvi_real change = gvi__newton_update(st, from, J->h, J->k0, &still);
+        const gvi_real ratio = before > 0 ? change/before : 1;
         gvi__count(&st->counters.newton_iterations, 1);
         if (!(change <= GVI__MAX)) return gvi__not_finite(st, 0);
         gvi__watch(st, change, earlier);
@@ -4782,7 +4767,8 @@ GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const 
     return gvi__give(st, GVI_E_CONVERGENCE);
 }
 
-// eigenvectors at first use; they may cost all digits but eight bits
+// eigenvectors at first use; blocks may cost all digits of J but eight bits, enough for
+// Newton's method to contract
 static int gvi__use_blocks(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
@@ -4807,7 +4793,8 @@ GVI__APART void gvi__newton_increments(gvi_stepper *st, const gvi__from *from, g
 }
 
 // by blocks, if they may be used; where they fail the whole matrix starts anew, and stays
-GVI__APART gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate, int query)
+GVI__APART gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate,
+                                       int query)
 {
     struct gvi__private *x = &st->x;
     size_t sn = (size_t)(st->s*st->n), offset = query ? sn*sn : 0;
@@ -4816,7 +4803,8 @@ GVI__APART gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, g
     gvi__newton_guess(st, extrapolate);
     const unsigned long long count = st->counters.newton_iterations;
     gvi_status status = gvi__newton(st, from, &J, pivot, !query);
-    const int refused = status == GVI_E_CALLBACK && st->counters.newton_iterations == count;   // as with any matrix
+    // a callback that refused the first points would refuse them with any matrix
+    const int refused = status == GVI_E_CALLBACK && st->counters.newton_iterations == count;
     if (gvi__in_blocks(&J) && status != GVI_OK && !refused) {
         J.blocks = 0;
         if (!query) x->whole_left = 64;
@@ -4830,7 +4818,11 @@ GVI__APART gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, g
 /* ---- a step from its start to dq and dp, nothing of it kept yet ---- */
 
 // where the last step's rows are, seen from the step to come
-typedef struct gvi__history { int available; gvi_real alpha, beta; const gvi_real *force; } gvi__history;
+typedef struct gvi__history {
+    int             available;        /* they are, and say something about it   */
+    gvi_real        alpha, beta;      /* its node c is at alpha + beta c of theirs */
+    const gvi_real *force;            /* at their end, if it is known           */
+} gvi__history;
 
 static gvi_status gvi__attempt(gvi_stepper *st, gvi__from *from, gvi_real h,
                                const gvi__history *past, int query)
@@ -4840,6 +4832,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, gvi__from *from, gvi_real h,
     if (GVI__NEWTON) st->formulation = x->chosen;
     if (gvi__uses(st, GVI_EXPLICIT)) return gvi__explicit(st, from, h, past->force);
 
+    // what a step of another length has learned of weak effects is not taken over
     if (GVI__WEAK && x->weak) gvi__answers(st)[1] = gvi__nonzero(h - st->h) ? 1 : *gvi__answers(st);
     int usable = past->available, used = 0;
     gvi_status status = GVI_E_CONVERGENCE;
@@ -4883,7 +4876,7 @@ static int gvi__finite_end(const gvi_stepper *st, const gvi__from *from)
     for (int k = 0; i > 0 && k < GVI__LANES; ++k) none += nones[k];
 #endif
     for (; i < st->n; ++i) {
-        const gvi__stored a = q[i] + dq[i], b = p[i] + dp[i];   // where registers are wider: what will be kept
+        const gvi__stored a = q[i] + dq[i], b = p[i] + dp[i];   // as it will be kept, not in wide registers
         none += 0*a + 0*b;
     }
     return none >= 0;
@@ -4891,8 +4884,8 @@ static int gvi__finite_end(const gvi_stepper *st, const gvi__from *from)
 
 /* An attempt at which something was not finite, once more with every effect looked at,
    to say which one it was; what is not finite then is divergence.             */
-static gvi_status gvi__diagnosed(gvi_stepper *st, gvi__from *from, gvi_real h, const gvi__history *past, int query,
-                                 gvi_status status)
+static gvi_status gvi__diagnosed(gvi_stepper *st, gvi__from *from, gvi_real h, const gvi__history *past,
+                                 int query, gvi_status status)
 {
     struct gvi__private *x = &st->x;
     if (!GVI__DIAGNOSIS || status != GVI_E_NON_FINITE || st->fault.effect != GVI_FAULT_NONE) return status;
@@ -4903,7 +4896,8 @@ static gvi_status gvi__diagnosed(gvi_stepper *st, gvi__from *from, gvi_real h, c
     return status != GVI_OK ? status : gvi__give(st, GVI_E_CONVERGENCE);
 }
 
-static gvi_status gvi__solve(gvi_stepper *st, gvi__from *from, gvi_real h, const gvi__history *past, int query)
+static gvi_status gvi__solve(gvi_stepper *st, gvi__from *from, gvi_real h, const gvi__history *past,
+                             int query)
 {
     gvi_status status = gvi__attempt(st, from, h, past, query);
     if (status == GVI_OK && !gvi__finite_end(st, from)) status = gvi__give(st, GVI_E_NON_FINITE);
@@ -4938,7 +4932,8 @@ static void gvi__rotate_rows(gvi_stepper *st)
 
 // was := x, x + rest := x + dx + dxe; dxe may be NULL, for 0
 static inline void gvi__move_of(int n, const gvi_real *GVI__RESTRICT dx, const gvi_real *GVI__RESTRICT dxe,
-                                gvi_real *GVI__RESTRICT x, gvi_real *GVI__RESTRICT rest, gvi_real *GVI__RESTRICT was)
+                                gvi_real *GVI__RESTRICT x, gvi_real *GVI__RESTRICT rest,
+                                gvi_real *GVI__RESTRICT was)
 {
     for (int i = 0; i < n; ++i) {
         gvi__two sum = gvi__sum(x[i], dx[i]);
@@ -4949,7 +4944,8 @@ static inline void gvi__move_of(int n, const gvi_real *GVI__RESTRICT dx, const g
     }
 }
 
-static void gvi__move(int n, const gvi_real *dx, const gvi_real *dxe, gvi_real *x, gvi_real *rest, gvi_real *was)
+static void gvi__move(int n, const gvi_real *dx, const gvi_real *dxe, gvi_real *x, gvi_real *rest,
+                      gvi_real *was)
 {
     if (n == 2 && dxe && !GVI__SMALL) gvi__move_of(2, dx, dxe, x, rest, was);
     else if (n == 2 && !GVI__SMALL) gvi__move_of(2, dx, NULL, x, rest, was);
@@ -5030,29 +5026,27 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
 
 /* ---- starting ---- */
 
-/* Sums the values of the effects at one point: potentials into V, Lagrangian
-   terms into L.  Forces have no value.                                        */
-static gvi_status gvi__values(gvi_stepper *st, gvi_points *x, gvi_real *V, gvi_real *L)
+/* At one point: V and L, the sums of the potentials and of the Lagrangian terms, and
+   the kinetic energy T = v'Mv/2.  Forces have no value.                       */
+static gvi_status gvi__values(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v,
+                              gvi_real *V, gvi_real *L, gvi_real *T)
 {
     const gvi_desc *d = &st->x.desc;
+    gvi_points y;
+    gvi__at(&y, st, &t, q);
+    y.v = v;
     *V = *L = 0;
     for (int e = 0; e < d->effect_count; ++e) {
         const gvi_kind kind = d->effects[e].kind;
         gvi_real *value = kind == GVI_POTENTIAL ? V : L;
         if ((st->x.off >> e & 1u) || kind == GVI_FORCE || kind == GVI_CLOCK) continue;
-        gvi_status status = gvi__value(st, x, e, value);
+        gvi_status status = gvi__value(st, &y, e, value);
         if (status != GVI_OK) return status;
-        if (!gvi__finite(*value)) return gvi__fail(st, GVI_E_NON_FINITE, e, GVI_FAULT_NONE, GVI_FAULT_NONE);
+        if (!gvi__finite(*value)) return gvi__blame(st, GVI_E_NON_FINITE, e);
     }
-    return GVI_OK;
-}
-
-// v'Mv/2 at one point
-static gvi_status gvi__kinetic_energy(gvi_stepper *st, gvi_points *x, gvi_real *T)
-{
-    gvi__zero(2*(size_t)st->n, x->f);             // and x->dldv
-    gvi_status status = gvi__kinetic(st, x);
-    *T = gvi__dot(st->n, x->dldv, x->v)/2;
+    gvi__zero(2*(size_t)st->n, y.f);              // and y.dldv
+    gvi_status status = gvi__kinetic(st, &y);
+    *T = gvi__dot(st->n, y.dldv, v)/2;
     return status;
 }
 
@@ -5063,12 +5057,7 @@ static gvi_status gvi__energy(gvi_stepper *st, gvi_real t, const gvi_real *q, co
 {
     gvi_real V, L, T;
     gvi_status status = gvi__velocity(st, t, q, p, v);
-    if (status != GVI_OK) return status;
-    gvi_points y;
-    gvi__at(&y, st, &t, q);
-    y.v = v;
-    status = gvi__values(st, &y, &V, &L);
-    if (status == GVI_OK) status = gvi__kinetic_energy(st, &y, &T);
+    if (status == GVI_OK) status = gvi__values(st, t, q, v, &V, &L, &T);
     if (status != GVI_OK) return status;
     gvi_real pv = gvi__dot(st->n, p, v);
     *energy = gvi__has(st, GVI__HAS_LAGRANGIAN) ? (pv - T) - L + V : pv/2 + V;
@@ -5236,6 +5225,22 @@ GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy)
     return gvi__done(st, status);
 }
 
+/* phi_k(tau) and Phi_k(tau), k < s, multiplied by Gamma^-1, at any tau.        */
+static void gvi__modes(const gvi_stepper *st, gvi_real tau, gvi_real *phi, gvi_real *Phi)
+{
+    const gvi_real X = 1 - 2*tau;
+    gvi_real P = 1, before = 1;
+    for (int k = 0; k < st->s; ++k) {
+        const gvi_real next = gvi__legendre_next(k, X, P, before);
+        phi[k] = P;
+        Phi[k] = (before - next)/(gvi_real)(4*k + 2);
+        before = P;
+        P = next;
+    }
+    gvi__over_gamma(st, phi);
+    gvi__over_gamma(st, Phi);
+}
+
 /* Curve and velocity of the last step by the same formulas as at its points,
    with the table row that belongs to tau.                                     */
 static void gvi__curve(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v)
@@ -5302,7 +5307,8 @@ GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
 static gvi_status gvi__partial(gvi_stepper *st, gvi__from *from, int end, gvi_real h)
 {
     struct gvi__private *x = &st->x;
-    gvi__history past = { 1, end ? (gvi_real)1 : (gvi_real)0, h/st->h, x->has_force && end ? x->last.F : NULL };
+    gvi__history past = { 1, end ? (gvi_real)1 : (gvi_real)0, h/st->h, NULL };
+    if (x->has_force && end) past.force = x->last.F;
     return gvi__solve(st, from, h, &past, 1);
 }
 
@@ -5376,14 +5382,11 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
 }
 
 // L at one point, with the kinetic energy
-static gvi_status gvi__lagrangian(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *value)
+static gvi_status gvi__lagrangian(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v,
+                                  gvi_real *value)
 {
     gvi_real V, L, T;
-    gvi_points y;
-    gvi__at(&y, st, &t, q);
-    y.v = v;
-    gvi_status status = gvi__values(st, &y, &V, &L);
-    if (status == GVI_OK) status = gvi__kinetic_energy(st, &y, &T);
+    const gvi_status status = gvi__values(st, t, q, v, &V, &L, &T);
     if (status == GVI_OK) *value = T - V + L;
     return status;
 }
@@ -5457,16 +5460,14 @@ static gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__matrix *J, co
 // the Jacobian's own relative error: no smaller reciprocal condition means anything
 static gvi_real gvi__jacobian_error(const gvi_stepper *st)
 {
-    const gvi_desc *d = &st->x.desc;
-    int exact = gvi__mass_is_constant(d);
-    for (int e = 0; e < d->effect_count; ++e)
-        if (!(st->x.off >> e & 1u) && !d->effects[e].hessian) exact = 0;
+    const int exact = gvi__mass_is_constant(&st->x.desc) && !gvi__without_hessian(st);
     return 16*(exact ? GVI__EPS : GVI_SQRT(GVI__EPS));
 }
 
 /* The curve between the boundary values: F at its points in work.F, and the sum
    of b_i P_i in p.  Degree 1 is a chord, point by point: nothing to solve.     */
-static gvi_status gvi__chord(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *q1, gvi_real *p)
+static gvi_status gvi__chord(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *q1,
+                             gvi_real *p)
 {
     struct gvi__private *x = &st->x;
     int n = st->n, R = x->stride;
@@ -5500,8 +5501,8 @@ static gvi_status gvi__interior(gvi_stepper *st, const gvi__from *from, gvi_real
     struct gvi__private *x = &st->x;
     int n = st->n, size = (st->s - 1)*n;
     if (size == 0) return gvi__chord(st, from, h, q1, p);
-    gvi_status status = GVI_E_NON_FINITE;
-    for (int look = 0; look < 1 + GVI__DIAGNOSIS && status == GVI_E_NON_FINITE; ++look) {    // as in gvi__solve
+    gvi_status status = GVI_E_NON_FINITE;         // once more to see why, as in gvi__solve
+    for (int look = 0; look < 1 + GVI__DIAGNOSIS && status == GVI_E_NON_FINITE; ++look) {
         gvi__zero((size_t)(st->s*n), x->y);
         for (int i = 0; i < n; ++i) x->y[i] = (q1[i] - from->q[i])/h;
         x->diagnose = (signed char)look;
@@ -5522,21 +5523,14 @@ static gvi_status gvi__interior(gvi_stepper *st, const gvi__from *from, gvi_real
 // rows and columns i and j of a symmetric matrix change places
 static void gvi__exchange(int n, gvi_real *a, int i, int j)
 {
-    for (int k = 0; k < n && i != j; ++k) {
-        gvi_real x = a[i*n + k];
-        a[i*n + k] = a[j*n + k];
-        a[j*n + k] = x;
-    }
-    for (int k = 0; k < n && i != j; ++k) {
-        gvi_real x = a[k*n + i];
-        a[k*n + i] = a[k*n + j];
-        a[k*n + j] = x;
-    }
+    for (int k = 0; k < n; ++k) gvi__swap(a + i*n + k, a + j*n + k);
+    for (int k = 0; k < n; ++k) gvi__swap(a + k*n + i, a + k*n + j);
 }
 
 /* Negative eigenvalues of a symmetric matrix, which is overwritten: by Sylvester's
    law those of D in L D L', D with blocks of 1 or 2, complete pivoting (Bunch and
-   Parlett 1971).  A block of 2 has one of each sign.                          */
+   Parlett, SIAM J. Numer. Anal. 8, 1971; their alpha, (1 + sqrt 17)/8 = 0.6404, says
+   when a block of 1 is large enough).  A block of 2 has one of each sign.     */
 static int gvi__negative(int n, gvi_real *a)
 {
     int count = 0;
@@ -5551,13 +5545,14 @@ static int gvi__negative(int n, gvi_real *a)
         width = diagonal >= (gvi_real)0.6404*off ? 1 : 2;
         if (width == 1 && !(diagonal > 0)) break;
         gvi__exchange(n, a, k, width == 1 ? p : q);
-        if (width == 2) gvi__exchange(n, a, k + 1, r == k ? q : r);
+        if (width == 2) gvi__exchange(n, a, k + 1, r == k ? q : r);        // k has just gone to q
         count += width == 2 || a[k*n + k] < 0;
-        gvi_real d = a[k*n + k], e = width == 2 ? a[(k + 1)*n + k] : 0, f = width == 2 ? a[(k + 1)*n + k + 1] : 1;
+        const int two = width == 2;
+        gvi_real d = a[k*n + k], e = two ? a[(k + 1)*n + k] : 0, f = two ? a[(k + 1)*n + k + 1] : 1;
         for (int i = k + width; i < n; ++i) {
-            gvi_real x = a[i*n + k], y = width == 2 ? a[i*n + k + 1] : 0, det = d*f - e*e;
+            gvi_real x = a[i*n + k], y = two ? a[i*n + k + 1] : 0, det = d*f - e*e;
             gvi_real u = (f*x - e*y)/det, v = (d*y - e*x)/det;          // the block's inverse
-            for (int j = k + width; j < n; ++j) a[i*n + j] -= u*a[k*n + j] + (width == 2 ? v*a[(k + 1)*n + j] : 0);
+            for (int j = k + width; j < n; ++j) a[i*n + j] -= u*a[k*n + j] + (two ? v*a[(k + 1)*n + j] : 0);
         }
     }
     return count;
@@ -5578,7 +5573,8 @@ static gvi_status gvi__count_negative(gvi_stepper *st, const gvi__matrix *J, int
     gvi_real *a = J->square;
     for (int i = 0; i < size; ++i)
         for (int j = 0; j <= i; ++j) {
-            gvi_real lower = a[i*size + j]/(gvi_real)(2*(i/n) + 3), upper = a[j*size + i]/(gvi_real)(2*(j/n) + 3);
+            const gvi_real lower = a[i*size + j]/(gvi_real)(2*(i/n) + 3);
+            const gvi_real upper = a[j*size + i]/(gvi_real)(2*(j/n) + 3);
             a[i*size + j] = a[j*size + i] = (lower + upper)/2*J->h;
         }
     *negative = gvi__negative(size, a);

@@ -38,7 +38,7 @@ def show(name, numbers):
     line = '   '
     for k, word in enumerate(words):
         word = ' ' + word + (',' if k + 1 < len(words) else '')
-        if len(line) + len(word) > 118:
+        if len(line) + len(word) > 110:
             print(line)
             line = '   '
         line += word
