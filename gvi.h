@@ -49,8 +49,8 @@
 
      ok: q = -0.602737580 0.799997002
 
-   Adding drag is one more row in effects[].  Taking it out again takes its
-   whole cost away.
+   Adding drag is one more row in effects[].  Taking it out of the list again
+   takes its whole cost away.
 
 
    CONTENTS             (search for the names)
@@ -242,7 +242,8 @@
 
    with v = M^-1 p as before.  E is what the energy was at the start, plus the
    work of forces, so every potential and Lagrangian term needs its value; and
-   none of them may depend on t: what does is to be listed as a force.
+   none of them may depend on t: what does is to be listed as a force.  Without a
+   mass it needs mass.velocity.
 
    Order.  |q1 - exact| = O(h^(min(2s,u)+1)) a step: twice the degree, which
    is the superconvergence theorem [2, thm. 4.1].  It holds for u >= 2s - 2; a
@@ -325,7 +326,7 @@ typedef enum gvi_status {
     GVI_E_ORDER       = -4,  /* own rule of order u < s, so also weights that do not sum
                                 to 1: not even free motion would come out           */
     GVI_E_POINTS      = -5,  /* r < s, or a rule that does not see every mode           */
-    GVI_E_FORMULATION = -6,  /* the pinned formulation does not cover this scene        */
+    GVI_E_FORMULATION = -6,  /* no formulation, or not the pinned one, covers this scene */
     GVI_E_SINGULAR    = -7,  /* singular matrix: massless coordinate (fault.coordinate) */
     GVI_E_CONVERGENCE = -8,  /* the iteration diverges or creeps: h too large           */
     GVI_E_CALLBACK    = -9,  /* a callback refused (fault.effect)                       */
@@ -477,14 +478,15 @@ typedef struct gvi_fault {             /* where the last failure came from      
 typedef struct gvi_counters {
     unsigned long long steps;             /* that succeeded                     */
     unsigned long long failures;          /* steps that did not                 */
-    unsigned long long iterations;        /* of the fixed point                 */
+    unsigned long long iterations;        /* of the fixed point, also in gvi_state_at */
     unsigned long long newton_iterations;
     unsigned long long factorizations;    /* LU of s*n or of n, or of M at a point */
     unsigned long long velocities;        /* points at which v was formed       */
     unsigned long long mass;              /* points given to mass.points, mass.velocity */
     unsigned long long effect[GVI_EFFECTS]; /* points given to each effect      */
     int                most_iterations;   /* in one step or gvi_state_at        */
-    gvi_real           worst_contraction; /* of an iteration, mean of two       */
+    gvi_real           worst_contraction; /* of the fixed point, mean of two; where Newton's
+                                             method followed, of what it replaced */
     gvi_real           worst_change;      /* largest last change of a fixed point, relative */
 } gvi_counters;
 
@@ -598,7 +600,9 @@ GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_rea
    the end of a step for the next.                                            */
 GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h);
 
-/* Switches effect `index` off (on = 0) or on again, between steps.           */
+/* Switches effect `index` off (on = 0) or on again, between steps.  What is off is not
+   asked; the formulation stays that of the whole list.  gvi_start leaves the switches
+   as they are.                                                               */
 GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on);
 
 /* At the present state: velocity (inverse Legendre transform), v[n];
@@ -635,7 +639,9 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
 
 /* Restart from a checkpoint, a copy of a stepper and of its memory, in a
    stepper that was set up by gvi_init for the same description, in this
-   process or another.  What follows is the same to the bit.                  */
+   process or another.  What follows is the same to the bit.  GVI_E_ARGUMENT if
+   sizes, kinds of effects, mass or formulation differ; a rule of as many points
+   and a tolerance are not compared: those saved are used.                    */
 GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const gvi_real *memory);
 
 /* A sentence for a status; why st uses the formulation that it uses.         */
@@ -5682,7 +5688,7 @@ GVI_DEF const char *gvi_status_text(gvi_status status)
     case GVI_E_NODES:       return "rule: a node is outside [0,1], or two coincide";
     case GVI_E_ORDER:       return "rule: its order is below the degree (0: the weights do not sum to 1)";
     case GVI_E_POINTS:      return "rule: too few points, r >= degree is needed";
-    case GVI_E_FORMULATION: return "the formulation asked for does not cover this scene";
+    case GVI_E_FORMULATION: return "no formulation, or not the one asked for, covers this scene";
     case GVI_E_SINGULAR:    return "singular matrix: a coordinate has no mass";
     case GVI_E_CONVERGENCE: return "no convergence: the step is too large";
     case GVI_E_CALLBACK:    return "a callback refused";

@@ -952,6 +952,53 @@ static void short_steps_do_not_leave_velocities_half_way(void **state)
     }
 }
 
+/* A spring, and a mass matrix that is 1: whatever the rule, what is extrapolated from two
+   steps of 0.1 on |q| <= 1.1 lies within 2 of the origin.  Two steps of two points, ends
+   among them, are three points: a polynomial that four would determine is rounding. */
+static real farthest;
+
+static int spring_that_looks(const gvi_points *x, void *user)
+{
+    (void)user;
+    for (int k = 0; k < x->count; ++k) {
+        if (!(fabs(x->q[k]) <= farthest)) farthest = fabs(x->q[k]);
+        x->f[k] -= x->q[k];
+    }
+    return 0;
+}
+
+static int unit_mass(const gvi_points *x, void *user)
+{
+    (void)user;
+    for (int k = 0; k < x->count; ++k) x->mass[k] = 1;
+    return 0;
+}
+
+static int no_gradient(const gvi_points *x, void *user) { return (void)x, (void)user, 0; }
+
+static void an_iteration_starts_near_the_motion_with_every_rule(void **state)
+{
+    static const real ends[] = { 0, 1 }, halves[] = { 0.5, 0.5 };
+    static const real near[] = { 0, 16*EPS, 1 }, few[] = { 0.25, 0.25, 0.5 };
+    static const gvi_effect looking[] = { { .kind = GVI_POTENTIAL, .points = spring_that_looks } };
+    const gvi_rule own[] = { { GVI_OWN, 2, ends, halves }, { GVI_OWN, 3, near, few } };
+    static real memory[20000];
+    (void)state;
+    for (int k = 0; k < 2 + 2*11; ++k) {
+        const int r = 2 + (k - 2)/2;
+        gvi_rule rule = { k % 2 ? GVI_LOBATTO : GVI_GAUSS, r, NULL, NULL };
+        gvi_desc desc = { .n = 1, .degree = k < 2 ? 2 : r, .rule = k < 2 ? own[k] : rule, .effects = looking,
+                          .effect_count = 1, .mass = { .kind = GVI_MASS_POSITION, .points = unit_mass,
+                          .gradient = no_gradient } };
+        gvi_stepper st;
+        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+        assert_ok(gvi_start(&st, 0, (real[]){ 1 }, (real[]){ 0.3 }));
+        farthest = 0;
+        for (int m = 0; m < 20; ++m) assert_ok(gvi_step(&st, 0.1));
+        assert_true(farthest < 2);
+    }
+}
+
 static void too_few_iterations_are_a_failure(void **state)
 {
     gvi_desc desc = { .n = 2, .degree = 4, .effects = stiff, .effect_count = 1,
@@ -1550,6 +1597,7 @@ int main(void)
         cmocka_unit_test(a_fixed_point_that_contracts_is_never_called_divergent),
         cmocka_unit_test(short_steps_do_not_hide_velocities_that_diverge),
         cmocka_unit_test(short_steps_do_not_leave_velocities_half_way),
+        cmocka_unit_test(an_iteration_starts_near_the_motion_with_every_rule),
         cmocka_unit_test(too_few_iterations_are_a_failure),
         cmocka_unit_test(a_tolerance_buys_iterations),
         cmocka_unit_test(a_given_number_of_iterations_is_made),
