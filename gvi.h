@@ -937,7 +937,7 @@ static gvi__two gvi__sum(gvi_real x, gvi_real y)
 #endif
 
 #ifdef GVI__FMA
-static inline gvi__two gvi__product(gvi_real a, gvi_real b)      // a*b exactly
+GVI__COPY gvi__two gvi__product(gvi_real a, gvi_real b)          // a*b exactly
 {
     return gvi__two_of(a*b, GVI__FMA(a, b, -(a*b)));
 }
@@ -2926,16 +2926,20 @@ static inline void gvi__begin(gvi_stepper *st, gvi__from *from, gvi_real h)
     const int R = x->stride;
     if (gvi__nonzero(h - x->h_weights)) gvi__weights(st, h);
     x->dt = h;
-    x->dH = 0;
+    if (GVI__CLOCK) x->dH = 0;
     if (!gvi__uses(st, GVI_EXPLICIT)) gvi__times(R, from->t, from->te, h, x->c, x->t);
     from->v = from->p;
     from->ve = from->pe;
     if (x->desc.mass.kind == GVI_MASS_UNIT || !gvi__mass_is_constant(&x->desc)) return;
-    gvi__over_constant_mass(st, from->p, x->v0);
-    gvi__over_constant_mass(st, from->pe, x->ve);
-    // v is rounded, too, and what is left of it as large as what is left of p
-    for (int i = 0; x->desc.mass.kind == GVI_MASS_DIAGONAL && i < st->n; ++i)
-        x->ve[i] += gvi__rest(gvi__product(from->p[i], x->over[i]).lo);
+    if (gvi__mass_is(st, GVI_MASS_DENSE)) {
+        gvi__over_constant_mass(st, from->p, x->v0);
+        gvi__over_constant_mass(st, from->pe, x->ve);
+    } else for (int i = 0; i < st->n; ++i) {
+        // v is rounded, too: as much is left of it as of p
+        const gvi__two v = gvi__product(from->p[i], x->over[i]);
+        x->v0[i] = v.hi;
+        x->ve[i] = gvi__rest(v.lo + from->pe[i]*x->over[i]);
+    }
     from->v = x->v0;
     from->ve = x->ve;
 }
@@ -3163,19 +3167,18 @@ static inline void gvi__sum_row(int r, int R, const gvi_real *table, const gvi_r
     else gvi__sum_block(r, R, R, table, L, z);
 }
 
-// L := w f, element by element, times *over where it is not NULL
+// L := w f, element by element
 static inline void gvi__weigh(int R, const gvi_real *GVI__RESTRICT w, const gvi_real *GVI__RESTRICT f,
-                              const gvi_real *over, gvi_real *GVI__RESTRICT L)
+                              gvi_real *GVI__RESTRICT L)
 {
     for (int j = 0; j < R; ++j) L[j] = w[j]*f[j];
-    for (int j = 0; over && j < R; ++j) L[j] *= *over;
 }
 
-// z := sum_j table[j][.] w_j f_j, times *over if there is one, by way of x->z
+// z := sum_j table[j][.] w_j f_j, by way of x->z
 GVI__APART void gvi__weighted_sums(const gvi_stepper *st, const gvi_real *table, const gvi_real *w,
-                                   const gvi_real *f, const gvi_real *over, gvi_real *z)
+                                   const gvi_real *f, gvi_real *z)
 {
-    gvi__weigh(st->x.stride, w, f, over, st->x.z);
+    gvi__weigh(st->x.stride, w, f, st->x.z);
     gvi__sum_row(st->r, st->x.stride, table, st->x.z, z);
 }
 
@@ -3196,11 +3199,11 @@ static inline gvi_real gvi__sum_lanes(const gvi_real *z)
     return ((z[0] + z[4]) + (z[1] + z[5])) + ((z[2] + z[6]) + (z[3] + z[7]));
 }
 
-/* What gvi__stage_rows_of puts into a row: row := base + ((extra + c a) + b z), so
-   that little waits for z.  A diagonal mass is in z: h times 1/m, rounded once, would
-   be the inverse of another mass in every step than the one that makes v of p, the
-   map no longer symplectic, and energy would drift.                           */
-typedef struct gvi__affine { gvi_real base, extra, a, b; } gvi__affine;
+/* What gvi__stage_rows_of puts into a row: row := base + ((extra + c a) + b (m z)), so
+   that little waits for z.  b m is two products: h times 1/m, rounded once, would be the
+   inverse of another mass in every step than the one that makes v of p, the map no
+   longer symplectic, and energy would drift.                                  */
+typedef struct gvi__affine { gvi_real base, extra, a, b, m; } gvi__affine;
 
 // 1/m of a stage over a diagonal mass, else NULL
 static inline const gvi_real *gvi__diagonal(const gvi_stepper *st, const gvi__stage *y)
@@ -3208,25 +3211,24 @@ static inline const gvi_real *gvi__diagonal(const gvi_stepper *st, const gvi__st
     return y->over_mass && st->x.desc.mass.kind == GVI_MASS_DIAGONAL ? st->x.over : NULL;
 }
 
-// over: 1/m where it is not in z, which no more than a start may be
-GVI__COPY gvi__affine gvi__affine_of(const gvi__stage *y, const gvi_real *over, int i)
+GVI__COPY gvi__affine gvi__affine_of(const gvi__stage *y, const gvi_real *diagonal, int i)
 {
     gvi__affine p;
     p.base = y->base[i];
     p.extra = y->extra[i];
     p.a = y->slope ? y->factor*y->slope[i] : 0;
-    p.b = over ? y->factor*over[i] : y->factor;
+    p.b = y->factor;
+    p.m = diagonal ? diagonal[i] : 1;
     return p;
 }
 
 // row := base + ((extra + c a) + b row)
-GVI__APART void gvi__affine_row(const gvi_stepper *st, const gvi__stage *y, const gvi_real *over, int i,
-                                gvi_real *row)
+GVI__APART void gvi__affine_row(const gvi_stepper *st, const gvi__stage *y, int i, gvi_real *row)
 {
     const struct gvi__private *x = &st->x;
-    const gvi__affine p = gvi__affine_of(y, over, i);
+    const gvi__affine p = gvi__affine_of(y, gvi__diagonal(st, y), i);
     const gvi_real *c = x->c;
-    for (int k = 0; k < x->stride; ++k) row[k] = p.base + ((p.extra + c[k]*p.a) + row[k]*p.b);
+    for (int k = 0; k < x->stride; ++k) row[k] = p.base + ((p.extra + c[k]*p.a) + row[k]*p.m*p.b);
 }
 
 /* The rows of a stage, M^-1 being a number for each.  Returns the sum of the squares
@@ -3246,14 +3248,11 @@ GVI__COPY gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stage *y
         const int few = R == 8 ? 8 : 1;
         gvi__vector squares[VECTORS] = { { 0 } };
         for (int i = 0; i < n; ++i) {
-            const gvi__affine p = gvi__affine_of(y, NULL, i);
+            const gvi__affine p = gvi__affine_of(y, diagonal, i);
             if (i % few == 0)
-                for (int o = 0; o < few*R && i*R + o < n*R; o += GVI__LANES) {
-                    gvi__vector term = GVI__AT(x->hb + o % R)*GVI__AT(y->f + i*R + o);
-                    if (diagonal) term *= diagonal[i + o/R];
-                    *(gvi__vector *)(L + o) = term;
-                }
-            if (minus) gvi__weigh(R, x->b, x->work.A + i*R, diagonal ? diagonal + i : NULL, x->less);
+                for (int o = 0; o < few*R && i*R + o < n*R; o += GVI__LANES)
+                    *(gvi__vector *)(L + o) = GVI__AT(x->hb + o % R)*GVI__AT(y->f + i*R + o);
+            if (minus) gvi__weigh(R, x->b, x->work.A + i*R, x->less);
             for (int o = R - 8; o >= 0; o -= 8) {
                 const int last = r - 1 - o;
                 gvi_real *row = y->rows + i*R + o;
@@ -3266,6 +3265,7 @@ GVI__COPY gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stage *y
                         gvi__sum_vector(r, R, minus + at, x->less, &less);
                         z -= less;
                     }
+                    if (diagonal) z *= p.m;
                     next[k] = p.base + ((p.extra + GVI__AT(c + at)*p.a) + z*p.b);
                 }
                 if (last < 8)
@@ -3284,18 +3284,17 @@ GVI__COPY gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stage *y
     gvi_real lane[8] = { 0, 0, 0, 0, 0, 0, 0, 0 };
     const int block = R < 8 ? R : 8;
     for (int i = 0; i < n; ++i) {
-        const gvi__affine p = gvi__affine_of(y, NULL, i);
-        const gvi_real *over = diagonal ? diagonal + i : NULL;
+        const gvi__affine p = gvi__affine_of(y, diagonal, i);
         gvi_real few[8], *L = R > 8 ? x->z : few;
-        gvi__weigh(R, x->hb, y->f + i*R, over, L);
-        if (minus) gvi__weigh(R, x->b, x->work.A + i*R, over, x->less);
+        gvi__weigh(R, x->hb, y->f + i*R, L);
+        if (minus) gvi__weigh(R, x->b, x->work.A + i*R, x->less);
         for (int o = R - block; o >= 0; o -= block) {
             const int last = r - 1 - o;
             gvi_real *row = y->rows + i*R + o, z[8], less[8];
             gvi__sum_block(r, R, block, y->table + o, L, z);
             if (minus) gvi__sum_block(r, R, block, minus + o, x->less, less);
             for (int k = 0; k < block; ++k)
-                z[k] = p.base + ((p.extra + c[k + o]*p.a) + (minus ? z[k] - less[k] : z[k])*p.b);
+                z[k] = p.base + ((p.extra + c[k + o]*p.a) + (minus ? z[k] - less[k] : z[k])*p.m*p.b);
             if (last < block) gvi__rescale(p.base, row[last], z[last], y->scale + i);
             for (int k = 0; k < block; ++k) {
                 const gvi_real moved = (z[k] - row[k])*y->scale[i];
@@ -3343,15 +3342,13 @@ GVI__COPY gvi_real gvi__stage_rows_8(const gvi_stepper *st, const gvi__stage *y,
     }
     for (int i = 0; i < n; ++i, row += 8) {
         if (i % 8 == 0)
-            for (int o = 0; o < 64 && o < 8*(n - i); o += GVI__LANES, f += GVI__LANES) {
-                gvi__vector term = hb[o/GVI__LANES % VECTORS]*GVI__AT(f);
-                if (diagonal) term *= diagonal[i + o/8];
-                *(gvi__vector *)(ahead + o) = term;
-            }
+            for (int o = 0; o < 64 && o < 8*(n - i); o += GVI__LANES, f += GVI__LANES)
+                *(gvi__vector *)(ahead + o) = hb[o/GVI__LANES % VECTORS]*GVI__AT(f);
         const gvi_real a = slope ? factor*slope[i] : 0;
         gvi__vector next[VECTORS];
         for (int k = 0; k < VECTORS; ++k) {
             gvi__sum_vector(r, 8, table + k*GVI__LANES, ahead + i % 8*8, next + k);
+            if (diagonal) next[k] *= diagonal[i];
             next[k] = base[i] + ((extra[i] + c[k]*a) + next[k]*factor);
         }
         gvi__rescale(base[i], row[r - 1], next[(r - 1)/GVI__LANES][(r - 1) % GVI__LANES], scale + i);
@@ -3366,16 +3363,14 @@ GVI__COPY gvi_real gvi__stage_rows_8(const gvi_stepper *st, const gvi__stage *y,
 }
 #endif
 
-// z := table (h b f_i) - minus (b a_i), over a diagonal mass
+// z := table (h b f_i) - minus (b a_i)
 static void gvi__row_sums(const gvi_stepper *st, const gvi__stage *y, int i, gvi_real *z)
 {
     const struct gvi__private *x = &st->x;
     const int R = x->stride;
-    const gvi_real *over = gvi__diagonal(st, y);
-    if (over) over += i;
-    gvi__weighted_sums(st, y->table, x->hb, y->f + i*R, over, z);
+    gvi__weighted_sums(st, y->table, x->hb, y->f + i*R, z);
     if (!GVI__LAGRANGIAN || !y->minus) return;
-    gvi__weighted_sums(st, y->minus, x->b, x->work.A + i*R, over, x->less);
+    gvi__weighted_sums(st, y->minus, x->b, x->work.A + i*R, x->less);
     for (int k = 0; k < R; ++k) z[k] -= x->less[k];
 }
 
@@ -3392,7 +3387,7 @@ GVI__APART gvi_real gvi__stage_rows_plain(gvi_stepper *st, const gvi__stage *y)
     for (int i = 0; i < n; ++i, row += R) {
         if (dense) z = x->Z + i*R;
         else gvi__row_sums(st, y, i, z);
-        gvi__affine_row(st, y, NULL, i, z);
+        gvi__affine_row(st, y, i, z);
         gvi__rescale(y->base[i], row[last], z[last], y->scale + i);
         for (int k = R; k-- > 0; ) {
             const gvi_real moved = (z[k] - row[k])*y->scale[i];
@@ -3601,7 +3596,7 @@ static void gvi__transform(gvi_stepper *st, const gvi__from *from, int lagrangia
     for (int k = 0; k < R; ++k) level[k] -= x->less[k] + E;
     if (gvi__has(st, GVI__HAS_VELOCITIES)) {
         gvi__scale_row(R, x->rate, power);
-        gvi__weighted_sums(st, x->T, x->hb, power, NULL, x->less);
+        gvi__weighted_sums(st, x->T, x->hb, power, x->less);
         for (int k = 0; k < R; ++k) level[k] -= x->less[k];
     }
     for (int i = 0; i < n; ++i) {
@@ -3612,7 +3607,7 @@ static void gvi__transform(gvi_stepper *st, const gvi__from *from, int lagrangia
         gvi__transform_row(R, x->rate, x->slope + i*R, level, w->F + i*R);
         gvi__scale_row(R, x->rate, w->V + i*R);
     }
-    gvi__weigh(R, x->hb, x->rate, NULL, x->less);
+    gvi__weigh(R, x->hb, x->rate, x->less);
     if (st->r == 8 && !GVI__SMALL) gvi__sum_row(8, 8, x->T, x->less, x->z);
     else gvi__sum_row(st->r, R, x->T, x->less, x->z);
     for (int k = 0; k < R; ++k) x->t[k] = from->t + (from->te + x->z[k]);
@@ -3750,7 +3745,7 @@ static void gvi__fit_sums(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
     const int R = x->stride, rows = gvi__two_now(st) ? 2*st->r : st->r;
-    for (int j = 0; j < rows; ++j) gvi__weighted_sums(st, x->g, x->hb, x->E + j*R, NULL, x->E + j*R);
+    for (int j = 0; j < rows; ++j) gvi__weighted_sums(st, x->g, x->hb, x->E + j*R, x->E + j*R);
 }
 
 /* Extrapolates rows of the last step, or of the last two, to the points of the
@@ -3763,14 +3758,14 @@ GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const 
     for (int i = 0; i < st->n; ++i) {
         gvi_real *row = out + i*R;
 #ifdef GVI__VECTORS
-        gvi__affine p = { 0, 0, 0, 1 };
+        gvi__affine p = { 0, 0, 0, 1, 1 };
         if (y) p = gvi__affine_of(y, gvi__diagonal(st, y), i);
         for (int o = 0; older && R % 8 == 0 && o < R; o += GVI__LANES) {
             gvi__vector z, before;
             gvi__sum_vector(r, R, x->E + r*R + o, older + i*R, &before);
             gvi__sum_vector(r, R, x->E + o, last + i*R, &z);
             z += before;
-            if (y) z = p.base + ((p.extra + GVI__AT(x->c + o)*p.a) + z*p.b);
+            if (y) z = p.base + ((p.extra + GVI__AT(x->c + o)*p.a) + z*p.m*p.b);
             *(gvi__vector *)(row + o) = z;
         }
         if (older && R % 8 == 0) continue;
@@ -3778,7 +3773,7 @@ GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const 
         gvi__sum_row(r, R, x->E, last + i*R, row);
         if (older) gvi__sum_row(r, R, x->E + r*R, older + i*R, x->z);
         for (int k = 0; older && k < R; ++k) row[k] += x->z[k];
-        if (y) gvi__affine_row(st, y, gvi__diagonal(st, y), i, row);
+        if (y) gvi__affine_row(st, y, i, row);
     }
 }
 
