@@ -107,10 +107,10 @@
               gvi_velocity, gvi_energy: 1, with Lagrangian terms 40(12n+1).
               gvi_state_at: as a step; with a clock, 60 of them.
               Floating-point operations of a step of N iterations, callbacks apart:
-              (N+2)(K n R (2r+16) + 30) + 30 K n r + 70 n at most, R = r below 5 points,
+              (N+2)(K n R (2r+16) + 30) + 30 K n r + 80 n at most, R = r below 5 points,
               else the next multiple of 8, K = 1 for positions, 2 for velocities and
               momenta; full M: 2n^2 ((N+2) K R + 3) more; M(q): (N+1) r (n^3/2 + 6n^2).
-              Explicit: 8n(r+1) + 32n + 8r + 16.  A new h: 6r^3 + 4(r+10)rR + 70r + 60
+              Explicit: 10n(r+1) + 32n + 8r + 16.  A new h: 6r^3 + 4(r+10)rR + 70r + 60
               more, in its step and the next two.  Twice that where the extrapolated
               start leads nowhere, four times where the step fails.  Without a clock,
               Lagrangian terms or marks; counted by make bound.
@@ -2934,7 +2934,9 @@ static inline void gvi__begin(gvi_stepper *st, gvi__from *from, gvi_real h)
     if (gvi__mass_is(st, GVI_MASS_DENSE)) {
         gvi__over_constant_mass(st, from->p, x->v0);
         gvi__over_constant_mass(st, from->pe, x->ve);
-    } else for (int i = 0; i < st->n; ++i) {
+    } else if (!gvi__uses(st, GVI_POSITIONS) && !gvi__uses(st, GVI_VELOCITIES))
+        gvi__over_constant_mass(st, from->p, x->v0);
+    else for (int i = 0; i < st->n; ++i) {
         // v is rounded, too: as much is left of it as of p
         const gvi__two v = gvi__product(from->p[i], x->over[i]);
         x->v0[i] = v.hi;
