@@ -323,8 +323,8 @@ static int stiff_springs(const gvi_points *x, void *user)
 /* Oscillators with masses whose h/m is not a number of the type.  Were it rounded once,
    rows and velocities would see masses that differ by up to EPS/2, the map would not be
    symplectic, and the energy would gain or lose up to 0.6 EPS in every step at h omega =
-   5/2.  A walk of EPS a step comes to 256 EPS in 2^16 steps; iterations that end on the
-   side of the last place from which they came leave up to 0.04 EPS a step.   */
+   5/2.  A walk of EPS a step comes to 256 EPS in 2^16 steps; multiples of h = 1/10, whose
+   digits have a short period, round with a mean, up to 0.05 EPS a step.        */
 static void a_mass_is_the_same_wherever_it_is_read(void **state)
 {
     enum { STEPS = 1 << 16 };
