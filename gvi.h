@@ -2931,16 +2931,17 @@ static inline void gvi__begin(gvi_stepper *st, gvi__from *from, gvi_real h)
     from->v = from->p;
     from->ve = from->pe;
     if (x->desc.mass.kind == GVI_MASS_UNIT || !gvi__mass_is_constant(&x->desc)) return;
-    if (gvi__mass_is(st, GVI_MASS_DENSE)) {
+    const int carried = gvi__uses(st, GVI_POSITIONS) || gvi__uses(st, GVI_VELOCITIES);     // ve is read
+    if (!carried || gvi__mass_is(st, GVI_MASS_DENSE)) {
         gvi__over_constant_mass(st, from->p, x->v0);
-        gvi__over_constant_mass(st, from->pe, x->ve);
-    } else if (!gvi__uses(st, GVI_POSITIONS) && !gvi__uses(st, GVI_VELOCITIES))
-        gvi__over_constant_mass(st, from->p, x->v0);
-    else for (int i = 0; i < st->n; ++i) {
+        if (carried) gvi__over_constant_mass(st, from->pe, x->ve);
+    } else {
         // v is rounded, too: as much is left of it as of p
-        const gvi__two v = gvi__product(from->p[i], x->over[i]);
-        x->v0[i] = v.hi;
-        x->ve[i] = gvi__rest(v.lo + from->pe[i]*x->over[i]);
+        for (int i = 0; i < st->n; ++i) {
+            const gvi__two v = gvi__product(from->p[i], x->over[i]);
+            x->v0[i] = v.hi;
+            x->ve[i] = gvi__rest(v.lo + from->pe[i]*x->over[i]);
+        }
     }
     from->v = x->v0;
     from->ve = x->ve;
@@ -3224,7 +3225,7 @@ GVI__COPY gvi__affine gvi__affine_of(const gvi__stage *y, const gvi_real *diagon
     return p;
 }
 
-// row := base + ((extra + c a) + b row)
+// row := base + ((extra + c a) + b (m row))
 GVI__APART void gvi__affine_row(const gvi_stepper *st, const gvi__stage *y, int i, gvi_real *row)
 {
     const struct gvi__private *x = &st->x;
