@@ -111,9 +111,10 @@
               else the next multiple of 8, K = 1 for positions, 2 for velocities and
               momenta; full M: 2n^2 ((N+2) K R + 3) more; M(q): (N+1) r (n^3/2 + 6n^2).
               Explicit: 10n(r+1) + 32n + 8r + 16.  A new h: 6r^3 + 4(r+10)rR + 70r + 60
-              more, in its step and the next two.  Twice that where the extrapolated
-              start leads nowhere, four times where the step fails.  Without a clock,
-              Lagrangian terms or marks; counted by make bound.
+              more, in its step and the next two.  With stiffness: n R (4r + 12) more, and for
+              each k/m at a new h 3r^3 + 14r^2 + 12r.  Twice that where the extrapolated start
+              leads nowhere, four times where the step fails.  Without a clock, Lagrangian
+              terms or marks; counted by make bound.
 
    gvi.h does not: choose or adapt the step, treat constraints or contact,
    run in parallel, or read or write anything.
@@ -232,6 +233,17 @@
    Marks take (n + 2) R more numbers of memory.  They are for potentials and forces in the
    fixed points, without a clock or desc.iterations, of degree 1 with Gauss's rule
    alone, and not compiled for size: elsewhere a marked effect is asked as any other.
+
+   STIFF SPRINGS.  A spring of frequency omega lets a fixed point contract like (h omega)^2
+   or not at all, although nothing about it is unknown.  desc.stiffness tells it: k_i q_i is
+   what dV/dq_i has of such a spring, whatever else it has; the effects give all of it as
+   ever.  A round then solves for that part, by an r*r matrix for each k_i/m_i, and only the
+   rest of the force is left to contract; h is bounded by what the curve can follow.  It is
+   a simplified Newton method with a diagonal Jacobian of which nothing but a constant is
+   known.  The equations, and so the step, are the same whatever k: one that is wrong costs
+   rounds, or Newton's method.  It is for positions and velocities with unit or diagonal
+   mass, and not compiled for size: elsewhere it is not heeded.  Memory: some 2 R n numbers,
+   and r R for each k_i/m_i that is not that of the stiff coordinate before.
 
    CLOCK.  An effect g(q) > 0 makes time run as dt = g dtau, and h is a step in
    tau: t moves fast or slow, and the map is as symplectic as with fixed steps
@@ -463,6 +475,9 @@ typedef struct gvi_desc {
                                           before (N = 2: less than the first) nor rounding fails;
                                           N = 1 does not: look at counters.worst_change.
                                           0: as many as it takes               */
+    const gvi_real   *stiffness;       /* [n] k_i, or NULL: the part k_i q_i of dV/dq_i, which is
+                                          solved, not iterated (STIFF SPRINGS).  Read
+                                          by gvi_init only                     */
 } gvi_desc;
 
 #define GVI_FAULT_NONE (-1)
@@ -518,6 +533,9 @@ struct gvi__private {
     gvi_real *slope;                  /* [n][R] clock: dg/dq                    */
     gvi_real *over;                   /* [n] 1/m of a diagonal mass             */
     gvi_real *weak;                   /* [n+2][R] weak forces, as last asked; gvi__answers */
+    gvi_real *stiffness, *k, *which;  /* [n] stiffness, given and heeded; its table */
+    gvi_real *soft, *due;             /* [n][R] F + k Q of the last step; what F should be */
+    gvi_real *solve, *solve_lu;       /* [springs*r][R] tables of gvi__spring_tables; scratch */
     gvi_real *mass, *point_mass, *Z;  /* M; M at the points [n*n][R]; [n][R] scratch */
     gvi_real *y, *dy, *J, *pivot;     /* Newton: [s*n] twice; two matrices of s*n */
     gvi_real *hess, *dF;              /* scratch; F and P, moved and not, [4][n][R] */
@@ -531,6 +549,8 @@ struct gvi__private {
     gvi_real         h_weights;       /* h for which hb holds                   */
     gvi_real         ratio;           /* h/h_last for which E holds             */
     gvi_real         h_matrix;        /* h for which J was made, 0: none        */
+    gvi_real         h_springs;       /* |h| for which solve holds, 0: none     */
+    int              springs;         /* tables in solve                        */
     unsigned         off;             /* effects switched off, one bit each     */
     unsigned         marks;           /* effects marked as weak, likewise       */
     signed char      newton_left;     /* steps until the fixed point is tried   */
@@ -699,7 +719,8 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI_LENGTH(n, s, r) (                                                    \
     (31 + 4*GVI__SIZE(s) + 20*GVI__SIZE(GVI__ROW(r))                             \
      + (6 + GVI__SIZE(GVI__ROW(r)) + 2*GVI__SIZE(s)*GVI__SIZE(s))*GVI__SIZE(n))*GVI__SIZE(n) \
-    + (20 + 6*GVI__SIZE(r) + 3*GVI__SIZE(s))*GVI__SIZE(GVI__ROW(r))              \
+    + (20 + 7*GVI__SIZE(r) + 3*GVI__SIZE(s))*GVI__SIZE(GVI__ROW(r))              \
+    + ((r) > (n) ? GVI__SIZE((r) - (n))*GVI__SIZE(GVI__ROW(r))*GVI__SIZE(n) : 0) \
     + (GVI__SIZE(s) + 2)*GVI__SIZE(s) + 3 + GVI__SLACK + ((n) < 8 ? 0 : 126))
 
 #ifdef __cplusplus
@@ -827,6 +848,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__TOLERANCE 1
 #endif
 #define GVI__WEAK (GVI__TOLERANCE && !GVI__SMALL && (GVI__POSITIONS || GVI__VELOCITIES || GVI__MOMENTA))
+#define GVI__STIFF (!GVI__SMALL && (GVI__POSITIONS || GVI__VELOCITIES))
 #ifdef GVI_NO_DIAGNOSIS
 #define GVI__DIAGNOSIS 0
 #else
@@ -2425,6 +2447,7 @@ typedef struct gvi__scene {
     int             order, flags;
     int             clock;            /* the effect that is one, or -1          */
     gvi_formulation chosen;
+    int             springs;          /* gvi__springs                           */
 } gvi__scene;
 
 // the kinds of effects, and what they read
@@ -2444,6 +2467,26 @@ static gvi_status gvi__read_effects(gvi__scene *x)
         x->clock = e;
     }
     return GVI_OK;
+}
+
+/* desc.stiffness, where it is heeded: M^-1 is a number for each coordinate, and the rows
+   see a force at the end.  Coordinates of the same k/m as the last one before share
+   its table.  Returns how many there are; which, if not NULL, becomes that of each.   */
+static int gvi__springs(const gvi__scene *x, gvi_real *which)
+{
+    const gvi_desc *d = x->desc;
+    const int heeded = GVI__STIFF && d->stiffness && d->mass.kind <= GVI_MASS_DIAGONAL
+        && (gvi__chosen_is(x->chosen, GVI_POSITIONS) || gvi__chosen_is(x->chosen, GVI_VELOCITIES));
+    int tables = 0;
+    gvi_real last = 0;
+    for (int i = 0; heeded && i < d->n; ++i) {
+        if (!gvi__nonzero(d->stiffness[i])) continue;
+        const gvi_real k = d->mass.kind == GVI_MASS_UNIT ? d->stiffness[i] : d->stiffness[i]/d->mass.matrix[i];
+        if (tables == 0 || gvi__nonzero(k - last)) ++tables;
+        last = k;
+        if (which) which[i] = (gvi_real)(tables - 1);
+    }
+    return tables;
 }
 
 // in long: an int may have 16 bits
@@ -2580,6 +2623,7 @@ static gvi_status gvi__resolve(gvi__scene *x, gvi_desc *d, const gvi_desc *desc)
     status = gvi__measure(x);
     if (status == GVI_OK) status = gvi__choose(x);
     if (status != GVI_OK) return status;
+    x->springs = gvi__springs(x, NULL);
     const int wanted = gvi__flag(x->flags, GVI__HAS_NEWTON | GVI__HAS_LAGRANGIAN);
     const int matrices = wanted || d->mass.kind >= GVI_MASS_DENSE;
     return matrices && d->n > 0x7FFF ? GVI_E_ARGUMENT : GVI_OK;          // indices are int: n*n and s*n
@@ -2590,7 +2634,7 @@ static gvi_status gvi__resolve(gvi__scene *x, gvi_desc *d, const gvi_desc *desc)
 static int gvi__fits_two(const gvi__scene *x)
 {
     const int iterates = x->chosen >= GVI_POSITIONS && x->chosen <= GVI_MOMENTA;
-    return x->desc->rule.points < 10 && GVI__KIND > 1 && iterates;
+    return x->desc->rule.points < 10 && GVI__KIND > 1 && iterates && !x->springs;
 }
 
 // what E makes: of two steps, not of one; the sums of (3), not the row itself
@@ -2635,7 +2679,7 @@ enum {
     GVI__STATE, GVI__POINTS, GVI__V, GVI__P, GVI__A_, GVI__OLDER_F, GVI__OLDER_V, GVI__OLDER_A,
     GVI__SLOPE, GVI__RATE, GVI__G, GVI__M, GVI__T, GVI__NN, GVI__E, GVI__PHI, GVI__MODES, GVI__PLACE,
     GVI__DRIFT, GVI__GAMMA, GVI__DIAGONAL, GVI__TWO_MASSES, GVI__STILL, GVI__Z, GVI__AT_POINTS, GVI__nR,
-    GVI__HESS, GVI__HESSIANS, GVI__sn, GVI__PIVOT, GVI__DIFFERENCES, GVI__J, GVI__EIGEN, GVI__LENGTHS
+    GVI__STIFF_N, GVI__SOLVE, GVI__SOLVE_LU, GVI__HESS, GVI__HESSIANS, GVI__sn, GVI__PIVOT, GVI__DIFFERENCES, GVI__J, GVI__EIGEN, GVI__LENGTHS
 };
 
 GVI__APART void gvi__lengths(const gvi__scene *x, size_t *length)
@@ -2681,6 +2725,9 @@ GVI__APART void gvi__lengths(const gvi__scene *x, size_t *length)
     length[GVI__DIAGONAL] = d->mass.kind == GVI_MASS_DIAGONAL ? length[GVI__N] : 0;
     length[GVI__TWO_MASSES] = dense ? 2*n : 0;                 // factored, and as it is
     length[GVI__STILL] = iterates && gvi__marks(d) ? n + 2 : 0;
+    length[GVI__STIFF_N] = x->springs ? n : 0;
+    length[GVI__SOLVE] = (size_t)x->springs*r;
+    length[GVI__SOLVE_LU] = x->springs ? r*r + r + 1 : 0;
     length[GVI__Z] = dense && positions ? n : 0;
     length[GVI__AT_POINTS] = gvi__has_mass(d, GVI_MASS_POSITION) ? n : 0;
     length[GVI__nR] = n*R;
@@ -2726,6 +2773,9 @@ static void gvi__layout_rows(gvi__arena *a, const size_t *length)
         GVI__PART(work.F, STATE, POINTS), GVI__PART(work.V, V, R), GVI__PART(work.P, P, R),
         GVI__PART(work.A, A_, R), GVI__PART(older_F, OLDER_F, R), GVI__PART(older_V, OLDER_V, R),
         GVI__PART(older_A, OLDER_A, R), GVI__PART(weak, STILL, R), GVI__PART(slope, SLOPE, R),
+        GVI__PART(soft, STIFF_N, R), GVI__PART(due, STIFF_N, R), GVI__PART(solve, SOLVE, R),
+        GVI__PART(stiffness, STIFF_N, 1), GVI__PART(k, STIFF_N, 1),
+        GVI__PART(which, STIFF_N, 1), GVI__PART(solve_lu, SOLVE_LU, 1),
         GVI__PART(rate, RATE, R), GVI__PART(z, 1, R), GVI__PART(less, 1, R), GVI__PART(hb, 1, R),
         GVI__PART(c, 1, R), GVI__PART(g, G, R), GVI__PART(m, M, R), GVI__PART(T, T, R), GVI__PART(N, NN, R),
         GVI__PART(E, E, R), GVI__PART(Phi, PHI, R), GVI__PART(phi, MODES, R), GVI__PART(low, MODES, R),
@@ -2803,6 +2853,16 @@ static gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
     return GVI_OK;
 }
 
+// stiffness into the memory
+static gvi_status gvi__set_stiffness(gvi_stepper *st, const gvi_real *stiffness)
+{
+    for (int i = 0; stiffness && i < st->n; ++i)
+        if (!gvi__finite(stiffness[i]))
+            return gvi__fail(st, GVI_E_ARGUMENT, GVI_FAULT_NONE, i, GVI_FAULT_NONE);
+    if (GVI__STIFF && st->x.stiffness) gvi__copy((size_t)st->n, stiffness, st->x.stiffness);
+    return GVI_OK;
+}
+
 // where number stands: the alignment of a gvi_real
 typedef struct gvi__aligned { char byte; gvi_real number; } gvi__aligned;
 
@@ -2832,6 +2892,8 @@ static gvi_status gvi__hand_out(gvi_stepper *st, const gvi_desc *desc, gvi_real 
     memory += x->skip;
     gvi__layout(&scene, x, memory);
     gvi__zero(GVI__NEWTON && x->J ? (size_t)(x->J - memory) : x->size, memory);    // J is written first
+    x->springs = scene.springs;
+    if (x->springs) gvi__springs(&scene, x->which);
     return GVI_OK;
 }
 
@@ -2866,6 +2928,7 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     st->q = x->q;
     st->p = x->p;
     status = gvi__set_mass(st, &desc->mass);
+    if (status == GVI_OK) status = gvi__set_stiffness(st, desc->stiffness);
     if (status != GVI_OK) return status;
 
     // the rule, the modes at its nodes as exactly as they can be had, then the grid
@@ -3081,7 +3144,7 @@ typedef gvi_real gvi__kernel(gvi_stepper *st, const struct gvi__stage *y);   // 
 typedef struct gvi__stage {
     const gvi_real *base, *extra, *slope, *table, *f, *minus;
     gvi_real        factor, *rows, *scale;
-    int             over_mass;
+    int             over_mass, by_due;      // M^-1; beside stiffness, see gvi__spring_rows_of
     gvi__kernel    *kernel;
 } gvi__stage;
 
@@ -3377,6 +3440,174 @@ static void gvi__row_sums(const gvi_stepper *st, const gvi__stage *y, int i, gvi
     for (int k = 0; k < R; ++k) z[k] -= x->less[k];
 }
 
+/* The rows of positions beside stiffness.  As far as k can tell, a force at rows that move
+   by dQ becomes less by k dQ, and what it makes of the rows less by g (h b k dQ) h/m.  So a
+   force that is greater by dF than the one that the rows belong to moves them by
+
+     dQ = solve (h b dF) h/m         solve = (I + h^2 k/m (g b))^-1 g
+
+   In the first round they belong to none: they become the plain rows, Q + d, and then dF is
+   -k d.  From then on dF = F - due, due being what F was to become: it is small, so the
+   rows keep the rounding of the plain ones.  F follows them, and is as good as they are. */
+GVI__COPY gvi_real gvi__spring_rows_of(const gvi_stepper *st, const gvi__stage *y, int r, int R)
+{
+    const struct gvi__private *x = &st->x;
+    const gvi_real *diagonal = gvi__diagonal(st, y), *minus = GVI__LAGRANGIAN ? y->minus : NULL;
+    gvi_real lane[8] = { 0, 0, 0, 0, 0, 0, 0, 0 }, own[3*16], *L = R > 16 ? x->row : own;
+    gvi_real *next = L + R, *away = next + R;
+    for (int i = 0; i < st->n; ++i) {
+        const gvi__affine p = gvi__affine_of(y, diagonal, i);
+        const gvi_real k = x->k[i], *solve = x->solve + (size_t)x->which[i]*(size_t)(r*R);
+        gvi_real *row = y->rows + i*R, *F = x->work.F + i*R, *due = x->due + i*R;
+        if (y->by_due && gvi__nonzero(k)) {
+            for (int j = 0; j < R; ++j) L[j] = x->hb[j]*(F[j] - due[j]);
+            gvi__sum_row(r, R, solve, L, next);
+            for (int j = 0; j < R; ++j) next[j] = row[j] + next[j]*p.m*p.b;
+        } else {
+            gvi__weigh(R, x->hb, F, L);
+            gvi__sum_row(r, R, y->table, L, next);
+            if (minus) gvi__weighted_sums(st, minus, x->b, x->work.A + i*R, away);
+            for (int j = 0; minus && j < R; ++j) next[j] -= away[j];
+            for (int j = 0; j < R; ++j) next[j] = p.base + ((p.extra + x->c[j]*p.a) + next[j]*p.m*p.b);
+            for (int j = 0; j < R; ++j) L[j] = x->hb[j]*(-k*(next[j] - row[j]));
+            if (gvi__nonzero(k)) gvi__sum_row(r, R, solve, L, away);
+            for (int j = 0; gvi__nonzero(k) && j < R; ++j) next[j] += away[j]*p.m*p.b;
+        }
+        gvi__rescale(p.base, row[r - 1], next[r - 1], y->scale + i);
+        for (int j = R; j-- > 0; ) {
+            const gvi_real moved = next[j] - row[j], change = moved*y->scale[i];
+            row[j] = next[j];
+            lane[j & 7] += change*change;
+            due[j] = F[j] -= k*moved;
+        }
+    }
+    return gvi__sum_lanes(lane);
+}
+
+#ifdef GVI__VECTORS
+/* The same for five to sixteen points and no Lagrangian terms.                 */
+GVI__COPY gvi_real gvi__spring_rows_vector(const gvi_stepper *st, const gvi__stage *y, int r, int R)
+{
+    enum { MOST = 16/GVI__LANES, EIGHT = 8/GVI__LANES };
+    const struct gvi__private *x = &st->x;
+    const gvi_real *diagonal = gvi__diagonal(st, y), *springs = x->k, *which = x->which;
+    const gvi_real *base = y->base, *extra = y->extra, *slope = y->slope, factor = y->factor;
+    const int n = st->n, vectors = R/GVI__LANES, by_due = y->by_due;
+    gvi_real *row = y->rows, *F = x->work.F, *due = x->due, *scale = y->scale, lane[8], ahead[64], ask[16];
+    gvi__vector kept[8], c[MOST], hb[MOST], squares[EIGHT] = { { 0 } };
+    const gvi_real *table = R == 8 ? gvi__keep(r, y->table, kept) : y->table;
+    for (int v = 0; v < vectors; ++v) {
+        c[v] = GVI__AT(x->c + v*GVI__LANES);
+        hb[v] = GVI__AT(x->hb + v*GVI__LANES);
+    }
+    for (int i = 0; i < n; ++i, row += R, F += R, due += R) {
+        if (i*R % 64 == 0)
+            for (int o = 0; o < 64 && o < R*(n - i); o += GVI__LANES) {
+                gvi__vector dF = GVI__AT(F + o);
+                if (by_due) dF -= GVI__AT(due + o);                // due is 0 where k is
+                *(gvi__vector *)(ahead + o) = hb[o/GVI__LANES % vectors]*dF;
+            }
+        const gvi_real a = slope ? factor*slope[i] : 0, k = springs[i];
+        const gvi_real *solve = x->solve + (size_t)which[i]*(size_t)(R*r);
+        const int stiff = gvi__nonzero(k);
+        gvi__vector next[MOST], z;
+        for (int v = 0; v < vectors; ++v) {
+            gvi__sum_vector(r, R, (by_due && stiff ? solve : table) + v*GVI__LANES, ahead + i*R % 64, &z);
+            if (diagonal) z *= diagonal[i];
+            if (by_due && stiff) next[v] = GVI__AT(row + v*GVI__LANES) + z*factor;
+            else next[v] = base[i] + ((extra[i] + c[v]*a) + z*factor);
+        }
+        for (int v = 0; !by_due && stiff && v < vectors; ++v)
+            *(gvi__vector *)(ask + v*GVI__LANES) = hb[v]*(-k*(next[v] - GVI__AT(row + v*GVI__LANES)));
+        for (int v = 0; !by_due && stiff && v < vectors; ++v) {
+            gvi__sum_vector(r, R, solve + v*GVI__LANES, ask, &z);
+            if (diagonal) z *= diagonal[i];
+            next[v] += z*factor;
+        }
+        gvi__rescale(base[i], row[r - 1], next[(r - 1)/GVI__LANES][(r - 1) % GVI__LANES], scale + i);
+        for (int v = vectors; v-- > 0; ) {
+            const gvi__vector moved = next[v] - GVI__AT(row + v*GVI__LANES), change = moved*scale[i];
+            *(gvi__vector *)(row + v*GVI__LANES) = next[v];
+            squares[v % EIGHT] += change*change;
+            if (stiff) {
+                z = GVI__AT(F + v*GVI__LANES) - k*moved;
+                *(gvi__vector *)(F + v*GVI__LANES) = z;
+                *(gvi__vector *)(due + v*GVI__LANES) = z;
+            }
+        }
+    }
+    for (int v = 0; v < EIGHT; ++v) *(gvi__vector *)(lane + v*GVI__LANES) = squares[v];
+    return gvi__sum_lanes(lane);
+}
+#endif
+
+/* The tables for a step of length h.  Where there is no inverse, which only a k below 0
+   brings about, that k is not heeded.                                          */
+GVI__APART void gvi__spring_tables(gvi_stepper *st, gvi_real h)
+{
+    struct gvi__private *x = &st->x;
+    const int r = st->r, R = x->stride;
+    gvi_real *lu = x->solve_lu, *pivot = lu + r*r, *table = x->solve;
+    gvi_status status = GVI_OK;
+    x->h_springs = GVI_ABS(h);
+    for (int i = 0, made = 0; i < st->n; ++i) {
+        const gvi_real k = x->stiffness[i], over = x->over ? x->over[i] : 1;
+        if (gvi__nonzero(k) && (int)x->which[i] == made) {
+            for (int a = 0; a < r; ++a)
+                for (int j = 0; j < r; ++j)
+                    lu[a*r + j] = (a == j ? 1 : 0) + h*k*over*x->hb[j]*x->g[j*R + a];
+            status = gvi_lu_factor(r, lu, pivot);
+            gvi__copy((size_t)(r*R), x->g, table);
+            for (int j = 0; j < r && status == GVI_OK; ++j) gvi_lu_solve(r, lu, pivot, table + j*R);
+            table += r*R;
+            ++made;
+        }
+        x->k[i] = status == GVI_OK ? k : 0;
+        if (status != GVI_OK) gvi__zero((size_t)R, x->due + i*R);
+    }
+}
+
+// sum := a + k b, in whole vectors where they are: what is stored narrower cannot be loaded at once
+static inline void gvi__row_plus(int R, const gvi_real *a, gvi_real k, const gvi_real *b, gvi_real *sum)
+{
+#ifdef GVI__VECTORS
+    for (int o = 0; R % 8 == 0 && o < R; o += GVI__LANES)
+        *(gvi__vector *)(sum + o) = GVI__AT(a + o) + k*GVI__AT(b + o);
+    if (R % 8 == 0) return;
+#endif
+    for (int j = 0; j < R; ++j) sum[j] = a[j] + k*b[j];
+}
+
+// first rows of positions, from F + k Q of other steps: dF = -k Q of the plain ones
+GVI__COPY void gvi__spring_start_of(const gvi_stepper *st, const gvi__stage *y, int r, int R)
+{
+    const struct gvi__private *x = &st->x;
+    const gvi_real *diagonal = gvi__diagonal(st, y);
+    gvi_real *row = y->rows;
+    for (int i = 0; i < st->n; ++i, row += R) {
+        if (!gvi__nonzero(x->k[i])) continue;
+        const gvi_real over = diagonal ? diagonal[i] : 1;
+        gvi__weigh(R, x->hb, row, x->z);
+        gvi__sum_row(r, R, x->solve + (size_t)x->which[i]*(size_t)(r*R), x->z, x->row);
+        gvi__row_plus(R, row, -x->k[i]*over*y->factor, x->row, row);
+    }
+}
+
+static void gvi__spring_start(const gvi_stepper *st, const gvi__stage *y)
+{
+    if (st->r == 8) gvi__spring_start_of(st, y, 8, 8);
+    else gvi__spring_start_of(st, y, st->r, st->x.stride);
+}
+
+// soft := F + k Q of the step that was done
+GVI__APART void gvi__keep_soft(gvi_stepper *st)
+{
+    const struct gvi__private *x = &st->x;
+    const int R = x->stride;
+    for (int i = 0, o = 0; i < st->n; ++i, o += R)
+        gvi__row_plus(R, x->last.F + o, x->k[i], x->last.Q + o, x->soft + o);
+}
+
 /* gvi__stage_rows_of in less code and without blocks, squares added up from the last
    point on, as there.  Also where M is a full matrix: all sums first, then M^-1 of them. */
 GVI__APART gvi_real gvi__stage_rows_plain(gvi_stepper *st, const gvi__stage *y)
@@ -3408,13 +3639,29 @@ GVI__ROWS(gvi__rows_2, gvi__stage_rows_of(st, y, 2, 2))
 GVI__ROWS(gvi__rows_3, gvi__stage_rows_of(st, y, 3, 3))
 GVI__ROWS(gvi__rows_4, gvi__stage_rows_of(st, y, 4, 4))
 GVI__ROWS(gvi__rows_any, gvi__stage_rows_of(st, y, st->r, st->x.stride))
+GVI__ROWS(gvi__spring_rows, gvi__spring_rows_of(st, y, st->r, st->x.stride))
+GVI__ROWS(gvi__spring_rows_4, gvi__spring_rows_of(st, y, 4, 4))
 #ifdef GVI__VECTORS
 GVI__ROWS(gvi__rows_6, gvi__stage_rows_8(st, y, 6))
 GVI__ROWS(gvi__rows_8, gvi__stage_rows_8(st, y, 8))
 GVI__ROWS(gvi__rows_5_to_8, gvi__stage_rows_8(st, y, st->r))
 GVI__ROWS(gvi__rows_8_less, gvi__stage_rows_of(st, y, 8, 8))
 GVI__ROWS(gvi__rows_16, gvi__stage_rows_of(st, y, 16, 16))
+GVI__ROWS(gvi__spring_rows_8, gvi__spring_rows_vector(st, y, 8, 8))
+GVI__ROWS(gvi__spring_rows_to_8, gvi__spring_rows_vector(st, y, st->r, 8))
+GVI__ROWS(gvi__spring_rows_to_16, gvi__spring_rows_vector(st, y, st->r, 16))
 #endif
+
+static gvi__kernel *gvi__spring_kernel(const gvi_stepper *st, const gvi__stage *y)
+{
+#ifdef GVI__VECTORS
+    if (!y->minus && st->r == 8) return gvi__spring_rows_8;
+    if (!y->minus && st->x.stride == 8) return gvi__spring_rows_to_8;
+    if (!y->minus && st->x.stride == 16) return gvi__spring_rows_to_16;
+#endif
+    (void)y;
+    return st->r == 4 ? gvi__spring_rows_4 : gvi__spring_rows;
+}
 
 static gvi__kernel *gvi__kernel_of(const gvi_stepper *st, const gvi__stage *y)
 {
@@ -3468,7 +3715,7 @@ static void gvi__stage_set(gvi__stage *y, const gvi_real *base, const gvi_real *
     y->minus = NULL;
     y->factor = factor;
     y->rows = rows;
-    y->over_mass = 0;
+    y->over_mass = y->by_due = 0;
     y->scale = scale;
 }
 
@@ -3488,11 +3735,12 @@ static int gvi__plan(gvi_stepper *st, const gvi__from *from, gvi_real h, gvi__st
     y->minus = gvi__A(w) ? x->T : NULL;
     y->over_mass = 1;
     y->kernel = GVI__SMALL ? NULL : gvi__kernel_of(st, y);
+    if (GVI__STIFF && x->k) y->kernel = gvi__spring_kernel(st, y);
     if (gvi__uses(st, GVI_POSITIONS) || GVI__STAGES == 1) return 1;
     gvi__stage_set(y + 1, from->v, from->ve, NULL, x->m, w->F, 1, w->V, x->scale + st->n);
     y[1].minus = gvi__A(w) ? x->N : NULL;
     y[1].over_mass = 1;
-    y[1].kernel = y->kernel;
+    y[1].kernel = GVI__SMALL ? NULL : gvi__kernel_of(st, y + 1);
     return 2;
 }
 
@@ -3763,15 +4011,17 @@ GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const 
 #ifdef GVI__VECTORS
         gvi__affine p = { 0, 0, 0, 1, 1 };
         if (y) p = gvi__affine_of(y, gvi__diagonal(st, y), i);
-        for (int o = 0; older && R % 8 == 0 && o < R; o += GVI__LANES) {
+        for (int o = 0; R % 8 == 0 && o < R; o += GVI__LANES) {
             gvi__vector z, before;
-            gvi__sum_vector(r, R, x->E + r*R + o, older + i*R, &before);
             gvi__sum_vector(r, R, x->E + o, last + i*R, &z);
-            z += before;
+            if (older) {
+                gvi__sum_vector(r, R, x->E + r*R + o, older + i*R, &before);
+                z += before;
+            }
             if (y) z = p.base + ((p.extra + GVI__AT(x->c + o)*p.a) + z*p.m*p.b);
             *(gvi__vector *)(row + o) = z;
         }
-        if (older && R % 8 == 0) continue;
+        if (R % 8 == 0) continue;
 #endif
         gvi__sum_row(r, R, x->E, last + i*R, row);
         if (older) gvi__sum_row(r, R, x->E + r*R, older + i*R, x->z);
@@ -3815,8 +4065,9 @@ GVI__APART void gvi__guess(gvi_stepper *st, int extrapolate, gvi_real rate)
     struct gvi__rows *w = &x->work, *l = &x->last;
     size_t length = (size_t)st->n*(size_t)x->stride;
     x->has_factor = x->has_rate = 0;
+    if (GVI__STIFF && x->k) gvi__zero(length, w->Q);
     if (extrapolate) {
-        gvi__extrapolate(st, l->F, x->older_F, NULL, w->F);
+        gvi__extrapolate(st, GVI__STIFF && x->k ? x->soft : l->F, x->older_F, NULL, w->F);
         if (gvi__A(l) && w->A) gvi__extrapolate(st, l->A, x->older_A, NULL, w->A);
         if (gvi__uses(st, GVI_MOMENTA)) gvi__extrapolate(st, l->V, x->older_V, NULL, w->V);
     } else {
@@ -4175,11 +4426,14 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
         if (status != GVI_OK) return status;
     }
     const int sums = extrapolate && (x->E_is & GVI__SUMS);
-    if (sums) gvi__extrapolate(st, x->last.F, x->older_F, y, x->work.Q);
+    const int springs = GVI__STIFF && x->k;
+    if (sums) gvi__extrapolate(st, springs ? x->soft : x->last.F, x->older_F, y, x->work.Q);
     else gvi__guess(st, extrapolate, rate);
+    if (sums && springs) gvi__spring_start(st, y);
     for (*used = 0; ; ) {
         if (GVI__TOLERANCE && p.idle + p.poor > 0)
             gvi__gather(st->n, x->stride, x->work.Q + st->r - 1, x->change);
+        y->by_due = springs && *used > 1 && !gvi__A(&x->work);     // which would have to be due as well
         const gvi_real change = sums && *used == 0 ? 0 : gvi__stages(st, y, count);
         int verdict = GVI__GO_ON;
         if (*used > 0) {
@@ -4841,6 +5095,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, gvi__from *from, gvi_real h,
     int usable = past->available, used = 0;
     gvi_status status = GVI_E_CONVERGENCE;
     if (!gvi__uses(st, GVI_NEWTON) && (!gvi__has(st, GVI__HAS_NEWTON) || x->newton_left == 0 || query)) {
+        if (GVI__STIFF && x->k && gvi__nonzero(GVI_ABS(h) - x->h_springs)) gvi__spring_tables(st, h);
         if (usable) gvi__prepare_guess(st, past->alpha, past->beta, query);
         for (int plain = !usable; plain < 2; ++plain) {
             status = gvi__fixed_point(st, from, h, !plain, &used);
@@ -4976,6 +5231,7 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     x->te = t.lo;
     st->h = h;
     gvi__rotate_rows(st);
+    if (GVI__STIFF && x->k) gvi__keep_soft(st);
     x->stepped = gvi__has_clock(st) ? 2 : 1;
     if (GVI__WEAK && x->weak) *gvi__answers(st) = gvi__answers(st)[1];
     x->has_force = explicit_one && !gvi__nonzero(x->c[0]) && !gvi__nonzero(x->c[st->r - 1] - 1);
@@ -5666,7 +5922,7 @@ GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const 
     st->x.skip = skip;
     st->x.desc = desc;
     st->x.memory = own;
-    const gvi__scene scene = { &st->x.desc, st->order, st->x.flags, st->x.clock, st->x.chosen };
+    const gvi__scene scene = { &st->x.desc, st->order, st->x.flags, st->x.clock, st->x.chosen, st->x.springs };
     gvi__layout(&scene, &st->x, own);
     for (int turns = st->x.turns; turns > 0; --turns) gvi__rotate_rows(st);
     st->x.turns = saved->x.turns;

@@ -694,6 +694,29 @@ static void test_any_mark(void **state)
     (void)state;
 }
 
+/* Any stiffness in any scene, most of it wrong: the same way to the step.             */
+static void test_any_stiffness(void **state)
+{
+    static double plain[ROOM], k[ROOM];
+    int heeded = 0;
+    for (int i = 0; i < scene_count; ++i)
+        for (int sign = -1; sign <= 1; sign += 2) {
+            build(scenes[i]->name, NULL);
+            start();
+            steps(40, scenes[i]->h);
+            memcpy(plain, st.q, (size_t)st.n*sizeof *plain);
+            const size_t size = gvi_size(&made.desc);
+            for (int j = 0; j < st.n; ++j) k[j] = sign*(j % 3)/(4*scenes[i]->h*scenes[i]->h);
+            made.desc.stiffness = k;
+            heeded += gvi_size(&made.desc) > size;
+            start();
+            steps(40, scenes[i]->h);
+            for (int j = 0; j < st.n; ++j) assert_close(st.q[j], plain[j], 1e-10*(1e-3 + fabs(plain[j])));
+        }
+    assert_true(heeded > scene_count);
+    (void)state;
+}
+
 /* Off and on again between steps: its counter stands still while it is off, and
    the others' does not.                                                      */
 static void test_switching_between_steps(void **state)
@@ -788,6 +811,7 @@ int main(void)
         cmocka_unit_test(test_net),
         cmocka_unit_test(test_off_is_unlisted),
         cmocka_unit_test(test_any_mark),
+        cmocka_unit_test(test_any_stiffness),
         cmocka_unit_test(test_switching_between_steps),
         cmocka_unit_test(test_unlisted_costs_nothing),
         cmocka_unit_test(test_lists),

@@ -197,6 +197,16 @@ static void add_marked(const problem *p)
             add_setting(degrees[i], GVI_GAUSS, GVI_POSITIONS, tolerances[k])->scene = p->marked;
 }
 
+/* What the scene says of its stiff springs is said.                                           */
+static void add_stiff(void)
+{
+    static const int degrees[] = { 8, 7, 6, 10, 12, 16 };
+    static const double tolerances[] = { 1e-12, 0, 1e-15, 1e-14, 1e-13, 1e-10, 1e-8, 1e-6 };
+    for (int i = 0; i < COUNT(degrees); ++i)
+        for (int k = 0; k < COUNT(tolerances); ++k)
+            add_setting(degrees[i], GVI_GAUSS, GVI_POSITIONS, tolerances[k])->stiff = 1;
+}
+
 /* Kepler's ellipses with a clock.                                                             */
 static void add_clocks(const problem *p)
 {
@@ -227,6 +237,7 @@ static void settings_for(const problem *p)
     if (!p->slope) add_kicks();
     if (p->clocks[0]) add_clocks(p);
     if (p->marked) add_marked(p);
+    if (p->stiffness) add_stiff();
 }
 
 static curve *new_curve(study *y, const char *family, int ours, int structure)

@@ -111,27 +111,30 @@ static int inertia_gradient(const gvi_points *x, void *)
 
 // ---- cases
 
-struct kind { const char *name; gvi_formulation f; gvi_mass_kind mass; };
+struct kind { const char *name; gvi_formulation f; gvi_mass_kind mass; bool springs; };
 
 static const kind kinds[] = {
-    { "explicit, unit mass", GVI_EXPLICIT, GVI_MASS_UNIT },
-    { "explicit, diagonal mass", GVI_EXPLICIT, GVI_MASS_DIAGONAL },
-    { "positions, unit mass", GVI_POSITIONS, GVI_MASS_UNIT },
-    { "positions, diagonal mass", GVI_POSITIONS, GVI_MASS_DIAGONAL },
-    { "positions, full mass", GVI_POSITIONS, GVI_MASS_DENSE },
-    { "velocities, unit mass", GVI_VELOCITIES, GVI_MASS_UNIT },
-    { "velocities, diagonal mass", GVI_VELOCITIES, GVI_MASS_DIAGONAL },
-    { "velocities, full mass", GVI_VELOCITIES, GVI_MASS_DENSE },
-    { "momenta, unit mass", GVI_MOMENTA, GVI_MASS_UNIT },
-    { "momenta, diagonal mass", GVI_MOMENTA, GVI_MASS_DIAGONAL },
-    { "momenta, full mass", GVI_MOMENTA, GVI_MASS_DENSE },
-    { "momenta, M(q)", GVI_MOMENTA, GVI_MASS_POSITION } };
+    { "explicit, unit mass", GVI_EXPLICIT, GVI_MASS_UNIT, false },
+    { "explicit, diagonal mass", GVI_EXPLICIT, GVI_MASS_DIAGONAL, false },
+    { "positions, unit mass", GVI_POSITIONS, GVI_MASS_UNIT, false },
+    { "positions, diagonal mass", GVI_POSITIONS, GVI_MASS_DIAGONAL, false },
+    { "positions, full mass", GVI_POSITIONS, GVI_MASS_DENSE, false },
+    { "positions, unit mass, k", GVI_POSITIONS, GVI_MASS_UNIT, true },
+    { "positions, diagonal, k", GVI_POSITIONS, GVI_MASS_DIAGONAL, true },
+    { "velocities, diagonal, k", GVI_VELOCITIES, GVI_MASS_DIAGONAL, true },
+    { "velocities, unit mass", GVI_VELOCITIES, GVI_MASS_UNIT, false },
+    { "velocities, diagonal mass", GVI_VELOCITIES, GVI_MASS_DIAGONAL, false },
+    { "velocities, full mass", GVI_VELOCITIES, GVI_MASS_DENSE, false },
+    { "momenta, unit mass", GVI_MOMENTA, GVI_MASS_UNIT, false },
+    { "momenta, diagonal mass", GVI_MOMENTA, GVI_MASS_DIAGONAL, false },
+    { "momenta, full mass", GVI_MOMENTA, GVI_MASS_DENSE, false },
+    { "momenta, M(q)", GVI_MOMENTA, GVI_MASS_POSITION, false } };
 
 // the most of a step; of one of the first, which make tables; of one that was begun again, because the
 // extrapolated values led nowhere; of one that failed
 struct outcome { unsigned long most, first, again, failed; };
 
-static counted matrix[MOST_N*MOST_N], corners[MOST_S + 1], weights[MOST_S + 1];
+static counted stiffness[MOST_N], matrix[MOST_N*MOST_N], corners[MOST_S + 1], weights[MOST_S + 1];
 static const gvi_effect effects[] = {
     { GVI_POTENTIAL, chain, 0, 0, 0, 0 },
     { GVI_FORCE, friction, 0, 0, 0, 0 } };
@@ -142,6 +145,7 @@ static gvi_desc describe(const kind &k, int n, int s, int r, int N)
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j)
             matrix[i*n + j] = i == j || k.mass == GVI_MASS_DIAGONAL ? REAL(2 + j) : REAL(0.125);
+    for (int i = 0; i < n; ++i) stiffness[i] = REAL(1 + i);
     for (int j = 0; j < r; ++j) {
         corners[j] = REAL(j)/REAL(r > 1 ? r - 1 : 1);
         weights[j] = 1/REAL(r);
@@ -160,6 +164,7 @@ static gvi_desc describe(const kind &k, int n, int s, int r, int N)
     d.effect_count = k.f >= GVI_VELOCITIES ? 2 : 1;
     d.formulation = k.f;
     d.iterations = N;
+    if (k.springs) d.stiffness = stiffness;
     return d;
 }
 
@@ -189,7 +194,9 @@ struct summary { int cases, bad, again, failed; double least, most; };
 static void judge(const kind &k, int n, int s, int r, int N, bool list, summary *sum)
 {
     const outcome x = perform(describe(k, n, s, r, N));
-    const double bound = flops_of_step(k.f, k.mass, n, r, N), more = flops_of_new_h(r);
+    const bool springs = GVI__STIFF && k.springs;
+    const double bound = flops_of_step(k.f, k.mass, n, r, N) + springs*flops_of_springs(n, r);
+    const double more = flops_of_new_h(r) + springs*n*flops_of_spring_tables(r);
     const double ratio = bound/double(x.most);
     const bool bad = !(ratio >= 1 && ratio <= 2.5) || double(x.first) > bound + more
                      || double(x.again) > 2*bound || double(x.failed) > 4*bound;

@@ -12,6 +12,7 @@ static gvi_desc describe(const problem *p, const gvi_setting *g)
                       .formulation = g->formulation, .tolerance = g->tolerance };
     desc.rule.nodes = g->nodes;
     desc.rule.weights = g->weights;
+    if (g->stiff) desc.stiffness = p->stiffness;
     if (g->scene) {
         desc.effects = g->scene;
         desc.effect_count = 2;
@@ -27,6 +28,7 @@ void gvi_setting_name(const gvi_setting *g, int size, char *name)
     char points[24] = "", tolerance[24] = "", clock[24] = "";
     if (g->points) snprintf(points, sizeof points, ", r = %d", g->points);
     if (g->tolerance > 0) snprintf(tolerance, sizeof tolerance, ", tol %.0e", g->tolerance);
+    if (g->stiff) how = "stiffness";
     if (g->power > 0) { snprintf(clock, sizeof clock, ", clock %g", g->power); how = ""; }
     else if (g->scene) { snprintf(clock, sizeof clock, ", marked"); how = ""; }
     snprintf(name, (size_t)size, "s = %d%s%s%s%s%s%s", g->degree, rule, points, clock, tolerance,

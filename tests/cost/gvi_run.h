@@ -16,6 +16,7 @@ typedef struct gvi_setting {
     const gvi_effect *scene;           /* not NULL: two effects, the second a clock or weak    */
     double          power;             /* of the distance, the clock; 0: there is none         */
     double          tau;               /* of the whole way                                     */
+    int             stiff;             /* desc.stiffness is given                              */
 } gvi_setting;
 
 typedef struct gvi_result {

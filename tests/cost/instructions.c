@@ -1,4 +1,4 @@
-/* instructions.c - five fixed runs, whose work tests/tools/instructions.sh counts
+/* instructions.c - six fixed runs, whose work tests/tools/instructions.sh counts
 
      instructions --compiler     which one made this program, for which machine
      instructions --counts       all runs: name, steps, points evaluated, iterations
@@ -10,6 +10,9 @@
 #define GVI_IMPLEMENTATION
 #include "gvi.h"
 #include "solar.h"
+
+static double omega = 50;
+#include "../fermi_pasta_ulam.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -165,6 +168,7 @@ static const gvi_effect kepler_scene[] = { { .kind = GVI_POTENTIAL, .points = at
 static const gvi_effect solar_scene[] = { { .kind = GVI_POTENTIAL, .points = gravitation } };
 static const gvi_effect pendulum_scene[] = { { .kind = GVI_POTENTIAL, .points = weight } };
 static const gvi_effect well_scene[] = { { .kind = GVI_POTENTIAL, .points = well } };
+static const gvi_effect chain_scene[] = { { .kind = GVI_POTENTIAL, .points = fermi_pasta_ulam_forces } };
 static const gvi_effect clock_scene[] = {
     { .kind = GVI_POTENTIAL, .points = attraction, .value = attraction },
     { .kind = GVI_CLOCK, .points = distance } };
@@ -173,6 +177,8 @@ static const gvi_effect clock_scene[] = {
 static const double kepler_q[] = { 0.4, 0 }, kepler_v[] = { 0, 2 };
 static const double pendulum_q[] = { 1.1, -1.1 }, pendulum_p[] = { 2.7746, 2.7746 };
 static const double well_q[] = { 0, 0.1 }, well_v[] = { 0.49, 0 };
+static const double chain_q[] = { 1, 0, 0, 0.02, 0, 0 }, chain_v[] = { 1, 0, 0, 1, 0, 0 };
+static const double chain_k[] = { 0, 0, 0, 2500, 2500, 2500 };
 static const double far_q[] = { 0.1, 0 }, far_v[] = { 0, 4.358898943540674 };
 
 typedef struct run {
@@ -198,6 +204,8 @@ static const run runs[] = {
       .rule = { .kind = GVI_KICKS, .points = 4, .nodes = corners, .weights = kicks } },
       well_q, well_v, 0.1, 20000 },
     { "clock", { .n = 2, .degree = 8, SCENE(clock_scene) }, far_q, far_v, 0.1, 1000 },
+    { "springs", { .n = 6, .degree = 8, SCENE(chain_scene), .formulation = GVI_POSITIONS, .stiffness = chain_k },
+      chain_q, chain_v, 0.05, 1000 },
 };
 
 /* What callgrind collects, called through a pointer that no compiler sees through              */

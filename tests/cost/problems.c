@@ -457,6 +457,7 @@ static int pendulum_mass(const gvi_points *x, void *user)
 /* Three stiff springs, frequency 50, between soft quartic ones [GNI, I.5.1]; q = centres and
    lengths of the stiff springs.                                                               */
 #define STIFF 2500.0
+static const double fpu_stiffness[6] = { 0, 0, 0, STIFF, STIFF, STIFF };
 static const double fpu_q[8] = { 1, 0, 0, 0x1.47ae147ae147bp-6 }, fpu_v[8] = { 1, 0, 0, 1 };
 
 static long double fpu_energy(const double *q, const double *v)
@@ -606,10 +607,12 @@ const problem problems[] = {
       SCENE(pendulum_scene), .evaluations = 3e3, .limit = 12 },
     { .key = "P6", .title = "Fermi-Pasta-Ulam, frequency 50, t = 200", .n = 6, .end = 200,
       .q = fpu_q, .v = fpu_v, .reference = reference_P6, .energy = fpu_energy,
-      .acceleration = fpu_acceleration, SCENE(fpu_scene), .evaluations = 1e4, .limit = 16 },
+      .acceleration = fpu_acceleration, SCENE(fpu_scene), .stiffness = fpu_stiffness,
+      .evaluations = 1e4, .limit = 16 },
     { .key = "P6b", .title = "Fermi-Pasta-Ulam, frequency 50, t = 50", .n = 6, .end = 50,
       .q = fpu_q, .v = fpu_v, .reference = reference_P6b, .energy = fpu_energy,
-      .acceleration = fpu_acceleration, SCENE(fpu_scene), .evaluations = 2500, .limit = 3 },
+      .acceleration = fpu_acceleration, SCENE(fpu_scene), .stiffness = fpu_stiffness,
+      .evaluations = 2500, .limit = 3 },
     { .key = "P7", .title = "Chain of 100, t = 100", .n = LINKS, .end = 100,
       .q = start_P7, .v = chain_v, .reference = reference_P7, .energy = chain_energy,
       .acceleration = chain_acceleration, SCENE(chain_scene), .evaluations = 100, .limit = 2 },
