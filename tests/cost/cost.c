@@ -201,7 +201,7 @@ static void add_marked(const problem *p)
 static void add_stiff(void)
 {
     static const int degrees[] = { 8, 7, 6, 10, 12, 16 };
-    static const double tolerances[] = { 1e-12, 0, 1e-15, 1e-14, 1e-13, 1e-10, 1e-8, 1e-6 };
+    static const double tolerances[] = { 1e-12, 0, 1e-16, 1e-15, 1e-14, 1e-13, 1e-10, 1e-8, 1e-6 };
     for (int i = 0; i < COUNT(degrees); ++i)
         for (int k = 0; k < COUNT(tolerances); ++k)
             add_setting(degrees[i], GVI_GAUSS, GVI_POSITIONS, tolerances[k])->stiff = 1;

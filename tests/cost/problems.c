@@ -581,7 +581,7 @@ static const gvi_effect chain_scene[] = { { .kind = GVI_POTENTIAL, .points = cha
 #define SCENE(s) .effects = s, .effect_count = COUNT(s)
 
 #define KEPLER_CLOCKS(e, turns) \
-    .clocks = { kepler_clock_1, kepler_clock_32 }, .eccentricity = e, .revolutions = turns
+    .clocks = { kepler_clock_32, kepler_clock_1 }, .eccentricity = e, .revolutions = turns
 
 /* Ends: 100 and 20 revolutions of 2 pi; 548 years; times.                                     */
 const problem problems[] = {

@@ -320,6 +320,70 @@ static void fermi_pasta_ulam(const char *folder)
     }
 }
 
+/* ------------------------------------------------------------ stiffness told */
+
+enum { STARTS = 12, LONG_RUN = 65536 };
+static const double frequencies[6] = { 0, 0, 0, 2500, 2500, 2500 };
+
+/* H with the rests of q and p, in long double                                     */
+static long double exact_energy(const gvi_stepper *st)
+{
+    long double q[6], p[6], E = 0;
+    for (int j = 0; j < 2*M; ++j) {
+        q[j] = (long double)st->q[j] + st->x.qe[j];
+        p[j] = (long double)st->p[j] + st->x.pe[j];
+        E += p[j]*p[j]/2 + (long double)frequencies[j]*q[j]*q[j]/2;
+    }
+    for (int j = 0; j <= M; ++j) {
+        const long double u = (j < M ? q[j] - q[M + j] : 0) - (j > 0 ? q[j - 1] + q[M + j - 1] : 0);
+        E += u*u*u*u/4;
+    }
+    return E;
+}
+
+typedef struct drift { double mean, error, rounds; } drift;
+
+/* Degree 8, h omega = 1.5: the energy's change in EPS, over STARTS starts that differ a little */
+static drift energy_drift(const double *told, double tolerance)
+{
+    static double memory[GVI_LENGTH(6, 8, 8)];
+    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = fermi_pasta_ulam_forces } };
+    const gvi_desc desc = { .n = 2*M, .effects = scene, .effect_count = 1, .tolerance = tolerance,
+                            .formulation = GVI_POSITIONS, .stiffness = told };
+    drift z = { 0, 0, 0 };
+    for (int i = 0; i < STARTS; ++i) {
+        const double q[6] = { 1, i*0.001, 0, 1/omega, 0, 0 }, p[6] = { 1, 0, i*i*0.01, 1, 0, 0 };
+        gvi_stepper st;
+        must(gvi_init(&st, &desc, memory, sizeof memory));
+        must(gvi_start_momentum(&st, 0, q, p));
+        const long double E0 = exact_energy(&st);
+        for (long k = 0; k < LONG_RUN; ++k) must(gvi_step(&st, 0.03));
+        const double change = (double)((exact_energy(&st)/E0 - 1)/DBL_EPSILON);
+        z.mean += change/STARTS;
+        z.error += change*change;
+        z.rounds += (double)st.counters.iterations/((double)LONG_RUN*STARTS);
+        progress("told", i + 1, STARTS);
+    }
+    z.error = sqrt((z.error/STARTS - z.mean*z.mean)/(STARTS - 1));
+    return z;
+}
+
+/* Rows that are wrong by half a last place, at random, change the energy of the springs by about
+   h omega/14 EPS of itself a step, H by half of that: 14 EPS in LONG_RUN steps, the mean of
+   STARTS of them by 4.  A bias of a thousandth of an EPS a step would be 65             */
+static void stiffness_told(void)
+{
+    static const double tolerances[] = { 0, 1e-15 };
+    for (int i = 0; i < COUNT(tolerances); ++i) {
+        const drift untold = energy_drift(NULL, tolerances[i]), told = energy_drift(frequencies, tolerances[i]);
+        printf("  tolerance %g: %.1f rounds a step, energy %+.0f +- %.0f EPS; told %.1f rounds, %+.0f +- %.0f EPS\n",
+               tolerances[i], untold.rounds, untold.mean, untold.error, told.rounds, told.mean, told.error);
+        if (i == 0) expect("told: mean change of energy, EPS", -90, told.mean, 90);
+        if (i == 0) expect("told: rounds over those untold", 0.2, told.rounds/untold.rounds, 0.6);
+        if (i == 1) expect("told, a tolerance: change of energy over that untold", 0, fabs(told.mean/untold.mean), 0.1);
+    }
+}
+
 int main(int argc, char **argv)
 {
     printf("Stiff double pendulum, 131072 steps of 2^-7\n");
@@ -330,5 +394,7 @@ int main(int argc, char **argv)
     against_irk_newton(4096);
     printf("Fermi-Pasta-Ulam chain, omega = 50\n");
     fermi_pasta_ulam(argc > 1 ? argv[1] : NULL);
+    printf("The same, degree 8, h omega = 1.5, %d steps from %d starts: desc.stiffness\n", LONG_RUN, STARTS);
+    stiffness_told();
     return verdict("stiff");
 }
