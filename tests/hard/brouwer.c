@@ -34,33 +34,14 @@ static long double energy_of_pendulum(const long double *q, const long double *p
     return pendulum_energy_at(q[0], q[1], p[0], p[1]);
 }
 
-static long double solar_energy(const long double *q, const long double *p)
-{
-    long double E = 0;
-    for (int i = 0; i < BODIES; ++i) {
-        const long double *a = q + 3*i, *u = p + 3*i;
-        E += (u[0]*u[0] + u[1]*u[1] + u[2]*u[2])/(2*(long double)mass_of[3*i]);
-        for (int j = 0; j < i; ++j) {
-            const long double *c = q + 3*j, x = a[0] - c[0], y = a[1] - c[1], z = a[2] - c[2];
-            E -= (long double)(gm[i]*gm[j])/sqrtl(x*x + y*y + z*z);
-        }
-    }
-    return E;
-}
-
 /* --------------------------------------------------------------------- a run */
 
 static double error[STARTS][TIMES + 1], slope[STARTS];
 
-/* With what rounding left of q and p, which the stepper carries: else reading the energy
-   would be as wrong as some 1000 steps                                        */
 static long double energy_of(const system_ *a, const gvi_stepper *st)
 {
     long double q[MOST], p[MOST];
-    for (int i = 0; i < st->n; ++i) {
-        q[i] = (long double)st->q[i] + (long double)st->x.qe[i];
-        p[i] = (long double)st->p[i] + (long double)st->x.pe[i];
-    }
+    read_state(st, q, p);
     return a->energy(q, p);
 }
 
@@ -123,7 +104,7 @@ int main(int argc, char **argv)
                                                                    (real)2.7746 }, 1 << 17, energy_of_pendulum };
     system_ planets = { "outer solar system", { .n = 18, .degree = 8, .effects = attracting,
                                                 .effect_count = 1 },
-                        single ? 200 : 100, { 0 }, { 0 }, 1 << 15, solar_energy };
+                        single ? 200 : 100, { 0 }, { 0 }, 1 << 15, planets_energy };
     pendulum.desc.mass = pendulum_inertia;
     planets.desc.mass = (gvi_mass){ .kind = GVI_MASS_DIAGONAL, .matrix = mass_of };
     read_planets(planets.q, planets.p);

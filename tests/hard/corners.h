@@ -1,4 +1,4 @@
-/* corners.h - scenes of corners.c and, in float, single.c: attraction in any unit, springs, a top
+/* corners.h - scenes of corners.c and, in float, single.c: attraction in any unit, a top
 
    Functions of the type of their argument: <tgmath.h>.                                     */
 #ifndef HARD_CORNERS_H
@@ -21,15 +21,6 @@ static int attraction_in_units(const gvi_points *x, void *user)
         x->f[k] += w*X;
         x->f[x->stride + k] += w*Y;
     }
-    return 0;
-}
-
-/* A spring to 0 for each coordinate; user: real[n], their stiffness */
-static int springs(const gvi_points *x, void *user)
-{
-    const real *stiff = user;
-    for (int i = 0; i < x->n; ++i)
-        for (int k = 0; k < x->count; ++k) x->f[i*x->stride + k] -= stiff[i]*x->q[i*x->stride + k];
     return 0;
 }
 

@@ -1,7 +1,8 @@
 /* hard.h - what the long studies of docs/hard-cases.md share
 
    gvi.h, a number of bounds that are met or missed, progress on stderr where it is
-   a terminal, random numbers that are the same everywhere, and straight lines.  */
+   a terminal, random numbers that are the same everywhere, straight lines, springs, and
+   a state with all its digits.                                                  */
 #ifndef HARD_H
 #define HARD_H
 
@@ -79,6 +80,25 @@ HARD_MAYBE double slope_of(int n, const double *x, const double *y, double *erro
     }
     if (error) *error = sqrt(rest/(n - 2)/sxx);
     return sxy/sxx;
+}
+
+/* A spring to 0 for each coordinate; user: real[n], their stiffness */
+HARD_MAYBE int springs(const gvi_points *x, void *user)
+{
+    const real *stiff = user;
+    for (int i = 0; i < x->n; ++i)
+        for (int k = 0; k < x->count; ++k) x->f[i*x->stride + k] -= stiff[i]*x->q[i*x->stride + k];
+    return 0;
+}
+
+/* q and p with what rounding left of them, which the stepper carries: else reading an
+   energy would be as wrong as some 1000 steps                                 */
+HARD_MAYBE void read_state(const gvi_stepper *st, long double *q, long double *p)
+{
+    for (int i = 0; i < st->n; ++i) {
+        q[i] = (long double)st->q[i] + (long double)st->x.qe[i];
+        p[i] = (long double)st->p[i] + (long double)st->x.pe[i];
+    }
 }
 
 #endif

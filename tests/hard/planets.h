@@ -1,4 +1,4 @@
-/* planets.h - the outer solar system of brouwer.c and single.c: six bodies, masses times G */
+/* planets.h - the outer solar system of brouwer.c, drift.c and single.c: six bodies, masses times G */
 #ifndef HARD_PLANETS_H
 #define HARD_PLANETS_H
 
@@ -25,6 +25,20 @@ static int gravity(const gvi_points *x, void *user)
                 g[0] -= s*u;  g[d] -= s*v;  g[2*d] -= s*w;
             }
     return 0;
+}
+
+HARD_MAYBE long double planets_energy(const long double *q, const long double *p)
+{
+    long double E = 0;
+    for (int i = 0; i < BODIES; ++i) {
+        const long double *a = q + 3*i, *u = p + 3*i;
+        E += (u[0]*u[0] + u[1]*u[1] + u[2]*u[2])/(2*(long double)mass_of[3*i]);
+        for (int j = 0; j < i; ++j) {
+            const long double *c = q + 3*j, x = a[0] - c[0], y = a[1] - c[1], z = a[2] - c[2];
+            E -= (long double)(gm[i]*gm[j])/sqrtl(x*x + y*y + z*z);
+        }
+    }
+    return E;
 }
 
 /* examples/outer_solar_system.txt, moved to the centre of mass; sets gm and mass_of */
