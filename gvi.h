@@ -107,7 +107,7 @@
               gvi_velocity, gvi_energy: 1, with Lagrangian terms 40(12n+1).
               gvi_state_at: as a step; with a clock, 60 of them.
               Floating-point operations of a step of N iterations, callbacks apart:
-              (N+2)(K n R (2r+16) + 30) + 30 K n r + 80 n at most, R = r below 5 points,
+              (N+2)(K n R (2r+18) + 30) + 30 K n r + 120 n at most, R = r below 5 points,
               else the next multiple of 8, K = 1 for positions, 2 for velocities and
               momenta; full M: 2n^2 ((N+2) K R + 3) more; M(q): (N+1) r (n^3/2 + 6n^2).
               Explicit: 10n(r+1) + 32n + 8r + 16.  A new h: 6r^3 + 4(r+10)rR + 70r + 60
@@ -3137,12 +3137,12 @@ static gvi_real gvi__dot(int r, const gvi_real *a, const gvi_real *b)
 }
 
 /* One set of rows of (3), (4) or (5):
-   row_i := base_i + (extra_i + factor*(c slope_i + M^-1 (table (h b f_i) - minus (b a_i))))
-   slope, minus may be NULL; M^-1 if over_mass.                                */
+   row_i := base_i + (extra_i + c (path_i + rest_i) + factor*(M^-1 (table (h b f_i) - minus (b a_i))))
+   path, minus may be NULL; M^-1 if over_mass.                                 */
 struct gvi__stage;
 typedef gvi_real gvi__kernel(gvi_stepper *st, const struct gvi__stage *y);   // returns the change: below
 typedef struct gvi__stage {
-    const gvi_real *base, *extra, *slope, *table, *f, *minus;
+    const gvi_real *base, *extra, *path, *rest, *table, *f, *minus;
     gvi_real        factor, *rows, *scale;
     int             over_mass, by_due;      // M^-1; beside stiffness, see gvi__spring_rows_of
     gvi__kernel    *kernel;
@@ -3265,11 +3265,12 @@ static inline gvi_real gvi__sum_lanes(const gvi_real *z)
     return ((z[0] + z[4]) + (z[1] + z[5])) + ((z[2] + z[6]) + (z[3] + z[7]));
 }
 
-/* What gvi__stage_rows_of puts into a row: row := base + ((extra + c a) + b (m z)), so
-   that little waits for z.  b m is two products: h times 1/m, rounded once, would be the
+/* What gvi__stage_rows_of puts into a row: row := base + (((extra + c rest) + c a) + b (m z)),
+   so that little waits for z.  b m is two products: h times 1/m, rounded once, would be the
    inverse of another mass in every step than the one that makes v of p, the map no
-   longer symplectic, and energy would drift.                                  */
-typedef struct gvi__affine { gvi_real base, extra, a, b, m; } gvi__affine;
+   longer symplectic, and energy would drift.  So it would without the rest of a = h v, if
+   h has a short period in binary, as 0.1 has.                                 */
+typedef struct gvi__affine { gvi_real base, extra, rest, a, b, m; } gvi__affine;
 
 // 1/m of a stage over a diagonal mass, else NULL
 static inline const gvi_real *gvi__diagonal(const gvi_stepper *st, const gvi__stage *y)
@@ -3282,19 +3283,21 @@ GVI__COPY gvi__affine gvi__affine_of(const gvi__stage *y, const gvi_real *diagon
     gvi__affine p;
     p.base = y->base[i];
     p.extra = y->extra[i];
-    p.a = y->slope ? y->factor*y->slope[i] : 0;
+    p.a = y->path ? y->path[i] : 0;
+    p.rest = y->path ? y->rest[i] : 0;
     p.b = y->factor;
     p.m = diagonal ? diagonal[i] : 1;
     return p;
 }
 
-// row := base + ((extra + c a) + b (m row))
+// row := base + (((extra + c rest) + c a) + b (m row))
 GVI__APART void gvi__affine_row(const gvi_stepper *st, const gvi__stage *y, int i, gvi_real *row)
 {
     const struct gvi__private *x = &st->x;
     const gvi__affine p = gvi__affine_of(y, gvi__diagonal(st, y), i);
     const gvi_real *c = x->c;
-    for (int k = 0; k < x->stride; ++k) row[k] = p.base + ((p.extra + c[k]*p.a) + row[k]*p.m*p.b);
+    for (int k = 0; k < x->stride; ++k)
+        row[k] = p.base + (((p.extra + c[k]*p.rest) + c[k]*p.a) + row[k]*p.m*p.b);
 }
 
 /* The rows of a stage, M^-1 being a number for each.  Returns the sum of the squares
@@ -3332,7 +3335,8 @@ GVI__COPY gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stage *y
                         z -= less;
                     }
                     if (diagonal) z *= p.m;
-                    next[k] = p.base + ((p.extra + GVI__AT(c + at)*p.a) + z*p.b);
+                    const gvi__vector at_c = GVI__AT(c + at);
+                    next[k] = p.base + (((p.extra + at_c*p.rest) + at_c*p.a) + z*p.b);
                 }
                 if (last < 8)
                     gvi__rescale(p.base, row[last], next[last/GVI__LANES][last % GVI__LANES], y->scale + i);
@@ -3360,7 +3364,8 @@ GVI__COPY gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stage *y
             gvi__sum_block(r, R, block, y->table + o, L, z);
             if (minus) gvi__sum_block(r, R, block, minus + o, x->less, less);
             for (int k = 0; k < block; ++k)
-                z[k] = p.base + ((p.extra + c[k + o]*p.a) + (minus ? z[k] - less[k] : z[k])*p.m*p.b);
+                z[k] = p.base + (((p.extra + c[k + o]*p.rest) + c[k + o]*p.a)
+                                 + (minus ? z[k] - less[k] : z[k])*p.m*p.b);
             if (last < block) gvi__rescale(p.base, row[last], z[last], y->scale + i);
             for (int k = 0; k < block; ++k) {
                 const gvi_real moved = (z[k] - row[k])*y->scale[i];
@@ -3397,7 +3402,7 @@ GVI__COPY gvi_real gvi__stage_rows_8(const gvi_stepper *st, const gvi__stage *y,
     enum { VECTORS = 8/GVI__LANES };
     const struct gvi__private *x = &st->x;
     const gvi_real *diagonal = gvi__diagonal(st, y);
-    const gvi_real *base = y->base, *extra = y->extra, *slope = y->slope, *f = y->f, factor = y->factor;
+    const gvi_real *base = y->base, *extra = y->extra, *path = y->path, *f = y->f, factor = y->factor;
     const int n = st->n;
     gvi_real *row = y->rows, *scale = y->scale, lane[8], ahead[64];
     gvi__vector kept[8], c[VECTORS], hb[VECTORS], squares[VECTORS] = { { 0 } };
@@ -3410,12 +3415,12 @@ GVI__COPY gvi_real gvi__stage_rows_8(const gvi_stepper *st, const gvi__stage *y,
         if (i % 8 == 0)
             for (int o = 0; o < 64 && o < 8*(n - i); o += GVI__LANES, f += GVI__LANES)
                 *(gvi__vector *)(ahead + o) = hb[o/GVI__LANES % VECTORS]*GVI__AT(f);
-        const gvi_real a = slope ? factor*slope[i] : 0;
+        const gvi_real a = path ? path[i] : 0, rest = path ? y->rest[i] : 0;
         gvi__vector next[VECTORS];
         for (int k = 0; k < VECTORS; ++k) {
             gvi__sum_vector(r, 8, table + k*GVI__LANES, ahead + i % 8*8, next + k);
             if (diagonal) next[k] *= diagonal[i];
-            next[k] = base[i] + ((extra[i] + c[k]*a) + next[k]*factor);
+            next[k] = base[i] + (((extra[i] + c[k]*rest) + c[k]*a) + next[k]*factor);
         }
         gvi__rescale(base[i], row[r - 1], next[(r - 1)/GVI__LANES][(r - 1) % GVI__LANES], scale + i);
         for (int k = 0; k < VECTORS; ++k) {
@@ -3468,7 +3473,8 @@ GVI__COPY gvi_real gvi__spring_rows_of(const gvi_stepper *st, const gvi__stage *
             gvi__sum_row(r, R, y->table, L, next);
             if (minus) gvi__weighted_sums(st, minus, x->b, x->work.A + i*R, away);
             for (int j = 0; minus && j < R; ++j) next[j] -= away[j];
-            for (int j = 0; j < R; ++j) next[j] = p.base + ((p.extra + x->c[j]*p.a) + next[j]*p.m*p.b);
+            for (int j = 0; j < R; ++j)
+                next[j] = p.base + (((p.extra + x->c[j]*p.rest) + x->c[j]*p.a) + next[j]*p.m*p.b);
             for (int j = 0; j < R; ++j) L[j] = x->hb[j]*(-k*(next[j] - row[j]));
             if (gvi__nonzero(k)) gvi__sum_row(r, R, solve, L, away);
             for (int j = 0; gvi__nonzero(k) && j < R; ++j) next[j] += away[j]*p.m*p.b;
@@ -3491,7 +3497,7 @@ GVI__COPY gvi_real gvi__spring_rows_vector(const gvi_stepper *st, const gvi__sta
     enum { MOST = 16/GVI__LANES, EIGHT = 8/GVI__LANES };
     const struct gvi__private *x = &st->x;
     const gvi_real *diagonal = gvi__diagonal(st, y), *springs = x->k, *which = x->which;
-    const gvi_real *base = y->base, *extra = y->extra, *slope = y->slope, factor = y->factor;
+    const gvi_real *base = y->base, *extra = y->extra, factor = y->factor;
     const int n = st->n, vectors = R/GVI__LANES, by_due = y->by_due;
     gvi_real *row = y->rows, *F = x->work.F, *due = x->due, *scale = y->scale, lane[8], ahead[64], ask[16];
     gvi__vector kept[8], c[MOST], hb[MOST], squares[EIGHT] = { { 0 } };
@@ -3507,7 +3513,7 @@ GVI__COPY gvi_real gvi__spring_rows_vector(const gvi_stepper *st, const gvi__sta
                 if (by_due) dF -= GVI__AT(due + o);                // due is 0 where k is
                 *(gvi__vector *)(ahead + o) = hb[o/GVI__LANES % vectors]*dF;
             }
-        const gvi_real a = slope ? factor*slope[i] : 0, k = springs[i];
+        const gvi_real a = y->path[i], rest = y->rest[i], k = springs[i];
         const gvi_real *solve = x->solve + (size_t)which[i]*(size_t)(R*r);
         const int stiff = gvi__nonzero(k);
         gvi__vector next[MOST], z;
@@ -3515,7 +3521,7 @@ GVI__COPY gvi_real gvi__spring_rows_vector(const gvi_stepper *st, const gvi__sta
             gvi__sum_vector(r, R, (by_due && stiff ? solve : table) + v*GVI__LANES, ahead + i*R % 64, &z);
             if (diagonal) z *= diagonal[i];
             if (by_due && stiff) next[v] = GVI__AT(row + v*GVI__LANES) + z*factor;
-            else next[v] = base[i] + ((extra[i] + c[v]*a) + z*factor);
+            else next[v] = base[i] + (((extra[i] + c[v]*rest) + c[v]*a) + z*factor);
         }
         for (int v = 0; !by_due && stiff && v < vectors; ++v)
             *(gvi__vector *)(ask + v*GVI__LANES) = hb[v]*(-k*(next[v] - GVI__AT(row + v*GVI__LANES)));
@@ -3703,13 +3709,13 @@ static void gvi__velocity_rows(gvi_stepper *st)
 
 #define GVI__STAGES (GVI__VELOCITIES || GVI__MOMENTA ? 2 : 1)       // of an iteration, at most
 
-static void gvi__stage_set(gvi__stage *y, const gvi_real *base, const gvi_real *extra, const gvi_real *slope,
+static void gvi__stage_set(gvi__stage *y, const gvi_real *base, const gvi_real *extra, const gvi_real *path,
                            const gvi_real *table, const gvi_real *f, gvi_real factor, gvi_real *rows,
                            gvi_real *scale)
 {
     y->base = base;
     y->extra = extra;
-    y->slope = slope;
+    y->path = path;
     y->table = table;
     y->f = f;
     y->minus = NULL;
@@ -3731,7 +3737,13 @@ static int gvi__plan(gvi_stepper *st, const gvi__from *from, gvi_real h, gvi__st
         y[0].kernel = y[1].kernel = GVI__SMALL ? NULL : gvi__kernel_of(st, y);
         return 2;
     }
-    gvi__stage_set(y, from->q, from->qe, from->v, x->g, w->F, h, w->Q, x->scale);
+    for (int i = 0; i < st->n; ++i) {              // h (v + ve), where q's increments will be
+        const gvi__two path = gvi__product(h, from->v[i]);
+        x->dq[i] = path.hi;
+        x->dqe[i] = gvi__rest(path.lo + h*from->ve[i]);
+    }
+    gvi__stage_set(y, from->q, from->qe, x->dq, x->g, w->F, h, w->Q, x->scale);
+    y->rest = x->dqe;
     y->minus = gvi__A(w) ? x->T : NULL;
     y->over_mass = 1;
     y->kernel = GVI__SMALL ? NULL : gvi__kernel_of(st, y);
@@ -4009,7 +4021,7 @@ GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const 
     for (int i = 0; i < st->n; ++i) {
         gvi_real *row = out + i*R;
 #ifdef GVI__VECTORS
-        gvi__affine p = { 0, 0, 0, 1, 1 };
+        gvi__affine p = { 0, 0, 0, 0, 1, 1 };
         if (y) p = gvi__affine_of(y, gvi__diagonal(st, y), i);
         for (int o = 0; R % 8 == 0 && o < R; o += GVI__LANES) {
             gvi__vector z, before;
@@ -4018,7 +4030,7 @@ GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const 
                 gvi__sum_vector(r, R, x->E + r*R + o, older + i*R, &before);
                 z += before;
             }
-            if (y) z = p.base + ((p.extra + GVI__AT(x->c + o)*p.a) + z*p.m*p.b);
+            if (y) z = p.base + (((p.extra + GVI__AT(x->c + o)*p.rest) + GVI__AT(x->c + o)*p.a) + z*p.m*p.b);
             *(gvi__vector *)(row + o) = z;
         }
         if (R % 8 == 0) continue;
@@ -4181,15 +4193,16 @@ static inline gvi_real gvi__lever(int r, int R, const gvi_real *c, const gvi_rea
     return gvi__lever_sum(r, c, hb, F);
 }
 
-// dq + dqe := h (v + ve + dq) + qe: h v exactly, h dq is smaller by h omega
+// dq + dqe := h (v + ve + dq) + qe, both products exactly: see gvi__affine
 static inline void gvi__add_path(int n, gvi_real h, const gvi_real *GVI__RESTRICT v,
                                  const gvi_real *GVI__RESTRICT ve, const gvi_real *GVI__RESTRICT qe,
                                  gvi_real *GVI__RESTRICT dq, gvi_real *GVI__RESTRICT dqe)
 {
     for (int i = 0; i < n; ++i) {
-        const gvi__two path = gvi__product(h, v[i]), q = gvi__sum(path.hi, h*(ve[i] + dq[i]));
+        const gvi__two path = gvi__product(h, v[i]), bend = gvi__product(h, dq[i]);
+        const gvi__two q = gvi__sum(path.hi, bend.hi);
         dq[i] = q.hi;
-        dqe[i] = gvi__rest(q.lo + path.lo + qe[i]);
+        dqe[i] = gvi__rest((q.lo + (path.lo + bend.lo)) + (h*ve[i] + qe[i]));
     }
 }
 
