@@ -1665,19 +1665,19 @@ static void gvi__scatter(int n, int stride, const gvi_real *in, gvi_real *rows)
     for (int i = 0; i < n; ++i) rows[i*stride] += in[i];
 }
 
-// the one-point form: gather, call, scatter
-GVI__APART int gvi__point_by_point(gvi_stepper *st, const gvi_effect *e, const gvi_points *x, int *point)
+// the one-point form: gather, call, scatter.  Returns 0, or 1 + the point that was refused
+GVI__APART int gvi__point_by_point(gvi_stepper *st, const gvi_effect *e, const gvi_points *x)
 {
-    const int n = x->n, reads_v = GVI__READS_V && x->v, term = GVI__LAGRANGIAN && x->dldv;
-    gvi_real *q = st->x.one, *v = q + n, *f = v + n, *dldv = f + n;
+    const int n = x->n;
+    gvi_real *q = st->x.one, *f = q + 2*n;
+    gvi_real *v = GVI__READS_V && x->v ? q + n : NULL, *dldv = GVI__LAGRANGIAN && x->dldv ? f + n : NULL;
     for (int k = 0; k < x->count; ++k) {
-        *point = k;
         gvi__gather(n, x->stride, x->q + k, q);
-        if (reads_v) gvi__gather(n, x->stride, x->v + k, v);
+        if (v) gvi__gather(n, x->stride, x->v + k, v);
         gvi__zero(2*(size_t)n, f);                    // and dldv
-        if (e->point(x->t[k], q, reads_v ? v : NULL, f, term ? dldv : NULL, e->user)) return 1;
+        if (e->point(x->t[k], q, v, f, dldv, e->user)) return 1 + k;
         gvi__scatter(n, x->stride, f, x->f + k);
-        if (term) gvi__scatter(n, x->stride, dldv, x->dldv + k);
+        if (dldv) gvi__scatter(n, x->stride, dldv, x->dldv + k);
     }
     return 0;
 }
@@ -1703,12 +1703,17 @@ static gvi_status gvi__value(gvi_stepper *st, gvi_points *x, int e, gvi_real *va
 {
     const gvi_effect *effect = st->x.desc.effects + e;
     if (!effect->value) return gvi__blame(st, GVI_E_VALUE, e);
-    gvi_points y = *x;
-    y.f = y.dldv = NULL;
-    y.value = value;
-    if (effect->kind == GVI_POTENTIAL) y.v = NULL;
-    if (effect->value(&y, effect->user)) return gvi__blame(st, GVI_E_CALLBACK, e);
-    return GVI_OK;
+    const gvi_real *v = x->v;
+    gvi_real *f = x->f, *dldv = x->dldv, *was = x->value;
+    x->f = x->dldv = NULL;
+    x->value = value;
+    if (effect->kind == GVI_POTENTIAL) x->v = NULL;
+    const int refused = effect->value(x, effect->user);
+    x->v = v;
+    x->f = f;
+    x->dldv = dldv;
+    x->value = was;
+    return refused ? gvi__blame(st, GVI_E_CALLBACK, e) : GVI_OK;
 }
 
 /* Asks effect e where it is not one call for all points and no more: one point a
@@ -1720,12 +1725,13 @@ static gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e)
     gvi_real *value = GVI__CLOCK ? x->value : NULL;
     gvi_real *own = value && effect->kind == GVI_LAGRANGIAN ? st->x.less
                   : effect->kind == GVI_FORCE ? NULL : value;
-    int point = GVI_FAULT_NONE, together = own && effect->points && effect->value == effect->points;
+    const int together = own && effect->points && effect->value == effect->points;
     gvi__count(&st->counters.effect[e], x->count);
     x->value = together ? own : NULL;
     const int whole = !GVI__POINT || effect->points;
-    int refused = whole ? effect->points(x, effect->user) : gvi__point_by_point(st, effect, x, &point);
-    gvi_status status = refused ? gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, point) : GVI_OK;
+    const int refused = whole ? effect->points(x, effect->user) : gvi__point_by_point(st, effect, x);
+    gvi_status status = !refused ? GVI_OK : gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE,
+                                                      whole ? GVI_FAULT_NONE : refused - 1);
     if (gvi__diagnoses(st) && status == GVI_OK) {
         status = gvi__check_rows(st, x, x->f, e);
         if (status == GVI_OK && GVI__LAGRANGIAN) status = gvi__check_rows(st, x, x->dldv, e);
@@ -2009,13 +2015,12 @@ static void gvi__at(gvi_points *x, const gvi_stepper *st, const gvi_real *t, con
     x->value = x->mass = x->velocity = NULL;
 }
 
-// d(dL/dv)/dv at one point, n*n, by differences
-static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real *v, gvi_real *W)
+// d(dL/dv)/dv at one point, n*n, by differences, to x.hess + 3n.  x has been evaluated; x->v is v
+static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real *v)
 {
     int n = st->n;
-    gvi_real *base = st->x.hess, *moved = base + n, *P = x->dldv, *f = x->f;
     gvi_real size = gvi__norm1(n, v)/(gvi_real)n;
-    gvi__copy((size_t)n, P, base);
+    gvi__copy((size_t)n, x->dldv, st->x.hess);
     for (int j = 0; j < n; ++j) {
         const gvi_real was = v[j], root = GVI_SQRT(GVI__EPS);
         gvi_real d = 0, next = root*(gvi__nonzero(was) ? GVI_ABS(was) : size);
@@ -2025,36 +2030,32 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real
             v[j] = was + next;
             d = v[j] - was;
             next = 0;
-            x->dldv = moved;
             gvi_status status = gvi__evaluate(st, x, 0);
             v[j] = was;
-            x->dldv = P;
-            x->f = f;
             if (status != GVI_OK) return status;
-            if (!gvi__finite(moved[j])) next = d*root;
-            else if (GVI_ABS(moved[j] - base[j]) < root*GVI_ABS(base[j])/2) next = d/GVI_SQRT(root);
+            const gvi_real moved = x->dldv[j], base = st->x.hess[j];
+            if (!gvi__finite(moved)) next = d*root;
+            else if (GVI_ABS(moved - base) < root*GVI_ABS(base)/2) next = d/GVI_SQRT(root);
         }
-        for (int i = 0; i < n; ++i) W[i*n + j] = (moved[i] - base[i])/d;
+        for (int i = 0; i < n; ++i) st->x.hess[3*n + i*n + j] = (x->dldv[i] - st->x.hess[i])/d;
     }
+    gvi__copy((size_t)n, st->x.hess, x->dldv);
     return GVI_OK;
 }
 
 /* General Legendre transform at one point: Newton's method for dL/dv(v) = p
    from the v given.  Ends when the correction stops shrinking.                */
-static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *p,
-                                       gvi_real *v)
+static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi_real *p, gvi_real *v)
 {
     int n = st->n;
     gvi_real *W = st->x.hess + 3*n, *pivot = W + n*n, *dv = st->x.hess + 2*n;
-    gvi_points x;
-    gvi__at(&x, st, &t, q);
-    x.v = v;
-    const gvi_real *P = x.dldv;
+    x->v = v;
+    const gvi_real *P = x->dldv;
     gvi_real last = GVI__MAX;
     gvi__count(&st->counters.velocities, 1);
     for (int k = 0; k < 40; ++k) {
         gvi_real change = 0;
-        gvi_status status = gvi__evaluate(st, &x, 0);
+        gvi_status status = gvi__evaluate(st, x, 0);
 
         // beyond the domain of L (faster than light): half the way
         if (k > 0 && status == GVI_OK && !gvi__all_finite(n, P)) {
@@ -2064,7 +2065,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_real t, const gvi_re
             }
             continue;
         }
-        if (status == GVI_OK) status = gvi__velocity_hessian(st, &x, v, W);
+        if (status == GVI_OK) status = gvi__velocity_hessian(st, x, v);
         if (status != GVI_OK) return status;
         int at;
         status = gvi__lu_factor(n, W, pivot, &at);
@@ -2102,7 +2103,7 @@ static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, 
         return status == GVI_OK ? gvi__check_rows(st, &x, v, GVI_FAULT_MASS) : status;
     }
     if (gvi__mass_is(st, GVI_MASS_NONE) || gvi__has(st, GVI__HAS_LAGRANGIAN))
-        return gvi__legendre_newton(st, t, q, p, v);
+        return gvi__legendre_newton(st, &x, p, v);
     gvi__copy((size_t)st->n, p, v);
     if (gvi__mass_is(st, GVI_MASS_POSITION)) {
         gvi_status status = gvi__factor_at(st, &x);
@@ -4208,7 +4209,7 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
 /* Newton on (1).  Unknowns y[k*n + i]; the rows are those of (1) times 2k + 1,
    from k0 on: k0 = 0 for a step, 1 for the boundary-value problem.            */
 
-static void gvi__newton_rows(gvi_stepper *st, const gvi__from *from, gvi_real h)
+GVI__APART void gvi__newton_rows(gvi_stepper *st, const gvi__from *from, gvi_real h)
 {
     struct gvi__private *x = &st->x;
     int n = st->n, R = x->stride;
@@ -4540,8 +4541,8 @@ GVI__APART void gvi__add_differences(const gvi_stepper *st, const gvi__matrix *J
 }
 
 // forward differences by one row, coordinate j of Q or V, at all points at once
-GVI__APART gvi_status gvi__difference(gvi_stepper *st, const gvi__matrix *J, const gvi__sites *at, int j,
-                                      int by_v, gvi_real d)
+static gvi_status gvi__difference(gvi_stepper *st, const gvi__matrix *J, const gvi__sites *at, int j,
+                                  int by_v, gvi_real d)
 {
     struct gvi__private *x = &st->x;
     const size_t R = (size_t)at->stride;
@@ -4578,13 +4579,12 @@ GVI__APART gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matr
     struct gvi__private *x = &st->x;
     const unsigned plain = gvi__without_hessian(st);
     const int n = st->n, varies = !gvi__mass_is_constant(&x->desc);
-    const int reads_v = varies || (plain & ~gvi__of_kind(st, GVI_POTENTIAL));
+    const int reads_v = varies || (plain & ~gvi__of_kind(st, GVI_POTENTIAL)) != 0;
     if (!varies && !plain) return GVI_OK;
     gvi_status status = gvi__ask_sites(st, at, x->dF + 2*n*at->stride);
-    const gvi_real h = GVI_ABS(J->h);
-    for (int j = 0; j < n && status == GVI_OK; ++j) {
-        status = gvi__difference(st, J, at, j, 0, gvi__nudge(at, j, h, 0));
-        if (status == GVI_OK && reads_v) status = gvi__difference(st, J, at, j, 1, gvi__nudge(at, j, h, 1));
+    for (int k = 0; k < 2*n && status == GVI_OK; k += 2 - reads_v) {       // of each coordinate q, then v
+        const int j = k/2, by_v = k % 2;
+        status = gvi__difference(st, J, at, j, by_v, gvi__nudge(at, j, GVI_ABS(J->h), by_v));
     }
     return status;
 }
@@ -4604,7 +4604,7 @@ GVI__APART gvi_status gvi__check_regular(gvi_stepper *st)
     y.v = v;
     if (!gvi__has(st, GVI__HAS_LAGRANGIAN)) return gvi__factor_at(st, &y);
     gvi_status status = gvi__evaluate(st, &y, 0);
-    if (status == GVI_OK) status = gvi__velocity_hessian(st, &y, v, W);
+    if (status == GVI_OK) status = gvi__velocity_hessian(st, &y, v);
     if (status != GVI_OK) return status;
     status = gvi__lu_factor(n, W, W + n*n, &at);
     return status == GVI_E_SINGULAR ? gvi__fail(st, status, GVI_FAULT_MASS, at, GVI_FAULT_NONE) : GVI_OK;
@@ -4637,32 +4637,36 @@ static gvi__sites gvi__middle(gvi_stepper *st, gvi_real *t)
     return at;
 }
 
-static gvi_status gvi__jacobian_fill(gvi_stepper *st, const gvi__matrix *J)
+GVI__APART gvi_status gvi__jacobian_fill(gvi_stepper *st, const gvi__matrix *J)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, size = (st->s - J->k0)*n;
     const size_t whole = (size_t)size*(size_t)size, blocks = (size_t)(st->s + 1)*(size_t)n*(size_t)n;
     gvi_real t;
-    const gvi__sites all = { x->t, x->work.Q, x->work.V, st->r, x->stride };
-    const gvi__sites at = gvi__in_blocks(J) ? gvi__middle(st, &t) : all;
+    gvi__sites at = { x->t, x->work.Q, x->work.V, st->r, x->stride };
+    if (gvi__in_blocks(J)) at = gvi__middle(st, &t);
     gvi__zero(gvi__in_blocks(J) ? blocks : whole, J->square);
     if (J->ends) gvi__zero((size_t)size*2*(size_t)n, J->ends);
-    gvi_status status = gvi__check_regular(st);
-    if (status == GVI_OK) status = gvi__jacobian_exact(st, J, &at);
+    gvi_status status = gvi__jacobian_exact(st, J, &at);
     return status == GVI_OK ? gvi__jacobian_differences(st, J, &at) : status;
+}
+
+GVI__APART gvi_status gvi__jacobian_factor(gvi_stepper *st, const gvi__matrix *J, gvi_real *pivot)
+{
+    int n = st->n, size = (st->s - J->k0)*n, at;
+    if (gvi__in_blocks(J)) return gvi__factor_blocks(st, J, pivot);
+    if (J->scaled) gvi__scale_rows(n, size, J);
+    gvi_status status = gvi__lu_factor(size, J->square, pivot, &at);
+    gvi__count(&st->counters.factorizations, 1);
+    if (status == GVI_OK) return GVI_OK;
+    return gvi__fail(st, status, GVI_FAULT_NONE, at < 0 ? GVI_FAULT_NONE : at % n, GVI_FAULT_NONE);
 }
 
 static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J, gvi_real *pivot)
 {
-    int n = st->n, size = (st->s - J->k0)*n, at;
-    gvi_status status = gvi__jacobian_fill(st, J);
-    if (status != GVI_OK) return status;
-    if (gvi__in_blocks(J)) return gvi__factor_blocks(st, J, pivot);
-    if (J->scaled) gvi__scale_rows(n, size, J);
-    status = gvi__lu_factor(size, J->square, pivot, &at);
-    gvi__count(&st->counters.factorizations, 1);
-    if (status == GVI_OK) return GVI_OK;
-    return gvi__fail(st, status, GVI_FAULT_NONE, at < 0 ? GVI_FAULT_NONE : at % n, GVI_FAULT_NONE);
+    gvi_status status = gvi__check_regular(st);
+    if (status == GVI_OK) status = gvi__jacobian_fill(st, J);
+    return status == GVI_OK ? gvi__jacobian_factor(st, J, pivot) : status;
 }
 
 // y := modes of the extrapolated V, or constant velocity
@@ -5418,8 +5422,8 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action)
    its ends.  The interior rows R = 0 give dy/dq = -J^-1 dR/dq, so the part of y is
    -lambda' dR/dq with J' lambda = g, g_k = h sum h b_i Phi_k f_i: one transposed
    solve for all of it.                                                        */
-static gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__matrix *J, const gvi_real *pivot,
-                                       gvi_real *minus, gvi_real *plus)
+GVI__APART gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__matrix *J, const gvi_real *pivot,
+                                           gvi_real *minus, gvi_real *plus)
 {
     struct gvi__private *x = &st->x;
     int n = st->n, s = st->s, R = x->stride, size = (s - 1)*n;
@@ -5470,8 +5474,8 @@ static gvi_real gvi__jacobian_error(const gvi_stepper *st)
 
 /* The curve between the boundary values: F at its points in work.F, and the sum
    of b_i P_i in p.  Degree 1 is a chord, point by point: nothing to solve.     */
-static gvi_status gvi__chord(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *q1,
-                             gvi_real *p)
+GVI__APART gvi_status gvi__chord(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *q1,
+                                 gvi_real *p)
 {
     struct gvi__private *x = &st->x;
     int n = st->n, R = x->stride;
@@ -5563,7 +5567,7 @@ static int gvi__negative(int n, gvi_real *a)
 }
 
 // the second variation is h J without the factors 2k + 1 of its rows
-static gvi_status gvi__count_negative(gvi_stepper *st, const gvi__matrix *J, int *negative)
+GVI__APART gvi_status gvi__count_negative(gvi_stepper *st, const gvi__matrix *J, int *negative)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, size = (st->s - 1)*n;
@@ -5571,7 +5575,8 @@ static gvi_status gvi__count_negative(gvi_stepper *st, const gvi__matrix *J, int
     *negative = 0;
     if (size == 0) return GVI_OK;
     x->off |= gvi__of_kind(st, GVI_FORCE);
-    gvi_status status = gvi__jacobian_fill(st, J);
+    gvi_status status = gvi__check_regular(st);
+    if (status == GVI_OK) status = gvi__jacobian_fill(st, J);
     x->off = off;
     if (status != GVI_OK) return status;
     gvi_real *a = J->square;
@@ -5585,6 +5590,26 @@ static gvi_status gvi__count_negative(gvi_stepper *st, const gvi__matrix *J, int
     return GVI_OK;
 }
 
+// the action along that curve
+GVI__APART gvi_status gvi__curve_action(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *q1,
+                                        gvi_real *action)
+{
+    struct gvi__private *x = &st->x;
+    const int n = st->n, R = x->stride;
+    gvi_real L, *q = x->change, *v = q + n;
+    gvi_status status = GVI_OK;
+    *action = 0;
+    for (int j = 0; j < st->r && status == GVI_OK; ++j) {
+        for (int i = 0; i < n; ++i) {
+            q[i] = x->work.Q[i*R + j];
+            v[i] = x->work.V ? x->work.V[i*R + j] : (q1[i] - from->q[i])/h;
+        }
+        status = gvi__lagrangian(st, x->t[j], q, v, &L);
+        if (status == GVI_OK) *action += x->hb[j]*L;
+    }
+    return status;
+}
+
 static gvi_status gvi__boundary_value(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *q1,
                                       const gvi_discrete *out)
 {
@@ -5593,29 +5618,20 @@ static gvi_status gvi__boundary_value(gvi_stepper *st, const gvi__from *from, gv
     size_t size = (size_t)(s - 1)*(size_t)n, sn = (size_t)s*(size_t)n;
     gvi_real *square = s > 1 ? x->J + sn*sn : NULL, *pivot = s > 1 ? x->pivot + sn + 1 : NULL;
     gvi__matrix J = { square, s > 1 ? square + size*size : NULL, 1, h, 0, 0 };
-    gvi_real *p0 = x->dq, *p1 = x->dp, *minus = x->change, *plus = minus + n;
+    gvi_real *p0 = x->dq, *p1 = x->dp, *minus = x->change, *plus = minus + n, action = 0;
+    int negative = 0;
     gvi_status status = gvi__interior(st, from, h, q1, &J, pivot, p0);
     if (status == GVI_E_CONJUGATE || (status == GVI_E_SINGULAR && st->fault.effect == GVI_FAULT_NONE))
         return gvi__give(st, GVI_E_CONJUGATE);
+    if (status == GVI_OK && out->lagrangian) status = gvi__curve_action(st, from, h, q1, &action);
     if (status != GVI_OK) return status;
 
-    // the action, row 0 of (1) for p0, then (2)
-    gvi_real action = 0, L;
-    for (int j = 0; j < st->r && out->lagrangian; ++j) {
-        for (int i = 0; i < n; ++i) {
-            minus[i] = x->work.Q[i*R + j];
-            plus[i] = x->work.V ? x->work.V[i*R + j] : (q1[i] - from->q[i])/h;
-        }
-        status = gvi__lagrangian(st, x->t[j], minus, plus, &L);
-        if (status != GVI_OK) return status;
-        action += x->hb[j]*L;
-    }
+    // row 0 of (1) for p0, then (2)
     for (int i = 0; i < n; ++i) {
         for (int j = 0; j < st->r; ++j) p0[i] -= x->hb[j]*(1 - x->Phi[j])*x->work.F[i*R + j];
         p1[i] = p0[i] + gvi__dot(st->r, x->hb, x->work.F + i*R);
     }
     status = gvi__discrete_forces(st, &J, pivot, minus, plus);
-    int negative = 0;
     if (status == GVI_OK && out->negative) status = gvi__count_negative(st, &J, &negative);
     if (status != GVI_OK) return status;
     if (out->negative) *out->negative = negative;
