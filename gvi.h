@@ -4819,7 +4819,7 @@ GVI__APART gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, g
         gvi__newton_guess(st, extrapolate);
         status = gvi__newton(st, from, &J, pivot, !query);
     }
-    gvi__newton_increments(st, from, h);
+    gvi__newton_increments(st, from, J.h);
     return status;
 }
 
@@ -4890,26 +4890,22 @@ static int gvi__finite_end(const gvi_stepper *st, const gvi__from *from)
     return none >= 0;
 }
 
-/* An attempt at which something was not finite, once more with every effect looked at,
-   to say which one it was; what is not finite then is divergence.             */
-static gvi_status gvi__diagnosed(gvi_stepper *st, gvi__from *from, gvi_real h, const gvi__history *past,
-                                 int query, gvi_status status)
+/* An attempt; and one at which something was not finite once more with every effect
+   looked at, to say which one it was: what is not finite then is divergence.  look:
+   the first has been made.                                                    */
+static gvi_status gvi__solve(gvi_stepper *st, gvi__from *from, gvi_real h, const gvi__history *past,
+                             int query, int look)
 {
     struct gvi__private *x = &st->x;
-    if (!GVI__DIAGNOSIS || status != GVI_E_NON_FINITE || st->fault.effect != GVI_FAULT_NONE) return status;
-    if (!query) x->h_matrix = 0;
-    x->diagnose = 1;
-    status = gvi__attempt(st, from, h, past, query);
-    x->diagnose = 0;
-    return status != GVI_OK ? status : gvi__give(st, GVI_E_CONVERGENCE);
-}
-
-static gvi_status gvi__solve(gvi_stepper *st, gvi__from *from, gvi_real h, const gvi__history *past,
-                             int query)
-{
-    gvi_status status = gvi__attempt(st, from, h, past, query);
-    if (status == GVI_OK && !gvi__finite_end(st, from)) status = gvi__give(st, GVI_E_NON_FINITE);
-    return gvi__diagnosed(st, from, h, past, query, status);
+    for (;; look = 1) {
+        if (look && !query) x->h_matrix = 0;
+        x->diagnose = (signed char)look;
+        gvi_status status = gvi__attempt(st, from, h, past, query);
+        x->diagnose = 0;
+        if (look) return status != GVI_OK ? status : gvi__give(st, GVI_E_CONVERGENCE);
+        if (status == GVI_OK && !gvi__finite_end(st, from)) status = gvi__give(st, GVI_E_NON_FINITE);
+        if (!GVI__DIAGNOSIS || status != GVI_E_NON_FINITE || st->fault.effect != GVI_FAULT_NONE) return status;
+    }
 }
 
 // work becomes last, last becomes older (where rows are kept that long), and the
@@ -4995,7 +4991,7 @@ static gvi_status gvi__solve_explicit(gvi_stepper *st, gvi__from *from, gvi_real
     gvi__begin(st, from, h);
     gvi_status status = gvi__explicit(st, from, h, past->force);
     if (status != GVI_OK || gvi__finite_end(st, from)) return status;
-    return gvi__diagnosed(st, from, h, past, 0, gvi__give(st, GVI_E_NON_FINITE));
+    return GVI__DIAGNOSIS ? gvi__solve(st, from, h, past, 0, 1) : gvi__give(st, GVI_E_NON_FINITE);
 }
 
 GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
@@ -5016,7 +5012,7 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
         if (GVI__NEWTON && gvi__nonzero(h - st->h)) x->newton_left = x->whole_left = 0;
     }
     gvi_status status = gvi__uses(st, GVI_EXPLICIT) && !GVI__SMALL ? gvi__solve_explicit(st, &from, h, &past)
-                                                                   : gvi__solve(st, &from, h, &past, 0);
+                                                                   : gvi__solve(st, &from, h, &past, 0, 0);
     if (status == GVI_OK && !gvi__finite(st->t + x->dt)) status = gvi__give(st, GVI_E_ARGUMENT);
     if (status != GVI_OK) {
         gvi__count(&st->counters.failures, 1);
@@ -5311,32 +5307,27 @@ GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
     return GVI_OK;
 }
 
-// dq and dp of a partial step of length h from one end of the last step
-static gvi_status gvi__partial(gvi_stepper *st, gvi__from *from, int end, gvi_real h)
+/* dq and dp of a partial step for a time dt from one end of the last step.  With a clock
+   by Newton's method for the h that takes dt, its derivative being g, kept inside the
+   step by bisection.                                                          */
+static gvi_status gvi__partial(gvi_stepper *st, gvi__from *from, int end, gvi_real dt)
 {
     struct gvi__private *x = &st->x;
-    gvi__history past = { 1, end ? (gvi_real)1 : (gvi_real)0, h/st->h, NULL };
-    if (x->has_force && end) past.force = x->last.F;
-    return gvi__solve(st, from, h, &past, 1);
-}
-
-/* The same with a clock, for a time dt from that end: Newton's method for the h
-   that takes dt, its derivative being g, kept inside the step by bisection.    */
-static gvi_status gvi__partial_clock(gvi_stepper *st, gvi__from *from, int end, gvi_real dt)
-{
-    struct gvi__private *x = &st->x;
-    gvi_real near = 0, far = end ? -st->h : st->h, h = st->h*(dt/(st->t - x->t0)), rate, *q = x->change;
-    if (!(GVI_ABS(h) <= GVI_ABS(far))) h = far/2;             // t did not move, or less than it should
+    const int clock = gvi__has_clock(st);
+    gvi_real near = 0, far = end ? -st->h : st->h, h = clock ? st->h*(dt/(st->t - x->t0)) : dt;
+    if (clock && !(GVI_ABS(h) <= GVI_ABS(far))) h = far/2;     // t did not move, or less than it should
     for (int k = 0; k < 60; ++k) {
-        gvi_status status = gvi__partial(st, from, end, h);
-        gvi_real miss = x->dt - dt;
-        if (status != GVI_OK || GVI_ABS(miss) <= 2*GVI__EPS*GVI_ABS(dt)) return status;
+        gvi__history past = { 1, end ? (gvi_real)1 : (gvi_real)0, h/st->h, NULL };
+        if (x->has_force && end) past.force = x->last.F;
+        gvi_status status = gvi__solve(st, from, h, &past, 1, 0);
+        gvi_real rate, *q = x->change;
+        if (status != GVI_OK || !clock || GVI_ABS(x->dt - dt) <= 2*GVI__EPS*GVI_ABS(dt)) return status;
         if (GVI_ABS(x->dt) > GVI_ABS(dt)) far = h;
         else near = h;
         for (int i = 0; i < st->n; ++i) q[i] = from->q[i] + x->dq[i];
         status = gvi__rate_at(st, from->t, q, &rate, x->one);
         if (status != GVI_OK) return status;
-        gvi_real next = h - miss/rate;
+        gvi_real next = h - (x->dt - dt)/rate;
         if (!((next - near)*(far - next) > 0)) next = near + (far - near)/2;
         if (GVI_ABS(next - h) <= GVI__EPS*GVI_ABS(st->h)) return GVI_OK;
         h = next;
@@ -5364,9 +5355,7 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
         from = first;
     }
     gvi_formulation was = st->formulation;
-    const int moves = GVI_ABS(h) > GVI__EPS*(GVI_ABS(ahead) + GVI_ABS(back));
-    if (moves && gvi__has_clock(st)) status = gvi__partial_clock(st, &from, end, h);
-    else if (moves) status = gvi__partial(st, &from, end, h);
+    if (GVI_ABS(h) > GVI__EPS*(GVI_ABS(ahead) + GVI_ABS(back))) status = gvi__partial(st, &from, end, h);
     else {
         gvi__copy(n, from.qe, x->dq);
         gvi__copy(n, from.pe, x->dp);
