@@ -1687,19 +1687,19 @@ static void gvi__scatter(int n, int stride, const gvi_real *in, gvi_real *rows)
     for (int i = 0; i < n; ++i) rows[i*stride] += in[i];
 }
 
-// the one-point form: gather, call, scatter
-GVI__APART int gvi__point_by_point(gvi_stepper *st, const gvi_effect *e, const gvi_points *x, int *point)
+// the one-point form: gather, call, scatter.  Returns 0, or 1 + the point that was refused
+GVI__APART int gvi__point_by_point(gvi_stepper *st, const gvi_effect *e, const gvi_points *x)
 {
-    const int n = x->n, reads_v = GVI__READS_V && x->v, term = GVI__LAGRANGIAN && x->dldv;
-    gvi_real *q = st->x.one, *v = q + n, *f = v + n, *dldv = f + n;
+    const int n = x->n;
+    gvi_real *q = st->x.one, *f = q + 2*n;
+    gvi_real *v = GVI__READS_V && x->v ? q + n : NULL, *dldv = GVI__LAGRANGIAN && x->dldv ? f + n : NULL;
     for (int k = 0; k < x->count; ++k) {
-        *point = k;
         gvi__gather(n, x->stride, x->q + k, q);
-        if (reads_v) gvi__gather(n, x->stride, x->v + k, v);
-        gvi__zero(2*(size_t)n, f);                    // and dldv
-        if (e->point(x->t[k], q, reads_v ? v : NULL, f, term ? dldv : NULL, e->user)) return 1;
+        if (v) gvi__gather(n, x->stride, x->v + k, v);
+        gvi__zero(2*(size_t)x->n, f);                 // and dldv
+        if (e->point(x->t[k], q, v, f, dldv, e->user)) return 1 + k;
         gvi__scatter(n, x->stride, f, x->f + k);
-        if (term) gvi__scatter(n, x->stride, dldv, x->dldv + k);
+        if (dldv) gvi__scatter(n, x->stride, dldv, x->dldv + k);
     }
     return 0;
 }
@@ -1725,12 +1725,17 @@ static gvi_status gvi__value(gvi_stepper *st, gvi_points *x, int e, gvi_real *va
 {
     const gvi_effect *effect = st->x.desc.effects + e;
     if (!effect->value) return gvi__blame(st, GVI_E_VALUE, e);
-    gvi_points y = *x;
-    y.f = y.dldv = NULL;
-    y.value = value;
-    if (effect->kind == GVI_POTENTIAL) y.v = NULL;
-    if (effect->value(&y, effect->user)) return gvi__blame(st, GVI_E_CALLBACK, e);
-    return GVI_OK;
+    const gvi_real *v = x->v;
+    gvi_real *f = x->f, *dldv = x->dldv, *was = x->value;
+    x->f = x->dldv = NULL;
+    x->value = value;
+    if (effect->kind == GVI_POTENTIAL) x->v = NULL;
+    const int refused = effect->value(x, effect->user);
+    x->v = v;
+    x->f = f;
+    x->dldv = dldv;
+    x->value = was;
+    return refused ? gvi__blame(st, GVI_E_CALLBACK, e) : GVI_OK;
 }
 
 /* Asks effect e where it is not one call for all points and no more: one point a
@@ -1742,12 +1747,13 @@ static gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e)
     gvi_real *value = GVI__CLOCK ? x->value : NULL;
     gvi_real *own = value && effect->kind == GVI_LAGRANGIAN ? st->x.less
                   : effect->kind == GVI_FORCE ? NULL : value;
-    int point = GVI_FAULT_NONE, together = own && effect->points && effect->value == effect->points;
+    const int together = own && effect->points && effect->value == effect->points;
     gvi__count(&st->counters.effect[e], x->count);
     x->value = together ? own : NULL;
     const int whole = !GVI__POINT || effect->points;
-    int refused = whole ? effect->points(x, effect->user) : gvi__point_by_point(st, effect, x, &point);
-    gvi_status status = refused ? gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, point) : GVI_OK;
+    const int refused = whole ? effect->points(x, effect->user) : gvi__point_by_point(st, effect, x);
+    gvi_status status = !refused ? GVI_OK : gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE,
+                                                      whole ? GVI_FAULT_NONE : refused - 1);
     if (gvi__diagnoses(st) && status == GVI_OK) {
         status = gvi__check_rows(st, x, x->f, e);
         if (status == GVI_OK && GVI__LAGRANGIAN) status = gvi__check_rows(st, x, x->dldv, e);
@@ -1785,12 +1791,12 @@ static gvi_status gvi__effects(gvi_stepper *st, gvi_points *x, unsigned skip)
     const gvi_real *v = x->v;
     gvi_real *dldv = x->dldv;
     gvi_status status = GVI_OK;
-    const int plain = !(GVI__CLOCK && x->value) && !gvi__diagnoses(st);
     skip |= st->x.off | gvi__clock_bit(st);
     for (int e = 0; e < st->x.desc.effect_count && status == GVI_OK; ++e, ++effect) {
         if (skip >> e & 1u) continue;
         x->v = GVI__READS_V && effect->kind != GVI_POTENTIAL ? v : NULL;
         x->dldv = GVI__LAGRANGIAN && effect->kind == GVI_LAGRANGIAN ? dldv : NULL;
+        const int plain = !(GVI__CLOCK && x->value) && !gvi__diagnoses(st);
         status = plain && (!GVI__POINT || effect->points) ? gvi__call(st, x, e) : gvi__effect(st, x, e);
     }
     x->v = v;
@@ -2031,13 +2037,12 @@ static void gvi__at(gvi_points *x, const gvi_stepper *st, const gvi_real *t, con
     x->value = x->mass = x->velocity = NULL;
 }
 
-// d(dL/dv)/dv at one point, n*n, by differences
-static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real *v, gvi_real *W)
+// d(dL/dv)/dv at one point, n*n, by differences, to x.hess + 3n.  x has been evaluated; x->v is v
+static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real *v)
 {
     int n = st->n;
-    gvi_real *base = st->x.hess, *moved = base + n, *P = x->dldv, *f = x->f;
     gvi_real size = gvi__norm1(n, v)/(gvi_real)n;
-    gvi__copy((size_t)n, P, base);
+    gvi__copy((size_t)n, x->dldv, st->x.hess);
     for (int j = 0; j < n; ++j) {
         const gvi_real was = v[j], root = GVI_SQRT(GVI__EPS);
         gvi_real d = 0, next = root*(gvi__nonzero(was) ? GVI_ABS(was) : size);
@@ -2047,36 +2052,32 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real
             v[j] = was + next;
             d = v[j] - was;
             next = 0;
-            x->dldv = moved;
             gvi_status status = gvi__evaluate(st, x, 0);
             v[j] = was;
-            x->dldv = P;
-            x->f = f;
             if (status != GVI_OK) return status;
-            if (!gvi__finite(moved[j])) next = d*root;
-            else if (GVI_ABS(moved[j] - base[j]) < root*GVI_ABS(base[j])/2) next = d/GVI_SQRT(root);
+            const gvi_real moved = x->dldv[j], base = st->x.hess[j];
+            if (!gvi__finite(moved)) next = d*root;
+            else if (GVI_ABS(moved - base) < root*GVI_ABS(base)/2) next = d/GVI_SQRT(root);
         }
-        for (int i = 0; i < n; ++i) W[i*n + j] = (moved[i] - base[i])/d;
+        for (int i = 0; i < n; ++i) st->x.hess[3*n + i*n + j] = (x->dldv[i] - st->x.hess[i])/d;
     }
+    gvi__copy((size_t)n, st->x.hess, x->dldv);
     return GVI_OK;
 }
 
 /* General Legendre transform at one point: Newton's method for dL/dv(v) = p
    from the v given.  Ends when the correction stops shrinking.                */
-static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *p,
-                                       gvi_real *v)
+static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi_real *p, gvi_real *v)
 {
     int n = st->n;
     gvi_real *W = st->x.hess + 3*n, *pivot = W + n*n, *dv = st->x.hess + 2*n;
-    gvi_points x;
-    gvi__at(&x, st, &t, q);
-    x.v = v;
-    const gvi_real *P = x.dldv;
+    x->v = v;
+    const gvi_real *P = x->dldv;
     gvi_real last = GVI__MAX;
     gvi__count(&st->counters.velocities, 1);
     for (int k = 0; k < 40; ++k) {
         gvi_real change = 0;
-        gvi_status status = gvi__evaluate(st, &x, 0);
+        gvi_status status = gvi__evaluate(st, x, 0);
 
         // beyond the domain of L (faster than light): half the way
         if (k > 0 && status == GVI_OK && !gvi__all_finite(n, P)) {
@@ -2086,7 +2087,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_real t, const gvi_re
             }
             continue;
         }
-        if (status == GVI_OK) status = gvi__velocity_hessian(st, &x, v, W);
+        if (status == GVI_OK) status = gvi__velocity_hessian(st, x, v);
         if (status != GVI_OK) return status;
         int at;
         status = gvi__lu_factor(n, W, pivot, &at);
@@ -2124,7 +2125,7 @@ static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, 
         return status == GVI_OK ? gvi__check_rows(st, &x, v, GVI_FAULT_MASS) : status;
     }
     if (gvi__mass_is(st, GVI_MASS_NONE) || gvi__has(st, GVI__HAS_LAGRANGIAN))
-        return gvi__legendre_newton(st, t, q, p, v);
+        return gvi__legendre_newton(st, &x, p, v);
     gvi__copy((size_t)st->n, p, v);
     if (gvi__mass_is(st, GVI_MASS_POSITION)) {
         gvi_status status = gvi__factor_at(st, &x);
@@ -3849,7 +3850,7 @@ static inline void gvi__transform_row(int R, const gvi_real *GVI__RESTRICT g,
 
 /* What a clock makes of F and V:  F := g F - dg/dq (H - E),  V := g v, with
    H = (P + A)'V/2 + V_pot - L, and E and the times by the rule of Q: sums with T. */
-static void gvi__transform(gvi_stepper *st, const gvi__from *from, int lagrangian)
+GVI__APART void gvi__transform(gvi_stepper *st, const gvi__from *from, int lagrangian)
 {
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work;
@@ -3904,6 +3905,10 @@ GVI__APART gvi_status gvi__ask_clock(gvi_stepper *st, const gvi__from *from, gvi
 static inline void gvi__zero_rows(const gvi_stepper *st, gvi_real zero, gvi_real *rows)
 {
     const int R = st->x.stride, length = st->n*R;
+    if (GVI__SMALL) {
+        gvi__zero((size_t)length, rows);
+        return;
+    }
 #ifdef GVI__VECTORS
     gvi__vector none = { 0 };
     none += zero;
@@ -4534,7 +4539,8 @@ GVI__APART gvi_real gvi__residual(gvi_stepper *st, const gvi__from *from, int k0
 // where the derivatives of the residual go
 typedef struct gvi__matrix {
     gvi_real *square;      /* rows and columns k0..s-1, row-major               */
-    gvi_real *ends;        /* k0 = 1: columns y_0 and q0, 2n a row; or NULL     */
+    gvi_real *ends;        /* k0 = 1: columns y_0 and q0, 2n a row, behind square; or NULL */
+    gvi_real *pivot;       /* of square's LU, or of the blocks'                 */
     int       k0;
     gvi_real  h;
     int       scaled;      /* rows by their largest entry, for a condition without units */
@@ -4679,19 +4685,19 @@ static void gvi__add_to_blocks(const gvi_stepper *st, const gvi__matrix *J, int 
     }
 }
 
-static gvi_status gvi__factor_blocks(gvi_stepper *st, const gvi__matrix *J, gvi_real *pivot)
+static gvi_status gvi__factor_blocks(gvi_stepper *st, const gvi__matrix *J)
 {
     const size_t n = (size_t)st->n;
     gvi_status status = GVI_OK;
     for (int m = 0; m < (st->s + 1)/2 && status == GVI_OK; ++m)
-        status = gvi__lu_factor_complex(st->n, J->square + 2*n*n*(size_t)m, pivot + n*(size_t)m);
+        status = gvi__lu_factor_complex(st->n, J->square + 2*n*n*(size_t)m, J->pivot + n*(size_t)m);
     gvi__count(&st->counters.factorizations, (st->s + 1)/2);
     return status == GVI_OK ? GVI_OK : gvi__give(st, status);
 }
 
 /* x->dy := J^-1 x->dy by blocks: each gets the share (-1)^(s-1-k) z_k of row k, and
    gives (2k+1) z_k of what it solves, a pair twice the real part.             */
-static void gvi__solve_blocks(gvi_stepper *st, const gvi__matrix *J, const gvi_real *pivot)
+static void gvi__solve_blocks(gvi_stepper *st, const gvi__matrix *J)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, s = st->s;
@@ -4707,7 +4713,7 @@ static void gvi__solve_blocks(gvi_stepper *st, const gvi__matrix *J, const gvi_r
                 u[n + i] += b*x->dy[k*n + i];
             }
         }
-        gvi__lu_solve_complex(n, J->square + 2*(size_t)n*(size_t)n*(size_t)m, pivot + (size_t)n*(size_t)m, u);
+        gvi__lu_solve_complex(n, J->square + 2*(size_t)(n*n)*(size_t)m, J->pivot + (size_t)n*(size_t)m, u);
         for (int k = 0; k < s; ++k) {
             const gvi_real w = (gvi_real)((2*m + 1 == s ? 1 : 2)*(2*k + 1));
             for (int i = 0; i < n; ++i) sum[k*n + i] += w*(re[k]*u[i] - im[k]*u[n + i]);
@@ -4807,8 +4813,8 @@ GVI__APART void gvi__add_differences(const gvi_stepper *st, const gvi__matrix *J
 }
 
 // forward differences by one row, coordinate j of Q or V, at all points at once
-GVI__APART gvi_status gvi__difference(gvi_stepper *st, const gvi__matrix *J, const gvi__sites *at, int j,
-                                      int by_v, gvi_real d)
+static gvi_status gvi__difference(gvi_stepper *st, const gvi__matrix *J, const gvi__sites *at, int j,
+                                  int by_v, gvi_real d)
 {
     struct gvi__private *x = &st->x;
     const size_t R = (size_t)at->stride;
@@ -4844,14 +4850,13 @@ GVI__APART gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matr
 {
     struct gvi__private *x = &st->x;
     const unsigned plain = gvi__without_hessian(st);
-    const int n = st->n, varies = !gvi__mass_is_constant(&x->desc);
-    const int reads_v = varies || (plain & ~gvi__of_kind(st, GVI_POTENTIAL));
+    const int varies = !gvi__mass_is_constant(&x->desc);
+    const int reads_v = varies || (plain & ~gvi__of_kind(st, GVI_POTENTIAL)) != 0;
     if (!varies && !plain) return GVI_OK;
-    gvi_status status = gvi__ask_sites(st, at, x->dF + 2*n*at->stride);
-    const gvi_real h = GVI_ABS(J->h);
-    for (int j = 0; j < n && status == GVI_OK; ++j) {
-        status = gvi__difference(st, J, at, j, 0, gvi__nudge(at, j, h, 0));
-        if (status == GVI_OK && reads_v) status = gvi__difference(st, J, at, j, 1, gvi__nudge(at, j, h, 1));
+    gvi_status status = gvi__ask_sites(st, at, x->dF + 2*st->n*at->stride);
+    for (int k = 0; k < 2*st->n && status == GVI_OK; k += 2 - reads_v) {       // of each coordinate q, then v
+        const int j = k/2, by_v = k % 2;
+        status = gvi__difference(st, J, at, j, by_v, gvi__nudge(at, j, GVI_ABS(J->h), by_v));
     }
     return status;
 }
@@ -4861,9 +4866,9 @@ GVI__APART gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matr
 GVI__APART gvi_status gvi__check_regular(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
-    int n = st->n, at;
+    const int n = st->n;
     if (gvi__mass_is_constant(&x->desc) && !gvi__has(st, GVI__HAS_LAGRANGIAN)) return GVI_OK;
-    gvi_real *W = x->hess + 3*n, *q = W + n*n + n + 1, *v = q + n;
+    gvi_real *q = x->hess + 4*n + n*n + 1, *v = q + n;              // behind the matrix and its pivots
     gvi__gather(n, x->stride, x->work.Q, q);
     gvi__gather(n, x->stride, x->work.V, v);
     gvi_points y;
@@ -4871,9 +4876,11 @@ GVI__APART gvi_status gvi__check_regular(gvi_stepper *st)
     y.v = v;
     if (!gvi__has(st, GVI__HAS_LAGRANGIAN)) return gvi__factor_at(st, &y);
     gvi_status status = gvi__evaluate(st, &y, 0);
-    if (status == GVI_OK) status = gvi__velocity_hessian(st, &y, v, W);
+    if (status == GVI_OK) status = gvi__velocity_hessian(st, &y, v);
     if (status != GVI_OK) return status;
-    status = gvi__lu_factor(n, W, W + n*n, &at);
+    int at;
+    gvi_real *W = x->hess + 3*st->n;
+    status = gvi__lu_factor(st->n, W, W + st->n*st->n, &at);
     return status == GVI_E_SINGULAR ? gvi__fail(st, status, GVI_FAULT_MASS, at, GVI_FAULT_NONE) : GVI_OK;
 }
 
@@ -4907,29 +4914,32 @@ static gvi__sites gvi__middle(gvi_stepper *st, gvi_real *t)
 static gvi_status gvi__jacobian_fill(gvi_stepper *st, const gvi__matrix *J)
 {
     struct gvi__private *x = &st->x;
-    const int n = st->n, size = (st->s - J->k0)*n;
-    const size_t whole = (size_t)size*(size_t)size, blocks = (size_t)(st->s + 1)*(size_t)n*(size_t)n;
-    gvi_real t;
-    const gvi__sites all = { x->t, x->work.Q, x->work.V, st->r, x->stride };
-    const gvi__sites at = gvi__in_blocks(J) ? gvi__middle(st, &t) : all;
+    const size_t n = (size_t)st->n, size = (size_t)(st->s - J->k0)*n;
+    const size_t whole = size*(size + (J->ends ? 2*n : 0)), blocks = (size_t)(st->s + 1)*n*n;
     gvi__zero(gvi__in_blocks(J) ? blocks : whole, J->square);
-    if (J->ends) gvi__zero((size_t)size*2*(size_t)n, J->ends);
-    gvi_status status = gvi__check_regular(st);
-    if (status == GVI_OK) status = gvi__jacobian_exact(st, J, &at);
+    gvi_real t;
+    gvi__sites at = { x->t, x->work.Q, x->work.V, st->r, x->stride };
+    if (gvi__in_blocks(J)) at = gvi__middle(st, &t);
+    gvi_status status = gvi__jacobian_exact(st, J, &at);
     return status == GVI_OK ? gvi__jacobian_differences(st, J, &at) : status;
 }
 
-static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J, gvi_real *pivot)
+GVI__APART gvi_status gvi__jacobian_factor(gvi_stepper *st, const gvi__matrix *J)
 {
     int n = st->n, size = (st->s - J->k0)*n, at;
-    gvi_status status = gvi__jacobian_fill(st, J);
-    if (status != GVI_OK) return status;
-    if (gvi__in_blocks(J)) return gvi__factor_blocks(st, J, pivot);
+    if (gvi__in_blocks(J)) return gvi__factor_blocks(st, J);
     if (J->scaled) gvi__scale_rows(n, size, J);
-    status = gvi__lu_factor(size, J->square, pivot, &at);
+    gvi_status status = gvi__lu_factor(size, J->square, J->pivot, &at);
     gvi__count(&st->counters.factorizations, 1);
     if (status == GVI_OK) return GVI_OK;
     return gvi__fail(st, status, GVI_FAULT_NONE, at < 0 ? GVI_FAULT_NONE : at % n, GVI_FAULT_NONE);
+}
+
+static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J)
+{
+    gvi_status status = gvi__check_regular(st);
+    if (status == GVI_OK) status = gvi__jacobian_fill(st, J);
+    return status == GVI_OK ? gvi__jacobian_factor(st, J) : status;
 }
 
 // y := modes of the extrapolated V, or constant velocity
@@ -4955,23 +4965,25 @@ GVI__APART void gvi__newton_guess(gvi_stepper *st, int extrapolate)
 
 /* y += dy from row k0 on; returns the sum over coordinates of the relative change.
    still: all of it within a few units of the last place of q                  */
-static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__from *from, gvi_real h, int k0, int *still)
+GVI__APART gvi_real gvi__newton_update(gvi_stepper *st, const gvi__from *from, const gvi__matrix *J,
+                                      int *still)
 {
     struct gvi__private *x = &st->x;
-    int n = st->n;
+    const int n = st->n;
+    const gvi_real h = GVI_ABS(J->h);
     gvi_real sum = 0;
     for (int i = 0; i < n; ++i) {
         gvi_real change = 0, size = 0;
         for (int k = 0; k < st->s; ++k) {
-            if (k >= k0) {
-                x->y[k*n + i] += x->dy[(k - k0)*n + i];
-                change += GVI_ABS(x->dy[(k - k0)*n + i]);
+            if (k >= J->k0) {
+                x->y[k*n + i] += x->dy[(k - J->k0)*n + i];
+                change += GVI_ABS(x->dy[(k - J->k0)*n + i]);
             }
             size += GVI_ABS(x->y[k*n + i]);
         }
         if (!(size <= GVI__MIN/GVI__EPS)) sum += change/size; // as gvi__rescale; a NaN goes on
-        if (!(GVI_ABS(h)*change <= 4*GVI__EPS*GVI_ABS(from->q[i]))) *still = 0;
-        x->change[i] = x->work.Q[i*x->stride + st->r - 1] - GVI_ABS(h)*change;     // for gvi__is_rounding
+        if (!(h*change <= 4*GVI__EPS*GVI_ABS(from->q[i]))) *still = 0;
+        x->change[i] = x->work.Q[i*x->stride + st->r - 1] - h*change;     // for gvi__is_rounding
     }
     return sum;
 }
@@ -4980,13 +4992,11 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__from *from, gvi_r
    solution.  Keeps the factorisation while it contracts by 1/4 or better, over
    iterations and, if `kept`, over steps.  Gives up blocks that contract by no more
    than 1/2 when they are new: derivatives at one point are not enough.        */
-GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi__matrix *J,
-                                  gvi_real *pivot, int kept)
+GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi__matrix *J, int kept)
 {
     struct gvi__private *x = &st->x;
-    const gvi_real enough = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/4096;
     const int size = (st->s - J->k0)*st->n;
-    int have = kept && !gvi__nonzero(x->h_matrix - J->h) && x->has_blocks == J->blocks;
+    int have = kept && !gvi__nonzero(x->h_matrix - J->h) && x->has_blocks == gvi__in_blocks(J);
     int made = 0, last = 0, idle = 0, was_fresh = 0;
     gvi_real before = 0, earlier = 0, rho = (gvi_real)0.25, left = GVI__MAX;
     for (int k = 0; k <= x->desc.max_iterations; ++k) {
@@ -4995,19 +5005,19 @@ GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const 
         if (status != GVI_OK || last) return status;
         if (fresh) {
             if (++made > x->desc.max_iterations/4 + 2) break;
-            status = gvi__jacobian(st, J, pivot);
+            status = gvi__jacobian(st, J);
             if (status != GVI_OK) return status;
             have = 1;
             if (kept) {
                 x->h_matrix = J->h;
-                x->has_blocks = (signed char)J->blocks;
+                x->has_blocks = (signed char)gvi__in_blocks(J);
             }
         }
         gvi_real residual = gvi__residual(st, from, J->k0);
-        if (gvi__in_blocks(J)) gvi__solve_blocks(st, J, pivot);
-        else gvi_lu_solve(size, J->square, pivot, x->dy);
+        if (gvi__in_blocks(J)) gvi__solve_blocks(st, J);
+        else gvi_lu_solve(size, J->square, J->pivot, x->dy);
         int still = 1;
-        const gvi_real change = gvi__newton_update(st, from, J->h, J->k0, &still);
+        const gvi_real change = gvi__newton_update(st, from, J, &still);
         const gvi_real ratio = before > 0 ? change/before : 1;
         gvi__count(&st->counters.newton_iterations, 1);
         if (!(change <= GVI__MAX)) return gvi__not_finite(st, 0);
@@ -5026,6 +5036,7 @@ GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const 
         if (rounding) left = rho*(left < GVI__MAX ? left : before);
 
         // one more evaluation, then done
+        const gvi_real enough = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/4096;
         if (change*ratio <= enough || left <= GVI__EPS/1024 || left <= enough) last = 1;
         else if (!rounding && before > 0 && ratio > (gvi_real)0.25) {
             if (gvi__in_blocks(J) && was_fresh && ratio > (gvi_real)0.5) break;
@@ -5049,11 +5060,11 @@ static int gvi__use_blocks(gvi_stepper *st)
 }
 
 // dq and dp of a step that y solves
-GVI__APART void gvi__newton_increments(gvi_stepper *st, const gvi__from *from, gvi_real h)
+GVI__APART void gvi__newton_increments(gvi_stepper *st, const gvi__from *from)
 {
     struct gvi__private *x = &st->x;
     for (int i = 0; i < st->n; ++i) {
-        const gvi__two q = gvi__product(h, x->y[i]);
+        const gvi__two q = gvi__product(x->h_weights, x->y[i]);
         const gvi_real *F = x->work.F + i*x->stride;
         const gvi__two p = gvi__increment(st->r, x->stride, x->hb, F, from->pe[i], x->row);
         x->dq[i] = q.hi;
@@ -5063,26 +5074,26 @@ GVI__APART void gvi__newton_increments(gvi_stepper *st, const gvi__from *from, g
     }
 }
 
-// by blocks, if they may be used; where they fail the whole matrix starts anew, and stays
-GVI__APART gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate,
-                                       int query)
+// by blocks, if they may be used; where they fail the whole matrix starts anew, and stays.
+// Of length h_weights, as gvi__begin has left it
+GVI__APART gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, int extrapolate, int query)
 {
     struct gvi__private *x = &st->x;
     size_t sn = (size_t)(st->s*st->n), offset = query ? sn*sn : 0;
-    gvi_real *pivot = x->pivot + (query ? sn + 1 : 0);
-    gvi__matrix J = { x->J + offset, NULL, 0, h, 0, gvi__use_blocks(st) };
+    gvi__matrix J = { x->J + offset, NULL, x->pivot + (query ? sn + 1 : 0), 0, x->h_weights, 0,
+                      gvi__use_blocks(st) };
     gvi__newton_guess(st, extrapolate);
     const unsigned long long count = st->counters.newton_iterations;
-    gvi_status status = gvi__newton(st, from, &J, pivot, !query);
+    gvi_status status = gvi__newton(st, from, &J, !query);
     // a callback that refused the first points would refuse them with any matrix
     const int refused = status == GVI_E_CALLBACK && st->counters.newton_iterations == count;
     if (gvi__in_blocks(&J) && status != GVI_OK && !refused) {
         J.blocks = 0;
         if (!query) x->whole_left = 64;
         gvi__newton_guess(st, extrapolate);
-        status = gvi__newton(st, from, &J, pivot, !query);
+        status = gvi__newton(st, from, &J, !query);
     }
-    gvi__newton_increments(st, from, h);
+    gvi__newton_increments(st, from);
     return status;
 }
 
@@ -5122,15 +5133,15 @@ static gvi_status gvi__attempt(gvi_stepper *st, gvi__from *from, gvi_real h,
         if (status == GVI_OK || !gvi__may_turn(st)) return status;
         if (!query && status == GVI_E_CONVERGENCE) x->newton_left = 64;
     }
-    unsigned long long count = st->counters.newton_iterations;
+    const unsigned count = (unsigned)st->counters.newton_iterations;
     st->formulation = GVI_NEWTON;
     if (usable) gvi__prepare_guess(st, past->alpha, past->beta, query);
-    status = gvi__newton_step(st, from, h, usable && x->has_velocity, query);
+    status = gvi__newton_step(st, from, usable && x->has_velocity, query);
     if (usable && x->has_velocity && (status == GVI_E_CONVERGENCE || status == GVI_E_SINGULAR)) {
         if (!query) x->h_matrix = 0;              // the extrapolation may be to blame
-        status = gvi__newton_step(st, from, h, 0, query);
+        status = gvi__newton_step(st, from, 0, query);
     }
-    if (!query) st->iterations = used + (int)(st->counters.newton_iterations - count);
+    if (!query) st->iterations = used + (int)((unsigned)st->counters.newton_iterations - count);
     return status;
 }
 
@@ -5154,26 +5165,25 @@ static int gvi__finite_end(const gvi_stepper *st, const gvi__from *from)
     return none >= 0;
 }
 
-/* An attempt at which something was not finite, once more with every effect looked at,
-   to say which one it was; what is not finite then is divergence.             */
-static gvi_status gvi__diagnosed(gvi_stepper *st, gvi__from *from, gvi_real h, const gvi__history *past,
-                                 int query, gvi_status status)
+/* An attempt; and one at which something was not finite once more with every effect
+   looked at, to say which one it was: what is not finite then is divergence.  look:
+   the first has been made.                                                    */
+static gvi_status gvi__solve(gvi_stepper *st, gvi__from *from, gvi_real h, const gvi__history *past,
+                             int query, int look)
 {
     struct gvi__private *x = &st->x;
-    if (!GVI__DIAGNOSIS || status != GVI_E_NON_FINITE || st->fault.effect != GVI_FAULT_NONE) return status;
-    if (!query) x->h_matrix = 0;
-    x->diagnose = 1;
-    status = gvi__attempt(st, from, h, past, query);
-    x->diagnose = 0;
-    return status != GVI_OK ? status : gvi__give(st, GVI_E_CONVERGENCE);
-}
-
-static gvi_status gvi__solve(gvi_stepper *st, gvi__from *from, gvi_real h, const gvi__history *past,
-                             int query)
-{
-    gvi_status status = gvi__attempt(st, from, h, past, query);
-    if (status == GVI_OK && !gvi__finite_end(st, from)) status = gvi__give(st, GVI_E_NON_FINITE);
-    return gvi__diagnosed(st, from, h, past, query, status);
+    for (;; look = 1) {
+        if (look && !query) x->h_matrix = 0;
+        if (look) x->diagnose = 1;
+        gvi_status status = gvi__attempt(st, from, h, past, query);
+        if (look) {
+            x->diagnose = 0;
+            return status != GVI_OK ? status : gvi__give(st, GVI_E_CONVERGENCE);
+        }
+        if (status == GVI_OK && !gvi__finite_end(st, from)) status = gvi__give(st, GVI_E_NON_FINITE);
+        const int unexplained = status == GVI_E_NON_FINITE && st->fault.effect == GVI_FAULT_NONE;
+        if (!GVI__DIAGNOSIS || !unexplained) return status;
+    }
 }
 
 // work becomes last, last becomes older (where rows are kept that long), and the
@@ -5260,7 +5270,7 @@ static gvi_status gvi__solve_explicit(gvi_stepper *st, gvi__from *from, gvi_real
     gvi__begin(st, from, h);
     gvi_status status = gvi__explicit(st, from, h, past->force);
     if (status != GVI_OK || gvi__finite_end(st, from)) return status;
-    return gvi__diagnosed(st, from, h, past, 0, gvi__give(st, GVI_E_NON_FINITE));
+    return GVI__DIAGNOSIS ? gvi__solve(st, from, h, past, 0, 1) : gvi__give(st, GVI_E_NON_FINITE);
 }
 
 GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
@@ -5281,7 +5291,7 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
         if (GVI__NEWTON && gvi__nonzero(h - st->h)) x->newton_left = x->whole_left = 0;
     }
     gvi_status status = gvi__uses(st, GVI_EXPLICIT) && !GVI__SMALL ? gvi__solve_explicit(st, &from, h, &past)
-                                                                   : gvi__solve(st, &from, h, &past, 0);
+                                                                   : gvi__solve(st, &from, h, &past, 0, 0);
     if (status == GVI_OK && !gvi__finite(st->t + x->dt)) status = gvi__give(st, GVI_E_ARGUMENT);
     if (status != GVI_OK) {
         gvi__count(&st->counters.failures, 1);
@@ -5576,32 +5586,27 @@ GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
     return GVI_OK;
 }
 
-// dq and dp of a partial step of length h from one end of the last step
-static gvi_status gvi__partial(gvi_stepper *st, gvi__from *from, int end, gvi_real h)
+/* dq and dp of a partial step for a time dt from one end of the last step.  With a clock
+   by Newton's method for the h that takes dt, its derivative being g, kept inside the
+   step by bisection.                                                          */
+static gvi_status gvi__partial(gvi_stepper *st, gvi__from *from, int end, gvi_real dt)
 {
     struct gvi__private *x = &st->x;
-    gvi__history past = { 1, end ? (gvi_real)1 : (gvi_real)0, h/st->h, NULL };
-    if (x->has_force && end) past.force = x->last.F;
-    return gvi__solve(st, from, h, &past, 1);
-}
-
-/* The same with a clock, for a time dt from that end: Newton's method for the h
-   that takes dt, its derivative being g, kept inside the step by bisection.    */
-static gvi_status gvi__partial_clock(gvi_stepper *st, gvi__from *from, int end, gvi_real dt)
-{
-    struct gvi__private *x = &st->x;
-    gvi_real near = 0, far = end ? -st->h : st->h, h = st->h*(dt/(st->t - x->t0)), rate, *q = x->change;
-    if (!(GVI_ABS(h) <= GVI_ABS(far))) h = far/2;             // t did not move, or less than it should
+    const int clock = gvi__has_clock(st);
+    gvi_real near = 0, far = end ? -st->h : st->h, h = clock ? st->h*(dt/(st->t - x->t0)) : dt;
+    if (clock && !(GVI_ABS(h) <= GVI_ABS(far))) h = far/2;     // t did not move, or less than it should
+    gvi__history past = { 1, end ? (gvi_real)1 : (gvi_real)0, 0, x->has_force && end ? x->last.F : NULL };
     for (int k = 0; k < 60; ++k) {
-        gvi_status status = gvi__partial(st, from, end, h);
-        gvi_real miss = x->dt - dt;
-        if (status != GVI_OK || GVI_ABS(miss) <= 2*GVI__EPS*GVI_ABS(dt)) return status;
+        past.beta = h/st->h;
+        gvi_status status = gvi__solve(st, from, h, &past, 1, 0);
+        gvi_real rate, *q = x->change;
+        if (status != GVI_OK || !clock || GVI_ABS(x->dt - dt) <= 2*GVI__EPS*GVI_ABS(dt)) return status;
         if (GVI_ABS(x->dt) > GVI_ABS(dt)) far = h;
         else near = h;
         for (int i = 0; i < st->n; ++i) q[i] = from->q[i] + x->dq[i];
         status = gvi__rate_at(st, from->t, q, &rate, x->one);
         if (status != GVI_OK) return status;
-        gvi_real next = h - miss/rate;
+        gvi_real next = h - (x->dt - dt)/rate;
         if (!((next - near)*(far - next) > 0)) next = near + (far - near)/2;
         if (GVI_ABS(next - h) <= GVI__EPS*GVI_ABS(st->h)) return GVI_OK;
         h = next;
@@ -5629,9 +5634,7 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
         from = first;
     }
     gvi_formulation was = st->formulation;
-    const int moves = GVI_ABS(h) > GVI__EPS*(GVI_ABS(ahead) + GVI_ABS(back));
-    if (moves && gvi__has_clock(st)) status = gvi__partial_clock(st, &from, end, h);
-    else if (moves) status = gvi__partial(st, &from, end, h);
+    if (GVI_ABS(h) > GVI__EPS*(GVI_ABS(ahead) + GVI_ABS(back))) status = gvi__partial(st, &from, end, h);
     else {
         gvi__copy(n, from.qe, x->dq);
         gvi__copy(n, from.pe, x->dp);
@@ -5687,8 +5690,8 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action)
    its ends.  The interior rows R = 0 give dy/dq = -J^-1 dR/dq, so the part of y is
    -lambda' dR/dq with J' lambda = g, g_k = h sum h b_i Phi_k f_i: one transposed
    solve for all of it.                                                        */
-static gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__matrix *J, const gvi_real *pivot,
-                                       gvi_real *minus, gvi_real *plus)
+GVI__APART gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__matrix *J, gvi_real *minus,
+                                           gvi_real *plus)
 {
     struct gvi__private *x = &st->x;
     int n = st->n, s = st->s, R = x->stride, size = (s - 1)*n;
@@ -5720,7 +5723,7 @@ static gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__matrix *J, co
             for (int j = 0; j < st->r; ++j) sum += x->hb[j]*x->Phi[k*R + j]*f[i*R + j];
             lambda[(k - 1)*n + i] = J->h*sum;
         }
-    gvi__lu_solve_transposed(size, J->square, pivot, lambda);
+    gvi__lu_solve_transposed(size, J->square, J->pivot, lambda);
     for (int row = 0; row < size; ++row)
         for (int i = 0; i < n; ++i) {
             gvi_real by_y0 = J->ends[row*2*n + i]/J->h, by_q0 = J->ends[row*2*n + n + i];
@@ -5739,8 +5742,8 @@ static gvi_real gvi__jacobian_error(const gvi_stepper *st)
 
 /* The curve between the boundary values: F at its points in work.F, and the sum
    of b_i P_i in p.  Degree 1 is a chord, point by point: nothing to solve.     */
-static gvi_status gvi__chord(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *q1,
-                             gvi_real *p)
+GVI__APART gvi_status gvi__chord(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *q1,
+                                 gvi_real *p)
 {
     struct gvi__private *x = &st->x;
     int n = st->n, R = x->stride;
@@ -5769,7 +5772,7 @@ static gvi_status gvi__chord(gvi_stepper *st, const gvi__from *from, gvi_real h,
 }
 
 static gvi_status gvi__interior(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *q1,
-                                gvi__matrix *J, gvi_real *pivot, gvi_real *p)
+                                gvi__matrix *J, gvi_real *p)
 {
     struct gvi__private *x = &st->x;
     int n = st->n, size = (st->s - 1)*n;
@@ -5779,16 +5782,16 @@ static gvi_status gvi__interior(gvi_stepper *st, const gvi__from *from, gvi_real
         gvi__zero((size_t)(st->s*n), x->y);
         for (int i = 0; i < n; ++i) x->y[i] = (q1[i] - from->q[i])/h;
         x->diagnose = (signed char)look;
-        status = gvi__newton(st, from, J, pivot, 0);
+        status = gvi__newton(st, from, J, 0);
         x->diagnose = 0;
     }
     if (status != GVI_OK && status != GVI_E_CONVERGENCE) return status;
 
     // the Jacobian where it ended says whether there was anything to find
     J->scaled = 1;
-    gvi_status second = gvi__jacobian(st, J, pivot);
+    gvi_status second = gvi__jacobian(st, J);
     if (second != GVI_OK) return second;
-    if (gvi_lu_rcond(size, J->square, pivot, x->dF) < gvi__jacobian_error(st)) status = GVI_E_CONJUGATE;
+    if (gvi_lu_rcond(size, J->square, J->pivot, x->dF) < gvi__jacobian_error(st)) status = GVI_E_CONJUGATE;
     for (int i = 0; i < n; ++i) p[i] = gvi__dot(st->r, x->b, x->work.P + i*x->stride);
     return status;
 }
@@ -5832,7 +5835,7 @@ static int gvi__negative(int n, gvi_real *a)
 }
 
 // the second variation is h J without the factors 2k + 1 of its rows
-static gvi_status gvi__count_negative(gvi_stepper *st, const gvi__matrix *J, int *negative)
+GVI__APART gvi_status gvi__count_negative(gvi_stepper *st, const gvi__matrix *J, int *negative)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, size = (st->s - 1)*n;
@@ -5840,7 +5843,8 @@ static gvi_status gvi__count_negative(gvi_stepper *st, const gvi__matrix *J, int
     *negative = 0;
     if (size == 0) return GVI_OK;
     x->off |= gvi__of_kind(st, GVI_FORCE);
-    gvi_status status = gvi__jacobian_fill(st, J);
+    gvi_status status = gvi__check_regular(st);
+    if (status == GVI_OK) status = gvi__jacobian_fill(st, J);
     x->off = off;
     if (status != GVI_OK) return status;
     gvi_real *a = J->square;
@@ -5854,6 +5858,26 @@ static gvi_status gvi__count_negative(gvi_stepper *st, const gvi__matrix *J, int
     return GVI_OK;
 }
 
+// the action along that curve
+GVI__APART gvi_status gvi__curve_action(gvi_stepper *st, const gvi__from *from, gvi_real h,
+                                        const gvi_real *q1, gvi_real *action)
+{
+    struct gvi__private *x = &st->x;
+    const int n = st->n, R = x->stride;
+    gvi_real L, *q = x->change, *v = q + n;
+    gvi_status status = GVI_OK;
+    *action = 0;
+    for (int j = 0; j < st->r && status == GVI_OK; ++j) {
+        for (int i = 0; i < n; ++i) {
+            q[i] = x->work.Q[i*R + j];
+            v[i] = x->work.V ? x->work.V[i*R + j] : (q1[i] - from->q[i])/h;
+        }
+        status = gvi__lagrangian(st, x->t[j], q, v, &L);
+        if (status == GVI_OK) *action += x->hb[j]*L;
+    }
+    return status;
+}
+
 static gvi_status gvi__boundary_value(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *q1,
                                       const gvi_discrete *out)
 {
@@ -5861,30 +5885,21 @@ static gvi_status gvi__boundary_value(gvi_stepper *st, const gvi__from *from, gv
     int n = st->n, s = st->s, R = x->stride;
     size_t size = (size_t)(s - 1)*(size_t)n, sn = (size_t)s*(size_t)n;
     gvi_real *square = s > 1 ? x->J + sn*sn : NULL, *pivot = s > 1 ? x->pivot + sn + 1 : NULL;
-    gvi__matrix J = { square, s > 1 ? square + size*size : NULL, 1, h, 0, 0 };
-    gvi_real *p0 = x->dq, *p1 = x->dp, *minus = x->change, *plus = minus + n;
-    gvi_status status = gvi__interior(st, from, h, q1, &J, pivot, p0);
+    gvi__matrix J = { square, s > 1 ? square + size*size : NULL, pivot, 1, h, 0, 0 };
+    gvi_real *p0 = x->dq, *p1 = x->dp, *minus = x->change, *plus = minus + n, action = 0;
+    int negative = 0;
+    gvi_status status = gvi__interior(st, from, h, q1, &J, p0);
     if (status == GVI_E_CONJUGATE || (status == GVI_E_SINGULAR && st->fault.effect == GVI_FAULT_NONE))
         return gvi__give(st, GVI_E_CONJUGATE);
+    if (status == GVI_OK && out->lagrangian) status = gvi__curve_action(st, from, h, q1, &action);
     if (status != GVI_OK) return status;
 
-    // the action, row 0 of (1) for p0, then (2)
-    gvi_real action = 0, L;
-    for (int j = 0; j < st->r && out->lagrangian; ++j) {
-        for (int i = 0; i < n; ++i) {
-            minus[i] = x->work.Q[i*R + j];
-            plus[i] = x->work.V ? x->work.V[i*R + j] : (q1[i] - from->q[i])/h;
-        }
-        status = gvi__lagrangian(st, x->t[j], minus, plus, &L);
-        if (status != GVI_OK) return status;
-        action += x->hb[j]*L;
-    }
+    // row 0 of (1) for p0, then (2)
     for (int i = 0; i < n; ++i) {
         for (int j = 0; j < st->r; ++j) p0[i] -= x->hb[j]*(1 - x->Phi[j])*x->work.F[i*R + j];
         p1[i] = p0[i] + gvi__dot(st->r, x->hb, x->work.F + i*R);
     }
-    status = gvi__discrete_forces(st, &J, pivot, minus, plus);
-    int negative = 0;
+    status = gvi__discrete_forces(st, &J, minus, plus);
     if (status == GVI_OK && out->negative) status = gvi__count_negative(st, &J, &negative);
     if (status != GVI_OK) return status;
     if (out->negative) *out->negative = negative;
