@@ -111,8 +111,8 @@
               else the next multiple of 8, K = 1 for positions, 2 for velocities and
               momenta; full M: 2n^2 ((N+2) K R + 3) more; M(q): (N+1) r (n^3/2 + 6n^2).
               Explicit: 10n(r+1) + 32n + 8r + 16.  A new h: 6r^3 + 4(r+10)rR + 70r + 60
-              more, in its step and the next two.  With stiffness: n R (4r + 12) more, and for
-              each k/m at a new h 3r^3 + 14r^2 + 12r.  Twice that where the extrapolated start
+              more, in its step and the next two.  With stiffness: (N+2) n R (2r + 10) more, and
+              for each k/m at a new h 3r^3 + 14r^2 + 12r.  Twice that where the extrapolated start
               leads nowhere, four times where the step fails.  Without a clock, Lagrangian
               terms or marks; counted by make bound.
 
@@ -138,7 +138,7 @@
      GVI_NO_POINT         no effects that are given as .point
      GVI_NO_RULES         no rule but Gauss with r = s <= 4, and in GVI_EXPLICIT those
                           that it takes; no Lagrangian terms.  Nodes and tables
-                          then are constants, not code
+                          then are constants, not code; products with h are rounded
      GVI_NO_TOLERANCE     no fixed point without desc.iterations
      GVI_NO_DIAGNOSIS     where a value is not finite, st->fault names no effect
 
@@ -235,15 +235,18 @@
    alone, and not compiled for size: elsewhere a marked effect is asked as any other.
 
    STIFF SPRINGS.  A spring of frequency omega lets a fixed point contract like (h omega)^2
-   or not at all, although nothing about it is unknown.  desc.stiffness tells it: k_i q_i is
-   what dV/dq_i has of such a spring, whatever else it has; the effects give all of it as
-   ever.  A round then solves for that part, by an r*r matrix for each k_i/m_i, and only the
-   rest of the force is left to contract; h is bounded by what the curve can follow.  It is
-   a simplified Newton method with a diagonal Jacobian of which nothing but a constant is
-   known.  The equations, and so the step, are the same whatever k: one that is wrong costs
-   rounds, or Newton's method.  It is for positions and velocities with unit or diagonal
-   mass, and not compiled for size: elsewhere it is not heeded.  Memory: some 2 R n numbers,
-   and r R for each k_i/m_i that is not that of the stiff coordinate before.
+   or not at all, although nothing about it is unknown.  desc.stiffness tells it: k_i is
+   the constant part of d2V/dq_i^2, wherever that spring is at rest; the effects give all
+   of the force, as ever.  A round then solves for that part, by an r*r matrix for each
+   k_i/m_i, and only the rest of the force is left to contract; h is bounded by what the
+   curve can follow.  It is a simplified Newton method with a constant diagonal Jacobian.
+   The equations, and so the step, are the same, and k may be rough: within a factor of two
+   of the truth it costs no more than rounds.  Told where there is no spring, or far too large,
+   the rounds can diverge: Newton's method, or GVI_E_CONVERGENCE where a formulation is pinned;
+   and above 0.01/EPS times the truth it hides all motion.  It pays from h omega = 1/2 or so,
+   and takes r R numbers of memory for each k_i/m_i that is not that of the stiff coordinate
+   before.  It is for positions and velocities with unit or diagonal mass, and not compiled
+   for size: elsewhere it is not heeded.
 
    CLOCK.  An effect g(q) > 0 makes time run as dt = g dtau, and h is a step in
    tau: t moves fast or slow, and the map is as symplectic as with fixed steps
@@ -475,9 +478,9 @@ typedef struct gvi_desc {
                                           before (N = 2: less than the first) nor rounding fails;
                                           N = 1 does not: look at counters.worst_change.
                                           0: as many as it takes               */
-    const gvi_real   *stiffness;       /* [n] k_i, or NULL: the part k_i q_i of dV/dq_i, which is
-                                          solved, not iterated (STIFF SPRINGS).  Read
-                                          by gvi_init only                     */
+    const gvi_real   *stiffness;       /* [n] k_i, or NULL: the constant part of d2V/dq_i^2,
+                                          solved in place of iterated (STIFF SPRINGS).
+                                          Read by gvi_init only                */
 } gvi_desc;
 
 #define GVI_FAULT_NONE (-1)
@@ -513,7 +516,7 @@ struct gvi__private {
     int              stride, flags;   /* of the rows; what the scene needs      */
     /* parts of the caller's memory, handed out by gvi__layout; R = stride */
     struct gvi__rows work, last;      /* at the points of the next step, the last */
-    gvi_real *c, *hb, *b, *ce;        /* [R] nodes, h b, weights; rest of nodes */
+    gvi_real *c, *hb, *b;             /* [R] nodes, h b, weights                */
     gvi_real *q, *p, *dq, *dp;        /* [n] state and its increments           */
     gvi_real *qe, *pe, *dqe, *dpe;    /* [n] what rounding left of them         */
     gvi_real *change, *one;           /* [3n], [6n] scratch                     */
@@ -522,7 +525,7 @@ struct gvi__private {
     gvi_real *start;                  /* [n] velocity that a start was given    */
     gvi_real *v0, *ve;                /* [n] M^-1 p, M^-1 pe of the step at work */
     gvi_real *scale;                  /* [2n] 1/unit of changes, of two sets of rows */
-    gvi_real *t, *place;              /* [R] times; [3R] scratch                */
+    gvi_real *t, *place;              /* [R] times, at set-up rest of c; [3R] scratch */
     gvi_real *z, *less, *row;         /* [R], [R], [6R] scratch                 */
     gvi_real *inv_gamma, *own;        /* [s] 1/Gamma_kk; LU of Gamma if full    */
     gvi_real *eigen;                  /* [(s+1)/2][2s] of integration, Gauss with r = s */
@@ -533,9 +536,7 @@ struct gvi__private {
     gvi_real *slope;                  /* [n][R] clock: dg/dq                    */
     gvi_real *over;                   /* [n] 1/m of a diagonal mass             */
     gvi_real *weak;                   /* [n+2][R] weak forces, as last asked; gvi__answers */
-    gvi_real *stiffness, *k, *which;  /* [n] stiffness, given and heeded; its table */
-    gvi_real *soft, *due;             /* [n][R] F + k Q of the last step; what F should be */
-    gvi_real *solve, *solve_lu;       /* [springs*r][R] tables of gvi__spring_tables; scratch */
+    gvi_real *springs;                /* stiffness: see gvi__tables_of_springs  */
     gvi_real *mass, *point_mass, *Z;  /* M; M at the points [n*n][R]; [n][R] scratch */
     gvi_real *y, *dy, *J, *pivot;     /* Newton: [s*n] twice; two matrices of s*n */
     gvi_real *hess, *dF;              /* scratch; F and P, moved and not, [4][n][R] */
@@ -549,8 +550,6 @@ struct gvi__private {
     gvi_real         h_weights;       /* h for which hb holds                   */
     gvi_real         ratio;           /* h/h_last for which E holds             */
     gvi_real         h_matrix;        /* h for which J was made, 0: none        */
-    gvi_real         h_springs;       /* |h| for which solve holds, 0: none     */
-    int              springs;         /* tables in solve                        */
     unsigned         off;             /* effects switched off, one bit each     */
     unsigned         marks;           /* effects marked as weak, likewise       */
     signed char      newton_left;     /* steps until the fixed point is tried   */
@@ -660,8 +659,8 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
 /* Restart from a checkpoint, a copy of a stepper and of its memory, in a
    stepper that was set up by gvi_init for the same description, in this
    process or another.  What follows is the same to the bit.  GVI_E_ARGUMENT if
-   sizes, kinds of effects, mass or formulation differ; a rule of as many points
-   and a tolerance are not compared: those saved are used.                    */
+   sizes, kinds of effects, mass or formulation differ; a rule of as many points,
+   a tolerance and stiffness are not compared: those saved are used.          */
 GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const gvi_real *memory);
 
 /* A sentence for a status; why st uses the formulation that it uses.         */
@@ -2145,7 +2144,7 @@ GVI__APART void gvi__modes_at(gvi_stepper *st, int i)
 {
     struct gvi__private *x = &st->x;
     gvi__two P = gvi__real2(1), before = gvi__real2(1);
-    const gvi__two X = gvi__argument2(gvi__two_of(x->c[i], x->ce[i]));
+    const gvi__two X = gvi__argument2(gvi__two_of(x->c[i], x->t[i]));
     for (int k = 0; k < st->s; ++k) {
         const gvi__two next = gvi__legendre2(k, X, P, before);
         const gvi__two Phi = gvi__over2(gvi__sub2(before, next), 4*k + 2);
@@ -2167,7 +2166,7 @@ static void gvi__modes_mirrored(gvi_stepper *st, int i)
     struct gvi__private *x = &st->x;
     const int back = st->r - 1 - 2*i;
     x->Phi[i] = x->c[i];
-    x->E[i] = x->ce[i];
+    x->E[i] = x->t[i];
     for (int k = 0, at = i; k < st->s; ++k, at += x->stride) {
         const gvi_real sign = k % 2 ? -(gvi_real)1 : (gvi_real)1;
         if (k > 0) x->Phi[at] = 0 - sign*x->Phi[at + back];
@@ -2187,7 +2186,7 @@ static void gvi__modes_at_nodes(gvi_stepper *st)
     for (int i = 0; i < st->r; ++i) {
         if (mirrored && 2*i >= st->r) gvi__modes_mirrored(st, i);
         else gvi__modes_at(st, i);
-        x->c[i] = gvi__grid(gvi__sum(x->c[i], x->ce[i]), GVI__EPS/2);
+        x->c[i] = gvi__grid(gvi__sum(x->c[i], x->t[i]), GVI__EPS/2);
     }
 }
 
@@ -2624,7 +2623,7 @@ static gvi_status gvi__resolve(gvi__scene *x, gvi_desc *d, const gvi_desc *desc)
     status = gvi__measure(x);
     if (status == GVI_OK) status = gvi__choose(x);
     if (status != GVI_OK) return status;
-    x->springs = gvi__springs(x, NULL);
+    if (GVI__STIFF) x->springs = gvi__springs(x, NULL);
     const int wanted = gvi__flag(x->flags, GVI__HAS_NEWTON | GVI__HAS_LAGRANGIAN);
     const int matrices = wanted || d->mass.kind >= GVI_MASS_DENSE;
     return matrices && d->n > 0x7FFF ? GVI_E_ARGUMENT : GVI_OK;          // indices are int: n*n and s*n
@@ -2680,7 +2679,7 @@ enum {
     GVI__STATE, GVI__POINTS, GVI__V, GVI__P, GVI__A_, GVI__OLDER_F, GVI__OLDER_V, GVI__OLDER_A,
     GVI__SLOPE, GVI__RATE, GVI__G, GVI__M, GVI__T, GVI__NN, GVI__E, GVI__PHI, GVI__MODES, GVI__PLACE,
     GVI__DRIFT, GVI__GAMMA, GVI__DIAGONAL, GVI__TWO_MASSES, GVI__STILL, GVI__Z, GVI__AT_POINTS, GVI__nR,
-    GVI__STIFF_N, GVI__SOLVE, GVI__SOLVE_LU, GVI__HESS, GVI__HESSIANS, GVI__sn, GVI__PIVOT, GVI__DIFFERENCES, GVI__J, GVI__EIGEN, GVI__LENGTHS
+    GVI__SPRINGS, GVI__HESS, GVI__HESSIANS, GVI__sn, GVI__PIVOT, GVI__DIFFERENCES, GVI__J, GVI__EIGEN, GVI__LENGTHS
 };
 
 GVI__APART void gvi__lengths(const gvi__scene *x, size_t *length)
@@ -2726,9 +2725,7 @@ GVI__APART void gvi__lengths(const gvi__scene *x, size_t *length)
     length[GVI__DIAGONAL] = d->mass.kind == GVI_MASS_DIAGONAL ? length[GVI__N] : 0;
     length[GVI__TWO_MASSES] = dense ? 2*n : 0;                 // factored, and as it is
     length[GVI__STILL] = iterates && gvi__marks(d) ? n + 2 : 0;
-    length[GVI__STIFF_N] = x->springs ? n : 0;
-    length[GVI__SOLVE] = (size_t)x->springs*r;
-    length[GVI__SOLVE_LU] = x->springs ? r*r + r + 1 : 0;
+    length[GVI__SPRINGS] = GVI__STIFF && x->springs ? 2*R + (size_t)x->springs*r*R + 2*n + r*r + r + 1 : 0;
     length[GVI__Z] = dense && positions ? n : 0;
     length[GVI__AT_POINTS] = gvi__has_mass(d, GVI_MASS_POSITION) ? n : 0;
     length[GVI__nR] = n*R;
@@ -2774,15 +2771,12 @@ static void gvi__layout_rows(gvi__arena *a, const size_t *length)
         GVI__PART(work.F, STATE, POINTS), GVI__PART(work.V, V, R), GVI__PART(work.P, P, R),
         GVI__PART(work.A, A_, R), GVI__PART(older_F, OLDER_F, R), GVI__PART(older_V, OLDER_V, R),
         GVI__PART(older_A, OLDER_A, R), GVI__PART(weak, STILL, R), GVI__PART(slope, SLOPE, R),
-        GVI__PART(soft, STIFF_N, R), GVI__PART(due, STIFF_N, R), GVI__PART(solve, SOLVE, R),
-        GVI__PART(stiffness, STIFF_N, 1), GVI__PART(k, STIFF_N, 1),
-        GVI__PART(which, STIFF_N, 1), GVI__PART(solve_lu, SOLVE_LU, 1),
         GVI__PART(rate, RATE, R), GVI__PART(z, 1, R), GVI__PART(less, 1, R), GVI__PART(hb, 1, R),
         GVI__PART(c, 1, R), GVI__PART(g, G, R), GVI__PART(m, M, R), GVI__PART(T, T, R), GVI__PART(N, NN, R),
         GVI__PART(E, E, R), GVI__PART(Phi, PHI, R), GVI__PART(phi, MODES, R), GVI__PART(low, MODES, R),
-        GVI__PART(Z, Z, R), GVI__PART(point_mass, AT_POINTS, nR), GVI__PART(ce, 1, R), GVI__PART(b, 1, R),
-        GVI__PART(t, 1, R), GVI__PART(place, PLACE, R), GVI__PART(row, 6, R), GVI__PART(drift, DRIFT, 1),
-        GVI__PART(inv_gamma, 1, s), GVI__PART(own, GAMMA, 1), GVI__PART(eigen, EIGEN, s)
+        GVI__PART(Z, Z, R), GVI__PART(point_mass, AT_POINTS, nR), GVI__PART(b, 1, R),
+        GVI__PART(t, 1, R), GVI__PART(place, PLACE, R), GVI__PART(row, 6, R), GVI__PART(springs, SPRINGS, 1),
+        GVI__PART(drift, DRIFT, 1), GVI__PART(inv_gamma, 1, s), GVI__PART(own, GAMMA, 1), GVI__PART(eigen, EIGEN, s)
     };
     gvi__place(a, length, parts, sizeof parts/sizeof *parts);
 }
@@ -2854,13 +2848,30 @@ static gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
     return GVI_OK;
 }
 
+/* Where stiffness is heeded x->springs is [2R] h, for which the tables hold, and their count;
+   the tables, [count][r][R]; [n] k; [n] its table; [r*r + r + 1] scratch.         */
+static inline const gvi_real *gvi__tables_of_springs(const gvi_stepper *st)
+{
+    return st->x.springs + 2*st->x.stride;
+}
+
+static inline gvi_real *gvi__stiffness(const gvi_stepper *st)
+{
+    return st->x.springs + st->x.stride*(2 + (int)st->x.springs[1]*st->r);
+}
+
+static inline const gvi_real *gvi__spring_table(const gvi_stepper *st, const gvi_real *k, int i)
+{
+    return gvi__tables_of_springs(st) + (size_t)k[st->n + i]*(size_t)(st->r*st->x.stride);
+}
+
 // stiffness into the memory
 static gvi_status gvi__set_stiffness(gvi_stepper *st, const gvi_real *stiffness)
 {
     for (int i = 0; stiffness && i < st->n; ++i)
         if (!gvi__finite(stiffness[i]))
             return gvi__fail(st, GVI_E_ARGUMENT, GVI_FAULT_NONE, i, GVI_FAULT_NONE);
-    if (GVI__STIFF && st->x.stiffness) gvi__copy((size_t)st->n, stiffness, st->x.stiffness);
+    if (GVI__STIFF && st->x.springs) gvi__copy((size_t)st->n, stiffness, gvi__stiffness(st));
     return GVI_OK;
 }
 
@@ -2893,8 +2904,10 @@ static gvi_status gvi__hand_out(gvi_stepper *st, const gvi_desc *desc, gvi_real 
     memory += x->skip;
     gvi__layout(&scene, x, memory);
     gvi__zero(GVI__NEWTON && x->J ? (size_t)(x->J - memory) : x->size, memory);    // J is written first
-    x->springs = scene.springs;
-    if (x->springs) gvi__springs(&scene, x->which);
+    if (GVI__STIFF && x->springs) {
+        x->springs[1] = (gvi_real)scene.springs;
+        gvi__springs(&scene, gvi__stiffness(st) + st->n);
+    }
     return GVI_OK;
 }
 
@@ -2910,7 +2923,7 @@ static void gvi__set_rule(gvi_stepper *st, const gvi_desc *desc)
         x->b[0] = x->b[1] = (gvi_real)0.5;
     }
 #if GVI__RULES
-    else gvi__rule_make(x->desc.rule.kind == GVI_LOBATTO, st->r, x->c, x->ce, x->b);
+    else gvi__rule_make(x->desc.rule.kind == GVI_LOBATTO, st->r, x->c, x->t, x->b);
 #else
     else gvi__few_modes(st, (size_t)desc->degree);           // r = s, and known if the description is
 #endif
@@ -3145,7 +3158,7 @@ typedef gvi_real gvi__kernel(gvi_stepper *st, const struct gvi__stage *y);   // 
 typedef struct gvi__stage {
     const gvi_real *base, *extra, *path, *rest, *table, *f, *minus;
     gvi_real        factor, *rows, *scale;
-    int             over_mass, by_due;      // M^-1; beside stiffness, see gvi__spring_rows_of
+    int             over_mass;
     gvi__kernel    *kernel;
 } gvi__stage;
 
@@ -3284,8 +3297,8 @@ GVI__COPY gvi__affine gvi__affine_of(const gvi__stage *y, const gvi_real *diagon
     gvi__affine p;
     p.base = y->base[i];
     p.extra = y->extra[i];
-    p.a = y->path ? y->path[i] : 0;
-    p.rest = y->path ? y->rest[i] : 0;
+    p.a = !y->path ? 0 : GVI__RULES ? y->path[i] : y->factor*y->path[i];
+    p.rest = GVI__RULES && y->path ? y->rest[i] : 0;
     p.b = y->factor;
     p.m = diagonal ? diagonal[i] : 1;
     return p;
@@ -3298,7 +3311,7 @@ GVI__APART void gvi__affine_row(const gvi_stepper *st, const gvi__stage *y, int 
     const gvi__affine p = gvi__affine_of(y, gvi__diagonal(st, y), i);
     const gvi_real *c = x->c;
     for (int k = 0; k < x->stride; ++k)
-        row[k] = p.base + (((p.extra + c[k]*p.rest) + c[k]*p.a) + row[k]*p.m*p.b);
+        row[k] = p.base + (((GVI__RULES ? p.extra + c[k]*p.rest : p.extra) + c[k]*p.a) + row[k]*p.m*p.b);
 }
 
 /* The rows of a stage, M^-1 being a number for each.  Returns the sum of the squares
@@ -3447,45 +3460,42 @@ static void gvi__row_sums(const gvi_stepper *st, const gvi__stage *y, int i, gvi
 }
 
 /* The rows of positions beside stiffness.  As far as k can tell, a force at rows that move
-   by dQ becomes less by k dQ, and what it makes of the rows less by g (h b k dQ) h/m.  So a
-   force that is greater by dF than the one that the rows belong to moves them by
+   by dQ becomes less by k dQ, and what it makes of the rows less by g (h b k dQ) h/m.  The
+   plain rows are d away from those that the force was asked at.  What they make of the force
+   would move them by g (h b (-k d)) h/m, that again, and so on: in all by
 
-     dQ = solve (h b dF) h/m         solve = (I + h^2 k/m (g b))^-1 g
+     solve (h b (-k d)) h/m         solve = (I + h^2 k/m (g b))^-1 g
 
-   In the first round they belong to none: they become the plain rows, Q + d, and then dF is
-   -k d.  From then on dF = F - due, due being what F was to become: it is small, so the
-   rows keep the rounding of the plain ones.  F follows them, and is as good as they are. */
+   which leaves dQ = (I + h^2 k/m (g b))^-1 d.  It is d at the end that is small: the rows
+   come as close to the plain ones as rounding lets them, whatever k.  F follows them.  */
 GVI__COPY gvi_real gvi__spring_rows_of(const gvi_stepper *st, const gvi__stage *y, int r, int R)
 {
     const struct gvi__private *x = &st->x;
     const gvi_real *diagonal = gvi__diagonal(st, y), *minus = GVI__LAGRANGIAN ? y->minus : NULL;
+    const gvi_real *stiffness = gvi__stiffness(st);
     gvi_real lane[8] = { 0, 0, 0, 0, 0, 0, 0, 0 }, own[3*16], *L = R > 16 ? x->row : own;
     gvi_real *next = L + R, *away = next + R;
     for (int i = 0; i < st->n; ++i) {
         const gvi__affine p = gvi__affine_of(y, diagonal, i);
-        const gvi_real k = x->k[i], *solve = x->solve + (size_t)x->which[i]*(size_t)(r*R);
-        gvi_real *row = y->rows + i*R, *F = x->work.F + i*R, *due = x->due + i*R;
-        if (y->by_due && gvi__nonzero(k)) {
-            for (int j = 0; j < R; ++j) L[j] = x->hb[j]*(F[j] - due[j]);
-            gvi__sum_row(r, R, solve, L, next);
-            for (int j = 0; j < R; ++j) next[j] = row[j] + next[j]*p.m*p.b;
-        } else {
-            gvi__weigh(R, x->hb, F, L);
-            gvi__sum_row(r, R, y->table, L, next);
-            if (minus) gvi__weighted_sums(st, minus, x->b, x->work.A + i*R, away);
-            for (int j = 0; minus && j < R; ++j) next[j] -= away[j];
-            for (int j = 0; j < R; ++j)
-                next[j] = p.base + (((p.extra + x->c[j]*p.rest) + x->c[j]*p.a) + next[j]*p.m*p.b);
+        const gvi_real k = stiffness[i];
+        gvi_real *row = y->rows + i*R, *F = x->work.F + i*R;
+        gvi__weigh(R, x->hb, F, L);
+        gvi__sum_row(r, R, y->table, L, next);
+        if (minus) gvi__weighted_sums(st, minus, x->b, x->work.A + i*R, away);
+        for (int j = 0; minus && j < R; ++j) next[j] -= away[j];
+        for (int j = 0; j < R; ++j)
+            next[j] = p.base + (((p.extra + x->c[j]*p.rest) + x->c[j]*p.a) + next[j]*p.m*p.b);
+        if (gvi__nonzero(k)) {
             for (int j = 0; j < R; ++j) L[j] = x->hb[j]*(-k*(next[j] - row[j]));
-            if (gvi__nonzero(k)) gvi__sum_row(r, R, solve, L, away);
-            for (int j = 0; gvi__nonzero(k) && j < R; ++j) next[j] += away[j]*p.m*p.b;
+            gvi__sum_row(r, R, gvi__spring_table(st, stiffness, i), L, away);
+            for (int j = 0; j < R; ++j) next[j] = row[j] + ((next[j] - row[j]) + away[j]*p.m*p.b);
         }
         gvi__rescale(p.base, row[r - 1], next[r - 1], y->scale + i);
         for (int j = R; j-- > 0; ) {
             const gvi_real moved = next[j] - row[j], change = moved*y->scale[i];
             row[j] = next[j];
             lane[j & 7] += change*change;
-            due[j] = F[j] -= k*moved;
+            F[j] -= k*moved;
         }
     }
     return gvi__sum_lanes(lane);
@@ -3497,50 +3507,41 @@ GVI__COPY gvi_real gvi__spring_rows_vector(const gvi_stepper *st, const gvi__sta
 {
     enum { MOST = 16/GVI__LANES, EIGHT = 8/GVI__LANES };
     const struct gvi__private *x = &st->x;
-    const gvi_real *diagonal = gvi__diagonal(st, y), *springs = x->k, *which = x->which;
+    const gvi_real *diagonal = gvi__diagonal(st, y), *stiffness = gvi__stiffness(st);
     const gvi_real *base = y->base, *extra = y->extra, factor = y->factor;
-    const int n = st->n, vectors = R/GVI__LANES, by_due = y->by_due;
-    gvi_real *row = y->rows, *F = x->work.F, *due = x->due, *scale = y->scale, lane[8], ahead[64], ask[16];
+    const int n = st->n, vectors = R/GVI__LANES;
+    gvi_real *row = y->rows, *F = x->work.F, *scale = y->scale, lane[8], ahead[64], ask[16];
     gvi__vector kept[8], c[MOST], hb[MOST], squares[EIGHT] = { { 0 } };
     const gvi_real *table = R == 8 ? gvi__keep(r, y->table, kept) : y->table;
     for (int v = 0; v < vectors; ++v) {
         c[v] = GVI__AT(x->c + v*GVI__LANES);
         hb[v] = GVI__AT(x->hb + v*GVI__LANES);
     }
-    for (int i = 0; i < n; ++i, row += R, F += R, due += R) {
+    for (int i = 0; i < n; ++i, row += R, F += R) {
         if (i*R % 64 == 0)
-            for (int o = 0; o < 64 && o < R*(n - i); o += GVI__LANES) {
-                gvi__vector dF = GVI__AT(F + o);
-                if (by_due) dF -= GVI__AT(due + o);                // due is 0 where k is
-                *(gvi__vector *)(ahead + o) = hb[o/GVI__LANES % vectors]*dF;
-            }
-        const gvi_real a = y->path[i], rest = y->rest[i], k = springs[i];
-        const gvi_real *solve = x->solve + (size_t)which[i]*(size_t)(R*r);
+            for (int o = 0; o < 64 && o < R*(n - i); o += GVI__LANES)
+                *(gvi__vector *)(ahead + o) = hb[o/GVI__LANES % vectors]*GVI__AT(F + o);
+        const gvi_real a = y->path[i], rest = y->rest[i], k = stiffness[i];
         const int stiff = gvi__nonzero(k);
-        gvi__vector next[MOST], z;
+        gvi__vector next[MOST], d[MOST], z;
         for (int v = 0; v < vectors; ++v) {
-            gvi__sum_vector(r, R, (by_due && stiff ? solve : table) + v*GVI__LANES, ahead + i*R % 64, &z);
+            gvi__sum_vector(r, R, table + v*GVI__LANES, ahead + i*R % 64, &z);
             if (diagonal) z *= diagonal[i];
-            if (by_due && stiff) next[v] = GVI__AT(row + v*GVI__LANES) + z*factor;
-            else next[v] = base[i] + (((extra[i] + c[v]*rest) + c[v]*a) + z*factor);
+            next[v] = base[i] + (((extra[i] + c[v]*rest) + c[v]*a) + z*factor);
+            d[v] = next[v] - GVI__AT(row + v*GVI__LANES);
+            if (stiff) *(gvi__vector *)(ask + v*GVI__LANES) = hb[v]*(-k*d[v]);
         }
-        for (int v = 0; !by_due && stiff && v < vectors; ++v)
-            *(gvi__vector *)(ask + v*GVI__LANES) = hb[v]*(-k*(next[v] - GVI__AT(row + v*GVI__LANES)));
-        for (int v = 0; !by_due && stiff && v < vectors; ++v) {
-            gvi__sum_vector(r, R, solve + v*GVI__LANES, ask, &z);
+        for (int v = 0; stiff && v < vectors; ++v) {
+            gvi__sum_vector(r, R, gvi__spring_table(st, stiffness, i) + v*GVI__LANES, ask, &z);
             if (diagonal) z *= diagonal[i];
-            next[v] += z*factor;
+            next[v] = GVI__AT(row + v*GVI__LANES) + (d[v] + z*factor);
         }
         gvi__rescale(base[i], row[r - 1], next[(r - 1)/GVI__LANES][(r - 1) % GVI__LANES], scale + i);
         for (int v = vectors; v-- > 0; ) {
             const gvi__vector moved = next[v] - GVI__AT(row + v*GVI__LANES), change = moved*scale[i];
             *(gvi__vector *)(row + v*GVI__LANES) = next[v];
             squares[v % EIGHT] += change*change;
-            if (stiff) {
-                z = GVI__AT(F + v*GVI__LANES) - k*moved;
-                *(gvi__vector *)(F + v*GVI__LANES) = z;
-                *(gvi__vector *)(due + v*GVI__LANES) = z;
-            }
+            if (stiff) *(gvi__vector *)(F + v*GVI__LANES) -= k*moved;
         }
     }
     for (int v = 0; v < EIGHT; ++v) *(gvi__vector *)(lane + v*GVI__LANES) = squares[v];
@@ -3548,29 +3549,26 @@ GVI__COPY gvi_real gvi__spring_rows_vector(const gvi_stepper *st, const gvi__sta
 }
 #endif
 
-/* The tables for a step of length h.  Where there is no inverse, which only a k below 0
-   brings about, that k is not heeded.                                          */
-GVI__APART void gvi__spring_tables(gvi_stepper *st, gvi_real h)
+/* The tables for a step of length h; 0, so that the rows are the plain ones, where there is
+   no inverse, as it may be for k/m below 0.                                    */
+GVI__APART void gvi__make_spring_tables(gvi_stepper *st, gvi_real h)
 {
     struct gvi__private *x = &st->x;
-    const int r = st->r, R = x->stride;
-    gvi_real *lu = x->solve_lu, *pivot = lu + r*r, *table = x->solve;
-    gvi_status status = GVI_OK;
-    x->h_springs = GVI_ABS(h);
-    for (int i = 0, made = 0; i < st->n; ++i) {
-        const gvi_real k = x->stiffness[i], over = x->over ? x->over[i] : 1;
-        if (gvi__nonzero(k) && (int)x->which[i] == made) {
-            for (int a = 0; a < r; ++a)
-                for (int j = 0; j < r; ++j)
-                    lu[a*r + j] = (a == j ? 1 : 0) + h*k*over*x->hb[j]*x->g[j*R + a];
-            status = gvi_lu_factor(r, lu, pivot);
-            gvi__copy((size_t)(r*R), x->g, table);
-            for (int j = 0; j < r && status == GVI_OK; ++j) gvi_lu_solve(r, lu, pivot, table + j*R);
-            table += r*R;
-            ++made;
-        }
-        x->k[i] = status == GVI_OK ? k : 0;
-        if (status != GVI_OK) gvi__zero((size_t)R, x->due + i*R);
+    const int n = st->n, r = st->r, R = x->stride;
+    const gvi_real *stiffness = gvi__stiffness(st);
+    gvi_real *lu = gvi__stiffness(st) + 2*n, *pivot = lu + r*r, *table = x->springs + 2*R;
+    x->springs[0] = h;
+    for (int i = 0, made = 0; i < n; ++i) {
+        const gvi_real k = h*stiffness[i]*(x->over ? x->over[i] : 1);
+        if (!gvi__nonzero(stiffness[i]) || (int)stiffness[n + i] != made) continue;
+        for (int a = 0; a < r; ++a)
+            for (int j = 0; j < r; ++j) lu[a*r + j] = (a == j ? 1 : 0) + k*x->hb[j]*x->g[j*R + a];
+        const gvi_status status = gvi_lu_factor(r, lu, pivot);
+        gvi__copy((size_t)(r*R), x->g, table);
+        for (int j = 0; j < r; ++j, table += R)
+            if (status == GVI_OK) gvi_lu_solve(r, lu, pivot, table);
+            else gvi__zero((size_t)R, table);
+        ++made;
     }
 }
 
@@ -3585,34 +3583,30 @@ static inline void gvi__row_plus(int R, const gvi_real *a, gvi_real k, const gvi
     for (int j = 0; j < R; ++j) sum[j] = a[j] + k*b[j];
 }
 
-// first rows of positions, from F + k Q of other steps: dF = -k Q of the plain ones
+// first rows of positions, from those that F + k Q of the last step make: d, with Q = 0
 GVI__COPY void gvi__spring_start_of(const gvi_stepper *st, const gvi__stage *y, int r, int R)
 {
     const struct gvi__private *x = &st->x;
-    const gvi_real *diagonal = gvi__diagonal(st, y);
+    const gvi_real *diagonal = gvi__diagonal(st, y), *stiffness = gvi__stiffness(st);
     gvi_real *row = y->rows;
     for (int i = 0; i < st->n; ++i, row += R) {
-        if (!gvi__nonzero(x->k[i])) continue;
-        const gvi_real over = diagonal ? diagonal[i] : 1;
+        const gvi_real k = stiffness[i]*(diagonal ? diagonal[i] : 1);
+        if (!gvi__nonzero(stiffness[i])) continue;
         gvi__weigh(R, x->hb, row, x->z);
-        gvi__sum_row(r, R, x->solve + (size_t)x->which[i]*(size_t)(r*R), x->z, x->row);
-        gvi__row_plus(R, row, -x->k[i]*over*y->factor, x->row, row);
+        gvi__sum_row(r, R, gvi__spring_table(st, stiffness, i), x->z, x->row);
+        gvi__row_plus(R, row, -k*y->factor, x->row, row);
     }
 }
 
-static void gvi__spring_start(const gvi_stepper *st, const gvi__stage *y)
+/* Beside stiffness F is that at Q: F + k Q of the last step is that at 0, and if there is none
+   that is of use, springs are taken to be at rest where they are.              */
+static void gvi__spring_start(const gvi_stepper *st, const gvi__from *from, int sums, int extrapolate,
+                              const gvi__stage *y)
 {
-    if (st->r == 8) gvi__spring_start_of(st, y, 8, 8);
-    else gvi__spring_start_of(st, y, st->r, st->x.stride);
-}
-
-// soft := F + k Q of the step that was done
-GVI__APART void gvi__keep_soft(gvi_stepper *st)
-{
-    const struct gvi__private *x = &st->x;
-    const int R = x->stride;
-    for (int i = 0, o = 0; i < st->n; ++i, o += R)
-        gvi__row_plus(R, x->last.F + o, x->k[i], x->last.Q + o, x->soft + o);
+    const int R = st->x.stride;
+    for (int i = 0; !sums && i < st->n*R; ++i) y->rows[i] = extrapolate ? 0 : from->q[i/R];
+    if (sums && st->r == 8) gvi__spring_start_of(st, y, 8, 8);
+    else if (sums) gvi__spring_start_of(st, y, st->r, R);
 }
 
 /* gvi__stage_rows_of in less code and without blocks, squares added up from the last
@@ -3709,6 +3703,7 @@ static void gvi__velocity_rows(gvi_stepper *st)
 }
 
 #define GVI__STAGES (GVI__VELOCITIES || GVI__MOMENTA ? 2 : 1)       // of an iteration, at most
+#define GVI__MADE (GVI__SMALL && GVI__TOLERANCE)                    // each time anew: gvi__stages_made
 
 static void gvi__stage_set(gvi__stage *y, const gvi_real *base, const gvi_real *extra, const gvi_real *path,
                            const gvi_real *table, const gvi_real *f, gvi_real factor, gvi_real *rows,
@@ -3722,12 +3717,23 @@ static void gvi__stage_set(gvi__stage *y, const gvi_real *base, const gvi_real *
     y->minus = NULL;
     y->factor = factor;
     y->rows = rows;
-    y->over_mass = y->by_due = 0;
+    y->over_mass = 0;
     y->scale = scale;
 }
 
-/* What an iteration computes, fixed for a step: positions (3); velocities (3),
-   (4); momenta (5), P first.  Returns how many.                               */
+// h (v + ve) of a step, where the increments of q will be; with GVI_NO_RULES rows have fl(h v)
+GVI__APART void gvi__path(gvi_stepper *st, const gvi__from *from, gvi_real h)
+{
+    struct gvi__private *x = &st->x;
+    for (int i = 0; i < st->n; ++i) {
+        const gvi__two path = gvi__product(h, from->v[i]);
+        x->dq[i] = path.hi;
+        x->dqe[i] = gvi__rest(path.lo + h*from->ve[i]);
+    }
+}
+
+/* What an iteration computes, fixed for a step: positions (3), with gvi__path; velocities
+   (3), (4); momenta (5), P first.  Returns how many.                           */
 static int gvi__plan(gvi_stepper *st, const gvi__from *from, gvi_real h, gvi__stage y[GVI__STAGES])
 {
     struct gvi__private *x = &st->x;
@@ -3738,17 +3744,12 @@ static int gvi__plan(gvi_stepper *st, const gvi__from *from, gvi_real h, gvi__st
         y[0].kernel = y[1].kernel = GVI__SMALL ? NULL : gvi__kernel_of(st, y);
         return 2;
     }
-    for (int i = 0; i < st->n; ++i) {              // h (v + ve), where q's increments will be
-        const gvi__two path = gvi__product(h, from->v[i]);
-        x->dq[i] = path.hi;
-        x->dqe[i] = gvi__rest(path.lo + h*from->ve[i]);
-    }
-    gvi__stage_set(y, from->q, from->qe, x->dq, x->g, w->F, h, w->Q, x->scale);
+    gvi__stage_set(y, from->q, from->qe, GVI__RULES ? x->dq : from->v, x->g, w->F, h, w->Q, x->scale);
     y->rest = x->dqe;
     y->minus = gvi__A(w) ? x->T : NULL;
     y->over_mass = 1;
     y->kernel = GVI__SMALL ? NULL : gvi__kernel_of(st, y);
-    if (GVI__STIFF && x->k) y->kernel = gvi__spring_kernel(st, y);
+    if (GVI__STIFF && x->springs) y->kernel = gvi__spring_kernel(st, y);
     if (gvi__uses(st, GVI_POSITIONS) || GVI__STAGES == 1) return 1;
     gvi__stage_set(y + 1, from->v, from->ve, NULL, x->m, w->F, 1, w->V, x->scale + st->n);
     y[1].minus = gvi__A(w) ? x->N : NULL;
@@ -3794,6 +3795,15 @@ static gvi_real gvi__stages(gvi_stepper *st, const gvi__stage *y, int count)
         sum += gvi__velocity_change(st, clock);         // contracts twice as fast
     gvi__count(&st->counters.velocities, st->r);
     return sum + gvi__stage_rows(st, y + 1);
+}
+
+/* Compiled for size: the stages are made where they are needed, and not on the stack while
+   effects are asked.                                                          */
+GVI__APART gvi_real gvi__stages_made(gvi_stepper *st, const gvi__from *from, gvi_real h)
+{
+    gvi__stage y[GVI__STAGES];
+    const int count = gvi__plan(st, from, h, y);
+    return gvi__stages(st, y, count);
 }
 
 // momenta: V from dL/dv(Q, V) = P
@@ -4017,20 +4027,27 @@ static void gvi__fit_sums(gvi_stepper *st)
 }
 
 /* Extrapolates rows of the last step, or of the last two, to the points of the
-   next:  out_i = sum_j E_ij last_j (+ sum_j E_i,r+j older_j).  y, if not NULL: E is
-   gvi__fit_sums', and what it gives is put into that stage's row.              */
+   next:  out_i = sum_j E_ij last_j (+ sum_j E_i,r+j older_j).  Q, if not NULL: of forces,
+   which become F + k Q first.  y, if not NULL: E is gvi__fit_sums', and what it gives is
+   put into that stage's row.                                                   */
 GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const gvi_real *last,
-                                     const gvi_real *older, const gvi__stage *y, gvi_real *out)
+                                     const gvi_real *older, const gvi_real *Q, const gvi__stage *y,
+                                     gvi_real *out)
 {
     const struct gvi__private *x = &st->x;
-    for (int i = 0; i < st->n; ++i) {
+    for (int i = 0; i < st->n; ++i, last += R) {
+        const gvi_real stiff = GVI__STIFF && Q ? gvi__stiffness(st)[i] : 0, *from = last;
         gvi_real *row = out + i*R;
+        if (GVI__STIFF && gvi__nonzero(stiff)) {
+            gvi__row_plus(R, last, stiff, Q + i*R, x->less);
+            from = x->less;
+        }
 #ifdef GVI__VECTORS
         gvi__affine p = { 0, 0, 0, 0, 1, 1 };
         if (y) p = gvi__affine_of(y, gvi__diagonal(st, y), i);
         for (int o = 0; R % 8 == 0 && o < R; o += GVI__LANES) {
             gvi__vector z, before;
-            gvi__sum_vector(r, R, x->E + o, last + i*R, &z);
+            gvi__sum_vector(r, R, x->E + o, from, &z);
             if (older) {
                 gvi__sum_vector(r, R, x->E + r*R + o, older + i*R, &before);
                 z += before;
@@ -4040,7 +4057,7 @@ GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const 
         }
         if (R % 8 == 0) continue;
 #endif
-        gvi__sum_row(r, R, x->E, last + i*R, row);
+        gvi__sum_row(r, R, x->E, from, row);
         if (older) gvi__sum_row(r, R, x->E + r*R, older + i*R, x->z);
         for (int k = 0; older && k < R; ++k) row[k] += x->z[k];
         if (y) gvi__affine_row(st, y, i, row);
@@ -4048,14 +4065,14 @@ GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const 
 }
 
 GVI__APART void gvi__extrapolate(gvi_stepper *st, const gvi_real *last, const gvi_real *older,
-                                 const gvi__stage *y, gvi_real *out)
+                                 const gvi_real *Q, const gvi__stage *y, gvi_real *out)
 {
     if (!gvi__two_now(st)) older = NULL;
-    if (GVI__SMALL) gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, y, out);
-    else if (st->r == 8 && y) gvi__extrapolate_rows(st, 8, 8, last, older, y, out);
-    else if (st->r == 8) gvi__extrapolate_rows(st, 8, 8, last, older, NULL, out);
-    else if (st->r == 4) gvi__extrapolate_rows(st, 4, 4, last, older, y, out);
-    else gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, y, out);
+    if (GVI__SMALL) gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, Q, y, out);
+    else if (st->r == 8 && y) gvi__extrapolate_rows(st, 8, 8, last, older, Q, y, out);
+    else if (st->r == 8) gvi__extrapolate_rows(st, 8, 8, last, older, Q, NULL, out);
+    else if (st->r == 4) gvi__extrapolate_rows(st, 4, 4, last, older, Q, y, out);
+    else gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, Q, y, out);
 }
 
 // E for this step, if it is not that already
@@ -4074,6 +4091,14 @@ GVI__APART void gvi__prepare_guess(gvi_stepper *st, gvi_real alpha, gvi_real bet
     if (sums) gvi__fit_sums(st);
 }
 
+// the same as gvi__stages_made, of the first rows
+GVI__APART void gvi__extrapolate_made(gvi_stepper *st, const gvi__from *from, gvi_real h)
+{
+    gvi__stage y[GVI__STAGES];
+    gvi__plan(st, from, h, y);
+    gvi__extrapolate(st, st->x.last.F, st->x.older_F, NULL, y, st->x.work.Q);
+}
+
 /* Starting values: what the last step had, extrapolated; without one, or if
    that led nowhere, no force and constant velocity; `rate` is the clock's.     */
 GVI__APART void gvi__guess(gvi_stepper *st, int extrapolate, gvi_real rate)
@@ -4082,11 +4107,10 @@ GVI__APART void gvi__guess(gvi_stepper *st, int extrapolate, gvi_real rate)
     struct gvi__rows *w = &x->work, *l = &x->last;
     size_t length = (size_t)st->n*(size_t)x->stride;
     x->has_factor = x->has_rate = 0;
-    if (GVI__STIFF && x->k) gvi__zero(length, w->Q);
     if (extrapolate) {
-        gvi__extrapolate(st, GVI__STIFF && x->k ? x->soft : l->F, x->older_F, NULL, w->F);
-        if (gvi__A(l) && w->A) gvi__extrapolate(st, l->A, x->older_A, NULL, w->A);
-        if (gvi__uses(st, GVI_MOMENTA)) gvi__extrapolate(st, l->V, x->older_V, NULL, w->V);
+        gvi__extrapolate(st, l->F, x->older_F, GVI__STIFF && x->springs ? l->Q : NULL, NULL, w->F);
+        if (gvi__A(l) && w->A) gvi__extrapolate(st, l->A, x->older_A, NULL, NULL, w->A);
+        if (gvi__uses(st, GVI_MOMENTA)) gvi__extrapolate(st, l->V, x->older_V, NULL, NULL, w->V);
     } else {
         gvi__zero(length, w->F);
         if (gvi__A(w)) gvi__zero(length, w->A);
@@ -4204,7 +4228,8 @@ static inline void gvi__add_path(int n, gvi_real h, const gvi_real *GVI__RESTRIC
                                  gvi_real *GVI__RESTRICT dq, gvi_real *GVI__RESTRICT dqe)
 {
     for (int i = 0; i < n; ++i) {
-        const gvi__two path = gvi__product(h, v[i]), bend = gvi__product(h, dq[i]);
+        const gvi__two path = gvi__product(h, v[i]);
+        const gvi__two bend = GVI__RULES ? gvi__product(h, dq[i]) : gvi__two_of(h*dq[i], 0);
         const gvi__two q = gvi__sum(path.hi, bend.hi);
         dq[i] = q.hi;
         dqe[i] = gvi__rest((q.lo + (path.lo + bend.lo)) + (h*ve[i] + qe[i]));
@@ -4435,7 +4460,8 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
     gvi__still weak = { 1, 0, 0, 1, 0, GVI__MAX };
     gvi__stage y[GVI__STAGES];
     gvi_points at;
-    const int count = gvi__plan(st, from, h, y);
+    if (GVI__RULES && !gvi__uses(st, GVI_MOMENTA)) gvi__path(st, from, h);
+    const int count = GVI__MADE ? 0 : gvi__plan(st, from, h, y);
     // where size counts, gvi__ask makes them: no longer on the stack than needed
     if (!GVI__SMALL) gvi__rows_as_points(&at, st, &x->work, gvi__A(&x->work));
     gvi_real rate = 1;
@@ -4444,15 +4470,16 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
         if (status != GVI_OK) return status;
     }
     const int sums = extrapolate && (x->E_is & GVI__SUMS);
-    const int springs = GVI__STIFF && x->k;
-    if (sums) gvi__extrapolate(st, springs ? x->soft : x->last.F, x->older_F, y, x->work.Q);
+    const int springs = GVI__STIFF && x->springs;
+    if (sums && GVI__MADE) gvi__extrapolate_made(st, from, h);
+    else if (sums) gvi__extrapolate(st, x->last.F, x->older_F, springs ? x->last.Q : NULL, y, x->work.Q);
     else gvi__guess(st, extrapolate, rate);
-    if (sums && springs) gvi__spring_start(st, y);
+    if (springs) gvi__spring_start(st, from, sums, extrapolate, y);
     for (*used = 0; ; ) {
         if (GVI__TOLERANCE && p.idle + p.poor > 0)
             gvi__gather(st->n, x->stride, x->work.Q + st->r - 1, x->change);
-        y->by_due = springs && *used > 1 && !gvi__A(&x->work);     // which would have to be due as well
-        const gvi_real change = sums && *used == 0 ? 0 : gvi__stages(st, y, count);
+        const gvi_real change = sums && *used == 0 ? 0
+            : GVI__MADE ? gvi__stages_made(st, from, h) : gvi__stages(st, y, count);
         int verdict = GVI__GO_ON;
         if (*used > 0) {
             if (!(change <= GVI__MAX)) return gvi__not_finite(st, p.grows);
@@ -4952,7 +4979,7 @@ GVI__APART void gvi__newton_guess(gvi_stepper *st, int extrapolate)
         gvi__velocity_guess(st, x->y);
         return;
     }
-    gvi__extrapolate(st, x->last.V, NULL, NULL, x->work.V);
+    gvi__extrapolate(st, x->last.V, NULL, NULL, NULL, x->work.V);
     for (int i = 0; i < n; ++i) {
         for (int k = 0; k < s; ++k) {
             x->row[k] = 0;
@@ -5119,7 +5146,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, gvi__from *from, gvi_real h,
     int usable = past->available, used = 0;
     gvi_status status = GVI_E_CONVERGENCE;
     if (!gvi__uses(st, GVI_NEWTON) && (!gvi__has(st, GVI__HAS_NEWTON) || x->newton_left == 0 || query)) {
-        if (GVI__STIFF && x->k && gvi__nonzero(GVI_ABS(h) - x->h_springs)) gvi__spring_tables(st, h);
+        if (GVI__STIFF && x->springs && gvi__nonzero(h - x->springs[0])) gvi__make_spring_tables(st, h);
         if (usable) gvi__prepare_guess(st, past->alpha, past->beta, query);
         for (int plain = !usable; plain < 2; ++plain) {
             status = gvi__fixed_point(st, from, h, !plain, &used);
@@ -5254,7 +5281,6 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     x->te = t.lo;
     st->h = h;
     gvi__rotate_rows(st);
-    if (GVI__STIFF && x->k) gvi__keep_soft(st);
     x->stepped = gvi__has_clock(st) ? 2 : 1;
     if (GVI__WEAK && x->weak) *gvi__answers(st) = gvi__answers(st)[1];
     x->has_force = explicit_one && !gvi__nonzero(x->c[0]) && !gvi__nonzero(x->c[st->r - 1] - 1);
@@ -5950,7 +5976,8 @@ GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const 
     st->x.skip = skip;
     st->x.desc = desc;
     st->x.memory = own;
-    const gvi__scene scene = { &st->x.desc, st->order, st->x.flags, st->x.clock, st->x.chosen, st->x.springs };
+    const int springs = GVI__STIFF && st->x.springs ? (int)st->x.springs[1] : 0;
+    const gvi__scene scene = { &st->x.desc, st->order, st->x.flags, st->x.clock, st->x.chosen, springs };
     gvi__layout(&scene, &st->x, own);
     for (int turns = st->x.turns; turns > 0; --turns) gvi__rotate_rows(st);
     st->x.turns = saved->x.turns;

@@ -23,7 +23,7 @@ static double flops_of_step(gvi_formulation f, gvi_mass_kind mass, int n, int r,
 static inline double flops_of_new_h(int r) { return 6*r*r*r + 4*(r + 10)*r*flops_row(r) + 70*r + 60; }
 
 /* With stiffness: in a step, and for each of the k/m where h is new                              */
-static inline double flops_of_springs(int n, int r) { return n*flops_row(r)*(4*r + 12); }
+static inline double flops_of_springs(int n, int r, int N) { return (N + 2)*n*flops_row(r)*(2*r + 10); }
 static inline double flops_of_spring_tables(int r) { return 3*r*r*r + 14*r*r + 12*r; }
 
 #endif
