@@ -138,9 +138,11 @@
      GVI_NO_POINT         no effects that are given as .point
      GVI_NO_RULES         no rule but Gauss with r = s <= 4, and in GVI_EXPLICIT those
                           that it takes; no Lagrangian terms.  Nodes and tables
-                          then are constants, not code; products with h are rounded
+                          then are constants, not code
      GVI_NO_TOLERANCE     no fixed point without desc.iterations
      GVI_NO_DIAGNOSIS     where a value is not finite, st->fault names no effect
+     GVI_NO_RESTS         h v is rounded: other last bits, and where h has a short period
+                          in binary, as 0.1 has, energy can drift by 0.03 eps a step
 
    A description that asks for what was left out is refused: GVI_E_FORMULATION.
    Without diagnosis a step that came to NaN or Inf is not repeated to find the effect.
@@ -847,6 +849,12 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__TOLERANCE 1
 #endif
 #define GVI__WEAK (GVI__TOLERANCE && !GVI__SMALL && (GVI__POSITIONS || GVI__VELOCITIES || GVI__MOMENTA))
+#ifdef GVI_NO_RESTS
+#define GVI__RESTS 0
+#else
+#define GVI__RESTS 1
+#endif
+#define GVI__PATH (GVI__RESTS || !GVI__SMALL)         // h v is kept
 #define GVI__STIFF (!GVI__SMALL && (GVI__POSITIONS || GVI__VELOCITIES))
 #ifdef GVI_NO_DIAGNOSIS
 #define GVI__DIAGNOSIS 0
@@ -2447,7 +2455,7 @@ typedef struct gvi__scene {
     int             order, flags;
     int             clock;            /* the effect that is one, or -1          */
     gvi_formulation chosen;
-    int             springs;          /* gvi__springs                           */
+    int             springs;          /* gvi__springs, where GVI__STIFF         */
 } gvi__scene;
 
 // the kinds of effects, and what they read
@@ -2634,7 +2642,7 @@ static gvi_status gvi__resolve(gvi__scene *x, gvi_desc *d, const gvi_desc *desc)
 static int gvi__fits_two(const gvi__scene *x)
 {
     const int iterates = x->chosen >= GVI_POSITIONS && x->chosen <= GVI_MOMENTA;
-    return x->desc->rule.points < 10 && GVI__KIND > 1 && iterates && !x->springs;
+    return x->desc->rule.points < 10 && GVI__KIND > 1 && iterates && !(GVI__STIFF && x->springs);
 }
 
 // what E makes: of two steps, not of one; the sums of (3), not the row itself
@@ -3297,8 +3305,8 @@ GVI__COPY gvi__affine gvi__affine_of(const gvi__stage *y, const gvi_real *diagon
     gvi__affine p;
     p.base = y->base[i];
     p.extra = y->extra[i];
-    p.a = !y->path ? 0 : GVI__RULES ? y->path[i] : y->factor*y->path[i];
-    p.rest = GVI__RULES && y->path ? y->rest[i] : 0;
+    p.a = !y->path ? 0 : GVI__PATH ? y->path[i] : y->factor*y->path[i];
+    p.rest = GVI__RESTS && y->path ? y->rest[i] : 0;
     p.b = y->factor;
     p.m = diagonal ? diagonal[i] : 1;
     return p;
@@ -3311,7 +3319,7 @@ GVI__APART void gvi__affine_row(const gvi_stepper *st, const gvi__stage *y, int 
     const gvi__affine p = gvi__affine_of(y, gvi__diagonal(st, y), i);
     const gvi_real *c = x->c;
     for (int k = 0; k < x->stride; ++k)
-        row[k] = p.base + (((GVI__RULES ? p.extra + c[k]*p.rest : p.extra) + c[k]*p.a) + row[k]*p.m*p.b);
+        row[k] = p.base + (((GVI__RESTS ? p.extra + c[k]*p.rest : p.extra) + c[k]*p.a) + row[k]*p.m*p.b);
 }
 
 /* The rows of a stage, M^-1 being a number for each.  Returns the sum of the squares
@@ -3721,14 +3729,14 @@ static void gvi__stage_set(gvi__stage *y, const gvi_real *base, const gvi_real *
     y->scale = scale;
 }
 
-// h (v + ve) of a step, where the increments of q will be; with GVI_NO_RULES rows have fl(h v)
+// h (v + ve) of a step, where the increments of q will be
 GVI__APART void gvi__path(gvi_stepper *st, const gvi__from *from, gvi_real h)
 {
     struct gvi__private *x = &st->x;
     for (int i = 0; i < st->n; ++i) {
         const gvi__two path = gvi__product(h, from->v[i]);
         x->dq[i] = path.hi;
-        x->dqe[i] = gvi__rest(path.lo + h*from->ve[i]);
+        x->dqe[i] = GVI__RESTS ? gvi__rest(path.lo + h*from->ve[i]) : 0;
     }
 }
 
@@ -3744,7 +3752,7 @@ static int gvi__plan(gvi_stepper *st, const gvi__from *from, gvi_real h, gvi__st
         y[0].kernel = y[1].kernel = GVI__SMALL ? NULL : gvi__kernel_of(st, y);
         return 2;
     }
-    gvi__stage_set(y, from->q, from->qe, GVI__RULES ? x->dq : from->v, x->g, w->F, h, w->Q, x->scale);
+    gvi__stage_set(y, from->q, from->qe, GVI__PATH ? x->dq : from->v, x->g, w->F, h, w->Q, x->scale);
     y->rest = x->dqe;
     y->minus = gvi__A(w) ? x->T : NULL;
     y->over_mass = 1;
@@ -4229,7 +4237,7 @@ static inline void gvi__add_path(int n, gvi_real h, const gvi_real *GVI__RESTRIC
 {
     for (int i = 0; i < n; ++i) {
         const gvi__two path = gvi__product(h, v[i]);
-        const gvi__two bend = GVI__RULES ? gvi__product(h, dq[i]) : gvi__two_of(h*dq[i], 0);
+        const gvi__two bend = GVI__RESTS ? gvi__product(h, dq[i]) : gvi__two_of(h*dq[i], 0);
         const gvi__two q = gvi__sum(path.hi, bend.hi);
         dq[i] = q.hi;
         dqe[i] = gvi__rest((q.lo + (path.lo + bend.lo)) + (h*ve[i] + qe[i]));
@@ -4460,7 +4468,7 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
     gvi__still weak = { 1, 0, 0, 1, 0, GVI__MAX };
     gvi__stage y[GVI__STAGES];
     gvi_points at;
-    if (GVI__RULES && !gvi__uses(st, GVI_MOMENTA)) gvi__path(st, from, h);
+    if (GVI__PATH && !gvi__uses(st, GVI_MOMENTA)) gvi__path(st, from, h);
     const int count = GVI__MADE ? 0 : gvi__plan(st, from, h, y);
     // where size counts, gvi__ask makes them: no longer on the stack than needed
     if (!GVI__SMALL) gvi__rows_as_points(&at, st, &x->work, gvi__A(&x->work));

@@ -12,7 +12,7 @@ mkdir -p "$dir"
 rm -f "$dir"/*
 fail() { echo "FAILED: size: $*"; exit 1; }
 least='-DGVI_NO_LAGRANGIAN -DGVI_NO_CLOCK -DGVI_NO_DENSE -DGVI_NO_OWN'
-fixed='-DGVI_NO_RULES -DGVI_NO_TOLERANCE -DGVI_NO_DIAGNOSIS -DGVI_NO_POINT'
+fixed='-DGVI_NO_RULES -DGVI_NO_TOLERANCE -DGVI_NO_DIAGNOSIS -DGVI_NO_POINT -DGVI_NO_RESTS'
 entries='size_init size_start size_step'
 cc_flags='-std=c99 -Os -fno-math-errno -ffp-contract=off -ffunction-sections -fdata-sections
           -DGVI_REAL=float -I.'
@@ -137,6 +137,7 @@ effects of one point: GVI_NO_POINT|-DGVI_NO_POINT
 nodes and tables: GVI_NO_RULES, NO_LAGRANGIAN, NO_OWN|-DGVI_NO_RULES
 iterating as long as it takes: GVI_NO_TOLERANCE|-DGVI_NO_TOLERANCE
 naming the effect that gave NaN: GVI_NO_DIAGNOSIS|-DGVI_NO_DIAGNOSIS
+rests of products with h: GVI_NO_RESTS|-DGVI_NO_RESTS
 END
     while IFS='|' read -r name roots; do
         part_line "added by $name" $(($(linked "$steps $roots") - base))
