@@ -12,7 +12,7 @@
    prints
 
      not told   does not contract: Newton's method, of matrices
-     told       rounds a step 8, no matrices
+     told       12 rounds a step, no matrices
      apart by less than 1e-09 mm; energy kept to 2e-09
 */
 #define GVI_IMPLEMENTATION
@@ -56,7 +56,7 @@ static void play(const double *told, double *q, double *drift)
     for (int m = 0; m < MODES; ++m) q[m] = st.q[m];
     *drift = fabs(after/before - 1);
     if (st.status != GVI_OK) puts(gvi_status_text(st.status));
-    if (told) printf("told       rounds a step %.0f, no matrices\n", (double)st.counters.iterations/276);
+    if (told) printf("told       %d rounds a step, no matrices\n", (int)(st.counters.iterations/276));
     else if (st.formulation == GVI_NEWTON) puts("not told   does not contract: Newton's method, of matrices");
 }
 
