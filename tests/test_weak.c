@@ -137,8 +137,8 @@ static void assert_same(const trial *a, const trial *b)
 enum { STEPS = 120 };
 static trial plain, marked;
 
-/* In all formulations that iterate: the same q, and of what is marked not more than
-   `share` of the evaluations                                                  */
+/* In all formulations that iterate: the same q, of what is marked not more than `share`
+   of the evaluations, and about a round more a step: a third of them where they are many */
 static void compare(unsigned wanted, unsigned weak, gvi_formulation f, double share)
 {
     const gvi_desc desc = { .formulation = f };
@@ -151,9 +151,10 @@ static void compare(unsigned wanted, unsigned weak, gvi_formulation f, double sh
     for (int e = 0, i = 0; e < EFFECTS; ++e) {
         if (!(wanted >> e & 1u)) continue;
         const double ratio = (double)b->effect[i]/(double)a->effect[i];
+        const double rounds = (double)a->effect[i]/(STEPS*DEGREE), more = rounds*(ratio - 1);       // a step
         ++i;
         if (GVI__WEAK && weak >> e & 1u) assert_between(0.2, ratio, share);
-        else if (!(weak >> e & 1u)) assert_between(0.9, ratio, 1.35);
+        else if (!(weak >> e & 1u)) assert_between(-rounds/10, more, fmax(1.5, rounds*0.35));
     }
 }
 
@@ -257,7 +258,7 @@ static void test_no_trace(void **state)
         steps(&marked, 1);
         assert_ok(gvi_velocity(&marked.st, v));
         assert_ok(gvi_state_at(&marked.st, marked.st.t - h/3, NULL, v, NULL));
-        assert_status(gvi_step(&marked.st, 7*h), GVI_E_CONVERGENCE);      // after iterations that teach it
+        assert_status(gvi_step(&marked.st, 10*h), GVI_E_CONVERGENCE);      // after iterations that teach it
     }
     assert_same(&plain, &marked);
 
