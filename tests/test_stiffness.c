@@ -388,8 +388,6 @@ static void test_with_options(void **state)
     memcpy(marked, scene, sizeof marked);
     marked[1].weak = 1;
     set_up(&plain, six, k);
-    set_up(&stiff, six, k);
-    stiff.st.x.desc.effects = marked;
     gvi_desc desc = { .n = N, .degree = 6, .effects = marked, .effect_count = 2, .stiffness = k,
                       .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = mass } };
     assert_ok(gvi_init(&stiff.st, &desc, stiff.memory, sizeof stiff.memory));

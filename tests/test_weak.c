@@ -154,7 +154,7 @@ static void compare(unsigned wanted, unsigned weak, gvi_formulation f, double sh
         const double rounds = (double)a->effect[i]/(STEPS*DEGREE), more = rounds*(ratio - 1);       // a step
         ++i;
         if (GVI__WEAK && weak >> e & 1u) assert_between(0.2, ratio, share);
-        else if (!(weak >> e & 1u)) assert_between(-rounds/10, more, fmax(1.5, rounds*0.35));
+        else if (!(weak >> e & 1u)) assert_between(-rounds/10, more, fmax(1.3, rounds*0.35));
     }
 }
 
