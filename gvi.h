@@ -4043,6 +4043,11 @@ GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const 
                                      gvi_real *out)
 {
     const struct gvi__private *x = &st->x;
+#ifdef GVI__VECTORS
+    gvi__vector kept[2][8];
+    const gvi_real *E = R == 8 ? gvi__keep(r, x->E, kept[0]) : x->E, *older_E = x->E + r*R;
+    if (R == 8 && older) older_E = gvi__keep(r, older_E, kept[1]);
+#endif
     for (int i = 0; i < st->n; ++i, last += R) {
         const gvi_real stiff = GVI__STIFF && Q ? gvi__stiffness(st)[i] : 0, *from = last;
         gvi_real *row = out + i*R;
@@ -4055,9 +4060,9 @@ GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const 
         if (y) p = gvi__affine_of(y, gvi__diagonal(st, y), i);
         for (int o = 0; R % 8 == 0 && o < R; o += GVI__LANES) {
             gvi__vector z, before;
-            gvi__sum_vector(r, R, x->E + o, from, &z);
+            gvi__sum_vector(r, R, E + o, from, &z);
             if (older) {
-                gvi__sum_vector(r, R, x->E + r*R + o, older + i*R, &before);
+                gvi__sum_vector(r, R, older_E + o, older + i*R, &before);
                 z += before;
             }
             if (y) z = p.base + (((p.extra + GVI__AT(x->c + o)*p.rest) + GVI__AT(x->c + o)*p.a) + z*p.m*p.b);
@@ -4077,9 +4082,11 @@ GVI__APART void gvi__extrapolate(gvi_stepper *st, const gvi_real *last, const gv
 {
     if (!gvi__two_now(st)) older = NULL;
     if (GVI__SMALL) gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, Q, y, out);
-    else if (st->r == 8 && y) gvi__extrapolate_rows(st, 8, 8, last, older, Q, y, out);
+    else if (st->r == 8 && y && !older) gvi__extrapolate_rows(st, 8, 8, last, NULL, Q, y, out);
+    else if (st->r == 8 && y) gvi__extrapolate_rows(st, 8, 8, last, older, NULL, y, out);
     else if (st->r == 8) gvi__extrapolate_rows(st, 8, 8, last, older, Q, NULL, out);
     else if (st->r == 4) gvi__extrapolate_rows(st, 4, 4, last, older, Q, y, out);
+    else if (st->r == 16) gvi__extrapolate_rows(st, 16, 16, last, NULL, Q, y, out);
     else gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, Q, y, out);
 }
 
@@ -4210,6 +4217,134 @@ static inline gvi_real gvi__lever_vector(int R, const gvi_real *c, const gvi_rea
 }
 #endif
 
+/* Both sums of eight coordinates at once, where the compiler can move lanes: again the same
+   terms in the same order.                                                     */
+#if defined(GVI__VECTORS) && defined(GVI__FMA) && defined(__has_builtin)
+#if __has_builtin(__builtin_shufflevector)
+#define GVI__EIGHTS
+#endif
+#endif
+#ifdef GVI__EIGHTS
+typedef gvi_real gvi__eight
+    __attribute__((vector_size(8*sizeof(gvi_real)), aligned(sizeof(gvi_real)), may_alias));
+typedef struct gvi__eights { gvi__eight hi, lo; } gvi__eights;
+#define GVI__EIGHT(p) (*(const gvi__eight *)(p))
+#define GVI__LOW_HALVES(a, b)  __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11)
+#define GVI__HIGH_HALVES(a, b) __builtin_shufflevector(a, b, 4, 5, 6, 7, 12, 13, 14, 15)
+#define GVI__LOW_PAIRS(a, b)   __builtin_shufflevector(a, b, 0, 1, 4, 5, 8, 9, 12, 13)
+#define GVI__HIGH_PAIRS(a, b)  __builtin_shufflevector(a, b, 2, 3, 6, 7, 10, 11, 14, 15)
+#define GVI__EVEN(a, b)        __builtin_shufflevector(a, b, 0, 2, 4, 6, 8, 10, 12, 14)
+#define GVI__ODD(a, b)         __builtin_shufflevector(a, b, 1, 3, 5, 7, 9, 11, 13, 15)
+
+GVI__COPY gvi__eights gvi__product_lanes(gvi__eight a, gvi__eight b)
+{
+    const gvi__eight hi = a*b;
+    gvi__eights z;
+    gvi__eight lo;
+    for (int l = 0; l < 8; ++l) lo[l] = GVI__FMA(a[l], b[l], -hi[l]);
+    z.hi = hi;
+    z.lo = lo;
+    return z;
+}
+
+GVI__COPY gvi__eights gvi__join_lanes(gvi__eights x, gvi__eights y)
+{
+    const gvi__eight sum = x.hi + y.hi, b = sum - x.hi;
+    gvi__eights z;
+    z.lo = (x.lo + y.lo) + ((x.hi - (sum - b)) + (y.hi - b));
+    z.hi = sum;
+    return z;
+}
+
+// pair[k] := elements 2k and 2k + 1 of a, b, c and d
+GVI__COPY void gvi__pairs(gvi__eight a, gvi__eight b, gvi__eight c, gvi__eight d, gvi__eight pair[4])
+{
+    const gvi__eight ab = GVI__LOW_HALVES(a, b), cd = GVI__LOW_HALVES(c, d);
+    const gvi__eight AB = GVI__HIGH_HALVES(a, b), CD = GVI__HIGH_HALVES(c, d);
+    pair[0] = GVI__LOW_PAIRS(ab, cd);
+    pair[1] = GVI__HIGH_PAIRS(ab, cd);
+    pair[2] = GVI__LOW_PAIRS(AB, CD);
+    pair[3] = GVI__HIGH_PAIRS(AB, CD);
+}
+
+// the terms h b F of eight points of four rows, in pairs, and the sums of (1 - c) h b F
+GVI__COPY void gvi__terms_of_four(int o, const gvi_real *c, const gvi_real *hb, const gvi_real *const F[4],
+                                  gvi__eights term[4], gvi__eight lever[2])
+{
+    const gvi__eight w = GVI__EIGHT(hb + o), far = 1 - GVI__EIGHT(c + o);
+    const gvi__eights p = gvi__product_lanes(w, GVI__EIGHT(F[0] + o));
+    const gvi__eights q = gvi__product_lanes(w, GVI__EIGHT(F[1] + o));
+    const gvi__eights u = gvi__product_lanes(w, GVI__EIGHT(F[2] + o));
+    const gvi__eights v = gvi__product_lanes(w, GVI__EIGHT(F[3] + o));
+    gvi__eight hi[4], lo[4], arm[4];
+    gvi__pairs(p.hi, q.hi, u.hi, v.hi, hi);
+    gvi__pairs(p.lo, q.lo, u.lo, v.lo, lo);
+    gvi__pairs(far, far, far, far, arm);
+    for (int k = 0; k < 4; ++k) {
+        term[k].hi = hi[k];
+        term[k].lo = lo[k];
+        lever[k & 1] += arm[k]*hi[k];
+    }
+}
+
+// two partial sums of h b F for each of four rows, and of (1 - c) h b F
+GVI__COPY gvi__eights gvi__four_rows(int R, const gvi_real *c, const gvi_real *hb, const gvi_real *const F[4],
+                                     gvi__eight *lever)
+{
+    gvi__eights sum[4], more[4];
+    gvi__eight arms[2] = { { 0 }, { 0 } };
+    gvi__terms_of_four(0, c, hb, F, sum, arms);
+    for (int o = 8; o < R; o += 8) {
+        gvi__terms_of_four(o, c, hb, F, more, arms);
+        for (int k = 0; k < 4; ++k) sum[k] = gvi__join_lanes(sum[k], more[k]);
+    }
+    *lever = arms[0] + arms[1];
+    return gvi__join_lanes(gvi__join_lanes(sum[0], sum[2]), gvi__join_lanes(sum[1], sum[3]));
+}
+
+// sum + left := sum h b F of all n coordinates, lever: of (1 - c) h b F, may be NULL; the last
+// coordinate stands in for those that are missing of eight
+GVI__COPY void gvi__sums_of_eight(int n, int R, const gvi_real *c, const gvi_real *hb, const gvi_real *F,
+                                  gvi_real *sum, gvi_real *left, gvi_real *lever)
+{
+    for (int i = 0; i < n; i += 8) {
+        const gvi_real *row[8];
+        for (int k = 0; k < 8; ++k) row[k] = F + (i + k < n ? i + k : n - 1)*R;
+        gvi__eight a, b;
+        gvi__eights x = gvi__four_rows(R, c, hb, row, &a), y = gvi__four_rows(R, c, hb, row + 4, &b), even, odd;
+        even.hi = GVI__EVEN(x.hi, y.hi);
+        even.lo = GVI__EVEN(x.lo, y.lo);
+        odd.hi = GVI__ODD(x.hi, y.hi);
+        odd.lo = GVI__ODD(x.lo, y.lo);
+        x = gvi__join_lanes(even, odd);
+        a = GVI__EVEN(a, b) + GVI__ODD(a, b);
+        if (n >= 8) {                             // in whole vectors, as gvi__lengths has it
+            *(gvi__eight *)(sum + i) = x.hi;
+            *(gvi__eight *)(left + i) = x.lo;
+            if (lever) *(gvi__eight *)(lever + i) = a;
+        } else for (int k = 0; k < n; ++k) {
+            sum[k] = x.hi[k];
+            left[k] = x.lo[k];
+            if (lever) lever[k] = a[k];
+        }
+    }
+}
+
+GVI__APART void gvi__increments_by_eight(gvi_stepper *st, const gvi__from *from, int R, int momenta)
+{
+    struct gvi__private *x = &st->x;
+    const int n = st->n;
+    const gvi_real *F = x->work.F, *V = x->work.V;
+    gvi_real *lever = momenta ? NULL : x->dq;
+    if (R == 8) gvi__sums_of_eight(n, 8, x->c, x->hb, F, x->dp, x->dpe, lever);
+    else gvi__sums_of_eight(n, R, x->c, x->hb, F, x->dp, x->dpe, lever);
+    for (int i = 0; i < n; ++i) x->dpe[i] = gvi__rest(x->dpe[i] + from->pe[i]);
+    if (!momenta) return;
+    gvi__sums_of_eight(n, R, x->c, x->hb, V, x->dq, x->dqe, NULL);
+    for (int i = 0; i < n; ++i) x->dqe[i] = gvi__rest(x->dqe[i] + from->qe[i]);
+}
+#endif
+
 // in vectors, where there are any
 static inline gvi__two gvi__increment(int r, int R, const gvi_real *a, const gvi_real *b, gvi_real rest,
                                       gvi_real *z)
@@ -4251,7 +4386,14 @@ GVI__APART void gvi__increments_of(gvi_stepper *st, const gvi__from *from, gvi_r
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work;
     const int n = st->n, momenta = gvi__uses(st, GVI_MOMENTA);
-    for (int i = 0; i < n; ++i) {
+    int done = 0;
+#ifdef GVI__EIGHTS
+    if (!GVI__SMALL && R % 8 == 0 && n > 3 && !gvi__A(w)) {
+        gvi__increments_by_eight(st, from, R, momenta);
+        done = n;
+    }
+#endif
+    for (int i = done; i < n; ++i) {
         const gvi_real *F = w->F + i*R;
         const gvi__two p = gvi__increment(r, R, x->hb, F, from->pe[i], x->row);
         x->dp[i] = p.hi;
@@ -4278,6 +4420,7 @@ static void gvi__increments(gvi_stepper *st, const gvi__from *from, gvi_real h)
     if (GVI__SMALL) gvi__increments_of(st, from, h, st->r, x->stride);
     else if (st->r == 8) gvi__increments_of(st, from, h, 8, 8);
     else if (st->r == 4) gvi__increments_of(st, from, h, 4, 4);
+    else if (st->r == 16) gvi__increments_of(st, from, h, 16, 16);
     else gvi__increments_of(st, from, h, st->r, x->stride);
 }
 
@@ -4456,6 +4599,30 @@ static int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *p, 
     return gvi__may_turn(st) ? GVI__BEYOND : GVI__GO_ON;
 }
 
+/* The units of a step's changes, as gvi__rescale makes them, from extrapolated rows: where the last
+   point is foretold stands for where it will be.                               */
+static inline void gvi__scales(gvi_stepper *st, const gvi__stage *y, int count)
+{
+    const int R = st->x.stride;
+    for (int k = 0; k < count; ++k) {
+        const gvi_real *GVI__RESTRICT base = y[k].base, *GVI__RESTRICT end = y[k].rows + st->r - 1;
+        gvi_real *GVI__RESTRICT scale = y[k].scale;
+        for (int i = 0; i < st->n; ++i) {
+            const gvi_real size = GVI_ABS(base[i]) + 2*GVI_ABS(end[i*R] - base[i]);
+            scale[i] = size > GVI__MIN/GVI__EPS ? 1/size : 0;
+        }
+    }
+}
+
+// a change in a foretold unit may overflow where the rows do not
+static int gvi__finite_rows(const gvi_stepper *st, const gvi__stage *y, int count)
+{
+    for (int k = 0; k < count; ++k)
+        for (int i = 0; i < st->n*st->x.stride; ++i)
+            if (!gvi__finite(y[k].rows[i])) return 0;
+    return !GVI__SMALL;
+}
+
 /* Fixed point on the rows: F, V and A make the rows, the effects are asked there. */
 GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate,
                                        int *used)
@@ -4490,13 +4657,15 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
             : GVI__MADE ? gvi__stages_made(st, from, h) : gvi__stages(st, y, count);
         int verdict = GVI__GO_ON;
         if (*used > 0) {
-            if (!(change <= GVI__MAX)) return gvi__not_finite(st, p.grows);
+            if (!(change <= GVI__MAX) && (*used > 1 || !gvi__finite_rows(st, y, count)))
+                return gvi__not_finite(st, p.grows);
             verdict = gvi__judge(st, from, &p, GVI__WEAK ? &weak : NULL, change, *used);
             if (verdict == GVI__GO_ON && GVI__TOLERANCE && *used == most) verdict = GVI__BEYOND;
             if (verdict == GVI__BEYOND) break;
             if (verdict != GVI__GO_ON) gvi__watch_last(st, change);
             if (verdict == GVI__DONE) return GVI_OK;
-        } else gvi__zero(2*(size_t)st->n, x->scale);        // of rows of another step
+        } else if (extrapolate && !GVI__SMALL) gvi__scales(st, y, count);
+        else gvi__zero(2*(size_t)st->n, x->scale);        // of rows of another step
 
         // rows that go to and fro in their last places end with their own F, not that of
         // the side that they came from, which would be a bias

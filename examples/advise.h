@@ -393,9 +393,10 @@ static inline double advise_growth(struct advise *x, double h)
 static inline void advise_prove(struct advise *x, advise_setting *s)
 {
     const double span = x->a->horizon, wanted = x->o->error;
-    double steps = advise_fours(s->steps*span/x->window), power = s->order, before = 0, error_before = 0;
+    const double first = advise_fours(s->steps*span/x->window);
+    double steps = first, power = s->order, before = 0, error_before = 0;
     char name[96], line[280];
-    for (int k = 0; k < 5; ++k) {
+    for (int k = 0; k < 8; ++k) {
         const struct advise_run run = advise_go(x, s, span, steps);
         double error = HUGE_VAL;
         if (run.status == GVI_OK) error = advise_error_at(x, run.z, x->far, ADVISE_SAMPLES - 1, 0);
@@ -413,7 +414,14 @@ static inline void advise_prove(struct advise *x, advise_setting *s)
         if (error <= wanted && error > wanted/4) return;
         if (before > 0 && fabs(steps/before - 1) > 1e-3) {
             power = log(error_before/error)/log(steps/before);
-            if (!(power > 0.5*s->order)) return;              // tolerance, or rounding
+            if (!(power > 0.5*s->order)) {
+                if (!(s->tolerance > 1e-15)) return;          // rounding
+                s->tolerance /= 10;                           // is what limits it, at the first steps as well
+                steps = first;
+                power = s->order;
+                before = 0;
+                continue;
+            }
             power = fmin(power, 1.5*s->order);
         }
         before = steps;
