@@ -4600,7 +4600,8 @@ static int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *p, 
 }
 
 /* The units of a step's changes, as gvi__rescale makes them, from extrapolated rows: where the last
-   point is foretold stands for where it will be.                               */
+   point is foretold stands for where it will be.  Where that is far too little, and a change
+   overflows, gvi__attempt begins again from plain rows.                          */
 static inline void gvi__scales(gvi_stepper *st, const gvi__stage *y, int count)
 {
     const int R = st->x.stride;
@@ -4612,15 +4613,6 @@ static inline void gvi__scales(gvi_stepper *st, const gvi__stage *y, int count)
             scale[i] = size > GVI__MIN/GVI__EPS ? 1/size : 0;
         }
     }
-}
-
-// a change in a foretold unit may overflow where the rows do not
-static int gvi__finite_rows(const gvi_stepper *st, const gvi__stage *y, int count)
-{
-    for (int k = 0; k < count; ++k)
-        for (int i = 0; i < st->n*st->x.stride; ++i)
-            if (!gvi__finite(y[k].rows[i])) return 0;
-    return !GVI__SMALL;
 }
 
 /* Fixed point on the rows: F, V and A make the rows, the effects are asked there. */
@@ -4657,8 +4649,7 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
             : GVI__MADE ? gvi__stages_made(st, from, h) : gvi__stages(st, y, count);
         int verdict = GVI__GO_ON;
         if (*used > 0) {
-            if (!(change <= GVI__MAX) && (*used > 1 || !gvi__finite_rows(st, y, count)))
-                return gvi__not_finite(st, p.grows);
+            if (!(change <= GVI__MAX)) return gvi__not_finite(st, p.grows);
             verdict = gvi__judge(st, from, &p, GVI__WEAK ? &weak : NULL, change, *used);
             if (verdict == GVI__GO_ON && GVI__TOLERANCE && *used == most) verdict = GVI__BEYOND;
             if (verdict == GVI__BEYOND) break;

@@ -206,6 +206,37 @@ static void weights_that_vanish_are_refused(void **state)
     assert_status(gvi_barycentric(sizeof(real) > 8 ? MANY : 1200, x, w), GVI_E_NODES);
 }
 
+static int push(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->n*x->stride; ++k) x->f[k] += x->t[k % x->stride] > 2;
+    return (void)user, 0;
+}
+
+/* A coordinate next to nothing rests for two steps; then a force of 1 sets in, and it moves by a factor
+   whose square no type has.  Of every formulation that iterates: q = t^2/2, p = t.  */
+static void a_force_may_set_in_where_next_to_nothing_was(void **state)
+{
+    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = push } };
+    const gvi_formulation pins[] = { GVI_POSITIONS, GVI_VELOCITIES, GVI_MOMENTA };
+    const real none[5] = { 0 };
+    (void)state;
+    for (int k = 0; k < COUNT(pins)*2; ++k) {
+        gvi_stepper st;
+        real tiny[5];
+        for (int i = 0; i < 5; ++i) tiny[i] = 16*GVI__MIN/EPS;
+        set_up(&st, (gvi_desc){ .n = 5, .degree = k % 2 ? 3 : 8, .effects = scene, .effect_count = 1,
+                                .formulation = pins[k/2] }, memory);
+        assert_ok(gvi_start(&st, 0, tiny, none));
+        assert_ok(gvi_step(&st, 1));
+        assert_ok(gvi_step(&st, 1));
+        for (int i = 1; i <= 3; ++i) {
+            assert_ok(gvi_step(&st, 1));
+            assert_close(st.q[4], i*i/2.0L, 8*EPS);
+            assert_close(st.p[4], i, 8*EPS);
+        }
+    }
+}
+
 /* What rounding is known to leave, as docs/theory.md quotes it from here: 200,000
    steps of an oscillator by Newton's method and by a fixed point at large h omega. */
 static void the_drift_that_rounding_leaves_is_no_larger_than_documented(void **state)
@@ -239,6 +270,7 @@ int main(void)
         cmocka_unit_test(failures_leave_no_trace_in_later_steps),
         cmocka_unit_test(sizes_that_do_not_fit_are_refused),
         cmocka_unit_test(weights_that_vanish_are_refused),
+        cmocka_unit_test(a_force_may_set_in_where_next_to_nothing_was),
         cmocka_unit_test(the_drift_that_rounding_leaves_is_no_larger_than_documented),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
