@@ -4217,10 +4217,10 @@ static inline gvi_real gvi__lever_vector(int R, const gvi_real *c, const gvi_rea
 }
 #endif
 
-/* Both sums of eight coordinates at once, where the compiler can move lanes: again the same
-   terms in the same order.                                                     */
+/* Both sums of eight coordinates at once, where eight are one register and the compiler can move
+   its lanes: again the same terms in the same order.                           */
 #if defined(GVI__VECTORS) && defined(GVI__FMA) && defined(__has_builtin)
-#if __has_builtin(__builtin_shufflevector)
+#if __has_builtin(__builtin_shufflevector) && GVI__KEPT
 #define GVI__EIGHTS
 #endif
 #endif
