@@ -4601,7 +4601,7 @@ static int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *p, 
 
 /* The units of a step's changes, as gvi__rescale makes them, from extrapolated rows: where the last
    point is foretold stands for where it will be.  Where that is far too little, and a change
-   overflows, gvi__attempt begins again from plain rows.                          */
+   overflows, gvi__attempt begins again from plain rows: not where a deadline has given the rounds. */
 static inline void gvi__scales(gvi_stepper *st, const gvi__stage *y, int count)
 {
     const int R = st->x.stride;
@@ -4655,7 +4655,7 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
             if (verdict == GVI__BEYOND) break;
             if (verdict != GVI__GO_ON) gvi__watch_last(st, change);
             if (verdict == GVI__DONE) return GVI_OK;
-        } else if (extrapolate && !GVI__SMALL) gvi__scales(st, y, count);
+        } else if (extrapolate && !GVI__SMALL && !gvi__counts(st)) gvi__scales(st, y, count);
         else gvi__zero(2*(size_t)st->n, x->scale);        // of rows of another step
 
         // rows that go to and fro in their last places end with their own F, not that of
