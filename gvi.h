@@ -3673,36 +3673,40 @@ GVI__APART gvi_status gvi__make_arcs(gvi_stepper *st, gvi_real h)
     return GVI_OK;
 }
 
+// (x + xe) += a (y + ye), the product carried with its rounding
+GVI__COPY gvi__two gvi__shear(gvi__two x, gvi_real a, gvi__two y)
+{
+    const gvi__two z = gvi__product(a, y.hi);
+    return gvi__join(x.hi, x.lo, z.hi, z.lo + a*y.lo);
+}
+
 /* Free motion to the end of the step, its increments to dq, dqe, dp, dpe; and from there
    back to the points: Q = C(1 - c) q1 - S(1 - c) v1.                           */
 static void gvi__free_motion(gvi_stepper *st, const gvi__from *from)
 {
     struct gvi__private *x = &st->x;
-    const int R = x->stride;
-    const gvi_real *stiffness = gvi__stiffness(st);
-    gvi_real *row = gvi__free_rows(st);
-    for (int i = 0; i < st->n; ++i, row += R) {
+    const int n = st->n, R = x->stride;
+    const gvi_real *stiffness = gvi__stiffness(st), *over = x->over, *mass = x->mass;
+    gvi_real *row = gvi__free_rows(st), *dq = x->dq, *dqe = x->dqe, *dp = x->dp, *dpe = x->dpe;
+    for (int i = 0; i < n; ++i, row += R) {
         if (!gvi__nonzero(stiffness[i])) continue;
-        const gvi__arc arc = gvi__arc_of(st, (int)stiffness[st->n + i]);
-        const gvi_real over = x->over ? x->over[i] : 1, m = x->over ? x->mass[i] : 1;
-        const gvi_real shear = arc.turn[0]*over, kick = arc.turn[1]*m, sign = arc.turn[2];
-        gvi__two q = gvi__two_of(from->q[i], from->qe[i]), p = gvi__two_of(from->p[i], from->pe[i]), z;
-        z = gvi__product(shear, p.hi);
-        q = gvi__join(q.hi, q.lo, z.hi, z.lo + shear*p.lo);
-        z = gvi__product(-kick, q.hi);
-        p = gvi__join(p.hi, p.lo, z.hi, z.lo - kick*q.lo);
-        z = gvi__product(shear, p.hi);
-        q = gvi__join(q.hi, q.lo, z.hi, z.lo + shear*p.lo);
-        const gvi_real q1 = sign*q.hi, q1e = gvi__rest(sign*q.lo), p1 = sign*p.hi, p1e = gvi__rest(sign*p.lo);
-        const gvi__two v1 = gvi__product(over, p1);
-        const gvi_real v1e = gvi__rest(v1.lo + over*p1e);
+        const gvi__arc arc = gvi__arc_of(st, (int)stiffness[n + i]);
+        const gvi_real m = over ? over[i] : 1, sign = arc.turn[2];
+        const gvi_real along = arc.turn[0]*m, kick = -arc.turn[1]*(over ? mass[i] : 1);
+        gvi__two q = gvi__two_of(from->q[i], from->qe[i]), p = gvi__two_of(from->p[i], from->pe[i]);
+        q = gvi__shear(q, along, p);
+        p = gvi__shear(p, kick, q);
+        q = gvi__shear(q, along, p);
+        const gvi_real q1 = sign*q.hi, q1e = sign*q.lo, p1 = sign*p.hi, p1e = sign*p.lo;
+        const gvi__two v1 = gvi__product(m, p1);
+        const gvi_real v1e = v1.lo + m*p1e, *cosine = arc.cosine, *sine = arc.sine;
         for (int a = 0; a < R; ++a)
-            row[a] = (arc.cosine[a]*q1 - arc.sine[a]*v1.hi) + (arc.cosine[a]*q1e - arc.sine[a]*v1e);
-        const gvi__two dq = gvi__sum(q1, -from->q[i]), dp = gvi__sum(p1, -from->p[i]);
-        x->dq[i] = dq.hi;
-        x->dqe[i] = dq.lo + q1e;
-        x->dp[i] = dp.hi;
-        x->dpe[i] = dp.lo + p1e;
+            row[a] = (cosine[a]*q1 - sine[a]*v1.hi) + (cosine[a]*q1e - sine[a]*v1e);
+        const gvi__two to_q = gvi__sum(q1, -from->q[i]), to_p = gvi__sum(p1, -from->p[i]);
+        dq[i] = to_q.hi;
+        dqe[i] = to_q.lo + q1e;
+        dp[i] = to_p.hi;
+        dpe[i] = to_p.lo + p1e;
     }
 }
 
@@ -4471,16 +4475,21 @@ GVI__COPY void gvi__arc_increments(gvi_stepper *st, int i, int which, int r, int
 {
     struct gvi__private *x = &st->x;
     const gvi__arc arc = gvi__arc_of(st, which);
-    gvi_real *kicks = x->row + 2*R;
-    gvi__weigh(R, x->hb, x->work.F + i*R, kicks);
-    const gvi__two p = gvi__increment(r, R, arc.cosine, kicks, 0, x->row);
-    const gvi__two dp = gvi__join(x->dp[i], x->dpe[i], p.hi, p.lo);
+    const gvi_real *F = x->work.F + i*R;
+    gvi_real own[16], *kicks = R > 16 ? x->row + 2*R : own;
+#ifdef GVI__VECTORS
+    for (int o = 0; R % 8 == 0 && o < R; o += GVI__LANES)
+        *(gvi__vector *)(kicks + o) = GVI__AT(x->hb + o)*GVI__AT(F + o);
+    if (R % 8 != 0)
+#endif
+        gvi__weigh(R, x->hb, F, kicks);
     const gvi_real bend = gvi__plain_dot(r, R, arc.sine, kicks);
-    const gvi__two dq = gvi__join(x->dq[i], x->dqe[i], x->over ? bend*x->over[i] : bend, 0);
+    const gvi__two p = gvi__increment(r, R, arc.cosine, kicks, x->dpe[i], x->row);
+    const gvi__two dp = gvi__sum(x->dp[i], p.hi), dq = gvi__sum(x->dq[i], x->over ? bend*x->over[i] : bend);
     x->dp[i] = dp.hi;
-    x->dpe[i] = gvi__rest(dp.lo);
+    x->dpe[i] = gvi__rest(dp.lo + p.lo);
     x->dq[i] = dq.hi;
-    x->dqe[i] = gvi__rest(dq.lo);
+    x->dqe[i] = gvi__rest(dq.lo + x->dqe[i]);
 }
 
 // gvi__add_path for the others
