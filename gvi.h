@@ -3572,23 +3572,24 @@ static void gvi__moments_by_parts(int s, gvi__two nu, gvi_real tau, gvi_real *M,
 }
 
 /* The same by quadrature on pieces, unless nu is far above 2s: Gauss's rule of 16 points is
-   exact to degree 31, and phi_k and the sine turn by 6 at most on a piece.  N may be NULL. */
-static void gvi__moments(int s, gvi__two nu, gvi_real tau, gvi_real *M, gvi_real *N)
+   exact to degree 31; on a piece phi_k and the sine turn by 6 at most, but phi_k by more at
+   the ends, where its zeros are denser like s s.                              */
+static void gvi__moments_by_rule(int s, gvi__two nu, gvi_real tau, gvi_real *M, gvi_real *N)
 {
     static const gvi_real rule[8][2] = {             // nodes below 1/2, weights
-        { (gvi_real)0.00529953250417503370192291327483368629L, (gvi_real)0.0135762297058770474258902862280090518L },
-        { (gvi_real)0.0277124884633837119610057922326958275L, (gvi_real)0.0311267619693239464314219184971888471L },
-        { (gvi_real)0.0671843988060841280597660511438034338L, (gvi_real)0.0475792558412463924049625538011231132L },
-        { (gvi_real)0.122297795822498483052449402576278866L, (gvi_real)0.0623144856277669360262381410960082101L },
-        { (gvi_real)0.191061877798678125776664117975604491L, (gvi_real)0.0747979944082883660407508652737392745L },
-        { (gvi_real)0.270991611171386306828790278508211213L, (gvi_real)0.0845782596975012690946560395151799811L },
-        { (gvi_real)0.359198224610370543384769749269751947L, (gvi_real)0.0913017075224617944333818339846099697L },
-        { (gvi_real)0.452493745081181279907340332287520968L, (gvi_real)0.0947253052275342481426983616041415526L }
+        { (gvi_real)0.005299532504175033701922913274833686L, (gvi_real)0.01357622970587704742589028622800905L },
+        { (gvi_real)0.02771248846338371196100579223269583L, (gvi_real)0.03112676196932394643142191849718885L },
+        { (gvi_real)0.06718439880608412805976605114380343L, (gvi_real)0.04757925584124639240496255380112311L },
+        { (gvi_real)0.1222977958224984830524494025762789L, (gvi_real)0.06231448562776693602623814109600821L },
+        { (gvi_real)0.1910618777986781257766641179756045L, (gvi_real)0.07479799440828836604075086527373927L },
+        { (gvi_real)0.2709916111713863068287902785082112L, (gvi_real)0.08457825969750126909465603951517998L },
+        { (gvi_real)0.3591982246103705433847697492697519L, (gvi_real)0.09130170752246179443338183398460997L },
+        { (gvi_real)0.4524937450811812799073403322875210L, (gvi_real)0.09472530522753424814269836160414155L }
     };
     const gvi_real size = GVI_ABS(nu.hi);
-    const int pieces = 1 + (int)((size + (gvi_real)s)*tau/6);
+    const int pieces = 1 + (int)((size + (gvi_real)(s + s*s/32))*tau/6);
     gvi__zero((size_t)s, M);
-    if (N) gvi__zero((size_t)s, N);
+    gvi__zero((size_t)s, N);
     for (int m = 0; m < 16*pieces; ++m) {
         const gvi_real *at = rule[m & 7];
         const gvi_real part = tau/(gvi_real)pieces, node = m & 8 ? 1 - at[0] : at[0];
@@ -3598,11 +3599,17 @@ static void gvi__moments(int s, gvi__two nu, gvi_real tau, gvi_real *M, gvi_real
         for (int k = 0; k < s; ++k) {
             const gvi_real w = 1/(gvi_real)(k + 1), next = (2 - w)*X*P - (1 - w)*before;
             M[k] += part*at[1]*sine*P;
-            if (N) N[k] += part*at[1]*cosine*P;
+            N[k] += part*at[1]*cosine*P;
             before = P;
             P = next;
         }
     }
+}
+
+static void gvi__moments(int s, gvi__two nu, gvi_real tau, gvi_real *M, gvi_real *N)
+{
+    if (GVI_ABS(nu.hi) > (gvi_real)(4*s + 16)) gvi__moments_by_parts(s, nu, tau, M, N);
+    else gvi__moments_by_rule(s, nu, tau, M, N);
 }
 
 /* K/b: the part S(c_a - c_j)/2 is made of the rounded weights of the end, so that it belongs
@@ -3618,8 +3625,7 @@ static void gvi__arc_table(const gvi_stepper *st, const gvi__arc *arc, gvi__two 
         gvi__modes(st, x->c[j], mode + j*R, M);
     }
     for (int a = 0; a < r; ++a) {
-        if (GVI_ABS(nu.hi) > (gvi_real)(4*s + 16)) gvi__moments_by_parts(s, nu, x->c[a], M, N);
-        else gvi__moments(s, nu, x->c[a], M, NULL);
+        gvi__moments(s, nu, x->c[a], M, N);
         for (int j = 0; j < r; ++j) arc->K[j*R + a] = gvi__dot(s, mode + j*R, M)/omega.hi;
     }
     for (int a = 0; a < r; ++a)
@@ -5814,6 +5820,34 @@ GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy)
     return gvi__done(st, status);
 }
 
+/* Beside stiffness: C(tau) q0 + h S(tau) v0 + h M^-1 sum_j h b_j g_j int_0^tau S(tau - x) l_j/b_j dx,
+   and its derivative.                                                         */
+static void gvi__arcs_at(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v)
+{
+    const struct gvi__private *x = &st->x;
+    const int s = st->s, R = x->stride;
+    const gvi_real *stiffness = gvi__stiffness(st);
+    gvi_real *M = x->row, *N = M + R, *mode = N + R, *scratch = mode + R, sine, cosine;
+    for (int i = 0; i < st->n; ++i) {
+        if (!gvi__nonzero(stiffness[i])) continue;
+        const gvi_real over = x->over ? x->over[i] : 1;
+        const gvi__two omega = gvi__frequency(stiffness[i], x->over ? x->mass[i] : 1);
+        const gvi__two nu = gvi__scale2(st->h, omega);
+        gvi__turn(nu, tau, &sine, &cosine);
+        gvi__moments(s, nu, tau, M, N);
+        const gvi_real v0 = over*x->p0[i];
+        gvi_real bend = 0, turn = 0;
+        for (int j = 0; j < st->r; ++j) {
+            const gvi_real kick = x->hb[j]*x->last.F[i*R + j];
+            gvi__modes(st, x->c[j], mode, scratch);
+            bend += gvi__dot(s, mode, M)*kick;
+            turn += gvi__dot(s, mode, N)*kick;
+        }
+        q[i] = cosine*x->q0[i] + sine/omega.hi*v0 + over*(bend/omega.hi);
+        v[i] = cosine*v0 - omega.hi*sine*x->q0[i] + over*turn;
+    }
+}
+
 /* Curve and velocity of the last step by the same formulas as at its points,
    with the table row that belongs to tau.                                     */
 static void gvi__curve(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v)
@@ -5845,6 +5879,7 @@ static void gvi__curve(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
         }
     }
     if (by_forces) {
+        // F of springs that were told is what is left of it: their arcs follow
         gvi__over_mass(st, q, 1, 1);
         gvi__over_mass(st, v, 1, 1);
         gvi__over_constant_mass(st, x->p0, x->v0);
@@ -5854,6 +5889,7 @@ static void gvi__curve(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
         }
     }
     for (int i = 0; i < n; ++i) q[i] = x->q0[i] + st->h*q[i];
+    if (GVI__STIFF && x->springs) gvi__arcs_at(st, tau, q, v);
 }
 
 GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v)
@@ -5957,6 +5993,42 @@ static gvi_status gvi__lagrangian(gvi_stepper *st, gvi_real t, const gvi_real *q
     return status;
 }
 
+/* Beside stiffness: the generating function of the step.  Sums of h b Q F and of h b M V V are
+   p1 q1 - p0 q0 together, so that kinetic energy needs no curve, and k drops out:
+
+     (p1 q1 - p0 q0)/2 - sum_j h b_j (Q_j F_j/2 + V(Q_j))
+
+   On arcs Q is measured from 0, where k has its centre, elsewhere from q0.  F is asked
+   again: that of the step is of the rows before the last.                      */
+static gvi_status gvi__arc_action(gvi_stepper *st, gvi_real *action)
+{
+    struct gvi__private *x = &st->x;
+    const gvi_real *stiffness = gvi__stiffness(st);
+    const int n = st->n, R = x->stride;
+    gvi_real sum = 0, V, L, T, *q = x->change, *v = q + n;
+    gvi_points y;
+    gvi__zero((size_t)n, v);
+    for (int i = 0; i < n; ++i) {
+        const gvi_real way = x->p[i]*((x->q[i] - x->q0[i]) + x->qe[i]);
+        sum += (gvi__nonzero(stiffness[i]) ? way + (x->p[i] - x->p0[i])*x->q0[i] : way)/2;
+    }
+    for (int j = 0; j < st->r; ++j) {
+        gvi__gather(n, R, x->last.Q + j, q);
+        const gvi_real t = x->t0 + x->c[j]*st->h;
+        gvi_status status = gvi__values(st, t, q, v, &V, &L, &T);
+        gvi__at(&y, st, &t, q);
+        y.v = v;
+        if (status == GVI_OK) status = gvi__evaluate(st, &y, 0);
+        if (status != GVI_OK) return status;
+        gvi_real virial = 0;
+        for (int i = 0; i < n; ++i)
+            virial += (gvi__nonzero(stiffness[i]) ? q[i] : q[i] - x->q0[i])*y.f[i];
+        sum -= x->hb[j]*(virial/2 + V);
+    }
+    *action = sum;
+    return GVI_OK;
+}
+
 GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action)
 {
     gvi_status status = gvi__ready(st, 1);
@@ -5966,6 +6038,7 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action)
     struct gvi__private *x = &st->x;
     gvi_real sum = 0, L, *q = x->change, *v = q + st->n;
     gvi__weights(st, st->h);
+    if (GVI__STIFF && x->springs) return gvi__done(st, gvi__arc_action(st, action));
     for (int j = 0; j < st->r; ++j) {
         gvi__curve(st, x->c[j], q, v);
         status = gvi__lagrangian(st, x->t0 + x->c[j]*st->h, q, v, &L);
@@ -6214,7 +6287,8 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
     gvi__done(st, GVI_OK);
     if (!q0 || !q1 || !out || !gvi__all_finite(st->n, q0) || !gvi__all_finite(st->n, q1)
         || !gvi__finite(t) || !gvi__finite(h) || !gvi__nonzero(h)) return st->status = GVI_E_ARGUMENT;
-    if ((st->s > 1 && !gvi__has(st, GVI__HAS_NEWTON)) || gvi__rule_is(st, GVI_KICKS) || x->clock >= 0)
+    if ((st->s > 1 && !gvi__has(st, GVI__HAS_NEWTON)) || gvi__rule_is(st, GVI_KICKS) || x->clock >= 0
+        || (GVI__STIFF && x->springs))
         return st->status = GVI_E_FORMULATION;
     gvi__from from = { t, 0, q0, x->zeros, x->zeros, x->zeros, 0, 0, NULL, NULL };
     gvi__begin(st, &from, h);
