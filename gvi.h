@@ -95,7 +95,8 @@
    rounding   Round to nearest, subnormals kept; -ffast-math is refused.
               q, p and t carry compensation terms, so 1e9 steps of t + h are
               as exact as one.  Same bits on every IEEE machine when compiled
-              with -ffp-contract=off, as far as callbacks do.
+              with -ffp-contract=off, as far as callbacks do, and sin and cos
+              with stiffness.
    work       Points at which a step evaluates an effect, at most; m = max_iterations:
                 explicit               r
                 pinned fixed point     2(m+2) r
@@ -111,8 +112,9 @@
               else the next multiple of 8, K = 1 for positions, 2 for velocities and
               momenta; full M: 2n^2 ((N+2) K R + 3) more; M(q): (N+1) r (n^3/2 + 6n^2).
               Explicit: 10n(r+1) + 32n + 8r + 16.  A new h: 6r^3 + 4(r+10)rR + 70r + 60
-              more, in its step and the next two.  With stiffness: (N+2) n R (2r + 10) more, and
-              for each k/m at a new h 3r^3 + 14r^2 + 12r.  Twice that where the extrapolated start
+              more, in its step and the next two.  With stiffness: n (30R + 200) more, and for
+              each k/m at a new h r (16p (12s + 70) + 2r (s + 40)) + 3r^2 R + 200, sines counted
+              as one, p = 1 + (h omega + s + s^2/32)/6.  Twice that where the extrapolated start
               leads nowhere, four times where the step fails.  Without a clock, Lagrangian
               terms or marks; counted by make bound.
 
@@ -150,6 +152,7 @@
 
      GVI_SQRT(x) GVI_ABS(x) GVI_FLOOR(x) GVI_LDEXP(x, e) GVI_FREXP(x, &e)
                           given all, in gvi_real: <math.h> is not included
+     GVI_SIN(x) GVI_COS(x)  then, for desc.stiffness, which is not heeded without them
 */
 /* ------------------------------------------------------------- HOW IT WORKS
 
@@ -221,7 +224,7 @@
                   for Gauss with r = s complex ones of size n
 
    The fixed points contract like (h omega)^2 or h omega; where they do not,
-   GVI_AUTO goes over to Newton.  All solve the same equations, and all stop
+   GVI_AUTO goes over to Newton, but where stiffness is heeded.  All solve the same equations, and all stop
    at round-off.
 
    WEAK EFFECTS.  A force that hardly changes while an iteration closes in need not
@@ -237,18 +240,31 @@
    alone, and not compiled for size: elsewhere a marked effect is asked as any other.
 
    STIFF SPRINGS.  A spring of frequency omega lets a fixed point contract like (h omega)^2
-   or not at all, although nothing about it is unknown.  desc.stiffness tells it: k_i is
-   the constant part of d2V/dq_i^2, wherever that spring is at rest; the effects give all
-   of the force, as ever.  A round then solves for that part, by an r*r matrix for each
-   k_i/m_i, and only the rest of the force is left to contract; h is bounded by what the
-   curve can follow.  It is a simplified Newton method with a constant diagonal Jacobian.
-   The equations, and so the step, are the same, and k may be rough: within a factor of two
-   of the truth it costs no more than rounds.  Told where there is no spring, or far too large,
-   the rounds can diverge: Newton's method, or GVI_E_CONVERGENCE where a formulation is pinned;
-   and above 0.01/EPS times the truth it hides all motion.  It pays from h omega = 1/2 or so,
-   and takes r R numbers of memory for each k_i/m_i that is not that of the stiff coordinate
-   before.  It is for positions and velocities with unit or diagonal mass, and not compiled
-   for size: elsewhere it is not heeded.
+   or not at all, and asks polynomials to follow its oscillation, although nothing about it
+   is unknown.  desc.stiffness tells it: k_i > 0 is the constant part of d2V/dq_i^2; the
+   effects give all of the force, as ever.  Free motion of that coordinate then is an arc,
+   the oscillation by -k_i q_i, in place of a straight line, and polynomials describe what is
+   left of the force, g = F + k Q.  With omega^2 = k/m, nu = h omega, S(x) = sin(nu x)/nu,
+   C(x) = cos(nu x) the positions of such a coordinate are
+
+     Q_i = C(c_i) q0 + h S(c_i) v0 + h M^-1 sum_j (K_ij/b_j) h b_j g_j
+     q1  = C(1) q0 + h S(1) v0     + h M^-1 sum_j S(1 - c_j) h b_j g_j
+     p1  = C(1) p0 - k h S(1) q0   +        sum_j C(1 - c_j) h b_j g_j
+
+   and g is what iterates: h is bounded by it alone.  b_i K_ij - b_j K_ji = b_i b_j S(c_i - c_j),
+   and so the step is symplectic for any k, beside any other coordinates, and of the same
+   order; it has no better friend than the right k, with which it is the exact rotation where
+   the spring is all there is, at any h.  k is part of the method: another k is another
+   step.  What it is not: near nu = pi, 2 pi ... steps can resonate with g, as those of every
+   such method; a momentum map stays exact where k is the same multiple of m for all
+   coordinates that the symmetry mixes, and not if it shifts one with a k; boundary values and
+   Newton's method solve other equations, so that rounds that do not contract end in
+   GVI_E_CONVERGENCE, and gvi_discrete_lagrangian and gvi_start_configurations in
+   GVI_E_FORMULATION.  It pays from h omega = 1/2 or so, and takes 2 (r + 1) R + 8 numbers of
+   memory for each k_i/m_i that is not that of the stiff coordinate before, and (R + 2) n.
+   A new h, as of gvi_state_at, costs as much as some steps.  It is for positions with unit or
+   diagonal mass; elsewhere, compiled for size, with GVI_NO_RULES and for k_i <= 0 it is not
+   heeded.
 
    CLOCK.  An effect g(q) > 0 makes time run as dt = g dtau, and h is a step in
    tau: t moves fast or slow, and the map is as symplectic as with fixed steps
@@ -481,8 +497,8 @@ typedef struct gvi_desc {
                                           N = 1 does not: look at counters.worst_change.
                                           0: as many as it takes               */
     const gvi_real   *stiffness;       /* [n] k_i, or NULL: the constant part of d2V/dq_i^2,
-                                          solved in place of iterated (STIFF SPRINGS).
-                                          Read by gvi_init only                */
+                                          whose oscillation becomes the free motion: another
+                                          method (STIFF SPRINGS).  Read by gvi_init only */
 } gvi_desc;
 
 #define GVI_FAULT_NONE (-1)
@@ -636,7 +652,9 @@ GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy);
    its own time, and v still dq/dt.
    gvi_state_at: the state at time t (a time, not tau) inside it, at the full
    order, by a partial step from the nearer end.
-   gvi_action: the quadrature of L over it.  This and gvi_state_at use the effects that
+   Beside stiffness the curve is made of arcs, and ends at q1 as exactly as a step does.
+   gvi_action: the quadrature of L over it; beside stiffness the generating function of the
+   step, dS = p1 dq1 - p0 dq0.  This and gvi_state_at use the effects that
    are on now.
    A broken line has neither curve nor action, a clock no action: GVI_E_FORMULATION.
    q, v, p of length n, or NULL.
@@ -648,7 +666,7 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action);
 /* L_d(q0, q1; t, h): boundary values given, rows k >= 1 of (1) solved by
    Newton's method.  GVI_E_CONJUGATE where they do not determine the curve
    (oscillator: h omega = k pi).  Needs GVI_AUTO or GVI_NEWTON if s > 1, and is
-   not for kicks or a clock.
+   not for kicks, a clock or where stiffness is heeded.
    Forced systems: d1, d2 are total derivatives, and F-, F+ are
    h sum b_i f_i dQ_i/dq0, dQ_i/dq1 with the curve's own dependence on its
    ends, as the exact discrete forces are [1, sec. 3.2]; how they share p0 and
@@ -761,11 +779,13 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI_COS(x)       GVI__MATH(cos)(x)
 #endif
 #if defined(GVI_SIN) && defined(GVI_COS)
-#define GVI__TURNS 1
+#define GVI__TURNS 1                                  // arcs can be made
+#define GVI__SIN(x) GVI_SIN(x)
+#define GVI__COS(x) GVI_COS(x)
 #else
 #define GVI__TURNS 0
-#define GVI_SIN(x) (x)
-#define GVI_COS(x) (x)
+#define GVI__SIN(x) (x)
+#define GVI__COS(x) (x)
 #endif
 
 #if GVI__KIND == 1
@@ -3543,7 +3563,7 @@ static void gvi__modes(const gvi_stepper *st, gvi_real tau, gvi_real *phi, gvi_r
 static void gvi__turn(gvi__two nu, gvi_real x, gvi_real *sine, gvi_real *cosine)
 {
     const gvi__two a = gvi__scale2(x, nu);
-    const gvi_real s = GVI_SIN(a.hi), c = GVI_COS(a.hi);
+    const gvi_real s = GVI__SIN(a.hi), c = GVI__COS(a.hi);
     *sine = s + a.lo*c;
     *cosine = c - a.lo*s;
 }
@@ -3644,7 +3664,7 @@ static void gvi__arc_turn(gvi__two omega, gvi__two nu, gvi_real *turn)
 {
     const gvi_real pi = (gvi_real)3.14159265358979323846264338327950288L;
     const gvi_real halves = GVI_FLOOR(nu.hi/pi + (gvi_real)0.5);
-    const gvi__two rest = gvi__sub2(nu, gvi__scale2(halves, gvi__two_of(pi, GVI_SIN(pi))));
+    const gvi__two rest = gvi__sub2(nu, gvi__scale2(halves, gvi__two_of(pi, GVI__SIN(pi))));
     gvi_real sine, cosine;
     gvi__turn(rest, 1, &sine, &cosine);
     turn[0] = sine/(1 + cosine)/omega.hi;
