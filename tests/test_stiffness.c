@@ -320,6 +320,38 @@ static void test_symplectic(void **state)
     (void)state;
 }
 
+/* V = 200 r^2 + r^4/4 in a plane: with the same k/m for x and y, whatever it is, and masses 2, the step
+   commutes with rotations, and angular momentum stays to rounding                */
+static int bowl(const gvi_points *x, void *user)
+{
+    const gvi_real *X = x->q, *Y = X + x->stride;
+    for (int j = 0; j < x->count; ++j) {
+        const gvi_real pull = 400 + (X[j]*X[j] + Y[j]*Y[j]);
+        x->f[j] -= pull*X[j];
+        x->f[x->stride + j] -= pull*Y[j];
+    }
+    return (void)user, 0;
+}
+
+static void test_rotations(void **state)
+{
+    static gvi_real memory[GVI_LENGTH(2, 16, 16)];
+    const gvi_real two[] = { 2, 2 }, start[] = { 1, 0 }, p[] = { 3, (gvi_real)8.5L };
+    const gvi_effect effect = { .kind = GVI_POTENTIAL, .points = bowl };
+    for (int s = 1; s <= 16; s *= 2)
+        for (int told = 100; told <= 500; told += 100) {
+            const gvi_real same[] = { (gvi_real)told, (gvi_real)told };
+            const gvi_desc desc = { .n = 2, .degree = s, .effects = &effect, .effect_count = 1, .stiffness = same,
+                                    .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = two } };
+            gvi_stepper st;
+            assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+            assert_ok(gvi_start_momentum(&st, 0, start, p));
+            for (int n = 0; n < 200; ++n) assert_ok(gvi_step(&st, (gvi_real)0.1L));
+            assert_close((real)st.q[0]*st.p[1] - (real)st.q[1]*st.p[0], p[1], 2000*EPS);
+        }
+    (void)state;
+}
+
 /* --------------------------------------------------------------- where it is not heeded */
 
 static int unit_mass(const gvi_points *x, void *user)
@@ -659,6 +691,7 @@ int main(void)
         cmocka_unit_test(test_order),
         cmocka_unit_test(test_worth),
         cmocka_unit_test(test_symplectic),
+        cmocka_unit_test(test_rotations),
         cmocka_unit_test(test_not_heeded),
         cmocka_unit_test(test_bad_input),
         cmocka_unit_test(test_refusals),
