@@ -95,7 +95,8 @@
    rounding   Round to nearest, subnormals kept; -ffast-math is refused.
               q, p and t carry compensation terms, so 1e9 steps of t + h are
               as exact as one.  Same bits on every IEEE machine when compiled
-              with -ffp-contract=off, as far as callbacks do.
+              with -ffp-contract=off, as far as callbacks do, and sin and cos
+              with stiffness.
    work       Points at which a step evaluates an effect, at most; m = max_iterations:
                 explicit               r
                 pinned fixed point     2(m+2) r
@@ -111,8 +112,9 @@
               else the next multiple of 8, K = 1 for positions, 2 for velocities and
               momenta; full M: 2n^2 ((N+2) K R + 3) more; M(q): (N+1) r (n^3/2 + 6n^2).
               Explicit: 10n(r+1) + 32n + 8r + 16.  A new h: 6r^3 + 4(r+10)rR + 70r + 60
-              more, in its step and the next two.  With stiffness: (N+2) n R (2r + 10) more, and
-              for each k/m at a new h 3r^3 + 14r^2 + 12r.  Twice that where the extrapolated start
+              more, in its step and the next two.  With stiffness: n (30R + 200) more, and for
+              each k/m at a new h r (16p (12s + 70) + 2r (s + 40)) + 3r^2 R + 200, sines counted
+              as one, p = 1 + (h omega + s + s^2/32)/6.  Twice that where the extrapolated start
               leads nowhere, four times where the step fails.  Without a clock, Lagrangian
               terms or marks; counted by make bound.
 
@@ -150,6 +152,7 @@
 
      GVI_SQRT(x) GVI_ABS(x) GVI_FLOOR(x) GVI_LDEXP(x, e) GVI_FREXP(x, &e)
                           given all, in gvi_real: <math.h> is not included
+     GVI_SIN(x) GVI_COS(x)  then, for desc.stiffness, which is not heeded without them
 */
 /* ------------------------------------------------------------- HOW IT WORKS
 
@@ -221,7 +224,7 @@
                   for Gauss with r = s complex ones of size n
 
    The fixed points contract like (h omega)^2 or h omega; where they do not,
-   GVI_AUTO goes over to Newton.  All solve the same equations, and all stop
+   GVI_AUTO goes over to Newton, but where stiffness is heeded.  All solve the same equations, and all stop
    at round-off.
 
    WEAK EFFECTS.  A force that hardly changes while an iteration closes in need not
@@ -237,18 +240,31 @@
    alone, and not compiled for size: elsewhere a marked effect is asked as any other.
 
    STIFF SPRINGS.  A spring of frequency omega lets a fixed point contract like (h omega)^2
-   or not at all, although nothing about it is unknown.  desc.stiffness tells it: k_i is
-   the constant part of d2V/dq_i^2, wherever that spring is at rest; the effects give all
-   of the force, as ever.  A round then solves for that part, by an r*r matrix for each
-   k_i/m_i, and only the rest of the force is left to contract; h is bounded by what the
-   curve can follow.  It is a simplified Newton method with a constant diagonal Jacobian.
-   The equations, and so the step, are the same, and k may be rough: within a factor of two
-   of the truth it costs no more than rounds.  Told where there is no spring, or far too large,
-   the rounds can diverge: Newton's method, or GVI_E_CONVERGENCE where a formulation is pinned;
-   and above 0.01/EPS times the truth it hides all motion.  It pays from h omega = 1/2 or so,
-   and takes r R numbers of memory for each k_i/m_i that is not that of the stiff coordinate
-   before.  It is for positions and velocities with unit or diagonal mass, and not compiled
-   for size: elsewhere it is not heeded.
+   or not at all, and asks polynomials to follow its oscillation, although nothing about it
+   is unknown.  desc.stiffness tells it: k_i > 0 is the constant part of d2V/dq_i^2; the
+   effects give all of the force, as ever.  Free motion of that coordinate then is an arc,
+   the oscillation by -k_i q_i, in place of a straight line, and polynomials describe what is
+   left of the force, g = F + k Q.  With omega^2 = k/m, nu = h omega, S(x) = sin(nu x)/nu,
+   C(x) = cos(nu x) the positions of such a coordinate are
+
+     Q_i = C(c_i) q0 + h S(c_i) v0 + h M^-1 sum_j (K_ij/b_j) h b_j g_j
+     q1  = C(1) q0 + h S(1) v0     + h M^-1 sum_j S(1 - c_j) h b_j g_j
+     p1  = C(1) p0 - k h S(1) q0   +        sum_j C(1 - c_j) h b_j g_j
+
+   and g is what iterates: h is bounded by it alone.  b_i K_ij - b_j K_ji = b_i b_j S(c_i - c_j),
+   and so the step is symplectic for any k, beside any other coordinates, and of the same
+   order; it has no better friend than the right k, with which it is the exact rotation where
+   the spring is all there is, at any h.  k is part of the method: another k is another
+   step.  What it is not: near nu = pi, 2 pi ... steps can resonate with g, as those of every
+   such method; a momentum map stays exact where k is the same multiple of m for all
+   coordinates that the symmetry mixes, and not if it shifts one with a k; boundary values and
+   Newton's method solve other equations, so that rounds that do not contract end in
+   GVI_E_CONVERGENCE, and gvi_discrete_lagrangian and gvi_start_configurations in
+   GVI_E_FORMULATION.  It pays from h omega = 1/2 or so, and takes 2 (r + 1) R + 8 numbers of
+   memory for each k_i/m_i that is not that of the stiff coordinate before, and (R + 2) n.
+   A new h, as of gvi_state_at, costs as much as some steps.  It is for positions with unit or
+   diagonal mass; elsewhere, compiled for size, with GVI_NO_RULES and for k_i <= 0 it is not
+   heeded.
 
    CLOCK.  An effect g(q) > 0 makes time run as dt = g dtau, and h is a step in
    tau: t moves fast or slow, and the map is as symplectic as with fixed steps
@@ -481,8 +497,8 @@ typedef struct gvi_desc {
                                           N = 1 does not: look at counters.worst_change.
                                           0: as many as it takes               */
     const gvi_real   *stiffness;       /* [n] k_i, or NULL: the constant part of d2V/dq_i^2,
-                                          solved in place of iterated (STIFF SPRINGS).
-                                          Read by gvi_init only                */
+                                          whose oscillation becomes the free motion: another
+                                          method (STIFF SPRINGS).  Read by gvi_init only */
 } gvi_desc;
 
 #define GVI_FAULT_NONE (-1)
@@ -636,7 +652,9 @@ GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy);
    its own time, and v still dq/dt.
    gvi_state_at: the state at time t (a time, not tau) inside it, at the full
    order, by a partial step from the nearer end.
-   gvi_action: the quadrature of L over it.  This and gvi_state_at use the effects that
+   Beside stiffness the curve is made of arcs, and ends at q1 as exactly as a step does.
+   gvi_action: the quadrature of L over it; beside stiffness the generating function of the
+   step, dS = p1 dq1 - p0 dq0.  This and gvi_state_at use the effects that
    are on now.
    A broken line has neither curve nor action, a clock no action: GVI_E_FORMULATION.
    q, v, p of length n, or NULL.
@@ -648,7 +666,7 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action);
 /* L_d(q0, q1; t, h): boundary values given, rows k >= 1 of (1) solved by
    Newton's method.  GVI_E_CONJUGATE where they do not determine the curve
    (oscillator: h omega = k pi).  Needs GVI_AUTO or GVI_NEWTON if s > 1, and is
-   not for kicks or a clock.
+   not for kicks, a clock or where stiffness is heeded.
    Forced systems: d1, d2 are total derivatives, and F-, F+ are
    h sum b_i f_i dQ_i/dq0, dQ_i/dq1 with the curve's own dependence on its
    ends, as the exact discrete forces are [1, sec. 3.2]; how they share p0 and
@@ -757,6 +775,17 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI_FLOOR(x)     GVI__MATH(floor)(x)
 #define GVI_LDEXP(x, e)  GVI__MATH(ldexp)(x, e)
 #define GVI_FREXP(x, pe) GVI__MATH(frexp)(x, pe)
+#define GVI_SIN(x)       GVI__MATH(sin)(x)
+#define GVI_COS(x)       GVI__MATH(cos)(x)
+#endif
+#if defined(GVI_SIN) && defined(GVI_COS)
+#define GVI__TURNS 1                                  // arcs can be made
+#define GVI__SIN(x) GVI_SIN(x)
+#define GVI__COS(x) GVI_COS(x)
+#else
+#define GVI__TURNS 0
+#define GVI__SIN(x) (x)
+#define GVI__COS(x) (x)
 #endif
 
 #if GVI__KIND == 1
@@ -855,7 +884,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__RESTS 1
 #endif
 #define GVI__PATH (GVI__RESTS || !GVI__SMALL)         // h v is kept
-#define GVI__STIFF (!GVI__SMALL && (GVI__POSITIONS || GVI__VELOCITIES))
+#define GVI__STIFF (GVI__TURNS && GVI__RULES && !GVI__SMALL && GVI__POSITIONS)
 #ifdef GVI_NO_DIAGNOSIS
 #define GVI__DIAGNOSIS 0
 #else
@@ -952,6 +981,13 @@ static gvi__two gvi__sum(gvi_real x, gvi_real y)
 {
     gvi__stored a = x, b = y, hi = a + b, bb = hi - a, aa = hi - bb, da = a - aa, db = b - bb;
     return gvi__two_of(hi, da + db);
+}
+
+// (x + xe) + (y + ye): what is lost of x + y goes to the low parts
+static gvi__two gvi__join(gvi_real x, gvi_real xe, gvi_real y, gvi_real ye)
+{
+    const gvi__two sum = gvi__sum(x, y);
+    return gvi__two_of(sum.hi, (xe + ye) + sum.lo);
 }
 
 // a b + c with one rounding, where it is an instruction; newlib's <math.h> does not say so, gcc does
@@ -2477,22 +2513,31 @@ static gvi_status gvi__read_effects(gvi__scene *x)
     return GVI_OK;
 }
 
-/* desc.stiffness, where it is heeded: M^-1 is a number for each coordinate, and the rows
-   see a force at the end.  Coordinates of the same k/m as the last one before share
-   its table.  Returns how many there are; which, if not NULL, becomes that of each.   */
-static int gvi__springs(const gvi__scene *x, gvi_real *which)
+// k_i/m_i, or 0 where there is no spring to be told of
+static gvi_real gvi__spring(const gvi_desc *d, int i)
+{
+    const gvi_real k = d->stiffness[i], w = d->mass.kind == GVI_MASS_UNIT ? k : k/d->mass.matrix[i];
+    return k > 0 && w > 0 && gvi__finite(w) ? w : 0;
+}
+
+/* desc.stiffness, where it is heeded.  Coordinates of the same k/m as the last one before
+   share its tables.  Returns how many sets there are; k, if not NULL, becomes [n] k_i,
+   [n] the set of each.                                                        */
+static int gvi__springs(const gvi__scene *x, gvi_real *k)
 {
     const gvi_desc *d = x->desc;
     const int heeded = GVI__STIFF && d->stiffness && d->mass.kind <= GVI_MASS_DIAGONAL
-        && (gvi__chosen_is(x->chosen, GVI_POSITIONS) || gvi__chosen_is(x->chosen, GVI_VELOCITIES));
+        && gvi__chosen_is(x->chosen, GVI_POSITIONS);
     int tables = 0;
     gvi_real last = 0;
     for (int i = 0; heeded && i < d->n; ++i) {
-        if (!gvi__nonzero(d->stiffness[i])) continue;
-        const gvi_real k = d->mass.kind == GVI_MASS_UNIT ? d->stiffness[i] : d->stiffness[i]/d->mass.matrix[i];
-        if (tables == 0 || gvi__nonzero(k - last)) ++tables;
-        last = k;
-        if (which) which[i] = (gvi_real)(tables - 1);
+        const gvi_real w = gvi__spring(d, i);
+        if (!gvi__nonzero(w)) continue;
+        if (tables == 0 || gvi__nonzero(w - last)) ++tables;
+        last = w;
+        if (!k) continue;
+        k[i] = d->stiffness[i];
+        k[d->n + i] = (gvi_real)(tables - 1);
     }
     return tables;
 }
@@ -2632,6 +2677,7 @@ static gvi_status gvi__resolve(gvi__scene *x, gvi_desc *d, const gvi_desc *desc)
     if (status == GVI_OK) status = gvi__choose(x);
     if (status != GVI_OK) return status;
     if (GVI__STIFF) x->springs = gvi__springs(x, NULL);
+    if (GVI__STIFF && x->springs) x->flags &= ~GVI__HAS_NEWTON;          // it solves other equations
     const int wanted = gvi__flag(x->flags, GVI__HAS_NEWTON | GVI__HAS_LAGRANGIAN);
     const int matrices = wanted || d->mass.kind >= GVI_MASS_DENSE;
     return matrices && d->n > 0x7FFF ? GVI_E_ARGUMENT : GVI_OK;          // indices are int: n*n and s*n
@@ -2690,6 +2736,8 @@ enum {
     GVI__SPRINGS, GVI__HESS, GVI__HESSIANS, GVI__sn, GVI__PIVOT, GVI__DIFFERENCES, GVI__J, GVI__EIGEN, GVI__LENGTHS
 };
 
+enum { GVI__ARC_HEAD = 8, GVI__ARC_TAIL = 8 };                            // see gvi__arc_of
+
 GVI__APART void gvi__lengths(const gvi__scene *x, size_t *length)
 {
     const gvi_desc *d = x->desc;
@@ -2733,7 +2781,8 @@ GVI__APART void gvi__lengths(const gvi__scene *x, size_t *length)
     length[GVI__DIAGONAL] = d->mass.kind == GVI_MASS_DIAGONAL ? length[GVI__N] : 0;
     length[GVI__TWO_MASSES] = dense ? 2*n : 0;                 // factored, and as it is
     length[GVI__STILL] = iterates && gvi__marks(d) ? n + 2 : 0;
-    length[GVI__SPRINGS] = GVI__STIFF && x->springs ? 2*R + (size_t)x->springs*r*R + 2*n + r*r + r + 1 : 0;
+    length[GVI__SPRINGS] = !GVI__STIFF || !x->springs ? 0
+        : GVI__ARC_HEAD + (size_t)x->springs*(2*(r + 1)*R + GVI__ARC_TAIL) + (R + 2)*n;
     length[GVI__Z] = dense && positions ? n : 0;
     length[GVI__AT_POINTS] = gvi__has_mass(d, GVI_MASS_POSITION) ? n : 0;
     length[GVI__nR] = n*R;
@@ -2856,30 +2905,43 @@ static gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
     return GVI_OK;
 }
 
-/* Where stiffness is heeded x->springs is [2R] h, for which the tables hold, and their count;
-   the tables, [count][r][R]; [n] k; [n] its table; [r*r + r + 1] scratch.         */
-static inline const gvi_real *gvi__tables_of_springs(const gvi_stepper *st)
+/* Where stiffness is heeded x->springs begins with h, for which the tables hold, and their
+   count.  Behind the tables of each k/m: [n][R] rows of the free motion; [n] k; [n] its
+   set of tables.                                                              */
+typedef struct gvi__arc {
+    gvi_real *K, *E;                  /* [r][R] h K_aj/b_j; gvi__fit_sums with it */
+    gvi_real *cosine, *sine;          /* [R] cos nu (1 - c), sin nu (1 - c)/omega */
+    gvi_real *turn;                   /* tan(nu'/2)/omega, omega sin nu', sign  */
+} gvi__arc;
+
+static inline gvi__arc gvi__arc_of(const gvi_stepper *st, int which)
 {
-    return st->x.springs + 2*st->x.stride;
+    const int R = st->x.stride, table = st->r*R;
+    gvi_real *at = st->x.springs + GVI__ARC_HEAD + (size_t)which*(size_t)(2*(table + R) + GVI__ARC_TAIL);
+    gvi__arc arc;
+    arc.K = at;
+    arc.E = at + table;
+    arc.cosine = at + 2*table;
+    arc.sine = arc.cosine + R;
+    arc.turn = arc.sine + R;
+    return arc;
+}
+
+static inline gvi_real *gvi__free_rows(const gvi_stepper *st)
+{
+    return gvi__arc_of(st, (int)st->x.springs[1]).K;
 }
 
 static inline gvi_real *gvi__stiffness(const gvi_stepper *st)
 {
-    return st->x.springs + st->x.stride*(2 + (int)st->x.springs[1]*st->r);
+    return gvi__free_rows(st) + st->n*st->x.stride;
 }
 
-static inline const gvi_real *gvi__spring_table(const gvi_stepper *st, const gvi_real *k, int i)
-{
-    return gvi__tables_of_springs(st) + (size_t)k[st->n + i]*(size_t)(st->r*st->x.stride);
-}
-
-// stiffness into the memory
-static gvi_status gvi__set_stiffness(gvi_stepper *st, const gvi_real *stiffness)
+static gvi_status gvi__check_stiffness(gvi_stepper *st, const gvi_real *stiffness)
 {
     for (int i = 0; stiffness && i < st->n; ++i)
         if (!gvi__finite(stiffness[i]))
             return gvi__fail(st, GVI_E_ARGUMENT, GVI_FAULT_NONE, i, GVI_FAULT_NONE);
-    if (GVI__STIFF && st->x.springs) gvi__copy((size_t)st->n, stiffness, gvi__stiffness(st));
     return GVI_OK;
 }
 
@@ -2914,7 +2976,7 @@ static gvi_status gvi__hand_out(gvi_stepper *st, const gvi_desc *desc, gvi_real 
     gvi__zero(GVI__NEWTON && x->J ? (size_t)(x->J - memory) : x->size, memory);    // J is written first
     if (GVI__STIFF && x->springs) {
         x->springs[1] = (gvi_real)scene.springs;
-        gvi__springs(&scene, gvi__stiffness(st) + st->n);
+        gvi__springs(&scene, gvi__stiffness(st));
     }
     return GVI_OK;
 }
@@ -2950,7 +3012,7 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     st->q = x->q;
     st->p = x->p;
     status = gvi__set_mass(st, &desc->mass);
-    if (status == GVI_OK) status = gvi__set_stiffness(st, desc->stiffness);
+    if (status == GVI_OK) status = gvi__check_stiffness(st, desc->stiffness);
     if (status != GVI_OK) return status;
 
     // the rule, the modes at its nodes as exactly as they can be had, then the grid
@@ -3467,89 +3529,314 @@ static void gvi__row_sums(const gvi_stepper *st, const gvi__stage *y, int i, gvi
     for (int k = 0; k < R; ++k) z[k] -= x->less[k];
 }
 
-/* The rows of positions beside stiffness.  As far as k can tell, a force at rows that move
-   by dQ becomes less by k dQ, and what it makes of the rows less by g (h b k dQ) h/m.  The
-   plain rows are d away from those that the force was asked at.  What they make of the force
-   would move them by g (h b (-k d)) h/m, that again, and so on: in all by
+/* phi_k(tau) and Phi_k(tau), k < s, multiplied by Gamma^-1, at any tau.        */
+static void gvi__modes(const gvi_stepper *st, gvi_real tau, gvi_real *phi, gvi_real *Phi)
+{
+    const gvi_real X = 1 - 2*tau;
+    gvi_real P = 1, before = 1;
+    for (int k = 0; k < st->s; ++k) {
+        const gvi_real next = gvi__legendre_next(k, X, P, before);
+        phi[k] = P;
+        Phi[k] = (before - next)/(gvi_real)(4*k + 2);
+        before = P;
+        P = next;
+    }
+    gvi__over_gamma(st, phi);
+    gvi__over_gamma(st, Phi);
+}
 
-     solve (h b (-k d)) h/m         solve = (I + h^2 k/m (g b))^-1 g
+/* ---- arcs: coordinates with a spring that was told ---- */
 
-   which leaves dQ = (I + h^2 k/m (g b))^-1 d.  It is d at the end that is small: the rows
-   come as close to the plain ones as rounding lets them, whatever k.  F follows them.  */
-GVI__COPY gvi_real gvi__spring_rows_of(const gvi_stepper *st, const gvi__stage *y, int r, int R)
+/* With nu = omega h, S(x) = sin(nu x)/nu, C(x) = cos(nu x) and g = F + k Q, what is left of
+   the force, the step of such a coordinate is
+
+     Q_a = C(c_a) q + h S(c_a) v + h M^-1 sum_j (K_aj/b_j) h b_j g_j
+     q1  = C(1) q + h S(1) v     + h M^-1 sum_j S(1 - c_j) h b_j g_j
+     p1  = the derivative of that, with C(1 - c_j) h b_j g_j
+
+   symplectic for any k, and beside any other coordinate of the same b, if
+   b_a K_aj - b_j K_ja = b_a b_j S(c_a - c_j).  Half of it comes from that, and the other,
+   symmetric, half from K_aj = int_0^c_a S(c_a - x) l_j(x) dx, the arc that follows the
+   polynomial through g: with modes, l_j = b_j sum_k phi_k(c_j) phi_k/Gamma_kk.    */
+
+// sin nu x, cos nu x
+static void gvi__turn(gvi__two nu, gvi_real x, gvi_real *sine, gvi_real *cosine)
+{
+    const gvi__two a = gvi__scale2(x, nu);
+    const gvi_real s = GVI__SIN(a.hi), c = GVI__COS(a.hi);
+    *sine = s + a.lo*c;
+    *cosine = c - a.lo*s;
+}
+
+/* M_k = int_0^tau sin(nu (tau - x)) phi_k(x) dx and N_k, the same with the cosine, by parts:
+   Phi_k = (phi_(k-1) - phi_(k+1))/(2(2k+1)) makes
+
+     M_(k+1) = M_(k-1) - 2(2k+1)/nu (Phi_k(tau) - N_k)      N_(k+1) = N_(k-1) - 2(2k+1)/nu M_k
+
+   with phi_(-1) = phi_0.  Errors are those of spherical Bessel functions of nu/2: they do
+   not grow while 2k < nu.                                                     */
+static void gvi__moments_by_parts(int s, gvi__two nu, gvi_real tau, gvi_real *M, gvi_real *N)
+{
+    gvi_real sine, cosine, P = 1, before = 1;
+    gvi__turn(nu, tau, &sine, &cosine);
+    M[0] = (1 - cosine)/nu.hi;
+    N[0] = sine/nu.hi;
+    for (int k = 0; k + 1 < s; ++k) {
+        const gvi_real next = gvi__legendre_next(k, 1 - 2*tau, P, before), w = 2*(gvi_real)(2*k + 1)/nu.hi;
+        const int last = k > 0 ? k - 1 : 0;
+        M[k + 1] = M[last] - w*((before - next)/(gvi_real)(4*k + 2) - N[k]);
+        N[k + 1] = N[last] - w*M[k];
+        before = P;
+        P = next;
+    }
+}
+
+/* The same by quadrature on pieces, unless nu is far above 2s: Gauss's rule of 16 points is
+   exact to degree 31; on a piece phi_k and the sine turn by 6 at most, but phi_k by more at
+   the ends, where its zeros are denser like s s.                              */
+static void gvi__moments_by_rule(int s, gvi__two nu, gvi_real tau, gvi_real *M, gvi_real *N)
+{
+    static const gvi_real rule[8][2] = {             // nodes below 1/2, weights
+        { (gvi_real)0.005299532504175033701922913274833686L, (gvi_real)0.01357622970587704742589028622800905L },
+        { (gvi_real)0.02771248846338371196100579223269583L, (gvi_real)0.03112676196932394643142191849718885L },
+        { (gvi_real)0.06718439880608412805976605114380343L, (gvi_real)0.04757925584124639240496255380112311L },
+        { (gvi_real)0.1222977958224984830524494025762789L, (gvi_real)0.06231448562776693602623814109600821L },
+        { (gvi_real)0.1910618777986781257766641179756045L, (gvi_real)0.07479799440828836604075086527373927L },
+        { (gvi_real)0.2709916111713863068287902785082112L, (gvi_real)0.08457825969750126909465603951517998L },
+        { (gvi_real)0.3591982246103705433847697492697519L, (gvi_real)0.09130170752246179443338183398460997L },
+        { (gvi_real)0.4524937450811812799073403322875210L, (gvi_real)0.09472530522753424814269836160414155L }
+    };
+    const gvi_real size = GVI_ABS(nu.hi);
+    const int pieces = 1 + (int)((size + (gvi_real)(s + s*s/32))*tau/6);
+    gvi__zero((size_t)s, M);
+    gvi__zero((size_t)s, N);
+    for (int m = 0; m < 16*pieces; ++m) {
+        const gvi_real *at = rule[m & 7];
+        const gvi_real part = tau/(gvi_real)pieces, node = m & 8 ? 1 - at[0] : at[0];
+        const gvi_real rest = part*((gvi_real)(m/16) + node), X = 1 - 2*(tau - rest);
+        gvi_real sine, cosine, P = 1, before = 0;
+        gvi__turn(nu, rest, &sine, &cosine);
+        for (int k = 0; k < s; ++k) {
+            const gvi_real w = 1/(gvi_real)(k + 1), next = (2 - w)*X*P - (1 - w)*before;
+            M[k] += part*at[1]*sine*P;
+            N[k] += part*at[1]*cosine*P;
+            before = P;
+            P = next;
+        }
+    }
+}
+
+static void gvi__moments(int s, gvi__two nu, gvi_real tau, gvi_real *M, gvi_real *N)
+{
+    if (GVI_ABS(nu.hi) > (gvi_real)(4*s + 16)) gvi__moments_by_parts(s, nu, tau, M, N);
+    else gvi__moments_by_rule(s, nu, tau, M, N);
+}
+
+/* K/b: the part S(c_a - c_j)/2 is made of the rounded weights of the end, so that it belongs
+   to them.                                                                    */
+static void gvi__arc_table(const gvi_stepper *st, const gvi__arc *arc, gvi__two omega, gvi__two nu)
 {
     const struct gvi__private *x = &st->x;
-    const gvi_real *diagonal = gvi__diagonal(st, y), *minus = GVI__LAGRANGIAN ? y->minus : NULL;
+    const int r = st->r, R = x->stride, s = st->s;
+    gvi_real *M = x->row, *N = M + R, *mode = arc->E;         // E is made after K
+    for (int j = 0; j < r; ++j) {
+        gvi__turn(nu, 1 - x->c[j], arc->sine + j, arc->cosine + j);
+        arc->sine[j] /= omega.hi;
+        gvi__modes(st, x->c[j], mode + j*R, M);
+    }
+    for (int a = 0; a < r; ++a) {
+        gvi__moments(s, nu, x->c[a], M, N);
+        for (int j = 0; j < r; ++j) arc->K[j*R + a] = gvi__dot(s, mode + j*R, M)/omega.hi;
+    }
+    for (int a = 0; a < r; ++a)
+        for (int j = 0; j <= a; ++j) {
+            const gvi_real mean = (arc->K[j*R + a] + arc->K[a*R + j])/2;
+            const gvi_real half = gvi__sub2(gvi__product(arc->sine[j], arc->cosine[a]),
+                                            gvi__product(arc->sine[a], arc->cosine[j])).hi/2;
+            arc->K[a*R + j] = mean - half;
+            arc->K[j*R + a] = mean + half;
+        }
+}
+
+/* Free motion as three shears, which keep areas as rounded: a rotation by a rounded sine
+   and cosine does not, and energy would drift.  Half turns are exact.          */
+static void gvi__arc_turn(gvi__two omega, gvi__two nu, gvi_real *turn)
+{
+    const gvi_real pi = (gvi_real)3.14159265358979323846264338327950288L;
+    const gvi_real halves = GVI_FLOOR(nu.hi/pi + (gvi_real)0.5);
+    const gvi__two rest = gvi__sub2(nu, gvi__scale2(halves, gvi__two_of(pi, GVI__SIN(pi))));
+    gvi_real sine, cosine;
+    gvi__turn(rest, 1, &sine, &cosine);
+    turn[0] = sine/(1 + cosine)/omega.hi;
+    turn[1] = sine*omega.hi;
+    turn[2] = gvi__nonzero(halves - 2*GVI_FLOOR(halves/2)) ? -1 : 1;
+}
+
+// sqrt(k/m) with its rest
+static gvi__two gvi__frequency(gvi_real k, gvi_real m)
+{
+    const gvi__two square = gvi__div2(gvi__real2(k), gvi__real2(m));
+    const gvi_real root = GVI_SQRT(square.hi);
+    return gvi__sum(root, gvi__sub2(square, gvi__product(root, root)).hi/(2*root));
+}
+
+// the tables for a step of length h; where omega h has lost all its digits there are none
+GVI__APART gvi_status gvi__make_arcs(gvi_stepper *st, gvi_real h)
+{
+    struct gvi__private *x = &st->x;
     const gvi_real *stiffness = gvi__stiffness(st);
-    gvi_real lane[8] = { 0, 0, 0, 0, 0, 0, 0, 0 }, own[3*16], *L = R > 16 ? x->row : own;
-    gvi_real *next = L + R, *away = next + R;
+    x->springs[0] = 0;
+    for (int i = 0, made = 0; i < st->n; ++i) {
+        if (!gvi__nonzero(stiffness[i]) || (int)stiffness[st->n + i] != made) continue;
+        const gvi__arc arc = gvi__arc_of(st, made++);
+        const gvi__two omega = gvi__frequency(stiffness[i], x->over ? x->mass[i] : 1);
+        const gvi__two nu = gvi__scale2(h, omega);
+        if (!(GVI_ABS(nu.hi) < 1/GVI__EPS)) return gvi__give(st, GVI_E_CONVERGENCE);
+        gvi__arc_turn(omega, nu, arc.turn);
+        gvi__arc_table(st, &arc, omega, nu);
+    }
+    x->springs[0] = h;
+    return GVI_OK;
+}
+
+// (x + xe) += a (y + ye), the product carried with its rounding
+GVI__COPY gvi__two gvi__shear(gvi__two x, gvi_real a, gvi__two y)
+{
+    const gvi__two z = gvi__product(a, y.hi);
+    return gvi__join(x.hi, x.lo, z.hi, z.lo + a*y.lo);
+}
+
+/* Free motion to the end of the step, its increments to dq, dqe, dp, dpe; and from there
+   back to the points: Q = C(1 - c) q1 - S(1 - c) v1.                           */
+static void gvi__free_motion(gvi_stepper *st, const gvi__from *from)
+{
+    struct gvi__private *x = &st->x;
+    const int n = st->n, R = x->stride;
+    const gvi_real *stiffness = gvi__stiffness(st), *over = x->over, *mass = x->mass;
+    gvi_real *row = gvi__free_rows(st), *dq = x->dq, *dqe = x->dqe, *dp = x->dp, *dpe = x->dpe;
+    for (int i = 0; i < n; ++i, row += R) {
+        if (!gvi__nonzero(stiffness[i])) continue;
+        const gvi__arc arc = gvi__arc_of(st, (int)stiffness[n + i]);
+        const gvi_real m = over ? over[i] : 1, sign = arc.turn[2];
+        const gvi_real along = arc.turn[0]*m, kick = -arc.turn[1]*(over ? mass[i] : 1);
+        gvi__two q = gvi__two_of(from->q[i], from->qe[i]), p = gvi__two_of(from->p[i], from->pe[i]);
+        q = gvi__shear(q, along, p);
+        p = gvi__shear(p, kick, q);
+        q = gvi__shear(q, along, p);
+        const gvi_real q1 = sign*q.hi, q1e = sign*q.lo, p1 = sign*p.hi, p1e = sign*p.lo;
+        const gvi__two v1 = gvi__product(m, p1);
+        const gvi_real v1e = v1.lo + m*p1e, *cosine = arc.cosine, *sine = arc.sine;
+        for (int a = 0; a < R; ++a)
+            row[a] = (cosine[a]*q1 - sine[a]*v1.hi) + (cosine[a]*q1e - sine[a]*v1e);
+        const gvi__two to_q = gvi__sum(q1, -from->q[i]), to_p = gvi__sum(p1, -from->p[i]);
+        dq[i] = to_q.hi;
+        dqe[i] = to_q.lo + q1e;
+        dp[i] = to_p.hi;
+        dpe[i] = to_p.lo + p1e;
+    }
+}
+
+// row := free motion + M^-1 sum_j table[j][.] L_j
+GVI__COPY void gvi__arc_row(const gvi_stepper *st, int i, int r, int R, const gvi_real *table,
+                            const gvi_real *L, gvi_real *row)
+{
+    const gvi_real *at = gvi__free_rows(st) + i*R, m = st->x.over ? st->x.over[i] : 1;
+#ifdef GVI__VECTORS
+    for (int o = 0; R % 8 == 0 && o < R; o += GVI__LANES) {
+        gvi__vector z;
+        gvi__sum_vector(r, R, table + o, L, &z);
+        *(gvi__vector *)(row + o) = GVI__AT(at + o) + z*m;
+    }
+    if (R % 8 == 0) return;
+#endif
+    gvi__sum_row(r, R, table, L, row);
+    for (int k = 0; k < R; ++k) row[k] = at[k] + row[k]*m;
+}
+
+/* F := F + k Q, what is left of the force, and from it the rows.               */
+GVI__COPY gvi_real gvi__arc_rows_of(const gvi_stepper *st, const gvi__stage *y, int r, int R)
+{
+    const struct gvi__private *x = &st->x;
+    const gvi_real *diagonal = gvi__diagonal(st, y), *stiffness = gvi__stiffness(st);
+    gvi_real lane[8] = { 0, 0, 0, 0, 0, 0, 0, 0 }, own[2*16], *L = R > 16 ? x->row : own, *next = L + R;
     for (int i = 0; i < st->n; ++i) {
-        const gvi__affine p = gvi__affine_of(y, diagonal, i);
         const gvi_real k = stiffness[i];
         gvi_real *row = y->rows + i*R, *F = x->work.F + i*R;
+        for (int j = 0; j < R && gvi__nonzero(k); ++j) F[j] += k*row[j];
         gvi__weigh(R, x->hb, F, L);
-        gvi__sum_row(r, R, y->table, L, next);
-        if (minus) gvi__weighted_sums(st, minus, x->b, x->work.A + i*R, away);
-        for (int j = 0; minus && j < R; ++j) next[j] -= away[j];
-        for (int j = 0; j < R; ++j)
-            next[j] = p.base + (((p.extra + x->c[j]*p.rest) + x->c[j]*p.a) + next[j]*p.m*p.b);
-        if (gvi__nonzero(k)) {
-            for (int j = 0; j < R; ++j) L[j] = x->hb[j]*(-k*(next[j] - row[j]));
-            gvi__sum_row(r, R, gvi__spring_table(st, stiffness, i), L, away);
-            for (int j = 0; j < R; ++j) next[j] = row[j] + ((next[j] - row[j]) + away[j]*p.m*p.b);
+        if (gvi__nonzero(k)) gvi__arc_row(st, i, r, R, gvi__arc_of(st, (int)stiffness[st->n + i]).K, L, next);
+        else {
+            const gvi__affine p = gvi__affine_of(y, diagonal, i);
+            gvi__sum_row(r, R, y->table, L, next);
+            for (int j = 0; j < R; ++j)
+                next[j] = p.base + (((p.extra + x->c[j]*p.rest) + x->c[j]*p.a) + next[j]*p.m*p.b);
         }
-        gvi__rescale(p.base, row[r - 1], next[r - 1], y->scale + i);
+        gvi__rescale(y->base[i], row[r - 1], next[r - 1], y->scale + i);
         for (int j = R; j-- > 0; ) {
-            const gvi_real moved = next[j] - row[j], change = moved*y->scale[i];
+            const gvi_real moved = (next[j] - row[j])*y->scale[i];
             row[j] = next[j];
-            lane[j & 7] += change*change;
-            F[j] -= k*moved;
+            lane[j & 7] += moved*moved;
         }
     }
     return gvi__sum_lanes(lane);
 }
 
 #ifdef GVI__VECTORS
-/* The same for five to sixteen points and no Lagrangian terms.                 */
-GVI__COPY gvi_real gvi__spring_rows_vector(const gvi_stepper *st, const gvi__stage *y, int r, int R)
+// F := F + k Q of a few coordinates, and h b F ahead of their sums, which would have to wait for it
+GVI__COPY void gvi__remainders_ahead(const gvi_stepper *st, const gvi__stage *y, const gvi_real *stiffness,
+                                     int i, int few, int R, const gvi__vector *hb, gvi_real *ahead)
+{
+    const int vectors = R/GVI__LANES, end = i + few < st->n ? i + few : st->n;
+    gvi_real *F = st->x.work.F + i*R;
+    const gvi_real *Q = y->rows + i*R;
+    for (; i < end; ++i, F += R, Q += R, ahead += R)
+        for (int v = 0; v < vectors; ++v) {
+            gvi__vector f = GVI__AT(F + v*GVI__LANES);
+            if (gvi__nonzero(stiffness[i])) {
+                f += stiffness[i]*GVI__AT(Q + v*GVI__LANES);
+                *(gvi__vector *)(F + v*GVI__LANES) = f;
+            }
+            *(gvi__vector *)(ahead + v*GVI__LANES) = hb[v]*f;
+        }
+}
+
+/* The same for five to sixteen points.                                         */
+GVI__COPY gvi_real gvi__arc_rows_vector(const gvi_stepper *st, const gvi__stage *y, int r, int R)
 {
     enum { MOST = 16/GVI__LANES, EIGHT = 8/GVI__LANES };
     const struct gvi__private *x = &st->x;
     const gvi_real *diagonal = gvi__diagonal(st, y), *stiffness = gvi__stiffness(st);
-    const gvi_real *base = y->base, *extra = y->extra, factor = y->factor;
-    const int n = st->n, vectors = R/GVI__LANES;
-    gvi_real *row = y->rows, *F = x->work.F, *scale = y->scale, lane[8], ahead[64], ask[16];
+    const gvi_real *base = y->base, *extra = y->extra, factor = y->factor, *at = gvi__free_rows(st);
+    const int n = st->n, vectors = R/GVI__LANES, few = 64/R;
+    gvi_real *row = y->rows, *scale = y->scale, lane[8], ahead[64];
     gvi__vector kept[8], c[MOST], hb[MOST], squares[EIGHT] = { { 0 } };
     const gvi_real *table = R == 8 ? gvi__keep(r, y->table, kept) : y->table;
     for (int v = 0; v < vectors; ++v) {
         c[v] = GVI__AT(x->c + v*GVI__LANES);
         hb[v] = GVI__AT(x->hb + v*GVI__LANES);
     }
-    for (int i = 0; i < n; ++i, row += R, F += R) {
-        if (i*R % 64 == 0)
-            for (int o = 0; o < 64 && o < R*(n - i); o += GVI__LANES)
-                *(gvi__vector *)(ahead + o) = hb[o/GVI__LANES % vectors]*GVI__AT(F + o);
-        const gvi_real a = y->path[i], rest = y->rest[i], k = stiffness[i];
-        const int stiff = gvi__nonzero(k);
-        gvi__vector next[MOST], d[MOST], z;
-        for (int v = 0; v < vectors; ++v) {
-            gvi__sum_vector(r, R, table + v*GVI__LANES, ahead + i*R % 64, &z);
-            if (diagonal) z *= diagonal[i];
-            next[v] = base[i] + (((extra[i] + c[v]*rest) + c[v]*a) + z*factor);
-            d[v] = next[v] - GVI__AT(row + v*GVI__LANES);
-            if (stiff) *(gvi__vector *)(ask + v*GVI__LANES) = hb[v]*(-k*d[v]);
-        }
-        for (int v = 0; stiff && v < vectors; ++v) {
-            gvi__sum_vector(r, R, gvi__spring_table(st, stiffness, i) + v*GVI__LANES, ask, &z);
-            if (diagonal) z *= diagonal[i];
-            next[v] = GVI__AT(row + v*GVI__LANES) + (d[v] + z*factor);
-        }
+    for (int i = 0; i < n; ++i, row += R, at += R) {
+        if (i % few == 0) gvi__remainders_ahead(st, y, stiffness, i, few, R, hb, ahead);
+        const gvi_real a = y->path[i], rest = y->rest[i], *L = ahead + i % few*R;
+        gvi__vector next[MOST];
+        if (gvi__nonzero(stiffness[i])) {
+            const gvi_real *K = gvi__arc_of(st, (int)stiffness[n + i]).K;
+            for (int v = 0; v < vectors; ++v) {
+                gvi__sum_vector(r, R, K + v*GVI__LANES, L, next + v);
+                if (diagonal) next[v] *= diagonal[i];
+                next[v] = GVI__AT(at + v*GVI__LANES) + next[v];
+            }
+        } else
+            for (int v = 0; v < vectors; ++v) {
+                gvi__sum_vector(r, R, table + v*GVI__LANES, L, next + v);
+                if (diagonal) next[v] *= diagonal[i];
+                next[v] = base[i] + (((extra[i] + c[v]*rest) + c[v]*a) + next[v]*factor);
+            }
         gvi__rescale(base[i], row[r - 1], next[(r - 1)/GVI__LANES][(r - 1) % GVI__LANES], scale + i);
         for (int v = vectors; v-- > 0; ) {
-            const gvi__vector moved = next[v] - GVI__AT(row + v*GVI__LANES), change = moved*scale[i];
+            const gvi__vector moved = (next[v] - GVI__AT(row + v*GVI__LANES))*scale[i];
             *(gvi__vector *)(row + v*GVI__LANES) = next[v];
-            squares[v % EIGHT] += change*change;
-            if (stiff) *(gvi__vector *)(F + v*GVI__LANES) -= k*moved;
+            squares[v % EIGHT] += moved*moved;
         }
     }
     for (int v = 0; v < EIGHT; ++v) *(gvi__vector *)(lane + v*GVI__LANES) = squares[v];
@@ -3557,64 +3844,22 @@ GVI__COPY gvi_real gvi__spring_rows_vector(const gvi_stepper *st, const gvi__sta
 }
 #endif
 
-/* The tables for a step of length h; 0, so that the rows are the plain ones, where there is
-   no inverse, as it may be for k/m below 0.                                    */
-GVI__APART void gvi__make_spring_tables(gvi_stepper *st, gvi_real h)
+// F := F + k Q, where no rows follow
+static void gvi__remainders(gvi_stepper *st)
 {
-    struct gvi__private *x = &st->x;
-    const int n = st->n, r = st->r, R = x->stride;
     const gvi_real *stiffness = gvi__stiffness(st);
-    gvi_real *lu = gvi__stiffness(st) + 2*n, *pivot = lu + r*r, *table = x->springs + 2*R;
-    x->springs[0] = h;
-    for (int i = 0, made = 0; i < n; ++i) {
-        const gvi_real k = h*stiffness[i]*(x->over ? x->over[i] : 1);
-        if (!gvi__nonzero(stiffness[i]) || (int)stiffness[n + i] != made) continue;
-        for (int a = 0; a < r; ++a)
-            for (int j = 0; j < r; ++j) lu[a*r + j] = (a == j ? 1 : 0) + k*x->hb[j]*x->g[j*R + a];
-        const gvi_status status = gvi_lu_factor(r, lu, pivot);
-        gvi__copy((size_t)(r*R), x->g, table);
-        for (int j = 0; j < r; ++j, table += R)
-            if (status == GVI_OK) gvi_lu_solve(r, lu, pivot, table);
-            else gvi__zero((size_t)R, table);
-        ++made;
-    }
+    const int R = st->x.stride;
+    for (int i = 0; i < st->n; ++i)
+        for (int j = 0; j < R && gvi__nonzero(stiffness[i]); ++j)
+            st->x.work.F[i*R + j] += stiffness[i]*st->x.work.Q[i*R + j];
 }
 
-// sum := a + k b, in whole vectors where they are: what is stored narrower cannot be loaded at once
-static inline void gvi__row_plus(int R, const gvi_real *a, gvi_real k, const gvi_real *b, gvi_real *sum)
-{
-#ifdef GVI__VECTORS
-    for (int o = 0; R % 8 == 0 && o < R; o += GVI__LANES)
-        *(gvi__vector *)(sum + o) = GVI__AT(a + o) + k*GVI__AT(b + o);
-    if (R % 8 == 0) return;
-#endif
-    for (int j = 0; j < R; ++j) sum[j] = a[j] + k*b[j];
-}
-
-// first rows of positions, from those that F + k Q of the last step make: d, with Q = 0
-GVI__COPY void gvi__spring_start_of(const gvi_stepper *st, const gvi__stage *y, int r, int R)
-{
-    const struct gvi__private *x = &st->x;
-    const gvi_real *diagonal = gvi__diagonal(st, y), *stiffness = gvi__stiffness(st);
-    gvi_real *row = y->rows;
-    for (int i = 0; i < st->n; ++i, row += R) {
-        const gvi_real k = stiffness[i]*(diagonal ? diagonal[i] : 1);
-        if (!gvi__nonzero(stiffness[i])) continue;
-        gvi__weigh(R, x->hb, row, x->z);
-        gvi__sum_row(r, R, gvi__spring_table(st, stiffness, i), x->z, x->row);
-        gvi__row_plus(R, row, -k*y->factor, x->row, row);
-    }
-}
-
-/* Beside stiffness F is that at Q: F + k Q of the last step is that at 0, and if there is none
-   that is of use, springs are taken to be at rest where they are.              */
-static void gvi__spring_start(const gvi_stepper *st, const gvi__from *from, int sums, int extrapolate,
-                              const gvi__stage *y)
+/* Before the first rows F is what is left of the force, extrapolated: that at Q = 0.  If
+   there is none springs are taken to be at rest where they are.                */
+static void gvi__spring_guess(const gvi_stepper *st, const gvi__from *from, int extrapolate)
 {
     const int R = st->x.stride;
-    for (int i = 0; !sums && i < st->n*R; ++i) y->rows[i] = extrapolate ? 0 : from->q[i/R];
-    if (sums && st->r == 8) gvi__spring_start_of(st, y, 8, 8);
-    else if (sums) gvi__spring_start_of(st, y, st->r, R);
+    for (int i = 0; i < st->n*R; ++i) st->x.work.Q[i] = extrapolate ? 0 : from->q[i/R];
 }
 
 /* gvi__stage_rows_of in less code and without blocks, squares added up from the last
@@ -3648,28 +3893,27 @@ GVI__ROWS(gvi__rows_2, gvi__stage_rows_of(st, y, 2, 2))
 GVI__ROWS(gvi__rows_3, gvi__stage_rows_of(st, y, 3, 3))
 GVI__ROWS(gvi__rows_4, gvi__stage_rows_of(st, y, 4, 4))
 GVI__ROWS(gvi__rows_any, gvi__stage_rows_of(st, y, st->r, st->x.stride))
-GVI__ROWS(gvi__spring_rows, gvi__spring_rows_of(st, y, st->r, st->x.stride))
-GVI__ROWS(gvi__spring_rows_4, gvi__spring_rows_of(st, y, 4, 4))
+GVI__ROWS(gvi__arc_rows, gvi__arc_rows_of(st, y, st->r, st->x.stride))
+GVI__ROWS(gvi__arc_rows_4, gvi__arc_rows_of(st, y, 4, 4))
 #ifdef GVI__VECTORS
 GVI__ROWS(gvi__rows_6, gvi__stage_rows_8(st, y, 6))
 GVI__ROWS(gvi__rows_8, gvi__stage_rows_8(st, y, 8))
 GVI__ROWS(gvi__rows_5_to_8, gvi__stage_rows_8(st, y, st->r))
 GVI__ROWS(gvi__rows_8_less, gvi__stage_rows_of(st, y, 8, 8))
 GVI__ROWS(gvi__rows_16, gvi__stage_rows_of(st, y, 16, 16))
-GVI__ROWS(gvi__spring_rows_8, gvi__spring_rows_vector(st, y, 8, 8))
-GVI__ROWS(gvi__spring_rows_to_8, gvi__spring_rows_vector(st, y, st->r, 8))
-GVI__ROWS(gvi__spring_rows_to_16, gvi__spring_rows_vector(st, y, st->r, 16))
+GVI__ROWS(gvi__arc_rows_8, gvi__arc_rows_vector(st, y, 8, 8))
+GVI__ROWS(gvi__arc_rows_to_8, gvi__arc_rows_vector(st, y, st->r, 8))
+GVI__ROWS(gvi__arc_rows_to_16, gvi__arc_rows_vector(st, y, st->r, 16))
 #endif
 
-static gvi__kernel *gvi__spring_kernel(const gvi_stepper *st, const gvi__stage *y)
+static gvi__kernel *gvi__arc_kernel(const gvi_stepper *st)
 {
 #ifdef GVI__VECTORS
-    if (!y->minus && st->r == 8) return gvi__spring_rows_8;
-    if (!y->minus && st->x.stride == 8) return gvi__spring_rows_to_8;
-    if (!y->minus && st->x.stride == 16) return gvi__spring_rows_to_16;
+    if (st->r == 8) return gvi__arc_rows_8;
+    if (st->x.stride == 8) return gvi__arc_rows_to_8;
+    if (st->x.stride == 16) return gvi__arc_rows_to_16;
 #endif
-    (void)y;
-    return st->r == 4 ? gvi__spring_rows_4 : gvi__spring_rows;
+    return st->r == 4 ? gvi__arc_rows_4 : gvi__arc_rows;
 }
 
 static gvi__kernel *gvi__kernel_of(const gvi_stepper *st, const gvi__stage *y)
@@ -3757,7 +4001,7 @@ static int gvi__plan(gvi_stepper *st, const gvi__from *from, gvi_real h, gvi__st
     y->minus = gvi__A(w) ? x->T : NULL;
     y->over_mass = 1;
     y->kernel = GVI__SMALL ? NULL : gvi__kernel_of(st, y);
-    if (GVI__STIFF && x->springs) y->kernel = gvi__spring_kernel(st, y);
+    if (GVI__STIFF && x->springs) y->kernel = gvi__arc_kernel(st);
     if (gvi__uses(st, GVI_POSITIONS) || GVI__STAGES == 1) return 1;
     gvi__stage_set(y + 1, from->v, from->ve, NULL, x->m, w->F, 1, w->V, x->scale + st->n);
     y[1].minus = gvi__A(w) ? x->N : NULL;
@@ -4031,16 +4275,18 @@ static void gvi__fit_sums(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
     const int R = x->stride, rows = gvi__two_now(st) ? 2*st->r : st->r;
+    for (int m = 0; GVI__STIFF && x->springs && m < (int)x->springs[1]; ++m) {
+        const gvi__arc arc = gvi__arc_of(st, m);
+        for (int j = 0; j < rows; ++j) gvi__weighted_sums(st, arc.K, x->hb, x->E + j*R, arc.E + j*R);
+    }
     for (int j = 0; j < rows; ++j) gvi__weighted_sums(st, x->g, x->hb, x->E + j*R, x->E + j*R);
 }
 
 /* Extrapolates rows of the last step, or of the last two, to the points of the
-   next:  out_i = sum_j E_ij last_j (+ sum_j E_i,r+j older_j).  Q, if not NULL: of forces,
-   which become F + k Q first.  y, if not NULL: E is gvi__fit_sums', and what it gives is
-   put into that stage's row.                                                   */
+   next:  out_i = sum_j E_ij last_j (+ sum_j E_i,r+j older_j).  y, if not NULL: E is
+   gvi__fit_sums', and what it gives is put into that stage's row.               */
 GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const gvi_real *last,
-                                     const gvi_real *older, const gvi_real *Q, const gvi__stage *y,
-                                     gvi_real *out)
+                                     const gvi_real *older, const gvi__stage *y, gvi_real *out)
 {
     const struct gvi__private *x = &st->x;
 #ifdef GVI__VECTORS
@@ -4048,19 +4294,19 @@ GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const 
     const gvi_real *E = R == 8 ? gvi__keep(r, x->E, kept[0]) : x->E, *older_E = x->E + r*R;
     if (R == 8 && older) older_E = gvi__keep(r, older_E, kept[1]);
 #endif
+    const gvi_real *stiffness = GVI__STIFF && y && x->springs ? gvi__stiffness(st) : NULL;
     for (int i = 0; i < st->n; ++i, last += R) {
-        const gvi_real stiff = GVI__STIFF && Q ? gvi__stiffness(st)[i] : 0, *from = last;
         gvi_real *row = out + i*R;
-        if (GVI__STIFF && gvi__nonzero(stiff)) {
-            gvi__row_plus(R, last, stiff, Q + i*R, x->less);
-            from = x->less;
+        if (GVI__STIFF && stiffness && gvi__nonzero(stiffness[i])) {
+            gvi__arc_row(st, i, r, R, gvi__arc_of(st, (int)stiffness[st->n + i]).E, last, row);
+            continue;
         }
 #ifdef GVI__VECTORS
         gvi__affine p = { 0, 0, 0, 0, 1, 1 };
         if (y) p = gvi__affine_of(y, gvi__diagonal(st, y), i);
         for (int o = 0; R % 8 == 0 && o < R; o += GVI__LANES) {
             gvi__vector z, before;
-            gvi__sum_vector(r, R, E + o, from, &z);
+            gvi__sum_vector(r, R, E + o, last, &z);
             if (older) {
                 gvi__sum_vector(r, R, older_E + o, older + i*R, &before);
                 z += before;
@@ -4070,7 +4316,7 @@ GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const 
         }
         if (R % 8 == 0) continue;
 #endif
-        gvi__sum_row(r, R, x->E, from, row);
+        gvi__sum_row(r, R, x->E, last, row);
         if (older) gvi__sum_row(r, R, x->E + r*R, older + i*R, x->z);
         for (int k = 0; older && k < R; ++k) row[k] += x->z[k];
         if (y) gvi__affine_row(st, y, i, row);
@@ -4078,16 +4324,16 @@ GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const 
 }
 
 GVI__APART void gvi__extrapolate(gvi_stepper *st, const gvi_real *last, const gvi_real *older,
-                                 const gvi_real *Q, const gvi__stage *y, gvi_real *out)
+                                 const gvi__stage *y, gvi_real *out)
 {
     if (!gvi__two_now(st)) older = NULL;
-    if (GVI__SMALL) gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, Q, y, out);
-    else if (st->r == 8 && y && !older) gvi__extrapolate_rows(st, 8, 8, last, NULL, Q, y, out);
-    else if (st->r == 8 && y) gvi__extrapolate_rows(st, 8, 8, last, older, NULL, y, out);
-    else if (st->r == 8) gvi__extrapolate_rows(st, 8, 8, last, older, Q, NULL, out);
-    else if (st->r == 4) gvi__extrapolate_rows(st, 4, 4, last, older, Q, y, out);
-    else if (st->r == 16) gvi__extrapolate_rows(st, 16, 16, last, NULL, Q, y, out);
-    else gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, Q, y, out);
+    if (GVI__SMALL) gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, y, out);
+    else if (st->r == 8 && y && !older) gvi__extrapolate_rows(st, 8, 8, last, NULL, y, out);
+    else if (st->r == 8 && y) gvi__extrapolate_rows(st, 8, 8, last, older, y, out);
+    else if (st->r == 8) gvi__extrapolate_rows(st, 8, 8, last, older, NULL, out);
+    else if (st->r == 4) gvi__extrapolate_rows(st, 4, 4, last, older, y, out);
+    else if (st->r == 16) gvi__extrapolate_rows(st, 16, 16, last, NULL, y, out);
+    else gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, y, out);
 }
 
 // E for this step, if it is not that already
@@ -4111,7 +4357,7 @@ GVI__APART void gvi__extrapolate_made(gvi_stepper *st, const gvi__from *from, gv
 {
     gvi__stage y[GVI__STAGES];
     gvi__plan(st, from, h, y);
-    gvi__extrapolate(st, st->x.last.F, st->x.older_F, NULL, y, st->x.work.Q);
+    gvi__extrapolate(st, st->x.last.F, st->x.older_F, y, st->x.work.Q);
 }
 
 /* Starting values: what the last step had, extrapolated; without one, or if
@@ -4123,9 +4369,9 @@ GVI__APART void gvi__guess(gvi_stepper *st, int extrapolate, gvi_real rate)
     size_t length = (size_t)st->n*(size_t)x->stride;
     x->has_factor = x->has_rate = 0;
     if (extrapolate) {
-        gvi__extrapolate(st, l->F, x->older_F, GVI__STIFF && x->springs ? l->Q : NULL, NULL, w->F);
-        if (gvi__A(l) && w->A) gvi__extrapolate(st, l->A, x->older_A, NULL, NULL, w->A);
-        if (gvi__uses(st, GVI_MOMENTA)) gvi__extrapolate(st, l->V, x->older_V, NULL, NULL, w->V);
+        gvi__extrapolate(st, l->F, x->older_F, NULL, w->F);
+        if (gvi__A(l) && w->A) gvi__extrapolate(st, l->A, x->older_A, NULL, w->A);
+        if (gvi__uses(st, GVI_MOMENTA)) gvi__extrapolate(st, l->V, x->older_V, NULL, w->V);
     } else {
         gvi__zero(length, w->F);
         if (gvi__A(w)) gvi__zero(length, w->A);
@@ -4133,13 +4379,6 @@ GVI__APART void gvi__guess(gvi_stepper *st, int extrapolate, gvi_real rate)
         for (int i = 0; gvi__uses(st, GVI_MOMENTA) && i < st->n; ++i)
             for (int k = 0; k < st->r; ++k) w->V[i*x->stride + k] = rate*x->one[i];
     }
-}
-
-// (x + xe) + (y + ye): what is lost of x + y goes to the low parts
-static gvi__two gvi__join(gvi_real x, gvi_real xe, gvi_real y, gvi_real ye)
-{
-    const gvi__two sum = gvi__sum(x, y);
-    return gvi__two_of(sum.hi, (xe + ye) + sum.lo);
 }
 
 /* sum_j a_j b_j + rest, the sum carried with its rounding: an increment is what
@@ -4356,6 +4595,17 @@ static inline gvi__two gvi__increment(int r, int R, const gvi_real *a, const gvi
     return gvi__exact_dot(r, a, b, rest, z);
 }
 
+static inline gvi_real gvi__plain_dot(int r, int R, const gvi_real *a, const gvi_real *b)
+{
+#ifdef GVI__VECTORS
+    gvi__half sum = { 0 };
+    for (int o = 0; R % 8 == 0 && o < R; o += 4) sum += GVI__HALF(a + o)*GVI__HALF(b + o);
+    if (R % 8 == 0) return (sum[0] + sum[2]) + (sum[1] + sum[3]);
+#endif
+    (void)R;
+    return gvi__dot(r, a, b);
+}
+
 static inline gvi_real gvi__lever(int r, int R, const gvi_real *c, const gvi_real *hb, const gvi_real *F)
 {
 #ifdef GVI__VECTORS
@@ -4379,6 +4629,41 @@ static inline void gvi__add_path(int n, gvi_real h, const gvi_real *GVI__RESTRIC
     }
 }
 
+/* Beside stiffness: what the remainders add to free motion, which dq, dqe, dp, dpe hold.
+   The weights are those that made the free rows, so that one is the adjoint of the other
+   as rounded.                                                                 */
+GVI__COPY void gvi__arc_increments(gvi_stepper *st, int i, int which, int r, int R)
+{
+    struct gvi__private *x = &st->x;
+    const gvi__arc arc = gvi__arc_of(st, which);
+    const gvi_real *F = x->work.F + i*R;
+    gvi_real own[16], *kicks = R > 16 ? x->row + 2*R : own;
+#ifdef GVI__VECTORS
+    for (int o = 0; R % 8 == 0 && o < R; o += GVI__LANES)
+        *(gvi__vector *)(kicks + o) = GVI__AT(x->hb + o)*GVI__AT(F + o);
+    if (R % 8 != 0)
+#endif
+        gvi__weigh(R, x->hb, F, kicks);
+    const gvi_real bend = gvi__plain_dot(r, R, arc.sine, kicks);
+    const gvi__two p = gvi__increment(r, R, arc.cosine, kicks, x->dpe[i], x->row);
+    const gvi__two dp = gvi__sum(x->dp[i], p.hi), dq = gvi__sum(x->dq[i], x->over ? bend*x->over[i] : bend);
+    x->dp[i] = dp.hi;
+    x->dpe[i] = gvi__rest(dp.lo + p.lo);
+    x->dq[i] = dq.hi;
+    x->dqe[i] = gvi__rest(dq.lo + x->dqe[i]);
+}
+
+// gvi__add_path for the others
+static void gvi__add_paths(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *stiffness)
+{
+    struct gvi__private *x = &st->x;
+    for (int i = 0; i < st->n; ++i) {
+        if (gvi__nonzero(stiffness[i])) continue;
+        if (x->over) x->dq[i] *= x->over[i];
+        gvi__add_path(1, h, from->v + i, from->ve + i, from->qe + i, x->dq + i, x->dqe + i);
+    }
+}
+
 /* Increments of q and p from the F, V and A at the end of the iteration, what is
    left of them going to dqe and dpe.  r, R: constants for the usual sizes.     */
 GVI__APART void gvi__increments_of(gvi_stepper *st, const gvi__from *from, gvi_real h, int r, int R)
@@ -4386,15 +4671,20 @@ GVI__APART void gvi__increments_of(gvi_stepper *st, const gvi__from *from, gvi_r
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work;
     const int n = st->n, momenta = gvi__uses(st, GVI_MOMENTA);
+    const gvi_real *stiffness = GVI__STIFF && x->springs ? gvi__stiffness(st) : NULL;
     int done = 0;
 #ifdef GVI__EIGHTS
-    if (!GVI__SMALL && R % 8 == 0 && n > 3 && !gvi__A(w)) {
+    if (!GVI__SMALL && R % 8 == 0 && n > 3 && !gvi__A(w) && !stiffness) {
         gvi__increments_by_eight(st, from, R, momenta);
         done = n;
     }
 #endif
     for (int i = done; i < n; ++i) {
         const gvi_real *F = w->F + i*R;
+        if (GVI__STIFF && stiffness && gvi__nonzero(stiffness[i])) {
+            gvi__arc_increments(st, i, (int)stiffness[n + i], r, R);
+            continue;
+        }
         const gvi__two p = gvi__increment(r, R, x->hb, F, from->pe[i], x->row);
         x->dp[i] = p.hi;
         x->dpe[i] = p.lo;
@@ -4406,8 +4696,11 @@ GVI__APART void gvi__increments_of(gvi_stepper *st, const gvi__from *from, gvi_r
         else x->dq[i] = gvi__lever(r, R, x->c, x->hb, F) - (gvi__A(w) ? gvi__dot(r, x->b, w->A + i*R) : 0);
     }
     if (momenta) return;
-    gvi__over_mass(st, x->dq, 1, 1);
-    gvi__add_path(n, h, from->v, from->ve, from->qe, x->dq, x->dqe);
+    if (GVI__STIFF && stiffness) gvi__add_paths(st, from, h, stiffness);
+    else {
+        gvi__over_mass(st, x->dq, 1, 1);
+        gvi__add_path(n, h, from->v, from->ve, from->qe, x->dq, x->dqe);
+    }
 }
 
 static void gvi__increments(gvi_stepper *st, const gvi__from *from, gvi_real h)
@@ -4638,10 +4931,11 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
     }
     const int sums = extrapolate && (x->E_is & GVI__SUMS);
     const int springs = GVI__STIFF && x->springs;
+    if (springs) gvi__free_motion(st, from);
     if (sums && GVI__MADE) gvi__extrapolate_made(st, from, h);
-    else if (sums) gvi__extrapolate(st, x->last.F, x->older_F, springs ? x->last.Q : NULL, y, x->work.Q);
+    else if (sums) gvi__extrapolate(st, x->last.F, x->older_F, y, x->work.Q);
     else gvi__guess(st, extrapolate, rate);
-    if (springs) gvi__spring_start(st, from, sums, extrapolate, y);
+    if (springs && !sums) gvi__spring_guess(st, from, extrapolate);
     for (*used = 0; ; ) {
         if (GVI__TOLERANCE && p.idle + p.poor > 0)
             gvi__gather(st->n, x->stride, x->work.Q + st->r - 1, x->change);
@@ -4665,6 +4959,7 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
         if (GVI__TOLERANCE && gvi__A(&x->work) && p.idle + p.poor > 0)
             gvi__gather(st->n, x->stride, x->work.A + st->r - 1, x->change + st->n);
         gvi_status status = gvi__ask(st, from, h - h, GVI__SMALL ? NULL : &at, anew);
+        if (springs && last && status == GVI_OK) gvi__remainders(st);
         if (status != GVI_OK || last) return status;
     }
     return gvi__give(st, GVI_E_CONVERGENCE);
@@ -5147,7 +5442,7 @@ GVI__APART void gvi__newton_guess(gvi_stepper *st, int extrapolate)
         gvi__velocity_guess(st, x->y);
         return;
     }
-    gvi__extrapolate(st, x->last.V, NULL, NULL, NULL, x->work.V);
+    gvi__extrapolate(st, x->last.V, NULL, NULL, x->work.V);
     for (int i = 0; i < n; ++i) {
         for (int k = 0; k < s; ++k) {
             x->row[k] = 0;
@@ -5314,7 +5609,10 @@ static gvi_status gvi__attempt(gvi_stepper *st, gvi__from *from, gvi_real h,
     int usable = past->available, used = 0;
     gvi_status status = GVI_E_CONVERGENCE;
     if (!gvi__uses(st, GVI_NEWTON) && (!gvi__has(st, GVI__HAS_NEWTON) || x->newton_left == 0 || query)) {
-        if (GVI__STIFF && x->springs && gvi__nonzero(h - x->springs[0])) gvi__make_spring_tables(st, h);
+        if (GVI__STIFF && x->springs && gvi__nonzero(h - x->springs[0])) {
+            status = gvi__make_arcs(st, h);
+            if (status != GVI_OK) return status;
+        }
         if (usable) gvi__prepare_guess(st, past->alpha, past->beta, query);
         for (int plain = !usable; plain < 2; ++plain) {
             status = gvi__fixed_point(st, from, h, !plain, &used);
@@ -5702,20 +6000,32 @@ GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy)
     return gvi__done(st, status);
 }
 
-/* phi_k(tau) and Phi_k(tau), k < s, multiplied by Gamma^-1, at any tau.        */
-static void gvi__modes(const gvi_stepper *st, gvi_real tau, gvi_real *phi, gvi_real *Phi)
+/* Beside stiffness: C(tau) q0 + h S(tau) v0 + h M^-1 sum_j h b_j g_j int_0^tau S(tau - x) l_j/b_j dx,
+   and its derivative.                                                         */
+static void gvi__arcs_at(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v)
 {
-    const gvi_real X = 1 - 2*tau;
-    gvi_real P = 1, before = 1;
-    for (int k = 0; k < st->s; ++k) {
-        const gvi_real next = gvi__legendre_next(k, X, P, before);
-        phi[k] = P;
-        Phi[k] = (before - next)/(gvi_real)(4*k + 2);
-        before = P;
-        P = next;
+    const struct gvi__private *x = &st->x;
+    const int s = st->s, R = x->stride;
+    const gvi_real *stiffness = gvi__stiffness(st);
+    gvi_real *M = x->row, *N = M + R, *mode = N + R, *scratch = mode + R, sine, cosine;
+    for (int i = 0; i < st->n; ++i) {
+        if (!gvi__nonzero(stiffness[i])) continue;
+        const gvi_real over = x->over ? x->over[i] : 1;
+        const gvi__two omega = gvi__frequency(stiffness[i], x->over ? x->mass[i] : 1);
+        const gvi__two nu = gvi__scale2(st->h, omega);
+        gvi__turn(nu, tau, &sine, &cosine);
+        gvi__moments(s, nu, tau, M, N);
+        const gvi_real v0 = over*x->p0[i];
+        gvi_real bend = 0, turn = 0;
+        for (int j = 0; j < st->r; ++j) {
+            const gvi_real kick = x->hb[j]*x->last.F[i*R + j];
+            gvi__modes(st, x->c[j], mode, scratch);
+            bend += gvi__dot(s, mode, M)*kick;
+            turn += gvi__dot(s, mode, N)*kick;
+        }
+        q[i] = cosine*x->q0[i] + sine/omega.hi*v0 + over*(bend/omega.hi);
+        v[i] = cosine*v0 - omega.hi*sine*x->q0[i] + over*turn;
     }
-    gvi__over_gamma(st, phi);
-    gvi__over_gamma(st, Phi);
 }
 
 /* Curve and velocity of the last step by the same formulas as at its points,
@@ -5749,6 +6059,7 @@ static void gvi__curve(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
         }
     }
     if (by_forces) {
+        // F of springs that were told is what is left of it: their arcs follow
         gvi__over_mass(st, q, 1, 1);
         gvi__over_mass(st, v, 1, 1);
         gvi__over_constant_mass(st, x->p0, x->v0);
@@ -5758,6 +6069,7 @@ static void gvi__curve(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
         }
     }
     for (int i = 0; i < n; ++i) q[i] = x->q0[i] + st->h*q[i];
+    if (GVI__STIFF && x->springs) gvi__arcs_at(st, tau, q, v);
 }
 
 GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v)
@@ -5861,6 +6173,42 @@ static gvi_status gvi__lagrangian(gvi_stepper *st, gvi_real t, const gvi_real *q
     return status;
 }
 
+/* Beside stiffness: the generating function of the step.  Sums of h b Q F and of h b M V V are
+   p1 q1 - p0 q0 together, so that kinetic energy needs no curve, and k drops out:
+
+     (p1 q1 - p0 q0)/2 - sum_j h b_j (Q_j F_j/2 + V(Q_j))
+
+   On arcs Q is measured from 0, where k has its centre, elsewhere from q0.  F is asked
+   again: that of the step is of the rows before the last.                      */
+static gvi_status gvi__arc_action(gvi_stepper *st, gvi_real *action)
+{
+    struct gvi__private *x = &st->x;
+    const gvi_real *stiffness = gvi__stiffness(st);
+    const int n = st->n, R = x->stride;
+    gvi_real sum = 0, V, L, T, *q = x->change, *v = q + n;
+    gvi_points y;
+    gvi__zero((size_t)n, v);
+    for (int i = 0; i < n; ++i) {
+        const gvi_real way = x->p[i]*((x->q[i] - x->q0[i]) + x->qe[i]);
+        sum += (gvi__nonzero(stiffness[i]) ? way + (x->p[i] - x->p0[i])*x->q0[i] : way)/2;
+    }
+    for (int j = 0; j < st->r; ++j) {
+        gvi__gather(n, R, x->last.Q + j, q);
+        const gvi_real t = x->t0 + x->c[j]*st->h;
+        gvi_status status = gvi__values(st, t, q, v, &V, &L, &T);
+        gvi__at(&y, st, &t, q);
+        y.v = v;
+        if (status == GVI_OK) status = gvi__evaluate(st, &y, 0);
+        if (status != GVI_OK) return status;
+        gvi_real virial = 0;
+        for (int i = 0; i < n; ++i)
+            virial += (gvi__nonzero(stiffness[i]) ? q[i] : q[i] - x->q0[i])*y.f[i];
+        sum -= x->hb[j]*(virial/2 + V);
+    }
+    *action = sum;
+    return GVI_OK;
+}
+
 GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action)
 {
     gvi_status status = gvi__ready(st, 1);
@@ -5870,6 +6218,7 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action)
     struct gvi__private *x = &st->x;
     gvi_real sum = 0, L, *q = x->change, *v = q + st->n;
     gvi__weights(st, st->h);
+    if (GVI__STIFF && x->springs) return gvi__done(st, gvi__arc_action(st, action));
     for (int j = 0; j < st->r; ++j) {
         gvi__curve(st, x->c[j], q, v);
         status = gvi__lagrangian(st, x->t0 + x->c[j]*st->h, q, v, &L);
@@ -6118,7 +6467,8 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
     gvi__done(st, GVI_OK);
     if (!q0 || !q1 || !out || !gvi__all_finite(st->n, q0) || !gvi__all_finite(st->n, q1)
         || !gvi__finite(t) || !gvi__finite(h) || !gvi__nonzero(h)) return st->status = GVI_E_ARGUMENT;
-    if ((st->s > 1 && !gvi__has(st, GVI__HAS_NEWTON)) || gvi__rule_is(st, GVI_KICKS) || x->clock >= 0)
+    if ((st->s > 1 && !gvi__has(st, GVI__HAS_NEWTON)) || gvi__rule_is(st, GVI_KICKS) || x->clock >= 0
+        || (GVI__STIFF && x->springs))
         return st->status = GVI_E_FORMULATION;
     gvi__from from = { t, 0, q0, x->zeros, x->zeros, x->zeros, 0, 0, NULL, NULL };
     gvi__begin(st, &from, h);

@@ -694,11 +694,12 @@ static void test_any_mark(void **state)
     (void)state;
 }
 
-/* Any stiffness in any scene, most of it wrong: the same way to the step.             */
+/* Any stiffness in any scene, most of it wrong: where it is heeded, the same motion; elsewhere, and
+   below 0, the same to the bit.                                              */
 static void test_any_stiffness(void **state)
 {
     static double plain[ROOM], k[ROOM];
-    int heeded = 0;
+    int all = 0;
     for (int i = 0; i < scene_count; ++i)
         for (int sign = -1; sign <= 1; sign += 2) {
             build(scenes[i]->name, NULL);
@@ -706,14 +707,19 @@ static void test_any_stiffness(void **state)
             steps(40, scenes[i]->h);
             memcpy(plain, st.q, (size_t)st.n*sizeof *plain);
             const size_t size = gvi_size(&made.desc);
-            for (int j = 0; j < st.n; ++j) k[j] = sign*(j % 3)/(4*scenes[i]->h*scenes[i]->h);
+            const double *m = made.desc.mass.kind == GVI_MASS_DIAGONAL ? made.desc.mass.matrix : NULL;
+            for (int j = 0; j < st.n; ++j) k[j] = sign*(m ? m[j] : 1)*(j % 3)/(4*scenes[i]->h*scenes[i]->h);
             made.desc.stiffness = k;
-            heeded += gvi_size(&made.desc) > size;
+            const int heeded = gvi_size(&made.desc) != size;
+            assert_true(!heeded || sign > 0);
+            if (heeded && st.formulation == GVI_NEWTON) continue;       // a wrong k helps no fixed point
+            all += heeded;
             start();
             steps(40, scenes[i]->h);
-            for (int j = 0; j < st.n; ++j) assert_close(st.q[j], plain[j], 1e-10*(1e-3 + fabs(plain[j])));
+            for (int j = 0; j < st.n; ++j)
+                assert_close(st.q[j], plain[j], heeded ? 1e-8*(1e-3 + fabs(plain[j])) : 0);
         }
-    assert_true(heeded > scene_count);
+    assert_true(all >= 4);
     (void)state;
 }
 

@@ -23,7 +23,11 @@ static double flops_of_step(gvi_formulation f, gvi_mass_kind mass, int n, int r,
 static inline double flops_of_new_h(int r) { return 6*r*r*r + 4*(r + 10)*r*flops_row(r) + 70*r + 60; }
 
 /* With stiffness: in a step, and for each of the k/m where h is new                              */
-static inline double flops_of_springs(int n, int r, int N) { return (N + 2)*n*flops_row(r)*(2*r + 10); }
-static inline double flops_of_spring_tables(int r) { return 3*r*r*r + 14*r*r + 12*r; }
+static inline double flops_of_springs(int n, int r) { return n*(30*flops_row(r) + 200); }
+static inline double flops_of_spring_tables(int s, int r, double nu)
+{
+    const double pieces = 1 + (nu + s + s*s/32)/6;
+    return r*(16*pieces*(12*s + 70) + 2*r*(s + 40)) + 3*r*r*flops_row(r) + 200;
+}
 
 #endif
