@@ -3591,10 +3591,10 @@ static void gvi__moments_by_parts(int s, gvi__two nu, gvi_real tau, gvi_real *M,
     }
 }
 
-/* The same by quadrature on pieces, unless nu is far above 2s: Gauss's rule of 16 points is
-   exact to degree 31; on a piece phi_k and the sine turn by 6 at most, but phi_k by more at
-   the ends, where its zeros are denser like s s.                              */
-static void gvi__moments_by_rule(int s, gvi__two nu, gvi_real tau, gvi_real *M, gvi_real *N)
+/* The same at tau from those at `from`, by a turn and what lies between: quadrature on pieces, unless
+   nu is far above 2s.  Gauss's rule of 16 points is exact to degree 31; on a piece phi_k and the sine
+   turn by 6 at most, but phi_k by more at the ends, where its zeros are denser like s s.  */
+static void gvi__moments_by_rule(int s, gvi__two nu, gvi_real from, gvi_real tau, gvi_real *M, gvi_real *N)
 {
     static const gvi_real rule[8][2] = {             // nodes below 1/2, weights
         { (gvi_real)0.005299532504175033701922913274833686L, (gvi_real)0.01357622970587704742589028622800905L },
@@ -3606,15 +3606,20 @@ static void gvi__moments_by_rule(int s, gvi__two nu, gvi_real tau, gvi_real *M, 
         { (gvi_real)0.3591982246103705433847697492697519L, (gvi_real)0.09130170752246179443338183398460997L },
         { (gvi_real)0.4524937450811812799073403322875210L, (gvi_real)0.09472530522753424814269836160414155L }
     };
-    const gvi_real size = GVI_ABS(nu.hi);
-    const int pieces = 1 + (int)((size + (gvi_real)(s + s*s/32))*tau/6);
-    gvi__zero((size_t)s, M);
-    gvi__zero((size_t)s, N);
+    const gvi_real size = GVI_ABS(nu.hi), way = tau - from;
+    const int pieces = 1 + (int)((size + (gvi_real)(s + s*s/32))*way/6);
+    const gvi_real part = way/(gvi_real)pieces;
+    gvi_real sine, cosine;
+    gvi__turn(nu, way, &sine, &cosine);
+    for (int k = 0; k < s; ++k) {
+        const gvi_real was = M[k];
+        M[k] = cosine*was + sine*N[k];
+        N[k] = cosine*N[k] - sine*was;
+    }
     for (int m = 0; m < 16*pieces; ++m) {
         const gvi_real *at = rule[m & 7];
-        const gvi_real part = tau/(gvi_real)pieces, node = m & 8 ? 1 - at[0] : at[0];
-        const gvi_real rest = part*((gvi_real)(m/16) + node), X = 1 - 2*(tau - rest);
-        gvi_real sine, cosine, P = 1, before = 0;
+        const gvi_real rest = part*((gvi_real)(m/16) + (m & 8 ? 1 - at[0] : at[0])), X = 1 - 2*(tau - rest);
+        gvi_real P = 1, before = 0;
         gvi__turn(nu, rest, &sine, &cosine);
         for (int k = 0; k < s; ++k) {
             const gvi_real w = 1/(gvi_real)(k + 1), next = (2 - w)*X*P - (1 - w)*before;
@@ -3626,10 +3631,18 @@ static void gvi__moments_by_rule(int s, gvi__two nu, gvi_real tau, gvi_real *M, 
     }
 }
 
-static void gvi__moments(int s, gvi__two nu, gvi_real tau, gvi_real *M, gvi_real *N)
+// M and N at tau, from those at `from`, which are not read if that is 0
+static void gvi__moments(int s, gvi__two nu, gvi_real from, gvi_real tau, gvi_real *M, gvi_real *N)
 {
-    if (GVI_ABS(nu.hi) > (gvi_real)(4*s + 16)) gvi__moments_by_parts(s, nu, tau, M, N);
-    else gvi__moments_by_rule(s, nu, tau, M, N);
+    if (GVI_ABS(nu.hi) > (gvi_real)(4*s + 16)) {
+        gvi__moments_by_parts(s, nu, tau, M, N);
+        return;
+    }
+    if (!gvi__nonzero(from)) {
+        gvi__zero((size_t)s, M);
+        gvi__zero((size_t)s, N);
+    }
+    gvi__moments_by_rule(s, nu, from, tau, M, N);
 }
 
 /* K/b: the part S(c_a - c_j)/2 is made of the rounded weights of the end, so that it belongs
@@ -3645,7 +3658,8 @@ static void gvi__arc_table(const gvi_stepper *st, const gvi__arc *arc, gvi__two 
         gvi__modes(st, x->c[j], mode + j*R, M);
     }
     for (int a = 0; a < r; ++a) {
-        gvi__moments(s, nu, x->c[a], M, N);
+        const gvi_real from = a > 0 && x->c[a - 1] < x->c[a] ? x->c[a - 1] : 0;
+        gvi__moments(s, nu, from, x->c[a], M, N);
         for (int j = 0; j < r; ++j) arc->K[j*R + a] = gvi__dot(s, mode + j*R, M)/omega.hi;
     }
     for (int a = 0; a < r; ++a)
@@ -3904,6 +3918,7 @@ GVI__ROWS(gvi__rows_16, gvi__stage_rows_of(st, y, 16, 16))
 GVI__ROWS(gvi__arc_rows_8, gvi__arc_rows_vector(st, y, 8, 8))
 GVI__ROWS(gvi__arc_rows_to_8, gvi__arc_rows_vector(st, y, st->r, 8))
 GVI__ROWS(gvi__arc_rows_to_16, gvi__arc_rows_vector(st, y, st->r, 16))
+GVI__ROWS(gvi__arc_rows_16, gvi__arc_rows_vector(st, y, 16, 16))
 #endif
 
 static gvi__kernel *gvi__arc_kernel(const gvi_stepper *st)
@@ -3911,6 +3926,7 @@ static gvi__kernel *gvi__arc_kernel(const gvi_stepper *st)
 #ifdef GVI__VECTORS
     if (st->r == 8) return gvi__arc_rows_8;
     if (st->x.stride == 8) return gvi__arc_rows_to_8;
+    if (st->r == 16) return gvi__arc_rows_16;
     if (st->x.stride == 16) return gvi__arc_rows_to_16;
 #endif
     return st->r == 4 ? gvi__arc_rows_4 : gvi__arc_rows;
@@ -6014,7 +6030,7 @@ static void gvi__arcs_at(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_r
         const gvi__two omega = gvi__frequency(stiffness[i], x->over ? x->mass[i] : 1);
         const gvi__two nu = gvi__scale2(st->h, omega);
         gvi__turn(nu, tau, &sine, &cosine);
-        gvi__moments(s, nu, tau, M, N);
+        gvi__moments(s, nu, 0, tau, M, N);
         const gvi_real v0 = over*x->p0[i];
         gvi_real bend = 0, turn = 0;
         for (int j = 0; j < st->r; ++j) {
