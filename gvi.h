@@ -113,7 +113,7 @@
               momenta; full M: 2n^2 ((N+2) K R + 3) more; M(q): (N+1) r (n^3/2 + 6n^2).
               Explicit: 10n(r+1) + 32n + 8r + 16.  A new h: 6r^3 + 4(r+10)rR + 70r + 60
               more, in its step and the next two.  With stiffness: n (30R + 200) more, and for
-              each k/m at a new h r (16p (12s + 70) + 2r (s + 40)) + 3r^2 R + 200, sines counted
+              each k/m at a new h r (16p (12s + 70) + 4r (s + 20)) + 3r^2 R + 200, sines counted
               as one, p = 1 + (h omega + s + s^2/32)/6.  Twice that where the extrapolated start
               leads nowhere, four times where the step fails.  Without a clock, Lagrangian
               terms or marks; counted by make bound.
@@ -251,7 +251,8 @@
      q1  = C(1) q0 + h S(1) v0     + h M^-1 sum_j S(1 - c_j) h b_j g_j
      p1  = C(1) p0 - k h S(1) q0   +        sum_j C(1 - c_j) h b_j g_j
 
-   and g is what iterates: h is bounded by it alone.  b_i K_ij - b_j K_ji = b_i b_j S(c_i - c_j),
+   (V_i: the derivative of the first, with N for h K) and g is what iterates: h is bounded by
+   it alone.  b_i K_ij - b_j K_ji = b_i b_j S(c_i - c_j),
    and so the step is symplectic for any k, beside any other coordinates, and of the same
    order; it has no better friend than the right k, with which it is the exact rotation where
    the spring is all there is, at any h.  k is part of the method: another k is another
@@ -260,11 +261,12 @@
    coordinates that the symmetry mixes, and not if it shifts one with a k; boundary values and
    Newton's method solve other equations, so that rounds that do not contract end in
    GVI_E_CONVERGENCE, and gvi_discrete_lagrangian and gvi_start_configurations in
-   GVI_E_FORMULATION.  It pays from h omega = 1/2 or so, and takes 2 (r + 1) R + 8 numbers of
-   memory for each k_i/m_i that is not that of the stiff coordinate before, and (R + 2) n.
-   A new h, as of gvi_state_at, costs as much as some steps.  It is for positions with unit or
-   diagonal mass; elsewhere, compiled for size, with GVI_NO_RULES and for k_i <= 0 it is not
-   heeded.
+   GVI_E_FORMULATION.  It pays from h omega = 1/2 or so, and takes (2r + 3) R + 8 numbers of
+   memory for each k_i/m_i that is not that of the stiff coordinate before, and (K R + 2) n,
+   K = 1 for positions, 2 for velocities.  A new h, as of gvi_state_at, costs as much as some
+   steps.  It is for positions and velocities with unit or diagonal mass and without
+   Lagrangian terms; elsewhere, compiled for size, with GVI_NO_RULES and for k_i <= 0 it is
+   not heeded.
 
    CLOCK.  An effect g(q) > 0 makes time run as dt = g dtau, and h is a step in
    tau: t moves fast or slow, and the map is as symplectic as with fixed steps
@@ -884,7 +886,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__RESTS 1
 #endif
 #define GVI__PATH (GVI__RESTS || !GVI__SMALL)         // h v is kept
-#define GVI__STIFF (GVI__TURNS && GVI__RULES && !GVI__SMALL && GVI__POSITIONS)
+#define GVI__STIFF (GVI__TURNS && GVI__RULES && !GVI__SMALL && (GVI__POSITIONS || GVI__VELOCITIES))
 #ifdef GVI_NO_DIAGNOSIS
 #define GVI__DIAGNOSIS 0
 #else
@@ -2527,7 +2529,8 @@ static int gvi__springs(const gvi__scene *x, gvi_real *k)
 {
     const gvi_desc *d = x->desc;
     const int heeded = GVI__STIFF && d->stiffness && d->mass.kind <= GVI_MASS_DIAGONAL
-        && gvi__chosen_is(x->chosen, GVI_POSITIONS);
+        && (gvi__chosen_is(x->chosen, GVI_POSITIONS) || gvi__chosen_is(x->chosen, GVI_VELOCITIES))
+        && !gvi__flag(x->flags, GVI__HAS_LAGRANGIAN);
     int tables = 0;
     gvi_real last = 0;
     for (int i = 0; heeded && i < d->n; ++i) {
@@ -2782,7 +2785,7 @@ GVI__APART void gvi__lengths(const gvi__scene *x, size_t *length)
     length[GVI__TWO_MASSES] = dense ? 2*n : 0;                 // factored, and as it is
     length[GVI__STILL] = iterates && gvi__marks(d) ? n + 2 : 0;
     length[GVI__SPRINGS] = !GVI__STIFF || !x->springs ? 0
-        : GVI__ARC_HEAD + (size_t)x->springs*(2*(r + 1)*R + GVI__ARC_TAIL) + (R + 2)*n;
+        : GVI__ARC_HEAD + (size_t)x->springs*((2*r + 3)*R + GVI__ARC_TAIL) + ((velocities ? 2 : 1)*R + 2)*n;
     length[GVI__Z] = dense && positions ? n : 0;
     length[GVI__AT_POINTS] = gvi__has_mass(d, GVI_MASS_POSITION) ? n : 0;
     length[GVI__nR] = n*R;
@@ -2906,24 +2909,25 @@ static gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
 }
 
 /* Where stiffness is heeded x->springs begins with h, for which the tables hold, and their
-   count.  Behind the tables of each k/m: [n][R] rows of the free motion; [n] k; [n] its
-   set of tables.                                                              */
+   count.  Behind the tables of each k/m: [n][R] rows of the free motion, of velocities as
+   well where they are rows; [n] k; [n] its set of tables.                      */
 typedef struct gvi__arc {
-    gvi_real *K, *E;                  /* [r][R] h K_aj/b_j; gvi__fit_sums with it */
-    gvi_real *cosine, *sine;          /* [R] cos nu (1 - c), sin nu (1 - c)/omega */
+    gvi_real *K, *E;                  /* [r][R] h K_aj/b_j; gvi__fit_sums with it, or for V */
+    gvi_real *cosine, *sine, *slope;  /* [R] cos nu (1 - c), sin nu (1 - c)/omega, times omega^2 */
     gvi_real *turn;                   /* tan(nu'/2)/omega, omega sin nu', sign  */
 } gvi__arc;
 
 static inline gvi__arc gvi__arc_of(const gvi_stepper *st, int which)
 {
     const int R = st->x.stride, table = st->r*R;
-    gvi_real *at = st->x.springs + GVI__ARC_HEAD + (size_t)which*(size_t)(2*(table + R) + GVI__ARC_TAIL);
+    gvi_real *at = st->x.springs + GVI__ARC_HEAD + (size_t)which*(size_t)(2*table + 3*R + GVI__ARC_TAIL);
     gvi__arc arc;
     arc.K = at;
     arc.E = at + table;
     arc.cosine = at + 2*table;
     arc.sine = arc.cosine + R;
-    arc.turn = arc.sine + R;
+    arc.slope = arc.sine + R;
+    arc.turn = arc.slope + R;
     return arc;
 }
 
@@ -2934,7 +2938,7 @@ static inline gvi_real *gvi__free_rows(const gvi_stepper *st)
 
 static inline gvi_real *gvi__stiffness(const gvi_stepper *st)
 {
-    return gvi__free_rows(st) + st->n*st->x.stride;
+    return gvi__free_rows(st) + (gvi__uses(st, GVI_VELOCITIES) ? 2 : 1)*st->n*st->x.stride;
 }
 
 static gvi_status gvi__check_stiffness(gvi_stepper *st, const gvi_real *stiffness)
@@ -3651,9 +3655,10 @@ static void gvi__arc_table(const gvi_stepper *st, const gvi__arc *arc, gvi__two 
 {
     const struct gvi__private *x = &st->x;
     const int r = st->r, R = x->stride, s = st->s;
-    gvi_real *M = x->row, *N = M + R, *mode = arc->E;         // E is made after K
+    gvi_real *M = x->row, *N = M + R, *mode = x->E;           // to be made anew for this h
     for (int j = 0; j < r; ++j) {
         gvi__turn(nu, 1 - x->c[j], arc->sine + j, arc->cosine + j);
+        arc->slope[j] = arc->sine[j]*omega.hi;
         arc->sine[j] /= omega.hi;
         gvi__modes(st, x->c[j], mode + j*R, M);
     }
@@ -3661,6 +3666,8 @@ static void gvi__arc_table(const gvi_stepper *st, const gvi__arc *arc, gvi__two 
         const gvi_real from = a > 0 && x->c[a - 1] < x->c[a] ? x->c[a - 1] : 0;
         gvi__moments(s, nu, from, x->c[a], M, N);
         for (int j = 0; j < r; ++j) arc->K[j*R + a] = gvi__dot(s, mode + j*R, M)/omega.hi;
+        for (int j = 0; j < r && gvi__uses(st, GVI_VELOCITIES); ++j)
+            arc->E[j*R + a] = gvi__dot(s, mode + j*R, N);
     }
     for (int a = 0; a < r; ++a)
         for (int j = 0; j <= a; ++j) {
@@ -3699,7 +3706,7 @@ GVI__APART gvi_status gvi__make_arcs(gvi_stepper *st, gvi_real h)
 {
     struct gvi__private *x = &st->x;
     const gvi_real *stiffness = gvi__stiffness(st);
-    x->springs[0] = 0;
+    x->springs[0] = x->ratio = 0;
     for (int i = 0, made = 0; i < st->n; ++i) {
         if (!gvi__nonzero(stiffness[i]) || (int)stiffness[st->n + i] != made) continue;
         const gvi__arc arc = gvi__arc_of(st, made++);
@@ -3721,12 +3728,13 @@ GVI__COPY gvi__two gvi__shear(gvi__two x, gvi_real a, gvi__two y)
 }
 
 /* Free motion to the end of the step, its increments to dq, dqe, dp, dpe; and from there
-   back to the points: Q = C(1 - c) q1 - S(1 - c) v1.                           */
+   back to the points: Q = C(1 - c) q1 - S(1 - c) v1, and V, its derivative.    */
 static void gvi__free_motion(gvi_stepper *st, const gvi__from *from)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, R = x->stride;
     const gvi_real *stiffness = gvi__stiffness(st), *over = x->over, *mass = x->mass;
+    const int velocities = gvi__uses(st, GVI_VELOCITIES);
     gvi_real *row = gvi__free_rows(st), *dq = x->dq, *dqe = x->dqe, *dp = x->dp, *dpe = x->dpe;
     for (int i = 0; i < n; ++i, row += R) {
         if (!gvi__nonzero(stiffness[i])) continue;
@@ -3742,6 +3750,7 @@ static void gvi__free_motion(gvi_stepper *st, const gvi__from *from)
         const gvi_real v1e = v1.lo + m*p1e, *cosine = arc.cosine, *sine = arc.sine;
         for (int a = 0; a < R; ++a)
             row[a] = (cosine[a]*q1 - sine[a]*v1.hi) + (cosine[a]*q1e - sine[a]*v1e);
+        for (int a = 0; a < R && velocities; ++a) row[n*R + a] = cosine[a]*v1.hi + arc.slope[a]*q1;
         const gvi__two to_q = gvi__sum(q1, -from->q[i]), to_p = gvi__sum(p1, -from->p[i]);
         dq[i] = to_q.hi;
         dqe[i] = to_q.lo + q1e;
@@ -3750,11 +3759,11 @@ static void gvi__free_motion(gvi_stepper *st, const gvi__from *from)
     }
 }
 
-// row := free motion + M^-1 sum_j table[j][.] L_j
-GVI__COPY void gvi__arc_row(const gvi_stepper *st, int i, int r, int R, const gvi_real *table,
-                            const gvi_real *L, gvi_real *row)
+// row of coordinate i := at, of free motion, + M^-1 sum_j table[j][.] L_j
+GVI__COPY void gvi__arc_row(const gvi_stepper *st, int i, int r, int R, const gvi_real *at,
+                            const gvi_real *table, const gvi_real *L, gvi_real *row)
 {
-    const gvi_real *at = gvi__free_rows(st) + i*R, m = st->x.over ? st->x.over[i] : 1;
+    const gvi_real m = st->x.over ? st->x.over[i] : 1;
 #ifdef GVI__VECTORS
     for (int o = 0; R % 8 == 0 && o < R; o += GVI__LANES) {
         gvi__vector z;
@@ -3767,19 +3776,22 @@ GVI__COPY void gvi__arc_row(const gvi_stepper *st, int i, int r, int R, const gv
     for (int k = 0; k < R; ++k) row[k] = at[k] + row[k]*m;
 }
 
-/* F := F + k Q, what is left of the force, and from it the rows.               */
-GVI__COPY gvi_real gvi__arc_rows_of(const gvi_stepper *st, const gvi__stage *y, int r, int R)
+/* F := F + k Q, what is left of the force, and from it the rows; then those of V, from the same. */
+GVI__COPY gvi_real gvi__arc_rows_of(const gvi_stepper *st, const gvi__stage *y, int r, int R, int velocities)
 {
     const struct gvi__private *x = &st->x;
     const gvi_real *diagonal = gvi__diagonal(st, y), *stiffness = gvi__stiffness(st);
     gvi_real lane[8] = { 0, 0, 0, 0, 0, 0, 0, 0 }, own[2*16], *L = R > 16 ? x->row : own, *next = L + R;
-    for (int i = 0; i < st->n; ++i) {
+    const gvi_real *at = gvi__free_rows(st) + velocities*st->n*R;
+    for (int i = 0; i < st->n; ++i, at += R) {
         const gvi_real k = stiffness[i];
         gvi_real *row = y->rows + i*R, *F = x->work.F + i*R;
-        for (int j = 0; j < R && gvi__nonzero(k); ++j) F[j] += k*row[j];
+        for (int j = 0; j < R && gvi__nonzero(k) && !velocities; ++j) F[j] += k*row[j];
         gvi__weigh(R, x->hb, F, L);
-        if (gvi__nonzero(k)) gvi__arc_row(st, i, r, R, gvi__arc_of(st, (int)stiffness[st->n + i]).K, L, next);
-        else {
+        if (gvi__nonzero(k)) {
+            const gvi__arc arc = gvi__arc_of(st, (int)stiffness[st->n + i]);
+            gvi__arc_row(st, i, r, R, at, velocities ? arc.E : arc.K, L, next);
+        } else {
             const gvi__affine p = gvi__affine_of(y, diagonal, i);
             gvi__sum_row(r, R, y->table, L, next);
             for (int j = 0; j < R; ++j)
@@ -3798,7 +3810,8 @@ GVI__COPY gvi_real gvi__arc_rows_of(const gvi_stepper *st, const gvi__stage *y, 
 #ifdef GVI__VECTORS
 // F := F + k Q of a few coordinates, and h b F ahead of their sums, which would have to wait for it
 GVI__COPY void gvi__remainders_ahead(const gvi_stepper *st, const gvi__stage *y, const gvi_real *stiffness,
-                                     int i, int few, int R, const gvi__vector *hb, gvi_real *ahead)
+                                     int i, int few, int R, const gvi__vector *hb, gvi_real *ahead,
+                                     int velocities)
 {
     const int vectors = R/GVI__LANES, end = i + few < st->n ? i + few : st->n;
     gvi_real *F = st->x.work.F + i*R;
@@ -3806,7 +3819,7 @@ GVI__COPY void gvi__remainders_ahead(const gvi_stepper *st, const gvi__stage *y,
     for (; i < end; ++i, F += R, Q += R, ahead += R)
         for (int v = 0; v < vectors; ++v) {
             gvi__vector f = GVI__AT(F + v*GVI__LANES);
-            if (gvi__nonzero(stiffness[i])) {
+            if (!velocities && gvi__nonzero(stiffness[i])) {
                 f += stiffness[i]*GVI__AT(Q + v*GVI__LANES);
                 *(gvi__vector *)(F + v*GVI__LANES) = f;
             }
@@ -3815,13 +3828,15 @@ GVI__COPY void gvi__remainders_ahead(const gvi_stepper *st, const gvi__stage *y,
 }
 
 /* The same for five to sixteen points.                                         */
-GVI__COPY gvi_real gvi__arc_rows_vector(const gvi_stepper *st, const gvi__stage *y, int r, int R)
+GVI__COPY gvi_real gvi__arc_rows_vector(const gvi_stepper *st, const gvi__stage *y, int r, int R,
+                                        int velocities)
 {
     enum { MOST = 16/GVI__LANES, EIGHT = 8/GVI__LANES };
     const struct gvi__private *x = &st->x;
     const gvi_real *diagonal = gvi__diagonal(st, y), *stiffness = gvi__stiffness(st);
-    const gvi_real *base = y->base, *extra = y->extra, factor = y->factor, *at = gvi__free_rows(st);
     const int n = st->n, vectors = R/GVI__LANES, few = 64/R;
+    const gvi_real *base = y->base, *extra = y->extra, factor = y->factor;
+    const gvi_real *at = gvi__free_rows(st) + velocities*n*R;
     gvi_real *row = y->rows, *scale = y->scale, lane[8], ahead[64];
     gvi__vector kept[8], c[MOST], hb[MOST], squares[EIGHT] = { { 0 } };
     const gvi_real *table = R == 8 ? gvi__keep(r, y->table, kept) : y->table;
@@ -3830,11 +3845,12 @@ GVI__COPY gvi_real gvi__arc_rows_vector(const gvi_stepper *st, const gvi__stage 
         hb[v] = GVI__AT(x->hb + v*GVI__LANES);
     }
     for (int i = 0; i < n; ++i, row += R, at += R) {
-        if (i % few == 0) gvi__remainders_ahead(st, y, stiffness, i, few, R, hb, ahead);
-        const gvi_real a = y->path[i], rest = y->rest[i], *L = ahead + i % few*R;
+        if (i % few == 0) gvi__remainders_ahead(st, y, stiffness, i, few, R, hb, ahead, velocities);
+        const gvi_real a = velocities ? 0 : y->path[i], rest = velocities ? 0 : y->rest[i], *L = ahead + i % few*R;
         gvi__vector next[MOST];
         if (gvi__nonzero(stiffness[i])) {
-            const gvi_real *K = gvi__arc_of(st, (int)stiffness[n + i]).K;
+            const gvi__arc arc = gvi__arc_of(st, (int)stiffness[n + i]);
+            const gvi_real *K = velocities ? arc.E : arc.K;
             for (int v = 0; v < vectors; ++v) {
                 gvi__sum_vector(r, R, K + v*GVI__LANES, L, next + v);
                 if (diagonal) next[v] *= diagonal[i];
@@ -3907,29 +3923,32 @@ GVI__ROWS(gvi__rows_2, gvi__stage_rows_of(st, y, 2, 2))
 GVI__ROWS(gvi__rows_3, gvi__stage_rows_of(st, y, 3, 3))
 GVI__ROWS(gvi__rows_4, gvi__stage_rows_of(st, y, 4, 4))
 GVI__ROWS(gvi__rows_any, gvi__stage_rows_of(st, y, st->r, st->x.stride))
-GVI__ROWS(gvi__arc_rows, gvi__arc_rows_of(st, y, st->r, st->x.stride))
-GVI__ROWS(gvi__arc_rows_4, gvi__arc_rows_of(st, y, 4, 4))
+GVI__ROWS(gvi__arc_rows, gvi__arc_rows_of(st, y, st->r, st->x.stride, 0))
+GVI__ROWS(gvi__arc_rows_4, gvi__arc_rows_of(st, y, 4, 4, 0))
+GVI__ROWS(gvi__arc_slopes, gvi__arc_rows_of(st, y, st->r, st->x.stride, 1))
 #ifdef GVI__VECTORS
 GVI__ROWS(gvi__rows_6, gvi__stage_rows_8(st, y, 6))
 GVI__ROWS(gvi__rows_8, gvi__stage_rows_8(st, y, 8))
 GVI__ROWS(gvi__rows_5_to_8, gvi__stage_rows_8(st, y, st->r))
 GVI__ROWS(gvi__rows_8_less, gvi__stage_rows_of(st, y, 8, 8))
 GVI__ROWS(gvi__rows_16, gvi__stage_rows_of(st, y, 16, 16))
-GVI__ROWS(gvi__arc_rows_8, gvi__arc_rows_vector(st, y, 8, 8))
-GVI__ROWS(gvi__arc_rows_to_8, gvi__arc_rows_vector(st, y, st->r, 8))
-GVI__ROWS(gvi__arc_rows_to_16, gvi__arc_rows_vector(st, y, st->r, 16))
-GVI__ROWS(gvi__arc_rows_16, gvi__arc_rows_vector(st, y, 16, 16))
+GVI__ROWS(gvi__arc_rows_8, gvi__arc_rows_vector(st, y, 8, 8, 0))
+GVI__ROWS(gvi__arc_rows_to_8, gvi__arc_rows_vector(st, y, st->r, 8, 0))
+GVI__ROWS(gvi__arc_rows_to_16, gvi__arc_rows_vector(st, y, st->r, 16, 0))
+GVI__ROWS(gvi__arc_rows_16, gvi__arc_rows_vector(st, y, 16, 16, 0))
+GVI__ROWS(gvi__arc_slopes_to_8, gvi__arc_rows_vector(st, y, st->r, 8, 1))
 #endif
 
-static gvi__kernel *gvi__arc_kernel(const gvi_stepper *st)
+static gvi__kernel *gvi__arc_kernel(const gvi_stepper *st, int velocities)
 {
 #ifdef GVI__VECTORS
-    if (st->r == 8) return gvi__arc_rows_8;
-    if (st->x.stride == 8) return gvi__arc_rows_to_8;
-    if (st->r == 16) return gvi__arc_rows_16;
-    if (st->x.stride == 16) return gvi__arc_rows_to_16;
+    if (velocities && st->x.stride == 8) return gvi__arc_slopes_to_8;
+    if (!velocities && st->r == 8) return gvi__arc_rows_8;
+    if (!velocities && st->x.stride == 8) return gvi__arc_rows_to_8;
+    if (!velocities && st->r == 16) return gvi__arc_rows_16;
+    if (!velocities && st->x.stride == 16) return gvi__arc_rows_to_16;
 #endif
-    return st->r == 4 ? gvi__arc_rows_4 : gvi__arc_rows;
+    return velocities ? gvi__arc_slopes : st->r == 4 ? gvi__arc_rows_4 : gvi__arc_rows;
 }
 
 static gvi__kernel *gvi__kernel_of(const gvi_stepper *st, const gvi__stage *y)
@@ -4017,12 +4036,13 @@ static int gvi__plan(gvi_stepper *st, const gvi__from *from, gvi_real h, gvi__st
     y->minus = gvi__A(w) ? x->T : NULL;
     y->over_mass = 1;
     y->kernel = GVI__SMALL ? NULL : gvi__kernel_of(st, y);
-    if (GVI__STIFF && x->springs) y->kernel = gvi__arc_kernel(st);
+    if (GVI__STIFF && x->springs) y->kernel = gvi__arc_kernel(st, 0);
     if (gvi__uses(st, GVI_POSITIONS) || GVI__STAGES == 1) return 1;
     gvi__stage_set(y + 1, from->v, from->ve, NULL, x->m, w->F, 1, w->V, x->scale + st->n);
     y[1].minus = gvi__A(w) ? x->N : NULL;
     y[1].over_mass = 1;
     y[1].kernel = GVI__SMALL ? NULL : gvi__kernel_of(st, y + 1);
+    if (GVI__STIFF && x->springs) y[1].kernel = gvi__arc_kernel(st, 1);
     return 2;
 }
 
@@ -4314,7 +4334,8 @@ GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const 
     for (int i = 0; i < st->n; ++i, last += R) {
         gvi_real *row = out + i*R;
         if (GVI__STIFF && stiffness && gvi__nonzero(stiffness[i])) {
-            gvi__arc_row(st, i, r, R, gvi__arc_of(st, (int)stiffness[st->n + i]).E, last, row);
+            gvi__arc_row(st, i, r, R, gvi__free_rows(st) + i*R,
+                         gvi__arc_of(st, (int)stiffness[st->n + i]).E, last, row);
             continue;
         }
 #ifdef GVI__VECTORS
@@ -6210,6 +6231,7 @@ static gvi_status gvi__arc_action(gvi_stepper *st, gvi_real *action)
     }
     for (int j = 0; j < st->r; ++j) {
         gvi__gather(n, R, x->last.Q + j, q);
+        if (gvi__uses(st, GVI_VELOCITIES)) gvi__gather(n, R, x->last.V + j, v);
         const gvi_real t = x->t0 + x->c[j]*st->h;
         gvi_status status = gvi__values(st, t, q, v, &V, &L, &T);
         gvi__at(&y, st, &t, q);

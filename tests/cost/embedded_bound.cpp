@@ -123,6 +123,7 @@ static const kind kinds[] = {
     { "positions, full mass", GVI_POSITIONS, GVI_MASS_DENSE, false },
     { "positions, unit mass, k", GVI_POSITIONS, GVI_MASS_UNIT, true },
     { "positions, diagonal, k", GVI_POSITIONS, GVI_MASS_DIAGONAL, true },
+    { "velocities, diagonal, k", GVI_VELOCITIES, GVI_MASS_DIAGONAL, true },
     { "velocities, unit mass", GVI_VELOCITIES, GVI_MASS_UNIT, false },
     { "velocities, diagonal mass", GVI_VELOCITIES, GVI_MASS_DIAGONAL, false },
     { "velocities, full mass", GVI_VELOCITIES, GVI_MASS_DENSE, false },

@@ -27,7 +27,7 @@ static inline double flops_of_springs(int n, int r) { return n*(30*flops_row(r) 
 static inline double flops_of_spring_tables(int s, int r, double nu)
 {
     const double pieces = 1 + (nu + s + s*s/32)/6;
-    return r*(16*pieces*(12*s + 70) + 2*r*(s + 40)) + 3*r*r*flops_row(r) + 200;
+    return r*(16*pieces*(12*s + 70) + 4*r*(s + 20)) + 3*r*r*flops_row(r) + 200;
 }
 
 #endif
