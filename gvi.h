@@ -4632,15 +4632,18 @@ static inline gvi__two gvi__increment(int r, int R, const gvi_real *a, const gvi
     return gvi__exact_dot(r, a, b, rest, z);
 }
 
+// sum_j a_j b_j, in the same order with vectors and without
 static inline gvi_real gvi__plain_dot(int r, int R, const gvi_real *a, const gvi_real *b)
 {
 #ifdef GVI__VECTORS
-    gvi__half sum = { 0 };
-    for (int o = 0; R % 8 == 0 && o < R; o += 4) sum += GVI__HALF(a + o)*GVI__HALF(b + o);
-    if (R % 8 == 0) return (sum[0] + sum[2]) + (sum[1] + sum[3]);
+    gvi__half half = { 0 };
+    for (int o = 0; R % 8 == 0 && o < R; o += 4) half += GVI__HALF(a + o)*GVI__HALF(b + o);
+    if (R % 8 == 0) return (half[0] + half[2]) + (half[1] + half[3]);
 #endif
+    gvi_real sum[4] = { 0, 0, 0, 0 };
     (void)R;
-    return gvi__dot(r, a, b);
+    for (int j = 0; j < r; ++j) sum[j & 3] += a[j]*b[j];
+    return (sum[0] + sum[2]) + (sum[1] + sum[3]);
 }
 
 static inline gvi_real gvi__lever(int r, int R, const gvi_real *c, const gvi_real *hb, const gvi_real *F)

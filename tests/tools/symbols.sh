@@ -17,7 +17,7 @@ if ! command -v nm >/dev/null 2>&1; then
 fi
 
 # of math.h, these and no others; f or l is appended for the type
-math='sqrt floor ldexp frexp sin cos fabs'
+math='sqrt floor ldexp frexp sin cos sincos fabs'
 # the compiler's own: copying of memory, position independence, stack guard
 other='memcpy memset memmove memcmp _GLOBAL_OFFSET_TABLE_ __stack_chk_fail __stack_chk_guard'
 
