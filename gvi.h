@@ -3601,14 +3601,14 @@ static void gvi__moments_by_parts(int s, gvi__two nu, gvi_real tau, gvi_real *M,
 static void gvi__moments_by_rule(int s, gvi__two nu, gvi_real from, gvi_real tau, gvi_real *M, gvi_real *N)
 {
     static const gvi_real rule[8][2] = {             // nodes below 1/2, weights
-        { (gvi_real)0.005299532504175033701922913274833686L, (gvi_real)0.01357622970587704742589028622800905L },
-        { (gvi_real)0.02771248846338371196100579223269583L, (gvi_real)0.03112676196932394643142191849718885L },
-        { (gvi_real)0.06718439880608412805976605114380343L, (gvi_real)0.04757925584124639240496255380112311L },
-        { (gvi_real)0.1222977958224984830524494025762789L, (gvi_real)0.06231448562776693602623814109600821L },
-        { (gvi_real)0.1910618777986781257766641179756045L, (gvi_real)0.07479799440828836604075086527373927L },
-        { (gvi_real)0.2709916111713863068287902785082112L, (gvi_real)0.08457825969750126909465603951517998L },
-        { (gvi_real)0.3591982246103705433847697492697519L, (gvi_real)0.09130170752246179443338183398460997L },
-        { (gvi_real)0.4524937450811812799073403322875210L, (gvi_real)0.09472530522753424814269836160414155L }
+        { (gvi_real)0.00529953250417503370192291327483369L, (gvi_real)0.0135762297058770474258902862280090L },
+        { (gvi_real)0.0277124884633837119610057922326958L, (gvi_real)0.0311267619693239464314219184971888L },
+        { (gvi_real)0.0671843988060841280597660511438034L, (gvi_real)0.0475792558412463924049625538011231L },
+        { (gvi_real)0.122297795822498483052449402576279L, (gvi_real)0.0623144856277669360262381410960082L },
+        { (gvi_real)0.191061877798678125776664117975604L, (gvi_real)0.0747979944082883660407508652737393L },
+        { (gvi_real)0.270991611171386306828790278508211L, (gvi_real)0.0845782596975012690946560395151800L },
+        { (gvi_real)0.359198224610370543384769749269752L, (gvi_real)0.0913017075224617944333818339846100L },
+        { (gvi_real)0.452493745081181279907340332287521L, (gvi_real)0.0947253052275342481426983616041416L }
     };
     const gvi_real size = GVI_ABS(nu.hi), way = tau - from;
     const int pieces = 1 + (int)((size + (gvi_real)(s + s*s/32))*way/6);
@@ -3776,7 +3776,7 @@ GVI__COPY void gvi__arc_row(const gvi_stepper *st, int i, int r, int R, const gv
     for (int k = 0; k < R; ++k) row[k] = at[k] + row[k]*m;
 }
 
-/* F := F + k Q, what is left of the force, and from it the rows; then those of V, from the same. */
+/* F := F + k Q, what is left of the force, and from it the rows; then those of V.  */
 GVI__COPY gvi_real gvi__arc_rows_of(const gvi_stepper *st, const gvi__stage *y, int r, int R, int velocities)
 {
     const struct gvi__private *x = &st->x;
@@ -3846,7 +3846,8 @@ GVI__COPY gvi_real gvi__arc_rows_vector(const gvi_stepper *st, const gvi__stage 
     }
     for (int i = 0; i < n; ++i, row += R, at += R) {
         if (i % few == 0) gvi__remainders_ahead(st, y, stiffness, i, few, R, hb, ahead, velocities);
-        const gvi_real a = velocities ? 0 : y->path[i], rest = velocities ? 0 : y->rest[i], *L = ahead + i % few*R;
+        const gvi_real a = velocities ? 0 : y->path[i], rest = velocities ? 0 : y->rest[i];
+        const gvi_real *L = ahead + i % few*R;
         gvi__vector next[MOST];
         if (gvi__nonzero(stiffness[i])) {
             const gvi__arc arc = gvi__arc_of(st, (int)stiffness[n + i]);
