@@ -3712,7 +3712,7 @@ GVI__APART gvi_status gvi__make_arcs(gvi_stepper *st, gvi_real h)
         const gvi__arc arc = gvi__arc_of(st, made++);
         const gvi__two omega = gvi__frequency(stiffness[i], x->over ? x->mass[i] : 1);
         const gvi__two nu = gvi__scale2(h, omega);
-        if (!(GVI_ABS(nu.hi) < 1/GVI__EPS)) return gvi__give(st, GVI_E_CONVERGENCE);
+        if (!(GVI_ABS(nu.hi) < 1/GVI__EPS) || !gvi__nonzero(nu.hi)) return gvi__give(st, GVI_E_CONVERGENCE);
         gvi__arc_turn(omega, nu, arc.turn);
         gvi__arc_table(st, &arc, omega, nu);
     }
