@@ -145,8 +145,10 @@ static real error_of(const trial *a)
 
 static void assert_same(const trial *a, const trial *b)
 {
-    assert_memory_equal(a->st.q, b->st.q, N*sizeof(gvi_real));
-    assert_memory_equal(a->st.p, b->st.p, N*sizeof(gvi_real));
+    for (int i = 0; i < N; ++i) {                 // by value: a long double has bytes that say nothing
+        assert_true(!(a->st.q[i] < b->st.q[i]) && !(a->st.q[i] > b->st.q[i]));
+        assert_true(!(a->st.p[i] < b->st.p[i]) && !(a->st.p[i] > b->st.p[i]));
+    }
 }
 
 /* ---------------------------------------------------------------- an oscillator */
@@ -199,7 +201,9 @@ static void test_rotation(void **state)
 }
 
 /* Any k > 0: the area that two solutions span stays, to what rounding does at random, also where the
-   step is far too long for what is left of the force to be followed             */
+   step is far too long for what is left of the force to be followed.  Entries of K are rounded
+   one by one, and an area sees that times X^2, X = h^2 (k - the true k)/m, over 2 at worst: signs
+   differ, an eighth of it is allowed                                           */
 static void test_area(void **state)
 {
     static const gvi_real wrong[] = { (gvi_real)0.5L, (gvi_real)0.9L, 1, (gvi_real)1.1L, 2 };
@@ -221,7 +225,8 @@ static void test_area(void **state)
                 const real area = (real)st[0].q[0]*st[1].p[0] - (real)st[1].q[0]*st[0].p[0];
                 real size = fabsl((real)st[0].q[0]*st[1].p[0]) + fabsl((real)st[1].q[0]*st[0].p[0]);
                 if (size < omega) size = omega;
-                assert_close(area, omega, size*100*EPS);
+                const real X = constant*(wrong[i] - 1);
+                assert_close(area, omega, size*100*EPS*(1 + X*X/16));
             }
     (void)state;
 }
