@@ -251,16 +251,15 @@
      q1  = C(1) q0 + h S(1) v0     + h M^-1 sum_j S(1 - c_j) h b_j g_j
      p1  = C(1) p0 - k h S(1) q0   +        sum_j C(1 - c_j) h b_j g_j
 
-   (V_i: the derivative of the first, with N for h K) and g is what iterates: h is bounded by
-   it alone.  b_i K_ij - b_j K_ji = b_i b_j S(c_i - c_j),
-   and so the step is symplectic for any k, beside any other coordinates, and of the same
-   order; it has no better friend than the right k, with which it is the exact rotation where
-   the spring is all there is, at any h.  k is part of the method: another k is another
-   step.  What it is not: near nu = pi, 2 pi ... steps can resonate with g, as those of every
-   such method; a momentum map stays exact where k is the same multiple of m for all
-   coordinates that the symmetry mixes, and not if it shifts one with a k; boundary values and
-   Newton's method solve other equations, so that rounds that do not contract end in
-   GVI_E_CONVERGENCE, and gvi_discrete_lagrangian and gvi_start_configurations in
+   (V_i: the derivative of the first, with N for h K), and g is what iterates: h is bounded
+   by it alone.  b_i K_ij - b_j K_ji = b_i b_j S(c_i - c_j): so the step is symplectic for any
+   k, beside any other coordinates, and of the same order.  The right k is the best: where the
+   spring is all there is, a step of any h is the exact rotation.  Another k is another step.
+   [3, XIII] is about methods of this kind.  Their limits: near nu = pi, 2 pi ... steps can
+   resonate with g; a momentum map stays exact where k is the same multiple of m for all
+   coordinates that the symmetry mixes, and not if it shifts one with a k.  Newton's method and
+   boundary values solve other equations: rounds that do not contract end in
+   GVI_E_CONVERGENCE, gvi_discrete_lagrangian and gvi_start_configurations in
    GVI_E_FORMULATION.  It pays from h omega = 1/2 or so, and takes (2r + 3) R + 8 numbers of
    memory for each k_i/m_i that is not that of the stiff coordinate before, and (K R + 2) n,
    K = 1 for positions, 2 for velocities.  A new h, as of gvi_state_at, costs as much as some
