@@ -4587,7 +4587,8 @@ GVI__COPY void gvi__sums_of_eight(int n, int R, const gvi_real *c, const gvi_rea
         const gvi_real *row[8];
         for (int k = 0; k < 8; ++k) row[k] = F + (i + k < n ? i + k : n - 1)*R;
         gvi__eight a, b;
-        gvi__eights x = gvi__four_rows(R, c, hb, row, &a), y = gvi__four_rows(R, c, hb, row + 4, &b), even, odd;
+        gvi__eights x = gvi__four_rows(R, c, hb, row, &a), even, odd;
+        const gvi__eights y = gvi__four_rows(R, c, hb, row + 4, &b);
         even.hi = GVI__EVEN(x.hi, y.hi);
         even.lo = GVI__EVEN(x.lo, y.lo);
         odd.hi = GVI__ODD(x.hi, y.hi);
