@@ -112,7 +112,8 @@
               else the next multiple of 8, K = 1 for positions, 2 for velocities and
               momenta; full M: 2n^2 ((N+2) K R + 3) more; M(q): (N+1) r (n^3/2 + 6n^2).
               Explicit: 10n(r+1) + 32n + 8r + 16.  A new h: 6r^3 + 4(r+10)rR + 70r + 60
-              more, in its step and the next two.  With stiffness: n (30R + 200) more, and for
+              more, in its step and the next two; without desc.iterations, where steps take six
+              rounds, in two of a thousand as well.  With stiffness: n (30R + 200) more, and for
               each k/m at a new h r (16p (12s + 70) + 4r (s + 20)) + 3r^2 R + 200, sines counted
               as one, p = 1 + (h omega + s + s^2/32)/6.  Twice that where the extrapolated start
               leads nowhere, four times where the step fails.  Without a clock, Lagrangian
@@ -529,6 +530,9 @@ typedef struct gvi_counters {
 
 struct gvi__rows { gvi_real *Q, *V, *F, *P, *A; };   /* [n][stride] each     */
 
+/* Rounds of the last steps, with which extrapolation; of those before: gvi__learn.  */
+struct gvi__learned { int steps, rounds, before; signed char stage, lengthy; };
+
 /* What most functions name comes first: on small machines an offset below 128 takes
    fewer bytes.                                                                */
 struct gvi__private {
@@ -544,8 +548,8 @@ struct gvi__private {
     gvi_real *start;                  /* [n] velocity that a start was given    */
     gvi_real *v0, *ve;                /* [n] M^-1 p, M^-1 pe of the step at work */
     gvi_real *scale;                  /* [2n] 1/unit of changes, of two sets of rows */
-    gvi_real *t, *place;              /* [R] times, at set-up rest of c; [3R] scratch */
-    gvi_real *z, *less, *row;         /* [R], [R], [6R] scratch                 */
+    gvi_real *t;                      /* [R] times, at set-up rest of c         */
+    gvi_real *z, *less, *row;         /* [R], [R], [6R] scratch, 9R where there is E */
     gvi_real *inv_gamma, *own;        /* [s] 1/Gamma_kk; LU of Gamma if full    */
     gvi_real *eigen;                  /* [(s+1)/2][2s] of integration, Gauss with r = s */
     gvi_real *drift;                  /* [r+1] explicit: time from corner to corner */
@@ -584,6 +588,7 @@ struct gvi__private {
     signed char      has_factor;      /* point_mass holds a factored M          */
     signed char      blocks;          /* Newton's J as blocks: 1 can be, 0 not, -1 see eigen */
     signed char      has_blocks;      /* J holds blocks                         */
+    struct gvi__learned learned;
 };
 
 /* The stepper, to be read; x is private.                                      */
@@ -2686,15 +2691,19 @@ static gvi_status gvi__resolve(gvi__scene *x, gvi_desc *d, const gvi_desc *desc)
 }
 
 /* Extrapolation from two steps saves iterations up to ten points; with more of
-   them, and in float, it would amplify rounding too much.                     */
+   them, and in float, it would amplify rounding too much.  gvi__fit, gvi__fit_long. */
 static int gvi__fits_two(const gvi__scene *x)
 {
     const int iterates = x->chosen >= GVI_POSITIONS && x->chosen <= GVI_MOMENTA;
     return x->desc->rule.points < 10 && GVI__KIND > 1 && iterates && !(GVI__STIFF && x->springs);
 }
 
-// what E makes: of two steps, not of one; the sums of (3), not the row itself
-enum { GVI__OF_TWO = 1, GVI__SUMS = 2 };
+// what E makes: of two steps, not of one; the sums of (3), not the row itself; for long steps
+enum { GVI__OF_TWO = 1, GVI__SUMS = 2, GVI__LONG = 4 };
+
+/* With both kinds of E to choose from: what it does now.                       */
+enum { GVI__MEASURES, GVI__TRIES, GVI__IDLES };
+#define GVI__LEARNS (!GVI__SMALL && GVI__KIND > 1)
 
 // does E extrapolate from two steps now?
 static inline int gvi__two_now(const gvi_stepper *st) { return GVI__KIND > 1 && (st->x.E_is & GVI__OF_TWO); }
@@ -2733,7 +2742,7 @@ static gvi_real *gvi__take(gvi__arena *arena, size_t a, size_t b)
 enum {
     GVI__1, GVI__2, GVI__3, GVI__6, GVI__n, GVI__N, GVI__R, GVI__s,      // N: n, in whole vectors if n >= 8
     GVI__STATE, GVI__POINTS, GVI__V, GVI__P, GVI__A_, GVI__OLDER_F, GVI__OLDER_V, GVI__OLDER_A,
-    GVI__SLOPE, GVI__RATE, GVI__G, GVI__M, GVI__T, GVI__NN, GVI__E, GVI__PHI, GVI__MODES, GVI__PLACE,
+    GVI__SLOPE, GVI__RATE, GVI__G, GVI__M, GVI__T, GVI__NN, GVI__E, GVI__PHI, GVI__MODES, GVI__SCRATCH,
     GVI__DRIFT, GVI__GAMMA, GVI__DIAGONAL, GVI__TWO_MASSES, GVI__STILL, GVI__Z, GVI__AT_POINTS, GVI__nR,
     GVI__SPRINGS, GVI__HESS, GVI__HESSIANS, GVI__sn, GVI__PIVOT, GVI__DIFFERENCES, GVI__J, GVI__EIGEN, GVI__LENGTHS
 };
@@ -2777,7 +2786,7 @@ GVI__APART void gvi__lengths(const gvi__scene *x, size_t *length)
     length[GVI__E] = !iterates ? 0 : two ? 2*r : r;
     length[GVI__PHI] = kicks ? 0 : s;
     length[GVI__MODES] = reads_v || (iterates && x->order <= 2*d->degree - 2) ? s : 0;
-    length[GVI__PLACE] = iterates ? 3 : 0;
+    length[GVI__SCRATCH] = iterates ? 9 : 6;
     length[GVI__DRIFT] = iterates ? 0 : r + 1;
     length[GVI__GAMMA] = gvi__flag(x->flags, GVI__HAS_OWN) ? s*s + s + 1 : 0;
     length[GVI__DIAGONAL] = d->mass.kind == GVI_MASS_DIAGONAL ? length[GVI__N] : 0;
@@ -2834,7 +2843,7 @@ static void gvi__layout_rows(gvi__arena *a, const size_t *length)
         GVI__PART(c, 1, R), GVI__PART(g, G, R), GVI__PART(m, M, R), GVI__PART(T, T, R), GVI__PART(N, NN, R),
         GVI__PART(E, E, R), GVI__PART(Phi, PHI, R), GVI__PART(phi, MODES, R), GVI__PART(low, MODES, R),
         GVI__PART(Z, Z, R), GVI__PART(point_mass, AT_POINTS, nR), GVI__PART(b, 1, R),
-        GVI__PART(t, 1, R), GVI__PART(place, PLACE, R), GVI__PART(row, 6, R), GVI__PART(springs, SPRINGS, 1),
+        GVI__PART(t, 1, R), GVI__PART(row, SCRATCH, R), GVI__PART(springs, SPRINGS, 1),
         GVI__PART(drift, DRIFT, 1), GVI__PART(inv_gamma, 1, s), GVI__PART(own, GAMMA, 1), GVI__PART(eigen, EIGEN, s)
     };
     gvi__place(a, length, parts, sizeof parts/sizeof *parts);
@@ -4261,6 +4270,58 @@ GVI__APART gvi_status gvi__ask(gvi_stepper *st, const gvi__from *from, gvi_real 
     return some ? gvi__effects(st, y, some) : gvi__all_effects(st, y);
 }
 
+/* Beyond h omega = 1.5 or so polynomials foretell little.  E then is the best guess at a random
+   function whose values d steps apart are correlated like C(d) = 1/(1 + (0.4 d)^2), a spectrum
+   of exp(-2.5 h omega), and seen with errors of variance e = 64 EPS (Wiener 1949; kriging):
+
+     E' = (C(x_i - x_j) + e I)^-1 C(x_i - y)     x = c and c - 1, y = 1 + c
+
+   Where c is symmetric -x are the same nodes, and the system falls in two: sums of the weights
+   of c_j and -c_j have the matrix C(c_i - c_j) + C(c_i + c_j), differences that with a minus.  */
+static gvi_real gvi__correlation(gvi_real d) { return 1/(1 + (gvi_real)0.16*d*d); }
+
+// z [r][R] := sums of the weights, sign = 1, or differences, -1; 0: c is not symmetric
+static int gvi__fit_half(gvi_stepper *st, gvi_real sign, gvi_real *z)
+{
+    struct gvi__private *x = &st->x;
+    const int r = st->r, R = x->stride;
+    const gvi_real *c = x->c;
+    gvi_real *K = x->row;                         // r*r is no more than its 9R
+    for (int i = 0; i < r; ++i) {
+        if (GVI_ABS((c[i] - 1) + c[r - 1 - i]) > 8*GVI__EPS) return 0;
+        for (int j = 0; j < r; ++j)
+            K[i*r + j] = gvi__correlation(c[i] - c[j]) + sign*gvi__correlation(c[i] + c[j]);
+        K[i*r + i] += 64*GVI__EPS;
+        for (int k = 0; k < r; ++k)
+            z[i*R + k] = gvi__correlation(1 + c[k] - c[i]) + sign*gvi__correlation(1 + c[k] + c[i]);
+    }
+    const unsigned long long counted = st->counters.factorizations;
+    const gvi_status status = gvi__ldl_factor(st, r, 1, 1, K);
+    st->counters.factorizations = counted;
+    gvi__ldl_solve(r, K, 1, 0, z, R, r);
+    return status == GVI_OK;
+}
+
+static int gvi__fit_long(gvi_stepper *st)
+{
+    const int r = st->r, R = st->x.stride;
+    gvi_real *sum = st->x.E, *difference = sum + r*R;
+    gvi__zero((size_t)(2*r*R), sum);
+    if (!gvi__fit_half(st, 1, sum) || !gvi__fit_half(st, -1, difference)) return 0;
+    // weights of c_j and -c_j; the latter is node r-1-j of the step before
+    for (int j = 0; j < (r + 1)/2; ++j)
+        for (int k = 0; k < r; ++k) {
+            gvi_real *a = sum + k, *b = difference + k;
+            const int m = (r - 1 - j)*R, l = j*R;
+            const gvi_real near = a[l], far = b[l], other = a[m], rest = b[m];
+            a[l] = (near + far)/2;
+            a[m] = (other + rest)/2;
+            b[m] = (near - far)/2;
+            b[l] = (other - rest)/2;
+        }
+    return 1;
+}
+
 /* Least squares through the rows of one step or two, with polynomials p_k that are
    orthonormal on the nodes x_j = c, and c - 1 for the step before (Forsythe 1957):
    E_ij = sum_k p_k(y_i) p_k(x_j) at the targets y_i = alpha + beta c_i.  row holds
@@ -4272,9 +4333,10 @@ GVI__APART gvi_status gvi__ask(gvi_stepper *st, const gvi__from *from, gvi_real 
 static void gvi__fit(gvi_stepper *st, gvi_real alpha, gvi_real beta)
 {
     struct gvi__private *x = &st->x;
+    if (GVI__LEARNS && (x->E_is & GVI__LONG) && gvi__fit_long(st)) return;
     const int r = st->r, R = x->stride, two = gvi__two_now(st), nodes = two ? 2*R : R, most = GVI__DIG*2/7;
     const int wanted = two ? r + r/2 - r/8 : r - 1, degree = wanted < most ? wanted : most;
-    gvi_real *p = x->row, *before = p + 3*R, *at = x->place;
+    gvi_real *p = x->row, *before = p + 3*R, *at = before + 3*R;
     gvi_real coupling = 0, norm = 1/GVI_SQRT((gvi_real)(two ? 2*r : r));
     for (int m = 0; m < 3*R; ++m) {
         const gvi_real c = x->c[m % R];
@@ -4373,6 +4435,21 @@ GVI__APART void gvi__extrapolate(gvi_stepper *st, const gvi_real *last, const gv
     else gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, y, out);
 }
 
+/* Which E is better for this motion and h?  Where eight steps take six rounds each, the next eight
+   are made with the other, and the one with fewer rounds stays, for a thousand steps.  */
+static void gvi__learn(gvi_stepper *st, int used)
+{
+    struct gvi__learned *y = &st->x.learned;
+    if (gvi__counts(st)) return;
+    y->rounds += used;
+    if (++y->steps < (y->stage == GVI__IDLES ? 1024 : 8)) return;
+    const int tries = y->stage == GVI__MEASURES && y->rounds >= 48;
+    if (tries || (y->stage == GVI__TRIES && y->rounds >= y->before)) y->lengthy = !y->lengthy;
+    y->stage = (signed char)(tries ? GVI__TRIES : y->stage == GVI__IDLES ? GVI__MEASURES : GVI__IDLES);
+    y->before = y->rounds;
+    y->rounds = y->steps = 0;
+}
+
 // E for this step, if it is not that already
 GVI__APART void gvi__prepare_guess(gvi_stepper *st, gvi_real alpha, gvi_real beta, int query)
 {
@@ -4381,7 +4458,9 @@ GVI__APART void gvi__prepare_guess(gvi_stepper *st, gvi_real alpha, gvi_real bet
     const int two = GVI__KIND > 1 && step && x->alike == 2 && x->older_F && !gvi__nonzero(beta - 1);
     const int sums = step && gvi__uses(st, GVI_POSITIONS) && !gvi__mass_is(st, GVI_MASS_DENSE)
                      && !gvi__A(&x->work);
-    const signed char is = (signed char)((two ? GVI__OF_TWO : 0) + (sums ? GVI__SUMS : 0));
+    const int lengthy = GVI__LEARNS && two && x->learned.lengthy;
+    const signed char is = (signed char)((two ? GVI__OF_TWO : 0) + (sums ? GVI__SUMS : 0)
+                                         + (lengthy ? GVI__LONG : 0));
     if (!query && !gvi__nonzero(beta - x->ratio) && is == x->E_is) return;
     x->ratio = query ? 0 : beta;
     x->E_is = is;
@@ -5659,6 +5738,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, gvi__from *from, gvi_real h,
             status = gvi__fixed_point(st, from, h, !plain, &used);
             gvi__count(&st->counters.iterations, used);
             if (!query) st->iterations = used;
+            if (GVI__LEARNS && !query && !plain && gvi__two_now(st)) gvi__learn(st, used);
             if (used > st->counters.most_iterations) st->counters.most_iterations = used;
             // only a refusal at the extrapolated values themselves is worth a second try
             if (status == GVI_OK || status == GVI_E_CONVERGENCE || used > 1) break;
@@ -5776,6 +5856,8 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     gvi__move(st->n, x->dq, explicit_one ? NULL : x->dqe, x->q, x->qe, x->q0);
     gvi__move(st->n, x->dp, explicit_one ? NULL : x->dpe, x->p, x->pe, x->p0);
     if (GVI__KIND > 1) x->alike = x->stepped && !gvi__nonzero(h - st->h) ? 2 : 1;
+    if (GVI__LEARNS && x->alike < 2)
+        x->learned.steps = x->learned.rounds = x->learned.stage = x->learned.lengthy = 0;
     gvi__two t = gvi__sum(st->t, x->dt + x->te);
     if (GVI__CLOCK && x->clock >= 0) {
         const gvi__two H = gvi__sum(x->H, x->dH + x->He);
