@@ -202,7 +202,7 @@ own-quadrature: $(BUILD)/cost/own_quadrature
 float:
 	$(Q)CC='$(CC)' sh tests/tools/float.sh $(BUILD)
 
-## instructions points, iterations and instructions of six fixed runs; RECORD=--record writes them anew
+## instructions points, iterations and instructions of seven fixed runs; RECORD=--record writes them anew
 instructions:
 	$(Q)CC='$(CC)' sh tests/tools/instructions.sh $(BUILD) $(RECORD)
 

@@ -115,9 +115,9 @@
               more, in its step and the next two; without desc.iterations, where steps take six
               rounds, in two of a thousand as well.  With stiffness: n (30R + 200) more, and for
               each k/m at a new h r (16p (12s + 70) + 4r (s + 20)) + 3r^2 R + 200, sines counted
-              as one, p = 1 + (h omega + s + s^2/32)/6.  Twice that where the extrapolated start
-              leads nowhere, four times where the step fails.  Without a clock, Lagrangian
-              terms or marks; counted by make bound.
+              as one, p = 1 + (h omega + s + s^2/32)/6; explicit: 18n(r+1) and 280(r+1).  Twice
+              that where the extrapolated start leads nowhere, four times where the step fails.
+              Without a clock, Lagrangian terms or marks; counted by make bound.
 
    gvi.h does not: choose or adapt the step, treat constraints or contact,
    run in parallel, or read or write anything.
@@ -256,6 +256,8 @@
    by it alone.  b_i K_ij - b_j K_ji = b_i b_j S(c_i - c_j): so the step is symplectic for any
    k, beside any other coordinates, and of the same order.  The right k is the best: where the
    spring is all there is, a step of any h is the exact rotation.  Another k is another step.
+   Explicit, the drifts are arcs, and the kicks are by g: of Stoermer-Verlet that makes Deuflhard's
+   method [3, XIII.1], and splittings keep their order, for g is of q alone.
    [3, XIII] is about methods of this kind.  Their limits: near nu = pi, 2 pi ... steps can
    resonate with g; a momentum map stays exact where k is the same multiple of m for all
    coordinates that the symmetry mixes, and not if it shifts one with a k.  Newton's method and
@@ -263,10 +265,10 @@
    GVI_E_CONVERGENCE, gvi_discrete_lagrangian and gvi_start_configurations in
    GVI_E_FORMULATION.  It pays from h omega = 1/2 or so, and takes (2r + 3) R + 8 numbers of
    memory for each k_i/m_i that is not that of the stiff coordinate before, and (K R + 2) n,
-   K = 1 for positions, 2 for velocities.  A new h, as of gvi_state_at, costs as much as some
-   steps.  It is for positions and velocities with unit or diagonal mass and without
-   Lagrangian terms; elsewhere, compiled for size, with GVI_NO_RULES and for k_i <= 0 it is
-   not heeded.
+   K = 1 for positions, 2 for velocities; explicit (3r + 5) n.  A new h, as of gvi_state_at,
+   costs as much as some steps.  It is for explicit, positions and velocities with unit or
+   diagonal mass and without Lagrangian terms; elsewhere, compiled for size, with GVI_NO_RULES
+   and for k_i <= 0 it is not heeded.
 
    CLOCK.  An effect g(q) > 0 makes time run as dt = g dtau, and h is a step in
    tau: t moves fast or slow, and the map is as symplectic as with fixed steps
@@ -890,7 +892,8 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__RESTS 1
 #endif
 #define GVI__PATH (GVI__RESTS || !GVI__SMALL)         // h v is kept
-#define GVI__STIFF (GVI__TURNS && GVI__RULES && !GVI__SMALL && (GVI__POSITIONS || GVI__VELOCITIES))
+#define GVI__STIFF (GVI__TURNS && GVI__RULES && !GVI__SMALL                      \
+                    && (GVI__EXPLICIT || GVI__POSITIONS || GVI__VELOCITIES))
 #ifdef GVI_NO_DIAGNOSIS
 #define GVI__DIAGNOSIS 0
 #else
@@ -2533,7 +2536,8 @@ static int gvi__springs(const gvi__scene *x, gvi_real *k)
 {
     const gvi_desc *d = x->desc;
     const int heeded = GVI__STIFF && d->stiffness && d->mass.kind <= GVI_MASS_DIAGONAL
-        && (gvi__chosen_is(x->chosen, GVI_POSITIONS) || gvi__chosen_is(x->chosen, GVI_VELOCITIES))
+        && (gvi__chosen_is(x->chosen, GVI_EXPLICIT) || gvi__chosen_is(x->chosen, GVI_POSITIONS)
+            || gvi__chosen_is(x->chosen, GVI_VELOCITIES))
         && !gvi__flag(x->flags, GVI__HAS_LAGRANGIAN);
     int tables = 0;
     gvi_real last = 0;
@@ -2749,6 +2753,19 @@ enum {
 
 enum { GVI__ARC_HEAD = 8, GVI__ARC_TAIL = 8 };                            // see gvi__arc_of
 
+static inline size_t gvi__whole(size_t n) { return (n + 7)/8*8; }
+
+/* x->springs: see gvi__arc.  Explicit: shears of each drift, and its half turns */
+static size_t gvi__springs_length(const gvi__scene *x, size_t R)
+{
+    const size_t n = (size_t)x->desc->n, r = (size_t)x->desc->rule.points;
+    const size_t rows = gvi__chosen_is(x->chosen, GVI_VELOCITIES) ? 2 : 1;
+    const size_t arcs = (size_t)x->springs*((2*r + 3)*R + GVI__ARC_TAIL) + rows*R*n;
+    if (!GVI__STIFF || !x->springs) return 0;
+    return GVI__ARC_HEAD + gvi__whole(2*n)
+        + (gvi__chosen_is(x->chosen, GVI_EXPLICIT) ? (r + 1)*(3*gvi__whole(n) + 1) : arcs);
+}
+
 GVI__APART void gvi__lengths(const gvi__scene *x, size_t *length)
 {
     const gvi_desc *d = x->desc;
@@ -2766,7 +2783,7 @@ GVI__APART void gvi__lengths(const gvi__scene *x, size_t *length)
     length[GVI__3] = 3;
     length[GVI__6] = 6;
     length[GVI__n] = n;
-    length[GVI__N] = n < 8 ? n : (n + 7)/8*8;
+    length[GVI__N] = n < 8 ? n : gvi__whole(n);
     length[GVI__R] = R;
     length[GVI__s] = s;
     length[GVI__STATE] = kicks ? length[GVI__N] : n;
@@ -2792,8 +2809,7 @@ GVI__APART void gvi__lengths(const gvi__scene *x, size_t *length)
     length[GVI__DIAGONAL] = d->mass.kind == GVI_MASS_DIAGONAL ? length[GVI__N] : 0;
     length[GVI__TWO_MASSES] = dense ? 2*n : 0;                 // factored, and as it is
     length[GVI__STILL] = iterates && gvi__marks(d) ? n + 2 : 0;
-    length[GVI__SPRINGS] = !GVI__STIFF || !x->springs ? 0
-        : GVI__ARC_HEAD + (size_t)x->springs*((2*r + 3)*R + GVI__ARC_TAIL) + ((velocities ? 2 : 1)*R + 2)*n;
+    length[GVI__SPRINGS] = gvi__springs_length(x, R);
     length[GVI__Z] = dense && positions ? n : 0;
     length[GVI__AT_POINTS] = gvi__has_mass(d, GVI_MASS_POSITION) ? n : 0;
     length[GVI__nR] = n*R;
@@ -2917,18 +2933,25 @@ static gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
 }
 
 /* Where stiffness is heeded x->springs begins with h, for which the tables hold, and their
-   count.  Behind the tables of each k/m: [n][R] rows of the free motion, of velocities as
-   well where they are rows; [n] k; [n] its set of tables.                      */
+   count; [n] k; [n] its set of tables.  Behind the tables of each k/m: [n][R] rows of the
+   free motion, of velocities as well where they are rows.                      */
 typedef struct gvi__arc {
     gvi_real *K, *E;                  /* [r][R] h K_aj/b_j; gvi__fit_sums with it, or for V */
     gvi_real *cosine, *sine, *slope;  /* [R] cos nu (1 - c), sin nu (1 - c)/omega, times omega^2 */
     gvi_real *turn;                   /* tan(nu'/2)/omega, omega sin nu', sign  */
 } gvi__arc;
 
+static inline gvi_real *gvi__stiffness(const gvi_stepper *st) { return st->x.springs + GVI__ARC_HEAD; }
+
+static inline gvi_real *gvi__spring_tables(const gvi_stepper *st)
+{
+    return gvi__stiffness(st) + gvi__whole(2*(size_t)st->n);
+}
+
 static inline gvi__arc gvi__arc_of(const gvi_stepper *st, int which)
 {
     const int R = st->x.stride, table = st->r*R;
-    gvi_real *at = st->x.springs + GVI__ARC_HEAD + (size_t)which*(size_t)(2*table + 3*R + GVI__ARC_TAIL);
+    gvi_real *at = gvi__spring_tables(st) + (size_t)which*(size_t)(2*table + 3*R + GVI__ARC_TAIL);
     gvi__arc arc;
     arc.K = at;
     arc.E = at + table;
@@ -2942,11 +2965,6 @@ static inline gvi__arc gvi__arc_of(const gvi_stepper *st, int which)
 static inline gvi_real *gvi__free_rows(const gvi_stepper *st)
 {
     return gvi__arc_of(st, (int)st->x.springs[1]).K;
-}
-
-static inline gvi_real *gvi__stiffness(const gvi_stepper *st)
-{
-    return gvi__free_rows(st) + (gvi__uses(st, GVI_VELOCITIES) ? 2 : 1)*st->n*st->x.stride;
 }
 
 static gvi_status gvi__check_stiffness(gvi_stepper *st, const gvi_real *stiffness)
@@ -3181,6 +3199,13 @@ static void gvi__drift_dense(gvi_stepper *st, const gvi__from *from, gvi_real a)
     for (int i = 0; i < st->n; ++i) x->work.Q[i] = from->q[i] + (x->dq[i] += a*(from->v[i] + z[i]));
 }
 
+static inline gvi_status gvi__kick_force(gvi_stepper *st, gvi_points *y, int only)
+{
+    if (only) return gvi__call(st, y, st->x.single);
+    const gvi_status status = gvi__check_points(st, y);
+    return status == GVI_OK ? gvi__effects(st, y, 0) : status;
+}
+
 /* One evaluation a kick.  `force` is that at the start, if it is known: after a step
    whose last node was 1.  dqe and dpe are never anything but 0 here.          */
 static inline gvi_status gvi__explicit_of(gvi_stepper *st, const gvi__from *from, gvi_real h,
@@ -3205,8 +3230,7 @@ static inline gvi_status gvi__explicit_of(gvi_stepper *st, const gvi__from *from
         const gvi_real b = x->hb[j];
         a = dense ? 0 : x->drift[j + 1];
         t = from->t + (from->te + x->c[j]*h);
-        gvi_status status = only ? gvi__call(st, &y, x->single) : gvi__check_points(st, &y);
-        if (!only && status == GVI_OK) status = gvi__effects(st, &y, 0);
+        const gvi_status status = gvi__kick_force(st, &y, only);
         if (status != GVI_OK) return status;
         if (j < r - 1) gvi__kick_drift(n, GVI__KICK, b, a, m, from, zero, NULL, F, dp, dq, Q);
         else gvi__kick_drift(n, GVI__LAST_KICK, b, a, m, from, zero, NULL, F, dp, dq, Q);
@@ -3215,7 +3239,8 @@ static inline gvi_status gvi__explicit_of(gvi_stepper *st, const gvi__from *from
     return GVI_OK;
 }
 
-GVI__APART gvi_status gvi__explicit(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *force)
+GVI__APART gvi_status gvi__explicit_lines(gvi_stepper *st, const gvi__from *from, gvi_real h,
+                                          const gvi_real *force)
 {
     return st->n == 2 && !GVI__SMALL ? gvi__explicit_of(st, from, h, force, 2)
                                      : gvi__explicit_of(st, from, h, force, st->n);
@@ -5707,6 +5732,124 @@ GVI__APART gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, i
     return status;
 }
 
+/* ---- explicit, beside stiffness: kicks by what is left of the force, arcs between ---- */
+
+// rows of drift j: a/m, s m, sign, of gvi__arc_turn; behind the last, of each: has it odd half turns?
+static inline gvi_real *gvi__shears(const gvi_stepper *st, int j)
+{
+    return gvi__spring_tables(st) + (size_t)j*3*gvi__whole((size_t)st->n);
+}
+
+// where there is no spring a = tau/2, s = 0
+static gvi_status gvi__make_shears(gvi_stepper *st, int j)
+{
+    struct gvi__private *x = &st->x;
+    const size_t row = gvi__whole((size_t)st->n);
+    const gvi_real tau = x->drift[j], *stiffness = gvi__stiffness(st);
+    gvi_real *along = gvi__shears(st, j), *back = along + row, *sign = back + row, turn[3] = { 0, 0, 1 };
+    gvi_real *odd = gvi__shears(st, st->r + 1) + j;
+    *odd = 0;
+    for (int i = 0, made = 0; i < st->n; ++i) {
+        const gvi_real m = x->over ? x->mass[i] : 1;
+        const int stiff = gvi__nonzero(stiffness[i]);
+        if (stiff && (int)stiffness[st->n + i] == made) {
+            const gvi__two omega = gvi__frequency(stiffness[i], m), nu = gvi__scale2(tau, omega);
+            if (!(GVI_ABS(nu.hi) < 1/GVI__EPS)) return gvi__give(st, GVI_E_CONVERGENCE);
+            gvi__arc_turn(omega, nu, turn);
+            if (turn[2] < 0) *odd = 1;
+            ++made;
+        }
+        along[i] = (stiff ? turn[0] : tau/2)/m;
+        back[i] = stiff ? turn[1]*m : 0;
+        sign[i] = stiff ? turn[2] : 1;
+    }
+    return GVI_OK;
+}
+
+static gvi_status gvi__make_drifts(gvi_stepper *st, gvi_real h)
+{
+    gvi_status status = GVI_OK;
+    st->x.springs[0] = 0;
+    for (int j = 0; j <= st->r && status == GVI_OK; ++j) status = gvi__make_shears(st, j);
+    if (status == GVI_OK) st->x.springs[0] = h;
+    return status;
+}
+
+/* p += b (F + k Q), then the shears.  As in gvi__kick_drift_of little waits for F, and a kick reaches
+   q by the same a that p does.                                                 */
+GVI__COPY void gvi__kick_arc_of(int n, int odd, int last, gvi_real b, const gvi_real *GVI__RESTRICT k,
+                                const gvi_real *GVI__RESTRICT shears, const gvi__from *from, gvi_real zero,
+                                gvi_real *GVI__RESTRICT F, gvi_real *GVI__RESTRICT dp,
+                                gvi_real *GVI__RESTRICT dq, gvi_real *GVI__RESTRICT Q)
+{
+    const gvi_real *GVI__RESTRICT p0 = from->p, *GVI__RESTRICT q0 = from->q;
+    const size_t row = gvi__whole((size_t)n);
+    const gvi_real *along = shears, *back = along + row, *sign = back + row;
+    for (int i = 0; i < n; ++i) {
+        const gvi_real kick = b*(F[i] + k[i]*Q[i]), a = along[i], p = p0[i] + dp[i];
+        const gvi_real d = (dq[i] + a*p) + a*kick, pull = back[i]*(q0[i] + d);
+        gvi_real to_q = d + a*((p + kick) - pull), to_p = (dp[i] + kick) - pull;
+        if (odd) {
+            to_q = sign[i]*to_q + (sign[i] - 1)*q0[i];
+            to_p = sign[i]*to_p + (sign[i] - 1)*p0[i];
+        }
+        dq[i] = to_q;
+        dp[i] = to_p;
+        Q[i] = q0[i] + to_q;
+        if (!last) F[i] = zero;
+    }
+}
+
+static void gvi__kick_arc(const gvi_stepper *st, int j, gvi_real b, const gvi__from *from, gvi_real zero)
+{
+    const struct gvi__private *x = &st->x;
+    const int n = st->n, last = j == st->r, odd = gvi__nonzero(gvi__shears(st, st->r + 1)[j]);
+    const gvi_real *k = gvi__stiffness(st), *shears = gvi__shears(st, j);
+    gvi_real *F = x->work.F, *dp = x->dp, *dq = x->dq, *Q = x->work.Q;
+    if (odd && last) gvi__kick_arc_of(n, 1, 1, b, k, shears, from, zero, F, dp, dq, Q);
+    else if (odd) gvi__kick_arc_of(n, 1, 0, b, k, shears, from, zero, F, dp, dq, Q);
+    else if (last) gvi__kick_arc_of(n, 0, 1, b, k, shears, from, zero, F, dp, dq, Q);
+    else gvi__kick_arc_of(n, 0, 0, b, k, shears, from, zero, F, dp, dq, Q);
+}
+
+// as gvi__explicit_of; a force that is not known kicks by 0 before the first drift
+static gvi_status gvi__explicit_arcs(gvi_stepper *st, const gvi__from *from, gvi_real h,
+                                     const gvi_real *force)
+{
+    struct gvi__private *x = &st->x;
+    const int only = x->single >= 0 && !x->diagnose, r = st->r;
+    const gvi_real zero = h - h;
+    gvi_real t = from->t;
+    gvi_points y;
+    gvi_status status = gvi__nonzero(h - x->springs[0]) ? gvi__make_drifts(st, h) : GVI_OK;
+    if (status != GVI_OK) return status;
+    gvi__at(&y, st, &t, x->work.Q);
+    y.f = x->work.F;
+    y.dldv = NULL;
+    for (int i = 0; i < st->n; ++i) {
+        x->dp[i] = from->pe[i] + zero;
+        x->dq[i] = from->qe[i] + zero;
+        x->work.Q[i] = from->q[i] + zero;
+        x->work.F[i] = force ? force[i] + zero : zero;
+    }
+    int j = force != NULL;
+    gvi__kick_arc(st, j, force ? x->hb[0] : 0, from, zero);
+    for (; j < r; ++j) {
+        t = from->t + (from->te + x->c[j]*h);
+        status = gvi__kick_force(st, &y, only);
+        if (status != GVI_OK) return status;
+        gvi__kick_arc(st, j + 1, x->hb[j], from, zero);
+    }
+    return GVI_OK;
+}
+
+static inline gvi_status gvi__explicit(gvi_stepper *st, const gvi__from *from, gvi_real h,
+                                       const gvi_real *force)
+{
+    return GVI__STIFF && st->x.springs ? gvi__explicit_arcs(st, from, h, force)
+                                       : gvi__explicit_lines(st, from, h, force);
+}
+
 /* ---- a step from its start to dq and dp, nothing of it kept yet ---- */
 
 // where the last step's rows are, seen from the step to come
@@ -6151,6 +6294,23 @@ static void gvi__arcs_at(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_r
     }
 }
 
+/* Stoermer-Verlet beside stiffness: the arc that ends at q1 with the momentum before the last kick */
+static void gvi__arc_to_end(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v)
+{
+    const struct gvi__private *x = &st->x;
+    const gvi_real *stiffness = gvi__stiffness(st);
+    for (int i = 0; i < st->n; ++i) {
+        if (!gvi__nonzero(stiffness[i])) continue;
+        const gvi__two omega = gvi__frequency(stiffness[i], x->over ? x->mass[i] : 1);
+        const gvi_real kick = x->hb[1]*(x->last.F[i] + stiffness[i]*x->q[i]);
+        const gvi_real v1 = (x->over ? x->over[i] : 1)*(x->p[i] - kick);
+        gvi_real sine, cosine;
+        gvi__turn(gvi__scale2(st->h, omega), 1 - tau, &sine, &cosine);
+        q[i] = cosine*x->q[i] - sine/omega.hi*v1;
+        v[i] = cosine*v1 + omega.hi*sine*x->q[i];
+    }
+}
+
 /* Curve and velocity of the last step by the same formulas as at its points,
    with the table row that belongs to tau.                                     */
 static void gvi__curve(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v)
@@ -6164,6 +6324,7 @@ static void gvi__curve(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
             q[i] = tau < (gvi_real)0.5 ? x->q0[i] + tau*way : x->q[i] - (1 - tau)*way;
             v[i] = way/st->h;
         }
+        if (GVI__STIFF && x->springs) gvi__arc_to_end(st, tau, q, v);
         return;
     }
     gvi__modes(st, tau, a, b);
@@ -6316,7 +6477,8 @@ static gvi_status gvi__arc_action(gvi_stepper *st, gvi_real *action)
         sum += (gvi__nonzero(stiffness[i]) ? way + (x->p[i] - x->p0[i])*x->q0[i] : way)/2;
     }
     for (int j = 0; j < st->r; ++j) {
-        gvi__gather(n, R, x->last.Q + j, q);
+        if (gvi__uses(st, GVI_EXPLICIT)) gvi__copy((size_t)n, j > 0 ? x->q : x->q0, q);
+        else gvi__gather(n, R, x->last.Q + j, q);
         if (gvi__uses(st, GVI_VELOCITIES)) gvi__gather(n, R, x->last.V + j, v);
         const gvi_real t = x->t0 + x->c[j]*st->h;
         gvi_status status = gvi__values(st, t, q, v, &V, &L, &T);

@@ -6,13 +6,14 @@
 typedef long double real;
 #define EXTRAPOLATE_MOST 16
 #include "hard/extrapolate.h"
+#include "splittings.h"
 
 /* ---------------------------------------------------------------- the scene
 
    Four masses, each on a spring of its own, in a row with soft quartic springs between; a weak
    quartic trough; drag; a magnetic field, L = B (q0 v1 - q1 v0)/2.             */
 
-enum { N = 4 };
+enum { N = 4, TABLES = 8 };
 static const gvi_real mass[N] = { 1, 2, (gvi_real)0.5L, 1 }, k[N] = { 0, 400, 900, 400 };
 static const gvi_real q0[N] = { (gvi_real)0.5L, (gvi_real)0.03L, (gvi_real)-0.02L, (gvi_real)0.01L };
 static const gvi_real v0[N] = { (gvi_real)0.25L, (gvi_real)-0.25L, (gvi_real)0.5L, (gvi_real)0.25L };
@@ -102,6 +103,16 @@ static void set_up(trial *a, gvi_desc desc, const gvi_real *stiffness)
     assert_ok(gvi_start(&a->st, 0, q0, v0));
 }
 
+// table i of kicks; -1: Stoermer-Verlet as a rule of Lobatto's
+static gvi_rule rule_of(int i)
+{
+    int count;
+    const table *all = tables(&count);
+    if (i < 0) return (gvi_rule){ .kind = GVI_LOBATTO, .points = 2 };
+    assert_true(i < count);
+    return (gvi_rule){ GVI_KICKS, all[i].r, all[i].c, all[i].b };
+}
+
 static void steps(trial *a, int count, gvi_real h)
 {
     for (; count > 0; --count) assert_ok(gvi_step(&a->st, h));
@@ -143,6 +154,8 @@ static real error_of(const trial *a)
     return apart(a, known, known + N);
 }
 
+static const gvi_real step = (gvi_real)0.0625L;   // h omega to 2.7
+
 static void assert_same(const trial *a, const trial *b)
 {
     for (int i = 0; i < N; ++i) {                 // by value: a long double has bytes that say nothing
@@ -162,15 +175,21 @@ static int pull(const gvi_points *x, void *user)
 
 static gvi_real small[2][GVI_LENGTH(1, 16, 16)], one_mass;
 
-static void set_oscillator(gvi_stepper *st, int which, int s, gvi_real m, gvi_real told, gvi_real q, gvi_real p)
+static void set_oscillator_of(gvi_stepper *st, int which, int s, gvi_rule rule, gvi_real m, gvi_real told,
+                              gvi_real q, gvi_real p)
 {
     static const gvi_effect effect = { .kind = GVI_POTENTIAL, .points = pull };
     one_mass = m;
-    const gvi_desc desc = { .n = 1, .degree = s, .effects = &effect, .effect_count = 1,
+    const gvi_desc desc = { .n = 1, .degree = s, .rule = rule, .effects = &effect, .effect_count = 1,
                             .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = &one_mass }, .stiffness = &told };
     assert_ok(gvi_init(st, &desc, small[which], sizeof small[which]));
     told = 0;                                     // read by gvi_init only
     assert_ok(gvi_start_momentum(st, 0, &q, &p));
+}
+
+static void set_oscillator(gvi_stepper *st, int which, int s, gvi_real m, gvi_real told, gvi_real q, gvi_real p)
+{
+    set_oscillator_of(st, which, s, (gvi_rule){ .kind = GVI_GAUSS }, m, told, q, p);
 }
 
 /* The right k: the exact rotation at any h omega and degree, a few EPS a step, in one round but for
@@ -359,6 +378,11 @@ static void test_symplectic(void **state)
                 symplectic(desc, told[i], (gvi_real)0.0625L);
                 symplectic(desc, told[i], (gvi_real)-0.03L);
             }
+    for (int i = 0; i < COUNT(told); ++i)
+        for (int a = -1; a < TABLES; ++a) {
+            symplectic((gvi_desc){ .degree = 1, .rule = rule_of(a) }, told[i], (gvi_real)0.0625L);
+            symplectic((gvi_desc){ .degree = 1, .rule = rule_of(a) }, told[i], (gvi_real)-0.03L);
+        }
     (void)state;
 }
 
@@ -375,22 +399,27 @@ static int bowl(const gvi_points *x, void *user)
     return (void)user, 0;
 }
 
-static void test_rotations(void **state)
+static void rotations(int s, gvi_rule rule, gvi_real h)
 {
-    static gvi_real memory[GVI_LENGTH(2, 16, 16)];
+    static gvi_real memory[GVI_LENGTH(2, 16, 23)];
     const gvi_real two[] = { 2, 2 }, start[] = { 1, 0 }, p[] = { 3, (gvi_real)8.5L };
     const gvi_effect effect = { .kind = GVI_POTENTIAL, .points = bowl };
-    for (int s = 1; s <= 16; s *= 2)
-        for (int told = 100; told <= 500; told += 100) {
-            const gvi_real same[] = { (gvi_real)told, (gvi_real)told };
-            const gvi_desc desc = { .n = 2, .degree = s, .effects = &effect, .effect_count = 1, .stiffness = same,
-                                    .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = two } };
-            gvi_stepper st;
-            assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-            assert_ok(gvi_start_momentum(&st, 0, start, p));
-            for (int n = 0; n < 200; ++n) assert_ok(gvi_step(&st, (gvi_real)0.1L));
-            assert_close((real)st.q[0]*st.p[1] - (real)st.q[1]*st.p[0], p[1], 2000*EPS);
-        }
+    for (int told = 100; told <= 500; told += 100) {
+        const gvi_real same[] = { (gvi_real)told, (gvi_real)told };
+        const gvi_desc desc = { .n = 2, .degree = s, .rule = rule, .effects = &effect, .effect_count = 1,
+                                .stiffness = same, .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = two } };
+        gvi_stepper st;
+        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+        assert_ok(gvi_start_momentum(&st, 0, start, p));
+        for (int n = 0; n < 200; ++n) assert_ok(gvi_step(&st, h));
+        assert_close((real)st.q[0]*st.p[1] - (real)st.q[1]*st.p[0], p[1], 2000*EPS);
+    }
+}
+
+static void test_rotations(void **state)
+{
+    for (int s = 1; s <= 16; s *= 2) rotations(s, (gvi_rule){ .kind = GVI_GAUSS }, (gvi_real)0.1L);
+    for (int i = -1; i < TABLES; ++i) rotations(1, rule_of(i), (gvi_real)0.04L);
     (void)state;
 }
 
@@ -426,12 +455,12 @@ static void ignored(gvi_desc desc, const gvi_real *told)
 
 static void test_not_heeded(void **state)
 {
-    static const gvi_real nodes[] = { 0, 1 }, weights[] = { (gvi_real)0.5L, (gvi_real)0.5L };
+    const gvi_rule kicks = rule_of(3);
     static const gvi_real full[N*N] = { 1, 0, 0, 0,  0, 2, 0, 0,  0, 0, (gvi_real)0.5L, 0,  0, 0, 0, 1 };
     static const gvi_real none[][N] = { { 0, 0, 0, 0 }, { -1, -400, 0, -900 } };
     const gvi_desc all[] = {
-        { .degree = 1, .rule = { .kind = GVI_LOBATTO } },
-        { .rule = { .kind = GVI_KICKS, .points = 2, .nodes = nodes, .weights = weights } },
+        { .degree = 1, .rule = { .kind = GVI_LOBATTO }, .mass = { .kind = GVI_MASS_DENSE, .matrix = full } },
+        { .rule = kicks, .mass = { .kind = GVI_MASS_DENSE, .matrix = full } },
         { .degree = 4, .effect_count = 4 },
         { .degree = 4, .formulation = GVI_MOMENTA }, { .degree = 4, .formulation = GVI_NEWTON },
         { .degree = 4, .mass = { .kind = GVI_MASS_DENSE, .matrix = full } },
@@ -475,6 +504,17 @@ static void test_refusals(void **state)
     set_oscillator(&st, 0, 4, 1, huge, 1, 0);
     assert_status(gvi_step(&st, 1), GVI_E_CONVERGENCE);
     assert_ok(gvi_start(&st, 0, q0, v0));
+    for (int i = -1; i < TABLES; ++i) {
+        set_up(&stiff, (gvi_desc){ .degree = 1, .rule = rule_of(i) }, k);
+        assert_status(gvi_discrete_lagrangian(&stiff.st, 0, step, q0, q0, &out), GVI_E_FORMULATION);
+        assert_status(gvi_start_configurations(&stiff.st, 0, step, q0, q0), GVI_E_FORMULATION);
+        steps(&stiff, 1, step);
+        assert_status(gvi_curve(&stiff.st, (gvi_real)0.5L, NULL, NULL), i < 0 ? GVI_OK : GVI_E_FORMULATION);
+        assert_status(gvi_action(&stiff.st, &L), i < 0 ? GVI_OK : GVI_E_FORMULATION);
+        set_oscillator_of(&st, 0, 1, rule_of(i), 1, huge, 1, 0);
+        assert_status(gvi_step(&st, 1), GVI_E_CONVERGENCE);
+        assert_true(!(st.q[0] < 1) && !(st.q[0] > 1) && !(st.t < 0) && !(st.t > 0));
+    }
     (void)state;
 }
 
@@ -500,6 +540,264 @@ static void test_length(void **state)
                     desc.stiffness = NULL;
                     assert_between(1, gvi_size(&desc), (size_t)GVI_LENGTH(n, s, r)*sizeof(gvi_real));
                 }
+    for (int n = 1; n <= COUNT(many); ++n)
+        for (int i = -1; i < TABLES; ++i)
+            for (int diagonal = 0; diagonal < 2; ++diagonal) {
+                gvi_desc desc = { .n = n, .degree = 1, .rule = rule_of(i), .effects = scene, .effect_count = 1 };
+                if (diagonal) desc.mass = (gvi_mass){ .kind = GVI_MASS_DIAGONAL, .matrix = masses };
+                const size_t without = gvi_size(&desc);
+                desc.stiffness = many;
+                assert_between(without + 1, gvi_size(&desc),
+                               (size_t)GVI_LENGTH(n, 1, desc.rule.points)*sizeof(gvi_real));
+            }
+    (void)state;
+}
+
+/* ------------------------------------------------------------- kicks between arcs */
+
+static void forces(const real *q, real *f)
+{
+    real y[2*N], dy[2*N];
+    for (int i = 0; i < N; ++i) y[i] = q[i], y[N + i] = 0;
+    rates(0, y, dy, NULL);
+    for (int i = 0; i < N; ++i) f[i] = mass[i]*dy[N + i];
+}
+
+// cos omega t, sin omega t/omega
+static void turns(real square, real t, real *C, real *S)
+{
+    const real omega = sqrtl(square);
+    *C = cosl(omega*t);
+    *S = square > 0 ? sinl(omega*t)/omega : t;
+}
+
+/* One step: rotations by sine and cosine, kicks by what is left of the force; in long double */
+static void by_hand(const table *a, const gvi_real *told, real h, real *q, real *p)
+{
+    real at = 0, f[N], C, S;
+    for (int j = 0; j <= a->r; ++j) {
+        const real to = j < a->r ? a->c[j] : 1;
+        for (int i = 0; i < N; ++i) {
+            const real was = q[i];
+            turns((real)told[i]/mass[i], (to - at)*h, &C, &S);
+            q[i] = C*was + S*p[i]/mass[i];
+            p[i] = C*p[i] - told[i]*S*was;
+        }
+        at = to;
+        if (j == a->r) break;
+        forces(q, f);
+        for (int i = 0; i < N; ++i) p[i] += h*a->b[j]*(f[i] + told[i]*q[i]);
+    }
+}
+
+static const gvi_real right_and_wrong[][N] = { { 0, 400, 900, 400 }, { 3, 380, 1000, 410 }, { 40, 0, 450, 800 } };
+
+/* 20 steps, h omega to 2.7 and more where drifts are longer than steps; nodes and weights as rounded are
+   those of both                                                                 */
+static void test_kicks_by_hand(void **state)
+{
+    int count;
+    const table *all = tables(&count);
+    assert_int_equal(count, TABLES);
+    for (int a = 0; a < count; ++a)
+        for (int t = 0; t < COUNT(right_and_wrong); ++t)
+            for (int back = 0; back < 2; ++back) {
+                const gvi_real *told = right_and_wrong[t], h = (gvi_real)((back ? -0.0625L : 0.0625L)/(t < 2 ? 1 : 4));
+                real q[N], p[N];
+                set_up(&stiff, (gvi_desc){ .rule = rule_of(a) }, told);
+                assert_int_equal(stiff.st.formulation, GVI_EXPLICIT);
+                for (int i = 0; i < N; ++i) q[i] = q0[i], p[i] = v0[i]*mass[i];
+                for (int n = 0; n < 20; ++n) by_hand(&all[a], told, h, q, p);
+                steps(&stiff, 20, h);
+                assert_between(0, apart(&stiff, q, p), 100*EPS);
+            }
+    (void)state;
+}
+
+/* Deuflhard's method, C = cos h omega, S = sin h omega/omega:
+     q1 = C q0 + S v0 + h S g0/(2m)     v1 = C v0 - omega^2 S q0 + h (C g0 + g1)/(2m)     */
+static void test_deuflhard(void **state)
+{
+    const gvi_real h = (gvi_real)0.09375L;
+    set_up(&stiff, (gvi_desc){ .degree = 1, .rule = rule_of(-1) }, k);
+    set_up(&other, (gvi_desc){ .rule = rule_of(0) }, k);
+    for (int n = 0; n < 60; ++n) {
+        real q[N], v[N], g[2][N], end[N], p[N], C, S;
+        for (int i = 0; i < N; ++i) q[i] = stiff.st.q[i], v[i] = (real)stiff.st.p[i]/mass[i];
+        forces(q, g[0]);
+        for (int i = 0; i < N; ++i) {
+            turns((real)k[i]/mass[i], h, &C, &S);
+            g[0][i] += k[i]*q[i];
+            end[i] = C*q[i] + S*v[i] + h*S*g[0][i]/(2*mass[i]);
+        }
+        forces(end, g[1]);
+        for (int i = 0; i < N; ++i) {
+            turns((real)k[i]/mass[i], h, &C, &S);
+            g[1][i] += k[i]*end[i];
+            p[i] = C*v[i]*mass[i] - S*q[i]*k[i] + h*(C*g[0][i] + g[1][i])/2;
+        }
+        steps(&stiff, 1, h);
+        steps(&other, 1, h);
+        assert_between(0, apart(&stiff, end, p), 12*EPS);
+        assert_same(&stiff, &other);
+        assert_int_equal(stiff.st.counters.effect[0], n + 2);            // no more than without springs
+    }
+    (void)state;
+}
+
+/* The right k: the exact rotation at any h omega, of odd and even half turns too.  r + 1 drifts turn
+   by angles as wrong as EPS/2 of their shears make them, at random; what is left of the force is a rounding
+   of k q, where a product and a sum are one; and so is the angle that is compared with  */
+static void test_kicks_rotate(void **state)
+{
+    int count;
+    const table *all = tables(&count);
+    for (int a = -1; a < count; ++a)
+        for (int w = 1; w <= 40; ++w)
+            for (int back = 0; back < 2; ++back) {
+                gvi_stepper st;
+                const gvi_real m = w % 2 ? 1 : (gvi_real)7.3L;
+                const real omega = 0.75L*w;
+                const int r = a < 0 ? 2 : all[a].r;
+                constant = (gvi_real)(omega*omega*m);
+                const real exact = sqrtl((real)constant/m);
+                const gvi_real h = (gvi_real)((w % 5 ? 1 : 3.14159265358979323846L*w/5/exact)*(back ? -1 : 1));
+                real kicks = 0;
+                for (int j = 0; j < r; ++j) kicks += a < 0 ? 0.5L : fabsl(all[a].b[j]);
+                set_oscillator_of(&st, 0, 1, rule_of(a), m, constant, 1, (gvi_real)(m*omega));
+                for (int n = 1; n <= 50; ++n) {
+                    assert_ok(gvi_step(&st, h));
+                    const real turn = exact*h*n, p = (real)(gvi_real)(m*omega)/(m*exact);
+                    const real bound = EPS*(real)(n + 2)*((r + 1)/2.0L + (1 + kicks)*fabsl(h)*exact);
+                    assert_close(st.q[0], cosl(turn) + p*sinl(turn), bound);
+                    assert_close(st.p[0]/(m*exact), p*cosl(turn) - sinl(turn), bound);
+                }
+                assert_int_equal(st.formulation, GVI_EXPLICIT);
+            }
+    (void)state;
+}
+
+/* The last two runs to t = 2, by a factor of 2 in h, that are far above rounding: the order, on both sides.
+   With rough k, for what the right one leaves is too little                       */
+static void test_kicks_order(void **state)
+{
+    int count;
+    const table *all = tables(&count);
+    for (int a = -1; a < count; ++a) {
+        const int wanted = a < 0 ? 2 : all[a].order;
+        real last = 1, order = 0;
+        if (wanted == 3) continue;                // its error is that of order 4 here
+        for (int e = 4; e < 11; ++e) {
+            set_up(&stiff, (gvi_desc){ .degree = 1, .rule = rule_of(a) }, right_and_wrong[1]);
+            steps(&stiff, 1 << e, (gvi_real)2/(gvi_real)(1 << e));
+            const real error = error_of(&stiff);
+            if (error > 2000*EPS && last < 0.003L) order = log2l(last/error);
+            last = error;
+        }
+        if (GVI__KIND > 1 || wanted == 2) assert_between(wanted - 0.25L, order, wanted + 0.25L);
+    }
+    (void)state;
+}
+
+/* Shears keep areas: a wrong k, 4096 steps, each kick and drift with a rounding at random; a rotation
+   by a rounded sine and cosine loses EPS/2 or so in each of them, always the same way.  */
+static void test_kicks_area(void **state)
+{
+    static const gvi_real wrong[] = { (gvi_real)0.5L, (gvi_real)0.9L, (gvi_real)1.1L, 2 };
+    for (int a = -1; a < TABLES; ++a)
+        for (int i = 0; i < COUNT(wrong); ++i)
+            for (int w = 1; w <= 4; ++w) {
+                gvi_stepper st[2];
+                const gvi_real omega = (gvi_real)(w*0.3L);
+                const int r = rule_of(a).points;
+                constant = omega*omega;
+                set_oscillator_of(st, 0, 1, rule_of(a), 1, constant*wrong[i], 1, 0);
+                set_oscillator_of(st + 1, 1, 1, rule_of(a), 1, constant*wrong[i], 0, omega);
+                for (int n = 0; n < 4096; ++n) {
+                    assert_ok(gvi_step(st, 1));
+                    assert_ok(gvi_step(st + 1, 1));
+                }
+                const real area = (real)st[0].q[0]*st[1].p[0] - (real)st[1].q[0]*st[0].p[0];
+                assert_close(area/omega, 1, 4*EPS*sqrtl(4096.0L*(r + 1)));
+            }
+    (void)state;
+}
+
+/* 20,000 steps of order 8, whose own error is none at this h: energy moves as roundings at random do */
+static void test_kicks_energy(void **state)
+{
+    real E[2];
+    enum { many = 20000 };
+    set_up(&stiff, (gvi_desc){ .rule = rule_of(7) }, k);
+    for (int end = 0; end < 2; ++end) {
+        const gvi_real *q = stiff.st.q, *p = stiff.st.p;
+        E[end] = 0;
+        for (int i = 0; i < N; ++i) {
+            const real right = i + 1 < N ? (real)q[i + 1] - q[i] : 0;
+            E[end] += ((real)p[i]*p[i]/mass[i] + (real)k[i]*q[i]*q[i])/2 + (right*right*right*right)/4
+                + (real)q[i]*q[i]*q[i]*q[i]/256;
+        }
+        if (!end) steps(&stiff, many, (gvi_real)0.015625L);
+    }
+    assert_close(E[1]/E[0], 1, 4*EPS*sqrtl(many));
+    (void)state;
+}
+
+/* Masses that are 1, given or not: the same bits */
+static void test_kicks_unit_mass(void **state)
+{
+    static const gvi_real ones[N] = { 1, 1, 1, 1 };
+    for (int a = -1; a < TABLES; ++a) {
+        gvi_desc desc = { .n = N, .degree = 1, .rule = rule_of(a), .effects = scene, .effect_count = 2 };
+        desc.stiffness = k;
+        assert_ok(gvi_init(&plain.st, &desc, plain.memory, sizeof plain.memory));
+        desc.mass = (gvi_mass){ .kind = GVI_MASS_DIAGONAL, .matrix = ones };
+        assert_ok(gvi_init(&stiff.st, &desc, stiff.memory, sizeof stiff.memory));
+        assert_ok(gvi_start(&plain.st, 0, q0, v0));
+        assert_ok(gvi_start(&stiff.st, 0, q0, v0));
+        steps(&plain, 20, (gvi_real)0.0625L);
+        steps(&stiff, 20, (gvi_real)0.0625L);
+        assert_same(&plain, &stiff);
+    }
+    (void)state;
+}
+
+/* Stoermer-Verlet's curve: an arc from q0, after the first kick, to q1, and v is its derivative; a straight
+   line where there is no spring; of a spring alone the oscillation                */
+static void test_kicks_curve(void **state)
+{
+    const gvi_desc desc = { .degree = 1, .rule = rule_of(-1) };
+    const gvi_real h = (gvi_real)0.09375L;
+    gvi_real q[N], v[N], one[1], slope[1];
+    gvi_stepper st;
+    real g[N], from[N], start[N];
+    set_up(&stiff, desc, k);
+    steps(&stiff, 3, h);
+    for (int i = 0; i < N; ++i) from[i] = stiff.st.q[i];
+    forces(from, g);
+    for (int i = 0; i < N; ++i) start[i] = (stiff.st.p[i] + h*(g[i] + k[i]*from[i])/2)/mass[i];
+    steps(&stiff, 1, h);
+    const real way = stiff.st.q[0] - from[0];
+    for (int j = 0; j <= 8; ++j) {
+        const real t = (real)h*j/8;
+        assert_ok(gvi_curve(&stiff.st, (gvi_real)j/8, q, v));
+        assert_close(q[0], from[0] + way*j/8, 4*EPS);
+        assert_close(v[0], way/h, 16*EPS);
+        for (int i = 1; i < N; ++i) {
+            const real omega = sqrtl((real)k[i]/mass[i]), C = cosl(omega*t), S = sinl(omega*t);
+            assert_close(q[i], C*from[i] + S*start[i]/omega, 4*EPS*amplitude[i]);
+            assert_close(v[i], C*start[i] - omega*S*from[i], 4*EPS*amplitude[i]*30);
+        }
+    }
+    for (int i = 0; i < N; ++i) assert_true(!(q[i] < stiff.st.q[i]) && !(q[i] > stiff.st.q[i]));
+    constant = 4;
+    set_oscillator_of(&st, 0, 1, rule_of(-1), 1, 4, 1, 0);
+    assert_ok(gvi_step(&st, 9));                  // h omega = 18
+    for (int j = 0; j <= 8; ++j) {
+        assert_ok(gvi_curve(&st, (gvi_real)j/8, one, slope));
+        assert_close(one[0], cosl(18.0L*j/8), 64*EPS);
+        assert_close(slope[0], -2*sinl(18.0L*j/8), 128*EPS);
+    }
     (void)state;
 }
 
@@ -556,7 +854,6 @@ static void test_bond(void **state)
 /* ------------------------------------------------------- beside everything else */
 
 static const gvi_desc six = { .degree = 6 };
-static const gvi_real step = (gvi_real)0.0625L;   // h omega to 2.7
 
 /* Weak marks, a given number of rounds, a tolerance, an effect switched off        */
 static void test_with_options(void **state)
@@ -605,8 +902,9 @@ static void nothing_is_lost(const gvi_desc *desc)
         steps(&stiff, 1, h);
         assert_same(&plain, &stiff);
         assert_ok(gvi_state_at(&stiff.st, stiff.st.t - h/4, q, NULL, p));
-        assert_ok(gvi_curve(&stiff.st, (gvi_real)0.3L, q, p));
-        if (desc->effect_count < 3) assert_ok(gvi_action(&stiff.st, &L));
+        const int kicks = desc->rule.kind == GVI_KICKS;
+        assert_status(gvi_curve(&stiff.st, (gvi_real)0.3L, q, p), kicks ? GVI_E_FORMULATION : GVI_OK);
+        if (desc->effect_count < 3 && !kicks) assert_ok(gvi_action(&stiff.st, &L));
         if (i < 7) continue;
         steps(&other, 1, h);
         assert_same(&plain, &other);
@@ -626,6 +924,7 @@ static void test_nothing_is_lost(void **state)
     nothing_is_lost(&six);
     nothing_is_lost(&(gvi_desc){ .degree = 6, .effect_count = 3 });
     nothing_is_lost(&(gvi_desc){ .degree = 12, .effect_count = 3 });
+    for (int i = -1; i < TABLES; ++i) nothing_is_lost(&(gvi_desc){ .degree = 1, .rule = rule_of(i) });
     (void)state;
 }
 
@@ -677,13 +976,13 @@ static gvi_real action_from(const gvi_real *z, gvi_real h, gvi_real *end)
 }
 
 /* The action is the step's generating function, dS = p1 dq1 - p0 dq0, by differences in all directions */
-static void test_action(void **state)
+static void action(gvi_desc desc)
 {
     static const gvi_real told[][N] = { { 0, 400, 900, 400 }, { 3, 380, 1000, 410 }, { 40, 0, 450, 800 } };
     const gvi_real width = (gvi_real)cbrtl(EPS);
     gvi_real z[2*N], end[2*N], up[2*N], down[2*N];
     for (int a = 0; a < COUNT(told); ++a) {
-        set_up(&stiff, six, told[a]);
+        set_up(&stiff, desc, told[a]);
         for (int i = 0; i < N; ++i) z[i] = q0[i], z[N + i] = v0[i]*mass[i];
         (void)action_from(z, step, end);
         for (int i = 0; i < 2*N; ++i) {
@@ -698,11 +997,17 @@ static void test_action(void **state)
             assert_close((S1 - S0)/(above - below), expected, 400*width*width);
         }
     }
+}
+
+static void test_action(void **state)
+{
+    action(six);
+    action((gvi_desc){ .degree = 1, .rule = rule_of(-1) });
     (void)state;
 }
 
 /* Powers of two as units of time, length and mass scale the steps to the bit        */
-static void test_units(void **state)
+static void units_of(gvi_desc desc)
 {
     for (int a = -6; a <= 6; a += 4)
         for (int b = -5; b <= 7; b += 6) {
@@ -713,7 +1018,6 @@ static void test_units(void **state)
                 q[i] = q0[i]*length;
                 v[i] = v0[i]*length/time;
             }
-            const gvi_desc desc = { .degree = 5, .effect_count = 1 };
             set_up(&plain, desc, k);
             steps(&plain, 20, step);
             set_up(&stiff, desc, scaled);
@@ -728,6 +1032,12 @@ static void test_units(void **state)
                 assert_true(!(stiff.st.p[i] < p) && !(stiff.st.p[i] > p));
             }
         }
+}
+
+static void test_units(void **state)
+{
+    units_of((gvi_desc){ .degree = 5, .effect_count = 1 });
+    units_of((gvi_desc){ .degree = 1, .rule = rule_of(4), .effect_count = 1 });
     (void)state;
 }
 
@@ -745,6 +1055,14 @@ int main(void)
         cmocka_unit_test(test_bad_input),
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_length),
+        cmocka_unit_test(test_kicks_by_hand),
+        cmocka_unit_test(test_deuflhard),
+        cmocka_unit_test(test_kicks_rotate),
+        cmocka_unit_test(test_kicks_order),
+        cmocka_unit_test(test_kicks_area),
+        cmocka_unit_test(test_kicks_energy),
+        cmocka_unit_test(test_kicks_unit_mass),
+        cmocka_unit_test(test_kicks_curve),
         cmocka_unit_test(test_bond),
         cmocka_unit_test(test_with_options),
         cmocka_unit_test(test_nothing_is_lost),

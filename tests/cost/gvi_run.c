@@ -23,7 +23,10 @@ static gvi_desc describe(const problem *p, const gvi_setting *g)
 void gvi_setting_name(const gvi_setting *g, int size, char *name)
 {
     static const char *const pinned[] = { "", "explicit", "positions", "velocities", "momenta", "Newton" };
-    if (g->rule == GVI_KICKS) { snprintf(name, (size_t)size, "kicks %s", g->name); return; }
+    if (g->rule == GVI_KICKS) {
+        snprintf(name, (size_t)size, "kicks %s%s", g->name, g->stiff ? ", stiffness" : "");
+        return;
+    }
     const char *rule = g->rule == GVI_LOBATTO ? " Lobatto" : "", *how = pinned[g->formulation];
     char points[24] = "", tolerance[24] = "", clock[24] = "";
     if (g->points) snprintf(points, sizeof points, ", r = %d", g->points);

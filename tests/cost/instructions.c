@@ -1,4 +1,4 @@
-/* instructions.c - six fixed runs, whose work tests/tools/instructions.sh counts
+/* instructions.c - seven fixed runs, whose work tests/tools/instructions.sh counts
 
      instructions --compiler     which one made this program, for which machine
      instructions --counts       all runs: name, steps, points evaluated, iterations
@@ -206,6 +206,9 @@ static const run runs[] = {
     { "clock", { .n = 2, .degree = 8, SCENE(clock_scene) }, far_q, far_v, 0.1, 1000 },
     { "springs", { .n = 6, .degree = 8, SCENE(chain_scene), .formulation = GVI_POSITIONS, .stiffness = chain_k },
       chain_q, chain_v, 0.05, 1000 },
+    { "arcs", { .n = 6, SCENE(chain_scene), .stiffness = chain_k,
+      .rule = { .kind = GVI_KICKS, .points = 4, .nodes = corners, .weights = kicks } },
+      chain_q, chain_v, 0.02, 5000 },
 };
 
 /* What callgrind collects, called through a pointer that no compiler sees through              */
