@@ -5775,8 +5775,8 @@ static gvi_status gvi__make_drifts(gvi_stepper *st, gvi_real h)
     return status;
 }
 
-/* p += b (F + k Q), then the shears.  As in gvi__kick_drift_of little waits for F, and a kick reaches
-   q by the same a that p does.                                                 */
+/* p += b (F + k Q), then the shears.  As in gvi__kick_drift_of little waits for F, and a kick goes
+   through the same shears that p does, beside it.                              */
 GVI__COPY void gvi__kick_arc_of(int n, int odd, int last, gvi_real b, const gvi_real *GVI__RESTRICT k,
                                 const gvi_real *GVI__RESTRICT shears, const gvi__from *from, gvi_real zero,
                                 gvi_real *GVI__RESTRICT F, gvi_real *GVI__RESTRICT dp,
@@ -5786,9 +5786,9 @@ GVI__COPY void gvi__kick_arc_of(int n, int odd, int last, gvi_real b, const gvi_
     const size_t row = gvi__whole((size_t)n);
     const gvi_real *along = shears, *back = along + row, *sign = back + row;
     for (int i = 0; i < n; ++i) {
-        const gvi_real kick = b*(F[i] + k[i]*Q[i]), a = along[i], p = p0[i] + dp[i];
-        const gvi_real d = (dq[i] + a*p) + a*kick, pull = back[i]*(q0[i] + d);
-        gvi_real to_q = d + a*((p + kick) - pull), to_p = (dp[i] + kick) - pull;
+        const gvi_real kick = b*F[i] + b*k[i]*Q[i], a = along[i], p = p0[i] + dp[i];
+        const gvi_real d = dq[i] + a*p, pull = back[i]*(q0[i] + d), push = a*kick, more = kick - back[i]*push;
+        gvi_real to_q = (d + a*(p - pull)) + (push + a*more), to_p = (dp[i] - pull) + more;
         if (odd) {
             to_q = sign[i]*to_q + (sign[i] - 1)*q0[i];
             to_p = sign[i]*to_p + (sign[i] - 1)*p0[i];
