@@ -9,7 +9,9 @@
    theta = k pi a step: at h omega = k pi for small steps, later for large ones, since
    Gauss's method turns by no more than s pi in all.
 
-     stiff [folder for hard_fpu.svg]                                            */
+   Arcs, of desc.stiffness, turn it by h omega whatever that is: their resonances are at every k pi.
+
+     stiff [folder for hard_fpu.svg, hard_arcs.svg]                             */
 #include "pendulum.h"
 #include "irk_newton.h"
 #include "svg.h"
@@ -217,12 +219,14 @@ static double chain_energy(const double *q, const double *p)
 
 typedef struct outcome { double invariant, energy; gvi_status status; } outcome;
 
-/* Largest deviations of I and H from their start, over 200 units of time */
-static outcome run_chain(int s, double h_omega)
+/* Largest deviations of I and H from their start, over 200 units of time; told: [6] k, or NULL.
+   Degree 1 is Stoermer-Verlet */
+static outcome run_chain(int s, double h_omega, const double *told)
 {
     static double memory[GVI_LENGTH(6, 8, 8)];
     const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = fermi_pasta_ulam_forces } };
-    const gvi_desc desc = { .n = 2*M, .degree = s, .effects = scene, .effect_count = 1 };
+    const gvi_desc desc = { .n = 2*M, .degree = s, .rule.kind = s == 1 ? GVI_LOBATTO : GVI_GAUSS,
+                            .effects = scene, .effect_count = 1, .stiffness = told };
     const double q[6] = { 1, 0, 0, 1/omega, 0, 0 }, p[6] = { 1, 0, 0, 1, 0, 0 }, h = h_omega/omega;
     const double I0 = stiff_energy(q, p), E0 = chain_energy(q, p);
     outcome z = { 0, 0, GVI_OK };
@@ -284,7 +288,7 @@ static void fermi_pasta_ulam(const char *folder)
         double top = 0, below = 0;
         for (int k = 0; k < POINTS; ++k) {
             const double z = 0.1*pow(500, k/(POINTS - 1.0));
-            const outcome o = run_chain(s, z);
+            const outcome o = run_chain(s, z, NULL);
             progress("FPU", d*POINTS + k + 1, 3*POINTS);
             x[d][k] = z;
             I[d][k] = o.status == GVI_OK ? o.invariant : NAN;
@@ -322,8 +326,43 @@ static void fermi_pasta_ulam(const char *folder)
 
 /* ------------------------------------------------------------ stiffness told */
 
-enum { STARTS = 12, LONG_RUN = 65536 };
+enum { STARTS = 12, LONG_RUN = 65536, FINE = 240 };
 static const double frequencies[6] = { 0, 0, 0, 2500, 2500, 2500 };
+
+/* h omega in units of pi, to 4.8: the largest deviation of H at k = 1 to 4 and half-way between */
+static void arcs_resonate(const char *folder)
+{
+    static const int degrees[] = { 1, 2, 4, 8 };
+    static const char *const names[] = { "Verlet", "degree 2", "degree 4", "degree 8" };
+    static double x[FINE], H[4][FINE];
+    svg_line lines[4];
+    for (int d = 0; d < 4; ++d) {
+        double at[5] = { 0, 0, 0, 0, 0 }, between[5] = { 0, 0, 0, 0, 0 };
+        for (int k = 0; k < FINE; ++k) {
+            x[k] = (k + 1)/50.0;
+            const outcome o = run_chain(degrees[d], x[k]*acos(-1), frequencies);
+            const int near = (int)(x[k] + 0.5);
+            double *worst = fabs(x[k] - near) < 0.125 ? at + near : fabs(x[k] - near) > 0.375 ? between + (int)x[k] : NULL;
+            progress("arcs", d*FINE + k + 1, 4*FINE);
+            H[d][k] = o.status == GVI_OK ? o.energy : NAN;
+            if (worst) *worst = fmax(*worst, o.status == GVI_OK ? o.energy : INFINITY);
+        }
+        lines[d] = (svg_line){ names[d], x, H[d], FINE };
+        printf("  %s: deviation of H below pi/8 %.1e; near pi, 2 pi ... and between them:", names[d], at[0]);
+        for (int k = 0; k < 5; ++k) printf(k ? " | %.1e | %.1e" : " %.1e", k ? at[k] : between[0], between[k]);
+        printf("\n");
+        if (degrees[d] == 4) expect("degree 4: deviation of H near pi", 0, at[1], 0.002);
+        if (degrees[d] == 8) expect("degree 8: deviation of H up to 2 pi", 0, fmax(fmax(at[1], between[1]), at[2]), 1e-4);
+        if (degrees[d] == 8) expect("degree 8: deviation of H up to 3 pi", 0, fmax(between[2], at[3]), 0.02);
+    }
+    if (folder) {
+        char path[512];
+        const svg_plot plot = { .title = "FPU chain, stiffness told: energy", .x_label = "h omega/pi",
+                                .y_label = "largest |H - H(0)|, t to 200", .log_y = 1, .lines = lines, .line_count = 4 };
+        snprintf(path, sizeof path, "%s/hard_arcs.svg", folder);
+        if (svg_write(path, &plot)) { printf("  FAILED: %s\n", path); ++misses; }
+    }
+}
 
 /* H with the rests of q and p, in long double                                     */
 static long double exact_energy(const gvi_stepper *st)
@@ -395,6 +434,8 @@ int main(int argc, char **argv)
     against_irk_newton(4096);
     printf("Fermi-Pasta-Ulam chain, omega = 50\n");
     fermi_pasta_ulam(argc > 1 ? argv[1] : NULL);
+    printf("The same, stiffness told\n");
+    arcs_resonate(argc > 1 ? argv[1] : NULL);
     printf("The same, degree 8, h omega = 1.5, %d steps from %d starts: desc.stiffness\n", LONG_RUN, STARTS);
     stiffness_told();
     return verdict("stiff");
