@@ -907,6 +907,13 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__APART static
 #endif
 
+// the same, where Newton's method or a clock makes the stack deep; elsewhere a copy is shorter
+#if GVI__NEWTON || GVI__CLOCK
+#define GVI__DEEP GVI__APART
+#else
+#define GVI__DEEP static
+#endif
+
 // a loop whose lengths, a struct whose members, or a question whose answer is known where it is called:
 // always a copy
 #if defined(__GNUC__)
@@ -1395,16 +1402,18 @@ GVI__APART gvi__two gvi__node_newton(int lobatto, int m, gvi__two c, gvi__two P,
     return gvi__div2(gvi__mul2(P, c), d);
 }
 
-GVI__APART gvi__two gvi__node_correction(int lobatto, int m, gvi__two c, gvi_real *b)
+// P = P_m and d of it
+GVI__APART void gvi__node_values(int m, gvi__two c, gvi__two *P, gvi__two *d)
 {
     const gvi__two x = gvi__argument2(c);
-    gvi__two P = gvi__real2(1), before = gvi__real2(0);
+    gvi__two before = gvi__real2(0);
+    *P = gvi__real2(1);
     for (int k = 0; k < m; ++k) {
-        const gvi__two next = gvi__legendre2(k, x, P, before);
-        before = P;
-        P = next;
+        const gvi__two next = gvi__legendre2(k, x, *P, before);
+        before = *P;
+        *P = next;
     }
-    return gvi__node_newton(lobatto, m, c, P, gvi__sub2(before, gvi__mul2(x, P)), b);
+    *d = gvi__sub2(before, gvi__mul2(x, *P));
 }
 
 /* Where Newton's method for node j of the lower half starts,
@@ -1449,7 +1458,9 @@ static void gvi__rule_make(int lobatto, int n, gvi_real *c, gvi_real *ce, gvi_re
         gvi_real last = known ? 0 : 1;
         if (!known && !GVI__SMALL) z.hi = gvi__node_start(lobatto, n - lobatto, z.hi);
         for (int k = 0; ; ++k) {
-            const gvi__two dc = gvi__node_correction(lobatto, n - lobatto, z, &b[j]);
+            gvi__two P, d;
+            gvi__node_values(n - lobatto, z, &P, &d);
+            const gvi__two dc = gvi__node_newton(lobatto, n - lobatto, z, P, d, &b[j]);
             if (!(last > GVI__EPS*z.hi) || k == 12) break;
             z = gvi__add2(z, dc);
             last = GVI_ABS(dc.hi);
@@ -1689,19 +1700,19 @@ static gvi_status gvi__fail(gvi_stepper *st, gvi_status status, int effect, int 
 }
 
 // an effect is to blame, or the mass, but no coordinate or point; or none of them
-static gvi_status gvi__blame(gvi_stepper *st, gvi_status status, int effect)
+GVI__DEEP gvi_status gvi__blame(gvi_stepper *st, gvi_status status, int effect)
 {
     return gvi__fail(st, status, effect, GVI_FAULT_NONE, GVI_FAULT_NONE);
 }
 
-static gvi_status gvi__give(gvi_stepper *st, gvi_status status)
+GVI__DEEP gvi_status gvi__give(gvi_stepper *st, gvi_status status)
 {
     return gvi__blame(st, status, GVI_FAULT_NONE);
 }
 
 /* Of a stepper that is not set up or not started: the first failure stands, so
    that a chain of calls ends with its cause.                                  */
-static gvi_status gvi__unready(gvi_stepper *st)
+GVI__DEEP gvi_status gvi__unready(gvi_stepper *st)
 {
     return st->status != GVI_OK ? st->status : (st->status = GVI_E_STATE);
 }
@@ -1727,7 +1738,7 @@ static void gvi__gather(int n, int stride, const gvi_real *rows, gvi_real *out)
 }
 
 // q and v at point k to `one`, and no f and dldv behind them
-GVI__APART void gvi__take_point(const gvi_points *x, int k, gvi_real *one)
+GVI__DEEP void gvi__take_point(const gvi_points *x, int k, gvi_real *one)
 {
     const int n = x->n;
     gvi__gather(n, x->stride, x->q + k, one);
@@ -1736,7 +1747,7 @@ GVI__APART void gvi__take_point(const gvi_points *x, int k, gvi_real *one)
 }
 
 // what was added to them goes to the rows
-GVI__APART void gvi__give_point(const gvi_points *x, int k, const gvi_real *one)
+GVI__DEEP void gvi__give_point(const gvi_points *x, int k, const gvi_real *one)
 {
     const int n = x->n;
     gvi_real *dldv = GVI__LAGRANGIAN ? x->dldv : NULL;
@@ -1777,7 +1788,7 @@ static inline gvi_status gvi__finite_here(gvi_stepper *st, const gvi_points *x)
 }
 
 // the value callback of effect e: adds to `value` at the points; x->value is NULL then
-GVI__APART gvi_status gvi__value(gvi_stepper *st, gvi_points *x, int e, gvi_real *value)
+GVI__DEEP gvi_status gvi__value(gvi_stepper *st, gvi_points *x, int e, gvi_real *value)
 {
     const gvi_effect *effect = st->x.desc.effects + e;
     if (!effect->value) return gvi__blame(st, GVI_E_VALUE, e);
@@ -2036,7 +2047,7 @@ static gvi_status gvi__mass_gradient(gvi_stepper *st, gvi_points *x)
 }
 
 // x->dldv += M v, each entry of a full matrix `width` numbers; width 0: of a diagonal one, or 1 if m is NULL
-GVI__APART void gvi__add_momenta(const gvi_points *x, const gvi_real *m, int width)
+GVI__DEEP void gvi__add_momenta(const gvi_points *x, const gvi_real *m, int width)
 {
     const int n = x->n, R = x->stride, each = width > 1;
     for (int i = 0; i < n; ++i) {
@@ -3360,11 +3371,16 @@ static inline void gvi__weigh(int R, const gvi_real *GVI__RESTRICT w, const gvi_
     for (int j = 0; j < R; ++j) L[j] = w[j]*f[j];
 }
 
+GVI__DEEP void gvi__weigh_row(int R, const gvi_real *w, const gvi_real *f, gvi_real *L)
+{
+    gvi__weigh(R, w, f, L);
+}
+
 // z := sum_j table[j][.] w_j f_j, by way of x->z
 GVI__APART void gvi__weighted_sums(const gvi_stepper *st, const gvi_real *table, const gvi_real *w,
                                    const gvi_real *f, gvi_real *z)
 {
-    gvi__weigh(st->x.stride, w, f, st->x.z);
+    gvi__weigh_row(st->x.stride, w, f, st->x.z);
     gvi__sum_row(st->r, st->x.stride, table, st->x.z, z);
 }
 
@@ -4087,7 +4103,7 @@ static inline void gvi__scale_row(int R, const gvi_real *GVI__RESTRICT a, gvi_re
 /* V from the new P, with the old M(Q) and dL/dv.  Where Lagrangian terms make V it
    contracts alike at any h, also when Q and P, a short step away, feel no more of it:
    returns the squares of its relative changes at the last point, as of all points. */
-GVI__APART gvi_real gvi__velocity_change(gvi_stepper *st, int clock)
+GVI__DEEP gvi_real gvi__velocity_change(gvi_stepper *st, int clock)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, R = x->stride, made = gvi__A(&x->work) != NULL;
@@ -4114,7 +4130,7 @@ GVI__APART gvi_real gvi__stage_made(gvi_stepper *st, const gvi__from *from, gvi_
 
 /* The rows of the next iteration from the F, V and A of this one; returns the
    sum of squares of their relative changes.                                   */
-GVI__APART gvi_real gvi__stages(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi__stage *y,
+GVI__DEEP gvi_real gvi__stages(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi__stage *y,
                                 int count)
 {
     struct gvi__private *x = &st->x;
@@ -4782,7 +4798,7 @@ GVI__APART void gvi__increments_of(gvi_stepper *st, const gvi__from *from, gvi_r
     }
 }
 
-GVI__APART void gvi__increments(gvi_stepper *st, const gvi__from *from, gvi_real h)
+GVI__DEEP void gvi__increments(gvi_stepper *st, const gvi__from *from, gvi_real h)
 {
     struct gvi__private *x = &st->x;
     if (gvi__has_clock(st)) {
@@ -4936,7 +4952,7 @@ static int gvi__may_turn(const gvi_stepper *st)
    All of it in squares of changes: no root or quotient between an iteration and
    the next.  A given number of iterations ends there, if the change is half of
    that two before.                                                            */
-GVI__APART int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *p, gvi__still *weak,
+GVI__DEEP int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *p, gvi__still *weak,
                           gvi_real change, int used)
 {
     struct gvi__private *x = &st->x;
@@ -4988,7 +5004,7 @@ static inline void gvi__scales(gvi_stepper *st, const gvi__stage *y, int count)
 }
 
 // what the first iteration begins with: rows, or F, V and A to make them of
-GVI__APART gvi_status gvi__first_rows(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate,
+GVI__DEEP gvi_status gvi__first_rows(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate,
                                       const gvi__stage *y)
 {
     struct gvi__private *x = &st->x;
@@ -5391,7 +5407,7 @@ GVI__APART gvi_status gvi__ask_sites(gvi_stepper *st, const gvi__sites *at, gvi_
 
 /* The difference for coordinate j: sqrt(eps) of what it moves in a step, but no less
    than eps^(3/4) of itself; or for its velocity, that over h.                 */
-GVI__APART gvi_real gvi__nudge(const gvi__sites *at, int j, gvi_real h, int by_v)
+static gvi_real gvi__nudge(const gvi__sites *at, int j, gvi_real h, int by_v)
 {
     const gvi_real root = GVI_SQRT(GVI__EPS), small = GVI_SQRT(root);
     const gvi_real *Q = at->q + j*at->stride, *V = at->v + j*at->stride;
@@ -5626,7 +5642,9 @@ GVI__APART int gvi__newton_judge(gvi_stepper *st, const gvi__from *from, const g
 GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi__matrix *J, int kept)
 {
     struct gvi__private *x = &st->x;
-    gvi__descent p = { 0, 0, (gvi_real)0.25, GVI__MAX, 0, 0, 0, 0, 0 };
+    gvi__descent p = { 0, 0, 0, 0, 0, 0, 0, 0, 0 };
+    p.rho = (gvi_real)0.25;
+    p.left = GVI__MAX;
     p.have = kept && !gvi__nonzero(x->h_matrix - x->h_weights) && x->has_blocks == gvi__in_blocks(J);
     for (int k = 0, made = 0, verdict = GVI__GO_ON; k <= x->desc.max_iterations; ++k) {
         gvi_status status = gvi__newton_ask(st, from, x->h_weights);
