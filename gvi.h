@@ -5934,7 +5934,7 @@ static gvi_status gvi__values(gvi_stepper *st, gvi_real t, const gvi_real *q, co
     const gvi_desc *d = &st->x.desc;
     gvi_points y;
     gvi__at(&y, st, &t, q);
-    *V = *L = 0;
+    *V = *L = *T = 0;
     for (int e = 0; e < d->effect_count; ++e) {
         const gvi_kind kind = d->effects[e].kind;
         gvi_real *value = kind == GVI_POTENTIAL ? V : L;
