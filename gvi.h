@@ -915,6 +915,13 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__APART static
 #endif
 
+// the same, where Newton's method or a clock makes the stack deep; elsewhere a copy is shorter
+#if GVI__NEWTON || GVI__CLOCK
+#define GVI__DEEP GVI__APART
+#else
+#define GVI__DEEP static
+#endif
+
 // a loop whose lengths, a struct whose members, or a question whose answer is known where it is called:
 // always a copy
 #if defined(__GNUC__)
@@ -1403,16 +1410,18 @@ GVI__APART gvi__two gvi__node_newton(int lobatto, int m, gvi__two c, gvi__two P,
     return gvi__div2(gvi__mul2(P, c), d);
 }
 
-GVI__APART gvi__two gvi__node_correction(int lobatto, int m, gvi__two c, gvi_real *b)
+// P = P_m and d of it
+GVI__APART void gvi__node_values(int m, gvi__two c, gvi__two *P, gvi__two *d)
 {
     const gvi__two x = gvi__argument2(c);
-    gvi__two P = gvi__real2(1), before = gvi__real2(0);
+    gvi__two before = gvi__real2(0);
+    *P = gvi__real2(1);
     for (int k = 0; k < m; ++k) {
-        const gvi__two next = gvi__legendre2(k, x, P, before);
-        before = P;
-        P = next;
+        const gvi__two next = gvi__legendre2(k, x, *P, before);
+        before = *P;
+        *P = next;
     }
-    return gvi__node_newton(lobatto, m, c, P, gvi__sub2(before, gvi__mul2(x, P)), b);
+    *d = gvi__sub2(before, gvi__mul2(x, *P));
 }
 
 /* Where Newton's method for node j of the lower half starts,
@@ -1457,7 +1466,9 @@ static void gvi__rule_make(int lobatto, int n, gvi_real *c, gvi_real *ce, gvi_re
         gvi_real last = known ? 0 : 1;
         if (!known && !GVI__SMALL) z.hi = gvi__node_start(lobatto, n - lobatto, z.hi);
         for (int k = 0; ; ++k) {
-            const gvi__two dc = gvi__node_correction(lobatto, n - lobatto, z, &b[j]);
+            gvi__two P, d;
+            gvi__node_values(n - lobatto, z, &P, &d);
+            const gvi__two dc = gvi__node_newton(lobatto, n - lobatto, z, P, d, &b[j]);
             if (!(last > GVI__EPS*z.hi) || k == 12) break;
             z = gvi__add2(z, dc);
             last = GVI_ABS(dc.hi);
@@ -1697,19 +1708,19 @@ static gvi_status gvi__fail(gvi_stepper *st, gvi_status status, int effect, int 
 }
 
 // an effect is to blame, or the mass, but no coordinate or point; or none of them
-static gvi_status gvi__blame(gvi_stepper *st, gvi_status status, int effect)
+GVI__DEEP gvi_status gvi__blame(gvi_stepper *st, gvi_status status, int effect)
 {
     return gvi__fail(st, status, effect, GVI_FAULT_NONE, GVI_FAULT_NONE);
 }
 
-static gvi_status gvi__give(gvi_stepper *st, gvi_status status)
+GVI__DEEP gvi_status gvi__give(gvi_stepper *st, gvi_status status)
 {
     return gvi__blame(st, status, GVI_FAULT_NONE);
 }
 
 /* Of a stepper that is not set up or not started: the first failure stands, so
    that a chain of calls ends with its cause.                                  */
-static gvi_status gvi__unready(gvi_stepper *st)
+GVI__DEEP gvi_status gvi__unready(gvi_stepper *st)
 {
     return st->status != GVI_OK ? st->status : (st->status = GVI_E_STATE);
 }
@@ -1728,30 +1739,42 @@ static gvi_status gvi__check_rows(gvi_stepper *st, const gvi_points *x, const gv
     return GVI_OK;
 }
 
-// a column of rows [n][stride], and back
+// a column of rows [n][stride]
 static void gvi__gather(int n, int stride, const gvi_real *rows, gvi_real *out)
 {
-    for (int i = 0; i < n; ++i) out[i] = rows[i*stride];
+    for (; n > 0; --n, rows += stride) *out++ = *rows;
 }
 
-static void gvi__scatter(int n, int stride, const gvi_real *in, gvi_real *rows)
+// q and v at point k to `one`, and no f and dldv behind them
+GVI__DEEP void gvi__take_point(const gvi_points *x, int k, gvi_real *one)
 {
-    for (int i = 0; i < n; ++i) rows[i*stride] += in[i];
+    const int n = x->n;
+    gvi__gather(n, x->stride, x->q + k, one);
+    if (GVI__READS_V && x->v) gvi__gather(n, x->stride, x->v + k, one + n);
+    gvi__zero(2*(size_t)n, one + 2*n);
+}
+
+// what was added to them goes to the rows
+GVI__DEEP void gvi__give_point(const gvi_points *x, int k, const gvi_real *one)
+{
+    const int n = x->n;
+    gvi_real *dldv = GVI__LAGRANGIAN ? x->dldv : NULL;
+    for (int i = 0; i < n; ++i, k += x->stride) {
+        x->f[k] += one[2*n + i];
+        if (dldv) dldv[k] += one[3*n + i];
+    }
 }
 
 // the one-point form: gather, call, scatter.  Returns 0, or 1 + the point that was refused
-GVI__APART int gvi__point_by_point(gvi_stepper *st, const gvi_effect *e, const gvi_points *x)
+static inline int gvi__point_by_point(gvi_stepper *st, const gvi_effect *e, const gvi_points *x)
 {
-    const int n = x->n;
-    gvi_real *q = st->x.one, *f = q + 2*n;
-    gvi_real *v = GVI__READS_V && x->v ? q + n : NULL, *dldv = GVI__LAGRANGIAN && x->dldv ? f + n : NULL;
     for (int k = 0; k < x->count; ++k) {
-        gvi__gather(n, x->stride, x->q + k, q);
-        if (v) gvi__gather(n, x->stride, x->v + k, v);
-        gvi__zero(2*(size_t)x->n, f);                 // and dldv
-        if (e->point(x->t[k], q, v, f, dldv, e->user)) return 1 + k;
-        gvi__scatter(n, x->stride, f, x->f + k);
-        if (dldv) gvi__scatter(n, x->stride, dldv, x->dldv + k);
+        gvi__take_point(x, k, st->x.one);
+        const int n = x->n;
+        gvi_real *one = st->x.one;
+        if (e->point(x->t[k], one, GVI__READS_V && x->v ? one + n : NULL, one + 2*n,
+                     GVI__LAGRANGIAN && x->dldv ? one + 3*n : NULL, e->user)) return 1 + k;
+        gvi__give_point(x, k, st->x.one);
     }
     return 0;
 }
@@ -1772,21 +1795,18 @@ static inline gvi_status gvi__finite_here(gvi_stepper *st, const gvi_points *x)
     return GVI__DIAGNOSIS || gvi__all_finite(2*x->n, x->f) ? GVI_OK : gvi__give(st, GVI_E_NON_FINITE);
 }
 
-/* The value callback of effect e: adds to `value` at the points.               */
-static gvi_status gvi__value(gvi_stepper *st, gvi_points *x, int e, gvi_real *value)
+// the value callback of effect e: adds to `value` at the points; x->value is NULL then
+GVI__DEEP gvi_status gvi__value(gvi_stepper *st, gvi_points *x, int e, gvi_real *value)
 {
     const gvi_effect *effect = st->x.desc.effects + e;
     if (!effect->value) return gvi__blame(st, GVI_E_VALUE, e);
-    const gvi_real *v = x->v;
-    gvi_real *f = x->f, *dldv = x->dldv, *was = x->value;
+    gvi_real *f = x->f, *dldv = x->dldv;
     x->f = x->dldv = NULL;
     x->value = value;
-    if (effect->kind == GVI_POTENTIAL) x->v = NULL;
     const int refused = effect->value(x, effect->user);
-    x->v = v;
     x->f = f;
     x->dldv = dldv;
-    x->value = was;
+    x->value = NULL;
     return refused ? gvi__blame(st, GVI_E_CALLBACK, e) : GVI_OK;
 }
 
@@ -1799,10 +1819,9 @@ static gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e)
     gvi_real *value = GVI__CLOCK ? x->value : NULL;
     gvi_real *own = value && effect->kind == GVI_LAGRANGIAN ? st->x.less
                   : effect->kind == GVI_FORCE ? NULL : value;
-    const int together = own && effect->points && effect->value == effect->points;
-    gvi__count(&st->counters.effect[e], x->count);
-    x->value = together ? own : NULL;
     const int whole = !GVI__POINT || effect->points;
+    gvi__count(&st->counters.effect[e], x->count);
+    x->value = whole && effect->value == effect->points ? own : NULL;
     const int refused = whole ? effect->points(x, effect->user) : gvi__point_by_point(st, effect, x);
     gvi_status status = !refused ? GVI_OK : gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE,
                                                       whole ? GVI_FAULT_NONE : refused - 1);
@@ -1810,8 +1829,8 @@ static gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e)
         status = gvi__check_rows(st, x, x->f, e);
         if (status == GVI_OK && GVI__LAGRANGIAN) status = gvi__check_rows(st, x, x->dldv, e);
     }
+    if (status == GVI_OK && own && !x->value) status = gvi__value(st, x, e, own);
     x->value = value;
-    if (status == GVI_OK && own && !together) status = gvi__value(st, x, e, own);
     for (int k = 0; own && gvi__diagnoses(st) && status == GVI_OK && k < x->count; ++k)
         if (!gvi__finite(own[k])) status = gvi__fail(st, GVI_E_NON_FINITE, e, GVI_FAULT_NONE, k);
     return status;
@@ -1839,12 +1858,12 @@ static inline gvi_status gvi__call(gvi_stepper *st, const gvi_points *x, int e)
    lent and taken back one by one: a copied struct would have to wait for its stores. */
 static gvi_status gvi__effects(gvi_stepper *st, gvi_points *x, unsigned skip)
 {
-    const gvi_effect *effect = st->x.desc.effects;
     const gvi_real *v = x->v;
     gvi_real *dldv = x->dldv;
     gvi_status status = GVI_OK;
     skip |= st->x.off | gvi__clock_bit(st);
-    for (int e = 0; e < st->x.desc.effect_count && status == GVI_OK; ++e, ++effect) {
+    for (int e = 0; e < st->x.desc.effect_count && status == GVI_OK; ++e) {
+        const gvi_effect *effect = st->x.desc.effects + e;
         if (skip >> e & 1u) continue;
         x->v = GVI__READS_V && effect->kind != GVI_POTENTIAL ? v : NULL;
         x->dldv = GVI__LAGRANGIAN && effect->kind == GVI_LAGRANGIAN ? dldv : NULL;
@@ -1950,23 +1969,22 @@ GVI__APART gvi_status gvi__ldl_factor(gvi_stepper *st, int n, int stride, int co
     return GVI_OK;
 }
 
-// solves in rows z [n][stride]; the matrix has `each` = 1 entry a point, or 0:
-// one for all
-static void gvi__ldl_solve(int n, const gvi_real *m, int m_stride, int each,
-                           gvi_real *z, int stride, int count)
+// solves in rows z [n][stride]; each entry of the matrix is `width` numbers, one a point, or one for all
+static void gvi__ldl_solve(int n, const gvi_real *m, int width, gvi_real *z, int stride, int count)
 {
+    const int each = width > 1;
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < i; ++j) {
-            const gvi_real *a = m + (size_t)(i*n + j)*(size_t)m_stride;
+            const gvi_real *a = m + (size_t)(i*n + j)*(size_t)width;
             for (int k = 0; k < count; ++k) z[i*stride + k] -= a[k*each]*z[j*stride + k];
         }
     for (int i = 0; i < n; ++i) {
-        const gvi_real *d = m + (size_t)(i*n + i)*(size_t)m_stride;
+        const gvi_real *d = m + (size_t)(i*n + i)*(size_t)width;
         for (int k = 0; k < count; ++k) z[i*stride + k] /= d[k*each];
     }
     for (int i = n; i-- > 0; )
         for (int j = i + 1; j < n; ++j) {
-            const gvi_real *a = m + (size_t)(j*n + i)*(size_t)m_stride;
+            const gvi_real *a = m + (size_t)(j*n + i)*(size_t)width;
             for (int k = 0; k < count; ++k) z[i*stride + k] -= a[k*each]*z[j*stride + k];
         }
 }
@@ -1980,7 +1998,7 @@ static int gvi__mass_is_constant(const gvi_desc *d)
 static void gvi__over_mass(const gvi_stepper *st, gvi_real *z, int stride, int count)
 {
     int n = st->n;
-    if (gvi__mass_is(st, GVI_MASS_DENSE)) gvi__ldl_solve(n, st->x.mass, 1, 0, z, stride, count);
+    if (gvi__mass_is(st, GVI_MASS_DENSE)) gvi__ldl_solve(n, st->x.mass, 1, z, stride, count);
     if (st->x.desc.mass.kind == GVI_MASS_DIAGONAL)
         for (int i = 0; i < n; ++i)
             for (int k = 0; k < count; ++k) z[i*stride + k] *= st->x.over[i];
@@ -2036,30 +2054,33 @@ static gvi_status gvi__mass_gradient(gvi_stepper *st, gvi_points *x)
     return gvi__diagnoses(st) ? gvi__check_rows(st, x, x->f, GVI_FAULT_MASS) : GVI_OK;
 }
 
+// x->dldv += M v, each entry of a full matrix `width` numbers; width 0: of a diagonal one, or 1 if m is NULL
+GVI__DEEP void gvi__add_momenta(const gvi_points *x, const gvi_real *m, int width)
+{
+    const int n = x->n, R = x->stride, each = width > 1;
+    for (int i = 0; i < n; ++i) {
+        gvi_real *p = x->dldv + i*R;
+        if (width == 0)
+            for (int k = 0; k < x->count; ++k) p[k] += (m ? m[i] : 1)*x->v[i*R + k];
+        for (int j = 0; width > 0 && j < n; ++j) {
+            const gvi_real *a = m + (size_t)(i >= j ? i*n + j : j*n + i)*(size_t)width;
+            for (int k = 0; k < x->count; ++k) p[k] += a[k*each]*x->v[j*R + k];
+        }
+    }
+}
+
 /* The kinetic energy's share: x->dldv += M v, and for M(q) the gradient.      */
 static gvi_status gvi__kinetic(gvi_stepper *st, gvi_points *x)
 {
-    const gvi_real *m = st->x.mass;
-    int n = x->n, R = x->stride, each = 0, dense = 1;
+    const size_t nn = (size_t)x->n*(size_t)x->n;
     if (gvi__mass_is(st, GVI_MASS_NONE)) return GVI_OK;
-    if (gvi__mass_is(st, GVI_MASS_DENSE)) m = st->x.mass + (size_t)n*(size_t)n;
+    if (gvi__mass_is(st, GVI_MASS_DENSE)) gvi__add_momenta(x, st->x.mass + nn, 1);
     else if (gvi__mass_is(st, GVI_MASS_POSITION)) {
         gvi_status status = gvi__ask_mass(st, x, NULL, NULL);
         if (status == GVI_OK) status = gvi__mass_gradient(st, x);
         if (status != GVI_OK) return status;
-        m = st->x.point_mass;
-        each = 1;
-    }
-    else dense = 0;
-    for (int i = 0; i < n; ++i) {
-        gvi_real *p = x->dldv + i*R;
-        if (!dense)
-            for (int k = 0; k < x->count; ++k) p[k] += (m ? m[i] : 1)*x->v[i*R + k];
-        for (int j = 0; dense && j < n; ++j) {
-            const gvi_real *a = m + (size_t)(i >= j ? i*n + j : j*n + i)*(size_t)(each ? R : 1);
-            for (int k = 0; k < x->count; ++k) p[k] += a[k*each]*x->v[j*R + k];
-        }
-    }
+        gvi__add_momenta(x, st->x.point_mass, x->stride);
+    } else gvi__add_momenta(x, st->x.mass, 0);
     return gvi__diagnoses(st) ? gvi__check_rows(st, x, x->dldv, GVI_FAULT_MASS) : GVI_OK;
 }
 
@@ -2089,29 +2110,48 @@ static void gvi__at(gvi_points *x, const gvi_stepper *st, const gvi_real *t, con
     x->value = x->mass = x->velocity = NULL;
 }
 
+// the difference for v_j to begin with
+GVI__APART gvi_real gvi__first_difference(int n, const gvi_real *v, int j)
+{
+    const gvi_real root = GVI_SQRT(GVI__EPS);
+    const gvi_real d = root*(gvi__nonzero(v[j]) ? GVI_ABS(v[j]) : gvi__norm1(n, v)/(gvi_real)n);
+    return d > GVI__MIN/GVI__EPS ? d : root;
+}
+
+// less than d where that leaves the domain of L, more where P_j, which need not be 0 with v, hides it;
+// 0: d will do
+GVI__APART gvi_real gvi__other_difference(gvi_real d, gvi_real moved, gvi_real base)
+{
+    const gvi_real root = GVI_SQRT(GVI__EPS);
+    if (!gvi__finite(moved)) return d*root;
+    return GVI_ABS(moved - base) < root*GVI_ABS(base)/2 ? d/GVI_SQRT(root) : 0;
+}
+
+GVI__APART void gvi__velocity_column(const gvi_stepper *st, const gvi_points *x, int j, gvi_real d)
+{
+    const int n = st->n;
+    const gvi_real *base = st->x.hess;
+    gvi_real *W = st->x.hess + 3*n;
+    for (int i = 0; i < n; ++i) W[i*n + j] = (x->dldv[i] - base[i])/d;
+}
+
 // d(dL/dv)/dv at one point, n*n, by differences, to x.hess + 3n.  x has been evaluated; x->v is v
 static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real *v)
 {
-    int n = st->n;
-    gvi_real size = gvi__norm1(n, v)/(gvi_real)n;
+    const int n = st->n;
     gvi__copy((size_t)n, x->dldv, st->x.hess);
     for (int j = 0; j < n; ++j) {
-        const gvi_real was = v[j], root = GVI_SQRT(GVI__EPS);
-        gvi_real d = 0, next = root*(gvi__nonzero(was) ? GVI_ABS(was) : size);
-        if (!(next > GVI__MIN/GVI__EPS)) next = root;
-        // less where that leaves the domain of L, more where P_j, which need not be 0 with v, hides it
+        const gvi_real was = v[j];
+        gvi_real d = 0, next = gvi__first_difference(n, v, j);
         for (int k = 0; k < 12 && next > 0; ++k) {
             v[j] = was + next;
-            d = v[j] - was;
-            next = 0;
             gvi_status status = gvi__evaluate(st, x, 0);
+            d = v[j] - was;
             v[j] = was;
             if (status != GVI_OK) return status;
-            const gvi_real moved = x->dldv[j], base = st->x.hess[j];
-            if (!gvi__finite(moved)) next = d*root;
-            else if (GVI_ABS(moved - base) < root*GVI_ABS(base)/2) next = d/GVI_SQRT(root);
+            next = gvi__other_difference(d, x->dldv[j], st->x.hess[j]);
         }
-        for (int i = 0; i < n; ++i) st->x.hess[3*n + i*n + j] = (x->dldv[i] - st->x.hess[i])/d;
+        gvi__velocity_column(st, x, j, d);
     }
     gvi__copy((size_t)n, st->x.hess, x->dldv);
     return GVI_OK;
@@ -2182,7 +2222,7 @@ static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, 
     if (gvi__mass_is(st, GVI_MASS_POSITION)) {
         gvi_status status = gvi__factor_at(st, &x);
         if (status != GVI_OK) return status;
-        gvi__ldl_solve(st->n, st->x.point_mass, 1, 1, v, 1, 1);
+        gvi__ldl_solve(st->n, st->x.point_mass, 1, v, 1, 1);
         gvi__count(&st->counters.velocities, 1);
     } else gvi__over_mass(st, v, 1, 1);
     return GVI_OK;
@@ -3068,8 +3108,8 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
 typedef struct gvi__from {
     gvi_real t, te;
     const gvi_real *q, *qe, *p, *pe;
-    gvi_real E, Ee;                   /* clock: energy, and what rounding left of it */
-    const gvi_real *v, *ve;           /* M^-1 p, M^-1 pe, where M is constant   */
+    gvi_real E;                       /* clock: energy, with what rounding left of it */
+    const gvi_real *v;                /* M^-1 p, where M is constant            */
 } gvi__from;
 
 // rows of the Lagrangian terms' dL/dv, where there are any
@@ -3106,7 +3146,6 @@ static inline void gvi__begin(gvi_stepper *st, gvi__from *from, gvi_real h)
     if (GVI__CLOCK) x->dH = 0;
     if (!gvi__uses(st, GVI_EXPLICIT)) gvi__times(R, from->t, from->te, h, x->c, x->t);
     from->v = from->p;
-    from->ve = from->pe;
     if (x->desc.mass.kind == GVI_MASS_UNIT || !gvi__mass_is_constant(&x->desc)) return;
     const int carried = gvi__uses(st, GVI_POSITIONS) || gvi__uses(st, GVI_VELOCITIES);     // ve is read
     if (!carried || gvi__mass_is(st, GVI_MASS_DENSE)) {
@@ -3121,7 +3160,12 @@ static inline void gvi__begin(gvi_stepper *st, gvi__from *from, gvi_real h)
         }
     }
     from->v = x->v0;
-    from->ve = x->ve;
+}
+
+// M^-1 pe, where M is constant
+static inline const gvi_real *gvi__ve(const gvi_stepper *st, const gvi__from *from)
+{
+    return from->v == from->p ? from->pe : st->x.ve;
 }
 
 /* ---- explicit ---- */
@@ -3361,11 +3405,16 @@ static inline void gvi__weigh(int R, const gvi_real *GVI__RESTRICT w, const gvi_
     for (int j = 0; j < R; ++j) L[j] = w[j]*f[j];
 }
 
+GVI__DEEP void gvi__weigh_row(int R, const gvi_real *w, const gvi_real *f, gvi_real *L)
+{
+    gvi__weigh(R, w, f, L);
+}
+
 // z := sum_j table[j][.] w_j f_j, by way of x->z
 GVI__APART void gvi__weighted_sums(const gvi_stepper *st, const gvi_real *table, const gvi_real *w,
                                    const gvi_real *f, gvi_real *z)
 {
-    gvi__weigh(st->x.stride, w, f, st->x.z);
+    gvi__weigh_row(st->x.stride, w, f, st->x.z);
     gvi__sum_row(st->r, st->x.stride, table, st->x.z, z);
 }
 
@@ -4020,64 +4069,63 @@ static void gvi__velocity_rows(gvi_stepper *st)
     int n = st->n, R = x->stride;
     for (int k = 0; k < n*R; ++k) V[k] = P[k] - (A ? A[k] : 0);
     if (gvi__mass_is_constant(&x->desc)) gvi__over_mass(st, w->V, R, st->r);
-    else gvi__ldl_solve(n, x->point_mass, R, 1, w->V, R, st->r);
+    else gvi__ldl_solve(n, x->point_mass, R, w->V, R, st->r);
 }
 
 #define GVI__STAGES (GVI__VELOCITIES || GVI__MOMENTA ? 2 : 1)       // of an iteration, at most
-#define GVI__MADE (GVI__SMALL && GVI__TOLERANCE)                    // each time anew: gvi__stages_made
-
-static void gvi__stage_set(gvi__stage *y, const gvi_real *base, const gvi_real *extra, const gvi_real *path,
-                           const gvi_real *table, const gvi_real *f, gvi_real factor, gvi_real *rows,
-                           gvi_real *scale)
-{
-    y->base = base;
-    y->extra = extra;
-    y->path = path;
-    y->table = table;
-    y->f = f;
-    y->minus = NULL;
-    y->factor = factor;
-    y->rows = rows;
-    y->over_mass = 0;
-    y->scale = scale;
-}
+#define GVI__MADE (GVI__SMALL && GVI__TOLERANCE)                    // each time anew: gvi__stage_made
 
 // h (v + ve) of a step, where the increments of q will be
 GVI__APART void gvi__path(gvi_stepper *st, const gvi__from *from, gvi_real h)
 {
     struct gvi__private *x = &st->x;
+    const gvi_real *ve = gvi__ve(st, from);
     for (int i = 0; i < st->n; ++i) {
         const gvi__two path = gvi__product(h, from->v[i]);
         x->dq[i] = path.hi;
-        x->dqe[i] = GVI__RESTS ? gvi__rest(path.lo + h*from->ve[i]) : 0;
+        x->dqe[i] = GVI__RESTS ? gvi__rest(path.lo + h*ve[i]) : 0;
     }
 }
 
-/* What an iteration computes, fixed for a step: positions (3), with gvi__path; velocities
-   (3), (4); momenta (5), P first.  Returns how many.                           */
-static int gvi__plan(gvi_stepper *st, const gvi__from *from, gvi_real h, gvi__stage y[GVI__STAGES])
+/* What an iteration computes, fixed for a step, in this order: positions (3), with gvi__path;
+   velocities (3), (4); momenta (5), P first.                                   */
+static int gvi__stage_count(const gvi_stepper *st)
+{
+    return gvi__uses(st, GVI_POSITIONS) || GVI__STAGES == 1 ? 1 : 2;
+}
+
+static void gvi__plan(gvi_stepper *st, const gvi__from *from, gvi_real h, int stage, gvi__stage *y)
 {
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work;
-    if (gvi__uses(st, GVI_MOMENTA)) {
-        gvi__stage_set(y, from->p, from->pe, NULL, x->m, w->F, 1, w->P, x->scale);
-        gvi__stage_set(y + 1, from->q, from->qe, NULL, x->T, w->V, 1, w->Q, x->scale + st->n);
-        y[0].kernel = y[1].kernel = GVI__SMALL ? NULL : gvi__kernel_of(st, y);
-        return 2;
-    }
-    gvi__stage_set(y, from->q, from->qe, GVI__PATH ? x->dq : from->v, x->g, w->F, h, w->Q, x->scale);
+    const int momenta = gvi__uses(st, GVI_MOMENTA);
+    y->path = y->minus = NULL;
     y->rest = x->dqe;
-    y->minus = gvi__A(w) ? x->T : NULL;
-    y->over_mass = 1;
-    y->kernel = GVI__SMALL ? NULL : gvi__kernel_of(st, y);
-    if (GVI__STIFF && x->springs) y->kernel = gvi__arc_kernel(st, 0);
-    if (gvi__uses(st, GVI_POSITIONS) || GVI__STAGES == 1) return 1;
-    gvi__stage_set(y + 1, from->v, from->ve, NULL, x->m, w->F, 1, w->V, x->scale + st->n);
-    y[1].minus = gvi__A(w) ? x->N : NULL;
-    y[1].over_mass = 1;
-    y[1].kernel = GVI__SMALL ? NULL : gvi__kernel_of(st, y + 1);
-    if (GVI__STIFF && x->springs) y[1].kernel = gvi__arc_kernel(st, 1);
-    return 2;
+    y->f = w->F;
+    y->factor = 1;
+    y->scale = x->scale + stage*st->n;
+    y->over_mass = !momenta;
+    if (GVI__STAGES == 1 || stage == momenta) {
+        y->base = from->q;
+        y->extra = from->qe;
+        y->rows = w->Q;
+        y->table = momenta ? x->T : x->g;
+        if (momenta) y->f = w->V;
+        else {
+            y->path = GVI__PATH ? x->dq : from->v;
+            y->minus = gvi__A(w) ? x->T : NULL;
+            y->factor = h;
+        }
+    } else {
+        y->base = momenta ? from->p : from->v;
+        y->extra = momenta ? from->pe : gvi__ve(st, from);
+        y->rows = momenta ? w->P : w->V;
+        y->table = x->m;
+        if (!momenta && gvi__A(w)) y->minus = x->N;
+    }
+    if (GVI__SMALL) y->kernel = NULL;
+    else if (GVI__STIFF && x->springs) y->kernel = gvi__arc_kernel(st, stage);
+    else y->kernel = gvi__kernel_of(st, y);
 }
 
 // row := a row, element by element
@@ -4089,7 +4137,7 @@ static inline void gvi__scale_row(int R, const gvi_real *GVI__RESTRICT a, gvi_re
 /* V from the new P, with the old M(Q) and dL/dv.  Where Lagrangian terms make V it
    contracts alike at any h, also when Q and P, a short step away, feel no more of it:
    returns the squares of its relative changes at the last point, as of all points. */
-static gvi_real gvi__velocity_change(gvi_stepper *st, int clock)
+GVI__DEEP gvi_real gvi__velocity_change(gvi_stepper *st, int clock)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, R = x->stride, made = gvi__A(&x->work) != NULL;
@@ -4105,27 +4153,28 @@ static gvi_real gvi__velocity_change(gvi_stepper *st, int clock)
     return (gvi_real)st->r*sum;
 }
 
+/* Compiled for size: a stage is made where it is needed, and not on the stack while
+   effects are asked.                                                          */
+GVI__APART gvi_real gvi__stage_made(gvi_stepper *st, const gvi__from *from, gvi_real h, int stage)
+{
+    gvi__stage y;
+    gvi__plan(st, from, h, stage, &y);
+    return gvi__stage_rows(st, &y);
+}
+
 /* The rows of the next iteration from the F, V and A of this one; returns the
    sum of squares of their relative changes.                                   */
-static gvi_real gvi__stages(gvi_stepper *st, const gvi__stage *y, int count)
+GVI__DEEP gvi_real gvi__stages(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi__stage *y,
+                                int count)
 {
     struct gvi__private *x = &st->x;
-    gvi_real sum = gvi__stage_rows(st, y);
-    if (count == 1) return sum;
+    gvi_real sum = GVI__MADE ? gvi__stage_made(st, from, h, 0) : gvi__stage_rows(st, y);
+    if ((GVI__MADE ? gvi__stage_count(st) : count) == 1) return sum;
     const int clock = gvi__has_clock(st), factor = x->has_factor || gvi__mass_is_constant(&x->desc);
     if (gvi__uses(st, GVI_MOMENTA) && factor && !x->desc.mass.velocity && (!clock || x->has_rate))
         sum += gvi__velocity_change(st, clock);         // contracts twice as fast
     gvi__count(&st->counters.velocities, st->r);
-    return sum + gvi__stage_rows(st, y + 1);
-}
-
-/* Compiled for size: the stages are made where they are needed, and not on the stack while
-   effects are asked.                                                          */
-GVI__APART gvi_real gvi__stages_made(gvi_stepper *st, const gvi__from *from, gvi_real h)
-{
-    gvi__stage y[GVI__STAGES];
-    const int count = gvi__plan(st, from, h, y);
-    return gvi__stages(st, y, count);
+    return sum + (GVI__MADE ? gvi__stage_made(st, from, h, 1) : gvi__stage_rows(st, y + 1));
 }
 
 // momenta: V from dL/dv(Q, V) = P
@@ -4187,7 +4236,7 @@ GVI__APART void gvi__transform(gvi_stepper *st, const gvi__from *from, int lagra
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work;
     const int n = st->n, R = x->stride;
-    const gvi_real E = from->E + from->Ee;
+    const gvi_real E = from->E;
     gvi_real *power = x->rate + R, *level = power + R;
     for (int k = 0; k < R; ++k) level[k] -= x->less[k] + E;
     if (gvi__has(st, GVI__HAS_VELOCITIES)) {
@@ -4323,7 +4372,7 @@ static int gvi__fit_half(gvi_stepper *st, gvi_real sign, gvi_real *z)
     const unsigned long long counted = st->counters.factorizations;
     const gvi_status status = gvi__ldl_factor(st, r, 1, 1, K);
     st->counters.factorizations = counted;
-    gvi__ldl_solve(r, K, 1, 0, z, R, r);
+    gvi__ldl_solve(r, K, 1, z, R, r);
     return status == GVI_OK;
 }
 
@@ -4475,10 +4524,15 @@ static void gvi__learn(gvi_stepper *st, int used)
     y->rounds = y->steps = 0;
 }
 
-// E for this step, if it is not that already
-GVI__APART void gvi__prepare_guess(gvi_stepper *st, gvi_real alpha, gvi_real beta, int query)
+// what is solved: a step, or for a query a part of the last one, from its start or its end
+enum { GVI__STEP, GVI__FROM_START, GVI__FROM_END };
+
+/* E for this step, if it is not that already: the rows of the last one are at alpha + beta c
+   of theirs, c being the nodes of this.                                       */
+GVI__APART void gvi__prepare_guess(gvi_stepper *st, gvi_real h, int query)
 {
     struct gvi__private *x = &st->x;
+    const gvi_real alpha = query != GVI__FROM_START, beta = h/st->h;
     const int step = !query && !gvi__by_newton(st);   // Newton's method wants V, of the last step alone
     const int two = GVI__KIND > 1 && step && x->alike == 2 && x->older_F && !gvi__nonzero(beta - 1);
     const int sums = step && gvi__uses(st, GVI_POSITIONS) && !gvi__mass_is(st, GVI_MASS_DENSE)
@@ -4493,12 +4547,12 @@ GVI__APART void gvi__prepare_guess(gvi_stepper *st, gvi_real alpha, gvi_real bet
     if (sums) gvi__fit_sums(st);
 }
 
-// the same as gvi__stages_made, of the first rows
+// the same as gvi__stage_made, of the first rows
 GVI__APART void gvi__extrapolate_made(gvi_stepper *st, const gvi__from *from, gvi_real h)
 {
-    gvi__stage y[GVI__STAGES];
-    gvi__plan(st, from, h, y);
-    gvi__extrapolate(st, st->x.last.F, st->x.older_F, y, st->x.work.Q);
+    gvi__stage y;
+    gvi__plan(st, from, h, 0, &y);
+    gvi__extrapolate(st, st->x.last.F, st->x.older_F, &y, st->x.work.Q);
 }
 
 /* Starting values: what the last step had, extrapolated; without one, or if
@@ -4805,7 +4859,7 @@ static void gvi__add_paths(gvi_stepper *st, const gvi__from *from, gvi_real h, c
     for (int i = 0; i < st->n; ++i) {
         if (gvi__nonzero(stiffness[i])) continue;
         if (x->over) x->dq[i] *= x->over[i];
-        gvi__add_path(1, h, from->v + i, from->ve + i, from->qe + i, x->dq + i, x->dqe + i);
+        gvi__add_path(1, h, from->v + i, gvi__ve(st, from) + i, from->qe + i, x->dq + i, x->dqe + i);
     }
 }
 
@@ -4844,11 +4898,11 @@ GVI__APART void gvi__increments_of(gvi_stepper *st, const gvi__from *from, gvi_r
     if (GVI__STIFF && stiffness) gvi__add_paths(st, from, h, stiffness);
     else {
         gvi__over_mass(st, x->dq, 1, 1);
-        gvi__add_path(n, h, from->v, from->ve, from->qe, x->dq, x->dqe);
+        gvi__add_path(n, h, from->v, gvi__ve(st, from), from->qe, x->dq, x->dqe);
     }
 }
 
-static void gvi__increments(gvi_stepper *st, const gvi__from *from, gvi_real h)
+GVI__DEEP void gvi__increments(gvi_stepper *st, const gvi__from *from, gvi_real h)
 {
     struct gvi__private *x = &st->x;
     if (gvi__has_clock(st)) {
@@ -5002,8 +5056,8 @@ static int gvi__may_turn(const gvi_stepper *st)
    All of it in squares of changes: no root or quotient between an iteration and
    the next.  A given number of iterations ends there, if the change is half of
    that two before.                                                            */
-static int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *p, gvi__still *weak,
-                      gvi_real change, int used)
+GVI__DEEP int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *p, gvi__still *weak,
+                          gvi_real change, int used)
 {
     struct gvi__private *x = &st->x;
     const gvi_real rounding = p->rounding, before = p->before;
@@ -5053,6 +5107,25 @@ static inline void gvi__scales(gvi_stepper *st, const gvi__stage *y, int count)
     }
 }
 
+// what the first iteration begins with: rows, or F, V and A to make them of
+GVI__DEEP gvi_status gvi__first_rows(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate,
+                                      const gvi__stage *y)
+{
+    struct gvi__private *x = &st->x;
+    const int sums = extrapolate && (x->E_is & GVI__SUMS), springs = GVI__STIFF && x->springs;
+    gvi_real rate = 1;
+    if (gvi__has_clock(st)) {
+        gvi_status status = gvi__clock_guess(st, from, h, &rate);
+        if (status != GVI_OK) return status;
+    }
+    if (springs) gvi__free_motion(st, from);
+    if (sums && GVI__MADE) gvi__extrapolate_made(st, from, h);
+    else if (sums) gvi__extrapolate(st, x->last.F, x->older_F, y, x->work.Q);
+    else gvi__guess(st, extrapolate, rate);
+    if (springs && !sums) gvi__spring_guess(st, from, extrapolate);
+    return GVI_OK;
+}
+
 /* Fixed point on the rows: F, V and A make the rows, the effects are asked there. */
 GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate,
                                        int *used)
@@ -5066,29 +5139,21 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
     gvi__stage y[GVI__STAGES];
     gvi_points at;
     if (GVI__PATH && !gvi__uses(st, GVI_MOMENTA)) gvi__path(st, from, h);
-    const int count = GVI__MADE ? 0 : gvi__plan(st, from, h, y);
+    const int count = gvi__stage_count(st);
+    for (int k = 0; k < count && !GVI__MADE; ++k) gvi__plan(st, from, h, k, y + k);
     // where size counts, gvi__ask makes them: no longer on the stack than needed
     if (!GVI__SMALL) gvi__rows_as_points(&at, st, &x->work, gvi__A(&x->work));
-    gvi_real rate = 1;
-    if (gvi__has_clock(st)) {
-        gvi_status status = gvi__clock_guess(st, from, h, &rate);
-        if (status != GVI_OK) return status;
-    }
-    const int sums = extrapolate && (x->E_is & GVI__SUMS);
-    const int springs = GVI__STIFF && x->springs;
-    if (springs) gvi__free_motion(st, from);
-    if (sums && GVI__MADE) gvi__extrapolate_made(st, from, h);
-    else if (sums) gvi__extrapolate(st, x->last.F, x->older_F, y, x->work.Q);
-    else gvi__guess(st, extrapolate, rate);
-    if (springs && !sums) gvi__spring_guess(st, from, extrapolate);
+    const int sums = extrapolate && (x->E_is & GVI__SUMS), springs = GVI__STIFF && x->springs;
+    const gvi_status first = gvi__first_rows(st, from, h, extrapolate, y);
+    if (first != GVI_OK) return first;
     for (*used = 0; ; ) {
         if (GVI__TOLERANCE && p.idle + p.poor > 0)
             gvi__gather(st->n, x->stride, x->work.Q + st->r - 1, x->change);
-        const gvi_real change = sums && *used == 0 ? 0
-            : GVI__MADE ? gvi__stages_made(st, from, h) : gvi__stages(st, y, count);
+        gvi_real change = p.before;
+        if (*used > 0 || !sums) change = gvi__stages(st, from, h, y, count);
         int verdict = GVI__GO_ON;
         if (*used > 0) {
-            if (!(change <= GVI__MAX)) return gvi__not_finite(st, p.grows);
+            if (!gvi__finite(change)) return gvi__not_finite(st, p.grows);
             verdict = gvi__judge(st, from, &p, GVI__WEAK ? &weak : NULL, change, *used);
             if (verdict == GVI__GO_ON && GVI__TOLERANCE && *used == most) verdict = GVI__BEYOND;
             if (verdict == GVI__BEYOND) break;
@@ -5115,7 +5180,7 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
 /* Newton on (1).  Unknowns y[k*n + i]; the rows are those of (1) times 2k + 1,
    from k0 on: k0 = 0 for a step, 1 for the boundary-value problem.            */
 
-static void gvi__newton_rows(gvi_stepper *st, const gvi__from *from, gvi_real h)
+GVI__APART void gvi__newton_rows(gvi_stepper *st, const gvi__from *from, gvi_real h)
 {
     struct gvi__private *x = &st->x;
     int n = st->n, R = x->stride;
@@ -5171,15 +5236,14 @@ GVI__APART gvi_real gvi__residual(gvi_stepper *st, const gvi__from *from, int k0
     return worst;
 }
 
-// where the derivatives of the residual go
+// where the derivatives of the residual go, of a step of length h_weights
 typedef struct gvi__matrix {
     gvi_real *square;      /* rows and columns k0..s-1, row-major               */
     gvi_real *ends;        /* k0 = 1: columns y_0 and q0, 2n a row, behind square; or NULL */
     gvi_real *pivot;       /* of square's LU, or of the blocks'                 */
-    int       k0;
-    gvi_real  h;
-    int       scaled;      /* rows by their largest entry, for a condition without units */
-    int       blocks;      /* in place of square: matrices of n, derivatives at one point */
+    signed char k0;
+    signed char scaled;    /* rows by their largest entry, for a condition without units */
+    signed char blocks;    /* in place of square: matrices of n, derivatives at one point */
 } gvi__matrix;
 
 // Is it in blocks?  Never in the boundary-value problem, which is there without Newton's
@@ -5309,10 +5373,11 @@ static void gvi__add_to_blocks(const gvi_stepper *st, const gvi__matrix *J, int 
                                gvi_real f, gvi_real p, int by_v)
 {
     const size_t n = (size_t)st->n;
+    const gvi_real h = st->x.h_weights;
     gvi_real *a = J->square + 2*n*(size_t)i + (size_t)j;
     for (int m = 0; m < (st->s + 1)/2; ++m, a += 2*n*n) {
         const gvi__complex l = gvi__eigenvalue(st, m);
-        const gvi__complex x = gvi__complex_of(J->h*l.re, J->h*l.im);
+        const gvi__complex x = gvi__complex_of(h*l.re, h*l.im);
         const gvi__complex y = gvi__complex_of(p - x.re*f, -x.im*f);
         const gvi__complex z = by_v ? y : gvi__times_complex(x, y);
         a[0] += z.re;
@@ -5365,6 +5430,7 @@ static void gvi__add(const gvi_stepper *st, const gvi__matrix *J, int i, int j, 
     const struct gvi__private *x = &st->x;
     int n = st->n, R = x->stride, s = st->s, k0 = J->k0;
     size_t size = (size_t)(s - k0)*(size_t)n;
+    const gvi_real h = x->h_weights;
     if (f <= 0 && f >= 0 && p <= 0 && p >= 0) return;
     if (gvi__in_blocks(J)) {
         gvi__add_to_blocks(st, J, i, j, f, p, by_v);
@@ -5376,12 +5442,20 @@ static void gvi__add(const gvi_stepper *st, const gvi__matrix *J, int i, int j, 
         size_t row = (size_t)((k - k0)*n + i);
         for (int l = k0; l < s; ++l)
             J->square[row*size + (size_t)((l - k0)*n + j)]
-                += a*(by_v ? x->phi[l*R + point] : J->h*x->Phi[l*R + point]);
+                += a*(by_v ? x->phi[l*R + point] : h*x->Phi[l*R + point]);
         if (J->ends) {
-            J->ends[row*2*(size_t)n + (size_t)j] += a*(by_v ? 1 : J->h*x->Phi[point]);
+            J->ends[row*2*(size_t)n + (size_t)j] += a*(by_v ? 1 : h*x->Phi[point]);
             if (!by_v) J->ends[row*2*(size_t)n + (size_t)(n + j)] += a;
         }
     }
+}
+
+// all points; compiled for size, made where they are needed
+static gvi__sites gvi__all_points(const gvi_stepper *st)
+{
+    const struct gvi__private *x = &st->x;
+    const gvi__sites at = { x->t, x->work.Q, x->work.V, st->r, x->stride };
+    return at;
 }
 
 // effects that bring their Hessians, and the constant mass
@@ -5389,6 +5463,8 @@ GVI__APART gvi_status gvi__jacobian_exact(gvi_stepper *st, const gvi__matrix *J,
 {
     struct gvi__private *x = &st->x;
     const gvi_desc *d = &x->desc;
+    gvi__sites all;
+    if (GVI__SMALL) all = gvi__all_points(st), at = &all;
     int n = st->n, R = at->stride;
     size_t nn = (size_t)n*(size_t)n;
     gvi_real *fq = x->hess, *fv = fq + nn, *own = fv + nn, *pv = own + nn, *q = x->one, *v = q + n;
@@ -5433,38 +5509,9 @@ GVI__APART gvi_status gvi__ask_sites(gvi_stepper *st, const gvi__sites *at, gvi_
     return gvi__evaluate(st, &y, 1);
 }
 
-// x->dF holds F and P, moved and not; x->z the row of coordinate j before it was moved
-GVI__APART void gvi__add_differences(const gvi_stepper *st, const gvi__matrix *J, const gvi__sites *at, int j,
-                                     int by_v)
-{
-    const int n = st->n, R = at->stride;
-    const gvi_real *row = (by_v ? at->v : at->q) + j*R;
-    const gvi_real *dF = st->x.dF, *dP = dF + n*R, *bF = dP + n*R, *bP = bF + n*R;
-    for (int k = 0; k < at->count; ++k) {
-        const gvi_real step = row[k] - st->x.z[k];
-        for (int i = 0, o = k; i < n; ++i, o += R)
-            gvi__add(st, J, i, j, k, (dF[o] - bF[o])/step, (dP[o] - bP[o])/step, by_v);
-    }
-}
-
-// forward differences by one row, coordinate j of Q or V, at all points at once
-static gvi_status gvi__difference(gvi_stepper *st, const gvi__matrix *J, const gvi__sites *at, int j,
-                                  int by_v, gvi_real d)
-{
-    struct gvi__private *x = &st->x;
-    const size_t R = (size_t)at->stride;
-    gvi_real *row = (by_v ? at->v : at->q) + (size_t)j*R;
-    gvi__copy(R, row, x->z);
-    for (int k = 0; k < at->count; ++k) row[k] += d;
-    gvi_status status = gvi__ask_sites(st, at, x->dF);
-    if (status == GVI_OK) gvi__add_differences(st, J, at, j, by_v);
-    gvi__copy(R, x->z, row);
-    return status;
-}
-
 /* The difference for coordinate j: sqrt(eps) of what it moves in a step, but no less
    than eps^(3/4) of itself; or for its velocity, that over h.                 */
-GVI__APART gvi_real gvi__nudge(const gvi__sites *at, int j, gvi_real h, int by_v)
+static gvi_real gvi__nudge(const gvi__sites *at, int j, gvi_real h, int by_v)
 {
     const gvi_real root = GVI_SQRT(GVI__EPS), small = GVI_SQRT(root);
     const gvi_real *Q = at->q + j*at->stride, *V = at->v + j*at->stride;
@@ -5480,18 +5527,45 @@ GVI__APART gvi_real gvi__nudge(const gvi__sites *at, int j, gvi_real h, int by_v
     return v > 0 && step/h > small*v ? small*v : step/h;      // short steps: no velocity beyond all others
 }
 
+// moves row j of Q, k = 2j, or of V, k = 2j + 1, at all points at once; x->z gets what it was
+GVI__APART void gvi__move_row(gvi_stepper *st, const gvi__sites *at, int k)
+{
+    const int j = k/2, by_v = k % 2;
+    const size_t R = (size_t)at->stride;
+    gvi_real *row = (by_v ? at->v : at->q) + (size_t)j*R;
+    const gvi_real d = gvi__nudge(at, j, GVI_ABS(st->x.h_weights), by_v);
+    gvi__copy(R, row, st->x.z);
+    for (int i = 0; i < at->count; ++i) row[i] += d;
+}
+
+// forward differences by that row, which goes back; x->dF holds F and P, moved and not
+GVI__APART void gvi__add_differences(const gvi_stepper *st, const gvi__matrix *J, const gvi__sites *at, int k)
+{
+    const int j = k/2, by_v = k % 2, n = st->n, R = at->stride;
+    gvi_real *row = (by_v ? at->v : at->q) + j*R;
+    const gvi_real *dF = st->x.dF, *dP = dF + n*R, *bF = dP + n*R, *bP = bF + n*R;
+    for (int m = 0; m < at->count; ++m) {
+        const gvi_real step = row[m] - st->x.z[m];
+        for (int i = 0, o = m; i < n; ++i, o += R)
+            gvi__add(st, J, i, j, m, (dF[o] - bF[o])/step, (dP[o] - bP[o])/step, by_v);
+    }
+    gvi__copy((size_t)R, st->x.z, row);
+}
+
 // derivatives of what has no Hessian
 GVI__APART gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matrix *J, const gvi__sites *at)
 {
-    struct gvi__private *x = &st->x;
+    gvi__sites all;
+    if (GVI__SMALL) all = gvi__all_points(st), at = &all;
     const unsigned plain = gvi__without_hessian(st);
-    const int varies = !gvi__mass_is_constant(&x->desc);
+    const int varies = !gvi__mass_is_constant(&st->x.desc);
     const int reads_v = varies || (plain & ~gvi__of_kind(st, GVI_POTENTIAL)) != 0;
     if (!varies && !plain) return GVI_OK;
-    gvi_status status = gvi__ask_sites(st, at, x->dF + 2*st->n*at->stride);
+    gvi_status status = gvi__ask_sites(st, at, st->x.dF + 2*st->n*at->stride);
     for (int k = 0; k < 2*st->n && status == GVI_OK; k += 2 - reads_v) {       // of each coordinate q, then v
-        const int j = k/2, by_v = k % 2;
-        status = gvi__difference(st, J, at, j, by_v, gvi__nudge(at, j, GVI_ABS(J->h), by_v));
+        gvi__move_row(st, at, k);
+        status = gvi__ask_sites(st, at, st->x.dF);
+        if (status == GVI_OK) gvi__add_differences(st, J, at, k);
     }
     return status;
 }
@@ -5513,10 +5587,10 @@ GVI__APART gvi_status gvi__check_regular(gvi_stepper *st)
     gvi_status status = gvi__evaluate(st, &y, 0);
     if (status == GVI_OK) status = gvi__velocity_hessian(st, &y, v);
     if (status != GVI_OK) return status;
-    int at;
     gvi_real *W = x->hess + 3*st->n;
-    status = gvi__lu_factor(st->n, W, W + st->n*st->n, &at);
-    return status == GVI_E_SINGULAR ? gvi__fail(st, status, GVI_FAULT_MASS, at, GVI_FAULT_NONE) : GVI_OK;
+    int *at = &st->fault.coordinate;                    // -1, GVI_FAULT_NONE, but where it is singular
+    status = gvi__lu_factor(st->n, W, W + st->n*st->n, at);
+    return status == GVI_E_SINGULAR ? gvi__fail(st, status, GVI_FAULT_MASS, *at, GVI_FAULT_NONE) : GVI_OK;
 }
 
 static void gvi__scale_rows(int n, int size, const gvi__matrix *J)
@@ -5548,14 +5622,16 @@ static gvi__sites gvi__middle(gvi_stepper *st, gvi_real *t)
 
 static gvi_status gvi__jacobian_fill(gvi_stepper *st, const gvi__matrix *J)
 {
-    struct gvi__private *x = &st->x;
     const size_t n = (size_t)st->n, size = (size_t)(st->s - J->k0)*n;
     const size_t whole = size*(size + (J->ends ? 2*n : 0)), blocks = (size_t)(st->s + 1)*n*n;
     gvi__zero(gvi__in_blocks(J) ? blocks : whole, J->square);
+    if (GVI__SMALL) {
+        const gvi_status status = gvi__jacobian_exact(st, J, NULL);
+        return status == GVI_OK ? gvi__jacobian_differences(st, J, NULL) : status;
+    }
     gvi_real t;
-    gvi__sites at = { x->t, x->work.Q, x->work.V, st->r, x->stride };
-    if (gvi__in_blocks(J)) at = gvi__middle(st, &t);
-    gvi_status status = gvi__jacobian_exact(st, J, &at);
+    const gvi__sites at = gvi__in_blocks(J) ? gvi__middle(st, &t) : gvi__all_points(st);
+    const gvi_status status = gvi__jacobian_exact(st, J, &at);
     return status == GVI_OK ? gvi__jacobian_differences(st, J, &at) : status;
 }
 
@@ -5598,15 +5674,25 @@ GVI__APART void gvi__newton_guess(gvi_stepper *st, int extrapolate)
     }
 }
 
+/* Where Newton's method stands: the last changes; rho, the contraction seen; what is left of
+   the error, once a change was rounding; how often none was less; is there a matrix that will
+   do, is it new, was the last one?  And did no coordinate move by more than rounding?         */
+typedef struct gvi__descent {
+    gvi_real    before, earlier, rho, left;
+    int         idle;
+    signed char have, fresh, was_fresh, still;
+} gvi__descent;
+
 /* y += dy from row k0 on; returns the sum over coordinates of the relative change.
-   still: all of it within a few units of the last place of q                  */
+   p->still: all of it within a few units of the last place of q                */
 GVI__APART gvi_real gvi__newton_update(gvi_stepper *st, const gvi__from *from, const gvi__matrix *J,
-                                      int *still)
+                                      gvi__descent *p)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n;
-    const gvi_real h = GVI_ABS(J->h);
+    const gvi_real h = GVI_ABS(x->h_weights);
     gvi_real sum = 0;
+    p->still = 1;
     for (int i = 0; i < n; ++i) {
         gvi_real change = 0, size = 0;
         for (int k = 0; k < st->s; ++k) {
@@ -5617,81 +5703,87 @@ GVI__APART gvi_real gvi__newton_update(gvi_stepper *st, const gvi__from *from, c
             size += GVI_ABS(x->y[k*n + i]);
         }
         if (!(size <= GVI__MIN/GVI__EPS)) sum += change/size; // as gvi__rescale; a NaN goes on
-        if (!(h*change <= 4*GVI__EPS*GVI_ABS(from->q[i]))) *still = 0;
+        if (!(h*change <= 4*GVI__EPS*GVI_ABS(from->q[i]))) p->still = 0;
         x->change[i] = x->work.Q[i*x->stride + st->r - 1] - h*change;     // for gvi__is_rounding
     }
     return sum;
 }
 
+/* The verdict on a change.  It is rounding if it does not shrink although it is at the
+   rounding of y, q or the residual, or small and the Jacobian new; what is then left of the
+   error shrinks on by the contraction seen before.  Gives up blocks that contract by no more
+   than 1/2 when they are new: derivatives at one point are not enough.        */
+GVI__APART int gvi__newton_judge(gvi_stepper *st, const gvi__from *from, const gvi__matrix *J,
+                                 gvi__descent *p, gvi_real change, gvi_real residual)
+{
+    const gvi_real before = p->before, ratio = before > 0 ? change/before : 1;
+    const gvi_real size = (gvi_real)((st->s - J->k0)*st->n), wanted = st->x.desc.tolerance;
+    gvi__watch(st, change, p->earlier);
+    const int stagnant = before > 0 && ratio > (gvi_real)0.5;
+    p->idle = stagnant ? p->idle + 1 : 0;
+    if (before > 0 && !stagnant) p->rho = ratio;
+    const int rounding = p->left < GVI__MAX
+        || (stagnant && (change <= 64*GVI__EPS*size || p->still || residual <= 16*GVI__EPS
+                         || (p->fresh && change <= GVI_SQRT(GVI__EPS))
+                         || (p->idle > 1 && gvi__is_rounding(st, from, p->idle))));
+    if (rounding) p->left = p->rho*(p->left < GVI__MAX ? p->left : before);
+
+    const gvi_real enough = wanted > 0 ? wanted : GVI__EPS/4096;
+    if (change*ratio <= enough || p->left <= GVI__EPS/1024 || p->left <= enough) return GVI__DONE;
+    if (!rounding && before > 0 && ratio > (gvi_real)0.25) {
+        if (gvi__in_blocks(J) && p->was_fresh && ratio > (gvi_real)0.5) return GVI__BEYOND;
+        p->have = 0;
+    }
+    p->was_fresh = p->fresh;
+    p->earlier = before;
+    p->before = change;
+    return GVI__GO_ON;
+}
+
 /* Solves rows k0..s-1 of (1) from the y at hand and leaves F, P, Q, V at the
    solution.  Keeps the factorisation while it contracts by 1/4 or better, over
-   iterations and, if `kept`, over steps.  Gives up blocks that contract by no more
-   than 1/2 when they are new: derivatives at one point are not enough.        */
+   iterations and, if `kept`, over steps.                                      */
 GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi__matrix *J, int kept)
 {
     struct gvi__private *x = &st->x;
-    const int size = (st->s - J->k0)*st->n;
-    int have = kept && !gvi__nonzero(x->h_matrix - J->h) && x->has_blocks == gvi__in_blocks(J);
-    int made = 0, last = 0, idle = 0, was_fresh = 0;
-    gvi_real before = 0, earlier = 0, rho = (gvi_real)0.25, left = GVI__MAX;
-    for (int k = 0; k <= x->desc.max_iterations; ++k) {
-        int fresh = !have;
-        gvi_status status = gvi__newton_ask(st, from, J->h);
-        if (status != GVI_OK || last) return status;
-        if (fresh) {
+    gvi__descent p = { 0, 0, 0, 0, 0, 0, 0, 0, 0 };
+    p.rho = (gvi_real)0.25;
+    p.left = GVI__MAX;
+    p.have = kept && !gvi__nonzero(x->h_matrix - x->h_weights) && x->has_blocks == gvi__in_blocks(J);
+    for (int k = 0, made = 0, verdict = GVI__GO_ON; k <= x->desc.max_iterations; ++k) {
+        gvi_status status = gvi__newton_ask(st, from, x->h_weights);
+        if (status != GVI_OK || verdict == GVI__DONE) return status;        // one more evaluation, then done
+        p.fresh = !p.have;
+        if (p.fresh) {
             if (++made > x->desc.max_iterations/4 + 2) break;
             status = gvi__jacobian(st, J);
             if (status != GVI_OK) return status;
-            have = 1;
+            p.have = 1;
             if (kept) {
-                x->h_matrix = J->h;
+                x->h_matrix = x->h_weights;
                 x->has_blocks = (signed char)gvi__in_blocks(J);
             }
         }
-        gvi_real residual = gvi__residual(st, from, J->k0);
+        const gvi_real residual = gvi__residual(st, from, J->k0);
         if (gvi__in_blocks(J)) gvi__solve_blocks(st, J);
-        else gvi_lu_solve(size, J->square, J->pivot, x->dy);
-        int still = 1;
-        const gvi_real change = gvi__newton_update(st, from, J, &still);
-        const gvi_real ratio = before > 0 ? change/before : 1;
+        else gvi_lu_solve((st->s - J->k0)*st->n, J->square, J->pivot, x->dy);
+        const gvi_real change = gvi__newton_update(st, from, J, &p);
         gvi__count(&st->counters.newton_iterations, 1);
-        if (!(change <= GVI__MAX)) return gvi__not_finite(st, 0);
-        gvi__watch(st, change, earlier);
-
-        // a change is rounding if it does not shrink although it is at the rounding
-        // of y, q or the residual, or small and the Jacobian new; what is then left
-        // of the error shrinks on by the contraction seen before
-        int stagnant = before > 0 && ratio > (gvi_real)0.5;
-        idle = stagnant ? idle + 1 : 0;
-        if (before > 0 && !stagnant) rho = ratio;
-        int rounding = left < GVI__MAX
-            || (stagnant && (change <= 64*GVI__EPS*(gvi_real)size || still || residual <= 16*GVI__EPS
-                             || (fresh && change <= GVI_SQRT(GVI__EPS))
-                             || (idle > 1 && gvi__is_rounding(st, from, idle))));
-        if (rounding) left = rho*(left < GVI__MAX ? left : before);
-
-        // one more evaluation, then done
-        const gvi_real enough = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/4096;
-        if (change*ratio <= enough || left <= GVI__EPS/1024 || left <= enough) last = 1;
-        else if (!rounding && before > 0 && ratio > (gvi_real)0.25) {
-            if (gvi__in_blocks(J) && was_fresh && ratio > (gvi_real)0.5) break;
-            have = 0;
-        }
-        was_fresh = fresh;
-        earlier = before;
-        before = change;
+        if (!gvi__finite(change)) return gvi__not_finite(st, 0);
+        verdict = gvi__newton_judge(st, from, J, &p, change, residual);
+        if (verdict == GVI__BEYOND) break;
     }
     return gvi__give(st, GVI_E_CONVERGENCE);
 }
 
 // eigenvectors at first use; blocks may cost all digits of J but eight bits, enough for
 // Newton's method to contract
-static int gvi__use_blocks(gvi_stepper *st)
+static signed char gvi__use_blocks(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
     if (GVI__SMALL) return 0;
     if (x->blocks < 0) x->blocks = gvi__eigenvectors(st) < 1/(256*GVI__EPS);
-    return x->blocks && x->whole_left == 0;
+    return (signed char)(x->blocks && x->whole_left == 0);
 }
 
 // dq and dp of a step that y solves
@@ -5715,8 +5807,7 @@ GVI__APART gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, i
 {
     struct gvi__private *x = &st->x;
     size_t sn = (size_t)(st->s*st->n), offset = query ? sn*sn : 0;
-    gvi__matrix J = { x->J + offset, NULL, x->pivot + (query ? sn + 1 : 0), 0, x->h_weights, 0,
-                      gvi__use_blocks(st) };
+    gvi__matrix J = { x->J + offset, NULL, x->pivot + (query ? sn + 1 : 0), 0, 0, gvi__use_blocks(st) };
     gvi__newton_guess(st, extrapolate);
     const unsigned long long count = st->counters.newton_iterations;
     gvi_status status = gvi__newton(st, from, &J, !query);
@@ -5852,31 +5943,30 @@ static inline gvi_status gvi__explicit(gvi_stepper *st, const gvi__from *from, g
 
 /* ---- a step from its start to dq and dp, nothing of it kept yet ---- */
 
-// where the last step's rows are, seen from the step to come
-typedef struct gvi__history {
-    int             available;        /* they are, and say something about it   */
-    gvi_real        alpha, beta;      /* its node c is at alpha + beta c of theirs */
-    const gvi_real *force;            /* at their end, if it is known           */
-} gvi__history;
+// the force at the start, if the last step ended there and it is known
+static inline const gvi_real *gvi__known_force(const gvi_stepper *st, int query)
+{
+    return st->x.has_force && query != GVI__FROM_START ? st->x.last.F : NULL;
+}
 
-static gvi_status gvi__attempt(gvi_stepper *st, gvi__from *from, gvi_real h,
-                               const gvi__history *past, int query)
+static gvi_status gvi__attempt(gvi_stepper *st, gvi__from *from, gvi_real h, int query)
 {
     struct gvi__private *x = &st->x;
     gvi__begin(st, from, h);
     if (GVI__NEWTON) st->formulation = x->chosen;
-    if (gvi__uses(st, GVI_EXPLICIT)) return gvi__explicit(st, from, h, past->force);
+    if (gvi__uses(st, GVI_EXPLICIT)) return gvi__explicit(st, from, h, gvi__known_force(st, query));
 
     // what a step of another length has learned of weak effects is not taken over
     if (GVI__WEAK && x->weak) gvi__answers(st)[1] = gvi__nonzero(h - st->h) ? 1 : *gvi__answers(st);
-    int usable = past->available, used = 0;
+    const int usable = x->stepped && h/st->h > -2 && h/st->h < 8;         // farther out they say nothing
+    int used = 0;
     gvi_status status = GVI_E_CONVERGENCE;
     if (!gvi__uses(st, GVI_NEWTON) && (!gvi__has(st, GVI__HAS_NEWTON) || x->newton_left == 0 || query)) {
         if (GVI__STIFF && x->springs && gvi__nonzero(h - x->springs[0])) {
             status = gvi__make_arcs(st, h);
             if (status != GVI_OK) return status;
         }
-        if (usable) gvi__prepare_guess(st, past->alpha, past->beta, query);
+        if (usable) gvi__prepare_guess(st, h, query);
         for (int plain = !usable; plain < 2; ++plain) {
             status = gvi__fixed_point(st, from, h, !plain, &used);
             gvi__count(&st->counters.iterations, used);
@@ -5892,7 +5982,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, gvi__from *from, gvi_real h,
     }
     const unsigned count = (unsigned)st->counters.newton_iterations;
     st->formulation = GVI_NEWTON;
-    if (usable) gvi__prepare_guess(st, past->alpha, past->beta, query);
+    if (usable) gvi__prepare_guess(st, h, query);
     status = gvi__newton_step(st, from, usable && x->has_velocity, query);
     if (usable && x->has_velocity && (status == GVI_E_CONVERGENCE || status == GVI_E_SINGULAR)) {
         if (!query) x->h_matrix = 0;              // the extrapolation may be to blame
@@ -5925,14 +6015,13 @@ static int gvi__finite_end(const gvi_stepper *st, const gvi__from *from)
 /* An attempt; and one at which something was not finite once more with every effect
    looked at, to say which one it was: what is not finite then is divergence.  look:
    the first has been made.                                                    */
-static gvi_status gvi__solve(gvi_stepper *st, gvi__from *from, gvi_real h, const gvi__history *past,
-                             int query, int look)
+static gvi_status gvi__solve(gvi_stepper *st, gvi__from *from, gvi_real h, int query, int look)
 {
     struct gvi__private *x = &st->x;
     for (;; look = 1) {
         if (look && !query) x->h_matrix = 0;
         if (look) x->diagnose = 1;
-        gvi_status status = gvi__attempt(st, from, h, past, query);
+        gvi_status status = gvi__attempt(st, from, h, query);
         if (look) {
             x->diagnose = 0;
             return status != GVI_OK ? status : gvi__give(st, GVI_E_CONVERGENCE);
@@ -6023,12 +6112,12 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
 }
 
 // the explicit formulation has no more to do; what is not finite is looked into
-static gvi_status gvi__solve_explicit(gvi_stepper *st, gvi__from *from, gvi_real h, const gvi__history *past)
+static gvi_status gvi__solve_explicit(gvi_stepper *st, gvi__from *from, gvi_real h)
 {
     gvi__begin(st, from, h);
-    gvi_status status = gvi__explicit(st, from, h, past->force);
+    gvi_status status = gvi__explicit(st, from, h, gvi__known_force(st, GVI__STEP));
     if (status != GVI_OK || gvi__finite_end(st, from)) return status;
-    return GVI__DIAGNOSIS ? gvi__solve(st, from, h, past, 0, 1) : gvi__give(st, GVI_E_NON_FINITE);
+    return GVI__DIAGNOSIS ? gvi__solve(st, from, h, GVI__STEP, 1) : gvi__give(st, GVI_E_NON_FINITE);
 }
 
 GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
@@ -6041,15 +6130,10 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
 
     const gvi_formulation was = st->formulation;
     const signed char left = x->newton_left, whole = x->whole_left;
-    gvi__from from = { st->t, x->te, x->q, x->qe, x->p, x->pe, x->H, x->He, NULL, NULL };
-    gvi__history past = { x->stepped, 1, 0, x->has_force ? x->last.F : NULL };
-    if (x->stepped) {
-        past.beta = h/st->h;
-        past.available = past.beta > -2 && past.beta < 8;         // farther out it says nothing
-        if (GVI__NEWTON && gvi__nonzero(h - st->h)) x->newton_left = x->whole_left = 0;
-    }
-    gvi_status status = gvi__uses(st, GVI_EXPLICIT) && !GVI__SMALL ? gvi__solve_explicit(st, &from, h, &past)
-                                                                   : gvi__solve(st, &from, h, &past, 0, 0);
+    gvi__from from = { st->t, x->te, x->q, x->qe, x->p, x->pe, x->H + x->He, NULL };
+    if (GVI__NEWTON && x->stepped && gvi__nonzero(h - st->h)) x->newton_left = x->whole_left = 0;
+    gvi_status status = gvi__uses(st, GVI_EXPLICIT) && !GVI__SMALL ? gvi__solve_explicit(st, &from, h)
+                                                                   : gvi__solve(st, &from, h, GVI__STEP, 0);
     if (status == GVI_OK && !gvi__finite(st->t + x->dt)) status = gvi__give(st, GVI_E_ARGUMENT);
     if (status != GVI_OK) {
         gvi__count(&st->counters.failures, 1);
@@ -6075,16 +6159,17 @@ static gvi_status gvi__values(gvi_stepper *st, gvi_real t, const gvi_real *q, co
     const gvi_desc *d = &st->x.desc;
     gvi_points y;
     gvi__at(&y, st, &t, q);
-    y.v = v;
-    *V = *L = 0;
+    *V = *L = *T = 0;
     for (int e = 0; e < d->effect_count; ++e) {
         const gvi_kind kind = d->effects[e].kind;
         gvi_real *value = kind == GVI_POTENTIAL ? V : L;
         if ((st->x.off >> e & 1u) || kind == GVI_FORCE || kind == GVI_CLOCK) continue;
+        y.v = kind == GVI_POTENTIAL ? NULL : v;
         gvi_status status = gvi__value(st, &y, e, value);
         if (status != GVI_OK) return status;
         if (!gvi__finite(*value)) return gvi__blame(st, GVI_E_NON_FINITE, e);
     }
+    y.v = v;
     gvi__zero(2*(size_t)st->n, y.f);              // and y.dldv
     gvi_status status = gvi__kinetic(st, &y);
     *T = gvi__dot(st->n, y.dldv, v)/2;
@@ -6376,32 +6461,43 @@ GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
     return GVI_OK;
 }
 
-/* dq and dp of a partial step for a time dt from one end of the last step.  With a clock
-   by Newton's method for the h that takes dt, its derivative being g, kept inside the
-   step by bisection.                                                          */
-static gvi_status gvi__partial(gvi_stepper *st, gvi__from *from, int end, gvi_real dt)
+/* With a clock: the h of a partial step for a time dt, by Newton's method, the derivative
+   being g, kept inside the step by bisection.  h is the next to try, or 0 for no more.  */
+typedef struct gvi__bracket { gvi_real dt, h, near, far; } gvi__bracket;
+
+GVI__APART gvi_status gvi__closer(gvi_stepper *st, const gvi__from *from, gvi__bracket *b)
 {
     struct gvi__private *x = &st->x;
-    const int clock = gvi__has_clock(st);
-    gvi_real near = 0, far = end ? -st->h : st->h, h = clock ? st->h*(dt/(st->t - x->t0)) : dt;
-    if (clock && !(GVI_ABS(h) <= GVI_ABS(far))) h = far/2;     // t did not move, or less than it should
-    gvi__history past = { 1, end ? (gvi_real)1 : (gvi_real)0, 0, x->has_force && end ? x->last.F : NULL };
-    for (int k = 0; k < 60; ++k) {
-        past.beta = h/st->h;
-        gvi_status status = gvi__solve(st, from, h, &past, 1, 0);
-        gvi_real rate, *q = x->change;
-        if (status != GVI_OK || !clock || GVI_ABS(x->dt - dt) <= 2*GVI__EPS*GVI_ABS(dt)) return status;
-        if (GVI_ABS(x->dt) > GVI_ABS(dt)) far = h;
-        else near = h;
-        for (int i = 0; i < st->n; ++i) q[i] = from->q[i] + x->dq[i];
-        status = gvi__rate_at(st, from->t, q, &rate, x->one);
-        if (status != GVI_OK) return status;
-        gvi_real next = h - (x->dt - dt)/rate;
-        if (!((next - near)*(far - next) > 0)) next = near + (far - near)/2;
-        if (GVI_ABS(next - h) <= GVI__EPS*GVI_ABS(st->h)) return GVI_OK;
-        h = next;
-    }
+    gvi_real rate, *q = x->change;
+    const gvi_real h = b->h;
+    b->h = 0;
+    if (!gvi__has_clock(st) || GVI_ABS(x->dt - b->dt) <= 2*GVI__EPS*GVI_ABS(b->dt)) return GVI_OK;
+    if (GVI_ABS(x->dt) > GVI_ABS(b->dt)) b->far = h;
+    else b->near = h;
+    for (int i = 0; i < st->n; ++i) q[i] = from->q[i] + x->dq[i];
+    const gvi_status status = gvi__rate_at(st, from->t, q, &rate, x->one);
+    if (status != GVI_OK) return status;
+    gvi_real next = h - (x->dt - b->dt)/rate;
+    if (!((next - b->near)*(b->far - next) > 0)) next = b->near + (b->far - b->near)/2;
+    if (!(GVI_ABS(next - h) <= GVI__EPS*GVI_ABS(st->h))) b->h = next;
     return GVI_OK;
+}
+
+// dq and dp of a partial step for a time dt from one end of the last step
+static gvi_status gvi__partial(gvi_stepper *st, gvi__from *from, int query, gvi_real dt)
+{
+    const gvi_real far = query == GVI__FROM_END ? -st->h : st->h;
+    gvi__bracket b = { dt, dt, 0, far };
+    if (gvi__has_clock(st)) {
+        b.h = st->h*(dt/(st->t - st->x.t0));
+        if (!(GVI_ABS(b.h) <= GVI_ABS(far))) b.h = far/2;      // t did not move, or less than it should
+    }
+    gvi_status status = GVI_OK;
+    for (int k = 0; k < 60 && status == GVI_OK && (k == 0 || gvi__nonzero(b.h)); ++k) {
+        status = gvi__solve(st, from, b.h, query, 0);
+        if (status == GVI_OK) status = gvi__closer(st, from, &b);
+    }
+    return status;
 }
 
 GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_real *v, gvi_real *p)
@@ -6418,13 +6514,14 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
     // partial step of length h from the nearer end, or none for a rounding of the whole
     int end = GVI_ABS(back) <= GVI_ABS(ahead);
     gvi_real h = end ? back - x->te : ahead;
-    gvi__from from = { st->t, x->te, x->q, x->qe, x->p, x->pe, x->H, x->He, NULL, NULL };
+    gvi__from from = { st->t, x->te, x->q, x->qe, x->p, x->pe, x->H + x->He, NULL };
     if (!end) {
-        const gvi__from first = { x->t0, 0, x->q0, x->zeros, x->p0, x->zeros, x->H0, 0, NULL, NULL };
+        const gvi__from first = { x->t0, 0, x->q0, x->zeros, x->p0, x->zeros, x->H0, NULL };
         from = first;
     }
     gvi_formulation was = st->formulation;
-    if (GVI_ABS(h) > GVI__EPS*(GVI_ABS(ahead) + GVI_ABS(back))) status = gvi__partial(st, &from, end, h);
+    if (GVI_ABS(h) > GVI__EPS*(GVI_ABS(ahead) + GVI_ABS(back)))
+        status = gvi__partial(st, &from, end ? GVI__FROM_END : GVI__FROM_START, h);
     else {
         gvi__copy(n, from.qe, x->dq);
         gvi__copy(n, from.pe, x->dp);
@@ -6550,12 +6647,12 @@ GVI__APART gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__matrix *J
         for (int k = 1; k < s; ++k) {
             gvi_real sum = 0;
             for (int j = 0; j < st->r; ++j) sum += x->hb[j]*x->Phi[k*R + j]*f[i*R + j];
-            lambda[(k - 1)*n + i] = J->h*sum;
+            lambda[(k - 1)*n + i] = x->h_weights*sum;
         }
     gvi__lu_solve_transposed(size, J->square, J->pivot, lambda);
     for (int row = 0; row < size; ++row)
         for (int i = 0; i < n; ++i) {
-            gvi_real by_y0 = J->ends[row*2*n + i]/J->h, by_q0 = J->ends[row*2*n + n + i];
+            gvi_real by_y0 = J->ends[row*2*n + i]/x->h_weights, by_q0 = J->ends[row*2*n + n + i];
             plus[i] -= lambda[row]*by_y0;                 // y_0 = (q1 - q0)/h
             minus[i] -= lambda[row]*(by_q0 - by_y0);
         }
@@ -6681,7 +6778,7 @@ GVI__APART gvi_status gvi__count_negative(gvi_stepper *st, const gvi__matrix *J,
         for (int j = 0; j <= i; ++j) {
             const gvi_real lower = a[i*size + j]/(gvi_real)(2*(i/n) + 3);
             const gvi_real upper = a[j*size + i]/(gvi_real)(2*(j/n) + 3);
-            a[i*size + j] = a[j*size + i] = (lower + upper)/2*J->h;
+            a[i*size + j] = a[j*size + i] = (lower + upper)/2*x->h_weights;
         }
     *negative = gvi__negative(size, a);
     return GVI_OK;
@@ -6714,7 +6811,7 @@ static gvi_status gvi__boundary_value(gvi_stepper *st, const gvi__from *from, gv
     int n = st->n, s = st->s, R = x->stride;
     size_t size = (size_t)(s - 1)*(size_t)n, sn = (size_t)s*(size_t)n;
     gvi_real *square = s > 1 ? x->J + sn*sn : NULL, *pivot = s > 1 ? x->pivot + sn + 1 : NULL;
-    gvi__matrix J = { square, s > 1 ? square + size*size : NULL, pivot, 1, h, 0, 0 };
+    gvi__matrix J = { square, s > 1 ? square + size*size : NULL, pivot, 1, 0, 0 };
     gvi_real *p0 = x->dq, *p1 = x->dp, *minus = x->change, *plus = minus + n, action = 0;
     int negative = 0;
     gvi_status status = gvi__interior(st, from, h, q1, &J, p0);
@@ -6756,7 +6853,7 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
     if ((st->s > 1 && !gvi__has(st, GVI__HAS_NEWTON)) || gvi__rule_is(st, GVI_KICKS) || x->clock >= 0
         || (GVI__STIFF && x->springs))
         return st->status = GVI_E_FORMULATION;
-    gvi__from from = { t, 0, q0, x->zeros, x->zeros, x->zeros, 0, 0, NULL, NULL };
+    gvi__from from = { t, 0, q0, x->zeros, x->zeros, x->zeros, 0, NULL };
     gvi__begin(st, &from, h);
     if (gvi__uses(st, GVI_EXPLICIT)) gvi__times(st->r, t, 0, h, x->c, x->t);     // its steps need none
     return gvi__done(st, gvi__boundary_value(st, &from, h, q1, out));

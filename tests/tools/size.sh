@@ -20,21 +20,19 @@ cc_flags='-std=c99 -Os -fno-math-errno -ffp-contract=off -ffunction-sections -fd
 echo 'int main(void) { return 0; }' >"$dir/empty.c"
 printf '#define GVI_IMPLEMENTATION\n#include "gvi.h"\n' >"$dir/everything.c"
 
-# frames and calls as stack.awk reads them: from gcc's call graph, or where there is none from
-# its frames and the disassembled image
-calls_of_graph() {  # file.ci
-    sed -n 's/^node: { title: "\([^"]*\)".*\\n\([0-9]*\) bytes (.*/frame \1 \2/p
-            s/^edge: { sourcename: "\([^"]*\)" targetname: "\([^"]*\)".*/call \1 \2/p' "$1" |
-        sed 's/ [^ ]*\.[ch]:/ /g'
-}
-calls_of_image() {  # file.su image
+# frames and calls as stack.awk reads them: from gcc's frames and the disassembled image, which
+# also shows where a call comes last and leaves no frame of the caller ("jump")
+calls_of() {  # file.su image
     tab=$(printf '\t')
-    sed "s/^[^$tab]*:\([^:$tab]*\)$tab\([0-9]*\).*/frame \1 \2/; s/\.[0-9]* / /" "$1"
+    sed "s/^[^$tab]*:\([^:$tab]*\)$tab\([0-9]*\).*/frame \1 \2/; s/\.[0-9][0-9]*//g" "$1"
     ${prefix}objdump -d "$2" | awk '
-        function name(text) { gsub(/[<>:]/, "", text); sub(/\.[0-9]+$/, "", text); return text }
+        function name(text) { gsub(/[<>:]/, "", text); gsub(/\.[0-9]+/, "", text); return text }
         /^[0-9a-f]+ <.*>:$/ { f = name($2); next }
-        /\te?icall/ { print "call", f, "__indirect_call" }
-        /\tr?(call|jmp)\t/ && $NF ~ /^<[^+]*>$/ && name($NF) != f { print "call", f, name($NF) }'
+        /\t(blx\tr|blx\t[sfil]|jalr|e?icall)/ { print "call", f, "__indirect_call"; next }
+        /\t(bx\tr|jr\t|e?ijmp)/ { print "jump", f, "__indirect_call"; next }
+        $NF !~ /^<[^+]*>$/ { next }
+        /\t(bl|r?call|jal)\t/ { print "call", f, name($NF); next }
+        /\t(b[a-z]*(\.[nw])?|j|r?jmp)\t/ && name($NF) != f { print "jump", f, name($NF) }'
 }
 
 # code is measured in the image, where the linker has shortened calls
@@ -52,8 +50,7 @@ link_object() {  # object roots: an image with these functions and nothing else
 }
 
 stack_of() {  # object roots: bytes, under a callback, under a library function, the chain
-    if [ -n "$graph" ]; then calls_of_graph "$1.ci"
-    else calls_of_image "$1.su" "$1.elf"; fi >"$1.calls"
+    calls_of "$1.su" "$1.elf" >"$1.calls"
     awk -v roots="$2" -f tests/tools/stack.awk "$1.calls" >"$1.stack"
 }
 
@@ -61,7 +58,7 @@ row() {  # name source roots flags...
     name=$1 source=$2 roots=$3
     shift 3
     object=$dir/$target-$(echo "$name" | tr -d ' ' | tr ',' '-')
-    $compiler $cc_flags $graph -fstack-usage "$@" -c "$source" -o "$object.o" ||
+    $compiler $cc_flags -fstack-usage "$@" -c "$source" -o "$object.o" ||
         fail "$target, $name: compilation"
     [ -n "$roots" ] || roots=$(${prefix}nm "$object.o" | awk '$2 == "T" { printf "%s ", $3 }')
     link_object "$object" "$roots" || fail "$target, $name: linking"
@@ -90,8 +87,6 @@ table() {  # target title prefix flags link-flags
         echo "$2: skipped, no ${prefix}gcc (make deps-firmware installs it)"
         return
     fi
-    graph=-fcallgraph-info=su
-    $compiler $graph -c "$dir/empty.c" -o "$dir/$target-empty.o" 2>/dev/null || graph=
     $compiler $link "$dir/empty.c" -o "$dir/$target-empty.elf" || fail "$target: linking"
     echo "$2, gcc $(${prefix}gcc -dumpfullversion -dumpversion), bytes"
     printf '  %-22s %7s %7s %10s %7s %9s %8s\n' '' code const libraries stack callback library
