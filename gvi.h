@@ -5958,7 +5958,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, gvi__from *from, gvi_real h, int
 
     // what a step of another length has learned of weak effects is not taken over
     if (GVI__WEAK && x->weak) gvi__answers(st)[1] = gvi__nonzero(h - st->h) ? 1 : *gvi__answers(st);
-    const int usable = x->stepped && h/st->h > -2 && h/st->h < 8;         // farther out they say nothing
+    const int usable = x->stepped && h/st->h > -2 && h/st->h < 8;   // farther out the last rows say nothing
     int used = 0;
     gvi_status status = GVI_E_CONVERGENCE;
     if (!gvi__uses(st, GVI_NEWTON) && (!gvi__has(st, GVI__HAS_NEWTON) || x->newton_left == 0 || query)) {
