@@ -533,7 +533,7 @@ typedef struct gvi_counters {
 struct gvi__rows { gvi_real *Q, *V, *F, *P, *A; };   /* [n][stride] each     */
 
 /* Rounds of the last steps, with which extrapolation; of those before: gvi__learn.  */
-struct gvi__learned { int steps, rounds, before; signed char stage, lengthy; };
+struct gvi__learned { short steps, rounds, before; signed char stage, lengthy; };
 
 /* What most functions name comes first: on small machines an offset below 128 takes
    fewer bytes.                                                                */
@@ -4515,8 +4515,9 @@ static void gvi__learn(gvi_stepper *st, int used)
 {
     struct gvi__learned *y = &st->x.learned;
     if (gvi__counts(st)) return;
-    y->rounds += used;
-    if (++y->steps < (y->stage == GVI__IDLES ? 1024 : 8)) return;
+    if (y->stage != GVI__IDLES) y->rounds = (short)(y->rounds + (used < 4000 ? used : 4000));
+    y->steps = (short)(y->steps + 1);
+    if (y->steps < (y->stage == GVI__IDLES ? 1024 : 8)) return;
     const int tries = y->stage == GVI__MEASURES && y->rounds >= 48;
     if (tries || (y->stage == GVI__TRIES && y->rounds >= y->before)) y->lengthy = !y->lengthy;
     y->stage = (signed char)(tries ? GVI__TRIES : y->stage == GVI__IDLES ? GVI__MEASURES : GVI__IDLES);
@@ -6089,7 +6090,7 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     gvi__move(st->n, x->dp, explicit_one ? NULL : x->dpe, x->p, x->pe, x->p0);
     if (GVI__KIND > 1) x->alike = x->stepped && !gvi__nonzero(h - st->h) ? 2 : 1;
     if (GVI__LEARNS && x->alike < 2)
-        x->learned.steps = x->learned.rounds = x->learned.stage = x->learned.lengthy = 0;
+        x->learned.rounds = x->learned.steps = x->learned.stage = x->learned.lengthy = 0;
     gvi__two t = gvi__sum(st->t, x->dt + x->te);
     if (GVI__CLOCK && x->clock >= 0) {
         const gvi__two H = gvi__sum(x->H, x->dH + x->He);
