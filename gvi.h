@@ -115,7 +115,7 @@
               more, in its step and the next two; without desc.iterations, where steps take six
               rounds, in two of a thousand as well.  With stiffness: n (30R + 200) more, and for
               each k/m at a new h r (16p (12s + 70) + 4r (s + 20)) + 3r^2 R + 200, sines counted
-              as one, p = 1 + (h omega + s + s^2/32)/6; explicit: 18n(r+1) and 280(r+1).  Twice
+              as one, p = 1 + (h omega + s + s^2/32)/6; explicit: 19n(r+1) and 280(r+1).  Twice
               that where the extrapolated start leads nowhere, four times where the step fails.
               Without a clock, Lagrangian terms or marks; counted by make bound.
 
@@ -264,9 +264,9 @@
    boundary values solve other equations: rounds that do not contract end in
    GVI_E_CONVERGENCE, gvi_discrete_lagrangian and gvi_start_configurations in
    GVI_E_FORMULATION.  It pays from h omega = 1/2 or so, and takes (2r + 3) R + 8 numbers of
-   memory for each k_i/m_i that is not that of the stiff coordinate before, and (K R + 2) n,
-   K = 1 for positions, 2 for velocities; explicit (3r + 5) n.  A new h, as of gvi_state_at,
-   costs as much as some steps.  It is for explicit, positions and velocities with unit or
+   memory for each k_i/m_i that is not that of the stiff coordinate before, and (K R + 2) n + 14,
+   K = 1 for positions, 2 for velocities; explicit (3r + 5) n + r + 9, n in whole eights.  A new h,
+   as of gvi_state_at, costs as much as some steps.  It is for explicit, positions and velocities with unit or
    diagonal mass and without Lagrangian terms; elsewhere, compiled for size, with GVI_NO_RULES
    and for k_i <= 0 it is not heeded.
 
@@ -532,7 +532,8 @@ typedef struct gvi_counters {
 
 struct gvi__rows { gvi_real *Q, *V, *F, *P, *A; };   /* [n][stride] each     */
 
-/* Rounds of the last steps, with which extrapolation; of those before: gvi__learn.  */
+/* Of gvi__learn: steps counted and their rounds, rounds of the eight before; what it does now;
+   is the extrapolation that for long steps?                                   */
 struct gvi__learned { short steps, rounds, before; signed char stage, lengthy; };
 
 /* What most functions name comes first: on small machines an offset below 128 takes
@@ -561,7 +562,7 @@ struct gvi__private {
     gvi_real *slope;                  /* [n][R] clock: dg/dq                    */
     gvi_real *over;                   /* [n] 1/m of a diagonal mass             */
     gvi_real *weak;                   /* [n+2][R] weak forces, as last asked; gvi__answers */
-    gvi_real *springs;                /* stiffness: see gvi__tables_of_springs  */
+    gvi_real *springs;                /* stiffness: see gvi__arc, gvi__shears   */
     gvi_real *mass, *point_mass, *Z;  /* M; M at the points [n*n][R]; [n][R] scratch */
     gvi_real *y, *dy, *J, *pivot;     /* Newton: [s*n] twice; two matrices of s*n */
     gvi_real *hess, *dF;              /* scratch; F and P, moved and not, [4][n][R] */
@@ -1795,7 +1796,7 @@ static inline gvi_status gvi__finite_here(gvi_stepper *st, const gvi_points *x)
     return GVI__DIAGNOSIS || gvi__all_finite(2*x->n, x->f) ? GVI_OK : gvi__give(st, GVI_E_NON_FINITE);
 }
 
-// the value callback of effect e: adds to `value` at the points; x->value is NULL then
+// the value callback of effect e: adds to `value` at the points; x->value is NULL before and after
 GVI__DEEP gvi_status gvi__value(gvi_stepper *st, gvi_points *x, int e, gvi_real *value)
 {
     const gvi_effect *effect = st->x.desc.effects + e;
@@ -2745,7 +2746,7 @@ static int gvi__fits_two(const gvi__scene *x)
 // what E makes: of two steps, not of one; the sums of (3), not the row itself; for long steps
 enum { GVI__OF_TWO = 1, GVI__SUMS = 2, GVI__LONG = 4 };
 
-/* With both kinds of E to choose from: what it does now.                       */
+/* What gvi__learn, which chooses between the two kinds of E for two steps, does now.  */
 enum { GVI__MEASURES, GVI__TRIES, GVI__IDLES };
 #define GVI__LEARNS (!GVI__SMALL && GVI__KIND > 1)
 
@@ -2973,8 +2974,9 @@ static gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
 }
 
 /* Where stiffness is heeded x->springs begins with h, for which the tables hold, and their
-   count; [n] k; [n] its set of tables.  Behind the tables of each k/m: [n][R] rows of the
-   free motion, of velocities as well where they are rows.                      */
+   count; [n] k, [n] its set of tables, in whole eights.  Explicit, gvi__shears follow; else the
+   tables of each k/m, and behind them [n][R] rows of the free motion, of velocities as well
+   where they are rows.                                                        */
 typedef struct gvi__arc {
     gvi_real *K, *E;                  /* [r][R] h K_aj/b_j; gvi__fit_sums with it, or for V */
     gvi_real *cosine, *sine, *slope;  /* [R] cos nu (1 - c), sin nu (1 - c)/omega, times omega^2 */
@@ -3783,7 +3785,7 @@ static gvi__two gvi__frequency(gvi_real k, gvi_real m)
     return gvi__sum(root, gvi__sub2(square, gvi__product(root, root)).hi/(2*root));
 }
 
-// the tables for a step of length h; where omega h has lost all its digits there are none
+// the tables for a step of length h; where omega h has lost its digits there are none
 GVI__APART gvi_status gvi__make_arcs(gvi_stepper *st, gvi_real h)
 {
     struct gvi__private *x = &st->x;
@@ -3794,7 +3796,8 @@ GVI__APART gvi_status gvi__make_arcs(gvi_stepper *st, gvi_real h)
         const gvi__arc arc = gvi__arc_of(st, made++);
         const gvi__two omega = gvi__frequency(stiffness[i], x->over ? x->mass[i] : 1);
         const gvi__two nu = gvi__scale2(h, omega);
-        if (!(GVI_ABS(nu.hi) < 1/GVI__EPS) || !gvi__nonzero(nu.hi)) return gvi__give(st, GVI_E_CONVERGENCE);
+        if (!(GVI_ABS(nu.hi) < 1/GVI__EPS) || !(GVI_ABS(nu.hi) > GVI__MIN/GVI__EPS))
+            return gvi__give(st, GVI_E_CONVERGENCE);
         gvi__arc_turn(omega, nu, arc.turn);
         gvi__arc_table(st, &arc, omega, nu);
     }
@@ -4165,7 +4168,7 @@ GVI__APART gvi_real gvi__stage_made(gvi_stepper *st, const gvi__from *from, gvi_
 /* The rows of the next iteration from the F, V and A of this one; returns the
    sum of squares of their relative changes.                                   */
 GVI__DEEP gvi_real gvi__stages(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi__stage *y,
-                                int count)
+                               int count)
 {
     struct gvi__private *x = &st->x;
     gvi_real sum = GVI__MADE ? gvi__stage_made(st, from, h, 0) : gvi__stage_rows(st, y);
@@ -4354,13 +4357,13 @@ GVI__APART gvi_status gvi__ask(gvi_stepper *st, const gvi__from *from, gvi_real 
    of c_j and -c_j have the matrix C(c_i - c_j) + C(c_i + c_j), differences that with a minus.  */
 static gvi_real gvi__correlation(gvi_real d) { return 1/(1 + (gvi_real)0.16*d*d); }
 
-// z [r][R] := sums of the weights, sign = 1, or differences, -1; 0: c is not symmetric
+// z [r][R] := sums of the weights, sign = 1, or differences, -1; 0: c is not symmetric, or K is singular
 static int gvi__fit_half(gvi_stepper *st, gvi_real sign, gvi_real *z)
 {
     struct gvi__private *x = &st->x;
     const int r = st->r, R = x->stride;
     const gvi_real *c = x->c;
-    gvi_real *K = x->row;                         // r*r is no more than its 9R
+    gvi_real *K = x->row;                         // r*r is no more than its 9R, as r < 10: gvi__fits_two
     for (int i = 0; i < r; ++i) {
         if (GVI_ABS((c[i] - 1) + c[r - 1 - i]) > 8*GVI__EPS) return 0;
         for (int j = 0; j < r; ++j)
@@ -4509,8 +4512,8 @@ GVI__APART void gvi__extrapolate(gvi_stepper *st, const gvi_real *last, const gv
     else gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, y, out);
 }
 
-/* Which E is better for this motion and h?  Where eight steps take six rounds each, the next eight
-   are made with the other, and the one with fewer rounds stays, for a thousand steps.  */
+/* Which E is better for this motion and h?  Where eight steps take six rounds in the mean, the next
+   eight are made with the other, and the one with fewer rounds stays, for a thousand steps.  */
 static void gvi__learn(gvi_stepper *st, int used)
 {
     struct gvi__learned *y = &st->x.learned;
@@ -5058,7 +5061,7 @@ static int gvi__may_turn(const gvi_stepper *st)
    the next.  A given number of iterations ends there, if the change is half of
    that two before.                                                            */
 GVI__DEEP int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *p, gvi__still *weak,
-                          gvi_real change, int used)
+                         gvi_real change, int used)
 {
     struct gvi__private *x = &st->x;
     const gvi_real rounding = p->rounding, before = p->before;
@@ -5110,7 +5113,7 @@ static inline void gvi__scales(gvi_stepper *st, const gvi__stage *y, int count)
 
 // what the first iteration begins with: rows, or F, V and A to make them of
 GVI__DEEP gvi_status gvi__first_rows(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate,
-                                      const gvi__stage *y)
+                                     const gvi__stage *y)
 {
     struct gvi__private *x = &st->x;
     const int sums = extrapolate && (x->E_is & GVI__SUMS), springs = GVI__STIFF && x->springs;
@@ -5826,7 +5829,8 @@ GVI__APART gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, i
 
 /* ---- explicit, beside stiffness: kicks by what is left of the force, arcs between ---- */
 
-// rows of drift j: a/m, s m, sign, of gvi__arc_turn; behind the last, of each: has it odd half turns?
+// rows of drift j: turn[0]/m, turn[1] m, turn[2] of gvi__arc_turn; behind the last, of each: has it odd
+// half turns?
 static inline gvi_real *gvi__shears(const gvi_stepper *st, int j)
 {
     return gvi__spring_tables(st) + (size_t)j*3*gvi__whole((size_t)st->n);
@@ -5838,7 +5842,7 @@ static gvi_status gvi__make_shears(gvi_stepper *st, int j)
     struct gvi__private *x = &st->x;
     const size_t row = gvi__whole((size_t)st->n);
     const gvi_real tau = x->drift[j], *stiffness = gvi__stiffness(st);
-    gvi_real *along = gvi__shears(st, j), *back = along + row, *sign = back + row, turn[3] = { 0, 0, 1 };
+    gvi_real *along = gvi__shears(st, j), *back = along + row, *sign = back + row, turn[3] = { 0, 0, 0 };
     gvi_real *odd = gvi__shears(st, st->r + 1) + j;
     *odd = 0;
     for (int i = 0, made = 0; i < st->n; ++i) {
@@ -5847,7 +5851,10 @@ static gvi_status gvi__make_shears(gvi_stepper *st, int j)
         if (stiff && (int)stiffness[st->n + i] == made) {
             const gvi__two omega = gvi__frequency(stiffness[i], m), nu = gvi__scale2(tau, omega);
             if (!(GVI_ABS(nu.hi) < 1/GVI__EPS)) return gvi__give(st, GVI_E_CONVERGENCE);
-            gvi__arc_turn(omega, nu, turn);
+            turn[0] = tau/2;                      // what does not turn would lose its digits in nu
+            turn[1] = 0;
+            turn[2] = 1;
+            if (GVI_ABS(nu.hi) > GVI__MIN/GVI__EPS) gvi__arc_turn(omega, nu, turn);
             if (turn[2] < 0) *odd = 1;
             ++made;
         }
@@ -5960,7 +5967,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, gvi__from *from, gvi_real h, int
     // what a step of another length has learned of weak effects is not taken over
     if (GVI__WEAK && x->weak) gvi__answers(st)[1] = gvi__nonzero(h - st->h) ? 1 : *gvi__answers(st);
     const int usable = x->stepped && h/st->h > -2 && h/st->h < 8;   // farther out the last rows say nothing
-    int used = 0;
+    int used = 0, rounds = 0;
     gvi_status status = GVI_E_CONVERGENCE;
     if (!gvi__uses(st, GVI_NEWTON) && (!gvi__has(st, GVI__HAS_NEWTON) || x->newton_left == 0 || query)) {
         if (GVI__STIFF && x->springs && gvi__nonzero(h - x->springs[0])) {
@@ -5972,12 +5979,13 @@ static gvi_status gvi__attempt(gvi_stepper *st, gvi__from *from, gvi_real h, int
             status = gvi__fixed_point(st, from, h, !plain, &used);
             gvi__count(&st->counters.iterations, used);
             if (!query) st->iterations = used;
-            if (GVI__LEARNS && !query && !plain && gvi__two_now(st)) gvi__learn(st, used);
+            rounds += used;
             if (used > st->counters.most_iterations) st->counters.most_iterations = used;
             // only a refusal at the extrapolated values themselves is worth a second try
             if (status == GVI_OK || status == GVI_E_CONVERGENCE || used > 1) break;
         }
         if (status == GVI_OK) gvi__increments(st, from, h);
+        if (GVI__LEARNS && status == GVI_OK && usable && !query && gvi__two_now(st)) gvi__learn(st, rounds);
         if (status == GVI_OK || !gvi__may_turn(st)) return status;
         if (!query && status == GVI_E_CONVERGENCE) x->newton_left = 64;
     }
@@ -6874,11 +6882,11 @@ GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const 
     gvi_real *own = st->x.memory;
     size_t skip = st->x.skip;
     gvi__copy(st->x.size, memory + saved->x.skip, own);
+    const int springs = GVI__STIFF && st->x.springs ? (int)st->x.springs[1] : 0;     // saved's may be gone
     *st = *saved;
     st->x.skip = skip;
     st->x.desc = desc;
     st->x.memory = own;
-    const int springs = GVI__STIFF && st->x.springs ? (int)st->x.springs[1] : 0;
     const gvi__scene scene = { &st->x.desc, st->order, st->x.flags, st->x.clock, st->x.chosen, springs };
     gvi__layout(&scene, &st->x, own);
     for (int turns = st->x.turns; turns > 0; --turns) gvi__rotate_rows(st);

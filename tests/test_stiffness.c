@@ -881,6 +881,23 @@ static void test_with_options(void **state)
     (void)state;
 }
 
+/* h omega = MIN/4 EPS, of which a square or a few digits are lost: uniform motion, or a refusal */
+static void test_springs_next_to_none(void **state)
+{
+    const gvi_real tiny = (gvi_real)(GVI__KIND == 1 ? FLT_MIN : GVI__KIND == 2 ? DBL_MIN : LDBL_MIN);
+    const gvi_real weak = 4*tiny, h = (gvi_real)(sqrtl((long double)tiny)/8/EPS), from = 0, v = 1/h;
+    const gvi_formulation pins[] = { GVI_EXPLICIT, GVI_POSITIONS };
+    (void)state;
+    for (int f = 0; f < COUNT(pins); ++f) {
+        const gvi_desc desc = { .n = 1, .degree = f ? 4 : 1, .rule.kind = f ? GVI_GAUSS : GVI_LOBATTO,
+                                .formulation = pins[f], .stiffness = &weak };
+        assert_ok(gvi_init(&plain.st, &desc, plain.memory, sizeof plain.memory));
+        assert_ok(gvi_start(&plain.st, 0, &from, &v));
+        assert_status(gvi_step(&plain.st, h), f ? GVI_E_CONVERGENCE : GVI_OK);
+        assert_close(plain.st.q[0], f ? 0 : 1, 4*EPS);
+    }
+}
+
 /* A checkpoint, queries, a step that fails, steps of other lengths: the same to the bit */
 static void nothing_is_lost(const gvi_desc *desc)
 {
@@ -894,7 +911,9 @@ static void nothing_is_lost(const gvi_desc *desc)
         if (i == 7) {
             const gvi_stepper copy = stiff.st;
             memcpy(saved, stiff.memory, sizeof saved);
+            memset(stiff.memory, 0xff, sizeof saved);         // in another process it would be gone
             assert_ok(gvi_restore(&other.st, &copy, saved));
+            memcpy(stiff.memory, saved, sizeof saved);
         }
         refuses = 1;
         assert_status(gvi_step(&stiff.st, h/3), GVI_E_CALLBACK);
@@ -1066,6 +1085,7 @@ int main(void)
         cmocka_unit_test(test_bond),
         cmocka_unit_test(test_with_options),
         cmocka_unit_test(test_nothing_is_lost),
+        cmocka_unit_test(test_springs_next_to_none),
         cmocka_unit_test(test_curve),
         cmocka_unit_test(test_action),
         cmocka_unit_test(test_units),

@@ -67,7 +67,8 @@ static inline counted counted_cosine(counted a) { return count(std::cos(a.x)); }
 #include "gvi.h"
 #include "embedded_bound.h"
 
-enum { MOST_N = 6, MOST_S = 8, MOST_ITERATIONS = 8, STEPS = 20, FIRST = 3 };
+enum { MOST_N = 6, MOST_S = 8, MOST_KICKS = 24, MOST_ITERATIONS = 8, STEPS = 20, FIRST = 3 };
+static const REAL length = REAL(1)/64;
 
 // ---- a chain, in plain numbers: callbacks are not counted
 
@@ -140,7 +141,7 @@ static const kind kinds[] = {
 // extrapolated values led nowhere; of one that failed
 struct outcome { unsigned long most, first, again, failed; };
 
-static counted stiffness[MOST_N], matrix[MOST_N*MOST_N], corners[MOST_S + 1], weights[MOST_S + 1];
+static counted stiffness[MOST_N], matrix[MOST_N*MOST_N], corners[MOST_KICKS], weights[MOST_KICKS];
 static const gvi_effect effects[] = {
     { GVI_POTENTIAL, chain, 0, 0, 0, 0 },
     { GVI_FORCE, friction, 0, 0, 0, 0 } };
@@ -151,15 +152,17 @@ static gvi_desc describe(const kind &k, int n, int s, int r, int N)
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j)
             matrix[i*n + j] = i == j || k.mass == GVI_MASS_DIAGONAL ? REAL(2 + j) : REAL(0.125);
-    held = GVI__STIFF && k.springs && k.f == GVI_EXPLICIT ? REAL(4e6) : 0;      // half turns, of some drifts odd ones
+    const bool arcs = GVI__STIFF && k.springs && k.f == GVI_EXPLICIT;
+    const REAL turns = REAL(3.14159265358979L)*REAL(r + 1)/length;
+    held = arcs ? turns*turns : 0;       // arcs before, between and after the kicks, each a half turn or nearly
     for (int i = 0; i < n; ++i) stiffness[i] = held + REAL(1 + i);
     for (int j = 0; j < r; ++j) {
-        corners[j] = REAL(j)/REAL(r > 1 ? r - 1 : 1);
+        corners[j] = arcs ? REAL(j + 1)/REAL(r + 1) : REAL(j)/REAL(r > 1 ? r - 1 : 1);
         weights[j] = 1/REAL(r);
     }
     d.n = n;
     d.degree = s;
-    d.rule.kind = k.f != GVI_EXPLICIT ? GVI_GAUSS : r == 2 ? GVI_LOBATTO : GVI_KICKS;
+    d.rule.kind = k.f != GVI_EXPLICIT ? GVI_GAUSS : r == 2 && !arcs ? GVI_LOBATTO : GVI_KICKS;
     d.rule.points = r;
     d.rule.nodes = corners;
     d.rule.weights = weights;
@@ -179,7 +182,7 @@ static void larger(unsigned long *most) { if (flops > *most) *most = flops; }
 
 static outcome perform(const gvi_desc &d)
 {
-    static counted memory[GVI_LENGTH(MOST_N, MOST_S, MOST_S + 1)];
+    static counted memory[GVI_LENGTH(MOST_N, MOST_S, MOST_S + 1) + GVI_LENGTH(MOST_N, 1, MOST_KICKS)];
     static gvi_stepper st;
     outcome x = { 0, 0, 0, 0 };
     const unsigned long long points = (unsigned long long)(d.iterations*d.rule.points);
@@ -189,7 +192,7 @@ static outcome perform(const gvi_desc &d)
     for (int k = 0; k < STEPS && st.status == GVI_OK; ++k) {
         flops = 0;
         st.counters.effect[0] = 0;
-        gvi_step(&st, REAL(1)/64);
+        gvi_step(&st, length);
         const bool again = d.iterations > 0 && st.counters.effect[0] > points;
         larger(st.status != GVI_OK ? &x.failed : k < FIRST ? &x.first : again ? &x.again : &x.most);
     }
@@ -225,7 +228,7 @@ static summary judge_kind(const kind &k, bool list)
     const bool explicitly = k.f == GVI_EXPLICIT;
     for (int n = 1; n <= MOST_N; ++n)
         for (int s = 1; s <= (explicitly ? 1 : MOST_S); ++s)
-            for (int r = explicitly ? 2 : s; r <= (explicitly ? MOST_S : k.f == GVI_MOMENTA ? s : s + 1); ++r)
+            for (int r = explicitly ? 2 : s; r <= (explicitly ? MOST_KICKS : k.f == GVI_MOMENTA ? s : s + 1); ++r)
                 for (int N = 1; N <= (explicitly ? 1 : MOST_ITERATIONS); ++N)
                     judge(k, n, s, r, explicitly ? 0 : N, list, &sum);
     return sum;
