@@ -266,9 +266,9 @@
    GVI_E_FORMULATION.  It pays from h omega = 1/2 or so, and takes (2r + 3) R + 8 numbers of
    memory for each k_i/m_i that is not that of the stiff coordinate before, and (K R + 2) n + 14,
    K = 1 for positions, 2 for velocities; explicit (3r + 5) n + r + 9, n in whole eights.  A new h,
-   as of gvi_state_at, costs as much as some steps.  It is for explicit, positions and velocities with unit or
-   diagonal mass and without Lagrangian terms; elsewhere, compiled for size, with GVI_NO_RULES
-   and for k_i <= 0 it is not heeded.
+   as of gvi_state_at, costs as much as some steps.  It is for explicit, positions and velocities
+   with unit or diagonal mass and without Lagrangian terms; elsewhere, compiled for size, with
+   GVI_NO_RULES and for k_i <= 0 it is not heeded.
 
    CLOCK.  An effect g(q) > 0 makes time run as dt = g dtau, and h is a step in
    tau: t moves fast or slow, and the map is as symplectic as with fixed steps
@@ -3110,7 +3110,7 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
 typedef struct gvi__from {
     gvi_real t, te;
     const gvi_real *q, *qe, *p, *pe;
-    gvi_real E;                       /* clock: energy, with what rounding left of it */
+    gvi_real E;                       /* clock: energy                          */
     const gvi_real *v;                /* M^-1 p, where M is constant            */
 } gvi__from;
 
@@ -5153,7 +5153,7 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
     for (*used = 0; ; ) {
         if (GVI__TOLERANCE && p.idle + p.poor > 0)
             gvi__gather(st->n, x->stride, x->work.Q + st->r - 1, x->change);
-        gvi_real change = p.before;
+        gvi_real change = p.before;                      // 0, where there are rows and no change yet
         if (*used > 0 || !sums) change = gvi__stages(st, from, h, y, count);
         int verdict = GVI__GO_ON;
         if (*used > 0) {
