@@ -448,7 +448,9 @@ typedef struct gvi_mass {
     gvi_points_fn  *gradient;  /* and adds v' dM/dq v / 2 to x->f, called after
                                   points, or velocity, at the same x->q       */
     gvi_points_fn  *velocity;  /* optional: writes x->velocity, the v at which
-                                  dL/dv(t,q,v) = p, L being ALL of the scene   */
+                                  dL/dv(t,q,v) = p, L being ALL of the scene.
+                                  No system is solved then, but Q and P change
+                                  in turn: up to twice the iterations          */
     void           *user;
 } gvi_mass;
 
@@ -1936,34 +1938,49 @@ static unsigned gvi__without_hessian(const gvi_stepper *st)
     return bits & ~st->x.off;
 }
 
-/* L D L' of a symmetric matrix at each of `count` points, in place: entry (i,j),
-   i >= j, of point k at [(i*n + j)*stride + k].  Every loop runs over points.
-   A pivot that is nothing but rounding of its diagonal entry is a coordinate
-   without mass.                                                              */
+// eight points as one vector for the compiler, or two
+#if defined(__GNUC__) && GVI__KIND < 3 && defined(GVI__EXACT_TYPES) \
+    && (defined(__SSE2__) || defined(__ARM_NEON) || defined(__ALTIVEC__) || defined(__riscv_vector))
+#define GVI__VECTORS
+#if defined(__AVX__) && !defined(__AVX512F__) && GVI__KIND == 2
+#define GVI__LANES 4                                  // of eight it would keep sums in memory: twice the time
+#else
+#define GVI__LANES 8
+#endif
+typedef gvi_real gvi__vector
+    __attribute__((vector_size(GVI__LANES*sizeof(gvi_real)), aligned(sizeof(gvi_real)), may_alias));
+#define GVI__AT(p) (*(const gvi__vector *)(p))
+#endif
+
+/* L D L' of a symmetric matrix at each of `count` points, in place: entry (i,j), i >= j,
+   of point k at [(i*n + j)*stride + k].  L below the diagonal, 1/D on it, and above
+   it D L', which the rest of the matrix is made with.  A pivot that is nothing but
+   rounding of its diagonal entry is a coordinate without mass.                */
 GVI__APART gvi_status gvi__ldl_factor(gvi_stepper *st, int n, int stride, int count, gvi_real *m)
 {
-    for (int j = 0; j < n; ++j) {
-        gvi_real *d = m + (size_t)(j*n + j)*(size_t)stride;
-        for (int k = 0; k < count; ++k) {
-            gvi_real was = GVI_ABS(d[k]);
-            for (int l = 0; l < j; ++l) {
-                gvi_real a = m[(size_t)(j*n + l)*(size_t)stride + (size_t)k];
-                d[k] -= a*a*m[(size_t)(l*n + l)*(size_t)stride + (size_t)k];
-            }
-            if (!(was <= GVI__MAX) || !gvi__finite(d[k]))
-                return gvi__fail(st, GVI_E_NON_FINITE, GVI_FAULT_MASS, j, k);
-            if (!(GVI_ABS(d[k]) > (gvi_real)n*GVI__EPS*was))
-                return gvi__fail(st, GVI_E_SINGULAR, GVI_FAULT_MASS, j, k);
+    const size_t N = (size_t)n, R = (size_t)stride;
+    for (size_t j = 0; j < N; ++j) {
+        gvi_real *d = m + (j*N + j)*R;
+        for (size_t k = 0; k < (size_t)count; ++k) {
+            const gvi_real was = GVI_ABS(d[k]);
+            gvi_real rest = d[k];
+            for (size_t l = 0; l < j; ++l) rest -= m[(j*N + l)*R + k]*m[(l*N + j)*R + k];
+            d[k] = 1/rest;
+            if (!(was <= GVI__MAX) || !gvi__finite(rest))
+                return gvi__fail(st, GVI_E_NON_FINITE, GVI_FAULT_MASS, (int)j, (int)k);
+            if (!(GVI_ABS(rest) > (gvi_real)n*GVI__EPS*was) || GVI_ABS(d[k]) > GVI__MAX)
+                return gvi__fail(st, GVI_E_SINGULAR, GVI_FAULT_MASS, (int)j, (int)k);
         }
-        for (int i = j + 1; i < n; ++i) {
-            gvi_real *a = m + (size_t)(i*n + j)*(size_t)stride;
-            for (int l = 0; l < j; ++l) {
-                const gvi_real *x = m + (size_t)(i*n + l)*(size_t)stride;
-                const gvi_real *y = m + (size_t)(j*n + l)*(size_t)stride;
-                const gvi_real *z = m + (size_t)(l*n + l)*(size_t)stride;
-                for (int k = 0; k < count; ++k) a[k] -= x[k]*y[k]*z[k];
+        for (size_t i = j + 1; i < N; ++i) {
+            gvi_real *a = m + (i*N + j)*R, *b = m + (j*N + i)*R;
+            for (size_t l = 0; l < j; ++l) {
+                const gvi_real *x = m + (j*N + l)*R, *y = m + (l*N + i)*R;
+                for (int k = 0; k < count; ++k) a[k] -= x[k]*y[k];
             }
-            for (int k = 0; k < count; ++k) a[k] /= d[k];
+            for (int k = 0; k < count; ++k) {
+                b[k] = a[k];
+                a[k] *= d[k];
+            }
         }
     }
     gvi__count(&st->counters.factorizations, count);
@@ -1979,16 +1996,76 @@ static void gvi__ldl_solve(int n, const gvi_real *m, int width, gvi_real *z, int
             const gvi_real *a = m + (size_t)(i*n + j)*(size_t)width;
             for (int k = 0; k < count; ++k) z[i*stride + k] -= a[k*each]*z[j*stride + k];
         }
-    for (int i = 0; i < n; ++i) {
+    for (int i = n; i-- > 0; ) {
         const gvi_real *d = m + (size_t)(i*n + i)*(size_t)width;
-        for (int k = 0; k < count; ++k) z[i*stride + k] /= d[k*each];
-    }
-    for (int i = n; i-- > 0; )
+        for (int k = 0; k < count; ++k) z[i*stride + k] *= d[k*each];
         for (int j = i + 1; j < n; ++j) {
             const gvi_real *a = m + (size_t)(j*n + i)*(size_t)width;
             for (int k = 0; k < count; ++k) z[i*stride + k] -= a[k*each]*z[j*stride + k];
         }
+    }
 }
+
+#ifdef GVI__VECTORS
+/* The same, a vector of points at a time.  Returns whether all pivots D are sure: the squares of
+   what they were in units of what they are, and of what rounding leaves of D/D - 1, do not
+   add up to (1/(n eps))^2.  If they do, gvi__ldl_factor has to decide.        */
+GVI__COPY int gvi__ldl_factor_vector(int n, size_t R, gvi_real *m)
+{
+    const size_t N = (size_t)n;
+    const gvi_real most = 1/((gvi_real)n*GVI__EPS);
+    gvi__vector sum = { 0 };
+    for (size_t j = 0; j < N; ++j) {
+        gvi_real *at = m + (j*N + j)*R;
+        gvi__vector rest = GVI__AT(at);
+        for (size_t l = 0; l < j; ++l) rest -= GVI__AT(m + (j*N + l)*R)*GVI__AT(m + (l*N + j)*R);
+        const gvi__vector inverse = 1/rest, loss = GVI__AT(at)*inverse, off = rest*inverse - 1;
+        sum += loss*loss + off*off;
+        *(gvi__vector *)at = inverse;
+        for (size_t i = j + 1; i < N; ++i) {
+            gvi_real *a = m + (i*N + j)*R;
+            rest = GVI__AT(a);
+            for (size_t l = 0; l < j; ++l) rest -= GVI__AT(m + (j*N + l)*R)*GVI__AT(m + (l*N + i)*R);
+            *(gvi__vector *)(m + (j*N + i)*R) = rest;
+            *(gvi__vector *)a = rest*inverse;
+        }
+    }
+    gvi_real all = 0;
+    for (int k = 0; k < GVI__LANES; ++k) all += sum[k];
+    return all < most*most;
+}
+
+GVI__COPY void gvi__ldl_solve_vector(int n, size_t R, const gvi_real *m, gvi_real *z)
+{
+    const size_t N = (size_t)n;
+    for (size_t i = 1; i < N; ++i) {
+        gvi__vector rest = GVI__AT(z + i*R);
+        for (size_t j = 0; j < i; ++j) rest -= GVI__AT(m + (i*N + j)*R)*GVI__AT(z + j*R);
+        *(gvi__vector *)(z + i*R) = rest;
+    }
+    for (size_t i = N; i-- > 0; ) {
+        gvi__vector rest = GVI__AT(z + i*R)*GVI__AT(m + (i*N + i)*R);
+        for (size_t j = i + 1; j < N; ++j) rest -= GVI__AT(m + (j*N + i)*R)*GVI__AT(z + j*R);
+        *(gvi__vector *)(z + i*R) = rest;
+    }
+}
+
+static int gvi__ldl_factor_eights(int n, int R, gvi_real *m)
+{
+    int sure = 1;
+    for (int o = 0; o < R; o += GVI__LANES)
+        sure &= n == 2 && R == 8 ? gvi__ldl_factor_vector(2, 8, m + o)
+                                 : gvi__ldl_factor_vector(n, (size_t)R, m + o);
+    return sure;
+}
+
+static void gvi__ldl_solve_eights(int n, int R, const gvi_real *m, gvi_real *z)
+{
+    for (int o = 0; o < R; o += GVI__LANES)
+        if (n == 2 && R == 8) gvi__ldl_solve_vector(2, 8, m + o, z + o);
+        else gvi__ldl_solve_vector(n, (size_t)R, m + o, z + o);
+}
+#endif
 
 static int gvi__mass_is_constant(const gvi_desc *d)
 {
@@ -2038,8 +2115,25 @@ static gvi_status gvi__ask_mass(gvi_stepper *st, gvi_points *x, const gvi_real *
 // M(q) at the points, factored
 static gvi_status gvi__factor_at(gvi_stepper *st, gvi_points *x)
 {
-    const gvi_status status = gvi__ask_mass(st, x, NULL, NULL);
-    return status == GVI_OK ? gvi__ldl_factor(st, x->n, x->stride, x->count, st->x.point_mass) : status;
+    gvi_real *m = st->x.point_mass;
+    gvi_status status = gvi__ask_mass(st, x, NULL, NULL);
+    if (status != GVI_OK) return status;
+#ifdef GVI__VECTORS
+    const int n = st->n, R = x->stride;
+    if (R % 8 == 0) {
+        // behind the last point as at the first
+        for (int i = 0; i < n && x->count < R; ++i)
+            for (int j = 0; j <= i; ++j)
+                for (int k = x->count; k < R; ++k) m[(i*n + j)*R + k] = m[(i*n + j)*R];
+        if (gvi__ldl_factor_eights(n, R, m)) {
+            gvi__count(&st->counters.factorizations, x->count);
+            return GVI_OK;
+        }
+        status = gvi__ask_mass(st, x, NULL, NULL);
+        if (status != GVI_OK) return status;
+    }
+#endif
+    return gvi__ldl_factor(st, x->n, x->stride, x->count, m);
 }
 
 // x->f += v' dM/dq v / 2
@@ -3319,18 +3413,7 @@ typedef struct gvi__stage {
    blocks of eight points, or of r below 5.  Where there are vector registers a
    block is one vector for the compiler, or two; the loops for the rest add in the
    same order, so that both give the same bits.                                */
-#if defined(__GNUC__) && GVI__KIND < 3 && defined(GVI__EXACT_TYPES) \
-    && (defined(__SSE2__) || defined(__ARM_NEON) || defined(__ALTIVEC__) || defined(__riscv_vector))
-#define GVI__VECTORS
-#if defined(__AVX__) && !defined(__AVX512F__) && GVI__KIND == 2
-#define GVI__LANES 4                                  // of eight it would keep sums in memory: twice the time
-#else
-#define GVI__LANES 8
-#endif
-typedef gvi_real gvi__vector
-    __attribute__((vector_size(GVI__LANES*sizeof(gvi_real)), aligned(sizeof(gvi_real)), may_alias));
-#define GVI__AT(p) (*(const gvi__vector *)(p))
-
+#ifdef GVI__VECTORS
 // z := sum_j table[j][0..] L_j, one vector, in four sums, so that none need wait for another; r > 4
 GVI__COPY void gvi__sum_vector(int r, int R, const gvi_real *table, const gvi_real *L, gvi__vector *z)
 {
@@ -4067,9 +4150,18 @@ static void gvi__velocity_rows(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work;
-    const gvi_real *P = w->P, *A = gvi__A(w);
-    gvi_real *V = w->V;
+    const gvi_real *GVI__RESTRICT P = w->P, *GVI__RESTRICT A = gvi__A(w);
+    gvi_real *GVI__RESTRICT V = w->V;
     int n = st->n, R = x->stride;
+#ifdef GVI__VECTORS
+    if (R % 8 == 0 && !gvi__mass_is_constant(&x->desc)) {
+        for (int k = 0; k < n*R; k += GVI__LANES)
+            *(gvi__vector *)(V + k) = GVI__AT(P + k);
+        for (int k = 0; A && k < n*R; k += GVI__LANES) *(gvi__vector *)(V + k) -= GVI__AT(A + k);
+        gvi__ldl_solve_eights(n, R, x->point_mass, V);
+        return;
+    }
+#endif
     for (int k = 0; k < n*R; ++k) V[k] = P[k] - (A ? A[k] : 0);
     if (gvi__mass_is_constant(&x->desc)) gvi__over_mass(st, w->V, R, st->r);
     else gvi__ldl_solve(n, x->point_mass, R, w->V, R, st->r);

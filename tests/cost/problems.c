@@ -373,25 +373,25 @@ static void pendulum_slope(const double *y, double *dy)
     dy[3] = f - G*s[1];
 }
 
-/* The sines that the velocity needs, and the gradient and the weight as well, which gvi.h asks for
-   next at the same points.                                                                    */
+/* M, and the sines that it, the gradient and the weight need: gvi.h asks for them next, at the same
+   points.                                                                                     */
 enum { MOST_POINTS = 64 };
 static double sine_1[MOST_POINTS], sine_2[MOST_POINTS], sine_between[MOST_POINTS];
 
-INLINE int pendulum_velocity_points(const gvi_points *x, int count, int stride)
+INLINE int pendulum_mass_points(const gvi_points *x, int count, int stride)
 {
-    const double *restrict q = x->q, *restrict p = x->p;
-    double *restrict v = x->velocity;
+    const double *restrict q = x->q;
+    double *restrict m = x->mass;
     INDEPENDENT for (int k = 0; k < count; ++k) {
-        double s1, c1, s2, c2, p1 = p[k], p2 = p[stride+k];
+        double s1, c1, s2, c2;
         sine_and_cosine(q[k], &s1, &c1);
         sine_and_cosine(q[stride+k], &s2, &c2);
-        double c = c1*c2 + s1*s2, s = s1*c2 - c1*s2, d = 1/(1 + s*s);
-        v[k] = (p1 - c*p2)*d;
-        v[stride+k] = (2*p2 - c*p1)*d;
+        m[k] = 2;
+        m[2*stride+k] = c1*c2 + s1*s2;
+        m[3*stride+k] = 1;
         sine_1[k] = s1;
         sine_2[k] = s2;
-        sine_between[k] = s;
+        sine_between[k] = s1*c2 - c1*s2;
     }
     return 0;
 }
@@ -418,10 +418,10 @@ INLINE int pendulum_weight_points(const gvi_points *x, int count, int stride)
     return 0;
 }
 
-static int pendulum_velocity(const gvi_points *x, void *user)
+static int pendulum_mass(const gvi_points *x, void *user)
 {
     (void)user;
-    return x->count > MOST_POINTS ? 1 : BY_COUNT(pendulum_velocity_points, x);
+    return x->count > MOST_POINTS ? 1 : BY_COUNT(pendulum_mass_points, x);
 }
 
 static int pendulum_gradient(const gvi_points *x, void *user)
@@ -432,24 +432,6 @@ static int pendulum_gradient(const gvi_points *x, void *user)
 static int pendulum_weight(const gvi_points *x, void *user)
 {
     return (void)user, BY_COUNT(pendulum_weight_points, x);
-}
-
-/* For Newton's method; velocity stands in for it everywhere else.                             */
-static int pendulum_mass(const gvi_points *x, void *user)
-{
-    const double *q1 = x->q, *q2 = q1 + x->stride;
-    double *m11 = x->mass, *m21 = m11 + 2*x->stride, *m22 = m11 + 3*x->stride;
-    (void)user;
-    if (x->count > MOST_POINTS) return 1;
-    for (int k = 0; k < x->count; ++k) {
-        m11[k] = 2;
-        m21[k] = cos(q1[k] - q2[k]);
-        m22[k] = 1;
-        sine_1[k] = sin(q1[k]);
-        sine_2[k] = sin(q2[k]);
-        sine_between[k] = sin(q1[k] - q2[k]);
-    }
-    return 0;
 }
 
 /* ---------------------------------------------- P6: Fermi, Pasta, Ulam */
@@ -603,7 +585,7 @@ const problem problems[] = {
     { .key = "P5", .title = "Double pendulum, t = 100", .n = 2, .end = 100,
       .q = pendulum_q, .v = pendulum_p, .reference = reference_P5, .energy = pendulum_energy,
       .slope = pendulum_slope, .mass = { .kind = GVI_MASS_POSITION, .points = pendulum_mass,
-      .velocity = pendulum_velocity, .gradient = pendulum_gradient },
+      .gradient = pendulum_gradient },
       SCENE(pendulum_scene), .evaluations = 3e3, .limit = 12 },
     { .key = "P6", .title = "Fermi-Pasta-Ulam, frequency 50, t = 200", .n = 6, .end = 200,
       .q = fpu_q, .v = fpu_v, .reference = reference_P6, .energy = fpu_energy,

@@ -1,0 +1,244 @@
+/* M(q): its factors against the matrix in more digits, all points at once against one by one,
+   points without an inverse, and what asking for M saves where M^-1 p could be had.          */
+#include "gvi_test.h"
+
+typedef gvi_real real;
+enum { MOST = 6, POINTS = 16 };
+
+static unsigned long long seed;
+static real random_unit(void)                   /* in (-1,1) */
+{
+    seed = seed*6364136223846793005ULL + 1442695040888963407ULL;
+    return (real)((double)(seed >> 33)/1073741824.0 - 1);
+}
+
+/* [n*n][stride], B B' + 1/2 at each point, its sign as wanted: definite, condition below 100 */
+static void random_mass(int n, int stride, int count, real sign, real *m)
+{
+    for (int k = 0; k < count; ++k) {
+        real B[MOST][MOST];
+        for (int i = 0; i < n; ++i)
+            for (int j = 0; j < n; ++j) B[i][j] = random_unit();
+        for (int i = 0; i < n; ++i)
+            for (int j = 0; j <= i; ++j) {
+                real sum = i == j ? (real)0.5 : 0;
+                for (int l = 0; l < n; ++l) sum += B[i][l]*B[j][l];
+                m[(i*n + j)*stride + k] = sign*sum;
+            }
+    }
+}
+
+static gvi_stepper *any_stepper(void)
+{
+    static gvi_stepper st;
+    memset(&st, 0, sizeof st);
+    return &st;
+}
+
+/* |L D L' - M|_ij <= (n + 3) eps sqrt(M_ii M_jj): Cholesky's bound, (n + 1) eps/2 and terms of eps^2 (Higham,
+   Accuracy and stability of numerical algorithms, thm. 10.3), and two roundings more, of 1/D and of a product with it */
+static void factors_are_those_of_the_matrix(void **state)
+{
+    static real m[MOST*MOST*POINTS], f[MOST*MOST*POINTS];
+    (void)state;
+    seed = 1;
+    for (int n = 1; n <= MOST; ++n)
+        for (int R = 1; R <= POINTS; R = R == 1 ? 3 : R == 3 ? 8 : R + 8)
+            for (int s = -1; s <= 1; s += 2) {
+                random_mass(n, R, R, (real)s, m);
+                memcpy(f, m, sizeof f);
+                assert_ok(gvi__ldl_factor(any_stepper(), n, R, R, f));
+                for (int k = 0; k < R; ++k)
+                    for (int i = 0; i < n; ++i)
+                        for (int j = 0; j <= i; ++j) {
+                            long double sum = 0, size = sqrtl((long double)m[(i*n + i)*R + k]*m[(j*n + j)*R + k]);
+                            for (int l = 0; l <= j; ++l) {
+                                long double a = l < i ? f[(i*n + l)*R + k] : 1, b = l < j ? f[(j*n + l)*R + k] : 1;
+                                sum += a*b/f[(l*n + l)*R + k];
+                            }
+                            assert_close(sum, m[(i*n + j)*R + k], (long double)(n + 3)*EPS*size);
+                        }
+            }
+}
+
+#ifdef GVI__VECTORS
+/* Where a product and a sum are one operation only the last places need agree */
+#if defined(__FMA__) || defined(__aarch64__) || defined(__powerpc__) || defined(__s390x__) || defined(__riscv)
+#define ALIKE (64*EPS)
+#else
+#define ALIKE 0
+#endif
+
+static void eight_points_at_once_give_the_same_bits(void **state)
+{
+    static real m[MOST*MOST*POINTS], f[MOST*MOST*POINTS], z[2][MOST*POINTS];
+    (void)state;
+    seed = 2;
+    for (int n = 1; n <= MOST; ++n)
+        for (int R = 8; R <= POINTS; R += 8) {
+            random_mass(n, R, R, 1, m);
+            memcpy(f, m, sizeof f);
+            for (int i = 0; i < n*R; ++i) z[0][i] = z[1][i] = random_unit();
+            assert_ok(gvi__ldl_factor(any_stepper(), n, R, R, f));
+            assert_true(gvi__ldl_factor_eights(n, R, m));
+            for (int i = 0; i < n; ++i)
+                for (int j = 0; j <= i; ++j)
+                    for (int k = 0; k < R; ++k) {
+                        const int at = (i*n + j)*R + k;
+                        assert_close(m[at], f[at], ALIKE);
+                    }
+            gvi__ldl_solve(n, f, R, z[0], R, R);
+            gvi__ldl_solve_eights(n, R, f, z[1]);
+            for (int i = 0; i < n*R; ++i) assert_close(z[1][i], z[0][i], 64*ALIKE);
+        }
+}
+#endif
+
+/* ------------------------------------------------------------ in steps */
+
+static int nothing(const gvi_points *x, void *user) { return (void)x, (void)user, 0; }
+
+/* diag(1, 1), but (1, 0) where q_1 > 1 */
+static int ends_at_one(const gvi_points *x, void *user)
+{
+    (void)user;
+    for (int k = 0; k < x->count; ++k) {
+        x->mass[k] = 1;
+        x->mass[2*x->stride + k] = 0;
+        x->mass[3*x->stride + k] = x->q[k] <= 1;
+    }
+    return 0;
+}
+
+/* q_1 = 3/4 + c/2 at the nodes of a free step: the first point beyond 1 is named */
+static void the_point_without_an_inverse_is_named(void **state)
+{
+    static real memory[GVI_LENGTH(2, 16, 16)];
+    static const gvi_effect none[] = { { .kind = GVI_POTENTIAL, .points = nothing } };
+    static const int degrees[] = { 2, 3, 6, 8, 12, 16 };
+    (void)state;
+    for (int i = 0; i < COUNT(degrees); ++i) {
+        const real q[2] = { (real)0.75, 0 }, v[2] = { (real)0.5, 0 };
+        real c[16], b[16];
+        int first = 0;
+        const gvi_desc desc = { .n = 2, .degree = degrees[i], .effects = none, .effect_count = 1,
+                                .mass = { .kind = GVI_MASS_POSITION, .points = ends_at_one, .gradient = nothing },
+                                .formulation = GVI_MOMENTA };
+        gvi_stepper st;
+        assert_ok(gvi_gauss(degrees[i], c, b));
+        while ((real)0.75 + c[first]/2 <= 1) ++first;
+        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+        assert_ok(gvi_start(&st, 0, q, v));
+        assert_status(gvi_step(&st, 1), GVI_E_SINGULAR);
+        assert_int_equal(st.fault.coordinate, 1);
+        assert_int_equal(st.fault.point, first);
+        assert_true(st.t == 0 && st.q[0] == q[0]);
+    }
+}
+
+/* What is left of M_22 is 3/2 of what rounding can leave, at all points: regular, though barely, and no
+   matter how many points there are */
+static int barely(const gvi_points *x, void *user)
+{
+    (void)user;
+    for (int k = 0; k < x->count; ++k) {
+        x->mass[k] = x->mass[2*x->stride + k] = 1;
+        x->mass[3*x->stride + k] = 1 + 3*EPS;
+    }
+    return 0;
+}
+
+static void a_matrix_that_is_barely_regular_is_taken(void **state)
+{
+    static real memory[GVI_LENGTH(2, 16, 16)];
+    static const gvi_effect none[] = { { .kind = GVI_POTENTIAL, .points = nothing } };
+    const real zero[2] = { 0, 0 };
+    (void)state;
+    for (int degree = 2; degree <= 16; ++degree) {
+        const gvi_desc desc = { .n = 2, .degree = degree, .effects = none, .effect_count = 1,
+                                .mass = { .kind = GVI_MASS_POSITION, .points = barely, .gradient = nothing },
+                                .formulation = GVI_MOMENTA };
+        gvi_stepper st;
+        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+        assert_ok(gvi_start_momentum(&st, 0, zero, zero));
+        for (int k = 0; k < 3; ++k) assert_ok(gvi_step(&st, 1));
+        assert_true(st.q[0] == 0 && st.q[1] == 0);
+    }
+}
+
+/* ---------------------------------------------------- M or M^-1 p? */
+
+/* M = (2, 1; 1, 1), springs of 1: omega^2 = (3 +- sqrt 5)/2, 2.618 and 0.382 */
+static int springs(const gvi_points *x, void *user)
+{
+    (void)user;
+    for (int i = 0; i < x->n; ++i)
+        for (int k = 0; k < x->count; ++k) x->f[i*x->stride + k] -= x->q[i*x->stride + k];
+    return 0;
+}
+
+static int of_points(const gvi_points *x, void *user)
+{
+    (void)user;
+    for (int k = 0; k < x->count; ++k) {
+        x->mass[k] = 2;
+        x->mass[2*x->stride + k] = x->mass[3*x->stride + k] = 1;
+    }
+    return 0;
+}
+
+static int of_momentum(const gvi_points *x, void *user)
+{
+    const real *p = x->p, *r = p + x->stride;
+    (void)user;
+    for (int k = 0; k < x->count; ++k) {
+        x->velocity[k] = p[k] - r[k];
+        x->velocity[x->stride + k] = 2*r[k] - p[k];
+    }
+    return 0;
+}
+
+static double iterations(int by_velocity, real h, real *q)
+{
+    static real memory[GVI_LENGTH(2, 8, 8)];
+    static const gvi_effect pull[] = { { .kind = GVI_POTENTIAL, .points = springs } };
+    const real start[2] = { 1, 0 }, rest[2] = { 0, 0 };
+    const gvi_desc desc = { .n = 2, .degree = 8, .effects = pull, .effect_count = 1, .formulation = GVI_MOMENTA,
+                            .mass = { .kind = GVI_MASS_POSITION, .points = of_points, .gradient = nothing,
+                                      .velocity = by_velocity ? of_momentum : NULL } };
+    gvi_stepper st;
+    assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+    assert_ok(gvi_start_momentum(&st, 0, start, rest));
+    for (int k = 0; k < 100; ++k) assert_ok(gvi_step(&st, h));
+    q[0] = st.q[0];
+    q[1] = st.q[1];
+    return (double)st.counters.iterations/100;
+}
+
+/* V of the new P: an iteration integrates twice in place of once, so that half as many do.  One more than half
+   is allowed, for the first, which has no M yet, and for odd numbers. */
+static void with_M_half_the_iterations_do(void **state)
+{
+    (void)state;
+    for (real h = (real)0.25; h < (real)1.25; h += (real)0.25) {
+        real q[2][2];
+        const double by_points = iterations(0, h, q[0]), by_velocity = iterations(1, h, q[1]);
+        print_message("    h = %.2f: %.2f iterations with M, %.2f with M^-1 p\n", (double)h, by_points, by_velocity);
+        assert_between(by_velocity/2 - 1, by_points, by_velocity/2 + 1.5);
+        for (int i = 0; i < 2; ++i) assert_close(q[0][i], q[1][i], 4096*EPS);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(factors_are_those_of_the_matrix),
+#ifdef GVI__VECTORS
+        cmocka_unit_test(eight_points_at_once_give_the_same_bits),
+#endif
+        cmocka_unit_test(the_point_without_an_inverse_is_named),
+        cmocka_unit_test(a_matrix_that_is_barely_regular_is_taken),
+        cmocka_unit_test(with_M_half_the_iterations_do),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
