@@ -26,7 +26,7 @@ CMOCKA_LIBS   = $$(pkg-config --libs cmocka 2>/dev/null || echo -lcmocka)
 
 # The tests; these run in float and long double as well.
 TESTS    = $(sort $(basename $(notdir $(wildcard tests/test_*.c))))
-TYPED    = $(filter test_oracle test_quadrature test_interpolation test_lu test_corners test_effects test_newton test_weak test_stiffness test_guess test_mass,$(TESTS))
+TYPED    = $(filter test_oracle test_quadrature test_interpolation test_lu test_corners test_effects test_newton test_weak test_stiffness test_guess test_mass test_tolerance,$(TESTS))
 PROGRAMS = $(TESTS) $(TYPED:%=%-float) $(TYPED:%=%-long)
 # Small enough to be repeated under valgrind.
 VALGRIND_TESTS = $(filter test_api test_lu test_interpolation,$(TESTS))

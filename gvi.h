@@ -494,7 +494,8 @@ typedef struct gvi_desc {
     gvi_formulation   formulation;     /* pinned: no fall-back and no memory for one */
     gvi_real          tolerance;       /* stop when the change of q yet to come,
                                           as the last two changes predict it, is
-                                          below tolerance*|q|.  0: at round-off */
+                                          below tolerance*|q|: the step then is
+                                          symplectic to that.  0: at round-off  */
     int               max_iterations;  /* to 1,000,000.  0: 60                 */
     int               iterations;      /* N: exactly N of the fixed point in every step, for
                                           a loop with a deadline, and no Newton.  A step whose
@@ -565,6 +566,7 @@ struct gvi__private {
     gvi_real *over;                   /* [n] 1/m of a diagonal mass             */
     gvi_real *weak;                   /* [n+2][R] weak forces, as last asked; gvi__answers */
     gvi_real *springs;                /* stiffness: see gvi__arc, gvi__shears   */
+    gvi_real *folded;                 /* [r][R] for each stage: its table times h b; gvi__folds */
     gvi_real *mass, *point_mass, *Z;  /* M; M at the points [n*n][R]; [n][R] scratch */
     gvi_real *y, *dy, *J, *pivot;     /* Newton: [s*n] twice; two matrices of s*n */
     gvi_real *hess, *dF;              /* scratch; F and P, moved and not, [4][n][R] */
@@ -749,7 +751,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI_LENGTH(n, s, r) (                                                    \
     (31 + 4*GVI__SIZE(s) + 20*GVI__SIZE(GVI__ROW(r))                             \
      + (6 + GVI__SIZE(GVI__ROW(r)) + 2*GVI__SIZE(s)*GVI__SIZE(s))*GVI__SIZE(n))*GVI__SIZE(n) \
-    + (20 + 7*GVI__SIZE(r) + 3*GVI__SIZE(s))*GVI__SIZE(GVI__ROW(r))              \
+    + (20 + 9*GVI__SIZE(r) + 3*GVI__SIZE(s))*GVI__SIZE(GVI__ROW(r))              \
     + ((r) > (n) ? GVI__SIZE((r) - (n))*GVI__SIZE(GVI__ROW(r))*GVI__SIZE(n) : 0) \
     + (GVI__SIZE(s) + 2)*GVI__SIZE(s) + 3 + GVI__SLACK + ((n) < 8 ? 0 : 126))
 
@@ -2596,6 +2598,42 @@ static void gvi__tables_own(gvi_stepper *st)
     }
 }
 
+#define GVI__STAGES (GVI__VELOCITIES || GVI__MOMENTA ? 2 : 1)       // of an iteration, at most
+
+/* What an iteration computes, in this order: positions (3), by g; or these, and velocities (4),
+   by m; or momenta, by m, and positions (5), by T.                            */
+static int gvi__stage_count(const gvi_stepper *st)
+{
+    return GVI__STAGES == 1 || gvi__uses(st, GVI_POSITIONS) ? 1 : 2;
+}
+
+static inline const gvi_real *gvi__stage_table(const gvi_stepper *st, int stage)
+{
+    const struct gvi__private *x = &st->x;
+    const int momenta = gvi__uses(st, GVI_MOMENTA);
+    if (GVI__STAGES == 1 || stage == momenta) return momenta ? x->T : x->g;
+    return x->m;
+}
+
+/* With a tolerance rows are made by tables times h b, each product rounded once: that is as little
+   symplectic as what the iteration leaves undone, and F need not be weighed.   */
+static inline int gvi__folds(const gvi_stepper *st) { return GVI__TOLERANCE && st->x.folded; }
+
+// what f is weighed with in a stage, or NULL
+static inline const gvi_real *gvi__stage_weights(const gvi_stepper *st)
+{
+    return gvi__folds(st) ? NULL : st->x.hb;
+}
+
+static void gvi__fold(gvi_stepper *st, int stage)
+{
+    const int R = st->x.stride;
+    const gvi_real *table = gvi__stage_table(st, stage);
+    gvi_real *folded = st->x.folded + stage*st->r*R;
+    for (int j = 0; j < st->r; ++j)
+        for (int k = 0; k < R; ++k) folded[j*R + k] = table[j*R + k]*st->x.hb[j];
+}
+
 /* Weights h b_j whose sum is h exactly: rounded to multiples of ulp(h), what is
    left over goes to the largest weight and its mirror image.                 */
 GVI__APART void gvi__weights(gvi_stepper *st, gvi_real h)
@@ -2615,6 +2653,7 @@ GVI__APART void gvi__weights(gvi_stepper *st, gvi_real h)
     x->hb[most] += mirror == most ? rest : rest/2;
     if (mirror != most) x->hb[mirror] += rest/2;
     for (int j = 0; j < r; ++j) x->hb[j] = GVI_LDEXP(x->hb[j], e);
+    for (int k = 0; gvi__folds(st) && k < gvi__stage_count(st); ++k) gvi__fold(st, k);
     if (!gvi__uses(st, GVI_EXPLICIT)) return;
 
     // the drifts sum to h exactly as well: differences of numbers on that grid
@@ -2881,9 +2920,10 @@ static gvi_real *gvi__take(gvi__arena *arena, size_t a, size_t b)
 enum {
     GVI__1, GVI__2, GVI__3, GVI__6, GVI__n, GVI__N, GVI__R, GVI__s,      // N: n, in whole vectors if n >= 8
     GVI__STATE, GVI__POINTS, GVI__V, GVI__P, GVI__A_, GVI__OLDER_F, GVI__OLDER_V, GVI__OLDER_A,
-    GVI__SLOPE, GVI__RATE, GVI__G, GVI__M, GVI__T, GVI__NN, GVI__E, GVI__PHI, GVI__MODES, GVI__SCRATCH,
-    GVI__DRIFT, GVI__GAMMA, GVI__DIAGONAL, GVI__TWO_MASSES, GVI__STILL, GVI__Z, GVI__AT_POINTS, GVI__nR,
-    GVI__SPRINGS, GVI__HESS, GVI__HESSIANS, GVI__sn, GVI__PIVOT, GVI__DIFFERENCES, GVI__J, GVI__EIGEN, GVI__LENGTHS
+    GVI__SLOPE, GVI__RATE, GVI__G, GVI__M, GVI__T, GVI__NN, GVI__FOLDED, GVI__E, GVI__PHI, GVI__MODES,
+    GVI__SCRATCH, GVI__DRIFT, GVI__GAMMA, GVI__DIAGONAL, GVI__TWO_MASSES, GVI__STILL, GVI__Z,
+    GVI__AT_POINTS, GVI__nR, GVI__SPRINGS, GVI__HESS, GVI__HESSIANS, GVI__sn, GVI__PIVOT,
+    GVI__DIFFERENCES, GVI__J, GVI__EIGEN, GVI__LENGTHS
 };
 
 enum { GVI__ARC_HEAD = 8, GVI__ARC_TAIL = 8 };                            // see gvi__arc_of
@@ -2935,6 +2975,8 @@ GVI__APART void gvi__lengths(const gvi__scene *x, size_t *length)
     length[GVI__M] = velocities || momenta ? r : 0;
     length[GVI__T] = momenta || (velocities && lagrangian) ? r : 0;
     length[GVI__NN] = velocities && lagrangian ? r : 0;
+    length[GVI__FOLDED] = !GVI__TOLERANCE || !(d->tolerance > 0) || x->springs ? 0
+        : velocities || momenta ? 2*r : positions ? r : 0;
     length[GVI__E] = !iterates ? 0 : two ? 2*r : r;
     length[GVI__PHI] = kicks ? 0 : s;
     length[GVI__MODES] = reads_v || (iterates && x->order <= 2*d->degree - 2) ? s : 0;
@@ -2992,10 +3034,11 @@ static void gvi__layout_rows(gvi__arena *a, const size_t *length)
         GVI__PART(older_A, OLDER_A, R), GVI__PART(weak, STILL, R), GVI__PART(slope, SLOPE, R),
         GVI__PART(rate, RATE, R), GVI__PART(z, 1, R), GVI__PART(less, 1, R), GVI__PART(hb, 1, R),
         GVI__PART(c, 1, R), GVI__PART(g, G, R), GVI__PART(m, M, R), GVI__PART(T, T, R), GVI__PART(N, NN, R),
-        GVI__PART(E, E, R), GVI__PART(Phi, PHI, R), GVI__PART(phi, MODES, R), GVI__PART(low, MODES, R),
-        GVI__PART(Z, Z, R), GVI__PART(point_mass, AT_POINTS, nR), GVI__PART(b, 1, R),
-        GVI__PART(t, 1, R), GVI__PART(row, SCRATCH, R), GVI__PART(springs, SPRINGS, 1),
-        GVI__PART(drift, DRIFT, 1), GVI__PART(inv_gamma, 1, s), GVI__PART(own, GAMMA, 1), GVI__PART(eigen, EIGEN, s)
+        GVI__PART(folded, FOLDED, R), GVI__PART(E, E, R), GVI__PART(Phi, PHI, R),
+        GVI__PART(phi, MODES, R), GVI__PART(low, MODES, R), GVI__PART(Z, Z, R),
+        GVI__PART(point_mass, AT_POINTS, nR), GVI__PART(b, 1, R), GVI__PART(t, 1, R),
+        GVI__PART(row, SCRATCH, R), GVI__PART(springs, SPRINGS, 1), GVI__PART(drift, DRIFT, 1),
+        GVI__PART(inv_gamma, 1, s), GVI__PART(own, GAMMA, 1), GVI__PART(eigen, EIGEN, s)
     };
     gvi__place(a, length, parts, sizeof parts/sizeof *parts);
 }
@@ -3399,7 +3442,7 @@ static gvi_real gvi__dot(int r, const gvi_real *a, const gvi_real *b)
 
 /* One set of rows of (3), (4) or (5):
    row_i := base_i + (extra_i + c (path_i + rest_i) + factor*(M^-1 (table (h b f_i) - minus (b a_i))))
-   path, minus may be NULL; M^-1 if over_mass.                                 */
+   path and minus may be NULL; M^-1 if over_mass; h b is in the table already where gvi__folds.  */
 struct gvi__stage;
 typedef gvi_real gvi__kernel(gvi_stepper *st, const struct gvi__stage *y);   // returns the change: below
 typedef struct gvi__stage {
@@ -3495,12 +3538,13 @@ GVI__DEEP void gvi__weigh_row(int R, const gvi_real *w, const gvi_real *f, gvi_r
     gvi__weigh(R, w, f, L);
 }
 
-// z := sum_j table[j][.] w_j f_j, by way of x->z
+// z := sum_j table[j][.] w_j f_j, by way of x->z; w NULL: 1
 GVI__APART void gvi__weighted_sums(const gvi_stepper *st, const gvi_real *table, const gvi_real *w,
                                    const gvi_real *f, gvi_real *z)
 {
-    gvi__weigh_row(st->x.stride, w, f, st->x.z);
-    gvi__sum_row(st->r, st->x.stride, table, st->x.z, z);
+    const int weighs = !GVI__TOLERANCE || w;
+    if (weighs) gvi__weigh_row(st->x.stride, w, f, st->x.z);
+    gvi__sum_row(st->r, st->x.stride, table, weighs ? st->x.z : f, z);
 }
 
 /* 1/unit in which changes of a row are measured: |base| + the displacements at the
@@ -3562,7 +3606,7 @@ GVI__COPY gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stage *y
 {
     const struct gvi__private *x = &st->x;
     const gvi_real *diagonal = gvi__diagonal(st, y);
-    const gvi_real *c = x->c, *minus = GVI__LAGRANGIAN ? y->minus : NULL;
+    const gvi_real *c = x->c, *weights = gvi__stage_weights(st), *minus = GVI__LAGRANGIAN ? y->minus : NULL;
     const int n = st->n;
 #ifdef GVI__VECTORS
     if (R % 8 == 0) {
@@ -3573,9 +3617,10 @@ GVI__COPY gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stage *y
         gvi__vector squares[VECTORS] = { { 0 } };
         for (int i = 0; i < n; ++i) {
             const gvi__affine p = gvi__affine_of(y, diagonal, i);
-            if (i % few == 0)
+            const gvi_real *f = weights ? L + i % few*R : y->f + i*R;
+            if (i % few == 0 && weights)
                 for (int o = 0; o < few*R && i*R + o < n*R; o += GVI__LANES)
-                    *(gvi__vector *)(L + o) = GVI__AT(x->hb + o % R)*GVI__AT(y->f + i*R + o);
+                    *(gvi__vector *)(L + o) = GVI__AT(weights + o % R)*GVI__AT(y->f + i*R + o);
             if (minus) gvi__weigh(R, x->b, x->work.A + i*R, x->less);
             for (int o = R - 8; o >= 0; o -= 8) {
                 const int last = r - 1 - o;
@@ -3584,7 +3629,7 @@ GVI__COPY gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stage *y
                 for (int k = 0; k < VECTORS; ++k) {
                     const int at = o + k*GVI__LANES;
                     gvi__vector z, less;
-                    gvi__sum_vector(r, R, y->table + at, L + i % few*R, &z);
+                    gvi__sum_vector(r, R, y->table + at, f, &z);
                     if (minus) {
                         gvi__sum_vector(r, R, minus + at, x->less, &less);
                         z -= less;
@@ -3610,8 +3655,9 @@ GVI__COPY gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stage *y
     const int block = R < 8 ? R : 8;
     for (int i = 0; i < n; ++i) {
         const gvi__affine p = gvi__affine_of(y, diagonal, i);
-        gvi_real few[8], *L = R > 8 ? x->z : few;
-        gvi__weigh(R, x->hb, y->f + i*R, L);
+        gvi_real few[8], *weighed = R > 8 ? x->z : few;
+        const gvi_real *L = weights ? weighed : y->f + i*R;
+        if (weights) gvi__weigh(R, weights, y->f + i*R, weighed);
         if (minus) gvi__weigh(R, x->b, x->work.A + i*R, x->less);
         for (int o = R - block; o >= 0; o -= block) {
             const int last = r - 1 - o;
@@ -3652,13 +3698,12 @@ GVI__COPY const gvi_real *gvi__keep(int r, const gvi_real *table, gvi__vector *k
 }
 
 /* The same for five to eight points and no Lagrangian terms.                   */
-GVI__COPY gvi_real gvi__stage_rows_8(const gvi_stepper *st, const gvi__stage *y, int r)
+GVI__COPY gvi_real gvi__stage_rows_8(const gvi_stepper *st, const gvi__stage *y, int r, int n, int folded)
 {
     enum { VECTORS = 8/GVI__LANES };
     const struct gvi__private *x = &st->x;
     const gvi_real *diagonal = gvi__diagonal(st, y);
     const gvi_real *base = y->base, *extra = y->extra, *path = y->path, *f = y->f, factor = y->factor;
-    const int n = st->n;
     gvi_real *row = y->rows, *scale = y->scale, lane[8], ahead[64];
     gvi__vector kept[8], c[VECTORS], hb[VECTORS], squares[VECTORS] = { { 0 } };
     const gvi_real *table = gvi__keep(r, y->table, kept);
@@ -3667,13 +3712,14 @@ GVI__COPY gvi_real gvi__stage_rows_8(const gvi_stepper *st, const gvi__stage *y,
         hb[k] = GVI__AT(x->hb + k*GVI__LANES);
     }
     for (int i = 0; i < n; ++i, row += 8) {
-        if (i % 8 == 0)
+        if (i % 8 == 0 && !folded)
             for (int o = 0; o < 64 && o < 8*(n - i); o += GVI__LANES, f += GVI__LANES)
                 *(gvi__vector *)(ahead + o) = hb[o/GVI__LANES % VECTORS]*GVI__AT(f);
+        const gvi_real *L = folded ? y->f + 8*i : ahead + i % 8*8;
         const gvi_real a = path ? path[i] : 0, rest = path ? y->rest[i] : 0;
         gvi__vector next[VECTORS];
         for (int k = 0; k < VECTORS; ++k) {
-            gvi__sum_vector(r, 8, table + k*GVI__LANES, ahead + i % 8*8, next + k);
+            gvi__sum_vector(r, 8, table + k*GVI__LANES, L, next + k);
             if (diagonal) next[k] *= diagonal[i];
             next[k] = base[i] + (((extra[i] + c[k]*rest) + c[k]*a) + next[k]*factor);
         }
@@ -3694,7 +3740,7 @@ static void gvi__row_sums(const gvi_stepper *st, const gvi__stage *y, int i, gvi
 {
     const struct gvi__private *x = &st->x;
     const int R = x->stride;
-    gvi__weighted_sums(st, y->table, x->hb, y->f + i*R, z);
+    gvi__weighted_sums(st, y->table, gvi__stage_weights(st), y->f + i*R, z);
     if (!GVI__LAGRANGIAN || !y->minus) return;
     gvi__weighted_sums(st, y->minus, x->b, x->work.A + i*R, x->less);
     for (int k = 0; k < R; ++k) z[k] -= x->less[k];
@@ -4096,9 +4142,11 @@ GVI__ROWS(gvi__arc_rows, gvi__arc_rows_of(st, y, st->r, st->x.stride, 0))
 GVI__ROWS(gvi__arc_rows_4, gvi__arc_rows_of(st, y, 4, 4, 0))
 GVI__ROWS(gvi__arc_slopes, gvi__arc_rows_of(st, y, st->r, st->x.stride, 1))
 #ifdef GVI__VECTORS
-GVI__ROWS(gvi__rows_6, gvi__stage_rows_8(st, y, 6))
-GVI__ROWS(gvi__rows_8, gvi__stage_rows_8(st, y, 8))
-GVI__ROWS(gvi__rows_5_to_8, gvi__stage_rows_8(st, y, st->r))
+GVI__ROWS(gvi__rows_6, gvi__stage_rows_8(st, y, 6, st->n, gvi__folds(st)))
+GVI__ROWS(gvi__rows_8, gvi__stage_rows_8(st, y, 8, st->n, 0))
+GVI__ROWS(gvi__rows_8_folded, gvi__stage_rows_8(st, y, 8, st->n, 1))
+GVI__ROWS(gvi__rows_8_of_2, gvi__stage_rows_8(st, y, 8, 2, 1))
+GVI__ROWS(gvi__rows_5_to_8, gvi__stage_rows_8(st, y, st->r, st->n, gvi__folds(st)))
 GVI__ROWS(gvi__rows_8_less, gvi__stage_rows_of(st, y, 8, 8))
 GVI__ROWS(gvi__rows_16, gvi__stage_rows_of(st, y, 16, 16))
 GVI__ROWS(gvi__arc_rows_8, gvi__arc_rows_vector(st, y, 8, 8, 0))
@@ -4132,7 +4180,9 @@ static gvi__kernel *gvi__kernel_of(const gvi_stepper *st, const gvi__stage *y)
     case 5:
     case 7:  return y->minus ? gvi__rows_any : gvi__rows_5_to_8;
     case 6:  return y->minus ? gvi__rows_any : gvi__rows_6;
-    case 8:  return y->minus ? gvi__rows_8_less : gvi__rows_8;
+    case 8:
+        if (y->minus) return gvi__rows_8_less;
+        return !gvi__folds(st) ? gvi__rows_8 : st->n == 2 ? gvi__rows_8_of_2 : gvi__rows_8_folded;
     case 16: return gvi__rows_16;
 #endif
     default: return gvi__rows_any;
@@ -4167,7 +4217,6 @@ static void gvi__velocity_rows(gvi_stepper *st)
     else gvi__ldl_solve(n, x->point_mass, R, w->V, R, st->r);
 }
 
-#define GVI__STAGES (GVI__VELOCITIES || GVI__MOMENTA ? 2 : 1)       // of an iteration, at most
 #define GVI__MADE (GVI__SMALL && GVI__TOLERANCE)                    // each time anew: gvi__stage_made
 
 // h (v + ve) of a step, where the increments of q will be
@@ -4182,13 +4231,7 @@ GVI__APART void gvi__path(gvi_stepper *st, const gvi__from *from, gvi_real h)
     }
 }
 
-/* What an iteration computes, fixed for a step, in this order: positions (3), with gvi__path;
-   velocities (3), (4); momenta (5), P first.                                   */
-static int gvi__stage_count(const gvi_stepper *st)
-{
-    return gvi__uses(st, GVI_POSITIONS) || GVI__STAGES == 1 ? 1 : 2;
-}
-
+// stage y of an iteration, fixed for a step; positions with gvi__path
 static void gvi__plan(gvi_stepper *st, const gvi__from *from, gvi_real h, int stage, gvi__stage *y)
 {
     struct gvi__private *x = &st->x;
@@ -4200,11 +4243,11 @@ static void gvi__plan(gvi_stepper *st, const gvi__from *from, gvi_real h, int st
     y->factor = 1;
     y->scale = x->scale + stage*st->n;
     y->over_mass = !momenta;
+    y->table = gvi__folds(st) ? x->folded + stage*st->r*x->stride : gvi__stage_table(st, stage);
     if (GVI__STAGES == 1 || stage == momenta) {
         y->base = from->q;
         y->extra = from->qe;
         y->rows = w->Q;
-        y->table = momenta ? x->T : x->g;
         if (momenta) y->f = w->V;
         else {
             y->path = GVI__PATH ? x->dq : from->v;
@@ -4215,7 +4258,6 @@ static void gvi__plan(gvi_stepper *st, const gvi__from *from, gvi_real h, int st
         y->base = momenta ? from->p : from->v;
         y->extra = momenta ? from->pe : gvi__ve(st, from);
         y->rows = momenta ? w->P : w->V;
-        y->table = x->m;
         if (!momenta && gvi__A(w)) y->minus = x->N;
     }
     if (GVI__SMALL) y->kernel = NULL;
@@ -4437,6 +4479,19 @@ GVI__APART gvi_status gvi__ask(gvi_stepper *st, const gvi__from *from, gvi_real 
         status = gvi__mass_gradient(st, y);
     if (status != GVI_OK) return status;
     return some ? gvi__effects(st, y, some) : gvi__all_effects(st, y);
+}
+
+// one effect of f alone is all that an iteration asks
+static inline int gvi__asks_only(const gvi_stepper *st)
+{
+    return !GVI__SMALL && st->x.single >= 0 && !st->x.diagnose && !gvi__seldom(st)
+        && !gvi__uses(st, GVI_MOMENTA) && !gvi__A(&st->x.work);
+}
+
+static inline gvi_status gvi__ask_only(gvi_stepper *st, gvi_real zero, gvi_points *y)
+{
+    gvi__zero_rows(st, zero, y->f);
+    return gvi__call(st, y, st->x.single);
 }
 
 /* Beyond h omega = 1.5 or so polynomials foretell little.  E then is the best guess at a random
@@ -5162,6 +5217,13 @@ GVI__DEEP int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *
     gvi_real *least = moved ? &weak->least : &p->least;
     if (some ? gvi__settled(st, p, weak, change) : !given && change*change <= p->tolerance*known)
         return GVI__DONE;
+    if (!GVI__SMALL && !some && !given && !p->idle && change < before/4) {   // the usual case, in short
+        gvi__watch(st, change, p->earlier);
+        p->earlier = before;
+        p->before = p->least = change;
+        p->poor = p->grows = 0;
+        return GVI__GO_ON;
+    }
     if (given && used == x->desc.iterations) {
         const int falls = p->earlier > 0 ? change < p->earlier/4 : before <= 0 || change < before;
         return falls || change <= 65536*rounding ? GVI__DONE : GVI__BEYOND;
@@ -5173,7 +5235,7 @@ GVI__DEEP int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *
     p->before = change;
     if (given) return GVI__GO_ON;
     p->poor = p->grows ? p->poor + 1 : 0;
-    p->idle = change < *least*81/100 ? 0 : p->idle + 1;
+    p->idle = change < (gvi_real)0.81**least ? 0 : p->idle + 1;
     if (change < *least) *least = change;
     if ((p->idle > 2 && change <= rounding)
         || ((p->idle > 1 || p->poor > 2) && gvi__is_rounding(st, from, p->idle))) {
@@ -5239,6 +5301,8 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
     for (int k = 0; k < count && !GVI__MADE; ++k) gvi__plan(st, from, h, k, y + k);
     // where size counts, gvi__ask makes them: no longer on the stack than needed
     if (!GVI__SMALL) gvi__rows_as_points(&at, st, &x->work, gvi__A(&x->work));
+    const int only = gvi__asks_only(st);
+    if (only && x->desc.effects[x->single].kind == GVI_POTENTIAL) at.v = NULL;
     const int sums = extrapolate && (x->E_is & GVI__SUMS), springs = GVI__STIFF && x->springs;
     const gvi_status first = gvi__first_rows(st, from, h, extrapolate, y);
     if (first != GVI_OK) return first;
@@ -5264,7 +5328,8 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
         *used += !last;
         if (GVI__TOLERANCE && gvi__A(&x->work) && p.idle + p.poor > 0)
             gvi__gather(st->n, x->stride, x->work.A + st->r - 1, x->change + st->n);
-        gvi_status status = gvi__ask(st, from, h - h, GVI__SMALL ? NULL : &at, anew);
+        gvi_status status = only ? gvi__ask_only(st, h - h, &at)
+                                 : gvi__ask(st, from, h - h, GVI__SMALL ? NULL : &at, anew);
         if (springs && last && status == GVI_OK) gvi__remainders(st);
         if (status != GVI_OK || last) return status;
     }
