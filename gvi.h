@@ -692,8 +692,9 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
 /* Restart from a checkpoint, a copy of a stepper and of its memory, in a
    stepper that was set up by gvi_init for the same description, in this
    process or another.  What follows is the same to the bit.  GVI_E_ARGUMENT if
-   sizes, kinds of effects, mass or formulation differ; a rule of as many points,
-   a tolerance and stiffness are not compared: those saved are used.          */
+   sizes, kinds of effects, mass or formulation differ, or only one has a
+   tolerance.  A rule of as many points and stiffness are not compared: those
+   saved are used, and callbacks, tolerance and limits are those of st.       */
 GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const gvi_real *memory);
 
 /* A sentence for a status; why st uses the formulation that it uses.         */
