@@ -139,11 +139,47 @@ static void what_is_left_undone_is_the_tolerance(void **state)
         }
 }
 
+/* A checkpoint made with a tolerance goes on in a stepper with that tolerance, to the bit; without one its tables
+   would have no place there */
+static void a_checkpoint_with_a_tolerance_goes_on_with_one(void **state)
+{
+    const real tolerances[3] = { (real)0.001, (real)0.001, 0 }, start[N] = { 1, 0, (real)-0.5 }, v[N] = { 0, (real)0.5, 0 };
+    (void)state;
+    for (int i = 0; i < COUNT(scenes); ++i) {
+        gvi_effect effects[3][3];
+        real *memory[3], *copy;
+        gvi_stepper st[3], saved;
+        size_t size = 0;
+        for (int k = 0; k < 3; ++k) {
+            gvi_desc d = describe(scenes + i, 6, effects[k]);
+            d.tolerance = tolerances[k];
+            size = k < 2 ? gvi_size(&d) : size;
+            memory[k] = malloc(gvi_size(&d));
+            assert_non_null(memory[k]);
+            assert_ok(gvi_init(st + k, &d, memory[k], gvi_size(&d)));
+            assert_ok(gvi_start(st + k, 0, start, v));
+        }
+        for (int k = 0; k < 5; ++k) assert_ok(gvi_step(st, (real)0.125));
+        saved = st[0];
+        copy = malloc(size);
+        assert_non_null(copy);
+        memcpy(copy, memory[0], size);
+        assert_ok(gvi_restore(st + 1, &saved, copy));
+        assert_status(gvi_restore(st + 2, &saved, copy), GVI_E_ARGUMENT);
+        for (int k = 0; k < 5; ++k)
+            for (int j = 0; j < 2; ++j) assert_ok(gvi_step(st + j, k < 2 ? (real)0.125 : (real)0.25));
+        for (int k = 0; k < N; ++k) assert_true(st[0].q[k] == st[1].q[k]);
+        for (int k = 0; k < 3; ++k) free(memory[k]);
+        free(copy);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_tolerance_below_rounding_changes_the_last_places_only),
         cmocka_unit_test(what_is_left_undone_is_the_tolerance),
+        cmocka_unit_test(a_checkpoint_with_a_tolerance_goes_on_with_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
