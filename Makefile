@@ -27,7 +27,9 @@ CMOCKA_LIBS   = $$(pkg-config --libs cmocka 2>/dev/null || echo -lcmocka)
 # The tests; these run in float and long double as well.
 TESTS    = $(sort $(basename $(notdir $(wildcard tests/test_*.c))))
 TYPED    = $(filter test_oracle test_quadrature test_interpolation test_lu test_corners test_effects test_newton test_weak test_stiffness test_guess test_mass test_tolerance,$(TESTS))
-PROGRAMS = $(TESTS) $(TYPED:%=%-float) $(TYPED:%=%-long)
+# These as small code, too: -Os takes other loops and leaves parts out.
+SMALL    = $(filter test_mass test_tolerance,$(TESTS))
+PROGRAMS = $(TESTS) $(TYPED:%=%-float) $(TYPED:%=%-long) $(SMALL:%=%-small)
 # Small enough to be repeated under valgrind.
 VALGRIND_TESTS = $(filter test_api test_lu test_interpolation,$(TESTS))
 VALGRIND_EXAMPLES = 04_driven_damped 06_building_blocks 07_failing_step 08_robot_joint 10_checkpoint
@@ -259,12 +261,22 @@ $(BUILD)/tests/%-long: tests/%.c | cmocka
 	@echo '  cc $@'
 	$(Q)$(COMPILE) '-DGVI_REAL=long double' $(TESTFLAGS) $(CMOCKA_CFLAGS) $< -o $@ $(CMOCKA_LIBS) $(LDLIBS)
 
+$(BUILD)/tests/%-small: tests/%.c | cmocka
+	@mkdir -p $(@D)
+	@echo '  cc $@'
+	$(Q)$(COMPILE) -Os $(TESTFLAGS) $(CMOCKA_CFLAGS) $< -o $@ $(CMOCKA_LIBS) $(LDLIBS)
+
 $(BUILD)/examples/%: examples/%.c
 	@mkdir -p $(@D)
 	@echo '  cc $@'
 	$(Q)$(COMPILE) -Iexamples $< -o $@ $(LDLIBS)
 
 # Without a C++ compiler the example is left out, visibly, when it is to run.
+$(BUILD)/tests/%-small: tests/%.c | cmocka
+	@mkdir -p $(@D)
+	@echo '  cc $@'
+	$(Q)$(COMPILE) -Os $(TESTFLAGS) $(CMOCKA_CFLAGS) $< -o $@ $(CMOCKA_LIBS) $(LDLIBS)
+
 $(BUILD)/examples/%: examples/%.cpp
 	@mkdir -p $(@D)
 	$(Q)if command -v $(CXX) >/dev/null 2>&1; then \

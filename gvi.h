@@ -110,7 +110,8 @@
               Floating-point operations of a step of N iterations, callbacks apart:
               (N+2)(K n R (2r+18) + 30) + 30 K n r + 120 n at most, R = r below 5 points,
               else the next multiple of 8, K = 1 for positions, 2 for velocities and
-              momenta; full M: 2n^2 ((N+2) K R + 3) more; M(q): (N+1) r (n^3/2 + 6n^2).
+              momenta; full M: 2n^2 ((N+2) K R + 3) more; M(q): (N+1) R (n^3/2 + 6n^2 + 4n),
+              and as much again where one of its pivots is hardly more than rounding.
               Explicit: 10n(r+1) + 32n + 8r + 16.  A new h: 6r^3 + 4(r+10)rR + 70r + 60
               more, in its step and the next two; without desc.iterations, where steps take six
               rounds, in two of a thousand as well.  With stiffness: n (30R + 200) more, and for
@@ -495,7 +496,8 @@ typedef struct gvi_desc {
     gvi_real          tolerance;       /* stop when the change of q yet to come,
                                           as the last two changes predict it, is
                                           below tolerance*|q|: the step then is
-                                          symplectic to that.  0: at round-off  */
+                                          symplectic to that, and takes K r R
+                                          numbers more.  0: at round-off        */
     int               max_iterations;  /* to 1,000,000.  0: 60                 */
     int               iterations;      /* N: exactly N of the fixed point in every step, for
                                           a loop with a deadline, and no Newton.  A step whose
@@ -1968,10 +1970,9 @@ GVI__APART gvi_status gvi__ldl_factor(gvi_stepper *st, int n, int stride, int co
             const gvi_real was = GVI_ABS(d[k]);
             gvi_real rest = d[k];
             for (size_t l = 0; l < j; ++l) rest -= m[(j*N + l)*R + k]*m[(l*N + j)*R + k];
-            d[k] = 1/rest;
             if (!(was <= GVI__MAX) || !gvi__finite(rest))
                 return gvi__fail(st, GVI_E_NON_FINITE, GVI_FAULT_MASS, (int)j, (int)k);
-            if (!(GVI_ABS(rest) > (gvi_real)n*GVI__EPS*was) || GVI_ABS(d[k]) > GVI__MAX)
+            if (!(GVI_ABS(rest) > (gvi_real)n*GVI__EPS*was) || !gvi__finite(d[k] = 1/rest))
                 return gvi__fail(st, GVI_E_SINGULAR, GVI_FAULT_MASS, (int)j, (int)k);
         }
         for (size_t i = j + 1; i < N; ++i) {
@@ -1986,7 +1987,6 @@ GVI__APART gvi_status gvi__ldl_factor(gvi_stepper *st, int n, int stride, int co
             }
         }
     }
-    gvi__count(&st->counters.factorizations, count);
     return GVI_OK;
 }
 
@@ -2115,28 +2115,38 @@ static gvi_status gvi__ask_mass(gvi_stepper *st, gvi_points *x, const gvi_real *
     return refused ? gvi__blame(st, GVI_E_CALLBACK, GVI_FAULT_MASS) : GVI_OK;
 }
 
+#ifdef GVI__VECTORS
+// M(q) at the points, and behind the last as at the first, factored; not where a pivot is doubtful
+static int gvi__factor_eights(gvi_stepper *st, const gvi_points *x)
+{
+    const int n = st->n, R = x->stride;
+    gvi_real *m = st->x.point_mass;
+    if (R % 8 != 0) return 0;
+    for (int i = 0; i < n && x->count < R; ++i)
+        for (int j = 0; j <= i; ++j)
+            for (int k = x->count; k < R; ++k) m[(i*n + j)*R + k] = m[(i*n + j)*R];
+    return gvi__ldl_factor_eights(n, R, m);
+}
+#endif
+
 // M(q) at the points, factored
 static gvi_status gvi__factor_at(gvi_stepper *st, gvi_points *x)
 {
-    gvi_real *m = st->x.point_mass;
     gvi_status status = gvi__ask_mass(st, x, NULL, NULL);
     if (status != GVI_OK) return status;
+    gvi__count(&st->counters.factorizations, x->count);
 #ifdef GVI__VECTORS
-    const int n = st->n, R = x->stride;
-    if (R % 8 == 0) {
-        // behind the last point as at the first
-        for (int i = 0; i < n && x->count < R; ++i)
-            for (int j = 0; j <= i; ++j)
-                for (int k = x->count; k < R; ++k) m[(i*n + j)*R + k] = m[(i*n + j)*R];
-        if (gvi__ldl_factor_eights(n, R, m)) {
-            gvi__count(&st->counters.factorizations, x->count);
-            return GVI_OK;
-        }
+    if (gvi__factor_eights(st, x)) return GVI_OK;
+    if (x->stride % 8 == 0) {
+        // once more, one by one, and once counted; what is behind the last point is to stay finite
+        const unsigned long long asked = st->counters.mass;
+        gvi__zero((size_t)(x->n*x->n*x->stride), st->x.point_mass);
         status = gvi__ask_mass(st, x, NULL, NULL);
+        st->counters.mass = asked;
         if (status != GVI_OK) return status;
     }
 #endif
-    return gvi__ldl_factor(st, x->n, x->stride, x->count, m);
+    return gvi__ldl_factor(st, x->n, x->stride, x->count, st->x.point_mass);
 }
 
 // x->f += v' dM/dq v / 2
@@ -2862,7 +2872,7 @@ static gvi_status gvi__resolve(gvi__scene *x, gvi_desc *d, const gvi_desc *desc)
     status = gvi__measure(x);
     if (status == GVI_OK) status = gvi__choose(x);
     if (status != GVI_OK) return status;
-    if (GVI__STIFF) x->springs = gvi__springs(x, NULL);
+    x->springs = GVI__STIFF ? gvi__springs(x, NULL) : 0;
     if (GVI__STIFF && x->springs) x->flags &= ~GVI__HAS_NEWTON;          // it solves other equations
     const int wanted = gvi__flag(x->flags, GVI__HAS_NEWTON | GVI__HAS_LAGRANGIAN);
     const int matrices = wanted || d->mass.kind >= GVI_MASS_DENSE;
@@ -2976,7 +2986,7 @@ GVI__APART void gvi__lengths(const gvi__scene *x, size_t *length)
     length[GVI__M] = velocities || momenta ? r : 0;
     length[GVI__T] = momenta || (velocities && lagrangian) ? r : 0;
     length[GVI__NN] = velocities && lagrangian ? r : 0;
-    length[GVI__FOLDED] = !GVI__TOLERANCE || !(d->tolerance > 0) || x->springs ? 0
+    length[GVI__FOLDED] = !GVI__TOLERANCE || !(d->tolerance > 0) || d->iterations || x->springs ? 0
         : velocities || momenta ? 2*r : positions ? r : 0;
     length[GVI__E] = !iterates ? 0 : two ? 2*r : r;
     length[GVI__PHI] = kicks ? 0 : s;
@@ -3104,9 +3114,7 @@ static gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
                 if (!gvi__finite(m[i*n + j]))
                     return gvi__fail(st, GVI_E_ARGUMENT, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
             }
-        gvi_status status = gvi__ldl_factor(st, n, 1, 1, m);
-        st->counters.factorizations = 0;
-        return status;
+        return gvi__ldl_factor(st, n, 1, 1, m);
     }
     return GVI_OK;
 }
@@ -4214,8 +4222,8 @@ static void gvi__velocity_rows(gvi_stepper *st)
     }
 #endif
     for (int k = 0; k < n*R; ++k) V[k] = P[k] - (A ? A[k] : 0);
-    if (gvi__mass_is_constant(&x->desc)) gvi__over_mass(st, w->V, R, st->r);
-    else gvi__ldl_solve(n, x->point_mass, R, w->V, R, st->r);
+    if (gvi__mass_is_constant(&x->desc)) gvi__over_mass(st, V, R, st->r);
+    else gvi__ldl_solve(n, x->point_mass, R, V, R, st->r);
 }
 
 #define GVI__MADE (GVI__SMALL && GVI__TOLERANCE)                    // each time anew: gvi__stage_made
@@ -4520,9 +4528,7 @@ static int gvi__fit_half(gvi_stepper *st, gvi_real sign, gvi_real *z)
         for (int k = 0; k < r; ++k)
             z[i*R + k] = gvi__correlation(1 + c[k] - c[i]) + sign*gvi__correlation(1 + c[k] + c[i]);
     }
-    const unsigned long long counted = st->counters.factorizations;
     const gvi_status status = gvi__ldl_factor(st, r, 1, 1, K);
-    st->counters.factorizations = counted;
     gvi__ldl_solve(r, K, 1, z, R, r);
     return status == GVI_OK;
 }
@@ -7034,7 +7040,8 @@ GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const 
     if (!st->x.memory) return gvi__unready(st);
     gvi__done(st, GVI_OK);
     if (!saved || !memory || saved->n != st->n || saved->s != st->s || saved->r != st->r
-        || saved->x.size != st->x.size || saved->x.flags != st->x.flags || saved->x.chosen != st->x.chosen)
+        || saved->x.size != st->x.size || saved->x.flags != st->x.flags || saved->x.chosen != st->x.chosen
+        || !saved->x.folded != !st->x.folded || !saved->x.weak != !st->x.weak)
         return st->status = GVI_E_ARGUMENT;
     gvi_desc desc = st->x.desc;
     gvi_real *own = st->x.memory;

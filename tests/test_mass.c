@@ -136,6 +136,37 @@ static void the_point_without_an_inverse_is_named(void **state)
     }
 }
 
+/* Beyond q_1 = 1 what is left of M_22 overflows, though all that is given is finite */
+static int overflows(const gvi_points *x, void *user)
+{
+    (void)user;
+    for (int k = 0; k < x->count; ++k) {
+        x->mass[k] = x->q[k] > 1 ? GVI__MIN*4 : 1;
+        x->mass[2*x->stride + k] = x->q[k] > 1 ? GVI__MAX/4 : 0;
+        x->mass[3*x->stride + k] = 1;
+    }
+    return 0;
+}
+
+static void a_pivot_that_overflows_is_named(void **state)
+{
+    static real memory[GVI_LENGTH(2, 16, 16)];
+    static const gvi_effect none[] = { { .kind = GVI_POTENTIAL, .points = nothing } };
+    (void)state;
+    for (int degree = 3; degree <= 16; ++degree) {
+        const real q[2] = { (real)0.75, 0 }, v[2] = { (real)0.5, 0 };
+        const gvi_desc desc = { .n = 2, .degree = degree, .effects = none, .effect_count = 1,
+                                .mass = { .kind = GVI_MASS_POSITION, .points = overflows, .gradient = nothing },
+                                .formulation = GVI_MOMENTA };
+        gvi_stepper st;
+        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+        assert_ok(gvi_start(&st, 0, q, v));
+        assert_status(gvi_step(&st, 1), GVI_E_NON_FINITE);
+        assert_int_equal(st.fault.effect, GVI_FAULT_MASS);
+        assert_int_equal(st.fault.coordinate, 1);
+    }
+}
+
 /* What is left of M_22 is 3/2 of what rounding can leave, at all points: regular, though barely, and no
    matter how many points there are */
 static int barely(const gvi_points *x, void *user)
@@ -237,6 +268,7 @@ int main(void)
         cmocka_unit_test(eight_points_at_once_give_the_same_bits),
 #endif
         cmocka_unit_test(the_point_without_an_inverse_is_named),
+        cmocka_unit_test(a_pivot_that_overflows_is_named),
         cmocka_unit_test(a_matrix_that_is_barely_regular_is_taken),
         cmocka_unit_test(with_M_half_the_iterations_do),
     };
