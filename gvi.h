@@ -2012,7 +2012,8 @@ static void gvi__ldl_solve(int n, const gvi_real *m, int width, gvi_real *z, int
 #ifdef GVI__VECTORS
 /* The same, a vector of points at a time.  Returns whether all pivots D are sure: the squares of
    what they were in units of what they are, and of what rounding leaves of D/D - 1, do not
-   add up to (1/(n eps))^2.  If they do, gvi__ldl_factor has to decide.        */
+   add up to (1/(n eps))^2.  If they do, gvi__ldl_factor has to decide.  (That l < N follows
+   from l < j; gcc -O1, with n known, does not see it and warns.)              */
 GVI__COPY int gvi__ldl_factor_vector(int n, size_t R, gvi_real *m)
 {
     const size_t N = (size_t)n;
@@ -2021,14 +2022,14 @@ GVI__COPY int gvi__ldl_factor_vector(int n, size_t R, gvi_real *m)
     for (size_t j = 0; j < N; ++j) {
         gvi_real *at = m + (j*N + j)*R;
         gvi__vector rest = GVI__AT(at);
-        for (size_t l = 0; l < j; ++l) rest -= GVI__AT(m + (j*N + l)*R)*GVI__AT(m + (l*N + j)*R);
+        for (size_t l = 0; l < j && l < N; ++l) rest -= GVI__AT(m + (j*N + l)*R)*GVI__AT(m + (l*N + j)*R);
         const gvi__vector inverse = 1/rest, loss = GVI__AT(at)*inverse, off = rest*inverse - 1;
         sum += loss*loss + off*off;
         *(gvi__vector *)at = inverse;
         for (size_t i = j + 1; i < N; ++i) {
             gvi_real *a = m + (i*N + j)*R;
             rest = GVI__AT(a);
-            for (size_t l = 0; l < j; ++l) rest -= GVI__AT(m + (j*N + l)*R)*GVI__AT(m + (l*N + i)*R);
+            for (size_t l = 0; l < j && l < N; ++l) rest -= GVI__AT(m + (j*N + l)*R)*GVI__AT(m + (l*N + i)*R);
             *(gvi__vector *)(m + (j*N + i)*R) = rest;
             *(gvi__vector *)a = rest*inverse;
         }
