@@ -272,11 +272,6 @@ $(BUILD)/examples/%: examples/%.c
 	$(Q)$(COMPILE) -Iexamples $< -o $@ $(LDLIBS)
 
 # Without a C++ compiler the example is left out, visibly, when it is to run.
-$(BUILD)/tests/%-small: tests/%.c | cmocka
-	@mkdir -p $(@D)
-	@echo '  cc $@'
-	$(Q)$(COMPILE) -Os $(TESTFLAGS) $(CMOCKA_CFLAGS) $< -o $@ $(CMOCKA_LIBS) $(LDLIBS)
-
 $(BUILD)/examples/%: examples/%.cpp
 	@mkdir -p $(@D)
 	$(Q)if command -v $(CXX) >/dev/null 2>&1; then \
