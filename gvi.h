@@ -116,7 +116,7 @@
               more, in its step and the next two; without desc.iterations, where steps take six
               rounds, in two of a thousand as well.  With stiffness: n (30R + 200) more, and for
               each k/m at a new h r (16p (12s + 70) + 4r (s + 20)) + 3r^2 R + 200, sines counted
-              as one, p = 1 + (h omega + s + s^2/32)/6; explicit: 19n(r+1) and 280(r+1).  Twice
+              as one, p = 1 + (h omega + s + s^2/32)/6; explicit: 23n(r+1) and 560n(r+1).  Twice
               that where the extrapolated start leads nowhere, four times where the step fails.
               Without a clock, Lagrangian terms or marks; counted by make bound.
 
@@ -266,10 +266,10 @@
    GVI_E_CONVERGENCE, gvi_discrete_lagrangian and gvi_start_configurations in
    GVI_E_FORMULATION.  It pays from h omega = 1/2 or so, and takes (2r + 3) R + 8 numbers of
    memory for each k_i/m_i that is not that of the stiff coordinate before, and (K R + 2) n + 14,
-   K = 1 for positions, 2 for velocities; explicit (3r + 5) n + r + 9, n in whole eights.  A new h,
-   as of gvi_state_at, costs as much as some steps.  It is for explicit, positions and velocities
-   with unit or diagonal mass and without Lagrangian terms; elsewhere, compiled for size, with
-   GVI_NO_RULES and for k_i <= 0 it is not heeded.
+   K = 1 for positions, 2 for velocities; explicit (5r + 7) n + r + 16, n in whole eights from 8 on.
+   A new h, as of gvi_state_at, costs as much as some steps.  It is for explicit, positions and
+   velocities with unit or diagonal mass and without Lagrangian terms; elsewhere, compiled for size,
+   with GVI_NO_RULES and for k_i <= 0 it is not heeded.
 
    CLOCK.  An effect g(q) > 0 makes time run as dt = g dtau, and h is a step in
    tau: t moves fast or slow, and the map is as symplectic as with fixed steps
@@ -389,7 +389,8 @@ typedef struct gvi_points {
     const gvi_real *q;         /* [n][count] configuration                     */
     const gvi_real *v;         /* [n][count] velocity; NULL for a potential    */
     const gvi_real *p;         /* [n][count] momentum; for mass.velocity only  */
-    gvi_real       *f;         /* [n][count] add dL/dq: -dV/dq or the force    */
+    gvi_real       *f;         /* [n][count] add dL/dq: -dV/dq or the force.  It
+                                  holds others' already, and in kicks momentum too */
     gvi_real       *dldv;      /* [n][count] add dL/dv; Lagrangian terms only  */
     gvi_real       *value;     /* [count]    add V, or L of a Lagrangian term; g.
                                   A function given as points and as value fills
@@ -560,7 +561,7 @@ struct gvi__private {
     gvi_real *z, *less, *row;         /* [R], [R], [6R] scratch, 9R where there is E */
     gvi_real *inv_gamma, *own;        /* [s] 1/Gamma_kk; LU of Gamma if full    */
     gvi_real *eigen;                  /* [(s+1)/2][2s] of integration, Gauss with r = s */
-    gvi_real *drift;                  /* [r+1] explicit: time from corner to corner */
+    gvi_real *drift;                  /* [4r+5] explicit: see gvi__drifts, gvi__drifting */
     gvi_real *g, *m, *T, *N;          /* [r][R] c_i - S_ij, 1 - T_ij, T_ji, N_ij */
     gvi_real *E;                      /* [r or 2r][R] extrapolation; at set-up rest of Phi */
     gvi_real *rate;                   /* [3][R] clock: g; f'v; H, then H - E    */
@@ -2646,6 +2647,50 @@ static void gvi__fold(gvi_stepper *st, int stage)
         for (int k = 0; k < R; ++k) folded[j*R + k] = table[j*R + k]*st->x.hb[j];
 }
 
+// the exact product overflows before a*b does: then there is no rest
+static gvi_real gvi__rest(gvi_real x) { return gvi__finite(x) ? x : 0; }
+
+/* Two numbers whose product is x to EPS/50 or so: one rounded number would err by up to EPS/2, and the same
+   in every step.  b has no round digits, so that products with it are rounded evenly: (1 + sqrt(5))/4, and i
+   units in its last place are added; a is x/b, less j of its own: the best of 32 pairs. */
+static void gvi__two_factors(gvi__two x, gvi_real *a, gvi_real *b)
+{
+    const gvi_real unit = GVI__EPS/2, first = (gvi_real)0.80901699437494742410L, whole = x.hi/first;
+    const gvi__two z = gvi__product(whole, first);
+    int e, best = 0;
+    const gvi_real size = GVI_FREXP(whole, &e)/first;            // of i = 1, over that of j = 1
+    const gvi_real rest = GVI_LDEXP((x.hi - z.hi) + (x.lo - z.lo), -e)/(unit*first);
+    gvi_real least = 1, less = 0;
+    for (int i = 0; i < 32; ++i) {
+        const gvi_real over = (gvi_real)i*size - rest, j = GVI_FLOOR(over + (gvi_real)0.5);
+        const gvi_real off = GVI_ABS(over - j);
+        if (!(off < least)) continue;
+        least = off;
+        less = j;
+        best = i;
+    }
+    *a = whole - GVI_LDEXP(less*unit, e);
+    *b = first + (gvi_real)best*unit;
+}
+
+/* Explicit: rows of gvi__drifting_of behind the times.  A kick of weight 0 is left out, and the weight
+   of the one before goes on.                                                  */
+static void gvi__drifts(gvi_stepper *st, gvi_real h)
+{
+    const int r = st->r;
+    const gvi_real *hb = st->x.hb;
+    gvi_real *weight = st->x.drift + r + 1, *ratio = weight + r + 1, *factor = ratio + r + 1;
+    gvi__two w = gvi__real2(gvi__nonzero(hb[0]) ? hb[0] : h);     // what F is over, as exactly as F is scaled
+    factor[r + 1] = 1/w.hi;
+    for (int j = 0; j <= r; ++j) {
+        weight[j] = w.hi;
+        ratio[j] = factor[j] = 1;
+        if (j == 0 || j > r - 2 || !gvi__nonzero(hb[j])) continue;
+        gvi__two_factors(gvi__div2(w, gvi__real2(hb[j])), ratio + j, factor + j);
+        w = gvi__div2(w, gvi__product(ratio[j], factor[j]));
+    }
+}
+
 /* Weights h b_j whose sum is h exactly: rounded to multiples of ulp(h), what is
    left over goes to the largest weight and its mirror image.                 */
 GVI__APART void gvi__weights(gvi_stepper *st, gvi_real h)
@@ -2675,6 +2720,7 @@ GVI__APART void gvi__weights(gvi_stepper *st, gvi_real h)
         x->drift[j] = GVI_LDEXP(next - at, e);
         at = next;
     }
+    gvi__drifts(st, h);
 }
 
 /* -------------------------------------------------------- STEPPER: SET-UP */
@@ -2941,6 +2987,7 @@ enum {
 enum { GVI__ARC_HEAD = 8, GVI__ARC_TAIL = 8 };                            // see gvi__arc_of
 
 static inline size_t gvi__whole(size_t n) { return (n + 7)/8*8; }
+static inline size_t gvi__padded(size_t n) { return n < 8 ? n : gvi__whole(n); }
 
 /* x->springs: see gvi__arc.  Explicit: shears of each drift, and its half turns */
 static size_t gvi__springs_length(const gvi__scene *x, size_t R)
@@ -2950,7 +2997,7 @@ static size_t gvi__springs_length(const gvi__scene *x, size_t R)
     const size_t arcs = (size_t)x->springs*((2*r + 3)*R + GVI__ARC_TAIL) + rows*R*n;
     if (!GVI__STIFF || !x->springs) return 0;
     return GVI__ARC_HEAD + gvi__whole(2*n)
-        + (gvi__chosen_is(x->chosen, GVI_EXPLICIT) ? (r + 1)*(3*gvi__whole(n) + 1) : arcs);
+        + (gvi__chosen_is(x->chosen, GVI_EXPLICIT) ? (r + 1)*(5*gvi__padded(n) + 1) : arcs);
 }
 
 GVI__APART void gvi__lengths(const gvi__scene *x, size_t *length)
@@ -2970,7 +3017,7 @@ GVI__APART void gvi__lengths(const gvi__scene *x, size_t *length)
     length[GVI__3] = 3;
     length[GVI__6] = 6;
     length[GVI__n] = n;
-    length[GVI__N] = n < 8 ? n : gvi__whole(n);
+    length[GVI__N] = gvi__padded(n);
     length[GVI__R] = R;
     length[GVI__s] = s;
     length[GVI__STATE] = kicks ? length[GVI__N] : n;
@@ -2993,7 +3040,7 @@ GVI__APART void gvi__lengths(const gvi__scene *x, size_t *length)
     length[GVI__PHI] = kicks ? 0 : s;
     length[GVI__MODES] = reads_v || (iterates && x->order <= 2*d->degree - 2) ? s : 0;
     length[GVI__SCRATCH] = iterates ? 9 : 6;
-    length[GVI__DRIFT] = iterates ? 0 : r + 1;
+    length[GVI__DRIFT] = iterates ? 0 : 4*r + 5;
     length[GVI__GAMMA] = gvi__flag(x->flags, GVI__HAS_OWN) ? s*s + s + 1 : 0;
     length[GVI__DIAGONAL] = d->mass.kind == GVI_MASS_DIAGONAL ? length[GVI__N] : 0;
     length[GVI__TWO_MASSES] = dense ? 2*n : 0;                 // factored, and as it is
@@ -3282,9 +3329,6 @@ static inline void gvi__times(int R, gvi_real t, gvi_real te, gvi_real h, const 
     for (int k = 0; k < R; ++k) out[k] = t + (te + c[k]*h);
 }
 
-// the exact product overflows before a*b does: then there is no rest
-static gvi_real gvi__rest(gvi_real x) { return gvi__finite(x) ? x : 0; }
-
 // velocities where the mass is constant; weights and times of the points
 static inline void gvi__begin(gvi_stepper *st, gvi__from *from, gvi_real h)
 {
@@ -3319,77 +3363,132 @@ static inline const gvi_real *gvi__ve(const gvi_stepper *st, const gvi__from *fr
 
 /* ---- explicit ---- */
 
-/* The explicit formulation: kicks h b_j F_j at the nodes, and drifts from each to
-   the next.  Its loops are short and wait for each other.  A zero that the compiler
-   does not know keeps it from calling memset and memcpy: they take as long as the
-   rest, and write blocks of other widths than the next loads, which then wait.   */
+/* The explicit formulation: kicks h b_j F_j at the nodes, and drifts from each to the
+   next.  Between the kicks F is not 0: it holds the momentum that the step has gained,
+   over the weight of the kick to come, dp/(h b_j).  Effects add to F, and that is the
+   kick; no momentum is stored beside it.  A long loop takes as long as its stores: three
+   are left, of F, dq and Q.  Before the last kick dp is put aside and F is 0, for the force
+   there may be wanted again.
+     Its loops are short and wait for each other.  A zero that the compiler does not know
+   keeps it from calling memset and memcpy: they take as long as the rest, and write
+   blocks of other widths than the next loads, which then wait.                */
 
-// the drift to the first node: dp := pe, dq := qe + a (v + pe/m), Q := q + dq; F := 0
-static inline void gvi__drift_of(int n, gvi_real a, gvi_real zero, const gvi_real *m, const gvi__from *from,
+/* One drift: its time, the weight of the kick before, and two factors of what F is multiplied
+   with for the next kick.  Products of three, of F and two numbers, are two products, each with
+   a rounding of its own; that of the two numbers, the same in every step, would make the map no
+   longer symplectic and let the energy drift.                                 */
+typedef struct gvi__drifting { gvi_real time, weight, ratio, factor; } gvi__drifting;
+
+static inline gvi__drifting gvi__drifting_of(const gvi_real *drift, size_t row)
+{
+    gvi__drifting by;
+    by.time = drift[0];
+    by.weight = drift[row];
+    by.ratio = drift[2*row];
+    by.factor = drift[3*row];
+    return by;
+}
+
+/* dq += time (v + dp/m), Q = q + dq, F to the next scale.  What does not depend on F is
+   added up first, so that little waits for F.  z: F/M, where M is full.       */
+GVI__COPY void gvi__drift_on_of(int n, gvi__drifting by, const gvi_real *m, const gvi_real *z,
+                                const gvi_real *GVI__RESTRICT v, const gvi_real *GVI__RESTRICT q,
+                                gvi_real *GVI__RESTRICT F, gvi_real *GVI__RESTRICT dq,
+                                gvi_real *GVI__RESTRICT Q)
+{
+    for (int i = 0; i < n; ++i) {
+        const gvi_real f = F[i], p = by.weight*(z ? z[i] : m ? f*m[i] : f);
+        const gvi_real d = (dq[i] + by.time*v[i]) + by.time*p;
+        dq[i] = d;
+        F[i] = by.ratio*(by.factor*f);
+        Q[i] = q[i] + d;
+    }
+}
+
+// m and z are seen to be NULL, lest the compiler load from them under a mask: that takes 50 ns
+GVI__COPY void gvi__drift_on(int n, gvi__drifting by, const gvi_real *m, const gvi_real *z,
+                             const gvi_real *v, const gvi_real *q, gvi_real *F, gvi_real *dq, gvi_real *Q)
+{
+    if (z) gvi__drift_on_of(n, by, m, z, v, q, F, dq, Q);
+    else if (m) gvi__drift_on_of(n, by, m, NULL, v, q, F, dq, Q);
+    else gvi__drift_on_of(n, by, NULL, NULL, v, q, F, dq, Q);
+}
+
+/* The drifts at the ends of a step.  At its start dp is pe, and the kick by the force that
+   the last step ended with, if it is known.  Before the last kick dp gets its place. */
+enum { GVI__START = 1, GVI__KNOWN = 2, GVI__BEFORE_LAST = 4 };
+
+GVI__COPY void gvi__drift_end_of(int n, int where, gvi__drifting by, gvi_real over, gvi_real zero,
+                                 const gvi_real *m, const gvi_real *z, const gvi__from *from,
+                                 const gvi_real *GVI__RESTRICT known, gvi_real *GVI__RESTRICT F,
                                  gvi_real *GVI__RESTRICT dp, gvi_real *GVI__RESTRICT dq,
-                                 gvi_real *GVI__RESTRICT Q, gvi_real *GVI__RESTRICT F)
+                                 gvi_real *GVI__RESTRICT Q)
 {
     const gvi_real *GVI__RESTRICT v = from->v, *GVI__RESTRICT q = from->q;
     const gvi_real *GVI__RESTRICT qe = from->qe, *GVI__RESTRICT pe = from->pe;
+    const int start = where & GVI__START, last = where & GVI__BEFORE_LAST;
     for (int i = 0; i < n; ++i) {
-        const gvi_real p = pe[i] + zero;
-        dq[i] = qe[i] + a*(v[i] + (m ? p*m[i] : p));
-        dp[i] = p;
+        gvi_real f = start ? over*pe[i] : F[i];
+        if (where & GVI__KNOWN) f += known[i];
+        const gvi_real p = by.weight*(z ? z[i] : m ? f*m[i] : f);
+        dq[i] = ((start ? qe[i] : dq[i]) + by.time*v[i]) + by.time*p;
+        if (last) dp[i] = by.weight*f;
+        F[i] = last ? zero : by.ratio*(by.factor*f);
         Q[i] = q[i] + dq[i];
-        F[i] = zero;
     }
 }
 
-// m is seen to be NULL, lest the compiler load from it under a mask: that takes 50 ns
-static inline void gvi__drift(int n, gvi_real a, gvi_real zero, const gvi_real *m, const gvi__from *from,
-                              gvi_real *dp, gvi_real *dq, gvi_real *Q, gvi_real *F)
+// M is full: M^-1 of what F will be at the start of a step
+static void gvi__start_dense(gvi_stepper *st, gvi_real over, const gvi__from *from, const gvi_real *known)
 {
-    if (m || GVI__SMALL) gvi__drift_of(n, a, zero, m, from, dp, dq, Q, F);
-    else gvi__drift_of(n, a, zero, NULL, from, dp, dq, Q, F);
+    gvi_real *z = st->x.change, *f = z + st->n;
+    for (int i = 0; i < st->n; ++i) f[i] = over*from->pe[i] + (known ? known[i] : 0);
+    gvi__over_constant_mass(st, f, z);
 }
 
-/* Kick and drift: dp += b F, then dq += a (v + dp/m) and Q = q + dq.  What does not
-   depend on F is added up first, so that little waits for F; but a (b F) is two
-   products: the rounding of a b, the same in every step, would make the map no
-   longer symplectic and let the energy drift.  F is 0 then for the next call, but
-   the last is kept.  A step whose first node is its start may begin with a kick by
-   the force that the last step ended with, and no drift before.               */
-enum { GVI__KICK, GVI__LAST_KICK, GVI__FIRST_KICK };
-
-static inline void gvi__kick_drift_of(int n, int kind, gvi_real b, gvi_real a, const gvi_real *m,
-                                      const gvi__from *from, gvi_real zero,
-                                      const gvi_real *GVI__RESTRICT known, gvi_real *GVI__RESTRICT F,
-                                      gvi_real *GVI__RESTRICT dp, gvi_real *GVI__RESTRICT dq,
-                                      gvi_real *GVI__RESTRICT Q)
-{
-    const gvi_real *GVI__RESTRICT v = from->v, *GVI__RESTRICT q = from->q;
-    const gvi_real *GVI__RESTRICT qe = from->qe, *GVI__RESTRICT pe = from->pe;
-    const int first = kind == GVI__FIRST_KICK;
-    for (int i = 0; i < n; ++i) {
-        const gvi_real p = first ? pe[i] : dp[i], d = first ? qe[i] : dq[i];
-        const gvi_real kick = b*(first ? known[i] : F[i]);
-        dq[i] = (d + a*(v[i] + (m ? p*m[i] : p))) + a*(m ? kick*m[i] : kick);
-        dp[i] = p + kick;
-        Q[i] = q[i] + dq[i];
-        if (kind != GVI__LAST_KICK) F[i] = zero;
-    }
-}
-
-static inline void gvi__kick_drift(int n, int kind, gvi_real b, gvi_real a, const gvi_real *m,
-                                   const gvi__from *from, gvi_real zero, const gvi_real *known, gvi_real *F,
-                                   gvi_real *dp, gvi_real *dq, gvi_real *Q)
-{
-    if (m || GVI__SMALL) gvi__kick_drift_of(n, kind, b, a, m, from, zero, known, F, dp, dq, Q);
-    else gvi__kick_drift_of(n, kind, b, a, NULL, from, zero, known, F, dp, dq, Q);
-}
-
-// the drift that both leave out, a = 0, where M is a full matrix
-static void gvi__drift_dense(gvi_stepper *st, const gvi__from *from, gvi_real a)
+GVI__COPY void gvi__drift_end(gvi_stepper *st, int n, int j, int where, const gvi_real *m,
+                              const gvi__from *from, gvi_real zero, const gvi_real *known, gvi_real *F, gvi_real *Q)
 {
     struct gvi__private *x = &st->x;
-    gvi_real *z = x->change;
-    gvi__over_constant_mass(st, x->dp, z);
-    for (int i = 0; i < st->n; ++i) x->work.Q[i] = from->q[i] + (x->dq[i] += a*(from->v[i] + z[i]));
+    const size_t row = (size_t)st->r + 1;
+    const gvi__drifting by = gvi__drifting_of(x->drift + j, row);
+    const gvi_real over = x->drift[4*row], *z = NULL;             // 1/weight of the first kick
+    gvi_real *dp = x->dp, *dq = x->dq;
+    if (j == st->r - 1) where |= GVI__BEFORE_LAST;
+    if (gvi__mass_is(st, GVI_MASS_DENSE)) {
+        if (where & GVI__START) gvi__start_dense(st, over, from, known);
+        z = x->change;
+    }
+#define GVI__END(is) case is:                                                                     \
+    if (m) gvi__drift_end_of(n, is, by, over, zero, m, NULL, from, known, F, dp, dq, Q);            \
+    else gvi__drift_end_of(n, is, by, over, zero, NULL, NULL, from, known, F, dp, dq, Q);           \
+    return
+    if (!z && !GVI__SMALL) switch (where) {
+        GVI__END(GVI__START);
+        GVI__END(GVI__START | GVI__KNOWN);
+        GVI__END(GVI__BEFORE_LAST);
+        GVI__END(GVI__START | GVI__KNOWN | GVI__BEFORE_LAST);
+        default: break;
+    }
+#undef GVI__END
+    gvi__drift_end_of(n, where, by, over, zero, m, z, from, known, F, dp, dq, Q);
+}
+
+// the last kick, dp += b F, and the drift to the end, if there is one: dq += a (v + dp/m)
+GVI__COPY void gvi__last_kick(gvi_stepper *st, int n, const gvi_real *m, const gvi__from *from,
+                              const gvi_real *GVI__RESTRICT F, gvi_real *GVI__RESTRICT Q)
+{
+    struct gvi__private *x = &st->x;
+    const gvi_real b = x->hb[st->r - 1], a = x->drift[st->r];
+    const gvi_real *GVI__RESTRICT v = from->v, *GVI__RESTRICT q = from->q, *z = NULL;
+    gvi_real *GVI__RESTRICT dp = x->dp, *GVI__RESTRICT dq = x->dq;
+    for (int i = 0; i < n; ++i) dp[i] += b*F[i];
+    if (!gvi__nonzero(a)) return;
+    if (gvi__mass_is(st, GVI_MASS_DENSE)) gvi__over_constant_mass(st, dp, x->change), z = x->change;
+    for (int i = 0; i < n; ++i) {
+        dq[i] += a*(v[i] + (z ? z[i] : m ? dp[i]*m[i] : dp[i]));
+        Q[i] = q[i] + dq[i];
+    }
 }
 
 static inline gvi_status gvi__kick_force(gvi_stepper *st, gvi_points *y, int only)
@@ -3399,44 +3498,47 @@ static inline gvi_status gvi__kick_force(gvi_stepper *st, gvi_points *y, int onl
     return status == GVI_OK ? gvi__effects(st, y, 0) : status;
 }
 
-/* One evaluation a kick.  `force` is that at the start, if it is known: after a step
-   whose last node was 1.  dqe and dpe are never anything but 0 here.          */
+/* One evaluation a kick; none, where a weight is 0, but for the last.  `force` is that at the
+   start, if it is known: after a step whose last node was 1.  What callbacks could change, for
+   all the compiler knows, is read once.  dqe and dpe are never anything but 0 here. */
 static inline gvi_status gvi__explicit_of(gvi_stepper *st, const gvi__from *from, gvi_real h,
                                           const gvi_real *force, int n)
 {
     struct gvi__private *x = &st->x;
-    const int dense = gvi__mass_is(st, GVI_MASS_DENSE), r = st->r;
+    const int r = st->r, only = !GVI__SMALL && x->single >= 0 && !x->diagnose;
+    const int dense = gvi__mass_is(st, GVI_MASS_DENSE);
+    const size_t row = (size_t)r + 1;
+    const gvi_real zero = h - h, *hb = x->hb, *c = x->c, *v = from->v, *q = from->q;
     const gvi_real *m = x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
-    const int only = !GVI__SMALL && x->single >= 0 && !x->diagnose;
-    gvi_real *F = x->work.F, *Q = x->work.Q, *dp = x->dp, *dq = x->dq, t = from->t;
-    const gvi_real zero = h - h;
+    const gvi_real *known = gvi__nonzero(hb[0]) ? force : NULL;
+    gvi_real *F = x->work.F, *Q = x->work.Q, *dq = x->dq, t = from->t;
     gvi_points y;
     gvi__at(&y, st, &t, Q);
     y.f = F;
     y.dldv = NULL;
-    int j = force != NULL;
-    gvi_real a = dense ? 0 : x->drift[j];
-    if (force) gvi__kick_drift(n, GVI__FIRST_KICK, x->hb[0], a, m, from, zero, force, F, dp, dq, Q);
-    else gvi__drift(n, a, zero, m, from, dp, dq, Q, F);
-    if (dense) gvi__drift_dense(st, from, x->drift[j]);
-    for (; j < r; ++j) {
-        const gvi_real b = x->hb[j];
-        a = dense ? 0 : x->drift[j + 1];
-        t = from->t + (from->te + x->c[j]*h);
-        const gvi_status status = gvi__kick_force(st, &y, only);
+    int where = GVI__START | (known ? GVI__KNOWN : 0);
+    for (int j = known != NULL;; ++j) {
+        const int last = j == r - 1;
+        if (dense && !where) gvi__over_constant_mass(st, F, x->change);
+        const gvi_real *z = dense ? x->change : NULL;
+        if (where || last || GVI__SMALL) gvi__drift_end(st, n, j, where, m, from, zero, known, F, Q);
+        else gvi__drift_on(n, gvi__drifting_of(x->drift + j, row), m, z, v, q, F, dq, Q);
+        where = 0;
+        t = from->t + (from->te + c[j]*h);
+        const gvi_status status = last || gvi__nonzero(hb[j]) ? gvi__kick_force(st, &y, only) : GVI_OK;
         if (status != GVI_OK) return status;
-        if (j < r - 1) gvi__kick_drift(n, GVI__KICK, b, a, m, from, zero, NULL, F, dp, dq, Q);
-        else gvi__kick_drift(n, GVI__LAST_KICK, b, a, m, from, zero, NULL, F, dp, dq, Q);
-        if (dense) gvi__drift_dense(st, from, x->drift[j + 1]);
+        if (last) break;
     }
+    gvi__last_kick(st, n, m, from, F, Q);
     return GVI_OK;
 }
 
 GVI__APART gvi_status gvi__explicit_lines(gvi_stepper *st, const gvi__from *from, gvi_real h,
                                           const gvi_real *force)
 {
-    return st->n == 2 && !GVI__SMALL ? gvi__explicit_of(st, from, h, force, 2)
-                                     : gvi__explicit_of(st, from, h, force, st->n);
+    const int n = st->n, whole = n >= 8 && !gvi__mass_is(st, GVI_MASS_DENSE);      // what is behind n is 0
+    return n == 2 && !GVI__SMALL ? gvi__explicit_of(st, from, h, force, 2)
+                                 : gvi__explicit_of(st, from, h, force, whole ? (n + 7)/8*8 : n);
 }
 
 /* ---- fixed point ---- */
@@ -5994,23 +6096,30 @@ GVI__APART gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, i
 
 /* ---- explicit, beside stiffness: kicks by what is left of the force, arcs between ---- */
 
-// rows of drift j: turn[0]/m, turn[1] m, turn[2] of gvi__arc_turn; behind the last, of each: has it odd
-// half turns?
+/* Rows of drift j: turn[0]/m, turn[1] m, turn[2] of gvi__arc_turn, and what the kick before it moves q
+   by, over its force, as two factors; behind the last drift, of each: has it odd half turns? */
 static inline gvi_real *gvi__shears(const gvi_stepper *st, int j)
 {
-    return gvi__spring_tables(st) + (size_t)j*3*gvi__whole((size_t)st->n);
+    return gvi__spring_tables(st) + (size_t)j*5*gvi__padded((size_t)st->n);
+}
+
+// the shears q += a p, p -= back q, q += a p as they are, and turned by half for sign = -1: q += push p
+static gvi__two gvi__shears_push(gvi_real b, gvi_real a, gvi_real back, gvi_real sign)
+{
+    const gvi__two twice = gvi__sub2(gvi__real2(2*a), gvi__scale2(back, gvi__product(a, a)));
+    return gvi__scale2(sign*b, twice);
 }
 
 // where there is no spring a = tau/2, s = 0
 static gvi_status gvi__make_shears(gvi_stepper *st, int j)
 {
     struct gvi__private *x = &st->x;
-    const size_t row = gvi__whole((size_t)st->n);
-    const gvi_real tau = x->drift[j], *stiffness = gvi__stiffness(st);
-    gvi_real *along = gvi__shears(st, j), *back = along + row, *sign = back + row, turn[3] = { 0, 0, 0 };
-    gvi_real *odd = gvi__shears(st, st->r + 1) + j;
+    const size_t row = gvi__padded((size_t)st->n);
+    const gvi_real tau = x->drift[j], *stiffness = gvi__stiffness(st), b = j > 0 ? x->hb[j - 1] : 0;
+    gvi_real *odd = gvi__shears(st, st->r + 1) + j, turn[3] = { 0, 0, 0 };
     *odd = 0;
     for (int i = 0, made = 0; i < st->n; ++i) {
+        gvi_real *by = gvi__shears(st, j) + i;
         const gvi_real m = x->over ? x->mass[i] : 1;
         const int stiff = gvi__nonzero(stiffness[i]);
         if (stiff && (int)stiffness[st->n + i] == made) {
@@ -6023,9 +6132,16 @@ static gvi_status gvi__make_shears(gvi_stepper *st, int j)
             if (turn[2] < 0) *odd = 1;
             ++made;
         }
-        along[i] = (stiff ? turn[0] : tau/2)/m;
-        back[i] = stiff ? turn[1]*m : 0;
-        sign[i] = stiff ? turn[2] : 1;
+        const gvi_real along = (stiff ? turn[0] : tau/2)/m, back = stiff ? turn[1]*m : 0;
+        const gvi_real sign = stiff ? turn[2] : 1;
+        by[0] = along;
+        by[row] = back;
+        by[2*row] = sign;
+        if (i > 0 && !gvi__nonzero(along - by[-1]) && !gvi__nonzero(back - by[row - 1])
+            && !gvi__nonzero(sign - by[2*row - 1])) {                    // as the one before
+            by[3*row] = by[3*row - 1];
+            by[4*row] = by[4*row - 1];
+        } else gvi__two_factors(gvi__shears_push(b, along, back, sign), by + 3*row, by + 4*row);
     }
     return GVI_OK;
 }
@@ -6039,24 +6155,26 @@ static gvi_status gvi__make_drifts(gvi_stepper *st, gvi_real h)
     return status;
 }
 
-/* p += b (F + k Q), then the shears.  As in gvi__kick_drift_of little waits for F, and a kick goes
-   through the same shears that p does, beside it.                              */
+/* p += b (F + k Q), then the shears.  Little waits for F: what a kick moves q by is a product with a
+   number that is known.  p, for which nobody waits, goes through the shears, and the kick beside it. */
 GVI__COPY void gvi__kick_arc_of(int n, int odd, int last, gvi_real b, const gvi_real *GVI__RESTRICT k,
                                 const gvi_real *GVI__RESTRICT shears, const gvi__from *from, gvi_real zero,
                                 gvi_real *GVI__RESTRICT F, gvi_real *GVI__RESTRICT dp,
                                 gvi_real *GVI__RESTRICT dq, gvi_real *GVI__RESTRICT Q)
 {
     const gvi_real *GVI__RESTRICT p0 = from->p, *GVI__RESTRICT q0 = from->q;
-    const size_t row = gvi__whole((size_t)n);
-    const gvi_real *along = shears, *back = along + row, *sign = back + row;
+    const size_t row = gvi__padded((size_t)n);
+    const gvi_real *along = shears, *back = along + row, *sign = back + row, *push = sign + row;
+    const gvi_real *factor = push + row;
     for (int i = 0; i < n; ++i) {
-        const gvi_real kick = b*F[i] + b*k[i]*Q[i], a = along[i], p = p0[i] + dp[i];
-        const gvi_real d = dq[i] + a*p, pull = back[i]*(q0[i] + d), push = a*kick, more = kick - back[i]*push;
-        gvi_real to_q = (d + a*(p - pull)) + (push + a*more), to_p = (dp[i] - pull) + more;
+        const gvi_real f = F[i], spring = k[i]*Q[i], kick = b*f + b*spring, a = along[i], p = p0[i] + dp[i];
+        const gvi_real d = dq[i] + a*p, pull = back[i]*(q0[i] + d);
+        gvi_real to_q = d + a*(p - pull), to_p = (dp[i] - pull) + (kick - back[i]*(a*kick));
         if (odd) {
             to_q = sign[i]*to_q + (sign[i] - 1)*q0[i];
             to_p = sign[i]*to_p + (sign[i] - 1)*p0[i];
         }
+        to_q = (to_q + push[i]*(factor[i]*spring)) + push[i]*(factor[i]*f);
         dq[i] = to_q;
         dp[i] = to_p;
         Q[i] = q0[i] + to_q;
@@ -6064,13 +6182,18 @@ GVI__COPY void gvi__kick_arc_of(int n, int odd, int last, gvi_real b, const gvi_
     }
 }
 
+// n as a constant halves what addresses cost; of 6, two bodies in space, the compiler makes two vectors
 static void gvi__kick_arc(const gvi_stepper *st, int j, gvi_real b, const gvi__from *from, gvi_real zero)
 {
     const struct gvi__private *x = &st->x;
     const int n = st->n, last = j == st->r, odd = gvi__nonzero(gvi__shears(st, st->r + 1)[j]);
     const gvi_real *k = gvi__stiffness(st), *shears = gvi__shears(st, j);
     gvi_real *F = x->work.F, *dp = x->dp, *dq = x->dq, *Q = x->work.Q;
-    if (odd && last) gvi__kick_arc_of(n, 1, 1, b, k, shears, from, zero, F, dp, dq, Q);
+    if (last && !gvi__nonzero(x->drift[j]))                  // a table that ends with a kick
+        for (int i = 0; i < n; ++i) dp[i] += b*F[i] + b*(k[i]*Q[i]);
+    else if (n == 6 && !last && !odd) gvi__kick_arc_of(6, 0, 0, b, k, shears, from, zero, F, dp, dq, Q);
+    else if (n == 6 && !last) gvi__kick_arc_of(6, 1, 0, b, k, shears, from, zero, F, dp, dq, Q);
+    else if (odd && last) gvi__kick_arc_of(n, 1, 1, b, k, shears, from, zero, F, dp, dq, Q);
     else if (odd) gvi__kick_arc_of(n, 1, 0, b, k, shears, from, zero, F, dp, dq, Q);
     else if (last) gvi__kick_arc_of(n, 0, 1, b, k, shears, from, zero, F, dp, dq, Q);
     else gvi__kick_arc_of(n, 0, 0, b, k, shears, from, zero, F, dp, dq, Q);

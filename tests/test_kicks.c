@@ -296,6 +296,37 @@ static void the_last_kick_is_not_asked_for_twice(void **state)
     }
 }
 
+/* Zeros at the start, in the middle, two together, before the last: the step is that without them, to a
+   rounding of each drift, which is in two parts then; a kick at the end is asked for, for the next step */
+static void kicks_of_weight_zero_are_left_out(void **state)
+{
+    static const table without = { "", 4, 3, 0, { 0, 0.6L, 1 }, { 0.25L, 0.5L, 0.25L } };
+    static const table with[] = {
+        { "", 4, 4, 0, { 0, 0.3L, 0.6L, 1 }, { 0.25L, 0, 0.5L, 0.25L } },
+        { "", 4, 6, 0, { 0, 0.3L, 0.4L, 0.6L, 0.9L, 1 }, { 0.25L, 0, 0, 0.5L, 0, 0.25L } },
+        { "", 4, 4, 0, { 0, 0, 0.6L, 1 }, { 0, 0.25L, 0.5L, 0.25L } },
+        { "", 4, 4, 0, { 0, 0.6L, 1, 1 }, { 0.25L, 0.5L, 0.25L, 0 } },
+    };
+    static const int asked[] = { 100*2 + 1, 100*2 + 1, 100*3, 100*3 + 1 };
+    (void)state;
+    for (int i = 0; i < COUNT(with); ++i)
+    for (int mass = GVI_MASS_UNIT; mass <= GVI_MASS_DENSE; ++mass) {
+        const gvi_desc a = describe(&without, (gvi_mass_kind)mass), b = describe(&with[i], (gvi_mass_kind)mass);
+        gvi_stepper x, y;
+        real end[4];
+        set_up(&x, &a, start, memory);
+        set_up(&y, &b, start, more);
+        for (int k = 0; k < 100; ++k) {
+            assert_ok(gvi_step(&x, 0.01L));
+            assert_ok(gvi_step(&y, 0.01L));
+        }
+        memcpy(end, y.q, 2*sizeof *end);
+        memcpy(end + 2, y.p, 2*sizeof *end);
+        assert_between(0, distance(x.q, x.p, end), 8*EPS*sqrt((real)100*with[i].r));
+        assert_int_equal(y.counters.effect[0], asked[i]);
+    }
+}
+
 /* ------------------------------------------------------------------ statuses */
 
 static int reads_v(real t, const real *q, const real *v, real *f, real *dldv, void *user)
@@ -476,6 +507,7 @@ int main(void)
         cmocka_unit_test(angular_momentum_is_kept_by_every_kick),
         cmocka_unit_test(symmetric_tables_are_reversible),
         cmocka_unit_test(the_last_kick_is_not_asked_for_twice),
+        cmocka_unit_test(kicks_of_weight_zero_are_left_out),
         cmocka_unit_test(faulty_tables_are_refused),
         cmocka_unit_test(scenes_that_no_kick_can_move_are_refused),
         cmocka_unit_test(questions_that_a_broken_line_cannot_answer_are_refused),

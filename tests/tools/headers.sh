@@ -12,7 +12,7 @@ have() { command -v "$1" >/dev/null 2>&1; }
 fail() { echo "FAILED: headers: $*"; exit 1; }
 accepts() { echo 'int main(void) { return 0; }' | $1 -x$2 -std=$3 -fsyntax-only - 2>/dev/null; }
 
-# the matrix: -O0 for all standards, -O2 for the first and the last
+# the matrix: -O0 for all standards, -O1 and -O2 for the first and the last
 matrix() {  # compiler language standards...
     compiler=$1 language=$2
     shift 2
@@ -21,7 +21,7 @@ matrix() {  # compiler language standards...
             echo "  skipped: $compiler does not know $standard" >&2
             continue
         fi
-        case $standard in c99|c2x|c++11|c++20) levels='-O0 -O2' ;; *) levels=-O0 ;; esac
+        case $standard in c99|c2x|c++11|c++20) levels='-O0 -O1 -O2' ;; *) levels=-O0 ;; esac
         for level in $levels; do for type in float double 'long double'; do for linkage in extern static; do
             static=; [ $linkage = static ] && static=-DGVI_STATIC
             echo "$compiler -x$language -std=$standard $level $static $strict \"-DGVI_REAL=$type\" -c tests/compile/implementation.c -o /dev/null"
