@@ -2650,18 +2650,18 @@ static void gvi__fold(gvi_stepper *st, int stage)
 // the exact product overflows before a*b does: then there is no rest
 static gvi_real gvi__rest(gvi_real x) { return gvi__finite(x) ? x : 0; }
 
-/* Two numbers whose product is x to EPS/50 or so: one rounded number would err by up to EPS/2, and the same
-   in every step.  b has no round digits, so that products with it are rounded evenly: (1 + sqrt(5))/4, and i
-   units in its last place are added; a is x/b, less j of its own: the best of 32 pairs. */
+/* Two numbers whose product is x to EPS/100: one rounded number would err by up to EPS/2, and the same in every
+   step.  b has no round digits, so that products with it are rounded evenly: (1 + sqrt(5))/4, and i units in
+   its last place are added; a is x/b, less j of its own: the first pair that will do, or the best of 32. */
 static void gvi__two_factors(gvi__two x, gvi_real *a, gvi_real *b)
 {
     const gvi_real unit = GVI__EPS/2, first = (gvi_real)0.80901699437494742410L, whole = x.hi/first;
     const gvi__two z = gvi__product(whole, first);
     int e, best = 0;
-    const gvi_real size = GVI_FREXP(whole, &e)/first;            // of i = 1, over that of j = 1
-    const gvi_real rest = GVI_LDEXP((x.hi - z.hi) + (x.lo - z.lo), -e)/(unit*first);
+    const gvi_real size = GVI_FREXP(whole, &e)/first, last = GVI_LDEXP(unit, e);    // i = 1 is size times j = 1
+    const gvi_real rest = ((x.hi - z.hi) + (x.lo - z.lo))/(last*first);
     gvi_real least = 1, less = 0;
-    for (int i = 0; i < 32; ++i) {
+    for (int i = 0; i < 32 && least > (gvi_real)(1.0L/64); ++i) {
         const gvi_real over = (gvi_real)i*size - rest, j = GVI_FLOOR(over + (gvi_real)0.5);
         const gvi_real off = GVI_ABS(over - j);
         if (!(off < least)) continue;
@@ -2669,7 +2669,7 @@ static void gvi__two_factors(gvi__two x, gvi_real *a, gvi_real *b)
         less = j;
         best = i;
     }
-    *a = whole - GVI_LDEXP(less*unit, e);
+    *a = whole - less*last;
     *b = first + (gvi_real)best*unit;
 }
 
@@ -2720,7 +2720,7 @@ GVI__APART void gvi__weights(gvi_stepper *st, gvi_real h)
         x->drift[j] = GVI_LDEXP(next - at, e);
         at = next;
     }
-    gvi__drifts(st, h);
+    if (!GVI__STIFF || !x->springs) gvi__drifts(st, h);
 }
 
 /* -------------------------------------------------------- STEPPER: SET-UP */
@@ -3474,21 +3474,33 @@ GVI__COPY void gvi__drift_end(gvi_stepper *st, int n, int j, int where, const gv
     gvi__drift_end_of(n, where, by, over, zero, m, z, from, known, F, dp, dq, Q);
 }
 
-// the last kick, dp += b F, and the drift to the end, if there is one: dq += a (v + dp/m)
-GVI__COPY void gvi__last_kick(gvi_stepper *st, int n, const gvi_real *m, const gvi__from *from,
-                              const gvi_real *GVI__RESTRICT F, gvi_real *GVI__RESTRICT Q)
+// the drift to the end: dq += a (v + dp/m)
+GVI__COPY void gvi__last_drift_of(int n, gvi_real a, const gvi_real *m, const gvi_real *z,
+                                  const gvi_real *GVI__RESTRICT v, const gvi_real *GVI__RESTRICT q,
+                                  const gvi_real *GVI__RESTRICT dp, gvi_real *GVI__RESTRICT dq,
+                                  gvi_real *GVI__RESTRICT Q)
 {
-    struct gvi__private *x = &st->x;
-    const gvi_real b = x->hb[st->r - 1], a = x->drift[st->r];
-    const gvi_real *GVI__RESTRICT v = from->v, *GVI__RESTRICT q = from->q, *z = NULL;
-    gvi_real *GVI__RESTRICT dp = x->dp, *GVI__RESTRICT dq = x->dq;
-    for (int i = 0; i < n; ++i) dp[i] += b*F[i];
-    if (!gvi__nonzero(a)) return;
-    if (gvi__mass_is(st, GVI_MASS_DENSE)) gvi__over_constant_mass(st, dp, x->change), z = x->change;
     for (int i = 0; i < n; ++i) {
         dq[i] += a*(v[i] + (z ? z[i] : m ? dp[i]*m[i] : dp[i]));
         Q[i] = q[i] + dq[i];
     }
+}
+
+// the last kick, dp += b F, and the drift behind it, if there is one
+GVI__COPY void gvi__last_kick(gvi_stepper *st, int n, const gvi_real *m, const gvi__from *from,
+                              const gvi_real *GVI__RESTRICT F, gvi_real *GVI__RESTRICT Q)
+{
+    struct gvi__private *x = &st->x;
+    const gvi_real b = x->hb[st->r - 1], a = x->drift[st->r], *z = NULL;
+    gvi_real *GVI__RESTRICT dp = x->dp;
+    for (int i = 0; i < n; ++i) dp[i] += b*F[i];
+    if (!gvi__nonzero(a)) return;
+    if (gvi__mass_is(st, GVI_MASS_DENSE)) {
+        gvi__over_constant_mass(st, dp, x->change);
+        z = x->change;
+    }
+    if (z || m || GVI__SMALL) gvi__last_drift_of(n, a, m, z, from->v, from->q, dp, x->dq, Q);
+    else gvi__last_drift_of(n, a, NULL, NULL, from->v, from->q, dp, x->dq, Q);
 }
 
 static inline gvi_status gvi__kick_force(gvi_stepper *st, gvi_points *y, int only)
