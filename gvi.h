@@ -561,7 +561,7 @@ struct gvi__private {
     gvi_real *z, *less, *row;         /* [R], [R], [6R] scratch, 9R where there is E */
     gvi_real *inv_gamma, *own;        /* [s] 1/Gamma_kk; LU of Gamma if full    */
     gvi_real *eigen;                  /* [(s+1)/2][2s] of integration, Gauss with r = s */
-    gvi_real *drift;                  /* [4r+5] explicit: see gvi__drifts, gvi__drifting */
+    gvi_real *drift;                  /* [4][r+1] explicit: see gvi__drifting          */
     gvi_real *g, *m, *T, *N;          /* [r][R] c_i - S_ij, 1 - T_ij, T_ji, N_ij */
     gvi_real *E;                      /* [r or 2r][R] extrapolation; at set-up rest of Phi */
     gvi_real *rate;                   /* [3][R] clock: g; f'v; H, then H - E    */
@@ -2650,9 +2650,10 @@ static void gvi__fold(gvi_stepper *st, int stage)
 // the exact product overflows before a*b does: then there is no rest
 static gvi_real gvi__rest(gvi_real x) { return gvi__finite(x) ? x : 0; }
 
-/* Two numbers whose product is x to EPS/100: one rounded number would err by up to EPS/2, and the same in every
-   step.  b has no round digits, so that products with it are rounded evenly: (1 + sqrt(5))/4, and i units in
-   its last place are added; a is x/b, less j of its own: the first pair that will do, or the best of 32. */
+/* Two numbers whose product is x to EPS/50 or so: one rounded number would err by up to EPS/2, and
+   the same in every step.  b has no round digits, so that products with it are rounded evenly:
+   (1 + sqrt(5))/4, and i units in its last place are added; a is x/b, less j of its own: the best
+   of 24 pairs.                                                                */
 static void gvi__two_factors(gvi__two x, gvi_real *a, gvi_real *b)
 {
     const gvi_real unit = GVI__EPS/2, first = (gvi_real)0.80901699437494742410L, whole = x.hi/first;
@@ -2661,7 +2662,7 @@ static void gvi__two_factors(gvi__two x, gvi_real *a, gvi_real *b)
     const gvi_real size = GVI_FREXP(whole, &e)/first, last = GVI_LDEXP(unit, e);    // i = 1 is size times j = 1
     const gvi_real rest = ((x.hi - z.hi) + (x.lo - z.lo))/(last*first);
     gvi_real least = 1, less = 0;
-    for (int i = 0; i < 32 && least > (gvi_real)(1.0L/64); ++i) {
+    for (int i = 0; i < 24; ++i) {
         const gvi_real over = (gvi_real)i*size - rest, j = GVI_FLOOR(over + (gvi_real)0.5);
         const gvi_real off = GVI_ABS(over - j);
         if (!(off < least)) continue;
@@ -2675,13 +2676,12 @@ static void gvi__two_factors(gvi__two x, gvi_real *a, gvi_real *b)
 
 /* Explicit: rows of gvi__drifting_of behind the times.  A kick of weight 0 is left out, and the weight
    of the one before goes on.                                                  */
-static void gvi__drifts(gvi_stepper *st, gvi_real h)
+GVI__APART void gvi__drifts(gvi_stepper *st, gvi_real h)
 {
     const int r = st->r;
     const gvi_real *hb = st->x.hb;
     gvi_real *weight = st->x.drift + r + 1, *ratio = weight + r + 1, *factor = ratio + r + 1;
     gvi__two w = gvi__real2(gvi__nonzero(hb[0]) ? hb[0] : h);     // what F is over, as exactly as F is scaled
-    factor[r + 1] = 1/w.hi;
     for (int j = 0; j <= r; ++j) {
         weight[j] = w.hi;
         ratio[j] = factor[j] = 1;
@@ -3040,7 +3040,7 @@ GVI__APART void gvi__lengths(const gvi__scene *x, size_t *length)
     length[GVI__PHI] = kicks ? 0 : s;
     length[GVI__MODES] = reads_v || (iterates && x->order <= 2*d->degree - 2) ? s : 0;
     length[GVI__SCRATCH] = iterates ? 9 : 6;
-    length[GVI__DRIFT] = iterates ? 0 : 4*r + 5;
+    length[GVI__DRIFT] = iterates ? 0 : 4*r + 4;
     length[GVI__GAMMA] = gvi__flag(x->flags, GVI__HAS_OWN) ? s*s + s + 1 : 0;
     length[GVI__DIAGONAL] = d->mass.kind == GVI_MASS_DIAGONAL ? length[GVI__N] : 0;
     length[GVI__TWO_MASSES] = dense ? 2*n : 0;                 // factored, and as it is
@@ -3452,7 +3452,7 @@ GVI__COPY void gvi__drift_end(gvi_stepper *st, int n, int j, int where, const gv
     struct gvi__private *x = &st->x;
     const size_t row = (size_t)st->r + 1;
     const gvi__drifting by = gvi__drifting_of(x->drift + j, row);
-    const gvi_real over = x->drift[4*row], *z = NULL;             // 1/weight of the first kick
+    const gvi_real over = 1/by.weight, *z = NULL;                 // for dp = pe, at the start
     gvi_real *dp = x->dp, *dq = x->dq;
     if (j == st->r - 1) where |= GVI__BEFORE_LAST;
     if (gvi__mass_is(st, GVI_MASS_DENSE)) {
