@@ -29,6 +29,10 @@ TESTS    = $(sort $(basename $(notdir $(wildcard tests/test_*.c))))
 TYPED    = $(filter test_oracle test_quadrature test_interpolation test_lu test_corners test_effects test_newton test_weak test_stiffness test_guess test_mass test_tolerance,$(TESTS))
 # These as small code, too: -Os takes other loops and leaves parts out.
 SMALL    = $(filter test_mass test_tolerance,$(TESTS))
+# Tests that look inside hold the library themselves; the others share one object for each type.
+INSIDE   = $(basename $(notdir $(shell grep -l 'gvi__\|\.x\.' tests/test_*.c)))
+SHARING  = $(filter-out $(INSIDE),$(TESTS))
+LONG     = $(basename $(notdir $(shell grep -l 'define GVI_REAL long double' tests/test_*.c)))
 PROGRAMS = $(TESTS) $(TYPED:%=%-float) $(TYPED:%=%-long) $(SMALL:%=%-small)
 # Small enough to be repeated under valgrind.
 VALGRIND_TESTS = $(filter test_api test_lu test_interpolation,$(TESTS))
@@ -105,7 +109,7 @@ docs-check:
 ## sanitize     tests (not those in long double) and examples under the address and undefined behaviour sanitizers, then valgrind
 sanitize:
 	$(Q)if sh tests/tools/sanitizer.sh '$(CC)' && sh tests/tools/sanitizer.sh '$(CXX)' -xc++; then \
-	    $(MAKE) BUILD=$(BUILD)/sanitize PROGRAMS='$(TESTS) $(TYPED:%=%-float)' unit examples \
+	    $(MAKE) BUILD=$(BUILD)/sanitize LINK_EXAMPLES=1 PROGRAMS='$(TESTS) $(TYPED:%=%-float)' unit examples \
 	    CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all'; fi
 	$(Q)$(MAKE) valgrind
 
@@ -246,36 +250,54 @@ help:
 cmocka:
 	$(Q)CC='$(CC)' sh tests/tools/deps.sh --check
 
+$(BUILD)/tests/gvi-%.o: tests/compile/implementation.c
+	@mkdir -p $(@D)
+	@echo '  cc $@'
+	$(Q)$(COMPILE) '-DGVI_REAL=$(if $(filter long,$*),long double,$*)' -c $< -o $@
+
+$(addprefix $(BUILD)/tests/,$(filter-out $(LONG),$(SHARING))): $(BUILD)/tests/gvi-double.o
+$(addprefix $(BUILD)/tests/,$(filter $(LONG),$(SHARING))): $(BUILD)/tests/gvi-long.o
+$(patsubst %,$(BUILD)/tests/%-float,$(filter $(TYPED),$(SHARING))): $(BUILD)/tests/gvi-float.o
+$(patsubst %,$(BUILD)/tests/%-long,$(filter $(TYPED),$(SHARING))): $(BUILD)/tests/gvi-long.o
+LINKED = $(if $(filter %.o,$^),-DGVI_IMPLEMENTED) $< $(filter %.o,$^)
+
 $(BUILD)/tests/%: tests/%.c | cmocka
 	@mkdir -p $(@D)
 	@echo '  cc $@'
-	$(Q)$(COMPILE) $(TESTFLAGS) $(CMOCKA_CFLAGS) $< -o $@ $(CMOCKA_LIBS) $(LDLIBS)
+	$(Q)$(COMPILE) $(TESTFLAGS) $(CMOCKA_CFLAGS) $(LINKED) -o $@ $(CMOCKA_LIBS) $(LDLIBS)
 
 $(BUILD)/tests/%-float: tests/%.c | cmocka
 	@mkdir -p $(@D)
 	@echo '  cc $@'
-	$(Q)$(COMPILE) -DGVI_REAL=float $(TESTFLAGS) $(CMOCKA_CFLAGS) $< -o $@ $(CMOCKA_LIBS) $(LDLIBS)
+	$(Q)$(COMPILE) -DGVI_REAL=float $(TESTFLAGS) $(CMOCKA_CFLAGS) $(LINKED) -o $@ $(CMOCKA_LIBS) $(LDLIBS)
 
 $(BUILD)/tests/%-long: tests/%.c | cmocka
 	@mkdir -p $(@D)
 	@echo '  cc $@'
-	$(Q)$(COMPILE) '-DGVI_REAL=long double' $(TESTFLAGS) $(CMOCKA_CFLAGS) $< -o $@ $(CMOCKA_LIBS) $(LDLIBS)
+	$(Q)$(COMPILE) '-DGVI_REAL=long double' $(TESTFLAGS) $(CMOCKA_CFLAGS) $(LINKED) -o $@ $(CMOCKA_LIBS) $(LDLIBS)
 
 $(BUILD)/tests/%-small: tests/%.c | cmocka
 	@mkdir -p $(@D)
 	@echo '  cc $@'
 	$(Q)$(COMPILE) -Os $(TESTFLAGS) $(CMOCKA_CFLAGS) $< -o $@ $(CMOCKA_LIBS) $(LDLIBS)
 
+# Under sanitizers gvi.h takes half a minute: compiled once, too.
+ifdef LINK_EXAMPLES
+FLOAT_EXAMPLES = $(basename $(notdir $(shell grep -l 'define GVI_REAL float' examples/*.c)))
+$(addprefix $(BUILD)/examples/,$(filter-out $(FLOAT_EXAMPLES),$(EXAMPLES))): $(BUILD)/tests/gvi-double.o
+$(addprefix $(BUILD)/examples/,$(FLOAT_EXAMPLES)): $(BUILD)/tests/gvi-float.o
+endif
+
 $(BUILD)/examples/%: examples/%.c
 	@mkdir -p $(@D)
 	@echo '  cc $@'
-	$(Q)$(COMPILE) -Iexamples $< -o $@ $(LDLIBS)
+	$(Q)$(COMPILE) -Iexamples $(LINKED) -o $@ $(LDLIBS)
 
 # Without a C++ compiler the example is left out, visibly, when it is to run.
 $(BUILD)/examples/%: examples/%.cpp
 	@mkdir -p $(@D)
 	$(Q)if command -v $(CXX) >/dev/null 2>&1; then \
-	    echo '  c++ $@'; $(CXXCOMPILE) $< -o $@ $(LDLIBS); fi
+	    echo '  c++ $@'; $(CXXCOMPILE) $(LINKED) -o $@ $(LDLIBS); fi
 
 $(BUILD)/examples/price: examples/scenes/price.c
 	@mkdir -p $(@D)

@@ -1,6 +1,6 @@
-/* What every test includes: gvi.h with its implementation, cmocka, and a
-   comparison of its own (cmocka 1.1.5 compares doubles as floats, and accepts
-   NaN against NaN).                                                          */
+/* What every test includes: gvi.h with its implementation (for most compiled once and
+   linked: Makefile), cmocka, and a comparison of its own (cmocka 1.1.5 compares
+   doubles as floats, and accepts NaN against NaN).                           */
 #ifndef GVI_TEST_H
 #define GVI_TEST_H
 
@@ -20,10 +20,19 @@
 
 #if GVI__KIND == 1
 #define EPS FLT_EPSILON
+#define MIN FLT_MIN
+#define MAX FLT_MAX
+#define DIG FLT_MANT_DIG
 #elif GVI__KIND == 2
 #define EPS DBL_EPSILON
+#define MIN DBL_MIN
+#define MAX DBL_MAX
+#define DIG DBL_MANT_DIG
 #else
 #define EPS LDBL_EPSILON
+#define MIN LDBL_MIN
+#define MAX LDBL_MAX
+#define DIG LDBL_MANT_DIG
 #endif
 
 #define COUNT(a) ((int)(sizeof(a)/sizeof(a)[0]))

@@ -223,7 +223,7 @@ static void a_force_may_set_in_where_next_to_nothing_was(void **state)
     for (int k = 0; k < COUNT(pins)*2; ++k) {
         gvi_stepper st;
         real tiny[5];
-        for (int i = 0; i < 5; ++i) tiny[i] = 16*GVI__MIN/EPS;
+        for (int i = 0; i < 5; ++i) tiny[i] = 16*MIN/EPS;
         set_up(&st, (gvi_desc){ .n = 5, .degree = k % 2 ? 3 : 8, .effects = scene, .effect_count = 1,
                                 .formulation = pins[k/2] }, memory);
         assert_ok(gvi_start(&st, 0, tiny, none));

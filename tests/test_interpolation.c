@@ -581,7 +581,7 @@ static void derivative_of_monomials_is_known(void **state)
 /* 24 points: the truncation is below 1e-27, with 28, for the digits that a long
    double may have, below 1e-34; the norm of the derivative is (n - 1)^2/3 at the
    ends.                                                                      */
-#define MANY (GVI__DIG > 64 ? 28 : 24)
+#define MANY (DIG > 64 ? 28 : 24)
 static void derivative_of_exp_is_exp(void **state)
 {
     (void)state;

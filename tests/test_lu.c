@@ -13,7 +13,7 @@ __extension__ typedef __float128 wide;
 typedef long double wide;
 #define WIDE_DIG LDBL_MANT_DIG
 #endif
-#define WIDE_IS_WIDER (WIDE_DIG > GVI__DIG)
+#define WIDE_IS_WIDER (WIDE_DIG > DIG)
 
 #define UNIT ((wide)EPS/2)                      /* unit roundoff */
 #define MOST 60

@@ -382,7 +382,7 @@ static void describe(gvi_desc *desc, gvi_effect *effects, int options,
     desc->effects = effects;
     desc->effect_count = a->count;
     desc->formulation = how;
-    if (GVI__DIG > 64) desc->max_iterations = 120;    /* 60, the default, leave 3^-60 = 2e-29 where they contract by 1/3 */
+    if (DIG > 64) desc->max_iterations = 120;    /* 60, the default, leave 3^-60 = 2e-29 where they contract by 1/3 */
     for (int e = 0; e < a->count; ++e) {
         struct term *term = &a->terms[e];
         memset(&effects[e], 0, sizeof effects[e]);

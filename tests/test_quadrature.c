@@ -16,7 +16,7 @@ __extension__ typedef __float128 wide;
 #define WIDE_IS_WIDER 1
 #else
 typedef long double wide;
-#define WIDE_IS_WIDER (LDBL_MANT_DIG > GVI__DIG)
+#define WIDE_IS_WIDER (LDBL_MANT_DIG > DIG)
 #endif
 
 static wide wide_abs(wide x) { return x < 0 ? -x : x; }

@@ -488,7 +488,7 @@ static void test_bad_input(void **state)
    contract, and where h omega has no digits left, the step says so and nothing is lost */
 static void test_refusals(void **state)
 {
-    const gvi_real too_large[N] = { 400000, 400, 900, 400 }, huge = GVI__MAX/4;
+    const gvi_real too_large[N] = { 400000, 400, 900, 400 }, huge = MAX/4;
     const gvi_desc desc = { .degree = 6 };
     gvi_real L;
     const gvi_discrete out = { .lagrangian = &L };
