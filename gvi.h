@@ -498,7 +498,11 @@ typedef struct gvi_desc {
                                           as the last two changes predict it, is
                                           below tolerance*|q|: the step then is
                                           symplectic to that, and takes K r R
-                                          numbers more.  0: at round-off        */
+                                          numbers more.  0: at round-off.
+                                          Explicit (unit and diagonal mass, not
+                                          where code is small): any but 0 rounds
+                                          q and p at each kick; areas may drift
+                                          by eps r/2 a step                     */
     int               max_iterations;  /* to 1,000,000.  0: 60                 */
     int               iterations;      /* N: exactly N of the fixed point in every step, for
                                           a loop with a deadline, and no Newton.  A step whose
@@ -2632,6 +2636,19 @@ static inline const gvi_real *gvi__stage_table(const gvi_stepper *st, int stage)
    symplectic as what the iteration leaves undone, and F need not be weighed.   */
 static inline int gvi__folds(const gvi_stepper *st) { return GVI__TOLERANCE && st->x.folded; }
 
+/* Kicks with a tolerance: each number in their tables is rounded once, the same way in every step.
+   Small code goes without.                                                    */
+static inline int gvi__rounds(const gvi_stepper *st)
+{
+    return GVI__TOLERANCE && !GVI__SMALL && st->x.desc.tolerance > 0;
+}
+
+// so are p and q at every kick, as in a loop by hand; with a full mass or arcs they are not
+static inline int gvi__is_rounded(const gvi_stepper *st)
+{
+    return gvi__rounds(st) && !gvi__mass_is(st, GVI_MASS_DENSE) && !(GVI__STIFF && st->x.springs);
+}
+
 // what f is weighed with in a stage, or NULL
 static inline const gvi_real *gvi__stage_weights(const gvi_stepper *st)
 {
@@ -2686,8 +2703,9 @@ GVI__APART void gvi__drifts(gvi_stepper *st, gvi_real h)
         weight[j] = w.hi;
         ratio[j] = factor[j] = 1;
         if (j == 0 || j > r - 2 || !gvi__nonzero(hb[j])) continue;
-        gvi__two_factors(gvi__div2(w, gvi__real2(hb[j])), ratio + j, factor + j);
-        w = gvi__div2(w, gvi__product(ratio[j], factor[j]));
+        if (gvi__is_rounded(st)) ratio[j] = w.hi/hb[j];
+        else gvi__two_factors(gvi__div2(w, gvi__real2(hb[j])), ratio + j, factor + j);
+        w = gvi__is_rounded(st) ? gvi__real2(hb[j]) : gvi__div2(w, gvi__product(ratio[j], factor[j]));
     }
 }
 
@@ -2988,6 +3006,12 @@ enum { GVI__ARC_HEAD = 8, GVI__ARC_TAIL = 8 };                            // see
 
 static inline size_t gvi__whole(size_t n) { return (n + 7)/8*8; }
 static inline size_t gvi__padded(size_t n) { return n < 8 ? n : gvi__whole(n); }
+
+// for loops over whole vectors, where behind n is 0
+static inline int gvi__all_of(const gvi_stepper *st)
+{
+    return GVI__SMALL ? st->n : (int)gvi__padded((size_t)st->n);
+}
 
 /* x->springs: see gvi__arc.  Explicit: shears of each drift, and its half turns */
 static size_t gvi__springs_length(const gvi__scene *x, size_t R)
@@ -3389,89 +3413,87 @@ static inline gvi__drifting gvi__drifting_of(const gvi_real *drift, size_t row)
     return by;
 }
 
+/* What a drift is to do.  At the start of a step dp is pe, and the kick by the force that the last
+   step ended with, if it is known.  Before the last kick dp gets its place.
+     By default F holds what the step has gained, and q moves by a sum of its own: what is rounded
+   away at the end is kept.  Rounded, with a tolerance: F holds the whole momentum, and Q moves at once,
+   as in a loop by hand: one array and two additions less.                     */
+enum { GVI__START = 1, GVI__KNOWN = 2, GVI__BEFORE_LAST = 4, GVI__ROUNDED = 8 };
+
+/* What a step of kicks works on: callbacks could change what is behind pointers, for all the
+   compiler knows, so it is read once.                                         */
+typedef struct gvi__kicks {
+    const gvi__from *from;
+    const gvi_real  *drift, *m, *known;           // m, known: or NULL
+    gvi_real        *F, *dp, *dq, *Q, zero;
+    size_t           row;
+    int              dense;
+} gvi__kicks;
+
 /* dq += time (v + dp/m), Q = q + dq, F to the next scale.  What does not depend on F is
    added up first, so that little waits for F.  z: F/M, where M is full.       */
-GVI__COPY void gvi__drift_on_of(int n, gvi__drifting by, const gvi_real *m, const gvi_real *z,
-                                const gvi_real *GVI__RESTRICT v, const gvi_real *GVI__RESTRICT q,
-                                gvi_real *GVI__RESTRICT F, gvi_real *GVI__RESTRICT dq,
-                                gvi_real *GVI__RESTRICT Q)
+GVI__COPY void gvi__drift_of(int n, int todo, gvi__drifting by, gvi_real zero, const gvi_real *m,
+                             const gvi_real *z, const gvi__from *from, const gvi_real *GVI__RESTRICT known,
+                             gvi_real *GVI__RESTRICT F, gvi_real *GVI__RESTRICT dp,
+                             gvi_real *GVI__RESTRICT dq, gvi_real *GVI__RESTRICT Q)
 {
+    const gvi_real *GVI__RESTRICT v = from->v, *GVI__RESTRICT q = from->q, *GVI__RESTRICT qe = from->qe;
+    const gvi_real *GVI__RESTRICT pe = todo & GVI__ROUNDED ? from->p : from->pe;
+    const int start = todo & GVI__START, last = todo & GVI__BEFORE_LAST;
+    const gvi_real over = GVI__SMALL || start ? 1/by.weight : 0, push = by.time*by.weight;
     for (int i = 0; i < n; ++i) {
-        const gvi_real f = F[i], p = by.weight*(z ? z[i] : m ? f*m[i] : f);
-        const gvi_real d = (dq[i] + by.time*v[i]) + by.time*p;
-        dq[i] = d;
-        F[i] = by.ratio*(by.factor*f);
-        Q[i] = q[i] + d;
+        gvi_real f = start ? over*pe[i] : F[i];
+        if (todo & GVI__KNOWN) f += known[i];
+        const gvi_real u = z ? z[i] : m ? f*m[i] : f;
+        if (todo & GVI__ROUNDED) Q[i] = (start ? q[i] : Q[i]) + push*u;
+        else {
+            const gvi_real d = ((start ? qe[i] : dq[i]) + by.time*v[i]) + by.time*(by.weight*u);
+            dq[i] = d;
+            Q[i] = q[i] + d;
+        }
+        if (last) dp[i] = by.weight*f;
+        F[i] = last ? zero : todo & GVI__ROUNDED ? by.ratio*f : by.ratio*(by.factor*f);
     }
+}
+
+// M is full: M^-1 of what F is, or will be at the start of a step
+static const gvi_real *gvi__over_dense(gvi_stepper *st, const gvi__kicks *x, int j, int start)
+{
+    gvi_real *z = st->x.change, *f = z + st->n;
+    const gvi_real over = 1/gvi__drifting_of(x->drift + j, x->row).weight;
+    for (int i = 0; i < st->n; ++i) f[i] = !start ? x->F[i] : over*x->from->pe[i] + (x->known ? x->known[i] : 0);
+    gvi__over_constant_mass(st, f, z);
+    return z;
 }
 
 // m and z are seen to be NULL, lest the compiler load from them under a mask: that takes 50 ns
-GVI__COPY void gvi__drift_on(int n, gvi__drifting by, const gvi_real *m, const gvi_real *z,
-                             const gvi_real *v, const gvi_real *q, gvi_real *F, gvi_real *dq, gvi_real *Q)
+GVI__COPY void gvi__drift_as(int n, int todo, const gvi__kicks *x, int j)
 {
-    if (z) gvi__drift_on_of(n, by, m, z, v, q, F, dq, Q);
-    else if (m) gvi__drift_on_of(n, by, m, NULL, v, q, F, dq, Q);
-    else gvi__drift_on_of(n, by, NULL, NULL, v, q, F, dq, Q);
+    const gvi__drifting by = gvi__drifting_of(x->drift + j, x->row);
+    if (x->m) gvi__drift_of(n, todo, by, x->zero, x->m, NULL, x->from, x->known, x->F, x->dp, x->dq, x->Q);
+    else gvi__drift_of(n, todo, by, x->zero, NULL, NULL, x->from, x->known, x->F, x->dp, x->dq, x->Q);
 }
 
-/* The drifts at the ends of a step.  At its start dp is pe, and the kick by the force that
-   the last step ended with, if it is known.  Before the last kick dp gets its place. */
-enum { GVI__START = 1, GVI__KNOWN = 2, GVI__BEFORE_LAST = 4 };
-
-GVI__COPY void gvi__drift_end_of(int n, int where, gvi__drifting by, gvi_real over, gvi_real zero,
-                                 const gvi_real *m, const gvi_real *z, const gvi__from *from,
-                                 const gvi_real *GVI__RESTRICT known, gvi_real *GVI__RESTRICT F,
-                                 gvi_real *GVI__RESTRICT dp, gvi_real *GVI__RESTRICT dq,
-                                 gvi_real *GVI__RESTRICT Q)
+// each kind of drift is a loop of its own
+GVI__COPY void gvi__drift_when(int n, int rounded, int todo, const gvi__kicks *x, int j)
 {
-    const gvi_real *GVI__RESTRICT v = from->v, *GVI__RESTRICT q = from->q;
-    const gvi_real *GVI__RESTRICT qe = from->qe, *GVI__RESTRICT pe = from->pe;
-    const int start = where & GVI__START, last = where & GVI__BEFORE_LAST;
-    for (int i = 0; i < n; ++i) {
-        gvi_real f = start ? over*pe[i] : F[i];
-        if (where & GVI__KNOWN) f += known[i];
-        const gvi_real p = by.weight*(z ? z[i] : m ? f*m[i] : f);
-        dq[i] = ((start ? qe[i] : dq[i]) + by.time*v[i]) + by.time*p;
-        if (last) dp[i] = by.weight*f;
-        F[i] = last ? zero : by.ratio*(by.factor*f);
-        Q[i] = q[i] + dq[i];
-    }
+    enum { BOTH = GVI__START | GVI__KNOWN };
+    if (todo == 0) gvi__drift_as(n, rounded, x, j);
+    else if (todo == GVI__START) gvi__drift_as(n, rounded | GVI__START, x, j);
+    else if (todo == BOTH) gvi__drift_as(n, rounded | BOTH, x, j);
+    else if (todo == GVI__BEFORE_LAST) gvi__drift_as(n, rounded | GVI__BEFORE_LAST, x, j);
+    else if (todo == (BOTH | GVI__BEFORE_LAST)) gvi__drift_as(n, rounded | BOTH | GVI__BEFORE_LAST, x, j);
+    else gvi__drift_as(n, rounded | todo, x, j);
 }
 
-// M is full: M^-1 of what F will be at the start of a step
-static void gvi__start_dense(gvi_stepper *st, gvi_real over, const gvi__from *from, const gvi_real *known)
+GVI__COPY void gvi__drift(gvi_stepper *st, int n, int todo, const gvi__kicks *x, int j)
 {
-    gvi_real *z = st->x.change, *f = z + st->n;
-    for (int i = 0; i < st->n; ++i) f[i] = over*from->pe[i] + (known ? known[i] : 0);
-    gvi__over_constant_mass(st, f, z);
-}
-
-GVI__COPY void gvi__drift_end(gvi_stepper *st, int n, int j, int where, const gvi_real *m,
-                              const gvi__from *from, gvi_real zero, const gvi_real *known, gvi_real *F, gvi_real *Q)
-{
-    struct gvi__private *x = &st->x;
-    const size_t row = (size_t)st->r + 1;
-    const gvi__drifting by = gvi__drifting_of(x->drift + j, row);
-    const gvi_real over = 1/by.weight, *z = NULL;                 // for dp = pe, at the start
-    gvi_real *dp = x->dp, *dq = x->dq;
-    if (j == st->r - 1) where |= GVI__BEFORE_LAST;
-    if (gvi__mass_is(st, GVI_MASS_DENSE)) {
-        if (where & GVI__START) gvi__start_dense(st, over, from, known);
-        z = x->change;
-    }
-#define GVI__END(is) case is:                                                                     \
-    if (m) gvi__drift_end_of(n, is, by, over, zero, m, NULL, from, known, F, dp, dq, Q);            \
-    else gvi__drift_end_of(n, is, by, over, zero, NULL, NULL, from, known, F, dp, dq, Q);           \
-    return
-    if (!z && !GVI__SMALL) switch (where) {
-        GVI__END(GVI__START);
-        GVI__END(GVI__START | GVI__KNOWN);
-        GVI__END(GVI__BEFORE_LAST);
-        GVI__END(GVI__START | GVI__KNOWN | GVI__BEFORE_LAST);
-        default: break;
-    }
-#undef GVI__END
-    gvi__drift_end_of(n, where, by, over, zero, m, z, from, known, F, dp, dq, Q);
+    if (GVI__SMALL || x->dense) {
+        const gvi_real *z = x->dense ? gvi__over_dense(st, x, j, todo & GVI__START) : NULL;
+        gvi__drift_of(n, todo, gvi__drifting_of(x->drift + j, x->row), x->zero, x->m, z, x->from, x->known,
+                      x->F, x->dp, x->dq, x->Q);
+    } else if (todo & GVI__ROUNDED) gvi__drift_when(n, GVI__ROUNDED, todo & ~GVI__ROUNDED, x, j);
+    else gvi__drift_when(n, 0, todo, x, j);
 }
 
 // the drift to the end: dq += a (v + dp/m)
@@ -3486,21 +3508,41 @@ GVI__COPY void gvi__last_drift_of(int n, gvi_real a, const gvi_real *m, const gv
     }
 }
 
-// the last kick, dp += b F, and the drift behind it, if there is one
-GVI__COPY void gvi__last_kick(gvi_stepper *st, int n, const gvi_real *m, const gvi__from *from,
-                              const gvi_real *GVI__RESTRICT F, gvi_real *GVI__RESTRICT Q)
+// rounded: what p and q have become, as increments; and are they finite?
+GVI__COPY int gvi__last_rounded(int n, gvi_real b, gvi_real a, const gvi_real *m, const gvi__from *from,
+                                 const gvi_real *GVI__RESTRICT F, const gvi_real *GVI__RESTRICT Q,
+                                 gvi_real *GVI__RESTRICT dp, gvi_real *GVI__RESTRICT dq)
 {
-    struct gvi__private *x = &st->x;
-    const gvi_real b = x->hb[st->r - 1], a = x->drift[st->r], *z = NULL;
-    gvi_real *GVI__RESTRICT dp = x->dp;
-    for (int i = 0; i < n; ++i) dp[i] += b*F[i];
-    if (!gvi__nonzero(a)) return;
-    if (gvi__mass_is(st, GVI_MASS_DENSE)) {
-        gvi__over_constant_mass(st, dp, x->change);
-        z = x->change;
+    const gvi_real *GVI__RESTRICT q = from->q, *GVI__RESTRICT p = from->p;
+    int none = 0;
+    for (int i = 0; i < n; ++i) {
+        const gvi_real to_p = dp[i] + b*F[i], to_q = Q[i] + a*(m ? m[i]*to_p : to_p);
+        dp[i] = to_p - p[i];
+        dq[i] = to_q - q[i];
+        none |= !(0*to_p + 0*to_q >= 0);          // 0 x is 0 or NaN
     }
-    if (z || m || GVI__SMALL) gvi__last_drift_of(n, a, m, z, from->v, from->q, dp, x->dq, Q);
-    else gvi__last_drift_of(n, a, NULL, NULL, from->v, from->q, dp, x->dq, Q);
+    return !none;
+}
+
+// the last kick, dp += b F, and the drift behind it, if there is one
+GVI__COPY int gvi__last_kick(gvi_stepper *st, int n, const gvi__kicks *x, int rounded)
+{
+    const gvi_real b = st->x.hb[st->r - 1], a = st->x.drift[st->r], *z = NULL, *m = x->m;
+    const gvi__from *from = x->from;
+    gvi_real *GVI__RESTRICT dp = x->dp, *GVI__RESTRICT F = x->F;
+    if (rounded) {
+        return m ? gvi__last_rounded(n, b, a, m, from, F, x->Q, dp, x->dq)
+                 : gvi__last_rounded(n, b, a, NULL, from, F, x->Q, dp, x->dq);
+    }
+    for (int i = 0; i < n; ++i) dp[i] += b*F[i];
+    if (!gvi__nonzero(a)) return 1;
+    if (x->dense) {
+        gvi__over_constant_mass(st, dp, st->x.change);
+        z = st->x.change;
+    }
+    if (z || m || GVI__SMALL) gvi__last_drift_of(n, a, m, z, from->v, from->q, dp, x->dq, x->Q);
+    else gvi__last_drift_of(n, a, NULL, NULL, from->v, from->q, dp, x->dq, x->Q);
+    return 1;
 }
 
 static inline gvi_status gvi__kick_force(gvi_stepper *st, gvi_points *y, int only)
@@ -3518,39 +3560,41 @@ static inline gvi_status gvi__explicit_of(gvi_stepper *st, const gvi__from *from
 {
     struct gvi__private *x = &st->x;
     const int r = st->r, only = !GVI__SMALL && x->single >= 0 && !x->diagnose;
-    const int dense = gvi__mass_is(st, GVI_MASS_DENSE);
-    const size_t row = (size_t)r + 1;
-    const gvi_real zero = h - h, *hb = x->hb, *c = x->c, *v = from->v, *q = from->q;
-    const gvi_real *m = x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
-    const gvi_real *known = gvi__nonzero(hb[0]) ? force : NULL;
-    gvi_real *F = x->work.F, *Q = x->work.Q, *dq = x->dq, t = from->t;
+    const int rounded = gvi__is_rounded(st) ? GVI__ROUNDED : 0;
+    gvi_real t = from->t;
+    gvi__kicks k;
+    k.from = from;
+    k.drift = x->drift;
+    k.row = (size_t)r + 1;
+    k.m = x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->over : NULL;
+    k.dense = gvi__mass_is(st, GVI_MASS_DENSE);
+    k.known = gvi__nonzero(x->hb[0]) ? force : NULL;
+    k.zero = h - h;
+    k.F = x->work.F;
+    k.Q = x->work.Q;
+    k.dp = x->dp;
+    k.dq = x->dq;
     gvi_points y;
-    gvi__at(&y, st, &t, Q);
-    y.f = F;
+    gvi__at(&y, st, &t, k.Q);
+    y.f = k.F;
     y.dldv = NULL;
-    int where = GVI__START | (known ? GVI__KNOWN : 0);
-    for (int j = known != NULL;; ++j) {
+    int todo = rounded | GVI__START | (k.known ? GVI__KNOWN : 0);
+    for (int j = k.known != NULL; j < r; ++j, todo = rounded) {
         const int last = j == r - 1;
-        if (dense && !where) gvi__over_constant_mass(st, F, x->change);
-        const gvi_real *z = dense ? x->change : NULL;
-        if (where || last || GVI__SMALL) gvi__drift_end(st, n, j, where, m, from, zero, known, F, Q);
-        else gvi__drift_on(n, gvi__drifting_of(x->drift + j, row), m, z, v, q, F, dq, Q);
-        where = 0;
-        t = from->t + (from->te + c[j]*h);
-        const gvi_status status = last || gvi__nonzero(hb[j]) ? gvi__kick_force(st, &y, only) : GVI_OK;
+        gvi__drift(st, n, last ? todo | GVI__BEFORE_LAST : todo, &k, j);
+        t = from->t + (from->te + x->c[j]*h);
+        const gvi_status status = last || gvi__nonzero(x->hb[j]) ? gvi__kick_force(st, &y, only) : GVI_OK;
         if (status != GVI_OK) return status;
-        if (last) break;
     }
-    gvi__last_kick(st, n, m, from, F, Q);
-    return GVI_OK;
+    return gvi__last_kick(st, n, &k, rounded) ? GVI_OK : gvi__give(st, GVI_E_NON_FINITE);
 }
 
 GVI__APART gvi_status gvi__explicit_lines(gvi_stepper *st, const gvi__from *from, gvi_real h,
                                           const gvi_real *force)
 {
-    const int n = st->n, whole = n >= 8 && !gvi__mass_is(st, GVI_MASS_DENSE);      // what is behind n is 0
+    const int n = st->n, whole = !gvi__mass_is(st, GVI_MASS_DENSE);                // what is behind n is 0
     return n == 2 && !GVI__SMALL ? gvi__explicit_of(st, from, h, force, 2)
-                                 : gvi__explicit_of(st, from, h, force, whole ? (n + 7)/8*8 : n);
+                                 : gvi__explicit_of(st, from, h, force, whole ? gvi__all_of(st) : n);
 }
 
 /* ---- fixed point ---- */
@@ -6153,7 +6197,12 @@ static gvi_status gvi__make_shears(gvi_stepper *st, int j)
             && !gvi__nonzero(sign - by[2*row - 1])) {                    // as the one before
             by[3*row] = by[3*row - 1];
             by[4*row] = by[4*row - 1];
-        } else gvi__two_factors(gvi__shears_push(b, along, back, sign), by + 3*row, by + 4*row);
+            continue;
+        }
+        const gvi__two push = gvi__shears_push(b, along, back, sign);
+        by[3*row] = push.hi;
+        by[4*row] = 1;
+        if (!gvi__rounds(st)) gvi__two_factors(push, by + 3*row, by + 4*row);
     }
     return GVI_OK;
 }
@@ -6307,14 +6356,15 @@ static int gvi__finite_end(const gvi_stepper *st, const gvi__from *from)
     const struct gvi__private *x = &st->x;
     const gvi_real *q = from->q, *p = from->p, *dq = x->dq, *dp = x->dp;
     gvi_real none = 0;
-    int i = 0;
+    int i = 0, n = st->n;
 #ifdef GVI__VECTORS
     gvi__vector nones = { 0 };
-    for (; i + GVI__LANES <= st->n; i += GVI__LANES)
+    n = gvi__all_of(st);
+    for (; i + GVI__LANES <= n; i += GVI__LANES)
         nones += 0*(GVI__AT(q + i) + GVI__AT(dq + i)) + 0*(GVI__AT(p + i) + GVI__AT(dp + i));
     for (int k = 0; i > 0 && k < GVI__LANES; ++k) none += nones[k];
 #endif
-    for (; i < st->n; ++i) {
+    for (; i < n; ++i) {
         const gvi__stored a = q[i] + dq[i], b = p[i] + dp[i];   // as it will be kept, not in wide registers
         none += 0*a + 0*b;
     }
@@ -6367,8 +6417,8 @@ static void gvi__rotate_rows(gvi_stepper *st)
     if (GVI__LAGRANGIAN) gvi__rotate(&x->older_A, &x->last.A, &x->work.A);
 }
 
-// was := x, x + rest := x + dx + dxe; dxe may be NULL, for 0
-static inline void gvi__move_of(int n, const gvi_real *GVI__RESTRICT dx, const gvi_real *GVI__RESTRICT dxe,
+// was := x, x + rest := x + dx + dxe; dxe may be NULL, for 0; the rest is kept or not
+static inline void gvi__move_of(int n, int keeps, const gvi_real *GVI__RESTRICT dx, const gvi_real *GVI__RESTRICT dxe,
                                 gvi_real *GVI__RESTRICT x, gvi_real *GVI__RESTRICT rest,
                                 gvi_real *GVI__RESTRICT was)
 {
@@ -6377,16 +6427,20 @@ static inline void gvi__move_of(int n, const gvi_real *GVI__RESTRICT dx, const g
         if (dxe) sum = gvi__sum(sum.hi, sum.lo + dxe[i]);
         was[i] = x[i];
         x[i] = sum.hi;
-        rest[i] = sum.lo;
+        if (keeps) rest[i] = sum.lo;
     }
 }
 
 static void gvi__move(int n, const gvi_real *dx, const gvi_real *dxe, gvi_real *x, gvi_real *rest,
                       gvi_real *was)
 {
-    if (n == 2 && dxe && !GVI__SMALL) gvi__move_of(2, dx, dxe, x, rest, was);
-    else if (n == 2 && !GVI__SMALL) gvi__move_of(2, dx, NULL, x, rest, was);
-    else gvi__move_of(n, dx, dxe, x, rest, was);
+    const int two = n == 2 && !GVI__SMALL;
+    if (two && dxe) gvi__move_of(2, 1, dx, dxe, x, rest, was);
+    else if (dxe || GVI__SMALL) gvi__move_of(n, 1, dx, dxe, x, rest, was);
+    else if (two && rest) gvi__move_of(2, 1, dx, NULL, x, rest, was);
+    else if (two) gvi__move_of(2, 0, dx, NULL, x, NULL, was);
+    else if (rest) gvi__move_of(n, 1, dx, NULL, x, rest, was);
+    else gvi__move_of(n, 0, dx, NULL, x, NULL, was);
 }
 
 // the step is done: state and compensation move on, rows become those of the last step
@@ -6394,8 +6448,9 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
 {
     struct gvi__private *x = &st->x;
     const int explicit_one = gvi__uses(st, GVI_EXPLICIT);    // its increments have no rest
-    gvi__move(st->n, x->dq, explicit_one ? NULL : x->dqe, x->q, x->qe, x->q0);
-    gvi__move(st->n, x->dp, explicit_one ? NULL : x->dpe, x->p, x->pe, x->p0);
+    const int n = gvi__all_of(st), rounded = explicit_one && gvi__is_rounded(st);
+    gvi__move(n, x->dq, explicit_one ? NULL : x->dqe, x->q, rounded ? NULL : x->qe, x->q0);
+    gvi__move(n, x->dp, explicit_one ? NULL : x->dpe, x->p, rounded ? NULL : x->pe, x->p0);
     if (GVI__KIND > 1) x->alike = x->stepped && !gvi__nonzero(h - st->h) ? 2 : 1;
     if (GVI__LEARNS && x->alike < 2)
         x->learned.rounds = x->learned.steps = x->learned.stage = x->learned.lengthy = 0;
@@ -6425,8 +6480,10 @@ static gvi_status gvi__solve_explicit(gvi_stepper *st, gvi__from *from, gvi_real
 {
     gvi__begin(st, from, h);
     gvi_status status = gvi__explicit(st, from, h, gvi__known_force(st, GVI__STEP));
-    if (status != GVI_OK || gvi__finite_end(st, from)) return status;
-    return GVI__DIAGNOSIS ? gvi__solve(st, from, h, GVI__STEP, 1) : gvi__give(st, GVI_E_NON_FINITE);
+    if (status == GVI_OK && !gvi__is_rounded(st) && !gvi__finite_end(st, from))
+        status = gvi__give(st, GVI_E_NON_FINITE);
+    const int unexplained = status == GVI_E_NON_FINITE && st->fault.effect == GVI_FAULT_NONE;
+    return GVI__DIAGNOSIS && unexplained ? gvi__solve(st, from, h, GVI__STEP, 1) : status;
 }
 
 GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
@@ -7194,6 +7251,9 @@ GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const 
     st->x.turns = saved->x.turns;
     st->q = st->x.q;
     st->p = st->x.p;
+    if (gvi__rounds(st) == gvi__rounds(saved)) return gvi__done(st, GVI_OK);
+    st->x.h_weights = 0;                          // their tables are not the same
+    if (GVI__STIFF && st->x.springs) st->x.springs[0] = 0;
     return gvi__done(st, GVI_OK);
 }
 

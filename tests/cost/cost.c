@@ -172,14 +172,15 @@ static gvi_setting *add_setting(int degree, gvi_rule_kind rule, gvi_formulation 
     return settings + setting_count++;
 }
 
-/* The baselines' splittings as tables of kicks; stiff: what the scene says of its springs is said. */
-static void add_kicks(int stiff)
+/* The baselines' splittings as tables of kicks, exact or rounded at each, whatever the tolerance;
+   stiff: what the scene says of its springs is said.                                          */
+static void add_kicks(int stiff, double tolerance)
 {
     static const char *const names[] = { "Stoermer-Verlet", "Kahan-Li 8", "Sofroniou-Spaletta 10",
                                          "Blanes-Moan SRKN11", "Blanes-Moan SRKN14", "Splitting 8" };
     static double nodes[COUNT(names)][TABLE], weights[COUNT(names)][TABLE];
     for (int i = 0; i < COUNT(names); ++i) {
-        gvi_setting *s = add_setting(1, GVI_KICKS, GVI_EXPLICIT, 0);
+        gvi_setting *s = add_setting(1, GVI_KICKS, GVI_EXPLICIT, tolerance);
         s->name = names[i];
         s->stiff = stiff;
         s->points = baseline_kicks(baseline_named(names[i]), nodes[i], weights[i]);
@@ -206,7 +207,8 @@ static void add_stiff(void)
     for (int i = 0; i < COUNT(degrees); ++i)
         for (int k = 0; k < COUNT(tolerances); ++k)
             add_setting(degrees[i], GVI_GAUSS, GVI_POSITIONS, tolerances[k])->stiff = 1;
-    add_kicks(1);
+    add_kicks(1, 0);
+    add_kicks(1, 1e-12);
 }
 
 /* Kepler's ellipses with a clock.                                                             */
@@ -236,7 +238,7 @@ static void settings_for(const problem *p)
         for (int k = 0; k < COUNT(tolerances); ++k) add_setting(degrees[i], GVI_GAUSS, pinned, tolerances[k]);
     add_setting(8, GVI_GAUSS, GVI_AUTO, 0);
     add_setting(12, GVI_GAUSS, GVI_AUTO, 0);
-    if (!p->slope) add_kicks(0);
+    if (!p->slope) { add_kicks(0, 0); add_kicks(0, 1e-12); }
     if (p->clocks[0]) add_clocks(p);
     if (p->marked) add_marked(p);
     if (p->stiffness) add_stiff();

@@ -24,7 +24,8 @@ void gvi_setting_name(const gvi_setting *g, int size, char *name)
 {
     static const char *const pinned[] = { "", "explicit", "positions", "velocities", "momenta", "Newton" };
     if (g->rule == GVI_KICKS) {
-        snprintf(name, (size_t)size, "kicks %s%s", g->name, g->stiff ? ", stiffness" : "");
+        snprintf(name, (size_t)size, "kicks %s%s%s", g->name, g->stiff ? ", stiffness" : "",
+                 g->tolerance > 0 ? ", rounded" : "");
         return;
     }
     const char *rule = g->rule == GVI_LOBATTO ? " Lobatto" : "", *how = pinned[g->formulation];
