@@ -357,13 +357,13 @@ static int enter_all(study *y, double error, int count, entrant *e)
     return count;
 }
 
-/* Each gets a turn of a millisecond or two runs, twenty times round; the least of all counts. */
+/* Each gets a turn of a millisecond or two runs, sixty times round; the least of all counts.  */
 static void time_in_turn(study *y, const options *o)
 {
     static entrant e[ENTRANTS];
     int count = 0;
     for (int k = 0; k < ERRORS; ++k) count = enter_all(y, wanted[k], count, e);
-    for (int round = 0; round < (o->quick ? 10 : 20); ++round)
+    for (int round = 0; round < (o->quick ? 10 : 60); ++round)
         for (int i = 0; i < count; ++i) {
             double total = 0;
             for (int k = 0; k < 2 || (total < 1 && k < 40); ++k) {
