@@ -63,7 +63,7 @@ DETAIL       =
 
 .DEFAULT_GOAL = help
 .DELETE_ON_ERROR:
-.PHONY: run deps test unit examples headers symbols parts docs-check sanitize valgrind \
+.PHONY: always run deps test unit examples headers symbols parts docs-check sanitize valgrind \
         figures synopsis install uninstall help clean cmocka \
         firmware size deps-firmware cost-embedded bound everywhere deps-everywhere own-quadrature float \
         cost cost-horizon ncdp scaling newton kicks cost-peers deps-compare instructions prices advise hard fuzz $(HARD:%=hard-%) scenes $(SCENES:%=scene-%) theorems $(THEOREMS:%=theorem-%) \
@@ -250,7 +250,13 @@ help:
 cmocka:
 	$(Q)CC='$(CC)' sh tests/tools/deps.sh --check
 
-$(BUILD)/tests/gvi-%.o: tests/compile/implementation.c
+# A test is never linked with an object that other flags have made.
+$(BUILD)/tests/flags: always
+	@mkdir -p $(@D)
+	@echo '$(subst ','"'"',$(CC) $(FLAGS) $(CFLAGS))' | cmp -s - $@ || \
+	    echo '$(subst ','"'"',$(CC) $(FLAGS) $(CFLAGS))' >$@
+
+$(BUILD)/tests/gvi-%.o: tests/compile/implementation.c $(BUILD)/tests/flags
 	@mkdir -p $(@D)
 	@echo '  cc $@'
 	$(Q)$(COMPILE) '-DGVI_REAL=$(if $(filter long,$*),long double,$*)' -c $< -o $@
@@ -261,22 +267,22 @@ $(patsubst %,$(BUILD)/tests/%-float,$(filter $(TYPED),$(SHARING))): $(BUILD)/tes
 $(patsubst %,$(BUILD)/tests/%-long,$(filter $(TYPED),$(SHARING))): $(BUILD)/tests/gvi-long.o
 LINKED = $(if $(filter %.o,$^),-DGVI_IMPLEMENTED) $< $(filter %.o,$^)
 
-$(BUILD)/tests/%: tests/%.c | cmocka
+$(BUILD)/tests/%: tests/%.c $(BUILD)/tests/flags | cmocka
 	@mkdir -p $(@D)
 	@echo '  cc $@'
 	$(Q)$(COMPILE) $(TESTFLAGS) $(CMOCKA_CFLAGS) $(LINKED) -o $@ $(CMOCKA_LIBS) $(LDLIBS)
 
-$(BUILD)/tests/%-float: tests/%.c | cmocka
+$(BUILD)/tests/%-float: tests/%.c $(BUILD)/tests/flags | cmocka
 	@mkdir -p $(@D)
 	@echo '  cc $@'
 	$(Q)$(COMPILE) -DGVI_REAL=float $(TESTFLAGS) $(CMOCKA_CFLAGS) $(LINKED) -o $@ $(CMOCKA_LIBS) $(LDLIBS)
 
-$(BUILD)/tests/%-long: tests/%.c | cmocka
+$(BUILD)/tests/%-long: tests/%.c $(BUILD)/tests/flags | cmocka
 	@mkdir -p $(@D)
 	@echo '  cc $@'
 	$(Q)$(COMPILE) '-DGVI_REAL=long double' $(TESTFLAGS) $(CMOCKA_CFLAGS) $(LINKED) -o $@ $(CMOCKA_LIBS) $(LDLIBS)
 
-$(BUILD)/tests/%-small: tests/%.c | cmocka
+$(BUILD)/tests/%-small: tests/%.c $(BUILD)/tests/flags | cmocka
 	@mkdir -p $(@D)
 	@echo '  cc $@'
 	$(Q)$(COMPILE) -Os $(TESTFLAGS) $(CMOCKA_CFLAGS) $< -o $@ $(CMOCKA_LIBS) $(LDLIBS)

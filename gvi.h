@@ -499,10 +499,10 @@ typedef struct gvi_desc {
                                           below tolerance*|q|: the step then is
                                           symplectic to that, and takes K r R
                                           numbers more.  0: at round-off.
-                                          Explicit (unit and diagonal mass, not
-                                          where code is small): any but 0 rounds
-                                          q and p at each kick; areas may drift
-                                          by eps r/2 a step                     */
+                                          Explicit (not small code, full mass or
+                                          stiffness): any but 0 rounds q and p at
+                                          each kick; areas may drift by eps r/2 a
+                                          step, and p/(h b_j) must not overflow */
     int               max_iterations;  /* to 1,000,000.  0: 60                 */
     int               iterations;      /* N: exactly N of the fixed point in every step, for
                                           a loop with a deadline, and no Newton.  A step whose
@@ -699,9 +699,10 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
 /* Restart from a checkpoint, a copy of a stepper and of its memory, in a
    stepper that was set up by gvi_init for the same description, in this
    process or another.  What follows is the same to the bit.  GVI_E_ARGUMENT if
-   sizes, kinds of effects, mass or formulation differ, or only one has a
-   tolerance.  A rule of as many points and stiffness are not compared: those
-   saved are used, and callbacks, tolerance and limits are those of st.       */
+   sizes, kinds of effects, mass or formulation differ, or where it iterates
+   only one has a tolerance.  A rule of as many points and stiffness are not
+   compared: those saved are used, and callbacks, tolerance and limits are those
+   of st.                                                                     */
 GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const gvi_real *memory);
 
 /* A sentence for a status; why st uses the formulation that it uses.         */
@@ -3517,9 +3518,10 @@ GVI__COPY int gvi__last_rounded(int n, gvi_real b, gvi_real a, const gvi_real *m
     int none = 0;
     for (int i = 0; i < n; ++i) {
         const gvi_real to_p = dp[i] + b*F[i], to_q = Q[i] + a*(m ? m[i]*to_p : to_p);
-        dp[i] = to_p - p[i];
-        dq[i] = to_q - q[i];
-        none |= !(0*to_p + 0*to_q >= 0);          // 0 x is 0 or NaN
+        const gvi__stored by_p = to_p - p[i], by_q = to_q - q[i];         // not in wide registers
+        dp[i] = by_p;
+        dq[i] = by_q;
+        none |= !(0*by_p + 0*by_q >= 0);          // 0 x is 0 or NaN
     }
     return !none;
 }
@@ -5490,7 +5492,9 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
 
         // rows that go to and fro in their last places end with their own F, not that of
         // the side that they came from, which would be a bias
-        const int last = GVI__TOLERANCE && verdict == GVI__ASK_ONCE_MORE, anew = weak.anew || last;
+        int last = 0;
+        if (GVI__TOLERANCE && verdict == GVI__ASK_ONCE_MORE) last = 1;
+        const int anew = weak.anew || last;
         *used += !last;
         if (GVI__TOLERANCE && gvi__A(&x->work) && p.idle + p.poor > 0)
             gvi__gather(st->n, x->stride, x->work.A + st->r - 1, x->change + st->n);
@@ -6383,7 +6387,8 @@ static gvi_status gvi__solve(gvi_stepper *st, gvi__from *from, gvi_real h, int q
         gvi_status status = gvi__attempt(st, from, h, query);
         if (look) {
             x->diagnose = 0;
-            return status != GVI_OK ? status : gvi__give(st, GVI_E_CONVERGENCE);
+            const int explained = GVI__SMALL || status != GVI_E_NON_FINITE || st->fault.effect != GVI_FAULT_NONE;
+            return status != GVI_OK && explained ? status : gvi__give(st, GVI_E_CONVERGENCE);
         }
         if (status == GVI_OK && !gvi__finite_end(st, from)) status = gvi__give(st, GVI_E_NON_FINITE);
         const int unexplained = status == GVI_E_NON_FINITE && st->fault.effect == GVI_FAULT_NONE;
@@ -7251,6 +7256,10 @@ GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const 
     st->x.turns = saved->x.turns;
     st->q = st->x.q;
     st->p = st->x.p;
+    if (gvi__uses(st, GVI_EXPLICIT) && gvi__is_rounded(st)) {            // it carries no rests
+        gvi__zero((size_t)st->n, st->x.qe);
+        gvi__zero((size_t)st->n, st->x.pe);
+    }
     if (gvi__rounds(st) == gvi__rounds(saved)) return gvi__done(st, GVI_OK);
     st->x.h_weights = 0;                          // their tables are not the same
     if (GVI__STIFF && st->x.springs) st->x.springs[0] = 0;
