@@ -3478,12 +3478,12 @@ GVI__COPY void gvi__drift_as(int n, int todo, const gvi__kicks *x, int j)
 // each kind of drift is a loop of its own
 GVI__COPY void gvi__drift_when(int n, int rounded, int todo, const gvi__kicks *x, int j)
 {
-    enum { BOTH = GVI__START | GVI__KNOWN };
+    const int both = GVI__START | GVI__KNOWN;
     if (todo == 0) gvi__drift_as(n, rounded, x, j);
     else if (todo == GVI__START) gvi__drift_as(n, rounded | GVI__START, x, j);
-    else if (todo == BOTH) gvi__drift_as(n, rounded | BOTH, x, j);
+    else if (todo == both) gvi__drift_as(n, rounded | both, x, j);
     else if (todo == GVI__BEFORE_LAST) gvi__drift_as(n, rounded | GVI__BEFORE_LAST, x, j);
-    else if (todo == (BOTH | GVI__BEFORE_LAST)) gvi__drift_as(n, rounded | BOTH | GVI__BEFORE_LAST, x, j);
+    else if (todo == (both | GVI__BEFORE_LAST)) gvi__drift_as(n, rounded | both | GVI__BEFORE_LAST, x, j);
     else gvi__drift_as(n, rounded | todo, x, j);
 }
 
