@@ -2704,9 +2704,13 @@ GVI__APART void gvi__drifts(gvi_stepper *st, gvi_real h)
         weight[j] = w.hi;
         ratio[j] = factor[j] = 1;
         if (j == 0 || j > r - 2 || !gvi__nonzero(hb[j])) continue;
-        if (gvi__is_rounded(st)) ratio[j] = w.hi/hb[j];
-        else gvi__two_factors(gvi__div2(w, gvi__real2(hb[j])), ratio + j, factor + j);
-        w = gvi__is_rounded(st) ? gvi__real2(hb[j]) : gvi__div2(w, gvi__product(ratio[j], factor[j]));
+        if (gvi__is_rounded(st)) {
+            ratio[j] = w.hi/hb[j];
+            w.hi = hb[j];
+            continue;
+        }
+        gvi__two_factors(gvi__div2(w, gvi__real2(hb[j])), ratio + j, factor + j);
+        w = gvi__div2(w, gvi__product(ratio[j], factor[j]));
     }
 }
 
@@ -3461,9 +3465,9 @@ GVI__COPY void gvi__drift_of(int n, int todo, gvi__drifting by, gvi_real zero, c
 static const gvi_real *gvi__over_dense(gvi_stepper *st, const gvi__kicks *x, int j, int start)
 {
     gvi_real *z = st->x.change, *f = z + st->n;
-    const gvi_real over = 1/gvi__drifting_of(x->drift + j, x->row).weight;
-    for (int i = 0; i < st->n; ++i) f[i] = !start ? x->F[i] : over*x->from->pe[i] + (x->known ? x->known[i] : 0);
-    gvi__over_constant_mass(st, f, z);
+    const gvi_real over = start ? 1/gvi__drifting_of(x->drift + j, x->row).weight : 0;
+    for (int i = 0; start && i < st->n; ++i) f[i] = over*x->from->pe[i] + (x->known ? x->known[i] : 0);
+    gvi__over_constant_mass(st, start ? f : x->F, z);
     return z;
 }
 
@@ -3511,8 +3515,8 @@ GVI__COPY void gvi__last_drift_of(int n, gvi_real a, const gvi_real *m, const gv
 
 // rounded: what p and q have become, as increments; and are they finite?
 GVI__COPY int gvi__last_rounded(int n, gvi_real b, gvi_real a, const gvi_real *m, const gvi__from *from,
-                                 const gvi_real *GVI__RESTRICT F, const gvi_real *GVI__RESTRICT Q,
-                                 gvi_real *GVI__RESTRICT dp, gvi_real *GVI__RESTRICT dq)
+                                const gvi_real *GVI__RESTRICT F, const gvi_real *GVI__RESTRICT Q,
+                                gvi_real *GVI__RESTRICT dp, gvi_real *GVI__RESTRICT dq)
 {
     const gvi_real *GVI__RESTRICT q = from->q, *GVI__RESTRICT p = from->p;
     int none = 0;
