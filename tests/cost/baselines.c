@@ -23,12 +23,22 @@
 
 /* ------------------------------------------------------- vectors of n */
 
-/* op(type) for at = 0, 8, ..., then 4, then 2 of what is left: n is even and constant.         */
+/* Vectors no wider than a register: gcc passes the parts of a wider one through memory.       */
+#if defined(__AVX512F__)
+typedef lane8 widest;
+#elif defined(__AVX__)
+typedef lane4 widest;
+#else
+typedef lane2 widest;
+#endif
+enum { WIDTH = sizeof(widest)/sizeof(double) };
+
+/* op(type) for at = 0, WIDTH, ..., then 4, then 2 of what is left: n is even and constant.     */
 #define LANES(n, op) do {                                     \
     int at = 0;                                               \
-    for (; at + 8 <= (n); at += 8) { op(lane8); }             \
-    if ((n) & 4) { op(lane4); at += 4; }                      \
-    if ((n) & 2) { op(lane2); }                               \
+    for (; at + WIDTH <= (n); at += WIDTH) { op(widest); }    \
+    if (WIDTH > 4 && (n) & 4) { op(lane4); at += 4; }         \
+    if (WIDTH > 2 && (n) & 2) { op(lane2); }                  \
 } while (0)
 #define AT(type, x)  (*(type *)((x) + at))
 #define OF(type, x)  (*(const type *)((x) + at))
@@ -85,16 +95,16 @@ INLINE void sum(const int n, const double *a, int lo, int hi, const double *k, d
 INLINE double square(const int n, const double *x)
 {
     double total = 0;
-    lane8 s8 = { 0 };
+    widest all = { 0 };
     lane4 s4 = { 0 };
     lane2 s2 = { 0 };
     int at = 0;
-    for (; at + 8 <= n; at += 8) s8 += OF(lane8, x)*OF(lane8, x);
-    if (n & 4) s4 += OF(lane4, x)*OF(lane4, x), at += 4;
-    if (n & 2) s2 += OF(lane2, x)*OF(lane2, x);
-    if (n >= 8) for (int i = 0; i < 8; ++i) total += s8[i];
-    if (n & 4) total += (s4[0] + s4[1]) + (s4[2] + s4[3]);
-    if (n & 2) total += s2[0] + s2[1];
+    for (; at + WIDTH <= n; at += WIDTH) all += OF(widest, x)*OF(widest, x);
+    if (WIDTH > 4 && n & 4) s4 += OF(lane4, x)*OF(lane4, x), at += 4;
+    if (WIDTH > 2 && n & 2) s2 += OF(lane2, x)*OF(lane2, x);
+    if (n >= WIDTH) for (int i = 0; i < WIDTH; ++i) total += all[i];
+    if (WIDTH > 4 && n & 4) total += (s4[0] + s4[1]) + (s4[2] + s4[3]);
+    if (WIDTH > 2 && n & 2) total += s2[0] + s2[1];
     return total;
 }
 

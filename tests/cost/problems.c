@@ -453,13 +453,13 @@ static long double fpu_energy(const double *q, const double *v)
 
 INLINE double cube(double x) { return x*x*x; }
 
+/* Written as an integrator reads it: narrower parts would make its wide loads wait.            */
 INLINE void fpu_acceleration(const double *q, double *a)
 {
     double s0 = cube(q[0] - q[3]), s1 = cube(q[1] - q[4] - (q[0] + q[3]));
     double s2 = cube(q[2] - q[5] - (q[1] + q[4])), s3 = cube(q[2] + q[5]);
-    double f[6] = { s1 - s0, s2 - s1, -s2 - s3,
-                    s0 + s1 - STIFF*q[3], s1 + s2 - STIFF*q[4], s2 - s3 - STIFF*q[5] };
-    for (int i = 0; i < 6; ++i) a[i] = f[i];
+    *(lane4 *)a = (lane4){ s1 - s0, s2 - s1, -s2 - s3, s0 + s1 - STIFF*q[3] };
+    *(lane2 *)(a + 4) = (lane2){ s1 + s2 - STIFF*q[4], s2 - s3 - STIFF*q[5] };
 }
 
 INLINE int fpu_points(const gvi_points *p, int count, int stride)
