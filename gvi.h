@@ -1953,14 +1953,21 @@ static unsigned gvi__without_hessian(const gvi_stepper *st)
 #if defined(__GNUC__) && GVI__KIND < 3 && defined(GVI__EXACT_TYPES) \
     && (defined(__SSE2__) || defined(__ARM_NEON) || defined(__ALTIVEC__) || defined(__riscv_vector))
 #define GVI__VECTORS
-#if defined(__AVX__) && !defined(__AVX512F__) && GVI__KIND == 2
-#define GVI__LANES 4                                  // of eight it would keep sums in memory: twice the time
-#else
+#if defined(__AVX512F__) || (defined(__AVX__) && GVI__KIND == 1)
 #define GVI__LANES 8
+#elif defined(__AVX__) || GVI__KIND == 1
+#define GVI__LANES 4                                  // wider than a register: the compiler would keep sums in memory
+#else
+#define GVI__LANES 2
 #endif
 typedef gvi_real gvi__vector
     __attribute__((vector_size(GVI__LANES*sizeof(gvi_real)), aligned(sizeof(gvi_real)), may_alias));
 #define GVI__AT(p) (*(const gvi__vector *)(p))
+#if !defined(__clang__) && __GNUC__ >= 8
+#define GVI__EACH _Pragma("GCC unroll 8")             // with -O2, too: else they are kept in memory
+#else
+#define GVI__EACH
+#endif
 #endif
 
 /* L D L' of a symmetric matrix at each of `count` points, in place: entry (i,j), i >= j,
@@ -3800,7 +3807,7 @@ GVI__COPY gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stage *y
                 const int last = r - 1 - o;
                 gvi_real *row = y->rows + i*R + o;
                 gvi__vector next[VECTORS];
-                for (int k = 0; k < VECTORS; ++k) {
+                GVI__EACH for (int k = 0; k < VECTORS; ++k) {
                     const int at = o + k*GVI__LANES;
                     gvi__vector z, less;
                     gvi__sum_vector(r, R, y->table + at, f, &z);
@@ -3814,14 +3821,14 @@ GVI__COPY gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stage *y
                 }
                 if (last < 8)
                     gvi__rescale(p.base, row[last], next[last/GVI__LANES][last % GVI__LANES], y->scale + i);
-                for (int k = 0; k < VECTORS; ++k) {
+                GVI__EACH for (int k = 0; k < VECTORS; ++k) {
                     const gvi__vector moved = (next[k] - GVI__AT(row + k*GVI__LANES))*y->scale[i];
                     squares[k] += moved*moved;
                     *(gvi__vector *)(row + k*GVI__LANES) = next[k];
                 }
             }
         }
-        for (int k = 0; k < VECTORS; ++k) *(gvi__vector *)(lane + k*GVI__LANES) = squares[k];
+        GVI__EACH for (int k = 0; k < VECTORS; ++k) *(gvi__vector *)(lane + k*GVI__LANES) = squares[k];
         return gvi__sum_lanes(lane);
     }
 #endif
@@ -3881,7 +3888,7 @@ GVI__COPY gvi_real gvi__stage_rows_8(const gvi_stepper *st, const gvi__stage *y,
     gvi_real *row = y->rows, *scale = y->scale, lane[8], ahead[64];
     gvi__vector kept[8], c[VECTORS], hb[VECTORS], squares[VECTORS] = { { 0 } };
     const gvi_real *table = gvi__keep(r, y->table, kept);
-    for (int k = 0; k < VECTORS; ++k) {
+    GVI__EACH for (int k = 0; k < VECTORS; ++k) {
         c[k] = GVI__AT(x->c + k*GVI__LANES);
         hb[k] = GVI__AT(x->hb + k*GVI__LANES);
     }
@@ -3892,19 +3899,19 @@ GVI__COPY gvi_real gvi__stage_rows_8(const gvi_stepper *st, const gvi__stage *y,
         const gvi_real *L = folded ? y->f + 8*i : ahead + i % 8*8;
         const gvi_real a = path ? path[i] : 0, rest = path ? y->rest[i] : 0;
         gvi__vector next[VECTORS];
-        for (int k = 0; k < VECTORS; ++k) {
+        GVI__EACH for (int k = 0; k < VECTORS; ++k) {
             gvi__sum_vector(r, 8, table + k*GVI__LANES, L, next + k);
             if (diagonal) next[k] *= diagonal[i];
             next[k] = base[i] + (((extra[i] + c[k]*rest) + c[k]*a) + next[k]*factor);
         }
         gvi__rescale(base[i], row[r - 1], next[(r - 1)/GVI__LANES][(r - 1) % GVI__LANES], scale + i);
-        for (int k = 0; k < VECTORS; ++k) {
+        GVI__EACH for (int k = 0; k < VECTORS; ++k) {
             const gvi__vector moved = (next[k] - GVI__AT(row + k*GVI__LANES))*scale[i];
             squares[k] += moved*moved;
             *(gvi__vector *)(row + k*GVI__LANES) = next[k];
         }
     }
-    for (int k = 0; k < VECTORS; ++k) *(gvi__vector *)(lane + k*GVI__LANES) = squares[k];
+    GVI__EACH for (int k = 0; k < VECTORS; ++k) *(gvi__vector *)(lane + k*GVI__LANES) = squares[k];
     return gvi__sum_lanes(lane);
 }
 #endif
@@ -4205,7 +4212,7 @@ GVI__COPY void gvi__remainders_ahead(const gvi_stepper *st, const gvi__stage *y,
     gvi_real *F = st->x.work.F + i*R;
     const gvi_real *Q = y->rows + i*R;
     for (; i < end; ++i, F += R, Q += R, ahead += R)
-        for (int v = 0; v < vectors; ++v) {
+        GVI__EACH for (int v = 0; v < vectors; ++v) {
             gvi__vector f = GVI__AT(F + v*GVI__LANES);
             if (!velocities && gvi__nonzero(stiffness[i])) {
                 f += stiffness[i]*GVI__AT(Q + v*GVI__LANES);
@@ -4228,7 +4235,7 @@ GVI__COPY gvi_real gvi__arc_rows_vector(const gvi_stepper *st, const gvi__stage 
     gvi_real *row = y->rows, *scale = y->scale, lane[8], ahead[64];
     gvi__vector kept[8], c[MOST], hb[MOST], squares[EIGHT] = { { 0 } };
     const gvi_real *table = R == 8 ? gvi__keep(r, y->table, kept) : y->table;
-    for (int v = 0; v < vectors; ++v) {
+    GVI__EACH for (int v = 0; v < vectors; ++v) {
         c[v] = GVI__AT(x->c + v*GVI__LANES);
         hb[v] = GVI__AT(x->hb + v*GVI__LANES);
     }
@@ -4240,25 +4247,25 @@ GVI__COPY gvi_real gvi__arc_rows_vector(const gvi_stepper *st, const gvi__stage 
         if (gvi__nonzero(stiffness[i])) {
             const gvi__arc arc = gvi__arc_of(st, (int)stiffness[n + i]);
             const gvi_real *K = velocities ? arc.E : arc.K;
-            for (int v = 0; v < vectors; ++v) {
+            GVI__EACH for (int v = 0; v < vectors; ++v) {
                 gvi__sum_vector(r, R, K + v*GVI__LANES, L, next + v);
                 if (diagonal) next[v] *= diagonal[i];
                 next[v] = GVI__AT(at + v*GVI__LANES) + next[v];
             }
         } else
-            for (int v = 0; v < vectors; ++v) {
+            GVI__EACH for (int v = 0; v < vectors; ++v) {
                 gvi__sum_vector(r, R, table + v*GVI__LANES, L, next + v);
                 if (diagonal) next[v] *= diagonal[i];
                 next[v] = base[i] + (((extra[i] + c[v]*rest) + c[v]*a) + next[v]*factor);
             }
         gvi__rescale(base[i], row[r - 1], next[(r - 1)/GVI__LANES][(r - 1) % GVI__LANES], scale + i);
-        for (int v = vectors; v-- > 0; ) {
+        GVI__EACH for (int v = vectors; v-- > 0; ) {
             const gvi__vector moved = (next[v] - GVI__AT(row + v*GVI__LANES))*scale[i];
             *(gvi__vector *)(row + v*GVI__LANES) = next[v];
             squares[v % EIGHT] += moved*moved;
         }
     }
-    for (int v = 0; v < EIGHT; ++v) *(gvi__vector *)(lane + v*GVI__LANES) = squares[v];
+    GVI__EACH for (int v = 0; v < EIGHT; ++v) *(gvi__vector *)(lane + v*GVI__LANES) = squares[v];
     return gvi__sum_lanes(lane);
 }
 #endif
