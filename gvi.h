@@ -6434,29 +6434,29 @@ static void gvi__rotate_rows(gvi_stepper *st)
 }
 
 // was := x, x + rest := x + dx + dxe; dxe may be NULL, for 0; the rest is kept or not
-static inline void gvi__move_of(int n, int keeps, const gvi_real *GVI__RESTRICT dx, const gvi_real *GVI__RESTRICT dxe,
-                                gvi_real *GVI__RESTRICT x, gvi_real *GVI__RESTRICT rest,
-                                gvi_real *GVI__RESTRICT was)
+static inline void gvi__move_of(int n, int keeps, gvi_real zero, const gvi_real *GVI__RESTRICT dx,
+                                const gvi_real *GVI__RESTRICT dxe, gvi_real *GVI__RESTRICT x,
+                                gvi_real *GVI__RESTRICT rest, gvi_real *GVI__RESTRICT was)
 {
     for (int i = 0; i < n; ++i) {
         gvi__two sum = gvi__sum(x[i], dx[i]);
         if (dxe) sum = gvi__sum(sum.hi, sum.lo + dxe[i]);
-        was[i] = x[i];
+        was[i] = x[i] - zero;                         // x, but no call of memmove, which takes longer
         x[i] = sum.hi;
         if (keeps) rest[i] = sum.lo;
     }
 }
 
-static void gvi__move(int n, const gvi_real *dx, const gvi_real *dxe, gvi_real *x, gvi_real *rest,
-                      gvi_real *was)
+static void gvi__move(int n, gvi_real zero, const gvi_real *dx, const gvi_real *dxe, gvi_real *x,
+                      gvi_real *rest, gvi_real *was)
 {
     const int two = n == 2 && !GVI__SMALL;
-    if (two && dxe) gvi__move_of(2, 1, dx, dxe, x, rest, was);
-    else if (dxe || GVI__SMALL) gvi__move_of(n, 1, dx, dxe, x, rest, was);
-    else if (two && rest) gvi__move_of(2, 1, dx, NULL, x, rest, was);
-    else if (two) gvi__move_of(2, 0, dx, NULL, x, NULL, was);
-    else if (rest) gvi__move_of(n, 1, dx, NULL, x, rest, was);
-    else gvi__move_of(n, 0, dx, NULL, x, NULL, was);
+    if (two && dxe) gvi__move_of(2, 1, zero, dx, dxe, x, rest, was);
+    else if (dxe || GVI__SMALL) gvi__move_of(n, 1, zero, dx, dxe, x, rest, was);
+    else if (two && rest) gvi__move_of(2, 1, zero, dx, NULL, x, rest, was);
+    else if (two) gvi__move_of(2, 0, zero, dx, NULL, x, NULL, was);
+    else if (rest) gvi__move_of(n, 1, zero, dx, NULL, x, rest, was);
+    else gvi__move_of(n, 0, zero, dx, NULL, x, NULL, was);
 }
 
 // the step is done: state and compensation move on, rows become those of the last step
@@ -6465,8 +6465,9 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     struct gvi__private *x = &st->x;
     const int explicit_one = gvi__uses(st, GVI_EXPLICIT);    // its increments have no rest
     const int n = gvi__all_of(st), rounded = explicit_one && gvi__is_rounded(st);
-    gvi__move(n, x->dq, explicit_one ? NULL : x->dqe, x->q, rounded ? NULL : x->qe, x->q0);
-    gvi__move(n, x->dp, explicit_one ? NULL : x->dpe, x->p, rounded ? NULL : x->pe, x->p0);
+    const gvi_real zero = GVI__SMALL ? 0 : h - h;
+    gvi__move(n, zero, x->dq, explicit_one ? NULL : x->dqe, x->q, rounded ? NULL : x->qe, x->q0);
+    gvi__move(n, zero, x->dp, explicit_one ? NULL : x->dpe, x->p, rounded ? NULL : x->pe, x->p0);
     if (GVI__KIND > 1) x->alike = x->stepped && !gvi__nonzero(h - st->h) ? 2 : 1;
     if (GVI__LEARNS && x->alike < 2)
         x->learned.rounds = x->learned.steps = x->learned.stage = x->learned.lengthy = 0;
