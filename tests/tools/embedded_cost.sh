@@ -92,11 +92,11 @@ GVI__APART gvi__two gvi__exact_dot(int r, const gvi_real *a, const gvi_real *b, 
 }
 END
     cat >"$dir/plain/move" <<'END'
-static void gvi__move(int n, const gvi_real *dx, const gvi_real *dxe, gvi_real *x, gvi_real *rest,
-                      gvi_real *was)
+static void gvi__move(int n, gvi_real zero, const gvi_real *dx, const gvi_real *dxe, gvi_real *x,
+                      gvi_real *rest, gvi_real *was)
 {
     for (int i = 0; i < n; ++i) {
-        was[i] = x[i];
+        was[i] = x[i] - zero;
         x[i] += dxe ? dx[i] + dxe[i] : dx[i];
         rest[i] = 0;
     }
