@@ -98,7 +98,7 @@ static void gvi__move(int n, gvi_real zero, const gvi_real *dx, const gvi_real *
     for (int i = 0; i < n; ++i) {
         was[i] = x[i] - zero;
         x[i] += dxe ? dx[i] + dxe[i] : dx[i];
-        rest[i] = 0;
+        rest[i] = zero;
     }
 }
 END
