@@ -1949,14 +1949,15 @@ static unsigned gvi__without_hessian(const gvi_stepper *st)
     return bits & ~st->x.off;
 }
 
-// eight points as one vector for the compiler, or two
+// eight points as one to four vectors for the compiler: of wider ones than its registers it
+// keeps sums in memory
 #if defined(__GNUC__) && GVI__KIND < 3 && defined(GVI__EXACT_TYPES) \
     && (defined(__SSE2__) || defined(__ARM_NEON) || defined(__ALTIVEC__) || defined(__riscv_vector))
 #define GVI__VECTORS
 #if defined(__AVX512F__) || (defined(__AVX__) && GVI__KIND == 1)
 #define GVI__LANES 8
 #elif defined(__AVX__) || GVI__KIND == 1
-#define GVI__LANES 4                                  // wider than a register: the compiler would keep sums in memory
+#define GVI__LANES 4
 #else
 #define GVI__LANES 2
 #endif
@@ -1964,7 +1965,7 @@ typedef gvi_real gvi__vector
     __attribute__((vector_size(GVI__LANES*sizeof(gvi_real)), aligned(sizeof(gvi_real)), may_alias));
 #define GVI__AT(p) (*(const gvi__vector *)(p))
 #if !defined(__clang__) && __GNUC__ >= 8
-#define GVI__EACH _Pragma("GCC unroll 8")             // with -O2, too: else they are kept in memory
+#define GVI__EACH _Pragma("GCC unroll 8")             // with -O2, too: else vectors are arrays
 #else
 #define GVI__EACH
 #endif
@@ -3635,7 +3636,7 @@ typedef struct gvi__stage {
 
 /* The products of r*r table and row are what an iteration consists of.  Rows go in
    blocks of eight points, or of r below 5.  Where there are vector registers a
-   block is one vector for the compiler, or two; the loops for the rest add in the
+   block is one to four vectors for the compiler; the loops for the rest add in the
    same order, so that both give the same bits.                                */
 #ifdef GVI__VECTORS
 // z := sum_j table[j][0..] L_j, one vector, in four sums, so that none need wait for another; r > 4
