@@ -944,6 +944,13 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__COPY static inline
 #endif
 
+// what few steps call: apart, so that what every step calls has less to save
+#if defined(__GNUC__) && !GVI__SMALL
+#define GVI__SELDOM static __attribute__((noinline))
+#else
+#define GVI__SELDOM static
+#endif
+
 // arrays that do not overlap
 #if defined(__GNUC__) || defined(_MSC_VER)
 #define GVI__RESTRICT __restrict
@@ -1395,14 +1402,27 @@ static gvi_real gvi__legendre(int m, gvi_real c)
     return P;
 }
 
+/* Nodes are taken four at a time, where speed counts: a recurrence waits for itself at each
+   of them, but no node for another.                                            */
+enum { GVI__NODES = GVI__SMALL ? 1 : 4 };
+typedef struct gvi__nodes { gvi_real hi[GVI__NODES], lo[GVI__NODES]; } gvi__nodes;
+
+GVI__COPY gvi__two gvi__node(const gvi__nodes *x, int i) { return gvi__two_of(x->hi[i], x->lo[i]); }
+GVI__COPY void gvi__set_node(gvi__nodes *x, int i, gvi__two z) { x->hi[i] = z.hi; x->lo[i] = z.lo; }
+
 // x = 1 - 2c in twofold arithmetic
 static gvi__two gvi__argument2(gvi__two c) { return gvi__sub2(gvi__real2(1), gvi__scale2(2, c)); }
 
-// gvi__legendre_next in twofold arithmetic
-static gvi__two gvi__legendre2(int k, gvi__two x, gvi__two P, gvi__two before)
+// gvi__legendre_next in twofold arithmetic: P_k, P_(k-1) become P_(k+1), P_k
+GVI__APART void gvi__legendre2(int k, const gvi__nodes *GVI__RESTRICT x, gvi__nodes *GVI__RESTRICT P,
+                               gvi__nodes *GVI__RESTRICT before)
 {
-    const gvi__two next = gvi__scale2((gvi_real)(2*k + 1), gvi__mul2(x, P));
-    return gvi__over2(gvi__add2(next, gvi__scale2(-(gvi_real)k, before)), k + 1);
+    for (int i = 0; i < GVI__NODES; ++i) {
+        const gvi__two was = gvi__node(P, i), less = gvi__scale2(-(gvi_real)k, gvi__node(before, i));
+        const gvi__two next = gvi__scale2((gvi_real)(2*k + 1), gvi__mul2(gvi__node(x, i), was));
+        gvi__set_node(P, i, gvi__over2(gvi__add2(next, less), k + 1));
+        gvi__set_node(before, i, was);
+    }
 }
 
 /* Newton's correction of node c on [0,1], and the weight that belongs to c.  With
@@ -1413,29 +1433,31 @@ static gvi__two gvi__legendre2(int k, gvi__two x, gvi__two P, gvi__two before)
      Lobatto   P_m' = 0    c -= d / (2(m+1) P_m)       b = 1 / (m (m+1) P_m^2)  */
 GVI__APART gvi__two gvi__node_newton(int lobatto, int m, gvi__two c, gvi__two P, gvi__two d, gvi_real *b)
 {
-    const gvi__two one = gvi__real2(1);
     if (lobatto) {
-        *b = gvi__div2(one, gvi__scale2((gvi_real)m*(gvi_real)(m + 1), gvi__mul2(P, P))).hi;
-        return gvi__div2(d, gvi__scale2(-2*(gvi_real)(m + 1), P));
+        P = gvi__div2(gvi__real2(1), P);
+        *b = gvi__over2(gvi__over2(gvi__mul2(P, P), m), m + 1).hi;
+        return gvi__over2(gvi__mul2(d, P), -2*(m + 1));
     }
-    c = gvi__scale2(2, gvi__mul2(c, gvi__sub2(one, c)));
     d = gvi__scale2((gvi_real)m, d);
-    *b = 2*gvi__div2(c, gvi__mul2(d, d)).hi;
-    return gvi__div2(gvi__mul2(P, c), d);
+    c = gvi__mul2(c, gvi__sub2(gvi__real2(1), c));
+    c = gvi__div2(c, d);
+    *b = 4*gvi__div2(c, d).hi;
+    c = gvi__mul2(P, c);
+    return gvi__two_of(2*c.hi, 2*c.lo);
 }
 
 // P = P_m and d of it
-GVI__APART void gvi__node_values(int m, gvi__two c, gvi__two *P, gvi__two *d)
+GVI__APART void gvi__node_values(int m, const gvi__nodes *c, gvi__nodes *P, gvi__nodes *d)
 {
-    const gvi__two x = gvi__argument2(c);
-    gvi__two before = gvi__real2(0);
-    *P = gvi__real2(1);
-    for (int k = 0; k < m; ++k) {
-        const gvi__two next = gvi__legendre2(k, x, *P, before);
-        before = *P;
-        *P = next;
+    gvi__nodes x;
+    for (int i = 0; i < GVI__NODES; ++i) {
+        gvi__set_node(&x, i, gvi__argument2(gvi__node(c, i)));
+        gvi__set_node(P, i, gvi__real2(1));
+        gvi__set_node(d, i, gvi__real2(0));
     }
-    *d = gvi__sub2(before, gvi__mul2(x, *P));
+    for (int k = 0; k < m; ++k) gvi__legendre2(k, &x, P, d);
+    for (int i = 0; i < GVI__NODES; ++i)
+        gvi__set_node(d, i, gvi__sub2(gvi__node(d, i), gvi__mul2(gvi__node(&x, i), gvi__node(P, i))));
 }
 
 /* Where Newton's method for node j of the lower half starts,
@@ -1452,47 +1474,69 @@ GVI__APART gvi_real gvi__node_guess(int lobatto, int n, int j)
 
 /* Newton's method in working precision, in place of the first corrections, where speed
    counts; the recurrence has its quotients first, so that nothing waits for them.    */
-static gvi_real gvi__node_start(int lobatto, int m, gvi_real c)
+static void gvi__node_start(int lobatto, int m, const gvi_real *wanted, gvi_real *c)
 {
+    gvi_real P[GVI__NODES], before[GVI__NODES];
     for (int k = 0; k < 3; ++k) {
-        const gvi_real x = 1 - 2*c;
-        gvi_real P = 1, before = 0;
-        for (int i = 0; i < m; ++i) {
-            const gvi_real w = 1/(gvi_real)(i + 1), next = (2 - w)*x*P - (1 - w)*before;
-            before = P;
-            P = next;
+        for (int i = 0; i < GVI__NODES; ++i) P[i] = 1, before[i] = 0;
+        for (int j = 0; j < m; ++j) {
+            const gvi_real w = 1/(gvi_real)(j + 1);
+            for (int i = 0; i < GVI__NODES; ++i) {
+                const gvi_real next = (2 - w)*(1 - 2*c[i])*P[i] - (1 - w)*before[i];
+                before[i] = P[i];
+                P[i] = next;
+            }
         }
-        const gvi_real d = before - x*P;
-        c += lobatto ? -d/(2*(gvi_real)(m + 1)*P) : P*2*c*(1 - c)/((gvi_real)m*d);
+        for (int i = 0; i < GVI__NODES; ++i) {
+            const gvi_real d = before[i] - (1 - 2*c[i])*P[i];
+            const gvi_real dc = lobatto ? -d/(2*(gvi_real)(m + 1)*P[i]) : P[i]*2*c[i]*(1 - c[i])/((gvi_real)m*d);
+            c[i] += wanted[i] > 0 ? dc : 0;
+        }
     }
-    return c;
 }
 
-/* All nodes and weights; ce, if given, gets what rounding left of c.  After a
+/* Nodes and weights; ce, if given, gets what rounding left of c.  After a
    correction below eps the next one would be below its square: c is then accurate
    relative to itself, even next to the end of the interval.  Nodes are symmetric
-   about 1/2: one half is computed, by no more than 12 corrections each.       */
+   about 1/2: one half is computed, by no more than 12 corrections each.  From `first`
+   on; the last of the half stands in for those that are missing of a block.   */
+static void gvi__rule_part(int lobatto, int n, int first, gvi_real *c, gvi_real *ce, gvi_real *b)
+{
+    const int m = n - lobatto, most = (n - 1)/2;
+    gvi__nodes z, P, d;
+    gvi_real last[GVI__NODES], weight[GVI__NODES];                     // correction; 0: node is known
+    for (int i = 0; i < GVI__NODES; ++i) {
+        const int j = first + i < most ? first + i : most, middle = 2*j + 1 == n;
+        const int known = middle || (lobatto && j == 0);
+        const gvi_real start = middle ? (gvi_real)0.5 : known ? 0 : gvi__node_guess(lobatto, n, j);
+        gvi__set_node(&z, i, gvi__real2(start));
+        last[i] = known ? 0 : 1;
+    }
+    if (!GVI__SMALL) gvi__node_start(lobatto, m, last, z.hi);
+    for (int k = 0, more = 1; more; ++k) {
+        gvi__node_values(m, &z, &P, &d);
+        more = 0;
+        for (int i = 0; i < GVI__NODES; ++i) {
+            const gvi__two x = gvi__node(&z, i);
+            const gvi__two dx = gvi__node_newton(lobatto, m, x, gvi__node(&P, i), gvi__node(&d, i), weight + i);
+            if (!(last[i] > GVI__EPS*x.hi) || k == 12) continue;
+            gvi__set_node(&z, i, gvi__add2(x, dx));
+            last[i] = GVI_ABS(dx.hi);
+            more = 1;
+        }
+    }
+    for (int i = 0, j = first; i < GVI__NODES && j <= most; ++i, ++j) {
+        const gvi__two mirror = gvi__sub2(gvi__real2(1), gvi__node(&z, i));
+        c[j] = z.hi[i];
+        c[n-1-j] = mirror.hi;
+        if (ce) ce[j] = z.lo[i], ce[n-1-j] = mirror.lo;
+        b[j] = b[n-1-j] = weight[i];
+    }
+}
+
 static void gvi__rule_make(int lobatto, int n, gvi_real *c, gvi_real *ce, gvi_real *b)
 {
-    for (int j = 0; j <= (n - 1)/2; ++j) {
-        const int middle = 2*j + 1 == n, known = middle || (lobatto && j == 0);
-        gvi__two z = gvi__real2(middle ? (gvi_real)0.5 : known ? 0 : gvi__node_guess(lobatto, n, j));
-        gvi_real last = known ? 0 : 1;
-        if (!known && !GVI__SMALL) z.hi = gvi__node_start(lobatto, n - lobatto, z.hi);
-        for (int k = 0; ; ++k) {
-            gvi__two P, d;
-            gvi__node_values(n - lobatto, z, &P, &d);
-            const gvi__two dc = gvi__node_newton(lobatto, n - lobatto, z, P, d, &b[j]);
-            if (!(last > GVI__EPS*z.hi) || k == 12) break;
-            z = gvi__add2(z, dc);
-            last = GVI_ABS(dc.hi);
-        }
-        const gvi__two mirror = gvi__sub2(gvi__real2(1), z);
-        c[j] = z.hi;
-        c[n-1-j] = mirror.hi;
-        if (ce) ce[j] = z.lo, ce[n-1-j] = mirror.lo;
-        b[n-1-j] = b[j];
-    }
+    for (int j = 0; j <= (n - 1)/2; j += GVI__NODES) gvi__rule_part(lobatto, n, j, c, ce, b);
 }
 
 GVI_DEF gvi_status gvi_gauss(int n, gvi_real *c, gvi_real *b)
@@ -2354,25 +2398,31 @@ static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, 
 /* ---------------------------------------------------------------- TABLES */
 
 /* phi_k = P_k(x) and Phi_k = (P_(k-1) - P_(k+1))(x) / (2(2k+1)), P_(-1) = 1, at
-   node i, x = 1 - 2c, in twofold arithmetic: [k*stride + node].  The low parts of
-   Phi go to E, which is not yet in use; phi is skipped where nobody needs it.   */
-GVI__APART void gvi__modes_at(gvi_stepper *st, int i)
+   `count` nodes from `first` on, x = 1 - 2c, in twofold arithmetic: [k*stride + node].
+   The low parts of Phi go to E, which is not yet in use; phi is skipped where
+   nobody needs it.                                                            */
+GVI__APART void gvi__modes_at(gvi_stepper *st, int first, int count)
 {
     struct gvi__private *x = &st->x;
-    gvi__two P = gvi__real2(1), before = gvi__real2(1);
-    const gvi__two X = gvi__argument2(gvi__two_of(x->c[i], x->t[i]));
+    gvi__nodes X, P, before, Phi;
+    for (int i = 0; i < GVI__NODES; ++i) {
+        const int at = first + (i < count ? i : 0);
+        gvi__set_node(&X, i, gvi__argument2(gvi__two_of(x->c[at], x->t[at])));
+        gvi__set_node(&P, i, gvi__real2(1));
+        gvi__set_node(&before, i, gvi__real2(1));
+    }
     for (int k = 0; k < st->s; ++k) {
-        const gvi__two next = gvi__legendre2(k, X, P, before);
-        const gvi__two Phi = gvi__over2(gvi__sub2(before, next), 4*k + 2);
-        const int at = k*x->stride + i;
-        x->Phi[at] = Phi.hi;
-        x->E[at] = Phi.lo;
-        if (x->phi) {
-            x->phi[at] = P.hi;
-            x->low[at] = P.lo;
+        Phi = before;
+        gvi__legendre2(k, &X, &P, &before);
+        for (int i = 0; i < GVI__NODES; ++i)
+            gvi__set_node(&Phi, i, gvi__over2(gvi__sub2(gvi__node(&Phi, i), gvi__node(&P, i)), 4*k + 2));
+        for (int i = 0, at = k*x->stride + first; i < count; ++i, ++at) {
+            x->Phi[at] = Phi.hi[i];
+            x->E[at] = Phi.lo[i];
+            if (!x->phi) continue;
+            x->phi[at] = before.hi[i];
+            x->low[at] = before.lo[i];
         }
-        before = P;
-        P = next;
     }
 }
 
@@ -2398,12 +2448,11 @@ static void gvi__modes_mirrored(gvi_stepper *st, int i)
 static void gvi__modes_at_nodes(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
-    const int mirrored = !GVI__SMALL && !gvi__rule_is(st, GVI_OWN);
-    for (int i = 0; i < st->r; ++i) {
-        if (mirrored && 2*i >= st->r) gvi__modes_mirrored(st, i);
-        else gvi__modes_at(st, i);
-        x->c[i] = gvi__grid(gvi__sum(x->c[i], x->t[i]), GVI__EPS/2);
-    }
+    const int r = st->r, whole = GVI__SMALL || gvi__rule_is(st, GVI_OWN), made = whole ? r : (r + 1)/2;
+    for (int i = 0; i < made; i += GVI__NODES)
+        gvi__modes_at(st, i, made - i < GVI__NODES ? made - i : GVI__NODES);
+    for (int i = made; i < r; ++i) gvi__modes_mirrored(st, i);
+    for (int i = 0; i < r; ++i) x->c[i] = gvi__grid(gvi__sum(x->c[i], x->t[i]), GVI__EPS/2);
 }
 
 /* 1/Gamma_kk = 2k + 1 while the rule is exact for phi_k^2; Lobatto with r = s
@@ -4734,7 +4783,7 @@ static int gvi__fit_long(gvi_stepper *st)
    5.8^degree at the end of the step, to 1e-4 in double; and none that only points
    tell apart that nearly coincide, as 0 and 1 - 1 do in two steps of Lobatto's: its
    coupling is then small, elsewhere it is above 0.1.                          */
-static void gvi__fit(gvi_stepper *st, gvi_real alpha, gvi_real beta)
+GVI__SELDOM void gvi__fit(gvi_stepper *st, gvi_real alpha, gvi_real beta)
 {
     struct gvi__private *x = &st->x;
     if (GVI__LEARNS && (x->E_is & GVI__LONG) && gvi__fit_long(st)) return;
@@ -4773,7 +4822,7 @@ static void gvi__fit(gvi_stepper *st, gvi_real alpha, gvi_real beta)
 
 /* The sums of (3) over what E extrapolates, in place: E := g h b E.  Where the rows
    of Q are all that the first forces are for, they come from the last ones at once. */
-static void gvi__fit_sums(gvi_stepper *st)
+GVI__SELDOM void gvi__fit_sums(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
     const int R = x->stride, rows = gvi__two_now(st) ? 2*st->r : st->r;
