@@ -4379,7 +4379,9 @@ GVI__ROWS(gvi__rows_8_folded, gvi__stage_rows_8(st, y, 8, st->n, 1))
 GVI__ROWS(gvi__rows_8_of_2, gvi__stage_rows_8(st, y, 8, 2, 1))
 GVI__ROWS(gvi__rows_5_to_8, gvi__stage_rows_8(st, y, st->r, st->n, gvi__folds(st)))
 GVI__ROWS(gvi__rows_8_less, gvi__stage_rows_of(st, y, 8, 8))
+GVI__ROWS(gvi__rows_12, gvi__stage_rows_of(st, y, 12, 16))
 GVI__ROWS(gvi__rows_16, gvi__stage_rows_of(st, y, 16, 16))
+GVI__ROWS(gvi__rows_9_to_15, gvi__stage_rows_of(st, y, st->r, 16))
 GVI__ROWS(gvi__arc_rows_8, gvi__arc_rows_vector(st, y, 8, 8, 0))
 GVI__ROWS(gvi__arc_rows_to_8, gvi__arc_rows_vector(st, y, st->r, 8, 0))
 GVI__ROWS(gvi__arc_rows_to_16, gvi__arc_rows_vector(st, y, st->r, 16, 0))
@@ -4414,9 +4416,12 @@ static gvi__kernel *gvi__kernel_of(const gvi_stepper *st, const gvi__stage *y)
     case 8:
         if (y->minus) return gvi__rows_8_less;
         return !gvi__folds(st) ? gvi__rows_8 : st->n == 2 ? gvi__rows_8_of_2 : gvi__rows_8_folded;
+    case 12: return gvi__rows_12;
     case 16: return gvi__rows_16;
-#endif
+    default: return st->x.stride == 16 ? gvi__rows_9_to_15 : gvi__rows_any;
+#else
     default: return gvi__rows_any;
+#endif
     }
 }
 
@@ -4885,6 +4890,7 @@ GVI__APART void gvi__extrapolate(gvi_stepper *st, const gvi_real *last, const gv
     else if (st->r == 8) gvi__extrapolate_rows(st, 8, 8, last, older, NULL, out);
     else if (st->r == 4) gvi__extrapolate_rows(st, 4, 4, last, older, y, out);
     else if (st->r == 16) gvi__extrapolate_rows(st, 16, 16, last, NULL, y, out);
+    else if (st->x.stride == 16) gvi__extrapolate_rows(st, st->r, 16, last, older, y, out);
     else gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, y, out);
 }
 
