@@ -23,16 +23,6 @@
 
 /* ------------------------------------------------------- vectors of n */
 
-/* Vectors no wider than a register: gcc passes the parts of a wider one through memory.       */
-#if defined(__AVX512F__)
-typedef lane8 widest;
-#elif defined(__AVX__)
-typedef lane4 widest;
-#else
-typedef lane2 widest;
-#endif
-enum { WIDTH = sizeof(widest)/sizeof(double) };
-
 /* op(type) for at = 0, WIDTH, ..., then 4, then 2 of what is left: n is even and constant.     */
 #define LANES(n, op) do {                                     \
     int at = 0;                                               \

@@ -510,14 +510,51 @@ static long double chain_energy(const double *q, const double *v)
 
 INLINE double spring(double d) { return d + d*d*d; }
 
-static void chain_acceleration(const double *q, double *a)
+#if defined(__GNUC__) && !defined(__clang__)
+typedef long long lanes_of_it __attribute__((vector_size(sizeof(widest))));
+#if defined(__AVX512F__)
+#define ONE_ON   { 1, 2, 3, 4, 5, 6, 7, 8 }
+#define ONE_BACK { 8, 0, 1, 2, 3, 4, 5, 6 }
+#elif defined(__AVX__)
+#define ONE_ON   { 1, 2, 3, 4 }
+#define ONE_BACK { 4, 0, 1, 2 }
+#else
+#define ONE_ON   { 1, 2 }
+#define ONE_BACK { 2, 0 }
+#endif
+
+/* x without its first number and y behind it; x without its last one and y before it          */
+INLINE widest shifted(widest x, double y, lanes_of_it from)
 {
-    const double *restrict x = q;
-    double *restrict y = a;
-    y[0] = spring(x[1] - x[0]) - spring(x[0]);
-    for (int i = 1; i < LINKS - 1; ++i) y[i] = spring(x[i+1] - x[i]) - spring(x[i] - x[i-1]);
-    y[LINKS-1] = spring(-x[LINKS-1]) - spring(x[LINKS-1] - x[LINKS-2]);
+    const widest other = { y };
+    return __builtin_shuffle(x, other, from);
 }
+#endif
+
+/* f := or += the forces at one point.  In whole vectors from 0 on, neighbours by a shuffle: those that lie
+   across two vectors just stored would have to wait until these have left for the cache.               */
+INLINE void chain_forces(const int adds, const double *restrict q, double *restrict f)
+{
+    double before = spring(q[0]);
+    int i = 0;
+#if defined(__GNUC__) && !defined(__clang__)
+    for (; i + WIDTH < LINKS; i += WIDTH) {
+        const widest x = *(const widest *)(q + i), d = shifted(x, q[i+WIDTH], (lanes_of_it)ONE_ON) - x;
+        const widest s = d + d*d*d;
+        const widest sum = s - shifted(s, before, (lanes_of_it)ONE_BACK);
+        if (adds) *(widest *)(f + i) += sum;
+        else *(widest *)(f + i) = sum;
+        before = s[WIDTH-1];
+    }
+#endif
+    for (; i < LINKS; ++i) {
+        const double s = spring((i + 1 < LINKS ? q[i+1] : 0) - q[i]);
+        f[i] = adds ? f[i] + (s - before) : s - before;
+        before = s;
+    }
+}
+
+static void chain_acceleration(const double *q, double *a) { chain_forces(0, q, a); }
 
 INLINE int chain_points(const gvi_points *p, int count, int stride)
 {
@@ -537,13 +574,9 @@ INLINE int chain_points(const gvi_points *p, int count, int stride)
 
 static int chain(const gvi_points *p, void *user)
 {
-    const double *restrict x = p->q;
-    double *restrict f = p->f;
     (void)user;
     if (p->count > 1) return BY_COUNT(chain_points, p);
-    f[0] += spring(x[1] - x[0]) - spring(x[0]);
-    for (int i = 1; i < LINKS - 1; ++i) f[i] += spring(x[i+1] - x[i]) - spring(x[i] - x[i-1]);
-    f[LINKS-1] += spring(-x[LINKS-1]) - spring(x[LINKS-1] - x[LINKS-2]);
+    chain_forces(1, p->q, p->f);
     return 0;
 }
 

@@ -19,6 +19,16 @@ enum { MOST_COORDINATES = 104 };        /* 100, rounded up to whole vectors    *
 typedef double lane2 __attribute__((vector_size(16), aligned(8), may_alias));
 typedef double lane4 __attribute__((vector_size(32), aligned(8), may_alias));
 typedef double lane8 __attribute__((vector_size(64), aligned(8), may_alias));
+
+/* Vectors no wider than a register: gcc passes the parts of a wider one through memory.       */
+#if defined(__AVX512F__)
+typedef lane8 widest;
+#elif defined(__AVX__)
+typedef lane4 widest;
+#else
+typedef lane2 widest;
+#endif
+enum { WIDTH = sizeof(widest)/sizeof(double) };
 #endif
 
 /* One point.                                                                                  */
