@@ -498,7 +498,9 @@ typedef struct gvi_desc {
                                           as the last two changes predict it, is
                                           below tolerance*|q|: the step then is
                                           symplectic to that, and takes K r R
-                                          numbers more.  0: at round-off.
+                                          numbers more.  Above 32 eps the sums of
+                                          a step are rounded, too: by 2 eps of the
+                                          largest term.  0: at round-off.
                                           Explicit (not small code, full mass or
                                           stiffness): any but 0 rounds q and p at
                                           each kick; areas may drift by eps r/2 a
@@ -2715,6 +2717,13 @@ static inline int gvi__rounds(const gvi_stepper *st)
 static inline int gvi__is_rounded(const gvi_stepper *st)
 {
     return gvi__rounds(st) && !gvi__mass_is(st, GVI_MASS_DENSE) && !(GVI__STIFF && st->x.springs);
+}
+
+/* With a tolerance far above rounding the sums of a step's increments are rounded as well, and what
+   they lose is not carried: nothing beside what the iteration leaves undone.  */
+static inline int gvi__is_coarse(const gvi_stepper *st)
+{
+    return GVI__TOLERANCE && st->x.desc.tolerance > 32*GVI__EPS && !st->x.desc.iterations;
 }
 
 // what f is weighed with in a stage, or NULL
@@ -4976,7 +4985,8 @@ GVI__APART void gvi__guess(gvi_stepper *st, int extrapolate, gvi_real rate)
 /* sum_j a_j b_j + rest, the sum carried with its rounding: an increment is what
    errors add up in, step by step.  Eight partial sums, then these by halves;
    z: scratch for them, of two rows.                                           */
-GVI__APART gvi__two gvi__exact_dot(int r, const gvi_real *a, const gvi_real *b, gvi_real rest, gvi_real *z)
+GVI__APART gvi__two gvi__exact_dot(int r, const gvi_real *a, const gvi_real *b, int coarse, gvi_real rest,
+                                   gvi_real *z)
 {
     const int lanes = r < 8 ? r : 8;
     gvi_real own[16], *hi = GVI__SMALL ? z : own, *lo = hi + lanes;
@@ -4994,7 +5004,7 @@ GVI__APART gvi__two gvi__exact_dot(int r, const gvi_real *a, const gvi_real *b, 
             hi[k] = sum.hi;
             lo[k] = sum.lo;
         }
-    return gvi__two_of(hi[0], gvi__rest(lo[0] + rest));
+    return gvi__two_of(hi[0], coarse ? rest : gvi__rest(lo[0] + rest));
 }
 
 // sum_j (1 - c_j) h b_j F_j: what (3) is at tau = 1, where S_j = c_j
@@ -5040,6 +5050,17 @@ static inline gvi__two gvi__exact_dot_vector(int R, const gvi_real *a, const gvi
     return gvi__two_of(sum.hi, gvi__rest(sum.lo + rest));
 }
 
+// the first of them alone
+static inline gvi_real gvi__coarse_dot_vector(int R, const gvi_real *a, const gvi_real *b)
+{
+    gvi_real z[8];
+    for (int k = 0; k < 8; ++k) z[k] = a[k]*b[k];
+    for (int o = 8; o < R; o += 8)
+        for (int k = 0; k < 8; ++k) z[k] += a[o + k]*b[o + k];
+    const gvi__half s = GVI__HALF(z) + GVI__HALF(z + 4);
+    return (s[0] + s[2]) + (s[1] + s[3]);
+}
+
 static inline gvi_real gvi__lever_vector(int R, const gvi_real *c, const gvi_real *hb, const gvi_real *F)
 {
     gvi__half sum = { 0 };
@@ -5067,22 +5088,24 @@ typedef struct gvi__eights { gvi__eight hi, lo; } gvi__eights;
 #define GVI__EVEN(a, b)        __builtin_shufflevector(a, b, 0, 2, 4, 6, 8, 10, 12, 14)
 #define GVI__ODD(a, b)         __builtin_shufflevector(a, b, 1, 3, 5, 7, 9, 11, 13, 15)
 
-GVI__COPY gvi__eights gvi__product_lanes(gvi__eight a, gvi__eight b)
+// coarse: without what is lost, here and in what follows
+GVI__COPY gvi__eights gvi__product_lanes(int coarse, gvi__eight a, gvi__eight b)
 {
     const gvi__eight hi = a*b;
     gvi__eights z;
-    gvi__eight lo;
-    for (int l = 0; l < 8; ++l) lo[l] = GVI__FMA(a[l], b[l], -hi[l]);
+    gvi__eight lo = { 0 };
+    for (int l = 0; l < 8 && !coarse; ++l) lo[l] = GVI__FMA(a[l], b[l], -hi[l]);
     z.hi = hi;
     z.lo = lo;
     return z;
 }
 
-GVI__COPY gvi__eights gvi__join_lanes(gvi__eights x, gvi__eights y)
+GVI__COPY gvi__eights gvi__join_lanes(int coarse, gvi__eights x, gvi__eights y)
 {
     const gvi__eight sum = x.hi + y.hi, b = sum - x.hi;
     gvi__eights z;
-    z.lo = (x.lo + y.lo) + ((x.hi - (sum - b)) + (y.hi - b));
+    z.lo = x.lo;
+    if (!coarse) z.lo = (x.lo + y.lo) + ((x.hi - (sum - b)) + (y.hi - b));
     z.hi = sum;
     return z;
 }
@@ -5099,14 +5122,14 @@ GVI__COPY void gvi__pairs(gvi__eight a, gvi__eight b, gvi__eight c, gvi__eight d
 }
 
 // the terms h b F of eight points of four rows, in pairs, and the sums of (1 - c) h b F
-GVI__COPY void gvi__terms_of_four(int o, const gvi_real *c, const gvi_real *hb, const gvi_real *const F[4],
+GVI__COPY void gvi__terms_of_four(int coarse, int o, const gvi_real *c, const gvi_real *hb, const gvi_real *const F[4],
                                   gvi__eights term[4], gvi__eight lever[2])
 {
     const gvi__eight w = GVI__EIGHT(hb + o), far = 1 - GVI__EIGHT(c + o);
-    const gvi__eights p = gvi__product_lanes(w, GVI__EIGHT(F[0] + o));
-    const gvi__eights q = gvi__product_lanes(w, GVI__EIGHT(F[1] + o));
-    const gvi__eights u = gvi__product_lanes(w, GVI__EIGHT(F[2] + o));
-    const gvi__eights v = gvi__product_lanes(w, GVI__EIGHT(F[3] + o));
+    const gvi__eights p = gvi__product_lanes(coarse, w, GVI__EIGHT(F[0] + o));
+    const gvi__eights q = gvi__product_lanes(coarse, w, GVI__EIGHT(F[1] + o));
+    const gvi__eights u = gvi__product_lanes(coarse, w, GVI__EIGHT(F[2] + o));
+    const gvi__eights v = gvi__product_lanes(coarse, w, GVI__EIGHT(F[3] + o));
     gvi__eight hi[4], lo[4], arm[4];
     gvi__pairs(p.hi, q.hi, u.hi, v.hi, hi);
     gvi__pairs(p.lo, q.lo, u.lo, v.lo, lo);
@@ -5119,36 +5142,37 @@ GVI__COPY void gvi__terms_of_four(int o, const gvi_real *c, const gvi_real *hb, 
 }
 
 // two partial sums of h b F for each of four rows, and of (1 - c) h b F
-GVI__COPY gvi__eights gvi__four_rows(int R, const gvi_real *c, const gvi_real *hb, const gvi_real *const F[4],
-                                     gvi__eight *lever)
+GVI__COPY gvi__eights gvi__four_rows(int coarse, int R, const gvi_real *c, const gvi_real *hb,
+                                     const gvi_real *const F[4], gvi__eight *lever)
 {
     gvi__eights sum[4], more[4];
     gvi__eight arms[2] = { { 0 }, { 0 } };
-    gvi__terms_of_four(0, c, hb, F, sum, arms);
+    gvi__terms_of_four(coarse, 0, c, hb, F, sum, arms);
     for (int o = 8; o < R; o += 8) {
-        gvi__terms_of_four(o, c, hb, F, more, arms);
-        for (int k = 0; k < 4; ++k) sum[k] = gvi__join_lanes(sum[k], more[k]);
+        gvi__terms_of_four(coarse, o, c, hb, F, more, arms);
+        for (int k = 0; k < 4; ++k) sum[k] = gvi__join_lanes(coarse, sum[k], more[k]);
     }
     *lever = arms[0] + arms[1];
-    return gvi__join_lanes(gvi__join_lanes(sum[0], sum[2]), gvi__join_lanes(sum[1], sum[3]));
+    return gvi__join_lanes(coarse, gvi__join_lanes(coarse, sum[0], sum[2]),
+                           gvi__join_lanes(coarse, sum[1], sum[3]));
 }
 
 // sum + left := sum h b F of all n coordinates, lever: of (1 - c) h b F, may be NULL; the last
 // coordinate stands in for those that are missing of eight
-GVI__COPY void gvi__sums_of_eight(int n, int R, const gvi_real *c, const gvi_real *hb, const gvi_real *F,
-                                  gvi_real *sum, gvi_real *left, gvi_real *lever)
+GVI__COPY void gvi__sums_of_eight(int coarse, int n, int R, const gvi_real *c, const gvi_real *hb,
+                                  const gvi_real *F, gvi_real *sum, gvi_real *left, gvi_real *lever)
 {
     for (int i = 0; i < n; i += 8) {
         const gvi_real *row[8];
         for (int k = 0; k < 8; ++k) row[k] = F + (i + k < n ? i + k : n - 1)*R;
         gvi__eight a, b;
-        gvi__eights x = gvi__four_rows(R, c, hb, row, &a), even, odd;
-        const gvi__eights y = gvi__four_rows(R, c, hb, row + 4, &b);
+        gvi__eights x = gvi__four_rows(coarse, R, c, hb, row, &a), even, odd;
+        const gvi__eights y = gvi__four_rows(coarse, R, c, hb, row + 4, &b);
         even.hi = GVI__EVEN(x.hi, y.hi);
         even.lo = GVI__EVEN(x.lo, y.lo);
         odd.hi = GVI__ODD(x.hi, y.hi);
         odd.lo = GVI__ODD(x.lo, y.lo);
-        x = gvi__join_lanes(even, odd);
+        x = gvi__join_lanes(coarse, even, odd);
         a = GVI__EVEN(a, b) + GVI__ODD(a, b);
         if (n >= 8) {                             // in whole vectors, as gvi__lengths has it
             *(gvi__eight *)(sum + i) = x.hi;
@@ -5162,30 +5186,38 @@ GVI__COPY void gvi__sums_of_eight(int n, int R, const gvi_real *c, const gvi_rea
     }
 }
 
-GVI__APART void gvi__increments_by_eight(gvi_stepper *st, const gvi__from *from, int R, int momenta)
+GVI__COPY void gvi__increments_of_eight(gvi_stepper *st, const gvi__from *from, int coarse, int R, int momenta)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n;
-    const gvi_real *F = x->work.F, *V = x->work.V;
     gvi_real *lever = momenta ? NULL : x->dq;
-    if (R == 8) gvi__sums_of_eight(n, 8, x->c, x->hb, F, x->dp, x->dpe, lever);
-    else gvi__sums_of_eight(n, R, x->c, x->hb, F, x->dp, x->dpe, lever);
+    gvi__sums_of_eight(coarse, n, R, x->c, x->hb, x->work.F, x->dp, x->dpe, lever);
     for (int i = 0; i < n; ++i) x->dpe[i] = gvi__rest(x->dpe[i] + from->pe[i]);
     if (!momenta) return;
-    gvi__sums_of_eight(n, R, x->c, x->hb, V, x->dq, x->dqe, NULL);
+    gvi__sums_of_eight(coarse, n, R, x->c, x->hb, x->work.V, x->dq, x->dqe, NULL);
     for (int i = 0; i < n; ++i) x->dqe[i] = gvi__rest(x->dqe[i] + from->qe[i]);
+}
+
+static void gvi__increments_by_eight(gvi_stepper *st, const gvi__from *from, int R, int momenta)
+{
+    const int coarse = gvi__is_coarse(st);
+    if (R == 8 && coarse) gvi__increments_of_eight(st, from, 1, 8, momenta);
+    else if (R == 8) gvi__increments_of_eight(st, from, 0, 8, momenta);
+    else if (coarse) gvi__increments_of_eight(st, from, 1, R, momenta);
+    else gvi__increments_of_eight(st, from, 0, R, momenta);
 }
 #endif
 
 // in vectors, where there are any
-static inline gvi__two gvi__increment(int r, int R, const gvi_real *a, const gvi_real *b, gvi_real rest,
-                                      gvi_real *z)
+static inline gvi__two gvi__increment(int r, int R, const gvi_real *a, const gvi_real *b, int coarse,
+                                      gvi_real rest, gvi_real *z)
 {
 #ifdef GVI__VECTORS
+    if (!GVI__SMALL && R % 8 == 0 && coarse) return gvi__two_of(gvi__coarse_dot_vector(R, a, b), rest);
     if (!GVI__SMALL && R % 8 == 0) return gvi__exact_dot_vector(R, a, b, rest);
 #endif
     (void)R;
-    return gvi__exact_dot(r, a, b, rest, z);
+    return gvi__exact_dot(r, a, b, coarse, rest, z);
 }
 
 // sum_j a_j b_j, in the same order with vectors and without
@@ -5228,7 +5260,7 @@ static inline void gvi__add_path(int n, gvi_real h, const gvi_real *GVI__RESTRIC
 /* Beside stiffness: what the remainders add to free motion, which dq, dqe, dp, dpe hold.
    The weights are those that made the free rows, so that one is the adjoint of the other
    as rounded.                                                                 */
-GVI__COPY void gvi__arc_increments(gvi_stepper *st, int i, int which, int r, int R)
+GVI__COPY void gvi__arc_increments(gvi_stepper *st, int i, int which, int coarse, int r, int R)
 {
     struct gvi__private *x = &st->x;
     const gvi__arc arc = gvi__arc_of(st, which);
@@ -5241,7 +5273,7 @@ GVI__COPY void gvi__arc_increments(gvi_stepper *st, int i, int which, int r, int
 #endif
         gvi__weigh(R, x->hb, F, kicks);
     const gvi_real bend = gvi__plain_dot(r, R, arc.sine, kicks);
-    const gvi__two p = gvi__increment(r, R, arc.cosine, kicks, x->dpe[i], x->row);
+    const gvi__two p = gvi__increment(r, R, arc.cosine, kicks, coarse, x->dpe[i], x->row);
     const gvi__two dp = gvi__sum(x->dp[i], p.hi), dq = gvi__sum(x->dq[i], x->over ? bend*x->over[i] : bend);
     x->dp[i] = dp.hi;
     x->dpe[i] = gvi__rest(dp.lo + p.lo);
@@ -5266,7 +5298,7 @@ GVI__APART void gvi__increments_of(gvi_stepper *st, const gvi__from *from, gvi_r
 {
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work;
-    const int n = st->n, momenta = gvi__uses(st, GVI_MOMENTA);
+    const int n = st->n, momenta = gvi__uses(st, GVI_MOMENTA), coarse = gvi__is_coarse(st);
     const gvi_real *stiffness = GVI__STIFF && x->springs ? gvi__stiffness(st) : NULL;
     int done = 0;
 #ifdef GVI__EIGHTS
@@ -5278,14 +5310,14 @@ GVI__APART void gvi__increments_of(gvi_stepper *st, const gvi__from *from, gvi_r
     for (int i = done; i < n; ++i) {
         const gvi_real *F = w->F + i*R;
         if (GVI__STIFF && stiffness && gvi__nonzero(stiffness[i])) {
-            gvi__arc_increments(st, i, (int)stiffness[n + i], r, R);
+            gvi__arc_increments(st, i, (int)stiffness[n + i], coarse, r, R);
             continue;
         }
-        const gvi__two p = gvi__increment(r, R, x->hb, F, from->pe[i], x->row);
+        const gvi__two p = gvi__increment(r, R, x->hb, F, coarse, from->pe[i], x->row);
         x->dp[i] = p.hi;
         x->dpe[i] = p.lo;
         if (momenta) {
-            const gvi__two q = gvi__increment(r, R, x->hb, w->V + i*R, from->qe[i], x->row);
+            const gvi__two q = gvi__increment(r, R, x->hb, w->V + i*R, coarse, from->qe[i], x->row);
             x->dq[i] = q.hi;
             x->dqe[i] = q.lo;
         }
@@ -6202,7 +6234,7 @@ GVI__APART void gvi__newton_increments(gvi_stepper *st, const gvi__from *from)
     for (int i = 0; i < st->n; ++i) {
         const gvi__two q = gvi__product(x->h_weights, x->y[i]);
         const gvi_real *F = x->work.F + i*x->stride;
-        const gvi__two p = gvi__increment(st->r, x->stride, x->hb, F, from->pe[i], x->row);
+        const gvi__two p = gvi__increment(st->r, x->stride, x->hb, F, 0, from->pe[i], x->row);
         x->dq[i] = q.hi;
         x->dqe[i] = gvi__rest(q.lo + from->qe[i]);
         x->dp[i] = p.hi;
