@@ -946,20 +946,6 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__COPY static inline
 #endif
 
-// what few steps call: apart, so that what every step calls has less to save
-#if defined(__GNUC__) && !GVI__SMALL
-#define GVI__SELDOM static __attribute__((noinline))
-#else
-#define GVI__SELDOM static
-#endif
-
-// a short loop that is run often, four rounds at a time
-#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 8 && !GVI__SMALL
-#define GVI__BY_FOUR _Pragma("GCC unroll 4")
-#else
-#define GVI__BY_FOUR
-#endif
-
 // arrays that do not overlap
 #if defined(__GNUC__) || defined(_MSC_VER)
 #define GVI__RESTRICT __restrict
@@ -2022,9 +2008,20 @@ typedef gvi_real gvi__vector
 #define GVI__AT(p) (*(const gvi__vector *)(p))
 #if !defined(__clang__) && __GNUC__ >= 8
 #define GVI__EACH _Pragma("GCC unroll 8")             // with -O2, too: else vectors are arrays
+#define GVI__BY_FOUR _Pragma("GCC unroll 4")          // the compiler's vectors of a loop of any length
 #else
 #define GVI__EACH
 #endif
+#endif
+#ifndef GVI__BY_FOUR
+#define GVI__BY_FOUR
+#endif
+
+// what few steps call: apart, so that what every step calls has fewer vectors to save
+#if defined(GVI__VECTORS) && !GVI__SMALL
+#define GVI__SELDOM static __attribute__((noinline))
+#else
+#define GVI__SELDOM static
 #endif
 
 /* L D L' of a symmetric matrix at each of `count` points, in place: entry (i,j), i >= j,

@@ -564,7 +564,9 @@ static void study_horizon(const options *o)
         y.p = &p;
         y.count = setting_count = 0;
         for (int s = 6; s <= 12; s += 2) add_setting(s, GVI_GAUSS, GVI_POSITIONS, 0);
-        for (int s = 8; s <= 12; s += 2) add_setting(s, GVI_GAUSS, GVI_POSITIONS, 1e-12);
+        for (int s = 8; s <= 12; s += 2)
+            for (double tolerance = 1e-16; tolerance < 1e-11; tolerance *= 100)
+                add_setting(s, GVI_GAUSS, GVI_POSITIONS, tolerance);
         p.evaluations *= 2;
         p.limit = 2;
         options quick = *o;
