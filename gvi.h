@@ -498,9 +498,10 @@ typedef struct gvi_desc {
                                           as the last two changes predict it, is
                                           below tolerance*|q|: the step then is
                                           symplectic to that, and takes K r R
-                                          numbers more.  Above 32 eps the sums of
-                                          a step are rounded, too: by 2 eps of the
-                                          largest term.  0: at round-off.
+                                          numbers more.  Beside stiffness, above
+                                          32 eps, the sums of a step are rounded,
+                                          too: by about eps of their terms' sizes.
+                                          0: at round-off.
                                           Explicit (not small code, full mass or
                                           stiffness): any but 0 rounds q and p at
                                           each kick; areas may drift by eps r/2 a
@@ -1470,7 +1471,8 @@ GVI__APART gvi_real gvi__node_guess(int lobatto, int n, int j)
 }
 
 /* Newton's method in working precision, in place of the first corrections, where speed
-   counts; the recurrence has its quotients first, so that nothing waits for them.    */
+   counts; the recurrence has its quotients first, so that nothing waits for them.
+   Where `wanted` is 0 the node is known.                                       */
 static void gvi__node_start(int lobatto, int m, const gvi_real *wanted, gvi_real *c)
 {
     gvi_real P[GVI__NODES], before[GVI__NODES];
@@ -1501,7 +1503,7 @@ static void gvi__rule_part(int lobatto, int n, int first, gvi_real *c, gvi_real 
 {
     const int m = n - lobatto, most = (n - 1)/2;
     gvi__nodes z, P, d;
-    gvi_real last[GVI__NODES], weight[GVI__NODES];                     // correction; 0: node is known
+    gvi_real last[GVI__NODES], weight[GVI__NODES];    // last: correction; 0, where the node is known
     for (int i = 0; i < GVI__NODES; ++i) {
         const int j = first + i < most ? first + i : most, middle = 2*j + 1 == n;
         const int known = middle || (lobatto && j == 0);
@@ -1788,6 +1790,7 @@ static gvi_status gvi__done(gvi_stepper *st, gvi_status status)
 // the first entry of rows [n][count] that is not finite is the fault
 static gvi_status gvi__check_rows(gvi_stepper *st, const gvi_points *x, const gvi_real *rows, int effect)
 {
+    // one point is one row: all numbers at a time
     if (!GVI__SMALL && rows && x->stride == 1 && gvi__all_finite(x->n, rows)) return GVI_OK;
     for (int i = 0; rows && i < x->n; ++i)
         for (int k = 0; k < x->count; ++k)
@@ -2716,11 +2719,13 @@ static inline int gvi__is_rounded(const gvi_stepper *st)
     return gvi__rounds(st) && !gvi__mass_is(st, GVI_MASS_DENSE) && !(GVI__STIFF && st->x.springs);
 }
 
-/* With a tolerance far above rounding the sums of a step's increments are rounded as well, and what
-   they lose is not carried: nothing beside what the iteration leaves undone.  */
+/* Beside stiffness, with a tolerance far above rounding, the sums of a step's increments are rounded,
+   too, and what they lose is not carried: little beside what the iteration leaves undone.  Elsewhere
+   they are exact: a total momentum is kept however early the iteration ends.  */
 static inline int gvi__is_coarse(const gvi_stepper *st)
 {
-    return GVI__TOLERANCE && st->x.desc.tolerance > 32*GVI__EPS && !st->x.desc.iterations;
+    const struct gvi__private *x = &st->x;
+    return GVI__TOLERANCE && GVI__STIFF && x->springs && x->desc.tolerance > 32*GVI__EPS && !x->desc.iterations;
 }
 
 // what f is weighed with in a stage, or NULL
@@ -4982,8 +4987,7 @@ GVI__APART void gvi__guess(gvi_stepper *st, int extrapolate, gvi_real rate)
 /* sum_j a_j b_j + rest, the sum carried with its rounding: an increment is what
    errors add up in, step by step.  Eight partial sums, then these by halves;
    z: scratch for them, of two rows.                                           */
-GVI__APART gvi__two gvi__exact_dot(int r, const gvi_real *a, const gvi_real *b, int coarse, gvi_real rest,
-                                   gvi_real *z)
+GVI__APART gvi__two gvi__exact_dot(int r, const gvi_real *a, const gvi_real *b, gvi_real rest, gvi_real *z)
 {
     const int lanes = r < 8 ? r : 8;
     gvi_real own[16], *hi = GVI__SMALL ? z : own, *lo = hi + lanes;
@@ -5001,7 +5005,7 @@ GVI__APART gvi__two gvi__exact_dot(int r, const gvi_real *a, const gvi_real *b, 
             hi[k] = sum.hi;
             lo[k] = sum.lo;
         }
-    return gvi__two_of(hi[0], coarse ? rest : gvi__rest(lo[0] + rest));
+    return gvi__two_of(hi[0], gvi__rest(lo[0] + rest));
 }
 
 // sum_j (1 - c_j) h b_j F_j: what (3) is at tau = 1, where S_j = c_j
@@ -5047,7 +5051,7 @@ static inline gvi__two gvi__exact_dot_vector(int R, const gvi_real *a, const gvi
     return gvi__two_of(sum.hi, gvi__rest(sum.lo + rest));
 }
 
-// the first of them alone
+// gvi__exact_dot_vector without what rounding leaves: its hi
 static inline gvi_real gvi__coarse_dot_vector(int R, const gvi_real *a, const gvi_real *b)
 {
     gvi_real z[8];
@@ -5085,24 +5089,22 @@ typedef struct gvi__eights { gvi__eight hi, lo; } gvi__eights;
 #define GVI__EVEN(a, b)        __builtin_shufflevector(a, b, 0, 2, 4, 6, 8, 10, 12, 14)
 #define GVI__ODD(a, b)         __builtin_shufflevector(a, b, 1, 3, 5, 7, 9, 11, 13, 15)
 
-// coarse: without what is lost, here and in what follows
-GVI__COPY gvi__eights gvi__product_lanes(int coarse, gvi__eight a, gvi__eight b)
+GVI__COPY gvi__eights gvi__product_lanes(gvi__eight a, gvi__eight b)
 {
     const gvi__eight hi = a*b;
     gvi__eights z;
-    gvi__eight lo = { 0 };
-    for (int l = 0; l < 8 && !coarse; ++l) lo[l] = GVI__FMA(a[l], b[l], -hi[l]);
+    gvi__eight lo;
+    for (int l = 0; l < 8; ++l) lo[l] = GVI__FMA(a[l], b[l], -hi[l]);
     z.hi = hi;
     z.lo = lo;
     return z;
 }
 
-GVI__COPY gvi__eights gvi__join_lanes(int coarse, gvi__eights x, gvi__eights y)
+GVI__COPY gvi__eights gvi__join_lanes(gvi__eights x, gvi__eights y)
 {
     const gvi__eight sum = x.hi + y.hi, b = sum - x.hi;
     gvi__eights z;
-    z.lo = x.lo;
-    if (!coarse) z.lo = (x.lo + y.lo) + ((x.hi - (sum - b)) + (y.hi - b));
+    z.lo = (x.lo + y.lo) + ((x.hi - (sum - b)) + (y.hi - b));
     z.hi = sum;
     return z;
 }
@@ -5119,14 +5121,14 @@ GVI__COPY void gvi__pairs(gvi__eight a, gvi__eight b, gvi__eight c, gvi__eight d
 }
 
 // the terms h b F of eight points of four rows, in pairs, and the sums of (1 - c) h b F
-GVI__COPY void gvi__terms_of_four(int coarse, int o, const gvi_real *c, const gvi_real *hb, const gvi_real *const F[4],
+GVI__COPY void gvi__terms_of_four(int o, const gvi_real *c, const gvi_real *hb, const gvi_real *const F[4],
                                   gvi__eights term[4], gvi__eight lever[2])
 {
     const gvi__eight w = GVI__EIGHT(hb + o), far = 1 - GVI__EIGHT(c + o);
-    const gvi__eights p = gvi__product_lanes(coarse, w, GVI__EIGHT(F[0] + o));
-    const gvi__eights q = gvi__product_lanes(coarse, w, GVI__EIGHT(F[1] + o));
-    const gvi__eights u = gvi__product_lanes(coarse, w, GVI__EIGHT(F[2] + o));
-    const gvi__eights v = gvi__product_lanes(coarse, w, GVI__EIGHT(F[3] + o));
+    const gvi__eights p = gvi__product_lanes(w, GVI__EIGHT(F[0] + o));
+    const gvi__eights q = gvi__product_lanes(w, GVI__EIGHT(F[1] + o));
+    const gvi__eights u = gvi__product_lanes(w, GVI__EIGHT(F[2] + o));
+    const gvi__eights v = gvi__product_lanes(w, GVI__EIGHT(F[3] + o));
     gvi__eight hi[4], lo[4], arm[4];
     gvi__pairs(p.hi, q.hi, u.hi, v.hi, hi);
     gvi__pairs(p.lo, q.lo, u.lo, v.lo, lo);
@@ -5139,37 +5141,36 @@ GVI__COPY void gvi__terms_of_four(int coarse, int o, const gvi_real *c, const gv
 }
 
 // two partial sums of h b F for each of four rows, and of (1 - c) h b F
-GVI__COPY gvi__eights gvi__four_rows(int coarse, int R, const gvi_real *c, const gvi_real *hb,
-                                     const gvi_real *const F[4], gvi__eight *lever)
+GVI__COPY gvi__eights gvi__four_rows(int R, const gvi_real *c, const gvi_real *hb, const gvi_real *const F[4],
+                                     gvi__eight *lever)
 {
     gvi__eights sum[4], more[4];
     gvi__eight arms[2] = { { 0 }, { 0 } };
-    gvi__terms_of_four(coarse, 0, c, hb, F, sum, arms);
+    gvi__terms_of_four(0, c, hb, F, sum, arms);
     for (int o = 8; o < R; o += 8) {
-        gvi__terms_of_four(coarse, o, c, hb, F, more, arms);
-        for (int k = 0; k < 4; ++k) sum[k] = gvi__join_lanes(coarse, sum[k], more[k]);
+        gvi__terms_of_four(o, c, hb, F, more, arms);
+        for (int k = 0; k < 4; ++k) sum[k] = gvi__join_lanes(sum[k], more[k]);
     }
     *lever = arms[0] + arms[1];
-    return gvi__join_lanes(coarse, gvi__join_lanes(coarse, sum[0], sum[2]),
-                           gvi__join_lanes(coarse, sum[1], sum[3]));
+    return gvi__join_lanes(gvi__join_lanes(sum[0], sum[2]), gvi__join_lanes(sum[1], sum[3]));
 }
 
 // sum + left := sum h b F of all n coordinates, lever: of (1 - c) h b F, may be NULL; the last
 // coordinate stands in for those that are missing of eight
-GVI__COPY void gvi__sums_of_eight(int coarse, int n, int R, const gvi_real *c, const gvi_real *hb,
-                                  const gvi_real *F, gvi_real *sum, gvi_real *left, gvi_real *lever)
+GVI__COPY void gvi__sums_of_eight(int n, int R, const gvi_real *c, const gvi_real *hb, const gvi_real *F,
+                                  gvi_real *sum, gvi_real *left, gvi_real *lever)
 {
     for (int i = 0; i < n; i += 8) {
         const gvi_real *row[8];
         for (int k = 0; k < 8; ++k) row[k] = F + (i + k < n ? i + k : n - 1)*R;
         gvi__eight a, b;
-        gvi__eights x = gvi__four_rows(coarse, R, c, hb, row, &a), even, odd;
-        const gvi__eights y = gvi__four_rows(coarse, R, c, hb, row + 4, &b);
+        gvi__eights x = gvi__four_rows(R, c, hb, row, &a), even, odd;
+        const gvi__eights y = gvi__four_rows(R, c, hb, row + 4, &b);
         even.hi = GVI__EVEN(x.hi, y.hi);
         even.lo = GVI__EVEN(x.lo, y.lo);
         odd.hi = GVI__ODD(x.hi, y.hi);
         odd.lo = GVI__ODD(x.lo, y.lo);
-        x = gvi__join_lanes(coarse, even, odd);
+        x = gvi__join_lanes(even, odd);
         a = GVI__EVEN(a, b) + GVI__ODD(a, b);
         if (n >= 8) {                             // in whole vectors, as gvi__lengths has it
             *(gvi__eight *)(sum + i) = x.hi;
@@ -5183,25 +5184,18 @@ GVI__COPY void gvi__sums_of_eight(int coarse, int n, int R, const gvi_real *c, c
     }
 }
 
-GVI__COPY void gvi__increments_of_eight(gvi_stepper *st, const gvi__from *from, int coarse, int R, int momenta)
+GVI__APART void gvi__increments_by_eight(gvi_stepper *st, const gvi__from *from, int R, int momenta)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n;
+    const gvi_real *F = x->work.F, *V = x->work.V;
     gvi_real *lever = momenta ? NULL : x->dq;
-    gvi__sums_of_eight(coarse, n, R, x->c, x->hb, x->work.F, x->dp, x->dpe, lever);
+    if (R == 8) gvi__sums_of_eight(n, 8, x->c, x->hb, F, x->dp, x->dpe, lever);
+    else gvi__sums_of_eight(n, R, x->c, x->hb, F, x->dp, x->dpe, lever);
     for (int i = 0; i < n; ++i) x->dpe[i] = gvi__rest(x->dpe[i] + from->pe[i]);
     if (!momenta) return;
-    gvi__sums_of_eight(coarse, n, R, x->c, x->hb, x->work.V, x->dq, x->dqe, NULL);
+    gvi__sums_of_eight(n, R, x->c, x->hb, V, x->dq, x->dqe, NULL);
     for (int i = 0; i < n; ++i) x->dqe[i] = gvi__rest(x->dqe[i] + from->qe[i]);
-}
-
-static void gvi__increments_by_eight(gvi_stepper *st, const gvi__from *from, int R, int momenta)
-{
-    const int coarse = gvi__is_coarse(st);
-    if (R == 8 && coarse) gvi__increments_of_eight(st, from, 1, 8, momenta);
-    else if (R == 8) gvi__increments_of_eight(st, from, 0, 8, momenta);
-    else if (coarse) gvi__increments_of_eight(st, from, 1, R, momenta);
-    else gvi__increments_of_eight(st, from, 0, R, momenta);
 }
 #endif
 
@@ -5214,7 +5208,8 @@ static inline gvi__two gvi__increment(int r, int R, const gvi_real *a, const gvi
     if (!GVI__SMALL && R % 8 == 0) return gvi__exact_dot_vector(R, a, b, rest);
 #endif
     (void)R;
-    return gvi__exact_dot(r, a, b, coarse, rest, z);
+    const gvi__two sum = gvi__exact_dot(r, a, b, rest, z);
+    return gvi__two_of(sum.hi, coarse ? rest : sum.lo);
 }
 
 // sum_j a_j b_j, in the same order with vectors and without

@@ -83,11 +83,10 @@ trace() {  # scene-formulation, index of the setting
 plain() {
     mkdir -p "$dir/plain"
     cat >"$dir/plain/dot" <<'END'
-GVI__APART gvi__two gvi__exact_dot(int r, const gvi_real *a, const gvi_real *b, int coarse, gvi_real rest,
-                                   gvi_real *z)
+GVI__APART gvi__two gvi__exact_dot(int r, const gvi_real *a, const gvi_real *b, gvi_real rest, gvi_real *z)
 {
     gvi__two sum = gvi__real2(rest);
-    (void)z, (void)coarse, (void)gvi__join;
+    (void)z, (void)gvi__join;
     for (int j = 0; j < r; ++j) sum.hi += a[j]*b[j];
     return sum;
 }
