@@ -112,12 +112,14 @@
               else the next multiple of 8, K = 1 for positions, 2 for velocities and
               momenta; full M: 2n^2 ((N+2) K R + 3) more; M(q): (N+1) R (n^3/2 + 6n^2 + 4n),
               and as much again where one of its pivots is hardly more than rounding.
-              Explicit: 10n(r+1) + 32n + 8r + 16.  A new h: 6r^3 + 4(r+10)rR + 70r + 60
-              more, in its step and the next two; without desc.iterations, where steps take six
-              rounds, in two of a thousand as well.  With stiffness: n (30R + 200) more, and for
-              each k/m at a new h r (16p (12s + 70) + 4r (s + 20)) + 3r^2 R + 200, sines counted
-              as one, p = 1 + (h omega + s + s^2/32)/6; explicit: 23n(r+1) and 560n(r+1).  Twice
-              that where the extrapolated start leads nowhere, four times where the step fails.
+              A new h: 6r^3 + 4(r+10)rR + 70r + 60 more, in its step and the next two; without
+              desc.iterations, where steps take six rounds, in two of a thousand as well.
+              With stiffness: n (30R + 200) more, and for each k/m at a new h
+              r (16p (12s + 70) + 4r (s + 20)) + 3r^2 R + 200, sines counted as one,
+              p = 1 + (h omega + s + s^2/32)/6.  Twice that where the extrapolated start leads
+              nowhere, four times where the step fails.
+              Explicit: 10n(r+1) + 32n + 8r + 16, a new h 1800r more (of kicks with a tolerance
+              far less); with stiffness 23n(r+1) more, a new h 2300n(r+1).
               Without a clock, Lagrangian terms or marks; counted by make bound.
 
    gvi.h does not: choose or adapt the step, treat constraints or contact,
@@ -2746,28 +2748,32 @@ static void gvi__fold(gvi_stepper *st, int stage)
 // the exact product overflows before a*b does: then there is no rest
 static gvi_real gvi__rest(gvi_real x) { return gvi__finite(x) ? x : 0; }
 
-/* Two numbers whose product is x to EPS/50 or so: one rounded number would err by up to EPS/2, and
-   the same in every step.  b has no round digits, so that products with it are rounded evenly:
-   (1 + sqrt(5))/4, and i units in its last place are added; a is x/b, less j of its own: the best
-   of 24 pairs.                                                                */
-static void gvi__two_factors(gvi__two x, gvi_real *a, gvi_real *b)
+/* Two numbers whose product is x to EPS/1000, at worst to EPS/20: one rounded number would err by
+   up to EPS/2, and the same in every step.  lo has no round digits, so that products with it are
+   rounded evenly; hi is x/lo, rounded: the best of three runs of pairs.  One run would not do: where
+   x/lo^2 is next to a ratio of small numbers, all of its pairs err alike.     */
+static gvi__two gvi__two_factors(gvi__two x)
 {
-    const gvi_real unit = GVI__EPS/2, first = (gvi_real)0.80901699437494742410L, whole = x.hi/first;
-    const gvi__two z = gvi__product(whole, first);
-    int e, best = 0;
-    const gvi_real size = GVI_FREXP(whole, &e)/first, last = GVI_LDEXP(unit, e);    // i = 1 is size times j = 1
-    const gvi_real rest = ((x.hi - z.hi) + (x.lo - z.lo))/(last*first);
-    gvi_real least = 1, less = 0;
-    for (int i = 0; i < 24; ++i) {
-        const gvi_real over = (gvi_real)i*size - rest, j = GVI_FLOOR(over + (gvi_real)0.5);
-        const gvi_real off = GVI_ABS(over - j);
-        if (!(off < least)) continue;
-        least = off;
-        less = j;
-        best = i;
+    const gvi_real unit = GVI__EPS/2;
+    gvi_real first = (gvi_real)0.80901699437494742410L, least = GVI_ABS(x.hi);     // (1 + sqrt(5))/4
+    gvi__two best = gvi__two_of(x.hi, 1);
+    for (int run = 0; run < 3; ++run) {
+        const gvi__two whole = gvi__div2(x, gvi__real2(first));
+        const gvi_real slope = whole.hi/first*unit;
+        gvi_real lo = first, less = -whole.lo;                // x/lo is whole.hi - less
+        for (int i = 0; i < 85; ++i) {
+            const gvi__stored hi = whole.hi - less;
+            const gvi_real off = GVI_ABS((whole.hi - hi) - less);
+            if (off < least) {
+                least = off;
+                best = gvi__two_of(hi, lo);
+            }
+            less += slope;
+            lo += unit;
+        }
+        first -= (gvi_real)0.125;
     }
-    *a = whole - less*last;
-    *b = first + (gvi_real)best*unit;
+    return best;
 }
 
 /* Explicit: rows of gvi__drifting_of behind the times.  A kick of weight 0 is left out, and the weight
@@ -2787,8 +2793,10 @@ GVI__APART void gvi__drifts(gvi_stepper *st, gvi_real h)
             w.hi = hb[j];
             continue;
         }
-        gvi__two_factors(gvi__div2(w, gvi__real2(hb[j])), ratio + j, factor + j);
-        w = gvi__div2(w, gvi__product(ratio[j], factor[j]));
+        const gvi__two by = gvi__two_factors(gvi__div2(w, gvi__real2(hb[j])));
+        ratio[j] = by.hi;
+        factor[j] = by.lo;
+        w = gvi__div2(w, gvi__product(by.hi, by.lo));
     }
 }
 
@@ -6305,10 +6313,10 @@ static gvi_status gvi__make_shears(gvi_stepper *st, int j)
             by[4*row] = by[4*row - 1];
             continue;
         }
-        const gvi__two push = gvi__shears_push(b, along, back, sign);
+        gvi__two push = gvi__shears_push(b, along, back, sign);
+        push = gvi__rounds(st) ? gvi__two_of(push.hi, 1) : gvi__two_factors(push);
         by[3*row] = push.hi;
-        by[4*row] = 1;
-        if (!gvi__rounds(st)) gvi__two_factors(push, by + 3*row, by + 4*row);
+        by[4*row] = push.lo;
     }
     return GVI_OK;
 }

@@ -206,7 +206,7 @@ static void judge(const kind &k, int n, int s, int r, int N, bool list, summary 
     const outcome x = perform(describe(k, n, s, r, N));
     const bool springs = GVI__STIFF && k.springs;
     const double bound = flops_of_step(k.f, k.mass, n, r, N) + springs*flops_of_springs(k.f, n, r);
-    const double more = flops_of_new_h(r) + springs*n*flops_of_spring_tables(k.f, s, r, 1);
+    const double more = flops_of_new_h(k.f, r) + springs*n*flops_of_spring_tables(k.f, s, r, 1);
     const double ratio = bound/double(x.most);
     const bool bad = !(ratio >= 1 && ratio <= 2.5) || double(x.first) > bound + more
                      || double(x.again) > 2*bound || double(x.failed) > 4*bound;

@@ -20,7 +20,10 @@ static double flops_of_step(gvi_formulation f, gvi_mass_kind mass, int n, int r,
 }
 
 /* What a new h costs besides, in the step that has it and the next two                          */
-static inline double flops_of_new_h(int r) { return 6*r*r*r + 4*(r + 10)*r*flops_row(r) + 70*r + 60; }
+static inline double flops_of_new_h(gvi_formulation f, int r)
+{
+    return f == GVI_EXPLICIT ? 1800*r : 6*r*r*r + 4*(r + 10)*r*flops_row(r) + 70*r + 60;
+}
 
 /* With stiffness: in a step, and for each of the k/m where h is new                              */
 static inline double flops_of_springs(gvi_formulation f, int n, int r)
@@ -29,7 +32,7 @@ static inline double flops_of_springs(gvi_formulation f, int n, int r)
 }
 static inline double flops_of_spring_tables(gvi_formulation f, int s, int r, double nu)
 {
-    if (f == GVI_EXPLICIT) return 560*(r + 1);
+    if (f == GVI_EXPLICIT) return 2300*(r + 1);
     const double pieces = 1 + (nu + s + s*s/32)/6;
     return r*(16*pieces*(12*s + 70) + 4*r*(s + 20)) + 3*r*r*flops_row(r) + 200;
 }
