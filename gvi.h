@@ -3860,6 +3860,56 @@ GVI__APART void gvi__affine_row(const gvi_stepper *st, const gvi__stage *y, int 
         row[k] = p.base + (((GVI__RESTS ? p.extra + c[k]*p.rest : p.extra) + c[k]*p.a) + row[k]*p.m*p.b);
 }
 
+/* Up to four points are no vector: eight coordinates are, and loops over them are inside.  The terms are
+   the same and in the same order, number by number.                           */
+typedef gvi_real gvi__abreast[4][8];                  // of point k of coordinate i + l at [k][l]
+
+// z := sum_j table[j][.] L_j of eight rows
+GVI__COPY void gvi__sums_abreast(int r, const gvi_real *table, const gvi_real *L, gvi__abreast z)
+{
+    for (int l = 0; l < 8; ++l)
+        for (int k = 0; k < r; ++k) gvi__sum_block(r, r, 1, table + k, L + l*r, &z[k][l]);
+}
+
+// gvi__affine_row of coordinates i to i + 7
+GVI__COPY void gvi__affine_abreast(const gvi_stepper *st, const gvi__stage *y, int i, int r, gvi__abreast z)
+{
+    const gvi_real *diagonal = gvi__diagonal(st, y), *c = st->x.c, *base = y->base + i, *extra = y->extra + i;
+    gvi_real a[8], rest[8], m[8];
+    for (int l = 0; l < 8; ++l) a[l] = y->path ? y->path[i + l] : 0;
+    for (int l = 0; l < 8; ++l) rest[l] = y->path ? y->rest[i + l] : 0;
+    for (int l = 0; l < 8; ++l) m[l] = diagonal ? diagonal[i + l] : 1;
+    for (int l = 0; l < 8; ++l)
+        for (int k = 0; k < r; ++k)
+            z[k][l] = base[l] + (((extra[l] + c[k]*rest[l]) + c[k]*a[l]) + z[k][l]*m[l]*y->factor);
+}
+
+// gvi__stage_rows_of without minus, of all whole eights of coordinates; returns how many these are
+GVI__COPY int gvi__rows_abreast(const gvi_stepper *st, const gvi__stage *y, int r, gvi_real *lane)
+{
+    const gvi_real *weights = gvi__stage_weights(st);
+    const int whole = st->n & ~7;
+    for (int i = 0; i < whole; i += 8) {
+        const gvi_real *GVI__RESTRICT f = y->f + i*r;
+        gvi_real *GVI__RESTRICT row = y->rows + i*r, *GVI__RESTRICT scale = y->scale + i, L[8*4];
+        gvi__abreast next, square;
+        for (int l = 0; l < 8; ++l)
+            for (int k = 0; k < r; ++k) L[l*r + k] = weights ? weights[k]*f[l*r + k] : f[l*r + k];
+        gvi__sums_abreast(r, y->table, L, next);
+        gvi__affine_abreast(st, y, i, r, next);
+        for (int l = 0; l < 8; ++l) gvi__rescale(y->base[i + l], row[l*r + r - 1], next[r - 1][l], scale + l);
+        for (int l = 0; l < 8; ++l)
+            for (int k = 0; k < r; ++k) {
+                const gvi_real moved = (next[k][l] - row[l*r + k])*scale[l];
+                square[k][l] = moved*moved;
+                row[l*r + k] = next[k][l];
+            }
+        for (int l = 0; l < 8; ++l)
+            for (int k = 0; k < r; ++k) lane[k] += square[k][l];
+    }
+    return whole;
+}
+
 /* The rows of a stage, M^-1 being a number for each.  Returns the sum of the squares
    of the changes, scaled.  r and R are constants where this is inlined for the
    usual sizes.                                                                */
@@ -3913,8 +3963,8 @@ GVI__COPY gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stage *y
     }
 #endif
     gvi_real lane[8] = { 0, 0, 0, 0, 0, 0, 0, 0 };
-    const int block = R < 8 ? R : 8;
-    for (int i = 0; i < n; ++i) {
+    const int block = R < 8 ? R : 8, done = R < 5 && !minus ? gvi__rows_abreast(st, y, r, lane) : 0;
+    for (int i = done; i < n; ++i) {
         const gvi__affine p = gvi__affine_of(y, diagonal, i);
         gvi_real few[8], *weighed = R > 8 ? x->z : few;
         const gvi_real *L = weights ? weighed : y->f + i*R;
@@ -4868,6 +4918,27 @@ GVI__SELDOM void gvi__fit_sums(gvi_stepper *st)
     for (int j = 0; j < rows; ++j) gvi__weighted_sums(st, x->g, x->hb, x->E + j*R, x->E + j*R);
 }
 
+// gvi__extrapolate_rows of all whole eights of coordinates, up to four points; returns how many these are
+GVI__COPY int gvi__extrapolate_abreast(const gvi_stepper *st, int r, const gvi_real *last,
+                                       const gvi_real *older, const gvi__stage *y,
+                                       gvi_real *GVI__RESTRICT out)
+{
+    const int whole = st->n & ~7;
+    for (int i = 0; i < whole; i += 8) {
+        gvi__abreast z, before;
+        gvi__sums_abreast(r, st->x.E, last + i*r, z);
+        if (older) {
+            gvi__sums_abreast(r, st->x.E + r*r, older + i*r, before);
+            for (int k = 0; k < r; ++k)
+                for (int l = 0; l < 8; ++l) z[k][l] += before[k][l];
+        }
+        if (y) gvi__affine_abreast(st, y, i, r, z);
+        for (int l = 0; l < 8; ++l)
+            for (int k = 0; k < r; ++k) out[(i + l)*r + k] = z[k][l];
+    }
+    return whole;
+}
+
 /* Extrapolates rows of the last step, or of the last two, to the points of the
    next:  out_i = sum_j E_ij last_j (+ sum_j E_i,r+j older_j).  y, if not NULL: E is
    gvi__fit_sums', and what it gives is put into that stage's row.               */
@@ -4881,7 +4952,10 @@ GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const 
     if (R == 8 && older) older_E = gvi__keep(r, older_E, kept[1]);
 #endif
     const gvi_real *stiffness = GVI__STIFF && y && x->springs ? gvi__stiffness(st) : NULL;
-    for (int i = 0; i < st->n; ++i, last += R) {
+    const int few = R < 5 && !stiffness && !GVI__SMALL;
+    const int done = few ? gvi__extrapolate_abreast(st, r, last, older, y, out) : 0;
+    last += done*R;
+    for (int i = done; i < st->n; ++i, last += R) {
         gvi_real *row = out + i*R;
         if (GVI__STIFF && stiffness && gvi__nonzero(stiffness[i])) {
             gvi__arc_row(st, i, r, R, gvi__free_rows(st) + i*R,
@@ -4919,6 +4993,9 @@ GVI__APART void gvi__extrapolate(gvi_stepper *st, const gvi_real *last, const gv
     else if (st->r == 8 && y) gvi__extrapolate_rows(st, 8, 8, last, older, y, out);
     else if (st->r == 8) gvi__extrapolate_rows(st, 8, 8, last, older, NULL, out);
     else if (st->r == 4) gvi__extrapolate_rows(st, 4, 4, last, older, y, out);
+    else if (st->r == 3) gvi__extrapolate_rows(st, 3, 3, last, older, y, out);
+    else if (st->r == 2) gvi__extrapolate_rows(st, 2, 2, last, older, y, out);
+    else if (st->r == 1) gvi__extrapolate_rows(st, 1, 1, last, older, y, out);
     else if (st->r == 16) gvi__extrapolate_rows(st, 16, 16, last, NULL, y, out);
     else if (st->x.stride == 16) gvi__extrapolate_rows(st, st->r, 16, last, older, y, out);
     else gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, y, out);
@@ -5207,6 +5284,50 @@ GVI__APART void gvi__increments_by_eight(gvi_stepper *st, const gvi__from *from,
 }
 #endif
 
+/* Both sums of all n coordinates, up to four points, in a loop over coordinates; terms and order as in
+   gvi__exact_dot and gvi__lever_sum.                                          */
+GVI__COPY void gvi__exact_sums_of(int n, int r, const gvi_real *c, const gvi_real *hb,
+                                      const gvi_real *GVI__RESTRICT F, const gvi_real *GVI__RESTRICT rest,
+                                      gvi_real *GVI__RESTRICT sum, gvi_real *GVI__RESTRICT left,
+                                      gvi_real *GVI__RESTRICT lever)
+{
+    for (int i = 0; i < n; ++i) {
+        const gvi_real *f = F + i*r;
+        gvi__two a = gvi__product(hb[0], f[0]), b = a;
+        gvi_real arm = (1 - c[0])*(hb[0]*f[0]), other = 0;
+        if (r > 1) {
+            b = gvi__product(hb[1], f[1]);
+            other += (1 - c[1])*(hb[1]*f[1]);
+        }
+        if (r > 2) {
+            const gvi__two d = gvi__product(hb[2], f[2]);
+            a = gvi__join(a.hi, a.lo, d.hi, d.lo);
+            arm += (1 - c[2])*(hb[2]*f[2]);
+        }
+        if (r > 3) {
+            const gvi__two d = gvi__product(hb[3], f[3]);
+            b = gvi__join(b.hi, b.lo, d.hi, d.lo);
+            other += (1 - c[3])*(hb[3]*f[3]);
+        }
+        if (r > 1) a = gvi__join(a.hi, a.lo, b.hi, b.lo);
+        sum[i] = a.hi;
+        left[i] = gvi__rest(a.lo + rest[i]);
+        if (lever) lever[i] = arm + other;
+    }
+}
+
+static void gvi__exact_sums(const gvi_stepper *st, const gvi_real *F, const gvi_real *rest,
+                                       gvi_real *sum, gvi_real *left, gvi_real *lever)
+{
+    const struct gvi__private *x = &st->x;
+    switch (st->r) {
+    case 1:  gvi__exact_sums_of(st->n, 1, x->c, x->hb, F, rest, sum, left, lever); break;
+    case 2:  gvi__exact_sums_of(st->n, 2, x->c, x->hb, F, rest, sum, left, lever); break;
+    case 3:  gvi__exact_sums_of(st->n, 3, x->c, x->hb, F, rest, sum, left, lever); break;
+    default: gvi__exact_sums_of(st->n, 4, x->c, x->hb, F, rest, sum, left, lever); break;
+    }
+}
+
 // in vectors, where there are any
 static inline gvi__two gvi__increment(int r, int R, const gvi_real *a, const gvi_real *b, int coarse,
                                       gvi_real rest, gvi_real *z)
@@ -5301,6 +5422,11 @@ GVI__APART void gvi__increments_of(gvi_stepper *st, const gvi__from *from, gvi_r
     const int n = st->n, momenta = gvi__uses(st, GVI_MOMENTA), coarse = gvi__is_coarse(st);
     const gvi_real *stiffness = GVI__STIFF && x->springs ? gvi__stiffness(st) : NULL;
     int done = 0;
+    if (!GVI__SMALL && R < 5 && !gvi__A(w) && !stiffness) {
+        gvi__exact_sums(st, w->F, from->pe, x->dp, x->dpe, momenta ? NULL : x->dq);
+        if (momenta) gvi__exact_sums(st, w->V, from->qe, x->dq, x->dqe, NULL);
+        done = n;
+    }
 #ifdef GVI__EIGHTS
     if (!GVI__SMALL && R % 8 == 0 && n > 3 && !gvi__A(w) && !stiffness) {
         gvi__increments_by_eight(st, from, R, momenta);

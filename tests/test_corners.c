@@ -5,7 +5,7 @@
 #include "gvi_test.h"
 
 typedef gvi_real real;
-static real memory[4000], more[4000];
+static real memory[8000], more[8000];
 
 static int spring(const gvi_points *x, void *user)
 {
@@ -258,6 +258,40 @@ static void the_drift_that_rounding_leaves_is_no_larger_than_documented(void **s
     }
 }
 
+static int pendula(const gvi_points *x, void *user)
+{
+    (void)user;
+    for (int i = 0; i < x->n; ++i)
+        for (int k = 0; k < x->count; ++k) x->f[i*x->stride + k] -= (real)sinl((long double)x->q[i*x->stride + k]);
+    return 0;
+}
+
+/* Rows are made eight at a time, one by one or in vectors: which of them a coordinate is among must not
+   be seen in a bit of it.                                                     */
+static void coordinates_alike_move_alike(void **state)
+{
+    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = pendula }, { .kind = GVI_FORCE, .points = drag } };
+    enum { most = 19 };
+    real q[most], v[most], m[most];
+    for (int i = 0; i < most; ++i) q[i] = (real)0.7L, v[i] = (real)-0.3L, m[i] = (real)1.7L;
+    for (int n = 2; n <= most; ++n)
+        for (int s = 1; s <= 9; ++s)
+            for (int f = GVI_POSITIONS; f <= GVI_MOMENTA; ++f)
+                for (int kind = 0; kind < 4; ++kind) {
+                    gvi_stepper st;
+                    const gvi_mass mass = { .kind = kind & 1 ? GVI_MASS_DIAGONAL : GVI_MASS_UNIT, .matrix = m };
+                    set_up(&st, (gvi_desc){ .n = n, .degree = s, .effects = scene, .effect_count = f == GVI_POSITIONS ? 1 : 2,
+                                            .mass = mass, .formulation = (gvi_formulation)f,
+                                            .tolerance = kind & 2 ? (real)1e-5L : 0 }, memory);
+                    assert_ok(gvi_start(&st, 0, q, v));
+                    for (int k = 0; k < 12; ++k) assert_ok(gvi_step(&st, k < 8 ? (real)0.3L : (real)0.17L));
+                    for (int i = 1; i < n; ++i)
+                        assert_true(st.q[i] == st.q[0] && st.p[i] == st.p[0]
+                                    && st.x.qe[i] == st.x.qe[0] && st.x.pe[i] == st.x.pe[0]);
+                }
+    (void)state;
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -272,6 +306,7 @@ int main(void)
         cmocka_unit_test(weights_that_vanish_are_refused),
         cmocka_unit_test(a_force_may_set_in_where_next_to_nothing_was),
         cmocka_unit_test(the_drift_that_rounding_leaves_is_no_larger_than_documented),
+        cmocka_unit_test(coordinates_alike_move_alike),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
