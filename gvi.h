@@ -5443,7 +5443,7 @@ GVI__APART void gvi__increments_of(gvi_stepper *st, const gvi__from *from, gvi_r
         x->dp[i] = p.hi;
         x->dpe[i] = p.lo;
         if (momenta) {
-            const gvi__two q = gvi__increment(r, R, x->hb, w->V + i*R, coarse, from->qe[i], x->row);
+            const gvi__two q = gvi__increment(r, R, x->hb, w->V + i*R, 0, from->qe[i], x->row);    // no stiffness
             x->dq[i] = q.hi;
             x->dqe[i] = q.lo;
         }

@@ -41,7 +41,7 @@ static const scene arenstorf = {
     .h = 17.0652165601579625588917206249/16384, .duration = 17.0652165601579625588917206249,
     .build = arenstorf_build,
     .energy_unit = "", .energy_scale = 1, .time_unit = "month/2 pi", .time_scale = 1,
-    .caption = "the frame turns with Earth and Moon", .unit = "Earth-Moon distance", .points = 3,
+    .caption = "in the turning frame", .unit = "Earth-Moon distance", .points = 3,
     .trail_first = 2, .trails = 1, .samples = -16, .place = arenstorf_place,
     .sizes = arenstorf_sizes, .seconds = 16,
 };
