@@ -2014,8 +2014,10 @@ typedef gvi_real gvi__vector
 #if !defined(__clang__) && __GNUC__ >= 8
 #define GVI__EACH _Pragma("GCC unroll 8")             // with -O2, too: else vectors are arrays
 #define GVI__BY_FOUR _Pragma("GCC unroll 4")          // the compiler's vectors of a loop of any length
+#define GVI__ROLLED _Pragma("GCC unroll 1")
 #else
 #define GVI__EACH
+#define GVI__ROLLED
 #endif
 #endif
 #ifndef GVI__BY_FOUR
@@ -4046,6 +4048,91 @@ GVI__COPY gvi_real gvi__stage_rows_8(const gvi_stepper *st, const gvi__stage *y,
 }
 #endif
 
+#ifdef GVI__VECTORS
+/* gvi__sum_vector of two rows at once, and of `vectors` vectors of each, so that what is loaded of the
+   table is used twice.  The loop stays one: unrolled, gcc loads the table far ahead and has no registers
+   left for it.                                                                */
+GVI__COPY void gvi__sum_two(int r, int R, int vectors, const gvi_real *table, const gvi_real *L,
+                            const gvi_real *M, gvi__vector *y, gvi__vector *z)
+{
+    gvi__vector sum[4][2], other[4][2];
+    GVI__EACH for (int m = 0; m < 4; ++m)
+        GVI__EACH for (int v = 0; v < vectors; ++v) {
+            const gvi__vector t = GVI__AT(table + m*R + v*GVI__LANES);
+            sum[m][v] = t*L[m];
+            other[m][v] = t*M[m];
+        }
+    int j = 4;
+    GVI__ROLLED for (; j + 3 < r; j += 4)
+        GVI__EACH for (int m = 0; m < 4; ++m)
+            GVI__EACH for (int v = 0; v < vectors; ++v) {
+                const gvi__vector t = GVI__AT(table + (j + m)*R + v*GVI__LANES);
+                sum[m][v] += t*L[j + m];
+                other[m][v] += t*M[j + m];
+            }
+    GVI__EACH for (int m = 0; m < 3; ++m)
+        if (j + m < r) GVI__EACH for (int v = 0; v < vectors; ++v) {
+            const gvi__vector t = GVI__AT(table + (j + m)*R + v*GVI__LANES);
+            sum[m][v] += t*L[j + m];
+            other[m][v] += t*M[j + m];
+        }
+    GVI__EACH for (int v = 0; v < vectors; ++v) {
+        y[v] = (sum[0][v] + sum[1][v]) + (sum[2][v] + sum[3][v]);
+        z[v] = (other[0][v] + other[1][v]) + (other[2][v] + other[3][v]);
+    }
+}
+
+// row i of a stage from its sums, sixteen points; their changes go to squares, the last eight first
+GVI__COPY void gvi__put_16(const gvi_stepper *st, const gvi__stage *y, int r, int i, const gvi_real *diagonal,
+                           gvi__vector *next, gvi__vector *squares)
+{
+    enum { MOST = 16/GVI__LANES };
+    const gvi__affine p = gvi__affine_of(y, diagonal, i);
+    gvi_real *row = y->rows + 16*i;
+    GVI__EACH for (int v = 0; v < MOST; ++v) {
+        const gvi__vector c = GVI__AT(st->x.c + v*GVI__LANES);
+        if (diagonal) next[v] *= p.m;
+        next[v] = p.base + (((p.extra + c*p.rest) + c*p.a) + next[v]*p.b);
+    }
+    gvi__rescale(p.base, row[r - 1], next[(r - 1)/GVI__LANES][(r - 1) % GVI__LANES], y->scale + i);
+    GVI__EACH for (int k = 0; k < MOST; ++k) {
+        const int v = k < MOST/2 ? k + MOST/2 : k - MOST/2;
+        const gvi__vector moved = (next[v] - GVI__AT(row + v*GVI__LANES))*y->scale[i];
+        squares[v % (MOST/2)] += moved*moved;
+        *(gvi__vector *)(row + v*GVI__LANES) = next[v];
+    }
+}
+
+/* The same for nine to sixteen points, two rows at a time; of an odd number the last alone, twice. */
+GVI__COPY gvi_real gvi__stage_rows_16(const gvi_stepper *st, const gvi__stage *y, int r)
+{
+    enum { MOST = 16/GVI__LANES, AT_ONCE = GVI__LANES == 8 ? 2 : 1 };
+    const gvi_real *diagonal = gvi__diagonal(st, y), *weights = gvi__stage_weights(st);
+    const int n = st->n;
+    gvi_real lane[8], ahead[32];
+    gvi__vector squares[MOST/2] = { { 0 } };
+    for (int i = 0; i < n; i += 2) {
+        const int also = i + 1 < n ? i + 1 : i;
+        const gvi_real *L = y->f + 16*i, *M = y->f + 16*also;
+        for (int o = 0; weights && o < 16; o += GVI__LANES) {
+            *(gvi__vector *)(ahead + o) = GVI__AT(weights + o)*GVI__AT(L + o);
+            *(gvi__vector *)(ahead + 16 + o) = GVI__AT(weights + o)*GVI__AT(M + o);
+        }
+        if (weights) {
+            L = ahead;
+            M = ahead + 16;
+        }
+        gvi__vector next[MOST], other[MOST];
+        GVI__EACH for (int v = 0; v < MOST; v += AT_ONCE)
+            gvi__sum_two(r, 16, AT_ONCE, y->table + v*GVI__LANES, L, M, next + v, other + v);
+        gvi__put_16(st, y, r, i, diagonal, next, squares);
+        if (also > i) gvi__put_16(st, y, r, also, diagonal, other, squares);
+    }
+    GVI__EACH for (int k = 0; k < MOST/2; ++k) *(gvi__vector *)(lane + k*GVI__LANES) = squares[k];
+    return gvi__sum_lanes(lane);
+}
+#endif
+
 // z := table (h b f_i) - minus (b a_i)
 static void gvi__row_sums(const gvi_stepper *st, const gvi__stage *y, int i, gvi_real *z)
 {
@@ -4459,9 +4546,9 @@ GVI__ROWS(gvi__rows_8_folded, gvi__stage_rows_8(st, y, 8, st->n, 1))
 GVI__ROWS(gvi__rows_8_of_2, gvi__stage_rows_8(st, y, 8, 2, 1))
 GVI__ROWS(gvi__rows_5_to_8, gvi__stage_rows_8(st, y, st->r, st->n, gvi__folds(st)))
 GVI__ROWS(gvi__rows_8_less, gvi__stage_rows_of(st, y, 8, 8))
-GVI__ROWS(gvi__rows_12, gvi__stage_rows_of(st, y, 12, 16))
-GVI__ROWS(gvi__rows_16, gvi__stage_rows_of(st, y, 16, 16))
-GVI__ROWS(gvi__rows_9_to_15, gvi__stage_rows_of(st, y, st->r, 16))
+GVI__ROWS(gvi__rows_16, GVI__KEPT ? gvi__stage_rows_16(st, y, 16) : gvi__stage_rows_of(st, y, 16, 16))
+GVI__ROWS(gvi__rows_9_to_15, gvi__stage_rows_16(st, y, st->r))
+GVI__ROWS(gvi__rows_16_less, gvi__stage_rows_of(st, y, st->r, 16))
 GVI__ROWS(gvi__arc_rows_8, gvi__arc_rows_vector(st, y, 8, 8, 0))
 GVI__ROWS(gvi__arc_rows_to_8, gvi__arc_rows_vector(st, y, st->r, 8, 0))
 GVI__ROWS(gvi__arc_rows_to_16, gvi__arc_rows_vector(st, y, st->r, 16, 0))
@@ -4496,9 +4583,10 @@ static gvi__kernel *gvi__kernel_of(const gvi_stepper *st, const gvi__stage *y)
     case 8:
         if (y->minus) return gvi__rows_8_less;
         return !gvi__folds(st) ? gvi__rows_8 : st->n == 2 ? gvi__rows_8_of_2 : gvi__rows_8_folded;
-    case 12: return gvi__rows_12;
-    case 16: return gvi__rows_16;
-    default: return st->x.stride == 16 ? gvi__rows_9_to_15 : gvi__rows_any;
+    case 16: return y->minus ? gvi__rows_16_less : gvi__rows_16;
+    default:
+        if (st->x.stride != 16) return gvi__rows_any;
+        return y->minus ? gvi__rows_16_less : gvi__rows_9_to_15;
 #else
     default: return gvi__rows_any;
 #endif
