@@ -118,8 +118,8 @@
               r (16p (12s + 70) + 4r (s + 20)) + 3r^2 R + 200, sines counted as one,
               p = 1 + (h omega + s + s^2/32)/6.  Twice that where the extrapolated start leads
               nowhere, four times where the step fails.
-              Explicit: 10n(r+1) + 32n + 8r + 16, a new h 1800r more (of kicks with a tolerance
-              far less); with stiffness 23n(r+1) more, a new h 2300n(r+1).
+              Explicit: 10n(r+1) + 32n + 8r + 16, a new h 1800r more; with stiffness
+              23n(r+1) more, a new h 2300n(r+1) more.
               Without a clock, Lagrangian terms or marks; counted by make bound.
 
    gvi.h does not: choose or adapt the step, treat constraints or contact,
@@ -2750,8 +2750,8 @@ static void gvi__fold(gvi_stepper *st, int stage)
 // the exact product overflows before a*b does: then there is no rest
 static gvi_real gvi__rest(gvi_real x) { return gvi__finite(x) ? x : 0; }
 
-/* Two numbers whose product is x to EPS/1000, at worst to EPS/20: one rounded number would err by
-   up to EPS/2, and the same in every step.  lo has no round digits, so that products with it are
+/* Two numbers whose product is x to EPS/750 in the mean, at worst to EPS/17: one rounded number would
+   err by up to EPS/2, and the same in every step.  lo has no round digits, so that products with it are
    rounded evenly; hi is x/lo, rounded: the best of three runs of pairs.  One run would not do: where
    x/lo^2 is next to a ratio of small numbers, all of its pairs err alike.     */
 static gvi__two gvi__two_factors(gvi__two x)
@@ -2935,7 +2935,8 @@ static gvi_status gvi__check_kicks(int r, const gvi_real *c, const gvi_real *b)
         size += GVI_ABS(b[j]);
     }
     if (!gvi__all_finite(r, c) || !gvi__all_finite(r, b)) return GVI_E_NODES;
-    return GVI_ABS(sum - 1) <= 4*(gvi_real)(r + 2)*GVI__EPS*size ? GVI_OK : GVI_E_ORDER;
+    const gvi_real error = 4*(gvi_real)(r + 2)*GVI__EPS*size;
+    return GVI_ABS(sum - 1) <= error && error < 1 ? GVI_OK : GVI_E_ORDER;       // beyond 1 no digit is sure
 }
 
 // does the description ask for what is not compiled?
@@ -3863,7 +3864,12 @@ GVI__APART void gvi__affine_row(const gvi_stepper *st, const gvi__stage *y, int 
 }
 
 /* Up to four points are no vector: eight coordinates are, and loops over them are inside.  The terms are
-   the same and in the same order, number by number.                           */
+   the same and in the same order, number by number; not so where registers are wider than the type. */
+#if defined(GVI__EXACT_TYPES) && !GVI__SMALL
+#define GVI__ABREAST 1
+#else
+#define GVI__ABREAST 0
+#endif
 typedef gvi_real gvi__abreast[4][8];                  // of point k of coordinate i + l at [k][l]
 
 // z := sum_j table[j][.] L_j of eight rows
@@ -3965,7 +3971,7 @@ GVI__COPY gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stage *y
     }
 #endif
     gvi_real lane[8] = { 0, 0, 0, 0, 0, 0, 0, 0 };
-    const int block = R < 8 ? R : 8, done = R < 5 && !minus ? gvi__rows_abreast(st, y, r, lane) : 0;
+    const int block = R < 8 ? R : 8, done = GVI__ABREAST && R < 5 && !minus ? gvi__rows_abreast(st, y, r, lane) : 0;
     for (int i = done; i < n; ++i) {
         const gvi__affine p = gvi__affine_of(y, diagonal, i);
         gvi_real few[8], *weighed = R > 8 ? x->z : few;
@@ -5006,13 +5012,14 @@ GVI__SELDOM void gvi__fit_sums(gvi_stepper *st)
     for (int j = 0; j < rows; ++j) gvi__weighted_sums(st, x->g, x->hb, x->E + j*R, x->E + j*R);
 }
 
-// gvi__extrapolate_rows of all whole eights of coordinates, up to four points; returns how many these are
-GVI__COPY int gvi__extrapolate_abreast(const gvi_stepper *st, int r, const gvi_real *last,
-                                       const gvi_real *older, const gvi__stage *y,
-                                       gvi_real *GVI__RESTRICT out)
+// gvi__extrapolate_rows of eight coordinates or more; the last eight may be some of those before
+GVI__COPY void gvi__extrapolate_abreast(const gvi_stepper *st, int r, const gvi_real *last,
+                                        const gvi_real *older, const gvi__stage *y,
+                                        gvi_real *GVI__RESTRICT out)
 {
-    const int whole = st->n & ~7;
-    for (int i = 0; i < whole; i += 8) {
+    const int most = st->n - 8;
+    for (int o = 0; o < st->n; o += 8) {
+        const int i = o < most ? o : most;
         gvi__abreast z, before;
         gvi__sums_abreast(r, st->x.E, last + i*r, z);
         if (older) {
@@ -5024,7 +5031,21 @@ GVI__COPY int gvi__extrapolate_abreast(const gvi_stepper *st, int r, const gvi_r
         for (int l = 0; l < 8; ++l)
             for (int k = 0; k < r; ++k) out[(i + l)*r + k] = z[k][l];
     }
-    return whole;
+}
+
+// up to four points and without stiffness; returns whether it was done
+static int gvi__extrapolate_few(const gvi_stepper *st, const gvi_real *last, const gvi_real *older,
+                                const gvi__stage *y, gvi_real *out)
+{
+    if (!GVI__ABREAST || st->n < 8 || (GVI__STIFF && st->x.springs)) return 0;
+    switch (st->r) {
+    case 1:  gvi__extrapolate_abreast(st, 1, last, older, y, out); break;
+    case 2:  gvi__extrapolate_abreast(st, 2, last, older, y, out); break;
+    case 3:  gvi__extrapolate_abreast(st, 3, last, older, y, out); break;
+    case 4:  gvi__extrapolate_abreast(st, 4, last, older, y, out); break;
+    default: return 0;
+    }
+    return 1;
 }
 
 /* Extrapolates rows of the last step, or of the last two, to the points of the
@@ -5040,10 +5061,7 @@ GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const 
     if (R == 8 && older) older_E = gvi__keep(r, older_E, kept[1]);
 #endif
     const gvi_real *stiffness = GVI__STIFF && y && x->springs ? gvi__stiffness(st) : NULL;
-    const int few = R < 5 && !stiffness && !GVI__SMALL;
-    const int done = few ? gvi__extrapolate_abreast(st, r, last, older, y, out) : 0;
-    last += done*R;
-    for (int i = done; i < st->n; ++i, last += R) {
+    for (int i = 0; i < st->n; ++i, last += R) {
         gvi_real *row = out + i*R;
         if (GVI__STIFF && stiffness && gvi__nonzero(stiffness[i])) {
             gvi__arc_row(st, i, r, R, gvi__free_rows(st) + i*R,
@@ -5076,14 +5094,12 @@ GVI__APART void gvi__extrapolate(gvi_stepper *st, const gvi_real *last, const gv
                                  const gvi__stage *y, gvi_real *out)
 {
     if (!gvi__two_now(st)) older = NULL;
+    if (gvi__extrapolate_few(st, last, older, y, out)) return;
     if (GVI__SMALL) gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, y, out);
     else if (st->r == 8 && y && !older) gvi__extrapolate_rows(st, 8, 8, last, NULL, y, out);
     else if (st->r == 8 && y) gvi__extrapolate_rows(st, 8, 8, last, older, y, out);
     else if (st->r == 8) gvi__extrapolate_rows(st, 8, 8, last, older, NULL, out);
     else if (st->r == 4) gvi__extrapolate_rows(st, 4, 4, last, older, y, out);
-    else if (st->r == 3) gvi__extrapolate_rows(st, 3, 3, last, older, y, out);
-    else if (st->r == 2) gvi__extrapolate_rows(st, 2, 2, last, older, y, out);
-    else if (st->r == 1) gvi__extrapolate_rows(st, 1, 1, last, older, y, out);
     else if (st->r == 16) gvi__extrapolate_rows(st, 16, 16, last, NULL, y, out);
     else if (st->x.stride == 16) gvi__extrapolate_rows(st, st->r, 16, last, older, y, out);
     else gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, y, out);
@@ -5375,9 +5391,9 @@ GVI__APART void gvi__increments_by_eight(gvi_stepper *st, const gvi__from *from,
 /* Both sums of all n coordinates, up to four points, in a loop over coordinates; terms and order as in
    gvi__exact_dot and gvi__lever_sum.                                          */
 GVI__COPY void gvi__exact_sums_of(int n, int r, const gvi_real *c, const gvi_real *hb,
-                                      const gvi_real *GVI__RESTRICT F, const gvi_real *GVI__RESTRICT rest,
-                                      gvi_real *GVI__RESTRICT sum, gvi_real *GVI__RESTRICT left,
-                                      gvi_real *GVI__RESTRICT lever)
+                                  const gvi_real *GVI__RESTRICT F, const gvi_real *GVI__RESTRICT rest,
+                                  gvi_real *GVI__RESTRICT sum, gvi_real *GVI__RESTRICT left,
+                                  gvi_real *GVI__RESTRICT lever)
 {
     for (int i = 0; i < n; ++i) {
         const gvi_real *f = F + i*r;
@@ -5405,7 +5421,7 @@ GVI__COPY void gvi__exact_sums_of(int n, int r, const gvi_real *c, const gvi_rea
 }
 
 static void gvi__exact_sums(const gvi_stepper *st, const gvi_real *F, const gvi_real *rest,
-                                       gvi_real *sum, gvi_real *left, gvi_real *lever)
+                            gvi_real *sum, gvi_real *left, gvi_real *lever)
 {
     const struct gvi__private *x = &st->x;
     switch (st->r) {
@@ -5510,7 +5526,7 @@ GVI__APART void gvi__increments_of(gvi_stepper *st, const gvi__from *from, gvi_r
     const int n = st->n, momenta = gvi__uses(st, GVI_MOMENTA), coarse = gvi__is_coarse(st);
     const gvi_real *stiffness = GVI__STIFF && x->springs ? gvi__stiffness(st) : NULL;
     int done = 0;
-    if (!GVI__SMALL && R < 5 && !gvi__A(w) && !stiffness) {
+    if (GVI__ABREAST && R < 5 && !gvi__A(w) && !stiffness) {
         gvi__exact_sums(st, w->F, from->pe, x->dp, x->dpe, momenta ? NULL : x->dq);
         if (momenta) gvi__exact_sums(st, w->V, from->qe, x->dq, x->dqe, NULL);
         done = n;

@@ -741,7 +741,7 @@ static void test_kicks_area_stays(void **state)
 
 /* What F is over at a kick, all factors before it as they are, is the weight in the table, which the drift
    behind it goes by: what is between them, the same in every step, moves energy and area.  The best of 255
-   pairs whose products lie anywhere within EPS/2 is EPS/1000 off, in the mean; half of them would not do.
+   pairs whose products lie anywhere within EPS/2 is EPS/700 off or so, in the mean; half of them would not do.
    In float, as more digits are needed to see it.                              */
 static void test_kicks_weights(void **state)
 {
