@@ -3864,8 +3864,8 @@ GVI__APART void gvi__affine_row(const gvi_stepper *st, const gvi__stage *y, int 
 }
 
 /* Up to four points are no vector: eight coordinates are, and loops over them are inside.  The terms are
-   the same and in the same order, number by number; not so where registers are wider than the type. */
-#if defined(GVI__EXACT_TYPES) && !GVI__SMALL
+   the same and in the same order, number by number.                           */
+#if defined(GVI__VECTORS) && !GVI__SMALL
 #define GVI__ABREAST 1
 #else
 #define GVI__ABREAST 0
