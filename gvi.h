@@ -382,7 +382,10 @@ typedef enum gvi_status {
 /* What a callback gets: `count` points.  Coordinate i of point k is at
    [i*stride + k].  Inputs that the callback's kind may not read, and outputs
    that are not its to give, are NULL.  Outputs are ADDED to (f, dldv, value)
-   or WRITTEN (mass, velocity); they do not overlap the inputs or each other. */
+   or WRITTEN (mass, velocity); they do not overlap the inputs or each other.
+   From count to stride rows go on with the state at the start of the step (v may
+   be 0): a callback may compute whole vectors, on to stride, if it comes to
+   finite numbers there.  They are not read.                                  */
 typedef struct gvi_points {
     int             n;         /* degrees of freedom                           */
     int             count;     /* points in this call, >= 1                    */
@@ -4273,11 +4276,11 @@ static void gvi__arc_table(const gvi_stepper *st, const gvi__arc *arc, gvi__two 
     const struct gvi__private *x = &st->x;
     const int r = st->r, R = x->stride, s = st->s;
     gvi_real *M = x->row, *N = M + R, *mode = x->E;           // to be made anew for this h
-    for (int j = 0; j < r; ++j) {
+    for (int j = 0; j < R; ++j) {                             // behind the points: the start, c = 0
         gvi__turn(nu, 1 - x->c[j], arc->sine + j, arc->cosine + j);
         arc->slope[j] = arc->sine[j]*omega.hi;
         arc->sine[j] /= omega.hi;
-        gvi__modes(st, x->c[j], mode + j*R, M);
+        if (j < r) gvi__modes(st, x->c[j], mode + j*R, M);
     }
     for (int a = 0; a < r; ++a) {
         const gvi_real from = a > 0 && x->c[a - 1] < x->c[a] ? x->c[a - 1] : 0;
@@ -5100,8 +5103,11 @@ GVI__APART void gvi__extrapolate(gvi_stepper *st, const gvi_real *last, const gv
     else if (st->r == 8 && y) gvi__extrapolate_rows(st, 8, 8, last, older, y, out);
     else if (st->r == 8) gvi__extrapolate_rows(st, 8, 8, last, older, NULL, out);
     else if (st->r == 4) gvi__extrapolate_rows(st, 4, 4, last, older, y, out);
+#ifdef GVI__VECTORS
+    else if (st->x.stride == 8) gvi__extrapolate_rows(st, st->r, 8, last, older, y, out);
     else if (st->r == 16) gvi__extrapolate_rows(st, 16, 16, last, NULL, y, out);
     else if (st->x.stride == 16) gvi__extrapolate_rows(st, st->r, 16, last, older, y, out);
+#endif
     else gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, y, out);
 }
 

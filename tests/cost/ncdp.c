@@ -1,6 +1,6 @@
 /* ncdp.c - round-off over half a million steps, and its price, against the published standard
 
-     ncdp [--quick]          2^19 steps; quick: 2^15
+     ncdp [--quick]          2^19 and 2^18 steps; quick: a sixteenth of them
 
    The non-chaotic double pendulum of Antonana, Makazaga, Murua: Reducing and monitoring round-off
    error propagation for symplectic implicit Runge-Kutta schemes, Numer. Algorithms 76, 2017 [A].
@@ -8,7 +8,8 @@
      H = (p1^2 - 2 (1 + cos q2) p1 p2 + (3 + 2 cos q2) p2^2)/(2 (1 + sin^2 q2))
          - 2 g cos q1 - g cos(q1 + q2)
 
-   In one run, the fixed-point algorithm of [A], written from its formulas, and gvi.h in the
+   That, and the same time in half as many steps of Gauss with 8 stages, for eight points cost gvi.h
+   what six do.  In one run, the fixed-point algorithm of [A], written from its formulas, and gvi.h in the
    formulation by momenta.  [A] in three forms: iterations that begin with y0, as the authors' own
    example does (8.58 a step there); with the last step's curve continued, their other choice; and
    that with n and s known to the compiler, which no library can have.  All with the sine of libm,
@@ -36,8 +37,11 @@
 #endif
 
 #define G 9.8
-enum { S = 6, N = 4 };                                  /* stages; (q1, q2, p1, p2)               */
-static const double start_q[] = { 1.1, -1.1 }, start_p[] = { 2.7746, 2.7746 }, h = 1.0/128;
+enum { MOST = 8, N = 4 };                               /* stages; (q1, q2, p1, p2)               */
+typedef struct setting { int stages; double h; long steps; } setting;
+enum { PUBLISHED, LONGER, SETTINGS };
+static const setting settings[SETTINGS] = { { 6, 1.0/128, 1L << 19 }, { 8, 1.0/64, 1L << 18 } };
+static const double start_q[] = { 1.1, -1.1 }, start_p[] = { 2.7746, 2.7746 };
 static const double end_q[] = { -0.540054552496, 1.762261020480 };    /* [A]'s code after 2^19 steps */
 
 static long double energy(const double *q, const double *p)
@@ -142,16 +146,18 @@ INLINE int velocity(const int own, const gvi_points *x, int count, int stride, s
     return 0;
 }
 
-INLINE int gradient(const gvi_points *x, int count, int stride, const sines *kept)
+INLINE int gradient(const int own, const gvi_points *x, int count, int stride, const sines *kept)
 {
+    (void)own;                                          /* what velocity kept */
     const double *restrict v = x->v;
     double *restrict f2 = x->f + stride;
     INDEPENDENT for (int k = 0; k < count; ++k) f2[k] -= kept->q2[k]*v[k]*(v[k] + v[stride+k]);
     return 0;
 }
 
-INLINE int gravity(const int own, const gvi_points *x, int count, int stride)
+INLINE int gravity(const int own, const gvi_points *x, int count, int stride, const sines *kept)
 {
+    (void)kept;
     const double *restrict q = x->q;
     double *restrict f = x->f;
     INDEPENDENT for (int k = 0; k < count; ++k) {
@@ -162,18 +168,17 @@ INLINE int gravity(const int own, const gvi_points *x, int count, int stride)
     return 0;
 }
 
-/* 6 points in rows of 8 as constants, else as given: at start, for instance, there is one     */
-#define USUAL(x) ((x)->count == S && (x)->stride == 8)
-#define POINTS(call, x, ...) \
-    ((x)->count > 8 ? 1 : USUAL(x) ? call(__VA_ARGS__ x, S, 8) : call(__VA_ARGS__ x, (x)->count, (x)->stride))
-#define KEPT(call, x, user, ...) \
-    ((x)->count > 8 ? 1 : USUAL(x) ? call(__VA_ARGS__ x, S, 8, user) \
-                                   : call(__VA_ARGS__ x, (x)->count, (x)->stride, user))
-static int velocity_libm(const gvi_points *x, void *user) { return KEPT(velocity, x, user, 0,); }
-static int velocity_own(const gvi_points *x, void *user) { return KEPT(velocity, x, user, 1,); }
-static int gradient_kept(const gvi_points *x, void *user) { return KEPT(gradient, x, user,); }
-static int gravity_libm(const gvi_points *x, void *user) { return (void)user, POINTS(gravity, x, 0,); }
-static int gravity_own(const gvi_points *x, void *user) { return (void)user, POINTS(gravity, x, 1,); }
+/* Our sines in rows of eight as constants: six points and what is behind them; else, as at the
+   start, as given.  libm's would take longer for what is behind.                              */
+#define WHOLE(call, own, x, user) \
+    ((x)->count > 8 ? 1 : (x)->stride == 8 ? call(own, x, 8, 8, user) : call(own, x, (x)->count, (x)->stride, user))
+#define GIVEN(call, own, x, user) ((x)->count > 8 ? 1 : call(own, x, (x)->count, (x)->stride, user))
+static int velocity_libm(const gvi_points *x, void *user) { return GIVEN(velocity, 0, x, user); }
+static int velocity_own(const gvi_points *x, void *user) { return WHOLE(velocity, 1, x, user); }
+static int gradient_libm(const gvi_points *x, void *user) { return GIVEN(gradient, 0, x, user); }
+static int gradient_own(const gvi_points *x, void *user) { return WHOLE(gradient, 1, x, user); }
+static int gravity_libm(const gvi_points *x, void *user) { return GIVEN(gravity, 0, x, user); }
+static int gravity_own(const gvi_points *x, void *user) { return WHOLE(gravity, 1, x, user); }
 
 /* For the start alone, and for Newton's method, which a pinned formulation does not use        */
 static int mass(const gvi_points *x, void *user)
@@ -195,42 +200,44 @@ static int mass(const gvi_points *x, void *user)
 /* mu_ij = a_ij/b_j, rounded so that mu_ij + mu_ji = 1 exactly; hb_i = h b_i, the outer two closing
    their sum to h; nu: the last step's curve, continued to the nodes of this one; order: of the
    sum, small increments first.                                                                */
-typedef struct coefficients { double mu[S][S], hb[S], nu[S][S]; int order[S]; } coefficients;
+typedef struct coefficients { double mu[MOST][MOST], hb[MOST], nu[MOST][MOST]; int order[MOST]; } coefficients;
 
 /* sum_k (2k+1) P_k(1 - 2 c_j) times the integral of P_k(1 - 2x) from 0 to x                   */
-static long double integral(long double x, long double node)
+static long double integral(int s, long double x, long double node)
 {
-    long double at[S+2], of[S+2], sum = x;
-    legendre(S + 1, 1 - 2*x, at);
-    legendre(S + 1, 1 - 2*node, of);
-    for (int k = 1; k < S; ++k) sum += (at[k-1] - at[k+1])/2*of[k];
+    long double at[MOST+2], of[MOST+2], sum = x;
+    legendre(s + 1, 1 - 2*x, at);
+    legendre(s + 1, 1 - 2*node, of);
+    for (int k = 1; k < s; ++k) sum += (at[k-1] - at[k+1])/2*of[k];
     return sum;
 }
 
-static void coefficients_begin(coefficients *t)
+static void coefficients_begin(const setting *x, coefficients *t)
 {
-    long double c[S], b[S];
+    const int s = x->stages;
+    const double h = x->h;
+    long double c[MOST], b[MOST];
     double sum = 0;
-    gauss_nodes(S, c, b);
-    for (int i = 0; i < S; ++i)
-        for (int j = 0; j < S; ++j) {
-            long double ahead = integral(1 + c[i], c[j]) - 1;
+    gauss_nodes(s, c, b);
+    for (int i = 0; i < s; ++i)
+        for (int j = 0; j < s; ++j) {
+            long double ahead = integral(s, 1 + c[i], c[j]) - 1;
             t->nu[i][j] = (double)ahead;
             if (j == i) t->mu[i][j] = 0.5;
-            if (j > i) t->mu[j][i] = (double)integral(c[j], c[i]);
+            if (j > i) t->mu[j][i] = (double)integral(s, c[j], c[i]);
             if (j > i) t->mu[i][j] = 1 - t->mu[j][i];
         }
     // 1 - mu is exact for mu in [1/2, 2]; beyond, mu is that which is left of it
-    for (int i = 0; i < S; ++i)
+    for (int i = 0; i < s; ++i)
         for (int j = 0; j < i; ++j) t->mu[i][j] = 1 - t->mu[j][i];
-    for (int i = 1; i < S - 1; ++i) sum += t->hb[i] = (double)((long double)h*b[i]);
-    t->hb[0] = t->hb[S-1] = (h - sum)/2;
-    for (int i = 0; i < S; ++i) t->order[i] = i/2 + (i % 2 ? S - 1 - 2*(i/2) : 0);
+    for (int i = 1; i < s - 1; ++i) sum += t->hb[i] = (double)((long double)h*b[i]);
+    t->hb[0] = t->hb[s-1] = (h - sum)/2;
+    for (int i = 0; i < s; ++i) t->order[i] = i/2 + (i % 2 ? s - 1 - 2*(i/2) : 0);
 }
 
 /* Where a step is at work.  [stage][component], also of the tables                            */
 typedef struct work {
-    double y[N], rest[N], Y[S*N], before[S*N], F[S*N], L[S*N], least[S*N];
+    double y[N], rest[N], Y[MOST*N], before[MOST*N], F[MOST*N], L[MOST*N], least[MOST*N];
     int    once_more;
 } work;
 
@@ -267,7 +274,7 @@ INLINE void advance(const int s, const int n, const coefficients *t, work *w)
 }
 
 /* Y = y + (rest + table L)                                                                    */
-INLINE void stages(const int s, const int n, double (*table)[S], const double *rest, work *w)
+INLINE void stages(const int s, const int n, double (*table)[MOST], const double *rest, work *w)
 {
     for (int i = 0; i < s; ++i) {
         double sum[N];
@@ -305,12 +312,12 @@ INLINE int port_step(const int s, const int n, const int from_curve, slope_fn *f
     return 0;
 }
 
-INLINE void port(const int s, const int n, const int from_curve, slope_fn *f, long steps, int watched,
-                 result *r)
+INLINE void port(const int s, const int n, const int from_curve, slope_fn *f, const setting *x, long steps,
+                 int watched, result *r)
 {
     coefficients t;
     work w = { .y = { start_q[0], start_q[1], start_p[0], start_p[1] } };
-    coefficients_begin(&t);
+    coefficients_begin(x, &t);
     for (long i = 0; i < steps && !r->failed; ++i) {
         int rounds = port_step(s, n, from_curve, f, &t, &w);
         r->failed = !rounds;
@@ -321,41 +328,43 @@ INLINE void port(const int s, const int n, const int from_curve, slope_fn *f, lo
     memcpy(r->q, w.y, sizeof r->q);
 }
 
-/* Read at run time, as in a library                                                           */
-static volatile int stages_there = S, components_there = N;
+/* n and, from the setting, s are read at run time, as in a library                            */
+static volatile int components_there = N;
 
-static void port_plain(int own, long steps, int watched, result *r)
+static void port_plain(const setting *x, int own, long steps, int watched, result *r)
 {
-    port(stages_there, components_there, 0, own ? slope_own : slope_libm, steps, watched, r);
+    port(x->stages, components_there, 0, own ? slope_own : slope_libm, x, steps, watched, r);
 }
 
-static void port_curve(int own, long steps, int watched, result *r)
+static void port_curve(const setting *x, int own, long steps, int watched, result *r)
 {
-    port(stages_there, components_there, 1, own ? slope_own : slope_libm, steps, watched, r);
+    port(x->stages, components_there, 1, own ? slope_own : slope_libm, x, steps, watched, r);
 }
 
-static void port_constant(int own, long steps, int watched, result *r)
+static void port_constant(const setting *x, int own, long steps, int watched, result *r)
 {
-    if (own) port(S, N, 1, slope_own, steps, watched, r);
-    else port(S, N, 1, slope_libm, steps, watched, r);
+    if (own && x->stages == 6) port(6, N, 1, slope_own, x, steps, watched, r);
+    else if (own) port(8, N, 1, slope_own, x, steps, watched, r);
+    else if (x->stages == 6) port(6, N, 1, slope_libm, x, steps, watched, r);
+    else port(8, N, 1, slope_libm, x, steps, watched, r);
 }
 
 /* ------------------------------------------------------------- gvi.h */
 
-static void library(int own, long steps, int watched, result *r)
+static void library(const setting *x, int own, long steps, int watched, result *r)
 {
-    static double memory[GVI_LENGTH(2, S, S)];
+    static double memory[GVI_LENGTH(2, MOST, MOST)];
     sines kept;
     gvi_stepper st;
     const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = own ? gravity_own : gravity_libm } };
-    const gvi_desc desc = { .n = 2, .degree = S, .effects = scene, .effect_count = 1,
+    const gvi_desc desc = { .n = 2, .degree = x->stages, .effects = scene, .effect_count = 1,
                             .formulation = GVI_MOMENTA,
-                            .mass = { .kind = GVI_MASS_POSITION, .points = mass, .gradient = gradient_kept,
+                            .mass = { .kind = GVI_MASS_POSITION, .points = mass, .gradient = own ? gradient_own : gradient_libm,
                                       .velocity = own ? velocity_own : velocity_libm, .user = &kept } };
     gvi_init(&st, &desc, memory, sizeof memory);
     gvi_start_momentum(&st, 0, start_q, start_p);
     for (long i = 0; i < steps && st.status == GVI_OK; ++i) {
-        gvi_step(&st, h);
+        gvi_step(&st, x->h);
         if (watched) look(&r->walk, st.q, st.p);
     }
     r->failed = st.status != GVI_OK;
@@ -367,7 +376,7 @@ static void library(int own, long steps, int watched, result *r)
 /* ------------------------------------------------------------ the table */
 
 enum { PLAIN, CURVE, CONSTANT, OURS, METHODS };
-typedef struct method { const char *name; void (*run)(int own, long steps, int watched, result *r); } method;
+typedef struct method { const char *name; void (*run)(const setting *x, int own, long steps, int watched, result *r); } method;
 static const method methods[METHODS] = {
     { "[A] from y0", port_plain }, { "[A] from the last curve", port_curve },
     { "[A] the same, n, s constants", port_constant }, { "gvi.h", library } };
@@ -379,25 +388,31 @@ static double cpu_ms(void)
     return (double)t.tv_sec*1e3 + (double)t.tv_nsec*1e-6;
 }
 
-static void one_run(int which, int own, long steps, int watched, result *r)
+typedef struct results { result of[2][METHODS]; } results;   /* sine of libm, of our own */
+
+static long steps_of(const setting *x, int quick) { return quick ? x->steps/16 : x->steps; }
+
+static void one_run(const setting *x, int which, int own, long steps, int watched, result *r)
 {
     memset(r, 0, sizeof *r);
     r->walk.first = energy(start_q, start_p);
     double begin = cpu_ms();
-    methods[which].run(own, steps, watched, r);
+    methods[which].run(x, own, steps, watched, r);
     r->ms = cpu_ms() - begin;
 }
 
 /* In turns, so that a busy machine is busy for all                                            */
-static void measure(long steps, result results[2][METHODS])
+static void measure(int quick, results *all)
 {
     for (int k = 0; k < 4; ++k)
-        for (int i = 0; i < 2*METHODS; ++i) {
-            result r, *best = &results[i/METHODS][i % METHODS];
-            one_run(i % METHODS, i/METHODS, steps, k == 0, &r);
-            if (k == 0) *best = r;
-            else if (k == 1 || r.ms < best->ms) best->ms = r.ms;
-        }
+        for (int m = 0; m < SETTINGS; ++m)
+            for (int i = 0; i < 2*METHODS; ++i) {
+                const setting *x = &settings[m];
+                result r, *best = &all[m].of[i/METHODS][i % METHODS];
+                one_run(x, i % METHODS, i/METHODS, steps_of(x, quick), k == 0, &r);
+                if (k == 0) *best = r;
+                else if (k == 1 || r.ms < best->ms) best->ms = r.ms;
+            }
 }
 
 static void print_rows(const char *sine, long steps, const result *r)
@@ -418,25 +433,31 @@ static int met(const result *r)
     return r[OURS].walk.worst <= 2.2e-15L && r[OURS].ms <= 0.4*r[CURVE].ms;
 }
 
+static int wrong(const result *r, int quick)
+{
+    int is = r->failed;
+    for (int k = 0; !quick && k < 2; ++k) is |= !(fabs(r->q[k] - end_q[k]) <= 1e-10);
+    return is;
+}
+
 int main(int argc, char **argv)
 {
-    static result r[2][METHODS];
-    int quick = argc > 1 && !strcmp(argv[1], "--quick"), wrong = 0;
-    long steps = quick ? 1L << 15 : 1L << 19;
-    measure(steps, r);
-    printf("Double pendulum, relative angles, Gauss 6, h = 2^-7, %ld steps; it, ev: iterations and points"
-           " a step\n\n", steps);
-    print_rows("sine of libm", steps, r[0]);
-    print_rows("sine of our own", steps, r[1]);
-    for (int i = 0; i < 2*METHODS; ++i) {
-        const result *x = &r[i/METHODS][i % METHODS];
-        wrong |= x->failed;
-        for (int k = 0; !quick && k < 2; ++k) wrong |= !(fabs(x->q[k] - end_q[k]) <= 1e-10);
+    static const char *const sines_of[] = { "sine of libm", "sine of our own" };
+    static results r[SETTINGS];
+    const int quick = argc > 1 && !strcmp(argv[1], "--quick");
+    int bad = 0;
+    measure(quick, r);
+    puts("Double pendulum, relative angles; it, ev: iterations and points a step");
+    for (int m = 0; m < SETTINGS; ++m) {
+        const setting *x = &settings[m];
+        const long steps = steps_of(x, quick);
+        printf("\nGauss %d, h = 1/%g, %ld steps\n\n", x->stages, 1/x->h, steps);
+        for (int own = 0; own < 2; ++own) print_rows(sines_of[own], steps, r[m].of[own]);
+        for (int i = 0; i < 2*METHODS; ++i) bad |= wrong(&r[m].of[i/METHODS][i % METHODS], quick);
     }
-    if (!quick) {
-        printf("\naim, max |dE/E| <= 2.2e-15 at 0.4 times the time of [A] from the last curve: libm %s,"
-               " own %s\nend state of [A]'s own code, to 1e-10: %s\n", met(r[0]) ? "met" : "missed",
-               met(r[1]) ? "met" : "missed", wrong ? "NOT REACHED" : "reached by all");
-    }
-    return wrong;
+    if (!quick)
+        printf("\naim, max |dE/E| <= 2.2e-15 at 0.4 times the time of [A] from the last curve, as published: libm %s,"
+               " own %s\nend state of [A]'s own code, to 1e-10: %s\n", met(r[PUBLISHED].of[0]) ? "met" : "missed",
+               met(r[PUBLISHED].of[1]) ? "met" : "missed", bad ? "NOT REACHED" : "reached by all");
+    return bad;
 }

@@ -35,12 +35,12 @@
 #define WIDE
 #endif
 
+/* Whole vectors where rows are, also of fewer points.                                          */
 #define BY_COUNT(kernel, x) (                            \
-    (x)->count ==  8 ? kernel(x,  8, 8)                  \
-  : (x)->count ==  1 ? kernel(x,  1, 1)                  \
-  : (x)->count == 16 ? kernel(x, 16, 16)                 \
-  : (x)->count ==  6 && (x)->stride == 8 ? kernel(x, 6, 8) \
-  : (x)->count ==  4 ? kernel(x,  4, (x)->stride)        \
+    (x)->stride ==  8 ? kernel(x,  8,  8)                \
+  : (x)->stride ==  1 ? kernel(x,  1,  1)                \
+  : (x)->stride == 16 ? kernel(x, 16, 16)                \
+  : (x)->stride ==  4 ? kernel(x,  4,  4)                \
   : kernel(x, (x)->count, (x)->stride))
 
 /* At one point: adds mass times acceleration, so that an explicit method gets from a scene what
