@@ -847,8 +847,13 @@ static void run_extrapolation(const problem *p, const baseline *m, double tolera
       .reference = stages > 6, .first_order = first, .cost = 4*stages, .run = run_gauss,                 \
       .option = stages, .stop = end }
 #define GAUSSES(stages, first)                                                                           \
-    GAUSS(stages, "", first, 1e-18), GAUSS(stages, " 1e-16", first, 1e-16),                              \
-    GAUSS(stages, " 1e-12", first, 1e-12), GAUSS(stages, " 1e-9", first, 1e-9)
+    GAUSS(stages, "", first, 1e-18), GAUSS(stages, " 1e-17", first, 1e-17),                              \
+    GAUSS(stages, " 1e-16", first, 1e-16), GAUSS(stages, " 1e-15", first, 1e-15),                        \
+    GAUSS(stages, " 1e-14", first, 1e-14), GAUSS(stages, " 1e-13", first, 1e-13),                        \
+    GAUSS(stages, " 1e-12", first, 1e-12), GAUSS(stages, " 1e-11", first, 1e-11),                        \
+    GAUSS(stages, " 1e-10", first, 1e-10), GAUSS(stages, " 1e-9", first, 1e-9),                          \
+    GAUSS(stages, " 1e-8", first, 1e-8), GAUSS(stages, " 1e-7", first, 1e-7),                            \
+    GAUSS(stages, " 1e-6", first, 1e-6)
 #define EXTRAPOLATE(columns)                                                                             \
     { .name = "GBS order " #columns " x 2", .family = "GBS extrapolation", .adaptive = 1, .first_order = 1, \
       .run = run_extrapolation, .option = columns }

@@ -23,7 +23,7 @@
 #include <time.h>
 
 #define COUNT(a) ((int)(sizeof(a)/sizeof(a)[0]))
-enum { SAMPLES = 80, CURVES = 260, ERRORS = 4 };
+enum { SAMPLES = 80, CURVES = 400, ERRORS = 4 };
 
 static const double wanted[ERRORS] = { 1e-4, 1e-7, 1e-10, 1e-12 };
 
@@ -159,7 +159,7 @@ static double time_to(const curve *c, double error, const sample **at)
 
 /* ---------------------------------------------------------- one problem */
 
-enum { SETTINGS = 240, TABLE = 40 };
+enum { SETTINGS = 360, TABLE = 40 };
 static gvi_setting settings[SETTINGS];
 static int setting_count;
 
@@ -193,7 +193,7 @@ static void add_kicks(int stiff, double tolerance)
 static void add_marked(const problem *p)
 {
     static const int degrees[] = { 8, 7, 16 };
-    static const double tolerances[] = { 1e-12, 0, 1e-16, 1e-15, 1e-14, 1e-13, 1e-10, 1e-8 };
+    static const double tolerances[] = { 1e-12, 0, 1e-18, 1e-17, 1e-16, 1e-15, 1e-14, 1e-13, 1e-11, 1e-10, 1e-9, 1e-8 };
     for (int i = 0; i < COUNT(degrees); ++i)
         for (int k = 0; k < COUNT(tolerances); ++k)
             add_setting(degrees[i], GVI_GAUSS, GVI_POSITIONS, tolerances[k])->scene = p->marked;
@@ -203,7 +203,7 @@ static void add_marked(const problem *p)
 static void add_stiff(void)
 {
     static const int degrees[] = { 8, 7, 6, 10, 12, 16 };
-    static const double tolerances[] = { 1e-12, 0, 1e-16, 1e-15, 1e-14, 1e-13, 1e-10, 1e-8, 1e-6 };
+    static const double tolerances[] = { 1e-12, 0, 1e-18, 1e-17, 1e-16, 1e-15, 1e-14, 1e-13, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6 };
     for (int i = 0; i < COUNT(degrees); ++i)
         for (int k = 0; k < COUNT(tolerances); ++k)
             add_setting(degrees[i], GVI_GAUSS, GVI_POSITIONS, tolerances[k])->stiff = 1;
@@ -215,7 +215,7 @@ static void add_stiff(void)
 static void add_clocks(const problem *p)
 {
     static const int degrees[] = { 8, 6, 7, 10, 12, 16 };
-    static const double tolerances[] = { 1e-12, 0, 1e-15, 1e-14, 1e-10, 1e-8 }, powers[] = { 1.5, 1 };
+    static const double tolerances[] = { 1e-12, 0, 1e-17, 1e-15, 1e-14, 1e-10, 1e-8 }, powers[] = { 1.5, 1 };
     for (int a = 0; a < COUNT(powers); ++a)
         for (int i = 0; i < COUNT(degrees); ++i)
             for (int k = 0; k < COUNT(tolerances); ++k) {
@@ -231,7 +231,7 @@ static void add_clocks(const problem *p)
 static void settings_for(const problem *p)
 {
     static const int degrees[] = { 8, 6, 7, 5, 4, 10, 12, 16, 3, 2 };
-    static const double tolerances[] = { 1e-12, 0, 1e-16, 1e-15, 1e-14, 1e-13, 1e-10, 1e-8, 1e-6 };
+    static const double tolerances[] = { 1e-12, 0, 1e-18, 1e-17, 1e-16, 1e-15, 1e-14, 1e-13, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6 };
     gvi_formulation pinned = p->slope ? GVI_MOMENTA : GVI_POSITIONS;
     setting_count = 0;
     for (int i = 0; i < COUNT(degrees); ++i)
