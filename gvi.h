@@ -3921,6 +3921,37 @@ GVI__COPY int gvi__rows_abreast(const gvi_stepper *st, const gvi__stage *y, int 
     return whole;
 }
 
+#ifdef GVI__VECTORS
+// gvi__affine_row of `vectors` vectors of sums; m is 1 where there is no diagonal
+GVI__COPY void gvi__affine_vectors(const gvi__affine *p, const gvi_real *diagonal, int vectors,
+                                   const gvi__vector *c, gvi__vector *z)
+{
+    GVI__EACH for (int v = 0; v < vectors; ++v) {
+        if (diagonal) z[v] *= p->m;
+        z[v] = p->base + (((p->extra + c[v]*p->rest) + c[v]*p->a) + z[v]*p->b);
+    }
+}
+
+// eight points of a row := next, their changes to squares; its last point is at `last`, if among them
+GVI__COPY void gvi__replace(gvi_real base, int last, const gvi__vector *next, gvi_real *row, gvi_real *scale,
+                            gvi__vector *squares)
+{
+    if (last < 8) gvi__rescale(base, row[last], next[last/GVI__LANES][last % GVI__LANES], scale);
+    GVI__EACH for (int v = 0; v < 8/GVI__LANES; ++v) {
+        const gvi__vector moved = (next[v] - GVI__AT(row + v*GVI__LANES))**scale;
+        squares[v] += moved*moved;
+        *(gvi__vector *)(row + v*GVI__LANES) = next[v];
+    }
+}
+
+GVI__COPY gvi_real gvi__sum_squares(const gvi__vector *squares)
+{
+    gvi_real lane[8];
+    GVI__EACH for (int v = 0; v < 8/GVI__LANES; ++v) *(gvi__vector *)(lane + v*GVI__LANES) = squares[v];
+    return gvi__sum_lanes(lane);
+}
+#endif
+
 /* The rows of a stage, M^-1 being a number for each.  Returns the sum of the squares
    of the changes, scaled.  r and R are constants where this is inlined for the
    usual sizes.                                                                */
@@ -3934,7 +3965,7 @@ GVI__COPY gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stage *y
     if (R % 8 == 0) {
         // h b F of a few rows ahead of their sums, which would have to wait for it
         enum { VECTORS = 8/GVI__LANES };              // in a block
-        gvi_real ahead[64], lane[8], *L = R == 8 ? ahead : x->z;
+        gvi_real ahead[64], *L = R == 8 ? ahead : x->z;
         const int few = R == 8 ? 8 : 1;
         gvi__vector squares[VECTORS] = { { 0 } };
         for (int i = 0; i < n; ++i) {
@@ -3945,32 +3976,19 @@ GVI__COPY gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stage *y
                     *(gvi__vector *)(L + o) = GVI__AT(weights + o % R)*GVI__AT(y->f + i*R + o);
             if (minus) gvi__weigh(R, x->b, x->work.A + i*R, x->less);
             for (int o = R - 8; o >= 0; o -= 8) {
-                const int last = r - 1 - o;
-                gvi_real *row = y->rows + i*R + o;
-                gvi__vector next[VECTORS];
+                gvi__vector next[VECTORS], less;
                 GVI__EACH for (int k = 0; k < VECTORS; ++k) {
                     const int at = o + k*GVI__LANES;
-                    gvi__vector z, less;
-                    gvi__sum_vector(r, R, y->table + at, f, &z);
-                    if (minus) {
-                        gvi__sum_vector(r, R, minus + at, x->less, &less);
-                        z -= less;
-                    }
-                    if (diagonal) z *= p.m;
-                    const gvi__vector at_c = GVI__AT(c + at);
-                    next[k] = p.base + (((p.extra + at_c*p.rest) + at_c*p.a) + z*p.b);
+                    gvi__sum_vector(r, R, y->table + at, f, next + k);
+                    if (!minus) continue;
+                    gvi__sum_vector(r, R, minus + at, x->less, &less);
+                    next[k] -= less;
                 }
-                if (last < 8)
-                    gvi__rescale(p.base, row[last], next[last/GVI__LANES][last % GVI__LANES], y->scale + i);
-                GVI__EACH for (int k = 0; k < VECTORS; ++k) {
-                    const gvi__vector moved = (next[k] - GVI__AT(row + k*GVI__LANES))*y->scale[i];
-                    squares[k] += moved*moved;
-                    *(gvi__vector *)(row + k*GVI__LANES) = next[k];
-                }
+                gvi__affine_vectors(&p, diagonal, VECTORS, &GVI__AT(c + o), next);
+                gvi__replace(p.base, r - 1 - o, next, y->rows + i*R + o, y->scale + i, squares);
             }
         }
-        GVI__EACH for (int k = 0; k < VECTORS; ++k) *(gvi__vector *)(lane + k*GVI__LANES) = squares[k];
-        return gvi__sum_lanes(lane);
+        return gvi__sum_squares(squares);
     }
 #endif
     gvi_real lane[8] = { 0, 0, 0, 0, 0, 0, 0, 0 };
@@ -4024,36 +4042,27 @@ GVI__COPY gvi_real gvi__stage_rows_8(const gvi_stepper *st, const gvi__stage *y,
 {
     enum { VECTORS = 8/GVI__LANES };
     const struct gvi__private *x = &st->x;
-    const gvi_real *diagonal = gvi__diagonal(st, y);
-    const gvi_real *base = y->base, *extra = y->extra, *path = y->path, *f = y->f, factor = y->factor;
-    gvi_real *row = y->rows, *scale = y->scale, lane[8], ahead[64];
+    const gvi__stage own = *y;                        // what is stored below might be in y, for all gcc knows
+    const gvi_real *diagonal = gvi__diagonal(st, y), *f = own.f;
+    gvi_real ahead[64];
     gvi__vector kept[8], c[VECTORS], hb[VECTORS], squares[VECTORS] = { { 0 } };
-    const gvi_real *table = gvi__keep(r, y->table, kept);
+    const gvi_real *table = gvi__keep(r, own.table, kept);
     GVI__EACH for (int k = 0; k < VECTORS; ++k) {
         c[k] = GVI__AT(x->c + k*GVI__LANES);
         hb[k] = GVI__AT(x->hb + k*GVI__LANES);
     }
-    for (int i = 0; i < n; ++i, row += 8) {
+    for (int i = 0; i < n; ++i) {
         if (i % 8 == 0 && !folded)
             for (int o = 0; o < 64 && o < 8*(n - i); o += GVI__LANES, f += GVI__LANES)
                 *(gvi__vector *)(ahead + o) = hb[o/GVI__LANES % VECTORS]*GVI__AT(f);
-        const gvi_real *L = folded ? y->f + 8*i : ahead + i % 8*8;
-        const gvi_real a = path ? path[i] : 0, rest = path ? y->rest[i] : 0;
+        const gvi_real *L = folded ? own.f + 8*i : ahead + i % 8*8;
+        const gvi__affine p = gvi__affine_of(&own, diagonal, i);
         gvi__vector next[VECTORS];
-        GVI__EACH for (int k = 0; k < VECTORS; ++k) {
-            gvi__sum_vector(r, 8, table + k*GVI__LANES, L, next + k);
-            if (diagonal) next[k] *= diagonal[i];
-            next[k] = base[i] + (((extra[i] + c[k]*rest) + c[k]*a) + next[k]*factor);
-        }
-        gvi__rescale(base[i], row[r - 1], next[(r - 1)/GVI__LANES][(r - 1) % GVI__LANES], scale + i);
-        GVI__EACH for (int k = 0; k < VECTORS; ++k) {
-            const gvi__vector moved = (next[k] - GVI__AT(row + k*GVI__LANES))*scale[i];
-            squares[k] += moved*moved;
-            *(gvi__vector *)(row + k*GVI__LANES) = next[k];
-        }
+        GVI__EACH for (int k = 0; k < VECTORS; ++k) gvi__sum_vector(r, 8, table + k*GVI__LANES, L, next + k);
+        gvi__affine_vectors(&p, diagonal, VECTORS, c, next);
+        gvi__replace(p.base, r - 1, next, own.rows + 8*i, own.scale + i, squares);
     }
-    GVI__EACH for (int k = 0; k < VECTORS; ++k) *(gvi__vector *)(lane + k*GVI__LANES) = squares[k];
-    return gvi__sum_lanes(lane);
+    return gvi__sum_squares(squares);
 }
 #endif
 
@@ -4095,21 +4104,12 @@ GVI__COPY void gvi__sum_two(int r, int R, int vectors, const gvi_real *table, co
 GVI__COPY void gvi__put_16(const gvi_stepper *st, const gvi__stage *y, int r, int i, const gvi_real *diagonal,
                            gvi__vector *next, gvi__vector *squares)
 {
-    enum { MOST = 16/GVI__LANES };
+    enum { EIGHT = 8/GVI__LANES };
     const gvi__affine p = gvi__affine_of(y, diagonal, i);
     gvi_real *row = y->rows + 16*i;
-    GVI__EACH for (int v = 0; v < MOST; ++v) {
-        const gvi__vector c = GVI__AT(st->x.c + v*GVI__LANES);
-        if (diagonal) next[v] *= p.m;
-        next[v] = p.base + (((p.extra + c*p.rest) + c*p.a) + next[v]*p.b);
-    }
-    gvi__rescale(p.base, row[r - 1], next[(r - 1)/GVI__LANES][(r - 1) % GVI__LANES], y->scale + i);
-    GVI__EACH for (int k = 0; k < MOST; ++k) {
-        const int v = k < MOST/2 ? k + MOST/2 : k - MOST/2;
-        const gvi__vector moved = (next[v] - GVI__AT(row + v*GVI__LANES))*y->scale[i];
-        squares[v % (MOST/2)] += moved*moved;
-        *(gvi__vector *)(row + v*GVI__LANES) = next[v];
-    }
+    gvi__affine_vectors(&p, diagonal, 2*EIGHT, &GVI__AT(st->x.c), next);
+    gvi__replace(p.base, r - 9, next + EIGHT, row + 8, y->scale + i, squares);
+    gvi__replace(p.base, r - 1, next, row, y->scale + i, squares);
 }
 
 /* The same for nine to sixteen points, two rows at a time; of an odd number the last alone, twice. */
@@ -4118,7 +4118,7 @@ GVI__COPY gvi_real gvi__stage_rows_16(const gvi_stepper *st, const gvi__stage *y
     enum { MOST = 16/GVI__LANES, AT_ONCE = GVI__LANES == 8 ? 2 : 1 };
     const gvi_real *diagonal = gvi__diagonal(st, y), *weights = gvi__stage_weights(st);
     const int n = st->n;
-    gvi_real lane[8], ahead[32];
+    gvi_real ahead[32];
     gvi__vector squares[MOST/2] = { { 0 } };
     for (int i = 0; i < n; i += 2) {
         const int also = i + 1 < n ? i + 1 : i;
@@ -4137,8 +4137,7 @@ GVI__COPY gvi_real gvi__stage_rows_16(const gvi_stepper *st, const gvi__stage *y
         gvi__put_16(st, y, r, i, diagonal, next, squares);
         if (also > i) gvi__put_16(st, y, r, also, diagonal, other, squares);
     }
-    GVI__EACH for (int k = 0; k < MOST/2; ++k) *(gvi__vector *)(lane + k*GVI__LANES) = squares[k];
-    return gvi__sum_lanes(lane);
+    return gvi__sum_squares(squares);
 }
 #endif
 
@@ -4456,9 +4455,9 @@ GVI__COPY gvi_real gvi__arc_rows_vector(const gvi_stepper *st, const gvi__stage 
     const struct gvi__private *x = &st->x;
     const gvi_real *diagonal = gvi__diagonal(st, y), *stiffness = gvi__stiffness(st);
     const int n = st->n, vectors = R/GVI__LANES, few = 64/R;
-    const gvi_real *base = y->base, *extra = y->extra, factor = y->factor;
+    const gvi__stage own = *y;
     const gvi_real *at = gvi__free_rows(st) + velocities*n*R;
-    gvi_real *row = y->rows, *scale = y->scale, lane[8], ahead[64];
+    gvi_real *row = own.rows, ahead[64];
     gvi__vector kept[8], c[MOST], hb[MOST], squares[EIGHT] = { { 0 } };
     const gvi_real *table = R == 8 ? gvi__keep(r, y->table, kept) : y->table;
     GVI__EACH for (int v = 0; v < vectors; ++v) {
@@ -4467,7 +4466,6 @@ GVI__COPY gvi_real gvi__arc_rows_vector(const gvi_stepper *st, const gvi__stage 
     }
     for (int i = 0; i < n; ++i, row += R, at += R) {
         if (i % few == 0) gvi__remainders_ahead(st, y, stiffness, i, few, R, hb, ahead, velocities);
-        const gvi_real a = velocities ? 0 : y->path[i], rest = velocities ? 0 : y->rest[i];
         const gvi_real *L = ahead + i % few*R;
         gvi__vector next[MOST];
         if (gvi__nonzero(stiffness[i])) {
@@ -4478,21 +4476,16 @@ GVI__COPY gvi_real gvi__arc_rows_vector(const gvi_stepper *st, const gvi__stage 
                 if (diagonal) next[v] *= diagonal[i];
                 next[v] = GVI__AT(at + v*GVI__LANES) + next[v];
             }
-        } else
-            GVI__EACH for (int v = 0; v < vectors; ++v) {
-                gvi__sum_vector(r, R, table + v*GVI__LANES, L, next + v);
-                if (diagonal) next[v] *= diagonal[i];
-                next[v] = base[i] + (((extra[i] + c[v]*rest) + c[v]*a) + next[v]*factor);
-            }
-        gvi__rescale(base[i], row[r - 1], next[(r - 1)/GVI__LANES][(r - 1) % GVI__LANES], scale + i);
-        GVI__EACH for (int v = vectors; v-- > 0; ) {
-            const gvi__vector moved = (next[v] - GVI__AT(row + v*GVI__LANES))*scale[i];
-            *(gvi__vector *)(row + v*GVI__LANES) = next[v];
-            squares[v % EIGHT] += moved*moved;
+        } else {
+            const gvi__affine p = { own.base[i], own.extra[i], velocities ? 0 : own.rest[i],
+                                    velocities ? 0 : own.path[i], own.factor, diagonal ? diagonal[i] : 1 };
+            GVI__EACH for (int v = 0; v < vectors; ++v) gvi__sum_vector(r, R, table + v*GVI__LANES, L, next + v);
+            gvi__affine_vectors(&p, diagonal, vectors, c, next);
         }
+        if (R == 16) gvi__replace(own.base[i], r - 9, next + EIGHT, row + 8, own.scale + i, squares);
+        gvi__replace(own.base[i], r - 1, next, row, own.scale + i, squares);
     }
-    GVI__EACH for (int v = 0; v < EIGHT; ++v) *(gvi__vector *)(lane + v*GVI__LANES) = squares[v];
-    return gvi__sum_lanes(lane);
+    return gvi__sum_squares(squares);
 }
 #endif
 
