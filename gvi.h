@@ -383,9 +383,9 @@ typedef enum gvi_status {
    [i*stride + k].  Inputs that the callback's kind may not read, and outputs
    that are not its to give, are NULL.  Outputs are ADDED to (f, dldv, value)
    or WRITTEN (mass, velocity); they do not overlap the inputs or each other.
-   From count to stride rows go on with the state at the start of the step (v may
-   be 0): a callback may compute whole vectors, on to stride, if it comes to
-   finite numbers there.  They are not read.                                  */
+   From count to stride rows go on, with t and q of the start of the step and with
+   any v and p: a callback may compute whole vectors, on to stride.  What it
+   leaves there changes nothing, be it NaN.                                   */
 typedef struct gvi_points {
     int             n;         /* degrees of freedom                           */
     int             count;     /* points in this call, >= 1                    */
@@ -5431,6 +5431,25 @@ static void gvi__exact_sums(const gvi_stepper *st, const gvi_real *F, const gvi_
     }
 }
 
+// sums are made of whole vectors, and behind the points a callback may have left anything.  0 is stored in
+// whole vectors, too: a vector that is loaded from where single numbers were just stored waits for them
+static inline void gvi__clear_behind(const gvi_stepper *st, gvi_real *rows)
+{
+#ifdef GVI__VECTORS
+    typedef __typeof__(GVI__AT(rows) < GVI__AT(rows)) lanes;
+    static const gvi_real place[8] = { 0, 1, 2, 3, 4, 5, 6, 7 };
+    const int R = st->x.stride, last = R - 8;         // the eight that the end of a row is in
+    for (int i = 0; st->r < R && i < st->n; ++i)
+        GVI__EACH for (int o = 0; o < 8; o += GVI__LANES) {
+            gvi_real *at = rows + i*R + last + o;
+            const lanes stays = GVI__AT(place + o) < (gvi_real)(st->r - last);
+            *(gvi__vector *)at = (gvi__vector)((lanes)GVI__AT(at) & stays);
+        }
+#else
+    (void)st, (void)rows;
+#endif
+}
+
 // in vectors, where there are any
 static inline gvi__two gvi__increment(int r, int R, const gvi_real *a, const gvi_real *b, int coarse,
                                       gvi_real rest, gvi_real *z)
@@ -5563,6 +5582,8 @@ GVI__APART void gvi__increments_of(gvi_stepper *st, const gvi__from *from, gvi_r
 GVI__DEEP void gvi__increments(gvi_stepper *st, const gvi__from *from, gvi_real h)
 {
     struct gvi__private *x = &st->x;
+    gvi__clear_behind(st, x->work.F);
+    if (gvi__uses(st, GVI_MOMENTA)) gvi__clear_behind(st, x->work.V);
     if (gvi__has_clock(st)) {
         x->dt = gvi__dot(st->r, x->hb, x->rate);
         x->dH = gvi__dot(st->r, x->hb, x->rate + x->stride);
@@ -6460,6 +6481,7 @@ static signed char gvi__use_blocks(gvi_stepper *st)
 GVI__APART void gvi__newton_increments(gvi_stepper *st, const gvi__from *from)
 {
     struct gvi__private *x = &st->x;
+    gvi__clear_behind(st, x->work.F);
     for (int i = 0; i < st->n; ++i) {
         const gvi__two q = gvi__product(x->h_weights, x->y[i]);
         const gvi_real *F = x->work.F + i*x->stride;
@@ -7388,12 +7410,13 @@ GVI__APART gvi_status gvi__chord(gvi_stepper *st, const gvi__from *from, gvi_rea
     gvi_real *q = x->change, *v = q + n;
     gvi_status status = GVI_OK;
     gvi__zero((size_t)n, p);
-    for (int j = 0; j < st->r && status == GVI_OK; ++j) {
+    for (int j = 0; j < R && status == GVI_OK; ++j) {
         for (int i = 0; i < n; ++i) {
             v[i] = (q1[i] - from->q[i])/h;
             q[i] = x->work.Q[i*R + j] = from->q[i] + x->c[j]*(q1[i] - from->q[i]);
             if (x->work.V) x->work.V[i*R + j] = v[i];
         }
+        if (j >= st->r) continue;
         gvi_points y;
         gvi__at(&y, st, x->t + j, q);
         y.v = v;
