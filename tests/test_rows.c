@@ -51,106 +51,87 @@ static void litter(const gvi_points *x, const watch *w)
     }
 }
 
+/* a law at point k, and at all that are to be computed */
+typedef void law(const gvi_points *x, int R, int k);
+
+static int at_points(const gvi_points *x, watch *w, law *at)
+{
+    look_behind(x, w);
+    for (int k = 0; k < end_of(x, w); ++k) at(x, x->stride, k);
+    litter(x, w);
+    return 0;
+}
+
 /* -1/|q - (0, 0, 3)|, with value */
-static int attraction(const gvi_points *x, void *user)
+static void attraction_at(const gvi_points *x, int R, int k)
 {
-    const int R = x->stride;
-    look_behind(x, user);
-    for (int k = 0; k < end_of(x, user); ++k) {
-        const real a = x->q[k], b = x->q[R + k], c = x->q[2*R + k] - 3;
-        const real d = (real)1/(real)sqrtl((long double)(a*a + b*b + c*c)), g = d*d*d;
-        if (x->f) x->f[k] -= g*a, x->f[R + k] -= g*b, x->f[2*R + k] -= g*c;
-        if (x->value) x->value[k] -= d;
-    }
-    litter(x, user);
-    return 0;
+    const real a = x->q[k], b = x->q[R + k], c = x->q[2*R + k] - 3;
+    const real d = (real)1/(real)sqrtl((long double)(a*a + b*b + c*c)), g = d*d*d;
+    if (x->f) x->f[k] -= g*a, x->f[R + k] -= g*b, x->f[2*R + k] -= g*c;
+    if (x->value) x->value[k] -= d;
 }
 
-/* k q_2^2/2, told as stiffness */
-static int stiff_spring(const gvi_points *x, void *user)
+/* 100 q_2^2/2, told as stiffness */
+static void spring_at(const gvi_points *x, int R, int k)
 {
-    const real *q = x->q + 2*x->stride;
-    look_behind(x, user);
-    for (int k = 0; k < end_of(x, user); ++k) {
-        if (x->f) x->f[2*x->stride + k] -= 100*q[k];
-        if (x->value) x->value[k] += 50*q[k]*q[k];
-    }
-    litter(x, user);
-    return 0;
+    const real q = x->q[2*R + k];
+    if (x->f) x->f[2*R + k] -= 100*q;
+    if (x->value) x->value[k] += 50*q*q;
 }
 
-static int drag(const gvi_points *x, void *user)
+static void drag_at(const gvi_points *x, int R, int k)
 {
-    look_behind(x, user);
-    for (int k = 0; k < end_of(x, user); ++k)
-        for (int i = 0; i < x->n; ++i) x->f[i*x->stride + k] -= x->v[i*x->stride + k]/16 - x->t[k]/64;
-    if (((watch *)user)->bad && x->count > 2) x->f[x->stride + 2] = (real)NAN;
-    litter(x, user);
-    return 0;
+    for (int i = 0; i < x->n; ++i) x->f[i*R + k] -= x->v[i*R + k]/16 - x->t[k]/64;
 }
 
 /* L = (q_0 v_1 - q_1 v_0)/4, with value */
-static int magnetic(const gvi_points *x, void *user)
+static void magnetic_at(const gvi_points *x, int R, int k)
 {
-    const int R = x->stride;
-    look_behind(x, user);
-    for (int k = 0; k < end_of(x, user); ++k) {
-        const real a = x->q[k]/4, b = x->q[R + k]/4, u = x->v[k], w = x->v[R + k];
-        if (x->f) x->f[k] += w/4, x->f[R + k] -= u/4;
-        if (x->dldv) x->dldv[k] -= b, x->dldv[R + k] += a;
-        if (x->value) x->value[k] += a*w - b*u;
-    }
-    litter(x, user);
-    return 0;
+    const real a = x->q[k]/4, b = x->q[R + k]/4, u = x->v[k], w = x->v[R + k];
+    if (x->f) x->f[k] += w/4, x->f[R + k] -= u/4;
+    if (x->dldv) x->dldv[k] -= b, x->dldv[R + k] += a;
+    if (x->value) x->value[k] += a*w - b*u;
 }
 
-static int distance(const gvi_points *x, void *user)
+/* the clock's g = |(q_0, q_1)| */
+static void distance_at(const gvi_points *x, int R, int k)
 {
-    const int R = x->stride;
-    look_behind(x, user);
-    for (int k = 0; k < end_of(x, user); ++k) {
-        const real a = x->q[k], b = x->q[R + k], g = (real)sqrtl((long double)(a*a + b*b));
-        if (x->value) x->value[k] += g;
-        if (x->f) x->f[k] += a/g, x->f[R + k] += b/g;
-    }
-    litter(x, user);
-    return 0;
+    const real a = x->q[k], b = x->q[R + k], g = (real)sqrtl((long double)(a*a + b*b));
+    if (x->value) x->value[k] += g;
+    if (x->f) x->f[k] += a/g, x->f[R + k] += b/g;
 }
 
-/* M = diag(2 + q_1^2, 1, 1), and the same by v = M^-1 p */
-static int mass(const gvi_points *x, void *user)
+/* M = diag(2 + q_1^2, 1, 1), v' dM/dq v/2, and v = M^-1 p */
+static void mass_at(const gvi_points *x, int R, int k)
 {
-    const int R = x->stride;
-    for (int k = 0; k < end_of(x, user); ++k)
-        for (int i = 0; i < N; ++i)
-            for (int j = 0; j <= i; ++j)
-                x->mass[(i*N + j)*R + k] = i != j ? 0 : i > 0 ? 1 : 2 + x->q[R + k]*x->q[R + k];
-    litter(x, user);
-    return 0;
+    for (int i = 0; i < N; ++i)
+        for (int j = 0; j <= i; ++j)
+            x->mass[(i*N + j)*R + k] = i != j ? 0 : i > 0 ? 1 : 2 + x->q[R + k]*x->q[R + k];
 }
 
-static int mass_gradient(const gvi_points *x, void *user)
+static void gradient_at(const gvi_points *x, int R, int k)
 {
-    const int R = x->stride;
-    look_behind(x, user);
-    for (int k = 0; k < end_of(x, user); ++k) {
-        const real half = x->q[R + k]*x->v[k]*x->v[k];
-        if (x->f) x->f[R + k] += half;
-    }
-    litter(x, user);
-    return 0;
+    if (x->f) x->f[R + k] += x->q[R + k]*x->v[k]*x->v[k];
 }
 
-static int mass_velocity(const gvi_points *x, void *user)
+static void velocity_at(const gvi_points *x, int R, int k)
 {
-    const int R = x->stride;
-    for (int k = 0; k < end_of(x, user); ++k) {
-        const real m = 2 + x->q[R + k]*x->q[R + k];
-        x->velocity[k] = x->p[k]/m;
-        x->velocity[R + k] = x->p[R + k];
-        x->velocity[2*R + k] = x->p[2*R + k];
-    }
-    litter(x, user);
+    for (int i = 0; i < N; ++i) x->velocity[i*R + k] = x->p[i*R + k]/(i > 0 ? 1 : 2 + x->q[R + k]*x->q[R + k]);
+}
+
+static int attraction(const gvi_points *x, void *user) { return at_points(x, user, attraction_at); }
+static int stiff_spring(const gvi_points *x, void *user) { return at_points(x, user, spring_at); }
+static int magnetic(const gvi_points *x, void *user) { return at_points(x, user, magnetic_at); }
+static int distance(const gvi_points *x, void *user) { return at_points(x, user, distance_at); }
+static int mass(const gvi_points *x, void *user) { return at_points(x, user, mass_at); }
+static int mass_gradient(const gvi_points *x, void *user) { return at_points(x, user, gradient_at); }
+static int mass_velocity(const gvi_points *x, void *user) { return at_points(x, user, velocity_at); }
+
+static int drag(const gvi_points *x, void *user)
+{
+    const watch *w = user;
+    at_points(x, user, drag_at);
+    if (w->bad && x->count > 2) x->f[x->stride + 2] = (real)NAN;
     return 0;
 }
 
