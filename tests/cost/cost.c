@@ -199,14 +199,17 @@ static void add_marked(const problem *p)
             add_setting(degrees[i], GVI_GAUSS, GVI_POSITIONS, tolerances[k])->scene = p->marked;
 }
 
+/* Every decade, the likely ones first.                                                        */
+static const double decades[] = { 1e-12, 0, 1e-18, 1e-17, 1e-16, 1e-15, 1e-14, 1e-13, 1e-11, 1e-10, 1e-9, 1e-8,
+                                  1e-7, 1e-6 };
+
 /* Degrees times tolerances again, and splittings, with the scene's stiffness.                 */
 static void add_stiff(void)
 {
     static const int degrees[] = { 8, 7, 6, 10, 12, 16 };
-    static const double tolerances[] = { 1e-12, 0, 1e-18, 1e-17, 1e-16, 1e-15, 1e-14, 1e-13, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6 };
     for (int i = 0; i < COUNT(degrees); ++i)
-        for (int k = 0; k < COUNT(tolerances); ++k)
-            add_setting(degrees[i], GVI_GAUSS, GVI_POSITIONS, tolerances[k])->stiff = 1;
+        for (int k = 0; k < COUNT(decades); ++k)
+            add_setting(degrees[i], GVI_GAUSS, GVI_POSITIONS, decades[k])->stiff = 1;
     add_kicks(1, 0);
     add_kicks(1, 1e-12);
 }
@@ -231,11 +234,10 @@ static void add_clocks(const problem *p)
 static void settings_for(const problem *p)
 {
     static const int degrees[] = { 8, 6, 7, 5, 4, 10, 12, 16, 3, 2 };
-    static const double tolerances[] = { 1e-12, 0, 1e-18, 1e-17, 1e-16, 1e-15, 1e-14, 1e-13, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6 };
     gvi_formulation pinned = p->slope ? GVI_MOMENTA : GVI_POSITIONS;
     setting_count = 0;
     for (int i = 0; i < COUNT(degrees); ++i)
-        for (int k = 0; k < COUNT(tolerances); ++k) add_setting(degrees[i], GVI_GAUSS, pinned, tolerances[k]);
+        for (int k = 0; k < COUNT(decades); ++k) add_setting(degrees[i], GVI_GAUSS, pinned, decades[k]);
     add_setting(8, GVI_GAUSS, GVI_AUTO, 0);
     add_setting(12, GVI_GAUSS, GVI_AUTO, 0);
     if (!p->slope) { add_kicks(0, 0); add_kicks(0, 1e-12); }
