@@ -2020,11 +2020,11 @@ typedef gvi_real gvi__vector
 #define GVI__ROLLED _Pragma("GCC unroll 1")
 #else
 #define GVI__EACH
-#define GVI__ROLLED
 #endif
 #endif
 #ifndef GVI__BY_FOUR
 #define GVI__BY_FOUR
+#define GVI__ROLLED
 #endif
 
 // what few steps call: apart, so that what every step calls has fewer vectors to save
@@ -5046,20 +5046,22 @@ static int gvi__extrapolate_few(const gvi_stepper *st, const gvi_real *last, con
 
 /* Extrapolates rows of the last step, or of the last two, to the points of the
    next:  out_i = sum_j E_ij last_j (+ sum_j E_i,r+j older_j).  y, if not NULL: E is
-   gvi__fit_sums', and what it gives is put into that stage's row.               */
-GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const gvi_real *last,
-                                     const gvi_real *older, const gvi__stage *y, gvi_real *out)
+   gvi__fit_sums', and what it gives is put into that stage's row.  two, arcs: of two
+   steps, and beside stiffness; constants for eight points.                     */
+GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, int two, int arcs,
+                                     const gvi_real *last, const gvi_real *older, const gvi__stage *y,
+                                     gvi_real *out)
 {
     const struct gvi__private *x = &st->x;
 #ifdef GVI__VECTORS
     gvi__vector kept[2][8];
     const gvi_real *E = R == 8 ? gvi__keep(r, x->E, kept[0]) : x->E, *older_E = x->E + r*R;
-    if (R == 8 && older) older_E = gvi__keep(r, older_E, kept[1]);
+    if (R == 8 && two) older_E = gvi__keep(r, older_E, kept[1]);
 #endif
-    const gvi_real *stiffness = GVI__STIFF && y && x->springs ? gvi__stiffness(st) : NULL;
+    const gvi_real *stiffness = arcs ? gvi__stiffness(st) : NULL;
     for (int i = 0; i < st->n; ++i, last += R) {
         gvi_real *row = out + i*R;
-        if (GVI__STIFF && stiffness && gvi__nonzero(stiffness[i])) {
+        if (arcs && gvi__nonzero(stiffness[i])) {
             gvi__arc_row(st, i, r, R, gvi__free_rows(st) + i*R,
                          gvi__arc_of(st, (int)stiffness[st->n + i]).E, last, row);
             continue;
@@ -5070,7 +5072,7 @@ GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const 
         for (int o = 0; R % 8 == 0 && o < R; o += GVI__LANES) {
             gvi__vector z, before;
             gvi__sum_vector(r, R, E + o, last, &z);
-            if (older) {
+            if (two) {
                 gvi__sum_vector(r, R, older_E + o, older + i*R, &before);
                 z += before;
             }
@@ -5080,8 +5082,8 @@ GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const 
         if (R % 8 == 0) continue;
 #endif
         gvi__sum_row(r, R, x->E, last, row);
-        if (older) gvi__sum_row(r, R, x->E + r*R, older + i*R, x->z);
-        for (int k = 0; older && k < R; ++k) row[k] += x->z[k];
+        if (two) gvi__sum_row(r, R, x->E + r*R, older + i*R, x->z);
+        for (int k = 0; two && k < R; ++k) row[k] += x->z[k];
         if (y) gvi__affine_row(st, y, i, row);
     }
 }
@@ -5089,19 +5091,19 @@ GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, const 
 GVI__APART void gvi__extrapolate(gvi_stepper *st, const gvi_real *last, const gvi_real *older,
                                  const gvi__stage *y, gvi_real *out)
 {
-    if (!gvi__two_now(st)) older = NULL;
-    if (gvi__extrapolate_few(st, last, older, y, out)) return;
-    if (GVI__SMALL) gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, y, out);
-    else if (st->r == 8 && y && !older) gvi__extrapolate_rows(st, 8, 8, last, NULL, y, out);
-    else if (st->r == 8 && y) gvi__extrapolate_rows(st, 8, 8, last, older, y, out);
-    else if (st->r == 8) gvi__extrapolate_rows(st, 8, 8, last, older, NULL, out);
-    else if (st->r == 4) gvi__extrapolate_rows(st, 4, 4, last, older, y, out);
+    const int r = st->r, R = st->x.stride, two = gvi__two_now(st), arcs = GVI__STIFF && y && st->x.springs;
+    if (gvi__extrapolate_few(st, last, two ? older : NULL, y, out)) return;
+    if (GVI__SMALL) gvi__extrapolate_rows(st, r, R, two, arcs, last, older, y, out);
+    else if (r == 8 && y && two) gvi__extrapolate_rows(st, 8, 8, 1, 0, last, older, y, out);    // never with arcs
+    else if (r == 8 && y) gvi__extrapolate_rows(st, 8, 8, 0, arcs, last, NULL, y, out);
+    else if (r == 8) gvi__extrapolate_rows(st, 8, 8, two, 0, last, older, NULL, out);
+    else if (r == 4) gvi__extrapolate_rows(st, 4, 4, two, arcs, last, older, y, out);
 #ifdef GVI__VECTORS
-    else if (st->x.stride == 8) gvi__extrapolate_rows(st, st->r, 8, last, older, y, out);
-    else if (st->r == 16) gvi__extrapolate_rows(st, 16, 16, last, NULL, y, out);
-    else if (st->x.stride == 16) gvi__extrapolate_rows(st, st->r, 16, last, older, y, out);
+    else if (R == 8) gvi__extrapolate_rows(st, r, 8, two, arcs, last, older, y, out);
+    else if (r == 16) gvi__extrapolate_rows(st, 16, 16, 0, arcs, last, NULL, y, out);
+    else if (R == 16) gvi__extrapolate_rows(st, r, 16, two, arcs, last, older, y, out);
 #endif
-    else gvi__extrapolate_rows(st, st->r, st->x.stride, last, older, y, out);
+    else gvi__extrapolate_rows(st, r, R, two, arcs, last, older, y, out);
 }
 
 /* Which E is better for this motion and h?  Where eight steps take six rounds in the mean, the next
@@ -5537,7 +5539,7 @@ static void gvi__add_paths(gvi_stepper *st, const gvi__from *from, gvi_real h, c
 
 /* Increments of q and p from the F, V and A at the end of the iteration, what is
    left of them going to dqe and dpe.  r, R: constants for the usual sizes.     */
-GVI__APART void gvi__increments_of(gvi_stepper *st, const gvi__from *from, gvi_real h, int r, int R)
+GVI__COPY void gvi__increments_of(gvi_stepper *st, const gvi__from *from, gvi_real h, int r, int R)
 {
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work;
@@ -5745,7 +5747,8 @@ GVI__DEEP int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *
     gvi_real *least = moved ? &weak->least : &p->least;
     if (some ? gvi__settled(st, p, weak, change) : !given && change*change <= p->tolerance*known)
         return GVI__DONE;
-    if (!GVI__SMALL && !some && !given && !p->idle && change < before/4) {   // the usual case, in short
+    const gvi_real usual = before > 0 ? before/4 : (gvi_real)0.0625;
+    if (!GVI__SMALL && !some && !given && !p->idle && change < usual) {      // most of them, in short
         gvi__watch(st, change, p->earlier);
         p->earlier = before;
         p->before = p->least = change;
@@ -5786,8 +5789,8 @@ static inline void gvi__scales(gvi_stepper *st, const gvi__stage *y, int count)
     for (int k = 0; k < count; ++k) {
         const gvi_real *GVI__RESTRICT base = y[k].base, *GVI__RESTRICT end = y[k].rows + st->r - 1;
         gvi_real *GVI__RESTRICT scale = y[k].scale;
-        for (int i = 0; i < st->n; ++i) {
-            const gvi_real size = GVI_ABS(base[i]) + 2*GVI_ABS(end[i*R] - base[i]);
+        GVI__ROLLED for (int i = 0; i < st->n; ++i, end += R) {
+            const gvi_real size = GVI_ABS(base[i]) + 2*GVI_ABS(*end - base[i]);
             scale[i] = size > GVI__MIN/GVI__EPS ? 1/size : 0;
         }
     }
