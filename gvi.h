@@ -2027,10 +2027,13 @@ typedef gvi_real gvi__vector
 #define GVI__ROLLED
 #endif
 
-// what few steps call: apart, so that what every step calls has fewer vectors to save
+// there are vectors, and room for the code that they want.  What few steps call is apart then, so
+// that what every step calls has fewer vectors to save
 #if defined(GVI__VECTORS) && !GVI__SMALL
+#define GVI__WIDE 1
 #define GVI__SELDOM static __attribute__((noinline))
 #else
+#define GVI__WIDE 0
 #define GVI__SELDOM static
 #endif
 
@@ -3868,11 +3871,6 @@ GVI__APART void gvi__affine_row(const gvi_stepper *st, const gvi__stage *y, int 
 
 /* Up to four points are no vector: eight coordinates are, and loops over them are inside.  The terms are
    the same and in the same order, number by number.                           */
-#if defined(GVI__VECTORS) && !GVI__SMALL
-#define GVI__ABREAST 1
-#else
-#define GVI__ABREAST 0
-#endif
 typedef gvi_real gvi__abreast[4][8];                  // of point k of coordinate i + l at [k][l]
 
 // z := sum_j table[j][.] L_j of eight rows
@@ -3992,7 +3990,7 @@ GVI__COPY gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stage *y
     }
 #endif
     gvi_real lane[8] = { 0, 0, 0, 0, 0, 0, 0, 0 };
-    const int block = R < 8 ? R : 8, done = GVI__ABREAST && R < 5 && !minus ? gvi__rows_abreast(st, y, r, lane) : 0;
+    const int block = R < 8 ? R : 8, done = GVI__WIDE && R < 5 && !minus ? gvi__rows_abreast(st, y, r, lane) : 0;
     for (int i = done; i < n; ++i) {
         const gvi__affine p = gvi__affine_of(y, diagonal, i);
         gvi_real few[8], *weighed = R > 8 ? x->z : few;
@@ -5033,7 +5031,7 @@ GVI__COPY void gvi__extrapolate_abreast(const gvi_stepper *st, int r, const gvi_
 static int gvi__extrapolate_few(const gvi_stepper *st, const gvi_real *last, const gvi_real *older,
                                 const gvi__stage *y, gvi_real *out)
 {
-    if (!GVI__ABREAST || st->n < 8 || (GVI__STIFF && st->x.springs)) return 0;
+    if (!GVI__WIDE || st->n < 8 || (GVI__STIFF && st->x.springs)) return 0;
     switch (st->r) {
     case 1:  gvi__extrapolate_abreast(st, 1, last, older, y, out); break;
     case 2:  gvi__extrapolate_abreast(st, 2, last, older, y, out); break;
@@ -5546,7 +5544,7 @@ GVI__COPY void gvi__increments_of(gvi_stepper *st, const gvi__from *from, gvi_re
     const int n = st->n, momenta = gvi__uses(st, GVI_MOMENTA), coarse = gvi__is_coarse(st);
     const gvi_real *stiffness = GVI__STIFF && x->springs ? gvi__stiffness(st) : NULL;
     int done = 0;
-    if (GVI__ABREAST && R < 5 && !gvi__A(w) && !stiffness) {
+    if (GVI__WIDE && R < 5 && !gvi__A(w) && !stiffness) {
         gvi__exact_sums(st, w->F, from->pe, x->dp, x->dpe, momenta ? NULL : x->dq);
         if (momenta) gvi__exact_sums(st, w->V, from->qe, x->dq, x->dqe, NULL);
         done = n;
@@ -5815,33 +5813,37 @@ GVI__DEEP gvi_status gvi__first_rows(gvi_stepper *st, const gvi__from *from, gvi
     return GVI_OK;
 }
 
-/* Fixed point on the rows: F, V and A make the rows, the effects are asked there. */
-GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate,
-                                       int *used)
+/* Fixed point on the rows: F, V and A make the rows, the effects are asked there.
+   plain: see gvi__is_plain; a constant.                                       */
+GVI__COPY gvi_status gvi__fixed_point_of(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate,
+                                         int plain, int *used)
 {
     struct gvi__private *x = &st->x;
-    const int most = gvi__counts(st) ? x->desc.iterations : x->desc.max_iterations;
+    const int counts = !plain && gvi__counts(st), most = counts ? x->desc.iterations : x->desc.max_iterations;
     const gvi_real tolerance = GVI__TOLERANCE && x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/65536;
     const gvi_real rounding = 16*GVI__EPS*GVI__EPS*(gvi_real)(st->n*st->r);
     gvi__progress p = { 0, 0, tolerance*tolerance, rounding, GVI__MAX, 0, 0, 0 };
     gvi__still weak = { 1, 0, 0, 1, 0, GVI__MAX };
     gvi__stage y[GVI__STAGES];
     gvi_points at;
-    if (GVI__PATH && !gvi__uses(st, GVI_MOMENTA)) gvi__path(st, from, h);
-    const int count = gvi__stage_count(st);
+    if (GVI__PATH && (plain || !gvi__uses(st, GVI_MOMENTA))) gvi__path(st, from, h);
+    const int count = plain ? 1 : gvi__stage_count(st);
     for (int k = 0; k < count && !GVI__MADE; ++k) gvi__plan(st, from, h, k, y + k);
     // where size counts, gvi__ask makes them: no longer on the stack than needed
     if (!GVI__SMALL) gvi__rows_as_points(&at, st, &x->work, gvi__A(&x->work));
-    const int only = gvi__asks_only(st);
+    const int only = plain || gvi__asks_only(st);
     if (only && x->desc.effects[x->single].kind == GVI_POTENTIAL) at.v = NULL;
-    const int sums = extrapolate && (x->E_is & GVI__SUMS), springs = GVI__STIFF && x->springs;
-    const gvi_status first = gvi__first_rows(st, from, h, extrapolate, y);
-    if (first != GVI_OK) return first;
+    const int sums = plain || (extrapolate && (x->E_is & GVI__SUMS)), springs = !plain && GVI__STIFF && x->springs;
+    if (plain) gvi__extrapolate_rows(st, 8, 8, 1, 0, x->last.F, x->older_F, y, x->work.Q);
+    else {
+        const gvi_status first = gvi__first_rows(st, from, h, extrapolate, y);
+        if (first != GVI_OK) return first;
+    }
     for (*used = 0; ; ) {
         if (GVI__TOLERANCE && p.idle + p.poor > 0)
             gvi__gather(st->n, x->stride, x->work.Q + st->r - 1, x->change);
         gvi_real change = p.before;                      // 0, where there are rows and no change yet
-        if (*used > 0 || !sums) change = gvi__stages(st, from, h, y, count);
+        if (*used > 0 || !sums) change = plain ? gvi__stage_rows(st, y) : gvi__stages(st, from, h, y, count);
         int verdict = GVI__GO_ON;
         if (*used > 0) {
             if (!gvi__finite(change)) return gvi__not_finite(st, p.grows);
@@ -5850,7 +5852,7 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
             if (verdict == GVI__BEYOND) break;
             if (verdict != GVI__GO_ON) gvi__watch_last(st, change);
             if (verdict == GVI__DONE) return GVI_OK;
-        } else if (extrapolate && !GVI__SMALL && !gvi__counts(st)) gvi__scales(st, y, count);
+        } else if (extrapolate && !GVI__SMALL && !counts) gvi__scales(st, y, count);
         else gvi__zero(2*(size_t)st->n, x->scale);        // of rows of another step
 
         // rows that go to and fro in their last places end with their own F, not that of
@@ -5859,7 +5861,7 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
         if (GVI__TOLERANCE && verdict == GVI__ASK_ONCE_MORE) last = 1;
         const int anew = weak.anew || last;
         *used += !last;
-        if (GVI__TOLERANCE && gvi__A(&x->work) && p.idle + p.poor > 0)
+        if (GVI__TOLERANCE && !plain && gvi__A(&x->work) && p.idle + p.poor > 0)
             gvi__gather(st->n, x->stride, x->work.A + st->r - 1, x->change + st->n);
         gvi_status status = only ? gvi__ask_only(st, h - h, &at)
                                  : gvi__ask(st, from, h - h, GVI__SMALL ? NULL : &at, anew);
@@ -5867,6 +5869,21 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
         if (status != GVI_OK || last) return status;
     }
     return gvi__give(st, GVI_E_CONVERGENCE);
+}
+
+/* Eight points, positions, rows of two steps to begin with, one effect and nothing beside it: so much is
+   known then that a step of two coordinates takes a twentieth less.           */
+static inline int gvi__is_plain(const gvi_stepper *st)
+{
+    return GVI__WIDE && st->r == 8 && gvi__uses(st, GVI_POSITIONS) && gvi__two_now(st)
+        && (st->x.E_is & GVI__SUMS) && gvi__asks_only(st) && gvi__clock_bit(st) == 0 && !gvi__counts(st);
+}
+
+GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate,
+                                       int *used)
+{
+    if (extrapolate && gvi__is_plain(st)) return gvi__fixed_point_of(st, from, h, 1, 1, used);
+    return gvi__fixed_point_of(st, from, h, extrapolate, 0, used);
 }
 
 /* ---- Newton's method ---- */

@@ -111,7 +111,7 @@ END
         }
         /^GVI__APART gvi__two gvi__exact_dot\(/ { instead("dot") }
         /^static void gvi__move\(/ { instead("move") }
-        /^#define GVI__ABREAST 1/ { sub(1, 0); ++found }
+        /^#define GVI__WIDE 1/ { sub(1, 0); ++found }
         !skip { print }
         /^}/ { skip = 0 }
         END { exit found != 3 }' gvi.h >"$dir/plain/gvi.h" || fail "gvi.h has other functions to be replaced"
