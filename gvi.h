@@ -5834,7 +5834,9 @@ GVI__COPY gvi_status gvi__fixed_point_of(gvi_stepper *st, const gvi__from *from,
     const int only = plain || gvi__asks_only(st);
     if (only && x->desc.effects[x->single].kind == GVI_POTENTIAL) at.v = NULL;
     const int sums = plain || (extrapolate && (x->E_is & GVI__SUMS)), springs = !plain && GVI__STIFF && x->springs;
-    if (plain) gvi__extrapolate_rows(st, 8, 8, 1, 0, x->last.F, x->older_F, y, x->work.Q);
+    if (plain && st->r == 8 && gvi__two_now(st))
+        gvi__extrapolate_rows(st, 8, 8, 1, 0, x->last.F, x->older_F, y, x->work.Q);
+    else if (plain) gvi__extrapolate(st, x->last.F, x->older_F, y, x->work.Q);
     else {
         const gvi_status first = gvi__first_rows(st, from, h, extrapolate, y);
         if (first != GVI_OK) return first;
@@ -5871,12 +5873,12 @@ GVI__COPY gvi_status gvi__fixed_point_of(gvi_stepper *st, const gvi__from *from,
     return gvi__give(st, GVI_E_CONVERGENCE);
 }
 
-/* Eight points, positions, rows of two steps to begin with, one effect and nothing beside it: so much is
-   known then that a step of two coordinates takes a twentieth less.           */
+/* Positions, rows that come from the last step's at once, one effect and nothing beside it: so much is
+   known then that a step of eight points and two coordinates takes a twentieth less.  */
 static inline int gvi__is_plain(const gvi_stepper *st)
 {
-    return GVI__WIDE && st->r == 8 && gvi__uses(st, GVI_POSITIONS) && gvi__two_now(st)
-        && (st->x.E_is & GVI__SUMS) && gvi__asks_only(st) && gvi__clock_bit(st) == 0 && !gvi__counts(st);
+    return GVI__WIDE && st->x.stride > 4 && gvi__uses(st, GVI_POSITIONS) && (st->x.E_is & GVI__SUMS)
+        && gvi__asks_only(st) && gvi__clock_bit(st) == 0 && !(GVI__STIFF && st->x.springs) && !gvi__counts(st);
 }
 
 GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate,
