@@ -2032,9 +2032,11 @@ typedef gvi_real gvi__vector
 #if defined(GVI__VECTORS) && !GVI__SMALL
 #define GVI__WIDE 1
 #define GVI__SELDOM static __attribute__((noinline))
+#define GVI__FITTED GVI__COPY                         // a copy for each of the usual sizes
 #else
 #define GVI__WIDE 0
 #define GVI__SELDOM static
+#define GVI__FITTED GVI__APART
 #endif
 
 /* L D L' of a symmetric matrix at each of `count` points, in place: entry (i,j), i >= j,
@@ -5537,7 +5539,7 @@ static void gvi__add_paths(gvi_stepper *st, const gvi__from *from, gvi_real h, c
 
 /* Increments of q and p from the F, V and A at the end of the iteration, what is
    left of them going to dqe and dpe.  r, R: constants for the usual sizes.     */
-GVI__COPY void gvi__increments_of(gvi_stepper *st, const gvi__from *from, gvi_real h, int r, int R)
+GVI__FITTED void gvi__increments_of(gvi_stepper *st, const gvi__from *from, gvi_real h, int r, int R)
 {
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work;
