@@ -507,6 +507,14 @@ static void summary_head(void)
            "ms", "gvi.h", "ms", "steps", "ev", "it", "ratio", "aim", "", "best that preserves", "kept");
 }
 
+static int has_rivals(const study *y)
+{
+    for (int i = 0; i < y->count; ++i)
+        if (!y->curves[i].ours) return 1;
+    return 0;
+}
+
+/* Nothing is met or missed where no rival was tried (--only gvi).                             */
 static void summary_row(const study *y, int e, score *total)
 {
     winner theirs = fastest(y, 0, 0, wanted[e]), kept = fastest(y, 0, 1, wanted[e]);
@@ -520,14 +528,15 @@ static void summary_row(const study *y, int e, score *total)
         printf(" %6lld %6.1f %5.2f", ours.s->steps, (double)ours.s->evaluations/(double)ours.s->steps,
                (double)ours.s->iterations/(double)ours.s->steps);
     else printf(" %6s %6s %5s", "-", "-", "-");
-    int known = ours.c && theirs.c, met = ours.c && (!theirs.c || ratio >= aim);
+    int raced = has_rivals(y), known = ours.c && theirs.c, met = ours.c && (!theirs.c || ratio >= aim);
     if (known) printf("  %6.2f", ratio);
     else printf("  %6s", "-");
-    if (aim > 0) printf(" %6.1f %4s", aim, met ? "met" : "");
+    if (aim > 0) printf(" %6.1f %4s", aim, raced && met ? "met" : "");
     else printf(" %6s %4s", "-", "");
     printf("  %-22s", kept.c ? kept.c->name : "-");
     if (ours.c && kept.c) printf(" %6.2f\n", k);
     else printf(" %6s\n", "-");
+    if (!raced) return;
     total->cells += aim > 0;
     total->met += aim > 0 && met;
     if (e > 0 && strcmp(y->p->key, "P7") && ours.c) {
@@ -542,6 +551,7 @@ static void summarise(const study *studies, int count)
     summary_head();
     for (int i = 0; i < count; ++i)
         for (int e = 0; e < ERRORS; ++e) summary_row(studies + i, e, &total);
+    if (total.cells == 0) return;
     printf("\naims met: %d of %d (two thirds of them is the least)\nat least twice as fast as the best rival"
            " that preserves structure, from 1e-7 on, P7 aside: %d of %d\n", total.met, total.cells,
            total.structure_met, total.structure_cells);
