@@ -368,7 +368,7 @@ typedef enum gvi_status {
     GVI_E_POINTS      = -5,  /* r < s, or a rule that does not see every mode           */
     GVI_E_FORMULATION = -6,  /* no formulation, or not the pinned one, covers this scene */
     GVI_E_SINGULAR    = -7,  /* singular matrix: massless coordinate (fault.coordinate) */
-    GVI_E_CONVERGENCE = -8,  /* the iteration diverges or creeps: h too large           */
+    GVI_E_CONVERGENCE = -8,  /* the iteration diverges or creeps: h too large, f jumps  */
     GVI_E_CALLBACK    = -9,  /* a callback refused (fault.effect)                       */
     GVI_E_NON_FINITE  = -10, /* NaN or Inf came out of an effect (fault.effect)         */
     GVI_E_VALUE       = -11, /* energy or action wanted, or a clock on, but fault.effect
