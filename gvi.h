@@ -5597,20 +5597,19 @@ GVI__DEEP void gvi__increments(gvi_stepper *st, const gvi__from *from, gvi_real 
     else gvi__increments_of(st, from, h, st->r, x->stride);
 }
 
-/* Is the change that does not shrink any more nothing but rounding?  It is as far
-   as it is within a few units of the last place of q.  What is beyond that must
-   have been idle for longer, and is measured as energy, force times change
-   against force times path and p v, so that coordinates of any units may be
-   added up, or against force times q, where everything is at rest and nothing
-   but rounding is left to be compared; at the last point.  Where Lagrangian terms
-   make V, it can go astray while Q, a short step away, does not feel it: v times
-   the change of dL/dv counts as well.                                         */
-static int gvi__is_rounding(const gvi_stepper *st, const gvi__from *from, int idle)
+/* A change at the last point as energy, so that coordinates of any units may be added up:
+   what is beyond a few units of the last place of q, times force; beside it force times q,
+   and force times path and p v, what the step moves.                           */
+typedef struct gvi__worth { gvi_real beyond, place, moved; } gvi__worth;
+
+/* Where Lagrangian terms make V, it can go astray while Q, a short step away, does not
+   feel it: in a fixed point v times the change of dL/dv counts as well.        */
+static gvi__worth gvi__worth_of_change(const gvi_stepper *st, const gvi__from *from)
 {
     const struct gvi__private *x = &st->x;
     const gvi_real r = (gvi_real)st->r;
     int R = x->stride, last = st->r - 1;
-    gvi_real noise = 0, size = 0, place = 0;
+    gvi__worth w = { 0, 0, 0 };
     for (int i = 0; i < st->n; ++i) {
         gvi_real most = 0, Q = x->work.Q[i*R + last];
         const int by_v = GVI__READS_V && (x->chosen > GVI_POSITIONS || gvi__by_newton(st));
@@ -5618,20 +5617,31 @@ static int gvi__is_rounding(const gvi_stepper *st, const gvi__from *from, int id
         for (int k = 0; k < st->r; ++k) {
             gvi_real F = GVI_ABS(x->work.F[i*R + k]);
             if (F > most) most = F;
-            size += F*GVI_ABS(x->work.Q[i*R + k] - from->q[i]);
-            place += F*GVI_ABS(x->work.Q[i*R + k]);
+            w.moved += F*GVI_ABS(x->work.Q[i*R + k] - from->q[i]);
+            w.place += F*GVI_ABS(x->work.Q[i*R + k]);
         }
         gvi_real beyond = GVI_ABS(Q - x->change[i]) - 4*GVI__EPS*GVI_ABS(Q);
-        if (!(beyond <= 0)) noise += r*beyond*most;
-        size += r*GVI_ABS(from->p[i]*v);
-        if (!gvi__A(&x->work)) continue;
+        if (!(beyond <= 0)) w.beyond += r*beyond*most;
+        w.moved += r*GVI_ABS(from->p[i]*v);
+        if (!gvi__A(&x->work) || gvi__by_newton(st)) continue;
         const gvi_real A = x->work.A[i*R + last];
         const gvi_real more = GVI_ABS(A - x->change[st->n + i]) - 4*GVI__EPS*GVI_ABS(A);
-        if (!(more <= 0)) noise += r*more*GVI_ABS(v);
-        size += r*GVI_ABS(A*v);
+        if (!(more <= 0)) w.beyond += r*more*GVI_ABS(v);
+        w.moved += r*GVI_ABS(A*v);
     }
-    return noise <= 0
-        || (idle > 4 && size + place <= GVI__MAX && noise <= 1000*GVI__EPS*size + 4*GVI__EPS*place);
+    return w;
+}
+
+/* Is the change that does not shrink any more nothing but rounding?  It is as far
+   as it is within a few units of the last place of q.  What is beyond that must
+   have been idle for longer, and is measured against what the step moves, or against
+   force times q, where everything is at rest and nothing but rounding is left to be
+   compared.                                                                   */
+static int gvi__is_rounding(const gvi__worth *w, int idle)
+{
+    return w->beyond <= 0
+        || (idle > 4 && w->moved + w->place <= GVI__MAX
+            && w->beyond <= 1000*GVI__EPS*w->moved + 4*GVI__EPS*w->place);
 }
 
 // g at one configuration; slope of length n gets dg/dq
@@ -5768,8 +5778,12 @@ GVI__DEEP int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *
     p->poor = p->grows ? p->poor + 1 : 0;
     p->idle = change < (gvi_real)0.81**least ? 0 : p->idle + 1;
     if (change < *least) *least = change;
-    if ((p->idle > 2 && change <= rounding)
-        || ((p->idle > 1 || p->poor > 2) && gvi__is_rounding(st, from, p->idle))) {
+    int ends = p->idle > 2 && change <= rounding;
+    if (!ends && (p->idle > 1 || p->poor > 2)) {
+        const gvi__worth worth = gvi__worth_of_change(st, from);
+        ends = gvi__is_rounding(&worth, p->idle);
+    }
+    if (ends) {
         if (!GVI__WEAK || moved || weak->pending <= rounding)
             return used - p->idle > GVI__DIG/2 && gvi__may_turn(st) ? GVI__BEYOND : GVI__ASK_ONCE_MORE;
         p->idle = p->poor = 0;
@@ -6389,11 +6403,12 @@ GVI__APART void gvi__newton_guess(gvi_stepper *st, int extrapolate)
     }
 }
 
-/* Where Newton's method stands: the last changes; rho, the contraction seen; what is left of
-   the error, once a change was rounding; how often none was less; is there a matrix that will
-   do, is it new, was the last one?  And did no coordinate move by more than rounding?         */
+/* Where Newton's method stands: the last changes and the least; rho, the contraction seen; what
+   is left of the error, once a change was rounding; how often none was less than half of the
+   least; is there a matrix that will do, is it new, was the last one?  And did no coordinate
+   move by more than rounding?                                                 */
 typedef struct gvi__descent {
-    gvi_real    before, earlier, rho, left;
+    gvi_real    before, earlier, least, rho, left;
     int         idle;
     signed char have, fresh, was_fresh, still;
 } gvi__descent;
@@ -6424,24 +6439,41 @@ GVI__APART gvi_real gvi__newton_update(gvi_stepper *st, const gvi__from *from, c
     return sum;
 }
 
-/* The verdict on a change.  It is rounding if it does not shrink although it is at the
-   rounding of y, q or the residual, or small and the Jacobian new; what is then left of the
-   error shrinks on by the contraction seen before.  Gives up blocks that contract by no more
-   than 1/2 when they are new: derivatives at one point are not enough.        */
+/* Is a change that does not shrink rounding?  It is at the rounding of y, q, the residual or
+   the energy that the step moves, or small and the Jacobian new.  Then p->left is what it can
+   hide of the error: no more than the change before, nor than its own worth as energy, where
+   a coordinate that hardly moves makes all of the noise.                      */
+GVI__APART int gvi__newton_rests(const gvi_stepper *st, const gvi__from *from, int size, gvi__descent *p,
+                                 gvi_real change, gvi_real residual)
+{
+    const gvi__worth w = gvi__worth_of_change(st, from);
+    const int fine = w.moved + w.place <= GVI__MAX && w.beyond <= 4*GVI__EPS*w.moved;
+    if (change > 64*GVI__EPS*(gvi_real)size && !p->still && residual > 16*GVI__EPS
+        && !(p->fresh && change <= GVI_SQRT(GVI__EPS)) && !fine && !gvi__is_rounding(&w, p->idle)) return 0;
+    p->left = p->before;
+    if (fine && w.beyond + 4*GVI__EPS*w.place < p->before*w.moved)
+        p->left = (w.beyond + 4*GVI__EPS*w.place)/w.moved;
+    return 1;
+}
+
+/* The verdict on a change.  Where it is rounding, what is left of the error shrinks on by the
+   contraction seen before.  Not to be less than half of the least so far is not to shrink: what
+   is rounded to a grid may go round a few points of it, and fall in every round.  Gives up
+   blocks that contract by no more than 1/2 when they are new: derivatives at one point are not
+   enough.                                                                     */
 GVI__APART int gvi__newton_judge(gvi_stepper *st, const gvi__from *from, const gvi__matrix *J,
                                  gvi__descent *p, gvi_real change, gvi_real residual)
 {
     const gvi_real before = p->before, ratio = before > 0 ? change/before : 1;
-    const gvi_real size = (gvi_real)((st->s - J->k0)*st->n), wanted = st->x.desc.tolerance;
+    const gvi_real wanted = st->x.desc.tolerance;
     gvi__watch(st, change, p->earlier);
-    const int stagnant = before > 0 && ratio > (gvi_real)0.5;
+    const int stagnant = before > 0 && change > p->least/2;
     p->idle = stagnant ? p->idle + 1 : 0;
-    if (before > 0 && !stagnant) p->rho = ratio;
+    if (before > 0 && !stagnant) p->rho = change/p->least;
+    if (change < p->least) p->least = change;
     const int rounding = p->left < GVI__MAX
-        || (stagnant && (change <= 64*GVI__EPS*size || p->still || residual <= 16*GVI__EPS
-                         || (p->fresh && change <= GVI_SQRT(GVI__EPS))
-                         || (p->idle > 1 && gvi__is_rounding(st, from, p->idle))));
-    if (rounding) p->left = p->rho*(p->left < GVI__MAX ? p->left : before);
+        || (stagnant && gvi__newton_rests(st, from, (st->s - J->k0)*st->n, p, change, residual));
+    if (rounding) p->left *= p->rho;
 
     const gvi_real enough = wanted > 0 ? wanted : GVI__EPS/4096;
     if (change*ratio <= enough || p->left <= GVI__EPS/1024 || p->left <= enough) return GVI__DONE;
@@ -6461,7 +6493,7 @@ GVI__APART int gvi__newton_judge(gvi_stepper *st, const gvi__from *from, const g
 GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi__matrix *J, int kept)
 {
     struct gvi__private *x = &st->x;
-    gvi__descent p = { 0, 0, 0, 0, 0, 0, 0, 0, 0 };
+    gvi__descent p = { 0, 0, GVI__MAX, 0, 0, 0, 0, 0, 0, 0 };
     p.rho = (gvi_real)0.25;
     p.left = GVI__MAX;
     p.have = kept && !gvi__nonzero(x->h_matrix - x->h_weights) && x->has_blocks == gvi__in_blocks(J);
