@@ -228,7 +228,7 @@
                   for Gauss with r = s complex ones of size n
 
    The fixed points contract like (h omega)^2 or h omega; where they do not,
-   GVI_AUTO goes over to Newton, but where stiffness is heeded.  All solve the same equations, and all stop
+   GVI_AUTO goes over to Newton, except where stiffness is heeded.  All solve the same equations, and all stop
    at round-off.
 
    WEAK EFFECTS.  A force that hardly changes while an iteration closes in need not
@@ -238,7 +238,8 @@
    then takes about a round more.  So it pays from about five rounds a step on, where
    a force that is smaller by 1000 is asked half to two thirds as often.  The equations,
    and so the step, are the same; a mark on an effect that is not weak costs rounds, or
-   Newton's method, and no more digits than any end that is foretold.
+   the turn to Newton's method, but no more digits than any iteration that stops
+   at a predicted change.
    Marks take (n + 2) R more numbers of memory.  They are for potentials and forces in the
    fixed points, without a clock or desc.iterations, of degree 1 with Gauss's rule
    alone, and not compiled for size: elsewhere a marked effect is asked as any other.
@@ -427,7 +428,7 @@ typedef enum gvi_kind {
     GVI_CLOCK      = 3   /* g(q) > 0: adds g to value and dg/dq to f; at most one   */
 } gvi_kind;
 
-/* One thing that acts in a scene.  Give one of points and point.             */
+/* One thing that acts in a scene.  Give exactly one of points and point; for a clock, points. */
 typedef struct gvi_effect {
     gvi_kind        kind;
     gvi_points_fn  *points;   /* the effect at all points of a step at once     */
@@ -490,16 +491,17 @@ typedef enum gvi_formulation {
    the effects must be set.  The effects array is not copied: it must live as
    long as the stepper.                                                       */
 typedef struct gvi_desc {
-    int               n;               /* degrees of freedom, 1 to 524,287; with
-                                          matrices (all but pinned fixed points
-                                          with simple mass) to 32,767           */
-    int               degree;          /* s, to 1024.  0: 8                    */
+    int               n;               /* degrees of freedom, 1 to 524,287; to 32,767 where
+                                          matrices may be needed: Newton's method, also as
+                                          the fall-back of GVI_AUTO, Lagrangian terms, full
+                                          masses                                */
+    int               degree;          /* s, to 1024.  0: 8, with GVI_KICKS 1  */
     gvi_rule          rule;            /* zero: Gauss with s points            */
     gvi_mass          mass;            /* zero: unit mass                      */
     const gvi_effect *effects;
     int               effect_count;    /* 0 to GVI_EFFECTS                     */
     gvi_formulation   formulation;     /* pinned: no fall-back and no memory for one */
-    gvi_real          tolerance;       /* stop when the change of q yet to come,
+    gvi_real          tolerance;       /* below 1.  Stop when the change of q yet to come,
                                           as the last two changes predict it, is
                                           below tolerance*|q|: the step then is
                                           symplectic to that, and takes K r R
@@ -543,15 +545,15 @@ typedef struct gvi_counters {
     unsigned long long mass;              /* points given to mass.points, mass.velocity */
     unsigned long long effect[GVI_EFFECTS]; /* points given to each effect      */
     int                most_iterations;   /* in one step or gvi_state_at        */
-    gvi_real           worst_contraction; /* of the fixed point, mean of two; where Newton's
-                                             method followed, of what it replaced */
+    gvi_real           worst_contraction; /* of the iteration, mean of two; where Newton's
+                                             method followed, also of what it replaced */
     gvi_real           worst_change;      /* largest last change of a fixed point, relative */
 } gvi_counters;
 
 struct gvi__rows { gvi_real *Q, *V, *F, *P, *A; };   /* [n][stride] each     */
 
-/* Of gvi__learn: steps counted and their rounds, rounds of the eight before; what it does now;
-   is the extrapolation that for long steps?                                   */
+/* What gvi__learn remembers: steps counted and their iterations, those of the eight steps before;
+   what it does now; is the extrapolation that for long steps?                 */
 struct gvi__learned { short steps, rounds, before; signed char stage, lengthy; };
 
 /* What most functions name comes first: on small machines an offset below 128 takes
@@ -644,9 +646,9 @@ typedef struct gvi_discrete {
 
 /* ------------------------------------------------------------- FUNCTIONS */
 
-/* Set-up.  Bytes of memory that desc needs; 0 if the description is faulty.
-   gvi_init says how, also of a NULL memory; a chain of calls after a failure
-   keeps its first status.  GVI_LENGTH: array length, a constant expression, that
+/* Set-up.  Bytes of memory that desc needs; 0 if the description is faulty:
+   gvi_init, even with a NULL memory, then returns why.  A chain of calls after a
+   failure keeps its first status.  GVI_LENGTH: array length, a constant expression, that
    is enough for every scene of n degrees of freedom, degree s, r points.      */
 GVI_DEF size_t     gvi_size(const gvi_desc *desc);
 GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *memory, size_t size);
@@ -707,10 +709,10 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
 /* Restart from a checkpoint, a copy of a stepper and of its memory, in a
    stepper that was set up by gvi_init for the same description, in this
    process or another.  What follows is the same to the bit.  GVI_E_ARGUMENT if
-   sizes, kinds of effects, mass or formulation differ, or where it iterates
-   only one has a tolerance.  A rule of as many points and stiffness are not
-   compared: those saved are used, and callbacks, tolerance and limits are those
-   of st.                                                                     */
+   sizes, the number of effects, what they read together, the kind of mass or the
+   formulation differ, or where it iterates only one has a tolerance.  A rule of as
+   many points and stiffness are not compared: those saved are used, and callbacks,
+   tolerance and limits are those of st.                                       */
 GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const gvi_real *memory);
 
 /* A sentence for a status; why st uses the formulation that it uses.         */
@@ -834,6 +836,8 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__MIN LDBL_MIN
 #define GVI__DIG LDBL_MANT_DIG
 #endif
+
+#define GVI__BEYOND_FLOAT (GVI__DIG > 24)             // more digits than float: where double is no more, not there
 
 /* What is compiled.  Whatever was left out stands behind a constant 0, and so no
    compiler keeps it.                                                         */
@@ -1042,7 +1046,7 @@ static gvi__two gvi__join(gvi_real x, gvi_real xe, gvi_real y, gvi_real ye)
 #ifdef GVI__FMA
 GVI__COPY gvi__two gvi__product(gvi_real a, gvi_real b)          // a*b exactly
 {
-    return gvi__two_of(a*b, GVI__FMA(a, b, -(a*b)));
+    return gvi__two_of(a*b, GVI__FMA(a, b, -(a*b)));  // a*b is used twice: no compiler makes it part of a sum
 }
 #else
 // 2^k + 1, k half the digits: x times it shows where to cut x in two (Veltkamp; Dekker)
@@ -1267,7 +1271,7 @@ static size_t gvi__pivot_row(size_t n, size_t k, const gvi_real *a, const gvi_re
 }
 
 /* The same as gvi__lu_factor for a complex matrix, with |re| + |im| as size; of a
-   pivot its inverse is kept.                                                  */
+   pivot its inverse is kept.  GVI_E_SINGULAR also where an entry is not finite. */
 static gvi_status gvi__lu_factor_complex(int count, gvi_real *a, gvi_real *pivot)
 {
     const size_t n = (size_t)count;
@@ -1580,7 +1584,7 @@ GVI_DEF int gvi_rule_order(int n, const gvi_real *c, const gvi_real *b)
 
 /* --------------------------------------------------------- INTERPOLATION */
 
-/* w_j = 1/prod_(k /= j) (x_j - x_k), common factors left out.  The product is
+/* w_j = 1/prod_(k != j) (x_j - x_k), common factors left out.  The product is
    kept as mantissa and exponent: it leaves the range of double at n = 1000.   */
 GVI_DEF gvi_status gvi_barycentric(int n, const gvi_real *x, gvi_real *w)
 {
@@ -1626,7 +1630,7 @@ static int gvi__nearest(int n, const gvi_real *x, gvi_real t)
 
 /* l_j(t) = (w_j/(t - x_j)) / sum_k w_k/(t - x_k).  Both sides multiplied by the
    distance d to the nearest node i, so that t = x_i is no exception; and the
-   sum, which may cancel, by what it is equal to: w_i prod_(k /= i)
+   sum, which may cancel, by what it is equal to: w_i prod_(k != i)
    (x_i - x_k)/(t - x_k), factors in (0,2] [6, sec. 3, the first form].  Returns i. */
 static int gvi__term(int n, const gvi_real *x, const gvi_real *w, gvi_real t, gvi_real *d, gvi_real *sum)
 {
@@ -1656,7 +1660,7 @@ GVI_DEF gvi_real gvi_interpolate(int n, const gvi_real *x, const gvi_real *w, co
     return f[i] + value/sum;
 }
 
-/* For j /= i, i the node next to t:  l_j' = l_j sum_(k /= j) 1/(t - x_k).  The term
+/* For j != i, i the node next to t:  l_j' = l_j sum_(k != j) 1/(t - x_k).  The term
    k = i, which has no bound, is never formed: l_j/(t - x_i) has one.          */
 static gvi_real gvi__slope(int n, const gvi_real *x, const gvi_real *w, gvi_real t,
                            int i, gvi_real d, gvi_real sum, int j)
@@ -1940,11 +1944,11 @@ static gvi_status gvi__effects(gvi_stepper *st, gvi_points *x, unsigned skip)
 }
 
 /* The only effect that is on, if it takes all points in a call and is neither a
-   Lagrangian term nor beside a clock; or -1.                                  */
+   Lagrangian term nor beside a clock; or -1, as always where size counts.      */
 static signed char gvi__single(const gvi_stepper *st)
 {
     signed char single = -1;
-    for (int e = 0; e < st->x.desc.effect_count; ++e) {
+    for (int e = 0; !GVI__SMALL && e < st->x.desc.effect_count; ++e) {
         const gvi_effect *effect = st->x.desc.effects + e;
         if (st->x.off >> e & 1u) continue;
         if (single >= 0 || !effect->points || effect->kind > GVI_FORCE) return -1;
@@ -2205,9 +2209,11 @@ static int gvi__factor_eights(gvi_stepper *st, const gvi_points *x)
     const int n = st->n, R = x->stride;
     gvi_real *m = st->x.point_mass;
     if (R % 8 != 0) return 0;
-    for (int i = 0; i < n && x->count < R; ++i)
-        for (int j = 0; j <= i; ++j)
-            for (int k = x->count; k < R; ++k) m[(i*n + j)*R + k] = m[(i*n + j)*R];
+    for (size_t i = 0; i < (size_t)n && x->count < R; ++i)
+        for (size_t j = 0; j <= i; ++j) {
+            gvi_real *entry = m + (i*(size_t)n + j)*(size_t)R;
+            for (int k = x->count; k < R; ++k) entry[k] = entry[0];
+        }
     return gvi__ldl_factor_eights(n, R, m);
 }
 #endif
@@ -2223,7 +2229,7 @@ static gvi_status gvi__factor_at(gvi_stepper *st, gvi_points *x)
     if (x->stride % 8 == 0) {
         // once more, one by one, and once counted; what is behind the last point is to stay finite
         const unsigned long long asked = st->counters.mass;
-        gvi__zero((size_t)(x->n*x->n*x->stride), st->x.point_mass);
+        gvi__zero((size_t)x->n*(size_t)x->n*(size_t)x->stride, st->x.point_mass);
         status = gvi__ask_mass(st, x, NULL, NULL);
         st->counters.mass = asked;
         if (status != GVI_OK) return status;
@@ -3046,12 +3052,12 @@ static gvi_status gvi__resolve(gvi__scene *x, gvi_desc *d, const gvi_desc *desc)
     return matrices && d->n > 0x7FFF ? GVI_E_ARGUMENT : GVI_OK;          // indices are int: n*n and s*n
 }
 
-/* Extrapolation from two steps saves iterations up to ten points; with more of
+/* Extrapolation from two steps saves iterations up to nine points; with more of
    them, and in float, it would amplify rounding too much.  gvi__fit, gvi__fit_long. */
 static int gvi__fits_two(const gvi__scene *x)
 {
     const int iterates = x->chosen >= GVI_POSITIONS && x->chosen <= GVI_MOMENTA;
-    return x->desc->rule.points < 10 && GVI__KIND > 1 && iterates && !(GVI__STIFF && x->springs);
+    return x->desc->rule.points < 10 && GVI__BEYOND_FLOAT && iterates && !(GVI__STIFF && x->springs);
 }
 
 // what E makes: of two steps, not of one; the sums of (3), not the row itself; for long steps
@@ -3059,10 +3065,10 @@ enum { GVI__OF_TWO = 1, GVI__SUMS = 2, GVI__LONG = 4 };
 
 /* What gvi__learn, which chooses between the two kinds of E for two steps, does now.  */
 enum { GVI__MEASURES, GVI__TRIES, GVI__IDLES };
-#define GVI__LEARNS (!GVI__SMALL && GVI__KIND > 1)
+#define GVI__LEARNS (!GVI__SMALL && GVI__BEYOND_FLOAT)
 
 // does E extrapolate from two steps now?
-static inline int gvi__two_now(const gvi_stepper *st) { return GVI__KIND > 1 && (st->x.E_is & GVI__OF_TWO); }
+static inline int gvi__two_now(const gvi_stepper *st) { return GVI__BEYOND_FLOAT && (st->x.E_is & GVI__OF_TWO); }
 
 /* Is Newton's matrix of s*n to be b = (s+1)/2 complex ones of n?  Where that is less
    work, in real multiplications for one factorisation and twelve solutions, about
@@ -3120,11 +3126,13 @@ static inline int gvi__all_of(const gvi_stepper *st)
 static size_t gvi__springs_length(const gvi__scene *x, size_t R)
 {
     const size_t n = (size_t)x->desc->n, r = (size_t)x->desc->rule.points;
-    const size_t rows = gvi__chosen_is(x->chosen, GVI_VELOCITIES) ? 2 : 1;
-    const size_t arcs = (size_t)x->springs*((2*r + 3)*R + GVI__ARC_TAIL) + rows*R*n;
     if (!GVI__STIFF || !x->springs) return 0;
-    return GVI__ARC_HEAD + gvi__whole(2*n)
-        + (gvi__chosen_is(x->chosen, GVI_EXPLICIT) ? (r + 1)*(5*gvi__padded(n) + 1) : arcs);
+    const int lines = gvi__chosen_is(x->chosen, GVI_EXPLICIT);
+    const size_t rows = gvi__chosen_is(x->chosen, GVI_VELOCITIES) ? 2 : 1;
+    const size_t count = lines ? r + 1 : (size_t)x->springs;
+    const size_t each = lines ? 5*gvi__padded(n) + 1 : (2*r + 3)*R + GVI__ARC_TAIL;
+    const size_t others = GVI__ARC_HEAD + gvi__whole(2*n) + (lines ? 0 : rows*R*n);
+    return count > ((size_t)-1 - others)/each ? (size_t)-1 : others + count*each;    // gvi__take ends there
 }
 
 GVI__APART void gvi__lengths(const gvi__scene *x, size_t *length)
@@ -3357,7 +3365,7 @@ static gvi_status gvi__hand_out(gvi_stepper *st, const gvi_desc *desc, gvi_real 
     x->stride = GVI__ROW(st->r);
     x->flags = scene.flags;
     x->clock = (signed char)scene.clock;
-    x->single = GVI__SMALL ? (signed char)-1 : gvi__single(st);
+    x->single = gvi__single(st);
     if (GVI__WEAK) x->marks = gvi__marks(&x->desc);
     x->size = gvi__layout(&scene, NULL, NULL);
     const size_t slack = gvi__slack(&x->desc);
@@ -4019,11 +4027,7 @@ GVI__COPY gvi_real gvi__stage_rows_of(const gvi_stepper *st, const gvi__stage *y
 }
 
 #ifdef GVI__VECTORS
-#if defined(__AVX512F__) || (defined(__AVX__) && GVI__KIND == 1)
-#define GVI__KEPT 1                                   // eight vectors of the table stay in registers
-#else
-#define GVI__KEPT 0
-#endif
+#define GVI__KEPT (GVI__LANES == 8)                   // eight vectors of the table stay in registers
 
 GVI__COPY const gvi_real *gvi__keep(int r, const gvi_real *table, gvi__vector *kept)
 {
@@ -4396,11 +4400,23 @@ GVI__COPY void gvi__arc_row(const gvi_stepper *st, int i, int r, int R, const gv
     for (int k = 0; k < R; ++k) row[k] = at[k] + row[k]*m;
 }
 
+// row i of a stage := next; the squares of its changes go to lane, from the last point on
+static inline void gvi__replace_row(const gvi__stage *y, int i, int r, int R, const gvi_real *next, gvi_real *lane)
+{
+    gvi_real *row = y->rows + i*R;
+    gvi__rescale(y->base[i], row[r - 1], next[r - 1], y->scale + i);
+    for (int k = R; k-- > 0; ) {
+        const gvi_real moved = (next[k] - row[k])*y->scale[i];
+        lane[k & 7] += moved*moved;
+        row[k] = next[k];
+    }
+}
+
 /* F := F + k Q, what is left of the force, and from it the rows; then those of V.  */
 GVI__COPY gvi_real gvi__arc_rows_of(const gvi_stepper *st, const gvi__stage *y, int r, int R, int velocities)
 {
     const struct gvi__private *x = &st->x;
-    const gvi_real *diagonal = gvi__diagonal(st, y), *stiffness = gvi__stiffness(st);
+    const gvi_real *stiffness = gvi__stiffness(st);
     gvi_real lane[8] = { 0, 0, 0, 0, 0, 0, 0, 0 }, own[2*16], *L = R > 16 ? x->row : own, *next = L + R;
     const gvi_real *at = gvi__free_rows(st) + velocities*st->n*R;
     for (int i = 0; i < st->n; ++i, at += R) {
@@ -4412,17 +4428,10 @@ GVI__COPY gvi_real gvi__arc_rows_of(const gvi_stepper *st, const gvi__stage *y, 
             const gvi__arc arc = gvi__arc_of(st, (int)stiffness[st->n + i]);
             gvi__arc_row(st, i, r, R, at, velocities ? arc.E : arc.K, L, next);
         } else {
-            const gvi__affine p = gvi__affine_of(y, diagonal, i);
             gvi__sum_row(r, R, y->table, L, next);
-            for (int j = 0; j < R; ++j)
-                next[j] = p.base + (((p.extra + x->c[j]*p.rest) + x->c[j]*p.a) + next[j]*p.m*p.b);
+            gvi__affine_row(st, y, i, next);
         }
-        gvi__rescale(y->base[i], row[r - 1], next[r - 1], y->scale + i);
-        for (int j = R; j-- > 0; ) {
-            const gvi_real moved = (next[j] - row[j])*y->scale[i];
-            row[j] = next[j];
-            lane[j & 7] += moved*moved;
-        }
+        gvi__replace_row(y, i, r, R, next, lane);
     }
     return gvi__sum_lanes(lane);
 }
@@ -4512,21 +4521,16 @@ static void gvi__spring_guess(const gvi_stepper *st, const gvi__from *from, int 
 GVI__APART gvi_real gvi__stage_rows_plain(gvi_stepper *st, const gvi__stage *y)
 {
     const struct gvi__private *x = &st->x;
-    const int n = st->n, R = x->stride, last = st->r - 1;
+    const int n = st->n, R = x->stride;
     const int dense = y->over_mass && gvi__mass_is(st, GVI_MASS_DENSE);
-    gvi_real lane[8] = { 0, 0, 0, 0, 0, 0, 0, 0 }, *z = dense ? x->Z : x->row, *row = y->rows;
+    gvi_real lane[8] = { 0, 0, 0, 0, 0, 0, 0, 0 }, *z = dense ? x->Z : x->row;
     for (int i = 0; dense && i < n; ++i) gvi__row_sums(st, y, i, z + i*R);
     if (dense) gvi__over_mass(st, z, R, R);
-    for (int i = 0; i < n; ++i, row += R) {
+    for (int i = 0; i < n; ++i) {
         if (dense) z = x->Z + i*R;
         else gvi__row_sums(st, y, i, z);
         gvi__affine_row(st, y, i, z);
-        gvi__rescale(y->base[i], row[last], z[last], y->scale + i);
-        for (int k = R; k-- > 0; ) {
-            const gvi_real moved = (z[k] - row[k])*y->scale[i];
-            lane[k & 7] += moved*moved;
-            row[k] = z[k];
-        }
+        gvi__replace_row(y, i, st->r, R, z, lane);
     }
     return gvi__sum_lanes(lane);
 }
@@ -5132,7 +5136,7 @@ GVI__APART void gvi__prepare_guess(gvi_stepper *st, gvi_real h, int query)
     struct gvi__private *x = &st->x;
     const gvi_real alpha = query != GVI__FROM_START, beta = h/st->h;
     const int step = !query && !gvi__by_newton(st);   // Newton's method wants V, of the last step alone
-    const int two = GVI__KIND > 1 && step && x->alike == 2 && x->older_F && !gvi__nonzero(beta - 1);
+    const int two = GVI__BEYOND_FLOAT && step && x->alike == 2 && x->older_F && !gvi__nonzero(beta - 1);
     const int sums = step && gvi__uses(st, GVI_POSITIONS) && !gvi__mass_is(st, GVI_MASS_DENSE)
                      && !gvi__A(&x->work);
     const int lengthy = GVI__LEARNS && two && x->learned.lengthy;
@@ -5665,7 +5669,7 @@ static gvi_status gvi__clock_guess(gvi_stepper *st, const gvi__from *from, gvi_r
 // contraction over two iterations, as long as it is not about rounding; squares of changes
 static void gvi__watch(gvi_stepper *st, gvi_real change, gvi_real earlier)
 {
-    if (!(earlier > 0) || change <= (1000*GVI__EPS)*(1000*GVI__EPS)) return;
+    if (!(earlier > 0) || change <= (1000*GVI__EPS)*(1000*GVI__EPS) || !gvi__finite(change)) return;
     const gvi_real worst = st->counters.worst_contraction*st->counters.worst_contraction;
     if (change > worst*worst*earlier) st->counters.worst_contraction = GVI_SQRT(GVI_SQRT(change/earlier));
 }
@@ -6434,7 +6438,7 @@ GVI__APART gvi_real gvi__newton_update(gvi_stepper *st, const gvi__from *from, c
         }
         if (!(size <= GVI__MIN/GVI__EPS)) sum += change/size; // as gvi__rescale; a NaN goes on
         if (!(h*change <= 4*GVI__EPS*GVI_ABS(from->q[i]))) p->still = 0;
-        x->change[i] = x->work.Q[i*x->stride + st->r - 1] - h*change;     // for gvi__is_rounding
+        x->change[i] = x->work.Q[i*x->stride + st->r - 1] - h*change;     // for gvi__worth_of_change
     }
     return sum;
 }
@@ -6466,10 +6470,11 @@ GVI__APART int gvi__newton_judge(gvi_stepper *st, const gvi__from *from, const g
 {
     const gvi_real before = p->before, ratio = before > 0 ? change/before : 1;
     const gvi_real wanted = st->x.desc.tolerance;
-    gvi__watch(st, change, p->earlier);
+    gvi__watch(st, change*change, p->earlier*p->earlier);
     const int stagnant = before > 0 && change > p->least/2;
     p->idle = stagnant ? p->idle + 1 : 0;
-    if (before > 0 && !stagnant) p->rho = change/p->least;
+    const gvi_real noise = 64*GVI__EPS*(gvi_real)((st->s - J->k0)*st->n);
+    if (before > 0 && !stagnant && change > noise && !(p->left < GVI__MAX)) p->rho = change/p->least;
     if (change < p->least) p->least = change;
     const int rounding = p->left < GVI__MAX
         || (stagnant && gvi__newton_rests(st, from, (st->s - J->k0)*st->n, p, change, residual));
@@ -6817,7 +6822,7 @@ static gvi_status gvi__solve(gvi_stepper *st, gvi__from *from, gvi_real h, int q
 // oldest are free for the next step
 static void gvi__rotate(gvi_real **older, gvi_real **last, gvi_real **work)
 {
-    if (GVI__KIND == 1) older = NULL;             // in float no extrapolation reads it
+    if (!GVI__BEYOND_FLOAT) older = NULL;         // in float no extrapolation reads it
     gvi_real *free = older && *older ? *older : *last;
     if (older && *older) *older = *last;
     *last = *work;
@@ -6874,7 +6879,7 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     const gvi_real zero = GVI__SMALL ? 0 : h - h;
     gvi__move(n, zero, x->dq, explicit_one ? NULL : x->dqe, x->q, rounded ? NULL : x->qe, x->q0);
     gvi__move(n, zero, x->dp, explicit_one ? NULL : x->dpe, x->p, rounded ? NULL : x->pe, x->p0);
-    if (GVI__KIND > 1) x->alike = x->stepped && !gvi__nonzero(h - st->h) ? 2 : 1;
+    if (GVI__BEYOND_FLOAT) x->alike = x->stepped && !gvi__nonzero(h - st->h) ? 2 : 1;
     if (GVI__LEARNS && x->alike < 2)
         x->learned.rounds = x->learned.steps = x->learned.stage = x->learned.lengthy = 0;
     gvi__two t = gvi__sum(st->t, x->dt + x->te);
@@ -7043,7 +7048,7 @@ GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, con
     x->diagnose = 0;
     if (status == GVI_OK) status = gvi__finite_here(st, &y);
     if (status != GVI_OK) return status;
-    gvi_real *start = x->change + n;              // v may be what a query wrote over st
+    gvi_real *start = x->change + n;              // v may be st->q or st->p, which change first
     gvi__copy(n, y.dldv, x->dp);
     gvi__copy(n, q, x->dq);
     if (GVI__READS_V) gvi__copy(n, v, start);
@@ -7096,7 +7101,7 @@ GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
         x->He = 0;
         x->H0 = E0;
     }
-    st->x.single = GVI__SMALL ? (signed char)-1 : gvi__single(st);
+    st->x.single = gvi__single(st);
     st->x.has_force = 0;
     st->x.h_matrix = 0;
     if (GVI__WEAK && st->x.weak) *gvi__answers(st) = 1;
@@ -7440,9 +7445,10 @@ GVI__APART gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__matrix *J
             lambda[(k - 1)*n + i] = x->h_weights*sum;
         }
     gvi__lu_solve_transposed(size, J->square, J->pivot, lambda);
-    for (int row = 0; row < size; ++row)
+    const gvi_real *ends = J->ends;
+    for (int row = 0; row < size; ++row, ends += 2*n)
         for (int i = 0; i < n; ++i) {
-            gvi_real by_y0 = J->ends[row*2*n + i]/x->h_weights, by_q0 = J->ends[row*2*n + n + i];
+            gvi_real by_y0 = ends[i]/x->h_weights, by_q0 = ends[n + i];
             plus[i] -= lambda[row]*by_y0;                 // y_0 = (q1 - q0)/h
             minus[i] -= lambda[row]*(by_q0 - by_y0);
         }
@@ -7514,25 +7520,25 @@ static gvi_status gvi__interior(gvi_stepper *st, const gvi__from *from, gvi_real
 }
 
 // rows and columns i and j of a symmetric matrix change places
-static void gvi__exchange(int n, gvi_real *a, int i, int j)
+static void gvi__exchange(size_t n, gvi_real *a, size_t i, size_t j)
 {
-    for (int k = 0; k < n; ++k) gvi__swap(a + i*n + k, a + j*n + k);
-    for (int k = 0; k < n; ++k) gvi__swap(a + k*n + i, a + k*n + j);
+    for (size_t k = 0; k < n; ++k) gvi__swap(a + i*n + k, a + j*n + k);
+    for (size_t k = 0; k < n; ++k) gvi__swap(a + k*n + i, a + k*n + j);
 }
 
 /* Negative eigenvalues of a symmetric matrix, which is overwritten: by Sylvester's
    law those of D in L D L', D with blocks of 1 or 2, complete pivoting (Bunch and
    Parlett, SIAM J. Numer. Anal. 8, 1971; their alpha, (1 + sqrt 17)/8 = 0.6404, says
    when a block of 1 is large enough).  A block of 2 has one of each sign.     */
-static int gvi__negative(int n, gvi_real *a)
+static int gvi__negative(size_t n, gvi_real *a)
 {
     int count = 0;
-    for (int k = 0, width = 1; k < n; k += width) {
-        int p = k, q = k, r = k;
+    for (size_t k = 0, width = 1; k < n; k += width) {
+        size_t p = k, q = k, r = k;
         gvi_real diagonal = -1, off = -1;
-        for (int i = k; i < n; ++i) {
+        for (size_t i = k; i < n; ++i) {
             if (GVI_ABS(a[i*n + i]) > diagonal) diagonal = GVI_ABS(a[i*n + i]), p = i;
-            for (int j = k; j < i; ++j)
+            for (size_t j = k; j < i; ++j)
                 if (GVI_ABS(a[i*n + j]) > off) off = GVI_ABS(a[i*n + j]), q = j, r = i;
         }
         width = diagonal >= (gvi_real)0.6404*off ? 1 : 2;
@@ -7542,10 +7548,10 @@ static int gvi__negative(int n, gvi_real *a)
         count += width == 2 || a[k*n + k] < 0;
         const int two = width == 2;
         gvi_real d = a[k*n + k], e = two ? a[(k + 1)*n + k] : 0, f = two ? a[(k + 1)*n + k + 1] : 1;
-        for (int i = k + width; i < n; ++i) {
+        for (size_t i = k + width; i < n; ++i) {
             gvi_real x = a[i*n + k], y = two ? a[i*n + k + 1] : 0, det = d*f - e*e;
             gvi_real u = (f*x - e*y)/det, v = (d*y - e*x)/det;          // the block's inverse
-            for (int j = k + width; j < n; ++j) a[i*n + j] -= u*a[k*n + j] + (two ? v*a[(k + 1)*n + j] : 0);
+            for (size_t j = k + width; j < n; ++j) a[i*n + j] -= u*a[k*n + j] + (two ? v*a[(k + 1)*n + j] : 0);
         }
     }
     return count;
@@ -7555,7 +7561,7 @@ static int gvi__negative(int n, gvi_real *a)
 GVI__APART gvi_status gvi__count_negative(gvi_stepper *st, const gvi__matrix *J, int *negative)
 {
     struct gvi__private *x = &st->x;
-    const int n = st->n, size = (st->s - 1)*n;
+    const size_t n = (size_t)st->n, size = (size_t)(st->s - 1)*n;
     const unsigned off = x->off;
     *negative = 0;
     if (size == 0) return GVI_OK;
@@ -7565,8 +7571,8 @@ GVI__APART gvi_status gvi__count_negative(gvi_stepper *st, const gvi__matrix *J,
     x->off = off;
     if (status != GVI_OK) return status;
     gvi_real *a = J->square;
-    for (int i = 0; i < size; ++i)
-        for (int j = 0; j <= i; ++j) {
+    for (size_t i = 0; i < size; ++i)
+        for (size_t j = 0; j <= i; ++j) {
             const gvi_real lower = a[i*size + j]/(gvi_real)(2*(i/n) + 3);
             const gvi_real upper = a[j*size + i]/(gvi_real)(2*(j/n) + 3);
             a[i*size + j] = a[j*size + i] = (lower + upper)/2*x->h_weights;
@@ -7659,6 +7665,8 @@ GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const 
     gvi__done(st, GVI_OK);
     if (!saved || !memory || saved->n != st->n || saved->s != st->s || saved->r != st->r
         || saved->x.size != st->x.size || saved->x.flags != st->x.flags || saved->x.chosen != st->x.chosen
+        || saved->x.clock != st->x.clock || saved->x.desc.effect_count != st->x.desc.effect_count
+        || saved->x.desc.mass.kind != st->x.desc.mass.kind
         || !saved->x.folded != !st->x.folded || !saved->x.weak != !st->x.weak)
         return st->status = GVI_E_ARGUMENT;
     gvi_desc desc = st->x.desc;
@@ -7674,6 +7682,7 @@ GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const 
     gvi__layout(&scene, &st->x, own);
     for (int turns = st->x.turns; turns > 0; --turns) gvi__rotate_rows(st);
     st->x.turns = saved->x.turns;
+    st->x.single = gvi__single(st);
     st->q = st->x.q;
     st->p = st->x.p;
     if (gvi__uses(st, GVI_EXPLICIT) && gvi__is_rounded(st)) {            // it carries no rests

@@ -1495,6 +1495,27 @@ static void a_checkpoint_on_a_stiff_scene_continues_to_the_bit(void **state)
     free(copy);
 }
 
+static int spring_points(const gvi_points *x, void *user)
+{
+    for (int i = 0; i < x->n; ++i)
+        for (int k = 0; k < x->count; ++k) x->f[i*x->stride + k] -= x->q[i*x->stride + k];
+    return (void)user, 0;
+}
+
+static int spring_point(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    for (int i = 0; i < 2; ++i) f[i] -= q[i];
+    return (void)t, (void)v, (void)dldv, (void)user, 0;
+}
+
+/* v'v/2 */
+static int inertia_points(const gvi_points *x, void *user)
+{
+    for (int i = 0; i < x->n; ++i)
+        for (int k = 0; k < x->count; ++k) x->dldv[i*x->stride + k] += x->v[i*x->stride + k];
+    return (void)user, 0;
+}
+
 static void a_checkpoint_of_another_description_is_refused(void **state)
 {
     static const scene others[] = {
@@ -1515,6 +1536,50 @@ static void a_checkpoint_of_another_description_is_refused(void **state)
         tear_down(&b);
         tear_down(&other);
     }
+}
+
+/* Effects are not copied with a checkpoint: more or fewer of them, or another kind of mass, is another scene */
+static void a_checkpoint_of_other_effects_is_refused(void **state)
+{
+    static const gvi_effect many[] = { { .kind = GVI_POTENTIAL, .points = spring_points },
+                                       { .kind = GVI_POTENTIAL, .points = spring_points },
+                                       { .kind = GVI_LAGRANGIAN, .points = inertia_points } };
+    gvi_desc desc[] = { { .n = 2, .degree = 3, .effects = many, .effect_count = 3, .formulation = GVI_NEWTON },
+                        { .n = 2, .degree = 3, .effects = many + 1, .effect_count = 2, .formulation = GVI_NEWTON },
+                        { .n = 2, .degree = 3, .effects = many, .effect_count = 3, .formulation = GVI_NEWTON,
+                          .mass = { .kind = GVI_MASS_NONE } } };
+    static const real q[] = { 1, 0 };
+    static real memory[3][GVI_LENGTH(2, 3, 3)];
+    gvi_stepper st[3];
+    (void)state;
+    for (int k = 0; k < 3; ++k) {
+        assert_ok(gvi_init(&st[k], &desc[k], memory[k], sizeof memory[k]));
+        assert_ok(gvi_start(&st[k], 0, q, q));
+        assert_ok(gvi_step(&st[k], (real)0.125));
+    }
+    for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < 3; ++b)
+            assert_status(gvi_restore(&st[a], &st[b], memory[b]), a == b ? GVI_OK : GVI_E_ARGUMENT);
+}
+
+/* As points in the one, as point in the other: the callbacks are those of the stepper that is restored */
+static void a_checkpoint_goes_on_with_other_callbacks(void **state)
+{
+    static const gvi_effect whole = { .kind = GVI_POTENTIAL, .points = spring_points };
+    static const gvi_effect single = { .kind = GVI_POTENTIAL, .point = spring_point };
+    static const real q[] = { 1, 0 };
+    static real memory[2][GVI_LENGTH(2, 3, 3)];
+    gvi_stepper st[2];
+    (void)state;
+    for (int k = 0; k < 2; ++k) {
+        const gvi_desc desc = { .n = 2, .degree = 3, .effects = k ? &single : &whole, .effect_count = 1 };
+        assert_ok(gvi_init(&st[k], &desc, memory[k], sizeof memory[k]));
+        assert_ok(gvi_start(&st[k], 0, q, q));
+    }
+    assert_ok(gvi_step(&st[0], (real)0.125));
+    assert_ok(gvi_restore(&st[1], &st[0], memory[0]));
+    for (int k = 0; k < 2; ++k) assert_ok(gvi_step(&st[k], (real)0.125));
+    assert_memory_equal(st[0].q, st[1].q, 2*sizeof(real));
 }
 
 /* -------------------------------------------------------------------- switching */
@@ -1619,6 +1684,8 @@ int main(void)
         cmocka_unit_test(a_checkpoint_continues_to_the_bit),
         cmocka_unit_test(a_checkpoint_on_a_stiff_scene_continues_to_the_bit),
         cmocka_unit_test(a_checkpoint_of_another_description_is_refused),
+        cmocka_unit_test(a_checkpoint_of_other_effects_is_refused),
+        cmocka_unit_test(a_checkpoint_goes_on_with_other_callbacks),
         cmocka_unit_test(switching_keeps_the_state_and_refuses_what_is_not_there),
         cmocka_unit_test(a_switched_off_effect_is_as_if_it_were_not_listed),
     };

@@ -726,6 +726,32 @@ static void a_stiff_spring_is_as_exact_as_its_force(void **state)
     assert_between(0.1L, error_in_kicks(GVI_AUTO), 0.44L);
 }
 
+static int attraction(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *f, gvi_real *dldv, void *user)
+{
+    const gvi_real d2 = q[0]*q[0] + q[1]*q[1], w = -1/(d2*(gvi_real)sqrt((double)d2));
+    f[0] += w*q[0];
+    f[1] += w*q[1];
+    return (void)t, (void)v, (void)dldv, (void)user, 0;
+}
+
+/* Newton's method with a new matrix at each step contracts by about the step itself: what turns by h on
+   a circle is foretold to h or better, and rounding is no contraction        */
+static void the_contraction_is_that_of_the_changes(void **state)
+{
+    static const gvi_effect effect = { .kind = GVI_POTENTIAL, .point = attraction };
+    static const gvi_desc desc = { .n = 2, .degree = 3, .effects = &effect, .effect_count = 1,
+                                   .formulation = GVI_NEWTON };
+    for (int k = 3; k < 8; ++k) {
+        const gvi_real h = 1/(gvi_real)(1 << k);
+        gvi_stepper st;
+        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+        assert_ok(gvi_start(&st, 0, (const gvi_real[]){ 1, 0 }, (const gvi_real[]){ 0, 1 }));
+        for (int j = 0; j < 200; ++j) assert_ok(gvi_step(&st, h));
+        assert_between(0, st.counters.worst_contraction, h);
+    }
+    (void)state;
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -743,6 +769,7 @@ int main(void)
         cmocka_unit_test(where_blocks_are_used),
         cmocka_unit_test(partial_steps_fall_apart_too),
         cmocka_unit_test(a_stiff_spring_is_as_exact_as_its_force),
+        cmocka_unit_test(the_contraction_is_that_of_the_changes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -553,6 +553,19 @@ static void test_length(void **state)
     (void)state;
 }
 
+/* Tables for each k/m, two of r R numbers and more, must not wrap where addresses have 32 bits */
+static void test_too_many_tables(void **state)
+{
+    enum { MANY = 12471, POINTS = 412 };
+    static gvi_real many[MANY];
+    for (int i = 0; i < MANY; ++i) many[i] = (gvi_real)(i + 1);
+    const gvi_desc desc = { .n = MANY, .degree = 1, .rule = { .points = POINTS }, .effects = scene,
+                            .effect_count = 1, .formulation = GVI_POSITIONS, .stiffness = many };
+    const double tables = 2.0*MANY*POINTS*GVI__ROW(POINTS)*sizeof(gvi_real), most = (double)SIZE_MAX;
+    assert_true((double)gvi_size(&desc) >= (tables < most ? tables : most/16*15));
+    (void)state;
+}
+
 /* ------------------------------------------------------------- kicks between arcs */
 
 static void forces(const real *q, real *f)
@@ -1142,6 +1155,7 @@ int main(void)
         cmocka_unit_test(test_bad_input),
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_length),
+        cmocka_unit_test(test_too_many_tables),
         cmocka_unit_test(test_kicks_by_hand),
         cmocka_unit_test(test_deuflhard),
         cmocka_unit_test(test_kicks_rotate),
