@@ -5640,7 +5640,8 @@ static gvi__worth gvi__worth_of_change(const gvi_stepper *st, const gvi__from *f
    as it is within a few units of the last place of q.  What is beyond that must
    have been idle for longer, and is measured against what the step moves, or against
    force times q, where everything is at rest and nothing but rounding is left to be
-   compared.                                                                   */
+   compared.  A change that is large beside q has to be so twice in a row: rows that jump
+   to and fro between where a force acts and where it is 0 have no energy on one side. */
 static int gvi__is_rounding(const gvi__worth *w, int idle)
 {
     return w->beyond <= 0
@@ -5689,10 +5690,11 @@ static gvi_status gvi__not_finite(gvi_stepper *st, int grows)
 }
 
 /* Where an iteration stands: squares of the last changes, the tolerance and what is
-   rounding; the least change, and how often they were poor or without a new least. */
+   rounding; the least change, and how often they were poor or without a new least; was the
+   last one rounding by its worth?                                             */
 typedef struct gvi__progress {
     gvi_real before, earlier, tolerance, rounding, least;
-    int      poor, idle, grows;
+    int      poor, idle, grows, rests;
 } gvi__progress;
 
 /* The weak effects: asked last time, or next, and how often; the way of the rows since
@@ -5734,7 +5736,7 @@ GVI__APART int gvi__settled(gvi_stepper *st, const gvi__progress *p, gvi__still 
     return lead <= enough && w->pending <= enough;
 }
 
-enum { GVI__GO_ON, GVI__DONE, GVI__ASK_ONCE_MORE, GVI__BEYOND };
+enum { GVI__GO_ON, GVI__DONE, GVI__ASK_ONCE_MORE, GVI__BEYOND, GVI__NOT_FINITE };
 
 // may a step that does not converge turn to Newton's method?
 static int gvi__may_turn(const gvi_stepper *st)
@@ -5766,7 +5768,7 @@ GVI__DEEP int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *
         gvi__watch(st, change, p->earlier);
         p->earlier = before;
         p->before = p->least = change;
-        p->poor = p->grows = 0;
+        p->poor = p->grows = p->rests = 0;
         return GVI__GO_ON;
     }
     if (given && used == x->desc.iterations) {
@@ -5782,11 +5784,13 @@ GVI__DEEP int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *
     p->poor = p->grows ? p->poor + 1 : 0;
     p->idle = change < (gvi_real)0.81**least ? 0 : p->idle + 1;
     if (change < *least) *least = change;
-    int ends = p->idle > 2 && change <= rounding;
+    int ends = p->idle > 2 && change <= rounding, rests = 0;
     if (!ends && (p->idle > 1 || p->poor > 2)) {
         const gvi__worth worth = gvi__worth_of_change(st, from);
-        ends = gvi__is_rounding(&worth, p->idle);
+        rests = gvi__is_rounding(&worth, p->idle);
+        ends = rests && (p->rests || change <= 65536*rounding);
     }
+    p->rests = rests;
     if (ends) {
         if (!GVI__WEAK || moved || weak->pending <= rounding)
             return used - p->idle > GVI__DIG/2 && gvi__may_turn(st) ? GVI__BEYOND : GVI__ASK_ONCE_MORE;
@@ -5842,7 +5846,7 @@ GVI__COPY gvi_status gvi__fixed_point_of(gvi_stepper *st, const gvi__from *from,
     const int counts = !plain && gvi__counts(st), most = counts ? x->desc.iterations : x->desc.max_iterations;
     const gvi_real tolerance = GVI__TOLERANCE && x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/65536;
     const gvi_real rounding = 16*GVI__EPS*GVI__EPS*(gvi_real)(st->n*st->r);
-    gvi__progress p = { 0, 0, tolerance*tolerance, rounding, GVI__MAX, 0, 0, 0 };
+    gvi__progress p = { 0, 0, tolerance*tolerance, rounding, GVI__MAX, 0, 0, 0, 0 };
     gvi__still weak = { 1, 0, 0, 1, 0, GVI__MAX };
     gvi__stage y[GVI__STAGES];
     gvi_points at;
@@ -5940,14 +5944,17 @@ GVI__APART gvi_status gvi__newton_ask(gvi_stepper *st, const gvi__from *from, gv
     return gvi__evaluate(st, &y, 0);
 }
 
-/* dy := -residual.  The weights of P are h b_i/h, those that F has, and Phi_0 = c
-   is on its grid: then the rows are exactly those of a discrete action, also as
-   rounded.  Returns the largest residual in units of its own terms.           */
+// dy before it is solved for, in scratch behind that of gvi__solve_blocks
+static inline gvi_real *gvi__newton_rest(const gvi_stepper *st) { return st->x.dF + st->n*st->x.stride; }
+
+/* dy := -residual, and the same to gvi__newton_rest.  The weights of P are h b_i/h, those
+   that F has, and Phi_0 = c is on its grid: then the rows are exactly those of a discrete
+   action, also as rounded.  Returns the largest residual in units of its own terms.           */
 GVI__APART gvi_real gvi__residual(gvi_stepper *st, const gvi__from *from, int k0)
 {
     struct gvi__private *x = &st->x;
     int n = st->n, R = x->stride;
-    gvi_real worst = 0, h = x->h_weights;
+    gvi_real worst = 0, h = x->h_weights, *rest = gvi__newton_rest(st);
     for (int i = 0; i < n; ++i) {
         const gvi_real *P = x->work.P + i*R, *F = x->work.F + i*R;
         for (int k = k0; k < st->s; ++k) {
@@ -5962,7 +5969,7 @@ GVI__APART gvi_real gvi__residual(gvi_stepper *st, const gvi__from *from, int k0
                 size += GVI_ABS(x->phi[k*R + j]*(x->hb[j]*P[j])/h) + GVI_ABS(b);
             }
             gvi_real sum = momentum/h - force;
-            x->dy[(k - k0)*n + i] = -(gvi_real)(2*k + 1)*sum;
+            x->dy[(k - k0)*n + i] = rest[(k - k0)*n + i] = -(gvi_real)(2*k + 1)*sum;
             if (size > 0 && GVI_ABS(sum)/size > worst) worst = GVI_ABS(sum)/size;
         }
     }
@@ -6408,52 +6415,61 @@ GVI__APART void gvi__newton_guess(gvi_stepper *st, int extrapolate)
 }
 
 /* Where Newton's method stands: the last changes and the least; rho, the contraction seen; what
-   is left of the error, once a change was rounding; how often none was less than half of the
-   least; is there a matrix that will do, is it new, was the last one?  And did no coordinate
-   move by more than rounding?                                                 */
+   is left of the error, once a change was rounding; the residual, and once its change is made the
+   work that it does in it, or -1 where either is rounding in its own units; how often no change
+   was less than half of the least; is there a matrix that will do, is it new, was the last one? */
 typedef struct gvi__descent {
-    gvi_real    before, earlier, least, rho, left;
-    int         idle;
-    signed char have, fresh, was_fresh, still;
+    gvi_real    before, earlier, least, rho, left, work;
+    signed char idle, have, fresh, was_fresh;
 } gvi__descent;
 
-/* y += dy from row k0 on; returns the sum over coordinates of the relative change.
-   p->still: all of it within a few units of the last place of q                */
+/* y += dy from row k0 on; returns the sum over coordinates of the relative change.  p->work: its
+   work, or -1 where all of it is within a few units of the last place of q, or the residual was
+   rounding already                                                              */
 GVI__APART gvi_real gvi__newton_update(gvi_stepper *st, const gvi__from *from, const gvi__matrix *J,
                                       gvi__descent *p)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n;
     const gvi_real h = GVI_ABS(x->h_weights);
+    const gvi_real *rest = gvi__newton_rest(st);
     gvi_real sum = 0;
-    p->still = 1;
+    const int solved = p->work <= 16*GVI__EPS;
+    int still = 1;
+    p->work = 0;
     for (int i = 0; i < n; ++i) {
         gvi_real change = 0, size = 0;
         for (int k = 0; k < st->s; ++k) {
             if (k >= J->k0) {
-                x->y[k*n + i] += x->dy[(k - J->k0)*n + i];
-                change += GVI_ABS(x->dy[(k - J->k0)*n + i]);
+                const int at = (k - J->k0)*n + i;
+                x->y[k*n + i] += x->dy[at];
+                change += GVI_ABS(x->dy[at]);
+                p->work += GVI_ABS(x->dy[at]*rest[at]);
             }
             size += GVI_ABS(x->y[k*n + i]);
         }
         if (!(size <= GVI__MIN/GVI__EPS)) sum += change/size; // as gvi__rescale; a NaN goes on
-        if (!(h*change <= 4*GVI__EPS*GVI_ABS(from->q[i]))) p->still = 0;
+        if (!(h*change <= 4*GVI__EPS*GVI_ABS(from->q[i]))) still = 0;
         x->change[i] = x->work.Q[i*x->stride + st->r - 1] - h*change;     // for gvi__worth_of_change
     }
+    if (still || solved) p->work = -1;
     return sum;
 }
 
 /* Is a change that does not shrink rounding?  It is at the rounding of y, q, the residual or
-   the energy that the step moves, or small and the Jacobian new.  Then p->left is what it can
+   the energy that the step moves (and is no jump, whose work is that of the motion), or
+   small and the Jacobian new.  Then p->left is what it can
    hide of the error: no more than the change before, nor than its own worth as energy, where
    a coordinate that hardly moves makes all of the noise.                      */
 GVI__APART int gvi__newton_rests(const gvi_stepper *st, const gvi__from *from, int size, gvi__descent *p,
-                                 gvi_real change, gvi_real residual)
+                                 gvi_real change)
 {
     const gvi__worth w = gvi__worth_of_change(st, from);
     const int fine = w.moved + w.place <= GVI__MAX && w.beyond <= 4*GVI__EPS*w.moved;
-    if (change > 64*GVI__EPS*(gvi_real)size && !p->still && residual > 16*GVI__EPS
-        && !(p->fresh && change <= GVI_SQRT(GVI__EPS)) && !fine && !gvi__is_rounding(&w, p->idle)) return 0;
+    const gvi_real small = GVI_SQRT(GVI__EPS);
+    const int sure = change <= 64*GVI__EPS*(gvi_real)size || p->work < 0 || (p->fresh && change <= small);
+    const int jumps = !((gvi_real)st->r*p->work <= GVI__EPS*(w.moved + w.place));
+    if (!sure && (jumps || (!fine && !gvi__is_rounding(&w, p->idle)))) return 0;
     p->left = p->before;
     if (fine && w.beyond + 4*GVI__EPS*w.place < p->before*w.moved)
         p->left = (w.beyond + 4*GVI__EPS*w.place)/w.moved;
@@ -6462,22 +6478,24 @@ GVI__APART int gvi__newton_rests(const gvi_stepper *st, const gvi__from *from, i
 
 /* The verdict on a change.  Where it is rounding, what is left of the error shrinks on by the
    contraction seen before.  Not to be less than half of the least so far is not to shrink: what
-   is rounded to a grid may go round a few points of it, and fall in every round.  Gives up
-   blocks that contract by no more than 1/2 when they are new: derivatives at one point are not
-   enough.                                                                     */
+   is rounded to a grid may go round a few points of it, and fall in every round.  Nor is it
+   contraction to fall from an overshoot far beyond the size of y.  Gives up blocks that contract
+   by no more than 1/2 when they are new: derivatives at one point are not enough.  */
 GVI__APART int gvi__newton_judge(gvi_stepper *st, const gvi__from *from, const gvi__matrix *J,
-                                 gvi__descent *p, gvi_real change, gvi_real residual)
+                                 gvi__descent *p, gvi_real change)
 {
-    const gvi_real before = p->before, ratio = before > 0 ? change/before : 1;
+    const gvi_real before = p->before, all = (gvi_real)st->n;         // all coordinates anew
+    const gvi_real ratio = before > 0 ? change/(before > all ? all : before) : 1;
     const gvi_real wanted = st->x.desc.tolerance;
+    if (!gvi__finite(change)) return GVI__NOT_FINITE;
     gvi__watch(st, change*change, p->earlier*p->earlier);
     const int stagnant = before > 0 && change > p->least/2;
-    p->idle = stagnant ? p->idle + 1 : 0;
+    p->idle = (signed char)(!stagnant ? 0 : p->idle < 100 ? p->idle + 1 : 100);
     const gvi_real noise = 64*GVI__EPS*(gvi_real)((st->s - J->k0)*st->n);
     if (before > 0 && !stagnant && change > noise && !(p->left < GVI__MAX)) p->rho = change/p->least;
     if (change < p->least) p->least = change;
     const int rounding = p->left < GVI__MAX
-        || (stagnant && gvi__newton_rests(st, from, (st->s - J->k0)*st->n, p, change, residual));
+        || (stagnant && gvi__newton_rests(st, from, (st->s - J->k0)*st->n, p, change));
     if (rounding) p->left *= p->rho;
 
     const gvi_real enough = wanted > 0 ? wanted : GVI__EPS/4096;
@@ -6492,16 +6510,19 @@ GVI__APART int gvi__newton_judge(gvi_stepper *st, const gvi__from *from, const g
     return GVI__GO_ON;
 }
 
+// the matrix of the steps comes first, that of queries behind it
+static inline int gvi__is_kept(const gvi_stepper *st, const gvi__matrix *J) { return J->pivot == st->x.pivot; }
+
 /* Solves rows k0..s-1 of (1) from the y at hand and leaves F, P, Q, V at the
    solution.  Keeps the factorisation while it contracts by 1/4 or better, over
-   iterations and, if `kept`, over steps.                                      */
-GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi__matrix *J, int kept)
+   iterations and, the one that is for steps, over these.                      */
+GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi__matrix *J)
 {
     struct gvi__private *x = &st->x;
     gvi__descent p = { 0, 0, GVI__MAX, 0, 0, 0, 0, 0, 0, 0 };
     p.rho = (gvi_real)0.25;
     p.left = GVI__MAX;
-    p.have = kept && !gvi__nonzero(x->h_matrix - x->h_weights) && x->has_blocks == gvi__in_blocks(J);
+    p.have = gvi__is_kept(st, J) && !gvi__nonzero(x->h_matrix - x->h_weights) && x->has_blocks == gvi__in_blocks(J);
     for (int k = 0, made = 0, verdict = GVI__GO_ON; k <= x->desc.max_iterations; ++k) {
         gvi_status status = gvi__newton_ask(st, from, x->h_weights);
         if (status != GVI_OK || verdict == GVI__DONE) return status;        // one more evaluation, then done
@@ -6511,18 +6532,17 @@ GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const 
             status = gvi__jacobian(st, J);
             if (status != GVI_OK) return status;
             p.have = 1;
-            if (kept) {
+            if (gvi__is_kept(st, J)) {
                 x->h_matrix = x->h_weights;
                 x->has_blocks = (signed char)gvi__in_blocks(J);
             }
         }
-        const gvi_real residual = gvi__residual(st, from, J->k0);
+        p.work = gvi__residual(st, from, J->k0);
         if (gvi__in_blocks(J)) gvi__solve_blocks(st, J);
         else gvi_lu_solve((st->s - J->k0)*st->n, J->square, J->pivot, x->dy);
-        const gvi_real change = gvi__newton_update(st, from, J, &p);
         gvi__count(&st->counters.newton_iterations, 1);
-        if (!gvi__finite(change)) return gvi__not_finite(st, 0);
-        verdict = gvi__newton_judge(st, from, J, &p, change, residual);
+        verdict = gvi__newton_judge(st, from, J, &p, gvi__newton_update(st, from, J, &p));
+        if (verdict == GVI__NOT_FINITE) return gvi__not_finite(st, 0);
         if (verdict == GVI__BEYOND) break;
     }
     return gvi__give(st, GVI_E_CONVERGENCE);
@@ -6563,14 +6583,14 @@ GVI__APART gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, i
     gvi__matrix J = { x->J + offset, NULL, x->pivot + (query ? sn + 1 : 0), 0, 0, gvi__use_blocks(st) };
     gvi__newton_guess(st, extrapolate);
     const unsigned long long count = st->counters.newton_iterations;
-    gvi_status status = gvi__newton(st, from, &J, !query);
+    gvi_status status = gvi__newton(st, from, &J);
     // a callback that refused the first points would refuse them with any matrix
     const int refused = status == GVI_E_CALLBACK && st->counters.newton_iterations == count;
     if (gvi__in_blocks(&J) && status != GVI_OK && !refused) {
         J.blocks = 0;
         if (!query) x->whole_left = 64;
         gvi__newton_guess(st, extrapolate);
-        status = gvi__newton(st, from, &J, !query);
+        status = gvi__newton(st, from, &J);
     }
     gvi__newton_increments(st, from);
     return status;
@@ -7505,7 +7525,7 @@ static gvi_status gvi__interior(gvi_stepper *st, const gvi__from *from, gvi_real
         gvi__zero((size_t)(st->s*n), x->y);
         for (int i = 0; i < n; ++i) x->y[i] = (q1[i] - from->q[i])/h;
         x->diagnose = (signed char)look;
-        status = gvi__newton(st, from, J, 0);
+        status = gvi__newton(st, from, J);
         x->diagnose = 0;
     }
     if (status != GVI_OK && status != GVI_E_CONVERGENCE) return status;
