@@ -6492,8 +6492,14 @@ GVI__APART int gvi__newton_judge(gvi_stepper *st, const gvi__from *from, const g
     const int stagnant = before > 0 && change > p->least/2;
     p->idle = (signed char)(!stagnant ? 0 : p->idle < 100 ? p->idle + 1 : 100);
     const gvi_real noise = 64*GVI__EPS*(gvi_real)((st->s - J->k0)*st->n);
-    if (before > 0 && !stagnant && change > noise && !(p->left < GVI__MAX)) p->rho = change/p->least;
+    if (before > 0 && !stagnant && !(p->left < GVI__MAX) && (change > noise || change < p->rho*p->least))
+        p->rho = change/p->least;
     if (change < p->least) p->least = change;
+    if (p->left < GVI__MAX && change > noise && change > 16*p->least) {   // it grows: that was no rounding
+        p->left = GVI__MAX;
+        p->least = change;
+        p->rho = (gvi_real)0.25;
+    }
     const int rounding = p->left < GVI__MAX
         || (stagnant && gvi__newton_rests(st, from, (st->s - J->k0)*st->n, p, change));
     if (rounding) p->left *= p->rho;
@@ -6522,7 +6528,8 @@ GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const 
     gvi__descent p = { 0, 0, GVI__MAX, 0, 0, 0, 0, 0, 0, 0 };
     p.rho = (gvi_real)0.25;
     p.left = GVI__MAX;
-    p.have = gvi__is_kept(st, J) && !gvi__nonzero(x->h_matrix - x->h_weights) && x->has_blocks == gvi__in_blocks(J);
+    p.have = gvi__is_kept(st, J) && !gvi__nonzero(x->h_matrix - x->h_weights)
+          && x->has_blocks == gvi__in_blocks(J);
     for (int k = 0, made = 0, verdict = GVI__GO_ON; k <= x->desc.max_iterations; ++k) {
         gvi_status status = gvi__newton_ask(st, from, x->h_weights);
         if (status != GVI_OK || verdict == GVI__DONE) return status;        // one more evaluation, then done
