@@ -435,7 +435,8 @@ typedef struct gvi_effect {
     gvi_point_fn   *point;    /* or one point a call                            */
     gvi_points_fn  *value;    /* V or L, for energy and action, and every step of a
                                  clock; NULL: unknown                           */
-    gvi_hessian_fn *hessian;  /* for Newton; NULL: differences of f and dldv    */
+    gvi_hessian_fn *hessian;  /* for Newton; NULL: differences of f and dldv over sqrt(eps) of
+                                 the motion: they are to be exact nearly to rounding */
     void           *user;     /* handed to the callbacks                        */
     int             weak;     /* not 0: asked in some iterations only (WEAK EFFECTS) */
 } gvi_effect;
