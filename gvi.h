@@ -838,7 +838,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__DIG LDBL_MANT_DIG
 #endif
 
-#define GVI__BEYOND_FLOAT (GVI__DIG > 24)             // more digits than float: where double is no more, not there
+#define GVI__BEYOND_FLOAT (GVI__DIG > 24)             // not where double is no more than float, as on AVR
 
 /* What is compiled.  Whatever was left out stands behind a constant 0, and so no
    compiler keeps it.                                                         */
@@ -1047,7 +1047,7 @@ static gvi__two gvi__join(gvi_real x, gvi_real xe, gvi_real y, gvi_real ye)
 #ifdef GVI__FMA
 GVI__COPY gvi__two gvi__product(gvi_real a, gvi_real b)          // a*b exactly
 {
-    return gvi__two_of(a*b, GVI__FMA(a, b, -(a*b)));  // a*b is used twice: no compiler makes it part of a sum
+    return gvi__two_of(a*b, GVI__FMA(a, b, -(a*b)));  // a*b is used twice: gcc and clang do not fuse it into a sum
 }
 #else
 // 2^k + 1, k half the digits: x times it shows where to cut x in two (Veltkamp; Dekker)

@@ -167,7 +167,7 @@ static void marked_as_weak(void **state) { (void)state; run_all(GVI_POSITIONS, 1
 
 /* A mass of 0.1 on a rope of stiffness 1e6, just before it is taut, with a tolerance: Newton's method overshot to
    1e16 times the size of y, and the fall from there to 1 was taken for convergence.  Energy went from 0 to 1247
-   in double, in which alone it overshoots just there.                        */
+   (in double and long double; in float it does not overshoot just there).    */
 static void an_overshoot_is_no_contraction(void **state)
 {
     static const real masses[] = { (real)0.1, (real)0.1 };
