@@ -5945,19 +5945,49 @@ GVI__APART gvi_status gvi__newton_ask(gvi_stepper *st, const gvi__from *from, gv
     return gvi__evaluate(st, &y, 0);
 }
 
-// dy before it is solved for, in scratch behind that of gvi__solve_blocks
+// dy before it is solved for, in scratch behind that of gvi__solve_blocks; behind that y before the last change
 static inline gvi_real *gvi__newton_rest(const gvi_stepper *st) { return st->x.dF + st->n*st->x.stride; }
+static inline gvi_real *gvi__last_y(const gvi_stepper *st) { return st->x.dF + 2*st->n*st->x.stride; }
 
-/* dy := -residual, and the same to gvi__newton_rest.  The weights of P are h b_i/h, those
-   that F has, and Phi_0 = c is on its grid: then the rows are exactly those of a discrete
-   action, also as rounded.  Returns the largest residual in units of its own terms.           */
-GVI__APART gvi_real gvi__residual(gvi_stepper *st, const gvi__from *from, int k0)
+/* Where Newton's method stands: the last changes and the least; rho, the contraction seen; what
+   is left of the error, once a change was rounding; the residual, and once its change is made the
+   work that does in it, or -1 where either is rounding in its own units; how often no change was
+   less than half of the least; is there a matrix that will do; is it new, 1, and was the last one,
+   2; how often was the last change halved, or -1: there is none to take back?           */
+typedef struct gvi__descent {
+    gvi_real    before, earlier, least, rho, left, work;
+    signed char idle, have, fresh, halves;
+} gvi__descent;
+
+enum { GVI__HALVES = 6 };          // of a change, at most
+
+// the residual's norm at the last y that stayed, behind the units of gvi__residual
+static inline gvi_real *gvi__last_norm(const gvi_stepper *st) { return st->x.scale + st->n; }
+
+// M_ii where F was asked last, at the first point
+GVI__APART gvi_real gvi__inertia(const gvi_stepper *st, int i)
+{
+    const struct gvi__private *x = &st->x;
+    const size_t n = (size_t)st->n, ii = (size_t)i*(n + 1);
+    const gvi_real m = x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->mass[i]
+        : gvi__mass_is(st, GVI_MASS_DENSE) ? x->mass[n*n + ii]
+        : gvi__mass_is(st, GVI_MASS_POSITION) ? x->point_mass[ii*(size_t)x->stride] : 1;
+    return m > 0 ? m : 1;
+}
+
+/* dy := -residual, and the same to gvi__newton_rest.  The weights of P are h b_i/h, those that F has, and Phi_0 = c is on
+   its grid: then the rows are exactly those of a discrete action, also as rounded.  p->work: the
+   largest in units of its own terms.  Returns the norm, the sum of magnitudes over sqrt M_ii: rows of
+   (1) are momenta, so that has one unit for all coordinates.  M is that of the first y.           */
+GVI__APART gvi_real gvi__residual(gvi_stepper *st, const gvi__from *from, int k0, gvi__descent *p)
 {
     struct gvi__private *x = &st->x;
     int n = st->n, R = x->stride;
-    gvi_real worst = 0, h = x->h_weights, *rest = gvi__newton_rest(st);
+    gvi_real norm = 0, worst = 0, h = x->h_weights, *rest = gvi__newton_rest(st);
+    const int first = !(*gvi__last_norm(st) < GVI__MAX);
     for (int i = 0; i < n; ++i) {
         const gvi_real *P = x->work.P + i*R, *F = x->work.F + i*R;
+        gvi_real length = 0;
         for (int k = k0; k < st->s; ++k) {
             // P - p is summed where p is asked for: the rounding of P then is not in the sum
             const gvi_real base = k == 0 ? from->p[i] : 0;
@@ -5967,14 +5997,18 @@ GVI__APART gvi_real gvi__residual(gvi_stepper *st, const gvi__from *from, int k0
                 gvi_real a = x->phi[k*R + j]*(x->hb[j]*(P[j] - base)), b = W*(x->hb[j]*F[j]);
                 momentum += a;
                 force += b;
-                size += GVI_ABS(x->phi[k*R + j]*(x->hb[j]*P[j])/h) + GVI_ABS(b);
+                size += GVI_ABS(x->phi[k*R + j]*(x->b[j]*P[j])) + GVI_ABS(b);
             }
             gvi_real sum = momentum/h - force;
             x->dy[(k - k0)*n + i] = rest[(k - k0)*n + i] = -(gvi_real)(2*k + 1)*sum;
+            length += (gvi_real)(2*k + 1)*GVI_ABS(sum);
             if (size > 0 && GVI_ABS(sum)/size > worst) worst = GVI_ABS(sum)/size;
         }
+        if (first) x->scale[i] = 1/GVI_SQRT(gvi__inertia(st, i));
+        norm += length*x->scale[i];
     }
-    return worst;
+    p->work = worst;
+    return norm;
 }
 
 // where the derivatives of the residual go, of a step of length h_weights
@@ -6415,15 +6449,6 @@ GVI__APART void gvi__newton_guess(gvi_stepper *st, int extrapolate)
     }
 }
 
-/* Where Newton's method stands: the last changes and the least; rho, the contraction seen; what
-   is left of the error, once a change was rounding; the residual, and once its change is made the
-   work that it does in it, or -1 where either is rounding in its own units; how often no change
-   was less than half of the least; is there a matrix that will do, is it new, was the last one? */
-typedef struct gvi__descent {
-    gvi_real    before, earlier, least, rho, left, work;
-    signed char idle, have, fresh, was_fresh;
-} gvi__descent;
-
 /* y += dy from row k0 on; returns the sum over coordinates of the relative change.  p->work: its
    work, or -1 where all of it is within a few units of the last place of q, or the residual was
    rounding already                                                              */
@@ -6434,13 +6459,14 @@ GVI__APART gvi_real gvi__newton_update(gvi_stepper *st, const gvi__from *from, c
     const int n = st->n;
     const gvi_real h = GVI_ABS(x->h_weights);
     const gvi_real *rest = gvi__newton_rest(st);
-    gvi_real sum = 0;
+    gvi_real sum = 0, *last = gvi__last_y(st);
     const int solved = p->work <= 16*GVI__EPS;
     int still = 1;
     p->work = 0;
     for (int i = 0; i < n; ++i) {
         gvi_real change = 0, size = 0;
         for (int k = 0; k < st->s; ++k) {
+            if (!GVI__SMALL) last[k*n + i] = x->y[k*n + i];
             if (k >= J->k0) {
                 const int at = (k - J->k0)*n + i;
                 x->y[k*n + i] += x->dy[at];
@@ -6468,7 +6494,7 @@ GVI__APART int gvi__newton_rests(const gvi_stepper *st, const gvi__from *from, i
     const gvi__worth w = gvi__worth_of_change(st, from);
     const int fine = w.moved + w.place <= GVI__MAX && w.beyond <= 4*GVI__EPS*w.moved;
     const gvi_real small = GVI_SQRT(GVI__EPS);
-    const int sure = change <= 64*GVI__EPS*(gvi_real)size || p->work < 0 || (p->fresh && change <= small);
+    const int sure = change <= 64*GVI__EPS*(gvi_real)size || p->work < 0 || ((p->fresh & 1) && change <= small);
     const int jumps = !((gvi_real)st->r*p->work <= GVI__EPS*(w.moved + w.place));
     if (!sure && (jumps || (!fine && !gvi__is_rounding(&w, p->idle)))) return 0;
     p->left = p->before;
@@ -6496,11 +6522,6 @@ GVI__APART int gvi__newton_judge(gvi_stepper *st, const gvi__from *from, const g
     if (before > 0 && !stagnant && !(p->left < GVI__MAX) && (change > noise || change < p->rho*p->least))
         p->rho = change/p->least;
     if (change < p->least) p->least = change;
-    if (p->left < GVI__MAX && change > noise && change > 16*p->least) {   // it grows: that was no rounding
-        p->left = GVI__MAX;
-        p->least = change;
-        p->rho = (gvi_real)0.25;
-    }
     const int rounding = p->left < GVI__MAX
         || (stagnant && gvi__newton_rests(st, from, (st->s - J->k0)*st->n, p, change));
     if (rounding) p->left *= p->rho;
@@ -6508,13 +6529,55 @@ GVI__APART int gvi__newton_judge(gvi_stepper *st, const gvi__from *from, const g
     const gvi_real enough = wanted > 0 ? wanted : GVI__EPS/4096;
     if (change*ratio <= enough || p->left <= GVI__EPS/1024 || p->left <= enough) return GVI__DONE;
     if (!rounding && before > 0 && ratio > (gvi_real)0.25) {
-        if (gvi__in_blocks(J) && p->was_fresh && ratio > (gvi_real)0.5) return GVI__BEYOND;
+        if (gvi__in_blocks(J) && p->fresh & 2 && ratio > (gvi_real)0.5) return GVI__BEYOND;
         p->have = 0;
     }
-    p->was_fresh = p->fresh;
     p->earlier = before;
     p->before = change;
     return GVI__GO_ON;
+}
+
+// dy := J^-1 dy
+GVI__APART void gvi__solve_for_change(gvi_stepper *st, const gvi__matrix *J)
+{
+    if (gvi__in_blocks(J)) gvi__solve_blocks(st, J);
+    else gvi_lu_solve((st->s - J->k0)*st->n, J->square, J->pivot, st->x.dy);
+    gvi__count(&st->counters.newton_iterations, 1);
+}
+
+/* Where a change that is not small has not made the residual less: back to where it began, for a new
+   matrix; or if it was new, half of the way.  Where six halves have not helped all of the change
+   stands: across a kink, or from one curve to the next, the way down may lead up first.       */
+GVI__APART void gvi__take_back(gvi_stepper *st, gvi__descent *p)
+{
+    const int size = st->s*st->n, halves = p->halves, most = GVI__HALVES;
+    const gvi_real *last = gvi__last_y(st);
+    gvi_real *y = st->x.y;
+    const gvi_real part = !(p->fresh & 1) ? 0 : halves < most ? (gvi_real)0.5 : (gvi_real)(1 << most);
+    for (int i = 0; i < size; ++i) y[i] = last[i] + part*(y[i] - last[i]);
+    if (p->fresh & 1) p->halves = (signed char)(halves + 1);
+    else p->have = 0, p->halves = -1;
+    gvi__count(&st->counters.newton_iterations, 1);
+}
+
+// Does y stay, of that norm?  Where what was at rest grows again, that was no rounding
+GVI__APART int gvi__newton_stays(gvi_stepper *st, gvi__descent *p, gvi_real norm)
+{
+    gvi_real *last = gvi__last_norm(st);
+    const int rests = p->left < GVI__MAX;
+    if (!GVI__SMALL && p->halves >= 0 && p->halves <= GVI__HALVES && !(norm < *last) && !rests
+        && p->before > GVI_SQRT(GVI__EPS)) {
+        gvi__take_back(st, p);
+        return 0;
+    }
+    if (p->halves > 0) p->have = 0;                // another place: another matrix
+    if (rests && norm > 16**last) {
+        p->before = 0;
+        p->least = p->left = GVI__MAX;
+        p->rho = (gvi_real)0.25;
+    }
+    if (!(p->left < GVI__MAX)) *last = norm;
+    return 1;
 }
 
 // the matrix of the steps comes first, that of queries behind it
@@ -6526,16 +6589,18 @@ static inline int gvi__is_kept(const gvi_stepper *st, const gvi__matrix *J) { re
 GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const gvi__matrix *J)
 {
     struct gvi__private *x = &st->x;
-    gvi__descent p = { 0, 0, GVI__MAX, 0, 0, 0, 0, 0, 0, 0 };
+    gvi__descent p = { 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 };
     p.rho = (gvi_real)0.25;
-    p.left = GVI__MAX;
+    p.least = p.left = *gvi__last_norm(st) = GVI__MAX;
+    p.halves = -1;
     p.have = gvi__is_kept(st, J) && !gvi__nonzero(x->h_matrix - x->h_weights)
           && x->has_blocks == gvi__in_blocks(J);
     for (int k = 0, made = 0, verdict = GVI__GO_ON; k <= x->desc.max_iterations; ++k) {
         gvi_status status = gvi__newton_ask(st, from, x->h_weights);
         if (status != GVI_OK || verdict == GVI__DONE) return status;        // one more evaluation, then done
-        p.fresh = !p.have;
-        if (p.fresh) {
+        if (!gvi__newton_stays(st, &p, gvi__residual(st, from, J->k0, &p))) continue;
+        p.fresh = (signed char)((p.fresh & 1) << 1 | !p.have);
+        if (p.fresh & 1) {
             if (++made > x->desc.max_iterations/4 + 2) break;
             status = gvi__jacobian(st, J);
             if (status != GVI_OK) return status;
@@ -6544,14 +6609,13 @@ GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const 
                 x->h_matrix = x->h_weights;
                 x->has_blocks = (signed char)gvi__in_blocks(J);
             }
+            gvi__residual(st, from, J->k0, &p);              // differences overwrote it
         }
-        p.work = gvi__residual(st, from, J->k0);
-        if (gvi__in_blocks(J)) gvi__solve_blocks(st, J);
-        else gvi_lu_solve((st->s - J->k0)*st->n, J->square, J->pivot, x->dy);
-        gvi__count(&st->counters.newton_iterations, 1);
+        gvi__solve_for_change(st, J);
         verdict = gvi__newton_judge(st, from, J, &p, gvi__newton_update(st, from, J, &p));
         if (verdict == GVI__NOT_FINITE) return gvi__not_finite(st, 0);
         if (verdict == GVI__BEYOND) break;
+        p.halves = 0;
     }
     return gvi__give(st, GVI_E_CONVERGENCE);
 }

@@ -18,7 +18,7 @@ static const double omega = 50;
 static double tension(int i, double u) { return i % 2 ? u + u*u*u : omega*omega*u; }
 static double stiffness_of(int i, double u) { return i % 2 ? 1 + 3*u*u : omega*omega; }
 
-static int springs(const gvi_points *x, void *user)
+static int chain(const gvi_points *x, void *user)
 {
     const int d = x->stride, n = x->n;
     (void)user;
@@ -28,7 +28,7 @@ static int springs(const gvi_points *x, void *user)
     return 0;
 }
 
-static int springs_hessian(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *fq, gvi_real *fv,
+static int chain_hessian(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *fq, gvi_real *fv,
                            gvi_real *pv, void *user)
 {
     const int n = *(const int *)user;
@@ -52,9 +52,9 @@ static const problem problems[] = {
       { GVI_MASS_POSITION, NULL, pendulum_mass, pendulum_gradient, pendulum_velocity, NULL } },
     { "Fermi-Pasta-Ulam", 6, 2000, 0.1, { .kind = GVI_POTENTIAL, .points = fermi_pasta_ulam_forces },
       { GVI_MASS_UNIT, NULL, NULL, NULL, NULL, NULL } },
-    { "springs", 20, 400, 0.04, { .kind = GVI_POTENTIAL, .points = springs, .hessian = springs_hessian, .user = sizes },
+    { "springs", 20, 400, 0.04, { .kind = GVI_POTENTIAL, .points = chain, .hessian = chain_hessian, .user = sizes },
       { GVI_MASS_UNIT, NULL, NULL, NULL, NULL, NULL } },
-    { "springs", 100, 40, 0.04, { .kind = GVI_POTENTIAL, .points = springs, .hessian = springs_hessian, .user = sizes + 1 },
+    { "springs", 100, 40, 0.04, { .kind = GVI_POTENTIAL, .points = chain, .hessian = chain_hessian, .user = sizes + 1 },
       { GVI_MASS_UNIT, NULL, NULL, NULL, NULL, NULL } },
 };
 
