@@ -1,7 +1,7 @@
 #!/bin/sh
 # headers.sh BUILD: gvi.h compiled without a single warning by every compiler
 # that is there, in every standard, type and linkage; then the programs of
-# tests/compile, which link several translation units; then what must be refused.
+# tests/compile, which link several translation units; then the studies; then what must be refused.
 build=$1
 dir=$build/headers
 mkdir -p "$dir" "$build/log" "$build/result"
@@ -74,6 +74,13 @@ for pair in 'gcc g++' 'clang clang++'; do
     $2 -std=c++11 -xc++ $strict -c tests/compile/units_other.c -o "$dir/units_other.o" &&
     $2 "$dir"/units_main.o "$dir"/units_other.o "$dir"/implementation.o -o "$dir/mixed" -lm && "$dir/mixed" ||
         fail "$2: C++ units with an implementation in C"
+    count=$((count + 1))
+done
+
+# the studies, which no test runs: they have to compile all the same; not what includes other libraries or a board
+for file in tests/cost/*.c tests/hard/*.c tests/theorems/*.c; do
+    grep -q '^#include <\(gsl\|arkode\|cvode\)/\|^#include "board.h"' $file && continue
+    ${CC:-cc} -std=c99 -fsyntax-only -I. -Itests -Iexamples $file || fail "$file"
     count=$((count + 1))
 done
 
