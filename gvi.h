@@ -361,7 +361,8 @@ typedef GVI_REAL gvi_real;
 typedef enum gvi_status {
     GVI_OK            =  0,
     GVI_E_ARGUMENT    = -1,  /* null pointer, memory not aligned as a gvi_real is, size out
-                                of range, h = 0, NaN or Inf given                   */
+                                of range, h = 0, NaN or Inf given; a matrix, points or
+                                nodes where the kind takes none: it was forgotten   */
     GVI_E_MEMORY      = -2,  /* the memory is smaller than gvi_size(desc)               */
     GVI_E_NODES       = -3,  /* own rule: a node outside [0,1], or two that coincide    */
     GVI_E_ORDER       = -4,  /* own rule of order u < s, so also weights that do not sum
@@ -2920,25 +2921,24 @@ static gvi_status gvi__check_desc(const gvi_desc *d)
     if (!gvi__within(d->rule.points, 4000) || !gvi__within(d->effect_count, GVI_EFFECTS)
         || (d->effect_count && !d->effects) || !gvi__within(d->max_iterations, 1000000)
         || !gvi__within(d->iterations, 1000000)
+        || (unsigned)d->formulation > GVI_NEWTON || (unsigned)d->mass.kind > GVI_MASS_NONE
         || !(d->tolerance >= 0 && d->tolerance < 1))
         return GVI_E_ARGUMENT;
-    if ((unsigned)d->formulation > GVI_NEWTON) return GVI_E_ARGUMENT;
     if (d->rule.kind == GVI_OWN || d->rule.kind == GVI_KICKS)
         return d->rule.points > 0 && d->rule.nodes && d->rule.weights ? GVI_OK : GVI_E_ARGUMENT;
-    return d->rule.kind == GVI_GAUSS || d->rule.kind == GVI_LOBATTO ? GVI_OK : GVI_E_ARGUMENT;
+    // nodes where none are taken: the kind was forgotten
+    return (unsigned)d->rule.kind <= GVI_LOBATTO && !d->rule.nodes ? GVI_OK : GVI_E_ARGUMENT;
 }
 
-// is what the kind of mass needs there?  without a mass, Lagrangian terms
-static int gvi__mass_given(const gvi_mass *m, int lagrangian)
+/* Is what the kind of mass needs there, and nothing that says that the kind was forgotten?
+   Without a mass, Lagrangian terms.                                           */
+static int gvi__mass_given(const gvi_desc *d, int lagrangian)
 {
-    switch (m->kind) {
-    case GVI_MASS_UNIT:     return 1;
-    case GVI_MASS_DIAGONAL:
-    case GVI_MASS_DENSE:    return m->matrix != NULL;
-    case GVI_MASS_POSITION: return m->points && m->gradient;
-    case GVI_MASS_NONE:     return lagrangian;
-    default:                return 0;
-    }
+    const gvi_mass *m = &d->mass;
+    if (m->kind == GVI_MASS_UNIT) return !m->matrix && !m->points;
+    if (gvi__has_mass(d, GVI_MASS_POSITION)) return m->points && m->gradient;
+    if (gvi__has_mass(d, GVI_MASS_NONE)) return lagrangian;
+    return m->matrix != NULL;
 }
 
 // finite, and weights that sum to 1
@@ -3036,13 +3036,13 @@ static gvi_status gvi__resolve(gvi__scene *x, gvi_desc *d, const gvi_desc *desc)
     x->desc = desc;
     if (status == GVI_OK) status = gvi__read_effects(x);
     if (status != GVI_OK) return status;
-    if (!gvi__mass_given(&desc->mass, x->flags & GVI__HAS_LAGRANGIAN)) return GVI_E_ARGUMENT;
+    if (gvi__left_out(x)) return GVI_E_FORMULATION;
+    if (!gvi__mass_given(desc, x->flags & GVI__HAS_LAGRANGIAN)) return GVI_E_ARGUMENT;
     *d = *desc;
     x->desc = d;
     if (d->degree == 0) d->degree = d->rule.kind == GVI_KICKS ? 1 : 8;
     if (d->rule.points == 0) d->rule.points = d->rule.kind == GVI_LOBATTO ? d->degree + 1 : d->degree;
     if (d->max_iterations == 0) d->max_iterations = 60;
-    if (gvi__left_out(x)) return GVI_E_FORMULATION;
     status = gvi__measure(x);
     if (status == GVI_OK) status = gvi__choose(x);
     if (status != GVI_OK) return status;
@@ -7793,14 +7793,14 @@ GVI_DEF const char *gvi_status_text(gvi_status status)
 {
     switch (status) {
     case GVI_OK:            return "ok";
-    case GVI_E_ARGUMENT:    return "bad argument: null pointer, size out of range, zero step, NaN or Inf";
+    case GVI_E_ARGUMENT:    return "bad argument: null pointer, size out of range, zero step, NaN or Inf, or what its kind does not take";
     case GVI_E_MEMORY:      return "memory too small: see gvi_size";
     case GVI_E_NODES:       return "rule: a node is outside [0,1], or two coincide";
     case GVI_E_ORDER:       return "rule: its order is below the degree (0: the weights do not sum to 1)";
     case GVI_E_POINTS:      return "rule: too few points, r >= degree is needed";
     case GVI_E_FORMULATION: return "no formulation, or not the one asked for, covers this scene";
     case GVI_E_SINGULAR:    return "singular matrix: a coordinate has no mass";
-    case GVI_E_CONVERGENCE: return "no convergence: the step is too large";
+    case GVI_E_CONVERGENCE: return "no convergence: the step is too large, or a force jumps or is noisy";
     case GVI_E_CALLBACK:    return "a callback refused";
     case GVI_E_NON_FINITE:  return "an effect gave NaN or Inf";
     case GVI_E_VALUE:       return "an effect has no value callback";

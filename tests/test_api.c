@@ -601,6 +601,9 @@ static int spoil(gvi_desc *d, int k)
     case 22: d->max_iterations = -1; break;
     case 23: d->iterations = -1; break;
     case 24: d->iterations = 1000001; break;
+    case 25: bad_mass[0] = bad_mass[3] = 1; d->mass.matrix = bad_mass; break;     /* of which kind? */
+    case 26: d->mass.points = mass_points; d->mass.gradient = mass_gradient; break;
+    case 27: d->rule.points = 8; d->rule.nodes = d->rule.weights = bad_mass; break;
     default: return 0;
     }
     return 1;

@@ -167,6 +167,7 @@ static gvi_desc describe(scene_name a, int s)
     gvi_desc desc = { .n = 2, .degree = s, .effects = a == KEPLER ? kepler : a == FORCED ? forced : others,
                       .effect_count = a == MAGNETIC || a == FORCED ? 3 : 2 };
     desc.mass.kind = (gvi_mass_kind)mass_kind(a);
+    if (desc.mass.kind == GVI_MASS_UNIT) return desc;
     desc.mass.matrix = dense;
     desc.mass.points = pendulum_mass;
     desc.mass.gradient = pendulum_mass_gradient;

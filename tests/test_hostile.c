@@ -191,6 +191,7 @@ static void random_mass(scene *a)
     gvi_mass *m = &a->desc.mass;
     int n = a->desc.n;
     m->kind = (gvi_mass_kind)below(5);
+    if (m->kind == GVI_MASS_UNIT && below(50)) return;         /* what it does not take is refused */
     m->matrix = a->matrix;
     for (int i = 0; i < n*n; ++i) a->matrix[i] = below(10) ? uniform() : odd_number();
     for (int i = 0; i < n; ++i)

@@ -159,8 +159,8 @@ static gvi_desc describe(void)
     d.mass.kind = (gvi_mass_kind)below(5);
     for (int i = 0; i < N*N; ++i) matrix[i] = i % (N + 1) == 0 ? 2 : 0;
     for (int i = 0; i < d.n; ++i) matrix[below(N*N)] = number();
-    d.mass.matrix = matrix;
-    d.mass.points = mass;
+    if (d.mass.kind != GVI_MASS_UNIT) d.mass.matrix = matrix;
+    if (d.mass.kind != GVI_MASS_UNIT) d.mass.points = mass;
     d.mass.gradient = gradient;
     if (below(4) == 0) d.mass.velocity = velocity;
     d.mass.user = &moods[EFFECTS];
@@ -170,7 +170,7 @@ static gvi_desc describe(void)
     if (d.rule.points > 0) (void)gvi_gauss(d.rule.points, nodes, weights);
     if (below(3) == 0) nodes[below(POINTS)] = number();
     if (below(3) == 0) weights[below(POINTS)] = number();
-    d.rule.nodes = nodes;
+    if (d.rule.kind >= GVI_OWN) d.rule.nodes = nodes;
     d.rule.weights = weights;
     d.formulation = (gvi_formulation)below(6);
     if (below(6) == 0) d.tolerance = number();
