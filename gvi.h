@@ -5764,7 +5764,7 @@ GVI__DEEP int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *
     gvi_real *least = moved ? &weak->least : &p->least;
     if (some ? gvi__settled(st, p, weak, change) : !given && change*change <= p->tolerance*known)
         return GVI__DONE;
-    const gvi_real usual = before > 0 ? before/4 : (gvi_real)0.0625;
+    const gvi_real far = (gvi_real)0.0625, usual = before > 0 && before < 4*far ? before/4 : far;
     if (!GVI__SMALL && !some && !given && !p->idle && change < usual) {      // most of them, in short
         gvi__watch(st, change, p->earlier);
         p->earlier = before;
@@ -5778,7 +5778,7 @@ GVI__DEEP int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *
     }
     if (!moved) gvi__watch(st, change, p->earlier);
     p->grows = before > 0 && change >= before/4;
-    if ((used == 1 && change > (gvi_real)0.0625) || p->grows) gvi__zero(2*(size_t)st->n, x->scale);
+    if (change > far || p->grows) gvi__zero(2*(size_t)st->n, x->scale);       // units of an overshoot would hide all
     p->earlier = before;
     p->before = change;
     if (given) return GVI__GO_ON;
@@ -5873,7 +5873,7 @@ GVI__COPY gvi_status gvi__fixed_point_of(gvi_stepper *st, const gvi__from *from,
         if (*used > 0 || !sums) change = plain ? gvi__stage_rows(st, y) : gvi__stages(st, from, h, y, count);
         int verdict = GVI__GO_ON;
         if (*used > 0) {
-            if (!gvi__finite(change)) return gvi__not_finite(st, p.grows);
+            if (!gvi__finite(change)) return gvi__not_finite(st, p.grows || p.before > (gvi_real)st->n);
             verdict = gvi__judge(st, from, &p, GVI__WEAK ? &weak : NULL, change, *used);
             if (verdict == GVI__GO_ON && GVI__TOLERANCE && *used == most) verdict = GVI__BEYOND;
             if (verdict == GVI__BEYOND) break;
@@ -5972,7 +5972,7 @@ GVI__APART gvi_real gvi__inertia(const gvi_stepper *st, int i)
     const gvi_real m = x->desc.mass.kind == GVI_MASS_DIAGONAL ? x->mass[i]
         : gvi__mass_is(st, GVI_MASS_DENSE) ? x->mass[n*n + ii]
         : gvi__mass_is(st, GVI_MASS_POSITION) ? x->point_mass[ii*(size_t)x->stride] : 1;
-    return m > 0 ? m : 1;
+    return gvi__nonzero(m) ? GVI_ABS(m) : 1;
 }
 
 /* dy := -residual, and the same to gvi__newton_rest.  The weights of P are h b_i/h, those that F has, and Phi_0 = c is on
@@ -6019,6 +6019,7 @@ typedef struct gvi__matrix {
     signed char k0;
     signed char scaled;    /* rows by their largest entry, for a condition without units */
     signed char blocks;    /* in place of square: matrices of n, derivatives at one point */
+    signed char halves;    /* are changes taken back?  By a second attempt          */
 } gvi__matrix;
 
 // Is it in blocks?  Never in the boundary-value problem, which is there without Newton's
@@ -6475,7 +6476,9 @@ GVI__APART gvi_real gvi__newton_update(gvi_stepper *st, const gvi__from *from, c
             }
             size += GVI_ABS(x->y[k*n + i]);
         }
-        if (!(size <= GVI__MIN/GVI__EPS)) sum += change/size; // as gvi__rescale; a NaN goes on
+        const gvi_real least = GVI__EPS*change;                       // y may land on 0
+        if (!(size <= GVI__MIN/GVI__EPS && change <= GVI__MIN/GVI__EPS))  // as gvi__rescale; a NaN goes on
+            sum += change/(size < least ? least : size);
         if (!(h*change <= 4*GVI__EPS*GVI_ABS(from->q[i]))) still = 0;
         x->change[i] = x->work.Q[i*x->stride + st->r - 1] - h*change;     // for gvi__worth_of_change
     }
@@ -6492,9 +6495,11 @@ GVI__APART int gvi__newton_rests(const gvi_stepper *st, const gvi__from *from, i
                                  gvi_real change)
 {
     const gvi__worth w = gvi__worth_of_change(st, from);
-    const int fine = w.moved + w.place <= GVI__MAX && w.beyond <= 4*GVI__EPS*w.moved;
-    const gvi_real small = GVI_SQRT(GVI__EPS);
-    const int sure = change <= 64*GVI__EPS*(gvi_real)size || p->work < 0 || ((p->fresh & 1) && change <= small);
+    // by an older matrix that has not contracted here the next change may be the same, whatever it is
+    const int proven = (p->fresh & 1) || p->rho < (gvi_real)0.25;
+    const int fine = proven && w.moved + w.place <= GVI__MAX && w.beyond <= 4*GVI__EPS*w.moved;
+    const gvi_real small = p->fresh & 1 ? GVI_SQRT(GVI__EPS) : 0, enough = 64*GVI__EPS*(gvi_real)size;
+    const int sure = p->work < 0 || (proven && change <= (enough > small ? enough : small));
     const int jumps = !((gvi_real)st->r*p->work <= GVI__EPS*(w.moved + w.place));
     if (!sure && (jumps || (!fine && !gvi__is_rounding(&w, p->idle)))) return 0;
     p->left = p->before;
@@ -6527,7 +6532,7 @@ GVI__APART int gvi__newton_judge(gvi_stepper *st, const gvi__from *from, const g
     if (rounding) p->left *= p->rho;
 
     const gvi_real enough = wanted > 0 ? wanted : GVI__EPS/4096;
-    if (change*ratio <= enough || p->left <= GVI__EPS/1024 || p->left <= enough) return GVI__DONE;
+    if (change*ratio <= enough || p->left <= GVI__EPS/65536 || p->left <= enough) return GVI__DONE;
     if (!rounding && before > 0 && ratio > (gvi_real)0.25) {
         if (gvi__in_blocks(J) && p->fresh & 2 && ratio > (gvi_real)0.5) return GVI__BEYOND;
         p->have = 0;
@@ -6561,17 +6566,17 @@ GVI__APART void gvi__take_back(gvi_stepper *st, gvi__descent *p)
 }
 
 // Does y stay, of that norm?  Where what was at rest grows again, that was no rounding
-GVI__APART int gvi__newton_stays(gvi_stepper *st, gvi__descent *p, gvi_real norm)
+GVI__APART int gvi__newton_stays(gvi_stepper *st, const gvi__matrix *J, gvi__descent *p, gvi_real norm)
 {
     gvi_real *last = gvi__last_norm(st);
     const int rests = p->left < GVI__MAX;
-    if (!GVI__SMALL && p->halves >= 0 && p->halves <= GVI__HALVES && !(norm < *last) && !rests
+    if (!GVI__SMALL && J->halves && p->halves >= 0 && p->halves <= GVI__HALVES && !(norm < *last) && !rests
         && p->before > GVI_SQRT(GVI__EPS)) {
         gvi__take_back(st, p);
         return 0;
     }
     if (p->halves > 0) p->have = 0;                // another place: another matrix
-    if (rests && norm > 16**last) {
+    if (rests && norm/16 > *last) {
         p->before = 0;
         p->least = p->left = GVI__MAX;
         p->rho = (gvi_real)0.25;
@@ -6598,7 +6603,7 @@ GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const 
     for (int k = 0, made = 0, verdict = GVI__GO_ON; k <= x->desc.max_iterations; ++k) {
         gvi_status status = gvi__newton_ask(st, from, x->h_weights);
         if (status != GVI_OK || verdict == GVI__DONE) return status;        // one more evaluation, then done
-        if (!gvi__newton_stays(st, &p, gvi__residual(st, from, J->k0, &p))) continue;
+        if (!gvi__newton_stays(st, J, &p, gvi__residual(st, from, J->k0, &p))) continue;
         p.fresh = (signed char)((p.fresh & 1) << 1 | !p.have);
         if (p.fresh & 1) {
             if (++made > x->desc.max_iterations/4 + 2) break;
@@ -6635,6 +6640,7 @@ GVI__APART void gvi__newton_increments(gvi_stepper *st, const gvi__from *from)
 {
     struct gvi__private *x = &st->x;
     gvi__clear_behind(st, x->work.F);
+    if (gvi__A(&x->work)) gvi__zero((size_t)(st->n*x->stride), x->work.A);     // it made none to go on from
     for (int i = 0; i < st->n; ++i) {
         const gvi__two q = gvi__product(x->h_weights, x->y[i]);
         const gvi_real *F = x->work.F + i*x->stride;
@@ -6646,14 +6652,18 @@ GVI__APART void gvi__newton_increments(gvi_stepper *st, const gvi__from *from)
     }
 }
 
+// how Newton's method begins: at constant velocity, at the last step's modes; or as the first, and takes back changes
+enum { GVI__PLAIN, GVI__EXTRAPOLATED, GVI__HALVED };
+
 // by blocks, if they may be used; where they fail the whole matrix starts anew, and stays.
 // Of length h_weights, as gvi__begin has left it
-GVI__APART gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, int extrapolate, int query)
+GVI__APART gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, int how, int query)
 {
     struct gvi__private *x = &st->x;
     size_t sn = (size_t)(st->s*st->n), offset = query ? sn*sn : 0;
-    gvi__matrix J = { x->J + offset, NULL, x->pivot + (query ? sn + 1 : 0), 0, 0, gvi__use_blocks(st) };
-    gvi__newton_guess(st, extrapolate);
+    gvi__matrix J = { x->J + offset, NULL, x->pivot + (query ? sn + 1 : 0), 0, 0, 0, how == GVI__HALVED };
+    if (how != GVI__HALVED) J.blocks = gvi__use_blocks(st);
+    gvi__newton_guess(st, how == GVI__EXTRAPOLATED);
     const unsigned long long count = st->counters.newton_iterations;
     gvi_status status = gvi__newton(st, from, &J);
     // a callback that refused the first points would refuse them with any matrix
@@ -6661,11 +6671,18 @@ GVI__APART gvi_status gvi__newton_step(gvi_stepper *st, const gvi__from *from, i
     if (gvi__in_blocks(&J) && status != GVI_OK && !refused) {
         J.blocks = 0;
         if (!query) x->whole_left = 64;
-        gvi__newton_guess(st, extrapolate);
+        gvi__newton_guess(st, how == GVI__EXTRAPOLATED);
         status = gvi__newton(st, from, &J);
     }
     gvi__newton_increments(st, from);
     return status;
+}
+
+// may another way lead to where this one did not?
+static int gvi__tries_again(const gvi_stepper *st, gvi_status status)
+{
+    return status == GVI_E_CONVERGENCE || status == GVI_E_SINGULAR
+        || (status == GVI_E_NON_FINITE && !st->x.diagnose && !GVI__SMALL);
 }
 
 /* ---- explicit, beside stiffness: kicks by what is left of the force, arcs between ---- */
@@ -6859,10 +6876,11 @@ static gvi_status gvi__attempt(gvi_stepper *st, gvi__from *from, gvi_real h, int
     const unsigned count = (unsigned)st->counters.newton_iterations;
     st->formulation = GVI_NEWTON;
     if (usable) gvi__prepare_guess(st, h, query);
-    status = gvi__newton_step(st, from, usable && x->has_velocity, query);
-    if (usable && x->has_velocity && (status == GVI_E_CONVERGENCE || status == GVI_E_SINGULAR)) {
+    const int how = usable && x->has_velocity ? GVI__EXTRAPOLATED : GVI__PLAIN;
+    status = gvi__newton_step(st, from, how, query);
+    if (gvi__tries_again(st, status) && (how == GVI__EXTRAPOLATED || !GVI__SMALL)) {
         if (!query) x->h_matrix = 0;              // the extrapolation may be to blame
-        status = gvi__newton_step(st, from, 0, query);
+        status = gvi__newton_step(st, from, GVI__HALVED, query);
     }
     if (!query) st->iterations = used + (int)((unsigned)st->counters.newton_iterations - count);
     return status;
@@ -7594,10 +7612,14 @@ static gvi_status gvi__interior(gvi_stepper *st, const gvi__from *from, gvi_real
     if (size == 0) return gvi__chord(st, from, h, q1, p);
     gvi_status status = GVI_E_NON_FINITE;         // once more to see why, as in gvi__solve
     for (int look = 0; look < 1 + GVI__DIAGNOSIS && status == GVI_E_NON_FINITE; ++look) {
-        gvi__zero((size_t)(st->s*n), x->y);
-        for (int i = 0; i < n; ++i) x->y[i] = (q1[i] - from->q[i])/h;
         x->diagnose = (signed char)look;
-        status = gvi__newton(st, from, J);
+        for (int halves = 0; halves < 2; ++halves) {
+            gvi__zero((size_t)(st->s*n), x->y);
+            for (int i = 0; i < n; ++i) x->y[i] = (q1[i] - from->q[i])/h;
+            if (!GVI__SMALL) J->halves = (signed char)halves;
+            status = gvi__newton(st, from, J);
+            if (GVI__SMALL || !gvi__tries_again(st, status)) break;
+        }
         x->diagnose = 0;
     }
     if (status != GVI_OK && status != GVI_E_CONVERGENCE) return status;
@@ -7700,7 +7722,7 @@ static gvi_status gvi__boundary_value(gvi_stepper *st, const gvi__from *from, gv
     int n = st->n, s = st->s, R = x->stride;
     size_t size = (size_t)(s - 1)*(size_t)n, sn = (size_t)s*(size_t)n;
     gvi_real *square = s > 1 ? x->J + sn*sn : NULL, *pivot = s > 1 ? x->pivot + sn + 1 : NULL;
-    gvi__matrix J = { square, s > 1 ? square + size*size : NULL, pivot, 1, 0, 0 };
+    gvi__matrix J = { square, s > 1 ? square + size*size : NULL, pivot, 1, 0, 0, 0 };
     gvi_real *p0 = x->dq, *p1 = x->dp, *minus = x->change, *plus = minus + n, action = 0;
     int negative = 0;
     gvi_status status = gvi__interior(st, from, h, q1, &J, p0);
