@@ -164,12 +164,12 @@ static gvi_desc describe(const kind &k, int n, int s, int r, int N)
     d.degree = s;
     d.rule.kind = k.f != GVI_EXPLICIT ? GVI_GAUSS : r == 2 && !arcs ? GVI_LOBATTO : GVI_KICKS;
     d.rule.points = r;
-    d.rule.nodes = corners;
-    d.rule.weights = weights;
+    if (d.rule.kind == GVI_KICKS) d.rule.nodes = corners;
+    if (d.rule.kind == GVI_KICKS) d.rule.weights = weights;
     d.mass.kind = k.mass;
-    d.mass.matrix = matrix;
-    d.mass.points = inertia;
-    d.mass.gradient = inertia_gradient;
+    if (k.mass == GVI_MASS_DIAGONAL || k.mass == GVI_MASS_DENSE) d.mass.matrix = matrix;
+    if (k.mass == GVI_MASS_POSITION) d.mass.points = inertia;
+    if (k.mass == GVI_MASS_POSITION) d.mass.gradient = inertia_gradient;
     d.effects = effects;
     d.effect_count = k.f >= GVI_VELOCITIES ? 2 : 1;
     d.formulation = k.f;

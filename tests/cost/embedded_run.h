@@ -76,9 +76,7 @@ static gvi_status gvi_desc_of(const scene *s, const setting *t, gvi_desc *d)
     d->mass = s->mass;
     d->mass.velocity = given ? arm_velocity : NULL;
     d->rule.kind = t->method == EXPLICIT ? GVI_LOBATTO : t->method == SUZUKI ? GVI_KICKS : GVI_GAUSS;
-    d->rule.points = t->method == SUZUKI ? 6 : 0;
-    d->rule.nodes = corners;
-    d->rule.weights = kicks;
+    if (t->method == SUZUKI) d->rule.points = 6, d->rule.nodes = corners, d->rule.weights = kicks;
     d->formulation = t->method == EXPLICIT || t->method == SUZUKI ? GVI_EXPLICIT : s->fixed;
     d->iterations = t->iterations;
     return GVI_OK;
