@@ -5945,7 +5945,7 @@ GVI__APART gvi_status gvi__newton_ask(gvi_stepper *st, const gvi__from *from, gv
     return gvi__evaluate(st, &y, 0);
 }
 
-// dy before it is solved for, in scratch behind that of gvi__solve_blocks; behind that y before the last change
+// dy before it is solved for, in scratch behind that of gvi__solve_blocks; y before the last change, behind that
 static inline gvi_real *gvi__newton_rest(const gvi_stepper *st) { return st->x.dF + st->n*st->x.stride; }
 static inline gvi_real *gvi__last_y(const gvi_stepper *st) { return st->x.dF + 2*st->n*st->x.stride; }
 
@@ -5975,10 +5975,11 @@ GVI__APART gvi_real gvi__inertia(const gvi_stepper *st, int i)
     return gvi__nonzero(m) ? GVI_ABS(m) : 1;
 }
 
-/* dy := -residual, and the same to gvi__newton_rest.  The weights of P are h b_i/h, those that F has, and Phi_0 = c is on
-   its grid: then the rows are exactly those of a discrete action, also as rounded.  p->work: the
-   largest in units of its own terms.  Returns the norm, the sum of magnitudes over sqrt M_ii: rows of
-   (1) are momenta, so that has one unit for all coordinates.  M is that of the first y.           */
+/* dy := -residual, and the same to gvi__newton_rest.  The weights of P are h b_i/h, those
+   that F has, and Phi_0 = c is on its grid: then the rows are exactly those of a discrete
+   action, also as rounded.  p->work: the largest in units of its own terms.  Returns the
+   norm, the sum of magnitudes over sqrt M_ii: rows of (1) are momenta, so that has one unit
+   for all coordinates.  M is that of the first y.                             */
 GVI__APART gvi_real gvi__residual(gvi_stepper *st, const gvi__from *from, int k0, gvi__descent *p)
 {
     struct gvi__private *x = &st->x;
@@ -6461,13 +6462,14 @@ GVI__APART gvi_real gvi__newton_update(gvi_stepper *st, const gvi__from *from, c
     const gvi_real h = GVI_ABS(x->h_weights);
     const gvi_real *rest = gvi__newton_rest(st);
     gvi_real sum = 0, *last = gvi__last_y(st);
+    const int halves = !GVI__SMALL && J->halves;
     const int solved = p->work <= 16*GVI__EPS;
     int still = 1;
     p->work = 0;
     for (int i = 0; i < n; ++i) {
         gvi_real change = 0, size = 0;
         for (int k = 0; k < st->s; ++k) {
-            if (!GVI__SMALL) last[k*n + i] = x->y[k*n + i];
+            if (halves) last[k*n + i] = x->y[k*n + i];
             if (k >= J->k0) {
                 const int at = (k - J->k0)*n + i;
                 x->y[k*n + i] += x->dy[at];
@@ -6614,7 +6616,7 @@ GVI__APART gvi_status gvi__newton(gvi_stepper *st, const gvi__from *from, const 
                 x->h_matrix = x->h_weights;
                 x->has_blocks = (signed char)gvi__in_blocks(J);
             }
-            gvi__residual(st, from, J->k0, &p);              // differences overwrote it
+            gvi__copy((size_t)((st->s - J->k0)*st->n), x->dy, gvi__newton_rest(st));  // differences overwrote it
         }
         gvi__solve_for_change(st, J);
         verdict = gvi__newton_judge(st, from, J, &p, gvi__newton_update(st, from, J, &p));
@@ -7815,7 +7817,8 @@ GVI_DEF const char *gvi_status_text(gvi_status status)
 {
     switch (status) {
     case GVI_OK:            return "ok";
-    case GVI_E_ARGUMENT:    return "bad argument: null pointer, size out of range, zero step, NaN or Inf, or what its kind does not take";
+    case GVI_E_ARGUMENT:    return "bad argument: null pointer, size out of range, zero step, NaN or Inf, "
+                                   "or what its kind does not take";
     case GVI_E_MEMORY:      return "memory too small: see gvi_size";
     case GVI_E_NODES:       return "rule: a node is outside [0,1], or two coincide";
     case GVI_E_ORDER:       return "rule: its order is below the degree (0: the weights do not sum to 1)";
