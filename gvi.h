@@ -606,6 +606,7 @@ struct gvi__private {
     signed char      clock, single;   /* effect that is one; the only one; or -1 */
     signed char      alike, E_is;     /* last steps of the same length: 0, 1, 2; see GVI__OF_TWO */
     signed char      started, stepped;  /* stepped: 2 by a clock               */
+    signed char      usual;           /* see gvi__usual_step                   */
     signed char      diagnose;        /* repeated, to find what is not finite   */
     signed char      turns;           /* of the rows since gvi_init, modulo 6: gvi__rotate_rows */
     signed char      has_rate;        /* rate holds                             */
@@ -956,6 +957,14 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__COPY static inline __attribute__((always_inline))
 #else
 #define GVI__COPY static inline
+#endif
+
+// what is so nearly always: processors foretell the end of an iteration by the branches taken before it,
+// and remember only so many
+#if defined(__GNUC__)
+#define GVI__OFTEN(question) __builtin_expect(!!(question), 1)
+#else
+#define GVI__OFTEN(question) (question)
 #endif
 
 // arrays that do not overlap
@@ -2825,6 +2834,7 @@ GVI__APART void gvi__weights(gvi_stepper *st, gvi_real h)
     struct gvi__private *x = &st->x;
     x->h_weights = h;
     x->ratio = 0;                                  // E may hold sums with the old ones
+    x->usual = 0;
 
     int e, r = st->r, most = 0;
     gvi_real mantissa = GVI_FREXP(h, &e), rest = mantissa;
@@ -3833,7 +3843,7 @@ GVI__APART void gvi__weighted_sums(const gvi_stepper *st, const gvi_real *table,
    0, as gvi__fixed_point and gvi__judge leave it: as a rule nothing waits for a quotient. */
 static inline void gvi__rescale(gvi_real base, gvi_real was, gvi_real is, gvi_real *scale)
 {
-    if (*scale > 0) return;
+    if (GVI__OFTEN(*scale > 0)) return;
     const gvi_real size = GVI_ABS(base) + GVI_ABS(was - base) + GVI_ABS(is - base);
     *scale = size > GVI__MIN/GVI__EPS ? 1/size : 0;
 }
@@ -4118,11 +4128,10 @@ GVI__COPY void gvi__put_16(const gvi_stepper *st, const gvi__stage *y, int r, in
 }
 
 /* The same for nine to sixteen points, two rows at a time; of an odd number the last alone, twice. */
-GVI__COPY gvi_real gvi__stage_rows_16(const gvi_stepper *st, const gvi__stage *y, int r)
+GVI__COPY gvi_real gvi__stage_rows_16(const gvi_stepper *st, const gvi__stage *y, int r, int n, int folded)
 {
     enum { MOST = 16/GVI__LANES, AT_ONCE = GVI__LANES == 8 ? 2 : 1 };
-    const gvi_real *diagonal = gvi__diagonal(st, y), *weights = gvi__stage_weights(st);
-    const int n = st->n;
+    const gvi_real *diagonal = gvi__diagonal(st, y), *weights = folded ? NULL : st->x.hb;
     gvi_real ahead[32];
     gvi__vector squares[MOST/2] = { { 0 } };
     for (int i = 0; i < n; i += 2) {
@@ -4550,11 +4559,10 @@ GVI__ROWS(gvi__arc_slopes, gvi__arc_rows_of(st, y, st->r, st->x.stride, 1))
 GVI__ROWS(gvi__rows_6, gvi__stage_rows_8(st, y, 6, st->n, gvi__folds(st)))
 GVI__ROWS(gvi__rows_8, gvi__stage_rows_8(st, y, 8, st->n, 0))
 GVI__ROWS(gvi__rows_8_folded, gvi__stage_rows_8(st, y, 8, st->n, 1))
-GVI__ROWS(gvi__rows_8_of_2, gvi__stage_rows_8(st, y, 8, 2, 1))
 GVI__ROWS(gvi__rows_5_to_8, gvi__stage_rows_8(st, y, st->r, st->n, gvi__folds(st)))
 GVI__ROWS(gvi__rows_8_less, gvi__stage_rows_of(st, y, 8, 8))
-GVI__ROWS(gvi__rows_16, GVI__KEPT ? gvi__stage_rows_16(st, y, 16) : gvi__stage_rows_of(st, y, 16, 16))
-GVI__ROWS(gvi__rows_9_to_15, gvi__stage_rows_16(st, y, st->r))
+GVI__ROWS(gvi__rows_16, GVI__KEPT ? gvi__stage_rows_16(st, y, 16, st->n, gvi__folds(st)) : gvi__stage_rows_of(st, y, 16, 16))
+GVI__ROWS(gvi__rows_9_to_15, gvi__stage_rows_16(st, y, st->r, st->n, gvi__folds(st)))
 GVI__ROWS(gvi__rows_16_less, gvi__stage_rows_of(st, y, st->r, 16))
 GVI__ROWS(gvi__arc_rows_8, gvi__arc_rows_vector(st, y, 8, 8, 0))
 GVI__ROWS(gvi__arc_rows_to_8, gvi__arc_rows_vector(st, y, st->r, 8, 0))
@@ -4589,7 +4597,7 @@ static gvi__kernel *gvi__kernel_of(const gvi_stepper *st, const gvi__stage *y)
     case 6:  return y->minus ? gvi__rows_any : gvi__rows_6;
     case 8:
         if (y->minus) return gvi__rows_8_less;
-        return !gvi__folds(st) ? gvi__rows_8 : st->n == 2 ? gvi__rows_8_of_2 : gvi__rows_8_folded;
+        return gvi__folds(st) ? gvi__rows_8_folded : gvi__rows_8;
     case 16: return y->minus ? gvi__rows_16_less : gvi__rows_16;
     default:
         if (st->x.stride != 16) return gvi__rows_any;
@@ -4831,9 +4839,9 @@ GVI__APART gvi_status gvi__ask_clock(gvi_stepper *st, const gvi__from *from, gvi
 
 /* rows [n][stride] := zero, in whole vectors where they are.  A zero that the compiler
    does not know keeps it from calling memset, which takes longer.             */
-static inline void gvi__zero_rows(const gvi_stepper *st, gvi_real zero, gvi_real *rows)
+static inline void gvi__zero_rows(int n, int R, gvi_real zero, gvi_real *rows)
 {
-    const int R = st->x.stride, length = st->n*R;
+    const int length = n*R;
     if (GVI__SMALL) {
         gvi__zero((size_t)length, rows);
         return;
@@ -4864,7 +4872,7 @@ static gvi_status gvi__ask_weak(gvi_stepper *st, gvi_real zero, gvi_points *y, i
     gvi_real *f = y->f;
     gvi_status status = GVI_OK;
     if (anew) {
-        gvi__zero_rows(st, zero, y->f = x->weak);
+        gvi__zero_rows(st->n, st->x.stride, zero, y->f = x->weak);
         status = gvi__effects(st, y, ~gvi__seldom(st));
         y->f = f;
     }
@@ -4879,9 +4887,9 @@ GVI__APART gvi_status gvi__ask(gvi_stepper *st, const gvi__from *from, gvi_real 
     gvi_points own;
     if (GVI__SMALL) gvi__rows_as_points(y = &own, st, &st->x.work, gvi__A(&st->x.work));
     gvi_status status = gvi__check_points(st, y);
-    gvi__zero_rows(st, zero, y->f);
+    gvi__zero_rows(st->n, st->x.stride, zero, y->f);
     if (status == GVI_OK && gvi__uses(st, GVI_MOMENTA)) status = gvi__legendre_rows(st, y);
-    if (GVI__LAGRANGIAN && y->dldv) gvi__zero_rows(st, zero, y->dldv);
+    if (GVI__LAGRANGIAN && y->dldv) gvi__zero_rows(st->n, st->x.stride, zero, y->dldv);
     if (status != GVI_OK) return status;
     if (gvi__has_clock(st)) return gvi__ask_clock(st, from, y);
     const unsigned some = gvi__seldom(st);
@@ -4899,9 +4907,9 @@ static inline int gvi__asks_only(const gvi_stepper *st)
         && !gvi__uses(st, GVI_MOMENTA) && !gvi__A(&st->x.work);
 }
 
-static inline gvi_status gvi__ask_only(gvi_stepper *st, gvi_real zero, gvi_points *y)
+static inline gvi_status gvi__ask_only(gvi_stepper *st, int n, int R, gvi_real zero, gvi_points *y)
 {
-    gvi__zero_rows(st, zero, y->f);
+    gvi__zero_rows(n, R, zero, y->f);
     return gvi__call(st, y, st->x.single);
 }
 
@@ -5053,7 +5061,7 @@ static int gvi__extrapolate_few(const gvi_stepper *st, const gvi_real *last, con
    next:  out_i = sum_j E_ij last_j (+ sum_j E_i,r+j older_j).  y, if not NULL: E is
    gvi__fit_sums', and what it gives is put into that stage's row.  two, arcs: of two
    steps, and beside stiffness; constants for eight points.                     */
-GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, int two, int arcs,
+GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int n, int r, int R, int two, int arcs,
                                      const gvi_real *last, const gvi_real *older, const gvi__stage *y,
                                      gvi_real *out)
 {
@@ -5064,11 +5072,11 @@ GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, int tw
     if (R == 8 && two) older_E = gvi__keep(r, older_E, kept[1]);
 #endif
     const gvi_real *stiffness = arcs ? gvi__stiffness(st) : NULL;
-    for (int i = 0; i < st->n; ++i, last += R) {
+    for (int i = 0; i < n; ++i, last += R) {
         gvi_real *row = out + i*R;
         if (arcs && gvi__nonzero(stiffness[i])) {
             gvi__arc_row(st, i, r, R, gvi__free_rows(st) + i*R,
-                         gvi__arc_of(st, (int)stiffness[st->n + i]).E, last, row);
+                         gvi__arc_of(st, (int)stiffness[n + i]).E, last, row);
             continue;
         }
 #ifdef GVI__VECTORS
@@ -5096,19 +5104,20 @@ GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int r, int R, int tw
 GVI__APART void gvi__extrapolate(gvi_stepper *st, const gvi_real *last, const gvi_real *older,
                                  const gvi__stage *y, gvi_real *out)
 {
-    const int r = st->r, R = st->x.stride, two = gvi__two_now(st), arcs = GVI__STIFF && y && st->x.springs;
+    const int n = st->n, r = st->r, R = st->x.stride;
+    const int two = gvi__two_now(st), arcs = GVI__STIFF && y && st->x.springs;
     if (gvi__extrapolate_few(st, last, two ? older : NULL, y, out)) return;
-    if (GVI__SMALL) gvi__extrapolate_rows(st, r, R, two, arcs, last, older, y, out);
-    else if (r == 8 && y && two) gvi__extrapolate_rows(st, 8, 8, 1, 0, last, older, y, out);    // never with arcs
-    else if (r == 8 && y) gvi__extrapolate_rows(st, 8, 8, 0, arcs, last, NULL, y, out);
-    else if (r == 8) gvi__extrapolate_rows(st, 8, 8, two, 0, last, older, NULL, out);
-    else if (r == 4) gvi__extrapolate_rows(st, 4, 4, two, arcs, last, older, y, out);
+    if (GVI__SMALL) gvi__extrapolate_rows(st, n, r, R, two, arcs, last, older, y, out);
+    else if (r == 8 && y && two) gvi__extrapolate_rows(st, n, 8, 8, 1, 0, last, older, y, out);    // never with arcs
+    else if (r == 8 && y) gvi__extrapolate_rows(st, n, 8, 8, 0, arcs, last, NULL, y, out);
+    else if (r == 8) gvi__extrapolate_rows(st, n, 8, 8, two, 0, last, older, NULL, out);
+    else if (r == 4) gvi__extrapolate_rows(st, n, 4, 4, two, arcs, last, older, y, out);
 #ifdef GVI__VECTORS
-    else if (R == 8) gvi__extrapolate_rows(st, r, 8, two, arcs, last, older, y, out);
-    else if (r == 16) gvi__extrapolate_rows(st, 16, 16, 0, arcs, last, NULL, y, out);
-    else if (R == 16) gvi__extrapolate_rows(st, r, 16, two, arcs, last, older, y, out);
+    else if (R == 8) gvi__extrapolate_rows(st, n, r, 8, two, arcs, last, older, y, out);
+    else if (r == 16) gvi__extrapolate_rows(st, n, 16, 16, 0, arcs, last, NULL, y, out);
+    else if (R == 16) gvi__extrapolate_rows(st, n, r, 16, two, arcs, last, older, y, out);
 #endif
-    else gvi__extrapolate_rows(st, r, R, two, arcs, last, older, y, out);
+    else gvi__extrapolate_rows(st, n, r, R, two, arcs, last, older, y, out);
 }
 
 /* Which E is better for this motion and h?  Where eight steps take six rounds in the mean, the next
@@ -5121,7 +5130,10 @@ static void gvi__learn(gvi_stepper *st, int used)
     y->steps = (short)(y->steps + 1);
     if (y->steps < (y->stage == GVI__IDLES ? 1024 : 8)) return;
     const int tries = y->stage == GVI__MEASURES && y->rounds >= 48;
-    if (tries || (y->stage == GVI__TRIES && y->rounds >= y->before)) y->lengthy = !y->lengthy;
+    if (tries || (y->stage == GVI__TRIES && y->rounds >= y->before)) {
+        y->lengthy = !y->lengthy;
+        st->x.usual = 0;                              // E is to change
+    }
     y->stage = (signed char)(tries ? GVI__TRIES : y->stage == GVI__IDLES ? GVI__MEASURES : GVI__IDLES);
     y->before = y->rounds;
     y->rounds = y->steps = 0;
@@ -5146,6 +5158,7 @@ GVI__APART void gvi__prepare_guess(gvi_stepper *st, gvi_real h, int query)
     if (!query && !gvi__nonzero(beta - x->ratio) && is == x->E_is) return;
     x->ratio = query ? 0 : beta;
     x->E_is = is;
+    x->usual = 0;
     gvi__fit(st, alpha, beta);
     if (sums) gvi__fit_sums(st);
 }
@@ -5221,7 +5234,7 @@ typedef gvi_real gvi__pair
 #define GVI__PAIR(p) (*(const gvi__pair *)(p))
 
 // both sums in vectors of points: the same terms in the same order
-static inline gvi__two gvi__exact_dot_vector(int R, const gvi_real *a, const gvi_real *b, gvi_real rest)
+static inline gvi__two gvi__exact_sum_vector(int R, const gvi_real *a, const gvi_real *b)
 {
     gvi_real hi[8], lo[8];
     for (int k = 0; k < 8; ++k) {
@@ -5242,7 +5255,12 @@ static inline gvi__two gvi__exact_dot_vector(int R, const gvi_real *a, const gvi
     const gvi__pair u = GVI__PAIR(hi), v = GVI__PAIR(hi + 2), t = u + v, w = t - u;
     *(gvi__pair *)hi = t;
     *(gvi__pair *)lo = (GVI__PAIR(lo) + GVI__PAIR(lo + 2)) + ((u - (t - w)) + (v - w));
-    const gvi__two sum = gvi__join(hi[0], lo[0], hi[1], lo[1]);
+    return gvi__join(hi[0], lo[0], hi[1], lo[1]);
+}
+
+static inline gvi__two gvi__exact_dot_vector(int R, const gvi_real *a, const gvi_real *b, gvi_real rest)
+{
+    const gvi__two sum = gvi__exact_sum_vector(R, a, b);
     return gvi__two_of(sum.hi, gvi__rest(sum.lo + rest));
 }
 
@@ -5493,17 +5511,24 @@ static inline gvi_real gvi__lever(int r, int R, const gvi_real *c, const gvi_rea
     return gvi__lever_sum(r, c, hb, F);
 }
 
-// dq + dqe := h (v + ve + dq) + qe, both products exactly: see gvi__affine
+// h (v + ve + dq) + qe, both products exactly: see gvi__affine
+static inline gvi__two gvi__with_path(gvi_real h, gvi_real v, gvi_real ve, gvi_real qe, gvi_real dq)
+{
+    const gvi__two path = gvi__product(h, v);
+    const gvi__two bend = GVI__RESTS ? gvi__product(h, dq) : gvi__two_of(h*dq, 0);
+    const gvi__two q = gvi__sum(path.hi, bend.hi);
+    return gvi__two_of(q.hi, (q.lo + (path.lo + bend.lo)) + (h*ve + qe));
+}
+
+// dq + dqe := that, for each coordinate
 static inline void gvi__add_path(int n, gvi_real h, const gvi_real *GVI__RESTRICT v,
                                  const gvi_real *GVI__RESTRICT ve, const gvi_real *GVI__RESTRICT qe,
                                  gvi_real *GVI__RESTRICT dq, gvi_real *GVI__RESTRICT dqe)
 {
     for (int i = 0; i < n; ++i) {
-        const gvi__two path = gvi__product(h, v[i]);
-        const gvi__two bend = GVI__RESTS ? gvi__product(h, dq[i]) : gvi__two_of(h*dq[i], 0);
-        const gvi__two q = gvi__sum(path.hi, bend.hi);
+        const gvi__two q = gvi__with_path(h, v[i], ve[i], qe[i], dq[i]);
         dq[i] = q.hi;
-        dqe[i] = gvi__rest((q.lo + (path.lo + bend.lo)) + (h*ve[i] + qe[i]));
+        dqe[i] = gvi__rest(q.lo);
     }
 }
 
@@ -5671,9 +5696,10 @@ static gvi_status gvi__clock_guess(gvi_stepper *st, const gvi__from *from, gvi_r
 // contraction over two iterations, as long as it is not about rounding; squares of changes
 static void gvi__watch(gvi_stepper *st, gvi_real change, gvi_real earlier)
 {
-    if (!(earlier > 0) || change <= (1000*GVI__EPS)*(1000*GVI__EPS) || !gvi__finite(change)) return;
     const gvi_real worst = st->counters.worst_contraction*st->counters.worst_contraction;
-    if (change > worst*worst*earlier) st->counters.worst_contraction = GVI_SQRT(GVI_SQRT(change/earlier));
+    const int sure = (change > (1000*GVI__EPS)*(1000*GVI__EPS)) & (earlier > 0) & (change <= GVI__MAX);
+    if (!GVI__OFTEN(!(sure & (change > worst*worst*earlier))))
+        st->counters.worst_contraction = GVI_SQRT(GVI_SQRT(change/earlier));
 }
 
 static void gvi__watch_last(gvi_stepper *st, gvi_real change)
@@ -5737,12 +5763,37 @@ GVI__APART int gvi__settled(gvi_stepper *st, const gvi__progress *p, gvi__still 
     return lead <= enough && w->pending <= enough;
 }
 
-enum { GVI__GO_ON, GVI__DONE, GVI__ASK_ONCE_MORE, GVI__BEYOND, GVI__NOT_FINITE };
+enum { GVI__GO_ON, GVI__DONE, GVI__ASK_ONCE_MORE, GVI__BEYOND, GVI__NOT_FINITE, GVI__LOOK };
 
 // may a step that does not converge turn to Newton's method?
 static int gvi__may_turn(const gvi_stepper *st)
 {
     return st->x.desc.formulation == GVI_AUTO && gvi__has(st, GVI__HAS_NEWTON);
+}
+
+static inline gvi__progress gvi__progress_of(const gvi_stepper *st, int numbers)
+{
+    const gvi_real wanted = st->x.desc.tolerance, tolerance = GVI__TOLERANCE && wanted > 0 ? wanted : GVI__EPS/65536;
+    const gvi_real rounding = 16*GVI__EPS*GVI__EPS*(gvi_real)numbers;
+    const gvi__progress p = { 0, 0, tolerance*tolerance, rounding, GVI__MAX, 0, 0, 0, 0 };
+    return p;
+}
+
+#define GVI__FAR ((gvi_real)0.0625)                   // a change by a quarter, in squares
+
+/* Most verdicts: the next change is within the tolerance, or this one fell as it should.  Else gvi__judge
+   has to look.                                                                */
+GVI__COPY int gvi__judge_most(gvi_stepper *st, gvi__progress *p, gvi_real change)
+{
+    const gvi_real before = p->before, last = before > 0 ? before : change, known = last < 1 ? last : 1;
+    const gvi_real quarter = before/4 < GVI__FAR ? before/4 : GVI__FAR, usual = before > 0 ? quarter : GVI__FAR;
+    const int ends = change*change <= p->tolerance*known;
+    if (GVI__SMALL || !GVI__OFTEN((change < usual) & !ends & !p->idle)) return ends ? GVI__DONE : GVI__LOOK;
+    gvi__watch(st, change, p->earlier);
+    p->earlier = before;
+    p->before = p->least = change;
+    p->poor = p->grows = p->rests = 0;
+    return GVI__GO_ON;
 }
 
 /* The verdict on a change D.  The iteration ends when the next change, D^2/D_before,
@@ -5758,20 +5809,12 @@ GVI__DEEP int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *
                          gvi_real change, int used)
 {
     struct gvi__private *x = &st->x;
-    const gvi_real rounding = p->rounding, before = p->before;
-    const gvi_real known = before > 1 ? 1 : before > 0 ? before : change;
+    const gvi_real rounding = p->rounding, before = p->before, far = GVI__FAR;
     const int given = gvi__counts(st), some = gvi__seldom(st) != 0, moved = some && weak->anew;
     gvi_real *least = moved ? &weak->least : &p->least;
-    if (some ? gvi__settled(st, p, weak, change) : !given && change*change <= p->tolerance*known)
-        return GVI__DONE;
-    const gvi_real far = (gvi_real)0.0625, usual = before > 0 && before < 4*far ? before/4 : far;
-    if (!GVI__SMALL && !some && !given && !p->idle && change < usual) {      // most of them, in short
-        gvi__watch(st, change, p->earlier);
-        p->earlier = before;
-        p->before = p->least = change;
-        p->poor = p->grows = p->rests = 0;
-        return GVI__GO_ON;
-    }
+    if (some && gvi__settled(st, p, weak, change)) return GVI__DONE;
+    const int verdict = some || given ? GVI__LOOK : gvi__judge_most(st, p, change);
+    if (verdict != GVI__LOOK) return verdict;
     if (given && used == x->desc.iterations) {
         const int falls = p->earlier > 0 ? change < p->earlier/4 : before <= 0 || change < before;
         return falls || change <= 65536*rounding ? GVI__DONE : GVI__BEYOND;
@@ -5793,7 +5836,7 @@ GVI__DEEP int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *
     }
     p->rests = rests;
     if (ends) {
-        if (!GVI__WEAK || moved || weak->pending <= rounding)
+        if (!some || moved || weak->pending <= rounding)
             return used - p->idle > GVI__DIG/2 && gvi__may_turn(st) ? GVI__BEYOND : GVI__ASK_ONCE_MORE;
         p->idle = p->poor = 0;
         weak->anew = 1;
@@ -5806,16 +5849,19 @@ GVI__DEEP int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *
 /* The units of a step's changes, as gvi__rescale makes them, from extrapolated rows: where the last
    point is foretold stands for where it will be.  Where that is far too little, and a change
    overflows, gvi__attempt begins again from plain rows: not where a deadline has given the rounds. */
+static inline gvi_real gvi__scale_of(gvi_real base, gvi_real end)
+{
+    const gvi_real size = GVI_ABS(base) + 2*GVI_ABS(end - base);
+    return size > GVI__MIN/GVI__EPS ? 1/size : 0;
+}
+
 static inline void gvi__scales(gvi_stepper *st, const gvi__stage *y, int count)
 {
     const int R = st->x.stride;
     for (int k = 0; k < count; ++k) {
         const gvi_real *GVI__RESTRICT base = y[k].base, *GVI__RESTRICT end = y[k].rows + st->r - 1;
         gvi_real *GVI__RESTRICT scale = y[k].scale;
-        GVI__ROLLED for (int i = 0; i < st->n; ++i, end += R) {
-            const gvi_real size = GVI_ABS(base[i]) + 2*GVI_ABS(*end - base[i]);
-            scale[i] = size > GVI__MIN/GVI__EPS ? 1/size : 0;
-        }
+        GVI__ROLLED for (int i = 0; i < st->n; ++i, end += R) scale[i] = gvi__scale_of(base[i], *end);
     }
 }
 
@@ -5845,9 +5891,7 @@ GVI__COPY gvi_status gvi__fixed_point_of(gvi_stepper *st, const gvi__from *from,
 {
     struct gvi__private *x = &st->x;
     const int counts = !plain && gvi__counts(st), most = counts ? x->desc.iterations : x->desc.max_iterations;
-    const gvi_real tolerance = GVI__TOLERANCE && x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/65536;
-    const gvi_real rounding = 16*GVI__EPS*GVI__EPS*(gvi_real)(st->n*st->r);
-    gvi__progress p = { 0, 0, tolerance*tolerance, rounding, GVI__MAX, 0, 0, 0, 0 };
+    gvi__progress p = gvi__progress_of(st, st->n*st->r);
     gvi__still weak = { 1, 0, 0, 1, 0, GVI__MAX };
     gvi__stage y[GVI__STAGES];
     gvi_points at;
@@ -5860,7 +5904,7 @@ GVI__COPY gvi_status gvi__fixed_point_of(gvi_stepper *st, const gvi__from *from,
     if (only && x->desc.effects[x->single].kind == GVI_POTENTIAL) at.v = NULL;
     const int sums = plain || (extrapolate && (x->E_is & GVI__SUMS)), springs = !plain && GVI__STIFF && x->springs;
     if (plain && st->r == 8 && gvi__two_now(st))
-        gvi__extrapolate_rows(st, 8, 8, 1, 0, x->last.F, x->older_F, y, x->work.Q);
+        gvi__extrapolate_rows(st, st->n, 8, 8, 1, 0, x->last.F, x->older_F, y, x->work.Q);
     else if (plain) gvi__extrapolate(st, x->last.F, x->older_F, y, x->work.Q);
     else {
         const gvi_status first = gvi__first_rows(st, from, h, extrapolate, y);
@@ -5873,8 +5917,11 @@ GVI__COPY gvi_status gvi__fixed_point_of(gvi_stepper *st, const gvi__from *from,
         if (*used > 0 || !sums) change = plain ? gvi__stage_rows(st, y) : gvi__stages(st, from, h, y, count);
         int verdict = GVI__GO_ON;
         if (*used > 0) {
-            if (!gvi__finite(change)) return gvi__not_finite(st, p.grows || p.before > (gvi_real)st->n);
-            verdict = gvi__judge(st, from, &p, GVI__WEAK ? &weak : NULL, change, *used);
+            verdict = plain ? gvi__judge_most(st, &p, change) : GVI__LOOK;
+            if (verdict == GVI__LOOK) {
+                if (!gvi__finite(change)) return gvi__not_finite(st, p.grows || p.before > (gvi_real)st->n);
+                verdict = gvi__judge(st, from, &p, GVI__WEAK ? &weak : NULL, change, *used);
+            }
             if (verdict == GVI__GO_ON && GVI__TOLERANCE && *used == most) verdict = GVI__BEYOND;
             if (verdict == GVI__BEYOND) break;
             if (verdict != GVI__GO_ON) gvi__watch_last(st, change);
@@ -5890,7 +5937,7 @@ GVI__COPY gvi_status gvi__fixed_point_of(gvi_stepper *st, const gvi__from *from,
         *used += !last;
         if (GVI__TOLERANCE && !plain && gvi__A(&x->work) && p.idle + p.poor > 0)
             gvi__gather(st->n, x->stride, x->work.A + st->r - 1, x->change + st->n);
-        gvi_status status = only ? gvi__ask_only(st, h - h, &at)
+        gvi_status status = only ? gvi__ask_only(st, st->n, x->stride, h - h, &at)
                                  : gvi__ask(st, from, h - h, GVI__SMALL ? NULL : &at, anew);
         if (springs && last && status == GVI_OK) gvi__remainders(st);
         if (status != GVI_OK || last) return status;
@@ -6982,6 +7029,14 @@ static void gvi__move(int n, gvi_real zero, const gvi_real *dx, const gvi_real *
     else gvi__move_of(n, 0, zero, dx, NULL, x, NULL, was);
 }
 
+static inline void gvi__move_time(gvi_stepper *st)
+{
+    const gvi__two t = gvi__sum(st->t, st->x.dt + st->x.te);
+    st->x.t0 = st->t;
+    st->t = t.hi;
+    st->x.te = t.lo;
+}
+
 // the step is done: state and compensation move on, rows become those of the last step
 static void gvi__commit(gvi_stepper *st, gvi_real h)
 {
@@ -6994,16 +7049,13 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     if (GVI__BEYOND_FLOAT) x->alike = x->stepped && !gvi__nonzero(h - st->h) ? 2 : 1;
     if (GVI__LEARNS && x->alike < 2)
         x->learned.rounds = x->learned.steps = x->learned.stage = x->learned.lengthy = 0;
-    gvi__two t = gvi__sum(st->t, x->dt + x->te);
+    gvi__move_time(st);
     if (GVI__CLOCK && x->clock >= 0) {
         const gvi__two H = gvi__sum(x->H, x->dH + x->He);
         x->H0 = x->H;
         x->H = H.hi;
         x->He = H.lo;
     }
-    x->t0 = st->t;
-    st->t = t.hi;
-    x->te = t.lo;
     st->h = h;
     gvi__rotate_rows(st);
     x->stepped = gvi__has_clock(st) ? 2 : 1;
@@ -7026,6 +7078,135 @@ static gvi_status gvi__solve_explicit(gvi_stepper *st, gvi__from *from, gvi_real
     return GVI__DIAGNOSIS && unexplained ? gvi__solve(st, from, h, GVI__STEP, 1) : status;
 }
 
+/* ---- a step in one piece ---- */
+
+/* With two coordinates what a step asks, and hands from function to function through memory, takes as long
+   as three or four iterations.  What most such steps are is therefore here once more, in one piece: the
+   same terms in the same order, and so the same bits.  What is out of the ordinary goes back, and the step
+   begins anew.                                                                */
+#if GVI__WIDE && GVI__POSITIONS
+#define GVI__PIECES
+// the next step, if it is as long as this one: positions of two coordinates, one effect and nothing beside it
+static signed char gvi__is_usual(const gvi_stepper *st)
+{
+    const struct gvi__private *x = &st->x;
+    const int is = (st->r == 8 && GVI__BEYOND_FLOAT ? GVI__OF_TWO : 0) + GVI__SUMS
+                   + (GVI__LEARNS && x->learned.lengthy ? GVI__LONG : 0);
+    return st->n == 2 && (st->r == 8 || st->r == 16) && (x->alike == 2 || !GVI__BEYOND_FLOAT) && x->E_is == is
+        && !gvi__nonzero(x->ratio - 1) && gvi__is_plain(st) && x->desc.mass.kind <= GVI_MASS_DIAGONAL && x->newton_left == 0 && x->whole_left == 0;
+}
+
+// the fixed point; returns the number of iterations, or 0
+GVI__COPY int gvi__usual_rounds(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi__stage *y,
+                                int R, int folded)
+{
+    struct gvi__private *x = &st->x;
+    const gvi_effect *effect = x->desc.effects + x->single;
+    gvi__progress p = gvi__progress_of(st, 2*R);
+    gvi_points at;
+    gvi__rows_as_points(&at, st, &x->work, NULL);
+    if (effect->kind == GVI_POTENTIAL) at.v = NULL;
+    for (int used = 1; ; ++used) {
+        gvi__zero_rows(2, R, h - h, at.f);
+        if (!GVI__OFTEN(effect->points(&at, effect->user) == 0)) return 0;
+        const gvi_real change = R == 8 ? gvi__stage_rows_8(st, y, 8, 2, folded)
+                                       : gvi__stage_rows_16(st, y, 16, 2, folded);
+        const int more = used < x->desc.max_iterations;
+        int verdict = gvi__judge_most(st, &p, change);
+        if (GVI__OFTEN((verdict == GVI__GO_ON) & more)) continue;
+        if (verdict == GVI__LOOK && gvi__finite(change)) verdict = gvi__judge(st, from, &p, NULL, change, used);
+        gvi__gather(2, R, x->work.Q + R - 1, x->change);
+        if (verdict == GVI__GO_ON && more) continue;
+        if (verdict != GVI__DONE && verdict != GVI__ASK_ONCE_MORE) return 0;
+        gvi__watch_last(st, change);
+        if (verdict == GVI__DONE) return used;
+        gvi__zero_rows(2, R, h - h, at.f);
+        if (effect->points(&at, effect->user)) return 0;
+        gvi__count(&st->counters.effect[x->single], R);
+        return used;
+    }
+}
+
+/* Where coordinate i goes, as gvi__increments_of and gvi__move have it.  The numbers stay in registers: a pair
+   that is loaded from where two numbers were just stored would have to wait for both to leave for the cache.  */
+typedef struct gvi__moved { gvi__two q, p; } gvi__moved;
+
+GVI__COPY gvi__moved gvi__moved_of(const gvi_stepper *st, const gvi__two *v, gvi_real h, int i, int R)
+{
+    const struct gvi__private *x = &st->x;
+    const gvi_real *F = x->work.F + i*R, bend = gvi__lever_vector(R, x->c, x->hb, F);
+    const gvi__two dp = gvi__exact_sum_vector(R, x->hb, F);
+    const gvi__two dq = gvi__with_path(h, v->hi, v->lo, x->qe[i], x->over ? bend*x->over[i] : bend);
+    const gvi__two q = gvi__sum(x->q[i], dq.hi), p = gvi__sum(x->p[i], dp.hi);
+    gvi__moved z;
+    z.q = gvi__sum(q.hi, q.lo + dq.lo);
+    z.p = gvi__sum(p.hi, p.lo + (dp.lo + x->pe[i]));
+    return z;
+}
+
+// as gvi__commit; 0: the end is not finite
+GVI__COPY int gvi__usual_end(gvi_stepper *st, const gvi__two *v, gvi_real h, int R)
+{
+    struct gvi__private *x = &st->x;
+    const gvi__moved a = gvi__moved_of(st, v, h, 0, R), b = gvi__moved_of(st, v + 1, h, 1, R);
+    const gvi__pair q = { a.q.hi, b.q.hi }, qe = { a.q.lo, b.q.lo };
+    const gvi__pair p = { a.p.hi, b.p.hi }, pe = { a.p.lo, b.p.lo }, none = 0*q + 0*qe + 0*p + 0*pe;
+    if (!(none[0] + none[1] + 0*(st->t + h) >= 0)) return 0;
+    *(gvi__pair *)x->q0 = GVI__PAIR(x->q);
+    *(gvi__pair *)x->p0 = GVI__PAIR(x->p);
+    *(gvi__pair *)x->q = q;
+    *(gvi__pair *)x->qe = qe;
+    *(gvi__pair *)x->p = p;
+    *(gvi__pair *)x->pe = pe;
+    return 1;
+}
+
+GVI__COPY int gvi__usual_of(gvi_stepper *st, gvi_real h, int R, int two)
+{
+    struct gvi__private *x = &st->x;
+    const int folded = gvi__folds(st);
+    gvi_real path[2], rest[2];
+    gvi__two v[2];
+    const gvi__from from = { st->t, x->te, x->q, x->qe, x->p, x->pe, 0, x->over ? x->v0 : x->p };
+    const gvi__stage y = { x->q, x->qe, path, rest, folded ? x->folded : x->g, x->work.F, NULL,
+                           h, x->work.Q, x->scale, 1, NULL };
+    x->dt = h;
+    gvi__times(R, st->t, x->te, h, x->c, x->t);
+    for (int i = 0; i < 2; ++i) {
+        v[i] = gvi__two_of(x->p[i], x->pe[i]);
+        if (x->over) {
+            v[i] = gvi__product(x->p[i], x->over[i]);
+            v[i].lo += x->pe[i]*x->over[i];
+            x->v0[i] = v[i].hi;
+        }
+        const gvi__two way = gvi__product(h, v[i].hi);
+        path[i] = way.hi;
+        rest[i] = GVI__RESTS ? way.lo + h*v[i].lo : 0;
+    }
+    gvi__extrapolate_rows(st, 2, R, R, two, 0, x->last.F, x->older_F, &y, x->work.Q);
+    for (int i = 0; i < 2; ++i) x->scale[i] = gvi__scale_of(y.base[i], y.rows[i*R + R - 1]);
+    const int used = gvi__usual_rounds(st, &from, h, &y, R, folded);
+    return used > 0 && gvi__usual_end(st, v, h, R) ? used : 0;
+}
+
+// returns whether it was done
+static int gvi__usual_step(gvi_stepper *st, gvi_real h)
+{
+    struct gvi__private *x = &st->x;
+    const int used = st->r == 8 ? gvi__usual_of(st, h, 8, GVI__BEYOND_FLOAT) : gvi__usual_of(st, h, 16, 0);
+    if (used == 0) return 0;
+    st->iterations = used;
+    gvi__count(&st->counters.iterations, used);
+    gvi__count(&st->counters.effect[x->single], used*st->r);
+    if (used > st->counters.most_iterations) st->counters.most_iterations = used;
+    if (GVI__LEARNS && gvi__two_now(st)) gvi__learn(st, used);
+    gvi__move_time(st);
+    gvi__rotate_rows(st);
+    gvi__count(&st->counters.steps, 1);
+    return 1;
+}
+#endif
+
 GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
 {
     if (!st) return GVI_E_ARGUMENT;
@@ -7034,6 +7215,9 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
     gvi__done(st, GVI_OK);
     if (!gvi__nonzero(h) || !gvi__finite(h)) return st->status = GVI_E_ARGUMENT;
 
+#ifdef GVI__PIECES
+    if (x->usual && !gvi__nonzero(h - st->h) && gvi__usual_step(st, h)) return GVI_OK;
+#endif
     const gvi_formulation was = st->formulation;
     const signed char left = x->newton_left, whole = x->whole_left;
     gvi__from from = { st->t, x->te, x->q, x->qe, x->p, x->pe, x->H + x->He, NULL };
@@ -7052,6 +7236,9 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
         return st->status = status;
     }
     gvi__commit(st, h);
+#ifdef GVI__PIECES
+    x->usual = gvi__is_usual(st);
+#endif
     return gvi__done(st, GVI_OK);
 }
 
@@ -7118,7 +7305,7 @@ static gvi_status gvi__start(gvi_stepper *st, gvi_real t, const gvi_real *v)
     st->h = 0;
     x->te = 0;
     x->started = 1;
-    x->stepped = x->has_force = x->has_velocity = x->alike = x->E_is = 0;
+    x->stepped = x->has_force = x->has_velocity = x->alike = x->E_is = x->usual = 0;
     x->newton_left = x->whole_left = 0;
     x->h_matrix = x->ratio = 0;
     if (GVI__WEAK && x->weak) *gvi__answers(st) = 1;
@@ -7214,7 +7401,7 @@ GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
         x->H0 = E0;
     }
     st->x.single = gvi__single(st);
-    st->x.has_force = 0;
+    st->x.has_force = st->x.usual = 0;
     st->x.h_matrix = 0;
     if (GVI__WEAK && st->x.weak) *gvi__answers(st) = 1;
     return gvi__done(st, GVI_OK);

@@ -1,0 +1,293 @@
+/* Steps of two coordinates in one piece against the same steps by the general functions: bits, counters,
+   faults and refusals are to be the same.                                      */
+#ifndef GVI_REAL
+#define GVI_REAL double
+#endif
+#include "gvi_test.h"
+
+typedef gvi_real real;
+enum { MOST = 6000 };
+static real memory[2][MOST], saved[MOST];
+
+/* what a force does beside pulling, and how often it was asked */
+typedef struct mood {
+    real wall;                  /* refuses beyond x = wall */
+    real edge;                  /* is NaN beyond x = edge */
+    int  asked;
+} mood;
+
+static int pull(const gvi_points *p, mood *m, void (*law)(real x, real y, real *f, real *g))
+{
+    const real *x = p->q, *y = x + p->stride;
+    m->asked += 1;
+    for (int k = 0; k < p->count; ++k) if (x[k] > m->wall) return 1;
+    for (int k = 0; k < p->count; ++k) {
+        law(x[k], y[k], p->f + k, p->f + p->stride + k);
+        if (x[k] > m->edge) p->f[k] = (real)NAN;
+    }
+    return 0;
+}
+
+static void henon_heiles(real x, real y, real *f, real *g)
+{
+    *f -= x + 2*x*y;
+    *g -= y + x*x - y*y;
+}
+
+static void kepler(real x, real y, real *f, real *g)
+{
+    const real r2 = x*x + y*y, r = (real)sqrtl((long double)r2);
+    *f -= x/(r2*r);
+    *g -= y/(r2*r);
+}
+
+static int points_hh(const gvi_points *p, void *user) { return pull(p, user, henon_heiles); }
+static int points_kepler(const gvi_points *p, void *user) { return pull(p, user, kepler); }
+
+/* two steppers of one scene; the second is kept from steps in one piece */
+typedef struct pair {
+    gvi_stepper st[2];
+    gvi_effect  effect[2];
+    mood        mood[2];
+    int         whole;          /* steps in one piece */
+} pair;
+
+static void begin(pair *z, gvi_points_fn *points, gvi_desc desc, real x, real vy)
+{
+    const real q[2] = { x, (real)0.05L }, v[2] = { (real)0.1L, vy };
+    memset(z, 0, sizeof *z);
+    desc.n = 2;
+    desc.effect_count = 1;
+    for (int i = 0; i < 2; ++i) {
+        const mood calm = { (real)1e9L, (real)1e9L, 0 };
+        const gvi_effect effect = { .kind = GVI_POTENTIAL, .points = points, .user = z->mood + i };
+        z->mood[i] = calm;
+        z->effect[i] = effect;
+        desc.effects = z->effect + i;
+        assert_true(gvi_size(&desc) > 0 && gvi_size(&desc) <= sizeof memory[i]);
+        assert_ok(gvi_init(z->st + i, &desc, memory[i], sizeof memory[i]));
+        assert_ok(gvi_start(z->st + i, 0, q, v));
+    }
+}
+
+/* all that a user can see, but times of calls */
+static void assert_same(const pair *z)
+{
+    const gvi_stepper *a = z->st, *b = z->st + 1;
+    const gvi_counters *c = &a->counters, *d = &b->counters;
+    for (int i = 0; i < 2; ++i) {
+        assert_true(a->q[i] == b->q[i] && a->p[i] == b->p[i]);
+        assert_true(a->x.qe[i] == b->x.qe[i] && a->x.pe[i] == b->x.pe[i]);
+        assert_true(a->x.q0[i] == b->x.q0[i] && a->x.p0[i] == b->x.p0[i]);
+    }
+    assert_true(a->t == b->t && a->h == b->h && a->x.t0 == b->x.t0 && a->x.te == b->x.te);
+    assert_int_equal(a->status, b->status);
+    assert_int_equal(a->formulation, b->formulation);
+    assert_int_equal(a->iterations, b->iterations);
+    assert_int_equal(a->fault.effect, b->fault.effect);
+    assert_int_equal(a->fault.coordinate, b->fault.coordinate);
+    assert_int_equal(a->fault.point, b->fault.point);
+    assert_true(c->steps == d->steps && c->failures == d->failures && c->iterations == d->iterations);
+    assert_true(c->newton_iterations == d->newton_iterations && c->effect[0] == d->effect[0]);
+    assert_true(c->most_iterations == d->most_iterations);
+    assert_true(c->worst_contraction == d->worst_contraction);
+    assert_true(c->worst_change == d->worst_change);
+}
+
+/* a step of each, of one outcome */
+static gvi_status both(pair *z, real h)
+{
+#ifdef GVI__PIECES
+    z->whole += z->st[0].x.usual;
+#endif
+    z->st[1].x.usual = 0;
+    const gvi_status status = gvi_step(z->st, h);
+    assert_int_equal(gvi_step(z->st + 1, h), status);
+    assert_same(z);
+    return status;
+}
+
+/* were at least so many of the steps made in one piece? */
+static void assert_whole(const pair *z, int least)
+{
+#ifdef GVI__PIECES
+    assert_true(z->whole >= least);
+#else
+    (void)z, (void)least;
+#endif
+}
+
+static gvi_desc described(int degree, real tolerance, const real *mass)
+{
+    gvi_desc desc = { .degree = degree, .tolerance = tolerance };
+    if (mass) desc.mass.kind = GVI_MASS_DIAGONAL;
+    desc.mass.matrix = mass;
+    return desc;
+}
+
+static const real masses[2] = { (real)1.7L, (real)0.3L };
+
+/* Every size, tolerance and mass of these steps, short ones and as long as the iteration allows.  */
+static void same_bits(void **state)
+{
+    static const real tolerances[] = { 0, (real)1e-4L, 64*EPS };
+    (void)state;
+    for (int degree = 8; degree <= 16; degree += 8)
+        for (int k = 0; k < COUNT(tolerances); ++k)
+            for (int heavy = 0; heavy < 2; ++heavy)
+                for (int scene = 0; scene < 2 - heavy; ++scene) {      // Kepler's with two masses is chaos
+                    pair z;
+                    const real h = scene ? (real)0.15L : heavy ? (real)0.6L : (real)1.6L;
+                    begin(&z, scene ? points_kepler : points_hh,
+                          described(degree, tolerances[k], heavy ? masses : NULL),
+                          scene ? (real)1 : (real)0.1L, scene ? (real)0.8L : (real)0.2L);
+                    for (int i = 0; i < 300; ++i) assert_ok(both(&z, h));
+                    assert_whole(&z, 150);
+                }
+}
+
+/* Near the pericentre the iteration takes too long: to Newton's method and back; pinned and with fewer
+   iterations than it takes, failed, and past it by shorter steps.              */
+static void same_where_it_creeps(void **state)
+{
+    (void)state;
+    for (int pinned = 0; pinned < 2; ++pinned) {
+        pair z;
+        gvi_desc desc = described(8, 0, NULL);
+        int turned = 0, failed = 0;
+        desc.formulation = pinned ? GVI_POSITIONS : GVI_AUTO;
+        desc.max_iterations = pinned ? 9 : 0;
+        begin(&z, points_kepler, desc, 1, (real)0.4L);
+        for (int i = 0; i < 600; ++i) {
+            const gvi_status status = both(&z, (real)0.15L);
+            turned += z.st[0].formulation == GVI_NEWTON;
+            failed += status == GVI_E_CONVERGENCE;
+            if (status != GVI_OK) both(&z, (real)0.02L);
+        }
+        assert_whole(&z, 150);
+        assert_true(pinned ? failed > 5 : turned > 5);
+    }
+}
+
+/* A step that is refused in its midst, or meets NaN, says so as any other, and nothing moves.  */
+static void same_where_it_fails(void **state)
+{
+    (void)state;
+    for (int nan = 0; nan < 2; ++nan) {
+        pair z;
+        int failures = 0;
+        begin(&z, points_hh, described(8, (real)1e-9L, NULL), (real)0.1L, (real)0.3L);
+        for (int i = 0; i < 30; ++i) assert_ok(both(&z, (real)1.2L));
+        for (int i = 0; i < 100; ++i) {
+            for (int k = 0; k < 2; ++k) *(nan ? &z.mood[k].edge : &z.mood[k].wall) = (real)-0.2L + (real)i/200;
+            const gvi_status status = both(&z, (real)1.2L);
+            if (status == GVI_OK) continue;
+            assert_int_equal(status, nan ? GVI_E_NON_FINITE : GVI_E_CALLBACK);
+            assert_int_equal(z.st[0].fault.effect, 0);
+            failures += 1;
+            for (int k = 0; k < 2; ++k) z.mood[k].edge = z.mood[k].wall = (real)1e9L;
+            assert_ok(both(&z, (real)1.2L));
+        }
+        assert_true(failures > 5);
+        assert_whole(&z, 50);
+    }
+}
+
+/* The last iteration of a step is refused: not a step by other means, but its end.  */
+static void a_refusal_ends_it(void **state)
+{
+    (void)state;
+    pair z;
+    begin(&z, points_hh, described(8, 0, NULL), (real)0.1L, (real)0.3L);
+    for (int i = 0; i < 30; ++i) assert_ok(both(&z, (real)1.2L));
+    const gvi_stepper *st = z.st;
+    const real x = st->q[0];
+    const unsigned long long asked = st->counters.effect[0];
+    z.mood[0].wall = z.mood[1].wall = -100;
+    assert_status(both(&z, (real)1.2L), GVI_E_CALLBACK);
+    assert_true(st->q[0] == x && st->counters.effect[0] > asked);
+    assert_int_equal(st->counters.failures, 1);
+}
+
+/* Queries, a checkpoint, a switch and other lengths in between: what the next step relies on is still there.  */
+static void same_with_queries_between(void **state)
+{
+    (void)state;
+    for (int degree = 8; degree <= 16; degree += 8) {
+        pair z;
+        real q[2], v[2], p[2], u[2];
+        begin(&z, points_hh, described(degree, (real)1e-6L, masses), (real)0.1L, (real)0.2L);
+        for (int i = 0; i < 400; ++i) {
+            const real h = i % 50 < 40 ? (real)0.4L : (real)0.3L;
+            assert_ok(both(&z, h));
+            gvi_stepper *st = z.st;
+            if (i % 7 == 3) {
+                assert_ok(gvi_state_at(st, st->t - h/3, q, v, p));
+                assert_ok(gvi_state_at(st + 1, st->t - h/3, u, v, NULL));
+                assert_true(q[0] == u[0] && q[1] == u[1]);
+            }
+            if (i % 7 == 4) {
+                assert_ok(gvi_curve(st, (real)0.3L, q, v));
+                assert_ok(gvi_curve(st + 1, (real)0.3L, u, NULL));
+                assert_true(q[0] == u[0] && q[1] == u[1]);
+            }
+            for (int k = 0; k < 2 && i % 13 > 10; ++k) assert_ok(gvi_switch(st + k, 0, i % 13 == 12));
+            if (i % 11 == 6) {
+                const gvi_stepper then = *st;
+                memcpy(saved, memory[0], sizeof saved);
+                assert_ok(gvi_step(st, h));
+                assert_ok(gvi_step(st, h/2));
+                assert_ok(gvi_restore(st, &then, saved));
+            }
+        }
+        assert_whole(&z, 150);
+    }
+}
+
+/* A reference without gvi.h's sums: RK4 in long double, a hundred thousand steps.  */
+static void right_as_well(void **state)
+{
+    (void)state;
+    enum { STEPS = 40, PARTS = 100000 };
+    pair z;
+    begin(&z, points_hh, described(8, 0, NULL), (real)0.1L, (real)0.3L);
+    long double y[4];
+    for (int i = 0; i < 2; ++i) {
+        y[i] = (long double)z.st[0].q[i];
+        y[2 + i] = (long double)z.st[0].p[i];
+    }
+    const real h = (real)0.25L;
+    for (int i = 0; i < STEPS; ++i) assert_ok(both(&z, h));
+    assert_whole(&z, 30);
+    for (int i = 0; i < PARTS; ++i) {
+        const long double part = STEPS*(long double)h/PARTS, share[4] = { 1, 2, 2, 1 }, at[4] = { 0, 0.5L, 0.5L, 1 };
+        long double k[4] = { 0, 0, 0, 0 }, sum[4] = { 0, 0, 0, 0 };
+        for (int stage = 0; stage < 4; ++stage) {
+            long double w[4];
+            for (int j = 0; j < 4; ++j) w[j] = y[j] + part*at[stage]*k[j];
+            k[0] = w[2];
+            k[1] = w[3];
+            k[2] = -w[0] - 2*w[0]*w[1];
+            k[3] = -w[1] - w[0]*w[0] + w[1]*w[1];
+            for (int j = 0; j < 4; ++j) sum[j] += share[stage]*k[j];
+        }
+        for (int j = 0; j < 4; ++j) y[j] += part/6*sum[j];
+    }
+    for (int i = 0; i < 2; ++i) {
+        assert_close(z.st[0].q[i], y[i], 20*(long double)EPS + 1e-14L);
+        assert_close(z.st[0].p[i], y[2 + i], 20*(long double)EPS + 1e-14L);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(same_bits),
+        cmocka_unit_test(same_where_it_creeps),
+        cmocka_unit_test(same_where_it_fails),
+        cmocka_unit_test(a_refusal_ends_it),
+        cmocka_unit_test(same_with_queries_between),
+        cmocka_unit_test(right_as_well),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
