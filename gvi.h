@@ -959,8 +959,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__COPY static inline
 #endif
 
-// what is so nearly always: processors foretell the end of an iteration by the branches taken before it,
-// and remember only so many
+// what is so nearly always, for code without a jump where it is
 #if defined(__GNUC__)
 #define GVI__OFTEN(question) __builtin_expect(!!(question), 1)
 #else
@@ -2054,6 +2053,8 @@ typedef gvi_real gvi__vector
 #define GVI__FITTED GVI__APART
 #endif
 
+#define GVI__PIECES (GVI__WIDE && GVI__POSITIONS)     // steps of two coordinates in one piece
+
 /* L D L' of a symmetric matrix at each of `count` points, in place: entry (i,j), i >= j,
    of point k at [(i*n + j)*stride + k].  L below the diagonal, 1/D on it, and above
    it D L', which the rest of the matrix is made with.  A pivot that is nothing but
@@ -2834,7 +2835,7 @@ GVI__APART void gvi__weights(gvi_stepper *st, gvi_real h)
     struct gvi__private *x = &st->x;
     x->h_weights = h;
     x->ratio = 0;                                  // E may hold sums with the old ones
-    x->usual = 0;
+    if (GVI__PIECES) x->usual = 0;
 
     int e, r = st->r, most = 0;
     gvi_real mantissa = GVI_FREXP(h, &e), rest = mantissa;
@@ -4561,7 +4562,8 @@ GVI__ROWS(gvi__rows_8, gvi__stage_rows_8(st, y, 8, st->n, 0))
 GVI__ROWS(gvi__rows_8_folded, gvi__stage_rows_8(st, y, 8, st->n, 1))
 GVI__ROWS(gvi__rows_5_to_8, gvi__stage_rows_8(st, y, st->r, st->n, gvi__folds(st)))
 GVI__ROWS(gvi__rows_8_less, gvi__stage_rows_of(st, y, 8, 8))
-GVI__ROWS(gvi__rows_16, GVI__KEPT ? gvi__stage_rows_16(st, y, 16, st->n, gvi__folds(st)) : gvi__stage_rows_of(st, y, 16, 16))
+GVI__ROWS(gvi__rows_16, GVI__KEPT ? gvi__stage_rows_16(st, y, 16, st->n, gvi__folds(st))
+                                  : gvi__stage_rows_of(st, y, 16, 16))
 GVI__ROWS(gvi__rows_9_to_15, gvi__stage_rows_16(st, y, st->r, st->n, gvi__folds(st)))
 GVI__ROWS(gvi__rows_16_less, gvi__stage_rows_of(st, y, st->r, 16))
 GVI__ROWS(gvi__arc_rows_8, gvi__arc_rows_vector(st, y, 8, 8, 0))
@@ -5158,7 +5160,7 @@ GVI__APART void gvi__prepare_guess(gvi_stepper *st, gvi_real h, int query)
     if (!query && !gvi__nonzero(beta - x->ratio) && is == x->E_is) return;
     x->ratio = query ? 0 : beta;
     x->E_is = is;
-    x->usual = 0;
+    if (GVI__PIECES) x->usual = 0;
     gvi__fit(st, alpha, beta);
     if (sums) gvi__fit_sums(st);
 }
@@ -5696,10 +5698,9 @@ static gvi_status gvi__clock_guess(gvi_stepper *st, const gvi__from *from, gvi_r
 // contraction over two iterations, as long as it is not about rounding; squares of changes
 static void gvi__watch(gvi_stepper *st, gvi_real change, gvi_real earlier)
 {
+    if (!(earlier > 0) || change <= (1000*GVI__EPS)*(1000*GVI__EPS) || !gvi__finite(change)) return;
     const gvi_real worst = st->counters.worst_contraction*st->counters.worst_contraction;
-    const int sure = (change > (1000*GVI__EPS)*(1000*GVI__EPS)) & (earlier > 0) & (change <= GVI__MAX);
-    if (!GVI__OFTEN(!(sure & (change > worst*worst*earlier))))
-        st->counters.worst_contraction = GVI_SQRT(GVI_SQRT(change/earlier));
+    if (change > worst*worst*earlier) st->counters.worst_contraction = GVI_SQRT(GVI_SQRT(change/earlier));
 }
 
 static void gvi__watch_last(gvi_stepper *st, gvi_real change)
@@ -5788,7 +5789,7 @@ GVI__COPY int gvi__judge_most(gvi_stepper *st, gvi__progress *p, gvi_real change
     const gvi_real before = p->before, last = before > 0 ? before : change, known = last < 1 ? last : 1;
     const gvi_real quarter = before/4 < GVI__FAR ? before/4 : GVI__FAR, usual = before > 0 ? quarter : GVI__FAR;
     const int ends = change*change <= p->tolerance*known;
-    if (GVI__SMALL || !GVI__OFTEN((change < usual) & !ends & !p->idle)) return ends ? GVI__DONE : GVI__LOOK;
+    if (GVI__SMALL || !GVI__OFTEN(change < usual && !ends && !p->idle)) return ends ? GVI__DONE : GVI__LOOK;
     gvi__watch(st, change, p->earlier);
     p->earlier = before;
     p->before = p->least = change;
@@ -7082,18 +7083,18 @@ static gvi_status gvi__solve_explicit(gvi_stepper *st, gvi__from *from, gvi_real
 
 /* With two coordinates what a step asks, and hands from function to function through memory, takes as long
    as three or four iterations.  What most such steps are is therefore here once more, in one piece: the
-   same terms in the same order, and so the same bits.  What is out of the ordinary goes back, and the step
-   begins anew.                                                                */
-#if GVI__WIDE && GVI__POSITIONS
-#define GVI__PIECES
-// the next step, if it is as long as this one: positions of two coordinates, one effect and nothing beside it
+   same terms in the same order, and so the same bits.  Where anything is out of the ordinary nothing has
+   moved, and gvi__solve makes the step from its beginning.                    */
+#if GVI__PIECES
+// is the next step one of these, if it is as long as this one?  Positions, one effect and nothing beside it
 static signed char gvi__is_usual(const gvi_stepper *st)
 {
     const struct gvi__private *x = &st->x;
     const int is = (st->r == 8 && GVI__BEYOND_FLOAT ? GVI__OF_TWO : 0) + GVI__SUMS
                    + (GVI__LEARNS && x->learned.lengthy ? GVI__LONG : 0);
-    return st->n == 2 && (st->r == 8 || st->r == 16) && (x->alike == 2 || !GVI__BEYOND_FLOAT) && x->E_is == is
-        && !gvi__nonzero(x->ratio - 1) && gvi__is_plain(st) && x->desc.mass.kind <= GVI_MASS_DIAGONAL && x->newton_left == 0 && x->whole_left == 0;
+    return st->n == 2 && (st->r == 8 || st->r == 16) && x->desc.mass.kind <= GVI_MASS_DIAGONAL
+        && (x->alike == 2 || !GVI__BEYOND_FLOAT) && x->E_is == is && !gvi__nonzero(x->ratio - 1)
+        && gvi__is_plain(st) && x->newton_left == 0 && x->whole_left == 0;
 }
 
 // the fixed point; returns the number of iterations, or 0
@@ -7113,7 +7114,7 @@ GVI__COPY int gvi__usual_rounds(gvi_stepper *st, const gvi__from *from, gvi_real
                                        : gvi__stage_rows_16(st, y, 16, 2, folded);
         const int more = used < x->desc.max_iterations;
         int verdict = gvi__judge_most(st, &p, change);
-        if (GVI__OFTEN((verdict == GVI__GO_ON) & more)) continue;
+        if (GVI__OFTEN(verdict == GVI__GO_ON && more)) continue;
         if (verdict == GVI__LOOK && gvi__finite(change)) verdict = gvi__judge(st, from, &p, NULL, change, used);
         gvi__gather(2, R, x->work.Q + R - 1, x->change);
         if (verdict == GVI__GO_ON && more) continue;
@@ -7231,7 +7232,7 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
     gvi__done(st, GVI_OK);
     if (!gvi__nonzero(h) || !gvi__finite(h)) return st->status = GVI_E_ARGUMENT;
 
-#ifdef GVI__PIECES
+#if GVI__PIECES
     if (x->usual && !gvi__nonzero(h - st->h) && gvi__usual_step(st, h)) return GVI_OK;
 #endif
     const gvi_formulation was = st->formulation;
@@ -7252,7 +7253,7 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
         return st->status = status;
     }
     gvi__commit(st, h);
-#ifdef GVI__PIECES
+#if GVI__PIECES
     x->usual = gvi__is_usual(st);
 #endif
     return gvi__done(st, GVI_OK);
@@ -7321,7 +7322,8 @@ static gvi_status gvi__start(gvi_stepper *st, gvi_real t, const gvi_real *v)
     st->h = 0;
     x->te = 0;
     x->started = 1;
-    x->stepped = x->has_force = x->has_velocity = x->alike = x->E_is = x->usual = 0;
+    x->stepped = x->has_force = x->has_velocity = x->alike = x->E_is = 0;
+    if (GVI__PIECES) x->usual = 0;
     x->newton_left = x->whole_left = 0;
     x->h_matrix = x->ratio = 0;
     if (GVI__WEAK && x->weak) *gvi__answers(st) = 1;
@@ -7417,7 +7419,8 @@ GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
         x->H0 = E0;
     }
     st->x.single = gvi__single(st);
-    st->x.has_force = st->x.usual = 0;
+    st->x.has_force = 0;
+    if (GVI__PIECES) st->x.usual = 0;
     st->x.h_matrix = 0;
     if (GVI__WEAK && st->x.weak) *gvi__answers(st) = 1;
     return gvi__done(st, GVI_OK);

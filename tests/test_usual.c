@@ -97,7 +97,7 @@ static void assert_same(const pair *z)
 /* a step of each, of one outcome */
 static gvi_status both(pair *z, real h)
 {
-#ifdef GVI__PIECES
+#if GVI__PIECES
     z->whole += z->st[0].x.usual;
 #endif
     z->st[1].x.usual = 0;
@@ -110,7 +110,7 @@ static gvi_status both(pair *z, real h)
 /* were at least so many of the steps made in one piece? */
 static void assert_whole(const pair *z, int least)
 {
-#ifdef GVI__PIECES
+#if GVI__PIECES
     assert_true(z->whole >= least);
 #else
     (void)z, (void)least;
