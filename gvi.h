@@ -1243,7 +1243,8 @@ static gvi__complex gvi__complex_of(gvi_real re, gvi_real im)
     return z;
 }
 
-static gvi_real gvi__modulus(gvi_real re, gvi_real im) { return GVI_ABS(re) + GVI_ABS(im); }
+// |re| + |im|, which is the modulus up to a factor of sqrt(2) (as in LAPACK's zgetrf)
+static gvi_real gvi__cabs1(gvi_real re, gvi_real im) { return GVI_ABS(re) + GVI_ABS(im); }
 
 static gvi__complex gvi__times_complex(gvi__complex a, gvi__complex b)
 {
@@ -1253,7 +1254,7 @@ static gvi__complex gvi__times_complex(gvi__complex a, gvi__complex b)
 // 1/(re + i im); no square leaves the range of gvi_real
 static gvi__complex gvi__inverse(gvi_real re, gvi_real im)
 {
-    const gvi_real size = gvi__modulus(re, im), a = re/size, b = im/size, d = (a*a + b*b)*size;
+    const gvi_real size = gvi__cabs1(re, im), a = re/size, b = im/size, d = (a*a + b*b)*size;
     return gvi__complex_of(a/d, -b/d);
 }
 
@@ -1274,7 +1275,7 @@ static size_t gvi__pivot_row(size_t n, size_t k, const gvi_real *a, const gvi_re
     size_t m = k;
     gvi_real big = -1;
     for (size_t i = k; i < n; ++i) {
-        const gvi_real x = gvi__modulus(a[2*i*n + k], a[(2*i + 1)*n + k])*scale[i];
+        const gvi_real x = gvi__cabs1(a[2*i*n + k], a[(2*i + 1)*n + k])*scale[i];
         if (x > big) { big = x; m = i; }
     }
     return m;
@@ -1288,7 +1289,7 @@ static gvi_status gvi__lu_factor_complex(int count, gvi_real *a, gvi_real *pivot
     for (size_t i = 0; i < n; ++i) {
         gvi_real big = 0;
         for (size_t j = 0; j < n; ++j) {
-            const gvi_real x = gvi__modulus(a[2*i*n + j], a[(2*i + 1)*n + j]);
+            const gvi_real x = gvi__cabs1(a[2*i*n + j], a[(2*i + 1)*n + j]);
             if (!(x <= big)) big = x;
         }
         pivot[i] = 1/big;
@@ -1301,8 +1302,8 @@ static gvi_status gvi__lu_factor_complex(int count, gvi_real *a, gvi_real *pivot
         pivot[m] = pivot[k];
         pivot[k] = (gvi_real)m;
         for (size_t j = 0; j < k; ++j)
-            terms += gvi__modulus(top[j], top[n + j])*gvi__modulus(a[2*j*n + k], a[(2*j + 1)*n + k]);
-        if (!(gvi__modulus(top[k], top[n + k]) > (gvi_real)n*GVI__EPS*terms)) return GVI_E_SINGULAR;
+            terms += gvi__cabs1(top[j], top[n + j])*gvi__cabs1(a[2*j*n + k], a[(2*j + 1)*n + k]);
+        if (!(gvi__cabs1(top[k], top[n + k]) > (gvi_real)n*GVI__EPS*terms)) return GVI_E_SINGULAR;
         const gvi__complex inverse = gvi__inverse(top[k], top[n + k]);
         top[k] = inverse.re;
         top[n + k] = inverse.im;
@@ -1311,7 +1312,7 @@ static gvi_status gvi__lu_factor_complex(int count, gvi_real *a, gvi_real *pivot
             const gvi__complex l = gvi__times_complex(gvi__complex_of(row[k], row[n + k]), inverse);
             row[k] = l.re;
             row[n + k] = l.im;
-            if (gvi__modulus(l.re, l.im) > 0) gvi__add_row(n, k + 1, gvi__complex_of(-l.re, -l.im), top, row);
+            if (gvi__cabs1(l.re, l.im) > 0) gvi__add_row(n, k + 1, gvi__complex_of(-l.re, -l.im), top, row);
         }
     }
     return GVI_OK;
@@ -6156,8 +6157,8 @@ static int gvi__bessel_zero(const gvi_stepper *st, int m, gvi__two lambda[2])
         const gvi__complex d = gvi__bessel_correction(st, near ? all : m + 1, lambda);
         lambda[0] = gvi__add2(lambda[0], gvi__real2(-d.re));
         lambda[1] = gvi__add2(lambda[1], gvi__real2(-d.im));
-        const gvi_real size = gvi__modulus(lambda[0].hi, lambda[1].hi);
-        near += near || gvi__modulus(d.re, d.im) <= GVI_SQRT(GVI__EPS)*size;
+        const gvi_real size = gvi__cabs1(lambda[0].hi, lambda[1].hi);
+        near += near || gvi__cabs1(d.re, d.im) <= GVI_SQRT(GVI__EPS)*size;
     }
     return near == 4;
 }
@@ -8004,7 +8005,9 @@ GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const 
     gvi__layout(&scene, &st->x, own);
     for (int turns = st->x.turns; turns > 0; --turns) gvi__rotate_rows(st);
     st->x.turns = saved->x.turns;
-    st->x.single = gvi__single(st);
+    st->x.single = gvi__single(st);               // the effects need not have the same callbacks, or marks
+    if (GVI__WEAK) st->x.marks = gvi__marks(&st->x.desc);
+    if (GVI__PIECES) st->x.usual = 0;
     st->q = st->x.q;
     st->p = st->x.p;
     if (gvi__uses(st, GVI_EXPLICIT) && gvi__is_rounded(st)) {            // it carries no rests

@@ -244,6 +244,36 @@ static void same_with_queries_between(void **state)
     }
 }
 
+static int point_hh(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    henon_heiles(q[0], q[1], f, f + 1);
+    return (void)t, (void)v, (void)dldv, (void)user, 0;
+}
+
+/* A checkpoint goes on in a stepper whose effect takes one point a call.  */
+static void restored_to_another_callback(void **state)
+{
+    static real third[MOST];
+    (void)state;
+    pair z;
+    gvi_stepper other;
+    const gvi_effect single = { .kind = GVI_POTENTIAL, .point = point_hh };
+    gvi_desc desc = described(8, 0, NULL);
+    begin(&z, points_hh, desc, (real)0.1L, (real)0.3L);
+    for (int i = 0; i < 10; ++i) assert_ok(both(&z, (real)0.5L));
+    desc.n = 2;
+    desc.effects = &single;
+    desc.effect_count = 1;
+    assert_ok(gvi_init(&other, &desc, third, sizeof third));
+    assert_ok(gvi_restore(&other, z.st, memory[0]));
+    for (int i = 0; i < 10; ++i) {
+        assert_ok(both(&z, (real)0.5L));
+        assert_ok(gvi_step(&other, (real)0.5L));
+    }
+    assert_whole(&z, 15);
+    for (int i = 0; i < 2; ++i) assert_close(other.q[i], z.st[0].q[i], 64*(long double)EPS);
+}
+
 /* A reference without gvi.h's sums: RK4 in long double, a hundred thousand steps.  */
 static void right_as_well(void **state)
 {
@@ -287,6 +317,7 @@ int main(void)
         cmocka_unit_test(same_where_it_fails),
         cmocka_unit_test(a_refusal_ends_it),
         cmocka_unit_test(same_with_queries_between),
+        cmocka_unit_test(restored_to_another_callback),
         cmocka_unit_test(right_as_well),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

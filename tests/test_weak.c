@@ -275,6 +275,22 @@ static void test_no_trace(void **state)
     assert_same(&plain, &other);
 }
 
+/* A checkpoint goes on with the marks of the stepper that it is restored to          */
+static void test_own_marks(void **state)
+{
+    const unsigned scene = 1u << SUN | 1u << FAR | 1u << RING;
+    const gvi_desc desc = { .formulation = GVI_POSITIONS };
+    (void)state;
+    set_up(&plain, scene, 1u << FAR, desc);
+    set_up(&marked, scene, 1u << RING, desc);
+    steps(&plain, 20);
+    assert_ok(gvi_restore(&marked.st, &plain.st, plain.memory));
+    const gvi_counters was = marked.st.counters, *is = &marked.st.counters;
+    steps(&marked, 20);
+    assert_true(is->effect[1] - was.effect[1] == is->effect[0] - was.effect[0]);
+    if (GVI__WEAK) assert_true(is->effect[2] - was.effect[2] < is->effect[0] - was.effect[0]);
+}
+
 /* Switched off and on: as a scene without it, and as if it had just begun           */
 static void test_switch(void **state)
 {
@@ -386,6 +402,7 @@ int main(void)
         cmocka_unit_test(test_tolerance),
         cmocka_unit_test(test_invariants),
         cmocka_unit_test(test_no_trace),
+        cmocka_unit_test(test_own_marks),
         cmocka_unit_test(test_switch),
         cmocka_unit_test(test_not_heeded),
         cmocka_unit_test(test_divergence),
