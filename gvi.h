@@ -7098,9 +7098,9 @@ static signed char gvi__is_usual(const gvi_stepper *st)
         && gvi__is_plain(st) && x->newton_left == 0 && x->whole_left == 0;
 }
 
-// the fixed point; returns the number of iterations, or 0
+// the fixed point; returns the number of iterations, or 0; how often the effect was asked: that, or once more
 GVI__COPY int gvi__usual_rounds(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi__stage *y,
-                                int R, int folded)
+                                int R, int folded, int *asked)
 {
     struct gvi__private *x = &st->x;
     const gvi_effect *effect = x->desc.effects + x->single;
@@ -7121,11 +7121,10 @@ GVI__COPY int gvi__usual_rounds(gvi_stepper *st, const gvi__from *from, gvi_real
         if (verdict == GVI__GO_ON && more) continue;
         if (verdict != GVI__DONE && verdict != GVI__ASK_ONCE_MORE) return 0;
         gvi__watch_last(st, change);
+        *asked = used + (verdict != GVI__DONE);
         if (verdict == GVI__DONE) return used;
         gvi__zero_rows(2, R, h - h, at.f);
-        if (effect->points(&at, effect->user)) return 0;
-        gvi__count(&st->counters.effect[x->single], R);
-        return used;
+        return effect->points(&at, effect->user) ? 0 : used;
     }
 }
 
@@ -7178,7 +7177,7 @@ GVI__COPY void gvi__extrapolate_two_16(const gvi_stepper *st, const gvi__stage *
     }
 }
 
-GVI__COPY int gvi__usual_of(gvi_stepper *st, gvi_real h, int R, int two)
+GVI__COPY int gvi__usual_of(gvi_stepper *st, gvi_real h, int R, int two, int *asked)
 {
     struct gvi__private *x = &st->x;
     const int folded = gvi__folds(st);
@@ -7203,7 +7202,7 @@ GVI__COPY int gvi__usual_of(gvi_stepper *st, gvi_real h, int R, int two)
     if (R == 16) gvi__extrapolate_two_16(st, &y);
     else gvi__extrapolate_rows(st, 2, R, R, two, 0, x->last.F, x->older_F, &y, x->work.Q);
     for (int i = 0; i < 2; ++i) x->scale[i] = gvi__scale_of(y.base[i], y.rows[i*R + R - 1]);
-    const int used = gvi__usual_rounds(st, &from, h, &y, R, folded);
+    const int used = gvi__usual_rounds(st, &from, h, &y, R, folded, asked);
     return used > 0 && gvi__usual_end(st, v, h, R) ? used : 0;
 }
 
@@ -7211,11 +7210,13 @@ GVI__COPY int gvi__usual_of(gvi_stepper *st, gvi_real h, int R, int two)
 static int gvi__usual_step(gvi_stepper *st, gvi_real h)
 {
     struct gvi__private *x = &st->x;
-    const int used = st->r == 8 ? gvi__usual_of(st, h, 8, GVI__BEYOND_FLOAT) : gvi__usual_of(st, h, 16, 0);
+    int asked = 0;
+    const int used = st->r == 8 ? gvi__usual_of(st, h, 8, GVI__BEYOND_FLOAT, &asked)
+                                : gvi__usual_of(st, h, 16, 0, &asked);
     if (used == 0) return 0;
     st->iterations = used;
     gvi__count(&st->counters.iterations, used);
-    gvi__count(&st->counters.effect[x->single], used*st->r);
+    gvi__count(&st->counters.effect[x->single], asked*st->r);
     if (used > st->counters.most_iterations) st->counters.most_iterations = used;
     if (GVI__LEARNS && gvi__two_now(st)) gvi__learn(st, used);
     gvi__move_time(st);

@@ -41,7 +41,10 @@ static void kepler(real x, real y, real *f, real *g)
     *g -= y/(r2*r);
 }
 
+static void nothing(real x, real y, real *f, real *g) { (void)x, (void)y, (void)f, (void)g; }
+
 static int points_hh(const gvi_points *p, void *user) { return pull(p, user, henon_heiles); }
+static int points_nothing(const gvi_points *p, void *user) { return pull(p, user, nothing); }
 static int points_kepler(const gvi_points *p, void *user) { return pull(p, user, kepler); }
 
 /* two steppers of one scene; the second is kept from steps in one piece */
@@ -193,6 +196,23 @@ static void same_where_it_fails(void **state)
     }
 }
 
+/* All points of the tenth step are finite, its end is not.  */
+static void same_where_it_overflows(void **state)
+{
+    (void)state;
+    pair z;
+    const real q[2] = { 0, 0 }, v[2] = { (real)sqrtl((long double)MAX), 1 }, h = MAX/v[0]/(real)9.99L;
+    begin(&z, points_nothing, described(8, 0, NULL), 1, 1);
+    for (int i = 0; i < 2; ++i) {
+        z.mood[i].wall = z.mood[i].edge = MAX;
+        assert_ok(gvi_start(z.st + i, 0, q, v));
+    }
+    for (int i = 0; i < 9; ++i) assert_ok(both(&z, h));
+    assert_status(both(&z, h), GVI_E_CONVERGENCE);
+    assert_close(z.st[0].q[0]/MAX, 9/9.99L, 1e-6L);
+    assert_whole(&z, 6);
+}
+
 /* The last iteration of a step is refused: not a step by other means, but its end.  */
 static void a_refusal_ends_it(void **state)
 {
@@ -315,6 +335,7 @@ int main(void)
         cmocka_unit_test(same_bits),
         cmocka_unit_test(same_where_it_creeps),
         cmocka_unit_test(same_where_it_fails),
+        cmocka_unit_test(same_where_it_overflows),
         cmocka_unit_test(a_refusal_ends_it),
         cmocka_unit_test(same_with_queries_between),
         cmocka_unit_test(restored_to_another_callback),
