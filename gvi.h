@@ -101,7 +101,7 @@
                 explicit               r
                 pinned fixed point     2(m+2) r
                 fixed point, clock     2(m+2) r, and 1 for the clock
-                Newton, AUTO with it   (m+2) r, then three attempts of (m+1) r, each with
+                Newton, AUTO with it   2(m+2) r, then three attempts of (m+1) r, each with
                                        m/4 + 2 Jacobians of (2n+1) r + n+1 points and
                                        one LU of size s n, or (s+1)/2 complex ones of n
               All of it once more when a value was not finite, to name the effect.
