@@ -4130,10 +4130,10 @@ GVI__COPY void gvi__put_16(const gvi_stepper *st, const gvi__stage *y, int r, in
 }
 
 /* The same for nine to sixteen points, two rows at a time; of an odd number the last alone, twice. */
-GVI__COPY gvi_real gvi__stage_rows_16(const gvi_stepper *st, const gvi__stage *y, int r, int n, int folded)
+GVI__COPY gvi_real gvi__stage_rows_16(const gvi_stepper *st, const gvi__stage *y, int r, int n)
 {
     enum { MOST = 16/GVI__LANES, AT_ONCE = GVI__LANES == 8 ? 2 : 1 };
-    const gvi_real *diagonal = gvi__diagonal(st, y), *weights = folded ? NULL : st->x.hb;
+    const gvi_real *diagonal = gvi__diagonal(st, y), *weights = gvi__stage_weights(st);
     gvi_real ahead[32];
     gvi__vector squares[MOST/2] = { { 0 } };
     for (int i = 0; i < n; i += 2) {
@@ -4563,9 +4563,8 @@ GVI__ROWS(gvi__rows_8, gvi__stage_rows_8(st, y, 8, st->n, 0))
 GVI__ROWS(gvi__rows_8_folded, gvi__stage_rows_8(st, y, 8, st->n, 1))
 GVI__ROWS(gvi__rows_5_to_8, gvi__stage_rows_8(st, y, st->r, st->n, gvi__folds(st)))
 GVI__ROWS(gvi__rows_8_less, gvi__stage_rows_of(st, y, 8, 8))
-GVI__ROWS(gvi__rows_16, GVI__KEPT ? gvi__stage_rows_16(st, y, 16, st->n, gvi__folds(st))
-                                  : gvi__stage_rows_of(st, y, 16, 16))
-GVI__ROWS(gvi__rows_9_to_15, gvi__stage_rows_16(st, y, st->r, st->n, gvi__folds(st)))
+GVI__ROWS(gvi__rows_16, GVI__KEPT ? gvi__stage_rows_16(st, y, 16, st->n) : gvi__stage_rows_of(st, y, 16, 16))
+GVI__ROWS(gvi__rows_9_to_15, gvi__stage_rows_16(st, y, st->r, st->n))
 GVI__ROWS(gvi__rows_16_less, gvi__stage_rows_of(st, y, st->r, 16))
 GVI__ROWS(gvi__arc_rows_8, gvi__arc_rows_vector(st, y, 8, 8, 0))
 GVI__ROWS(gvi__arc_rows_to_8, gvi__arc_rows_vector(st, y, st->r, 8, 0))
@@ -4910,9 +4909,9 @@ static inline int gvi__asks_only(const gvi_stepper *st)
         && !gvi__uses(st, GVI_MOMENTA) && !gvi__A(&st->x.work);
 }
 
-static inline gvi_status gvi__ask_only(gvi_stepper *st, int n, int R, gvi_real zero, gvi_points *y)
+static inline gvi_status gvi__ask_only(gvi_stepper *st, gvi_real zero, gvi_points *y)
 {
-    gvi__zero_rows(n, R, zero, y->f);
+    gvi__zero_rows(st->n, st->x.stride, zero, y->f);
     return gvi__call(st, y, st->x.single);
 }
 
@@ -5939,7 +5938,7 @@ GVI__COPY gvi_status gvi__fixed_point_of(gvi_stepper *st, const gvi__from *from,
         *used += !last;
         if (GVI__TOLERANCE && !plain && gvi__A(&x->work) && p.idle + p.poor > 0)
             gvi__gather(st->n, x->stride, x->work.A + st->r - 1, x->change + st->n);
-        gvi_status status = only ? gvi__ask_only(st, st->n, x->stride, h - h, &at)
+        gvi_status status = only ? gvi__ask_only(st, h - h, &at)
                                  : gvi__ask(st, from, h - h, GVI__SMALL ? NULL : &at, anew);
         if (springs && last && status == GVI_OK) gvi__remainders(st);
         if (status != GVI_OK || last) return status;
@@ -7100,9 +7099,10 @@ static signed char gvi__is_usual(const gvi_stepper *st)
 
 // the fixed point; returns the number of iterations, or 0; how often the effect was asked: that, or once more
 GVI__COPY int gvi__usual_rounds(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi__stage *y,
-                                int R, int folded, int *asked)
+                                int R, int *asked)
 {
     struct gvi__private *x = &st->x;
+    const int folded = gvi__folds(st);
     const gvi_effect *effect = x->desc.effects + x->single;
     gvi__progress p = gvi__progress_of(st, 2*R);
     gvi_points at;
@@ -7112,7 +7112,7 @@ GVI__COPY int gvi__usual_rounds(gvi_stepper *st, const gvi__from *from, gvi_real
         gvi__zero_rows(2, R, h - h, at.f);
         if (!GVI__OFTEN(effect->points(&at, effect->user) == 0)) return 0;
         const gvi_real change = R == 8 ? gvi__stage_rows_8(st, y, 8, 2, folded)
-                                       : gvi__stage_rows_16(st, y, 16, 2, folded);
+                                       : gvi__stage_rows_16(st, y, 16, 2);
         const int more = used < x->desc.max_iterations;
         int verdict = gvi__judge_most(st, &p, change);
         if (GVI__OFTEN(verdict == GVI__GO_ON && more)) continue;
@@ -7180,12 +7180,11 @@ GVI__COPY void gvi__extrapolate_two_16(const gvi_stepper *st, const gvi__stage *
 GVI__COPY int gvi__usual_of(gvi_stepper *st, gvi_real h, int R, int two, int *asked)
 {
     struct gvi__private *x = &st->x;
-    const int folded = gvi__folds(st);
     gvi_real path[2], rest[2];
     gvi__two v[2];
     const gvi__from from = { st->t, x->te, x->q, x->qe, x->p, x->pe, 0, x->over ? x->v0 : x->p };
-    const gvi__stage y = { x->q, x->qe, path, rest, folded ? x->folded : x->g, x->work.F, NULL,
-                           h, x->work.Q, x->scale, 1, NULL };
+    const gvi__stage y = { x->q, x->qe, path, rest, gvi__folds(st) ? x->folded : x->g, x->work.F,
+                           NULL, h, x->work.Q, x->scale, 1, NULL };
     x->dt = h;
     gvi__times(R, st->t, x->te, h, x->c, x->t);
     for (int i = 0; i < 2; ++i) {
@@ -7202,7 +7201,7 @@ GVI__COPY int gvi__usual_of(gvi_stepper *st, gvi_real h, int R, int two, int *as
     if (R == 16) gvi__extrapolate_two_16(st, &y);
     else gvi__extrapolate_rows(st, 2, R, R, two, 0, x->last.F, x->older_F, &y, x->work.Q);
     for (int i = 0; i < 2; ++i) x->scale[i] = gvi__scale_of(y.base[i], y.rows[i*R + R - 1]);
-    const int used = gvi__usual_rounds(st, &from, h, &y, R, folded, asked);
+    const int used = gvi__usual_rounds(st, &from, h, &y, R, asked);
     return used > 0 && gvi__usual_end(st, v, h, R) ? used : 0;
 }
 

@@ -365,8 +365,7 @@ static wide apart(const gvi_stepper *a, const gvi_stepper *b)
 static const int degrees[] = { 2, 3, 4, 5, 7, 8 };
 
 /* Linear scenes: derivatives are the same everywhere, so one factorisation serves all steps of one length if
-   blocks are the whole Jacobian taken apart; in float rounding may ask for a second, and where registers are wider
-   than what is stored (x87) for a third, of 20 steps.  It is b LUs of n.        */
+   blocks are the whole Jacobian taken apart; in float rounding may ask for a second.  It is b LUs of n.  */
 static void linear_scenes_need_one_factorisation(void **state)
 {
     (void)state;
@@ -381,7 +380,7 @@ static void linear_scenes_need_one_factorisation(void **state)
             st.counters.factorizations = 0;
             assert_true(st.x.blocks);
             go(&st, (gvi_real)0.1, 20);
-            const int blocks = (degrees[d] + 1)/2, most = blocks*(GVI__KIND > 1 ? 1 : FLT_EVAL_METHOD == 0 ? 2 : 3);
+            const int blocks = (degrees[d] + 1)/2, most = GVI__KIND == 1 ? 2*blocks : blocks;
             assert_true(st.x.has_blocks);
             assert_int_equal(st.x.whole_left, 0);
             assert_int_equal(st.counters.factorizations % (unsigned)blocks, 0);
