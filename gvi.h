@@ -99,7 +99,7 @@
               with stiffness.
    work       Points at which a step evaluates an effect, at most; m = max_iterations:
                 explicit               r
-                pinned fixed point     2(m+2) r
+                pinned fixed point     3(m+2) r
                 fixed point, clock     2(m+2) r, and 1 for the clock
                 Newton, AUTO with it   2(m+2) r, then three attempts of (m+1) r, each with
                                        m/4 + 2 Jacobians of (2n+1) r + n+1 points and
@@ -113,7 +113,8 @@
               momenta; full M: 2n^2 ((N+2) K R + 3) more; M(q): (N+1) R (n^3/2 + 6n^2 + 4n),
               and as much again where one of its pivots is hardly more than rounding.
               A new h: 6r^3 + 4(r+10)rR + 70r + 60 more, in its step and the next two; without
-              desc.iterations, where steps take six rounds, in two of a thousand as well.
+              desc.iterations, where steps take six rounds, in two of a thousand as well, and
+              after one whose extrapolated start led nowhere.
               With stiffness: n (30R + 200) more, and for each k/m at a new h
               r (16p (12s + 70) + 4r (s + 20)) + 3r^2 R + 200, sines counted as one,
               p = 1 + (h omega + s + s^2/32)/6.  Twice that where the extrapolated start leads
@@ -3066,7 +3067,7 @@ static gvi_status gvi__resolve(gvi__scene *x, gvi_desc *d, const gvi_desc *desc)
 }
 
 /* Extrapolation from two steps saves iterations up to nine points; with more of
-   them, and in float, it would amplify rounding too much.  gvi__fit, gvi__fit_long. */
+   them, and in float, it would amplify rounding too much.  gvi__fit. */
 static int gvi__fits_two(const gvi__scene *x)
 {
     const int iterates = x->chosen >= GVI_POSITIONS && x->chosen <= GVI_MOMENTA;
@@ -3076,12 +3077,24 @@ static int gvi__fits_two(const gvi__scene *x)
 // what E makes: of two steps, not of one; the sums of (3), not the row itself; for long steps
 enum { GVI__OF_TWO = 1, GVI__SUMS = 2, GVI__LONG = 4 };
 
-/* What gvi__learn, which chooses between the two kinds of E for two steps, does now.  */
+/* What gvi__learn, which chooses between the two kinds of E, does now.         */
 enum { GVI__MEASURES, GVI__TRIES, GVI__IDLES };
 #define GVI__LEARNS (!GVI__SMALL && GVI__BEYOND_FLOAT)
 
 // does E extrapolate from two steps now?
 static inline int gvi__two_now(const gvi_stepper *st) { return GVI__BEYOND_FLOAT && (st->x.E_is & GVI__OF_TWO); }
+
+// does the step after two of equal length have a choice of E?  Of two steps, or from ten points on of one
+static inline int gvi__fits_long(const gvi_stepper *st)
+{
+    const int one = st->r >= 10 && st->r <= 32 && !(GVI__STIFF && st->x.springs);
+    return GVI__LEARNS && (one || st->x.older_F);
+}
+
+static inline int gvi__learns(const gvi_stepper *st)
+{
+    return gvi__fits_long(st) && st->x.alike == 2 && !gvi__nonzero(st->x.ratio - 1);
+}
 
 /* Is Newton's matrix of s*n to be b = (s+1)/2 complex ones of n?  Where that is less
    work, in real multiplications for one factorisation and twelve solutions, about
@@ -4916,46 +4929,56 @@ static inline gvi_status gvi__ask_only(gvi_stepper *st, gvi_real zero, gvi_point
 }
 
 /* Beyond h omega = 1.5 or so polynomials foretell little.  E then is the best guess at a random
-   function whose values d steps apart are correlated like C(d) = 1/(1 + (0.4 d)^2), a spectrum
-   of exp(-2.5 h omega), and seen with errors of variance e = 64 EPS (Wiener 1949; kriging):
+   function whose values d steps apart are correlated like C(d) = 1/(1 + (a d)^2), a spectrum of
+   exp(-h omega/a), and seen with errors of variance e = 64 EPS (Wiener 1949; kriging):
 
-     E' = (C(x_i - x_j) + e I)^-1 C(x_i - y)     x = c and c - 1, y = 1 + c
+     E' = (C(x_i - x_j) + e I)^-1 C(x_i - y)     x and y from the middle of the nodes that are seen
 
+   of two steps a = 0.4, x = c and c - 1, y = 1 + c, of one a = 0.7, x = c - 1/2, y = c + 1/2.
    Where c is symmetric -x are the same nodes, and the system falls in two: sums of the weights
-   of c_j and -c_j have the matrix C(c_i - c_j) + C(c_i + c_j), differences that with a minus.  */
-static gvi_real gvi__correlation(gvi_real d) { return 1/(1 + (gvi_real)0.16*d*d); }
+   of x_j and -x_j have the matrix C(x_i - x_j) + C(x_i + x_j), differences that with a minus.  */
+static gvi_real gvi__correlation(int two, gvi_real d)
+{
+    return 1/(1 + (two ? (gvi_real)0.16 : (gvi_real)0.49)*d*d);
+}
 
-// z [r][R] := sums of the weights, sign = 1, or differences, -1; 0: c is not symmetric, or K is singular
-static int gvi__fit_half(gvi_stepper *st, gvi_real sign, gvi_real *z)
+// z [count][R] := sums of the weights, sign = 1, or differences, -1; 0: c is not symmetric, or K is singular
+static int gvi__fit_half(gvi_stepper *st, int count, gvi_real sign, gvi_real *z)
 {
     struct gvi__private *x = &st->x;
-    const int r = st->r, R = x->stride;
-    const gvi_real *c = x->c;
-    gvi_real *K = x->row;                         // r*r is no more than its 9R, as r < 10: gvi__fits_two
-    for (int i = 0; i < r; ++i) {
+    const int r = st->r, R = x->stride, two = gvi__two_now(st);
+    const gvi_real *c = x->c, middle = two ? 0 : (gvi_real)0.5;
+    gvi_real *K = x->row;                         // count^2 is no more than its 9R: gvi__fits_long
+    for (int i = 0; i < count; ++i) {
+        const gvi_real a = c[i] - middle;
         if (GVI_ABS((c[i] - 1) + c[r - 1 - i]) > 8*GVI__EPS) return 0;
-        for (int j = 0; j < r; ++j)
-            K[i*r + j] = gvi__correlation(c[i] - c[j]) + sign*gvi__correlation(c[i] + c[j]);
-        K[i*r + i] += 64*GVI__EPS;
-        for (int k = 0; k < r; ++k)
-            z[i*R + k] = gvi__correlation(1 + c[k] - c[i]) + sign*gvi__correlation(1 + c[k] + c[i]);
+        for (int j = 0; j < count; ++j) {
+            const gvi_real b = c[j] - middle;
+            K[i*count + j] = gvi__correlation(two, a - b) + sign*gvi__correlation(two, a + b);
+        }
+        K[i*count + i] += 64*GVI__EPS*(gvi_real)(1 + (!two && 2*i + 1 == r));    // the middle is its own mirror image
+        for (int k = 0; k < r; ++k) {
+            const gvi_real y = 1 - middle + c[k];
+            z[i*R + k] = gvi__correlation(two, y - a) + sign*gvi__correlation(two, y + a);
+        }
     }
-    const gvi_status status = gvi__ldl_factor(st, r, 1, 1, K);
-    gvi__ldl_solve(r, K, 1, z, R, r);
+    const gvi_status status = gvi__ldl_factor(st, count, 1, 1, K);
+    gvi__ldl_solve(count, K, 1, z, R, r);
     return status == GVI_OK;
 }
 
 static int gvi__fit_long(gvi_stepper *st)
 {
-    const int r = st->r, R = st->x.stride;
-    gvi_real *sum = st->x.E, *difference = sum + r*R;
-    gvi__zero((size_t)(2*r*R), sum);
-    if (!gvi__fit_half(st, 1, sum) || !gvi__fit_half(st, -1, difference)) return 0;
-    // weights of c_j and -c_j; the latter is node r-1-j of the step before
-    for (int j = 0; j < (r + 1)/2; ++j)
+    const int r = st->r, R = st->x.stride, two = gvi__two_now(st);
+    const int sums = two ? r : (r + 1)/2, pairs = two ? r : r/2;
+    gvi_real *sum = st->x.E, *difference = sum + sums*R;
+    gvi__zero((size_t)((sums + pairs)*R), sum);
+    if (!gvi__fit_half(st, sums, 1, sum) || !gvi__fit_half(st, pairs, -1, difference)) return 0;
+    // weights of x_j and -x_j; the latter is node r-1-j, of the step before if there are two
+    for (int j = 0; j < (pairs + 1)/2; ++j)
         for (int k = 0; k < r; ++k) {
             gvi_real *a = sum + k, *b = difference + k;
-            const int m = (r - 1 - j)*R, l = j*R;
+            const int m = (pairs - 1 - j)*R, l = j*R;
             const gvi_real near = a[l], far = b[l], other = a[m], rest = b[m];
             a[l] = (near + far)/2;
             a[m] = (other + rest)/2;
@@ -5122,22 +5145,26 @@ GVI__APART void gvi__extrapolate(gvi_stepper *st, const gvi_real *last, const gv
     else gvi__extrapolate_rows(st, n, r, R, two, arcs, last, older, y, out);
 }
 
-/* Which E is better for this motion and h?  Where eight steps take six rounds in the mean, the next
-   eight are made with the other, and the one with fewer rounds stays, for a thousand steps.  */
+/* Which E is better for this motion and h?  Where eight steps take six rounds in the mean, from ten points
+   on eight, the next eight are made with the other, and the one with fewer rounds stays, for a thousand.
+   At once where E led nowhere: GVI__LOST rounds.                              */
+enum { GVI__LOST = 3000 };
+
 static void gvi__learn(gvi_stepper *st, int used)
 {
     struct gvi__learned *y = &st->x.learned;
+    const int lost = used >= GVI__LOST, many = gvi__two_now(st) ? 48 : 64;
     if (gvi__counts(st)) return;
-    if (y->stage != GVI__IDLES) y->rounds = (short)(y->rounds + (used < 4000 ? used : 4000));
+    if (y->stage != GVI__IDLES) y->rounds = (short)(y->rounds + (lost ? GVI__LOST : used));
     y->steps = (short)(y->steps + 1);
-    if (y->steps < (y->stage == GVI__IDLES ? 1024 : 8)) return;
-    const int tries = y->stage == GVI__MEASURES && y->rounds >= 48;
+    if (!lost && y->steps < (y->stage == GVI__IDLES ? 1024 : 8)) return;
+    const int tries = y->stage != GVI__TRIES && (lost || (y->stage == GVI__MEASURES && y->rounds >= many));
     if (tries || (y->stage == GVI__TRIES && y->rounds >= y->before)) {
         y->lengthy = !y->lengthy;
         st->x.usual = 0;                              // E is to change
     }
+    y->before = lost ? 8*GVI__LOST : y->rounds;
     y->stage = (signed char)(tries ? GVI__TRIES : y->stage == GVI__IDLES ? GVI__MEASURES : GVI__IDLES);
-    y->before = y->rounds;
     y->rounds = y->steps = 0;
 }
 
@@ -5151,10 +5178,11 @@ GVI__APART void gvi__prepare_guess(gvi_stepper *st, gvi_real h, int query)
     struct gvi__private *x = &st->x;
     const gvi_real alpha = query != GVI__FROM_START, beta = h/st->h;
     const int step = !query && !gvi__by_newton(st);   // Newton's method wants V, of the last step alone
-    const int two = GVI__BEYOND_FLOAT && step && x->alike == 2 && x->older_F && !gvi__nonzero(beta - 1);
+    const int again = GVI__BEYOND_FLOAT && step && x->alike == 2 && !gvi__nonzero(beta - 1);
+    const int two = again && x->older_F;
     const int sums = step && gvi__uses(st, GVI_POSITIONS) && !gvi__mass_is(st, GVI_MASS_DENSE)
                      && !gvi__A(&x->work);
-    const int lengthy = GVI__LEARNS && two && x->learned.lengthy;
+    const int lengthy = again && gvi__fits_long(st) && x->learned.lengthy;
     const signed char is = (signed char)((two ? GVI__OF_TWO : 0) + (sums ? GVI__SUMS : 0)
                                          + (lengthy ? GVI__LONG : 0));
     if (!query && !gvi__nonzero(beta - x->ratio) && is == x->E_is) return;
@@ -5782,6 +5810,37 @@ static inline gvi__progress gvi__progress_of(const gvi_stepper *st, int numbers)
 
 #define GVI__FAR ((gvi_real)0.0625)                   // a change by a quarter, in squares
 
+// the next change is to be compared with this one, in new units if these were those of an overshoot
+static inline void gvi__advance(gvi_stepper *st, gvi__progress *p, gvi_real change)
+{
+    p->grows = p->before > 0 && change >= p->before/4;
+    if (change > GVI__FAR || p->grows) {
+        const gvi_real zero = change - change;       // no call of memset: what that stores has to wait
+        if (GVI__SMALL) gvi__zero(2*(size_t)st->n, st->x.scale);
+        else GVI__ROLLED for (int i = 0; i < 2*st->n; ++i) st->x.scale[i] = zero;
+    }
+    p->earlier = p->before;
+    p->before = change;
+}
+
+static inline void gvi__tally(gvi__progress *p, gvi_real change, gvi_real *least)
+{
+    p->poor = p->grows ? p->poor + 1 : 0;
+    p->idle = change < (gvi_real)0.81**least ? 0 : p->idle + 1;
+    if (change < *least) *least = change;
+}
+
+// of a change that did not fall as it should: the first and the second of these are no reason to look closer
+GVI__SELDOM int gvi__judge_poor(gvi_stepper *st, gvi__progress *p, gvi_real change)
+{
+    if (!gvi__finite(change) || p->poor > 1 || p->idle > 0) return GVI__LOOK;
+    gvi__watch(st, change, p->earlier);
+    gvi__advance(st, p, change);
+    gvi__tally(p, change, &p->least);
+    p->rests = 0;
+    return GVI__GO_ON;
+}
+
 /* Most verdicts: the next change is within the tolerance, or this one fell as it should.  Else gvi__judge
    has to look.                                                                */
 GVI__COPY int gvi__judge_most(gvi_stepper *st, gvi__progress *p, gvi_real change)
@@ -5789,12 +5848,15 @@ GVI__COPY int gvi__judge_most(gvi_stepper *st, gvi__progress *p, gvi_real change
     const gvi_real before = p->before, last = before > 0 ? before : change, known = last < 1 ? last : 1;
     const gvi_real quarter = before/4 < GVI__FAR ? before/4 : GVI__FAR, usual = before > 0 ? quarter : GVI__FAR;
     const int ends = change*change <= p->tolerance*known;
-    if (GVI__SMALL || !GVI__OFTEN(change < usual && !ends && !p->idle)) return ends ? GVI__DONE : GVI__LOOK;
-    gvi__watch(st, change, p->earlier);
-    p->earlier = before;
-    p->before = p->least = change;
-    p->poor = p->grows = p->rests = 0;
-    return GVI__GO_ON;
+    if (GVI__SMALL || ends) return ends ? GVI__DONE : GVI__LOOK;
+    if (GVI__OFTEN(change < usual && !p->idle)) {
+        gvi__watch(st, change, p->earlier);
+        p->earlier = before;
+        p->before = p->least = change;
+        p->poor = p->grows = p->rests = 0;
+        return GVI__GO_ON;
+    }
+    return gvi__judge_poor(st, p, change);
 }
 
 /* The verdict on a change D.  The iteration ends when the next change, D^2/D_before,
@@ -5810,7 +5872,7 @@ GVI__DEEP int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *
                          gvi_real change, int used)
 {
     struct gvi__private *x = &st->x;
-    const gvi_real rounding = p->rounding, before = p->before, far = GVI__FAR;
+    const gvi_real rounding = p->rounding, before = p->before;
     const int given = gvi__counts(st), some = gvi__seldom(st) != 0, moved = some && weak->anew;
     gvi_real *least = moved ? &weak->least : &p->least;
     if (some && gvi__settled(st, p, weak, change)) return GVI__DONE;
@@ -5821,14 +5883,9 @@ GVI__DEEP int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *
         return falls || change <= 65536*rounding ? GVI__DONE : GVI__BEYOND;
     }
     if (!moved) gvi__watch(st, change, p->earlier);
-    p->grows = before > 0 && change >= before/4;
-    if (change > far || p->grows) gvi__zero(2*(size_t)st->n, x->scale);       // units of an overshoot would hide all
-    p->earlier = before;
-    p->before = change;
+    gvi__advance(st, p, change);
     if (given) return GVI__GO_ON;
-    p->poor = p->grows ? p->poor + 1 : 0;
-    p->idle = change < (gvi_real)0.81**least ? 0 : p->idle + 1;
-    if (change < *least) *least = change;
+    gvi__tally(p, change, least);
     int ends = p->idle > 2 && change <= rounding, rests = 0;
     if (!ends && (p->idle > 1 || p->poor > 2)) {
         const gvi__worth worth = gvi__worth_of_change(st, from);
@@ -6583,7 +6640,8 @@ GVI__APART int gvi__newton_judge(gvi_stepper *st, const gvi__from *from, const g
 
     const gvi_real enough = wanted > 0 ? wanted : GVI__EPS/4096;
     if (change*ratio <= enough || p->left <= GVI__EPS/65536 || p->left <= enough) return GVI__DONE;
-    if (!rounding && before > 0 && ratio > (gvi_real)0.25) {
+    const int hidden = p->work < 0 && p->rho < (gvi_real)0.25;        // rounding, by a matrix that has contracted here
+    if (!rounding && !hidden && before > 0 && ratio > (gvi_real)0.25) {
         if (gvi__in_blocks(J) && p->fresh & 2 && ratio > (gvi_real)0.5) return GVI__BEYOND;
         p->have = 0;
     }
@@ -6901,7 +6959,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, gvi__from *from, gvi_real h, int
     // what a step of another length has learned of weak effects is not taken over
     if (GVI__WEAK && x->weak) gvi__answers(st)[1] = gvi__nonzero(h - st->h) ? 1 : *gvi__answers(st);
     const int usable = x->stepped && h/st->h > -2 && h/st->h < 8;   // farther out the last rows say nothing
-    int used = 0, rounds = 0;
+    int used = 0, lost = 0;
     gvi_status status = GVI_E_CONVERGENCE;
     if (!gvi__uses(st, GVI_NEWTON) && (!gvi__has(st, GVI__HAS_NEWTON) || x->newton_left == 0 || query)) {
         if (GVI__STIFF && x->springs && gvi__nonzero(h - x->springs[0])) {
@@ -6913,13 +6971,15 @@ static gvi_status gvi__attempt(gvi_stepper *st, gvi__from *from, gvi_real h, int
             status = gvi__fixed_point(st, from, h, !plain, &used);
             gvi__count(&st->counters.iterations, used);
             if (!query) st->iterations = used;
-            rounds += used;
             if (used > st->counters.most_iterations) st->counters.most_iterations = used;
-            // only a refusal at the extrapolated values themselves is worth a second try
-            if (status == GVI_OK || status == GVI_E_CONVERGENCE || used > 1) break;
+            // the extrapolation may be to blame.  Where rounds are given, or Newton's method comes next, only
+            // a refusal at its values themselves is worth a second try
+            const int anew = used <= 1 && status != GVI_E_CONVERGENCE;
+            if (status == GVI_OK || (!anew && (gvi__counts(st) || gvi__may_turn(st)))) break;
+            lost = 1;
         }
         if (status == GVI_OK) gvi__increments(st, from, h);
-        if (GVI__LEARNS && status == GVI_OK && usable && !query && gvi__two_now(st)) gvi__learn(st, rounds);
+        if (status == GVI_OK && usable && !query && gvi__learns(st)) gvi__learn(st, lost ? GVI__LOST : used);
         if (status == GVI_OK || !gvi__may_turn(st)) return status;
         if (!query && status == GVI_E_CONVERGENCE) x->newton_left = 64;
     }
@@ -6989,7 +7049,7 @@ static void gvi__rotate(gvi_real **older, gvi_real **last, gvi_real **work)
     *work = free;
 }
 
-static void gvi__rotate_rows(gvi_stepper *st)
+GVI__COPY void gvi__rotate_rows(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
     x->turns = x->turns < 5 ? (signed char)(x->turns + 1) : 0;
@@ -7097,25 +7157,64 @@ static signed char gvi__is_usual(const gvi_stepper *st)
         && gvi__is_plain(st) && x->newton_left == 0 && x->whole_left == 0;
 }
 
+#endif
+
+// of any kind
+GVI__SELDOM gvi_status gvi__any_step(gvi_stepper *st, gvi_real h)
+{
+    struct gvi__private *x = &st->x;
+    if (!x->started) return gvi__unready(st);
+    gvi__done(st, GVI_OK);
+    if (!gvi__nonzero(h) || !gvi__finite(h)) return st->status = GVI_E_ARGUMENT;
+
+    const gvi_formulation was = st->formulation;
+    const signed char left = x->newton_left, whole = x->whole_left;
+    gvi__from from = { st->t, x->te, x->q, x->qe, x->p, x->pe, x->H + x->He, NULL };
+    if (GVI__NEWTON && x->stepped && gvi__nonzero(h - st->h)) x->newton_left = x->whole_left = 0;
+    gvi_status status = gvi__uses(st, GVI_EXPLICIT) && !GVI__SMALL ? gvi__solve_explicit(st, &from, h)
+                                                                   : gvi__solve(st, &from, h, GVI__STEP, 0);
+    if (status == GVI_OK && !gvi__finite(st->t + x->dt)) status = gvi__give(st, GVI_E_ARGUMENT);
+    if (status != GVI_OK) {
+        gvi__count(&st->counters.failures, 1);
+        if (GVI__NEWTON) {
+            st->formulation = was;
+            x->newton_left = left;
+            x->whole_left = whole;
+            x->h_matrix = 0;
+        }
+        return st->status = status;
+    }
+    gvi__commit(st, h);
+#if GVI__PIECES
+    x->usual = gvi__is_usual(st);
+#endif
+    return gvi__done(st, GVI_OK);
+}
+
+#if GVI__PIECES
 // the fixed point; returns the number of iterations, or 0; how often the effect was asked: that, or once more
 GVI__COPY int gvi__usual_rounds(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi__stage *y,
-                                int R, int *asked)
+                                gvi_real *F, int R, int *asked)
 {
     struct gvi__private *x = &st->x;
     const int folded = gvi__folds(st);
     const gvi_effect *effect = x->desc.effects + x->single;
     gvi__progress p = gvi__progress_of(st, 2*R);
     gvi_points at;
-    gvi__rows_as_points(&at, st, &x->work, NULL);
-    if (effect->kind == GVI_POTENTIAL) at.v = NULL;
+    gvi__at(&at, st, x->t, y->rows);
+    if (effect->kind != GVI_POTENTIAL) at.v = x->work.V;
+    at.f = F;
+    at.dldv = NULL;
+    at.count = st->r;
+    at.stride = R;
     for (int used = 1; ; ++used) {
-        gvi__zero_rows(2, R, h - h, at.f);
+        gvi__zero_rows(2, R, h - h, F);
         if (!GVI__OFTEN(effect->points(&at, effect->user) == 0)) return 0;
         const gvi_real change = R == 8 ? gvi__stage_rows_8(st, y, 8, 2, folded)
                                        : gvi__stage_rows_16(st, y, 16, 2);
         const int more = used < x->desc.max_iterations;
         int verdict = gvi__judge_most(st, &p, change);
-        if (GVI__OFTEN(verdict == GVI__GO_ON && more)) continue;
+        if (GVI__OFTEN(verdict == GVI__GO_ON && more && p.idle + p.poor == 0)) continue;
         if (verdict == GVI__LOOK && gvi__finite(change)) verdict = gvi__judge(st, from, &p, NULL, change, used);
         gvi__gather(2, R, x->work.Q + R - 1, x->change);
         if (verdict == GVI__GO_ON && more) continue;
@@ -7123,7 +7222,7 @@ GVI__COPY int gvi__usual_rounds(gvi_stepper *st, const gvi__from *from, gvi_real
         gvi__watch_last(st, change);
         *asked = used + (verdict != GVI__DONE);
         if (verdict == GVI__DONE) return used;
-        gvi__zero_rows(2, R, h - h, at.f);
+        gvi__zero_rows(2, R, h - h, F);
         return effect->points(&at, effect->user) ? 0 : used;
     }
 }
@@ -7180,11 +7279,11 @@ GVI__COPY void gvi__extrapolate_two_16(const gvi_stepper *st, const gvi__stage *
 GVI__COPY int gvi__usual_of(gvi_stepper *st, gvi_real h, int R, int two, int *asked)
 {
     struct gvi__private *x = &st->x;
-    gvi_real path[2], rest[2];
+    gvi_real path[2], rest[2], *const Q = x->work.Q, *const F = x->work.F;    // just stored, each by itself: not in pairs
     gvi__two v[2];
     const gvi__from from = { st->t, x->te, x->q, x->qe, x->p, x->pe, 0, x->over ? x->v0 : x->p };
-    const gvi__stage y = { x->q, x->qe, path, rest, gvi__folds(st) ? x->folded : x->g, x->work.F,
-                           NULL, h, x->work.Q, x->scale, 1, NULL };
+    const gvi__stage y = { x->q, x->qe, path, rest, gvi__folds(st) ? x->folded : x->g, F,
+                           NULL, h, Q, x->scale, 1, NULL };
     x->dt = h;
     gvi__times(R, st->t, x->te, h, x->c, x->t);
     for (int i = 0; i < 2; ++i) {
@@ -7199,65 +7298,38 @@ GVI__COPY int gvi__usual_of(gvi_stepper *st, gvi_real h, int R, int two, int *as
         rest[i] = GVI__RESTS ? way.lo + h*v[i].lo : 0;
     }
     if (R == 16) gvi__extrapolate_two_16(st, &y);
-    else gvi__extrapolate_rows(st, 2, R, R, two, 0, x->last.F, x->older_F, &y, x->work.Q);
+    else gvi__extrapolate_rows(st, 2, R, R, two, 0, x->last.F, x->older_F, &y, Q);
     for (int i = 0; i < 2; ++i) x->scale[i] = gvi__scale_of(y.base[i], y.rows[i*R + R - 1]);
-    const int used = gvi__usual_rounds(st, &from, h, &y, R, asked);
+    const int used = gvi__usual_rounds(st, &from, h, &y, F, R, asked);
     return used > 0 && gvi__usual_end(st, v, h, R) ? used : 0;
 }
 
-// returns whether it was done
-static int gvi__usual_step(gvi_stepper *st, gvi_real h)
+GVI__SELDOM gvi_status gvi__usual_step(gvi_stepper *st, gvi_real h)
 {
     struct gvi__private *x = &st->x;
     int asked = 0;
     const int used = st->r == 8 ? gvi__usual_of(st, h, 8, GVI__BEYOND_FLOAT, &asked)
                                 : gvi__usual_of(st, h, 16, 0, &asked);
-    if (used == 0) return 0;
+    if (used == 0) return gvi__any_step(st, h);
     st->iterations = used;
     gvi__count(&st->counters.iterations, used);
     gvi__count(&st->counters.effect[x->single], asked*st->r);
     if (used > st->counters.most_iterations) st->counters.most_iterations = used;
-    if (GVI__LEARNS && gvi__two_now(st)) gvi__learn(st, used);
+    if (gvi__learns(st)) gvi__learn(st, used);
     gvi__move_time(st);
     gvi__rotate_rows(st);
     gvi__count(&st->counters.steps, 1);
-    return 1;
+    return gvi__done(st, GVI_OK);
 }
 #endif
 
 GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
 {
     if (!st) return GVI_E_ARGUMENT;
-    struct gvi__private *x = &st->x;
-    if (!x->started) return gvi__unready(st);
-    gvi__done(st, GVI_OK);
-    if (!gvi__nonzero(h) || !gvi__finite(h)) return st->status = GVI_E_ARGUMENT;
-
 #if GVI__PIECES
-    if (x->usual && !gvi__nonzero(h - st->h) && gvi__usual_step(st, h)) return GVI_OK;
+    if (st->x.usual && h >= st->h && h <= st->h) return gvi__usual_step(st, h);
 #endif
-    const gvi_formulation was = st->formulation;
-    const signed char left = x->newton_left, whole = x->whole_left;
-    gvi__from from = { st->t, x->te, x->q, x->qe, x->p, x->pe, x->H + x->He, NULL };
-    if (GVI__NEWTON && x->stepped && gvi__nonzero(h - st->h)) x->newton_left = x->whole_left = 0;
-    gvi_status status = gvi__uses(st, GVI_EXPLICIT) && !GVI__SMALL ? gvi__solve_explicit(st, &from, h)
-                                                                   : gvi__solve(st, &from, h, GVI__STEP, 0);
-    if (status == GVI_OK && !gvi__finite(st->t + x->dt)) status = gvi__give(st, GVI_E_ARGUMENT);
-    if (status != GVI_OK) {
-        gvi__count(&st->counters.failures, 1);
-        if (GVI__NEWTON) {
-            st->formulation = was;
-            x->newton_left = left;
-            x->whole_left = whole;
-            x->h_matrix = 0;
-        }
-        return st->status = status;
-    }
-    gvi__commit(st, h);
-#if GVI__PIECES
-    x->usual = gvi__is_usual(st);
-#endif
-    return gvi__done(st, GVI_OK);
+    return gvi__any_step(st, h);
 }
 
 /* ---- starting ---- */
