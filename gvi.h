@@ -101,7 +101,7 @@
                 explicit               r
                 pinned fixed point     3(m+2) r
                 fixed point, clock     2(m+2) r, and 1 for the clock
-                Newton, AUTO with it   2(m+2) r, then three attempts of (m+1) r, each with
+                Newton, AUTO with it   3(m+2) r, then three attempts of (m+1) r, each with
                                        m/4 + 2 Jacobians of (2n+1) r + n+1 points and
                                        one LU of size s n, or (s+1)/2 complex ones of n
               All of it once more when a value was not finite, to name the effect.
@@ -5862,7 +5862,8 @@ GVI__COPY int gvi__judge_most(gvi_stepper *st, gvi__progress *p, gvi_real change
 /* The verdict on a change D.  The iteration ends when the next change, D^2/D_before,
    is within the tolerance, or without one far below rounding; or when D is rounding:
    small, or without a new least by a tenth for some iterations, and of no energy.  Three
-   changes in a row that fall by less than half are poor; so is a descent to
+   changes in a row that fall by less than half are poor, five while they are as large
+   as the motion: terms of a cosine grow at first; so is a descent to
    rounding by factors of less than 4: such an iteration lets errors grow before
    they shrink, so that the rounding of the forces is left some tenfold, and more.
    All of it in squares of changes: no root or quotient between an iteration and
@@ -5900,7 +5901,8 @@ GVI__DEEP int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *
         weak->anew = 1;
         return GVI__GO_ON;
     }
-    if (p->poor <= 2 || change <= 65536*rounding) return GVI__GO_ON;       // nearer to rounding idle decides
+    // nearer to rounding idle decides
+    if (p->poor <= (change > GVI__FAR ? 4 : 2) || change <= 65536*rounding) return GVI__GO_ON;
     return gvi__may_turn(st) ? GVI__BEYOND : GVI__GO_ON;
 }
 
@@ -6972,10 +6974,9 @@ static gvi_status gvi__attempt(gvi_stepper *st, gvi__from *from, gvi_real h, int
             gvi__count(&st->counters.iterations, used);
             if (!query) st->iterations = used;
             if (used > st->counters.most_iterations) st->counters.most_iterations = used;
-            // the extrapolation may be to blame.  Where rounds are given, or Newton's method comes next, only
-            // a refusal at its values themselves is worth a second try
-            const int anew = used <= 1 && status != GVI_E_CONVERGENCE;
-            if (status == GVI_OK || (!anew && (gvi__counts(st) || gvi__may_turn(st)))) break;
+            // the extrapolation may be to blame.  Where rounds are given, only a refusal at its values
+            // themselves is worth a second try
+            if (status == GVI_OK || (gvi__counts(st) && (used > 1 || status == GVI_E_CONVERGENCE))) break;
             lost = 1;
         }
         if (status == GVI_OK) gvi__increments(st, from, h);
