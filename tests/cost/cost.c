@@ -5,8 +5,8 @@
      cost --list                      methods and settings
 
    Time: the smallest CPU time of at least five runs, from the first line of set-up to the last
-   step.  Error: max |q_i - reference| at the end.  Time to an error: where the curve of one
-   method and setting, over its steps or tolerances, first falls to it, by logarithms between
+   step.  Error: max |q_i - reference| at the end.  Time to an error: the least at which the curve
+   of one method and setting, over its steps or tolerances, falls to it, by logarithms between
    two points, if the next finer point confirms it (at most twice the error).  What comes within
    a quarter of the fastest is timed again, in turn: a machine's speed wanders within minutes.
    Energy: largest |E - E0|/|E0| at about 400 times, in a run of its own that is not timed.
@@ -115,7 +115,15 @@ static int surpassed(const study *y, const sample *s)
     return 0;
 }
 
-/* From coarse to fine until it takes too long or three settings bring nothing any more.       */
+/* Have so many finer steps in a row brought nothing that none will?  The tolerance is the floor then,
+   or rounding; steps too long for the motion bring nothing either, and more of them in a row.   */
+static int given_up(const job *j, double best, int vain)
+{
+    if (best < 1e-9) return vain >= 4;
+    return j->setting && j->setting->tolerance > 0 && vain >= (best < 1e-3 ? 4 : 12);
+}
+
+/* From coarse to fine until it takes too long or finer steps bring nothing any more.          */
 static void run_curve(const study *y, const sweep *w, curve *c)
 {
     const job *j = &c->job;
@@ -134,7 +142,7 @@ static void run_curve(const study *y, const sweep *w, curve *c)
         c->samples[c->count++] = s;
         vain = s.error < 0.7*best ? 0 : vain + 1;
         if (s.error < best) best = s.error;
-        if (vain >= 4 && (best < 1e-9 || (j->setting && j->setting->tolerance > 0))) return;
+        if (given_up(j, best, vain)) return;
     }
 }
 
@@ -145,16 +153,18 @@ static double between(const sample *a, const sample *b, double error)
     return a->ms*pow(b->ms/a->ms, share);
 }
 
-/* Time to an error, or infinity; *at: the sample that reaches it.                             */
+/* Least time to an error, or infinity; *at: the sample that reaches it.  The first to reach it need
+   not be the fastest: where steps are so long that many iterations are needed, shorter ones are.  */
 static double time_to(const curve *c, double error, const sample **at)
 {
+    double least = HUGE_VAL;
     for (int k = 0; k + 1 < c->count; ++k) {
         const sample *s = c->samples + k;
         if (!(s->error <= error && s[1].error <= 2*error)) continue;
-        *at = s;
-        return k > 0 && s[-1].error > error ? between(s - 1, s, error) : s->ms;
+        const double ms = k > 0 && s[-1].error > error ? fmin(s->ms, between(s - 1, s, error)) : s->ms;
+        if (ms < least) least = ms, *at = s;
     }
-    return HUGE_VAL;
+    return least;
 }
 
 /* ---------------------------------------------------------- one problem */
