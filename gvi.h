@@ -2256,11 +2256,10 @@ static gvi_status gvi__factor_at(gvi_stepper *st, gvi_points *x)
 static gvi_status gvi__mass_gradient(gvi_stepper *st, gvi_points *x)
 {
     const gvi_mass *mass = &st->x.desc.mass;
-    gvi_real *dldv = x->dldv, *value = x->value;
-    x->dldv = x->value = NULL;
+    gvi_real *dldv = x->dldv;
+    x->dldv = NULL;
     const int refused = mass->gradient(x, mass->user);
     x->dldv = dldv;
-    x->value = value;
     if (refused) return gvi__blame(st, GVI_E_CALLBACK, GVI_FAULT_MASS);
     return gvi__diagnoses(st) ? gvi__check_rows(st, x, x->f, GVI_FAULT_MASS) : GVI_OK;
 }
@@ -4768,8 +4767,10 @@ GVI__APART gvi_status gvi__legendre_rows(gvi_stepper *st, gvi_points *y)
 // the clock's g and dg/dq at the points
 static gvi_status gvi__rate(gvi_stepper *st, const gvi_points *x, gvi_real *rate, gvi_real *slope)
 {
-    gvi_points y = *x;
-    y.v = NULL;
+    gvi_points y;
+    gvi__at(&y, st, x->t, x->q);                  // a copy of x would have to wait for its stores
+    y.count = x->count;
+    y.stride = x->stride;
     y.f = slope;
     y.dldv = NULL;
     y.value = rate;
@@ -4843,8 +4844,8 @@ GVI__APART gvi_status gvi__ask_clock(gvi_stepper *st, const gvi__from *from, gvi
         for (int k = 0; k < st->r; ++k) power[k] += y->f[i*R + k]*y->v[i*R + k];
     gvi__zero((size_t)R, level);
     gvi__zero((size_t)R, x->less);
-    y->value = level;
     if (status == GVI_OK && gvi__mass_is(st, GVI_MASS_POSITION)) status = gvi__mass_gradient(st, y);
+    y->value = level;
     if (status == GVI_OK) status = gvi__effects(st, y, forces);
     y->value = NULL;
     if (status == GVI_OK) status = gvi__rate(st, y, x->rate, x->slope);
@@ -5267,7 +5268,7 @@ typedef gvi_real gvi__pair
 static inline gvi__two gvi__exact_sum_vector(int R, const gvi_real *a, const gvi_real *b)
 {
     gvi_real hi[8], lo[8];
-    for (int k = 0; k < 8; ++k) {
+    GVI__ROLLED for (int k = 0; k < 8; ++k) {
         const gvi__two term = gvi__product(a[k], b[k]);
         hi[k] = term.hi;
         lo[k] = term.lo;
@@ -5430,15 +5431,15 @@ GVI__COPY void gvi__sums_of_eight(int n, int R, const gvi_real *c, const gvi_rea
 GVI__APART void gvi__increments_by_eight(gvi_stepper *st, const gvi__from *from, int R, int momenta)
 {
     struct gvi__private *x = &st->x;
-    const int n = st->n;
+    const int n = st->n, all = gvi__all_of(st);
     const gvi_real *F = x->work.F, *V = x->work.V;
     gvi_real *lever = momenta ? NULL : x->dq;
     if (R == 8) gvi__sums_of_eight(n, 8, x->c, x->hb, F, x->dp, x->dpe, lever);
     else gvi__sums_of_eight(n, R, x->c, x->hb, F, x->dp, x->dpe, lever);
-    for (int i = 0; i < n; ++i) x->dpe[i] = gvi__rest(x->dpe[i] + from->pe[i]);
+    for (int i = 0; i < all; ++i) x->dpe[i] = gvi__rest(x->dpe[i] + from->pe[i]);
     if (!momenta) return;
     gvi__sums_of_eight(n, R, x->c, x->hb, V, x->dq, x->dqe, NULL);
-    for (int i = 0; i < n; ++i) x->dqe[i] = gvi__rest(x->dqe[i] + from->qe[i]);
+    for (int i = 0; i < all; ++i) x->dqe[i] = gvi__rest(x->dqe[i] + from->qe[i]);
 }
 #endif
 
@@ -5637,7 +5638,7 @@ GVI__FITTED void gvi__increments_of(gvi_stepper *st, const gvi__from *from, gvi_
     if (GVI__STIFF && stiffness) gvi__add_paths(st, from, h, stiffness);
     else {
         gvi__over_mass(st, x->dq, 1, 1);
-        gvi__add_path(n, h, from->v, gvi__ve(st, from), from->qe, x->dq, x->dqe);
+        gvi__add_path(gvi__all_of(st), h, from->v, gvi__ve(st, from), from->qe, x->dq, x->dqe);
     }
 }
 
