@@ -5268,7 +5268,7 @@ typedef gvi_real gvi__pair
 static inline gvi__two gvi__exact_sum_vector(int R, const gvi_real *a, const gvi_real *b)
 {
     gvi_real hi[8], lo[8];
-    GVI__ROLLED for (int k = 0; k < 8; ++k) {
+    GVI__ROLLED for (int k = 0; k < 8; ++k) {         // unrolled, gcc would store them one by one
         const gvi__two term = gvi__product(a[k], b[k]);
         hi[k] = term.hi;
         lo[k] = term.lo;
@@ -5431,15 +5431,15 @@ GVI__COPY void gvi__sums_of_eight(int n, int R, const gvi_real *c, const gvi_rea
 GVI__APART void gvi__increments_by_eight(gvi_stepper *st, const gvi__from *from, int R, int momenta)
 {
     struct gvi__private *x = &st->x;
-    const int n = st->n, all = gvi__all_of(st);
+    const int n = st->n;
     const gvi_real *F = x->work.F, *V = x->work.V;
     gvi_real *lever = momenta ? NULL : x->dq;
     if (R == 8) gvi__sums_of_eight(n, 8, x->c, x->hb, F, x->dp, x->dpe, lever);
     else gvi__sums_of_eight(n, R, x->c, x->hb, F, x->dp, x->dpe, lever);
-    for (int i = 0; i < all; ++i) x->dpe[i] = gvi__rest(x->dpe[i] + from->pe[i]);
+    for (int i = 0; i < n; ++i) x->dpe[i] = gvi__rest(x->dpe[i] + from->pe[i]);
     if (!momenta) return;
     gvi__sums_of_eight(n, R, x->c, x->hb, V, x->dq, x->dqe, NULL);
-    for (int i = 0; i < all; ++i) x->dqe[i] = gvi__rest(x->dqe[i] + from->qe[i]);
+    for (int i = 0; i < n; ++i) x->dqe[i] = gvi__rest(x->dqe[i] + from->qe[i]);
 }
 #endif
 
@@ -5638,7 +5638,7 @@ GVI__FITTED void gvi__increments_of(gvi_stepper *st, const gvi__from *from, gvi_
     if (GVI__STIFF && stiffness) gvi__add_paths(st, from, h, stiffness);
     else {
         gvi__over_mass(st, x->dq, 1, 1);
-        gvi__add_path(gvi__all_of(st), h, from->v, gvi__ve(st, from), from->qe, x->dq, x->dqe);
+        gvi__add_path(n, h, from->v, gvi__ve(st, from), from->qe, x->dq, x->dqe);
     }
 }
 

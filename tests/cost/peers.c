@@ -231,16 +231,18 @@ static void run_curve(const peer *m, int quick, curve *c)
     }
 }
 
-/* As in cost.c: the first crossing that the next finer tolerance confirms.                    */
+/* As in cost.c: the least of the crossings that the next finer tolerance confirms.            */
 static double time_to(const curve *c, double error)
 {
+    double least = HUGE_VAL;
     for (int k = 0; k + 1 < c->count; ++k) {
         const sample *s = c->samples + k, *a = s - 1;
         if (!(s->error <= error && s[1].error <= 2*error)) continue;
-        if (k == 0 || a->error <= error) return s->ms;
-        return a->ms*pow(s->ms/a->ms, log(a->error/error)/log(a->error/s->error));
+        least = fmin(least, s->ms);
+        if (k > 0 && a->error > error)
+            least = fmin(least, a->ms*pow(s->ms/a->ms, log(a->error/error)/log(a->error/s->error)));
     }
-    return HUGE_VAL;
+    return least;
 }
 
 /* ----------------------------------------------------------------- output */
