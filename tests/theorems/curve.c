@@ -130,5 +130,5 @@ int main(int argc, char **argv)
     draw_convergence(folder, &problems[1]);
     draw_inside(folder, &problems[1], 0.25L);
     printf("\n%d of %d cells not within %.2f\n", misses, cells, WITHIN);
-    return 0;
+    return LDBL_MANT_DIG >= 64 && misses > 0;                 /* fewer bits: rounding, not order */
 }

@@ -25,7 +25,8 @@ static grid_cell cell_of(const problem *pb, int row, int s)
 {
     own_rule own = newton_cotes(s < 3 ? 3 : s);
     int r = row == 1 || row == 3 ? s + 1 : s, u = row < 2 ? 2*r : row < 4 ? 2*r - 2 : own.u;
-    method m = { s, { row < 2 ? GVI_GAUSS : row < 4 ? GVI_LOBATTO : GVI_OWN, r, own.c, own.b } };
+    method m = { s, { row < 2 ? GVI_GAUSS : row < 4 ? GVI_LOBATTO : GVI_OWN, r, row < 4 ? NULL : own.c,
+                     row < 4 ? NULL : own.b } };
     if (row >= 2 && r < (row == 4 ? 3 : 2)) return (grid_cell){ NAN, 0 };
     int expected = order_expected(s, u) + 1;
     grid_cell cell = { (double)slope(lagrangian_error, pb, &m, expected, MOST), expected };
@@ -93,5 +94,5 @@ int main(int argc, char **argv)
     draw_errors(folder, &problems[1]);
     compare_with_degree_24();
     printf("\n%d of %d cells not within %.2f\n", misses, cells, WITHIN);
-    return 0;
+    return LDBL_MANT_DIG >= 113 && misses > 1;                /* one is rounding: docs/theorems.md */
 }

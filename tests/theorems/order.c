@@ -102,5 +102,5 @@ int main(int argc, char **argv)
     standard_rules(folder);
     weak_rules(folder);
     printf("\n%d of %d cells not within %.1f\n", misses, cells, WITHIN);
-    return 0;
+    return LDBL_MANT_DIG >= 113 && misses > 0;                /* fewer bits: rounding, not order */
 }
