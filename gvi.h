@@ -1064,13 +1064,13 @@ GVI__COPY gvi__two gvi__product(gvi_real a, gvi_real b)          // a*b exactly
 #define GVI__CUT ((gvi_real)(1ULL << (GVI__DIG + 1)/2) + 1)
 
 // x = hi + lo, half of the digits each: their products are exact
-static gvi__two gvi__split(gvi_real x)
+static inline gvi__two gvi__split(gvi_real x)
 {
     gvi__stored a = x, s = GVI__CUT*a, d = s - a, hi = s - d, lo = a - hi;
     return gvi__two_of(hi, lo);
 }
 
-static gvi__two gvi__product(gvi_real a, gvi_real b)      // a*b exactly
+static inline gvi__two gvi__product(gvi_real a, gvi_real b)      // a*b exactly
 {
     const gvi__two x = gvi__split(a), y = gvi__split(b);
     const gvi__stored hi = a*b;
@@ -3779,6 +3779,29 @@ GVI__COPY void gvi__sum_vector(int r, int R, const gvi_real *table, const gvi_re
     if (j + 2 < r) c += GVI__AT(table + (j + 2)*R)*L[j + 2];
     *z = (a + b) + (c + d);
 }
+
+/* The same for up to four vectors beside each other, where registers are few: L_j is loaded once for all,
+   and no sum waits in a register for longer than it has to.                   */
+GVI__COPY void gvi__sums_in_turn(int r, int R, int vectors, const gvi_real *table, const gvi_real *L, gvi__vector *z)
+{
+    gvi__vector sum[4][4];
+    GVI__EACH for (int m = 0; m < 4; ++m) {
+        GVI__EACH for (int v = 0; v < vectors; ++v) sum[m][v] = GVI__AT(table + m*R + v*GVI__LANES)*L[m];
+        for (int j = m + 4; j < r; j += 4)
+            GVI__EACH for (int v = 0; v < vectors; ++v)
+                sum[m][v] += GVI__AT(table + j*R + v*GVI__LANES)*L[j];
+        if (m & 1) GVI__EACH for (int v = 0; v < vectors; ++v) sum[m - 1][v] += sum[m][v];
+    }
+    GVI__EACH for (int v = 0; v < vectors; ++v) z[v] = sum[0][v] + sum[2][v];
+}
+
+// the same for `vectors` of them
+GVI__COPY void gvi__sum_vectors(int r, int R, int vectors, const gvi_real *table, const gvi_real *L, gvi__vector *z)
+{
+    if (GVI__LANES == 8) GVI__EACH for (int v = 0; v < vectors; ++v) gvi__sum_vector(r, R, table + v*8, L, z + v);
+    else GVI__EACH for (int v = 0; v < vectors; v += 4)
+        gvi__sums_in_turn(r, R, vectors - v < 4 ? vectors - v : 4, table + v*GVI__LANES, L, z + v);
+}
 #endif
 
 // the same for `block` points, by loops, any r
@@ -3970,8 +3993,9 @@ GVI__COPY void gvi__replace(gvi_real base, int last, const gvi__vector *next, gv
                             gvi__vector *squares)
 {
     if (last < 8) gvi__rescale(base, row[last], next[last/GVI__LANES][last % GVI__LANES], scale);
+    const gvi_real unit = *scale;                     // what is stored below might be there, for all gcc knows
     GVI__EACH for (int v = 0; v < 8/GVI__LANES; ++v) {
-        const gvi__vector moved = (next[v] - GVI__AT(row + v*GVI__LANES))**scale;
+        const gvi__vector moved = (next[v] - GVI__AT(row + v*GVI__LANES))*unit;
         squares[v] += moved*moved;
         *(gvi__vector *)(row + v*GVI__LANES) = next[v];
     }
@@ -4066,16 +4090,16 @@ GVI__COPY const gvi_real *gvi__keep(int r, const gvi_real *table, gvi__vector *k
     return (const gvi_real *)kept;
 }
 
-/* The same for five to eight points and no Lagrangian terms.                   */
-GVI__COPY gvi_real gvi__stage_rows_8(const gvi_stepper *st, const gvi__stage *y, int r, int n, int folded)
+// gvi__stage_rows_8, with what is NULL of path and diagonal known; y: nothing that is stored may be in it
+GVI__COPY gvi_real gvi__rows_of_8(const gvi_stepper *st, const gvi__stage *y, const gvi_real *diagonal,
+                                  int r, int n, int folded)
 {
     enum { VECTORS = 8/GVI__LANES };
     const struct gvi__private *x = &st->x;
-    const gvi__stage own = *y;                        // what is stored below might be in y, for all gcc knows
-    const gvi_real *diagonal = gvi__diagonal(st, y), *f = own.f;
+    const gvi_real *f = y->f;
     gvi_real ahead[64];
     gvi__vector kept[8], c[VECTORS], hb[VECTORS], squares[VECTORS] = { { 0 } };
-    const gvi_real *table = gvi__keep(r, own.table, kept);
+    const gvi_real *table = gvi__keep(r, y->table, kept);
     GVI__EACH for (int k = 0; k < VECTORS; ++k) {
         c[k] = GVI__AT(x->c + k*GVI__LANES);
         hb[k] = GVI__AT(x->hb + k*GVI__LANES);
@@ -4084,14 +4108,26 @@ GVI__COPY gvi_real gvi__stage_rows_8(const gvi_stepper *st, const gvi__stage *y,
         if (i % 8 == 0 && !folded)
             for (int o = 0; o < 64 && o < 8*(n - i); o += GVI__LANES, f += GVI__LANES)
                 *(gvi__vector *)(ahead + o) = hb[o/GVI__LANES % VECTORS]*GVI__AT(f);
-        const gvi_real *L = folded ? own.f + 8*i : ahead + i % 8*8;
-        const gvi__affine p = gvi__affine_of(&own, diagonal, i);
+        const gvi_real *L = folded ? y->f + 8*i : ahead + i % 8*8;
+        const gvi__affine p = gvi__affine_of(y, diagonal, i);
         gvi__vector next[VECTORS];
-        GVI__EACH for (int k = 0; k < VECTORS; ++k) gvi__sum_vector(r, 8, table + k*GVI__LANES, L, next + k);
+        gvi__sum_vectors(r, 8, VECTORS, table, L, next);
         gvi__affine_vectors(&p, diagonal, VECTORS, c, next);
-        gvi__replace(p.base, r - 1, next, own.rows + 8*i, own.scale + i, squares);
+        gvi__replace(p.base, r - 1, next, y->rows + 8*i, y->scale + i, squares);
     }
     return gvi__sum_squares(squares);
+}
+
+/* The same for five to eight points and no Lagrangian terms.                   */
+GVI__COPY gvi_real gvi__stage_rows_8(const gvi_stepper *st, const gvi__stage *y, int r, int n, int folded)
+{
+    gvi__stage own = *y;                              // what is stored might be in y, for all gcc knows
+    const gvi_real *diagonal = gvi__diagonal(st, y);
+    if (diagonal) return gvi__rows_of_8(st, &own, diagonal, r, n, folded);
+    if (own.path) return gvi__rows_of_8(st, &own, NULL, r, n, folded);
+    own.path = NULL;                                  // momenta
+    own.factor = 1;
+    return gvi__rows_of_8(st, &own, NULL, r, n, folded);
 }
 #endif
 
@@ -4141,29 +4177,24 @@ GVI__COPY void gvi__put_16(const gvi_stepper *st, const gvi__stage *y, int r, in
     gvi__replace(p.base, r - 1, next, row, y->scale + i, squares);
 }
 
-/* The same for nine to sixteen points, two rows at a time; of an odd number the last alone, twice. */
+/* The same for nine to sixteen points.  h b F of two rows is made ahead of their sums, which would have to wait
+   for it; where registers suffice both sums are made at once, of an odd number the last alone, twice.  */
 GVI__COPY gvi_real gvi__stage_rows_16(const gvi_stepper *st, const gvi__stage *y, int r, int n)
 {
-    enum { MOST = 16/GVI__LANES, AT_ONCE = GVI__LANES == 8 ? 2 : 1 };
+    enum { MOST = 16/GVI__LANES };
     const gvi_real *diagonal = gvi__diagonal(st, y), *weights = gvi__stage_weights(st);
     gvi_real ahead[32];
-    gvi__vector squares[MOST/2] = { { 0 } };
+    gvi__vector next[MOST], other[MOST], squares[MOST/2] = { { 0 } };
     for (int i = 0; i < n; i += 2) {
         const int also = i + 1 < n ? i + 1 : i;
-        const gvi_real *L = y->f + 16*i, *M = y->f + 16*also;
-        for (int o = 0; weights && o < 16; o += GVI__LANES) {
-            *(gvi__vector *)(ahead + o) = GVI__AT(weights + o)*GVI__AT(L + o);
-            *(gvi__vector *)(ahead + 16 + o) = GVI__AT(weights + o)*GVI__AT(M + o);
+        const gvi_real *f = y->f + 16*i, *L = weights ? ahead : f;
+        for (int o = 0; weights && o < 16*(also - i + 1); o += GVI__LANES)
+            *(gvi__vector *)(ahead + o) = GVI__AT(weights + o % 16)*GVI__AT(f + o);
+        if (GVI__KEPT) gvi__sum_two(r, 16, MOST, y->table, L, L + 16*(also - i), next, other);
+        for (int k = i; k <= also; ++k, L += 16) {
+            if (!GVI__KEPT) gvi__sum_vectors(r, 16, MOST, y->table, L, next);
+            gvi__put_16(st, y, r, k, diagonal, GVI__KEPT && k > i ? other : next, squares);
         }
-        if (weights) {
-            L = ahead;
-            M = ahead + 16;
-        }
-        gvi__vector next[MOST], other[MOST];
-        GVI__EACH for (int v = 0; v < MOST; v += AT_ONCE)
-            gvi__sum_two(r, 16, AT_ONCE, y->table + v*GVI__LANES, L, M, next + v, other + v);
-        gvi__put_16(st, y, r, i, diagonal, next, squares);
-        if (also > i) gvi__put_16(st, y, r, also, diagonal, other, squares);
     }
     return gvi__sum_squares(squares);
 }
@@ -4487,7 +4518,7 @@ GVI__COPY gvi_real gvi__arc_rows_vector(const gvi_stepper *st, const gvi__stage 
     enum { MOST = 16/GVI__LANES, EIGHT = 8/GVI__LANES };
     const struct gvi__private *x = &st->x;
     const gvi_real *diagonal = gvi__diagonal(st, y), *stiffness = gvi__stiffness(st);
-    const int n = st->n, vectors = R/GVI__LANES, few = 64/R;
+    const int n = st->n, vectors = R/GVI__LANES, few = 64/R, apart = R == 16 && !GVI__KEPT;
     const gvi__stage own = *y;
     const gvi_real *at = gvi__free_rows(st) + velocities*n*R;
     gvi_real *row = own.rows, ahead[64];
@@ -4499,20 +4530,23 @@ GVI__COPY gvi_real gvi__arc_rows_vector(const gvi_stepper *st, const gvi__stage 
     }
     for (int i = 0; i < n; ++i, row += R, at += R) {
         if (i % few == 0) gvi__remainders_ahead(st, y, stiffness, i, few, R, hb, ahead, velocities);
-        const gvi_real *L = ahead + i % few*R;
+        const gvi_real *L = ahead + i % few*R, *K = table;
+        const int stiff = gvi__nonzero(stiffness[i]);
         gvi__vector next[MOST];
-        if (gvi__nonzero(stiffness[i])) {
+        if (stiff) {
             const gvi__arc arc = gvi__arc_of(st, (int)stiffness[n + i]);
-            const gvi_real *K = velocities ? arc.E : arc.K;
+            K = velocities ? arc.E : arc.K;
+        }
+        if (apart || stiff) gvi__sum_vectors(r, R, vectors, K, L, next);
+        if (stiff) {
             GVI__EACH for (int v = 0; v < vectors; ++v) {
-                gvi__sum_vector(r, R, K + v*GVI__LANES, L, next + v);
                 if (diagonal) next[v] *= diagonal[i];
                 next[v] = GVI__AT(at + v*GVI__LANES) + next[v];
             }
         } else {
             const gvi__affine p = { own.base[i], own.extra[i], velocities ? 0 : own.rest[i],
                                     velocities ? 0 : own.path[i], own.factor, diagonal ? diagonal[i] : 1 };
-            GVI__EACH for (int v = 0; v < vectors; ++v) gvi__sum_vector(r, R, table + v*GVI__LANES, L, next + v);
+            if (!apart) gvi__sum_vectors(r, R, vectors, table, L, next);
             gvi__affine_vectors(&p, diagonal, vectors, c, next);
         }
         if (R == 16) gvi__replace(own.base[i], r - 9, next + EIGHT, row + 8, own.scale + i, squares);
@@ -4575,7 +4609,7 @@ GVI__ROWS(gvi__rows_8, gvi__stage_rows_8(st, y, 8, st->n, 0))
 GVI__ROWS(gvi__rows_8_folded, gvi__stage_rows_8(st, y, 8, st->n, 1))
 GVI__ROWS(gvi__rows_5_to_8, gvi__stage_rows_8(st, y, st->r, st->n, gvi__folds(st)))
 GVI__ROWS(gvi__rows_8_less, gvi__stage_rows_of(st, y, 8, 8))
-GVI__ROWS(gvi__rows_16, GVI__KEPT ? gvi__stage_rows_16(st, y, 16, st->n) : gvi__stage_rows_of(st, y, 16, 16))
+GVI__ROWS(gvi__rows_16, gvi__stage_rows_16(st, y, 16, st->n))
 GVI__ROWS(gvi__rows_9_to_15, gvi__stage_rows_16(st, y, st->r, st->n))
 GVI__ROWS(gvi__rows_16_less, gvi__stage_rows_of(st, y, st->r, 16))
 GVI__ROWS(gvi__arc_rows_8, gvi__arc_rows_vector(st, y, 8, 8, 0))
@@ -5093,6 +5127,7 @@ GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int n, int r, int R,
 {
     const struct gvi__private *x = &st->x;
 #ifdef GVI__VECTORS
+    enum { VECTORS = GVI__SMALL ? 1 : 8/GVI__LANES };           // at once
     gvi__vector kept[2][8];
     const gvi_real *E = R == 8 ? gvi__keep(r, x->E, kept[0]) : x->E, *older_E = x->E + r*R;
     if (R == 8 && two) older_E = gvi__keep(r, older_E, kept[1]);
@@ -5108,15 +5143,19 @@ GVI__COPY void gvi__extrapolate_rows(const gvi_stepper *st, int n, int r, int R,
 #ifdef GVI__VECTORS
         gvi__affine p = { 0, 0, 0, 0, 1, 1 };
         if (y) p = gvi__affine_of(y, gvi__diagonal(st, y), i);
-        for (int o = 0; R % 8 == 0 && o < R; o += GVI__LANES) {
-            gvi__vector z, before;
-            gvi__sum_vector(r, R, E + o, last, &z);
+        for (int o = 0; R % 8 == 0 && o < R; o += VECTORS*GVI__LANES) {
+            gvi__vector z[VECTORS];
+            gvi__sum_vectors(r, R, VECTORS, E + o, last, z);
             if (two) {
-                gvi__sum_vector(r, R, older_E + o, older + i*R, &before);
-                z += before;
+                gvi__vector before[VECTORS];
+                gvi__sum_vectors(r, R, VECTORS, older_E + o, older + i*R, before);
+                GVI__EACH for (int v = 0; v < VECTORS; ++v) z[v] += before[v];
             }
-            if (y) z = p.base + (((p.extra + GVI__AT(x->c + o)*p.rest) + GVI__AT(x->c + o)*p.a) + z*p.m*p.b);
-            *(gvi__vector *)(row + o) = z;
+            GVI__EACH for (int v = 0; v < VECTORS; ++v) {
+                const gvi__vector c = GVI__AT(x->c + o + v*GVI__LANES);
+                if (y) z[v] = p.base + (((p.extra + c*p.rest) + c*p.a) + z[v]*p.m*p.b);
+                *(gvi__vector *)(row + o + v*GVI__LANES) = z[v];
+            }
         }
         if (R % 8 == 0) continue;
 #endif
@@ -7212,7 +7251,7 @@ GVI__COPY int gvi__usual_rounds(gvi_stepper *st, const gvi__from *from, gvi_real
     for (int used = 1; ; ++used) {
         gvi__zero_rows(2, R, h - h, F);
         if (!GVI__OFTEN(effect->points(&at, effect->user) == 0)) return 0;
-        const gvi_real change = R == 8 ? gvi__stage_rows_8(st, y, 8, 2, folded)
+        const gvi_real change = R == 8 ? gvi__rows_of_8(st, y, gvi__diagonal(st, y), 8, 2, folded)
                                        : gvi__stage_rows_16(st, y, 16, 2);
         const int more = used < x->desc.max_iterations;
         int verdict = gvi__judge_most(st, &p, change);
@@ -7266,12 +7305,12 @@ GVI__COPY int gvi__usual_end(gvi_stepper *st, const gvi__two *v, gvi_real h, int
 // gvi__extrapolate_rows of one step, two rows of sixteen points at a time
 GVI__COPY void gvi__extrapolate_two_16(const gvi_stepper *st, const gvi__stage *y)
 {
-    enum { MOST = 16/GVI__LANES, AT_ONCE = GVI__LANES == 8 ? 2 : 1 };
+    enum { MOST = 16/GVI__LANES };
     const gvi_real *last = st->x.last.F, *diagonal = gvi__diagonal(st, y);
     gvi__vector next[2][MOST];
-    GVI__EACH for (int v = 0; v < MOST; v += AT_ONCE)
-        gvi__sum_two(16, 16, AT_ONCE, st->x.E + v*GVI__LANES, last, last + 16, next[0] + v, next[1] + v);
+    if (GVI__KEPT) gvi__sum_two(16, 16, MOST, st->x.E, last, last + 16, next[0], next[1]);
     for (int i = 0; i < 2; ++i) {
+        if (!GVI__KEPT) gvi__sum_vectors(16, 16, MOST, st->x.E, last + 16*i, next[i]);
         const gvi__affine p = gvi__affine_of(y, diagonal, i);
         gvi__affine_vectors(&p, diagonal, MOST, &GVI__AT(st->x.c), next[i]);
         GVI__EACH for (int v = 0; v < MOST; ++v) *(gvi__vector *)(y->rows + 16*i + v*GVI__LANES) = next[i][v];
