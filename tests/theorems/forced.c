@@ -22,8 +22,7 @@ static grid_cell cell_of(const problem *pb, int row, int s)
 {
     own_rule own = row == 4 ? radau(s) : newton_cotes(s < 3 ? 3 : s);
     int r = row == 1 ? s + 2 : row == 3 ? s + 1 : s, u = row < 2 ? 2*r : row < 4 ? 2*r - 2 : own.u;
-    method m = { s, { row < 2 ? GVI_GAUSS : row < 4 ? GVI_LOBATTO : GVI_OWN, r, row < 4 ? NULL : own.c,
-                     row < 4 ? NULL : own.b } };
+    method m = { s, rule_or_own(row < 2 ? GVI_GAUSS : row < 4 ? GVI_LOBATTO : GVI_OWN, r, &own) };
     if ((row == 2 && s < 2) || (row == 5 && s < 3)) return (grid_cell){ NAN, 0 };
     int expected = order_expected(s, u), most = expected%2 ? 1600 : 64;            /* as in order.c */
     grid_cell cell = { (double)slope(end_error, pb, &m, expected, most), expected };

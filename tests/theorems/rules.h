@@ -9,6 +9,13 @@ enum { MAX_R = 12 };
 
 typedef struct own_rule { const char *name; int r, u; real c[MAX_R], b[MAX_R]; } own_rule;
 
+/* The library's rule of r points, or own nodes: these are refused beside one of the library's          */
+static MAYBE gvi_rule rule_or_own(gvi_rule_kind kind, int r, const own_rule *own)
+{
+    int is_own = kind == GVI_OWN;
+    return (gvi_rule){ kind, r, is_own ? own->c : NULL, is_own ? own->b : NULL };
+}
+
 /* What a rule of order u makes of degree s: theorem 4.1, and below u = 2s - 2 what
    docs/theory.md says; 0: refused                                            */
 static MAYBE int order_expected(int s, int u)
