@@ -3592,6 +3592,36 @@ GVI__COPY void gvi__drift_of(int n, int todo, gvi__drifting by, gvi_real zero, c
     }
 }
 
+#if GVI__WIDE
+// gvi__drift_of in whole vectors, for a mass that is a number for each: with -O2 gcc makes none of loops of any length
+GVI__COPY void gvi__drift_vectors(int n, int todo, gvi__drifting by, gvi_real zero, const gvi_real *m,
+                                  const gvi__from *from, const gvi_real *known, gvi_real *F, gvi_real *dp,
+                                  gvi_real *dq, gvi_real *Q)
+{
+    const gvi_real *pe = todo & GVI__ROUNDED ? from->p : from->pe, *v = from->v, *q = from->q, *qe = from->qe;
+    const int start = todo & GVI__START, last = todo & GVI__BEFORE_LAST;
+    const gvi_real over = start ? 1/by.weight : 0, push = by.time*by.weight;
+    gvi__vector none = { 0 };
+    none += zero;
+    GVI__BY_FOUR for (int i = 0; i < n; i += GVI__LANES) {
+        gvi__vector f = GVI__AT((start ? pe : F) + i);
+        if (start) f = over*f;
+        if (todo & GVI__KNOWN) f += GVI__AT(known + i);
+        gvi__vector u = f, next = by.ratio*(by.factor*f);
+        if (m) u = f*GVI__AT(m + i);
+        if (todo & GVI__ROUNDED) *(gvi__vector *)(Q + i) = GVI__AT((start ? q : Q) + i) + push*u;
+        else {
+            const gvi__vector way = GVI__AT((start ? qe : dq) + i) + by.time*GVI__AT(v + i);
+            *(gvi__vector *)(dq + i) = u = way + by.time*(by.weight*u);
+            *(gvi__vector *)(Q + i) = GVI__AT(q + i) + u;
+        }
+        if (last) *(gvi__vector *)(dp + i) = by.weight*f;
+        if (todo & GVI__ROUNDED) next = by.ratio*f;
+        *(gvi__vector *)(F + i) = last ? none : next;
+    }
+}
+#endif
+
 // M is full: M^-1 of what F is, or will be at the start of a step
 static const gvi_real *gvi__over_dense(gvi_stepper *st, const gvi__kicks *x, int j, int start)
 {
@@ -3606,6 +3636,11 @@ static const gvi_real *gvi__over_dense(gvi_stepper *st, const gvi__kicks *x, int
 GVI__COPY void gvi__drift_as(int n, int todo, const gvi__kicks *x, int j)
 {
     const gvi__drifting by = gvi__drifting_of(x->drift + j, x->row);
+#if GVI__WIDE
+    if (n >= 8 && x->m) gvi__drift_vectors(n, todo, by, x->zero, x->m, x->from, x->known, x->F, x->dp, x->dq, x->Q);
+    else if (n >= 8) gvi__drift_vectors(n, todo, by, x->zero, NULL, x->from, x->known, x->F, x->dp, x->dq, x->Q);
+    if (n >= 8) return;
+#endif
     if (x->m) gvi__drift_of(n, todo, by, x->zero, x->m, NULL, x->from, x->known, x->F, x->dp, x->dq, x->Q);
     else gvi__drift_of(n, todo, by, x->zero, NULL, NULL, x->from, x->known, x->F, x->dp, x->dq, x->Q);
 }
@@ -3661,12 +3696,40 @@ GVI__COPY int gvi__last_rounded(int n, gvi_real b, gvi_real a, const gvi_real *m
     return !none;
 }
 
+#if GVI__WIDE
+// the same in whole vectors
+GVI__COPY int gvi__last_vectors(int n, gvi_real b, gvi_real a, const gvi_real *m, const gvi__from *from,
+                                const gvi_real *F, const gvi_real *Q, gvi_real *dp, gvi_real *dq)
+{
+    gvi__vector none = { 0 };
+    for (int i = 0; i < n; i += GVI__LANES) {
+        const gvi__vector to_p = GVI__AT(dp + i) + b*GVI__AT(F + i);
+        gvi__vector v = to_p;
+        if (m) v = GVI__AT(m + i)*to_p;
+        const gvi__vector by_p = to_p - GVI__AT(from->p + i);
+        const gvi__vector by_q = (GVI__AT(Q + i) + a*v) - GVI__AT(from->q + i);
+        *(gvi__vector *)(dp + i) = by_p;
+        *(gvi__vector *)(dq + i) = by_q;
+        none += 0*by_p + 0*by_q;
+    }
+    gvi_real sum = 0;
+    for (int k = 0; k < GVI__LANES; ++k) sum += none[k];
+    return sum >= 0;
+}
+#endif
+
 // the last kick, dp += b F, and the drift behind it, if there is one
 GVI__COPY int gvi__last_kick(gvi_stepper *st, int n, const gvi__kicks *x, int rounded)
 {
     const gvi_real b = st->x.hb[st->r - 1], a = st->x.drift[st->r], *z = NULL, *m = x->m;
     const gvi__from *from = x->from;
     gvi_real *GVI__RESTRICT dp = x->dp, *GVI__RESTRICT F = x->F;
+#if GVI__WIDE
+    if (rounded && n >= 8) {
+        return m ? gvi__last_vectors(n, b, a, m, from, F, x->Q, dp, x->dq)
+                 : gvi__last_vectors(n, b, a, NULL, from, F, x->Q, dp, x->dq);
+    }
+#endif
     if (rounded) {
         return m ? gvi__last_rounded(n, b, a, m, from, F, x->Q, dp, x->dq)
                  : gvi__last_rounded(n, b, a, NULL, from, F, x->Q, dp, x->dq);
@@ -7119,10 +7182,46 @@ static inline void gvi__move_of(int n, int keeps, gvi_real zero, const gvi_real 
     }
 }
 
+#if GVI__WIDE
+typedef struct gvi__vectors { gvi__vector hi, lo; } gvi__vectors;
+
+// gvi__sum, number by number
+GVI__COPY gvi__vectors gvi__exact_vectors(gvi__vector x, gvi__vector y)
+{
+    const gvi__vector hi = x + y, b = hi - x;
+    gvi__vectors z;
+    z.hi = hi;
+    z.lo = (x - (hi - b)) + (y - b);
+    return z;
+}
+
+// the same in whole vectors
+GVI__COPY void gvi__move_vectors(int n, int keeps, gvi_real zero, const gvi_real *dx, const gvi_real *dxe,
+                                 gvi_real *x, gvi_real *rest, gvi_real *was)
+{
+    for (int i = 0; i < n; i += GVI__LANES) {
+        const gvi__vector a = GVI__AT(x + i);
+        gvi__vectors sum = gvi__exact_vectors(a, GVI__AT(dx + i));
+        if (dxe) sum = gvi__exact_vectors(sum.hi, sum.lo + GVI__AT(dxe + i));
+        *(gvi__vector *)(was + i) = a - zero;
+        *(gvi__vector *)(x + i) = sum.hi;
+        if (keeps) *(gvi__vector *)(rest + i) = sum.lo;
+    }
+}
+#endif
+
 static void gvi__move(int n, gvi_real zero, const gvi_real *dx, const gvi_real *dxe, gvi_real *x,
                       gvi_real *rest, gvi_real *was)
 {
     const int two = n == 2 && !GVI__SMALL;
+#if GVI__WIDE
+    if (n >= 8) {
+        if (dxe) gvi__move_vectors(n, 1, zero, dx, dxe, x, rest, was);
+        else if (rest) gvi__move_vectors(n, 1, zero, dx, NULL, x, rest, was);
+        else gvi__move_vectors(n, 0, zero, dx, NULL, x, NULL, was);
+        return;
+    }
+#endif
     if (two && dxe) gvi__move_of(2, 1, zero, dx, dxe, x, rest, was);
     else if (dxe || GVI__SMALL) gvi__move_of(n, 1, zero, dx, dxe, x, rest, was);
     else if (two && rest) gvi__move_of(2, 1, zero, dx, NULL, x, rest, was);
