@@ -26,9 +26,9 @@ CMOCKA_LIBS   = $$(pkg-config --libs cmocka 2>/dev/null || echo -lcmocka)
 
 # The tests; these run in float and long double as well.
 TESTS    = $(sort $(basename $(notdir $(wildcard tests/test_*.c))))
-TYPED    = $(filter test_oracle test_quadrature test_interpolation test_lu test_corners test_effects test_newton test_weak test_stiffness test_guess test_mass test_rows test_tolerance test_kinks test_usual,$(TESTS))
+TYPED    = $(filter test_many test_oracle test_quadrature test_interpolation test_lu test_corners test_effects test_newton test_weak test_stiffness test_guess test_mass test_rows test_tolerance test_kinks test_usual,$(TESTS))
 # These as small code, too: -Os takes other loops and leaves parts out.
-SMALL    = $(filter test_mass test_rows test_tolerance,$(TESTS))
+SMALL    = $(filter test_many test_mass test_rows test_tolerance,$(TESTS))
 # Tests that look inside hold the library themselves; the others share one object for each type.
 INSIDE   = $(basename $(notdir $(shell grep -l 'gvi__\|\.x\.' tests/test_*.c)))
 SHARING  = $(filter-out $(INSIDE),$(TESTS))
