@@ -2139,11 +2139,12 @@ GVI__COPY int gvi__ldl_factor_vector(int n, size_t R, gvi_real *m)
     return all < most*most;
 }
 
-GVI__COPY void gvi__ldl_solve_vector(int n, size_t R, const gvi_real *m, gvi_real *z)
+// z := M^-1 from, which may be z
+GVI__COPY void gvi__ldl_solve_vector(int n, size_t R, const gvi_real *m, const gvi_real *from, gvi_real *z)
 {
     const size_t N = (size_t)n;
-    for (size_t i = 1; i < N; ++i) {
-        gvi__vector rest = GVI__AT(z + i*R);
+    for (size_t i = 0; i < N; ++i) {
+        gvi__vector rest = GVI__AT(from + i*R);
         for (size_t j = 0; j < i; ++j) rest -= GVI__AT(m + (i*N + j)*R)*GVI__AT(z + j*R);
         *(gvi__vector *)(z + i*R) = rest;
     }
@@ -2159,15 +2160,16 @@ static int gvi__ldl_factor_eights(int n, int R, gvi_real *m)
     int sure = 1;
     for (int o = 0; o < R; o += GVI__LANES)
         sure &= n == 2 && R == 8 ? gvi__ldl_factor_vector(2, 8, m + o)
-                                 : gvi__ldl_factor_vector(n, (size_t)R, m + o);
+              : n == 2 ? gvi__ldl_factor_vector(2, (size_t)R, m + o) : gvi__ldl_factor_vector(n, (size_t)R, m + o);
     return sure;
 }
 
-static void gvi__ldl_solve_eights(int n, int R, const gvi_real *m, gvi_real *z)
+static void gvi__ldl_solve_eights(int n, int R, const gvi_real *m, const gvi_real *from, gvi_real *z)
 {
     for (int o = 0; o < R; o += GVI__LANES)
-        if (n == 2 && R == 8) gvi__ldl_solve_vector(2, 8, m + o, z + o);
-        else gvi__ldl_solve_vector(n, (size_t)R, m + o, z + o);
+        if (n == 2 && R == 8) gvi__ldl_solve_vector(2, 8, m + o, from + o, z + o);
+        else if (n == 2) gvi__ldl_solve_vector(2, (size_t)R, m + o, from + o, z + o);
+        else gvi__ldl_solve_vector(n, (size_t)R, m + o, from + o, z + o);
 }
 #endif
 
@@ -4735,10 +4737,9 @@ static void gvi__velocity_rows(gvi_stepper *st)
     int n = st->n, R = x->stride;
 #ifdef GVI__VECTORS
     if (R % 8 == 0 && !gvi__mass_is_constant(&x->desc)) {
-        for (int k = 0; k < n*R; k += GVI__LANES)
-            *(gvi__vector *)(V + k) = GVI__AT(P + k);
-        for (int k = 0; A && k < n*R; k += GVI__LANES) *(gvi__vector *)(V + k) -= GVI__AT(A + k);
-        gvi__ldl_solve_eights(n, R, x->point_mass, V);
+        for (int k = 0; A && k < n*R; k += GVI__LANES)
+            *(gvi__vector *)(V + k) = GVI__AT(P + k) - GVI__AT(A + k);
+        gvi__ldl_solve_eights(n, R, x->point_mass, A ? V : P, V);
         return;
     }
 #endif
@@ -6065,6 +6066,7 @@ GVI__COPY gvi_status gvi__fixed_point_of(gvi_stepper *st, const gvi__from *from,
     if (!GVI__SMALL) gvi__rows_as_points(&at, st, &x->work, gvi__A(&x->work));
     const int only = plain || gvi__asks_only(st);
     if (only && x->desc.effects[x->single].kind == GVI_POTENTIAL) at.v = NULL;
+    const int simple = plain || (!counts && !gvi__seldom(st));         // gvi__judge would say the same
     const int sums = plain || (extrapolate && (x->E_is & GVI__SUMS)), springs = !plain && GVI__STIFF && x->springs;
     if (plain && st->r == 8 && gvi__two_now(st))
         gvi__extrapolate_rows(st, st->n, 8, 8, 1, 0, x->last.F, x->older_F, y, x->work.Q);
@@ -6080,7 +6082,7 @@ GVI__COPY gvi_status gvi__fixed_point_of(gvi_stepper *st, const gvi__from *from,
         if (*used > 0 || !sums) change = plain ? gvi__stage_rows(st, y) : gvi__stages(st, from, h, y, count);
         int verdict = GVI__GO_ON;
         if (*used > 0) {
-            verdict = plain ? gvi__judge_most(st, &p, change) : GVI__LOOK;
+            verdict = plain || simple ? gvi__judge_most(st, &p, change) : GVI__LOOK;
             if (verdict == GVI__LOOK) {
                 if (!gvi__finite(change)) return gvi__not_finite(st, p.grows || p.before > (gvi_real)st->n);
                 verdict = gvi__judge(st, from, &p, GVI__WEAK ? &weak : NULL, change, *used);
