@@ -197,12 +197,12 @@
      V_i = v0 + M^-1 sum_j (1 - T_ij) h b_j F_j                             (4)
      S = Phi Gamma^-1 Phi'      T = phi Gamma^-1 Phi'      N = phi Gamma^-1 phi'
 
-   so for effects that read only q the unknowns are the forces: put F in, get
-   Q out, ask the effects at all r points at once, repeat.  No velocity, no
-   matrix.  S is symmetric: that is what symplecticity asks of (3), and it
-   survives rounding, since S and c are rounded to one grid.  A Lagrangian term adds
-   A_i = dL/dv to P_i:  h M^-1 sum_j T_ji b_j A_j is then taken from (3),
-   M^-1 sum_j N_ij b_j A_j from (4).
+   with phi_ik = phi_k(c_i), Phi_ik = Phi_k(c_i), and ' for the transpose.  So for
+   effects that read only q the unknowns are the forces: put F in, get Q out, ask
+   the effects at all r points at once, repeat.  No velocity, no matrix.  S is
+   symmetric: that is what symplecticity asks of (3), and it survives rounding, since
+   S and c are rounded to one grid.  A Lagrangian term adds A_i = dL/dv to P_i:
+   h M^-1 sum_j T_ji b_j A_j is then taken from (3), M^-1 sum_j N_ij b_j A_j from (4).
 
    r = s.  Then V_i is free at each node, Gamma^-1 phi' diag(b) = phi^-1, and
    (1) is the partitioned Runge-Kutta method
@@ -256,11 +256,14 @@
      Q_i = C(c_i) q0 + h S(c_i) v0 + h M^-1 sum_j (K_ij/b_j) h b_j g_j
      q1  = C(1) q0 + h S(1) v0     + h M^-1 sum_j S(1 - c_j) h b_j g_j
      p1  = C(1) p0 - k h S(1) q0   +        sum_j C(1 - c_j) h b_j g_j
+     K_ij/b_j = (A_ij + A_ji + S(c_i - c_j))/2       A = Psi Gamma^-1 phi'
+                Psi_ik = integral of S(c_i - tau) phi_k(tau) from 0 to c_i
 
-   (V_i: the derivative of the first, with N for h K), and g is what iterates: h is bounded
-   by it alone.  b_i K_ij - b_j K_ji = b_i b_j S(c_i - c_j): so the step is symplectic for any
-   k, beside any other coordinates, and of the same order.  The right k is the best: where the
-   spring is all there is, a step of any h is the exact rotation.  Another k is another step.
+   (V_i: the derivative of the first, with A_ij, C for S in it, in place of h K_ij/b_j), and g
+   is what iterates: h is bounded by it alone.  b_i K_ij - b_j K_ji = b_i b_j S(c_i - c_j):
+   so the step is symplectic for any k, beside any other coordinates, and of the same order.
+   The right k is the best: where the spring is all there is, a step of any h is the exact
+   rotation.  Another k is another step.
    Explicit, the drifts are arcs, and the kicks are by g: of Stoermer-Verlet that makes Deuflhard's
    method [3, XIII.1], and splittings keep their order, for g is of q alone.
    [3, XIII] is about methods of this kind.  Their limits: near nu = pi, 2 pi ... steps can
@@ -269,8 +272,8 @@
    boundary values solve other equations: rounds that do not contract end in
    GVI_E_CONVERGENCE, gvi_discrete_lagrangian and gvi_start_configurations in
    GVI_E_FORMULATION.  It pays from h omega = 1/2 or so, and takes (2r + 3) R + 8 numbers of
-   memory for each k_i/m_i that is not that of the stiff coordinate before, and (K R + 2) n + 14,
-   K = 1 for positions, 2 for velocities; explicit (5r + 7) n + r + 16, n in whole eights from 8 on.
+   memory for each k_i/m_i that is not that of the stiff coordinate before, and (R + 2) n + 14,
+   with velocities (2R + 2) n + 14; explicit (5r + 7) n + r + 16, n in whole eights from 8 on.
    A new h, as of gvi_state_at, costs as much as some steps.  It is for explicit, positions and
    velocities with unit or diagonal mass and without Lagrangian terms; elsewhere, compiled for size,
    with GVI_NO_RULES and for k_i <= 0 it is not heeded.
