@@ -242,8 +242,8 @@
    the turn to Newton's method, but no more digits than any iteration that stops
    at a predicted change.
    Marks take (n + 2) R more numbers of memory.  They are for potentials and forces in the
-   fixed points, without a clock or desc.iterations, of degree 1 with Gauss's rule
-   alone, and not compiled for size: elsewhere a marked effect is asked as any other.
+   fixed points, without a clock or desc.iterations, at degree 1 with no rule but Gauss's,
+   and not in code compiled for size: elsewhere a marked effect is asked as any other.
 
    STIFF SPRINGS.  A spring of frequency omega lets a fixed point contract like (h omega)^2
    or not at all, and asks polynomials to follow its oscillation, although nothing about it
@@ -637,8 +637,8 @@ typedef struct gvi_stepper {
     gvi_counters    counters;
 } gvi_stepper;
 
-/* The discrete Lagrangian and what belongs to it; pointers may be NULL for
-   what is not wanted, each but the first of length n.                        */
+/* The discrete Lagrangian and what belongs to it; pointers may be NULL for what
+   is not wanted.  lagrangian and negative: one number, all others of length n. */
 typedef struct gvi_discrete {
     gvi_real *lagrangian;             /* L_d(q0,q1;t,h); needs value callbacks  */
     gvi_real *d1, *d2;                /* its derivatives by q0 and q1           */
@@ -689,7 +689,7 @@ GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy);
    its own time, and v still dq/dt.
    gvi_state_at: the state at time t (a time, not tau) inside it, at the full
    order, by a partial step from the nearer end.
-   Beside stiffness the curve is made of arcs, and ends at q1 as exactly as a step does.
+   Beside stiffness the curve is made of arcs, and its end is off q1 by the error of a step.
    gvi_action: the quadrature of L over it; beside stiffness the generating function of the
    step, dS = p1 dq1 - p0 dq0.  This and gvi_state_at use the effects that
    are on now.
@@ -717,8 +717,8 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
    stepper that was set up by gvi_init for the same description, in this
    process or another.  What follows is the same to the bit.  GVI_E_ARGUMENT if
    sizes, the number of effects, what they read together, the kind of mass or the
-   formulation differ, or where it iterates only one has a tolerance.  A rule of as
-   many points and stiffness are not compared: those saved are used, and callbacks,
+   formulation differ, or, where it iterates, if only one of the two has a tolerance.
+   A rule of as many points and stiffness are not compared: those saved are used, and callbacks,
    tolerance and limits are those of st.                                       */
 GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const gvi_real *memory);
 
