@@ -521,10 +521,10 @@ typedef struct gvi_desc {
                                           step, and p/(h b_j) must not overflow */
     int               max_iterations;  /* to 1,000,000.  0: 60                 */
     int               iterations;      /* N: exactly N of the fixed point in every step, for
-                                          a loop with a deadline, and no Newton.  A step whose
-                                          last change is neither half of that two iterations
-                                          before (N = 2: less than the first) nor rounding fails;
-                                          N = 1 does not: look at counters.worst_change.
+                                          a loop with a deadline, and no Newton.  A step fails
+                                          unless its last change is rounding, or less than half
+                                          of that two iterations before (N = 2: less than the
+                                          first).  N = 1: no such test, see counters.worst_change.
                                           0: as many as it takes               */
     const gvi_real   *stiffness;       /* [n] k_i, or NULL: the constant part of d2V/dq_i^2,
                                           whose oscillation becomes the free motion: another
