@@ -235,12 +235,12 @@
    WEAK EFFECTS.  A force that hardly changes while an iteration closes in need not
    be asked in each of its rounds: one that is marked as weak stands still while the
    others iterate, and is asked again when the change that it would bring is greater
-   than the one that the others have yet to bring: twice a step at least, and a step
-   then takes about a round more.  So it pays from about five rounds a step on, where
-   a force that is smaller by 1000 is asked half to two thirds as often.  The equations,
-   and so the step, are the same; a mark on an effect that is not weak costs rounds, or
-   the turn to Newton's method, but no more digits than any iteration that stops
-   at a predicted change.
+   than a tenth of the one that the others bring next: twice a step at least, and a step
+   then takes a round or two more (a round: one iteration).  So it pays from about five
+   rounds a step on, where a force that is smaller by 1000 is asked half to two thirds as
+   often.  The equations, and so the step, are the same; a mark on an effect that is not
+   weak costs rounds, or the turn to Newton's method, but no more digits than any
+   iteration that stops at a predicted change.
    Marks take (n + 2) R more numbers of memory.  They are for potentials and forces in the
    fixed points, without a clock or desc.iterations, at degree 1 with no rule but Gauss's,
    and not in code compiled for size: elsewhere a marked effect is asked as any other.
