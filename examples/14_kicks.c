@@ -14,7 +14,7 @@
      Stoermer-Verlet  kicks a step  1   error of q below 1e-01
      Yoshida 4        kicks a step  3   error of q below 1e-03
      Kahan-Li 8       kicks a step 17   error of q below 1e-06
-     splitting 8      kicks a step 22   error of q below 1e-07
+     splitting 8      kicks a step 22   error of q below 1e-08
 */
 #define GVI_IMPLEMENTATION
 #include "gvi.h"
@@ -83,7 +83,7 @@ int main(void)
     const double w = 1/(2 - cbrt(2)), verlet[] = { 1 }, yoshida[] = { w, 1 - 2*w, w };
     double kahan_li[17] = {
         0.13020248308889008087881763, 0.56116298177510838456196441, -0.38947496264484728640807860,
-        0.15884190655515560089621075, -0.39590389413323733757623154, 0.18453964097831570709183254,
+        0.15884190655515560089621075, -0.39590389413323757733623154, 0.18453964097831570709183254,
         0.25837438768632204729397911, 0.29501172360931029887096624, 1 };
     for (int j = 0; j < 8; ++j) kahan_li[8] -= 2*(kahan_li[16 - j] = kahan_li[j]);
 
@@ -101,7 +101,7 @@ int main(void)
         -0.02267460462919294, 0.16086706529831623, 0.44740362398900284, 0.01473, -0.3303 };
     const double drifts[] = {
         0.06893611127615369, 0.23058844925619343, -0.12702730798682120, 0.11040356329995864, -0.16983095339312991,
-        -0.04837, 0.15827719598400379, 0.12867470981550479, -0.02402901800352018, 0.01919246096175391 };
+        -0.04837, 0.15827719598400379, 0.12867470981550479, -0.02402901800352018, 0.01919245966175391 };
     const gvi_rule rule = { GVI_KICKS, split(11, kicks, drifts, nodes, weights), nodes, weights };
     return revolve("splitting 8", rule, EVALUATIONS/22);
 }

@@ -264,6 +264,35 @@ static void compensated_sums_lower_what_rounding_leaves(void **state)
     }
 }
 
+/* What is to be copied from examples/14_kicks.c is what is proved here: the numbers behind `name`, in braces */
+static void expect_in_example(const char *name, int count, const long double *published)
+{
+    static char text[1 << 14];
+    FILE *file = fopen("examples/14_kicks.c", "r");
+    assert_non_null(file);
+    text[fread(text, 1, sizeof text - 1, file)] = 0;
+    fclose(file);
+    char *at = strstr(text, name);
+    assert_non_null(at);
+    at = strchr(at, '{');
+    for (int i = 0; i < count; ++i) {
+        char *end;
+        const double number = strtod(at + 1, &end);
+        if (!(fabsl((long double)number - published[i]) <= DBL_EPSILON*fabsl(published[i])/2 + 1e-17L))
+            fail_msg("%s[%d] is %.17g, not %.21Lg", name, i, number, published[i]);
+        at = end;
+        assert_true(*at == ',' || *at == ' ');
+    }
+}
+
+static void the_example_has_these_tables(void **state)
+{
+    (void)state;
+    expect_in_example("kahan_li[17]", COUNT(kahan_li8), kahan_li8);
+    expect_in_example("kicks[]", COUNT(splitting8_b), splitting8_b);
+    expect_in_example("drifts[]", COUNT(splitting8_a), splitting8_a);
+}
+
 static int tables(void **state)
 {
     (void)state;
@@ -282,6 +311,7 @@ int main(void)
         cmocka_unit_test(nystroem_tables_fulfil_the_quadrature_conditions),
         cmocka_unit_test(dop853_fulfils_the_quadrature_conditions),
         cmocka_unit_test(compensated_sums_lower_what_rounding_leaves),
+        cmocka_unit_test(the_example_has_these_tables),
     };
     return cmocka_run_group_tests(tests, tables, NULL);
 }
