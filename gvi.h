@@ -5990,8 +5990,10 @@ GVI__DEEP int gvi__judge(gvi_stepper *st, const gvi__from *from, gvi__progress *
         const int falls = p->earlier > 0 ? change < p->earlier/4 : before <= 0 || change < before;
         return falls || change <= 65536*rounding ? GVI__DONE : GVI__BEYOND;
     }
-    if (!moved) gvi__watch(st, change, p->earlier);
+    // what asking the weak effects brings is no contraction, nor is what follows measured by what was before
+    if (!moved || (change < before/4 && change < p->earlier)) gvi__watch(st, change, p->earlier);
     gvi__advance(st, p, change);
+    if (some && p->grows) p->earlier = 0;
     if (given) return GVI__GO_ON;
     gvi__tally(p, change, least);
     int ends = p->idle > 2 && change <= rounding, rests = 0;
