@@ -243,7 +243,7 @@ clean:
 
 ## help         this list
 help:
-	$(Q)sed -n 's/^## /  make /p' Makefile
+	$(Q)sed -n 's/^##   */                    /p; t; s/^## /  make /p' Makefile
 
 # -- programs
 

@@ -216,11 +216,12 @@
    action sum_j |Q_(j+1) - Q_j|^2/(2 (c_(j+1) - c_j) h) - h sum_j b_j V(Q_j) is
    stationary when the momentum jumps by h b_j F_j at each corner [1, 2.5]: kick,
    drift, kick ...  Stoermer-Verlet has c = 0, 1 and b = 1/2, 1/2; every
-   composition of it, and every kick-drift splitting, is such a table.
+   composition of it, and every kick-drift splitting, is such a table; where c_1 is not
+   0 or c_r not 1 it begins or ends with a drift.
 
    FORMULATIONS.  One step, five ways to find it; the scene decides which:
 
-     explicit     s = 1, Lobatto 2 or kicks, constant mass, effects read only
+     explicit     s = 1, Lobatto with r = 2 or kicks, constant mass, effects read only
                   t and q: Stoermer-Verlet and splittings, no iteration
      positions    constant mass, effects read only t and q: (3) as fixed point
      velocities   constant mass, any effects: (3) and (4) as fixed point
@@ -271,7 +272,7 @@
    coordinates that the symmetry mixes, and not if it shifts one with a k.  Newton's method and
    boundary values solve other equations: rounds that do not contract end in
    GVI_E_CONVERGENCE, gvi_discrete_lagrangian and gvi_start_configurations in
-   GVI_E_FORMULATION.  It pays from h omega = 1/2 or so, and takes (2r + 3) R + 8 numbers of
+   GVI_E_FORMULATION.  It pays from h omega = 1/2 or so, and takes at most (2r + 3) R + 8 numbers of
    memory for each k_i/m_i that is not that of the stiff coordinate before, and (R + 2) n + 14,
    with velocities (2R + 2) n + 14; explicit (5r + 7) n + r + 16, n in whole eights from 8 on.
    A new h, as of gvi_state_at, costs as much as some steps.  It is for explicit, positions and
@@ -374,7 +375,7 @@ typedef enum gvi_status {
     GVI_E_POINTS      = -5,  /* r < s, or a rule that does not see every mode           */
     GVI_E_FORMULATION = -6,  /* no formulation, or not the pinned one, covers this scene */
     GVI_E_SINGULAR    = -7,  /* singular matrix: massless coordinate (fault.coordinate) */
-    GVI_E_CONVERGENCE = -8,  /* the iteration diverges or creeps: h too large, f jumps  */
+    GVI_E_CONVERGENCE = -8,  /* the iteration diverges or creeps, or the state overflows: h too large, f jumps */
     GVI_E_CALLBACK    = -9,  /* a callback refused (fault.effect)                       */
     GVI_E_NON_FINITE  = -10, /* NaN or Inf came out of an effect (fault.effect)         */
     GVI_E_VALUE       = -11, /* energy or action wanted, or a clock on, but fault.effect
