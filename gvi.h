@@ -96,7 +96,8 @@
               q, p and t carry compensation terms, so 1e9 steps of t + h are
               as exact as one.  Same bits on every IEEE machine when compiled
               with -ffp-contract=off, as far as callbacks do, and sin and cos
-              with stiffness.
+              with stiffness, and products stay between 1e-290 and 1e299 (float:
+              1e-30 and 1e34), beyond which their rests depend on FMA.
    work       Points at which a step evaluates an effect, at most; m = max_iterations:
                 explicit               r
                 pinned fixed point     3(m+2) r
@@ -412,7 +413,8 @@ typedef struct gvi_points {
 } gvi_points;
 
 /* All points at once.  Returns 0, or anything else for "cannot be evaluated
-   here", which ends the step with GVI_E_CALLBACK.                           */
+   here": an extrapolated start is then given up for a plain one; refused again, the
+   step ends with GVI_E_CALLBACK.                                            */
 typedef int gvi_points_fn(const gvi_points *x, void *user);
 
 /* One point: q, v, f, dldv of length n; v is NULL for a potential, dldv for
@@ -7357,6 +7359,7 @@ GVI__COPY int gvi__usual_rounds(gvi_stepper *st, const gvi__from *from, gvi_real
     at.stride = R;
     for (int used = 1; ; ++used) {
         gvi__zero_rows(2, R, h - h, F);
+        *asked = used;
         if (!GVI__OFTEN(effect->points(&at, effect->user) == 0)) return 0;
         const gvi_real change = R == 8 ? gvi__rows_of_8(st, y, gvi__diagonal(st, y), 8, 2, folded)
                                        : gvi__stage_rows_16(st, y, 16, 2);
@@ -7368,8 +7371,8 @@ GVI__COPY int gvi__usual_rounds(gvi_stepper *st, const gvi__from *from, gvi_real
         if (verdict == GVI__GO_ON && more) continue;
         if (verdict != GVI__DONE && verdict != GVI__ASK_ONCE_MORE) return 0;
         gvi__watch_last(st, change);
-        *asked = used + (verdict != GVI__DONE);
         if (verdict == GVI__DONE) return used;
+        *asked = used + 1;
         gvi__zero_rows(2, R, h - h, F);
         return effect->points(&at, effect->user) ? 0 : used;
     }
@@ -7458,10 +7461,10 @@ GVI__SELDOM gvi_status gvi__usual_step(gvi_stepper *st, gvi_real h)
     int asked = 0;
     const int used = st->r == 8 ? gvi__usual_of(st, h, 8, GVI__BEYOND_FLOAT, &asked)
                                 : gvi__usual_of(st, h, 16, 0, &asked);
+    gvi__count(&st->counters.effect[x->single], asked*st->r);
     if (used == 0) return gvi__any_step(st, h);
     st->iterations = used;
     gvi__count(&st->counters.iterations, used);
-    gvi__count(&st->counters.effect[x->single], asked*st->r);
     if (used > st->counters.most_iterations) st->counters.most_iterations = used;
     if (gvi__learns(st)) gvi__learn(st, used);
     gvi__move_time(st);
