@@ -6718,12 +6718,12 @@ GVI__APART int gvi__newton_rests(const gvi_stepper *st, const gvi__from *from, i
 {
     const gvi__worth w = gvi__worth_of_change(st, from);
     // by an older matrix that has not contracted here the next change may be the same, whatever it is
-    const int proven = (p->fresh & 1) || p->rho < (gvi_real)0.25;
-    const int fine = proven && w.moved + w.place <= GVI__MAX && w.beyond <= 4*GVI__EPS*w.moved;
-    const gvi_real small = p->fresh & 1 ? GVI_SQRT(GVI__EPS) : 0, enough = 64*GVI__EPS*(gvi_real)size;
-    const int sure = p->work < 0 || (proven && change <= (enough > small ? enough : small));
+    const int fresh = p->fresh & 1, proven = fresh | (p->rho < (gvi_real)0.25);
+    const int fine = proven & (w.moved + w.place <= GVI__MAX) & (w.beyond <= 4*GVI__EPS*w.moved);
+    const gvi_real small = fresh ? GVI_SQRT(GVI__EPS) : 0, enough = 64*GVI__EPS*(gvi_real)size;
+    const int sure = (p->work < 0) | (proven & (change <= (enough > small ? enough : small)));
     const int jumps = !((gvi_real)st->r*p->work <= GVI__EPS*(w.moved + w.place));
-    if (!sure && (jumps || (!fine && !gvi__is_rounding(&w, p->idle)))) return 0;
+    if (!sure & (jumps | !(fine | gvi__is_rounding(&w, p->idle)))) return 0;
     p->left = p->before;
     if (fine && w.beyond + 4*GVI__EPS*w.place < p->before*w.moved)
         p->left = (w.beyond + 4*GVI__EPS*w.place)/w.moved;
