@@ -568,20 +568,25 @@ struct gvi__learned { short steps, rounds, before; signed char stage, lengthy; }
 /* What most functions name comes first: on small machines an offset below 128 takes
    fewer bytes.                                                                */
 struct gvi__private {
+    gvi_formulation  chosen;          /* by the scene, or pinned                */
+    unsigned char    diagnose;        /* repeated, to find what is not finite   */
+    unsigned char    newton_left;     /* steps until the fixed point is tried   */
+    unsigned char    stepped;         /* 2: by a clock                          */
     int              stride, flags;   /* of the rows; what the scene needs      */
+    unsigned         off;             /* effects switched off, one bit each     */
     /* parts of the caller's memory, handed out by gvi__layout; R = stride */
     struct gvi__rows work, last;      /* at the points of the next step, the last */
-    gvi_real *c, *hb, *b;             /* [R] nodes, h b, weights                */
-    gvi_real *q, *p, *dq, *dp;        /* [n] state and its increments           */
-    gvi_real *qe, *pe, *dqe, *dpe;    /* [n] what rounding left of them         */
+    gvi_real *c, *hb, *b, *t;         /* [R] nodes, h b, weights; times, at set-up rest of c */
     gvi_real *change, *one;           /* [3n], [6n] scratch                     */
-    gvi_real *phi, *Phi, *low;        /* [s][R] modes at the nodes; rest of phi */
+    gvi_real *q, *p, *dq, *dp, *dqe;  /* [n] state, its increments, what rounding left of them */
+    gvi_real *phi, *Phi;              /* [s][R] modes at the nodes              */
+    gvi_real *row, *z, *less;         /* [6R], [R], [R] scratch; row 9R where there is E */
+    gvi_real *dpe, *qe, *pe;          /* [n] what rounding left, likewise       */
     gvi_real *q0, *p0, *zeros;        /* [n] start of the last step, its (no) rest */
     gvi_real *start;                  /* [n] velocity that a start was given    */
     gvi_real *v0, *ve;                /* [n] M^-1 p, M^-1 pe of the step at work */
     gvi_real *scale;                  /* [2n] 1/unit of changes, of two sets of rows */
-    gvi_real *t;                      /* [R] times, at set-up rest of c         */
-    gvi_real *z, *less, *row;         /* [R], [R], [6R] scratch, 9R where there is E */
+    gvi_real *low;                    /* [s][R] rest of phi                     */
     gvi_real *inv_gamma, *own;        /* [s] 1/Gamma_kk; LU of Gamma if full    */
     gvi_real *eigen;                  /* [(s+1)/2][2s] of integration, Gauss with r = s */
     gvi_real *drift;                  /* [4][r+1] explicit: see gvi__drifting          */
@@ -600,21 +605,17 @@ struct gvi__private {
     gvi_real *memory;                 /* from its first aligned number on       */
     size_t           size, skip;      /* numbers in use; left out for alignment */
     gvi_desc         desc;
-    gvi_formulation  chosen;          /* by the scene, or pinned                */
     gvi_real         te, t0, dt;      /* compensation of t; start of last step; its length */
     gvi_real         H, He, dH, H0;   /* clock: energy, its rest, increment; at the start */
     gvi_real         h_weights;       /* h for which hb holds                   */
     gvi_real         ratio;           /* h/h_last for which E holds             */
     gvi_real         h_matrix;        /* h for which J was made, 0: none        */
-    unsigned         off;             /* effects switched off, one bit each     */
-    unsigned         marks;           /* effects marked as weak, likewise       */
-    signed char      newton_left;     /* steps until the fixed point is tried   */
+    unsigned         marks;           /* effects marked as weak, one bit each   */
     signed char      whole_left;      /* steps until blocks are tried again     */
     signed char      clock, single;   /* effect that is one; the only one; or -1 */
     signed char      alike, E_is;     /* last steps of the same length: 0, 1, 2; see GVI__OF_TWO */
-    signed char      started, stepped;  /* stepped: 2 by a clock               */
+    signed char      started;
     signed char      usual;           /* see gvi__usual_step                   */
-    signed char      diagnose;        /* repeated, to find what is not finite   */
     signed char      turns;           /* of the rows since gvi_init, modulo 6: gvi__rotate_rows */
     signed char      has_rate;        /* rate holds                             */
     signed char      has_force;       /* last.F ends with the force at (t, q)   */
@@ -625,18 +626,18 @@ struct gvi__private {
     struct gvi__learned learned;
 };
 
-/* The stepper, to be read; x is private.                                      */
+/* The stepper, to be read; x is private, and near its beginning: see there.   */
 typedef struct gvi_stepper {
     int             n, s, r;          /* as resolved from the description       */
+    gvi_status      status;           /* of the last call                       */
+    gvi_formulation formulation;      /* used by the last step, or the next     */
+    struct gvi__private x;
     gvi_real        t;                /* time                                   */
     const gvi_real *q, *p;            /* [n] configuration and momentum at t    */
     gvi_real        h;                /* last step, 0 before the first          */
-    gvi_status      status;           /* of the last call                       */
     gvi_fault       fault;
-    gvi_formulation formulation;      /* used by the last step, or the next     */
     int             order;            /* u of the rule; 0 for GVI_KICKS         */
     int             iterations;       /* in the last step                       */
-    struct gvi__private x;
     gvi_counters    counters;
 } gvi_stepper;
 
@@ -7273,7 +7274,7 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     if (GVI__WEAK && x->weak) *gvi__answers(st) = gvi__answers(st)[1];
     x->has_force = explicit_one && !gvi__nonzero(x->c[0]) && !gvi__nonzero(x->c[st->r - 1] - 1);
     x->has_velocity = GVI__READS_V && st->formulation > GVI_POSITIONS;
-    if (GVI__NEWTON && x->newton_left > 0) x->newton_left = (signed char)(x->newton_left - 1);
+    if (GVI__NEWTON && x->newton_left > 0) x->newton_left = (unsigned char)(x->newton_left - 1);
     if (GVI__NEWTON && x->whole_left > 0) x->whole_left = (signed char)(x->whole_left - 1);
     gvi__count(&st->counters.steps, 1);
 }
@@ -7318,9 +7319,10 @@ GVI__SELDOM gvi_status gvi__any_step(gvi_stepper *st, gvi_real h)
     if (!gvi__nonzero(h) || !gvi__finite(h)) return st->status = GVI_E_ARGUMENT;
 
     const gvi_formulation was = st->formulation;
-    const signed char left = x->newton_left, whole = x->whole_left;
+    const unsigned char left = x->newton_left;
+    const signed char whole = x->whole_left;
     gvi__from from = { st->t, x->te, x->q, x->qe, x->p, x->pe, x->H + x->He, NULL };
-    if (GVI__NEWTON && x->stepped && gvi__nonzero(h - st->h)) x->newton_left = x->whole_left = 0;
+    if (GVI__NEWTON && x->stepped && gvi__nonzero(h - st->h)) x->newton_left = 0, x->whole_left = 0;
     gvi_status status = gvi__uses(st, GVI_EXPLICIT) && !GVI__SMALL ? gvi__solve_explicit(st, &from, h)
                                                                    : gvi__solve(st, &from, h, GVI__STEP, 0);
     if (status == GVI_OK && !gvi__finite(st->t + x->dt)) status = gvi__give(st, GVI_E_ARGUMENT);
@@ -7546,9 +7548,11 @@ static gvi_status gvi__start(gvi_stepper *st, gvi_real t, const gvi_real *v)
     st->h = 0;
     x->te = 0;
     x->started = 1;
-    x->stepped = x->has_force = x->has_velocity = x->alike = x->E_is = 0;
+    x->stepped = 0;
+    x->has_force = x->has_velocity = x->alike = x->E_is = 0;
     if (GVI__PIECES) x->usual = 0;
-    x->newton_left = x->whole_left = 0;
+    x->newton_left = 0;
+    x->whole_left = 0;
     x->h_matrix = x->ratio = 0;
     if (GVI__WEAK && x->weak) *gvi__answers(st) = 1;
     st->formulation = x->chosen;
@@ -8044,7 +8048,7 @@ static gvi_status gvi__interior(gvi_stepper *st, const gvi__from *from, gvi_real
     if (size == 0) return gvi__chord(st, from, h, q1, p);
     gvi_status status = GVI_E_NON_FINITE;         // once more to see why, as in gvi__solve
     for (int look = 0; look < 1 + GVI__DIAGNOSIS && status == GVI_E_NON_FINITE; ++look) {
-        x->diagnose = (signed char)look;
+        x->diagnose = (unsigned char)look;
         for (int halves = 0; halves < 2; ++halves) {
             gvi__zero((size_t)(st->s*n), x->y);
             for (int i = 0; i < n; ++i) x->y[i] = (q1[i] - from->q[i])/h;
