@@ -3585,7 +3585,7 @@ GVI__COPY void gvi__drift_of(int n, int todo, gvi__drifting by, gvi_real zero, c
     const gvi_real *GVI__RESTRICT v = from->v, *GVI__RESTRICT q = from->q, *GVI__RESTRICT qe = from->qe;
     const gvi_real *GVI__RESTRICT pe = todo & GVI__ROUNDED ? from->p : from->pe;
     const int start = todo & GVI__START, last = todo & GVI__BEFORE_LAST;
-    const gvi_real over = GVI__SMALL || start ? 1/by.weight : 0, push = by.time*by.weight;
+    const gvi_real over = start ? 1/by.weight : 0, push = by.time*by.weight;
     GVI__BY_FOUR for (int i = 0; i < n; ++i) {
         gvi_real f = start ? over*pe[i] : F[i];
         if (todo & GVI__KNOWN) f += known[i];
@@ -3630,6 +3630,16 @@ GVI__COPY void gvi__drift_vectors(int n, int todo, gvi__drifting by, gvi_real ze
     }
 }
 #endif
+
+// where size counts: what F and dq are at the start of a step, in a loop of its own
+static void gvi__begin_kicks(int n, gvi_real over, const gvi__kicks *x)
+{
+    for (int i = 0; i < n; ++i) {
+        const gvi_real f = over*x->from->pe[i];
+        x->F[i] = x->known ? f + x->known[i] : f;
+        x->dq[i] = x->from->qe[i];
+    }
+}
 
 // M is full: M^-1 of what F is, or will be at the start of a step
 static const gvi_real *gvi__over_dense(gvi_stepper *st, const gvi__kicks *x, int j, int start)
@@ -3787,8 +3797,13 @@ static inline gvi_status gvi__explicit_of(gvi_stepper *st, const gvi__from *from
     gvi__at(&y, st, &t, k.Q);
     y.f = k.F;
     y.dldv = NULL;
-    int todo = rounded | GVI__START | (k.known ? GVI__KNOWN : 0);
-    for (int j = k.known != NULL; j < r; ++j, todo = rounded) {
+    const int first = k.known != NULL;
+    int todo = rounded | GVI__START | (first ? GVI__KNOWN : 0);
+    if (GVI__SMALL) {
+        gvi__begin_kicks(n, 1/gvi__drifting_of(k.drift + first, k.row).weight, &k);
+        todo = 0;
+    }
+    for (int j = first; j < r; ++j, todo = rounded) {
         const int last = j == r - 1;
         gvi__drift(st, n, last ? todo | GVI__BEFORE_LAST : todo, &k, j);
         t = from->t + (from->te + x->c[j]*h);
