@@ -3180,7 +3180,8 @@ GVI__APART void gvi__lengths(const gvi__scene *x, size_t *length)
     const int positions = gvi__chosen_is(f, GVI_POSITIONS) || velocities, kicks = gvi__has_rule(d, GVI_KICKS);
     const int iterates = !gvi__chosen_is(f, GVI_EXPLICIT);
     const int reads_v = velocities || momenta || newton, A = lagrangian && (velocities || momenta);
-    const int dense = gvi__has_mass(d, GVI_MASS_DENSE);
+    const int two_stages = velocities || momenta, dense = gvi__has_mass(d, GVI_MASS_DENSE);
+    const int folds = GVI__TOLERANCE && d->tolerance > 0 && !d->iterations && !x->springs;
     length[GVI__1] = 1;
     length[GVI__2] = 2;
     length[GVI__3] = 3;
@@ -3189,42 +3190,56 @@ GVI__APART void gvi__lengths(const gvi__scene *x, size_t *length)
     length[GVI__N] = gvi__padded(n);
     length[GVI__R] = R;
     length[GVI__s] = s;
+    length[GVI__nR] = n*R;
     length[GVI__STATE] = kicks ? length[GVI__N] : n;
     length[GVI__POINTS] = kicks ? 1 : R;
-    length[GVI__V] = reads_v ? n : 0;
-    length[GVI__P] = momenta || newton ? n : 0;
-    length[GVI__A_] = A ? n : 0;
-    length[GVI__OLDER_F] = two ? n : 0;
-    length[GVI__OLDER_V] = two && momenta ? n : 0;
-    length[GVI__OLDER_A] = two && A ? n : 0;
-    length[GVI__SLOPE] = clock ? n : 0;
-    length[GVI__RATE] = clock ? 3 : 0;
-    length[GVI__G] = positions ? r : 0;
-    length[GVI__M] = velocities || momenta ? r : 0;
-    length[GVI__T] = momenta || (velocities && lagrangian) ? r : 0;
-    length[GVI__NN] = velocities && lagrangian ? r : 0;
-    length[GVI__FOLDED] = !GVI__TOLERANCE || !(d->tolerance > 0) || d->iterations || x->springs ? 0
-        : velocities || momenta ? 2*r : positions ? r : 0;
-    length[GVI__E] = !iterates ? 0 : two ? 2*r : r;
-    length[GVI__PHI] = kicks ? 0 : s;
-    length[GVI__MODES] = reads_v || (iterates && x->order <= 2*d->degree - 2) ? s : 0;
-    length[GVI__SCRATCH] = iterates ? 9 : 6;
-    length[GVI__DRIFT] = iterates ? 0 : 4*r + 4;
-    length[GVI__GAMMA] = gvi__flag(x->flags, GVI__HAS_OWN) ? s*s + s + 1 : 0;
-    length[GVI__DIAGONAL] = d->mass.kind == GVI_MASS_DIAGONAL ? length[GVI__N] : 0;
-    length[GVI__TWO_MASSES] = dense ? 2*n : 0;                 // factored, and as it is
-    length[GVI__STILL] = iterates && gvi__marks(d) ? n + 2 : 0;
     length[GVI__SPRINGS] = gvi__springs_length(x, R);
-    length[GVI__Z] = dense && positions ? n : 0;
-    length[GVI__AT_POINTS] = gvi__has_mass(d, GVI_MASS_POSITION) ? n : 0;
-    length[GVI__nR] = n*R;
-    length[GVI__HESS] = newton || lagrangian ? n : 0;
     length[GVI__HESSIANS] = (newton ? 4*n : n) + 5;
-    length[GVI__sn] = newton ? s*n : 0;
-    length[GVI__PIVOT] = newton ? s*n + 1 : 0;
-    length[GVI__DIFFERENCES] = newton ? 4*n : 0;
-    length[GVI__J] = newton ? 2*s*n : 0;
-    length[GVI__EIGEN] = newton && gvi__falls_apart(d) ? (s + 1)/2*2 : 0;    // never beside an own rule
+
+    // what a scene may do without is 0 until here
+    if (!kicks) length[GVI__PHI] = s;
+    if (iterates) {
+        length[GVI__E] = two ? 2*r : r;
+        length[GVI__SCRATCH] = 9;
+        if (gvi__marks(d)) length[GVI__STILL] = n + 2;
+    } else {
+        length[GVI__SCRATCH] = 6;
+        length[GVI__DRIFT] = 4*r + 4;
+    }
+    if (reads_v) length[GVI__V] = n;
+    if (reads_v || (iterates && x->order <= 2*d->degree - 2)) length[GVI__MODES] = s;
+    if (momenta || newton) length[GVI__P] = n;
+    if (A) length[GVI__A_] = n;
+    if (two) length[GVI__OLDER_F] = n;
+    if (two && momenta) length[GVI__OLDER_V] = n;
+    if (two && A) length[GVI__OLDER_A] = n;
+    if (clock) {
+        length[GVI__SLOPE] = n;
+        length[GVI__RATE] = 3;
+    }
+    if (positions) {
+        length[GVI__G] = r;
+        if (folds) length[GVI__FOLDED] = r;
+        if (dense) length[GVI__Z] = n;
+    }
+    if (two_stages) {
+        length[GVI__M] = r;
+        if (folds) length[GVI__FOLDED] = 2*r;
+    }
+    if (momenta || (velocities && lagrangian)) length[GVI__T] = r;
+    if (velocities && lagrangian) length[GVI__NN] = r;
+    if (gvi__flag(x->flags, GVI__HAS_OWN)) length[GVI__GAMMA] = s*s + s + 1;
+    if (d->mass.kind == GVI_MASS_DIAGONAL) length[GVI__DIAGONAL] = length[GVI__N];
+    if (dense) length[GVI__TWO_MASSES] = 2*n;                  // factored, and as it is
+    if (gvi__has_mass(d, GVI_MASS_POSITION)) length[GVI__AT_POINTS] = n;
+    if (newton || lagrangian) length[GVI__HESS] = n;
+    if (newton) {
+        length[GVI__sn] = s*n;
+        length[GVI__PIVOT] = s*n + 1;
+        length[GVI__DIFFERENCES] = 4*n;
+        length[GVI__J] = 2*s*n;
+        if (gvi__falls_apart(d)) length[GVI__EIGEN] = (s + 1)/2*2;       // never beside an own rule
+    }
 }
 
 // which pointer of gvi__private, and which lengths make the part
@@ -3285,7 +3300,7 @@ static void gvi__layout_scratch(gvi__arena *a, const size_t *length)
 // pointers into the memory at base; with base NULL it only counts
 static size_t gvi__layout(const gvi__scene *x, struct gvi__private *to, gvi_real *base)
 {
-    size_t length[GVI__LENGTHS];
+    size_t length[GVI__LENGTHS] = { 0 };
     gvi__arena a;
     a.to = to;
     a.base = base;
