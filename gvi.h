@@ -1900,7 +1900,7 @@ GVI__DEEP gvi_status gvi__value(gvi_stepper *st, gvi_points *x, int e, gvi_real 
 /* Asks effect e where it is not one call for all points and no more: one point a
    call; with x->value (clock) V goes there and L to x.less, in the same call if it
    can be; and in the diagnosing repetition what it added is looked at.        */
-static gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e)
+GVI__DEEP gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e)
 {
     const gvi_effect *effect = st->x.desc.effects + e;
     gvi_real *value = GVI__CLOCK ? x->value : NULL;
@@ -2816,7 +2816,7 @@ static gvi__two gvi__two_factors(gvi__two x)
 
 /* Explicit: rows of gvi__drifting_of behind the times.  A kick of weight 0 is left out, and the weight
    of the one before goes on.                                                  */
-GVI__APART void gvi__drifts(gvi_stepper *st, gvi_real h)
+static void gvi__drifts(gvi_stepper *st, gvi_real h)
 {
     const int r = st->r;
     const gvi_real *hb = st->x.hb;
@@ -3011,7 +3011,7 @@ static gvi_status gvi__measure(gvi__scene *x)
 enum { GVI__READS = 1, GVI__TIMED = 2, GVI__KICKED = 4, GVI__NOT_KICKED = 8, GVI__MORE_POINTS = 16,
        GVI__VARIES = 32, GVI__NO_VELOCITY = 64 };
 
-static int gvi__asks(const gvi__scene *x)
+GVI__DEEP int gvi__asks(const gvi__scene *x)
 {
     const gvi_desc *d = x->desc;
     const int s = d->degree, r = d->rule.points, kicks = d->rule.kind == GVI_KICKS;
