@@ -7963,24 +7963,39 @@ static gvi_status gvi__arc_action(gvi_stepper *st, gvi_real *action)
     return GVI_OK;
 }
 
+// the action along the curve of the last step, from NULL; or along that between boundary values, at its rows
+GVI__APART gvi_status gvi__curve_action(gvi_stepper *st, const gvi__from *from, gvi_real h,
+                                        const gvi_real *q1, gvi_real *action)
+{
+    struct gvi__private *x = &st->x;
+    const int n = st->n, R = x->stride;
+    gvi_real L, *q = x->change, *v = q + n;
+    gvi_status status = GVI_OK;
+    *action = 0;
+    for (int j = 0; j < st->r && status == GVI_OK; ++j) {
+        if (!from) gvi__curve(st, x->c[j], q, v);
+        for (int i = 0; from && i < n; ++i) {
+            q[i] = x->work.Q[i*R + j];
+            v[i] = x->work.V ? x->work.V[i*R + j] : (q1[i] - from->q[i])/h;
+        }
+        status = gvi__lagrangian(st, from ? x->t[j] : x->t0 + x->c[j]*st->h, q, v, &L);
+        if (status == GVI_OK) *action += x->hb[j]*L;
+    }
+    return status;
+}
+
 GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action)
 {
     gvi_status status = gvi__ready(st, 1);
     if (status != GVI_OK) return status;
     if (!action) return st->status = GVI_E_ARGUMENT;
     if (gvi__rule_is(st, GVI_KICKS) || st->x.stepped == 2) return st->status = GVI_E_FORMULATION;
-    struct gvi__private *x = &st->x;
-    gvi_real sum = 0, L, *q = x->change, *v = q + st->n;
     gvi__weights(st, st->h);
-    if (GVI__STIFF && x->springs) return gvi__done(st, gvi__arc_action(st, action));
-    for (int j = 0; j < st->r; ++j) {
-        gvi__curve(st, x->c[j], q, v);
-        status = gvi__lagrangian(st, x->t0 + x->c[j]*st->h, q, v, &L);
-        if (status != GVI_OK) return status;
-        sum += x->hb[j]*L;
-    }
-    *action = sum;
-    return gvi__done(st, GVI_OK);
+    if (GVI__STIFF && st->x.springs) return gvi__done(st, gvi__arc_action(st, action));
+    gvi_real sum;
+    status = gvi__curve_action(st, NULL, 0, NULL, &sum);
+    if (status == GVI_OK) *action = sum;
+    return status;
 }
 
 /* Discrete forces h sum b_i f_i dQ_i/dq0, dQ_i/dq1 with the curve's dependence on
@@ -8159,26 +8174,6 @@ GVI__APART gvi_status gvi__count_negative(gvi_stepper *st, const gvi__matrix *J,
         }
     *negative = gvi__negative(size, a);
     return GVI_OK;
-}
-
-// the action along that curve
-GVI__APART gvi_status gvi__curve_action(gvi_stepper *st, const gvi__from *from, gvi_real h,
-                                        const gvi_real *q1, gvi_real *action)
-{
-    struct gvi__private *x = &st->x;
-    const int n = st->n, R = x->stride;
-    gvi_real L, *q = x->change, *v = q + n;
-    gvi_status status = GVI_OK;
-    *action = 0;
-    for (int j = 0; j < st->r && status == GVI_OK; ++j) {
-        for (int i = 0; i < n; ++i) {
-            q[i] = x->work.Q[i*R + j];
-            v[i] = x->work.V ? x->work.V[i*R + j] : (q1[i] - from->q[i])/h;
-        }
-        status = gvi__lagrangian(st, x->t[j], q, v, &L);
-        if (status == GVI_OK) *action += x->hb[j]*L;
-    }
-    return status;
 }
 
 static gvi_status gvi__boundary_value(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi_real *q1,
