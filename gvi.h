@@ -5738,6 +5738,35 @@ static void gvi__add_paths(gvi_stepper *st, const gvi__from *from, gvi_real h, c
     }
 }
 
+// sums of h b times rows, exactly; the rests of before go on, and what is left takes their place
+static void gvi__row_increments(const gvi_stepper *st, const gvi_real *rows, const gvi_real *rest,
+                                gvi_real *sum, gvi_real *left)
+{
+    const int R = st->x.stride;
+    for (int i = 0; i < st->n; ++i, rows += R) {
+        const gvi__two z = gvi__increment(st->r, R, st->x.hb, rows, 0, rest[i], st->x.row);
+        sum[i] = z.hi;
+        left[i] = z.lo;
+    }
+}
+
+/* gvi__increments_of in less code                                              */
+static void gvi__increments_plain(gvi_stepper *st, const gvi__from *from, gvi_real h)
+{
+    struct gvi__private *x = &st->x;
+    const struct gvi__rows *w = &x->work;
+    const int r = st->r, R = x->stride;
+    gvi__row_increments(st, w->F, from->pe, x->dp, x->dpe);
+    if (gvi__uses(st, GVI_MOMENTA)) {
+        gvi__row_increments(st, w->V, from->qe, x->dq, x->dqe);
+        return;
+    }
+    for (int i = 0; i < st->n; ++i)
+        x->dq[i] = gvi__lever(r, R, x->c, x->hb, w->F + i*R) - (gvi__A(w) ? gvi__dot(r, x->b, w->A + i*R) : 0);
+    gvi__over_mass(st, x->dq, 1, 1);
+    gvi__add_path(st->n, h, from->v, gvi__ve(st, from), from->qe, x->dq, x->dqe);
+}
+
 /* Increments of q and p from the F, V and A at the end of the iteration, what is
    left of them going to dqe and dpe.  r, R: constants for the usual sizes.     */
 GVI__FITTED void gvi__increments_of(gvi_stepper *st, const gvi__from *from, gvi_real h, int r, int R)
@@ -5791,7 +5820,7 @@ GVI__DEEP void gvi__increments(gvi_stepper *st, const gvi__from *from, gvi_real 
         x->dt = gvi__dot(st->r, x->hb, x->rate);
         x->dH = gvi__dot(st->r, x->hb, x->rate + x->stride);
     }
-    if (GVI__SMALL) gvi__increments_of(st, from, h, st->r, x->stride);
+    if (GVI__SMALL) gvi__increments_plain(st, from, h);
     else if (st->r == 8) gvi__increments_of(st, from, h, 8, 8);
     else if (st->r == 4) gvi__increments_of(st, from, h, 4, 4);
     else if (st->r == 16) gvi__increments_of(st, from, h, 16, 16);
@@ -6897,13 +6926,10 @@ GVI__APART void gvi__newton_increments(gvi_stepper *st, const gvi__from *from)
     if (gvi__A(&x->work)) gvi__zero((size_t)(st->n*x->stride), x->work.A);     // it made none to go on from
     for (int i = 0; i < st->n; ++i) {
         const gvi__two q = gvi__product(x->h_weights, x->y[i]);
-        const gvi_real *F = x->work.F + i*x->stride;
-        const gvi__two p = gvi__increment(st->r, x->stride, x->hb, F, 0, from->pe[i], x->row);
         x->dq[i] = q.hi;
         x->dqe[i] = gvi__rest(q.lo + from->qe[i]);
-        x->dp[i] = p.hi;
-        x->dpe[i] = p.lo;
     }
+    gvi__row_increments(st, x->work.F, from->pe, x->dp, x->dpe);
 }
 
 // how Newton's method begins: at constant velocity, at the last step's modes; or as the first, and takes back changes
