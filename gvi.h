@@ -7838,6 +7838,12 @@ static void gvi__curve(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
     if (GVI__STIFF && x->springs) gvi__arcs_at(st, tau, q, v);
 }
 
+// what was asked for
+static void gvi__hand_over(int n, const gvi_real *from, gvi_real *to)
+{
+    if (to) gvi__copy((size_t)n, from, to);
+}
+
 GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v)
 {
     gvi_status status = gvi__ready(st, 1);
@@ -7853,8 +7859,8 @@ GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
         if (status != GVI_OK) return st->status = status;
         for (int i = 0; i < st->n; ++i) V[i] /= rate;
     }
-    if (q) gvi__copy((size_t)st->n, Q, q);
-    if (v) gvi__copy((size_t)st->n, V, v);
+    gvi__hand_over(st->n, Q, q);
+    gvi__hand_over(st->n, V, v);
     return GVI_OK;
 }
 
@@ -7935,9 +7941,9 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
     gvi__velocity_guess(st, V);
     if (v) status = gvi__velocity(st, t, Q, P, V);
     if (status != GVI_OK) return st->status = status;
-    if (q) gvi__copy(n, Q, q);
-    if (v) gvi__copy(n, V, v);
-    if (p) gvi__copy(n, P, p);
+    gvi__hand_over(st->n, Q, q);
+    gvi__hand_over(st->n, V, v);
+    gvi__hand_over(st->n, P, p);
     return gvi__done(st, GVI_OK);
 }
 
@@ -8231,11 +8237,11 @@ static gvi_status gvi__boundary_value(gvi_stepper *st, const gvi__from *from, gv
     for (int i = 0; i < n; ++i) {
         if (out->d1) out->d1[i] = -p0[i] - minus[i];
         if (out->d2) out->d2[i] = p1[i] - plus[i];
-        if (out->minus) out->minus[i] = minus[i];
-        if (out->plus) out->plus[i] = plus[i];
-        if (out->p0) out->p0[i] = p0[i];
-        if (out->p1) out->p1[i] = p1[i];
     }
+    gvi__hand_over(n, minus, out->minus);
+    gvi__hand_over(n, plus, out->plus);
+    gvi__hand_over(n, p0, out->p0);
+    gvi__hand_over(n, p1, out->p1);
     return GVI_OK;
 }
 
