@@ -7810,18 +7810,21 @@ static void gvi__curve(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
         return;
     }
     gvi__modes(st, tau, a, b);
-    for (int i = 0; i < n; ++i) q[i] = v[i] = 0;
+    gvi__zero((size_t)n, q);
+    gvi__zero((size_t)n, v);
+    const gvi_real *modes = by_forces ? x->Phi : x->phi, *weight = by_forces ? x->hb : x->b;
+    const gvi_real *rows = by_forces ? x->last.F : x->last.V;
     for (int j = 0; j < st->r; ++j) {
         gvi_real S = 0, T = 0;
         for (int k = 0; k < st->s; ++k) {
-            gvi_real mode = by_forces ? x->Phi[k*R + j] : x->phi[k*R + j];
-            S += b[k]*mode;
-            T += a[k]*mode;
+            S += b[k]*modes[k*R + j];
+            T += a[k]*modes[k*R + j];
         }
+        if (by_forces) S = tau - S, T = 1 - T;
         for (int i = 0; i < n; ++i) {
-            gvi_real L = by_forces ? x->hb[j]*x->last.F[i*R + j] : x->b[j]*x->last.V[i*R + j];
-            q[i] += (by_forces ? tau - S : S)*L;
-            v[i] += (by_forces ? 1 - T : T)*L;
+            const gvi_real L = weight[j]*rows[i*R + j];
+            q[i] += S*L;
+            v[i] += T*L;
         }
     }
     if (by_forces) {
