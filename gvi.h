@@ -2507,6 +2507,14 @@ static void gvi__modes_at_nodes(gvi_stepper *st)
     for (int i = 0; i < r; ++i) x->c[i] = gvi__grid(gvi__sum(x->c[i], x->t[i]), GVI__EPS/2);
 }
 
+// sum_i a_i b_i c_i, one after the other
+static gvi_real gvi__dot3(int r, const gvi_real *a, const gvi_real *b, const gvi_real *c)
+{
+    gvi_real sum = 0;
+    for (int i = 0; i < r; ++i) sum += a[i]*b[i]*c[i];
+    return sum;
+}
+
 /* 1/Gamma_kk = 2k + 1 while the rule is exact for phi_k^2; Lobatto with r = s
    gives s - 1 for the last.  A rule of order u < 2s - 2 makes Gamma full: its
    LU is kept in x->own.                                                      */
@@ -2516,18 +2524,13 @@ static gvi_status gvi__gamma(gvi_stepper *st)
     int s = st->s, r = st->r, R = x->stride;
     for (int k = 0; k < s; ++k) x->inv_gamma[k] = (gvi_real)(2*k + 1);
     if (st->order == 2*s - 2) {
-        gvi_real sum = 0;
-        for (int i = 0; i < r; ++i) sum += x->b[i]*x->phi[(s-1)*R + i]*x->phi[(s-1)*R + i];
+        const gvi_real *last = x->phi + (s - 1)*R, sum = gvi__dot3(r, x->b, last, last);
         if (!(GVI_ABS(sum) > (gvi_real)s*GVI__EPS)) return GVI_E_POINTS;
         x->inv_gamma[s-1] = x->desc.rule.kind == GVI_LOBATTO ? (gvi_real)(s - 1) : 1/sum;
     }
     if (!gvi__has(st, GVI__HAS_OWN)) return GVI_OK;
     for (int k = 0; k < s; ++k)
-        for (int l = 0; l < s; ++l) {
-            gvi_real sum = 0;
-            for (int i = 0; i < r; ++i) sum += x->b[i]*x->phi[k*R + i]*x->phi[l*R + i];
-            x->own[k*s + l] = sum;
-        }
+        for (int l = 0; l < s; ++l) x->own[k*s + l] = gvi__dot3(r, x->b, x->phi + k*R, x->phi + l*R);
     return gvi_lu_factor(s, x->own, x->own + s*s) == GVI_OK ? GVI_OK : GVI_E_POINTS;
 }
 
@@ -6722,10 +6725,7 @@ GVI__APART void gvi__newton_guess(gvi_stepper *st, int extrapolate)
     }
     gvi__extrapolate(st, x->last.V, NULL, NULL, x->work.V);
     for (int i = 0; i < n; ++i) {
-        for (int k = 0; k < s; ++k) {
-            x->row[k] = 0;
-            for (int j = 0; j < st->r; ++j) x->row[k] += x->phi[k*R + j]*x->b[j]*x->work.V[i*R + j];
-        }
+        for (int k = 0; k < s; ++k) x->row[k] = gvi__dot3(st->r, x->phi + k*R, x->b, x->work.V + i*R);
         gvi__over_gamma(st, x->row);
         for (int k = 0; k < s; ++k) x->y[k*n + i] = x->row[k];
     }
@@ -8054,22 +8054,17 @@ GVI__APART gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__matrix *J
 
     // at fixed y_k, k >= 1:  dQ_i/dq1 = c_i, dQ_i/dq0 = 1 - c_i  (Phi_0 = c)
     for (int i = 0; i < n; ++i) {
-        minus[i] = plus[i] = 0;
-        for (int j = 0; j < st->r; ++j) {
-            plus[i] += x->hb[j]*x->Phi[j]*f[i*R + j];
-            minus[i] += x->hb[j]*(1 - x->Phi[j])*f[i*R + j];
-        }
+        plus[i] = gvi__dot3(st->r, x->hb, x->Phi, f + i*R);
+        minus[i] = 0;
+        for (int j = 0; j < st->r; ++j) minus[i] += x->hb[j]*(1 - x->Phi[j])*f[i*R + j];
     }
     if (status != GVI_OK || size == 0 || !(forces & ~x->off)) return status;
 
     // the interior: J is that of the solution, with the columns of both ends
     gvi_real *lambda = x->dy;
     for (int i = 0; i < n; ++i)
-        for (int k = 1; k < s; ++k) {
-            gvi_real sum = 0;
-            for (int j = 0; j < st->r; ++j) sum += x->hb[j]*x->Phi[k*R + j]*f[i*R + j];
-            lambda[(k - 1)*n + i] = x->h_weights*sum;
-        }
+        for (int k = 1; k < s; ++k)
+            lambda[(k - 1)*n + i] = x->h_weights*gvi__dot3(st->r, x->hb, x->Phi + k*R, f + i*R);
     gvi__lu_solve_transposed(size, J->square, J->pivot, lambda);
     const gvi_real *ends = J->ends;
     for (int row = 0; row < size; ++row, ends += 2*n)
