@@ -1833,7 +1833,7 @@ static void gvi__gather(int n, int stride, const gvi_real *rows, gvi_real *out)
 }
 
 // q and v at point k to `one`, and no f and dldv behind them
-GVI__DEEP void gvi__take_point(const gvi_points *x, int k, gvi_real *one)
+static void gvi__take_point(const gvi_points *x, int k, gvi_real *one)
 {
     const int n = x->n;
     gvi__gather(n, x->stride, x->q + k, one);
@@ -1842,7 +1842,7 @@ GVI__DEEP void gvi__take_point(const gvi_points *x, int k, gvi_real *one)
 }
 
 // what was added to them goes to the rows
-GVI__DEEP void gvi__give_point(const gvi_points *x, int k, const gvi_real *one)
+static void gvi__give_point(const gvi_points *x, int k, const gvi_real *one)
 {
     const int n = x->n;
     gvi_real *dldv = GVI__LAGRANGIAN ? x->dldv : NULL;
@@ -3966,7 +3966,7 @@ static inline void gvi__weigh(int R, const gvi_real *GVI__RESTRICT w, const gvi_
     for (int j = 0; j < R; ++j) L[j] = w[j]*f[j];
 }
 
-GVI__DEEP void gvi__weigh_row(int R, const gvi_real *w, const gvi_real *f, gvi_real *L)
+static void gvi__weigh_row(int R, const gvi_real *w, const gvi_real *f, gvi_real *L)
 {
     gvi__weigh(R, w, f, L);
 }
@@ -4872,7 +4872,7 @@ GVI__APART gvi_real gvi__stage_made(gvi_stepper *st, const gvi__from *from, gvi_
 
 /* The rows of the next iteration from the F, V and A of this one; returns the
    sum of squares of their relative changes.                                   */
-GVI__DEEP gvi_real gvi__stages(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi__stage *y,
+static gvi_real gvi__stages(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi__stage *y,
                                int count)
 {
     struct gvi__private *x = &st->x;
@@ -5347,7 +5347,7 @@ GVI__APART void gvi__extrapolate_made(gvi_stepper *st, const gvi__from *from, gv
 
 /* Starting values: what the last step had, extrapolated; without one, or if
    that led nowhere, no force and constant velocity; `rate` is the clock's.     */
-GVI__APART void gvi__guess(gvi_stepper *st, int extrapolate, gvi_real rate)
+static void gvi__guess(gvi_stepper *st, int extrapolate, gvi_real rate)
 {
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work, *l = &x->last;
@@ -7662,8 +7662,8 @@ GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_rea
     if (status != GVI_OK) return status;
     struct gvi__private *x = &st->x;
     size_t n = (size_t)st->n;
+    gvi__copy(n, p, x->dp);                       // p may be dq
     gvi__copy(n, q, x->dq);
-    gvi__copy(n, p, x->dp);
     // a velocity to start the first iteration from; where there is none, the step says so
     gvi_real *v = x->change;
     gvi__zero(n, v);
@@ -7678,10 +7678,9 @@ GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_rea
 {
     gvi_status status = gvi__check_start(st, t, q0, q1);
     if (status != GVI_OK) return status;
-    gvi_discrete out = { NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL };
-    out.p0 = st->x.change + 2*st->n;
-    status = gvi_discrete_lagrangian(st, t, h, q0, q1, &out);
-    return status == GVI_OK ? gvi_start_momentum(st, t, q0, out.p0) : status;
+    static const gvi_discrete out = { NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL };
+    status = gvi_discrete_lagrangian(st, t, h, q0, q1, &out);             // p0 is in dq then
+    return status == GVI_OK ? gvi_start_momentum(st, t, q0, st->x.dq) : status;
 }
 
 GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
