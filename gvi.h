@@ -6782,8 +6782,9 @@ GVI__APART int gvi__newton_rests(const gvi_stepper *st, const gvi__from *from, i
     const int fine = proven & (w.moved + w.place <= GVI__MAX) & (w.beyond <= 4*GVI__EPS*w.moved);
     const gvi_real small = fresh ? GVI_SQRT(GVI__EPS) : 0, enough = 64*GVI__EPS*(gvi_real)size;
     const int sure = (p->work < 0) | (proven & (change <= (enough > small ? enough : small)));
-    const int jumps = !((gvi_real)st->r*p->work <= GVI__EPS*(w.moved + w.place));
-    if (!sure & (jumps | !(fine | gvi__is_rounding(&w, p->idle)))) return 0;
+    const int falls = (gvi_real)st->r*p->work <= GVI__EPS*(w.moved + w.place);
+    const int rests = fine | gvi__is_rounding(&w, p->idle);
+    if (!(sure | (falls & rests))) return 0;
     p->left = p->before;
     if (fine && w.beyond + 4*GVI__EPS*w.place < p->before*w.moved)
         p->left = (w.beyond + 4*GVI__EPS*w.place)/w.moved;
@@ -6803,7 +6804,7 @@ GVI__APART int gvi__newton_judge(gvi_stepper *st, const gvi__from *from, const g
     const gvi_real wanted = st->x.desc.tolerance;
     if (!gvi__finite(change)) return GVI__NOT_FINITE;
     gvi__watch(st, change*change, p->earlier*p->earlier);
-    const int stagnant = before > 0 && change > p->least/2;
+    const int stagnant = (before > 0) & (change > p->least/2);
     p->idle = (signed char)(!stagnant ? 0 : p->idle < 100 ? p->idle + 1 : 100);
     const gvi_real noise = 64*GVI__EPS*(gvi_real)((st->s - J->k0)*st->n);
     if (before > 0 && !stagnant && !(p->left < GVI__MAX) && (change > noise || change < p->rho*p->least))
