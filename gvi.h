@@ -7221,7 +7221,7 @@ static void gvi__rotate(gvi_real **older, gvi_real **last, gvi_real **work)
     *work = free;
 }
 
-GVI__COPY void gvi__rotate_rows(gvi_stepper *st)
+GVI__FITTED void gvi__rotate_rows(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
     x->turns = x->turns < 5 ? (signed char)(x->turns + 1) : 0;
