@@ -2077,10 +2077,9 @@ GVI__APART gvi_status gvi__ldl_factor(gvi_stepper *st, int n, int stride, int co
             const gvi_real was = GVI_ABS(d[k]);
             gvi_real rest = d[k];
             for (size_t l = 0; l < j; ++l) rest -= m[(j*N + l)*R + k]*m[(l*N + j)*R + k];
-            if (!(was <= GVI__MAX) || !gvi__finite(rest))
-                return gvi__fail(st, GVI_E_NON_FINITE, GVI_FAULT_MASS, (int)j, (int)k);
-            if (!(GVI_ABS(rest) > (gvi_real)n*GVI__EPS*was) || !gvi__finite(d[k] = 1/rest))
-                return gvi__fail(st, GVI_E_SINGULAR, GVI_FAULT_MASS, (int)j, (int)k);
+            const gvi_status status = !(was <= GVI__MAX) || !gvi__finite(rest) ? GVI_E_NON_FINITE
+                : !(GVI_ABS(rest) > (gvi_real)n*GVI__EPS*was) || !gvi__finite(d[k] = 1/rest) ? GVI_E_SINGULAR : GVI_OK;
+            if (status != GVI_OK) return gvi__fail(st, status, GVI_FAULT_MASS, (int)j, (int)k);
         }
         for (size_t i = j + 1; i < N; ++i) {
             gvi_real *a = m + (i*N + j)*R, *b = m + (j*N + i)*R;
@@ -3336,10 +3335,9 @@ static gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
     if (mass->kind == GVI_MASS_DIAGONAL)
         for (int i = 0; i < n; ++i) {
             m[i] = mass->matrix[i];
-            if (!gvi__finite(m[i])) return gvi__fail(st, GVI_E_ARGUMENT, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
-            if (!gvi__nonzero(m[i]) || !gvi__finite(1/m[i]))
-                return gvi__fail(st, GVI_E_SINGULAR, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
-            st->x.over[i] = 1/m[i];
+            const gvi_status status = !gvi__finite(m[i]) ? GVI_E_ARGUMENT
+                : !gvi__nonzero(m[i]) || !gvi__finite(st->x.over[i] = 1/m[i]) ? GVI_E_SINGULAR : GVI_OK;
+            if (status != GVI_OK) return gvi__fail(st, status, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
         }
     if (gvi__mass_is(st, GVI_MASS_DENSE)) {
         size_t nn = (size_t)n*(size_t)n;
@@ -4917,9 +4915,9 @@ static gvi_status gvi__rate(gvi_stepper *st, const gvi_points *x, gvi_real *rate
     const gvi_status status = gvi__call(st, &y, st->x.clock);
     if (status != GVI_OK) return status;
     for (int k = 0; k < x->count; ++k) {
-        if (rate[k] <= 0) return gvi__fail(st, GVI_E_CLOCK, st->x.clock, GVI_FAULT_NONE, k);
-        if (gvi__diagnoses(st) && !gvi__finite(rate[k]))
-            return gvi__fail(st, GVI_E_NON_FINITE, st->x.clock, GVI_FAULT_NONE, k);
+        const gvi_status verdict = rate[k] <= 0 ? GVI_E_CLOCK
+            : gvi__diagnoses(st) && !gvi__finite(rate[k]) ? GVI_E_NON_FINITE : GVI_OK;
+        if (verdict != GVI_OK) return gvi__fail(st, verdict, st->x.clock, GVI_FAULT_NONE, k);
     }
     return gvi__diagnoses(st) ? gvi__check_rows(st, x, slope, st->x.clock) : GVI_OK;
 }
