@@ -3171,7 +3171,7 @@ static size_t gvi__springs_length(const gvi__scene *x, size_t R)
     return count > ((size_t)-1 - others)/each ? (size_t)-1 : others + count*each;    // gvi__take ends there
 }
 
-GVI__APART void gvi__lengths(const gvi__scene *x, size_t *length)
+static void gvi__lengths(const gvi__scene *x, size_t *length)
 {
     const gvi_desc *d = x->desc;
     const size_t n = (size_t)d->n, s = (size_t)d->degree, r = (size_t)d->rule.points, R = (size_t)GVI__ROW(r);
@@ -4939,7 +4939,7 @@ static inline void gvi__transform_row(int R, const gvi_real *GVI__RESTRICT g,
 
 /* What a clock makes of F and V:  F := g F - dg/dq (H - E),  V := g v, with
    H = (P + A)'V/2 + V_pot - L, and E and the times by the rule of Q: sums with T. */
-GVI__APART void gvi__transform(gvi_stepper *st, const gvi__from *from, int lagrangian)
+static void gvi__transform(gvi_stepper *st, const gvi__from *from, int lagrangian)
 {
     struct gvi__private *x = &st->x;
     struct gvi__rows *w = &x->work;
@@ -6099,7 +6099,7 @@ static inline void gvi__scales(gvi_stepper *st, const gvi__stage *y, int count)
 }
 
 // what the first iteration begins with: rows, or F, V and A to make them of
-GVI__DEEP gvi_status gvi__first_rows(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate,
+static gvi_status gvi__first_rows(gvi_stepper *st, const gvi__from *from, gvi_real h, int extrapolate,
                                      const gvi__stage *y)
 {
     struct gvi__private *x = &st->x;
@@ -6199,7 +6199,7 @@ GVI__APART gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__from *from, g
 /* Newton on (1).  Unknowns y[k*n + i]; the rows are those of (1) times 2k + 1,
    from k0 on: k0 = 0 for a step, 1 for the boundary-value problem.            */
 
-GVI__APART void gvi__newton_rows(gvi_stepper *st, const gvi__from *from, gvi_real h)
+static void gvi__newton_rows(gvi_stepper *st, const gvi__from *from, gvi_real h)
 {
     struct gvi__private *x = &st->x;
     int n = st->n, R = x->stride;
@@ -6771,7 +6771,7 @@ GVI__APART gvi_real gvi__newton_update(gvi_stepper *st, const gvi__from *from, c
    small and the Jacobian new.  Then p->left is what it can
    hide of the error: no more than the change before, nor than its own worth as energy, where
    a coordinate that hardly moves makes all of the noise.                      */
-GVI__APART int gvi__newton_rests(const gvi_stepper *st, const gvi__from *from, int size, gvi__descent *p,
+static int gvi__newton_rests(const gvi_stepper *st, const gvi__from *from, int size, gvi__descent *p,
                                  gvi_real change)
 {
     const gvi__worth w = gvi__worth_of_change(st, from);
