@@ -571,7 +571,7 @@ struct gvi__private {
     gvi_formulation  chosen;          /* by the scene, or pinned                */
     unsigned char    diagnose;        /* repeated, to find what is not finite   */
     unsigned char    newton_left;     /* steps until the fixed point is tried   */
-    unsigned char    stepped;         /* 2: by a clock                          */
+    unsigned char    whole_left;      /* steps until blocks are tried again     */
     int              stride, flags;   /* of the rows; what the scene needs      */
     unsigned         off;             /* effects switched off, one bit each     */
     /* parts of the caller's memory, handed out by gvi__layout; R = stride */
@@ -611,10 +611,9 @@ struct gvi__private {
     gvi_real         ratio;           /* h/h_last for which E holds             */
     gvi_real         h_matrix;        /* h for which J was made, 0: none        */
     unsigned         marks;           /* effects marked as weak, one bit each   */
-    signed char      whole_left;      /* steps until blocks are tried again     */
     signed char      clock, single;   /* effect that is one; the only one; or -1 */
     signed char      alike, E_is;     /* last steps of the same length: 0, 1, 2; see GVI__OF_TWO */
-    signed char      started;
+    signed char      started, stepped;  /* stepped: 2 by a clock               */
     signed char      usual;           /* see gvi__usual_step                   */
     signed char      turns;           /* of the rows since gvi_init, modulo 6: gvi__rotate_rows */
     signed char      has_rate;        /* rate holds                             */
@@ -7330,7 +7329,7 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     x->has_force = explicit_one && !gvi__nonzero(x->c[0]) && !gvi__nonzero(x->c[st->r - 1] - 1);
     x->has_velocity = GVI__READS_V && st->formulation > GVI_POSITIONS;
     if (GVI__NEWTON && x->newton_left > 0) x->newton_left = (unsigned char)(x->newton_left - 1);
-    if (GVI__NEWTON && x->whole_left > 0) x->whole_left = (signed char)(x->whole_left - 1);
+    if (GVI__NEWTON && x->whole_left > 0) x->whole_left = (unsigned char)(x->whole_left - 1);
     gvi__count(&st->counters.steps, 1);
 }
 
@@ -7374,10 +7373,9 @@ GVI__SELDOM gvi_status gvi__any_step(gvi_stepper *st, gvi_real h)
     if (!gvi__nonzero(h) || !gvi__finite(h)) return st->status = GVI_E_ARGUMENT;
 
     const gvi_formulation was = st->formulation;
-    const unsigned char left = x->newton_left;
-    const signed char whole = x->whole_left;
+    const unsigned char left = x->newton_left, whole = x->whole_left;
     gvi__from from = { st->t, x->te, x->q, x->qe, x->p, x->pe, x->H + x->He, NULL };
-    if (GVI__NEWTON && x->stepped && gvi__nonzero(h - st->h)) x->newton_left = 0, x->whole_left = 0;
+    if (GVI__NEWTON && x->stepped && gvi__nonzero(h - st->h)) x->newton_left = x->whole_left = 0;
     gvi_status status = gvi__uses(st, GVI_EXPLICIT) && !GVI__SMALL ? gvi__solve_explicit(st, &from, h)
                                                                    : gvi__solve(st, &from, h, GVI__STEP, 0);
     if (status == GVI_OK && !gvi__finite(st->t + x->dt)) status = gvi__give(st, GVI_E_ARGUMENT);
@@ -7603,11 +7601,9 @@ static gvi_status gvi__start(gvi_stepper *st, gvi_real t, const gvi_real *v)
     st->h = 0;
     x->te = 0;
     x->started = 1;
-    x->stepped = 0;
-    x->has_force = x->has_velocity = x->alike = x->E_is = 0;
+    x->stepped = x->has_force = x->has_velocity = x->alike = x->E_is = 0;
     if (GVI__PIECES) x->usual = 0;
-    x->newton_left = 0;
-    x->whole_left = 0;
+    x->newton_left = x->whole_left = 0;
     x->h_matrix = x->ratio = 0;
     if (GVI__WEAK && x->weak) *gvi__answers(st) = 1;
     st->formulation = x->chosen;
