@@ -3768,7 +3768,11 @@ GVI__COPY int gvi__last_kick(gvi_stepper *st, int n, const gvi__kicks *x, int ro
         return m ? gvi__last_rounded(n, b, a, m, from, F, x->Q, dp, x->dq)
                  : gvi__last_rounded(n, b, a, NULL, from, F, x->Q, dp, x->dq);
     }
-    for (int i = 0; i < n; ++i) dp[i] += b*F[i];
+    int i = 0;
+#if GVI__WIDE
+    for (; n >= 8 && !x->dense && i < n; i += GVI__LANES) *(gvi__vector *)(dp + i) += b*GVI__AT(F + i);
+#endif
+    for (; i < n; ++i) dp[i] += b*F[i];
     if (!gvi__nonzero(a)) return 1;
     if (x->dense) {
         gvi__over_constant_mass(st, dp, st->x.change);
