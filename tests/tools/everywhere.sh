@@ -16,8 +16,8 @@ all='gcc clang tcc i386-sse i386-x87 i386-clang armhf aarch64 riscv64 ppc64 s390
 
 # Tests that say what gvi.h computes.  Not here: those of the examples, of the price list and of the
 # reference integrators (make test); test_order, test_theorems, test_ncdp, a minute and more each.
-quick='api effects identities interpolation kicks lu mass newton oracle quadrature queries structure tolerance
-       effects:float interpolation:float lu:float newton:float oracle:float'
+quick='api effects identities interpolation kicks lu many mass newton oracle quadrature queries structure tolerance
+       effects:float interpolation:float lu:float many:float newton:float oracle:float'
 more='corners corners:float guess hostile mass:float scenes tolerance:float usual usual:float'
 wide='lu:long interpolation:long oracle:long'
 quad='interpolation:long oracle:long kicks:long effects:long'
