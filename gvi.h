@@ -3731,7 +3731,7 @@ GVI__COPY int gvi__last_rounded(int n, gvi_real b, gvi_real a, const gvi_real *m
 }
 
 #if GVI__WIDE
-// the same in whole vectors
+// gvi__last_rounded in whole vectors
 GVI__COPY int gvi__last_vectors(int n, gvi_real b, gvi_real a, const gvi_real *m, const gvi__from *from,
                                 const gvi_real *F, const gvi_real *Q, gvi_real *dp, gvi_real *dq)
 {
@@ -6154,7 +6154,7 @@ GVI__COPY gvi_status gvi__fixed_point_of(gvi_stepper *st, const gvi__from *from,
         if (*used > 0 || !sums) change = plain ? gvi__stage_rows(st, y) : gvi__stages(st, from, h, y, count);
         int verdict = GVI__GO_ON;
         if (*used > 0) {
-            verdict = plain || simple ? gvi__judge_most(st, &p, change) : GVI__LOOK;
+            verdict = simple ? gvi__judge_most(st, &p, change) : GVI__LOOK;
             if (verdict == GVI__LOOK) {
                 if (!gvi__finite(change)) return gvi__not_finite(st, p.grows || p.before > (gvi_real)st->n);
                 verdict = gvi__judge(st, from, &p, GVI__WEAK ? &weak : NULL, change, *used);
@@ -7264,7 +7264,7 @@ GVI__COPY gvi__vectors gvi__exact_vectors(gvi__vector x, gvi__vector y)
     return z;
 }
 
-// the same in whole vectors
+// gvi__move_of in whole vectors
 GVI__COPY void gvi__move_vectors(int n, int keeps, gvi_real zero, const gvi_real *dx, const gvi_real *dxe,
                                  gvi_real *x, gvi_real *rest, gvi_real *was)
 {
