@@ -1049,10 +1049,14 @@ static gvi__two gvi__join(gvi_real x, gvi_real xe, gvi_real y, gvi_real ye)
     return gvi__two_of(sum.hi, (xe + ye) + sum.lo);
 }
 
-// a b + c with one rounding, where it is an instruction; newlib's <math.h> does not say so, gcc does
-#if GVI__KIND == 1 && defined(__FP_FAST_FMAF)
+/* a b + c with one rounding, where it is an instruction.  newlib's <math.h> does not say so, gcc does; clang,
+   and gcc after a pragma that names the processor, say so only by what the processor has.  */
+#if defined(__GNUC__) && ((defined(__FMA__) && defined(__SSE2_MATH__)) || defined(__aarch64__))
+#define GVI__FUSES
+#endif
+#if GVI__KIND == 1 && (defined(GVI__FUSES) || defined(__FP_FAST_FMAF))
 #define GVI__FMA __builtin_fmaf
-#elif GVI__KIND == 2 && defined(__FP_FAST_FMA)
+#elif GVI__KIND == 2 && (defined(GVI__FUSES) || defined(__FP_FAST_FMA))
 #define GVI__FMA __builtin_fma
 #elif GVI__KIND == 1 && defined(FP_FAST_FMAF) && defined(GVI__MATH)
 #define GVI__FMA fmaf
@@ -2061,7 +2065,7 @@ typedef gvi_real gvi__vector
 #define GVI__FITTED GVI__APART
 #endif
 
-#define GVI__PIECES (GVI__WIDE && GVI__POSITIONS)     // steps of two coordinates in one piece
+#define GVI__PIECES (GVI__WIDE && GVI__POSITIONS)     // steps of two or three coordinates in one piece
 
 /* L D L' of a symmetric matrix at each of `count` points, in place: entry (i,j), i >= j,
    of point k at [(i*n + j)*stride + k].  L below the diagonal, 1/D on it, and above
@@ -7350,8 +7354,8 @@ static gvi_status gvi__solve_explicit(gvi_stepper *st, gvi__from *from, gvi_real
 
 /* ---- a step in one piece ---- */
 
-/* With two coordinates what a step asks, and hands from function to function through memory, takes as long
-   as three or four iterations.  What most such steps are is therefore here once more, in one piece: the
+/* With two or three coordinates what a step asks, and hands from function to function through memory, takes
+   as long as three or four iterations.  What most such steps are is therefore here once more, in one piece: the
    same terms in the same order, and so the same bits.  Where anything is out of the ordinary nothing has
    moved, and gvi__solve makes the step from its beginning.                    */
 #if GVI__PIECES
@@ -7361,7 +7365,7 @@ static signed char gvi__is_usual(const gvi_stepper *st)
     const struct gvi__private *x = &st->x;
     const int is = (st->r == 8 && GVI__BEYOND_FLOAT ? GVI__OF_TWO : 0) + GVI__SUMS
                    + (GVI__LEARNS && x->learned.lengthy ? GVI__LONG : 0);
-    return st->n == 2 && (st->r == 8 || st->r == 16) && x->desc.mass.kind <= GVI_MASS_DIAGONAL
+    return (st->n == 2 || st->n == 3) && (st->r == 8 || st->r == 16) && x->desc.mass.kind <= GVI_MASS_DIAGONAL
         && (x->alike == 2 || !GVI__BEYOND_FLOAT) && x->E_is == is && !gvi__nonzero(x->ratio - 1)
         && gvi__is_plain(st) && x->newton_left == 0 && x->whole_left == 0;
 }
@@ -7403,12 +7407,12 @@ GVI__SELDOM gvi_status gvi__any_step(gvi_stepper *st, gvi_real h)
 #if GVI__PIECES
 // the fixed point; returns the number of iterations, or 0; how often the effect was asked: that, or once more
 GVI__COPY int gvi__usual_rounds(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi__stage *y,
-                                gvi_real *F, int R, int *asked)
+                                gvi_real *F, int n, int R, int *asked)
 {
     struct gvi__private *x = &st->x;
     const int folded = gvi__folds(st);
     const gvi_effect *effect = x->desc.effects + x->single;
-    gvi__progress p = gvi__progress_of(st, 2*R);
+    gvi__progress p = gvi__progress_of(st, n*R);
     gvi_points at;
     gvi__at(&at, st, x->t, y->rows);
     if (effect->kind != GVI_POTENTIAL) at.v = x->work.V;
@@ -7417,22 +7421,22 @@ GVI__COPY int gvi__usual_rounds(gvi_stepper *st, const gvi__from *from, gvi_real
     at.count = st->r;
     at.stride = R;
     for (int used = 1; ; ++used) {
-        gvi__zero_rows(2, R, h - h, F);
+        gvi__zero_rows(n, R, h - h, F);
         *asked = used;
         if (!GVI__OFTEN(effect->points(&at, effect->user) == 0)) return 0;
-        const gvi_real change = R == 8 ? gvi__rows_of_8(st, y, gvi__diagonal(st, y), 8, 2, folded)
-                                       : gvi__stage_rows_16(st, y, 16, 2);
+        const gvi_real change = R == 8 ? gvi__rows_of_8(st, y, gvi__diagonal(st, y), 8, n, folded)
+                                       : gvi__stage_rows_16(st, y, 16, n);
         const int more = used < x->desc.max_iterations;
         int verdict = gvi__judge_most(st, &p, change);
         if (GVI__OFTEN(verdict == GVI__GO_ON && more && p.idle + p.poor == 0)) continue;
         if (verdict == GVI__LOOK && gvi__finite(change)) verdict = gvi__judge(st, from, &p, NULL, change, used);
-        gvi__gather(2, R, x->work.Q + R - 1, x->change);
+        gvi__gather(n, R, x->work.Q + R - 1, x->change);
         if (verdict == GVI__GO_ON && more) continue;
         if (verdict != GVI__DONE && verdict != GVI__ASK_ONCE_MORE) return 0;
         gvi__watch_last(st, change);
         if (verdict == GVI__DONE) return used;
         *asked = used + 1;
-        gvi__zero_rows(2, R, h - h, F);
+        gvi__zero_rows(n, R, h - h, F);
         return effect->points(&at, effect->user) ? 0 : used;
     }
 }
@@ -7454,20 +7458,30 @@ GVI__COPY gvi__moved gvi__moved_of(const gvi_stepper *st, const gvi__two *v, gvi
     return z;
 }
 
-// as gvi__commit; 0: the end is not finite
-GVI__COPY int gvi__usual_end(gvi_stepper *st, const gvi__two *v, gvi_real h, int R)
+// as gvi__commit, of two coordinates as pairs, and a third beside them; 0: the end is not finite
+GVI__COPY int gvi__usual_end(gvi_stepper *st, const gvi__two *v, gvi_real h, int n, int R)
 {
     struct gvi__private *x = &st->x;
     const gvi__moved a = gvi__moved_of(st, v, h, 0, R), b = gvi__moved_of(st, v + 1, h, 1, R);
+    const gvi__moved c = n > 2 ? gvi__moved_of(st, v + 2, h, 2, R) : a;
     const gvi__pair q = { a.q.hi, b.q.hi }, qe = { a.q.lo, b.q.lo };
     const gvi__pair p = { a.p.hi, b.p.hi }, pe = { a.p.lo, b.p.lo }, none = 0*q + 0*qe + 0*p + 0*pe;
-    if (!(none[0] + none[1] + 0*(st->t + h) >= 0)) return 0;
+    gvi_real last = 0*(st->t + h);
+    if (n > 2) last += (0*c.q.hi + 0*c.q.lo) + (0*c.p.hi + 0*c.p.lo);
+    if (!(none[0] + none[1] + last >= 0)) return 0;
     *(gvi__pair *)x->q0 = GVI__PAIR(x->q);
     *(gvi__pair *)x->p0 = GVI__PAIR(x->p);
     *(gvi__pair *)x->q = q;
     *(gvi__pair *)x->qe = qe;
     *(gvi__pair *)x->p = p;
     *(gvi__pair *)x->pe = pe;
+    if (n == 2) return 1;
+    x->q0[2] = x->q[2];
+    x->p0[2] = x->p[2];
+    x->q[2] = c.q.hi;
+    x->qe[2] = c.q.lo;
+    x->p[2] = c.p.hi;
+    x->pe[2] = c.p.lo;
     return 1;
 }
 
@@ -7486,17 +7500,17 @@ GVI__COPY void gvi__extrapolate_two_16(const gvi_stepper *st, const gvi__stage *
     }
 }
 
-GVI__COPY int gvi__usual_of(gvi_stepper *st, gvi_real h, int R, int two, int *asked)
+GVI__COPY int gvi__usual_of(gvi_stepper *st, gvi_real h, int n, int R, int two, int *asked)
 {
     struct gvi__private *x = &st->x;
-    gvi_real path[2], rest[2], *const Q = x->work.Q, *const F = x->work.F;    // just stored, each by itself: not in pairs
-    gvi__two v[2];
+    gvi_real path[3], rest[3], *const Q = x->work.Q, *const F = x->work.F;    // just stored, each by itself: not in pairs
+    gvi__two v[3];
     const gvi__from from = { st->t, x->te, x->q, x->qe, x->p, x->pe, 0, x->over ? x->v0 : x->p };
     const gvi__stage y = { x->q, x->qe, path, rest, gvi__folds(st) ? x->folded : x->g, F,
                            NULL, h, Q, x->scale, 1, NULL };
     x->dt = h;
     gvi__times(R, st->t, x->te, h, x->c, x->t);
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < n; ++i) {
         v[i] = gvi__two_of(x->p[i], x->pe[i]);
         if (x->over) {
             v[i] = gvi__product(x->p[i], x->over[i]);
@@ -7507,19 +7521,27 @@ GVI__COPY int gvi__usual_of(gvi_stepper *st, gvi_real h, int R, int two, int *as
         path[i] = way.hi;
         rest[i] = GVI__RESTS ? way.lo + h*v[i].lo : 0;
     }
-    if (R == 16) gvi__extrapolate_two_16(st, &y);
-    else gvi__extrapolate_rows(st, 2, R, R, two, 0, x->last.F, x->older_F, &y, Q);
-    for (int i = 0; i < 2; ++i) x->scale[i] = gvi__scale_of(y.base[i], y.rows[i*R + R - 1]);
-    const int used = gvi__usual_rounds(st, &from, h, &y, F, R, asked);
-    return used > 0 && gvi__usual_end(st, v, h, R) ? used : 0;
+    if (R == 16 && n == 2) gvi__extrapolate_two_16(st, &y);
+    else gvi__extrapolate_rows(st, n, R, R, two, 0, x->last.F, x->older_F, &y, Q);
+    for (int i = 0; i < n; ++i) x->scale[i] = gvi__scale_of(y.base[i], y.rows[i*R + R - 1]);
+    const int used = gvi__usual_rounds(st, &from, h, &y, F, n, R, asked);
+    return used > 0 && gvi__usual_end(st, v, h, n, R) ? used : 0;
 }
+
+// r: a constant, too
+GVI__COPY int gvi__usual_as(gvi_stepper *st, gvi_real h, int n, int *asked)
+{
+    return st->r == 8 ? gvi__usual_of(st, h, n, 8, GVI__BEYOND_FLOAT, asked) : gvi__usual_of(st, h, n, 16, 0, asked);
+}
+
+// apart: of four copies in one function those of two coordinates took 3 % longer
+GVI__SELDOM int gvi__usual_of_three(gvi_stepper *st, gvi_real h, int *asked) { return gvi__usual_as(st, h, 3, asked); }
 
 GVI__SELDOM gvi_status gvi__usual_step(gvi_stepper *st, gvi_real h)
 {
     struct gvi__private *x = &st->x;
     int asked = 0;
-    const int used = st->r == 8 ? gvi__usual_of(st, h, 8, GVI__BEYOND_FLOAT, &asked)
-                                : gvi__usual_of(st, h, 16, 0, &asked);
+    const int used = st->n == 2 ? gvi__usual_as(st, h, 2, &asked) : gvi__usual_of_three(st, h, &asked);
     gvi__count(&st->counters.effect[x->single], asked*st->r);
     if (used == 0) return gvi__any_step(st, h);
     st->iterations = used;

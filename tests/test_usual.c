@@ -1,4 +1,4 @@
-/* Steps of two coordinates in one piece against the same steps by the general functions: bits, counters,
+/* Steps of two and three coordinates in one piece against the same steps by the general functions: bits, counters,
    faults and refusals are to be the same.                                      */
 #ifndef GVI_REAL
 #define GVI_REAL double
@@ -6,7 +6,7 @@
 #include "gvi_test.h"
 
 typedef gvi_real real;
-enum { MOST = 6000 };
+enum { MOST = 12000 };
 static real memory[2][MOST], saved[MOST];
 
 /* what a force does beside pulling */
@@ -16,32 +16,39 @@ typedef struct mood {
     unsigned long long asked;   /* points, since the start */
 } mood;
 
-static int pull(const gvi_points *p, mood *m, void (*law)(real x, real y, real *f, real *g))
+static int pull(const gvi_points *p, mood *m, void (*law)(int n, const real *q, real *f))
 {
-    const real *x = p->q, *y = x + p->stride;
+    const real *x = p->q;
     m->asked += (unsigned long long)p->count;
     for (int k = 0; k < p->count; ++k) if (x[k] > m->wall) return 1;
     for (int k = 0; k < p->count; ++k) {
-        law(x[k], y[k], p->f + k, p->f + p->stride + k);
+        real q[3], f[3];
+        for (int i = 0; i < p->n; ++i) q[i] = x[i*p->stride + k];
+        for (int i = 0; i < p->n; ++i) f[i] = p->f[i*p->stride + k];
+        law(p->n, q, f);
+        for (int i = 0; i < p->n; ++i) p->f[i*p->stride + k] = f[i];
         if (x[k] > m->edge) p->f[k] = (real)NAN;
     }
     return 0;
 }
 
-static void henon_heiles(real x, real y, real *f, real *g)
+// V = (x^2 + y^2)/2 + x^2 y - y^3/3, and z^2/2 + x z^2
+static void henon_heiles(int n, const real *q, real *f)
 {
-    *f -= x + 2*x*y;
-    *g -= y + x*x - y*y;
+    f[0] -= q[0] + 2*q[0]*q[1];
+    f[1] -= q[1] + q[0]*q[0] - q[1]*q[1];
+    if (n < 3) return;
+    f[0] -= q[2]*q[2];
+    f[2] -= q[2] + 2*q[0]*q[2];
 }
 
-static void kepler(real x, real y, real *f, real *g)
+static void kepler(int n, const real *q, real *f)
 {
-    const real r2 = x*x + y*y, r = (real)sqrtl((long double)r2);
-    *f -= x/(r2*r);
-    *g -= y/(r2*r);
+    const real r2 = q[0]*q[0] + q[1]*q[1] + (n > 2 ? q[2]*q[2] : 0), r = (real)sqrtl((long double)r2);
+    for (int i = 0; i < n; ++i) f[i] -= q[i]/(r2*r);
 }
 
-static void nothing(real x, real y, real *f, real *g) { (void)x, (void)y, (void)f, (void)g; }
+static void nothing(int n, const real *q, real *f) { (void)n, (void)q, (void)f; }
 
 static int points_hh(const gvi_points *p, void *user) { return pull(p, user, henon_heiles); }
 static int points_nothing(const gvi_points *p, void *user) { return pull(p, user, nothing); }
@@ -57,9 +64,8 @@ typedef struct pair {
 
 static void begin(pair *z, gvi_points_fn *points, gvi_desc desc, real x, real vy)
 {
-    const real q[2] = { x, (real)0.05L }, v[2] = { (real)0.1L, vy };
+    const real q[3] = { x, (real)0.05L, (real)0.03L }, v[3] = { (real)0.1L, vy, (real)-0.1L };
     memset(z, 0, sizeof *z);
-    desc.n = 2;
     desc.effect_count = 1;
     for (int i = 0; i < 2; ++i) {
         const mood calm = { (real)1e9L, (real)1e9L, 0 };
@@ -78,7 +84,7 @@ static void assert_same(const pair *z)
 {
     const gvi_stepper *a = z->st, *b = z->st + 1;
     const gvi_counters *c = &a->counters, *d = &b->counters;
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < a->n; ++i) {
         assert_true(a->q[i] == b->q[i] && a->p[i] == b->p[i]);
         assert_true(a->x.qe[i] == b->x.qe[i] && a->x.pe[i] == b->x.pe[i]);
         assert_true(a->x.q0[i] == b->x.q0[i] && a->x.p0[i] == b->x.p0[i]);
@@ -112,21 +118,21 @@ static gvi_status both(pair *z, real h)
 /* were at least so many of the steps made in one piece? */
 static void assert_whole(const pair *z, int least) { if (GVI__PIECES) assert_true(z->whole >= least); }
 
-static gvi_desc described(int degree, real tolerance, const real *mass)
+static gvi_desc described(int n, int degree, real tolerance, const real *mass)
 {
-    gvi_desc desc = { .degree = degree, .tolerance = tolerance };
+    gvi_desc desc = { .n = n, .degree = degree, .tolerance = tolerance };
     if (mass) desc.mass.kind = GVI_MASS_DIAGONAL;
     desc.mass.matrix = mass;
     return desc;
 }
 
-static const real masses[2] = { (real)1.7L, (real)0.3L };
+static const real masses[3] = { (real)1.7L, (real)0.3L, (real)0.8L };
 
 /* Every size, tolerance and mass of these steps, short ones and as long as the iteration allows.  */
 static void same_bits(void **state)
 {
     static const real tolerances[] = { 0, (real)1e-4L, 64*EPS };
-    (void)state;
+    const int n = *(int *)*state;
     for (int degree = 8; degree <= 16; degree += 8)
         for (int k = 0; k < COUNT(tolerances); ++k)
             for (int heavy = 0; heavy < 2; ++heavy)
@@ -134,7 +140,7 @@ static void same_bits(void **state)
                     pair z;
                     const real h = scene ? (real)0.15L : heavy ? (real)0.6L : (real)1.6L;
                     begin(&z, scene ? points_kepler : points_hh,
-                          described(degree, tolerances[k], heavy ? masses : NULL),
+                          described(n, degree, tolerances[k], heavy ? masses : NULL),
                           scene ? (real)1 : (real)0.1L, scene ? (real)0.8L : (real)0.2L);
                     for (int i = 0; i < 300; ++i) assert_ok(both(&z, h));
                     assert_whole(&z, 150);
@@ -145,14 +151,14 @@ static void same_bits(void **state)
    iterations than it takes, failed, and past it by shorter steps.              */
 static void same_where_it_creeps(void **state)
 {
-    (void)state;
+    const int n = *(int *)*state;
     for (int pinned = 0; pinned < 2; ++pinned) {
         pair z;
-        gvi_desc desc = described(8, 0, NULL);
+        gvi_desc desc = described(n, 8, 0, NULL);
         int turned = 0, failed = 0;
         desc.formulation = pinned ? GVI_POSITIONS : GVI_AUTO;
         desc.max_iterations = !pinned ? 0 : GVI__KIND == 1 ? 7 : 9;
-        begin(&z, points_kepler, desc, 1, (real)0.4L);
+        begin(&z, points_kepler, desc, 1, n == 2 ? (real)0.4L : (real)0.38L);
         for (int i = 0; i < 600; ++i) {
             const gvi_status status = both(&z, (real)0.15L);
             turned += z.st[0].formulation == GVI_NEWTON;
@@ -167,11 +173,11 @@ static void same_where_it_creeps(void **state)
 /* A step that is refused in its midst, or meets NaN, says so as any other, and nothing moves.  */
 static void same_where_it_fails(void **state)
 {
-    (void)state;
+    const int n = *(int *)*state;
     for (int nan = 0; nan < 2; ++nan) {
         pair z;
         int failures = 0;
-        begin(&z, points_hh, described(8, (real)1e-9L, NULL), (real)0.1L, (real)0.3L);
+        begin(&z, points_hh, described(n, 8, (real)1e-9L, NULL), (real)0.1L, (real)0.3L);
         for (int i = 0; i < 30; ++i) assert_ok(both(&z, (real)1.2L));
         for (int i = 0; i < 100; ++i) {
             for (int k = 0; k < 2; ++k) *(nan ? &z.mood[k].edge : &z.mood[k].wall) = (real)-0.2L + (real)i/200;
@@ -188,29 +194,33 @@ static void same_where_it_fails(void **state)
     }
 }
 
-/* All points of the tenth step are finite, its end is not.  */
+/* All points of the tenth step are finite, its end is not, in one of the coordinates.  */
 static void same_where_it_overflows(void **state)
 {
-    (void)state;
-    pair z;
-    const real q[2] = { 0, 0 }, v[2] = { (real)sqrtl((long double)MAX), 1 }, h = MAX/v[0]/(real)9.99L;
-    begin(&z, points_nothing, described(8, 0, NULL), 1, 1);
-    for (int i = 0; i < 2; ++i) {
-        z.mood[i].wall = z.mood[i].edge = MAX;
-        assert_ok(gvi_start(z.st + i, 0, q, v));
+    const int n = *(int *)*state;
+    for (int far = 0; far < n; ++far) {
+        pair z;
+        real q[3] = { 0, 0, 0 }, v[3] = { 1, 1, 1 };
+        v[far] = (real)sqrtl((long double)MAX);
+        const real h = MAX/v[far]/(real)9.99L;
+        begin(&z, points_nothing, described(n, 8, 0, NULL), 1, 1);
+        for (int i = 0; i < 2; ++i) {
+            z.mood[i].wall = z.mood[i].edge = MAX;
+            assert_ok(gvi_start(z.st + i, 0, q, v));
+        }
+        for (int i = 0; i < 9; ++i) assert_ok(both(&z, h));
+        assert_status(both(&z, h), GVI_E_CONVERGENCE);
+        assert_close(z.st[0].q[far]/MAX, 9/9.99L, 1e-6L);
+        assert_whole(&z, 6);
     }
-    for (int i = 0; i < 9; ++i) assert_ok(both(&z, h));
-    assert_status(both(&z, h), GVI_E_CONVERGENCE);
-    assert_close(z.st[0].q[0]/MAX, 9/9.99L, 1e-6L);
-    assert_whole(&z, 6);
 }
 
 /* Refused whatever the step tries: its end, and nothing has moved.  */
 static void a_refusal_ends_it(void **state)
 {
-    (void)state;
+    const int n = *(int *)*state;
     pair z;
-    begin(&z, points_hh, described(8, 0, NULL), (real)0.1L, (real)0.3L);
+    begin(&z, points_hh, described(n, 8, 0, NULL), (real)0.1L, (real)0.3L);
     for (int i = 0; i < 30; ++i) assert_ok(both(&z, (real)1.2L));
     const gvi_stepper *st = z.st;
     const real x = st->q[0];
@@ -224,11 +234,11 @@ static void a_refusal_ends_it(void **state)
 /* Queries, a checkpoint, a switch and other lengths in between: what the next step relies on is still there.  */
 static void same_with_queries_between(void **state)
 {
-    (void)state;
+    const int n = *(int *)*state;
     for (int degree = 8; degree <= 16; degree += 8) {
         pair z;
-        real q[2], v[2], p[2], u[2];
-        begin(&z, points_hh, described(degree, (real)1e-6L, masses), (real)0.1L, (real)0.2L);
+        real q[3], v[3], p[3], u[3];
+        begin(&z, points_hh, described(n, degree, (real)1e-6L, masses), (real)0.1L, (real)0.2L);
         for (int i = 0; i < 400; ++i) {
             const real h = i % 50 < 40 ? (real)0.4L : (real)0.3L;
             assert_ok(both(&z, h));
@@ -236,12 +246,12 @@ static void same_with_queries_between(void **state)
             if (i % 7 == 3) {
                 assert_ok(gvi_state_at(st, st->t - h/3, q, v, p));
                 assert_ok(gvi_state_at(st + 1, st->t - h/3, u, v, NULL));
-                assert_true(q[0] == u[0] && q[1] == u[1]);
+                for (int k = 0; k < n; ++k) assert_true(q[k] == u[k]);
             }
             if (i % 7 == 4) {
                 assert_ok(gvi_curve(st, (real)0.3L, q, v));
                 assert_ok(gvi_curve(st + 1, (real)0.3L, u, NULL));
-                assert_true(q[0] == u[0] && q[1] == u[1]);
+                for (int k = 0; k < n; ++k) assert_true(q[k] == u[k]);
             }
             for (int k = 0; k < 2 && i % 13 > 10; ++k) assert_ok(gvi_switch(st + k, 0, i % 13 == 12));
             if (i % 11 == 6) {
@@ -259,22 +269,21 @@ static void same_with_queries_between(void **state)
 
 static int point_hh(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
-    henon_heiles(q[0], q[1], f, f + 1);
-    return (void)t, (void)v, (void)dldv, (void)user, 0;
+    henon_heiles(*(int *)user, q, f);
+    return (void)t, (void)v, (void)dldv, 0;
 }
 
 /* A checkpoint goes on in a stepper whose effect takes one point a call.  */
 static void restored_to_another_callback(void **state)
 {
     static real third[MOST];
-    (void)state;
+    int n = *(int *)*state;
     pair z;
     gvi_stepper other;
-    const gvi_effect single = { .kind = GVI_POTENTIAL, .point = point_hh };
-    gvi_desc desc = described(8, 0, NULL);
+    const gvi_effect single = { .kind = GVI_POTENTIAL, .point = point_hh, .user = &n };
+    gvi_desc desc = described(n, 8, 0, NULL);
     begin(&z, points_hh, desc, (real)0.1L, (real)0.3L);
     for (int i = 0; i < 10; ++i) assert_ok(both(&z, (real)0.5L));
-    desc.n = 2;
     desc.effects = &single;
     desc.effect_count = 1;
     assert_ok(gvi_init(&other, &desc, third, sizeof third));
@@ -284,55 +293,61 @@ static void restored_to_another_callback(void **state)
         assert_ok(gvi_step(&other, (real)0.5L));
     }
     assert_whole(&z, 15);
-    for (int i = 0; i < 2; ++i) assert_close(other.q[i], z.st[0].q[i], 64*(long double)EPS);
+    for (int i = 0; i < n; ++i) assert_close(other.q[i], z.st[0].q[i], 64*(long double)EPS);
 }
 
 /* A reference without gvi.h's sums: RK4 in long double, a hundred thousand steps.  */
 static void right_as_well(void **state)
 {
-    (void)state;
     enum { STEPS = 40, PARTS = 100000 };
+    const int n = *(int *)*state;
     pair z;
-    begin(&z, points_hh, described(8, 0, NULL), (real)0.1L, (real)0.3L);
-    long double y[4];
-    for (int i = 0; i < 2; ++i) {
+    begin(&z, points_hh, described(n, 8, 0, NULL), (real)0.1L, (real)0.3L);
+    long double y[6];
+    for (int i = 0; i < n; ++i) {
         y[i] = (long double)z.st[0].q[i];
-        y[2 + i] = (long double)z.st[0].p[i];
+        y[n + i] = (long double)z.st[0].p[i];
     }
     const real h = (real)0.25L;
     for (int i = 0; i < STEPS; ++i) assert_ok(both(&z, h));
     assert_whole(&z, 30);
     for (int i = 0; i < PARTS; ++i) {
         const long double part = STEPS*(long double)h/PARTS, share[4] = { 1, 2, 2, 1 }, at[4] = { 0, 0.5L, 0.5L, 1 };
-        long double k[4] = { 0, 0, 0, 0 }, sum[4] = { 0, 0, 0, 0 };
+        long double k[6] = { 0 }, sum[6] = { 0 };
         for (int stage = 0; stage < 4; ++stage) {
-            long double w[4];
-            for (int j = 0; j < 4; ++j) w[j] = y[j] + part*at[stage]*k[j];
-            k[0] = w[2];
-            k[1] = w[3];
-            k[2] = -w[0] - 2*w[0]*w[1];
-            k[3] = -w[1] - w[0]*w[0] + w[1]*w[1];
-            for (int j = 0; j < 4; ++j) sum[j] += share[stage]*k[j];
+            long double w[6], *f = k + n;
+            for (int j = 0; j < 2*n; ++j) w[j] = y[j] + part*at[stage]*k[j];
+            for (int j = 0; j < n; ++j) k[j] = w[n + j];
+            f[0] = -w[0] - 2*w[0]*w[1];
+            f[1] = -w[1] - w[0]*w[0] + w[1]*w[1];
+            if (n > 2) {
+                f[0] -= w[2]*w[2];
+                f[2] = -w[2] - 2*w[0]*w[2];
+            }
+            for (int j = 0; j < 2*n; ++j) sum[j] += share[stage]*k[j];
         }
-        for (int j = 0; j < 4; ++j) y[j] += part/6*sum[j];
+        for (int j = 0; j < 2*n; ++j) y[j] += part/6*sum[j];
     }
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < n; ++i) {
         assert_close(z.st[0].q[i], y[i], 20*(long double)EPS + 1e-14L);
-        assert_close(z.st[0].p[i], y[2 + i], 20*(long double)EPS + 1e-14L);
+        assert_close(z.st[0].p[i], y[n + i], 20*(long double)EPS + 1e-14L);
     }
 }
 
+#define WITH_TWO_AND_THREE(test) { #test ", two", test, NULL, NULL, &two }, { #test ", three", test, NULL, NULL, &three }
+
 int main(void)
 {
+    static int two = 2, three = 3;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(same_bits),
-        cmocka_unit_test(same_where_it_creeps),
-        cmocka_unit_test(same_where_it_fails),
-        cmocka_unit_test(same_where_it_overflows),
-        cmocka_unit_test(a_refusal_ends_it),
-        cmocka_unit_test(same_with_queries_between),
-        cmocka_unit_test(restored_to_another_callback),
-        cmocka_unit_test(right_as_well),
+        WITH_TWO_AND_THREE(same_bits),
+        WITH_TWO_AND_THREE(same_where_it_creeps),
+        WITH_TWO_AND_THREE(same_where_it_fails),
+        WITH_TWO_AND_THREE(same_where_it_overflows),
+        WITH_TWO_AND_THREE(a_refusal_ends_it),
+        WITH_TWO_AND_THREE(same_with_queries_between),
+        WITH_TWO_AND_THREE(restored_to_another_callback),
+        WITH_TWO_AND_THREE(right_as_well),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
