@@ -40,7 +40,7 @@ VALGRIND_EXAMPLES = 04_driven_damped 06_building_blocks 07_failing_step 08_robot
 
 C_EXAMPLES   = $(sort $(filter-out advise,$(basename $(notdir $(wildcard examples/*.c)))))
 CXX_EXAMPLES = $(sort $(basename $(notdir $(wildcard examples/*.cpp))))
-EXAMPLES     = $(C_EXAMPLES) $(CXX_EXAMPLES)
+EXAMPLES     = $(C_EXAMPLES) $(CXX_EXAMPLES) $(if $(LINK_EXAMPLES),,any_processor)
 SCENES       = $(filter-out scene scenes price,$(basename $(notdir $(wildcard examples/scenes/*.c))))
 
 # The theorems of docs/theorems.md; QUADRUPLE needs more digits than long double has on x86.
@@ -304,6 +304,20 @@ $(BUILD)/examples/%: examples/%.cpp
 	@mkdir -p $(@D)
 	$(Q)if command -v $(CXX) >/dev/null 2>&1; then \
 	    echo '  c++ $@'; $(CXXCOMPILE) $(LINKED) -o $@ $(LDLIBS); fi
+
+# One file, a form of it for each width of registers; other processors have the plain one alone.
+FORMS = plain $(if $(filter x86_64%,$(shell $(CC) -dumpmachine 2>/dev/null)),avx2 avx512)
+FORM_avx2   = -mavx2 -mfma
+FORM_avx512 = -mavx512f -mavx512dq -mavx512vl -mavx512bw -mfma
+
+$(BUILD)/examples/motion-%.o: examples/any_processor/motion.c
+	@mkdir -p $(@D)
+	@echo '  cc $@'
+	$(Q)$(COMPILE) $(FORM_$*) -DMOTION=motion_$* -c $< -o $@
+
+$(BUILD)/examples/any_processor: examples/any_processor/main.c $(FORMS:%=$(BUILD)/examples/motion-%.o)
+	@echo '  cc $@'
+	$(Q)$(COMPILE) $< $(filter %.o,$^) -o $@ $(LDLIBS)
 
 $(BUILD)/examples/price: examples/scenes/price.c
 	@mkdir -p $(@D)

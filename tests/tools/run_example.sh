@@ -3,7 +3,7 @@
 build=$1 name=$2 program=$3
 mkdir -p "$build/log" "$build/result" build
 rm -f "$build/result/$name"
-source=$(ls examples/"$name".c examples/"$name".cpp 2>/dev/null)
+source=$(ls examples/"$name".c examples/"$name".cpp examples/"$name"/main.c 2>/dev/null)
 
 if [ ! -x "$program" ]; then
     printf '  %-28s skipped: no C++ compiler\n' "$name"
