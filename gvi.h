@@ -4200,9 +4200,10 @@ GVI__COPY const gvi_real *gvi__keep(int r, const gvi_real *table, gvi__vector *k
     return (const gvi_real *)kept;
 }
 
-// gvi__stage_rows_8, with what is NULL of path and diagonal known; y: nothing that is stored may be in it
+// gvi__stage_rows_8, with what is NULL of path and diagonal known; y: nothing that is stored may be in it.
+// kept_rows: the new rows once more, for who wants them in registers, or NULL
 GVI__COPY gvi_real gvi__rows_of_8(const gvi_stepper *st, const gvi__stage *y, const gvi_real *diagonal,
-                                  int r, int n, int folded)
+                                  int r, int n, int folded, gvi__vector *kept_rows)
 {
     enum { VECTORS = 8/GVI__LANES };
     const struct gvi__private *x = &st->x;
@@ -4223,6 +4224,7 @@ GVI__COPY gvi_real gvi__rows_of_8(const gvi_stepper *st, const gvi__stage *y, co
         gvi__vector next[VECTORS];
         gvi__sum_vectors(r, 8, VECTORS, table, L, next);
         gvi__affine_vectors(&p, diagonal, VECTORS, c, next);
+        if (kept_rows) GVI__EACH for (int k = 0; k < VECTORS; ++k) kept_rows[i*VECTORS + k] = next[k];
         gvi__replace(p.base, r - 1, next, y->rows + 8*i, y->scale + i, squares);
     }
     return gvi__sum_squares(squares);
@@ -4233,11 +4235,11 @@ GVI__COPY gvi_real gvi__stage_rows_8(const gvi_stepper *st, const gvi__stage *y,
 {
     gvi__stage own = *y;                              // what is stored might be in y, for all gcc knows
     const gvi_real *diagonal = gvi__diagonal(st, y);
-    if (diagonal) return gvi__rows_of_8(st, &own, diagonal, r, n, folded);
-    if (own.path) return gvi__rows_of_8(st, &own, NULL, r, n, folded);
+    if (diagonal) return gvi__rows_of_8(st, &own, diagonal, r, n, folded, NULL);
+    if (own.path) return gvi__rows_of_8(st, &own, NULL, r, n, folded, NULL);
     own.path = NULL;                                  // momenta
     own.factor = 1;
-    return gvi__rows_of_8(st, &own, NULL, r, n, folded);
+    return gvi__rows_of_8(st, &own, NULL, r, n, folded, NULL);
 }
 #endif
 
@@ -5053,10 +5055,10 @@ GVI__APART gvi_status gvi__ask(gvi_stepper *st, const gvi__from *from, gvi_real 
     if (gvi__has_clock(st)) return gvi__ask_clock(st, from, y);
     const unsigned some = gvi__seldom(st);
     if (some) status = gvi__ask_weak(st, zero, y, anew);
-    if (status == GVI_OK && gvi__uses(st, GVI_MOMENTA) && gvi__mass_is(st, GVI_MASS_POSITION))
-        status = gvi__mass_gradient(st, y);
-    if (status != GVI_OK) return status;
-    return some ? gvi__effects(st, y, some) : gvi__all_effects(st, y);
+    if (status == GVI_OK) status = some ? gvi__effects(st, y, some) : gvi__all_effects(st, y);
+    // last: it waits for V, as few effects do
+    const int gradient = status == GVI_OK && gvi__uses(st, GVI_MOMENTA) && gvi__mass_is(st, GVI_MASS_POSITION);
+    return gradient ? gvi__mass_gradient(st, y) : status;
 }
 
 // one effect of f alone is all that an iteration asks
@@ -7359,15 +7361,29 @@ static gvi_status gvi__solve_explicit(gvi_stepper *st, gvi__from *from, gvi_real
    same terms in the same order, and so the same bits.  Where anything is out of the ordinary nothing has
    moved, and gvi__solve makes the step from its beginning.                    */
 #if GVI__PIECES
-// is the next step one of these, if it is as long as this one?  Positions, one effect and nothing beside it
+enum { GVI__GENERAL, GVI__OF_POSITIONS, GVI__OF_MOMENTA };
+
+// momenta of M(q), one effect and nothing beside it
+static int gvi__is_plain_momenta(const gvi_stepper *st)
+{
+    const struct gvi__private *x = &st->x;
+    return GVI__MOMENTA && gvi__uses(st, GVI_MOMENTA) && gvi__mass_is(st, GVI_MASS_POSITION)
+        && !x->desc.mass.velocity && x->single >= 0 && !gvi__A(&x->work) && !gvi__seldom(st)
+        && gvi__clock_bit(st) == 0 && !gvi__counts(st);
+}
+
+// is the next step one of these, if it is as long as this one?
 static signed char gvi__is_usual(const gvi_stepper *st)
 {
     const struct gvi__private *x = &st->x;
-    const int is = (st->r == 8 && GVI__BEYOND_FLOAT ? GVI__OF_TWO : 0) + GVI__SUMS
+    const int kind = st->n == 2 && gvi__is_plain_momenta(st) ? GVI__OF_MOMENTA
+        : (st->n == 2 || st->n == 3) && x->desc.mass.kind <= GVI_MASS_DIAGONAL && gvi__is_plain(st) ? GVI__OF_POSITIONS
+        : GVI__GENERAL;
+    const int is = (st->r == 8 && GVI__BEYOND_FLOAT ? GVI__OF_TWO : 0) + (kind == GVI__OF_POSITIONS ? GVI__SUMS : 0)
                    + (GVI__LEARNS && x->learned.lengthy ? GVI__LONG : 0);
-    return (st->n == 2 || st->n == 3) && (st->r == 8 || st->r == 16) && x->desc.mass.kind <= GVI_MASS_DIAGONAL
-        && (x->alike == 2 || !GVI__BEYOND_FLOAT) && x->E_is == is && !gvi__nonzero(x->ratio - 1)
-        && gvi__is_plain(st) && x->newton_left == 0 && x->whole_left == 0;
+    const int all = (st->r == 8 || st->r == 16) && (x->alike == 2 || !GVI__BEYOND_FLOAT) && x->E_is == is
+        && !gvi__nonzero(x->ratio - 1) && x->newton_left == 0 && x->whole_left == 0;
+    return (signed char)(all ? kind : GVI__GENERAL);
 }
 
 #endif
@@ -7405,6 +7421,22 @@ GVI__SELDOM gvi_status gvi__any_step(gvi_stepper *st, gvi_real h)
 }
 
 #if GVI__PIECES
+// gvi__judge's, and what gvi__fixed_point_of does before and after it; none that is not named below but GVI__BEYOND
+GVI__COPY int gvi__usual_verdict(gvi_stepper *st, const gvi__from *from, gvi__progress *p, gvi_real change,
+                                 int used, int n, int R)
+{
+    struct gvi__private *x = &st->x;
+    const int more = used < x->desc.max_iterations;
+    int verdict = gvi__judge_most(st, p, change);
+    if (GVI__OFTEN(verdict == GVI__GO_ON && more && p->idle + p->poor == 0)) return GVI__GO_ON;
+    if (verdict == GVI__LOOK && gvi__finite(change)) verdict = gvi__judge(st, from, p, NULL, change, used);
+    gvi__gather(n, R, x->work.Q + R - 1, x->change);
+    if (verdict == GVI__GO_ON && more) return GVI__GO_ON;
+    if (verdict != GVI__DONE && verdict != GVI__ASK_ONCE_MORE) return GVI__BEYOND;
+    gvi__watch_last(st, change);
+    return verdict;
+}
+
 // the fixed point; returns the number of iterations, or 0; how often the effect was asked: that, or once more
 GVI__COPY int gvi__usual_rounds(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi__stage *y,
                                 gvi_real *F, int n, int R, int *asked)
@@ -7424,16 +7456,11 @@ GVI__COPY int gvi__usual_rounds(gvi_stepper *st, const gvi__from *from, gvi_real
         gvi__zero_rows(n, R, h - h, F);
         *asked = used;
         if (!GVI__OFTEN(effect->points(&at, effect->user) == 0)) return 0;
-        const gvi_real change = R == 8 ? gvi__rows_of_8(st, y, gvi__diagonal(st, y), 8, n, folded)
+        const gvi_real change = R == 8 ? gvi__rows_of_8(st, y, gvi__diagonal(st, y), 8, n, folded, NULL)
                                        : gvi__stage_rows_16(st, y, 16, n);
-        const int more = used < x->desc.max_iterations;
-        int verdict = gvi__judge_most(st, &p, change);
-        if (GVI__OFTEN(verdict == GVI__GO_ON && more && p.idle + p.poor == 0)) continue;
-        if (verdict == GVI__LOOK && gvi__finite(change)) verdict = gvi__judge(st, from, &p, NULL, change, used);
-        gvi__gather(n, R, x->work.Q + R - 1, x->change);
-        if (verdict == GVI__GO_ON && more) continue;
-        if (verdict != GVI__DONE && verdict != GVI__ASK_ONCE_MORE) return 0;
-        gvi__watch_last(st, change);
+        const int verdict = gvi__usual_verdict(st, from, &p, change, used, n, R);
+        if (GVI__OFTEN(verdict == GVI__GO_ON)) continue;
+        if (verdict == GVI__BEYOND) return 0;
         if (verdict == GVI__DONE) return used;
         *asked = used + 1;
         gvi__zero_rows(n, R, h - h, F);
@@ -7458,11 +7485,24 @@ GVI__COPY gvi__moved gvi__moved_of(const gvi_stepper *st, const gvi__two *v, gvi
     return z;
 }
 
-// as gvi__commit, of two coordinates as pairs, and a third beside them; 0: the end is not finite
+// the same of momenta: both are x + sum h b rows
+GVI__COPY gvi__moved gvi__moved_by(const gvi_stepper *st, int i, int R)
+{
+    const struct gvi__private *x = &st->x;
+    const gvi__two dq = gvi__exact_sum_vector(R, x->hb, x->work.V + i*R), q = gvi__sum(x->q[i], dq.hi);
+    const gvi__two dp = gvi__exact_sum_vector(R, x->hb, x->work.F + i*R), p = gvi__sum(x->p[i], dp.hi);
+    gvi__moved z;
+    z.q = gvi__sum(q.hi, q.lo + (dq.lo + x->qe[i]));
+    z.p = gvi__sum(p.hi, p.lo + (dp.lo + x->pe[i]));
+    return z;
+}
+
+// as gvi__commit, of two coordinates as pairs, and a third beside them; v NULL: of momenta; 0: the end is not finite
 GVI__COPY int gvi__usual_end(gvi_stepper *st, const gvi__two *v, gvi_real h, int n, int R)
 {
     struct gvi__private *x = &st->x;
-    const gvi__moved a = gvi__moved_of(st, v, h, 0, R), b = gvi__moved_of(st, v + 1, h, 1, R);
+    const gvi__moved a = v ? gvi__moved_of(st, v, h, 0, R) : gvi__moved_by(st, 0, R);
+    const gvi__moved b = v ? gvi__moved_of(st, v + 1, h, 1, R) : gvi__moved_by(st, 1, R);
     const gvi__moved c = n > 2 ? gvi__moved_of(st, v + 2, h, 2, R) : a;
     const gvi__pair q = { a.q.hi, b.q.hi }, qe = { a.q.lo, b.q.lo };
     const gvi__pair p = { a.p.hi, b.p.hi }, pe = { a.p.lo, b.p.lo }, none = 0*q + 0*qe + 0*p + 0*pe;
@@ -7537,11 +7577,125 @@ GVI__COPY int gvi__usual_as(gvi_stepper *st, gvi_real h, int n, int *asked)
 // apart: of four copies in one function those of two coordinates took 3 % longer
 GVI__SELDOM int gvi__usual_of_three(gvi_stepper *st, gvi_real h, int *asked) { return gvi__usual_as(st, h, 3, asked); }
 
-GVI__SELDOM gvi_status gvi__usual_step(gvi_stepper *st, gvi_real h)
+// ---- the same of momenta: M(q), two coordinates
+
+// what is asked in a round, and how often M(q) and the effect were
+typedef struct gvi__asked { gvi_points mass, effect, gradient; int masses, effects; } gvi__asked;
+
+// each by itself: a copy would have to wait for what was just stored
+GVI__COPY void gvi__points_of(const gvi_stepper *st, gvi_points *at, const gvi_real *v, gvi_real *f, int R)
+{
+    gvi__at(at, st, st->x.t, st->x.work.Q);
+    at->v = v;
+    at->f = f;
+    at->dldv = NULL;
+    at->count = at->stride = R;
+}
+
+GVI__COPY void gvi__asked_of(const gvi_stepper *st, gvi__asked *z, int R)
+{
+    const struct gvi__private *x = &st->x;
+    const int potential = x->desc.effects[x->single].kind == GVI_POTENTIAL;
+    gvi__points_of(st, &z->mass, NULL, NULL, R);
+    z->mass.mass = x->point_mass;
+    gvi__points_of(st, &z->effect, potential ? NULL : x->work.V, x->work.F, R);
+    gvi__points_of(st, &z->gradient, x->work.V, x->work.F, R);
+    z->masses = z->effects = 0;
+}
+
+// V and F at the rows; 0: something was refused, or a pivot is doubtful
+GVI__COPY int gvi__momenta_ask(gvi_stepper *st, gvi__asked *z, gvi_real zero, int R)
 {
     struct gvi__private *x = &st->x;
-    int asked = 0;
-    const int used = st->n == 2 ? gvi__usual_as(st, h, 2, &asked) : gvi__usual_of_three(st, h, &asked);
+    const gvi_mass *mass = &x->desc.mass;
+    const gvi_effect *effect = x->desc.effects + x->single;
+    gvi__zero_rows(2, R, zero, x->work.F);
+    z->masses += 1;
+    if (mass->points(&z->mass, mass->user) || !gvi__ldl_factor_eights(2, R, x->point_mass)) return 0;
+    gvi__ldl_solve_eights(2, R, x->point_mass, x->work.P, x->work.V);
+    z->effects += 1;
+    return effect->points(&z->effect, effect->user) == 0 && mass->gradient(&z->gradient, mass->user) == 0;
+}
+
+// P, V of it and Q; returns the change.  V is made of the rows of P while they are in registers
+GVI__COPY gvi_real gvi__momenta_rows(gvi_stepper *st, const gvi__stage *y, int R, int folded)
+{
+    enum { VECTORS = 8/GVI__LANES };
+    struct gvi__private *x = &st->x;
+    gvi__vector P[2*VECTORS];
+    if (R == 16) {
+        const gvi_real change = gvi__stage_rows_16(st, y, 16, 2);
+        gvi__ldl_solve_eights(2, 16, x->point_mass, x->work.P, x->work.V);
+        return change + gvi__stage_rows_16(st, y + 1, 16, 2);
+    }
+    const gvi_real change = gvi__rows_of_8(st, y, NULL, 8, 2, folded, P);
+    GVI__EACH for (int v = 0; v < VECTORS; ++v) {                     // as gvi__ldl_solve_vector
+        const gvi_real *m = x->point_mass + v*GVI__LANES;
+        const gvi__vector low = GVI__AT(m + 16), b = (P[VECTORS + v] - low*P[v])*GVI__AT(m + 24);
+        *(gvi__vector *)(x->work.V + 8 + v*GVI__LANES) = b;
+        *(gvi__vector *)(x->work.V + v*GVI__LANES) = P[v]*GVI__AT(m) - low*b;
+    }
+    return change + gvi__rows_of_8(st, y + 1, NULL, 8, 2, folded, NULL);
+}
+
+GVI__COPY int gvi__momenta_rounds(gvi_stepper *st, const gvi__from *from, gvi_real h, const gvi__stage *y,
+                                  gvi__asked *z, int R)
+{
+    const int folded = gvi__folds(st);
+    gvi__progress p = gvi__progress_of(st, 2*R);
+    for (int used = 1; ; ++used) {
+        if (!GVI__OFTEN(gvi__momenta_ask(st, z, h - h, R))) return 0;
+        const gvi_real change = gvi__momenta_rows(st, y, R, folded);
+        const int verdict = gvi__usual_verdict(st, from, &p, change, used, 2, R);
+        if (GVI__OFTEN(verdict == GVI__GO_ON)) continue;
+        if (verdict == GVI__BEYOND) return 0;
+        return verdict == GVI__DONE || gvi__momenta_ask(st, z, h - h, R) ? used : 0;
+    }
+}
+
+GVI__COPY int gvi__momenta_of(gvi_stepper *st, gvi_real h, int R, int two, gvi__asked *z)
+{
+    struct gvi__private *x = &st->x;
+    const int folded = gvi__folds(st);
+    gvi_real *const F = x->work.F, *const V = x->work.V;
+    const gvi_real *of_F = folded ? x->folded : gvi__stage_table(st, 0);
+    const gvi_real *of_V = folded ? x->folded + R*R : gvi__stage_table(st, 1);
+    const gvi__from from = { st->t, x->te, x->q, x->qe, x->p, x->pe, 0, NULL };
+    const gvi__stage y[2] = { { x->p, x->pe, NULL, NULL, of_F, F, NULL, 1, x->work.P, x->scale, 0, NULL },
+                              { x->q, x->qe, NULL, NULL, of_V, V, NULL, 1, x->work.Q, x->scale + 2, 0, NULL } };
+    x->dt = h;
+    gvi__times(R, st->t, x->te, h, x->c, x->t);
+    gvi__extrapolate_rows(st, 2, R, R, two, 0, x->last.F, x->older_F, NULL, F);
+    gvi__extrapolate_rows(st, 2, R, R, two, 0, x->last.V, x->older_V, NULL, V);
+    for (int k = 0; k < 2; ++k) {
+        if (R == 8) gvi__rows_of_8(st, y + k, NULL, 8, 2, folded, NULL);
+        else gvi__stage_rows_16(st, y + k, 16, 2);
+    }
+    for (int k = 0; k < 4; ++k)
+        x->scale[k] = gvi__scale_of(y[k/2].base[k & 1], y[k/2].rows[(k & 1)*R + R - 1]);
+    gvi__asked_of(st, z, R);
+    const int used = gvi__momenta_rounds(st, &from, h, y, z, R);
+    return used > 0 && gvi__usual_end(st, NULL, h, 2, R) ? used : 0;
+}
+
+// the effect is counted where positions' is
+GVI__COPY int gvi__momenta_as(gvi_stepper *st, gvi_real h, int *asked)
+{
+    gvi__asked z;
+    const int r = st->r, used = r == 8 ? gvi__momenta_of(st, h, 8, GVI__BEYOND_FLOAT, &z)
+                                       : gvi__momenta_of(st, h, 16, 0, &z);
+    gvi__count(&st->counters.mass, z.masses*r);
+    *asked = z.effects;
+    if (used == 0) return 0;
+    gvi__count(&st->counters.factorizations, z.masses*r);
+    gvi__count(&st->counters.velocities, (z.masses + used + 1)*r);
+    return used;
+}
+
+// the end of a step in one piece, or the step from its beginning
+GVI__COPY gvi_status gvi__usual_done(gvi_stepper *st, gvi_real h, int used, int asked)
+{
+    struct gvi__private *x = &st->x;
     gvi__count(&st->counters.effect[x->single], asked*st->r);
     if (used == 0) return gvi__any_step(st, h);
     st->iterations = used;
@@ -7553,13 +7707,28 @@ GVI__SELDOM gvi_status gvi__usual_step(gvi_stepper *st, gvi_real h)
     gvi__count(&st->counters.steps, 1);
     return gvi__done(st, GVI_OK);
 }
+
+GVI__SELDOM gvi_status gvi__usual_step(gvi_stepper *st, gvi_real h)
+{
+    int asked = 0;
+    const int used = st->n == 2 ? gvi__usual_as(st, h, 2, &asked) : gvi__usual_of_three(st, h, &asked);
+    return gvi__usual_done(st, h, used, asked);
+}
+
+GVI__SELDOM gvi_status gvi__usual_step_of_momenta(gvi_stepper *st, gvi_real h)
+{
+    int asked = 0;
+    const int used = gvi__momenta_as(st, h, &asked);
+    return gvi__usual_done(st, h, used, asked);
+}
 #endif
 
 GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
 {
     if (!st) return GVI_E_ARGUMENT;
 #if GVI__PIECES
-    if (st->x.usual && h >= st->h && h <= st->h) return gvi__usual_step(st, h);
+    if (st->x.usual && h >= st->h && h <= st->h)
+        return st->x.usual == GVI__OF_POSITIONS ? gvi__usual_step(st, h) : gvi__usual_step_of_momenta(st, h);
 #endif
     return gvi__any_step(st, h);
 }

@@ -1,4 +1,4 @@
-/* Steps of two and three coordinates in one piece against the same steps by the general functions: bits, counters,
+/* Steps of two and three coordinates, and of M(q) with two, in one piece against the same steps by the general functions: bits, counters,
    faults and refusals are to be the same.                                      */
 #ifndef GVI_REAL
 #define GVI_REAL double
@@ -13,7 +13,9 @@ static real memory[2][MOST], saved[MOST];
 typedef struct mood {
     real wall;                  /* refuses beyond x = wall */
     real edge;                  /* is NaN beyond x = edge */
-    unsigned long long asked;   /* points, since the start */
+    real walls[2];              /* M and its gradient refuse beyond */
+    real rigid;                 /* M(q) is singular beyond */
+    unsigned long long asked, masses;   /* points, since the start */
 } mood;
 
 static int pull(const gvi_points *p, mood *m, void (*law)(int n, const real *q, real *f))
@@ -54,6 +56,58 @@ static int points_hh(const gvi_points *p, void *user) { return pull(p, user, hen
 static int points_nothing(const gvi_points *p, void *user) { return pull(p, user, nothing); }
 static int points_kepler(const gvi_points *p, void *user) { return pull(p, user, kepler); }
 
+/* M(q) of two links, in angles from the vertical; their weight; and friction in the joints beside it */
+static int points_mass(const gvi_points *p, void *user)
+{
+    mood *m = user;
+    const real *x = p->q, *y = x + p->stride;
+    m->masses += (unsigned long long)p->count;
+    for (int k = 0; k < p->count; ++k) {
+        if (x[k] > m->walls[0]) return 1;
+        p->mass[k] = 2;
+        p->mass[2*p->stride + k] = x[k] > m->rigid ? (real)sqrtl(2) : (real)cosl((long double)(x[k] - y[k]));
+        p->mass[3*p->stride + k] = 1;
+    }
+    return 0;
+}
+
+static int points_gradient(const gvi_points *p, void *user)
+{
+    const real *x = p->q, *y = x + p->stride, *u = p->v, *w = u + p->stride;
+    const mood *m = user;
+    for (int k = 0; k < p->count; ++k) {
+        const real push = (real)sinl((long double)(x[k] - y[k]))*u[k]*w[k];
+        if (x[k] > m->walls[1]) return 1;
+        p->f[k] -= push;
+        p->f[p->stride + k] += push;
+    }
+    return 0;
+}
+
+static void weight(int n, const real *q, real *f)
+{
+    for (int i = 0; i < n; ++i) f[i] -= (real)(2 - i)*(real)sinl((long double)q[i]);
+}
+
+static int points_links(const gvi_points *p, void *user) { return pull(p, user, weight); }
+
+static int points_drag(const gvi_points *p, void *user)
+{
+    for (int k = 0; k < p->count; ++k) p->f[k] -= p->v[k]/64;
+    return pull(p, user, weight);
+}
+
+static int points_velocity(const gvi_points *p, void *user)
+{
+    const real *x = p->q, *y = x + p->stride, *a = p->p, *b = a + p->stride;
+    for (int k = 0; k < p->count; ++k) {
+        const real c = (real)cosl((long double)(x[k] - y[k])), over = 1/(2 - c*c);
+        p->velocity[k] = (a[k] - c*b[k])*over;
+        p->velocity[p->stride + k] = (2*b[k] - c*a[k])*over;
+    }
+    return (void)user, 0;
+}
+
 /* two steppers of one scene; the second is kept from steps in one piece */
 typedef struct pair {
     gvi_stepper st[2];
@@ -68,8 +122,10 @@ static void begin(pair *z, gvi_points_fn *points, gvi_desc desc, real x, real vy
     memset(z, 0, sizeof *z);
     desc.effect_count = 1;
     for (int i = 0; i < 2; ++i) {
-        const mood calm = { (real)1e9L, (real)1e9L, 0 };
-        const gvi_effect effect = { .kind = GVI_POTENTIAL, .points = points, .user = z->mood + i };
+        const mood calm = { (real)1e9L, (real)1e9L, { (real)1e9L, (real)1e9L }, (real)1e9L, 0, 0 };
+        const gvi_kind kind = points == points_drag ? GVI_FORCE : GVI_POTENTIAL;
+        const gvi_effect effect = { .kind = kind, .points = points, .user = z->mood + i };
+        desc.mass.user = z->mood + i;
         z->mood[i] = calm;
         z->effect[i] = effect;
         desc.effects = z->effect + i;
@@ -99,6 +155,7 @@ static void assert_same(const pair *z)
     assert_true(c->steps == d->steps && c->failures == d->failures && c->iterations == d->iterations);
     assert_true(c->newton_iterations == d->newton_iterations);
     assert_true(c->effect[0] == z->mood[0].asked && d->effect[0] == z->mood[1].asked);
+    assert_true(c->velocities == d->velocities && c->factorizations == d->factorizations);
     assert_true(c->most_iterations == d->most_iterations);
     assert_true(c->worst_contraction == d->worst_contraction);
     assert_true(c->worst_change == d->worst_change);
@@ -107,7 +164,7 @@ static void assert_same(const pair *z)
 /* a step of each, of one outcome */
 static gvi_status both(pair *z, real h)
 {
-    z->whole += z->st[0].x.usual;
+    z->whole += z->st[0].x.usual != 0;
     z->st[1].x.usual = 0;
     const gvi_status status = gvi_step(z->st, h);
     assert_int_equal(gvi_step(z->st + 1, h), status);
@@ -123,6 +180,15 @@ static gvi_desc described(int n, int degree, real tolerance, const real *mass)
     gvi_desc desc = { .n = n, .degree = degree, .tolerance = tolerance };
     if (mass) desc.mass.kind = GVI_MASS_DIAGONAL;
     desc.mass.matrix = mass;
+    return desc;
+}
+
+static gvi_desc linked(int degree, real tolerance)
+{
+    gvi_desc desc = described(2, degree, tolerance, NULL);
+    desc.mass.kind = GVI_MASS_POSITION;
+    desc.mass.points = points_mass;
+    desc.mass.gradient = points_gradient;
     return desc;
 }
 
@@ -267,6 +333,104 @@ static void same_with_queries_between(void **state)
     }
 }
 
+/* M(q), alone and with a force that reads velocities; queries in between.  M is asked as often as counted.  */
+static void momenta_same_bits(void **state)
+{
+    static const real tolerances[] = { 0, (real)1e-4L, 64*EPS };
+    (void)state;
+    for (int degree = 8; degree <= 16; degree += 8)
+        for (int k = 0; k < COUNT(tolerances); ++k)
+            for (int drags = 0; drags < 2; ++drags) {
+                pair z;
+                real q[2], v[2], u[2];
+                begin(&z, drags ? points_drag : points_links, linked(degree, tolerances[k]), 1, (real)0.3L);
+                assert_int_equal(z.st[0].formulation, GVI_MOMENTA);
+                for (int i = 0; i < 300; ++i) {
+                    const real h = i % 50 < 40 ? (real)0.2L : (real)0.15L;
+                    for (int j = 0; j < 2; ++j) {
+                        z.mood[j].asked = z.st[j].counters.effect[0];         // queries ask as well
+                        z.mood[j].masses = z.st[j].counters.mass;
+                    }
+                    assert_ok(both(&z, h));
+                    for (int j = 0; j < 2; ++j) assert_true(z.st[j].counters.mass == z.mood[j].masses);
+                    if (i % 7 == 3) {
+                        assert_ok(gvi_state_at(z.st, z.st[0].t - h/3, q, v, NULL));
+                        assert_ok(gvi_state_at(z.st + 1, z.st[1].t - h/3, u, v, NULL));
+                        assert_true(q[0] == u[0] && q[1] == u[1]);
+                    }
+                }
+                assert_whole(&z, 150);
+            }
+}
+
+/* Velocities given, or a number of iterations: not for these steps.  */
+static void momenta_not_in_one_piece(void **state)
+{
+    (void)state;
+    for (int given = 0; given < 2; ++given) {
+        pair z;
+        gvi_desc desc = linked(8, 0);
+        if (given) desc.iterations = 9;
+        else desc.mass.velocity = points_velocity;
+        begin(&z, points_links, desc, 1, (real)0.3L);
+        for (int i = 0; i < 40; ++i) assert_ok(both(&z, (real)0.05L));
+        assert_int_equal(z.whole, 0);
+    }
+}
+
+/* Refused by the effect, by M or by its gradient; NaN; M singular: as any other step, and nothing moves.  */
+static void momenta_same_where_it_fails(void **state)
+{
+    (void)state;
+    for (int how = 0; how < 5; ++how) {
+        static const gvi_status ends[] = { GVI_E_CALLBACK, GVI_E_CALLBACK, GVI_E_CALLBACK, GVI_E_NON_FINITE };
+        pair z;
+        int failures = 0;
+        begin(&z, points_links, linked(8, (real)1e-9L), 1, (real)0.3L);
+        for (int i = 0; i < 30; ++i) assert_ok(both(&z, (real)0.2L));
+        for (int i = 0; i < 100; ++i) {
+            const real at = (real)0.2L + (real)(i % 20)/40;
+            for (int k = 0; k < 2; ++k) {
+                mood *m = z.mood + k;
+                real *const which[] = { &m->wall, m->walls, m->walls + 1, &m->edge, &m->rigid };
+                *which[how] = at;
+            }
+            const gvi_status status = both(&z, (real)0.2L);
+            if (status == GVI_OK) continue;
+            if (how < 4) assert_int_equal(status, ends[how]);         // singular at some points, the iteration may lose its way first
+            if (how < 4) assert_int_equal(z.st[0].fault.effect, how == 0 || how == 3 ? 0 : GVI_FAULT_MASS);
+            failures += 1;
+            for (int k = 0; k < 2; ++k)
+                z.mood[k].wall = z.mood[k].walls[0] = z.mood[k].walls[1] = z.mood[k].edge = z.mood[k].rigid = (real)1e9L;
+            assert_ok(both(&z, (real)0.2L));
+        }
+        assert_true(failures > 3);
+        assert_whole(&z, 40);
+    }
+}
+
+/* Steps that are too long for the iteration: to Newton's method and back, or failed.  */
+static void momenta_same_where_it_creeps(void **state)
+{
+    (void)state;
+    for (int pinned = 0; pinned < 2; ++pinned) {
+        pair z;
+        gvi_desc desc = linked(8, 0);
+        int turned = 0, failed = 0;
+        desc.formulation = pinned ? GVI_MOMENTA : GVI_AUTO;
+        desc.max_iterations = pinned ? GVI__KIND == 1 ? 7 : 13 : 0;
+        begin(&z, points_links, desc, 2, (real)2);
+        for (int i = 0; i < 300; ++i) {
+            const gvi_status status = both(&z, pinned ? (real)0.2L : i % 60 < 45 ? (real)0.2L : (real)0.7L);
+            turned += z.st[0].formulation == GVI_NEWTON;
+            failed += status != GVI_OK;
+            if (status != GVI_OK) both(&z, (real)0.05L);
+        }
+        assert_whole(&z, 60);
+        if (GVI__PIECES) assert_true(pinned ? failed > 5 : turned > 5);
+    }
+}
+
 static int point_hh(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
     henon_heiles(*(int *)user, q, f);
@@ -348,6 +512,10 @@ int main(void)
         WITH_TWO_AND_THREE(same_with_queries_between),
         WITH_TWO_AND_THREE(restored_to_another_callback),
         WITH_TWO_AND_THREE(right_as_well),
+        cmocka_unit_test(momenta_same_bits),
+        cmocka_unit_test(momenta_not_in_one_piece),
+        cmocka_unit_test(momenta_same_where_it_fails),
+        cmocka_unit_test(momenta_same_where_it_creeps),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
