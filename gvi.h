@@ -7603,6 +7603,29 @@ GVI__COPY void gvi__asked_of(const gvi_stepper *st, gvi__asked *z, int R)
     z->masses = z->effects = 0;
 }
 
+// M := its factors, V := M^-1 P, as gvi__ldl_factor_vector and gvi__ldl_solve_vector have them, but with nothing
+// loaded that was just stored; 0: a pivot is doubtful
+GVI__COPY int gvi__momenta_factor(int R, gvi_real *m, const gvi_real *P, gvi_real *V)
+{
+    const gvi_real most = 1/(2*GVI__EPS);
+    gvi__vector sum = { 0 };
+    GVI__EACH for (int o = 0; o < R; o += GVI__LANES, m += GVI__LANES) {
+        const gvi__vector a = GVI__AT(m), b = GVI__AT(m + 2*R), c = GVI__AT(m + 3*R), p = GVI__AT(P + o);
+        const gvi__vector over_a = 1/a, low = b*over_a, rest = c - low*b, over = 1/rest;
+        const gvi__vector loss = a*over_a, off = loss - 1, lost = c*over, rests = rest*over - 1;
+        const gvi__vector v = (GVI__AT(P + R + o) - low*p)*over;
+        sum += (loss*loss + off*off) + (lost*lost + rests*rests);
+        *(gvi__vector *)m = over_a;
+        *(gvi__vector *)(m + 2*R) = low;
+        *(gvi__vector *)(m + 3*R) = over;
+        *(gvi__vector *)(V + R + o) = v;
+        *(gvi__vector *)(V + o) = p*over_a - low*v;
+    }
+    gvi_real all = 0;
+    for (int k = 0; k < GVI__LANES; ++k) all += sum[k];
+    return all < most*most;
+}
+
 // V and F at the rows; 0: something was refused, or a pivot is doubtful
 GVI__COPY int gvi__momenta_ask(gvi_stepper *st, gvi__asked *z, gvi_real zero, int R)
 {
@@ -7611,8 +7634,8 @@ GVI__COPY int gvi__momenta_ask(gvi_stepper *st, gvi__asked *z, gvi_real zero, in
     const gvi_effect *effect = x->desc.effects + x->single;
     gvi__zero_rows(2, R, zero, x->work.F);
     z->masses += 1;
-    if (mass->points(&z->mass, mass->user) || !gvi__ldl_factor_eights(2, R, x->point_mass)) return 0;
-    gvi__ldl_solve_eights(2, R, x->point_mass, x->work.P, x->work.V);
+    if (mass->points(&z->mass, mass->user)) return 0;
+    if (!gvi__momenta_factor(R, x->point_mass, x->work.P, x->work.V)) return 0;
     z->effects += 1;
     return effect->points(&z->effect, effect->user) == 0 && mass->gradient(&z->gradient, mass->user) == 0;
 }
