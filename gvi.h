@@ -4201,7 +4201,7 @@ GVI__COPY const gvi_real *gvi__keep(int r, const gvi_real *table, gvi__vector *k
 }
 
 // gvi__stage_rows_8, with what is NULL of path and diagonal known; y: nothing that is stored may be in it.
-// kept_rows: the new rows once more, for who wants them in registers, or NULL
+// kept_rows: the new rows once more, for a caller that wants them in registers, or NULL
 GVI__COPY gvi_real gvi__rows_of_8(const gvi_stepper *st, const gvi__stage *y, const gvi_real *diagonal,
                                   int r, int n, int folded, gvi__vector *kept_rows)
 {
@@ -7421,7 +7421,7 @@ GVI__SELDOM gvi_status gvi__any_step(gvi_stepper *st, gvi_real h)
 }
 
 #if GVI__PIECES
-// gvi__judge's, and what gvi__fixed_point_of does before and after it; none that is not named below but GVI__BEYOND
+// go on, done or ask once more, as gvi__fixed_point_of has it; GVI__BEYOND: anything else
 GVI__COPY int gvi__usual_verdict(gvi_stepper *st, const gvi__from *from, gvi__progress *p, gvi_real change,
                                  int used, int n, int R)
 {
@@ -7577,9 +7577,9 @@ GVI__COPY int gvi__usual_as(gvi_stepper *st, gvi_real h, int n, int *asked)
 // apart: of four copies in one function those of two coordinates took 3 % longer
 GVI__SELDOM int gvi__usual_of_three(gvi_stepper *st, gvi_real h, int *asked) { return gvi__usual_as(st, h, 3, asked); }
 
-// ---- the same of momenta: M(q), two coordinates
+/* Momenta of two coordinates with M(q): the same once more, with three callbacks in place of one.  */
 
-// what is asked in a round, and how often M(q) and the effect were
+// what is asked in a round, in this order, and how often the first two were
 typedef struct gvi__asked { gvi_points mass, effect, gradient; int masses, effects; } gvi__asked;
 
 // each by itself: a copy would have to wait for what was just stored
