@@ -63,6 +63,19 @@ static int well(const gvi_points *x, void *user)
     return 0;
 }
 
+/* A sun in space: -q/|q|^3                                                                     */
+static int sun(const gvi_points *x, void *user)
+{
+    const int R = x->stride;
+    const double *q = x->q;
+    (void)user;
+    for (int k = 0; k < x->count; ++k) {
+        double d2 = q[k]*q[k] + q[R+k]*q[R+k] + q[2*R+k]*q[2*R+k], w = 1/(d2*sqrt(d2));
+        for (int i = 0; i < 3; ++i) x->f[i*R+k] -= w*q[i*R+k];
+    }
+    return 0;
+}
+
 static int pair(const gvi_points *x, int i, int j)
 {
     const int R = x->stride;
@@ -165,6 +178,7 @@ static const double corners[] = { 0, GAMMA, 1 - GAMMA, 1 };
 static const double kicks[] = { GAMMA/2, (1 - GAMMA)/2, (1 - GAMMA)/2, GAMMA/2 };
 
 static const gvi_effect kepler_scene[] = { { .kind = GVI_POTENTIAL, .points = attraction } };
+static const gvi_effect space_scene[] = { { .kind = GVI_POTENTIAL, .points = sun } };
 static const gvi_effect solar_scene[] = { { .kind = GVI_POTENTIAL, .points = gravitation } };
 static const gvi_effect pendulum_scene[] = { { .kind = GVI_POTENTIAL, .points = weight } };
 static const gvi_effect well_scene[] = { { .kind = GVI_POTENTIAL, .points = well } };
@@ -175,6 +189,7 @@ static const gvi_effect clock_scene[] = {
 
 /* Start: configuration and velocity, in the pendulum momentum                                  */
 static const double kepler_q[] = { 0.4, 0 }, kepler_v[] = { 0, 2 };
+static const double space_q[] = { 1, 0, 0 }, space_v[] = { 0, 0.8, 0.5 };
 static const double pendulum_q[] = { 1.1, -1.1 }, pendulum_p[] = { 2.7746, 2.7746 };
 static const double well_q[] = { 0, 0.1 }, well_v[] = { 0.49, 0 };
 static const double chain_q[] = { 1, 0, 0, 0.02, 0, 0 }, chain_v[] = { 1, 0, 0, 1, 0, 0 };
@@ -200,6 +215,11 @@ static const run runs[] = {
       .mass = { .kind = GVI_MASS_POSITION, .points = mass, .gradient = mass_gradient,
                 .velocity = velocity } },
       pendulum_q, pendulum_p, 1.0/128, 2000 },
+    { "links", { .n = 2, .degree = 8, SCENE(pendulum_scene), .formulation = GVI_MOMENTA,
+      .mass = { .kind = GVI_MASS_POSITION, .points = mass, .gradient = mass_gradient } },
+      pendulum_q, pendulum_p, 1.0/32, 1000 },
+    { "space", { .n = 3, .degree = 8, SCENE(space_scene), .formulation = GVI_POSITIONS, .tolerance = 1e-12 },
+      space_q, space_v, 0.2, 2000 },
     { "kicks", { .n = 2, SCENE(well_scene),
       .rule = { .kind = GVI_KICKS, .points = 4, .nodes = corners, .weights = kicks } },
       well_q, well_v, 0.1, 20000 },

@@ -1,5 +1,5 @@
 #!/bin/sh
-# instructions.sh BUILD [--record]: what seven fixed runs cost, against tests/data/instructions.txt.
+# instructions.sh BUILD [--record]: what nine fixed runs cost, against tests/data/instructions.txt.
 # Points and iterations must be those recorded, with any compiler; instructions, which callgrind
 # counts from the first step to the last, within 2 % either way, where the compiler is the recorded
 # one.  With another one, or without valgrind, they are printed, or said to be skipped.
