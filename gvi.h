@@ -7382,7 +7382,7 @@ static signed char gvi__is_usual(const gvi_stepper *st)
     const int is = (st->r == 8 && GVI__BEYOND_FLOAT ? GVI__OF_TWO : 0) + (kind == GVI__OF_POSITIONS ? GVI__SUMS : 0)
                    + (GVI__LEARNS && x->learned.lengthy ? GVI__LONG : 0);
     const int all = (st->r == 8 || st->r == 16) && (x->alike == 2 || !GVI__BEYOND_FLOAT) && x->E_is == is
-        && !gvi__nonzero(x->ratio - 1) && x->newton_left == 0 && x->whole_left == 0;
+        && !gvi__nonzero(x->ratio - 1) && x->newton_left == 0 && x->whole_left == 0 && !gvi__by_newton(st);
     return (signed char)(all ? kind : GVI__GENERAL);
 }
 
