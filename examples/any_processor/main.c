@@ -3,11 +3,11 @@
    A program that goes to others is compiled for the least of their processors, and on one with AVX-512
    uses a quarter of each register.  So what takes time, forces and gvi.h together, is compiled three
    times, and the program takes the widest form that its processor has.  The orbits of 300 stars in the
-   halo of a galaxy, over 2 Gyr; with gcc or clang:
+   halo of a galaxy, over 2 Gyr; with gcc or clang, in this directory:
 
-     cc -std=c99 -O3 -I. -c motion.c
-     cc -std=c99 -O3 -I. -mavx2 -mfma -DMOTION=motion_avx2 -c motion.c -o motion_avx2.o
-     cc -std=c99 -O3 -I. -mavx512f -mavx512dq -mavx512vl -mavx512bw -mfma -DMOTION=motion_avx512 \
+     cc -std=c99 -O3 -I../.. -c motion.c
+     cc -std=c99 -O3 -I../.. -mavx2 -mfma -DMOTION=motion_avx2 -c motion.c -o motion_avx2.o
+     cc -std=c99 -O3 -I../.. -mavx512f -mavx512dq -mavx512vl -mavx512bw -mfma -DMOTION=motion_avx512 \
         -c motion.c -o motion_avx512.o
      cc -std=c99 -O3 main.c motion.o motion_avx2.o motion_avx512.o -lm
 
