@@ -21,7 +21,12 @@
 #define RUNNER_FORMAT
 #endif
 
-struct CMUnitTest { const char *name; void (*test)(void **state); };
+struct CMUnitTest {
+    const char *name;
+    void (*test)(void **state);
+    int (*setup)(void **), (*teardown)(void **);      // not called: no test here has its own
+    void *initial_state;
+};
 
 static struct {
     int passed, failed, skipped, skips;
@@ -110,7 +115,8 @@ static RUNNER_REST void runner_one(const struct CMUnitTest *test, void **state)
         return;
     }
 #endif
-    test->test(state);
+    void *own = test->initial_state;
+    test->test(own ? &own : state);
     runner.skipped += runner.skips;
     runner.passed += !runner.skips;
 }
@@ -129,7 +135,7 @@ static RUNNER_REST int runner_group(const struct CMUnitTest *tests, size_t count
     return runner.failed;
 }
 
-#define cmocka_unit_test(f) { #f, f }
+#define cmocka_unit_test(f) { #f, f, NULL, NULL, NULL }
 #define cmocka_run_group_tests(tests, setup, teardown) \
     runner_group(tests, sizeof(tests)/sizeof((tests)[0]), setup, teardown)
 
