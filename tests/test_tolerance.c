@@ -251,27 +251,6 @@ static void a_checkpoint_with_a_tolerance_goes_on_with_one(void **state)
     }
 }
 
-/* A mark takes as much memory as a tolerance does where n + 2 = r: sizes alone do not tell them apart */
-static void a_checkpoint_with_a_tolerance_is_none_of_a_mark(void **state)
-{
-    const scene a = { GVI_POSITIONS, GVI_MASS_UNIT, 0, 6, GVI_GAUSS, 0 };
-    gvi_effect effects[2][3];
-    gvi_desc d[2] = { describe(&a, 8, effects[0]), describe(&a, 8, effects[1]) };
-    gvi_stepper st[2];
-    size_t size[2];
-    (void)state;
-    d[0].tolerance = (real)0.001;
-    effects[1][0].weak = 1;
-    real *with = set_up(st, &a, d, size), *marked = set_up(st + 1, &a, d + 1, size + 1);
-#ifndef __OPTIMIZE_SIZE__                                  /* small code knows no marks */
-    assert_int_equal(size[0], size[1]);
-#endif
-    assert_status(gvi_restore(st + 1, st, with), GVI_E_ARGUMENT);
-    assert_status(gvi_restore(st, st + 1, marked), GVI_E_ARGUMENT);
-    free(with);
-    free(marked);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -280,7 +259,6 @@ int main(void)
         cmocka_unit_test(a_tolerance_keeps_the_total_momentum),
         cmocka_unit_test(what_is_left_undone_is_the_tolerance),
         cmocka_unit_test(a_checkpoint_with_a_tolerance_goes_on_with_one),
-        cmocka_unit_test(a_checkpoint_with_a_tolerance_is_none_of_a_mark),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
