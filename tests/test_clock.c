@@ -917,7 +917,7 @@ static outcome revolve(const orbit *a)
         if (hypot(st.q[0], st.q[1]) > 1) z.energy = fmaxl(z.energy, energy_error(&st, E0));
         else z.near = fmaxl(z.near, energy_error(&st, E0));
         if (st.t < (double)(99*o.period)) continue;
-        kepler(&o, a->far, (long double)st.t + (long double)st.x.te, &X, &Y);       // t as it is carried
+        kepler(&o, a->far, (long double)st.t + (long double)st.t_low, &X, &Y);       // t as it is carried
         z.worst = fmaxl(z.worst, hypotl(st.q[0] - X, st.q[1] - Y));
     }
     z.seconds = (double)(clock() - began)/CLOCKS_PER_SEC;

@@ -67,8 +67,8 @@ static void run_state(const run *r, double *y)
             y[i] = (double)r->hand.y[i] + (double)r->hand.rest[i];
             y[n + i] = (double)r->hand.y[n + i] + (double)r->hand.rest[n + i];
         } else {
-            y[i] = (double)r->st.q[i] + (double)r->st.x.qe[i];
-            y[n + i] = (double)r->st.p[i] + (double)r->st.x.pe[i];
+            y[i] = (double)r->st.q[i] + (double)r->st.q_low[i];
+            y[n + i] = (double)r->st.p[i] + (double)r->st.p_low[i];
         }
     if (!by_hand_only(r->setting)) true_velocity((int)(r->scene - scenes), y);
 }

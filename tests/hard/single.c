@@ -363,8 +363,8 @@ static orbit eccentric(double e, int steps)
         if (r > 1) z.outside = fmax(z.outside, error);
         else z.inside = fmax(z.inside, error);
         if (k <= steps - steps/100) continue;
-        on_ellipse(&path, (long double)st.t + (long double)st.x.te, q);
-        for (int i = 0; i < 2; ++i) q[i] -= (long double)st.q[i] + (long double)st.x.qe[i];
+        on_ellipse(&path, (long double)st.t + (long double)st.t_low, q);
+        for (int i = 0; i < 2; ++i) q[i] -= (long double)st.q[i] + (long double)st.q_low[i];
         z.end = (double)hypotl(q[0], q[1]);
         z.worst = fmax(z.worst, z.end);
     }

@@ -141,7 +141,7 @@ static void run_ours(double K, int s, gvi_formulation formulation, long steps, p
     z->walk.E0 = pendulum_energy(st.q, st.p);
     for (long k = 0; k < steps; ++k) {
         must(gvi_step(&st, 1.0/PER));
-        look(&z->walk, st.q, st.p, st.x.qe, st.x.pe);
+        look(&z->walk, st.q, st.p, st.q_low, st.p_low);
     }
     memcpy(z->q, st.q, sizeof z->q);
     z->evaluations = (double)st.counters.effect[0]/(double)steps;
