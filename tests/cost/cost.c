@@ -182,47 +182,24 @@ static gvi_setting *add_setting(int degree, gvi_rule_kind rule, gvi_formulation 
     return settings + setting_count++;
 }
 
-/* The baselines' splittings as tables of kicks, exact or rounded at each, whatever the tolerance;
-   stiff: what the scene says of its springs is said.                                          */
-static void add_kicks(int stiff, double tolerance)
+/* The baselines' splittings as tables of kicks.                                                */
+static void add_kicks(void)
 {
     static const char *const names[] = { "Stoermer-Verlet", "Kahan-Li 8", "Sofroniou-Spaletta 10",
                                          "Blanes-Moan SRKN11", "Blanes-Moan SRKN14", "Splitting 8" };
     static double nodes[COUNT(names)][TABLE], weights[COUNT(names)][TABLE];
     for (int i = 0; i < COUNT(names); ++i) {
-        gvi_setting *s = add_setting(1, GVI_KICKS, GVI_EXPLICIT, tolerance);
+        gvi_setting *s = add_setting(1, GVI_KICKS, GVI_EXPLICIT, 0);
         s->name = names[i];
-        s->stiff = stiff;
         s->points = baseline_kicks(baseline_named(names[i]), nodes[i], weights[i]);
         s->nodes = nodes[i];
         s->weights = weights[i];
     }
 }
 
-/* The scene in two effects, one of them marked as weak.                                       */
-static void add_marked(const problem *p)
-{
-    static const int degrees[] = { 8, 7, 16 };
-    static const double tolerances[] = { 1e-12, 0, 1e-18, 1e-17, 1e-16, 1e-15, 1e-14, 1e-13, 1e-11, 1e-10, 1e-9, 1e-8 };
-    for (int i = 0; i < COUNT(degrees); ++i)
-        for (int k = 0; k < COUNT(tolerances); ++k)
-            add_setting(degrees[i], GVI_GAUSS, GVI_POSITIONS, tolerances[k])->scene = p->marked;
-}
-
 /* Every decade, the likely ones first.                                                        */
 static const double decades[] = { 1e-12, 0, 1e-18, 1e-17, 1e-16, 1e-15, 1e-14, 1e-13, 1e-11, 1e-10, 1e-9, 1e-8,
                                   1e-7, 1e-6 };
-
-/* Degrees times tolerances again, and splittings, with the scene's stiffness.                 */
-static void add_stiff(void)
-{
-    static const int degrees[] = { 8, 7, 6, 10, 12, 16 };
-    for (int i = 0; i < COUNT(degrees); ++i)
-        for (int k = 0; k < COUNT(decades); ++k)
-            add_setting(degrees[i], GVI_GAUSS, GVI_POSITIONS, decades[k])->stiff = 1;
-    add_kicks(1, 0);
-    add_kicks(1, 1e-12);
-}
 
 /* Kepler's ellipses with a clock.                                                             */
 static void add_clocks(const problem *p)
@@ -250,10 +227,8 @@ static void settings_for(const problem *p)
         for (int k = 0; k < COUNT(decades); ++k) add_setting(degrees[i], GVI_GAUSS, pinned, decades[k]);
     add_setting(8, GVI_GAUSS, GVI_AUTO, 0);
     add_setting(12, GVI_GAUSS, GVI_AUTO, 0);
-    if (!p->slope) { add_kicks(0, 0); add_kicks(0, 1e-12); }
+    if (!p->slope) add_kicks();
     if (p->clocks[0]) add_clocks(p);
-    if (p->marked) add_marked(p);
-    if (p->stiffness) add_stiff();
 }
 
 static curve *new_curve(study *y, const char *family, int ours, int structure)

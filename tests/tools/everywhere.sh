@@ -18,7 +18,7 @@ all='gcc clang tcc i386-sse i386-x87 i386-clang armhf aarch64 riscv64 ppc64 s390
 # reference integrators (make test); test_order, test_theorems, test_ncdp, a minute and more each.
 quick='api effects identities interpolation kicks lu many mass newton oracle quadrature queries structure tolerance
        effects:float interpolation:float lu:float many:float newton:float oracle:float'
-more='corners corners:float guess hostile mass:float scenes tolerance:float usual usual:float'
+more='corners corners:float hostile mass:float scenes tolerance:float twins twins:float'
 wide='lu:long interpolation:long oracle:long'
 quad='interpolation:long oracle:long kicks:long effects:long'
 # Some tests are in long double unless told otherwise and mean 64 bits by it: their problems are of
