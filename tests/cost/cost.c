@@ -15,7 +15,7 @@
 
 #include "baselines.h"
 #include "gvi_run.h"
-#include "plot.h"
+#include "svg.h"
 #include "horizon.h"
 
 #include <stdlib.h>
@@ -451,7 +451,8 @@ static void make_envelope(const study *y, const char *family, int of_energy, env
 static void write_picture(const study *y, const options *o)
 {
     static envelope envelopes[2][12];
-    plot_line lines[2][12];
+    svg_line lines[2][12];
+    unsigned ours = 0;
     int count = 0;
     for (int i = 0; i < y->count && count < 12; ++i) {
         int known = 0;
@@ -460,17 +461,22 @@ static void write_picture(const study *y, const options *o)
         for (int e = 0; e < 2; ++e) {
             envelope *v = &envelopes[e][count];
             make_envelope(y, y->curves[i].family, e, v);
-            plot_line line = { y->curves[i].family, y->curves[i].ours, v->count, v->x, v->y };
+            svg_line line = { y->curves[i].family, v->x, v->y, v->count };
             lines[e][count] = line;
         }
-        ++count;
+        ours |= (unsigned)(y->curves[i].ours != 0) << count++;
     }
     char path[512];
     snprintf(path, sizeof path, "%s/%s.svg", o->out, y->p->key);
-    plot_panel panels[2] = {
-        { y->p->title, "CPU time, ms", "error of q at the end", 0, lines[0], count },
-        { "", "CPU time, ms", "largest relative error of the energy", 0, lines[1], count } };
-    if (plot_write(path, panels, 2)) perror(path);
+    svg_plot panels[2] = {
+        { .title = y->p->title, .x_label = "CPU time, ms", .y_label = "error of q at the end", .lines = lines[0] },
+        { .title = "", .x_label = "CPU time, ms", .y_label = "largest relative error of the energy", .lines = lines[1] } };
+    for (int e = 0; e < 2; ++e) {
+        panels[e].log_x = panels[e].log_y = 1;
+        panels[e].line_count = count;
+        panels[e].thick = ours;
+    }
+    if (svg_write_all(path, panels, 2, 360)) perror(path);
 }
 
 /* ---------------------------------------------------------------- summary */
@@ -584,13 +590,14 @@ static void study_horizon(const options *o)
         for (int r = 0; r < 3; ++r) print_ms(ms[r][i]);
         printf(" %9.2f\n", fmin(ratio[1][i], ratio[2][i]));
     }
-    plot_line lines[] = { { "gvi.h", 1, 3, length, ratio[0] }, { "RKN12(10), fixed step", 0, 3, length, ratio[1] },
-                          { "RKN12(10), adaptive", 0, 3, length, ratio[2] } };
-    plot_panel panel = { "Outer solar system: time to an error of 1e-7", "length in units of 548 years",
-                         "times the time of gvi.h", 1, lines, 3 };
+    svg_line lines[] = { { "gvi.h", length, ratio[0], 3 }, { "RKN12(10), fixed step", length, ratio[1], 3 },
+                         { "RKN12(10), adaptive", length, ratio[2], 3 } };
+    svg_plot panel = { .title = "Outer solar system: time to an error of 1e-7", .x_label = "length in units of 548 years",
+                       .y_label = "times the time of gvi.h", .log_x = 1, .from_zero = 1, .lines = lines, .line_count = 3,
+                       .thick = 1 };
     char path[512];
     snprintf(path, sizeof path, "%s/horizon.svg", o->out);
-    if (plot_write(path, &panel, 1)) perror(path);
+    if (svg_write_all(path, &panel, 1, 360)) perror(path);
 }
 
 /* ------------------------------------------------------------------- main */

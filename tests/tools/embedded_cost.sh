@@ -21,7 +21,7 @@ done
 [ -z "$missing" ] || fail "not installed:$missing"
 
 strict='-std=c99 -ffp-contract=off -fno-math-errno -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion
-        -Wshadow -Wundef -Wfloat-equal -Wvla -Werror -Itests/cost'
+        -Wshadow -Wundef -Wfloat-equal -Wvla -Werror -Itests/cost -Iexamples'
 small=-DGVI_NO_CLOCK
 bare="-mthumb -ffunction-sections -fdata-sections -nostartfiles -Wl,--gc-sections -T $board/mps2.ld -I$board
       -Wno-type-limits"
