@@ -8,6 +8,7 @@
 #include <tgmath.h>
 
 typedef gvi_real real;
+#include "mechanics.h"
 #include "hard/extrapolate.h"
 #include "splittings.h"
 
@@ -222,18 +223,6 @@ static void every_table_gives_a_symplectic_map(void **state)
     for (int i = 0; i < count; ++i)
     for (int mass = GVI_MASS_UNIT; mass <= GVI_MASS_DENSE; ++mass)
         assert_between(0, symplectic_defect(&all[i], (gvi_mass_kind)mass), 100*pow((real)EPS, 8/(real)9));
-}
-
-static int attraction(const gvi_points *x, void *user)
-{
-    const real *X = x->q, *Y = X + x->stride;
-    (void)user;
-    for (int k = 0; k < x->count; ++k) {
-        const real d2 = X[k]*X[k] + Y[k]*Y[k], w = -1/(d2*sqrt(d2));
-        x->f[k] += w*X[k];
-        x->f[x->stride + k] += w*Y[k];
-    }
-    return 0;
 }
 
 /* A rounding of a kick or a drift changes q x p by EPS/2 of |q||p| or less, at most 2

@@ -226,19 +226,6 @@ static void compensation(const problem *a, long steps)
 
 /* -------------------------------------------------------------------- kicks */
 
-static int attraction(const gvi_points *x, void *user)
-{
-    (void)user;
-    for (int k = 0; k < x->count; ++k) {
-        const real X = x->q[k], Y = x->q[x->stride + k], d2 = X*X + Y*Y, d = sqrtf(d2), w = 1/(d2*d);
-        if (x->value) x->value[k] -= 1/d;
-        if (!x->f) continue;
-        x->f[k] -= w*X;
-        x->f[x->stride + k] -= w*Y;
-    }
-    return 0;
-}
-
 static double kepler_energy(const double *q, const double *p)
 {
     return (p[0]*p[0] + p[1]*p[1])/2 - 1/hypot(q[0], q[1]);

@@ -36,7 +36,7 @@
 #include <tgmath.h>
 
 typedef gvi_real real;
-#include "tests/pendulum.h"
+#include "tests/mechanics.h"
 
 #define MAYBE __attribute__((unused))     /* not every study needs everything */
 #define HESSIAN(name) static MAYBE int name(real t, const real *q, const real *v, \
