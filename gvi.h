@@ -815,13 +815,14 @@ typedef gvi_real gvi__rounded;
 typedef volatile gvi_real gvi__rounded;
 #endif
 
-/* A lane is GVI__LANES numbers that one instruction handles: as many as a register holds, or one
-   where the compiler has no vectors or code is to be small.                                  */
+/* A lane is GVI__LANES numbers that one instruction handles: as many as a register holds, up to 32
+   bytes (wider ones are slower here: callbacks write narrower), or one where the compiler has no
+   vectors or code is to be small.                                                            */
 #if !defined(__GNUC__) || GVI__KIND == 3 || defined(__OPTIMIZE_SIZE__)                          \
     || !(FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 16)                                         \
     || !(defined(__SSE2__) || defined(__ARM_NEON) || defined(__ALTIVEC__) || defined(__riscv_vector))
 #define GVI__LANES 1
-#elif defined(__AVX512F__) || (defined(__AVX__) && GVI__KIND == 1)
+#elif defined(__AVX__) && GVI__KIND == 1
 #define GVI__LANES 8
 #elif defined(__AVX__) || GVI__KIND == 1
 #define GVI__LANES 4
@@ -1613,6 +1614,7 @@ static gvi_status gvi__value(gvi_stepper *st, gvi_points *x, int e, gvi_real *va
     const gvi_effect *effect = st->x.desc.effects + e;
     gvi_points y = *x;
     if (!effect->value) return gvi__blame(st, GVI_E_VALUE, e);
+    if (effect->kind == GVI_POTENTIAL) y.v = NULL;
     y.f = y.dldv = NULL;
     y.value = value;
     return effect->value(&y, effect->user) ? gvi__blame(st, GVI_E_CALLBACK, e) : GVI_OK;
@@ -1650,12 +1652,10 @@ GVI__BODY gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e, gvi_real
     gvi__count(&st->counters.effect[e], x->count);
     const int failed = points ? effect->points(x, effect->user) : gvi__point_by_point(st, effect, x);
     x->value = NULL;
-    gvi_status status = GVI_OK;
-    if (failed) status = gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, points ? GVI_FAULT_NONE : failed - 1);
-    else if (value && !both) status = gvi__value(st, x, e, value);
     x->v = v;
     x->dldv = dldv;
-    return status;
+    if (failed) return gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, points ? GVI_FAULT_NONE : failed - 1);
+    return value && !both ? gvi__value(st, x, e, value) : GVI_OK;
 }
 
 /* What an effect adds its value to, with a clock: potentials to level, Lagrangian terms to the row
@@ -1701,7 +1701,7 @@ static gvi_status gvi__effects(gvi_stepper *st, gvi_points *x, unsigned skip, gv
     if (diagnose && (gvi__check_rows(st, x, x->q, 0) != GVI_OK || gvi__check_rows(st, x, x->v, 0) != GVI_OK))
         return gvi__give(st, GVI_E_CONVERGENCE);
     for (int e = 0; e < st->x.desc.effect_count && status == GVI_OK; ++e)
-        if (!(skip >> e & 1u)) status = gvi__effect(st, x, e, level ? gvi__value_row(st, e, level) : NULL);
+        if (!(skip >> e & 1u)) status = gvi__effect(st, x, e, gvi__value_row(st, e, level));
     if (!diagnose || status != GVI_OK) return status;
     const int finite = gvi__check_rows(st, x, x->f, 0) == GVI_OK && gvi__check_rows(st, x, x->dldv, 0) == GVI_OK
         && (!level || (gvi__first_non_finite(x->count, level) < 0
@@ -1912,17 +1912,16 @@ static gvi_status gvi__value_sums(gvi_stepper *st, gvi_real t, const gvi_real *q
 {
     const gvi_desc *d = &st->x.desc;
     gvi_points y = gvi__one_point(st, &t, q);
+    y.v = v;
     *V = *L = *T = 0;
     for (int e = 0; e < d->effect_count; ++e) {
         const gvi_kind kind = d->effects[e].kind;
         gvi_real *value = kind == GVI_POTENTIAL ? V : L;
         if ((st->x.off >> e & 1u) || kind == GVI_FORCE || kind == GVI_CLOCK) continue;
-        y.v = kind == GVI_POTENTIAL ? NULL : v;
         const gvi_status status = gvi__value(st, &y, e, value);
         if (status != GVI_OK) return status;
         if (!gvi__finite(*value)) return gvi__blame(st, GVI_E_NON_FINITE, e);
     }
-    y.v = v;
     gvi__zero(2*(size_t)st->n, y.f);              // and y.dldv
     const gvi_status status = gvi__kinetic(st, &y);
     *T = gvi__dot(st->n, y.dldv, v)/2;
@@ -2245,8 +2244,9 @@ static void gvi__fit(gvi_stepper *st, gvi_real alpha, gvi_real beta, int steps)
    with free motion, the same in all iterations, in rows of its own.  factor and 1/m are two products: h
    times 1/m, rounded once, would be the inverse of another mass in every step than the one that makes v
    of p, the map no longer symplectic, and energy would drift.  A stage with a scale is measured at two points,
-   the last and the middle: change_i := the squares of scale_i times the change of row_i there, added
-   up.  One would not do: where eigenvalues are complex changes turn, and pass 0 at a point, not at two. */
+   the last and the middle, as if they were all: change_i := r/2 times the squares of scale_i times the
+   change of row_i there.  One would not do: where eigenvalues are complex changes turn, and pass 0 at
+   one point, not at two.                                                                     */
 typedef struct gvi__sum { const gvi_real *table, *weight, *source; } gvi__sum;
 
 typedef struct gvi__stage {
@@ -2282,7 +2282,7 @@ GVI__BODY void gvi__measure(const gvi__stage *y, int i, int r, const gvi_real *r
         y->scale[i] = size > GVI__MIN/GVI__EPS ? 1/size : 0;
     }
     const gvi_real a = (is - was)*y->scale[i], b = (row[(r - 1)/2] - half)*y->scale[i];
-    y->change[i] = a*a + b*b;
+    y->change[i] = (a*a + b*b)*(gvi_real)r/2;
 }
 
 /* sum_j table_j L_j at one point, in four chains: the order of gvi__row_sums                 */
@@ -2376,11 +2376,11 @@ GVI__KERNEL(gvi__rows_8,    by_lanes,  st->n, 8, 8)
 GVI__KERNEL(gvi__rows_to_8, by_lanes,  st->n, st->r, 8)
 GVI__KERNEL(gvi__rows_16,   by_lanes,  st->n, 16, 16)
 GVI__KERNEL(gvi__rows_many, by_lanes,  st->n, st->r, st->x.R)
+#endif
 #if GVI__LANES == 8
 GVI__KERNEL(gvi__rows_4,    by_points, st->n, 4, 4)
-#else
+#elif GVI__LANES > 1
 GVI__KERNEL(gvi__rows_4,    by_lanes,  st->n, 4, 4)
-#endif
 #endif
 
 static gvi__kernel *gvi__kernel_for(int n, int r)
@@ -2600,7 +2600,7 @@ static void gvi__velocities_again(gvi_stepper *st, gvi_real *change)
         for (int k = 0; k < R; ++k) x->work.V[i*R + k] *= x->time.rate[k];
     for (int i = 0; made && i < n; ++i) {
         const gvi_real moved = V[i*R] - was[i], size = GVI_ABS(V[i*R]) + GVI_ABS(was[i]);
-        if (size > GVI__MIN/GVI__EPS) change[i] += (moved/size)*(moved/size);
+        if (size > GVI__MIN/GVI__EPS) change[i] += (gvi_real)st->r*(moved/size)*(moved/size);
     }
 }
 
@@ -2723,7 +2723,7 @@ static int gvi__is_noise(const gvi_stepper *st, gvi_real h, int stages)
             const gvi_real scale = x->watch.scale[k*n + i], m = gvi__inertia(st, i);
             const int p = momenta && k == 0, v = !momenta && k == 1;
             const gvi_real unit = !(scale > 0) ? 0 : (p ? GVI_ABS(h)/m : v ? GVI_ABS(h) : 1)*GVI_SQRT(m)/scale;
-            const gvi_real change = unit*GVI_SQRT(x->watch.change[k*n + i]);
+            const gvi_real change = unit*GVI_SQRT(x->watch.change[k*n + i]/(gvi_real)st->r);
             if (unit > largest) largest = unit;
             if (x->watch.before[k*n + i] <= 1 && change > noise) noise = change;
         }
@@ -2743,7 +2743,7 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real h, int sta
 {
     struct gvi__private *x = &st->x;
     const gvi_real wanted = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/65536;
-    const gvi_real tolerance = wanted*wanted, rounding = 16*GVI__EPS*GVI__EPS;
+    const gvi_real tolerance = wanted*wanted, rounding = 16*GVI__EPS*GVI__EPS*(gvi_real)st->r;
     const gvi_real still = rounding > tolerance ? rounding : tolerance, far = (gvi_real)0.0625;
     const gvi_real *GVI__RESTRICT change = x->watch.change;
     gvi_real most = 0, open = 0, *GVI__RESTRICT last = x->watch.before;
@@ -2775,9 +2775,11 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real h, int sta
     p->growing = grows ? p->growing + 1 : 0;
     p->stagnant = open < (gvi_real)0.81*p->least ? 0 : p->stagnant + 1;
     if (open < p->least) p->least = open;
-    if ((p->stagnant > 2 && open <= rounding) || (p->stagnant > 4 && gvi__is_noise(st, h, stages)))
+    const int poor = p->growing > (open > far ? 4 : 2) && open > 65536*rounding;
+    const int noise = (p->stagnant > 4 || poor) && gvi__is_noise(st, h, stages);
+    if (p->stagnant > 2 && (open <= rounding || (noise && p->stagnant > 4)))
         return p->used - p->stagnant > GVI__DIG/2 && gvi__may_turn(st) ? GVI__DIVERGES : GVI__ONCE_MORE;
-    if (p->growing > (open > far ? 4 : 2) && open > 65536*rounding && gvi__may_turn(st)) return GVI__DIVERGES;
+    if (poor && !noise && gvi__may_turn(st)) return GVI__DIVERGES;
     return p->used < x->desc.max_iterations ? GVI__GO_ON : GVI__DIVERGES;
 }
 
@@ -3920,15 +3922,16 @@ static int gvi__finite_end(const gvi_stepper *st, const gvi__start *from)
 static gvi_status gvi__solve(gvi_stepper *st, const gvi__start *from, gvi_real h, int query)
 {
     struct gvi__private *x = &st->x;
-    gvi_status status = gvi__attempt(st, from, h, query);
-    if (status == GVI_OK && !gvi__finite_end(st, from)) status = gvi__give(st, GVI_E_NON_FINITE);
-    if (status != GVI_E_NON_FINITE || st->fault.effect != GVI_FAULT_NONE) return status;
-    if (!query) x->newton.h = 0;
-    x->diagnose = 1;
-    status = gvi__attempt(st, from, h, query);
-    x->diagnose = 0;
-    const int explained = status != GVI_E_NON_FINITE || st->fault.effect != GVI_FAULT_NONE;
-    return status != GVI_OK && explained ? status : gvi__give(st, GVI_E_CONVERGENCE);
+    for (int look = 0; ; look = 1) {
+        x->diagnose = look;
+        gvi_status status = gvi__attempt(st, from, h, query);
+        x->diagnose = 0;
+        if (status == GVI_OK && !look && !gvi__finite_end(st, from)) status = gvi__give(st, GVI_E_NON_FINITE);
+        const int explained = status != GVI_E_NON_FINITE || st->fault.effect != GVI_FAULT_NONE;
+        if (look) return status != GVI_OK && explained ? status : gvi__give(st, GVI_E_CONVERGENCE);
+        if (explained) return status;
+        if (!query) x->newton.h = 0;
+    }
 }
 
 // work becomes last, last becomes older (where it is kept that long), and the oldest is free
