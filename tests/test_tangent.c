@@ -290,6 +290,10 @@ static const scene scenes[] = {
       { heiles_product, friction_product }, 1, GVI_VELOCITIES },
     { "velocities, magnetic", { .n = N, .degree = 4, .effects = of_magnetic, .effect_count = 2 },
       { heiles_product, magnetic_product }, 0, GVI_VELOCITIES },
+    { "Newton, magnetic", { .n = N, .degree = 3, .effects = of_magnetic, .effect_count = 2, .formulation = GVI_NEWTON },
+      { heiles_product, magnetic_product }, 0, GVI_NEWTON },
+    { "Newton, friction", { .n = N, .degree = 3, .effects = of_friction, .effect_count = 2, .formulation = GVI_NEWTON },
+      { heiles_product, friction_product }, 1, GVI_NEWTON },
     { "M(q), degree 1", { .n = N, .degree = 1, .effects = of_weight, .effect_count = 1, .mass = PENDULUM },
       { weight_product }, 0, GVI_MOMENTA },
     { "M(q), degree 4", { .n = N, .degree = 4, .effects = of_weight, .effect_count = 1, .mass = PENDULUM },
@@ -637,6 +641,35 @@ static void what_is_refused(ANY void **state)
     assert_status(tangent_scene(&T), GVI_E_FORMULATION);
 }
 
+static int wrong_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
+{
+    heiles_product(x, d, parameter, user);
+    for (int k = 0; k < x->count; ++k) d->f[k] += d->q[x->stride+k]/50;
+    return 0;
+}
+
+/* Products that are right agree with differences; a term that is off by 2 % is found.  */
+static void what_the_check_finds(ANY void **state)
+{
+    const real v[] = { R(0.5), R(-0.75) }, dq[] = { R(0.25), R(0.5) }, dv[] = { R(-0.5), R(0.75) };
+    tangent T;
+    int part = -1;
+    for (int i = 0; i < COUNT(scenes); ++i) {
+        made(&T, &scenes[i], 1, 0, 0);
+        assert_between(0, tangent_check(&T, 0, q0, v, dq, dv, &part), 400*pow((real)EPS, R(0.8)));
+    }
+    made(&T, &scenes[0], 1, 0, 0);
+    T.product[0] = wrong_product;
+    assert_ok(tangent_scene(&T));
+    assert_between(0.005L, tangent_check(&T, 0, q0, v, dq, dv, &part), 0.1L);
+    assert_int_equal(part, 0);
+    made(&T, &scenes[COUNT(scenes) - 2], 1, 0, 0);
+    T.gradient = tangent_constant;
+    assert_ok(tangent_scene(&T));
+    assert_between(1, tangent_check(&T, 0, q0, v, dq, dv, &part), 1);
+    assert_int_equal(part, GVI_EFFECTS + 1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -649,6 +682,7 @@ int main(void)
         cmocka_unit_test(back_again),
         cmocka_unit_test(regular_and_chaotic),
         cmocka_unit_test(what_is_refused),
+        cmocka_unit_test(what_the_check_finds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -284,4 +284,57 @@ static inline void tangent_column(const tangent *T, const gvi_stepper *st, int j
     }
 }
 
+/* How far the products are from differences of their effects (of order 4, at one point): the
+   largest |product - difference| over the larger of the two; about eps^(4/5) where all is
+   right, of the order of 1 where something is wrong; *part says where, numbered like the effects,
+   then GVI_EFFECTS the velocity and GVI_EFFECTS + 1 the gradient.  dq, dv [n] are the direction,
+   as long as the motion is; for mass.velocity v and dv are p and dp.  -1: an effect refused.
+   Derivatives by parameters are not looked at.                                */
+static inline gvi_real tangent_check(tangent *T, gvi_real t, const gvi_real *q, const gvi_real *v,
+                                     const gvi_real *dq, const gvi_real *dv, int *part)
+{
+    const int n = T->plain.n, moving = T->desc.mass.velocity != NULL;
+    const gvi_real step[] = { 1, -1, 2, -2 }, weight[] = { 8, -8, -1, 1 };
+    gvi_real D = (gvi_real)0.5, far = 0;
+    while (1 + D*D*D*D*D > 1) D /= 2;
+    for (int i = 0; i < GVI_EFFECTS + 2; ++i) {
+        const tangent_part *a = T->part + i;
+        const int mass = i >= GVI_EFFECTS, velocity = i == GVI_EFFECTS;
+        const gvi_kind kind = mass ? GVI_FORCE : i < T->plain.effect_count ? T->effect[i].kind : GVI_FORCE;
+        gvi_real *Q = T->room + 6*n, *V = Q + n, *out = V + n, *slope = out + 2*n, *product = slope + 2*n;
+        gvi_points x = { n, 1, 1, &t, Q, kind == GVI_POTENTIAL || velocity ? NULL : V, velocity ? V : NULL,
+                         velocity ? NULL : out, kind == GVI_LAGRANGIAN ? out + n : NULL, NULL, NULL, velocity ? out : NULL };
+        if (mass ? !moving || !a->points : i >= T->plain.effect_count) continue;
+        for (int k = 0; k < 2*n; ++k) slope[k] = product[k] = 0;
+        for (int z = 0; z < 5; ++z) {
+            for (int k = 0; k < n; ++k) {
+                Q[k] = q[k] + (z < 4 ? step[z]*D*dq[k] : 0);
+                V[k] = v[k] + (z < 4 ? step[z]*D*dv[k] : 0);
+                out[k] = out[n + k] = 0;
+            }
+            if (tangent_plain(a, &x)) return -1;
+            for (int k = 0; k < 2*n && z < 4; ++k) slope[k] += weight[z]*out[k]/(12*D);
+        }
+        gvi_points y = x, d = x;
+        if (velocity) y.v = out;
+        y.f = y.dldv = y.velocity = NULL;
+        d.q = dq;
+        if (x.v) d.v = dv;
+        if (x.p) d.p = dv;
+        if (x.f) d.f = product;
+        if (x.dldv) d.dldv = product + n;
+        if (x.velocity) d.velocity = product;
+        if (a->product(&y, &d, -1, a->user)) return -1;
+        gvi_real large = 0, off = 0;
+        for (int k = 0; k < 2*n; ++k) {
+            const gvi_real e = product[k] - slope[k], m = product[k] < 0 ? -product[k] : product[k], w = slope[k] < 0 ? -slope[k] : slope[k];
+            if (m > large) large = m;
+            if (w > large) large = w;
+            if (!(e < off && -e < off)) off = e < 0 ? -e : e;
+        }
+        if (large > 0 && !(off/large <= far)) far = off/large, *part = i;
+    }
+    return far;
+}
+
 #endif
