@@ -375,8 +375,8 @@ static void running_cost(ANY void **state)
 
 /* ------------------------------------------------------------ strong damping
 
-   q'' = -q - c q' with c = 2.5 over 20: a step back amplifies by exp(c h), all by 1e21.  States kept at
-   every fourth step hold the gradient of J, the integral of q^2, to rounding.       */
+   q'' = -q - c q' with c = 2.5 over 20: the modes exp(-t/2), exp(-2t) go back as
+   exp(t/2), exp(2t), and 80 steps multiply the rounding of the end by 1e17.  States kept at every fourth step hold the gradient of J, the integral of q^2, to rounding.       */
 
 static int damped(const gvi_points *x, ANY void *user)
 {
@@ -440,8 +440,8 @@ static void strong_damping(ANY void **state)
         assert_close(by_q, exact_q, 64*EPS);
         assert_close(by_damping, exact_c, 64*EPS);
     }
-    damped_gradient(0, &by_q, &by_damping);                /* nothing kept: no digit is right */
-    assert_false(fabs(by_q - (real)exact_q) < R(0.5));
+    damped_gradient(0, &by_q, &by_damping);                /* nothing kept: that is what it is for */
+    assert_false(fabs(by_q - (real)exact_q) < 10000*EPS);
 }
 
 static void what_is_refused(ANY void **state)

@@ -28,7 +28,7 @@
    running cost g(t,q,v): .running adds g_q to d->f and g_v to d->dldv; J is then
    sum h b_i g_i (a sum over gvi_curve at the nodes), and dJ/dtheta gets h b_i dg_i/dtheta.
 
-   Friction: going back it amplifies rounding, by exp(c T) altogether. From about 1e3 on keep
+   Friction: going back it amplifies rounding, up to exp(c T) altogether. From about 1e3 on keep
    states on the way (adjoint_keep), every tenth step for instance: rounding then grows
    over ten steps only.  2n + 1 numbers each.
 
