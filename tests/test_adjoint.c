@@ -375,8 +375,9 @@ static void running_cost(ANY void **state)
 
 /* ------------------------------------------------------------ strong damping
 
-   q'' = -q - c q' with c = 2.5 over 20: the modes exp(-t/2), exp(-2t) go back as
-   exp(t/2), exp(2t), and 80 steps multiply the rounding of the end by 1e17.  States kept at every fourth step hold the gradient of J, the integral of q^2, to rounding.       */
+   q'' = -q - c q' with c = 2.5 over 20: the modes exp(-t/2), exp(-2t) go back as exp(t/2),
+   exp(2t), and 80 steps multiply the rounding of the end by 1e17.  States kept at every fourth
+   step hold the gradient of J, the integral of q^2, to rounding.              */
 
 static int damped(const gvi_points *x, ANY void *user)
 {
