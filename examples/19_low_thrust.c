@@ -7,27 +7,27 @@
 
    With a costate l for each coordinate the best u is -e.l, and l obeys the equation that
    lesson 18 steps back, l'' = F'(q) l + u d(e.l)/dq. Together that is a scene of four
-   coordinates like any other. Unknown at the start: l and l', four numbers. Known of the end:
-   radius, radial velocity, angular momentum, and that turning it gains nothing, for any place
-   on the circle is good: four equations. Lesson 17 gives the derivative, Newton's method the
-   solution, from l = 0. A step of the costates being the transposed step, it is also the
-   minimum of the discrete problem, which a direct search over all controls would find.
+   coordinates like any other. Unknown at the start: l and l', four numbers. Known of the
+   end: radius, radial velocity, angular momentum, and that turning it gains nothing, for any
+   place on the circle is good: four equations. Lesson 17 gives the derivative, and Newton's
+   method finds the start from l = 0 in half a dozen flights (tools/shooting.h). As a step of
+   the costates is the transposed step, this is also the least cost of the discrete problem,
+   which a direct search over the thrust at every node would find.
 
    19_low_thrust [--svg file]
    prints
 
      degree 6, 24 steps: cost 0.000437423053, first thrust 0.00802622811
-     Newton's method, from no thrust at all: 8 flights or less
      the error of the cost at half the step, degree 2, 3, 4: smaller by 2^4, 2^6, 2^8
 */
 #define GVI_IMPLEMENTATION
 #include "gvi.h"
 #include "svg.h"
-#include "tools/tangent.h"
+#include "tools/shooting.h"
 #include <string.h>
 
 enum { FLIGHT = 4, MOST_STEPS = 48, MOST_NODES = 6 };
-static const double flight_time = 9.42477796076937971539, far = 1.2;
+static const double flight_time = 9.42477796076937971539;          // 3 pi
 
 /* Rows 0, 1: q. Rows 2, 3: l. With radial and transverse unit vectors (X, Y), (-Y, X) and l = (R, S)
    along them u = -S; the forces along them are A, B on q and C, D on l.        */
@@ -43,7 +43,8 @@ static int flight(const gvi_points *x, void *user)
     return (void)user, 0;
 }
 
-/* Its derivative in a direction z: r along the radius, w the angle by which the unit vectors turn.  */
+/* Its derivative in a direction z: r along the radius, w the angle by which the unit vectors
+   turn.                                                                        */
 static int flight_product(const gvi_points *x, const gvi_points *dir, int parameter, void *user)
 {
     for (int k = 0, s = x->stride; k < x->count; ++k) {
@@ -60,59 +61,49 @@ static int flight_product(const gvi_points *x, const gvi_points *dir, int parame
     return (void)parameter, (void)user, 0;
 }
 
-/* The four equations at the end z = (q, l, q', l') are pairs(z, z)/2 = wanted, bilinear and symmetric,
-   so that pairs(z, d) is their derivative along d.                             */
-static const double wanted[] = { 0.72, 0, 1.09544511501033222691, 0 };       // far^2/2, sqrt(far)
-
-static void pairs(const double *z, const double *d, double *c)
+/* The four equations at the end (q, l), (q', l') are quadratic: pairs(end, end)/2 = wanted, and their
+   derivative along d is pairs(end, d).                                         */
+static void arrival(const double *q, const double *p, const double *dq, const double *dp, double *c, void *user)
 {
-    c[0] = z[0]*d[0] + z[1]*d[1];
-    c[1] = z[0]*d[4] + z[1]*d[5] + d[0]*z[4] + d[1]*z[5];
-    c[2] = z[0]*d[5] - z[1]*d[4] + d[0]*z[5] - d[1]*z[4];
-    c[3] = z[1]*d[6] - z[0]*d[7] + z[3]*d[4] - z[2]*d[5] + d[1]*z[6] - d[0]*z[7] + d[3]*z[4] - d[2]*z[5];
+    const double *a = dq ? dq : q, *b = dq ? dp : p, half = dq ? 1 : 0.5;
+    c[0] = half*(q[0]*a[0] + q[1]*a[1]) - (dq ? 0 : 0.72);                            // radius
+    c[1] = half*(q[0]*b[0] + q[1]*b[1] + a[0]*p[0] + a[1]*p[1]);                      // radial velocity
+    c[2] = half*(q[0]*b[1] - q[1]*b[0] + a[0]*p[1] - a[1]*p[0]) - (dq ? 0 : sqrt(1.2));
+    c[3] = half*(q[1]*b[2] - q[0]*b[3] + q[3]*b[0] - q[2]*b[1]
+               + a[1]*p[2] - a[0]*p[3] + a[3]*p[0] - a[2]*p[1]);                      // turning it
+    (void)user;
 }
 
-/* The best flight: its cost, l and l' at the start, and (q, push) at each node, or NULL.  Returns the
-   number of flights that Newton's method took, -1 for a failure.               */
-static int best_flight(int degree, int steps, double *cost, double *start, double way[][4])
+/* The best flight: its cost, its start, l in q[2], q[3] and l' in p[2], p[3], and, unless NULL,
+   (q, push) at each node.                                                      */
+static gvi_status best_flight(int degree, int steps, double *cost, double *q, double *p, double way[][4])
 {
-    static double memory[GVI_LENGTH(20, MOST_NODES, MOST_NODES)], room[TANGENT_ROOM(FLIGHT, FLIGHT)];
-    static const double dq[4][4] = { { 0, 0, 1 }, { 0, 0, 0, 1 } }, dp[4][4] = { { 0 }, { 0 }, { 0, 0, 1 }, { 0, 0, 0, 1 } };
+    static double memory[GVI_LENGTH(20, MOST_NODES, MOST_NODES)];
+    static double room[TANGENT_ROOM(FLIGHT, FLIGHT)], work[SHOOTING_ROOM(FLIGHT, FLIGHT)];
+    static const double dq[16] = { [2] = 1, [7] = 1 }, dp[16] = { [10] = 1, [15] = 1 };       // l, l'
     const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = flight } };
-    tangent T = { .plain = { .n = FLIGHT, .degree = degree, .effects = scene, .effect_count = 1 }, .product = { flight_product },
-                  .directions = FLIGHT, .room = room, .room_length = TANGENT_ROOM(FLIGHT, FLIGHT) };
-    double node[MOST_NODES], weight[MOST_NODES], q[20], z[8], d[8], c[4], miss[4], M[16], pivot[5];
+    tangent T = { .plain = { .n = FLIGHT, .degree = degree, .effects = scene, .effect_count = 1 },
+                  .product = { flight_product }, .directions = FLIGHT,
+                  .room = room, .room_length = TANGENT_ROOM(FLIGHT, FLIGHT) };
+    const shooting S = { .scene = &T, .dq = dq, .dp = dp, .h = flight_time/steps, .steps = steps,
+                         .end = arrival, .tolerance = 1e-9, .most = 8, .room = work };
+    double node[MOST_NODES], weight[MOST_NODES], z[FLIGHT];
     gvi_stepper st;
-    if (tangent_scene(&T) || gvi_init(&st, &T.desc, memory, sizeof memory) || gvi_gauss(degree, node, weight)) return -1;
-    memset(start, 0, 4*sizeof *start);
-    for (int iteration = 0, done = 0; iteration < 20; ++iteration) {
-        const double q0[] = { 1, 0, start[0], start[1] }, p0[] = { 0, 1, start[2], start[3] }, h = flight_time/steps;
-        tangent_start(&T, &st, 0, q0, p0, dq[0], dp[0]);
-        *cost = 0;
-        for (int k = 0; k < steps; ++k) {
-            if (gvi_step(&st, h)) return -1;
-            for (int i = 0; i < degree; ++i) {
-                gvi_curve(&st, node[i], q, NULL);
-                const double u = (q[1]*q[2] - q[0]*q[3])/sqrt(q[0]*q[0] + q[1]*q[1]);
-                *cost += h*weight[i]*u*u/2;
-                if (way) memcpy(way[k*degree + i], (double[]){ q[0], q[1], -q[1]*u, q[0]*u }, 4*sizeof(double));
-            }
-        }
-        if (done) return iteration + 1;
-        for (int i = 0; i < 4; ++i) z[i] = st.q[i], z[4 + i] = st.p[i];
-        pairs(z, z, miss);
-        for (int i = 0; i < 4; ++i) miss[i] = miss[i]/2 - wanted[i];
-        for (int j = 0; j < 4; ++j) {
-            tangent_column(&T, &st, j, d, d + 4);
-            pairs(z, d, c);
-            for (int i = 0; i < 4; ++i) M[4*i + j] = c[i];
-        }
-        if (gvi_lu_factor(4, M, pivot)) return -1;
-        gvi_lu_solve(4, M, pivot, miss);
-        for (int i = 0; i < 4; ++i) start[i] -= miss[i];
-        done = fabs(miss[0]) + fabs(miss[1]) + fabs(miss[2]) + fabs(miss[3]) < 1e-9;      // its square is rounding
+    for (int i = 0; i < FLIGHT; ++i) q[i] = i == 0, p[i] = i == 1;
+    if (tangent_scene(&T) || gvi_init(&st, &T.desc, memory, sizeof memory) || shoot(&S, &st, q, p)) return 1;
+
+    // once more, without derivatives: what it costs
+    if (gvi_init(&st, &T.plain, memory, sizeof memory) || gvi_start(&st, 0, q, p)) return st.status;
+    *cost = 0;
+    gvi_gauss(degree, node, weight);
+    for (int k = 0; k < steps*degree; ++k) {
+        if (k % degree == 0 && gvi_step(&st, S.h)) break;
+        gvi_curve(&st, node[k % degree], z, NULL);
+        const double u = (z[1]*z[2] - z[0]*z[3])/sqrt(z[0]*z[0] + z[1]*z[1]);
+        *cost += S.h*weight[k % degree]*u*u/2;
+        if (way) memcpy(way[k], (double[]){ z[0], z[1], -z[1]*u, z[0]*u }, sizeof z);
     }
-    return -1;
+    return st.status;
 }
 
 static int draw(const char *path, double way[][4], int steps, int degree)
@@ -122,12 +113,14 @@ static int draw(const char *path, double way[][4], int steps, int degree)
                               { "flight", x[2], y[2], steps*degree }, { "push x 30", x[3], y[3], 3*steps } };
     const svg_plot plot = { .title = "From radius 1 to 1.2 with the least thrust", .x_label = "x", .y_label = "y",
                             .equal = 1, .lines = line, .line_count = 4 };
-    for (int i = 0; i < 2; ++i)
-        for (int k = 0; k <= 180; ++k) x[i][k] = (i ? far : 1)*cos(k*flight_time/270), y[i][k] = (i ? far : 1)*sin(k*flight_time/270);
+    for (int k = 0; k <= 180; ++k) {
+        x[0][k] = cos(k*flight_time/270), x[1][k] = 1.2*x[0][k];
+        y[0][k] = sin(k*flight_time/270), y[1][k] = 1.2*y[0][k];
+    }
     for (int k = 0; k < steps*degree; ++k) x[2][k] = way[k][0], y[2][k] = way[k][1];
     for (int k = 0; k < 3*steps; ++k) {                  // from the flight to the tip of the push, and a gap
-        const double *w = way[k/3*degree], gap = k % 3 == 2 ? HUGE_VAL : 30*(k % 3);
-        x[3][k] = w[0] + gap*w[2], y[3][k] = w[1] + gap*w[3];
+        const double *w = way[k/3*degree], far = k % 3 == 2 ? HUGE_VAL : 30*(k % 3);
+        x[3][k] = w[0] + far*w[2], y[3][k] = w[1] + far*w[3];
     }
     return svg_write(path, &plot);
 }
@@ -135,15 +128,17 @@ static int draw(const char *path, double way[][4], int steps, int degree)
 int main(int argc, char **argv)
 {
     static double way[MOST_NODES*MOST_STEPS][4];
-    double cost, best, start[4], error[2] = { 0, 0 };
-    const int flights = best_flight(6, 24, &best, start, way);
-    if (flights < 0) return 1;
+    double cost, best, q[FLIGHT], p[FLIGHT], error[2] = { 0, 0 };
+    if (best_flight(6, 24, &best, q, p, way)) return puts("no flight found"), 1;
     if (argc == 3 && !strcmp(argv[1], "--svg")) return draw(argv[2], way, 24, 6) ? perror(argv[2]), 1 : 0;
-    printf("degree 6, 24 steps: cost %.12f, first thrust %.11f\n", best, -start[1]);
-    printf("Newton's method, from no thrust at all: %s\n", flights <= 8 ? "8 flights or less" : "more than 8 flights");
+    printf("degree 6, 24 steps: cost %.12f, first thrust %.11f\n", best, -q[3]);
     printf("the error of the cost at half the step, degree 2, 3, 4: smaller by");
     for (int s = 2; s <= 4; ++s) {
-        for (int i = 0; i < 2 && best_flight(s, (s < 4 ? 24 : 12) << i, &cost, start, NULL) > 0; ++i) error[i] = fabs(cost - best);
+        for (int i = 0; i < 2; ++i) {
+            if (best_flight(s, (s < 4 ? 24 : 12) << i, &cost, q, p, NULL)) return 1;
+            error[i] = fabs(cost - best);
+        }
         printf(" 2^%.0f%s", log2(error[0]/error[1]), s < 4 ? "," : "\n");
     }
+    return 0;
 }

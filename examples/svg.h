@@ -45,7 +45,7 @@ static double svg_tick(const svg_axis *axis)
     return factor[k]*step;
 }
 
-static void svg_fit(svg_axis *axis, const svg_plot *plot, int vertical)
+static void svg_fit(svg_axis *axis, const svg_plot *plot, int vertical, int margins)
 {
     axis->lo = HUGE_VAL;
     axis->hi = -HUGE_VAL;
@@ -62,7 +62,7 @@ static void svg_fit(svg_axis *axis, const svg_plot *plot, int vertical)
     if (axis->log) {
         axis->lo = floor(axis->lo);
         axis->hi = ceil(axis->hi);
-    } else if (vertical) {
+    } else if (margins) {
         double margin = (axis->hi - axis->lo)/20;
         axis->lo -= margin;
         axis->hi += margin;
@@ -121,8 +121,8 @@ static inline int svg_write(const char *path, const svg_plot *plot)
     svg_axis x = { plot->log_x, 0, 1, 80, 610, 8 }, y = { plot->log_y, 0, 1, 400, 50, 8 };
     FILE *f = fopen(path, "w");
     if (!f) return -1;
-    svg_fit(&x, plot, plot->equal);
-    svg_fit(&y, plot, 1);
+    svg_fit(&x, plot, 0, plot->equal);
+    svg_fit(&y, plot, 1, 1);
     if (plot->equal) svg_square(&x, &y);
 
     fprintf(f, "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\"", width, height);
