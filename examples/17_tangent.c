@@ -1,16 +1,15 @@
 /* 17 - What becomes of a neighbour? The derivative of a step
 
-   Is an orbit regular or chaotic? Look at an orbit that starts beside it: on a regular
-   one the distance grows like the time, on a chaotic one exponentially. The distance of
-   infinitely close orbits is the derivative of the motion in a direction, and
-   tools/tangent.h steps it along with the motion: four coordinates in place of two, of
-   which the second pair gets the derivative of the force times the direction. What
-   comes out is the derivative of the step itself, to rounding, not of the exact motion
-   and not a difference quotient. So it is symplectic like the step.
+   Is an orbit regular or chaotic? Look at an orbit that starts beside it: on a regular one the
+   distance grows like the time, on a chaotic one exponentially. The distance of infinitely
+   close orbits is the derivative of the motion in a direction, and tools/tangent.h steps it
+   along with the motion: four coordinates in place of two, and on the second pair acts the
+   derivative of the force times the direction. What comes out is the derivative of the step
+   itself, to rounding; so it is symplectic, as the step is.
 
-   The star of Henon and Heiles, V = (x^2 + y^2)/2 + x^2 y - y^3/3, at energy 1/8. MEGNO
-   (Cincotta and Simo 2000) is a weighted mean of the growth rate: it tends to 2 on a
-   regular orbit, and to half the Lyapunov exponent times the time on a chaotic one.
+   The star of Henon and Heiles, V = (x^2 + y^2)/2 + x^2 y - y^3/3, at energy 1/8. MEGNO (Cincotta
+   and Simo 2000) is a weighted mean of the rate of growth: it tends to 2 on a regular orbit,
+   and grows like half the Lyapunov exponent times the time on a chaotic one.
 
    prints
 
@@ -56,7 +55,8 @@ static double memory[GVI_LENGTH(12, 8, 8)], room[TANGENT_ROOM(2, 5)];
 /* 20,000 units of time from (0, y), at energy 1/8.                              */
 static int follow(double y, double *exponent, double *megno)
 {
-    tangent T = { .plain = star, .product = { product }, .directions = 1, .room = room, .room_length = TANGENT_ROOM(2, 1) };
+    tangent T = { .plain = star, .product = { product }, .directions = 1,
+                  .room = room, .room_length = TANGENT_ROOM(2, 1) };
     const double q[] = { 0, y }, p[] = { sqrt(0.25 - y*y + 2*y*y*y/3), 0 };
     double d[4] = { 1, 0.3, 0.2, -0.5 }, before = sqrt(1.38), sum = 0, mean = 0;
     gvi_stepper st;
@@ -85,7 +85,7 @@ int main(void)
     const double q[] = { 0.1, 0.2 }, p[] = { 0.4, -0.1 }, dq[] = { 1, 2 }, dp[] = { 2, -1 };
     tangent T = { .plain = star, .product = { product }, .directions = 4, .by_h = 1, .h = 0.25,
                   .room = room, .room_length = TANGENT_ROOM(2, 5) };
-    double d[5][4], force[2] = { 0, 0 }, worst = 0, off, exponent, megno;
+    double d[5][4], force[2] = { 0, 0 }, worst = 0, off = 0, exponent, megno;
     gvi_stepper st;
     int part;
     if (tangent_scene(&T)) return 1;
@@ -94,7 +94,8 @@ int main(void)
 
     for (int k = 0; k < 2; ++k) {
         if (follow(k ? -0.15 : 0.55, &exponent, &megno)) return 1;
-        if (megno < 3) printf("from y = 0.55:  exponent %s 0.001, MEGNO %.1f: regular\n", exponent < 0.001 ? "below" : "above", megno);
+        if (megno < 3) printf("from y = 0.55:  exponent %s 0.001, MEGNO %.1f: regular\n",
+                              exponent < 0.001 ? "below" : "above", megno);
         else printf("from y = -0.15: exponent %s 0.05, MEGNO %s 100: chaotic\n",
                     exponent > 0.01 && exponent < 0.1 ? "about" : "not", megno > 100 ? "above" : "below");
     }
@@ -116,7 +117,7 @@ int main(void)
     const gvi_real end[] = { st.q[0], st.q[1] };
     const gvi_points x = { 2, 1, 1, NULL, end, NULL, NULL, force, NULL, NULL, NULL, NULL };
     potential(&x, NULL);
-    off = fmax(fmax(fabs(d[4][0] - st.p[0]), fabs(d[4][1] - st.p[1])), fmax(fabs(d[4][2] - force[0]), fabs(d[4][3] - force[1])));
+    for (int i = 0; i < 2; ++i) off = fmax(off, fmax(fabs(d[4][i] - st.p[i]), fabs(d[4][2 + i] - force[i])));
     printf("its derivative by h is (v, F) at its end, to 1e-12: %s\n", off < 1e-12 ? "yes" : "no");
     return 0;
 }

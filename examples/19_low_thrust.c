@@ -48,7 +48,8 @@ static int flight(const gvi_points *x, void *user)
 static int flight_product(const gvi_points *x, const gvi_points *dir, int parameter, void *user)
 {
     for (int k = 0, s = x->stride; k < x->count; ++k) {
-        const double *q = x->q + k, d = sqrt(q[0]*q[0] + q[s]*q[s]), X = q[0]/d, Y = q[s]/d, d3 = d*d*d, d4 = d3*d;
+        const double *q = x->q + k, d = sqrt(q[0]*q[0] + q[s]*q[s]), X = q[0]/d, Y = q[s]/d;
+        const double d3 = d*d*d, d4 = d3*d;
         const double R = X*q[2*s] + Y*q[3*s], S = X*q[3*s] - Y*q[2*s];
         const double A = -1/(d*d), B = -S, C = 2*R/d3, D = S*(R/d - 1/d3), *z = dir->q + k;
         const double r = X*z[0] + Y*z[s], w = (X*z[s] - Y*z[0])/d;
@@ -61,9 +62,10 @@ static int flight_product(const gvi_points *x, const gvi_points *dir, int parame
     return (void)parameter, (void)user, 0;
 }
 
-/* The four equations at the end (q, l), (q', l') are quadratic: pairs(end, end)/2 = wanted, and their
-   derivative along d is pairs(end, d).                                         */
-static void arrival(const double *q, const double *p, const double *dq, const double *dp, double *c, void *user)
+/* Four equations at the end, q = (q, l) and p = (q', l'), each quadratic but for a constant: half a
+   pairing of the end with itself; their derivative, the pairing with a direction.   */
+static void arrival(const double *q, const double *p, const double *dq, const double *dp,
+                    double *c, void *user)
 {
     const double *a = dq ? dq : q, *b = dq ? dp : p, half = dq ? 1 : 0.5;
     c[0] = half*(q[0]*a[0] + q[1]*a[1]) - (dq ? 0 : 0.72);                            // radius
@@ -111,8 +113,8 @@ static int draw(const char *path, double way[][4], int steps, int degree)
     static double x[4][MOST_NODES*MOST_STEPS], y[4][MOST_NODES*MOST_STEPS];
     const svg_line line[] = { { "start", x[0], y[0], 181 }, { "wanted", x[1], y[1], 181 },
                               { "flight", x[2], y[2], steps*degree }, { "push x 30", x[3], y[3], 3*steps } };
-    const svg_plot plot = { .title = "From radius 1 to 1.2 with the least thrust", .x_label = "x", .y_label = "y",
-                            .equal = 1, .lines = line, .line_count = 4 };
+    const svg_plot plot = { .title = "From radius 1 to 1.2 with the least thrust",
+                            .x_label = "x", .y_label = "y", .equal = 1, .lines = line, .line_count = 4 };
     for (int k = 0; k <= 180; ++k) {
         x[0][k] = cos(k*flight_time/270), x[1][k] = 1.2*x[0][k];
         y[0][k] = sin(k*flight_time/270), y[1][k] = 1.2*y[0][k];

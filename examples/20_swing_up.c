@@ -60,8 +60,9 @@ static void cart_forces(const number *q, const number *v, number *f)
     (void)v;
 }
 
-static complex_effect cart_mass = { .force = cart_gradient, .velocity = cart_velocity }, cart_rest = { .force = cart_forces };
-static const gvi_effect cart_scene[] = { { .kind = GVI_POTENTIAL, .points = complex_points, .user = &cart_rest } };
+static complex_effect cart_mass = { .force = cart_gradient, .velocity = cart_velocity };
+static complex_effect cart_rest = { .force = cart_forces };
+static const gvi_effect cart_scene[] = { { GVI_POTENTIAL, .points = complex_points, .user = &cart_rest } };
 static double swing_memory[GVI_LENGTH(20, SWING_DEGREE, SWING_DEGREE)], swing_room[TANGENT_ROOM(CART, CART)];
 static tangent swing = {
     .plain = { .n = CART, .effects = cart_scene, .effect_count = 1, .formulation = GVI_MOMENTA,
@@ -71,7 +72,8 @@ static tangent swing = {
     .directions = CART, .room = swing_room, .room_length = TANGENT_ROOM(CART, CART) };
 
 /* At the end: x = part, a = part of half a turn, at rest.                        */
-static void arrive(const double *q, const double *p, const double *dq, const double *dp, double *c, void *user)
+static void arrive(const double *q, const double *p, const double *dq, const double *dp,
+                   double *c, void *user)
 {
     const double part = *(const double *)user;
     for (int i = 0; i < 2; ++i) {
@@ -113,8 +115,8 @@ static int draw_swing(const char *path, double way[][2])
 {
     double x[2][3*SWING_STEPS], y[2][3*SWING_STEPS];
     const svg_line line[] = { { "pole", x[0], y[0], 3*SWING_STEPS }, { "its end", x[1], y[1], SWING_STEPS } };
-    const svg_plot plot = { .title = "Up with the least effort: every 0.05 s", .x_label = "m", .y_label = "m",
-                            .equal = 1, .lines = line, .line_count = 2 };
+    const svg_plot plot = { .title = "Up with the least effort: every 0.05 s",
+                            .x_label = "m", .y_label = "m", .equal = 1, .lines = line, .line_count = 2 };
     for (int k = 0; k < 3*SWING_STEPS; ++k) {            // cart, end of the pole, and a gap
         const double *w = way[k/3], at = k % 3 == 2 ? HUGE_VAL : k % 3*length;
         x[0][k] = w[0] + at*sin(w[1]), y[0][k] = -at*cos(w[1]);

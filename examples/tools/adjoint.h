@@ -136,8 +136,8 @@ static inline gvi_status adjoint_keep(adjoint *A, const gvi_stepper *st)
 
 /* At the end: the state there and the gradient of J by it; zeros where J is a running
    cost alone.                                                                  */
-static inline gvi_status adjoint_start(adjoint *A, gvi_stepper *ad, gvi_real t, const gvi_real *q, const gvi_real *p,
-                                       const gvi_real *by_q, const gvi_real *by_p)
+static inline gvi_status adjoint_start(adjoint *A, gvi_stepper *ad, gvi_real t, const gvi_real *q,
+                                       const gvi_real *p, const gvi_real *by_q, const gvi_real *by_p)
 {
     const int n = A->plain.n, r = ad->r;
     const gvi_rule *rule = &A->plain.rule;

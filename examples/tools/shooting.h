@@ -44,7 +44,8 @@ typedef struct shooting {
 static inline gvi_status shoot(const shooting *S, gvi_stepper *st, gvi_real *q, gvi_real *p)
 {
     const int n = S->scene->plain.n, m = S->scene->directions;
-    gvi_real *M = S->room, *c = M + m*m, *column = c + m, *pivot = column + m, *dq = pivot + m + 1, *dp = dq + n;
+    gvi_real *M = S->room, *c = M + m*m, *column = c + m, *pivot = column + m;
+    gvi_real *dq = pivot + m + 1, *dp = dq + n;
     for (int run = 0; run < S->most; ++run) {
         int done = 1;
         if (tangent_start(S->scene, st, S->t, q, p, S->dq, S->dp)) return st->status;

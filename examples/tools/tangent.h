@@ -79,9 +79,9 @@ typedef struct tangent {
     int          columns;
 } tangent;
 
-/* Enough for any kind of mass; without a dense one 13 N + 1 numbers are enough. */
+/* Enough for any kind of mass; without a dense one 13 N numbers are enough. */
 #define TANGENT_N(n, columns)    ((size_t)(n)*(1 + (size_t)(columns)))
-#define TANGENT_ROOM(n, columns) (13*TANGENT_N(n, columns) + TANGENT_N(n, columns)*TANGENT_N(n, columns))
+#define TANGENT_ROOM(n, columns) (TANGENT_N(n, columns)*(13 + TANGENT_N(n, columns)))
 
 /* For an effect that reads neither q nor v and no parameter: its derivative is 0. */
 static inline int tangent_constant(const gvi_points *x, const gvi_points *d, int parameter, void *user)
@@ -284,13 +284,13 @@ static inline void tangent_column(const tangent *T, const gvi_stepper *st, int j
     }
 }
 
-/* How far the products are from differences of their effects (of order 4, at one point): the
-   largest |product - difference| over the larger of the two; about eps^(4/5) where all is
-   right, of the order of 1 where something is wrong; *part says where, numbered like the effects,
-   then GVI_EFFECTS the velocity and GVI_EFFECTS + 1 the gradient.  dq, dv [n] are the direction,
-   as long as the motion is; for mass.velocity v and dv are p and dp.  -1: an effect refused.
-   Derivatives by parameters are not looked at.                                */
-static inline gvi_real tangent_check(tangent *T, gvi_real t, const gvi_real *q, const gvi_real *v,
+/* How far the products are from differences of their effects, of order 4, at one point: the
+   largest |product - difference| over the larger of the two.  About eps^(4/5) where all is
+   right; the share that is wrong, where something is.  *part then says where: the number of
+   the effect, GVI_EFFECTS for mass.velocity, GVI_EFFECTS + 1 for mass.gradient.  dq, dv [n]:
+   the direction, of the size of the motion; for mass.velocity v, dv are p, dp.  -1: an effect
+   refused.  Derivatives by parameters are not looked at.                      */
+static inline gvi_real tangent_check(const tangent *T, gvi_real t, const gvi_real *q, const gvi_real *v,
                                      const gvi_real *dq, const gvi_real *dv, int *part)
 {
     const int n = T->plain.n, moving = T->desc.mass.velocity != NULL;
@@ -302,8 +302,9 @@ static inline gvi_real tangent_check(tangent *T, gvi_real t, const gvi_real *q, 
         const int mass = i >= GVI_EFFECTS, velocity = i == GVI_EFFECTS;
         const gvi_kind kind = mass ? GVI_FORCE : i < T->plain.effect_count ? T->effect[i].kind : GVI_FORCE;
         gvi_real *Q = T->room + 6*n, *V = Q + n, *out = V + n, *slope = out + 2*n, *product = slope + 2*n;
-        gvi_points x = { n, 1, 1, &t, Q, kind == GVI_POTENTIAL || velocity ? NULL : V, velocity ? V : NULL,
-                         velocity ? NULL : out, kind == GVI_LAGRANGIAN ? out + n : NULL, NULL, NULL, velocity ? out : NULL };
+        gvi_points x = { n, 1, 1, &t, Q, kind == GVI_POTENTIAL || velocity ? NULL : V,
+                         velocity ? V : NULL, velocity ? NULL : out,
+                         kind == GVI_LAGRANGIAN ? out + n : NULL, NULL, NULL, velocity ? out : NULL };
         if (mass ? !moving || !a->points : i >= T->plain.effect_count) continue;
         for (int k = 0; k < 2*n; ++k) slope[k] = product[k] = 0;
         for (int z = 0; z < 5; ++z) {
@@ -327,9 +328,11 @@ static inline gvi_real tangent_check(tangent *T, gvi_real t, const gvi_real *q, 
         if (a->product(&y, &d, -1, a->user)) return -1;
         gvi_real large = 0, off = 0;
         for (int k = 0; k < 2*n; ++k) {
-            const gvi_real e = product[k] - slope[k], m = product[k] < 0 ? -product[k] : product[k], w = slope[k] < 0 ? -slope[k] : slope[k];
-            if (m > large) large = m;
-            if (w > large) large = w;
+            const gvi_real both[] = { product[k], slope[k] }, e = product[k] - slope[k];
+            for (int z = 0; z < 2; ++z) {
+                if (both[z] > large) large = both[z];
+                if (-both[z] > large) large = -both[z];
+            }
             if (!(e < off && -e < off)) off = e < 0 ? -e : e;
         }
         if (large > 0 && !(off/large <= far)) far = off/large, *part = i;
