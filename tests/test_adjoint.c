@@ -91,7 +91,8 @@ static void by_drag(ANY real t, ANY const real *q, const real *v, const real *l,
     gradient[0] -= weight*z*(v[0]*l[0] + v[1]*l[1]);
 }
 
-static const gvi_effect with_drag[] = { { .kind = GVI_POTENTIAL, .points = kepler }, { .kind = GVI_FORCE, .points = drag } };
+static const gvi_effect with_drag[] = { { .kind = GVI_POTENTIAL, .points = kepler },
+                                        { .kind = GVI_FORCE, .points = drag } };
 static const real q0[] = { 1, R(0.2) }, p0[] = { R(-0.1), R(1.1) }, end_q[] = { 1, -2 }, end_p[] = { R(0.4), 3 };
 
 /* d(q1 - 2 q2 + 0.4 p1 + 3 p2)/dc after 10 steps of 0.2 with c = 0.05.  s = 1, 2, 4, 8: collocation at
@@ -103,8 +104,9 @@ static void gradient_by_the_drag(ANY void **state)
 {
     for (int e = 0; e < 4; ++e) {
         const int s = 1 << e;
-        adjoint A = { .plain = { .n = N, .degree = s, .effects = with_drag, .effect_count = 2 }, .by_parameters = by_drag,
-                      .product = { kepler_product, drag_transposed }, .room = room, .room_length = ADJOINT_ROOM(N, s) };
+        adjoint A = { .plain = { .n = N, .degree = s, .effects = with_drag, .effect_count = 2 },
+                      .product = { kepler_product, drag_transposed }, .by_parameters = by_drag,
+                      .room = room, .room_length = ADJOINT_ROOM(N, s) };
         gvi_stepper st, ad;
         real g = 0;
         drag_c = R(0.05);
@@ -249,9 +251,44 @@ static int turning_transposed(const gvi_points *x, const gvi_points *d, ANY int 
     return 0;
 }
 
-static const gvi_effect turned[] = { { .kind = GVI_POTENTIAL, .points = kepler }, { .kind = GVI_FORCE, .points = turning },
+/* A magnetic field, L = |q|^2 (x y' - y x')/2: its product serves both.         */
+static int magnetic(const gvi_points *x, ANY void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        const real a = x->q[k], b = x->q[s+k], u = x->v[k], v = x->v[s+k], z = (a*a + b*b)/2;
+        const real l = a*v - b*u;
+        if (x->f) x->f[k] += a*l + z*v, x->f[s+k] += b*l - z*u;
+        if (x->dldv) x->dldv[k] -= z*b, x->dldv[s+k] += z*a;
+    }
+    return 0;
+}
+
+static int magnetic_product(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        const real a = x->q[k], b = x->q[s+k], z = (a*a + b*b)/2;
+        const real da = d->q[k], db = d->q[s+k], dz = a*da + b*db;
+        if (d->f) {
+            const real u = x->v[k], v = x->v[s+k], du = d->v[k], dv = d->v[s+k];
+            const real l = a*v - b*u, dl = da*v + a*dv - db*u - b*du;
+            d->f[k] += da*l + a*dl + dz*v + z*dv;
+            d->f[s+k] += db*l + b*dl - dz*u - z*du;
+        }
+        if (d->dldv) d->dldv[k] -= dz*b + z*db, d->dldv[s+k] += dz*a + z*da;
+    }
+    return 0;
+}
+
+static const gvi_effect turned[] = { { .kind = GVI_POTENTIAL, .points = kepler },
+                                     { .kind = GVI_FORCE, .points = turning },
                                      { .kind = GVI_FORCE, .points = drag } },
-                        two_links[] = { { .kind = GVI_POTENTIAL, .points = weight }, { .kind = GVI_FORCE, .points = drag } };
+                        two_links[] = { { .kind = GVI_POTENTIAL, .points = weight },
+                                        { .kind = GVI_FORCE, .points = drag } },
+                        charged[] = { { .kind = GVI_POTENTIAL, .points = kepler },
+                                      { .kind = GVI_LAGRANGIAN, .points = magnetic },
+                                      { .kind = GVI_FORCE, .points = drag } };
 static const real diagonal[] = { R(1.25), R(0.75) }, dense[] = { R(1.25), 0, R(0.5), R(0.75) };
 
 typedef struct scene {
@@ -262,16 +299,27 @@ typedef struct scene {
 
 #define LINKS { .kind = GVI_MASS_POSITION, .points = matrix, .gradient = slope, .velocity = velocity }
 #define TURNED .n = N, .effects = turned, .effect_count = 3
-#define PRODUCTS { kepler_product, turning_product, drag_product }, { kepler_product, turning_transposed, drag_transposed }
+#define PRODUCTS { kepler_product, turning_product, drag_product }, \
+                 { kepler_product, turning_transposed, drag_transposed }
+
+/* Forest and Ruth's splitting.                                                 */
+#define G R(1.35120719195965763404768780897)
+static const real ruth_at[] = { 0, G, 1 - G, 1 }, ruth[] = { G/2, (1 - G)/2, (1 - G)/2, G/2 };
 
 static const scene scenes[] = {
-    { "potential", { .n = N, .degree = 3, .effects = turned, .effect_count = 1 }, { kepler_product }, { kepler_product } },
+    { "potential", { .n = N, .degree = 3, .effects = turned, .effect_count = 1 },
+      { kepler_product }, { kepler_product } },
+    { "kicks", { .n = N, .degree = 1, .effects = turned, .effect_count = 1, .rule = { GVI_KICKS, 4, ruth_at, ruth } },
+      { kepler_product }, { kepler_product } },
+    { "a magnetic field and drag", { .n = N, .degree = 4, .effects = charged, .effect_count = 3 },
+      { kepler_product, magnetic_product, drag_product }, { kepler_product, magnetic_product, drag_transposed } },
     { "Stoermer-Verlet", { .n = N, .degree = 1, .effects = turned, .effect_count = 1, .rule = { .kind = GVI_LOBATTO } },
       { kepler_product }, { kepler_product } },
     { "forces, degree 1", { TURNED, .degree = 1 }, PRODUCTS },
     { "forces, degree 5", { TURNED, .degree = 5 }, PRODUCTS },
     { "forces, Lobatto", { TURNED, .degree = 3, .rule = { .kind = GVI_LOBATTO, .points = 5 } }, PRODUCTS },
-    { "forces, diagonal mass", { TURNED, .degree = 4, .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = diagonal } }, PRODUCTS },
+    { "forces, diagonal mass", { TURNED, .degree = 4, .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = diagonal } },
+      PRODUCTS },
     { "forces, dense mass", { TURNED, .degree = 4, .mass = { .kind = GVI_MASS_DENSE, .matrix = dense } }, PRODUCTS },
     { "M(q) and friction", { .n = N, .degree = 4, .effects = two_links, .effect_count = 2, .mass = LINKS },
       { weight_product, drag_product }, { weight_product, drag_transposed } },
@@ -349,7 +397,8 @@ static void by_u(ANY real t, ANY const real *q, ANY const real *v, const real *l
 static void running_cost(ANY void **state)
 {
     const gvi_effect effect = { .kind = GVI_POTENTIAL, .points = spring };
-    adjoint A = { .plain = { .n = 1, .degree = 8, .effects = &effect, .effect_count = 1 }, .product = { spring_product },
+    adjoint A = { .plain = { .n = 1, .degree = 8, .effects = &effect, .effect_count = 1 },
+                  .product = { spring_product },
                   .running = cost, .by_parameters = by_u, .room = room, .room_length = ADJOINT_ROOM(1, 8) };
     gvi_stepper st, ad;
     real g = 0, by_q, by_p;
@@ -410,7 +459,8 @@ static void damped_gradient(int every, real *by_q, real *by_damping)
 {
     static real kept[ADJOINT_KEPT(1, 80, 1)];
     const gvi_effect effect = { .kind = GVI_FORCE, .points = damped };
-    adjoint A = { .plain = { .n = 1, .degree = 8, .effects = &effect, .effect_count = 1 }, .product = { damped_transposed },
+    adjoint A = { .plain = { .n = 1, .degree = 8, .effects = &effect, .effect_count = 1 },
+                  .product = { damped_transposed },
                   .running = square, .by_parameters = by_c, .room = room, .room_length = ADJOINT_ROOM(1, 8),
                   .kept = every ? kept : NULL, .kept_length = every ? ADJOINT_KEPT(1, 80, every) : 0, .every = every };
     gvi_stepper st, ad;

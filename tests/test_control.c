@@ -1,7 +1,8 @@
-/* Optimal control: lessons 19 and 20 themselves, their functions included, against solutions of Pontryagin's
-   boundary value problems in 24 to 32 digits by another program (Gauss collocation, 8 and 12 stages, Newton's
-   method by differences; the cart there in velocities with the adjoint equations worked out by hand).  And
-   that what they find is the minimum of the discrete problem: by adjoint.h, thrust by thrust.      */
+/* Optimal control: lessons 19 and 20 themselves, their functions included.  What is expected are
+   solutions of Pontryagin's boundary value problems in 24 to 32 digits by another program (Gauss
+   collocation with 12 and 8 stages, Newton's method by differences; the cart there in velocities,
+   with the adjoint equations of that form).  And what they find is the minimum of the discrete
+   problem: by adjoint.h, thrust by thrust.                                    */
 #include "gvi_test.h"
 #define main lesson_19
 #include "19_low_thrust.c"
@@ -120,7 +121,8 @@ static void no_thrust_can_be_better(ANY void **state)
     const gvi_effect both_scenes[] = { { .kind = GVI_POTENTIAL, .points = flight } };
     const gvi_desc desc = { .n = FLIGHT, .degree = S, .effects = both_scenes, .effect_count = 1 };
     adjoint A = { .plain = { .n = 2, .degree = S, .effects = craft, .effect_count = 2 }, .by_parameters = by_thrust,
-                  .product = { gravity_product, engine_transposed }, .user = &T, .room = room, .room_length = COUNT(room) };
+                  .product = { gravity_product, engine_transposed }, .user = &T,
+                  .room = room, .room_length = COUNT(room) };
     double cost, q[FLIGHT], p[FLIGHT], z[FLIGHT], g[S], weight[S];
     gvi_stepper st, ad;
     assert_ok(best_flight(S, K, &cost, q, p, NULL));
@@ -201,7 +203,8 @@ static void complex_products(ANY void **state)
 }
 
 /* An end that does not depend on the start, and too few runs.                  */
-static void nowhere(ANY const double *q, ANY const double *p, const double *dq, ANY const double *dp, double *c, ANY void *user)
+static void nowhere(ANY const double *q, ANY const double *p, const double *dq, ANY const double *dp,
+                    double *c, ANY void *user)
 {
     for (int i = 0; i < 4; ++i) c[i] = dq ? 0 : 1;
 }

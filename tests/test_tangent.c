@@ -275,7 +275,8 @@ static const scene scenes[] = {
     { "positions, degree 8", { HEILES, .degree = 8 }, { heiles_product }, 0, GVI_POSITIONS },
     { "one point a call", { .n = N, .degree = 4, .effects = of_heiles_point, .effect_count = 1 },
       { heiles_product }, 0, GVI_POSITIONS },
-    { "Stoermer-Verlet", { HEILES, .degree = 1, .rule = { .kind = GVI_LOBATTO } }, { heiles_product }, 0, GVI_EXPLICIT },
+    { "Stoermer-Verlet", { HEILES, .degree = 1, .rule = { .kind = GVI_LOBATTO } },
+      { heiles_product }, 0, GVI_EXPLICIT },
     { "kicks of Forest and Ruth", { HEILES, .degree = 1, .rule = { GVI_KICKS, 4, ruth_at, ruth } },
       { heiles_product }, 0, GVI_EXPLICIT },
     { "Lobatto, 6 points, degree 3", { HEILES, .degree = 3, .rule = { .kind = GVI_LOBATTO, .points = 6 } },
@@ -424,7 +425,8 @@ static void every_column_is_what_differences_say(ANY void **state)
 static void the_motion_is_the_same(ANY void **state)
 {
     for (int i = 0; i < COUNT(scenes); ++i) {
-        const real h = scenes[i].desc.effects[0].points == weight ? R(0.0625) : R(0.25), start[] = { q0[0], q0[1], p0[0], p0[1] };
+        const real h = scenes[i].desc.effects[0].points == weight ? R(0.0625) : R(0.25);
+        const real start[] = { q0[0], q0[1], p0[0], p0[1] };
         tangent T;
         real end[2*N];
         gvi_stepper *st = made(&T, &scenes[i], 2*N, 0, 0);
@@ -440,15 +442,20 @@ static void the_motion_is_the_same(ANY void **state)
 /* Kepler, e = 0.6, three quarters of a revolution from the pericentre: the derivative of the
    motion, from Kepler's equation in 80 digits.                                */
 static const long double kepler_exact[4][4] = {
-    { -79.07308723498460733702751L, -2.000955817470989425996232L, -0.7472129229862102570649894L, -25.80888329793299832150607L },
-    { 22.06606955485905022458062L, 4.163682683656246384009329L, 1.38140768767370103713952L, 7.354426359653600316318849L },
-    { -51.23436322364835783480574L, -0.6083820638830060705750963L, -0.2748927531006705711666885L, -16.61606970653625514425881L },
-    { -25.58195941868144992730694L, -2.361277443582027627662347L, -0.8063400555773231528643289L, -8.144761093859571391205861L },
+    { -79.07308723498460733702751L, -2.000955817470989425996232L,
+      -0.7472129229862102570649894L, -25.80888329793299832150607L },
+    { 22.06606955485905022458062L, 4.163682683656246384009329L,
+      1.38140768767370103713952L, 7.354426359653600316318849L },
+    { -51.23436322364835783480574L, -0.6083820638830060705750963L,
+      -0.2748927531006705711666885L, -16.61606970653625514425881L },
+    { -25.58195941868144992730694L, -2.361277443582027627662347L,
+      -0.8063400555773231528643289L, -8.144761093859571391205861L },
 };
 
 static real kepler_error(int degree, int steps)
 {
-    const scene s = { "Kepler", { .n = N, .degree = degree, .effects = of_kepler, .effect_count = 1 }, { kepler_product }, 0, 0 };
+    const scene s = { "Kepler", { .n = N, .degree = degree, .effects = of_kepler, .effect_count = 1 },
+                      { kepler_product }, 0, 0 };
     const real h = R(4.71238898038468985769396507492)/(real)steps, q[] = { R(0.4), 0 }, p[] = { 0, 2 };
     tangent T;
     real column[2*N], worst = 0;
@@ -612,7 +619,8 @@ static void what_is_refused(ANY void **state)
                                              { .kind = GVI_CLOCK, .points = clock_rate } };
     gvi_stepper st;
     real energy;
-    tangent T = { .plain = { .n = N, .effects = with_clock, .effect_count = 2 }, .product = { heiles_product, tangent_constant },
+    tangent T = { .plain = { .n = N, .effects = with_clock, .effect_count = 2 },
+                  .product = { heiles_product, tangent_constant },
                   .directions = 4, .room = room, .room_length = COUNT(room) };
     assert_status(tangent_scene(&T), GVI_E_FORMULATION);
     T.plain.effect_count = 1;

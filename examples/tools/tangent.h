@@ -28,6 +28,13 @@
    effect without its product (GVI_E_ARGUMENT).  gvi_energy of the larger scene
    says GVI_E_VALUE.  A wrong product cannot be seen by a step: tangent_check.
 
+   Limits: the motion beside its derivative may differ from the motion alone in last bits, by
+   another number of iterations (desc.iterations makes both the same).  Columns of a chaotic
+   motion grow: scale them and start again before they overflow, as 17_tangent.c does.  In
+   momenta there is no Newton's method to fall back to: where a step fails, halve it.
+   Time: a column costs about as much as the scene does, 1 at 2.2 and 4 at 5 times the
+   time of the scene alone (Henon-Heiles, degree 8, gcc -O2); the iterations stay the same.
+
    Use    tangent T = { .plain = { .n = 2, .effects = scene, .effect_count = 1 },
                         .product = { product }, .directions = 4,
                         .room = room, .room_length = TANGENT_ROOM(2, 4) };
