@@ -68,8 +68,10 @@ typedef struct adjoint {
 static int adjoint_force(const gvi_points *x, void *user)
 {
     const tangent_part *part = user;
-    gvi_points own = tangent_block(x, part->scene->plain.n, 0);
-    const gvi_points d = tangent_block(x, own.n, 1);
+    gvi_points own = *x, d;
+    own.n = part->scene->plain.n;
+    d = own;
+    tangent_next(&d);
     own.dldv = NULL;
     if (own.f && tangent_plain(part, &own)) return 1;
     own.f = NULL;
@@ -79,8 +81,10 @@ static int adjoint_force(const gvi_points *x, void *user)
 static int adjoint_running(const gvi_points *x, void *user)
 {
     const adjoint *A = user;
-    gvi_points own = tangent_block(x, A->plain.n, 0);
-    const gvi_points d = tangent_block(x, own.n, 1);
+    gvi_points own = *x, d;
+    own.n = A->plain.n;
+    d = own;
+    tangent_next(&d);
     own.f = own.dldv = NULL;
     return A->running(&own, &d, -1, A->user);
 }
