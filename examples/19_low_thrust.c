@@ -111,8 +111,8 @@ static gvi_status best_flight(int degree, int steps, double *cost, double *q, do
 static int draw(const char *path, double way[][4], int steps, int degree)
 {
     static double x[4][MOST_NODES*MOST_STEPS], y[4][MOST_NODES*MOST_STEPS];
-    const svg_line line[] = { { "start", x[0], y[0], 181 }, { "wanted", x[1], y[1], 181 },
-                              { "flight", x[2], y[2], steps*degree }, { "push x 30", x[3], y[3], 3*steps } };
+    const svg_line line[] = { { "push x 30", x[3], y[3], 3*steps }, { "flight", x[2], y[2], steps*degree },
+                              { "wanted", x[1], y[1], 181 }, { "start", x[0], y[0], 181 } };
     const svg_plot plot = { .title = "From radius 1 to 1.2 with the least thrust",
                             .x_label = "x", .y_label = "y", .equal = 1, .lines = line, .line_count = 4 };
     for (int k = 0; k <= 180; ++k) {

@@ -33,8 +33,8 @@
              Columns of a chaotic motion grow: scale them and start again before they
              overflow, as 17_tangent.c does.  In momenta there is no Newton's method to
              fall back to: where a step fails, halve it.
-   Time      One column: 2.2 to 2.6 times that of the scene alone, four: 5 times, with as many
-             iterations (Henon-Heiles, degree 8; gcc -O2, -O3 -march=native).
+   Time      One column: twice that of the scene alone; four: 3.6 to 4.4 times, with as many
+             iterations (Henon-Heiles, degree 8; gcc -O3 -march=native, -O2).
 
    Use    tangent T = { .plain = { .n = 2, .effects = scene, .effect_count = 1 },
                         .product = { product }, .directions = 4,
