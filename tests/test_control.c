@@ -187,9 +187,9 @@ static void the_swing_has_order_2s(ANY void **state)
 {
     for (int s = 2; s <= 4; ++s) {
         double coarse[2], fine[2];
-        swing_errors(s, s < 4 ? 80 : 50, coarse);
-        swing_errors(s, s < 4 ? 160 : 100, fine);
-        for (int i = 0; i < 2; ++i) assert_between(2*s - 0.2, log2(coarse[i]/fine[i]), 2*s + 0.2);
+        swing_errors(s, s < 4 ? 80 : 72, coarse);
+        swing_errors(s, s < 4 ? 160 : 144, fine);
+        for (int i = 0; i < 2; ++i) assert_between(2*s - 0.25, log2(coarse[i]/fine[i]), 2*s + 0.25);
     }
 }
 
