@@ -1,0 +1,522 @@
+/* examples/tools/adjoint.h: the gradient of a cost by stepping back.  What is expected comes from
+   Gauss collocation in 40 digits, from closed forms, and from the pairing that an adjoint keeps
+   with every direction.                                                       */
+#include "gvi_test.h"
+#include "tools/adjoint.h"
+#include <tgmath.h>
+
+typedef gvi_real real;
+enum { N = 2, NODES = 8 };
+
+#define ANY __attribute__((unused))
+#define R(x) ((real)x##L)
+
+static real memory[20000], back_memory[20000], room[2*TANGENT_ROOM(2, 6)];
+
+/* --------------------------------------------- Kepler with quadratic drag */
+
+static real drag_c;
+
+static int kepler(const gvi_points *x, ANY void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        const real a = x->q[k], b = x->q[s+k], d2 = a*a + b*b, w = 1/(d2*sqrt(d2));
+        x->f[k] -= w*a;
+        x->f[s+k] -= w*b;
+    }
+    return 0;
+}
+
+static int kepler_product(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        const real a = x->q[k], b = x->q[s+k], da = d->q[k], db = d->q[s+k], d2 = a*a + b*b;
+        const real w = 1/(d2*sqrt(d2)), along = 3*(a*da + b*db)/d2;
+        d->f[k] -= w*(da - along*a);
+        d->f[s+k] -= w*(db - along*b);
+    }
+    return 0;
+}
+
+static int drag(const gvi_points *x, ANY void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        const real a = x->v[k], b = x->v[s+k], z = drag_c*sqrt(a*a + b*b);
+        x->f[k] -= z*a;
+        x->f[s+k] -= z*b;
+    }
+    return 0;
+}
+
+/* f_v l, symmetric here: -c (|v| l + v (v.l)/|v|)                              */
+static void drag_slope(const gvi_points *x, int k, real la, real lb, real *out)
+{
+    const real a = x->v[k], b = x->v[x->stride+k], z = sqrt(a*a + b*b), along = z > 0 ? (a*la + b*lb)/z : 0;
+    out[0] = -drag_c*(z*la + along*a);
+    out[1] = -drag_c*(z*lb + along*b);
+}
+
+static int drag_transposed(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+{
+    const int s = x->stride;
+    real z[2];
+    for (int k = 0; k < x->count && d->dldv; ++k) {
+        drag_slope(x, k, d->q[k], d->q[s+k], z);
+        d->dldv[k] += z[0];
+        d->dldv[s+k] += z[1];
+    }
+    return 0;
+}
+
+static int drag_product(const gvi_points *x, const gvi_points *d, int parameter, ANY void *user)
+{
+    const int s = x->stride;
+    real z[2];
+    for (int k = 0; k < x->count; ++k) {
+        const real a = x->v[k], b = x->v[s+k], speed = sqrt(a*a + b*b);
+        drag_slope(x, k, d->v[k], d->v[s+k], z);
+        d->f[k] += z[0] - (parameter == 0 ? speed*a : 0);
+        d->f[s+k] += z[1] - (parameter == 0 ? speed*b : 0);
+    }
+    return 0;
+}
+
+static void by_drag(ANY real t, ANY const real *q, const real *v, const real *l, ANY const real *dl,
+                    real weight, ANY int node, real *gradient, ANY void *user)
+{
+    const real z = sqrt(v[0]*v[0] + v[1]*v[1]);
+    gradient[0] -= weight*z*(v[0]*l[0] + v[1]*l[1]);
+}
+
+static const gvi_effect with_drag[] = { { .kind = GVI_POTENTIAL, .points = kepler },
+                                        { .kind = GVI_FORCE, .points = drag } };
+static const real q0[] = { 1, R(0.2) }, p0[] = { R(-0.1), R(1.1) }, end_q[] = { 1, -2 }, end_p[] = { R(0.4), 3 };
+
+/* d(q1 - 2 q2 + 0.4 p1 + 3 p2)/dc after 10 steps of 0.2 with c = 0.05.  s = 1, 2, 4, 8: collocation at
+   Gauss nodes in 40 digits and differences of order 4.                        */
+static const long double gradient[] = { -1.41923704319197546044L, -1.384460345420786965887L,
+                                        -1.384460604060167018781L, -1.384460604036492789706L };
+
+static void gradient_by_the_drag(ANY void **state)
+{
+    for (int e = 0; e < 4; ++e) {
+        const int s = 1 << e;
+        adjoint A = { .plain = { .n = N, .degree = s, .effects = with_drag, .effect_count = 2 },
+                      .product = { kepler_product, drag_transposed }, .by_parameters = by_drag,
+                      .room = room, .room_length = ADJOINT_ROOM(N, s) };
+        gvi_stepper st, ad;
+        real g = 0;
+        drag_c = R(0.05);
+        assert_ok(adjoint_scene(&A));
+        assert_ok(gvi_init(&st, &A.plain, memory, sizeof memory));
+        assert_ok(gvi_init(&ad, &A.scene.desc, back_memory, sizeof back_memory));
+        assert_ok(gvi_start_momentum(&st, 0, q0, p0));
+        for (int k = 0; k < 10; ++k) assert_ok(gvi_step(&st, R(0.2)));
+        assert_ok(adjoint_start(&A, &ad, st.t, st.q, st.p, end_q, end_p));
+        for (int k = 0; k < 10; ++k) assert_ok(adjoint_step(&A, &ad, R(0.2), &g));
+        assert_close(g, gradient[e], 128*EPS);
+        for (int i = 0; i < N; ++i) {                                    /* retraced */
+            assert_close(ad.q[i], q0[i], 64*EPS);
+            assert_close(ad.p[i], p0[i], 64*EPS);
+        }
+    }
+}
+
+/* ------------------------------------- a pendulum of two links in a liquid: M(q), friction */
+
+static int weight(const gvi_points *x, ANY void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        x->f[k] -= 2*sin(x->q[k]);
+        x->f[s+k] -= sin(x->q[s+k]);
+    }
+    return 0;
+}
+
+static int weight_product(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        d->f[k] -= 2*cos(x->q[k])*d->q[k];
+        d->f[s+k] -= cos(x->q[s+k])*d->q[s+k];
+    }
+    return 0;
+}
+
+static int matrix(const gvi_points *x, ANY void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        x->mass[k] = 2;
+        x->mass[2*s+k] = cos(x->q[k] - x->q[s+k]);
+        x->mass[3*s+k] = 1;
+    }
+    return 0;
+}
+
+static int slope(const gvi_points *x, ANY void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        const real w = sin(x->q[k] - x->q[s+k])*x->v[k]*x->v[s+k];
+        x->f[k] -= w;
+        x->f[s+k] += w;
+    }
+    return 0;
+}
+
+static int slope_product(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        const real a = x->q[k] - x->q[s+k], da = d->q[k] - d->q[s+k], u = x->v[k], v = x->v[s+k];
+        const real w = cos(a)*da*u*v + sin(a)*(d->v[k]*v + u*d->v[s+k]);
+        d->f[k] -= w;
+        d->f[s+k] += w;
+    }
+    return 0;
+}
+
+static int velocity(const gvi_points *x, ANY void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        const real c = cos(x->q[k] - x->q[s+k]), D = 1/(2 - c*c);
+        x->velocity[k] = (x->p[k] - c*x->p[s+k])*D;
+        x->velocity[s+k] = (2*x->p[s+k] - c*x->p[k])*D;
+    }
+    return 0;
+}
+
+static void velocity_of(const gvi_points *x, const gvi_points *d, const int transposed)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        const real a = x->q[k] - x->q[s+k], da = d->q[k] - d->q[s+k], c = cos(a), D = 1/(2 - c*c), dc = -sin(a)*da;
+        real pa = d->p[k] - dc*x->v[s+k], pb = d->p[s+k] - dc*x->v[k], z[2];
+        if (transposed) {
+            drag_slope(x, k, d->q[k], d->q[s+k], z);
+            pa -= z[0];
+            pb -= z[1];
+        }
+        d->velocity[k] = (pa - c*pb)*D;
+        d->velocity[s+k] = (2*pb - c*pa)*D;
+    }
+}
+
+static int velocity_product(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+{
+    velocity_of(x, d, 0);
+    return 0;
+}
+
+static int velocity_transposed(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+{
+    velocity_of(x, d, 1);
+    return 0;
+}
+
+/* A force that turns: neither a gradient nor of the velocity.                  */
+static int turning(const gvi_points *x, ANY void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        x->f[k] -= x->q[s+k]/4;
+        x->f[s+k] += x->q[k]*x->q[k]/4;
+    }
+    return 0;
+}
+
+static int turning_product(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        d->f[k] -= d->q[s+k]/4;
+        d->f[s+k] += x->q[k]*d->q[k]/2;
+    }
+    return 0;
+}
+
+static int turning_transposed(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count && d->f; ++k) {
+        d->f[k] += x->q[k]*d->q[s+k]/2;
+        d->f[s+k] -= d->q[k]/4;
+    }
+    return 0;
+}
+
+/* A magnetic field, L = |q|^2 (x y' - y x')/2: its product serves both.         */
+static int magnetic(const gvi_points *x, ANY void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        const real a = x->q[k], b = x->q[s+k], u = x->v[k], v = x->v[s+k], z = (a*a + b*b)/2;
+        const real l = a*v - b*u;
+        if (x->f) x->f[k] += a*l + z*v, x->f[s+k] += b*l - z*u;
+        if (x->dldv) x->dldv[k] -= z*b, x->dldv[s+k] += z*a;
+    }
+    return 0;
+}
+
+static int magnetic_product(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        const real a = x->q[k], b = x->q[s+k], z = (a*a + b*b)/2;
+        const real da = d->q[k], db = d->q[s+k], dz = a*da + b*db;
+        if (d->f) {
+            const real u = x->v[k], v = x->v[s+k], du = d->v[k], dv = d->v[s+k];
+            const real l = a*v - b*u, dl = da*v + a*dv - db*u - b*du;
+            d->f[k] += da*l + a*dl + dz*v + z*dv;
+            d->f[s+k] += db*l + b*dl - dz*u - z*du;
+        }
+        if (d->dldv) d->dldv[k] -= dz*b + z*db, d->dldv[s+k] += dz*a + z*da;
+    }
+    return 0;
+}
+
+static const gvi_effect turned[] = { { .kind = GVI_POTENTIAL, .points = kepler },
+                                     { .kind = GVI_FORCE, .points = turning },
+                                     { .kind = GVI_FORCE, .points = drag } },
+                        two_links[] = { { .kind = GVI_POTENTIAL, .points = weight },
+                                        { .kind = GVI_FORCE, .points = drag } },
+                        charged[] = { { .kind = GVI_POTENTIAL, .points = kepler },
+                                      { .kind = GVI_LAGRANGIAN, .points = magnetic },
+                                      { .kind = GVI_FORCE, .points = drag } };
+static const real diagonal[] = { R(1.25), R(0.75) }, dense[] = { R(1.25), 0, R(0.5), R(0.75) };
+
+typedef struct scene {
+    const char *name;
+    gvi_desc    desc;
+    tangent_fn *product[3], *transposed[3];
+} scene;
+
+#define LINKS { .kind = GVI_MASS_POSITION, .points = matrix, .gradient = slope, .velocity = velocity }
+#define TURNED .n = N, .effects = turned, .effect_count = 3
+#define PRODUCTS { kepler_product, turning_product, drag_product }, \
+                 { kepler_product, turning_transposed, drag_transposed }
+
+/* Forest and Ruth's splitting.                                                 */
+#define G R(1.35120719195965763404768780897)
+static const real ruth_at[] = { 0, G, 1 - G, 1 }, ruth[] = { G/2, (1 - G)/2, (1 - G)/2, G/2 };
+
+static const scene scenes[] = {
+    { "potential", { .n = N, .degree = 3, .effects = turned, .effect_count = 1 },
+      { kepler_product }, { kepler_product } },
+    { "kicks", { .n = N, .degree = 1, .effects = turned, .effect_count = 1, .rule = { GVI_KICKS, 4, ruth_at, ruth } },
+      { kepler_product }, { kepler_product } },
+    { "a magnetic field and drag", { .n = N, .degree = 4, .effects = charged, .effect_count = 3 },
+      { kepler_product, magnetic_product, drag_product }, { kepler_product, magnetic_product, drag_transposed } },
+    { "Stoermer-Verlet", { .n = N, .degree = 1, .effects = turned, .effect_count = 1, .rule = { .kind = GVI_LOBATTO } },
+      { kepler_product }, { kepler_product } },
+    { "forces, degree 1", { TURNED, .degree = 1 }, PRODUCTS },
+    { "forces, degree 5", { TURNED, .degree = 5 }, PRODUCTS },
+    { "forces, Lobatto", { TURNED, .degree = 3, .rule = { .kind = GVI_LOBATTO, .points = 5 } }, PRODUCTS },
+    { "forces, diagonal mass", { TURNED, .degree = 4, .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = diagonal } },
+      PRODUCTS },
+    { "forces, dense mass", { TURNED, .degree = 4, .mass = { .kind = GVI_MASS_DENSE, .matrix = dense } }, PRODUCTS },
+    { "M(q) and friction", { .n = N, .degree = 4, .effects = two_links, .effect_count = 2, .mass = LINKS },
+      { weight_product, drag_product }, { weight_product, drag_transposed } },
+};
+
+/* dJ/dq.dq + dJ/dp.dp is the same at the end and at the start, for every direction.      */
+static void pairing_is_kept(ANY void **state)
+{
+    for (int i = 0; i < COUNT(scenes); ++i) {
+        const scene *s = &scenes[i];
+        const real h = R(0.15625);
+        tangent T = { .plain = s->desc, .gradient = slope_product, .velocity = velocity_product, .directions = 2*N,
+                      .room = room, .room_length = TANGENT_ROOM(N, 4) };
+        adjoint A = { .plain = s->desc, .gradient = slope_product, .velocity = velocity_transposed,
+                      .room = room + TANGENT_ROOM(N, 4), .room_length = ADJOINT_ROOM(N, NODES) };
+        gvi_stepper st, ad;
+        real dq[N], dp[N], by_q[N], by_p[N];
+        for (int k = 0; k < 3; ++k) T.product[k] = s->product[k], A.product[k] = s->transposed[k];
+        drag_c = R(0.125);
+        assert_ok(tangent_scene(&T));
+        assert_ok(adjoint_scene(&A));
+        assert_ok(gvi_init(&st, &T.desc, memory, sizeof memory));
+        assert_ok(gvi_init(&ad, &A.scene.desc, back_memory, sizeof back_memory));
+        assert_ok(tangent_start(&T, &st, 0, q0, p0, NULL, NULL));
+        for (int k = 0; k < 12; ++k) assert_ok(gvi_step(&st, h));
+        assert_ok(adjoint_start(&A, &ad, st.t, st.q, st.p, end_q, end_p));
+        for (int k = 0; k < 12; ++k) assert_ok(adjoint_step(&A, &ad, h, NULL));
+        adjoint_gradient(&A, &ad, by_q, by_p);
+        for (int j = 0; j < 2*N; ++j) {
+            tangent_column(&T, &st, j, dq, dp);
+            real forward = 0, size = 1;
+            for (int k = 0; k < N; ++k) {
+                forward += end_q[k]*dq[k] + end_p[k]*dp[k];
+                size += fabs(end_q[k]*dq[k]) + fabs(end_p[k]*dp[k]);
+            }
+            const real back = j < N ? by_q[j] : by_p[j-N];
+            if (!(fabs(back - forward) < 64*EPS*size)) print_error("%s, direction %d\n", s->name, j);
+            assert_close(back, forward, 64*EPS*size);
+        }
+    }
+}
+
+/* ---------------------------------------------------- a running cost, in closed form
+
+   q'' = -q + u, J = integral of q^2/2 + v^2 over 0..T: by q0, p0 and a constant u.       */
+
+static int spring(const gvi_points *x, ANY void *user)
+{
+    for (int k = 0; k < x->count; ++k) x->f[k] -= x->q[k] - R(0.5);
+    return 0;
+}
+
+static int spring_product(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+{
+    for (int k = 0; k < x->count; ++k) d->f[k] -= d->q[k];
+    return 0;
+}
+
+static int cost(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+{
+    for (int k = 0; k < x->count; ++k) {
+        if (d->f) d->f[k] += x->q[k];
+        if (d->dldv) d->dldv[k] += 2*x->v[k];
+    }
+    return 0;
+}
+
+static void by_u(ANY real t, ANY const real *q, ANY const real *v, const real *l, ANY const real *dl,
+                 real weight, int node, real *g, ANY void *user)
+{
+    assert_in_range(node, 0, NODES - 1);
+    g[0] += weight*l[0];
+}
+
+static void running_cost(ANY void **state)
+{
+    const gvi_effect effect = { .kind = GVI_POTENTIAL, .points = spring };
+    adjoint A = { .plain = { .n = 1, .degree = 8, .effects = &effect, .effect_count = 1 },
+                  .product = { spring_product },
+                  .running = cost, .by_parameters = by_u, .room = room, .room_length = ADJOINT_ROOM(1, 8) };
+    gvi_stepper st, ad;
+    real g = 0, by_q, by_p;
+    const real q = 1, p = R(0.25), none = 0, h = R(0.25);
+    assert_ok(adjoint_scene(&A));
+    assert_ok(gvi_init(&st, &A.plain, memory, sizeof memory));
+    assert_ok(gvi_init(&ad, &A.scene.desc, back_memory, sizeof back_memory));
+    assert_ok(gvi_start_momentum(&st, 0, &q, &p));
+    for (int k = 0; k < 12; ++k) assert_ok(gvi_step(&st, h));
+    assert_ok(adjoint_start(&A, &ad, st.t, st.q, st.p, &none, &none));
+    for (int k = 0; k < 12; ++k) assert_ok(adjoint_step(&A, &ad, h, &g));
+    adjoint_gradient(&A, &ad, &by_q, &by_p);
+
+    /* q = u + (q0 - u) c + p0 s, v = p0 c - (q0 - u) s, c = cos t, s = sin t, T = 3          */
+    const long double T = 3, u = 0.5L, a = 0.5L, b = 0.25L, S = sinl(T), C = cosl(T);
+    const long double cc = (T + S*C)/2, ss = (T - S*C)/2, cs = S*S/2;
+    const long double q_of_c = u*S + a*cc + b*cs, q_of_s = u*(1 - C) + a*cs + b*ss;      /* integrals of q c, q s */
+    const long double v_of_c = b*cc - a*cs, v_of_s = b*cs - a*ss, q_of_1 = u*T + a*S + b*(1 - C);
+    assert_close(by_q, q_of_c - 2*v_of_s, 64*EPS);
+    assert_close(by_p, q_of_s + 2*v_of_c, 64*EPS);
+    assert_close(g, q_of_1 - q_of_c + 2*v_of_s, 64*EPS);
+}
+
+/* ------------------------------------------------------------ strong damping
+
+   q'' = -q - c q' with c = 2.5 over 20: the modes exp(-t/2), exp(-2t) go back as exp(t/2),
+   exp(2t), and 80 steps multiply the rounding of the end by 1e17.  States kept at every fourth
+   step hold the gradient of J, the integral of q^2, to rounding.              */
+
+static int damped(const gvi_points *x, ANY void *user)
+{
+    for (int k = 0; k < x->count; ++k) x->f[k] -= x->q[k] + R(2.5)*x->v[k];
+    return 0;
+}
+
+static int damped_transposed(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+{
+    for (int k = 0; k < x->count; ++k) {
+        if (d->f) d->f[k] -= d->q[k];
+        if (d->dldv) d->dldv[k] -= R(2.5)*d->q[k];
+    }
+    return 0;
+}
+
+static int square(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+{
+    for (int k = 0; k < x->count && d->f; ++k) d->f[k] += 2*x->q[k];
+    return 0;
+}
+
+static void by_c(ANY real t, ANY const real *q, const real *v, const real *l, ANY const real *dl,
+                 real weight, ANY int node, real *g, ANY void *user)
+{
+    g[0] -= weight*v[0]*l[0];
+}
+
+static void damped_gradient(int every, real *by_q, real *by_damping)
+{
+    static real kept[ADJOINT_KEPT(1, 80, 1)];
+    const gvi_effect effect = { .kind = GVI_FORCE, .points = damped };
+    adjoint A = { .plain = { .n = 1, .degree = 8, .effects = &effect, .effect_count = 1 },
+                  .product = { damped_transposed },
+                  .running = square, .by_parameters = by_c, .room = room, .room_length = ADJOINT_ROOM(1, 8),
+                  .kept = every ? kept : NULL, .kept_length = every ? ADJOINT_KEPT(1, 80, every) : 0, .every = every };
+    gvi_stepper st, ad;
+    real by_p;
+    const real q = 1, p = R(0.25), none = 0, h = R(0.25);
+    *by_damping = 0;
+    assert_ok(adjoint_scene(&A));
+    assert_ok(gvi_init(&st, &A.plain, memory, sizeof memory));
+    assert_ok(gvi_init(&ad, &A.scene.desc, back_memory, sizeof back_memory));
+    assert_ok(gvi_start_momentum(&st, 0, &q, &p));
+    if (every) assert_ok(adjoint_keep(&A, &st));
+    for (int k = 0; k < 80; ++k) {
+        assert_ok(gvi_step(&st, h));
+        if (every) assert_ok(adjoint_keep(&A, &st));
+    }
+    assert_ok(adjoint_start(&A, &ad, st.t, st.q, st.p, &none, &none));
+    for (int k = 0; k < 80; ++k) assert_ok(adjoint_step(&A, &ad, h, by_damping));
+    adjoint_gradient(&A, &ad, by_q, &by_p);
+}
+
+/* From the closed form of J, in 40 digits.                                    */
+static void strong_damping(ANY void **state)
+{
+    const long double exact_q = 3.149999991755385510245948704788715L, exact_c = 0.4149999398830193455394625389761956L;
+    real by_q, by_damping;
+    for (int every = 1; every <= 4; every += 3) {
+        damped_gradient(every, &by_q, &by_damping);
+        assert_close(by_q, exact_q, 64*EPS);
+        assert_close(by_damping, exact_c, 64*EPS);
+    }
+    damped_gradient(0, &by_q, &by_damping);                /* nothing kept: that is what it is for */
+    assert_false(fabs(by_q - (real)exact_q) < 10000*EPS);
+}
+
+static void what_is_refused(ANY void **state)
+{
+    static const real at[] = { 0, R(0.25), 1 }, kick[] = { R(0.25), R(0.25), R(0.5) };
+    adjoint A = { .plain = { .n = N, .effects = turned, .effect_count = 1, .rule = { GVI_KICKS, 3, at, kick } },
+                  .product = { kepler_product }, .room = room, .room_length = ADJOINT_ROOM(N, 8) };
+    gvi_stepper ad;
+    assert_status(adjoint_scene(&A), GVI_E_FORMULATION);
+    A.plain.rule = (gvi_rule){ 0 };
+    assert_ok(adjoint_scene(&A));
+    assert_ok(gvi_init(&ad, &A.scene.desc, back_memory, sizeof back_memory));
+    --A.room_length;
+    assert_status(adjoint_start(&A, &ad, 0, q0, p0, end_q, end_p), GVI_E_MEMORY);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(gradient_by_the_drag),
+        cmocka_unit_test(pairing_is_kept),
+        cmocka_unit_test(running_cost),
+        cmocka_unit_test(strong_damping),
+        cmocka_unit_test(what_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

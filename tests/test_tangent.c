@@ -1,0 +1,696 @@
+/* examples/tools/tangent.h: the derivative of a step.  What is expected comes from
+   theory (the matrix of a step is symplectic; closed forms), from Gauss collocation
+   and Kepler's equation in 50 digits, and from differences of the scene alone.  */
+#include "gvi_test.h"
+#include "tools/tangent.h"
+#include <tgmath.h>
+
+typedef gvi_real real;
+enum { N = 2, MOST = 6, ROWS = N*(1 + MOST), ROOM = 13*ROWS + ROWS*ROWS };
+
+#define ANY __attribute__((unused))
+#define R(x) ((real)x##L)
+
+static real memory[60000], other_memory[20000], room[ROOM];
+
+/* ---------------------------------------------------- effects and products */
+
+/* Henon and Heiles: V = (x^2 + y^2)/2 + x^2 y - y^3/3                         */
+static int heiles(const gvi_points *x, ANY void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        const real a = x->q[k], b = x->q[s+k];
+        x->f[k] -= a + 2*a*b;
+        x->f[s+k] -= b + a*a - b*b;
+    }
+    return 0;
+}
+
+static int heiles_product(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        const real a = x->q[k], b = x->q[s+k], da = d->q[k], db = d->q[s+k];
+        d->f[k] -= (1 + 2*b)*da + 2*a*db;
+        d->f[s+k] -= 2*a*da + (1 - 2*b)*db;
+    }
+    return 0;
+}
+
+static int heiles_point(ANY real t, const real *q, ANY const real *v, real *f, ANY real *dldv, ANY void *user)
+{
+    f[0] -= q[0] + 2*q[0]*q[1];
+    f[1] -= q[1] + q[0]*q[0] - q[1]*q[1];
+    return 0;
+}
+
+static int kepler(const gvi_points *x, ANY void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        const real a = x->q[k], b = x->q[s+k], d2 = a*a + b*b, w = 1/(d2*sqrt(d2));
+        x->f[k] -= w*a;
+        x->f[s+k] -= w*b;
+    }
+    return 0;
+}
+
+static int kepler_product(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        const real a = x->q[k], b = x->q[s+k], da = d->q[k], db = d->q[s+k], d2 = a*a + b*b;
+        const real w = 1/(d2*sqrt(d2)), along = 3*(a*da + b*db)/d2;
+        d->f[k] -= w*(da - along*a);
+        d->f[s+k] -= w*(db - along*b);
+    }
+    return 0;
+}
+
+/* Friction -c |v|^2 v; c is parameter 0.                                      */
+static real friction_c;
+
+static int friction(const gvi_points *x, ANY void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        const real a = x->v[k], b = x->v[s+k], z = a*a + b*b;
+        x->f[k] -= friction_c*z*a;
+        x->f[s+k] -= friction_c*z*b;
+    }
+    return 0;
+}
+
+static int friction_product(const gvi_points *x, const gvi_points *d, int parameter, ANY void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        const real a = x->v[k], b = x->v[s+k], da = d->v[k], db = d->v[s+k], z = a*a + b*b;
+        const real dc = parameter == 0, dz = 2*(a*da + b*db);
+        d->f[k] -= friction_c*(z*da + dz*a) + dc*z*a;
+        d->f[s+k] -= friction_c*(z*db + dz*b) + dc*z*b;
+    }
+    return 0;
+}
+
+/* A magnetic field: L = |q|^2 (x y' - y x')/2                                 */
+static int magnetic(const gvi_points *x, ANY void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        const real a = x->q[k], b = x->q[s+k], u = x->v[k], v = x->v[s+k], z = (a*a + b*b)/2, l = a*v - b*u;
+        if (x->f) x->f[k] += a*l + z*v, x->f[s+k] += b*l - z*u;
+        if (x->dldv) x->dldv[k] -= z*b, x->dldv[s+k] += z*a;
+    }
+    return 0;
+}
+
+static int magnetic_product(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        const real a = x->q[k], b = x->q[s+k], z = (a*a + b*b)/2;
+        const real da = d->q[k], db = d->q[s+k], dz = a*da + b*db;
+        if (d->f) {
+            const real u = x->v[k], v = x->v[s+k], du = d->v[k], dv = d->v[s+k];
+            const real l = a*v - b*u, dl = da*v + a*dv - db*u - b*du;
+            d->f[k] += da*l + a*dl + dz*v + z*dv;
+            d->f[s+k] += db*l + b*dl - dz*u - z*du;
+        }
+        if (d->dldv) d->dldv[k] -= dz*b + z*db, d->dldv[s+k] += dz*a + z*da;
+    }
+    return 0;
+}
+
+/* The double pendulum, M = [2, c; c, 1], c = e cos(a - b); e is parameter 1.   */
+static real coupling = 1;
+
+static int weight(const gvi_points *x, ANY void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        x->f[k] -= 20*sin(x->q[k]);
+        x->f[s+k] -= 10*sin(x->q[s+k]);
+    }
+    return 0;
+}
+
+static int weight_product(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        d->f[k] -= 20*cos(x->q[k])*d->q[k];
+        d->f[s+k] -= 10*cos(x->q[s+k])*d->q[s+k];
+    }
+    return 0;
+}
+
+static int pendulum_matrix(const gvi_points *x, ANY void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        x->mass[k] = 2;
+        x->mass[2*s+k] = coupling*cos(x->q[k] - x->q[s+k]);
+        x->mass[3*s+k] = 1;
+    }
+    return 0;
+}
+
+static int pendulum_gradient(const gvi_points *x, ANY void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        const real w = coupling*sin(x->q[k] - x->q[s+k])*x->v[k]*x->v[s+k];
+        x->f[k] -= w;
+        x->f[s+k] += w;
+    }
+    return 0;
+}
+
+static int pendulum_gradient_product(const gvi_points *x, const gvi_points *d, int parameter, ANY void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        const real a = x->q[k] - x->q[s+k], da = d->q[k] - d->q[s+k], u = x->v[k], v = x->v[s+k];
+        real w = coupling*(cos(a)*da*u*v + sin(a)*(d->v[k]*v + u*d->v[s+k]));
+        if (parameter == 1) w += sin(a)*u*v;
+        d->f[k] -= w;
+        d->f[s+k] += w;
+    }
+    return 0;
+}
+
+static int pendulum_velocity(const gvi_points *x, ANY void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        const real c = coupling*cos(x->q[k] - x->q[s+k]), D = 1/(2 - c*c);
+        x->velocity[k] = (x->p[k] - c*x->p[s+k])*D;
+        x->velocity[s+k] = (2*x->p[s+k] - c*x->p[k])*D;
+    }
+    return 0;
+}
+
+static int pendulum_velocity_product(const gvi_points *x, const gvi_points *d, int parameter, ANY void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        const real a = x->q[k] - x->q[s+k], da = d->q[k] - d->q[s+k], c = coupling*cos(a), D = 1/(2 - c*c);
+        const real dc = -coupling*sin(a)*da + (parameter == 1 ? cos(a) : 0);
+        const real pa = d->p[k] - dc*x->v[s+k], pb = d->p[s+k] - dc*x->v[k];
+        d->velocity[k] = (pa - c*pb)*D;
+        d->velocity[s+k] = (2*pb - c*pa)*D;
+    }
+    return 0;
+}
+
+/* The same kinetic energy as a Lagrangian term, for GVI_MASS_NONE.             */
+static int pendulum_term(const gvi_points *x, ANY void *user)
+{
+    const int s = x->stride;
+    if (x->f) pendulum_gradient(x, NULL);
+    for (int k = 0; k < x->count && x->dldv; ++k) {
+        const real c = coupling*cos(x->q[k] - x->q[s+k]);
+        x->dldv[k] += 2*x->v[k] + c*x->v[s+k];
+        x->dldv[s+k] += c*x->v[k] + x->v[s+k];
+    }
+    return 0;
+}
+
+static int pendulum_term_product(const gvi_points *x, const gvi_points *d, int parameter, ANY void *user)
+{
+    const int s = x->stride;
+    if (d->f) pendulum_gradient_product(x, d, parameter, NULL);
+    for (int k = 0; k < x->count && d->dldv; ++k) {
+        const real a = x->q[k] - x->q[s+k], da = d->q[k] - d->q[s+k], c = coupling*cos(a);
+        const real dc = -coupling*sin(a)*da + (parameter == 1 ? cos(a) : 0);
+        d->dldv[k] += 2*d->v[k] + c*d->v[s+k] + dc*x->v[s+k];
+        d->dldv[s+k] += c*d->v[k] + d->v[s+k] + dc*x->v[k];
+    }
+    return 0;
+}
+
+static int clock_rate(const gvi_points *x, ANY void *user)
+{
+    for (int k = 0; k < x->count && x->value; ++k) x->value[k] += 1;
+    return 0;
+}
+
+/* ------------------------------------------------------------------ scenes */
+
+static const gvi_effect
+    of_heiles[] = { { .kind = GVI_POTENTIAL, .points = heiles } },
+    of_heiles_point[] = { { .kind = GVI_POTENTIAL, .point = heiles_point } },
+    of_kepler[] = { { .kind = GVI_POTENTIAL, .points = kepler } },
+    of_friction[] = { { .kind = GVI_POTENTIAL, .points = heiles }, { .kind = GVI_FORCE, .points = friction } },
+    of_magnetic[] = { { .kind = GVI_POTENTIAL, .points = heiles }, { .kind = GVI_LAGRANGIAN, .points = magnetic } },
+    of_weight[] = { { .kind = GVI_POTENTIAL, .points = weight } },
+    of_rubbed[] = { { .kind = GVI_POTENTIAL, .points = weight }, { .kind = GVI_FORCE, .points = friction } },
+    of_term[] = { { .kind = GVI_POTENTIAL, .points = weight }, { .kind = GVI_LAGRANGIAN, .points = pendulum_term } };
+
+static const real diagonal[] = { R(1.25), R(0.75) }, dense[] = { R(1.25), 0, R(0.5), R(0.75) };
+
+/* Forest and Ruth's splitting: drifts of g/2, (1-g)/2, ... between kicks of g, 1-2g, g. */
+#define G R(1.35120719195965763404768780897)
+static const real ruth_at[] = { 0, G, 1 - G, 1 }, ruth[] = { G/2, (1 - G)/2, (1 - G)/2, G/2 };
+
+#define PENDULUM { .kind = GVI_MASS_POSITION, .points = pendulum_matrix, .gradient = pendulum_gradient, \
+                   .velocity = pendulum_velocity }
+#define HEILES .n = N, .effects = of_heiles, .effect_count = 1
+
+typedef struct scene {
+    const char *name;
+    gvi_desc    desc;
+    tangent_fn *product[2];
+    int         forced;              /* friction: not symplectic                */
+    gvi_formulation used;
+} scene;
+
+static const scene scenes[] = {
+    { "positions, degree 1", { HEILES, .degree = 1 }, { heiles_product }, 0, GVI_POSITIONS },
+    { "positions, degree 2", { HEILES, .degree = 2 }, { heiles_product }, 0, GVI_POSITIONS },
+    { "positions, degree 3", { HEILES, .degree = 3 }, { heiles_product }, 0, GVI_POSITIONS },
+    { "positions, degree 4", { HEILES, .degree = 4 }, { heiles_product }, 0, GVI_POSITIONS },
+    { "positions, degree 8", { HEILES, .degree = 8 }, { heiles_product }, 0, GVI_POSITIONS },
+    { "one point a call", { .n = N, .degree = 4, .effects = of_heiles_point, .effect_count = 1 },
+      { heiles_product }, 0, GVI_POSITIONS },
+    { "Stoermer-Verlet", { HEILES, .degree = 1, .rule = { .kind = GVI_LOBATTO } },
+      { heiles_product }, 0, GVI_EXPLICIT },
+    { "kicks of Forest and Ruth", { HEILES, .degree = 1, .rule = { GVI_KICKS, 4, ruth_at, ruth } },
+      { heiles_product }, 0, GVI_EXPLICIT },
+    { "Lobatto, 6 points, degree 3", { HEILES, .degree = 3, .rule = { .kind = GVI_LOBATTO, .points = 6 } },
+      { heiles_product }, 0, GVI_POSITIONS },
+    { "Newton, degree 4", { HEILES, .degree = 4, .formulation = GVI_NEWTON }, { heiles_product }, 0, GVI_NEWTON },
+    { "diagonal mass", { HEILES, .degree = 4, .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = diagonal } },
+      { heiles_product }, 0, GVI_POSITIONS },
+    { "dense mass", { HEILES, .degree = 4, .mass = { .kind = GVI_MASS_DENSE, .matrix = dense } },
+      { heiles_product }, 0, GVI_POSITIONS },
+    { "unit mass in momenta", { HEILES, .degree = 4, .formulation = GVI_MOMENTA }, { heiles_product }, 0, GVI_MOMENTA },
+    { "velocities, friction", { .n = N, .degree = 4, .effects = of_friction, .effect_count = 2 },
+      { heiles_product, friction_product }, 1, GVI_VELOCITIES },
+    { "velocities, magnetic", { .n = N, .degree = 4, .effects = of_magnetic, .effect_count = 2 },
+      { heiles_product, magnetic_product }, 0, GVI_VELOCITIES },
+    { "Newton, magnetic", { .n = N, .degree = 3, .effects = of_magnetic, .effect_count = 2, .formulation = GVI_NEWTON },
+      { heiles_product, magnetic_product }, 0, GVI_NEWTON },
+    { "Newton, friction", { .n = N, .degree = 3, .effects = of_friction, .effect_count = 2, .formulation = GVI_NEWTON },
+      { heiles_product, friction_product }, 1, GVI_NEWTON },
+    { "M(q), degree 1", { .n = N, .degree = 1, .effects = of_weight, .effect_count = 1, .mass = PENDULUM },
+      { weight_product }, 0, GVI_MOMENTA },
+    { "M(q), degree 4", { .n = N, .degree = 4, .effects = of_weight, .effect_count = 1, .mass = PENDULUM },
+      { weight_product }, 0, GVI_MOMENTA },
+    { "M(q), degree 8", { .n = N, .degree = 8, .effects = of_weight, .effect_count = 1, .mass = PENDULUM },
+      { weight_product }, 0, GVI_MOMENTA },
+    { "M(q) and friction", { .n = N, .degree = 4, .effects = of_rubbed, .effect_count = 2, .mass = PENDULUM },
+      { weight_product, friction_product }, 1, GVI_MOMENTA },
+    { "no mass but a term", { .n = N, .degree = 4, .effects = of_term, .effect_count = 2,
+                              .mass = { .kind = GVI_MASS_NONE, .velocity = pendulum_velocity } },
+      { weight_product, pendulum_term_product }, 0, GVI_MOMENTA },
+};
+
+static const real q0[] = { R(0.125), R(0.25) }, p0[] = { R(0.4375), R(-0.125) };
+
+/* The scene with its directions, 2 parameters if wanted, and h if wanted.      */
+static gvi_stepper *made(tangent *T, const scene *s, int directions, int parameters, real h)
+{
+    static gvi_stepper st;
+    *T = (tangent){ .plain = s->desc, .product = { s->product[0], s->product[1] },
+                    .gradient = pendulum_gradient_product, .velocity = pendulum_velocity_product,
+                    .directions = directions, .parameters = parameters, .by_h = h > 0, .h = h,
+                    .room = room, .room_length = COUNT(room) };
+    friction_c = R(0.25);
+    coupling = 1;
+    assert_ok(tangent_scene(T));
+    assert_true(gvi_size(&T->desc) > 0 && gvi_size(&T->desc) <= sizeof memory);
+    assert_ok(gvi_init(&st, &T->desc, memory, sizeof memory));
+    assert_ok(tangent_start(T, &st, 0, q0, p0, NULL, NULL));
+    return &st;
+}
+
+/* The scene alone, for `steps` of h, from where start says: the end (q, p).    */
+static void alone(const scene *s, const real *start, real h, int steps, real *end)
+{
+    gvi_stepper st;
+    assert_true(gvi_size(&s->desc) <= sizeof other_memory);
+    assert_ok(gvi_init(&st, &s->desc, other_memory, sizeof other_memory));
+    assert_ok(gvi_start_momentum(&st, 0, start, start + N));
+    for (int k = 0; k < steps; ++k) assert_ok(gvi_step(&st, h));
+    for (int i = 0; i < N; ++i) end[i] = st.q[i], end[N + i] = st.p[i];
+}
+
+/* Differences of the scene alone, to order 4: by state variable j < 4, by the parameters
+   (4 the friction, 5 the coupling), or by h (6).                              */
+static void differences(const scene *s, int j, real h, int steps, real *out)
+{
+    const real D = pow((real)EPS, R(0.2))/4;
+    for (int i = 0; i < 2*N; ++i) out[i] = 0;
+    for (int z = 0; z < 4; ++z) {
+        const real move = (z%2 ? -1 : 1)*(z/2 ? 2*D : D), w = (real)((z%2 ? -1 : 1)*(z/2 ? -1 : 8))/(12*D);
+        real start[] = { q0[0], q0[1], p0[0], p0[1] }, end[2*N];
+        friction_c = R(0.25) + (j == 4 ? move : 0);
+        coupling = 1 + (j == 5 ? move : 0);
+        if (j < 4) start[j] += move;
+        alone(s, start, h + (j == 6 ? move : 0), steps, end);
+        for (int i = 0; i < 2*N; ++i) out[i] += w*end[i];
+    }
+    friction_c = R(0.25);
+    coupling = 1;
+}
+
+/* |M' J M - J|, the largest entry; M by columns (q, p).                       */
+static real defect(real M[2*N][2*N], real *most)
+{
+    real worst = 0;
+    *most = 1;
+    for (int a = 0; a < 2*N; ++a)
+        for (int b = 0; b < 2*N; ++b) {
+            long double z = (a == b + N) - (b == a + N);
+            for (int i = 0; i < N; ++i)
+                z += (long double)M[a][i]*M[b][N+i] - (long double)M[a][N+i]*M[b][i];
+            worst = fmax(worst, (real)fabsl(z));
+            *most = fmax(*most, fabs(M[a][b]));
+        }
+    return worst;
+}
+
+/* ------------------------------------------------------------------- tests */
+
+static void a_step_with_its_derivative_is_symplectic(ANY void **state)
+{
+    for (int i = 0; i < COUNT(scenes); ++i)
+        for (int z = 0; z < 2; ++z) {
+            const real h = z ? R(0.3125) : R(0.0625);
+            const int pendulum = scenes[i].desc.effects[0].points == weight;
+            tangent T;
+            if (scenes[i].forced) continue;
+            gvi_stepper *st = made(&T, &scenes[i], 2*N, 0, 0);
+            real M[2*N][2*N], most;
+            for (int k = 0; k < 20; ++k) {
+                assert_ok(gvi_step(st, pendulum ? h/4 : h));
+                for (int j = 0; j < 2*N; ++j) tangent_column(&T, st, j, M[j], M[j] + N);
+                const real d = defect(M, &most);
+                if (!(d < 16*EPS*most*most)) print_error("%s, step %d\n", scenes[i].name, k);
+                assert_between(0, d, 16*EPS*most*most);
+            }
+            assert_int_equal(st->formulation, scenes[i].used);
+        }
+}
+
+/* By state, by parameters and by h, after 8 steps.                            */
+static void every_column_is_what_differences_say(ANY void **state)
+{
+    for (int i = 0; i < COUNT(scenes); ++i) {
+        const scene *s = &scenes[i];
+        const int pendulum = s->desc.effects[0].points == weight, tests = pendulum || s->forced;
+        const real h = pendulum ? R(0.0625) : R(0.1875);
+        tangent T;
+        gvi_stepper *st = made(&T, s, tests ? 1 : 2*N, tests ? 2 : 0, h);
+        for (int k = 0; k < 8; ++k) assert_ok(gvi_step(st, h));
+        for (int j = 0; j < T.columns; ++j) {
+            real column[2*N], wanted[2*N], most = 1;
+            tangent_column(&T, st, j, column, column + N);
+            differences(s, j < T.directions ? j : j == T.columns - 1 ? 6 : 4 + j - T.directions, h, 8, wanted);
+            for (int k = 0; k < 2*N; ++k) most = fmax(most, fabs(wanted[k]));
+            for (int k = 0; k < 2*N; ++k) {
+                const real tol = 400*pow((real)EPS, R(0.8))*most;
+                if (!(fabs(column[k] - wanted[k]) <= tol)) print_error("%s, column %d, row %d\n", s->name, j, k);
+                assert_close(column[k], wanted[k], tol);
+            }
+        }
+    }
+}
+
+/* The state beside its derivative is that of the scene alone, but for another number of
+   iterations.                                                                 */
+static void the_motion_is_the_same(ANY void **state)
+{
+    for (int i = 0; i < COUNT(scenes); ++i) {
+        const real h = scenes[i].desc.effects[0].points == weight ? R(0.0625) : R(0.25);
+        const real start[] = { q0[0], q0[1], p0[0], p0[1] };
+        tangent T;
+        real end[2*N];
+        gvi_stepper *st = made(&T, &scenes[i], 2*N, 0, 0);
+        for (int k = 0; k < 50; ++k) assert_ok(gvi_step(st, h));
+        alone(&scenes[i], start, h, 50, end);
+        for (int k = 0; k < N; ++k) {
+            assert_close(st->q[k], end[k], 2000*EPS);
+            assert_close(st->p[k], end[N+k], 2000*EPS);
+        }
+    }
+}
+
+/* Kepler, e = 0.6, three quarters of a revolution from the pericentre: the derivative of the
+   motion, from Kepler's equation in 80 digits.                                */
+static const long double kepler_exact[4][4] = {
+    { -79.07308723498460733702751L, -2.000955817470989425996232L,
+      -0.7472129229862102570649894L, -25.80888329793299832150607L },
+    { 22.06606955485905022458062L, 4.163682683656246384009329L,
+      1.38140768767370103713952L, 7.354426359653600316318849L },
+    { -51.23436322364835783480574L, -0.6083820638830060705750963L,
+      -0.2748927531006705711666885L, -16.61606970653625514425881L },
+    { -25.58195941868144992730694L, -2.361277443582027627662347L,
+      -0.8063400555773231528643289L, -8.144761093859571391205861L },
+};
+
+static real kepler_error(int degree, int steps)
+{
+    const scene s = { "Kepler", { .n = N, .degree = degree, .effects = of_kepler, .effect_count = 1 },
+                      { kepler_product }, 0, 0 };
+    const real h = R(4.71238898038468985769396507492)/(real)steps, q[] = { R(0.4), 0 }, p[] = { 0, 2 };
+    tangent T;
+    real column[2*N], worst = 0;
+    gvi_stepper *st = made(&T, &s, 2*N, 0, 0);
+    assert_ok(tangent_start(&T, st, 0, q, p, NULL, NULL));
+    for (int k = 0; k < steps; ++k) assert_ok(gvi_step(st, h));
+    for (int j = 0; j < 2*N; ++j) {
+        tangent_column(&T, st, j, column, column + N);
+        for (int i = 0; i < 2*N; ++i) worst = fmax(worst, fabs(column[i] - (real)kepler_exact[i][j]));
+    }
+    return worst;
+}
+
+static void keplers_derivative_has_order_2s(ANY void **state)
+{
+    if (DIG < 50) {                              /* float: what rounding leaves of 79 */
+        assert_between(0, kepler_error(4, 80), 79*300*EPS);
+        return;
+    }
+    static const int steps[] = { 320, 160, 160, 80 };
+    for (int s = 1; s <= 4; ++s) {
+        const real coarse = kepler_error(s, steps[s-1]), fine = kepler_error(s, 2*steps[s-1]);
+        assert_between(2*s - 0.15L, log2(coarse/fine), 2*s + 0.15L);
+    }
+    assert_between(0, kepler_error(8, 80), 79*100*EPS + R(1e-15));
+}
+
+/* An oscillator with linear friction, q'' = -k q - c q': its derivatives by k and by c in
+   closed form.                                                                */
+static real spring_k, spring_c;
+
+static int spring(const gvi_points *x, ANY void *user)
+{
+    for (int k = 0; k < x->count; ++k) x->f[k] -= spring_k*x->q[k] + spring_c*x->v[k];
+    return 0;
+}
+
+static int spring_product(const gvi_points *x, const gvi_points *d, int parameter, ANY void *user)
+{
+    for (int k = 0; k < x->count; ++k) {
+        d->f[k] -= spring_k*d->q[k] + spring_c*d->v[k];
+        if (parameter == 0) d->f[k] -= x->q[k];
+        if (parameter == 1) d->f[k] -= x->v[k];
+    }
+    return 0;
+}
+
+static void parameters_of_an_oscillator(ANY void **state)
+{
+    static const gvi_effect force = { .kind = GVI_FORCE, .points = spring };
+    tangent T = { .plain = { .n = 1, .degree = 8, .effects = &force, .effect_count = 1 }, .product = { spring_product },
+                  .parameters = 2, .room = room, .room_length = COUNT(room) };
+    gvi_stepper st;
+    real dq, dp;
+    spring_k = R(1.25);
+    spring_c = R(0.5);
+    assert_ok(tangent_scene(&T));
+    assert_ok(gvi_init(&st, &T.desc, memory, sizeof memory));
+    assert_ok(tangent_start(&T, &st, 0, (real[]){ 1 }, (real[]){ 0 }, NULL, NULL));
+    for (int k = 0; k < 16; ++k) assert_ok(gvi_step(&st, R(0.25)));
+
+    /* q = e^(-at) (cos wt + a/w sin wt), a = c/2, w^2 = k - a^2                */
+    const long double t = 4, a = 0.25L, w = sqrtl(1.1875L), e = expl(-a*t), C = cosl(w*t), S = sinl(w*t);
+    const long double by_w = e*(-t*S + a/w*t*C - a/(w*w)*S), by_a = e*(-t*(C + a/w*S) + S/w);
+    tangent_column(&T, &st, 0, &dq, &dp);
+    assert_close(st.q[0], e*(C + a/w*S), 16*EPS);
+    assert_close(dq, by_w/(2*w), 32*EPS);
+    tangent_column(&T, &st, 1, &dq, &dp);
+    assert_close(dq, (by_a - a/w*by_w)/2, 32*EPS);
+}
+
+/* dq/dh, dp/dh of one step of Henon and Heiles by Gauss collocation in 40 digits.      */
+static const long double by_h[4][4] = {
+    { 0.3275772872684989753839L, -0.1518344450999986893936L, -0.2713413329421327223757L, -0.1731470049185232101296L },
+    { 0.3357753356246021941922L, -0.1524245748592418218518L, -0.2799685707584478630115L, -0.1805722360187558762862L },
+    { 0.3357946914545588718621L, -0.1524435767023454275299L, -0.2800142001382433079456L, -0.1806009778098264326634L },
+    { 0.3357947960778188143005L, -0.1524435655713952862847L, -0.2800142818595382187833L, -0.1806010902093125158901L },
+};
+
+static void by_the_length_of_the_step(ANY void **state)
+{
+    for (int s = 1; s <= 4; ++s) {
+        const scene one = { "by h", { HEILES, .degree = s }, { heiles_product }, 0, 0 };
+        tangent T;
+        real dq[N], dp[N];
+        gvi_stepper *st = made(&T, &one, 1, 0, R(0.3));
+        assert_ok(tangent_start(&T, st, 0, (real[]){ R(0.1), R(0.2) }, (real[]){ R(0.4), R(-0.1) }, NULL, NULL));
+        assert_ok(gvi_step(st, R(0.3)));
+        tangent_column(&T, st, 1, dq, dp);
+        for (int i = 0; i < N; ++i) {
+            assert_close(dq[i], by_h[s-1][i], 16*EPS);
+            assert_close(dp[i], by_h[s-1][N+i], 16*EPS);
+        }
+    }
+}
+
+/* A step and a step back: the columns are where they began.                   */
+static void back_again(ANY void **state)
+{
+    for (int i = 0; i < COUNT(scenes); ++i) {
+        const real h = scenes[i].desc.effects[0].points == weight ? R(0.0625) : R(0.25);
+        tangent T;
+        gvi_stepper *st = made(&T, &scenes[i], 2*N, 0, 0);
+        assert_ok(gvi_step(st, h));
+        assert_ok(gvi_step(st, -h));
+        for (int j = 0; j < 2*N; ++j) {
+            real z[2*N];
+            tangent_column(&T, st, j, z, z + N);
+            for (int k = 0; k < 2*N; ++k) assert_close(z[k], k == j, 32*EPS);
+        }
+    }
+}
+
+/* Henon and Heiles at energy 1/8: the largest Lyapunov exponent and the mean MEGNO, which is
+   2 on a regular orbit and grows like half the exponent times t on a chaotic one.     */
+static void orbit(real y, real py, real *exponent, real *megno)
+{
+    const scene s = { "orbit", { HEILES, .degree = 8 }, { heiles_product }, 0, 0 };
+    const real q[] = { 0, y }, p[] = { sqrt(R(0.25) - y*y + 2*y*y*y/3 - py*py), py };
+    const real dq[] = { 1, R(0.3) }, dp[] = { R(0.2), R(-0.5) };
+    tangent T;
+    real column[2*N], before = sqrt(R(1.38)), sum = 0, Y = 0;
+    gvi_stepper *st = made(&T, &s, 1, 0, 0);
+    assert_ok(tangent_start(&T, st, 0, q, p, dq, dp));
+    *megno = 0;
+    for (int k = 1; k <= 50000; ++k) {
+        assert_ok(gvi_step(st, R(0.4)));
+        tangent_column(&T, st, 0, column, column + N);
+        real size = 0;
+        for (int i = 0; i < 2*N; ++i) size += column[i]*column[i];
+        size = sqrt(size);
+        const real l = log(size/before);
+        sum += l;
+        Y = (real)(k - 1)/(real)k*Y + 2*l;
+        *megno += (Y - *megno)/(real)k;
+        before = size;
+        if (size < 1e4) continue;
+        for (int i = 0; i < 2*N; ++i) column[i] /= size;
+        assert_ok(tangent_start(&T, st, st->t, st->q, st->p, column, column + N));
+        before = 1;
+    }
+    *exponent = sum/st->t;
+}
+
+static void regular_and_chaotic(ANY void **state)
+{
+    real exponent, megno;
+    for (int k = 0; k < 2; ++k) {
+        orbit(k ? R(0.55) : R(0.1), 0, &exponent, &megno);
+        assert_between(R(1.9), megno, R(2.1));
+        assert_between(0, exponent, R(0.001));
+        orbit(k ? 0 : R(-0.15), k ? R(0.1) : 0, &exponent, &megno);
+        assert_between(100, megno, 1000);
+        assert_between(R(0.01), exponent, R(0.1));
+    }
+}
+
+static void what_is_refused(ANY void **state)
+{
+    static const gvi_effect with_clock[] = { { .kind = GVI_POTENTIAL, .points = heiles, .value = heiles },
+                                             { .kind = GVI_CLOCK, .points = clock_rate } };
+    gvi_stepper st;
+    real energy;
+    tangent T = { .plain = { .n = N, .effects = with_clock, .effect_count = 2 },
+                  .product = { heiles_product, tangent_constant },
+                  .directions = 4, .room = room, .room_length = COUNT(room) };
+    assert_status(tangent_scene(&T), GVI_E_FORMULATION);
+    T.plain.effect_count = 1;
+    assert_ok(tangent_scene(&T));
+    assert_ok(gvi_init(&st, &T.desc, memory, sizeof memory));
+    assert_ok(tangent_start(&T, &st, 0, q0, p0, NULL, NULL));
+    assert_status(gvi_energy(&st, &energy), GVI_E_VALUE);
+    T.room_length = 20*N + 3*5*N - 1;
+    assert_status(tangent_scene(&T), GVI_E_MEMORY);
+    T.room_length = COUNT(room);
+    T.product[0] = NULL;
+    assert_status(tangent_scene(&T), GVI_E_ARGUMENT);
+    T.product[0] = heiles_product;
+    T.by_h = 1;
+    assert_status(tangent_scene(&T), GVI_E_ARGUMENT);
+    T.by_h = 0;
+    T.plain.mass = (gvi_mass)PENDULUM;
+    assert_status(tangent_scene(&T), GVI_E_ARGUMENT);            /* no products   */
+    T.velocity = pendulum_velocity_product;
+    T.gradient = pendulum_gradient_product;
+    assert_ok(tangent_scene(&T));
+    T.plain.formulation = GVI_NEWTON;
+    assert_status(tangent_scene(&T), GVI_E_FORMULATION);
+    T.plain.formulation = GVI_AUTO;
+    T.plain.mass.velocity = NULL;
+    assert_status(tangent_scene(&T), GVI_E_FORMULATION);
+}
+
+static int wrong_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
+{
+    heiles_product(x, d, parameter, user);
+    for (int k = 0; k < x->count; ++k) d->f[k] += d->q[x->stride+k]/50;
+    return 0;
+}
+
+/* Products that are right agree with differences; a term that is off by 2 % is found.  */
+static void what_the_check_finds(ANY void **state)
+{
+    const real v[] = { R(0.5), R(-0.75) }, dq[] = { R(0.25), R(0.5) }, dv[] = { R(-0.5), R(0.75) };
+    tangent T;
+    int part = -1;
+    for (int i = 0; i < COUNT(scenes); ++i) {
+        made(&T, &scenes[i], 1, 0, 0);
+        assert_between(0, tangent_check(&T, 0, q0, v, dq, dv, &part), 400*pow((real)EPS, R(0.8)));
+    }
+    made(&T, &scenes[0], 1, 0, 0);
+    T.product[0] = wrong_product;
+    assert_ok(tangent_scene(&T));
+    assert_between(0.005L, tangent_check(&T, 0, q0, v, dq, dv, &part), 0.1L);
+    assert_int_equal(part, 0);
+    made(&T, &scenes[COUNT(scenes) - 2], 1, 0, 0);
+    T.gradient = tangent_constant;
+    assert_ok(tangent_scene(&T));
+    assert_between(1, tangent_check(&T, 0, q0, v, dq, dv, &part), 1);
+    assert_int_equal(part, GVI_EFFECTS + 1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_step_with_its_derivative_is_symplectic),
+        cmocka_unit_test(every_column_is_what_differences_say),
+        cmocka_unit_test(the_motion_is_the_same),
+        cmocka_unit_test(keplers_derivative_has_order_2s),
+        cmocka_unit_test(parameters_of_an_oscillator),
+        cmocka_unit_test(by_the_length_of_the_step),
+        cmocka_unit_test(back_again),
+        cmocka_unit_test(regular_and_chaotic),
+        cmocka_unit_test(what_is_refused),
+        cmocka_unit_test(what_the_check_finds),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
