@@ -416,3 +416,5 @@ cmocka headers symbols parts bound float docs-check instructions prices $(EXAMPL
 endif
 
 -include $(wildcard $(BUILD)/tests/*.d $(BUILD)/examples/*.d $(BUILD)/cost/*.d $(BUILD)/theorems/*.d $(BUILD)/hard/*.d)
+
+-include tests/playground.mk
