@@ -86,7 +86,7 @@ SHOWN(kepler_text,
 static const gvi_real planet_mass[] = { 1 };
 static const struct central_gravity sun = { { 0, 1, 3 }, planet_mass, 1, { 0, 0, 0 } };
 static const struct oblateness bulge = { { 0, 1, 3 }, planet_mass, 1, 0.2, 0.1 };
-static const struct central_gravity star = { { 0, 1, 3 }, planet_mass, 0.05, { -2.2, 1.2, 0 } };
+static const struct central_gravity star = { { 0, 1, 3 }, planet_mass, 0.05, { -1.8, 1, 0 } };
 static const struct magnetic planet_field = { { 0, 1, 3 }, planet_mass, { 0, 0, 0.1 } };
 static const struct linear_drag dust = { 0, 3, 0.002, 3 };
 static const struct motor push = { { -1, 0 }, 0, 0.01, 1.3, 0 };
@@ -113,7 +113,7 @@ static void kepler_place(const double *q, unsigned on, double (*x)[3])
 {
     scene_point(x[0], 0, 0, 0);
     memcpy(x[1], q, sizeof x[1]);
-    scene_point(x[2], on & 4 ? -2.2 : NAN, 1.2, 0);
+    scene_point(x[2], on & 4 ? -1.8 : NAN, 1, 0);
 }
 
 static void kepler_quantities(const double *q, const double *v, const double *p, double *out)
@@ -131,7 +131,7 @@ static const scene kepler = {
     .parameter = { { "eccentricity", "", 0, 0.99, 0.01, 0.6 }, { "inclination", "\xc2\xb0", 0, 85, 5, 25 } },
     .quantity = { { "angular momentum", "third body,drag,drive" } }, .text = kepler_text,
     .build = kepler_build, .quantities = kepler_quantities,
-    .bodies = 3, .space = 1, .view = 1.75, .centre = { -0.6, 0, 0 }, .place = kepler_place,
+    .bodies = 3, .space = 1, .view = 1.35, .centre = { -0.6, 0, 0 }, .place = kepler_place,
     .radius = kepler_radius, .trails = 2, .fixed = 5,
 };
 
@@ -330,17 +330,17 @@ static struct tether net_hook[4];
 static const struct uniform_field net_weight = { { 0, KNOTS, 3 }, net_mass, { 0, 0, -9.81 } };
 static const struct springs net_threads = { { 0, KNOTS, 3 }, net_spring, 2*SIDE*(SIDE - 1), 3*KNOTS };
 static const struct tethers net_hooks = { { 0, KNOTS, 3 }, net_hook, 4, 3*KNOTS };
-static const struct air_drag net_air = { { 0, KNOTS, 3 }, 0.012, 3*KNOTS };
-static const struct motor net_shake = { { -1, 38 }, 0, 0.5, 9, 0 };
+static const struct air_drag net_air = { { 0, KNOTS, 3 }, 0.006, 3*KNOTS };
+static const struct motor net_shake = { { -1, 38 }, 0, 0.5, 20, 0 };
 static void net_make(void) {
     struct spring *next = net_spring;
     struct tether *hook = net_hook;
     for (int i = 0; i < KNOTS; ++i) {
         const int x = i%SIDE, y = i/SIDE, last = SIDE - 1;
-        for (int c = 0; c < 3; ++c) net_mass[3*i+c] = 0.02;
-        if (x < last) *next++ = (struct spring){ i, i + 1, 40, 0.2 };
-        if (y < last) *next++ = (struct spring){ i, i + SIDE, 40, 0.2 };
-        if (x%last == 0 && y%last == 0) *hook++ = (struct tether){ i, 100, 0, { 0.2*x, 0.2*y, 0 } };
+        for (int c = 0; c < 3; ++c) net_mass[3*i+c] = 0.01;
+        if (x < last) *next++ = (struct spring){ i, i + 1, 100, 0.2 };
+        if (y < last) *next++ = (struct spring){ i, i + SIDE, 100, 0.2 };
+        if (x%last == 0 && y%last == 0) *hook++ = (struct tether){ i, 500, 0, { 0.2*x, 0.2*y, 0 } };
     }
 }
 )
@@ -369,10 +369,10 @@ static const double net_radius[KNOTS] = { 5, 2.5, 2.5, 2.5, 5, 2.5, 2.5, 2.5, 2.
                                           2.5, 2.5, 2.5, 2.5, 2.5, 5, 2.5, 2.5, 2.5, 5 };
 
 static const scene spring_net = {
-    .name = "net", .title = "Net of springs", .about = "25 knots of 20 g on threads of 40 N/m, hung by the "
-    "corners. 75 coordinates. Drag the picture to turn it.", .n = 3*KNOTS, .degree = 6, .h = 0.03, .span = 1.2,
-    .speed = 0.5, .time_unit = "s", .error_unit = "m", .length_unit = "m",
-    .parameter = { { "dome", " m", -0.3, 0.3, 0.05, 0.25 } },
+    .name = "net", .title = "Net of springs", .about = "25 knots of 10 g on threads of 100 N/m, hung by the "
+    "corners. 75 coordinates. Drag the picture to turn it.", .n = 3*KNOTS, .degree = 6, .h = 0.01, .span = 0.4,
+    .speed = 0.25, .time_unit = "s", .error_unit = "m", .length_unit = "m",
+    .parameter = { { "dome", " m", -0.3, 0.3, 0.02, 0.1 } },
     .text = net_text, .make = "net_make();", .build = net_build,
     .bodies = KNOTS, .space = 1, .view = 0.75, .centre = { 0.4, 0.4, -0.05 }, .place = net_place,
     .rod = { { 0, 1, 5 }, { 5, 1, 5 }, { 10, 1, 5 }, { 15, 1, 5 }, { 20, 1, 5 },
@@ -459,7 +459,7 @@ static const double arm_radius[] = { 9, 7, 5 };
 
 static const scene robot_arm = {
     .name = "arm", .title = "Robot arm", .about = "Two links, 2 kg and 1.2 kg, with a servo in each joint; "
-    "the gears rub.", .n = 2, .degree = 8, .h = 0.08, .span = 4, .speed = 1, .time_unit = "s",
+    "the gears rub.", .n = 2, .degree = 8, .h = 0.03, .span = 4, .speed = 1, .time_unit = "s",
     .error_unit = "rad", .length_unit = "m",
     .parameter = { { "shoulder", "\xc2\xb0", -180, 180, 5, 120 }, { "elbow", "\xc2\xb0", -180, 180, 5, 130 } },
     .quantity = { { "angular momentum", "gravity,friction,lift,shoulder,elbow" } },
