@@ -385,7 +385,7 @@ function showFormulation(changed) {
 
 function showControls() {
   const s = scene(), kicks = set.rule === 'verlet' || set.rule === 'kicks8';
-  const put = (id, v) => { if (document.activeElement !== $(id)) $(id).value = v; };
+  const put = (id, v) => { if (document.activeElement !== $(id)) $(id).value = v === v ? v : ''; };
   $('scene-title').textContent = s.title;
   $('about').textContent = s.about;
   put('degree', set.degree); put('degree-n', set.degree); put('h-n', set.h);
@@ -402,10 +402,13 @@ function showControls() {
     canvas.classList.toggle('space', !!s.space);
     canvas.setAttribute('aria-label', `${s.title}. ${s.about}${s.space ? ' Arrow keys turn it.' : ''}`);
     lastCounts.total = [];
+    const chip = $('scenes').children[set.scene];
+    $('scenes').scrollLeft = chip.offsetLeft + chip.offsetWidth / 2 - $('scenes').clientWidth / 2;
   }
   s.effects.forEach((e, k) => { const row = $('rows').children[k]; row.querySelector('input').checked = !!(set.on >> k & 1); row.classList.toggle('off', !(set.on >> k & 1)); });
   s.parameters.forEach((p, k) => { $('p' + k).value = set.p[k]; $(`p${k}-out`).textContent = `${set.p[k]}${p.unit}`; });
   $('clock').disabled = s.clock < 0 || clocked();
+  $('clock').title = s.clock < 0 ? 'This scene has no clock' : '';
   $('reverse').setAttribute('aria-pressed', live.dir < 0);
   $('want').value = set.want; $('want-out').textContent = '10' + sup(set.want); $('want').setAttribute('aria-valuetext', `10 to the ${set.want}`);
   $('play').classList.toggle('paused', !live.playing);
@@ -434,7 +437,7 @@ function drawStability() {
   const line = (c, colour, width, extra = '') => c.length > 1 ? `<path d="${c.map((p, i) => { const [X, Y] = a.inside(p[2], Math.max(p[1], 1e-18)); return (i ? 'L' : 'M') + X.toFixed(1) + ' ' + Y.toFixed(1); }).join('')}" fill="none" stroke="var(--${colour})" stroke-width="${width}" stroke-linejoin="round" ${extra}/>` : '';
   const eps = 1.1e-16, step = Math.abs(set.h), x0 = Math.max(step, 10 ** lo), x1 = 10 ** Math.max(hi, lo + 2);
   let out = a.out;
-  if (step > 0) { const [X0, Y0] = a.inside(x0, eps * Math.sqrt(x0 / step)), [X1, Y1] = a.inside(x1, eps * Math.sqrt(x1 / step)); out += `<line x1="${X0}" y1="${Y0}" x2="${X1}" y2="${Y1}" stroke="var(--muted)" stroke-dasharray="5 4"/>`; }
+  if (step > 0 && isFinite(step)) { const [X0, Y0] = a.inside(x0, eps * Math.sqrt(x0 / step)), [X1, Y1] = a.inside(x1, eps * Math.sqrt(x1 / step)); out += `<line x1="${X0}" y1="${Y0}" x2="${X1}" y2="${Y1}" stroke="var(--muted)" stroke-dasharray="5 4"/>`; }
   const acting = s.effects.filter((e, k) => set.on >> k & 1), forces = acting.filter(e => e.kind === 1);
   const stays = s.kept.map(q => !acting.some(e => q.unless.includes(e.name)));
   out += (stays[1] ? line(curves.kept[1], 'verlet', 1.2) : '') + (stays[0] ? line(curves.kept[0], 'dop', 1.2) : '') + line(curves.rk4, 'rk4', 1.8) + line(curves.gvi, 'gvi', 2.2);
@@ -465,6 +468,7 @@ function problem() {
   const here = setting();
   if (live.ok && !p.points.some(a => a.id === here.id)) { if (!wanted.some(a => a.id === here.id)) wanted.push(here); }
   costDirty = true;
+  delete $('cost').dataset.left;
 }
 const setting = () => job(0, { degree: set.degree, rule: set.rule, tol: set.tol, h: set.h });
 function job(method, o) {
@@ -634,33 +638,48 @@ let pointed = false;
 const tell = (q, lead = '') => { const words = `${lead}${describe(q)}: error ${short(q.error)}${scene().unit ? ' ' + scene().unit : ''} in ${duration(q.time)}, ${many(q.steps)} steps, ${many(q.work)} evaluations${q.method ? '' : ` (${duration(q.time / q.steps)} a step)`}.`; if ($('point').textContent !== words) $('point').textContent = words; };
 
 /* ---- the C that makes a point ---- */
+/* Lines again for what a macro made one line of: "{" after ") " opens a block, any other a list. */
 function pretty(code) {
-  let out = '', depth = 0, round = 0, line = 0;
+  let out = '', round = 0;
+  const open = [], depth = () => open.filter(b => b).length;
   for (let i = 0; i < code.length; i++) {
     const c = code[i];
-    if (c === '(') round++; if (c === ')') round--;
-    out += c;
-    const block = c === '{' && /\)\s*$/.test(code.slice(0, i)) && round === 0, end = c === '}' && depth > 0 && line === depth && round === 0;
-    if (block) { depth++; line = depth; }
-    if (end) { depth--; line = depth; out = out.slice(0, -1).replace(/ {4}$/, '') + '}'; }
-    if (block || end || (c === ';' && round === 0)) { out += '\n' + '    '.repeat(depth); while (code[i + 1] === ' ') i++; }
+    round += c === '(' ? 1 : c === ')' ? -1 : 0;
+    if (c === '{') open.push(/\) $/.test(code.slice(0, i)) && !round);
+    const block = c === '{' && open[open.length - 1], end = c === '}' && open.pop();
+    out = end ? out.replace(/ *$/, '') + '    '.repeat(depth()) + '}' : out + c;
+    if (block || end || (c === ';' && !round && open.every(b => b))) {
+      out += '\n' + '    '.repeat(depth());
+      while (code[i + 1] === ' ') i++;
+    }
   }
   return out.trimEnd();
 }
+/* Only the definitions that the effects which are on lead to. */
+function needed(code, roots) {
+  const parts = pretty(code).split(/\n(?=\S)(?!\})/);
+  const name = p => (/(\w+)(\[[^\]]*\])?( =|;|\(void\))/.exec(p) || [])[1];
+  for (;;) {
+    const keep = parts.filter(p => /^enum/.test(p) || [roots, ...parts.filter(o => o !== p)].some(o => new RegExp(`\\b${name(p)}\\b`).test(o)));
+    if (keep.length === parts.length) return keep.join('\n');
+    parts.splice(0, parts.length, ...keep);
+  }
+}
 function program(j) {
   const s = scene(), on = s.effects.filter((e, k) => set.on >> k & 1), tau = clocked();
-  const steps = Math.ceil(s.span / j.h - 1e-9), C = v => Number.isInteger(v) ? String(v) : String(v);
-  const state = f => [...Array(s.n)].map((_, i) => C(x.world_number(0, f, i))).join(', ').replace(/(.{60,90}?), /g, '$1,\n                        ');
+  const steps = Math.ceil(s.span / j.h - 1e-9), C = v => Number.isInteger(v) ? v + '.0' : String(v);
+  const code = needed(s.text, [...on.map(e => e.code), s.make, s.mass].join(' '));
+  const state = f => [...Array(s.n)].map((_, i) => x.world_number(0, f, i)).join(', ').replace(/(.{60,90}?), /g, '$1,\n                        ');
   const rule = { gauss: '', 'gauss+2': ` .rule = { .points = ${j.degree + 2} },`, lobatto: ' .rule = { .kind = GVI_LOBATTO },' }[j.rule];
   const kicks = rule === undefined;
   return `/* ${s.title}: ${describe(j)}. Written by the playground of gvi.h.
    cc -I. -Iexamples -Idocs/playground this.c -lm      in the top folder of gvi.h  */
 #define GVI_IMPLEMENTATION
-#include "${tau ? 'clocks.h' : 'effects.h'}"
+#include "${/_clock /.test(code) ? 'clocks.h' : 'effects.h'}"
 #include <stdio.h>
 #include <stdlib.h>
 
-${pretty(s.text)}
+${code}
 
 int main(void)
 {
@@ -697,7 +716,7 @@ const list = (id, values, names) => { $(id).innerHTML = values.map((v, i) => `<o
 list('rule', RULES, RULE_NAMES);
 list('tolerance', TOLERANCES, TOLERANCES.map(t => t ? `a change below 10${sup(Math.log10(t))}` : 'rounding: symplectic to the last bit'));
 $('scenes').innerHTML = scenes.map((s, i) => `<button type="button" role="radio" data-scene="${s.name}" aria-checked="false">${html(s.title)}</button>`).join('');
-const choose = i => { defaults(i); pointed = false; live.fast = false; $('fast').setAttribute('aria-pressed', false); $('encounter').textContent = ''; live.playing = !calm.matches; turn.yaw = 0.6; turn.pitch = 0.5; apply(false); $('scenes').children[i].scrollIntoView?.({ block: 'nearest', inline: 'nearest' }); };
+const choose = i => { defaults(i); pointed = false; live.fast = false; $('fast').setAttribute('aria-pressed', false); $('encounter').textContent = ''; live.playing = !calm.matches; turn.yaw = 0.6; turn.pitch = 0.5; apply(false); };
 $('scenes').onclick = e => { const b = e.target.closest('button'); if (b) choose([...$('scenes').children].indexOf(b)); };
 $('scenes').onkeydown = e => {
   const d = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[e.key];
@@ -789,6 +808,7 @@ addEventListener('resize', () => { dirty = plotDirty = costDirty = true; });
 /* ---- frames ---- */
 let last = now(), told = 0, plotted = 0;
 function frame() {
+  requestAnimationFrame(frame);                          // first: whatever goes wrong, there is a next one
   const t = now(), dt = Math.min(0.05, (t - last) / 1000);
   last = t;
   if (live.playing && live.ok) simulate(dt);
@@ -800,7 +820,6 @@ function frame() {
     else if (costDirty) { drawCost(); plotted = t; }
     if (costDirty && t - lastCost > 500) { drawCost(); lastCost = t; }
   }
-  requestAnimationFrame(frame);
 }
 let lastCost = 0;
 readColours();

@@ -181,7 +181,7 @@ int EXPORT(world_open)(int which, int index, unsigned on, int degree, int rule, 
     world *w = &worlds[(unsigned)which%WORLDS];
     const scene *a = scene_at(index);
     int reads = 0;
-    if (!a || rule < 0 || rule >= RULES || degree < 1) return GVI_E_ARGUMENT;
+    if (!a) return GVI_E_ARGUMENT;
     if (w->open && keep) world_remember(w);
     keep = keep && w->scene == a;
     w->open = w->pinned = 0;
@@ -190,6 +190,12 @@ int EXPORT(world_open)(int which, int index, unsigned on, int degree, int rule, 
     w->steps = w->iterations = w->evaluations = 0;
     memset(w->total, 0, sizeof w->total);
     scene_ready(a, &w->setup, values);
+    if (!keep) {                                     /* to be seen even if it does not start */
+        w->t = 0;
+        memcpy(w->q, w->setup.q, sizeof w->q);
+        memcpy(w->v, w->setup.v, sizeof w->v);
+    }
+    if (rule < 0 || rule >= RULES || degree < 1) return GVI_E_ARGUMENT;
     w->desc = (gvi_desc){ .n = a->n, .mass = w->setup.mass, .effects = w->effects, .tolerance = tolerance };
     for (int i = 0; i < w->setup.rows; ++i) {
         if (!(on >> i & 1)) continue;
@@ -199,7 +205,7 @@ int EXPORT(world_open)(int which, int index, unsigned on, int degree, int rule, 
     }
     world_rule(&w->desc, degree, rule);
     /* Newton's method needs the square of s n: for a large scene the formulation is pinned */
-    if (gvi_size(&w->desc) > sizeof w->memory && w->desc.mass.kind != GVI_MASS_POSITION) {
+    if (a->n > 12 && gvi_size(&w->desc) > sizeof w->memory && a->n*degree > 300) {
         w->desc.formulation = reads ? GVI_VELOCITIES : GVI_POSITIONS;
         w->pinned = 1;
     }
