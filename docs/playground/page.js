@@ -23,7 +23,6 @@ const TOLERANCES = [0, 1e-12, 1e-9, 1e-6, 1e-3];
 const FORMULATIONS = ['not set up', 'explicit', 'positions', 'velocities', 'momenta', 'Newton'];
 const METHODS = ['gvi.h', 'Störmer-Verlet', 'Runge-Kutta 4', 'DOP853'];
 const COLOURS = ['gvi', 'verlet', 'rk4', 'dop'];
-const KINDS = ['potential', 'force', 'Lagrangian term', 'clock'];
 
 const scenes = [];
 for (let i = 0; i < x.scene_count(); i++) {
@@ -199,7 +198,7 @@ function follow() {
 let sampled = 0, trailed = 0, drawnPoints = 0;
 function stepOnce() {
   const status = x.world_advance(0, live.dir * set.h, 1);
-  if (status) { complain(`gvi_step at t = ${short(live.t, 3)}`, status, 'The state is as it was before the step.'); return false; }
+  if (status) { complain(`gvi_step at t = ${short(live.t, 3)}`, status, 'The state is as it was before the step.' + (live.dir < 0 && scene().effects.some((e, k) => e.kind === 1 && set.on >> k & 1) ? ' Backwards, friction drives the motion instead of damping it.' : '')); return false; }
   const t = x.world_number(0, 0, 0), dt = Math.abs(t - live.t);
   live.k += live.dir;
   live.t = t;
@@ -433,7 +432,7 @@ const marker = (m, X, Y, r, attributes = '') => m === 0 ? `<circle cx="${X}" cy=
 function drawStability() {
   const s = scene(), svg = $('stability'), h = s.h;
   const end = Math.max(live.elapsed, 20 * h), lo = Math.floor(Math.log10(h) + 0.0001), hi = Math.ceil(Math.log10(end) + 0.02);
-  const a = axes(svg, { x: [lo, Math.max(hi, lo + 2)], y: [-18, 2], xlabel: `time integrated${s.time ? ', ' + s.time : ''}`, ylabel: 'largest error so far, relative to the start', tick: k => k < -3 || k > 4 ? '10' + sup(k) : String(+(10 ** k).toPrecision(1)) });
+  const a = axes(svg, { x: [lo, Math.max(hi, lo + 2)], y: [-18, 2], xlabel: `time integrated, ${s.time || 'units of the scene'}`, ylabel: 'largest error so far, relative to the start', tick: k => k < -3 || k > 4 ? '10' + sup(k) : String(+(10 ** k).toPrecision(1)) });
   const line = (c, colour, width, extra = '') => c.length > 1 ? `<path d="${c.map((p, i) => { const [X, Y] = a.inside(p[2], Math.max(p[1], 1e-18)); return (i ? 'L' : 'M') + X.toFixed(1) + ' ' + Y.toFixed(1); }).join('')}" fill="none" stroke="var(--${colour})" stroke-width="${width}" stroke-linejoin="round" ${extra}/>` : '';
   const eps = 1.1e-16, step = Math.abs(set.h), x0 = Math.max(step, 10 ** lo), x1 = 10 ** Math.max(hi, lo + 2);
   let out = a.out;
@@ -627,9 +626,11 @@ function drawCost() {
   if (rival && cheapest) { const r = costOf(rival) / costOf(cheapest); words += `The best rival, ${describe(rival)}, takes ${priceOf(rival)}: ${r > 1.05 ? short(r, 1) + ' times as much.' : r < 0.95 ? short(r, 1) + ' of that.' : 'about the same.'}`; }
   else if (rival) words += `${describe(rival)} does, in ${priceOf(rival)}.`;
   else if (left === 0) words += 'No rival here reaches it.';
-  if (cheapest && cheapest.id !== here) words += ' <button type="button" id="use">Use it</button>';
+  if (cheapest && cheapest.id !== here) words += '<br><button type="button" id="use">Use it</button>';
+  else if (cheapest) words += '<br>';
+  if (cheapest) words += '<button type="button" id="copy-too">Copy the C</button>';
   if ($('cheapest').dataset.is !== words) { $('cheapest').innerHTML = words; $('cheapest').dataset.is = words; }
-  svg.setAttribute('aria-label', `Error at the end of the run against ${byTime ? 'time' : 'evaluations'}; ${good.length} points. ${$('cheapest').textContent.replace(/Use it$/, '')}`);
+  svg.setAttribute('aria-label', `Error at the end of the run against ${byTime ? 'time' : 'evaluations'}; ${good.length} points. ${$('cheapest').textContent.replace(/(Use it)?(Copy the C)?$/, '')}`);
   if (current && !pointed) tell(current, 'As set now: ');
   $('code').textContent = program(cheapest || current || setting());
   $('points').innerHTML = '<thead><tr><th>setting</th><th>error</th><th>time</th><th>evaluations</th><th>steps</th></tr></thead><tbody>' + p.points.filter(q => q.time).sort((b, c) => b.method - c.method || b.degree - c.degree || c.h - b.h).map(q => `<tr><td>${describe(q)}</td><td>${short(q.error)}</td><td>${duration(q.time)}</td><td>${many(q.work)}</td><td>${many(q.steps)}</td></tr>`).join('') + '</tbody>';
@@ -767,7 +768,7 @@ $('cost').onmousemove = e => { const q = pointAt(e); if (q) { pointed = true; te
 $('cost').onmouseleave = () => { pointed = false; costDirty = true; };
 const adopt = q => change({ degree: q.degree, rule: q.rule, tol: q.tol, h: q.h });
 $('cost').onclick = e => { const q = pointAt(e); if (q) { tell(q); if (!q.method) adopt(q); } };
-$('cheapest').onclick = e => { if (e.target.id === 'use' && cheapest) adopt(cheapest); };
+$('cheapest').onclick = e => { if (e.target.id === 'copy-too') copy($('code').textContent, e.target); if (e.target.id === 'use' && cheapest) adopt(cheapest); };
 async function copy(what, button) {
   const before = button.textContent;
   try { await navigator.clipboard.writeText(what); }
@@ -802,7 +803,7 @@ addEventListener('keydown', e => {
   e.preventDefault();
   $(act).click();
 });
-addEventListener('hashchange', () => { if (location.hash !== written && decodeURIComponent(location.hash) !== decodeURIComponent(written)) { const bad = recall(); apply(false, bad); } });
+addEventListener('hashchange', () => { if (location.hash !== written) { const bad = recall(); apply(false, bad); } });
 addEventListener('resize', () => { dirty = plotDirty = costDirty = true; });
 
 /* ---- frames ---- */

@@ -205,7 +205,7 @@ static int rival_begin(rival *r, int method, int n, const scene_setup *s, unsign
     for (int e = 0; e < s->rows; ++e) {
         const gvi_effect *effect = &s->row[e].force;
         if (!(on >> e & 1) || effect->kind == GVI_CLOCK) continue;
-        if (effect->kind == GVI_LAGRANGIAN) return -1;
+        if (effect->kind != GVI_POTENTIAL && effect->kind != GVI_FORCE) return -1;
         /* a force that reads no v would do, but nothing says that it does not              */
         if (effect->kind == GVI_FORCE && effect->points != motor_force) r->reads_velocity = 1;
         r->effect[r->effects].points = one_point(effect->points);

@@ -127,7 +127,7 @@ static const double kepler_radius[] = { 11, 6, 7 };
 static const scene kepler = {
     .name = "kepler", .title = "Planet", .about = "A planet on an ellipse about a star. Distances in AU, "
     "2\xcf\x80 of time is a year.", .n = 3, .degree = 8, .h = 0.25, .span = 62.83185307179586, .speed = 2,
-    .time_unit = "", .error_unit = "AU", .length_unit = "AU",
+    .time_unit = "yr/2\xcf\x80", .error_unit = "AU", .length_unit = "AU",
     .parameter = { { "eccentricity", "", 0, 0.99, 0.01, 0.6 }, { "inclination", "\xc2\xb0", 0, 85, 5, 25 } },
     .quantity = { { "angular momentum", "third body,drag,drive" } }, .text = kepler_text,
     .build = kepler_build, .quantities = kepler_quantities,

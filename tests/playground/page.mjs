@@ -59,6 +59,7 @@ const drawn = () => page.evaluate(() => { const c = document.querySelector('#can
 check('something is drawn', (await drawn()) > 1000);
 const moving = await page.evaluate(() => new Promise(done => { let n = 0, worst = 0, last = performance.now(); const begin = last; const f = () => { const t = performance.now(); worst = Math.max(worst, t - last); last = t; n++; if (t - begin < 2000) requestAnimationFrame(f); else done({ n: n / 2, worst }); }; requestAnimationFrame(f); }));
 check('frames go on while it measures', moving.n > 20 && moving.worst < 300, moving);
+const pace = Math.round(moving.n);
 
 /* ---- effects: what is off costs nothing ---- */
 await page.click('tr[data-effect=drag] input');
@@ -182,6 +183,15 @@ for (const hash of ['#scene=nonsense', '#degree=99', '#h=0', '#h=-1e999&degree=x
   await leave(page);
 }
 
+page = await visit('#scene=eight');
+await page.evaluate(() => { location.hash = '#scene=no-such-scene'; });
+await page.waitForTimeout(400);
+check('an address typed later is read, too', /no-such-scene.*bad argument/.test(await page.textContent('#alert-text')), await page.textContent('#alert-text'));
+await page.evaluate(() => { location.hash = '#scene=arm&degree=5'; });
+await page.waitForTimeout(400);
+check('and another', (await page.evaluate(() => window.gvi.set.degree)) === 5 && (await page.textContent('#scene-title')) === 'Robot arm');
+await leave(page);
+
 /* ---- every scene; what it writes compiles and says the same ---- */
 const programs = {};
 page = await visit();
@@ -232,6 +242,6 @@ for (const [name, hash, options] of [['light', '', { colorScheme: 'light', viewp
 check('no error on the console, no request', complaints.length === 0, complaints);
 await browser.close();
 rmSync(profile, { recursive: true, force: true });
-console.log(`playground: ${(bytes/1000).toFixed(0)} KB, first frame after ${ready} ms, screens in ${build}`);
+console.log(`playground: ${(bytes/1000).toFixed(0)} KB, first frame after ${ready} ms, ${pace} frames a second while it measures; screens in ${build}`);
 console.log(`${passed} passed, ${failed} failed`);
 process.exit(failed ? 1 : 0);
