@@ -6,7 +6,10 @@
    SHOWN(name, text)    the text as C and, for the program that the page writes, as a string
    ADD(s, name, what, on, effect)    a switch on the page; on = 1: on at first
    INSTEAD(s, effect)   the same as a force, for integrators that know no Lagrangian terms
-   MASS(s, mass)        if it is not the unit mass                                         */
+   MASS(s, mass)        if it is not the unit mass
+
+   A row may be of any kind that gvi.h has: the page takes kinds as they come, and the rivals refuse
+   what is neither potential nor force.  So a constraint is one more ADD, and "rods" one more scene. */
 #ifndef SCENES_H
 #define SCENES_H
 
