@@ -1,8 +1,9 @@
-/* svg.h - line plots as SVG files, for the examples and figures of gvi.h
+/* svg.h - plots and tables as SVG files, for the examples, studies and figures of gvi.h
 
    One call writes one picture: lines with a legend, linear or logarithmic
-   axes, ticks at round numbers.  Points that an axis cannot show (0 or less on
-   a logarithmic one, not finite) are left out and break the line.            */
+   axes, ticks at round numbers; several panels side by side; tables whose cells
+   are coloured.  Points that an axis cannot show (0 or less on a logarithmic
+   one, not finite) are left out and break the line.                          */
 #ifndef SVG_H
 #define SVG_H
 
@@ -21,28 +22,34 @@ typedef struct svg_plot {
     int             equal;              /* one unit is as long in x as in y    */
     const svg_line *lines;
     int             line_count;
+    int             from_zero;          /* a linear y axis that begins at 0    */
+    unsigned        thick, dashed;      /* lines drawn so, one bit each        */
 } svg_plot;
 
 /* An axis shows the numbers lo..hi (or their logarithms) at pixels a..b, with at
    most `most` ticks.                                                         */
 typedef struct svg_axis { int log; double lo, hi, a, b; int most; } svg_axis;
 
-static double svg_value(const svg_axis *axis, double x) { return axis->log ? log10(x) : x; }
+static double svg_value(const svg_axis *axis, double x) { return axis->log ? x > 0 ? log10(x) : -HUGE_VAL : x; }
 
 static double svg_pixel(const svg_axis *axis, double value)
 {
     return axis->a + (value - axis->lo)/(axis->hi - axis->lo)*(axis->b - axis->a);
 }
 
-/* The smallest of 1, 2, 5 times a power of ten that makes few enough ticks.    */
+/* 1, 2 or 5 times a power of ten, next to x: below for up = 0.                */
+static double svg_round(double x, int up)
+{
+    const double ten = pow(10, floor(log10(x) + 1e-9)), m = x/ten;
+    if (up) return ten*(m > 5.001 ? 10 : m > 2.001 ? 5 : m > 1.001 ? 2 : 1);
+    return ten*(m > 4.999 ? 5 : m > 1.999 ? 2 : 1);
+}
+
+/* Of a logarithmic axis: whole decades.                                       */
 static double svg_tick(const svg_axis *axis)
 {
-    double step = pow(10, floor(log10((axis->hi - axis->lo)/axis->most)));
-    static const double factor[] = { 1, 2, 5, 10 };
-    int k = 0;
-    if (axis->log && step < 1) return 1;
-    while (k < 3 && (axis->hi - axis->lo)/(factor[k]*step) > axis->most) ++k;
-    return factor[k]*step;
+    const double step = svg_round((axis->hi - axis->lo)/axis->most, 1);
+    return axis->log && step < 1 ? 1 : step;
 }
 
 static void svg_fit(svg_axis *axis, const svg_plot *plot, int vertical)
@@ -59,10 +66,16 @@ static void svg_fit(svg_axis *axis, const svg_plot *plot, int vertical)
     // nothing to show, or a single value: some room around it
     if (axis->lo > axis->hi) axis->lo = 0, axis->hi = 1;
     if (!(axis->hi - axis->lo > 1e-9*(fabs(axis->lo) + fabs(axis->hi)))) axis->lo -= 1, axis->hi += 1;
-    if (axis->log) {
+    if (axis->log && !vertical && axis->hi - axis->lo < 3) {
+        axis->lo = log10(svg_round(pow(10, axis->lo), 0));
+        axis->hi = log10(svg_round(pow(10, axis->hi), 1));
+    } else if (axis->log) {
         axis->lo = floor(axis->lo);
         axis->hi = ceil(axis->hi);
-    } else if (vertical) {
+    } else if (vertical && plot->from_zero) {
+        axis->lo = 0;
+        axis->hi *= 1.1;
+    } else if (vertical || plot->equal) {
         double margin = (axis->hi - axis->lo)/20;
         axis->lo -= margin;
         axis->hi += margin;
@@ -79,30 +92,43 @@ static void svg_square(svg_axis *x, svg_axis *y)
     less->hi = middle + half;
 }
 
-static void svg_ticks(FILE *f, const svg_axis *axis, const svg_axis *other, int vertical)
+static void svg_mark(FILE *f, const svg_axis *axis, const svg_axis *other, int vertical, double value, const char *text)
 {
-    double step = svg_tick(axis);
-    for (double k = ceil(axis->lo/step - 1e-9); k*step <= axis->hi + 1e-9*step; k += 1) {
-        double z = svg_pixel(axis, k*step);
-        char text[80];
-        if (axis->log)
-            snprintf(text, sizeof text, "10<tspan dy=\"-7\" font-size=\"12\">%.0f</tspan>", k*step);
-        else
-            snprintf(text, sizeof text, "%.6g", k*step + 0.0);
-        if (vertical) {
-            fprintf(f, "<path d=\"M%.1f %.1fH%.1f\" stroke=\"#ddd\"/>", other->a, z, other->b);
-            fprintf(f, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">%s</text>\n", other->a - 9, z + 5, text);
-        } else {
-            fprintf(f, "<path d=\"M%.1f %.1fV%.1f\" stroke=\"#ddd\"/>", z, other->a, other->b);
-            fprintf(f, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%s</text>\n", z, other->a + 23, text);
-        }
+    const double z = svg_pixel(axis, value);
+    if (vertical) {
+        fprintf(f, "<path d=\"M%.1f %.1fH%.1f\" stroke=\"#ddd\"/>", other->a, z, other->b);
+        fprintf(f, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">%s</text>\n", other->a - 9, z + 5, text);
+    } else {
+        fprintf(f, "<path d=\"M%.1f %.1fV%.1f\" stroke=\"#ddd\"/>", z, other->a, other->b);
+        fprintf(f, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%s</text>\n", z, other->a + 23, text);
     }
 }
 
-static void svg_curve(FILE *f, const svg_line *line, const svg_axis *x, const svg_axis *y, const char *colour)
+/* Powers of ten on logarithmic axes; 1, 2, 5 on a horizontal one that is shorter than two and a half, beyond
+   which their numbers would touch.                                            */
+static void svg_ticks(FILE *f, const svg_axis *axis, const svg_axis *other, int vertical)
+{
+    const int fine = axis->log && !vertical && axis->hi - axis->lo < 2.51;
+    const double step = svg_tick(axis);
+    char text[80];
+    for (double k = (fine ? floor(axis->lo) : ceil(axis->lo/step - 1e-9)); k*step <= axis->hi + 1e-9*step; k += 1)
+        for (int m = 0; m < (fine ? 3 : 1); ++m) {
+            static const double part[] = { 1, 2, 5 };
+            const double value = fine ? k + log10(part[m]) : k*step;
+            if (fine) snprintf(text, sizeof text, "%.6g", pow(10, value));
+            else if (!axis->log) snprintf(text, sizeof text, "%.6g", value + 0.0);
+            else snprintf(text, sizeof text, "10<tspan dy=\"-7\" font-size=\"12\">%.0f</tspan>", value);
+            if (value > axis->lo - 1e-9*step && value < axis->hi + 1e-9*step) svg_mark(f, axis, other, vertical, value, text);
+        }
+}
+
+/* width and dashes: attributes                                                */
+static void svg_path(FILE *f, const svg_line *line, const svg_axis *x, const svg_axis *y, const char *colour,
+                     const char *width, const char *dashes)
 {
     int drawing = 0;
-    fprintf(f, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"1.7\" stroke-linejoin=\"round\" d=\"", colour);
+    fprintf(f, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%s\"%s stroke-linejoin=\"round\" d=\"", colour,
+            width, dashes);
     for (int k = 0; k < line->count; ++k) {
         double a = svg_pixel(x, svg_value(x, line->x[k])), b = svg_pixel(y, svg_value(y, line->y[k]));
         int shown = isfinite(a) && isfinite(b);
@@ -113,36 +139,135 @@ static void svg_curve(FILE *f, const svg_line *line, const svg_axis *x, const sv
     fprintf(f, "\"/>\n");
 }
 
-/* Writes the picture.  Returns 0, or -1 if the file cannot be written.        */
-static inline int svg_write(const char *path, const svg_plot *plot)
+static inline void svg_curve(FILE *f, const svg_line *line, const svg_axis *x, const svg_axis *y, const char *colour)
 {
-    static const char *const colour[] = { "#0072b2", "#d55e00", "#009e73", "#aa4499", "#b8860b", "#444444" };
-    const double width = 760, height = 460;
-    svg_axis x = { plot->log_x, 0, 1, 80, 610, 8 }, y = { plot->log_y, 0, 1, 400, 50, 8 };
-    FILE *f = fopen(path, "w");
-    if (!f) return -1;
-    svg_fit(&x, plot, plot->equal);
-    svg_fit(&y, plot, 1);
-    if (plot->equal) svg_square(&x, &y);
+    svg_path(f, line, x, y, colour, "1.7", "");
+}
 
+static FILE *svg_begin(const char *path, double width, double height)
+{
+    FILE *f = fopen(path, "w");
+    if (!f) return NULL;
     fprintf(f, "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\"", width, height);
     fprintf(f, " width=\"%.0f\" height=\"%.0f\"", width, height);
     fprintf(f, " font-family=\"Helvetica, Arial, sans-serif\" font-size=\"15\" fill=\"#222\">\n");
     fprintf(f, "<rect width=\"100%%\" height=\"100%%\" fill=\"#fff\"/>\n");
+    return f;
+}
+
+static int svg_end(FILE *f)
+{
+    fprintf(f, "</svg>\n");
+    return fclose(f) ? -1 : 0;
+}
+
+static const char *svg_colour(const svg_plot *plot, int i)
+{
+    static const char *const colour[] = { "#0072b2", "#d55e00", "#009e73", "#aa4499", "#b8860b", "#56b4e9", "#88562b",
+                                          "#444444" };
+    return plot->thick >> i & 1u ? "#111111" : colour[(i - (int)(plot->thick & 1u))%8];
+}
+
+static const char *svg_dashes(const svg_plot *plot, int i)
+{
+    return plot->dashed >> i & 1u ? " stroke-dasharray=\"6 3\"" : "";
+}
+
+/* One plot between left and right; the first line on top.                     */
+static void svg_panel(FILE *f, const svg_plot *plot, double left, double right)
+{
+    svg_axis x = { plot->log_x, 0, 1, left, right, 8 }, y = { plot->log_y, 0, 1, 400, 50, 8 };
+    svg_fit(&x, plot, 0);
+    svg_fit(&y, plot, 1);
+    if (plot->equal) svg_square(&x, &y);
     svg_ticks(f, &x, &y, 0);
     svg_ticks(f, &y, &x, 1);
     fprintf(f, "<path d=\"M%.0f %.0fV%.0fH%.0f\" fill=\"none\" stroke=\"#222\"/>\n", x.a, y.b, y.a, x.b);
-    for (int i = 0; i < plot->line_count; ++i) {
-        svg_curve(f, &plot->lines[i], &x, &y, colour[i % 6]);
-        fprintf(f, "<path d=\"M%.0f %dh20\" stroke=\"%s\" stroke-width=\"3\"/>", x.b + 18, 70 + 24*i, colour[i % 6]);
-        fprintf(f, "<text x=\"%.0f\" y=\"%d\">%s</text>\n", x.b + 45, 75 + 24*i, plot->lines[i].name);
-    }
+    for (int i = plot->line_count - 1; i >= 0; --i)
+        svg_path(f, &plot->lines[i], &x, &y, svg_colour(plot, i), plot->thick >> i & 1u ? "3.6" : "1.7", svg_dashes(plot, i));
     fprintf(f, "<text x=\"%.0f\" y=\"28\" font-size=\"17\" font-weight=\"bold\">%s</text>\n", x.a, plot->title);
-    fprintf(f, "<text x=\"%.0f\" y=\"%.0f\" text-anchor=\"middle\">%s</text>\n",
-            (x.a + x.b)/2, height - 12, plot->x_label);
-    fprintf(f, "<text transform=\"translate(22 %.0f) rotate(-90)\" text-anchor=\"middle\">%s</text>\n</svg>\n",
+    fprintf(f, "<text x=\"%.0f\" y=\"448\" text-anchor=\"middle\">%s</text>\n", (x.a + x.b)/2, plot->x_label);
+    fprintf(f, "<text transform=\"translate(%.0f %.0f) rotate(-90)\" text-anchor=\"middle\">%s</text>\n", x.a - 58,
             (y.a + y.b)/2, plot->y_label);
-    return fclose(f) ? -1 : 0;
+}
+
+/* Writes plots side by side, each `wide` pixels; the legend is that of the first.  Returns 0, or -1.  */
+static inline int svg_write_all(const char *path, const svg_plot *plots, int count, double wide)
+{
+    const double end = 80 + wide*count + 120.0*(count - 1);
+    FILE *f = svg_begin(path, end + (wide < 500 ? 240 : 150), 460);
+    if (!f) return -1;
+    for (int k = 0; k < count; ++k) svg_panel(f, plots + k, 80 + (wide + 120)*k, 80 + (wide + 120)*k + wide);
+    for (int i = 0; i < plots->line_count; ++i) {
+        const int thick = plots->thick >> i & 1u;
+        fprintf(f, "<path d=\"M%.0f %dh22\" stroke=\"%s\" stroke-width=\"%s\"%s/>", end + 18, 70 + 26*i,
+                svg_colour(plots, i), thick ? "4.5" : "3", svg_dashes(plots, i));
+        fprintf(f, "<text x=\"%.0f\" y=\"%d\"%s>%s</text>\n", end + 47, 75 + 26*i, thick ? " font-weight=\"bold\"" : "",
+                plots->lines[i].name);
+    }
+    return svg_end(f);
+}
+
+/* Writes one picture.  Returns 0, or -1 if the file cannot be written.        */
+static inline int svg_write(const char *path, const svg_plot *plot) { return svg_write_all(path, plot, 1, 530); }
+
+/* ------------------------------------------------------------------- tables */
+
+/* NaN in `got`: the cell is not there.  NaN in `expected`: refused, as it must be */
+typedef struct svg_cell { double got, expected; } svg_cell;
+
+typedef struct svg_table {
+    const char        *title;
+    const char *const *rows, *const *columns;
+    int                row_count, column_count;
+    const svg_cell    *cells;               /* [row_count][column_count] */
+} svg_table;
+
+enum { SVG_CELL_WIDTH = 50, SVG_CELL_HEIGHT = 27, SVG_TABLE_LEFT = 130, SVG_TABLE_TOP = 62 };
+
+/* Blue: within the tolerance; orange: not; grey: refused                      */
+static void svg_draw_cell(FILE *f, const svg_cell *cell, double tolerance, double x, double y)
+{
+    const int refused = isnan(cell->expected), good = fabs(cell->got - cell->expected) <= tolerance;
+    if (isnan(cell->got) && !refused) return;
+    fprintf(f, "<rect x=\"%.0f\" y=\"%.0f\" width=\"%d\" height=\"%d\" fill=\"%s\" stroke=\"#fff\"/>", x, y,
+            SVG_CELL_WIDTH, SVG_CELL_HEIGHT, refused ? "#dddddd" : good ? "#b5d6ee" : "#f0a060");
+    fprintf(f, "<text x=\"%.0f\" y=\"%.0f\" text-anchor=\"middle\"", x + SVG_CELL_WIDTH/2.0, y + 19);
+    if (refused) fprintf(f, " fill=\"#777\">no</text>\n");
+    else fprintf(f, ">%.2f</text>\n", cell->got);
+}
+
+static void svg_draw_table(FILE *f, const svg_table *t, double tolerance, double x, double y)
+{
+    const double left = x + SVG_TABLE_LEFT, top = y + SVG_TABLE_TOP;
+    fprintf(f, "<text x=\"%.0f\" y=\"%.0f\" font-weight=\"bold\">%s</text>\n", left, y + 20, t->title);
+    for (int j = 0; j < t->column_count; ++j)
+        fprintf(f, "<text x=\"%.0f\" y=\"%.0f\" text-anchor=\"middle\">%s</text>\n", left + (j + 0.5)*SVG_CELL_WIDTH,
+                top - 14, t->columns[j]);
+    for (int i = 0; i < t->row_count; ++i) {
+        fprintf(f, "<text x=\"%.0f\" y=\"%.0f\" text-anchor=\"end\">%s</text>\n", left - 8, top + i*SVG_CELL_HEIGHT + 19,
+                t->rows[i]);
+        for (int j = 0; j < t->column_count; ++j)
+            svg_draw_cell(f, &t->cells[i*t->column_count + j], tolerance, left + j*SVG_CELL_WIDTH, top + i*SVG_CELL_HEIGHT);
+    }
+}
+
+/* Writes the tables, `across` in a line.  Returns 0, or -1 if that fails.     */
+static inline int svg_write_tables(const char *path, const char *title, const char *note, double tolerance,
+                                   const svg_table *tables, int count, int across)
+{
+    double width = 0, height = 0;
+    for (int k = 0; k < count; ++k) {
+        width = fmax(width, SVG_TABLE_LEFT + tables[k].column_count*SVG_CELL_WIDTH + 20);
+        height = fmax(height, SVG_TABLE_TOP + tables[k].row_count*SVG_CELL_HEIGHT + 16);
+    }
+    FILE *f = svg_begin(path, across*width, 66 + (count + across - 1)/across*height);
+    if (!f) return -1;
+    fprintf(f, "<text x=\"16\" y=\"28\" font-size=\"17\" font-weight=\"bold\">%s</text>\n", title);
+    fprintf(f, "<text x=\"16\" y=\"50\">%s</text>\n<g font-size=\"14\">\n", note);
+    for (int k = 0; k < count; ++k) svg_draw_table(f, &tables[k], tolerance, k%across*width, 58 + k/across*height);
+    fprintf(f, "</g>\n");
+    return svg_end(f);
 }
 
 #endif

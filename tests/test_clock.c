@@ -9,7 +9,7 @@
 #include <time.h>
 
 typedef gvi_real real;
-#include "pendulum.h"
+#include "mechanics.h"
 #include "hard/extrapolate.h"
 
 /* ------------------------------------------------------------------- scenes
@@ -29,20 +29,6 @@ static int distance_clock(const gvi_points *x, void *user)
         x->value[k] += g;
         x->f[k] += w*X[k];
         x->f[x->stride + k] += w*Y[k];
-    }
-    return 0;
-}
-
-static int attraction(const gvi_points *x, void *user)
-{
-    const real *X = x->q, *Y = X + x->stride;
-    (void)user;
-    for (int k = 0; k < x->count; ++k) {
-        const real d2 = X[k]*X[k] + Y[k]*Y[k], d = sqrt(d2), w = 1/(d2*d);
-        if (x->value) x->value[k] -= 1/d;
-        if (!x->f) continue;
-        x->f[k] -= w*X[k];
-        x->f[x->stride + k] -= w*Y[k];
     }
     return 0;
 }
@@ -917,7 +903,7 @@ static outcome revolve(const orbit *a)
         if (hypot(st.q[0], st.q[1]) > 1) z.energy = fmaxl(z.energy, energy_error(&st, E0));
         else z.near = fmaxl(z.near, energy_error(&st, E0));
         if (st.t < (double)(99*o.period)) continue;
-        kepler(&o, a->far, (long double)st.t + (long double)st.x.te, &X, &Y);       // t as it is carried
+        kepler(&o, a->far, (long double)st.t + (long double)st.t_low, &X, &Y);       // t as it is carried
         z.worst = fmaxl(z.worst, hypotl(st.q[0] - X, st.q[1] - Y));
     }
     z.seconds = (double)(clock() - began)/CLOCKS_PER_SEC;

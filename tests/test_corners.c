@@ -266,8 +266,7 @@ static int pendula(const gvi_points *x, void *user)
     return 0;
 }
 
-/* Rows are made eight at a time, one by one or in vectors: which of them a coordinate is among must not
-   be seen in a bit of it.  How many there are hardly changes when the iteration ends: with a tolerance the
+/* Stage values are made in whole vectors: which lane a coordinate is in must not be seen in a bit of it.  How many there are hardly changes when the iteration ends: with a tolerance the
    sum of all changes has a limit, so eight take a little longer than seven.   */
 static void coordinates_alike_move_alike(void **state)
 {
@@ -289,36 +288,11 @@ static void coordinates_alike_move_alike(void **state)
                     for (int k = 0; k < 12; ++k) assert_ok(gvi_step(&st, k < 8 ? (real)0.3L : (real)0.17L));
                     for (int i = 1; i < n; ++i)
                         assert_true(st.q[i] == st.q[0] && st.p[i] == st.p[0]
-                                    && st.x.qe[i] == st.x.qe[0] && st.x.pe[i] == st.x.pe[0]);
+                                    && st.q_low[i] == st.q_low[0] && st.p_low[i] == st.p_low[0]);
                     const int its = (int)st.counters.iterations, *seven = &rounds[s - 1][f - GVI_POSITIONS][kind];
                     if (n == 7) rounds[s - 1][f - GVI_POSITIONS][kind] = its;      // of 40 to 120
                     if (n > 7) assert_between(*seven - 2 - 6*(kind > 1), its, *seven + 2 + 6*(kind > 1));
                 }
-    (void)state;
-}
-
-/* Increments of a few points, of all coordinates at once: the sums that are made of one       */
-static void sums_of_all_coordinates_are_those_of_one(void **state)
-{
-    static const gvi_effect alone[] = { { .kind = GVI_POTENTIAL, .points = spring } };
-    enum { n = 21 };
-    real F[4*n], rest[n], sum[n], left[n], lever[n], z[16];
-    if (!GVI__WIDE) skip();
-    for (int r = 1; r <= 4; ++r) {
-        gvi_stepper st;
-        set_up(&st, (gvi_desc){ .n = n, .degree = r, .effects = alone,
-                                .effect_count = 1, .formulation = GVI_POSITIONS }, memory);
-        for (int k = 0; k < r*n; ++k) F[k] = (real)(cosl(k*k + 0.3L)*ldexpl(1, k % 7));
-        for (int i = 0; i < n; ++i) rest[i] = (real)sinl(i)*EPS;
-        assert_ok(gvi_start(&st, 0, rest, rest));
-        assert_ok(gvi_step(&st, (real)0.3L));                          // h b
-        gvi__exact_sums(&st, F, rest, sum, left, lever);
-        for (int i = 0; i < n; ++i) {
-            const gvi__two one = gvi__exact_dot(r, st.x.hb, F + i*r, rest[i], z);
-            const real arm = gvi__lever_sum(r, st.x.c, st.x.hb, F + i*r);
-            assert_true(sum[i] == one.hi && left[i] == one.lo && lever[i] == arm);
-        }
-    }
     (void)state;
 }
 
@@ -349,7 +323,6 @@ int main(void)
         cmocka_unit_test(a_force_may_set_in_where_next_to_nothing_was),
         cmocka_unit_test(the_drift_that_rounding_leaves_is_no_larger_than_documented),
         cmocka_unit_test(coordinates_alike_move_alike),
-        cmocka_unit_test(sums_of_all_coordinates_are_those_of_one),
         cmocka_unit_test(weights_that_hide_their_sum_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -13,7 +13,7 @@
 #include <tgmath.h>
 
 typedef gvi_real real;
-#include "pendulum.h"
+#include "mechanics.h"
 
 /* ---------------------------------------------------------- the problem
 

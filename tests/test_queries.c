@@ -9,7 +9,7 @@
 #include <tgmath.h>
 
 typedef gvi_real real;
-#include "pendulum.h"
+#include "mechanics.h"
 
 #define PI 3.14159265358979323846264338327950288L
 

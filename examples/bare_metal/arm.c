@@ -8,10 +8,7 @@
 #define GVI_IMPLEMENTATION
 #define GVI_STATIC
 #define GVI_ONLY_MOMENTA
-#define GVI_NO_LAGRANGIAN
 #define GVI_NO_CLOCK
-#define GVI_NO_DENSE
-#define GVI_NO_OWN
 #define GVI_EFFECTS 3
 #include "gvi.h"
 #include "board.h"

@@ -8,9 +8,6 @@
 #define GVI_IMPLEMENTATION
 #define GVI_STATIC
 #define GVI_ONLY_VELOCITIES
-#define GVI_NO_LAGRANGIAN
-#define GVI_NO_DENSE
-#define GVI_NO_OWN
 #define GVI_EFFECTS 3
 #include "gvi.h"
 #include "board.h"

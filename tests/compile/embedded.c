@@ -3,9 +3,6 @@
 #define GVI_IMPLEMENTATION
 #define GVI_STATIC              /* what is not called is not there                    */
 #define GVI_ONLY_VELOCITIES     /* the formulation that the scene needs, see below    */
-#define GVI_NO_LAGRANGIAN
-#define GVI_NO_DENSE
-#define GVI_NO_OWN
 #define GVI_EFFECTS 3           /* three rows in effects[]                            */
 #include "gvi.h"
 #include <math.h>

@@ -71,8 +71,6 @@ int main(void)
     static const double kick[] = { 0.67560359597982882, -0.17560359597982882, -0.17560359597982882, 0.67560359597982882 };
     const gvi_desc forest = { .n = 1, .rule = { .kind = GVI_KICKS, .points = 4, .nodes = at, .weights = kick },
                               .effects = scene, .effect_count = 1 };
-    static const double k[] = { 1e6 };
-    const gvi_desc spring = { .n = 1, .effects = scene, .effect_count = 1, .stiffness = k };
     static double memory[GVI_LENGTH(1, 8, 8)];
     gvi_stepper st;
 
@@ -80,6 +78,5 @@ int main(void)
     if (gvi_init(&st, &verlet, memory, sizeof memory) || st.formulation != GVI_EXPLICIT) return 1;
     if (gvi_init(&st, &radau, memory, sizeof memory) || st.order != 3) return 2;
     if (gvi_init(&st, &forest, memory, sizeof memory) || st.formulation != GVI_EXPLICIT) return 3;
-    if (gvi_init(&st, &spring, memory, sizeof memory) || st.formulation != GVI_POSITIONS) return 4;
     return comet();
 }

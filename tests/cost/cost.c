@@ -15,7 +15,7 @@
 
 #include "baselines.h"
 #include "gvi_run.h"
-#include "plot.h"
+#include "svg.h"
 #include "horizon.h"
 
 #include <stdlib.h>
@@ -182,47 +182,24 @@ static gvi_setting *add_setting(int degree, gvi_rule_kind rule, gvi_formulation 
     return settings + setting_count++;
 }
 
-/* The baselines' splittings as tables of kicks, exact or rounded at each, whatever the tolerance;
-   stiff: what the scene says of its springs is said.                                          */
-static void add_kicks(int stiff, double tolerance)
+/* The baselines' splittings as tables of kicks.                                                */
+static void add_kicks(void)
 {
     static const char *const names[] = { "Stoermer-Verlet", "Kahan-Li 8", "Sofroniou-Spaletta 10",
                                          "Blanes-Moan SRKN11", "Blanes-Moan SRKN14", "Splitting 8" };
     static double nodes[COUNT(names)][TABLE], weights[COUNT(names)][TABLE];
     for (int i = 0; i < COUNT(names); ++i) {
-        gvi_setting *s = add_setting(1, GVI_KICKS, GVI_EXPLICIT, tolerance);
+        gvi_setting *s = add_setting(1, GVI_KICKS, GVI_EXPLICIT, 0);
         s->name = names[i];
-        s->stiff = stiff;
         s->points = baseline_kicks(baseline_named(names[i]), nodes[i], weights[i]);
         s->nodes = nodes[i];
         s->weights = weights[i];
     }
 }
 
-/* The scene in two effects, one of them marked as weak.                                       */
-static void add_marked(const problem *p)
-{
-    static const int degrees[] = { 8, 7, 16 };
-    static const double tolerances[] = { 1e-12, 0, 1e-18, 1e-17, 1e-16, 1e-15, 1e-14, 1e-13, 1e-11, 1e-10, 1e-9, 1e-8 };
-    for (int i = 0; i < COUNT(degrees); ++i)
-        for (int k = 0; k < COUNT(tolerances); ++k)
-            add_setting(degrees[i], GVI_GAUSS, GVI_POSITIONS, tolerances[k])->scene = p->marked;
-}
-
 /* Every decade, the likely ones first.                                                        */
 static const double decades[] = { 1e-12, 0, 1e-18, 1e-17, 1e-16, 1e-15, 1e-14, 1e-13, 1e-11, 1e-10, 1e-9, 1e-8,
                                   1e-7, 1e-6 };
-
-/* Degrees times tolerances again, and splittings, with the scene's stiffness.                 */
-static void add_stiff(void)
-{
-    static const int degrees[] = { 8, 7, 6, 10, 12, 16 };
-    for (int i = 0; i < COUNT(degrees); ++i)
-        for (int k = 0; k < COUNT(decades); ++k)
-            add_setting(degrees[i], GVI_GAUSS, GVI_POSITIONS, decades[k])->stiff = 1;
-    add_kicks(1, 0);
-    add_kicks(1, 1e-12);
-}
 
 /* Kepler's ellipses with a clock.                                                             */
 static void add_clocks(const problem *p)
@@ -250,10 +227,8 @@ static void settings_for(const problem *p)
         for (int k = 0; k < COUNT(decades); ++k) add_setting(degrees[i], GVI_GAUSS, pinned, decades[k]);
     add_setting(8, GVI_GAUSS, GVI_AUTO, 0);
     add_setting(12, GVI_GAUSS, GVI_AUTO, 0);
-    if (!p->slope) { add_kicks(0, 0); add_kicks(0, 1e-12); }
+    if (!p->slope) add_kicks();
     if (p->clocks[0]) add_clocks(p);
-    if (p->marked) add_marked(p);
-    if (p->stiffness) add_stiff();
 }
 
 static curve *new_curve(study *y, const char *family, int ours, int structure)
@@ -476,7 +451,8 @@ static void make_envelope(const study *y, const char *family, int of_energy, env
 static void write_picture(const study *y, const options *o)
 {
     static envelope envelopes[2][12];
-    plot_line lines[2][12];
+    svg_line lines[2][12];
+    unsigned ours = 0;
     int count = 0;
     for (int i = 0; i < y->count && count < 12; ++i) {
         int known = 0;
@@ -485,17 +461,22 @@ static void write_picture(const study *y, const options *o)
         for (int e = 0; e < 2; ++e) {
             envelope *v = &envelopes[e][count];
             make_envelope(y, y->curves[i].family, e, v);
-            plot_line line = { y->curves[i].family, y->curves[i].ours, v->count, v->x, v->y };
+            svg_line line = { y->curves[i].family, v->x, v->y, v->count };
             lines[e][count] = line;
         }
-        ++count;
+        ours |= (unsigned)(y->curves[i].ours != 0) << count++;
     }
     char path[512];
     snprintf(path, sizeof path, "%s/%s.svg", o->out, y->p->key);
-    plot_panel panels[2] = {
-        { y->p->title, "CPU time, ms", "error of q at the end", 0, lines[0], count },
-        { "", "CPU time, ms", "largest relative error of the energy", 0, lines[1], count } };
-    if (plot_write(path, panels, 2)) perror(path);
+    svg_plot panels[2] = {
+        { .title = y->p->title, .x_label = "CPU time, ms", .y_label = "error of q at the end", .lines = lines[0] },
+        { .title = "", .x_label = "CPU time, ms", .y_label = "largest relative error of the energy", .lines = lines[1] } };
+    for (int e = 0; e < 2; ++e) {
+        panels[e].log_x = panels[e].log_y = 1;
+        panels[e].line_count = count;
+        panels[e].thick = ours;
+    }
+    if (svg_write_all(path, panels, 2, 360)) perror(path);
 }
 
 /* ---------------------------------------------------------------- summary */
@@ -609,13 +590,14 @@ static void study_horizon(const options *o)
         for (int r = 0; r < 3; ++r) print_ms(ms[r][i]);
         printf(" %9.2f\n", fmin(ratio[1][i], ratio[2][i]));
     }
-    plot_line lines[] = { { "gvi.h", 1, 3, length, ratio[0] }, { "RKN12(10), fixed step", 0, 3, length, ratio[1] },
-                          { "RKN12(10), adaptive", 0, 3, length, ratio[2] } };
-    plot_panel panel = { "Outer solar system: time to an error of 1e-7", "length in units of 548 years",
-                         "times the time of gvi.h", 1, lines, 3 };
+    svg_line lines[] = { { "gvi.h", length, ratio[0], 3 }, { "RKN12(10), fixed step", length, ratio[1], 3 },
+                         { "RKN12(10), adaptive", length, ratio[2], 3 } };
+    svg_plot panel = { .title = "Outer solar system: time to an error of 1e-7", .x_label = "length in units of 548 years",
+                       .y_label = "times the time of gvi.h", .log_x = 1, .from_zero = 1, .lines = lines, .line_count = 3,
+                       .thick = 1 };
     char path[512];
     snprintf(path, sizeof path, "%s/horizon.svg", o->out);
-    if (plot_write(path, &panel, 1)) perror(path);
+    if (svg_write_all(path, &panel, 1, 360)) perror(path);
 }
 
 /* ------------------------------------------------------------------- main */

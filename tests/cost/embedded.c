@@ -21,7 +21,7 @@
 #include "embedded_run.h"
 #include "embedded_bound.h"
 #include "embedded_truth.h"
-#include "plot.h"
+#include "svg.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -67,8 +67,8 @@ static void run_state(const run *r, double *y)
             y[i] = (double)r->hand.y[i] + (double)r->hand.rest[i];
             y[n + i] = (double)r->hand.y[n + i] + (double)r->hand.rest[n + i];
         } else {
-            y[i] = (double)r->st.q[i] + (double)r->st.x.qe[i];
-            y[n + i] = (double)r->st.p[i] + (double)r->st.x.pe[i];
+            y[i] = (double)r->st.q[i] + (double)r->st.q_low[i];
+            y[n + i] = (double)r->st.p[i] + (double)r->st.p_low[i];
         }
     if (!by_hand_only(r->setting)) true_velocity((int)(r->scene - scenes), y);
 }
@@ -396,7 +396,7 @@ static void choice_table(void)
 
 /* ------------------------------------------------------------------- picture */
 
-typedef struct family { const char *name; int setting, style; double x[SIZES], y[SIZES]; int count; } family;
+typedef struct family { const char *name; int setting, dashed; double x[SIZES], y[SIZES]; int count; } family;
 
 static void points_of(const scene *s, family *f)
 {
@@ -410,24 +410,27 @@ static void points_of(const scene *s, family *f)
     }
 }
 
-static void panel_of(const scene *s, const char *title, family *f, plot_line *lines, plot_panel *panel)
+static void panel_of(const scene *s, const char *title, family *f, svg_line *lines, svg_plot *panel)
 {
+    unsigned dashed = 0;
     for (int k = 0; k < LINES; ++k) {
         points_of(s, f + k);
-        const plot_line line = { f[k].name, f[k].style, f[k].count, f[k].x, f[k].y };
+        const svg_line line = { f[k].name, f[k].x, f[k].y, f[k].count };
         lines[k] = line;
+        dashed |= (unsigned)f[k].dashed << k;
         if (f[k].count == 0 && s->verlet) complain("no point in the picture", s, settings + f[k].setting);
     }
-    const plot_panel p = { title, "millions of instructions for a unit of time", "drift of the energy", 0,
-                           lines, LINES };
+    const svg_plot p = { .title = title, .x_label = "millions of instructions for a unit of time",
+                         .y_label = "drift of the energy", .log_x = 1, .log_y = 1, .lines = lines, .line_count = LINES,
+                         .dashed = dashed };
     *panel = p;
 }
 
 static int picture(const char *path)
 {
     static family f[2][LINES];
-    plot_line lines[2][LINES];
-    plot_panel panels[2];
+    svg_line lines[2][LINES];
+    svg_plot panels[2];
     static const struct { const char *name; setting setting; } wanted[LINES] = {
         { "gvi.h, s = 2, N = 2", { FIXED, 2, 2 } }, { "gvi.h, s = 2, N = 3", { FIXED, 2, 3 } },
         { "gvi.h, s = 3, N = 3", { FIXED, 3, 3 } }, { "gvi.h, s = 4, N = 4", { FIXED, 4, 4 } },
@@ -438,11 +441,11 @@ static int picture(const char *path)
         const setting *t = &wanted[k%LINES].setting;
         x->name = wanted[k%LINES].name;
         x->setting = find(t->method, t->degree, t->iterations);
-        x->style = t->method == RK4 || t->method == RK4_CARRIED ? PLOT_DASHED : PLOT_THIN;
+        x->dashed = t->method == RK4 || t->method == RK4_CARRIED;
     }
     panel_of(scenes + ORBIT, "orbit, 298 revolutions", f[0], lines[0], panels);
     panel_of(scenes + ARM, "arm of two links, 300 s", f[1], lines[1], panels + 1);
-    return plot_write(path, panels, 2);
+    return svg_write_all(path, panels, 2, 360);
 }
 
 /* ------------------------------------------------------------------ rounding */

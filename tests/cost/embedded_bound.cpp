@@ -48,16 +48,12 @@ static inline counted counted_abs(counted a) { return std::fabs(a.x); }
 static inline counted counted_floor(counted a) { return count(std::floor(a.x)); }
 static inline counted counted_ldexp(counted a, int e) { return count(std::ldexp(a.x, e)); }
 static inline counted counted_frexp(counted a, int *e) { return count(std::frexp(a.x, e)); }
-static inline counted counted_sine(counted a) { return count(std::sin(a.x)); }
-static inline counted counted_cosine(counted a) { return count(std::cos(a.x)); }
 
 // what gvi.h asks about the name of its type
 #define GVI__LONG_counted 0
 #define GVI__KIND_counted DIGITS
 #define GVI_REAL counted
 #define GVI_SQRT(a)     counted_root(a)
-#define GVI_SIN(a)      counted_sine(a)
-#define GVI_COS(a)      counted_cosine(a)
 #define GVI_ABS(a)      counted_abs(a)
 #define GVI_FLOOR(a)    counted_floor(a)
 #define GVI_LDEXP(a, e) counted_ldexp(a, e)
@@ -72,8 +68,6 @@ static const REAL length = REAL(1)/64;
 
 // ---- a chain, in plain numbers: callbacks are not counted
 
-static REAL held;                        // k of a spring to 0 that each mass has besides
-
 static int chain(const gvi_points *x, void *)
 {
     for (int i = 0; i < x->n; ++i)
@@ -81,7 +75,7 @@ static int chain(const gvi_points *x, void *)
             const counted *q = x->q + i*x->stride + k;
             counted *f = x->f + i*x->stride + k;
             const REAL pull = i > 0 ? (q->x - q[-x->stride].x)/4 : 0;
-            f->x -= std::sin(q->x) + pull + held*q->x;
+            f->x -= std::sin(q->x) + pull;
             if (i > 0) f[-x->stride].x += pull;
         }
     return 0;
@@ -116,32 +110,27 @@ static int inertia_gradient(const gvi_points *x, void *)
 
 // ---- cases
 
-struct kind { const char *name; gvi_formulation f; gvi_mass_kind mass; bool springs; };
+struct kind { const char *name; gvi_formulation f; gvi_mass_kind mass; };
 
 static const kind kinds[] = {
-    { "explicit, unit mass", GVI_EXPLICIT, GVI_MASS_UNIT, false },
-    { "explicit, diagonal mass", GVI_EXPLICIT, GVI_MASS_DIAGONAL, false },
-    { "explicit, unit mass, k", GVI_EXPLICIT, GVI_MASS_UNIT, true },
-    { "explicit, diagonal, k", GVI_EXPLICIT, GVI_MASS_DIAGONAL, true },
-    { "positions, unit mass", GVI_POSITIONS, GVI_MASS_UNIT, false },
-    { "positions, diagonal mass", GVI_POSITIONS, GVI_MASS_DIAGONAL, false },
-    { "positions, full mass", GVI_POSITIONS, GVI_MASS_DENSE, false },
-    { "positions, unit mass, k", GVI_POSITIONS, GVI_MASS_UNIT, true },
-    { "positions, diagonal, k", GVI_POSITIONS, GVI_MASS_DIAGONAL, true },
-    { "velocities, diagonal, k", GVI_VELOCITIES, GVI_MASS_DIAGONAL, true },
-    { "velocities, unit mass", GVI_VELOCITIES, GVI_MASS_UNIT, false },
-    { "velocities, diagonal mass", GVI_VELOCITIES, GVI_MASS_DIAGONAL, false },
-    { "velocities, full mass", GVI_VELOCITIES, GVI_MASS_DENSE, false },
-    { "momenta, unit mass", GVI_MOMENTA, GVI_MASS_UNIT, false },
-    { "momenta, diagonal mass", GVI_MOMENTA, GVI_MASS_DIAGONAL, false },
-    { "momenta, full mass", GVI_MOMENTA, GVI_MASS_DENSE, false },
-    { "momenta, M(q)", GVI_MOMENTA, GVI_MASS_POSITION, false } };
+    { "explicit, unit mass", GVI_EXPLICIT, GVI_MASS_UNIT },
+    { "explicit, diagonal mass", GVI_EXPLICIT, GVI_MASS_DIAGONAL },
+    { "positions, unit mass", GVI_POSITIONS, GVI_MASS_UNIT },
+    { "positions, diagonal mass", GVI_POSITIONS, GVI_MASS_DIAGONAL },
+    { "positions, full mass", GVI_POSITIONS, GVI_MASS_DENSE },
+    { "velocities, unit mass", GVI_VELOCITIES, GVI_MASS_UNIT },
+    { "velocities, diagonal mass", GVI_VELOCITIES, GVI_MASS_DIAGONAL },
+    { "velocities, full mass", GVI_VELOCITIES, GVI_MASS_DENSE },
+    { "momenta, unit mass", GVI_MOMENTA, GVI_MASS_UNIT },
+    { "momenta, diagonal mass", GVI_MOMENTA, GVI_MASS_DIAGONAL },
+    { "momenta, full mass", GVI_MOMENTA, GVI_MASS_DENSE },
+    { "momenta, M(q)", GVI_MOMENTA, GVI_MASS_POSITION } };
 
 // the most of a step; of one of the first, which make tables; of one that was begun again, because the
 // extrapolated values led nowhere; of one that failed
 struct outcome { unsigned long most, first, again, failed; };
 
-static counted stiffness[MOST_N], matrix[MOST_N*MOST_N], corners[MOST_KICKS], weights[MOST_KICKS];
+static counted matrix[MOST_N*MOST_N], corners[MOST_KICKS], weights[MOST_KICKS];
 static const gvi_effect effects[] = {
     { GVI_POTENTIAL, chain, 0, 0, 0, 0 },
     { GVI_FORCE, friction, 0, 0, 0, 0 } };
@@ -152,17 +141,13 @@ static gvi_desc describe(const kind &k, int n, int s, int r, int N)
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j)
             matrix[i*n + j] = i == j || k.mass == GVI_MASS_DIAGONAL ? REAL(2 + j) : REAL(0.125);
-    const bool arcs = GVI__STIFF && k.springs && k.f == GVI_EXPLICIT;
-    const REAL turns = REAL(3.14159265358979L)*REAL(r + 1)/length;
-    held = arcs ? turns*turns : 0;       // arcs before, between and after the kicks, each a half turn or nearly
-    for (int i = 0; i < n; ++i) stiffness[i] = held + REAL(1 + i);
     for (int j = 0; j < r; ++j) {
-        corners[j] = arcs ? REAL(j + 1)/REAL(r + 1) : REAL(j)/REAL(r > 1 ? r - 1 : 1);
+        corners[j] = REAL(j)/REAL(r > 1 ? r - 1 : 1);
         weights[j] = 1/REAL(r);
     }
     d.n = n;
     d.degree = s;
-    d.rule.kind = k.f != GVI_EXPLICIT ? GVI_GAUSS : r == 2 && !arcs ? GVI_LOBATTO : GVI_KICKS;
+    d.rule.kind = k.f != GVI_EXPLICIT ? GVI_GAUSS : r == 2 ? GVI_LOBATTO : GVI_KICKS;
     d.rule.points = r;
     if (d.rule.kind == GVI_KICKS) d.rule.nodes = corners;
     if (d.rule.kind == GVI_KICKS) d.rule.weights = weights;
@@ -174,7 +159,6 @@ static gvi_desc describe(const kind &k, int n, int s, int r, int N)
     d.effect_count = k.f >= GVI_VELOCITIES ? 2 : 1;
     d.formulation = k.f;
     d.iterations = N;
-    if (k.springs) d.stiffness = stiffness;
     return d;
 }
 
@@ -204,9 +188,8 @@ struct summary { int cases, bad, again, failed; double least, most; };
 static void judge(const kind &k, int n, int s, int r, int N, bool list, summary *sum)
 {
     const outcome x = perform(describe(k, n, s, r, N));
-    const bool springs = GVI__STIFF && k.springs;
-    const double bound = flops_of_step(k.f, k.mass, n, r, N) + springs*flops_of_springs(k.f, n, r);
-    const double more = flops_of_new_h(k.f, r) + springs*n*flops_of_spring_tables(k.f, s, r, 1);
+    const double bound = flops_of_step(k.f, k.mass, n, r, N);
+    const double more = flops_of_new_h(k.f, r);
     const double ratio = bound/double(x.most);
     const bool bad = !(ratio >= 1 && ratio <= 2.5) || double(x.first) > bound + more
                      || double(x.again) > 2*bound || double(x.failed) > 4*bound;

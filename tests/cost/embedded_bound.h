@@ -25,16 +25,4 @@ static inline double flops_of_new_h(gvi_formulation f, int r)
     return f == GVI_EXPLICIT ? 1800*r : 6*r*r*r + 4*(r + 10)*r*flops_row(r) + 70*r + 60;
 }
 
-/* With stiffness: in a step, and for each of the k/m where h is new                              */
-static inline double flops_of_springs(gvi_formulation f, int n, int r)
-{
-    return f == GVI_EXPLICIT ? 23*n*(r + 1) : n*(30*flops_row(r) + 200);
-}
-static inline double flops_of_spring_tables(gvi_formulation f, int s, int r, double nu)
-{
-    if (f == GVI_EXPLICIT) return 2300*(r + 1);
-    const double pieces = 1 + (nu + s + s*s/32)/6;
-    return r*(16*pieces*(12*s + 70) + 4*r*(s + 20)) + 3*r*r*flops_row(r) + 200;
-}
-
 #endif

@@ -4,8 +4,15 @@
 #ifndef EMBEDDED_SCENES_H
 #define EMBEDDED_SCENES_H
 
+#include <math.h>
+
 typedef gvi_real real;
 #define R(x) ((real)(x))
+#if GVI__KIND == 1
+#define ROOT(x) sqrtf(x)
+#else
+#define ROOT(x) sqrt(x)
+#endif
 #define INLINE static inline __attribute__((always_inline))
 
 /* sin and cos of y, |y| <= pi/4, z = y^2: Taylor's series, the rest below half a unit of the last place */
@@ -81,7 +88,7 @@ static int attraction(const gvi_points *x, void *user)
 {
     const real *X = x->q, *Y = X + x->stride;
     for (int k = 0; k < x->count; ++k) {
-        const real d2 = X[k]*X[k] + Y[k]*Y[k], w = -1/(d2*GVI_SQRT(d2));
+        const real d2 = X[k]*X[k] + Y[k]*Y[k], w = -1/(d2*ROOT(d2));
         x->f[k] += w*X[k];
         x->f[x->stride + k] += w*Y[k];
     }
@@ -90,7 +97,7 @@ static int attraction(const gvi_points *x, void *user)
 
 INLINE void orbit_rates(const motor *m, const real *y, real *dy)
 {
-    const real d2 = y[0]*y[0] + y[1]*y[1], w = -1/(d2*GVI_SQRT(d2));
+    const real d2 = y[0]*y[0] + y[1]*y[1], w = -1/(d2*ROOT(d2));
     dy[0] = y[2];
     dy[1] = y[3];
     dy[2] = w*y[0];

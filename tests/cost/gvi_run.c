@@ -12,7 +12,6 @@ static gvi_desc describe(const problem *p, const gvi_setting *g)
                       .formulation = g->formulation, .tolerance = g->tolerance };
     desc.rule.nodes = g->nodes;
     desc.rule.weights = g->weights;
-    if (g->stiff) desc.stiffness = p->stiffness;
     if (g->scene) {
         desc.effects = g->scene;
         desc.effect_count = 2;
@@ -24,17 +23,14 @@ void gvi_setting_name(const gvi_setting *g, int size, char *name)
 {
     static const char *const pinned[] = { "", "explicit", "positions", "velocities", "momenta", "Newton" };
     if (g->rule == GVI_KICKS) {
-        snprintf(name, (size_t)size, "kicks %s%s%s", g->name, g->stiff ? ", stiffness" : "",
-                 g->tolerance > 0 ? ", rounded" : "");
+        snprintf(name, (size_t)size, "kicks %s", g->name);
         return;
     }
     const char *rule = g->rule == GVI_LOBATTO ? " Lobatto" : "", *how = pinned[g->formulation];
     char points[24] = "", tolerance[24] = "", clock[24] = "";
     if (g->points) snprintf(points, sizeof points, ", r = %d", g->points);
     if (g->tolerance > 0) snprintf(tolerance, sizeof tolerance, ", tol %.0e", g->tolerance);
-    if (g->stiff) how = "stiffness";
     if (g->power > 0) { snprintf(clock, sizeof clock, ", clock %g", g->power); how = ""; }
-    else if (g->scene) { snprintf(clock, sizeof clock, ", marked"); how = ""; }
     snprintf(name, (size_t)size, "s = %d%s%s%s%s%s%s", g->degree, rule, points, clock, tolerance,
              *how ? ", " : "", how);
 }

@@ -13,10 +13,9 @@ typedef struct gvi_setting {
     double          tolerance;
     const char     *name;              /* GVI_KICKS: of the splitting, and its table           */
     const double   *nodes, *weights;
-    const gvi_effect *scene;           /* not NULL: two effects, the second a clock or weak    */
+    const gvi_effect *scene;           /* not NULL: two effects, the second a clock            */
     double          power;             /* of the distance, the clock; 0: there is none         */
     double          tau;               /* of the whole way                                     */
-    int             stiff;             /* desc.stiffness is given                              */
 } gvi_setting;
 
 typedef struct gvi_result {

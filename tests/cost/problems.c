@@ -315,21 +315,6 @@ WIDE static int solar(const gvi_points *p, void *user)
     ONE_POINT(18, solar_acceleration, p, solar_mass[i]);
 }
 
-/* The same in two effects: pairs with the Sun, and the others, which are weak                  */
-WIDE static int solar_sun(const gvi_points *p, void *user)
-{
-    (void)user;
-    if (solar_roots.many) return BY_COUNT(sun_by_processor, p);
-    return BY_COUNT(sun_from_bits, p);
-}
-
-WIDE static int solar_planets(const gvi_points *p, void *user)
-{
-    (void)user;
-    if (solar_roots.many) return BY_COUNT(planets_by_processor, p);
-    return BY_COUNT(planets_from_bits, p);
-}
-
 /* -------------------------------------------------- P5: double pendulum */
 
 #define G 9.81
@@ -442,7 +427,6 @@ static int pendulum_weight(const gvi_points *x, void *user)
 /* Three stiff springs, frequency 50, between soft quartic ones [GNI, I.5.1]; q = centres and
    lengths of the stiff springs.                                                               */
 #define STIFF 2500.0
-static const double fpu_stiffness[6] = { 0, 0, 0, STIFF, STIFF, STIFF };
 static const double fpu_q[8] = { 1, 0, 0, 0x1.47ae147ae147bp-6 }, fpu_v[8] = { 1, 0, 0, 1 };
 
 static long double fpu_energy(const double *q, const double *v)
@@ -591,8 +575,6 @@ static const gvi_effect kepler_scene[] = { { .kind = GVI_POTENTIAL, .points = ke
 static const gvi_effect kepler_clock_1[] = WITH_CLOCK(clock_1), kepler_clock_32[] = WITH_CLOCK(clock_32);
 static const gvi_effect henon_scene[] = { { .kind = GVI_POTENTIAL, .points = henon } };
 static const gvi_effect solar_scene[] = { { .kind = GVI_POTENTIAL, .points = solar } };
-static const gvi_effect solar_marked[] = { { .kind = GVI_POTENTIAL, .points = solar_sun },
-                                           { .kind = GVI_POTENTIAL, .points = solar_planets, .weak = 1 } };
 static const gvi_effect pendulum_scene[] = { { .kind = GVI_POTENTIAL, .points = pendulum_weight } };
 static const gvi_effect fpu_scene[] = { { .kind = GVI_POTENTIAL, .points = fpu } };
 static const gvi_effect chain_scene[] = { { .kind = GVI_POTENTIAL, .points = chain } };
@@ -617,7 +599,7 @@ const problem problems[] = {
     { .key = "P4", .title = "Outer solar system, 548 years", .n = 18, .end = 200000,
       .q = solar_q, .v = solar_v, .reference = reference_P4, .energy = solar_energy,
       .acceleration = solar_acceleration, .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = solar_mass },
-      SCENE(solar_scene), .marked = solar_marked, .evaluations = 1e3, .limit = 10 },
+      SCENE(solar_scene), .evaluations = 1e3, .limit = 10 },
     { .key = "P5", .title = "Double pendulum, t = 100", .n = 2, .end = 100,
       .q = pendulum_q, .v = pendulum_p, .reference = reference_P5, .energy = pendulum_energy,
       .slope = pendulum_slope, .mass = { .kind = GVI_MASS_POSITION, .points = pendulum_mass,
@@ -625,11 +607,11 @@ const problem problems[] = {
       SCENE(pendulum_scene), .evaluations = 3e3, .limit = 12 },
     { .key = "P6", .title = "Fermi-Pasta-Ulam, frequency 50, t = 200", .n = 6, .end = 200,
       .q = fpu_q, .v = fpu_v, .reference = reference_P6, .energy = fpu_energy,
-      .acceleration = fpu_acceleration, SCENE(fpu_scene), .stiffness = fpu_stiffness,
+      .acceleration = fpu_acceleration, SCENE(fpu_scene),
       .evaluations = 1e4, .limit = 16 },
     { .key = "P6b", .title = "Fermi-Pasta-Ulam, frequency 50, t = 50", .n = 6, .end = 50,
       .q = fpu_q, .v = fpu_v, .reference = reference_P6b, .energy = fpu_energy,
-      .acceleration = fpu_acceleration, SCENE(fpu_scene), .stiffness = fpu_stiffness,
+      .acceleration = fpu_acceleration, SCENE(fpu_scene),
       .evaluations = 2500, .limit = 3 },
     { .key = "P7", .title = "Chain of 100, t = 100", .n = LINKS, .end = 100,
       .q = start_P7, .v = chain_v, .reference = reference_P7, .energy = chain_energy,

@@ -48,8 +48,6 @@ typedef struct problem {
     gvi_mass           mass;
     const gvi_effect  *effects;
     int                effect_count;
-    const gvi_effect  *marked;         /* the scene in two effects, the second weak; or NULL   */
-    const double      *stiffness;      /* [n], or NULL                                         */
     const gvi_effect  *clocks[2];      /* two effects each: the scene with the clock d^(3/2), d; or NULL */
     double             eccentricity, revolutions;      /* of the orbit that they are for       */
     double             evaluations;    /* of q'' for an error of about 0.1: where sweeps begin */

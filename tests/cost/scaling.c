@@ -13,7 +13,7 @@
 #define _POSIX_C_SOURCE 200809L
 #define GVI_IMPLEMENTATION
 #include "gvi.h"
-#include "plot.h"
+#include "svg.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -200,32 +200,32 @@ static int run_sweep(const sweep *w, int runs, FILE *csv, curves *c)
 
 /* ---------------------------------------------------------------- pictures */
 
-static void lines_of(const sweep *w, const curves *c, int bytes, plot_line *lines)
+static void lines_of(const sweep *w, const curves *c, int bytes, svg_line *lines)
 {
     for (int i = 0; i < LINES; ++i) {
-        plot_line line = { w->labels[i], 0, w->count, c->x, bytes ? c->bytes[i] : c->time[i] };
+        svg_line line = { w->labels[i], c->x, bytes ? c->bytes[i] : c->time[i], w->count };
         lines[i] = line;
     }
 }
 
 static int draw(const char *out, const curves *c)
 {
-    plot_line time[LINES], memory[LINES], degree[LINES], points[LINES];
+    svg_line time[LINES], memory[LINES], degree[LINES], points[LINES];
     char path[512];
     lines_of(sweeps, c, 0, time);
     lines_of(sweeps, c, 1, memory);
     lines_of(sweeps + 1, c + 1, 0, degree);
     lines_of(sweeps + 2, c + 2, 0, points);
-    plot_panel by_n[2] = {
-        { "A chain of n masses", "n", "ns for an iteration", 0, time, LINES },
-        { "", "n", "bytes of memory per coordinate", 0, memory, LINES } };
-    plot_panel by_s[2] = {
-        { "A chain of n masses, r = s", "s", "ns for an iteration", 0, degree, LINES },
-        { "s = 8", "r", "ns for an iteration", 0, points, LINES } };
+    const svg_plot by_n[2] = {
+        { "A chain of n masses", "n", "ns for an iteration", 1, 1, 0, time, LINES, 0, 0, 0 },
+        { "", "n", "bytes of memory per coordinate", 1, 1, 0, memory, LINES, 0, 0, 0 } };
+    const svg_plot by_s[2] = {
+        { "A chain of n masses, r = s", "s", "ns for an iteration", 1, 1, 0, degree, LINES, 0, 0, 0 },
+        { "s = 8", "r", "ns for an iteration", 1, 1, 0, points, LINES, 0, 0, 0 } };
     snprintf(path, sizeof path, "%s/scaling-n.svg", out);
-    if (plot_write(path, by_n, 2)) return perror(path), 1;
+    if (svg_write_all(path, by_n, 2, 360)) return perror(path), 1;
     snprintf(path, sizeof path, "%s/scaling-s.svg", out);
-    if (plot_write(path, by_s, 2)) return perror(path), 1;
+    if (svg_write_all(path, by_s, 2, 360)) return perror(path), 1;
     return 0;
 }
 

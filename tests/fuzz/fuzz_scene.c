@@ -133,7 +133,7 @@ static int velocity(const gvi_points *x, void *user)
 
 static gvi_effect effects[EFFECTS];
 static mood       moods[EFFECTS + 1];
-static double     stiffness[N], matrix[N*N], nodes[POINTS], weights[POINTS];
+static double     matrix[N*N], nodes[POINTS], weights[POINTS];
 
 static mood any_mood(void)
 {
@@ -153,7 +153,6 @@ static gvi_desc describe(void)
         else effects[e].point = point;
         if (how & 2) effects[e].value = points;
         if (how & 4) effects[e].hessian = hessian;
-        effects[e].weak = how >> 3 & 1;
         moods[e] = any_mood();
     }
     d.mass.kind = (gvi_mass_kind)below(5);
@@ -176,8 +175,6 @@ static gvi_desc describe(void)
     if (below(6) == 0) d.tolerance = number();
     d.max_iterations = (int)below(100);
     if (below(4) == 0) d.iterations = (int)below(8);
-    for (int i = 0; i < N; ++i) stiffness[i] = below(2) ? number() : 0;
-    if (below(2)) d.stiffness = stiffness;
     return d;
 }
 

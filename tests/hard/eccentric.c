@@ -8,20 +8,7 @@
    The threshold is one that a caller can have: a fixed point that contracts by less than
    4 an iteration does not resolve the motion, whatever Newton's method makes of it. */
 #include "hard.h"
-
-static int attraction(const gvi_points *x, void *user)
-{
-    (void)user;
-    for (int k = 0; k < x->count; ++k) {
-        const real X = x->q[k], Y = x->q[x->stride + k], d2 = X*X + Y*Y;
-        const real d = (real)sqrt((double)d2), w = 1/(d2*d);
-        if (x->value) x->value[k] -= 1/d;
-        if (!x->f) continue;
-        x->f[k] -= w*X;
-        x->f[x->stride + k] -= w*Y;
-    }
-    return 0;
-}
+#include "mechanics.h"
 
 typedef struct report { gvi_status status; double energy, contraction; int iterations; double farthest;
                         } report;

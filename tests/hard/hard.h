@@ -27,7 +27,13 @@
 #define COUNT(a) ((int)(sizeof(a)/sizeof(a)[0]))
 
 typedef gvi_real real;
-#define EPS GVI__EPS
+#if GVI__KIND == 1
+#define EPS FLT_EPSILON
+#elif GVI__KIND == 2
+#define EPS DBL_EPSILON
+#else
+#define EPS LDBL_EPSILON
+#endif
 
 static int misses;
 

@@ -5,9 +5,7 @@
 #define HARD_PENDULUM_H
 
 #include "hard.h"
-
-#include <tgmath.h>
-#undef I                                          // of <complex.h>, which it includes
+#include "mechanics.h"
 
 static real stiffness;
 static const real pendulum_g = (real)9.8;
@@ -19,18 +17,6 @@ static int pendulum_forces(const gvi_points *x, void *user)
         const real a = x->q[k], b = x->q[x->stride + k], both = pendulum_g*sin(a + b);
         x->f[k] -= 2*pendulum_g*sin(a) + both;
         x->f[x->stride + k] -= both + stiffness*b;
-    }
-    return 0;
-}
-
-static int pendulum_mass(const gvi_points *x, void *user)
-{
-    (void)user;
-    for (int k = 0; k < x->count; ++k) {
-        const real c = cos(x->q[x->stride + k]);
-        x->mass[k] = 3 + 2*c;
-        x->mass[2*x->stride + k] = 1 + c;
-        x->mass[3*x->stride + k] = 1;
     }
     return 0;
 }
@@ -47,16 +33,8 @@ static int pendulum_velocity(const gvi_points *x, void *user)
     return 0;
 }
 
-static int pendulum_gradient(const gvi_points *x, void *user)
-{
-    const real *q2 = x->q + x->stride, *v1 = x->v, *v2 = v1 + x->stride;
-    (void)user;
-    for (int k = 0; k < x->count; ++k) x->f[x->stride + k] -= sin(q2[k])*v1[k]*(v1[k] + v2[k]);
-    return 0;
-}
-
 static const gvi_mass pendulum_inertia = { .kind = GVI_MASS_POSITION, .points = pendulum_mass,
-                                           .gradient = pendulum_gradient, .velocity = pendulum_velocity };
+                                           .gradient = pendulum_mass_gradient, .velocity = pendulum_velocity };
 
 /* At angles a, b with momenta u, v */
 static long double pendulum_energy_at(long double a, long double b, long double u, long double v)

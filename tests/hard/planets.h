@@ -3,9 +3,7 @@
 #define HARD_PLANETS_H
 
 #include "hard.h"
-
-#include <tgmath.h>
-#undef I                                          // of <complex.h>, which it includes
+#include "mechanics.h"
 
 enum { BODIES = 6 };
 static real gm[BODIES], mass_of[3*BODIES];

@@ -226,19 +226,6 @@ static void compensation(const problem *a, long steps)
 
 /* -------------------------------------------------------------------- kicks */
 
-static int attraction(const gvi_points *x, void *user)
-{
-    (void)user;
-    for (int k = 0; k < x->count; ++k) {
-        const real X = x->q[k], Y = x->q[x->stride + k], d2 = X*X + Y*Y, d = sqrtf(d2), w = 1/(d2*d);
-        if (x->value) x->value[k] -= 1/d;
-        if (!x->f) continue;
-        x->f[k] -= w*X;
-        x->f[x->stride + k] -= w*Y;
-    }
-    return 0;
-}
-
 static double kepler_energy(const double *q, const double *p)
 {
     return (p[0]*p[0] + p[1]*p[1])/2 - 1/hypot(q[0], q[1]);
@@ -363,8 +350,8 @@ static orbit eccentric(double e, int steps)
         if (r > 1) z.outside = fmax(z.outside, error);
         else z.inside = fmax(z.inside, error);
         if (k <= steps - steps/100) continue;
-        on_ellipse(&path, (long double)st.t + (long double)st.x.te, q);
-        for (int i = 0; i < 2; ++i) q[i] -= (long double)st.q[i] + (long double)st.x.qe[i];
+        on_ellipse(&path, (long double)st.t + (long double)st.t_low, q);
+        for (int i = 0; i < 2; ++i) q[i] -= (long double)st.q[i] + (long double)st.q_low[i];
         z.end = (double)hypotl(q[0], q[1]);
         z.worst = fmax(z.worst, z.end);
     }

@@ -9,9 +9,7 @@
    theta = k pi a step: at h omega = k pi for small steps, later for large ones, since
    Gauss's method turns by no more than s pi in all.
 
-   Arcs, of desc.stiffness, turn it by h omega whatever that is: their resonances are at every k pi.
-
-     stiff [folder for hard_fpu.svg, hard_arcs.svg]                             */
+     stiff [folder for hard_fpu.svg]                                            */
 #include "pendulum.h"
 #include "irk_newton.h"
 #include "svg.h"
@@ -110,21 +108,21 @@ static void rival_jacobian(const double *y, double *J)
 }
 
 /* What a step adds to dE/E, root mean square: from its change over blocks of 16 steps, read with
-   the rests of q and p, without which reading it would be as wrong as some steps           */
+   the compensation of q and p, without which reading it would be as wrong as some steps           */
 enum { BLOCK = 16 };
 typedef struct walk_ { long double E0, worst, last, squares; long steps; } walk_;
 
-static long double energy_with_rests(const double *q, const double *p, const double *qe, const double *pe)
+static long double energy_with_low(const double *q, const double *p, const double *q_low, const double *p_low)
 {
-    return pendulum_energy_at((long double)q[0] + qe[0], (long double)q[1] + qe[1], (long double)p[0] + pe[0],
-                              (long double)p[1] + pe[1]);
+    return pendulum_energy_at((long double)q[0] + q_low[0], (long double)q[1] + q_low[1],
+                              (long double)p[0] + p_low[0], (long double)p[1] + p_low[1]);
 }
 
-static void look(walk_ *w, const double *q, const double *p, const double *qe, const double *pe)
+static void look(walk_ *w, const double *q, const double *p, const double *q_low, const double *p_low)
 {
     w->worst = fmaxl(w->worst, fabsl(pendulum_energy(q, p)/w->E0 - 1));
     if (++w->steps % BLOCK) return;
-    const long double d = energy_with_rests(q, p, qe, pe)/w->E0 - 1;
+    const long double d = energy_with_low(q, p, q_low, p_low)/w->E0 - 1;
     w->squares += (d - w->last)*(d - w->last);
     w->last = d;
 }
@@ -141,7 +139,7 @@ static void run_ours(double K, int s, gvi_formulation formulation, long steps, p
     z->walk.E0 = pendulum_energy(st.q, st.p);
     for (long k = 0; k < steps; ++k) {
         must(gvi_step(&st, 1.0/PER));
-        look(&z->walk, st.q, st.p, st.x.qe, st.x.pe);
+        look(&z->walk, st.q, st.p, st.q_low, st.p_low);
     }
     memcpy(z->q, st.q, sizeof z->q);
     z->evaluations = (double)st.counters.effect[0]/(double)steps;
@@ -219,14 +217,12 @@ static double chain_energy(const double *q, const double *p)
 
 typedef struct outcome { double invariant, energy; gvi_status status; } outcome;
 
-/* Largest deviations of I and H from their start, over 200 units of time; told: [6] k, or NULL.
-   Degree 1 is Stoermer-Verlet */
-static outcome run_chain(int s, double h_omega, const double *told)
+/* Largest deviations of I and H from their start, over 200 units of time */
+static outcome run_chain(int s, double h_omega)
 {
     static double memory[GVI_LENGTH(6, 8, 8)];
     const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = fermi_pasta_ulam_forces } };
-    const gvi_desc desc = { .n = 2*M, .degree = s, .rule.kind = s == 1 ? GVI_LOBATTO : GVI_GAUSS,
-                            .effects = scene, .effect_count = 1, .stiffness = told };
+    const gvi_desc desc = { .n = 2*M, .degree = s, .effects = scene, .effect_count = 1 };
     const double q[6] = { 1, 0, 0, 1/omega, 0, 0 }, p[6] = { 1, 0, 0, 1, 0, 0 }, h = h_omega/omega;
     const double I0 = stiff_energy(q, p), E0 = chain_energy(q, p);
     outcome z = { 0, 0, GVI_OK };
@@ -288,7 +284,7 @@ static void fermi_pasta_ulam(const char *folder)
         double top = 0, below = 0;
         for (int k = 0; k < POINTS; ++k) {
             const double z = 0.1*pow(500, k/(POINTS - 1.0));
-            const outcome o = run_chain(s, z, NULL);
+            const outcome o = run_chain(s, z);
             progress("FPU", d*POINTS + k + 1, 3*POINTS);
             x[d][k] = z;
             I[d][k] = o.status == GVI_OK ? o.invariant : NAN;
@@ -324,106 +320,6 @@ static void fermi_pasta_ulam(const char *folder)
     }
 }
 
-/* ------------------------------------------------------------ stiffness told */
-
-enum { STARTS = 12, LONG_RUN = 65536, FINE = 240 };
-static const double frequencies[6] = { 0, 0, 0, 2500, 2500, 2500 };
-
-/* h omega in units of pi, to 4.8: the largest deviation of H at k = 1 to 4 and half-way between */
-static void arcs_resonate(const char *folder)
-{
-    static const int degrees[] = { 1, 2, 4, 8 };
-    static const char *const names[] = { "Verlet", "degree 2", "degree 4", "degree 8" };
-    static double x[FINE], H[4][FINE];
-    svg_line lines[4];
-    for (int d = 0; d < 4; ++d) {
-        double at[5] = { 0, 0, 0, 0, 0 }, between[5] = { 0, 0, 0, 0, 0 };
-        for (int k = 0; k < FINE; ++k) {
-            x[k] = (k + 1)/50.0;
-            const outcome o = run_chain(degrees[d], x[k]*acos(-1), frequencies);
-            const int near = (int)(x[k] + 0.5);
-            double *worst = fabs(x[k] - near) < 0.125 ? at + near : fabs(x[k] - near) > 0.375 ? between + (int)x[k] : NULL;
-            progress("arcs", d*FINE + k + 1, 4*FINE);
-            H[d][k] = o.status == GVI_OK ? o.energy : NAN;
-            if (worst) *worst = fmax(*worst, o.status == GVI_OK ? o.energy : INFINITY);
-        }
-        lines[d] = (svg_line){ names[d], x, H[d], FINE };
-        printf("  %s: deviation of H below pi/8 %.1e; near pi, 2 pi ... and between them:", names[d], at[0]);
-        for (int k = 0; k < 5; ++k) printf(k ? " | %.1e | %.1e" : " %.1e", k ? at[k] : between[0], between[k]);
-        printf("\n");
-        if (degrees[d] == 4) expect("degree 4: deviation of H near pi", 0, at[1], 0.002);
-        if (degrees[d] == 8) expect("degree 8: deviation of H up to 2 pi", 0, fmax(fmax(at[1], between[1]), at[2]), 1e-4);
-        if (degrees[d] == 8) expect("degree 8: deviation of H up to 3 pi", 0, fmax(between[2], at[3]), 0.02);
-    }
-    if (folder) {
-        char path[512];
-        const svg_plot plot = { .title = "FPU chain, stiffness told: energy", .x_label = "h omega/pi",
-                                .y_label = "largest |H - H(0)|, t to 200", .log_y = 1, .lines = lines, .line_count = 4 };
-        snprintf(path, sizeof path, "%s/hard_arcs.svg", folder);
-        if (svg_write(path, &plot)) { printf("  FAILED: %s\n", path); ++misses; }
-    }
-}
-
-/* H with the rests of q and p, in long double                                     */
-static long double exact_energy(const gvi_stepper *st)
-{
-    long double q[6], p[6], E = 0;
-    for (int j = 0; j < 2*M; ++j) {
-        q[j] = (long double)st->q[j] + st->x.qe[j];
-        p[j] = (long double)st->p[j] + st->x.pe[j];
-        E += p[j]*p[j]/2 + (long double)frequencies[j]*q[j]*q[j]/2;
-    }
-    for (int j = 0; j <= M; ++j) {
-        const long double u = (j < M ? q[j] - q[M + j] : 0) - (j > 0 ? q[j - 1] + q[M + j - 1] : 0);
-        E += u*u*u*u/4;
-    }
-    return E;
-}
-
-typedef struct drift { double mean, error, rounds; } drift;
-
-/* Degree 8, h omega = 1.5: the energy's change in EPS, over STARTS starts that differ a little */
-static drift energy_drift(const double *told, double tolerance)
-{
-    static double memory[GVI_LENGTH(6, 8, 8)];
-    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = fermi_pasta_ulam_forces } };
-    const gvi_desc desc = { .n = 2*M, .effects = scene, .effect_count = 1, .tolerance = tolerance,
-                            .formulation = GVI_POSITIONS, .stiffness = told };
-    drift z = { 0, 0, 0 };
-    for (int i = 0; i < STARTS; ++i) {
-        const double q[6] = { 1, i*0.001, 0, 1/omega, 0, 0 }, p[6] = { 1, 0, i*i*0.01, 1, 0, 0 };
-        gvi_stepper st;
-        must(gvi_init(&st, &desc, memory, sizeof memory));
-        must(gvi_start_momentum(&st, 0, q, p));
-        const long double E0 = exact_energy(&st);
-        for (long k = 0; k < LONG_RUN; ++k) must(gvi_step(&st, 0.03));
-        const double change = (double)((exact_energy(&st)/E0 - 1)/DBL_EPSILON);
-        z.mean += change/STARTS;
-        z.error += change*change;
-        z.rounds += (double)st.counters.iterations/((double)LONG_RUN*STARTS);
-        progress("told", i + 1, STARTS);
-    }
-    z.error = sqrt((z.error/STARTS - z.mean*z.mean)/(STARTS - 1));
-    return z;
-}
-
-/* Rows that are wrong by half a last place, at random, change the energy of the springs by about
-   h omega/14 EPS of itself a step, H by half of that: 14 EPS in LONG_RUN steps, the mean of
-   STARTS of them by 4.  A bias of a thousandth of an EPS a step would be 65             */
-static void stiffness_told(void)
-{
-    static const double tolerances[] = { 0, 1e-15 }, off[] = { 0, 0, 0, 2750, 2750, 2750 };
-    for (int i = 0; i < COUNT(tolerances); ++i) {
-        const drift untold = energy_drift(NULL, tolerances[i]), told = energy_drift(frequencies, tolerances[i]);
-        printf("  tolerance %g: %.1f rounds a step, energy %+.0f +- %.0f EPS; told %.1f rounds, %+.0f +- %.0f EPS\n",
-               tolerances[i], untold.rounds, untold.mean, untold.error, told.rounds, told.mean, told.error);
-        if (i == 0) expect("told: mean change of energy, EPS", -90, told.mean, 90);
-        if (i == 0) expect("told a tenth too much: mean change of energy, EPS", -90, energy_drift(off, 0).mean, 90);
-        if (i == 0) expect("told: rounds over those untold", 0.2, told.rounds/untold.rounds, 0.8);
-        if (i == 1) expect("told, a tolerance: change of energy over that untold", 0, fabs(told.mean/untold.mean), 0.1);
-    }
-}
-
 int main(int argc, char **argv)
 {
     printf("Stiff double pendulum, 131072 steps of 2^-7\n");
@@ -434,9 +330,5 @@ int main(int argc, char **argv)
     against_irk_newton(4096);
     printf("Fermi-Pasta-Ulam chain, omega = 50\n");
     fermi_pasta_ulam(argc > 1 ? argv[1] : NULL);
-    printf("The same, stiffness told\n");
-    arcs_resonate(argc > 1 ? argv[1] : NULL);
-    printf("The same, degree 8, h omega = 1.5, %d steps from %d starts: desc.stiffness\n", LONG_RUN, STARTS);
-    stiffness_told();
     return verdict("stiff");
 }

@@ -7,7 +7,7 @@
      curve [folder]        writes theorem_curve_order.svg, theorem_curve.svg and
                            theorem_curve_inside.svg                            */
 #include "bench.h"
-#include "grid_svg.h"
+#include "tables.h"
 #include "examples/svg.h"
 
 enum { S = 6, ROWS = 5, MOST = 192, SIZES = 16, LINES = 6 };
@@ -39,14 +39,14 @@ static int exponent(int s, int u, int norm)
     return smaller_int(s, u/2) + more[norm];
 }
 
-static grid_cell cell_of(const problem *pb, int row, int s, int norm)
+static svg_cell cell_of(const problem *pb, int row, int s, int norm)
 {
     int r = row == 1 || row == 3 ? s + 1 : s, u = row == 4 ? 2*s : row < 2 ? 2*r : 2*r - 2;
     method m = { s, { row == 2 || row == 3 ? GVI_LOBATTO : GVI_GAUSS, .points = r } };
-    if (row == 2 && r < 2) return (grid_cell){ NAN, 0 };
+    if (row == 2 && r < 2) return (svg_cell){ NAN, 0 };
     what = row == 4 ? INTERPOLATED : OF_THE_STEP;
     which = norm;
-    grid_cell cell = { 0, exponent(s, u, norm) };
+    svg_cell cell = { 0, exponent(s, u, norm) };
     /* a derivative carries rounding over h: not as many steps */
     cell.got = (double)slope(norm_error, pb, &m, (real)cell.expected, norm < 2 ? MOST : MOST/2);
     ++cells;
@@ -56,8 +56,8 @@ static grid_cell cell_of(const problem *pb, int row, int s, int norm)
 
 static void draw_orders(const char *folder, int shown)
 {
-    static grid_cell table[NORMS][ROWS][S];
-    static grid grids[NORMS];
+    static svg_cell table[NORMS][ROWS][S];
+    static svg_table grids[NORMS];
     char path[500];
     for (int k = 0; k < PROBLEMS; ++k) {
         int p = (shown + 1 + k)%PROBLEMS;          /* the one that is drawn comes last */
@@ -65,12 +65,12 @@ static void draw_orders(const char *folder, int shown)
         for (int norm = 0; norm < NORMS; ++norm) {
             for (int row = 0; row < ROWS; ++row)
                 for (int s = 1; s <= S; ++s) table[norm][row][s - 1] = cell_of(&problems[p], row, s, norm);
-            grids[norm] = (grid){ norm_names[norm], row_names, s_names, ROWS, S, table[norm][0] };
-            grid_print(&grids[norm]);
+            grids[norm] = (svg_table){ norm_names[norm], row_names, s_names, ROWS, S, table[norm][0] };
+            print_table(&grids[norm]);
         }
     }
     snprintf(path, sizeof path, "%s/theorem_curve_order.svg", folder);
-    if (grid_write(path, "Exponent of h in the curve's distance, double pendulum",
+    if (svg_write_tables(path, "Exponent of h in the curve's distance, double pendulum",
                    "blue: within 0.25 of min(s, u/2) + 1, + 2, + 0, + 1", WITHIN, grids, NORMS, 2)) exit(1);
 }
 

@@ -6,7 +6,7 @@
 
      doubled [folder]      writes theorem_forces.svg; prints the comparison     */
 #include "doubled.h"
-#include "grid_svg.h"
+#include "tables.h"
 
 enum { S = 4, ROWS = 4, MOST = 16, RULES = 4, STEPS = 20 };
 static const double WITHIN = 0.3;
@@ -19,22 +19,22 @@ static error_fn *const row_errors[ROWS] = { force_error, momentum_error, force_s
    1/h of that: a power less for what is differentiated by one of them.        */
 static void draw_forces(const char *folder)
 {
-    static grid_cell table[FORCED][ROWS][S];
-    static grid grids[FORCED];
+    static svg_cell table[FORCED][ROWS][S];
+    static svg_table grids[FORCED];
     char path[500];
     for (int k = 0; k < FORCED; ++k) {
         for (int row = 0; row < ROWS; ++row)
             for (int s = 1; s <= S; ++s) {
                 method m = { s, { 0 } };
                 int expected = row < 2 ? 2*s : 2*s + 1;
-                table[k][row][s - 1] = (grid_cell){
+                table[k][row][s - 1] = (svg_cell){
                     (double)slope(row_errors[row], &forced_problems[k], &m, expected, MOST), expected };
             }
-        grids[k] = (grid){ forced_problems[k].name, row_names, s_names, ROWS, S, table[k][0] };
-        grid_print(&grids[k]);
+        grids[k] = (svg_table){ forced_problems[k].name, row_names, s_names, ROWS, S, table[k][0] };
+        print_table(&grids[k]);
     }
     snprintf(path, sizeof path, "%s/theorem_forces.svg", folder);
-    if (grid_write(path, "Exponent of h in the errors of a forced step, Gauss s",
+    if (svg_write_tables(path, "Exponent of h in the errors of a forced step, Gauss s",
                    "blue: within 0.3 of 2s for F-, F+ and p0, of 2s + 1 for F- + F+ and L_d",
                    WITHIN, grids, FORCED, 2)) exit(1);
 }

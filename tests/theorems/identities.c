@@ -12,7 +12,7 @@
 
      identities [folder]   writes theorem_identities.svg                       */
 #include "identities.h"
-#include "grid_svg.h"
+#include "tables.h"
 
 enum { ROWS = 12 };
 
@@ -33,16 +33,16 @@ int main(int argc, char **argv)
         "Lobatto A-B 2", "Lobatto A-B 3", "Lobatto A-B 4", "Lobatto A-B 5", "Lobatto A-B 6"
     };
     static const char *const columns[PROBLEMS] = { "Kepler", "pend.", "magn.", "length" };
-    static grid_cell cells[ROWS][PROBLEMS];
-    const grid g = { "eps", rows, columns, ROWS, PROBLEMS, cells[0] };
+    static svg_cell cells[ROWS][PROBLEMS];
+    const svg_table g = { "eps", rows, columns, ROWS, PROBLEMS, cells[0] };
     char path[500];
     for (int row = 0; row < ROWS; ++row)
         for (int k = 0; k < PROBLEMS; ++k) {
             int separable = row != 1 || k == 0;
-            cells[row][k] = (grid_cell){ separable ? row_difference(&problems[k], row) : (double)NAN, 0 };
+            cells[row][k] = (svg_cell){ separable ? row_difference(&problems[k], row) : (double)NAN, 0 };
         }
     printf("Largest difference over %d steps, in eps = %.2e\n", IDENTITY_STEPS, (double)UNIT);
-    grid_print(&g);
+    print_table(&g);
     snprintf(path, sizeof path, "%s/theorem_identities.svg", argc > 1 ? argv[1] : ".");
-    return grid_write(path, "Differences after 20 steps, in eps", "blue: within 10", 10, &g, 1, 1) ? 1 : 0;
+    return svg_write_tables(path, "Differences after 20 steps, in eps", "blue: within 10", 10, &g, 1, 1) ? 1 : 0;
 }

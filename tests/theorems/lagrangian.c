@@ -9,7 +9,7 @@
                            and theorem_lagrangian_order.svg (all of them)       */
 #include "bench.h"
 #include "rules.h"
-#include "grid_svg.h"
+#include "tables.h"
 #include "examples/svg.h"
 
 enum { S = 8, ROWS = 5, MOST = 96, SIZES = 16, LINES = 6 };
@@ -21,14 +21,14 @@ static const char *const row_names[ROWS] = {
 };
 static int misses, cells;
 
-static grid_cell cell_of(const problem *pb, int row, int s)
+static svg_cell cell_of(const problem *pb, int row, int s)
 {
     own_rule own = newton_cotes(s < 3 ? 3 : s);
     int r = row == 1 || row == 3 ? s + 1 : s, u = row < 2 ? 2*r : row < 4 ? 2*r - 2 : own.u;
     method m = { s, rule_or_own(row < 2 ? GVI_GAUSS : row < 4 ? GVI_LOBATTO : GVI_OWN, r, &own) };
-    if (row >= 2 && r < (row == 4 ? 3 : 2)) return (grid_cell){ NAN, 0 };
+    if (row >= 2 && r < (row == 4 ? 3 : 2)) return (svg_cell){ NAN, 0 };
     int expected = order_expected(s, u) + 1;
-    grid_cell cell = { (double)slope(lagrangian_error, pb, &m, expected, MOST), expected };
+    svg_cell cell = { (double)slope(lagrangian_error, pb, &m, expected, MOST), expected };
     ++cells;
     if (!(fabs(cell.got - cell.expected) <= WITHIN)) ++misses;
     return cell;
@@ -36,18 +36,18 @@ static grid_cell cell_of(const problem *pb, int row, int s)
 
 static void draw_orders(const char *folder)
 {
-    static grid_cell table[PROBLEMS + 1][ROWS][S];
-    static grid grids[PROBLEMS + 1];
+    static svg_cell table[PROBLEMS + 1][ROWS][S];
+    static svg_table grids[PROBLEMS + 1];
     char path[500];
     for (int k = 0; k <= PROBLEMS; ++k) {
         const problem *pb = k ? &problems[k - 1] : &oscillator;
         for (int row = 0; row < ROWS; ++row)
             for (int s = 1; s <= S; ++s) table[k][row][s - 1] = cell_of(pb, row, s);
-        grids[k] = (grid){ pb->name, row_names, s_names, ROWS, S, table[k][0] };
-        grid_print(&grids[k]);
+        grids[k] = (svg_table){ pb->name, row_names, s_names, ROWS, S, table[k][0] };
+        print_table(&grids[k]);
     }
     snprintf(path, sizeof path, "%s/theorem_lagrangian_order.svg", folder);
-    if (grid_write(path, "Exponent of h in |L_d - L_exact|",
+    if (svg_write_tables(path, "Exponent of h in |L_d - L_exact|",
                    "blue: within 0.25 of min(2s, u) + 1, for the last row of min(u, 2(u - s + 1)) + 1",
                    WITHIN, grids, PROBLEMS + 1, 2)) exit(1);
 }

@@ -7,7 +7,7 @@
      order [folder]        writes theorem_order.svg and theorem_weak_rules.svg  */
 #include "bench.h"
 #include "rules.h"
-#include "grid_svg.h"
+#include "tables.h"
 
 enum { S = 8, EXTRA = 4, OWN = 14 };
 static const double WITHIN = 0.2;
@@ -19,26 +19,26 @@ static const char *const rule_names[2*EXTRA] = {
 
 static int misses, cells;
 
-static grid_cell measure(const problem *pb, const method *m, int expected)
+static svg_cell measure(const problem *pb, const method *m, int expected)
 {
     /* odd orders belong to rules that are not symmetric: their errors have all
        powers of h, and the first shows late                                   */
     int most = expected%2 ? 1600 : 64;
-    grid_cell cell = { (double)slope(end_error, pb, m, expected, most), expected };
+    svg_cell cell = { (double)slope(end_error, pb, m, expected, most), expected };
     ++cells;
     if (!(fabs(cell.got - cell.expected) <= WITHIN)) ++misses;
     return cell;
 }
 
-static grid_cell standard_cell(const problem *pb, int s, int row)
+static svg_cell standard_cell(const problem *pb, int s, int row)
 {
     int lobatto_ = row >= EXTRA, r = s + row%EXTRA, u = lobatto_ ? 2*r - 2 : 2*r;
     method m = { s, { .kind = lobatto_ ? GVI_LOBATTO : GVI_GAUSS, .points = r } };
-    if (lobatto_ && r < 2) return (grid_cell){ NAN, 0 };
+    if (lobatto_ && r < 2) return (svg_cell){ NAN, 0 };
     return measure(pb, &m, smaller_int(2*s, u));
 }
 
-static grid_cell own_cell(const problem *pb, int s, const own_rule *rule)
+static svg_cell own_cell(const problem *pb, int s, const own_rule *rule)
 {
     int expected = s <= rule->r ? order_expected(s, rule->u) : 0;
     method m = { s, { GVI_OWN, rule->r, rule->c, rule->b } };
@@ -46,25 +46,25 @@ static grid_cell own_cell(const problem *pb, int s, const own_rule *rule)
         gvi_desc desc = bench_desc(pb, &m);
         gvi_status status = gvi_init(&bench_stepper, &desc, bench_memory, sizeof bench_memory);
         int refused = status == GVI_E_POINTS || status == GVI_E_ORDER;
-        if (!refused) { ++misses; return (grid_cell){ -1, 0 }; }
-        return (grid_cell){ NAN, NAN };
+        if (!refused) { ++misses; return (svg_cell){ -1, 0 }; }
+        return (svg_cell){ NAN, NAN };
     }
     return measure(pb, &m, expected);
 }
 
 static void standard_rules(const char *folder)
 {
-    static grid_cell table[PROBLEMS][2*EXTRA][S];
-    static grid grids[PROBLEMS];
+    static svg_cell table[PROBLEMS][2*EXTRA][S];
+    static svg_table grids[PROBLEMS];
     char path[500];
     for (int k = 0; k < PROBLEMS; ++k) {
         for (int row = 0; row < 2*EXTRA; ++row)
             for (int s = 1; s <= S; ++s) table[k][row][s - 1] = standard_cell(&problems[k], s, row);
-        grids[k] = (grid){ problems[k].name, rule_names, s_names, 2*EXTRA, S, table[k][0] };
-        grid_print(&grids[k]);
+        grids[k] = (svg_table){ problems[k].name, rule_names, s_names, 2*EXTRA, S, table[k][0] };
+        print_table(&grids[k]);
     }
     snprintf(path, sizeof path, "%s/theorem_order.svg", folder);
-    if (grid_write(path, "Order seen, degree s against rule",
+    if (svg_write_tables(path, "Order seen, degree s against rule",
                    "blue: within 0.2 of min(2s, u); u = 2r for Gauss, 2r - 2 for Lobatto",
                    WITHIN, grids, PROBLEMS, 2)) exit(1);
 }
@@ -74,8 +74,8 @@ static void weak_rules(const char *folder)
     static own_rule rules[OWN];
     static char names[OWN][40];
     static const char *rows[OWN];
-    static grid_cell table[2][OWN][S];
-    static grid grids[2];
+    static svg_cell table[2][OWN][S];
+    static svg_table grids[2];
     static const int which[2] = { 1, 3 };
     char path[500];
     for (int k = 0; k < OWN; ++k) {
@@ -86,11 +86,11 @@ static void weak_rules(const char *folder)
     for (int k = 0; k < 2; ++k) {
         for (int i = 0; i < OWN; ++i)
             for (int s = 1; s <= S; ++s) table[k][i][s - 1] = own_cell(&problems[which[k]], s, &rules[i]);
-        grids[k] = (grid){ problems[which[k]].name, rows, s_names, OWN, S, table[k][0] };
-        grid_print(&grids[k]);
+        grids[k] = (svg_table){ problems[which[k]].name, rows, s_names, OWN, S, table[k][0] };
+        print_table(&grids[k]);
     }
     snprintf(path, sizeof path, "%s/theorem_weak_rules.svg", folder);
-    if (grid_write(path, "Order seen, rules of the caller",
+    if (svg_write_tables(path, "Order seen, rules of the caller",
                    "blue: within 0.2 of min(2s, u), or where u &lt; 2s - 2 of min(u, 2(u - s + 1)); "
                    "no: r &lt; s or u &lt; s, refused", WITHIN, grids, 2, 2)) exit(1);
 }

@@ -36,7 +36,7 @@
 #include <tgmath.h>
 
 typedef gvi_real real;
-#include "tests/pendulum.h"
+#include "tests/mechanics.h"
 
 #define MAYBE __attribute__((unused))     /* not every study needs everything */
 #define HESSIAN(name) static MAYBE int name(real t, const real *q, const real *v, \
@@ -125,7 +125,7 @@ static MAYBE void momentum_is_velocity_1(real t, const real *q, const real *p, r
 
 /* ------------------------------------------------------------------ Kepler */
 
-static MAYBE int attraction(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+static MAYBE int attraction_at(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
     real r2 = q[0]*q[0] + q[1]*q[1], w = -1/(r2*sqrt(r2));
     (void)t; (void)v; (void)dldv; (void)user;
@@ -382,7 +382,7 @@ HESSIAN(motor_hessian)
    Several starts, so that no leading term of an error is small by accident   */
 
 #define SPRING     { GVI_POTENTIAL, NULL, spring, spring_value, spring_hessian, NULL, 0 }
-#define ATTRACTION { GVI_POTENTIAL, NULL, attraction, attraction_value, attraction_hessian, NULL, 0 }
+#define ATTRACTION { GVI_POTENTIAL, NULL, attraction_at, attraction_value, attraction_hessian, NULL, 0 }
 #define WEIGHTS    { GVI_POTENTIAL, NULL, weights, weights_value, weights_hessian, NULL, 0 }
 #define TRAP       { GVI_POTENTIAL, NULL, trap, trap_value, trap_hessian, NULL, 0 }
 #define FIELD      { GVI_LAGRANGIAN, NULL, field, field_value, field_hessian, NULL, 0 }

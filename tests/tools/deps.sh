@@ -1,8 +1,8 @@
 #!/bin/sh
 # Installs what the tests need, with the package manager that is there.
-#   needed    cmocka
-#   welcome   clang, g++, valgrind: more compilers and checks; what is missing is skipped by the tests
-# deps.sh --check only says whether cmocka can be compiled against; deps.sh --compare installs the
+# deps.sh: cmocka, which is all that `make test` needs
+# deps.sh --check: clang, g++, valgrind, for `make check`; what cannot be had is skipped there
+# deps.sh --cmocka only says whether cmocka can be compiled against; deps.sh --compare installs the
 # libraries that `make cost-peers` compares with; deps.sh --firmware the compilers for small machines
 # and the emulator that `make firmware size` needs.
 
@@ -14,7 +14,7 @@ have_cmocka() {
 }
 have() { command -v "$1" >/dev/null 2>&1; }
 
-if [ "$1" = --check ]; then
+if [ "$1" = --cmocka ]; then
     have_cmocka && exit 0
     echo "The tests need cmocka, which $CC does not find.  \"make deps\" installs it." >&2
     exit 1
@@ -28,7 +28,8 @@ elif have apk;     then manager=apk;     names='cmocka-dev clang g++ valgrind'
 elif have brew;    then manager=brew;    names='cmocka - - -'
 else                    manager=none;    names='cmocka clang g++ valgrind'
 fi
-compare=no
+compare=no check=no
+[ "$1" = --check ] && check=yes
 if [ "$1" = --compare ]; then
     compare=yes
     case $manager in
@@ -53,9 +54,11 @@ fi
 set -- $names
 needed=; welcome=
 have_cmocka || needed=$1
-have clang || welcome="$welcome $2"
-have g++ || welcome="$welcome $3"
-have valgrind || welcome="$welcome $4"
+if [ $check = yes ]; then
+    have clang || welcome="$welcome $2"
+    have g++ || welcome="$welcome $3"
+    have valgrind || welcome="$welcome $4"
+fi
 welcome=$(echo $welcome | tr ' ' '\n' | grep -v '^-$' | tr '\n' ' ')
 
 if [ $compare = no ] && [ -z "$needed" ] && [ -z "$(echo $welcome)" ]; then

@@ -21,8 +21,8 @@ done
 [ -z "$missing" ] || fail "not installed:$missing"
 
 strict='-std=c99 -ffp-contract=off -fno-math-errno -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion
-        -Wshadow -Wundef -Wfloat-equal -Wvla -Werror -Itests/cost'
-small='-DGVI_NO_DENSE -DGVI_NO_CLOCK -DGVI_NO_LAGRANGIAN -DGVI_NO_OWN'
+        -Wshadow -Wundef -Wfloat-equal -Wvla -Werror -Itests/cost -Iexamples'
+small=-DGVI_NO_CLOCK
 bare="-mthumb -ffunction-sections -fdata-sections -nostartfiles -Wl,--gc-sections -T $board/mps2.ld -I$board
       -Wno-type-limits"
 m4f='-mcpu=cortex-m4 -mfloat-abi=hard -mfpu=fpv4-sp-d16 -DGVI_REAL=float -DSTEPS_COUNTED=500'
@@ -79,44 +79,6 @@ trace() {  # scene-formulation, index of the setting
     rm -f "$dir/trace.log"
 }
 
-# gvi.h without the compensation of the state and of its increments: two functions in other words, and
-# no sums of eight coordinates at once, which go round one of them
-plain() {
-    mkdir -p "$dir/plain"
-    cat >"$dir/plain/dot" <<'END'
-GVI__APART gvi__two gvi__exact_dot(int r, const gvi_real *a, const gvi_real *b, gvi_real rest, gvi_real *z)
-{
-    gvi__two sum = gvi__real2(rest);
-    (void)z, (void)gvi__join;
-    for (int j = 0; j < r; ++j) sum.hi += a[j]*b[j];
-    return sum;
-}
-END
-    cat >"$dir/plain/move" <<'END'
-static void gvi__move(int n, gvi_real zero, const gvi_real *dx, const gvi_real *dxe, gvi_real *x,
-                      gvi_real *rest, gvi_real *was)
-{
-    for (int i = 0; i < n; ++i) {
-        was[i] = x[i] - zero;
-        x[i] += dxe ? dx[i] + dxe[i] : dx[i];
-        rest[i] = zero;
-    }
-}
-END
-    awk -v dir="$dir/plain/" '
-        function instead(name,   line) {
-            skip = 1
-            ++found
-            while ((getline line < (dir name)) > 0) print line
-        }
-        /^GVI__APART gvi__two gvi__exact_dot\(/ { instead("dot") }
-        /^static void gvi__move\(/ { instead("move") }
-        /^#define GVI__WIDE 1/ { sub(1, 0); ++found }
-        !skip { print }
-        /^}/ { skip = 0 }
-        END { exit found != 3 }' gvi.h >"$dir/plain/gvi.h" || fail "gvi.h has other functions to be replaced"
-}
-
 echo 'Operations of a step, counted one by one, against the bound (float, then double):'
 echo
 for type in 'float 1' 'double 2'; do
@@ -145,16 +107,12 @@ echo
 echo 'The same in double (Cortex-M3)'
 "$dir/embedded-double" --choice "$dir/double.svg" "$dir/double.counts" || fail "choice, double"
 
-plain
-host embedded-plain "$dir/plain" float
-count_all plain mps2-an386 "$dir/plain" $LEVEL $m4f
 echo
-echo 'A million steps in float, with and without what rounding leaves carried on'
+echo 'A million steps in float'
 echo
 echo '| scene | setting | rounding | instructions | drift | error of q at the end |'
 echo '|---|---|---|---|---|---|'
-"$dir/embedded-float" --rounding "$dir/float.counts" carried || fail "rounding"
-"$dir/embedded-plain" --rounding "$dir/plain.counts" plain || fail "rounding, plain"
+"$dir/embedded-float" --rounding "$dir/float.counts" compensated || fail "rounding"
 
 # of RK4, carried; s = 2, N = 2; s = 3, N = 2 (their places in embedded_run.h), orbit and arm
 level() {

@@ -18,7 +18,7 @@ all='gcc clang tcc i386-sse i386-x87 i386-clang armhf aarch64 riscv64 ppc64 s390
 # reference integrators (make test); test_order, test_theorems, test_ncdp, a minute and more each.
 quick='api effects identities interpolation kicks lu many mass newton oracle quadrature queries structure tolerance
        effects:float interpolation:float lu:float many:float newton:float oracle:float'
-more='corners corners:float guess hostile mass:float scenes tolerance:float usual usual:float'
+more='corners corners:float hostile mass:float scenes tolerance:float twins twins:float'
 wide='lu:long interpolation:long oracle:long'
 quad='interpolation:long oracle:long kicks:long effects:long'
 # Some tests are in long double unless told otherwise and mean 64 bits by it: their problems are of
@@ -193,7 +193,7 @@ if [ "$1" = --job ]; then
     dir=$build/everywhere/$name
     shift 4
     bits=bits-$1 log=$dir/$kind-$1${2:+-$2}
-    sources="gvi.h $here tests/gvi_test.h tests/pendulum.h tests/compile examples"
+    sources="gvi.h $here tests/gvi_test.h tests/mechanics.h tests/compile examples"
     [ "$kind" != test ] || sources="$sources tests/data tests/cost tests/hard tests/test_${1%:*}.c"
     # shellcheck disable=SC2086
     [ -f "$log.out" ] && [ -z "$(find $sources -type f -newer "$log.out")" ] && exit 0

@@ -5,8 +5,8 @@
 # Control: a product in double must be found out by each check.
 build=$1
 dir=$build/float
-mkdir -p "$dir" "$build/result"
-rm -f "$dir"/* "$build/result/float"
+mkdir -p "$dir"
+rm -f "$dir"/*
 fail() { echo "FAILED: float: $*"; exit 1; }
 have() { command -v "$1" >/dev/null 2>&1; }
 count=0
@@ -65,5 +65,4 @@ if [ "$(uname -m)" = x86_64 ]; then
 else
     echo "  skipped: x86-64, this is $(uname -m)"
 fi
-echo "$count" >"$build/result/float"
 echo "float: $count passed, 0 failed"

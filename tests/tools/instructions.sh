@@ -9,8 +9,7 @@ CC=${CC:-cc}
 file=tests/data/instructions.txt
 dir=$build/instructions
 program=$dir/instructions
-mkdir -p "$dir" "$build/result"
-rm -f "$build/result/instructions"
+mkdir -p "$dir"
 fail() { echo "FAILED: instructions: $*" >&2; exit 1; }
 
 # no flag but these: vector registers beyond the common ones are not known to every valgrind
@@ -77,5 +76,4 @@ elif [ $same = no ]; then
 else
     passed=$((2*passed))
 fi
-echo "$passed" >"$build/result/instructions"
 echo "instructions: $passed passed, 0 failed"

@@ -2,17 +2,15 @@
 # size.sh BUILD [--detail]: how large gvi.h is on small machines, with GVI_REAL float and -Os:
 # code and constants of gvi.h alone, what it takes of libm and libgcc, the deepest stack; then
 # RAM.  Rows: every function, then gvi_init, gvi_start and gvi_step with one formulation
-# (GVI_ONLY_...), whole and without Lagrangian terms, clock, dense mass and own rules
-# (GVI_NO_..., "least"), also with few numbers as constants, a given number of iterations, no
-# diagnosis and no effects of one point ("fixed").  Then, on Cortex-M4F, what each part costs.  --detail: also the largest functions and the deepest chain of calls.
+# (GVI_ONLY_...), whole and without a clock and with few numbers as constants (GVI_NO_CLOCK,
+# GVI_NO_RULES, "least").  Then, on Cortex-M4F, what each part costs.  --detail: also the largest functions and the deepest chain of calls.
 build=$1 detail=$2
 CC=${CC:-cc}
 dir=$build/size
 mkdir -p "$dir"
 rm -f "$dir"/*
 fail() { echo "FAILED: size: $*"; exit 1; }
-least='-DGVI_NO_LAGRANGIAN -DGVI_NO_CLOCK -DGVI_NO_DENSE -DGVI_NO_OWN'
-fixed='-DGVI_NO_RULES -DGVI_NO_TOLERANCE -DGVI_NO_DIAGNOSIS -DGVI_NO_POINT -DGVI_NO_RESTS'
+least='-DGVI_NO_CLOCK -DGVI_NO_RULES'
 entries='size_init size_start size_step'
 cc_flags='-std=c99 -Os -fno-math-errno -ffp-contract=off -ffunction-sections -fdata-sections
           -DGVI_REAL=float -I.'
@@ -95,9 +93,8 @@ table() {  # target title prefix flags link-flags
         only=-DGVI_ONLY_$(echo $f | tr a-z A-Z)
         row $f tests/tools/size.c "$entries" $only
         row "$f, least" tests/tools/size.c "$entries" $only $least
-        row "$f, fixed" tests/tools/size.c "$entries" $only $least $fixed
     done
-    row "positions, described" tests/tools/size.c "$entries" -DGVI_ONLY_POSITIONS $least $fixed -DSIZE_DESCRIBED
+    row "positions, described" tests/tools/size.c "$entries" -DGVI_ONLY_POSITIONS $least -DSIZE_DESCRIBED
     echo "$target $(stepper) $(stepper -DGVI_EFFECTS=4)" >>"$dir/steppers"
 }
 
@@ -124,15 +121,8 @@ positions|$(echo "$all" | sed 's/-DGVI_ONLY_POSITIONS//')
 velocities|$(echo "$all" | sed 's/-DGVI_ONLY_VELOCITIES//')
 momenta|$(echo "$all" | sed 's/-DGVI_ONLY_MOMENTA//')
 Newton's method|$(echo "$all" | sed 's/-DGVI_ONLY_NEWTON//')
-Lagrangian terms: GVI_NO_LAGRANGIAN|-DGVI_NO_LAGRANGIAN
 clocks: GVI_NO_CLOCK|-DGVI_NO_CLOCK
-dense mass: GVI_NO_DENSE|-DGVI_NO_DENSE
-own rules: GVI_NO_OWN|-DGVI_NO_OWN
-effects of one point: GVI_NO_POINT|-DGVI_NO_POINT
-nodes and tables: GVI_NO_RULES, NO_LAGRANGIAN, NO_OWN|-DGVI_NO_RULES
-iterating as long as it takes: GVI_NO_TOLERANCE|-DGVI_NO_TOLERANCE
-naming the effect that gave NaN: GVI_NO_DIAGNOSIS|-DGVI_NO_DIAGNOSIS
-rests of products with h: GVI_NO_RESTS|-DGVI_NO_RESTS
+nodes and tables: GVI_NO_RULES|-DGVI_NO_RULES
 END
     while IFS='|' read -r name roots; do
         part_line "added by $name" $(($(linked "$steps $roots") - base))
@@ -185,7 +175,6 @@ echo 'aims on Cortex-M4F'
 aim 'code of everything'                             "$(found rows everything 3)" 16384
 aim 'code for potentials only: positions'            "$(found rows positions 3)" 5120
 aim 'code for potentials only: positions, least'     "$(found rows 'positions, least' 3)" 5120
-aim 'code for potentials only: positions, fixed'     "$(found rows 'positions, fixed' 3)" 5120
 aim 'code for potentials only: positions, described' "$(found rows 'positions, described' 3)" 5120
 aim 'code for potentials only: explicit, least'      "$(found rows 'explicit, least' 3)" 5120
 aim 'stack of everything'                            "$(found rows everything 4)" 512

@@ -1,11 +1,9 @@
 #!/bin/sh
-# summary.sh BUILD GATE NAME...: adds up what the names counted, and is the count of the gate.
-build=$1 gate=$2
+# summary.sh BUILD NAME STEP...: adds up what the steps counted.
+build=$1 name=$2
 shift 2
-total=0
-for name in "$@"; do
-    total=$((total + $(cat "$build/result/$name")))
-done
-mkdir -p "$build/result"
-echo $total >"$build/result/$gate"
-echo "$gate: $total passed, 0 failed"
+for step in "$@"; do cat "$build/result/$step" || exit 1; done |
+    awk -v name="$name" -v result="$build/result/$name" '{ passed += $1; failed += $2; skipped += $3 }
+        END { print passed, failed, skipped + 0 >result
+              printf "%s: %d passed, %d failed%s\n", name, passed, failed, skipped ? sprintf(", %d skipped", skipped) : ""
+              exit failed > 0 }'

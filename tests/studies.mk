@@ -1,0 +1,188 @@
+# studies.mk - what Makefile includes: long checks, measurements, pictures.  `make help-all` lists them.
+
+.PHONY: headers-quick headers symbols parts docs-check bound float instructions prices sanitize sanitized any_processor \
+        firmware deps-firmware fuzz fuzz-short size stats compare everywhere deps-everywhere \
+        cost-horizon ncdp scaling kicks cost-peers deps-compare cost-embedded hard theorems
+
+# -- steps of `make test` and `make check`; each can be run alone
+
+#: headers      gvi.h through every compiler, standard, type and linkage there is, no warning
+headers headers-quick: | $(FIRST)
+	$(STEP) $@ sh tests/tools/headers.sh $(BUILD) $(if $(findstring quick,$@),--quick)
+
+#: symbols      exports only gvi_, imports only libm, no data, no recursion
+symbols: $(addprefix $(BUILD)/gvi-,float.o double.o long.o)
+	$(STEP) $@ sh tests/tools/symbols.sh $(BUILD) $^
+
+#: docs-check   the code in README, guide and header is compiled and its output compared
+docs-check: $(BUILD)/gvi-double.o
+	$(STEP) $@ sh tests/tools/docs.sh $(BUILD) $<
+
+#: parts        every macro that leaves code out: refusals, the same bits, less code
+#: bound        operations of a step, counted one by one, against the bound that gvi.h states (C++)
+#: float        the object code of a float build: nothing is computed in double
+#: instructions points, iterations and instructions of fixed runs; RECORD=--record writes them anew
+#: prices       what an unlisted effect costs in instructions (valgrind): nothing
+#: firmware     two programs without an operating system, run as Cortex-M3 and M4F by qemu, against this machine
+parts bound float instructions prices firmware: | $(FIRST)
+	$(STEP) $@ sh tests/tools/$@.sh $(BUILD) $(RECORD)
+
+#: sanitize     tests and examples under the address and undefined behaviour sanitizers
+SANITIZED = $(TESTS) $(TYPED:%=%-float) $(EXAMPLES)
+sanitize: | $(FIRST)
+	$(Q)mkdir -p $(BUILD)/result; echo 0 0 1 >$(BUILD)/result/$@
+	$(Q)if sh tests/tools/sanitizer.sh '$(CC)' && sh tests/tools/sanitizer.sh '$(CXX)' -xc++; then \
+	    $(MAKE) --no-print-directory BUILD=$(BUILD)/sanitize sanitized \
+	    CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' && \
+	    cp $(BUILD)/sanitize/result/sanitized $(BUILD)/result/$@; fi
+sanitized: $(SANITIZED)
+	$(SUM) sanitized $(SANITIZED)
+
+#: valgrind     the smaller tests and examples under valgrind
+valgrind: $(VALGRIND:%=valgrind-%)
+	$(SUM) valgrind $(VALGRIND:%=valgrind-%)
+$(filter valgrind-test_%,$(VALGRIND:%=valgrind-%)): valgrind-%: $(BUILD)/tests/%
+	$(STEP) $@ sh tests/tools/run_valgrind.sh $<
+$(filter-out valgrind-test_%,$(VALGRIND:%=valgrind-%)): valgrind-%: $(BUILD)/examples/%
+	$(STEP) $@ sh tests/tools/run_valgrind.sh $<
+
+# One file, a form of it for each width of registers; other processors have the plain one alone.
+FORMS = plain $(if $(filter x86_64%,$(shell $(CC) -dumpmachine 2>/dev/null)),avx2 avx512)
+FORM_avx2   = -mavx2 -mfma
+FORM_avx512 = -mavx512f -mavx512dq -mavx512vl -mavx512bw -mfma
+$(BUILD)/alone/motion-%.o: examples/any_processor/motion.c | $(FIRST)
+	@mkdir -p $(@D)
+	$(Q)$(COMPILE) $(FORM_$*) -DMOTION=motion_$* -c $< -o $@
+$(BUILD)/alone/any_processor: examples/any_processor/main.c $(FORMS:%=$(BUILD)/alone/motion-%.o)
+	$(Q)$(COMPILE) $< $(filter %.o,$^) -o $@ $(LDLIBS)
+any_processor: $(BUILD)/alone/any_processor
+	$(STEP) $@ sh tests/tools/run_example.sh $(BUILD) $@ $<
+
+#: fuzz         a minute of libFuzzer on descriptions and calls (clang); FUZZ_SECONDS=600
+FUZZ_SECONDS = $(if $(filter fuzz,$(MAKECMDGOALS)),60,20)
+fuzz fuzz-short: | $(FIRST)
+	$(STEP) $@ sh tests/tools/fuzz.sh $(BUILD) $(FUZZ_SECONDS)
+
+#: deps-firmware installs what firmware and size need: compilers for Arm, RISC-V and AVR, qemu
+deps-firmware: | $(filter deps deps-check,$(MAKECMDGOALS))
+	$(Q)sh tests/tools/deps.sh --firmware
+
+# -- figures about gvi.h
+
+#: stats        lines, functions, size of the object, time to compile
+stats:
+	$(Q)sh tests/tools/stats.sh $(BUILD)
+
+#: compare      times of fixed runs against those of the gvi.h in OLD=folder; COMPARE_FLAGS="-O3 -march=native"
+compare:
+	$(Q)sh tests/tools/compare.sh $(OLD) . "$(COMPARE_FLAGS)"
+
+#: size         code, stack and RAM on Cortex-M0, Cortex-M4F, RISC-V 32 and AVR; DETAIL=--detail: by function
+size: | $(FIRST)
+	$(Q)sh tests/tools/size.sh $(BUILD) $(DETAIL)
+
+#: everywhere   every machine that can be compiled for and imitated here: warnings, tests, bits (half an hour)
+#:              RECORD=--record puts its tables into docs/embedded.md; ONLY="armhf tcc": these alone
+everywhere:
+	$(Q)ONLY='$(ONLY)' sh tests/tools/everywhere.sh $(BUILD) $(RECORD)
+
+#: deps-everywhere installs compilers, C libraries and emulators for everywhere (Debian 12)
+deps-everywhere:
+	$(Q)sh tests/tools/everywhere.sh --deps
+
+# -- scenes and the advisor
+
+SCENES = $(filter-out scene scenes price,$(basename $(notdir $(wildcard examples/scenes/*.c))))
+.PHONY: $(SCENES:%=scene-%)
+scenes: $(SCENES:%=scene-%)
+
+$(BUILD)/studies/scene $(BUILD)/studies/price: $(BUILD)/studies/%: examples/scenes/%.c
+	@mkdir -p $(@D)
+	$(Q)$(COMPILE) -Iexamples $< -o $@ $(LDLIBS)
+
+$(SCENES:%=scene-%): scene-%: $(BUILD)/studies/scene
+	$(Q)mkdir -p docs/img/scenes
+	$(Q)$< $* --svg docs/img/scenes/$*.svg
+
+advise: $(BUILD)/examples/advise
+$(BUILD)/examples/advise: examples/advise.c $(BUILD)/cost/problems.o $(BUILD)/cost/baselines.o
+	@mkdir -p $(@D)
+	$(Q)$(COMPILE) -Iexamples $^ -o $@ $(LDLIBS)
+
+# -- what accuracy costs: optimised as a user in a hurry would
+
+COST_CFLAGS = -O3 -march=native -ffp-contract=fast -fno-math-errno -fno-trapping-math
+PEER_LIBS   = -lgsl -lgslcblas -lsundials_cvode -lsundials_arkode -lsundials_nvecserial -lsundials_sunnonlinsolfixedpoint
+
+ifdef SCENE
+cost: $(BUILD)/studies/price
+	$(Q)$< $(SCENE)
+else
+cost: $(BUILD)/cost/cost
+	$(Q)$< --out $(BUILD)/cost $(COST_ARGS) | tee $(BUILD)/cost/table.txt
+endif
+
+#: cost-horizon the outer solar system at 1, 10 and 100 times its length
+cost-horizon: $(BUILD)/cost/cost
+	$(Q)$< --horizon --out $(BUILD)/cost
+
+#: ncdp         rounding over half a million steps, and its price, against the published standard
+#: kicks        splittings as tables of kicks against the same written by hand (ten seconds)
+#: scaling      time and memory against degree, coordinates and points; CSV and pictures in build/cost
+#: cost-peers   GSL, SUNDIALS and Boost.odeint on the problems of make cost
+ncdp kicks: %: $(BUILD)/cost/%
+	$(Q)$< $(COST_ARGS)
+scaling: $(BUILD)/cost/scaling
+	$(Q)$< --out $(BUILD)/cost $(COST_ARGS)
+cost-peers: $(BUILD)/cost/peers
+	$(Q)$< --out $(BUILD)/cost $(COST_ARGS)
+
+#: deps-compare installs what cost-peers needs: GSL, SUNDIALS, Boost
+deps-compare:
+	$(Q)sh tests/tools/deps.sh --compare
+
+#: cost-embedded instructions of a step on Cortex-M4F and Cortex-M3 and what they buy (qemu-system-arm; 4 minutes)
+cost-embedded:
+	$(Q)sh tests/tools/embedded_cost.sh $(BUILD)
+
+$(BUILD)/cost/%.o: tests/cost/%.c
+	@mkdir -p $(@D)
+	$(Q)$(CC) -std=c99 $(WARNINGS) -Wno-double-promotion -I. -Iexamples $(CPPFLAGS) -MMD -MP -MF $@.d -MT $@ $(COST_CFLAGS) -c $< -o $@
+$(BUILD)/cost/peers_odeint.o: tests/cost/peers_odeint.cpp
+	@mkdir -p $(@D)
+	$(Q)$(CXX) -std=c++14 $(COST_CFLAGS) -I. -c $< -o $@
+$(BUILD)/cost/ncdp $(BUILD)/cost/scaling: %: %.o
+	$(Q)$(CC) $< -o $@ $(LDLIBS)
+$(BUILD)/cost/peers: $(addprefix $(BUILD)/cost/,peers.o problems.o peers_odeint.o)
+	$(Q)$(CXX) $^ -o $@ $(PEER_LIBS) $(LDLIBS)
+$(BUILD)/cost/kicks $(BUILD)/cost/cost: %: %.o $(addprefix $(BUILD)/cost/,problems.o baselines.o gvi_run.o)
+	$(Q)$(CC) $^ -o $@ $(LDLIBS)
+
+# -- hard cases and theorems, measured
+
+HARD     = eccentric eccentric-float pythagorean corners stiff long brouwer brouwer-float drift single
+THEOREMS = order lagrangian curve forced doubled spectral identities inertia stability
+# These need more digits than long double has on x86.
+$(addprefix $(BUILD)/theorems/,order lagrangian forced): TESTFLAGS += $(shell CC='$(CC)' sh tests/theorems/quad.sh)
+SEED =
+.PHONY: $(HARD:%=hard-%) $(THEOREMS:%=theorem-%)
+
+$(BUILD)/hard/%-float: tests/hard/%.c
+	@mkdir -p $(@D)
+	$(Q)$(COMPILE) -DGVI_REAL=float $(TESTFLAGS) $< -o $@ $(LDLIBS)
+$(BUILD)/hard/% $(BUILD)/theorems/%: tests/$$(notdir $$(@D))/$$*.c | $(FIRST)
+	@mkdir -p $(@D)
+	$(Q)$(COMPILE) $(TESTFLAGS) $< -o $@ $(LDLIBS)
+
+#: hard         hard cases at length, docs/hard-cases.md (seven minutes); one: make hard-drift; SEED=11: other random numbers
+hard: $(HARD:%=hard-%)
+$(HARD:%=hard-%): hard-%: $(BUILD)/hard/%
+	$(STEP) $@ $< $(if $(filter stiff,$*),docs/img) $(if $(filter brouwer% drift,$*),$(SEED))
+
+#: theorems     docs/theorems.md measured again, with its pictures (a few minutes); one: make theorem-curve
+theorems: $(THEOREMS:%=theorem-%)
+$(THEOREMS:%=theorem-%): theorem-%: $(BUILD)/theorems/%
+	$(Q)mkdir -p docs/img
+	$(Q)$< docs/img
+
+-include $(wildcard $(BUILD)/hard/*.d $(BUILD)/theorems/*.d)
