@@ -9,7 +9,7 @@ PLAYGROUND_SOURCE = $(wildcard docs/playground/*.[ch]) gvi.h examples/effects.h 
 WASM_CC    = clang
 # Vectors of two: a quarter to a third less time with a gvi.h whose lanes know __wasm_simd128__.
 # The page has to stay under 200 KB; it says so when it does not.
-WASM_SIMD  =
+WASM_SIMD  = -msimd128
 WASM_FLAGS = --target=wasm32-wasi -mexec-model=reactor -O2 $(WASM_SIMD) -fno-math-errno \
              -Wl,--gc-sections,--strip-all,-z,stack-size=65536
 # The same text natively, for the test
@@ -17,7 +17,7 @@ PLAYGROUND_FLAGS = -std=c99 -ffp-contract=off -I. -Iexamples -Wall -Wextra -Wno-
 
 .PHONY: playground playground-test playground-bits playground-page deps-playground
 
-## playground   builds docs/playground/index.html, gvi.h in a browser (make deps-playground)
+#: playground   builds docs/playground/index.html, gvi.h in a browser (make deps-playground)
 playground: docs/playground/index.html
 
 $(PLAYGROUND)/gvi.wasm: $(PLAYGROUND_SOURCE) tests/playground.mk
@@ -34,11 +34,11 @@ $(PLAYGROUND)/native: tests/playground/native.c $(PLAYGROUND_SOURCE)
 	@echo '  cc $@'
 	$(Q)$(CC) -O2 $(PLAYGROUND_FLAGS) $< -o $@ -lm
 
-## deps-playground  installs what the playground is built and tested with
+#: deps-playground  installs what the playground is built and tested with
 deps-playground:
 	$(Q)sh tests/playground/deps.sh $(PLAYGROUND)
 
-## playground-test  the playground's numbers to the bit, and the page in a headless Chromium
+#: playground-test  the playground's numbers to the bit, and the page in a headless Chromium
 playground-test: playground-bits playground-page
 
 playground-bits: $(PLAYGROUND)/native $(PLAYGROUND)/gvi.wasm
