@@ -187,3 +187,5 @@ export PROGRESS := $(shell mkdir -p $(BUILD) && : >$(BUILD)/progress && echo $(B
 endif
 
 -include $(wildcard $(BUILD)/*.d $(BUILD)/tests/*.d $(BUILD)/examples/*.d $(BUILD)/alone/*.d $(BUILD)/studies/*.d $(BUILD)/cost/*.d)
+
+-include tests/playground.mk

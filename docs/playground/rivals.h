@@ -1,0 +1,223 @@
+/* rivals.h - what one would take otherwise: Stoermer-Verlet, Runge-Kutta 4, DOP853
+
+   They integrate a scene's effects one point a call.  So that no loop over points is left in them,
+   each callback has a copy in which count and stride are the constant 1 (ONE).  With a constant mass
+   the unknowns are (q, v), with M(q) they are (q, p).                                     */
+#ifndef RIVALS_H
+#define RIVALS_H
+
+#include "scenes.h"
+
+#define ALWAYS static inline __attribute__((always_inline))
+#define ONE(name)                                                                         \
+    static int name##_one(const gvi_points *x, void *user)                                \
+    {                                                                                     \
+        gvi_points y = *x;                                                                \
+        y.count = y.stride = 1;                                                           \
+        return name(&y, user);                                                            \
+    }
+ONE(uniform_field_force) ONE(pair_gravity_force) ONE(central_gravity_force) ONE(oblateness_force)
+ONE(springs_force) ONE(tethers_force) ONE(weights_force) ONE(linear_drag_force) ONE(air_drag_force)
+ONE(joint_friction_force) ONE(motor_force) ONE(servo_force) ONE(magnetic_force_points)
+ONE(two_links_gradient) ONE(two_links_velocity) ONE(top_gradient) ONE(top_velocity)
+
+/* The copy for one point; where there is none, the function itself does it.               */
+static gvi_points_fn *one_point(gvi_points_fn *many)
+{
+    static const struct { gvi_points_fn *many, *one; } list[] = {
+#define OF(name) { name, name##_one }
+        OF(uniform_field_force), OF(pair_gravity_force), OF(central_gravity_force), OF(oblateness_force),
+        OF(springs_force), OF(tethers_force), OF(weights_force), OF(linear_drag_force), OF(air_drag_force),
+        OF(joint_friction_force), OF(motor_force), OF(servo_force), OF(magnetic_force_points),
+        OF(two_links_gradient), OF(two_links_velocity), OF(top_gradient), OF(top_velocity)
+    };
+    for (size_t i = 0; i < sizeof list/sizeof *list; ++i)
+        if (list[i].many == many) return list[i].one;
+    return many;
+}
+
+enum { RIVAL_VERLET = 1, RIVAL_RK4, RIVAL_DOP853, RIVAL_STAGES = 12 };
+
+/* Coefficients as published, in tests/cost: there in long double, here as doubles.        */
+#define long
+#include "../../tests/cost/coefficients.h"
+#undef long
+
+typedef struct rival {
+    int         n, effects, method, reads_velocity;
+    struct { gvi_points_fn *points, *value; void *user; } effect[SCENE_EFFECTS];
+    gvi_mass    mass;
+    double      inverse[SCENE_MOST];                 /* 1/m                                */
+    double      t, h, y[2*SCENE_MOST];               /* q, then v or p                     */
+    double      k[RIVAL_STAGES][2*SCENE_MOST], z[2*SCENE_MOST];
+    double      tolerance;                           /* DOP853                             */
+    double      evaluations;
+    int         fresh;                               /* k[0] holds the slope at y          */
+} rival;
+
+/* dy = slope of y: (v, M^-1 f) or (v, dL/dq + f).                                         */
+ALWAYS void rival_slope(rival *r, int n, double t, const double *y, double *dy)
+{
+    gvi_points x = { .n = n, .count = 1, .stride = 1, .t = &t, .q = y, .f = dy + n };
+    for (int i = 0; i < n; ++i) dy[n+i] = 0;
+    if (r->mass.kind == GVI_MASS_POSITION) {
+        x.p = y + n;
+        x.velocity = dy;
+        r->mass.velocity(&x, r->mass.user);
+        x.v = dy;
+        r->mass.gradient(&x, r->mass.user);
+    } else {
+        for (int i = 0; i < n; ++i) dy[i] = y[n+i];
+        x.v = y + n;
+    }
+    for (int e = 0; e < r->effects; ++e) r->effect[e].points(&x, r->effect[e].user);
+    if (r->mass.kind == GVI_MASS_DIAGONAL)
+        for (int i = 0; i < n; ++i) dy[n+i] *= r->inverse[i];
+    r->evaluations += 1;
+}
+
+static double rival_root8(double x) { return sqrt(sqrt(sqrt(x))); }
+
+/* One step of h of an explicit table.  h k_0..: the slopes stay in r->k.                   */
+ALWAYS void rival_stages(rival *r, int n, const runge_kutta *table, double h)
+{
+    for (int i = r->fresh ? 1 : 0; i < table->stages; ++i) {
+        const double *A = table->A[i];
+        for (int l = 0; l < 2*n; ++l) r->z[l] = r->y[l];
+        for (int j = 0; j < i; ++j) {
+            const double a = h*A[j];
+            if (!(a < 0) && !(a > 0)) continue;
+            for (int l = 0; l < 2*n; ++l) r->z[l] += a*r->k[j][l];
+        }
+        rival_slope(r, n, r->t + h*table->c[i], r->z, r->k[i]);
+    }
+    r->fresh = 0;
+}
+
+ALWAYS void rival_rk4(rival *r, int n, double h)
+{
+    rival_stages(r, n, &classical_table, h);
+    const double *b = classical_table.b;
+    for (int l = 0; l < 2*n; ++l)
+        r->y[l] += h*(b[0]*r->k[0][l] + b[1]*r->k[1][l] + b[2]*r->k[2][l] + b[3]*r->k[3][l]);
+    r->t += h;
+}
+
+/* Step control as in Hairer's code, with the tolerance for absolute and relative errors.   */
+ALWAYS int rival_dop853(rival *r, int n, double end)
+{
+    const runge_kutta *T = &dop853_table;
+    for (int tries = 0; tries < 40; ++tries) {
+        double h = r->h, five = 0, three = 0;
+        const double left = end - r->t;
+        if (h >= left) h = left;
+        rival_stages(r, n, T, h);
+        for (int l = 0; l < 2*n; ++l) {
+            double sum = 0, e = 0, e3 = 0;
+            for (int j = 0; j < 12; ++j) {
+                sum += T->b[j]*r->k[j][l];
+                e += T->e[j]*r->k[j][l];
+                e3 += T->third[j]*r->k[j][l];
+            }
+            r->z[l] = r->y[l] + h*sum;
+            const double a = fabs(r->y[l]), b = fabs(r->z[l]), scale = r->tolerance*(1 + (a > b ? a : b));
+            e /= scale;
+            e3 = (sum - e3)/scale;
+            five += e*e;
+            three += e3*e3;
+        }
+        double below = five + 0.01*three;
+        if (!(below > 0)) below = 1;
+        const double error = h*five/sqrt(below*2*n), grown = 0.9/rival_root8(error > 1e-20 ? error : 1e-20);
+        const double factor = grown > 6 ? 6 : grown > 1/3.0 ? grown : 1/3.0;
+        if (error <= 1) {
+            for (int l = 0; l < 2*n; ++l) r->y[l] = r->z[l];
+            r->t = h < left ? r->t + h : end;
+            if (h < r->h) { if (factor < 1) r->h = h*factor; }      /* cut at the end      */
+            else r->h = h*factor;
+            return 0;
+        }
+        r->fresh = 1;                                               /* k[0] still holds    */
+        r->h = h*(factor < 1 ? factor : 1/3.0);
+    }
+    return -1;
+}
+
+/* Kick, drift, kick; k[0] keeps the accelerations at the end for the next step.            */
+ALWAYS void rival_verlet(rival *r, int n, double h)
+{
+    if (!r->fresh) rival_slope(r, n, r->t, r->y, r->k[0]);
+    for (int i = 0; i < n; ++i) {
+        r->y[n+i] += h/2*r->k[0][n+i];
+        r->y[i] += h*r->y[n+i];
+    }
+    r->t += h;
+    rival_slope(r, n, r->t, r->y, r->k[0]);
+    for (int i = 0; i < n; ++i) r->y[n+i] += h/2*r->k[0][n+i];
+    r->fresh = 1;
+}
+
+ALWAYS int rival_step_of(rival *r, int n, double h, double end)
+{
+    if (r->method == RIVAL_DOP853) return rival_dop853(r, n, end);
+    if (r->method == RIVAL_RK4) rival_rk4(r, n, h);
+    else rival_verlet(r, n, h);
+    return 0;
+}
+
+/* A step, n a constant where it pays.  Nonzero: gave up.                                  */
+static int rival_step(rival *r, double h, double end)
+{
+    switch (r->n) {
+    case 2:  return rival_step_of(r, 2, h, end);
+    case 3:  return rival_step_of(r, 3, h, end);
+    case 6:  return rival_step_of(r, 6, h, end);
+    default: return rival_step_of(r, r->n, h, end);
+    }
+}
+
+static double rival_energy(rival *r)
+{
+    double T = 0, V = 0, v[SCENE_MOST];
+    gvi_points x = { .n = r->n, .count = 1, .stride = 1, .t = &r->t, .q = r->y, .value = &V };
+    for (int e = 0; e < r->effects; ++e)
+        if (r->effect[e].value) r->effect[e].value(&x, r->effect[e].user);
+    if (r->mass.kind == GVI_MASS_POSITION) {
+        x.p = r->y + r->n;
+        x.velocity = v;
+        r->mass.velocity(&x, r->mass.user);
+        for (int i = 0; i < r->n; ++i) T += r->y[r->n+i]*v[i]/2;
+    } else
+        for (int i = 0; i < r->n; ++i) T += r->y[r->n+i]*r->y[r->n+i]/r->inverse[i]/2;
+    return T + V;
+}
+
+/* Ready at (t, q, v, p): 0, or -1 where the method does not suit the scene.                */
+static int rival_begin(rival *r, int method, int n, const scene_setup *s, unsigned on,
+                       double t, const double *q, const double *v, const double *p)
+{
+    r->n = n;
+    r->method = method;
+    r->mass = s->mass;
+    r->effects = r->reads_velocity = r->fresh = 0;
+    r->evaluations = 0;
+    r->t = t;
+    for (int e = 0; e < s->rows; ++e) {
+        const gvi_effect *effect = &s->row[e].force;
+        if (!(on >> e & 1) || effect->kind == GVI_CLOCK) continue;
+        if (effect->kind != GVI_POTENTIAL && effect->kind != GVI_FORCE) return -1;
+        /* a force that reads no v would do, but nothing says that it does not              */
+        if (effect->kind == GVI_FORCE && effect->points != motor_force) r->reads_velocity = 1;
+        r->effect[r->effects].points = one_point(effect->points);
+        r->effect[r->effects].value = effect->value;
+        r->effect[r->effects++].user = effect->user;
+    }
+    for (int i = 0; i < n; ++i) {
+        r->inverse[i] = s->mass.kind == GVI_MASS_DIAGONAL ? 1/s->mass.matrix[i] : 1;
+        r->y[i] = q[i];
+        r->y[n+i] = s->mass.kind == GVI_MASS_POSITION ? p[i] : v[i];
+    }
+    return method == RIVAL_VERLET && (r->reads_velocity || s->mass.kind == GVI_MASS_POSITION) ? -1 : 0;
+}
+
+#endif

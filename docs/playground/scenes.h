@@ -1,0 +1,479 @@
+/* scenes.h - the scenes of the playground: to add one, write thirty lines here
+
+   A scene is a list of effects (examples/effects.h), initial values, and what to draw; add it to
+   scenes[] at the end, then `make playground`.  docs/guide_playground.md goes through an example.
+
+   SHOWN(name, text)    the text as C and, for the program that the page writes, as a string
+   ADD(s, name, what, on, effect)    a switch on the page; on = 1: on at first
+   INSTEAD(s, effect)   the same as a force, for integrators that know no Lagrangian terms
+   MASS(s, mass)        if it is not the unit mass
+
+   A row may be of any kind that gvi.h has: the page takes kinds as they come, and the rivals refuse
+   what is neither potential nor force.  So a constraint is one more ADD, and "rods" one more scene. */
+#ifndef SCENES_H
+#define SCENES_H
+
+#include "clocks.h"
+#include <string.h>
+
+enum { SCENE_MOST = 96,        /* degrees of freedom                                       */
+       SCENE_BODIES = 40, SCENE_PARAMETERS = 3, SCENE_QUANTITIES = 2, SCENE_EFFECTS = 10 };
+
+typedef struct scene_row {
+    const char *name, *what, *text;
+    gvi_effect  effect, force;         /* force: instead, for the rivals                   */
+    int         on;
+} scene_row;
+
+typedef struct scene_setup {
+    scene_row   row[SCENE_EFFECTS];
+    int         rows;
+    gvi_mass    mass;
+    const char *mass_text;
+    double      q[SCENE_MOST], v[SCENE_MOST];
+    double      value[SCENE_PARAMETERS];          /* in: as the sliders stand              */
+} scene_setup;
+
+typedef struct scene {
+    const char *name, *title, *about;  /* name: in the address of the page                 */
+    int         n, degree;
+    double      h, span;               /* a step that suits; how long the runs for "Cost" are */
+    double      speed;                 /* scene time in a second                           */
+    const char *time_unit, *error_unit, *length_unit;   /* of time, coordinates, the picture */
+    struct { const char *name, *unit; double low, high, step, value; } parameter[SCENE_PARAMETERS];
+    struct { const char *name, *unless; } quantity[SCENE_QUANTITIES];   /* kept, unless these act */
+    const char *text, *make;           /* from SHOWN; a call that fills its tables         */
+    void      (*build)(scene_setup *s);
+    void      (*quantities)(const double *q, const double *v, const double *p, double *out);
+
+    /* The picture: bodies in space (NaN: not there), rods between bodies first, first + step, ...;
+       a radius in pixels and a trail for each.  space: seen from the side, can be turned.  */
+    int         bodies, space;
+    double      view;                  /* half the width of what is seen                   */
+    double      centre[3];
+    void      (*place)(const double *q, unsigned on, double (*x)[3]);
+    struct { int first, step, count; } rod[16];
+    const double *radius;              /* below 0: hollow                                  */
+    unsigned    trails, fixed;         /* bit b: of body b                                 */
+} scene;
+
+#define SHOWN(name, ...) __VA_ARGS__ static const char name[] = #__VA_ARGS__;
+#define ADD(s, name, what, on, effect) scene_add(s, name, what, #effect, on, effect)
+#define INSTEAD(s, effect) ((s)->row[(s)->rows - 1].force = (effect))
+#define MASS(s, given) ((s)->mass = (given), (s)->mass_text = #given)
+
+static inline void scene_add(scene_setup *s, const char *name, const char *what, const char *text,
+                             int on, gvi_effect effect)
+{
+    s->row[s->rows++] = (scene_row){ name, what, text, effect, effect, on };
+}
+
+static inline void scene_point(double *x, double a, double b, double c)
+{
+    x[0] = a;
+    x[1] = b;
+    x[2] = c;
+}
+
+/* Angular momentum about the third axis of particles in dim dimensions.                   */
+static inline double scene_angular(int count, int dim, const double *q, const double *p)
+{
+    double sum = 0;
+    for (int i = 0; i < count; ++i, q += dim, p += dim) sum += q[0]*p[1] - q[1]*p[0];
+    return sum;
+}
+
+/* ------------------------------------------------------------------ a planet */
+
+SHOWN(kepler_text,
+static const gvi_real planet_mass[] = { 1 };
+static const struct central_gravity sun = { { 0, 1, 3 }, planet_mass, 1, { 0, 0, 0 } };
+static const struct oblateness bulge = { { 0, 1, 3 }, planet_mass, 1, 0.2, 0.1 };
+static const struct central_gravity star = { { 0, 1, 3 }, planet_mass, 0.05, { -1.8, 1, 0 } };
+static const struct magnetic planet_field = { { 0, 1, 3 }, planet_mass, { 0, 0, 0.1 } };
+static const struct linear_drag dust = { 0, 3, 0.002, 3 };
+static const struct motor push = { { -1, 0 }, 0, 0.01, 1.3, 0 };
+static const struct distance_clock planet_clock = { { 0, 1, 3 } };
+)
+
+static void kepler_build(scene_setup *s)
+{
+    const double e = s->value[0], i = s->value[1]/57.29577951308232;
+    s->q[0] = 1 - e;
+    s->v[1] = sqrt((1 + e)/(1 - e))*cos(i);
+    s->v[2] = sqrt((1 + e)/(1 - e))*sin(i);
+    ADD(s, "gravity", "potential of the star", 1, central_gravity(&sun));
+    ADD(s, "oblateness", "the star is flattened", 1, oblateness(&bulge));
+    ADD(s, "third body", "a dwarf star, fixed", 0, central_gravity(&star));
+    ADD(s, "magnetic field", "Lagrangian term, reads v", 0, magnetic_field(&planet_field));
+    INSTEAD(s, magnetic_force(&planet_field));
+    ADD(s, "drag", "force, reads v: dust", 0, linear_drag(&dust));
+    ADD(s, "drive", "force that swings in time", 0, motor(&push));
+    ADD(s, "clock", "dt = |q| dtau", 0, distance_clock(&planet_clock));
+}
+
+static void kepler_place(const double *q, unsigned on, double (*x)[3])
+{
+    scene_point(x[0], 0, 0, 0);
+    memcpy(x[1], q, sizeof x[1]);
+    scene_point(x[2], on & 4 ? -1.8 : NAN, 1, 0);
+}
+
+static void kepler_quantities(const double *q, const double *v, const double *p, double *out)
+{
+    out[0] = scene_angular(1, 3, q, p);
+    (void)v;
+}
+
+static const double kepler_radius[] = { 11, 6, 7 };
+
+static const scene kepler = {
+    .name = "kepler", .title = "Planet", .about = "A planet on an ellipse about a star. Distances in AU, "
+    "2\xcf\x80 of time is a year.", .n = 3, .degree = 8, .h = 0.25, .span = 62.83185307179586, .speed = 2,
+    .time_unit = "yr/2\xcf\x80", .error_unit = "AU", .length_unit = "AU",
+    .parameter = { { "eccentricity", "", 0, 0.99, 0.01, 0.6 }, { "inclination", "\xc2\xb0", 0, 85, 5, 25 } },
+    .quantity = { { "angular momentum", "third body,drag,drive" } }, .text = kepler_text,
+    .build = kepler_build, .quantities = kepler_quantities,
+    .bodies = 3, .space = 1, .view = 1.35, .centre = { -0.6, 0, 0 }, .place = kepler_place,
+    .radius = kepler_radius, .trails = 2, .fixed = 5,
+};
+
+/* ------------------------------------------------------------- three bodies */
+
+SHOWN(eight_text,
+static const gvi_real eight_mass[] = { 1, 1, 1 };
+static const struct pair_gravity eight_gravity = { { 0, 3, 2 }, eight_mass, 1 };
+static const struct uniform_field eight_tide = { { 0, 3, 2 }, eight_mass, { 0.002, 0, 0 } };
+static const struct linear_drag eight_drag = { 0, 6, 0.002, 6 };
+static const struct pair_clock eight_clock = { { 0, 3, 2 } };
+)
+
+/* Chenciner, Montgomery, Annals of Mathematics 152, 2000; initial data by C. Simo         */
+static void eight_build(scene_setup *s)
+{
+    const double x = 0.97000436, y = -0.24308753, u = -0.93240737, w = -0.86473146;
+    const double q[] = { x, y, -x, -y, 0, 0 }, v[] = { -u/2, -w/2, -u/2, -w/2, u, w };
+    memcpy(s->q, q, sizeof q);
+    memcpy(s->v, v, sizeof v);
+    s->q[0] += s->value[0];
+    ADD(s, "gravity", "potential, of all pairs", 1, pair_gravity(&eight_gravity));
+    ADD(s, "outer field", "potential, uniform", 0, uniform_field(&eight_tide));
+    ADD(s, "drag", "force, reads v", 0, linear_drag(&eight_drag));
+    ADD(s, "clock", "slow where bodies are close", 0, pair_clock(&eight_clock));
+}
+
+static void three_place(const double *q, unsigned on, double (*x)[3])
+{
+    for (int i = 0; i < 3; ++i) scene_point(x[i], q[2*i], q[2*i+1], 0);
+    (void)on;
+}
+
+static void eight_quantities(const double *q, const double *v, const double *p, double *out)
+{
+    out[0] = scene_angular(3, 2, q, p);
+    out[1] = p[0] + p[2] + p[4];
+    (void)v;
+}
+
+static const double three_radius[] = { 7, 7, 7 };
+
+static const scene figure_eight = {
+    .name = "eight", .title = "Figure eight", .about = "Three equal masses follow each other on one curve. "
+    "G = m = 1.", .n = 6, .degree = 8, .h = 0.2, .span = 63.2591398, .speed = 1.5,
+    .time_unit = "", .error_unit = "length units",
+    .parameter = { { "first body moved by", "", -0.1, 0.1, 0.01, 0 } },
+    .quantity = { { "angular momentum", "drag,outer field" }, { "momentum x", "drag,outer field" } },
+    .text = eight_text, .build = eight_build, .quantities = eight_quantities,
+    .bodies = 3, .view = 1.3, .place = three_place, .radius = three_radius, .trails = 7,
+};
+
+SHOWN(pythagoras_text,
+static const gvi_real pythagoras_mass[] = { 3, 4, 5 };
+static const gvi_real pythagoras_masses[] = { 3, 3, 4, 4, 5, 5 };
+static const struct pair_gravity pythagoras_gravity = { { 0, 3, 2 }, pythagoras_mass, 1 };
+static const struct linear_drag pythagoras_drag = { 0, 6, 0.01, 6 };
+static const struct pair_clock pythagoras_clock = { { 0, 3, 2 } };
+)
+
+/* Burrau's problem: at rest in the corners of a triangle of sides 3, 4, 5                 */
+static void pythagoras_build(scene_setup *s)
+{
+    const double q[] = { 1, 3, -2, -1, 1, -1 };
+    memcpy(s->q, q, sizeof q);
+    MASS(s, ((gvi_mass){ .kind = GVI_MASS_DIAGONAL, .matrix = pythagoras_masses }));
+    ADD(s, "gravity", "potential, of all pairs", 1, pair_gravity(&pythagoras_gravity));
+    ADD(s, "drag", "force, reads v", 0, linear_drag(&pythagoras_drag));
+    ADD(s, "clock", "slow where bodies are close", 1, pair_clock(&pythagoras_clock));
+}
+
+static const double pythagoras_radius[] = { 6, 7.5, 9 };
+
+static const scene pythagoras = {
+    .name = "pythagoras", .title = "Pythagorean", .about = "Masses 3, 4, 5 fall from rest in the corners of "
+    "a triangle; near encounters throw one out. A clock lets the step shrink there.", .n = 6, .degree = 8,
+    .h = 0.05, .span = 10, .speed = 1, .time_unit = "", .error_unit = "length units",
+    .quantity = { { "angular momentum", "drag" }, { "momentum x", "drag" } },
+    .text = pythagoras_text, .build = pythagoras_build, .quantities = eight_quantities,
+    .bodies = 3, .view = 4, .place = three_place, .radius = pythagoras_radius, .trails = 7,
+};
+
+/* ---------------------------------------------------------- double pendulum */
+
+SHOWN(pendulum_text,
+static const struct two_links pendulum_links = { 2, 1, 1 };
+static const gvi_real pendulum_levers[] = { 2*9.81, 9.81 };
+static const joint pendulum_joints[] = { { -1, 0 }, { 0, 1 } };
+static const struct weights pendulum_weights = { 0, 2, pendulum_levers };
+static const struct joint_friction pendulum_friction = { pendulum_joints, 2, 0.05 };
+static const struct motor pendulum_motor = { { -1, 0 }, 0, 8, 2.4, 0 };
+)
+
+static void pendulum_build(scene_setup *s)
+{
+    s->q[0] = s->value[0]/57.29577951308232;
+    s->q[1] = s->value[1]/57.29577951308232;
+    MASS(s, two_links(&pendulum_links));
+    ADD(s, "gravity", "potential, in angles", 1, weights(&pendulum_weights));
+    ADD(s, "friction", "torque, reads v", 0, joint_friction(&pendulum_friction));
+    ADD(s, "drive", "torque that swings in time", 0, motor(&pendulum_motor));
+}
+
+static void pendulum_place(const double *q, unsigned on, double (*x)[3])
+{
+    scene_point(x[0], 0, 0, 0);
+    scene_point(x[1], sin(q[0]), -cos(q[0]), 0);
+    scene_point(x[2], sin(q[0]) + sin(q[1]), -cos(q[0]) - cos(q[1]), 0);
+    (void)on;
+}
+
+static void pendulum_quantities(const double *q, const double *v, const double *p, double *out)
+{
+    out[0] = p[0] + p[1];
+    (void)q, (void)v;
+}
+
+static const double pendulum_radius[] = { 4, 8, 8 };
+
+static const scene double_pendulum = {
+    .name = "pendulum", .title = "Double pendulum", .about = "Two rods of 1 m with 1 kg at each end, in "
+    "angles: the mass matrix depends on the position. Chaotic.", .n = 2, .degree = 8, .h = 0.08, .span = 10,
+    .speed = 1, .time_unit = "s", .error_unit = "rad", .length_unit = "m",
+    .parameter = { { "upper angle", "\xc2\xb0", -180, 180, 5, 90 }, { "lower angle", "\xc2\xb0", -180, 180, 5, 120 } },
+    .quantity = { { "angular momentum", "gravity,friction,drive" } },
+    .text = pendulum_text, .build = pendulum_build, .quantities = pendulum_quantities,
+    .bodies = 3, .view = 2.2, .place = pendulum_place, .rod = { { 0, 1, 3 } }, .radius = pendulum_radius,
+    .trails = 4, .fixed = 1,
+};
+
+/* ---------------------------------------------------------------------- top */
+
+SHOWN(top_text,
+static const struct top toy_top = { 2e-4, 8e-5 };
+static const gvi_real toy_lever[] = { -0.1*9.81*0.04 };
+static const struct weights toy_weight = { 0, 1, toy_lever };
+static const struct linear_drag toy_friction = { 1, 2, 1e-5, 3 };
+static const struct motor toy_motor = { { -1, 2 }, 2e-3, 0, 0, 0 };
+)
+
+static void top_build(scene_setup *s)
+{
+    s->q[0] = s->value[0]/57.29577951308232;
+    s->v[1] = s->value[2];
+    s->v[2] = s->value[1];
+    MASS(s, top(&toy_top));
+    ADD(s, "gravity", "potential, of the tilt", 1, weights(&toy_weight));
+    ADD(s, "friction", "torque, reads v", 0, linear_drag(&toy_friction));
+    ADD(s, "drive", "torque on the spin", 0, motor(&toy_motor));
+}
+
+/* Tip, end of the axis, and a rim of twelve points that shows the spin                    */
+static void top_place(const double *q, unsigned on, double (*x)[3])
+{
+    const double s = sin(q[0]), c = cos(q[0]), a = sin(q[1]), b = cos(q[1]);
+    scene_point(x[0], 0, 0, 0);
+    scene_point(x[1], s*a, -s*b, c);
+    for (int i = 0; i <= 12; ++i) {
+        const double w = fmod(q[2], 6.283185307179586) + i*0.5235987755982988;
+        const double u = 0.42*cos(w), v = 0.42*sin(w);
+        scene_point(x[2+i], 0.62*s*a + u*b - v*c*a, -0.62*s*b + u*a + v*c*b, 0.62*c + v*s);
+    }
+    scene_point(x[15], 0.62*s*a, -0.62*s*b, 0.62*c);
+    (void)on;
+}
+
+static void top_quantities(const double *q, const double *v, const double *p, double *out)
+{
+    out[0] = p[1];
+    out[1] = p[2];
+    (void)q, (void)v;
+}
+
+static const double top_radius[16] = { 3, 5, 4 };
+
+static const scene spinning_top = {
+    .name = "top", .title = "Spinning top", .about = "A toy of 0.1 kg in Euler's angles: it nods while it "
+    "goes round. Drag the picture to turn it.", .n = 3, .degree = 8, .h = 0.02, .span = 2, .speed = 0.12,
+    .time_unit = "s", .error_unit = "rad",
+    .parameter = { { "tilt", "\xc2\xb0", 5, 85, 5, 30 }, { "spin", " rad/s", 60, 300, 10, 150 },
+                   { "push sideways", " rad/s", -10, 10, 0.5, 0 } },
+    .quantity = { { "p of precession", "friction" }, { "p of spin", "friction,drive" } },
+    .text = top_text, .build = top_build, .quantities = top_quantities,
+    .bodies = 16, .space = 1, .view = 1.25, .centre = { 0, 0, 0.45 }, .place = top_place,
+    .rod = { { 0, 1, 2 }, { 2, 1, 13 }, { 2, 13, 2 }, { 5, 10, 2 }, { 8, 7, 2 }, { 11, 4, 2 } },
+    .radius = top_radius, .trails = 2, .fixed = 1,
+};
+
+/* ---------------------------------------------------------------------- net */
+
+SHOWN(net_text,
+enum { SIDE = 5, KNOTS = SIDE*SIDE };
+static gvi_real net_mass[3*KNOTS];
+static struct spring net_spring[2*SIDE*(SIDE - 1)];
+static struct tether net_hook[4];
+static const struct uniform_field net_weight = { { 0, KNOTS, 3 }, net_mass, { 0, 0, -9.81 } };
+static const struct springs net_threads = { { 0, KNOTS, 3 }, net_spring, 2*SIDE*(SIDE - 1), 3*KNOTS };
+static const struct tethers net_hooks = { { 0, KNOTS, 3 }, net_hook, 4, 3*KNOTS };
+static const struct air_drag net_air = { { 0, KNOTS, 3 }, 0.006, 3*KNOTS };
+static const struct motor net_shake = { { -1, 38 }, 0, 0.5, 20, 0 };
+static void net_make(void) {
+    struct spring *next = net_spring;
+    struct tether *hook = net_hook;
+    for (int i = 0; i < KNOTS; ++i) {
+        const int x = i%SIDE, y = i/SIDE, last = SIDE - 1;
+        for (int c = 0; c < 3; ++c) net_mass[3*i+c] = 0.01;
+        if (x < last) *next++ = (struct spring){ i, i + 1, 100, 0.2 };
+        if (y < last) *next++ = (struct spring){ i, i + SIDE, 100, 0.2 };
+        if (x%last == 0 && y%last == 0) *hook++ = (struct tether){ i, 500, 0, { 0.2*x, 0.2*y, 0 } };
+    }
+}
+)
+
+static void net_build(scene_setup *s)
+{
+    static const double bell[] = { 0, 0.7071067811865476, 1, 0.7071067811865476, 0 };
+    net_make();
+    for (int i = 0; i < KNOTS; ++i)
+        scene_point(s->q + 3*i, 0.2*(i%SIDE), 0.2*(i/SIDE), bell[i%SIDE]*bell[i/SIDE]*s->value[0]);
+    MASS(s, ((gvi_mass){ .kind = GVI_MASS_DIAGONAL, .matrix = net_mass }));
+    ADD(s, "springs", "potential, 40 threads", 1, springs(&net_threads));
+    ADD(s, "hooks", "potential, at the corners", 1, tethers(&net_hooks));
+    ADD(s, "gravity", "potential, uniform", 1, uniform_field(&net_weight));
+    ADD(s, "drag", "force, reads v: air", 0, air_drag(&net_air));
+    ADD(s, "drive", "shakes the middle knot", 0, motor(&net_shake));
+}
+
+static void net_place(const double *q, unsigned on, double (*x)[3])
+{
+    memcpy(x, q, sizeof(double)*3*KNOTS);
+    (void)on;
+}
+
+static const double net_radius[KNOTS] = { 5, 2.5, 2.5, 2.5, 5, 2.5, 2.5, 2.5, 2.5, 2.5, 2.5, 2.5, 4, 2.5, 2.5,
+                                          2.5, 2.5, 2.5, 2.5, 2.5, 5, 2.5, 2.5, 2.5, 5 };
+
+static const scene spring_net = {
+    .name = "net", .title = "Net of springs", .about = "25 knots of 10 g on threads of 100 N/m, hung by the "
+    "corners. 75 coordinates. Drag the picture to turn it.", .n = 3*KNOTS, .degree = 6, .h = 0.01, .span = 0.4,
+    .speed = 0.25, .time_unit = "s", .error_unit = "m", .length_unit = "m",
+    .parameter = { { "dome", " m", -0.3, 0.3, 0.02, 0.1 } },
+    .text = net_text, .make = "net_make();", .build = net_build,
+    .bodies = KNOTS, .space = 1, .view = 0.75, .centre = { 0.4, 0.4, -0.05 }, .place = net_place,
+    .rod = { { 0, 1, 5 }, { 5, 1, 5 }, { 10, 1, 5 }, { 15, 1, 5 }, { 20, 1, 5 },
+             { 0, 5, 5 }, { 1, 5, 5 }, { 2, 5, 5 }, { 3, 5, 5 }, { 4, 5, 5 } },
+    .radius = net_radius, .trails = 1u << 12,
+};
+
+/* ---------------------------------------------------------- charged particle */
+
+SHOWN(charge_text,
+static const gvi_real charge_mass[] = { 1 };
+static const struct magnetic charge_field = { { 0, 1, 3 }, charge_mass, { 0, 0, 1 } };
+static const struct uniform_field charge_electric = { { 0, 1, 3 }, charge_mass, { 0, 0.1, 0 } };
+static const struct central_gravity charge_centre = { { 0, 1, 3 }, charge_mass, 0.6, { 0, 0, 0 } };
+static const struct linear_drag charge_drag = { 0, 3, 0.01, 3 };
+static const struct motor charge_drive = { { -1, 0 }, 0, 0.05, 1, 0 };
+)
+
+static void charge_build(scene_setup *s)
+{
+    s->q[0] = 1;
+    s->v[1] = s->value[0];
+    s->v[2] = s->value[1];
+    ADD(s, "magnetic field", "Lagrangian term, reads v", 1, magnetic_field(&charge_field));
+    INSTEAD(s, magnetic_force(&charge_field));
+    ADD(s, "electric field", "potential, uniform", 0, uniform_field(&charge_electric));
+    ADD(s, "centre", "an opposite charge, fixed", 1, central_gravity(&charge_centre));
+    ADD(s, "drag", "force, reads v", 0, linear_drag(&charge_drag));
+    ADD(s, "drive", "at the resonance", 0, motor(&charge_drive));
+}
+
+static void charge_place(const double *q, unsigned on, double (*x)[3])
+{
+    scene_point(x[0], on & 4 ? 0 : NAN, 0, 0);
+    memcpy(x[1], q, sizeof x[1]);
+}
+
+static const double charge_radius[] = { 8, 6 };
+
+static const scene charged_particle = {
+    .name = "charge", .title = "Charged particle", .about = "A charge in a magnetic field along the vertical. "
+    "Units in which charge, mass and field are 1.", .n = 3, .degree = 8, .h = 0.5, .span = 100, .speed = 2,
+    .time_unit = "", .error_unit = "gyroradii",
+    .parameter = { { "speed across", "", 0.1, 2, 0.05, 1.1 }, { "speed along", "", 0, 0.5, 0.05, 0.1 } },
+    .quantity = { { "angular momentum", "electric field,drag,drive" } },
+    .text = charge_text, .build = charge_build, .quantities = kepler_quantities,
+    .bodies = 2, .space = 1, .view = 2.2, .place = charge_place, .radius = charge_radius, .trails = 2, .fixed = 1,
+};
+
+/* ----------------------------------------------------------------- robot arm */
+
+SHOWN(arm_text,
+static const struct two_links arm_links = { 2*0.25/3 + 1.2*0.25, 1.2*0.16/3, 1.2*0.5*0.4/2 };
+static const gvi_real arm_levers[] = { (2/2.0 + 1.2)*9.81*0.5, 1.2/2*9.81*0.4 };
+static const joint arm_joints[] = { { -1, 0 }, { 0, 1 } };
+static const struct weights arm_weight = { 0, 2, arm_levers };
+static const struct joint_friction arm_gears = { arm_joints, 2, 0.2 };
+static const struct motor arm_lift = { { -1, 0 }, 8, 0, 0, 0 };
+static const struct servo arm_shoulder = { { -1, 0 }, 120, 8, 1.4, 0.7, 2, 0 };
+static const struct servo arm_elbow = { { 0, 1 }, 60, 3, 0.9, -0.8, 4, 0.5 };
+)
+
+static void arm_build(scene_setup *s)
+{
+    s->q[0] = s->value[0]/57.29577951308232;
+    s->q[1] = s->value[1]/57.29577951308232;
+    MASS(s, two_links(&arm_links));
+    ADD(s, "gravity", "potential, in angles", 1, weights(&arm_weight));
+    ADD(s, "friction", "torque, of the gears", 1, joint_friction(&arm_gears));
+    ADD(s, "lift", "torque, constant", 1, motor(&arm_lift));
+    ADD(s, "shoulder", "servo, swings with time", 1, servo(&arm_shoulder));
+    ADD(s, "elbow", "servo, swings with time", 1, servo(&arm_elbow));
+}
+
+static void arm_place(const double *q, unsigned on, double (*x)[3])
+{
+    scene_point(x[0], 0, 0, 0);
+    scene_point(x[1], 0.5*sin(q[0]), -0.5*cos(q[0]), 0);
+    scene_point(x[2], x[1][0] + 0.4*sin(q[1]), x[1][1] - 0.4*cos(q[1]), 0);
+    (void)on;
+}
+
+static const double arm_radius[] = { 9, 7, 5 };
+
+static const scene robot_arm = {
+    .name = "arm", .title = "Robot arm", .about = "Two links, 2 kg and 1.2 kg, with a servo in each joint; "
+    "the gears rub.", .n = 2, .degree = 8, .h = 0.03, .span = 4, .speed = 1, .time_unit = "s",
+    .error_unit = "rad", .length_unit = "m",
+    .parameter = { { "shoulder", "\xc2\xb0", -180, 180, 5, 120 }, { "elbow", "\xc2\xb0", -180, 180, 5, 130 } },
+    .quantity = { { "angular momentum", "gravity,friction,lift,shoulder,elbow" } },
+    .text = arm_text, .build = arm_build, .quantities = pendulum_quantities,
+    .bodies = 3, .view = 1.05, .place = arm_place, .rod = { { 0, 1, 3 } }, .radius = arm_radius,
+    .trails = 4, .fixed = 1,
+};
+
+static const scene *const scenes[] = {
+    &kepler, &figure_eight, &pythagoras, &double_pendulum, &spinning_top, &spring_net, &charged_particle,
+    &robot_arm,
+};
+
+#endif

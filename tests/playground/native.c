@@ -1,0 +1,69 @@
+/* The playground's program, natively: runs of every scene, each printed with all the bits of its
+   end, for bits.mjs to repeat in WebAssembly.  A line: scene on degree rule tolerance method
+   parameter, then status, evaluations, steps, q, p or v of a rival, and the energy.       */
+#include "../../docs/playground/wasm.c"
+#include <inttypes.h>
+#include <stdio.h>
+
+static void bits(double x)
+{
+    uint64_t u;
+    memcpy(&u, &x, sizeof u);
+    printf(" %016" PRIx64, x < 0 || x >= 0 ? u : UINT64_C(0x7ff8000000000000));
+}
+
+static void run(int scene, unsigned on, int degree, int rule, double tolerance, int method, double parameter)
+{
+    const double span = scene_number(scene, 3, 0)/4;
+    for (int i = 0; i < SCENE_PARAMETERS; ++i) parameters()[i] = scene_number(scene, 33, i);
+    int status = world_open(1, scene, on, degree, rule, tolerance, 0);
+    if (!status) status = race_begin(1, method, parameter, span);
+    while (!status) status = race_steps(1, 1000);
+    printf("%d %u %d %d %.17g %d %.17g: %d", scene, on, degree, rule, tolerance, method, parameter, status);
+    if (status == 1) {
+        const int n = worlds[1].scene->n;
+        bits(race_number(1, 1));
+        bits(race_number(1, 0));
+        const double *q = race_end(1);
+        for (int i = 0; i < n; ++i) bits(q[i]);
+        for (int i = 0; i < n; ++i) bits(method ? world_number(1, 43, n + i) : world_number(1, 31, i));
+        bits(method ? world_number(1, 42, 0) : world_number(1, 20, 0));
+    }
+    printf("\n");
+}
+
+int main(void)
+{
+    for (int s = 0; s < scene_count(); ++s) {
+        const double h = scene_number(s, 2, 0);
+        const int rows = (int)scene_number(s, 20, 0);
+        unsigned first = 0, all = 0;
+        for (int e = 0; e < rows; ++e) {
+            if (scene_number(s, 21, e) > 0) first |= 1u << e;
+            if (scene_number(s, 22, e) < GVI_CLOCK) all |= 1u << e;
+        }
+        const unsigned sets[] = { first, all, first | (all + 1), 1 };
+        for (int k = 0; k < 4; ++k) {
+            const unsigned on = sets[k] & ((1u << rows) - 1);
+            run(s, on, 1, RULE_GAUSS, 0, 0, h/8);
+            run(s, on, 4, RULE_GAUSS, 0, 0, h/2);
+            run(s, on, 8, RULE_GAUSS, 0, 0, h);
+            run(s, on, 16, RULE_GAUSS, 0, 0, h);
+            run(s, on, 8, RULE_GAUSS, 1e-9, 0, h);
+            run(s, on, 3, RULE_GAUSS_MORE, 0, 0, h/2);
+            run(s, on, 5, RULE_LOBATTO, 0, 0, h/2);
+            run(s, on, 1, RULE_VERLET, 0, 0, h/16);
+            run(s, on, 1, RULE_KICKS8, 0, 0, h/2);
+            run(s, on, 8, RULE_GAUSS, 0, 0, 16*h);              /* too large: Newton, or a failure */
+            run(s, on, 8, RULE_GAUSS, 0, RIVAL_VERLET, h/16);
+            run(s, on, 8, RULE_GAUSS, 0, RIVAL_RK4, h/16);
+            run(s, on, 8, RULE_GAUSS, 0, RIVAL_DOP853, 1e-8);
+        }
+    }
+    run(0, 1, 99, RULE_GAUSS, 0, 0, 0.1);                       /* what the library refuses */
+    run(0, 1, 8, RULE_GAUSS, 0, 0, 0);
+    run(99, 1, 8, RULE_GAUSS, 0, 0, 0.1);
+    run(0, 1, 8, 99, 0, 0, 0.1);
+    run(0, 1, 8, RULE_GAUSS, 2, 0, 0.1);
+    return 0;
+}

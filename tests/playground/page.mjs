@@ -1,0 +1,247 @@
+// page.mjs PAGE BUILD - what a person does with the playground, in a headless Chromium
+//
+// Screenshots of the page in light, dark and on a phone go to BUILD; look at them after a change.
+import { execFileSync } from 'node:child_process';
+import { createRequire } from 'node:module';
+import { statSync, writeFileSync, mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join, resolve } from 'node:path';
+import { pathToFileURL } from 'node:url';
+
+const [file, build] = process.argv.slice(2).map(p => resolve(p));
+const { chromium } = createRequire(join(build, 'x.js'))('playwright-core');
+const url = pathToFileURL(file).href;
+const profile = mkdtempSync(join(tmpdir(), 'playground-'));
+const browser = await chromium.launch({
+  executablePath: process.env.CHROMIUM || '/usr/bin/chromium',
+  args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
+         '--disable-component-update', '--disable-sync', `--crash-dumps-dir=${profile}`],
+});
+
+let passed = 0, failed = 0;
+const check = (what, ok, seen = '') => { if (ok) passed++; else { failed++; console.error(`FAILED ${what}`, seen); } };
+const complaints = [];
+
+async function visit(hash = '', options = {}) {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 1400 }, ...options });
+  const page = await context.newPage();
+  page.on('console', m => { if (['error', 'warning'].includes(m.type())) complaints.push(m.text()); });
+  page.on('pageerror', e => complaints.push(e.message));
+  page.on('request', r => { if (!r.url().startsWith('file:') && !r.url().startsWith('data:') && !r.url().startsWith('blob:')) complaints.push('asked the network for ' + r.url()); });
+  await page.goto(url + hash);
+  await page.waitForFunction(() => document.documentElement.dataset.ready, null, { timeout: 20000 });
+  return page;
+}
+const leave = page => page.context().close();
+const total = (page, effect) => page.evaluate(e => Number(document.querySelector(`tr[data-effect=${e}]`).dataset.total), effect);
+const chosen = page => page.getAttribute('#formulation', 'data-formulation');
+const measured = page => page.waitForFunction(() => document.querySelector('#cost').dataset.left === '0' && document.querySelector('#here'), null, { timeout: 90000 });
+/* The point of the present setting, once it is measured. */
+async function here(page) {
+  const found = await page.waitForFunction(() => {
+    const ring = document.querySelector('#here'), { set } = window.gvi, kicks = /verlet|kicks/.test(set.rule);
+    const p = [...document.querySelectorAll('.point')].find(q => q.dataset.id === [0, kicks ? 1 : set.degree, set.rule, set.tol, set.h].join(' '));
+    if (!ring || !p || document.querySelector('#cost').dataset.left === undefined) return null;
+    return { ...p.dataset, x: +ring.getAttribute('cx'), y: +ring.getAttribute('cy'), width: document.querySelector('#cost').clientWidth, height: document.querySelector('#cost').clientHeight };
+  }, null, { timeout: 90000 });
+  return found.jsonValue();
+}
+const put = (page, selector, value) => page.evaluate(([s, v]) => { const e = document.querySelector(s); e.value = v; e.dispatchEvent(new Event('input', { bubbles: true })); e.dispatchEvent(new Event('change', { bubbles: true })); }, [selector, value]);
+
+/* ---- it opens ---- */
+const bytes = statSync(file).size;
+check('under 200 KB in all', bytes < 200000, bytes);
+let page = await visit();
+const ready = Number(await page.evaluate(() => document.documentElement.dataset.ready));
+check('first frame under a second', ready < 1000, ready);
+check('the planet is the first scene', (await page.textContent('#scene-title')) === 'Planet');
+const drawn = () => page.evaluate(() => { const c = document.querySelector('#canvas'), d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data; let n = 0; for (let i = 3; i < d.length; i += 4) n += d[i] > 0; return n; });
+check('something is drawn', (await drawn()) > 1000);
+const moving = await page.evaluate(() => new Promise(done => { let n = 0, worst = 0, last = performance.now(); const begin = last; const f = () => { const t = performance.now(); worst = Math.max(worst, t - last); last = t; n++; if (t - begin < 2000) requestAnimationFrame(f); else done({ n: n / 2, worst }); }; requestAnimationFrame(f); }));
+check('frames go on while it measures', moving.n > 20 && moving.worst < 300, moving);
+const pace = Math.round(moving.n);
+
+/* ---- effects: what is off costs nothing ---- */
+await page.click('tr[data-effect=drag] input');
+check('drag reads v: velocities', (await chosen(page)) === 'velocities');
+await measured(page);
+const dear = await here(page);
+check('drag is evaluated', (await total(page, 'drag')) > 0);
+await page.click('tr[data-effect=drag] input');
+check('without it: positions', (await chosen(page)) === 'positions');
+check('and the page says why', /constant mass, effects read only t and q/.test(await page.textContent('#formulation')));
+await measured(page);
+const still = await total(page, 'drag'), going = await total(page, 'gravity');
+await page.waitForTimeout(1500);
+check('its counter stands still', (await total(page, 'drag')) === still && still > 0);
+check('the others go on', (await total(page, 'gravity')) > going);
+check('what is off shows 0 a step', (await page.textContent('tr[data-effect=drag] td:nth-child(2)')) === '0');
+const cheap = await here(page);
+check('and its cost falls', Number(cheap.time) < Number(dear.time) && Number(cheap.work) < Number(dear.work), [cheap.time, dear.time, cheap.work, dear.work]);
+await page.click('tr[data-effect=clock] input');
+check('a clock: momenta', (await chosen(page)) === 'momenta');
+await page.click('tr[data-effect=clock] input');
+
+/* ---- accuracy: a point where it should be ---- */
+for (const degree of [8, 4, 3]) {
+  await put(page, '#degree', degree);
+  const p = await here(page);
+  const error = await page.evaluate(degree => {                /* the same by hand, in a world of its own */
+    const { x, set, problems } = window.gvi, numbers = new Float64Array(x.memory.buffer), n = x.scene_number(set.scene, 0, 0);
+    set.p.forEach((v, i) => { numbers[x.parameters() / 8 + i] = v; });
+    x.world_open(2, set.scene, set.on, degree, 0, 0, 0);
+    x.race_begin(2, 0, set.h, x.scene_number(set.scene, 3, 0));
+    while (!x.race_steps(2, 1000));
+    const q = x.race_end(2) / 8, reference = problems.get(JSON.stringify([set.scene, set.on, set.p])).reference;
+    return Math.max(...reference.map((v, i) => Math.abs(v - numbers[q + i])));
+  }, degree);
+  check(`degree ${degree}: the error of the point`, Number(p.error) === error, [p.error, error]);
+  const y = 24 + (p.height - 24 - 40)*(2 - Math.log10(error))/18;
+  check(`degree ${degree}: its height in the plot`, Math.abs(p.y - y) < 0.6, [p.y, y]);
+  check(`degree ${degree}: inside the plot`, p.x >= 50 && p.x <= p.width - 14, p.x);
+}
+check('each position left a point', (await page.evaluate(() => [3, 4, 8].every(d => document.querySelector(`.point[data-degree="${d}"][data-h="0.25"]`)))));
+check('rivals are there', await page.evaluate(() => [1, 2, 3].every(m => document.querySelectorAll(`.point[data-method="${m}"]`).length >= 4)));
+await put(page, '#want', -10);
+await page.waitForTimeout(800);
+check('a cheapest setting is named', /Cheapest setting so far for an error of 10⁻¹⁰ AU: degree \d+/.test(await page.textContent('#cheapest')), await page.textContent('#cheapest'));
+await page.click('#by-work');
+await page.waitForTimeout(800);
+check('cost in evaluations, too', /evaluations/.test(await page.textContent('#cost')));
+await page.click('#by-time');
+
+/* ---- bad input ---- */
+for (const [selector, bad, words, good] of [['#degree-n', 99, /memory too small|out of range|bad argument/, 8], ['#h-n', 0, /bad argument.*zero step/, 0.25], ['#h-n', 'nonsense', /bad argument/, 0.25], ['#degree-n', 0, /bad argument/, 8]]) {
+  await put(page, selector, bad);
+  check(`${selector} ${bad}: the library's words`, words.test(await page.textContent('#alert-text')) && await page.isVisible('#alert'), await page.textContent('#alert-text'));
+  await put(page, selector, good);
+  check(`${selector} ${good}: alive again`, !(await page.isVisible('#alert')));
+}
+await page.selectOption('#rule', 'verlet');
+check('kicks: explicit', (await chosen(page)) === 'explicit');
+await page.click('tr[data-effect=drag] input');
+check('kicks with a force that reads v: refused in words', /no formulation/.test(await page.textContent('#alert-text')), await page.textContent('#alert-text'));
+await page.click('tr[data-effect=drag] input');
+await page.selectOption('#rule', 'gauss');
+check('and back', (await chosen(page)) === 'positions');
+
+/* ---- playback ---- */
+await page.click('#restart');
+if (!(await page.evaluate(() => document.querySelector('#play').classList.contains('paused')))) await page.click('#play');
+await page.click('#restart');
+for (let k = 0; k < 40; k++) await page.click('#step');
+check('forty steps', (await page.textContent('#stepped')) === '40', await page.textContent('#stepped'));
+await put(page, '#speed', 4);
+await page.click('#reverse');
+await page.waitForFunction(() => /back at the start/.test(document.querySelector('#from-start').textContent), null, { timeout: 20000 });
+check('backwards to the start', Number(await page.getAttribute('#from-start', 'data-off')) < 1e-13, await page.textContent('#from-start'));
+await page.evaluate(() => document.activeElement.blur());
+await page.keyboard.press('ArrowRight');
+await page.waitForTimeout(400);
+check('the arrow key steps', (await page.textContent('#stepped')) === '1', await page.textContent('#stepped'));
+const before = await page.evaluate(() => document.querySelector('#canvas').toDataURL());
+const box = await (await page.$('#canvas')).boundingBox();
+await page.mouse.move(box.x + 100, box.y + 100);
+await page.mouse.down();
+await page.mouse.move(box.x + 200, box.y + 140, { steps: 4 });
+await page.mouse.up();
+await page.waitForTimeout(200);
+check('a drag turns the picture', before !== await page.evaluate(() => document.querySelector('#canvas').toDataURL()));
+
+/* ---- stability ---- */
+await page.click('#break');
+await put(page, '#speed', 4);
+await page.waitForFunction(() => window.gvi.live.t > 20 || !document.querySelector('#alert').hidden, null, { timeout: 30000 });
+const lost = () => page.evaluate(() => { const m = /gvi.h ([^ ,]+)/.exec(document.querySelector('#stability').getAttribute('aria-label')); return Number(m[1].replace('−', '-')); });
+await page.waitForTimeout(500);
+check('a fixed step breaks at the encounter', (await page.isVisible('#alert')) || (await lost()) > 1e-3, await lost());
+await page.click('#clock');
+await page.click('#fast');
+await page.waitForFunction(() => window.gvi.live.t > 200, null, { timeout: 60000 });
+await page.waitForTimeout(500);
+check('the clock keeps the energy', (await lost()) < 1e-11, await lost());
+
+/* ---- the address ---- */
+await page.click('#scenes button[data-scene=charge]');
+await page.click('tr[data-effect=electric-field] input');
+await put(page, '#h-n', 0.4);
+await put(page, '#p0', 0.7);
+await put(page, '#degree', 6);
+const shared = await page.evaluate(() => location.hash);
+await leave(page);
+page = await visit(shared);
+const got = await page.evaluate(() => ({ title: document.querySelector('#scene-title').textContent, ...window.gvi.set }));
+check('a shared address opens as it was', got.title === 'Charged particle' && got.h === 0.4 && got.degree === 6 && got.p[0] === 0.7 && got.on === 7, [shared, got]);
+await leave(page);
+for (const hash of ['#scene=nonsense', '#degree=99', '#h=0', '#h=-1e999&degree=x', '#scene=top&p=a,b&rule=none', '#%E0%A4%A', '#tol=-5', '#scene=kepler&p=1']) {
+  page = await visit(hash);
+  const said = await page.textContent('#alert-text'), quiet = hash === '#%E0%A4%A';
+  check(`${hash}: words`, quiet || (said.length > 20 && await page.isVisible('#alert')), said);
+  await page.click('#scenes button[data-scene=eight]');
+  await page.waitForTimeout(300);
+  check(`${hash}: alive`, (await page.textContent('#scene-title')) === 'Figure eight' && (await chosen(page)) === 'positions' && !(await page.isVisible('#alert')));
+  await leave(page);
+}
+
+page = await visit('#scene=eight');
+await page.evaluate(() => { location.hash = '#scene=no-such-scene'; });
+await page.waitForTimeout(400);
+check('an address typed later is read, too', /no-such-scene.*bad argument/.test(await page.textContent('#alert-text')), await page.textContent('#alert-text'));
+await page.evaluate(() => { location.hash = '#scene=arm&degree=5'; });
+await page.waitForTimeout(400);
+check('and another', (await page.evaluate(() => window.gvi.set.degree)) === 5 && (await page.textContent('#scene-title')) === 'Robot arm');
+await leave(page);
+
+/* ---- every scene; what it writes compiles and says the same ---- */
+const programs = {};
+page = await visit();
+for (const name of await page.evaluate(() => [...document.querySelectorAll('#scenes button')].map(b => b.dataset.scene))) {
+  await page.click(`#scenes button[data-scene=${name}]`);
+  await measured(page);
+  const state = await page.evaluate(() => ({ alert: !document.querySelector('#alert').hidden, points: document.querySelectorAll('.point[data-method="0"]').length, label: document.querySelector('#cost').getAttribute('aria-label'), code: document.querySelector('#code').textContent, reference: window.gvi.problems.get(JSON.stringify([window.gvi.set.scene, window.gvi.set.on, window.gvi.set.p])).reference }));
+  check(`${name}: runs and is measured`, !state.alert && state.points > 8 && state.reference, { ...state, code: '' });
+  programs[name] = state;
+}
+for (const name of ['kepler', 'pendulum', 'net', 'pythagoras']) {
+  const source = join(build, `${name}.c`), binary = join(build, name);
+  writeFileSync(source, programs[name].code);
+  try {
+    execFileSync(process.env.CC || 'cc', ['-O0', '-ffp-contract=off', '-Wall', '-I.', '-Iexamples', '-Idocs/playground', source, '-o', binary, '-lm'], { stdio: ['ignore', 'inherit', 'inherit'] });
+    const out = execFileSync(binary, { encoding: 'utf8' }), q = [...out.matchAll(/= (\S+)$/gm)].slice(-programs[name].reference.length).map(m => Number(m[1]));
+    const off = Math.max(...q.map((v, i) => Math.abs(v - programs[name].reference[i])));
+    check(`${name}: the C says the same`, /^ok/.test(out) && (name === 'pythagoras' || off < 1e-7), [off, out.slice(0, 60)]);
+  } catch (e) { check(`${name}: the C compiles`, false, e.message); }
+}
+
+/* ---- for all ---- */
+const nameless = await page.evaluate(() => [...document.querySelectorAll('button, input, select, canvas, svg[role=img]')].filter(e => !(e.getAttribute('aria-label') || e.textContent.trim() || (e.labels && e.labels.length))).map(e => e.id || e.outerHTML.slice(0, 60)));
+check('everything has a name', nameless.length === 0, nameless);
+const contrast = await page.evaluate(() => {
+  const light = c => { const [r, g, b] = c.match(/[\d.]+/g).map(v => { v /= 255; return v <= 0.03928 ? v/12.92 : ((v + 0.055)/1.055)**2.4; }); return 0.2126*r + 0.7152*g + 0.0722*b; };
+  const ratio = (a, b) => { const [x, y] = [light(a), light(b)].sort((p, q) => q - p); return (x + 0.05)/(y + 0.05); };
+  const card = getComputedStyle(document.querySelector('.card')).backgroundColor;
+  return Math.min(...['.note', 'h2', '.switch small', 'a'].map(s => ratio(getComputedStyle(document.querySelector(s)).color, card)));
+});
+check('text can be read', contrast > 4.5, contrast);
+await leave(page);
+page = await visit('', { reducedMotion: 'reduce' });
+const at = await page.evaluate(() => window.gvi.live.t);
+await page.waitForTimeout(600);
+check('less motion: it waits', at === await page.evaluate(() => window.gvi.live.t) && await page.evaluate(() => !window.gvi.live.playing));
+await leave(page);
+for (const [name, hash, options] of [['light', '', { colorScheme: 'light', viewport: { width: 1280, height: 1500 } }], ['dark', '#scene=eight', { colorScheme: 'dark', viewport: { width: 1280, height: 1500 } }], ['phone', '#scene=top', { colorScheme: 'light', viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true }], ['phone-dark', '#scene=pendulum', { colorScheme: 'dark', viewport: { width: 360, height: 740 }, isMobile: true, hasTouch: true }]]) {
+  page = await visit(hash, options);
+  await measured(page);
+  check(`${name}: nothing sticks out`, await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), await page.evaluate(() => document.documentElement.scrollWidth));
+  if (options.hasTouch) { await page.tap('#play'); check(`${name}: a touch pauses`, await page.evaluate(() => !window.gvi.live.playing)); }
+  const back = await page.evaluate(() => getComputedStyle(document.body).backgroundColor.match(/\d+/g).reduce((a, b) => a + +b, 0));
+  check(`${name}: its colours`, options.colorScheme === 'dark' ? back < 200 : back > 600, back);
+  await page.screenshot({ path: join(build, `${name}.png`), fullPage: true });
+  await leave(page);
+}
+check('no error on the console, no request', complaints.length === 0, complaints);
+await browser.close();
+rmSync(profile, { recursive: true, force: true });
+console.log(`playground: ${(bytes/1000).toFixed(0)} KB, first frame after ${ready} ms, ${pace} frames a second while it measures; screens in ${build}`);
+console.log(`${passed} passed, ${failed} failed`);
+process.exit(failed ? 1 : 0);
