@@ -1,7 +1,8 @@
-/* instructions.c - seven fixed runs, whose work tests/tools/instructions.sh counts
+/* instructions.c - fixed runs, whose work tests/tools/instructions.sh counts
 
      instructions --compiler     which one made this program, for which machine
      instructions --counts       all runs: name, steps, points evaluated, iterations
+     instructions --ends         the same, and where they end
      instructions NAME           one run, under callgrind: what is collected is run_steps
 
    Right-hand sides without libm but for square roots, which are exact everywhere: with
@@ -195,36 +196,101 @@ static const double well_q[] = { 0, 0.1 }, well_v[] = { 0.49, 0 };
 static const double chain_q[] = { 1, 0, 0, 0.02, 0, 0 }, chain_v[] = { 1, 0, 0, 1, 0, 0 };
 static const double far_q[] = { 0.1, 0 }, far_v[] = { 0, 4.358898943540674 };
 
+/* A net of 16 knots, its weight, and drag: listed last, or not, or not in the program (-DNO_DRAG)  */
+enum { SIDE = 4, KNOTS = SIDE*SIDE, NET = 3*KNOTS };
+
+static void thread(const gvi_points *x, int a, int b)
+{
+    const int d = x->stride;
+    const double *p = x->q + 3*a*d, *q = x->q + 3*b*d;
+    double *f = x->f + 3*a*d, *g = x->f + 3*b*d;
+    for (int k = 0; k < x->count; ++k) {
+        const double u = q[k] - p[k], v = q[d+k] - p[d+k], w = q[2*d+k] - p[2*d+k];
+        const double s = 40*(1 - 0.09/sqrt(u*u + v*v + w*w));
+        f[k] += s*u;  f[d+k] += s*v;  f[2*d+k] += s*w;
+        g[k] -= s*u;  g[d+k] -= s*v;  g[2*d+k] -= s*w;
+    }
+}
+
+static int threads(const gvi_points *x, void *user)
+{
+    for (int i = 0; i < KNOTS; ++i) {
+        if (i % SIDE < SIDE - 1) thread(x, i, i + 1);
+        if (i/SIDE < SIDE - 1) thread(x, i, i + SIDE);
+    }
+    return (void)user, 0;
+}
+
+static int net_weight(const gvi_points *x, void *user)
+{
+    for (int i = 0; i < KNOTS; ++i)
+        for (int k = 0; k < x->count; ++k) x->f[(3*i+2)*x->stride + k] -= 9.81*0.005;
+    return (void)user, 0;
+}
+
+#ifndef NO_DRAG
+static int drag(const gvi_points *x, void *user)
+{
+    for (int i = 0; i < NET; ++i)
+        for (int k = 0; k < x->count; ++k) x->f[i*x->stride + k] -= 0.01*x->v[i*x->stride + k];
+    return (void)user, 0;
+}
+#endif
+
+static const gvi_effect net_scene[] = { { .kind = GVI_POTENTIAL, .points = threads },
+                                        { .kind = GVI_POTENTIAL, .points = net_weight },
+#ifndef NO_DRAG
+                                        { .kind = GVI_FORCE, .points = drag },
+#endif
+};
+static double net_mass[NET], net_q[NET], net_v[NET];
+
+static void hang_net(void)
+{
+    for (int i = 0; i < NET; ++i) {
+        net_mass[i] = 0.005;
+        net_q[i] = i % 3 == 2 ? 0.02*(i % 7) : 0.1*(i % 3 ? i/3/SIDE : i/3 % SIDE);
+    }
+}
+
 typedef struct run {
     const char   *name;
     gvi_desc      desc;
     const double *q, *v;
     double        h;
     long          steps;
+    int           off;              /* effect that is switched off, or 0 */
 } run;
 
 #define SCENE(s) .effects = s, .effect_count = COUNT(s)
 static const run runs[] = {
     { "kepler", { .n = 2, .degree = 8, SCENE(kepler_scene), .formulation = GVI_POSITIONS },
-      kepler_q, kepler_v, 0.1, 2000 },
+      kepler_q, kepler_v, 0.1, 2000, 0 },
     { "solar", { .n = 18, .degree = 8, SCENE(solar_scene),
       .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = solar_mass } },
-      solar_q, solar_v, 200, 500 },
+      solar_q, solar_v, 200, 500, 0 },
     { "pendulum", { .n = 2, .degree = 6, SCENE(pendulum_scene), .formulation = GVI_MOMENTA,
       .mass = { .kind = GVI_MASS_POSITION, .points = mass, .gradient = mass_gradient,
                 .velocity = velocity } },
-      pendulum_q, pendulum_p, 1.0/128, 2000 },
+      pendulum_q, pendulum_p, 1.0/128, 2000, 0 },
     { "links", { .n = 2, .degree = 8, SCENE(pendulum_scene), .formulation = GVI_MOMENTA,
       .mass = { .kind = GVI_MASS_POSITION, .points = mass, .gradient = mass_gradient } },
-      pendulum_q, pendulum_p, 1.0/32, 1000 },
+      pendulum_q, pendulum_p, 1.0/32, 1000, 0 },
     { "space", { .n = 3, .degree = 8, SCENE(space_scene), .formulation = GVI_POSITIONS, .tolerance = 1e-12 },
-      space_q, space_v, 0.2, 2000 },
+      space_q, space_v, 0.2, 2000, 0 },
     { "kicks", { .n = 2, SCENE(well_scene),
       .rule = { .kind = GVI_KICKS, .points = 4, .nodes = corners, .weights = kicks } },
-      well_q, well_v, 0.1, 20000 },
-    { "clock", { .n = 2, .degree = 8, SCENE(clock_scene) }, far_q, far_v, 0.1, 1000 },
+      well_q, well_v, 0.1, 20000, 0 },
+    { "clock", { .n = 2, .degree = 8, SCENE(clock_scene) }, far_q, far_v, 0.1, 1000, 0 },
     { "springs", { .n = 6, .degree = 8, SCENE(chain_scene), .formulation = GVI_POSITIONS },
-      chain_q, chain_v, 0.05, 1000 },
+      chain_q, chain_v, 0.05, 1000, 0 },
+#define A_NET(count) { .n = NET, .degree = 6, .effects = net_scene, .effect_count = count, \
+                       .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = net_mass } }, net_q, net_v, 0.005, 100
+    { "net", A_NET(2), 0 },
+#ifndef NO_DRAG
+    { "net-off", A_NET(3), 2 },
+    { "net-drag", A_NET(3), 0 },
+#endif
 };
 
 /* What callgrind collects, called through a pointer that no compiler sees through              */
@@ -237,15 +303,17 @@ static void (*volatile steps_of)(gvi_stepper *, double, long) = run_steps;
 
 static gvi_status perform(const run *r, gvi_stepper *st)
 {
-    static double memory[GVI_LENGTH(18, 8, 8)];
+    static double memory[GVI_LENGTH(NET, 6, 6) + GVI_LENGTH(18, 8, 8)];
+    hang_net();
     gvi_init(st, &r->desc, memory, sizeof memory);
+    if (r->off) gvi_switch(st, r->off, 0);
     if (r->desc.mass.kind == GVI_MASS_POSITION) gvi_start_momentum(st, 0, r->q, r->v);
     else gvi_start(st, 0, r->q, r->v);
     steps_of(st, r->h, r->steps);
     return st->status;
 }
 
-static int say_counts(void)
+static int say_counts(int ends)
 {
     for (int i = 0; i < COUNT(runs); ++i) {
         gvi_stepper st;
@@ -253,6 +321,7 @@ static int say_counts(void)
         if (status != GVI_OK) return fprintf(stderr, "%s: %s\n", runs[i].name, gvi_status_text(status)), 1;
         printf("%s %llu %llu %llu\n", runs[i].name, st.counters.steps, st.counters.effect[0],
                st.counters.iterations + st.counters.newton_iterations);
+        if (ends) printf("%s ends at %a\n", runs[i].name, st.q[st.n-1]);
     }
     return 0;
 }
@@ -285,9 +354,10 @@ int main(int argc, char **argv)
 {
     gvi_stepper st;
     if (argc == 2 && !strcmp(argv[1], "--compiler")) return say_compiler();
-    if (argc == 2 && !strcmp(argv[1], "--counts")) return say_counts();
+    if (argc == 2 && !strcmp(argv[1], "--counts")) return say_counts(0);
+    if (argc == 2 && !strcmp(argv[1], "--ends")) return say_counts(1);
     for (int i = 0; argc == 2 && i < COUNT(runs); ++i)
         if (!strcmp(argv[1], runs[i].name)) return perform(runs + i, &st) != GVI_OK;
-    fputs("instructions --compiler | --counts | NAME\n", stderr);
+    fputs("instructions --compiler | --counts | --ends | NAME\n", stderr);
     return 2;
 }

@@ -102,8 +102,8 @@ HARD_MAYBE int springs(const gvi_points *x, void *user)
 HARD_MAYBE void read_state(const gvi_stepper *st, long double *q, long double *p)
 {
     for (int i = 0; i < st->n; ++i) {
-        q[i] = (long double)st->q[i] + (long double)st->x.qe[i];
-        p[i] = (long double)st->p[i] + (long double)st->x.pe[i];
+        q[i] = (long double)st->q[i] + (long double)st->q_low[i];
+        p[i] = (long double)st->p[i] + (long double)st->p_low[i];
     }
 }
 

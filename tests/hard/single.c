@@ -43,8 +43,8 @@ static double energy_of(const problem *a, const gvi_stepper *st)
 {
     double q[MOST], p[MOST];
     for (int i = 0; i < st->n; ++i) {
-        q[i] = (double)st->q[i] + (double)st->x.qe[i];
-        p[i] = (double)st->p[i] + (double)st->x.pe[i];
+        q[i] = (double)st->q[i] + (double)st->q_low[i];
+        p[i] = (double)st->p[i] + (double)st->p_low[i];
     }
     return a->energy(q, p);
 }
@@ -75,8 +75,12 @@ static void advance(const problem *a, gvi_stepper *st, long steps, int compensat
 {
     real was[MOST];
     for (long k = 0; k < steps && z->status == GVI_OK; ++k) {
-        if (!compensated)
-            for (int i = 0; i < st->n; ++i) st->x.qe[i] = st->x.pe[i] = 0;
+        if (!compensated) {                       // a start keeps nothing
+            real q[MOST], p[MOST];
+            memcpy(q, st->q, sizeof(real)*(size_t)st->n);
+            memcpy(p, st->p, sizeof(real)*(size_t)st->n);
+            must(gvi_start_momentum(st, st->t, q, p));
+        }
         if (k % EVERY == 0) memcpy(was, st->p, sizeof(real)*(size_t)st->n);
         z->status = gvi_step(st, a->h);
         if (k % EVERY == 0) reckon(a, st, was, &z->walk, &z->plain);

@@ -1,5 +1,5 @@
 #!/bin/sh
-# instructions.sh BUILD [--record]: what nine fixed runs cost, against tests/data/instructions.txt.
+# instructions.sh BUILD [--record]: what fixed runs cost, against tests/data/instructions.txt.
 # Points and iterations must be those recorded, with any compiler; instructions, which callgrind
 # counts from the first step to the last, within 2 % either way, where the compiler is the recorded
 # one.  With another one, or without valgrind, they are printed, or said to be skipped.
@@ -17,19 +17,12 @@ $CC -std=c99 -O2 -ffp-contract=off -I. tests/cost/instructions.c -o "$program" -
 compiler=$("$program" --compiler)
 "$program" --counts >"$dir/counts" || fail "a run ended early"
 
-# instructions of one run
-collected() {
-    valgrind --tool=callgrind --callgrind-out-file=/dev/null --toggle-collect=run_steps \
-        "$program" "$1" 2>"$dir/$1.log" || return 1
-    sed -n 's/.*Collected *: *\([0-9][0-9]*\).*/\1/p' "$dir/$1.log"
-}
-
 counted=no
 command -v valgrind >/dev/null 2>&1 && counted=yes
 while read -r name steps points iterations; do
     n=-
     if [ $counted = yes ]; then
-        n=$(collected "$name") && [ "${n:-0}" -gt 0 ] || fail "$name under callgrind, see $dir/$name.log"
+        n=$(sh tests/tools/collected.sh "$program" "$name") && [ "${n:-0}" -gt 0 ] || fail "$name under callgrind"
     fi
     echo "$name $steps $points $iterations $n"
 done <"$dir/counts" >"$dir/found"
