@@ -510,7 +510,7 @@ struct gvi__newton {
 
 struct gvi_stepper;
 struct gvi__stage;
-typedef void gvi__kernel(const struct gvi_stepper *st, const struct gvi__stage *stage, int rescale);
+typedef gvi_real gvi__kernel(const struct gvi_stepper *st, const struct gvi__stage *stage, int rescale);
 
 struct gvi__private {
     gvi_desc            desc;         /* with its defaults filled in                */
@@ -525,7 +525,7 @@ struct gvi__private {
     struct { gvi_real *q, *p, H; } before;                 /* start of the last step */
     struct { gvi_real *v, *v_low, *path, *path_low, *rows; } free; /* M^-1 p; h times it; stages' */
     struct { gvi_real *matrix, *factor, *inverse, *at_points, *sums; } mass;
-    struct { gvi_real *scale, *change, *before; } watch;   /* [2n] rows of an iteration */
+    struct { gvi_real *scale, *change, *before; } watch;   /* [2n] of the rows of stages */
     struct gvi__time    time;
     struct gvi__newton  newton;
     gvi_real           *t, *row, *point, *result;          /* [R] times; scratch     */
@@ -820,7 +820,8 @@ typedef volatile gvi_real gvi__rounded;
    vectors or code is to be small.                                                            */
 #if !defined(__GNUC__) || GVI__KIND == 3 || defined(__OPTIMIZE_SIZE__)                          \
     || !(FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 16)                                         \
-    || !(defined(__SSE2__) || defined(__ARM_NEON) || defined(__ALTIVEC__) || defined(__riscv_vector))
+    || !(defined(__SSE2__) || defined(__ARM_NEON) || defined(__ALTIVEC__) || defined(__riscv_vector) \
+         || defined(__wasm_simd128__))
 #define GVI__LANES 1
 #elif defined(__AVX__) && GVI__KIND == 1
 #define GVI__LANES 8
@@ -2243,10 +2244,12 @@ static void gvi__fit(gvi_stepper *st, gvi_real alpha, gvi_real beta, int steps)
 
    with free motion, the same in all iterations, in rows of its own.  factor and 1/m are two products: h
    times 1/m, rounded once, would be the inverse of another mass in every step than the one that makes v
-   of p, the map no longer symplectic, and energy would drift.  A stage with a scale is measured at two points,
-   the last and the middle, as if they were all: change_i := r/2 times the squares of scale_i times the
-   change of row_i there.  One would not do: where eigenvalues are complex changes turn, and pass 0 at
-   one point, not at two.                                                                     */
+   of p, the map no longer symplectic, and energy would drift.
+
+   A stage with a scale is measured, in squares of changes times scale_i: all of them are added up and
+   returned, and change_i := r/2 times those of row i at the last point and the middle, as if these were
+   all.  One point would not do: where eigenvalues are complex changes turn, and pass 0 at one, not at
+   two.                                                                                       */
 typedef struct gvi__sum { const gvi_real *table, *weight, *source; } gvi__sum;
 
 typedef struct gvi__stage {
@@ -2270,19 +2273,18 @@ GVI__BODY const gvi_real *gvi__weighted(int R, const gvi_real *GVI__RESTRICT w, 
     return L;
 }
 
-/* The changes at the last point and the middle, from `was` and `half`, in a unit made of |base| and the
-   displacements at the last point, before and after; 0 where these have no sure digit.       */
-GVI__BODY void gvi__measure(const gvi__stage *y, int i, int r, const gvi_real *row, gvi_real was, gvi_real half,
-                            int rescale)
+/* The unit of a row: |base| and the displacements of the last point, before and after; 0 where these
+   have no sure digit.                                                                        */
+GVI__BODY gvi_real gvi__scale_of(gvi_real base, gvi_real was, gvi_real is)
 {
-    const gvi_real is = row[r - 1];
-    if (!y->scale) return;
-    if (rescale) {
-        const gvi_real base = y->base[i], size = GVI_ABS(base) + GVI_ABS(was - base) + GVI_ABS(is - base);
-        y->scale[i] = size > GVI__MIN/GVI__EPS ? 1/size : 0;
-    }
-    const gvi_real a = (is - was)*y->scale[i], b = (row[(r - 1)/2] - half)*y->scale[i];
-    y->change[i] = (a*a + b*b)*(gvi_real)r/2;
+    const gvi_real size = GVI_ABS(base) + GVI_ABS(was - base) + GVI_ABS(is - base);
+    return size > GVI__MIN/GVI__EPS ? 1/size : 0;
+}
+
+// the squares at eight points, added up in one order everywhere
+GVI__BODY gvi_real gvi__sum_squares(const gvi_real *z)
+{
+    return ((z[0] + z[4]) + (z[1] + z[5])) + ((z[2] + z[6]) + (z[3] + z[7]));
 }
 
 /* sum_j table_j L_j at one point, in four chains: the order of gvi__row_sums                 */
@@ -2298,22 +2300,32 @@ GVI__BODY gvi_real gvi__point_sum(int r, int R, const gvi_real *table, const gvi
     return (a + b) + (c + d);
 }
 
-/* A stage, point by point.                                                                   */
-GVI__BODY void gvi__stage_by_points(const gvi_stepper *st, const gvi__stage *y, int n, int r, int R, int rescale)
+/* A stage, point by point; from the last on, where its unit is made.                         */
+GVI__BODY gvi_real gvi__stage_by_points(const gvi_stepper *st, const gvi__stage *y, int n, int r, int R, int rescale)
 {
+    gvi_real square[8] = { 0, 0, 0, 0, 0, 0, 0, 0 };
     for (int i = 0; i < n; ++i) {
         const gvi_real *first = gvi__weighted(R, y->sum[0].weight, y->sum[0].source + i*R, st->x.row);
         const gvi_real *second = !y->sum[1].table ? NULL
             : gvi__weighted(R, y->sum[1].weight, y->sum[1].source + i*R, st->x.row + R);
-        gvi_real *GVI__RESTRICT row = y->rows + i*R, was = row[r - 1], half = row[(r - 1)/2];
-        for (int k = 0; k < R; ++k) {
+        gvi_real *GVI__RESTRICT row = y->rows + i*R, scale = y->scale ? y->scale[i] : 0, two = 0;
+        for (int k = R - 1; k >= 0; --k) {
             gvi_real z = y->sum[0].table ? gvi__point_sum(r, R, y->sum[0].table + k, first) : first[k];
             if (second) z += gvi__point_sum(r, R, y->sum[1].table + k, second);
             if (y->inverse) z *= y->inverse[i];
-            row[k] = y->free ? y->base[i] + (y->free[i*R + k] + z*y->factor) : z;
+            if (y->free) z = y->base[i] + (y->free[i*R + k] + z*y->factor);
+            if (rescale && k == r - 1) scale = gvi__scale_of(y->base[i], row[k], z);
+            const gvi_real moved = (z - row[k])*scale;
+            square[k & 7] += moved*moved;
+            if (k == r - 1) two += moved*moved;
+            if (k == (r - 1)/2) two += moved*moved;
+            row[k] = z;
         }
-        gvi__measure(y, i, r, row, was, half, rescale);
+        if (!y->scale) continue;
+        y->scale[i] = scale;
+        y->change[i] = two*(gvi_real)r/2;
     }
+    return gvi__sum_squares(square);
 }
 
 #if GVI__LANES > 1
@@ -2334,18 +2346,20 @@ GVI__BODY void gvi__row_sums(int r, int R, int lanes, const gvi_real *table, con
 }
 
 /* A stage in lanes of points: R is 4 or a multiple of eight.                                 */
-GVI__BODY void gvi__stage_by_lanes(const gvi_stepper *st, const gvi__stage *GVI__RESTRICT y, int n, int r, int R, int rescale)
+GVI__BODY gvi_real gvi__stage_by_lanes(const gvi_stepper *st, const gvi__stage *GVI__RESTRICT y,
+                                       int n, int r, int R, int rescale)
 {
-    const int block = R < 8 ? R : 8, lanes = block/GVI__LANES;
-    gvi_real few[32], *L = R <= 16 ? few : st->x.row;
+    const int block = R < 8 ? R : 8, lanes = block/GVI__LANES, last = r - 1, middle = (r - 1)/2;
+    gvi_real few[32], *L = R <= 16 ? few : st->x.row, total[8];
+    gvi__lane square[GVI__BLOCK] = { { 0 } };
     for (int i = 0; i < n; ++i) {
         const gvi_real *first = gvi__weighted(R, y->sum[0].weight, y->sum[0].source + i*R, L);
         const gvi_real *second = !y->sum[1].table ? NULL
             : gvi__weighted(R, y->sum[1].weight, y->sum[1].source + i*R, L + R);
-        gvi_real *row = y->rows + i*R;
-        const gvi_real base = y->base[i], was = row[r - 1], half = row[(r - 1)/2];
-        for (int o = 0; o < R; o += block) {
-            const gvi_real *free = y->free + i*R + o;
+        gvi_real *row = y->rows + i*R, scale = y->scale ? y->scale[i] : 0;
+        const gvi_real base = y->base[i], was = row[last], half = row[middle];
+        for (int o = R - block; o >= 0; o -= block) {
+            const gvi_real *free = y->free ? y->free + i*R + o : NULL;
             gvi__lane z[GVI__BLOCK] = { { 0 } }, w[GVI__BLOCK];
             if (y->sum[0].table) gvi__row_sums(r, R, lanes, y->sum[0].table + o, first, z);
             else GVI__UNROLL for (int v = 0; v < lanes; ++v) z[v] = GVI__LOAD(first + o + v*GVI__LANES);
@@ -2354,20 +2368,32 @@ GVI__BODY void gvi__stage_by_lanes(const gvi_stepper *st, const gvi__stage *GVI_
                 GVI__UNROLL for (int v = 0; v < lanes; ++v) z[v] += w[v];
             }
             if (y->inverse) GVI__UNROLL for (int v = 0; v < lanes; ++v) z[v] *= y->inverse[i];
-            if (y->free) GVI__UNROLL for (int v = 0; v < lanes; ++v)
+            if (free) GVI__UNROLL for (int v = 0; v < lanes; ++v)
                 z[v] = base + (GVI__LOAD(free + v*GVI__LANES) + z[v]*y->factor);
-            GVI__UNROLL for (int v = 0; v < lanes; ++v) GVI__STORE(row + o + v*GVI__LANES) = z[v];
+            if (rescale && last - o < block)
+                scale = gvi__scale_of(base, was, z[(last - o)/GVI__LANES][(last - o) % GVI__LANES]);
+            GVI__UNROLL for (int v = 0; v < lanes; ++v) {
+                gvi_real *at = row + o + v*GVI__LANES;
+                const gvi__lane moved = (z[v] - GVI__LOAD(at))*scale;
+                square[v] += moved*moved;
+                GVI__STORE(at) = z[v];
+            }
         }
-        gvi__measure(y, i, r, row, was, half, rescale);
+        if (!y->scale) continue;
+        const gvi_real a = (row[last] - was)*scale, b = (row[middle] - half)*scale;
+        y->scale[i] = scale;
+        y->change[i] = (a*a + b*b)*(gvi_real)r/2;
     }
+    GVI__UNROLL for (int v = 0; v < GVI__BLOCK; ++v) GVI__STORE(total + v*GVI__LANES) = square[v];
+    return gvi__sum_squares(total);
 }
 #endif
 
 /* The sizes that deserve a copy of their own: no other line of this file knows a size.       */
 #define GVI__KERNEL(name, by, n, r, R)                                                          \
-    static void name(const gvi_stepper *st, const gvi__stage *GVI__RESTRICT y, int rescale)     \
+    static gvi_real name(const gvi_stepper *st, const gvi__stage *GVI__RESTRICT y, int rescale) \
     {                                                                                           \
-        gvi__stage_##by(st, y, n, r, R, rescale);                                               \
+        return gvi__stage_##by(st, y, n, r, R, rescale);                                        \
     }
 GVI__KERNEL(gvi__rows_any, by_points, st->n, st->r, st->x.R)
 #if GVI__LANES > 1
@@ -2513,7 +2539,7 @@ static int gvi__stages(const gvi_stepper *st, const gvi__start *from, gvi_real h
 }
 
 /* The rows of a stage where M is full: all sums first, then M^-1 of them.                    */
-static void gvi__dense_rows(const gvi_stepper *st, const gvi__stage *stage, int rescale)
+static gvi_real gvi__dense_rows(const gvi_stepper *st, const gvi__stage *stage, int rescale)
 {
     const struct gvi__private *x = &st->x;
     gvi__stage y = *stage, sums;
@@ -2523,7 +2549,7 @@ static void gvi__dense_rows(const gvi_stepper *st, const gvi__stage *stage, int 
     gvi__over_mass(st, x->mass.sums, x->R, x->R);
     y.sum[0].table = y.sum[0].weight = y.sum[1].table = NULL;
     y.sum[0].source = x->mass.sums;
-    x->kernel(st, &y, rescale);
+    return x->kernel(st, &y, rescale);
 }
 
 /* V := M^-1 (P - A), with the constant mass or the factored M(Q)                             */
@@ -2585,37 +2611,38 @@ static gvi_status gvi__evaluate_stages(gvi_stepper *st, const gvi__start *from, 
 }
 
 /* Momenta: V from the new P with the old M(Q) and dL/dv, so that an iteration contracts twice as fast.
-   Where Lagrangian terms make V it can diverge while Q and P, a short step away, feel nothing of it: its
-   change counts as well.                                                                     */
-static void gvi__velocities_again(gvi_stepper *st, gvi_real *change)
+   Where Lagrangian terms make V it can diverge while Q and P, a short step away, feel nothing of it:
+   returns the squares of its relative changes, as of all points.                             */
+static gvi_real gvi__velocities_again(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, R = x->R, clock = gvi__clock_is_on(st), made = GVI__LAGRANGIAN && x->work.A;
     const gvi_real *V = x->work.V + st->r - 1;
-    gvi_real *was = x->result;
-    if ((!x->has_factor && !gvi__mass_is_constant(x)) || x->desc.mass.velocity || (clock && !x->time.has_rate)) return;
+    gvi_real *was = x->result, sum = 0;
+    if ((!x->has_factor && !gvi__mass_is_constant(x)) || x->desc.mass.velocity || (clock && !x->time.has_rate)) return 0;
     if (made) gvi__gather(n, R, V, was);
     gvi__velocity_rows(st);
     for (int i = 0; clock && i < n; ++i)
         for (int k = 0; k < R; ++k) x->work.V[i*R + k] *= x->time.rate[k];
     for (int i = 0; made && i < n; ++i) {
         const gvi_real moved = V[i*R] - was[i], size = GVI_ABS(V[i*R]) + GVI_ABS(was[i]);
-        if (size > GVI__MIN/GVI__EPS) change[i] += (gvi_real)st->r*(moved/size)*(moved/size);
+        if (size > GVI__MIN/GVI__EPS) sum += (moved/size)*(moved/size);
     }
+    return (gvi_real)st->r*sum;
 }
 
-// the stage values of the next iteration from the F, V and A of this one
-static void gvi__new_rows(gvi_stepper *st, const gvi__stage *y, int stages, int rescale)
+/* The stage values of the next iteration from the F, V and A of this one; returns the squares of their
+   changes.                                                                                   */
+static gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *y, int stages, int rescale)
 {
-    struct gvi__private *x = &st->x;
+    const struct gvi__private *x = &st->x;
+    gvi_real sum = 0;
     for (int k = 0; k < stages; ++k) {
-        if (k == 1) {
-            if (gvi__uses(x, GVI_MOMENTA)) gvi__velocities_again(st, y->change);
-            gvi__count(&st->counters.velocities, st->r);
-        }
-        if (y[k].dense) gvi__dense_rows(st, y + k, rescale);
-        else x->kernel(st, y + k, rescale);
+        if (k == 1 && gvi__uses(x, GVI_MOMENTA)) sum += gvi__velocities_again(st);
+        sum += y[k].dense ? gvi__dense_rows(st, y + k, rescale) : x->kernel(st, y + k, rescale);
     }
+    if (stages == 2) gvi__count(&st->counters.velocities, st->r);
+    return sum;
 }
 
 /* Makes the predictor ready: E for a step of length h, the values of the last being at alpha + beta c
@@ -2685,10 +2712,10 @@ static gvi_status gvi__predict_sources(gvi_stepper *st, const gvi__start *from, 
     return GVI_OK;
 }
 
-/* Where an iteration stands: the largest change of the last two iterations; the least so far of the
-   rows that have not settled, and how often no new least was seen, or no good contraction.  Squares. */
+/* Where an iteration stands, in squares: the changes of the last two iterations, of all rows, and the
+   least so far; how often no new least was seen, or no good contraction; are units to be made anew? */
 typedef struct gvi__progress {
-    gvi_real before, earlier, least, open;
+    gvi_real before, earlier, least;
     int      used, stagnant, growing, rescale;
 } gvi__progress;
 
@@ -2710,77 +2737,80 @@ static gvi_real gvi__inertia(const gvi_stepper *st, int i)
     return gvi__nonzero(m) && gvi__finite(m) ? GVI_ABS(m) : 1;
 }
 
-/* Is every change that does not fall any more nothing but rounding beside the largest amplitude?
-   Amplitudes are displacements times sqrt(M_ii): h v of velocities, h p/m of momenta.  A row is
-   nothing but noise where large forces cancel: a light body midway between two heavy ones.   */
-static int gvi__is_noise(const gvi_stepper *st, gvi_real h, int stages)
+/* Has every row settled, by its own size?  Its next change, D^2/D_before, is within the tolerance, or D
+   in the last place.  No row hides behind a larger one.                                      */
+static int gvi__rows_have_settled(const gvi_stepper *st, gvi_real tolerance, int rows, int first)
+{
+    const gvi_real *D = st->x.watch.change, *before = st->x.watch.before;
+    const gvi_real place = GVI__EPS*GVI__EPS*(gvi_real)st->r;
+    for (int i = 0; i < rows; ++i)
+        if (D[i] > place && D[i]*D[i] > tolerance*(first ? D[i] : before[i] < 1 ? before[i] : 1)) return 0;
+    return 1;
+}
+
+/* The largest change of a row that is beyond a few units of its last place, in units of 32 eps of the
+   largest amplitude; 0: there is none.  Amplitudes are displacements times sqrt(M_ii): h v of velocities,
+   h p/m of momenta.  Up to 1 a row that does not settle is nothing but noise, where large forces cancel:
+   a light body midway between two heavy ones.                                                */
+static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, int stages)
 {
     const struct gvi__private *x = &st->x;
     const int n = st->n, momenta = gvi__uses(x, GVI_MOMENTA);
+    const gvi_real rounding = 16*GVI__EPS*GVI__EPS*(gvi_real)st->r;
     gvi_real largest = 0, noise = 0;
     for (int k = 0; k < stages; ++k)
         for (int i = 0; i < n; ++i) {
-            const gvi_real scale = x->watch.scale[k*n + i], m = gvi__inertia(st, i);
+            const gvi_real scale = x->watch.scale[k*n + i], m = gvi__inertia(st, i), D = x->watch.change[k*n + i];
             const int p = momenta && k == 0, v = !momenta && k == 1;
             const gvi_real unit = !(scale > 0) ? 0 : (p ? GVI_ABS(h)/m : v ? GVI_ABS(h) : 1)*GVI_SQRT(m)/scale;
-            const gvi_real change = unit*GVI_SQRT(x->watch.change[k*n + i]/(gvi_real)st->r);
+            const gvi_real change = D > rounding ? unit*GVI_SQRT(D/(gvi_real)st->r) : 0;
             if (unit > largest) largest = unit;
-            if (x->watch.before[k*n + i] <= 1 && change > noise) noise = change;
+            if (change > noise) noise = change;
         }
-    return noise <= 32*GVI__EPS*largest;
+    return noise > 0 ? noise/(32*GVI__EPS*largest) : 0;
 }
 
-/* The verdict on the changes D of all rows, each by its own size.  A row has settled when the next
-   change, D^2/D_before, is within the tolerance, without one far below rounding; and as long as D
-   then stays at rounding.  The iteration ends when all rows have settled; or when those that have not
-   stagnate, without a new least by a tenth for some iterations, at rounding, their own or that of the
-   largest amplitude: then F is evaluated once more, so that rows that go to and fro in their last
-   places end with their own F, not that of the side that they came from, which would be a bias.
-   Three changes in a row that fall by less than half are poor, five while they are as large as the
-   motion (terms of a cosine grow at first); so is a descent to rounding by factors of less than 4: it
-   lets errors grow before they shrink.  All in squares: no root or quotient between iterations.  */
-static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real h, int stages)
+/* The verdict on a change D of all rows.  The iteration ends when the next change, D^2/D_before, is within
+   the tolerance, without one far below rounding, and every row has settled; or when D stagnates, without
+   a new least by a tenth for some iterations, at rounding.  Then F is evaluated once more, so that rows
+   that go to and fro in their last places end with their own F, not that of the side that they came from,
+   which would be a bias.  Three changes in a row that fall by less than half are poor, five while they
+   are as large as the motion (terms of a cosine grow at first); so is a descent to rounding by factors of
+   less than 4: it lets errors grow before they shrink.  All in squares: no root or quotient waits. */
+static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_real h, int stages)
 {
-    struct gvi__private *x = &st->x;
-    const gvi_real wanted = x->desc.tolerance > 0 ? x->desc.tolerance : GVI__EPS/65536;
-    const gvi_real tolerance = wanted*wanted, rounding = 16*GVI__EPS*GVI__EPS*(gvi_real)st->r;
-    const gvi_real still = rounding > tolerance ? rounding : tolerance, far = (gvi_real)0.0625;
-    const gvi_real *GVI__RESTRICT change = x->watch.change;
-    gvi_real most = 0, open = 0, *GVI__RESTRICT last = x->watch.before;
-    const int rows = stages*st->n, first = p->used == 1;
-    for (int i = 0; i < rows; ++i) {
-        const gvi_real D = change[i], before = first ? D : last[i];
-        const int settled = before > 1 && !first ? D <= still : D*D <= tolerance*before;
-        if (!gvi__finite(D)) return GVI__NOT_FINITE;
-        if (D > most) most = D;
-        if (!settled && D > open) open = D;
-        last[i] = settled ? 2 : D < 1 ? D : 1;
-    }
-    const gvi_real worst = st->counters.worst_contraction;
+    const gvi_desc *d = &st->x.desc;
+    const gvi_real wanted = d->tolerance > 0 ? d->tolerance : GVI__EPS/65536, tolerance = wanted*wanted;
+    const gvi_real rounding = 16*GVI__EPS*GVI__EPS*(gvi_real)(st->n*st->r), far = (gvi_real)0.0625;
+    const gvi_real before = p->before, earlier = p->earlier, worst = st->counters.worst_contraction;
+    const gvi_real last = p->used == 1 ? D : before < 1 ? before : 1;
+    const int grows = before > 0 && D >= before/4;
+    if (D*D <= tolerance*last && d->iterations == 0
+        && gvi__rows_have_settled(st, tolerance, stages*st->n, p->used == 1)) return GVI__DONE;
+    if (!gvi__finite(D)) return GVI__NOT_FINITE;
 
     // contraction over two iterations, as long as it is not about rounding
-    if (p->earlier > 0 && most > 1000000*GVI__EPS*GVI__EPS && most > worst*worst*worst*worst*p->earlier)
-        st->counters.worst_contraction = GVI_SQRT(GVI_SQRT(most/p->earlier));
-    const int falls = p->earlier > 0 ? most < p->earlier/4 : p->before <= 0 || most < p->before;
-    const int grows = p->before > 0 && open >= p->open/4;
-    p->rescale = open > far || grows;             // those were the units of an overshoot
-    p->earlier = p->before;
-    p->before = most;
-    p->open = open;
-    if (x->desc.iterations > 0) {
-        if (p->used < x->desc.iterations) return GVI__GO_ON;
-        return falls || most <= 65536*rounding ? GVI__DONE : GVI__DIVERGES;
+    if (earlier > 0 && D > 1000000*GVI__EPS*GVI__EPS && D > worst*worst*worst*worst*earlier)
+        st->counters.worst_contraction = GVI_SQRT(GVI_SQRT(D/earlier));
+    p->rescale = D > far || grows;                // those were the units of an overshoot
+    p->earlier = before;
+    p->before = D;
+    if (d->iterations > 0) {
+        if (p->used < d->iterations) return GVI__GO_ON;
+        const int falls = earlier > 0 ? D < earlier/4 : before <= 0 || D < before;
+        return falls || D <= 65536*rounding ? GVI__DONE : GVI__DIVERGES;
     }
-    if (!(open > 0)) return GVI__DONE;
     p->growing = grows ? p->growing + 1 : 0;
-    p->stagnant = open < (gvi_real)0.81*p->least ? 0 : p->stagnant + 1;
-    if (open < p->least) p->least = open;
-    const int poor = p->growing > (open > far ? 4 : 2) && open > 65536*rounding;
-    const int noise = (p->stagnant > 4 || poor) && gvi__is_noise(st, h, stages);
-    if (p->stagnant > 2 && (open <= rounding || (noise && p->stagnant > 4)))
-        return p->used - p->stagnant > GVI__DIG/2 && gvi__may_turn(st) ? GVI__DIVERGES : GVI__ONCE_MORE;
-    if (poor && !noise && gvi__may_turn(st)) return GVI__DIVERGES;
-    return p->used < x->desc.max_iterations ? GVI__GO_ON : GVI__DIVERGES;
+    p->stagnant = D < (gvi_real)0.81*p->least ? 0 : p->stagnant + 1;
+    if (D < p->least) p->least = D;
+    const int poor = p->growing > (D > far ? 4 : 2) && D > 65536*rounding;
+    if (p->stagnant > 1 || poor) {
+        const gvi_real noise = gvi__noise(st, h, stages);
+        if (p->stagnant > 1 && (noise <= 0 || (noise <= 1 && p->stagnant > 4)))
+            return p->used - p->stagnant > GVI__DIG/2 && gvi__may_turn(st) ? GVI__DIVERGES : GVI__ONCE_MORE;
+        if (poor && noise > 1 && gvi__may_turn(st)) return GVI__DIVERGES;
+    }
+    return p->used < d->max_iterations ? GVI__GO_ON : GVI__DIVERGES;
 }
 
 /* Fixed point: F (V, A) at the stage values makes the next stage values.                     */
@@ -2788,7 +2818,7 @@ static gvi_status gvi__iterate(gvi_stepper *st, const gvi__start *from, gvi_real
 {
     struct gvi__private *x = &st->x;
     gvi__stage stage[2], first;
-    gvi__progress p = { 0, 0, GVI__MAX, GVI__MAX, 0, 0, 0, 1 };
+    gvi__progress p = { 0, 0, GVI__MAX, 0, 0, 0, 1 };
     gvi_points at = gvi__points_at(st, st->r, x->R, x->t, x->work.Q, x->work.F, GVI__LAGRANGIAN ? x->work.A : NULL);
     const int stages = gvi__stages(st, from, h, stage);
     gvi_status status = GVI_OK;
@@ -2808,15 +2838,21 @@ static gvi_status gvi__iterate(gvi_stepper *st, const gvi__start *from, gvi_real
         p.used = *used += 1;
         status = gvi__evaluate_stages(st, from, &at);
         if (status != GVI_OK) return status;
-        const int diverged = p.growing > 0 || p.before > 1;
-        gvi__new_rows(st, stage, stages, p.rescale);
-        const int verdict = gvi__converged(st, &p, h, stages);
-        if (verdict == GVI__GO_ON) continue;
+        const int diverged = p.growing > 0 || p.before > (gvi_real)st->n;
+        const gvi_real change = gvi__new_rows(st, stage, stages, p.rescale);
+        const int verdict = gvi__converged(st, &p, change, h, stages);
+        if (verdict == GVI__GO_ON) {
+            gvi_real *free = x->watch.before;
+            x->watch.before = x->watch.change;
+            x->watch.change = free;
+            for (int k = 0; k < stages; ++k) stage[k].change = free + k*st->n;
+            continue;
+        }
         if (verdict == GVI__NOT_FINITE)          // divergence; else the effects are looked at
             return gvi__give(st, diverged || x->diagnose ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE);
         if (verdict == GVI__DIVERGES) return gvi__give(st, GVI_E_CONVERGENCE);
         const gvi_real worst = st->counters.worst_change;
-        if (p.before > worst*worst) st->counters.worst_change = GVI_SQRT(p.before);
+        if (change > worst*worst) st->counters.worst_change = GVI_SQRT(change);
         return verdict == GVI__DONE ? GVI_OK : gvi__evaluate_stages(st, from, &at);
     }
 }
