@@ -789,11 +789,14 @@ typedef char gvi__effects_fit_a_word[GVI_EFFECTS >= 1 && GVI_EFFECTS <= 32
                                      && GVI_EFFECTS <= 8*sizeof(unsigned) ? 1 : -1];
 
 /* GVI__BODY: a body whose sizes are constants where it is called, copied there.
-   GVI__APART: where size counts, never a part of its caller, whose stack stays small.        */
+   GVI__APART: where size counts, never a part of its caller, whose stack stays small.
+   GVI__COLD: set-up and queries, compiled for size.                                          */
 #if defined(__GNUC__)
 #define GVI__BODY static inline __attribute__((always_inline))
+#define GVI__COLD static __attribute__((noinline, cold))
 #else
 #define GVI__BODY static inline
+#define GVI__COLD static
 #endif
 #if defined(__GNUC__) && defined(__OPTIMIZE_SIZE__)
 #define GVI__APART static __attribute__((noinline))
@@ -991,7 +994,7 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 /* -------------------------------------------------------- LINEAR ALGEBRA */
 
 // pivot[0..n-1]: row scales 1/max_j |a_ij|; pivot[n]: 1-norm of A
-static gvi_status gvi__lu_scales(int n, const gvi_real *a, gvi_real *pivot, int *at)
+GVI__COLD gvi_status gvi__lu_scales(int n, const gvi_real *a, gvi_real *pivot, int *at)
 {
     gvi_status status = GVI_OK;
     const size_t N = (size_t)n;
@@ -1092,7 +1095,7 @@ GVI_DEF void gvi_lu_solve(int n, const gvi_real *lu, const gvi_real *pivot, gvi_
 }
 
 // solves A' x = b: U'*y = b, L'*z = y, x = P' z; rows are used as columns
-static void gvi__lu_solve_transposed(int n, const gvi_real *lu, const gvi_real *pivot, gvi_real *x)
+GVI__COLD void gvi__lu_solve_transposed(int n, const gvi_real *lu, const gvi_real *pivot, gvi_real *x)
 {
     const size_t N = (size_t)n;
     for (size_t i = 0; i < N; ++i) {
@@ -1255,7 +1258,7 @@ static gvi_real gvi__legendre_next(int k, gvi_real x, gvi_real P, gvi_real befor
 }
 
 // the same in double-word arithmetic: P_k and P_(k-1) become P_(k+1) and P_k
-static void gvi__legendre2(int k, gvi__two x, gvi__two *P, gvi__two *before)
+GVI__COLD void gvi__legendre2(int k, gvi__two x, gvi__two *P, gvi__two *before)
 {
     const gvi__two was = *P, next = gvi__scale2((gvi_real)(2*k + 1), gvi__mul2(x, was));
     *P = gvi__div2_by(gvi__add2(next, gvi__scale2(-(gvi_real)k, *before)), k + 1);
@@ -1275,7 +1278,7 @@ static gvi__two gvi__argument2(gvi__two c)
 
      Gauss     P_m = 0     c += P_m 2c(1-c) / (m d)    b = 4c(1-c) / (m d)^2
      Lobatto   P_m' = 0    c -= d / (2(m+1) P_m)       b = 1 / (m (m+1) P_m^2)                */
-static gvi__two gvi__node_correction(int lobatto, int m, gvi__two c, gvi_real *b)
+GVI__COLD gvi__two gvi__node_correction(int lobatto, int m, gvi__two c, gvi_real *b)
 {
     const gvi__two x = gvi__argument2(c), one = gvi__two_of(1, 0);
     gvi__two P = one, d = gvi__two_of(0, 0);
@@ -1308,7 +1311,7 @@ static gvi_real gvi__node_guess(int lobatto, int m, int j)
 /* Nodes and weights; c_low, if given, gets the low words of c.  Nodes are symmetric about 1/2: one
    half is computed.  After a correction below eps the next one would be below its square: c is then
    accurate relative to itself, even next to the end of the interval.                         */
-static void gvi__rule(int lobatto, int n, gvi_real *c, gvi_real *c_low, gvi_real *b)
+GVI__COLD void gvi__rule(int lobatto, int n, gvi_real *c, gvi_real *c_low, gvi_real *b)
 {
     const int m = n - lobatto;
     for (int j = 0; 2*j < n; ++j) {
@@ -1669,7 +1672,7 @@ static gvi_real *gvi__value_row(const gvi_stepper *st, int e, gvi_real *level)
 }
 
 /* In the repetition of a step that came to NaN or Inf: which effect gave it?  Each is evaluated alone. */
-GVI__APART gvi_status gvi__diagnose(gvi_stepper *st, gvi_points *x, unsigned skip, gvi_real *level)
+GVI__COLD gvi_status gvi__diagnose(gvi_stepper *st, gvi_points *x, unsigned skip, gvi_real *level)
 {
     const size_t length = (size_t)x->n*(size_t)x->stride;
     for (int e = 0; e < st->x.desc.effect_count; ++e) {
@@ -1908,7 +1911,7 @@ static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, 
 
 /* At one point: V and L, the sums of the potentials and of the Lagrangian terms, and the kinetic
    energy T = v'Mv/2.  Forces have no value.                                                  */
-static gvi_status gvi__value_sums(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v,
+GVI__COLD gvi_status gvi__value_sums(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v,
                               gvi_real *V, gvi_real *L, gvi_real *T)
 {
     const gvi_desc *d = &st->x.desc;
@@ -1931,7 +1934,7 @@ static gvi_status gvi__value_sums(gvi_stepper *st, gvi_real t, const gvi_real *q
 
 /* H = p'v - L, v being a guess on entry and the velocity on return.  Without Lagrangian terms the
    kinetic energy is p'v/2.                                                                   */
-static gvi_status gvi__hamiltonian(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *p,
+GVI__COLD gvi_status gvi__hamiltonian(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *p,
                                    gvi_real *v, gvi_real *energy)
 {
     gvi_real V, L, T;
@@ -1999,7 +2002,7 @@ static const gvi_real gvi__few_T[] = {
 static gvi_real gvi__few(gvi_real x) { return x < 0 ? 1 + x : x; }
 
 // weights, nodes and modes
-static void gvi__modes_at_nodes(gvi_stepper *st)
+GVI__COLD void gvi__modes_at_nodes(gvi_stepper *st)
 {
     const struct gvi__tables *x = &st->x.table;
     const size_t r = (size_t)st->r, at = (r - 1)*r*(2*r - 1)/6;
@@ -2019,7 +2022,7 @@ static gvi_real gvi__T(const gvi_stepper *st, int i, int j)
     return gvi__few_T[(st->r - 2)*(st->r - 1)*st->r/6 + (j - 1)*j/2 + i] - (gvi_real)0.5;
 }
 
-static void gvi__prepare_column(gvi_stepper *st, const gvi_real *b, int j) { (void)st, (void)b, (void)j; }
+GVI__COLD void gvi__prepare_column(gvi_stepper *st, const gvi_real *b, int j) { (void)st, (void)b, (void)j; }
 static void gvi__over_gamma(const gvi_stepper *st, gvi_real *y)
 {
     for (int k = 0; k < st->s; ++k) y[k] *= (gvi_real)(2*k + 1);
@@ -2029,7 +2032,7 @@ static void gvi__over_gamma(const gvi_stepper *st, gvi_real *y)
 /* phi_k = P_k(x) and Phi_k = (P_(k-1) - P_(k+1))(x)/(2(2k+1)), P_(-1) = 1, at the nodes, x = 1 - 2c,
    in double-word arithmetic: [k*R + node], the low words of Phi in E, which is not yet in use.  Then
    the nodes go to the grid of S.                                                             */
-static void gvi__modes_at_nodes(gvi_stepper *st)
+GVI__COLD void gvi__modes_at_nodes(gvi_stepper *st)
 {
     const struct gvi__tables *x = &st->x.table;
     gvi_real *Phi_low = st->x.sized.E, *c_low = st->x.t;
@@ -2050,7 +2053,7 @@ static void gvi__modes_at_nodes(gvi_stepper *st)
 
 /* 1/Gamma_kk = 2k + 1 while the rule is exact for phi_k^2; Lobatto with r = s gives s - 1 for the
    last.  A rule of order u < 2s - 2 makes Gamma full: its LU is kept.                         */
-static gvi_status gvi__make_gamma(gvi_stepper *st)
+GVI__COLD gvi_status gvi__make_gamma(gvi_stepper *st)
 {
     const struct gvi__tables *x = &st->x.table;
     const int s = st->s, r = st->r, R = st->x.R;
@@ -2075,7 +2078,7 @@ static void gvi__over_gamma(const gvi_stepper *st, gvi_real *y)
 }
 
 // w := Gamma^-1 b(c_j) as double words, low words s further, for gvi__coupling; b: phi or Phi
-static void gvi__prepare_column(gvi_stepper *st, const gvi_real *b, int j)
+GVI__COLD void gvi__prepare_column(gvi_stepper *st, const gvi_real *b, int j)
 {
     const struct gvi__tables *x = &st->x.table;
     const gvi_real *low = b == x->phi ? x->phi_low : st->x.sized.E;
@@ -2090,7 +2093,7 @@ static void gvi__prepare_column(gvi_stepper *st, const gvi_real *b, int j)
 }
 
 // sum_k a_k(c_i) (Gamma^-1 b(c_j))_k; a: phi or Phi.  Products do not wait for the sum
-static gvi__two gvi__coupling(const gvi_stepper *st, const gvi_real *a, int i)
+GVI__COLD gvi__two gvi__coupling(const gvi_stepper *st, const gvi_real *a, int i)
 {
     const struct gvi__tables *x = &st->x.table;
     const gvi_real *low = a == x->phi ? x->phi_low : st->x.sized.E, *w = st->x.row;
@@ -2118,7 +2121,7 @@ static gvi_real gvi__T(const gvi_stepper *st, int i, int j)
    symplectic then holds exactly in the rounded numbers, S_ij = S_ji, and for Gauss with r = s
    T_ij + T_ji = 1.  Stored by columns, [j*R + i]:  K = c_i - S_ij, U = 1 - T_ij, T = T_ji, and where
    Lagrangian terms are taken away, in the velocities formulation, -T_ji and -N_ij.           */
-static void gvi__make_tables(gvi_stepper *st)
+GVI__COLD void gvi__make_tables(gvi_stepper *st)
 {
     const struct gvi__tables *x = &st->x.table;
     const int r = st->r, R = st->x.R;
@@ -2247,9 +2250,8 @@ static void gvi__fit(gvi_stepper *st, gvi_real alpha, gvi_real beta, int steps)
    of p, the map no longer symplectic, and energy would drift.
 
    A stage with a scale is measured, in squares of changes times scale_i: all of them are added up and
-   returned, and change_i := r/2 times those of row i at the last point and the middle, as if these were
-   all.  One point would not do: where eigenvalues are complex changes turn, and pass 0 at one, not at
-   two.                                                                                       */
+   returned, and change_i := those of row i at the last point and the middle.  One point would not do:
+   where eigenvalues are complex changes turn, and pass 0 at one, not at two.                 */
 typedef struct gvi__sum { const gvi_real *table, *weight, *source; } gvi__sum;
 
 typedef struct gvi__stage {
@@ -2323,7 +2325,7 @@ GVI__BODY gvi_real gvi__stage_by_points(const gvi_stepper *st, const gvi__stage 
         }
         if (!y->scale) continue;
         y->scale[i] = scale;
-        y->change[i] = two*(gvi_real)r/2;
+        y->change[i] = two;
     }
     return gvi__sum_squares(square);
 }
@@ -2382,7 +2384,7 @@ GVI__BODY gvi_real gvi__stage_by_lanes(const gvi_stepper *st, const gvi__stage *
         if (!y->scale) continue;
         const gvi_real a = (row[last] - was)*scale, b = (row[middle] - half)*scale;
         y->scale[i] = scale;
-        y->change[i] = (a*a + b*b)*(gvi_real)r/2;
+        y->change[i] = a*a + b*b;
     }
     GVI__UNROLL for (int v = 0; v < GVI__BLOCK; ++v) GVI__STORE(total + v*GVI__LANES) = square[v];
     return gvi__sum_squares(total);
@@ -2742,30 +2744,29 @@ static gvi_real gvi__inertia(const gvi_stepper *st, int i)
 static int gvi__rows_have_settled(const gvi_stepper *st, gvi_real tolerance, int rows, int first)
 {
     const gvi_real *D = st->x.watch.change, *before = st->x.watch.before;
-    const gvi_real place = GVI__EPS*GVI__EPS*(gvi_real)st->r;
+    const gvi_real place = 2*GVI__EPS*GVI__EPS;
     for (int i = 0; i < rows; ++i)
         if (D[i] > place && D[i]*D[i] > tolerance*(first ? D[i] : before[i] < 1 ? before[i] : 1)) return 0;
     return 1;
 }
 
-/* The largest change of a row that is beyond a few units of its last place, in units of 32 eps of the
-   largest amplitude; 0: there is none.  Amplitudes are displacements times sqrt(M_ii): h v of velocities,
-   h p/m of momenta.  Up to 1 a row that does not settle is nothing but noise, where large forces cancel:
-   a light body midway between two heavy ones.                                                */
-static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, int stages)
+/* The largest change of a row that is beyond a few units of the last place of its largest value, in units
+   of 32 eps of the largest amplitude; 0: there is none.  Amplitudes are displacements times sqrt(M_ii):
+   h v of velocities, h p/m of momenta.  Up to 1 a row that does not settle is nothing but noise, where
+   large forces cancel: a light body midway between two heavy ones.                           */
+static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *y, int stages)
 {
-    const struct gvi__private *x = &st->x;
-    const int n = st->n, momenta = gvi__uses(x, GVI_MOMENTA);
-    const gvi_real rounding = 16*GVI__EPS*GVI__EPS*(gvi_real)st->r;
     gvi_real largest = 0, noise = 0;
     for (int k = 0; k < stages; ++k)
-        for (int i = 0; i < n; ++i) {
-            const gvi_real scale = x->watch.scale[k*n + i], m = gvi__inertia(st, i), D = x->watch.change[k*n + i];
-            const int p = momenta && k == 0, v = !momenta && k == 1;
-            const gvi_real unit = !(scale > 0) ? 0 : (p ? GVI_ABS(h)/m : v ? GVI_ABS(h) : 1)*GVI_SQRT(m)/scale;
-            const gvi_real change = D > rounding ? unit*GVI_SQRT(D/(gvi_real)st->r) : 0;
-            if (unit > largest) largest = unit;
-            if (change > noise) noise = change;
+        for (int i = 0; i < st->n; ++i) {
+            const int p = gvi__uses(&st->x, GVI_MOMENTA) && k == 0, v = !gvi__uses(&st->x, GVI_MOMENTA) && k == 1;
+            const gvi_real m = gvi__inertia(st, i), unit = (p ? GVI_ABS(h)/m : v ? GVI_ABS(h) : 1)*GVI_SQRT(m);
+            const gvi_real *row = y[k].rows + i*st->x.R;
+            gvi_real size = GVI_ABS(y[k].base[i]);
+            for (int j = 0; j < st->r; ++j) size = GVI_ABS(row[j]) > size ? GVI_ABS(row[j]) : size;
+            const gvi_real change = y[k].scale[i] > 0 ? GVI_SQRT(y[k].change[i]/2)/y[k].scale[i] : 0;
+            if (unit*size > largest) largest = unit*size;
+            if (change > 4*GVI__EPS*size && unit*change > noise) noise = unit*change;
         }
     return noise > 0 ? noise/(32*GVI__EPS*largest) : 0;
 }
@@ -2777,7 +2778,7 @@ static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, int stages)
    which would be a bias.  Three changes in a row that fall by less than half are poor, five while they
    are as large as the motion (terms of a cosine grow at first); so is a descent to rounding by factors of
    less than 4: it lets errors grow before they shrink.  All in squares: no root or quotient waits. */
-static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_real h, int stages)
+static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_real h, const gvi__stage *y, int stages)
 {
     const gvi_desc *d = &st->x.desc;
     const gvi_real wanted = d->tolerance > 0 ? d->tolerance : GVI__EPS/65536, tolerance = wanted*wanted;
@@ -2805,7 +2806,7 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
     if (D < p->least) p->least = D;
     const int poor = p->growing > (D > far ? 4 : 2) && D > 65536*rounding;
     if (p->stagnant > 1 || poor) {
-        const gvi_real noise = gvi__noise(st, h, stages);
+        const gvi_real noise = gvi__noise(st, h, y, stages);
         if (p->stagnant > 1 && (noise <= 0 || (noise <= 1 && p->stagnant > 4)))
             return p->used - p->stagnant > GVI__DIG/2 && gvi__may_turn(st) ? GVI__DIVERGES : GVI__ONCE_MORE;
         if (poor && noise > 1 && gvi__may_turn(st)) return GVI__DIVERGES;
@@ -2840,7 +2841,7 @@ static gvi_status gvi__iterate(gvi_stepper *st, const gvi__start *from, gvi_real
         if (status != GVI_OK) return status;
         const int diverged = p.growing > 0 || p.before > (gvi_real)st->n;
         const gvi_real change = gvi__new_rows(st, stage, stages, p.rescale);
-        const int verdict = gvi__converged(st, &p, change, h, stages);
+        const int verdict = gvi__converged(st, &p, change, h, stage, stages);
         if (verdict == GVI__GO_ON) {
             gvi_real *free = x->watch.before;
             x->watch.before = x->watch.change;
@@ -3122,7 +3123,7 @@ static int gvi__within(long x, long most) { return x >= 0 && x <= most; }
 /* Are all sizes in range, and is what the kinds of rule, mass and effects need there, and nothing that
    says that a kind was forgotten?  Fills in the defaults, and finds what the effects read and the
    clock.                                                                                     */
-static gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc)
+GVI__COLD gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc)
 {
     enum { V = GVI__HAS_VELOCITIES, L = GVI__HAS_LAGRANGIAN };
     static const unsigned char reads[] = { 0, V, V | L, 0 };     // potential, force, Lagrangian, clock
@@ -3163,7 +3164,7 @@ static gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc)
 
 /* The order of the rule: will it do?  Kicks need finite numbers and weights that sum to 1; beyond an
    error of 1 no digit of the sum is sure.                                                    */
-static gvi_status gvi__check_rule(struct gvi__private *x, int *order)
+GVI__COLD gvi_status gvi__check_rule(struct gvi__private *x, int *order)
 {
     const gvi_rule *rule = &x->desc.rule;
     const int s = x->desc.degree, r = rule->points;
@@ -3192,7 +3193,7 @@ static gvi_status gvi__check_rule(struct gvi__private *x, int *order)
 
 /* The first formulation that can do what the scene asks for, or the one that is pinned; Newton's
    method as a fall-back.                                                                     */
-static gvi_status gvi__choose(struct gvi__private *x)
+GVI__COLD gvi_status gvi__choose(struct gvi__private *x)
 {
     enum { READS = 1, TIMED = 2, KICKED = 4, NOT_KICKED = 8, MORE_POINTS = 16, VARIES = 32, NO_VELOCITY = 64 };
     static const unsigned char cannot[] = {
@@ -3222,7 +3223,7 @@ static gvi_status gvi__choose(struct gvi__private *x)
     return matrices && d->n > 0x7FFF ? GVI_E_ARGUMENT : GVI_OK;          // indices are int: n*n and s*n
 }
 
-static gvi_status gvi__resolve(struct gvi__private *x, const gvi_desc *desc, int *order)
+GVI__COLD gvi_status gvi__resolve(struct gvi__private *x, const gvi_desc *desc, int *order)
 {
     gvi_status status = gvi__check(x, desc);
     if (status == GVI_OK) status = gvi__check_rule(x, order);
@@ -3232,7 +3233,7 @@ static gvi_status gvi__resolve(struct gvi__private *x, const gvi_desc *desc, int
 /* The caller's memory: a base, or NULL to count only, and the numbers handed out so far.     */
 typedef struct gvi__arena { gvi_real *base; size_t used; } gvi__arena;
 
-static gvi_real *gvi__take(gvi__arena *arena, size_t a, size_t b)
+GVI__COLD gvi_real *gvi__take(gvi__arena *arena, size_t a, size_t b)
 {
     const size_t most = (size_t)-1/sizeof(gvi_real) - 64;      // more than anyone has, with slack
     const size_t count = a == 0 ? 0 : b > most/a ? most : a*b, at = arena->used;
@@ -3244,7 +3245,7 @@ static gvi_real *gvi__take(gvi__arena *arena, size_t a, size_t b)
    everything wanted.  What a scene can do without has no length.  The stage values of two steps back
    make the predictor better up to nine points; with more of them, and in float, they would amplify
    rounding too much.                                                                         */
-static size_t gvi__layout(struct gvi__private *x, int order, gvi_real *base)
+GVI__COLD size_t gvi__layout(struct gvi__private *x, int order, gvi_real *base)
 {
     const gvi_desc *d = &x->desc;
     const size_t n = (size_t)d->n, s = (size_t)d->degree, r = (size_t)d->rule.points, R = (size_t)GVI__ROW(r);
@@ -3341,7 +3342,7 @@ GVI_DEF size_t gvi_size(const gvi_desc *desc)
 }
 
 // mass matrix into the memory, factored; inverse is 1 where M is no diagonal
-static gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
+GVI__COLD gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, dense = mass->kind == GVI_MASS_DENSE;
@@ -3365,7 +3366,7 @@ static gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
 }
 
 // the rule, the modes at its nodes as exactly as they can be had, then the tables
-static gvi_status gvi__set_rule(gvi_stepper *st, const gvi_rule *rule)
+GVI__COLD gvi_status gvi__set_rule(gvi_stepper *st, const gvi_rule *rule)
 {
     struct gvi__private *x = &st->x;
     if (gvi__rule_is(x, GVI_OWN) || gvi__rule_is(x, GVI_KICKS)) {
@@ -4069,7 +4070,7 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
 /* ---- starting ---- */
 
 // from q, p in x->step and a velocity v, all of them seen to be good
-static gvi_status gvi__begin_at(gvi_stepper *st, gvi_real t, const gvi_real *v)
+GVI__COLD gvi_status gvi__begin_at(gvi_stepper *st, gvi_real t, const gvi_real *v)
 {
     struct gvi__private *x = &st->x;
     const size_t n = (size_t)st->n;
@@ -4096,7 +4097,7 @@ static gvi_status gvi__begin_at(gvi_stepper *st, gvi_real t, const gvi_real *v)
 }
 
 // is everything there that a start needs, and finite?
-static gvi_status gvi__check_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *w)
+GVI__COLD gvi_status gvi__check_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *w)
 {
     const gvi_status ready = gvi__ready(st, st && st->x.memory);
     if (ready != GVI_OK) return ready;
@@ -4402,7 +4403,7 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
 
 /* The action along the curve of the last step, from NULL; or along that between boundary values, at its
    stage values.                                                                              */
-static gvi_status gvi__curve_action(gvi_stepper *st, const gvi__start *from, gvi_real h,
+GVI__COLD gvi_status gvi__curve_action(gvi_stepper *st, const gvi__start *from, gvi_real h,
                                     const gvi_real *q1, gvi_real *action)
 {
     struct gvi__private *x = &st->x;
@@ -4439,7 +4440,7 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action)
 
 /* The curve between the boundary values by degree 1: a chord, point by point, nothing to solve.  F at
    its points goes to work.F, and the sum of b_i P_i to p.                                    */
-static gvi_status gvi__chord(gvi_stepper *st, const gvi__start *from, gvi_real h, const gvi_real *q1, gvi_real *p)
+GVI__COLD gvi_status gvi__chord(gvi_stepper *st, const gvi__start *from, gvi_real h, const gvi_real *q1, gvi_real *p)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, R = x->R;
@@ -4468,7 +4469,7 @@ static gvi_status gvi__chord(gvi_stepper *st, const gvi__start *from, gvi_real h
 
 /* The same by any degree: rows k >= 1 of (1) by Newton's method.  The matrix where it ended says whether
    there was anything to find: a reciprocal condition below its own relative error is a conjugate point. */
-static gvi_status gvi__interior(gvi_stepper *st, const gvi__start *from, gvi_real h, const gvi_real *q1,
+GVI__COLD gvi_status gvi__interior(gvi_stepper *st, const gvi__start *from, gvi_real h, const gvi_real *q1,
                                 gvi__matrix *J, gvi_real *p)
 {
     struct gvi__private *x = &st->x;
@@ -4501,7 +4502,7 @@ static gvi_status gvi__interior(gvi_stepper *st, const gvi__start *from, gvi_rea
 /* Discrete forces h sum b_i f_i dQ_i/dq0, dQ_i/dq1 with the curve's dependence on its ends.  The interior
    rows R = 0 give dy/dq = -J^-1 dR/dq, so the part of y is -lambda' dR/dq with J' lambda = g,
    g_k = h sum h b_i Phi_k f_i: one transposed solve for all of it.                            */
-static gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__matrix *J, gvi_real *minus, gvi_real *plus)
+GVI__COLD gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__matrix *J, gvi_real *minus, gvi_real *plus)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, s = st->s, R = x->R, size = (s - 1)*n;
@@ -4549,7 +4550,7 @@ static void gvi__exchange(size_t n, gvi_real *a, size_t i, size_t j)
    L D L', D with blocks of 1 or 2, complete pivoting (Bunch and Parlett, SIAM J. Numer. Anal. 8, 1971;
    their alpha, (1 + sqrt 17)/8 = 0.6404, says when a block of 1 is large enough).  A block of 2 has one
    of each sign.                                                                              */
-static int gvi__count_negative(size_t n, gvi_real *a)
+GVI__COLD int gvi__count_negative(size_t n, gvi_real *a)
 {
     int count = 0;
     for (size_t k = 0, width = 1; k < n; k += width) {
@@ -4577,7 +4578,7 @@ static int gvi__count_negative(size_t n, gvi_real *a)
 }
 
 /* The Morse index: the second variation is h J without the factors 2k + 1 of its rows, forces left out. */
-static gvi_status gvi__morse_index(gvi_stepper *st, const gvi__matrix *J, int *negative)
+GVI__COLD gvi_status gvi__morse_index(gvi_stepper *st, const gvi__matrix *J, int *negative)
 {
     struct gvi__private *x = &st->x;
     const size_t n = (size_t)st->n, size = (size_t)(st->s - 1)*n;

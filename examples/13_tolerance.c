@@ -8,7 +8,7 @@
 
      tolerance 0      iterations a step below 5   energy error below 1e-12
      tolerance 1e-10  iterations a step below 3   energy error below 1e-06
-     tolerance 1e-08  iterations a step below 3   energy error below 1e-06
+     tolerance 1e-08  iterations a step below 3   energy error below 1e-05
 */
 #define GVI_IMPLEMENTATION
 #include "gvi.h"
