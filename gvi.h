@@ -779,6 +779,7 @@ enum {
     GVI__NEWTON = GVI__COMPILED >> GVI_NEWTON & 1,
     GVI__READS_V = GVI__VELOCITIES | GVI__MOMENTA | GVI__NEWTON,
     GVI__LAGRANGIAN = GVI__READS_V & GVI__RULES,
+    GVI__VARIES = GVI__MOMENTA | GVI__NEWTON | GVI__LAGRANGIAN,
     GVI__ITERATES = GVI__POSITIONS | GVI__READS_V
 };
 #if defined(GVI_NO_RULES) && GVI__KIND == 3
@@ -1508,18 +1509,18 @@ GVI__BODY int gvi__uses(const struct gvi__private *x, gvi_formulation f)
 GVI__BODY int gvi__mass_is(const struct gvi__private *x, gvi_mass_kind kind)
 {
     if (kind == GVI_MASS_NONE && !GVI__LAGRANGIAN) return 0;
-    if (kind == GVI_MASS_POSITION && !GVI__MOMENTA && !GVI__NEWTON) return 0;
+    if (kind == GVI_MASS_POSITION && !GVI__VARIES) return 0;
     return x->desc.mass.kind == kind;
 }
 
 GVI__BODY int gvi__mass_is_constant(const struct gvi__private *x)
 {
-    return !(GVI__MOMENTA || GVI__NEWTON || GVI__LAGRANGIAN) || x->desc.mass.kind <= GVI_MASS_DENSE;
+    return GVI__VARIES == 0 || x->desc.mass.kind <= GVI_MASS_DENSE;
 }
 
 GVI__BODY int gvi__rule_is(const struct gvi__private *x, gvi_rule_kind kind)
 {
-    return (kind != GVI_OWN || GVI__RULES) && (kind != GVI_KICKS || GVI__EXPLICIT) && x->desc.rule.kind == kind;
+    return (kind != GVI_OWN || GVI__RULES > 0) && (kind != GVI_KICKS || GVI__EXPLICIT > 0) && x->desc.rule.kind == kind;
 }
 
 static int gvi__clock_is_on(const gvi_stepper *st)
@@ -2764,7 +2765,7 @@ static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *
             const gvi_real *row = y[k].rows + i*st->x.R;
             gvi_real size = GVI_ABS(y[k].base[i]);
             for (int j = 0; j < st->r; ++j) size = GVI_ABS(row[j]) > size ? GVI_ABS(row[j]) : size;
-            const gvi_real change = y[k].scale[i] > 0 ? GVI_SQRT(y[k].change[i]/2)/y[k].scale[i] : 0;
+            const gvi_real change = y[k].scale[i] > 0 ? GVI_SQRT(y[k].change[i])/y[k].scale[i] : 0;
             if (unit*size > largest) largest = unit*size;
             if (change > 4*GVI__EPS*size && unit*change > noise) noise = unit*change;
         }
@@ -2808,7 +2809,7 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
     if (p->stagnant > 1 || poor) {
         const gvi_real noise = gvi__noise(st, h, y, stages);
         if (p->stagnant > 1 && (noise <= 0 || (noise <= 1 && p->stagnant > 4)))
-            return p->used - p->stagnant > GVI__DIG/2 && gvi__may_turn(st) ? GVI__DIVERGES : GVI__ONCE_MORE;
+            return p->used - p->stagnant >= GVI__DIG/2 && gvi__may_turn(st) ? GVI__DIVERGES : GVI__ONCE_MORE;
         if (poor && noise > 1 && gvi__may_turn(st)) return GVI__DIVERGES;
     }
     return p->used < d->max_iterations ? GVI__GO_ON : GVI__DIVERGES;
