@@ -3259,7 +3259,16 @@ GVI__COLD size_t gvi__layout(struct gvi__private *x, int order, gvi_real *base)
     const size_t dense = d->mass.kind == GVI_MASS_DENSE, full = gvi__has(x, GVI__HAS_GAMMA) != 0;
     const size_t rows = kicks ? n : n*R, sn = s*n, nn = n*n;
     gvi__arena memory = { base, 0 }, *a = &memory;
-    struct gvi__values *values[3] = { &x->work, &x->last, &x->older };
+    struct gvi__values *const values[] = { &x->work, &x->last, &x->older };
+    gvi_real **const rows_of_R[] = {
+        &x->table.c, &x->table.b, &x->sized.hb, &x->t,
+        &x->time.rate, &x->time.power, &x->time.level, &x->time.lagrangian
+    };
+    gvi_real **const vectors[] = {
+        &x->state.q, &x->state.p, &x->state.q_low, &x->state.p_low, &x->step.q, &x->step.p,
+        &x->step.q_low, &x->step.p_low, &x->before.q, &x->before.p, &x->free.v, &x->free.v_low,
+        &x->free.path, &x->free.path_low, &x->zeros, &x->start, &x->mass.inverse
+    };
 
     for (int k = 0; k < 3; ++k) {                               // rows first: they start on a whole lane
         struct gvi__values *v = values[k];
@@ -3270,9 +3279,8 @@ GVI__COLD size_t gvi__layout(struct gvi__private *x, int order, gvi_real *base)
         v->Q = gvi__take(a, at_work, rows);
         v->P = gvi__take(a, at_work && (momenta || newton), n*R);
     }
+    for (int k = 0; k < 8; ++k) *rows_of_R[k] = gvi__take(a, k < 4 || clock, R);
     x->free.rows = gvi__take(a, velocities || momenta ? 2 : fixed, n*R);
-    x->table.c = gvi__take(a, 1, R);
-    x->table.b = gvi__take(a, 1, R);
     x->table.Phi = gvi__take(a, kicks ? 0 : s, R);
     x->table.phi = gvi__take(a, modes*s, R);
     x->table.phi_low = gvi__take(a, modes*s, R);
@@ -3281,37 +3289,15 @@ GVI__COLD size_t gvi__layout(struct gvi__private *x, int order, gvi_real *base)
     x->table.T = gvi__take(a, momenta || (velocities && lagrangian) ? r : 0, R);
     x->table.N = gvi__take(a, velocities && lagrangian ? r : 0, R);
     x->sized.E = gvi__take(a, explicitly ? 0 : two ? 2*r : r, R);
-    x->sized.hb = gvi__take(a, 1, R);
-    x->t = gvi__take(a, 1, R);
     x->row = gvi__take(a, explicitly ? 2 : 9, R);
     x->mass.at_points = gvi__take(a, d->mass.kind == GVI_MASS_POSITION ? nn : 0, R);
     x->mass.sums = gvi__take(a, dense && fixed && !momenta ? n : 0, R);
-    x->time.rate = gvi__take(a, clock, R);
-    x->time.power = gvi__take(a, clock, R);
-    x->time.level = gvi__take(a, clock, R);
-    x->time.lagrangian = gvi__take(a, clock, R);
     x->time.slope = gvi__take(a, clock, n*R);
     x->table.inv_gamma = gvi__take(a, 1, s);
     x->table.gamma = gvi__take(a, full, s*s + s + 1);
     x->sized.drift = gvi__take(a, explicitly, r + 1);
+    for (size_t k = 0; k < sizeof vectors/sizeof *vectors; ++k) *vectors[k] = gvi__take(a, 1, n);
 
-    x->state.q = gvi__take(a, 1, n);
-    x->state.p = gvi__take(a, 1, n);
-    x->state.q_low = gvi__take(a, 1, n);
-    x->state.p_low = gvi__take(a, 1, n);
-    x->step.q = gvi__take(a, 1, n);
-    x->step.p = gvi__take(a, 1, n);
-    x->step.q_low = gvi__take(a, 1, n);
-    x->step.p_low = gvi__take(a, 1, n);
-    x->before.q = gvi__take(a, 1, n);
-    x->before.p = gvi__take(a, 1, n);
-    x->free.v = gvi__take(a, 1, n);
-    x->free.v_low = gvi__take(a, 1, n);
-    x->free.path = gvi__take(a, 1, n);
-    x->free.path_low = gvi__take(a, 1, n);
-    x->zeros = gvi__take(a, 1, n);
-    x->start = gvi__take(a, 1, n);
-    x->mass.inverse = gvi__take(a, 1, n);
     x->mass.matrix = gvi__take(a, dense ? n : 1, n);
     x->mass.factor = gvi__take(a, dense*n, n);
     x->watch.scale = gvi__take(a, 2, n);
@@ -3329,6 +3315,16 @@ GVI__COLD size_t gvi__layout(struct gvi__private *x, int order, gvi_real *base)
     x->newton.moved = gvi__take(a, newton*4*n, R);
     x->newton.J = gvi__take(a, newton*2*sn, sn);                // what the steps keep.  J comes last
     return memory.used;
+}
+
+// pointers into the memory, also those of the state that the caller reads
+static void gvi__hand_out(gvi_stepper *st, gvi_real *memory)
+{
+    gvi__layout(&st->x, st->order, memory);
+    st->q = st->x.state.q;
+    st->p = st->x.state.p;
+    st->q_low = st->x.state.q_low;
+    st->p_low = st->x.state.p_low;
 }
 
 // stage values start where a cache line does: up to so many numbers are left out at the beginning
@@ -3417,12 +3413,8 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     if (size < (x->size + slack)*sizeof(gvi_real)) return st->status = GVI_E_MEMORY;
     if (slack) x->skip = (size_t)(-(uintptr_t)memory & 63)/sizeof(gvi_real);
     memory += x->skip;
-    gvi__layout(x, order, memory);
+    gvi__hand_out(st, memory);
     gvi__zero(x->newton.J ? (size_t)(x->newton.J - memory) : x->size, memory);     // J is written first
-    st->q = x->state.q;
-    st->p = x->state.p;
-    st->q_low = x->state.q_low;
-    st->p_low = x->state.p_low;
     x->kernel = gvi__kernel_for(st->n, st->r);
     status = gvi__set_mass(st, &desc->mass);
     if (status == GVI_OK) status = gvi__set_rule(st, &desc->rule);
@@ -4203,13 +4195,9 @@ GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const 
     x->memory = own;
     x->kernel = kernel;
     x->skip = skip;
-    gvi__layout(x, st->order, own);
+    gvi__hand_out(st, own);
     while ((uintptr_t)x->work.F - (uintptr_t)own != F || (x->work.V && (uintptr_t)x->work.V - (uintptr_t)own != V))
         gvi__rotate_values(st);
-    st->q = x->state.q;
-    st->p = x->state.p;
-    st->q_low = x->state.q_low;
-    st->p_low = x->state.p_low;
     return gvi__give(st, GVI_OK);
 }
 
