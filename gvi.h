@@ -3720,57 +3720,20 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__start *from, cons
         const gvi_real least = GVI__EPS*change;                       // y may land on 0
         if (!(size <= none && change <= none)) sum += change/(size < least ? least : size);
         if (!(h*change <= 4*GVI__EPS*GVI_ABS(from->q[i]))) still = 0;
-        x->result[i] = x->work.Q[i*x->R + st->r - 1] - h*change;      // for gvi__worth_of_change
     }
     if (still || solved) p->work = -1;
     return sum;
 }
 
-/* A change at the last point as energy, so that coordinates of any units may be added up: what is
-   beyond a few units of the last place of q, times force; with it force times q, and force times path
-   and p v, what the step moves.                                                              */
-typedef struct gvi__worth { gvi_real beyond, place, moved; } gvi__worth;
-
-static gvi__worth gvi__worth_of_change(const gvi_stepper *st, const gvi__start *from)
+/* Is a change that does not shrink rounding?  It is at the rounding of y, q or the residual, or small and
+   the matrix new.  Then p->left is what it can hide of the error: no more than the change before.  By an
+   older matrix that has not contracted here the next change may be the same, whatever it is. */
+static int gvi__newton_rests(gvi__descent *p, int size, gvi_real change)
 {
-    const struct gvi__private *x = &st->x;
-    const int R = x->R, last = st->r - 1;
-    gvi__worth w = { 0, 0, 0 };
-    for (int i = 0; i < st->n; ++i) {
-        const gvi_real Q = x->work.Q[i*R + last], r = (gvi_real)st->r;
-        gvi_real most = 0;
-        for (int k = 0; k < st->r; ++k) {
-            const gvi_real F = GVI_ABS(x->work.F[i*R + k]);
-            if (F > most) most = F;
-            w.moved += F*GVI_ABS(x->work.Q[i*R + k] - from->q[i]);
-            w.place += F*GVI_ABS(x->work.Q[i*R + k]);
-        }
-        const gvi_real beyond = GVI_ABS(Q - x->result[i]) - 4*GVI__EPS*GVI_ABS(Q);
-        if (!(beyond <= 0)) w.beyond += r*beyond*most;
-        w.moved += r*GVI_ABS(from->p[i]*x->work.V[i*R + last]);
-    }
-    return w;
-}
-
-/* Is a change that does not shrink rounding?  It is at the rounding of y, q, the residual or the energy
-   that the step moves (and is no jump, whose work is that of the motion), or small and the matrix new.
-   Then p->left is what it can hide of the error: no more than the change before, nor than its own worth
-   as energy, where a coordinate that hardly moves makes all of the noise.  By an older matrix that has
-   not contracted here the next change may be the same, whatever it is.                       */
-static int gvi__newton_rests(const gvi_stepper *st, const gvi__start *from, int size, gvi__descent *p, gvi_real change)
-{
-    const gvi__worth w = gvi__worth_of_change(st, from);
     const int fresh = p->fresh & 1, proven = fresh || p->rho < (gvi_real)0.25;
-    const int finite = w.moved + w.place <= GVI__MAX, fine = proven && finite && w.beyond <= 4*GVI__EPS*w.moved;
     const gvi_real small = fresh ? GVI_SQRT(GVI__EPS) : 0, enough = 64*GVI__EPS*(gvi_real)size;
-    const int sure = p->work < 0 || (proven && change <= (enough > small ? enough : small));
-    const int falls = (gvi_real)st->r*p->work <= GVI__EPS*(w.moved + w.place);
-    const int rounding = w.beyond <= 0
-        || (p->stagnant > 4 && finite && w.beyond <= 1000*GVI__EPS*w.moved + 4*GVI__EPS*w.place);
-    if (!sure && !(falls && (fine || rounding))) return 0;
+    if (!(p->work < 0) && !(proven && change <= (enough > small ? enough : small))) return 0;
     p->left = p->before;
-    if (fine && w.beyond + 4*GVI__EPS*w.place < p->before*w.moved)
-        p->left = (w.beyond + 4*GVI__EPS*w.place)/w.moved;
     return 1;
 }
 
@@ -3778,8 +3741,7 @@ static int gvi__newton_rests(const gvi_stepper *st, const gvi__start *from, int 
    seen before.  Not to be less than half of the least so far is not to shrink: what is rounded to a grid
    may go round a few points of it, and fall in every iteration.  Nor is it contraction to fall from an
    overshoot far beyond the size of y.                                                        */
-static int gvi__newton_converged(gvi_stepper *st, const gvi__start *from, const gvi__matrix *J,
-                                 gvi__descent *p, gvi_real change)
+static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__descent *p, gvi_real change)
 {
     const int size = (st->s - J->k0)*st->n;
     const gvi_real before = p->before, all = (gvi_real)st->n, quarter = (gvi_real)0.25;
@@ -3795,7 +3757,7 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__start *from, const 
     if (before > 0 && !stagnant && !(p->left < GVI__MAX) && (change > noise || change < p->rho*p->least))
         p->rho = change/p->least;
     if (change < p->least) p->least = change;
-    const int rounding = p->left < GVI__MAX || (stagnant && gvi__newton_rests(st, from, size, p, change));
+    const int rounding = p->left < GVI__MAX || (stagnant && gvi__newton_rests(p, size, change));
     if (rounding) p->left *= p->rho;
 
     const gvi_real enough = wanted > 0 ? wanted : GVI__EPS/4096;
@@ -3856,7 +3818,7 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__start *from, con
         }
         gvi_lu_solve(size, J->square, J->pivot, x->newton.dy);
         gvi__count(&st->counters.newton_iterations, 1);
-        verdict = gvi__newton_converged(st, from, J, &p, gvi__newton_update(st, from, J, &p));
+        verdict = gvi__newton_converged(st, J, &p, gvi__newton_update(st, from, J, &p));
         if (verdict == GVI__NOT_FINITE)
             return gvi__give(st, st->x.diagnose ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE);
         p.halves = 0;

@@ -279,7 +279,10 @@ static inline double advise_trial(struct advise *x, advise_setting *s)
         }
         if (error < 1.2*x->target && error > x->target/8) return s->cost;
         if (cost*exact/steps > 3*x->best && error < 0.03 && !run.newton) return s->cost;    // too dear
-        if (run.seconds > x->o->seconds) return s->cost;
+        if (run.seconds > x->o->seconds) {                    // no time to see whether `exact` is right
+            if (error > 8*x->target) s->cost = HUGE_VAL;
+            return s->cost;
+        }
         before = steps;
         error_before = error;
         steps = advise_fours(fmin(fmax(exact*1.03, steps/6), steps*6));
