@@ -255,13 +255,14 @@ static inline double advise_reference(struct advise *x, double span, double goal
 /* Fewest steps in the window for the target, by which `s` is filled in; cost, or infinity. */
 static inline double advise_trial(struct advise *x, advise_setting *s)
 {
-    double steps = s->steps, before = 0, error_before = 0, power = s->order;
+    double steps = s->steps, before = 0, error_before = 0, failed = 0, power = s->order;
     s->cost = HUGE_VAL;
     for (int k = 0; k < 8; ++k) {
         const struct advise_run run = advise_go(x, s, x->window, steps);
         if (run.status != GVI_OK) {
-            steps = advise_fours(1.6*steps);
-            before = 0;
+            failed = steps;
+            if (before < steps) before = 0;
+            steps = advise_fours(before > 0 ? sqrt(before*steps) : 1.6*steps);
             continue;
         }
         const double error = fmax(advise_error(x, run.z, x->reference), 1e-17);
@@ -271,21 +272,19 @@ static inline double advise_trial(struct advise *x, advise_setting *s)
             if (power < 1 && error > x->target) return s->cost;                  // more steps do not help
             power = fmin(fmax(power, 0.6*s->order), 1.4*s->order);
         }
-        // between this and the exact number of steps error and cost follow powers of it
+        // near this number of steps error and cost follow powers of it; from further away, or from
+        // errors of rounding, `exact` is but what to try next
         const double exact = steps*pow(error/x->target, 1/power);
-        if (error <= x->target || exact < 1.35*steps) {
-            s->cost = cost*exact/steps;
-            s->steps = exact;
+        if (error < 8*x->target) {
+            s->steps = error > x->target/8 ? exact : steps;
+            s->cost = cost*s->steps/steps;
         }
         if (error < 1.2*x->target && error > x->target/8) return s->cost;
         if (cost*exact/steps > 3*x->best && error < 0.03 && !run.newton) return s->cost;    // too dear
-        if (run.seconds > x->o->seconds) {                    // no time to see whether `exact` is right
-            if (error > 8*x->target) s->cost = HUGE_VAL;
-            return s->cost;
-        }
+        if (run.seconds > x->o->seconds && error > x->target) return s->cost;
         before = steps;
         error_before = error;
-        steps = advise_fours(fmin(fmax(exact*1.03, steps/6), steps*6));
+        steps = advise_fours(fmin(fmax(fmax(exact*1.03, sqrt(failed*steps)), steps/6), steps*6));
         if (fabs(steps - before) < 1) return s->cost;
     }
     return s->cost;
@@ -443,11 +442,13 @@ static inline void advise_choose(struct advise *x)
     for (int k = 0; x->proof && k < x->count && k < 16; ++k)
         if (x->list[k].cost < r->cost) advise_prove(x, &x->list[k]);
     if (x->proof || x->count == 0) return;
-    r->setting = x->list[0];
+    int k = 0;
+    while (k < x->count - 1 && x->list[k].tolerance > 0) ++k;                    // none without proof
+    r->setting = x->list[k];
     r->steps = (long)ceil(r->setting.steps*x->a->horizon/x->window);
     r->h = x->a->horizon/(double)r->steps;
     r->error = x->o->error;
-    r->cost = x->list[0].cost;
+    r->cost = r->setting.cost;
 }
 
 /* The formulation that the scene has without Newton's method.                  */
