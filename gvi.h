@@ -52,8 +52,8 @@
 
      ok: q = -0.602737580 0.799997002
 
-   Adding drag is one more row in effects[].  Taking it out of the list again
-   takes its whole cost away.
+   Adding drag is one more row in scene[], and effect_count = 2.  Taking it out
+   again takes its whole cost away.
 
 
    CONTENTS             (search for the names)
@@ -105,11 +105,11 @@
               with -ffp-contract=off, as far as callbacks do, and products stay
               between 1e-290 and 1e299 (float: 1e-30 and 1e34), beyond which
               their low words depend on FMA.
-   work       Bounded: docs/embedded.md has the bound, make bound counts.
+   work       Bounded: docs/embedded.md has the bound, `make bound` counts it.
    converged  A step ends when every coordinate has converged by its own size,
               whatever stands beside it.  A coordinate that does not, since
               large forces cancel in it, may be taken for rounding below
-              32 eps of the largest displacement, each times sqrt(M_ii).
+              32 eps of the largest |q_i|, each times sqrt(M_ii).
 
    gvi.h does not: choose or adapt the step, treat constraints or contact,
    run in parallel, or read or write anything.
@@ -298,7 +298,7 @@ typedef enum gvi_status {
     GVI_OK            =  0,
     GVI_E_ARGUMENT    = -1,  /* null pointer, memory not aligned as a gvi_real is, size out
                                 of range, h = 0, NaN or Inf given; a matrix, points or
-                                nodes where the kind takes none: it was forgotten   */
+                                nodes given although the kind takes none            */
     GVI_E_MEMORY      = -2,  /* the memory is smaller than gvi_size(desc)               */
     GVI_E_NODES       = -3,  /* own rule: a node outside [0,1], or two that coincide    */
     GVI_E_ORDER       = -4,  /* own rule of order u < s, so also weights that do not sum
@@ -330,22 +330,23 @@ typedef struct gvi_points {
     int             count;     /* points in this call, >= 1                    */
     int             stride;    /* distance of two coordinates, >= count        */
     const gvi_real *t;         /* [count]   time                               */
-    const gvi_real *q;         /* [n][count] configuration                     */
-    const gvi_real *v;         /* [n][count] velocity; NULL for a potential    */
-    const gvi_real *p;         /* [n][count] momentum; for mass.velocity only  */
-    gvi_real       *f;         /* [n][count] add dL/dq: -dV/dq or the force.
-                                  Other effects have added theirs: use +=     */
-    gvi_real       *dldv;      /* [n][count] add dL/dv; Lagrangian terms only  */
+    const gvi_real *q;         /* [n][stride] configuration                    */
+    const gvi_real *v;         /* [n][stride] velocity; NULL for a potential   */
+    const gvi_real *p;         /* [n][stride] momentum; for mass.velocity only */
+    gvi_real       *f;         /* [n][stride] add dL/dq: -dV/dq or the force.
+                                  Other effects have added theirs: use +=      */
+    gvi_real       *dldv;      /* [n][stride] add dL/dv; Lagrangian terms only */
     gvi_real       *value;     /* [count]    add V, or L of a Lagrangian term; g.
-                                  A function given as points and as value fills
-                                  what is not NULL of f and value              */
-    gvi_real       *mass;      /* [n*n][count] write M_ij, i >= j, row i*n + j */
-    gvi_real       *velocity;  /* [n][count] write v                           */
+                                  If one function is both points and value, it
+                                  fills whichever of f and value is not NULL   */
+    gvi_real       *mass;      /* [n*n][stride] write M_ij, i >= j, row i*n + j */
+    gvi_real       *velocity;  /* [n][stride] write v                          */
 } gvi_points;
 
 /* All points at once.  Returns 0, or anything else if it cannot be evaluated
-   here.  The step is then tried once more without its predictor; if that fails
-   too, it ends with GVI_E_CALLBACK.                                          */
+   here.  The step is then tried once more without its predictor, then by
+   Newton's method if the scene has what that needs; if all fail, it ends with
+   GVI_E_CALLBACK.                                                            */
 typedef int gvi_points_fn(const gvi_points *x, void *user);
 
 /* One point: q, v, f, dldv of length n; v is NULL for a potential, dldv for
@@ -356,7 +357,7 @@ typedef int gvi_point_fn(gvi_real t, const gvi_real *q, const gvi_real *v,
 /* Second derivatives at one point, n*n row-major, added to:
    fq[i*n+j] += d f_i/d q_j     fv[i*n+j] += d f_i/d v_j      (f as above)
    pv[i*n+j] += d (dL/dv_i)/d v_j
-   fv and pv are NULL for a potential, pv for a force.                        */
+   For a potential fv and pv are NULL, for a force pv is.                     */
 typedef int gvi_hessian_fn(gvi_real t, const gvi_real *q, const gvi_real *v,
                            gvi_real *fq, gvi_real *fv, gvi_real *pv, void *user);
 
@@ -478,7 +479,7 @@ typedef struct gvi_counters {
     gvi_real           worst_change;      /* largest last change of a fixed point, relative */
 } gvi_counters;
 
-struct gvi__values { gvi_real *Q, *F, *V, *P, *A; };   /* stage values, [n][R] each, or NULL */
+struct gvi__values { gvi_real *Q, *F, *V, *P, *A; };   /* stage values, [n][R]; kicks: [n]; or NULL */
 struct gvi__phase { gvi_real *q, *q_low, *p, *p_low; }; /* [n] each                       */
 
 struct gvi__tables {                  /* rule and degree; R = stride of rows        */
@@ -491,13 +492,12 @@ struct gvi__tables {                  /* rule and degree; R = stride of rows    
 struct gvi__sized {                   /* valid for a step of length h, the key      */
     gvi_real  h, ratio;               /* h/h_last for which E holds                 */
     gvi_real *hb, *drift, *E;         /* [R] h b; [r+1] between kicks; [2r][R] predictor */
-    int       kind, steps, sums;      /* what E makes: see gvi__prepare             */
+    int       steps, sums;            /* what E makes: see gvi__prepare_predictor   */
 };
 
 struct gvi__time {                    /* clock: at the points, and the state's      */
     gvi_real *rate, *power, *level, *lagrangian, *slope;
     gvi_real  H, H_low, dH;           /* energy, compensation, increment            */
-    int       has_rate;
 };
 
 struct gvi__newton {
@@ -522,13 +522,14 @@ struct gvi__private {
     struct gvi__sized   sized;
     struct gvi__values  work, last, older;  /* of the next step, the last two        */
     struct gvi__phase   state, step;  /* now; increments of the step at work        */
-    struct { gvi_real *q, *p, H; } before;                 /* start of the last step */
+    struct { gvi_real *q, *p, H; } began;                  /* start of the last step */
     struct { gvi_real *v, *v_low, *path, *path_low, *rows; } free; /* M^-1 p; h times it; stages' */
     struct { gvi_real *matrix, *factor, *inverse, *at_points, *sums; } mass;
     struct { gvi_real *scale, *change, *before; } watch;   /* [2n] of the rows of stages */
     struct gvi__time    time;
     struct gvi__newton  newton;
-    gvi_real           *t, *row, *point, *result;          /* [R] times; scratch     */
+    gvi_real           *t;            /* [R] times of the points                    */
+    gvi_real           *row, *point, *result;     /* scratch: [9R], [6n], [3n]           */
     gvi_real           *zeros, *start;                     /* [n]; start: its velocity */
     gvi_real            dt;           /* increment of t                             */
     gvi_real           *memory;       /* from its first aligned number on           */
@@ -824,7 +825,8 @@ typedef volatile gvi_real gvi__rounded;
    vectors or code is to be small.                                                            */
 #if !defined(__GNUC__) || GVI__KIND == 3 || defined(__OPTIMIZE_SIZE__)                          \
     || !(FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 16)                                         \
-    || !(defined(__SSE2__) || defined(__ARM_NEON) || defined(__ALTIVEC__) || defined(__riscv_vector) \
+    || !(defined(__SSE2__) || defined(__ARM_NEON) || defined(__ALTIVEC__)                       \
+         || defined(__riscv_vector)                                                             \
          || defined(__wasm_simd128__))
 #define GVI__LANES 1
 #elif defined(__AVX__) && GVI__KIND == 1
@@ -843,7 +845,7 @@ typedef gvi_real gvi__lane;
 #define GVI__LOAD(p) (*(const gvi__lane *)(p))
 #define GVI__STORE(p) (*(gvi__lane *)(p))
 #if GVI__LANES > 1 && !defined(__clang__) && __GNUC__ >= 8
-#define GVI__UNROLL _Pragma("GCC unroll 8")        // lanes of a loop stay in registers, also with -O2
+#define GVI__UNROLL _Pragma("GCC unroll 8")          // a loop's lanes stay in registers with -O2
 #else
 #define GVI__UNROLL
 #endif
@@ -925,7 +927,8 @@ GVI__BODY gvi__two gvi__add_low(gvi_real x, gvi_real x_low, gvi_real y, gvi_real
 
 /* a b exactly: by one fused multiply-add where it is an instruction (newlib's <math.h> does not say
    so, gcc does; clang, and gcc after a pragma, only by what the processor has).              */
-#if defined(__GNUC__) && GVI__KIND < 3 && ((defined(__FMA__) && defined(__SSE2_MATH__)) || defined(__aarch64__)  \
+#if defined(__GNUC__) && GVI__KIND < 3                                                            \
+    && ((defined(__FMA__) && defined(__SSE2_MATH__)) || defined(__aarch64__)                      \
     || (GVI__KIND == 1 && defined(__FP_FAST_FMAF)) || (GVI__KIND == 2 && defined(__FP_FAST_FMA)))
 #if GVI__KIND == 1
 #define GVI__FMA __builtin_fmaf
@@ -1149,7 +1152,7 @@ GVI_DEF gvi_real gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot, 
     gvi_lu_solve(n, lu, pivot, x);
     const gvi_real other = 2*gvi__norm1(n, x)/(3*(gvi_real)n);
     if (other > best) best = other;
-    return 1/best/pivot[n];
+    return best > 0 ? 1/best/pivot[n] : 0;
 }
 
 /* L D L' of a symmetric matrix at each of `count` points, in place: entry (i,j), i >= j, of point k
@@ -1528,9 +1531,9 @@ static int gvi__clock_is_on(const gvi_stepper *st)
     return GVI__CLOCK && st->x.clock >= 0 && !(st->x.off >> st->x.clock & 1u);
 }
 
-/* Status and fault of a call.  gvi__blame: an effect or the mass is at fault, but no one coordinate
-   or point; gvi__give: none of them.                                                         */
-static gvi_status gvi__fail(gvi_stepper *st, gvi_status status, int effect, int coordinate, int point)
+/* Status and fault of a call.  gvi__report_effect: an effect or the mass is at fault, but no one coordinate
+   or point; gvi__report_status: none of them.                                                         */
+static gvi_status gvi__report(gvi_stepper *st, gvi_status status, int effect, int coordinate, int point)
 {
     st->fault.effect = effect;
     st->fault.coordinate = coordinate;
@@ -1538,28 +1541,28 @@ static gvi_status gvi__fail(gvi_stepper *st, gvi_status status, int effect, int 
     return st->status = status;
 }
 
-GVI__APART gvi_status gvi__blame(gvi_stepper *st, gvi_status status, int effect)
+GVI__APART gvi_status gvi__report_effect(gvi_stepper *st, gvi_status status, int effect)
 {
-    return gvi__fail(st, status, effect, GVI_FAULT_NONE, GVI_FAULT_NONE);
+    return gvi__report(st, status, effect, GVI_FAULT_NONE, GVI_FAULT_NONE);
 }
 
-GVI__APART gvi_status gvi__give(gvi_stepper *st, gvi_status status)
+GVI__APART gvi_status gvi__report_status(gvi_stepper *st, gvi_status status)
 {
-    return gvi__blame(st, status, GVI_FAULT_NONE);
+    return gvi__report_effect(st, status, GVI_FAULT_NONE);
 }
 
 // may a call go on?  A chain of calls to a stepper that is not ready keeps its first failure
 static gvi_status gvi__ready(gvi_stepper *st, int ready)
 {
     if (!st) return GVI_E_ARGUMENT;
-    if (ready) return gvi__give(st, GVI_OK);
+    if (ready) return gvi__report_status(st, GVI_OK);
     return st->status != GVI_OK ? st->status : (st->status = GVI_E_STATE);
 }
 
 // the end of a call
 static gvi_status gvi__done(gvi_stepper *st, gvi_status status)
 {
-    return status == GVI_OK ? gvi__give(st, GVI_OK) : (st->status = status);
+    return status == GVI_OK ? gvi__report_status(st, GVI_OK) : (st->status = status);
 }
 
 static void gvi__count(unsigned long long *counter, int more) { *counter += (unsigned long long)more; }
@@ -1608,7 +1611,7 @@ static gvi_status gvi__check_rows(gvi_stepper *st, const gvi_points *x, const gv
 {
     for (int i = 0; rows && i < x->n; ++i) {
         const int k = gvi__first_non_finite(x->count, rows + i*x->stride);
-        if (k >= 0) return gvi__fail(st, GVI_E_NON_FINITE, effect, i, k);
+        if (k >= 0) return gvi__report(st, GVI_E_NON_FINITE, effect, i, k);
     }
     return GVI_OK;
 }
@@ -1618,11 +1621,11 @@ static gvi_status gvi__value(gvi_stepper *st, gvi_points *x, int e, gvi_real *va
 {
     const gvi_effect *effect = st->x.desc.effects + e;
     gvi_points y = *x;
-    if (!effect->value) return gvi__blame(st, GVI_E_VALUE, e);
+    if (!effect->value) return gvi__report_effect(st, GVI_E_VALUE, e);
     if (effect->kind == GVI_POTENTIAL) y.v = NULL;
     y.f = y.dldv = NULL;
     y.value = value;
-    return effect->value(&y, effect->user) ? gvi__blame(st, GVI_E_CALLBACK, e) : GVI_OK;
+    return effect->value(&y, effect->user) ? gvi__report_effect(st, GVI_E_CALLBACK, e) : GVI_OK;
 }
 
 // the one-point form: gather, call, scatter.  Returns 0, or 1 + the point at which the callback failed
@@ -1659,7 +1662,7 @@ GVI__BODY gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e, gvi_real
     x->value = NULL;
     x->v = v;
     x->dldv = dldv;
-    if (failed) return gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, points ? GVI_FAULT_NONE : failed - 1);
+    if (failed) return gvi__report(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, points ? GVI_FAULT_NONE : failed - 1);
     return value && !both ? gvi__value(st, x, e, value) : GVI_OK;
 }
 
@@ -1687,10 +1690,10 @@ GVI__COLD gvi_status gvi__diagnose(gvi_stepper *st, gvi_points *x, unsigned skip
         if (status == GVI_OK) status = gvi__check_rows(st, x, x->f, e);
         if (status == GVI_OK) status = gvi__check_rows(st, x, x->dldv, e);
         const int k = value && status == GVI_OK ? gvi__first_non_finite(x->count, value) : -1;
-        if (k >= 0) status = gvi__fail(st, GVI_E_NON_FINITE, e, GVI_FAULT_NONE, k);
+        if (k >= 0) status = gvi__report(st, GVI_E_NON_FINITE, e, GVI_FAULT_NONE, k);
         if (status != GVI_OK) return status;
     }
-    return gvi__give(st, GVI_E_NON_FINITE);
+    return gvi__report_status(st, GVI_E_NON_FINITE);
 }
 
 /* Every effect that is on, but a clock and those with a bit in `skip`: adds to x->f and x->dldv, and
@@ -1704,14 +1707,14 @@ static gvi_status gvi__effects(gvi_stepper *st, gvi_points *x, unsigned skip, gv
 
     // points that are not finite: the iteration has diverged, and no effect is to blame
     if (diagnose && (gvi__check_rows(st, x, x->q, 0) != GVI_OK || gvi__check_rows(st, x, x->v, 0) != GVI_OK))
-        return gvi__give(st, GVI_E_CONVERGENCE);
+        return gvi__report_status(st, GVI_E_CONVERGENCE);
     for (int e = 0; e < st->x.desc.effect_count && status == GVI_OK; ++e)
         if (!(skip >> e & 1u)) status = gvi__effect(st, x, e, gvi__value_row(st, e, level));
     if (!diagnose || status != GVI_OK) return status;
     const int finite = gvi__check_rows(st, x, x->f, 0) == GVI_OK && gvi__check_rows(st, x, x->dldv, 0) == GVI_OK
         && (!level || (gvi__first_non_finite(x->count, level) < 0
                        && gvi__first_non_finite(x->count, st->x.time.lagrangian) < 0));
-    return finite ? gvi__give(st, GVI_OK) : gvi__diagnose(st, x, skip, level);
+    return finite ? gvi__report_status(st, GVI_OK) : gvi__diagnose(st, x, skip, level);
 }
 
 /* Evaluates mass.points, or with `v` mass.velocity, which reads p.                           */
@@ -1724,7 +1727,7 @@ static gvi_status gvi__evaluate_mass(gvi_stepper *st, const gvi_points *x, const
     y.mass = v ? NULL : st->x.mass.at_points;
     gvi__count(&st->counters.mass, x->count);
     const int failed = v ? mass->velocity(&y, mass->user) : mass->points(&y, mass->user);
-    return failed ? gvi__blame(st, GVI_E_CALLBACK, GVI_FAULT_MASS) : GVI_OK;
+    return failed ? gvi__report_effect(st, GVI_E_CALLBACK, GVI_FAULT_MASS) : GVI_OK;
 }
 
 /* M(q) at the points, factored.  In whole lanes, with the first point behind the last, unless a pivot
@@ -1739,8 +1742,8 @@ static gvi_status gvi__factor_mass(gvi_stepper *st, const gvi_points *x)
 #if GVI__LANES > 1
     if (R % 8 == 0) {
         int sure = 1;
-        for (int i = 0; i < n*n && x->count < R; ++i)
-            for (int k = x->count; k < R; ++k) m[i*R + k] = m[i*R];
+        for (size_t i = 0, S = (size_t)R; i < (size_t)n*(size_t)n; ++i)
+            for (size_t k = (size_t)x->count; k < S; ++k) m[i*S + k] = m[i*S];
         for (int o = 0; o < R; o += GVI__LANES)
             sure &= n == 2 ? gvi__ldl_factor_lane(2, R, m + o) : gvi__ldl_factor_lane(n, R, m + o);
         if (sure) return GVI_OK;
@@ -1752,7 +1755,7 @@ static gvi_status gvi__factor_mass(gvi_stepper *st, const gvi_points *x)
 #endif
     int at[2] = { 0, 0 };
     status = gvi__ldl_factor(n, R, x->count, m, at);
-    return status == GVI_OK ? GVI_OK : gvi__fail(st, status, GVI_FAULT_MASS, at[0], at[1]);
+    return status == GVI_OK ? GVI_OK : gvi__report(st, status, GVI_FAULT_MASS, at[0], at[1]);
 }
 
 // x->f += v' dM/dq v / 2
@@ -1761,7 +1764,7 @@ static gvi_status gvi__mass_gradient(gvi_stepper *st, const gvi_points *x)
     const gvi_mass *mass = &st->x.desc.mass;
     gvi_points y = *x;
     y.dldv = NULL;
-    if (mass->gradient(&y, mass->user)) return gvi__blame(st, GVI_E_CALLBACK, GVI_FAULT_MASS);
+    if (mass->gradient(&y, mass->user)) return gvi__report_effect(st, GVI_E_CALLBACK, GVI_FAULT_MASS);
     return st->x.diagnose ? gvi__check_rows(st, x, x->f, GVI_FAULT_MASS) : GVI_OK;
 }
 
@@ -1868,7 +1871,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
         if (status != GVI_OK) return status;
         status = gvi__lu_factor(n, W, pivot, &at);
         gvi__count(&st->counters.factorizations, 1);
-        if (status != GVI_OK) return gvi__fail(st, status, GVI_FAULT_MASS, at, GVI_FAULT_NONE);
+        if (status != GVI_OK) return gvi__report(st, status, GVI_FAULT_MASS, at, GVI_FAULT_NONE);
         for (int i = 0; i < n; ++i) dv[i] = p[i] - x->dldv[i];
         gvi_lu_solve(n, W, pivot, dv);
         for (int i = 0; i < n; ++i) {
@@ -1879,7 +1882,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
         if (!(change > 2*GVI__EPS) || (change >= last/2 && change <= GVI_SQRT(GVI__EPS))) return GVI_OK;
         last = change;
     }
-    return gvi__blame(st, GVI_E_CONVERGENCE, GVI_FAULT_MASS);
+    return gvi__report_effect(st, GVI_E_CONVERGENCE, GVI_FAULT_MASS);
 }
 
 // a velocity near the present one: that at the end of the last step, or of the start
@@ -1925,7 +1928,7 @@ GVI__COLD gvi_status gvi__value_sums(gvi_stepper *st, gvi_real t, const gvi_real
         if ((st->x.off >> e & 1u) || kind == GVI_FORCE || kind == GVI_CLOCK) continue;
         const gvi_status status = gvi__value(st, &y, e, value);
         if (status != GVI_OK) return status;
-        if (!gvi__finite(*value)) return gvi__blame(st, GVI_E_NON_FINITE, e);
+        if (!gvi__finite(*value)) return gvi__report_effect(st, GVI_E_NON_FINITE, e);
     }
     gvi__zero(2*(size_t)st->n, y.f);              // and y.dldv
     const gvi_status status = gvi__kinetic(st, &y);
@@ -2167,7 +2170,7 @@ static void gvi__modes(const gvi_stepper *st, gvi_real tau, gvi_real *phi, gvi_r
 /* What a step of length h needs, if it is not there already: weights h b_j whose sum is h exactly.
    They are rounded to multiples of ulp(h); what is left over goes to the largest weight and its
    mirror image.  Explicit, the drifts between the nodes sum to h as well.                    */
-static void gvi__for_step(gvi_stepper *st, gvi_real h)
+static void gvi__weights_for(gvi_stepper *st, gvi_real h)
 {
     struct gvi__sized *x = &st->x.sized;
     const gvi_real *b = st->x.table.b;
@@ -2198,7 +2201,7 @@ static void gvi__for_step(gvi_stepper *st, gvi_real h)
    polynomials p_k that are orthonormal on the nodes x_j = c, and c - 1 for the step before (Forsythe
    1957): E_ij = sum_k p_k(y_i) p_k(x_j) at the points y_i = alpha + beta c_i of the next.
 
-   Degree: r - 1, through all values of one step; of two, what make cost found to be best; no more
+   Degree: r - 1, through all values of one step; of two, what `make cost` found to be best; no more
    than amplifies rounding, by about 5.8^degree at the end of the step, to 1e-4 in double; and none
    that only points tell apart that nearly coincide, as 0 and 1 - 1 do in two steps of Lobatto's: its
    coupling is then small, elsewhere it is above 0.1.                                         */
@@ -2256,7 +2259,7 @@ static void gvi__fit(gvi_stepper *st, gvi_real alpha, gvi_real beta, int steps)
 typedef struct gvi__sum { const gvi_real *table, *weight, *source; } gvi__sum;
 
 typedef struct gvi__stage {
-    gvi__sum        sum[2];        /* table NULL: none; in the first: source is z as it is   */
+    gvi__sum        sum[2];        /* [1] with table NULL: none; [0]: z is the source itself */
     const gvi_real *base, *free;   /* [n] and [n][R]; free NULL: rows are z                  */
     const gvi_real *inverse;       /* [n] 1/m, or NULL where it is 1                         */
     gvi_real        factor, *rows;
@@ -2392,7 +2395,7 @@ GVI__BODY gvi_real gvi__stage_by_lanes(const gvi_stepper *st, const gvi__stage *
 }
 #endif
 
-/* The sizes that deserve a copy of their own: no other line of this file knows a size.       */
+/* The sizes that deserve a copy of their own: (n = 2 also in gvi__factor_mass, gvi__velocity_rows). */
 #define GVI__KERNEL(name, by, n, r, R)                                                          \
     static gvi_real name(const gvi_stepper *st, const gvi__stage *GVI__RESTRICT y, int rescale) \
     {                                                                                           \
@@ -2405,6 +2408,8 @@ GVI__KERNEL(gvi__rows_8,    by_lanes,  st->n, 8, 8)
 GVI__KERNEL(gvi__rows_to_8, by_lanes,  st->n, st->r, 8)
 GVI__KERNEL(gvi__rows_16,   by_lanes,  st->n, 16, 16)
 GVI__KERNEL(gvi__rows_many, by_lanes,  st->n, st->r, st->x.R)
+GVI__KERNEL(gvi__rows_2,    by_points, st->n, 2, 2)
+GVI__KERNEL(gvi__rows_3,    by_points, st->n, 3, 3)
 #endif
 #if GVI__LANES == 8
 GVI__KERNEL(gvi__rows_4,    by_points, st->n, 4, 4)
@@ -2415,6 +2420,8 @@ GVI__KERNEL(gvi__rows_4,    by_lanes,  st->n, 4, 4)
 static gvi__kernel *gvi__kernel_for(int n, int r)
 {
 #if GVI__LANES > 1
+    if (r == 2) return gvi__rows_2;
+    if (r == 3) return gvi__rows_3;
     if (r == 4) return gvi__rows_4;
     if (r == 8) return n == 2 ? gvi__rows_2_8 : gvi__rows_8;
     if (r == 16) return gvi__rows_16;
@@ -2426,7 +2433,7 @@ static gvi__kernel *gvi__kernel_for(int n, int r)
 /* ---- a step ---- */
 
 /* Where a step, or a query's partial step, starts; E: the energy, with a clock.              */
-typedef struct gvi__start { gvi_real t, t_low; const gvi_real *q, *q_low, *p, *p_low; gvi_real E; } gvi__start;
+typedef struct gvi__origin { gvi_real t, t_low; const gvi_real *q, *q_low, *p, *p_low; gvi_real E; } gvi__origin;
 
 // what is solved: a step, or for a query a part of the last one, from its start or its end
 enum { GVI__STEP, GVI__FROM_START, GVI__FROM_END };
@@ -2440,14 +2447,14 @@ static void gvi__times(int count, gvi_real t, gvi_real t_low, gvi_real h, const 
 }
 
 /* Tables for h, times of the points, and free motion, where the mass is constant: v = M^-1 p and h v
-   with their low words (v is rounded, too: as much is left of it as of p).                   */
-static void gvi__begin(gvi_stepper *st, const gvi__start *from, gvi_real h)
+   with their low words (what v loses by rounding is kept, as what p has lost is).            */
+static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real h)
 {
     struct gvi__private *x = &st->x;
     const gvi_real *GVI__RESTRICT p = from->p, *GVI__RESTRICT p_low = from->p_low;
     const gvi_real *GVI__RESTRICT inverse = x->mass.inverse;
     gvi_real *GVI__RESTRICT v = x->free.v, *GVI__RESTRICT v_low = x->free.v_low;
-    gvi__for_step(st, h);
+    gvi__weights_for(st, h);
     x->dt = h;
     if (GVI__CLOCK) x->time.dH = 0;
     if (gvi__uses(x, GVI_EXPLICIT)) return;
@@ -2500,7 +2507,7 @@ GVI__BODY void gvi__set_stage(const gvi_stepper *st, gvi__stage *y, gvi_real *ro
 
 /* What an iteration computes, in this order: positions (3); or these, and velocities (4); or
    momenta and positions (5).  Returns the number of stages.                                  */
-static int gvi__stages(const gvi_stepper *st, const gvi__start *from, gvi_real h, gvi__stage *y)
+static int gvi__stages(const gvi_stepper *st, const gvi__origin *from, gvi_real h, gvi__stage *y)
 {
     const struct gvi__private *x = &st->x;
     const struct gvi__values *w = &x->work;
@@ -2593,11 +2600,11 @@ static gvi_status gvi__legendre_rows(gvi_stepper *st, const gvi_points *y)
     return GVI_OK;
 }
 
-static gvi_status gvi__evaluate_with_clock(gvi_stepper *st, const gvi__start *from, gvi_points *y);
+static gvi_status gvi__evaluate_with_clock(gvi_stepper *st, const gvi__origin *from, gvi_points *y);
 static gvi_status gvi__clock_at(gvi_stepper *st, gvi_real t, const gvi_real *q, gvi_real *rate, gvi_real *slope);
 
 /* F (and A, V) at the stage values, all points in one call an effect.                        */
-static gvi_status gvi__evaluate_stages(gvi_stepper *st, const gvi__start *from, gvi_points *y)
+static gvi_status gvi__evaluate_stages(gvi_stepper *st, const gvi__origin *from, gvi_points *y)
 {
     struct gvi__private *x = &st->x;
     const size_t length = (size_t)st->n*(size_t)x->R;
@@ -2615,15 +2622,16 @@ static gvi_status gvi__evaluate_stages(gvi_stepper *st, const gvi__start *from, 
 
 /* Momenta: V from the new P with the old M(Q) and dL/dv, so that an iteration contracts twice as fast.
    Where Lagrangian terms make V it can diverge while Q and P, a short step away, feel nothing of it:
-   returns the squares of its relative changes, as of all points.                             */
+   returns its squared relative change at the last point, times r as if summed over all.      */
 static gvi_real gvi__velocities_again(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, R = x->R, clock = gvi__clock_is_on(st), made = GVI__LAGRANGIAN && x->work.A;
     const gvi_real *V = x->work.V + st->r - 1;
     gvi_real *was = x->result, sum = 0;
-    if ((!x->has_factor && !gvi__mass_is_constant(x)) || x->desc.mass.velocity || (clock && !x->time.has_rate)) return 0;
+    if ((!x->has_factor && (clock || !gvi__mass_is_constant(x))) || x->desc.mass.velocity) return 0;
     if (made) gvi__gather(n, R, V, was);
+    gvi__count(&st->counters.velocities, st->r);
     gvi__velocity_rows(st);
     for (int i = 0; clock && i < n; ++i)
         for (int k = 0; k < R; ++k) x->work.V[i*R + k] *= x->time.rate[k];
@@ -2644,25 +2652,24 @@ static gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *y, int stages, 
         if (k == 1 && gvi__uses(x, GVI_MOMENTA)) sum += gvi__velocities_again(st);
         sum += y[k].dense ? gvi__dense_rows(st, y + k, rescale) : x->kernel(st, y + k, rescale);
     }
-    if (stages == 2) gvi__count(&st->counters.velocities, st->r);
+    if (stages == 2 && !gvi__uses(x, GVI_MOMENTA)) gvi__count(&st->counters.velocities, st->r);
     return sum;
 }
 
-/* Makes the predictor ready: E for a step of length h, the values of the last being at alpha + beta c
-   of theirs, c the nodes of this; of two steps where both and this are equally long.  Where the first
-   forces are for positions alone E := K h b E makes their sums at once, from the last forces.  */
-static void gvi__prepare(gvi_stepper *st, gvi_real h, int query)
+/* Makes the predictor ready: E takes the stage values of the last step (of the last two, if they and
+   this one are equally long) to the nodes of this step, which lie at alpha + beta c in the last step's
+   tau.  In the positions formulation forces only serve to make new positions: E := K h b E does both. */
+static void gvi__prepare_predictor(gvi_stepper *st, gvi_real h, int query)
 {
     struct gvi__private *x = &st->x;
     const int newton = GVI__NEWTON && st->formulation == GVI_NEWTON, r = st->r, R = x->R;
     const int two = !query && !newton && x->kept == 2 && x->older.F && !gvi__nonzero(h - st->h);
     const int sums = gvi__uses(x, GVI_POSITIONS) && !newton && x->desc.mass.kind != GVI_MASS_DENSE;
-    const int kind = (two ? 2 : 1) + (sums ? 2 : 0);
     const gvi_real beta = h/st->h;
-    if (!query && !gvi__nonzero(beta - x->sized.ratio) && kind == x->sized.kind) return;
+    if (!query && !gvi__nonzero(beta - x->sized.ratio) && x->sized.steps == two + 1
+        && x->sized.sums == sums) return;
     x->sized.ratio = query ? 0 : beta;
-    x->sized.kind = kind;
-    x->sized.steps = two ? 2 : 1;
+    x->sized.steps = two + 1;
     x->sized.sums = sums;
     gvi__fit(st, query != GVI__FROM_START, beta, x->sized.steps);
     for (int m = 0; sums && m < x->sized.steps*r; ++m) {
@@ -2686,7 +2693,7 @@ GVI__BODY void gvi__set_predictor(const gvi_stepper *st, gvi__stage *y, const gv
 
 /* Stage values to begin with: the last step's forces (and V, A), extrapolated; without these, or if
    they led nowhere, no force and constant velocity.                                          */
-static gvi_status gvi__predict_sources(gvi_stepper *st, const gvi__start *from, gvi_real h, int extrapolate)
+static gvi_status gvi__predict_sources(gvi_stepper *st, const gvi__origin *from, gvi_real h, int extrapolate)
 {
     struct gvi__private *x = &st->x;
     struct gvi__values *w = &x->work;
@@ -2752,8 +2759,8 @@ static int gvi__rows_have_settled(const gvi_stepper *st, gvi_real tolerance, int
 }
 
 /* The largest change of a row that is beyond a few units of the last place of its largest value, in units
-   of 32 eps of the largest amplitude; 0: there is none.  Amplitudes are displacements times sqrt(M_ii):
-   h v of velocities, h p/m of momenta.  Up to 1 a row that does not settle is nothing but noise, where
+   of 32 eps of the largest amplitude; 0: there is none.  An amplitude is |Q_i| times sqrt(M_ii), with
+   h V_i or h P_i/M_ii in place of Q_i for those rows.  Up to 1 a row that does not settle is nothing but noise, where
    large forces cancel: a light body midway between two heavy ones.                           */
 static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *y, int stages)
 {
@@ -2761,7 +2768,10 @@ static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *
     for (int k = 0; k < stages; ++k)
         for (int i = 0; i < st->n; ++i) {
             const int p = gvi__uses(&st->x, GVI_MOMENTA) && k == 0, v = !gvi__uses(&st->x, GVI_MOMENTA) && k == 1;
-            const gvi_real m = gvi__inertia(st, i), unit = (p ? GVI_ABS(h)/m : v ? GVI_ABS(h) : 1)*GVI_SQRT(m);
+            // the momenta formulation has factored M(q) in place: 1/D_i is there
+            const gvi_real at_q = gvi__inertia(st, i), m = gvi__mass_is(&st->x, GVI_MASS_POSITION)
+                && st->x.has_factor ? 1/at_q : at_q;
+            const gvi_real unit = (p ? GVI_ABS(h)/m : v ? GVI_ABS(h) : 1)*GVI_SQRT(m);
             const gvi_real *row = y[k].rows + i*st->x.R;
             gvi_real size = GVI_ABS(y[k].base[i]);
             for (int j = 0; j < st->r; ++j) size = GVI_ABS(row[j]) > size ? GVI_ABS(row[j]) : size;
@@ -2816,7 +2826,7 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
 }
 
 /* Fixed point: F (V, A) at the stage values makes the next stage values.                     */
-static gvi_status gvi__iterate(gvi_stepper *st, const gvi__start *from, gvi_real h, int extrapolate, int *used)
+static gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi_real h, int extrapolate, int *used)
 {
     struct gvi__private *x = &st->x;
     gvi__stage stage[2], first;
@@ -2826,7 +2836,7 @@ static gvi_status gvi__iterate(gvi_stepper *st, const gvi__start *from, gvi_real
     gvi_status status = GVI_OK;
     at.v = x->work.V;
     *used = 0;
-    x->has_factor = x->time.has_rate = 0;
+    x->has_factor = 0;
     if (extrapolate && x->sized.sums) {
         first = stage[0];
         gvi__set_predictor(st, &first, x->last.F, x->older.F);
@@ -2844,15 +2854,15 @@ static gvi_status gvi__iterate(gvi_stepper *st, const gvi__start *from, gvi_real
         const gvi_real change = gvi__new_rows(st, stage, stages, p.rescale);
         const int verdict = gvi__converged(st, &p, change, h, stage, stages);
         if (verdict == GVI__GO_ON) {
-            gvi_real *free = x->watch.before;
+            gvi_real *spare = x->watch.before;
             x->watch.before = x->watch.change;
-            x->watch.change = free;
-            for (int k = 0; k < stages; ++k) stage[k].change = free + k*st->n;
+            x->watch.change = spare;
+            for (int k = 0; k < stages; ++k) stage[k].change = spare + k*st->n;
             continue;
         }
         if (verdict == GVI__NOT_FINITE)          // divergence; else the effects are looked at
-            return gvi__give(st, diverged || x->diagnose ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE);
-        if (verdict == GVI__DIVERGES) return gvi__give(st, GVI_E_CONVERGENCE);
+            return gvi__report_status(st, diverged || x->diagnose ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE);
+        if (verdict == GVI__DIVERGES) return gvi__report_status(st, GVI_E_CONVERGENCE);
         const gvi_real worst = st->counters.worst_change;
         if (change > worst*worst) st->counters.worst_change = GVI_SQRT(change);
         return verdict == GVI__DONE ? GVI_OK : gvi__evaluate_stages(st, from, &at);
@@ -2869,8 +2879,8 @@ GVI__BODY void gvi__fold(int half, gvi_real *hi, gvi_real *lo)
     }
 }
 
-/* sum_j a_j b_j with its low word: an increment is what errors add up in, step by step.  Eight partial
-   sums, then these by halves; behind the points the numbers are 0.                           */
+/* sum_j a_j b_j with its low word, since the errors of increments add up over the steps.  Eight partial
+   sums, then these by halves; past the last point the numbers are 0.                         */
 static gvi__two gvi__exact_dot(int R, const gvi_real *a, const gvi_real *b)
 {
     gvi_real hi[8], lo[8];
@@ -2897,20 +2907,13 @@ static gvi__two gvi__exact_dot(int R, const gvi_real *a, const gvi_real *b)
     return gvi__two_of(hi[0], lo[0]);
 }
 
-// behind the points a callback may have left anything
-static void gvi__clear_behind(const gvi_stepper *st, gvi_real *rows)
-{
-    for (int i = 0; i < st->n; ++i)
-        for (int k = st->r; k < st->x.R; ++k) rows[i*st->x.R + k] = 0;
-}
-
 // increments := sums of h b times rows, their low words with those of the start
 static void gvi__sum_rows(const gvi_stepper *st, gvi_real *rows, const gvi_real *low, gvi_real *sum, gvi_real *sum_low)
 {
     const int R = st->x.R;
-    gvi__clear_behind(st, rows);
-    for (int i = 0; i < st->n; ++i) {
-        const gvi__two z = gvi__exact_dot(R, st->x.sized.hb, rows + i*R);
+    for (int i = 0; i < st->n; ++i, rows += R) {
+        for (int k = st->r; k < R; ++k) rows[k] = 0;         // a callback may have left anything there
+        const gvi__two z = gvi__exact_dot(R, st->x.sized.hb, rows);
         sum[i] = z.hi;
         sum_low[i] = gvi__low(z.lo + low[i]);
     }
@@ -2918,7 +2921,7 @@ static void gvi__sum_rows(const gvi_stepper *st, gvi_real *rows, const gvi_real 
 
 /* Increments of q and p from the F, V and A at the end of the iteration, by (2) and by (3) at tau = 1,
    where S_j = c_j:  dq = h (v + M^-1 (sum_j (1 - c_j) h b_j F_j - sum_j b_j A_j)).            */
-static void gvi__increments(gvi_stepper *st, const gvi__start *from, gvi_real h)
+static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h)
 {
     struct gvi__private *x = &st->x;
     struct gvi__values *w = &x->work;
@@ -2961,7 +2964,7 @@ static void gvi__add_scaled(int n, gvi_real a, const gvi_real *x, const gvi_real
 }
 
 /* dp += b F, F := 0, then the drift dq += a (v + M^-1 dp), Q = q + dq                        */
-static void gvi__drift(gvi_stepper *st, const gvi__start *from, const gvi_real *GVI__RESTRICT v, gvi_real b, gvi_real a)
+static void gvi__drift(gvi_stepper *st, const gvi__origin *from, const gvi_real *GVI__RESTRICT v, gvi_real b, gvi_real a)
 {
     struct gvi__private *x = &st->x;
     const gvi_real *GVI__RESTRICT q = from->q, *GVI__RESTRICT m = x->mass.inverse;
@@ -3001,7 +3004,7 @@ static void gvi__drift(gvi_stepper *st, const gvi__start *from, const gvi_real *
 /* Kicks h b_j F_j at the nodes, and drifts from each to the next: one evaluation a kick; none where a
    weight is 0, but for the last.  `force` is that at the start, if it is known: after a step whose last
    node was 1.  F stays at the end, where the next step may begin with it.                    */
-static gvi_status gvi__kicks(gvi_stepper *st, const gvi__start *from, gvi_real h, const gvi_real *force)
+static gvi_status gvi__kicks(gvi_stepper *st, const gvi__origin *from, gvi_real h, const gvi_real *force)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, r = st->r, known = force && gvi__nonzero(x->sized.hb[0]);
@@ -3046,11 +3049,11 @@ static gvi_status gvi__rate(gvi_stepper *st, const gvi_points *x, gvi_real *rate
     gvi__zero((size_t)x->n*(size_t)x->stride, slope);
     gvi__zero((size_t)x->stride, rate);
     gvi__count(&st->counters.effect[st->x.clock], x->count);
-    if (clock->points(&y, clock->user)) return gvi__blame(st, GVI_E_CALLBACK, st->x.clock);
+    if (clock->points(&y, clock->user)) return gvi__report_effect(st, GVI_E_CALLBACK, st->x.clock);
     for (int k = 0; k < x->count; ++k) {
         const int bad = rate[k] <= 0, wild = st->x.diagnose && !gvi__finite(rate[k]);
         if (bad || wild)
-            return gvi__fail(st, bad ? GVI_E_CLOCK : GVI_E_NON_FINITE, st->x.clock, GVI_FAULT_NONE, k);
+            return gvi__report(st, bad ? GVI_E_CLOCK : GVI_E_NON_FINITE, st->x.clock, GVI_FAULT_NONE, k);
     }
     return st->x.diagnose ? gvi__check_rows(st, x, slope, st->x.clock) : GVI_OK;
 }
@@ -3073,7 +3076,7 @@ static void gvi__time_sums(const gvi_stepper *st, const gvi_real *source, gvi_re
 /* With a clock: forces first, for their power f'v; then all else, with values.  What it makes of F and
    V:  F := g F - dg/dq (H - E),  V := g v, with H = (P + A)'v/2 + V_pot - L, and E, with the work of the
    forces, and the times by the rule of Q.                                                    */
-static gvi_status gvi__evaluate_with_clock(gvi_stepper *st, const gvi__start *from, gvi_points *y)
+static gvi_status gvi__evaluate_with_clock(gvi_stepper *st, const gvi__origin *from, gvi_points *y)
 {
     struct gvi__private *x = &st->x;
     const struct gvi__values *w = &x->work;
@@ -3112,7 +3115,6 @@ static gvi_status gvi__evaluate_with_clock(gvi_stepper *st, const gvi__start *fr
         }
     gvi__time_sums(st, g, L);
     for (int k = 0; k < R; ++k) x->t[k] = from->t + (from->t_low + L[k]);
-    x->time.has_rate = 1;
     return GVI_OK;
 }
 
@@ -3266,8 +3268,8 @@ GVI__COLD size_t gvi__layout(struct gvi__private *x, int order, gvi_real *base)
     };
     gvi_real **const vectors[] = {
         &x->state.q, &x->state.p, &x->state.q_low, &x->state.p_low, &x->step.q, &x->step.p,
-        &x->step.q_low, &x->step.p_low, &x->before.q, &x->before.p, &x->free.v, &x->free.v_low,
-        &x->free.path, &x->free.path_low, &x->zeros, &x->start, &x->mass.inverse
+        &x->step.q_low, &x->step.p_low, &x->began.q, &x->began.p, &x->free.v, &x->zeros, &x->start,
+        &x->mass.inverse, &x->free.v_low, &x->free.path, &x->free.path_low
     };
 
     for (int k = 0; k < 3; ++k) {                               // rows first: they start on a whole lane
@@ -3289,20 +3291,20 @@ GVI__COLD size_t gvi__layout(struct gvi__private *x, int order, gvi_real *base)
     x->table.T = gvi__take(a, momenta || (velocities && lagrangian) ? r : 0, R);
     x->table.N = gvi__take(a, velocities && lagrangian ? r : 0, R);
     x->sized.E = gvi__take(a, explicitly ? 0 : two ? 2*r : r, R);
-    x->row = gvi__take(a, explicitly ? 2 : 9, R);
+    x->row = gvi__take(a, explicitly ? 0 : 9, R);
     x->mass.at_points = gvi__take(a, d->mass.kind == GVI_MASS_POSITION ? nn : 0, R);
     x->mass.sums = gvi__take(a, dense && fixed && !momenta ? n : 0, R);
     x->time.slope = gvi__take(a, clock, n*R);
     x->table.inv_gamma = gvi__take(a, 1, s);
     x->table.gamma = gvi__take(a, full, s*s + s + 1);
     x->sized.drift = gvi__take(a, explicitly, r + 1);
-    for (size_t k = 0; k < sizeof vectors/sizeof *vectors; ++k) *vectors[k] = gvi__take(a, 1, n);
+    for (size_t k = 0; k < sizeof vectors/sizeof *vectors; ++k) *vectors[k] = gvi__take(a, k < 14 || !explicitly, n);
 
     x->mass.matrix = gvi__take(a, dense ? n : 1, n);
     x->mass.factor = gvi__take(a, dense*n, n);
-    x->watch.scale = gvi__take(a, 2, n);
-    x->watch.change = gvi__take(a, 2, n);
-    x->watch.before = gvi__take(a, 2, n);
+    x->watch.scale = gvi__take(a, explicitly ? 0 : 2, n);
+    x->watch.change = gvi__take(a, explicitly ? 0 : 2, n);
+    x->watch.before = gvi__take(a, explicitly ? 0 : 2, n);
     x->point = gvi__take(a, 6, n);
     x->result = gvi__take(a, 3, n);
     x->newton.column = gvi__take(a, newton || lagrangian ? 4 : 0, n);
@@ -3350,16 +3352,16 @@ GVI__COLD gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
         if (dense)
             for (int j = 0; j <= i; ++j) {
                 m[i*n + j] = x->mass.factor[i*n + j] = mass->matrix[i*n + j];
-                if (!gvi__finite(m[i*n + j])) return gvi__fail(st, GVI_E_ARGUMENT, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
+                if (!gvi__finite(m[i*n + j])) return gvi__report(st, GVI_E_ARGUMENT, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
             }
         else m[i] = mass->kind == GVI_MASS_DIAGONAL ? mass->matrix[i] : 1;
         if (mass->kind != GVI_MASS_DIAGONAL) continue;
         x->mass.inverse[i] = 1/m[i];
         if (!gvi__finite(m[i]) || !gvi__finite(x->mass.inverse[i]))
-            return gvi__fail(st, gvi__finite(m[i]) ? GVI_E_SINGULAR : GVI_E_ARGUMENT, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
+            return gvi__report(st, gvi__finite(m[i]) ? GVI_E_SINGULAR : GVI_E_ARGUMENT, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
     }
     const gvi_status status = dense ? gvi__ldl_factor(n, 1, 1, x->mass.factor, at) : GVI_OK;
-    return status == GVI_OK ? GVI_OK : gvi__fail(st, status, GVI_FAULT_MASS, at[0], at[1]);
+    return status == GVI_OK ? GVI_OK : gvi__report(st, status, GVI_FAULT_MASS, at[0], at[1]);
 }
 
 // the rule, the modes at its nodes as exactly as they can be had, then the tables
@@ -3398,7 +3400,7 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     unsigned char *bytes = (unsigned char *)st;
     int order;
     for (size_t i = 0; i < sizeof *st; ++i) bytes[i] = 0;
-    gvi__give(st, GVI_OK);
+    gvi__report_status(st, GVI_OK);
     gvi_status status = gvi__resolve(x, desc, &order);
     if (status != GVI_OK) return st->status = status;
     if (!memory || (uintptr_t)memory % offsetof(gvi__aligned, number)) return st->status = GVI_E_ARGUMENT;
@@ -3438,7 +3440,7 @@ typedef struct gvi__matrix {
 } gvi__matrix;
 
 // Q and V from y; then F and P at these
-static gvi_status gvi__newton_values(gvi_stepper *st, const gvi__start *from)
+static gvi_status gvi__newton_values(gvi_stepper *st, const gvi__origin *from)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, R = x->R;
@@ -3475,7 +3477,7 @@ typedef struct gvi__descent {
    grid: then the rows are exactly those of a discrete action, also as rounded.  Returns the norm, the
    sum of magnitudes over sqrt M_ii: rows of (1) are momenta, so that has one unit for all coordinates.
    M is that of the first y.                                                                  */
-static gvi_real gvi__residual(gvi_stepper *st, const gvi__start *from, int k0, gvi__descent *p)
+static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, gvi__descent *p)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, R = x->R, first = !(p->norm < GVI__MAX);
@@ -3559,7 +3561,7 @@ static gvi_status gvi__jacobian_exact(gvi_stepper *st, const gvi__matrix *J)
             const int reads_v = effect->kind != GVI_POTENTIAL, term = effect->kind == GVI_LAGRANGIAN;
             gvi__zero(3*nn, fq);
             if (effect->hessian(x->t[k], q, reads_v ? v : NULL, fq, reads_v ? fv : NULL, term ? pv : NULL, effect->user))
-                return gvi__fail(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, k);
+                return gvi__report(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, k);
             for (int i = 0; i < n; ++i)
                 for (int j = 0; j < n; ++j) {       // d(dL/dv)/dq is the transpose of d(dL/dq)/dv
                     gvi__add_derivative(st, J, i, j, k, fq[i*n + j], term ? fv[j*n + i] : 0, 0);
@@ -3641,7 +3643,7 @@ static gvi_status gvi__check_regular(gvi_stepper *st)
     if (status != GVI_OK) return status;
     int at;
     status = gvi__lu_factor(n, W, W + n*n, &at);
-    return status == GVI_E_SINGULAR ? gvi__fail(st, status, GVI_FAULT_MASS, at, GVI_FAULT_NONE) : GVI_OK;
+    return status == GVI_E_SINGULAR ? gvi__report(st, status, GVI_FAULT_MASS, at, GVI_FAULT_NONE) : GVI_OK;
 }
 
 static gvi_status gvi__jacobian_fill(gvi_stepper *st, const gvi__matrix *J)
@@ -3669,7 +3671,7 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J)
     status = gvi__lu_factor(size, J->square, J->pivot, &at);
     gvi__count(&st->counters.factorizations, 1);
     if (status == GVI_OK) return GVI_OK;
-    return gvi__fail(st, status, GVI_FAULT_NONE, at < 0 ? GVI_FAULT_NONE : at % n, GVI_FAULT_NONE);
+    return gvi__report(st, status, GVI_FAULT_NONE, at < 0 ? GVI_FAULT_NONE : at % n, GVI_FAULT_NONE);
 }
 
 // y := modes of the extrapolated V, or constant velocity
@@ -3696,7 +3698,7 @@ static void gvi__newton_guess(gvi_stepper *st, int extrapolate)
 
 /* y += dy from row k0 on; returns the sum over coordinates of the relative change.  p->work: its work,
    or -1 where all of it is within a few units of the last place of q, or the residual was rounding. */
-static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__start *from, const gvi__matrix *J, gvi__descent *p)
+static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, const gvi__matrix *J, gvi__descent *p)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, solved = p->work <= 16*GVI__EPS;
@@ -3798,7 +3800,7 @@ static int gvi__newton_stays(gvi_stepper *st, const gvi__matrix *J, gvi__descent
 }
 
 /* Solves rows k0..s-1 of (1) from the y at hand and leaves F, P, Q, V at the solution.       */
-static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__start *from, const gvi__matrix *J)
+static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, const gvi__matrix *J)
 {
     struct gvi__private *x = &st->x;
     const int size = (st->s - J->k0)*st->n, kept = J->pivot == x->newton.pivot;      // that of steps, not of queries
@@ -3820,16 +3822,16 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__start *from, con
         gvi__count(&st->counters.newton_iterations, 1);
         verdict = gvi__newton_converged(st, J, &p, gvi__newton_update(st, from, J, &p));
         if (verdict == GVI__NOT_FINITE)
-            return gvi__give(st, st->x.diagnose ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE);
+            return gvi__report_status(st, st->x.diagnose ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE);
         p.halves = 0;
     }
-    return gvi__give(st, GVI_E_CONVERGENCE);
+    return gvi__report_status(st, GVI_E_CONVERGENCE);
 }
 
 // how Newton's method begins: at constant velocity, at the last step's modes; or as the first, and takes back changes
 enum { GVI__PLAIN, GVI__EXTRAPOLATED, GVI__HALVED };
 
-static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__start *from, int how, int query)
+static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int how, int query)
 {
     struct gvi__private *x = &st->x;
     const size_t sn = (size_t)(st->s*st->n);
@@ -3850,12 +3852,17 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__start *from, int 
 
 /* ------------------------------------------------------------------ STEP */
 
-/* One attempt at a step or a partial step, to its increments; nothing of it is kept yet.  The fixed
+/* The way of a step, to be read in this order: gvi_step, gvi__solve, gvi__attempt; there gvi__free_motion
+   (free motion), gvi__prepare_predictor (predictor), gvi__iterate (gvi__stages, then again and again
+   gvi__evaluate_stages: callbacks, gvi__new_rows: tables times forces, gvi__converged) and
+   gvi__increments; then gvi__commit.
+
+   One attempt at a step or a partial step, to its increments; nothing of it is kept yet.  The fixed
    point from extrapolated values, then from plain ones, then Newton's method, likewise.      */
-static gvi_status gvi__attempt(gvi_stepper *st, const gvi__start *from, gvi_real h, int query)
+static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query)
 {
     struct gvi__private *x = &st->x;
-    gvi__begin(st, from, h);
+    gvi__free_motion(st, from, h);
     st->formulation = x->chosen;
     if (gvi__uses(x, GVI_EXPLICIT))
         return gvi__kicks(st, from, h, x->has_force && query != GVI__FROM_START ? x->last.F : NULL);
@@ -3864,7 +3871,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__start *from, gvi_real
     int used = 0;
     gvi_status status = GVI_E_CONVERGENCE;
     if (!gvi__uses(x, GVI_NEWTON) && (!gvi__has(x, GVI__HAS_NEWTON) || x->newton.left == 0 || query)) {
-        if (usable) gvi__prepare(st, h, query);
+        if (usable) gvi__prepare_predictor(st, h, query);
         for (int plain = !usable; plain < 2; ++plain) {
             status = gvi__iterate(st, from, h, !plain, &used);
             gvi__count(&st->counters.iterations, used);
@@ -3880,7 +3887,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__start *from, gvi_real
     if (!GVI__NEWTON) return status;
     const unsigned count = (unsigned)st->counters.newton_iterations;
     st->formulation = GVI_NEWTON;
-    if (usable) gvi__prepare(st, h, query);
+    if (usable) gvi__prepare_predictor(st, h, query);
     status = gvi__newton_step(st, from, usable && x->has_velocity ? GVI__EXTRAPOLATED : GVI__PLAIN, query);
     if (status == GVI_E_CONVERGENCE || status == GVI_E_SINGULAR || (status == GVI_E_NON_FINITE && !x->diagnose)) {
         if (!query) x->newton.h = 0;              // the extrapolation may be to blame
@@ -3891,7 +3898,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__start *from, gvi_real
 }
 
 // are q + dq and p + dp finite?  0 x is 0 or NaN
-static int gvi__finite_end(const gvi_stepper *st, const gvi__start *from)
+static int gvi__finite_end(const gvi_stepper *st, const gvi__origin *from)
 {
     const struct gvi__phase *d = &st->x.step;
     gvi_real none = 0;
@@ -3909,18 +3916,18 @@ static int gvi__finite_end(const gvi_stepper *st, const gvi__start *from)
     return none >= 0;
 }
 
-/* An attempt; and one at which something was not finite once more, with every effect looked at, to say
-   which one it was: what is not finite then is divergence.                                   */
-static gvi_status gvi__solve(gvi_stepper *st, const gvi__start *from, gvi_real h, int query)
+/* One attempt.  If it met NaN or Inf, the same once more, now looking at what every effect returns: that
+   names the effect.  If none is to blame, the iteration diverged.                            */
+static gvi_status gvi__solve(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query)
 {
     struct gvi__private *x = &st->x;
     for (int look = 0; ; look = 1) {
         x->diagnose = look;
         gvi_status status = gvi__attempt(st, from, h, query);
         x->diagnose = 0;
-        if (status == GVI_OK && !look && !gvi__finite_end(st, from)) status = gvi__give(st, GVI_E_NON_FINITE);
+        if (status == GVI_OK && !look && !gvi__finite_end(st, from)) status = gvi__report_status(st, GVI_E_NON_FINITE);
         const int explained = status != GVI_E_NON_FINITE || st->fault.effect != GVI_FAULT_NONE;
-        if (look) return status != GVI_OK && explained ? status : gvi__give(st, GVI_E_CONVERGENCE);
+        if (look) return status != GVI_OK && explained ? status : gvi__report_status(st, GVI_E_CONVERGENCE);
         if (explained) return status;
         if (!query) x->newton.h = 0;
     }
@@ -3929,10 +3936,10 @@ static gvi_status gvi__solve(gvi_stepper *st, const gvi__start *from, gvi_real h
 // work becomes last, last becomes older (where it is kept that long), and the oldest is free
 static void gvi__rotate(gvi_real **older, gvi_real **last, gvi_real **work)
 {
-    gvi_real *free = *older ? *older : *last;
+    gvi_real *spare = *older ? *older : *last;
     if (*older) *older = *last;
     *last = *work;
-    *work = free;
+    *work = spare;
 }
 
 static void gvi__rotate_values(gvi_stepper *st)
@@ -3978,14 +3985,14 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     struct gvi__private *x = &st->x;
     const gvi__two t = gvi__two_sum(st->t, x->dt + st->t_low);
     const int whole = gvi__uses(x, GVI_EXPLICIT);             // whose increments have no low words
-    gvi__move(st->n, x->step.q, whole ? NULL : x->step.q_low, x->state.q, x->state.q_low, x->before.q);
-    gvi__move(st->n, x->step.p, whole ? NULL : x->step.p_low, x->state.p, x->state.p_low, x->before.p);
+    gvi__move(st->n, x->step.q, whole ? NULL : x->step.q_low, x->state.q, x->state.q_low, x->began.q);
+    gvi__move(st->n, x->step.p, whole ? NULL : x->step.p_low, x->state.p, x->state.p_low, x->began.p);
     st->t0 = st->t;
     st->t = t.hi;
     st->t_low = t.lo;
     if (GVI__CLOCK) {
         const gvi__two H = gvi__two_sum(x->time.H, x->time.dH + x->time.H_low);
-        x->before.H = x->time.H;
+        x->began.H = x->time.H;
         x->time.H = H.hi;
         x->time.H_low = H.lo;
     }
@@ -4007,10 +4014,10 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
     struct gvi__private *x = &st->x;
     const gvi_formulation was = st->formulation;
     const int left = x->newton.left;
-    const gvi__start from = { st->t, st->t_low, st->q, st->q_low, st->p, st->p_low, x->time.H + x->time.H_low };
+    const gvi__origin from = { st->t, st->t_low, st->q, st->q_low, st->p, st->p_low, x->time.H + x->time.H_low };
     if (x->stepped && gvi__nonzero(h - st->h)) x->newton.left = 0;
     gvi_status status = gvi__solve(st, &from, h, GVI__STEP);
-    if (status == GVI_OK && !gvi__finite(st->t + x->dt)) status = gvi__give(st, GVI_E_ARGUMENT);
+    if (status == GVI_OK && !gvi__finite(st->t + x->dt)) status = gvi__report_status(st, GVI_E_ARGUMENT);
     if (status != GVI_OK) {
         gvi__count(&st->counters.failures, 1);
         st->formulation = was;
@@ -4019,7 +4026,7 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
         return st->status = status;
     }
     gvi__commit(st, h);
-    return gvi__give(st, GVI_OK);
+    return gvi__report_status(st, GVI_OK);
 }
 
 /* ---- starting ---- */
@@ -4048,7 +4055,7 @@ GVI__COLD gvi_status gvi__begin_at(gvi_stepper *st, gvi_real t, const gvi_real *
     x->stepped = x->kept = x->has_force = x->has_velocity = x->newton.left = 0;
     x->newton.h = x->sized.ratio = 0;
     st->formulation = x->chosen;
-    return gvi__give(st, GVI_OK);
+    return gvi__report_status(st, GVI_OK);
 }
 
 // is everything there that a start needs, and finite?
@@ -4059,7 +4066,7 @@ GVI__COLD gvi_status gvi__check_start(gvi_stepper *st, gvi_real t, const gvi_rea
     if (!q || !w || !gvi__finite(t)) return st->status = GVI_E_ARGUMENT;
     const int i = gvi__first_non_finite(st->n, q), j = gvi__first_non_finite(st->n, w);
     if (i < 0 && j < 0) return GVI_OK;
-    return gvi__fail(st, GVI_E_ARGUMENT, GVI_FAULT_NONE, j < 0 || (i >= 0 && i < j) ? i : j, GVI_FAULT_NONE);
+    return gvi__report(st, GVI_E_ARGUMENT, GVI_FAULT_NONE, j < 0 || (i >= 0 && i < j) ? i : j, GVI_FAULT_NONE);
 }
 
 GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
@@ -4122,17 +4129,17 @@ GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
     const unsigned bit = 1u << index, was = x->off;
     x->off = on ? was & ~bit : was | bit;
     if (gvi__clock_is_on(st) && x->started && x->off != was) {      // another energy, also at the start
-        gvi_real E, E0 = x->before.H, *v = x->result + st->n;
+        gvi_real E, E0 = x->began.H, *v = x->result + st->n;
         gvi_status status = gvi_energy(st, &E);
-        if (status == GVI_OK && x->stepped) status = gvi__hamiltonian(st, st->t0, x->before.q, x->before.p, v, &E0);
+        if (status == GVI_OK && x->stepped) status = gvi__hamiltonian(st, st->t0, x->began.q, x->began.p, v, &E0);
         if (status != GVI_OK) return x->off = was, st->status = status;
         x->time.H = E;
         x->time.H_low = 0;
-        x->before.H = E0;
+        x->began.H = E0;
     }
     x->has_force = 0;
     x->newton.h = 0;
-    return gvi__give(st, GVI_OK);
+    return gvi__report_status(st, GVI_OK);
 }
 
 /* Pointers into the memory are those of st: the layout again, the values rotated as they were saved. */
@@ -4141,7 +4148,7 @@ GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const 
     const gvi_status ready = gvi__ready(st, st && st->x.memory);
     if (ready != GVI_OK) return ready;
     struct gvi__private *x = &st->x;
-    if (!saved || !memory || saved->n != st->n || saved->s != st->s || saved->r != st->r
+    if (!saved || !memory || !saved->x.memory || saved->n != st->n || saved->s != st->s || saved->r != st->r
         || saved->x.size != x->size || saved->x.needs != x->needs || saved->x.chosen != x->chosen
         || saved->x.clock != x->clock || saved->x.desc.effect_count != x->desc.effect_count
         || saved->x.desc.mass.kind != x->desc.mass.kind) return st->status = GVI_E_ARGUMENT;
@@ -4158,9 +4165,10 @@ GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const 
     x->kernel = kernel;
     x->skip = skip;
     gvi__hand_out(st, own);
-    while ((uintptr_t)x->work.F - (uintptr_t)own != F || (x->work.V && (uintptr_t)x->work.V - (uintptr_t)own != V))
+    for (int k = 0; k < 6 && ((uintptr_t)x->work.F - (uintptr_t)own != F        // each goes round in 2 or 3
+                              || (x->work.V && (uintptr_t)x->work.V - (uintptr_t)own != V)); ++k)
         gvi__rotate_values(st);
-    return gvi__give(st, GVI_OK);
+    return gvi__report_status(st, GVI_OK);
 }
 
 /* --------------------------------------------------------------- QUERIES */
@@ -4196,15 +4204,15 @@ static void gvi__curve_at(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_
     const struct gvi__private *x = &st->x;
     const int n = st->n, R = x->R;
     const int by_forces = x->chosen <= GVI_POSITIONS && st->formulation != GVI_NEWTON;
-    gvi_real *a = x->row, *b = a + R;               // at tau: phi, Phi over Gamma
     if (gvi__uses(x, GVI_EXPLICIT)) {               // a straight line
         for (int i = 0; i < n; ++i) {
-            const gvi_real path = (x->state.q[i] - x->before.q[i]) + x->state.q_low[i];
-            q[i] = tau < (gvi_real)0.5 ? x->before.q[i] + tau*path : x->state.q[i] - (1 - tau)*path;
+            const gvi_real path = (x->state.q[i] - x->began.q[i]) + x->state.q_low[i];
+            q[i] = tau < (gvi_real)0.5 ? x->began.q[i] + tau*path : x->state.q[i] - (1 - tau)*path;
             v[i] = path/st->h;
         }
         return;
     }
+    gvi_real *a = x->row, *b = a + R;               // at tau: phi, Phi over Gamma
     gvi__modes(st, tau, a, b);
     gvi__zero((size_t)n, q);
     gvi__zero((size_t)n, v);
@@ -4227,14 +4235,14 @@ static void gvi__curve_at(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_
         gvi_real *v0 = x->free.v;
         gvi__over_mass(st, q, 1, 1);
         gvi__over_mass(st, v, 1, 1);
-        gvi__copy((size_t)n, x->before.p, v0);
+        gvi__copy((size_t)n, x->began.p, v0);
         gvi__over_mass(st, v0, 1, 1);
         for (int i = 0; i < n; ++i) {
             q[i] += tau*v0[i];
             v[i] += v0[i];
         }
     }
-    for (int i = 0; i < n; ++i) q[i] = x->before.q[i] + st->h*q[i];
+    for (int i = 0; i < n; ++i) q[i] = x->began.q[i] + st->h*q[i];
 }
 
 // what was asked for
@@ -4257,7 +4265,7 @@ GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
     if (!(tau >= 0 && tau <= 1)) return st->status = GVI_E_ARGUMENT;
     if (gvi__rule_is(&st->x, GVI_KICKS)) return st->status = GVI_E_FORMULATION;
     gvi_real *Q = st->x.result, *V = Q + st->n, rate;
-    gvi__for_step(st, st->h);
+    gvi__weights_for(st, st->h);
     gvi__curve_at(st, tau, Q, V);
     if (GVI__CLOCK && st->x.stepped == 2) {       // v = q'/g
         status = gvi__clock_at(st, st->t, Q, &rate, V + st->n);
@@ -4273,7 +4281,7 @@ GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
    inside the step by bisection.  h is the next to try, or 0 for no more.                     */
 typedef struct gvi__bracket { gvi_real dt, h, near_end, far_end; } gvi__bracket;
 
-static gvi_status gvi__clock_time(gvi_stepper *st, const gvi__start *from, gvi__bracket *b)
+static gvi_status gvi__clock_time(gvi_stepper *st, const gvi__origin *from, gvi__bracket *b)
 {
     struct gvi__private *x = &st->x;
     gvi_real rate, *q = x->result;
@@ -4292,7 +4300,7 @@ static gvi_status gvi__clock_time(gvi_stepper *st, const gvi__start *from, gvi__
 }
 
 // increments of a partial step for a time dt from one end of the last step
-static gvi_status gvi__partial_step(gvi_stepper *st, const gvi__start *from, int query, gvi_real dt)
+static gvi_status gvi__partial_step(gvi_stepper *st, const gvi__origin *from, int query, gvi_real dt)
 {
     const gvi_real far_end = query == GVI__FROM_END ? -st->h : st->h;
     gvi__bracket b = { dt, dt, 0, far_end };
@@ -4305,7 +4313,7 @@ static gvi_status gvi__partial_step(gvi_stepper *st, const gvi__start *from, int
         status = gvi__solve(st, from, b.h, query);
         if (status == GVI_OK) status = gvi__clock_time(st, from, &b);
     }
-    return status;
+    return status == GVI_OK && gvi__nonzero(b.h) ? gvi__report_status(st, GVI_E_CONVERGENCE) : status;
 }
 
 GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_real *v, gvi_real *p)
@@ -4322,9 +4330,9 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
     // partial step of length h from the nearer end, or none for a rounding of the whole
     const int end = GVI_ABS(back) <= GVI_ABS(ahead);
     const gvi_real h = end ? back - st->t_low : ahead;
-    gvi__start from = { st->t, st->t_low, st->q, st->q_low, st->p, st->p_low, x->time.H + x->time.H_low };
+    gvi__origin from = { st->t, st->t_low, st->q, st->q_low, st->p, st->p_low, x->time.H + x->time.H_low };
     if (!end) {
-        const gvi__start first = { st->t0, 0, x->before.q, x->zeros, x->before.p, x->zeros, x->before.H };
+        const gvi__origin first = { st->t0, 0, x->began.q, x->zeros, x->began.p, x->zeros, x->began.H };
         from = first;
     }
     const gvi_formulation was = st->formulation;
@@ -4349,12 +4357,12 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
     gvi__hand_over(st->n, Q, q);
     gvi__hand_over(st->n, V, v);
     gvi__hand_over(st->n, P, p);
-    return gvi__give(st, GVI_OK);
+    return gvi__report_status(st, GVI_OK);
 }
 
 /* The action along the curve of the last step, from NULL; or along that between boundary values, at its
    stage values.                                                                              */
-GVI__COLD gvi_status gvi__curve_action(gvi_stepper *st, const gvi__start *from, gvi_real h,
+GVI__COLD gvi_status gvi__curve_action(gvi_stepper *st, const gvi__origin *from, gvi_real h,
                                     const gvi_real *q1, gvi_real *action)
 {
     struct gvi__private *x = &st->x;
@@ -4381,7 +4389,7 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action)
     if (!action) return st->status = GVI_E_ARGUMENT;
     if (gvi__rule_is(&st->x, GVI_KICKS) || st->x.stepped == 2) return st->status = GVI_E_FORMULATION;
     gvi_real sum;
-    gvi__for_step(st, st->h);
+    gvi__weights_for(st, st->h);
     status = gvi__curve_action(st, NULL, 0, NULL, &sum);
     if (status == GVI_OK) *action = sum;
     return status;
@@ -4391,7 +4399,7 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action)
 
 /* The curve between the boundary values by degree 1: a chord, point by point, nothing to solve.  F at
    its points goes to work.F, and the sum of b_i P_i to p.                                    */
-GVI__COLD gvi_status gvi__chord(gvi_stepper *st, const gvi__start *from, gvi_real h, const gvi_real *q1, gvi_real *p)
+GVI__COLD gvi_status gvi__chord(gvi_stepper *st, const gvi__origin *from, gvi_real h, const gvi_real *q1, gvi_real *p)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, R = x->R;
@@ -4420,7 +4428,7 @@ GVI__COLD gvi_status gvi__chord(gvi_stepper *st, const gvi__start *from, gvi_rea
 
 /* The same by any degree: rows k >= 1 of (1) by Newton's method.  The matrix where it ended says whether
    there was anything to find: a reciprocal condition below its own relative error is a conjugate point. */
-GVI__COLD gvi_status gvi__interior(gvi_stepper *st, const gvi__start *from, gvi_real h, const gvi_real *q1,
+GVI__COLD gvi_status gvi__interior(gvi_stepper *st, const gvi__origin *from, gvi_real h, const gvi_real *q1,
                                 gvi__matrix *J, gvi_real *p)
 {
     struct gvi__private *x = &st->x;
@@ -4563,14 +4571,14 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
         || !gvi__finite(t) || !gvi__finite(h) || !gvi__nonzero(h)) return st->status = GVI_E_ARGUMENT;
     if ((s > 1 && !gvi__has(x, GVI__HAS_NEWTON)) || gvi__rule_is(x, GVI_KICKS) || x->clock >= 0)
         return st->status = GVI_E_FORMULATION;
-    const gvi__start from = { t, 0, q0, x->zeros, x->zeros, x->zeros, 0 };
+    const gvi__origin from = { t, 0, q0, x->zeros, x->zeros, x->zeros, 0 };
     gvi__matrix J = { NULL, NULL, NULL, 1, 0, 0 };
     if (s > 1) {
         J.square = x->newton.J + sn*sn;
         J.ends = J.square + size*size;
         J.pivot = x->newton.pivot + sn + 1;
     }
-    gvi__begin(st, &from, h);
+    gvi__free_motion(st, &from, h);
     gvi__times(st->r, t, 0, h, x->table.c, x->t);     // explicit steps need none
 
     gvi_real *p0 = x->step.q, *p1 = x->step.p, *minus = x->result, *plus = minus + n, action = 0;
@@ -4578,7 +4586,7 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
     int negative = 0;
     status = gvi__interior(st, &from, h, q1, &J, p0);
     if (status == GVI_E_CONJUGATE || (status == GVI_E_SINGULAR && st->fault.effect == GVI_FAULT_NONE))
-        return gvi__give(st, GVI_E_CONJUGATE);
+        return gvi__report_status(st, GVI_E_CONJUGATE);
     if (status == GVI_OK && out->lagrangian) status = gvi__curve_action(st, &from, h, q1, &action);
     if (status != GVI_OK) return st->status = status;
 
@@ -4600,7 +4608,7 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
     gvi__hand_over(n, plus, out->plus);
     gvi__hand_over(n, p0, out->p0);
     gvi__hand_over(n, p1, out->p1);
-    return gvi__give(st, GVI_OK);
+    return gvi__report_status(st, GVI_OK);
 }
 
 /* ----------------------------------------------------------------- TEXTS */
@@ -4609,20 +4617,25 @@ GVI_DEF const char *gvi_status_text(gvi_status status)
 {
     switch (status) {
     case GVI_OK:            return "ok";
-    case GVI_E_ARGUMENT:    return "bad argument: null pointer, size out of range, zero step, NaN or Inf, "
-                                   "or what its kind does not take";
-    case GVI_E_MEMORY:      return "memory too small: gvi_size(desc) bytes, or GVI_LENGTH(n, s, r) numbers";
+    case GVI_E_ARGUMENT:    return "bad argument: null pointer, size out of range, zero step, "
+                                   "NaN or Inf, or what its kind does not take";
+    case GVI_E_MEMORY:      return "memory too small: gvi_size(desc) bytes, "
+                                   "or GVI_LENGTH(n, s, r) numbers";
     case GVI_E_NODES:       return "rule: a node is outside [0,1], or two coincide";
-    case GVI_E_ORDER:       return "rule: its order is below the degree (0: the weights do not sum to 1)";
-    case GVI_E_POINTS:      return "rule: too few points, r >= degree is needed";
+    case GVI_E_ORDER:       return "rule: its order is below the degree "
+                                   "(0: the weights do not sum to 1)";
+    case GVI_E_POINTS:      return "rule: too few points (r >= degree), "
+                                   "or it does not see every mode";
     case GVI_E_FORMULATION: return "no formulation, or not the one asked for, covers this scene";
     case GVI_E_SINGULAR:    return "singular matrix: a coordinate has no mass";
-    case GVI_E_CONVERGENCE: return "no convergence: the step is too large, or a force jumps or is noisy";
+    case GVI_E_CONVERGENCE: return "no convergence: the step is too large, "
+                                   "or a force jumps or is noisy";
     case GVI_E_CALLBACK:    return "a callback refused";
     case GVI_E_NON_FINITE:  return "an effect gave NaN or Inf";
     case GVI_E_VALUE:       return "an effect has no value callback";
     case GVI_E_STATE:       return "not started, no step yet, or time outside the last step";
-    case GVI_E_CONJUGATE:   return "conjugate points: the two configurations do not determine the curve";
+    case GVI_E_CONJUGATE:   return "conjugate points: "
+                                   "the two configurations do not determine the curve";
     case GVI_E_CLOCK:       return "a clock must be positive: g <= 0";
     default:                return "unknown status";
     }
@@ -4635,7 +4648,8 @@ GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st)
     if (st->formulation == GVI_NEWTON && st->x.chosen != GVI_NEWTON)
         return "Newton: the fixed point contracted badly";
     switch (st->formulation) {
-    case GVI_EXPLICIT:   return "explicit: Lobatto 2 or kicks, constant mass, effects read only t and q";
+    case GVI_EXPLICIT:
+        return "explicit: Lobatto 2 or kicks, constant mass, effects read only t and q";
     case GVI_POSITIONS:  return "positions: constant mass, effects read only t and q";
     case GVI_VELOCITIES: return "velocities: constant mass, an effect reads v";
     case GVI_MOMENTA:    return "momenta: r = s, velocity from momentum at each point";
