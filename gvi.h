@@ -479,7 +479,8 @@ typedef struct gvi_counters {
     gvi_real           worst_change;      /* largest last change of a fixed point, relative */
 } gvi_counters;
 
-struct gvi__values { gvi_real *Q, *F, *V, *P, *A; };   /* stage values, [n][R]; kicks: [n]; or NULL */
+/* stage values, [n][R]; kicks: [n]; or NULL */
+struct gvi__values { gvi_real *Q, *F, *V, *P, *A; };
 struct gvi__phase { gvi_real *q, *q_low, *p, *p_low; }; /* [n] each                       */
 
 struct gvi__tables {                  /* rule and degree; R = stride of rows        */
@@ -510,7 +511,8 @@ struct gvi__newton {
 
 struct gvi_stepper;
 struct gvi__stage;
-typedef gvi_real gvi__kernel(const struct gvi_stepper *st, const struct gvi__stage *stage, int rescale);
+typedef gvi_real gvi__kernel(const struct gvi_stepper *st, const struct gvi__stage *stage,
+                             int rescale);
 
 struct gvi__private {
     gvi_desc            desc;         /* with its defaults filled in                */
@@ -584,7 +586,8 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
 /* Start at time t from velocities, momenta, or two configurations: q0 at t and
    q1 at t + h (solves the boundary-value problem; conjugate points: below).   */
 GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v);
-GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *p);
+GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_real *q,
+                                      const gvi_real *p);
 GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_real h,
                                             const gvi_real *q0, const gvi_real *q1);
 
@@ -596,9 +599,9 @@ GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_rea
    a step for the next.                                                       */
 GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h);
 
-/* Switches effect `index` off (on = 0) or on again, between steps.  An effect that is
-   off is not evaluated; the formulation stays that of the whole list.  gvi_start leaves the switches
-   as they are.                                                               */
+/* Switches effect `index` off (on = 0) or on again, between steps.  An effect that is off is
+   not evaluated; the formulation stays that of the whole list.  gvi_start leaves the switches
+   as they are.                                                                                */
 GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on);
 
 /* At the present state: velocity (inverse Legendre transform), v[n];
@@ -620,14 +623,13 @@ GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
 GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_real *v, gvi_real *p);
 GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action);
 
-/* L_d(q0, q1; t, h): boundary values given, rows k >= 1 of (1) solved by
-   Newton's method.  GVI_E_CONJUGATE where they do not determine the curve
-   (oscillator: h omega = k pi).  Needs GVI_AUTO or GVI_NEWTON if s > 1, and is
-   not for kicks or a clock.
-   Forced systems: d1, d2 are total derivatives, and F-, F+ are
-   h sum b_i f_i dQ_i/dq0, dQ_i/dq1 with the curve's own dependence on its
-   ends, as the exact discrete forces are [1, sec. 3.2]; how they share p0 and
-   p1 is as exact as the Hessians (sqrt(eps), where these are differences), p0 and p1 themselves are exact.  State untouched.                    */
+/* L_d(q0, q1; t, h): boundary values given, rows k >= 1 of (1) solved by Newton's method.
+   GVI_E_CONJUGATE where they do not determine the curve (oscillator: h omega = k pi).  Needs
+   GVI_AUTO or GVI_NEWTON if s > 1, and is not for kicks or a clock.  Forced systems: d1, d2 are
+   total derivatives, and F-, F+ are h sum b_i f_i dQ_i/dq0, dQ_i/dq1 with the curve's own
+   dependence on its ends, as the exact discrete forces are [1, sec. 3.2]; how they share p0
+   and p1 is as exact as the Hessians (sqrt(eps), where these are differences), p0 and p1
+   themselves are exact.  State untouched.                                                     */
 GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real h,
                                            const gvi_real *q0, const gvi_real *q1,
                                            const gvi_discrete *out);
@@ -671,7 +673,8 @@ GVI_DEF gvi_real   gvi_interpolate(int n, const gvi_real *x, const gvi_real *w,
 GVI_DEF gvi_real   gvi_interpolate_derivative(int n, const gvi_real *x, const gvi_real *w,
                                               const gvi_real *f, gvi_real t);
 GVI_DEF void       gvi_basis(int n, const gvi_real *x, const gvi_real *w, gvi_real t, gvi_real *l);
-GVI_DEF void       gvi_basis_derivative(int n, const gvi_real *x, const gvi_real *w, gvi_real t, gvi_real *l);
+GVI_DEF void gvi_basis_derivative(int n, const gvi_real *x, const gvi_real *w, gvi_real t,
+                                  gvi_real *l);
 
 /* Dense LU with partial pivoting on equilibrated rows [7, ch. 9]:  P A = L U.
    a      n*n row-major, in: A, out: unit lower L below the diagonal, U on and
@@ -909,7 +912,13 @@ static gvi_real gvi__dot3(int n, const gvi_real *a, const gvi_real *b, const gvi
    same direction; state and increments carry their low words as compensation.                */
 typedef struct gvi__two { gvi_real hi, lo; } gvi__two;
 
-GVI__BODY gvi__two gvi__two_of(gvi_real hi, gvi_real lo) { gvi__two z; z.hi = hi; z.lo = lo; return z; }
+GVI__BODY gvi__two gvi__two_of(gvi_real hi, gvi_real lo)
+{
+    gvi__two z;
+    z.hi = hi;
+    z.lo = lo;
+    return z;
+}
 
 // x + y exactly, whichever is larger (Knuth, The art of computer programming 2, 4.2.2)
 GVI__BODY gvi__two gvi__two_sum(gvi_real x, gvi_real y)
@@ -967,7 +976,10 @@ static gvi__two gvi__add2(gvi__two a, gvi__two b)
     return gvi__two_sum(s.hi, s.lo + t.lo);
 }
 
-static gvi__two gvi__sub2(gvi__two a, gvi__two b) { return gvi__add2(a, gvi__two_of(-b.hi, -b.lo)); }
+static gvi__two gvi__sub2(gvi__two a, gvi__two b)
+{
+    return gvi__add2(a, gvi__two_of(-b.hi, -b.lo));
+}
 
 // a b, without the product of the low words (Joldes et al., algorithm 10)
 static gvi__two gvi__mul2(gvi__two a, gvi__two b)
@@ -986,7 +998,10 @@ static gvi__two gvi__div2(gvi__two a, gvi__two b)
     return gvi__two_sum(q, rest.hi/b.hi);
 }
 
-static gvi__two gvi__div2_by(gvi__two a, int k) { return gvi__div2(a, gvi__two_of((gvi_real)k, 0)); }
+static gvi__two gvi__div2_by(gvi__two a, int k)
+{
+    return gvi__div2(a, gvi__two_of((gvi_real)k, 0));
+}
 
 // nearest multiple of `unit`, a power of 2: sums of such numbers are exact
 static gvi_real gvi__grid(gvi__two a, gvi_real unit)
@@ -1070,7 +1085,8 @@ static gvi_status gvi__lu_factor(int n, gvi_real *a, gvi_real *pivot, int *at)
         for (size_t i = k + 1; i < N; ++i) {
             gvi_real *row = a + i*N + k;
             row[0] /= a[k*N + k];
-            if (gvi__nonzero(row[0])) gvi__subtract_row(N - k - 1, row[0], a + k*N + k + 1, row + 1);
+            if (gvi__nonzero(row[0]))
+                gvi__subtract_row(N - k - 1, row[0], a + k*N + k + 1, row + 1);
         }
     }
     return GVI_OK;
@@ -1099,7 +1115,8 @@ GVI_DEF void gvi_lu_solve(int n, const gvi_real *lu, const gvi_real *pivot, gvi_
 }
 
 // solves A' x = b: U'*y = b, L'*z = y, x = P' z; rows are used as columns
-GVI__COLD void gvi__lu_solve_transposed(int n, const gvi_real *lu, const gvi_real *pivot, gvi_real *x)
+GVI__COLD void gvi__lu_solve_transposed(int n, const gvi_real *lu, const gvi_real *pivot,
+                                        gvi_real *x)
 {
     const size_t N = (size_t)n;
     for (size_t i = 0; i < N; ++i) {
@@ -1167,17 +1184,20 @@ static gvi_status gvi__ldl_factor(int n, int R, int count, gvi_real *m, int *at)
         for (int k = 0; k < count; ++k) {
             const gvi_real was = GVI_ABS(d[k]);
             gvi_real rest = d[k];
-            for (size_t l = 0; l < j; ++l) rest -= m[(j*N + l)*S + (size_t)k]*m[(l*N + j)*S + (size_t)k];
+            for (size_t l = 0; l < j; ++l)
+                rest -= m[(j*N + l)*S + (size_t)k]*m[(l*N + j)*S + (size_t)k];
             d[k] = 1/rest;
             at[0] = (int)j;
             at[1] = k;
             if (!(was <= GVI__MAX) || !gvi__finite(rest)) return GVI_E_NON_FINITE;
-            if (!(GVI_ABS(rest) > (gvi_real)n*GVI__EPS*was) || !gvi__finite(d[k])) return GVI_E_SINGULAR;
+            if (!(GVI_ABS(rest) > (gvi_real)n*GVI__EPS*was) || !gvi__finite(d[k]))
+                return GVI_E_SINGULAR;
         }
         for (size_t i = j + 1; i < N; ++i) {
             gvi_real *a = m + (i*N + j)*S, *b = m + (j*N + i)*S;
             for (size_t l = 0; l < j; ++l)
-                for (int k = 0; k < count; ++k) a[k] -= m[(j*N + l)*S + (size_t)k]*m[(l*N + i)*S + (size_t)k];
+                for (int k = 0; k < count; ++k)
+                    a[k] -= m[(j*N + l)*S + (size_t)k]*m[(l*N + i)*S + (size_t)k];
             for (int k = 0; k < count; ++k) {
                 b[k] = a[k];
                 a[k] *= d[k];
@@ -1187,7 +1207,8 @@ static gvi_status gvi__ldl_factor(int n, int R, int count, gvi_real *m, int *at)
     return GVI_OK;
 }
 
-// rows z [n][R] := M^-1 z; an entry of the matrix is `width` numbers: one for each point, or one for all
+// rows z [n][R] := M^-1 z; an entry of the matrix is `width` numbers: one for each point, or one
+// for all
 static void gvi__ldl_solve(int n, const gvi_real *m, int width, gvi_real *z, int R, int count)
 {
     const int each = width > 1;
@@ -1219,14 +1240,16 @@ GVI__BODY int gvi__ldl_factor_lane(int n, int R, gvi_real *m)
     for (size_t j = 0; j < N; ++j) {
         gvi_real *d = m + (j*N + j)*S;
         gvi__lane rest = GVI__LOAD(d);
-        for (size_t l = 0; l < j && l < N; ++l) rest -= GVI__LOAD(m + (j*N + l)*S)*GVI__LOAD(m + (l*N + j)*S);
+        for (size_t l = 0; l < j && l < N; ++l)
+            rest -= GVI__LOAD(m + (j*N + l)*S)*GVI__LOAD(m + (l*N + j)*S);
         const gvi__lane inverse = 1/rest, loss = GVI__LOAD(d)*inverse, off = rest*inverse - 1;
         sum += loss*loss + off*off;
         GVI__STORE(d) = inverse;
         for (size_t i = j + 1; i < N; ++i) {
             gvi_real *a = m + (i*N + j)*S;
             rest = GVI__LOAD(a);
-            for (size_t l = 0; l < j && l < N; ++l) rest -= GVI__LOAD(m + (j*N + l)*S)*GVI__LOAD(m + (l*N + i)*S);
+            for (size_t l = 0; l < j && l < N; ++l)
+                rest -= GVI__LOAD(m + (j*N + l)*S)*GVI__LOAD(m + (l*N + i)*S);
             GVI__STORE(m + (j*N + i)*S) = rest;
             GVI__STORE(a) = rest*inverse;
         }
@@ -1236,7 +1259,8 @@ GVI__BODY int gvi__ldl_factor_lane(int n, int R, gvi_real *m)
 }
 
 // z := M^-1 from, which may be z
-GVI__BODY void gvi__ldl_solve_lane(int n, int R, const gvi_real *m, const gvi_real *from, gvi_real *z)
+GVI__BODY void gvi__ldl_solve_lane(int n, int R, const gvi_real *m, const gvi_real *from,
+                                   gvi_real *z)
 {
     const size_t N = (size_t)n, S = (size_t)R;
     for (size_t i = 0; i < N; ++i) {
@@ -1300,9 +1324,9 @@ GVI__COLD gvi__two gvi__node_correction(int lobatto, int m, gvi__two c, gvi_real
     return gvi__two_of(2*c.hi, 2*c.lo);
 }
 
-/* Where Newton's method for node j of the lower half starts, c = (1 - cos theta)/2 = sin^2(theta/2):
-   Gauss theta = pi (4j+3)/(4m+2), Lobatto from the zeros of J_1.  Both are well within its quadratic
-   range, and the series of the sine is good to 3e-7.                                         */
+/* Where Newton's method for node j of the lower half starts, c = (1 - cos theta)/2 =
+   sin^2(theta/2): Gauss theta = pi (4j+3)/(4m+2), Lobatto from the zeros of J_1.  Both are well
+   within its quadratic range, and the series of the sine is good to 3e-7.                     */
 static gvi_real gvi__node_guess(int lobatto, int m, int j)
 {
     const gvi_real pi = (gvi_real)3.14159265358979323846L;
@@ -1320,7 +1344,10 @@ GVI__COLD void gvi__rule(int lobatto, int n, gvi_real *c, gvi_real *c_low, gvi_r
     const int m = n - lobatto;
     for (int j = 0; 2*j < n; ++j) {
         const int middle = 2*j + 1 == n, known = middle || (lobatto && j == 0);
-        gvi__two x = gvi__two_of(middle ? (gvi_real)0.5 : known ? 0 : gvi__node_guess(lobatto, m, j), 0);
+        gvi__two x = gvi__two_of(middle  ? (gvi_real)0.5
+                                 : known ? 0
+                                         : gvi__node_guess(lobatto, m, j),
+                                 0);
         gvi_real last = known ? 0 : 1;
         for (int k = 0; k < 12; ++k) {
             const gvi__two dx = gvi__node_correction(lobatto, m, x, b + j);
@@ -1429,7 +1456,8 @@ static int gvi__nearest(int n, const gvi_real *x, gvi_real t)
    distance d to the nearest node i, so that t = x_i is no exception; and the
    sum, which may cancel, by what it is equal to: w_i prod_(k != i)
    (x_i - x_k)/(t - x_k), factors in (0,2] [6, sec. 3, the first form].  Returns i. */
-static int gvi__term(int n, const gvi_real *x, const gvi_real *w, gvi_real t, gvi_real *d, gvi_real *sum)
+static int gvi__term(int n, const gvi_real *x, const gvi_real *w, gvi_real t, gvi_real *d,
+                     gvi_real *sum)
 {
     int i = gvi__nearest(n, x, t);
     *d = t - x[i];
@@ -1446,7 +1474,8 @@ GVI_DEF void gvi_basis(int n, const gvi_real *x, const gvi_real *w, gvi_real t, 
     for (int j = 0; j < n; ++j) l[j] = (j == i ? w[i] : w[j]*(d/(t - x[j])))/sum;
 }
 
-GVI_DEF gvi_real gvi_interpolate(int n, const gvi_real *x, const gvi_real *w, const gvi_real *f, gvi_real t)
+GVI_DEF gvi_real gvi_interpolate(int n, const gvi_real *x, const gvi_real *w, const gvi_real *f,
+                                 gvi_real t)
 {
     gvi_real d, sum, value = 0;
     int i = gvi__term(n, x, w, t, &d, &sum);
@@ -1468,7 +1497,8 @@ static gvi_real gvi__slope(int n, const gvi_real *x, const gvi_real *w, gvi_real
     return l + l*d*rest;
 }
 
-GVI_DEF void gvi_basis_derivative(int n, const gvi_real *x, const gvi_real *w, gvi_real t, gvi_real *l)
+GVI_DEF void gvi_basis_derivative(int n, const gvi_real *x, const gvi_real *w, gvi_real t,
+                                  gvi_real *l)
 {
     gvi_real d, sum, others = 0;
     int i = gvi__term(n, x, w, t, &d, &sum);
@@ -1501,9 +1531,13 @@ enum {                        /* what a scene needs that others do without, as b
                   + GVI__NEWTON*GVI__HAS_NEWTON + GVI__RULES*GVI__HAS_GAMMA
 };
 
-GVI__BODY int gvi__has(const struct gvi__private *x, int bit) { return (x->needs & GVI__POSSIBLE & bit) != 0; }
+GVI__BODY int gvi__has(const struct gvi__private *x, int bit)
+{
+    return (x->needs & GVI__POSSIBLE & bit) != 0;
+}
 
-// is f the formulation of this scene?  A constant where it is the only one that is compiled, or not compiled
+// is f the formulation of this scene?  A constant where it is the only one that is compiled, or not
+// compiled
 GVI__BODY int gvi__uses(const struct gvi__private *x, gvi_formulation f)
 {
     return (GVI__COMPILED >> f & 1) && (GVI__COMPILED == 1 << f || x->chosen == f);
@@ -1523,7 +1557,8 @@ GVI__BODY int gvi__mass_is_constant(const struct gvi__private *x)
 
 GVI__BODY int gvi__rule_is(const struct gvi__private *x, gvi_rule_kind kind)
 {
-    return (kind != GVI_OWN || GVI__RULES > 0) && (kind != GVI_KICKS || GVI__EXPLICIT > 0) && x->desc.rule.kind == kind;
+    return (kind != GVI_OWN || GVI__RULES > 0) && (kind != GVI_KICKS || GVI__EXPLICIT > 0)
+           && x->desc.rule.kind == kind;
 }
 
 static int gvi__clock_is_on(const gvi_stepper *st)
@@ -1531,9 +1566,10 @@ static int gvi__clock_is_on(const gvi_stepper *st)
     return GVI__CLOCK && st->x.clock >= 0 && !(st->x.off >> st->x.clock & 1u);
 }
 
-/* Status and fault of a call.  gvi__report_effect: an effect or the mass is at fault, but no one coordinate
-   or point; gvi__report_status: none of them.                                                         */
-static gvi_status gvi__report(gvi_stepper *st, gvi_status status, int effect, int coordinate, int point)
+/* Status and fault of a call.  gvi__report_effect: an effect or the mass is at fault, but no
+   one coordinate or point; gvi__report_status: none of them.                                  */
+static gvi_status gvi__report(gvi_stepper *st, gvi_status status, int effect, int coordinate,
+                              int point)
 {
     st->fault.effect = effect;
     st->fault.coordinate = coordinate;
@@ -1565,7 +1601,10 @@ static gvi_status gvi__done(gvi_stepper *st, gvi_status status)
     return status == GVI_OK ? gvi__report_status(st, GVI_OK) : (st->status = status);
 }
 
-static void gvi__count(unsigned long long *counter, int more) { *counter += (unsigned long long)more; }
+static void gvi__count(unsigned long long *counter, int more)
+{
+    *counter += (unsigned long long)more;
+}
 
 // the bits of all effects of a kind
 static unsigned gvi__of_kind(const struct gvi__private *x, gvi_kind kind)
@@ -1607,7 +1646,8 @@ static void gvi__gather(int n, int R, const gvi_real *rows, gvi_real *out)
 }
 
 // the first entry of rows [n][count] that is not finite is the fault
-static gvi_status gvi__check_rows(gvi_stepper *st, const gvi_points *x, const gvi_real *rows, int effect)
+static gvi_status gvi__check_rows(gvi_stepper *st, const gvi_points *x, const gvi_real *rows,
+                                  int effect)
 {
     for (int i = 0; rows && i < x->n; ++i) {
         const int k = gvi__first_non_finite(x->count, rows + i*x->stride);
@@ -1628,7 +1668,8 @@ static gvi_status gvi__value(gvi_stepper *st, gvi_points *x, int e, gvi_real *va
     return effect->value(&y, effect->user) ? gvi__report_effect(st, GVI_E_CALLBACK, e) : GVI_OK;
 }
 
-// the one-point form: gather, call, scatter.  Returns 0, or 1 + the point at which the callback failed
+// the one-point form: gather, call, scatter.  Returns 0, or 1 + the point at which the callback
+// failed
 static int gvi__point_by_point(gvi_stepper *st, const gvi_effect *e, const gvi_points *x)
 {
     const int n = x->n;
@@ -1646,23 +1687,27 @@ static int gvi__point_by_point(gvi_stepper *st, const gvi_effect *e, const gvi_p
     return 0;
 }
 
-/* One effect at all points; it sees only what its kind may read.  `value`, if not NULL, gets V or L,
-   in the same call where one function gives both.                                            */
+/* One effect at all points; it sees only what its kind may read.  `value`, if not NULL, gets V
+   or L, in the same call where one function gives both.                                       */
 GVI__BODY gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e, gvi_real *value)
 {
     const gvi_effect *effect = st->x.desc.effects + e;
     const gvi_real *v = x->v;
     gvi_real *dldv = x->dldv;
-    const int points = effect->points != NULL, both = value && points && effect->value == effect->points;
+    const int points = effect->points != NULL,
+              both = value && points && effect->value == effect->points;
     if (!GVI__READS_V || effect->kind == GVI_POTENTIAL) x->v = NULL;
     if (!GVI__LAGRANGIAN || effect->kind != GVI_LAGRANGIAN) x->dldv = NULL;
     if (both) x->value = value;
     gvi__count(&st->counters.effect[e], x->count);
-    const int failed = points ? effect->points(x, effect->user) : gvi__point_by_point(st, effect, x);
+    const int failed =
+        points ? effect->points(x, effect->user) : gvi__point_by_point(st, effect, x);
     x->value = NULL;
     x->v = v;
     x->dldv = dldv;
-    if (failed) return gvi__report(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, points ? GVI_FAULT_NONE : failed - 1);
+    if (failed)
+        return gvi__report(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE,
+                           points ? GVI_FAULT_NONE : failed - 1);
     return value && !both ? gvi__value(st, x, e, value) : GVI_OK;
 }
 
@@ -1675,7 +1720,8 @@ static gvi_real *gvi__value_row(const gvi_stepper *st, int e, gvi_real *level)
          : kind == GVI_LAGRANGIAN ? st->x.time.lagrangian : level;
 }
 
-/* In the repetition of a step that came to NaN or Inf: which effect gave it?  Each is evaluated alone. */
+/* In the repetition of a step that came to NaN or Inf: which effect gave it? Each is evaluated
+   alone.                                                                                      */
 GVI__COLD gvi_status gvi__diagnose(gvi_stepper *st, gvi_points *x, unsigned skip, gvi_real *level)
 {
     const size_t length = (size_t)x->n*(size_t)x->stride;
@@ -1686,7 +1732,8 @@ GVI__COLD gvi_status gvi__diagnose(gvi_stepper *st, gvi_points *x, unsigned skip
         if (x->dldv) gvi__zero(length, x->dldv);
         if (value) gvi__zero((size_t)x->stride, value);
         gvi_status status = gvi__effect(st, x, e, value);
-        st->counters.effect[e] -= (unsigned long long)x->count;        // to look at it is no step's work
+        // to look at it is no step's work
+        st->counters.effect[e] -= (unsigned long long)x->count;
         if (status == GVI_OK) status = gvi__check_rows(st, x, x->f, e);
         if (status == GVI_OK) status = gvi__check_rows(st, x, x->dldv, e);
         const int k = value && status == GVI_OK ? gvi__first_non_finite(x->count, value) : -1;
@@ -1696,8 +1743,8 @@ GVI__COLD gvi_status gvi__diagnose(gvi_stepper *st, gvi_points *x, unsigned skip
     return gvi__report_status(st, GVI_E_NON_FINITE);
 }
 
-/* Every effect that is on, but a clock and those with a bit in `skip`: adds to x->f and x->dldv, and
-   with a level (a clock) to the values.                                                      */
+/* Every effect that is on, but a clock and those with a bit in `skip`: adds to x->f and
+   x->dldv, and with a level (a clock) to the values.                                          */
 static gvi_status gvi__effects(gvi_stepper *st, gvi_points *x, unsigned skip, gvi_real *level)
 {
     const int diagnose = st->x.diagnose;
@@ -1706,19 +1753,23 @@ static gvi_status gvi__effects(gvi_stepper *st, gvi_points *x, unsigned skip, gv
     if (GVI__CLOCK && st->x.clock >= 0) skip |= 1u << st->x.clock;
 
     // points that are not finite: the iteration has diverged, and no effect is to blame
-    if (diagnose && (gvi__check_rows(st, x, x->q, 0) != GVI_OK || gvi__check_rows(st, x, x->v, 0) != GVI_OK))
+    if (diagnose
+        && (gvi__check_rows(st, x, x->q, 0) != GVI_OK || gvi__check_rows(st, x, x->v, 0) != GVI_OK))
         return gvi__report_status(st, GVI_E_CONVERGENCE);
     for (int e = 0; e < st->x.desc.effect_count && status == GVI_OK; ++e)
         if (!(skip >> e & 1u)) status = gvi__effect(st, x, e, gvi__value_row(st, e, level));
     if (!diagnose || status != GVI_OK) return status;
-    const int finite = gvi__check_rows(st, x, x->f, 0) == GVI_OK && gvi__check_rows(st, x, x->dldv, 0) == GVI_OK
-        && (!level || (gvi__first_non_finite(x->count, level) < 0
-                       && gvi__first_non_finite(x->count, st->x.time.lagrangian) < 0));
+    const int finite = gvi__check_rows(st, x, x->f, 0) == GVI_OK
+                       && gvi__check_rows(st, x, x->dldv, 0) == GVI_OK
+                       && (!level
+                           || (gvi__first_non_finite(x->count, level) < 0
+                               && gvi__first_non_finite(x->count, st->x.time.lagrangian) < 0));
     return finite ? gvi__report_status(st, GVI_OK) : gvi__diagnose(st, x, skip, level);
 }
 
 /* Evaluates mass.points, or with `v` mass.velocity, which reads p.                           */
-static gvi_status gvi__evaluate_mass(gvi_stepper *st, const gvi_points *x, const gvi_real *p, gvi_real *v)
+static gvi_status gvi__evaluate_mass(gvi_stepper *st, const gvi_points *x, const gvi_real *p,
+                                     gvi_real *v)
 {
     const gvi_mass *mass = &st->x.desc.mass;
     gvi_points y = gvi__points_at(st, x->count, x->stride, x->t, x->q, NULL, NULL);
@@ -1730,8 +1781,8 @@ static gvi_status gvi__evaluate_mass(gvi_stepper *st, const gvi_points *x, const
     return failed ? gvi__report_effect(st, GVI_E_CALLBACK, GVI_FAULT_MASS) : GVI_OK;
 }
 
-/* M(q) at the points, factored.  In whole lanes, with the first point behind the last, unless a pivot
-   is doubtful: then once more, one by one.                                                   */
+/* M(q) at the points, factored.  In whole lanes, with the first point behind the last, unless a
+   pivot is doubtful: then once more, one by one.                                              */
 static gvi_status gvi__factor_mass(gvi_stepper *st, const gvi_points *x)
 {
     const int n = st->n, R = x->stride;
@@ -1764,12 +1815,13 @@ static gvi_status gvi__mass_gradient(gvi_stepper *st, const gvi_points *x)
     const gvi_mass *mass = &st->x.desc.mass;
     gvi_points y = *x;
     y.dldv = NULL;
-    if (mass->gradient(&y, mass->user)) return gvi__report_effect(st, GVI_E_CALLBACK, GVI_FAULT_MASS);
+    if (mass->gradient(&y, mass->user))
+        return gvi__report_effect(st, GVI_E_CALLBACK, GVI_FAULT_MASS);
     return st->x.diagnose ? gvi__check_rows(st, x, x->f, GVI_FAULT_MASS) : GVI_OK;
 }
 
-/* x->dldv += M v.  Entry (i,j) is `width` numbers: one for each point, one for all, or, 0, only those
-   of the diagonal are there.                                                                 */
+/* x->dldv += M v.  Entry (i,j) is `width` numbers: one for each point, one for all, or, 0, only
+   those of the diagonal are there.                                                            */
 static void gvi__add_momenta(const gvi_points *x, const gvi_real *m, int width)
 {
     const int n = x->n, R = x->stride, each = width > 1;
@@ -1821,7 +1873,8 @@ static void gvi__over_mass(const gvi_stepper *st, gvi_real *z, int R, int count)
 /* d(dL/dv)/dv at one point, n*n, by differences of dL/dv, to `hessian`.  x has been evaluated, and
    x->v is v.  The difference is shortened where it leaves the domain of L, and made longer where
    P_j, which need not be 0 with v, hides it.                                                 */
-static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real *v, gvi_real *hessian)
+static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real *v,
+                                        gvi_real *hessian)
 {
     const int n = st->n;
     const gvi_real root = GVI_SQRT(GVI__EPS);
@@ -1829,7 +1882,8 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real
     gvi__copy((size_t)n, x->dldv, base);
     for (int j = 0; j < n; ++j) {
         const gvi_real was = v[j];
-        gvi_real d = 0, next = root*(gvi__nonzero(was) ? GVI_ABS(was) : gvi__norm1(n, v)/(gvi_real)n);
+        gvi_real d = 0,
+                 next = root*(gvi__nonzero(was) ? GVI_ABS(was) : gvi__norm1(n, v)/(gvi_real)n);
         if (!(next > GVI__MIN/GVI__EPS)) next = root;
         for (int k = 0; k < 12 && next > 0; ++k) {
             v[j] = was + next;
@@ -1848,10 +1902,12 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real
 
 /* General Legendre transform at one point: Newton's method for dL/dv(v) = p from the v given.  Ends
    when the correction stops shrinking.                                                       */
-static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi_real *p, gvi_real *v)
+static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi_real *p,
+                                       gvi_real *v)
 {
     const int n = st->n;
-    gvi_real *W = st->x.newton.hessian, *pivot = W + n*n, *dv = st->x.newton.column + n, last = GVI__MAX;
+    gvi_real *W = st->x.newton.hessian, *pivot = W + n*n, *dv = st->x.newton.column + n,
+             last = GVI__MAX;
     int at;
     x->v = v;
     gvi__count(&st->counters.velocities, 1);
@@ -1879,7 +1935,8 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
             if (gvi__nonzero(dv[i])) change += GVI_ABS(dv[i])/(GVI_ABS(dv[i]) + GVI_ABS(v[i]));
         }
         if (!(change <= GVI__MAX)) break;
-        if (!(change > 2*GVI__EPS) || (change >= last/2 && change <= GVI_SQRT(GVI__EPS))) return GVI_OK;
+        if (!(change > 2*GVI__EPS) || (change >= last/2 && change <= GVI_SQRT(GVI__EPS)))
+            return GVI_OK;
         last = change;
     }
     return gvi__report_effect(st, GVI_E_CONVERGENCE, GVI_FAULT_MASS);
@@ -1894,7 +1951,8 @@ static void gvi__velocity_guess(const gvi_stepper *st, gvi_real *v)
 }
 
 // v from p at one point; v holds a guess on entry
-static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *p, gvi_real *v)
+static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *p,
+                                gvi_real *v)
 {
     gvi_points x = gvi__one_point(st, &t, q);
     if (st->x.desc.mass.velocity) {
@@ -1915,8 +1973,8 @@ static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, 
 
 /* At one point: V and L, the sums of the potentials and of the Lagrangian terms, and the kinetic
    energy T = v'Mv/2.  Forces have no value.                                                  */
-GVI__COLD gvi_status gvi__value_sums(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v,
-                              gvi_real *V, gvi_real *L, gvi_real *T)
+GVI__COLD gvi_status gvi__value_sums(gvi_stepper *st, gvi_real t, const gvi_real *q,
+                                     const gvi_real *v, gvi_real *V, gvi_real *L, gvi_real *T)
 {
     const gvi_desc *d = &st->x.desc;
     gvi_points y = gvi__one_point(st, &t, q);
@@ -1938,8 +1996,8 @@ GVI__COLD gvi_status gvi__value_sums(gvi_stepper *st, gvi_real t, const gvi_real
 
 /* H = p'v - L, v being a guess on entry and the velocity on return.  Without Lagrangian terms the
    kinetic energy is p'v/2.                                                                   */
-GVI__COLD gvi_status gvi__hamiltonian(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *p,
-                                   gvi_real *v, gvi_real *energy)
+GVI__COLD gvi_status gvi__hamiltonian(gvi_stepper *st, gvi_real t, const gvi_real *q,
+                                      const gvi_real *p, gvi_real *v, gvi_real *energy)
 {
     gvi_real V, L, T;
     gvi_status status = gvi__velocity(st, t, q, p, v);
@@ -1962,38 +2020,55 @@ GVI__COLD gvi_status gvi__hamiltonian(gvi_stepper *st, gvi_real t, const gvi_rea
 #define GVI__C(x) x
 #endif
 static const gvi_real gvi__few_b[] = {
-    GVI__C(1.0), GVI__C(0.5), GVI__C(0.5), GVI__C(0.277777777777777777778), GVI__C(0.444444444444444444444),
-    GVI__C(0.277777777777777777778), GVI__C(0.173927422568726928687), GVI__C(0.326072577431273071313),
+    GVI__C(1.0), GVI__C(0.5), GVI__C(0.5), GVI__C(0.277777777777777777778),
+        GVI__C(0.444444444444444444444),
+    GVI__C(0.277777777777777777778), GVI__C(0.173927422568726928687),
+        GVI__C(0.326072577431273071313),
     GVI__C(0.326072577431273071313), GVI__C(0.173927422568726928687)
 };
 static const gvi_real gvi__few_Phi[] = {
     GVI__C(0.5), GVI__C(-0.788675134594812882255), GVI__C(0.788675134594812882255),
-    GVI__C(0.166666666666666666667), GVI__C(0.166666666666666666667), GVI__C(-0.887298334620741688518),
+    GVI__C(0.166666666666666666667), GVI__C(0.166666666666666666667),
+        GVI__C(-0.887298334620741688518),
     GVI__C(0.5), GVI__C(0.887298334620741688518), GVI__C(0.1), GVI__C(0.25), GVI__C(0.1),
     GVI__C(0.0774596669241483377036), GVI__C(0.0), GVI__C(-0.0774596669241483377036),
-    GVI__C(-0.930568155797026287612), GVI__C(-0.669990521792428132401), GVI__C(0.669990521792428132401),
-    GVI__C(0.930568155797026287612), GVI__C(0.0646110632135476980776), GVI__C(0.221103222500738016208),
-    GVI__C(0.221103222500738016208), GVI__C(0.0646110632135476980776), GVI__C(0.055638932663884638435),
-    GVI__C(0.0751709043257755838678), GVI__C(-0.0751709043257755838678), GVI__C(-0.055638932663884638435),
-    GVI__C(0.0437381157656224151096), GVI__C(-0.0233299525003162926606), GVI__C(-0.0233299525003162926606),
+    GVI__C(-0.930568155797026287612), GVI__C(-0.669990521792428132401),
+        GVI__C(0.669990521792428132401),
+    GVI__C(0.930568155797026287612), GVI__C(0.0646110632135476980776),
+        GVI__C(0.221103222500738016208),
+    GVI__C(0.221103222500738016208), GVI__C(0.0646110632135476980776),
+        GVI__C(0.055638932663884638435),
+    GVI__C(0.0751709043257755838678), GVI__C(-0.0751709043257755838678),
+        GVI__C(-0.055638932663884638435),
+    GVI__C(0.0437381157656224151096), GVI__C(-0.0233299525003162926606),
+        GVI__C(-0.0233299525003162926606),
     GVI__C(0.0437381157656224151096)
 };
 static const gvi_real gvi__few_phi[] = {
-    GVI__C(1.0), GVI__C(1.0), GVI__C(1.0), GVI__C(0.577350269189625764509), GVI__C(-0.577350269189625764509),
+    GVI__C(1.0), GVI__C(1.0), GVI__C(1.0), GVI__C(0.577350269189625764509),
+        GVI__C(-0.577350269189625764509),
     GVI__C(1.0), GVI__C(1.0), GVI__C(1.0), GVI__C(0.774596669241483377036), GVI__C(0.0),
-    GVI__C(-0.774596669241483377036), GVI__C(0.4), GVI__C(-0.5), GVI__C(0.4), GVI__C(1.0), GVI__C(1.0),
+    GVI__C(-0.774596669241483377036), GVI__C(0.4), GVI__C(-0.5), GVI__C(0.4), GVI__C(1.0),
+        GVI__C(1.0),
     GVI__C(1.0), GVI__C(1.0), GVI__C(0.861136311594052575224), GVI__C(0.339981043584856264803),
-    GVI__C(-0.339981043584856264803), GVI__C(-0.861136311594052575224), GVI__C(0.612333620718713811535),
-    GVI__C(-0.326619335004428097249), GVI__C(-0.326619335004428097249), GVI__C(0.612333620718713811535),
-    GVI__C(0.304746984955206190874), GVI__C(-0.411727999672899573875), GVI__C(0.411727999672899573875),
+    GVI__C(-0.339981043584856264803), GVI__C(-0.861136311594052575224),
+        GVI__C(0.612333620718713811535),
+    GVI__C(-0.326619335004428097249), GVI__C(-0.326619335004428097249),
+        GVI__C(0.612333620718713811535),
+    GVI__C(0.304746984955206190874), GVI__C(-0.411727999672899573875),
+        GVI__C(0.411727999672899573875),
     GVI__C(-0.304746984955206190874)
 };
 static const gvi_real gvi__few_S[] = {
     GVI__C(-0.75), GVI__C(-0.872008467928146215588), GVI__C(-0.75), GVI__C(0.705341801261479548921),
-    GVI__C(-0.927298334620741688518), GVI__C(-0.868649167310370844259), GVI__C(-0.5625), GVI__C(-0.9),
-    GVI__C(0.518649167310370844259), GVI__C(0.847298334620741688518), GVI__C(-0.953785837006848454724),
-    GVI__C(-0.920460403188975796283), GVI__C(-0.712370508221089930304), GVI__C(-0.938679181179479062757),
-    GVI__C(-0.656680189998734829357), GVI__C(0.627610535363766334498), GVI__C(-0.924952463062489660438),
+    GVI__C(-0.927298334620741688518), GVI__C(-0.868649167310370844259), GVI__C(-0.5625),
+        GVI__C(-0.9),
+    GVI__C(0.518649167310370844259), GVI__C(0.847298334620741688518),
+        GVI__C(-0.953785837006848454724),
+    GVI__C(-0.920460403188975796283), GVI__C(-0.712370508221089930304),
+        GVI__C(-0.938679181179479062757),
+    GVI__C(-0.656680189998734829357), GVI__C(0.627610535363766334498),
+        GVI__C(-0.924952463062489660438),
     GVI__C(-0.678101547174880907547), GVI__C(0.68009827440047862373), GVI__C(0.9073504745872041205)
 };
 static const gvi_real gvi__few_T[] = {
@@ -2026,16 +2101,19 @@ static gvi_real gvi__T(const gvi_stepper *st, int i, int j)
     return gvi__few_T[(st->r - 2)*(st->r - 1)*st->r/6 + (j - 1)*j/2 + i] - (gvi_real)0.5;
 }
 
-GVI__COLD void gvi__prepare_column(gvi_stepper *st, const gvi_real *b, int j) { (void)st, (void)b, (void)j; }
+GVI__COLD void gvi__prepare_column(gvi_stepper *st, const gvi_real *b, int j)
+{
+    (void)st, (void)b, (void)j;
+}
 static void gvi__over_gamma(const gvi_stepper *st, gvi_real *y)
 {
     for (int k = 0; k < st->s; ++k) y[k] *= (gvi_real)(2*k + 1);
 }
 #else
 
-/* phi_k = P_k(x) and Phi_k = (P_(k-1) - P_(k+1))(x)/(2(2k+1)), P_(-1) = 1, at the nodes, x = 1 - 2c,
-   in double-word arithmetic: [k*R + node], the low words of Phi in E, which is not yet in use.  Then
-   the nodes go to the grid of S.                                                             */
+/* phi_k = P_k(x) and Phi_k = (P_(k-1) - P_(k+1))(x)/(2(2k+1)), P_(-1) = 1, at the nodes, x = 1
+   - 2c, in double-word arithmetic: [k*R + node], the low words of Phi in E, which is not yet in
+   use.  Then the nodes go to the grid of S.                                                   */
 GVI__COLD void gvi__modes_at_nodes(gvi_stepper *st)
 {
     const struct gvi__tables *x = &st->x.table;
@@ -2069,7 +2147,8 @@ GVI__COLD gvi_status gvi__make_gamma(gvi_stepper *st)
     }
     if (!gvi__has(&st->x, GVI__HAS_GAMMA)) return GVI_OK;
     for (int k = 0; k < s; ++k)
-        for (int l = 0; l < s; ++l) x->gamma[k*s + l] = gvi__dot3(r, x->b, x->phi + k*R, x->phi + l*R);
+        for (int l = 0; l < s; ++l)
+            x->gamma[k*s + l] = gvi__dot3(r, x->b, x->phi + k*R, x->phi + l*R);
     return gvi_lu_factor(s, x->gamma, x->gamma + s*s) == GVI_OK ? GVI_OK : GVI_E_POINTS;
 }
 
@@ -2089,7 +2168,8 @@ GVI__COLD void gvi__prepare_column(gvi_stepper *st, const gvi_real *b, int j)
     const int s = st->s, R = st->x.R;
     gvi_real *w = st->x.row;
     for (int k = 0; k < s; ++k) {
-        const gvi__two a = gvi__two_of(b[k*R + j], low[k*R + j]), z = gvi__scale2(x->inv_gamma[k], a);
+        const gvi__two a = gvi__two_of(b[k*R + j], low[k*R + j]),
+                       z = gvi__scale2(x->inv_gamma[k], a);
         w[k] = gvi__has(&st->x, GVI__HAS_GAMMA) ? a.hi : z.hi;
         w[s + k] = gvi__has(&st->x, GVI__HAS_GAMMA) ? 0 : z.lo;
     }
@@ -2121,10 +2201,10 @@ static gvi_real gvi__T(const gvi_stepper *st, int i, int j)
 }
 #endif
 
-/* S and T on grids of eps/2 and eps (|S| <= 1, |T| < 2): what they must fulfil for the step to be
-   symplectic then holds exactly in the rounded numbers, S_ij = S_ji, and for Gauss with r = s
-   T_ij + T_ji = 1.  Stored by columns, [j*R + i]:  K = c_i - S_ij, U = 1 - T_ij, T = T_ji, and where
-   Lagrangian terms are taken away, in the velocities formulation, -T_ji and -N_ij.           */
+/* S and T on grids of eps/2 and eps (|S| <= 1, |T| < 2): what they must fulfil for the step to
+   be symplectic then holds exactly in the rounded numbers, S_ij = S_ji, and for Gauss with r =
+   s T_ij + T_ji = 1.  Stored by columns, [j*R + i]: K = c_i - S_ij, U = 1 - T_ij, T = T_ji, and
+   where Lagrangian terms are taken away, in the velocities formulation, -T_ji and -N_ij.      */
 GVI__COLD void gvi__make_tables(gvi_stepper *st)
 {
     const struct gvi__tables *x = &st->x.table;
@@ -2191,20 +2271,22 @@ static void gvi__weights_for(gvi_stepper *st, gvi_real h)
     if (mirror != most) x->hb[mirror] += rest/2;
     for (int j = 0; j < r; ++j) x->hb[j] = GVI_LDEXP(x->hb[j], e);
     for (int j = 0; gvi__uses(&st->x, GVI_EXPLICIT) && j <= r; ++j) {
-        const gvi_real next = j < r ? gvi__grid(gvi__two_prod(st->x.table.c[j], mantissa), GVI__EPS/2) : mantissa;
+        const gvi_real next =
+            j < r ? gvi__grid(gvi__two_prod(st->x.table.c[j], mantissa), GVI__EPS/2) : mantissa;
         x->drift[j] = GVI_LDEXP(next - at, e);
         at = next;
     }
 }
 
 /* The predictor: least squares through the stage values of the last step or the last two, by
-   polynomials p_k that are orthonormal on the nodes x_j = c, and c - 1 for the step before (Forsythe
-   1957): E_ij = sum_k p_k(y_i) p_k(x_j) at the points y_i = alpha + beta c_i of the next.
+   polynomials p_k that are orthonormal on the nodes x_j = c, and c - 1 for the step before
+   (Forsythe 1957): E_ij = sum_k p_k(y_i) p_k(x_j) at the points y_i = alpha + beta c_i of the
+   next.
 
-   Degree: r - 1, through all values of one step; of two, what `make cost` found to be best; no more
-   than amplifies rounding, by about 5.8^degree at the end of the step, to 1e-4 in double; and none
-   that only points tell apart that nearly coincide, as 0 and 1 - 1 do in two steps of Lobatto's: its
-   coupling is then small, elsewhere it is above 0.1.                                         */
+   Degree: r - 1, through all values of one step; of two, what `make cost` found to be best; no
+   more than amplifies rounding, by about 5.8^degree at the end of the step, to 1e-4 in double;
+   and none that only points tell apart that nearly coincide, as 0 and 1 - 1 do in two steps of
+   Lobatto's: its coupling is then small, elsewhere it is above 0.1.                           */
 static void gvi__fit(gvi_stepper *st, gvi_real alpha, gvi_real beta, int steps)
 {
     struct gvi__private *x = &st->x;
@@ -2249,13 +2331,13 @@ static void gvi__fit(gvi_stepper *st, gvi_real alpha, gvi_real beta, int steps)
      row_i := base_i + (free_i + factor (z_i/m_i))
      z_i    = sum_j table_j (weight_j source_ij)       of one or two tables and sources
 
-   with free motion, the same in all iterations, in rows of its own.  factor and 1/m are two products: h
-   times 1/m, rounded once, would be the inverse of another mass in every step than the one that makes v
-   of p, the map no longer symplectic, and energy would drift.
+   with free motion, the same in all iterations, in rows of its own.  factor and 1/m are two
+   products: h times 1/m, rounded once, would be the inverse of another mass in every step than
+   the one that makes v of p, the map no longer symplectic, and energy would drift.
 
-   A stage with a scale is measured, in squares of changes times scale_i: all of them are added up and
-   returned, and change_i := those of row i at the last point and the middle.  One point would not do:
-   where eigenvalues are complex changes turn, and pass 0 at one, not at two.                 */
+   A stage with a scale is measured, in squares of changes times scale_i: all of them are added
+   up and returned, and change_i := those of row i at the last point and the middle.  One point
+   would not do: where eigenvalues are complex changes turn, and pass 0 at one, not at two.    */
 typedef struct gvi__sum { const gvi_real *table, *weight, *source; } gvi__sum;
 
 typedef struct gvi__stage {
@@ -2268,8 +2350,8 @@ typedef struct gvi__stage {
 } gvi__stage;
 
 // L := w source, or the source itself where there is no weight
-GVI__BODY const gvi_real *gvi__weighted(int R, const gvi_real *GVI__RESTRICT w, const gvi_real *source,
-                                        gvi_real *GVI__RESTRICT L)
+GVI__BODY const gvi_real *gvi__weighted(int R, const gvi_real *GVI__RESTRICT w,
+                                        const gvi_real *source, gvi_real *GVI__RESTRICT L)
 {
     if (!w) return source;
     int j = 0;
@@ -2279,8 +2361,8 @@ GVI__BODY const gvi_real *gvi__weighted(int R, const gvi_real *GVI__RESTRICT w, 
     return L;
 }
 
-/* The unit of a row: |base| and the displacements of the last point, before and after; 0 where these
-   have no sure digit.                                                                        */
+/* The unit of a row: |base| and the displacements of the last point, before and after; 0 where
+   these have no sure digit.                                                                   */
 GVI__BODY gvi_real gvi__scale_of(gvi_real base, gvi_real was, gvi_real is)
 {
     const gvi_real size = GVI_ABS(base) + GVI_ABS(was - base) + GVI_ABS(is - base);
@@ -2307,16 +2389,19 @@ GVI__BODY gvi_real gvi__point_sum(int r, int R, const gvi_real *table, const gvi
 }
 
 /* A stage, point by point; from the last on, where its unit is made.                         */
-GVI__BODY gvi_real gvi__stage_by_points(const gvi_stepper *st, const gvi__stage *y, int n, int r, int R, int rescale)
+GVI__BODY gvi_real gvi__stage_by_points(const gvi_stepper *st, const gvi__stage *y, int n, int r,
+                                        int R, int rescale)
 {
     gvi_real square[8] = { 0, 0, 0, 0, 0, 0, 0, 0 };
     for (int i = 0; i < n; ++i) {
-        const gvi_real *first = gvi__weighted(R, y->sum[0].weight, y->sum[0].source + i*R, st->x.row);
+        const gvi_real *first =
+            gvi__weighted(R, y->sum[0].weight, y->sum[0].source + i*R, st->x.row);
         const gvi_real *second = !y->sum[1].table ? NULL
             : gvi__weighted(R, y->sum[1].weight, y->sum[1].source + i*R, st->x.row + R);
         gvi_real *GVI__RESTRICT row = y->rows + i*R, scale = y->scale ? y->scale[i] : 0, two = 0;
         for (int k = R - 1; k >= 0; --k) {
-            gvi_real z = y->sum[0].table ? gvi__point_sum(r, R, y->sum[0].table + k, first) : first[k];
+            gvi_real z =
+                y->sum[0].table ? gvi__point_sum(r, R, y->sum[0].table + k, first) : first[k];
             if (second) z += gvi__point_sum(r, R, y->sum[1].table + k, second);
             if (y->inverse) z *= y->inverse[i];
             if (y->free) z = y->base[i] + (y->free[i*R + k] + z*y->factor);
@@ -2337,15 +2422,19 @@ GVI__BODY gvi_real gvi__stage_by_points(const gvi_stepper *st, const gvi__stage 
 #if GVI__LANES > 1
 enum { GVI__BLOCK = 8/GVI__LANES };                  // lanes that hold eight points
 
-/* z := sum_j table_j L_j at `lanes` lanes of points.  Four chains, so that no sum waits for another, one
-   chain after the other, so that registers suffice; one order for every width: the same bits.  r > 3. */
-GVI__BODY void gvi__row_sums(int r, int R, int lanes, const gvi_real *table, const gvi_real *L, gvi__lane *z)
+/* z := sum_j table_j L_j at `lanes` lanes of points.  Four chains, so that no sum waits for
+   another, one chain after the other, so that registers suffice; one order for every width: the
+   same bits.  r > 3.                                                                          */
+GVI__BODY void gvi__row_sums(int r, int R, int lanes, const gvi_real *table, const gvi_real *L,
+                             gvi__lane *z)
 {
     gvi__lane sum[4][GVI__BLOCK] = { { { 0 } } };
     GVI__UNROLL for (int m = 0; m < 4; ++m) {
-        GVI__UNROLL for (int v = 0; v < lanes; ++v) sum[m][v] = GVI__LOAD(table + m*R + v*GVI__LANES)*L[m];
+        GVI__UNROLL for (int v = 0; v < lanes; ++v) sum[m][v] =
+            GVI__LOAD(table + m*R + v*GVI__LANES)*L[m];
         for (int j = m + 4; j < r; j += 4)
-            GVI__UNROLL for (int v = 0; v < lanes; ++v) sum[m][v] += GVI__LOAD(table + j*R + v*GVI__LANES)*L[j];
+            GVI__UNROLL for (int v = 0; v < lanes; ++v) sum[m][v] +=
+                GVI__LOAD(table + j*R + v*GVI__LANES)*L[j];
         if (m & 1) GVI__UNROLL for (int v = 0; v < lanes; ++v) sum[m - 1][v] += sum[m][v];
     }
     GVI__UNROLL for (int v = 0; v < lanes; ++v) z[v] = sum[0][v] + sum[2][v];
@@ -2368,7 +2457,9 @@ GVI__BODY gvi_real gvi__stage_by_lanes(const gvi_stepper *st, const gvi__stage *
             const gvi_real *free = y->free ? y->free + i*R + o : NULL;
             gvi__lane z[GVI__BLOCK] = { { 0 } }, w[GVI__BLOCK];
             if (y->sum[0].table) gvi__row_sums(r, R, lanes, y->sum[0].table + o, first, z);
-            else GVI__UNROLL for (int v = 0; v < lanes; ++v) z[v] = GVI__LOAD(first + o + v*GVI__LANES);
+            else
+                GVI__UNROLL for (int v = 0; v < lanes; ++v) z[v] =
+                    GVI__LOAD(first + o + v*GVI__LANES);
             if (second) {
                 gvi__row_sums(r, R, lanes, y->sum[1].table + o, second, w);
                 GVI__UNROLL for (int v = 0; v < lanes; ++v) z[v] += w[v];
@@ -2395,7 +2486,8 @@ GVI__BODY gvi_real gvi__stage_by_lanes(const gvi_stepper *st, const gvi__stage *
 }
 #endif
 
-/* The sizes that deserve a copy of their own: (n = 2 also in gvi__factor_mass, gvi__velocity_rows). */
+/* The sizes that deserve a copy of their own: (n = 2 also in gvi__factor_mass,
+   gvi__velocity_rows).                                                                        */
 #define GVI__KERNEL(name, by, n, r, R)                                                          \
     static gvi_real name(const gvi_stepper *st, const gvi__stage *GVI__RESTRICT y, int rescale) \
     {                                                                                           \
@@ -2433,21 +2525,24 @@ static gvi__kernel *gvi__kernel_for(int n, int r)
 /* ---- a step ---- */
 
 /* Where a step, or a query's partial step, starts; E: the energy, with a clock.              */
-typedef struct gvi__origin { gvi_real t, t_low; const gvi_real *q, *q_low, *p, *p_low; gvi_real E; } gvi__origin;
+typedef struct gvi__origin { gvi_real t, t_low; const gvi_real *q, *q_low, *p, *p_low; gvi_real E;
+                            } gvi__origin;
 
 // what is solved: a step, or for a query a part of the last one, from its start or its end
 enum { GVI__STEP, GVI__FROM_START, GVI__FROM_END };
 
 // out := t + (t_low + c h)
-static void gvi__times(int count, gvi_real t, gvi_real t_low, gvi_real h, const gvi_real *c, gvi_real *out)
+static void gvi__times(int count, gvi_real t, gvi_real t_low, gvi_real h, const gvi_real *c,
+                       gvi_real *out)
 {
     int k = 0;
-    for (; GVI__LANES > 1 && k + GVI__LANES <= count; k += GVI__LANES) GVI__STORE(out + k) = t + (t_low + GVI__LOAD(c + k)*h);
+    for (; GVI__LANES > 1 && k + GVI__LANES <= count; k += GVI__LANES)
+        GVI__STORE(out + k) = t + (t_low + GVI__LOAD(c + k)*h);
     for (; k < count; ++k) out[k] = t + (t_low + c[k]*h);
 }
 
-/* Tables for h, times of the points, and free motion, where the mass is constant: v = M^-1 p and h v
-   with their low words (what v loses by rounding is kept, as what p has lost is).            */
+/* Tables for h, times of the points, and free motion, where the mass is constant: v = M^-1 p
+   and h v with their low words (what v loses by rounding is kept, as what p has lost is).     */
 static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real h)
 {
     struct gvi__private *x = &st->x;
@@ -2461,7 +2556,8 @@ static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real 
     gvi__times(x->R, from->t, from->t_low, h, x->table.c, x->t);
     if (!gvi__mass_is_constant(x)) return;
     for (int i = 0; i < st->n; ++i) {
-        const gvi__two z = x->desc.mass.kind == GVI_MASS_DIAGONAL ? gvi__two_prod(p[i], inverse[i]) : gvi__two_of(p[i], 0);
+        const gvi__two z = x->desc.mass.kind == GVI_MASS_DIAGONAL ? gvi__two_prod(p[i], inverse[i])
+                                                                  : gvi__two_of(p[i], 0);
         v[i] = z.hi;
         v_low[i] = gvi__low(z.lo + p_low[i]*inverse[i]);
     }
@@ -2489,8 +2585,8 @@ GVI__BODY void gvi__free_row(int R, gvi_real low, gvi_real path, gvi_real path_l
 }
 
 // a stage of bare sums, of one table
-GVI__BODY void gvi__set_stage(const gvi_stepper *st, gvi__stage *y, gvi_real *rows, const gvi_real *table,
-                           const gvi_real *weight, const gvi_real *source)
+GVI__BODY void gvi__set_stage(const gvi_stepper *st, gvi__stage *y, gvi_real *rows,
+                              const gvi_real *table, const gvi_real *weight, const gvi_real *source)
 {
     y->sum[0].table = table;
     y->sum[0].weight = weight;
@@ -2543,7 +2639,8 @@ static int gvi__stages(const gvi_stepper *st, const gvi__origin *from, gvi_real 
         y[k].scale = x->watch.scale + k*n;
         y[k].change = x->watch.change + k*n;
         for (int i = 0; i < n; ++i, free += R)
-            gvi__free_row(R, low[k][i], moves ? x->free.path[i] : 0, moves ? x->free.path_low[i] : 0, x->table.c, free);
+            gvi__free_row(R, low[k][i], moves ? x->free.path[i] : 0,
+                          moves ? x->free.path_low[i] : 0, x->table.c, free);
     }
     return count;
 }
@@ -2591,7 +2688,8 @@ static gvi_status gvi__legendre_rows(gvi_stepper *st, const gvi_points *y)
     gvi__count(&st->counters.velocities, st->r);
     if (x->desc.mass.velocity) {
         status = gvi__evaluate_mass(st, y, x->work.P, x->work.V);
-        return status == GVI_OK && x->diagnose ? gvi__check_rows(st, y, x->work.V, GVI_FAULT_MASS) : status;
+        return status == GVI_OK && x->diagnose ? gvi__check_rows(st, y, x->work.V, GVI_FAULT_MASS)
+                                               : status;
     }
     if (!gvi__mass_is_constant(x)) status = gvi__factor_mass(st, y);
     if (status != GVI_OK) return status;
@@ -2601,7 +2699,8 @@ static gvi_status gvi__legendre_rows(gvi_stepper *st, const gvi_points *y)
 }
 
 static gvi_status gvi__evaluate_with_clock(gvi_stepper *st, const gvi__origin *from, gvi_points *y);
-static gvi_status gvi__clock_at(gvi_stepper *st, gvi_real t, const gvi_real *q, gvi_real *rate, gvi_real *slope);
+static gvi_status gvi__clock_at(gvi_stepper *st, gvi_real t, const gvi_real *q, gvi_real *rate,
+                                gvi_real *slope);
 
 /* F (and A, V) at the stage values, all points in one call an effect.                        */
 static gvi_status gvi__evaluate_stages(gvi_stepper *st, const gvi__origin *from, gvi_points *y)
@@ -2617,16 +2716,20 @@ static gvi_status gvi__evaluate_stages(gvi_stepper *st, const gvi__origin *from,
     if (GVI__LAGRANGIAN && y->dldv) gvi__zero(length, y->dldv);
     if (gvi__clock_is_on(st)) return gvi__evaluate_with_clock(st, from, y);
     const gvi_status status = gvi__effects(st, y, 0, NULL);
-    return status == GVI_OK && momenta && gvi__mass_is(x, GVI_MASS_POSITION) ? gvi__mass_gradient(st, y) : status;
+    return status == GVI_OK && momenta && gvi__mass_is(x, GVI_MASS_POSITION)
+               ? gvi__mass_gradient(st, y)
+               : status;
 }
 
-/* Momenta: V from the new P with the old M(Q) and dL/dv, so that an iteration contracts twice as fast.
-   Where Lagrangian terms make V it can diverge while Q and P, a short step away, feel nothing of it:
-   returns its squared relative change at the last point, times r as if summed over all.      */
+/* Momenta: V from the new P with the old M(Q) and dL/dv, so that an iteration contracts twice
+   as fast.  Where Lagrangian terms make V it can diverge while Q and P, a short step away, feel
+   nothing of it: returns its squared relative change at the last point, times r as if summed
+   over all.                                                                                   */
 static gvi_real gvi__velocities_again(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
-    const int n = st->n, R = x->R, clock = gvi__clock_is_on(st), made = GVI__LAGRANGIAN && x->work.A;
+    const int n = st->n, R = x->R, clock = gvi__clock_is_on(st),
+              made = GVI__LAGRANGIAN && x->work.A;
     const gvi_real *V = x->work.V + st->r - 1;
     gvi_real *was = x->result, sum = 0;
     if ((!x->has_factor && (clock || !gvi__mass_is_constant(x))) || x->desc.mass.velocity) return 0;
@@ -2642,8 +2745,8 @@ static gvi_real gvi__velocities_again(gvi_stepper *st)
     return (gvi_real)st->r*sum;
 }
 
-/* The stage values of the next iteration from the F, V and A of this one; returns the squares of their
-   changes.                                                                                   */
+/* The stage values of the next iteration from the F, V and A of this one; returns the squares
+   of their changes.                                                                           */
 static gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *y, int stages, int rescale)
 {
     const struct gvi__private *x = &st->x;
@@ -2656,9 +2759,10 @@ static gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *y, int stages, 
     return sum;
 }
 
-/* Makes the predictor ready: E takes the stage values of the last step (of the last two, if they and
-   this one are equally long) to the nodes of this step, which lie at alpha + beta c in the last step's
-   tau.  In the positions formulation forces only serve to make new positions: E := K h b E does both. */
+/* Makes the predictor ready: E takes the stage values of the last step (of the last two, if
+   they and this one are equally long) to the nodes of this step, which lie at alpha + beta c in
+   the last step's tau.  In the positions formulation forces only serve to make new positions: E
+   := K h b E does both.                                                                       */
 static void gvi__prepare_predictor(gvi_stepper *st, gvi_real h, int query)
 {
     struct gvi__private *x = &st->x;
@@ -2680,7 +2784,8 @@ static void gvi__prepare_predictor(gvi_stepper *st, gvi_real h, int query)
 }
 
 // in place of a stage's own sums: E over the values of one or two steps
-GVI__BODY void gvi__set_predictor(const gvi_stepper *st, gvi__stage *y, const gvi_real *last, const gvi_real *older)
+GVI__BODY void gvi__set_predictor(const gvi_stepper *st, gvi__stage *y, const gvi_real *last,
+                                  const gvi_real *older)
 {
     const gvi_real *E = st->x.sized.E;
     y->sum[0].table = E;
@@ -2693,7 +2798,8 @@ GVI__BODY void gvi__set_predictor(const gvi_stepper *st, gvi__stage *y, const gv
 
 /* Stage values to begin with: the last step's forces (and V, A), extrapolated; without these, or if
    they led nowhere, no force and constant velocity.                                          */
-static gvi_status gvi__predict_sources(gvi_stepper *st, const gvi__origin *from, gvi_real h, int extrapolate)
+static gvi_status gvi__predict_sources(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                                       int extrapolate)
 {
     struct gvi__private *x = &st->x;
     struct gvi__values *w = &x->work;
@@ -2722,8 +2828,9 @@ static gvi_status gvi__predict_sources(gvi_stepper *st, const gvi__origin *from,
     return GVI_OK;
 }
 
-/* Where an iteration stands, in squares: the changes of the last two iterations, of all rows, and the
-   least so far; how often no new least was seen, or no good contraction; are units to be made anew? */
+/* Where an iteration stands, in squares: the changes of the last two iterations, of all rows,
+   and the least so far; how often no new least was seen, or no good contraction; are units to
+   be made anew?                                                                               */
 typedef struct gvi__progress {
     gvi_real before, earlier, least;
     int      used, stagnant, growing, rescale;
@@ -2742,32 +2849,37 @@ static gvi_real gvi__inertia(const gvi_stepper *st, int i)
 {
     const struct gvi__private *x = &st->x;
     const size_t n = (size_t)st->n, ii = (size_t)i*(n + 1);
-    const gvi_real m = x->desc.mass.kind == GVI_MASS_DENSE ? x->mass.matrix[ii]
-        : gvi__mass_is(x, GVI_MASS_POSITION) ? x->mass.at_points[ii*(size_t)x->R] : x->mass.matrix[i];
+    const gvi_real m = x->desc.mass.kind == GVI_MASS_DENSE  ? x->mass.matrix[ii]
+                       : gvi__mass_is(x, GVI_MASS_POSITION) ? x->mass.at_points[ii*(size_t)x->R]
+                                                            : x->mass.matrix[i];
     return gvi__nonzero(m) && gvi__finite(m) ? GVI_ABS(m) : 1;
 }
 
-/* Has every row settled, by its own size?  Its next change, D^2/D_before, is within the tolerance, or D
-   in the last place.  No row hides behind a larger one.                                      */
+/* Has every row settled, by its own size? Its next change, D^2/D_before, is within the
+   tolerance, or D in the last place.  No row hides behind a larger one.                       */
 static int gvi__rows_have_settled(const gvi_stepper *st, gvi_real tolerance, int rows, int first)
 {
     const gvi_real *D = st->x.watch.change, *before = st->x.watch.before;
     const gvi_real place = 2*GVI__EPS*GVI__EPS;
-    for (int i = 0; i < rows; ++i)
-        if (D[i] > place && D[i]*D[i] > tolerance*(first ? D[i] : before[i] < 1 ? before[i] : 1)) return 0;
+    for (int i = 0; i < rows; ++i) {
+        const gvi_real last = first ? D[i] : before[i] < 1 ? before[i] : 1;
+        if (D[i] > place && D[i]*D[i] > tolerance*last) return 0;
+    }
     return 1;
 }
 
-/* The largest change of a row that is beyond a few units of the last place of its largest value, in units
-   of 32 eps of the largest amplitude; 0: there is none.  An amplitude is |Q_i| times sqrt(M_ii), with
-   h V_i or h P_i/M_ii in place of Q_i for those rows.  Up to 1 a row that does not settle is nothing but noise, where
-   large forces cancel: a light body midway between two heavy ones.                           */
+/* The largest change of a row that is beyond a few units of the last place of its largest
+   value, in units of 32 eps of the largest amplitude; 0: there is none.  An amplitude is |Q_i|
+   times sqrt(M_ii), with h V_i or h P_i/M_ii in place of Q_i for those rows.  Up to 1 a row
+   that does not settle is nothing but noise, where large forces cancel: a light body midway
+   between two heavy ones.                                                                     */
 static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *y, int stages)
 {
     gvi_real largest = 0, noise = 0;
     for (int k = 0; k < stages; ++k)
         for (int i = 0; i < st->n; ++i) {
-            const int p = gvi__uses(&st->x, GVI_MOMENTA) && k == 0, v = !gvi__uses(&st->x, GVI_MOMENTA) && k == 1;
+            const int p = gvi__uses(&st->x, GVI_MOMENTA) && k == 0,
+                      v = !gvi__uses(&st->x, GVI_MOMENTA) && k == 1;
             // the momenta formulation has factored M(q) in place: 1/D_i is there
             const gvi_real at_q = gvi__inertia(st, i), m = gvi__mass_is(&st->x, GVI_MASS_POSITION)
                 && st->x.has_factor ? 1/at_q : at_q;
@@ -2782,17 +2894,20 @@ static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *
     return noise > 0 ? noise/(32*GVI__EPS*largest) : 0;
 }
 
-/* The verdict on a change D of all rows.  The iteration ends when the next change, D^2/D_before, is within
-   the tolerance, without one far below rounding, and every row has settled; or when D stagnates, without
-   a new least by a tenth for some iterations, at rounding.  Then F is evaluated once more, so that rows
-   that go to and fro in their last places end with their own F, not that of the side that they came from,
-   which would be a bias.  Three changes in a row that fall by less than half are poor, five while they
-   are as large as the motion (terms of a cosine grow at first); so is a descent to rounding by factors of
-   less than 4: it lets errors grow before they shrink.  All in squares: no root or quotient waits. */
-static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_real h, const gvi__stage *y, int stages)
+/* The verdict on a change D of all rows.  The iteration ends when the next change,
+   D^2/D_before, is within the tolerance, without one far below rounding, and every row has
+   settled; or when D stagnates, without a new least by a tenth for some iterations, at
+   rounding.  Then F is evaluated once more, so that rows that go to and fro in their last
+   places end with their own F, not that of the side that they came from, which would be a bias.
+   Three changes in a row that fall by less than half are poor, five while they are as large as
+   the motion (terms of a cosine grow at first); so is a descent to rounding by factors of less
+   than 4: it lets errors grow before they shrink.  All in squares: no root or quotient waits.  */
+static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_real h,
+                          const gvi__stage *y, int stages)
 {
     const gvi_desc *d = &st->x.desc;
-    const gvi_real wanted = d->tolerance > 0 ? d->tolerance : GVI__EPS/65536, tolerance = wanted*wanted;
+    const gvi_real wanted = d->tolerance > 0 ? d->tolerance : GVI__EPS/65536,
+                   tolerance = wanted*wanted;
     const gvi_real rounding = 16*GVI__EPS*GVI__EPS*(gvi_real)(st->n*st->r), far = (gvi_real)0.0625;
     const gvi_real before = p->before, earlier = p->earlier, worst = st->counters.worst_contraction;
     const gvi_real last = p->used == 1 ? D : before < 1 ? before : 1;
@@ -2819,19 +2934,22 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
     if (p->stagnant > 1 || poor) {
         const gvi_real noise = gvi__noise(st, h, y, stages);
         if (p->stagnant > 1 && (noise <= 0 || (noise <= 1 && p->stagnant > 4)))
-            return p->used - p->stagnant >= GVI__DIG/2 && gvi__may_turn(st) ? GVI__DIVERGES : GVI__ONCE_MORE;
+            return p->used - p->stagnant >= GVI__DIG/2 && gvi__may_turn(st) ? GVI__DIVERGES
+                                                                              : GVI__ONCE_MORE;
         if (poor && noise > 1 && gvi__may_turn(st)) return GVI__DIVERGES;
     }
     return p->used < d->max_iterations ? GVI__GO_ON : GVI__DIVERGES;
 }
 
 /* Fixed point: F (V, A) at the stage values makes the next stage values.                     */
-static gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi_real h, int extrapolate, int *used)
+static gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                               int extrapolate, int *used)
 {
     struct gvi__private *x = &st->x;
     gvi__stage stage[2], first;
     gvi__progress p = { 0, 0, GVI__MAX, 0, 0, 0, 1 };
-    gvi_points at = gvi__points_at(st, st->r, x->R, x->t, x->work.Q, x->work.F, GVI__LAGRANGIAN ? x->work.A : NULL);
+    gvi_points at = gvi__points_at(st, st->r, x->R, x->t, x->work.Q, x->work.F,
+                                   GVI__LAGRANGIAN ? x->work.A : NULL);
     const int stages = gvi__stages(st, from, h, stage);
     gvi_status status = GVI_OK;
     at.v = x->work.V;
@@ -2861,7 +2979,8 @@ static gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi_rea
             continue;
         }
         if (verdict == GVI__NOT_FINITE)          // divergence; else the effects are looked at
-            return gvi__report_status(st, diverged || x->diagnose ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE);
+            return gvi__report_status(st, diverged || x->diagnose ? GVI_E_CONVERGENCE
+                                                                  : GVI_E_NON_FINITE);
         if (verdict == GVI__DIVERGES) return gvi__report_status(st, GVI_E_CONVERGENCE);
         const gvi_real worst = st->counters.worst_change;
         if (change > worst*worst) st->counters.worst_change = GVI_SQRT(change);
@@ -2879,8 +2998,8 @@ GVI__BODY void gvi__fold(int half, gvi_real *hi, gvi_real *lo)
     }
 }
 
-/* sum_j a_j b_j with its low word, since the errors of increments add up over the steps.  Eight partial
-   sums, then these by halves; past the last point the numbers are 0.                         */
+/* sum_j a_j b_j with its low word, since the errors of increments add up over the steps.  Eight
+   partial sums, then these by halves; past the last point the numbers are 0.                  */
 static gvi__two gvi__exact_dot(int R, const gvi_real *a, const gvi_real *b)
 {
     gvi_real hi[8], lo[8];
@@ -2897,7 +3016,8 @@ static gvi__two gvi__exact_dot(int R, const gvi_real *a, const gvi_real *b)
         }
     for (int o = 8; o < R; o += 8)
         for (int k = 0; k < 8; ++k) {
-            const gvi__two z = gvi__two_prod(a[o + k], b[o + k]), s = gvi__add_low(hi[k], lo[k], z.hi, z.lo);
+            const gvi__two z = gvi__two_prod(a[o + k], b[o + k]),
+                           s = gvi__add_low(hi[k], lo[k], z.hi, z.lo);
             hi[k] = s.hi;
             lo[k] = s.lo;
         }
@@ -2908,19 +3028,21 @@ static gvi__two gvi__exact_dot(int R, const gvi_real *a, const gvi_real *b)
 }
 
 // increments := sums of h b times rows, their low words with those of the start
-static void gvi__sum_rows(const gvi_stepper *st, gvi_real *rows, const gvi_real *low, gvi_real *sum, gvi_real *sum_low)
+static void gvi__sum_rows(const gvi_stepper *st, gvi_real *rows, const gvi_real *low, gvi_real *sum,
+                          gvi_real *sum_low)
 {
     const int R = st->x.R;
     for (int i = 0; i < st->n; ++i, rows += R) {
-        for (int k = st->r; k < R; ++k) rows[k] = 0;         // a callback may have left anything there
+        // a callback may have left anything there
+        for (int k = st->r; k < R; ++k) rows[k] = 0;
         const gvi__two z = gvi__exact_dot(R, st->x.sized.hb, rows);
         sum[i] = z.hi;
         sum_low[i] = gvi__low(z.lo + low[i]);
     }
 }
 
-/* Increments of q and p from the F, V and A at the end of the iteration, by (2) and by (3) at tau = 1,
-   where S_j = c_j:  dq = h (v + M^-1 (sum_j (1 - c_j) h b_j F_j - sum_j b_j A_j)).            */
+/* Increments of q and p from the F, V and A at the end of the iteration, by (2) and by (3) at
+   tau = 1, where S_j = c_j: dq = h (v + M^-1 (sum_j (1 - c_j) h b_j F_j - sum_j b_j A_j)).    */
 static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h)
 {
     struct gvi__private *x = &st->x;
@@ -2947,7 +3069,8 @@ static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h
     }
     gvi__over_mass(st, x->step.q, 1, 1);
     for (int i = 0; i < st->n; ++i) {
-        const gvi__two bend = gvi__two_prod(h, x->step.q[i]), q = gvi__two_sum(x->free.path[i], bend.hi);
+        const gvi__two bend = gvi__two_prod(h, x->step.q[i]),
+                       q = gvi__two_sum(x->free.path[i], bend.hi);
         x->step.q[i] = q.hi;
         x->step.q_low[i] = gvi__low((q.lo + bend.lo) + (x->free.path_low[i] + from->q_low[i]));
     }
@@ -2959,12 +3082,14 @@ static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h
 static void gvi__add_scaled(int n, gvi_real a, const gvi_real *x, const gvi_real *y, gvi_real *z)
 {
     int i = 0;
-    for (; GVI__LANES > 1 && i + GVI__LANES <= n; i += GVI__LANES) GVI__STORE(z + i) = GVI__LOAD(y + i) + a*GVI__LOAD(x + i);
+    for (; GVI__LANES > 1 && i + GVI__LANES <= n; i += GVI__LANES)
+        GVI__STORE(z + i) = GVI__LOAD(y + i) + a*GVI__LOAD(x + i);
     for (; i < n; ++i) z[i] = y[i] + a*x[i];
 }
 
 /* dp += b F, F := 0, then the drift dq += a (v + M^-1 dp), Q = q + dq                        */
-static void gvi__drift(gvi_stepper *st, const gvi__origin *from, const gvi_real *GVI__RESTRICT v, gvi_real b, gvi_real a)
+static void gvi__drift(gvi_stepper *st, const gvi__origin *from, const gvi_real *GVI__RESTRICT v,
+                       gvi_real b, gvi_real a)
 {
     struct gvi__private *x = &st->x;
     const gvi_real *GVI__RESTRICT q = from->q, *GVI__RESTRICT m = x->mass.inverse;
@@ -3001,10 +3126,11 @@ static void gvi__drift(gvi_stepper *st, const gvi__origin *from, const gvi_real 
     }
 }
 
-/* Kicks h b_j F_j at the nodes, and drifts from each to the next: one evaluation a kick; none where a
-   weight is 0, but for the last.  `force` is that at the start, if it is known: after a step whose last
-   node was 1.  F stays at the end, where the next step may begin with it.                    */
-static gvi_status gvi__kicks(gvi_stepper *st, const gvi__origin *from, gvi_real h, const gvi_real *force)
+/* Kicks h b_j F_j at the nodes, and drifts from each to the next: one evaluation a kick; none
+   where a weight is 0, but for the last.  `force` is that at the start, if it is known: after a
+   step whose last node was 1.  F stays at the end, where the next step may begin with it.     */
+static gvi_status gvi__kicks(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                             const gvi_real *force)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, r = st->r, known = force && gvi__nonzero(x->sized.hb[0]);
@@ -3053,13 +3179,15 @@ static gvi_status gvi__rate(gvi_stepper *st, const gvi_points *x, gvi_real *rate
     for (int k = 0; k < x->count; ++k) {
         const int bad = rate[k] <= 0, wild = st->x.diagnose && !gvi__finite(rate[k]);
         if (bad || wild)
-            return gvi__report(st, bad ? GVI_E_CLOCK : GVI_E_NON_FINITE, st->x.clock, GVI_FAULT_NONE, k);
+            return gvi__report(st, bad ? GVI_E_CLOCK : GVI_E_NON_FINITE, st->x.clock,
+                               GVI_FAULT_NONE, k);
     }
     return st->x.diagnose ? gvi__check_rows(st, x, slope, st->x.clock) : GVI_OK;
 }
 
 // g at one configuration; slope of length n gets dg/dq
-static gvi_status gvi__clock_at(gvi_stepper *st, gvi_real t, const gvi_real *q, gvi_real *rate, gvi_real *slope)
+static gvi_status gvi__clock_at(gvi_stepper *st, gvi_real t, const gvi_real *q, gvi_real *rate,
+                                gvi_real *slope)
 {
     const gvi_points y = gvi__one_point(st, &t, q);
     return gvi__rate(st, &y, rate, slope);
@@ -3073,16 +3201,17 @@ static void gvi__time_sums(const gvi_stepper *st, const gvi_real *source, gvi_re
     for (int k = 0; k < x->R; ++k) z[k] = gvi__point_sum(st->r, x->R, x->table.T + k, L);
 }
 
-/* With a clock: forces first, for their power f'v; then all else, with values.  What it makes of F and
-   V:  F := g F - dg/dq (H - E),  V := g v, with H = (P + A)'v/2 + V_pot - L, and E, with the work of the
-   forces, and the times by the rule of Q.                                                    */
+/* With a clock: forces first, for their power f'v; then all else, with values.  What it makes
+   of F and V: F := g F - dg/dq (H - E), V := g v, with H = (P + A)'v/2 + V_pot - L, and E, with
+   the work of the forces, and the times by the rule of Q.                                     */
 static gvi_status gvi__evaluate_with_clock(gvi_stepper *st, const gvi__origin *from, gvi_points *y)
 {
     struct gvi__private *x = &st->x;
     const struct gvi__values *w = &x->work;
     const int n = st->n, r = st->r, R = x->R;
     const unsigned forces = gvi__of_kind(x, GVI_FORCE);
-    gvi_real *g = x->time.rate, *power = x->time.power, *level = x->time.level, *L = x->time.lagrangian;
+    gvi_real *g = x->time.rate, *power = x->time.power, *level = x->time.level,
+             *L = x->time.lagrangian;
     gvi_status status = gvi__effects(st, y, ~forces, NULL);
     gvi__zero((size_t)R, power);
     for (int i = 0; i < n; ++i)
@@ -3123,13 +3252,14 @@ static gvi_status gvi__evaluate_with_clock(gvi_stepper *st, const gvi__origin *f
 // in long: an int may have 16 bits
 static int gvi__within(long x, long most) { return x >= 0 && x <= most; }
 
-/* Are all sizes in range, and is what the kinds of rule, mass and effects need there, and nothing that
-   says that a kind was forgotten?  Fills in the defaults, and finds what the effects read and the
-   clock.                                                                                     */
+/* Are all sizes in range, and is what the kinds of rule, mass and effects need there, and
+   nothing that says that a kind was forgotten? Fills in the defaults, and finds what the
+   effects read and the clock.                                                                 */
 GVI__COLD gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc)
 {
     enum { V = GVI__HAS_VELOCITIES, L = GVI__HAS_LAGRANGIAN };
-    static const unsigned char reads[] = { 0, V, V | L, 0 };     // potential, force, Lagrangian, clock
+    // potential, force, Lagrangian, clock
+    static const unsigned char reads[] = { 0, V, V | L, 0 };
     if (!desc || !gvi__within(desc->n, 0x7FFFF) || desc->n < 1 || !gvi__within(desc->degree, 1024)
         || !gvi__within(desc->rule.points, 4000) || !gvi__within(desc->effect_count, GVI_EFFECTS)
         || (desc->effect_count && !desc->effects) || !gvi__within(desc->max_iterations, 1000000)
@@ -3140,7 +3270,8 @@ GVI__COLD gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc)
     *d = *desc;
     const gvi_rule *rule = &desc->rule;
     const int given = rule->kind == GVI_OWN || rule->kind == GVI_KICKS;
-    if (given ? !rule->points || !rule->nodes || !rule->weights : rule->nodes != NULL) return GVI_E_ARGUMENT;
+    if (given ? !rule->points || !rule->nodes || !rule->weights : rule->nodes != NULL)
+        return GVI_E_ARGUMENT;
     if (d->degree == 0) d->degree = rule->kind == GVI_KICKS ? 1 : 8;
     if (d->rule.points == 0) d->rule.points = rule->kind == GVI_LOBATTO ? d->degree + 1 : d->degree;
     if (d->max_iterations == 0) d->max_iterations = 60;
@@ -3149,7 +3280,8 @@ GVI__COLD gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc)
     x->clock = -1;
     for (int e = 0; e < d->effect_count; ++e) {
         const gvi_effect *effect = d->effects + e;
-        if ((unsigned)effect->kind > GVI_CLOCK || !effect->points == !effect->point) return GVI_E_ARGUMENT;
+        if ((unsigned)effect->kind > GVI_CLOCK || !effect->points == !effect->point)
+            return GVI_E_ARGUMENT;
         x->needs |= reads[effect->kind];
         if (effect->kind != GVI_CLOCK) continue;
         if (x->clock >= 0 || !effect->points) return GVI_E_ARGUMENT;
@@ -3165,8 +3297,8 @@ GVI__COLD gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc)
     return mass ? GVI_OK : GVI_E_ARGUMENT;
 }
 
-/* The order of the rule: will it do?  Kicks need finite numbers and weights that sum to 1; beyond an
-   error of 1 no digit of the sum is sure.                                                    */
+/* The order of the rule: will it do? Kicks need finite numbers and weights that sum to 1;
+   beyond an error of 1 no digit of the sum is sure.                                           */
 GVI__COLD gvi_status gvi__check_rule(struct gvi__private *x, int *order)
 {
     const gvi_rule *rule = &x->desc.rule;
@@ -3191,14 +3323,16 @@ GVI__COLD gvi_status gvi__check_rule(struct gvi__private *x, int *order)
         if (r >= s && *order < s) return GVI_E_ORDER;
         if (*order < 2*s - 2) x->needs |= GVI__HAS_GAMMA;
     }
-    return r < s ? GVI_E_POINTS : GVI_OK;          // r >= s points of Gauss or Lobatto are good enough
+    // r >= s points of Gauss or Lobatto are good enough
+    return r < s ? GVI_E_POINTS : GVI_OK;
 }
 
 /* The first formulation that can do what the scene asks for, or the one that is pinned; Newton's
    method as a fall-back.                                                                     */
 GVI__COLD gvi_status gvi__choose(struct gvi__private *x)
 {
-    enum { READS = 1, TIMED = 2, KICKED = 4, NOT_KICKED = 8, MORE_POINTS = 16, VARIES = 32, NO_VELOCITY = 64 };
+    enum { READS = 1, TIMED = 2, KICKED = 4, NOT_KICKED = 8, MORE_POINTS = 16, VARIES = 32,
+          NO_VELOCITY = 64 };
     static const unsigned char cannot[] = {
         255,                                            // GVI_AUTO
         READS | TIMED | NOT_KICKED | VARIES,            // GVI_EXPLICIT
@@ -3209,9 +3343,12 @@ GVI__COLD gvi_status gvi__choose(struct gvi__private *x)
     };
     const gvi_desc *d = &x->desc;
     const int s = d->degree, r = d->rule.points, kicks = d->rule.kind == GVI_KICKS;
-    const int verlet = s == 1 && r == 2 && d->rule.kind == GVI_LOBATTO, constant = gvi__mass_is_constant(x);
-    const int asked = (x->needs & GVI__HAS_VELOCITIES ? READS : 0) | (x->clock >= 0 ? TIMED : 0)
-        | (kicks ? KICKED : verlet ? 0 : NOT_KICKED) | (r != s ? MORE_POINTS : 0) | (constant ? 0 : VARIES)
+    const int verlet = s == 1 && r == 2 && d->rule.kind == GVI_LOBATTO,
+              constant = gvi__mass_is_constant(x);
+    const int asked =
+        (x->needs & GVI__HAS_VELOCITIES ? READS : 0) | (x->clock >= 0 ? TIMED : 0)
+        | (kicks ? KICKED : verlet ? 0 : NOT_KICKED)
+        | (r != s ? MORE_POINTS : 0) | (constant ? 0 : VARIES)
         | (constant || d->mass.velocity || d->mass.kind == GVI_MASS_POSITION ? 0 : NO_VELOCITY);
     const int pinned = d->formulation != GVI_AUTO, given = d->iterations > 0;
     int f = pinned ? (int)d->formulation : GVI_EXPLICIT;
@@ -3219,11 +3356,14 @@ GVI__COLD gvi_status gvi__choose(struct gvi__private *x)
         if (pinned || f++ == GVI_NEWTON) return GVI_E_FORMULATION;
     x->chosen = (gvi_formulation)f;
     if (f == GVI_NEWTON && given) return GVI_E_FORMULATION;
-    if (!GVI__RULES && f != GVI_EXPLICIT && (d->rule.kind != GVI_GAUSS || r != s || s > 4)) return GVI_E_FORMULATION;
+    if (!GVI__RULES && f != GVI_EXPLICIT && (d->rule.kind != GVI_GAUSS || r != s || s > 4))
+        return GVI_E_FORMULATION;
     if (f == GVI_NEWTON || (GVI__NEWTON && !pinned && f != GVI_EXPLICIT && x->clock < 0 && !given))
         x->needs |= GVI__HAS_NEWTON;
-    const int matrices = gvi__has(x, GVI__HAS_NEWTON | GVI__HAS_LAGRANGIAN) || d->mass.kind >= GVI_MASS_DENSE;
-    return matrices && d->n > 0x7FFF ? GVI_E_ARGUMENT : GVI_OK;          // indices are int: n*n and s*n
+    const int matrices =
+        gvi__has(x, GVI__HAS_NEWTON | GVI__HAS_LAGRANGIAN) || d->mass.kind >= GVI_MASS_DENSE;
+    // indices are int: n*n and s*n
+    return matrices && d->n > 0x7FFF ? GVI_E_ARGUMENT : GVI_OK;
 }
 
 GVI__COLD gvi_status gvi__resolve(struct gvi__private *x, const gvi_desc *desc, int *order)
@@ -3244,20 +3384,26 @@ GVI__COLD gvi_real *gvi__take(gvi__arena *arena, size_t a, size_t b)
     return arena->base && count ? arena->base + at : NULL;
 }
 
-/* The one layout: gvi_size counts with it, gvi_init hands out by it, and GVI_LENGTH is its sum with
-   everything wanted.  What a scene can do without has no length.  The stage values of two steps back
-   make the predictor better up to nine points; with more of them, and in float, they would amplify
-   rounding too much.                                                                         */
+/* The one layout: gvi_size counts with it, gvi_init hands out by it, and GVI_LENGTH is its sum
+   with everything wanted.  What a scene can do without has no length.  The stage values of two
+   steps back make the predictor better up to nine points; with more of them, and in float, they
+   would amplify rounding too much.                                                            */
 GVI__COLD size_t gvi__layout(struct gvi__private *x, int order, gvi_real *base)
 {
     const gvi_desc *d = &x->desc;
-    const size_t n = (size_t)d->n, s = (size_t)d->degree, r = (size_t)d->rule.points, R = (size_t)GVI__ROW(r);
-    const size_t explicitly = gvi__uses(x, GVI_EXPLICIT) != 0, momenta = gvi__uses(x, GVI_MOMENTA) != 0;
-    const size_t velocities = gvi__uses(x, GVI_VELOCITIES) != 0, newton = gvi__has(x, GVI__HAS_NEWTON) != 0;
-    const size_t lagrangian = gvi__has(x, GVI__HAS_LAGRANGIAN) != 0, clock = GVI__CLOCK && x->clock >= 0;
-    const size_t fixed = gvi__uses(x, GVI_POSITIONS) || velocities || momenta, A = lagrangian && fixed;
+    const size_t n = (size_t)d->n, s = (size_t)d->degree, r = (size_t)d->rule.points,
+                 R = (size_t)GVI__ROW(r);
+    const size_t explicitly = gvi__uses(x, GVI_EXPLICIT) != 0,
+                 momenta = gvi__uses(x, GVI_MOMENTA) != 0;
+    const size_t velocities = gvi__uses(x, GVI_VELOCITIES) != 0,
+                 newton = gvi__has(x, GVI__HAS_NEWTON) != 0;
+    const size_t lagrangian = gvi__has(x, GVI__HAS_LAGRANGIAN) != 0,
+                 clock = GVI__CLOCK && x->clock >= 0;
+    const size_t fixed = gvi__uses(x, GVI_POSITIONS) || velocities || momenta,
+                 A = lagrangian && fixed;
     const size_t two = fixed && r < 10 && GVI__DIG > 24, reads_v = velocities || momenta || newton;
-    const size_t modes = !explicitly && (reads_v || order <= 2*d->degree - 2), kicks = gvi__rule_is(x, GVI_KICKS) != 0;
+    const size_t modes = !explicitly && (reads_v || order <= 2*d->degree - 2),
+                 kicks = gvi__rule_is(x, GVI_KICKS) != 0;
     const size_t dense = d->mass.kind == GVI_MASS_DENSE, full = gvi__has(x, GVI__HAS_GAMMA) != 0;
     const size_t rows = kicks ? n : n*R, sn = s*n, nn = n*n;
     gvi__arena memory = { base, 0 }, *a = &memory;
@@ -3272,7 +3418,8 @@ GVI__COLD size_t gvi__layout(struct gvi__private *x, int order, gvi_real *base)
         &x->mass.inverse, &x->free.v_low, &x->free.path, &x->free.path_low
     };
 
-    for (int k = 0; k < 3; ++k) {                               // rows first: they start on a whole lane
+    // rows first: they start on a whole lane
+    for (int k = 0; k < 3; ++k) {
         struct gvi__values *v = values[k];
         const size_t kept = k < 2 || two, at_work = k == 0;
         v->F = gvi__take(a, kept, rows);
@@ -3298,7 +3445,8 @@ GVI__COLD size_t gvi__layout(struct gvi__private *x, int order, gvi_real *base)
     x->table.inv_gamma = gvi__take(a, 1, s);
     x->table.gamma = gvi__take(a, full, s*s + s + 1);
     x->sized.drift = gvi__take(a, explicitly, r + 1);
-    for (size_t k = 0; k < sizeof vectors/sizeof *vectors; ++k) *vectors[k] = gvi__take(a, k < 14 || !explicitly, n);
+    for (size_t k = 0; k < sizeof vectors/sizeof *vectors; ++k)
+        *vectors[k] = gvi__take(a, k < 14 || !explicitly, n);
 
     x->mass.matrix = gvi__take(a, dense ? n : 1, n);
     x->mass.factor = gvi__take(a, dense*n, n);
@@ -3315,7 +3463,8 @@ GVI__COLD size_t gvi__layout(struct gvi__private *x, int order, gvi_real *base)
     x->newton.last = gvi__take(a, newton, sn);
     x->newton.pivot = gvi__take(a, newton*2, sn + 1);           // twice: queries must not touch
     x->newton.moved = gvi__take(a, newton*4*n, R);
-    x->newton.J = gvi__take(a, newton*2*sn, sn);                // what the steps keep.  J comes last
+    // what the steps keep.  J comes last
+    x->newton.J = gvi__take(a, newton*2*sn, sn);
     return memory.used;
 }
 
@@ -3352,13 +3501,15 @@ GVI__COLD gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
         if (dense)
             for (int j = 0; j <= i; ++j) {
                 m[i*n + j] = x->mass.factor[i*n + j] = mass->matrix[i*n + j];
-                if (!gvi__finite(m[i*n + j])) return gvi__report(st, GVI_E_ARGUMENT, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
+                if (!gvi__finite(m[i*n + j]))
+                    return gvi__report(st, GVI_E_ARGUMENT, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
             }
         else m[i] = mass->kind == GVI_MASS_DIAGONAL ? mass->matrix[i] : 1;
         if (mass->kind != GVI_MASS_DIAGONAL) continue;
         x->mass.inverse[i] = 1/m[i];
         if (!gvi__finite(m[i]) || !gvi__finite(x->mass.inverse[i]))
-            return gvi__report(st, gvi__finite(m[i]) ? GVI_E_SINGULAR : GVI_E_ARGUMENT, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
+            return gvi__report(st, gvi__finite(m[i]) ? GVI_E_SINGULAR : GVI_E_ARGUMENT,
+                               GVI_FAULT_MASS, i, GVI_FAULT_NONE);
     }
     const gvi_status status = dense ? gvi__ldl_factor(n, 1, 1, x->mass.factor, at) : GVI_OK;
     return status == GVI_OK ? GVI_OK : gvi__report(st, status, GVI_FAULT_MASS, at[0], at[1]);
@@ -3386,7 +3537,8 @@ GVI__COLD gvi_status gvi__set_rule(gvi_stepper *st, const gvi_rule *rule)
 #endif
         gvi__make_tables(st);
     }
-    if (x->table.Phi) gvi__copy((size_t)st->r, x->table.c, x->table.Phi);     // Phi_0 = c on its grid
+    // Phi_0 = c on its grid
+    if (x->table.Phi) gvi__copy((size_t)st->r, x->table.c, x->table.Phi);
     return GVI_OK;
 }
 
@@ -3403,7 +3555,8 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     gvi__report_status(st, GVI_OK);
     gvi_status status = gvi__resolve(x, desc, &order);
     if (status != GVI_OK) return st->status = status;
-    if (!memory || (uintptr_t)memory % offsetof(gvi__aligned, number)) return st->status = GVI_E_ARGUMENT;
+    if (!memory || (uintptr_t)memory % offsetof(gvi__aligned, number))
+        return st->status = GVI_E_ARGUMENT;
     st->n = x->desc.n;
     st->s = x->desc.degree;
     st->r = x->desc.rule.points;
@@ -3416,7 +3569,8 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     if (slack) x->skip = (size_t)(-(uintptr_t)memory & 63)/sizeof(gvi_real);
     memory += x->skip;
     gvi__hand_out(st, memory);
-    gvi__zero(x->newton.J ? (size_t)(x->newton.J - memory) : x->size, memory);     // J is written first
+    // J is written first
+    gvi__zero(x->newton.J ? (size_t)(x->newton.J - memory) : x->size, memory);
     x->kernel = gvi__kernel_for(st->n, st->r);
     status = gvi__set_mass(st, &desc->mass);
     if (status == GVI_OK) status = gvi__set_rule(st, &desc->rule);
@@ -3463,20 +3617,21 @@ static gvi_status gvi__newton_values(gvi_stepper *st, const gvi__origin *from)
     return gvi__evaluate(st, &at, 0, 1);
 }
 
-/* Where Newton's method stands: the last changes and the least; rho, the contraction seen; what is left
-   of the error, once a change was rounding; the residual in units of its own terms, and once its change
-   is made the work that does in it, or -1 where either is rounding; the residual's norm at the last y
-   that stayed; how often no change was less than half of the least; is there a matrix that will do, is
-   it new (1) and was the last one (2); how often was the last change halved, or -1: none to take back. */
+/* Where Newton's method stands: the last changes and the least; rho, the contraction seen; what
+   is left of the error, once a change was rounding; the residual in units of its own terms, and
+   once its change is made the work that does in it, or -1 where either is rounding; the
+   residual's norm at the last y that stayed; how often no change was less than half of the
+   least; is there a matrix that will do, is it new (1) and was the last one (2); how often was
+   the last change halved, or -1: none to take back.                                           */
 typedef struct gvi__descent {
     gvi_real before, earlier, least, rho, left, work, norm;
     int      stagnant, have, fresh, halves;
 } gvi__descent;
 
-/* dy and residual := -(1).  The weights of P are h b_i/h, those that F has, and Phi_0 = c is on its
-   grid: then the rows are exactly those of a discrete action, also as rounded.  Returns the norm, the
-   sum of magnitudes over sqrt M_ii: rows of (1) are momenta, so that has one unit for all coordinates.
-   M is that of the first y.                                                                  */
+/* dy and residual := -(1).  The weights of P are h b_i/h, those that F has, and Phi_0 = c is on
+   its grid: then the rows are exactly those of a discrete action, also as rounded.  Returns the
+   norm, the sum of magnitudes over sqrt M_ii: rows of (1) are momenta, so that has one unit for
+   all coordinates.  M is that of the first y.                                                 */
 static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, gvi__descent *p)
 {
     struct gvi__private *x = &st->x;
@@ -3492,14 +3647,16 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, 
             const gvi_real base = k == 0 ? from->p[i] : 0;
             gvi_real momentum = k == 0 ? -(h*from->p_low[i]) : 0, force = 0, size = 0;
             for (int j = 0; j < st->r; ++j) {
-                const gvi_real phi = x->table.phi[k*R + j], W = (k == 0 ? 1 : 0) - x->table.Phi[k*R + j];
+                const gvi_real phi = x->table.phi[k*R + j],
+                               W = (k == 0 ? 1 : 0) - x->table.Phi[k*R + j];
                 const gvi_real b = W*(x->sized.hb[j]*F[j]);
                 momentum += phi*(x->sized.hb[j]*(P[j] - base));
                 force += b;
                 size += GVI_ABS(phi*(x->table.b[j]*P[j])) + GVI_ABS(b);
             }
             const gvi_real sum = momentum/h - force;
-            x->newton.dy[(k - k0)*n + i] = x->newton.residual[(k - k0)*n + i] = -(gvi_real)(2*k + 1)*sum;
+            x->newton.dy[(k - k0)*n + i] = x->newton.residual[(k - k0)*n + i] =
+                -(gvi_real)(2*k + 1)*sum;
             length += (gvi_real)(2*k + 1)*GVI_ABS(sum);
             if (size > 0 && GVI_ABS(sum)/size > p->work) p->work = GVI_ABS(sum)/size;
         }
@@ -3509,10 +3666,10 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, 
     return norm;
 }
 
-/* Adds what dF_i/du_j = f and dP_i/du_j = p at one point contribute, u = q or v: du = h Phi_l dy_l or
-   phi_l dy_l.                                                                                */
-static void gvi__add_derivative(const gvi_stepper *st, const gvi__matrix *J, int i, int j, int point,
-                                gvi_real f, gvi_real p, int by_v)
+/* Adds what dF_i/du_j = f and dP_i/du_j = p at one point contribute, u = q or v: du = h Phi_l
+   dy_l or phi_l dy_l.                                                                         */
+static void gvi__add_derivative(const gvi_stepper *st, const gvi__matrix *J, int i, int j,
+                                int point, gvi_real f, gvi_real p, int by_v)
 {
     const struct gvi__private *x = &st->x;
     const int n = st->n, R = x->R, s = st->s, k0 = J->k0;
@@ -3521,9 +3678,11 @@ static void gvi__add_derivative(const gvi_stepper *st, const gvi__matrix *J, int
     if (f <= 0 && f >= 0 && p <= 0 && p >= 0) return;
     for (int k = k0; k < s; ++k) {
         const gvi_real W = (k == 0 ? 1 : 0) - Phi[k*R];
-        const gvi_real a = (gvi_real)(2*k + 1)*(x->table.b[point]*phi[k*R]*p - x->sized.hb[point]*W*f);
+        const gvi_real a = (gvi_real)(2*k + 1)
+                           * (x->table.b[point]*phi[k*R]*p - x->sized.hb[point]*W*f);
         const size_t row = (size_t)((k - k0)*n + i);
-        gvi_real *square = J->square + row*size + j, *ends = J->ends ? J->ends + row*2*(size_t)n + j : NULL;
+        gvi_real *square = J->square + row*size + j,
+                 *ends = J->ends ? J->ends + row*2*(size_t)n + j : NULL;
         for (int l = k0; l < s; ++l, square += n) *square += a*(by_v ? phi[l*R] : h*Phi[l*R]);
         if (ends) ends[0] += a*(by_v ? 1 : h*Phi[0]);
         if (ends && !by_v) ends[n] += a;
@@ -3552,15 +3711,18 @@ static gvi_status gvi__jacobian_exact(gvi_stepper *st, const gvi__matrix *J)
         for (int i = 0; i < n && gvi__mass_is_constant(x); ++i)
             for (int j = 0; j < n; ++j) {
                 gvi_real m = i == j ? x->mass.matrix[i] : 0;
-                if (x->desc.mass.kind == GVI_MASS_DENSE) m = x->mass.matrix[i > j ? i*n + j : j*n + i];
+                if (x->desc.mass.kind == GVI_MASS_DENSE)
+                    m = x->mass.matrix[i > j ? i*n + j : j*n + i];
                 gvi__add_derivative(st, J, i, j, k, 0, m, 1);
             }
         for (int e = 0; e < x->desc.effect_count; ++e) {
             const gvi_effect *effect = x->desc.effects + e;
             if ((x->off >> e & 1u) || !effect->hessian) continue;
-            const int reads_v = effect->kind != GVI_POTENTIAL, term = effect->kind == GVI_LAGRANGIAN;
+            const int reads_v = effect->kind != GVI_POTENTIAL,
+                      term = effect->kind == GVI_LAGRANGIAN;
             gvi__zero(3*nn, fq);
-            if (effect->hessian(x->t[k], q, reads_v ? v : NULL, fq, reads_v ? fv : NULL, term ? pv : NULL, effect->user))
+            if (effect->hessian(x->t[k], q, reads_v ? v : NULL, fq, reads_v ? fv : NULL,
+                                term ? pv : NULL, effect->user))
                 return gvi__report(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, k);
             for (int i = 0; i < n; ++i)
                 for (int j = 0; j < n; ++j) {       // d(dL/dv)/dq is the transpose of d(dL/dq)/dv
@@ -3581,8 +3743,8 @@ static gvi_status gvi__evaluate_plain(gvi_stepper *st, gvi_real *F)
     return gvi__evaluate(st, &y, ~gvi__without_hessian(x), !gvi__mass_is_constant(x));
 }
 
-/* The difference for coordinate j: sqrt(eps) of what it moves in a step, but no less than eps^(3/4) of
-   itself; or for its velocity, that over h.                                                  */
+/* The difference for coordinate j: sqrt(eps) of what it moves in a step, but no less than
+   eps^(3/4) of itself; or for its velocity, that over h.                                      */
 static gvi_real gvi__difference(const gvi_stepper *st, int j, int by_v)
 {
     const struct gvi__private *x = &st->x;
@@ -3594,9 +3756,11 @@ static gvi_real gvi__difference(const gvi_stepper *st, int j, int by_v)
         if (V > v) v = V;
     }
     const gvi_real path = root*(h*v > small*q ? h*v : small*q);
-    const gvi_real step = path > GVI__MIN/GVI__EPS ? path : h < 1 ? root*h : root;     // at rest at 0
+    // at rest at 0
+    const gvi_real step = path > GVI__MIN/GVI__EPS ? path : h < 1 ? root*h : root;
     if (!by_v) return step;
-    return v > 0 && step/h > small*v ? small*v : step/h;      // short steps: no velocity beyond all others
+    // short steps: no velocity beyond all others
+    return v > 0 && step/h > small*v ? small*v : step/h;
 }
 
 // derivatives of what has no Hessian, by forward differences at all points at once
@@ -3609,7 +3773,8 @@ static gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matrix *
     gvi_real *F = x->newton.moved, *P = F + nR, *base_F = P + nR, *base_P = base_F + nR;
     if (!varies && !plain) return GVI_OK;
     gvi_status status = gvi__evaluate_plain(st, base_F);
-    for (int k = 0; k < 2*n && status == GVI_OK; k += 2 - reads_v) {       // of each coordinate q, then v
+    // of each coordinate q, then v
+    for (int k = 0; k < 2*n && status == GVI_OK; k += 2 - reads_v) {
         const int j = k/2, by_v = k % 2;
         gvi_real *row = (by_v ? x->work.V : x->work.Q) + j*R, *was = x->row;
         const gvi_real d = gvi__difference(st, j, by_v);
@@ -3643,7 +3808,8 @@ static gvi_status gvi__check_regular(gvi_stepper *st)
     if (status != GVI_OK) return status;
     int at;
     status = gvi__lu_factor(n, W, W + n*n, &at);
-    return status == GVI_E_SINGULAR ? gvi__report(st, status, GVI_FAULT_MASS, at, GVI_FAULT_NONE) : GVI_OK;
+    return status == GVI_E_SINGULAR ? gvi__report(st, status, GVI_FAULT_MASS, at, GVI_FAULT_NONE)
+                                    : GVI_OK;
 }
 
 static gvi_status gvi__jacobian_fill(gvi_stepper *st, const gvi__matrix *J)
@@ -3661,7 +3827,8 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J)
     int at;
     gvi_status status = gvi__jacobian_fill(st, J);
     for (int row = 0; J->scaled && row < size; ++row) {
-        gvi_real *a = J->square + (size_t)row*(size_t)size, *ends = J->ends + (size_t)row*2*(size_t)n, big = 0;
+        gvi_real *a = J->square + (size_t)row*(size_t)size,
+                 *ends = J->ends + (size_t)row*2*(size_t)n, big = 0;
         for (int j = 0; j < size; ++j)
             if (GVI_ABS(a[j]) > big) big = GVI_ABS(a[j]);
         for (int j = 0; big > 0 && j < size; ++j) a[j] /= big;
@@ -3671,7 +3838,8 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J)
     status = gvi__lu_factor(size, J->square, J->pivot, &at);
     gvi__count(&st->counters.factorizations, 1);
     if (status == GVI_OK) return GVI_OK;
-    return gvi__report(st, status, GVI_FAULT_NONE, at < 0 ? GVI_FAULT_NONE : at % n, GVI_FAULT_NONE);
+    return gvi__report(st, status, GVI_FAULT_NONE, at < 0 ? GVI_FAULT_NONE : at % n,
+                       GVI_FAULT_NONE);
 }
 
 // y := modes of the extrapolated V, or constant velocity
@@ -3696,9 +3864,11 @@ static void gvi__newton_guess(gvi_stepper *st, int extrapolate)
     }
 }
 
-/* y += dy from row k0 on; returns the sum over coordinates of the relative change.  p->work: its work,
-   or -1 where all of it is within a few units of the last place of q, or the residual was rounding. */
-static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, const gvi__matrix *J, gvi__descent *p)
+/* y += dy from row k0 on; returns the sum over coordinates of the relative change.  p->work:
+   its work, or -1 where all of it is within a few units of the last place of q, or the residual
+   was rounding.                                                                               */
+static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, const gvi__matrix *J,
+                                   gvi__descent *p)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, solved = p->work <= 16*GVI__EPS;
@@ -3727,9 +3897,10 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
     return sum;
 }
 
-/* Is a change that does not shrink rounding?  It is at the rounding of y, q or the residual, or small and
-   the matrix new.  Then p->left is what it can hide of the error: no more than the change before.  By an
-   older matrix that has not contracted here the next change may be the same, whatever it is. */
+/* Is a change that does not shrink rounding? It is at the rounding of y, q or the residual, or
+   small and the matrix new.  Then p->left is what it can hide of the error: no more than the
+   change before.  By an older matrix that has not contracted here the next change may be the
+   same, whatever it is.                                                                       */
 static int gvi__newton_rests(gvi__descent *p, int size, gvi_real change)
 {
     const int fresh = p->fresh & 1, proven = fresh || p->rho < (gvi_real)0.25;
@@ -3739,11 +3910,12 @@ static int gvi__newton_rests(gvi__descent *p, int size, gvi_real change)
     return 1;
 }
 
-/* The verdict on a change.  Where it is rounding, what is left of the error shrinks on by the contraction
-   seen before.  Not to be less than half of the least so far is not to shrink: what is rounded to a grid
-   may go round a few points of it, and fall in every iteration.  Nor is it contraction to fall from an
-   overshoot far beyond the size of y.                                                        */
-static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__descent *p, gvi_real change)
+/* The verdict on a change.  Where it is rounding, what is left of the error shrinks on by the
+   contraction seen before.  Not to be less than half of the least so far is not to shrink: what
+   is rounded to a grid may go round a few points of it, and fall in every iteration.  Nor is it
+   contraction to fall from an overshoot far beyond the size of y.                             */
+static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__descent *p,
+                                 gvi_real change)
 {
     const int size = (st->s - J->k0)*st->n;
     const gvi_real before = p->before, all = (gvi_real)st->n, quarter = (gvi_real)0.25;
@@ -3752,11 +3924,13 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__des
     if (!gvi__finite(change)) return GVI__NOT_FINITE;
     if (p->earlier > 0 && change > 1000*GVI__EPS) {
         const gvi_real contraction = GVI_SQRT(change/p->earlier);
-        if (contraction > st->counters.worst_contraction) st->counters.worst_contraction = contraction;
+        if (contraction > st->counters.worst_contraction)
+            st->counters.worst_contraction = contraction;
     }
     const int stagnant = before > 0 && change > p->least/2;
     p->stagnant = !stagnant ? 0 : p->stagnant + 1;
-    if (before > 0 && !stagnant && !(p->left < GVI__MAX) && (change > noise || change < p->rho*p->least))
+    if (before > 0 && !stagnant && !(p->left < GVI__MAX)
+        && (change > noise || change < p->rho*p->least))
         p->rho = change/p->least;
     if (change < p->least) p->least = change;
     const int rounding = p->left < GVI__MAX || (stagnant && gvi__newton_rests(p, size, change));
@@ -3764,17 +3938,19 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__des
 
     const gvi_real enough = wanted > 0 ? wanted : GVI__EPS/4096;
     if (change*ratio <= enough || p->left <= GVI__EPS/65536 || p->left <= enough) return GVI__DONE;
-    const int hidden = p->work < 0 && p->rho < quarter;        // rounding, by a matrix that has contracted here
+    // rounding, by a matrix that has contracted here
+    const int hidden = p->work < 0 && p->rho < quarter;
     if (!rounding && !hidden && before > 0 && ratio > quarter) p->have = 0;
     p->earlier = before;
     p->before = change;
     return GVI__GO_ON;
 }
 
-/* Does y stay, of that norm?  Where a change that is not small has not made the residual less: back to
-   where it began, for a new matrix; or if it was new, half of the way.  Where six halves have not helped
-   all of the change stands: across a kink, or from one curve to the next, the way down may lead up
-   first.  And where what seemed to be rounding grows again, that was no rounding.            */
+/* Does y stay, of that norm? Where a change that is not small has not made the residual less:
+   back to where it began, for a new matrix; or if it was new, half of the way.  Where six
+   halves have not helped all of the change stands: across a kink, or from one curve to the
+   next, the way down may lead up first.  And where what seemed to be rounding grows again, that
+   was no rounding.                                                                            */
 static int gvi__newton_stays(gvi_stepper *st, const gvi__matrix *J, gvi__descent *p, gvi_real norm)
 {
     enum { HALVES = 6 };
@@ -3782,7 +3958,9 @@ static int gvi__newton_stays(gvi_stepper *st, const gvi__matrix *J, gvi__descent
     if (J->halves && p->halves >= 0 && p->halves <= HALVES && !(norm < p->norm) && !rests
         && p->before > GVI_SQRT(GVI__EPS)) {
         gvi_real *y = st->x.newton.y, *last = st->x.newton.last;
-        const gvi_real part = !fresh ? 0 : p->halves < HALVES ? (gvi_real)0.5 : (gvi_real)(1 << HALVES);
+        const gvi_real part = !fresh               ? 0
+                              : p->halves < HALVES ? (gvi_real)0.5
+                                                   : (gvi_real)(1 << HALVES);
         for (int i = 0; i < st->s*st->n; ++i) y[i] = last[i] + part*(y[i] - last[i]);
         if (fresh) p->halves += 1;
         else p->have = 0, p->halves = -1;
@@ -3803,12 +3981,14 @@ static int gvi__newton_stays(gvi_stepper *st, const gvi__matrix *J, gvi__descent
 static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, const gvi__matrix *J)
 {
     struct gvi__private *x = &st->x;
-    const int size = (st->s - J->k0)*st->n, kept = J->pivot == x->newton.pivot;      // that of steps, not of queries
+    // that of steps, not of queries
+    const int size = (st->s - J->k0)*st->n, kept = J->pivot == x->newton.pivot;
     gvi__descent p = { 0, 0, GVI__MAX, (gvi_real)0.25, GVI__MAX, 0, GVI__MAX, 0, 0, 0, -1 };
     p.have = kept && !gvi__nonzero(x->newton.h - x->sized.h);
     for (int k = 0, made = 0, verdict = GVI__GO_ON; k <= x->desc.max_iterations; ++k) {
         gvi_status status = gvi__newton_values(st, from);
-        if (status != GVI_OK || verdict == GVI__DONE) return status;        // one more evaluation, then done
+        // one more evaluation, then done
+        if (status != GVI_OK || verdict == GVI__DONE) return status;
         if (!gvi__newton_stays(st, J, &p, gvi__residual(st, from, J->k0, &p))) continue;
         p.fresh = (p.fresh & 1) << 1 | !p.have;
         if (!p.have) {
@@ -3828,19 +4008,25 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
     return gvi__report_status(st, GVI_E_CONVERGENCE);
 }
 
-// how Newton's method begins: at constant velocity, at the last step's modes; or as the first, and takes back changes
+// how Newton's method begins: at constant velocity, at the last step's modes; or as the first, and
+// takes back changes
 enum { GVI__PLAIN, GVI__EXTRAPOLATED, GVI__HALVED };
 
 static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int how, int query)
 {
     struct gvi__private *x = &st->x;
     const size_t sn = (size_t)(st->s*st->n);
-    const gvi__matrix J = { x->newton.J + (query ? sn*sn : 0), x->newton.pivot + (query ? sn + 1 : 0), NULL, 0, 0,
+    const gvi__matrix J = { x->newton.J + (query ? sn*sn : 0),
+                            x->newton.pivot + (query ? sn + 1 : 0),
+                            NULL,
+                            0,
+                            0,
                             how == GVI__HALVED };
     gvi__newton_guess(st, how == GVI__EXTRAPOLATED);
     const gvi_status status = gvi__newton_solve(st, from, &J);
     if (status != GVI_OK) return status;
-    if (GVI__LAGRANGIAN && x->work.A) gvi__zero((size_t)(st->n*x->R), x->work.A);     // it made none to go on from
+    // it made none to go on from
+    if (GVI__LAGRANGIAN && x->work.A) gvi__zero((size_t)(st->n*x->R), x->work.A);
     for (int i = 0; i < st->n; ++i) {
         const gvi__two q = gvi__two_prod(x->sized.h, x->newton.y[i]);
         x->step.q[i] = q.hi;
@@ -3852,13 +4038,13 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
 
 /* ------------------------------------------------------------------ STEP */
 
-/* The way of a step, to be read in this order: gvi_step, gvi__solve, gvi__attempt; there gvi__free_motion
-   (free motion), gvi__prepare_predictor (predictor), gvi__iterate (gvi__stages, then again and again
-   gvi__evaluate_stages: callbacks, gvi__new_rows: tables times forces, gvi__converged) and
-   gvi__increments; then gvi__commit.
+/* The way of a step, to be read in this order: gvi_step, gvi__solve, gvi__attempt; there
+   gvi__free_motion (free motion), gvi__prepare_predictor (predictor), gvi__iterate
+   (gvi__stages, then again and again gvi__evaluate_stages: callbacks, gvi__new_rows: tables
+   times forces, gvi__converged) and gvi__increments; then gvi__commit.
 
-   One attempt at a step or a partial step, to its increments; nothing of it is kept yet.  The fixed
-   point from extrapolated values, then from plain ones, then Newton's method, likewise.      */
+   One attempt at a step or a partial step, to its increments; nothing of it is kept yet.  The
+   fixed point from extrapolated values, then from plain ones, then Newton's method, likewise.  */
 static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query)
 {
     struct gvi__private *x = &st->x;
@@ -3867,18 +4053,23 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_rea
     if (gvi__uses(x, GVI_EXPLICIT))
         return gvi__kicks(st, from, h, x->has_force && query != GVI__FROM_START ? x->last.F : NULL);
 
-    const int usable = x->kept > 0 && h/st->h > -2 && h/st->h < 8;   // farther out the last values say nothing
+    // farther out the last values say nothing
+    const int usable = x->kept > 0 && h/st->h > -2 && h/st->h < 8;
     int used = 0;
     gvi_status status = GVI_E_CONVERGENCE;
-    if (!gvi__uses(x, GVI_NEWTON) && (!gvi__has(x, GVI__HAS_NEWTON) || x->newton.left == 0 || query)) {
+    if (!gvi__uses(x, GVI_NEWTON)
+        && (!gvi__has(x, GVI__HAS_NEWTON) || x->newton.left == 0 || query)) {
         if (usable) gvi__prepare_predictor(st, h, query);
         for (int plain = !usable; plain < 2; ++plain) {
             status = gvi__iterate(st, from, h, !plain, &used);
             gvi__count(&st->counters.iterations, used);
             if (!query) st->iterations = used;
             if (used > st->counters.most_iterations) st->counters.most_iterations = used;
-            // where iterations are given, only a callback that failed at extrapolated values is worth a second try
-            if (status == GVI_OK || (x->desc.iterations > 0 && (used > 1 || status == GVI_E_CONVERGENCE))) break;
+            // where iterations are given, only a callback that failed at extrapolated values is
+            // worth a second try
+            if (status == GVI_OK
+                || (x->desc.iterations > 0 && (used > 1 || status == GVI_E_CONVERGENCE)))
+                break;
         }
         if (status == GVI_OK) gvi__increments(st, from, h);
         if (status == GVI_OK || !gvi__may_turn(st)) return status;
@@ -3888,8 +4079,10 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_rea
     const unsigned count = (unsigned)st->counters.newton_iterations;
     st->formulation = GVI_NEWTON;
     if (usable) gvi__prepare_predictor(st, h, query);
-    status = gvi__newton_step(st, from, usable && x->has_velocity ? GVI__EXTRAPOLATED : GVI__PLAIN, query);
-    if (status == GVI_E_CONVERGENCE || status == GVI_E_SINGULAR || (status == GVI_E_NON_FINITE && !x->diagnose)) {
+    status = gvi__newton_step(st, from, usable && x->has_velocity ? GVI__EXTRAPOLATED : GVI__PLAIN,
+                              query);
+    if (status == GVI_E_CONVERGENCE || status == GVI_E_SINGULAR
+        || (status == GVI_E_NON_FINITE && !x->diagnose)) {
         if (!query) x->newton.h = 0;              // the extrapolation may be to blame
         status = gvi__newton_step(st, from, GVI__HALVED, query);
     }
@@ -3906,18 +4099,20 @@ static int gvi__finite_end(const gvi_stepper *st, const gvi__origin *from)
 #if GVI__LANES > 1
     gvi__lane nones = { 0 };
     for (; st->n >= 8 && i + GVI__LANES <= st->n; i += GVI__LANES)
-        nones += 0*(GVI__LOAD(from->q + i) + GVI__LOAD(d->q + i)) + 0*(GVI__LOAD(from->p + i) + GVI__LOAD(d->p + i));
+        nones += 0*(GVI__LOAD(from->q + i) + GVI__LOAD(d->q + i))
+                 + 0*(GVI__LOAD(from->p + i) + GVI__LOAD(d->p + i));
     for (int k = 0; i > 0 && k < GVI__LANES; ++k) none += nones[k];
 #endif
     for (; i < st->n; ++i) {
-        const gvi__rounded q = from->q[i] + d->q[i], p = from->p[i] + d->p[i];   // as it will be kept
+        // as it will be kept
+        const gvi__rounded q = from->q[i] + d->q[i], p = from->p[i] + d->p[i];
         none += 0*q + 0*p;
     }
     return none >= 0;
 }
 
-/* One attempt.  If it met NaN or Inf, the same once more, now looking at what every effect returns: that
-   names the effect.  If none is to blame, the iteration diverged.                            */
+/* One attempt.  If it met NaN or Inf, the same once more, now looking at what every effect
+   returns: that names the effect.  If none is to blame, the iteration diverged.               */
 static gvi_status gvi__solve(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query)
 {
     struct gvi__private *x = &st->x;
@@ -3925,9 +4120,12 @@ static gvi_status gvi__solve(gvi_stepper *st, const gvi__origin *from, gvi_real 
         x->diagnose = look;
         gvi_status status = gvi__attempt(st, from, h, query);
         x->diagnose = 0;
-        if (status == GVI_OK && !look && !gvi__finite_end(st, from)) status = gvi__report_status(st, GVI_E_NON_FINITE);
+        if (status == GVI_OK && !look && !gvi__finite_end(st, from))
+            status = gvi__report_status(st, GVI_E_NON_FINITE);
         const int explained = status != GVI_E_NON_FINITE || st->fault.effect != GVI_FAULT_NONE;
-        if (look) return status != GVI_OK && explained ? status : gvi__report_status(st, GVI_E_CONVERGENCE);
+        if (look)
+            return status != GVI_OK && explained ? status
+                                                 : gvi__report_status(st, GVI_E_CONVERGENCE);
         if (explained) return status;
         if (!query) x->newton.h = 0;
     }
@@ -3952,7 +4150,8 @@ static void gvi__rotate_values(gvi_stepper *st)
 
 // was := x, x + x_low := x + dx + dx_low; dx_low NULL: 0
 static void gvi__move(int n, const gvi_real *GVI__RESTRICT dx, const gvi_real *GVI__RESTRICT dx_low,
-                      gvi_real *GVI__RESTRICT x, gvi_real *GVI__RESTRICT x_low, gvi_real *GVI__RESTRICT was)
+                      gvi_real *GVI__RESTRICT x, gvi_real *GVI__RESTRICT x_low,
+                      gvi_real *GVI__RESTRICT was)
 {
     int i = 0;
 #if GVI__LANES > 1
@@ -3985,8 +4184,10 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     struct gvi__private *x = &st->x;
     const gvi__two t = gvi__two_sum(st->t, x->dt + st->t_low);
     const int whole = gvi__uses(x, GVI_EXPLICIT);             // whose increments have no low words
-    gvi__move(st->n, x->step.q, whole ? NULL : x->step.q_low, x->state.q, x->state.q_low, x->began.q);
-    gvi__move(st->n, x->step.p, whole ? NULL : x->step.p_low, x->state.p, x->state.p_low, x->began.p);
+    gvi__move(st->n, x->step.q, whole ? NULL : x->step.q_low, x->state.q, x->state.q_low,
+              x->began.q);
+    gvi__move(st->n, x->step.p, whole ? NULL : x->step.p_low, x->state.p, x->state.p_low,
+              x->began.p);
     st->t0 = st->t;
     st->t = t.hi;
     st->t_low = t.lo;
@@ -4000,7 +4201,8 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     st->h = h;
     gvi__rotate_values(st);
     x->stepped = gvi__clock_is_on(st) ? 2 : 1;
-    x->has_force = gvi__uses(x, GVI_EXPLICIT) && !gvi__nonzero(x->table.c[0]) && !gvi__nonzero(x->table.c[st->r - 1] - 1);
+    x->has_force = gvi__uses(x, GVI_EXPLICIT) && !gvi__nonzero(x->table.c[0])
+                   && !gvi__nonzero(x->table.c[st->r - 1] - 1);
     x->has_velocity = st->formulation > GVI_POSITIONS;
     if (x->newton.left > 0) x->newton.left -= 1;
     gvi__count(&st->counters.steps, 1);
@@ -4014,10 +4216,13 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
     struct gvi__private *x = &st->x;
     const gvi_formulation was = st->formulation;
     const int left = x->newton.left;
-    const gvi__origin from = { st->t, st->t_low, st->q, st->q_low, st->p, st->p_low, x->time.H + x->time.H_low };
+    const gvi__origin from = {
+        st->t, st->t_low, st->q, st->q_low, st->p, st->p_low, x->time.H + x->time.H_low
+    };
     if (x->stepped && gvi__nonzero(h - st->h)) x->newton.left = 0;
     gvi_status status = gvi__solve(st, &from, h, GVI__STEP);
-    if (status == GVI_OK && !gvi__finite(st->t + x->dt)) status = gvi__report_status(st, GVI_E_ARGUMENT);
+    if (status == GVI_OK && !gvi__finite(st->t + x->dt))
+        status = gvi__report_status(st, GVI_E_ARGUMENT);
     if (status != GVI_OK) {
         gvi__count(&st->counters.failures, 1);
         st->formulation = was;
@@ -4059,14 +4264,16 @@ GVI__COLD gvi_status gvi__begin_at(gvi_stepper *st, gvi_real t, const gvi_real *
 }
 
 // is everything there that a start needs, and finite?
-GVI__COLD gvi_status gvi__check_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *w)
+GVI__COLD gvi_status gvi__check_start(gvi_stepper *st, gvi_real t, const gvi_real *q,
+                                      const gvi_real *w)
 {
     const gvi_status ready = gvi__ready(st, st && st->x.memory);
     if (ready != GVI_OK) return ready;
     if (!q || !w || !gvi__finite(t)) return st->status = GVI_E_ARGUMENT;
     const int i = gvi__first_non_finite(st->n, q), j = gvi__first_non_finite(st->n, w);
     if (i < 0 && j < 0) return GVI_OK;
-    return gvi__report(st, GVI_E_ARGUMENT, GVI_FAULT_NONE, j < 0 || (i >= 0 && i < j) ? i : j, GVI_FAULT_NONE);
+    return gvi__report(st, GVI_E_ARGUMENT, GVI_FAULT_NONE, j < 0 || (i >= 0 && i < j) ? i : j,
+                       GVI_FAULT_NONE);
 }
 
 GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
@@ -4094,7 +4301,8 @@ GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, con
     return gvi__begin_at(st, t, start);
 }
 
-GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *p)
+GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_real *q,
+                                      const gvi_real *p)
 {
     gvi_status status = gvi__check_start(st, t, q, p);
     if (status != GVI_OK) return status;
@@ -4116,7 +4324,8 @@ GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_rea
 {
     static const gvi_discrete out = { NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL };
     gvi_status status = gvi__check_start(st, t, q0, q1);
-    if (status == GVI_OK) status = gvi_discrete_lagrangian(st, t, h, q0, q1, &out);       // p0 is in step.q then
+    // p0 is in step.q then
+    if (status == GVI_OK) status = gvi_discrete_lagrangian(st, t, h, q0, q1, &out);
     return status == GVI_OK ? gvi_start_momentum(st, t, q0, st->x.step.q) : status;
 }
 
@@ -4128,10 +4337,12 @@ GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
     if (index < 0 || index >= x->desc.effect_count) return st->status = GVI_E_ARGUMENT;
     const unsigned bit = 1u << index, was = x->off;
     x->off = on ? was & ~bit : was | bit;
-    if (gvi__clock_is_on(st) && x->started && x->off != was) {      // another energy, also at the start
+    // another energy, also at the start
+    if (gvi__clock_is_on(st) && x->started && x->off != was) {
         gvi_real E, E0 = x->began.H, *v = x->result + st->n;
         gvi_status status = gvi_energy(st, &E);
-        if (status == GVI_OK && x->stepped) status = gvi__hamiltonian(st, st->t0, x->began.q, x->began.p, v, &E0);
+        if (status == GVI_OK && x->stepped)
+            status = gvi__hamiltonian(st, st->t0, x->began.q, x->began.p, v, &E0);
         if (status != GVI_OK) return x->off = was, st->status = status;
         x->time.H = E;
         x->time.H_low = 0;
@@ -4142,16 +4353,19 @@ GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
     return gvi__report_status(st, GVI_OK);
 }
 
-/* Pointers into the memory are those of st: the layout again, the values rotated as they were saved. */
+/* Pointers into the memory are those of st: the layout again, the values rotated as they were
+   saved.                                                                                      */
 GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const gvi_real *memory)
 {
     const gvi_status ready = gvi__ready(st, st && st->x.memory);
     if (ready != GVI_OK) return ready;
     struct gvi__private *x = &st->x;
-    if (!saved || !memory || !saved->x.memory || saved->n != st->n || saved->s != st->s || saved->r != st->r
-        || saved->x.size != x->size || saved->x.needs != x->needs || saved->x.chosen != x->chosen
-        || saved->x.clock != x->clock || saved->x.desc.effect_count != x->desc.effect_count
-        || saved->x.desc.mass.kind != x->desc.mass.kind) return st->status = GVI_E_ARGUMENT;
+    if (!saved || !memory || !saved->x.memory || saved->n != st->n || saved->s != st->s
+        || saved->r != st->r || saved->x.size != x->size || saved->x.needs != x->needs
+        || saved->x.chosen != x->chosen || saved->x.clock != x->clock
+        || saved->x.desc.effect_count != x->desc.effect_count
+        || saved->x.desc.mass.kind != x->desc.mass.kind)
+        return st->status = GVI_E_ARGUMENT;
     const gvi_desc desc = x->desc;
     gvi_real *const own = x->memory;
     gvi__kernel *const kernel = x->kernel;
@@ -4165,7 +4379,8 @@ GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const 
     x->kernel = kernel;
     x->skip = skip;
     gvi__hand_out(st, own);
-    for (int k = 0; k < 6 && ((uintptr_t)x->work.F - (uintptr_t)own != F        // each goes round in 2 or 3
+    // each goes round in 2 or 3
+    for (int k = 0; k < 6 && ((uintptr_t)x->work.F - (uintptr_t)own != F
                               || (x->work.V && (uintptr_t)x->work.V - (uintptr_t)own != V)); ++k)
         gvi__rotate_values(st);
     return gvi__report_status(st, GVI_OK);
@@ -4197,8 +4412,8 @@ GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy)
     return gvi__done(st, status);
 }
 
-/* Curve and velocity of the last step by the same formulas as at its points, with the table row that
-   belongs to tau.                                                                            */
+/* Curve and velocity of the last step by the same formulas as at its points, with the table row
+   that belongs to tau.                                                                        */
 static void gvi__curve_at(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v)
 {
     const struct gvi__private *x = &st->x;
@@ -4217,7 +4432,8 @@ static void gvi__curve_at(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_
     gvi__zero((size_t)n, q);
     gvi__zero((size_t)n, v);
     const gvi_real *modes = by_forces ? x->table.Phi : x->table.phi;
-    const gvi_real *weight = by_forces ? x->sized.hb : x->table.b, *rows = by_forces ? x->last.F : x->last.V;
+    const gvi_real *weight = by_forces ? x->sized.hb : x->table.b,
+                   *rows = by_forces ? x->last.F : x->last.V;
     for (int j = 0; j < st->r; ++j) {
         gvi_real S = 0, T = 0;
         for (int k = 0; k < st->s; ++k) {
@@ -4277,8 +4493,8 @@ GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
     return GVI_OK;
 }
 
-/* With a clock: the h of a partial step for a time dt, by Newton's method, the derivative being g, kept
-   inside the step by bisection.  h is the next to try, or 0 for no more.                     */
+/* With a clock: the h of a partial step for a time dt, by Newton's method, the derivative being
+   g, kept inside the step by bisection.  h is the next to try, or 0 for no more.              */
 typedef struct gvi__bracket { gvi_real dt, h, near_end, far_end; } gvi__bracket;
 
 static gvi_status gvi__clock_time(gvi_stepper *st, const gvi__origin *from, gvi__bracket *b)
@@ -4294,26 +4510,30 @@ static gvi_status gvi__clock_time(gvi_stepper *st, const gvi__origin *from, gvi_
     const gvi_status status = gvi__clock_at(st, from->t, q, &rate, q + st->n);
     if (status != GVI_OK) return status;
     gvi_real next = h - (x->dt - b->dt)/rate;
-    if (!((next - b->near_end)*(b->far_end - next) > 0)) next = b->near_end + (b->far_end - b->near_end)/2;
+    if (!((next - b->near_end)*(b->far_end - next) > 0))
+        next = b->near_end + (b->far_end - b->near_end)/2;
     if (!(GVI_ABS(next - h) <= GVI__EPS*GVI_ABS(st->h))) b->h = next;
     return GVI_OK;
 }
 
 // increments of a partial step for a time dt from one end of the last step
-static gvi_status gvi__partial_step(gvi_stepper *st, const gvi__origin *from, int query, gvi_real dt)
+static gvi_status gvi__partial_step(gvi_stepper *st, const gvi__origin *from, int query,
+                                    gvi_real dt)
 {
     const gvi_real far_end = query == GVI__FROM_END ? -st->h : st->h;
     gvi__bracket b = { dt, dt, 0, far_end };
     if (gvi__clock_is_on(st)) {
         b.h = st->h*(dt/(st->t - st->t0));
-        if (!(GVI_ABS(b.h) <= GVI_ABS(far_end))) b.h = far_end/2;      // t did not move, or less than it should
+        // t did not move, or less than it should
+        if (!(GVI_ABS(b.h) <= GVI_ABS(far_end))) b.h = far_end/2;
     }
     gvi_status status = GVI_OK;
     for (int k = 0; k < 60 && status == GVI_OK && (k == 0 || gvi__nonzero(b.h)); ++k) {
         status = gvi__solve(st, from, b.h, query);
         if (status == GVI_OK) status = gvi__clock_time(st, from, &b);
     }
-    return status == GVI_OK && gvi__nonzero(b.h) ? gvi__report_status(st, GVI_E_CONVERGENCE) : status;
+    return status == GVI_OK && gvi__nonzero(b.h) ? gvi__report_status(st, GVI_E_CONVERGENCE)
+                                                 : status;
 }
 
 GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_real *v, gvi_real *p)
@@ -4330,9 +4550,12 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
     // partial step of length h from the nearer end, or none for a rounding of the whole
     const int end = GVI_ABS(back) <= GVI_ABS(ahead);
     const gvi_real h = end ? back - st->t_low : ahead;
-    gvi__origin from = { st->t, st->t_low, st->q, st->q_low, st->p, st->p_low, x->time.H + x->time.H_low };
+    gvi__origin from = {
+        st->t, st->t_low, st->q, st->q_low, st->p, st->p_low, x->time.H + x->time.H_low
+    };
     if (!end) {
-        const gvi__origin first = { st->t0, 0, x->began.q, x->zeros, x->began.p, x->zeros, x->began.H };
+        const gvi__origin first = { st->t0,     0,        x->began.q, x->zeros,
+                                    x->began.p, x->zeros, x->began.H };
         from = first;
     }
     const gvi_formulation was = st->formulation;
@@ -4360,8 +4583,8 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
     return gvi__report_status(st, GVI_OK);
 }
 
-/* The action along the curve of the last step, from NULL; or along that between boundary values, at its
-   stage values.                                                                              */
+/* The action along the curve of the last step, from NULL; or along that between boundary
+   values, at its stage values.                                                                */
 GVI__COLD gvi_status gvi__curve_action(gvi_stepper *st, const gvi__origin *from, gvi_real h,
                                     const gvi_real *q1, gvi_real *action)
 {
@@ -4376,7 +4599,8 @@ GVI__COLD gvi_status gvi__curve_action(gvi_stepper *st, const gvi__origin *from,
             q[i] = x->work.Q[i*R + j];
             v[i] = x->work.V ? x->work.V[i*R + j] : (q1[i] - from->q[i])/h;
         }
-        status = gvi__value_sums(st, from ? x->t[j] : st->t0 + x->table.c[j]*st->h, q, v, &V, &L, &T);
+        status =
+            gvi__value_sums(st, from ? x->t[j] : st->t0 + x->table.c[j]*st->h, q, v, &V, &L, &T);
         if (status == GVI_OK) *action += x->sized.hb[j]*(T - V + L);
     }
     return status;
@@ -4387,7 +4611,8 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action)
     gvi_status status = gvi__stepped(st);
     if (status != GVI_OK) return status;
     if (!action) return st->status = GVI_E_ARGUMENT;
-    if (gvi__rule_is(&st->x, GVI_KICKS) || st->x.stepped == 2) return st->status = GVI_E_FORMULATION;
+    if (gvi__rule_is(&st->x, GVI_KICKS) || st->x.stepped == 2)
+        return st->status = GVI_E_FORMULATION;
     gvi_real sum;
     gvi__weights_for(st, st->h);
     status = gvi__curve_action(st, NULL, 0, NULL, &sum);
@@ -4397,9 +4622,10 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action)
 
 /* ------------------------------------------------------- BOUNDARY VALUES */
 
-/* The curve between the boundary values by degree 1: a chord, point by point, nothing to solve.  F at
-   its points goes to work.F, and the sum of b_i P_i to p.                                    */
-GVI__COLD gvi_status gvi__chord(gvi_stepper *st, const gvi__origin *from, gvi_real h, const gvi_real *q1, gvi_real *p)
+/* The curve between the boundary values by degree 1: a chord, point by point, nothing to solve.
+   F at its points goes to work.F, and the sum of b_i P_i to p.                                */
+GVI__COLD gvi_status gvi__chord(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                                const gvi_real *q1, gvi_real *p)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, R = x->R;
@@ -4426,10 +4652,11 @@ GVI__COLD gvi_status gvi__chord(gvi_stepper *st, const gvi__origin *from, gvi_re
     return status;
 }
 
-/* The same by any degree: rows k >= 1 of (1) by Newton's method.  The matrix where it ended says whether
-   there was anything to find: a reciprocal condition below its own relative error is a conjugate point. */
-GVI__COLD gvi_status gvi__interior(gvi_stepper *st, const gvi__origin *from, gvi_real h, const gvi_real *q1,
-                                gvi__matrix *J, gvi_real *p)
+/* The same by any degree: rows k >= 1 of (1) by Newton's method.  The matrix where it ended
+   says whether there was anything to find: a reciprocal condition below its own relative error
+   is a conjugate point.                                                                       */
+GVI__COLD gvi_status gvi__interior(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                                   const gvi_real *q1, gvi__matrix *J, gvi_real *p)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, size = (st->s - 1)*n;
@@ -4458,10 +4685,11 @@ GVI__COLD gvi_status gvi__interior(gvi_stepper *st, const gvi__origin *from, gvi
     return status;
 }
 
-/* Discrete forces h sum b_i f_i dQ_i/dq0, dQ_i/dq1 with the curve's dependence on its ends.  The interior
-   rows R = 0 give dy/dq = -J^-1 dR/dq, so the part of y is -lambda' dR/dq with J' lambda = g,
-   g_k = h sum h b_i Phi_k f_i: one transposed solve for all of it.                            */
-GVI__COLD gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__matrix *J, gvi_real *minus, gvi_real *plus)
+/* Discrete forces h sum b_i f_i dQ_i/dq0, dQ_i/dq1 with the curve's dependence on its ends.  The
+   interior rows R = 0 give dy/dq = -J^-1 dR/dq, so the part of y is -lambda' dR/dq with J'
+   lambda = g, g_k = h sum h b_i Phi_k f_i: one transposed solve for all of it.                */
+GVI__COLD gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__matrix *J, gvi_real *minus,
+                                          gvi_real *plus)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, s = st->s, R = x->R, size = (s - 1)*n;
@@ -4486,7 +4714,8 @@ GVI__COLD gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__matrix *J,
     // the interior: J is that of the solution, with the columns of both ends
     gvi_real *lambda = x->newton.dy;
     for (int i = 0; i < n; ++i)
-        for (int k = 1; k < s; ++k) lambda[(k - 1)*n + i] = h*gvi__dot3(st->r, hb, Phi + k*R, f + i*R);
+        for (int k = 1; k < s; ++k)
+            lambda[(k - 1)*n + i] = h*gvi__dot3(st->r, hb, Phi + k*R, f + i*R);
     gvi__lu_solve_transposed(size, J->square, J->pivot, lambda);
     const gvi_real *ends = J->ends;
     for (int row = 0; row < size; ++row, ends += 2*n)
@@ -4505,10 +4734,10 @@ static void gvi__exchange(size_t n, gvi_real *a, size_t i, size_t j)
     for (size_t k = 0; k < n; ++k) gvi__swap(a + k*n + i, a + k*n + j);
 }
 
-/* Negative eigenvalues of a symmetric matrix, which is overwritten: by Sylvester's law those of D in
-   L D L', D with blocks of 1 or 2, complete pivoting (Bunch and Parlett, SIAM J. Numer. Anal. 8, 1971;
-   their alpha, (1 + sqrt 17)/8 = 0.6404, says when a block of 1 is large enough).  A block of 2 has one
-   of each sign.                                                                              */
+/* Negative eigenvalues of a symmetric matrix, which is overwritten: by Sylvester's law those of
+   D in L D L', D with blocks of 1 or 2, complete pivoting (Bunch and Parlett, SIAM J.  Numer.
+   Anal.  8, 1971; their alpha, (1 + sqrt 17)/8 = 0.6404, says when a block of 1 is large
+   enough).  A block of 2 has one of each sign.                                                */
 GVI__COLD int gvi__count_negative(size_t n, gvi_real *a)
 {
     int count = 0;
@@ -4526,17 +4755,20 @@ GVI__COLD int gvi__count_negative(size_t n, gvi_real *a)
         gvi__exchange(n, a, k, two ? q : p);
         if (two) gvi__exchange(n, a, k + 1, r == k ? q : r);        // k has just gone to q
         count += two || a[k*n + k] < 0;
-        const gvi_real d = a[k*n + k], e = two ? a[(k + 1)*n + k] : 0, f = two ? a[(k + 1)*n + k + 1] : 1;
+        const gvi_real d = a[k*n + k], e = two ? a[(k + 1)*n + k] : 0,
+                       f = two ? a[(k + 1)*n + k + 1] : 1;
         for (size_t i = k + width; i < n; ++i) {
             const gvi_real x = a[i*n + k], y = two ? a[i*n + k + 1] : 0, det = d*f - e*e;
             const gvi_real u = (f*x - e*y)/det, v = (d*y - e*x)/det;          // the block's inverse
-            for (size_t j = k + width; j < n; ++j) a[i*n + j] -= u*a[k*n + j] + (two ? v*a[(k + 1)*n + j] : 0);
+            for (size_t j = k + width; j < n; ++j)
+                a[i*n + j] -= u*a[k*n + j] + (two ? v*a[(k + 1)*n + j] : 0);
         }
     }
     return count;
 }
 
-/* The Morse index: the second variation is h J without the factors 2k + 1 of its rows, forces left out. */
+/* The Morse index: the second variation is h J without the factors 2k + 1 of its rows, forces
+   left out.                                                                                   */
 GVI__COLD gvi_status gvi__morse_index(gvi_stepper *st, const gvi__matrix *J, int *negative)
 {
     struct gvi__private *x = &st->x;
@@ -4560,7 +4792,8 @@ GVI__COLD gvi_status gvi__morse_index(gvi_stepper *st, const gvi__matrix *J, int
 }
 
 GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real h,
-                                           const gvi_real *q0, const gvi_real *q1, const gvi_discrete *out)
+                                           const gvi_real *q0, const gvi_real *q1,
+                                           const gvi_discrete *out)
 {
     gvi_status status = gvi__ready(st, st && st->x.memory);
     if (status != GVI_OK) return status;
@@ -4568,7 +4801,8 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
     const int n = st->n, s = st->s, R = x->R;
     const size_t size = (size_t)(s - 1)*(size_t)n, sn = (size_t)s*(size_t)n;
     if (!q0 || !q1 || !out || gvi__first_non_finite(n, q0) >= 0 || gvi__first_non_finite(n, q1) >= 0
-        || !gvi__finite(t) || !gvi__finite(h) || !gvi__nonzero(h)) return st->status = GVI_E_ARGUMENT;
+        || !gvi__finite(t) || !gvi__finite(h) || !gvi__nonzero(h))
+        return st->status = GVI_E_ARGUMENT;
     if ((s > 1 && !gvi__has(x, GVI__HAS_NEWTON)) || gvi__rule_is(x, GVI_KICKS) || x->clock >= 0)
         return st->status = GVI_E_FORMULATION;
     const gvi__origin from = { t, 0, q0, x->zeros, x->zeros, x->zeros, 0 };
@@ -4585,7 +4819,8 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
     const gvi_real *F = x->work.F, *hb = x->sized.hb;
     int negative = 0;
     status = gvi__interior(st, &from, h, q1, &J, p0);
-    if (status == GVI_E_CONJUGATE || (status == GVI_E_SINGULAR && st->fault.effect == GVI_FAULT_NONE))
+    if (status == GVI_E_CONJUGATE
+        || (status == GVI_E_SINGULAR && st->fault.effect == GVI_FAULT_NONE))
         return gvi__report_status(st, GVI_E_CONJUGATE);
     if (status == GVI_OK && out->lagrangian) status = gvi__curve_action(st, &from, h, q1, &action);
     if (status != GVI_OK) return st->status = status;

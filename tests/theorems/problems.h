@@ -381,13 +381,13 @@ HESSIAN(motor_hessian)
 
    Several starts, so that no leading term of an error is small by accident   */
 
-#define SPRING     { GVI_POTENTIAL, NULL, spring, spring_value, spring_hessian, NULL, 0 }
-#define ATTRACTION { GVI_POTENTIAL, NULL, attraction_at, attraction_value, attraction_hessian, NULL, 0 }
-#define WEIGHTS    { GVI_POTENTIAL, NULL, weights, weights_value, weights_hessian, NULL, 0 }
-#define TRAP       { GVI_POTENTIAL, NULL, trap, trap_value, trap_hessian, NULL, 0 }
-#define FIELD      { GVI_LAGRANGIAN, NULL, field, field_value, field_hessian, NULL, 0 }
-#define SWING      { GVI_LAGRANGIAN, NULL, swing, swing_value, swing_hessian, NULL, 0 }
-#define FORCE(f)   { GVI_FORCE, NULL, f, NULL, f##_hessian, NULL, 0 }
+#define SPRING     { GVI_POTENTIAL, NULL, spring, spring_value, spring_hessian, NULL }
+#define ATTRACTION { GVI_POTENTIAL, NULL, attraction_at, attraction_value, attraction_hessian, NULL }
+#define WEIGHTS    { GVI_POTENTIAL, NULL, weights, weights_value, weights_hessian, NULL }
+#define TRAP       { GVI_POTENTIAL, NULL, trap, trap_value, trap_hessian, NULL }
+#define FIELD      { GVI_LAGRANGIAN, NULL, field, field_value, field_hessian, NULL }
+#define SWING      { GVI_LAGRANGIAN, NULL, swing, swing_value, swing_hessian, NULL }
+#define FORCE(f)   { GVI_FORCE, NULL, f, NULL, f##_hessian, NULL }
 #define PENDULUM_MASS { GVI_MASS_POSITION, NULL, pendulum_mass, pendulum_mass_gradient, NULL, NULL }
 
 #define KEPLER_STARTS   { { 0.7L, 0 }, { 0.2L, 0.8L }, { -0.9L, 0.1L } }, \
