@@ -2844,13 +2844,15 @@ static int gvi__may_turn(const gvi_stepper *st)
     return st->x.desc.formulation == GVI_AUTO && gvi__has(&st->x, GVI__HAS_NEWTON);
 }
 
-// M_ii where F was evaluated last, at the first point
+// M_ii, or p_i/v_i where the effects alone make the mass, where F was evaluated last: first point
 static gvi_real gvi__inertia(const gvi_stepper *st, int i)
 {
     const struct gvi__private *x = &st->x;
     const size_t n = (size_t)st->n, ii = (size_t)i*(n + 1);
+    const size_t iR = (size_t)i*(size_t)x->R;
     const gvi_real m = x->desc.mass.kind == GVI_MASS_DENSE  ? x->mass.matrix[ii]
                        : gvi__mass_is(x, GVI_MASS_POSITION) ? x->mass.at_points[ii*(size_t)x->R]
+                       : gvi__mass_is(x, GVI_MASS_NONE)     ? x->work.P[iR]/x->work.V[iR]
                                                             : x->mass.matrix[i];
     return gvi__nonzero(m) && gvi__finite(m) ? GVI_ABS(m) : 1;
 }
@@ -4079,9 +4081,10 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_rea
     const unsigned count = (unsigned)st->counters.newton_iterations;
     st->formulation = GVI_NEWTON;
     if (usable) gvi__prepare_predictor(st, h, query);
-    status = gvi__newton_step(st, from, usable && x->has_velocity ? GVI__EXTRAPOLATED : GVI__PLAIN,
-                              query);
+    const int extrapolated = usable && x->has_velocity;
+    status = gvi__newton_step(st, from, extrapolated ? GVI__EXTRAPOLATED : GVI__PLAIN, query);
     if (status == GVI_E_CONVERGENCE || status == GVI_E_SINGULAR
+        || (status == GVI_E_CALLBACK && extrapolated)
         || (status == GVI_E_NON_FINITE && !x->diagnose)) {
         if (!query) x->newton.h = 0;              // the extrapolation may be to blame
         status = gvi__newton_step(st, from, GVI__HALVED, query);

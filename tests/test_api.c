@@ -1565,6 +1565,24 @@ static void a_checkpoint_of_other_effects_is_refused(void **state)
             assert_status(gvi_restore(&st[a], &st[b], memory[b]), a == b ? GVI_OK : GVI_E_ARGUMENT);
 }
 
+/* A stepper whose set-up failed last, at its mass, has the sizes of a checkpoint, but no state */
+static void a_checkpoint_of_a_failed_set_up_is_refused(void **state)
+{
+    static const gvi_effect spring = { .kind = GVI_POTENTIAL, .points = spring_points };
+    static const real one[] = { 1, 1 }, none[] = { 1, 0 }, q[] = { 1, 0 };
+    static real memory[2][GVI_LENGTH(2, 3, 3)];
+    gvi_desc desc = { .n = 2, .degree = 3, .effects = &spring, .effect_count = 1,
+                      .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = one } };
+    gvi_stepper st[2];
+    (void)state;
+    assert_ok(gvi_init(&st[0], &desc, memory[0], sizeof memory[0]));
+    assert_ok(gvi_start(&st[0], 0, q, q));
+    desc.mass.matrix = none;
+    assert_status(gvi_init(&st[1], &desc, memory[1], sizeof memory[1]), GVI_E_SINGULAR);
+    assert_status(gvi_restore(&st[0], &st[1], memory[1]), GVI_E_ARGUMENT);
+    assert_ok(gvi_step(&st[0], (real)0.125));
+}
+
 /* As points in the one, as point in the other: the callbacks are those of the stepper that is restored */
 static void a_checkpoint_goes_on_with_other_callbacks(void **state)
 {
@@ -1688,6 +1706,7 @@ int main(void)
         cmocka_unit_test(a_checkpoint_on_a_stiff_scene_continues_to_the_bit),
         cmocka_unit_test(a_checkpoint_of_another_description_is_refused),
         cmocka_unit_test(a_checkpoint_of_other_effects_is_refused),
+        cmocka_unit_test(a_checkpoint_of_a_failed_set_up_is_refused),
         cmocka_unit_test(a_checkpoint_goes_on_with_other_callbacks),
         cmocka_unit_test(switching_keeps_the_state_and_refuses_what_is_not_there),
         cmocka_unit_test(a_switched_off_effect_is_as_if_it_were_not_listed),

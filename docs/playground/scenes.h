@@ -1,7 +1,7 @@
 /* scenes.h - the scenes of the playground: to add one, write thirty lines here
 
    A scene is a list of effects (examples/effects.h), initial values, and what to draw; add it to
-   scenes[] at the end, then `make playground`.  docs/guide_playground.md goes through an example.
+   scenes[] at the end, then `make playground`.  docs/guide.md goes through an example.
 
    SHOWN(name, text)    the text as C and, for the program that the page writes, as a string
    ADD(s, name, what, on, effect)    a switch on the page; on = 1: on at first
@@ -471,9 +471,48 @@ static const scene robot_arm = {
     .trails = 4, .fixed = 1,
 };
 
+/* -- a pendulum on a spring: the example of docs/guide.md */
+
+SHOWN(elastic_text,
+static const gvi_real bob_mass[] = { 1 };
+static const struct tether bob_spring[] = { { 0, 40, 1, { 0, 0, 0 } } };
+static const struct tethers bob_springs = { { 0, 1, 2 }, bob_spring, 1, 2 };
+static const struct uniform_field bob_weight = { { 0, 1, 2 }, bob_mass, { 0, -9.81 } };
+static const struct air_drag bob_air = { { 0, 1, 2 }, 0.02, 2 };
+)
+
+static void elastic_build(scene_setup *s)
+{
+    const double a = s->value[0]/57.29577951308232;
+    s->q[0] = sin(a)*s->value[1];
+    s->q[1] = -cos(a)*s->value[1];
+    ADD(s, "spring", "potential, 40 N/m", 1, tethers(&bob_springs));
+    ADD(s, "gravity", "potential, uniform", 1, uniform_field(&bob_weight));
+    ADD(s, "drag", "force, reads v: air", 0, air_drag(&bob_air));
+}
+
+static void elastic_place(const double *q, unsigned on, double (*x)[3])
+{
+    scene_point(x[0], 0, 0, 0);
+    scene_point(x[1], q[0], q[1], 0);
+    (void)on;
+}
+
+static const double elastic_radius[] = { 4, 9 };
+
+static const scene elastic_pendulum = {
+    .name = "elastic", .title = "Pendulum on a spring", .about = "1 kg on a spring of 1 m and 40 N/m.",
+    .n = 2, .degree = 8, .h = 0.1, .span = 20, .speed = 1,
+    .time_unit = "s", .error_unit = "m", .length_unit = "m",
+    .parameter = { { "angle", "°", -170, 170, 5, 60 }, { "length", " m", 0.5, 1.6, 0.05, 1.2 } },
+    .text = elastic_text, .build = elastic_build,
+    .bodies = 2, .view = 1.9, .centre = { 0, -0.7, 0 }, .place = elastic_place,
+    .rod = { { 0, 1, 2 } }, .radius = elastic_radius, .trails = 2, .fixed = 1,
+};
+
 static const scene *const scenes[] = {
     &kepler, &figure_eight, &pythagoras, &double_pendulum, &spinning_top, &spring_net, &charged_particle,
-    &robot_arm,
+    &robot_arm, &elastic_pendulum,
 };
 
 #endif
