@@ -2944,8 +2944,8 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
 }
 
 /* Fixed point: F (V, A) at the stage values makes the next stage values.                     */
-static gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi_real h,
-                               int extrapolate, int *used)
+GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                                   int extrapolate, int *used)
 {
     struct gvi__private *x = &st->x;
     gvi__stage stage[2], first;
