@@ -23,6 +23,20 @@ static __attribute__((unused)) int attraction(const gvi_points *x, void *user)
     return 0;
 }
 
+/* Its derivative in the direction d, for tools/tangent.h and tools/adjoint.h */
+static __attribute__((unused)) int attraction_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
+{
+    const int s = x->stride;
+    (void)parameter, (void)user;
+    for (int k = 0; k < x->count; ++k) {
+        const real a = x->q[k], b = x->q[s+k], da = d->q[k], db = d->q[s+k], d2 = a*a + b*b;
+        const real w = 1/(d2*sqrt(d2)), along = 3*(a*da + b*db)/d2;
+        d->f[k] -= w*(da - along*a);
+        d->f[s+k] -= w*(db - along*b);
+    }
+    return 0;
+}
+
 /* M of a double pendulum with relative angles, all lengths and masses 1:
      M = (3 + 2 cos q2, 1 + cos q2; 1 + cos q2, 1) */
 static __attribute__((unused)) int pendulum_mass(const gvi_points *x, void *user)

@@ -3,9 +3,9 @@
    with every direction.                                                       */
 #include "gvi_test.h"
 #include "tools/adjoint.h"
-#include <tgmath.h>
 
 typedef gvi_real real;
+#include "mechanics.h"
 enum { N = 2, NODES = 8 };
 
 #define ANY __attribute__((unused))
@@ -16,29 +16,6 @@ static real memory[20000], back_memory[20000], room[2*TANGENT_ROOM(2, 6)];
 /* --------------------------------------------- Kepler with quadratic drag */
 
 static real drag_c;
-
-static int kepler(const gvi_points *x, ANY void *user)
-{
-    const int s = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        const real a = x->q[k], b = x->q[s+k], d2 = a*a + b*b, w = 1/(d2*sqrt(d2));
-        x->f[k] -= w*a;
-        x->f[s+k] -= w*b;
-    }
-    return 0;
-}
-
-static int kepler_product(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
-{
-    const int s = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        const real a = x->q[k], b = x->q[s+k], da = d->q[k], db = d->q[s+k], d2 = a*a + b*b;
-        const real w = 1/(d2*sqrt(d2)), along = 3*(a*da + b*db)/d2;
-        d->f[k] -= w*(da - along*a);
-        d->f[s+k] -= w*(db - along*b);
-    }
-    return 0;
-}
 
 static int drag(const gvi_points *x, ANY void *user)
 {
@@ -91,7 +68,7 @@ static void by_drag(ANY real t, ANY const real *q, const real *v, const real *l,
     gradient[0] -= weight*z*(v[0]*l[0] + v[1]*l[1]);
 }
 
-static const gvi_effect with_drag[] = { { .kind = GVI_POTENTIAL, .points = kepler },
+static const gvi_effect with_drag[] = { { .kind = GVI_POTENTIAL, .points = attraction },
                                         { .kind = GVI_FORCE, .points = drag } };
 static const real q0[] = { 1, R(0.2) }, p0[] = { R(-0.1), R(1.1) }, end_q[] = { 1, -2 }, end_p[] = { R(0.4), 3 };
 
@@ -105,7 +82,7 @@ static void gradient_by_the_drag(ANY void **state)
     for (int e = 0; e < 4; ++e) {
         const int s = 1 << e;
         adjoint A = { .plain = { .n = N, .degree = s, .effects = with_drag, .effect_count = 2 },
-                      .product = { kepler_product, drag_transposed }, .by_parameters = by_drag,
+                      .product = { attraction_product, drag_transposed }, .by_parameters = by_drag,
                       .room = room, .room_length = ADJOINT_ROOM(N, s) };
         gvi_stepper st, ad;
         real g = 0;
@@ -281,12 +258,12 @@ static int magnetic_product(const gvi_points *x, const gvi_points *d, ANY int pa
     return 0;
 }
 
-static const gvi_effect turned[] = { { .kind = GVI_POTENTIAL, .points = kepler },
+static const gvi_effect turned[] = { { .kind = GVI_POTENTIAL, .points = attraction },
                                      { .kind = GVI_FORCE, .points = turning },
                                      { .kind = GVI_FORCE, .points = drag } },
                         two_links[] = { { .kind = GVI_POTENTIAL, .points = weight },
                                         { .kind = GVI_FORCE, .points = drag } },
-                        charged[] = { { .kind = GVI_POTENTIAL, .points = kepler },
+                        charged[] = { { .kind = GVI_POTENTIAL, .points = attraction },
                                       { .kind = GVI_LAGRANGIAN, .points = magnetic },
                                       { .kind = GVI_FORCE, .points = drag } };
 static const real diagonal[] = { R(1.25), R(0.75) }, dense[] = { R(1.25), 0, R(0.5), R(0.75) };
@@ -299,8 +276,8 @@ typedef struct scene {
 
 #define LINKS { .kind = GVI_MASS_POSITION, .points = matrix, .gradient = slope, .velocity = velocity }
 #define TURNED .n = N, .effects = turned, .effect_count = 3
-#define PRODUCTS { kepler_product, turning_product, drag_product }, \
-                 { kepler_product, turning_transposed, drag_transposed }
+#define PRODUCTS { attraction_product, turning_product, drag_product }, \
+                 { attraction_product, turning_transposed, drag_transposed }
 
 /* Forest and Ruth's splitting.                                                 */
 #define G R(1.35120719195965763404768780897)
@@ -308,13 +285,13 @@ static const real ruth_at[] = { 0, G, 1 - G, 1 }, ruth[] = { G/2, (1 - G)/2, (1 
 
 static const scene scenes[] = {
     { "potential", { .n = N, .degree = 3, .effects = turned, .effect_count = 1 },
-      { kepler_product }, { kepler_product } },
+      { attraction_product }, { attraction_product } },
     { "kicks", { .n = N, .degree = 1, .effects = turned, .effect_count = 1, .rule = { GVI_KICKS, 4, ruth_at, ruth } },
-      { kepler_product }, { kepler_product } },
+      { attraction_product }, { attraction_product } },
     { "a magnetic field and drag", { .n = N, .degree = 4, .effects = charged, .effect_count = 3 },
-      { kepler_product, magnetic_product, drag_product }, { kepler_product, magnetic_product, drag_transposed } },
+      { attraction_product, magnetic_product, drag_product }, { attraction_product, magnetic_product, drag_transposed } },
     { "Stoermer-Verlet", { .n = N, .degree = 1, .effects = turned, .effect_count = 1, .rule = { .kind = GVI_LOBATTO } },
-      { kepler_product }, { kepler_product } },
+      { attraction_product }, { attraction_product } },
     { "forces, degree 1", { TURNED, .degree = 1 }, PRODUCTS },
     { "forces, degree 5", { TURNED, .degree = 5 }, PRODUCTS },
     { "forces, Lobatto", { TURNED, .degree = 3, .rule = { .kind = GVI_LOBATTO, .points = 5 } }, PRODUCTS },
@@ -499,7 +476,7 @@ static void what_is_refused(ANY void **state)
 {
     static const real at[] = { 0, R(0.25), 1 }, kick[] = { R(0.25), R(0.25), R(0.5) };
     adjoint A = { .plain = { .n = N, .effects = turned, .effect_count = 1, .rule = { GVI_KICKS, 3, at, kick } },
-                  .product = { kepler_product }, .room = room, .room_length = ADJOINT_ROOM(N, 8) };
+                  .product = { attraction_product }, .room = room, .room_length = ADJOINT_ROOM(N, 8) };
     gvi_stepper ad;
     assert_status(adjoint_scene(&A), GVI_E_FORMULATION);
     A.plain.rule = (gvi_rule){ 0 };

@@ -3,9 +3,9 @@
    and Kepler's equation in 50 digits, and from differences of the scene alone.  */
 #include "gvi_test.h"
 #include "tools/tangent.h"
-#include <tgmath.h>
 
 typedef gvi_real real;
+#include "mechanics.h"
 enum { N = 2, MOST = 6, ROWS = N*(1 + MOST), ROOM = 13*ROWS + ROWS*ROWS };
 
 #define ANY __attribute__((unused))
@@ -42,29 +42,6 @@ static int heiles_point(ANY real t, const real *q, ANY const real *v, real *f, A
 {
     f[0] -= q[0] + 2*q[0]*q[1];
     f[1] -= q[1] + q[0]*q[0] - q[1]*q[1];
-    return 0;
-}
-
-static int kepler(const gvi_points *x, ANY void *user)
-{
-    const int s = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        const real a = x->q[k], b = x->q[s+k], d2 = a*a + b*b, w = 1/(d2*sqrt(d2));
-        x->f[k] -= w*a;
-        x->f[s+k] -= w*b;
-    }
-    return 0;
-}
-
-static int kepler_product(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
-{
-    const int s = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        const real a = x->q[k], b = x->q[s+k], da = d->q[k], db = d->q[s+k], d2 = a*a + b*b;
-        const real w = 1/(d2*sqrt(d2)), along = 3*(a*da + b*db)/d2;
-        d->f[k] -= w*(da - along*a);
-        d->f[s+k] -= w*(db - along*b);
-    }
     return 0;
 }
 
@@ -242,7 +219,7 @@ static int clock_rate(const gvi_points *x, ANY void *user)
 static const gvi_effect
     of_heiles[] = { { .kind = GVI_POTENTIAL, .points = heiles } },
     of_heiles_point[] = { { .kind = GVI_POTENTIAL, .point = heiles_point } },
-    of_kepler[] = { { .kind = GVI_POTENTIAL, .points = kepler } },
+    of_kepler[] = { { .kind = GVI_POTENTIAL, .points = attraction } },
     of_friction[] = { { .kind = GVI_POTENTIAL, .points = heiles }, { .kind = GVI_FORCE, .points = friction } },
     of_magnetic[] = { { .kind = GVI_POTENTIAL, .points = heiles }, { .kind = GVI_LAGRANGIAN, .points = magnetic } },
     of_weight[] = { { .kind = GVI_POTENTIAL, .points = weight } },
@@ -455,7 +432,7 @@ static const long double kepler_exact[4][4] = {
 static real kepler_error(int degree, int steps)
 {
     const scene s = { "Kepler", { .n = N, .degree = degree, .effects = of_kepler, .effect_count = 1 },
-                      { kepler_product }, 0, 0 };
+                      { attraction_product }, 0, 0 };
     const real h = R(4.71238898038468985769396507492)/(real)steps, q[] = { R(0.4), 0 }, p[] = { 0, 2 };
     tangent T;
     real column[2*N], worst = 0;
