@@ -176,8 +176,8 @@ static void check_bits(const scene *s, int index)
 
 static void name_of(const setting *t, char *name, size_t size)
 {
-    static const char *const names[] = { "Verlet by hand", "Verlet by hand, carried", "RK4 by hand",
-                                         "RK4 by hand, carried", "Lobatto 2 (Verlet)", "kicks, Suzuki 4" };
+    static const char *const names[] = { "Verlet by hand", "Verlet by hand, compensated", "RK4 by hand",
+                                         "RK4 by hand, compensated", "Lobatto 2 (Verlet)", "kicks, Suzuki 4" };
     if (t->method < FIXED) snprintf(name, size, "%s", names[t->method]);
     else snprintf(name, size, "Gauss, s = %d%s", t->degree, t->method == FIXED_GIVEN ? ", v given" : "");
 }
@@ -435,7 +435,7 @@ static int picture(const char *path)
         { "gvi.h, s = 2, N = 2", { FIXED, 2, 2 } }, { "gvi.h, s = 2, N = 3", { FIXED, 2, 3 } },
         { "gvi.h, s = 3, N = 3", { FIXED, 3, 3 } }, { "gvi.h, s = 4, N = 4", { FIXED, 4, 4 } },
         { "gvi.h, Verlet", { EXPLICIT, 1, 0 } }, { "gvi.h, Suzuki 4", { SUZUKI, 1, 0 } },
-        { "RK4 by hand", { RK4, 4, 0 } }, { "RK4 by hand, carried", { RK4_CARRIED, 4, 0 } } };
+        { "RK4 by hand", { RK4, 4, 0 } }, { "RK4 by hand, compensated", { RK4_CARRIED, 4, 0 } } };
     for (int k = 0; k < 2*LINES; ++k) {
         family *x = &f[k/LINES][k%LINES];
         const setting *t = &wanted[k%LINES].setting;
