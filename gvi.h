@@ -3855,7 +3855,8 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
     const int n = st->n, m = x->con.m;
     if (!lambda || !x->con.bits) return st->status = lambda ? GVI_E_FORMULATION : GVI_E_ARGUMENT;
     gvi_real *v = x->con.W, *force = v + n, *z = x->con.rho, *sum = x->con.y;
-    gvi_real before = GVI__MAX, delta = x->stepped ? GVI_ABS(st->h) : GVI__MAX;
+    gvi_real *best = x->con.g + 2*m, least = GVI__MAX, largest = 0;
+    gvi_real delta = x->stepped ? GVI_ABS(st->h) : GVI__MAX;
     gvi_points y = gvi__one_point(st, &st->t, st->q);
     if (m > 0) status = gvi__constraints_at(st, st->t, st->q);
     gvi__velocity_guess(st, v);
@@ -3876,7 +3877,7 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
         if (size > 0 && size < delta*rate) delta = size/rate;
     }
     if (!(delta < GVI__MAX)) delta = 1;
-    for (int k = 0; k < GVI__DIG && m > 0; ++k) {
+    for (int k = 0; k < GVI__DIG/2 && m > 0; ++k) {
         gvi_real size = 0, *rate = z + m;
         delta /= k == 0 ? 8 : 2;
         status = gvi__hidden_rate(st, v, force, delta, rate);
@@ -3884,16 +3885,19 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
         gvi__copy((size_t)m, rate, z);
         gvi__ldl_solve(m, x->con.A, 1, z, 1, 1);
         for (int a = 0; a < m; ++a) size += rate[a]*z[a];
-        if (!(size < before)) break;
-        before = size;
+        if (!(size < least) && size <= GVI__EPS*largest) break;
         for (int a = 0; a < m; ++a) sum[a] -= z[a], z[a] = -z[a];
         gvi__add_force(st, x->con.G, z, force);
+        if (size > largest) largest = size;
+        if (!(size < least)) continue;
+        least = size;
+        gvi__copy((size_t)m, sum, best);
     }
-    if (gvi__first_non_finite(m, sum) >= 0 || !(m == 0 || before < GVI__MAX))
+    if (m > 0 && (!(least < GVI__MAX) || gvi__first_non_finite(m, best) >= 0))
         return gvi__report_status(st, GVI_E_NON_FINITE);
     for (int e = 0; e < x->desc.effect_count; ++e)
         for (int a = 0; a < x->desc.effects[e].rows && (x->con.bits >> e & 1u); ++a)
-            *lambda++ = gvi__constraints(st) >> e & 1u ? *sum++ : 0;
+            *lambda++ = gvi__constraints(st) >> e & 1u ? *best++ : 0;
     return gvi__report_status(st, GVI_OK);
 }
 
