@@ -70,10 +70,11 @@
      INTERPOLATION        barycentric
      SCENE                status, effects, mass, Legendre transform
      TABLES               what depends on rule, degree and h alone; predictor
+     STEP                 attempt and commit: follow gvi_step from here
      ENGINE               stages, fixed point, increments; kicks; the clock
      SET-UP               checks, choice of a formulation, memory
      NEWTON'S METHOD      where the fixed point does not contract
-     STEP                 attempt, commit, start, switch, restore
+     STATE                start, switch, restore
      QUERIES              velocity, energy, curve, state at a time, action
      BOUNDARY VALUES      discrete Lagrangian, forces, conjugate points
      TEXTS, LICENCE
@@ -254,21 +255,14 @@
 #define GVI_REAL double
 #endif
 /* The preprocessor must see which type it is: paste the first word on a prefix.
-   For "long double" that leaves (1 || double), which is true unevaluated.   */
+   For "long double" that leaves (1 ? 3 : double), which is 3 unevaluated.   */
 #define GVI__PASTE2(a, b) a##b
 #define GVI__PASTE(a, b) GVI__PASTE2(a, b)
-#define GVI__LONG_float  0
-#define GVI__LONG_double 0
-#define GVI__LONG_long   1 ||
 #define GVI__KIND_float  1
 #define GVI__KIND_double 2
-#if GVI__PASTE(GVI__LONG_, GVI_REAL)
-#define GVI__KIND 3
-#elif GVI__PASTE(GVI__KIND_, GVI_REAL) == 1
-#define GVI__KIND 1
-#elif GVI__PASTE(GVI__KIND_, GVI_REAL) == 2
-#define GVI__KIND 2
-#else
+#define GVI__KIND_long   1 ? 3 :
+#define GVI__KIND (GVI__PASTE(GVI__KIND_, GVI_REAL))
+#if GVI__KIND == 0
 #error "GVI_REAL must be float, double or long double"
 #endif
 
@@ -277,11 +271,7 @@
 #endif
 
 #ifdef GVI_STATIC
-#if defined(__GNUC__)
-#define GVI_DEF static __attribute__((unused))
-#else
-#define GVI_DEF static
-#endif
+#define GVI_DEF static inline
 #else
 #define GVI_DEF extern
 #endif
@@ -522,11 +512,11 @@ struct gvi__newton {
 struct gvi__holonomic {               /* constraints; C = stride of D_0..D_s         */
     gvi_real *d, *w, *hw, *t;         /* [R + C], [s+1] Lobatto's nodes, weights; [R] h w; [C] */
     gvi_real *Phi, *Phi_low;          /* [s][R] modes at D_1..D_s                    */
-    gvi_real *K, *U, *of_forces, *of_impulses, *lu, *E; /* see gvi__set_constraints; predictor */
+    gvi_real *K, *U, *by_force, *by_impulse, *lu, *E; /* see gvi__set_constraints; predictor */
     gvi_real *D, *free, *P;           /* [n][R] stage values, free motion; a trial's momenta */
     gvi_real *force, *rho, *last;     /* [n+m][R] G' lambda, lambda; residual; [n+m][C] last step */
     gvi_real *at, *g, *G, *A, *W, *y; /* [.][C] D, g and rate, G, its matrix; scratch; [m] */
-    int       m, C, made, kept;       /* rows that are on; A's; last: 1 for the curve, 2 to predict */
+    int       m, C, made, kept;       /* rows that are on; kept: last for the curve, 2 to predict */
     unsigned  bits;                   /* the effects                                 */
 };
 
@@ -634,7 +624,7 @@ GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy);
 /* The constraints' multipliers at the present state, one for each row in the order of the list,
    0 where it is off: the force of constraint is G' lambda.  From the acceleration that keeps
    G v + dg/dt = 0, so as exact as the state is; second derivatives of g by differences along v,
-   to some 10 eps.                                                             */
+   to some 100 eps.                                                            */
 GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda);
 
 /* In the last step.  gvi_curve: the polynomial at tau in [0,1] and its
@@ -762,9 +752,6 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #else
 #define GVI__LIMIT(name) LDBL_##name
 #define GVI__MATH(name) name##l
-#if LDBL_MANT_DIG == 106
-#error "gvi.h needs IEEE arithmetic: this long double is a pair of doubles"
-#endif
 #endif
 #define GVI__EPS GVI__LIMIT(EPSILON)
 #define GVI__MAX GVI__LIMIT(MAX)
@@ -825,8 +812,8 @@ enum {
     GVI__VARIES = GVI__MOMENTA | GVI__NEWTON | GVI__LAGRANGIAN,
     GVI__ITERATES = GVI__POSITIONS | GVI__READS_V
 };
-#if defined(GVI_NO_RULES) && GVI__KIND == 3
-#error "GVI_NO_RULES is for float and double"
+#if GVI__KIND == 3 && (LDBL_MANT_DIG == 106 || defined(GVI_NO_RULES))
+#error "gvi.h: long double must be one IEEE number, not two doubles, and goes without GVI_NO_RULES"
 #endif
 
 typedef char gvi__effects_fit_a_word[GVI_EFFECTS >= 1 && GVI_EFFECTS <= 32
@@ -834,25 +821,22 @@ typedef char gvi__effects_fit_a_word[GVI_EFFECTS >= 1 && GVI_EFFECTS <= 32
 
 /* GVI__BODY: a body whose sizes are constants where it is called, copied there.
    GVI__APART: where size counts, never a part of its caller, whose stack stays small.
-   GVI__COLD: set-up and queries, compiled for size.                                          */
+   GVI__COLD: set-up and queries, compiled for size.  GVI__RESTRICT: arrays do not overlap.   */
 #if defined(__GNUC__)
 #define GVI__BODY static inline __attribute__((always_inline))
 #define GVI__COLD static __attribute__((noinline, cold))
+#define GVI__RESTRICT __restrict
 #else
 #define GVI__BODY static inline
 #define GVI__COLD static
+#define GVI__RESTRICT
 #endif
 #if defined(__GNUC__) && defined(__OPTIMIZE_SIZE__)
 #define GVI__APART static __attribute__((noinline))
+#define GVI__SMALL 1
 #else
 #define GVI__APART static
-#endif
-
-// arrays that do not overlap
-#if defined(__GNUC__) || defined(_MSC_VER)
-#define GVI__RESTRICT __restrict
-#else
-#define GVI__RESTRICT
+#define GVI__SMALL 0
 #endif
 
 /* Registers that hold more than one type's digits round twice: values are stored to round them. */
@@ -865,7 +849,7 @@ typedef volatile gvi_real gvi__rounded;
 /* A lane is GVI__LANES numbers that one instruction handles: as many as a register holds, up to 32
    bytes (wider ones are slower here: callbacks write narrower), or one where the compiler has no
    vectors or code is to be small.                                                            */
-#if !defined(__GNUC__) || GVI__KIND == 3 || defined(__OPTIMIZE_SIZE__)                          \
+#if !defined(__GNUC__) || GVI__KIND == 3 || GVI__SMALL                                          \
     || !(FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 16)                                         \
     || !(defined(__SSE2__) || defined(__ARM_NEON) || defined(__ALTIVEC__)                       \
          || defined(__riscv_vector)                                                             \
@@ -881,8 +865,10 @@ typedef volatile gvi_real gvi__rounded;
 #if GVI__LANES > 1
 typedef gvi_real gvi__lane
     __attribute__((vector_size(GVI__LANES*sizeof(gvi_real)), aligned(sizeof(gvi_real)), may_alias));
+#define GVI__AT(lane, k) (lane)[k]
 #else
 typedef gvi_real gvi__lane;
+#define GVI__AT(lane, k) (lane)
 #endif
 #define GVI__LOAD(p) (*(const gvi__lane *)(p))
 #define GVI__STORE(p) (*(gvi__lane *)(p))
@@ -978,14 +964,9 @@ GVI__BODY gvi__two gvi__add_low(gvi_real x, gvi_real x_low, gvi_real y, gvi_real
 #if defined(__GNUC__) && GVI__KIND < 3                                                            \
     && ((defined(__FMA__) && defined(__SSE2_MATH__)) || defined(__aarch64__)                      \
     || (GVI__KIND == 1 && defined(__FP_FAST_FMAF)) || (GVI__KIND == 2 && defined(__FP_FAST_FMA)))
-#if GVI__KIND == 1
-#define GVI__FMA __builtin_fmaf
-#else
-#define GVI__FMA __builtin_fma
-#endif
 GVI__BODY gvi__two gvi__two_prod(gvi_real a, gvi_real b)
 {
-    return gvi__two_of(a*b, GVI__FMA(a, b, -(a*b)));
+    return gvi__two_of(a*b, GVI__MATH(__builtin_fma)(a, b, -(a*b)));
 }
 #else
 // x = hi + lo of half the digits each, whose products are exact (Veltkamp; Dekker)
@@ -1214,7 +1195,8 @@ GVI_DEF gvi_real gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot, 
 /* L D L' of a symmetric matrix at each of `count` points, in place: entry (i,j), i >= j, of point k
    at [(i*n + j)*R + k].  L goes below the diagonal, 1/D on it, and D L' above it, where the rest of
    the matrix is made.  A pivot that is nothing but the rounding of its diagonal entry, `least` of
-   it, belongs to a coordinate without mass: GVI_E_SINGULAR, at[0] the coordinate, at[1] the point. */
+   it, belongs to a coordinate without mass: GVI_E_SINGULAR, at[0] the coordinate and at[1] the
+   point.                                                                                      */
 static gvi_status gvi__ldl_factor(int n, int R, int count, gvi_real *m, gvi_real least, int *at)
 {
     const size_t N = (size_t)n, S = (size_t)R;
@@ -1266,7 +1248,6 @@ static void gvi__ldl_solve(int n, const gvi_real *m, int width, gvi_real *z, int
     }
 }
 
-#if GVI__LANES > 1
 /* The same for whole lanes of points.  Returns whether all pivots D are sure: the squares of what
    they were in units of what they are, and of what rounding leaves of D/D - 1, do not add up to
    1/(n eps)^2.  Otherwise gvi__ldl_factor has to decide, from the matrix made anew.          */
@@ -1293,7 +1274,7 @@ GVI__BODY int gvi__ldl_factor_lane(int n, int R, gvi_real *m)
             GVI__STORE(a) = rest*inverse;
         }
     }
-    for (int k = 0; k < GVI__LANES; ++k) all += sum[k];
+    for (int k = 0; k < GVI__LANES; ++k) all += GVI__AT(sum, k);
     return all < most*most;
 }
 
@@ -1313,7 +1294,6 @@ GVI__BODY void gvi__ldl_solve_lane(int n, int R, const gvi_real *m, const gvi_re
         GVI__STORE(z + i*S) = rest;
     }
 }
-#endif
 
 /* ------------------------------------------------------------ QUADRATURE */
 
@@ -1600,6 +1580,12 @@ GVI__BODY int gvi__rule_is(const struct gvi__private *x, gvi_rule_kind kind)
            && x->desc.rule.kind == kind;
 }
 
+// is a constraint on?
+GVI__BODY int gvi__constrained(const gvi_stepper *st)
+{
+    return GVI__CONSTRAINTS && st->x.con.m > 0;
+}
+
 static int gvi__clock_is_on(const gvi_stepper *st)
 {
     return GVI__CLOCK && st->x.clock >= 0 && !(st->x.off >> st->x.clock & 1u);
@@ -1623,7 +1609,7 @@ GVI__APART gvi_status gvi__report_effect(gvi_stepper *st, gvi_status status, int
 
 GVI__APART gvi_status gvi__report_status(gvi_stepper *st, gvi_status status)
 {
-    return gvi__report_effect(st, status, GVI_FAULT_NONE);
+    return gvi__report(st, status, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
 }
 
 // may a call go on?  A chain of calls to a stepper that is not ready keeps its first failure
@@ -1828,8 +1814,7 @@ static gvi_status gvi__factor_mass(gvi_stepper *st, const gvi_points *x)
     gvi_status status = gvi__evaluate_mass(st, x, NULL, NULL);
     if (status != GVI_OK) return status;
     gvi__count(&st->counters.factorizations, x->count);
-#if GVI__LANES > 1
-    if (R % 8 == 0) {
+    if (GVI__LANES > 1 && R % 8 == 0) {
         int sure = 1;
         for (size_t i = 0, S = (size_t)R; i < (size_t)n*(size_t)n; ++i)
             for (size_t k = (size_t)x->count; k < S; ++k) m[i*S + k] = m[i*S];
@@ -1841,7 +1826,6 @@ static gvi_status gvi__factor_mass(gvi_stepper *st, const gvi_points *x)
         st->counters.mass -= (unsigned long long)x->count;
         if (status != GVI_OK) return status;
     }
-#endif
     int at[2] = { 0, 0 };
     status = gvi__ldl_factor(n, R, x->count, m, (gvi_real)n*GVI__EPS, at);
     return status == GVI_OK ? GVI_OK : gvi__report(st, status, GVI_FAULT_MASS, at[0], at[1]);
@@ -2052,11 +2036,7 @@ GVI__COLD gvi_status gvi__hamiltonian(gvi_stepper *st, gvi_real t, const gvi_rea
 /* What Gauss's rule has with r = s = 1..4, one after the other (tests/gen/few.py): b; Phi and phi;
    S_ij, i <= j, and T_ij, i < j.  To be on their grids in any type, Phi_0 and S below 1/2 are given
    less 1, T plus 1/2.                                                                        */
-#if GVI__KIND == 1
-#define GVI__C(x) x##f
-#else
-#define GVI__C(x) x
-#endif
+#define GVI__C(x) (gvi_real)x
 static const gvi_real gvi__few_b[] = {
     GVI__C(1.0), GVI__C(0.5), GVI__C(0.5), GVI__C(0.277777777777777777778),
         GVI__C(0.444444444444444444444),
@@ -2282,37 +2262,33 @@ GVI__COLD void gvi__make_tables(gvi_stepper *st)
 }
 
 #ifndef GVI_NO_RULES
-/* The tables of constraints, on the same grids: by columns, K = c_i - S(c_i, d_e), U = 1 - T(c_i,
-   d_e); d_a - S(d_a, c_j), or with momenta T(c_j, d_a); d_a - S(d_a, d_e), and its LU.        */
+/* The tables of constraints, on the same grids, by columns: K = c_i - S(c_i, d_e), U = 1 - T(c_i,
+   d_e); for D d_a - S(d_a, c_j), or with momenta T(c_j, d_a), and d_a - S(d_a, d_e), with LU. */
 GVI__COLD gvi_status gvi__set_constraints(gvi_stepper *st)
 {
     const struct gvi__private *x = &st->x;
     const int s = st->s, r = st->r, R = x->R, momenta = gvi__uses(x, GVI_MOMENTA);
     gvi_real *d = x->con.d, *low = x->row, *lu = x->con.lu;
-    gvi__rule(1, s + 1, d, low, x->con.w);
+    gvi__rule(1, s + 1, d, gvi__uses(x, GVI_EXPLICIT) ? NULL : low, x->con.w);
     if (gvi__uses(x, GVI_EXPLICIT)) return GVI_OK;
     gvi__modes_of(st, s, d + 1, low + 1, NULL, NULL, x->con.Phi, x->con.Phi_low);
-    for (int i = 0; i < r; ++i) {                 // e = 0: Phi = 0
-        x->con.K[i] = x->table.c[i];
-        if (x->con.U) x->con.U[i] = 1;
-    }
-    for (int a = 1; a <= s; ++a) x->con.of_impulses[a - 1] = lu[(a - 1)*s] = d[a];
-    for (int e = 1; e <= s; ++e) {
-        gvi__prepare_column(st, x->con.Phi, e - 1);
+    for (int e = 0; e <= s; ++e) {                // Phi(d_0) = 0
+        if (e > 0) gvi__prepare_column(st, x->con.Phi, e - 1);
         for (int i = 0; i < r; ++i) {
-            const gvi_real S = gvi__S(st, i, 0), T = x->con.U ? gvi__T(st, i, 0) : 0;
+            const gvi_real S = e > 0 ? gvi__S(st, i, 0) : 0;
+            const gvi_real T = e > 0 && x->con.U ? gvi__T(st, i, 0) : 0;
             if (e < s) x->con.K[e*R + i] = x->table.c[i] - S;
             if (e < s && x->con.U) x->con.U[e*R + i] = 1 - T;
-            x->con.of_forces[i*R + e - 1] = momenta ? T : d[e] - S;
+            if (e > 0) x->con.by_force[i*R + e - 1] = momenta ? T : d[e] - S;
         }
-        for (int a = e; a <= s; ++a) {
-            const gvi_real S = gvi__grid(gvi__coupling(st, x->con.Phi, a - 1), GVI__EPS/2);
-            if (e < s) x->con.of_impulses[e*R + a - 1] = lu[(a - 1)*s + e] = d[a] - S;
-            if (a < s) x->con.of_impulses[a*R + e - 1] = lu[(e - 1)*s + a] = d[e] - S;
+        for (int a = e > 1 ? e : 1; a <= s; ++a) {
+            const gvi_real S =
+                e > 0 ? gvi__grid(gvi__coupling(st, x->con.Phi, a - 1), GVI__EPS/2) : 0;
+            if (e < s) x->con.by_impulse[e*R + a - 1] = lu[(a - 1)*s + e] = d[a] - S;
+            if (a < s && e > 0) x->con.by_impulse[a*R + e - 1] = lu[(e - 1)*s + a] = d[e] - S;
         }
     }
-    int at;
-    return gvi__lu_factor(s, lu, lu + s*s, &at) == GVI_OK ? GVI_OK : GVI_E_POINTS;
+    return gvi_lu_factor(s, lu, lu + s*s) == GVI_OK ? GVI_OK : GVI_E_POINTS;
 }
 #endif
 
@@ -2407,6 +2383,246 @@ static void gvi__fit(gvi_stepper *st, int r, const gvi_real *from, const gvi_rea
         if (coupling < (gvi_real)0.015625) break;
         for (int m = 0; m < 3*R; ++m) p[m] /= coupling;
     }
+}
+
+/* ------------------------------------------------------------------ STEP */
+
+/* gvi_step, at the end of this section, asks gvi__solve for increments of q and p and commits
+   them.  gvi__attempt finds them, in this order and that of ENGINE, where they are: free motion;
+   the predictor; the fixed point: stage values, F at them, and from F new ones, until they have
+   converged; increments by (2) and (3).  Explicit steps are kicks; NEWTON'S METHOD has its own.  */
+
+/* Where a step, or a query's partial step, starts; E: the energy, with a clock.              */
+typedef struct gvi__origin { gvi_real t, t_low; const gvi_real *q, *q_low, *p, *p_low; gvi_real E;
+                            } gvi__origin;
+
+// how Newton's method begins: at constant velocity, at the last step's modes; or as the first, and
+// takes back changes
+enum { GVI__PLAIN, GVI__EXTRAPOLATED, GVI__HALVED };
+
+// what is solved: a step, or for a query a part of the last one, from its start or its end
+enum { GVI__STEP, GVI__FROM_START, GVI__FROM_END };
+
+static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real h);
+static void gvi__prepare_predictor(gvi_stepper *st, gvi_real h, int query);
+static gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                               int extrapolate, int *used);
+static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h);
+static gvi_status gvi__kicks(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                             const gvi_real *force);
+static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int how, int query);
+
+// CONSTRAINTS
+struct gvi__stage;
+static void gvi__constraint_stages(const gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                                   struct gvi__stage *y, int stages);
+static void gvi__constraint_rows(const gvi_stepper *st, const struct gvi__stage *y);
+static gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin *from);
+static void gvi__constrain(gvi_stepper *st, const struct gvi__stage *y);
+static void gvi__predict_constraints(const gvi_stepper *st, int extrapolate);
+static gvi_status gvi__stalled(gvi_stepper *st);
+static gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h);
+static gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, int start);
+static void gvi__commit_constraints(gvi_stepper *st, gvi_real h);
+
+// may a step that does not converge turn to Newton's method?
+static int gvi__may_turn(const gvi_stepper *st)
+{
+    return st->x.desc.formulation == GVI_AUTO && gvi__has(&st->x, GVI__HAS_NEWTON);
+}
+
+/* One attempt at a step or a partial step, to its increments; nothing of it is kept yet.  The
+   fixed point from extrapolated values, then from plain ones, then Newton's method, likewise.  */
+static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query)
+{
+    struct gvi__private *x = &st->x;
+    gvi__free_motion(st, from, h);
+    st->formulation = x->chosen;
+    if (gvi__uses(x, GVI_EXPLICIT)) {
+        const gvi_real *F = x->has_force && query != GVI__FROM_START ? x->last.F : NULL;
+        const gvi_status status = gvi__kicks(st, from, h, F);
+        return status == GVI_OK && gvi__constrained(st) ? gvi__project(st, from, 0) : status;
+    }
+
+    // farther out the last values say nothing
+    const int usable = x->kept > 0 && h/st->h > -2 && h/st->h < 8;
+    int used = 0;
+    gvi_status status = GVI_E_CONVERGENCE;
+    if (!gvi__uses(x, GVI_NEWTON)
+        && (!gvi__has(x, GVI__HAS_NEWTON) || x->newton.left == 0 || query)) {
+        if (usable) gvi__prepare_predictor(st, h, query);
+        for (int plain = !usable; plain < 2; ++plain) {
+            status = gvi__iterate(st, from, h, !plain, &used);
+            gvi__count(&st->counters.iterations, used);
+            if (!query) st->iterations = used;
+            if (used > st->counters.most_iterations) st->counters.most_iterations = used;
+            // where iterations are given, only a callback that failed at extrapolated values is
+            // worth a second try
+            if (status == GVI_OK
+                || (x->desc.iterations > 0 && (used > 1 || status == GVI_E_CONVERGENCE)))
+                break;
+        }
+        if (status == GVI_OK) gvi__increments(st, from, h);
+        if (status == GVI_OK && gvi__constrained(st)) status = gvi__project(st, from, 0);
+        if (status == GVI_OK || !gvi__may_turn(st)) return status;
+        if (!query && status == GVI_E_CONVERGENCE) x->newton.left = 64;
+    }
+    if (!GVI__NEWTON) return status;
+    const unsigned count = (unsigned)st->counters.newton_iterations;
+    st->formulation = GVI_NEWTON;
+    if (usable) gvi__prepare_predictor(st, h, query);
+    const int extrapolated = usable && x->has_velocity;
+    status = gvi__newton_step(st, from, extrapolated ? GVI__EXTRAPOLATED : GVI__PLAIN, query);
+    if (status == GVI_E_CONVERGENCE || status == GVI_E_SINGULAR
+        || (status == GVI_E_CALLBACK && extrapolated)
+        || (status == GVI_E_NON_FINITE && !x->diagnose)) {
+        if (!query) x->newton.h = 0;              // the extrapolation may be to blame
+        status = gvi__newton_step(st, from, GVI__HALVED, query);
+    }
+    if (!query) st->iterations = used + (int)((unsigned)st->counters.newton_iterations - count);
+    return status;
+}
+
+// are q + dq and p + dp finite?  0 x is 0 or NaN
+static int gvi__finite_end(const gvi_stepper *st, const gvi__origin *from)
+{
+    const struct gvi__phase *d = &st->x.step;
+    gvi_real none = 0;
+    int i = 0;
+    gvi__lane nones = { 0 };
+    for (; GVI__LANES > 1 && st->n >= 8 && i + GVI__LANES <= st->n; i += GVI__LANES)
+        nones += 0*(GVI__LOAD(from->q + i) + GVI__LOAD(d->q + i))
+                 + 0*(GVI__LOAD(from->p + i) + GVI__LOAD(d->p + i));
+    for (int k = 0; i > 0 && k < GVI__LANES; ++k) none += GVI__AT(nones, k);
+    for (; i < st->n; ++i) {
+        // as it will be kept
+        const gvi__rounded q = from->q[i] + d->q[i], p = from->p[i] + d->p[i];
+        none += 0*q + 0*p;
+    }
+    return none >= 0;
+}
+
+/* One attempt.  If it met NaN or Inf, the same once more, now looking at what every effect
+   returns: that names the effect.  If none is to blame, the iteration diverged.               */
+static gvi_status gvi__solve(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query)
+{
+    struct gvi__private *x = &st->x;
+    for (int look = 0; ; look = 1) {
+        x->diagnose = look;
+        gvi_status status = gvi__attempt(st, from, h, query);
+        x->diagnose = 0;
+        if (status == GVI_OK && !look && !gvi__finite_end(st, from))
+            status = gvi__report_status(st, GVI_E_NON_FINITE);
+        const int explained = status != GVI_E_NON_FINITE || st->fault.effect != GVI_FAULT_NONE;
+        if (look)
+            return status != GVI_OK && explained ? status
+                                                 : gvi__report_status(st, GVI_E_CONVERGENCE);
+        if (explained) return status;
+        if (!query) x->newton.h = 0;
+    }
+}
+
+// work becomes last, last becomes older (where it is kept that long), and the oldest is free
+static void gvi__rotate(gvi_real **older, gvi_real **last, gvi_real **work)
+{
+    gvi_real *spare = *older ? *older : *last;
+    if (*older) *older = *last;
+    *last = *work;
+    *work = spare;
+}
+
+static void gvi__rotate_values(gvi_stepper *st)
+{
+    struct gvi__private *x = &st->x;
+    gvi__rotate(&x->older.F, &x->last.F, &x->work.F);
+    if (GVI__READS_V) gvi__rotate(&x->older.V, &x->last.V, &x->work.V);
+    if (GVI__LAGRANGIAN) gvi__rotate(&x->older.A, &x->last.A, &x->work.A);
+}
+
+// was := x, x + x_low := x + dx + dx_low; dx_low NULL: 0
+static void gvi__move(int n, const gvi_real *GVI__RESTRICT dx, const gvi_real *GVI__RESTRICT dx_low,
+                      gvi_real *GVI__RESTRICT x, gvi_real *GVI__RESTRICT x_low,
+                      gvi_real *GVI__RESTRICT was)
+{
+    int i = 0;
+    for (; GVI__LANES > 1 && n >= 8 && i + GVI__LANES <= n; i += GVI__LANES) {
+        // gvi__two_sum, twice
+        const gvi__lane a = GVI__LOAD(x + i), d = GVI__LOAD(dx + i), s = a + d, b = s - a;
+        gvi__lane e = (a - (s - b)) + (d - b), t = s;
+        if (dx_low) {
+            e += GVI__LOAD(dx_low + i);
+            t = s + e;
+            const gvi__lane f = t - s;
+            e = (s - (t - f)) + (e - f);
+        }
+        GVI__STORE(was + i) = a;
+        GVI__STORE(x + i) = t;
+        GVI__STORE(x_low + i) = e;
+    }
+    for (; i < n; ++i) {
+        gvi__two sum = gvi__two_sum(x[i], dx[i]);
+        if (dx_low) sum = gvi__two_sum(sum.hi, sum.lo + dx_low[i]);
+        was[i] = x[i];
+        x[i] = sum.hi;
+        x_low[i] = sum.lo;
+    }
+}
+
+// the step is done: state and compensation move on, stage values become those of the last step
+static void gvi__commit(gvi_stepper *st, gvi_real h)
+{
+    struct gvi__private *x = &st->x;
+    const gvi__two t = gvi__two_sum(st->t, x->dt + st->t_low);
+    const int whole = gvi__uses(x, GVI_EXPLICIT);             // whose increments have no low words
+    gvi__move(st->n, x->step.q, whole ? NULL : x->step.q_low, x->state.q, x->state.q_low,
+              x->began.q);
+    gvi__move(st->n, x->step.p, whole ? NULL : x->step.p_low, x->state.p, x->state.p_low,
+              x->began.p);
+    st->t0 = st->t;
+    st->t = t.hi;
+    st->t_low = t.lo;
+    if (GVI__CLOCK) {
+        const gvi__two H = gvi__two_sum(x->time.H, x->time.dH + x->time.H_low);
+        x->began.H = x->time.H;
+        x->time.H = H.hi;
+        x->time.H_low = H.lo;
+    }
+    if (GVI__CONSTRAINTS && x->con.bits) gvi__commit_constraints(st, h);
+    x->kept = x->kept > 0 && !gvi__nonzero(h - st->h) ? 2 : 1;
+    st->h = h;
+    gvi__rotate_values(st);
+    x->stepped = gvi__clock_is_on(st) ? 2 : 1;
+    x->has_force = gvi__uses(x, GVI_EXPLICIT) && !gvi__nonzero(x->table.c[0])
+                   && !gvi__nonzero(x->table.c[st->r - 1] - 1);
+    x->has_velocity = st->formulation > GVI_POSITIONS;
+    if (x->newton.left > 0) x->newton.left -= 1;
+    gvi__count(&st->counters.steps, 1);
+}
+
+GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
+{
+    const gvi_status ready = gvi__ready(st, st && st->x.started);
+    if (ready != GVI_OK) return ready;
+    if (!gvi__nonzero(h) || !gvi__finite(h)) return st->status = GVI_E_ARGUMENT;
+    struct gvi__private *x = &st->x;
+    const gvi_formulation was = st->formulation;
+    const int left = x->newton.left;
+    const gvi__origin from = {
+        st->t, st->t_low, st->q, st->q_low, st->p, st->p_low, x->time.H + x->time.H_low
+    };
+    if (x->stepped && gvi__nonzero(h - st->h)) x->newton.left = 0;
+    gvi_status status = gvi__solve(st, &from, h, GVI__STEP);
+    if (status == GVI_OK && !gvi__finite(st->t + x->dt))
+        status = gvi__report_status(st, GVI_E_ARGUMENT);
+    if (status != GVI_OK) {
+        gvi__count(&st->counters.failures, 1);
+        st->formulation = was;
+        x->newton.left = left;
+        x->newton.h = 0;
+        return st->status = status;
+    }
+    gvi__commit(st, h);
+    return gvi__report_status(st, GVI_OK);
 }
 
 /* ---------------------------------------------------------------- ENGINE */
@@ -2504,7 +2720,6 @@ GVI__BODY gvi_real gvi__stage_by_points(const gvi_stepper *st, const gvi__stage 
     return gvi__sum_squares(square);
 }
 
-#if GVI__LANES > 1
 enum { GVI__BLOCK = 8/GVI__LANES };                  // lanes that hold eight points
 
 /* z := sum_j table_j L_j at `lanes` lanes of points.  Four chains, so that no sum waits for
@@ -2513,7 +2728,8 @@ enum { GVI__BLOCK = 8/GVI__LANES };                  // lanes that hold eight po
 GVI__BODY void gvi__row_sums(int r, int R, int lanes, const gvi_real *table, const gvi_real *L,
                              gvi__lane *z)
 {
-    gvi__lane sum[4][GVI__BLOCK] = { { { 0 } } };
+    const gvi__lane none = { 0 };
+    gvi__lane sum[4][GVI__BLOCK] = { { none } };
     GVI__UNROLL for (int m = 0; m < 4; ++m) {
         GVI__UNROLL for (int v = 0; v < lanes; ++v) sum[m][v] =
             GVI__LOAD(table + m*R + v*GVI__LANES)*L[m];
@@ -2525,13 +2741,17 @@ GVI__BODY void gvi__row_sums(int r, int R, int lanes, const gvi_real *table, con
     GVI__UNROLL for (int v = 0; v < lanes; ++v) z[v] = sum[0][v] + sum[2][v];
 }
 
-/* A stage in lanes of points: R is 4 or a multiple of eight.                                 */
+/* A stage in lanes of points: R is 4 or a multiple of eight; point by point where a lane is wider
+   than R or a single number.                                                                  */
 GVI__BODY gvi_real gvi__stage_by_lanes(const gvi_stepper *st, const gvi__stage *GVI__RESTRICT y,
                                        int n, int r, int R, int rescale)
 {
     const int block = R < 8 ? R : 8, lanes = block/GVI__LANES, last = r - 1, middle = (r - 1)/2;
+    const gvi__lane none = { 0 };
+    if (GVI__LANES == 1 || (GVI__LANES == 8 && R == 4))
+        return gvi__stage_by_points(st, y, n, r, R, rescale);
     gvi_real few[32], *L = R <= 16 ? few : st->x.row, total[8];
-    gvi__lane square[GVI__BLOCK] = { { 0 } };
+    gvi__lane square[GVI__BLOCK] = { none };
     for (int i = 0; i < n; ++i) {
         const gvi_real *first = gvi__weighted(R, y->sum[0].weight, y->sum[0].source + i*R, L);
         const gvi_real *second = !y->sum[1].table ? NULL
@@ -2540,7 +2760,7 @@ GVI__BODY gvi_real gvi__stage_by_lanes(const gvi_stepper *st, const gvi__stage *
         const gvi_real base = y->base[i], was = row[last], half = row[middle];
         for (int o = R - block; o >= 0; o -= block) {
             const gvi_real *free = y->free ? y->free + i*R + o : NULL;
-            gvi__lane z[GVI__BLOCK] = { { 0 } }, w[GVI__BLOCK];
+            gvi__lane z[GVI__BLOCK] = { none }, w[GVI__BLOCK];
             if (y->sum[0].table) gvi__row_sums(r, R, lanes, y->sum[0].table + o, first, z);
             else
                 GVI__UNROLL for (int v = 0; v < lanes; ++v) z[v] =
@@ -2553,7 +2773,8 @@ GVI__BODY gvi_real gvi__stage_by_lanes(const gvi_stepper *st, const gvi__stage *
             if (free) GVI__UNROLL for (int v = 0; v < lanes; ++v)
                 z[v] = base + (GVI__LOAD(free + v*GVI__LANES) + z[v]*y->factor);
             if (rescale && last - o < block)
-                scale = gvi__scale_of(base, was, z[(last - o)/GVI__LANES][(last - o) % GVI__LANES]);
+                scale = gvi__scale_of(base, was, GVI__AT(z[(last - o)/GVI__LANES],
+                                                         (last - o) % GVI__LANES));
             GVI__UNROLL for (int v = 0; v < lanes; ++v) {
                 gvi_real *at = row + o + v*GVI__LANES;
                 const gvi__lane moved = (z[v] - GVI__LOAD(at))*scale;
@@ -2569,7 +2790,6 @@ GVI__BODY gvi_real gvi__stage_by_lanes(const gvi_stepper *st, const gvi__stage *
     GVI__UNROLL for (int v = 0; v < GVI__BLOCK; ++v) GVI__STORE(total + v*GVI__LANES) = square[v];
     return gvi__sum_squares(total);
 }
-#endif
 
 /* The sizes that deserve a copy of their own: (n = 2 also in gvi__factor_mass,
    gvi__velocity_rows).                                                                        */
@@ -2579,7 +2799,6 @@ GVI__BODY gvi_real gvi__stage_by_lanes(const gvi_stepper *st, const gvi__stage *
         return gvi__stage_##by(st, y, n, r, R, rescale);                                        \
     }
 GVI__KERNEL(gvi__rows_any, by_points, st->n, st->r, st->x.R)
-#if GVI__LANES > 1
 GVI__KERNEL(gvi__rows_2_8,  by_lanes,  2, 8, 8)
 GVI__KERNEL(gvi__rows_8,    by_lanes,  st->n, 8, 8)
 GVI__KERNEL(gvi__rows_to_8, by_lanes,  st->n, st->r, 8)
@@ -2587,34 +2806,21 @@ GVI__KERNEL(gvi__rows_16,   by_lanes,  st->n, 16, 16)
 GVI__KERNEL(gvi__rows_many, by_lanes,  st->n, st->r, st->x.R)
 GVI__KERNEL(gvi__rows_2,    by_points, st->n, 2, 2)
 GVI__KERNEL(gvi__rows_3,    by_points, st->n, 3, 3)
-#endif
-#if GVI__LANES == 8
-GVI__KERNEL(gvi__rows_4,    by_points, st->n, 4, 4)
-#elif GVI__LANES > 1
 GVI__KERNEL(gvi__rows_4,    by_lanes,  st->n, 4, 4)
-#endif
 
 static gvi__kernel *gvi__kernel_for(int n, int r)
 {
-#if GVI__LANES > 1
+    if (GVI__SMALL || r == 1) return gvi__rows_any;
     if (r == 2) return gvi__rows_2;
     if (r == 3) return gvi__rows_3;
     if (r == 4) return gvi__rows_4;
+    if (GVI__LANES == 1) return gvi__rows_any;
     if (r == 8) return n == 2 ? gvi__rows_2_8 : gvi__rows_8;
     if (r == 16) return gvi__rows_16;
-    if (r > 4) return r < 8 ? gvi__rows_to_8 : gvi__rows_many;
-#endif
-    return (void)n, (void)r, gvi__rows_any;
+    return r < 8 ? gvi__rows_to_8 : gvi__rows_many;
 }
 
-/* ---- a step ---- */
-
-/* Where a step, or a query's partial step, starts; E: the energy, with a clock.              */
-typedef struct gvi__origin { gvi_real t, t_low; const gvi_real *q, *q_low, *p, *p_low; gvi_real E;
-                            } gvi__origin;
-
-// what is solved: a step, or for a query a part of the last one, from its start or its end
-enum { GVI__STEP, GVI__FROM_START, GVI__FROM_END };
+/* ---- fixed point ---- */
 
 // out := t + (t_low + c h)
 static void gvi__times(int count, gvi_real t, gvi_real t_low, gvi_real h, const gvi_real *c,
@@ -2657,15 +2863,53 @@ static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real 
     }
 }
 
+/* Makes the predictor ready: E takes the stage values of the last step (of the last two, if
+   they and this one are equally long) to the nodes of this step, which lie at alpha + beta c in
+   the last step's tau.  In the positions formulation forces only serve to make new positions: E
+   := K h b E does both.                                                                       */
+static void gvi__prepare_predictor(gvi_stepper *st, gvi_real h, int query)
+{
+    struct gvi__private *x = &st->x;
+    const int newton = GVI__NEWTON && st->formulation == GVI_NEWTON, r = st->r, R = x->R;
+    const int two = !query && !newton && x->kept == 2 && x->older.F && !gvi__nonzero(h - st->h);
+    const int sums = gvi__uses(x, GVI_POSITIONS) && !newton && x->desc.mass.kind != GVI_MASS_DENSE
+                     && !gvi__constrained(st);
+    const gvi_real beta = h/st->h;
+    if (!query && !gvi__nonzero(beta - x->sized.ratio) && x->sized.steps == two + 1
+        && x->sized.sums == sums) return;
+    x->sized.ratio = query ? 0 : beta;
+    x->sized.steps = two + 1;
+    x->sized.sums = sums;
+    gvi__fit(st, r, x->table.c, x->table.c, query != GVI__FROM_START, beta, two + 1, x->sized.E);
+    if (gvi__constrained(st))
+        gvi__fit(st, st->s, x->con.d + 1, x->con.d, query != GVI__FROM_START, beta, 1, x->con.E);
+    for (int m = 0; sums && m < x->sized.steps*r; ++m) {
+        const gvi_real *L = gvi__weighted(R, x->sized.hb, x->sized.E + m*R, x->row);
+        for (int k = 0; k < r; ++k) x->row[R + k] = gvi__point_sum(r, R, x->table.K + k, L);
+        gvi__copy((size_t)r, x->row + R, x->sized.E + m*R);
+    }
+}
+
+// in place of a stage's own sums: E over the values of one or two steps
+GVI__BODY void gvi__set_predictor(const gvi_stepper *st, gvi__stage *y, const gvi_real *last,
+                                  const gvi_real *older)
+{
+    const gvi_real *E = st->x.sized.E;
+    y->sum[0].table = E;
+    y->sum[0].source = last;
+    y->sum[1].table = st->x.sized.steps == 2 ? E + st->r*st->x.R : NULL;
+    y->sum[1].source = older;
+    y->sum[0].weight = y->sum[1].weight = NULL;
+    y->scale = NULL;
+}
+
 // row := low + (c path_low + c path), one coordinate's free motion over its base
 GVI__BODY void gvi__free_row(int R, gvi_real low, gvi_real path, gvi_real path_low,
                              const gvi_real *GVI__RESTRICT c, gvi_real *GVI__RESTRICT row)
 {
     int k = 0;
-#if GVI__LANES > 1
-    for (; k + GVI__LANES <= R; k += GVI__LANES)
+    for (; GVI__LANES > 1 && k + GVI__LANES <= R; k += GVI__LANES)
         GVI__STORE(row + k) = (low + GVI__LOAD(c + k)*path_low) + GVI__LOAD(c + k)*path;
-#endif
     for (; k < R; ++k) row[k] = (low + c[k]*path_low) + c[k]*path;
 }
 
@@ -2752,14 +2996,12 @@ static void gvi__velocity_rows(const gvi_stepper *st)
     const gvi_real *P = x->work.P, *A = GVI__LAGRANGIAN ? x->work.A : NULL;
     gvi_real *V = x->work.V;
     for (int k = 0; A && k < n*R; ++k) V[k] = P[k] - A[k];
-#if GVI__LANES > 1
-    if (R % 8 == 0 && !gvi__mass_is_constant(x)) {
+    if (GVI__LANES > 1 && R % 8 == 0 && !gvi__mass_is_constant(x)) {
         for (int o = 0; o < R; o += GVI__LANES)
             if (n == 2) gvi__ldl_solve_lane(2, R, x->mass.at_points + o, (A ? V : P) + o, V + o);
             else gvi__ldl_solve_lane(n, R, x->mass.at_points + o, (A ? V : P) + o, V + o);
         return;
     }
-#endif
     if (!A) gvi__copy((size_t)(n*R), P, V);
     if (gvi__mass_is_constant(x)) gvi__over_mass(st, V, R, st->r);
     else gvi__ldl_solve(n, x->mass.at_points, R, V, R, st->r);
@@ -2783,17 +3025,6 @@ static gvi_status gvi__legendre_rows(gvi_stepper *st, const gvi_points *y)
     return GVI_OK;
 }
 
-GVI__BODY int gvi__constrained(const gvi_stepper *st);
-static void gvi__constraint_stages(const gvi_stepper *st, const gvi__origin *from, gvi_real h,
-                                   gvi__stage *y, int count);
-static gvi_status gvi__constraint_stage_values(gvi_stepper *st, const gvi__origin *from);
-static void gvi__constraint_rows(const gvi_stepper *st, const gvi__stage *y);
-static void gvi__constrain(gvi_stepper *st, const gvi__stage *y);
-static void gvi__predict_constraints(const gvi_stepper *st, int extrapolate);
-static void gvi__add_impulses(const gvi_stepper *st);
-static gvi_status gvi__stalled(gvi_stepper *st);
-static gvi_status gvi__rattle(gvi_stepper *st, const gvi__origin *from, gvi_real h,
-                              const gvi_real *force);
 static gvi_status gvi__evaluate_with_clock(gvi_stepper *st, const gvi__origin *from, gvi_points *y);
 static gvi_status gvi__clock_at(gvi_stepper *st, gvi_real t, const gvi_real *q, gvi_real *rate,
                                 gvi_real *slope);
@@ -2812,7 +3043,7 @@ static gvi_status gvi__evaluate_stages(gvi_stepper *st, const gvi__origin *from,
     if (GVI__LAGRANGIAN && y->dldv) gvi__zero(length, y->dldv);
     if (gvi__clock_is_on(st)) return gvi__evaluate_with_clock(st, from, y);
     gvi_status status = gvi__effects(st, y, 0, NULL);
-    if (status == GVI_OK && gvi__constrained(st)) status = gvi__constraint_stage_values(st, from);
+    if (status == GVI_OK && gvi__constrained(st)) status = gvi__constraint_values(st, from);
     return status == GVI_OK && momenta && gvi__mass_is(x, GVI_MASS_POSITION)
                ? gvi__mass_gradient(st, y)
                : status;
@@ -2858,46 +3089,6 @@ static gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *y, int stages, 
     return sum;
 }
 
-/* Makes the predictor ready: E takes the stage values of the last step (of the last two, if
-   they and this one are equally long) to the nodes of this step, which lie at alpha + beta c in
-   the last step's tau.  In the positions formulation forces only serve to make new positions: E
-   := K h b E does both.                                                                       */
-static void gvi__prepare_predictor(gvi_stepper *st, gvi_real h, int query)
-{
-    struct gvi__private *x = &st->x;
-    const int newton = GVI__NEWTON && st->formulation == GVI_NEWTON, r = st->r, R = x->R;
-    const int two = !query && !newton && x->kept == 2 && x->older.F && !gvi__nonzero(h - st->h);
-    const int sums = gvi__uses(x, GVI_POSITIONS) && !newton && x->desc.mass.kind != GVI_MASS_DENSE
-                     && !gvi__constrained(st);
-    const gvi_real beta = h/st->h;
-    if (!query && !gvi__nonzero(beta - x->sized.ratio) && x->sized.steps == two + 1
-        && x->sized.sums == sums) return;
-    x->sized.ratio = query ? 0 : beta;
-    x->sized.steps = two + 1;
-    x->sized.sums = sums;
-    gvi__fit(st, r, x->table.c, x->table.c, query != GVI__FROM_START, beta, two + 1, x->sized.E);
-    if (gvi__constrained(st))
-        gvi__fit(st, st->s, x->con.d + 1, x->con.d, query != GVI__FROM_START, beta, 1, x->con.E);
-    for (int m = 0; sums && m < x->sized.steps*r; ++m) {
-        const gvi_real *L = gvi__weighted(R, x->sized.hb, x->sized.E + m*R, x->row);
-        for (int k = 0; k < r; ++k) x->row[R + k] = gvi__point_sum(r, R, x->table.K + k, L);
-        gvi__copy((size_t)r, x->row + R, x->sized.E + m*R);
-    }
-}
-
-// in place of a stage's own sums: E over the values of one or two steps
-GVI__BODY void gvi__set_predictor(const gvi_stepper *st, gvi__stage *y, const gvi_real *last,
-                                  const gvi_real *older)
-{
-    const gvi_real *E = st->x.sized.E;
-    y->sum[0].table = E;
-    y->sum[0].source = last;
-    y->sum[1].table = st->x.sized.steps == 2 ? E + st->r*st->x.R : NULL;
-    y->sum[1].source = older;
-    y->sum[0].weight = y->sum[1].weight = NULL;
-    y->scale = NULL;
-}
-
 /* Stage values to begin with: the last step's forces (and V, A), extrapolated; without these, or if
    they led nowhere, no force and constant velocity.                                          */
 static gvi_status gvi__predict_sources(gvi_stepper *st, const gvi__origin *from, gvi_real h,
@@ -2940,12 +3131,6 @@ typedef struct gvi__progress {
 } gvi__progress;
 
 enum { GVI__GO_ON, GVI__DONE, GVI__ONCE_MORE, GVI__DIVERGES, GVI__NOT_FINITE };
-
-// may a step that does not converge turn to Newton's method?
-static int gvi__may_turn(const gvi_stepper *st)
-{
-    return st->x.desc.formulation == GVI_AUTO && gvi__has(&st->x, GVI__HAS_NEWTON);
-}
 
 // M_ii, or p_i/v_i where the effects alone make the mass, where F was evaluated last: first point
 static gvi_real gvi__inertia(const gvi_stepper *st, int i)
@@ -3131,7 +3316,7 @@ static gvi__two gvi__exact_dot(int R, const gvi_real *a, const gvi_real *b)
             hi[k] = s.hi;
             lo[k] = s.lo;
         }
-    if (R > 4) gvi__fold(4, hi, lo);
+    if (R >= 8) gvi__fold(4, hi, lo);
     gvi__fold(2, hi, lo);
     gvi__fold(1, hi, lo);
     return gvi__two_of(hi[0], lo[0]);
@@ -3164,7 +3349,12 @@ static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h
         x->time.dH = gvi__dot(r, hb, x->time.power);
     }
     gvi__sum_rows(st, w->F, from->p_low, x->step.p, x->step.p_low);
-    if (gvi__constrained(st)) gvi__add_impulses(st);
+    for (int i = 0; gvi__constrained(st) && i < st->n; ++i) {
+        const gvi__two z = gvi__exact_dot(R, x->con.hw, x->con.force + i*R),
+                       p = gvi__add_low(x->step.p[i], x->step.p_low[i], z.hi, z.lo);
+        x->step.p[i] = p.hi;
+        x->step.p_low[i] = p.lo;
+    }
     if (gvi__uses(x, GVI_MOMENTA)) {
         gvi__sum_rows(st, w->V, from->q_low, x->step.q, x->step.q_low);
         return;
@@ -3220,9 +3410,8 @@ static void gvi__drift(gvi_stepper *st, const gvi__origin *from, const gvi_real 
         }
         return;
     }
-#if GVI__LANES > 1
     const gvi__lane zero = { 0 };
-    for (; n >= 8 && i + GVI__LANES <= n; i += GVI__LANES) {
+    for (; GVI__LANES > 1 && n >= 8 && i + GVI__LANES <= n; i += GVI__LANES) {
         const gvi__lane p = GVI__LOAD(dp + i) + b*GVI__LOAD(F + i);
         const gvi__lane d = GVI__LOAD(dq + i) + a*(GVI__LOAD(v + i) + p*GVI__LOAD(m + i));
         GVI__STORE(dp + i) = p;
@@ -3230,7 +3419,6 @@ static void gvi__drift(gvi_stepper *st, const gvi__origin *from, const gvi_real 
         GVI__STORE(dq + i) = d;
         GVI__STORE(Q + i) = GVI__LOAD(q + i) + d;
     }
-#endif
     for (; i < n; ++i) {
         dp[i] += b*F[i];
         F[i] = 0;
@@ -3250,7 +3438,6 @@ static gvi_status gvi__kicks(gvi_stepper *st, const gvi__origin *from, gvi_real 
     const gvi_real *hb = x->sized.hb, *v = x->desc.mass.kind == GVI_MASS_UNIT ? from->p : x->free.v;
     gvi_real t = from->t, b = 0;
     gvi_points y = gvi__points_at(st, 1, 1, &t, x->work.Q, x->work.F, NULL);
-    if (gvi__constrained(st)) return gvi__rattle(st, from, h, force);
     if (v != from->p) {
         gvi__copy((size_t)n, from->p, x->free.v);
         gvi__over_mass(st, x->free.v, 1, 1);
@@ -3261,6 +3448,10 @@ static gvi_status gvi__kicks(gvi_stepper *st, const gvi__origin *from, gvi_real 
     gvi__zero((size_t)n, x->work.F);
     for (int j = known; j < r; ++j) {
         gvi__drift(st, from, v, b, x->sized.drift[j]);
+        if (j == 1 && gvi__constrained(st)) {
+            const gvi_status status = gvi__constrained_drift(st, from, h);
+            if (status != GVI_OK) return status;
+        }
         t = from->t + (from->t_low + x->table.c[j]*h);
         b = hb[j];
         if (j < r - 1 && !gvi__nonzero(b)) continue;
@@ -3365,34 +3556,25 @@ static gvi_status gvi__evaluate_with_clock(gvi_stepper *st, const gvi__origin *f
 
 /* g(t,q) = 0 at Lobatto's points d_0 = 0 .. d_s = 1, weights w_e.  What makes h sum_i b_i L_i
    + h sum_e w_e lambda_e . g(D_e) stationary acts by impulses at these points, one more source of
-   the same tables, and D_a = q(d_a h), one more stage:
+   the same tables, and D_a = q(d_a h) is one more stage (for P_i in (5) as for V_i in (4)):
 
      R_e = w_e h G(D_e)' lambda_e                              e = 0..s-1
-     Q_i += h M^-1 sum_e (c_i - S(c_i, d_e)) R_e               in (3), and likewise
-     V_i += M^-1 sum_e (1 - T(c_i, d_e)) R_e                   in (4) and for P_i in (5)
+     Q_i += h M^-1 sum_e (c_i - S(c_i, d_e)) R_e               S(x, y) = Phi(x)' Gamma^-1 Phi(y)
+     V_i += M^-1 sum_e (1 - T(c_i, d_e)) R_e                   T(x, y) = phi(x)' Gamma^-1 Phi(y)
      D_a  = q0 + h d_a v0 + h M^-1 (sum_j K(d_a, c_j) h b_j F_j + sum_e K(d_a, d_e) R_e)
-     p1   = p0 + h sum_i b_i F_i + sum_e R_e + R_s,            G(q1) v1 + dg/dt = 0 gives R_s
+     p1   = p0 + h sum_i b_i F_i + sum_e R_e + G(q1)' y        K(x, y) = x - S(x, y)
 
-   with S(x, y) = Phi(x)' Gamma^-1 Phi(y), T(x, y) = phi(x)' Gamma^-1 Phi(y), K = x - S [8].
+   y from G(q1) v1 + dg/dt = 0.  Every iteration has one simplified Newton step for lambda: G at the
+   last D, D' what the new forces and the old lambda make, X the inverse of K(d_a, d_e), a > 0,
 
-   In every iteration one simplified Newton step for lambda.  With G at the D of the last
-   evaluation, D' the D that the new forces and the old lambda make, X the inverse of K(d_a, d_e):
+     rho_a = g(D_a) + G_a (D'_a - D_a)   lambda_e -= (G_e M^-1 G_e')^-1 sum_a X_ea rho_a/(h^2 w_e)
 
-     rho_a = g(D_a) + G_a (D'_a - D_a)       lambda_e -= (G_e M^-1 G_e')^-1 sum_a X_ea rho_a/(h^2 w_e)
+   Sources e = 0..s-1 and D_1..D_s are rows of R, as forces and stage values; what is evaluated at
+   D_0..D_s, rows of C; at one point, numbers at the beginning of these.  Rows that are off are left
+   out.                                                                                        */
 
-   Arrays: sources e = 0..s-1 and D_1..D_s in rows of R as forces and stage values are; what is
-   evaluated at all of D_0..D_s, in rows of C.  Rows of constraints that are off are left out. */
+static unsigned gvi__constraints_on(const gvi_stepper *st) { return st->x.con.bits & ~st->x.off; }
 
-// the constraint effects that are on, as bits
-static unsigned gvi__constraints(const gvi_stepper *st) { return st->x.con.bits & ~st->x.off; }
-
-// is a constraint on?
-GVI__BODY int gvi__constrained(const gvi_stepper *st)
-{
-    return GVI__CONSTRAINTS && st->x.con.m > 0;
-}
-
-// their rows in all
 static int gvi__count_rows(const struct gvi__private *x, unsigned bits)
 {
     int rows = 0;
@@ -3404,64 +3586,56 @@ static int gvi__count_rows(const struct gvi__private *x, unsigned bits)
 // row `row` of those that are on is at fault: which effect, and which row of it?
 GVI__COLD gvi_status gvi__report_row(gvi_stepper *st, gvi_status status, int row, int point)
 {
+    const gvi_effect *effects = st->x.desc.effects;
     int e = 0;
-    for (; e < st->x.desc.effect_count; ++e)
-        if (gvi__constraints(st) >> e & 1u) {
-            if (row < st->x.desc.effects[e].rows) break;
-            row -= st->x.desc.effects[e].rows;
-        }
+    for (; !(gvi__constraints_on(st) >> e & 1u) || row >= effects[e].rows; ++e)
+        if (gvi__constraints_on(st) >> e & 1u) row -= effects[e].rows;
     return gvi__report(st, status, e, row, point);
 }
 
-// the first of `count` rows that is not finite is the fault of row i/each
-static gvi_status gvi__check_constraint(gvi_stepper *st, const gvi_points *x, const gvi_real *rows,
-                                        int count, int each, int effect)
+// g and dg/dt to con.g, and G, at `count` points
+static gvi_status gvi__evaluate_constraints(gvi_stepper *st, int S, int count, const gvi_real *t,
+                                            const gvi_real *q, gvi_real *G)
 {
-    for (int i = 0; i < count; ++i) {
-        const int k = gvi__first_non_finite(x->count, rows + i*x->stride);
-        if (k >= 0) return gvi__report(st, GVI_E_NON_FINITE, effect, i/each, k);
-    }
-    return GVI_OK;
-}
-
-/* g, dg/dt and G of what is on, one below the other, at the points of x, which names their
-   places.                                                                                     */
-static gvi_status gvi__evaluate_constraints(gvi_stepper *st, const gvi_points *x)
-{
-    const size_t S = (size_t)x->stride, m = (size_t)st->x.con.m, n = (size_t)x->n;
+    gvi_points y = gvi__points_at(st, count, S, t, q, NULL, NULL);
     gvi_status status = GVI_OK;
-    gvi_points y = *x;
-    gvi__zero(m*S, y.g);
-    gvi__zero(m*S, y.rate);
-    gvi__zero(m*n*S, y.jacobian);
-    if (st->x.diagnose && gvi__check_rows(st, x, x->q, 0) != GVI_OK)
+    y.g = st->x.con.g;
+    y.rate = y.g + st->x.con.m*S;
+    y.jacobian = G;
+    gvi__zero((size_t)(st->x.con.m*S), y.rate);
+    gvi__zero((size_t)(st->x.con.m*S)*(size_t)st->n, G);
+    if (st->x.diagnose && gvi__check_rows(st, &y, q, 0) != GVI_OK)
         return gvi__report_status(st, GVI_E_CONVERGENCE);
     for (int e = 0; e < st->x.desc.effect_count && status == GVI_OK; ++e) {
         const gvi_effect *effect = st->x.desc.effects + e;
-        const size_t rows = (size_t)effect->rows;
-        if (!(gvi__constraints(st) >> e & 1u)) continue;
-        gvi__count(&st->counters.effect[e], x->count);
+        if (!(gvi__constraints_on(st) >> e & 1u)) continue;
+        gvi__count(&st->counters.effect[e], count);
         if (effect->points(&y, effect->user)) return gvi__report_effect(st, GVI_E_CALLBACK, e);
         if (st->x.diagnose) {
-            status = gvi__check_constraint(st, x, y.g, effect->rows, 1, e);
-            if (status == GVI_OK) status = gvi__check_constraint(st, x, y.rate, effect->rows, 1, e);
-            if (status == GVI_OK)
-                status = gvi__check_constraint(st, x, y.jacobian, effect->rows*x->n, x->n, e);
+            gvi_points rows = y;
+            rows.n = effect->rows;
+            status = gvi__check_rows(st, &rows, y.g, e);
+            if (status == GVI_OK) status = gvi__check_rows(st, &rows, y.rate, e);
+            rows.n *= st->n;
+            if (status == GVI_OK && gvi__check_rows(st, &rows, y.jacobian, e) != GVI_OK) {
+                status = GVI_E_NON_FINITE;
+                st->fault.coordinate /= st->n;
+            }
         }
-        y.g += rows*S;
-        y.rate += rows*S;
-        y.jacobian += rows*n*S;
+        y.g += effect->rows*S;
+        y.rate += effect->rows*S;
+        y.jacobian += effect->rows*st->n*S;
     }
     return status;
 }
 
-/* A := L D L' of G M^-1 G' at `count` points; M(q) is that of the stage values, one for one, or of
-   the one point.  A pivot of 64 m roundings says that a row depends on those before it.      */
-static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, const gvi_real *G,
-                                          gvi_real *A)
+/* con.A := L D L' of G M^-1 G'; M(q) is that of the stage values, one for one, or of the one point.
+   A pivot of 64 m roundings says that a row depends on those before it.                      */
+static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count)
 {
     const struct gvi__private *x = &st->x;
     const int n = st->n, m = x->con.m;
+    const gvi_real *G = x->con.G;
     gvi_real *W = x->con.W;
     for (int a = 0; a < m; ++a) {
         gvi__copy((size_t)(n*S), G + a*n*S, W);
@@ -3471,44 +3645,52 @@ static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, con
             for (int k = 0; k < count; ++k) {
                 gvi_real sum = 0;
                 for (int i = 0; i < n; ++i) sum += G[(b*n + i)*S + k]*W[i*S + k];
-                A[(a*m + b)*S + k] = sum;
+                x->con.A[(a*m + b)*S + k] = sum;
             }
     }
     int at[2] = { 0, 0 };
-    const gvi_status status = gvi__ldl_factor(m, S, count, A, 64*(gvi_real)m*GVI__EPS, at);
-    if (status == GVI_E_SINGULAR) return gvi__report_row(st, status, at[0], at[1]);
-    return status == GVI_OK ? GVI_OK : gvi__report_status(st, status);
+    const gvi_status status =
+        gvi__ldl_factor(m, S, count, x->con.A, 64*(gvi_real)m*GVI__EPS, at);
+    return status == GVI_E_SINGULAR ? gvi__report_row(st, status, at[0], at[1])
+         : status == GVI_OK ? GVI_OK : gvi__report_status(st, status);
 }
 
-// g, dg/dt, G and A at one configuration, at the beginning of their arrays
+// g, dg/dt, G and A at one configuration
 static gvi_status gvi__constraints_at(gvi_stepper *st, gvi_real t, const gvi_real *q)
 {
-    const struct gvi__private *x = &st->x;
-    gvi_points y = gvi__one_point(st, &t, q);
-    y.g = x->con.g;
-    y.rate = y.g + x->con.m;
-    y.jacobian = x->con.G;
-    gvi_status status = gvi__evaluate_constraints(st, &y);
-    if (status == GVI_OK && !gvi__mass_is_constant(x)) status = gvi__factor_mass(st, &y);
-    return status == GVI_OK ? gvi__factor_constraints(st, 1, 1, x->con.G, x->con.A) : status;
+    const gvi_points y = gvi__one_point(st, &t, q);
+    gvi_status status = gvi__evaluate_constraints(st, 1, 1, &t, q, st->x.con.G);
+    if (status == GVI_OK && !gvi__mass_is_constant(&st->x)) status = gvi__factor_mass(st, &y);
+    return status == GVI_OK ? gvi__factor_constraints(st, 1, 1) : status;
 }
 
 // z += G' y at one point
-static void gvi__add_force(const gvi_stepper *st, const gvi_real *G, const gvi_real *y, gvi_real *z)
+static void gvi__add_force(const gvi_stepper *st, const gvi_real *y, gvi_real *z)
 {
-    for (int a = 0; a < st->x.con.m; ++a, G += st->n) gvi__add_scaled(st->n, y[a], G, z, z);
+    for (int a = 0; a < st->x.con.m; ++a)
+        gvi__add_scaled(st->n, y[a], st->x.con.G + a*st->n, z, z);
+}
+
+// is |g_a| beyond `units` roundings of its terms G_ai q_i and t dg_a/dt, at one point?
+static int gvi__violated(const gvi_stepper *st, gvi_real units, gvi_real t, const gvi_real *q,
+                         const gvi_real *G, int a)
+{
+    const gvi_real *g = st->x.con.g + a;
+    gvi_real size = GVI_ABS(g[st->x.con.m]*t);
+    for (int i = 0; i < st->n; ++i) size += GVI_ABS(G[a*st->n + i]*q[i]);
+    return !(GVI_ABS(*g) <= units*GVI__EPS*size);
 }
 
 /* ---- in the iteration ---- */
 
-/* One more sum in the stages, free motion and times of D.                                    */
+// one more sum in the stages; free motion and times of D
 static void gvi__constraint_stages(const gvi_stepper *st, const gvi__origin *from, gvi_real h,
-                                   gvi__stage *y, int count)
+                                   gvi__stage *y, int stages)
 {
     const struct gvi__private *x = &st->x;
     const int R = x->R, momenta = gvi__uses(x, GVI_MOMENTA);
     for (int e = 0; e < R; ++e) x->con.hw[e] = e < st->s ? h*x->con.w[e] : 0;
-    for (int k = 0; k < (momenta ? 1 : count); ++k) {
+    for (int k = 0; k < (momenta ? 1 : stages); ++k) {
         y[k].sum[1].table = momenta || k == 1 ? x->con.U : x->con.K;
         y[k].sum[1].weight = x->con.hw;
         y[k].sum[1].source = x->con.force;
@@ -3519,13 +3701,13 @@ static void gvi__constraint_stages(const gvi_stepper *st, const gvi__origin *fro
                       momenta ? 0 : x->free.path_low[i], x->con.d + 1, x->con.free + i*R);
 }
 
-// D from the stage that makes Q
+// D, from the stage that makes Q
 static void gvi__constraint_rows(const gvi_stepper *st, const gvi__stage *y)
 {
     const struct gvi__private *x = &st->x;
     gvi__stage z = y[gvi__uses(x, GVI_MOMENTA)];
-    z.sum[0].table = x->con.of_forces;
-    z.sum[1].table = gvi__uses(x, GVI_MOMENTA) ? NULL : x->con.of_impulses;
+    z.sum[0].table = x->con.by_force;
+    z.sum[1].table = gvi__uses(x, GVI_MOMENTA) ? NULL : x->con.by_impulse;
     z.rows = x->con.D;
     z.free = x->con.free;
     z.scale = z.change = NULL;
@@ -3533,40 +3715,34 @@ static void gvi__constraint_rows(const gvi_stepper *st, const gvi__stage *y)
     else x->kernel(st, &z, 0);
 }
 
-// G' lambda at the points of the sources
+// G' lambda at the sources
 static void gvi__constraint_forces(const gvi_stepper *st)
 {
     const struct gvi__private *x = &st->x;
     const int n = st->n, R = x->R, C = x->con.C;
-    for (int i = 0; i < n; ++i) {
-        gvi_real *GVI__RESTRICT row = x->con.force + i*R;
-        gvi__zero((size_t)R, row);
-        for (int a = 0; a < x->con.m; ++a) {
+    gvi__zero((size_t)(n*R), x->con.force);
+    for (int a = 0; a < x->con.m; ++a)
+        for (int i = 0; i < n; ++i) {
             const gvi_real *G = x->con.G + (a*n + i)*C, *lambda = x->con.force + (n + a)*R;
+            gvi_real *GVI__RESTRICT row = x->con.force + i*R;
             for (int e = 0; e < st->s; ++e) row[e] += G[e]*lambda[e];
         }
-    }
 }
 
 // the constraints at D, padded with q0; A in the first two iterations
-static gvi_status gvi__constraint_stage_values(gvi_stepper *st, const gvi__origin *from)
+static gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin *from)
 {
     struct gvi__private *x = &st->x;
     const int s = st->s, C = x->con.C;
-    gvi_points y = gvi__points_at(st, s + 1, C, x->con.t, x->con.at, NULL, NULL);
     for (int i = 0; i < st->n; ++i)
         for (int k = 0; k < C; ++k)
             x->con.at[i*C + k] = k > 0 && k <= s ? x->con.D[i*x->R + k - 1] : from->q[i];
-    y.g = x->con.g;
-    y.rate = y.g + x->con.m*C;
-    y.jacobian = x->con.G;
-    const gvi_status status = gvi__evaluate_constraints(st, &y);
-    if (status != GVI_OK || x->con.made > 1) return status;
-    x->con.made += 1;
-    return gvi__factor_constraints(st, C, s, x->con.G, x->con.A);
+    const gvi_status status =
+        gvi__evaluate_constraints(st, C, s + 1, x->con.t, x->con.at, x->con.G);
+    return status != GVI_OK || ++x->con.made > 2 ? status : gvi__factor_constraints(st, C, s);
 }
 
-/* The new lambda and their forces.  With momenta D' needs the P and V of the new F.          */
+// the new lambda, and forces.  With momenta D' needs the P and V of the new F
 static void gvi__constrain(gvi_stepper *st, const gvi__stage *y)
 {
     struct gvi__private *x = &st->x;
@@ -3587,15 +3763,14 @@ static void gvi__constrain(gvi_stepper *st, const gvi__stage *y)
         gvi_real *GVI__RESTRICT z = rho + a*R;
         gvi__copy((size_t)s, x->con.g + a*C + 1, z);
         for (int i = 0; i < n; ++i) {
-            const gvi_real *G = x->con.G + (a*n + i)*C + 1, *at = x->con.at + i*C + 1,
-                           *D = x->con.D + i*R;
-            for (int e = 0; e < s; ++e) z[e] += G[e]*(D[e] - at[e]);
+            const gvi_real *G = x->con.G + (a*n + i)*C + 1, *at = x->con.at + i*C + 1;
+            for (int e = 0; e < s; ++e) z[e] += G[e]*(x->con.D[i*R + e] - at[e]);
         }
         gvi_lu_solve(s, x->con.lu, x->con.lu + s*s, z);
     }
     gvi__ldl_solve(m, x->con.A, C, rho, R, s);
-    for (int a = 0; a < m; ++a)
-        for (int e = 0; e < s; ++e) lambda[a*R + e] -= rho[a*R + e]/(x->sized.h*x->con.hw[e]);
+    for (int k = 0; k < m*R; ++k)
+        if (k % R < s) lambda[k] -= rho[k]/(x->sized.h*x->con.hw[k % R]);
     gvi__constraint_forces(st);
 }
 
@@ -3603,64 +3778,94 @@ static void gvi__constrain(gvi_stepper *st, const gvi__stage *y)
 static void gvi__predict_constraints(const gvi_stepper *st, int extrapolate)
 {
     const struct gvi__private *x = &st->x;
-    const int R = x->R, rows = st->n + x->con.m, usable = extrapolate && x->con.kept == 2;
-    gvi__zero((size_t)rows*(size_t)R, x->con.force);
-    for (int i = 0; usable && i < rows; ++i)
-        for (int e = 0; e < st->s; ++e)
-            x->con.force[i*R + e] =
-                gvi__point_sum(st->s, R, x->con.E + e, x->con.last + i*x->con.C + 1);
+    const int R = x->R, rows = st->n + x->con.m;
+    gvi__zero((size_t)(rows*R), x->con.force);
+    for (int k = 0; k < rows*R && extrapolate && x->con.kept == 2; ++k)
+        if (k % R < st->s)
+            x->con.force[k] = gvi__point_sum(st->s, R, x->con.E + k % R,
+                                             x->con.last + k/R*x->con.C + 1);
 }
 
-// did an iteration stall where rows of G became dependent?
+// did the iteration stall where rows of G are dependent?
 GVI__COLD gvi_status gvi__stalled(gvi_stepper *st)
 {
-    const struct gvi__private *x = &st->x;
-    if (gvi__constrained(st) && x->con.made
-        && gvi__factor_constraints(st, x->con.C, st->s, x->con.G, x->con.A) == GVI_E_SINGULAR)
+    if (gvi__constrained(st) && st->x.con.made > 0
+        && gvi__factor_constraints(st, st->x.con.C, st->s) == GVI_E_SINGULAR)
         return GVI_E_SINGULAR;
     return gvi__report_status(st, GVI_E_CONVERGENCE);
 }
 
-/* ---- at the end of a step ---- */
-
-// step.p += the impulses of e < s
-static void gvi__add_impulses(const gvi_stepper *st)
+// RATTLE: the drift from p to g(q1) = 0 by impulses G0' mu, of a simplified Newton iteration
+static gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h)
 {
-    const struct gvi__private *x = &st->x;
-    for (int i = 0; i < st->n; ++i) {
-        const gvi__two z = gvi__exact_dot(x->R, x->con.hw, x->con.force + i*x->R),
-                       p = gvi__add_low(x->step.p[i], x->step.p_low[i], z.hi, z.lo);
-        x->step.p[i] = p.hi;
-        x->step.p_low[i] = p.lo;
+    struct gvi__private *x = &st->x;
+    const int n = st->n, m = x->con.m;
+    gvi_real before = GVI__MAX, *Q = x->work.Q, *z = x->con.rho, *d = x->con.W;
+    const gvi_real t = from->t + (from->t_low + h);
+    gvi_status status = gvi__constraints_at(st, from->t, from->q);
+    gvi__zero((size_t)n, x->step.p_low);
+    for (;;) {
+        gvi_real size = 0, *G = x->con.G + m*n;   // G0 is before it
+        if (status == GVI_OK) status = gvi__evaluate_constraints(st, 1, 1, &t, Q, G);
+        if (status != GVI_OK) return status;
+        for (int a = 0; a < m; ++a) z[a] = -x->con.g[a]/h;
+        gvi__ldl_solve(m, x->con.A, 1, z, 1, 1);
+        for (int a = 0; a < m; ++a) size += GVI_ABS(x->con.g[a]*z[a]);
+        if (!(size < before/4)) {                 // rounding?
+            for (int a = 0; a < m; ++a)
+                if (gvi__violated(st, 64, t, Q, G, a))
+                    return gvi__report_status(st, gvi__finite(size) || x->diagnose
+                                                      ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE);
+            return GVI_OK;
+        }
+        before = size;
+        gvi__zero((size_t)n, d);
+        gvi__add_force(st, z, d);
+        gvi__add_scaled(n, 1, d, x->step.p, x->step.p);
+        gvi__over_mass(st, d, 1, 1);
+        gvi__add_scaled(n, h, d, x->step.q, x->step.q);
+        gvi__add_scaled(n, 1, x->step.q, from->q, Q);
     }
 }
 
+/* ---- at the end of a step, and at the start ---- */
+
 /* step.p += G' y such that G v + dg/dt = 0 at the end: once, and once more for the rounding of
-   that, or with Lagrangian terms until that is left.  y, their sum, goes behind `last`.       */
-static gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from)
+   that, or with Lagrangian terms until that is left.  At a start, what is farther off than
+   rounding is refused; for v by the kinetic energy in it, r' A^-1 r/2, r = G v + dg/dt.      */
+static gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, int start)
 {
+    enum { UNITS = 4096 };
     struct gvi__private *x = &st->x;
     const int n = st->n, m = x->con.m, passes = gvi__has(x, GVI__HAS_LAGRANGIAN) ? 40 : 2;
-    const gvi_real t = from->t + (from->t_low + x->dt);
-    gvi_real *q = x->result, *p = q + n, *v = p + n, *z = x->con.rho, before = GVI__MAX;
+    const gvi_real t = from->t + (from->t_low + x->dt), far = UNITS*GVI__EPS;
+    gvi_real *q = x->result, *p = q + n, *v = p + n, *r = x->con.g, *z = x->con.rho,
+             before = GVI__MAX;
     for (int i = 0; i < n; ++i) q[i] = from->q[i] + (x->step.q[i] + x->step.q_low[i]);
     gvi__zero((size_t)m, x->con.y);
+    x->diagnose |= start;
     gvi_status status = gvi__constraints_at(st, t, q);
+    if (start) x->diagnose = 0;
+    for (int a = 0; a < m && start && status == GVI_OK; ++a)
+        if (gvi__violated(st, UNITS, t, q, x->con.G, a))
+            return gvi__report_row(st, GVI_E_CONSTRAINT, a, GVI_FAULT_NONE);
     gvi__velocity_guess(st, v);
     for (int pass = 0; pass < passes && status == GVI_OK; ++pass) {
         gvi_real size = 0;
+        int row = 0;
         for (int i = 0; i < n; ++i) p[i] = from->p[i] + (x->step.p[i] + x->step.p_low[i]);
         status = gvi__velocity(st, t, q, p, v);
-        if (status != GVI_OK) return status;
-        for (int a = 0; a < m; ++a)
-            p[a] = z[a] = -(x->con.g[m + a] + gvi__dot(n, x->con.G + a*n, v));
+        for (int a = 0; a < m; ++a) r[a] = z[a] = -(r[m + a] + gvi__dot(n, x->con.G + a*n, v));
         gvi__ldl_solve(m, x->con.A, 1, z, 1, 1);
         for (int a = 0; a < m; ++a) {
-            size += p[a]*z[a];
+            size += r[a]*z[a];
+            if (r[a]*z[a] > r[row]*z[row]) row = a;
             x->con.y[a] += z[a];
         }
+        if (start && pass == 0 && !(size <= far*far*GVI_ABS(gvi__dot(n, p, v))))
+            return gvi__report_row(st, GVI_E_CONSTRAINT, row, GVI_FAULT_NONE);
         gvi__zero((size_t)n, p);
-        gvi__add_force(st, x->con.G, z, p);
+        gvi__add_force(st, z, p);
         for (int i = 0; i < n; ++i) {
             const gvi__two sum = gvi__add_low(x->step.p[i], x->step.p_low[i], p[i], 0);
             x->step.p[i] = sum.hi;
@@ -3672,232 +3877,97 @@ static gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from)
     return status;
 }
 
+// are q and p, which may be those of the state, on the constraints?  Then in step.q, step.p
+GVI__COLD gvi_status gvi__project_start(gvi_stepper *st, gvi_real t, const gvi_real *q,
+                                        const gvi_real *p)
+{
+    struct gvi__private *x = &st->x;
+    const gvi__origin from = { t, 0, x->zeros, x->zeros, x->zeros, x->zeros, 0 };
+    const size_t n = (size_t)st->n;
+    if (q != x->step.q) gvi__copy(n, q, x->step.q);
+    if (p != x->step.p) gvi__copy(n, p, x->step.p);
+    gvi__zero(n, x->step.q_low);
+    gvi__zero(n, x->step.p_low);
+    x->dt = 0;
+    return gvi__project(st, &from, 1);
+}
+
 // forces and lambda of the step, with those at its end, for the curve and the next prediction
 static void gvi__commit_constraints(gvi_stepper *st, gvi_real h)
 {
     struct gvi__private *x = &st->x;
-    const int n = st->n, s = st->s, C = x->con.C;
+    const int n = st->n, s = st->s, C = x->con.C, rows = n + x->con.m;
     x->con.kept = gvi__constrained(st) && !gvi__uses(x, GVI_EXPLICIT) ? 2 : 0;
     if (x->con.kept == 0) return;
-    for (int i = 0; i < n + x->con.m; ++i) {
+    for (int a = n; a < rows; ++a) x->con.y[a - n] /= h*x->con.w[s];
+    gvi__zero((size_t)n, x->result);
+    gvi__add_force(st, x->con.y, x->result);
+    for (int i = 0; i < rows; ++i) {
         gvi__copy((size_t)s, x->con.force + i*x->R, x->con.last + i*C);
-        x->con.last[i*C + s] = 0;
-    }
-    for (int a = 0; a < x->con.m; ++a) {
-        const gvi_real lambda = x->con.y[a]/(h*x->con.w[s]);
-        x->con.last[(n + a)*C + s] = lambda;
-        for (int i = 0; i < n; ++i) x->con.last[i*C + s] += x->con.G[a*n + i]*lambda;
+        x->con.last[i*C + s] = i < n ? x->result[i] : x->con.y[i - n];
     }
 }
 
-/* What rounding is to g of row a at one point: that of its terms G_ai q_i and t dg/dt.       */
-static gvi_real gvi__constraint_unit(const gvi_stepper *st, const gvi_points *y, int a)
-{
-    gvi_real size = GVI_ABS(y->rate[a]*y->t[0]);
-    for (int i = 0; i < st->n; ++i) size += GVI_ABS(y->jacobian[a*st->n + i]*y->q[i]);
-    return GVI__EPS*size;
-}
-
-/* ---- explicit: RATTLE (Andersen 1983) ---- */
-
-/* p + h/2 F0 + G0' mu leads to g(q1) = 0: a simplified Newton iteration with G0 M^-1 G0'; then F1
-   and the projection.  Ends where g is rounding of its terms, or no longer falls near that.   */
-static gvi_status gvi__rattle(gvi_stepper *st, const gvi__origin *from, gvi_real h,
-                              const gvi_real *force)
-{
-    struct gvi__private *x = &st->x;
-    const int n = st->n, m = x->con.m;
-    gvi_real t = from->t, *Q = x->work.Q, *F = x->work.F, *mu = x->con.y, *z = x->con.rho;
-    gvi_real *dq = x->step.q, *dp = x->step.p, before = GVI__MAX;
-    gvi_points y = gvi__points_at(st, 1, 1, &t, Q, F, NULL);
-    gvi_status status = gvi__constraints_at(st, t, from->q);
-    gvi__zero((size_t)n, F);
-    gvi__zero((size_t)n, x->step.q_low);
-    gvi__zero((size_t)n, x->step.p_low);
-    gvi__copy((size_t)n, from->q, Q);
-    if (status == GVI_OK && !force) status = gvi__effects(st, &y, 0, NULL);
-    if (status != GVI_OK) return status;
-    gvi__add_scaled(n, x->sized.hb[0], force ? force : F, from->p_low, dp);
-    t = from->t + (from->t_low + h);
-    y.g = x->con.g;
-    y.rate = y.g + m;
-    y.jacobian = x->con.G + m*n;                  // G0 is before it
-    for (int k = 1; ; ++k) {
-        gvi_real size = 0, worst = 0;
-        for (int i = 0; i < n; ++i) dq[i] = from->p[i] + dp[i];
-        gvi__over_mass(st, dq, 1, 1);
-        gvi__add_scaled(n, h, dq, from->q_low, dq);
-        for (int i = 0; i < n; ++i) Q[i] = from->q[i] + dq[i];
-        status = gvi__evaluate_constraints(st, &y);
-        if (status != GVI_OK) return status;
-        gvi__copy((size_t)m, y.g, z);
-        gvi__ldl_solve(m, x->con.A, 1, z, 1, 1);
-        for (int a = 0; a < m; ++a) {
-            const gvi_real unit = gvi__constraint_unit(st, &y, a);
-            if (GVI_ABS(y.g[a]) > worst*unit) worst = GVI_ABS(y.g[a])/unit;
-            size += y.g[a]*z[a];
-            mu[a] = -z[a]/h;
-        }
-        st->iterations = k;
-        if (!gvi__finite(size)) return gvi__report_status(st, GVI_E_NON_FINITE);
-        if (!gvi__nonzero(size) || (!(size < before/4) && worst <= 64)) break;
-        if (k >= x->desc.max_iterations) return gvi__report_status(st, GVI_E_CONVERGENCE);
-        before = size;
-        gvi__add_force(st, x->con.G, mu, dp);
-    }
-    gvi__zero((size_t)n, F);
-    status = gvi__effects(st, &y, 0, NULL);
-    gvi__add_scaled(n, x->sized.hb[1], F, dp, dp);
-    return status == GVI_OK ? gvi__project(st, from) : status;
-}
-
-/* ---- start and query ---- */
-
-/* step.q and step.p on the constraints: refused if further off than rounding, 4096 units; then
-   q by Newton's method along M^-1 G' while g falls, and p by gvi__project.  How far v is off is
-   the kinetic energy in it, G v + dg/dt = r: r' A^-1 r/2.                                     */
-GVI__COLD gvi_status gvi__onto_constraints(gvi_stepper *st, gvi_real t)
-{
-    struct gvi__private *x = &st->x;
-    enum { UNITS = 4096 };
-    const int n = st->n, m = x->con.m;
-    gvi_real *q = x->step.q, *p = x->step.p, *z = x->con.rho, *v = x->result, before = GVI__MAX;
-    const gvi__origin from = { t, 0, x->zeros, x->zeros, x->zeros, x->zeros, 0 };
-    gvi__zero((size_t)n, x->step.q_low);
-    gvi__zero((size_t)n, x->step.p_low);
-    for (int k = 0; k < 10; ++k) {
-        gvi_real size = 0;
-        const gvi_status status = gvi__constraints_at(st, t, q);
-        if (status != GVI_OK) return status;
-        gvi_points y = gvi__one_point(st, &t, q);
-        y.g = x->con.g;
-        y.rate = y.g + m;
-        y.jacobian = x->con.G;
-        for (int a = 0; a < m; ++a) {
-            const gvi_real g = GVI_ABS(y.g[a]);
-            if (k == 0 && !(g <= UNITS*gvi__constraint_unit(st, &y, a)))
-                return gvi__report_row(st, gvi__finite(g) ? GVI_E_CONSTRAINT : GVI_E_NON_FINITE, a,
-                                       GVI_FAULT_NONE);
-        }
-        gvi__copy((size_t)m, y.g, z);
-        gvi__ldl_solve(m, x->con.A, 1, z, 1, 1);
-        for (int a = 0; a < m; ++a) size += y.g[a]*z[a];
-        if (!(size < before/4)) break;
-        before = size;
-        gvi__zero((size_t)n, v);
-        gvi__add_force(st, y.jacobian, z, v);
-        if (gvi__mass_is_constant(x)) gvi__over_mass(st, v, 1, 1);
-        else gvi__ldl_solve(n, x->mass.at_points, 1, v, 1, 1);
-        for (int i = 0; i < n; ++i) q[i] -= v[i];
-    }
-    gvi_real energy = 0, off = 0, most = 0, *rate = z + m;
-    int row = 0;
-    gvi__zero((size_t)n, v);
-    gvi_status status = gvi__velocity(st, t, q, p, v);
-    if (status != GVI_OK) return status;
-    for (int a = 0; a < m; ++a) {
-        rate[a] = x->con.g[m + a];
-        z[a] = rate[a] + gvi__dot(n, x->con.G + a*n, v);
-        x->con.y[a] = z[a];
-    }
-    gvi__ldl_solve(m, x->con.A, 1, z, 1, 1);
-    gvi__ldl_solve(m, x->con.A, 1, rate, 1, 1);
-    for (int a = 0; a < m; ++a) {
-        const gvi_real part = x->con.y[a]*z[a];
-        if (GVI_ABS(part) > most) most = GVI_ABS(part), row = a;
-        off += part;
-        energy += x->con.g[m + a]*rate[a];
-    }
-    energy += GVI_ABS(gvi__dot(n, p, v));
-    if (!(off <= UNITS*UNITS*GVI__EPS*GVI__EPS*energy))
-        return gvi__report_row(st, GVI_E_CONSTRAINT, row, GVI_FAULT_NONE);
-    x->dt = 0;
-    return gvi__project(st, &from);
-}
-
-/* d/de of G v + dg/dt at (t + e, q + e v, p + e force), by differences of order 8: along the motion
-   that is 0.                                                                                  */
-GVI__COLD gvi_status gvi__hidden_rate(gvi_stepper *st, const gvi_real *v, const gvi_real *force,
-                                      gvi_real delta, gvi_real *rate)
+/* Newton's method for the lambda with which G v + dg/dt stays 0 along the motion, its matrix A.
+   d/de at (t + e, q + e v, p + e (F + G' lambda)) by differences of order 8, which are halved in
+   every iteration: the least change is where truncation and rounding meet.                   */
+GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
 {
     static const gvi_real weight[] = {
         (gvi_real)4/5, -(gvi_real)1/5, (gvi_real)4/105, -(gvi_real)1/280
     };
-    const int n = st->n, m = st->x.con.m;
-    gvi_real *q = st->x.result, *p = q + n, *u = p + n;
-    gvi__zero((size_t)m, rate);
-    for (int k = 0; k < 8; ++k) {
-        const gvi_real e = (gvi_real)(k/2 + 1)*(k % 2 ? -delta : delta), t = st->t + e;
-        gvi_points y = gvi__one_point(st, &t, q);
-        gvi__add_scaled(n, e, v, st->q, q);
-        gvi__add_scaled(n, e, force, st->p, p);
-        gvi__copy((size_t)n, v, u);
-        y.g = st->x.con.g;
-        y.rate = y.g + m;
-        y.jacobian = st->x.con.G + m*n;           // G at the state is before it
-        gvi_status status = gvi__velocity(st, t, q, p, u);
-        if (status == GVI_OK) status = gvi__evaluate_constraints(st, &y);
-        if (status != GVI_OK) return status;
-        for (int a = 0; a < m; ++a)
-            rate[a] += (y.rate[a] + gvi__dot(n, y.jacobian + a*n, u))*weight[k/2]
-                       /(k % 2 ? -delta : delta);
-    }
-    return GVI_OK;
-}
-
-/* Newton's method for the lambda that make the hidden rate 0, its matrix G M^-1 G'; the difference
-   is halved in every iteration, until rounding grows.                                        */
-GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
-{
     gvi_status status = gvi__ready(st, st && st->x.started);
     if (status != GVI_OK) return status;
+    if (!lambda || !st->x.con.bits) return st->status = lambda ? GVI_E_FORMULATION : GVI_E_ARGUMENT;
     struct gvi__private *x = &st->x;
     const int n = st->n, m = x->con.m;
-    if (!lambda || !x->con.bits) return st->status = lambda ? GVI_E_FORMULATION : GVI_E_ARGUMENT;
-    gvi_real *v = x->con.W, *force = v + n, *z = x->con.rho, *sum = x->con.y;
-    gvi_real *best = x->con.g + 2*m, least = GVI__MAX, largest = 0;
-    gvi_real delta = x->stepped ? GVI_ABS(st->h) : GVI__MAX;
+    gvi_real *q = x->result, *p = q + n, *u = p + n, *v = x->con.W, *force = v + n;
+    gvi_real *z = x->con.rho, *rate = z + m, *sum = x->con.y, *best = x->con.g + 2*m;
+    gvi_real least = GVI__MAX, largest = 0, size = 0, delta = 1;
     gvi_points y = gvi__one_point(st, &st->t, st->q);
     if (m > 0) status = gvi__constraints_at(st, st->t, st->q);
     gvi__velocity_guess(st, v);
     if (status == GVI_OK) status = gvi__velocity(st, st->t, st->q, st->p, v);
     y.v = v;
     if (status == GVI_OK) status = gvi__evaluate(st, &y, 0, 1);
-    if (status != GVI_OK) return st->status = status;
     gvi__copy((size_t)n, y.f, force);
     gvi__zero((size_t)m, sum);
 
-    // the time in which a row's terms change by their own size, or a step
-    for (int a = 0; a < m; ++a) {
-        gvi_real size = 0, rate = 0;
-        for (int i = 0; i < n; ++i) {
-            size += GVI_ABS(x->con.G[a*n + i]*st->q[i]);
-            rate += GVI_ABS(x->con.G[a*n + i]*v[i]);
-        }
-        if (size > 0 && size < delta*rate) delta = size/rate;
-    }
-    if (!(delta < GVI__MAX)) delta = 1;
-    for (int k = 0; k < GVI__DIG/2 && m > 0; ++k) {
-        gvi_real size = 0, *rate = z + m;
+    // a time in which much changes: |p||q|/p'v, or a step
+    for (int i = 0; i < n; ++i) size += GVI_ABS(st->p[i]*st->q[i]);
+    if (size > 0) delta = size/GVI_ABS(gvi__dot(n, st->p, v));
+    if (x->stepped && !(delta < GVI_ABS(st->h))) delta = GVI_ABS(st->h);
+    if (!gvi__finite(delta)) delta = 1;
+    for (int k = 0; k < GVI__DIG/2 && m > 0 && status == GVI_OK; ++k) {
         delta /= k == 0 ? 8 : 2;
-        status = gvi__hidden_rate(st, v, force, delta, rate);
-        if (status != GVI_OK) return st->status = status;
-        gvi__copy((size_t)m, rate, z);
+        gvi__zero((size_t)m, rate);
+        for (int j = 0; j < 8 && status == GVI_OK; ++j) {
+            const gvi_real sign = j % 2 ? -1 : 1, e = sign*delta*(gvi_real)(j/2 + 1), t = st->t + e;
+            gvi__add_scaled(n, e, v, st->q, q);
+            gvi__add_scaled(n, e, force, st->p, p);
+            gvi__copy((size_t)n, v, u);
+            status = gvi__velocity(st, t, q, p, u);
+            if (status == GVI_OK)
+                status = gvi__evaluate_constraints(st, 1, 1, &t, q, x->con.G + m*n);
+            for (int a = 0; a < m; ++a)
+                rate[a] += (x->con.g[m + a] + gvi__dot(n, x->con.G + (m + a)*n, u))
+                           *(sign*weight[j/2]/delta);
+        }
+        for (int a = 0; a < m; ++a) z[a] = -rate[a];
         gvi__ldl_solve(m, x->con.A, 1, z, 1, 1);
-        for (int a = 0; a < m; ++a) size += rate[a]*z[a];
+        size = -gvi__dot(m, rate, z);
         if (!(size < least) && size <= GVI__EPS*largest) break;
-        for (int a = 0; a < m; ++a) sum[a] -= z[a], z[a] = -z[a];
-        gvi__add_force(st, x->con.G, z, force);
+        gvi__add_scaled(m, 1, z, sum, sum);
+        gvi__add_force(st, z, force);
         if (size > largest) largest = size;
-        if (!(size < least)) continue;
-        least = size;
-        gvi__copy((size_t)m, sum, best);
+        if (size < least) least = size, gvi__copy((size_t)m, sum, best);
     }
-    if (m > 0 && (!(least < GVI__MAX) || gvi__first_non_finite(m, best) >= 0))
-        return gvi__report_status(st, GVI_E_NON_FINITE);
+    if (status == GVI_OK && m > 0 && !(least < GVI__MAX))
+        status = gvi__report_status(st, GVI_E_NON_FINITE);
+    if (status != GVI_OK) return st->status = status;
     for (int e = 0; e < x->desc.effect_count; ++e)
-        for (int a = 0; a < x->desc.effects[e].rows && (x->con.bits >> e & 1u); ++a)
-            *lambda++ = gvi__constraints(st) >> e & 1u ? *best++ : 0;
+        for (int a = 0; a < x->desc.effects[e].rows; ++a)
+            *lambda++ = gvi__constraints_on(st) >> e & 1u ? *best++ : 0;
     return gvi__report_status(st, GVI_OK);
 }
 
@@ -4052,38 +4122,23 @@ GVI__COLD gvi_real *gvi__take(gvi__arena *arena, size_t a, size_t b)
 // that of constraints: rows of R, then of C
 GVI__COLD void gvi__layout_constraints(struct gvi__private *x, gvi__arena *a)
 {
+    struct gvi__holonomic *y = &x->con;
     const size_t n = (size_t)x->desc.n, s = (size_t)x->desc.degree, r = (size_t)x->desc.rule.points,
                  R = (size_t)GVI__ROW(r), C = (size_t)GVI__ROW(s + 1),
-                 m = (size_t)gvi__count_rows(x, x->con.bits);
-    const size_t momenta = gvi__uses(x, GVI_MOMENTA) != 0,
-                 reads_v = momenta || gvi__uses(x, GVI_VELOCITIES);
-    if (!GVI__CONSTRAINTS || m == 0) return;
-    const size_t rows = gvi__uses(x, GVI_EXPLICIT) ? 0 : 1;
-    x->con.C = (int)C;
-    x->con.D = gvi__take(a, rows*n, R);
-    x->con.free = gvi__take(a, rows*n, R);
-    x->con.P = gvi__take(a, momenta*n, R);
-    x->con.force = gvi__take(a, rows*(n + m), R);
-    x->con.K = gvi__take(a, rows*r, R);
-    x->con.U = gvi__take(a, rows*reads_v*r, R);
-    x->con.of_forces = gvi__take(a, rows*r, R);
-    x->con.of_impulses = gvi__take(a, rows*r, R);
-    x->con.E = gvi__take(a, rows*s, R);
-    x->con.Phi = gvi__take(a, rows*s, R);
-    x->con.Phi_low = gvi__take(a, rows*s, R);
-    x->con.hw = gvi__take(a, 1, R);
-    x->con.last = gvi__take(a, rows*(n + m), C);
-    x->con.at = gvi__take(a, rows*n, C);
-    x->con.t = gvi__take(a, rows, C);
-    x->con.W = gvi__take(a, n, C);
-    x->con.g = gvi__take(a, 2*m, C);
-    x->con.G = gvi__take(a, m*n, C);
-    x->con.A = gvi__take(a, m*m, C);
-    x->con.d = gvi__take(a, 1, R + C);
-    x->con.w = gvi__take(a, 1, s + 1);
-    x->con.rho = gvi__take(a, m, R + 1);
-    x->con.lu = gvi__take(a, rows*(s + 1), s + 1);
-    x->con.y = gvi__take(a, 1, m);
+                 m = GVI__CONSTRAINTS ? (size_t)gvi__count_rows(x, y->bits) : 0,
+                 on = m > 0, i = on && !gvi__uses(x, GVI_EXPLICIT),
+                 u = i && !gvi__uses(x, GVI_POSITIONS);
+    const struct { gvi_real **to; size_t rows, width; } list[] = {
+        { &y->D, i*n, R }, { &y->free, i*n, R }, { &y->P, u*n, R }, { &y->force, i*(n + m), R },
+        { &y->K, i*r, R }, { &y->U, u*r, R }, { &y->by_force, i*r, R }, { &y->by_impulse, i*r, R },
+        { &y->E, i*s, R }, { &y->Phi, i*s, R }, { &y->Phi_low, i*s, R }, { &y->hw, on, R },
+        { &y->last, i*(n + m), C }, { &y->at, i*n, C }, { &y->t, i, C }, { &y->W, on*n, C },
+        { &y->g, 2*m, C }, { &y->G, m*n, C }, { &y->A, m*m, C }, { &y->d, on, R + C },
+        { &y->w, on, s + 1 }, { &y->rho, m, R + 1 }, { &y->lu, i*(s + 1), s + 1 }, { &y->y, on, m }
+    };
+    y->C = (int)C;
+    for (size_t k = 0; k < sizeof list/sizeof *list; ++k)
+        *list[k].to = gvi__take(a, list[k].rows, list[k].width);
 }
 
 /* The one layout: gvi_size counts with it, gvi_init hands out by it, and GVI_LENGTH is its sum
@@ -4214,7 +4269,8 @@ GVI__COLD gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
             return gvi__report(st, gvi__finite(m[i]) ? GVI_E_SINGULAR : GVI_E_ARGUMENT,
                                GVI_FAULT_MASS, i, GVI_FAULT_NONE);
     }
-    const gvi_status status = dense ? gvi__ldl_factor(n, 1, 1, x->mass.factor, (gvi_real)n*GVI__EPS, at) : GVI_OK;
+    const gvi_status status =
+        dense ? gvi__ldl_factor(n, 1, 1, x->mass.factor, (gvi_real)n*GVI__EPS, at) : GVI_OK;
     return status == GVI_OK ? GVI_OK : gvi__report(st, status, GVI_FAULT_MASS, at[0], at[1]);
 }
 
@@ -4715,10 +4771,6 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
     return gvi__report_status(st, GVI_E_CONVERGENCE);
 }
 
-// how Newton's method begins: at constant velocity, at the last step's modes; or as the first, and
-// takes back changes
-enum { GVI__PLAIN, GVI__EXTRAPOLATED, GVI__HALVED };
-
 static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int how, int query)
 {
     struct gvi__private *x = &st->x;
@@ -4743,206 +4795,7 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
     return GVI_OK;
 }
 
-/* ------------------------------------------------------------------ STEP */
-
-/* The way of a step, to be read in this order: gvi_step, gvi__solve, gvi__attempt; there
-   gvi__free_motion (free motion), gvi__prepare_predictor (predictor), gvi__iterate
-   (gvi__stages, then again and again gvi__evaluate_stages: callbacks, gvi__new_rows: tables
-   times forces, gvi__converged) and gvi__increments; then gvi__commit.
-
-   One attempt at a step or a partial step, to its increments; nothing of it is kept yet.  The
-   fixed point from extrapolated values, then from plain ones, then Newton's method, likewise.  */
-static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query)
-{
-    struct gvi__private *x = &st->x;
-    gvi__free_motion(st, from, h);
-    st->formulation = x->chosen;
-    if (gvi__uses(x, GVI_EXPLICIT))
-        return gvi__kicks(st, from, h, x->has_force && query != GVI__FROM_START ? x->last.F : NULL);
-
-    // farther out the last values say nothing
-    const int usable = x->kept > 0 && h/st->h > -2 && h/st->h < 8;
-    int used = 0;
-    gvi_status status = GVI_E_CONVERGENCE;
-    if (!gvi__uses(x, GVI_NEWTON)
-        && (!gvi__has(x, GVI__HAS_NEWTON) || x->newton.left == 0 || query)) {
-        if (usable) gvi__prepare_predictor(st, h, query);
-        for (int plain = !usable; plain < 2; ++plain) {
-            status = gvi__iterate(st, from, h, !plain, &used);
-            gvi__count(&st->counters.iterations, used);
-            if (!query) st->iterations = used;
-            if (used > st->counters.most_iterations) st->counters.most_iterations = used;
-            // where iterations are given, only a callback that failed at extrapolated values is
-            // worth a second try
-            if (status == GVI_OK
-                || (x->desc.iterations > 0 && (used > 1 || status == GVI_E_CONVERGENCE)))
-                break;
-        }
-        if (status == GVI_OK) gvi__increments(st, from, h);
-        if (status == GVI_OK && gvi__constrained(st)) status = gvi__project(st, from);
-        if (status == GVI_OK || !gvi__may_turn(st)) return status;
-        if (!query && status == GVI_E_CONVERGENCE) x->newton.left = 64;
-    }
-    if (!GVI__NEWTON) return status;
-    const unsigned count = (unsigned)st->counters.newton_iterations;
-    st->formulation = GVI_NEWTON;
-    if (usable) gvi__prepare_predictor(st, h, query);
-    const int extrapolated = usable && x->has_velocity;
-    status = gvi__newton_step(st, from, extrapolated ? GVI__EXTRAPOLATED : GVI__PLAIN, query);
-    if (status == GVI_E_CONVERGENCE || status == GVI_E_SINGULAR
-        || (status == GVI_E_CALLBACK && extrapolated)
-        || (status == GVI_E_NON_FINITE && !x->diagnose)) {
-        if (!query) x->newton.h = 0;              // the extrapolation may be to blame
-        status = gvi__newton_step(st, from, GVI__HALVED, query);
-    }
-    if (!query) st->iterations = used + (int)((unsigned)st->counters.newton_iterations - count);
-    return status;
-}
-
-// are q + dq and p + dp finite?  0 x is 0 or NaN
-static int gvi__finite_end(const gvi_stepper *st, const gvi__origin *from)
-{
-    const struct gvi__phase *d = &st->x.step;
-    gvi_real none = 0;
-    int i = 0;
-#if GVI__LANES > 1
-    gvi__lane nones = { 0 };
-    for (; st->n >= 8 && i + GVI__LANES <= st->n; i += GVI__LANES)
-        nones += 0*(GVI__LOAD(from->q + i) + GVI__LOAD(d->q + i))
-                 + 0*(GVI__LOAD(from->p + i) + GVI__LOAD(d->p + i));
-    for (int k = 0; i > 0 && k < GVI__LANES; ++k) none += nones[k];
-#endif
-    for (; i < st->n; ++i) {
-        // as it will be kept
-        const gvi__rounded q = from->q[i] + d->q[i], p = from->p[i] + d->p[i];
-        none += 0*q + 0*p;
-    }
-    return none >= 0;
-}
-
-/* One attempt.  If it met NaN or Inf, the same once more, now looking at what every effect
-   returns: that names the effect.  If none is to blame, the iteration diverged.               */
-static gvi_status gvi__solve(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query)
-{
-    struct gvi__private *x = &st->x;
-    for (int look = 0; ; look = 1) {
-        x->diagnose = look;
-        gvi_status status = gvi__attempt(st, from, h, query);
-        x->diagnose = 0;
-        if (status == GVI_OK && !look && !gvi__finite_end(st, from))
-            status = gvi__report_status(st, GVI_E_NON_FINITE);
-        const int explained = status != GVI_E_NON_FINITE || st->fault.effect != GVI_FAULT_NONE;
-        if (look)
-            return status != GVI_OK && explained ? status
-                                                 : gvi__report_status(st, GVI_E_CONVERGENCE);
-        if (explained) return status;
-        if (!query) x->newton.h = 0;
-    }
-}
-
-// work becomes last, last becomes older (where it is kept that long), and the oldest is free
-static void gvi__rotate(gvi_real **older, gvi_real **last, gvi_real **work)
-{
-    gvi_real *spare = *older ? *older : *last;
-    if (*older) *older = *last;
-    *last = *work;
-    *work = spare;
-}
-
-static void gvi__rotate_values(gvi_stepper *st)
-{
-    struct gvi__private *x = &st->x;
-    gvi__rotate(&x->older.F, &x->last.F, &x->work.F);
-    if (GVI__READS_V) gvi__rotate(&x->older.V, &x->last.V, &x->work.V);
-    if (GVI__LAGRANGIAN) gvi__rotate(&x->older.A, &x->last.A, &x->work.A);
-}
-
-// was := x, x + x_low := x + dx + dx_low; dx_low NULL: 0
-static void gvi__move(int n, const gvi_real *GVI__RESTRICT dx, const gvi_real *GVI__RESTRICT dx_low,
-                      gvi_real *GVI__RESTRICT x, gvi_real *GVI__RESTRICT x_low,
-                      gvi_real *GVI__RESTRICT was)
-{
-    int i = 0;
-#if GVI__LANES > 1
-    for (; n >= 8 && i + GVI__LANES <= n; i += GVI__LANES) {          // gvi__two_sum, twice
-        const gvi__lane a = GVI__LOAD(x + i), d = GVI__LOAD(dx + i), s = a + d, b = s - a;
-        gvi__lane e = (a - (s - b)) + (d - b), t = s;
-        if (dx_low) {
-            e += GVI__LOAD(dx_low + i);
-            t = s + e;
-            const gvi__lane f = t - s;
-            e = (s - (t - f)) + (e - f);
-        }
-        GVI__STORE(was + i) = a;
-        GVI__STORE(x + i) = t;
-        GVI__STORE(x_low + i) = e;
-    }
-#endif
-    for (; i < n; ++i) {
-        gvi__two sum = gvi__two_sum(x[i], dx[i]);
-        if (dx_low) sum = gvi__two_sum(sum.hi, sum.lo + dx_low[i]);
-        was[i] = x[i];
-        x[i] = sum.hi;
-        x_low[i] = sum.lo;
-    }
-}
-
-// the step is done: state and compensation move on, stage values become those of the last step
-static void gvi__commit(gvi_stepper *st, gvi_real h)
-{
-    struct gvi__private *x = &st->x;
-    const gvi__two t = gvi__two_sum(st->t, x->dt + st->t_low);
-    const int whole = gvi__uses(x, GVI_EXPLICIT);             // whose increments have no low words
-    gvi__move(st->n, x->step.q, whole ? NULL : x->step.q_low, x->state.q, x->state.q_low,
-              x->began.q);
-    gvi__move(st->n, x->step.p, whole ? NULL : x->step.p_low, x->state.p, x->state.p_low,
-              x->began.p);
-    st->t0 = st->t;
-    st->t = t.hi;
-    st->t_low = t.lo;
-    if (GVI__CLOCK) {
-        const gvi__two H = gvi__two_sum(x->time.H, x->time.dH + x->time.H_low);
-        x->began.H = x->time.H;
-        x->time.H = H.hi;
-        x->time.H_low = H.lo;
-    }
-    if (GVI__CONSTRAINTS && x->con.bits) gvi__commit_constraints(st, h);
-    x->kept = x->kept > 0 && !gvi__nonzero(h - st->h) ? 2 : 1;
-    st->h = h;
-    gvi__rotate_values(st);
-    x->stepped = gvi__clock_is_on(st) ? 2 : 1;
-    x->has_force = gvi__uses(x, GVI_EXPLICIT) && !gvi__nonzero(x->table.c[0])
-                   && !gvi__nonzero(x->table.c[st->r - 1] - 1);
-    x->has_velocity = st->formulation > GVI_POSITIONS;
-    if (x->newton.left > 0) x->newton.left -= 1;
-    gvi__count(&st->counters.steps, 1);
-}
-
-GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
-{
-    const gvi_status ready = gvi__ready(st, st && st->x.started);
-    if (ready != GVI_OK) return ready;
-    if (!gvi__nonzero(h) || !gvi__finite(h)) return st->status = GVI_E_ARGUMENT;
-    struct gvi__private *x = &st->x;
-    const gvi_formulation was = st->formulation;
-    const int left = x->newton.left;
-    const gvi__origin from = {
-        st->t, st->t_low, st->q, st->q_low, st->p, st->p_low, x->time.H + x->time.H_low
-    };
-    if (x->stepped && gvi__nonzero(h - st->h)) x->newton.left = 0;
-    gvi_status status = gvi__solve(st, &from, h, GVI__STEP);
-    if (status == GVI_OK && !gvi__finite(st->t + x->dt))
-        status = gvi__report_status(st, GVI_E_ARGUMENT);
-    if (status != GVI_OK) {
-        gvi__count(&st->counters.failures, 1);
-        st->formulation = was;
-        x->newton.left = left;
-        x->newton.h = 0;
-        return st->status = status;
-    }
-    gvi__commit(st, h);
-    return gvi__report_status(st, GVI_OK);
-}
+/* ----------------------------------------------------------------- STATE */
 
 /* ---- starting ---- */
 
@@ -4952,7 +4805,7 @@ GVI__COLD gvi_status gvi__begin_at(gvi_stepper *st, gvi_real t, const gvi_real *
     struct gvi__private *x = &st->x;
     const size_t n = (size_t)st->n;
     if (gvi__constrained(st)) {
-        const gvi_status status = gvi__onto_constraints(st, t);
+        const gvi_status status = gvi__project_start(st, t, x->step.q, x->step.p);
         if (status != GVI_OK) return status;
         v = x->result + 2*n;
     }
@@ -5065,13 +4918,11 @@ GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
     }
     if (GVI__CONSTRAINTS && (x->con.bits >> index & 1u)) {
         gvi_status status = GVI_OK;
-        x->con.m = gvi__count_rows(x, gvi__constraints(st));
-        gvi__copy((size_t)st->n, st->q, x->step.q);
-        gvi__copy((size_t)st->n, st->p, x->step.p);
-        if (x->started && (was & ~x->off)) status = gvi__onto_constraints(st, st->t);
+        x->con.m = gvi__count_rows(x, gvi__constraints_on(st));
+        if (x->started && (was & ~x->off)) status = gvi__project_start(st, st->t, st->q, st->p);
         if (status != GVI_OK) {
             x->off = was;
-            x->con.m = gvi__count_rows(x, gvi__constraints(st));
+            x->con.m = gvi__count_rows(x, gvi__constraints_on(st));
             return st->status = status;
         }
         x->con.kept = x->con.kept > 0;
