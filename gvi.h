@@ -821,6 +821,7 @@ typedef char gvi__effects_fit_a_word[GVI_EFFECTS >= 1 && GVI_EFFECTS <= 32
 
 /* GVI__BODY: a body whose sizes are constants where it is called, copied there.
    GVI__APART: where size counts, never a part of its caller, whose stack stays small.
+   GVI__CALLED: never a part of its caller, whose registers are for scenes without it.
    GVI__COLD: set-up and queries, compiled for size.  GVI__RESTRICT: arrays do not overlap.   */
 #if defined(__GNUC__)
 #define GVI__BODY static inline __attribute__((always_inline))
@@ -837,6 +838,11 @@ typedef char gvi__effects_fit_a_word[GVI_EFFECTS >= 1 && GVI_EFFECTS <= 32
 #else
 #define GVI__APART static
 #define GVI__SMALL 0
+#endif
+#if defined(__GNUC__)
+#define GVI__CALLED static __attribute__((noinline))
+#else
+#define GVI__CALLED static
 #endif
 
 /* Registers that hold more than one type's digits round twice: values are stored to round them. */
@@ -2414,16 +2420,16 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
 
 // CONSTRAINTS
 struct gvi__stage;
-static void gvi__constraint_stages(const gvi_stepper *st, const gvi__origin *from, gvi_real h,
+GVI__CALLED void gvi__constraint_stages(const gvi_stepper *st, const gvi__origin *from, gvi_real h,
                                    struct gvi__stage *y, int stages);
-static void gvi__constraint_rows(const gvi_stepper *st, const struct gvi__stage *y);
-static gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin *from);
-static void gvi__constrain(gvi_stepper *st, const struct gvi__stage *y);
-static void gvi__predict_constraints(const gvi_stepper *st, int extrapolate);
+GVI__CALLED void gvi__constraint_rows(const gvi_stepper *st, const struct gvi__stage *y);
+GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin *from);
+GVI__CALLED void gvi__constrain(gvi_stepper *st, const struct gvi__stage *y);
+GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate);
 static gvi_status gvi__stalled(gvi_stepper *st);
-static gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h);
-static gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, int start);
-static void gvi__commit_constraints(gvi_stepper *st, gvi_real h);
+GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h);
+GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, int start);
+GVI__CALLED void gvi__commit_constraints(gvi_stepper *st, gvi_real h);
 
 // may a step that does not converge turn to Newton's method?
 static int gvi__may_turn(const gvi_stepper *st)
@@ -3435,6 +3441,7 @@ static gvi_status gvi__kicks(gvi_stepper *st, const gvi__origin *from, gvi_real 
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, r = st->r, known = force && gvi__nonzero(x->sized.hb[0]);
+    const int held = gvi__constrained(st) ? 1 : -1;
     const gvi_real *hb = x->sized.hb, *v = x->desc.mass.kind == GVI_MASS_UNIT ? from->p : x->free.v;
     gvi_real t = from->t, b = 0;
     gvi_points y = gvi__points_at(st, 1, 1, &t, x->work.Q, x->work.F, NULL);
@@ -3448,7 +3455,7 @@ static gvi_status gvi__kicks(gvi_stepper *st, const gvi__origin *from, gvi_real 
     gvi__zero((size_t)n, x->work.F);
     for (int j = known; j < r; ++j) {
         gvi__drift(st, from, v, b, x->sized.drift[j]);
-        if (j == 1 && gvi__constrained(st)) {
+        if (j == held) {
             const gvi_status status = gvi__constrained_drift(st, from, h);
             if (status != GVI_OK) return status;
         }
@@ -3684,7 +3691,7 @@ static int gvi__violated(const gvi_stepper *st, gvi_real units, gvi_real t, cons
 /* ---- in the iteration ---- */
 
 // one more sum in the stages; free motion and times of D
-static void gvi__constraint_stages(const gvi_stepper *st, const gvi__origin *from, gvi_real h,
+GVI__CALLED void gvi__constraint_stages(const gvi_stepper *st, const gvi__origin *from, gvi_real h,
                                    gvi__stage *y, int stages)
 {
     const struct gvi__private *x = &st->x;
@@ -3702,7 +3709,7 @@ static void gvi__constraint_stages(const gvi_stepper *st, const gvi__origin *fro
 }
 
 // D, from the stage that makes Q
-static void gvi__constraint_rows(const gvi_stepper *st, const gvi__stage *y)
+GVI__CALLED void gvi__constraint_rows(const gvi_stepper *st, const gvi__stage *y)
 {
     const struct gvi__private *x = &st->x;
     gvi__stage z = y[gvi__uses(x, GVI_MOMENTA)];
@@ -3730,7 +3737,7 @@ static void gvi__constraint_forces(const gvi_stepper *st)
 }
 
 // the constraints at D, padded with q0; A in the first two iterations
-static gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin *from)
+GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin *from)
 {
     struct gvi__private *x = &st->x;
     const int s = st->s, C = x->con.C;
@@ -3743,7 +3750,7 @@ static gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin *fro
 }
 
 // the new lambda, and forces.  With momenta D' needs the P and V of the new F
-static void gvi__constrain(gvi_stepper *st, const gvi__stage *y)
+GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *y)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, m = x->con.m, s = st->s, R = x->R, C = x->con.C;
@@ -3775,7 +3782,7 @@ static void gvi__constrain(gvi_stepper *st, const gvi__stage *y)
 }
 
 // forces and lambda to begin with: those of the last step, extrapolated, or none
-static void gvi__predict_constraints(const gvi_stepper *st, int extrapolate)
+GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate)
 {
     const struct gvi__private *x = &st->x;
     const int R = x->R, rows = st->n + x->con.m;
@@ -3796,7 +3803,7 @@ GVI__COLD gvi_status gvi__stalled(gvi_stepper *st)
 }
 
 // RATTLE: the drift from p to g(q1) = 0 by impulses G0' mu, of a simplified Newton iteration
-static gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h)
+GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, m = x->con.m;
@@ -3833,7 +3840,7 @@ static gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *fro
 /* step.p += G' y such that G v + dg/dt = 0 at the end: once, and once more for the rounding of
    that, or with Lagrangian terms until that is left.  At a start, what is farther off than
    rounding is refused; for v by the kinetic energy in it, r' A^-1 r/2, r = G v + dg/dt.      */
-static gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, int start)
+GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, int start)
 {
     enum { UNITS = 4096 };
     struct gvi__private *x = &st->x;
@@ -3893,7 +3900,7 @@ GVI__COLD gvi_status gvi__project_start(gvi_stepper *st, gvi_real t, const gvi_r
 }
 
 // forces and lambda of the step, with those at its end, for the curve and the next prediction
-static void gvi__commit_constraints(gvi_stepper *st, gvi_real h)
+GVI__CALLED void gvi__commit_constraints(gvi_stepper *st, gvi_real h)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, s = st->s, C = x->con.C, rows = n + x->con.m;
