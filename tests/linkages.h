@@ -20,7 +20,7 @@ LINKAGE int sphere(const gvi_points *x, void *user)
     const int R = x->stride;
     for (int k = 0; k < x->count; ++k) {
         const real a = user ? sin(2*x->t[k])/3 : 0, da = user ? 2*cos(2*x->t[k])/3 : 0;
-        x->g[k] = -0.5L;
+        x->g[k] = -(real)0.5L;
         for (int i = 0; i < x->n; ++i) {
             const real q = x->q[i*R + k] - (i == 0 ? a : 0);
             x->g[k] += q*q/2;
@@ -63,7 +63,7 @@ LINKAGE int four_bar(const gvi_points *x, void *user)
 {
     (void)user;
     rod(x, 0, 0, -1, 1, 0, 0);
-    rod(x, 1, 1, 0, 2.5L, 0, 0);
+    rod(x, 1, 1, 0, (real)2.5L, 0, 0);
     rod(x, 2, 1, -1, 2, 3, 0);
     return 0;
 }
@@ -76,7 +76,7 @@ LINKAGE int directors(const gvi_points *x, void *user)
     for (int row = 0, a = 0; a < 3; ++a)
         for (int b = a; b < 3; ++b, ++row)
             for (int k = 0; k < x->count; ++k) {
-                const real half = a == b ? 0.5L : 1;
+                const real half = a == b ? (real)0.5L : 1;
                 real sum = a == b ? -1 : 0;
                 for (int i = 0; i < 3; ++i) {
                     const real u = x->q[(3*a + i)*R + k], w = x->q[(3*b + i)*R + k];
@@ -212,18 +212,18 @@ LINKAGE linkage make_linkage(linkage_id id)
         a.n = 2;
         down[1] = -1;
         a.effects[0].user = down;
-        a.q[0] = 0.6L; a.q[1] = -0.8L;
-        a.v[0] = 1.2L; a.v[1] = 0.9L;
+        a.q[0] = (real)0.6L; a.q[1] = -(real)0.8L;
+        a.v[0] = (real)1.2L; a.v[1] = (real)0.9L;
         if (id == PENDULUM) break;
         a.effects[1].user = down;                 /* not NULL: the pivot moves */
-        a.v[0] += 2.0L/3;
+        a.v[0] += (real)2/3;
         break;
     case SPHERE: case MAGNET:
         a.n = 3;
         space_down[2] = -1;
         a.effects[0].user = space_down;
-        a.q[0] = 0.6L; a.q[2] = -0.8L;
-        a.v[0] = 0.4L; a.v[1] = 1; a.v[2] = 0.3L;
+        a.q[0] = (real)0.6L; a.q[2] = -(real)0.8L;
+        a.v[0] = (real)0.4L; a.v[1] = 1; a.v[2] = (real)0.3L;
         if (id == SPHERE) break;
         a.effects[2].kind = GVI_LAGRANGIAN;
         a.effects[2].points = a.effects[2].value = magnet;
@@ -231,7 +231,7 @@ LINKAGE linkage make_linkage(linkage_id id)
         break;
     case RODS: case FRICTION:
         a.n = 4; a.m = 2;
-        rods_down[1] = -1; rods_down[3] = -0.5L;
+        rods_down[1] = -1; rods_down[3] = -(real)0.5L;
         a.effects[0].user = rods_down;
         a.effects[1].points = rods;
         for (int i = 0; i < 2; ++i) {
@@ -241,7 +241,7 @@ LINKAGE linkage make_linkage(linkage_id id)
         }
         a.mass.kind = GVI_MASS_DENSE;
         a.mass.matrix = rods_mass;
-        a.q[0] = 1; a.q[2] = 1.6L; a.q[3] = 0.8L;
+        a.q[0] = 1; a.q[2] = (real)1.6L; a.q[3] = (real)0.8L;
         if (id == RODS) break;
         a.effects[2].kind = GVI_FORCE;
         a.effects[2].points = drag;
@@ -249,21 +249,21 @@ LINKAGE linkage make_linkage(linkage_id id)
         break;
     case FOUR_BAR:
         a.n = 4; a.m = 3;
-        four_down[1] = -1.75L; four_down[3] = -2.25L;
+        four_down[1] = -(real)1.75L; four_down[3] = -(real)2.25L;
         a.effects[0].user = four_down;
         a.effects[1].points = four_bar;
         for (int i = 0; i < 2; ++i) {
-            four_mass[5*i] = 3.5L/3;
-            four_mass[5*i + 10] = 1.5L;
-            four_mass[4*i + i + 2] = four_mass[4*(i + 2) + i] = 2.5L/6;
+            four_mass[5*i] = (real)3.5L/3;
+            four_mass[5*i + 10] = (real)1.5L;
+            four_mass[4*i + i + 2] = four_mass[4*(i + 2) + i] = (real)2.5L/6;
         }
         a.mass.kind = GVI_MASS_DENSE;
         a.mass.matrix = four_mass;
         {
-            const real along = (10 + 6.25L - 4)/20, across = sqrt(6.25L - along*along*10)/sqrt((real)10);
+            const real along = (10 + (real)6.25L - 4)/20, across = sqrt((real)6.25L - along*along*10)/sqrt((real)10);
             a.q[1] = 1;
             a.q[2] = 3*along + across; a.q[3] = 1 - along + 3*across;
-            a.v[0] = -2.5L;
+            a.v[0] = -(real)2.5L;
             const real X = a.q[2], Y = a.q[3] - 1, U = a.q[2] - 3, W = a.q[3], r = X*a.v[0], det = X*W - Y*U;
             a.v[2] = r*W/det; a.v[3] = -r*U/det;
         }
@@ -273,10 +273,10 @@ LINKAGE linkage make_linkage(linkage_id id)
         top_down[8] = -1;
         a.effects[0].user = top_down;
         a.effects[1].points = directors;
-        for (int i = 0; i < 9; ++i) top_mass[i] = i < 6 ? 0.25L : 0.75L;
+        for (int i = 0; i < 9; ++i) top_mass[i] = i < 6 ? (real)0.25L : (real)0.75L;
         a.mass.kind = GVI_MASS_DIAGONAL;
         a.mass.matrix = top_mass;
-        a.q[0] = 1; a.q[4] = 0.6L; a.q[5] = 0.8L; a.q[7] = -0.8L; a.q[8] = 0.6L;
+        a.q[0] = 1; a.q[4] = (real)0.6L; a.q[5] = (real)0.8L; a.q[7] = -(real)0.8L; a.q[8] = (real)0.6L;
         for (int b = 0; b < 3; ++b) {             /* d' = w x d, w = d1/2 + 5 d3 */
             const real *d = a.q + 3*b;
             real w[3];
@@ -288,7 +288,7 @@ LINKAGE linkage make_linkage(linkage_id id)
     case QUATERNION: default:
         a.n = 4;
         inertia[0] = inertia[1] = inertia[2] = 1;
-        inertia[3] = 0.5L;
+        inertia[3] = (real)0.5L;
         a.effects[0].points = a.effects[0].value = top_weight;
         a.mass.kind = GVI_MASS_POSITION;
         a.mass.points = body_mass;
@@ -296,7 +296,7 @@ LINKAGE linkage make_linkage(linkage_id id)
         a.mass.user = inertia;
         a.q[0] = 2/sqrt((real)5); a.q[1] = 1/sqrt((real)5);
         {
-            const real w[4] = { 0, 0.25L, 0, 2.5L };
+            const real w[4] = { 0, (real)0.25L, 0, (real)2.5L };
             quaternion_product(a.q, w, a.v);
         }
     }
