@@ -3248,10 +3248,9 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
             for (int k = 0; k < stages; ++k) stage[k].change = spare + k*st->n;
             continue;
         }
-        if (verdict == GVI__NOT_FINITE)          // divergence; else the effects are looked at
-            return gvi__report_status(st, diverged || x->diagnose ? GVI_E_CONVERGENCE
-                                                                  : GVI_E_NON_FINITE);
-        if (verdict == GVI__DIVERGES) return gvi__stalled(st);
+        if (verdict == GVI__NOT_FINITE && !diverged && !x->diagnose)  // the effects are looked at
+            return gvi__report_status(st, GVI_E_NON_FINITE);
+        if (verdict == GVI__NOT_FINITE || verdict == GVI__DIVERGES) return gvi__stalled(st);
         const gvi_real worst = st->counters.worst_change;
         if (change > worst*worst) st->counters.worst_change = GVI_SQRT(change);
         if (verdict == GVI__DONE) return GVI_OK;
@@ -3608,12 +3607,9 @@ static gvi_status gvi__evaluate_constraints(gvi_stepper *st, int S, int count, c
     return status;
 }
 
-// roundings of a pivot
-static gvi_real gvi__dependent(const gvi_stepper *st) { return 64*(gvi_real)st->x.con.m*GVI__EPS; }
-
 /* con.A := L D L' of G M^-1 G'; M(q) is that of the stage values, one for one, or of the one point.
-   A pivot that is `least` of its row or less says that it depends on those before it.        */
-static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, gvi_real least)
+   A pivot of 64 m roundings says that a row depends on those before it.                      */
+static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count)
 {
     const struct gvi__private *x = &st->x;
     const int n = st->n, m = x->con.m;
@@ -3631,7 +3627,8 @@ static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, gvi
             }
     }
     int at[2] = { 0, 0 };
-    const gvi_status status = gvi__ldl_factor(m, S, count, x->con.A, least, at);
+    const gvi_status status =
+        gvi__ldl_factor(m, S, count, x->con.A, 64*(gvi_real)m*GVI__EPS, at);
     return status == GVI_E_SINGULAR ? gvi__report_row(st, status, at[0], at[1])
          : status == GVI_OK ? GVI_OK : gvi__report_status(st, status);
 }
@@ -3642,7 +3639,7 @@ static gvi_status gvi__constraints_at(gvi_stepper *st, gvi_real t, const gvi_rea
     const gvi_points y = gvi__one_point(st, &t, q);
     gvi_status status = gvi__evaluate_constraints(st, 1, 1, &t, q, st->x.con.G);
     if (status == GVI_OK && !gvi__mass_is_constant(&st->x)) status = gvi__factor_mass(st, &y);
-    return status == GVI_OK ? gvi__factor_constraints(st, 1, 1, gvi__dependent(st)) : status;
+    return status == GVI_OK ? gvi__factor_constraints(st, 1, 1) : status;
 }
 
 // z += G' y at one point
@@ -3720,8 +3717,7 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
             x->con.at[i*C + k] = k > 0 && k <= s ? x->con.D[i*x->R + k - 1] : from->q[i];
     const gvi_status status =
         gvi__evaluate_constraints(st, C, s + 1, x->con.t, x->con.at, x->con.G);
-    return status != GVI_OK || ++x->con.made > 2
-        ? status : gvi__factor_constraints(st, C, s, gvi__dependent(st));
+    return status != GVI_OK || ++x->con.made > 2 ? status : gvi__factor_constraints(st, C, s);
 }
 
 // the new lambda, and forces.  With momenta D' needs the P and V of the new F
@@ -3768,12 +3764,18 @@ GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate
                                              x->con.last + k/R*x->con.C + 1);
 }
 
-// did the iteration stall where rows of G are all but dependent?
+// no convergence: were rows of G all but dependent, a pivot less than 1/1024 of what it came from?
 GVI__COLD gvi_status gvi__stalled(gvi_stepper *st)
 {
-    if (gvi__constrained(st) && st->x.con.made > 0
-        && gvi__factor_constraints(st, st->x.con.C, st->s, 1/(gvi_real)1024) == GVI_E_SINGULAR)
-        return GVI_E_SINGULAR;
+    const struct gvi__private *x = &st->x;
+    const int m = x->con.m, C = x->con.C;
+    for (int k = 0; k < st->s && gvi__constrained(st) && x->con.made > 0; ++k)
+        for (int j = 0; j < m; ++j) {
+            gvi_real was = 0;
+            for (int l = 0; l < j; ++l) was += x->con.A[(j*m + l)*C + k]*x->con.A[(l*m + j)*C + k];
+            if (was*x->con.A[(j*m + j)*C + k] > 1023)
+                return gvi__report_row(st, GVI_E_SINGULAR, j, k);
+        }
     return gvi__report_status(st, GVI_E_CONVERGENCE);
 }
 

@@ -183,7 +183,7 @@ LINKAGE int body_gradient(const gvi_points *x, void *user)
         real w[4], u[4];
         quaternion_product(q, v, w);
         for (int j = 0; j < 4; ++j) {
-            const real e[4] = { j == 0, -(j == 1), -(j == 2), -(j == 3) };
+            const real e[4] = { j == 0, j == 1 ? -1 : 0, j == 2 ? -1 : 0, j == 3 ? -1 : 0 };
             quaternion_product(e, v, u);
             for (int a = 0; a < 4; ++a) x->f[j*R + k] += 4*I0[a]*w[a]*u[a];
         }
