@@ -39,7 +39,7 @@ VALGRIND     = test_api test_lu test_interpolation 04_driven_damped 06_building_
 
 # `make test` is for a person, two minutes; `make check` is the rest, twenty.
 TEST_STEPS  = $(TESTS) $(EXAMPLES) docs-check symbols headers-quick
-CHECK_STEPS = headers $(VARIANTS) $(EXAMPLES:%=alone-%) any_processor parts bound float instructions prices \
+CHECK_STEPS = headers $(VARIANTS) $(EXAMPLES:%=alone-%) any_processor parts bound float instructions prices usable \
               $(VALGRIND:%=valgrind-%) sanitize hard-single firmware fuzz-short
 
 STEP = $(Q)sh tests/tools/step.sh $(BUILD)
@@ -82,11 +82,15 @@ examples: $(EXAMPLES)
 
 ## cost         CPU time for a given error: gvi.h and the usual alternatives; SCENE=net: what each effect of it costs
 
-## install      copies gvi.h, the whole library, to $(DESTDIR)$(PREFIX)/include
+## install      copies gvi.h, the whole library, to $(DESTDIR)$(PREFIX)/include, and gvi.pc to share/pkgconfig
+INSTALLED = '$(DESTDIR)$(PREFIX)/include/gvi.h' '$(DESTDIR)$(PREFIX)/share/pkgconfig/gvi.pc'
 install:
-	mkdir -p '$(DESTDIR)$(PREFIX)/include'
+	mkdir -p '$(DESTDIR)$(PREFIX)/include' '$(DESTDIR)$(PREFIX)/share/pkgconfig'
 	cp gvi.h '$(DESTDIR)$(PREFIX)/include/gvi.h'
-	chmod 644 '$(DESTDIR)$(PREFIX)/include/gvi.h'
+	printf '%s\n' 'prefix=$(PREFIX)' '' 'Name: gvi' 'Version: $(shell sed -n 's/^.define GVI_VERSION "\(.*\)"/\1/p' gvi.h)' \
+	    'Description: Galerkin variational integrators for mechanical systems' 'Cflags: -I$${prefix}/include' 'Libs: -lm' \
+	    >'$(DESTDIR)$(PREFIX)/share/pkgconfig/gvi.pc'
+	chmod 644 $(INSTALLED)
 
 ## clean        removes build/
 clean:
@@ -99,9 +103,9 @@ help:
 help-all: help
 	$(Q)sed -n 's/^#:  */                    /p; t; s/^#: /  make /p' Makefile tests/studies.mk tests/playground.mk
 
-#: uninstall    removes gvi.h from where install put it
+#: uninstall    removes what install put there
 uninstall:
-	rm -f '$(DESTDIR)$(PREFIX)/include/gvi.h'
+	rm -f $(INSTALLED)
 
 #: deps-check   installs what check uses if it is there: clang, g++, valgrind
 deps-check: deps

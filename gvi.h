@@ -244,7 +244,7 @@
    [7] Higham: Accuracy and stability of numerical algorithms, 2nd ed., 2002  */
 
 /* Macros that programs and <windows.h> often have are set aside while this file is read. */
-#if defined(__GNUC__) || (defined(_MSC_VER) && _MSC_VER >= 1926)
+#ifdef __GNUC__
 _Pragma("push_macro(\"E\")") _Pragma("push_macro(\"K\")") _Pragma("push_macro(\"M\")")
 _Pragma("push_macro(\"N\")") _Pragma("push_macro(\"R\")") _Pragma("push_macro(\"T\")")
 _Pragma("push_macro(\"far\")") _Pragma("push_macro(\"g\")") _Pragma("push_macro(\"h\")")
@@ -4917,7 +4917,7 @@ GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st)
 
 #endif /* GVI_IMPLEMENTATION */
 
-#if defined(__GNUC__) || (defined(_MSC_VER) && _MSC_VER >= 1926)
+#ifdef __GNUC__
 _Pragma("pop_macro(\"E\")") _Pragma("pop_macro(\"K\")") _Pragma("pop_macro(\"M\")")
 _Pragma("pop_macro(\"N\")") _Pragma("pop_macro(\"R\")") _Pragma("pop_macro(\"T\")")
 _Pragma("pop_macro(\"far\")") _Pragma("pop_macro(\"g\")") _Pragma("pop_macro(\"h\")")

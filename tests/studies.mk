@@ -1,6 +1,6 @@
 # studies.mk - what Makefile includes: long checks, measurements, pictures.  `make help-all` lists them.
 
-.PHONY: headers-quick headers symbols parts docs-check bound float instructions prices sanitize sanitized any_processor \
+.PHONY: headers-quick headers symbols parts docs-check bound float instructions prices usable sanitize sanitized any_processor \
         firmware deps-firmware fuzz fuzz-short size stats compare everywhere deps-everywhere \
         cost-horizon ncdp scaling kicks cost-peers deps-compare cost-embedded hard theorems
 
@@ -23,8 +23,9 @@ docs-check: $(BUILD)/gvi-double.o
 #: float        the object code of a float build: nothing is computed in double
 #: instructions points, iterations and instructions of fixed runs; RECORD=--record writes them anew
 #: prices       what an unlisted effect costs in instructions (valgrind): nothing
+#: usable       what make install puts where, and the ways into a project: pkg-config, CMake, a C++ sketch
 #: firmware     two programs without an operating system, run as Cortex-M3 and M4F by qemu, against this machine
-parts bound float instructions prices firmware: | $(FIRST)
+parts bound float instructions prices usable firmware: | $(FIRST)
 	$(STEP) $@ sh tests/tools/$@.sh $(BUILD) $(RECORD)
 
 #: sanitize     tests and examples under the address and undefined behaviour sanitizers
