@@ -76,7 +76,7 @@ check: $(CHECK_STEPS)
 examples: $(EXAMPLES)
 	$(SUM) examples $(EXAMPLES)
 
-## scenes       runs every scene and draws it in docs/img/scenes/; one: make scene-net
+## scenes       runs every scene and draws it in build/pictures/; one: make scene-net
 
 ## advise       builds build/examples/advise: degree, step and tolerance for a wanted error
 
@@ -115,8 +115,11 @@ deps-check: deps
 unit: $(PROGRAMS)
 	$(SUM) unit $(PROGRAMS)
 
-#: figures      makes the pictures in docs/img/ again
-figures: $(addprefix $(BUILD)/examples/,02_outer_solar_system 19_low_thrust 20_swing_up)
+# where pictures are drawn; those of the documents only if asked
+PICTURES = $(if $(filter figures,$(MAKECMDGOALS)),docs/img,$(BUILD)/pictures)
+
+#: figures      makes the pictures in docs/img/ again, scenes included; theorems: make theorems PICTURES=docs/img
+figures: scenes $(addprefix $(BUILD)/examples/,02_outer_solar_system 19_low_thrust 20_swing_up)
 	$(Q)mkdir -p docs/img
 	$(Q)$(BUILD)/examples/02_outer_solar_system 200000 200 8 docs/img
 	$(Q)$(BUILD)/examples/19_low_thrust --svg docs/img/low_thrust.svg

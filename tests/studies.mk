@@ -102,8 +102,8 @@ $(BUILD)/studies/scene $(BUILD)/studies/price: $(BUILD)/studies/%: examples/scen
 	$(Q)$(COMPILE) -Iexamples $< -o $@ $(LDLIBS)
 
 $(SCENES:%=scene-%): scene-%: $(BUILD)/studies/scene
-	$(Q)mkdir -p docs/img/scenes
-	$(Q)$< $* --svg docs/img/scenes/$*.svg
+	$(Q)mkdir -p $(PICTURES)/scenes
+	$(Q)$< $* --svg $(PICTURES)/scenes/$*.svg
 
 advise: $(BUILD)/examples/advise
 $(BUILD)/examples/advise: examples/advise.c $(BUILD)/cost/problems.o $(BUILD)/cost/baselines.o
@@ -178,12 +178,13 @@ $(BUILD)/hard/% $(BUILD)/theorems/%: tests/$$(notdir $$(@D))/$$*.c | $(FIRST)
 #: hard         hard cases at length, docs/hard-cases.md (seven minutes); one: make hard-drift; SEED=11: other random numbers
 hard: $(HARD:%=hard-%)
 $(HARD:%=hard-%): hard-%: $(BUILD)/hard/%
-	$(STEP) $@ $< $(if $(filter stiff,$*),docs/img) $(if $(filter brouwer% drift,$*),$(SEED))
+	$(Q)mkdir -p $(PICTURES)
+	$(STEP) $@ $< $(if $(filter stiff,$*),$(PICTURES)) $(if $(filter brouwer% drift,$*),$(SEED))
 
 #: theorems     docs/theorems.md measured again, with its pictures (a few minutes); one: make theorem-curve
 theorems: $(THEOREMS:%=theorem-%)
 $(THEOREMS:%=theorem-%): theorem-%: $(BUILD)/theorems/%
-	$(Q)mkdir -p docs/img
-	$(Q)$< docs/img
+	$(Q)mkdir -p $(PICTURES)
+	$(Q)$< $(PICTURES)
 
 -include $(wildcard $(BUILD)/hard/*.d $(BUILD)/theorems/*.d)
