@@ -32,7 +32,7 @@ PROGRAMS = $(TESTS) $(VARIANTS)
 LONG    = $(basename $(notdir $(shell grep -l 'define GVI_REAL long double' tests/test_*.c)))
 LIBRARY = $(BUILD)/gvi-$(if $(findstring -float,$*),float,$(if $(findstring -long,$*)$(filter $(LONG),$(*:-small=)),long,double))$(if $(findstring -small,$*),-small).o
 
-C_EXAMPLES   = $(sort $(filter-out advise,$(basename $(notdir $(wildcard examples/*.c)))))
+C_EXAMPLES   = $(sort $(basename $(notdir $(wildcard examples/*.c))))
 CXX_EXAMPLES = $(sort $(basename $(notdir $(wildcard examples/*.cpp))))
 EXAMPLES     = $(C_EXAMPLES) $(CXX_EXAMPLES)
 VALGRIND     = test_api test_lu test_interpolation 04_driven_damped 06_building_blocks 07_failing_step 08_robot_joint 10_checkpoint

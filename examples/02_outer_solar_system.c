@@ -15,7 +15,7 @@
 #define _POSIX_C_SOURCE 200809L  /* isatty */
 #define GVI_IMPLEMENTATION
 #include "gvi.h"
-#include "svg.h"
+#include "tools/svg.h"
 #include <stdlib.h>
 #include <unistd.h>
 

@@ -22,7 +22,7 @@
 */
 #define GVI_IMPLEMENTATION
 #include "gvi.h"
-#include "svg.h"
+#include "tools/svg.h"
 #include "tools/shooting.h"
 #include <string.h>
 

@@ -106,7 +106,7 @@ $(SCENES:%=scene-%): scene-%: $(BUILD)/studies/scene
 	$(Q)$< $* --svg $(PICTURES)/scenes/$*.svg
 
 advise: $(BUILD)/examples/advise
-$(BUILD)/examples/advise: examples/advise.c $(BUILD)/cost/problems.o $(BUILD)/cost/baselines.o
+$(BUILD)/examples/advise: examples/tools/advise.c $(BUILD)/cost/problems.o $(BUILD)/cost/baselines.o
 	@mkdir -p $(@D)
 	$(Q)$(COMPILE) -Iexamples $^ -o $@ $(LDLIBS)
 

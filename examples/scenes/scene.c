@@ -11,7 +11,7 @@
    did, which is integrated with each step's own curve.                        */
 #define GVI_IMPLEMENTATION
 #include "gvi.h"
-#include "animate.h"
+#include "tools/animate.h"
 #include "scenes.c"
 
 #include <stdio.h>

@@ -15,7 +15,7 @@
 
 #include "baselines.h"
 #include "gvi_run.h"
-#include "svg.h"
+#include "tools/svg.h"
 #include "horizon.h"
 
 #include <stdlib.h>

@@ -21,7 +21,7 @@
 #include "embedded_run.h"
 #include "embedded_bound.h"
 #include "embedded_truth.h"
-#include "svg.h"
+#include "tools/svg.h"
 
 #include <stdlib.h>
 #include <string.h>
