@@ -8,7 +8,7 @@
                            theorem_curve_inside.svg                            */
 #include "bench.h"
 #include "tables.h"
-#include "examples/svg.h"
+#include "examples/tools/svg.h"
 
 enum { S = 6, ROWS = 5, MOST = 192, SIZES = 16, LINES = 6 };
 static const double WITHIN = 0.25;

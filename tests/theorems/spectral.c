@@ -8,7 +8,7 @@
 
      spectral [folder]     writes theorem_spectral.svg and theorem_spectral_rate.svg */
 #include "spectral.h"
-#include "examples/svg.h"
+#include "examples/tools/svg.h"
 
 enum { S = 64 };
 
