@@ -244,6 +244,25 @@
    [6] Berrut, Trefethen: Barycentric Lagrange interpolation, SIAM Rev. 46, 2004
    [7] Higham: Accuracy and stability of numerical algorithms, 2nd ed., 2002  */
 
+/* Macros that programs and <windows.h> often have are set aside while this file is read. */
+#ifdef __GNUC__
+_Pragma("push_macro(\"E\")") _Pragma("push_macro(\"K\")") _Pragma("push_macro(\"M\")")
+_Pragma("push_macro(\"N\")") _Pragma("push_macro(\"R\")") _Pragma("push_macro(\"T\")")
+_Pragma("push_macro(\"far\")") _Pragma("push_macro(\"g\")") _Pragma("push_macro(\"h\")")
+_Pragma("push_macro(\"m\")") _Pragma("push_macro(\"small\")")
+#undef E
+#undef K
+#undef M
+#undef N
+#undef R
+#undef T
+#undef far
+#undef g
+#undef h
+#undef m
+#undef small
+#endif
+
 #ifndef GVI_H
 #define GVI_H
 
@@ -4841,6 +4860,13 @@ GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st)
 }
 
 #endif /* GVI_IMPLEMENTATION */
+
+#ifdef __GNUC__
+_Pragma("pop_macro(\"E\")") _Pragma("pop_macro(\"K\")") _Pragma("pop_macro(\"M\")")
+_Pragma("pop_macro(\"N\")") _Pragma("pop_macro(\"R\")") _Pragma("pop_macro(\"T\")")
+_Pragma("pop_macro(\"far\")") _Pragma("pop_macro(\"g\")") _Pragma("pop_macro(\"h\")")
+_Pragma("pop_macro(\"m\")") _Pragma("pop_macro(\"small\")")
+#endif
 
 /* --------------------------------------------------------------- LICENCE
 
