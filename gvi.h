@@ -3164,7 +3164,7 @@ static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *
 {
     gvi_real largest = 0, noise = 0;
     for (int k = 0; k < stages; ++k)
-        for (int i = 0; i < st->n; ++i) {
+        for (int i = 0; i < st->n && y[k].scale; ++i) {
             const int p = gvi__uses(&st->x, GVI_MOMENTA) && k == 0,
                       v = !gvi__uses(&st->x, GVI_MOMENTA) && k == 1;
             // the momenta formulation has factored M(q) in place: 1/D_i is there
@@ -3680,7 +3680,8 @@ static int gvi__violated(const gvi_stepper *st, gvi_real units, gvi_real t, cons
 
 /* ---- in the iteration ---- */
 
-// one more sum in the stages; free motion and times of D
+/* One more sum in the stages; free motion and times of D.  P or V is not judged: lambda turns the
+   rounding of D into X eps/h, across the constraints, where no motion feels it.              */
 GVI__CALLED void gvi__constraint_stages(const gvi_stepper *st, const gvi__origin *from, gvi_real h,
                                    gvi__stage *y, int stages)
 {
@@ -3691,6 +3692,11 @@ GVI__CALLED void gvi__constraint_stages(const gvi_stepper *st, const gvi__origin
         y[k].sum[1].table = momenta || k == 1 ? x->con.U : x->con.K;
         y[k].sum[1].weight = x->con.hw;
         y[k].sum[1].source = x->con.force;
+    }
+    if (stages == 2) {
+        y[!momenta].scale = NULL;
+        gvi__zero((size_t)st->n, x->watch.change + !momenta*st->n);
+        gvi__zero((size_t)st->n, x->watch.before + !momenta*st->n);
     }
     gvi__times(x->con.C, from->t, from->t_low, h, x->con.d, x->con.t);
     for (int i = 0; i < st->n; ++i)
