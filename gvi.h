@@ -72,6 +72,7 @@
      TABLES               what depends on rule, degree and h alone; predictor
      STEP                 attempt and commit: follow gvi_step from here
      ENGINE               stages, fixed point, increments; kicks; the clock
+     CONSTRAINTS          multipliers, RATTLE, the hidden constraint, forces
      SET-UP               checks, choice of a formulation, memory
      NEWTON'S METHOD      where the fixed point does not contract
      STATE                start, switch, restore
@@ -112,8 +113,8 @@
               large forces cancel in it, may be taken for rounding below
               32 eps of the largest |q_i|, each times sqrt(M_ii).
 
-   gvi.h does not: choose or adapt the step, treat constraints or contact,
-   run in parallel, or read or write anything.
+   gvi.h does not: choose or adapt the step, treat contact, run in parallel, or
+   read or write anything.
 
 
    OPTIONS
@@ -128,6 +129,7 @@
      GVI_ONLY_EXPLICIT, GVI_ONLY_POSITIONS, GVI_ONLY_VELOCITIES, GVI_ONLY_MOMENTA,
      GVI_ONLY_NEWTON      these formulations and no others (see HOW IT WORKS)
      GVI_NO_CLOCK         no effects of kind GVI_CLOCK
+     GVI_NO_CONSTRAINTS   none of kind GVI_CONSTRAINT, as with GVI_NO_RULES
      GVI_NO_RULES         no rule but Gauss with r = s <= 4, and in GVI_EXPLICIT those
                           that it takes; no Lagrangian terms.  Nodes and tables
                           then are constants, not code
@@ -211,6 +213,14 @@
    GVI_AUTO goes over to Newton.  All solve the same equations, and all stop at
    rounding.
 
+   CONSTRAINTS.  Effects g(t,q) = 0 hold at Lobatto's s + 1 points d_e of the step, weights
+   w_e, where their multipliers act; Lagrangian and forces stay at the rule's own [8], [9]:
+   h sum_i b_i L(t_i, Q_i, V_i) + h sum_e w_e lambda_e . g(q(d_e h)) is stationary.  The
+   step ends on g = 0 and on the hidden constraint G v + dg/dt = 0, G = dg/dq.  q and p are
+   of order min(2s, u), symplectic on the constraint manifold; degree 1 with Lobatto's two
+   points is RATTLE.  G must have full rank; second derivatives are not needed.  Positions,
+   velocities and momenta solve for lambda within the iteration (equations: CONSTRAINTS).
+
    CLOCK.  An effect g(q) > 0 makes time run as dt = g dtau, and h is a step in
    tau: t moves fast or slow, and the map is as symplectic as with fixed steps
    [3, VIII.2].  The curves of energy E are the zero-energy curves of
@@ -242,7 +252,11 @@
    [5] Antonana, Makazaga, Murua: Reducing and monitoring round-off error
        propagation for symplectic implicit Runge-Kutta schemes, 2017
    [6] Berrut, Trefethen: Barycentric Lagrange interpolation, SIAM Rev. 46, 2004
-   [7] Higham: Accuracy and stability of numerical algorithms, 2nd ed., 2002  */
+   [7] Higham: Accuracy and stability of numerical algorithms, 2nd ed., 2002
+   [8] Wenger, Ober-Bloebaum, Leyendecker: Construction and analysis of higher order
+       variational integrators for dynamical systems with holonomic constraints, 2017
+   [9] Jay: Symplectic partitioned Runge-Kutta methods for constrained Hamiltonian
+       systems, 1996; specialized partitioned additive Runge-Kutta methods, 2007 */
 
 /* Macros that programs and <windows.h> often have are set aside while this file is read. */
 #ifdef __GNUC__
@@ -615,7 +629,8 @@ GVI_DEF size_t     gvi_size(const gvi_desc *desc);
 GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *memory, size_t size);
 
 /* Start at time t from velocities, momenta, or two configurations: q0 at t and
-   q1 at t + h (solves the boundary-value problem; conjugate points: below).   */
+   q1 at t + h (solves the boundary-value problem; conjugate points: below; no constraints).
+   A start that is off a constraint by more than 4096 roundings: GVI_E_CONSTRAINT.  */
 GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v);
 GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                       const gvi_real *p);
@@ -632,7 +647,8 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h);
 
 /* Switches effect `index` off (on = 0) or on again, between steps.  An effect that is off is
    not evaluated; the formulation stays that of the whole list.  gvi_start leaves the switches
-   as they are.                                                                                */
+   as they are.  A constraint can be switched on where the state fulfils it, to rounding:
+   GVI_E_CONSTRAINT elsewhere.                                                                 */
 GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on);
 
 /* At the present state: velocity (inverse Legendre transform), v[n];
@@ -738,7 +754,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
     + (18 + 7*GVI__SIZE(r) + 3*GVI__SIZE(s))*GVI__SIZE(GVI__ROW(r))              \
     + (GVI__SIZE(s) + 2)*GVI__SIZE(s) + GVI__SIZE(r) + 5 + GVI__SLACK)
 
-/* The same with constraints of m rows in all.                                 */
+/*  The same with constraints, m rows in all.                                  */
 #define GVI_CONSTRAINED_LENGTH(n, s, r, m) (GVI_LENGTH(n, s, r)                  \
     + (6*GVI__SIZE(n) + 3*GVI__SIZE(m) + 2*GVI__SIZE(r) + 4*GVI__SIZE(s) + 4 + (4 + GVI__SIZE(m)) \
        *(GVI__SIZE(n) + GVI__SIZE(m)))*(GVI__SIZE(GVI__ROW(r)) + GVI__SIZE(GVI__ROW((s) + 1)))    \
