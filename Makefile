@@ -14,7 +14,7 @@ export CC CXX
 WARNINGS = -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow -Wundef -Wfloat-equal -Wvla
 FLAGS    = -ffp-contract=off $(WARNINGS) -I. $(CPPFLAGS)
 # Tests compare to the bit on purpose.
-TESTFLAGS  = -Wno-float-equal -Wno-double-promotion -Itests -Iexamples
+TESTFLAGS  = -Wno-float-equal -Wno-double-promotion -Wno-unused-parameter -Itests -Iexamples
 COMPILE    = $(CC) -std=c99 $(FLAGS) -MMD -MP -MF $@.d -MT $@ $(CFLAGS)
 CXXCOMPILE = $(CXX) -std=c++11 $(FLAGS) -MMD -MP -MF $@.d -MT $@ $(CXXFLAGS)
 CMOCKA_CFLAGS = $$(pkg-config --cflags cmocka 2>/dev/null)

@@ -148,7 +148,7 @@ cost-embedded:
 
 $(BUILD)/cost/%.o: tests/cost/%.c
 	@mkdir -p $(@D)
-	$(Q)$(CC) -std=c99 $(WARNINGS) -Wno-double-promotion -I. -Iexamples $(CPPFLAGS) -MMD -MP -MF $@.d -MT $@ $(COST_CFLAGS) -c $< -o $@
+	$(Q)$(CC) -std=c99 $(WARNINGS) -Wno-double-promotion -Wno-unused-parameter -I. -Iexamples $(CPPFLAGS) -MMD -MP -MF $@.d -MT $@ $(COST_CFLAGS) -c $< -o $@
 $(BUILD)/cost/peers_odeint.o: tests/cost/peers_odeint.cpp
 	@mkdir -p $(@D)
 	$(Q)$(CXX) -std=c++14 $(COST_CFLAGS) -I. -c $< -o $@
