@@ -1,6 +1,6 @@
 /* The price list of examples/scenes/price.c, and the promise behind it: what a
    scene does not list is not asked, not once, takes no byte, and leaves no trace.
-   Instructions are counted by tests/tools/prices.sh; results to the bit and
+   Instructions are counted by make prices; results to the bit and
    switching are in test_scenes.c.                                             */
 #include "gvi_test.h"
 #include "scenes/scenes.c"
