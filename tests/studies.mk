@@ -25,14 +25,16 @@ docs-check: $(BUILD)/gvi-double.o
 #: prices       what an unlisted effect costs in instructions (valgrind): nothing
 #: usable       what make install puts where, and the ways into a project: pkg-config, CMake, a C++ sketch
 #: firmware     two programs without an operating system, run as Cortex-M3 and M4F by qemu, against this machine
-parts bound float instructions prices usable firmware: | $(FIRST)
+prices: | $(FIRST)
+	$(STEP) $@ sh tests/tools/instructions.sh $(BUILD) --prices
+parts bound float instructions usable firmware: | $(FIRST)
 	$(STEP) $@ sh tests/tools/$@.sh $(BUILD) $(RECORD)
 
 #: sanitize     tests and examples under the address and undefined behaviour sanitizers
 SANITIZED = $(TESTS) $(TYPED:%=%-float) $(EXAMPLES)
 sanitize: | $(FIRST)
 	$(Q)mkdir -p $(BUILD)/result; echo 0 0 1 >$(BUILD)/result/$@
-	$(Q)if sh tests/tools/sanitizer.sh '$(CC)' && sh tests/tools/sanitizer.sh '$(CXX)' -xc++; then \
+	$(Q)if sh tests/tools/under.sh sanitizer '$(CC)' -xc && sh tests/tools/under.sh sanitizer '$(CXX)' -xc++; then \
 	    $(MAKE) --no-print-directory BUILD=$(BUILD)/sanitize sanitized \
 	    CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' && \
 	    cp $(BUILD)/sanitize/result/sanitized $(BUILD)/result/$@; fi
@@ -43,9 +45,9 @@ sanitized: $(SANITIZED)
 valgrind: $(VALGRIND:%=valgrind-%)
 	$(SUM) valgrind $(VALGRIND:%=valgrind-%)
 $(filter valgrind-test_%,$(VALGRIND:%=valgrind-%)): valgrind-%: $(BUILD)/tests/%
-	$(STEP) $@ sh tests/tools/run_valgrind.sh $<
+	$(STEP) $@ sh tests/tools/under.sh valgrind $<
 $(filter-out valgrind-test_%,$(VALGRIND:%=valgrind-%)): valgrind-%: $(BUILD)/examples/%
-	$(STEP) $@ sh tests/tools/run_valgrind.sh $<
+	$(STEP) $@ sh tests/tools/under.sh valgrind $<
 
 # One file, a form of it for each width of registers; other processors have the plain one alone.
 FORMS = plain $(if $(filter x86_64%,$(shell $(CC) -dumpmachine 2>/dev/null)),avx2 avx512)
@@ -57,12 +59,12 @@ $(BUILD)/alone/motion-%.o: examples/any_processor/motion.c | $(FIRST)
 $(BUILD)/alone/any_processor: examples/any_processor/main.c $(FORMS:%=$(BUILD)/alone/motion-%.o)
 	$(Q)$(COMPILE) $< $(filter %.o,$^) -o $@ $(LDLIBS)
 any_processor: $(BUILD)/alone/any_processor
-	$(STEP) $@ sh tests/tools/run_example.sh $(BUILD) $@ $<
+	$(STEP) $@ sh tests/tools/examples.sh run $(BUILD) $@ $<
 
 #: fuzz         a minute of libFuzzer on descriptions and calls (clang); FUZZ_SECONDS=600
 FUZZ_SECONDS = $(if $(filter fuzz,$(MAKECMDGOALS)),60,20)
 fuzz fuzz-short: | $(FIRST)
-	$(STEP) $@ sh tests/tools/fuzz.sh $(BUILD) $(FUZZ_SECONDS)
+	$(STEP) $@ sh tests/tools/under.sh fuzz $(BUILD) $(FUZZ_SECONDS)
 
 #: deps-firmware installs what firmware and size need: compilers for Arm, RISC-V and AVR, qemu
 deps-firmware: | $(filter deps deps-check,$(MAKECMDGOALS))
@@ -148,7 +150,7 @@ cost-embedded:
 
 $(BUILD)/cost/%.o: tests/cost/%.c
 	@mkdir -p $(@D)
-	$(Q)$(CC) -std=c99 $(WARNINGS) -Wno-double-promotion -I. -Iexamples $(CPPFLAGS) -MMD -MP -MF $@.d -MT $@ $(COST_CFLAGS) -c $< -o $@
+	$(Q)$(CC) -std=c99 $(WARNINGS) -Wno-double-promotion -Wno-unused-parameter -I. -Iexamples $(CPPFLAGS) -MMD -MP -MF $@.d -MT $@ $(COST_CFLAGS) -c $< -o $@
 $(BUILD)/cost/peers_odeint.o: tests/cost/peers_odeint.cpp
 	@mkdir -p $(@D)
 	$(Q)$(CXX) -std=c++14 $(COST_CFLAGS) -I. -c $< -o $@
