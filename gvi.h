@@ -392,23 +392,23 @@ GVI__BODY int gvi__each_point(gvi_points_fn *at, const gvi_points *x, void *user
     const int m = value ? 1 : mass ? n*n : n, any = ~0, last = ~15;
     gvi_real *other = value ? x->value : mass ? x->mass : x->velocity;
     int failed = 0;
-#define GVI__AT(name, o) uses & GVI__USES_##name ? a + (o)*n : NULL
+#define GVI__COLUMN(name, o) uses & GVI__USES_##name ? a + (o)*n : NULL
 #define GVI__MOVE(mask, m, to, from)                                                            \
     if (wanted & (mask)) GVI__PRAGMA(GCC unroll 64) for (int i = 0; i < (m); ++i) to = from
     GVI__PRAGMA(GCC ivdep) for (; k < to; ++k) {
-        gvi_points y = { n, 1, 1, x->t + k, a, GVI__AT(v, 1), GVI__AT(p, 2), GVI__AT(f, 3),
-                         GVI__AT(dldv, 4), GVI__AT(value, 5), GVI__AT(mass, 5),
-                         GVI__AT(velocity, 5) };
+        gvi_points y = { n, 1, 1, x->t + k, a, GVI__COLUMN(v, 1), GVI__COLUMN(p, 2),
+                         GVI__COLUMN(f, 3), GVI__COLUMN(dldv, 4), GVI__COLUMN(value, 5),
+                         GVI__COLUMN(mass, 5), GVI__COLUMN(velocity, 5) };
         GVI__MOVE(any, n, a[i], x->q[i*s + k]);
         GVI__MOVE(GVI__USES_v, n, a[n + i], x->v[i*s + k]);
         GVI__MOVE(GVI__USES_p, n, a[2*n + i], x->p[i*s + k]);
         GVI__MOVE(GVI__USES_f, n, a[3*n + i], f[i*s + k]);
         GVI__MOVE(GVI__USES_dldv, n, a[4*n + i], x->dldv[i*s + k]);
-        GVI__MOVE(last, m, a[5*n + i], other[i*s + k]);
+        GVI__MOVE(last, m, if (!mass || i%n <= i/n) a[5*n + i], other[i*s + k]);  // of M, i >= j
         failed |= (at(&y, user) != 0) & (k < x->count);
         GVI__MOVE(GVI__USES_f, n, f[i*s + k], a[3*n + i]);
         GVI__MOVE(GVI__USES_dldv, n, x->dldv[i*s + k], a[4*n + i]);
-        GVI__MOVE(last, m, other[i*s + k], a[5*n + i]);
+        GVI__MOVE(last, m, if (!mass || i%n <= i/n) other[i*s + k], a[5*n + i]);
     }
     return failed;
 }
