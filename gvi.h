@@ -438,7 +438,7 @@ GVI__BODY int gvi__each_point(gvi_points_fn *at, const gvi_points *x, void *user
     GVI__PRAGMA(GCC ivdep) for (; k < to; ++k) {
         gvi_points y = { n, 1, 1, x->t + k, a, GVI__COLUMN(v, 1), GVI__COLUMN(p, 2),
                          GVI__COLUMN(f, 3), GVI__COLUMN(dldv, 4), GVI__COLUMN(value, 5),
-                         GVI__COLUMN(mass, 5), GVI__COLUMN(velocity, 5) };
+                         GVI__COLUMN(mass, 5), GVI__COLUMN(velocity, 5), NULL, NULL, NULL };
         GVI__MOVE(any, n, a[i], x->q[i*s + k]);
         GVI__MOVE(GVI__USES_v, n, a[n + i], x->v[i*s + k]);
         GVI__MOVE(GVI__USES_p, n, a[2*n + i], x->p[i*s + k]);
