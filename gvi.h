@@ -1012,7 +1012,10 @@ static int gvi__first_non_finite(int n, const gvi_real *x)
 
 static void gvi__zero(size_t n, gvi_real *x)
 {
-    for (size_t i = 0; i < n; ++i) x[i] = 0;
+    const gvi__lane none = { 0 };
+    size_t i = 0;
+    for (; GVI__LANES > 1 && i + GVI__LANES <= n; i += GVI__LANES) GVI__STORE(x + i) = none;
+    for (; i < n; ++i) x[i] = 0;
 }
 
 static void gvi__copy(size_t n, const gvi_real *x, gvi_real *y)
@@ -1348,17 +1351,15 @@ static gvi_status gvi__ldl_factor(int n, int R, int count, gvi_real *m, gvi_real
 }
 
 // row -= a top at `count` points, a being `width` numbers: one for each point, or one for all
-static void gvi__subtract_at(int width, int count, const gvi_real *GVI__RESTRICT a,
+GVI__BODY void gvi__subtract_at(int width, int count, const gvi_real *GVI__RESTRICT a,
                              const gvi_real *GVI__RESTRICT top, gvi_real *GVI__RESTRICT row)
 {
     int k = 0;
-    if (width == 1) {
-        gvi__subtract_row((size_t)count, a[0], top, row);
-        return;
-    }
-    for (; GVI__LANES > 1 && k + GVI__LANES <= count; k += GVI__LANES)
+    for (; GVI__LANES > 1 && width == 1 && k + GVI__LANES <= count; k += GVI__LANES)
+        GVI__STORE(row + k) -= a[0]*GVI__LOAD(top + k);
+    for (; GVI__LANES > 1 && width > 1 && k + GVI__LANES <= count; k += GVI__LANES)
         GVI__STORE(row + k) -= GVI__LOAD(a + k)*GVI__LOAD(top + k);
-    for (; k < count; ++k) row[k] -= a[k]*top[k];
+    for (; k < count; ++k) row[k] -= a[width > 1 ? k : 0]*top[k];
 }
 
 // rows z [n][R] := M^-1 z; an entry of the matrix is `width` numbers
@@ -1370,7 +1371,10 @@ static void gvi__ldl_solve(int n, const gvi_real *m, int width, gvi_real *z, int
             gvi__subtract_at(width, count, m + ((size_t)i*N + (size_t)j)*w, z + j*R, z + i*R);
     for (int i = n; i-- > 0; ) {
         const gvi_real *d = m + (size_t)i*(N + 1)*w;
-        for (int k = 0; k < count; ++k) z[i*R + k] *= d[width > 1 ? k : 0];
+        int k = 0;
+        for (; GVI__LANES > 1 && width == 1 && k + GVI__LANES <= count; k += GVI__LANES)
+            GVI__STORE(z + i*R + k) *= d[0];
+        for (; k < count; ++k) z[i*R + k] *= d[width > 1 ? k : 0];
         for (int j = i + 1; j < n; ++j)
             gvi__subtract_at(width, count, m + ((size_t)j*N + (size_t)i)*w, z + j*R, z + i*R);
     }
@@ -3838,7 +3842,7 @@ static void gvi__constraint_forces(const gvi_stepper *st)
                              x->con.force + i*R);
 }
 
-// the constraints at D, padded with q0; A in the first two iterations
+// the constraints at D, padded with q0; A in the first iteration
 GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin *from)
 {
     struct gvi__private *x = &st->x;
@@ -3849,7 +3853,7 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
     }
     const gvi_status status =
         gvi__evaluate_constraints(st, C, s + 1, x->con.t, x->con.at, x->con.G);
-    return status != GVI_OK || ++x->con.made > 2 ? status : gvi__factor_constraints(st, C, s);
+    return status != GVI_OK || ++x->con.made > 1 ? status : gvi__factor_constraints(st, C, s);
 }
 
 // the new lambda, and forces.  With momenta D' needs the P and V of the new F
