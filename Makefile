@@ -24,7 +24,7 @@ CMOCKA_LIBS   = $$(pkg-config --libs cmocka 2>/dev/null || echo -lcmocka)
 
 TESTS = $(sort $(basename $(notdir $(wildcard tests/test_*.c))))
 # These in float and in long double as well, and these compiled for size.
-TYPED = $(filter $(addprefix test_,corners effects interpolation kinks lu many mass newton oracle quadrature rows tangent adjoint tolerance twins),$(TESTS))
+TYPED = $(filter $(addprefix test_,corners effects interpolation kinks lu many mass newton oracle quadrature rows tangent adjoint event body damped tolerance twins),$(TESTS))
 SMALL = $(filter $(addprefix test_,corners many mass newton rows tolerance twins),$(TESTS))
 VARIANTS = $(TYPED:%=%-float) $(TYPED:%=%-long) $(SMALL:%=%-small) $(SMALL:%=%-small-float)
 PROGRAMS = $(TESTS) $(VARIANTS)
@@ -112,11 +112,12 @@ unit: $(PROGRAMS)
 	$(SUM) unit $(PROGRAMS)
 
 #: figures      makes the pictures in docs/img/ again
-figures: $(addprefix $(BUILD)/examples/,02_outer_solar_system 19_low_thrust 20_swing_up)
+figures: $(addprefix $(BUILD)/examples/,02_outer_solar_system 19_low_thrust 20_swing_up 21_section)
 	$(Q)mkdir -p docs/img
 	$(Q)$(BUILD)/examples/02_outer_solar_system 200000 200 8 docs/img
 	$(Q)$(BUILD)/examples/19_low_thrust --svg docs/img/low_thrust.svg
 	$(Q)$(BUILD)/examples/20_swing_up --svg docs/img/swing_up.svg
+	$(Q)$(BUILD)/examples/21_section --svg docs/img/section.svg
 
 #: synopsis     copies the program at the top of gvi.h to examples/01_kepler.c and README.md
 synopsis:
