@@ -395,6 +395,59 @@ static void two_bodies_on_a_spring(ANY void **state)
     }
 }
 
+/* ---------------------------------------------------- a direction alone */
+
+/* A spherical pendulum in space, coordinates of any length: M = 1/|q|^2, V = q3/|q|.       */
+static int direction_mass(const gvi_points *x, ANY void *user)
+{
+    for (int k = 0; k < x->count; ++k) {
+        const real *q = x->q + k, one = 1/(q[0]*q[0] + q[x->stride]*q[x->stride] + q[2*x->stride]*q[2*x->stride]);
+        for (int i = 0; i < 9; ++i) x->mass[i*x->stride + k] = i % 4 ? 0 : one;
+    }
+    return 0;
+}
+
+static int direction_gradient(const gvi_points *x, ANY void *user)
+{
+    for (int k = 0; k < x->count; ++k) {
+        real qq = 0, vv = 0;
+        for (int i = 0, j = k; i < 3; ++i, j += x->stride) qq += x->q[j]*x->q[j], vv += x->v[j]*x->v[j];
+        for (int i = 0, j = k; i < 3; ++i, j += x->stride) x->f[j] -= vv*x->q[j]/(qq*qq);
+    }
+    return 0;
+}
+
+static int direction_weight(ANY real t, const real *q, ANY const real *v, real *f, ANY real *dldv, ANY void *user)
+{
+    const real qq = q[0]*q[0] + q[1]*q[1] + q[2]*q[2], r = sqrt(qq);
+    for (int i = 0; i < 3; ++i) f[i] -= ((i == 2) - q[2]*q[i]/qq)/r;
+    return 0;
+}
+
+/* Let go at an angle a it swings in a plane: sin(x/2) = k cd(t, k), k = sin(a/2); here with |q| = 2.  */
+static real swing_error(int s, int steps)
+{
+    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .point = direction_weight } };
+    const gvi_desc desc = { .n = 3, .degree = s, .effects = scene, .effect_count = 1,
+                            .mass = { .kind = GVI_MASS_POSITION, .points = direction_mass, .gradient = direction_gradient } };
+    const exact a = 1.75L, T = 3, k = sinl(a/2);
+    exact sn, cn, dn;
+    gvi_stepper st;
+    jacobi(T, k, &sn, &cn, &dn);
+    const exact x = 2*asinl(k*cn/dn), known[] = { 1.2L*sinl(x), 1.6L*sinl(x), -2*cosl(x) };
+    assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+    assert_ok(gvi_start(&st, 0, (real[]){ (real)(1.2L*sinl(a)), (real)(1.6L*sinl(a)), (real)(-2*cosl(a)) }, (real[]){ 0, 0, 0 }));
+    for (int i = 0; i < steps; ++i) assert_ok(gvi_step(&st, (real)T/(real)steps));
+    return worst_of(3, st.q, known);
+}
+
+static void a_spherical_pendulum(ANY void **state)
+{
+    static const int steps[] = { 100, 30, 20, 12 };
+    assert_between(0, swing_error(8, 10), 60*EPS);
+    for (int s = 1; s <= 4 && DIG > 50; ++s) expect_order(swing_error(s, steps[s-1]), swing_error(s, 2*steps[s-1]), 2*s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -405,6 +458,7 @@ int main(void)
         cmocka_unit_test(the_work_of_a_force),
         cmocka_unit_test(the_mass_is_consistent),
         cmocka_unit_test(two_bodies_on_a_spring),
+        cmocka_unit_test(a_spherical_pendulum),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
