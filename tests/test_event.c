@@ -270,6 +270,57 @@ static void an_elastic_ball(ANY void **state)
     }
 }
 
+/* q'' = -1 - q^2 above a floor: a step that hits it, split there.                       */
+static int curved(const gvi_points *x, ANY void *user)
+{
+    for (int k = 0; k < x->count; ++k) x->f[k] -= 1 + x->q[k]*x->q[k];
+    return 0;
+}
+
+static void bounce(int degree, real h, real *at, real *momentum)
+{
+    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = curved } };
+    const gvi_desc desc = { .n = 1, .degree = degree, .effects = scene, .effect_count = 1 };
+    real zero = 0;
+    event e = of(level, &zero);
+    gvi_stepper st;
+    assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+    assert_ok(gvi_start_momentum(&st, 0, at, momentum));
+    assert_ok(gvi_step(&st, h));
+    assert_int_equal(event_next(&e, &st), 1);
+    e.p[0] = -e.p[0];
+    assert_ok(gvi_start_momentum(&st, e.t, e.q, e.p));
+    assert_ok(gvi_step(&st, h - e.t));
+    *at = st.q[0];
+    *momentum = st.p[0];
+}
+
+/* det - 1 of the map of a step with a bounce, by differences.                         */
+static real area_defect(int degree, real h)
+{
+    const real d = R(1e-4);
+    real J[2][2], z[2][2];
+    for (int j = 0; j < 2; ++j) {
+        for (int k = 0; k < 2; ++k) {
+            z[k][0] = h/4;
+            z[k][1] = R(-0.9);
+            z[k][j] += k ? d : -d;
+            bounce(degree, h, &z[k][0], &z[k][1]);
+        }
+        for (int i = 0; i < 2; ++i) J[i][j] = (z[1][i] - z[0][i])/(2*d);
+    }
+    return fabs(J[0][0]*J[1][1] - J[0][1]*J[1][0] - 1);
+}
+
+/* It is symplectic to the order of a step, h^3 at degree 1, and not to rounding; at degree 4 as well as exactly. */
+static void a_bounce_is_symplectic_to_the_order(ANY void **state)
+{
+    if (DIG < 50) return;
+    assert_between(R(2.8), log2(area_defect(1, R(0.2))/area_defect(1, R(0.1))), R(3.2));
+    assert_between(R(1e-3), area_defect(1, R(0.4)), R(1e-2));
+    assert_between(0, area_defect(4, R(0.1)), R(1e-7));                 /* differences */
+}
+
 /* ------------------------------------------------------------------- others */
 
 static void steps_stay_the_same(ANY void **state)
@@ -330,6 +381,7 @@ int main(void)
         cmocka_unit_test(a_touch_that_only_the_curve_sees),
         cmocka_unit_test(two_zeros_by_a_clock),
         cmocka_unit_test(an_elastic_ball),
+        cmocka_unit_test(a_bounce_is_symplectic_to_the_order),
         cmocka_unit_test(steps_stay_the_same),
         cmocka_unit_test(what_g_may_be),
         cmocka_unit_test(output_at_given_times),

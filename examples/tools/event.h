@@ -5,8 +5,8 @@
 
      while ((found = event_next(&e, &st)) > 0)  ... e.t, e.q, e.v, e.p, e.rising ...
 
-   Looked for on the curve, which costs no evaluation of the scene: at s points between the ends
-   of the step, then, where the sign of g changes, by the Illinois method. Made exact by the
+   Looked for on the curve, which costs no evaluation of the scene: in four intervals of the step
+   (s + 1, if s < 3), then, where the sign of g changes, by the Illinois method. Made exact by the
    secant method on gvi_state_at: the zero has the order of the steps, 2s, not the curve's.
    Nothing is changed: the steps that follow are the same to the bit.
 
@@ -15,8 +15,8 @@
                  steps meet are the same: none is found twice, or lost between.  Where a run
                  starts anew from a zero (a bounce), or begins at one, this zero does not
                  count again: g is looked at 1/4096 of the step later
-     not seen    two zeros within one of the s + 1 intervals: the sign is the same at its ends.
-                 Take h so short that g has one extremum in a step at most
+     not seen    two zeros within one interval: the sign is the same at its ends.  Take h so
+                 short that g has one extremum in a step at most
      ask         after every step; a step not asked about is not searched
      kicks and a clock have no curve over t: states are taken instead, at a partial step each
 
@@ -45,21 +45,25 @@ static int event_same(gvi_real a, gvi_real b) { return !(a < b) && !(a > b); }
 static gvi_real event_size(gvi_real a) { return a < 0 ? -a : a; }
 static gvi_real event_time(const gvi_stepper *st, gvi_real x) { return x < 1 ? st->t0 + x*(st->t - st->t0) : st->t; }
 
-/* g at fraction x of the last step, of the state or of the curve.                */
+/* g at fraction x of the last step, of the state or of the curve.  The state at the end is there,
+   without a partial step for the rounding of t.                                  */
 static gvi_status event_value(event *e, gvi_stepper *st, gvi_real x, int state, gvi_real *g)
 {
     const gvi_real t = event_time(st, x);
-    const gvi_status status = state ? gvi_state_at(st, t, e->q, e->v, e->p) : gvi_curve(st, x, e->q, e->v);
+    const int end = state && !(x < 1);
+    for (int i = 0; end && i < st->n; ++i) e->q[i] = st->q[i], e->p[i] = st->p[i];
+    const gvi_status status = end ? gvi_velocity(st, e->v)
+        : state ? gvi_state_at(st, t, e->q, e->v, e->p) : gvi_curve(st, x, e->q, e->v);
     if (status) return status;
     *g = e->g(t, e->q, e->v, e->user);
     return *g < 0 || *g >= 0 ? GVI_OK : GVI_E_NON_FINITE;
 }
 
-/* Is the curve one over time?  With a clock t - t0 is not h.                      */
-static int event_by_states(event *e, gvi_stepper *st)
+/* Is the curve none, or not one over time? Kicks have no order, and with a clock t - t0 is not h. */
+static int event_by_states(const gvi_stepper *st)
 {
     const gvi_real size = event_size(st->t0) + event_size(st->t), off = ((st->t - st->t0) - st->h)/8;
-    return gvi_curve(st, 0, e->q, e->v) != GVI_OK || !event_same(size + off, size);
+    return st->order == 0 || !event_same(size + off, size);
 }
 
 /* Illinois's method between a and b, to `width` or to what the time can tell apart.  */
@@ -114,7 +118,7 @@ static int event_secant(event *e, gvi_stepper *st, gvi_real a, gvi_real b, gvi_r
 /* The next zero of the last step.                                               */
 static inline int event_next(event *e, gvi_stepper *st)
 {
-    const int intervals = st->s + 1, states = event_by_states(e, st);
+    const int intervals = st->s < 3 ? st->s + 1 : 4, states = event_by_states(st);
     gvi_real g, x;
     gvi_status status;
     if (!e->asked || !event_same(e->from, st->t0) || !event_same(e->to, st->t)) {       // a new step
