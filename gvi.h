@@ -240,6 +240,25 @@
    [6] Berrut, Trefethen: Barycentric Lagrange interpolation, SIAM Rev. 46, 2004
    [7] Higham: Accuracy and stability of numerical algorithms, 2nd ed., 2002  */
 
+/* Macros that programs and <windows.h> often have are set aside while this file is read. */
+#ifdef __GNUC__
+_Pragma("push_macro(\"E\")") _Pragma("push_macro(\"K\")") _Pragma("push_macro(\"M\")")
+_Pragma("push_macro(\"N\")") _Pragma("push_macro(\"R\")") _Pragma("push_macro(\"T\")")
+_Pragma("push_macro(\"far\")") _Pragma("push_macro(\"g\")") _Pragma("push_macro(\"h\")")
+_Pragma("push_macro(\"m\")") _Pragma("push_macro(\"small\")")
+#undef E
+#undef K
+#undef M
+#undef N
+#undef R
+#undef T
+#undef far
+#undef g
+#undef h
+#undef m
+#undef small
+#endif
+
 #ifndef GVI_H
 #define GVI_H
 
@@ -392,23 +411,23 @@ GVI__BODY int gvi__each_point(gvi_points_fn *at, const gvi_points *x, void *user
     const int m = value ? 1 : mass ? n*n : n, any = ~0, last = ~15;
     gvi_real *other = value ? x->value : mass ? x->mass : x->velocity;
     int failed = 0;
-#define GVI__AT(name, o) uses & GVI__USES_##name ? a + (o)*n : NULL
+#define GVI__COLUMN(name, o) uses & GVI__USES_##name ? a + (o)*n : NULL
 #define GVI__MOVE(mask, m, to, from)                                                            \
     if (wanted & (mask)) GVI__PRAGMA(GCC unroll 64) for (int i = 0; i < (m); ++i) to = from
     GVI__PRAGMA(GCC ivdep) for (; k < to; ++k) {
-        gvi_points y = { n, 1, 1, x->t + k, a, GVI__AT(v, 1), GVI__AT(p, 2), GVI__AT(f, 3),
-                         GVI__AT(dldv, 4), GVI__AT(value, 5), GVI__AT(mass, 5),
-                         GVI__AT(velocity, 5) };
+        gvi_points y = { n, 1, 1, x->t + k, a, GVI__COLUMN(v, 1), GVI__COLUMN(p, 2),
+                         GVI__COLUMN(f, 3), GVI__COLUMN(dldv, 4), GVI__COLUMN(value, 5),
+                         GVI__COLUMN(mass, 5), GVI__COLUMN(velocity, 5) };
         GVI__MOVE(any, n, a[i], x->q[i*s + k]);
         GVI__MOVE(GVI__USES_v, n, a[n + i], x->v[i*s + k]);
         GVI__MOVE(GVI__USES_p, n, a[2*n + i], x->p[i*s + k]);
         GVI__MOVE(GVI__USES_f, n, a[3*n + i], f[i*s + k]);
         GVI__MOVE(GVI__USES_dldv, n, a[4*n + i], x->dldv[i*s + k]);
-        GVI__MOVE(last, m, a[5*n + i], other[i*s + k]);
+        GVI__MOVE(last, m, if (!mass || i%n <= i/n) a[5*n + i], other[i*s + k]);  // of M, i >= j
         failed |= (at(&y, user) != 0) & (k < x->count);
         GVI__MOVE(GVI__USES_f, n, f[i*s + k], a[3*n + i]);
         GVI__MOVE(GVI__USES_dldv, n, x->dldv[i*s + k], a[4*n + i]);
-        GVI__MOVE(last, m, other[i*s + k], a[5*n + i]);
+        GVI__MOVE(last, m, if (!mass || i%n <= i/n) other[i*s + k], a[5*n + i]);
     }
     return failed;
 }
@@ -904,10 +923,10 @@ typedef volatile gvi_real gvi__rounded;
 #if GVI__LANES > 1
 typedef gvi_real gvi__lane
     __attribute__((vector_size(GVI__LANES*sizeof(gvi_real)), aligned(sizeof(gvi_real)), may_alias));
-#define GVI__AT(lane, k) (lane)[k]
+#define GVI__ENTRY(lane, k) (lane)[k]
 #else
 typedef gvi_real gvi__lane;
-#define GVI__AT(lane, k) (lane)
+#define GVI__ENTRY(lane, k) (lane)
 #endif
 #define GVI__LOAD(p) (*(const gvi__lane *)(p))
 #define GVI__STORE(p) (*(gvi__lane *)(p))
@@ -1312,7 +1331,7 @@ GVI__BODY int gvi__ldl_factor_lane(int n, int R, gvi_real *m)
             GVI__STORE(a) = rest*inverse;
         }
     }
-    for (int k = 0; k < GVI__LANES; ++k) all += GVI__AT(sum, k);
+    for (int k = 0; k < GVI__LANES; ++k) all += GVI__ENTRY(sum, k);
     return all < most*most;
 }
 
@@ -2438,7 +2457,7 @@ static int gvi__finite_end(const gvi_stepper *st, const gvi__origin *from)
     for (; GVI__LANES > 1 && st->n >= 8 && i + GVI__LANES <= st->n; i += GVI__LANES)
         nones += 0*(GVI__LOAD(from->q + i) + GVI__LOAD(d->q + i))
                  + 0*(GVI__LOAD(from->p + i) + GVI__LOAD(d->p + i));
-    for (int k = 0; i > 0 && k < GVI__LANES; ++k) none += GVI__AT(nones, k);
+    for (int k = 0; i > 0 && k < GVI__LANES; ++k) none += GVI__ENTRY(nones, k);
     for (; i < st->n; ++i) {
         // as it will be kept
         const gvi__rounded q = from->q[i] + d->q[i], p = from->p[i] + d->p[i];
@@ -2717,7 +2736,7 @@ GVI__BODY gvi_real gvi__stage_by_lanes(const gvi_stepper *st, const gvi__stage *
             if (free) GVI__UNROLL for (int v = 0; v < lanes; ++v)
                 z[v] = base + (GVI__LOAD(free + v*GVI__LANES) + z[v]*y->factor);
             if (rescale && last - o < block)
-                scale = gvi__scale_of(base, was, GVI__AT(z[(last - o)/GVI__LANES],
+                scale = gvi__scale_of(base, was, GVI__ENTRY(z[(last - o)/GVI__LANES],
                                                          (last - o) % GVI__LANES));
             GVI__UNROLL for (int v = 0; v < lanes; ++v) {
                 gvi_real *at = row + o + v*GVI__LANES;
@@ -4919,6 +4938,13 @@ GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st)
 }
 
 #endif /* GVI_IMPLEMENTATION */
+
+#ifdef __GNUC__
+_Pragma("pop_macro(\"E\")") _Pragma("pop_macro(\"K\")") _Pragma("pop_macro(\"M\")")
+_Pragma("pop_macro(\"N\")") _Pragma("pop_macro(\"R\")") _Pragma("pop_macro(\"T\")")
+_Pragma("pop_macro(\"far\")") _Pragma("pop_macro(\"g\")") _Pragma("pop_macro(\"h\")")
+_Pragma("pop_macro(\"m\")") _Pragma("pop_macro(\"small\")")
+#endif
 
 /* --------------------------------------------------------------- LICENCE
 

@@ -9,7 +9,6 @@ typedef long double exact;
 #include <tgmath.h>
 #undef I
 
-#define ANY __attribute__((unused))
 #define R(x) ((real)x##L)
 
 static real memory[40000];
@@ -125,7 +124,7 @@ static void expect_order(real coarse, real fine, int order)
     assert_between((real)order - R(0.15), log2(coarse/fine), (real)order + R(0.15));
 }
 
-static void eulers_equations(ANY void **state)
+TEST(eulers_equations)
 {
     static const int steps[] = { 160, 80, 40, 20 };
     assert_between(0, free_error(8, 20, 0), 40*EPS);
@@ -138,7 +137,7 @@ static void eulers_equations(ANY void **state)
 }
 
 /* 20,000 steps: angular momentum in space, energy, and |e|, which nothing holds.     */
-static void what_a_long_run_keeps(ANY void **state)
+TEST(what_a_long_run_keeps)
 {
     static const bodies scene = { &stone, 1 };
     const gvi_desc desc = { .n = 4, .mass = body_mass(&scene) };
@@ -167,7 +166,7 @@ static const body top = { .inertia = { R(2e-4), R(2e-4), R(8e-5) } };
 static const real lever = R(0.04), heavy = R(0.981);                    /* m, N */
 static const real tilt = R(0.5);
 
-static int weight(ANY real t, const real *q, ANY const real *v, real *f, ANY real *dldv, ANY void *user)
+static int weight(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
     body_force_about(q, (real[]){ 0, 0, lever }, (real[]){ 0, 0, 0 }, f);
     real own[3];
@@ -216,7 +215,7 @@ static real nod_error(int s, int steps)
     return fabs(axis[2] - (real)known);
 }
 
-static void lagranges_top(ANY void **state)
+TEST(lagranges_top)
 {
     static const int steps[] = { 400, 160, 80, 25 };
     assert_between(0, precession_error(8, 40), 400*EPS);
@@ -234,7 +233,7 @@ static void lagranges_top(ANY void **state)
 static const body dumbbell = { .inertia = { 1, 4, R(4.5) } };
 
 /* Torque 3 r x I r on a circular orbit at rate 1, r the direction from the earth.        */
-static int gradient(real t, const real *q, ANY const real *v, real *f, ANY real *dldv, ANY void *user)
+static int gradient(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
     real r[3], torque[3];
     body_rotate(q, 1, (real[]){ cos(t), sin(t), 0 }, r);
@@ -262,7 +261,7 @@ static real rocking_error(int s, int steps)
     return worst_of(3, along, known);
 }
 
-static void gravity_gradient(ANY void **state)
+TEST(gravity_gradient)
 {
     static const int steps[] = { 160, 40, 20, 12 };
     assert_between(0, rocking_error(8, 10), 60*EPS);
@@ -286,7 +285,7 @@ static void place(const real *q, const real *own, real *out)
 }
 
 /* A spring between two places of two bodies.                                           */
-static int spring(ANY real t, const real *q, ANY const real *v, real *f, ANY real *dldv, ANY void *user)
+static int spring(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
     real a[3], b[3], pull[3], back[3];
     place(q, at[0], a);
@@ -299,7 +298,7 @@ static int spring(ANY real t, const real *q, ANY const real *v, real *f, ANY rea
 
 /* f.q' is the force times the velocity of its place, for velocities that leave |e| alone: the place's
    velocity by differences.                                                             */
-static void the_work_of_a_force(ANY void **state)
+TEST(the_work_of_a_force)
 {
     const real q[] = { 1, 2, 3, R(0.75), R(-0.5), R(0.25), 1 }, force[] = { R(0.5), -1, 2 }, w[] = { 1, R(-0.75), R(0.5) };
     real v[7] = { R(0.25), R(-0.5), 1 }, f[4][7] = { { 0 } }, moved[2][7], there[2][3], own[3], spun_back[3];
@@ -334,7 +333,7 @@ static void the_work_of_a_force(ANY void **state)
 }
 
 /* M v = p for the v of p, and the gradient is what differences of v'Mv/2 say; |e| far from 1. */
-static void the_mass_is_consistent(ANY void **state)
+TEST(the_mass_is_consistent)
 {
     const gvi_mass mass = body_mass(&two);
     real q[14], p[14], v[14], M[196], f[14] = { 0 }, T[2], d = cbrt(EPS);
@@ -366,7 +365,7 @@ static void the_mass_is_consistent(ANY void **state)
 }
 
 /* Momentum and angular momentum of the two bodies on their spring.                      */
-static void two_bodies_on_a_spring(ANY void **state)
+TEST(two_bodies_on_a_spring)
 {
     static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .point = spring } };
     const gvi_desc desc = { .n = 14, .degree = 4, .effects = scene, .effect_count = 1, .mass = body_mass(&two) };
@@ -398,7 +397,7 @@ static void two_bodies_on_a_spring(ANY void **state)
 /* ---------------------------------------------------- a direction alone */
 
 /* A spherical pendulum in space, coordinates of any length: M = 1/|q|^2, V = q3/|q|.       */
-static int direction_mass(const gvi_points *x, ANY void *user)
+static int direction_mass(const gvi_points *x, void *user)
 {
     for (int k = 0; k < x->count; ++k) {
         const real *q = x->q + k, one = 1/(q[0]*q[0] + q[x->stride]*q[x->stride] + q[2*x->stride]*q[2*x->stride]);
@@ -407,7 +406,7 @@ static int direction_mass(const gvi_points *x, ANY void *user)
     return 0;
 }
 
-static int direction_gradient(const gvi_points *x, ANY void *user)
+static int direction_gradient(const gvi_points *x, void *user)
 {
     for (int k = 0; k < x->count; ++k) {
         real qq = 0, vv = 0;
@@ -417,7 +416,7 @@ static int direction_gradient(const gvi_points *x, ANY void *user)
     return 0;
 }
 
-static int direction_weight(ANY real t, const real *q, ANY const real *v, real *f, ANY real *dldv, ANY void *user)
+static int direction_weight(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
     const real qq = q[0]*q[0] + q[1]*q[1] + q[2]*q[2], r = sqrt(qq);
     for (int i = 0; i < 3; ++i) f[i] -= ((i == 2) - q[2]*q[i]/qq)/r;
@@ -441,24 +440,11 @@ static real swing_error(int s, int steps)
     return worst_of(3, st.q, known);
 }
 
-static void a_spherical_pendulum(ANY void **state)
+TEST(a_spherical_pendulum)
 {
     static const int steps[] = { 100, 30, 20, 12 };
     assert_between(0, swing_error(8, 10), 60*EPS);
     for (int s = 1; s <= 4 && DIG > 50; ++s) expect_order(swing_error(s, steps[s-1]), swing_error(s, 2*steps[s-1]), 2*s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(eulers_equations),
-        cmocka_unit_test(what_a_long_run_keeps),
-        cmocka_unit_test(lagranges_top),
-        cmocka_unit_test(gravity_gradient),
-        cmocka_unit_test(the_work_of_a_force),
-        cmocka_unit_test(the_mass_is_consistent),
-        cmocka_unit_test(two_bodies_on_a_spring),
-        cmocka_unit_test(a_spherical_pendulum),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -7,7 +7,6 @@ typedef gvi_real real;
 #include <tgmath.h>
 #undef I
 
-#define ANY __attribute__((unused))
 #define R(x) ((real)x##L)
 
 enum { N = 6 };
@@ -18,26 +17,26 @@ static const gvi_rule drift_kick_drift = { .kind = GVI_KICKS, .points = 1, .node
 /* ------------------------------------------------------------------- order */
 
 /* q'' = -k q - c q' with k = 5/4, c = 1/2:  q = e^(-at) (cos wt + a/w sin wt), a = c/2, w^2 = k - a^2 */
-static int spring(const gvi_points *x, ANY void *user)
+static int spring(const gvi_points *x, void *user)
 {
     for (int k = 0; k < x->count; ++k) x->f[k] -= R(1.25)*x->q[k];
     return 0;
 }
 
-static void linear(real h, ANY const real *q, real *p, void *user)
+static void linear(real h, const real *q, real *p, void *user)
 {
     const int n = *(int *)user;
     for (int i = 0; i < n; ++i) p[i] *= exp(-h/2);
 }
 
 /* q'' = g - |q'| q', g = 2:  at rest q = log(cosh(t sqrt(g))) at t = 0; from t = 1/2 on, where |q'|q' is smooth */
-static int fall(const gvi_points *x, ANY void *user)
+static int fall(const gvi_points *x, void *user)
 {
     for (int k = 0; k < x->count; ++k) x->f[k] += 2;
     return 0;
 }
 
-static void air(real h, ANY const real *q, real *p, ANY void *user) { p[0] /= 1 + fabs(p[0])*h; }
+static void air(real h, const real *q, real *p, void *user) { p[0] /= 1 + fabs(p[0])*h; }
 
 /* Error of position and momentum at t = 2; fourth: three runs in the place of a step.      */
 static real error(int drag, int steps, int fourth)
@@ -62,7 +61,7 @@ static real error(int drag, int steps, int fourth)
     return fmax(fabs(st.q[0] - (real)q), fabs(st.p[0] - (real)p));
 }
 
-static void orders_2_and_4(ANY void **state)
+TEST(orders_2_and_4)
 {
     for (int drag = 0; drag < 2; ++drag) {
         const int steps = DIG < 50 ? 16 : 64;
@@ -77,7 +76,7 @@ static void orders_2_and_4(ANY void **state)
 /* ------------------------------------------------------------ what it keeps */
 
 /* Three particles in a plane, all pairs on springs of rest length 1.               */
-static int pairs(const gvi_points *x, ANY void *user)
+static int pairs(const gvi_points *x, void *user)
 {
     const int s = x->stride;
     for (int k = 0; k < x->count; ++k)
@@ -92,7 +91,7 @@ static int pairs(const gvi_points *x, ANY void *user)
 }
 
 /* Momentum and angular momentum decay by exp(-t/2), for steps that resolve nothing of it.  */
-static void momenta_decay_exactly(ANY void **state)
+TEST(momenta_decay_exactly)
 {
     static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = pairs } };
     static const real mass[] = { 1, 1, 2, 2, R(0.5), R(0.5) };
@@ -119,7 +118,7 @@ static void momenta_decay_exactly(ANY void **state)
 }
 
 /* The matrix of a step of a linear scene: M'JM = exp(-c h) J.                         */
-static void areas_shrink_exactly(ANY void **state)
+TEST(areas_shrink_exactly)
 {
     static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = spring } };
     const gvi_desc desc = { .n = 1, .rule = drift_kick_drift, .effects = scene, .effect_count = 1 };
@@ -140,7 +139,7 @@ static void areas_shrink_exactly(ANY void **state)
 }
 
 /* There and back, to rounding: the splitting is symmetric.                            */
-static void back_again(ANY void **state)
+TEST(back_again)
 {
     static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = fall } };
     const gvi_desc desc = { .n = 1, .rule = drift_kick_drift, .effects = scene, .effect_count = 1 };
@@ -159,14 +158,14 @@ static void back_again(ANY void **state)
 
 static int limit;
 
-static int fails(const gvi_points *x, ANY void *user)
+static int fails(const gvi_points *x, void *user)
 {
     for (int k = 0; k < x->count; ++k) x->f[k] -= x->q[k];
     return limit-- <= 0;
 }
 
 /* The third of five steps fails: two are done, as if these had been all; and a first one leaves all as it was. */
-static void a_step_that_fails(ANY void **state)
+TEST(a_step_that_fails)
 {
     static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = fails } };
     const gvi_desc desc = { .n = 1, .rule = drift_kick_drift, .effects = scene, .effect_count = 1 };
@@ -188,14 +187,4 @@ static void a_step_that_fails(ANY void **state)
     assert_status(st.status, GVI_E_CALLBACK);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(orders_2_and_4),
-        cmocka_unit_test(momenta_decay_exactly),
-        cmocka_unit_test(areas_shrink_exactly),
-        cmocka_unit_test(back_again),
-        cmocka_unit_test(a_step_that_fails),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -6,7 +6,6 @@
 typedef gvi_real real;
 #include "mechanics.h"
 
-#define ANY __attribute__((unused))
 #define R(x) ((real)x##L)
 
 enum { N = 2 };
@@ -15,19 +14,19 @@ static const real pi = R(3.14159265358979323846264338328);
 
 static event of(event_fn *g, void *user) { return (event){ .g = g, .user = user, .q = q, .v = v, .p = p }; }
 
-static int spring(const gvi_points *x, ANY void *user)
+static int spring(const gvi_points *x, void *user)
 {
     for (int k = 0; k < x->count; ++k) x->f[k] -= x->q[k];
     return 0;
 }
 
-static int weight(const gvi_points *x, ANY void *user)
+static int weight(const gvi_points *x, void *user)
 {
     for (int k = 0; k < x->count; ++k) x->f[k] -= 1;
     return 0;
 }
 
-static int distance(const gvi_points *x, ANY void *user)
+static int distance(const gvi_points *x, void *user)
 {
     for (int k = 0; k < x->count; ++k) {
         const real d = sqrt(x->q[k]*x->q[k] + x->q[x->stride+k]*x->q[x->stride+k]);
@@ -39,10 +38,10 @@ static int distance(const gvi_points *x, ANY void *user)
     return 0;
 }
 
-static real level(ANY real t, const real *at, ANY const real *rate, void *user) { return at[0] - *(real *)user; }
-static real apsis(ANY real t, const real *at, const real *rate, ANY void *user) { return at[0]*rate[0] + at[1]*rate[1]; }
-static real clock_hand(real t, ANY const real *at, ANY const real *rate, void *user) { return t - *(real *)user; }
-static real undefined(ANY real t, ANY const real *at, ANY const real *rate, ANY void *user) { return sqrt(R(-1.0)); }
+static real level(real t, const real *at, const real *rate, void *user) { return at[0] - *(real *)user; }
+static real apsis(real t, const real *at, const real *rate, void *user) { return at[0]*rate[0] + at[1]*rate[1]; }
+static real clock_hand(real t, const real *at, const real *rate, void *user) { return t - *(real *)user; }
+static real undefined(real t, const real *at, const real *rate, void *user) { return sqrt(R(-1.0)); }
 
 static const gvi_effect oscillator[] = { { .kind = GVI_POTENTIAL, .points = spring } };
 
@@ -95,7 +94,7 @@ static void expect_order(const gvi_desc *desc, real h, real order)
     assert_between(order - R(0.25), log2(coarse/fine), order + R(0.25));
 }
 
-static void times_have_the_order_of_the_steps(ANY void **state)
+TEST(times_have_the_order_of_the_steps)
 {
     static const real at[] = { 0, R(1.35120719195965763), R(-0.35120719195965763), 1 };
     static const real kick[] = { R(0.67560359597982882), R(-0.17560359597982882), R(-0.17560359597982882), R(0.67560359597982882) };
@@ -121,7 +120,7 @@ static void times_have_the_order_of_the_steps(ANY void **state)
 /* ------------------------------------------------------ each once, and both faults */
 
 /* cos t = 0.3, twice a period; and again with a new start at every zero.      */
-static void every_zero_once(ANY void **state)
+TEST(every_zero_once)
 {
     static const real h[] = { R(0.0625), R(0.3), R(0.7), R(-0.45) };
     real wanted = R(0.3);
@@ -151,7 +150,7 @@ static void every_zero_once(ANY void **state)
 }
 
 /* q = t - 1 is 0 where the fourth step ends; so is q = 1 - t.                  */
-static void a_zero_where_two_steps_meet(ANY void **state)
+TEST(a_zero_where_two_steps_meet)
 {
     const gvi_desc desc = { .n = 1, .degree = 2 };
     for (int rising = 0; rising < 2; ++rising) {
@@ -184,7 +183,7 @@ static void a_zero_where_two_steps_meet(ANY void **state)
 
 /* Four intervals of a quarter each; the top of cos t in the middle of one.  Zeros of cos t - level that
    are 0.2 apart lie both inside and are not seen, 0.3 apart they are; nor are those lost in shorter steps.  */
-static void two_zeros_in_one_interval(ANY void **state)
+TEST(two_zeros_in_one_interval)
 {
     static const struct { real apart, h; int zeros; } cases[] = { { R(0.2), 1, 0 }, { R(0.3), 1, 2 }, { R(0.2), R(0.5), 2 } };
     for (int i = 0; i < COUNT(cases); ++i) {
@@ -203,7 +202,7 @@ static void two_zeros_in_one_interval(ANY void **state)
 
 /* cos t - level where only the curve passes the level, above the top of the states, and a sample lies
    between its two zeros. What counts are states.                                 */
-static void a_touch_that_only_the_curve_sees(ANY void **state)
+TEST(a_touch_that_only_the_curve_sees)
 {
     real curve, top, wanted;
     event e = of(level, &wanted);
@@ -222,12 +221,12 @@ static void a_touch_that_only_the_curve_sees(ANY void **state)
 }
 
 /* Far from the start of a step time runs faster with a clock: samples at fractions of the time, not of tau. */
-static real two_lines(ANY real t, const real *at, ANY const real *rate, ANY void *user)
+static real two_lines(real t, const real *at, const real *rate, void *user)
 {
     return (at[0] - cos(R(0.35)) + R(0.8))*(at[0] - cos(R(0.85)) + R(0.8));
 }
 
-static void two_zeros_by_a_clock(ANY void **state)
+TEST(two_zeros_by_a_clock)
 {
     static const real E[] = { R(0.35), R(0.85) };
     const gvi_desc desc = { .n = N, .degree = 4, .effects = attracted, .effect_count = 2 };
@@ -246,7 +245,7 @@ static void two_zeros_by_a_clock(ANY void **state)
 /* ------------------------------------------------------------------ bounces */
 
 /* From height 1 with weight 1: impacts at sqrt(2) (1 + 2k), back at height 1 in between. */
-static void an_elastic_ball(ANY void **state)
+TEST(an_elastic_ball)
 {
     static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = weight } };
     const gvi_desc desc = { .n = 1, .degree = 2, .effects = scene, .effect_count = 1 };
@@ -271,7 +270,7 @@ static void an_elastic_ball(ANY void **state)
 }
 
 /* q'' = -1 - q^2 above a floor: a step that hits it, split there.                       */
-static int curved(const gvi_points *x, ANY void *user)
+static int curved(const gvi_points *x, void *user)
 {
     for (int k = 0; k < x->count; ++k) x->f[k] -= 1 + x->q[k]*x->q[k];
     return 0;
@@ -313,7 +312,7 @@ static real area_defect(int degree, real h)
 }
 
 /* It is symplectic to the order of a step, h^3 at degree 1, and not to rounding; at degree 4 as well as exactly. */
-static void a_bounce_is_symplectic_to_the_order(ANY void **state)
+TEST(a_bounce_is_symplectic_to_the_order)
 {
     if (DIG < 50) return;
     assert_between(R(2.8), log2(area_defect(1, R(0.2))/area_defect(1, R(0.1))), R(3.2));
@@ -323,7 +322,7 @@ static void a_bounce_is_symplectic_to_the_order(ANY void **state)
 
 /* ------------------------------------------------------------------- others */
 
-static void steps_stay_the_same(ANY void **state)
+TEST(steps_stay_the_same)
 {
     real wanted = R(0.3), plain[2] = { 0, 0 };
     event e = of(level, &wanted);
@@ -340,7 +339,7 @@ static void steps_stay_the_same(ANY void **state)
 }
 
 /* g may read the time alone, and need not be finite.                          */
-static void what_g_may_be(ANY void **state)
+TEST(what_g_may_be)
 {
     real noon = R(1.3);
     event e = of(clock_hand, &noon);
@@ -355,7 +354,7 @@ static void what_g_may_be(ANY void **state)
     assert_int_equal(event_next(&e, st), GVI_E_NON_FINITE);
 }
 
-static void output_at_given_times(ANY void **state)
+TEST(output_at_given_times)
 {
     for (int way = -1; way <= 1; way += 2) {
         gvi_stepper *st = cosine(8, 0);
@@ -371,20 +370,4 @@ static void output_at_given_times(ANY void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(times_have_the_order_of_the_steps),
-        cmocka_unit_test(every_zero_once),
-        cmocka_unit_test(a_zero_where_two_steps_meet),
-        cmocka_unit_test(two_zeros_in_one_interval),
-        cmocka_unit_test(a_touch_that_only_the_curve_sees),
-        cmocka_unit_test(two_zeros_by_a_clock),
-        cmocka_unit_test(an_elastic_ball),
-        cmocka_unit_test(a_bounce_is_symplectic_to_the_order),
-        cmocka_unit_test(steps_stay_the_same),
-        cmocka_unit_test(what_g_may_be),
-        cmocka_unit_test(output_at_given_times),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)
