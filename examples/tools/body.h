@@ -8,14 +8,14 @@
      L = m x'x'/2 + w'I w/2 + J (e.e')^2/(2|e|^4)     w = 2 G e'/|e|^2, the spin in body axes
      M = (4 G'I G + J e e')/|e|^4     M^-1 = G'I^-1 G/4 + e e'/J     G b = Im(conj(e) b)
 
-   From e.e' = 0 (which body_turn gives) |e| stays what it is, to rounding (some 1e-11 after 20,000
+   From e.e' = 0 (which body_turn gives) |e| stays what it is, to rounding (below 3e-10 after 20,000
    steps), and where it goes changes nothing else. No angle is singular. The angular momentum
    is I w = G p/2 in body axes, kept to rounding as ever where a symmetry says so.
 
      coordinates   of a body with mass: x (3), e (4); of one that turns about a fixed point,
                    mass = 0: e (4) alone.  Bodies one after the other; n is their sum
      body axes     principal axes through the centre of mass, or through the fixed point
-     force, torque add to f of an effect's .point callback, q and f being that body's
+     force, torque add to the f of an effect at one point (GVI_POINTS), q and f being that body's
      start         e, and e' = body_turn(e, w) for a spin w in body axes
 
    Use    static const body top[] = { { .inertia = { 2e-4, 2e-4, 8e-5 } } };

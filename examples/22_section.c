@@ -1,4 +1,4 @@
-/* 21 - Where does the orbit pass a plane? Events, and output at given times
+/* 22 - Where does the orbit pass a plane? Events, and output at given times
 
    The star of Henon and Heiles again, V = (x^2 + y^2)/2 + x^2 y - y^3/3, at energy 1/8. Its orbits
    fill a surface of three dimensions, which cannot be drawn; so mark (y, y') each time the star passes
@@ -7,7 +7,7 @@
 
    Its output_at gives states at times of your own: steps of h, and the state inside the last one.
 
-   21_section [--svg file]
+   22_section [--svg file]
    prints
 
      2400 passages, x there 0 to the rounding of t: yes
@@ -17,19 +17,17 @@
 */
 #define GVI_IMPLEMENTATION
 #include "gvi.h"
-#include "svg.h"
+#include "tools/svg.h"
 #include "tools/event.h"
 #include <string.h>
 
 enum { ORBITS = 6, PASSAGES = 400 };
 
-static int potential(const gvi_points *x, void *user)
+GVI_POINTS(potential, 2, f)(const gvi_points *x, void *user)
 {
-    const double *X = x->q, *Y = X + x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        x->f[k]             -= X[k] + 2*X[k]*Y[k];
-        x->f[x->stride + k] -= Y[k] + X[k]*X[k] - Y[k]*Y[k];
-    }
+    const double X = x->q[0], Y = x->q[1];
+    x->f[0] -= X + 2*X*Y;
+    x->f[1] -= Y + X*X - Y*Y;
     return (void)user, 0;
 }
 

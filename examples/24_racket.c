@@ -1,4 +1,4 @@
-/* 23 - Why does a racket turn over when it is thrown? Rigid bodies
+/* 24 - Why does a racket turn over when it is thrown? Rigid bodies
 
    Throw a tennis racket so that it turns about the axis that lies in its face, across the handle. When you
    catch it, the other side faces you. That axis has the middle one of the three moments of inertia, and
@@ -14,7 +14,7 @@
 
    and K(k) = pi/(2 agm(1, sqrt(1 - k^2))). A flip is where the spin about B passes 0: tools/event.h.
 
-   23_racket [--svg file]
+   24_racket [--svg file]
    prints
 
      spin about the handle: 0 flips in 10 s
@@ -25,7 +25,7 @@
 */
 #define GVI_IMPLEMENTATION
 #include "gvi.h"
-#include "svg.h"
+#include "tools/svg.h"
 #include "tools/body.h"
 #include "tools/event.h"
 #include <string.h>

@@ -1,4 +1,4 @@
-/* 25 - Air drag makes every step implicit: can that be avoided?
+/* 26 - Air drag makes every step implicit: can that be avoided?
 
    A cloth of 20 x 20 knots hangs by two corners and swings down. Its threads are stiff, so steps must be short
    whatever the method; then explicit ones are the cheapest, with one evaluation each. But air drag reads
@@ -19,7 +19,7 @@
 */
 #define GVI_IMPLEMENTATION
 #include "gvi.h"
-#include "effects.h"
+#include "tools/effects.h"
 #include "tools/damped.h"
 #include <stdio.h>
 #include <stdlib.h>

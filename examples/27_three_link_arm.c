@@ -1,4 +1,4 @@
-/* 26 - How do I write a robot arm as it stands on paper? GVI_POINTS
+/* 27 - How do I write a robot arm as it stands on paper? GVI_POINTS
 
    Three rods, hinge after hinge, in the plane; q_i is the angle of rod i to the vertical. On paper:
 

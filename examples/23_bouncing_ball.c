@@ -1,4 +1,4 @@
-/* 22 - What if the motion hits something? A bouncing ball
+/* 23 - What if the motion hits something? A bouncing ball
 
    gvi.h knows no contact. But an impact is an instant: step up to it, change the momentum, start again
    from there. tools/event.h finds the instant, g = 0 for the distance g from the surface, and a start is
@@ -25,13 +25,11 @@
 #include <stdio.h>
 
 /* V = y + x^2/2 + x^4/4 + x^2 y/10: weight, and walls                             */
-static int weight_and_walls(const gvi_points *x, void *user)
+GVI_POINTS(weight_and_walls, 2, f)(const gvi_points *x, void *user)
 {
-    const double *X = x->q, *Y = X + x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        x->f[k]             -= X[k]*(1 + X[k]*X[k] + Y[k]/5);
-        x->f[x->stride + k] -= 1 + X[k]*X[k]/10;
-    }
+    const double X = x->q[0], Y = x->q[1];
+    x->f[0] -= X*(1 + X*X + Y/5);
+    x->f[1] -= 1 + X*X/10;
     return (void)user, 0;
 }
 

@@ -1,6 +1,6 @@
-/* 24 - How does a body get its forces? A top, a satellite, a drone
+/* 25 - How does a body get its forces? A top, a satellite, a drone
 
-   What tools/body.h leaves to write is what acts on the body, one point a call, in body axes or in space:
+   What tools/body.h leaves to write is what acts on the body, in body axes or in space:
 
      top         stands on its tip, so it has no place of its own: n = 4. Its weight is a force in space at a
                  place of the body. Spun by C w = A W cos a + m g l/W, tilted by a, it goes round at W
@@ -36,19 +36,19 @@ static void begin(gvi_stepper *st, const gvi_desc *desc, const double *q, const 
 
 static const body toy = { .inertia = { 2e-4, 2e-4, 8e-5 } };              /* kg m^2, about its tip */
 
-static int toy_weight(double t, const double *q, const double *v, double *f, double *dldv, void *user)
+GVI_POINTS(toy_weight, 4, f)(const gvi_points *x, void *user)
 {
     const double centre[] = { 0, 0, 0.04 }, weight[] = { 0, 0, -0.981 };  /* m, N   */
     double own[3];
-    body_rotate(q, 1, weight, own);
-    body_force_about(q, centre, own, f);
-    return (void)t, (void)v, (void)dldv, (void)user, 0;
+    body_rotate(x->q, 1, weight, own);
+    body_force_about(x->q, centre, own, x->f);
+    return (void)user, 0;
 }
 
 static void spin_top(void)
 {
     static const bodies one = { &toy, 1 };
-    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .point = toy_weight } };
+    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = toy_weight } };
     const gvi_desc desc = { .n = 4, .effects = scene, .effect_count = 1, .mass = body_mass(&one) };
     const double W = 20, a = 0.5, A = toy.inertia[0], C = toy.inertia[2];
     double axis[2][3], off = 0;
@@ -65,14 +65,14 @@ static void spin_top(void)
 static const body boom = { .inertia = { 1, 4, 4.5 } };
 
 /* 3 r x I r, r pointing away from the earth                                       */
-static int gravity_gradient(double t, const double *e, const double *v, double *f, double *dldv, void *user)
+GVI_POINTS(gravity_gradient, 4, f)(const gvi_points *x, void *user)
 {
     double r[3], Ir[3], torque[3];
-    body_rotate(e, 1, (double[]){ cos(t), sin(t), 0 }, r);
+    body_rotate(x->q, 1, (double[]){ cos(*x->t), sin(*x->t), 0 }, r);
     for (int i = 0; i < 3; ++i) Ir[i] = 3*boom.inertia[i]*r[i];
     body_cross(r, Ir, torque);
-    body_torque(e, torque, f);
-    return (void)v, (void)dldv, (void)user, 0;
+    body_torque(x->q, torque, x->f);
+    return (void)user, 0;
 }
 
 /* The boom's angle to the vertical, its sine.                                     */
@@ -86,7 +86,7 @@ static double beside(double t, const double *e, const double *v, void *user)
 static void rock_satellite(void)
 {
     static const bodies one = { &boom, 1 };
-    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .point = gravity_gradient } };
+    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = gravity_gradient } };
     const gvi_desc desc = { .n = 4, .effects = scene, .effect_count = 1, .mass = body_mass(&one) };
     double q[4], v[4], p[4], x = 0.75, mean = 1, other = cos(x);
     event e = { .g = beside, .q = q, .v = v, .p = p };
@@ -100,15 +100,15 @@ static void rock_satellite(void)
 static const body quad = { 0.8, { 0.005, 0.005, 0.009 } };
 static const double arm[4][3] = { { 0.2, 0, 0 }, { 0, 0.2, 0 }, { -0.2, 0, 0 }, { 0, -0.2, 0 } }, twist = 0.02;
 
-static int rotors(double t, const double *q, const double *v, double *f, double *dldv, void *thrust)
+GVI_POINTS(rotors, 7, f)(const gvi_points *x, void *thrust)
 {
-    f[2] -= quad.mass*9.81;
+    x->f[2] -= quad.mass*9.81;
     for (int i = 0; i < 4; ++i) {
         const double push = ((const double *)thrust)[i];
-        body_force(q, arm[i], (double[]){ 0, 0, push }, f);
-        body_torque(q + 3, (double[]){ 0, 0, i % 2 ? twist*push : -twist*push }, f + 3);
+        body_force(x->q, arm[i], (double[]){ 0, 0, push }, x->f);
+        body_torque(x->q + 3, (double[]){ 0, 0, i % 2 ? twist*push : -twist*push }, x->f + 3);
     }
-    return (void)t, (void)v, (void)dldv, 0;
+    return 0;
 }
 
 /* Towards the target: the lift, a tilt, and a torque that gives the tilt.         */
@@ -128,7 +128,7 @@ static void fly_drone(void)
 {
     static const bodies one = { &quad, 1 };
     double thrust[4];
-    const gvi_effect scene[] = { { .kind = GVI_FORCE, .point = rotors, .user = thrust } };
+    const gvi_effect scene[] = { { .kind = GVI_FORCE, .points = rotors, .user = thrust } };
     const gvi_desc desc = { .n = 7, .degree = 4, .effects = scene, .effect_count = 1, .mass = body_mass(&one) };
     gvi_stepper st;
     begin(&st, &desc, (double[]){ 0, 0, 0, 0.9, 0.3, -0.2, 0.2 }, (double[]){ 1, 0, -1 });       /* thrown */
