@@ -13,7 +13,7 @@
 #include <tgmath.h>
 
 typedef gvi_real real;
-#include "mechanics.h"
+#include "problems.h"
 #include "hard/extrapolate.h"
 
 /* ---------------------------------------------------------- the problem
@@ -30,16 +30,6 @@ enum { T_END = 1, STARTS = 3 };
 static const real q_start[STARTS][2] = { { 0.7L, -0.4L }, { -0.3L, 1.1L }, { 0.2L, 0.5L } };
 static const real v_start[STARTS][2] = { { 0.5L, 0.9L }, { 0.8L, -0.2L }, { -0.6L, 0.4L } };
 static const real constant_mass[4] = { 2, 0.5L, 0.5L, 1 };
-
-static real gravity(real t) { return 1 + sin(2*t)/2; }
-
-static int pendulum_force(real t, const real *q, const real *v, real *f, real *dldv, void *user)
-{
-    real both = gravity(t)*sin(q[0] + q[1]);
-    f[0] -= 2*gravity(t)*sin(q[0]) + both;
-    f[1] -= both;
-    return 0;
-}
 
 static int magnetic_term(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
@@ -152,7 +142,7 @@ static gvi_stepper *start_at(const method *m, real t, const real *y)
     gvi_desc desc = { .n = 2, .degree = m->s, .rule = m->rule, .effects = b->effects };
     int n = 0;
 
-    b->effects[n++] = (gvi_effect){ .kind = GVI_POTENTIAL, .point = pendulum_force };
+    b->effects[n++] = (gvi_effect){ .kind = GVI_POTENTIAL, .point = weights, .user = b };
     if (m->has.magnetic) b->effects[n++] = (gvi_effect){ .kind = GVI_LAGRANGIAN, .point = magnetic_term };
     if (m->has.forced) b->effects[n++] = (gvi_effect){ .kind = GVI_FORCE, .point = damping_and_drive };
     desc.effect_count = n;
