@@ -256,10 +256,10 @@ static void linear_scenes_need_one_factorisation(void **state)
             begin(&st, &desc, memory, sizeof memory);
             st.counters.factorizations = 0;
             go(&st, (gvi_real)0.1, 20);
-            assert_between(1, (wide)st.counters.factorizations, GVI__KIND == 1 ? 2 : 1);
+            assert_between(1, (wide)st.counters.factorizations, KIND == 1 ? 2 : 1);
             st.counters.factorizations = 0;
             go(&st, (gvi_real)0.05, 1);
-            assert_between(1, (wide)st.counters.factorizations, GVI__KIND == 1 ? 2 : 1);
+            assert_between(1, (wide)st.counters.factorizations, KIND == 1 ? 2 : 1);
         }
 }
 
@@ -546,7 +546,7 @@ static void what_grows_is_not_at_rest(void **state)
     static const gvi_desc desc = { .n = 3, .degree = 8, .mass = { .kind = GVI_MASS_NONE }, .effects = &effect,
                                    .effect_count = 1 };
     (void)state;
-    if (GVI__KIND != 2) skip();
+    if (KIND != 2) skip();
     for (int m = 0; m < 400; ++m) {
         const gvi_real q[] = { (gvi_real)(0.8 + 0.5*(double)uniform()), 0, 0 }, v[] = { 0, (gvi_real)(1 + (double)uniform()), 200 };
         gvi_stepper st;
