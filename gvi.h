@@ -4021,7 +4021,8 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
     };
     gvi_status status = gvi__ready(st, st && st->x.started);
     if (status != GVI_OK) return status;
-    if (!lambda || !st->x.con.bits) return st->status = lambda ? GVI_E_FORMULATION : GVI_E_ARGUMENT;
+    if (!lambda) return st->status = GVI_E_ARGUMENT;
+    if (!GVI__CONSTRAINTS || !st->x.con.bits) return st->status = GVI_E_FORMULATION;
     struct gvi__private *x = &st->x;
     const int n = st->n, m = x->con.m;
     gvi_real *q = x->result, *p = q + n, *u = p + n, *v = x->con.W, *force = v + n;
@@ -4228,7 +4229,7 @@ GVI__COLD void gvi__layout_constraints(struct gvi__private *x, gvi__arena *a)
     struct gvi__holonomic *y = &x->con;
     const size_t n = (size_t)x->desc.n, s = (size_t)x->desc.degree, r = (size_t)x->desc.rule.points,
                  R = (size_t)GVI__ROW(r), C = (size_t)GVI__ROW(s + 1),
-                 m = GVI__CONSTRAINTS ? (size_t)gvi__count_rows(x, y->bits) : 0,
+                 m = (size_t)gvi__count_rows(x, y->bits),
                  on = m > 0, i = on && !gvi__uses(x, GVI_EXPLICIT),
                  u = i && !gvi__uses(x, GVI_POSITIONS);
     const struct { gvi_real **to; size_t rows, width; } list[] = {
@@ -4323,7 +4324,7 @@ GVI__COLD size_t gvi__layout(struct gvi__private *x, int order, gvi_real *base)
     x->newton.last = gvi__take(a, newton, sn);
     x->newton.pivot = gvi__take(a, newton*2, sn + 1);           // twice: queries must not touch
     x->newton.moved = gvi__take(a, newton*4*n, R);
-    gvi__layout_constraints(x, a);
+    if (GVI__CONSTRAINTS) gvi__layout_constraints(x, a);
     // what the steps keep.  J comes last
     x->newton.J = gvi__take(a, newton*2*sn, sn);
     return memory.used;
@@ -4419,7 +4420,8 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     for (size_t i = 0; i < sizeof *st; ++i) bytes[i] = 0;
     gvi__report_status(st, GVI_OK);
     gvi_status status = gvi__resolve(x, desc, &order);
-    if (status == GVI_E_FORMULATION && x->con.bits) return gvi__report_row(st, status, 0, -1);
+    if (GVI__CONSTRAINTS && status == GVI_E_FORMULATION && x->con.bits)
+        return gvi__report_row(st, status, 0, GVI_FAULT_NONE);
     if (status != GVI_OK) return st->status = status;
     if (!memory || (uintptr_t)memory % offsetof(gvi__aligned, number))
         return st->status = GVI_E_ARGUMENT;
@@ -5499,7 +5501,8 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
     if (!q0 || !q1 || !out || gvi__first_non_finite(n, q0) >= 0 || gvi__first_non_finite(n, q1) >= 0
         || !gvi__finite(t) || !gvi__finite(h) || !gvi__nonzero(h))
         return st->status = GVI_E_ARGUMENT;
-    if (x->con.bits) return gvi__report_row(st, GVI_E_FORMULATION, 0, -1);
+    if (GVI__CONSTRAINTS && x->con.bits)
+        return gvi__report_row(st, GVI_E_FORMULATION, 0, GVI_FAULT_NONE);
     if ((s > 1 && !gvi__has(x, GVI__HAS_NEWTON)) || gvi__rule_is(x, GVI_KICKS) || x->clock >= 0)
         return st->status = GVI_E_FORMULATION;
     const gvi__origin from = { t, 0, q0, x->zeros, x->zeros, x->zeros, 0 };
@@ -5578,7 +5581,7 @@ GVI_DEF const char *gvi_status_text(gvi_status status)
 GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st)
 {
     if (!st) return "no stepper";
-    if (st->status == GVI_E_FORMULATION && st->x.con.bits)
+    if (GVI__CONSTRAINTS && st->status == GVI_E_FORMULATION && st->x.con.bits)
         return "constraints go with no clock, kicks, Newton's method, boundary values or "
                "mass.velocity; with M(q) and Lagrangian terms only if r = s";
     if (st->x.desc.formulation != GVI_AUTO) return "pinned by the description";
