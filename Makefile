@@ -39,7 +39,7 @@ VALGRIND     = test_api test_lu test_interpolation 04_driven_damped 06_building_
 
 # `make test` is for a person, two minutes; `make check` is the rest, twenty.
 TEST_STEPS  = $(TESTS) $(EXAMPLES) docs-check symbols headers-quick
-CHECK_STEPS = headers $(VARIANTS) $(EXAMPLES:%=alone-%) any_processor parts bound float instructions prices \
+CHECK_STEPS = headers $(VARIANTS) $(EXAMPLES:%=alone-%) any_processor parts bound float instructions prices ensemble \
               $(VALGRIND:%=valgrind-%) sanitize hard-single firmware fuzz-short
 
 STEP = $(Q)sh tests/tools/step.sh $(BUILD)
@@ -124,7 +124,7 @@ synopsis:
 
 # -- programs: what is compiled in "make deps test" waits for deps
 
-FIRST = $(filter deps deps-check deps-firmware,$(MAKECMDGOALS))
+FIRST = $(filter deps deps-check deps-firmware deps-ensemble,$(MAKECMDGOALS))
 
 cmocka: | $(FIRST)
 	$(Q)sh tests/tools/deps.sh --cmocka

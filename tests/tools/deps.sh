@@ -4,7 +4,7 @@
 # deps.sh --check: clang, g++, valgrind, for `make check`; what cannot be had is skipped there
 # deps.sh --cmocka only says whether cmocka can be compiled against; deps.sh --compare installs the
 # libraries that `make cost-peers` compares with; deps.sh --firmware the compilers for small machines
-# and the emulator that `make firmware size` needs.
+# and the emulator that `make firmware size` needs; deps.sh --ensemble an MPI.
 
 CC=${CC:-cc}
 
@@ -49,6 +49,17 @@ if [ "$1" = --firmware ]; then
     pacman)  libraries='arm-none-eabi-gcc arm-none-eabi-newlib qemu-system-arm avr-gcc avr-libc' ;;
     brew)    libraries='gcc-arm-embedded qemu coreutils' ;;
     *)       echo "deps: please install by hand: arm-none-eabi-gcc with newlib, qemu-system-arm" >&2; exit 1 ;;
+    esac
+fi
+if [ "$1" = --ensemble ]; then
+    have mpicc && have mpirun && { echo "deps: mpicc is there"; exit 0; }
+    compare=yes
+    case $manager in
+    apt-get) libraries=libopenmpi-dev ;;
+    dnf)     libraries=openmpi-devel ;;
+    apk)     libraries='openmpi openmpi-dev' ;;
+    pacman|brew) libraries=openmpi ;;
+    *)       echo "deps: please install by hand: Open MPI or MPICH" >&2; exit 1 ;;
     esac
 fi
 set -- $names
