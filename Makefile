@@ -112,11 +112,12 @@ unit: $(PROGRAMS)
 	$(SUM) unit $(PROGRAMS)
 
 #: figures      makes the pictures in docs/img/ again
-figures: $(addprefix $(BUILD)/examples/,02_outer_solar_system 19_low_thrust 20_swing_up)
+figures: $(addprefix $(BUILD)/examples/,02_outer_solar_system 19_low_thrust 20_swing_up 29_ensemble)
 	$(Q)mkdir -p docs/img
 	$(Q)$(BUILD)/examples/02_outer_solar_system 200000 200 8 docs/img
 	$(Q)$(BUILD)/examples/19_low_thrust --svg docs/img/low_thrust.svg
 	$(Q)$(BUILD)/examples/20_swing_up --svg docs/img/swing_up.svg
+	$(Q)$(BUILD)/examples/29_ensemble 120 $(BUILD)/ensemble.csv docs/img/ensemble.svg
 
 #: synopsis     copies the program at the top of gvi.h to examples/01_kepler.c and README.md
 synopsis:
