@@ -32,14 +32,14 @@ PROGRAMS = $(TESTS) $(VARIANTS)
 LONG    = $(basename $(notdir $(shell grep -l 'define GVI_REAL long double' tests/test_*.c)))
 LIBRARY = $(BUILD)/gvi-$(if $(findstring -float,$*),float,$(if $(findstring -long,$*)$(filter $(LONG),$(*:-small=)),long,double))$(if $(findstring -small,$*),-small).o
 
-C_EXAMPLES   = $(sort $(filter-out advise,$(basename $(notdir $(wildcard examples/*.c)))))
+C_EXAMPLES   = $(sort $(basename $(notdir $(wildcard examples/*.c))))
 CXX_EXAMPLES = $(sort $(basename $(notdir $(wildcard examples/*.cpp))))
 EXAMPLES     = $(C_EXAMPLES) $(CXX_EXAMPLES)
 VALGRIND     = test_api test_lu test_interpolation 04_driven_damped 06_building_blocks 07_failing_step 08_robot_joint 10_checkpoint
 
 # `make test` is for a person, two minutes; `make check` is the rest, twenty.
 TEST_STEPS  = $(TESTS) $(EXAMPLES) docs-check symbols headers-quick
-CHECK_STEPS = headers $(VARIANTS) $(EXAMPLES:%=alone-%) any_processor parts bound float instructions prices ensemble \
+CHECK_STEPS = headers $(VARIANTS) $(EXAMPLES:%=alone-%) any_processor parts bound float instructions prices ensemble usable \
               $(VALGRIND:%=valgrind-%) sanitize hard-single firmware fuzz-short
 
 STEP = $(Q)sh tests/tools/step.sh $(BUILD)
@@ -76,17 +76,21 @@ check: $(CHECK_STEPS)
 examples: $(EXAMPLES)
 	$(SUM) examples $(EXAMPLES)
 
-## scenes       runs every scene and draws it in docs/img/scenes/; one: make scene-net
+## scenes       runs every scene and draws it in build/pictures/; one: make scene-net
 
 ## advise       builds build/examples/advise: degree, step and tolerance for a wanted error
 
 ## cost         CPU time for a given error: gvi.h and the usual alternatives; SCENE=net: what each effect of it costs
 
-## install      copies gvi.h, the whole library, to $(DESTDIR)$(PREFIX)/include
+## install      copies gvi.h, the whole library, to $(DESTDIR)$(PREFIX)/include, and gvi.pc to share/pkgconfig
+INSTALLED = '$(DESTDIR)$(PREFIX)/include/gvi.h' '$(DESTDIR)$(PREFIX)/share/pkgconfig/gvi.pc'
 install:
-	mkdir -p '$(DESTDIR)$(PREFIX)/include'
+	mkdir -p '$(DESTDIR)$(PREFIX)/include' '$(DESTDIR)$(PREFIX)/share/pkgconfig'
 	cp gvi.h '$(DESTDIR)$(PREFIX)/include/gvi.h'
-	chmod 644 '$(DESTDIR)$(PREFIX)/include/gvi.h'
+	printf '%s\n' 'prefix=$(PREFIX)' '' 'Name: gvi' 'Version: $(shell sed -n 's/^.define GVI_VERSION "\(.*\)"/\1/p' gvi.h)' \
+	    'Description: Galerkin variational integrators for mechanical systems' 'Cflags: -I$${prefix}/include' 'Libs: -lm' \
+	    >'$(DESTDIR)$(PREFIX)/share/pkgconfig/gvi.pc'
+	chmod 644 $(INSTALLED)
 
 ## clean        removes build/
 clean:
@@ -99,9 +103,9 @@ help:
 help-all: help
 	$(Q)sed -n 's/^#:  */                    /p; t; s/^#: /  make /p' Makefile tests/studies.mk tests/playground.mk
 
-#: uninstall    removes gvi.h from where install put it
+#: uninstall    removes what install put there
 uninstall:
-	rm -f '$(DESTDIR)$(PREFIX)/include/gvi.h'
+	rm -f $(INSTALLED)
 
 #: deps-check   installs what check uses if it is there: clang, g++, valgrind
 deps-check: deps
@@ -111,8 +115,11 @@ deps-check: deps
 unit: $(PROGRAMS)
 	$(SUM) unit $(PROGRAMS)
 
-#: figures      makes the pictures in docs/img/ again
-figures: $(addprefix $(BUILD)/examples/,02_outer_solar_system 19_low_thrust 20_swing_up 29_ensemble)
+# where pictures are drawn; those of the documents only if asked
+PICTURES = $(if $(filter figures,$(MAKECMDGOALS)),docs/img,$(BUILD)/pictures)
+
+#: figures      makes the pictures in docs/img/ again, scenes included; theorems: make theorems PICTURES=docs/img
+figures: scenes $(addprefix $(BUILD)/examples/,02_outer_solar_system 19_low_thrust 20_swing_up 29_ensemble)
 	$(Q)mkdir -p docs/img
 	$(Q)$(BUILD)/examples/02_outer_solar_system 200000 200 8 docs/img
 	$(Q)$(BUILD)/examples/19_low_thrust --svg docs/img/low_thrust.svg

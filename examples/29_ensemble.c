@@ -20,7 +20,7 @@
 */
 #define GVI_IMPLEMENTATION
 #include "gvi.h"
-#include "svg.h"
+#include "tools/svg.h"
 #include "tools/ensemble.h"
 #include "tools/tangent.h"
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 # studies.mk - what Makefile includes: long checks, measurements, pictures.  `make help-all` lists them.
 
-.PHONY: headers-quick headers symbols parts docs-check bound float instructions prices sanitize sanitized any_processor \
+.PHONY: headers-quick headers symbols parts docs-check bound float instructions prices usable sanitize sanitized any_processor \
         ensemble deps-ensemble firmware deps-firmware fuzz fuzz-short size stats compare everywhere deps-everywhere \
         cost-horizon ncdp scaling kicks cost-peers deps-compare cost-embedded hard theorems
 
@@ -24,8 +24,9 @@ docs-check: $(BUILD)/gvi-double.o
 #: instructions points, iterations and instructions of fixed runs; RECORD=--record writes them anew
 #: prices       what an unlisted effect costs in instructions (valgrind): nothing
 #: ensemble     lesson 29 on one thread, two threads, one and three MPI processes: the same bits
+#: usable       what make install puts where, and the ways into a project: pkg-config, CMake, a C++ sketch
 #: firmware     two programs without an operating system, run as Cortex-M3 and M4F by qemu, against this machine
-parts bound float instructions prices ensemble firmware: | $(FIRST)
+parts bound float instructions prices ensemble usable firmware: | $(FIRST)
 	$(STEP) $@ sh tests/tools/$@.sh $(BUILD) $(RECORD)
 
 #: sanitize     tests and examples under the address and undefined behaviour sanitizers
@@ -106,11 +107,11 @@ $(BUILD)/studies/scene $(BUILD)/studies/price: $(BUILD)/studies/%: examples/scen
 	$(Q)$(COMPILE) -Iexamples $< -o $@ $(LDLIBS)
 
 $(SCENES:%=scene-%): scene-%: $(BUILD)/studies/scene
-	$(Q)mkdir -p docs/img/scenes
-	$(Q)$< $* --svg docs/img/scenes/$*.svg
+	$(Q)mkdir -p $(PICTURES)/scenes
+	$(Q)$< $* --svg $(PICTURES)/scenes/$*.svg
 
 advise: $(BUILD)/examples/advise
-$(BUILD)/examples/advise: examples/advise.c $(BUILD)/cost/problems.o $(BUILD)/cost/baselines.o
+$(BUILD)/examples/advise: examples/tools/advise.c $(BUILD)/cost/problems.o $(BUILD)/cost/baselines.o
 	@mkdir -p $(@D)
 	$(Q)$(COMPILE) -Iexamples $^ -o $@ $(LDLIBS)
 
@@ -182,12 +183,13 @@ $(BUILD)/hard/% $(BUILD)/theorems/%: tests/$$(notdir $$(@D))/$$*.c | $(FIRST)
 #: hard         hard cases at length, docs/hard-cases.md (seven minutes); one: make hard-drift; SEED=11: other random numbers
 hard: $(HARD:%=hard-%)
 $(HARD:%=hard-%): hard-%: $(BUILD)/hard/%
-	$(STEP) $@ $< $(if $(filter stiff,$*),docs/img) $(if $(filter brouwer% drift,$*),$(SEED))
+	$(Q)mkdir -p $(PICTURES)
+	$(STEP) $@ $< $(if $(filter stiff,$*),$(PICTURES)) $(if $(filter brouwer% drift,$*),$(SEED))
 
 #: theorems     docs/theorems.md measured again, with its pictures (a few minutes); one: make theorem-curve
 theorems: $(THEOREMS:%=theorem-%)
 $(THEOREMS:%=theorem-%): theorem-%: $(BUILD)/theorems/%
-	$(Q)mkdir -p docs/img
-	$(Q)$< docs/img
+	$(Q)mkdir -p $(PICTURES)
+	$(Q)$< $(PICTURES)
 
 -include $(wildcard $(BUILD)/hard/*.d $(BUILD)/theorems/*.d)

@@ -1,10 +1,10 @@
-/* examples/advise.h: its choice has the wanted error, by references that it does
+/* examples/tools/advise.h: its choice has the wanted error, by references that it does
    not know, and costs at most 1.5 times what the best of a full sweep does.
    Costs are counted, not measured, so that this comes out the same everywhere. */
 #include "gvi_test.h"
 #include "cost/problems.c"
 #include "cost/baselines.c"
-#include "advise.h"
+#include "tools/advise.h"
 
 enum { TABLES = 5 };                    /* of KICKS at most */
 

@@ -1,9 +1,9 @@
-/* examples/check.h: right scenes pass, and every planted slip is found and named:
+/* examples/tools/check.h: right scenes pass, and every planted slip is found and named:
    which effect, which derivative, which coordinates.  Slips are planted by
    callbacks that ask the right ones and then spoil one entry.                  */
 #include "gvi_test.h"
 #include "scenes/scenes.c"
-#include "check.h"
+#include "tools/check.h"
 
 enum { ROOM = 64, ROWS = SCENE_MAX*64 };
 

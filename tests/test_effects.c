@@ -1,11 +1,11 @@
-/* The effects of examples/effects.h: forces are derivatives of their values,
+/* The effects of examples/tools/effects.h: forces are derivatives of their values,
    Hessians those of the forces; each reads and writes its own coordinates only;
    all points at once are the points one by one, to the bit (given that the compiler
    does not contract a*b + c: -ffp-contract=off); and what each law says of power,
    sums and special places.  Bounds are multiples of powers of EPS: the same file
    serves float, double and long double.                                      */
 #include "gvi_test.h"
-#include "effects.h"
+#include "tools/effects.h"
 
 typedef gvi_real real;
 

@@ -14,7 +14,7 @@
      dissipation [folder]  writes theorem_dissipation.svg, theorem_dissipation_line.svg and
                            theorem_dissipation_modified.svg                   */
 #include "spectral.h"
-#include "examples/svg.h"
+#include "examples/tools/svg.h"
 #include "examples/tools/tangent.h"
 
 static const char *folder = ".";

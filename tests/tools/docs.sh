@@ -36,7 +36,7 @@ for page in README.md docs/guide.md docs/embedded.md; do
         /^```/ && on  { on = 0; if (file ~ /\.out$/) open = ""; next }
         on && file != "" { print >file }' "$page"
 done
-cat examples/*.c examples/*.cpp examples/*.h docs/playground/*.h tests/compile/*.c | sed 's/^ *//; s/ *$//' | grep -v '^$' >"$dir/all-code"
+cat examples/*.c examples/*.cpp examples/tools/*.h docs/playground/*.h tests/compile/*.c | sed 's/^ *//; s/ *$//' | grep -v '^$' >"$dir/all-code"
 for block in "$dir"/*-[0-9][0-9].c "$dir"/*-[0-9][0-9].cpp; do
     [ -f "$block" ] || continue
     if grep -q 'int main' "$block"; then
