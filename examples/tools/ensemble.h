@@ -48,7 +48,7 @@ typedef struct ensemble_counter {
 
 #ifdef USE_MPI
 
-static int ensemble_begin(int *argc, char ***argv)
+static inline int ensemble_begin(int *argc, char ***argv)
 {
     int rank, level;
     MPI_Init_thread(argc, argv, MPI_THREAD_FUNNELED, &level);
@@ -56,9 +56,9 @@ static int ensemble_begin(int *argc, char ***argv)
     return rank;
 }
 
-static void ensemble_end(void) { MPI_Finalize(); }
+static inline void ensemble_end(void) { MPI_Finalize(); }
 
-static void ensemble_open(ensemble_counter *c)
+static inline void ensemble_open(ensemble_counter *c)
 {
     int *counter;
     MPI_Comm_rank(MPI_COMM_WORLD, &c->rank);
@@ -72,19 +72,19 @@ static void ensemble_open(ensemble_counter *c)
     MPI_Barrier(MPI_COMM_WORLD);
 }
 
-static void ensemble_ask(ensemble_counter *c)
+static inline void ensemble_ask(ensemble_counter *c)
 {
     MPI_Rget_accumulate(&c->chunk, 1, MPI_INT, &c->next, 1, MPI_INT, 0, 0, 1, MPI_INT, MPI_SUM,
                         c->window, &c->asked);
 }
 
-static int ensemble_answer(ensemble_counter *c)
+static inline int ensemble_answer(ensemble_counter *c)
 {
     MPI_Wait(&c->asked, MPI_STATUS_IGNORE);
     return c->next;
 }
 
-static void ensemble_gather(ensemble_counter *c, int bytes, void *results)
+static inline void ensemble_gather(ensemble_counter *c, int bytes, void *results)
 {
     MPI_Win_unlock_all(c->window);
     MPI_Win_free(&c->window);
@@ -93,17 +93,17 @@ static void ensemble_gather(ensemble_counter *c, int bytes, void *results)
 
 #else
 
-static int ensemble_begin(int *argc, char ***argv) { return (void)argc, (void)argv, 0; }
-static void ensemble_end(void) { }
-static void ensemble_open(ensemble_counter *c) { c->next = -c->chunk; }
-static void ensemble_ask(ensemble_counter *c) { (void)c; }
-static int ensemble_answer(ensemble_counter *c) { return c->next += c->chunk; }
-static void ensemble_gather(ensemble_counter *c, int bytes, void *results) { (void)c, (void)bytes, (void)results; }
+static inline int ensemble_begin(int *argc, char ***argv) { return (void)argc, (void)argv, 0; }
+static inline void ensemble_end(void) { }
+static inline void ensemble_open(ensemble_counter *c) { c->next = -c->chunk; }
+static inline void ensemble_ask(ensemble_counter *c) { (void)c; }
+static inline int ensemble_answer(ensemble_counter *c) { return c->next += c->chunk; }
+static inline void ensemble_gather(ensemble_counter *c, int bytes, void *results) { (void)c, (void)bytes, (void)results; }
 
 #endif
 
 /* A line that stands still on a terminal, from the third second on.             */
-static void ensemble_progress(int done, int count, time_t begin, time_t *shown)
+static inline void ensemble_progress(int done, int count, time_t begin, time_t *shown)
 {
     const time_t now = time(NULL);
     const double since = difftime(now, begin);
@@ -112,7 +112,7 @@ static void ensemble_progress(int done, int count, time_t begin, time_t *shown)
     fprintf(stderr, "\r%d of %d, %.0f s, about %.0f s to go ", done, count, since, since*(count - done)/done);
 }
 
-static void ensemble_run(int count, int chunk, size_t size, ensemble_fn *work, void *user, void *results)
+static inline void ensemble_run(int count, int chunk, size_t size, ensemble_fn *work, void *user, void *results)
 {
     const time_t begin = time(NULL);
     time_t shown = begin;
