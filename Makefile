@@ -14,7 +14,7 @@ export CC CXX
 WARNINGS = -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow -Wundef -Wfloat-equal -Wvla
 FLAGS    = -ffp-contract=off $(WARNINGS) -I. $(CPPFLAGS)
 # Tests compare to the bit on purpose.
-TESTFLAGS  = -Wno-float-equal -Wno-double-promotion -Itests -Iexamples
+TESTFLAGS  = -Wno-float-equal -Wno-double-promotion -Wno-unused-parameter -Itests -Iexamples
 COMPILE    = $(CC) -std=c99 $(FLAGS) -MMD -MP -MF $@.d -MT $@ $(CFLAGS)
 CXXCOMPILE = $(CXX) -std=c++11 $(FLAGS) -MMD -MP -MF $@.d -MT $@ $(CXXFLAGS)
 CMOCKA_CFLAGS = $$(pkg-config --cflags cmocka 2>/dev/null)
@@ -24,8 +24,8 @@ CMOCKA_LIBS   = $$(pkg-config --libs cmocka 2>/dev/null || echo -lcmocka)
 
 TESTS = $(sort $(basename $(notdir $(wildcard tests/test_*.c))))
 # These in float and in long double as well, and these compiled for size.
-TYPED = $(filter $(addprefix test_,corners effects interpolation kinks lu many mass newton oracle quadrature rows tangent adjoint tolerance twins),$(TESTS))
-SMALL = $(filter $(addprefix test_,corners many mass newton rows tolerance twins),$(TESTS))
+TYPED = $(filter $(addprefix test_,corners effects interpolation kinks lu many mass newton oracle points quadrature rows tangent adjoint tolerance twins),$(TESTS))
+SMALL = $(filter $(addprefix test_,corners many mass newton points rows tolerance twins),$(TESTS))
 VARIANTS = $(TYPED:%=%-float) $(TYPED:%=%-long) $(SMALL:%=%-small) $(SMALL:%=%-small-float)
 PROGRAMS = $(TESTS) $(VARIANTS)
 # Each links the library, compiled once for each type.
@@ -43,7 +43,7 @@ CHECK_STEPS = headers $(VARIANTS) $(EXAMPLES:%=alone-%) any_processor parts boun
               $(VALGRIND:%=valgrind-%) sanitize hard-single firmware fuzz-short
 
 STEP = $(Q)sh tests/tools/step.sh $(BUILD)
-SUM  = $(Q)sh tests/tools/summary.sh $(BUILD)
+SUM  = $(STEP) --sum
 
 .DEFAULT_GOAL = help
 .DELETE_ON_ERROR:
@@ -128,7 +128,7 @@ figures: scenes $(addprefix $(BUILD)/examples/,02_outer_solar_system 19_low_thru
 
 #: synopsis     copies the program at the top of gvi.h to examples/01_kepler.c and README.md
 synopsis:
-	$(Q)sh tests/tools/synopsis.sh
+	$(Q)sh tests/tools/examples.sh synopsis
 
 # -- programs: what is compiled in "make deps test" waits for deps
 
@@ -175,10 +175,10 @@ $(PROGRAMS:%=run-%): run-%: $(BUILD)/tests/%
 	$(Q)$<
 
 $(EXAMPLES): %: $(BUILD)/examples/%
-	$(STEP) $* sh tests/tools/run_example.sh $(BUILD) $* $<
+	$(STEP) $* sh tests/tools/examples.sh run $(BUILD) $* $<
 
 $(EXAMPLES:%=alone-%): alone-%: $(BUILD)/alone/%
-	$(STEP) alone-$* sh tests/tools/run_example.sh $(BUILD) $* $<
+	$(STEP) alone-$* sh tests/tools/examples.sh run $(BUILD) $* $<
 
 $(EXAMPLES:%=example-%): example-%: $(BUILD)/examples/%
 	$(Q)$<

@@ -25,22 +25,31 @@ typedef struct bodies {
 } bodies;
 typedef struct trace { double x[BODIES][POINTS], y[BODIES][POINTS], t[64], error[64], worst; int orbit, count; } trace;
 
+/* Two bodies, all points.  `restrict`: rows do not overlap, so the loop is made of vectors. */
+static void pull(int count, int d, const double *restrict a, const double *restrict c, double *restrict f,
+                 double *restrict g, double mm)
+{
+    for (int k = 0; k < count; ++k) {
+        double u = c[k] - a[k], v = c[d+k] - a[d+k], w = c[2*d+k] - a[2*d+k], r2 = u*u + v*v + w*w, s = mm/(r2*sqrt(r2));
+        f[k] += s*u;  f[d+k] += s*v;  f[2*d+k] += s*w;
+        g[k] -= s*u;  g[d+k] -= s*v;  g[2*d+k] -= s*w;
+    }
+}
+
 /* Both in one: the potential if x->value is wanted, else the force.           */
 static int gravity(const gvi_points *x, void *user)
 {
     const bodies *b = user;
     const int d = x->stride;
     for (int i = 1; i < b->n; ++i)
-        for (int j = 0; j < i; ++j)
-            for (int k = 0; k < x->count; ++k) {
-                const double *a = x->q + 3*i*d + k, *c = x->q + 3*j*d + k, mm = b->gm[i]*b->gm[j];
-                double u = c[0] - a[0], v = c[d] - a[d], w = c[2*d] - a[2*d];
-                double r2 = u*u + v*v + w*w, r = sqrt(r2), s = mm/(r2*r);
-                if (x->value) { x->value[k] -= mm/r; continue; }
-                double *f = x->f + 3*i*d + k, *g = x->f + 3*j*d + k;
-                f[0] += s*u;  f[d] += s*v;  f[2*d] += s*w;
-                g[0] -= s*u;  g[d] -= s*v;  g[2*d] -= s*w;
+        for (int j = 0; j < i; ++j) {
+            const double *a = x->q + 3*i*d, *c = x->q + 3*j*d, mm = b->gm[i]*b->gm[j];
+            if (!x->value) pull(x->count, d, a, c, x->f + 3*i*d, x->f + 3*j*d, mm);
+            for (int k = 0; k < x->count && x->value; ++k) {
+                double u = c[k] - a[k], v = c[d+k] - a[d+k], w = c[2*d+k] - a[2*d+k];
+                x->value[k] -= mm/sqrt(u*u + v*v + w*w);
             }
+        }
     return 0;
 }
 

@@ -31,14 +31,11 @@ static const svg_axis along_y = { 0, -0.45, 0.68, 80, 610, 8 }, along_w = { 0, -
 
 typedef struct result { double y, w, megno; int steps, status; } result;
 
-static int potential(const gvi_points *x, void *user)
+GVI_POINTS(potential, 2, f)(const gvi_points *x, void *user)
 {
-    const int s = x->stride;
-    const double *X = x->q, *Y = X + s;
-    for (int k = 0; k < x->count; ++k) {
-        x->f[k]     -= X[k] + 2*X[k]*Y[k];
-        x->f[s + k] -= Y[k] + X[k]*X[k] - Y[k]*Y[k];
-    }
+    const double X = x->q[0], Y = x->q[1];
+    x->f[0] -= X + 2*X*Y;
+    x->f[1] -= Y + X*X - Y*Y;
     return (void)user, 0;
 }
 
@@ -97,8 +94,8 @@ static int draw(const char *path, const result *z, int side)
     FILE *f = svg_begin(path, 760, 460);
     if (!f) return -1;
     for (int c = 0; c < 6; ++c) {
-        fprintf(f, "<path stroke=\"%s\" stroke-width=\"1.04\" transform=\"translate(%g %g) scale(%.4f %.4f)\" d=\"", colour[c],
-                along_y.a, along_w.a, (along_y.b - along_y.a)/side, (along_w.b - along_w.a)/side);
+        fprintf(f, "<path stroke=\"%s\" stroke-width=\"1.04\" transform=\"translate(%g %g) scale(%.4f %.4f)\" d=\"",
+                colour[c], along_y.a, along_w.a, (along_y.b - along_y.a)/side, (along_w.b - along_w.a)/side);
         for (int k = 0, next; k < side*side; k = next) {
             for (next = k + 1; next % side && shade_of(z + next) == shade_of(z + k); ++next) {}
             if (shade_of(z + k) == c) fprintf(f, "M%d %d.5h%d\n", k % side, k / side, next - k);
@@ -108,8 +105,9 @@ static int draw(const char *path, const result *z, int side)
     }
     svg_ticks(f, &along_y, &along_w, 0);
     svg_ticks(f, &along_w, &along_y, 1);
-    fprintf(f, "<text x=\"80\" y=\"28\" font-size=\"17\" font-weight=\"bold\">Orbits of Hénon and Heiles at energy 1/8</text>"
-               "<text x=\"628\" y=\"75\">MEGNO</text><text x=\"345\" y=\"448\">y</text><text x=\"16\" y=\"230\">y'</text>\n");
+    fprintf(f, "<text x=\"80\" y=\"28\" font-size=\"17\" font-weight=\"bold\">"
+               "Orbits of Hénon and Heiles at energy 1/8</text><text x=\"628\" y=\"75\">MEGNO</text>"
+               "<text x=\"345\" y=\"448\">y</text><text x=\"16\" y=\"230\">y'</text>\n");
     return svg_end(f);
 }
 

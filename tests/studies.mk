@@ -2,7 +2,7 @@
 
 .PHONY: headers-quick headers symbols parts docs-check bound float instructions prices usable sanitize sanitized any_processor \
         ensemble deps-ensemble firmware deps-firmware fuzz fuzz-short size stats compare everywhere deps-everywhere \
-        cost-horizon ncdp scaling kicks cost-peers deps-compare cost-embedded hard theorems
+        cost-horizon ncdp scaling kicks points cost-peers deps-compare cost-embedded hard theorems
 
 # -- steps of `make test` and `make check`; each can be run alone
 
@@ -26,14 +26,16 @@ docs-check: $(BUILD)/gvi-double.o
 #: ensemble     lesson 29 on one thread, two threads, one and three MPI processes: the same bits
 #: usable       what make install puts where, and the ways into a project: pkg-config, CMake, a C++ sketch
 #: firmware     two programs without an operating system, run as Cortex-M3 and M4F by qemu, against this machine
-parts bound float instructions prices ensemble usable firmware: | $(FIRST)
+prices: | $(FIRST)
+	$(STEP) $@ sh tests/tools/instructions.sh $(BUILD) --prices
+parts bound float instructions ensemble usable firmware: | $(FIRST)
 	$(STEP) $@ sh tests/tools/$@.sh $(BUILD) $(RECORD)
 
 #: sanitize     tests and examples under the address and undefined behaviour sanitizers
 SANITIZED = $(TESTS) $(TYPED:%=%-float) $(EXAMPLES)
 sanitize: | $(FIRST)
 	$(Q)mkdir -p $(BUILD)/result; echo 0 0 1 >$(BUILD)/result/$@
-	$(Q)if sh tests/tools/sanitizer.sh '$(CC)' && sh tests/tools/sanitizer.sh '$(CXX)' -xc++; then \
+	$(Q)if sh tests/tools/under.sh sanitizer '$(CC)' -xc && sh tests/tools/under.sh sanitizer '$(CXX)' -xc++; then \
 	    $(MAKE) --no-print-directory BUILD=$(BUILD)/sanitize sanitized \
 	    CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' && \
 	    cp $(BUILD)/sanitize/result/sanitized $(BUILD)/result/$@; fi
@@ -44,9 +46,9 @@ sanitized: $(SANITIZED)
 valgrind: $(VALGRIND:%=valgrind-%)
 	$(SUM) valgrind $(VALGRIND:%=valgrind-%)
 $(filter valgrind-test_%,$(VALGRIND:%=valgrind-%)): valgrind-%: $(BUILD)/tests/%
-	$(STEP) $@ sh tests/tools/run_valgrind.sh $<
+	$(STEP) $@ sh tests/tools/under.sh valgrind $<
 $(filter-out valgrind-test_%,$(VALGRIND:%=valgrind-%)): valgrind-%: $(BUILD)/examples/%
-	$(STEP) $@ sh tests/tools/run_valgrind.sh $<
+	$(STEP) $@ sh tests/tools/under.sh valgrind $<
 
 # One file, a form of it for each width of registers; other processors have the plain one alone.
 FORMS = plain $(if $(filter x86_64%,$(shell $(CC) -dumpmachine 2>/dev/null)),avx2 avx512)
@@ -58,12 +60,12 @@ $(BUILD)/alone/motion-%.o: examples/any_processor/motion.c | $(FIRST)
 $(BUILD)/alone/any_processor: examples/any_processor/main.c $(FORMS:%=$(BUILD)/alone/motion-%.o)
 	$(Q)$(COMPILE) $< $(filter %.o,$^) -o $@ $(LDLIBS)
 any_processor: $(BUILD)/alone/any_processor
-	$(STEP) $@ sh tests/tools/run_example.sh $(BUILD) $@ $<
+	$(STEP) $@ sh tests/tools/examples.sh run $(BUILD) $@ $<
 
 #: fuzz         a minute of libFuzzer on descriptions and calls (clang); FUZZ_SECONDS=600
 FUZZ_SECONDS = $(if $(filter fuzz,$(MAKECMDGOALS)),60,20)
 fuzz fuzz-short: | $(FIRST)
-	$(STEP) $@ sh tests/tools/fuzz.sh $(BUILD) $(FUZZ_SECONDS)
+	$(STEP) $@ sh tests/tools/under.sh fuzz $(BUILD) $(FUZZ_SECONDS)
 
 #: deps-firmware installs what firmware and size need: compilers for Arm, RISC-V and AVR, qemu
 deps-firmware: | $(filter deps deps-check,$(MAKECMDGOALS))
@@ -134,9 +136,10 @@ cost-horizon: $(BUILD)/cost/cost
 
 #: ncdp         rounding over half a million steps, and its price, against the published standard
 #: kicks        splittings as tables of kicks against the same written by hand (ten seconds)
+#: points       callbacks by GVI_POINTS against loops by hand and .point (ten seconds); COST_CFLAGS="-O2 -fno-math-errno"
 #: scaling      time and memory against degree, coordinates and points; CSV and pictures in build/cost
 #: cost-peers   GSL, SUNDIALS and Boost.odeint on the problems of make cost
-ncdp kicks: %: $(BUILD)/cost/%
+ncdp kicks points: %: $(BUILD)/cost/%
 	$(Q)$< $(COST_ARGS)
 scaling: $(BUILD)/cost/scaling
 	$(Q)$< --out $(BUILD)/cost $(COST_ARGS)
@@ -153,11 +156,11 @@ cost-embedded:
 
 $(BUILD)/cost/%.o: tests/cost/%.c
 	@mkdir -p $(@D)
-	$(Q)$(CC) -std=c99 $(WARNINGS) -Wno-double-promotion -I. -Iexamples $(CPPFLAGS) -MMD -MP -MF $@.d -MT $@ $(COST_CFLAGS) -c $< -o $@
+	$(Q)$(CC) -std=c99 $(WARNINGS) -Wno-double-promotion -Wno-unused-parameter -I. -Iexamples -Itests $(CPPFLAGS) -MMD -MP -MF $@.d -MT $@ $(COST_CFLAGS) -c $< -o $@
 $(BUILD)/cost/peers_odeint.o: tests/cost/peers_odeint.cpp
 	@mkdir -p $(@D)
 	$(Q)$(CXX) -std=c++14 $(COST_CFLAGS) -I. -c $< -o $@
-$(BUILD)/cost/ncdp $(BUILD)/cost/scaling: %: %.o
+$(BUILD)/cost/ncdp $(BUILD)/cost/scaling $(BUILD)/cost/points: %: %.o
 	$(Q)$(CC) $< -o $@ $(LDLIBS)
 $(BUILD)/cost/peers: $(addprefix $(BUILD)/cost/,peers.o problems.o peers_odeint.o)
 	$(Q)$(CXX) $^ -o $@ $(PEER_LIBS) $(LDLIBS)

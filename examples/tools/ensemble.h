@@ -98,7 +98,10 @@ static inline void ensemble_end(void) { }
 static inline void ensemble_open(ensemble_counter *c) { c->next = -c->chunk; }
 static inline void ensemble_ask(ensemble_counter *c) { (void)c; }
 static inline int ensemble_answer(ensemble_counter *c) { return c->next += c->chunk; }
-static inline void ensemble_gather(ensemble_counter *c, int bytes, void *results) { (void)c, (void)bytes, (void)results; }
+static inline void ensemble_gather(ensemble_counter *c, int bytes, void *results)
+{
+    (void)c, (void)bytes, (void)results;
+}
 
 #endif
 

@@ -52,7 +52,6 @@ static void wall(const gvi_points *x, int i)
 
 static int chain(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int i = 1; i < x->n; ++i) bond(x, i);
     wall(x, 0);
     wall(x, x->n - 1);

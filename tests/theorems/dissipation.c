@@ -76,19 +76,19 @@ static const char *const s_names[ROWS] = { "s = 1", "s = 2", "s = 3", "RK4" };
 
 static real c;                                            /* the damping */
 
-static int weight(MAYBE real t, const real *q, MAYBE const real *v, real *f, MAYBE real *dldv, MAYBE void *user)
+static int weight(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
     f[0] -= sin(q[0]);
     return 0;
 }
 
-static int damping(MAYBE real t, MAYBE const real *q, const real *v, real *f, MAYBE real *dldv, MAYBE void *user)
+static int damping(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
     f[0] -= c*v[0];
     return 0;
 }
 
-static real weight_lagrangian(MAYBE real t, const real *q, const real *v) { return v[0]*v[0]/2 + cos(q[0]); }
+static real weight_lagrangian(real t, const real *q, const real *v) { return v[0]*v[0]/2 + cos(q[0]); }
 
 static const problem damped_pendulum = {
     "pendulum", 1, { .kind = GVI_MASS_UNIT },
@@ -140,12 +140,12 @@ static void rayleigh(void)
         lines[i] = (svg_line){ s_names[i], h_of, error_of[i], SIZES };
     }
     draw("theorem_dissipation", &(svg_plot){
-        .title = "Pendulum, c = 0.001, energy after 2000 units of time", .x_label = "step h", .y_label = "relative error",
-        .log_x = 1, .log_y = 1, .lines = lines, .line_count = ROWS, .dashed = 8 });
+        .title = "Pendulum, c = 0.001, energy after 2000 units of time", .x_label = "step h",
+        .y_label = "relative error", .log_x = 1, .log_y = 1, .lines = lines, .line_count = ROWS, .dashed = 8 });
 }
 
 /* e^(ct) (v^2/2 + cos q), all of it one Lagrangian term; p = e^(ct) v */
-static int growing(const gvi_points *x, MAYBE void *user)
+static int growing(const gvi_points *x, void *user)
 {
     for (int k = 0; k < x->count; ++k) {
         const real e = exp(c*x->t[k]);
@@ -155,7 +155,7 @@ static int growing(const gvi_points *x, MAYBE void *user)
     return 0;
 }
 
-static int growing_product(const gvi_points *x, const gvi_points *d, MAYBE int parameter, MAYBE void *user)
+static int growing_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
 {
     for (int k = 0; k < x->count; ++k) {
         const real e = exp(c*x->t[k]);
@@ -165,25 +165,25 @@ static int growing_product(const gvi_points *x, const gvi_points *d, MAYBE int p
     return 0;
 }
 
-static int growing_velocity(const gvi_points *x, MAYBE void *user)
+static int growing_velocity(const gvi_points *x, void *user)
 {
     for (int k = 0; k < x->count; ++k) x->velocity[k] = exp(-c*x->t[k])*x->p[k];
     return 0;
 }
 
-static int growing_velocity_product(const gvi_points *x, const gvi_points *d, MAYBE int parameter, MAYBE void *user)
+static int growing_velocity_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
 {
     for (int k = 0; k < x->count; ++k) d->velocity[k] = exp(-c*x->t[k])*d->p[k];
     return 0;
 }
 
-static int weight_product(const gvi_points *x, const gvi_points *d, MAYBE int parameter, MAYBE void *user)
+static int weight_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
 {
     for (int k = 0; k < x->count; ++k) d->f[k] -= cos(x->q[k])*d->q[k];
     return 0;
 }
 
-static int damping_product(const gvi_points *x, const gvi_points *d, MAYBE int parameter, MAYBE void *user)
+static int damping_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
 {
     for (int k = 0; k < x->count; ++k) d->f[k] -= c*d->v[k];
     return 0;
@@ -227,8 +227,8 @@ static void conformal(void)
             error[1] = (double)area_error(s, h, 0, STARTS);
         }
         for (real h = 1; h > 0.1L; h /= 2) worst = fmax(worst, (double)(area_error(s, h, 1, STARTS)/UNIT));
-        printf("  s = %d  as a force %.1e, its order %.2f   as e^(ct) L: %.1f eps\n", s, (double)area_error(s, 0.5L, 0, 1),
-               hold("area", log2(error[0]/error[1]), 2*s + 0.8, 2*s + 1.2), hold("area, e^(ct) L", worst, 0, 16));
+        printf("  s = %d  as a force %.1e, its order %.2f   as e^(ct) L: %.1f eps\n", s,
+               (double)area_error(s, 0.5L, 0, 1), hold("area", log2(error[0]/error[1]), 2*s + 0.8, 2*s + 1.2), hold("area, e^(ct) L", worst, 0, 16));
     }
 }
 
@@ -239,7 +239,7 @@ static void conformal(void)
 enum { SAMPLES = 321 };
 static double sample_error[SIZES][SAMPLES];
 
-static int chain(const gvi_points *x, MAYBE void *user)
+static int chain(const gvi_points *x, void *user)
 {
     const int S = x->stride;
     const real stiff = *(real *)user;
@@ -264,7 +264,7 @@ static real damped_oscillator(real t)
 
 /* The largest |x - damped x| up to t = 10; `sample_error` has it at SAMPLES times up to 16.  The energy of
    body and line must be constant, and the echo must come.  */
-static double line_error(MAYBE int row, int masses)
+static double line_error(int row, int masses)
 {
     const int n = masses + 1, each = 320;
     real dx = 6/(real)masses, stiff = c/dx, *m = calloc((size_t)n, sizeof *m), *q = calloc((size_t)n, sizeof *q);
@@ -359,13 +359,13 @@ static void half_derivative(void)
    z' = v - S z.  z is a coordinate without a force of its own, whose velocity is that formula.  */
 static const real G = 2, S = 3;
 
-static int maxwell(const gvi_points *x, MAYBE void *user)
+static int maxwell(const gvi_points *x, void *user)
 {
     for (int k = 0; k < x->count; ++k) x->f[k] -= x->q[k] + G*x->q[x->stride + k];
     return 0;
 }
 
-static int maxwell_velocity(const gvi_points *x, MAYBE void *user)
+static int maxwell_velocity(const gvi_points *x, void *user)
 {
     for (int k = 0; k < x->count; ++k) {
         x->velocity[k] = x->p[k];
@@ -374,7 +374,7 @@ static int maxwell_velocity(const gvi_points *x, MAYBE void *user)
     return 0;
 }
 
-static int nothing(MAYBE const gvi_points *x, MAYBE void *user) { return 0; }
+static int nothing(const gvi_points *x, void *user) { return 0; }
 
 /* x after time T from (1, 0, 0), by the exponential series of the matrix in pieces of 1/16 */
 static real maxwell_exact(real T)
@@ -411,7 +411,7 @@ static void internal_variable(void)
 /* ------------------------------------------------------------------- Vermeeren
 
    L + h^2/24 (|U'|^2 - 2 v'U''v), U = -1/|q|: |U'|^2 = r^-4, v'U''v = v.v r^-3 - 3 (q.v)^2 r^-5  */
-static int modified(const gvi_points *x, MAYBE void *user)
+static int modified(const gvi_points *x, void *user)
 {
     const int s = x->stride;
     const real h = *(real *)user, a = h*h/24;

@@ -7,7 +7,7 @@ mkdir -p "$dir/cmake/third_party/gvi" "$dir/sketch"
 fail() { echo "FAILED: usable: $*"; exit 1; }
 have() { command -v "$1" >/dev/null 2>&1; }
 runs() { "$1" | diff - "$dir/wanted" || fail "$1"; count=$((count + 1)); }
-sh tests/tools/expected.sh examples/01_kepler.c >"$dir/wanted"
+sh tests/tools/examples.sh expected examples/01_kepler.c >"$dir/wanted"
 count=1
 
 make -s install DESTDIR="$dir/stage" PREFIX=/opt >/dev/null && cmp gvi.h "$dir/stage/opt/include/gvi.h" || fail "gvi.h"
