@@ -228,7 +228,8 @@ static void conformal(void)
         }
         for (real h = 1; h > 0.1L; h /= 2) worst = fmax(worst, (double)(area_error(s, h, 1, STARTS)/UNIT));
         printf("  s = %d  as a force %.1e, its order %.2f   as e^(ct) L: %.1f eps\n", s,
-               (double)area_error(s, 0.5L, 0, 1), hold("area", log2(error[0]/error[1]), 2*s + 0.8, 2*s + 1.2), hold("area, e^(ct) L", worst, 0, 16));
+               (double)area_error(s, 0.5L, 0, 1), hold("area", log2(error[0]/error[1]), 2*s + 0.8, 2*s + 1.2),
+               hold("area, e^(ct) L", worst, 0, 16));
     }
 }
 
