@@ -5,7 +5,7 @@
 #include "tools/adjoint.h"
 
 typedef gvi_real real;
-#include "mechanics.h"
+#include "problems.h"
 enum { N = 2, NODES = 8 };
 
 #define R(x) ((real)x##L)

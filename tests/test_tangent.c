@@ -5,7 +5,7 @@
 #include "tools/tangent.h"
 
 typedef gvi_real real;
-#include "mechanics.h"
+#include "problems.h"
 enum { N = 2, MOST = 6, ROWS = N*(1 + MOST), ROOM = 13*ROWS + ROWS*ROWS };
 
 #define R(x) ((real)x##L)
