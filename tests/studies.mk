@@ -23,7 +23,7 @@ docs-check: $(BUILD)/gvi-double.o
 #: float        the object code of a float build: nothing is computed in double
 #: instructions points, iterations and instructions of fixed runs; RECORD=--record writes them anew
 #: prices       what an unlisted effect costs in instructions (valgrind): nothing
-#: ensemble     lesson 28 on one thread, two threads, one and three MPI processes: the same bits
+#: ensemble     lesson 29 on one thread, two threads, one and three MPI processes: the same bits
 #: usable       what make install puts where, and the ways into a project: pkg-config, CMake, a C++ sketch
 #: firmware     two programs without an operating system, run as Cortex-M3 and M4F by qemu, against this machine
 prices: | $(FIRST)

@@ -6,14 +6,14 @@
    and its numbers are the same to the last bit. tools/ensemble.h shares the orbits out, in
    chunks to whoever is free, and gathers the results in order:
 
-     cc 28_ensemble.c -lm                              one after the other
-     cc -fopenmp 28_ensemble.c -lm                     on all cores of this machine
-     mpicc -fopenmp -DUSE_MPI 28_ensemble.c -lm        on all that mpirun is given
+     cc 29_ensemble.c -lm                              one after the other
+     cc -fopenmp 29_ensemble.c -lm                     on all cores of this machine
+     mpicc -fopenmp -DUSE_MPI 29_ensemble.c -lm        on all that mpirun is given
 
    The orbits and MEGNO are those of lesson 17, from (0, y) with y' = w at energy 1/8. An orbit is
    over when its neighbour is 1e12 times further away: chaotic orbits take 0.37 as many steps.
 
-   28_ensemble [side [numbers.csv [map.svg]]]         120 has 10,786 orbits
+   29_ensemble [side [numbers.csv [map.svg]]]         120 has 10,786 orbits
    prints
 
      110 orbits, 0 failed: 61 % chaotic
