@@ -1,9 +1,9 @@
 /* 17 - What becomes of a neighbour? The derivative of a step
 
-   Is an orbit regular or chaotic? Look at an orbit that starts beside it: on a regular one the
+   Is an orbit regular or chaotic? Look at an orbit that starts close to it: on a regular one the
    distance grows like the time, on a chaotic one exponentially. The distance of infinitely
    close orbits is the derivative of the motion in a direction, and tools/tangent.h steps it
-   along with the motion: four coordinates in place of two, and on the second pair acts the
+   along with the motion: four coordinates instead of two, and on the second pair acts the
    derivative of the force times the direction. What comes out is the derivative of the step
    itself, to rounding; so it is symplectic, as the step is.
 

@@ -28,7 +28,7 @@
    effect without its product (GVI_E_ARGUMENT).  gvi_energy of the larger scene
    says GVI_E_VALUE.  A wrong product cannot be seen by a step: tangent_check.
 
-   Limits    In its last bits the motion beside its derivative can differ from the motion
+   Limits    In its last bits the motion computed with its derivative can differ from the motion
              alone, by another number of iterations; desc.iterations makes both the same.
              Columns of a chaotic motion grow: scale them and start again before they
              overflow, as 17_tangent.c does.  In momenta there is no Newton's method to
