@@ -24,7 +24,7 @@ CMOCKA_LIBS   = $$(pkg-config --libs cmocka 2>/dev/null || echo -lcmocka)
 
 TESTS = $(sort $(basename $(notdir $(wildcard tests/test_*.c))))
 # These in float and in long double as well, and these compiled for size.
-TYPED = $(filter $(addprefix test_,corners effects interpolation kinks lu many mass newton oracle points quadrature rows tangent adjoint tolerance twins),$(TESTS))
+TYPED = $(filter $(addprefix test_,corners effects interpolation kinks lu many mass newton oracle points quadrature rows tangent adjoint event body damped tolerance twins),$(TESTS))
 SMALL = $(filter $(addprefix test_,corners many mass newton points rows tolerance twins),$(TESTS))
 VARIANTS = $(TYPED:%=%-float) $(TYPED:%=%-long) $(SMALL:%=%-small) $(SMALL:%=%-small-float)
 PROGRAMS = $(TESTS) $(VARIANTS)
@@ -119,11 +119,13 @@ unit: $(PROGRAMS)
 PICTURES = $(if $(filter figures,$(MAKECMDGOALS)),docs/img,$(BUILD)/pictures)
 
 #: figures      makes the pictures in docs/img/ again, scenes included; theorems: make theorems PICTURES=docs/img
-figures: scenes $(addprefix $(BUILD)/examples/,02_outer_solar_system 19_low_thrust 20_swing_up)
+figures: scenes $(addprefix $(BUILD)/examples/,02_outer_solar_system 19_low_thrust 20_swing_up 22_section 24_racket)
 	$(Q)mkdir -p docs/img
 	$(Q)$(BUILD)/examples/02_outer_solar_system 200000 200 8 docs/img
 	$(Q)$(BUILD)/examples/19_low_thrust --svg docs/img/low_thrust.svg
 	$(Q)$(BUILD)/examples/20_swing_up --svg docs/img/swing_up.svg
+	$(Q)$(BUILD)/examples/22_section --svg docs/img/section.svg
+	$(Q)$(BUILD)/examples/24_racket --svg docs/img/racket.svg
 
 #: synopsis     copies the program at the top of gvi.h to examples/01_kepler.c and README.md
 synopsis:
