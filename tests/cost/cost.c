@@ -221,7 +221,7 @@ static void add_clocks(const problem *p)
 static void settings_for(const problem *p)
 {
     static const int degrees[] = { 8, 6, 7, 5, 4, 10, 12, 16, 3, 2 };
-    gvi_formulation pinned = p->slope ? GVI_MOMENTA : GVI_POSITIONS;
+    gvi_formulation pinned = p->formulation ? p->formulation : p->slope ? GVI_MOMENTA : GVI_POSITIONS;
     setting_count = 0;
     for (int i = 0; i < COUNT(degrees); ++i)
         for (int k = 0; k < COUNT(decades); ++k) add_setting(degrees[i], GVI_GAUSS, pinned, decades[k]);
@@ -276,11 +276,16 @@ static void study_gvi(study *y, const options *o, double length)
     }
 }
 
-static int fits(const baseline *b, const problem *p) { return b->first_order == (p->slope != NULL); }
+/* DOP853 everywhere: where q'' is given, for (q, v)                                           */
+static int fits(const baseline *b, const problem *p)
+{
+    return b->first_order == (p->slope != NULL) || !strcmp(b->family, "DOP853");
+}
 
 static void study_rival(study *y, const options *o, const baseline *b, double length)
 {
-    sweep w = steps_from(y->p->evaluations*length/b->cost, y->p->limit*length, o);
+    // to rounding, however long that takes
+    sweep w = steps_from(y->p->evaluations*length/b->cost, 20*y->p->limit*length, o);
     if (b->adaptive) {
         w.first = 1e-2;
         w.factor = o->quick ? 0.2 : 0.5;
