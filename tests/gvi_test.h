@@ -19,21 +19,42 @@
 #include <cmocka.h>
 
 #if GVI__KIND == 1
+#define KIND 1                  /* 1 float, 2 double, 3 long double: GVI__KIND is for #if */
 #define EPS FLT_EPSILON
 #define MIN FLT_MIN
 #define MAX FLT_MAX
 #define DIG FLT_MANT_DIG
 #elif GVI__KIND == 2
+#define KIND 2
 #define EPS DBL_EPSILON
 #define MIN DBL_MIN
 #define MAX DBL_MAX
 #define DIG DBL_MANT_DIG
 #else
+#define KIND 3
 #define EPS LDBL_EPSILON
 #define MIN LDBL_MIN
 #define MAX LDBL_MAX
 #define DIG LDBL_MANT_DIG
 #endif
+
+/* TEST(name) { ... } is a test; RUN_TESTS(setup, teardown), a file's last line, runs them in their order. */
+static __attribute__((unused)) struct CMUnitTest registered_tests[64];
+static __attribute__((unused)) int registered_count;
+#ifdef __TINYC__                        /* has no constructors: everywhere.sh lists the tests */
+#define CONSTRUCTOR
+static void register_tests(void);
+#else
+#define CONSTRUCTOR __attribute__((constructor))
+#define register_tests() ((void)0)
+#endif
+#define TEST(name) \
+    static void name(void **state); \
+    static CONSTRUCTOR void name##_registers(void) \
+    { registered_tests[registered_count++] = (struct CMUnitTest)cmocka_unit_test(name); } \
+    static void name(__attribute__((unused)) void **state)
+#define RUN_TESTS(setup, teardown) \
+    int main(void) { register_tests(); return cmocka_run_group_tests(registered_tests, setup, teardown); }
 
 #define COUNT(a) ((int)(sizeof(a)/sizeof(a)[0]))
 

@@ -12,12 +12,12 @@
 #ifndef SCENE_H
 #define SCENE_H
 
-#include "effects.h"
+#include "tools/effects.h"
 #include <string.h>
 
 enum { SCENE_MAX = 192,        /* most degrees of freedom                      */
        SCENE_BODIES = 64,      /* most points in a picture                     */
-       SCENE_CURVES = 4 };     /* most curves beside it, most conserved things */
+       SCENE_CURVES = 4 };     /* most curves next to it, most conserved things */
 
 typedef struct scene_setup {
     gvi_desc    desc;
