@@ -193,13 +193,13 @@ static gvi_desc describe(int n, int s, int what, gvi_formulation formulation)
     static gvi_real full[MOST*MOST];
     gvi_desc desc = { .n = n, .degree = s, .effects = scene, .effect_count = 1, .formulation = formulation };
     const int h = what & HESSIANS;
-    scene[0] = (gvi_effect){ GVI_POTENTIAL, springs, NULL, NULL, h ? springs_hessian : NULL, &parameters };
+    scene[0] = (gvi_effect){ .kind = GVI_POTENTIAL, .points = springs, .hessian = h ? springs_hessian : NULL, .user = &parameters };
     if (what & DAMPED)
-        scene[desc.effect_count++] = (gvi_effect){ GVI_FORCE, damper, NULL, NULL, h ? damper_hessian : NULL,
-                                                   &parameters };
+        scene[desc.effect_count++] = (gvi_effect){ .kind = GVI_FORCE, .points = damper, .hessian = h ? damper_hessian : NULL,
+                                                   .user = &parameters };
     if (what & TURNED)
-        scene[desc.effect_count++] = (gvi_effect){ GVI_LAGRANGIAN, magnet, NULL, NULL, h ? magnet_hessian : NULL,
-                                                   &parameters };
+        scene[desc.effect_count++] = (gvi_effect){ .kind = GVI_LAGRANGIAN, .points = magnet, .hessian = h ? magnet_hessian : NULL,
+                                                   .user = &parameters };
     if (what & MOVING_MASS)
         desc.mass = (gvi_mass){ .kind = GVI_MASS_POSITION, .points = mass, .gradient = mass_gradient };
     if (what & DENSE) {
