@@ -173,7 +173,7 @@ static inline void top_project(double *y)
             for (int i = 0; i < 12; ++i) {                                                      \
                 memcpy(x, y, sizeof x);                                                         \
                 for (int j = 0; j < i; ++j)                                                     \
-                    for (int c = 0; c < size && table_a[i][j] != 0; ++c) x[c] += h*table_a[i][j]*K[j][c]; \
+                    for (int c = 0; c < size && fabs(table_a[i][j]) > 0; ++c) x[c] += h*table_a[i][j]*K[j][c]; \
                 slope(x, K[i]);                                                                 \
             }                                                                                   \
             for (int j = 0; j < 12; ++j)                                                        \
