@@ -572,6 +572,8 @@ typedef struct gvi_discrete {
                                          out: 0, the curve is a minimum; as many as
                                          conjugate points lie inside (Morse), up to
                                          what n (s - 1) modes can show          */
+    const gvi_real *guess;            /* in: velocity at q0 of a motion near the one wanted;
+                                         NULL: the curve near the chord         */
 } gvi_discrete;
 
 /* ------------------------------------------------------------- FUNCTIONS */
@@ -3591,7 +3593,8 @@ typedef struct gvi__matrix {
     gvi_real *pivot;
     gvi_real *ends;        /* k0 = 1: columns y_0 and q0, 2n a row; or NULL                 */
     int       k0;
-    int       scaled;      /* rows by their largest entry, for a condition without units    */
+    int       scaled;      /* columns over sqrt M_ii, rows by their largest entry: the condition
+                              then has no units                                      */
     int       halves;      /* are changes taken back that make the residual larger?         */
 } gvi__matrix;
 
@@ -3831,8 +3834,10 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J)
     for (int row = 0; J->scaled && row < size; ++row) {
         gvi_real *a = J->square + (size_t)row*(size_t)size,
                  *ends = J->ends + (size_t)row*2*(size_t)n, big = 0;
-        for (int j = 0; j < size; ++j)
+        for (int j = 0; j < size; ++j) {
+            a[j] *= st->x.watch.scale[j % n];
             if (GVI_ABS(a[j]) > big) big = GVI_ABS(a[j]);
+        }
         for (int j = 0; big > 0 && j < size; ++j) a[j] /= big;
         for (int j = 0; big > 0 && j < 2*n; ++j) ends[j] /= big;
     }
@@ -3844,26 +3849,33 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J)
                        GVI_FAULT_NONE);
 }
 
-// y := modes of the extrapolated V, or constant velocity
-static void gvi__newton_guess(gvi_stepper *st, int extrapolate)
+// y := modes of V as the predictor continues it; rows get that V
+static void gvi__newton_modes(gvi_stepper *st, const gvi_real *V, gvi_real *rows)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, s = st->s, R = x->R;
     gvi__stage z;
-    gvi__zero((size_t)(s*n), x->newton.y);
+    gvi__set_stage(st, &z, rows, NULL, NULL, NULL);
+    gvi__set_predictor(st, &z, V, NULL);
+    x->kernel(st, &z, 0);
+    for (int i = 0; i < n; ++i) {
+        for (int k = 0; k < s; ++k)
+            x->row[k] = gvi__dot3(st->r, x->table.phi + k*R, x->table.b, rows + i*R);
+        gvi__over_gamma(st, x->row);
+        for (int k = 0; k < s; ++k) x->newton.y[k*n + i] = x->row[k];
+    }
+}
+
+// y := modes of the extrapolated V, or constant velocity
+static void gvi__newton_guess(gvi_stepper *st, int extrapolate)
+{
+    struct gvi__private *x = &st->x;
+    gvi__zero((size_t)(st->s*st->n), x->newton.y);
     if (!extrapolate) {
         gvi__velocity_guess(st, x->newton.y);
         return;
     }
-    gvi__set_stage(st, &z, x->work.V, NULL, NULL, NULL);
-    gvi__set_predictor(st, &z, x->last.V, NULL);
-    x->kernel(st, &z, 0);
-    for (int i = 0; i < n; ++i) {
-        for (int k = 0; k < s; ++k)
-            x->row[k] = gvi__dot3(st->r, x->table.phi + k*R, x->table.b, x->work.V + i*R);
-        gvi__over_gamma(st, x->row);
-        for (int k = 0; k < s; ++k) x->newton.y[k*n + i] = x->row[k];
-    }
+    gvi__newton_modes(st, x->last.V, x->work.V);
 }
 
 /* y += dy from row k0 on; returns the sum over coordinates of the relative change.  p->work:
@@ -4279,6 +4291,16 @@ GVI__COLD gvi_status gvi__check_start(gvi_stepper *st, gvi_real t, const gvi_rea
                        GVI_FAULT_NONE);
 }
 
+// p = dL/dv, of the kinetic energy and of Lagrangian terms where there are any, to x.point + 5n
+static gvi_status gvi__momentum(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
+{
+    gvi_points y = gvi__one_point(st, &t, q);
+    y.v = v;
+    if (gvi__has(&st->x, GVI__HAS_LAGRANGIAN)) return gvi__evaluate(st, &y, 0, 1);
+    gvi__zero(2*(size_t)st->n, y.f);              // and y.dldv
+    return gvi__kinetic(st, &y);
+}
+
 GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
 {
     gvi_status status = gvi__check_start(st, t, q, v);
@@ -4286,20 +4308,13 @@ GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, con
     struct gvi__private *x = &st->x;
     const size_t n = (size_t)st->n;
 
-    // p = dL/dv: of the kinetic energy, and of Lagrangian terms where there are any
-    gvi_points y = gvi__one_point(st, &t, q);
-    y.v = v;
     x->diagnose = 1;
-    if (gvi__has(x, GVI__HAS_LAGRANGIAN)) status = gvi__evaluate(st, &y, 0, 1);
-    else {
-        gvi__zero(2*n, y.f);                      // and y.dldv
-        status = gvi__kinetic(st, &y);
-    }
+    status = gvi__momentum(st, t, q, v);
     x->diagnose = 0;
     if (status != GVI_OK) return status;
     gvi_real *start = x->result + n;              // v may be st->q or st->p, which change first
     gvi__copy(n, v, start);
-    gvi__copy(n, y.dldv, x->step.p);
+    gvi__copy(n, x->point + 5*n, x->step.p);
     gvi__copy(n, q, x->step.q);
     return gvi__begin_at(st, t, start);
 }
@@ -4325,7 +4340,7 @@ GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_rea
 GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_real h,
                                             const gvi_real *q0, const gvi_real *q1)
 {
-    static const gvi_discrete out = { NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL };
+    static const gvi_discrete out = { NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL };
     gvi_status status = gvi__check_start(st, t, q0, q1);
     // p0 is in step.q then
     if (status == GVI_OK) status = gvi_discrete_lagrangian(st, t, h, q0, q1, &out);
@@ -4655,29 +4670,166 @@ GVI__COLD gvi_status gvi__chord(gvi_stepper *st, const gvi__origin *from, gvi_re
     return status;
 }
 
-/* The same by any degree: rows k >= 1 of (1) by Newton's method.  The matrix where it ended
-   says whether there was anything to find: a reciprocal condition below its own relative error
-   is a conjugate point.                                                                       */
+/* Newton's method for a curve of length h from that of length h/grow at hand: the same polynomial
+   followed on; between ends, modes k >= 1 that grow like it.  Two corrections by one matrix first:
+   where a curve is near, the second is no more than a quarter of the first.  `bent`: the largest of
+   these ratios so far.                                                                       */
+GVI__COLD gvi_status gvi__bend(gvi_stepper *st, const gvi__origin *from, gvi_real h, gvi_real grow,
+                               const gvi__matrix *J, gvi_real *bent)
+{
+    struct gvi__private *x = &st->x;
+    const int n = st->n, size = (st->s - J->k0)*n;
+    gvi__descent p = { 0, 0, GVI__MAX, 0, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0 };
+    gvi_real before = 0;
+    if (grow > 1 && J->k0 == 0) {
+        x->sized.ratio = 0;
+        x->sized.steps = 1;
+        gvi__fit(st, 0, grow, 1);
+        gvi__newton_modes(st, x->work.V, x->work.P);
+    }
+    for (int k = n; J->k0 && k < st->s*n; ++k) x->newton.y[k] *= grow;
+    gvi__weights_for(st, h);
+    gvi__times(x->R, from->t, 0, h, x->table.c, x->t);
+    for (int k = 0; k < 2; ++k) {
+        gvi_status status = gvi__newton_values(st, from);
+        if (status != GVI_OK) return status;
+        gvi__residual(st, from, J->k0, &p);
+        if (k == 0) status = gvi__jacobian(st, J);
+        if (status != GVI_OK) return status;
+        gvi_lu_solve(size, J->square, J->pivot, x->newton.dy);
+        const gvi_real change = gvi__newton_update(st, from, J, &p);
+        if (!gvi__finite(change)) return gvi__report_status(st, GVI_E_NON_FINITE);
+        if (k == 1 && change > *bent*before && change > 64*GVI__EPS*(gvi_real)size)
+            *bent = change/before;
+        before = change;
+    }
+    return *bent > (gvi_real)0.25 ? gvi__report_status(st, GVI_E_CONVERGENCE)
+                                  : gvi__newton_solve(st, from, J);
+}
+
+/* The chord, bowed: mode 1 as large as half of it in all coordinates, by sqrt M_ii.  What is linear
+   does not mind; what is not shows it, also where forces cancel on the chord.                */
+GVI__COLD gvi_status gvi__bow(gvi_stepper *st, const gvi__origin *from)
+{
+    gvi__descent p = { 0, 0, GVI__MAX, 0, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0 };
+    gvi_real *y = st->x.newton.y, length = 0;
+    const gvi_real *scale = st->x.watch.scale;
+    const gvi_status status = gvi__newton_values(st, from);
+    if (status != GVI_OK) return status;
+    gvi__residual(st, from, 1, &p);
+    for (int i = 0; i < st->n; ++i) length += GVI_ABS(y[i])/scale[i];
+    for (int i = 0; i < st->n; ++i) y[st->n + i] = length*scale[i]/2;
+    return GVI_OK;
+}
+
+/* The motion from q0 with velocity v, followed in pieces of length h, `count` of them, or as many
+   as there are.  Returns the last of them from `first` on that ends nearest to q1, by M_ii, or 0. */
+GVI__COLD int gvi__aim(gvi_stepper *st, const gvi__origin *from, gvi_real h, const gvi_real *q1,
+                       const gvi_real *v, const gvi__matrix *J, int first, int count,
+                       gvi_real *bent)
+{
+    struct gvi__private *x = &st->x;
+    const size_t n = (size_t)st->n;
+    gvi_real least = GVI__MAX;
+    int nearest = 0;
+    gvi__zero((size_t)st->s*n, x->newton.y);
+    gvi__copy(n, v, x->newton.y);
+    for (int k = 1; k <= count; ++k) {
+        const gvi_real at = h*(gvi_real)k, grow = k == 1 ? 1 : (gvi_real)k/(gvi_real)(k - 1);
+        gvi_real miss = 0;
+        if (gvi__bend(st, from, at, grow, J, bent) != GVI_OK) break;
+        for (size_t i = 0; i < n; ++i) {
+            const gvi_real d = (from->q[i] + at*x->newton.y[i] - q1[i])/x->watch.scale[i];
+            miss += d*d;
+        }
+        if (k < first || miss > least) continue;
+        least = miss;
+        nearest = k;
+    }
+    return nearest;
+}
+
+/* A curve of degree 2 or more, followed from where it is known, in as many pieces as it takes: from
+   h = 0, where it is the chord, run through in no time; or, with a guess v, from the motion that v
+   starts, where between h/2 and 3h/2 it is nearest to q1.  Linear equations need none of that: the
+   bowed chord will do.  Returns whether they were, all but.  `any`: any other curve is welcome. */
+GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, const gvi_real *q1,
+                          const gvi_real *v, int any, const gvi__matrix *J, gvi_status *status)
+{
+    struct gvi__private *x = &st->x;
+    const int n = st->n;
+    const gvi__matrix motion = { J->square, J->pivot, NULL, 0, 0, 0 };
+    gvi_real *y = x->newton.y, *end = x->step.q_low;
+    gvi_status bowed = GVI_E_NON_FINITE;
+    for (int attempt = v ? 4 : 0; attempt < 9; ++attempt) {
+        const int pieces = 1 << attempt >> (attempt > 0), linear = attempt == 0;
+        const gvi_real piece = h/(gvi_real)pieces;
+        gvi_real bent = 0, at = 0, unused = 0;
+        *status = GVI_OK;
+        gvi__zero((size_t)(st->s*n), y);
+        if (v) {
+            const int nearest =
+                gvi__aim(st, from, piece, q1, v, &motion, pieces/2, pieces*3/2, &unused);
+            if (nearest) gvi__aim(st, from, piece, q1, v, &motion, 0, nearest, &bent);
+            else *status = st->status;
+            at = piece*(gvi_real)nearest;
+            gvi__copy((size_t)n, y, end);
+        }
+        for (int k = 1; k <= pieces && *status == GVI_OK; ++k) {
+            const gvi_real part = (gvi_real)k/(gvi_real)pieces, length = at + part*(h - at),
+                           last = length - (h - at)/(gvi_real)pieces;
+            for (int i = 0; i < n; ++i) {
+                const gvi_real way = q1[i] - from->q[i];
+                y[i] = (v && k < pieces ? part*way + (1 - part)*at*end[i] : way)/length;
+            }
+            if (linear) *status = gvi__bow(st, from);
+            const gvi_real grow = v ? last/length : k > 1 ? length/last : 1;
+            if (*status == GVI_OK) *status = gvi__bend(st, from, length, grow, J, &bent);
+        }
+        if (*status == GVI_OK && (!linear || bent < (gvi_real)0.015625)) return linear;
+        if (linear) bowed = *status;
+        if (*status == GVI_E_NON_FINITE && x->diagnose) break;
+    }
+    // whoever asks for the index judges for himself
+    for (int halves = 0; any && halves < 2 && *status != GVI_OK; ++halves) {
+        const gvi__matrix plain = { J->square, J->pivot, J->ends, 1, 0, halves };
+        gvi__zero((size_t)(st->s*n), y);
+        for (int i = 0; i < n; ++i) y[i] = (q1[i] - from->q[i])/h;
+        gvi__weights_for(st, h);
+        gvi__times(x->R, from->t, 0, h, x->table.c, x->t);
+        *status = gvi__newton_solve(st, from, &plain);
+    }
+    // there is nothing wrong with the effects, but with the chord
+    if (*status == GVI_E_NON_FINITE && bowed != GVI_E_NON_FINITE) *status = GVI_E_CONJUGATE;
+    return 0;
+}
+
+GVI__COLD gvi_status gvi__morse_index(gvi_stepper *st, const gvi__matrix *J, int *negative);
+
+/* The same by any degree: rows k >= 1 of (1).  The matrix where it ended says whether there was
+   anything to find: a reciprocal condition below its own relative error is a conjugate point.  So
+   is one inside the curve, found from the chord, unless the equations were all but linear there:
+   a half circle is not near its diameter.                                                    */
 GVI__COLD gvi_status gvi__interior(gvi_stepper *st, const gvi__origin *from, gvi_real h,
-                                   const gvi_real *q1, gvi__matrix *J, gvi_real *p)
+                                   const gvi_real *q1, const gvi_discrete *out, gvi__matrix *J,
+                                   gvi_real *p, int *negative)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, size = (st->s - 1)*n;
     if (size == 0) return gvi__chord(st, from, h, q1, p);
+    int linear = 0;
     gvi_status status = GVI_E_NON_FINITE;         // once more to see why, as in gvi__solve
     for (int look = 0; look < 2 && status == GVI_E_NON_FINITE; ++look) {
         x->diagnose = look;
-        for (J->halves = 0; J->halves < 2; ++J->halves) {
-            gvi__zero((size_t)(st->s*n), x->newton.y);
-            for (int i = 0; i < n; ++i) x->newton.y[i] = (q1[i] - from->q[i])/h;
-            status = gvi__newton_solve(st, from, J);
-            const int again = status == GVI_E_CONVERGENCE || status == GVI_E_SINGULAR
-                              || (status == GVI_E_NON_FINITE && !look);
-            if (!again) break;
-        }
+        linear = gvi__follow(st, from, h, q1, out->guess, out->negative != NULL, J, &status);
         x->diagnose = 0;
     }
     if (status != GVI_OK && status != GVI_E_CONVERGENCE) return status;
+    if (out->negative || (!out->guess && !linear)) {
+        const gvi_status index = gvi__morse_index(st, J, negative);
+        if (index != GVI_OK) return index;
+        if (*negative && !out->negative) return GVI_E_CONJUGATE;
+    }
     J->scaled = 1;
     const gvi_status second = gvi__jacobian(st, J);
     if (second != GVI_OK) return second;
@@ -4718,7 +4870,7 @@ GVI__COLD gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__matrix *J,
     gvi_real *lambda = x->newton.dy;
     for (int i = 0; i < n; ++i)
         for (int k = 1; k < s; ++k)
-            lambda[(k - 1)*n + i] = h*gvi__dot3(st->r, hb, Phi + k*R, f + i*R);
+            lambda[(k - 1)*n + i] = h*x->watch.scale[i]*gvi__dot3(st->r, hb, Phi + k*R, f + i*R);
     gvi__lu_solve_transposed(size, J->square, J->pivot, lambda);
     const gvi_real *ends = J->ends;
     for (int row = 0; row < size; ++row, ends += 2*n)
@@ -4808,8 +4960,14 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
         return st->status = GVI_E_ARGUMENT;
     if ((s > 1 && !gvi__has(x, GVI__HAS_NEWTON)) || gvi__rule_is(x, GVI_KICKS) || x->clock >= 0)
         return st->status = GVI_E_FORMULATION;
-    const gvi__origin from = { t, 0, q0, x->zeros, x->zeros, x->zeros, 0 };
+    gvi__origin from = { t, 0, q0, x->zeros, x->zeros, x->zeros, 0 };
     gvi__matrix J = { NULL, NULL, NULL, 1, 0, 0 };
+    if (out->guess && s > 1) {
+        status = gvi__momentum(st, t, q0, out->guess);
+        if (status != GVI_OK) return st->status = status;
+        gvi__copy((size_t)n, x->point + 5*n, x->step.p);
+        from.p = x->step.p;
+    }
     if (s > 1) {
         J.square = x->newton.J + sn*sn;
         J.ends = J.square + size*size;
@@ -4821,7 +4979,7 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
     gvi_real *p0 = x->step.q, *p1 = x->step.p, *minus = x->result, *plus = minus + n, action = 0;
     const gvi_real *F = x->work.F, *hb = x->sized.hb;
     int negative = 0;
-    status = gvi__interior(st, &from, h, q1, &J, p0);
+    status = gvi__interior(st, &from, h, q1, out, &J, p0, &negative);
     if (status == GVI_E_CONJUGATE
         || (status == GVI_E_SINGULAR && st->fault.effect == GVI_FAULT_NONE))
         return gvi__report_status(st, GVI_E_CONJUGATE);
@@ -4834,7 +4992,6 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
         p1[i] = p0[i] + gvi__dot(st->r, hb, F + i*R);
     }
     status = gvi__discrete_forces(st, &J, minus, plus);
-    if (status == GVI_OK && out->negative) status = gvi__morse_index(st, &J, &negative);
     if (status != GVI_OK) return st->status = status;
     if (out->negative) *out->negative = negative;
     if (out->lagrangian) *out->lagrangian = action;
