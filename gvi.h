@@ -70,10 +70,11 @@
      INTERPOLATION        barycentric
      SCENE                status, effects, mass, Legendre transform
      TABLES               what depends on rule, degree and h alone; predictor
+     STEP                 attempt and commit: follow gvi_step from here
      ENGINE               stages, fixed point, increments; kicks; the clock
      SET-UP               checks, choice of a formulation, memory
      NEWTON'S METHOD      where the fixed point does not contract
-     STEP                 attempt, commit, start, switch, restore
+     STATE                start, switch, restore
      QUERIES              velocity, energy, curve, state at a time, action
      BOUNDARY VALUES      discrete Lagrangian, forces, conjugate points
      TEXTS, LICENCE
@@ -254,21 +255,14 @@
 #define GVI_REAL double
 #endif
 /* The preprocessor must see which type it is: paste the first word on a prefix.
-   For "long double" that leaves (1 || double), which is true unevaluated.   */
+   For "long double" that leaves (1 ? 3 : double), which is 3 unevaluated.   */
 #define GVI__PASTE2(a, b) a##b
 #define GVI__PASTE(a, b) GVI__PASTE2(a, b)
-#define GVI__LONG_float  0
-#define GVI__LONG_double 0
-#define GVI__LONG_long   1 ||
 #define GVI__KIND_float  1
 #define GVI__KIND_double 2
-#if GVI__PASTE(GVI__LONG_, GVI_REAL)
-#define GVI__KIND 3
-#elif GVI__PASTE(GVI__KIND_, GVI_REAL) == 1
-#define GVI__KIND 1
-#elif GVI__PASTE(GVI__KIND_, GVI_REAL) == 2
-#define GVI__KIND 2
-#else
+#define GVI__KIND_long   1 ? 3 :
+#define GVI__KIND (GVI__PASTE(GVI__KIND_, GVI_REAL))
+#if GVI__KIND == 0
 #error "GVI_REAL must be float, double or long double"
 #endif
 
@@ -277,11 +271,7 @@
 #endif
 
 #ifdef GVI_STATIC
-#if defined(__GNUC__)
-#define GVI_DEF static __attribute__((unused))
-#else
-#define GVI_DEF static
-#endif
+#define GVI_DEF static inline
 #else
 #define GVI_DEF extern
 #endif
@@ -730,9 +720,6 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #else
 #define GVI__LIMIT(name) LDBL_##name
 #define GVI__MATH(name) name##l
-#if LDBL_MANT_DIG == 106
-#error "gvi.h needs IEEE arithmetic: this long double is a pair of doubles"
-#endif
 #endif
 #define GVI__EPS GVI__LIMIT(EPSILON)
 #define GVI__MAX GVI__LIMIT(MAX)
@@ -788,8 +775,8 @@ enum {
     GVI__VARIES = GVI__MOMENTA | GVI__NEWTON | GVI__LAGRANGIAN,
     GVI__ITERATES = GVI__POSITIONS | GVI__READS_V
 };
-#if defined(GVI_NO_RULES) && GVI__KIND == 3
-#error "GVI_NO_RULES is for float and double"
+#if GVI__KIND == 3 && (LDBL_MANT_DIG == 106 || defined(GVI_NO_RULES))
+#error "gvi.h: long double must be one IEEE number, not two doubles, and goes without GVI_NO_RULES"
 #endif
 
 typedef char gvi__effects_fit_a_word[GVI_EFFECTS >= 1 && GVI_EFFECTS <= 32
@@ -797,25 +784,22 @@ typedef char gvi__effects_fit_a_word[GVI_EFFECTS >= 1 && GVI_EFFECTS <= 32
 
 /* GVI__BODY: a body whose sizes are constants where it is called, copied there.
    GVI__APART: where size counts, never a part of its caller, whose stack stays small.
-   GVI__COLD: set-up and queries, compiled for size.                                          */
+   GVI__COLD: set-up and queries, compiled for size.  GVI__RESTRICT: arrays do not overlap.   */
 #if defined(__GNUC__)
 #define GVI__BODY static inline __attribute__((always_inline))
 #define GVI__COLD static __attribute__((noinline, cold))
+#define GVI__RESTRICT __restrict
 #else
 #define GVI__BODY static inline
 #define GVI__COLD static
+#define GVI__RESTRICT
 #endif
 #if defined(__GNUC__) && defined(__OPTIMIZE_SIZE__)
 #define GVI__APART static __attribute__((noinline))
+#define GVI__SMALL 1
 #else
 #define GVI__APART static
-#endif
-
-// arrays that do not overlap
-#if defined(__GNUC__) || defined(_MSC_VER)
-#define GVI__RESTRICT __restrict
-#else
-#define GVI__RESTRICT
+#define GVI__SMALL 0
 #endif
 
 /* Registers that hold more than one type's digits round twice: values are stored to round them. */
@@ -828,7 +812,7 @@ typedef volatile gvi_real gvi__rounded;
 /* A lane is GVI__LANES numbers that one instruction handles: as many as a register holds, up to 32
    bytes (wider ones are slower here: callbacks write narrower), or one where the compiler has no
    vectors or code is to be small.                                                            */
-#if !defined(__GNUC__) || GVI__KIND == 3 || defined(__OPTIMIZE_SIZE__)                          \
+#if !defined(__GNUC__) || GVI__KIND == 3 || GVI__SMALL                                          \
     || !(FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 16)                                         \
     || !(defined(__SSE2__) || defined(__ARM_NEON) || defined(__ALTIVEC__)                       \
          || defined(__riscv_vector)                                                             \
@@ -844,8 +828,10 @@ typedef volatile gvi_real gvi__rounded;
 #if GVI__LANES > 1
 typedef gvi_real gvi__lane
     __attribute__((vector_size(GVI__LANES*sizeof(gvi_real)), aligned(sizeof(gvi_real)), may_alias));
+#define GVI__AT(lane, k) (lane)[k]
 #else
 typedef gvi_real gvi__lane;
+#define GVI__AT(lane, k) (lane)
 #endif
 #define GVI__LOAD(p) (*(const gvi__lane *)(p))
 #define GVI__STORE(p) (*(gvi__lane *)(p))
@@ -941,14 +927,9 @@ GVI__BODY gvi__two gvi__add_low(gvi_real x, gvi_real x_low, gvi_real y, gvi_real
 #if defined(__GNUC__) && GVI__KIND < 3                                                            \
     && ((defined(__FMA__) && defined(__SSE2_MATH__)) || defined(__aarch64__)                      \
     || (GVI__KIND == 1 && defined(__FP_FAST_FMAF)) || (GVI__KIND == 2 && defined(__FP_FAST_FMA)))
-#if GVI__KIND == 1
-#define GVI__FMA __builtin_fmaf
-#else
-#define GVI__FMA __builtin_fma
-#endif
 GVI__BODY gvi__two gvi__two_prod(gvi_real a, gvi_real b)
 {
-    return gvi__two_of(a*b, GVI__FMA(a, b, -(a*b)));
+    return gvi__two_of(a*b, GVI__MATH(__builtin_fma)(a, b, -(a*b)));
 }
 #else
 // x = hi + lo of half the digits each, whose products are exact (Veltkamp; Dekker)
@@ -1229,7 +1210,6 @@ static void gvi__ldl_solve(int n, const gvi_real *m, int width, gvi_real *z, int
     }
 }
 
-#if GVI__LANES > 1
 /* The same for whole lanes of points.  Returns whether all pivots D are sure: the squares of what
    they were in units of what they are, and of what rounding leaves of D/D - 1, do not add up to
    1/(n eps)^2.  Otherwise gvi__ldl_factor has to decide, from the matrix made anew.          */
@@ -1256,7 +1236,7 @@ GVI__BODY int gvi__ldl_factor_lane(int n, int R, gvi_real *m)
             GVI__STORE(a) = rest*inverse;
         }
     }
-    for (int k = 0; k < GVI__LANES; ++k) all += sum[k];
+    for (int k = 0; k < GVI__LANES; ++k) all += GVI__AT(sum, k);
     return all < most*most;
 }
 
@@ -1276,7 +1256,6 @@ GVI__BODY void gvi__ldl_solve_lane(int n, int R, const gvi_real *m, const gvi_re
         GVI__STORE(z + i*S) = rest;
     }
 }
-#endif
 
 /* ------------------------------------------------------------ QUADRATURE */
 
@@ -1586,7 +1565,7 @@ GVI__APART gvi_status gvi__report_effect(gvi_stepper *st, gvi_status status, int
 
 GVI__APART gvi_status gvi__report_status(gvi_stepper *st, gvi_status status)
 {
-    return gvi__report_effect(st, status, GVI_FAULT_NONE);
+    return gvi__report(st, status, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
 }
 
 // may a call go on?  A chain of calls to a stepper that is not ready keeps its first failure
@@ -1792,8 +1771,7 @@ static gvi_status gvi__factor_mass(gvi_stepper *st, const gvi_points *x)
     gvi_status status = gvi__evaluate_mass(st, x, NULL, NULL);
     if (status != GVI_OK) return status;
     gvi__count(&st->counters.factorizations, x->count);
-#if GVI__LANES > 1
-    if (R % 8 == 0) {
+    if (GVI__LANES > 1 && R % 8 == 0) {
         int sure = 1;
         for (size_t i = 0, S = (size_t)R; i < (size_t)n*(size_t)n; ++i)
             for (size_t k = (size_t)x->count; k < S; ++k) m[i*S + k] = m[i*S];
@@ -1805,7 +1783,6 @@ static gvi_status gvi__factor_mass(gvi_stepper *st, const gvi_points *x)
         st->counters.mass -= (unsigned long long)x->count;
         if (status != GVI_OK) return status;
     }
-#endif
     int at[2] = { 0, 0 };
     status = gvi__ldl_factor(n, R, x->count, m, at);
     return status == GVI_OK ? GVI_OK : gvi__report(st, status, GVI_FAULT_MASS, at[0], at[1]);
@@ -2016,69 +1993,35 @@ GVI__COLD gvi_status gvi__hamiltonian(gvi_stepper *st, gvi_real t, const gvi_rea
 /* What Gauss's rule has with r = s = 1..4, one after the other (tests/gen/few.py): b; Phi and phi;
    S_ij, i <= j, and T_ij, i < j.  To be on their grids in any type, Phi_0 and S below 1/2 are given
    less 1, T plus 1/2.                                                                        */
-#if GVI__KIND == 1
-#define GVI__C(x) x##f
-#else
-#define GVI__C(x) x
-#endif
-static const gvi_real gvi__few_b[] = {
-    GVI__C(1.0), GVI__C(0.5), GVI__C(0.5), GVI__C(0.277777777777777777778),
-        GVI__C(0.444444444444444444444),
-    GVI__C(0.277777777777777777778), GVI__C(0.173927422568726928687),
-        GVI__C(0.326072577431273071313),
-    GVI__C(0.326072577431273071313), GVI__C(0.173927422568726928687)
+#define GVI__4(a, b, c, d) (gvi_real)a, (gvi_real)b, (gvi_real)c, (gvi_real)d
+static const gvi_real gvi__few_numbers[] = {
+    GVI__4(1.0, 0.5, 0.5, 0.2777777777777778),
+    GVI__4(0.4444444444444444, 0.2777777777777778, 0.17392742256872692, 0.32607257743127305),
+    GVI__4(0.32607257743127305, 0.17392742256872692, 0.5, -0.7886751345948129),
+    GVI__4(0.7886751345948129, 0.16666666666666666, 0.16666666666666666, -0.8872983346207417),
+    GVI__4(0.5, 0.8872983346207417, 0.1, 0.25),
+    GVI__4(0.1, 0.07745966692414834, 0.0, -0.07745966692414834),
+    GVI__4(-0.9305681557970263, -0.6699905217924281, 0.6699905217924281, 0.9305681557970263),
+    GVI__4(0.0646110632135477, 0.22110322250073802, 0.22110322250073802, 0.0646110632135477),
+    GVI__4(0.05563893266388464, 0.07517090432577558, -0.07517090432577558, -0.05563893266388464),
+    GVI__4(0.043738115765622414,-0.023329952500316293,-0.023329952500316293,0.043738115765622414),
+    GVI__4(1.0, 1.0, 1.0, 0.5773502691896257),
+    GVI__4(-0.5773502691896257, 1.0, 1.0, 1.0),
+    GVI__4(0.7745966692414834, 0.0, -0.7745966692414834, 0.4),
+    GVI__4(-0.5, 0.4, 1.0, 1.0),
+    GVI__4(1.0, 1.0, 0.8611363115940526, 0.33998104358485626),
+    GVI__4(-0.33998104358485626, -0.8611363115940526, 0.6123336207187138, -0.3266193350044281),
+    GVI__4(-0.3266193350044281, 0.6123336207187138, 0.3047469849552062, -0.4117279996728996),
+    GVI__4(0.4117279996728996, -0.3047469849552062, -0.75, -0.8720084679281462),
+    GVI__4(-0.75, 0.7053418012614795, -0.9272983346207417, -0.8686491673103709),
+    GVI__4(-0.5625, -0.9, 0.5186491673103708, 0.8472983346207417),
+    GVI__4(-0.9537858370068485, -0.9204604031889758, -0.7123705082210899, -0.938679181179479),
+    GVI__4(-0.6566801899987348, 0.6276105353637663, -0.9249524630624897, -0.6781015471748809),
+    GVI__4(0.6800982744004787, 0.9073504745872041, 1.5773502691896257, 1.5809475019311126),
+    GVI__4(1.46475800154489, 1.5809475019311126, 1.58158975003228, 1.4612740734321141),
+    GVI__4(1.5855037514105192, 1.5204404206840407, 1.4612740734321141, 1.58158975003228)
 };
-static const gvi_real gvi__few_Phi[] = {
-    GVI__C(0.5), GVI__C(-0.788675134594812882255), GVI__C(0.788675134594812882255),
-    GVI__C(0.166666666666666666667), GVI__C(0.166666666666666666667),
-        GVI__C(-0.887298334620741688518),
-    GVI__C(0.5), GVI__C(0.887298334620741688518), GVI__C(0.1), GVI__C(0.25), GVI__C(0.1),
-    GVI__C(0.0774596669241483377036), GVI__C(0.0), GVI__C(-0.0774596669241483377036),
-    GVI__C(-0.930568155797026287612), GVI__C(-0.669990521792428132401),
-        GVI__C(0.669990521792428132401),
-    GVI__C(0.930568155797026287612), GVI__C(0.0646110632135476980776),
-        GVI__C(0.221103222500738016208),
-    GVI__C(0.221103222500738016208), GVI__C(0.0646110632135476980776),
-        GVI__C(0.055638932663884638435),
-    GVI__C(0.0751709043257755838678), GVI__C(-0.0751709043257755838678),
-        GVI__C(-0.055638932663884638435),
-    GVI__C(0.0437381157656224151096), GVI__C(-0.0233299525003162926606),
-        GVI__C(-0.0233299525003162926606),
-    GVI__C(0.0437381157656224151096)
-};
-static const gvi_real gvi__few_phi[] = {
-    GVI__C(1.0), GVI__C(1.0), GVI__C(1.0), GVI__C(0.577350269189625764509),
-        GVI__C(-0.577350269189625764509),
-    GVI__C(1.0), GVI__C(1.0), GVI__C(1.0), GVI__C(0.774596669241483377036), GVI__C(0.0),
-    GVI__C(-0.774596669241483377036), GVI__C(0.4), GVI__C(-0.5), GVI__C(0.4), GVI__C(1.0),
-        GVI__C(1.0),
-    GVI__C(1.0), GVI__C(1.0), GVI__C(0.861136311594052575224), GVI__C(0.339981043584856264803),
-    GVI__C(-0.339981043584856264803), GVI__C(-0.861136311594052575224),
-        GVI__C(0.612333620718713811535),
-    GVI__C(-0.326619335004428097249), GVI__C(-0.326619335004428097249),
-        GVI__C(0.612333620718713811535),
-    GVI__C(0.304746984955206190874), GVI__C(-0.411727999672899573875),
-        GVI__C(0.411727999672899573875),
-    GVI__C(-0.304746984955206190874)
-};
-static const gvi_real gvi__few_S[] = {
-    GVI__C(-0.75), GVI__C(-0.872008467928146215588), GVI__C(-0.75), GVI__C(0.705341801261479548921),
-    GVI__C(-0.927298334620741688518), GVI__C(-0.868649167310370844259), GVI__C(-0.5625),
-        GVI__C(-0.9),
-    GVI__C(0.518649167310370844259), GVI__C(0.847298334620741688518),
-        GVI__C(-0.953785837006848454724),
-    GVI__C(-0.920460403188975796283), GVI__C(-0.712370508221089930304),
-        GVI__C(-0.938679181179479062757),
-    GVI__C(-0.656680189998734829357), GVI__C(0.627610535363766334498),
-        GVI__C(-0.924952463062489660438),
-    GVI__C(-0.678101547174880907547), GVI__C(0.68009827440047862373), GVI__C(0.9073504745872041205)
-};
-static const gvi_real gvi__few_T[] = {
-    GVI__C(1.57735026918962576451), GVI__C(1.58094750193111253278), GVI__C(1.46475800154489002622),
-    GVI__C(1.58094750193111253278), GVI__C(1.58158975003227987256), GVI__C(1.46127407343211423994),
-    GVI__C(1.58550375141051935117), GVI__C(1.52044042068404064243), GVI__C(1.46127407343211423994),
-    GVI__C(1.58158975003227987256)
-};
+enum { GVI__FEW_PHI = 10, GVI__FEW_DERIVATIVE = 40, GVI__FEW_S = 70, GVI__FEW_T = 90 };
 
 static gvi_real gvi__few(gvi_real x) { return x < 0 ? 1 + x : x; }
 
@@ -2087,20 +2030,22 @@ GVI__COLD void gvi__modes_at_nodes(gvi_stepper *st)
 {
     const struct gvi__tables *x = &st->x.table;
     const size_t r = (size_t)st->r, at = (r - 1)*r*(2*r - 1)/6;
-    gvi__copy(r, gvi__few_b + (r - 1)*r/2, x->b);
-    gvi__copy(r*r, gvi__few_Phi + at, x->Phi);
-    if (x->phi) gvi__copy(r*r, gvi__few_phi + at, x->phi);
+    gvi__copy(r, gvi__few_numbers + (r - 1)*r/2, x->b);
+    gvi__copy(r*r, gvi__few_numbers + GVI__FEW_PHI + at, x->Phi);
+    if (x->phi) gvi__copy(r*r, gvi__few_numbers + GVI__FEW_DERIVATIVE + at, x->phi);
     for (size_t i = 0; i < r; ++i) x->c[i] = gvi__few(x->Phi[i]);
 }
 
 static gvi_real gvi__S(const gvi_stepper *st, int i, int j)
 {
-    return gvi__few(gvi__few_S[(st->r - 1)*st->r*(st->r + 1)/6 + j*(j + 1)/2 + i]);
+    const int at = GVI__FEW_S + (st->r - 1)*st->r*(st->r + 1)/6 + j*(j + 1)/2 + i;
+    return gvi__few(gvi__few_numbers[at]);
 }
 
 static gvi_real gvi__T(const gvi_stepper *st, int i, int j)
 {
-    return gvi__few_T[(st->r - 2)*(st->r - 1)*st->r/6 + (j - 1)*j/2 + i] - (gvi_real)0.5;
+    const int at = GVI__FEW_T + (st->r - 2)*(st->r - 1)*st->r/6 + (j - 1)*j/2 + i;
+    return gvi__few_numbers[at] - (gvi_real)0.5;
 }
 
 GVI__COLD void gvi__prepare_column(gvi_stepper *st, const gvi_real *b, int j)
@@ -2326,6 +2271,228 @@ static void gvi__fit(gvi_stepper *st, gvi_real alpha, gvi_real beta, int steps)
     }
 }
 
+/* ------------------------------------------------------------------ STEP */
+
+/* gvi_step, at the end of this section, asks gvi__solve for increments of q and p and commits
+   them.  gvi__attempt finds them, in this order and that of ENGINE, where they are: free motion;
+   the predictor; the fixed point: stage values, F at them, and from F new ones, until they have
+   converged; increments by (2) and (3).  Explicit steps are kicks; NEWTON'S METHOD has its own.  */
+
+/* Where a step, or a query's partial step, starts; E: the energy, with a clock.              */
+typedef struct gvi__origin { gvi_real t, t_low; const gvi_real *q, *q_low, *p, *p_low; gvi_real E;
+                            } gvi__origin;
+
+// how Newton's method begins: at constant velocity, at the last step's modes; or as the first, and
+// takes back changes
+enum { GVI__PLAIN, GVI__EXTRAPOLATED, GVI__HALVED };
+
+// what is solved: a step, or for a query a part of the last one, from its start or its end
+enum { GVI__STEP, GVI__FROM_START, GVI__FROM_END };
+
+static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real h);
+static void gvi__prepare_predictor(gvi_stepper *st, gvi_real h, int query);
+static gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                               int extrapolate, int *used);
+static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h);
+static gvi_status gvi__kicks(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                             const gvi_real *force);
+static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int how, int query);
+
+// may a step that does not converge turn to Newton's method?
+static int gvi__may_turn(const gvi_stepper *st)
+{
+    return st->x.desc.formulation == GVI_AUTO && gvi__has(&st->x, GVI__HAS_NEWTON);
+}
+
+/* One attempt at a step or a partial step, to its increments; nothing of it is kept yet.  The
+   fixed point from extrapolated values, then from plain ones, then Newton's method, likewise.  */
+static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query)
+{
+    struct gvi__private *x = &st->x;
+    gvi__free_motion(st, from, h);
+    st->formulation = x->chosen;
+    if (gvi__uses(x, GVI_EXPLICIT))
+        return gvi__kicks(st, from, h, x->has_force && query != GVI__FROM_START ? x->last.F : NULL);
+
+    // farther out the last values say nothing
+    const int usable = x->kept > 0 && h/st->h > -2 && h/st->h < 8;
+    int used = 0;
+    gvi_status status = GVI_E_CONVERGENCE;
+    if (!gvi__uses(x, GVI_NEWTON)
+        && (!gvi__has(x, GVI__HAS_NEWTON) || x->newton.left == 0 || query)) {
+        if (usable) gvi__prepare_predictor(st, h, query);
+        for (int plain = !usable; plain < 2; ++plain) {
+            status = gvi__iterate(st, from, h, !plain, &used);
+            gvi__count(&st->counters.iterations, used);
+            if (!query) st->iterations = used;
+            if (used > st->counters.most_iterations) st->counters.most_iterations = used;
+            // where iterations are given, only a callback that failed at extrapolated values is
+            // worth a second try
+            if (status == GVI_OK
+                || (x->desc.iterations > 0 && (used > 1 || status == GVI_E_CONVERGENCE)))
+                break;
+        }
+        if (status == GVI_OK) gvi__increments(st, from, h);
+        if (status == GVI_OK || !gvi__may_turn(st)) return status;
+        if (!query && status == GVI_E_CONVERGENCE) x->newton.left = 64;
+    }
+    if (!GVI__NEWTON) return status;
+    const unsigned count = (unsigned)st->counters.newton_iterations;
+    st->formulation = GVI_NEWTON;
+    if (usable) gvi__prepare_predictor(st, h, query);
+    const int extrapolated = usable && x->has_velocity;
+    status = gvi__newton_step(st, from, extrapolated ? GVI__EXTRAPOLATED : GVI__PLAIN, query);
+    if (status == GVI_E_CONVERGENCE || status == GVI_E_SINGULAR
+        || (status == GVI_E_CALLBACK && extrapolated)
+        || (status == GVI_E_NON_FINITE && !x->diagnose)) {
+        if (!query) x->newton.h = 0;              // the extrapolation may be to blame
+        status = gvi__newton_step(st, from, GVI__HALVED, query);
+    }
+    if (!query) st->iterations = used + (int)((unsigned)st->counters.newton_iterations - count);
+    return status;
+}
+
+// are q + dq and p + dp finite?  0 x is 0 or NaN
+static int gvi__finite_end(const gvi_stepper *st, const gvi__origin *from)
+{
+    const struct gvi__phase *d = &st->x.step;
+    gvi_real none = 0;
+    int i = 0;
+    gvi__lane nones = { 0 };
+    for (; GVI__LANES > 1 && st->n >= 8 && i + GVI__LANES <= st->n; i += GVI__LANES)
+        nones += 0*(GVI__LOAD(from->q + i) + GVI__LOAD(d->q + i))
+                 + 0*(GVI__LOAD(from->p + i) + GVI__LOAD(d->p + i));
+    for (int k = 0; i > 0 && k < GVI__LANES; ++k) none += GVI__AT(nones, k);
+    for (; i < st->n; ++i) {
+        // as it will be kept
+        const gvi__rounded q = from->q[i] + d->q[i], p = from->p[i] + d->p[i];
+        none += 0*q + 0*p;
+    }
+    return none >= 0;
+}
+
+/* One attempt.  If it met NaN or Inf, the same once more, now looking at what every effect
+   returns: that names the effect.  If none is to blame, the iteration diverged.               */
+static gvi_status gvi__solve(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query)
+{
+    struct gvi__private *x = &st->x;
+    for (int look = 0; ; look = 1) {
+        x->diagnose = look;
+        gvi_status status = gvi__attempt(st, from, h, query);
+        x->diagnose = 0;
+        if (status == GVI_OK && !look && !gvi__finite_end(st, from))
+            status = gvi__report_status(st, GVI_E_NON_FINITE);
+        const int explained = status != GVI_E_NON_FINITE || st->fault.effect != GVI_FAULT_NONE;
+        if (look)
+            return status != GVI_OK && explained ? status
+                                                 : gvi__report_status(st, GVI_E_CONVERGENCE);
+        if (explained) return status;
+        if (!query) x->newton.h = 0;
+    }
+}
+
+// work becomes last, last becomes older (where it is kept that long), and the oldest is free
+static void gvi__rotate(gvi_real **older, gvi_real **last, gvi_real **work)
+{
+    gvi_real *spare = *older ? *older : *last;
+    if (*older) *older = *last;
+    *last = *work;
+    *work = spare;
+}
+
+static void gvi__rotate_values(gvi_stepper *st)
+{
+    struct gvi__private *x = &st->x;
+    gvi__rotate(&x->older.F, &x->last.F, &x->work.F);
+    if (GVI__READS_V) gvi__rotate(&x->older.V, &x->last.V, &x->work.V);
+    if (GVI__LAGRANGIAN) gvi__rotate(&x->older.A, &x->last.A, &x->work.A);
+}
+
+// was := x, x + x_low := x + dx + dx_low; dx_low NULL: 0
+static void gvi__move(int n, const gvi_real *GVI__RESTRICT dx, const gvi_real *GVI__RESTRICT dx_low,
+                      gvi_real *GVI__RESTRICT x, gvi_real *GVI__RESTRICT x_low,
+                      gvi_real *GVI__RESTRICT was)
+{
+    int i = 0;
+    for (; GVI__LANES > 1 && n >= 8 && i + GVI__LANES <= n; i += GVI__LANES) {
+        // gvi__two_sum, twice
+        const gvi__lane a = GVI__LOAD(x + i), d = GVI__LOAD(dx + i), s = a + d, b = s - a;
+        gvi__lane e = (a - (s - b)) + (d - b), t = s;
+        if (dx_low) {
+            e += GVI__LOAD(dx_low + i);
+            t = s + e;
+            const gvi__lane f = t - s;
+            e = (s - (t - f)) + (e - f);
+        }
+        GVI__STORE(was + i) = a;
+        GVI__STORE(x + i) = t;
+        GVI__STORE(x_low + i) = e;
+    }
+    for (; i < n; ++i) {
+        gvi__two sum = gvi__two_sum(x[i], dx[i]);
+        if (dx_low) sum = gvi__two_sum(sum.hi, sum.lo + dx_low[i]);
+        was[i] = x[i];
+        x[i] = sum.hi;
+        x_low[i] = sum.lo;
+    }
+}
+
+// the step is done: state and compensation move on, stage values become those of the last step
+static void gvi__commit(gvi_stepper *st, gvi_real h)
+{
+    struct gvi__private *x = &st->x;
+    const gvi__two t = gvi__two_sum(st->t, x->dt + st->t_low);
+    const int whole = gvi__uses(x, GVI_EXPLICIT);             // whose increments have no low words
+    gvi__move(st->n, x->step.q, whole ? NULL : x->step.q_low, x->state.q, x->state.q_low,
+              x->began.q);
+    gvi__move(st->n, x->step.p, whole ? NULL : x->step.p_low, x->state.p, x->state.p_low,
+              x->began.p);
+    st->t0 = st->t;
+    st->t = t.hi;
+    st->t_low = t.lo;
+    if (GVI__CLOCK) {
+        const gvi__two H = gvi__two_sum(x->time.H, x->time.dH + x->time.H_low);
+        x->began.H = x->time.H;
+        x->time.H = H.hi;
+        x->time.H_low = H.lo;
+    }
+    x->kept = x->kept > 0 && !gvi__nonzero(h - st->h) ? 2 : 1;
+    st->h = h;
+    gvi__rotate_values(st);
+    x->stepped = gvi__clock_is_on(st) ? 2 : 1;
+    x->has_force = gvi__uses(x, GVI_EXPLICIT) && !gvi__nonzero(x->table.c[0])
+                   && !gvi__nonzero(x->table.c[st->r - 1] - 1);
+    x->has_velocity = st->formulation > GVI_POSITIONS;
+    if (x->newton.left > 0) x->newton.left -= 1;
+    gvi__count(&st->counters.steps, 1);
+}
+
+GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
+{
+    const gvi_status ready = gvi__ready(st, st && st->x.started);
+    if (ready != GVI_OK) return ready;
+    if (!gvi__nonzero(h) || !gvi__finite(h)) return st->status = GVI_E_ARGUMENT;
+    struct gvi__private *x = &st->x;
+    const gvi_formulation was = st->formulation;
+    const int left = x->newton.left;
+    const gvi__origin from = {
+        st->t, st->t_low, st->q, st->q_low, st->p, st->p_low, x->time.H + x->time.H_low
+    };
+    if (x->stepped && gvi__nonzero(h - st->h)) x->newton.left = 0;
+    gvi_status status = gvi__solve(st, &from, h, GVI__STEP);
+    if (status == GVI_OK && !gvi__finite(st->t + x->dt))
+        status = gvi__report_status(st, GVI_E_ARGUMENT);
+    if (status != GVI_OK) {
+        gvi__count(&st->counters.failures, 1);
+        st->formulation = was;
+        x->newton.left = left;
+        x->newton.h = 0;
+        return st->status = status;
+    }
+    gvi__commit(st, h);
+    return gvi__report_status(st, GVI_OK);
+}
+
 /* ---------------------------------------------------------------- ENGINE */
 
 /* One stage of an iteration is data: rows of stage values, made of sums over sources,
@@ -2421,7 +2588,6 @@ GVI__BODY gvi_real gvi__stage_by_points(const gvi_stepper *st, const gvi__stage 
     return gvi__sum_squares(square);
 }
 
-#if GVI__LANES > 1
 enum { GVI__BLOCK = 8/GVI__LANES };                  // lanes that hold eight points
 
 /* z := sum_j table_j L_j at `lanes` lanes of points.  Four chains, so that no sum waits for
@@ -2430,7 +2596,8 @@ enum { GVI__BLOCK = 8/GVI__LANES };                  // lanes that hold eight po
 GVI__BODY void gvi__row_sums(int r, int R, int lanes, const gvi_real *table, const gvi_real *L,
                              gvi__lane *z)
 {
-    gvi__lane sum[4][GVI__BLOCK] = { { { 0 } } };
+    const gvi__lane none = { 0 };
+    gvi__lane sum[4][GVI__BLOCK] = { { none } };
     GVI__UNROLL for (int m = 0; m < 4; ++m) {
         GVI__UNROLL for (int v = 0; v < lanes; ++v) sum[m][v] =
             GVI__LOAD(table + m*R + v*GVI__LANES)*L[m];
@@ -2442,13 +2609,17 @@ GVI__BODY void gvi__row_sums(int r, int R, int lanes, const gvi_real *table, con
     GVI__UNROLL for (int v = 0; v < lanes; ++v) z[v] = sum[0][v] + sum[2][v];
 }
 
-/* A stage in lanes of points: R is 4 or a multiple of eight.                                 */
+/* A stage in lanes of points: R is 4 or a multiple of eight; point by point where a lane is wider
+   than R or a single number.                                                                  */
 GVI__BODY gvi_real gvi__stage_by_lanes(const gvi_stepper *st, const gvi__stage *GVI__RESTRICT y,
                                        int n, int r, int R, int rescale)
 {
     const int block = R < 8 ? R : 8, lanes = block/GVI__LANES, last = r - 1, middle = (r - 1)/2;
+    const gvi__lane none = { 0 };
+    if (GVI__LANES == 1 || (GVI__LANES == 8 && R == 4))
+        return gvi__stage_by_points(st, y, n, r, R, rescale);
     gvi_real few[32], *L = R <= 16 ? few : st->x.row, total[8];
-    gvi__lane square[GVI__BLOCK] = { { 0 } };
+    gvi__lane square[GVI__BLOCK] = { none };
     for (int i = 0; i < n; ++i) {
         const gvi_real *first = gvi__weighted(R, y->sum[0].weight, y->sum[0].source + i*R, L);
         const gvi_real *second = !y->sum[1].table ? NULL
@@ -2457,7 +2628,7 @@ GVI__BODY gvi_real gvi__stage_by_lanes(const gvi_stepper *st, const gvi__stage *
         const gvi_real base = y->base[i], was = row[last], half = row[middle];
         for (int o = R - block; o >= 0; o -= block) {
             const gvi_real *free = y->free ? y->free + i*R + o : NULL;
-            gvi__lane z[GVI__BLOCK] = { { 0 } }, w[GVI__BLOCK];
+            gvi__lane z[GVI__BLOCK] = { none }, w[GVI__BLOCK];
             if (y->sum[0].table) gvi__row_sums(r, R, lanes, y->sum[0].table + o, first, z);
             else
                 GVI__UNROLL for (int v = 0; v < lanes; ++v) z[v] =
@@ -2470,7 +2641,8 @@ GVI__BODY gvi_real gvi__stage_by_lanes(const gvi_stepper *st, const gvi__stage *
             if (free) GVI__UNROLL for (int v = 0; v < lanes; ++v)
                 z[v] = base + (GVI__LOAD(free + v*GVI__LANES) + z[v]*y->factor);
             if (rescale && last - o < block)
-                scale = gvi__scale_of(base, was, z[(last - o)/GVI__LANES][(last - o) % GVI__LANES]);
+                scale = gvi__scale_of(base, was, GVI__AT(z[(last - o)/GVI__LANES],
+                                                         (last - o) % GVI__LANES));
             GVI__UNROLL for (int v = 0; v < lanes; ++v) {
                 gvi_real *at = row + o + v*GVI__LANES;
                 const gvi__lane moved = (z[v] - GVI__LOAD(at))*scale;
@@ -2486,7 +2658,6 @@ GVI__BODY gvi_real gvi__stage_by_lanes(const gvi_stepper *st, const gvi__stage *
     GVI__UNROLL for (int v = 0; v < GVI__BLOCK; ++v) GVI__STORE(total + v*GVI__LANES) = square[v];
     return gvi__sum_squares(total);
 }
-#endif
 
 /* The sizes that deserve a copy of their own: (n = 2 also in gvi__factor_mass,
    gvi__velocity_rows).                                                                        */
@@ -2496,7 +2667,6 @@ GVI__BODY gvi_real gvi__stage_by_lanes(const gvi_stepper *st, const gvi__stage *
         return gvi__stage_##by(st, y, n, r, R, rescale);                                        \
     }
 GVI__KERNEL(gvi__rows_any, by_points, st->n, st->r, st->x.R)
-#if GVI__LANES > 1
 GVI__KERNEL(gvi__rows_2_8,  by_lanes,  2, 8, 8)
 GVI__KERNEL(gvi__rows_8,    by_lanes,  st->n, 8, 8)
 GVI__KERNEL(gvi__rows_to_8, by_lanes,  st->n, st->r, 8)
@@ -2504,34 +2674,21 @@ GVI__KERNEL(gvi__rows_16,   by_lanes,  st->n, 16, 16)
 GVI__KERNEL(gvi__rows_many, by_lanes,  st->n, st->r, st->x.R)
 GVI__KERNEL(gvi__rows_2,    by_points, st->n, 2, 2)
 GVI__KERNEL(gvi__rows_3,    by_points, st->n, 3, 3)
-#endif
-#if GVI__LANES == 8
-GVI__KERNEL(gvi__rows_4,    by_points, st->n, 4, 4)
-#elif GVI__LANES > 1
 GVI__KERNEL(gvi__rows_4,    by_lanes,  st->n, 4, 4)
-#endif
 
 static gvi__kernel *gvi__kernel_for(int n, int r)
 {
-#if GVI__LANES > 1
+    if (GVI__SMALL || r == 1) return gvi__rows_any;
     if (r == 2) return gvi__rows_2;
     if (r == 3) return gvi__rows_3;
     if (r == 4) return gvi__rows_4;
+    if (GVI__LANES == 1) return gvi__rows_any;
     if (r == 8) return n == 2 ? gvi__rows_2_8 : gvi__rows_8;
     if (r == 16) return gvi__rows_16;
-    if (r > 4) return r < 8 ? gvi__rows_to_8 : gvi__rows_many;
-#endif
-    return (void)n, (void)r, gvi__rows_any;
+    return r < 8 ? gvi__rows_to_8 : gvi__rows_many;
 }
 
-/* ---- a step ---- */
-
-/* Where a step, or a query's partial step, starts; E: the energy, with a clock.              */
-typedef struct gvi__origin { gvi_real t, t_low; const gvi_real *q, *q_low, *p, *p_low; gvi_real E;
-                            } gvi__origin;
-
-// what is solved: a step, or for a query a part of the last one, from its start or its end
-enum { GVI__STEP, GVI__FROM_START, GVI__FROM_END };
+/* ---- fixed point ---- */
 
 // out := t + (t_low + c h)
 static void gvi__times(int count, gvi_real t, gvi_real t_low, gvi_real h, const gvi_real *c,
@@ -2574,15 +2731,50 @@ static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real 
     }
 }
 
+/* Makes the predictor ready: E takes the stage values of the last step (of the last two, if
+   they and this one are equally long) to the nodes of this step, which lie at alpha + beta c in
+   the last step's tau.  In the positions formulation forces only serve to make new positions: E
+   := K h b E does both.                                                                       */
+static void gvi__prepare_predictor(gvi_stepper *st, gvi_real h, int query)
+{
+    struct gvi__private *x = &st->x;
+    const int newton = GVI__NEWTON && st->formulation == GVI_NEWTON, r = st->r, R = x->R;
+    const int two = !query && !newton && x->kept == 2 && x->older.F && !gvi__nonzero(h - st->h);
+    const int sums = gvi__uses(x, GVI_POSITIONS) && !newton && x->desc.mass.kind != GVI_MASS_DENSE;
+    const gvi_real beta = h/st->h;
+    if (!query && !gvi__nonzero(beta - x->sized.ratio) && x->sized.steps == two + 1
+        && x->sized.sums == sums) return;
+    x->sized.ratio = query ? 0 : beta;
+    x->sized.steps = two + 1;
+    x->sized.sums = sums;
+    gvi__fit(st, query != GVI__FROM_START, beta, x->sized.steps);
+    for (int m = 0; sums && m < x->sized.steps*r; ++m) {
+        const gvi_real *L = gvi__weighted(R, x->sized.hb, x->sized.E + m*R, x->row);
+        for (int k = 0; k < r; ++k) x->row[R + k] = gvi__point_sum(r, R, x->table.K + k, L);
+        gvi__copy((size_t)r, x->row + R, x->sized.E + m*R);
+    }
+}
+
+// in place of a stage's own sums: E over the values of one or two steps
+GVI__BODY void gvi__set_predictor(const gvi_stepper *st, gvi__stage *y, const gvi_real *last,
+                                  const gvi_real *older)
+{
+    const gvi_real *E = st->x.sized.E;
+    y->sum[0].table = E;
+    y->sum[0].source = last;
+    y->sum[1].table = st->x.sized.steps == 2 ? E + st->r*st->x.R : NULL;
+    y->sum[1].source = older;
+    y->sum[0].weight = y->sum[1].weight = NULL;
+    y->scale = NULL;
+}
+
 // row := low + (c path_low + c path), one coordinate's free motion over its base
 GVI__BODY void gvi__free_row(int R, gvi_real low, gvi_real path, gvi_real path_low,
                              const gvi_real *GVI__RESTRICT c, gvi_real *GVI__RESTRICT row)
 {
     int k = 0;
-#if GVI__LANES > 1
-    for (; k + GVI__LANES <= R; k += GVI__LANES)
+    for (; GVI__LANES > 1 && k + GVI__LANES <= R; k += GVI__LANES)
         GVI__STORE(row + k) = (low + GVI__LOAD(c + k)*path_low) + GVI__LOAD(c + k)*path;
-#endif
     for (; k < R; ++k) row[k] = (low + c[k]*path_low) + c[k]*path;
 }
 
@@ -2669,14 +2861,12 @@ static void gvi__velocity_rows(const gvi_stepper *st)
     const gvi_real *P = x->work.P, *A = GVI__LAGRANGIAN ? x->work.A : NULL;
     gvi_real *V = x->work.V;
     for (int k = 0; A && k < n*R; ++k) V[k] = P[k] - A[k];
-#if GVI__LANES > 1
-    if (R % 8 == 0 && !gvi__mass_is_constant(x)) {
+    if (GVI__LANES > 1 && R % 8 == 0 && !gvi__mass_is_constant(x)) {
         for (int o = 0; o < R; o += GVI__LANES)
             if (n == 2) gvi__ldl_solve_lane(2, R, x->mass.at_points + o, (A ? V : P) + o, V + o);
             else gvi__ldl_solve_lane(n, R, x->mass.at_points + o, (A ? V : P) + o, V + o);
         return;
     }
-#endif
     if (!A) gvi__copy((size_t)(n*R), P, V);
     if (gvi__mass_is_constant(x)) gvi__over_mass(st, V, R, st->r);
     else gvi__ldl_solve(n, x->mass.at_points, R, V, R, st->r);
@@ -2761,43 +2951,6 @@ static gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *y, int stages, 
     return sum;
 }
 
-/* Makes the predictor ready: E takes the stage values of the last step (of the last two, if
-   they and this one are equally long) to the nodes of this step, which lie at alpha + beta c in
-   the last step's tau.  In the positions formulation forces only serve to make new positions: E
-   := K h b E does both.                                                                       */
-static void gvi__prepare_predictor(gvi_stepper *st, gvi_real h, int query)
-{
-    struct gvi__private *x = &st->x;
-    const int newton = GVI__NEWTON && st->formulation == GVI_NEWTON, r = st->r, R = x->R;
-    const int two = !query && !newton && x->kept == 2 && x->older.F && !gvi__nonzero(h - st->h);
-    const int sums = gvi__uses(x, GVI_POSITIONS) && !newton && x->desc.mass.kind != GVI_MASS_DENSE;
-    const gvi_real beta = h/st->h;
-    if (!query && !gvi__nonzero(beta - x->sized.ratio) && x->sized.steps == two + 1
-        && x->sized.sums == sums) return;
-    x->sized.ratio = query ? 0 : beta;
-    x->sized.steps = two + 1;
-    x->sized.sums = sums;
-    gvi__fit(st, query != GVI__FROM_START, beta, x->sized.steps);
-    for (int m = 0; sums && m < x->sized.steps*r; ++m) {
-        const gvi_real *L = gvi__weighted(R, x->sized.hb, x->sized.E + m*R, x->row);
-        for (int k = 0; k < r; ++k) x->row[R + k] = gvi__point_sum(r, R, x->table.K + k, L);
-        gvi__copy((size_t)r, x->row + R, x->sized.E + m*R);
-    }
-}
-
-// in place of a stage's own sums: E over the values of one or two steps
-GVI__BODY void gvi__set_predictor(const gvi_stepper *st, gvi__stage *y, const gvi_real *last,
-                                  const gvi_real *older)
-{
-    const gvi_real *E = st->x.sized.E;
-    y->sum[0].table = E;
-    y->sum[0].source = last;
-    y->sum[1].table = st->x.sized.steps == 2 ? E + st->r*st->x.R : NULL;
-    y->sum[1].source = older;
-    y->sum[0].weight = y->sum[1].weight = NULL;
-    y->scale = NULL;
-}
-
 /* Stage values to begin with: the last step's forces (and V, A), extrapolated; without these, or if
    they led nowhere, no force and constant velocity.                                          */
 static gvi_status gvi__predict_sources(gvi_stepper *st, const gvi__origin *from, gvi_real h,
@@ -2839,12 +2992,6 @@ typedef struct gvi__progress {
 } gvi__progress;
 
 enum { GVI__GO_ON, GVI__DONE, GVI__ONCE_MORE, GVI__DIVERGES, GVI__NOT_FINITE };
-
-// may a step that does not converge turn to Newton's method?
-static int gvi__may_turn(const gvi_stepper *st)
-{
-    return st->x.desc.formulation == GVI_AUTO && gvi__has(&st->x, GVI__HAS_NEWTON);
-}
 
 // M_ii, or p_i/v_i where the effects alone make the mass, where F was evaluated last: first point
 static gvi_real gvi__inertia(const gvi_stepper *st, int i)
@@ -3025,7 +3172,7 @@ static gvi__two gvi__exact_dot(int R, const gvi_real *a, const gvi_real *b)
             hi[k] = s.hi;
             lo[k] = s.lo;
         }
-    if (R > 4) gvi__fold(4, hi, lo);
+    if (R >= 8) gvi__fold(4, hi, lo);
     gvi__fold(2, hi, lo);
     gvi__fold(1, hi, lo);
     return gvi__two_of(hi[0], lo[0]);
@@ -3111,9 +3258,8 @@ static void gvi__drift(gvi_stepper *st, const gvi__origin *from, const gvi_real 
         }
         return;
     }
-#if GVI__LANES > 1
     const gvi__lane zero = { 0 };
-    for (; n >= 8 && i + GVI__LANES <= n; i += GVI__LANES) {
+    for (; GVI__LANES > 1 && n >= 8 && i + GVI__LANES <= n; i += GVI__LANES) {
         const gvi__lane p = GVI__LOAD(dp + i) + b*GVI__LOAD(F + i);
         const gvi__lane d = GVI__LOAD(dq + i) + a*(GVI__LOAD(v + i) + p*GVI__LOAD(m + i));
         GVI__STORE(dp + i) = p;
@@ -3121,7 +3267,6 @@ static void gvi__drift(gvi_stepper *st, const gvi__origin *from, const gvi_real 
         GVI__STORE(dq + i) = d;
         GVI__STORE(Q + i) = GVI__LOAD(q + i) + d;
     }
-#endif
     for (; i < n; ++i) {
         dp[i] += b*F[i];
         F[i] = 0;
@@ -4022,10 +4167,6 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
     return gvi__report_status(st, GVI_E_CONVERGENCE);
 }
 
-// how Newton's method begins: at constant velocity, at the last step's modes; or as the first, and
-// takes back changes
-enum { GVI__PLAIN, GVI__EXTRAPOLATED, GVI__HALVED };
-
 static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int how, int query)
 {
     struct gvi__private *x = &st->x;
@@ -4050,204 +4191,7 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
     return GVI_OK;
 }
 
-/* ------------------------------------------------------------------ STEP */
-
-/* The way of a step, to be read in this order: gvi_step, gvi__solve, gvi__attempt; there
-   gvi__free_motion (free motion), gvi__prepare_predictor (predictor), gvi__iterate
-   (gvi__stages, then again and again gvi__evaluate_stages: callbacks, gvi__new_rows: tables
-   times forces, gvi__converged) and gvi__increments; then gvi__commit.
-
-   One attempt at a step or a partial step, to its increments; nothing of it is kept yet.  The
-   fixed point from extrapolated values, then from plain ones, then Newton's method, likewise.  */
-static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query)
-{
-    struct gvi__private *x = &st->x;
-    gvi__free_motion(st, from, h);
-    st->formulation = x->chosen;
-    if (gvi__uses(x, GVI_EXPLICIT))
-        return gvi__kicks(st, from, h, x->has_force && query != GVI__FROM_START ? x->last.F : NULL);
-
-    // farther out the last values say nothing
-    const int usable = x->kept > 0 && h/st->h > -2 && h/st->h < 8;
-    int used = 0;
-    gvi_status status = GVI_E_CONVERGENCE;
-    if (!gvi__uses(x, GVI_NEWTON)
-        && (!gvi__has(x, GVI__HAS_NEWTON) || x->newton.left == 0 || query)) {
-        if (usable) gvi__prepare_predictor(st, h, query);
-        for (int plain = !usable; plain < 2; ++plain) {
-            status = gvi__iterate(st, from, h, !plain, &used);
-            gvi__count(&st->counters.iterations, used);
-            if (!query) st->iterations = used;
-            if (used > st->counters.most_iterations) st->counters.most_iterations = used;
-            // where iterations are given, only a callback that failed at extrapolated values is
-            // worth a second try
-            if (status == GVI_OK
-                || (x->desc.iterations > 0 && (used > 1 || status == GVI_E_CONVERGENCE)))
-                break;
-        }
-        if (status == GVI_OK) gvi__increments(st, from, h);
-        if (status == GVI_OK || !gvi__may_turn(st)) return status;
-        if (!query && status == GVI_E_CONVERGENCE) x->newton.left = 64;
-    }
-    if (!GVI__NEWTON) return status;
-    const unsigned count = (unsigned)st->counters.newton_iterations;
-    st->formulation = GVI_NEWTON;
-    if (usable) gvi__prepare_predictor(st, h, query);
-    const int extrapolated = usable && x->has_velocity;
-    status = gvi__newton_step(st, from, extrapolated ? GVI__EXTRAPOLATED : GVI__PLAIN, query);
-    if (status == GVI_E_CONVERGENCE || status == GVI_E_SINGULAR
-        || (status == GVI_E_CALLBACK && extrapolated)
-        || (status == GVI_E_NON_FINITE && !x->diagnose)) {
-        if (!query) x->newton.h = 0;              // the extrapolation may be to blame
-        status = gvi__newton_step(st, from, GVI__HALVED, query);
-    }
-    if (!query) st->iterations = used + (int)((unsigned)st->counters.newton_iterations - count);
-    return status;
-}
-
-// are q + dq and p + dp finite?  0 x is 0 or NaN
-static int gvi__finite_end(const gvi_stepper *st, const gvi__origin *from)
-{
-    const struct gvi__phase *d = &st->x.step;
-    gvi_real none = 0;
-    int i = 0;
-#if GVI__LANES > 1
-    gvi__lane nones = { 0 };
-    for (; st->n >= 8 && i + GVI__LANES <= st->n; i += GVI__LANES)
-        nones += 0*(GVI__LOAD(from->q + i) + GVI__LOAD(d->q + i))
-                 + 0*(GVI__LOAD(from->p + i) + GVI__LOAD(d->p + i));
-    for (int k = 0; i > 0 && k < GVI__LANES; ++k) none += nones[k];
-#endif
-    for (; i < st->n; ++i) {
-        // as it will be kept
-        const gvi__rounded q = from->q[i] + d->q[i], p = from->p[i] + d->p[i];
-        none += 0*q + 0*p;
-    }
-    return none >= 0;
-}
-
-/* One attempt.  If it met NaN or Inf, the same once more, now looking at what every effect
-   returns: that names the effect.  If none is to blame, the iteration diverged.               */
-static gvi_status gvi__solve(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query)
-{
-    struct gvi__private *x = &st->x;
-    for (int look = 0; ; look = 1) {
-        x->diagnose = look;
-        gvi_status status = gvi__attempt(st, from, h, query);
-        x->diagnose = 0;
-        if (status == GVI_OK && !look && !gvi__finite_end(st, from))
-            status = gvi__report_status(st, GVI_E_NON_FINITE);
-        const int explained = status != GVI_E_NON_FINITE || st->fault.effect != GVI_FAULT_NONE;
-        if (look)
-            return status != GVI_OK && explained ? status
-                                                 : gvi__report_status(st, GVI_E_CONVERGENCE);
-        if (explained) return status;
-        if (!query) x->newton.h = 0;
-    }
-}
-
-// work becomes last, last becomes older (where it is kept that long), and the oldest is free
-static void gvi__rotate(gvi_real **older, gvi_real **last, gvi_real **work)
-{
-    gvi_real *spare = *older ? *older : *last;
-    if (*older) *older = *last;
-    *last = *work;
-    *work = spare;
-}
-
-static void gvi__rotate_values(gvi_stepper *st)
-{
-    struct gvi__private *x = &st->x;
-    gvi__rotate(&x->older.F, &x->last.F, &x->work.F);
-    if (GVI__READS_V) gvi__rotate(&x->older.V, &x->last.V, &x->work.V);
-    if (GVI__LAGRANGIAN) gvi__rotate(&x->older.A, &x->last.A, &x->work.A);
-}
-
-// was := x, x + x_low := x + dx + dx_low; dx_low NULL: 0
-static void gvi__move(int n, const gvi_real *GVI__RESTRICT dx, const gvi_real *GVI__RESTRICT dx_low,
-                      gvi_real *GVI__RESTRICT x, gvi_real *GVI__RESTRICT x_low,
-                      gvi_real *GVI__RESTRICT was)
-{
-    int i = 0;
-#if GVI__LANES > 1
-    for (; n >= 8 && i + GVI__LANES <= n; i += GVI__LANES) {          // gvi__two_sum, twice
-        const gvi__lane a = GVI__LOAD(x + i), d = GVI__LOAD(dx + i), s = a + d, b = s - a;
-        gvi__lane e = (a - (s - b)) + (d - b), t = s;
-        if (dx_low) {
-            e += GVI__LOAD(dx_low + i);
-            t = s + e;
-            const gvi__lane f = t - s;
-            e = (s - (t - f)) + (e - f);
-        }
-        GVI__STORE(was + i) = a;
-        GVI__STORE(x + i) = t;
-        GVI__STORE(x_low + i) = e;
-    }
-#endif
-    for (; i < n; ++i) {
-        gvi__two sum = gvi__two_sum(x[i], dx[i]);
-        if (dx_low) sum = gvi__two_sum(sum.hi, sum.lo + dx_low[i]);
-        was[i] = x[i];
-        x[i] = sum.hi;
-        x_low[i] = sum.lo;
-    }
-}
-
-// the step is done: state and compensation move on, stage values become those of the last step
-static void gvi__commit(gvi_stepper *st, gvi_real h)
-{
-    struct gvi__private *x = &st->x;
-    const gvi__two t = gvi__two_sum(st->t, x->dt + st->t_low);
-    const int whole = gvi__uses(x, GVI_EXPLICIT);             // whose increments have no low words
-    gvi__move(st->n, x->step.q, whole ? NULL : x->step.q_low, x->state.q, x->state.q_low,
-              x->began.q);
-    gvi__move(st->n, x->step.p, whole ? NULL : x->step.p_low, x->state.p, x->state.p_low,
-              x->began.p);
-    st->t0 = st->t;
-    st->t = t.hi;
-    st->t_low = t.lo;
-    if (GVI__CLOCK) {
-        const gvi__two H = gvi__two_sum(x->time.H, x->time.dH + x->time.H_low);
-        x->began.H = x->time.H;
-        x->time.H = H.hi;
-        x->time.H_low = H.lo;
-    }
-    x->kept = x->kept > 0 && !gvi__nonzero(h - st->h) ? 2 : 1;
-    st->h = h;
-    gvi__rotate_values(st);
-    x->stepped = gvi__clock_is_on(st) ? 2 : 1;
-    x->has_force = gvi__uses(x, GVI_EXPLICIT) && !gvi__nonzero(x->table.c[0])
-                   && !gvi__nonzero(x->table.c[st->r - 1] - 1);
-    x->has_velocity = st->formulation > GVI_POSITIONS;
-    if (x->newton.left > 0) x->newton.left -= 1;
-    gvi__count(&st->counters.steps, 1);
-}
-
-GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
-{
-    const gvi_status ready = gvi__ready(st, st && st->x.started);
-    if (ready != GVI_OK) return ready;
-    if (!gvi__nonzero(h) || !gvi__finite(h)) return st->status = GVI_E_ARGUMENT;
-    struct gvi__private *x = &st->x;
-    const gvi_formulation was = st->formulation;
-    const int left = x->newton.left;
-    const gvi__origin from = {
-        st->t, st->t_low, st->q, st->q_low, st->p, st->p_low, x->time.H + x->time.H_low
-    };
-    if (x->stepped && gvi__nonzero(h - st->h)) x->newton.left = 0;
-    gvi_status status = gvi__solve(st, &from, h, GVI__STEP);
-    if (status == GVI_OK && !gvi__finite(st->t + x->dt))
-        status = gvi__report_status(st, GVI_E_ARGUMENT);
-    if (status != GVI_OK) {
-        gvi__count(&st->counters.failures, 1);
-        st->formulation = was;
-        x->newton.left = left;
-        x->newton.h = 0;
-        return st->status = status;
-    }
-    gvi__commit(st, h);
-    return gvi__report_status(st, GVI_OK);
-}
+/* ----------------------------------------------------------------- STATE */
 
 /* ---- starting ---- */
 

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 """The numbers of Gauss with r = s = 1..4 that gvi.h has as constants (GVI_NO_RULES).
 
-    python3 tests/gen/few.py      (mpmath; prints the arrays as they stand in gvi.h)
+    python3 tests/gen/few.py      (mpmath; prints the array as it stands in gvi.h)
 
 For r = 1..4, one after the other: weights; Phi_k and phi_k at node i, row by row of k; and
     S_ij = sum_k (2k+1) Phi_k(c_i) Phi_k(c_j)   i <= j < r      T_ij = sum_k (2k+1) phi_k(c_i) Phi_k(c_j)   i < j < r
 Phi_0 = c and S are to be rounded to multiples of eps/2, T to multiples of eps, in any type: what lies between 1/2
 and 1 is, by being stored; for less, x - 1 is written; for T, which is about 1, T + 1/2."""
-from mpmath import legendre, mp, mpf, nstr, polyroots, taylor
+from mpmath import legendre, mp, mpf, polyroots, taylor
 
 mp.dps = 60
 
@@ -32,17 +32,12 @@ def half(x):
     return x if x >= mpf(1)/2 else x - 1
 
 
-def show(name, numbers):
-    print(f'static const gvi_real {name}[] = {{')
-    words = [f'GVI__C({nstr(z if abs(z) > mpf(10)**-40 else mpf(0), 21, strip_zeros=True)})' for z in numbers]
-    line = '   '
-    for k, word in enumerate(words):
-        word = ' ' + word + (',' if k + 1 < len(words) else '')
-        if len(line) + len(word) > 110:
-            print(line)
-            line = '   '
-        line += word
-    print(line + '\n};')
+def show(numbers):
+    """as many digits as a double, rounded once, needs; floats go by way of it"""
+    words = [repr(float(z) if abs(z) > mpf(10)**-40 else 0.0) for z in numbers]
+    rows = [f"    GVI__4({', '.join(words[k:k + 4])})" for k in range(0, len(words), 4)]
+    rows = [row if len(row) < 100 else row.replace(', ', ',') for row in rows]
+    print('static const gvi_real gvi__few_numbers[] = {\n' + ',\n'.join(rows) + '\n};')
 
 
 def main():
@@ -57,11 +52,7 @@ def main():
         for j in range(r):
             S += [half(sum((2*k + 1)*Phi[k][i]*Phi[k][j] for k in range(r))) for i in range(j + 1)]
             T += [mpf(1)/2 + sum((2*k + 1)*phi[k][i]*Phi[k][j] for k in range(r)) for i in range(j)]
-    show('gvi__few_b', weights)
-    show('gvi__few_Phi', Phis)
-    show('gvi__few_phi', phis)
-    show('gvi__few_S', S)
-    show('gvi__few_T', T)
+    show(weights + Phis + phis + S + T)
 
 
 main()

@@ -123,7 +123,7 @@ job_warn() {
     status=$?
     rm -f "$dir/warn$1$2.o"
     if [ "$2" = long ] && [ "$(cut -d' ' -f2 "$dir/machine" 2>/dev/null)" = 106 ]; then
-        if echo "$out" | grep -q 'this long double is a pair of doubles'; then
+        if echo "$out" | grep -q 'long double must be one IEEE number'; then
             echo 1 >"$dir/refused"
             return 0
         fi
