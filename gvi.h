@@ -4705,6 +4705,17 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
     const gvi__matrix motion = { J->square, J->pivot, NULL, 0, 0, 0 };
     gvi_real *y = x->newton.y, *end = x->step.q_low;
     gvi_status bowed = GVI_E_NON_FINITE;
+
+    // whoever asks for the index judges for himself: straight from the chord
+    for (int halves = 0; any && !v && halves < 2; ++halves) {
+        const gvi__matrix plain = { J->square, J->pivot, J->ends, 1, 0, halves };
+        gvi__zero((size_t)(st->s*n), y);
+        for (int i = 0; i < n; ++i) y[i] = (q1[i] - from->q[i])/h;
+        gvi__weights_for(st, h);
+        gvi__times(x->R, from->t, 0, h, x->table.c, x->t);
+        *status = gvi__newton_solve(st, from, &plain);
+        if (*status == GVI_OK) return 0;
+    }
     for (int attempt = v ? 4 : 0; attempt < 9; ++attempt) {
         const int pieces = 1 << attempt >> (attempt > 0), linear = attempt == 0;
         const gvi_real piece = h/(gvi_real)pieces;
@@ -4733,15 +4744,6 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
         if (*status == GVI_OK && (!linear || bent < (gvi_real)0.015625)) return linear;
         if (linear) bowed = *status;
         if (*status == GVI_E_NON_FINITE && x->diagnose) break;
-    }
-    // whoever asks for the index judges for himself
-    for (int halves = 0; any && halves < 2 && *status != GVI_OK; ++halves) {
-        const gvi__matrix plain = { J->square, J->pivot, J->ends, 1, 0, halves };
-        gvi__zero((size_t)(st->s*n), y);
-        for (int i = 0; i < n; ++i) y[i] = (q1[i] - from->q[i])/h;
-        gvi__weights_for(st, h);
-        gvi__times(x->R, from->t, 0, h, x->table.c, x->t);
-        *status = gvi__newton_solve(st, from, &plain);
     }
     // there is nothing wrong with the effects, but with the chord
     if (*status == GVI_E_NON_FINITE && bowed != GVI_E_NON_FINITE) *status = GVI_E_CONJUGATE;
