@@ -3350,6 +3350,17 @@ static void gvi__time_sums(const gvi_stepper *st, const gvi_real *source, gvi_re
     for (int k = 0; k < x->R; ++k) z[k] = gvi__point_sum(st->r, x->R, x->table.T + k, L);
 }
 
+/* H - E for a coordinate whose force is F: as it is, or where its rounding, within `none`, would
+   push a light body by more than 1024 eps of F, 0 up to `none` and as it is from 2 none on.  */
+static gvi_real gvi__sure_level(gvi_real level, gvi_real none, gvi_real slope, gvi_real F)
+{
+    const gvi_real limit = 1024*GVI__EPS*F, push = GVI_ABS(slope)*none, size = GVI_ABS(level);
+    if (push <= limit) return level;
+    if (push < 2*limit) none *= push/limit - 1;
+    const gvi_real sure = size <= none ? 0 : size < 2*none ? 2*(size - none) : size;
+    return level < 0 ? -sure : sure;
+}
+
 /* With a clock: forces first, for their power f'v; then all else, with values.  What it makes
    of F and V: F := g F - dg/dq (H - E), V := g v, with H = (P + A)'v/2 + V_pot - L, and E, with
    the work of the forces, and the times by the rule of Q.                                     */
@@ -3360,7 +3371,7 @@ static gvi_status gvi__evaluate_with_clock(gvi_stepper *st, const gvi__origin *f
     const int n = st->n, r = st->r, R = x->R;
     const unsigned forces = gvi__of_kind(x, GVI_FORCE);
     gvi_real *g = x->time.rate, *power = x->time.power, *level = x->time.level,
-             *L = x->time.lagrangian;
+             *L = x->time.lagrangian, *noise = x->row + R;
     gvi_status status = gvi__effects(st, y, ~forces, NULL);
     gvi__zero((size_t)R, power);
     for (int i = 0; i < n; ++i)
@@ -3372,8 +3383,9 @@ static gvi_status gvi__evaluate_with_clock(gvi_stepper *st, const gvi__origin *f
     if (status == GVI_OK) status = gvi__rate(st, y, g, x->time.slope);
     if (status != GVI_OK) return status;
 
-    // level := H - E
+    // level := H - E; noise: what rounding makes of it
     for (int k = 0; k < R; ++k) {
+        noise[k] = GVI_ABS(level[k]) + GVI_ABS(L[k]) + GVI_ABS(from->E);
         level[k] -= L[k] + from->E;
         power[k] *= g[k];
     }
@@ -3384,13 +3396,22 @@ static gvi_status gvi__evaluate_with_clock(gvi_stepper *st, const gvi__origin *f
     for (int i = 0; i < n; ++i)
         for (int k = 0; k < R; ++k) {
             const int at = i*R + k;
-            level[k] += (w->A ? w->P[at] + w->A[at] : w->P[at])*w->V[at]/2;
+            const gvi_real twice = (w->A ? w->P[at] + w->A[at] : w->P[at])*w->V[at];
+            level[k] += twice/2;
+            noise[k] += GVI_ABS(twice)/2;
         }
-    for (int i = 0; i < n; ++i)
+
+    for (int i = 0; i < n; ++i) {
+        gvi_real *F = w->F + i*R, *V = w->V + i*R, largest = 0;
+        const gvi_real *slope = x->time.slope + i*R;
         for (int k = 0; k < R; ++k) {
-            w->F[i*R + k] = g[k]*w->F[i*R + k] - x->time.slope[i*R + k]*level[k];
-            w->V[i*R + k] *= g[k];
+            F[k] *= g[k];
+            V[k] *= g[k];
+            if (k < r && GVI_ABS(F[k]) > largest) largest = GVI_ABS(F[k]);
         }
+        for (int k = 0; k < r; ++k)
+            F[k] -= slope[k]*gvi__sure_level(level[k], 16*GVI__EPS*noise[k], slope[k], largest);
+    }
     gvi__time_sums(st, g, L);
     for (int k = 0; k < R; ++k) x->t[k] = from->t + (from->t_low + L[k]);
     return GVI_OK;
