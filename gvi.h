@@ -288,7 +288,8 @@ typedef enum gvi_status {
     GVI_OK            =  0,
     GVI_E_ARGUMENT    = -1,  /* null pointer, memory not aligned as a gvi_real is, size out
                                 of range, h = 0, NaN or Inf given; a matrix, points or
-                                nodes given although the kind takes none            */
+                                nodes given although the kind takes none; effects
+                                without effect_count (fault.argument says which)    */
     GVI_E_MEMORY      = -2,  /* the memory is smaller than gvi_size(desc)               */
     GVI_E_NODES       = -3,  /* own rule: a node outside [0,1], or two that coincide    */
     GVI_E_ORDER       = -4,  /* own rule of order u < s, so also weights that do not sum
@@ -451,6 +452,7 @@ typedef struct gvi_fault {             /* where the last failure came from      
     int effect;                        /* index in effects, or GVI_FAULT_...    */
     int coordinate;                    /* or GVI_FAULT_NONE                     */
     int point;                         /* quadrature point, or GVI_FAULT_NONE   */
+    const char *argument;              /* GVI_E_ARGUMENT: a sentence, else NULL */
 } gvi_fault;
 
 /* Work done, counted since gvi_init.  The caller may set any of it to 0.      */
@@ -570,7 +572,8 @@ typedef struct gvi_discrete {
 
 /* Set-up.  Bytes of memory that desc needs; 0 if the description is faulty:
    gvi_init, even with a NULL memory, then returns why.  A chain of calls after a
-   failure keeps its first status.  GVI_LENGTH: array length, a constant expression, that
+   failure keeps its first status; st.q and st.p then point at zeros, n of them or 64
+   where there is no memory for them.  GVI_LENGTH: array length, a constant expression, that
    is enough for every scene of n degrees of freedom, degree s, r points.      */
 GVI_DEF size_t     gvi_size(const gvi_desc *desc);
 GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *memory, size_t size);
@@ -605,7 +608,7 @@ GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy);
    derivative, error O(h^(min(s,u/2)+1)) and one order less; with a clock tau is
    its own time, and v still dq/dt.
    gvi_state_at: the state at time t (a time, not tau) inside it, at the full
-   order, by a partial step from the nearer end.
+   order, by a partial step from the nearer end; 2 ulp outside it is its end.
    gvi_action: the quadrature of L over it.  This and gvi_state_at use the
    effects that are on now.
    A broken line has neither curve nor action, a clock no action: GVI_E_FORMULATION.
@@ -775,6 +778,11 @@ enum {
     GVI__VARIES = GVI__MOMENTA | GVI__NEWTON | GVI__LAGRANGIAN,
     GVI__ITERATES = GVI__POSITIONS | GVI__READS_V
 };
+#if defined(GVI_NO_DENSE) || defined(GVI_NO_DIAGNOSIS) || defined(GVI_NO_LAGRANGIAN)             \
+    || defined(GVI_NO_OWN) || defined(GVI_NO_POINT) || defined(GVI_NO_RESTS)                      \
+    || defined(GVI_NO_TOLERANCE)
+#error "gvi.h: of 0.1's GVI_NO_ macros only GVI_NO_CLOCK and GVI_NO_RULES are left"
+#endif
 #if GVI__KIND == 3 && (LDBL_MANT_DIG == 106 || defined(GVI_NO_RULES))
 #error "gvi.h: long double must be one IEEE number, not two doubles, and goes without GVI_NO_RULES"
 #endif
@@ -1555,7 +1563,23 @@ static gvi_status gvi__report(gvi_stepper *st, gvi_status status, int effect, in
     st->fault.effect = effect;
     st->fault.coordinate = coordinate;
     st->fault.point = point;
+    st->fault.argument = NULL;
     return st->status = status;
+}
+
+// an argument is at fault: a row of effects or the mass, a coordinate, and a sentence
+static gvi_status gvi__refuse(gvi_fault *fault, int effect, int coordinate, const char *argument)
+{
+    fault->effect = effect;
+    fault->coordinate = coordinate;
+    fault->point = GVI_FAULT_NONE;
+    fault->argument = argument;
+    return GVI_E_ARGUMENT;
+}
+
+static gvi_status gvi__refuse_call(gvi_stepper *st, const char *argument)
+{
+    return st->status = gvi__refuse(&st->fault, GVI_FAULT_NONE, GVI_FAULT_NONE, argument);
 }
 
 GVI__APART gvi_status gvi__report_effect(gvi_stepper *st, gvi_status status, int effect)
@@ -2471,7 +2495,8 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
 {
     const gvi_status ready = gvi__ready(st, st && st->x.started);
     if (ready != GVI_OK) return ready;
-    if (!gvi__nonzero(h) || !gvi__finite(h)) return st->status = GVI_E_ARGUMENT;
+    if (!gvi__nonzero(h) || !gvi__finite(h))
+        return gvi__refuse_call(st, "h is 0, NaN or infinite");
     struct gvi__private *x = &st->x;
     const gvi_formulation was = st->formulation;
     const int left = x->newton.left;
@@ -2481,7 +2506,7 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
     if (x->stepped && gvi__nonzero(h - st->h)) x->newton.left = 0;
     gvi_status status = gvi__solve(st, &from, h, GVI__STEP);
     if (status == GVI_OK && !gvi__finite(st->t + x->dt))
-        status = gvi__report_status(st, GVI_E_ARGUMENT);
+        status = gvi__refuse_call(st, "t + h is not finite");
     if (status != GVI_OK) {
         gvi__count(&st->counters.failures, 1);
         st->formulation = was;
@@ -3425,23 +3450,33 @@ static int gvi__within(long x, long most) { return x >= 0 && x <= most; }
 /* Are all sizes in range, and is what the kinds of rule, mass and effects need there, and
    nothing that says that a kind was forgotten? Fills in the defaults, and finds what the
    effects read and the clock.                                                                 */
-GVI__COLD gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc)
+GVI__COLD gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc, gvi_fault *fault)
 {
     enum { V = GVI__HAS_VELOCITIES, L = GVI__HAS_LAGRANGIAN };
     // potential, force, Lagrangian, clock
     static const unsigned char reads[] = { 0, V, V | L, 0 };
-    if (!desc || !gvi__within(desc->n, 0x7FFFF) || desc->n < 1 || !gvi__within(desc->degree, 1024)
-        || !gvi__within(desc->rule.points, 4000) || !gvi__within(desc->effect_count, GVI_EFFECTS)
-        || (desc->effect_count && !desc->effects) || !gvi__within(desc->max_iterations, 1000000)
-        || !gvi__within(desc->iterations, 1000000) || (unsigned)desc->formulation > GVI_NEWTON
-        || (unsigned)desc->mass.kind > GVI_MASS_NONE || (unsigned)desc->rule.kind > GVI_KICKS
-        || !(desc->tolerance >= 0 && desc->tolerance < 1)) return GVI_E_ARGUMENT;
+    const char *wrong = !desc ? "desc is NULL"
+        : !gvi__within(desc->n, 0x7FFFF) || desc->n < 1 ? "n is not 1 to 524,287"
+        : !gvi__within(desc->degree, 1024) ? "degree is not 0 to 1024"
+        : !gvi__within(desc->rule.points, 4000) ? "rule.points is not 0 to 4000"
+        : !gvi__within(desc->effect_count, GVI_EFFECTS) ? "effect_count is not 0 to GVI_EFFECTS"
+        : desc->effect_count && !desc->effects ? "effect_count is given, effects is NULL"
+        : !desc->effect_count && desc->effects ? "effects is given, effect_count is 0"
+        : !gvi__within(desc->max_iterations, 1000000) ? "max_iterations is not 0 to 1,000,000"
+        : !gvi__within(desc->iterations, 1000000) ? "iterations is not 0 to 1,000,000"
+        : (unsigned)desc->formulation > GVI_NEWTON ? "formulation is not in its enum"
+        : (unsigned)desc->mass.kind > GVI_MASS_NONE ? "mass.kind is not in its enum"
+        : (unsigned)desc->rule.kind > GVI_KICKS ? "rule.kind is not in its enum"
+        : !(desc->tolerance >= 0 && desc->tolerance < 1) ? "tolerance is not 0 to 1" : NULL;
+    if (wrong) return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE, wrong);
     gvi_desc *d = &x->desc;
     *d = *desc;
     const gvi_rule *rule = &desc->rule;
     const int given = rule->kind == GVI_OWN || rule->kind == GVI_KICKS;
     if (given ? !rule->points || !rule->nodes || !rule->weights : rule->nodes != NULL)
-        return GVI_E_ARGUMENT;
+        return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE,
+                           given ? "rule: this kind needs points, nodes and weights"
+                                 : "rule: this kind takes no nodes");
     if (d->degree == 0) d->degree = rule->kind == GVI_KICKS ? 1 : 8;
     if (d->rule.points == 0) d->rule.points = rule->kind == GVI_LOBATTO ? d->degree + 1 : d->degree;
     if (d->max_iterations == 0) d->max_iterations = 60;
@@ -3450,26 +3485,34 @@ GVI__COLD gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc)
     x->clock = -1;
     for (int e = 0; e < d->effect_count; ++e) {
         const gvi_effect *effect = d->effects + e;
-        if ((unsigned)effect->kind > GVI_CLOCK || !effect->points == !effect->point)
-            return GVI_E_ARGUMENT;
+        const int clock = effect->kind == GVI_CLOCK;
+        wrong = (unsigned)effect->kind > GVI_CLOCK ? "effect: kind is not in its enum"
+            : !effect->points && !effect->point ? "effect: points, or point, is missing"
+            : effect->points && effect->point ? "effect: points and point, one is too many"
+            : clock && !effect->points ? "effect: a clock needs points, not point"
+            : clock && x->clock >= 0 ? "effect: a second clock" : NULL;
+        if (wrong) return gvi__refuse(fault, e, GVI_FAULT_NONE, wrong);
         x->needs |= reads[effect->kind];
-        if (effect->kind != GVI_CLOCK) continue;
-        if (x->clock >= 0 || !effect->points) return GVI_E_ARGUMENT;
-        x->clock = e;
+        if (clock) x->clock = e;
     }
     const gvi_mass *m = &d->mass;
-    const int mass = m->kind == GVI_MASS_UNIT ? !m->matrix && !m->points
-        : m->kind == GVI_MASS_POSITION ? m->points && m->gradient
-        : m->kind == GVI_MASS_NONE ? (x->needs & L) != 0 : m->matrix != NULL;
+    const int position = m->kind == GVI_MASS_POSITION;
+    wrong = m->kind == GVI_MASS_UNIT && (m->matrix || m->points)
+            ? "mass: matrix or points is given, kind is GVI_MASS_UNIT"
+        : position && !m->points ? "mass: points is missing"
+        : position && !m->gradient ? "mass: gradient is missing"
+        : m->kind == GVI_MASS_NONE && !(x->needs & L) ? "mass: none, and no Lagrangian term"
+        : (m->kind == GVI_MASS_DIAGONAL || m->kind == GVI_MASS_DENSE) && !m->matrix
+            ? "mass: matrix is missing" : NULL;
     if ((x->needs & L && !GVI__LAGRANGIAN) || (x->clock >= 0 && !GVI__CLOCK)
         || (m->kind > GVI_MASS_DENSE && !gvi__mass_is(x, m->kind)) || !gvi__rule_is(x, rule->kind))
         return GVI_E_FORMULATION;
-    return mass ? GVI_OK : GVI_E_ARGUMENT;
+    return wrong ? gvi__refuse(fault, GVI_FAULT_MASS, GVI_FAULT_NONE, wrong) : GVI_OK;
 }
 
 /* The order of the rule: will it do? Kicks need finite numbers and weights that sum to 1;
    beyond an error of 1 no digit of the sum is sure.                                           */
-GVI__COLD gvi_status gvi__check_rule(struct gvi__private *x, int *order)
+GVI__COLD gvi_status gvi__check_rule(struct gvi__private *x, int *order, gvi_fault *fault)
 {
     const gvi_rule *rule = &x->desc.rule;
     const int s = x->desc.degree, r = rule->points;
@@ -3477,7 +3520,8 @@ GVI__COLD gvi_status gvi__check_rule(struct gvi__private *x, int *order)
     if (gvi__rule_is(x, GVI_KICKS)) {
         gvi_real sum = -1, size = 0;
         *order = 0;
-        if (s != 1) return GVI_E_ARGUMENT;
+        if (s != 1)
+            return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE, "degree: kicks have 1");
         for (int j = 0; j < r; ++j) {
             sum += rule->weights[j];
             size += GVI_ABS(rule->weights[j]);
@@ -3486,7 +3530,10 @@ GVI__COLD gvi_status gvi__check_rule(struct gvi__private *x, int *order)
         const gvi_real error = 4*(gvi_real)(r + 2)*GVI__EPS*size;
         return GVI_ABS(sum) <= error && error < 1 ? GVI_OK : GVI_E_ORDER;
     }
-    if (rule->kind == GVI_LOBATTO && r < 2) return s > 1 ? GVI_E_POINTS : GVI_E_ARGUMENT;
+    if (rule->kind == GVI_LOBATTO && r < 2)
+        return s > 1 ? GVI_E_POINTS
+                     : gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE,
+                                   "rule.points: Lobatto's rule has 2 or more");
     if (gvi__rule_is(x, GVI_OWN)) {
         *order = gvi_rule_order(r, rule->nodes, rule->weights);
         if (*order < 0) return GVI_E_NODES;
@@ -3499,7 +3546,7 @@ GVI__COLD gvi_status gvi__check_rule(struct gvi__private *x, int *order)
 
 /* The first formulation that can do what the scene asks for, or the one that is pinned; Newton's
    method as a fall-back.                                                                     */
-GVI__COLD gvi_status gvi__choose(struct gvi__private *x)
+GVI__COLD gvi_status gvi__choose(struct gvi__private *x, gvi_fault *fault)
 {
     enum { READS = 1, TIMED = 2, KICKED = 4, NOT_KICKED = 8, MORE_POINTS = 16, VARIES = 32,
           NO_VELOCITY = 64 };
@@ -3533,14 +3580,17 @@ GVI__COLD gvi_status gvi__choose(struct gvi__private *x)
     const int matrices =
         gvi__has(x, GVI__HAS_NEWTON | GVI__HAS_LAGRANGIAN) || d->mass.kind >= GVI_MASS_DENSE;
     // indices are int: n*n and s*n
-    return matrices && d->n > 0x7FFF ? GVI_E_ARGUMENT : GVI_OK;
+    return !matrices || d->n <= 0x7FFF ? GVI_OK
+        : gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE,
+                      "n is above 32,767, and matrices may be needed");
 }
 
-GVI__COLD gvi_status gvi__resolve(struct gvi__private *x, const gvi_desc *desc, int *order)
+GVI__COLD gvi_status gvi__resolve(struct gvi__private *x, const gvi_desc *desc, int *order,
+                                  gvi_fault *fault)
 {
-    gvi_status status = gvi__check(x, desc);
-    if (status == GVI_OK) status = gvi__check_rule(x, order);
-    return status == GVI_OK ? gvi__choose(x) : status;
+    gvi_status status = gvi__check(x, desc, fault);
+    if (status == GVI_OK) status = gvi__check_rule(x, order, fault);
+    return status == GVI_OK ? gvi__choose(x, fault) : status;
 }
 
 /* The caller's memory: a base, or NULL to count only, and the numbers handed out so far.     */
@@ -3654,8 +3704,9 @@ static size_t gvi__slack(const gvi_desc *d) { return d->rule.points > 4 ? GVI__S
 GVI_DEF size_t gvi_size(const gvi_desc *desc)
 {
     struct gvi__private x;
+    gvi_fault fault;
     int order;
-    if (gvi__resolve(&x, desc, &order) != GVI_OK) return 0;
+    if (gvi__resolve(&x, desc, &order, &fault) != GVI_OK) return 0;
     return (gvi__layout(&x, order, NULL) + gvi__slack(&x.desc))*sizeof(gvi_real);
 }
 
@@ -3672,14 +3723,15 @@ GVI__COLD gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
             for (int j = 0; j <= i; ++j) {
                 m[i*n + j] = x->mass.factor[i*n + j] = mass->matrix[i*n + j];
                 if (!gvi__finite(m[i*n + j]))
-                    return gvi__report(st, GVI_E_ARGUMENT, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
+                    return gvi__refuse(&st->fault, GVI_FAULT_MASS, i, "mass.matrix is not finite");
             }
         else m[i] = mass->kind == GVI_MASS_DIAGONAL ? mass->matrix[i] : 1;
         if (mass->kind != GVI_MASS_DIAGONAL) continue;
         x->mass.inverse[i] = 1/m[i];
-        if (!gvi__finite(m[i]) || !gvi__finite(x->mass.inverse[i]))
-            return gvi__report(st, gvi__finite(m[i]) ? GVI_E_SINGULAR : GVI_E_ARGUMENT,
-                               GVI_FAULT_MASS, i, GVI_FAULT_NONE);
+        if (!gvi__finite(m[i]))
+            return gvi__refuse(&st->fault, GVI_FAULT_MASS, i, "mass.matrix is not finite");
+        if (!gvi__finite(x->mass.inverse[i]))
+            return gvi__report(st, GVI_E_SINGULAR, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
     }
     const gvi_status status = dense ? gvi__ldl_factor(n, 1, 1, x->mass.factor, at) : GVI_OK;
     return status == GVI_OK ? GVI_OK : gvi__report(st, status, GVI_FAULT_MASS, at[0], at[1]);
@@ -3720,13 +3772,15 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     if (!st) return GVI_E_ARGUMENT;
     struct gvi__private *x = &st->x;
     unsigned char *bytes = (unsigned char *)st;
+    static const gvi_real zeros[64] = { 0 };      // to be read after a failure
     int order;
     for (size_t i = 0; i < sizeof *st; ++i) bytes[i] = 0;
     gvi__report_status(st, GVI_OK);
-    gvi_status status = gvi__resolve(x, desc, &order);
+    st->q = st->p = st->q_low = st->p_low = zeros;
+    gvi_status status = gvi__resolve(x, desc, &order, &st->fault);
     if (status != GVI_OK) return st->status = status;
     if (!memory || (uintptr_t)memory % offsetof(gvi__aligned, number))
-        return st->status = GVI_E_ARGUMENT;
+        return gvi__refuse_call(st, memory ? "memory is not aligned" : "memory is NULL");
     st->n = x->desc.n;
     st->s = x->desc.degree;
     st->r = x->desc.rule.points;
@@ -3735,7 +3789,12 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     x->R = GVI__ROW(st->r);
     x->size = gvi__layout(x, order, NULL);
     const size_t slack = gvi__slack(&x->desc);
-    if (size < (x->size + slack)*sizeof(gvi_real)) return st->status = GVI_E_MEMORY;
+    if (size < (x->size + slack)*sizeof(gvi_real)) {
+        if (size/sizeof(gvi_real) < (size_t)st->n) return st->status = GVI_E_MEMORY;
+        gvi__zero((size_t)st->n, memory);
+        st->q = st->p = st->q_low = st->p_low = memory;
+        return st->status = GVI_E_MEMORY;
+    }
     if (slack) x->skip = (size_t)(-(uintptr_t)memory & 63)/sizeof(gvi_real);
     memory += x->skip;
     gvi__hand_out(st, memory);
@@ -4249,11 +4308,13 @@ GVI__COLD gvi_status gvi__check_start(gvi_stepper *st, gvi_real t, const gvi_rea
 {
     const gvi_status ready = gvi__ready(st, st && st->x.memory);
     if (ready != GVI_OK) return ready;
-    if (!q || !w || !gvi__finite(t)) return st->status = GVI_E_ARGUMENT;
+    if (!q || !w) return gvi__refuse_call(st, "q, v or p is NULL");
+    if (!gvi__finite(t)) return gvi__refuse_call(st, "t is not finite");
     const int i = gvi__first_non_finite(st->n, q), j = gvi__first_non_finite(st->n, w);
     if (i < 0 && j < 0) return GVI_OK;
-    return gvi__report(st, GVI_E_ARGUMENT, GVI_FAULT_NONE, j < 0 || (i >= 0 && i < j) ? i : j,
-                       GVI_FAULT_NONE);
+    return st->status = gvi__refuse(&st->fault, GVI_FAULT_NONE,
+                                    j < 0 || (i >= 0 && i < j) ? i : j,
+                                    "q, v or p is not finite");
 }
 
 // p = dL/dv, of the kinetic energy and of Lagrangian terms where there are any, to x.point + 5n
@@ -4317,7 +4378,8 @@ GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
     const gvi_status ready = gvi__ready(st, st && st->x.memory);
     if (ready != GVI_OK) return ready;
     struct gvi__private *x = &st->x;
-    if (index < 0 || index >= x->desc.effect_count) return st->status = GVI_E_ARGUMENT;
+    if (index < 0 || index >= x->desc.effect_count)
+        return gvi__refuse_call(st, "there is no such effect");
     const unsigned bit = 1u << index, was = x->off;
     x->off = on ? was & ~bit : was | bit;
     // another energy, also at the start
@@ -4348,7 +4410,7 @@ GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const 
         || saved->x.chosen != x->chosen || saved->x.clock != x->clock
         || saved->x.desc.effect_count != x->desc.effect_count
         || saved->x.desc.mass.kind != x->desc.mass.kind)
-        return st->status = GVI_E_ARGUMENT;
+        return gvi__refuse_call(st, "saved or memory is NULL, not set up, or of another scene");
     const gvi_desc desc = x->desc;
     gvi_real *const own = x->memory;
     gvi__kernel *const kernel = x->kernel;
@@ -4375,7 +4437,7 @@ GVI_DEF gvi_status gvi_velocity(gvi_stepper *st, gvi_real *v)
 {
     gvi_status status = gvi__ready(st, st && st->x.started);
     if (status != GVI_OK) return status;
-    if (!v) return st->status = GVI_E_ARGUMENT;
+    if (!v) return gvi__refuse_call(st, "v is NULL");
     gvi_real *V = st->x.result;
     gvi__velocity_guess(st, V);
     status = gvi__velocity(st, st->t, st->q, st->p, V);
@@ -4387,7 +4449,7 @@ GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy)
 {
     gvi_status status = gvi__ready(st, st && st->x.started);
     if (status != GVI_OK) return status;
-    if (!energy) return st->status = GVI_E_ARGUMENT;
+    if (!energy) return gvi__refuse_call(st, "energy is NULL");
     gvi_real E, *v = st->x.result + st->n;
     gvi__velocity_guess(st, v);
     status = gvi__hamiltonian(st, st->t, st->q, st->p, v, &E);
@@ -4461,7 +4523,7 @@ GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
 {
     gvi_status status = gvi__stepped(st);
     if (status != GVI_OK) return status;
-    if (!(tau >= 0 && tau <= 1)) return st->status = GVI_E_ARGUMENT;
+    if (!(tau >= 0 && tau <= 1)) return gvi__refuse_call(st, "tau is not in [0,1]");
     if (gvi__rule_is(&st->x, GVI_KICKS)) return st->status = GVI_E_FORMULATION;
     gvi_real *Q = st->x.result, *V = Q + st->n, rate;
     gvi__weights_for(st, st->h);
@@ -4525,9 +4587,18 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
     if (status != GVI_OK) return status;
     struct gvi__private *x = &st->x;
     const size_t n = (size_t)st->n;
-    if (!gvi__finite(t)) return st->status = GVI_E_ARGUMENT;
-    const gvi_real ahead = t - st->t0, back = t - st->t;            // one of each sign, or 0
-    if (!((ahead >= 0 && back <= 0) || (ahead <= 0 && back >= 0))) return st->status = GVI_E_STATE;
+    if (!gvi__finite(t)) return gvi__refuse_call(st, "t is not finite");
+    gvi_real ahead = t - st->t0, back = t - st->t;        // one of each sign, or 0
+    const gvi_real largest = GVI_ABS(st->t) > GVI_ABS(st->t0) ? st->t : st->t0,
+                   near = 2*GVI__EPS*GVI_ABS(largest);
+    if ((ahead > 0) == (back > 0) && gvi__nonzero(ahead) && gvi__nonzero(back)) {
+        // outside by rounding, as st.t - st.h may be
+        if (GVI_ABS(ahead) <= near) t = st->t0;
+        else if (GVI_ABS(back) <= near) t = st->t;
+        else return st->status = GVI_E_STATE;
+        ahead = t - st->t0;
+        back = t - st->t;
+    }
     if (gvi__clock_is_on(st) && x->stepped != 2) return st->status = GVI_E_STATE;
 
     // partial step of length h from the nearer end, or none for a rounding of the whole
@@ -4593,7 +4664,7 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action)
 {
     gvi_status status = gvi__stepped(st);
     if (status != GVI_OK) return status;
-    if (!action) return st->status = GVI_E_ARGUMENT;
+    if (!action) return gvi__refuse_call(st, "action is NULL");
     if (gvi__rule_is(&st->x, GVI_KICKS) || st->x.stepped == 2)
         return st->status = GVI_E_FORMULATION;
     gvi_real sum;
@@ -4637,10 +4708,10 @@ GVI__COLD gvi_status gvi__chord(gvi_stepper *st, const gvi__origin *from, gvi_re
 
 /* Newton's method for a curve of length h from that of length h/grow at hand: the same polynomial
    followed on; between ends, modes k >= 1 that grow like it.  Two corrections by one matrix first:
-   where a curve is near, the second is no more than a quarter of the first.  `bent`: the largest of
-   these ratios so far.                                                                       */
+   where a curve is near, the second is no more than a quarter of the first, and all but the `last`
+   piece need no more.  `bent`: the largest of these ratios so far.                           */
 GVI__COLD gvi_status gvi__bend(gvi_stepper *st, const gvi__origin *from, gvi_real h, gvi_real grow,
-                               const gvi__matrix *J, gvi_real *bent)
+                               const gvi__matrix *J, int last, gvi_real *bent)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, size = (st->s - J->k0)*n;
@@ -4668,8 +4739,8 @@ GVI__COLD gvi_status gvi__bend(gvi_stepper *st, const gvi__origin *from, gvi_rea
             *bent = change/before;
         before = change;
     }
-    return *bent > (gvi_real)0.25 ? gvi__report_status(st, GVI_E_CONVERGENCE)
-                                  : gvi__newton_solve(st, from, J);
+    if (*bent > (gvi_real)0.25) return gvi__report_status(st, GVI_E_CONVERGENCE);
+    return last ? gvi__newton_solve(st, from, J) : GVI_OK;
 }
 
 /* The chord, bowed: mode 1 as large as half of it in all coordinates, by sqrt M_ii.  What is linear
@@ -4702,7 +4773,7 @@ GVI__COLD int gvi__aim(gvi_stepper *st, const gvi__origin *from, gvi_real h, con
     for (int k = 1; k <= count; ++k) {
         const gvi_real at = h*(gvi_real)k, grow = k == 1 ? 1 : (gvi_real)k/(gvi_real)(k - 1);
         gvi_real miss = 0;
-        if (gvi__bend(st, from, at, grow, J, bent) != GVI_OK) break;
+        if (gvi__bend(st, from, at, grow, J, 0, bent) != GVI_OK) break;
         for (size_t i = 0; i < n; ++i) {
             const gvi_real d = (from->q[i] + at*x->newton.y[i] - q1[i])/x->watch.scale[i];
             miss += d*d;
@@ -4726,6 +4797,7 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
     const gvi__matrix motion = { J->square, J->pivot, NULL, 0, 0, 0 };
     gvi_real *y = x->newton.y, *end = x->step.q_low;
     gvi_status bowed = GVI_E_NON_FINITE;
+    int left = v ? 1000 : 2 + x->desc.max_iterations*2/3;         // pieces, in all
 
     // whoever asks for the index judges for himself: straight from the chord
     for (int halves = 0; any && !v && halves < 2; ++halves) {
@@ -4735,9 +4807,9 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
         gvi__weights_for(st, h);
         gvi__times(x->R, from->t, 0, h, x->table.c, x->t);
         *status = gvi__newton_solve(st, from, &plain);
-        if (*status == GVI_OK) return 0;
+        if (*status == GVI_OK || halves) return 0;
     }
-    for (int attempt = v ? 4 : 0; attempt < 9; ++attempt) {
+    for (int attempt = v ? 4 : 0; attempt < 9 && left > 0; ++attempt) {
         const int pieces = 1 << attempt >> (attempt > 0), linear = attempt == 0;
         const gvi_real piece = h/(gvi_real)pieces;
         gvi_real bent = 0, at = 0, unused = 0;
@@ -4758,9 +4830,11 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
                 const gvi_real way = q1[i] - from->q[i];
                 y[i] = (v && k < pieces ? part*way + (1 - part)*at*end[i] : way)/length;
             }
-            if (linear) *status = gvi__bow(st, from);
+            if (left-- == 0) *status = gvi__report_status(st, GVI_E_CONVERGENCE);
+            else if (linear) *status = gvi__bow(st, from);
             const gvi_real grow = v ? last/length : k > 1 ? length/last : 1;
-            if (*status == GVI_OK) *status = gvi__bend(st, from, length, grow, J, &bent);
+            if (*status == GVI_OK)
+                *status = gvi__bend(st, from, length, grow, J, k == pieces, &bent);
         }
         if (*status == GVI_OK && (!linear || bent < (gvi_real)0.015625)) return linear;
         if (linear) bowed = *status;
@@ -4922,9 +4996,12 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
     struct gvi__private *x = &st->x;
     const int n = st->n, s = st->s, R = x->R;
     const size_t size = (size_t)(s - 1)*(size_t)n, sn = (size_t)s*(size_t)n;
-    if (!q0 || !q1 || !out || gvi__first_non_finite(n, q0) >= 0 || gvi__first_non_finite(n, q1) >= 0
-        || !gvi__finite(t) || !gvi__finite(h) || !gvi__nonzero(h))
-        return st->status = GVI_E_ARGUMENT;
+    if (!q0 || !q1 || !out) return gvi__refuse_call(st, "q0, q1 or out is NULL");
+    if (gvi__first_non_finite(n, q0) >= 0 || gvi__first_non_finite(n, q1) >= 0 || !gvi__finite(t)
+        || (out->guess && gvi__first_non_finite(n, out->guess) >= 0))
+        return gvi__refuse_call(st, "t, q0, q1 or the guess is not finite");
+    if (!gvi__finite(h) || !gvi__nonzero(h))
+        return gvi__refuse_call(st, "h is 0, NaN or infinite");
     if ((s > 1 && !gvi__has(x, GVI__HAS_NEWTON)) || gvi__rule_is(x, GVI_KICKS) || x->clock >= 0)
         return st->status = GVI_E_FORMULATION;
     gvi__origin from = { t, 0, q0, x->zeros, x->zeros, x->zeros, 0 };
@@ -4980,7 +5057,8 @@ GVI_DEF const char *gvi_status_text(gvi_status status)
     switch (status) {
     case GVI_OK:            return "ok";
     case GVI_E_ARGUMENT:    return "bad argument: null pointer, size out of range, zero step, "
-                                   "NaN or Inf, or what its kind does not take";
+                                   "NaN or Inf, or what its kind does not take "
+                                   "(fault.argument says which)";
     case GVI_E_MEMORY:      return "memory too small: gvi_size(desc) bytes, "
                                    "or GVI_LENGTH(n, s, r) numbers";
     case GVI_E_NODES:       return "rule: a node is outside [0,1], or two coincide";
