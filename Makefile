@@ -14,7 +14,7 @@ export CC CXX
 WARNINGS = -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow -Wundef -Wfloat-equal -Wvla
 FLAGS    = -ffp-contract=off $(WARNINGS) -I. $(CPPFLAGS)
 # Tests compare to the bit on purpose.
-TESTFLAGS  = -Wno-float-equal -Wno-double-promotion -Itests -Iexamples
+TESTFLAGS  = -Wno-float-equal -Wno-double-promotion -Wno-unused-parameter -Itests -Iexamples
 COMPILE    = $(CC) -std=c99 $(FLAGS) -MMD -MP -MF $@.d -MT $@ $(CFLAGS)
 CXXCOMPILE = $(CXX) -std=c++11 $(FLAGS) -MMD -MP -MF $@.d -MT $@ $(CXXFLAGS)
 CMOCKA_CFLAGS = $$(pkg-config --cflags cmocka 2>/dev/null)
@@ -24,26 +24,26 @@ CMOCKA_LIBS   = $$(pkg-config --libs cmocka 2>/dev/null || echo -lcmocka)
 
 TESTS = $(sort $(basename $(notdir $(wildcard tests/test_*.c))))
 # These in float and in long double as well, and these compiled for size.
-TYPED = $(filter $(addprefix test_,corners effects interpolation kinks lu many mass newton oracle quadrature rows tangent adjoint tolerance twins),$(TESTS))
-SMALL = $(filter $(addprefix test_,corners many mass newton rows tolerance twins),$(TESTS))
+TYPED = $(filter $(addprefix test_,corners effects interpolation kinks lu many mass newton oracle points quadrature rows tangent adjoint tolerance twins),$(TESTS))
+SMALL = $(filter $(addprefix test_,corners many mass newton points rows tolerance twins),$(TESTS))
 VARIANTS = $(TYPED:%=%-float) $(TYPED:%=%-long) $(SMALL:%=%-small) $(SMALL:%=%-small-float)
 PROGRAMS = $(TESTS) $(VARIANTS)
 # Each links the library, compiled once for each type.
 LONG    = $(basename $(notdir $(shell grep -l 'define GVI_REAL long double' tests/test_*.c)))
 LIBRARY = $(BUILD)/gvi-$(if $(findstring -float,$*),float,$(if $(findstring -long,$*)$(filter $(LONG),$(*:-small=)),long,double))$(if $(findstring -small,$*),-small).o
 
-C_EXAMPLES   = $(sort $(filter-out advise,$(basename $(notdir $(wildcard examples/*.c)))))
+C_EXAMPLES   = $(sort $(basename $(notdir $(wildcard examples/*.c))))
 CXX_EXAMPLES = $(sort $(basename $(notdir $(wildcard examples/*.cpp))))
 EXAMPLES     = $(C_EXAMPLES) $(CXX_EXAMPLES)
 VALGRIND     = test_api test_lu test_interpolation 04_driven_damped 06_building_blocks 07_failing_step 08_robot_joint 10_checkpoint
 
 # `make test` is for a person, two minutes; `make check` is the rest, twenty.
 TEST_STEPS  = $(TESTS) $(EXAMPLES) docs-check symbols headers-quick
-CHECK_STEPS = headers $(VARIANTS) $(EXAMPLES:%=alone-%) any_processor parts bound float instructions prices \
+CHECK_STEPS = headers $(VARIANTS) $(EXAMPLES:%=alone-%) any_processor parts bound float instructions prices usable \
               $(VALGRIND:%=valgrind-%) sanitize hard-single firmware fuzz-short
 
 STEP = $(Q)sh tests/tools/step.sh $(BUILD)
-SUM  = $(Q)sh tests/tools/summary.sh $(BUILD)
+SUM  = $(STEP) --sum
 
 .DEFAULT_GOAL = help
 .DELETE_ON_ERROR:
@@ -76,17 +76,21 @@ check: $(CHECK_STEPS)
 examples: $(EXAMPLES)
 	$(SUM) examples $(EXAMPLES)
 
-## scenes       runs every scene and draws it in docs/img/scenes/; one: make scene-net
+## scenes       runs every scene and draws it in build/pictures/; one: make scene-net
 
 ## advise       builds build/examples/advise: degree, step and tolerance for a wanted error
 
 ## cost         CPU time for a given error: gvi.h and the usual alternatives; SCENE=net: what each effect of it costs
 
-## install      copies gvi.h, the whole library, to $(DESTDIR)$(PREFIX)/include
+## install      copies gvi.h, the whole library, to $(DESTDIR)$(PREFIX)/include, and gvi.pc to share/pkgconfig
+INSTALLED = '$(DESTDIR)$(PREFIX)/include/gvi.h' '$(DESTDIR)$(PREFIX)/share/pkgconfig/gvi.pc'
 install:
-	mkdir -p '$(DESTDIR)$(PREFIX)/include'
+	mkdir -p '$(DESTDIR)$(PREFIX)/include' '$(DESTDIR)$(PREFIX)/share/pkgconfig'
 	cp gvi.h '$(DESTDIR)$(PREFIX)/include/gvi.h'
-	chmod 644 '$(DESTDIR)$(PREFIX)/include/gvi.h'
+	printf '%s\n' 'prefix=$(PREFIX)' '' 'Name: gvi' 'Version: $(shell sed -n 's/^.define GVI_VERSION "\(.*\)"/\1/p' gvi.h)' \
+	    'Description: Galerkin variational integrators for mechanical systems' 'Cflags: -I$${prefix}/include' 'Libs: -lm' \
+	    >'$(DESTDIR)$(PREFIX)/share/pkgconfig/gvi.pc'
+	chmod 644 $(INSTALLED)
 
 ## clean        removes build/
 clean:
@@ -99,9 +103,9 @@ help:
 help-all: help
 	$(Q)sed -n 's/^#:  */                    /p; t; s/^#: /  make /p' Makefile tests/studies.mk tests/playground.mk
 
-#: uninstall    removes gvi.h from where install put it
+#: uninstall    removes what install put there
 uninstall:
-	rm -f '$(DESTDIR)$(PREFIX)/include/gvi.h'
+	rm -f $(INSTALLED)
 
 #: deps-check   installs what check uses if it is there: clang, g++, valgrind
 deps-check: deps
@@ -111,8 +115,11 @@ deps-check: deps
 unit: $(PROGRAMS)
 	$(SUM) unit $(PROGRAMS)
 
-#: figures      makes the pictures in docs/img/ again
-figures: $(addprefix $(BUILD)/examples/,02_outer_solar_system 19_low_thrust 20_swing_up)
+# where pictures are drawn; those of the documents only if asked
+PICTURES = $(if $(filter figures,$(MAKECMDGOALS)),docs/img,$(BUILD)/pictures)
+
+#: figures      makes the pictures in docs/img/ again, scenes included; theorems: make theorems PICTURES=docs/img
+figures: scenes $(addprefix $(BUILD)/examples/,02_outer_solar_system 19_low_thrust 20_swing_up)
 	$(Q)mkdir -p docs/img
 	$(Q)$(BUILD)/examples/02_outer_solar_system 200000 200 8 docs/img
 	$(Q)$(BUILD)/examples/19_low_thrust --svg docs/img/low_thrust.svg
@@ -120,7 +127,7 @@ figures: $(addprefix $(BUILD)/examples/,02_outer_solar_system 19_low_thrust 20_s
 
 #: synopsis     copies the program at the top of gvi.h to examples/01_kepler.c and README.md
 synopsis:
-	$(Q)sh tests/tools/synopsis.sh
+	$(Q)sh tests/tools/examples.sh synopsis
 
 # -- programs: what is compiled in "make deps test" waits for deps
 
@@ -167,10 +174,10 @@ $(PROGRAMS:%=run-%): run-%: $(BUILD)/tests/%
 	$(Q)$<
 
 $(EXAMPLES): %: $(BUILD)/examples/%
-	$(STEP) $* sh tests/tools/run_example.sh $(BUILD) $* $<
+	$(STEP) $* sh tests/tools/examples.sh run $(BUILD) $* $<
 
 $(EXAMPLES:%=alone-%): alone-%: $(BUILD)/alone/%
-	$(STEP) alone-$* sh tests/tools/run_example.sh $(BUILD) $* $<
+	$(STEP) alone-$* sh tests/tools/examples.sh run $(BUILD) $* $<
 
 $(EXAMPLES:%=example-%): example-%: $(BUILD)/examples/%
 	$(Q)$<

@@ -24,14 +24,10 @@
      #include <math.h>
      #include <stdio.h>
 
-     static int attraction(const gvi_points *x, void *user)
+     GVI_POINTS(attraction, 2, f)(const gvi_points *x, void *user)
      {
-         const double *X = x->q, *Y = X + x->stride;
-         double *fx = x->f, *fy = fx + x->stride;
-         for (int k = 0; k < x->count; ++k) {
-             double d2 = X[k]*X[k] + Y[k]*Y[k], w = -1/(d2*sqrt(d2));
-             fx[k] += w*X[k];  fy[k] += w*Y[k];
-         }
+         double X = x->q[0], Y = x->q[1], d2 = X*X + Y*Y, w = -1/(d2*sqrt(d2));
+         x->f[0] += w*X;  x->f[1] += w*Y;
          return (void)user, 0;
      }
 
@@ -244,6 +240,25 @@
    [6] Berrut, Trefethen: Barycentric Lagrange interpolation, SIAM Rev. 46, 2004
    [7] Higham: Accuracy and stability of numerical algorithms, 2nd ed., 2002  */
 
+/* Macros that programs and <windows.h> often have are set aside while this file is read. */
+#ifdef __GNUC__
+_Pragma("push_macro(\"E\")") _Pragma("push_macro(\"K\")") _Pragma("push_macro(\"M\")")
+_Pragma("push_macro(\"N\")") _Pragma("push_macro(\"R\")") _Pragma("push_macro(\"T\")")
+_Pragma("push_macro(\"far\")") _Pragma("push_macro(\"g\")") _Pragma("push_macro(\"h\")")
+_Pragma("push_macro(\"m\")") _Pragma("push_macro(\"small\")")
+#undef E
+#undef K
+#undef M
+#undef N
+#undef R
+#undef T
+#undef far
+#undef g
+#undef h
+#undef m
+#undef small
+#endif
+
 #ifndef GVI_H
 #define GVI_H
 
@@ -274,6 +289,23 @@
 #define GVI_DEF static inline
 #else
 #define GVI_DEF extern
+#endif
+
+// a body whose sizes are constants where it is called, copied there; arrays that do not overlap
+#if defined(__GNUC__)
+#define GVI__BODY static inline __attribute__((always_inline))
+#define GVI__RESTRICT __restrict
+#else
+#define GVI__BODY static inline
+#define GVI__RESTRICT
+#endif
+// gcc at -O2 makes vectors only of loops of known length
+#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 8 && !defined(__OPTIMIZE_SIZE__)
+#define GVI__CHUNK 8
+#define GVI__PRAGMA(text) _Pragma(#text)
+#else
+#define GVI__CHUNK 0
+#define GVI__PRAGMA(text)
 #endif
 
 #ifdef __cplusplus
@@ -339,6 +371,76 @@ typedef struct gvi_points {
    Newton's method if the scene has what that needs; if all fail, it ends with
    GVI_E_CALLBACK.                                                            */
 typedef int gvi_points_fn(const gvi_points *x, void *user);
+
+/* The same from what happens at one point.  GVI_POINTS(name, n, ...) stands for `static int name`;
+   n is a constant; the list names the arrays in use, but t and q: v, p, f, dldv, and one of value,
+   mass, velocity.  With f and value, `name` serves as points and as value.
+
+     GVI_POINTS(drag, 2, v, f)(const gvi_points *x, void *user)
+     {
+         x->f[0] -= x->v[0];
+         x->f[1] -= x->v[1];
+         return (void)user, 0;
+     }
+
+   Here count and stride are 1: coordinate i is [i].  The body is copied into a loop over points, of
+   which gcc and clang make vectors (-O2 -fno-math-errno) if it is arithmetic and square roots
+   without branches and loops.  The bits are those of a loop by hand, and so is the time.      */
+#define GVI_POINTS(name, n, ...) GVI__POINTS(name, n, GVI__USES(__VA_ARGS__, , , , ))
+#define GVI__USES(a, b, c, d, ...)                                                              \
+    (GVI__USES_##a | GVI__USES_##b | GVI__USES_##c | GVI__USES_##d)
+enum { GVI__USES_, GVI__USES_v, GVI__USES_p, GVI__USES_f = 4, GVI__USES_dldv = 8,
+       GVI__USES_value = 16, GVI__USES_mass = 32, GVI__USES_velocity = 64 };
+#define GVI__POINTS(name, n, uses)                                                              \
+    GVI__BODY int gvi__at_##name(const gvi_points *x, void *user);                              \
+    static int name(const gvi_points *x, void *user)                                            \
+    {                                                                                           \
+        gvi_real a[(n)*(5 + ((uses) & GVI__USES_mass ? (n) : 1))];                              \
+        const int all = uses, both = all & GVI__USES_f && all & GVI__USES_value,                \
+                  value = all & ~(GVI__USES_f | GVI__USES_dldv), rest = all & ~GVI__USES_value; \
+        return both && !x->f     ? gvi__in_chunks(gvi__at_##name, x, user, n, all, value, a)    \
+             : both && !x->value ? gvi__in_chunks(gvi__at_##name, x, user, n, all, rest, a)     \
+                                 : gvi__in_chunks(gvi__at_##name, x, user, n, all, all, a);     \
+    }                                                                                           \
+    GVI__BODY int gvi__at_##name
+
+// points k..to-1: a column of what is wanted to a, the body, and back
+GVI__BODY int gvi__each_point(gvi_points_fn *at, const gvi_points *x, void *user, int n, int uses,
+                              int wanted, gvi_real *a, int k, int to, gvi_real *GVI__RESTRICT f)
+{
+    const int s = x->stride, value = uses & GVI__USES_value, mass = uses & GVI__USES_mass;
+    const int m = value ? 1 : mass ? n*n : n, any = ~0, last = ~15;
+    gvi_real *other = value ? x->value : mass ? x->mass : x->velocity;
+    int failed = 0;
+#define GVI__COLUMN(name, o) uses & GVI__USES_##name ? a + (o)*n : NULL
+#define GVI__MOVE(mask, m, to, from)                                                            \
+    if (wanted & (mask)) GVI__PRAGMA(GCC unroll 64) for (int i = 0; i < (m); ++i) to = from
+    GVI__PRAGMA(GCC ivdep) for (; k < to; ++k) {
+        gvi_points y = { n, 1, 1, x->t + k, a, GVI__COLUMN(v, 1), GVI__COLUMN(p, 2),
+                         GVI__COLUMN(f, 3), GVI__COLUMN(dldv, 4), GVI__COLUMN(value, 5),
+                         GVI__COLUMN(mass, 5), GVI__COLUMN(velocity, 5) };
+        GVI__MOVE(any, n, a[i], x->q[i*s + k]);
+        GVI__MOVE(GVI__USES_v, n, a[n + i], x->v[i*s + k]);
+        GVI__MOVE(GVI__USES_p, n, a[2*n + i], x->p[i*s + k]);
+        GVI__MOVE(GVI__USES_f, n, a[3*n + i], f[i*s + k]);
+        GVI__MOVE(GVI__USES_dldv, n, a[4*n + i], x->dldv[i*s + k]);
+        GVI__MOVE(last, m, if (!mass || i%n <= i/n) a[5*n + i], other[i*s + k]);  // of M, i >= j
+        failed |= (at(&y, user) != 0) & (k < x->count);
+        GVI__MOVE(GVI__USES_f, n, f[i*s + k], a[3*n + i]);
+        GVI__MOVE(GVI__USES_dldv, n, x->dldv[i*s + k], a[4*n + i]);
+        GVI__MOVE(last, m, if (!mass || i%n <= i/n) other[i*s + k], a[5*n + i]);
+    }
+    return failed;
+}
+
+GVI__BODY int gvi__in_chunks(gvi_points_fn *at, const gvi_points *x, void *user, int n, int uses,
+                             int wanted, gvi_real *a)
+{
+    int failed = 0, k = 0;
+    for (; GVI__CHUNK && k + GVI__CHUNK <= x->stride; k += GVI__CHUNK)
+        failed |= gvi__each_point(at, x, user, n, uses, wanted, a, k, k + GVI__CHUNK, x->f);
+    return failed | gvi__each_point(at, x, user, n, uses, wanted, a, k, x->count, x->f);
+}
 
 /* One point: q, v, f, dldv of length n; v is NULL for a potential, dldv for
    anything but a Lagrangian term.  Adds to f and dldv.  Returns as above.    */
@@ -790,17 +892,12 @@ enum {
 typedef char gvi__effects_fit_a_word[GVI_EFFECTS >= 1 && GVI_EFFECTS <= 32
                                      && GVI_EFFECTS <= 8*sizeof(unsigned) ? 1 : -1];
 
-/* GVI__BODY: a body whose sizes are constants where it is called, copied there.
-   GVI__APART: where size counts, never a part of its caller, whose stack stays small.
-   GVI__COLD: set-up and queries, compiled for size.  GVI__RESTRICT: arrays do not overlap.   */
+/* GVI__APART: where size counts, never a part of its caller, whose stack stays small.
+   GVI__COLD: set-up and queries, compiled for size.                                          */
 #if defined(__GNUC__)
-#define GVI__BODY static inline __attribute__((always_inline))
 #define GVI__COLD static __attribute__((noinline, cold))
-#define GVI__RESTRICT __restrict
 #else
-#define GVI__BODY static inline
 #define GVI__COLD static
-#define GVI__RESTRICT
 #endif
 #if defined(__GNUC__) && defined(__OPTIMIZE_SIZE__)
 #define GVI__APART static __attribute__((noinline))
@@ -836,10 +933,10 @@ typedef volatile gvi_real gvi__rounded;
 #if GVI__LANES > 1
 typedef gvi_real gvi__lane
     __attribute__((vector_size(GVI__LANES*sizeof(gvi_real)), aligned(sizeof(gvi_real)), may_alias));
-#define GVI__AT(lane, k) (lane)[k]
+#define GVI__ENTRY(lane, k) (lane)[k]
 #else
 typedef gvi_real gvi__lane;
-#define GVI__AT(lane, k) (lane)
+#define GVI__ENTRY(lane, k) (lane)
 #endif
 #define GVI__LOAD(p) (*(const gvi__lane *)(p))
 #define GVI__STORE(p) (*(gvi__lane *)(p))
@@ -1244,7 +1341,7 @@ GVI__BODY int gvi__ldl_factor_lane(int n, int R, gvi_real *m)
             GVI__STORE(a) = rest*inverse;
         }
     }
-    for (int k = 0; k < GVI__LANES; ++k) all += GVI__AT(sum, k);
+    for (int k = 0; k < GVI__LANES; ++k) all += GVI__ENTRY(sum, k);
     return all < most*most;
 }
 
@@ -2386,7 +2483,7 @@ static int gvi__finite_end(const gvi_stepper *st, const gvi__origin *from)
     for (; GVI__LANES > 1 && st->n >= 8 && i + GVI__LANES <= st->n; i += GVI__LANES)
         nones += 0*(GVI__LOAD(from->q + i) + GVI__LOAD(d->q + i))
                  + 0*(GVI__LOAD(from->p + i) + GVI__LOAD(d->p + i));
-    for (int k = 0; i > 0 && k < GVI__LANES; ++k) none += GVI__AT(nones, k);
+    for (int k = 0; i > 0 && k < GVI__LANES; ++k) none += GVI__ENTRY(nones, k);
     for (; i < st->n; ++i) {
         // as it will be kept
         const gvi__rounded q = from->q[i] + d->q[i], p = from->p[i] + d->p[i];
@@ -2666,7 +2763,7 @@ GVI__BODY gvi_real gvi__stage_by_lanes(const gvi_stepper *st, const gvi__stage *
             if (free) GVI__UNROLL for (int v = 0; v < lanes; ++v)
                 z[v] = base + (GVI__LOAD(free + v*GVI__LANES) + z[v]*y->factor);
             if (rescale && last - o < block)
-                scale = gvi__scale_of(base, was, GVI__AT(z[(last - o)/GVI__LANES],
+                scale = gvi__scale_of(base, was, GVI__ENTRY(z[(last - o)/GVI__LANES],
                                                          (last - o) % GVI__LANES));
             GVI__UNROLL for (int v = 0; v < lanes; ++v) {
                 gvi_real *at = row + o + v*GVI__LANES;
@@ -5099,6 +5196,13 @@ GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st)
 }
 
 #endif /* GVI_IMPLEMENTATION */
+
+#ifdef __GNUC__
+_Pragma("pop_macro(\"E\")") _Pragma("pop_macro(\"K\")") _Pragma("pop_macro(\"M\")")
+_Pragma("pop_macro(\"N\")") _Pragma("pop_macro(\"R\")") _Pragma("pop_macro(\"T\")")
+_Pragma("pop_macro(\"far\")") _Pragma("pop_macro(\"g\")") _Pragma("pop_macro(\"h\")")
+_Pragma("pop_macro(\"m\")") _Pragma("pop_macro(\"small\")")
+#endif
 
 /* --------------------------------------------------------------- LICENCE
 

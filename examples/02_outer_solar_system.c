@@ -15,7 +15,7 @@
 #define _POSIX_C_SOURCE 200809L  /* isatty */
 #define GVI_IMPLEMENTATION
 #include "gvi.h"
-#include "svg.h"
+#include "tools/svg.h"
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -25,22 +25,31 @@ typedef struct bodies {
 } bodies;
 typedef struct trace { double x[BODIES][POINTS], y[BODIES][POINTS], t[64], error[64], worst; int orbit, count; } trace;
 
+/* Two bodies, all points.  `restrict`: rows do not overlap, so the loop is made of vectors. */
+static void pull(int count, int d, const double *restrict a, const double *restrict c, double *restrict f,
+                 double *restrict g, double mm)
+{
+    for (int k = 0; k < count; ++k) {
+        double u = c[k] - a[k], v = c[d+k] - a[d+k], w = c[2*d+k] - a[2*d+k], r2 = u*u + v*v + w*w, s = mm/(r2*sqrt(r2));
+        f[k] += s*u;  f[d+k] += s*v;  f[2*d+k] += s*w;
+        g[k] -= s*u;  g[d+k] -= s*v;  g[2*d+k] -= s*w;
+    }
+}
+
 /* Both in one: the potential if x->value is wanted, else the force.           */
 static int gravity(const gvi_points *x, void *user)
 {
     const bodies *b = user;
     const int d = x->stride;
     for (int i = 1; i < b->n; ++i)
-        for (int j = 0; j < i; ++j)
-            for (int k = 0; k < x->count; ++k) {
-                const double *a = x->q + 3*i*d + k, *c = x->q + 3*j*d + k, mm = b->gm[i]*b->gm[j];
-                double u = c[0] - a[0], v = c[d] - a[d], w = c[2*d] - a[2*d];
-                double r2 = u*u + v*v + w*w, r = sqrt(r2), s = mm/(r2*r);
-                if (x->value) { x->value[k] -= mm/r; continue; }
-                double *f = x->f + 3*i*d + k, *g = x->f + 3*j*d + k;
-                f[0] += s*u;  f[d] += s*v;  f[2*d] += s*w;
-                g[0] -= s*u;  g[d] -= s*v;  g[2*d] -= s*w;
+        for (int j = 0; j < i; ++j) {
+            const double *a = x->q + 3*i*d, *c = x->q + 3*j*d, mm = b->gm[i]*b->gm[j];
+            if (!x->value) pull(x->count, d, a, c, x->f + 3*i*d, x->f + 3*j*d, mm);
+            for (int k = 0; k < x->count && x->value; ++k) {
+                double u = c[k] - a[k], v = c[d+k] - a[d+k], w = c[2*d+k] - a[2*d+k];
+                x->value[k] -= mm/sqrt(u*u + v*v + w*w);
             }
+        }
     return 0;
 }
 
@@ -65,7 +74,7 @@ static gvi_status integrate(bodies *b, int degree, double days, double h, trace 
     const gvi_effect effect = { .kind = GVI_POTENTIAL, .points = gravity, .value = gravity, .user = b };
     const gvi_desc desc = { .n = 3*b->n, .degree = degree, .effects = &effect, .effect_count = 1,
                             .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = b->mass } };
-    const long steps = lround(days/h), block = steps/40 + 1, show = steps > 100000 && isatty(2) ? steps/100 : 0;
+    const long steps = lround(days/h), block = (steps + 39)/40, show = steps > 100000 && isatty(2) ? steps/100 : 0;
     double *memory = malloc(gvi_size(&desc)), e0 = 0, e = 0, high = 0;
     gvi_stepper st;
     if (!gvi_init(&st, &desc, memory, gvi_size(&desc)) && !gvi_start(&st, 0, b->q, b->v)) gvi_energy(&st, &e0);
@@ -78,7 +87,7 @@ static gvi_status integrate(bodies *b, int degree, double days, double h, trace 
         if (show && k % show == 0) fprintf(stderr, "\rdegree %d: %3ld %%%s", degree, k/show, k == steps ? "\n" : "");
         out->worst = fmax(out->worst, high);
         if (k % block) continue;
-        out->t[out->count] = (st.t - (double)block*h)/365.25;
+        out->t[out->count] = out->count ? st.t/365.25 : 0;
         out->error[out->count++] = high, high = 0;
     }
     if (st.status) fprintf(stderr, "t = %g: %s\n", st.t, gvi_status_text(st.status));
@@ -100,8 +109,10 @@ int main(int argc, char **argv)
     const int top = argc > 3 ? atoi(argv[3]) : 8, degree[RUNS] = { (top + 3)/4, (top + 1)/2, top };
     char path[2][256], name[RUNS][16];
     double q[3*BODIES], miss = 0;
+    const char *colours[BODIES] = { NULL };
     svg_line orbit[BODIES], level[RUNS];
-    svg_plot orbits = { .title = "Outer solar system", .x_label = "AU", .y_label = "AU", .equal = 1, .lines = orbit };
+    svg_plot orbits = { .title = "Outer solar system", .x_label = "AU", .y_label = "AU", .equal = 1,
+                        .lines = orbit, .colours = colours };
     const svg_plot energy = { .title = "Error of the energy", .x_label = "years", .y_label = "|E - E(0)| / |E(0)|",
                               .log_y = 1, .lines = level, .line_count = RUNS };
     if (read_bodies("examples/outer_solar_system.txt", &b)) return perror("examples/outer_solar_system.txt"), 1;
@@ -118,6 +129,8 @@ int main(int argc, char **argv)
     }
     for (int i = 1; i < b.n; ++i)
         orbit[orbits.line_count++] = (svg_line){ b.name[i], out[RUNS-1].x[i], out[RUNS-1].y[i], out[RUNS-1].orbit };
+    colours[orbits.line_count] = "#e69f00";
+    orbit[orbits.line_count++] = (svg_line){ b.name[0], out[RUNS-1].x[0], out[RUNS-1].y[0], 1 };
     snprintf(path[0], sizeof path[0], "%s/orbits.svg", argc > 4 ? argv[4] : "build");
     snprintf(path[1], sizeof path[1], "%s/energy.svg", argc > 4 ? argv[4] : "build");
     if (svg_write(path[0], &orbits) || svg_write(path[1], &energy)) return perror(path[0]), 1;

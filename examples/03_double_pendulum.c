@@ -21,54 +21,38 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Element (i,j) of M at point k is mass[(i*n + j)*stride + k], i >= j.        */
-static int mass(const gvi_points *x, void *user)
+/* Element (i,j) of M is mass[i*n + j], i >= j.                                */
+GVI_POINTS(mass, 2, mass)(const gvi_points *x, void *user)
 {
-    const double *a = x->q, *b = a + x->stride;
-    double *m00 = x->mass, *m10 = m00 + 2*x->stride, *m11 = m00 + 3*x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        m00[k] = 2;
-        m10[k] = cos(a[k] - b[k]);
-        m11[k] = 1;
-    }
+    x->mass[0] = 2;
+    x->mass[2] = cos(x->q[0] - x->q[1]);
+    x->mass[3] = 1;
     return (void)user, 0;
 }
 
-static int mass_gradient(const gvi_points *x, void *user)
+GVI_POINTS(mass_gradient, 2, v, f)(const gvi_points *x, void *user)
 {
-    const double *a = x->q, *b = a + x->stride, *va = x->v, *vb = va + x->stride;
-    double *fa = x->f, *fb = fa + x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        double f = sin(a[k] - b[k])*va[k]*vb[k];
-        fa[k] -= f;
-        fb[k] += f;
-    }
+    double f = sin(x->q[0] - x->q[1])*x->v[0]*x->v[1];
+    x->f[0] -= f;
+    x->f[1] += f;
     return (void)user, 0;
 }
 
 static const double g = 9.81;
 
-static int weight(const gvi_points *x, void *user)
+/* Force and potential: what is not wanted is not computed.                    */
+GVI_POINTS(weight, 2, f, value)(const gvi_points *x, void *user)
 {
-    const double *a = x->q, *b = a + x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        x->f[k] -= 2*g*sin(a[k]);
-        x->f[x->stride + k] -= g*sin(b[k]);
-    }
-    return (void)user, 0;
-}
-
-static int height(const gvi_points *x, void *user)
-{
-    const double *a = x->q, *b = a + x->stride;
-    for (int k = 0; k < x->count; ++k) x->value[k] -= 2*g*cos(a[k]) + g*cos(b[k]);
+    x->f[0] -= 2*g*sin(x->q[0]);
+    x->f[1] -= g*sin(x->q[1]);
+    x->value[0] -= 2*g*cos(x->q[0]) + g*cos(x->q[1]);
     return (void)user, 0;
 }
 
 int main(void)
 {
     const double a = 0.63125763155384497, b = 0.43653838426081101;  // at t = 100
-    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = weight, .value = height } };
+    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = weight, .value = weight } };
     const gvi_desc desc = { .n = 2, .degree = 8, .effects = scene, .effect_count = 1,
                             .mass = { .kind = GVI_MASS_POSITION, .points = mass, .gradient = mass_gradient } };
     static double memory[GVI_LENGTH(2, 8, 8)];

@@ -22,27 +22,22 @@
 
 static const double damping = 0.1, strength = 0.5, w = 0.8;
 
-static int spring(double t, const double *q, const double *v, double *f, double *dldv, void *user)
+GVI_POINTS(spring, 1, f, value)(const gvi_points *x, void *user)
 {
-    f[0] -= q[0];
-    return (void)t, (void)v, (void)dldv, (void)user, 0;
+    x->f[0] -= x->q[0];
+    x->value[0] += x->q[0]*x->q[0]/2;
+    return (void)user, 0;
 }
 
-static int friction(double t, const double *q, const double *v, double *f, double *dldv, void *user)
+GVI_POINTS(friction, 1, v, f)(const gvi_points *x, void *user)
 {
-    f[0] -= 2*damping*v[0];
-    return (void)t, (void)q, (void)dldv, (void)user, 0;
+    x->f[0] -= 2*damping*x->v[0];
+    return (void)user, 0;
 }
 
-static int drive(double t, const double *q, const double *v, double *f, double *dldv, void *user)
+GVI_POINTS(drive, 1, f)(const gvi_points *x, void *user)
 {
-    f[0] += strength*cos(w*t);
-    return (void)q, (void)v, (void)dldv, (void)user, 0;
-}
-
-static int spring_energy(const gvi_points *x, void *user)
-{
-    for (int k = 0; k < x->count; ++k) x->value[k] += x->q[k]*x->q[k]/2;
+    x->f[0] += strength*cos(w*x->t[0]);
     return (void)user, 0;
 }
 
@@ -62,8 +57,9 @@ static double work(gvi_stepper *st)
     for (int i = 0; i < 8; ++i) {
         double f = 0, t = st->t - (1 - c[i])*st->h;
         gvi_curve(st, c[i], &q, &v);
-        friction(t, &q, &v, &f, NULL, NULL);
-        drive(t, &q, &v, &f, NULL, NULL);
+        const gvi_points x = { .n = 1, .count = 1, .stride = 1, .t = &t, .q = &q, .v = &v, .f = &f };
+        friction(&x, NULL);
+        drive(&x, NULL);
         sum += b[i]*st->h*f*v;
     }
     return sum;
@@ -71,9 +67,9 @@ static double work(gvi_stepper *st)
 
 int main(void)
 {
-    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .point = spring, .value = spring_energy },
-                                 { .kind = GVI_FORCE, .point = friction },
-                                 { .kind = GVI_FORCE, .point = drive } };
+    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = spring, .value = spring },
+                                 { .kind = GVI_FORCE, .points = friction },
+                                 { .kind = GVI_FORCE, .points = drive } };
     const gvi_desc desc = { .n = 1, .degree = 8, .effects = scene, .effect_count = 3 };
     static double memory[GVI_LENGTH(1, 8, 8)];
     double e0 = 0, e = 0, done = 0;

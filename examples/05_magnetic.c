@@ -22,41 +22,32 @@
 #include <math.h>
 #include <stdio.h>
 
-static int magnetic_term(const gvi_points *x, void *user)
+GVI_POINTS(magnetic_term, 2, v, f, dldv, value)(const gvi_points *x, void *user)
 {
-    const int d = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        double X = x->q[k], Y = x->q[d+k], u = x->v[k], v = x->v[d+k], r = sqrt(X*X + Y*Y);
-        double l = X*v - Y*u;  // L = r l/3
-        if (x->value) { x->value[k] += r*l/3; continue; }
-        x->f[k]   += (X/r*l + r*v)/3;
-        x->f[d+k] += (Y/r*l - r*u)/3;
-        x->dldv[k]   -= r*Y/3;
-        x->dldv[d+k] += r*X/3;
-    }
+    double X = x->q[0], Y = x->q[1], u = x->v[0], v = x->v[1], r = sqrt(X*X + Y*Y);
+    double l = X*v - Y*u;  // L = r l/3
+    x->value[0] += r*l/3;
+    x->f[0] += (X/r*l + r*v)/3;
+    x->f[1] += (Y/r*l - r*u)/3;
+    x->dldv[0] -= r*Y/3;
+    x->dldv[1] += r*X/3;
     return (void)user, 0;
 }
 
-static int magnetic_force(const gvi_points *x, void *user)
+GVI_POINTS(magnetic_force, 2, v, f)(const gvi_points *x, void *user)
 {
-    const int d = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        double r = sqrt(x->q[k]*x->q[k] + x->q[d+k]*x->q[d+k]);
-        x->f[k]   += r*x->v[d+k];
-        x->f[d+k] -= r*x->v[k];
-    }
+    double r = sqrt(x->q[0]*x->q[0] + x->q[1]*x->q[1]);
+    x->f[0] += r*x->v[1];
+    x->f[1] -= r*x->v[0];
     return (void)user, 0;
 }
 
-static int electric(const gvi_points *x, void *user)
+GVI_POINTS(electric, 2, f, value)(const gvi_points *x, void *user)
 {
-    const int d = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        double X = x->q[k], Y = x->q[d+k], r2 = X*X + Y*Y, r = sqrt(r2);
-        if (x->value) { x->value[k] += 0.01/r; continue; }
-        x->f[k]   += 0.01*X/(r2*r);
-        x->f[d+k] += 0.01*Y/(r2*r);
-    }
+    double X = x->q[0], Y = x->q[1], r2 = X*X + Y*Y, r = sqrt(r2);
+    x->value[0] += 0.01/r;
+    x->f[0] += 0.01*X/(r2*r);
+    x->f[1] += 0.01*Y/(r2*r);
     return (void)user, 0;
 }
 

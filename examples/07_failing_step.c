@@ -21,15 +21,12 @@
 #include <string.h>
 
 /* user: the step h.  It resolves the wall where h^2 |f'(x)| < 1.              */
-static int wall(const gvi_points *x, void *user)
+GVI_POINTS(wall, 1, f, value)(const gvi_points *x, void *user)
 {
-    const double *h = user;
-    for (int k = 0; k < x->count; ++k) {
-        double q = x->q[k];
-        if (!(q > 0) || *h * *h*2 > q*q*q) return 1;
-        if (x->value) x->value[k] += 1/q;
-        else x->f[k] += 1/(q*q);
-    }
+    const double *h = user, q = x->q[0];
+    if (!(q > 0) || *h * *h*2 > q*q*q) return 1;
+    x->value[0] += 1/q;
+    x->f[0] += 1/(q*q);
     return 0;
 }
 

@@ -22,49 +22,41 @@ static const float m1 = 1.2f, m2 = 0.8f, l1 = 0.4f, l2 = 0.3f, g = 9.81f;
 
 typedef struct motor { float torque[2]; } motor;
 
-static int arm_mass(const gvi_points *x, void *user)
+GVI_POINTS(arm_mass, 2, mass)(const gvi_points *x, void *user)
 {
-    const float *b = x->q + x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        float far = m2*l2*l2, mid = m2*l1*l2*cosf(b[k]);
-        x->mass[k] = (m1 + m2)*l1*l1 + far + 2*mid;
-        x->mass[2*x->stride + k] = far + mid;
-        x->mass[3*x->stride + k] = far;
-    }
+    float far = m2*l2*l2, mid = m2*l1*l2*cosf(x->q[1]);
+    x->mass[0] = (m1 + m2)*l1*l1 + far + 2*mid;
+    x->mass[2] = far + mid;
+    x->mass[3] = far;
     return (void)user, 0;
 }
 
-static int arm_gradient(const gvi_points *x, void *user)
+GVI_POINTS(arm_gradient, 2, v, f)(const gvi_points *x, void *user)
 {
-    const float *b = x->q + x->stride, *u = x->v, *v = u + x->stride;
-    for (int k = 0; k < x->count; ++k)
-        x->f[x->stride + k] -= m2*l1*l2*sinf(b[k])*u[k]*(u[k] + v[k]);
+    x->f[1] -= m2*l1*l2*sinf(x->q[1])*x->v[0]*(x->v[0] + x->v[1]);
     return (void)user, 0;
 }
 
-static int arm_weight(const gvi_points *x, void *user)
+GVI_POINTS(arm_weight, 2, f)(const gvi_points *x, void *user)
 {
-    const float *a = x->q, *b = a + x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        float far = m2*g*l2*sinf(a[k] + b[k]);
-        x->f[k] -= (m1 + m2)*g*l1*sinf(a[k]) + far;
-        x->f[x->stride + k] -= far;
-    }
+    float far = m2*g*l2*sinf(x->q[0] + x->q[1]);
+    x->f[0] -= (m1 + m2)*g*l1*sinf(x->q[0]) + far;
+    x->f[1] -= far;
     return (void)user, 0;
 }
 
-static int motors(const gvi_points *x, void *user)
+GVI_POINTS(motors, 2, f)(const gvi_points *x, void *user)
 {
     const motor *m = user;
-    for (int i = 0; i < 2; ++i)
-        for (int k = 0; k < x->count; ++k) x->f[i*x->stride + k] += m->torque[i];
+    x->f[0] += m->torque[0];
+    x->f[1] += m->torque[1];
     return 0;
 }
 
-static int friction(const gvi_points *x, void *user)
+GVI_POINTS(friction, 2, v, f)(const gvi_points *x, void *user)
 {
-    for (int i = 0; i < 2; ++i)
-        for (int k = 0; k < x->count; ++k) x->f[i*x->stride + k] -= 0.2f*x->v[i*x->stride + k];
+    x->f[0] -= 0.2f*x->v[0];
+    x->f[1] -= 0.2f*x->v[1];
     return (void)user, 0;
 }
 

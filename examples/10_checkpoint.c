@@ -19,13 +19,11 @@
 enum { LENGTH = GVI_LENGTH(2, 6, 6) };
 
 /* Henon and Heiles: V = (x^2 + y^2)/2 + x^2 y - y^3/3                         */
-static int henon_heiles(const gvi_points *x, void *user)
+GVI_POINTS(henon_heiles, 2, f)(const gvi_points *x, void *user)
 {
-    const double *X = x->q, *Y = X + x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        x->f[k] -= X[k] + 2*X[k]*Y[k];
-        x->f[x->stride + k] -= Y[k] + X[k]*X[k] - Y[k]*Y[k];
-    }
+    const double X = x->q[0], Y = x->q[1];
+    x->f[0] -= X + 2*X*Y;
+    x->f[1] -= Y + X*X - Y*Y;
     return (void)user, 0;
 }
 

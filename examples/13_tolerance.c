@@ -15,17 +15,13 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Both in one: the potential if x->value is wanted, the force if x->f is.     */
-static int attraction(const gvi_points *x, void *user)
+/* Force and potential: what is not wanted is not computed.                    */
+GVI_POINTS(attraction, 2, f, value)(const gvi_points *x, void *user)
 {
-    const double *X = x->q, *Y = X + x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        double d2 = X[k]*X[k] + Y[k]*Y[k], d = sqrt(d2);
-        if (x->value) x->value[k] -= 1/d;
-        if (!x->f) continue;
-        x->f[k] -= X[k]/(d2*d);
-        x->f[x->stride + k] -= Y[k]/(d2*d);
-    }
+    double X = x->q[0], Y = x->q[1], d2 = X*X + Y*Y, d = sqrt(d2);
+    x->value[0] -= 1/d;
+    x->f[0] -= X/(d2*d);
+    x->f[1] -= Y/(d2*d);
     return (void)user, 0;
 }
 

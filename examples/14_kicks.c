@@ -21,14 +21,11 @@
 #include <math.h>
 #include <stdio.h>
 
-static int attraction(const gvi_points *x, void *user)
+GVI_POINTS(attraction, 2, f)(const gvi_points *x, void *user)
 {
-    const double *X = x->q, *Y = X + x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        double d2 = X[k]*X[k] + Y[k]*Y[k], w = -1/(d2*sqrt(d2));
-        x->f[k] += w*X[k];
-        x->f[x->stride + k] += w*Y[k];
-    }
+    double X = x->q[0], Y = x->q[1], d2 = X*X + Y*Y, w = -1/(d2*sqrt(d2));
+    x->f[0] += w*X;
+    x->f[1] += w*Y;
     return (void)user, 0;
 }
 

@@ -18,7 +18,7 @@
 */
 #define GVI_IMPLEMENTATION
 #include "gvi.h"
-#include "check.h"
+#include "tools/check.h"
 
 #define B 0.5
 

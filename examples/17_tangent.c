@@ -25,14 +25,11 @@
 #include <math.h>
 #include <stdio.h>
 
-static int potential(const gvi_points *x, void *user)
+GVI_POINTS(potential, 2, f)(const gvi_points *x, void *user)
 {
-    const int s = x->stride;
-    const double *X = x->q, *Y = X + s;
-    for (int k = 0; k < x->count; ++k) {
-        x->f[k]     -= X[k] + 2*X[k]*Y[k];
-        x->f[s + k] -= Y[k] + X[k]*X[k] - Y[k]*Y[k];
-    }
+    const double X = x->q[0], Y = x->q[1];
+    x->f[0] -= X + 2*X*Y;
+    x->f[1] -= Y + X*X - Y*Y;
     return (void)user, 0;
 }
 

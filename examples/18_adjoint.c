@@ -26,13 +26,10 @@ enum { STEPS = 10, DEGREE = 8, EVERY = 5 };
 static const double h = 0.2, q0[] = { 1, 0.2 }, p0[] = { -0.1, 1.1 };
 static double drag, room[ADJOINT_ROOM(2, DEGREE)], kept[ADJOINT_KEPT(2, STEPS, EVERY)];
 
-static int attraction(const gvi_points *x, void *user)
+GVI_POINTS(attraction, 2, f)(const gvi_points *x, void *user)
 {
-    const double *X = x->q, *Y = X + x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        const double d2 = X[k]*X[k] + Y[k]*Y[k], w = -1/(d2*sqrt(d2));
-        x->f[k] += w*X[k], x->f[x->stride + k] += w*Y[k];
-    }
+    const double X = x->q[0], Y = x->q[1], d2 = X*X + Y*Y, w = -1/(d2*sqrt(d2));
+    x->f[0] += w*X, x->f[1] += w*Y;
     return (void)user, 0;
 }
 
@@ -49,13 +46,10 @@ static int attraction_product(const gvi_points *x, const gvi_points *l, int para
 }
 
 /* The air: f = -c |v| v.                                                        */
-static int air(const gvi_points *x, void *user)
+GVI_POINTS(air, 2, v, f)(const gvi_points *x, void *user)
 {
-    const double *u = x->v, *v = u + x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        const double z = drag*sqrt(u[k]*u[k] + v[k]*v[k]);
-        x->f[k] -= z*u[k], x->f[x->stride + k] -= z*v[k];
-    }
+    const double u = x->v[0], v = x->v[1], z = drag*sqrt(u*u + v*v);
+    x->f[0] -= z*u, x->f[1] -= z*v;
     return (void)user, 0;
 }
 

@@ -22,7 +22,7 @@
 */
 #define GVI_IMPLEMENTATION
 #include "gvi.h"
-#include "svg.h"
+#include "tools/svg.h"
 #include "tools/shooting.h"
 #include <string.h>
 
@@ -114,7 +114,7 @@ static int draw(const char *path, double way[][4], int steps, int degree)
     const svg_line line[] = { { "push x 30", x[3], y[3], 3*steps }, { "flight", x[2], y[2], steps*degree },
                               { "wanted", x[1], y[1], 181 }, { "start", x[0], y[0], 181 } };
     const svg_plot plot = { .title = "From radius 1 to 1.2 with the least thrust",
-                            .x_label = "x", .y_label = "y", .equal = 1, .lines = line, .line_count = 4 };
+                            .x_label = "x, radii of the first orbit", .y_label = "y", .equal = 1, .lines = line, .line_count = 4 };
     for (int k = 0; k <= 180; ++k) {
         x[0][k] = cos(k*flight_time/270), x[1][k] = 1.2*x[0][k];
         y[0][k] = sin(k*flight_time/270), y[1][k] = 1.2*y[0][k];

@@ -19,7 +19,7 @@
 */
 #define GVI_IMPLEMENTATION
 #include "gvi.h"
-#include "svg.h"
+#include "tools/svg.h"
 #include "tools/complex_step.h"
 #include "tools/shooting.h"
 #include <string.h>

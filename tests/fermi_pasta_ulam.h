@@ -8,7 +8,6 @@
 static int fermi_pasta_ulam_forces(const gvi_points *x, void *user)
 {
     const int d = x->stride, M = x->n/2;
-    (void)user;
     for (int k = 0; k < x->count; ++k)
         for (int j = 0; j <= M; ++j) {
             const double *slow = x->q + k, *fast = slow + M*d;

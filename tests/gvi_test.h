@@ -35,6 +35,17 @@
 #define DIG LDBL_MANT_DIG
 #endif
 
+/* TEST(name) { ... } is a test; RUN_TESTS(setup, teardown), a file's last line, runs them in their order. */
+static __attribute__((unused)) struct CMUnitTest registered_tests[64];
+static __attribute__((unused)) int registered_count;
+#define TEST(name) \
+    static void name(void **state); \
+    static __attribute__((constructor)) void name##_registers(void) \
+    { registered_tests[registered_count++] = (struct CMUnitTest)cmocka_unit_test(name); } \
+    static void name(__attribute__((unused)) void **state)
+#define RUN_TESTS(setup, teardown) \
+    int main(void) { return cmocka_run_group_tests(registered_tests, setup, teardown); }
+
 #define COUNT(a) ((int)(sizeof(a)/sizeof(a)[0]))
 
 static __attribute__((unused)) void

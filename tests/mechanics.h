@@ -12,7 +12,6 @@
 static __attribute__((unused)) int attraction(const gvi_points *x, void *user)
 {
     const real *X = x->q, *Y = X + x->stride;
-    (void)user;
     for (int k = 0; k < x->count; ++k) {
         const real d2 = X[k]*X[k] + Y[k]*Y[k], d = sqrt(d2), w = 1/(d2*d);
         if (x->value) x->value[k] -= 1/d;
@@ -27,7 +26,6 @@ static __attribute__((unused)) int attraction(const gvi_points *x, void *user)
 static __attribute__((unused)) int attraction_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
 {
     const int s = x->stride;
-    (void)parameter, (void)user;
     for (int k = 0; k < x->count; ++k) {
         const real a = x->q[k], b = x->q[s+k], da = d->q[k], db = d->q[s+k], d2 = a*a + b*b;
         const real w = 1/(d2*sqrt(d2)), along = 3*(a*da + b*db)/d2;
@@ -42,7 +40,6 @@ static __attribute__((unused)) int attraction_product(const gvi_points *x, const
 static __attribute__((unused)) int pendulum_mass(const gvi_points *x, void *user)
 {
     const int N = x->stride;
-    (void)user;
     for (int k = 0; k < x->count; ++k) {
         const real c = cos(x->q[N + k]);
         x->mass[k] = 3 + 2*c;
@@ -56,7 +53,6 @@ static __attribute__((unused)) int pendulum_mass(const gvi_points *x, void *user
 static __attribute__((unused)) int pendulum_mass_gradient(const gvi_points *x, void *user)
 {
     const int N = x->stride;
-    (void)user;
     for (int k = 0; k < x->count; ++k)
         x->f[N + k] -= sin(x->q[N + k])*x->v[k]*(x->v[k] + x->v[N + k]);
     return 0;

@@ -5,7 +5,7 @@
 #   make playground-test     its numbers to the bit, then the page in a headless Chromium
 
 PLAYGROUND        = $(BUILD)/playground
-PLAYGROUND_SOURCE = $(wildcard docs/playground/*.[ch]) gvi.h examples/effects.h tests/cost/coefficients.h
+PLAYGROUND_SOURCE = $(wildcard docs/playground/*.[ch]) gvi.h examples/tools/effects.h tests/cost/coefficients.h
 WASM_CC    = clang
 # Vectors of two: a quarter to a third less time with a gvi.h whose lanes know __wasm_simd128__.
 # The page has to stay under 200 KB; it says so when it does not.

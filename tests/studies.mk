@@ -1,8 +1,8 @@
 # studies.mk - what Makefile includes: long checks, measurements, pictures.  `make help-all` lists them.
 
-.PHONY: headers-quick headers symbols parts docs-check bound float instructions prices sanitize sanitized any_processor \
+.PHONY: headers-quick headers symbols parts docs-check bound float instructions prices usable sanitize sanitized any_processor \
         firmware deps-firmware fuzz fuzz-short size stats compare everywhere deps-everywhere \
-        cost-horizon ncdp scaling kicks cost-peers deps-compare cost-embedded hard theorems
+        cost-horizon ncdp scaling kicks points cost-peers deps-compare cost-embedded hard theorems
 
 # -- steps of `make test` and `make check`; each can be run alone
 
@@ -23,15 +23,18 @@ docs-check: $(BUILD)/gvi-double.o
 #: float        the object code of a float build: nothing is computed in double
 #: instructions points, iterations and instructions of fixed runs; RECORD=--record writes them anew
 #: prices       what an unlisted effect costs in instructions (valgrind): nothing
+#: usable       what make install puts where, and the ways into a project: pkg-config, CMake, a C++ sketch
 #: firmware     two programs without an operating system, run as Cortex-M3 and M4F by qemu, against this machine
-parts bound float instructions prices firmware: | $(FIRST)
+prices: | $(FIRST)
+	$(STEP) $@ sh tests/tools/instructions.sh $(BUILD) --prices
+parts bound float instructions usable firmware: | $(FIRST)
 	$(STEP) $@ sh tests/tools/$@.sh $(BUILD) $(RECORD)
 
 #: sanitize     tests and examples under the address and undefined behaviour sanitizers
 SANITIZED = $(TESTS) $(TYPED:%=%-float) $(EXAMPLES)
 sanitize: | $(FIRST)
 	$(Q)mkdir -p $(BUILD)/result; echo 0 0 1 >$(BUILD)/result/$@
-	$(Q)if sh tests/tools/sanitizer.sh '$(CC)' && sh tests/tools/sanitizer.sh '$(CXX)' -xc++; then \
+	$(Q)if sh tests/tools/under.sh sanitizer '$(CC)' -xc && sh tests/tools/under.sh sanitizer '$(CXX)' -xc++; then \
 	    $(MAKE) --no-print-directory BUILD=$(BUILD)/sanitize sanitized \
 	    CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' && \
 	    cp $(BUILD)/sanitize/result/sanitized $(BUILD)/result/$@; fi
@@ -42,9 +45,9 @@ sanitized: $(SANITIZED)
 valgrind: $(VALGRIND:%=valgrind-%)
 	$(SUM) valgrind $(VALGRIND:%=valgrind-%)
 $(filter valgrind-test_%,$(VALGRIND:%=valgrind-%)): valgrind-%: $(BUILD)/tests/%
-	$(STEP) $@ sh tests/tools/run_valgrind.sh $<
+	$(STEP) $@ sh tests/tools/under.sh valgrind $<
 $(filter-out valgrind-test_%,$(VALGRIND:%=valgrind-%)): valgrind-%: $(BUILD)/examples/%
-	$(STEP) $@ sh tests/tools/run_valgrind.sh $<
+	$(STEP) $@ sh tests/tools/under.sh valgrind $<
 
 # One file, a form of it for each width of registers; other processors have the plain one alone.
 FORMS = plain $(if $(filter x86_64%,$(shell $(CC) -dumpmachine 2>/dev/null)),avx2 avx512)
@@ -56,12 +59,12 @@ $(BUILD)/alone/motion-%.o: examples/any_processor/motion.c | $(FIRST)
 $(BUILD)/alone/any_processor: examples/any_processor/main.c $(FORMS:%=$(BUILD)/alone/motion-%.o)
 	$(Q)$(COMPILE) $< $(filter %.o,$^) -o $@ $(LDLIBS)
 any_processor: $(BUILD)/alone/any_processor
-	$(STEP) $@ sh tests/tools/run_example.sh $(BUILD) $@ $<
+	$(STEP) $@ sh tests/tools/examples.sh run $(BUILD) $@ $<
 
 #: fuzz         a minute of libFuzzer on descriptions and calls (clang); FUZZ_SECONDS=600
 FUZZ_SECONDS = $(if $(filter fuzz,$(MAKECMDGOALS)),60,20)
 fuzz fuzz-short: | $(FIRST)
-	$(STEP) $@ sh tests/tools/fuzz.sh $(BUILD) $(FUZZ_SECONDS)
+	$(STEP) $@ sh tests/tools/under.sh fuzz $(BUILD) $(FUZZ_SECONDS)
 
 #: deps-firmware installs what firmware and size need: compilers for Arm, RISC-V and AVR, qemu
 deps-firmware: | $(filter deps deps-check,$(MAKECMDGOALS))
@@ -101,11 +104,11 @@ $(BUILD)/studies/scene $(BUILD)/studies/price: $(BUILD)/studies/%: examples/scen
 	$(Q)$(COMPILE) -Iexamples $< -o $@ $(LDLIBS)
 
 $(SCENES:%=scene-%): scene-%: $(BUILD)/studies/scene
-	$(Q)mkdir -p docs/img/scenes
-	$(Q)$< $* --svg docs/img/scenes/$*.svg
+	$(Q)mkdir -p $(PICTURES)/scenes
+	$(Q)$< $* --svg $(PICTURES)/scenes/$*.svg
 
 advise: $(BUILD)/examples/advise
-$(BUILD)/examples/advise: examples/advise.c $(BUILD)/cost/problems.o $(BUILD)/cost/baselines.o
+$(BUILD)/examples/advise: examples/tools/advise.c $(BUILD)/cost/problems.o $(BUILD)/cost/baselines.o
 	@mkdir -p $(@D)
 	$(Q)$(COMPILE) -Iexamples $^ -o $@ $(LDLIBS)
 
@@ -128,9 +131,10 @@ cost-horizon: $(BUILD)/cost/cost
 
 #: ncdp         rounding over half a million steps, and its price, against the published standard
 #: kicks        splittings as tables of kicks against the same written by hand (ten seconds)
+#: points       callbacks by GVI_POINTS against loops by hand and .point (ten seconds); COST_CFLAGS="-O2 -fno-math-errno"
 #: scaling      time and memory against degree, coordinates and points; CSV and pictures in build/cost
 #: cost-peers   GSL, SUNDIALS and Boost.odeint on the problems of make cost
-ncdp kicks: %: $(BUILD)/cost/%
+ncdp kicks points: %: $(BUILD)/cost/%
 	$(Q)$< $(COST_ARGS)
 scaling: $(BUILD)/cost/scaling
 	$(Q)$< --out $(BUILD)/cost $(COST_ARGS)
@@ -147,11 +151,11 @@ cost-embedded:
 
 $(BUILD)/cost/%.o: tests/cost/%.c
 	@mkdir -p $(@D)
-	$(Q)$(CC) -std=c99 $(WARNINGS) -Wno-double-promotion -I. -Iexamples $(CPPFLAGS) -MMD -MP -MF $@.d -MT $@ $(COST_CFLAGS) -c $< -o $@
+	$(Q)$(CC) -std=c99 $(WARNINGS) -Wno-double-promotion -Wno-unused-parameter -I. -Iexamples -Itests $(CPPFLAGS) -MMD -MP -MF $@.d -MT $@ $(COST_CFLAGS) -c $< -o $@
 $(BUILD)/cost/peers_odeint.o: tests/cost/peers_odeint.cpp
 	@mkdir -p $(@D)
 	$(Q)$(CXX) -std=c++14 $(COST_CFLAGS) -I. -c $< -o $@
-$(BUILD)/cost/ncdp $(BUILD)/cost/scaling: %: %.o
+$(BUILD)/cost/ncdp $(BUILD)/cost/scaling $(BUILD)/cost/points: %: %.o
 	$(Q)$(CC) $< -o $@ $(LDLIBS)
 $(BUILD)/cost/peers: $(addprefix $(BUILD)/cost/,peers.o problems.o peers_odeint.o)
 	$(Q)$(CXX) $^ -o $@ $(PEER_LIBS) $(LDLIBS)
@@ -177,12 +181,13 @@ $(BUILD)/hard/% $(BUILD)/theorems/%: tests/$$(notdir $$(@D))/$$*.c | $(FIRST)
 #: hard         hard cases at length, docs/hard-cases.md (seven minutes); one: make hard-drift; SEED=11: other random numbers
 hard: $(HARD:%=hard-%)
 $(HARD:%=hard-%): hard-%: $(BUILD)/hard/%
-	$(STEP) $@ $< $(if $(filter stiff,$*),docs/img) $(if $(filter brouwer% drift,$*),$(SEED))
+	$(Q)mkdir -p $(PICTURES)
+	$(STEP) $@ $< $(if $(filter stiff,$*),$(PICTURES)) $(if $(filter brouwer% drift,$*),$(SEED))
 
 #: theorems     docs/theorems.md measured again, with its pictures (a few minutes); one: make theorem-curve
 theorems: $(THEOREMS:%=theorem-%)
 $(THEOREMS:%=theorem-%): theorem-%: $(BUILD)/theorems/%
-	$(Q)mkdir -p docs/img
-	$(Q)$< docs/img
+	$(Q)mkdir -p $(PICTURES)
+	$(Q)$< $(PICTURES)
 
 -include $(wildcard $(BUILD)/hard/*.d $(BUILD)/theorems/*.d)

@@ -8,7 +8,6 @@ typedef gvi_real real;
 #include "mechanics.h"
 enum { N = 2, NODES = 8 };
 
-#define ANY __attribute__((unused))
 #define R(x) ((real)x##L)
 
 static real memory[20000], back_memory[20000], room[2*TANGENT_ROOM(2, 6)];
@@ -17,7 +16,7 @@ static real memory[20000], back_memory[20000], room[2*TANGENT_ROOM(2, 6)];
 
 static real drag_c;
 
-static int drag(const gvi_points *x, ANY void *user)
+static int drag(const gvi_points *x, void *user)
 {
     const int s = x->stride;
     for (int k = 0; k < x->count; ++k) {
@@ -36,7 +35,7 @@ static void drag_slope(const gvi_points *x, int k, real la, real lb, real *out)
     out[1] = -drag_c*(z*lb + along*b);
 }
 
-static int drag_transposed(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+static int drag_transposed(const gvi_points *x, const gvi_points *d, int parameter, void *user)
 {
     const int s = x->stride;
     real z[2];
@@ -48,7 +47,7 @@ static int drag_transposed(const gvi_points *x, const gvi_points *d, ANY int par
     return 0;
 }
 
-static int drag_product(const gvi_points *x, const gvi_points *d, int parameter, ANY void *user)
+static int drag_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
 {
     const int s = x->stride;
     real z[2];
@@ -61,8 +60,8 @@ static int drag_product(const gvi_points *x, const gvi_points *d, int parameter,
     return 0;
 }
 
-static void by_drag(ANY real t, ANY const real *q, const real *v, const real *l, ANY const real *dl,
-                    real weight, ANY int node, real *gradient, ANY void *user)
+static void by_drag(real t, const real *q, const real *v, const real *l, const real *dl,
+                    real weight, int node, real *gradient, void *user)
 {
     const real z = sqrt(v[0]*v[0] + v[1]*v[1]);
     gradient[0] -= weight*z*(v[0]*l[0] + v[1]*l[1]);
@@ -77,7 +76,7 @@ static const real q0[] = { 1, R(0.2) }, p0[] = { R(-0.1), R(1.1) }, end_q[] = { 
 static const long double gradient[] = { -1.41923704319197546044L, -1.384460345420786965887L,
                                         -1.384460604060167018781L, -1.384460604036492789706L };
 
-static void gradient_by_the_drag(ANY void **state)
+TEST(gradient_by_the_drag)
 {
     for (int e = 0; e < 4; ++e) {
         const int s = 1 << e;
@@ -104,7 +103,7 @@ static void gradient_by_the_drag(ANY void **state)
 
 /* ------------------------------------- a pendulum of two links in a liquid: M(q), friction */
 
-static int weight(const gvi_points *x, ANY void *user)
+static int weight(const gvi_points *x, void *user)
 {
     const int s = x->stride;
     for (int k = 0; k < x->count; ++k) {
@@ -114,7 +113,7 @@ static int weight(const gvi_points *x, ANY void *user)
     return 0;
 }
 
-static int weight_product(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+static int weight_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
 {
     const int s = x->stride;
     for (int k = 0; k < x->count; ++k) {
@@ -124,7 +123,7 @@ static int weight_product(const gvi_points *x, const gvi_points *d, ANY int para
     return 0;
 }
 
-static int matrix(const gvi_points *x, ANY void *user)
+static int matrix(const gvi_points *x, void *user)
 {
     const int s = x->stride;
     for (int k = 0; k < x->count; ++k) {
@@ -135,7 +134,7 @@ static int matrix(const gvi_points *x, ANY void *user)
     return 0;
 }
 
-static int slope(const gvi_points *x, ANY void *user)
+static int slope(const gvi_points *x, void *user)
 {
     const int s = x->stride;
     for (int k = 0; k < x->count; ++k) {
@@ -146,7 +145,7 @@ static int slope(const gvi_points *x, ANY void *user)
     return 0;
 }
 
-static int slope_product(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+static int slope_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
 {
     const int s = x->stride;
     for (int k = 0; k < x->count; ++k) {
@@ -158,7 +157,7 @@ static int slope_product(const gvi_points *x, const gvi_points *d, ANY int param
     return 0;
 }
 
-static int velocity(const gvi_points *x, ANY void *user)
+static int velocity(const gvi_points *x, void *user)
 {
     const int s = x->stride;
     for (int k = 0; k < x->count; ++k) {
@@ -185,20 +184,20 @@ static void velocity_of(const gvi_points *x, const gvi_points *d, const int tran
     }
 }
 
-static int velocity_product(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+static int velocity_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
 {
     velocity_of(x, d, 0);
     return 0;
 }
 
-static int velocity_transposed(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+static int velocity_transposed(const gvi_points *x, const gvi_points *d, int parameter, void *user)
 {
     velocity_of(x, d, 1);
     return 0;
 }
 
 /* A force that turns: neither a gradient nor of the velocity.                  */
-static int turning(const gvi_points *x, ANY void *user)
+static int turning(const gvi_points *x, void *user)
 {
     const int s = x->stride;
     for (int k = 0; k < x->count; ++k) {
@@ -208,7 +207,7 @@ static int turning(const gvi_points *x, ANY void *user)
     return 0;
 }
 
-static int turning_product(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+static int turning_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
 {
     const int s = x->stride;
     for (int k = 0; k < x->count; ++k) {
@@ -218,7 +217,7 @@ static int turning_product(const gvi_points *x, const gvi_points *d, ANY int par
     return 0;
 }
 
-static int turning_transposed(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+static int turning_transposed(const gvi_points *x, const gvi_points *d, int parameter, void *user)
 {
     const int s = x->stride;
     for (int k = 0; k < x->count && d->f; ++k) {
@@ -229,7 +228,7 @@ static int turning_transposed(const gvi_points *x, const gvi_points *d, ANY int 
 }
 
 /* A magnetic field, L = |q|^2 (x y' - y x')/2: its product serves both.         */
-static int magnetic(const gvi_points *x, ANY void *user)
+static int magnetic(const gvi_points *x, void *user)
 {
     const int s = x->stride;
     for (int k = 0; k < x->count; ++k) {
@@ -241,7 +240,7 @@ static int magnetic(const gvi_points *x, ANY void *user)
     return 0;
 }
 
-static int magnetic_product(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+static int magnetic_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
 {
     const int s = x->stride;
     for (int k = 0; k < x->count; ++k) {
@@ -303,7 +302,7 @@ static const scene scenes[] = {
 };
 
 /* dJ/dq.dq + dJ/dp.dp is the same at the end and at the start, for every direction.      */
-static void pairing_is_kept(ANY void **state)
+TEST(pairing_is_kept)
 {
     for (int i = 0; i < COUNT(scenes); ++i) {
         const scene *s = &scenes[i];
@@ -343,19 +342,19 @@ static void pairing_is_kept(ANY void **state)
 
    q'' = -q + u, J = integral of q^2/2 + v^2 over 0..T: by q0, p0 and a constant u.       */
 
-static int spring(const gvi_points *x, ANY void *user)
+static int spring(const gvi_points *x, void *user)
 {
     for (int k = 0; k < x->count; ++k) x->f[k] -= x->q[k] - R(0.5);
     return 0;
 }
 
-static int spring_product(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+static int spring_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
 {
     for (int k = 0; k < x->count; ++k) d->f[k] -= d->q[k];
     return 0;
 }
 
-static int cost(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+static int cost(const gvi_points *x, const gvi_points *d, int parameter, void *user)
 {
     for (int k = 0; k < x->count; ++k) {
         if (d->f) d->f[k] += x->q[k];
@@ -364,14 +363,14 @@ static int cost(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY
     return 0;
 }
 
-static void by_u(ANY real t, ANY const real *q, ANY const real *v, const real *l, ANY const real *dl,
-                 real weight, int node, real *g, ANY void *user)
+static void by_u(real t, const real *q, const real *v, const real *l, const real *dl,
+                 real weight, int node, real *g, void *user)
 {
     assert_in_range(node, 0, NODES - 1);
     g[0] += weight*l[0];
 }
 
-static void running_cost(ANY void **state)
+TEST(running_cost)
 {
     const gvi_effect effect = { .kind = GVI_POTENTIAL, .points = spring };
     adjoint A = { .plain = { .n = 1, .degree = 8, .effects = &effect, .effect_count = 1 },
@@ -405,13 +404,13 @@ static void running_cost(ANY void **state)
    exp(2t), and 80 steps multiply the rounding of the end by 1e17.  States kept at every fourth
    step hold the gradient of J, the integral of q^2, to rounding.              */
 
-static int damped(const gvi_points *x, ANY void *user)
+static int damped(const gvi_points *x, void *user)
 {
     for (int k = 0; k < x->count; ++k) x->f[k] -= x->q[k] + R(2.5)*x->v[k];
     return 0;
 }
 
-static int damped_transposed(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+static int damped_transposed(const gvi_points *x, const gvi_points *d, int parameter, void *user)
 {
     for (int k = 0; k < x->count; ++k) {
         if (d->f) d->f[k] -= d->q[k];
@@ -420,14 +419,14 @@ static int damped_transposed(const gvi_points *x, const gvi_points *d, ANY int p
     return 0;
 }
 
-static int square(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+static int square(const gvi_points *x, const gvi_points *d, int parameter, void *user)
 {
     for (int k = 0; k < x->count && d->f; ++k) d->f[k] += 2*x->q[k];
     return 0;
 }
 
-static void by_c(ANY real t, ANY const real *q, const real *v, const real *l, ANY const real *dl,
-                 real weight, ANY int node, real *g, ANY void *user)
+static void by_c(real t, const real *q, const real *v, const real *l, const real *dl,
+                 real weight, int node, real *g, void *user)
 {
     g[0] -= weight*v[0]*l[0];
 }
@@ -459,7 +458,7 @@ static void damped_gradient(int every, real *by_q, real *by_damping)
 }
 
 /* From the closed form of J, in 40 digits.                                    */
-static void strong_damping(ANY void **state)
+TEST(strong_damping)
 {
     const long double exact_q = 3.149999991755385510245948704788715L, exact_c = 0.4149999398830193455394625389761956L;
     real by_q, by_damping;
@@ -472,7 +471,7 @@ static void strong_damping(ANY void **state)
     assert_false(fabs(by_q - (real)exact_q) < 10000*EPS);
 }
 
-static void what_is_refused(ANY void **state)
+TEST(what_is_refused)
 {
     static const real at[] = { 0, R(0.25), 1 }, kick[] = { R(0.25), R(0.25), R(0.5) };
     adjoint A = { .plain = { .n = N, .effects = turned, .effect_count = 1, .rule = { GVI_KICKS, 3, at, kick } },
@@ -486,14 +485,4 @@ static void what_is_refused(ANY void **state)
     assert_status(adjoint_start(&A, &ad, 0, q0, p0, end_q, end_p), GVI_E_MEMORY);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(gradient_by_the_drag),
-        cmocka_unit_test(pairing_is_kept),
-        cmocka_unit_test(running_cost),
-        cmocka_unit_test(strong_damping),
-        cmocka_unit_test(what_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -1,10 +1,10 @@
-/* examples/advise.h: its choice has the wanted error, by references that it does
+/* examples/tools/advise.h: its choice has the wanted error, by references that it does
    not know, and costs at most 1.5 times what the best of a full sweep does.
    Costs are counted, not measured, so that this comes out the same everywhere. */
 #include "gvi_test.h"
 #include "cost/problems.c"
 #include "cost/baselines.c"
-#include "advise.h"
+#include "tools/advise.h"
 
 enum { TABLES = 5 };                    /* of KICKS at most */
 
@@ -123,34 +123,30 @@ static void advise_well(const char *key, double weight, double error)
     assert_true(cost <= 1.5*best);
 }
 
-static void kepler_06(void **state)
+TEST(kepler_06)
 {
     advise_well("P1", 36, 1e-5);
     advise_well("P1", 36, 1e-8);
-    (void)state;
 }
 
-static void henon_heiles(void **state)
+TEST(henon_heiles)
 {
     advise_well("P3", 10, 1e-5);
     advise_well("P3", 10, 1e-9);
-    (void)state;
 }
 
-static void solar_system(void **state)
+TEST(solar_system)
 {
     advise_well("P4", 15*47, 1e-6);
     advise_well("P4", 15*47, 1e-9);
-    (void)state;
 }
 
 /* Eccentricity 0.9; stiff springs; a chain of 100, where splittings are cheap.  */
-static void other_problems(void **state)
+TEST(other_problems)
 {
     advise_well("P2", 36, 1e-7);
     advise_well("P6b", 60, 1e-7);
     advise_well("P7", 5*100, 1e-8);
-    (void)state;
 }
 
 /* An oscillator, x'' = -x: the error grows like t, its size is known, and what is
@@ -158,10 +154,10 @@ static void other_problems(void **state)
 static int oscillator_points(const gvi_points *x, void *user)
 {
     for (int k = 0; k < x->count; ++k) x->f[k] -= x->q[k];
-    return (void)user, 0;
+    return 0;
 }
 
-static void growth_is_measured_and_extrapolated(void **state)
+TEST(growth_is_measured_and_extrapolated)
 {
     const gvi_effect spring[] = { { .kind = GVI_POTENTIAL, .points = oscillator_points } };
     const double q[] = { 1 }, v[] = { 0 };
@@ -187,29 +183,17 @@ static void growth_is_measured_and_extrapolated(void **state)
         assert_between(1e-7, end[0], 1e-5);
         if (!far) assert_between(0.7, r.power, 1.3);
     }
-    (void)state;
 }
 
 /* A horizon or error that cannot be had is said to be so.                      */
-static void what_cannot_be_had_is_refused(void **state)
+TEST(what_cannot_be_had_is_refused)
 {
     const advise_case a = make_case("P1", 36);
     const advise_options o = { .error = 1e-19, .seconds = 20, .counted = 1, .say = say };
     advise_result r;
     assert_int_equal(advise_find(&a, &o, &r), -1);
-    (void)state;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(kepler_06),
-        cmocka_unit_test(henon_heiles),
-        cmocka_unit_test(solar_system),
-        cmocka_unit_test(other_problems),
-        cmocka_unit_test(growth_is_measured_and_extrapolated),
-        cmocka_unit_test(what_cannot_be_had_is_refused),
-    };
-    baselines_begin();
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+static int tables(void **state) { return baselines_begin(), 0; }
+
+RUN_TESTS(tables, NULL)

@@ -148,9 +148,8 @@ static void check_order(const char *name, double order, double allowed)
     assert_true(found > 0);
 }
 
-static void compositions_and_splittings_have_their_orders(void **state)
+TEST(compositions_and_splittings_have_their_orders)
 {
-    (void)state;
     check_order("Stoermer-Verlet", 2, 0.1);
     check_order("Yoshida 8", 8, 0.5);
     check_order("Yoshida 8 c", 8, 0.5);
@@ -164,18 +163,16 @@ static void compositions_and_splittings_have_their_orders(void **state)
     check_order("Splitting 8", 8, 0.5);
 }
 
-static void nystroem_pairs_have_their_orders(void **state)
+TEST(nystroem_pairs_have_their_orders)
 {
-    (void)state;
     check_order("RKN8(6) fixed", 8, 0.5);
     check_order("RKN8(6) fixed c", 8, 0.5);
     check_order("RKN12(10) fixed", 12, 0.8);
     check_order("RKN12(10) fixed c", 12, 0.8);
 }
 
-static void first_order_methods_have_their_orders(void **state)
+TEST(first_order_methods_have_their_orders)
 {
-    (void)state;
     check_order("RK4", 4, 0.5);
     check_order("DOP853 fixed", 8, 0.5);
     check_order("DOP853 fixed c", 8, 0.5);
@@ -183,9 +180,8 @@ static void first_order_methods_have_their_orders(void **state)
 
 /* An error per step of order q, held at the tolerance, and the global one of order p of the
    solution that is carried on: p/q, which is between 1 and 8/7.                               */
-static void adaptive_methods_follow_their_tolerance(void **state)
+TEST(adaptive_methods_follow_their_tolerance)
 {
-    (void)state;
     check_order("RKN8(6)", 8/7.0, 0.2);
     check_order("RKN8(6) c", 8/7.0, 0.2);
     check_order("RKN12(10)", 12/11.0, 0.2);
@@ -200,9 +196,8 @@ static void adaptive_methods_follow_their_tolerance(void **state)
     check_order("GBS order 9 x 2", 18/17.0, 0.2);
 }
 
-static void gauss_methods_have_their_orders(void **state)
+TEST(gauss_methods_have_their_orders)
 {
-    (void)state;
     check_order("Gauss 4", 8, 0.5);
     check_order("Gauss 6", 12, 0.8);
 }
@@ -224,17 +219,15 @@ static void check_quadrature(const nystroem *t)
     }
 }
 
-static void nystroem_tables_fulfil_the_quadrature_conditions(void **state)
+TEST(nystroem_tables_fulfil_the_quadrature_conditions)
 {
-    (void)state;
     check_quadrature(&rkn86_table);
     check_quadrature(&rkn1210_table);
 }
 
-static void dop853_fulfils_the_quadrature_conditions(void **state)
+TEST(dop853_fulfils_the_quadrature_conditions)
 {
     const runge_kutta *t = &dop853_table;
-    (void)state;
     for (int i = 0; i < t->stages; ++i) {
         long double sum = 0;
         for (int j = 0; j < i; ++j) sum += t->A[i][j];
@@ -248,12 +241,11 @@ static void dop853_fulfils_the_quadrature_conditions(void **state)
 }
 
 /* A hundred thousand steps far below the error of the method: only rounding is left.          */
-static void compensated_sums_lower_what_rounding_leaves(void **state)
+TEST(compensated_sums_lower_what_rounding_leaves)
 {
     static outcome o;
     long double reference[3];
     problem p = problem_for(baseline_named("Kahan-Li 8"), 200, reference);
-    (void)state;
     static const char *const names[][2] = { { "Kahan-Li 8", "Kahan-Li 8 c" },
         { "RKN8(6) fixed", "RKN8(6) fixed c" } };
     for (int i = 0; i < COUNT(names); ++i) {
@@ -285,9 +277,8 @@ static void expect_in_example(const char *name, int count, const long double *pu
     }
 }
 
-static void the_example_has_these_tables(void **state)
+TEST(the_example_has_these_tables)
 {
-    (void)state;
     expect_in_example("kahan_li[17]", COUNT(kahan_li8), kahan_li8);
     expect_in_example("kicks[]", COUNT(splitting8_b), splitting8_b);
     expect_in_example("drifts[]", COUNT(splitting8_a), splitting8_a);
@@ -295,23 +286,8 @@ static void the_example_has_these_tables(void **state)
 
 static int tables(void **state)
 {
-    (void)state;
     baselines_begin();
     return 0;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(compositions_and_splittings_have_their_orders),
-        cmocka_unit_test(nystroem_pairs_have_their_orders),
-        cmocka_unit_test(first_order_methods_have_their_orders),
-        cmocka_unit_test(adaptive_methods_follow_their_tolerance),
-        cmocka_unit_test(gauss_methods_have_their_orders),
-        cmocka_unit_test(nystroem_tables_fulfil_the_quadrature_conditions),
-        cmocka_unit_test(dop853_fulfils_the_quadrature_conditions),
-        cmocka_unit_test(compensated_sums_lower_what_rounding_leaves),
-        cmocka_unit_test(the_example_has_these_tables),
-    };
-    return cmocka_run_group_tests(tests, tables, NULL);
-}
+RUN_TESTS(tables, NULL)

@@ -1,9 +1,9 @@
-/* examples/check.h: right scenes pass, and every planted slip is found and named:
+/* examples/tools/check.h: right scenes pass, and every planted slip is found and named:
    which effect, which derivative, which coordinates.  Slips are planted by
    callbacks that ask the right ones and then spoil one entry.                  */
 #include "gvi_test.h"
 #include "scenes/scenes.c"
-#include "check.h"
+#include "tools/check.h"
 
 enum { ROOM = 64, ROWS = SCENE_MAX*64 };
 
@@ -29,7 +29,7 @@ static const scene *build(const char *name)
 
 /* ------------------------------------------------------------- right scenes */
 
-static void right_scenes_pass(void **state)
+TEST(right_scenes_pass)
 {
     long checked = 0;
     for (int i = 0; i < scene_count; ++i) {
@@ -46,11 +46,10 @@ static void right_scenes_pass(void **state)
         checked += report.checked;
     }
     assert_true(checked > 100000);
-    (void)state;
 }
 
 /* Also after some steps, where no symmetry of the initial data is left.        */
-static void right_scenes_pass_on_the_way(void **state)
+TEST(right_scenes_pass_on_the_way)
 {
     static gvi_stepper st;
     for (int i = 0; i < scene_count; ++i) {
@@ -69,7 +68,6 @@ static void right_scenes_pass_on_the_way(void **state)
         }
         free(memory);
     }
-    (void)state;
 }
 
 /* ------------------------------------------------------------------- slips */
@@ -268,7 +266,7 @@ static double largest(const double *f)
 /* Every coordinate of every effect that has a value, in every scene: a wrong sign,
    a factor 2, one part in a million.  The effect and coordinate are named, the value
    that should be there is given, and no other coordinate is accused.            */
-static void wrong_entries_of_f_are_named(void **state)
+TEST(wrong_entries_of_f_are_named)
 {
     static const double factors[] = { -1, 2, 0, 1 + 1e-6 };
     static const check_hint hints[] = { CHECK_SIGN, CHECK_TWICE, CHECK_MISSING, CHECK_NO_HINT };
@@ -297,10 +295,9 @@ static void wrong_entries_of_f_are_named(void **state)
         }
     print_message("  %d planted, %d found\n", planted_count, planted_count);
     assert_true(planted_count > 150);
-    (void)state;
 }
 
-static void wrong_index_is_two_findings(void **state)
+TEST(wrong_index_is_two_findings)
 {
     static const struct { const char *scene; int e, i, j; } cases[] = {
         { "outer_solar_system", 0, 3, 4 }, { "satellite", 0, 0, 2 }, { "satellite", 1, 0, 1 },
@@ -313,10 +310,9 @@ static void wrong_index_is_two_findings(void **state)
         assert_found(CHECK_DERIVATIVE, cases[k].e, "f", cases[k].j, -1);
         assert_int_equal(report.count, 2);
     }
-    (void)state;
 }
 
-static void wrong_entries_of_dldv_are_named(void **state)
+TEST(wrong_entries_of_dldv_are_named)
 {
     static const char *const where[] = { "crossed_fields", "arenstorf" };
     for (int a = 0; a < COUNT(where); ++a) {
@@ -335,11 +331,10 @@ static void wrong_entries_of_dldv_are_named(void **state)
                 for (int m = 0; m < report.count; ++m) assert_string_equal(list[m].entry, "dldv");
             }
     }
-    (void)state;
 }
 
 /* Each nonzero entry of each Hessian that the effects bring (every 401st of large ones). */
-static void wrong_entries_of_hessians_are_named(void **state)
+TEST(wrong_entries_of_hessians_are_named)
 {
     static double H[3][SCENE_MAX*SCENE_MAX];
     static const char *const entry[] = { "fq", "fv", "pv" };
@@ -367,7 +362,6 @@ static void wrong_entries_of_hessians_are_named(void **state)
         }
     print_message("  %d planted, %d found\n", planted_count, planted_count);
     assert_true(planted_count >= 8);
-    (void)state;
 }
 
 /* A Hessian that is not symmetric, transposed: two blocks of it differ.        */
@@ -377,7 +371,7 @@ static int turn_points(const gvi_points *x, void *user)
         x->f[k] += x->q[k]*x->q[x->stride+k];
         x->f[x->stride+k] -= 2*x->q[k] + x->v[k]*x->v[x->stride+k];
     }
-    return (void)user, 0;
+    return 0;
 }
 
 static int turn_hessian(double t, const double *q, const double *v,
@@ -388,7 +382,7 @@ static int turn_hessian(double t, const double *q, const double *v,
     fq[2] -= 2;
     fv[2] -= v[1];
     fv[3] -= v[0];
-    return (void)t, (void)pv, (void)user, 0;
+    return 0;
 }
 
 static void build_turn(void)
@@ -399,7 +393,7 @@ static void build_turn(void)
     made.q[0] = 0.7, made.q[1] = -1.3, made.v[0] = 0.4, made.v[1] = 1.9;
 }
 
-static void transposed_hessians_are_named(void **state)
+TEST(transposed_hessians_are_named)
 {
     build_turn();
     assert_int_equal(check(), 0);
@@ -415,11 +409,10 @@ static void transposed_hessians_are_named(void **state)
         assert_string_not_equal(check_line(list, line, sizeof line), "");
         assert_non_null(strstr(line, "transposed?"));
     }
-    (void)state;
 }
 
 /* A potential without value: its force must be a gradient of something.        */
-static void forces_without_value_must_have_a_potential(void **state)
+TEST(forces_without_value_must_have_a_potential)
 {
     build("outer_solar_system");
     made.effects[0].value = NULL;
@@ -431,14 +424,13 @@ static void forces_without_value_must_have_a_potential(void **state)
         assert_int_equal(list[k].what, CHECK_CURL);
         assert_true(list[k].i == 4 || list[k].j == 4);
     }
-    (void)state;
 }
 
 /* ----------------------------------------------------- how callbacks behave */
 
 /* For every effect of every scene: overwriting, a forgotten last point, writing past
    the points of a row and past the rows; of all outputs that it has.           */
-static void manners_are_checked(void **state)
+TEST(manners_are_checked)
 {
     static const struct { slip_kind slip; check_what what; } cases[] = {
         { OVERWRITES, CHECK_ADDS }, { LAST_POINT, CHECK_BATCH }, { PAST_POINTS, CHECK_BEYOND },
@@ -473,10 +465,9 @@ static void manners_are_checked(void **state)
         }
     print_message("  %d planted, %d found\n", planted_count, planted_count);
     assert_true(planted_count > 100);
-    (void)state;
 }
 
-static void hessians_add_and_stay_inside(void **state)
+TEST(hessians_add_and_stay_inside)
 {
     build("elastic_pendulum");
     plant(1, OVERWRITES, "fq", 0, 1, 1);
@@ -488,10 +479,9 @@ static void hessians_add_and_stay_inside(void **state)
     check();
     assert_found(CHECK_BEYOND, 1, "fq", -1, -1);
     assert_int_equal(report.count, 1);
-    (void)state;
 }
 
-static void a_potential_that_reads_the_velocity_is_named(void **state)
+TEST(a_potential_that_reads_the_velocity_is_named)
 {
     build("elastic_pendulum");
     plant(1, READS_V, "f", 1, 0, 1);
@@ -501,16 +491,14 @@ static void a_potential_that_reads_the_velocity_is_named(void **state)
     plant(1, READS_V, "value", 0, 0, 1);
     check();
     assert_found(CHECK_READS_V, 1, "value", -1, -1);
-    (void)state;
 }
 
-static void refusals_are_named(void **state)
+TEST(refusals_are_named)
 {
     build("duffing");
     plant(0, REFUSES, "f", 0, 0, 1);
     check();
     assert_found(CHECK_REFUSED, 0, "f", -1, -1);
-    (void)state;
 }
 
 /* One function for f and value that leaves f out when value is wanted, too.     */
@@ -520,7 +508,7 @@ static int either(const gvi_points *x, void *user)
         if (x->value) x->value[k] += x->q[k]*x->q[k]/2;
         else x->f[k] -= x->q[k];
     }
-    return (void)user, 0;
+    return 0;
 }
 
 static int each(const gvi_points *x, void *user)
@@ -529,10 +517,10 @@ static int each(const gvi_points *x, void *user)
         if (x->value) x->value[k] += x->q[k]*x->q[k]/2;
         if (x->f) x->f[k] -= x->q[k];
     }
-    return (void)user, 0;
+    return 0;
 }
 
-static void f_and_value_in_one_call(void **state)
+TEST(f_and_value_in_one_call)
 {
     memset(&made, 0, sizeof made);
     made.desc = (gvi_desc){ .n = 1, .effects = made.effects, .effect_count = 1 };
@@ -543,12 +531,11 @@ static void f_and_value_in_one_call(void **state)
     check();
     assert_found(CHECK_BOTH, 0, "f", 0, -1);
     assert_int_equal(report.count, 1);
-    (void)state;
 }
 
 /* ------------------------------------------------------------- mass and clock */
 
-static void slips_of_a_mass_are_named(void **state)
+TEST(slips_of_a_mass_are_named)
 {
     static const char *const where[] = { "double_pendulum", "robot_arm", "lagrange_top" };
     for (int a = 0; a < COUNT(where); ++a) {
@@ -583,10 +570,9 @@ static void slips_of_a_mass_are_named(void **state)
             assert_int_equal(report.count, 1);
         }
     }
-    (void)state;
 }
 
-static void slips_of_a_mass_gradient_are_named(void **state)
+TEST(slips_of_a_mass_gradient_are_named)
 {
     static const struct { const char *scene; int n; } where[] = {
         { "double_pendulum", 2 }, { "lagrange_top", 1 } };
@@ -609,7 +595,6 @@ static void slips_of_a_mass_gradient_are_named(void **state)
             check();
             assert_found(CHECK_BATCH, GVI_FAULT_MASS, "gradient", i, -1);
         }
-    (void)state;
 }
 
 /* velocity must undo all of p: here the charge's canonical momentum, M = 1.     */
@@ -623,9 +608,9 @@ static int forgetful(const gvi_points *x, void *user)
     return 0;
 }
 
-static void velocity_counts_lagrangian_terms(void **state)
+TEST(velocity_counts_lagrangian_terms)
 {
-    static const double charge[] = { 1 }, mass[] = { 1 };
+    static const double mass[] = { 1 };
     static const struct rotating_frame frame = { { 0, 1, 2 }, mass, 0.6 };
     static double half[] = { 0.6, 0 };
     for (int k = 0; k < 2; ++k) {
@@ -642,11 +627,10 @@ static void velocity_counts_lagrangian_terms(void **state)
             assert_int_equal(report.count, 2);
         }
     }
-    (void)charge, (void)state;
 }
 
 /* A constant matrix: which of its two triangles is meant?                       */
-static void a_dense_matrix_must_be_symmetric_and_definite(void **state)
+TEST(a_dense_matrix_must_be_symmetric_and_definite)
 {
     double M[9] = { 2, 0.5, 0, 0.5, 3, 0.1, 0, 0.1, 1 };
     memset(&made, 0, sizeof made);
@@ -659,7 +643,6 @@ static void a_dense_matrix_must_be_symmetric_and_definite(void **state)
     check();
     assert_found(CHECK_DEFINITE, GVI_FAULT_MASS, "mass", 2, 2);
     assert_int_equal(report.count, 1);
-    (void)state;
 }
 
 /* g = |q|, with a slip on demand.                                               */
@@ -673,10 +656,10 @@ static int distance_clock(const gvi_points *x, void *user)
         x->f[k] += clock_sign*x->q[k]/d;
         x->f[x->stride+k] += clock_sign*clock_factor*x->q[x->stride+k]/d;
     }
-    return (void)user, 0;
+    return 0;
 }
 
-static void clocks_are_checked(void **state)
+TEST(clocks_are_checked)
 {
     memset(&made, 0, sizeof made);
     made.desc = (gvi_desc){ .n = 2, .effects = made.effects, .effect_count = 1 };
@@ -693,7 +676,6 @@ static void clocks_are_checked(void **state)
     assert_found(CHECK_POSITIVE, 0, "value", -1, -1);
     assert_int_equal(report.count, 1);
     clock_sign = 1;
-    (void)state;
 }
 
 /* ---------------------------------------------------------------- sensitivity */
@@ -718,7 +700,7 @@ static double smallest_found(const scene *a, int e)
     return 2*error;
 }
 
-static void small_errors_are_found(void **state)
+TEST(small_errors_are_found)
 {
     double worst = 0;
     for (int a = 0; a < scene_count; ++a) {
@@ -732,31 +714,6 @@ static void small_errors_are_found(void **state)
         }
     }
     print_message("  a relative error of %.1e is found everywhere\n", worst);
-    (void)state;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(right_scenes_pass),
-        cmocka_unit_test(right_scenes_pass_on_the_way),
-        cmocka_unit_test(wrong_entries_of_f_are_named),
-        cmocka_unit_test(wrong_index_is_two_findings),
-        cmocka_unit_test(wrong_entries_of_dldv_are_named),
-        cmocka_unit_test(wrong_entries_of_hessians_are_named),
-        cmocka_unit_test(transposed_hessians_are_named),
-        cmocka_unit_test(forces_without_value_must_have_a_potential),
-        cmocka_unit_test(manners_are_checked),
-        cmocka_unit_test(hessians_add_and_stay_inside),
-        cmocka_unit_test(a_potential_that_reads_the_velocity_is_named),
-        cmocka_unit_test(refusals_are_named),
-        cmocka_unit_test(f_and_value_in_one_call),
-        cmocka_unit_test(slips_of_a_mass_are_named),
-        cmocka_unit_test(slips_of_a_mass_gradient_are_named),
-        cmocka_unit_test(velocity_counts_lagrangian_terms),
-        cmocka_unit_test(a_dense_matrix_must_be_symmetric_and_definite),
-        cmocka_unit_test(clocks_are_checked),
-        cmocka_unit_test(small_errors_are_found),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

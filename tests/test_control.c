@@ -12,7 +12,6 @@
 #undef main
 #include "tools/adjoint.h"
 
-#define ANY __attribute__((unused))
 
 /* ------------------------------------------------------------- low thrust */
 
@@ -29,7 +28,7 @@ static void flight_errors(int degree, int steps, double *e)
                 fmax(fabs(p[2] - flight_start[2]), fabs(p[3] - flight_start[3])));
 }
 
-static void the_best_flight(ANY void **state)
+TEST(the_best_flight)
 {
     double cost, q[FLIGHT], p[FLIGHT];
     assert_ok(best_flight(6, 48, &cost, q, p, NULL));
@@ -40,7 +39,7 @@ static void the_best_flight(ANY void **state)
     assert_close(p[3], flight_start[3], 1e-14);
 }
 
-static void the_flight_has_order_2s(ANY void **state)
+TEST(the_flight_has_order_2s)
 {
     static const int steps[] = { 48, 24, 12 };
     for (int s = 2; s <= 4; ++s) {
@@ -62,7 +61,7 @@ static double thrust_at(const thrust *T, double t)
     return gvi_interpolate(T->degree, T->node, T->bary, T->u, (t - T->t)/T->h);
 }
 
-static int gravity_force(const gvi_points *x, ANY void *user)
+static int gravity_force(const gvi_points *x, void *user)
 {
     for (int k = 0, s = x->stride; k < x->count; ++k) {
         const double a = x->q[k], b = x->q[s+k], d2 = a*a + b*b, w = 1/(d2*sqrt(d2));
@@ -72,7 +71,7 @@ static int gravity_force(const gvi_points *x, ANY void *user)
     return 0;
 }
 
-static int gravity_product(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+static int gravity_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
 {
     for (int k = 0, s = x->stride; k < x->count; ++k) {
         const double a = x->q[k], b = x->q[s+k], da = d->q[k], db = d->q[s+k], d2 = a*a + b*b;
@@ -93,7 +92,7 @@ static int engine(const gvi_points *x, void *user)
     return 0;
 }
 
-static int engine_transposed(const gvi_points *x, const gvi_points *l, ANY int parameter, void *user)
+static int engine_transposed(const gvi_points *x, const gvi_points *l, int parameter, void *user)
 {
     for (int k = 0, s = x->stride; k < x->count && l->f; ++k) {
         const double a = x->q[k], b = x->q[s+k], d = sqrt(a*a + b*b), u = thrust_at(user, x->t[k])/d;
@@ -105,13 +104,13 @@ static int engine_transposed(const gvi_points *x, const gvi_points *l, ANY int p
 }
 
 /* The derivative of the sum of h b u^2/2 and of the end's costate times the end, by u over h b.    */
-static void by_thrust(double t, const double *q, ANY const double *v, const double *l, ANY const double *dl,
-                      ANY double weight, int node, double *g, void *user)
+static void by_thrust(double t, const double *q, const double *v, const double *l, const double *dl,
+                      double weight, int node, double *g, void *user)
 {
     g[node] = thrust_at(user, t) + (q[0]*l[1] - q[1]*l[0])/sqrt(q[0]*q[0] + q[1]*q[1]);
 }
 
-static void no_thrust_can_be_better(ANY void **state)
+TEST(no_thrust_can_be_better)
 {
     enum { S = 3, K = 24 };
     static double memory[GVI_LENGTH(4, S, S)], back[GVI_LENGTH(4, S, S)], room[ADJOINT_ROOM(2, S)], u[K][S];
@@ -175,7 +174,7 @@ static void swing_errors(int degree, int steps, double *e)
                 fmax(fabs(p[2] - swing_start[2]), fabs(p[3] - swing_start[3])));
 }
 
-static void the_least_effort(ANY void **state)
+TEST(the_least_effort)
 {
     double e[2];
     swing_errors(6, 80, e);
@@ -183,7 +182,7 @@ static void the_least_effort(ANY void **state)
     assert_between(0, e[1], 45*1e-11);
 }
 
-static void the_swing_has_order_2s(ANY void **state)
+TEST(the_swing_has_order_2s)
 {
     for (int s = 2; s <= 4; ++s) {
         double coarse[2], fine[2];
@@ -194,7 +193,7 @@ static void the_swing_has_order_2s(ANY void **state)
 }
 
 /* The lesson's products, by complex steps, agree with differences.             */
-static void complex_products(ANY void **state)
+TEST(complex_products)
 {
     const double q[] = { 0.1, 0.4, 0.3, 0.2 }, v[] = { 0.5, 0.3, 0.2, 0.1 };
     int part = -1;
@@ -203,13 +202,13 @@ static void complex_products(ANY void **state)
 }
 
 /* An end that does not depend on the start, and too few runs.                  */
-static void nowhere(ANY const double *q, ANY const double *p, const double *dq, ANY const double *dp,
-                    double *c, ANY void *user)
+static void nowhere(const double *q, const double *p, const double *dq, const double *dp,
+                    double *c, void *user)
 {
     for (int i = 0; i < 4; ++i) c[i] = dq ? 0 : 1;
 }
 
-static void what_shooting_refuses(ANY void **state)
+TEST(what_shooting_refuses)
 {
     static double memory[GVI_LENGTH(20, 4, 4)], work[SHOOTING_ROOM(CART, CART)];
     static const double dq[16] = { [2] = 1, [7] = 1 }, dp[16] = { [10] = 1, [15] = 1 };
@@ -227,16 +226,4 @@ static void what_shooting_refuses(ANY void **state)
     assert_status(shoot(&S, &st, q, p), GVI_E_CONVERGENCE);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_best_flight),
-        cmocka_unit_test(the_flight_has_order_2s),
-        cmocka_unit_test(no_thrust_can_be_better),
-        cmocka_unit_test(the_least_effort),
-        cmocka_unit_test(the_swing_has_order_2s),
-        cmocka_unit_test(complex_products),
-        cmocka_unit_test(what_shooting_refuses),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

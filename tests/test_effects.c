@@ -1,11 +1,11 @@
-/* The effects of examples/effects.h: forces are derivatives of their values,
+/* The effects of examples/tools/effects.h: forces are derivatives of their values,
    Hessians those of the forces; each reads and writes its own coordinates only;
    all points at once are the points one by one, to the bit (given that the compiler
    does not contract a*b + c: -ffp-contract=off); and what each law says of power,
    sums and special places.  Bounds are multiples of powers of EPS: the same file
    serves float, double and long double.                                      */
 #include "gvi_test.h"
-#include "effects.h"
+#include "tools/effects.h"
 
 typedef gvi_real real;
 
@@ -146,7 +146,7 @@ static real mismatch(const gvi_effect *force, const gvi_effect *valued, uint64_t
     return worst;
 }
 
-static void test_forces_are_derivatives(void **state)
+TEST(test_forces_are_derivatives)
 {
     const specimen *s = specimens();
     int seen = 0;
@@ -160,12 +160,11 @@ static void test_forces_are_derivatives(void **state)
         }
     }
     assert_int_equal(seen, 16*5);
-    (void)state;
 }
 
 /* The comparison above must be able to fail: a stiffness wrong by 1/1000 (float)
    or 1e-8, a sign, a coordinate that is missed.                              */
-static void test_wrong_forces_are_seen(void **state)
+TEST(test_wrong_forces_are_seen)
 {
     const real part = EPS > (real)1e-10L ? (real)1e-3L : (real)1e-8L;
     struct spring soft[3];
@@ -183,7 +182,6 @@ static void test_wrong_forces_are_seen(void **state)
     assert_true(mismatch(&wrong, &right, 1) > 1);
     assert_true(mismatch(&less, &all, 1) > 1);
     assert_true(mismatch(&that_way, &this_way, 1) > 1);
-    (void)state;
 }
 
 static real hessian_mismatch(const gvi_effect *e, uint64_t from)
@@ -214,7 +212,7 @@ static real hessian_mismatch(const gvi_effect *e, uint64_t from)
     return worst;
 }
 
-static void test_hessians(void **state)
+TEST(test_hessians)
 {
     const specimen *s = specimens();
     int seen = 0;
@@ -233,12 +231,11 @@ static void test_hessians(void **state)
     struct springs no_n = net;
     no_n.n = 0;
     assert_null(springs(&no_n).hessian);
-    (void)state;
 }
 
 /* ------------------------------------------------------- own coordinates only */
 
-static void test_own_coordinates_only(void **state)
+TEST(test_own_coordinates_only)
 {
     const specimen *s = specimens();
     for (int e = 0; e < SPECIMENS; ++e) {
@@ -269,12 +266,11 @@ static void test_own_coordinates_only(void **state)
         }
         if (x->value) assert_true(isfinite(value(x, 1, q, v)));
     }
-    (void)state;
 }
 
 /* ------------------------------------------------- all at once, one at a time */
 
-static void test_batch_is_point_by_point(void **state)
+TEST(test_batch_is_point_by_point)
 {
     static real q[N*ROOM], v[N*ROOM], f[N*ROOM], g[N*ROOM], V[ROOM], t[ROOM];
     const specimen *s = specimens();
@@ -302,7 +298,6 @@ static void test_batch_is_point_by_point(void **state)
             if (x->value) assert_true(V[k] == (k < POINTS ? value(x, t[k], a, b) : 0));
         }
     }
-    (void)state;
 }
 
 /* ------------------------------------------------------------ what laws say */
@@ -317,7 +312,7 @@ static real power(const gvi_effect *e, uint64_t from)
     return sum;
 }
 
-static void test_power(void **state)
+TEST(test_power)
 {
     const gvi_effect drags[] = { linear_drag(&oil), air_drag(&air), air_drag(&flat_air),
                                  atmosphere(&thin_air), joint_friction(&gears) };
@@ -338,10 +333,9 @@ static void test_power(void **state)
     for (int i = 0; i < N; ++i) v[i] = 3;
     ask(&rub, 0, q, v, f, g);
     assert_true(f[4] == -6 && f[5] == 0 && f[6] == 0);
-    (void)state;
 }
 
-static void test_air_drag_is_quadratic(void **state)
+TEST(test_air_drag_is_quadratic)
 {
     real q[N], v[N], f[N], g[N], twice[N];
     const gvi_effect e = air_drag(&air), thin = atmosphere(&thin_air);
@@ -359,11 +353,10 @@ static void test_air_drag_is_quadratic(void **state)
     q[3] = 4, v[3] = 1;                                                   // radius 1, height 3
     ask(&thin, 0, q, v, f, g);
     assert_close(f[3], -2*sqrt((real)17)*exp((real)-1), 16*(real)EPS);
-    (void)state;
 }
 
 /* Forces between particles: they sum to nothing, and so do their torques.     */
-static void test_inner_forces_cancel(void **state)
+TEST(test_inner_forces_cancel)
 {
     const gvi_effect inner[] = { pair_gravity(&pairs), springs(&net),
                                  pair_gravity(&flat_pairs), springs(&flat_net) };
@@ -383,11 +376,10 @@ static void test_inner_forces_cancel(void **state)
         assert_close(torque, 0, 8*(real)EPS*size);
         assert_true(size > 1);
     }
-    (void)state;
 }
 
 /* Two bodies: Newton's law in numbers; the flattened body over pole and equator. */
-static void test_gravity_in_numbers(void **state)
+TEST(test_gravity_in_numbers)
 {
     const struct pair_gravity two = { { 0, 2, 3 }, mass, 3 };
     const struct oblateness flat = { { 0, 1, 3 }, mass, 3, 1, (real)0.5L };
@@ -405,11 +397,10 @@ static void test_gravity_in_numbers(void **state)
     ask(&o, 0, q, v, f, g);
     assert_close(f[0], (real)-3*3/32, 2*(real)EPS);                         // 3/2 a/r^4: inwards
     assert_true(f[2] == 0);
-    (void)state;
 }
 
 /* A spring of rest length 0 has a force, and a Hessian, where its ends meet.   */
-static void test_spring_without_length(void **state)
+TEST(test_spring_without_length)
 {
     const struct spring s[] = { { 0, 1, 3, 0 } };
     const struct springs p = { { 0, 2, 2 }, s, 1, N };
@@ -421,11 +412,10 @@ static void test_spring_without_length(void **state)
     for (int i = 0; i < N; ++i) assert_true(f[i] == 0);
     assert_int_equal(e.hessian(0, q, v, fq, NULL, NULL, e.user), 0);
     assert_true(fq[0] == -3 && fq[2] == 3 && fq[1] == 0);
-    (void)state;
 }
 
 /* A linear chain's bonds are springs of rest length 0 along a line.            */
-static void test_chain_is_springs(void **state)
+TEST(test_chain_is_springs)
 {
     const struct chain line = { 0, 3, 2, 0, 0, 0 };
     const struct spring s[] = { { 0, 1, 2, 0 }, { 1, 2, 2, 0 } };
@@ -440,10 +430,9 @@ static void test_chain_is_springs(void **state)
     ask(&c, 0, wide, v, fc, g);
     for (int i = 0; i < 3; ++i) assert_close(f[i], fb[2*i] + fc[2*i], 8*(real)EPS);
     assert_close(value(&a, 0, q, v), value(&b, 0, wide, v) + value(&c, 0, wide, v), 8*(real)EPS);
-    (void)state;
 }
 
-static void test_motors(void **state)
+TEST(test_motors)
 {
     real q[N] = { 0 }, v[N] = { 0 }, f[N], g[N];
     const real t = (real)0.7L, clock = 2*t + 1, target = 1 + cos(clock)/2, rate = -sin(clock);
@@ -464,12 +453,11 @@ static void test_motors(void **state)
     q[7] -= q[8], v[7] -= v[8];
     ask(&r, t, q, v, g, f);
     assert_close(g[7], -3*(real)0.125L - 2*(real)0.25L, 16*(real)EPS);
-    (void)state;
 }
 
 /* The term linear in v has no energy v dL/dv - L; the frame has -w^2 r^2/2, and
    its force with that of dL/dv's change is Coriolis 2 w x v and centrifugal.  */
-static void test_magnetic_and_frame(void **state)
+TEST(test_magnetic_and_frame)
 {
     real q[N], v[N], f[N], g[N], full[N], sum = 0, centrifugal = 0;
     const gvi_effect term = magnetic_field(&magnet), force = magnetic_force(&magnet);
@@ -496,7 +484,6 @@ static void test_magnetic_and_frame(void **state)
         assert_close(f[4+2*i] - g[4+2*i], m*(4*x[0] + 4*u[1]), 64*(real)EPS*(1 + fabs(f[4+2*i])));
         assert_close(f[5+2*i] - g[5+2*i], m*(4*x[1] - 4*u[0]), 64*(real)EPS*(1 + fabs(f[5+2*i])));
     }
-    (void)state;
 }
 
 /* ------------------------------------------------------------------- masses */
@@ -538,7 +525,7 @@ static void check_mass(gvi_mass m, int n)
     }
 }
 
-static void test_masses(void **state)
+TEST(test_masses)
 {
     static const struct two_links rods = { 3, 1, (real)1.25L };
     static const struct top spinner = { 2, (real)0.75L };
@@ -552,26 +539,6 @@ static void test_masses(void **state)
     const real x = cos(q[0])*v[0], y = sin(q[0])*v[0], X = x + cos(q[1])*v[1]*3/4, Y = y + sin(q[1])*v[1]*3/4;
     real p[2];
     assert_close(kinetic(&m, 2, q, v, p), x*x + y*y + (X*X + Y*Y)/2, 32*(real)EPS);
-    (void)state;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_forces_are_derivatives),
-        cmocka_unit_test(test_wrong_forces_are_seen),
-        cmocka_unit_test(test_hessians),
-        cmocka_unit_test(test_own_coordinates_only),
-        cmocka_unit_test(test_batch_is_point_by_point),
-        cmocka_unit_test(test_power),
-        cmocka_unit_test(test_air_drag_is_quadratic),
-        cmocka_unit_test(test_inner_forces_cancel),
-        cmocka_unit_test(test_gravity_in_numbers),
-        cmocka_unit_test(test_spring_without_length),
-        cmocka_unit_test(test_chain_is_springs),
-        cmocka_unit_test(test_motors),
-        cmocka_unit_test(test_magnetic_and_frame),
-        cmocka_unit_test(test_masses),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

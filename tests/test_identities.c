@@ -11,7 +11,6 @@ enum { STEPS = 50, N = 2 };
 /* The largest difference allowed after STEPS steps, in eps.                  */
 #define LIMIT 10
 
-#define ANY __attribute__((unused))     /* used or not */
 
 /* ------------------------------------------------ two systems, each told twice:
    to gvi.h as a Lagrangian, to the methods below as z = (q, p), dz = (dH/dp, -dH/dq) */
@@ -22,7 +21,7 @@ typedef void rates_fn(const real *z, real *dz);
 
 static const gvi_real two_masses[] = { 5/(gvi_real)4, 3/(gvi_real)4 };
 
-static int separable_points(const gvi_points *x, ANY void *user)
+static int separable_points(const gvi_points *x, void *user)
 {
     int d = x->stride;
     for (int k = 0; k < x->count; ++k) {
@@ -55,7 +54,7 @@ static void separable_rates(const real *z, real *dz)
 #define COS cosl
 #endif
 
-static int pendulum_mass(const gvi_points *x, ANY void *user)
+static int pendulum_mass(const gvi_points *x, void *user)
 {
     int d = x->stride;
     for (int k = 0; k < x->count; ++k) {
@@ -66,7 +65,7 @@ static int pendulum_mass(const gvi_points *x, ANY void *user)
     return 0;
 }
 
-static int pendulum_gradient(const gvi_points *x, ANY void *user)
+static int pendulum_gradient(const gvi_points *x, void *user)
 {
     int d = x->stride;
     for (int k = 0; k < x->count; ++k) {
@@ -77,7 +76,7 @@ static int pendulum_gradient(const gvi_points *x, ANY void *user)
     return 0;
 }
 
-static int pendulum_points(const gvi_points *x, ANY void *user)
+static int pendulum_points(const gvi_points *x, void *user)
 {
     int d = x->stride;
     for (int k = 0; k < x->count; ++k) {
@@ -129,7 +128,7 @@ struct tableau {
 typedef void method_fn(rates_fn *rates, const struct tableau *T, real h, const real *z, real *dz);
 
 /* dz = h g(z + dz/2) */
-static void midpoint(rates_fn *rates, ANY const struct tableau *T, real h, const real *z, real *dz)
+static void midpoint(rates_fn *rates, const struct tableau *T, real h, const real *z, real *dz)
 {
     real middle[2*N], g[2*N] = { 0 };
     for (int it = 0; it < 100; ++it) {
@@ -140,7 +139,7 @@ static void midpoint(rates_fn *rates, ANY const struct tableau *T, real h, const
 }
 
 /* kick, drift, kick */
-static void verlet(rates_fn *rates, ANY const struct tableau *T, real h, const real *z, real *dz)
+static void verlet(rates_fn *rates, const struct tableau *T, real h, const real *z, real *dz)
 {
     real Z[2*N], before[2*N], drift[2*N], after[2*N];
     rates(z, before);
@@ -238,7 +237,7 @@ static void compare(const char *what, const struct system *a, gvi_rule_kind rule
 
 /* ------------------------------------------------------------------- tests */
 
-static void test_midpoint(ANY void **state)
+TEST(test_midpoint)
 {
     print_message("  worst differences in eps                           "
                   "auto    expl     pos     vel     mom  newton\n");
@@ -246,12 +245,12 @@ static void test_midpoint(ANY void **state)
     compare("midpoint rule, double pendulum", &pendulum, GVI_GAUSS, 1, 1, midpoint, NULL);
 }
 
-static void test_verlet(ANY void **state)
+TEST(test_verlet)
 {
     compare("Stoermer-Verlet", &separable, GVI_LOBATTO, 1, 2, verlet, NULL);
 }
 
-static void test_gauss(ANY void **state)
+TEST(test_gauss)
 {
     const struct tableau gauss2 = { 2, GAUSS2, GAUSS2, { 1/2.0L, 1/2.0L } };
     const struct tableau gauss3 = { 3, GAUSS3, GAUSS3, { 5/18.0L, 4/9.0L, 5/18.0L } };
@@ -263,7 +262,7 @@ static void test_gauss(ANY void **state)
 
 /* With constant mass and potentials the degrees r - 1 and r give one method;
    else it is degree r, equation (5).                                         */
-static void test_lobatto(ANY void **state)
+TEST(test_lobatto)
 {
     const struct tableau lobatto2 = {
         2, { { 0, 0 }, { 1/2.0L, 1/2.0L } }, { { 1/2.0L, 0 }, { 1/2.0L, 0 } }, { 1/2.0L, 1/2.0L }
@@ -281,11 +280,4 @@ static void test_lobatto(ANY void **state)
     compare("Lobatto IIIA-IIIB 3, double pendulum", &pendulum, GVI_LOBATTO, 3, 3, partitioned, &lobatto3);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_midpoint), cmocka_unit_test(test_verlet),
-        cmocka_unit_test(test_gauss), cmocka_unit_test(test_lobatto)
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

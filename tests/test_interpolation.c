@@ -208,9 +208,8 @@ static void check_weights(int n, const gvi_real *x, const gvi_real *w)
     assert_true(same(biggest, 1));
 }
 
-static void weights_are_the_reciprocal_products_with_a_maximum_of_one(void **state)
+TEST(weights_are_the_reciprocal_products_with_a_maximum_of_one)
 {
-    (void)state;
     gvi_real x[FEW], w[FEW];
     for (int k = 0; k < COUNT(families); ++k)
         for (int n = 1; n <= FEW; ++n) {
@@ -220,9 +219,8 @@ static void weights_are_the_reciprocal_products_with_a_maximum_of_one(void **sta
         }
 }
 
-static void weights_have_the_sign_of_the_products(void **state)
+TEST(weights_have_the_sign_of_the_products)
 {
-    (void)state;
     const gvi_real x[] = { 3, 1, 2 };                 /* products 2, 2, -1 */
     gvi_real w[3];
     assert_ok(gvi_barycentric(3, x, w));
@@ -233,9 +231,8 @@ static void weights_have_the_sign_of_the_products(void **state)
 
 static gvi_real big_x[MOST], big_w[MOST], big_f[MOST], big_l[MOST];
 
-static void weights_of_1000_points_neither_overflow_nor_vanish(void **state)
+TEST(weights_of_1000_points_neither_overflow_nor_vanish)
 {
-    (void)state;
     for (int k = 0; k < 3; ++k) {
         families[k](MOST, big_x);
         if (k == 0 && GVI__KIND == 1) {     /* equispaced, from 1e-299 to 1: not in float */
@@ -250,9 +247,8 @@ static void weights_of_1000_points_neither_overflow_nor_vanish(void **state)
 
 /* x scaled by a power of 2 has the same weights to the bit, and by another
    factor the weights of the points that rounding leaves.                     */
-static void weights_do_not_depend_on_the_unit_of_the_nodes(void **state)
+TEST(weights_do_not_depend_on_the_unit_of_the_nodes)
 {
-    (void)state;
     const gvi_real units[] = { (gvi_real)1e-30L, (gvi_real)1e30L, (gvi_real)ldexp(1, -100),
                                (gvi_real)ldexp(1, 100) };
     gvi_real x[FEW], y[FEW], w[FEW], v[FEW];
@@ -281,9 +277,8 @@ static void check_values(int n, const gvi_real *x, const gvi_real *f)
     }
 }
 
-static void interpolation_is_that_of_lagrange_at_near_and_far_from_nodes(void **state)
+TEST(interpolation_is_that_of_lagrange_at_near_and_far_from_nodes)
 {
-    (void)state;
     gvi_real x[FEW], f[FEW];
     for (int k = 0; k < COUNT(families); ++k)
         for (int n = 1; n <= FEW; ++n) {
@@ -319,9 +314,8 @@ static void check_reproduced(int n, const gvi_real *x, int degree)
     }
 }
 
-static void polynomials_below_the_number_of_nodes_are_reproduced(void **state)
+TEST(polynomials_below_the_number_of_nodes_are_reproduced)
 {
-    (void)state;
     gvi_real x[FEW];
     for (int k = 0; k < COUNT(families); ++k)
         for (int n = 1; n <= 12; ++n) {
@@ -332,9 +326,8 @@ static void polynomials_below_the_number_of_nodes_are_reproduced(void **state)
 
 /* 1, t, ... at t = 10^3 and 10^5, where the l_j are 10^15 and more: what they
    have in common must not cancel before the values are seen.                 */
-static void polynomials_are_reproduced_far_outside(void **state)
+TEST(polynomials_are_reproduced_far_outside)
 {
-    (void)state;
     const gvi_real far[] = { -50, 1000, -100000 };
     gvi_real x[6], w[6], f[6];
     for (int k = 0; k < COUNT(families); ++k)
@@ -350,9 +343,8 @@ static void polynomials_are_reproduced_far_outside(void **state)
         }
 }
 
-static void a_polynomial_of_the_next_degree_is_missed_by_the_node_polynomial(void **state)
+TEST(a_polynomial_of_the_next_degree_is_missed_by_the_node_polynomial)
 {
-    (void)state;
     gvi_real x[8], w[8], f[8];
     for (int n = 2; n <= 8; ++n) {
         chebyshev(n, x);
@@ -366,9 +358,8 @@ static void a_polynomial_of_the_next_degree_is_missed_by_the_node_polynomial(voi
     }
 }
 
-static void interpolation_is_exact_at_nodes(void **state)
+TEST(interpolation_is_exact_at_nodes)
 {
-    (void)state;
     gvi_real x[FEW], w[FEW], f[FEW], l[FEW];
     for (int k = 0; k < COUNT(families); ++k)
         for (int n = 1; n <= FEW; ++n) {
@@ -383,9 +374,8 @@ static void interpolation_is_exact_at_nodes(void **state)
         }
 }
 
-static void interpolation_next_to_a_node_at_zero_survives_the_smallest_distances(void **state)
+TEST(interpolation_next_to_a_node_at_zero_survives_the_smallest_distances)
 {
-    (void)state;
     const gvi_real x[] = { -1, 0, (gvi_real)0.5L, 2 }, f[] = { 3, -2, 7, 1 };
     const gvi_real near[] = { LEAST, 3*LEAST, 1/GREAT, (gvi_real)EPS*EPS, (gvi_real)EPS*EPS*EPS };
     gvi_real w[4], l[4];
@@ -402,9 +392,8 @@ static void interpolation_next_to_a_node_at_zero_survives_the_smallest_distances
         }
 }
 
-static void values_of_any_size_are_interpolated(void **state)
+TEST(values_of_any_size_are_interpolated)
 {
-    (void)state;
     gvi_real x[9], w[9], f[9], g[9];
     chebyshev(9, x);
     assert_ok(gvi_barycentric(9, x, w));
@@ -437,9 +426,8 @@ static void check_basis(int n, const gvi_real *x)
     }
 }
 
-static void basis_is_that_of_lagrange_and_sums_to_one(void **state)
+TEST(basis_is_that_of_lagrange_and_sums_to_one)
 {
-    (void)state;
     gvi_real x[FEW];
     for (int k = 0; k < COUNT(families); ++k)
         for (int n = 1; n <= FEW; ++n) {
@@ -448,9 +436,8 @@ static void basis_is_that_of_lagrange_and_sums_to_one(void **state)
         }
 }
 
-static void basis_of_1000_points_sums_to_one(void **state)
+TEST(basis_of_1000_points_sums_to_one)
 {
-    (void)state;
     chebyshev(MOST, big_x);
     assert_ok(gvi_barycentric(MOST, big_x, big_w));
     for (int i = -50; i <= 50; ++i) {
@@ -468,9 +455,8 @@ static wide runge(wide t) { return 1/(1 + 25*t*t); }
 
 /* 1.22^-1000 of truncation, and rounding that does not grow with n in practice:
    Higham's bound would be 6000 units times the Lebesgue constant.            */
-static void runge_by_1000_chebyshev_points_is_exact_to_rounding(void **state)
+TEST(runge_by_1000_chebyshev_points_is_exact_to_rounding)
 {
-    (void)state;
     for (int k = 1; k <= 2; ++k) {
         families[k](MOST, big_x);
         assert_ok(gvi_barycentric(MOST, big_x, big_w));
@@ -483,9 +469,8 @@ static void runge_by_1000_chebyshev_points_is_exact_to_rounding(void **state)
 }
 
 /* The known greatest errors of degree 10 and 20, to the digits given. */
-static void runge_by_equispaced_points_diverges_as_known(void **state)
+TEST(runge_by_equispaced_points_diverges_as_known)
 {
-    (void)state;
     const struct { int n; long double error, digits, lebesgue; } known[] = {
         { 11, 1.91566L, 1e-4L, 30 }, { 21, 59.822L, 2e-2L, 10987 },
     };
@@ -543,9 +528,8 @@ static void check_derivatives(int n, const gvi_real *x, const gvi_real *f)
     }
 }
 
-static void derivatives_are_those_of_lagrange_at_near_and_far_from_nodes(void **state)
+TEST(derivatives_are_those_of_lagrange_at_near_and_far_from_nodes)
 {
-    (void)state;
     gvi_real x[FEW], f[FEW];
     for (int k = 0; k < COUNT(families); ++k)
         for (int n = 1; n <= FEW; n += n < 9 ? 1 : 4) {
@@ -555,9 +539,8 @@ static void derivatives_are_those_of_lagrange_at_near_and_far_from_nodes(void **
         }
 }
 
-static void derivative_of_monomials_is_known(void **state)
+TEST(derivative_of_monomials_is_known)
 {
-    (void)state;
     gvi_real x[10], w[10], f[10], t[PLACES];
     chebyshev_with_ends(10, x);
     assert_ok(gvi_barycentric(10, x, w));
@@ -582,9 +565,8 @@ static void derivative_of_monomials_is_known(void **state)
    double may have, below 1e-34; the norm of the derivative is (n - 1)^2/3 at the
    ends.                                                                      */
 #define MANY (DIG > 64 ? 28 : 24)
-static void derivative_of_exp_is_exp(void **state)
+TEST(derivative_of_exp_is_exp)
 {
-    (void)state;
     gvi_real x[MANY], w[MANY], f[MANY];
     chebyshev_with_ends(MANY, x);
     assert_ok(gvi_barycentric(MANY, x, w));
@@ -600,9 +582,8 @@ static void derivative_of_exp_is_exp(void **state)
         assert_close(gvi_interpolate_derivative(MANY, x, w, f, x[i]), expl(x[i]), 200*expl(1)*EPS);
 }
 
-static void constants_have_exactly_the_derivative_zero(void **state)
+TEST(constants_have_exactly_the_derivative_zero)
 {
-    (void)state;
     gvi_real x[FEW], w[FEW], f[FEW], t[PLACES];
     for (int k = 0; k < COUNT(families); ++k)
         for (int n = 1; n <= FEW; ++n) {
@@ -619,9 +600,8 @@ static void constants_have_exactly_the_derivative_zero(void **state)
 
 /* One copy of the code for both units: in registers wider than the type (x87)
    two may round at different places.                                         */
-static void derivative_scales_with_the_unit_of_the_nodes(void **state)
+TEST(derivative_scales_with_the_unit_of_the_nodes)
 {
-    (void)state;
     typedef gvi_real at_fn(int n, const gvi_real *x, const gvi_real *w, const gvi_real *f, gvi_real t);
     typedef void row_fn(int n, const gvi_real *x, const gvi_real *w, gvi_real t, gvi_real *l);
     at_fn *volatile const value_at = gvi_interpolate, *volatile const slope_at = gvi_interpolate_derivative;
@@ -647,9 +627,8 @@ static void derivative_scales_with_the_unit_of_the_nodes(void **state)
 
 /* -------------------------------------------------------------- odds and ends */
 
-static void nodes_may_come_in_any_order(void **state)
+TEST(nodes_may_come_in_any_order)
 {
-    (void)state;
     gvi_real x[FEW], y[FEW], w[FEW], v[FEW], f[FEW], g[FEW], t[PLACES];
     chebyshev(FEW, x);
     for (int i = 0; i < FEW; ++i) {
@@ -671,9 +650,8 @@ static void nodes_may_come_in_any_order(void **state)
     }
 }
 
-static void one_node_makes_a_constant(void **state)
+TEST(one_node_makes_a_constant)
 {
-    (void)state;
     const gvi_real x[] = { (gvi_real)0.3L }, f[] = { (gvi_real)1.7L };
     const gvi_real t[] = { 0, (gvi_real)0.3L, 5, -(gvi_real)1e30L };
     gvi_real w[1], l[1];
@@ -689,9 +667,8 @@ static void one_node_makes_a_constant(void **state)
     }
 }
 
-static void coinciding_nodes_are_refused(void **state)
+TEST(coinciding_nodes_are_refused)
 {
-    (void)state;
     gvi_real x[] = { 0, 1, 2, 1 }, zeros[] = { 0, -(gvi_real)0 }, w[4];
     assert_status(gvi_barycentric(4, x, w), GVI_E_NODES);
     assert_status(gvi_barycentric(2, zeros, w), GVI_E_NODES);
@@ -703,9 +680,8 @@ static void coinciding_nodes_are_refused(void **state)
     assert_true(same(w[0], -w[1]));
 }
 
-static void faulty_arguments_are_refused_and_leave_the_output_alone(void **state)
+TEST(faulty_arguments_are_refused_and_leave_the_output_alone)
 {
-    (void)state;
     const gvi_real x[] = { 0, 1 };
     const gvi_real bad[] = { (gvi_real)NAN, (gvi_real)INFINITY, -(gvi_real)INFINITY };
     gvi_real w[2] = { 7, 8 };
@@ -723,33 +699,4 @@ static void faulty_arguments_are_refused_and_leave_the_output_alone(void **state
     assert_true(same(w[0], 7) && same(w[1], 8));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(weights_are_the_reciprocal_products_with_a_maximum_of_one),
-        cmocka_unit_test(weights_have_the_sign_of_the_products),
-        cmocka_unit_test(weights_of_1000_points_neither_overflow_nor_vanish),
-        cmocka_unit_test(weights_do_not_depend_on_the_unit_of_the_nodes),
-        cmocka_unit_test(interpolation_is_that_of_lagrange_at_near_and_far_from_nodes),
-        cmocka_unit_test(polynomials_below_the_number_of_nodes_are_reproduced),
-        cmocka_unit_test(polynomials_are_reproduced_far_outside),
-        cmocka_unit_test(a_polynomial_of_the_next_degree_is_missed_by_the_node_polynomial),
-        cmocka_unit_test(interpolation_is_exact_at_nodes),
-        cmocka_unit_test(interpolation_next_to_a_node_at_zero_survives_the_smallest_distances),
-        cmocka_unit_test(values_of_any_size_are_interpolated),
-        cmocka_unit_test(basis_is_that_of_lagrange_and_sums_to_one),
-        cmocka_unit_test(basis_of_1000_points_sums_to_one),
-        cmocka_unit_test(runge_by_1000_chebyshev_points_is_exact_to_rounding),
-        cmocka_unit_test(runge_by_equispaced_points_diverges_as_known),
-        cmocka_unit_test(derivatives_are_those_of_lagrange_at_near_and_far_from_nodes),
-        cmocka_unit_test(derivative_of_monomials_is_known),
-        cmocka_unit_test(derivative_of_exp_is_exp),
-        cmocka_unit_test(constants_have_exactly_the_derivative_zero),
-        cmocka_unit_test(derivative_scales_with_the_unit_of_the_nodes),
-        cmocka_unit_test(nodes_may_come_in_any_order),
-        cmocka_unit_test(one_node_makes_a_constant),
-        cmocka_unit_test(coinciding_nodes_are_refused),
-        cmocka_unit_test(faulty_arguments_are_refused_and_leave_the_output_alone),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -26,7 +26,6 @@ static void force(real t, const real *q, real *f)
 
 static int potential(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
-    (void)v; (void)dldv; (void)user;
     force(t, q, f);
     return 0;
 }
@@ -94,11 +93,10 @@ static void errors(const table *a, gvi_mass_kind mass, int N, real last, real *e
 }
 
 /* Two-sided: the next term of the expansion is 1/8 or less of the first by then */
-static void every_table_has_its_order_on_both_sides(void **state)
+TEST(every_table_has_its_order_on_both_sides)
 {
     int count;
     const table *all = tables(&count);
-    (void)state;
     for (int i = 0; i < count; ++i)
     for (int mass = GVI_MASS_UNIT; mass <= GVI_MASS_DENSE; ++mass) {
         const int N = all[i].r == 23 ? 6 : all[i].order == 8 ? 12 : all[i].order == 6 ? 10 : 64;
@@ -133,11 +131,10 @@ static void by_hand(const table *a, gvi_mass_kind mass, real t, real h, real *y)
 }
 
 /* 50 steps of a regular motion: a rounding each of 2r sums a step, passed on about 1:1 */
-static void steps_are_those_of_a_splitting_written_by_hand(void **state)
+TEST(steps_are_those_of_a_splitting_written_by_hand)
 {
     int count;
     const table *all = tables(&count);
-    (void)state;
     for (int i = 0; i < count; ++i)
     for (int mass = GVI_MASS_UNIT; mass <= GVI_MASS_DENSE; ++mass) {
         const gvi_desc desc = describe(&all[i], (gvi_mass_kind)mass);
@@ -154,10 +151,9 @@ static void steps_are_those_of_a_splitting_written_by_hand(void **state)
     }
 }
 
-static void two_kicks_are_lobatto_of_degree_one_to_the_bit(void **state)
+TEST(two_kicks_are_lobatto_of_degree_one_to_the_bit)
 {
     const real c[] = { 0, 1 }, b[] = { 0.5L, 0.5L };
-    (void)state;
     for (int mass = GVI_MASS_UNIT; mass <= GVI_MASS_DENSE; ++mass) {
         table two = { "", 2, 2, 1, { 0 }, { 0 } };
         gvi_desc kicks, lobatto;
@@ -215,11 +211,10 @@ static real symplectic_defect(const table *a, gvi_mass_kind mass)
     return worst;
 }
 
-static void every_table_gives_a_symplectic_map(void **state)
+TEST(every_table_gives_a_symplectic_map)
 {
     int count;
     const table *all = tables(&count);
-    (void)state;
     for (int i = 0; i < count; ++i)
     for (int mass = GVI_MASS_UNIT; mass <= GVI_MASS_DENSE; ++mass)
         assert_between(0, symplectic_defect(&all[i], (gvi_mass_kind)mass), 100*pow((real)EPS, 8/(real)9));
@@ -227,12 +222,11 @@ static void every_table_gives_a_symplectic_map(void **state)
 
 /* A rounding of a kick or a drift changes q x p by EPS/2 of |q||p| or less, at most 2
    here; r + 1 of them a step, independent: the bound is four standard deviations  */
-static void angular_momentum_is_kept_by_every_kick(void **state)
+TEST(angular_momentum_is_kept_by_every_kick)
 {
     static const gvi_effect sun[] = { { .kind = GVI_POTENTIAL, .points = attraction } };
     int count;
     const table *all = tables(&count);
-    (void)state;
     for (int i = 0; i < count; ++i) {
         gvi_desc desc = describe(&all[i], GVI_MASS_UNIT);
         gvi_stepper st;
@@ -248,11 +242,10 @@ static void angular_momentum_is_kept_by_every_kick(void **state)
 }
 
 /* A symmetric table steps back where it came from; Ruth's does not */
-static void symmetric_tables_are_reversible(void **state)
+TEST(symmetric_tables_are_reversible)
 {
     int count;
     const table *all = tables(&count);
-    (void)state;
     for (int i = 0; i < count; ++i) {
         const gvi_desc desc = describe(&all[i], GVI_MASS_DENSE);
         gvi_stepper st;
@@ -269,11 +262,10 @@ static void symmetric_tables_are_reversible(void **state)
 /* --------------------------------------------------------------------- work */
 
 /* The force at the end of a step is that at the start of the next, if both are nodes */
-static void the_last_kick_is_not_asked_for_twice(void **state)
+TEST(the_last_kick_is_not_asked_for_twice)
 {
     int count;
     const table *all = tables(&count);
-    (void)state;
     for (int i = 0; i < count; ++i) {
         const gvi_desc desc = describe(&all[i], GVI_MASS_UNIT);
         const int r = all[i].r, shared = all[i].c[0] == 0 && all[i].c[r - 1] == 1;
@@ -289,7 +281,6 @@ static void the_last_kick_is_not_asked_for_twice(void **state)
 /* A ring of springs d + d^3, at rest but for one: as many coordinates as fill vectors, and more, and fewer */
 static int ring(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int i = 0; i < x->n; ++i) {
         const int next = (i + 1) % x->n, R = x->stride;
         for (int k = 0; k < x->count; ++k) {
@@ -303,14 +294,13 @@ static int ring(const gvi_points *x, void *user)
 
 /* A tolerance ends iterations; kicks have none, so it changes no bit.  The forces cancel: momenta add up to 0,
    but for roundings at random.                                                                       */
-static void a_tolerance_changes_no_bit_of_a_kick(void **state)
+TEST(a_tolerance_changes_no_bit_of_a_kick)
 {
     static const int sizes[] = { 1, 3, 8, 13 };
     static const gvi_effect springs[] = { { .kind = GVI_POTENTIAL, .points = ring } };
     static real mass[13], here[13], zero[13];
     int count;
     const table *all = tables(&count);
-    (void)state;
     for (int i = 0; i < COUNT(sizes)*count*2; ++i) {
         const table *a = &all[i/2/COUNT(sizes)];
         const int n = sizes[i/2 % COUNT(sizes)], steps = 400, r = a->r;
@@ -339,7 +329,7 @@ static void a_tolerance_changes_no_bit_of_a_kick(void **state)
 
 /* Zeros at the start, in the middle, two together, before the last: the step is that without them, to a
    rounding of each drift, which is in two parts then; a kick at the end is asked for, for the next step */
-static void kicks_of_weight_zero_are_left_out(void **state)
+TEST(kicks_of_weight_zero_are_left_out)
 {
     static const table without = { "", 4, 3, 0, { 0, 0.6L, 1 }, { 0.25L, 0.5L, 0.25L } };
     static const table with[] = {
@@ -349,7 +339,6 @@ static void kicks_of_weight_zero_are_left_out(void **state)
         { "", 4, 4, 0, { 0, 0.6L, 1, 1 }, { 0.25L, 0.5L, 0.25L, 0 } },
     };
     static const int asked[] = { 100*2 + 1, 100*2 + 1, 100*3, 100*3 + 1 };
-    (void)state;
     for (int i = 0; i < COUNT(with); ++i)
     for (int mass = GVI_MASS_UNIT; mass <= GVI_MASS_DENSE; ++mass) {
         const gvi_desc a = describe(&without, (gvi_mass_kind)mass), b = describe(&with[i], (gvi_mass_kind)mass);
@@ -372,7 +361,6 @@ static void kicks_of_weight_zero_are_left_out(void **state)
 
 static int reads_v(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
-    (void)t; (void)q; (void)user;
     f[0] -= v[0];
     if (dldv) dldv[0] += v[0];
     return 0;
@@ -386,12 +374,11 @@ static gvi_status status_of(const gvi_desc *desc)
     return status;
 }
 
-static void faulty_tables_are_refused(void **state)
+TEST(faulty_tables_are_refused)
 {
     int count;
     table bad = tables(&count)[1];
     gvi_desc desc = describe(&bad, GVI_MASS_UNIT);
-    (void)state;
     assert_int_equal(status_of(&desc), GVI_OK);
     bad.b[1] += 1e-6L;
     assert_int_equal(status_of(&desc), GVI_E_ORDER);
@@ -412,11 +399,10 @@ static void faulty_tables_are_refused(void **state)
     assert_int_equal(status_of(&desc), GVI_E_FORMULATION);
 }
 
-static void scenes_that_no_kick_can_move_are_refused(void **state)
+TEST(scenes_that_no_kick_can_move_are_refused)
 {
     int count;
     const table *a = tables(&count);
-    (void)state;
     for (int kind = GVI_FORCE; kind <= GVI_LAGRANGIAN; ++kind) {
         const gvi_effect effects[] = { scene[0], { .kind = (gvi_kind)kind, .point = reads_v } };
         gvi_desc desc = describe(a, GVI_MASS_UNIT);
@@ -426,14 +412,13 @@ static void scenes_that_no_kick_can_move_are_refused(void **state)
     }
 }
 
-static void questions_that_a_broken_line_cannot_answer_are_refused(void **state)
+TEST(questions_that_a_broken_line_cannot_answer_are_refused)
 {
     int count;
     const table *all = tables(&count);
     const gvi_desc desc = describe(&all[3], GVI_MASS_UNIT);
     gvi_stepper st;
     real q[2] = { 7, 7 }, number = 7;
-    (void)state;
     set_up(&st, &desc, start, memory);
     assert_ok(gvi_step(&st, 0.125L));
     assert_status(gvi_curve(&st, 0.5L, q, NULL), GVI_E_FORMULATION);
@@ -447,12 +432,11 @@ static void questions_that_a_broken_line_cannot_answer_are_refused(void **state)
 
 /* --------------------------------------------------- checkpoint and switching */
 
-static void a_checkpoint_continues_to_the_bit(void **state)
+TEST(a_checkpoint_continues_to_the_bit)
 {
     static real saved_memory[4000];
     int count;
     const table *all = tables(&count);
-    (void)state;
     for (int i = 0; i < count; ++i) {
         const gvi_desc desc = describe(&all[i], GVI_MASS_DENSE);
         gvi_stepper a, b, saved;
@@ -479,11 +463,10 @@ static int spring(const gvi_points *x, void *user)
     return 0;
 }
 
-static void what_overflows_is_refused(void **state)
+TEST(what_overflows_is_refused)
 {
     static const table some[] = { { "", 2, 1, 0, { 0.5L }, { 1 } }, { "", 2, 2, 0, { 0, 1 }, { 0.5L, 0.5L } } };
     int turn = 1;
-    (void)state;
     for (int i = 0; i < 2*40; ++i) {
         const gvi_effect one[] = { { .kind = GVI_POTENTIAL, .points = spring } };
         const real h = 2.1L + (i/2)*0.5L;
@@ -509,12 +492,11 @@ static void what_overflows_is_refused(void **state)
 }
 
 /* Off is as if not listed, and the kept force is not used over a switch */
-static void a_switched_effect_is_in_the_next_kick(void **state)
+TEST(a_switched_effect_is_in_the_next_kick)
 {
     const gvi_effect twice[] = { scene[0], scene[0] };
     int count;
     const table *all = tables(&count);
-    (void)state;
     for (int i = 0; i < count; ++i) {
         const gvi_desc one = describe(&all[i], GVI_MASS_DIAGONAL);
         gvi_desc two = one;
@@ -548,16 +530,14 @@ static void a_switched_effect_is_in_the_next_kick(void **state)
 /* The last kick gives no number: r points, and once more to see whose they are  */
 static int no_number_late(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int k = 0; k < x->count; ++k) x->f[k] += x->t[k] > when + 0.24L ? (real)NAN : -x->q[k];
     return 0;
 }
 
-static void no_number_is_looked_for_once(void **state)
+TEST(no_number_is_looked_for_once)
 {
     int count;
     const table *all = tables(&count);
-    (void)state;
     for (int i = 0; i < count; ++i) {
         const gvi_effect two[] = { { .kind = GVI_POTENTIAL, .point = potential },
                                    { .kind = GVI_POTENTIAL, .points = no_number_late } };
@@ -575,25 +555,4 @@ static void no_number_is_looked_for_once(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_table_has_its_order_on_both_sides),
-        cmocka_unit_test(steps_are_those_of_a_splitting_written_by_hand),
-        cmocka_unit_test(two_kicks_are_lobatto_of_degree_one_to_the_bit),
-        cmocka_unit_test(every_table_gives_a_symplectic_map),
-        cmocka_unit_test(angular_momentum_is_kept_by_every_kick),
-        cmocka_unit_test(symmetric_tables_are_reversible),
-        cmocka_unit_test(the_last_kick_is_not_asked_for_twice),
-        cmocka_unit_test(kicks_of_weight_zero_are_left_out),
-        cmocka_unit_test(a_checkpoint_continues_to_the_bit),
-        cmocka_unit_test(a_switched_effect_is_in_the_next_kick),
-        cmocka_unit_test(no_number_is_looked_for_once),
-        cmocka_unit_test(what_overflows_is_refused),
-        cmocka_unit_test(a_tolerance_changes_no_bit_of_a_kick),
-        cmocka_unit_test(faulty_tables_are_refused),
-        cmocka_unit_test(scenes_that_no_kick_can_move_are_refused),
-        cmocka_unit_test(questions_that_a_broken_line_cannot_answer_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

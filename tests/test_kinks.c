@@ -185,16 +185,16 @@ static void run_all(gvi_formulation formulation)
         }
 }
 
-static void the_default(void **state) { (void)state; run_all(GVI_AUTO); }
-static void the_fixed_point(void **state) { (void)state; run_all(GVI_POSITIONS); }
-static void the_fixed_point_with_velocities(void **state) { (void)state; run_all(GVI_VELOCITIES); }
-static void momenta(void **state) { (void)state; run_all(GVI_MOMENTA); }
-static void newton(void **state) { (void)state; run_all(GVI_NEWTON); }
+TEST(the_default) { run_all(GVI_AUTO); }
+TEST(the_fixed_point) { run_all(GVI_POSITIONS); }
+TEST(the_fixed_point_with_velocities) { run_all(GVI_VELOCITIES); }
+TEST(momenta) { run_all(GVI_MOMENTA); }
+TEST(newton) { run_all(GVI_NEWTON); }
 
 /* A mass of 0.1 on a rope of stiffness 1e6, just before it is taut, with a tolerance: Newton's method overshot to
    1e16 times the size of y, and the fall from there to 1 was taken for convergence.  Energy went from 0 to 1247
    (in double and long double; in float it does not overshoot just there).    */
-static void an_overshoot_is_no_contraction(void **state)
+TEST(an_overshoot_is_no_contraction)
 {
     static const real masses[] = { (real)0.1, (real)0.1 };
     const scene a = { &laws[1], 1000000 };
@@ -202,7 +202,6 @@ static void an_overshoot_is_no_contraction(void **state)
     const real q[] = { (real)0.98, (real)-0.18843047999999682L }, v[] = { 0, (real)-1.922759999999913L };
     static real memory[GVI_LENGTH(2, 2, 2)];
     wide c[2], b[2];
-    (void)state;
     gauss_nodes(2, c, b);
     for (int k = 0; k < 10; ++k) {
         const gvi_desc desc = { .n = 2, .degree = 2, .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = masses },
@@ -237,7 +236,7 @@ static gvi_status long_step(const scene *a, gvi_desc desc, const gvi_stepper *st
 /* It falls, is taut and slack in turn; from where it then is one long step: h omega is 13, 32 and 63.  A
    damped Newton's method with Hessians of its own solves all of these; undamped it was 63 to 97 in 100.
    Not in float, where K times the rounding of q is a tenth of the weight.  */
-static void a_cable_by_halved_changes(void **state)
+TEST(a_cable_by_halved_changes)
 {
     enum { n = MOST };
     static const double steps[] = { 0.002, 0.005, 0.01 };
@@ -247,7 +246,6 @@ static void a_cable_by_halved_changes(void **state)
     gvi_desc desc = { .n = n, .degree = 2, .mass = { GVI_MASS_DIAGONAL, .matrix = masses }, .effects = &effect,
                       .effect_count = 1 };
     gvi_stepper st;
-    (void)state;
     if (EPS > (real)1e-10) skip();
     for (int i = 0; i < n; ++i) masses[i] = (real)0.1L, q[i] = i % 2 ? 0 : (real)(0.98L*(i/2 + 1)/MASSES);
     assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
@@ -280,13 +278,12 @@ static real atoms_force(real K, const real *q, real *f)
 /* Steps in turn of h/4 and h, of which the first rows are extrapolated to four times the length: that overshoots to
    1e30, and the units of changes are not to stay what they were there.  Of 44,253 steps that were ok 347 were of
    equations not solved.  */
-static void an_overshoot_of_the_first_rows_hides_nothing(void **state)
+TEST(an_overshoot_of_the_first_rows_hides_nothing)
 {
     static real memory[GVI_LENGTH(8, 9, 9)];
     const scene a = { &(law){ "atoms", atoms_force, 8 }, 1 };
     const gvi_effect effect = { .kind = GVI_POTENTIAL, .points = points, .user = (void *)&a };
     int ok = 0;
-    (void)state;
     for (int run = 0; run < 2000; ++run) {
         const gvi_desc desc = { .n = 8, .degree = 1 + run % 8, .effects = &effect, .effect_count = 1,
                                 .formulation = run/8 % 2 ? GVI_POSITIONS : GVI_AUTO };
@@ -322,13 +319,12 @@ static real plateau_force(real K, const real *q, real *f)
 }
 
 /* From rest Newton's method may land on y = 0, of which no change is a part */
-static void a_curve_that_is_0_is_no_end(void **state)
+TEST(a_curve_that_is_0_is_no_end)
 {
     static real memory[GVI_LENGTH(1, 4, 4)];
     const scene a = { &(law){ "plateau", plateau_force, 1 }, 50 };
     const gvi_effect effect = { .kind = GVI_POTENTIAL, .points = points, .user = (void *)&a };
     int ok = 0;
-    (void)state;
     for (int k = 0; k < 80; ++k) {
         const gvi_desc desc = { .n = 1, .degree = 1 + k % 4, .effects = &effect, .effect_count = 1,
                                 .formulation = k % 8 < 4 ? GVI_AUTO : GVI_NEWTON };
@@ -347,7 +343,7 @@ static void a_curve_that_is_0_is_no_end(void **state)
 
 /* A mass on a spring of stiffness 10,000, swinging: the first change of Newton's method meets the length of the
    spring, and every one that then goes round leads up before it leads down.  200 states, one long step each, h omega = 64 */
-static void a_stiff_pendulum_by_whole_changes(void **state)
+TEST(a_stiff_pendulum_by_whole_changes)
 {
     static real memory[GVI_LENGTH(2, 4, 4)];
     const scene a = { &(law){ "pendulum", pendulum_force, 2 }, 10000 };
@@ -356,7 +352,6 @@ static void a_stiff_pendulum_by_whole_changes(void **state)
     const real q[2] = { 1, 0 }, v[2] = { 0, 0 };
     gvi_stepper st;
     int ok = 0;
-    (void)state;
     if (EPS > (real)1e-10) skip();
     assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
     assert_ok(gvi_start(&st, 0, q, v));
@@ -379,12 +374,11 @@ static int dry_friction(const gvi_points *x, void *user)
    method that is too large lands where tanh is flat.  The steps are 100 times as long as a velocity of that
    width lasts; of degree 1 also 1000 times.  One in 70 failed, of the longer one in nine.  (In float that
    width is hardly more than rounding.)   */
-static void dry_friction_by_halved_changes(void **state)
+TEST(dry_friction_by_halved_changes)
 {
     static real memory[GVI_LENGTH(1, MOST_POINTS, MOST_POINTS)];
     wide width = 0.0001L, c[MOST_POINTS], b[MOST_POINTS];
     const gvi_effect effect = { .kind = GVI_FORCE, .points = dry_friction, .user = &width };
-    (void)state;
     if (EPS > (real)1e-10) skip();
     for (int degree = 1; degree <= MOST_POINTS; degree *= 2)
         for (int m = 0; m < (degree == 1 ? 2 : 1); ++m) {
@@ -409,20 +403,4 @@ static void dry_friction_by_halved_changes(void **state)
         }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_default),
-        cmocka_unit_test(the_fixed_point),
-        cmocka_unit_test(the_fixed_point_with_velocities),
-        cmocka_unit_test(momenta),
-        cmocka_unit_test(newton),
-        cmocka_unit_test(an_overshoot_is_no_contraction),
-        cmocka_unit_test(a_cable_by_halved_changes),
-        cmocka_unit_test(dry_friction_by_halved_changes),
-        cmocka_unit_test(an_overshoot_of_the_first_rows_hides_nothing),
-        cmocka_unit_test(a_curve_that_is_0_is_no_end),
-        cmocka_unit_test(a_stiff_pendulum_by_whole_changes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

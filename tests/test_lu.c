@@ -311,9 +311,8 @@ static const int sizes[] = { 1, 2, 3, 4, 5, 8, 13, 20 };
 
 /* ------------------------------------------------------- factors, solution */
 
-static void lu_reproduces_the_matrix_and_solves(void **state)
+TEST(lu_reproduces_the_matrix_and_solves)
 {
-    (void)state;
     seed = 1;
     for (int k = 0; k < COUNT(sizes); ++k)
         for (int trial = 0; trial < 20; ++trial) {
@@ -329,9 +328,8 @@ static void lu_reproduces_the_matrix_and_solves(void **state)
         }
 }
 
-static void lu_of_a_permutation_is_exact(void **state)
+TEST(lu_of_a_permutation_is_exact)
 {
-    (void)state;
     seed = 2;
     for (int n = 1; n <= 20; ++n) {
         int p[MOST];
@@ -349,18 +347,16 @@ static void lu_of_a_permutation_is_exact(void **state)
     }
 }
 
-static void lu_needs_pivots_where_the_diagonal_is_zero(void **state)
+TEST(lu_needs_pivots_where_the_diagonal_is_zero)
 {
-    (void)state;
     static const int m[] = { 0, 2, 1, 0,  1, 0, 0, 3,  0, 0, 0, 1,  2, 0, 5, 0 };
     integer_matrix(4, m);
     check_all(4);
     check_rcond(4);
 }
 
-static void lu_of_one_number_divides(void **state)
+TEST(lu_of_one_number_divides)
 {
-    (void)state;
     const gvi_real numbers[] = { 3, -7, power(-120), power(120), (gvi_real)1e-30L };
     for (int k = 0; k < COUNT(numbers); ++k) {
         a[0] = numbers[k];
@@ -373,9 +369,8 @@ static void lu_of_one_number_divides(void **state)
     }
 }
 
-static void wilkinsons_matrix_grows_and_is_factored_exactly(void **state)
+TEST(wilkinsons_matrix_grows_and_is_factored_exactly)
 {
-    (void)state;
     for (int n = 2; n <= MOST && n <= WIDE_DIG; n += 2) {         /* sums of the oracle reach 2^(n-1) */
         for (int i = 0; i < n; ++i)
             for (int j = 0; j < n; ++j) a[i*n + j] = i == j || j == n - 1 ? 1 : i > j ? -1 : 0;
@@ -392,9 +387,8 @@ static void wilkinsons_matrix_grows_and_is_factored_exactly(void **state)
 
 /* ------------------------------------------------------------------- units */
 
-static void lu_is_the_same_in_any_unit(void **state)
+TEST(lu_is_the_same_in_any_unit)
 {
-    (void)state;
     static gvi_real copy[MOST*MOST], kept[MOST];
     const gvi_real units[] = { (gvi_real)1e-30L, (gvi_real)1e30L, power(-90), power(90) };
     for (int kind = 0; kind < KINDS; ++kind)
@@ -413,9 +407,8 @@ static void lu_is_the_same_in_any_unit(void **state)
             }
 }
 
-static void badly_scaled_rows_change_neither_pivots_nor_accuracy(void **state)
+TEST(badly_scaled_rows_change_neither_pivots_nor_accuracy)
 {
-    (void)state;
     static gvi_real plain[MOST];
     int e[MOST], p[MOST], q[MOST];
     for (int kind = 0; kind < KINDS; ++kind)
@@ -441,9 +434,8 @@ static void badly_scaled_rows_change_neither_pivots_nor_accuracy(void **state)
 }
 
 /* D1 A D2 is as regular as A: both verdict and accuracy must stay.           */
-static void badly_scaled_columns_and_rows_are_accepted_and_solved(void **state)
+TEST(badly_scaled_columns_and_rows_are_accepted_and_solved)
 {
-    (void)state;
     int e[MOST];
     for (int kind = 0; kind < KINDS; ++kind)
         for (int k = 0; k < COUNT(sizes); ++k)
@@ -462,9 +454,8 @@ static void badly_scaled_columns_and_rows_are_accepted_and_solved(void **state)
 }
 
 /* Mass matrix in units of its coordinates, metres and radians say.           */
-static void badly_scaled_coordinates_are_accepted_and_solved(void **state)
+TEST(badly_scaled_coordinates_are_accepted_and_solved)
 {
-    (void)state;
     int e[MOST];
     for (int kind = 1; kind <= 2; ++kind)
         for (int k = 0; k < COUNT(sizes); ++k)
@@ -479,9 +470,8 @@ static void badly_scaled_coordinates_are_accepted_and_solved(void **state)
             }
 }
 
-static void graded_matrices_are_solved_to_every_component(void **state)
+TEST(graded_matrices_are_solved_to_every_component)
 {
-    (void)state;
     for (int kind = 0; kind < KINDS; ++kind)
         for (int direction = -1; direction <= 1; direction += 2)
             for (int k = 0; k < COUNT(sizes); ++k) {
@@ -503,9 +493,8 @@ static void graded_matrices_are_solved_to_every_component(void **state)
 }
 
 /* Not a rounding error is made in these: the small pivot is what was given.  */
-static void a_small_pivot_that_no_rounding_touched_is_no_singularity(void **state)
+TEST(a_small_pivot_that_no_rounding_touched_is_no_singularity)
 {
-    (void)state;
     const gvi_real small = power(-100);
     const gvi_real upper[] = { 1, 1, 0,  0, small, 1,  0, 0, 1 };
     const gvi_real block[] = { 0, small, 0, 1,  1, 0, 0, 0,  0, 1, 0, 0,  0, 0, 1, 0 };
@@ -519,9 +508,8 @@ static void a_small_pivot_that_no_rounding_touched_is_no_singularity(void **stat
 }
 
 #if GVI__KIND > 1
-static void a_mass_matrix_over_sixty_decades_is_regular(void **state)
+TEST(a_mass_matrix_over_sixty_decades_is_regular)
 {
-    (void)state;
     const gvi_real small = (gvi_real)1e-35L, smaller = (gvi_real)2e-60L;
     const gvi_real given[] = { 1, small, small, smaller }, turned[] = { smaller, small, small, 1 };
     for (int i = 0; i < 4; ++i) a[i] = given[i];
@@ -559,9 +547,8 @@ static void matrix_of_condition(int n, long double condition)
 }
 
 /* 1e12 in double, and what is as far from the limit in the other types.      */
-static void matrix_of_condition_1e12_is_accepted_and_solved_to_condition_times_eps(void **state)
+TEST(matrix_of_condition_1e12_is_accepted_and_solved_to_condition_times_eps)
 {
-    (void)state;
     const long double condition = 2.2e-4L/(long double)EPS;      /* of the 2-norm */
     seed = 7;
     for (int n = 2; n <= 20; n += 3)
@@ -577,9 +564,8 @@ static void matrix_of_condition_1e12_is_accepted_and_solved_to_condition_times_e
 
 /* As long as condition*eps is small the verdict must be "regular"; from where
    it is of the order of 1 either is right, but then rcond has to tell.       */
-static void hilbert_matrices_are_solved_to_condition_times_eps(void **state)
+TEST(hilbert_matrices_are_solved_to_condition_times_eps)
 {
-    (void)state;
     if (!WIDE_IS_WIDER) skip();
     int solved = 0;
     seed = 8;
@@ -604,9 +590,8 @@ static void hilbert_matrices_are_solved_to_condition_times_eps(void **state)
 }
 
 /* Usually: 499 of these 500, and most of them are met. */
-static void rcond_is_usually_within_a_factor_3_above_the_truth(void **state)
+TEST(rcond_is_usually_within_a_factor_3_above_the_truth)
 {
-    (void)state;
     int met = 0, within = 0, all = 0;
     seed = 9;
     for (int n = 1; n <= 20; ++n)
@@ -623,18 +608,16 @@ static void rcond_is_usually_within_a_factor_3_above_the_truth(void **state)
 
 /* A^-1 = I + 1000 C where C vanishes on (1,1,1,1), where the climb starts, on the
    corner that it tries next, and transposed.                                 */
-static void rcond_sees_an_inverse_that_hides_from_the_climb(void **state)
+TEST(rcond_sees_an_inverse_that_hides_from_the_climb)
 {
-    (void)state;
     static const int hidden[] = { 0, 1, -1, 0,  0, 0, 0, 0,  0, 0, 0, 0,  0, -1, 1, 0 };
     for (int i = 0; i < 16; ++i) a[i] = (gvi_real)((i/4 == i%4) - 1000*hidden[i]);
     assert_ok(factor(4));
     assert_true(check_rcond(4) < 3);
 }
 
-static void rcond_is_that_of_the_matrix_as_given(void **state)
+TEST(rcond_is_that_of_the_matrix_as_given)
 {
-    (void)state;
     int e[MOST];
     a[0] = 1, a[1] = a[2] = 0, a[3] = power(-100);
     assert_ok(factor(2));
@@ -691,9 +674,8 @@ static void check_singular_in_all_units(int n)
     for (int i = 0; i < n*n; ++i) a[i] = kept[i];
 }
 
-static void lu_reports_exact_singularity(void **state)
+TEST(lu_reports_exact_singularity)
 {
-    (void)state;
     seed = 10;
     for (int k = 0; k < COUNT(singular); ++k) {
         integer_matrix(singular[k].n, singular[k].m);
@@ -716,9 +698,8 @@ static void random_of_rank(int n, int rank)
 
 /* What a singular leading block nearly as bad as the whole makes of rounding
    can look like a pivot: then rcond shows it.  1 in 100 may do so.           */
-static void a_deficiency_of_rank_is_reported_or_else_seen_in_rcond(void **state)
+TEST(a_deficiency_of_rank_is_reported_or_else_seen_in_rcond)
 {
-    (void)state;
     int reported = 0, all = 0;
     seed = 11;
     for (int n = 2; n <= 12; ++n)
@@ -732,9 +713,8 @@ static void a_deficiency_of_rank_is_reported_or_else_seen_in_rcond(void **state)
     assert_between(0.98L*all, reported, all);
 }
 
-static void a_deficiency_of_rank_by_two_is_reported_in_all_units(void **state)
+TEST(a_deficiency_of_rank_by_two_is_reported_in_all_units)
 {
-    (void)state;
     seed = 12;
     for (int n = 2; n <= 12; ++n)
         for (int rank = 0; rank < n - 1; ++rank)
@@ -745,9 +725,8 @@ static void a_deficiency_of_rank_by_two_is_reported_in_all_units(void **state)
 }
 
 /* A difference of one bit may be taken for rounding, one of 8 bits may not.    */
-static void lu_tells_singular_from_nearly_singular(void **state)
+TEST(lu_tells_singular_from_nearly_singular)
 {
-    (void)state;
     static const int m[] = { 1, 2, 3, 4, 5, 6, 7, 8, 9 };
     integer_matrix(3, m);
     a[8] += 1000*EPS;
@@ -763,9 +742,8 @@ static void lu_tells_singular_from_nearly_singular(void **state)
 
 /* --------------------------------------------------------------- arguments */
 
-static void lu_refuses_numbers_that_are_not_finite(void **state)
+TEST(lu_refuses_numbers_that_are_not_finite)
 {
-    (void)state;
     const gvi_real bad[] = { (gvi_real)NAN, (gvi_real)INFINITY, -(gvi_real)INFINITY };
     for (int n = 1; n <= 4; ++n)
         for (int k = 0; k < COUNT(bad); ++k)
@@ -779,9 +757,8 @@ static void lu_refuses_numbers_that_are_not_finite(void **state)
             }
 }
 
-static void lu_refuses_faulty_arguments(void **state)
+TEST(lu_refuses_faulty_arguments)
 {
-    (void)state;
     gvi_real m[1] = { 3 }, p[2] = { 7, 8 };
     assert_status(gvi_lu_factor(0, m, p), GVI_E_ARGUMENT);
     assert_status(gvi_lu_factor(-1, m, p), GVI_E_ARGUMENT);
@@ -791,9 +768,8 @@ static void lu_refuses_faulty_arguments(void **state)
     assert_true(same(m[0], 3) && same(p[0], 7) && same(p[1], 8));
 }
 
-static void lu_writes_nothing_beyond_its_arrays(void **state)
+TEST(lu_writes_nothing_beyond_its_arrays)
 {
-    (void)state;
     gvi_real m[4*4 + 1], p[4 + 2], y[4 + 1], w[3*4 + 1];
     regular(0, 4);
     for (int i = 0; i < 16; ++i) m[i] = a[i];
@@ -805,35 +781,4 @@ static void lu_writes_nothing_beyond_its_arrays(void **state)
     assert_true(same(m[16], 77) && same(p[5], 77) && same(y[4], 77) && same(w[12], 77));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lu_reproduces_the_matrix_and_solves),
-        cmocka_unit_test(lu_of_a_permutation_is_exact),
-        cmocka_unit_test(lu_needs_pivots_where_the_diagonal_is_zero),
-        cmocka_unit_test(lu_of_one_number_divides),
-        cmocka_unit_test(wilkinsons_matrix_grows_and_is_factored_exactly),
-        cmocka_unit_test(lu_is_the_same_in_any_unit),
-        cmocka_unit_test(badly_scaled_rows_change_neither_pivots_nor_accuracy),
-        cmocka_unit_test(badly_scaled_columns_and_rows_are_accepted_and_solved),
-        cmocka_unit_test(badly_scaled_coordinates_are_accepted_and_solved),
-        cmocka_unit_test(graded_matrices_are_solved_to_every_component),
-        cmocka_unit_test(a_small_pivot_that_no_rounding_touched_is_no_singularity),
-#if GVI__KIND > 1
-        cmocka_unit_test(a_mass_matrix_over_sixty_decades_is_regular),
-#endif
-        cmocka_unit_test(matrix_of_condition_1e12_is_accepted_and_solved_to_condition_times_eps),
-        cmocka_unit_test(hilbert_matrices_are_solved_to_condition_times_eps),
-        cmocka_unit_test(rcond_is_usually_within_a_factor_3_above_the_truth),
-        cmocka_unit_test(rcond_sees_an_inverse_that_hides_from_the_climb),
-        cmocka_unit_test(rcond_is_that_of_the_matrix_as_given),
-        cmocka_unit_test(lu_reports_exact_singularity),
-        cmocka_unit_test(a_deficiency_of_rank_is_reported_or_else_seen_in_rcond),
-        cmocka_unit_test(a_deficiency_of_rank_by_two_is_reported_in_all_units),
-        cmocka_unit_test(lu_tells_singular_from_nearly_singular),
-        cmocka_unit_test(lu_refuses_numbers_that_are_not_finite),
-        cmocka_unit_test(lu_refuses_faulty_arguments),
-        cmocka_unit_test(lu_writes_nothing_beyond_its_arrays),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -110,10 +110,9 @@ static void compare(const rule_of_test *r, int n, int diagonal, real tolerance)
     }
 }
 
-static void each_of_many_moves_as_alone(void **state)
+TEST(each_of_many_moves_as_alone)
 {
     static const int counts[] = { 3, 8, 13, MOST };
-    (void)state;
     for (int i = 0; i < MOST; ++i) masses[i] = (real)(3 + i % 11)/4;
     for (int k = 0; k < COUNT(rules); ++k)
         for (int j = 0; j < COUNT(counts); ++j)
@@ -121,8 +120,4 @@ static void each_of_many_moves_as_alone(void **state)
                 compare(&rules[k], counts[j], with & 1, with & 2 ? (real)1e-4L : 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = { cmocka_unit_test(each_of_many_moves_as_alone) };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

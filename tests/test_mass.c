@@ -30,7 +30,7 @@ static void random_mass(int n, int stride, int count, real sign, real *m)
 /* What a scene of one random M, the same everywhere, is made of */
 typedef struct constant { int n; real m[MOST*MOST]; } constant;
 
-static int nothing(const gvi_points *x, void *user) { return (void)x, (void)user, 0; }
+static int nothing(const gvi_points *x, void *user) { return 0; }
 
 static int constant_mass(const gvi_points *x, void *user)
 {
@@ -57,11 +57,10 @@ static void assert_solves(const constant *a, const real *v, const real *p, long 
 
 /* At one point, by a query; and at all points of a step, where free motion makes of it h M^-1 p.  M positive
    and negative.                                                                                       */
-static void velocities_solve_for_the_momenta(void **state)
+TEST(velocities_solve_for_the_momenta)
 {
     static real memory[GVI_LENGTH(MOST, POINTS, POINTS)];
     static const real zero[MOST];
-    (void)state;
     seed = 1;
     for (int n = 1; n <= MOST; ++n)
         for (int degree = 1; degree <= POINTS; ++degree)
@@ -94,7 +93,6 @@ static void velocities_solve_for_the_momenta(void **state)
 /* diag(1, 1), but (1, 0) where q_1 > 1 */
 static int ends_at_one(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int k = 0; k < x->count; ++k) {
         x->mass[k] = 1;
         x->mass[2*x->stride + k] = 0;
@@ -104,12 +102,11 @@ static int ends_at_one(const gvi_points *x, void *user)
 }
 
 /* q_1 = 3/4 + c/2 at the nodes of a free step: the first point beyond 1 is named */
-static void the_point_without_an_inverse_is_named(void **state)
+TEST(the_point_without_an_inverse_is_named)
 {
     static real memory[GVI_LENGTH(2, 16, 16)];
     static const gvi_effect none[] = { { .kind = GVI_POTENTIAL, .points = nothing } };
     static const int degrees[] = { 2, 3, 6, 8, 12, 16 };
-    (void)state;
     for (int i = 0; i < COUNT(degrees); ++i) {
         const real q[2] = { (real)0.75, 0 }, v[2] = { (real)0.5, 0 };
         real c[16], b[16];
@@ -132,7 +129,6 @@ static void the_point_without_an_inverse_is_named(void **state)
 /* Beyond q_1 = 1 what is left of M_22 overflows, though all that is given is finite */
 static int overflows(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int k = 0; k < x->count; ++k) {
         x->mass[k] = x->q[k] > 1 ? MIN*4 : 1;
         x->mass[2*x->stride + k] = x->q[k] > 1 ? MAX/4 : 0;
@@ -141,11 +137,10 @@ static int overflows(const gvi_points *x, void *user)
     return 0;
 }
 
-static void a_pivot_that_overflows_is_named(void **state)
+TEST(a_pivot_that_overflows_is_named)
 {
     static real memory[GVI_LENGTH(2, 16, 16)];
     static const gvi_effect none[] = { { .kind = GVI_POTENTIAL, .points = nothing } };
-    (void)state;
     for (int degree = 3; degree <= 16; ++degree) {
         const real q[2] = { (real)0.75, 0 }, v[2] = { (real)0.5, 0 };
         const gvi_desc desc = { .n = 2, .degree = degree, .effects = none, .effect_count = 1,
@@ -164,7 +159,6 @@ static void a_pivot_that_overflows_is_named(void **state)
    matter how many points there are */
 static int barely(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int k = 0; k < x->count; ++k) {
         x->mass[k] = x->mass[2*x->stride + k] = 1;
         x->mass[3*x->stride + k] = 1 + 3*EPS;
@@ -172,12 +166,11 @@ static int barely(const gvi_points *x, void *user)
     return 0;
 }
 
-static void a_matrix_that_is_barely_regular_is_taken(void **state)
+TEST(a_matrix_that_is_barely_regular_is_taken)
 {
     static real memory[GVI_LENGTH(2, 16, 16)];
     static const gvi_effect none[] = { { .kind = GVI_POTENTIAL, .points = nothing } };
     const real zero[2] = { 0, 0 };
-    (void)state;
     for (int degree = 2; degree <= 16; ++degree) {
         const gvi_desc desc = { .n = 2, .degree = degree, .effects = none, .effect_count = 1,
                                 .mass = { .kind = GVI_MASS_POSITION, .points = barely, .gradient = nothing },
@@ -195,7 +188,6 @@ static void a_matrix_that_is_barely_regular_is_taken(void **state)
 /* M = (2, 1; 1, 1), springs of 1: omega^2 = (3 +- sqrt 5)/2, 2.618 and 0.382 */
 static int springs(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int i = 0; i < x->n; ++i)
         for (int k = 0; k < x->count; ++k) x->f[i*x->stride + k] -= x->q[i*x->stride + k];
     return 0;
@@ -203,7 +195,6 @@ static int springs(const gvi_points *x, void *user)
 
 static int of_points(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int k = 0; k < x->count; ++k) {
         x->mass[k] = 2;
         x->mass[2*x->stride + k] = x->mass[3*x->stride + k] = 1;
@@ -214,7 +205,6 @@ static int of_points(const gvi_points *x, void *user)
 static int of_momentum(const gvi_points *x, void *user)
 {
     const real *p = x->p, *r = p + x->stride;
-    (void)user;
     for (int k = 0; k < x->count; ++k) {
         x->velocity[k] = p[k] - r[k];
         x->velocity[x->stride + k] = 2*r[k] - p[k];
@@ -241,9 +231,8 @@ static double iterations(int by_velocity, real h, real *q)
 
 /* V of the new P: an iteration integrates twice in place of once, so that half as many do.  One more than half
    is allowed, for the first, which has no M yet, and for odd numbers. */
-static void with_M_half_the_iterations_do(void **state)
+TEST(with_M_half_the_iterations_do)
 {
-    (void)state;
     for (real h = (real)0.25; h < (real)1.25; h += (real)0.25) {
         real q[2][2];
         const double by_points = iterations(0, h, q[0]), by_velocity = iterations(1, h, q[1]);
@@ -253,14 +242,4 @@ static void with_M_half_the_iterations_do(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(velocities_solve_for_the_momenta),
-        cmocka_unit_test(the_point_without_an_inverse_is_named),
-        cmocka_unit_test(a_pivot_that_overflows_is_named),
-        cmocka_unit_test(a_matrix_that_is_barely_regular_is_taken),
-        cmocka_unit_test(with_M_half_the_iterations_do),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

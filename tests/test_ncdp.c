@@ -23,7 +23,6 @@ static int gravity(const gvi_points *x, void *user)
 {
     const double *q1 = x->q, *q2 = q1 + x->stride;
     double *f1 = x->f, *f2 = f1 + x->stride;
-    (void)user;
     for (int k = 0; k < x->count; ++k) {
         double both = G*sin(q1[k] + q2[k]);
         f1[k] -= 2*G*sin(q1[k]) + both;
@@ -36,7 +35,6 @@ static int mass(const gvi_points *x, void *user)
 {
     const double *q2 = x->q + x->stride;
     double *m11 = x->mass, *m21 = m11 + 2*x->stride, *m22 = m11 + 3*x->stride;
-    (void)user;
     for (int k = 0; k < x->count; ++k) {
         double c = cos(q2[k]);
         m11[k] = 3 + 2*c;
@@ -51,7 +49,6 @@ static int velocity(const gvi_points *x, void *user)
 {
     const double *q2 = x->q + x->stride, *p1 = x->p, *p2 = p1 + x->stride;
     double *v1 = x->velocity, *v2 = v1 + x->stride;
-    (void)user;
     for (int k = 0; k < x->count; ++k) {
         double c = cos(q2[k]), s = sin(q2[k]), p = p1[k] - p2[k];
         v1[k] = (p - c*p2[k])/(1 + s*s);
@@ -64,7 +61,6 @@ static int mass_gradient(const gvi_points *x, void *user)
 {
     const double *q2 = x->q + x->stride, *v1 = x->v, *v2 = v1 + x->stride;
     double *f2 = x->f + x->stride;
-    (void)user;
     for (int k = 0; k < x->count; ++k) f2[k] -= sin(q2[k])*v1[k]*(v1[k] + v2[k]);
     return 0;
 }
@@ -121,14 +117,13 @@ static gvi_stepper *start(const double *q, const double *p)
     return &st;
 }
 
-static void half_a_million_steps_keep_the_energy_to_round_off(void **state)
+TEST(half_a_million_steps_keep_the_energy_to_round_off)
 {
     static long double dE[SAMPLES + 1];
     const double q[2] = { 1.1, -1.1 }, p[2] = { 2.7746, 2.7746 };
     long double E0 = energy(q, p), worst = 0;
     gvi_stepper *st = start(q, p);
     clock_t begin = clock();
-    (void)state;
 
     assert_close(E0, -14.39988748L, 1e-8L);
     for (int k = 1; k <= STEPS; ++k) {
@@ -149,11 +144,10 @@ static void half_a_million_steps_keep_the_energy_to_round_off(void **state)
 /* Neighbours walk independently: their mean is no drift as long as it is within
    four of its standard errors.  After 2^16 steps their spread is 256 times that of a
    step; that of ten is known to 1/sqrt(20), four times which are allowed.     */
-static void the_energy_error_of_an_ensemble_is_a_random_walk_without_drift(void **state)
+TEST(the_energy_error_of_an_ensemble_is_a_random_walk_without_drift)
 {
     enum { RUNS = 10, LENGTH = 1 << 16 };
     long double sum = 0, squares = 0;
-    (void)state;
     for (int r = 0; r < RUNS; ++r) {
         const double q[2] = { 1.1 + 1e-5*r, -1.1 - 2e-5*r }, p[2] = { 2.7746, 2.7746 };
         gvi_stepper *st = start(q, p);
@@ -168,11 +162,4 @@ static void the_energy_error_of_an_ensemble_is_a_random_walk_without_drift(void 
     assert_between(0.1L*256*PER_STEP, sqrtl(squares/RUNS), 1.9L*256*PER_STEP);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(half_a_million_steps_keep_the_energy_to_round_off),
-        cmocka_unit_test(the_energy_error_of_an_ensemble_is_a_random_walk_without_drift),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -29,12 +29,11 @@ struct problem {
     struct term terms[TERMS];
 };
 
-#define ANY __attribute__((unused))     /* used or not */
-#define POINT(name) static int name(ANY gvi_real t, ANY const gvi_real *q, ANY const gvi_real *v, \
-                                    ANY gvi_real *f, ANY gvi_real *dldv, ANY void *user)
-#define VALUE(name) static gvi_real name(ANY gvi_real t, ANY const gvi_real *q, ANY const gvi_real *v)
-#define HESSIAN(name) static int name(ANY gvi_real t, ANY const gvi_real *q, ANY const gvi_real *v, \
-                                      ANY gvi_real *fq, ANY gvi_real *fv, ANY gvi_real *pv, ANY void *user)
+#define POINT(name) static int name(gvi_real t, const gvi_real *q, const gvi_real *v, \
+                                    gvi_real *f, gvi_real *dldv, void *user)
+#define VALUE(name) static gvi_real name(gvi_real t, const gvi_real *q, const gvi_real *v)
+#define HESSIAN(name) static int name(gvi_real t, const gvi_real *q, const gvi_real *v, \
+                                      gvi_real *fq, gvi_real *fv, gvi_real *pv, void *user)
 
 /* separable */
 
@@ -64,7 +63,7 @@ HESSIAN(separable_hessian)
 
 /* pendulum: T = (11/4 v0^2 + 7/8 v1^2)/2 + 9/8 v0 v1 cos(q0 - q1) */
 
-static int pendulum_mass(const gvi_points *x, ANY void *user)
+static int pendulum_mass(const gvi_points *x, void *user)
 {
     int d = x->stride;
     for (int k = 0; k < x->count; ++k) {
@@ -75,7 +74,7 @@ static int pendulum_mass(const gvi_points *x, ANY void *user)
     return 0;
 }
 
-static int pendulum_gradient(const gvi_points *x, ANY void *user)
+static int pendulum_gradient(const gvi_points *x, void *user)
 {
     int d = x->stride;
     for (int k = 0; k < x->count; ++k) {
@@ -173,7 +172,7 @@ HESSIAN(relativistic_hessian)
     return 0;
 }
 
-static int relativistic_velocity(const gvi_points *x, ANY void *user)
+static int relativistic_velocity(const gvi_points *x, void *user)
 {
     int d = x->stride;
     for (int k = 0; k < x->count; ++k) {
@@ -474,7 +473,7 @@ static struct work run(int problem, int options, const char *with)
 
 /* ------------------------------------------------------------------- tests */
 
-static void test_plain(ANY void **state)
+TEST(test_plain)
 {
     int failed = 0;
     print_message("  worst errors in eps          ");
@@ -484,7 +483,7 @@ static void test_plain(ANY void **state)
     assert_int_equal(failed, 0);
 }
 
-static void test_one_point(ANY void **state)
+TEST(test_one_point)
 {
     int failed = 0;
     for (int k = 0; k < COUNT(problems); ++k) failed += run(k, ONE_POINT, "one point").failed;
@@ -493,7 +492,7 @@ static void test_one_point(ANY void **state)
 
 /* Second derivatives change the work of Newton's method and nothing else: no
    more iterations, fewer evaluations.                                        */
-static void test_hessian(ANY void **state)
+TEST(test_hessian)
 {
     int failed = 0;
     for (int k = 0; k < COUNT(problems); ++k)
@@ -505,7 +504,7 @@ static void test_hessian(ANY void **state)
     assert_int_equal(failed, 0);
 }
 
-static void test_velocity(ANY void **state)
+TEST(test_velocity)
 {
     int failed = run(3, WITH_VELOCITY, "velocity").failed;
     failed += run(3, WITH_VELOCITY | WITH_HESSIAN | ONE_POINT, "velocity, all").failed;
@@ -514,7 +513,7 @@ static void test_velocity(ANY void **state)
 
 /* Far out the term of fourth order in v outweighs M(q), and the fixed point of
    the momenta diverges, to infinity: whatever it says there, never "ok".      */
-static void test_divergence(ANY void **state)
+TEST(test_divergence)
 {
     static gvi_real memory[GVI_LENGTH(2, 8, 11)];
     for (int k = 0; k < COUNT(oracle_cases); ++k)
@@ -533,12 +532,4 @@ static void test_divergence(ANY void **state)
         }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_plain), cmocka_unit_test(test_one_point),
-        cmocka_unit_test(test_hessian), cmocka_unit_test(test_velocity),
-        cmocka_unit_test(test_divergence)
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -35,7 +35,6 @@ static real gravity(real t) { return 1 + sin(2*t)/2; }
 static int pendulum_force(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
     real both = gravity(t)*sin(q[0] + q[1]);
-    (void)v; (void)dldv; (void)user;
     f[0] -= 2*gravity(t)*sin(q[0]) + both;
     f[1] -= both;
     return 0;
@@ -43,7 +42,6 @@ static int pendulum_force(real t, const real *q, const real *v, real *f, real *d
 
 static int magnetic_term(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
-    (void)user;
     dldv[0] += -0.4L*sin(q[1])*cos(t);
     dldv[1] += 0.3L*q[0]*q[0];
     f[0] += 0.6L*q[0]*v[1];
@@ -53,7 +51,6 @@ static int magnetic_term(real t, const real *q, const real *v, real *f, real *dl
 
 static int damping_and_drive(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
-    (void)dldv; (void)user;
     f[0] += -0.2L*v[0] + 0.3L*cos(3*t);
     f[1] += -0.1L*(1 + q[0]*q[0])*v[1];
     return 0;
@@ -372,9 +369,8 @@ static void expect_order_inside(const method *m, int u)
 
 /* ------------------------------------------------------------------- tests */
 
-static void the_reference_agrees_with_itself_and_with_degree_12(void **state)
+TEST(the_reference_agrees_with_itself_and_with_degree_12)
 {
-    (void)state;
     for (int i = 0; i < COUNT(with_forces); ++i) {
         method m = { with_forces[i], 12, { .kind = GVI_GAUSS, .points = 12 } };
         real fine[4];
@@ -386,28 +382,24 @@ static void the_reference_agrees_with_itself_and_with_degree_12(void **state)
     }
 }
 
-static void the_order_is_the_smaller_of_2s_and_u(void **state)
+TEST(the_order_is_the_smaller_of_2s_and_u)
 {
-    (void)state;
     for_all(conservative, COUNT(conservative), expect_step_order);
 }
 
-static void the_order_is_the_same_with_damping_and_driving(void **state)
+TEST(the_order_is_the_same_with_damping_and_driving)
 {
-    (void)state;
     for_all(with_forces, COUNT(with_forces), expect_step_order);
 }
 
-static void the_curve_has_order_min_s_and_half_u_plus_one(void **state)
+TEST(the_curve_has_order_min_s_and_half_u_plus_one)
 {
-    (void)state;
     for_all(conservative, COUNT(conservative), expect_curve_order);
     for_all(with_forces + 3, 1, expect_curve_order);
 }
 
-static void the_state_inside_a_step_has_the_full_order(void **state)
+TEST(the_state_inside_a_step_has_the_full_order)
 {
-    (void)state;
     for_all(conservative, COUNT(conservative), expect_order_inside);
     for_all(with_forces + 3, 1, expect_order_inside);
 }
@@ -440,9 +432,8 @@ static int order_with_rule(int s, int u)
     return u < 2*s - 2 ? min_int(order, 2*u - 2*s + 2) : order;
 }
 
-static void rules_of_the_caller_have_the_order_that_theory_says(void **state)
+TEST(rules_of_the_caller_have_the_order_that_theory_says)
 {
-    (void)state;
     misses = 0;
     for (int k = 0; k < COUNT(own); ++k)
     for (int s = 1; s <= min_int(own[k].r, 6); ++s)
@@ -456,15 +447,4 @@ static void rules_of_the_caller_have_the_order_that_theory_says(void **state)
     assert_int_equal(misses, 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_reference_agrees_with_itself_and_with_degree_12),
-        cmocka_unit_test(the_order_is_the_smaller_of_2s_and_u),
-        cmocka_unit_test(the_order_is_the_same_with_damping_and_driving),
-        cmocka_unit_test(the_curve_has_order_min_s_and_half_u_plus_one),
-        cmocka_unit_test(the_state_inside_a_step_has_the_full_order),
-        cmocka_unit_test(rules_of_the_caller_have_the_order_that_theory_says),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -1,6 +1,6 @@
 /* The price list of examples/scenes/price.c, and the promise behind it: what a
    scene does not list is not asked, not once, takes no byte, and leaves no trace.
-   Instructions are counted by tests/tools/prices.sh; results to the bit and
+   Instructions are counted by make prices; results to the bit and
    switching are in test_scenes.c.                                             */
 #include "gvi_test.h"
 #include "scenes/scenes.c"
@@ -13,12 +13,12 @@ static gvi_stepper st;
 /* In the place of an effect that is not listed: whoever asks it is counted.     */
 static int asked;
 
-static int trap_points(const gvi_points *x, void *user) { return (void)x, (void)user, ++asked, 0; }
+static int trap_points(const gvi_points *x, void *user) { return ++asked, 0; }
 
 static int trap_hessian(gvi_real t, const gvi_real *q, const gvi_real *v,
                         gvi_real *fq, gvi_real *fv, gvi_real *pv, void *user)
 {
-    return (void)t, (void)q, (void)v, (void)fq, (void)fv, (void)pv, (void)user, ++asked, 0;
+    return ++asked, 0;
 }
 
 /* Puts effect e at the end of the array and leaves it out of the count, its
@@ -35,7 +35,7 @@ static gvi_effect unlist(int e)
 
 /* Every scene, every effect: the rest of the scene is all that is asked, in steps
    and in all queries, and it has no counter.                                  */
-static void unlisted_effects_are_never_asked(void **state)
+TEST(unlisted_effects_are_never_asked)
 {
     int seen = 0;
     for (int a = 0; a < scene_count; ++a) {
@@ -62,11 +62,10 @@ static void unlisted_effects_are_never_asked(void **state)
         }
     }
     assert_int_equal(seen, 29);
-    (void)state;
 }
 
 /* The trap works: listed, it is asked.                                         */
-static void the_trap_counts(void **state)
+TEST(the_trap_counts)
 {
     double memory[20000];
     scene_build(scene_find("elastic_pendulum"), &made, NULL);
@@ -76,14 +75,13 @@ static void the_trap_counts(void **state)
     assert_ok(gvi_start(&st, 0, made.q, made.v));
     assert_ok(gvi_step(&st, 0.05));
     assert_true(asked > 0);
-    (void)state;
 }
 
 /* Memory depends on what the list as a whole asks for, not on its length: for every
    scene and effect, leaving it out gives the bytes of a scene with whatever other
    effect of the kinds that are left; and as many as the scene with all of them
    unless the formulation is another, which then is smaller.                    */
-static void unlisted_effects_take_no_bytes(void **state)
+TEST(unlisted_effects_take_no_bytes)
 {
     int less = 0;
     for (int a = 0; a < scene_count; ++a) {
@@ -107,7 +105,6 @@ static void unlisted_effects_take_no_bytes(void **state)
     }
     print_message("  %d of them, unlisted, make the memory smaller\n", less);
     assert_true(less >= 3);
-    (void)state;
 }
 
 /* ----------------------------------------------------------- the list itself */
@@ -120,7 +117,7 @@ static const price *without_effect(const scene *a, const price *without, const c
 
 /* Points are what counters say they are: whole iterations of r points a step; and the
    formulation with and without what asks for velocities.                       */
-static void the_price_list_is_right(void **state)
+TEST(the_price_list_is_right)
 {
     static const struct { const char *scene, *effect; gvi_formulation with, without; } known[] = {
         { "net", "air", GVI_VELOCITIES, GVI_POSITIONS },
@@ -146,7 +143,6 @@ static void the_price_list_is_right(void **state)
         for (int e = count; e < GVI_EFFECTS; ++e) assert_true(all.points[e] == 0);
         for (int e = count - 1; e < GVI_EFFECTS; ++e) assert_true(p->points[e] == 0);
     }
-    (void)state;
 }
 
 /* An effect that does so much work that it must be most of the time is shown so. */
@@ -156,7 +152,7 @@ static int busy_points(const gvi_points *x, void *user)
     double sum = 0;
     for (int k = 0; k < 3000*x->count; ++k) sum += sin((double)k);
     sink = sum;
-    return (void)sink, (void)user, 0;
+    return (void)sink, 0;
 }
 
 static void busy_build(scene_setup *s)
@@ -165,7 +161,7 @@ static void busy_build(scene_setup *s)
     scene_add(s, "busy", (gvi_effect){ .kind = GVI_POTENTIAL, .points = busy_points, .value = busy_points });
 }
 
-static void shares_of_time_are_seen(void **state)
+TEST(shares_of_time_are_seen)
 {
     scene busy = elastic_pendulum;
     price all = { .status = GVI_OK }, without[GVI_EFFECTS];
@@ -176,17 +172,6 @@ static void shares_of_time_are_seen(void **state)
     print_message("  busy: %.1f %% of the time; weight: %.1f %%\n", 100*share, 100*other);
     assert_true(share > 0.9);
     assert_true(other < 0.5);
-    (void)state;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(unlisted_effects_are_never_asked),
-        cmocka_unit_test(the_trap_counts),
-        cmocka_unit_test(unlisted_effects_take_no_bytes),
-        cmocka_unit_test(the_price_list_is_right),
-        cmocka_unit_test(shares_of_time_are_seen),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

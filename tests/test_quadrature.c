@@ -74,15 +74,13 @@ static void check_against_table(const struct kind *kind, const struct node_rule 
     }
 }
 
-static void gauss_nodes_and_weights_are_correctly_rounded(void **state)
+TEST(gauss_nodes_and_weights_are_correctly_rounded)
 {
-    (void)state;
     for (int k = 0; k < kinds[0].count; ++k) check_against_table(&kinds[0], &kinds[0].rules[k]);
 }
 
-static void lobatto_nodes_and_weights_are_correctly_rounded(void **state)
+TEST(lobatto_nodes_and_weights_are_correctly_rounded)
 {
-    (void)state;
     for (int k = 0; k < kinds[1].count; ++k) check_against_table(&kinds[1], &kinds[1].rules[k]);
 }
 
@@ -99,9 +97,8 @@ static void check_symmetry(const struct kind *kind, int n)
     if (n % 2) assert_true(same(2*c[n/2], 1));
 }
 
-static void rules_are_symmetric_and_ascending_at_every_size(void **state)
+TEST(rules_are_symmetric_and_ascending_at_every_size)
 {
-    (void)state;
     for (int k = 0; k < COUNT(kinds); ++k) {
         for (int n = k + 1; n <= 100; ++n) check_symmetry(&kinds[k], n);
         check_symmetry(&kinds[k], 511);
@@ -109,9 +106,8 @@ static void rules_are_symmetric_and_ascending_at_every_size(void **state)
     }
 }
 
-static void only_lobatto_has_the_ends_as_nodes(void **state)
+TEST(only_lobatto_has_the_ends_as_nodes)
 {
-    (void)state;
     for (int n = 2; n <= 100; ++n) {
         assert_ok(gvi_lobatto(n, c, b));
         assert_true(same(c[0], 0) && same(c[n-1], 1));
@@ -120,9 +116,8 @@ static void only_lobatto_has_the_ends_as_nodes(void **state)
     }
 }
 
-static void weights_sum_to_one(void **state)
+TEST(weights_sum_to_one)
 {
-    (void)state;
     if (!WIDE_IS_WIDER) skip();       /* the sum would round as much as it may be off */
     for (int k = 0; k < COUNT(kinds); ++k)
         for (int n = k + 1; n <= 100; ++n) {
@@ -184,9 +179,8 @@ static void check_degrees(int k, int n)
     if (n < 100) assert_true(wide_abs(wanted) > (wide)0.05);
 }
 
-static void rules_are_exact_to_their_degree_and_wrong_by_the_known_amount_beyond(void **state)
+TEST(rules_are_exact_to_their_degree_and_wrong_by_the_known_amount_beyond)
 {
-    (void)state;
     if (!WIDE_IS_WIDER) skip();       /* the sum would round as much as it may be off */
     for (int k = 0; k < COUNT(kinds); ++k) {
         for (int n = k + 1; n <= 32; ++n) check_degrees(k, n);
@@ -212,16 +206,14 @@ static void check_measured_orders(const struct kind *kind)
     check_measured_order(kind, 200);
 }
 
-static void order_of_gauss_is_twice_the_points(void **state)
+TEST(order_of_gauss_is_twice_the_points)
 {
-    (void)state;
     check_measured_order(&kinds[0], 1);
     check_measured_orders(&kinds[0]);
 }
 
-static void order_of_lobatto_is_two_less(void **state)
+TEST(order_of_lobatto_is_two_less)
 {
-    (void)state;
     check_measured_orders(&kinds[1]);
 }
 
@@ -239,9 +231,8 @@ static const struct cotes newton_cotes[] = {
                         -260550, 272400, -48525, 106300, 16067 } },
 };
 
-static void order_of_newton_cotes_rules_is_known(void **state)
+TEST(order_of_newton_cotes_rules_is_known)
 {
-    (void)state;
     for (int k = 0; k < COUNT(newton_cotes); ++k) {
         const struct cotes *rule = &newton_cotes[k];
         for (int i = 0; i < rule->n; ++i) {
@@ -263,9 +254,8 @@ static void check_order(int n, const gvi_real *nodes, const gvi_real *weights, i
 #define REAL(x) ((gvi_real)x##L)
 #define R(p, q) ((gvi_real)p/(gvi_real)q)
 
-static void order_of_unsymmetric_and_open_rules_is_known(void **state)
+TEST(order_of_unsymmetric_and_open_rules_is_known)
 {
-    (void)state;
     const gvi_real root6 = REAL(2.449489742783178098197284074705891391966),
                    root2 = REAL(1.414213562373095048801688724209698078570);
     const gvi_real rectangle[] = { 0 }, midpoint[] = { R(1,2) }, one[] = { 1 };
@@ -291,9 +281,8 @@ static void order_of_unsymmetric_and_open_rules_is_known(void **state)
     check_order(2, ends, uneven, 1);
 }
 
-static void order_does_not_depend_on_the_sequence_of_the_nodes(void **state)
+TEST(order_does_not_depend_on_the_sequence_of_the_nodes)
 {
-    (void)state;
     gvi_real x[12], y[12];
     for (int n = 2; n <= 12; ++n) {
         assert_ok(gvi_gauss(n, c, b));
@@ -304,9 +293,8 @@ static void order_does_not_depend_on_the_sequence_of_the_nodes(void **state)
     }
 }
 
-static void order_is_zero_when_the_weights_do_not_sum_to_one(void **state)
+TEST(order_is_zero_when_the_weights_do_not_sum_to_one)
 {
-    (void)state;
     static const gvi_real x[] = { 0, R(1,2), 1 };
     gvi_real simpson[] = { R(1,6), R(2,3), R(1,6) }, zero[] = { 0, 0, 0 };
     assert_int_equal(gvi_rule_order(3, x, simpson), 4);
@@ -320,9 +308,8 @@ static void order_is_zero_when_the_weights_do_not_sum_to_one(void **state)
     }
 }
 
-static void order_sees_a_rule_that_was_copied_with_a_mistake(void **state)
+TEST(order_sees_a_rule_that_was_copied_with_a_mistake)
 {
-    (void)state;
     for (int n = 2; n <= 24; ++n) {
         assert_ok(gvi_gauss(n, c, b));
         gvi_real shift = 200*EPS/(c[1] - c[0]);     /* the sum stays, the centre moves 200 eps */
@@ -335,9 +322,8 @@ static void order_sees_a_rule_that_was_copied_with_a_mistake(void **state)
     }
 }
 
-static void order_is_minus_one_for_nodes_that_cannot_be(void **state)
+TEST(order_is_minus_one_for_nodes_that_cannot_be)
 {
-    (void)state;
     const gvi_real below = -(gvi_real)EPS, above = 1 + (gvi_real)EPS;
     const gvi_real bad[] = { below, above, -1, 2, (gvi_real)NAN, (gvi_real)INFINITY,
                              -(gvi_real)INFINITY };
@@ -355,9 +341,8 @@ static void order_is_minus_one_for_nodes_that_cannot_be(void **state)
     assert_int_equal(gvi_rule_order(2, zeros, weights), -1);
 }
 
-static void order_is_never_that_of_a_rule_with_weights_that_are_not_finite(void **state)
+TEST(order_is_never_that_of_a_rule_with_weights_that_are_not_finite)
 {
-    (void)state;
     const gvi_real x[] = { 0, 1 }, nan[] = { (gvi_real)NAN, R(1,2) },
                    infinite[] = { (gvi_real)INFINITY, -(gvi_real)INFINITY };
     assert_true(gvi_rule_order(2, x, nan) <= 0);
@@ -375,9 +360,8 @@ static void check_refused(make_fn *make, int n, gvi_real *x, gvi_real *y)
     if (y) assert_true(same(y[0], 9) && same(y[1], 10));
 }
 
-static void rules_refuse_faulty_arguments_and_leave_the_output_alone(void **state)
+TEST(rules_refuse_faulty_arguments_and_leave_the_output_alone)
 {
-    (void)state;
     gvi_real x[2], y[2];
     for (int k = 0; k < COUNT(kinds); ++k) {
         check_refused(kinds[k].make, 0, x, y);
@@ -390,9 +374,8 @@ static void rules_refuse_faulty_arguments_and_leave_the_output_alone(void **stat
     check_refused(gvi_lobatto, 1, x, y);
 }
 
-static void order_refuses_faulty_arguments(void **state)
+TEST(order_refuses_faulty_arguments)
 {
-    (void)state;
     const gvi_real x[] = { R(1,2) }, y[] = { 1 };
     assert_int_equal(gvi_rule_order(0, x, y), -1);
     assert_int_equal(gvi_rule_order(-1, x, y), -1);
@@ -400,26 +383,4 @@ static void order_refuses_faulty_arguments(void **state)
     assert_int_equal(gvi_rule_order(1, x, NULL), -1);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(gauss_nodes_and_weights_are_correctly_rounded),
-        cmocka_unit_test(lobatto_nodes_and_weights_are_correctly_rounded),
-        cmocka_unit_test(rules_are_symmetric_and_ascending_at_every_size),
-        cmocka_unit_test(only_lobatto_has_the_ends_as_nodes),
-        cmocka_unit_test(weights_sum_to_one),
-        cmocka_unit_test(rules_are_exact_to_their_degree_and_wrong_by_the_known_amount_beyond),
-        cmocka_unit_test(order_of_gauss_is_twice_the_points),
-        cmocka_unit_test(order_of_lobatto_is_two_less),
-        cmocka_unit_test(order_of_newton_cotes_rules_is_known),
-        cmocka_unit_test(order_of_unsymmetric_and_open_rules_is_known),
-        cmocka_unit_test(order_does_not_depend_on_the_sequence_of_the_nodes),
-        cmocka_unit_test(order_is_zero_when_the_weights_do_not_sum_to_one),
-        cmocka_unit_test(order_sees_a_rule_that_was_copied_with_a_mistake),
-        cmocka_unit_test(order_is_minus_one_for_nodes_that_cannot_be),
-        cmocka_unit_test(order_is_never_that_of_a_rule_with_weights_that_are_not_finite),
-        cmocka_unit_test(rules_refuse_faulty_arguments_and_leave_the_output_alone),
-        cmocka_unit_test(order_refuses_faulty_arguments),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -51,7 +51,6 @@ static void a_of(const real *q, real *a)
 static int potential(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
     real both = clock_of(t)*sin(q[0] + q[1]);
-    (void)v; (void)dldv; (void)user;
     f[0] -= 2*clock_of(t)*sin(q[0]) + both;
     f[1] -= both;
     return 0;
@@ -59,7 +58,6 @@ static int potential(real t, const real *q, const real *v, real *f, real *dldv, 
 
 static int potential_value(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int k = 0; k < x->count; ++k)
         x->value[k] += V(x->t[k], (const real[]){ x->q[k], x->q[x->stride + k] });
     return 0;
@@ -68,7 +66,6 @@ static int potential_value(const gvi_points *x, void *user)
 static int field(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
     real a[2];
-    (void)t; (void)user;
     a_of(q, a);
     dldv[0] += a[0];
     dldv[1] += a[1];
@@ -80,7 +77,6 @@ static int field(real t, const real *q, const real *v, real *f, real *dldv, void
 static int field_value(const gvi_points *x, void *user)
 {
     int N = x->stride;
-    (void)user;
     for (int k = 0; k < x->count; ++k) {
         real a[2];
         a_of((const real[]){ x->q[k], x->q[N + k] }, a);
@@ -91,7 +87,6 @@ static int field_value(const gvi_points *x, void *user)
 
 static int drag(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
-    (void)dldv; (void)user;
     f[0] += cos(t)/3 - v[0]/4;
     f[1] -= (1 + q[0]*q[0])*v[1]/5;
     return 0;
@@ -101,7 +96,6 @@ static int drag(real t, const real *q, const real *v, real *f, real *dldv, void 
 static int potential_hessian(real t, const real *q, const real *v, real *fq, real *fv, real *pv, void *user)
 {
     real both = clock_of(t)*cos(q[0] + q[1]);
-    (void)v; (void)fv; (void)pv; (void)user;
     fq[0] -= 2*clock_of(t)*cos(q[0]) + both;
     fq[1] -= both;
     fq[2] -= both;
@@ -111,7 +105,6 @@ static int potential_hessian(real t, const real *q, const real *v, real *fq, rea
 
 static int field_hessian(real t, const real *q, const real *v, real *fq, real *fv, real *pv, void *user)
 {
-    (void)t; (void)pv; (void)user;
     fq[0] -= q[1]*v[0];
     fq[1] -= q[0]*v[0];
     fq[2] -= q[0]*v[0];
@@ -123,7 +116,6 @@ static int field_hessian(real t, const real *q, const real *v, real *fq, real *f
 
 static int drag_hessian(real t, const real *q, const real *v, real *fq, real *fv, real *pv, void *user)
 {
-    (void)t; (void)pv; (void)user;
     fv[0] -= 0.25L;
     fq[2] -= 2*q[0]*v[1]/5;
     fv[3] -= (1 + q[0]*q[0])/5;
@@ -167,9 +159,8 @@ static gvi_desc scene(gvi_mass_kind kind, int effect_count, int s, int r)
 
 /* -------------------------------------------------------- velocity and energy */
 
-static void velocity_and_energy_are_right_for_every_mass(void **state)
+TEST(velocity_and_energy_are_right_for_every_mass)
 {
-    (void)state;
     for (int kind = GVI_MASS_UNIT; kind <= GVI_MASS_POSITION; ++kind) {
         gvi_desc desc = scene((gvi_mass_kind)kind, FORCED, 4, 4);
         gvi_stepper st;
@@ -195,7 +186,6 @@ static void velocity_and_energy_are_right_for_every_mass(void **state)
 static int relativistic(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
     real w = 1 - v[0]*v[0] - v[1]*v[1];
-    (void)t; (void)q; (void)f; (void)user;
     if (!(w > 0)) return 1;                                  /* faster than light */
     dldv[0] += v[0]/sqrt(w);
     dldv[1] += v[1]/sqrt(w);
@@ -204,7 +194,6 @@ static int relativistic(real t, const real *q, const real *v, real *f, real *dld
 
 static int relativistic_value(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int k = 0; k < x->count; ++k) {
         real a = x->v[k], b = x->v[x->stride + k];
         x->value[k] -= sqrt(1 - a*a - b*b);
@@ -215,7 +204,6 @@ static int relativistic_value(const gvi_points *x, void *user)
 static int relativistic_velocity(const gvi_points *x, void *user)
 {
     int N = x->stride;
-    (void)user;
     for (int k = 0; k < x->count; ++k) {
         real w = sqrt(1 + x->p[k]*x->p[k] + x->p[N + k]*x->p[N + k]);
         x->velocity[k] = x->p[k]/w;
@@ -230,9 +218,8 @@ static const gvi_effect fast[] = {
 };
 
 /* By Newton's method where only dL/dv is known, and by the caller's own inverse */
-static void velocity_and_energy_are_right_for_a_general_lagrangian(void **state)
+TEST(velocity_and_energy_are_right_for_a_general_lagrangian)
 {
-    (void)state;
     for (int given = 0; given <= 1; ++given) {
         const gvi_desc desc = { .n = 2, .degree = 4, .effects = fast, .effect_count = 2,
                                 .mass = { .kind = GVI_MASS_NONE, .velocity = given ? relativistic_velocity : NULL } };
@@ -259,7 +246,6 @@ static void velocity_and_energy_are_right_for_a_general_lagrangian(void **state)
 static int uniform_field(const gvi_points *x, void *user)
 {
     const int R = x->stride;
-    (void)user;
     for (int k = 0; k < x->count; ++k) {
         if (x->f) x->f[k] += x->v[R + k]/2, x->f[R + k] -= x->v[k]/2;
         if (x->dldv) x->dldv[k] -= x->q[R + k]/2, x->dldv[R + k] += x->q[k]/2;
@@ -267,11 +253,10 @@ static int uniform_field(const gvi_points *x, void *user)
     return 0;
 }
 
-static void velocities_next_to_0_are_found_beside_a_vector_potential(void **state)
+TEST(velocities_next_to_0_are_found_beside_a_vector_potential)
 {
     const gvi_effect charge[] = { { .kind = GVI_LAGRANGIAN, .points = uniform_field } };
     gvi_desc desc = { .n = 2, .degree = 4, .effects = charge, .effect_count = 1 };
-    (void)state;
     for (int newton = 0; newton <= 1; ++newton)
         for (real small = 1; small > 1e-30L; small /= 1000) {
             gvi_stepper st;
@@ -288,12 +273,11 @@ static void velocities_next_to_0_are_found_beside_a_vector_potential(void **stat
 }
 
 /* Differences for Newton's matrix: however short the step, no velocity beyond that of light */
-static void short_steps_stay_in_the_domain_of_L(void **state)
+TEST(short_steps_stay_in_the_domain_of_L)
 {
     const gvi_desc desc = { .n = 2, .degree = 4, .effects = fast, .effect_count = 2, .mass = { .kind = GVI_MASS_NONE } };
     const real v0[] = { 0.6L, 0.5L };
     gvi_stepper st;
-    (void)state;
     set_up(&st, &desc, 0);
     for (real h = 0.1L; h > 1e-25L; h /= 100) {
         real v[2];
@@ -315,9 +299,8 @@ static void short_steps_stay_in_the_domain_of_L(void **state)
 
 /* ---------------------------------------------------------------------- starts */
 
-static void the_three_starts_agree(void **state)
+TEST(the_three_starts_agree)
 {
-    (void)state;
     for (int kind = GVI_MASS_UNIT; kind <= GVI_MASS_POSITION; ++kind)
     for (int count = CONSERVATIVE; count <= FORCED; ++count) {
         gvi_desc desc = scene((gvi_mass_kind)kind, count, 4, 4);
@@ -352,9 +335,8 @@ static void the_three_starts_agree(void **state)
 
 /* ---------------------------------------------------------- inside the last step */
 
-static void the_curve_begins_at_q0_and_ends_at_q1(void **state)
+TEST(the_curve_begins_at_q0_and_ends_at_q1)
 {
-    (void)state;
     for (int kind = GVI_MASS_UNIT; kind <= GVI_MASS_POSITION; ++kind)
     for (int r = 4; r <= 5; ++r) {
         gvi_desc desc = scene((gvi_mass_kind)kind, FORCED, 4, r);
@@ -374,13 +356,12 @@ static void the_curve_begins_at_q0_and_ends_at_q1(void **state)
 
 /* v is the derivative of q: differences of order 8 of a polynomial of degree 6
    have no truncation error, only EPS/delta.                                  */
-static void the_curve_gives_its_own_derivative(void **state)
+TEST(the_curve_gives_its_own_derivative)
 {
     static const real weight[4] = { (real)4/5, -(real)1/5, (real)4/105, -(real)1/280 };
     gvi_desc desc = scene(GVI_MASS_POSITION, CONSERVATIVE, 6, 6);
     gvi_stepper st;
     real h = 0.5L, delta = 0.09L;
-    (void)state;
     set_up(&st, &desc, 0);
     assert_ok(gvi_start(&st, 0.3L, q_start, v_start));
     assert_ok(gvi_step(&st, h));
@@ -398,9 +379,8 @@ static void the_curve_gives_its_own_derivative(void **state)
 }
 
 /* From the nearer end: forwards from the start, backwards from the end */
-static void the_state_inside_a_step_is_a_partial_step_from_the_nearer_end(void **state)
+TEST(the_state_inside_a_step_is_a_partial_step_from_the_nearer_end)
 {
-    (void)state;
     for (int kind = GVI_MASS_UNIT; kind <= GVI_MASS_POSITION; ++kind)
     for (int k = 1; k < 8; ++k) {
         gvi_desc desc = scene((gvi_mass_kind)kind, FORCED, 3, 3 + k % 2);
@@ -425,12 +405,11 @@ static void the_state_inside_a_step_is_a_partial_step_from_the_nearer_end(void *
     }
 }
 
-static void the_state_at_the_ends_of_a_step_is_the_state_there_to_the_bit(void **state)
+TEST(the_state_at_the_ends_of_a_step_is_the_state_there_to_the_bit)
 {
     gvi_desc desc = scene(GVI_MASS_POSITION, FORCED, 4, 4);
     gvi_stepper st;
     real q0[2], p0[2], q[2], p[2], v[2], want[2], t0;
-    (void)state;
     set_up(&st, &desc, 0);
     assert_ok(gvi_start(&st, 0.5L, q_start, v_start));
     assert_ok(gvi_step(&st, 0.25L));
@@ -482,7 +461,6 @@ static void expect_queries_to_change_nothing(const gvi_desc *desc, real h, gvi_f
 
 static int stiff_springs(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
-    (void)t; (void)v; (void)dldv; (void)user;
     f[0] -= 10000*q[0];
     f[1] -= q[1];
     return 0;
@@ -490,7 +468,6 @@ static int stiff_springs(real t, const real *q, const real *v, real *f, real *dl
 
 static int stiff_value(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int k = 0; k < x->count; ++k) {
         real a = x->q[k], b = x->q[x->stride + k];
         x->value[k] += (10000*a*a + b*b)/2;
@@ -499,7 +476,7 @@ static int stiff_value(const gvi_points *x, void *user)
 }
 
 /* In every formulation, and where AUTO has gone over to Newton's method */
-static void queries_do_not_change_later_steps_to_the_bit(void **state)
+TEST(queries_do_not_change_later_steps_to_the_bit)
 {
     static const struct { gvi_mass_kind mass; int count, s, r; gvi_formulation used; } cases[] = {
         { GVI_MASS_DENSE,    1,            1, 1, GVI_POSITIONS },
@@ -509,7 +486,6 @@ static void queries_do_not_change_later_steps_to_the_bit(void **state)
         { GVI_MASS_POSITION, FORCED,       3, 4, GVI_NEWTON },
     };
     static const gvi_effect stiff[] = { { .kind = GVI_POTENTIAL, .point = stiff_springs, .value = stiff_value } };
-    (void)state;
     for (int c = 0; c < COUNT(cases); ++c) {
         gvi_desc desc = scene(cases[c].mass, cases[c].count, cases[c].s, cases[c].r);
         expect_queries_to_change_nothing(&desc, 0.1L, cases[c].used);
@@ -539,10 +515,9 @@ static int field_and_well(const gvi_points *x, void *user)
 
 /* A step by Newton's method leaves no momenta of Lagrangian terms: where the fixed point comes after
    it, what it begins with is not what a query has left in scratch.  (17 of 4000 such runs.)  */
-static void queries_change_nothing_between_newton_and_fixed_point(void **state)
+TEST(queries_change_nothing_between_newton_and_fixed_point)
 {
     int both = 0;
-    (void)state;
     for (int run = 0; run < 60; ++run) {
         real K = 4 << run % 6;
         const gvi_effect effect = { .kind = GVI_LAGRANGIAN, .points = field_and_well, .user = &K };
@@ -568,9 +543,8 @@ static void queries_change_nothing_between_newton_and_fixed_point(void **state)
     assert_true(both > 20);
 }
 
-static void the_action_of_a_step_is_the_discrete_lagrangian_of_its_ends(void **state)
+TEST(the_action_of_a_step_is_the_discrete_lagrangian_of_its_ends)
 {
-    (void)state;
     for (int count = 1; count <= FORCED; ++count)
     for (int kind = GVI_MASS_UNIT; kind <= GVI_MASS_POSITION; ++kind) {
         gvi_desc desc = scene((gvi_mass_kind)kind, count, 4, 5);
@@ -591,14 +565,12 @@ static void the_action_of_a_step_is_the_discrete_lagrangian_of_its_ends(void **s
 
 static int spring(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int k = 0; k < x->count; ++k) x->f[k] -= OMEGA*OMEGA*x->q[k];
     return 0;
 }
 
 static int spring_value(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int k = 0; k < x->count; ++k) x->value[k] += OMEGA*OMEGA*x->q[k]*x->q[k]/2;
     return 0;
 }
@@ -621,10 +593,9 @@ static real exact_oscillator(real h, real q0, real q1, real *d1, real *d2)
     return OMEGA*((q0*q0 + q1*q1)*c - 2*q0*q1)/(2*s);
 }
 
-static void the_oscillators_discrete_lagrangian_converges_to_its_closed_form(void **state)
+TEST(the_oscillators_discrete_lagrangian_converges_to_its_closed_form)
 {
     real h = 0.7L, q0 = 0.8L, q1 = 0.5L, last = 1, e1, e2, exact = exact_oscillator(h, q0, q1, &e1, &e2);
-    (void)state;
     for (int s = 1; s <= 10; ++s) {
         gvi_stepper st;
         real Ld, d1, d2, error;
@@ -639,11 +610,10 @@ static void the_oscillators_discrete_lagrangian_converges_to_its_closed_form(voi
 }
 
 /* The two that fit on a line: midpoint and trapezoidal rule */
-static void degree_one_gives_the_discrete_lagrangians_of_the_textbook(void **state)
+TEST(degree_one_gives_the_discrete_lagrangians_of_the_textbook)
 {
     real h = 0.7L, q0 = 0.8L, q1 = 0.5L, v = (q1 - q0)/h, mid = (q0 + q1)/2, w2 = OMEGA*OMEGA, Ld, d1, d2;
     gvi_stepper st;
-    (void)state;
     start_oscillator(&st, 1, GVI_GAUSS);
     assert_ok(gvi_discrete_lagrangian(&st, 0, h, &q0, &q1, &(gvi_discrete){ .lagrangian = &Ld, .d1 = &d1, .d2 = &d2 }));
     assert_close(Ld, h*(v*v - w2*mid*mid)/2, 4*EPS);
@@ -664,14 +634,13 @@ static int growing(const gvi_points *x, void *user)
         if (x->f) x->f[k] += x->t[k];
         if (x->value) x->value[k] -= x->t[k]*x->q[k];
     }
-    return (void)user, 0;
+    return 0;
 }
 
-static void the_discrete_lagrangian_knows_the_time_in_every_formulation(void **state)
+TEST(the_discrete_lagrangian_knows_the_time_in_every_formulation)
 {
     static const gvi_effect effect[] = { { .kind = GVI_POTENTIAL, .points = growing, .value = growing } };
     const real t = 3, h = 0.5L, q0 = 0.75L, q1 = 0.5L, v = (q1 - q0)/h;
-    (void)state;
     for (int f = GVI_AUTO; f <= GVI_NEWTON; ++f) {
         gvi_stepper st;
         real Ld, d1, d2, p0, p1;
@@ -723,10 +692,9 @@ static real difference(gvi_stepper *st, real t, real h, int which)
    the whole of it, so also where forces bend the curve.  Rounding of L over
    delta = EPS^(1/9), truncation of that size too.  With forces the answer needs
    second derivatives: those of M(q) are differences, exact to sqrt(EPS).      */
-static void d1_and_d2_are_the_derivatives_of_the_value(void **state)
+TEST(d1_and_d2_are_the_derivatives_of_the_value)
 {
     static const int rules[][2] = { { 1, 1 }, { 3, 3 }, { 3, 5 }, { 6, 6 } };
-    (void)state;
     for (int count = 1; count <= FORCED; ++count)
     for (int kind = GVI_MASS_UNIT; kind <= GVI_MASS_POSITION; ++kind)
     for (int k = 0; k < COUNT(rules); ++k) {
@@ -746,9 +714,8 @@ static void d1_and_d2_are_the_derivatives_of_the_value(void **state)
 
 /* p0 = -d1 - minus and p1 = d2 + plus are the momenta of the step from q0 to q1.
    1/h = 2.5 is the size of the second derivatives of L_d.                     */
-static void its_momenta_are_those_of_the_step(void **state)
+TEST(its_momenta_are_those_of_the_step)
 {
-    (void)state;
     for (int count = 1; count <= FORCED; ++count)
     for (int kind = GVI_MASS_UNIT; kind <= GVI_MASS_POSITION; ++kind)
     for (int s = 1; s <= 5; s += 2) {
@@ -772,13 +739,12 @@ static void its_momenta_are_those_of_the_step(void **state)
 }
 
 /* Degree 1, Gauss 1: the curve is the chord, so F- = F+ = h f(midpoint)/2 */
-static void the_discrete_forces_of_the_midpoint_rule_are_half_the_force_each(void **state)
+TEST(the_discrete_forces_of_the_midpoint_rule_are_half_the_force_each)
 {
     gvi_desc desc = scene(GVI_MASS_POSITION, FORCED, 1, 1);
     gvi_stepper st;
     discrete d;
     real h = 0.4L, q[2], v[2], f[2] = { 0, 0 };
-    (void)state;
     set_up(&st, &desc, 0);
     assert_ok(gvi_start(&st, 0, q_start, v_start));
     ask_discrete(&st, 0.3L, h, q_start, q_end, &d);
@@ -791,13 +757,12 @@ static void the_discrete_forces_of_the_midpoint_rule_are_half_the_force_each(voi
 }
 
 /* The state is untouched, whatever the answer */
-static void the_discrete_lagrangian_leaves_the_state_alone(void **state)
+TEST(the_discrete_lagrangian_leaves_the_state_alone)
 {
     gvi_desc desc = scene(GVI_MASS_POSITION, FORCED, 4, 4);
     gvi_stepper st;
     discrete d;
     real q[2], p[2], t;
-    (void)state;
     set_up(&st, &desc, 0);
     assert_ok(gvi_start(&st, 0.1L, q_start, v_start));
     assert_ok(gvi_step(&st, 0.1L));
@@ -815,9 +780,8 @@ static void the_discrete_lagrangian_leaves_the_state_alone(void **state)
 /* h omega = k pi: any curve A sin(omega t) joins 0 to 0.  Degree 24 knows that to
    rounding.  The step, which is given q0 and p0, does not care: it turns the
    phase by k pi.                                                             */
-static void conjugate_points_are_reported_and_the_step_does_not_care(void **state)
+TEST(conjugate_points_are_reported_and_the_step_does_not_care)
 {
-    (void)state;
     for (int k = 1; k <= 2; ++k) {
         real h = k*(real)PI/(real)OMEGA, q0 = 1, q1 = k == 1 ? -1 : 1, Ld;
         gvi_stepper st;
@@ -833,9 +797,8 @@ static void conjugate_points_are_reported_and_the_step_does_not_care(void **stat
 }
 
 /* Away from it by a tenth of a per cent there is an answer, with some 1000 EPS */
-static void near_a_conjugate_point_the_answer_is_as_exact_as_it_can_be(void **state)
+TEST(near_a_conjugate_point_the_answer_is_as_exact_as_it_can_be)
 {
-    (void)state;
     for (int side = -1; side <= 1; side += 2) {
         real h = (real)PI/(real)OMEGA*(1 + side*0.001L), q0 = 1, q1 = 0.5L, Ld, e1, e2, exact;
         gvi_stepper st;
@@ -847,30 +810,4 @@ static void near_a_conjugate_point_the_answer_is_as_exact_as_it_can_be(void **st
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(velocity_and_energy_are_right_for_every_mass),
-        cmocka_unit_test(velocity_and_energy_are_right_for_a_general_lagrangian),
-        cmocka_unit_test(velocities_next_to_0_are_found_beside_a_vector_potential),
-        cmocka_unit_test(short_steps_stay_in_the_domain_of_L),
-        cmocka_unit_test(the_three_starts_agree),
-        cmocka_unit_test(the_curve_begins_at_q0_and_ends_at_q1),
-        cmocka_unit_test(the_curve_gives_its_own_derivative),
-        cmocka_unit_test(the_state_inside_a_step_is_a_partial_step_from_the_nearer_end),
-        cmocka_unit_test(the_state_at_the_ends_of_a_step_is_the_state_there_to_the_bit),
-        cmocka_unit_test(queries_do_not_change_later_steps_to_the_bit),
-        cmocka_unit_test(queries_change_nothing_between_newton_and_fixed_point),
-        cmocka_unit_test(the_action_of_a_step_is_the_discrete_lagrangian_of_its_ends),
-        cmocka_unit_test(the_oscillators_discrete_lagrangian_converges_to_its_closed_form),
-        cmocka_unit_test(degree_one_gives_the_discrete_lagrangians_of_the_textbook),
-        cmocka_unit_test(the_discrete_lagrangian_knows_the_time_in_every_formulation),
-        cmocka_unit_test(d1_and_d2_are_the_derivatives_of_the_value),
-        cmocka_unit_test(its_momenta_are_those_of_the_step),
-        cmocka_unit_test(the_discrete_forces_of_the_midpoint_rule_are_half_the_force_each),
-        cmocka_unit_test(the_discrete_lagrangian_leaves_the_state_alone),
-        cmocka_unit_test(conjugate_points_are_reported_and_the_step_does_not_care),
-        cmocka_unit_test(near_a_conjugate_point_the_answer_is_as_exact_as_it_can_be),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

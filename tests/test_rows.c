@@ -245,10 +245,9 @@ static void compare(const char *name, int degree, const real *plain, const real 
                      (long double)plain[k], (long double)whole[k]);
 }
 
-static void what_is_behind_the_points_is_not_read(void **state)
+TEST(what_is_behind_the_points_is_not_read)
 {
     static const int degrees[] = { 3, 5, 6, 7, 8, 9, 12, 16, 18 };
-    (void)state;
     for (int i = 0; i < COUNT(runs); ++i) {
         int behind = 0;
         for (int j = 0; j < COUNT(degrees); ++j) {
@@ -267,11 +266,10 @@ static void what_is_behind_the_points_is_not_read(void **state)
     }
 }
 
-static void between_two_configurations_neither(void **state)
+TEST(between_two_configurations_neither)
 {
     static real memory[GVI_LENGTH(N, 8, 8)];
     static const real q0[N] = { 1, (real)0.25L, (real)0.125L }, q1[N] = { (real)0.96L, (real)0.31L, (real)0.16L };
-    (void)state;
     for (int degree = 1; degree < 8; ++degree) {
         real got[2][KEPT] = { { 0 } };
         for (int whole = 0; whole < 2; ++whole) {
@@ -295,9 +293,4 @@ static void between_two_configurations_neither(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = { cmocka_unit_test(what_is_behind_the_points_is_not_read),
-                                        cmocka_unit_test(between_two_configurations_neither) };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -17,14 +17,14 @@ static int get_memory(void **state)
 {
     memory = malloc(ROOM*sizeof *memory);
     spare = malloc(ROOM*sizeof *spare);
-    return (void)state, memory && spare ? 0 : -1;
+    return memory && spare ? 0 : -1;
 }
 
 static int free_memory(void **state)
 {
     free(memory);
     free(spare);
-    return (void)state, 0;
+    return 0;
 }
 
 static const scene *build(const char *name, const char *without)
@@ -91,7 +91,7 @@ static int list_forces(const scene *a, char *names, size_t size)
 
 /* Over its whole duration each scene keeps its energy, or changes it by the work
    of its forces, to rounding: 1e-12 of the kinetic energy, in 80 to 16384 steps. */
-static void test_energy_balance(void **state)
+TEST(test_energy_balance)
 {
     char names[256];
     int forced = 0;
@@ -108,11 +108,10 @@ static void test_energy_balance(void **state)
     }
     assert_int_equal(scene_count, 12);
     assert_int_equal(forced, 5);
-    (void)state;
 }
 
 /* Without its forces every scene is conservative.                             */
-static void test_energy_without_forces(void **state)
+TEST(test_energy_without_forces)
 {
     char names[256];
     for (int i = 0; i < scene_count; ++i) {
@@ -122,12 +121,11 @@ static void test_energy_without_forces(void **state)
         assert_true(b.kinetic > 0 && b.gained <= 1e-10*b.kinetic);
         assert_true(b.missing == b.gained);
     }
-    (void)state;
 }
 
 /* What the scenes say they conserve, in units of the momentum or angular momentum
    that there is; the satellite without its air.                              */
-static void test_conserved_quantities(void **state)
+TEST(test_conserved_quantities)
 {
     int seen = 0;
     for (int i = 0; i < scene_count; ++i) {
@@ -149,7 +147,6 @@ static void test_conserved_quantities(void **state)
         }
     }
     assert_int_equal(seen, 80*9);
-    (void)state;
 }
 
 /* ------------------------------------------------------------- the sky's laws */
@@ -176,11 +173,10 @@ static double solar_system_error(int degree)
     return worst;
 }
 
-static void test_solar_system_against_reference(void **state)
+TEST(test_solar_system_against_reference)
 {
     assert_between(0, solar_system_error(8), 1e-11);
     assert_between(1e-7, solar_system_error(4), 1e-3);
-    (void)state;
 }
 
 static void cross(const double *a, const double *b, double *c)
@@ -231,7 +227,7 @@ static void orbit_rates(double j2, double *rate)
 
 /* Precession of node and perigee against first-order theory: they differ by a
    relative O(J2), so ten times less for a tenth of J2.                        */
-static void test_oblateness_turns_the_orbit(void **state)
+TEST(test_oblateness_turns_the_orbit)
 {
     const double e = 0.06, a = (6378.137 + 380)/(1 - e), n = sqrt(398600.4418/(a*a*a)), c = cos(50*pi/180);
     const double per_j2 = n*pow(6378.137/(a*(1 - e*e)), 2), j2 = 1.08262668e-3;
@@ -246,7 +242,6 @@ static void test_oblateness_turns_the_orbit(void **state)
         assert_between(1e-3, fabs(far), 1e-2);
         assert_between(7, far/near, 14);
     }
-    (void)state;
 }
 
 /* On a circle, drag c v^2 lets sqrt(a) shrink at the rate c sqrt(gm), to first
@@ -266,16 +261,15 @@ static double decay(double c)
     return (1 - sqrt(-1/(2*e)))/(c*st.t);
 }
 
-static void test_air_drag_lowers_the_orbit(void **state)
+TEST(test_air_drag_lowers_the_orbit)
 {
     assert_between(0.999, decay(1e-5), 1.001);
     assert_between(0.99999, decay(1e-7), 1.00001);
-    (void)state;
 }
 
 /* The three bodies come back after Simo's period, and after a third of it each
    stands where another began; to the 8 digits that the data have.            */
-static void test_figure_eight_period(void **state)
+TEST(test_figure_eight_period)
 {
     const double period = 6.32591398;
     double v[6], miss = 0, far = 0, along = 0, speed = 0;
@@ -294,11 +288,10 @@ static void test_figure_eight_period(void **state)
     print_message("  closes to %.1e; period %.9f\n", far, period + along/speed);
     assert_between(1e-10, far, 1e-7);
     assert_close(period + along/speed, period, 5e-8);
-    (void)state;
 }
 
 /* Arenstorf's orbit closes, though a perturbation of its start grows 1e4-fold.  */
-static void test_arenstorf_closes(void **state)
+TEST(test_arenstorf_closes)
 {
     const scene *a = build("arenstorf", NULL);
     double nudged;
@@ -311,7 +304,6 @@ static void test_arenstorf_closes(void **state)
     steps(16384, a->h);
     nudged = hypot(st.q[0] - made.q[0], st.q[1]);
     assert_between(1e-8, nudged, 1e-4);
-    (void)state;
 }
 
 /* -------------------------------------------------------- pendulums and tops */
@@ -342,7 +334,7 @@ static double period_of(int coordinate, double from, double centre)
     return 0;
 }
 
-static void test_elastic_pendulum_periods(void **state)
+TEST(test_elastic_pendulum_periods)
 {
     assert_close(period_of(0, 1e-4, 0), 2*pi*sqrt(1/9.81), 2e-8);
     assert_close(period_of(1, 1e-4, -1), 2*pi*sqrt(1/(4*9.81)), 1e-11);     // bounces without swing: linear
@@ -361,11 +353,10 @@ static void test_elastic_pendulum_periods(void **state)
     }
     assert_between(0, least, 0.05);
     assert_between(0.9, most, 1);
-    (void)state;
 }
 
 /* Steady precession: across w^2 cos a - along spin w + m g l = 0, two rates.    */
-static void test_top_precesses_steadily(void **state)
+TEST(test_top_precesses_steadily)
 {
     const double across = 2e-4, along = 8e-5, lever = 0.1*9.81*0.04, spin = 150, c = cos(0.5), b = along*spin;
     for (int fast = 0; fast < 2; ++fast) {
@@ -391,7 +382,6 @@ static void test_top_precesses_steadily(void **state)
         }
         assert_true(most > 1e-5);
     }
-    (void)state;
 }
 
 /* Two links by Newton and Euler: accelerations of the angles from the balance of
@@ -445,20 +435,19 @@ static void check_links(const char *name, const links *p, double until)
     }
 }
 
-static void test_links_by_newton_and_euler(void **state)
+TEST(test_links_by_newton_and_euler)
 {
     const links pendulum = { 1, 1, 1, 1, 1, 0, 0, 0.05, 0 };
     const links arm = { 2, 1.2, 0.5, 0.25, 0.2, 2*0.25/12, 1.2*0.16/12, 0.2, 1 };
     check_links("double_pendulum", &pendulum, 3);
     check_links("robot_arm", &arm, 4);
-    (void)state;
 }
 
 /* -------------------------------------------------------------- other fields */
 
 /* In crossed fields the motion is a circle that drifts by E/B: known in closed
    form for the speed relative to the drift.                                  */
-static void test_crossed_fields_drift(void **state)
+TEST(test_crossed_fields_drift)
 {
     const scene *a = build("crossed_fields", NULL);
     const double E = 100, B = 0.01, rate = 1.602176634e-19*B/1.67262192369e-27, drift = E/B;
@@ -477,7 +466,6 @@ static void test_crossed_fields_drift(void **state)
     steps(64, 8*2*pi/rate/64);
     assert_close(st.q[0]/st.t, E/B, 1e-8);
     assert_close(st.q[1], 0, 1e-14);
-    (void)state;
 }
 
 /* Largest share of energy in mode 1 between 100 and 170 of its periods, and when. */
@@ -505,7 +493,7 @@ static double recurrence(int degree, gvi_rule_kind rule, double h, double *share
    the literature belong to the step of the report itself, leapfrog with h^2 = 1/8,
    whose error weakens the dispersion by 1/8 and so delays the return by
    sqrt(8/7) = 1.069; Stoermer-Verlet is that method.                          */
-static void test_fput_recurrence(void **state)
+TEST(test_fput_recurrence)
 {
     double share, exact = recurrence(6, GVI_GAUSS, 1, &share), leapfrog, fine;
     assert_between(0.975, share, 0.985);
@@ -530,12 +518,11 @@ static void test_fput_recurrence(void **state)
         least = fmin(least, fput_mode(st.q, v, 1)/first);
     }
     assert_between(0.01, least, 0.15);
-    (void)state;
 }
 
 /* Duffing's oscillator settles to as many periods of the drive as the book says;
    for F = 0.5 to none.  The map is taken once a period of the drive.          */
-static void test_duffing_attractors(void **state)
+TEST(test_duffing_attractors)
 {
     static const struct { double strength; int periods; } known[] = {
         { 0.2, 1 }, { 0.28, 2 }, { 0.29, 4 }, { 0.37, 5 }, { 0.65, 2 }, { 0.5, 0 } };
@@ -557,12 +544,11 @@ static void test_duffing_attractors(void **state)
             else assert_true(miss > 0.05);
         }
     }
-    (void)state;
 }
 
 /* A net on no hooks and in no air: its centre falls freely, it does not start to
    turn; and the hooks, once all has come to rest, carry its weight.           */
-static void test_net(void **state)
+TEST(test_net)
 {
     double v[SCENE_MAX], centre = 0, turn[2] = { 0, 0 }, e0, e1;
     build("net", "hooks,air");
@@ -601,7 +587,6 @@ static void test_net(void **state)
     assert_ok(gvi_energy(&st, &e1));
     assert_true(e1 < e0 - 0.1);
     for (int i = 0; i < NET_KNOTS; ++i) assert_close(st.q[3*i+2], st.q[3*(NET_KNOTS-1-i)+2], 1e-9);
-    (void)state;
 }
 
 /* ------------------------------------------------------- pay for what is listed */
@@ -634,7 +619,7 @@ static int off_and_unlisted(const scene *a, int e, long count, gvi_stepper *bare
    same bits as long as the formulation is the same.  Where it was the effect that
    asked for velocities, the formulation differs, both steppers say so, and the
    results agree as two ways of computing the same numbers do.                */
-static void test_off_is_unlisted(void **state)
+TEST(test_off_is_unlisted)
 {
     static gvi_stepper bare;
     int same = 0;
@@ -664,12 +649,11 @@ static void test_off_is_unlisted(void **state)
     }
     assert_string_equal(changed, "satellite:air arenstorf:frame net:air crossed_fields:magnetic ");
     assert_int_equal(same, 25);
-    (void)state;
 }
 
 /* Off and on again between steps: its counter stands still while it is off, and
    the others' does not.                                                      */
-static void test_switching_between_steps(void **state)
+TEST(test_switching_between_steps)
 {
     unsigned long long before[GVI_EFFECTS];
     for (int i = 0; i < scene_count; ++i) {
@@ -685,12 +669,11 @@ static void test_switching_between_steps(void **state)
             }
         }
     }
-    (void)state;
 }
 
 /* Bytes: a net without "air" takes as many as a net written down by someone who
    never heard of drag, and its counters are the same; with it, more.           */
-static void test_unlisted_costs_nothing(void **state)
+TEST(test_unlisted_costs_nothing)
 {
     build("net", NULL);
     const size_t with_air = gvi_size(&made.desc);
@@ -717,11 +700,10 @@ static void test_unlisted_costs_nothing(void **state)
     made.desc.formulation = GVI_VELOCITIES;
     assert_true(without < gvi_size(&made.desc));
     assert_true(gvi_formulation_text(&st) != NULL && st.formulation == GVI_POSITIONS);
-    (void)state;
 }
 
 /* The names on the command line and in `without` mean what they say.           */
-static void test_lists(void **state)
+TEST(test_lists)
 {
     assert_true(scene_lists("air,hooks", "air") && scene_lists("air,hooks", "hooks"));
     assert_false(scene_lists("air,hooks", "hook"));
@@ -738,31 +720,6 @@ static void test_lists(void **state)
         assert_true(made.desc.effect_count > 0);
         assert_ptr_equal(scene_find(scenes[i]->name), scenes[i]);
     }
-    (void)state;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_energy_balance),
-        cmocka_unit_test(test_energy_without_forces),
-        cmocka_unit_test(test_conserved_quantities),
-        cmocka_unit_test(test_solar_system_against_reference),
-        cmocka_unit_test(test_oblateness_turns_the_orbit),
-        cmocka_unit_test(test_air_drag_lowers_the_orbit),
-        cmocka_unit_test(test_figure_eight_period),
-        cmocka_unit_test(test_arenstorf_closes),
-        cmocka_unit_test(test_elastic_pendulum_periods),
-        cmocka_unit_test(test_top_precesses_steadily),
-        cmocka_unit_test(test_links_by_newton_and_euler),
-        cmocka_unit_test(test_crossed_fields_drift),
-        cmocka_unit_test(test_fput_recurrence),
-        cmocka_unit_test(test_duffing_attractors),
-        cmocka_unit_test(test_net),
-        cmocka_unit_test(test_off_is_unlisted),
-        cmocka_unit_test(test_switching_between_steps),
-        cmocka_unit_test(test_unlisted_costs_nothing),
-        cmocka_unit_test(test_lists),
-    };
-    return cmocka_run_group_tests(tests, get_memory, free_memory);
-}
+RUN_TESTS(get_memory, free_memory)

@@ -41,7 +41,6 @@ static gvi_stepper *set_up(const gvi_desc *desc)
 static int potential(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
     real g = 1 + sin(2*t)/2, both = g*sin(q[0] + q[1]);
-    (void)v; (void)dldv; (void)user;
     f[0] -= 2*g*sin(q[0]) + both;
     f[1] -= both;
     return 0;
@@ -50,7 +49,6 @@ static int potential(real t, const real *q, const real *v, real *f, real *dldv, 
 /* L = a'v, a = (-q2 (1 + q1^2), q1)/2 */
 static int field(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
-    (void)t; (void)user;
     dldv[0] -= q[1]*(1 + q[0]*q[0])/2;
     dldv[1] += q[0]/2;
     f[0] += v[1]/2 - q[0]*q[1]*v[0];
@@ -60,7 +58,6 @@ static int field(real t, const real *q, const real *v, real *f, real *dldv, void
 
 static int drag(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
-    (void)t; (void)q; (void)dldv; (void)user;
     f[0] -= v[0]/4;
     f[1] -= v[1]/4;
     return 0;
@@ -172,11 +169,10 @@ static real symplectic_defect(const variant *a, real h)
 
 /* What is left is the differencing: entries of M wrong by a few EPS^(8/9), four
    products of two entries in each sum.                                       */
-static void the_step_map_is_symplectic(void **state)
+TEST(the_step_map_is_symplectic)
 {
     real bound = 100*pow((real)EPS, 8/(real)9);
     int misses = 0;
-    (void)state;
     for (int i = 0; i < COUNT(variants); ++i) {
         real defect = symplectic_defect(&variants[i], 0.25L);
         if (defect <= bound) continue;          /* false for NaN */
@@ -187,25 +183,23 @@ static void the_step_map_is_symplectic(void **state)
 }
 
 /* The same measurement must see drag: the map contracts areas by about c h */
-static void drag_is_not_symplectic(void **state)
+TEST(drag_is_not_symplectic)
 {
     const variant damped[] = {
         { GVI_VELOCITIES, 0, DRAG,         3, GVI_GAUSS, 3 },
         { GVI_MOMENTA,    1, DRAG | FIELD, 3, GVI_GAUSS, 3 },
         { GVI_NEWTON,     1, DRAG,         3, GVI_GAUSS, 4 },
     };
-    (void)state;
     for (int i = 0; i < COUNT(damped); ++i)
         assert_between(0.01L, symplectic_defect(&damped[i], 0.25L), 1);
 }
 
 /* All formulations solve the same equations.  Steps of size 1 in the state,
    well-conditioned equations: what differs is a few roundings of each.        */
-static void every_formulation_finds_the_same_step(void **state)
+TEST(every_formulation_finds_the_same_step)
 {
     static const gvi_formulation all[] = { GVI_AUTO, GVI_EXPLICIT, GVI_POSITIONS, GVI_VELOCITIES, GVI_MOMENTA };
     int compared = 0;
-    (void)state;
     for (int i = 0; i < COUNT(variants); ++i) {
         variant a = variants[i];
         real want[4], y[4];
@@ -264,15 +258,13 @@ static void expect_constant_angular_momentum(gvi_stepper *st, int steps)
                   gvi_formulation_text(st), (long double)(worst/EPS), steps);
 }
 
-static void angular_momentum_is_constant_over_1e5_steps(void **state)
+TEST(angular_momentum_is_constant_over_1e5_steps)
 {
-    (void)state;
     expect_constant_angular_momentum(start_planet(8, GVI_GAUSS, 8, GVI_AUTO), 100000);
 }
 
-static void angular_momentum_is_constant_in_every_formulation(void **state)
+TEST(angular_momentum_is_constant_in_every_formulation)
 {
-    (void)state;
     expect_constant_angular_momentum(start_planet(5, GVI_LOBATTO, 6, GVI_POSITIONS), 5000);
     expect_constant_angular_momentum(start_planet(6, GVI_GAUSS, 6, GVI_VELOCITIES), 5000);
     expect_constant_angular_momentum(start_planet(6, GVI_GAUSS, 8, GVI_NEWTON), 5000);
@@ -281,12 +273,11 @@ static void angular_momentum_is_constant_in_every_formulation(void **state)
 
 /* No systematic part: the mean change over blocks is within four standard
    errors of nothing.                                                         */
-static void angular_momentum_has_no_drift(void **state)
+TEST(angular_momentum_has_no_drift)
 {
     enum { BLOCKS = 500, BLOCK = 41 };
     gvi_stepper *st = start_planet(8, GVI_GAUSS, 8, GVI_AUTO);
     real last = angular_momentum(st), sum = 0, squares = 0;
-    (void)state;
     for (int b = 0; b < BLOCKS; ++b) {
         for (int k = 0; k < BLOCK; ++k) assert_ok(gvi_step(st, 0.15L));
         real now = angular_momentum(st), d = (now - last)/EPS;
@@ -301,7 +292,6 @@ static real stiffness[4];
 
 static int stiff_springs(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int i = 0; i < x->n; ++i)
         for (int k = 0; k < x->count; ++k) x->f[i*x->stride + k] -= stiffness[i]*x->q[i*x->stride + k];
     return 0;
@@ -312,14 +302,13 @@ static int stiff_springs(const gvi_points *x, void *user)
    symplectic, and the energy would gain or lose up to 0.6 EPS in every step at h omega =
    5/2.  A walk of EPS a step comes to 256 EPS in 2^16 steps; multiples of h = 1/10, whose
    digits have a short period, round with a mean, up to 0.05 EPS a step.        */
-static void a_mass_is_the_same_wherever_it_is_read(void **state)
+TEST(a_mass_is_the_same_wherever_it_is_read)
 {
     enum { STEPS = 1 << 16 };
     static const real mass[4] = { 3, 7, 11, 13 }, q[4] = { 1, 1.1L, 0.9L, 0.7L }, v[4] = { 0.03L, 0.03L, 0.02L, 0.03L };
     static const gvi_formulation found[] = { GVI_POSITIONS, GVI_VELOCITIES, GVI_MOMENTA };
     const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = stiff_springs } };
     const real h = 0.1L, omega = 25;
-    (void)state;
     for (int i = 0; i < 4; ++i) stiffness[i] = mass[i]*omega*omega;
     for (int m = 0; m < COUNT(found); ++m) {
         const gvi_desc desc = { .n = 4, .degree = 8, .effects = scene, .effect_count = 1, .formulation = found[m],
@@ -339,9 +328,8 @@ static void a_mass_is_the_same_wherever_it_is_read(void **state)
 
 /* One step and back.  The curve is the same read from its other end, so what is
    left are roundings of increments: a few EPS of a state of size 1.           */
-static void a_step_back_returns(void **state)
+TEST(a_step_back_returns)
 {
-    (void)state;
     for (int i = 0; i < COUNT(variants); ++i) {
         gvi_stepper *st = set_up_variant(&variants[i]);
         assert_ok(gvi_start_momentum(st, 0.3L, start, start + 2));
@@ -358,12 +346,11 @@ static void a_step_back_returns(void **state)
 /* 200 steps of different lengths, and the same back.  Independent errors of 2
    EPS a step, and a motion that is regular: neighbours part linearly, by less
    than 20 times in the 20 units of time.  sqrt(400) * 2 * 20 = 800.          */
-static void many_different_steps_and_back_return(void **state)
+TEST(many_different_steps_and_back_return)
 {
     enum { STEPS = 200 };
     static const int chosen[] = { 3, 5, 9, 13, 18, 20 };
     real h[STEPS];
-    (void)state;
     seed = 7;
     for (int k = 0; k < STEPS; ++k) h[k] = 0.05L + 0.1L*uniform();
     for (int i = 0; i < COUNT(chosen); ++i) {
@@ -385,7 +372,6 @@ static void many_different_steps_and_back_return(void **state)
 
 static int free_pendulum(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
-    (void)t; (void)v; (void)dldv; (void)user;
     f[0] -= 2*sin(q[0]) + sin(q[0] + q[1]);
     f[1] -= sin(q[0] + q[1]);
     return 0;
@@ -404,7 +390,7 @@ static real pendulum_energy(const real *q, const real *p)
    small in 1/h (at four times this step they would be seen: the energy wanders),
    so its error is a function of the state, of size C h^6.  Later it cannot be
    larger, except by the luck of a state that was not visited before.          */
-static void the_energy_of_a_chaotic_pendulum_stays_in_its_band(void **state)
+TEST(the_energy_of_a_chaotic_pendulum_stays_in_its_band)
 {
     enum { STEPS = 60000 };
     static const gvi_effect effects[] = { { .kind = GVI_POTENTIAL, .point = free_pendulum } };
@@ -413,7 +399,6 @@ static void the_energy_of_a_chaotic_pendulum_stays_in_its_band(void **state)
                                       .gradient = pendulum_mass_gradient } };
     gvi_stepper *st = set_up(&desc);
     real band[2] = { 0, 0 }, E0, mean[2] = { 0, 0 };
-    (void)state;
     assert_ok(gvi_start(st, 0, (const real[]){ 2, 1 }, (const real[]){ 0, 0 }));
     E0 = pendulum_energy(st->q, st->p);
     for (int k = 0; k < STEPS; ++k) {
@@ -441,7 +426,6 @@ static const real v_of[OSCILLATORS] = { 0.2L, 0.4L, -0.9L, 1.5L, -0.7L };
 
 static int springs(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int i = 0; i < x->n; ++i)
         for (int k = 0; k < x->count; ++k)
             x->f[i*x->stride + k] -= spring_of[i]*x->q[i*x->stride + k];
@@ -450,7 +434,6 @@ static int springs(const gvi_points *x, void *user)
 
 static int dampers(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int i = 0; i < x->n; ++i)
         for (int k = 0; k < x->count; ++k)
             x->f[i*x->stride + k] -= damping_of[i]*x->v[i*x->stride + k];
@@ -459,21 +442,18 @@ static int dampers(const gvi_points *x, void *user)
 
 static int spring_constants(real t, const real *q, const real *v, real *fq, real *fv, real *pv, void *user)
 {
-    (void)t; (void)q; (void)v; (void)fv; (void)pv; (void)user;
     for (int i = 0; i < OSCILLATORS; ++i) fq[i*OSCILLATORS + i] -= spring_of[i];
     return 0;
 }
 
 static int damping_constants(real t, const real *q, const real *v, real *fq, real *fv, real *pv, void *user)
 {
-    (void)t; (void)q; (void)v; (void)fq; (void)pv; (void)user;
     for (int i = 0; i < OSCILLATORS; ++i) fv[i*OSCILLATORS + i] -= damping_of[i];
     return 0;
 }
 
 static int constant_mass_by_callback(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int i = 0; i < x->n; ++i)
         for (int j = 0; j <= i; ++j)
             for (int k = 0; k < x->count; ++k)
@@ -481,7 +461,7 @@ static int constant_mass_by_callback(const gvi_points *x, void *user)
     return 0;
 }
 
-static int no_gradient(const gvi_points *x, void *user) { (void)x; (void)user; return 0; }
+static int no_gradient(const gvi_points *x, void *user) { return 0; }
 
 /* q and momentum of m q'' = -k q - c q' after t, underdamped */
 static void oscillator(int i, int damped, real t, real *q, real *p)
@@ -527,7 +507,7 @@ static gvi_stepper *start_oscillators(const oscillator_case *c)
    lengths, so that the guess is never right by chance.  The truncation error
    of degree 7 at h omega < 0.3 is below 1e-22 a step; 60 steps of independent
    roundings, 2 EPS each, and the rounding of the closed form.                */
-static void uncoupled_oscillators_keep_to_themselves(void **state)
+TEST(uncoupled_oscillators_keep_to_themselves)
 {
     static const oscillator_case cases[] = {
         { GVI_AUTO,       GVI_MASS_DIAGONAL, 0, 0, 7, 7 },
@@ -541,7 +521,6 @@ static void uncoupled_oscillators_keep_to_themselves(void **state)
         { GVI_NEWTON,     GVI_MASS_DENSE,    1, 1, 7, 9 },
         { GVI_NEWTON,     GVI_MASS_POSITION, 1, 1, 7, 7 },
     };
-    (void)state;
     for (int k = 0; k < COUNT(cases); ++k) {
         gvi_stepper *st = start_oscillators(&cases[k]);
         seed = 11;
@@ -572,7 +551,6 @@ static real mixed_mass(int i, int j)
 
 static int mixed_springs(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
-    (void)t; (void)v; (void)dldv; (void)user;
     for (int k = 0; k < MIXED; ++k) {
         real x = 0;
         for (int j = 0; j < MIXED; ++j) x += B[k][j]*q[j];
@@ -584,7 +562,6 @@ static int mixed_springs(real t, const real *q, const real *v, real *f, real *dl
 /* Writes what is asked for, the lower triangle, and NaN in the upper one */
 static int mixed_mass_by_callback(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int i = 0; i < MIXED; ++i)
         for (int j = 0; j < MIXED; ++j)
             for (int k = 0; k < x->count; ++k)
@@ -592,11 +569,10 @@ static int mixed_mass_by_callback(const gvi_points *x, void *user)
     return 0;
 }
 
-static void a_full_mass_matrix_is_read_by_its_lower_triangle(void **state)
+TEST(a_full_mass_matrix_is_read_by_its_lower_triangle)
 {
     static const gvi_effect effects[] = { { .kind = GVI_POTENTIAL, .point = mixed_springs } };
     real matrix[MIXED*MIXED];
-    (void)state;
     for (int i = 0; i < MIXED*MIXED; ++i) matrix[i] = i/MIXED >= i%MIXED ? mixed_mass(i/MIXED, i%MIXED) : (real)NAN;
     for (int way = 0; way < 4; ++way) {
         gvi_desc desc = { .n = MIXED, .degree = 7, .effects = effects, .effect_count = 1 };
@@ -620,16 +596,14 @@ static void a_full_mass_matrix_is_read_by_its_lower_triangle(void **state)
 
 static int must_not_be_called(const gvi_points *x, void *user)
 {
-    (void)x;
     ++*(int *)user;
     return 0;
 }
 
-static void a_conservative_scene_forms_no_velocity_and_no_matrix(void **state)
+TEST(a_conservative_scene_forms_no_velocity_and_no_matrix)
 {
     const gvi_counters *count;
     gvi_stepper *st = start_planet(8, GVI_GAUSS, 8, GVI_AUTO);
-    (void)state;
     for (int k = 0; k < 100; ++k) assert_ok(gvi_step(st, 0.05L));
     count = &st->counters;
     assert_int_equal(st->formulation, GVI_POSITIONS);
@@ -651,10 +625,9 @@ static int counting_springs(const gvi_points *x, void *user)
     return springs(x, NULL);
 }
 
-static void the_counters_say_how_often_an_effect_was_asked(void **state)
+TEST(the_counters_say_how_often_an_effect_was_asked)
 {
     static const gvi_formulation ways[] = { GVI_POSITIONS, GVI_VELOCITIES, GVI_NEWTON };
-    (void)state;
     for (int w = 0; w < COUNT(ways); ++w) {
         unsigned long long asked = 0;
         const gvi_effect effects[] = { { .kind = GVI_POTENTIAL, .points = counting_springs, .user = &asked } };
@@ -671,7 +644,7 @@ static void the_counters_say_how_often_an_effect_was_asked(void **state)
 }
 
 /* Off, an effect costs nothing; on again, it acts */
-static void an_effect_that_is_switched_off_is_not_evaluated(void **state)
+TEST(an_effect_that_is_switched_off_is_not_evaluated)
 {
     int calls = 0;
     const gvi_effect effects[] = {
@@ -681,7 +654,6 @@ static void an_effect_that_is_switched_off_is_not_evaluated(void **state)
     const gvi_desc desc = { .n = OSCILLATORS, .degree = 6, .effects = effects, .effect_count = 2 };
     gvi_stepper *st = set_up(&desc);
     real v[OSCILLATORS];
-    (void)state;
     assert_ok(gvi_switch(st, 1, 0));
     assert_ok(gvi_start(st, 0, q_of, v_of));
     for (int k = 0; k < 20; ++k) assert_ok(gvi_step(st, 0.1L));
@@ -694,24 +666,4 @@ static void an_effect_that_is_switched_off_is_not_evaluated(void **state)
     assert_true(st->counters.effect[1] > 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_step_map_is_symplectic),
-        cmocka_unit_test(drag_is_not_symplectic),
-        cmocka_unit_test(every_formulation_finds_the_same_step),
-        cmocka_unit_test(angular_momentum_is_constant_over_1e5_steps),
-        cmocka_unit_test(angular_momentum_is_constant_in_every_formulation),
-        cmocka_unit_test(angular_momentum_has_no_drift),
-        cmocka_unit_test(a_mass_is_the_same_wherever_it_is_read),
-        cmocka_unit_test(a_step_back_returns),
-        cmocka_unit_test(many_different_steps_and_back_return),
-        cmocka_unit_test(the_energy_of_a_chaotic_pendulum_stays_in_its_band),
-        cmocka_unit_test(uncoupled_oscillators_keep_to_themselves),
-        cmocka_unit_test(a_full_mass_matrix_is_read_by_its_lower_triangle),
-        cmocka_unit_test(a_conservative_scene_forms_no_velocity_and_no_matrix),
-        cmocka_unit_test(the_counters_say_how_often_an_effect_was_asked),
-        cmocka_unit_test(an_effect_that_is_switched_off_is_not_evaluated),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -8,7 +8,6 @@ typedef gvi_real real;
 #include "mechanics.h"
 enum { N = 2, MOST = 6, ROWS = N*(1 + MOST), ROOM = 13*ROWS + ROWS*ROWS };
 
-#define ANY __attribute__((unused))
 #define R(x) ((real)x##L)
 
 static real memory[60000], other_memory[20000], room[ROOM];
@@ -16,7 +15,7 @@ static real memory[60000], other_memory[20000], room[ROOM];
 /* ---------------------------------------------------- effects and products */
 
 /* Henon and Heiles: V = (x^2 + y^2)/2 + x^2 y - y^3/3                         */
-static int heiles(const gvi_points *x, ANY void *user)
+static int heiles(const gvi_points *x, void *user)
 {
     const int s = x->stride;
     for (int k = 0; k < x->count; ++k) {
@@ -27,7 +26,7 @@ static int heiles(const gvi_points *x, ANY void *user)
     return 0;
 }
 
-static int heiles_product(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+static int heiles_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
 {
     const int s = x->stride;
     for (int k = 0; k < x->count; ++k) {
@@ -38,7 +37,7 @@ static int heiles_product(const gvi_points *x, const gvi_points *d, ANY int para
     return 0;
 }
 
-static int heiles_point(ANY real t, const real *q, ANY const real *v, real *f, ANY real *dldv, ANY void *user)
+static int heiles_point(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
     f[0] -= q[0] + 2*q[0]*q[1];
     f[1] -= q[1] + q[0]*q[0] - q[1]*q[1];
@@ -48,7 +47,7 @@ static int heiles_point(ANY real t, const real *q, ANY const real *v, real *f, A
 /* Friction -c |v|^2 v; c is parameter 0.                                      */
 static real friction_c;
 
-static int friction(const gvi_points *x, ANY void *user)
+static int friction(const gvi_points *x, void *user)
 {
     const int s = x->stride;
     for (int k = 0; k < x->count; ++k) {
@@ -59,7 +58,7 @@ static int friction(const gvi_points *x, ANY void *user)
     return 0;
 }
 
-static int friction_product(const gvi_points *x, const gvi_points *d, int parameter, ANY void *user)
+static int friction_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
 {
     const int s = x->stride;
     for (int k = 0; k < x->count; ++k) {
@@ -72,7 +71,7 @@ static int friction_product(const gvi_points *x, const gvi_points *d, int parame
 }
 
 /* A magnetic field: L = |q|^2 (x y' - y x')/2                                 */
-static int magnetic(const gvi_points *x, ANY void *user)
+static int magnetic(const gvi_points *x, void *user)
 {
     const int s = x->stride;
     for (int k = 0; k < x->count; ++k) {
@@ -83,7 +82,7 @@ static int magnetic(const gvi_points *x, ANY void *user)
     return 0;
 }
 
-static int magnetic_product(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+static int magnetic_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
 {
     const int s = x->stride;
     for (int k = 0; k < x->count; ++k) {
@@ -103,7 +102,7 @@ static int magnetic_product(const gvi_points *x, const gvi_points *d, ANY int pa
 /* The double pendulum, M = [2, c; c, 1], c = e cos(a - b); e is parameter 1.   */
 static real coupling = 1;
 
-static int weight(const gvi_points *x, ANY void *user)
+static int weight(const gvi_points *x, void *user)
 {
     const int s = x->stride;
     for (int k = 0; k < x->count; ++k) {
@@ -113,7 +112,7 @@ static int weight(const gvi_points *x, ANY void *user)
     return 0;
 }
 
-static int weight_product(const gvi_points *x, const gvi_points *d, ANY int parameter, ANY void *user)
+static int weight_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
 {
     const int s = x->stride;
     for (int k = 0; k < x->count; ++k) {
@@ -123,7 +122,7 @@ static int weight_product(const gvi_points *x, const gvi_points *d, ANY int para
     return 0;
 }
 
-static int pendulum_matrix(const gvi_points *x, ANY void *user)
+static int pendulum_matrix(const gvi_points *x, void *user)
 {
     const int s = x->stride;
     for (int k = 0; k < x->count; ++k) {
@@ -134,7 +133,7 @@ static int pendulum_matrix(const gvi_points *x, ANY void *user)
     return 0;
 }
 
-static int pendulum_gradient(const gvi_points *x, ANY void *user)
+static int pendulum_gradient(const gvi_points *x, void *user)
 {
     const int s = x->stride;
     for (int k = 0; k < x->count; ++k) {
@@ -145,7 +144,7 @@ static int pendulum_gradient(const gvi_points *x, ANY void *user)
     return 0;
 }
 
-static int pendulum_gradient_product(const gvi_points *x, const gvi_points *d, int parameter, ANY void *user)
+static int pendulum_gradient_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
 {
     const int s = x->stride;
     for (int k = 0; k < x->count; ++k) {
@@ -158,7 +157,7 @@ static int pendulum_gradient_product(const gvi_points *x, const gvi_points *d, i
     return 0;
 }
 
-static int pendulum_velocity(const gvi_points *x, ANY void *user)
+static int pendulum_velocity(const gvi_points *x, void *user)
 {
     const int s = x->stride;
     for (int k = 0; k < x->count; ++k) {
@@ -169,7 +168,7 @@ static int pendulum_velocity(const gvi_points *x, ANY void *user)
     return 0;
 }
 
-static int pendulum_velocity_product(const gvi_points *x, const gvi_points *d, int parameter, ANY void *user)
+static int pendulum_velocity_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
 {
     const int s = x->stride;
     for (int k = 0; k < x->count; ++k) {
@@ -183,7 +182,7 @@ static int pendulum_velocity_product(const gvi_points *x, const gvi_points *d, i
 }
 
 /* The same kinetic energy as a Lagrangian term, for GVI_MASS_NONE.             */
-static int pendulum_term(const gvi_points *x, ANY void *user)
+static int pendulum_term(const gvi_points *x, void *user)
 {
     const int s = x->stride;
     if (x->f) pendulum_gradient(x, NULL);
@@ -195,7 +194,7 @@ static int pendulum_term(const gvi_points *x, ANY void *user)
     return 0;
 }
 
-static int pendulum_term_product(const gvi_points *x, const gvi_points *d, int parameter, ANY void *user)
+static int pendulum_term_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
 {
     const int s = x->stride;
     if (d->f) pendulum_gradient_product(x, d, parameter, NULL);
@@ -208,7 +207,7 @@ static int pendulum_term_product(const gvi_points *x, const gvi_points *d, int p
     return 0;
 }
 
-static int clock_rate(const gvi_points *x, ANY void *user)
+static int clock_rate(const gvi_points *x, void *user)
 {
     for (int k = 0; k < x->count && x->value; ++k) x->value[k] += 1;
     return 0;
@@ -352,7 +351,7 @@ static real defect(real M[2*N][2*N], real *most)
 
 /* ------------------------------------------------------------------- tests */
 
-static void a_step_with_its_derivative_is_symplectic(ANY void **state)
+TEST(a_step_with_its_derivative_is_symplectic)
 {
     for (int i = 0; i < COUNT(scenes); ++i)
         for (int z = 0; z < 2; ++z) {
@@ -374,7 +373,7 @@ static void a_step_with_its_derivative_is_symplectic(ANY void **state)
 }
 
 /* By state, by parameters and by h, after 8 steps.                            */
-static void every_column_is_what_differences_say(ANY void **state)
+TEST(every_column_is_what_differences_say)
 {
     for (int i = 0; i < COUNT(scenes); ++i) {
         const scene *s = &scenes[i];
@@ -399,7 +398,7 @@ static void every_column_is_what_differences_say(ANY void **state)
 
 /* The state beside its derivative is that of the scene alone, but for another number of
    iterations.                                                                 */
-static void the_motion_is_the_same(ANY void **state)
+TEST(the_motion_is_the_same)
 {
     for (int i = 0; i < COUNT(scenes); ++i) {
         const real h = scenes[i].desc.effects[0].points == weight ? R(0.0625) : R(0.25);
@@ -446,7 +445,7 @@ static real kepler_error(int degree, int steps)
     return worst;
 }
 
-static void keplers_derivative_has_order_2s(ANY void **state)
+TEST(keplers_derivative_has_order_2s)
 {
     if (DIG < 50) {                              /* float: what rounding leaves of 79 */
         assert_between(0, kepler_error(4, 80), 79*300*EPS);
@@ -464,13 +463,13 @@ static void keplers_derivative_has_order_2s(ANY void **state)
    closed form.                                                                */
 static real spring_k, spring_c;
 
-static int spring(const gvi_points *x, ANY void *user)
+static int spring(const gvi_points *x, void *user)
 {
     for (int k = 0; k < x->count; ++k) x->f[k] -= spring_k*x->q[k] + spring_c*x->v[k];
     return 0;
 }
 
-static int spring_product(const gvi_points *x, const gvi_points *d, int parameter, ANY void *user)
+static int spring_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
 {
     for (int k = 0; k < x->count; ++k) {
         d->f[k] -= spring_k*d->q[k] + spring_c*d->v[k];
@@ -480,7 +479,7 @@ static int spring_product(const gvi_points *x, const gvi_points *d, int paramete
     return 0;
 }
 
-static void parameters_of_an_oscillator(ANY void **state)
+TEST(parameters_of_an_oscillator)
 {
     static const gvi_effect force = { .kind = GVI_FORCE, .points = spring };
     tangent T = { .plain = { .n = 1, .degree = 8, .effects = &force, .effect_count = 1 }, .product = { spring_product },
@@ -512,7 +511,7 @@ static const long double by_h[4][4] = {
     { 0.3357947960778188143005L, -0.1524435655713952862847L, -0.2800142818595382187833L, -0.1806010902093125158901L },
 };
 
-static void by_the_length_of_the_step(ANY void **state)
+TEST(by_the_length_of_the_step)
 {
     for (int s = 1; s <= 4; ++s) {
         const scene one = { "by h", { HEILES, .degree = s }, { heiles_product }, 0, 0 };
@@ -530,7 +529,7 @@ static void by_the_length_of_the_step(ANY void **state)
 }
 
 /* A step and a step back: the columns are where they began.                   */
-static void back_again(ANY void **state)
+TEST(back_again)
 {
     for (int i = 0; i < COUNT(scenes); ++i) {
         const real h = scenes[i].desc.effects[0].points == weight ? R(0.0625) : R(0.25);
@@ -577,7 +576,7 @@ static void orbit(real y, real py, real *exponent, real *megno)
     *exponent = sum/st->t;
 }
 
-static void regular_and_chaotic(ANY void **state)
+TEST(regular_and_chaotic)
 {
     real exponent, megno;
     for (int k = 0; k < 2; ++k) {
@@ -590,7 +589,7 @@ static void regular_and_chaotic(ANY void **state)
     }
 }
 
-static void what_is_refused(ANY void **state)
+TEST(what_is_refused)
 {
     static const gvi_effect with_clock[] = { { .kind = GVI_POTENTIAL, .points = heiles, .value = heiles },
                                              { .kind = GVI_CLOCK, .points = clock_rate } };
@@ -634,7 +633,7 @@ static int wrong_product(const gvi_points *x, const gvi_points *d, int parameter
 }
 
 /* Products that are right agree with differences; a term that is off by 2 % is found.  */
-static void what_the_check_finds(ANY void **state)
+TEST(what_the_check_finds)
 {
     const real v[] = { R(0.5), R(-0.75) }, dq[] = { R(0.25), R(0.5) }, dv[] = { R(-0.5), R(0.75) };
     tangent T;
@@ -655,19 +654,4 @@ static void what_the_check_finds(ANY void **state)
     assert_int_equal(part, GVI_EFFECTS + 1);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_step_with_its_derivative_is_symplectic),
-        cmocka_unit_test(every_column_is_what_differences_say),
-        cmocka_unit_test(the_motion_is_the_same),
-        cmocka_unit_test(keplers_derivative_has_order_2s),
-        cmocka_unit_test(parameters_of_an_oscillator),
-        cmocka_unit_test(by_the_length_of_the_step),
-        cmocka_unit_test(back_again),
-        cmocka_unit_test(regular_and_chaotic),
-        cmocka_unit_test(what_is_refused),
-        cmocka_unit_test(what_the_check_finds),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

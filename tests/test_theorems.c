@@ -42,9 +42,8 @@ static const problem *conservative(int k) { return k ? &problems[k - 1] : &oscil
 /* ------------------------------------------------------------------- reference */
 
 /* Against itself with half the step, and against Kepler's equation */
-static void the_reference_is_exact_to_rounding(void **state)
+TEST(the_reference_is_exact_to_rounding)
 {
-    (void)state;
     for (int k = 0; k <= PROBLEMS; ++k)
         for (int start = 0; start < STARTS; ++start) {
             const problem *pb = conservative(k);
@@ -62,10 +61,9 @@ static void the_reference_is_exact_to_rounding(void **state)
 
 /* -------------------------------------------------------------- the two theorems */
 
-static void the_order_of_the_step_is_the_smaller_of_2s_and_u(void **state)
+TEST(the_order_of_the_step_is_the_smaller_of_2s_and_u)
 {
     static const int which[3] = { 0, 2, 3 };
-    (void)state;
     misses = 0;
     for (int i = 0; i < 3; ++i)
         for (int s = 1; s <= 5; ++s)
@@ -77,9 +75,8 @@ static void the_order_of_the_step_is_the_smaller_of_2s_and_u(void **state)
     assert_int_equal(misses, 0);
 }
 
-static void the_discrete_lagrangian_is_exact_to_one_power_more(void **state)
+TEST(the_discrete_lagrangian_is_exact_to_one_power_more)
 {
-    (void)state;
     misses = 0;
     for (int i = 0; i <= PROBLEMS; ++i)
         for (int s = 1; s <= 4; ++s)
@@ -92,10 +89,9 @@ static void the_discrete_lagrangian_is_exact_to_one_power_more(void **state)
 }
 
 /* Two that know nothing of each other */
-static void degree_24_gives_the_exact_discrete_lagrangian(void **state)
+TEST(degree_24_gives_the_exact_discrete_lagrangian)
 {
     const method m = { 24, { 0 } };
-    (void)state;
     for (int i = 0; i <= PROBLEMS; ++i) assert_close(lagrangian_error(conservative(i), &m, 0.25L), 0, 8*EPS);
     for (int i = 0; i < FORCED; ++i) assert_close(lagrangian_error(&forced_problems[i], &m, 0.25L), 0, 8*EPS);
 }
@@ -114,10 +110,9 @@ static real norm_error(const problem *pb, const method *m, real h)
 
 /* Exactly min(s, u/2) + 1 in the maximum norm, one more in L1, one less each for
    the velocity; k = 3: the interpolating polynomial of Lemma 3.1               */
-static void the_curve_has_order_min_s_and_half_u_plus_one(void **state)
+TEST(the_curve_has_order_min_s_and_half_u_plus_one)
 {
     static const int more[NORMS] = { 1, 2, 0, 1 };
-    (void)state;
     misses = 0;
     for (int i = 0; i < PROBLEMS; ++i)
         for (int s = 1; s <= 4; ++s)
@@ -135,9 +130,8 @@ static void the_curve_has_order_min_s_and_half_u_plus_one(void **state)
 
 /* ---------------------------------------------------------------------- forced */
 
-static void forces_leave_the_order_as_it_is(void **state)
+TEST(forces_leave_the_order_as_it_is)
 {
-    (void)state;
     misses = 0;
     for (int i = 0; i < 2; ++i)
         for (int s = 1; s <= 5; ++s)
@@ -150,9 +144,8 @@ static void forces_leave_the_order_as_it_is(void **state)
 }
 
 /* L_d and F- + F+ to h^(2s+1); F-, F+ and p0 alone to h^2s (docs/theorems.md) */
-static void the_discrete_forces_converge_to_the_exact_ones(void **state)
+TEST(the_discrete_forces_converge_to_the_exact_ones)
 {
-    (void)state;
     misses = 0;
     for (int i = 0; i < 2; ++i)
         for (int s = 1; s <= 3; ++s) {
@@ -168,9 +161,8 @@ static void the_discrete_forces_converge_to_the_exact_ones(void **state)
 
 /* 20 steps.  Both solve the same equations, in other unknowns: what differs are
    roundings, half an eps of q or p a time, of which the pendulum amplifies some.  */
-static void the_doubled_lagrangian_gives_the_forced_step(void **state)
+TEST(the_doubled_lagrangian_gives_the_forced_step)
 {
-    (void)state;
     for (int i = 0; i < FORCED; ++i)
         for (int s = 1; s <= 6; ++s)
             for (int k = 0; k < 3; ++k) {
@@ -188,10 +180,9 @@ static void the_doubled_lagrangian_gives_the_forced_step(void **state)
 /* -------------------------------------------------------------------- spectral */
 
 /* A factor rho^-2 a degree, within 15 per cent, over ten degrees; then flat */
-static void the_error_falls_with_the_degree_as_fast_as_the_solution_is_analytic(void **state)
+TEST(the_error_falls_with_the_degree_as_fast_as_the_solution_is_analytic)
 {
     static const struct { real h; int from; } cases[] = { { 0.5L, 5 }, { 1, 10 } };
-    (void)state;
     for (int i = 0; i < COUNT(cases); ++i) {
         real h = cases[i].h, rho = rho_of(0.5L, h);
         real first = pericentre_error(0.5L, h, cases[i].from);
@@ -201,10 +192,9 @@ static void the_error_falls_with_the_degree_as_fast_as_the_solution_is_analytic(
     }
 }
 
-static void at_high_degree_the_error_of_a_large_step_stays_at_rounding(void **state)
+TEST(at_high_degree_the_error_of_a_large_step_stays_at_rounding)
 {
     static const real h[PROBLEMS] = { 0.5L, 0.5L, 1, 1 };
-    (void)state;
     for (int i = 0; i < PROBLEMS; ++i)
         for (int s = 24; s <= 64; s += 8) {
             const method m = { s, { 0 } };
@@ -215,9 +205,8 @@ static void at_high_degree_the_error_of_a_large_step_stays_at_rounding(void **st
 /* ------------------------------------------------------------------ identities */
 
 /* The pairs that test_identities.c has no published tables for */
-static void higher_degrees_are_collocation_and_lobatto_pairs(void **state)
+TEST(higher_degrees_are_collocation_and_lobatto_pairs)
 {
-    (void)state;
     for (int r = 4; r <= 6; ++r)
         for (int k = 0; k < 2; ++k) {
             own_rule rule = k ? lobatto(r) : gauss(r);
@@ -230,11 +219,10 @@ static void higher_degrees_are_collocation_and_lobatto_pairs(void **state)
 
 /* --------------------------------------------------------------------- inertia */
 
-static void negative_directions_of_the_oscillator_count_half_turns(void **state)
+TEST(negative_directions_of_the_oscillator_count_half_turns)
 {
     const real y[2] = { 1, 0.5L };
     const method m = { 16, { 0 } };
-    (void)state;
     for (int k = 0; k <= 4; ++k)
         for (int side = 0; side < 2; ++side) {
             real h = (k + (side ? 0.999L : 0.001L))*TAU/2;
@@ -244,11 +232,10 @@ static void negative_directions_of_the_oscillator_count_half_turns(void **state)
 }
 
 /* Morse: conjugate points inside, of nonlinear motions, on both sides of each */
-static void negative_directions_are_as_many_as_conjugate_points(void **state)
+TEST(negative_directions_are_as_many_as_conjugate_points)
 {
     static const struct { int problem, start; real top; } cases[] = { { 1, 2, 2 }, { 2, 0, 3 }, { 3, 0, 5 } };
     const method m = { 16, { 0 } };
-    (void)state;
     for (int i = 0; i < COUNT(cases); ++i) {
         const problem *pb = &problems[cases[i].problem];
         real y[MAX_Y], last, step = 0.05L;
@@ -271,9 +258,8 @@ static void negative_directions_are_as_many_as_conjugate_points(void **state)
 /* ------------------------------------------------------------------- stability */
 
 /* Relative to the size of the matrix's entries, up to h^2 = 400 of which meet */
-static void the_stability_functions_are_those_of_theory(void **state)
+TEST(the_stability_functions_are_those_of_theory)
 {
-    (void)state;
     for (int s = 1; s <= 6; ++s)
         for (int k = 0; k < 200; ++k) {
             const method gauss_s = { s, { GVI_GAUSS, .points = s } };
@@ -287,13 +273,12 @@ static void the_stability_functions_are_those_of_theory(void **state)
 
 /* The edges of Lobatto's first windows: half trace -1, then 1, by hand from
    1 - x/2 and, degree 2, (x^2 - 22 x + 48)/(2 (x + 24)), x = (h omega)^2         */
-static void lobatto_is_unstable_in_its_windows_and_not_outside(void **state)
+TEST(lobatto_is_unstable_in_its_windows_and_not_outside)
 {
     static const struct { int s; real edge; int grows_after; } edges[] = {
         { 1, 2, 1 }, { 2, 2.8284271247461900976L, 1 },
         { 2, 3.4641016151377545871L, 0 }, { 2, 4.8989794855663561964L, 1 }
     };
-    (void)state;
     for (int i = 0; i < COUNT(edges); ++i) {
         const method m = { edges[i].s, { GVI_LOBATTO, .points = edges[i].s + 1 } };
         for (int side = -1; side <= 1; side += 2) {
@@ -303,24 +288,4 @@ static void lobatto_is_unstable_in_its_windows_and_not_outside(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_reference_is_exact_to_rounding),
-        cmocka_unit_test(the_order_of_the_step_is_the_smaller_of_2s_and_u),
-        cmocka_unit_test(the_discrete_lagrangian_is_exact_to_one_power_more),
-        cmocka_unit_test(degree_24_gives_the_exact_discrete_lagrangian),
-        cmocka_unit_test(the_curve_has_order_min_s_and_half_u_plus_one),
-        cmocka_unit_test(forces_leave_the_order_as_it_is),
-        cmocka_unit_test(the_discrete_forces_converge_to_the_exact_ones),
-        cmocka_unit_test(the_doubled_lagrangian_gives_the_forced_step),
-        cmocka_unit_test(the_error_falls_with_the_degree_as_fast_as_the_solution_is_analytic),
-        cmocka_unit_test(at_high_degree_the_error_of_a_large_step_stays_at_rounding),
-        cmocka_unit_test(higher_degrees_are_collocation_and_lobatto_pairs),
-        cmocka_unit_test(negative_directions_of_the_oscillator_count_half_turns),
-        cmocka_unit_test(negative_directions_are_as_many_as_conjugate_points),
-        cmocka_unit_test(the_stability_functions_are_those_of_theory),
-        cmocka_unit_test(lobatto_is_unstable_in_its_windows_and_not_outside),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

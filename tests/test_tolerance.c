@@ -9,7 +9,6 @@ enum { MOST = 9, STEPS = 24 };                  /* coordinates; steps */
 static int chain(const gvi_points *x, void *user)
 {
     const int R = x->stride;
-    (void)user;
     if (x->v || x->dldv || x->p) return 1;
     for (int k = 0; k < x->count; ++k)
         for (int i = 0; i < x->n; ++i) {
@@ -22,7 +21,6 @@ static int chain(const gvi_points *x, void *user)
 
 static int friction(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int k = 0; k < x->count; ++k)
         for (int i = 0; i < x->n; ++i) x->f[i*x->stride + k] -= x->v[i*x->stride + k]/16;
     return 0;
@@ -32,7 +30,6 @@ static int friction(const gvi_points *x, void *user)
 static int magnetic(const gvi_points *x, void *user)
 {
     const int R = x->stride;
-    (void)user;
     for (int k = 0; k < x->count; ++k) {
         x->f[k] += x->v[R + k]/2;
         x->f[R + k] -= x->v[k]/2;
@@ -46,7 +43,6 @@ static int magnetic(const gvi_points *x, void *user)
 static int mass(const gvi_points *x, void *user)
 {
     const int R = x->stride;
-    (void)user;
     for (int k = 0; k < x->count; ++k)
         for (int i = 0; i < x->n; ++i)
             for (int j = 0; j <= i; ++j)
@@ -56,7 +52,6 @@ static int mass(const gvi_points *x, void *user)
 
 static int gradient(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int k = 0; k < x->n*x->stride; ++k)
         if (k % x->stride < x->count) x->f[k] -= (real)sinl((long double)x->q[k])*x->v[k]*x->v[k]/2;
     return 0;
@@ -138,10 +133,9 @@ static double run(const scene *a, int r, real tolerance, int iterations, real *q
 
 /* Five seconds let a perturbation grow by no more than 10 or so (the springs are stable).  A step adds a few eps of
    rounding of its own, and that of the products, of relative eps/2, times h^2 F or h v: below 1. */
-static void a_tolerance_below_rounding_changes_the_last_places_only(void **state)
+TEST(a_tolerance_below_rounding_changes_the_last_places_only)
 {
     static const int points[] = { 1, 2, 3, 4, 5, 6, 7, 8, 9, 12, 16, 17 };
-    (void)state;
     for (int i = 0; i < COUNT(scenes); ++i)
         for (int j = 0; j < COUNT(points); ++j) {
             real q[2][MOST], inside[2][MOST];
@@ -156,9 +150,8 @@ static void a_tolerance_below_rounding_changes_the_last_places_only(void **state
 }
 
 /* Where the number of iterations is given a tolerance says nothing */
-static void with_iterations_given_a_tolerance_changes_no_bit(void **state)
+TEST(with_iterations_given_a_tolerance_changes_no_bit)
 {
-    (void)state;
     for (int i = 0; i < COUNT(scenes); ++i) {
         real q[2][MOST], inside[2][MOST];
         if (scenes[i].formulation == GVI_AUTO) continue;
@@ -169,9 +162,8 @@ static void with_iterations_given_a_tolerance_changes_no_bit(void **state)
 }
 
 /* What is left undone in a step is below the tolerance, in units of q and the way of a step: no more than 2 */
-static void what_is_left_undone_is_the_tolerance(void **state)
+TEST(what_is_left_undone_is_the_tolerance)
 {
-    (void)state;
     for (int i = 0; i < COUNT(scenes); ++i)
         for (real tolerance = (real)0.01; tolerance > 64*EPS; tolerance /= 10) {
             real q[2][MOST], inside[2][MOST];
@@ -185,7 +177,6 @@ static void what_is_left_undone_is_the_tolerance(void **state)
 static int pairs(const gvi_points *x, void *user)
 {
     const int R = x->stride;
-    (void)user;
     for (int k = 0; k < x->count; ++k)
         for (int i = 0; i + 1 < x->n; ++i) {
             const real d = x->q[(i + 1)*R + k] - x->q[i*R + k];
@@ -198,13 +189,12 @@ static int pairs(const gvi_points *x, void *user)
 
 /* Forces that cancel keep the total momentum, however early the iteration ends: each p is rounded once, when it is read.
    Sums that were rounded would let it wander, by some sqrt(steps) eps. */
-static void a_tolerance_keeps_the_total_momentum(void **state)
+TEST(a_tolerance_keeps_the_total_momentum)
 {
     enum { BODIES = 5 };
     const real start[BODIES] = { 0, (real)0.25, 0, (real)-0.5, 0 }, v[BODIES] = { (real)0.3, 0, (real)-0.7, (real)0.1, 1 };
     const gvi_effect effects[] = { { .kind = GVI_POTENTIAL, .points = pairs } };
     real memory[GVI_LENGTH(BODIES, 8, 8)], q[BODIES], total = 0, now = 0;
-    (void)state;
     for (int i = 0; i < BODIES; ++i) total += v[i];
     for (int degree = 3; degree <= 8; degree += 5) {
         gvi_desc d = { .n = BODIES, .degree = degree, .effects = effects, .effect_count = 1, .formulation = GVI_POSITIONS };
@@ -222,10 +212,9 @@ static void a_tolerance_keeps_the_total_momentum(void **state)
 
 /* A checkpoint made with a tolerance goes on in a stepper with that tolerance, to the bit.  One without may
    refuse it; if it does not, it goes on by its own: at round-off */
-static void a_checkpoint_with_a_tolerance_goes_on_with_one(void **state)
+TEST(a_checkpoint_with_a_tolerance_goes_on_with_one)
 {
     const real tolerances[3] = { (real)0.001, (real)0.001, 0 };
-    (void)state;
     for (int i = 0; i < COUNT(scenes); ++i) {
         gvi_effect effects[3][3];
         real *memory[3], *copy;
@@ -252,14 +241,4 @@ static void a_checkpoint_with_a_tolerance_goes_on_with_one(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_tolerance_below_rounding_changes_the_last_places_only),
-        cmocka_unit_test(with_iterations_given_a_tolerance_changes_no_bit),
-        cmocka_unit_test(a_tolerance_keeps_the_total_momentum),
-        cmocka_unit_test(what_is_left_undone_is_the_tolerance),
-        cmocka_unit_test(a_checkpoint_with_a_tolerance_goes_on_with_one),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

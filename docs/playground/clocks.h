@@ -5,7 +5,7 @@
 #ifndef CLOCKS_H
 #define CLOCKS_H
 
-#include "effects.h"
+#include "tools/effects.h"
 
 struct distance_clock { particles on; };
 

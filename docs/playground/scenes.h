@@ -1,6 +1,6 @@
 /* scenes.h - the scenes of the playground: to add one, write thirty lines here
 
-   A scene is a list of effects (examples/effects.h), initial values, and what to draw; add it to
+   A scene is a list of effects (examples/tools/effects.h), initial values, and what to draw; add it to
    scenes[] at the end, then `make playground`.  docs/guide.md goes through an example.
 
    SHOWN(name, text)    the text as C and, for the program that the page writes, as a string

@@ -39,7 +39,7 @@ static const scene double_pendulum = {
     .name = "double_pendulum", .title = "Double pendulum with friction and a motor", .n = 2, .degree = 8,
     .h = 1.0/64, .duration = 20, .build = double_pendulum_build,
     .energy_unit = "J", .energy_scale = 1, .time_unit = "s", .time_scale = 1,
-    .caption = "", .unit = "m", .points = 3, .trail_first = 2, .trails = 1, .samples = -1,
+    .caption = "", .unit = "m", .points = 3, .trail_first = 2, .trails = 1, .samples = 3,
     .place = double_pendulum_place, .sizes = pendulum_sizes, .lines = { { 0, 1, 3 } }, .seconds = 20,
     .view = { -2.1, 2.1, -2.1, 2.1 },
 };

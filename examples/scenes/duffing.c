@@ -32,6 +32,6 @@ static const scene duffing = {
     .name = "duffing", .title = "Duffing's oscillator", .n = 1, .degree = 8,
     .h = 5.235987755982989/32, .duration = 37*5.235987755982989, .build = duffing_build,
     .energy_unit = "", .energy_scale = 1, .time_unit = "", .time_scale = 1,
-    .caption = "position and velocity", .unit = "", .points = 1, .trails = 1, .samples = 1,
+    .caption = "position and velocity", .unit = "", .points = 1, .trails = 1, .samples = 4,
     .place = duffing_place, .sizes = duffing_sizes, .seconds = 40,
 };

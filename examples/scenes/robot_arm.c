@@ -45,6 +45,6 @@ static const scene robot_arm = {
     .name = "robot_arm", .title = "Robot arm: motors against weight and gears", .n = 2, .degree = 8,
     .h = 0.01, .duration = 8, .build = robot_arm_build,
     .energy_unit = "J", .energy_scale = 1, .time_unit = "s", .time_scale = 1,
-    .caption = "", .unit = "m", .points = 3, .trail_first = 2, .trails = 1, .samples = 1,
+    .caption = "", .unit = "m", .points = 3, .trail_first = 2, .trails = 1, .samples = 3,
     .place = robot_arm_place, .sizes = arm_sizes, .lines = { { 0, 1, 3 } }, .seconds = 12,
 };

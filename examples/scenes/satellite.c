@@ -53,6 +53,6 @@ static const scene satellite = {
     .h = 200, .duration = 177000, .build = satellite_build,
     .energy_unit = "GJ", .energy_scale = 1e-3, .time_unit = "hours", .time_scale = 1/3600.0,
     .conserved = { "angular momentum z (without air)" }, .quantities = satellite_quantities,
-    .caption = "", .unit = "thousand km", .points = 2, .trail_first = 1, .trails = 1, .samples = 2,
+    .caption = "", .unit = "thousand km", .points = 2, .trail_first = 1, .trails = 1, .samples = 6,
     .place = satellite_place, .sizes = satellite_sizes, .seconds = 30,
 };

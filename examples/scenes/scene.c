@@ -11,12 +11,12 @@
    did, which is integrated with each step's own curve.                        */
 #define GVI_IMPLEMENTATION
 #include "gvi.h"
-#include "animate.h"
+#include "tools/animate.h"
 #include "scenes.c"
 
 #include <stdio.h>
 
-enum { SAMPLES = 1200, FRAMES = 150 };             /* most of a film */
+enum { SAMPLES = 6000, FRAMES = 150, PLOTTED = 1200 };      /* most of a film, and of its plots */
 
 typedef struct options {
     long        steps;
@@ -121,17 +121,25 @@ static int draw(const scene *a, record *r, const char *path)
     const int every = (r->count - 1 + FRAMES - 1)/FRAMES > 0 ? (r->count - 1 + FRAMES - 1)/FRAMES : 1;
     const int count = (r->count - 1)/every*every + 1;
     const double scale = r->most_kinetic > 0 ? (double)r->most_kinetic : 1;
+    const int thin = 1 + count/PLOTTED, shown = (count - 1)/thin + 1;
     char title[96];
     animate_line joined[16];
-    svg_line energies[] = { { "kinetic", r->t, r->kinetic, count },
-                            { "potential", r->t, r->potential, count },
-                            { "total", r->t, r->total, count } };
-    svg_line missing = { "", r->t, r->missing, count }, curves[SCENE_CURVES];
+    svg_line energies[] = { { "kinetic", r->t, r->kinetic, shown },
+                            { "potential", r->t, r->potential, shown },
+                            { "total", r->t, r->total, shown } };
+    svg_line missing = { "", r->t, r->missing, shown }, curves[SCENE_CURVES];
     animation film = { .title = a->title, .caption = a->caption, .unit = a->unit, .points = a->points,
                        .samples = count, .xy = r->xy, .t = r->t, .every = every, .seconds = a->seconds,
                        .sizes = a->sizes, .lines = joined,
                        .trail_first = a->trail_first, .trails = a->trails };
-    for (int i = 0; i < count; ++i) r->missing[i] /= scale;
+    for (int i = 0; i < shown; ++i) {
+        r->t[i] = r->t[i*thin];                     // the film's own time needs the last one alone, which stays
+        r->kinetic[i] = r->kinetic[i*thin];
+        r->potential[i] = r->potential[i*thin];
+        r->total[i] = r->total[i*thin];
+        r->missing[i] = r->missing[i*thin]/scale;
+        for (int c = 0; c < SCENE_CURVES; ++c) r->curve[c][i] = r->curve[c][i*thin];
+    }
     for (; film.line_count < 16 && a->lines[film.line_count].count; ++film.line_count) {
         const scene_line *l = &a->lines[film.line_count];
         joined[film.line_count] = (animate_line){ l->first, l->step, l->count };
@@ -142,7 +150,7 @@ static int draw(const scene *a, record *r, const char *path)
     if (a->curves) {
         film.plots[0] = (svg_plot){ .title = a->curves_title, .lines = curves };
         for (int i = 0; i < SCENE_CURVES && a->curve_names[i]; ++i, ++film.plots[0].line_count)
-            curves[i] = (svg_line){ a->curve_names[i], r->t, r->curve[i], count };
+            curves[i] = (svg_line){ a->curve_names[i], r->t, r->curve[i], shown };
     }
     film.plots[1] = (svg_plot){ .title = "energy gained less work, of the largest kinetic", .lines = &missing,
                                 .line_count = 1, .x_label = *a->time_unit ? a->time_unit : "time" };

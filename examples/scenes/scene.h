@@ -12,7 +12,7 @@
 #ifndef SCENE_H
 #define SCENE_H
 
-#include "effects.h"
+#include "tools/effects.h"
 #include <string.h>
 
 enum { SCENE_MAX = 192,        /* most degrees of freedom                      */

@@ -16,28 +16,21 @@ static int stiff_hessian(double t, const double *q, const double *v, double *fq,
 }
 
 // g(q) = |q|: value and gradient
-static int distance(const gvi_points *x, void *user)
+GVI_POINTS(distance, 2, f, value)(const gvi_points *x, void *user)
 {
-    const double *X = x->q, *Y = X + x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        double d = sqrt(X[k]*X[k] + Y[k]*Y[k]);
-        x->value[k] += d;
-        x->f[k] += X[k]/d;
-        x->f[x->stride + k] += Y[k]/d;
-    }
+    double d = sqrt(x->q[0]*x->q[0] + x->q[1]*x->q[1]);
+    x->value[0] += d;
+    x->f[0] += x->q[0]/d;
+    x->f[1] += x->q[1]/d;
     return (void)user, 0;
 }
 
-static int attraction(const gvi_points *x, void *user)
+GVI_POINTS(attraction, 2, f, value)(const gvi_points *x, void *user)
 {
-    const double *X = x->q, *Y = X + x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        double d2 = X[k]*X[k] + Y[k]*Y[k], d = sqrt(d2);
-        if (x->value) x->value[k] -= 1/d;
-        if (!x->f) continue;
-        x->f[k] -= X[k]/(d2*d);
-        x->f[x->stride + k] -= Y[k]/(d2*d);
-    }
+    double X = x->q[0], Y = x->q[1], d2 = X*X + Y*Y, d = sqrt(d2), w = -1/(d2*d);
+    x->value[0] -= 1/d;
+    x->f[0] += w*X;
+    x->f[1] += w*Y;
     return (void)user, 0;
 }
 

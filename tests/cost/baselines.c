@@ -753,7 +753,6 @@ INLINE void rk4_loop(const int n, const problem *p, long steps, watch *w, outcom
 
 static void run_rk4(const problem *p, const baseline *m, double parameter, watch *w, outcome *o)
 {
-    (void)m;
     begin(p, o);
 #define CALL(n) rk4_loop(n, p, (long)parameter, w, o)
     BY_SIZE(p->n, CALL);

@@ -15,7 +15,7 @@
 
 #include "baselines.h"
 #include "gvi_run.h"
-#include "svg.h"
+#include "tools/svg.h"
 #include "horizon.h"
 
 #include <stdlib.h>
@@ -448,8 +448,22 @@ static void make_envelope(const study *y, const char *family, int of_energy, env
     }
 }
 
+/* The same method has the same colour in all pictures.                                         */
+static const char *colour_of(const char *family)
+{
+    static const char *const colour[][2] = {
+        { "Stoermer-Verlet", "#d55e00" }, { "RK4", "#0072b2" }, { "compositions 8, 10", "#009e73" },
+        { "Blanes-Moan SRKN", "#aa4499" }, { "splitting 8 by hand", "#b8860b" }, { "RKN8(6)", "#56b4e9" },
+        { "RKN12(10)", "#88562b" }, { "Gauss, one point a call", "#444444" }, { "DOP853", "#cc3311" },
+        { "GBS extrapolation", "#8a9a00" } };
+    for (int i = 0; i < COUNT(colour); ++i)
+        if (!strcmp(family, colour[i][0])) return colour[i][1];
+    return NULL;
+}
+
 static void write_picture(const study *y, const options *o)
 {
+    const char *colours[12];
     static envelope envelopes[2][12];
     svg_line lines[2][12];
     unsigned ours = 0;
@@ -464,6 +478,7 @@ static void write_picture(const study *y, const options *o)
             svg_line line = { y->curves[i].family, v->x, v->y, v->count };
             lines[e][count] = line;
         }
+        colours[count] = colour_of(y->curves[i].family);
         ours |= (unsigned)(y->curves[i].ours != 0) << count++;
     }
     char path[512];
@@ -475,6 +490,7 @@ static void write_picture(const study *y, const options *o)
         panels[e].log_x = panels[e].log_y = 1;
         panels[e].line_count = count;
         panels[e].thick = ours;
+        panels[e].colours = colours;
     }
     if (svg_write_all(path, panels, 2, 360)) perror(path);
 }
@@ -594,7 +610,7 @@ static void study_horizon(const options *o)
                          { "RKN12(10), adaptive", length, ratio[2], 3 } };
     svg_plot panel = { .title = "Outer solar system: time to an error of 1e-7", .x_label = "length in units of 548 years",
                        .y_label = "times the time of gvi.h", .log_x = 1, .from_zero = 1, .lines = lines, .line_count = 3,
-                       .thick = 1 };
+                       .thick = 1, .dashed = 2, .colours = (const char *const[]){ NULL, "#88562b", "#88562b" } };
     char path[512];
     snprintf(path, sizeof path, "%s/horizon.svg", o->out);
     if (svg_write_all(path, &panel, 1, 360)) perror(path);

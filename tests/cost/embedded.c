@@ -21,7 +21,7 @@
 #include "embedded_run.h"
 #include "embedded_bound.h"
 #include "embedded_truth.h"
-#include "svg.h"
+#include "tools/svg.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -412,6 +412,8 @@ static void points_of(const scene *s, family *f)
 
 static void panel_of(const scene *s, const char *title, family *f, svg_line *lines, svg_plot *panel)
 {
+    static const char *const colours[LINES] = { "#009e73", "#aa4499", "#b8860b", "#444444", "#d55e00", "#56b4e9",
+                                                "#0072b2", "#0072b2" };
     unsigned dashed = 0;
     for (int k = 0; k < LINES; ++k) {
         points_of(s, f + k);
@@ -422,7 +424,7 @@ static void panel_of(const scene *s, const char *title, family *f, svg_line *lin
     }
     const svg_plot p = { .title = title, .x_label = "millions of instructions for a unit of time",
                          .y_label = "drift of the energy", .log_x = 1, .log_y = 1, .lines = lines, .line_count = LINES,
-                         .dashed = dashed };
+                         .dashed = dashed, .colours = colours };
     *panel = p;
 }
 
@@ -441,7 +443,7 @@ static int picture(const char *path)
         const setting *t = &wanted[k%LINES].setting;
         x->name = wanted[k%LINES].name;
         x->setting = find(t->method, t->degree, t->iterations);
-        x->dashed = t->method == RK4 || t->method == RK4_CARRIED;
+        x->dashed = t->method == RK4;
     }
     panel_of(scenes + ORBIT, "orbit, 298 revolutions", f[0], lines[0], panels);
     panel_of(scenes + ARM, "arm of two links, 300 s", f[1], lines[1], panels + 1);

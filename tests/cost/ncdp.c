@@ -157,7 +157,6 @@ INLINE int gradient(const int own, const gvi_points *x, int count, int stride, c
 
 INLINE int gravity(const int own, const gvi_points *x, int count, int stride, const sines *kept)
 {
-    (void)kept;
     const double *restrict q = x->q;
     double *restrict f = x->f;
     INDEPENDENT for (int k = 0; k < count; ++k) {

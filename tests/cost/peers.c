@@ -43,8 +43,6 @@ static void rate(const double *y, double *dy)
 
 static int gsl_rate(double t, const double *y, double *dy, void *user)
 {
-    (void)t;
-    (void)user;
     if (calls > most_calls) return GSL_EBADFUNC;
     rate(y, dy);
     return GSL_SUCCESS;
@@ -52,8 +50,6 @@ static int gsl_rate(double t, const double *y, double *dy, void *user)
 
 static int sundials_rate(realtype t, N_Vector y, N_Vector dy, void *user)
 {
-    (void)t;
-    (void)user;
     if (calls > most_calls) return -1;
     rate(NV_DATA_S(y), NV_DATA_S(dy));
     return 0;

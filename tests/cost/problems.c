@@ -113,7 +113,6 @@ INLINE int kepler_from_bits(const gvi_points *p, int count, int stride) { return
 
 WIDE static int kepler(const gvi_points *p, void *user)
 {
-    (void)user;
     if (p->count > 1 && kepler_roots.many) return BY_COUNT(kepler_by_processor, p);
     if (p->count > 1) return BY_COUNT(kepler_from_bits, p);
     ONE_POINT(2, kepler_acceleration, p, 1);
@@ -138,7 +137,6 @@ INLINE int both_from_bits(const gvi_points *p, int count, int stride) { return k
 
 WIDE static int kepler_both(const gvi_points *p, void *user)
 {
-    (void)user;
     if (!p->value) return kepler(p, user);
     if (p->f && kepler_roots.many) return BY_COUNT(both_by_processor, p);
     if (p->f) return BY_COUNT(both_from_bits, p);
@@ -174,8 +172,8 @@ INLINE int clock_32_points(const gvi_points *p, int count, int stride)
     return 0;
 }
 
-static int clock_1(const gvi_points *p, void *user) { return (void)user, BY_COUNT(clock_1_points, p); }
-static int clock_32(const gvi_points *p, void *user) { return (void)user, BY_COUNT(clock_32_points, p); }
+static int clock_1(const gvi_points *p, void *user) { return BY_COUNT(clock_1_points, p); }
+static int clock_32(const gvi_points *p, void *user) { return BY_COUNT(clock_32_points, p); }
 
 /* tau of a revolution of 2 pi, dt = d^a dtau: the integral of d^(1-a) over the eccentric anomaly
    E, d = 1 - e cos E, by the trapezoidal rule, which is exact to rounding for e <= 0.9.       */
@@ -219,7 +217,6 @@ INLINE int henon_points(const gvi_points *p, int count, int stride)
 
 static int henon(const gvi_points *p, void *user)
 {
-    (void)user;
     if (p->count > 1) return BY_COUNT(henon_points, p);
     ONE_POINT(2, henon_acceleration, p, 1);
 }
@@ -309,7 +306,6 @@ static void solar_acceleration(const double *q, double *a)
 
 WIDE static int solar(const gvi_points *p, void *user)
 {
-    (void)user;
     if (p->count > 1 && solar_roots.many) return BY_COUNT(solar_by_processor, p);
     if (p->count > 1) return BY_COUNT(solar_from_bits, p);
     ONE_POINT(18, solar_acceleration, p, solar_mass[i]);
@@ -408,18 +404,17 @@ INLINE int pendulum_weight_points(const gvi_points *x, int count, int stride)
 
 static int pendulum_mass(const gvi_points *x, void *user)
 {
-    (void)user;
     return x->count > MOST_POINTS ? 1 : BY_COUNT(pendulum_mass_points, x);
 }
 
 static int pendulum_gradient(const gvi_points *x, void *user)
 {
-    return (void)user, BY_COUNT(pendulum_gradient_points, x);
+    return BY_COUNT(pendulum_gradient_points, x);
 }
 
 static int pendulum_weight(const gvi_points *x, void *user)
 {
-    return (void)user, BY_COUNT(pendulum_weight_points, x);
+    return BY_COUNT(pendulum_weight_points, x);
 }
 
 /* ---------------------------------------------- P6: Fermi, Pasta, Ulam */
@@ -469,7 +464,6 @@ INLINE int fpu_points(const gvi_points *p, int count, int stride)
 
 static int fpu(const gvi_points *p, void *user)
 {
-    (void)user;
     if (p->count > 1) return BY_COUNT(fpu_points, p);
     double a[6];
     fpu_acceleration(p->q, a);
@@ -561,7 +555,6 @@ INLINE int chain_points(const gvi_points *p, int count, int stride)
 
 static int chain(const gvi_points *p, void *user)
 {
-    (void)user;
     if (p->count > 1) return BY_COUNT(chain_points, p);
     chain_forces(1, p->q, p->f);
     return 0;

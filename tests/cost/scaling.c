@@ -13,7 +13,7 @@
 #define _POSIX_C_SOURCE 200809L
 #define GVI_IMPLEMENTATION
 #include "gvi.h"
-#include "svg.h"
+#include "tools/svg.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -52,7 +52,6 @@ static void wall(const gvi_points *x, int i)
 
 static int chain(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int i = 1; i < x->n; ++i) bond(x, i);
     wall(x, 0);
     wall(x, x->n - 1);
@@ -217,11 +216,11 @@ static int draw(const char *out, const curves *c)
     lines_of(sweeps + 1, c + 1, 0, degree);
     lines_of(sweeps + 2, c + 2, 0, points);
     const svg_plot by_n[2] = {
-        { "A chain of n masses", "n", "ns for an iteration", 1, 1, 0, time, LINES, 0, 0, 0 },
-        { "", "n", "bytes of memory per coordinate", 1, 1, 0, memory, LINES, 0, 0, 0 } };
+        { .title = "A chain of n masses", .x_label = "n", .y_label = "ns for an iteration", .log_x = 1, .log_y = 1, .lines = time, .line_count = LINES },
+        { .title = "", .x_label = "n", .y_label = "bytes of memory per coordinate", .log_x = 1, .log_y = 1, .lines = memory, .line_count = LINES } };
     const svg_plot by_s[2] = {
-        { "A chain of n masses, r = s", "s", "ns for an iteration", 1, 1, 0, degree, LINES, 0, 0, 0 },
-        { "s = 8", "r", "ns for an iteration", 1, 1, 0, points, LINES, 0, 0, 0 } };
+        { .title = "A chain of n masses, r = s", .x_label = "s", .y_label = "ns for an iteration", .log_x = 1, .log_y = 1, .lines = degree, .line_count = LINES },
+        { .title = "s = 8", .x_label = "r", .y_label = "ns for an iteration", .log_x = 1, .log_y = 1, .lines = points, .line_count = LINES } };
     snprintf(path, sizeof path, "%s/scaling-n.svg", out);
     if (svg_write_all(path, by_n, 2, 360)) return perror(path), 1;
     snprintf(path, sizeof path, "%s/scaling-s.svg", out);

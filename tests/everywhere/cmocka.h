@@ -127,7 +127,7 @@ static RUNNER_REST int runner_group(const struct CMUnitTest *tests, size_t count
     void *state = NULL;
     setvbuf(stdout, NULL, _IONBF, 0);
     if (setup && setup(&state)) return 1;
-    for (size_t k = 0; k < count; ++k) runner_one(tests + k, &state);
+    for (size_t k = 0; k < count && tests[k].test; ++k) runner_one(tests + k, &state);
     if (teardown && teardown(&state)) ++runner.failed;
     printf("[  PASSED  ] %d test(s).\n", runner.passed);
     if (runner.skipped) printf("[  SKIPPED ] %d test(s).\n", runner.skipped);

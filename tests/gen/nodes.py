@@ -125,9 +125,9 @@ def main():
             rows += ["{%s,%s}" % (literal(c), literal(b)) for c, b in make(rule, n)]
             print(rule, n, file=sys.stderr)
         print("static const struct node_rule %s_rules[] = {" % rule)
-        print(",\n".join(",".join(index[i:i + 10]) for i in range(0, len(index), 10)) + "\n};")
+        print(",\n".join(",".join(index[i:i + 50]) for i in range(0, len(index), 50)) + "\n};")
         print("static const struct node %s_nodes[] = {" % rule)
-        print(",\n".join(rows) + "\n};\n")
+        print(",\n".join(",".join(rows[i:i + 16]) for i in range(0, len(rows), 16)) + "\n};\n")
     print("#endif")
 
 

@@ -428,7 +428,7 @@ def main():
                     S = Step(P, s, *rule(kind, r))
                     cases.append("  {%d,%d,%d,%d,%s,%s},\n" % (
                         index, kind == "lobatto", s, r,
-                        ",\n   ".join(vector(x) for x in [S.q1, S.p1] + [S.curve(t) for t in TAUS]),
+                        ",".join(vector(x) for x in [S.q1, S.p1] + [S.curve(t) for t in TAUS]),
                         number(S.action)))
                     size_q = max([size_q] + [abs(x) for x in S.q0 + S.q1])
                     size_p = max([size_p] + [abs(x) for x in S.p0 + S.p1])

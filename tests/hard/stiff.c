@@ -12,7 +12,7 @@
      stiff [folder for hard_fpu.svg]                                            */
 #include "pendulum.h"
 #include "irk_newton.h"
-#include "svg.h"
+#include "tools/svg.h"
 
 static const double omega = 50;
 #include "fermi_pasta_ulam.h"

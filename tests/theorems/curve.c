@@ -8,7 +8,7 @@
                            theorem_curve_inside.svg                            */
 #include "bench.h"
 #include "tables.h"
-#include "examples/svg.h"
+#include "examples/tools/svg.h"
 
 enum { S = 6, ROWS = 5, MOST = 192, SIZES = 16, LINES = 6 };
 static const double WITHIN = 0.25;
@@ -77,7 +77,7 @@ static void draw_orders(const char *folder, int shown)
 static void draw_convergence(const char *folder, const problem *pb)
 {
     static const char *const names[LINES] = {
-        "curve, s = 3", "its velocity", "state, s = 3", "curve, s = 6", "its velocity", "state, s = 6"
+        "curve, s = 3", "velocity, s = 3", "state, s = 3", "curve, s = 6", "velocity, s = 6", "state, s = 6"
     };
     static double h[SIZES], error[LINES][SIZES];
     svg_line lines[LINES];

@@ -38,7 +38,6 @@ static MAYBE void partitioned(const problem *pb, const tableau *T, real t, real 
 static MAYBE void midpoint(const problem *pb, const tableau *T, real t, real h, const real *z, real *dz)
 {
     real middle[MAX_Y], g[MAX_Y] = { 0 };
-    (void)T;
     for (int it = 0; it < 80; ++it) {
         for (int i = 0; i < 2*pb->n; ++i) middle[i] = z[i] + h*g[i]/2;
         rates(pb, t + h/2, middle, g);
@@ -51,7 +50,6 @@ static MAYBE void verlet(const problem *pb, const tableau *T, real t, real h, co
 {
     real before[MAX_Y], after[MAX_Y], Z[MAX_Y];
     int n = pb->n;
-    (void)T;
     rates(pb, t, z, before);
     for (int i = 0; i < n; ++i) {
         dz[i] = h*(z[n + i] + h*before[n + i]/2);

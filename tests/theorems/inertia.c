@@ -5,7 +5,7 @@
 
      inertia [folder]      writes theorem_inertia.svg, theorem_inertia_magnetic.svg */
 #include "inertia.h"
-#include "examples/svg.h"
+#include "examples/tools/svg.h"
 
 enum { LINES = 5, POINTS = 321, MOST = 6 };
 

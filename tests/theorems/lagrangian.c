@@ -10,7 +10,7 @@
 #include "bench.h"
 #include "rules.h"
 #include "tables.h"
-#include "examples/svg.h"
+#include "examples/tools/svg.h"
 
 enum { S = 8, ROWS = 5, MOST = 96, SIZES = 16, LINES = 6 };
 static const double WITHIN = 0.25;

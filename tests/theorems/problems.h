@@ -64,20 +64,17 @@ typedef struct problem {
 
 static MAYBE void unit_1(const real *q, const real *v, real *dq, real *dv)
 {
-    (void)q; (void)dq;
     dv[0] += v[0];
 }
 
 static MAYBE void unit_2(const real *q, const real *v, real *dq, real *dv)
 {
-    (void)q; (void)dq;
     dv[0] += v[0];
     dv[1] += v[1];
 }
 
 static MAYBE void no_kinetic(const real *q, const real *v, real *dq, real *dv)
 {
-    (void)q; (void)v; (void)dq; (void)dv;
 }
 
 static MAYBE void pendulum_kinetic(const real *q, const real *v, real *dq, real *dv)
@@ -92,34 +89,29 @@ static MAYBE void pendulum_kinetic(const real *q, const real *v, real *dq, real 
 
 static MAYBE int spring(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
-    (void)t; (void)v; (void)dldv; (void)user;
     f[0] -= q[0];
     return 0;
 }
 
 HESSIAN(spring_hessian)
 {
-    (void)t; (void)q; (void)v; (void)fv; (void)pv; (void)user;
     fq[0] -= 1;
     return 0;
 }
 
 static MAYBE int spring_value(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int k = 0; k < x->count; ++k) x->value[k] += x->q[k]*x->q[k]/2;
     return 0;
 }
 
 static MAYBE real oscillator_lagrangian(real t, const real *q, const real *v)
 {
-    (void)t;
     return (v[0]*v[0] - q[0]*q[0])/2;
 }
 
 static MAYBE void momentum_is_velocity_1(real t, const real *q, const real *p, real *v)
 {
-    (void)t; (void)q;
     v[0] = p[0];
 }
 
@@ -128,7 +120,6 @@ static MAYBE void momentum_is_velocity_1(real t, const real *q, const real *p, r
 static MAYBE int attraction_at(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
     real r2 = q[0]*q[0] + q[1]*q[1], w = -1/(r2*sqrt(r2));
-    (void)t; (void)v; (void)dldv; (void)user;
     f[0] += w*q[0];
     f[1] += w*q[1];
     return 0;
@@ -137,7 +128,6 @@ static MAYBE int attraction_at(real t, const real *q, const real *v, real *f, re
 HESSIAN(attraction_hessian)
 {
     real r2 = q[0]*q[0] + q[1]*q[1], w = -1/(r2*sqrt(r2)), u = -3*w/r2;
-    (void)t; (void)v; (void)fv; (void)pv; (void)user;
     for (int i = 0; i < 2; ++i)
         for (int j = 0; j < 2; ++j) fq[2*i + j] += (i == j ? w : 0) + u*q[i]*q[j];
     return 0;
@@ -146,20 +136,17 @@ HESSIAN(attraction_hessian)
 static MAYBE int attraction_value(const gvi_points *x, void *user)
 {
     const real *X = x->q, *Y = X + x->stride;
-    (void)user;
     for (int k = 0; k < x->count; ++k) x->value[k] -= 1/sqrt(X[k]*X[k] + Y[k]*Y[k]);
     return 0;
 }
 
 static MAYBE real kepler_lagrangian(real t, const real *q, const real *v)
 {
-    (void)t;
     return (v[0]*v[0] + v[1]*v[1])/2 + 1/sqrt(q[0]*q[0] + q[1]*q[1]);
 }
 
 static MAYBE void momentum_is_velocity_2(real t, const real *q, const real *p, real *v)
 {
-    (void)t; (void)q;
     v[0] = p[0];
     v[1] = p[1];
 }
@@ -169,7 +156,6 @@ static MAYBE void momentum_is_velocity_2(real t, const real *q, const real *p, r
 static MAYBE int weights(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
     real both = sin(q[0] + q[1]);
-    (void)t; (void)v; (void)dldv; (void)user;
     f[0] -= 2*sin(q[0]) + both;
     f[1] -= both;
     return 0;
@@ -178,7 +164,6 @@ static MAYBE int weights(real t, const real *q, const real *v, real *f, real *dl
 HESSIAN(weights_hessian)
 {
     real both = cos(q[0] + q[1]);
-    (void)t; (void)v; (void)fv; (void)pv; (void)user;
     fq[0] -= 2*cos(q[0]) + both;
     fq[1] -= both;
     fq[2] -= both;
@@ -189,7 +174,6 @@ HESSIAN(weights_hessian)
 static MAYBE int weights_value(const gvi_points *x, void *user)
 {
     const real *a = x->q, *b = a + x->stride;
-    (void)user;
     for (int k = 0; k < x->count; ++k) x->value[k] -= 2*cos(a[k]) + cos(a[k] + b[k]);
     return 0;
 }
@@ -197,7 +181,6 @@ static MAYBE int weights_value(const gvi_points *x, void *user)
 static MAYBE real pendulum_lagrangian(real t, const real *q, const real *v)
 {
     real c = cos(q[1]);
-    (void)t;
     return ((3 + 2*c)*v[0]*v[0] + 2*(1 + c)*v[0]*v[1] + v[1]*v[1])/2 + 2*cos(q[0]) + cos(q[0] + q[1]);
 }
 
@@ -205,7 +188,6 @@ static MAYBE real pendulum_lagrangian(real t, const real *q, const real *v)
 static MAYBE void pendulum_velocity(real t, const real *q, const real *p, real *v)
 {
     real c = cos(q[1]), det = 2 - c*c;
-    (void)t;
     v[0] = (p[0] - (1 + c)*p[1])/det;
     v[1] = ((3 + 2*c)*p[1] - (1 + c)*p[0])/det;
 }
@@ -214,7 +196,6 @@ static MAYBE void pendulum_velocity(real t, const real *q, const real *p, real *
 
 static MAYBE int trap(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
-    (void)t; (void)v; (void)dldv; (void)user;
     f[0] -= q[0] + q[0]*q[1];
     f[1] -= 2*q[1] + q[0]*q[0]/2;
     return 0;
@@ -222,7 +203,6 @@ static MAYBE int trap(real t, const real *q, const real *v, real *f, real *dldv,
 
 HESSIAN(trap_hessian)
 {
-    (void)t; (void)v; (void)fv; (void)pv; (void)user;
     fq[0] -= 1 + q[1];
     fq[1] -= q[0];
     fq[2] -= q[0];
@@ -233,14 +213,12 @@ HESSIAN(trap_hessian)
 static MAYBE int trap_value(const gvi_points *x, void *user)
 {
     const real *a = x->q, *b = a + x->stride;
-    (void)user;
     for (int k = 0; k < x->count; ++k) x->value[k] += a[k]*a[k]/2 + b[k]*b[k] + a[k]*a[k]*b[k]/2;
     return 0;
 }
 
 static MAYBE int field(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
-    (void)t; (void)user;
     dldv[0] -= q[1]*(1 + q[0]*q[0])/2;
     dldv[1] += q[0]/2;
     f[0] += v[1]/2 - q[0]*q[1]*v[0];
@@ -250,7 +228,6 @@ static MAYBE int field(real t, const real *q, const real *v, real *f, real *dldv
 
 HESSIAN(field_hessian)
 {
-    (void)t; (void)pv; (void)user;
     fq[0] -= q[1]*v[0];
     fq[1] -= q[0]*v[0];
     fq[2] -= q[0]*v[0];
@@ -263,21 +240,18 @@ HESSIAN(field_hessian)
 static MAYBE int field_value(const gvi_points *x, void *user)
 {
     const real *a = x->q, *b = a + x->stride, *u = x->v, *v = u + x->stride;
-    (void)user;
     for (int k = 0; k < x->count; ++k) x->value[k] += (a[k]*v[k] - b[k]*(1 + a[k]*a[k])*u[k])/2;
     return 0;
 }
 
 static MAYBE real magnetic_lagrangian(real t, const real *q, const real *v)
 {
-    (void)t;
     return (v[0]*v[0] + v[1]*v[1])/2 + (q[0]*v[1] - q[1]*(1 + q[0]*q[0])*v[0])/2
          - q[0]*q[0]/2 - q[1]*q[1] - q[0]*q[0]*q[1]/2;
 }
 
 static MAYBE void magnetic_velocity(real t, const real *q, const real *p, real *v)
 {
-    (void)t;
     v[0] = p[0] + q[1]*(1 + q[0]*q[0])/2;
     v[1] = p[1] - q[0]/2;
 }
@@ -289,7 +263,6 @@ static MAYBE real length_at(real t) { return 1 + sin(2*t)/4; }
 static MAYBE int swing(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
     real l = length_at(t);
-    (void)user;
     f[0] -= l*sin(q[0]);
     dldv[0] += l*l*v[0];
     return 0;
@@ -298,7 +271,6 @@ static MAYBE int swing(real t, const real *q, const real *v, real *f, real *dldv
 HESSIAN(swing_hessian)
 {
     real l = length_at(t);
-    (void)v; (void)fv; (void)user;
     fq[0] -= l*cos(q[0]);
     pv[0] += l*l;
     return 0;
@@ -312,7 +284,6 @@ static MAYBE real swing_lagrangian(real t, const real *q, const real *v)
 
 static MAYBE int swing_value(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int k = 0; k < x->count; ++k) x->value[k] += swing_lagrangian(x->t[k], x->q + k, x->v + k);
     return 0;
 }
@@ -320,7 +291,6 @@ static MAYBE int swing_value(const gvi_points *x, void *user)
 static MAYBE void swing_velocity(real t, const real *q, const real *p, real *v)
 {
     real l = length_at(t);
-    (void)q;
     v[0] = p[0]/(l*l);
 }
 
@@ -328,7 +298,6 @@ static MAYBE void swing_velocity(real t, const real *q, const real *p, real *v)
 
 static MAYBE int drag(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
-    (void)t; (void)q; (void)dldv; (void)user;
     f[0] -= 0.2L*v[0];
     f[1] -= 0.2L*v[1];
     return 0;
@@ -336,7 +305,6 @@ static MAYBE int drag(real t, const real *q, const real *v, real *f, real *dldv,
 
 HESSIAN(drag_hessian)
 {
-    (void)t; (void)q; (void)v; (void)fq; (void)pv; (void)user;
     fv[0] -= 0.2L;
     fv[3] -= 0.2L;
     return 0;
@@ -345,7 +313,6 @@ HESSIAN(drag_hessian)
 static MAYBE int air(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
     real speed = sqrt(v[0]*v[0] + v[1]*v[1]);
-    (void)t; (void)q; (void)dldv; (void)user;
     f[0] -= 0.05L*speed*v[0];
     f[1] -= 0.05L*speed*v[1];
     return 0;
@@ -354,7 +321,6 @@ static MAYBE int air(real t, const real *q, const real *v, real *f, real *dldv, 
 HESSIAN(air_hessian)
 {
     real speed = sqrt(v[0]*v[0] + v[1]*v[1]);
-    (void)t; (void)q; (void)fq; (void)pv; (void)user;
     if (!(speed > 0)) return 0;
     for (int i = 0; i < 2; ++i)
         for (int j = 0; j < 2; ++j) fv[2*i + j] -= 0.05L*((i == j ? speed : 0) + v[i]*v[j]/speed);
@@ -363,7 +329,6 @@ HESSIAN(air_hessian)
 
 static MAYBE int motor(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
-    (void)q; (void)dldv; (void)user;
     f[0] += cos(3*t)*(1 - v[0]/4);
     f[1] -= 0.1L*v[1];
     return 0;
@@ -371,7 +336,6 @@ static MAYBE int motor(real t, const real *q, const real *v, real *f, real *dldv
 
 HESSIAN(motor_hessian)
 {
-    (void)q; (void)v; (void)fq; (void)pv; (void)user;
     fv[0] -= cos(3*t)/4;
     fv[3] -= 0.1L;
     return 0;

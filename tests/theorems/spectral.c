@@ -8,7 +8,7 @@
 
      spectral [folder]     writes theorem_spectral.svg and theorem_spectral_rate.svg */
 #include "spectral.h"
-#include "examples/svg.h"
+#include "examples/tools/svg.h"
 
 enum { S = 64 };
 
@@ -58,8 +58,9 @@ static void known_rate(const char *folder)
     static const double h[3] = { 0.25, 0.5, 1 };
     static double error[3][S], theory[3][S];
     static const char *const names[6] = {
-        "h = 1/4", "its rho^-2s", "h = 1/2", "its rho^-2s", "h = 1", "its rho^-2s"
+        "h = 1/4", "rho^-2s, h = 1/4", "h = 1/2", "rho^-2s, h = 1/2", "h = 1", "rho^-2s, h = 1"
     };
+    static const char *const colours[6] = { "#0072b2", "#0072b2", "#d55e00", "#d55e00", "#009e73", "#009e73" };
     svg_line lines[6];
     char path[500];
     const real e = 0.5L;
@@ -77,7 +78,8 @@ static void known_rate(const char *folder)
     }
     snprintf(path, sizeof path, "%s/theorem_spectral_rate.svg", folder);
     const svg_plot plot = { .title = "One Kepler step through the pericentre, e = 1/2", .x_label = "degree s",
-                            .y_label = "error of (q, p)", .log_y = 1, .lines = lines, .line_count = 6 };
+                            .y_label = "error of (q, p)", .log_y = 1, .lines = lines, .line_count = 6,
+                            .dashed = 0x2a, .colours = colours };
     if (svg_write(path, &plot)) exit(1);
 }
 

@@ -6,7 +6,7 @@
 
      stability [folder]    writes theorem_stability_gauss.svg, ..._lobatto.svg  */
 #include "stability.h"
-#include "examples/svg.h"
+#include "examples/tools/svg.h"
 
 enum { S = 6, POINTS = 2001 };
 static const double TOP = 20;

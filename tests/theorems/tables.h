@@ -2,7 +2,7 @@
 #ifndef TABLES_H
 #define TABLES_H
 
-#include "svg.h"
+#include "tools/svg.h"
 
 static void print_table(const svg_table *t)
 {

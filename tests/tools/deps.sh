@@ -1,116 +1,74 @@
 #!/bin/sh
-# Installs what the tests need, with the package manager that is there.
-# deps.sh: cmocka, which is all that `make test` needs
-# deps.sh --check: clang, g++, valgrind, for `make check`; what cannot be had is skipped there
-# deps.sh --cmocka only says whether cmocka can be compiled against; deps.sh --compare installs the
-# libraries that `make cost-peers` compares with; deps.sh --firmware the compilers for small machines
-# and the emulator that `make firmware size` needs.
+# Installs, with the package manager that is there, what a target needs.
+# deps.sh             cmocka, which is all that `make test` needs
+# deps.sh --check     also what `make check` uses if it can be had, and skips if not
+# deps.sh --compare   the libraries that `make cost-peers` compares with
+# deps.sh --firmware  the compilers and the emulator of `make firmware size`
+# deps.sh --cmocka    installs nothing: can cmocka be compiled against?
 
-CC=${CC:-cc}
-
+have() { command -v "$1" >/dev/null 2>&1; }
 have_cmocka() {
     printf '#include <setjmp.h>\n#include <stdarg.h>\n#include <stddef.h>\n#include <stdint.h>\n#include <cmocka.h>\n' |
-        $CC $(pkg-config --cflags cmocka 2>/dev/null) -x c -fsyntax-only - 2>/dev/null
+        ${CC:-cc} $(pkg-config --cflags cmocka 2>/dev/null) -x c -fsyntax-only - 2>/dev/null
 }
-have() { command -v "$1" >/dev/null 2>&1; }
-
 if [ "$1" = --cmocka ]; then
-    have_cmocka && exit 0
-    echo "The tests need cmocka, which $CC does not find.  \"make deps\" installs it." >&2
+    have_cmocka && exit
+    echo "The tests need cmocka, which ${CC:-cc} does not find.  \"make deps\" installs it." >&2
     exit 1
 fi
 
-# names: cmocka clang g++ valgrind, - for what does not exist or comes with the system
-if   have apt-get; then manager=apt-get; names='libcmocka-dev clang g++ valgrind'
-elif have dnf;     then manager=dnf;     names='libcmocka-devel clang gcc-c++ valgrind'
-elif have pacman;  then manager=pacman;  names='cmocka clang gcc valgrind'
-elif have apk;     then manager=apk;     names='cmocka-dev clang g++ valgrind'
-elif have brew;    then manager=brew;    names='cmocka - - -'
-else                    manager=none;    names='cmocka clang g++ valgrind'
+cmocka=none
+if have apt-get; then
+    manager=apt-get install='env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends'
+    cmocka=libcmocka-dev mingw=gcc-mingw-w64-x86-64 cxx=g++
+    compare='libgsl-dev libsundials-dev libboost-dev g++'
+    firmware='gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm gcc-riscv64-unknown-elf
+              picolibc-riscv64-unknown-elf gcc-avr avr-libc'
+elif have dnf; then
+    manager=dnf install='dnf install -y' cmocka=libcmocka-devel mingw=mingw64-gcc cxx=gcc-c++
+    compare='gsl-devel sundials-devel boost-devel gcc-c++'
+    firmware='arm-none-eabi-gcc-cs arm-none-eabi-newlib qemu-system-arm avr-gcc avr-libc'
+elif have pacman; then
+    manager=pacman install='pacman -S --noconfirm --needed' cmocka=cmocka mingw=mingw-w64-gcc cxx=gcc
+    compare='gsl sundials boost gcc' firmware='arm-none-eabi-gcc arm-none-eabi-newlib qemu-system-arm avr-gcc avr-libc'
+elif have apk; then
+    manager=apk install='apk add' cmocka=cmocka-dev mingw=mingw-w64-gcc cxx=g++
+elif have brew; then
+    manager=brew install='brew install' cmocka=cmocka mingw=mingw-w64
+    compare='gsl sundials boost' firmware='gcc-arm-embedded qemu coreutils'
 fi
-compare=no check=no
-[ "$1" = --check ] && check=yes
-if [ "$1" = --compare ]; then
-    compare=yes
-    case $manager in
-    apt-get) libraries='libgsl-dev libsundials-dev libboost-dev g++' ;;
-    dnf)     libraries='gsl-devel sundials-devel boost-devel gcc-c++' ;;
-    pacman)  libraries='gsl sundials boost gcc' ;;
-    brew)    libraries='gsl sundials boost' ;;
-    *)       echo "deps: please install by hand: GSL, SUNDIALS, Boost, a C++ compiler" >&2; exit 1 ;;
-    esac
+welcome=
+case $1 in
+--compare)  needed=${compare:-none} by_hand='GSL, SUNDIALS, Boost, a C++ compiler' ;;
+--firmware) needed=${firmware:-none} by_hand='arm-none-eabi-gcc with newlib, qemu-system-arm' ;;
+*)          needed=$cmocka by_hand=cmocka
+            if have_cmocka; then needed=; fi ;;
+esac
+if [ "$1" = --check ]; then
+    for pair in clang:clang g++:$cxx valgrind:valgrind cmake:cmake pkg-config:pkg-config x86_64-w64-mingw32-gcc:$mingw; do
+        have ${pair%%:*} || welcome="$welcome ${pair#*:}"
+    done
 fi
-if [ "$1" = --firmware ]; then
-    compare=yes
-    case $manager in
-    apt-get) libraries='gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm
-                        gcc-riscv64-unknown-elf picolibc-riscv64-unknown-elf gcc-avr avr-libc' ;;
-    dnf)     libraries='arm-none-eabi-gcc-cs arm-none-eabi-newlib qemu-system-arm avr-gcc avr-libc' ;;
-    pacman)  libraries='arm-none-eabi-gcc arm-none-eabi-newlib qemu-system-arm avr-gcc avr-libc' ;;
-    brew)    libraries='gcc-arm-embedded qemu coreutils' ;;
-    *)       echo "deps: please install by hand: arm-none-eabi-gcc with newlib, qemu-system-arm" >&2; exit 1 ;;
-    esac
-fi
-set -- $names
-needed=; welcome=
-have_cmocka || needed=$1
-if [ $check = yes ]; then
-    have clang || welcome="$welcome $2"
-    have g++ || welcome="$welcome $3"
-    have valgrind || welcome="$welcome $4"
-fi
-welcome=$(echo $welcome | tr ' ' '\n' | grep -v '^-$' | tr '\n' ' ')
-
-if [ $compare = no ] && [ -z "$needed" ] && [ -z "$(echo $welcome)" ]; then
+if [ -z "$needed$welcome" ]; then
     echo "deps: everything is there"
-    exit 0
-fi
-
-# root, or sudo, or nothing
-sudo=
-if [ "$manager" != brew ] && [ "$(id -u)" != 0 ]; then
-    if have sudo; then sudo=sudo; else manager=none; fi
-fi
-install() {
-    case $manager in
-    apt-get) $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "$@" ;;
-    dnf)     $sudo dnf install -y "$@" ;;
-    pacman)  $sudo pacman -S --noconfirm --needed "$@" ;;
-    apk)     $sudo apk add "$@" ;;
-    brew)    brew install "$@" ;;
-    *)       return 1 ;;
-    esac
-}
-
-if [ $compare = yes ]; then
-    if [ "$manager" = apt-get ]; then $sudo apt-get update || true; fi
-    install $libraries
     exit
 fi
-
-if [ "$manager" = none ]; then
-    if [ -z "$needed" ]; then
-        echo "deps: cmocka is there; not there, and what needs it will be skipped: $welcome"
-        exit 0
-    fi
-    echo "deps: cannot install anything: no known package manager, or neither root nor sudo." >&2
-    echo "deps: please install by hand: cmocka (needed); welcome: $welcome" >&2
-    exit 1
+sudo=
+if [ "$(id -u)" != 0 ] && [ "$manager" != brew ]; then
+    if have sudo; then sudo=sudo; else manager=; fi
 fi
-
-echo "deps: installing with $manager: $needed $welcome"
+if [ -z "$manager" ] || [ "$needed" = none ]; then
+    echo "deps: no known package manager, or neither root nor sudo.  Please install by hand: ${needed:+$by_hand (needed)}$welcome" >&2
+    [ -z "$needed" ]
+    exit
+fi
+echo "deps: installing with $manager:" $needed $welcome
 case $manager in
 apt-get) $sudo apt-get update || echo "deps: apt-get update failed, trying with the lists that are there" ;;
 pacman)  $sudo pacman -Sy --noconfirm ;;
 esac
-if [ -n "$needed" ]; then
-    install "$needed"
-    if ! have_cmocka; then
-        echo "deps: cmocka could not be installed" >&2
-        exit 1
-    fi
-fi
+if [ -n "$needed" ]; then $sudo $install $needed || exit; fi
 for package in $welcome; do
-    install "$package" || echo "deps: $package could not be installed; what needs it will be skipped"
+    $sudo $install $package || echo "deps: $package could not be installed; what needs it will be skipped"
 done
-echo "deps: done"
+case $1 in ''|--check) have_cmocka || { echo "deps: cmocka could not be installed" >&2; exit 1; } ;; esac

@@ -14,13 +14,11 @@ fail() { echo "FAILED: docs-check: $*"; exit 1; }
 count=0
 
 # -- 1
-awk '/^   SYNOPSIS/ { s = 1 } /^   prints$/ { exit } s && /^     #define/ { on = 1 } on' gvi.h |
-    sed 's/^     //' | awk '{ line[++n] = $0; if ($0 != "") last = n } END { for (i = 1; i <= last; ++i) print line[i] }' >"$dir/synopsis.c"
+sh tests/tools/examples.sh code >"$dir/synopsis.c"
+sh tests/tools/examples.sh output >"$dir/synopsis.out"
 awk 'on; /\*\// { on = 1 }' examples/01_kepler.c >"$dir/kepler.c"
 [ -s "$dir/synopsis.c" ] && diff -u "$dir/synopsis.c" "$dir/kepler.c" || fail "SYNOPSIS of gvi.h and examples/01_kepler.c differ"
-awk '/^   SYNOPSIS/ { s = 1 } s' gvi.h >"$dir/from_synopsis"
-awk 's && /^     / { sub(/^     /, ""); print; n = 1; next } s && n { exit } /^   prints$/ { s = 1 }' "$dir/from_synopsis" >"$dir/synopsis.out"
-sh tests/tools/expected.sh examples/01_kepler.c | diff -u "$dir/synopsis.out" - || fail "the outputs of SYNOPSIS and examples/01_kepler.c differ"
+sh tests/tools/examples.sh expected examples/01_kepler.c | diff -u "$dir/synopsis.out" - || fail "the outputs of SYNOPSIS and examples/01_kepler.c differ"
 awk '/^```c$/ { on = 1; next } on && /^```/ { exit } on' README.md | diff -u "$dir/synopsis.c" - || fail "the README's program is not the SYNOPSIS"
 count=$((count + 3))
 
@@ -36,7 +34,7 @@ for page in README.md docs/guide.md docs/embedded.md; do
         /^```/ && on  { on = 0; if (file ~ /\.out$/) open = ""; next }
         on && file != "" { print >file }' "$page"
 done
-cat examples/*.c examples/*.cpp examples/*.h docs/playground/*.h tests/compile/*.c | sed 's/^ *//; s/ *$//' | grep -v '^$' >"$dir/all-code"
+cat examples/*.c examples/*.cpp examples/tools/*.h docs/playground/*.h tests/compile/*.c | sed 's/^ *//; s/ *$//' | grep -v '^$' >"$dir/all-code"
 for block in "$dir"/*-[0-9][0-9].c "$dir"/*-[0-9][0-9].cpp; do
     [ -f "$block" ] || continue
     if grep -q 'int main' "$block"; then

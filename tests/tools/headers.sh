@@ -8,6 +8,12 @@ mkdir -p "$dir"
 rm -f "$dir"/*
 
 strict='-Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow -Wundef -Wfloat-equal -Wvla -Werror -I.'
+# everything that clang warns of, less the style of this code: declarations where they are needed, casts of C, commas, NULL
+everything='-Weverything -Wno-padded -Wno-comma -Wno-conditional-uninitialized -Wno-covered-switch-default
+ -Wno-declaration-after-statement -Wno-c++98-compat-pedantic -Wno-old-style-cast -Wno-reserved-identifier
+ -Wno-reserved-macro-identifier -Wno-zero-as-null-pointer-constant -Wno-unsafe-buffer-usage -Wno-pre-c11-compat
+ -Wno-switch-default -Wno-unknown-warning-option'
+everything=$(echo $everything)
 have() { command -v "$1" >/dev/null 2>&1; }
 fail() { echo "FAILED: headers: $*"; exit 1; }
 accepts() { echo 'int main(void) { return 0; }' | $1 -x$2 -std=$3 -fsyntax-only - 2>/dev/null; }
@@ -30,7 +36,9 @@ matrix() {  # compiler language standards...
             [ $level = -O0 ] && [ $linkage = extern ] &&
                 echo "$compiler -x$language -std=$standard $level $strict \"-DGVI_REAL=$type\" -c tests/compile/declarations.c -o /dev/null"
         done; done; done
+        case $standard in c99|c++11) echo "$compiler -x$language -std=$standard $strict -c tests/compile/macros.c -o /dev/null" ;; esac
     done
+    case $compiler in clang*) echo "$compiler -x$language -std=$1 $everything -Werror -I. -c tests/compile/implementation.c -o /dev/null" ;; esac
 }
 if [ "$quick" = --quick ]; then       # one compiler, in C and C++, each type once
     first=${CC:-cc} second=${CXX:-c++}
@@ -40,6 +48,7 @@ if [ "$quick" = --quick ]; then       # one compiler, in C and C++, each type on
         ! have "$second" || echo "$second -xc++ -std=c++11 -O0 -DGVI_STATIC $strict \"-DGVI_REAL=$type\" -c tests/compile/implementation.c -o /dev/null"
     done
     have "$second" || echo "  skipped: no $second" >&2
+    echo "$first -std=c99 $strict -c tests/compile/macros.c -o /dev/null"
 else
     for compiler in gcc clang; do
         if have $compiler; then matrix $compiler c c99 c11 c17 c2x
@@ -50,6 +59,8 @@ else
         else echo "  skipped: no $compiler" >&2; fi
     done
     if ! have gcc && ! have clang; then matrix cc c c99 c11 c17; fi
+    if have x86_64-w64-mingw32-gcc; then matrix x86_64-w64-mingw32-gcc c c99
+    else echo "  skipped: no x86_64-w64-mingw32-gcc" >&2; fi
 fi >"$dir/matrix"
 jobs=$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)
 tr '\n' '\0' <"$dir/matrix" |

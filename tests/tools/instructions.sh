@@ -4,6 +4,10 @@
 # counts from the first step to the last, within 2 % either way, where the compiler is the recorded
 # one.  With another one, or without valgrind, they are printed, or said to be skipped.
 # --record writes the file anew.
+# instructions.sh BUILD --prices: what an effect that is not listed costs.  A net in two programs: one that knows
+# drag, and does not list it, and one in which there is no drag at all.  The step must take the same number of
+# instructions, to 1 %, and the second program must not contain the function.  For comparison: drag listed but
+# switched off, and drag at work.
 build=$1 record=$2
 CC=${CC:-cc}
 file=tests/data/instructions.txt
@@ -11,6 +15,39 @@ dir=$build/instructions
 program=$dir/instructions
 mkdir -p "$dir"
 fail() { echo "FAILED: instructions: $*" >&2; exit 1; }
+# PROGRAM RUN: the instructions of a run from its first step to its last
+collected() {
+    valgrind --tool=callgrind --callgrind-out-file=/dev/null --toggle-collect=run_steps "$1" "$2" 2>&1 >/dev/null |
+        sed -n 's/.*Collected *: *\([0-9][0-9]*\).*/\1/p'
+}
+
+if [ "$record" = --prices ]; then
+    command -v valgrind >/dev/null 2>&1 || { echo 'skipped: no valgrind'; exit 0; }
+
+    compile() { $CC -std=c99 -O2 -g -I. -Itests tests/cost/instructions.c "$@" -lm || fail "compilation: $*"; }
+    compile -o "$dir/drag"
+    compile -DNO_DRAG -o "$dir/plain"
+    for program in plain drag; do "$dir/$program" --ends | grep '^net ends' >"$dir/$program.end"; done
+    cmp -s "$dir/plain.end" "$dir/drag.end" || fail "the two nets end in different places"
+
+    instructions() {  # program run: of a step
+        n=$(collected "$dir/$1" "$2") && [ "${n:-0}" -gt 0 ] || fail "$1 $2 cannot be counted"
+        echo $((n/100))
+    }
+    plain=$(instructions plain net) && unlisted=$(instructions drag net) && off=$(instructions drag net-off) &&
+        at_work=$(instructions drag net-drag) || { echo "$plain $unlisted $off $at_work"; exit 1; }
+    printf '  instructions a step of a net of %s knots\n' 16
+    printf '    %-36s %9d\n' 'no drag in the program' "$plain" 'drag in the program, not listed' "$unlisted" \
+        'drag listed, switched off' "$off" 'drag at work' "$at_work"
+
+    more=$((unlisted - plain))
+    [ ${more#-} -le $((plain/100)) ] || fail "drag that is not listed costs $more instructions of $plain"
+    [ "$at_work" -gt $((plain + plain/100)) ] || fail "drag at work costs nothing: this test sees nothing"
+    if nm "$dir/plain" | grep -q ' t drag$'; then fail "drag is in a program without it"; fi
+    nm "$dir/drag" | grep -q ' t drag$' || fail "drag is not in the program that has it"
+    echo "prices: 4 passed, 0 failed"
+    exit
+fi
 
 # no flag but these: vector registers beyond the common ones are not known to every valgrind
 $CC -std=c99 -O2 -ffp-contract=off -I. tests/cost/instructions.c -o "$program" -lm || fail "compilation"
@@ -22,7 +59,7 @@ command -v valgrind >/dev/null 2>&1 && counted=yes
 while read -r name steps points iterations; do
     n=-
     if [ $counted = yes ]; then
-        n=$(sh tests/tools/collected.sh "$program" "$name") && [ "${n:-0}" -gt 0 ] || fail "$name under callgrind"
+        n=$(collected "$program" "$name") && [ "${n:-0}" -gt 0 ] || fail "$name under callgrind"
     fi
     echo "$name $steps $points $iterations $n"
 done <"$dir/counts" >"$dir/found"

@@ -4,8 +4,19 @@
 # the line is the log.  BUILD/result/NAME: passed, failed, skipped.
 # A command says what it counted as cmocka does, or in a last line "...: N passed, M failed"; else it is one.
 # Alone, outside of such a run, the command just runs.
+# step.sh BUILD --sum NAME STEP...: adds up what the steps counted.
 build=$1 name=$2
 shift 2
+if [ "$name" = --sum ]; then
+    name=$1
+    shift
+    for step in "$@"; do cat "$build/result/$step" || exit 1; done |
+        awk -v name="$name" -v result="$build/result/$name" '{ passed += $1; failed += $2; skipped += $3 }
+            END { print passed, failed, skipped + 0 >result
+                  printf "%s: %d passed, %d failed%s\n", name, passed, failed, skipped ? sprintf(", %d skipped", skipped) : ""
+                  exit failed > 0 }'
+    exit
+fi
 [ -n "$PROGRESS" ] || exec "$@"
 mkdir -p "$build/log" "$build/result"
 log=$build/log/$name.log result=$build/result/$name

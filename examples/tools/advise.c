@@ -12,8 +12,8 @@
 #define GVI_IMPLEMENTATION
 #include "gvi.h"
 #include "scenes/scenes.c"
-#include "advise.h"
-#include "../tests/cost/baselines.h"
+#include "tools/advise.h"
+#include "../../tests/cost/baselines.h"
 
 enum { TABLES = 5, KICKS = 40 };
 

@@ -9,6 +9,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 typedef struct svg_line {
     const char   *name;
@@ -24,6 +25,7 @@ typedef struct svg_plot {
     int             line_count;
     int             from_zero;          /* a linear y axis that begins at 0    */
     unsigned        thick, dashed;      /* lines drawn so, one bit each        */
+    const char *const *colours;         /* of the lines; NULL, also for one: by its place */
 } svg_plot;
 
 /* An axis shows the numbers lo..hi (or their logarithms) at pixels a..b, with at
@@ -127,6 +129,9 @@ static void svg_path(FILE *f, const svg_line *line, const svg_axis *x, const svg
                      const char *width, const char *dashes)
 {
     int drawing = 0;
+    if (line->count == 1)
+        fprintf(f, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4\" fill=\"%s\"/>\n", svg_pixel(x, svg_value(x, *line->x)),
+                svg_pixel(y, svg_value(y, *line->y)), colour);
     fprintf(f, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%s\"%s stroke-linejoin=\"round\" d=\"", colour,
             width, dashes);
     for (int k = 0; k < line->count; ++k) {
@@ -165,6 +170,7 @@ static const char *svg_colour(const svg_plot *plot, int i)
 {
     static const char *const colour[] = { "#0072b2", "#d55e00", "#009e73", "#aa4499", "#b8860b", "#56b4e9", "#88562b",
                                           "#444444" };
+    if (plot->colours && plot->colours[i]) return plot->colours[i];
     return plot->thick >> i & 1u ? "#111111" : colour[(i - (int)(plot->thick & 1u))%8];
 }
 
@@ -195,7 +201,10 @@ static void svg_panel(FILE *f, const svg_plot *plot, double left, double right)
 static inline int svg_write_all(const char *path, const svg_plot *plots, int count, double wide)
 {
     const double end = 80 + wide*count + 120.0*(count - 1);
-    FILE *f = svg_begin(path, end + (wide < 500 ? 240 : 150), 460);
+    size_t longest = 11;
+    for (int i = 0; i < plots->line_count; ++i)
+        if (strlen(plots->lines[i].name) > longest) longest = strlen(plots->lines[i].name);
+    FILE *f = svg_begin(path, end + 62 + 8*(double)longest, 460);
     if (!f) return -1;
     for (int k = 0; k < count; ++k) svg_panel(f, plots + k, 80 + (wide + 120)*k, 80 + (wide + 120)*k + wide);
     for (int i = 0; i < plots->line_count; ++i) {
@@ -223,7 +232,7 @@ typedef struct svg_table {
     const svg_cell    *cells;               /* [row_count][column_count] */
 } svg_table;
 
-enum { SVG_CELL_WIDTH = 50, SVG_CELL_HEIGHT = 27, SVG_TABLE_LEFT = 130, SVG_TABLE_TOP = 62 };
+enum { SVG_CELL_WIDTH = 50, SVG_CELL_HEIGHT = 27, SVG_TABLE_LEFT = 150, SVG_TABLE_TOP = 62 };
 
 /* Blue: within the tolerance; orange: not; grey: refused                      */
 static void svg_draw_cell(FILE *f, const svg_cell *cell, double tolerance, double x, double y)

@@ -6,7 +6,7 @@
 #ifndef ANIMATE_H
 #define ANIMATE_H
 
-#include "svg.h"
+#include "tools/svg.h"
 #include <stdlib.h>
 
 typedef struct animate_line { int first, step, count; } animate_line;

@@ -1,0 +1,161 @@
+/* points.h - callbacks written twice: with GVI_POINTS, and as the loop over points that it stands for
+
+   Kepler's problem, a pendulum, an arm of three links in absolute angles, a uniform magnetic field,
+   and a relativistic particle; for test_points.c and cost/points.c, after gvi.h.            */
+#ifndef TESTS_POINTS_H
+#define TESTS_POINTS_H
+
+#include <tgmath.h>
+#undef I
+
+GVI_POINTS(kepler, 2, f, value)(const gvi_points *x, void *user)
+{
+    const gvi_real X = x->q[0], Y = x->q[1], d2 = X*X + Y*Y, d = sqrt(d2), w = -1/(d2*d);
+    x->f[0] += w*X;
+    x->f[1] += w*Y;
+    x->value[0] -= 1/d;
+    return (void)user, 0;
+}
+
+static int kepler_loop(const gvi_points *x, void *user)
+{
+    const gvi_real *X = x->q, *Y = X + x->stride;
+    gvi_real *fx = x->f, *fy = fx + x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        const gvi_real d2 = X[k]*X[k] + Y[k]*Y[k], d = sqrt(d2), w = -1/(d2*d);
+        fx[k] += w*X[k];
+        fy[k] += w*Y[k];
+    }
+    return (void)user, 0;
+}
+
+static int kepler_value_loop(const gvi_points *x, void *user)
+{
+    const gvi_real *X = x->q, *Y = X + x->stride;
+    for (int k = 0; k < x->count; ++k) x->value[k] -= 1/sqrt(X[k]*X[k] + Y[k]*Y[k]);
+    return (void)user, 0;
+}
+
+GVI_POINTS(pendulum, 1, f)(const gvi_points *x, void *user)
+{
+    x->f[0] -= sin(x->q[0]);
+    return (void)user, 0;
+}
+
+static int pendulum_loop(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k) x->f[k] -= sin(x->q[k]);
+    return (void)user, 0;
+}
+
+/* M_ij = m_ij cos(q_i - q_j), m = (3 2 1; 2 2 1; 1 1 1) */
+GVI_POINTS(arm_mass, 3, mass)(const gvi_points *x, void *user)
+{
+    const gvi_real a = x->q[0], b = x->q[1], c = x->q[2];
+    gvi_real *m = x->mass;
+    m[0] = 3;
+    m[3] = 2*cos(b - a);
+    m[4] = 2;
+    m[6] = cos(c - a);
+    m[7] = cos(c - b);
+    m[8] = 1;
+    return (void)user, 0;
+}
+
+static int arm_mass_loop(const gvi_points *x, void *user)
+{
+    const int s = x->stride;
+    const gvi_real *a = x->q, *b = a + s, *c = b + s;
+    gvi_real *m = x->mass;
+    for (int k = 0; k < x->count; ++k) {
+        m[k] = 3;
+        m[3*s + k] = 2*cos(b[k] - a[k]);
+        m[4*s + k] = 2;
+        m[6*s + k] = cos(c[k] - a[k]);
+        m[7*s + k] = cos(c[k] - b[k]);
+        m[8*s + k] = 1;
+    }
+    return (void)user, 0;
+}
+
+GVI_POINTS(arm_gradient, 3, v, f)(const gvi_points *x, void *user)
+{
+    const gvi_real a = x->q[0], b = x->q[1], c = x->q[2], *v = x->v;
+    const gvi_real ab = 2*sin(b - a)*v[0]*v[1], ac = sin(c - a)*v[0]*v[2], bc = sin(c - b)*v[1]*v[2];
+    x->f[0] += ab + ac;
+    x->f[1] += bc - ab;
+    x->f[2] -= ac + bc;
+    return (void)user, 0;
+}
+
+static int arm_gradient_loop(const gvi_points *x, void *user)
+{
+    const int s = x->stride;
+    const gvi_real *a = x->q, *b = a + s, *c = b + s, *va = x->v, *vb = va + s, *vc = vb + s;
+    gvi_real *fa = x->f, *fb = fa + s, *fc = fb + s;
+    for (int k = 0; k < x->count; ++k) {
+        const gvi_real ab = 2*sin(b[k] - a[k])*va[k]*vb[k], ac = sin(c[k] - a[k])*va[k]*vc[k],
+                       bc = sin(c[k] - b[k])*vb[k]*vc[k];
+        fa[k] += ab + ac;
+        fb[k] += bc - ab;
+        fc[k] -= ac + bc;
+    }
+    return (void)user, 0;
+}
+
+/* L = B (x y' - y x')/2 */
+GVI_POINTS(magnetic, 2, v, f, dldv, value)(const gvi_points *x, void *user)
+{
+    const gvi_real b = *(const gvi_real *)user/2, *q = x->q, *v = x->v;
+    x->f[0] += b*v[1];
+    x->f[1] -= b*v[0];
+    x->dldv[0] -= b*q[1];
+    x->dldv[1] += b*q[0];
+    x->value[0] += b*(q[0]*v[1] - q[1]*v[0]);
+    return 0;
+}
+
+static int magnetic_loop(const gvi_points *x, void *user)
+{
+    const gvi_real b = *(const gvi_real *)user/2;
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        x->f[k] += b*x->v[s + k];
+        x->f[s + k] -= b*x->v[k];
+        x->dldv[k] -= b*x->q[s + k];
+        x->dldv[s + k] += b*x->q[k];
+    }
+    return 0;
+}
+
+static int magnetic_value_loop(const gvi_points *x, void *user)
+{
+    const gvi_real b = *(const gvi_real *)user/2;
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) x->value[k] += b*(x->q[k]*x->v[s + k] - x->q[s + k]*x->v[k]);
+    return 0;
+}
+
+/* v = p/sqrt(1 + p^2); refuses p_1 < -1, for the test */
+GVI_POINTS(relativistic, 2, p, velocity)(const gvi_points *x, void *user)
+{
+    const gvi_real w = 1/sqrt(1 + x->p[0]*x->p[0] + x->p[1]*x->p[1]);
+    x->velocity[0] = x->p[0]*w;
+    x->velocity[1] = x->p[1]*w;
+    return (void)user, x->p[0] < -1;
+}
+
+static int relativistic_loop(const gvi_points *x, void *user)
+{
+    const int s = x->stride;
+    int failed = 0;
+    for (int k = 0; k < x->count; ++k) {
+        const gvi_real w = 1/sqrt(1 + x->p[k]*x->p[k] + x->p[s + k]*x->p[s + k]);
+        x->velocity[k] = x->p[k]*w;
+        x->velocity[s + k] = x->p[s + k]*w;
+        failed |= x->p[k] < -1;
+    }
+    return (void)user, failed;
+}
+
+#endif

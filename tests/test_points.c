@@ -1,0 +1,157 @@
+/* GVI_POINTS: the callback that it makes of one point gives the bits of a loop over points written
+   by hand, for every kind of callback, every number of points and the padding behind them; bodies that
+   no compiler makes vectors of as well.  Expected values are those of the loops in points.h.   */
+#include "gvi_test.h"
+#include "points.h"
+
+enum { N = 12, ROW = 24 };
+
+typedef struct arrays {
+    gvi_real t[ROW], q[N*ROW], v[N*ROW], p[N*ROW], f[N*ROW], dldv[N*ROW], value[ROW], mass[N*N*ROW], velocity[N*ROW];
+} arrays;
+static arrays one, two;
+static gvi_real field = (gvi_real)1.25;
+
+static const int sizes[][2] = { { 1, 1 }, { 2, 2 }, { 3, 3 }, { 4, 4 }, { 5, 8 }, { 8, 8 }, { 9, 16 }, { 16, 16 }, { 17, 24 } };
+
+static void fill(arrays *a)
+{
+    gvi_real *z = a->t;
+    for (size_t i = 0; i < sizeof *a/sizeof *z; ++i) z[i] = (gvi_real)((i*7919 + 13)%1009)/800;
+}
+
+/* All arrays of `a` that a callback with these outputs may see */
+static gvi_points points_of(arrays *a, int n, int size, const char *outputs)
+{
+    gvi_points x = { n, sizes[size][0], sizes[size][1], a->t, a->q, a->v, a->p, NULL, NULL, NULL, NULL, NULL };
+    if (strchr(outputs, 'f')) x.f = a->f;
+    if (strchr(outputs, 'd')) x.dldv = a->dldv;
+    if (strchr(outputs, 'V')) x.value = a->value;
+    if (strchr(outputs, 'M')) x.mass = a->mass;
+    if (strchr(outputs, 'v')) x.velocity = a->velocity;
+    return x;
+}
+
+/* Rows differ at most in their padding */
+static void assert_rows(int rows, const gvi_points *x, const gvi_real *a, const gvi_real *b)
+{
+    for (int i = 0; i < rows; ++i)
+        assert_memory_equal(a + i*x->stride, b + i*x->stride, (size_t)x->count*sizeof *a);
+}
+
+static void assert_same(int n, gvi_points_fn *made, gvi_points_fn *loop, const char *outputs)
+{
+    for (int size = 0; size < COUNT(sizes); ++size) {
+        fill(&one);
+        fill(&two);
+        const gvi_points x = points_of(&one, n, size, outputs), y = points_of(&two, n, size, outputs);
+        assert_int_equal(made(&x, &field), loop(&y, &field));
+        assert_rows(n, &x, one.f, two.f);
+        assert_rows(n, &x, one.dldv, two.dldv);
+        assert_rows(1, &x, one.value, two.value);
+        for (int i = 0; i < n; ++i) assert_rows(i + 1, &x, one.mass + i*n*x.stride, two.mass + i*n*x.stride);
+        assert_rows(n, &x, one.velocity, two.velocity);
+    }
+}
+
+static int kepler_both(const gvi_points *x, void *user)
+{
+    return kepler_loop(x, user) | kepler_value_loop(x, user);
+}
+
+static int magnetic_both(const gvi_points *x, void *user)
+{
+    return magnetic_loop(x, user) | magnetic_value_loop(x, user);
+}
+
+static void every_kind_of_callback(void **state)
+{
+    (void)state;
+    assert_same(2, kepler, kepler_loop, "f");
+    assert_same(2, kepler, kepler_value_loop, "V");
+    assert_same(2, kepler, kepler_both, "fV");
+    assert_same(1, pendulum, pendulum_loop, "f");
+    assert_same(3, arm_mass, arm_mass_loop, "M");
+    assert_same(3, arm_gradient, arm_gradient_loop, "f");
+    assert_same(2, magnetic, magnetic_loop, "fd");
+    assert_same(2, magnetic, magnetic_value_loop, "V");
+    assert_same(2, magnetic, magnetic_both, "fdV");
+    assert_same(2, relativistic, relativistic_loop, "v");
+}
+
+/* A failure counts where there is a point, and not in the padding */
+static void failures(void **state)
+{
+    (void)state;
+    for (int size = 0; size < COUNT(sizes); ++size)
+        for (int k = 0; k < sizes[size][1]; ++k) {
+            fill(&one);
+            const gvi_points x = points_of(&one, 2, size, "v");
+            one.p[k] = -2;
+            assert_int_equal(relativistic(&x, NULL) != 0, k < x.count);
+        }
+}
+
+/* Loops, indices that only the run knows, branches: the array of one point stays in memory */
+GVI_POINTS(all_pairs, 12, v, f)(const gvi_points *x, void *user)
+{
+    for (int i = 0; i < 12; ++i)
+        for (int j = 0; j < i; ++j) {
+            const gvi_real d = x->q[i] - x->q[j];
+            if (d > 1) continue;
+            x->f[i] -= d;
+            x->f[j] += d*x->v[i];
+        }
+    return (void)user, 0;
+}
+
+static int all_pairs_loop(const gvi_points *x, void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k)
+        for (int i = 0; i < 12; ++i)
+            for (int j = 0; j < i; ++j) {
+                const gvi_real d = x->q[i*s + k] - x->q[j*s + k];
+                if (d > 1) continue;
+                x->f[i*s + k] -= d;
+                x->f[j*s + k] += d*x->v[i*s + k];
+            }
+    return (void)user, 0;
+}
+
+static const volatile int order[] = { 2, 0, 1 };
+
+GVI_POINTS(permuted, 3, f)(const gvi_points *x, void *user)
+{
+    const int a = order[0], b = order[1], c = order[2];
+    x->f[a] += x->q[b];
+    x->f[b] -= x->q[c];
+    x->f[c] = x->f[a] + x->f[b];
+    return (void)user, 0;
+}
+
+static int permuted_loop(const gvi_points *x, void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        x->f[2*s + k] += x->q[k];
+        x->f[k] -= x->q[s + k];
+        x->f[s + k] = x->f[2*s + k] + x->f[k];
+    }
+    return (void)user, 0;
+}
+
+static void what_stays_a_loop(void **state)
+{
+    (void)state;
+    assert_same(12, all_pairs, all_pairs_loop, "f");
+    assert_same(3, permuted, permuted_loop, "f");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_kind_of_callback), cmocka_unit_test(failures), cmocka_unit_test(what_stays_a_loop),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

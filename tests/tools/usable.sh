@@ -1,0 +1,44 @@
+#!/bin/sh
+# usable.sh BUILD: what `make install` puts where, and the ways into a project that the guide names: pkg-config,
+# CMake (the guide's own lines), a C++ sketch beside a C file as the Arduino IDE and PlatformIO compile them.
+build=$1 dir=$1/install
+rm -rf "$dir"
+mkdir -p "$dir/cmake/third_party/gvi" "$dir/sketch"
+fail() { echo "FAILED: usable: $*"; exit 1; }
+have() { command -v "$1" >/dev/null 2>&1; }
+runs() { "$1" | diff - "$dir/wanted" || fail "$1"; count=$((count + 1)); }
+sh tests/tools/examples.sh expected examples/01_kepler.c >"$dir/wanted"
+count=1
+
+make -s install DESTDIR="$dir/stage" PREFIX=/opt >/dev/null && cmp gvi.h "$dir/stage/opt/include/gvi.h" || fail "gvi.h"
+if have pkg-config; then
+    export PKG_CONFIG_PATH="$dir/stage/opt/share/pkgconfig"
+    [ "$(pkg-config --modversion gvi)" = "$(sed -n 's/^#define GVI_VERSION "\(.*\)"/\1/p' gvi.h)" ] || fail "version in gvi.pc"
+    sed 's/#include "gvi.h"/#include <gvi.h>/' examples/01_kepler.c >"$dir/kepler.c"
+    ${CC:-cc} -std=c99 $(pkg-config --define-variable=prefix="$dir/stage/opt" --cflags gvi) "$dir/kepler.c" \
+        $(pkg-config --libs gvi) -o "$dir/kepler" || fail "pkg-config"
+    runs "$dir/kepler"
+else echo "  skipped: no pkg-config"; fi
+
+if have cmake; then
+    cp gvi.h "$dir/cmake/third_party/gvi"
+    cp examples/01_kepler.c "$dir/cmake"
+    { echo 'cmake_minimum_required(VERSION 3.5)'
+      echo 'project(app C)'
+      sed -n '/^```cmake$/,/^```$/{/^```/!p;}' docs/guide.md
+      echo 'add_executable(app 01_kepler.c)'
+      echo 'target_link_libraries(app PRIVATE gvi)'; } >"$dir/cmake/CMakeLists.txt"
+    { cmake -S "$dir/cmake" -B "$dir/cmake/build" && cmake --build "$dir/cmake/build"; } >"$dir/cmake.log" 2>&1 ||
+        { cat "$dir/cmake.log"; fail "cmake"; }
+    runs "$dir/cmake/build/app"
+else echo "  skipped: no cmake"; fi
+
+if have "${CXX:-c++}"; then
+    { sed -n 's/^    \(extern "C" .*\)/\1/p' docs/guide.md
+      echo 'int main() { return pendulum_start() || pendulum_period(); }'; } >"$dir/sketch/sketch.cpp"
+    ${CC:-cc} -std=gnu11 -Os -I. -c tests/compile/embedded.c -o "$dir/sketch/pendulum.o" &&
+        ${CXX:-c++} -std=gnu++11 "$dir/sketch/sketch.cpp" "$dir/sketch/pendulum.o" -o "$dir/sketch/sketch" -lm &&
+        "$dir/sketch/sketch" || fail "a C++ sketch beside a C file"
+    count=$((count + 1))
+else echo "  skipped: no C++ compiler"; fi
+echo "usable: $count passed, 0 failed"
