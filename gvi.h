@@ -1985,13 +1985,16 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real
         gvi_real d = 0,
                  next = root*(gvi__nonzero(was) ? GVI_ABS(was) : gvi__norm1(n, v)/(gvi_real)n);
         if (!(next > GVI__MIN/GVI__EPS)) next = root;
-        for (int k = 0; k < 12 && next > 0; ++k) {
+        for (int k = 0; k < 12 && gvi__nonzero(next); ++k) {
             v[j] = was + next;
             const gvi_status status = gvi__evaluate(st, x, 0, 1);
             d = v[j] - was;
             v[j] = was;
-            if (status != GVI_OK) return status;
-            next = !gvi__finite(x->dldv[j]) ? d*root
+            if (status != GVI_OK && (status != GVI_E_CALLBACK || k == 11)) return status;
+            // out of the domain: nearer, and at the last place back towards 0
+            const int beyond = status != GVI_OK || !gvi__finite(x->dldv[j]);
+            next = beyond && GVI_ABS(d)*root < 2*GVI__EPS*GVI_ABS(was) ? -2*GVI__EPS*was
+                 : beyond ? d*root
                  : GVI_ABS(x->dldv[j] - base[j]) < root*GVI_ABS(base[j])/2 ? d/GVI_SQRT(root) : 0;
         }
         for (int i = 0; i < n; ++i) hessian[i*n + j] = (x->dldv[i] - base[i])/d;
@@ -2001,7 +2004,8 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real
 }
 
 /* General Legendre transform at one point: Newton's method for dL/dv(v) = p from the v given.  Ends
-   when the correction stops shrinking.                                                       */
+   when the correction stops shrinking and dL/dv misses p by no more than rounding of v explains.
+   What leaves the domain of L (faster than light), refused or not a number, goes half the way. */
 static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi_real *p,
                                        gvi_real *v)
 {
@@ -2011,32 +2015,50 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
     int at;
     x->v = v;
     gvi__count(&st->counters.velocities, 1);
-    for (int k = 0; k < 40; ++k) {
-        gvi_real change = 0;
+    for (int k = 0, halves = 0, last_places = 0; k < 60; ++k) {
+        gvi_real change = 0, miss = 0;
+        int near = 1;
         gvi_status status = gvi__evaluate(st, x, 0, 1);
-
-        // beyond the domain of L (faster than light): half the way
-        if (k > 0 && status == GVI_OK && gvi__first_non_finite(n, x->dldv) >= 0) {
+        if (status == GVI_OK && gvi__first_non_finite(n, x->dldv) >= 0) status = GVI_E_NON_FINITE;
+        if (status == GVI_OK) status = gvi__velocity_hessian(st, x, v, W);
+        for (int i = 0; status == GVI_OK && i < n; ++i) {
+            gvi_real rounding = GVI_ABS(p[i]);
+            for (int j = 0; j < n; ++j) rounding += GVI_ABS(W[i*n + j]*v[j]);
+            dv[n + i] = p[i] - x->dldv[i];
+            near &= GVI_ABS(dv[n + i]) <= GVI_SQRT(GVI__EPS)*GVI_ABS(p[i]);
+            if (GVI_ABS(dv[n + i]) > miss*rounding) miss = GVI_ABS(dv[n + i])/rounding;
+        }
+        if (status == GVI_OK) {
+            status = gvi__lu_factor(n, W, pivot, &at);
+            gvi__count(&st->counters.factorizations, 1);
+            if (status == GVI_E_SINGULAR)
+                return gvi__report(st, status, GVI_FAULT_MASS, at, GVI_FAULT_NONE);
+        }
+        const int beyond = status == GVI_E_CALLBACK || status == GVI_E_NON_FINITE;
+        if (k > 0 && beyond && halves < 400) {
             for (int i = 0; i < n; ++i) {
                 dv[i] /= 2;
                 v[i] -= dv[i];
             }
+            k -= 1;
+            halves += 1;
             continue;
         }
-        if (status == GVI_OK) status = gvi__velocity_hessian(st, x, v, W);
+        if (status == GVI_E_NON_FINITE) return gvi__report_effect(st, status, GVI_FAULT_MASS);
         if (status != GVI_OK) return status;
-        status = gvi__lu_factor(n, W, pivot, &at);
-        gvi__count(&st->counters.factorizations, 1);
-        if (status != GVI_OK) return gvi__report(st, status, GVI_FAULT_MASS, at, GVI_FAULT_NONE);
-        for (int i = 0; i < n; ++i) dv[i] = p[i] - x->dldv[i];
+        gvi__copy((size_t)n, dv + n, dv);
         gvi_lu_solve(n, W, pivot, dv);
         for (int i = 0; i < n; ++i) {
             v[i] += dv[i];
             if (gvi__nonzero(dv[i])) change += GVI_ABS(dv[i])/(GVI_ABS(dv[i]) + GVI_ABS(v[i]));
         }
         if (!(change <= GVI__MAX)) break;
-        if (!(change > 2*GVI__EPS) || (change >= last/2 && change <= GVI_SQRT(GVI__EPS)))
-            return GVI_OK;
+        // from beyond the root corrections grow threefold, be they of the last place
+        const gvi_real small = GVI_SQRT(GVI__EPS);
+        last_places = change <= 64*GVI__EPS ? last_places + 1 : 0;
+        const int rests = last_places > 4 || (change <= 2*GVI__EPS && (last <= small || near)),
+                  still = change >= last/2 && change <= 2*last && change <= small;
+        if (miss <= 8*GVI__EPS*(gvi_real)n && (rests || still)) return GVI_OK;
         last = change;
     }
     return gvi__report_effect(st, GVI_E_CONVERGENCE, GVI_FAULT_MASS);
@@ -3558,7 +3580,6 @@ GVI__COLD gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc, gv
         : !gvi__within(desc->rule.points, 4000) ? "rule.points is not 0 to 4000"
         : !gvi__within(desc->effect_count, GVI_EFFECTS) ? "effect_count is not 0 to GVI_EFFECTS"
         : desc->effect_count && !desc->effects ? "effect_count is given, effects is NULL"
-        : !desc->effect_count && desc->effects ? "effects is given, effect_count is 0"
         : !gvi__within(desc->max_iterations, 1000000) ? "max_iterations is not 0 to 1,000,000"
         : !gvi__within(desc->iterations, 1000000) ? "iterations is not 0 to 1,000,000"
         : (unsigned)desc->formulation > GVI_NEWTON ? "formulation is not in its enum"
@@ -3876,6 +3897,8 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     st->q = st->p = st->q_low = st->p_low = zeros;
     gvi_status status = gvi__resolve(x, desc, &order, &st->fault);
     if (status != GVI_OK) return st->status = status;
+    if (desc->effects && !desc->effect_count)     // its count was forgotten
+        return gvi__refuse_call(st, "effects is given, effect_count is 0");
     if (!memory || (uintptr_t)memory % offsetof(gvi__aligned, number))
         return gvi__refuse_call(st, memory ? "memory is not aligned" : "memory is NULL");
     st->n = x->desc.n;
