@@ -216,8 +216,9 @@
 
    with v = M^-1 p as before.  E is what the energy was at the start, plus the
    work of forces, so every potential and Lagrangian term needs its value; and
-   none of them may depend on t: what does is to be listed as a force.  Without a
-   mass it needs mass.velocity.
+   none of them may depend on t: what does is to be listed as a force (a value that
+   changes with t is refused at the start, GVI_E_FORMULATION).  Without a mass it
+   needs mass.velocity.
 
    Order.  |q1 - exact| = O(h^(min(2s,u)+1)) a step: twice the degree, which
    is the superconvergence theorem [2, thm. 4.1].  It holds for u >= 2s - 2; a
@@ -3262,6 +3263,13 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
     for (;;) {
         p.used = *used += 1;
         status = gvi__evaluate_stages(st, from, &at);
+        // free motion may leave the domain of a callback where the motion does not: less of it
+        for (int m = 0; status == GVI_E_CALLBACK && p.used == 1 && !extrapolate && m < 6; ++m) {
+            for (int i = 0; i < st->n; ++i)
+                for (int k = 0; k < x->R; ++k)
+                    x->work.Q[i*x->R + k] = (x->work.Q[i*x->R + k] + from->q[i])/2;
+            status = gvi__evaluate_stages(st, from, &at);
+        }
         if (status != GVI_OK) return status;
         const int diverged = p.growing > 0 || p.before > (gvi_real)st->n;
         const gvi_real change = gvi__new_rows(st, stage, stages, p.rescale);
@@ -4395,6 +4403,27 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
 
 /* ---- starting ---- */
 
+/* The energy for a clock, under which values may not change with t: they are looked at twice.  */
+GVI__COLD gvi_status gvi__clock_energy(gvi_stepper *st, gvi_real t, const gvi_real *q,
+                                       const gvi_real *p, gvi_real *v, gvi_real *E)
+{
+    const gvi_real later = t + (gvi_real)0.739085133215160642;
+    const gvi_status status = gvi__hamiltonian(st, t, q, p, v, E);
+    for (int e = 0; status == GVI_OK && e < st->x.desc.effect_count; ++e) {
+        const gvi_kind kind = st->x.desc.effects[e].kind;
+        gvi_real now = 0, then = 0;
+        gvi_points y = gvi__one_point(st, &t, q);
+        y.v = v;
+        if ((st->x.off >> e & 1u) || kind == GVI_FORCE || kind == GVI_CLOCK) continue;
+        gvi_status both = gvi__value(st, &y, e, &now);
+        y.t = &later;
+        if (both == GVI_OK) both = gvi__value(st, &y, e, &then);
+        if (both == GVI_OK && gvi__nonzero(then - now))
+            return gvi__report_effect(st, GVI_E_FORMULATION, e);
+    }
+    return status == GVI_OK ? gvi__report_status(st, GVI_OK) : status;
+}
+
 // from q, p in x->step and a velocity v, all of them seen to be good
 GVI__COLD gvi_status gvi__begin_at(gvi_stepper *st, gvi_real t, const gvi_real *v)
 {
@@ -4403,7 +4432,7 @@ GVI__COLD gvi_status gvi__begin_at(gvi_stepper *st, gvi_real t, const gvi_real *
     if (gvi__clock_is_on(st)) {                   // its energy
         gvi_real E, *V = x->result;
         gvi__copy(n, v, V);
-        const gvi_status status = gvi__hamiltonian(st, t, x->step.q, x->step.p, V, &E);
+        const gvi_status status = gvi__clock_energy(st, t, x->step.q, x->step.p, V, &E);
         if (status != GVI_OK) return status;
         x->time.H = E;
         x->time.H_low = 0;
@@ -4505,7 +4534,8 @@ GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
     // another energy, also at the start
     if (gvi__clock_is_on(st) && x->started && x->off != was) {
         gvi_real E, E0 = x->began.H, *v = x->result + st->n;
-        gvi_status status = gvi_energy(st, &E);
+        gvi__velocity_guess(st, v);
+        gvi_status status = gvi__clock_energy(st, st->t, st->q, st->p, v, &E);
         if (status == GVI_OK && x->stepped)
             status = gvi__hamiltonian(st, st->t0, x->began.q, x->began.p, v, &E0);
         if (status != GVI_OK) return x->off = was, st->status = status;
