@@ -572,6 +572,11 @@ typedef struct gvi_counters {
     gvi_real           worst_contraction; /* of the iteration, mean of two; where Newton's
                                              method followed, also of what it replaced */
     gvi_real           worst_change;      /* largest last change of a fixed point, relative */
+    gvi_real           worst_resolution;  /* of a coordinate in a step: (share of its force in the
+                                             highest one or two modes)^2, times h |F|/(|p| + h |F|).
+                                             Above 1e-3 (to degree 3: 5e-5) the points hardly see
+                                             the force: an encounter within the step.  r > 1, not
+                                             where explicit                                 */
 } gvi_counters;
 
 /* stage values, [n][R]; kicks: [n]; or NULL */
@@ -583,6 +588,7 @@ struct gvi__tables {                  /* rule and degree; R = stride of rows    
     gvi_real *phi, *Phi, *phi_low;    /* [s][R] modes at the nodes                  */
     gvi_real *inv_gamma, *gamma;      /* [s] 1/Gamma_kk; LU of Gamma if full        */
     gvi_real *K, *U, *T, *N;          /* [r][R] see gvi__make_tables                */
+    gvi_real *high;                   /* [2][R] weights of the highest modes of a force */
 };
 
 struct gvi__sized {                   /* valid for a step of length h, the key      */
@@ -796,7 +802,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI_LENGTH(n, s, r) (                                                    \
     (42 + 6*GVI__SIZE(s) + 20*GVI__SIZE(GVI__ROW(r))                             \
      + (6 + GVI__SIZE(GVI__ROW(r)) + 2*GVI__SIZE(s)*GVI__SIZE(s))*GVI__SIZE(n))*GVI__SIZE(n) \
-    + (18 + 7*GVI__SIZE(r) + 3*GVI__SIZE(s))*GVI__SIZE(GVI__ROW(r))              \
+    + (20 + 7*GVI__SIZE(r) + 3*GVI__SIZE(s))*GVI__SIZE(GVI__ROW(r))              \
     + (GVI__SIZE(s) + 2)*GVI__SIZE(s) + GVI__SIZE(r) + 5 + GVI__SLACK)
 
 #ifdef __cplusplus
@@ -2611,6 +2617,25 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     gvi__count(&st->counters.steps, 1);
 }
 
+/* How well the points resolve the force of the step at work: see counters.worst_resolution.  */
+static void gvi__watch_resolution(gvi_stepper *st, gvi_real h)
+{
+    const struct gvi__private *x = &st->x;
+    const gvi_real *a = x->table.high, *b = a + x->R, *F = x->work.F;
+    for (int i = 0; a && i < st->n; ++i, F += x->R) {
+        gvi_real one = 0, two = 0, all = 0;
+        for (int k = 0; k < st->r; ++k) {
+            one += a[k]*F[k];
+            two += b[k]*F[k];
+            all += GVI_ABS(x->table.b[k]*F[k]);
+        }
+        const gvi_real share = (GVI_ABS(one) + GVI_ABS(two))/all, push = GVI_ABS(h)*all,
+                       resolution = share*share*(push/(GVI_ABS(x->state.p[i]) + push));
+        if (resolution > st->counters.worst_resolution)      // not where F is 0
+            st->counters.worst_resolution = resolution;
+    }
+}
+
 GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
 {
     const gvi_status ready = gvi__ready(st, st && st->x.started);
@@ -2634,6 +2659,7 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
         x->newton.h = 0;
         return st->status = status;
     }
+    gvi__watch_resolution(st, h);
     gvi__commit(st, h);
     return gvi__report_status(st, GVI_OK);
 }
@@ -3779,6 +3805,7 @@ GVI__COLD size_t gvi__layout(struct gvi__private *x, int order, gvi_real *base)
     x->table.Phi = gvi__take(a, kicks ? 0 : s, R);
     x->table.phi = gvi__take(a, modes*s, R);
     x->table.phi_low = gvi__take(a, modes*s, R);
+    x->table.high = gvi__take(a, explicitly ? 0 : 2, R);
     x->table.K = gvi__take(a, fixed && !momenta ? r : 0, R);
     x->table.U = gvi__take(a, velocities || momenta ? r : 0, R);
     x->table.T = gvi__take(a, momenta || (velocities && lagrangian) ? r : 0, R);
@@ -3884,6 +3911,17 @@ GVI__COLD gvi_status gvi__set_rule(gvi_stepper *st, const gvi_rule *rule)
         if (status != GVI_OK) return status;
 #endif
         gvi__make_tables(st);
+    }
+    for (int i = 0; x->table.high && i < st->r; ++i) {       // modes r - 1 and r - 2 of a force
+        const gvi_real X = 1 - 2*x->table.c[i];
+        gvi_real P = 1, before = 0;
+        for (int k = 0; k < st->r - 1; ++k) {
+            const gvi_real next = gvi__legendre_next(k, X, P, before);
+            before = P;
+            P = next;
+        }
+        x->table.high[i] = st->r > 1 ? (gvi_real)(2*st->r - 1)*x->table.b[i]*P : 0;
+        x->table.high[x->R + i] = st->r > 2 ? (gvi_real)(2*st->r - 3)*x->table.b[i]*before : 0;
     }
     // Phi_0 = c on its grid
     if (x->table.Phi) gvi__copy((size_t)st->r, x->table.c, x->table.Phi);
