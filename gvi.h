@@ -68,6 +68,7 @@
      TABLES               what depends on rule, degree and h alone; predictor
      STEP                 attempt and commit: follow gvi_step from here
      ENGINE               stages, fixed point, increments; kicks; the clock
+     CONSTRAINTS          multipliers, RATTLE, the hidden constraint, forces
      SET-UP               checks, choice of a formulation, memory
      NEWTON'S METHOD      where the fixed point does not contract
      STATE                start, switch, restore
@@ -108,8 +109,8 @@
               large forces cancel in it, may be taken for rounding below
               32 eps of the largest |q_i|, each times sqrt(M_ii).
 
-   gvi.h does not: choose or adapt the step, treat constraints or contact,
-   run in parallel, or read or write anything.
+   gvi.h does not: choose or adapt the step, treat contact, run in parallel, or
+   read or write anything.
 
 
    OPTIONS
@@ -124,6 +125,7 @@
      GVI_ONLY_EXPLICIT, GVI_ONLY_POSITIONS, GVI_ONLY_VELOCITIES, GVI_ONLY_MOMENTA,
      GVI_ONLY_NEWTON      these formulations and no others (see HOW IT WORKS)
      GVI_NO_CLOCK         no effects of kind GVI_CLOCK
+     GVI_NO_CONSTRAINTS   none of kind GVI_CONSTRAINT, as with GVI_NO_RULES
      GVI_NO_RULES         no rule but Gauss with r = s <= 4, and in GVI_EXPLICIT those
                           that it takes; no Lagrangian terms.  Nodes and tables
                           then are constants, not code
@@ -207,6 +209,14 @@
    GVI_AUTO goes over to Newton.  All solve the same equations, and all stop at
    rounding.
 
+   CONSTRAINTS.  Effects g(t,q) = 0 hold at Lobatto's s + 1 points d_e of the step, weights
+   w_e, where their multipliers act; Lagrangian and forces stay at the rule's own [8], [9]:
+   h sum_i b_i L(t_i, Q_i, V_i) + h sum_e w_e lambda_e . g(q(d_e h)) is stationary.  The
+   step ends on g = 0 and on the hidden constraint G v + dg/dt = 0, G = dg/dq.  q and p are
+   of order min(2s, u), symplectic on the constraint manifold; degree 1 with Lobatto's two
+   points is RATTLE.  G must have full rank; second derivatives are not needed.  Positions,
+   velocities and momenta solve for lambda within the iteration (equations: CONSTRAINTS).
+
    CLOCK.  An effect g(q) > 0 makes time run as dt = g dtau, and h is a step in
    tau: t moves fast or slow, and the map is as symplectic as with fixed steps
    [3, VIII.2].  The curves of energy E are the zero-energy curves of
@@ -239,7 +249,11 @@
    [5] Antonana, Makazaga, Murua: Reducing and monitoring round-off error
        propagation for symplectic implicit Runge-Kutta schemes, 2017
    [6] Berrut, Trefethen: Barycentric Lagrange interpolation, SIAM Rev. 46, 2004
-   [7] Higham: Accuracy and stability of numerical algorithms, 2nd ed., 2002  */
+   [7] Higham: Accuracy and stability of numerical algorithms, 2nd ed., 2002
+   [8] Wenger, Ober-Bloebaum, Leyendecker: Construction and analysis of higher order
+       variational integrators for dynamical systems with holonomic constraints, 2017
+   [9] Jay: Symplectic partitioned Runge-Kutta methods for constrained Hamiltonian
+       systems, 1996; specialized partitioned additive Runge-Kutta methods, 2007 */
 
 /* Macros that programs and <windows.h> often have are set aside while this file is read. */
 #ifdef __GNUC__
@@ -329,7 +343,9 @@ typedef enum gvi_status {
                                 to 1: not even free motion would come out           */
     GVI_E_POINTS      = -5,  /* r < s, or a rule that does not see every mode           */
     GVI_E_FORMULATION = -6,  /* no formulation, or not the pinned one, covers this scene */
-    GVI_E_SINGULAR    = -7,  /* singular matrix: massless coordinate (fault.coordinate) */
+    GVI_E_SINGULAR    = -7,  /* singular matrix: massless coordinate (fault.coordinate), or a
+                                constraint that depends on the others (fault.effect, its row
+                                in fault.coordinate)                                */
     GVI_E_CONVERGENCE = -8,  /* no solution found: halve h.  If no h works, a force jumps,
                                 is noisy, or has a wrong derivative                 */
     GVI_E_CALLBACK    = -9,  /* a callback failed, it did not return 0 (fault.effect): halve h */
@@ -339,7 +355,9 @@ typedef enum gvi_status {
     GVI_E_STATE       = -12, /* not started; no step yet; time outside the last step; a
                                 clock was switched on since                         */
     GVI_E_CONJUGATE   = -13, /* boundary values do not determine the curve              */
-    GVI_E_CLOCK       = -14  /* a clock's g is not positive (fault.effect, fault.point) */
+    GVI_E_CLOCK       = -14, /* a clock's g is not positive (fault.effect, fault.point) */
+    GVI_E_CONSTRAINT  = -15  /* the state given is not on a constraint: fault.effect, its row in
+                                fault.coordinate                                    */
 } gvi_status;
 
 /* What a callback gets: `count` points.  Coordinate i of point k is at
@@ -365,6 +383,9 @@ typedef struct gvi_points {
                                   fills whichever of f and value is not NULL   */
     gvi_real       *mass;      /* [n*n][stride] write M_ij, i >= j, row i*n + j */
     gvi_real       *velocity;  /* [n][stride] write v                          */
+    gvi_real       *g;         /* [rows][stride] write g(t,q); constraints only */
+    gvi_real       *jacobian;  /* [rows*n][stride] write dg_a/dq_i, row a*n + i: what is not 0 */
+    gvi_real       *rate;      /* [rows][stride] write dg_a/dt where g reads t; it is 0 before */
 } gvi_points;
 
 /* All points at once.  Returns 0, or anything else if it cannot be evaluated
@@ -419,7 +440,7 @@ GVI__BODY int gvi__each_point(gvi_points_fn *at, const gvi_points *x, void *user
     GVI__PRAGMA(GCC ivdep) for (; k < to; ++k) {
         gvi_points y = { n, 1, 1, x->t + k, a, GVI__COLUMN(v, 1), GVI__COLUMN(p, 2),
                          GVI__COLUMN(f, 3), GVI__COLUMN(dldv, 4), GVI__COLUMN(value, 5),
-                         GVI__COLUMN(mass, 5), GVI__COLUMN(velocity, 5) };
+                         GVI__COLUMN(mass, 5), GVI__COLUMN(velocity, 5), NULL, NULL, NULL };
         GVI__MOVE(any, n, a[i], x->q[i*s + k]);
         GVI__MOVE(GVI__USES_v, n, a[n + i], x->v[i*s + k]);
         GVI__MOVE(GVI__USES_p, n, a[2*n + i], x->p[i*s + k]);
@@ -459,10 +480,12 @@ typedef enum gvi_kind {
     GVI_POTENTIAL  = 0,  /* V(t,q):   reads t, q;    adds -dV/dq to f              */
     GVI_FORCE      = 1,  /* f(t,q,v): reads t, q, v; adds f to f                   */
     GVI_LAGRANGIAN = 2,  /* L(t,q,v): reads t, q, v; adds dL/dq to f, dL/dv to dldv */
-    GVI_CLOCK      = 3   /* g(q) > 0: adds g to value and dg/dq to f; at most one   */
+    GVI_CLOCK      = 3,  /* g(q) > 0: adds g to value and dg/dq to f; at most one   */
+    GVI_CONSTRAINT = 4   /* g(t,q) = 0, `rows` of them: writes g, jacobian, rate     */
 } gvi_kind;
 
-/* One thing that acts in a scene.  Give exactly one of points and point; for a clock, points. */
+/* One thing that acts in a scene.  Give exactly one of points and point; for a clock or a
+   constraint, points.                                                         */
 typedef struct gvi_effect {
     gvi_kind        kind;
     gvi_points_fn  *points;   /* the effect at all points of a step at once     */
@@ -472,6 +495,7 @@ typedef struct gvi_effect {
     gvi_hessian_fn *hessian;  /* for Newton; NULL: differences of f and dldv, which must
                                  then be exact nearly to rounding               */
     void           *user;     /* handed to the callbacks                        */
+    int             rows;     /* of a constraint; all together at most n        */
 } gvi_effect;
 
 typedef enum gvi_mass_kind {
@@ -610,6 +634,17 @@ struct gvi__newton {
     int       left;                   /* steps until the fixed point is tried       */
 };
 
+struct gvi__holonomic {               /* constraints; C = stride of D_0..D_s         */
+    gvi_real *d, *w, *hw, *t;         /* [R + C], [s+1] Lobatto's nodes, weights; [R] h w; [C] */
+    gvi_real *Phi, *Phi_low;          /* [s][R] modes at D_1..D_s                    */
+    gvi_real *K, *U, *by_force, *by_impulse, *lu, *E; /* see gvi__set_constraints; predictor */
+    gvi_real *D, *free, *P;           /* [n][R] stage values, free motion; a trial's momenta */
+    gvi_real *force, *rho, *last;     /* [n+m][R] G' lambda, lambda; residual; [n+m][C] last step */
+    gvi_real *at, *g, *G, *A, *W, *y; /* [.][C] D, g and rate, G, its matrix; scratch; [m] */
+    int       m, C, made, kept;       /* rows that are on; kept: last for the curve, 2 to predict */
+    unsigned  bits;                   /* the effects                                 */
+};
+
 struct gvi_stepper;
 struct gvi__stage;
 typedef gvi_real gvi__kernel(const struct gvi_stepper *st, const struct gvi__stage *stage,
@@ -620,7 +655,7 @@ struct gvi__private {
     gvi_formulation     chosen;       /* by the scene, or pinned                    */
     int                 R, needs;     /* stride of rows; what the scene needs       */
     int                 clock;        /* effect that is one, or -1                  */
-    unsigned            off;          /* effects switched off, one bit each         */
+    unsigned            off, apart;   /* effects switched off, one bit each; clock, constraints */
     struct gvi__tables  table;
     struct gvi__sized   sized;
     struct gvi__values  work, last, older;  /* of the next step, the last two        */
@@ -631,6 +666,7 @@ struct gvi__private {
     struct { gvi_real *scale, *change, *before; } watch;   /* [2n] of the rows of stages */
     struct gvi__time    time;
     struct gvi__newton  newton;
+    struct gvi__holonomic con;
     gvi_real           *t;            /* [R] times of the points                    */
     gvi_real           *row, *point, *result;     /* scratch: [9R], [6n], [3n]           */
     gvi_real           *zeros, *start;                     /* [n]; start: its velocity */
@@ -688,7 +724,8 @@ GVI_DEF size_t     gvi_size(const gvi_desc *desc);
 GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *memory, size_t size);
 
 /* Start at time t from velocities, momenta, or two configurations: q0 at t and
-   q1 at t + h (solves the boundary-value problem; conjugate points: below).   */
+   q1 at t + h (solves the boundary-value problem; conjugate points: below; no constraints).
+   A start that is off a constraint by more than 4096 roundings: GVI_E_CONSTRAINT.  */
 GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v);
 GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                       const gvi_real *p);
@@ -705,13 +742,20 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h);
 
 /* Switches effect `index` off (on = 0) or on again, between steps.  An effect that is off is
    not evaluated; the formulation stays that of the whole list.  gvi_start leaves the switches
-   as they are.                                                                                */
+   as they are.  A constraint can be switched on where the state fulfils it, to rounding:
+   GVI_E_CONSTRAINT elsewhere.                                                                 */
 GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on);
 
 /* At the present state: velocity (inverse Legendre transform), v[n];
    energy p'v - L, which needs every effect's value but a force's.            */
 GVI_DEF gvi_status gvi_velocity(gvi_stepper *st, gvi_real *v);
 GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy);
+
+/* The constraints' multipliers at the present state, one for each row in the order of the list,
+   0 where it is off: the force of constraint is G' lambda.  From the acceleration that keeps
+   G v + dg/dt = 0, so as exact as the state is; second derivatives of g by differences along v,
+   to some 100 eps.                                                            */
+GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda);
 
 /* In the last step.  gvi_curve: the polynomial at tau in [0,1] and its
    derivative, error O(h^(min(s,u/2)+1)) and one order less; with a clock tau is
@@ -805,6 +849,12 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
     + (20 + 7*GVI__SIZE(r) + 3*GVI__SIZE(s))*GVI__SIZE(GVI__ROW(r))              \
     + (GVI__SIZE(s) + 2)*GVI__SIZE(s) + GVI__SIZE(r) + 5 + GVI__SLACK)
 
+/*  The same with constraints, m rows in all.                                  */
+#define GVI_CONSTRAINED_LENGTH(n, s, r, m) (GVI_LENGTH(n, s, r)                  \
+    + (6*GVI__SIZE(n) + 3*GVI__SIZE(m) + 2*GVI__SIZE(r) + 4*GVI__SIZE(s) + 4 + (4 + GVI__SIZE(m)) \
+       *(GVI__SIZE(n) + GVI__SIZE(m)))*(GVI__SIZE(GVI__ROW(r)) + GVI__SIZE(GVI__ROW((s) + 1)))    \
+    + (GVI__SIZE(s) + 3)*(GVI__SIZE(s) + 1) + 2*GVI__SIZE(m))
+
 #ifdef __cplusplus
 }
 #endif
@@ -877,6 +927,11 @@ enum {
 #else
     GVI__CLOCK = GVI__COMPILED >> GVI_MOMENTA & 1,
 #endif
+#ifdef GVI_NO_CONSTRAINTS
+    GVI__CONSTRAINTS = 0,
+#else
+    GVI__CONSTRAINTS = GVI__RULES && GVI__COMPILED != 1 << GVI_NEWTON,
+#endif
     GVI__EXPLICIT = GVI__COMPILED >> GVI_EXPLICIT & 1,
     GVI__POSITIONS = GVI__COMPILED >> GVI_POSITIONS & 1,
     GVI__VELOCITIES = GVI__COMPILED >> GVI_VELOCITIES & 1,
@@ -900,6 +955,7 @@ typedef char gvi__effects_fit_a_word[GVI_EFFECTS >= 1 && GVI_EFFECTS <= 32
                                      && GVI_EFFECTS <= 8*sizeof(unsigned) ? 1 : -1];
 
 /* GVI__APART: where size counts, never a part of its caller, whose stack stays small.
+   GVI__CALLED: never a part of its caller, whose registers are for scenes without it.
    GVI__COLD: set-up and queries, compiled for size.                                          */
 #if defined(__GNUC__)
 #define GVI__COLD static __attribute__((noinline, cold))
@@ -912,6 +968,11 @@ typedef char gvi__effects_fit_a_word[GVI_EFFECTS >= 1 && GVI_EFFECTS <= 32
 #else
 #define GVI__APART static
 #define GVI__SMALL 0
+#endif
+#if defined(__GNUC__)
+#define GVI__CALLED static __attribute__((noinline))
+#else
+#define GVI__CALLED static
 #endif
 
 /* Registers that hold more than one type's digits round twice: values are stored to round them. */
@@ -1269,9 +1330,10 @@ GVI_DEF gvi_real gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot, 
 
 /* L D L' of a symmetric matrix at each of `count` points, in place: entry (i,j), i >= j, of point k
    at [(i*n + j)*R + k].  L goes below the diagonal, 1/D on it, and D L' above it, where the rest of
-   the matrix is made.  A pivot that is nothing but the rounding of its diagonal entry belongs to a
-   coordinate without mass: GVI_E_SINGULAR, at[0] the coordinate and at[1] the point.         */
-static gvi_status gvi__ldl_factor(int n, int R, int count, gvi_real *m, int *at)
+   the matrix is made.  A pivot that is nothing but the rounding of its diagonal entry, `least` of
+   it, belongs to a coordinate without mass: GVI_E_SINGULAR, at[0] the coordinate and at[1] the
+   point.                                                                                      */
+static gvi_status gvi__ldl_factor(int n, int R, int count, gvi_real *m, gvi_real least, int *at)
 {
     const size_t N = (size_t)n, S = (size_t)R;
     for (size_t j = 0; j < N; ++j) {
@@ -1285,7 +1347,7 @@ static gvi_status gvi__ldl_factor(int n, int R, int count, gvi_real *m, int *at)
             at[0] = (int)j;
             at[1] = k;
             if (!(was <= GVI__MAX) || !gvi__finite(rest)) return GVI_E_NON_FINITE;
-            if (!(GVI_ABS(rest) > (gvi_real)n*GVI__EPS*was) || !gvi__finite(d[k]))
+            if (!(GVI_ABS(rest) > least*was) || !gvi__finite(d[k]))
                 return GVI_E_SINGULAR;
         }
         for (size_t i = j + 1; i < N; ++i) {
@@ -1654,6 +1716,12 @@ GVI__BODY int gvi__rule_is(const struct gvi__private *x, gvi_rule_kind kind)
            && x->desc.rule.kind == kind;
 }
 
+// is a constraint on?
+GVI__BODY int gvi__constrained(const gvi_stepper *st)
+{
+    return GVI__CONSTRAINTS && st->x.con.m > 0;
+}
+
 static int gvi__clock_is_on(const gvi_stepper *st)
 {
     return GVI__CLOCK && st->x.clock >= 0 && !(st->x.off >> st->x.clock & 1u);
@@ -1737,7 +1805,7 @@ static gvi_points gvi__points_at(const gvi_stepper *st, int count, int R, const 
     x.v = x.p = NULL;
     x.f = f;
     x.dldv = dldv;
-    x.value = x.mass = x.velocity = NULL;
+    x.value = x.mass = x.velocity = x.g = x.jacobian = x.rate = NULL;
     return x;
 }
 
@@ -1852,14 +1920,13 @@ GVI__COLD gvi_status gvi__diagnose(gvi_stepper *st, gvi_points *x, unsigned skip
     return gvi__report_status(st, GVI_E_NON_FINITE);
 }
 
-/* Every effect that is on, but a clock and those with a bit in `skip`: adds to x->f and
+/* Every effect that is on, but clock, constraints and those with a bit in `skip`: adds to x->f and
    x->dldv, and with a level (a clock) to the values.                                          */
 static gvi_status gvi__effects(gvi_stepper *st, gvi_points *x, unsigned skip, gvi_real *level)
 {
     const int diagnose = st->x.diagnose;
     gvi_status status = GVI_OK;
-    skip |= st->x.off;
-    if (GVI__CLOCK && st->x.clock >= 0) skip |= 1u << st->x.clock;
+    skip |= st->x.off | st->x.apart;
 
     // points that are not finite: the iteration has diverged, and no effect is to blame
     if (diagnose
@@ -1912,7 +1979,7 @@ static gvi_status gvi__factor_mass(gvi_stepper *st, const gvi_points *x)
         if (status != GVI_OK) return status;
     }
     int at[2] = { 0, 0 };
-    status = gvi__ldl_factor(n, R, x->count, m, at);
+    status = gvi__ldl_factor(n, R, x->count, m, (gvi_real)n*GVI__EPS, at);
     return status == GVI_OK ? GVI_OK : gvi__report(st, status, GVI_FAULT_MASS, at[0], at[1]);
 }
 
@@ -2112,7 +2179,7 @@ GVI__COLD gvi_status gvi__value_sums(gvi_stepper *st, gvi_real t, const gvi_real
     for (int e = 0; e < d->effect_count; ++e) {
         const gvi_kind kind = d->effects[e].kind;
         gvi_real *value = kind == GVI_POTENTIAL ? V : L;
-        if ((st->x.off >> e & 1u) || kind == GVI_FORCE || kind == GVI_CLOCK) continue;
+        if (((st->x.off | st->x.apart) >> e & 1u) || kind == GVI_FORCE) continue;
         const gvi_status status = gvi__value(st, &y, e, value);
         if (status != GVI_OK) return status;
         if (!gvi__finite(*value)) return gvi__report_effect(st, GVI_E_NON_FINITE, e);
@@ -2209,25 +2276,37 @@ static void gvi__over_gamma(const gvi_stepper *st, gvi_real *y)
 #else
 
 /* phi_k = P_k(x) and Phi_k = (P_(k-1) - P_(k+1))(x)/(2(2k+1)), P_(-1) = 1, at the nodes, x = 1
-   - 2c, in double-word arithmetic: [k*R + node], the low words of Phi in E, which is not yet in
-   use.  Then the nodes go to the grid of S.                                                   */
+   - 2c, in double-word arithmetic: [k*R + node].  Then the nodes go to the grid of S.         */
+GVI__COLD void gvi__modes_of(const gvi_stepper *st, int count, gvi_real *c, const gvi_real *c_low,
+                             gvi_real *phi, gvi_real *phi_low, gvi_real *Phi, gvi_real *Phi_low)
+{
+    for (int i = 0; i < count; ++i) {
+        const gvi__two X = gvi__argument2(gvi__two_of(c[i], c_low[i]));
+        gvi__two P = gvi__two_of(1, 0), before = P;
+        for (int k = 0, at = i; k < st->s; ++k, at += st->x.R) {
+            gvi__two z = before;
+            if (phi) phi[at] = P.hi, phi_low[at] = P.lo;
+            gvi__legendre2(k, X, &P, &before);
+            z = gvi__div2_by(gvi__sub2(z, P), 4*k + 2);
+            Phi[at] = z.hi;
+            Phi_low[at] = z.lo;
+        }
+        c[i] = gvi__grid(gvi__two_sum(c[i], c_low[i]), GVI__EPS/2);
+    }
+}
+
+// the low words of Phi are in E, which is not yet in use
 GVI__COLD void gvi__modes_at_nodes(gvi_stepper *st)
 {
     const struct gvi__tables *x = &st->x.table;
-    gvi_real *Phi_low = st->x.sized.E, *c_low = st->x.t;
-    for (int i = 0; i < st->r; ++i) {
-        const gvi__two X = gvi__argument2(gvi__two_of(x->c[i], c_low[i]));
-        gvi__two P = gvi__two_of(1, 0), before = P;
-        for (int k = 0, at = i; k < st->s; ++k, at += st->x.R) {
-            gvi__two Phi = before;
-            if (x->phi) x->phi[at] = P.hi, x->phi_low[at] = P.lo;
-            gvi__legendre2(k, X, &P, &before);
-            Phi = gvi__div2_by(gvi__sub2(Phi, P), 4*k + 2);
-            x->Phi[at] = Phi.hi;
-            Phi_low[at] = Phi.lo;
-        }
-        x->c[i] = gvi__grid(gvi__two_sum(x->c[i], c_low[i]), GVI__EPS/2);
-    }
+    gvi__modes_of(st, st->r, x->c, st->x.t, x->phi, x->phi_low, x->Phi, st->x.sized.E);
+}
+
+// the low words of modes a: phi, Phi, or Phi at constraints' points
+static const gvi_real *gvi__low_words(const gvi_stepper *st, const gvi_real *a)
+{
+    return a == st->x.table.phi ? st->x.table.phi_low : a == st->x.con.Phi ? st->x.con.Phi_low
+                                                                          : st->x.sized.E;
 }
 
 /* 1/Gamma_kk = 2k + 1 while the rule is exact for phi_k^2; Lobatto with r = s gives s - 1 for the
@@ -2261,7 +2340,7 @@ static void gvi__over_gamma(const gvi_stepper *st, gvi_real *y)
 GVI__COLD void gvi__prepare_column(gvi_stepper *st, const gvi_real *b, int j)
 {
     const struct gvi__tables *x = &st->x.table;
-    const gvi_real *low = b == x->phi ? x->phi_low : st->x.sized.E;
+    const gvi_real *low = gvi__low_words(st, b);
     const int s = st->s, R = st->x.R;
     gvi_real *w = st->x.row;
     for (int k = 0; k < s; ++k) {
@@ -2276,8 +2355,7 @@ GVI__COLD void gvi__prepare_column(gvi_stepper *st, const gvi_real *b, int j)
 // sum_k a_k(c_i) (Gamma^-1 b(c_j))_k; a: phi or Phi.  Products do not wait for the sum
 GVI__COLD gvi__two gvi__coupling(const gvi_stepper *st, const gvi_real *a, int i)
 {
-    const struct gvi__tables *x = &st->x.table;
-    const gvi_real *low = a == x->phi ? x->phi_low : st->x.sized.E, *w = st->x.row;
+    const gvi_real *low = gvi__low_words(st, a), *w = st->x.row;
     gvi__two sum = gvi__two_of(0, 0);
     for (int k = 0, at = i; k < st->s; ++k, at += st->x.R) {
         const gvi__two z = gvi__mul2(gvi__two_of(a[at], low[at]), gvi__two_of(w[k], w[st->s + k]));
@@ -2329,6 +2407,37 @@ GVI__COLD void gvi__make_tables(gvi_stepper *st)
     }
 }
 
+#ifndef GVI_NO_RULES
+/* The tables of constraints, on the same grids, by columns: K = c_i - S(c_i, d_e), U = 1 - T(c_i,
+   d_e); for D d_a - S(d_a, c_j), or with momenta T(c_j, d_a), and d_a - S(d_a, d_e), with LU. */
+GVI__COLD gvi_status gvi__set_constraints(gvi_stepper *st)
+{
+    const struct gvi__private *x = &st->x;
+    const int s = st->s, r = st->r, R = x->R, momenta = gvi__uses(x, GVI_MOMENTA);
+    gvi_real *d = x->con.d, *low = x->row, *lu = x->con.lu;
+    gvi__rule(1, s + 1, d, gvi__uses(x, GVI_EXPLICIT) ? NULL : low, x->con.w);
+    if (gvi__uses(x, GVI_EXPLICIT)) return GVI_OK;
+    gvi__modes_of(st, s, d + 1, low + 1, NULL, NULL, x->con.Phi, x->con.Phi_low);
+    for (int e = 0; e <= s; ++e) {                // Phi(d_0) = 0
+        if (e > 0) gvi__prepare_column(st, x->con.Phi, e - 1);
+        for (int i = 0; i < r; ++i) {
+            const gvi_real S = e > 0 ? gvi__S(st, i, 0) : 0;
+            const gvi_real T = e > 0 && x->con.U ? gvi__T(st, i, 0) : 0;
+            if (e < s) x->con.K[e*R + i] = x->table.c[i] - S;
+            if (e < s && x->con.U) x->con.U[e*R + i] = 1 - T;
+            if (e > 0) x->con.by_force[i*R + e - 1] = momenta ? T : d[e] - S;
+        }
+        for (int a = e > 1 ? e : 1; a <= s; ++a) {
+            const gvi_real S =
+                e > 0 ? gvi__grid(gvi__coupling(st, x->con.Phi, a - 1), GVI__EPS/2) : 0;
+            if (e < s) x->con.by_impulse[e*R + a - 1] = lu[(a - 1)*s + e] = d[a] - S;
+            if (a < s && e > 0) x->con.by_impulse[a*R + e - 1] = lu[(e - 1)*s + a] = d[e] - S;
+        }
+    }
+    return gvi_lu_factor(s, lu, lu + s*s) == GVI_OK ? GVI_OK : GVI_E_POINTS;
+}
+#endif
+
 // phi_k(tau) and Phi_k(tau), k < s, multiplied by Gamma^-1, at any tau
 static void gvi__modes(const gvi_stepper *st, gvi_real tau, gvi_real *phi, gvi_real *Phi)
 {
@@ -2378,23 +2487,24 @@ static void gvi__weights_for(gvi_stepper *st, gvi_real h)
 /* The predictor: least squares through the stage values of the last step or the last two, by
    polynomials p_k that are orthonormal on the nodes x_j = c, and c - 1 for the step before
    (Forsythe 1957): E_ij = sum_k p_k(y_i) p_k(x_j) at the points y_i = alpha + beta c_i of the
-   next.
+   next; those are `to`, which are the same nodes but for constraints.
 
    Degree: r - 1, through all values of one step; of two, what `make cost` found to be best; no
    more than amplifies rounding, by about 5.8^degree at the end of the step, to 1e-4 in double;
    and none that only points tell apart that nearly coincide, as 0 and 1 - 1 do in two steps of
    Lobatto's: its coupling is then small, elsewhere it is above 0.1.                           */
-static void gvi__fit(gvi_stepper *st, gvi_real alpha, gvi_real beta, int steps)
+static void gvi__fit(gvi_stepper *st, int r, const gvi_real *from, const gvi_real *to,
+                     gvi_real alpha, gvi_real beta, int steps, gvi_real *E)
 {
     struct gvi__private *x = &st->x;
-    const int r = st->r, R = x->R, nodes = steps*R, most = GVI__DIG*2/7;
+    const int R = x->R, nodes = steps*R, most = GVI__DIG*2/7;
     const int wanted = steps == 2 ? r + r/2 - r/8 : r - 1, degree = wanted < most ? wanted : most;
-    gvi_real *p = x->row, *before = p + 3*R, *at = before + 3*R, *E = x->sized.E;
+    gvi_real *p = x->row, *before = p + 3*R, *at = before + 3*R;
     gvi_real coupling = 0;
     const gvi_real norm = 1/GVI_SQRT((gvi_real)(steps*r));
     for (int m = 0; m < 3*R; ++m) {
-        const gvi_real c = x->table.c[m % R];
-        at[m] = m < R ? c : m < 2*R ? c - 1 : alpha + beta*c;
+        const gvi_real c = from[m % R];
+        at[m] = m < R ? c : m < 2*R ? c - 1 : alpha + beta*to[m % R];
         p[m] = m % R < r ? norm : 0;
         before[m] = 0;
     }
@@ -2448,6 +2558,19 @@ static gvi_status gvi__kicks(gvi_stepper *st, const gvi__origin *from, gvi_real 
                              const gvi_real *force);
 static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int how, int query);
 
+// CONSTRAINTS
+struct gvi__stage;
+GVI__CALLED void gvi__constraint_stages(const gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                                   struct gvi__stage *y, int stages);
+GVI__CALLED void gvi__constraint_rows(const gvi_stepper *st, const struct gvi__stage *y);
+GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin *from);
+GVI__CALLED void gvi__constrain(gvi_stepper *st, const struct gvi__stage *y);
+GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate);
+static gvi_status gvi__stalled(gvi_stepper *st);
+GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h);
+GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, int start);
+GVI__CALLED void gvi__commit_constraints(gvi_stepper *st, gvi_real h);
+
 // may a step that does not converge turn to Newton's method?
 static int gvi__may_turn(const gvi_stepper *st)
 {
@@ -2461,8 +2584,11 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_rea
     struct gvi__private *x = &st->x;
     gvi__free_motion(st, from, h);
     st->formulation = x->chosen;
-    if (gvi__uses(x, GVI_EXPLICIT))
-        return gvi__kicks(st, from, h, x->has_force && query != GVI__FROM_START ? x->last.F : NULL);
+    if (gvi__uses(x, GVI_EXPLICIT)) {
+        const gvi_real *F = x->has_force && query != GVI__FROM_START ? x->last.F : NULL;
+        const gvi_status status = gvi__kicks(st, from, h, F);
+        return status == GVI_OK && gvi__constrained(st) ? gvi__project(st, from, 0) : status;
+    }
 
     // farther out the last values say nothing
     const int usable = x->kept > 0 && h/st->h > -2 && h/st->h < 8;
@@ -2483,6 +2609,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_rea
                 break;
         }
         if (status == GVI_OK) gvi__increments(st, from, h);
+        if (status == GVI_OK && gvi__constrained(st)) status = gvi__project(st, from, 0);
         if (status == GVI_OK || !gvi__may_turn(st)) return status;
         if (!query && status == GVI_E_CONVERGENCE) x->newton.left = 64;
     }
@@ -2606,6 +2733,7 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
         x->time.H = H.hi;
         x->time.H_low = H.lo;
     }
+    if (GVI__CONSTRAINTS && x->con.bits) gvi__commit_constraints(st, h);
     x->kept = x->kept > 0 && !gvi__nonzero(h - st->h) ? 2 : 1;
     st->h = h;
     gvi__rotate_values(st);
@@ -2911,14 +3039,17 @@ static void gvi__prepare_predictor(gvi_stepper *st, gvi_real h, int query)
     struct gvi__private *x = &st->x;
     const int newton = GVI__NEWTON && st->formulation == GVI_NEWTON, r = st->r, R = x->R;
     const int two = !query && !newton && x->kept == 2 && x->older.F && !gvi__nonzero(h - st->h);
-    const int sums = gvi__uses(x, GVI_POSITIONS) && !newton && x->desc.mass.kind != GVI_MASS_DENSE;
+    const int sums = gvi__uses(x, GVI_POSITIONS) && !newton && x->desc.mass.kind != GVI_MASS_DENSE
+                     && !gvi__constrained(st);
     const gvi_real beta = h/st->h;
     if (!query && !gvi__nonzero(beta - x->sized.ratio) && x->sized.steps == two + 1
         && x->sized.sums == sums) return;
     x->sized.ratio = query ? 0 : beta;
     x->sized.steps = two + 1;
     x->sized.sums = sums;
-    gvi__fit(st, query != GVI__FROM_START, beta, x->sized.steps);
+    gvi__fit(st, r, x->table.c, x->table.c, query != GVI__FROM_START, beta, two + 1, x->sized.E);
+    if (gvi__constrained(st))
+        gvi__fit(st, st->s, x->con.d + 1, x->con.d, query != GVI__FROM_START, beta, 1, x->con.E);
     for (int m = 0; sums && m < x->sized.steps*r; ++m) {
         const gvi_real *L = gvi__weighted(R, x->sized.hb, x->sized.E + m*R, x->row);
         for (int k = 0; k < r; ++k) x->row[R + k] = gvi__point_sum(r, R, x->table.K + k, L);
@@ -3078,7 +3209,8 @@ static gvi_status gvi__evaluate_stages(gvi_stepper *st, const gvi__origin *from,
     }
     if (GVI__LAGRANGIAN && y->dldv) gvi__zero(length, y->dldv);
     if (gvi__clock_is_on(st)) return gvi__evaluate_with_clock(st, from, y);
-    const gvi_status status = gvi__effects(st, y, 0, NULL);
+    gvi_status status = gvi__effects(st, y, 0, NULL);
+    if (status == GVI_OK && gvi__constrained(st)) status = gvi__constraint_values(st, from);
     return status == GVI_OK && momenta && gvi__mass_is(x, GVI_MASS_POSITION)
                ? gvi__mass_gradient(st, y)
                : status;
@@ -3114,10 +3246,12 @@ static gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *y, int stages, 
 {
     const struct gvi__private *x = &st->x;
     gvi_real sum = 0;
+    if (gvi__constrained(st) && x->con.made > 0) gvi__constrain(st, y);
     for (int k = 0; k < stages; ++k) {
         if (k == 1 && gvi__uses(x, GVI_MOMENTA)) sum += gvi__velocities_again(st);
         sum += y[k].dense ? gvi__dense_rows(st, y + k, rescale) : x->kernel(st, y + k, rescale);
     }
+    if (gvi__constrained(st)) gvi__constraint_rows(st, y);
     if (stages == 2 && !gvi__uses(x, GVI_MOMENTA)) gvi__count(&st->counters.velocities, st->r);
     return sum;
 }
@@ -3139,6 +3273,7 @@ static gvi_status gvi__predict_sources(gvi_stepper *st, const gvi__origin *from,
         if (status != GVI_OK) return status;
         gvi__times(st->r, from->t, from->t_low, h*rate, x->table.c, x->t);
     }
+    if (gvi__constrained(st)) gvi__predict_constraints(st, extrapolate);
     for (int k = 0; k < 3; ++k) {
         gvi__stage z;
         if (!to[k]) continue;
@@ -3199,7 +3334,7 @@ static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *
 {
     gvi_real largest = 0, noise = 0;
     for (int k = 0; k < stages; ++k)
-        for (int i = 0; i < st->n; ++i) {
+        for (int i = 0; i < st->n && y[k].scale; ++i) {
             const int p = gvi__uses(&st->x, GVI_MOMENTA) && k == 0,
                       v = !gvi__uses(&st->x, GVI_MOMENTA) && k == 1;
             // the momenta formulation has factored M(q) in place: 1/D_i is there
@@ -3274,6 +3409,8 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
                                    GVI__LAGRANGIAN ? x->work.A : NULL);
     const int stages = gvi__stages(st, from, h, stage);
     gvi_status status = GVI_OK;
+    if (gvi__constrained(st)) gvi__constraint_stages(st, from, h, stage, stages);
+    if (GVI__CONSTRAINTS) x->con.made = 0;
     at.v = x->work.V;
     *used = 0;
     x->has_factor = 0;
@@ -3307,13 +3444,15 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
             for (int k = 0; k < stages; ++k) stage[k].change = spare + k*st->n;
             continue;
         }
-        if (verdict == GVI__NOT_FINITE)          // divergence; else the effects are looked at
-            return gvi__report_status(st, diverged || x->diagnose ? GVI_E_CONVERGENCE
-                                                                  : GVI_E_NON_FINITE);
-        if (verdict == GVI__DIVERGES) return gvi__report_status(st, GVI_E_CONVERGENCE);
+        if (verdict == GVI__NOT_FINITE && !diverged && !x->diagnose)  // the effects are looked at
+            return gvi__report_status(st, GVI_E_NON_FINITE);
+        if (verdict == GVI__NOT_FINITE || verdict == GVI__DIVERGES) return gvi__stalled(st);
         const gvi_real worst = st->counters.worst_change;
         if (change > worst*worst) st->counters.worst_change = GVI_SQRT(change);
-        return verdict == GVI__DONE ? GVI_OK : gvi__evaluate_stages(st, from, &at);
+        if (verdict == GVI__DONE) return GVI_OK;
+        status = gvi__evaluate_stages(st, from, &at);
+        if (status == GVI_OK && gvi__constrained(st)) gvi__constrain(st, stage);
+        return status;
     }
 }
 
@@ -3383,6 +3522,12 @@ static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h
         x->time.dH = gvi__dot(r, hb, x->time.power);
     }
     gvi__sum_rows(st, w->F, from->p_low, x->step.p, x->step.p_low);
+    for (int i = 0; gvi__constrained(st) && i < st->n; ++i) {
+        const gvi__two z = gvi__exact_dot(R, x->con.hw, x->con.force + i*R),
+                       p = gvi__add_low(x->step.p[i], x->step.p_low[i], z.hi, z.lo);
+        x->step.p[i] = p.hi;
+        x->step.p_low[i] = p.lo;
+    }
     if (gvi__uses(x, GVI_MOMENTA)) {
         gvi__sum_rows(st, w->V, from->q_low, x->step.q, x->step.q_low);
         return;
@@ -3395,6 +3540,8 @@ static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h
         for (int k = R & ~3; k < R; ++k) sum[k & 3] += (1 - c[k])*(hb[k]*F[k]);
         x->step.q[i] = (sum[0] + sum[2]) + (sum[1] + sum[3]);
         if (GVI__LAGRANGIAN && w->A) x->step.q[i] -= gvi__dot(r, x->table.b, w->A + i*R);
+        for (int e = 0; gvi__constrained(st) && e < st->s; ++e)
+            x->step.q[i] += (1 - x->con.d[e])*(x->con.hw[e]*x->con.force[i*R + e]);
     }
     gvi__over_mass(st, x->step.q, 1, 1);
     for (int i = 0; i < st->n; ++i) {
@@ -3461,6 +3608,7 @@ static gvi_status gvi__kicks(gvi_stepper *st, const gvi__origin *from, gvi_real 
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, r = st->r, known = force && gvi__nonzero(x->sized.hb[0]);
+    const int held = gvi__constrained(st) ? 1 : -1;
     const gvi_real *hb = x->sized.hb, *v = x->desc.mass.kind == GVI_MASS_UNIT ? from->p : x->free.v;
     gvi_real t = from->t, b = 0;
     gvi_points y = gvi__points_at(st, 1, 1, &t, x->work.Q, x->work.F, NULL);
@@ -3474,6 +3622,10 @@ static gvi_status gvi__kicks(gvi_stepper *st, const gvi__origin *from, gvi_real 
     gvi__zero((size_t)n, x->work.F);
     for (int j = known; j < r; ++j) {
         gvi__drift(st, from, v, b, x->sized.drift[j]);
+        if (j == held) {
+            const gvi_status status = gvi__constrained_drift(st, from, h);
+            if (status != GVI_OK) return status;
+        }
         t = from->t + (from->t_low + x->table.c[j]*h);
         b = hb[j];
         if (j < r - 1 && !gvi__nonzero(b)) continue;
@@ -3595,6 +3747,438 @@ static gvi_status gvi__evaluate_with_clock(gvi_stepper *st, const gvi__origin *f
     return GVI_OK;
 }
 
+/* ----------------------------------------------------------- CONSTRAINTS */
+
+/* g(t,q) = 0 at Lobatto's points d_0 = 0 .. d_s = 1, weights w_e.  What makes h sum_i b_i L_i
+   + h sum_e w_e lambda_e . g(D_e) stationary acts by impulses at these points, one more source of
+   the same tables, and D_a = q(d_a h) is one more stage (for P_i in (5) as for V_i in (4)):
+
+     R_e = w_e h G(D_e)' lambda_e                              e = 0..s-1
+     Q_i += h M^-1 sum_e (c_i - S(c_i, d_e)) R_e               S(x, y) = Phi(x)' Gamma^-1 Phi(y)
+     V_i += M^-1 sum_e (1 - T(c_i, d_e)) R_e                   T(x, y) = phi(x)' Gamma^-1 Phi(y)
+     D_a  = q0 + h d_a v0 + h M^-1 (sum_j K(d_a, c_j) h b_j F_j + sum_e K(d_a, d_e) R_e)
+     p1   = p0 + h sum_i b_i F_i + sum_e R_e + G(q1)' y        K(x, y) = x - S(x, y)
+
+   y from G(q1) v1 + dg/dt = 0.  Every iteration has one simplified Newton step for lambda: G at the
+   last D, D' what the new forces and the old lambda make, X the inverse of K(d_a, d_e), a > 0,
+
+     rho_a = g(D_a) + G_a (D'_a - D_a)   lambda_e -= (G_e M^-1 G_e')^-1 sum_a X_ea rho_a/(h^2 w_e)
+
+   Sources e = 0..s-1 and D_1..D_s are rows of R, as forces and stage values; what is evaluated at
+   D_0..D_s, rows of C; at one point, numbers at the beginning of these.  Rows that are off are left
+   out.                                                                                        */
+
+static unsigned gvi__constraints_on(const gvi_stepper *st) { return st->x.con.bits & ~st->x.off; }
+
+static int gvi__count_rows(const struct gvi__private *x, unsigned bits)
+{
+    int rows = 0;
+    for (int e = 0; e < x->desc.effect_count; ++e)
+        if (bits >> e & 1u) rows += x->desc.effects[e].rows;
+    return rows;
+}
+
+// row `row` of those that are on is at fault: which effect, and which row of it?
+GVI__COLD gvi_status gvi__report_row(gvi_stepper *st, gvi_status status, int row, int point)
+{
+    const gvi_effect *effects = st->x.desc.effects;
+    int e = 0;
+    for (; !(gvi__constraints_on(st) >> e & 1u) || row >= effects[e].rows; ++e)
+        if (gvi__constraints_on(st) >> e & 1u) row -= effects[e].rows;
+    return gvi__report(st, status, e, row, point);
+}
+
+// g and dg/dt to con.g, and G, at `count` points
+static gvi_status gvi__evaluate_constraints(gvi_stepper *st, int S, int count, const gvi_real *t,
+                                            const gvi_real *q, gvi_real *G)
+{
+    gvi_points y = gvi__points_at(st, count, S, t, q, NULL, NULL);
+    gvi_status status = GVI_OK;
+    y.g = st->x.con.g;
+    y.rate = y.g + st->x.con.m*S;
+    y.jacobian = G;
+    gvi__zero((size_t)(st->x.con.m*S), y.rate);
+    gvi__zero((size_t)(st->x.con.m*S)*(size_t)st->n, G);
+    if (st->x.diagnose && gvi__check_rows(st, &y, q, 0) != GVI_OK)
+        return gvi__report_status(st, GVI_E_CONVERGENCE);
+    for (int e = 0; e < st->x.desc.effect_count && status == GVI_OK; ++e) {
+        const gvi_effect *effect = st->x.desc.effects + e;
+        if (!(gvi__constraints_on(st) >> e & 1u)) continue;
+        gvi__count(&st->counters.effect[e], count);
+        if (effect->points(&y, effect->user)) return gvi__report_effect(st, GVI_E_CALLBACK, e);
+        if (st->x.diagnose) {
+            gvi_points rows = y;
+            rows.n = effect->rows;
+            status = gvi__check_rows(st, &rows, y.g, e);
+            if (status == GVI_OK) status = gvi__check_rows(st, &rows, y.rate, e);
+            rows.n *= st->n;
+            if (status == GVI_OK && gvi__check_rows(st, &rows, y.jacobian, e) != GVI_OK) {
+                status = GVI_E_NON_FINITE;
+                st->fault.coordinate /= st->n;
+            }
+        }
+        y.g += effect->rows*S;
+        y.rate += effect->rows*S;
+        y.jacobian += effect->rows*st->n*S;
+    }
+    return status;
+}
+
+/* con.A := L D L' of G M^-1 G'; M(q) is that of the stage values, one for one, or of the one point.
+   A pivot of 64 m roundings says that a row depends on those before it.                      */
+static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count)
+{
+    const struct gvi__private *x = &st->x;
+    const int n = st->n, m = x->con.m;
+    const gvi_real *G = x->con.G;
+    gvi_real *W = x->con.W;
+    for (int a = 0; a < m; ++a) {
+        gvi__copy((size_t)(n*S), G + a*n*S, W);
+        if (gvi__mass_is_constant(x)) gvi__over_mass(st, W, S, count);
+        else gvi__ldl_solve(n, x->mass.at_points, S > 1 ? x->R : 1, W, S, count);
+        for (int b = 0; b <= a; ++b)
+            for (int k = 0; k < count; ++k) {
+                gvi_real sum = 0;
+                for (int i = 0; i < n; ++i) sum += G[(b*n + i)*S + k]*W[i*S + k];
+                x->con.A[(a*m + b)*S + k] = sum;
+            }
+    }
+    int at[2] = { 0, 0 };
+    const gvi_status status =
+        gvi__ldl_factor(m, S, count, x->con.A, 64*(gvi_real)m*GVI__EPS, at);
+    return status == GVI_E_SINGULAR ? gvi__report_row(st, status, at[0], at[1])
+         : status == GVI_OK ? GVI_OK : gvi__report_status(st, status);
+}
+
+// g, dg/dt, G and A at one configuration
+static gvi_status gvi__constraints_at(gvi_stepper *st, gvi_real t, const gvi_real *q)
+{
+    const gvi_points y = gvi__one_point(st, &t, q);
+    gvi_status status = gvi__evaluate_constraints(st, 1, 1, &t, q, st->x.con.G);
+    if (status == GVI_OK && !gvi__mass_is_constant(&st->x)) status = gvi__factor_mass(st, &y);
+    return status == GVI_OK ? gvi__factor_constraints(st, 1, 1) : status;
+}
+
+// z += G' y at one point
+static void gvi__add_force(const gvi_stepper *st, const gvi_real *y, gvi_real *z)
+{
+    for (int a = 0; a < st->x.con.m; ++a)
+        gvi__add_scaled(st->n, y[a], st->x.con.G + a*st->n, z, z);
+}
+
+// is |g_a| beyond `units` roundings of its terms G_ai q_i and t dg_a/dt, at one point?
+static int gvi__violated(const gvi_stepper *st, gvi_real units, gvi_real t, const gvi_real *q,
+                         const gvi_real *G, int a)
+{
+    const gvi_real *g = st->x.con.g + a;
+    gvi_real size = GVI_ABS(g[st->x.con.m]*t);
+    for (int i = 0; i < st->n; ++i) size += GVI_ABS(G[a*st->n + i]*q[i]);
+    return !(GVI_ABS(*g) <= units*GVI__EPS*size);
+}
+
+/* ---- in the iteration ---- */
+
+/* One more sum in the stages; free motion and times of D.  P or V is not judged: lambda turns the
+   rounding of D into X eps/h, across the constraints, where no motion feels it.              */
+GVI__CALLED void gvi__constraint_stages(const gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                                   gvi__stage *y, int stages)
+{
+    const struct gvi__private *x = &st->x;
+    const int R = x->R, momenta = gvi__uses(x, GVI_MOMENTA);
+    for (int e = 0; e < R; ++e) x->con.hw[e] = e < st->s ? h*x->con.w[e] : 0;
+    for (int k = 0; k < (momenta ? 1 : stages); ++k) {
+        y[k].sum[1].table = momenta || k == 1 ? x->con.U : x->con.K;
+        y[k].sum[1].weight = x->con.hw;
+        y[k].sum[1].source = x->con.force;
+    }
+    if (stages == 2) {
+        y[!momenta].scale = NULL;
+        gvi__zero((size_t)st->n, x->watch.change + !momenta*st->n);
+        gvi__zero((size_t)st->n, x->watch.before + !momenta*st->n);
+    }
+    gvi__times(x->con.C, from->t, from->t_low, h, x->con.d, x->con.t);
+    for (int i = 0; i < st->n; ++i)
+        gvi__free_row(R, from->q_low[i], momenta ? 0 : x->free.path[i],
+                      momenta ? 0 : x->free.path_low[i], x->con.d + 1, x->con.free + i*R);
+}
+
+// D, from the stage that makes Q
+GVI__CALLED void gvi__constraint_rows(const gvi_stepper *st, const gvi__stage *y)
+{
+    const struct gvi__private *x = &st->x;
+    gvi__stage z = y[gvi__uses(x, GVI_MOMENTA)];
+    z.sum[0].table = x->con.by_force;
+    z.sum[1].table = gvi__uses(x, GVI_MOMENTA) ? NULL : x->con.by_impulse;
+    z.rows = x->con.D;
+    z.free = x->con.free;
+    z.scale = z.change = NULL;
+    if (z.dense) gvi__dense_rows(st, &z, 0);
+    else x->kernel(st, &z, 0);
+}
+
+// G' lambda at the sources
+static void gvi__constraint_forces(const gvi_stepper *st)
+{
+    const struct gvi__private *x = &st->x;
+    const int n = st->n, R = x->R, C = x->con.C;
+    gvi__zero((size_t)(n*R), x->con.force);
+    for (int a = 0; a < x->con.m; ++a)
+        for (int i = 0; i < n; ++i) {
+            const gvi_real *G = x->con.G + (a*n + i)*C, *lambda = x->con.force + (n + a)*R;
+            gvi_real *GVI__RESTRICT row = x->con.force + i*R;
+            for (int e = 0; e < st->s; ++e) row[e] += G[e]*lambda[e];
+        }
+}
+
+// the constraints at D, padded with q0; A in the first two iterations
+GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin *from)
+{
+    struct gvi__private *x = &st->x;
+    const int s = st->s, C = x->con.C;
+    for (int i = 0; i < st->n; ++i)
+        for (int k = 0; k < C; ++k)
+            x->con.at[i*C + k] = k > 0 && k <= s ? x->con.D[i*x->R + k - 1] : from->q[i];
+    const gvi_status status =
+        gvi__evaluate_constraints(st, C, s + 1, x->con.t, x->con.at, x->con.G);
+    return status != GVI_OK || ++x->con.made > 2 ? status : gvi__factor_constraints(st, C, s);
+}
+
+// the new lambda, and forces.  With momenta D' needs the P and V of the new F
+GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *y)
+{
+    struct gvi__private *x = &st->x;
+    const int n = st->n, m = x->con.m, s = st->s, R = x->R, C = x->con.C;
+    gvi_real *lambda = x->con.force + n*R, *rho = x->con.rho;
+    gvi__constraint_forces(st);
+    if (gvi__uses(x, GVI_MOMENTA)) {
+        gvi_real *const P = x->work.P;
+        gvi__stage z = y[0];
+        z.rows = x->work.P = x->con.P;
+        z.scale = z.change = NULL;
+        x->kernel(st, &z, 0);
+        gvi__velocities_again(st);
+        x->work.P = P;
+    }
+    gvi__constraint_rows(st, y);
+    for (int a = 0; a < m; ++a) {
+        gvi_real *GVI__RESTRICT z = rho + a*R;
+        gvi__copy((size_t)s, x->con.g + a*C + 1, z);
+        for (int i = 0; i < n; ++i) {
+            const gvi_real *G = x->con.G + (a*n + i)*C + 1, *at = x->con.at + i*C + 1;
+            for (int e = 0; e < s; ++e) z[e] += G[e]*(x->con.D[i*R + e] - at[e]);
+        }
+        gvi_lu_solve(s, x->con.lu, x->con.lu + s*s, z);
+    }
+    gvi__ldl_solve(m, x->con.A, C, rho, R, s);
+    for (int k = 0; k < m*R; ++k)
+        if (k % R < s) lambda[k] -= rho[k]/(x->sized.h*x->con.hw[k % R]);
+    gvi__constraint_forces(st);
+}
+
+// forces and lambda to begin with: those of the last step, extrapolated, or none
+GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate)
+{
+    const struct gvi__private *x = &st->x;
+    const int R = x->R, rows = st->n + x->con.m;
+    gvi__zero((size_t)(rows*R), x->con.force);
+    for (int k = 0; k < rows*R && extrapolate && x->con.kept == 2; ++k)
+        if (k % R < st->s)
+            x->con.force[k] = gvi__point_sum(st->s, R, x->con.E + k % R,
+                                             x->con.last + k/R*x->con.C + 1);
+}
+
+// no convergence: were rows of G all but dependent, a pivot less than 1/1024 of what it came from?
+GVI__COLD gvi_status gvi__stalled(gvi_stepper *st)
+{
+    const struct gvi__private *x = &st->x;
+    const int m = x->con.m, C = x->con.C;
+    for (int k = 0; k < st->s && gvi__constrained(st) && x->con.made > 0; ++k)
+        for (int j = 0; j < m; ++j) {
+            gvi_real was = 0;
+            for (int l = 0; l < j; ++l) was += x->con.A[(j*m + l)*C + k]*x->con.A[(l*m + j)*C + k];
+            if (was*x->con.A[(j*m + j)*C + k] > 1023)
+                return gvi__report_row(st, GVI_E_SINGULAR, j, k);
+        }
+    return gvi__report_status(st, GVI_E_CONVERGENCE);
+}
+
+// RATTLE: the drift from p to g(q1) = 0 by impulses G0' mu, of a simplified Newton iteration
+GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h)
+{
+    struct gvi__private *x = &st->x;
+    const int n = st->n, m = x->con.m;
+    gvi_real before = GVI__MAX, *Q = x->work.Q, *z = x->con.rho, *d = x->con.W;
+    const gvi_real t = from->t + (from->t_low + h);
+    gvi_status status = gvi__constraints_at(st, from->t, from->q);
+    gvi__zero((size_t)n, x->step.p_low);
+    for (;;) {
+        gvi_real size = 0, *G = x->con.G + m*n;   // G0 is before it
+        if (status == GVI_OK) status = gvi__evaluate_constraints(st, 1, 1, &t, Q, G);
+        if (status != GVI_OK) return status;
+        for (int a = 0; a < m; ++a) z[a] = -x->con.g[a]/h;
+        gvi__ldl_solve(m, x->con.A, 1, z, 1, 1);
+        for (int a = 0; a < m; ++a) size += GVI_ABS(x->con.g[a]*z[a]);
+        if (!(size < before/4)) {                 // rounding?
+            for (int a = 0; a < m; ++a)
+                if (gvi__violated(st, 64, t, Q, G, a))
+                    return gvi__report_status(st, gvi__finite(size) || x->diagnose
+                                                      ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE);
+            return GVI_OK;
+        }
+        before = size;
+        gvi__zero((size_t)n, d);
+        gvi__add_force(st, z, d);
+        gvi__add_scaled(n, 1, d, x->step.p, x->step.p);
+        gvi__over_mass(st, d, 1, 1);
+        gvi__add_scaled(n, h, d, x->step.q, x->step.q);
+        gvi__add_scaled(n, 1, x->step.q, from->q, Q);
+    }
+}
+
+/* ---- at the end of a step, and at the start ---- */
+
+/* step.p += G' y such that G v + dg/dt = 0 at the end: once, and once more for the rounding of
+   that, or with Lagrangian terms until that is left.  At a start, what is farther off than
+   rounding is refused; for v by the kinetic energy in it, r' A^-1 r/2, r = G v + dg/dt.      */
+GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, int start)
+{
+    enum { UNITS = 4096 };
+    struct gvi__private *x = &st->x;
+    const int n = st->n, m = x->con.m, passes = gvi__has(x, GVI__HAS_LAGRANGIAN) ? 40 : 2;
+    const gvi_real t = from->t + (from->t_low + x->dt), far = UNITS*GVI__EPS;
+    gvi_real *q = x->result, *p = q + n, *v = p + n, *r = x->con.g, *z = x->con.rho,
+             before = GVI__MAX;
+    for (int i = 0; i < n; ++i) q[i] = from->q[i] + (x->step.q[i] + x->step.q_low[i]);
+    gvi__zero((size_t)m, x->con.y);
+    x->diagnose |= start;
+    gvi_status status = gvi__constraints_at(st, t, q);
+    if (start) x->diagnose = 0;
+    for (int a = 0; a < m && start && status == GVI_OK; ++a)
+        if (gvi__violated(st, UNITS, t, q, x->con.G, a))
+            return gvi__report_row(st, GVI_E_CONSTRAINT, a, GVI_FAULT_NONE);
+    gvi__velocity_guess(st, v);
+    for (int pass = 0; pass < passes && status == GVI_OK; ++pass) {
+        gvi_real size = 0;
+        int row = 0;
+        for (int i = 0; i < n; ++i) p[i] = from->p[i] + (x->step.p[i] + x->step.p_low[i]);
+        status = gvi__velocity(st, t, q, p, v);
+        for (int a = 0; a < m; ++a) r[a] = z[a] = -(r[m + a] + gvi__dot(n, x->con.G + a*n, v));
+        gvi__ldl_solve(m, x->con.A, 1, z, 1, 1);
+        for (int a = 0; a < m; ++a) {
+            size += r[a]*z[a];
+            if (r[a]*z[a] > r[row]*z[row]) row = a;
+            x->con.y[a] += z[a];
+        }
+        if (start && pass == 0 && !(size <= far*far*GVI_ABS(gvi__dot(n, p, v))))
+            return gvi__report_row(st, GVI_E_CONSTRAINT, row, GVI_FAULT_NONE);
+        gvi__zero((size_t)n, p);
+        gvi__add_force(st, z, p);
+        for (int i = 0; i < n; ++i) {
+            const gvi__two sum = gvi__add_low(x->step.p[i], x->step.p_low[i], p[i], 0);
+            x->step.p[i] = sum.hi;
+            x->step.p_low[i] = sum.lo;
+        }
+        if (pass > 0 && !(size < before/4)) break;
+        before = size;
+    }
+    return status;
+}
+
+// are q and p, which may be those of the state, on the constraints?  Then in step.q, step.p
+GVI__COLD gvi_status gvi__project_start(gvi_stepper *st, gvi_real t, const gvi_real *q,
+                                        const gvi_real *p)
+{
+    struct gvi__private *x = &st->x;
+    const gvi__origin from = { t, 0, x->zeros, x->zeros, x->zeros, x->zeros, 0 };
+    const size_t n = (size_t)st->n;
+    if (q != x->step.q) gvi__copy(n, q, x->step.q);
+    if (p != x->step.p) gvi__copy(n, p, x->step.p);
+    gvi__zero(n, x->step.q_low);
+    gvi__zero(n, x->step.p_low);
+    x->dt = 0;
+    return gvi__project(st, &from, 1);
+}
+
+// forces and lambda of the step, with those at its end, for the curve and the next prediction
+GVI__CALLED void gvi__commit_constraints(gvi_stepper *st, gvi_real h)
+{
+    struct gvi__private *x = &st->x;
+    const int n = st->n, s = st->s, C = x->con.C, rows = n + x->con.m;
+    x->con.kept = gvi__constrained(st) && !gvi__uses(x, GVI_EXPLICIT) ? 2 : 0;
+    if (x->con.kept == 0) return;
+    for (int a = n; a < rows; ++a) x->con.y[a - n] /= h*x->con.w[s];
+    gvi__zero((size_t)n, x->result);
+    gvi__add_force(st, x->con.y, x->result);
+    for (int i = 0; i < rows; ++i) {
+        gvi__copy((size_t)s, x->con.force + i*x->R, x->con.last + i*C);
+        x->con.last[i*C + s] = i < n ? x->result[i] : x->con.y[i - n];
+    }
+}
+
+/* Newton's method for the lambda with which G v + dg/dt stays 0 along the motion, its matrix A.
+   d/de at (t + e, q + e v, p + e (F + G' lambda)) by differences of order 8, which are halved in
+   every iteration: the least change is where truncation and rounding meet.                   */
+GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
+{
+    static const gvi_real weight[] = {
+        (gvi_real)4/5, -(gvi_real)1/5, (gvi_real)4/105, -(gvi_real)1/280
+    };
+    gvi_status status = gvi__ready(st, st && st->x.started);
+    if (status != GVI_OK) return status;
+    if (!lambda) return gvi__refuse_call(st, "lambda is NULL");
+    if (!GVI__CONSTRAINTS || !st->x.con.bits) return st->status = GVI_E_FORMULATION;
+    struct gvi__private *x = &st->x;
+    const int n = st->n, m = x->con.m;
+    gvi_real *q = x->result, *p = q + n, *u = p + n, *v = x->con.W, *force = v + n;
+    gvi_real *z = x->con.rho, *rate = z + m, *sum = x->con.y, *best = x->con.g + 2*m;
+    gvi_real least = GVI__MAX, largest = 0, size = 0, delta = 1;
+    gvi_points y = gvi__one_point(st, &st->t, st->q);
+    if (m > 0) status = gvi__constraints_at(st, st->t, st->q);
+    gvi__velocity_guess(st, v);
+    if (status == GVI_OK) status = gvi__velocity(st, st->t, st->q, st->p, v);
+    y.v = v;
+    if (status == GVI_OK) status = gvi__evaluate(st, &y, 0, 1);
+    gvi__copy((size_t)n, y.f, force);
+    gvi__zero((size_t)m, sum);
+
+    // a time in which much changes: |p||q|/p'v, or a step
+    for (int i = 0; i < n; ++i) size += GVI_ABS(st->p[i]*st->q[i]);
+    if (size > 0) delta = size/GVI_ABS(gvi__dot(n, st->p, v));
+    if (x->stepped && !(delta < GVI_ABS(st->h))) delta = GVI_ABS(st->h);
+    if (!gvi__finite(delta)) delta = 1;
+    for (int k = 0; k < GVI__DIG/2 && m > 0 && status == GVI_OK; ++k) {
+        delta /= k == 0 ? 8 : 2;
+        gvi__zero((size_t)m, rate);
+        for (int j = 0; j < 8 && status == GVI_OK; ++j) {
+            const gvi_real sign = j % 2 ? -1 : 1, e = sign*delta*(gvi_real)(j/2 + 1), t = st->t + e;
+            gvi__add_scaled(n, e, v, st->q, q);
+            gvi__add_scaled(n, e, force, st->p, p);
+            gvi__copy((size_t)n, v, u);
+            status = gvi__velocity(st, t, q, p, u);
+            if (status == GVI_OK)
+                status = gvi__evaluate_constraints(st, 1, 1, &t, q, x->con.G + m*n);
+            for (int a = 0; a < m; ++a)
+                rate[a] += (x->con.g[m + a] + gvi__dot(n, x->con.G + (m + a)*n, u))
+                           *(sign*weight[j/2]/delta);
+        }
+        for (int a = 0; a < m; ++a) z[a] = -rate[a];
+        gvi__ldl_solve(m, x->con.A, 1, z, 1, 1);
+        size = -gvi__dot(m, rate, z);
+        if (!(size < least) && size <= GVI__EPS*largest) break;
+        gvi__add_scaled(m, 1, z, sum, sum);
+        gvi__add_force(st, z, force);
+        if (size > largest) largest = size;
+        if (size < least) least = size, gvi__copy((size_t)m, sum, best);
+    }
+    if (status == GVI_OK && m > 0 && !(least < GVI__MAX))
+        status = gvi__report_status(st, GVI_E_NON_FINITE);
+    if (status != GVI_OK) return st->status = status;
+    for (int e = 0; e < x->desc.effect_count; ++e)
+        for (int a = 0; a < x->desc.effects[e].rows; ++a)
+            *lambda++ = gvi__constraints_on(st) >> e & 1u ? *best++ : 0;
+    return gvi__report_status(st, GVI_OK);
+}
+
 /* ---------------------------------------------------------------- SET-UP */
 
 // in long: an int may have 16 bits
@@ -3606,8 +4190,8 @@ static int gvi__within(long x, long most) { return x >= 0 && x <= most; }
 GVI__COLD gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc, gvi_fault *fault)
 {
     enum { V = GVI__HAS_VELOCITIES, L = GVI__HAS_LAGRANGIAN };
-    // potential, force, Lagrangian, clock
-    static const unsigned char reads[] = { 0, V, V | L, 0 };
+    // potential, force, Lagrangian, clock, constraint
+    static const unsigned char reads[] = { 0, V, V | L, 0, 0 };
     const char *wrong = !desc ? "desc is NULL"
         : !gvi__within(desc->n, 0x7FFFF) || desc->n < 1 ? "n is not 1 to 524,287"
         : !gvi__within(desc->degree, 1024) ? "degree is not 0 to 1024"
@@ -3635,17 +4219,26 @@ GVI__COLD gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc, gv
 
     x->needs = 0;
     x->clock = -1;
+    x->apart = x->con.bits = 0;
+    x->con.m = 0;
     for (int e = 0; e < d->effect_count; ++e) {
         const gvi_effect *effect = d->effects + e;
-        const int clock = effect->kind == GVI_CLOCK;
-        wrong = (unsigned)effect->kind > GVI_CLOCK ? "effect: kind is not in its enum"
+        const int holds = effect->kind == GVI_CONSTRAINT, clock = effect->kind == GVI_CLOCK;
+        wrong = (unsigned)effect->kind > GVI_CONSTRAINT ? "effect: kind is not in its enum"
             : !effect->points && !effect->point ? "effect: points, or point, is missing"
             : effect->points && effect->point ? "effect: points and point, one is too many"
-            : clock && !effect->points ? "effect: a clock needs points, not point"
+            : !holds && effect->rows != 0 ? "effect: rows is for constraints"
+            : holds && (effect->rows < 1 || effect->rows > d->n - x->con.m)
+                ? "effect: rows is not 1 to what is left of n"
+            : (clock || holds) && !effect->points ? "effect: this kind needs points, not point"
             : clock && x->clock >= 0 ? "effect: a second clock" : NULL;
         if (wrong) return gvi__refuse(fault, e, GVI_FAULT_NONE, wrong);
         x->needs |= reads[effect->kind];
-        if (clock) x->clock = e;
+        if (effect->kind < GVI_CLOCK) continue;
+        x->apart |= 1u << e;
+        x->con.m += effect->rows;
+        if (holds) x->con.bits |= 1u << e;
+        else x->clock = e;
     }
     const gvi_mass *m = &d->mass;
     const int position = m->kind == GVI_MASS_POSITION;
@@ -3657,6 +4250,8 @@ GVI__COLD gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc, gv
         : (m->kind == GVI_MASS_DIAGONAL || m->kind == GVI_MASS_DENSE) && !m->matrix
             ? "mass: matrix is missing" : NULL;
     if ((x->needs & L && !GVI__LAGRANGIAN) || (x->clock >= 0 && !GVI__CLOCK)
+        || (x->con.bits && (!GVI__CONSTRAINTS || x->clock >= 0 || m->velocity
+                            || m->kind == GVI_MASS_NONE || rule->kind == GVI_KICKS))
         || (m->kind > GVI_MASS_DENSE && !gvi__mass_is(x, m->kind)) || !gvi__rule_is(x, rule->kind))
         return GVI_E_FORMULATION;
     return wrong ? gvi__refuse(fault, GVI_FAULT_MASS, GVI_FAULT_NONE, wrong) : GVI_OK;
@@ -3701,23 +4296,24 @@ GVI__COLD gvi_status gvi__check_rule(struct gvi__private *x, int *order, gvi_fau
 GVI__COLD gvi_status gvi__choose(struct gvi__private *x, gvi_fault *fault)
 {
     enum { READS = 1, TIMED = 2, KICKED = 4, NOT_KICKED = 8, MORE_POINTS = 16, VARIES = 32,
-          NO_VELOCITY = 64 };
+          NO_VELOCITY = 64, HOLDS = 128 };
     static const unsigned char cannot[] = {
         255,                                            // GVI_AUTO
         READS | TIMED | NOT_KICKED | VARIES,            // GVI_EXPLICIT
         READS | TIMED | KICKED | VARIES,                // GVI_POSITIONS
         TIMED | KICKED | VARIES,                        // GVI_VELOCITIES
         KICKED | MORE_POINTS | NO_VELOCITY,             // GVI_MOMENTA
-        TIMED | KICKED                                  // GVI_NEWTON
+        TIMED | KICKED | HOLDS                          // GVI_NEWTON
     };
     const gvi_desc *d = &x->desc;
     const int s = d->degree, r = d->rule.points, kicks = d->rule.kind == GVI_KICKS;
     const int verlet = s == 1 && r == 2 && d->rule.kind == GVI_LOBATTO,
-              constant = gvi__mass_is_constant(x);
+              constant = gvi__mass_is_constant(x), holds = x->con.bits != 0;
     const int asked =
         (x->needs & GVI__HAS_VELOCITIES ? READS : 0) | (x->clock >= 0 ? TIMED : 0)
         | (kicks ? KICKED : verlet ? 0 : NOT_KICKED)
-        | (r != s ? MORE_POINTS : 0) | (constant ? 0 : VARIES)
+        | (r != s ? MORE_POINTS : 0) | (holds ? HOLDS : 0)
+        | (constant && !(holds && x->needs & GVI__HAS_LAGRANGIAN) ? 0 : VARIES)
         | (constant || d->mass.velocity || d->mass.kind == GVI_MASS_POSITION ? 0 : NO_VELOCITY);
     const int pinned = d->formulation != GVI_AUTO, given = d->iterations > 0;
     int f = pinned ? (int)d->formulation : GVI_EXPLICIT;
@@ -3727,7 +4323,8 @@ GVI__COLD gvi_status gvi__choose(struct gvi__private *x, gvi_fault *fault)
     if (f == GVI_NEWTON && given) return GVI_E_FORMULATION;
     if (!GVI__RULES && f != GVI_EXPLICIT && (d->rule.kind != GVI_GAUSS || r != s || s > 4))
         return GVI_E_FORMULATION;
-    if (f == GVI_NEWTON || (GVI__NEWTON && !pinned && f != GVI_EXPLICIT && x->clock < 0 && !given))
+    if (f == GVI_NEWTON
+        || (GVI__NEWTON && !pinned && f != GVI_EXPLICIT && x->apart == 0 && !given))
         x->needs |= GVI__HAS_NEWTON;
     const int matrices =
         gvi__has(x, GVI__HAS_NEWTON | GVI__HAS_LAGRANGIAN) || d->mass.kind >= GVI_MASS_DENSE;
@@ -3754,6 +4351,28 @@ GVI__COLD gvi_real *gvi__take(gvi__arena *arena, size_t a, size_t b)
     const size_t count = a == 0 ? 0 : b > most/a ? most : a*b, at = arena->used;
     arena->used = count > most - at ? most : at + count;
     return arena->base && count ? arena->base + at : NULL;
+}
+
+// that of constraints: rows of R, then of C
+GVI__COLD void gvi__layout_constraints(struct gvi__private *x, gvi__arena *a)
+{
+    struct gvi__holonomic *y = &x->con;
+    const size_t n = (size_t)x->desc.n, s = (size_t)x->desc.degree, r = (size_t)x->desc.rule.points,
+                 R = (size_t)GVI__ROW(r), C = (size_t)GVI__ROW(s + 1),
+                 m = (size_t)gvi__count_rows(x, y->bits),
+                 on = m > 0, i = on && !gvi__uses(x, GVI_EXPLICIT),
+                 u = i && !gvi__uses(x, GVI_POSITIONS);
+    const struct { gvi_real **to; size_t rows, width; } list[] = {
+        { &y->D, i*n, R }, { &y->free, i*n, R }, { &y->P, u*n, R }, { &y->force, i*(n + m), R },
+        { &y->K, i*r, R }, { &y->U, u*r, R }, { &y->by_force, i*r, R }, { &y->by_impulse, i*r, R },
+        { &y->E, i*s, R }, { &y->Phi, i*s, R }, { &y->Phi_low, i*s, R }, { &y->hw, on, R },
+        { &y->last, i*(n + m), C }, { &y->at, i*n, C }, { &y->t, i, C }, { &y->W, on*n, C },
+        { &y->g, 2*m, C }, { &y->G, m*n, C }, { &y->A, m*m, C }, { &y->d, on, R + C },
+        { &y->w, on, s + 1 }, { &y->rho, m, R + 1 }, { &y->lu, i*(s + 1), s + 1 }, { &y->y, on, m }
+    };
+    y->C = (int)C;
+    for (size_t k = 0; k < sizeof list/sizeof *list; ++k)
+        *list[k].to = gvi__take(a, list[k].rows, list[k].width);
 }
 
 /* The one layout: gvi_size counts with it, gvi_init hands out by it, and GVI_LENGTH is its sum
@@ -3836,6 +4455,7 @@ GVI__COLD size_t gvi__layout(struct gvi__private *x, int order, gvi_real *base)
     x->newton.last = gvi__take(a, newton, sn);
     x->newton.pivot = gvi__take(a, newton*2, sn + 1);           // twice: queries must not touch
     x->newton.moved = gvi__take(a, newton*4*n, R);
+    if (GVI__CONSTRAINTS) gvi__layout_constraints(x, a);
     // what the steps keep.  J comes last
     x->newton.J = gvi__take(a, newton*2*sn, sn);
     return memory.used;
@@ -3886,7 +4506,8 @@ GVI__COLD gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
         if (!gvi__finite(x->mass.inverse[i]))
             return gvi__report(st, GVI_E_SINGULAR, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
     }
-    const gvi_status status = dense ? gvi__ldl_factor(n, 1, 1, x->mass.factor, at) : GVI_OK;
+    const gvi_status status =
+        dense ? gvi__ldl_factor(n, 1, 1, x->mass.factor, (gvi_real)n*GVI__EPS, at) : GVI_OK;
     return status == GVI_OK ? GVI_OK : gvi__report(st, status, GVI_FAULT_MASS, at[0], at[1]);
 }
 
@@ -3923,6 +4544,9 @@ GVI__COLD gvi_status gvi__set_rule(gvi_stepper *st, const gvi_rule *rule)
         x->table.high[i] = st->r > 1 ? (gvi_real)(2*st->r - 1)*x->table.b[i]*P : 0;
         x->table.high[x->R + i] = st->r > 2 ? (gvi_real)(2*st->r - 3)*x->table.b[i]*before : 0;
     }
+#ifndef GVI_NO_RULES
+    if (GVI__CONSTRAINTS && x->con.bits && gvi__set_constraints(st) != GVI_OK) return GVI_E_POINTS;
+#endif
     // Phi_0 = c on its grid
     if (x->table.Phi) gvi__copy((size_t)st->r, x->table.c, x->table.Phi);
     return GVI_OK;
@@ -3942,6 +4566,8 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     gvi__report_status(st, GVI_OK);
     st->q = st->p = st->q_low = st->p_low = zeros;
     gvi_status status = gvi__resolve(x, desc, &order, &st->fault);
+    if (GVI__CONSTRAINTS && status == GVI_E_FORMULATION && x->con.bits)
+        return gvi__report_row(st, status, 0, GVI_FAULT_NONE);
     if (status != GVI_OK) return st->status = status;
     if (desc->effects && !desc->effect_count)     // its count was forgotten
         return gvi__refuse_call(st, "effects is given, effect_count is 0");
@@ -4467,6 +5093,11 @@ GVI__COLD gvi_status gvi__begin_at(gvi_stepper *st, gvi_real t, const gvi_real *
 {
     struct gvi__private *x = &st->x;
     const size_t n = (size_t)st->n;
+    if (gvi__constrained(st)) {
+        const gvi_status status = gvi__project_start(st, t, x->step.q, x->step.p);
+        if (status != GVI_OK) return status;
+        v = x->result + 2*n;
+    }
     if (gvi__clock_is_on(st)) {                   // its energy
         gvi_real E, *V = x->result;
         gvi__copy(n, v, V);
@@ -4483,7 +5114,7 @@ GVI__COLD gvi_status gvi__begin_at(gvi_stepper *st, gvi_real t, const gvi_real *
     st->t = st->t0 = t;
     st->h = st->t_low = 0;
     x->started = 1;
-    x->stepped = x->kept = x->has_force = x->has_velocity = x->newton.left = 0;
+    x->stepped = x->kept = x->con.kept = x->has_force = x->has_velocity = x->newton.left = 0;
     x->newton.h = x->sized.ratio = 0;
     st->formulation = x->chosen;
     return gvi__report_status(st, GVI_OK);
@@ -4581,6 +5212,18 @@ GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
         x->time.H_low = 0;
         x->began.H = E0;
     }
+    if (GVI__CONSTRAINTS && (x->con.bits >> index & 1u)) {
+        gvi_status status = GVI_OK;
+        x->con.m = gvi__count_rows(x, gvi__constraints_on(st));
+        if (x->started && (was & ~x->off)) status = gvi__project_start(st, st->t, st->q, st->p);
+        if (status != GVI_OK) {
+            x->off = was;
+            x->con.m = gvi__count_rows(x, gvi__constraints_on(st));
+            return st->status = status;
+        }
+        x->con.kept = x->con.kept > 0;
+        x->sized.ratio = 0;
+    }
     x->has_force = 0;
     x->newton.h = 0;
     return gvi__report_status(st, GVI_OK);
@@ -4596,6 +5239,7 @@ GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const 
     if (!saved || !memory || !saved->x.memory || saved->n != st->n || saved->s != st->s
         || saved->r != st->r || saved->x.size != x->size || saved->x.needs != x->needs
         || saved->x.chosen != x->chosen || saved->x.clock != x->clock
+        || saved->x.con.bits != x->con.bits
         || saved->x.desc.effect_count != x->desc.effect_count
         || saved->x.desc.mass.kind != x->desc.mass.kind)
         return gvi__refuse_call(st, "saved or memory is NULL, not set up, or of another scene");
@@ -4678,6 +5322,18 @@ static void gvi__curve_at(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_
             const gvi_real L = weight[j]*rows[i*R + j];
             q[i] += S*L;
             v[i] += T*L;
+        }
+    }
+    for (int e = 0; GVI__CONSTRAINTS && by_forces && x->con.kept && e < st->s; ++e) {
+        gvi_real S = 0, T = 0;
+        for (int k = 0; e > 0 && k < st->s; ++k) {
+            S += b[k]*x->con.Phi[k*R + e - 1];
+            T += a[k]*x->con.Phi[k*R + e - 1];
+        }
+        for (int i = 0; i < n; ++i) {
+            const gvi_real L = st->h*x->con.w[e]*x->con.last[i*x->con.C + e];
+            q[i] += (tau - S)*L;
+            v[i] += (1 - T)*L;
         }
     }
     if (by_forces) {
@@ -4908,7 +5564,7 @@ GVI__COLD gvi_status gvi__bend(gvi_stepper *st, const gvi__origin *from, gvi_rea
     if (grow > 1 && J->k0 == 0) {
         x->sized.ratio = 0;
         x->sized.steps = 1;
-        gvi__fit(st, 0, grow, 1);
+        gvi__fit(st, st->r, x->table.c, x->table.c, 0, grow, 1, x->sized.E);
         gvi__newton_modes(st, x->work.V, x->work.P);
     }
     for (int k = n; J->k0 && k < st->s*n; ++k) x->newton.y[k] *= grow;
@@ -4947,7 +5603,7 @@ GVI__COLD gvi_status gvi__bow(gvi_stepper *st, const gvi__origin *from)
 }
 
 /* The motion from q0 with velocity v, followed in pieces of length h, `count` of them, or as many
-   as there are.  Returns the last of them from `first` on that ends nearest to q1, by M_ii, or 0. */
+   as there are.  Returns that which ends nearest to q1 by M_ii, from `first` on, or 0.       */
 GVI__COLD int gvi__aim(gvi_stepper *st, const gvi__origin *from, gvi_real h, const gvi_real *q1,
                        const gvi_real *v, const gvi__matrix *J, int first, int count,
                        gvi_real *bent)
@@ -5190,6 +5846,8 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
         return gvi__refuse_call(st, "t, q0, q1 or the guess is not finite");
     if (!gvi__finite(h) || !gvi__nonzero(h))
         return gvi__refuse_call(st, "h is 0, NaN or infinite");
+    if (GVI__CONSTRAINTS && x->con.bits)
+        return gvi__report_row(st, GVI_E_FORMULATION, 0, GVI_FAULT_NONE);
     if ((s > 1 && !gvi__has(x, GVI__HAS_NEWTON)) || gvi__rule_is(x, GVI_KICKS) || x->clock >= 0)
         return st->status = GVI_E_FORMULATION;
     gvi__origin from = { t, 0, q0, x->zeros, x->zeros, x->zeros, 0 };
@@ -5255,7 +5913,8 @@ GVI_DEF const char *gvi_status_text(gvi_status status)
     case GVI_E_POINTS:      return "rule: too few points (r >= degree), "
                                    "or it does not see every mode";
     case GVI_E_FORMULATION: return "no formulation, or not the one asked for, covers this scene";
-    case GVI_E_SINGULAR:    return "singular matrix: a coordinate has no mass";
+    case GVI_E_SINGULAR:    return "singular matrix: a coordinate has no mass, "
+                                   "or a constraint depends on others";
     case GVI_E_CONVERGENCE: return "no convergence: the step is too large, "
                                    "or a force jumps or is noisy";
     case GVI_E_CALLBACK:    return "a callback refused";
@@ -5265,6 +5924,7 @@ GVI_DEF const char *gvi_status_text(gvi_status status)
     case GVI_E_CONJUGATE:   return "conjugate points: "
                                    "the two configurations do not determine the curve";
     case GVI_E_CLOCK:       return "a clock must be positive: g <= 0";
+    case GVI_E_CONSTRAINT:  return "the state is not on a constraint: g(t,q) or its rate is not 0";
     default:                return "unknown status";
     }
 }
@@ -5272,6 +5932,9 @@ GVI_DEF const char *gvi_status_text(gvi_status status)
 GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st)
 {
     if (!st) return "no stepper";
+    if (GVI__CONSTRAINTS && st->status == GVI_E_FORMULATION && st->x.con.bits)
+        return "constraints go with no clock, kicks, Newton's method, boundary values or "
+               "mass.velocity; with M(q) and Lagrangian terms only if r = s";
     if (st->x.desc.formulation != GVI_AUTO) return "pinned by the description";
     if (st->formulation == GVI_NEWTON && st->x.chosen != GVI_NEWTON)
         return "Newton: the fixed point contracted badly";

@@ -19,16 +19,19 @@
 #include <cmocka.h>
 
 #if GVI__KIND == 1
+#define KIND 1                  /* 1 float, 2 double, 3 long double: GVI__KIND is for #if */
 #define EPS FLT_EPSILON
 #define MIN FLT_MIN
 #define MAX FLT_MAX
 #define DIG FLT_MANT_DIG
 #elif GVI__KIND == 2
+#define KIND 2
 #define EPS DBL_EPSILON
 #define MIN DBL_MIN
 #define MAX DBL_MAX
 #define DIG DBL_MANT_DIG
 #else
+#define KIND 3
 #define EPS LDBL_EPSILON
 #define MIN LDBL_MIN
 #define MAX LDBL_MAX

@@ -9,7 +9,7 @@
 #include <time.h>
 
 typedef gvi_real real;
-#include "mechanics.h"
+#include "problems.h"
 #include "hard/extrapolate.h"
 
 /* ------------------------------------------------------------------- scenes
@@ -78,25 +78,6 @@ static int only_f(const gvi_points *x, void *user)
     assert_null(x->dldv);
     assert_null(x->value);
     return pendulum_mass_gradient(x, user);
-}
-
-/* L = a'v, a = (-q2 (1 + q1^2), q1)/2 */
-static int field(real t, const real *q, const real *v, real *f, real *dldv, void *user)
-{
-    (void)t; (void)user;
-    dldv[0] -= q[1]*(1 + q[0]*q[0])/2;
-    dldv[1] += q[0]/2;
-    f[0] += v[1]/2 - q[0]*q[1]*v[0];
-    f[1] -= v[0]*(1 + q[0]*q[0])/2;
-    return 0;
-}
-
-static int field_value(const gvi_points *x, void *user)
-{
-    const real *q = x->q, *r = q + x->stride, *v = x->v, *w = v + x->stride;
-    (void)user;
-    for (int k = 0; k < x->count; ++k) x->value[k] += (q[k]*w[k] - r[k]*(1 + q[k]*q[k])*v[k])/2;
-    return 0;
 }
 
 static int push(real t, const real *q, const real *v, real *f, real *dldv, void *user)
@@ -274,7 +255,7 @@ static void differentiate(scene_name a, int s, real M[4][4], real *T, real *dE)
     }
 }
 
-static real symplectic_defect(scene_name a, int s, int extended)
+static real defect_of(scene_name a, int s, int extended)
 {
     real M[4][4], T[4], dE[4], worst = 0;
     differentiate(a, s, M, T, dE);
@@ -296,10 +277,10 @@ static void the_map_is_symplectic(void **state)
     (void)state;
     for (int a = KEPLER; a < FORCED; ++a)
     for (int s = 1; s <= 5; s += 2) {
-        assert_between(0, symplectic_defect((scene_name)a, s, 1), bound);
-        assert_between(1e-3, symplectic_defect((scene_name)a, s, 0), 10);
+        assert_between(0, defect_of((scene_name)a, s, 1), bound);
+        assert_between(1e-3, defect_of((scene_name)a, s, 0), 10);
     }
-    assert_between(1e-3, symplectic_defect(FORCED, 3, 1), 1);
+    assert_between(1e-3, defect_of(FORCED, 3, 1), 1);
 }
 
 /* The energy stays on the level it started from: within truncation for ever, which is

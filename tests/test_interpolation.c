@@ -235,7 +235,7 @@ TEST(weights_of_1000_points_neither_overflow_nor_vanish)
 {
     for (int k = 0; k < 3; ++k) {
         families[k](MOST, big_x);
-        if (k == 0 && GVI__KIND == 1) {     /* equispaced, from 1e-299 to 1: not in float */
+        if (k == 0 && KIND == 1) {     /* equispaced, from 1e-299 to 1: not in float */
             assert_status(gvi_barycentric(MOST, big_x, big_w), GVI_E_NODES);
             continue;
         }

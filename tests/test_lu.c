@@ -586,7 +586,7 @@ TEST(hilbert_matrices_are_solved_to_condition_times_eps)
         } else
             assert_int_equal(status, GVI_E_SINGULAR);
     }
-    assert_int_equal(solved, GVI__KIND == 1 ? 2 : GVI__KIND == 2 ? 8 : 10);
+    assert_int_equal(solved, KIND == 1 ? 2 : KIND == 2 ? 8 : 10);
 }
 
 /* Usually: 499 of these 500, and most of them are met. */

@@ -1,7 +1,8 @@
 /* Newton's method: steps against those of the fixed points, of other derivatives, and of the Runge-Kutta
    matrix A of Gauss's method, which is made here from its definition.                 */
 #include "gvi_test.h"
-#include "springs.h"
+typedef gvi_real real;
+#include "problems.h"
 
 typedef long double wide;
 enum { MOST = 20, DEGREES = 16 };
@@ -197,13 +198,13 @@ static gvi_desc describe(int n, int s, int what, gvi_formulation formulation)
     static gvi_real full[MOST*MOST];
     gvi_desc desc = { .n = n, .degree = s, .effects = scene, .effect_count = 1, .formulation = formulation };
     const int h = what & HESSIANS;
-    scene[0] = (gvi_effect){ GVI_POTENTIAL, springs, NULL, NULL, h ? springs_hessian : NULL, &parameters };
+    scene[0] = (gvi_effect){ .kind = GVI_POTENTIAL, .points = springs, .hessian = h ? springs_hessian : NULL, .user = &parameters };
     if (what & DAMPED)
-        scene[desc.effect_count++] = (gvi_effect){ GVI_FORCE, damper, NULL, NULL, h ? damper_hessian : NULL,
-                                                   &parameters };
+        scene[desc.effect_count++] = (gvi_effect){ .kind = GVI_FORCE, .points = damper, .hessian = h ? damper_hessian : NULL,
+                                                   .user = &parameters };
     if (what & TURNED)
-        scene[desc.effect_count++] = (gvi_effect){ GVI_LAGRANGIAN, magnet, NULL, NULL, h ? magnet_hessian : NULL,
-                                                   &parameters };
+        scene[desc.effect_count++] = (gvi_effect){ .kind = GVI_LAGRANGIAN, .points = magnet, .hessian = h ? magnet_hessian : NULL,
+                                                   .user = &parameters };
     if (what & MOVING_MASS)
         desc.mass = (gvi_mass){ .kind = GVI_MASS_POSITION, .points = mass, .gradient = mass_gradient };
     if (what & DENSE) {
@@ -255,10 +256,10 @@ static void linear_scenes_need_one_factorisation(void **state)
             begin(&st, &desc, memory, sizeof memory);
             st.counters.factorizations = 0;
             go(&st, (gvi_real)0.1, 20);
-            assert_between(1, (wide)st.counters.factorizations, GVI__KIND == 1 ? 2 : 1);
+            assert_between(1, (wide)st.counters.factorizations, KIND == 1 ? 2 : 1);
             st.counters.factorizations = 0;
             go(&st, (gvi_real)0.05, 1);
-            assert_between(1, (wide)st.counters.factorizations, GVI__KIND == 1 ? 2 : 1);
+            assert_between(1, (wide)st.counters.factorizations, KIND == 1 ? 2 : 1);
         }
 }
 
@@ -487,7 +488,7 @@ static void a_stiff_spring_is_as_exact_as_its_force(void **state)
     assert_between(0.1L, error_in_kicks(GVI_AUTO), 0.44L);
 }
 
-static int attraction(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *f, gvi_real *dldv, void *user)
+static int attraction_at(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *f, gvi_real *dldv, void *user)
 {
     const gvi_real d2 = q[0]*q[0] + q[1]*q[1], w = -1/(d2*(gvi_real)sqrt((double)d2));
     f[0] += w*q[0];
@@ -499,7 +500,7 @@ static int attraction(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real
    a circle is foretold to h or better, and rounding is no contraction        */
 static void the_contraction_is_that_of_the_changes(void **state)
 {
-    static const gvi_effect effect = { .kind = GVI_POTENTIAL, .point = attraction };
+    static const gvi_effect effect = { .kind = GVI_POTENTIAL, .point = attraction_at };
     static const gvi_desc desc = { .n = 2, .degree = 3, .effects = &effect, .effect_count = 1,
                                    .formulation = GVI_NEWTON };
     for (int k = 3; k < 8; ++k) {
@@ -545,7 +546,7 @@ static void what_grows_is_not_at_rest(void **state)
     static const gvi_desc desc = { .n = 3, .degree = 8, .mass = { .kind = GVI_MASS_NONE }, .effects = &effect,
                                    .effect_count = 1 };
     (void)state;
-    if (GVI__KIND != 2) skip();
+    if (KIND != 2) skip();
     for (int m = 0; m < 400; ++m) {
         const gvi_real q[] = { (gvi_real)(0.8 + 0.5*(double)uniform()), 0, 0 }, v[] = { 0, (gvi_real)(1 + (double)uniform()), 200 };
         gvi_stepper st;

@@ -13,7 +13,8 @@
 #include <tgmath.h>
 
 typedef gvi_real real;
-#include "mechanics.h"
+#include "problems.h"
+#include "hard/extrapolate.h"
 
 /* ---------------------------------------------------------- the problem
 
@@ -29,16 +30,6 @@ enum { T_END = 1, STARTS = 3 };
 static const real q_start[STARTS][2] = { { 0.7L, -0.4L }, { -0.3L, 1.1L }, { 0.2L, 0.5L } };
 static const real v_start[STARTS][2] = { { 0.5L, 0.9L }, { 0.8L, -0.2L }, { -0.6L, 0.4L } };
 static const real constant_mass[4] = { 2, 0.5L, 0.5L, 1 };
-
-static real gravity(real t) { return 1 + sin(2*t)/2; }
-
-static int pendulum_force(real t, const real *q, const real *v, real *f, real *dldv, void *user)
-{
-    real both = gravity(t)*sin(q[0] + q[1]);
-    f[0] -= 2*gravity(t)*sin(q[0]) + both;
-    f[1] -= both;
-    return 0;
-}
 
 static int magnetic_term(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
@@ -82,55 +73,14 @@ static void hamilton(const parts *has, real t, const real *y, real *dy)
     }
 }
 
-/* Gragg's modified midpoint rule: n substeps, an expansion in even powers of
-   H/n.  Increments throughout, so that rounding is relative to them.          */
-static void gragg(const parts *has, real t, real H, int n, const real *y, real *out)
-{
-    real a[4] = { 0 }, b[4], d[4], x[4], h = H/n;
-    hamilton(has, t, y, d);
-    for (int i = 0; i < 4; ++i) b[i] = h*d[i];
-    for (int k = 1; k <= n; ++k) {
-        for (int i = 0; i < 4; ++i) x[i] = y[i] + b[i];
-        hamilton(has, t + k*h, x, d);
-        if (k == n) break;
-        for (int i = 0; i < 4; ++i) { real next = a[i] + 2*h*d[i]; a[i] = b[i]; b[i] = next; }
-    }
-    for (int i = 0; i < 4; ++i) out[i] = (a[i] + b[i] + h*d[i])/2;
-}
+static void rates(real t, const real *y, real *dy, void *has) { hamilton(has, t, y, dy); }
 
-enum { COLUMNS = 7 };                                        /* order 14 */
-
-/* The increment of one step by Neville's scheme in h^2.  Bulirsch's sequence
-   has small weights: rounding is not amplified.                              */
-static void extrapolate(const parts *has, real t, real H, const real *y, real *increment)
-{
-    static const int substeps[COLUMNS] = { 2, 4, 6, 8, 12, 16, 24 };
-    real table[COLUMNS][4];
-    for (int j = 0; j < COLUMNS; ++j) {
-        gragg(has, t, H, substeps[j], y, table[j]);
-        for (int k = j; k-- > 0; ) {
-            real ratio = (real)substeps[j]/(real)substeps[k], w = 1/(ratio*ratio - 1);
-            for (int i = 0; i < 4; ++i) table[k][i] = table[k + 1][i] + w*(table[k + 1][i] - table[k][i]);
-        }
-    }
-    memcpy(increment, table[0], sizeof table[0]);
-}
-
-/* Moves y from time a to b in steps of about H, with Kahan's summation */
+/* Moves y from time a to b in steps of about H */
 static void reference(const parts *has, real a, real b, real H, real *y)
 {
-    int n = (int)ceil(fabs(b - a)/H);
-    real low[4] = { 0 };
-    for (int k = 0; k < n; ++k) {
-        real d[4];
-        extrapolate(has, a + (b - a)*k/n, (b - a)/n, y, d);
-        for (int i = 0; i < 4; ++i) {
-            real sum, x = d[i] + low[i];
-            sum = y[i] + x;
-            low[i] = x - (sum - y[i]);
-            y[i] = sum;
-        }
-    }
+    parts copy = *has;
+    const motion exact = { 4, rates, &copy };
+    if (fabs(b - a) > 0) flow(&exact, a, b, H, y);
 }
 
 static const real H_REF = 1/32.0L;
@@ -192,7 +142,7 @@ static gvi_stepper *start_at(const method *m, real t, const real *y)
     gvi_desc desc = { .n = 2, .degree = m->s, .rule = m->rule, .effects = b->effects };
     int n = 0;
 
-    b->effects[n++] = (gvi_effect){ .kind = GVI_POTENTIAL, .point = pendulum_force };
+    b->effects[n++] = (gvi_effect){ .kind = GVI_POTENTIAL, .point = weights, .user = b };
     if (m->has.magnetic) b->effects[n++] = (gvi_effect){ .kind = GVI_LAGRANGIAN, .point = magnetic_term };
     if (m->has.forced) b->effects[n++] = (gvi_effect){ .kind = GVI_FORCE, .point = damping_and_drive };
     desc.effect_count = n;

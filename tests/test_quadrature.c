@@ -49,7 +49,7 @@ static const struct kind kinds[] = {
    and in every precision: values are correctly rounded but for near-ties.  The
    table has a rounding of its own, to 28 digits and then to long double.
    Registers wider than the type (x87) spoil some of the twofold sums.        */
-#define ROUNDING (FLT_EVAL_METHOD == 0 || GVI__KIND == 3 ? 0.51L : 4)
+#define ROUNDING (FLT_EVAL_METHOD == 0 || KIND == 3 ? 0.51L : 4)
 #define ALLOWED (ROUNDING*(long double)EPS + (LDBL_EPSILON > EPS/2 ? LDBL_EPSILON/2 : 0) + 1e-28L)
 
 static void check_relative(const char *name, char what, int n, int i,

@@ -9,7 +9,7 @@
 #include <tgmath.h>
 
 typedef gvi_real real;
-#include "mechanics.h"
+#include "problems.h"
 
 #define PI 3.14159265358979323846264338327950288L
 
@@ -48,69 +48,10 @@ static void a_of(const real *q, real *a)
     a[1] = q[0]/2;
 }
 
-static int potential(real t, const real *q, const real *v, real *f, real *dldv, void *user)
-{
-    real both = clock_of(t)*sin(q[0] + q[1]);
-    f[0] -= 2*clock_of(t)*sin(q[0]) + both;
-    f[1] -= both;
-    return 0;
-}
-
-static int potential_value(const gvi_points *x, void *user)
-{
-    for (int k = 0; k < x->count; ++k)
-        x->value[k] += V(x->t[k], (const real[]){ x->q[k], x->q[x->stride + k] });
-    return 0;
-}
-
-static int field(real t, const real *q, const real *v, real *f, real *dldv, void *user)
-{
-    real a[2];
-    a_of(q, a);
-    dldv[0] += a[0];
-    dldv[1] += a[1];
-    f[0] += v[1]/2 - q[0]*q[1]*v[0];
-    f[1] -= v[0]*(1 + q[0]*q[0])/2;
-    return 0;
-}
-
-static int field_value(const gvi_points *x, void *user)
-{
-    int N = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        real a[2];
-        a_of((const real[]){ x->q[k], x->q[N + k] }, a);
-        x->value[k] += a[0]*x->v[k] + a[1]*x->v[N + k];
-    }
-    return 0;
-}
-
 static int drag(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
     f[0] += cos(t)/3 - v[0]/4;
     f[1] -= (1 + q[0]*q[0])*v[1]/5;
-    return 0;
-}
-
-/* Second derivatives of the three */
-static int potential_hessian(real t, const real *q, const real *v, real *fq, real *fv, real *pv, void *user)
-{
-    real both = clock_of(t)*cos(q[0] + q[1]);
-    fq[0] -= 2*clock_of(t)*cos(q[0]) + both;
-    fq[1] -= both;
-    fq[2] -= both;
-    fq[3] -= both;
-    return 0;
-}
-
-static int field_hessian(real t, const real *q, const real *v, real *fq, real *fv, real *pv, void *user)
-{
-    fq[0] -= q[1]*v[0];
-    fq[1] -= q[0]*v[0];
-    fq[2] -= q[0]*v[0];
-    fv[0] -= q[0]*q[1];
-    fv[1] += 0.5L;
-    fv[2] -= (1 + q[0]*q[0])/2;
     return 0;
 }
 
@@ -143,7 +84,7 @@ static gvi_mass mass_of(gvi_mass_kind kind)
 }
 
 static const gvi_effect effects[] = {
-    { .kind = GVI_POTENTIAL, .point = potential, .value = potential_value, .hessian = potential_hessian },
+    { .kind = GVI_POTENTIAL, .point = weights, .value = weights_value, .hessian = weights_hessian, .user = memory },
     { .kind = GVI_LAGRANGIAN, .point = field, .value = field_value, .hessian = field_hessian },
     { .kind = GVI_FORCE, .point = drag, .hessian = drag_hessian },
 };
@@ -214,7 +155,7 @@ static int relativistic_velocity(const gvi_points *x, void *user)
 
 static const gvi_effect fast[] = {
     { .kind = GVI_LAGRANGIAN, .point = relativistic, .value = relativistic_value },
-    { .kind = GVI_POTENTIAL, .point = potential, .value = potential_value },
+    { .kind = GVI_POTENTIAL, .point = weights, .value = weights_value, .user = memory },
 };
 
 /* By Newton's method where only dL/dv is known, and by the caller's own inverse */

@@ -55,7 +55,7 @@ TEST(the_reference_is_exact_to_rounding)
     real y[MAX_Y], end[4];
     kepler_state(0.5L, -1, y, y + 2);
     kepler_state(0.5L, 1, end, end + 2);
-    flow(&problems[0], 0, 2, y);
+    flow_of(&problems[0], 0, 2, y);
     assert_close(sqrt(square_distance(4, y, end)), 0, 20*EPS);
 }
 

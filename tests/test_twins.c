@@ -512,7 +512,7 @@ static void very_long_steps_get_over_a_bad_guess(void **state)
 {
     static const gvi_formulation pins[] = { GVI_POSITIONS, GVI_MOMENTA, GVI_AUTO };
     (void)state;
-    if (GVI__KIND == 1) skip();
+    if (KIND == 1) skip();
     for (int f = 0; f < COUNT(pins); ++f) {
         twins z;
         gvi_desc desc = described(2, 16, 0, NULL);

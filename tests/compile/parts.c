@@ -65,6 +65,19 @@ static int slow(const gvi_points *x, void *user)
     return 0;
 }
 
+// on a circle
+static int circle(const gvi_points *x, void *user)
+{
+    (void)user;
+    for (int k = 0; k < x->count; ++k) {
+        const real a = x->q[k], b = x->q[x->stride + k] - (real)0.5;
+        x->g[k] = (a*a + b*b - 1)/2;
+        x->jacobian[k] = a;
+        x->jacobian[x->stride + k] = b;
+    }
+    return 0;
+}
+
 // M = 2 + q_0^2, and 1
 static int mass(const gvi_points *x, void *user)
 {
@@ -129,6 +142,8 @@ int main(void)
     static const gvi_effect bad[] = { { .kind = GVI_FORCE, .points = drag },
                                       { .kind = GVI_POTENTIAL, .points = broken } };
     static const gvi_effect point[] = { { .kind = GVI_POTENTIAL, .point = quartic_point } };
+    static const gvi_effect held[] = { { .kind = GVI_POTENTIAL, .points = quartic, .value = quartic },
+                                       { .kind = GVI_CONSTRAINT, .points = circle, .rows = 1 } };
     const gvi_rule verlet = { .kind = GVI_LOBATTO, .points = 2 };
     gvi_desc d = { .n = 2, .degree = 4, .effects = potential, .effect_count = 1 }, e = d;
     e.degree = 1;
@@ -173,5 +188,9 @@ int main(void)
     d.mass = (gvi_mass){ .kind = GVI_MASS_UNIT };
     d.rule = (gvi_rule){ .kind = GVI_OWN, .points = 2, .nodes = nodes, .weights = weights };
     run("own", &d);
+    d.rule = (gvi_rule){ .kind = GVI_GAUSS };
+    d.effects = held;
+    d.effect_count = 2;
+    run("held", &d);
     return 0;
 }

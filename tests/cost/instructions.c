@@ -12,8 +12,9 @@
 #include "gvi.h"
 #include "solar.h"
 
+typedef double real;
+#include "../problems.h"
 static double omega = 50;
-#include "../fermi_pasta_ulam.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -22,21 +23,6 @@ static double omega = 50;
 #define COUNT(a) ((int)(sizeof(a)/sizeof(a)[0]))
 
 /* ---------------------------------------------------------------- scenes */
-
-/* -1/|q|, force or value or both                                                              */
-static int attraction(const gvi_points *x, void *user)
-{
-    const double *X = x->q, *Y = X + x->stride;
-    double *f = x->f, *value = x->value;
-    (void)user;
-    for (int k = 0; k < x->count && f; ++k) {
-        double d2 = X[k]*X[k] + Y[k]*Y[k], w = -1/(d2*sqrt(d2));
-        f[k] += w*X[k];
-        f[x->stride+k] += w*Y[k];
-    }
-    for (int k = 0; k < x->count && value; ++k) value[k] -= 1/sqrt(X[k]*X[k] + Y[k]*Y[k]);
-    return 0;
-}
 
 /* g = |q|                                                                                     */
 static int distance(const gvi_points *x, void *user)
@@ -183,7 +169,7 @@ static const gvi_effect space_scene[] = { { .kind = GVI_POTENTIAL, .points = sun
 static const gvi_effect solar_scene[] = { { .kind = GVI_POTENTIAL, .points = gravitation } };
 static const gvi_effect pendulum_scene[] = { { .kind = GVI_POTENTIAL, .points = weight } };
 static const gvi_effect well_scene[] = { { .kind = GVI_POTENTIAL, .points = well } };
-static const gvi_effect chain_scene[] = { { .kind = GVI_POTENTIAL, .points = fermi_pasta_ulam_forces } };
+static const gvi_effect chain_scene[] = { { .kind = GVI_POTENTIAL, .points = fermi_pasta_ulam_forces, .user = &omega } };
 static const gvi_effect clock_scene[] = {
     { .kind = GVI_POTENTIAL, .points = attraction, .value = attraction },
     { .kind = GVI_CLOCK, .points = distance } };

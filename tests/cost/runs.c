@@ -12,8 +12,9 @@
 #include "coefficients.h"
 #include "solar.h"
 
+typedef double real;
+#include "../problems.h"
 static double omega = 50;
-#include "../fermi_pasta_ulam.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -26,21 +27,7 @@ enum { MOST = 100, LINKS = 3 };
 
 /* --------------------------------------------------------------- scenes */
 
-/* -1/|q| in the plane, force or value or both */
-static int attraction(const gvi_points *x, void *user)
-{
-    const double *X = x->q, *Y = X + x->stride;
-    double *f = x->f, *value = x->value;
-    for (int k = 0; k < x->count && f; ++k) {
-        double d2 = X[k]*X[k] + Y[k]*Y[k], w = -1/(d2*sqrt(d2));
-        f[k] += w*X[k];
-        f[x->stride + k] += w*Y[k];
-    }
-    for (int k = 0; k < x->count && value; ++k) value[k] -= 1/sqrt(X[k]*X[k] + Y[k]*Y[k]);
-    return (void)user, 0;
-}
-
-/* The same one, a point a call */
+/* Attraction of problems.h, a point a call */
 static int attraction_at(double t, const double *q, const double *v, double *f, double *dldv, void *user)
 {
     const double d2 = q[0]*q[0] + q[1]*q[1], w = -1/(d2*sqrt(d2));
@@ -224,7 +211,7 @@ static int drag(const gvi_points *x, void *user)
 }
 
 /* L = v'A, A = (-y, x)/2: the plane's field */
-static int field(const gvi_points *x, void *user)
+static int field_in_plane(const gvi_points *x, void *user)
 {
     const int R = x->stride;
     for (int k = 0; k < R; ++k) {
@@ -309,12 +296,12 @@ static const gvi_effect dust_scene[] = {
 static const gvi_effect chain_scene[] = { { .kind = GVI_POTENTIAL, .points = chain } };
 static const gvi_effect springs_scene[] = {
     { .kind = GVI_POTENTIAL, .points = springs, .hessian = springs_hessian, .user = &spring_count } };
-static const gvi_effect fpu_scene[] = { { .kind = GVI_POTENTIAL, .points = fermi_pasta_ulam_forces } };
+static const gvi_effect fpu_scene[] = { { .kind = GVI_POTENTIAL, .points = fermi_pasta_ulam_forces, .user = &omega } };
 static const gvi_effect links_scene[] = { { .kind = GVI_POTENTIAL, .points = links_weight } };
 static const gvi_effect driven_scene[] = {
     { .kind = GVI_POTENTIAL, .point = pendulum_at }, { .kind = GVI_FORCE, .point = driven_at } };
 static const gvi_effect field_scene[] = {
-    { .kind = GVI_POTENTIAL, .points = henon_heiles }, { .kind = GVI_LAGRANGIAN, .points = field } };
+    { .kind = GVI_POTENTIAL, .points = henon_heiles }, { .kind = GVI_LAGRANGIAN, .points = field_in_plane } };
 static const gvi_effect trap_scene[] = {
     { .kind = GVI_POTENTIAL, .points = trap }, { .kind = GVI_LAGRANGIAN, .points = field_in_space } };
 static const gvi_effect fast_scene[] = {

@@ -8,7 +8,7 @@
    The threshold is one that a caller can have: a fixed point that contracts by less than
    4 an iteration does not resolve the motion, whatever Newton's method makes of it. */
 #include "hard.h"
-#include "mechanics.h"
+#include "problems.h"
 
 typedef struct report { gvi_status status; double energy, contraction; int iterations; double farthest;
                         } report;

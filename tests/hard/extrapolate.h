@@ -2,7 +2,7 @@
 
    Gragg's modified midpoint rule, extrapolated in h^2 with Bulirsch's sequence
    (Hairer, Norsett, Wanner: Solving ordinary differential equations I, II.9), of
-   order 16; increments throughout and Kahan's summation, so that what rounding
+   order 16 (twice EXTRAPOLATE_COLUMNS); increments throughout and Kahan's summation, so that what rounding
    leaves is a few units of the last place of y a step.  For a floating-point type
    `real` and at most EXTRAPOLATE_MOST unknowns.                               */
 #ifndef EXTRAPOLATE_H
@@ -11,7 +11,9 @@
 #ifndef EXTRAPOLATE_MOST
 #define EXTRAPOLATE_MOST 16
 #endif
-enum { COLUMNS = 8 };
+#ifndef EXTRAPOLATE_COLUMNS
+#define EXTRAPOLATE_COLUMNS 8
+#endif
 
 typedef void rates_fn(real t, const real *y, real *dy, void *user);
 typedef struct motion { int n; rates_fn *rates; void *user; } motion;
@@ -38,9 +40,9 @@ static void midpoints(const motion *a, real t, real H, int m, const real *y, rea
 /* The increment of y over H */
 static void extrapolate(const motion *a, real t, real H, const real *y, real *increment)
 {
-    static const int substeps[COLUMNS] = { 2, 4, 6, 8, 12, 16, 24, 32 };
-    real table[COLUMNS][EXTRAPOLATE_MOST];
-    for (int j = 0; j < COLUMNS; ++j) {
+    static const int substeps[] = { 2, 4, 6, 8, 12, 16, 24, 32, 48, 64 };
+    real table[EXTRAPOLATE_COLUMNS][EXTRAPOLATE_MOST];
+    for (int j = 0; j < EXTRAPOLATE_COLUMNS; ++j) {
         midpoints(a, t, H, substeps[j], y, table[j]);
         for (int k = j; k-- > 0; ) {
             const real ratio = (real)substeps[j]/(real)substeps[k], w = 1/(ratio*ratio - 1);

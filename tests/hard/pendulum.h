@@ -5,7 +5,7 @@
 #define HARD_PENDULUM_H
 
 #include "hard.h"
-#include "mechanics.h"
+#include "problems.h"
 
 static real stiffness;
 static const real pendulum_g = (real)9.8;

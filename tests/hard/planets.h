@@ -3,7 +3,7 @@
 #define HARD_PLANETS_H
 
 #include "hard.h"
-#include "mechanics.h"
+#include "problems.h"
 
 enum { BODIES = 6 };
 static real gm[BODIES], mass_of[3*BODIES];

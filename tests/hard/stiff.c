@@ -14,8 +14,8 @@
 #include "irk_newton.h"
 #include "tools/svg.h"
 
-static const double omega = 50;
-#include "fermi_pasta_ulam.h"
+static double omega = 50;
+#include "problems.h"
 
 /* ------------------------------------------------------------- stiff pendulum */
 
@@ -221,7 +221,7 @@ typedef struct outcome { double invariant, energy; gvi_status status; } outcome;
 static outcome run_chain(int s, double h_omega)
 {
     static double memory[GVI_LENGTH(6, 8, 8)];
-    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = fermi_pasta_ulam_forces } };
+    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = fermi_pasta_ulam_forces, .user = &omega } };
     const gvi_desc desc = { .n = 2*M, .degree = s, .effects = scene, .effect_count = 1 };
     const double q[6] = { 1, 0, 0, 1/omega, 0, 0 }, p[6] = { 1, 0, 0, 1, 0, 0 }, h = h_omega/omega;
     const double I0 = stiff_energy(q, p), E0 = chain_energy(q, p);

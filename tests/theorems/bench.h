@@ -127,7 +127,7 @@ static MAYBE gvi_status interpolant(const problem *pb, int s, real h, const real
         if (status != GVI_OK || gvi_barycentric(s + 1, x, w) != GVI_OK) return GVI_E_NODES;
         memcpy(y, y0, sizeof y);
         for (int k = 0; k <= s; ++k) {
-            if (k) flow(pb, step_time(pb, h) + x[k - 1]*h, step_time(pb, h) + x[k]*h, y);
+            if (k) flow_of(pb, step_time(pb, h) + x[k - 1]*h, step_time(pb, h) + x[k]*h, y);
             for (int i = 0; i < pb->n; ++i) f[i][k] = y[i] - y0[i];     /* rounding relative to h */
         }
     }
@@ -149,7 +149,7 @@ static MAYBE int curve_errors(const problem *pb, const method *m, int start, rea
     if (st->status != GVI_OK || gvi_step(st, h) != GVI_OK) return 0;
     for (int k = 0; k <= INSIDE; ++k) {
         real tau = (real)k/INSIDE, t = k < INSIDE ? t0 + tau*h : st->t;
-        if (k) flow(pb, t0 + (real)(k - 1)/INSIDE*h, t, y);
+        if (k) flow_of(pb, t0 + (real)(k - 1)/INSIDE*h, t, y);
         rates(pb, t, y, dy);
         gvi_status status = kind == OF_THE_STEP ? gvi_curve(st, tau, q, v)
                           : kind == STATE_AT ? gvi_state_at(st, t, q, v, NULL)

@@ -36,11 +36,8 @@
 #include <tgmath.h>
 
 typedef gvi_real real;
-#include "tests/mechanics.h"
+#include "tests/problems.h"
 
-#define MAYBE __attribute__((unused))     /* not every study needs everything */
-#define HESSIAN(name) static MAYBE int name(real t, const real *q, const real *v, \
-                                            real *fq, real *fv, real *pv, void *user)
 #define UNIT  ((real)LDBL_EPSILON)
 #define TAU   6.28318530717958647692528676655900577L
 
@@ -125,21 +122,6 @@ static MAYBE int attraction_at(real t, const real *q, const real *v, real *f, re
     return 0;
 }
 
-HESSIAN(attraction_hessian)
-{
-    real r2 = q[0]*q[0] + q[1]*q[1], w = -1/(r2*sqrt(r2)), u = -3*w/r2;
-    for (int i = 0; i < 2; ++i)
-        for (int j = 0; j < 2; ++j) fq[2*i + j] += (i == j ? w : 0) + u*q[i]*q[j];
-    return 0;
-}
-
-static MAYBE int attraction_value(const gvi_points *x, void *user)
-{
-    const real *X = x->q, *Y = X + x->stride;
-    for (int k = 0; k < x->count; ++k) x->value[k] -= 1/sqrt(X[k]*X[k] + Y[k]*Y[k]);
-    return 0;
-}
-
 static MAYBE real kepler_lagrangian(real t, const real *q, const real *v)
 {
     return (v[0]*v[0] + v[1]*v[1])/2 + 1/sqrt(q[0]*q[0] + q[1]*q[1]);
@@ -152,31 +134,6 @@ static MAYBE void momentum_is_velocity_2(real t, const real *q, const real *p, r
 }
 
 /* ---------------------------------------------------------- double pendulum */
-
-static MAYBE int weights(real t, const real *q, const real *v, real *f, real *dldv, void *user)
-{
-    real both = sin(q[0] + q[1]);
-    f[0] -= 2*sin(q[0]) + both;
-    f[1] -= both;
-    return 0;
-}
-
-HESSIAN(weights_hessian)
-{
-    real both = cos(q[0] + q[1]);
-    fq[0] -= 2*cos(q[0]) + both;
-    fq[1] -= both;
-    fq[2] -= both;
-    fq[3] -= both;
-    return 0;
-}
-
-static MAYBE int weights_value(const gvi_points *x, void *user)
-{
-    const real *a = x->q, *b = a + x->stride;
-    for (int k = 0; k < x->count; ++k) x->value[k] -= 2*cos(a[k]) + cos(a[k] + b[k]);
-    return 0;
-}
 
 static MAYBE real pendulum_lagrangian(real t, const real *q, const real *v)
 {
@@ -214,33 +171,6 @@ static MAYBE int trap_value(const gvi_points *x, void *user)
 {
     const real *a = x->q, *b = a + x->stride;
     for (int k = 0; k < x->count; ++k) x->value[k] += a[k]*a[k]/2 + b[k]*b[k] + a[k]*a[k]*b[k]/2;
-    return 0;
-}
-
-static MAYBE int field(real t, const real *q, const real *v, real *f, real *dldv, void *user)
-{
-    dldv[0] -= q[1]*(1 + q[0]*q[0])/2;
-    dldv[1] += q[0]/2;
-    f[0] += v[1]/2 - q[0]*q[1]*v[0];
-    f[1] -= v[0]*(1 + q[0]*q[0])/2;
-    return 0;
-}
-
-HESSIAN(field_hessian)
-{
-    fq[0] -= q[1]*v[0];
-    fq[1] -= q[0]*v[0];
-    fq[2] -= q[0]*v[0];
-    fv[0] -= q[0]*q[1];
-    fv[1] += 0.5L;
-    fv[2] -= (1 + q[0]*q[0])/2;
-    return 0;
-}
-
-static MAYBE int field_value(const gvi_points *x, void *user)
-{
-    const real *a = x->q, *b = a + x->stride, *u = x->v, *v = u + x->stride;
-    for (int k = 0; k < x->count; ++k) x->value[k] += (a[k]*v[k] - b[k]*(1 + a[k]*a[k])*u[k])/2;
     return 0;
 }
 
@@ -346,7 +276,7 @@ HESSIAN(motor_hessian)
    Several starts, so that no leading term of an error is small by accident   */
 
 #define SPRING     { GVI_POTENTIAL, NULL, spring, spring_value, spring_hessian, NULL }
-#define ATTRACTION { GVI_POTENTIAL, NULL, attraction_at, attraction_value, attraction_hessian, NULL }
+#define ATTRACTION { GVI_POTENTIAL, NULL, attraction_at, attraction, attraction_hessian, NULL }
 #define WEIGHTS    { GVI_POTENTIAL, NULL, weights, weights_value, weights_hessian, NULL }
 #define TRAP       { GVI_POTENTIAL, NULL, trap, trap_value, trap_hessian, NULL }
 #define FIELD      { GVI_LAGRANGIAN, NULL, field, field_value, field_hessian, NULL }

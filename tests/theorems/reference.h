@@ -8,8 +8,10 @@
 #define REFERENCE_H
 
 #include "problems.h"
+#define EXTRAPOLATE_COLUMNS (LDBL_MANT_DIG > 64 ? 10 : 7)
+#include "tests/hard/extrapolate.h"
 
-enum { MAX_Y = 2*MAX_N + 1, COLUMNS = LDBL_MANT_DIG > 64 ? 10 : 7, NODES = 20 };
+enum { MAX_Y = 2*MAX_N + 1, NODES = 20 };
 
 /* dL/dq and dL/dv */
 static MAYBE void gradient(const problem *pb, real t, const real *q, const real *v, real *dq, real *dv)
@@ -36,57 +38,17 @@ static MAYBE void rates(const problem *pb, real t, const real *y, real *dy)
     dy[2*n] = pb->lagrangian(t, y, dy);
 }
 
-/* Gragg's modified midpoint rule: m substeps, an expansion in even powers of
-   H/m.  Increments throughout, so that rounding is relative to them.          */
-static MAYBE void gragg(const problem *pb, real t, real H, int m, const real *y, real *out)
-{
-    real a[MAX_Y] = { 0 }, b[MAX_Y], d[MAX_Y], x[MAX_Y], h = H/m;
-    int n = 2*pb->n + 1;
-    rates(pb, t, y, d);
-    for (int i = 0; i < n; ++i) b[i] = h*d[i];
-    for (int k = 1; k <= m; ++k) {
-        for (int i = 0; i < n; ++i) x[i] = y[i] + b[i];
-        rates(pb, t + k*h, x, d);
-        if (k == m) break;
-        for (int i = 0; i < n; ++i) { real next = a[i] + 2*h*d[i]; a[i] = b[i]; b[i] = next; }
-    }
-    for (int i = 0; i < n; ++i) out[i] = (a[i] + b[i] + h*d[i])/2;
-}
+static MAYBE void rates_of(real t, const real *y, real *dy, void *pb) { rates(pb, t, y, dy); }
 
-/* The increment over H by Neville's scheme in h^2, with Bulirsch's sequence */
-static MAYBE void extrapolate(const problem *pb, real t, real H, const real *y, real *increment)
-{
-    static const int substeps[] = { 2, 4, 6, 8, 12, 16, 24, 32, 48, 64 };
-    real table[COLUMNS][MAX_Y];
-    int n = 2*pb->n + 1;
-    for (int j = 0; j < COLUMNS; ++j) {
-        gragg(pb, t, H, substeps[j], y, table[j]);
-        for (int k = j; k-- > 0; ) {
-            real ratio = (real)substeps[j]/(real)substeps[k], w = 1/(ratio*ratio - 1);
-            for (int i = 0; i < n; ++i) table[k][i] = table[k + 1][i] + w*(table[k + 1][i] - table[k][i]);
-        }
-    }
-    memcpy(increment, table[0], sizeof table[0]);
-}
-
-/* Moves y from time a to b in steps of at most H, with Kahan's summation */
+/* Moves y from time a to b in steps of at most H */
 static MAYBE void flow_with(const problem *pb, real a, real b, real H, real *y)
 {
-    int m = (int)ceil(fabs(b - a)/H), n = 2*pb->n + 1;
-    real low[MAX_Y] = { 0 };
-    for (int k = 0; k < m; ++k) {
-        real d[MAX_Y];
-        extrapolate(pb, a + (b - a)*k/m, (b - a)/m, y, d);
-        for (int i = 0; i < n; ++i) {
-            real sum, x = d[i] + low[i];
-            sum = y[i] + x;
-            low[i] = x - (sum - y[i]);
-            y[i] = sum;
-        }
-    }
+    problem copy = *pb;
+    const motion exact = { 2*pb->n + 1, rates_of, &copy };
+    if (fabs(b - a) > 0) flow(&exact, a, b, H, y);
 }
 
-static MAYBE void flow(const problem *pb, real a, real b, real *y) { flow_with(pb, a, b, 1/32.0L, y); }
+static MAYBE void flow_of(const problem *pb, real a, real b, real *y) { flow_with(pb, a, b, 1/32.0L, y); }
 
 /* y = (q, p, 0) of a start */
 static MAYBE void start_state(const problem *pb, int start, real *y)
@@ -108,9 +70,9 @@ static MAYBE const real *run_state(const problem *pb, int start, int end)
         known[k].pb = pb;
         for (int i = 0; i < STARTS; ++i) {
             start_state(pb, i, known[k].y[i][0]);
-            flow(pb, 0, pb->time/2, known[k].y[i][0]);
+            flow_of(pb, 0, pb->time/2, known[k].y[i][0]);
             memcpy(known[k].y[i][1], known[k].y[i][0], sizeof known[k].y[i][1]);
-            flow(pb, pb->time/2, pb->time, known[k].y[i][1]);
+            flow_of(pb, pb->time/2, pb->time, known[k].y[i][1]);
         }
     }
     return known[k].y[start][end];
@@ -127,8 +89,8 @@ static MAYBE void exact_step(const problem *pb, int start, real h, real *y0, rea
     memcpy(y0, y, MAX_Y*sizeof *y);
     memcpy(y1, y, MAX_Y*sizeof *y);
     y0[2*n] = y1[2*n] = 0;
-    flow(pb, middle, middle - h/2, y0);
-    flow(pb, middle, middle + h/2, y1);
+    flow_of(pb, middle, middle - h/2, y0);
+    flow_of(pb, middle, middle + h/2, y1);
     y1[2*n] -= y0[2*n];
     y0[2*n] = 0;
 }
@@ -167,8 +129,8 @@ static MAYBE void jacobi(const problem *pb, real t, real h, const real *y0, real
         memcpy(down, y0, sizeof down);
         up[n + j] += delta;
         down[n + j] -= delta;
-        flow(pb, t, t + h, up);
-        flow(pb, t, t + h, down);
+        flow_of(pb, t, t + h, up);
+        flow_of(pb, t, t + h, down);
         for (int i = 0; i < n; ++i) J[i*n + j] = (up[i] - down[i])/(2*delta);
     }
 }
@@ -182,7 +144,7 @@ static MAYBE void shoot(const problem *pb, real t, real h, real *y0, const real 
     jacobi(pb, t, h, y0, J);
     for (int it = 0; it < 40; ++it) {
         memcpy(y1, y0, MAX_Y*sizeof *y1);
-        flow(pb, t, t + h, y1);
+        flow_of(pb, t, t + h, y1);
         for (int i = 0; i < n; ++i) d[i] = q1[i] - y1[i];
         memcpy(A, J, sizeof A);
         solve(n, A, d);
@@ -206,7 +168,7 @@ static MAYBE void exact_forces(const problem *pb, real t, real h, const real *y0
     for (int k = 0; k < NODES; ++k) {
         real y[MAX_Y], dy[MAX_Y];
         memcpy(y, y0, sizeof y);
-        flow(pb, t, t + c[k]*h, y);
+        flow_of(pb, t, t + c[k]*h, y);
         rates(pb, t + c[k]*h, y, dy);
         add_force(pb, t + c[k]*h, y, dy, f[k]);
     }
@@ -220,7 +182,7 @@ static MAYBE void exact_forces(const problem *pb, real t, real h, const real *y0
             *(j < n ? a + j : q1 + j - n) += step*delta;
             shoot(pb, t, h, a, q1, end);
             for (int k = 0; k < NODES; ++k) {
-                flow(pb, t + (k ? c[k - 1] : 0)*h, t + c[k]*h, a);
+                flow_of(pb, t + (k ? c[k - 1] : 0)*h, t + c[k]*h, a);
                 for (int i = 0; i < n; ++i)
                     sum += h*b[k]*f[k][i]*a[i]*(step > 0 ? 1 : -1)*weight[abs(step) - 1]/delta;
             }

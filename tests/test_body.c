@@ -1,0 +1,450 @@
+/* examples/tools/body.h: rigid bodies.  What is expected comes from Euler's equations in elliptic functions,
+   from Runge's and Kutta's method in long double with tiny steps, from the closed forms of Lagrange's top and
+   of a satellite that rocks in the gravity gradient, and from the work of a force.   */
+#include "gvi_test.h"
+#include "tools/body.h"
+
+typedef gvi_real real;
+typedef long double exact;
+#include <tgmath.h>
+#undef I
+
+#define R(x) ((real)x##L)
+
+static real memory[40000];
+
+/* sn, cn, dn of u with modulus k, by descending means (Abramowitz, Stegun 16.4).   */
+static void jacobi(exact u, exact k, exact *sn, exact *cn, exact *dn)
+{
+    exact a[12] = { 1 }, c[12] = { k }, b = sqrtl(1 - k*k);
+    int N = 0;
+    while (N < 11 && fabsl(c[N]) > 1e-18L) {
+        ++N;
+        a[N] = (a[N-1] + b)/2;
+        c[N] = (a[N-1] - b)/2;
+        b = sqrtl(a[N-1]*b);
+    }
+    exact phi = ldexpl(a[N]*u, N);
+    for (; N > 0; --N) phi = (phi + asinl(c[N]/a[N]*sinl(phi)))/2;
+    *sn = sinl(phi);
+    *cn = cosl(phi);
+    *dn = sqrtl(1 - k*k**sn**sn);
+}
+
+static real worst_of(int n, const real *a, const exact *b)
+{
+    real worst = 0;
+    for (int i = 0; i < n; ++i) worst = fmax(worst, fabs(a[i] - (real)b[i]));
+    return worst;
+}
+
+/* -------------------------------------------------------------- a free body */
+
+static const body stone = { .inertia = { 1, R(1.75), R(2.5) } };
+static const real stone_e[] = { R(0.5), R(0.5), R(-0.5), R(0.5) };
+static const exact stone_w[] = { 0.75L, 0, 1 };                  /* 2 E I2 < M^2 */
+
+/* Landau, Lifshitz: Mechanics, 37.                                               */
+static void euler(exact t, exact *w)
+{
+    const exact A = stone.inertia[0], B = stone.inertia[1], C = stone.inertia[2];
+    const exact E2 = A*stone_w[0]*stone_w[0] + C*stone_w[2]*stone_w[2];
+    const exact M2 = A*A*stone_w[0]*stone_w[0] + C*C*stone_w[2]*stone_w[2];
+    const exact k = sqrtl((B - A)*(E2*C - M2)/((C - B)*(M2 - E2*A)));
+    exact sn, cn, dn;
+    jacobi(t*sqrtl((C - B)*(M2 - E2*A)/(A*B*C)), k, &sn, &cn, &dn);
+    w[0] = stone_w[0]*cn;
+    w[1] = sqrtl((E2*C - M2)/(B*(C - B)))*sn;
+    w[2] = stone_w[2]*dn;
+}
+
+/* Independently: e' = e (0, w)/2 with that w, by the classical method.             */
+static void turned(const exact *e, exact t, exact *rate)
+{
+    exact w[3];
+    euler(t, w);
+    rate[0] = (-e[1]*w[0] - e[2]*w[1] - e[3]*w[2])/2;
+    rate[1] = (e[0]*w[0] + e[2]*w[2] - e[3]*w[1])/2;
+    rate[2] = (e[0]*w[1] + e[3]*w[0] - e[1]*w[2])/2;
+    rate[3] = (e[0]*w[2] + e[1]*w[1] - e[2]*w[0])/2;
+}
+
+static void attitude(exact T, exact *e)
+{
+    const int steps = 4000;
+    const exact h = T/steps;
+    for (int i = 0; i < 4; ++i) e[i] = stone_e[i];
+    for (int n = 0; n < steps; ++n) {
+        exact k[4][4], z[4];
+        for (int j = 0; j < 4; ++j) {
+            const exact part = j == 0 ? 0 : j == 3 ? 1 : 0.5L;
+            for (int i = 0; i < 4; ++i) z[i] = e[i] + (j ? h*part*k[j-1][i] : 0);
+            turned(z, n*h + part*h, k[j]);
+        }
+        for (int i = 0; i < 4; ++i) e[i] += h/6*(k[0][i] + 2*k[1][i] + 2*k[2][i] + k[3][i]);
+    }
+}
+
+static void begin(gvi_stepper *st, const gvi_desc *desc, const real *e, const real *w)
+{
+    real rate[4];
+    body_turn(e, w, rate);
+    assert_ok(gvi_init(st, desc, memory, sizeof memory));
+    assert_ok(gvi_start(st, 0, e, rate));
+}
+
+static void spin(gvi_stepper *st, real *w)
+{
+    real v[4];
+    assert_ok(gvi_velocity(st, v));
+    body_spin(st->q, v, w);
+}
+
+/* Error of the spin, or of the attitude, at t = 4.                               */
+static real free_error(int s, int steps, int attitudes)
+{
+    static const bodies scene = { &stone, 1 };
+    const gvi_desc desc = { .n = 4, .degree = s, .mass = body_mass(&scene) };
+    const real w0[] = { (real)stone_w[0], (real)stone_w[1], (real)stone_w[2] };
+    static exact e[4];
+    exact known[3];
+    real w[3];
+    gvi_stepper st;
+    begin(&st, &desc, stone_e, w0);
+    for (int k = 0; k < steps; ++k) assert_ok(gvi_step(&st, 4/(real)steps));
+    if (attitudes && fabsl(e[0]) < 1e-9L) attitude(4, e);
+    if (attitudes) return worst_of(4, st.q, e);
+    spin(&st, w);
+    euler(4, known);
+    return worst_of(3, w, known);
+}
+
+static void expect_order(real coarse, real fine, int order)
+{
+    assert_between((real)order - R(0.15), log2(coarse/fine), (real)order + R(0.15));
+}
+
+TEST(eulers_equations)
+{
+    static const int steps[] = { 160, 80, 40, 20 };
+    assert_between(0, free_error(8, 20, 0), 40*EPS);
+    assert_between(0, free_error(8, 20, 1), 40*EPS + R(3e-15));       /* Runge and Kutta's error */
+    for (int s = 1; s <= 4 && DIG > 50; ++s) {
+        const int n = steps[s-1];
+        expect_order(free_error(s, n, 0), free_error(s, 2*n, 0), 2*s);
+        expect_order(free_error(s, n, 1), free_error(s, 2*n, 1), 2*s);
+    }
+}
+
+/* 20,000 steps: angular momentum in space, energy, and |e|, which nothing holds.     */
+TEST(what_a_long_run_keeps)
+{
+    static const bodies scene = { &stone, 1 };
+    const gvi_desc desc = { .n = 4, .mass = body_mass(&scene) };
+    const real w0[] = { (real)stone_w[0], (real)stone_w[1], (real)stone_w[2] };
+    real own[3], L[2][3], E[2], size = 0, turned_by = 0, kept = 0;
+    gvi_stepper st;
+    begin(&st, &desc, stone_e, w0);
+    for (int k = 0; k <= 20000; ++k) {
+        const int now = k > 0;
+        body_momentum(st.q, st.p, own);
+        body_rotate(st.q, 0, own, L[now]);
+        assert_ok(gvi_energy(&st, &E[now]));
+        for (int i = 0; i < 3 && now; ++i) turned_by = fmax(turned_by, fabs(L[1][i] - L[0][i]));
+        if (now) kept = fmax(kept, fabs(E[1]/E[0] - 1));
+        size = fmax(size, fabs(sqrt(body_dot(st.q, st.q)) - 1));
+        assert_ok(gvi_step(&st, R(0.2)));
+    }
+    assert_between(0, turned_by, 64*EPS);
+    assert_between(0, kept, 64*EPS);
+    assert_between(0, size, 4000*sqrt(R(20000.0))*2*EPS);             /* e.p in a random walk, for 4,000 s */
+}
+
+/* ---------------------------------------------------------- Lagrange's top */
+
+static const body top = { .inertia = { R(2e-4), R(2e-4), R(8e-5) } };
+static const real lever = R(0.04), heavy = R(0.981);                    /* m, N */
+static const real tilt = R(0.5);
+
+static int weight(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    body_force_about(q, (real[]){ 0, 0, lever }, (real[]){ 0, 0, 0 }, f);
+    real own[3];
+    body_rotate(q, 1, (real[]){ 0, 0, -heavy }, own);
+    body_force_about(q, (real[]){ 0, 0, lever }, own, f);
+    return 0;
+}
+
+static const gvi_effect weighted[] = { { .kind = GVI_POTENTIAL, .point = weight } };
+static const bodies one_top = { &top, 1 };
+
+/* The axis in space after 0.2 s; spin in body axes at first, tilted about x.       */
+static void spun(int s, int steps, const real *w, real *axis)
+{
+    const gvi_desc desc = { .n = 4, .degree = s, .effects = weighted, .effect_count = 1, .mass = body_mass(&one_top) };
+    gvi_stepper st;
+    begin(&st, &desc, (real[]){ cos(tilt/2), sin(tilt/2), 0, 0 }, w);
+    for (int k = 0; k < steps; ++k) assert_ok(gvi_step(&st, R(0.2)/(real)steps));
+    body_rotate(st.q, 0, (real[]){ 0, 0, 1 }, axis);
+}
+
+/* Steady precession: A W^2 cos a - C w W + m g l = 0, the axis goes round at W.      */
+static real precession_error(int s, int steps)
+{
+    const exact A = top.inertia[0], C = top.inertia[2], a = tilt, W = 20, mgl = (exact)lever*heavy;
+    const exact w = (A*W*W*cosl(a) + mgl)/(C*W);
+    const exact known[] = { sinl(a)*sinl(W*0.2L), -sinl(a)*cosl(W*0.2L), cosl(a) };
+    real axis[3];
+    spun(s, steps, (real[]){ 0, (real)(W*sinl(a)), (real)w }, axis);
+    return worst_of(3, axis, known);
+}
+
+/* Let go with the spin w alone: it nods. u = cos(tilt) obeys u'^2 = (c - bu)(1 - u^2) - g^2 (u0 - u)^2, a cubic
+   with the roots u1 < u0 < u3:  u = u1 + (u0 - u1) cd^2(sqrt(b (u3 - u1)) t/2).        */
+static real nod_error(int s, int steps)
+{
+    const exact A = top.inertia[0], w = 80, u0 = cosl((exact)tilt), b = 2*(exact)lever*heavy/A;
+    const exact g = (exact)top.inertia[2]*w/A, c = b*u0;
+    const exact c1 = -(c + g*g) + b*u0, c0 = 2*g*g*u0 - b + c1*u0, root = sqrtl(c1*c1 - 4*b*c0);
+    const exact u1 = 2*c0/(-c1 + root), u3 = (-c1 + root)/(2*b);
+    exact sn, cn, dn;
+    real axis[3];
+    jacobi(sqrtl(b*(u3 - u1))*0.1L, sqrtl((u0 - u1)/(u3 - u1)), &sn, &cn, &dn);
+    const exact known = u1 + (u0 - u1)*(cn/dn)*(cn/dn);
+    spun(s, steps, (real[]){ 0, 0, (real)w }, axis);
+    return fabs(axis[2] - (real)known);
+}
+
+TEST(lagranges_top)
+{
+    static const int steps[] = { 400, 160, 80, 25 };
+    assert_between(0, precession_error(8, 40), 400*EPS);
+    assert_between(0, nod_error(8, 40), 400*EPS);
+    for (int s = 1; s <= 4 && DIG > 50; ++s) {
+        const int n = steps[s-1];
+        expect_order(precession_error(s, n), precession_error(s, 2*n), 2*s);
+        if (s < 4) expect_order(nod_error(s, n), nod_error(s, 2*n), 2*s);
+        else if (DIG > 60) expect_order(nod_error(s, 2*n), nod_error(s, 4*n), 2*s);     /* else rounding */
+    }
+}
+
+/* ----------------------------------------------------- the gravity gradient */
+
+static const body dumbbell = { .inertia = { 1, 4, R(4.5) } };
+
+/* Torque 3 r x I r on a circular orbit at rate 1, r the direction from the earth.        */
+static int gradient(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    real r[3], torque[3];
+    body_rotate(q, 1, (real[]){ cos(t), sin(t), 0 }, r);
+    body_cross(r, (real[]){ 3*dumbbell.inertia[0]*r[0], 3*dumbbell.inertia[1]*r[1], 3*dumbbell.inertia[2]*r[2] }, torque);
+    body_torque(q, torque, f);
+    return 0;
+}
+
+/* Let go at an angle a to the vertical it rocks in the plane of the orbit like a pendulum:
+   sin x = sin a cd(w t, sin a), w^2 = 3 (B - A)/C.                                 */
+static real rocking_error(int s, int steps)
+{
+    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .point = gradient } };
+    static const bodies one = { &dumbbell, 1 };
+    const gvi_desc desc = { .n = 4, .degree = s, .effects = scene, .effect_count = 1, .mass = body_mass(&one) };
+    const exact a = 0.75L, T = 3;
+    exact sn, cn, dn;
+    real along[3];
+    gvi_stepper st;
+    begin(&st, &desc, (real[]){ (real)cosl(a/2), 0, 0, (real)sinl(a/2) }, (real[]){ 0, 0, 1 });
+    for (int k = 0; k < steps; ++k) assert_ok(gvi_step(&st, (real)T/(real)steps));
+    body_rotate(st.q, 0, (real[]){ 1, 0, 0 }, along);
+    jacobi(sqrtl(3*(4 - 1)/4.5L)*T, sinl(a), &sn, &cn, &dn);
+    const exact angle = T + asinl(sinl(a)*cn/dn), known[] = { cosl(angle), sinl(angle), 0 };
+    return worst_of(3, along, known);
+}
+
+TEST(gravity_gradient)
+{
+    static const int steps[] = { 160, 40, 20, 12 };
+    assert_between(0, rocking_error(8, 10), 60*EPS);
+    for (int s = 1; s <= 4 && DIG > 50; ++s) {
+        const int n = steps[s-1];
+        expect_order(rocking_error(s, n), rocking_error(s, 2*n), 2*s);
+    }
+}
+
+/* ------------------------------------------------------- forces and mass */
+
+static const body pair[] = { { R(1.5), { 1, 2, R(2.5) } }, { R(0.75), { R(0.5), R(0.25), R(0.5) } } };
+static const bodies two = { pair, 2 };
+static const real at[2][3] = { { R(0.5), R(-0.25), R(0.125) }, { R(-0.25), R(0.5), R(0.75) } };
+
+/* Where at is, in space.                                                            */
+static void place(const real *q, const real *own, real *out)
+{
+    body_rotate(q + 3, 0, own, out);
+    for (int i = 0; i < 3; ++i) out[i] += q[i];
+}
+
+/* A spring between two places of two bodies.                                           */
+static int spring(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    real a[3], b[3], pull[3], back[3];
+    place(q, at[0], a);
+    place(q + 7, at[1], b);
+    for (int i = 0; i < 3; ++i) pull[i] = 2*(b[i] - a[i]), back[i] = -pull[i];
+    body_force_in_space(q, at[0], pull, f);
+    body_force_in_space(q + 7, at[1], back, f + 7);
+    return 0;
+}
+
+/* f.q' is the force times the velocity of its place, for velocities that leave |e| alone: the place's
+   velocity by differences.                                                             */
+TEST(the_work_of_a_force)
+{
+    const real q[] = { 1, 2, 3, R(0.75), R(-0.5), R(0.25), 1 }, force[] = { R(0.5), -1, 2 }, w[] = { 1, R(-0.75), R(0.5) };
+    real v[7] = { R(0.25), R(-0.5), 1 }, f[4][7] = { { 0 } }, moved[2][7], there[2][3], own[3], spun_back[3];
+    real power = 0, d = cbrt(EPS);
+    body_turn(q + 3, w, v + 3);
+    body_spin(q + 3, v + 3, spun_back);
+    for (int i = 0; i < 3; ++i) assert_close(spun_back[i], w[i], 4*EPS);
+    for (int i = 0; i < 7; ++i) moved[0][i] = q[i] - d*v[i], moved[1][i] = q[i] + d*v[i];
+    for (int k = 0; k < 2; ++k) place(moved[k], at[0], there[k]);
+    for (int i = 0; i < 3; ++i) power += force[i]*(there[1][i] - there[0][i])/(2*d);
+
+    body_rotate(q + 3, 1, force, own);
+    body_force_in_space(q, at[0], force, f[0]);
+    body_force(q, at[0], own, f[1]);
+    for (int i = 0; i < 3; ++i) f[2][i] = force[i];
+    body_force_about(q + 3, at[0], own, f[2] + 3);
+    for (int k = 0; k < 3; ++k) {
+        real work = 0;
+        for (int i = 0; i < 7; ++i) work += f[k][i]*v[i];
+        assert_close(work, power, 100*d*d);
+    }
+    /* a torque in space, the same in body axes; none works on |e| */
+    real turn[2][4] = { { 0 } }, twist = 0;
+    body_rotate(q + 3, 1, force, own);
+    body_torque_in_space(q + 3, force, turn[0]);
+    body_torque(q + 3, own, turn[1]);
+    for (int i = 0; i < 3; ++i) twist += own[i]*w[i];
+    for (int k = 0; k < 2; ++k) {
+        assert_close(body_dot(turn[k], v + 3), twist, 16*EPS);
+        assert_close(body_dot(turn[k], q + 3), 0, 16*EPS);
+    }
+}
+
+/* M v = p for the v of p, and the gradient is what differences of v'Mv/2 say; |e| far from 1. */
+TEST(the_mass_is_consistent)
+{
+    const gvi_mass mass = body_mass(&two);
+    real q[14], p[14], v[14], M[196], f[14] = { 0 }, T[2], d = cbrt(EPS);
+    for (int i = 0; i < 14; ++i) q[i] = R(0.25)*(real)((i*7)%9 - 4) + R(0.375), p[i] = R(0.5)*(real)((i*5)%7 - 3);
+    gvi_points x = { .n = 14, .count = 1, .stride = 1, .q = q, .v = v, .p = p, .mass = M };
+    assert_int_equal(mass.points(&x, mass.user), 0);
+    x.velocity = v;
+    assert_int_equal(mass.velocity(&x, mass.user), 0);
+    for (int i = 0; i < 14; ++i) {
+        real sum = 0;
+        for (int j = 0; j < 14; ++j) sum += M[i > j ? i*14 + j : j*14 + i]*v[j];
+        assert_close(sum, p[i], 64*EPS);
+    }
+    x.velocity = NULL;
+    x.f = f;
+    assert_int_equal(mass.gradient(&x, mass.user), 0);
+    for (int c = 0; c < 14; ++c) {
+        const real was = q[c];
+        for (int k = 0; k < 2; ++k) {
+            q[c] = was + (k ? d : -d);
+            mass.points(&x, mass.user);
+            T[k] = 0;
+            for (int i = 0; i < 14; ++i)
+                for (int j = 0; j < 14; ++j) T[k] += v[i]*M[i > j ? i*14 + j : j*14 + i]*v[j]/2;
+        }
+        q[c] = was;
+        assert_close(f[c], (T[1] - T[0])/(2*d), 1000*d*d*(1 + fabs(f[c])));
+    }
+}
+
+/* Momentum and angular momentum of the two bodies on their spring.                      */
+TEST(two_bodies_on_a_spring)
+{
+    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .point = spring } };
+    const gvi_desc desc = { .n = 14, .degree = 4, .effects = scene, .effect_count = 1, .mass = body_mass(&two) };
+    const real q[14] = { 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, R(0.5), R(0.5), R(0.5), R(0.5) };
+    real v[14] = { R(0.25), 0, 0, 0, 0, 0, 0, R(-0.5), R(0.5), 1 }, first[6], now[6];
+    gvi_stepper st;
+    body_turn(q + 3, (real[]){ 1, R(0.5), 0 }, v + 3);
+    body_turn(q + 10, (real[]){ 0, -1, 2 }, v + 10);
+    assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+    assert_ok(gvi_start(&st, 0, q, v));
+    for (int k = 0; k <= 200; ++k) {
+        for (int i = 0; i < 6; ++i) now[i] = 0;
+        for (int j = 0; j < 2; ++j) {
+            const real *z = st.q + 7*j, *p = st.p + 7*j;
+            real own[3], L[3];
+            body_momentum(z + 3, p + 3, own);
+            body_rotate(z + 3, 0, own, L);
+            body_cross(z, p, own);
+            for (int i = 0; i < 3; ++i) now[i] += p[i], now[3+i] += L[i] + own[i];
+        }
+        for (int i = 0; i < 6; ++i) {
+            if (k == 0) first[i] = now[i];
+            else assert_close(now[i], first[i], 128*EPS);
+        }
+        assert_ok(gvi_step(&st, R(0.125)));
+    }
+}
+
+/* ---------------------------------------------------- a direction alone */
+
+/* A spherical pendulum in space, coordinates of any length: M = 1/|q|^2, V = q3/|q|.       */
+static int direction_mass(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k) {
+        const real *q = x->q + k, one = 1/(q[0]*q[0] + q[x->stride]*q[x->stride] + q[2*x->stride]*q[2*x->stride]);
+        for (int i = 0; i < 9; ++i) x->mass[i*x->stride + k] = i % 4 ? 0 : one;
+    }
+    return 0;
+}
+
+static int direction_gradient(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k) {
+        real qq = 0, vv = 0;
+        for (int i = 0, j = k; i < 3; ++i, j += x->stride) qq += x->q[j]*x->q[j], vv += x->v[j]*x->v[j];
+        for (int i = 0, j = k; i < 3; ++i, j += x->stride) x->f[j] -= vv*x->q[j]/(qq*qq);
+    }
+    return 0;
+}
+
+static int direction_weight(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    const real qq = q[0]*q[0] + q[1]*q[1] + q[2]*q[2], r = sqrt(qq);
+    for (int i = 0; i < 3; ++i) f[i] -= ((i == 2) - q[2]*q[i]/qq)/r;
+    return 0;
+}
+
+/* Let go at an angle a it swings in a plane: sin(x/2) = k cd(t, k), k = sin(a/2); here with |q| = 2.  */
+static real swing_error(int s, int steps)
+{
+    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .point = direction_weight } };
+    const gvi_desc desc = { .n = 3, .degree = s, .effects = scene, .effect_count = 1,
+                            .mass = { .kind = GVI_MASS_POSITION, .points = direction_mass, .gradient = direction_gradient } };
+    const exact a = 1.75L, T = 3, k = sinl(a/2);
+    exact sn, cn, dn;
+    gvi_stepper st;
+    jacobi(T, k, &sn, &cn, &dn);
+    const exact x = 2*asinl(k*cn/dn), known[] = { 1.2L*sinl(x), 1.6L*sinl(x), -2*cosl(x) };
+    assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+    assert_ok(gvi_start(&st, 0, (real[]){ (real)(1.2L*sinl(a)), (real)(1.6L*sinl(a)), (real)(-2*cosl(a)) }, (real[]){ 0, 0, 0 }));
+    for (int i = 0; i < steps; ++i) assert_ok(gvi_step(&st, (real)T/(real)steps));
+    return worst_of(3, st.q, known);
+}
+
+TEST(a_spherical_pendulum)
+{
+    static const int steps[] = { 100, 30, 20, 12 };
+    assert_between(0, swing_error(8, 10), 60*EPS);
+    for (int s = 1; s <= 4 && DIG > 50; ++s) expect_order(swing_error(s, steps[s-1]), swing_error(s, 2*steps[s-1]), 2*s);
+}
+
+RUN_TESTS(NULL, NULL)

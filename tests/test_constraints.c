@@ -1,0 +1,739 @@
+/* Constraints: states to rounding against 28 digits, RATTLE written out, long runs, refusals, hard cases.
+   Orders and the symplectic form are in test_constraints_order.c.                                    */
+#include "gvi_test.h"
+typedef gvi_real real;
+#include "linkages.h"
+
+static real memory[120000];
+enum { EXACT = sizeof(real) > sizeof(double) ? 12 : 8 };      // a degree whose error is below rounding
+
+static gvi_status set_up(gvi_stepper *st, const linkage *a, const gvi_desc *desc)
+{
+    assert_true(gvi_size(desc) > 0 && gvi_size(desc) <= sizeof memory);
+    assert_ok(gvi_init(st, desc, memory, sizeof memory));
+    return gvi_start(st, 0, a->q, a->v);
+}
+
+/* g of the constraint at the state, and the largest |g_a| in units of eps sum |G_ai q_i| */
+static real residual(const gvi_stepper *st, const linkage *a)
+{
+    real g[MOST_M] = { 0 }, G[MOST_M*MOST_N] = { 0 }, rate[MOST_M] = { 0 }, worst = 0;
+    gvi_points x;
+    memset(&x, 0, sizeof x);
+    x.n = a->n;
+    x.count = x.stride = 1;
+    x.t = &st->t;
+    x.q = st->q;
+    x.g = g;
+    x.jacobian = G;
+    x.rate = rate;
+    a->effects[1].points(&x, a->effects[1].user);
+    for (int b = 0; b < a->m; ++b) {
+        real size = 0;
+        for (int i = 0; i < a->n; ++i) size += fabs(G[b*a->n + i]*st->q[i]);
+        worst = fabs(g[b]) > worst*EPS*size ? fabs(g[b])/(EPS*size) : worst;
+    }
+    return worst;
+}
+
+/* G v + rate, in units of eps sum |G_ai v_i| */
+static real hidden(gvi_stepper *st, const linkage *a)
+{
+    real g[MOST_M] = { 0 }, G[MOST_M*MOST_N] = { 0 }, rate[MOST_M] = { 0 }, v[MOST_N], worst = 0, speed = 0;
+    gvi_points x;
+    memset(&x, 0, sizeof x);
+    assert_ok(gvi_velocity(st, v));
+    x.n = a->n;
+    x.count = x.stride = 1;
+    x.t = &st->t;
+    x.q = st->q;
+    x.g = g;
+    x.jacobian = G;
+    x.rate = rate;
+    a->effects[1].points(&x, a->effects[1].user);
+    for (int i = 0; i < a->n; ++i) speed += fabs(v[i]) + (real)0.01L;      // at rest there is nothing to measure by
+    for (int b = 0; b < a->m; ++b) {
+        real sum = rate[b], size = 0;
+        for (int i = 0; i < a->n; ++i) {
+            sum += G[b*a->n + i]*v[i];
+            size += fabs(G[b*a->n + i])*speed;
+        }
+        worst = fabs(sum) > worst*EPS*size ? fabs(sum)/(EPS*size) : worst;
+    }
+    return worst;
+}
+
+static void check_state(const gvi_stepper *st, int n, const long double *q, const long double *p, real units)
+{
+    for (int i = 0; i < n; ++i) {
+        if (getenv("SHOW")) printf("%.0Lf %.0Lf  ", ((long double)st->q[i] - q[i])/EPS, ((long double)st->p[i] - p[i])/EPS);
+        assert_close(st->q[i], q[i], units*EPS);
+        assert_close(st->p[i], p[i], units*EPS*(1 + fabs((real)p[i])));
+    }
+}
+
+/* ------------------------------------------------------------- references
+
+   At T = 10 (free body: 20), from two step sizes of degree 12 in quadruple precision, and Taylor series of
+   the index-1 equations or of those in angles.                                                       */
+
+static void test_references(void **state)
+{
+    (void)state;
+    static const long double rods_q[] = { 0.9717130808687679340841202356L, -0.2361645368562504330536795036L,
+        1.6219338957314591733328457283L, -0.9959098178019749018726361532L },
+    rods_p[] = { -0.2411897489661919888013098525L, -1.0845368917329706938368110515L, -0.1051258454053549629195169143L,
+        -0.6168411161659911112145514880L },
+    sphere_q[] = { 0.2865918024623669310139268666L, -0.4322057574926357973399589580L, -0.8550224102043106958936730446L },
+    sphere_p[] = { 1.0334419555122275246842076056L, 0.5350482305344458871948105681L, 0.0759337605919987691326720347L },
+    top_q[] = { -0.0080284589914103299150387848L, -0.5401515442622458651768525042L, 0.0940746331548659123199973231L,
+        0.8362546361450629900108049131L },
+    top_p[] = { -4.7890326888130483604093524906L, 1.2899012544912036802671113469L, 1.6266787015814749092157364977L,
+        0.6041992212152172364652446157L },
+    body_q[] = { -0.4954859765553605210001509815L, 0.8667308982965531757645873890L, 0.0398490579921941764315171006L,
+        -0.0410274243910760842945442552L },
+    body_p[] = { 0.0250948850276545015785187938L, -0.2348230230786058541025809611L, 1.6951643577305928747095911578L,
+        -3.6173811238045542571394411501L },
+    director_q[] = { -0.416343706154668577187138345341149L, -0.115056788854345004103443568458648L,
+        -0.901897917551604982060428490290107L, -0.0882014446436753847585884344086695L, -0.982171014486001291745432377154461L,
+        0.166013865283318150641957197023671L, -0.904919014889268228322007054922296L, 0.148667527194292540180369712771377L,
+        0.398772545255776898420060751163816L },
+    director_p[] = { -0.219699303404440307021105456903463L, -1.20973283439072758415448477620475L,
+        0.255747788110917851307144388030722L, 0.666764260344775298819984578477487L, 0.119779931699658117429319082491968L,
+        1.06288681207779177523905277289413L, 0.108277704465584931702188329527359L, -0.434733771470953204398922418325613L,
+        0.407784714335340764952309843370270L };
+    static const real inertia[4] = { 2, 1, 2, 3 }, fast[4] = { 0, (real)0.005L, (real)0.5L, (real)0.01L };
+    static const struct { linkage_id id; int steps; const long double *q, *p; } runs[] = {
+        { RODS, 200, rods_q, rods_p }, { SPHERE, 60, sphere_q, sphere_p }, { QUATERNION, 200, top_q, top_p },
+        { DIRECTORS, 200, director_q, director_p }
+    };
+    for (int k = 0; k < COUNT(runs); ++k) {
+        const linkage a = make_linkage(runs[k].id);
+        for (int rule = 0; rule < (runs[k].id == QUATERNION ? 1 : 2); ++rule) {
+            gvi_desc desc = linkage_desc(&a, EXACT);
+            gvi_stepper st;
+            desc.rule.kind = rule ? GVI_LOBATTO : GVI_GAUSS;
+            assert_ok(set_up(&st, &a, &desc));
+            for (int i = 0; i < runs[k].steps; ++i) assert_ok(gvi_step(&st, (real)10/(real)runs[k].steps));
+            check_state(&st, a.n, runs[k].q, runs[k].p, 1000);
+            assert_between(0, residual(&st, &a), 4);
+            assert_between(0, hidden(&st, &a), 4);
+        }
+    }
+    linkage a = make_linkage(QUATERNION);         // the free body: about its unstable axis
+    a.mass.user = (void *)inertia;
+    a.effects[0] = a.effects[1];
+    a.count = 1;
+    quaternion_product(a.q, fast, a.v);
+    gvi_desc desc = linkage_desc(&a, EXACT);
+    gvi_stepper st;
+    assert_ok(set_up(&st, &a, &desc));
+    for (int i = 0; i < 200; ++i) assert_ok(gvi_step(&st, (real)0.1L));
+    check_state(&st, 4, body_q, body_p, 40000);   // e^(0.58*20) times rounding
+}
+
+/* ---------------------------------------------------------------- RATTLE
+
+   Andersen 1983, for the rods: p at half the step and q on the constraint, mu by Newton's method; then p at
+   the end on the hidden constraint.  M^-1 = 6/7 (2, -1; -1, 4) of each direction.                     */
+
+static void rods_over_mass(const real *p, real *v)
+{
+    for (int i = 0; i < 2; ++i) {
+        v[i] = (12*p[i] - 6*p[i + 2])/7;
+        v[i + 2] = (24*p[i + 2] - 6*p[i])/7;
+    }
+}
+
+static void rods_jacobian(const real *q, real G[2][4])
+{
+    const real a = q[2] - q[0], b = q[3] - q[1], row[2][4] = { { q[0], q[1], 0, 0 }, { -a, -b, a, b } };
+    memcpy(G, row, sizeof row);
+}
+
+/* y with (G M^-1 H') y = r */
+static void solve_rows(real G[2][4], real H[2][4], const real *r, real *y)
+{
+    real W[2][4], A[2][2] = { { 0 } };
+    for (int b = 0; b < 2; ++b) rods_over_mass(H[b], W[b]);
+    for (int a = 0; a < 2; ++a)
+        for (int b = 0; b < 2; ++b)
+            for (int i = 0; i < 4; ++i) A[a][b] += G[a][i]*W[b][i];
+    const real det = A[0][0]*A[1][1] - A[0][1]*A[1][0];
+    y[0] = (A[1][1]*r[0] - A[0][1]*r[1])/det;
+    y[1] = (A[0][0]*r[1] - A[1][0]*r[0])/det;
+}
+
+static void rattle(real h, real *q, real *p)
+{
+    static const real F[4] = { 0, -1, 0, -(real)0.5L };
+    real G[2][4], H[2][4], q1[4], v[4], y[2], r[2];
+    rods_jacobian(q, G);
+    for (int i = 0; i < 4; ++i) p[i] += h/2*F[i];
+    for (int k = 0; k < 12; ++k) {
+        rods_over_mass(p, v);
+        for (int i = 0; i < 4; ++i) q1[i] = q[i] + h*v[i];
+        rods_jacobian(q1, H);
+        r[0] = (q1[0]*q1[0] + q1[1]*q1[1] - 1)/(2*h);
+        r[1] = ((q1[2] - q1[0])*(q1[2] - q1[0]) + (q1[3] - q1[1])*(q1[3] - q1[1]) - 1)/(2*h);
+        solve_rows(H, G, r, y);
+        for (int i = 0; i < 4; ++i) p[i] -= G[0][i]*y[0] + G[1][i]*y[1];
+    }
+    memcpy(q, q1, sizeof q1);
+    rods_jacobian(q, G);
+    for (int i = 0; i < 4; ++i) p[i] += h/2*F[i];
+    rods_over_mass(p, v);
+    for (int a = 0; a < 2; ++a) r[a] = G[a][0]*v[0] + G[a][1]*v[1] + G[a][2]*v[2] + G[a][3]*v[3];
+    solve_rows(G, G, r, y);
+    for (int i = 0; i < 4; ++i) p[i] -= G[0][i]*y[0] + G[1][i]*y[1];
+}
+
+static void test_rattle(void **state)
+{
+    (void)state;
+    const linkage a = make_linkage(RODS);
+    for (int pinned = 0; pinned < 2; ++pinned) {
+        gvi_desc desc = linkage_desc(&a, 1);
+        gvi_stepper st;
+        desc.rule.kind = GVI_LOBATTO;
+        desc.formulation = pinned ? GVI_POSITIONS : GVI_AUTO;
+        assert_ok(set_up(&st, &a, &desc));
+        assert_int_equal(st.formulation, pinned ? GVI_POSITIONS : GVI_EXPLICIT);
+        real q[4], p[4] = { 0 };
+        memcpy(q, a.q, sizeof q);
+        for (int k = 0; k < 100; ++k) {
+            rattle((real)0.02L, q, p);
+            assert_ok(gvi_step(&st, (real)0.02L));
+            for (int i = 0; i < 4; ++i) {
+                assert_close(st.q[i], q[i], 400*EPS);
+                assert_close(st.p[i], p[i], 400*EPS);
+            }
+        }
+        if (!pinned) assert_int_equal(st.counters.effect[0], 101);            // one force a step
+    }
+}
+
+/* ---------------------------------------------------------------- structure */
+
+/* Momentum maps to rounding: the sphere's L_z; the top's about the vertical and its own axis */
+static void test_momentum_maps(void **state)
+{
+    (void)state;
+    for (int s = 1; s <= 8; s += s < 3 ? 1 : 5) {
+        linkage a = make_linkage(SPHERE);
+        gvi_desc desc = linkage_desc(&a, s);
+        gvi_stepper st;
+        assert_ok(set_up(&st, &a, &desc));
+        const real L = st.q[0]*st.p[1] - st.q[1]*st.p[0];
+        for (int k = 0; k < 500; ++k) assert_ok(gvi_step(&st, (real)0.1L));
+        assert_close(st.q[0]*st.p[1] - st.q[1]*st.p[0], L, 60*EPS);
+
+        a = make_linkage(QUATERNION);
+        desc = linkage_desc(&a, s);
+        assert_ok(set_up(&st, &a, &desc));
+        real before[2], after[2];
+        for (int end = 0; end < 2; ++end) {
+            const real *q = st.q, *p = st.p, left = q[1]*p[2] - q[2]*p[1], right = q[0]*p[3] - q[3]*p[0];
+            real *map = end ? after : before;
+            map[0] = right + left;
+            map[1] = right - left;
+            for (int k = 0; k < 500 && !end; ++k) assert_ok(gvi_step(&st, (real)0.05L));
+        }
+        assert_close(after[0], before[0], 400*EPS);
+        assert_close(after[1], before[1], 400*EPS);
+    }
+}
+
+static void test_there_and_back(void **state)
+{
+    (void)state;
+    for (int id = 0; id < LINKAGES; ++id) {
+        if (id == FRICTION) continue;             // which forgets
+        const linkage a = make_linkage((linkage_id)id);
+        const gvi_desc desc = linkage_desc(&a, 6);
+        gvi_stepper st;
+        assert_ok(set_up(&st, &a, &desc));
+        for (int k = 0; k < 40; ++k) assert_ok(gvi_step(&st, (real)0.05L));
+        for (int k = 0; k < 40; ++k) assert_ok(gvi_step(&st, -(real)0.05L));
+        for (int i = 0; i < a.n; ++i) assert_close(st.q[i], a.q[i], 3000*EPS);
+    }
+}
+
+/* g and the hidden constraint stay at rounding, energy within a random walk */
+static void test_long_runs(void **state)
+{
+    (void)state;
+    for (int id = 0; id < LINKAGES; ++id) {
+        const linkage a = make_linkage((linkage_id)id);
+        const gvi_desc desc = linkage_desc(&a, EXACT);
+        gvi_stepper st;
+        real E0 = 0, E = 0, g = 0, v = 0, off = 0;
+        assert_ok(set_up(&st, &a, &desc));
+        const int conserves = id != FRICTION && id != PIVOT;
+        if (conserves) assert_ok(gvi_energy(&st, &E0));
+        for (int k = 0; k < 4000; ++k) {
+            assert_ok(gvi_step(&st, id < RODS || id > QUATERNION ? (real)0.08L : (real)0.04L));
+            g = fmax(g, residual(&st, &a));
+            if (k % 16) continue;
+            v = fmax(v, hidden(&st, &a));
+            if (conserves) assert_ok(gvi_energy(&st, &E));
+            off = fmax(off, fabs(E - E0)/(1 + fabs(E0)));
+        }
+        if (getenv("SHOW")) printf("%d: g %.2Lf hidden %.2Lf energy %.1Lf eps\n", id, (long double)g, (long double)v, (long double)(off/EPS));
+        assert_between(0, g, 6);
+        assert_between(0, v, 6);
+        assert_between(0, off, 100*EPS);
+    }
+}
+
+/* ---------------------------------------------------------------- interface */
+
+/* The closed form: at rest at angle a, and swinging, lambda = -(v^2 + cos a) for g = (|q|^2 - 1)/2, m = l = g = 1 */
+static void test_tension(void **state)
+{
+    (void)state;
+    linkage a = make_linkage(PENDULUM);
+    const gvi_desc desc = linkage_desc(&a, 8);
+    gvi_stepper st;
+    assert_ok(set_up(&st, &a, &desc));
+    for (int k = 0; k < 50; ++k) {
+        real lambda;
+        assert_ok(gvi_multipliers(&st, &lambda));
+        assert_close(lambda, st.q[1] - st.p[0]*st.p[0] - st.p[1]*st.p[1], 400*EPS);
+        assert_ok(gvi_step(&st, (real)0.1L));
+    }
+    a.q[0] = 0; a.q[1] = -1; a.v[0] = a.v[1] = 0; // hanging
+    real lambda;
+    assert_ok(gvi_start(&st, 0, a.q, a.v));
+    assert_ok(gvi_multipliers(&st, &lambda));
+    assert_close(lambda, -1, 4*EPS);
+}
+
+/* The lower rod breaks: then its end falls freely, and the upper rod swings on; mended where it does not fit:
+   refused, and nothing has changed                                                                    */
+static void test_switch(void **state)
+{
+    (void)state;
+    linkage a = make_linkage(RODS);
+    static const real mass[4] = { 1, 1, 2, 2 };
+    a.mass.kind = GVI_MASS_DIAGONAL;
+    a.mass.matrix = mass;
+    a.effects[1] = (gvi_effect){ .kind = GVI_CONSTRAINT, .points = upper_rod, .rows = 1 };
+    a.effects[2] = (gvi_effect){ .kind = GVI_CONSTRAINT, .points = lower_rod, .rows = 1 };
+    a.count = 3;
+    const gvi_desc desc = linkage_desc(&a, 6);
+    gvi_stepper st;
+    real lambda[2], q[4], p[4], v[4];
+    assert_ok(set_up(&st, &a, &desc));
+    for (int k = 0; k < 10; ++k) assert_ok(gvi_step(&st, (real)0.1L));
+    assert_ok(gvi_multipliers(&st, lambda));
+    assert_true(lambda[0] < 0 && lambda[1] < 0);
+    assert_ok(gvi_switch(&st, 2, 0));
+    assert_ok(gvi_switch(&st, 2, 1));             // nothing has happened in between
+    assert_ok(gvi_switch(&st, 2, 0));
+    assert_ok(gvi_velocity(&st, v));
+    memcpy(q, st.q, sizeof q);
+    const unsigned long long calls = st.counters.effect[2];
+    for (int k = 0; k < 10; ++k) assert_ok(gvi_step(&st, (real)0.1L));
+    assert_int_equal(st.counters.effect[2], calls);
+    assert_close(st.q[2], q[2] + v[2], 40*EPS);
+    assert_close(st.q[3], q[3] + v[3] - (real)0.125L, 40*EPS);      // weight 1/2, mass 2
+    assert_close(st.q[0]*st.q[0] + st.q[1]*st.q[1], 1, 4*EPS);
+    assert_ok(gvi_multipliers(&st, lambda));
+    assert_true(lambda[0] < 0 && lambda[1] == 0);
+    memcpy(q, st.q, sizeof q);
+    memcpy(p, st.p, sizeof p);
+    assert_status(gvi_switch(&st, 2, 1), GVI_E_CONSTRAINT);
+    assert_int_equal(st.fault.effect, 2);
+    assert_int_equal(st.fault.coordinate, 0);
+    assert_memory_equal(q, st.q, sizeof q);
+    assert_memory_equal(p, st.p, sizeof p);
+    assert_ok(gvi_step(&st, (real)0.1L));               // it is still off
+    assert_int_equal(st.counters.effect[2], calls + 1);       // a look
+    assert_ok(gvi_switch(&st, 1, 0));             // free of all constraints
+    for (int k = 0; k < 3; ++k) assert_ok(gvi_step(&st, (real)0.1L));
+    assert_ok(gvi_multipliers(&st, lambda));
+    assert_true(lambda[0] == 0 && lambda[1] == 0);
+}
+
+/* Inside a step: the state at a time against a run that ends there; the curve's ends; a checkpoint's future */
+static void test_queries(void **state)
+{
+    (void)state;
+    static real copy[80000];
+    for (int id = 0; id < LINKAGES; ++id) {
+        const linkage a = make_linkage((linkage_id)id);
+        const gvi_desc desc = linkage_desc(&a, 8);
+        gvi_stepper st, saved;
+        real q[MOST_N], p[MOST_N], v[MOST_N], at[MOST_N], lambda[MOST_M];
+        assert_ok(set_up(&st, &a, &desc));
+        for (int k = 0; k < 5; ++k) assert_ok(gvi_step(&st, (real)0.04L));
+        saved = st;
+        memcpy(copy, memory, sizeof copy);
+        assert_ok(gvi_step(&st, (real)0.03L));
+        memcpy(q, st.q, sizeof q[0]*(size_t)a.n);
+        memcpy(p, st.p, sizeof p[0]*(size_t)a.n);
+        assert_ok(gvi_restore(&st, &saved, copy));
+        assert_ok(gvi_step(&st, (real)0.04L));
+        for (int i = 0; i < 2; ++i) {             // from both ends; and queries do not disturb
+            real later[MOST_N], mom[MOST_N];
+            assert_ok(gvi_state_at(&st, saved.t + (real)0.03L, later, v, mom));
+            assert_ok(gvi_multipliers(&st, lambda));
+            for (int j = 0; j < a.n; ++j) assert_close(later[j], q[j], 40*EPS);
+            for (int j = 0; j < a.n; ++j) assert_close(mom[j], p[j], 400*EPS*(1 + fabs(p[j])));
+        }
+        assert_ok(gvi_curve(&st, 1, at, v));
+        for (int j = 0; j < a.n; ++j) assert_close(at[j], st.q[j], 20*EPS);
+        assert_ok(gvi_curve(&st, (real)0.75L, at, v));
+        for (int j = 0; j < a.n; ++j) assert_close(at[j], q[j], (real)1e-7L + 4*EPS);
+        assert_ok(gvi_step(&st, (real)0.04L));
+        memcpy(q, st.q, sizeof q[0]*(size_t)a.n);
+        assert_ok(gvi_restore(&st, &saved, copy));
+        assert_ok(gvi_step(&st, (real)0.04L));
+        assert_ok(gvi_step(&st, (real)0.04L));
+        assert_memory_equal(q, st.q, sizeof q[0]*(size_t)a.n);
+    }
+}
+
+static int nothing(const gvi_points *x, void *user) { return (void)x, (void)user, 0; }
+
+/* What does not go with constraints says so by name */
+static void test_refusals(void **state)
+{
+    (void)state;
+    static const real nodes[1] = { (real)0.5L }, weights[1] = { 1 };
+    const linkage a = make_linkage(RODS), body = make_linkage(QUATERNION);
+    gvi_stepper st;
+    gvi_effect effects[3];
+    memcpy(effects, a.effects, sizeof effects);
+    effects[2] = (gvi_effect){ .kind = GVI_CLOCK, .points = nothing };
+    gvi_desc desc[5];
+    for (int k = 0; k < 5; ++k) desc[k] = linkage_desc(k < 3 ? &a : &body, k == 1 ? 1 : 4);
+    desc[0].effects = effects;
+    desc[0].effect_count = 3;
+    desc[1].rule = (gvi_rule){ .kind = GVI_KICKS, .points = 1, .nodes = nodes, .weights = weights };
+    desc[2].formulation = GVI_NEWTON;
+    desc[3].rule.points = 6;
+    desc[4].mass.velocity = nothing;
+    for (int k = 0; k < 5; ++k) {
+        assert_int_equal(gvi_size(desc + k), 0);
+        assert_status(gvi_init(&st, desc + k, memory, sizeof memory), GVI_E_FORMULATION);
+        assert_int_equal(st.fault.effect, 1);
+        assert_non_null(strstr(gvi_formulation_text(&st), "constraints"));
+    }
+    const gvi_desc good = linkage_desc(&a, 4);
+    static const gvi_discrete out;
+    assert_ok(set_up(&st, &a, &good));
+    assert_status(gvi_discrete_lagrangian(&st, 0, (real)0.1L, a.q, a.q, &out), GVI_E_FORMULATION);
+    assert_int_equal(st.fault.effect, 1);
+    assert_status(gvi_start_configurations(&st, 0, (real)0.1L, a.q, a.q), GVI_E_FORMULATION);
+    assert_non_null(strstr(gvi_formulation_text(&st), "boundary values"));
+    for (int rows = -1; rows < 6; ++rows) {       // more rows than coordinates, or none
+        gvi_desc d = good;
+        memcpy(effects, a.effects, sizeof effects);
+        effects[1].rows = rows;
+        d.effects = effects;
+        assert_int_equal(gvi_size(&d) > 0, rows >= 1 && rows <= 4);
+    }
+    memcpy(effects, a.effects, sizeof effects);
+    effects[0].rows = 1;                          // a potential has none
+    gvi_desc d = good;
+    d.effects = effects;
+    assert_int_equal(gvi_size(&d), 0);
+    const gvi_desc none = { .n = 2 };
+    real q[2] = { 0 };
+    assert_ok(gvi_init(&st, &none, memory, sizeof memory));
+    assert_ok(gvi_start(&st, 0, q, q));
+    assert_status(gvi_multipliers(&st, q), GVI_E_FORMULATION);
+}
+
+/* ---------------------------------------------------------------- hard cases */
+
+/* The state after a failed step is what it was */
+static void fails(gvi_stepper *st, int n, real h, gvi_status wanted)
+{
+    real q[MOST_N], p[MOST_N];
+    memcpy(q, st->q, sizeof(real)*(size_t)n);
+    memcpy(p, st->p, sizeof(real)*(size_t)n);
+    const real t = st->t;
+    assert_status(gvi_step(st, h), wanted);
+    assert_memory_equal(q, st->q, sizeof(real)*(size_t)n);
+    assert_memory_equal(p, st->p, sizeof(real)*(size_t)n);
+    assert_true(t == st->t);
+}
+
+/* A start off the manifold by 0.01 and by 1, in position and in velocity, is refused with its row */
+static void test_inconsistent(void **state)
+{
+    (void)state;
+    const linkage a = make_linkage(RODS);
+    const gvi_desc desc = linkage_desc(&a, 4);
+    gvi_stepper st;
+    assert_ok(set_up(&st, &a, &desc));
+    for (int k = 0; k < 4; ++k) {
+        linkage b = a;
+        (k < 2 ? b.q : b.v)[k < 2 ? 3 : 2] += k % 2 ? 1 : (real)0.01L;
+        assert_status(gvi_start(&st, 0, b.q, b.v), GVI_E_CONSTRAINT);
+        assert_int_equal(st.fault.effect, 1);
+        assert_int_equal(st.fault.coordinate, 1);
+    }
+    linkage b = a;                                // rounding is not refused
+    b.q[0] += 8*EPS;
+    assert_ok(gvi_start(&st, 0, b.q, b.v));
+    const linkage moving = make_linkage(PIVOT);   // velocity without that of the pivot
+    const gvi_desc with_pivot = linkage_desc(&moving, 4);
+    assert_ok(set_up(&st, &moving, &with_pivot));
+    b = moving;
+    b.v[0] -= (real)2/3;
+    assert_status(gvi_start(&st, 0, b.q, b.v), GVI_E_CONSTRAINT);
+}
+
+/* rods, and what the tests below add as a third row: twice the first; |end|^2, nearly the sum where they align */
+static int rods_twice(const gvi_points *x, void *user)
+{
+    rods(x, NULL);
+    rod(x, 2, 0, -1, 1, 0, 0);
+    return (void)user, 0;
+}
+
+static int rods_end(const gvi_points *x, void *user)
+{
+    rods(x, NULL);
+    rod(x, 2, 1, -1, *(const real *)user, 0, 0);
+    return 0;
+}
+
+static void test_dependent(void **state)
+{
+    (void)state;
+    linkage a = make_linkage(RODS);
+    gvi_stepper st;
+    a.effects[1].points = rods_twice;
+    a.effects[1].rows = 3;
+    gvi_desc desc = linkage_desc(&a, 4);
+    assert_status(set_up(&st, &a, &desc), GVI_E_SINGULAR);
+    assert_int_equal(st.fault.effect, 1);
+    assert_int_equal(st.fault.coordinate, 2);
+
+    // stretched out: the third row is the sum of the others
+    real length = 2;
+    a.effects[1].points = rods_end;
+    a.effects[1].user = &length;
+    a.q[2] = 2; a.q[3] = 0;
+    assert_status(set_up(&st, &a, &desc), GVI_E_SINGULAR);
+    assert_int_equal(st.fault.coordinate, 2);
+    a.q[2] = (real)1.6L; a.q[3] = (real)0.8L;                 // bent: a rigid triangle, and a pendulum
+    length = sqrt((real)3.2L);
+    assert_ok(set_up(&st, &a, &desc));
+    for (int k = 0; k < 50; ++k) assert_ok(gvi_step(&st, (real)0.1L));
+    assert_close(hypot(st.q[2], st.q[3]), length, 8*EPS);
+    static const real close[] = { (real)1e-2L, (real)1e-4L, (real)1e-6L };      // nearly stretched: right, or a status
+    for (int k = 0; k < COUNT(close); ++k) {
+        const real x = close[k];
+        a.q[2] = 1 + cos(x); a.q[3] = sin(x);
+        length = hypot(a.q[2], a.q[3]);
+        gvi_status status = set_up(&st, &a, &desc);
+        for (int i = 0; i < 20 && status == GVI_OK; ++i) status = gvi_step(&st, (real)0.05L);
+        assert_true(status == GVI_OK || status == GVI_E_SINGULAR || status == GVI_E_CONVERGENCE);
+        if (status == GVI_OK) assert_close(hypot(st.q[2], st.q[3]), length, 8*EPS);
+    }
+}
+
+/* A parallelogram driven through its flat position, where two motions part: refused, not taken by chance */
+static int parallelogram(const gvi_points *x, void *user)
+{
+    rod(x, 0, 0, -1, 1, 0, 0);
+    rod(x, 1, 1, 0, 3, 0, 0);
+    rod(x, 2, 1, -1, 1, 3, 0);
+    return (void)user, 0;
+}
+
+static void test_bifurcation(void **state)
+{
+    (void)state;
+    linkage a = make_linkage(FOUR_BAR);
+    static const real hs[] = { (real)0.05L, (real)0.03L, (real)0.1L };
+    a.effects[1].points = parallelogram;
+    for (int k = 0; k < COUNT(hs); ++k) {
+        gvi_stepper st;
+        const gvi_desc desc = linkage_desc(&a, 6);
+        a.q[0] = 0; a.q[1] = 1; a.q[2] = 3; a.q[3] = 1;
+        a.v[0] = a.v[2] = 1; a.v[1] = a.v[3] = 0;
+        assert_ok(set_up(&st, &a, &desc));
+        gvi_status status = GVI_OK;
+        for (int i = 0; i < 400 && status == GVI_OK; ++i) {
+            status = gvi_step(&st, hs[k]);
+            if (status == GVI_OK) {               // the parallel branch, as long as it says so
+                assert_close(st.q[2] - st.q[0], 3, (real)1e-4L);
+                assert_close(st.q[3], st.q[1], (real)1e-4L);
+            }
+        }
+        if (getenv("SHOW")) printf("parallelogram h %.2Lf: %s at t = %.2Lf\n", (long double)hs[k], gvi_status_text(status), (long double)st.t);
+        assert_status(status, GVI_E_SINGULAR);
+    }
+}
+
+/* From h = 1e-6 to one that does not converge, which is said, with the state as it was */
+static void test_steps(void **state)
+{
+    (void)state;
+    const linkage a = make_linkage(RODS);
+    const gvi_desc desc = linkage_desc(&a, 8);
+    static const real hs[] = { (real)1e-6L, (real)1e-4L, (real)1e-2L, (real)0.1L, (real)0.3L };
+    gvi_stepper st;
+    for (int k = 0; k < COUNT(hs); ++k) {
+        real E0, E;
+        assert_ok(set_up(&st, &a, &desc));
+        assert_ok(gvi_energy(&st, &E0));
+        for (int i = 0; i < 40; ++i) assert_ok(gvi_step(&st, hs[k]));
+        assert_ok(gvi_energy(&st, &E));
+        assert_between(0, residual(&st, &a), 6);
+        assert_close(E, E0, k < 3 ? 60*EPS : k < 4 ? 60*EPS + (real)1e-12L : (real)1e-5L);
+    }
+    assert_ok(set_up(&st, &a, &desc));
+    for (int i = 0; i < 5; ++i) assert_ok(gvi_step(&st, (real)0.1L));
+    fails(&st, 4, 3, GVI_E_CONVERGENCE);
+    fails(&st, 4, (real)1e3L, GVI_E_CONVERGENCE);
+    assert_ok(gvi_step(&st, (real)0.1L));
+}
+
+/* Another unit of length changes exponents, and no bit */
+static void test_units(void **state)
+{
+    (void)state;
+    linkage a = make_linkage(RODS);
+    static const int exponents[] = { 0, -120, -60, 60, 120 };
+    real first[4] = { 0 };
+    for (int k = 0; k < COUNT(exponents); ++k) {
+        const int e = sizeof(real) == sizeof(float) ? exponents[k]/4 : exponents[k];
+        real length = ldexp((real)1, e), force[4] = { 0, -length, 0, -length/2 };
+        linkage b = a;
+        b.effects[0].user = force;
+        b.effects[1].user = &length;
+        for (int i = 0; i < 4; ++i) b.q[i] *= length, b.v[i] *= length;
+        const gvi_desc desc = linkage_desc(&b, 8);
+        gvi_stepper st;
+        assert_ok(set_up(&st, &b, &desc));
+        for (int i = 0; i < 50; ++i) assert_ok(gvi_step(&st, (real)0.1L));
+        for (int i = 0; i < 4; ++i) {
+            if (k == 0) first[i] = st.q[i];
+            assert_true(st.q[i] == length*first[i]);
+        }
+    }
+}
+
+/* A light end, to 1e-12 of the other mass */
+static void test_mass_ratio(void **state)
+{
+    (void)state;
+    for (int k = 0; k <= 12; k += 3) {
+        linkage a = make_linkage(RODS);
+        const real light = pow((real)10, (real)-k), mass[4] = { 1, 1, light, light };
+        real force[4] = { 0, -1, 0, -light };
+        a.mass.kind = GVI_MASS_DIAGONAL;
+        a.mass.matrix = mass;
+        a.effects[0].user = force;
+        const gvi_desc desc = linkage_desc(&a, 8);
+        gvi_stepper st;
+        assert_ok(set_up(&st, &a, &desc));
+        for (int i = 0; i < 100; ++i) assert_ok(gvi_step(&st, (real)0.05L));
+        assert_between(0, residual(&st, &a), 6);
+    }
+}
+
+/* I_0 from 1e-4 to 1e4 is no part of the motion: the same, or a status */
+static void test_fourth_inertia(void **state)
+{
+    (void)state;
+    for (int k = -4; k <= 4; ++k) {
+        const real inertia[4] = { pow((real)10, (real)k), 1, 1, (real)0.5L };
+        linkage a = make_linkage(QUATERNION);
+        a.mass.user = (void *)inertia;
+        const gvi_desc desc = linkage_desc(&a, 8);
+        gvi_stepper st;
+        gvi_status status = set_up(&st, &a, &desc);
+        for (int i = 0; i < 200 && status == GVI_OK; ++i) status = gvi_step(&st, (real)0.05L);
+        if (getenv("SHOW")) printf("I0 1e%d: %s after %llu\n", k, gvi_status_text(status), st.counters.steps);
+        if (k >= -2 && k <= 0) assert_ok(status);
+        if (status == GVI_OK) assert_close(st.q[3], 0.8362546361450629900108049131L, 10000*EPS + (real)1e-12L);
+    }
+}
+
+/* Spin w of the top in directors: steps of h w to 2 converge, beyond it a status */
+static void test_spin(void **state)
+{
+    (void)state;
+    for (int k = -2; k <= 3; ++k) {
+        linkage a = make_linkage(DIRECTORS);
+        const real w = 20, hw = ldexp((real)1, k);
+        for (int i = 0; i < 9; ++i) a.v[i] = 0;
+        for (int i = 0; i < 3; ++i) a.v[i] = w*a.q[3 + i], a.v[3 + i] = -w*a.q[i];
+        const gvi_desc desc = linkage_desc(&a, 8);
+        gvi_stepper st;
+        real E0, E;
+        assert_ok(set_up(&st, &a, &desc));
+        assert_ok(gvi_energy(&st, &E0));
+        gvi_status status = GVI_OK;
+        for (int i = 0; i < 100 && status == GVI_OK; ++i) status = gvi_step(&st, hw/w);
+        assert_true(status == GVI_OK || status == GVI_E_CONVERGENCE);
+        if (k <= 0) assert_ok(status);
+        assert_ok(gvi_energy(&st, &E));
+        if (getenv("SHOW")) printf("h w %.2Lf: %s after %llu, %.1Le\n", (long double)hw, gvi_status_text(status), st.counters.steps, (long double)((E - E0)/E0));
+        if (status == GVI_OK) assert_close(E, E0, E0*(k < 1 ? 100*EPS + (real)1e-12L : (real)1e-5L));
+    }
+}
+
+static int refuse_at;
+
+static int refuses(const gvi_points *x, void *user)
+{
+    rods(x, NULL);
+    if (refuse_at < 0 && x->t[x->count - 1] > (real)0.5L) return 1;
+    if (refuse_at > 0 && x->t[x->count - 1] > (real)0.5L)
+        x->jacobian[4*x->stride + x->count - 1] = (real)(refuse_at > 1 ? INFINITY : NAN);
+    return (void)user, 0;
+}
+
+static void test_hostile_callbacks(void **state)
+{
+    (void)state;
+    linkage a = make_linkage(RODS);
+    a.effects[1].points = refuses;
+    const gvi_desc desc = linkage_desc(&a, 4);
+    for (refuse_at = -1; refuse_at <= 2; ++refuse_at) {
+        gvi_stepper st;
+        if (refuse_at == 0) continue;
+        assert_ok(set_up(&st, &a, &desc));
+        for (int k = 0; k < 4; ++k) assert_ok(gvi_step(&st, (real)0.1L));
+        fails(&st, 4, (real)0.2L, refuse_at < 0 ? GVI_E_CALLBACK : GVI_E_NON_FINITE);
+        assert_int_equal(st.fault.effect, 1);
+        if (refuse_at > 0) assert_int_equal(st.fault.coordinate, 1);
+        assert_ok(gvi_step(&st, (real)0.05L));
+        assert_status(gvi_start(&st, 1, a.q, a.v), refuse_at < 0 ? GVI_E_CALLBACK : GVI_E_NON_FINITE);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_references),
+        cmocka_unit_test(test_rattle),
+        cmocka_unit_test(test_momentum_maps),
+        cmocka_unit_test(test_there_and_back),
+        cmocka_unit_test(test_long_runs),
+        cmocka_unit_test(test_tension),
+        cmocka_unit_test(test_switch),
+        cmocka_unit_test(test_queries),
+        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_inconsistent),
+        cmocka_unit_test(test_dependent),
+        cmocka_unit_test(test_bifurcation),
+        cmocka_unit_test(test_steps),
+        cmocka_unit_test(test_units),
+        cmocka_unit_test(test_mass_ratio),
+        cmocka_unit_test(test_fourth_inertia),
+        cmocka_unit_test(test_spin),
+        cmocka_unit_test(test_hostile_callbacks),
+    };
+    return cmocka_run_group_tests_name("constraints", tests, NULL, NULL);
+}

@@ -1,0 +1,373 @@
+/* examples/tools/event.h: zeros inside a step.  What is expected are closed forms: Kepler's equation,
+   the oscillator, the parabola, free motion.                                   */
+#include "gvi_test.h"
+#include "tools/event.h"
+
+typedef gvi_real real;
+#include "mechanics.h"
+
+#define R(x) ((real)x##L)
+
+enum { N = 2 };
+static real memory[20000], q[N], v[N], p[N];
+static const real pi = R(3.14159265358979323846264338328);
+
+static event of(event_fn *g, void *user) { return (event){ .g = g, .user = user, .q = q, .v = v, .p = p }; }
+
+static int spring(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k) x->f[k] -= x->q[k];
+    return 0;
+}
+
+static int weight(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k) x->f[k] -= 1;
+    return 0;
+}
+
+static int distance(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k) {
+        const real d = sqrt(x->q[k]*x->q[k] + x->q[x->stride+k]*x->q[x->stride+k]);
+        x->value[k] += d;
+        if (!x->f) continue;
+        x->f[k] += x->q[k]/d;
+        x->f[x->stride+k] += x->q[x->stride+k]/d;
+    }
+    return 0;
+}
+
+static real level(real t, const real *at, const real *rate, void *user) { return at[0] - *(real *)user; }
+static real apsis(real t, const real *at, const real *rate, void *user) { return at[0]*rate[0] + at[1]*rate[1]; }
+static real clock_hand(real t, const real *at, const real *rate, void *user) { return t - *(real *)user; }
+static real undefined(real t, const real *at, const real *rate, void *user) { return sqrt(R(-1.0)); }
+
+static const gvi_effect oscillator[] = { { .kind = GVI_POTENTIAL, .points = spring } };
+
+/* q = cos t from t on                                                         */
+static gvi_stepper *cosine(int degree, real t)
+{
+    static gvi_stepper st;
+    const gvi_desc desc = { .n = 1, .degree = degree, .effects = oscillator, .effect_count = 1 };
+    assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+    assert_ok(gvi_start(&st, t, (real[]){ cos(t) }, (real[]){ -sin(t) }));
+    return &st;
+}
+
+/* ------------------------------------------------------------------- order */
+
+static const gvi_effect attracted[] = { { .kind = GVI_POTENTIAL, .points = attraction, .value = attraction },
+                                        { .kind = GVI_CLOCK, .points = distance } };
+static const real ellipse = R(0.3);                     /* eccentricity, half axis 1, from the perihelion */
+
+/* Largest error of three times within a revolution, q passing x = cos E - e for E = 1, E = 2, and the
+   aphelion, in steps of h.  Each must be found once.                          */
+static real kepler_error(const gvi_desc *desc, real h)
+{
+    static const real E[] = { 1, 2, R(3.14159265358979323846264338328) };
+    real worst = 0;
+    for (int k = 0; k < COUNT(E); ++k) {
+        real x = cos(E[k]) - ellipse;
+        const real exact = E[k] - ellipse*sin(E[k]);
+        event e = of(k == 2 ? apsis : level, &x);
+        gvi_stepper st;
+        assert_ok(gvi_init(&st, desc, memory, sizeof memory));
+        assert_ok(gvi_start(&st, 0, (real[]){ 1 - ellipse, 0 }, (real[]){ 0, sqrt((1 + ellipse)/(1 - ellipse)) }));
+        for (int found = 0; !found; ) {
+            assert_ok(gvi_step(&st, h));
+            found = event_next(&e, &st);
+            assert_between(0, found, 1);
+            assert_true(st.t < 4);
+        }
+        assert_false(e.rising);
+        assert_between(st.t0, e.t, st.t);
+        worst = fmax(worst, fabs(e.t - exact));
+        assert_int_equal(event_next(&e, &st), 0);
+    }
+    return worst;
+}
+
+static void expect_order(const gvi_desc *desc, real h, real order)
+{
+    const real coarse = kepler_error(desc, h), fine = kepler_error(desc, h/2);
+    assert_between(order - R(0.25), log2(coarse/fine), order + R(0.25));
+}
+
+TEST(times_have_the_order_of_the_steps)
+{
+    static const real at[] = { 0, R(1.35120719195965763), R(-0.35120719195965763), 1 };
+    static const real kick[] = { R(0.67560359597982882), R(-0.17560359597982882), R(-0.17560359597982882), R(0.67560359597982882) };
+    static const real h[] = { R(0.011), R(0.09), R(0.18), R(0.18) };
+    gvi_desc desc = { .n = N, .degree = 8, .effects = attracted, .effect_count = 1 };
+    assert_between(0, kepler_error(&desc, R(0.07)), 200*EPS);
+    if (DIG < 50) return;
+    for (int s = 1; s <= 4; ++s) {
+        desc.degree = s;
+        expect_order(&desc, h[s-1], (real)(2*s));
+    }
+    desc.degree = 0;
+    desc.rule = (gvi_rule){ .kind = GVI_KICKS, .points = 4, .nodes = at, .weights = kick };
+    expect_order(&desc, R(0.03), 4);
+    desc = (gvi_desc){ .n = N, .degree = 1, .rule = { .kind = GVI_LOBATTO }, .effects = attracted, .effect_count = 1 };
+    expect_order(&desc, R(0.011), 2);
+    for (int s = 2; s <= 3; ++s) {
+        desc = (gvi_desc){ .n = N, .degree = s, .effects = attracted, .effect_count = 2 };
+        expect_order(&desc, R(0.09), (real)(2*s));
+    }
+}
+
+/* ------------------------------------------------------ each once, and both faults */
+
+/* cos t = 0.3, twice a period; and again with a new start at every zero.      */
+TEST(every_zero_once)
+{
+    static const real h[] = { R(0.0625), R(0.3), R(0.7), R(-0.45) };
+    real wanted = R(0.3);
+    const real first = acos(wanted);
+    for (int anew = 0; anew < 2; ++anew)
+        for (int i = 0; i < COUNT(h); ++i) {
+            event e = of(level, &wanted);
+            gvi_stepper *st = cosine(8, 0);
+            const real way = h[i] < 0 ? -1 : 1;
+            for (int k = 0; k < 60; ) {
+                int found;
+                assert_ok(gvi_step(st, h[i]));
+                while ((found = event_next(&e, st)) > 0) {
+                    const real exact = way*((real)(k/2)*2*pi + (k % 2 ? 2*pi - first : first));
+                    assert_close(e.t, exact, 16*EPS*(1 + fabs(exact)));
+                    assert_close(e.q[0], wanted, 200*EPS);
+                    assert_int_equal(e.rising, k % 2);
+                    ++k;
+                    if (anew) {
+                        assert_ok(gvi_start_momentum(st, e.t, e.q, e.p));
+                        break;
+                    }
+                }
+                assert_true(found >= 0);
+            }
+        }
+}
+
+/* q = t - 1 is 0 where the fourth step ends; so is q = 1 - t.                  */
+TEST(a_zero_where_two_steps_meet)
+{
+    const gvi_desc desc = { .n = 1, .degree = 2 };
+    for (int rising = 0; rising < 2; ++rising) {
+        real zero = 0;
+        const real rate = rising ? 1 : -1;
+        event e = of(level, &zero);
+        gvi_stepper st;
+        int count = 0;
+        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+        assert_ok(gvi_start(&st, 0, (real[]){ -rate }, (real[]){ rate }));
+        for (int k = 0; k < 12; ++k) {
+            int found;
+            assert_ok(gvi_step(&st, R(0.25)));
+            while ((found = event_next(&e, &st)) > 0) {
+                ++count;
+                assert_close(e.t, 1, 0);
+                assert_int_equal(e.rising, rising);
+            }
+            assert_int_equal(found, 0);
+        }
+        assert_int_equal(count, 1);
+
+        /* a run that starts at its zero does not count it */
+        e = of(level, &zero);
+        assert_ok(gvi_start(&st, 0, (real[]){ 0 }, (real[]){ rate }));
+        assert_ok(gvi_step(&st, R(0.25)));
+        assert_int_equal(event_next(&e, &st), 0);
+    }
+}
+
+/* Four intervals of a quarter each; the top of cos t in the middle of one.  Zeros of cos t - level that
+   are 0.2 apart lie both inside and are not seen, 0.3 apart they are; nor are those lost in shorter steps.  */
+TEST(two_zeros_in_one_interval)
+{
+    static const struct { real apart, h; int zeros; } cases[] = { { R(0.2), 1, 0 }, { R(0.3), 1, 2 }, { R(0.2), R(0.5), 2 } };
+    for (int i = 0; i < COUNT(cases); ++i) {
+        real wanted = cos(cases[i].apart/2);
+        event e = of(level, &wanted);
+        gvi_stepper *st = cosine(3, R(-0.375));
+        int count = 0;
+        for (int k = 0; k < 3; ++k) {
+            assert_ok(gvi_step(st, cases[i].h));
+            while (event_next(&e, st) > 0)
+                assert_close(fabs(e.t), cases[i].apart/2, R(1e-4)), ++count;
+        }
+        assert_int_equal(count, cases[i].zeros);
+    }
+}
+
+/* cos t - level where only the curve passes the level, above the top of the states, and a sample lies
+   between its two zeros. What counts are states.                                 */
+TEST(a_touch_that_only_the_curve_sees)
+{
+    real curve, top, wanted;
+    event e = of(level, &wanted);
+    gvi_stepper *st = cosine(3, R(-0.75));
+    assert_ok(gvi_step(st, 1));
+    assert_ok(gvi_curve(st, R(0.75), &curve, NULL));
+    assert_ok(gvi_state_at(st, 0, &top, NULL, NULL));
+    assert_between(R(1e-5), curve - top, R(1e-2));
+    wanted = top + (curve - top)*R(0.5);
+    assert_int_equal(event_next(&e, st), 0);
+    wanted = top - (curve - top)*R(0.5);
+    e = of(level, &wanted);
+    assert_int_equal(event_next(&e, st), 1);
+    assert_int_equal(event_next(&e, st), 1);
+    assert_int_equal(event_next(&e, st), 0);
+}
+
+/* Far from the start of a step time runs faster with a clock: samples at fractions of the time, not of tau. */
+static real two_lines(real t, const real *at, const real *rate, void *user)
+{
+    return (at[0] - cos(R(0.35)) + R(0.8))*(at[0] - cos(R(0.85)) + R(0.8));
+}
+
+TEST(two_zeros_by_a_clock)
+{
+    static const real E[] = { R(0.35), R(0.85) };
+    const gvi_desc desc = { .n = N, .degree = 4, .effects = attracted, .effect_count = 2 };
+    event e = of(two_lines, NULL);
+    gvi_stepper st;
+    assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+    assert_ok(gvi_start(&st, 0, (real[]){ R(0.2), 0 }, (real[]){ 0, 3 }));
+    assert_ok(gvi_step(&st, R(1.5)));
+    for (int k = 0; k < 2; ++k) {
+        assert_int_equal(event_next(&e, &st), 1);
+        assert_close(e.t, E[k] - R(0.8)*sin(E[k]), R(1e-4));
+    }
+    assert_int_equal(event_next(&e, &st), 0);
+}
+
+/* ------------------------------------------------------------------ bounces */
+
+/* From height 1 with weight 1: impacts at sqrt(2) (1 + 2k), back at height 1 in between. */
+TEST(an_elastic_ball)
+{
+    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = weight } };
+    const gvi_desc desc = { .n = 1, .degree = 2, .effects = scene, .effect_count = 1 };
+    real zero = 0;
+    event e = of(level, &zero);
+    gvi_stepper st;
+    assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+    assert_ok(gvi_start(&st, 0, (real[]){ 1 }, (real[]){ 0 }));
+    for (int k = 0; k < 300; ) {
+        assert_ok(gvi_step(&st, R(0.37)));
+        const int found = event_next(&e, &st);
+        assert_true(found >= 0);
+        if (!found) continue;
+        const real exact = sqrt(R(2.0))*(real)(1 + 2*k);
+        assert_close(e.t, exact, 8*EPS*exact*sqrt((real)(k + 1)));
+        assert_false(e.rising);
+        assert_close(e.p[0]*e.p[0]/2, 1, 300*EPS*(real)(k + 1));
+        e.p[0] = -e.p[0];
+        assert_ok(gvi_start_momentum(&st, e.t, e.q, e.p));
+        ++k;
+    }
+}
+
+/* q'' = -1 - q^2 above a floor: a step that hits it, split there.                       */
+static int curved(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k) x->f[k] -= 1 + x->q[k]*x->q[k];
+    return 0;
+}
+
+static void bounce(int degree, real h, real *at, real *momentum)
+{
+    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = curved } };
+    const gvi_desc desc = { .n = 1, .degree = degree, .effects = scene, .effect_count = 1 };
+    real zero = 0;
+    event e = of(level, &zero);
+    gvi_stepper st;
+    assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+    assert_ok(gvi_start_momentum(&st, 0, at, momentum));
+    assert_ok(gvi_step(&st, h));
+    assert_int_equal(event_next(&e, &st), 1);
+    e.p[0] = -e.p[0];
+    assert_ok(gvi_start_momentum(&st, e.t, e.q, e.p));
+    assert_ok(gvi_step(&st, h - e.t));
+    *at = st.q[0];
+    *momentum = st.p[0];
+}
+
+/* det - 1 of the map of a step with a bounce, by differences.                         */
+static real area_defect(int degree, real h)
+{
+    const real d = R(1e-4);
+    real J[2][2], z[2][2];
+    for (int j = 0; j < 2; ++j) {
+        for (int k = 0; k < 2; ++k) {
+            z[k][0] = h/4;
+            z[k][1] = R(-0.9);
+            z[k][j] += k ? d : -d;
+            bounce(degree, h, &z[k][0], &z[k][1]);
+        }
+        for (int i = 0; i < 2; ++i) J[i][j] = (z[1][i] - z[0][i])/(2*d);
+    }
+    return fabs(J[0][0]*J[1][1] - J[0][1]*J[1][0] - 1);
+}
+
+/* It is symplectic to the order of a step, h^3 at degree 1, and not to rounding; at degree 4 as well as exactly. */
+TEST(a_bounce_is_symplectic_to_the_order)
+{
+    if (DIG < 50) return;
+    assert_between(R(2.8), log2(area_defect(1, R(0.2))/area_defect(1, R(0.1))), R(3.2));
+    assert_between(R(1e-3), area_defect(1, R(0.4)), R(1e-2));
+    assert_between(0, area_defect(4, R(0.1)), R(1e-7));                 /* differences */
+}
+
+/* ------------------------------------------------------------------- others */
+
+TEST(steps_stay_the_same)
+{
+    real wanted = R(0.3), plain[2] = { 0, 0 };
+    event e = of(level, &wanted);
+    for (int search = 0; search < 2; ++search) {
+        gvi_stepper *st = cosine(4, 0);
+        for (int k = 0; k < 50; ++k) {
+            assert_ok(gvi_step(st, R(0.4)));
+            while (search && event_next(&e, st) > 0) {}
+        }
+        if (search) assert_true(plain[0] == st->q[0] && plain[1] == st->p[0]);
+        plain[0] = st->q[0];
+        plain[1] = st->p[0];
+    }
+}
+
+/* g may read the time alone, and need not be finite.                          */
+TEST(what_g_may_be)
+{
+    real noon = R(1.3);
+    event e = of(clock_hand, &noon);
+    gvi_stepper *st = cosine(4, 0);
+    assert_int_equal(event_next(&e, st), GVI_E_STATE);
+    for (int k = 0; k < 4; ++k) {
+        assert_ok(gvi_step(st, R(0.5)));
+        assert_int_equal(event_next(&e, st), k == 2);
+    }
+    assert_close(e.t, noon, 2*EPS);
+    e = of(undefined, NULL);
+    assert_int_equal(event_next(&e, st), GVI_E_NON_FINITE);
+}
+
+TEST(output_at_given_times)
+{
+    for (int way = -1; way <= 1; way += 2) {
+        gvi_stepper *st = cosine(8, 0);
+        for (int k = 0; k <= 30; ++k) {
+            const real t = R(0.25)*(real)(way*k);
+            assert_ok(output_at(st, (real)way*R(0.75), t, q, v, p));
+            assert_close(q[0], cos(t), 8*EPS);
+            assert_close(v[0], -sin(t), 8*EPS);
+            assert_close(p[0], -sin(t), 8*EPS);
+        }
+        assert_int_equal((int)st->counters.steps, 10);
+        assert_status(output_at(st, (real)way*R(0.75), 0, q, NULL, NULL), GVI_E_STATE);      /* long past */
+    }
+}
+
+RUN_TESTS(NULL, NULL)
