@@ -169,7 +169,7 @@ $(BUILD)/cost/kicks $(BUILD)/cost/cost: %: %.o $(addprefix $(BUILD)/cost/,proble
 
 # -- hard cases and theorems, measured
 
-HARD     = eccentric eccentric-float pythagorean corners stiff long brouwer brouwer-float drift single
+HARD     = eccentric flyby eccentric-float pythagorean corners stiff long brouwer brouwer-float drift single
 THEOREMS = order lagrangian curve forced doubled dissipation spectral identities inertia stability
 # These need more digits than long double has on x86.
 $(addprefix $(BUILD)/theorems/,order lagrangian forced): TESTFLAGS += $(shell CC='$(CC)' sh tests/theorems/quad.sh)
