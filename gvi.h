@@ -477,7 +477,7 @@ typedef int gvi_hessian_fn(gvi_real t, const gvi_real *q, const gvi_real *v,
                            gvi_real *fq, gvi_real *fv, gvi_real *pv, void *user);
 
 typedef enum gvi_kind {
-    GVI_POTENTIAL  = 0,  /* V(t,q):   reads t, q;    adds -dV/dq to f              */
+    GVI_POTENTIAL  = 0,  /* V(t,q):   reads t, q;    adds -dV/dq to f, or any f(t,q) */
     GVI_FORCE      = 1,  /* f(t,q,v): reads t, q, v; adds f to f                   */
     GVI_LAGRANGIAN = 2,  /* L(t,q,v): reads t, q, v; adds dL/dq to f, dL/dv to dldv */
     GVI_CLOCK      = 3,  /* g(q) > 0: adds g to value and dg/dq to f; at most one   */
@@ -506,7 +506,9 @@ typedef enum gvi_mass_kind {
     GVI_MASS_NONE     = 4   /* all of it comes from Lagrangian terms            */
 } gvi_mass_kind;
 
-/* The kinetic energy.  M must be definite.  matrix is read by gvi_init only.  */
+/* The kinetic energy.  M need not be definite: no leading minor may be 0 (dense, M(q)), no m_i
+   (diagonal).  Where M(q) is singular, as at the pole of Euler's angles (gimbal lock), a step that
+   comes there ends in GVI_E_SINGULAR.  matrix is read by gvi_init only.                       */
 typedef struct gvi_mass {
     gvi_mass_kind   kind;
     const gvi_real *matrix;
@@ -772,7 +774,11 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
 GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action);
 
 /* L_d(q0, q1; t, h): boundary values given, rows k >= 1 of (1) solved by Newton's method.
-   GVI_E_CONJUGATE where they do not determine the curve (oscillator: h omega = k pi).  Needs
+   The curve is that near the chord, followed from short h; or with a guess that near the motion
+   that starts with it, and gvi_start_momentum(st, t, q0, p0) starts it.  If `negative` is wanted,
+   without a guess, it is whatever curve Newton's method finds from the chord.  GVI_E_CONJUGATE
+   where the ends do not determine the curve (oscillator: h omega = k pi; a half circle about the
+   Sun, whose chord goes through it, or past another conjugate point).  Needs
    GVI_AUTO or GVI_NEWTON if s > 1, and is not for kicks or a clock.  Forced systems: d1, d2 are
    total derivatives, and F-, F+ are h sum b_i f_i dQ_i/dq0, dQ_i/dq1 with the curve's own
    dependence on its ends, as the exact discrete forces are [1, sec. 3.2]; how they share p0

@@ -2,7 +2,7 @@
 
 .PHONY: headers-quick headers symbols parts docs-check bound float instructions prices usable sanitize sanitized any_processor \
         ensemble deps-ensemble firmware deps-firmware fuzz fuzz-short size stats compare everywhere deps-everywhere \
-        cost-horizon ncdp scaling kicks points cost-peers deps-compare cost-embedded hard theorems
+        cost-horizon ncdp scaling kicks points cost-peers deps-compare cost-embedded hard theorems mutants
 
 # -- steps of `make test` and `make check`; each can be run alone
 
@@ -166,6 +166,10 @@ $(BUILD)/cost/peers: $(addprefix $(BUILD)/cost/,peers.o problems.o peers_odeint.
 	$(Q)$(CXX) $^ -o $@ $(PEER_LIBS) $(LDLIBS)
 $(BUILD)/cost/kicks $(BUILD)/cost/cost: %: %.o $(addprefix $(BUILD)/cost/,problems.o baselines.o gvi_run.o)
 	$(Q)$(CC) $^ -o $@ $(LDLIBS)
+
+#: mutants      56 slips put into gvi.h one by one: which of them no test sees (Python; twenty minutes)
+mutants: | $(FIRST)
+	$(Q)mkdir -p $(BUILD) && python3 tests/tools/mutants.py $(BUILD)
 
 # -- hard cases and theorems, measured
 
