@@ -2757,11 +2757,12 @@ static void gvi__watch_resolution(gvi_stepper *st, gvi_real h)
     const struct gvi__private *x = &st->x;
     const gvi_real *a = x->table.high, *b = a + x->R, *F = x->work.F;
     for (int i = 0; a && i < st->n; ++i, F += x->R) {
-        gvi_real one = 0, two = 0, all = 0;
+        const gvi_real all = (GVI_ABS(F[0]) + GVI_ABS(F[(st->r - 1)/2]) + GVI_ABS(F[st->r/2])
+                              + GVI_ABS(F[st->r - 1]))/4;
+        gvi_real one = 0, two = 0;
         for (int k = 0; k < st->r; ++k) {
             one += a[k]*F[k];
             two += b[k]*F[k];
-            all += GVI_ABS(x->table.b[k]*F[k]);
         }
         const gvi_real share = (GVI_ABS(one) + GVI_ABS(two))/all, push = GVI_ABS(h)*all,
                        resolution = share*share*(push/(GVI_ABS(x->state.p[i]) + push));
