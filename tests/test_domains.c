@@ -148,6 +148,33 @@ static void a_clock_refuses_a_potential_that_reads_t(void **state)
     assert_close(st.t, 0.5, EPS);
 }
 
+/* g = 1 up to q = user, 0 beyond */
+static int stopping(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k) x->value[k] += x->q[k] < *(real *)user ? 1 : 0;
+    return 0;
+}
+
+/* A free particle at the points c_k h of its first iteration: the first beyond is the fault's */
+static void a_clock_that_stops_names_the_point(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 5; ++k) {
+        real c[5], b[5], at;
+        const gvi_effect scene[] = { { .kind = GVI_CLOCK, .points = stopping, .user = &at } };
+        const gvi_desc desc = { .n = 1, .degree = 5, .effects = scene, .effect_count = 1 };
+        const real q = 0, v = 1;
+        gvi_stepper st;
+        assert_ok(gvi_gauss(5, c, b));
+        at = (k ? c[k - 1] + c[k] : c[0])/2;
+        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+        assert_ok(gvi_start(&st, 0, &q, &v));
+        assert_status(gvi_step(&st, 1), GVI_E_CLOCK);
+        assert_int_equal(st.fault.effect, 0);
+        assert_int_equal(st.fault.point, k);
+    }
+}
+
 /* --------------------------------------------------- the ends of a step */
 
 static void times_within_2_ulp_of_a_step_are_in_it(void **state)
@@ -332,6 +359,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_clock_leaves_a_light_body_where_it_is),
         cmocka_unit_test(a_clock_refuses_a_potential_that_reads_t),
+        cmocka_unit_test(a_clock_that_stops_names_the_point),
         cmocka_unit_test(times_within_2_ulp_of_a_step_are_in_it),
         cmocka_unit_test(relativistic_particles_start_by_momentum),
         cmocka_unit_test(free_motion_that_is_refused_is_shortened),
