@@ -107,7 +107,7 @@ help-all: help
 uninstall:
 	rm -f $(INSTALLED)
 
-#: deps-check   installs what check uses if it is there: clang, g++, valgrind
+#: deps-check   installs what check uses if it can be had: clang, g++, valgrind, cmake, pkg-config, mingw
 deps-check: deps
 	$(Q)sh tests/tools/deps.sh --check
 

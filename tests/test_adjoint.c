@@ -5,10 +5,8 @@
 #include "tools/adjoint.h"
 
 typedef gvi_real real;
-#include "problems.h"
+#include "products.h"
 enum { N = 2, NODES = 8 };
-
-#define R(x) ((real)x##L)
 
 static real memory[20000], back_memory[20000], room[2*TANGENT_ROOM(2, 6)];
 
@@ -103,71 +101,6 @@ TEST(gradient_by_the_drag)
 
 /* ------------------------------------- a pendulum of two links in a liquid: M(q), friction */
 
-static int weight(const gvi_points *x, void *user)
-{
-    const int s = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        x->f[k] -= 2*sin(x->q[k]);
-        x->f[s+k] -= sin(x->q[s+k]);
-    }
-    return 0;
-}
-
-static int weight_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
-{
-    const int s = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        d->f[k] -= 2*cos(x->q[k])*d->q[k];
-        d->f[s+k] -= cos(x->q[s+k])*d->q[s+k];
-    }
-    return 0;
-}
-
-static int matrix(const gvi_points *x, void *user)
-{
-    const int s = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        x->mass[k] = 2;
-        x->mass[2*s+k] = cos(x->q[k] - x->q[s+k]);
-        x->mass[3*s+k] = 1;
-    }
-    return 0;
-}
-
-static int slope(const gvi_points *x, void *user)
-{
-    const int s = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        const real w = sin(x->q[k] - x->q[s+k])*x->v[k]*x->v[s+k];
-        x->f[k] -= w;
-        x->f[s+k] += w;
-    }
-    return 0;
-}
-
-static int slope_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
-{
-    const int s = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        const real a = x->q[k] - x->q[s+k], da = d->q[k] - d->q[s+k], u = x->v[k], v = x->v[s+k];
-        const real w = cos(a)*da*u*v + sin(a)*(d->v[k]*v + u*d->v[s+k]);
-        d->f[k] -= w;
-        d->f[s+k] += w;
-    }
-    return 0;
-}
-
-static int velocity(const gvi_points *x, void *user)
-{
-    const int s = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        const real c = cos(x->q[k] - x->q[s+k]), D = 1/(2 - c*c);
-        x->velocity[k] = (x->p[k] - c*x->p[s+k])*D;
-        x->velocity[s+k] = (2*x->p[s+k] - c*x->p[k])*D;
-    }
-    return 0;
-}
-
 static void velocity_of(const gvi_points *x, const gvi_points *d, const int transposed)
 {
     const int s = x->stride;
@@ -227,46 +160,11 @@ static int turning_transposed(const gvi_points *x, const gvi_points *d, int para
     return 0;
 }
 
-/* A magnetic field, L = b |q|^2 (x y' - y x')/2, b = 1: its product serves both.  b is parameter 1.  */
-static int magnetic(const gvi_points *x, void *user)
-{
-    const int s = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        const real a = x->q[k], b = x->q[s+k], u = x->v[k], v = x->v[s+k], z = (a*a + b*b)/2;
-        const real l = a*v - b*u;
-        if (x->f) x->f[k] += a*l + z*v, x->f[s+k] += b*l - z*u;
-        if (x->dldv) x->dldv[k] -= z*b, x->dldv[s+k] += z*a;
-    }
-    return 0;
-}
-
-static int magnetic_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
-{
-    const int s = x->stride;
-    if (parameter == 1) {
-        gvi_points y = *x;
-        y.f = d->f, y.dldv = d->dldv;                        /* linear in b */
-        magnetic(&y, NULL);
-    }
-    for (int k = 0; k < x->count; ++k) {
-        const real a = x->q[k], b = x->q[s+k], z = (a*a + b*b)/2;
-        const real da = d->q[k], db = d->q[s+k], dz = a*da + b*db;
-        if (d->f) {
-            const real u = x->v[k], v = x->v[s+k], du = d->v[k], dv = d->v[s+k];
-            const real l = a*v - b*u, dl = da*v + a*dv - db*u - b*du;
-            d->f[k] += da*l + a*dl + dz*v + z*dv;
-            d->f[s+k] += db*l + b*dl - dz*u - z*du;
-        }
-        if (d->dldv) d->dldv[k] -= dz*b + z*db, d->dldv[s+k] += dz*a + z*da;
-    }
-    return 0;
-}
-
 /* The kinetic energy of the two links as a Lagrangian term, for GVI_MASS_NONE.  */
 static int links(const gvi_points *x, void *user)
 {
     const int s = x->stride;
-    if (x->f) slope(x, NULL);
+    if (x->f) pendulum_gradient(x, NULL);
     for (int k = 0; k < x->count && x->dldv; ++k) {
         const real c = cos(x->q[k] - x->q[s+k]);
         x->dldv[k] += 2*x->v[k] + c*x->v[s+k];
@@ -278,7 +176,7 @@ static int links(const gvi_points *x, void *user)
 static int links_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
 {
     const int s = x->stride;
-    if (d->f) slope_product(x, d, -1, NULL);
+    if (d->f) pendulum_gradient_product(x, d, -1, NULL);
     for (int k = 0; k < x->count && d->dldv; ++k) {
         const real a = x->q[k] - x->q[s+k], da = d->q[k] - d->q[s+k], c = cos(a), dc = -sin(a)*da;
         d->dldv[k] += 2*d->v[k] + c*d->v[s+k] + dc*x->v[s+k];
@@ -298,22 +196,15 @@ static const gvi_effect turned[] = { { .kind = GVI_POTENTIAL, .points = attracti
                         charged[] = { { .kind = GVI_POTENTIAL, .points = attraction },
                                       { .kind = GVI_LAGRANGIAN, .points = magnetic },
                                       { .kind = GVI_FORCE, .points = drag } };
-static const real diagonal[] = { R(1.25), R(0.75) }, dense[] = { R(1.25), 0, R(0.5), R(0.75) };
-
 typedef struct scene {
     const char *name;
     gvi_desc    desc;
     tangent_fn *product[3], *transposed[3];
 } scene;
 
-#define LINKS { .kind = GVI_MASS_POSITION, .points = matrix, .gradient = slope, .velocity = velocity }
 #define TURNED .n = N, .effects = turned, .effect_count = 3
 #define PRODUCTS { attraction_product, turning_product, drag_product }, \
                  { attraction_product, turning_transposed, drag_transposed }
-
-/* Forest and Ruth's splitting.                                                 */
-#define G R(1.35120719195965763404768780897)
-static const real ruth_at[] = { 0, G, 1 - G, 1 }, ruth[] = { G/2, (1 - G)/2, (1 - G)/2, G/2 };
 
 static const scene scenes[] = {
     { "potential", { .n = N, .degree = 3, .effects = turned, .effect_count = 1 },
@@ -331,10 +222,10 @@ static const scene scenes[] = {
     { "forces, diagonal mass", { TURNED, .degree = 4, .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = diagonal } },
       PRODUCTS },
     { "forces, dense mass", { TURNED, .degree = 4, .mass = { .kind = GVI_MASS_DENSE, .matrix = dense } }, PRODUCTS },
-    { "M(q) and friction", { .n = N, .degree = 4, .effects = two_links, .effect_count = 2, .mass = LINKS },
+    { "M(q) and friction", { .n = N, .degree = 4, .effects = two_links, .effect_count = 2, .mass = PENDULUM },
       { weight_product, drag_product }, { weight_product, drag_transposed } },
     { "no mass but a term, and friction", { .n = N, .degree = 3, .effects = by_term, .effect_count = 3,
-                                            .mass = { .kind = GVI_MASS_NONE, .velocity = velocity } },
+                                            .mass = { .kind = GVI_MASS_NONE, .velocity = pendulum_velocity } },
       { weight_product, links_product, drag_product }, { weight_product, links_product, drag_transposed } },
     { "potential, momenta", { .n = N, .degree = 3, .effects = turned, .effect_count = 1, .formulation = GVI_MOMENTA },
       { attraction_product }, { attraction_product } },
@@ -349,9 +240,9 @@ TEST(pairing_is_kept)
     for (int i = 0; i < COUNT(scenes); ++i) {
         const scene *s = &scenes[i];
         const real h = R(0.15625);
-        tangent T = { .plain = s->desc, .gradient = slope_product, .velocity = velocity_product, .directions = 2*N,
+        tangent T = { .plain = s->desc, .gradient = pendulum_gradient_product, .velocity = velocity_product, .directions = 2*N,
                       .room = room, .room_length = TANGENT_ROOM(N, 4) };
-        adjoint A = { .plain = s->desc, .gradient = slope_product, .velocity = velocity_transposed,
+        adjoint A = { .plain = s->desc, .gradient = pendulum_gradient_product, .velocity = velocity_transposed,
                       .room = room + TANGENT_ROOM(N, 4), .room_length = ADJOINT_ROOM(N, NODES) };
         gvi_stepper st, ad;
         real dq[N], dp[N], by_q[N], by_p[N];
@@ -461,7 +352,7 @@ static void by_all(real t, const real *q, const real *v, const real *l, const re
                    void *user)
 {
     real f[N] = { 0 }, p[N] = { 0 };
-    const gvi_points x = { N, 1, 1, &t, q, v, NULL, f, p, NULL, NULL, NULL };
+    const gvi_points x = { .n = N, .count = 1, .stride = 1, .t = &t, .q = q, .v = v, .f = f, .dldv = p };
     by_drag(t, q, v, l, dl, w, node, g, NULL);
     magnetic(&x, NULL);                                      /* linear in its strength, which is 1 */
     g[1] += w*(l[0]*f[0] + l[1]*f[1] + dl[0]*p[0] + dl[1]*p[1]);
@@ -622,7 +513,7 @@ TEST(what_is_refused)
     A.product[1] = tangent_constant;
     assert_status(adjoint_scene(&A), GVI_E_FORMULATION);
     A.plain.effects = two_links;
-    A.plain.mass = (gvi_mass){ .kind = GVI_MASS_POSITION, .points = matrix, .gradient = slope };
+    A.plain.mass = (gvi_mass){ .kind = GVI_MASS_POSITION, .points = pendulum_matrix, .gradient = pendulum_gradient };
     assert_status(adjoint_scene(&A), GVI_E_FORMULATION);
 }
 

@@ -4,7 +4,7 @@
 #include "tools/event.h"
 
 typedef gvi_real real;
-#include "mechanics.h"
+#include "problems.h"
 
 #define R(x) ((real)x##L)
 
