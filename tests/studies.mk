@@ -2,7 +2,7 @@
 
 .PHONY: headers-quick headers symbols parts docs-check bound float instructions prices usable sanitize sanitized any_processor \
         ensemble deps-ensemble firmware deps-firmware fuzz fuzz-short size stats compare everywhere deps-everywhere \
-        cost-horizon cost-constraints ncdp scaling kicks points cost-peers deps-compare cost-embedded hard theorems
+        cost-horizon cost-constraints ncdp scaling kicks points cost-peers deps-compare cost-embedded hard theorems mutants
 
 # -- steps of `make test` and `make check`; each can be run alone
 
@@ -170,9 +170,13 @@ $(BUILD)/cost/peers: $(addprefix $(BUILD)/cost/,peers.o problems.o peers_odeint.
 $(BUILD)/cost/kicks $(BUILD)/cost/cost: %: %.o $(addprefix $(BUILD)/cost/,problems.o baselines.o gvi_run.o)
 	$(Q)$(CC) $^ -o $@ $(LDLIBS)
 
+#: mutants      56 slips put into gvi.h one by one: which of them no test sees (Python; twenty minutes)
+mutants: | $(FIRST)
+	$(Q)mkdir -p $(BUILD) && python3 tests/tools/mutants.py $(BUILD)
+
 # -- hard cases and theorems, measured
 
-HARD     = constraints constraints-float eccentric eccentric-float pythagorean corners stiff long brouwer brouwer-float drift single
+HARD     = constraints constraints-float eccentric flyby eccentric-float pythagorean corners stiff long brouwer brouwer-float drift single
 THEOREMS = order lagrangian curve forced doubled dissipation spectral identities inertia stability
 # These need more digits than long double has on x86.
 $(addprefix $(BUILD)/theorems/,order lagrangian forced): TESTFLAGS += $(shell CC='$(CC)' sh tests/theorems/quad.sh)
