@@ -1,9 +1,9 @@
 /* 17 - What becomes of a neighbour? The derivative of a step
 
-   Is an orbit regular or chaotic? Look at an orbit that starts beside it: on a regular one the
+   Is an orbit regular or chaotic? Look at an orbit that starts close to it: on a regular one the
    distance grows like the time, on a chaotic one exponentially. The distance of infinitely
    close orbits is the derivative of the motion in a direction, and tools/tangent.h steps it
-   along with the motion: four coordinates in place of two, and on the second pair acts the
+   along with the motion: four coordinates instead of two, and on the second pair acts the
    derivative of the force times the direction. What comes out is the derivative of the step
    itself, to rounding; so it is symplectic, as the step is.
 
@@ -112,7 +112,7 @@ int main(void)
 
     // A longer step ends later on the same orbit, but for the error of a step.
     const gvi_real end[] = { st.q[0], st.q[1] };
-    const gvi_points x = { 2, 1, 1, NULL, end, NULL, NULL, force, NULL, NULL, NULL, NULL };
+    const gvi_points x = { .n = 2, .count = 1, .stride = 1, .q = end, .f = force };
     potential(&x, NULL);
     for (int i = 0; i < 2; ++i) off = fmax(off, fmax(fabs(d[4][i] - st.p[i]), fabs(d[4][2 + i] - force[i])));
     printf("its derivative by h is (v, F) at its end, to 1e-12: %s\n", off < 1e-12 ? "yes" : "no");

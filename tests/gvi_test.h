@@ -41,13 +41,20 @@
 /* TEST(name) { ... } is a test; RUN_TESTS(setup, teardown), a file's last line, runs them in their order. */
 static __attribute__((unused)) struct CMUnitTest registered_tests[64];
 static __attribute__((unused)) int registered_count;
+#ifdef __TINYC__                        /* has no constructors: everywhere.sh lists the tests */
+#define CONSTRUCTOR
+static void register_tests(void);
+#else
+#define CONSTRUCTOR __attribute__((constructor))
+#define register_tests() ((void)0)
+#endif
 #define TEST(name) \
     static void name(void **state); \
-    static __attribute__((constructor)) void name##_registers(void) \
+    static CONSTRUCTOR void name##_registers(void) \
     { registered_tests[registered_count++] = (struct CMUnitTest)cmocka_unit_test(name); } \
     static void name(__attribute__((unused)) void **state)
 #define RUN_TESTS(setup, teardown) \
-    int main(void) { return cmocka_run_group_tests(registered_tests, setup, teardown); }
+    int main(void) { register_tests(); return cmocka_run_group_tests(registered_tests, setup, teardown); }
 
 #define COUNT(a) ((int)(sizeof(a)/sizeof(a)[0]))
 

@@ -1,8 +1,8 @@
 # studies.mk - what Makefile includes: long checks, measurements, pictures.  `make help-all` lists them.
 
 .PHONY: headers-quick headers symbols parts docs-check bound float instructions prices usable sanitize sanitized any_processor \
-        firmware deps-firmware fuzz fuzz-short size stats compare everywhere deps-everywhere \
-        cost-horizon ncdp scaling kicks points cost-peers deps-compare cost-embedded hard theorems
+        ensemble deps-ensemble firmware deps-firmware fuzz fuzz-short size stats compare everywhere deps-everywhere \
+        cost-horizon cost-constraints ncdp scaling kicks points cost-peers deps-compare cost-embedded hard theorems mutants
 
 # -- steps of `make test` and `make check`; each can be run alone
 
@@ -23,11 +23,12 @@ docs-check: $(BUILD)/gvi-double.o
 #: float        the object code of a float build: nothing is computed in double
 #: instructions points, iterations and instructions of fixed runs; RECORD=--record writes them anew
 #: prices       what an unlisted effect costs in instructions (valgrind): nothing
+#: ensemble     lesson 29 on one thread, two threads, one and three MPI processes: the same bits
 #: usable       what make install puts where, and the ways into a project: pkg-config, CMake, a C++ sketch
 #: firmware     two programs without an operating system, run as Cortex-M3 and M4F by qemu, against this machine
 prices: | $(FIRST)
 	$(STEP) $@ sh tests/tools/instructions.sh $(BUILD) --prices
-parts bound float instructions usable firmware: | $(FIRST)
+parts bound float instructions ensemble usable firmware: | $(FIRST)
 	$(STEP) $@ sh tests/tools/$@.sh $(BUILD) $(RECORD)
 
 #: sanitize     tests and examples under the address and undefined behaviour sanitizers
@@ -69,6 +70,10 @@ fuzz fuzz-short: | $(FIRST)
 #: deps-firmware installs what firmware and size need: compilers for Arm, RISC-V and AVR, qemu
 deps-firmware: | $(filter deps deps-check,$(MAKECMDGOALS))
 	$(Q)sh tests/tools/deps.sh --firmware
+
+#: deps-ensemble installs what ensemble needs: Open MPI
+deps-ensemble: | $(filter deps deps-check deps-firmware,$(MAKECMDGOALS))
+	$(Q)sh tests/tools/deps.sh --ensemble
 
 # -- figures about gvi.h
 
@@ -132,9 +137,12 @@ cost-horizon: $(BUILD)/cost/cost
 #: ncdp         rounding over half a million steps, and its price, against the published standard
 #: kicks        splittings as tables of kicks against the same written by hand (ten seconds)
 #: points       callbacks by GVI_POINTS against loops by hand and .point (ten seconds); COST_CFLAGS="-O2 -fno-math-errno"
+#: cost-constraints rods and a top with constraints, against RATTLE's compositions and DOP853 (a minute)
 #: scaling      time and memory against degree, coordinates and points; CSV and pictures in build/cost
 #: cost-peers   GSL, SUNDIALS and Boost.odeint on the problems of make cost
 ncdp kicks points: %: $(BUILD)/cost/%
+	$(Q)$< $(COST_ARGS)
+cost-constraints: cost-%: $(BUILD)/cost/%
 	$(Q)$< $(COST_ARGS)
 scaling: $(BUILD)/cost/scaling
 	$(Q)$< --out $(BUILD)/cost $(COST_ARGS)
@@ -155,17 +163,21 @@ $(BUILD)/cost/%.o: tests/cost/%.c
 $(BUILD)/cost/peers_odeint.o: tests/cost/peers_odeint.cpp
 	@mkdir -p $(@D)
 	$(Q)$(CXX) -std=c++14 $(COST_CFLAGS) -I. -c $< -o $@
-$(BUILD)/cost/ncdp $(BUILD)/cost/scaling $(BUILD)/cost/points: %: %.o
+$(BUILD)/cost/constraints $(BUILD)/cost/ncdp $(BUILD)/cost/scaling $(BUILD)/cost/points: %: %.o
 	$(Q)$(CC) $< -o $@ $(LDLIBS)
 $(BUILD)/cost/peers: $(addprefix $(BUILD)/cost/,peers.o problems.o peers_odeint.o)
 	$(Q)$(CXX) $^ -o $@ $(PEER_LIBS) $(LDLIBS)
 $(BUILD)/cost/kicks $(BUILD)/cost/cost: %: %.o $(addprefix $(BUILD)/cost/,problems.o baselines.o gvi_run.o)
 	$(Q)$(CC) $^ -o $@ $(LDLIBS)
 
+#: mutants      56 slips put into gvi.h one by one: which of them no test sees (Python; twenty minutes)
+mutants: | $(FIRST)
+	$(Q)mkdir -p $(BUILD) && python3 tests/tools/mutants.py $(BUILD)
+
 # -- hard cases and theorems, measured
 
-HARD     = eccentric eccentric-float pythagorean corners stiff long brouwer brouwer-float drift single
-THEOREMS = order lagrangian curve forced doubled spectral identities inertia stability
+HARD     = constraints constraints-float eccentric flyby eccentric-float pythagorean corners stiff long brouwer brouwer-float drift single
+THEOREMS = order lagrangian curve forced doubled dissipation spectral identities inertia stability
 # These need more digits than long double has on x86.
 $(addprefix $(BUILD)/theorems/,order lagrangian forced): TESTFLAGS += $(shell CC='$(CC)' sh tests/theorems/quad.sh)
 SEED =

@@ -44,7 +44,6 @@ static void smooth_clock_at(const real *q, real *g, real *dg)
 
 static int smooth_clock(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int k = 0; k < x->count; ++k) {
         real g, dg[2], q[2] = { x->q[k], x->q[x->stride + k] };
         smooth_clock_at(q, &g, dg);
@@ -58,7 +57,6 @@ static int smooth_clock(const gvi_points *x, void *user)
 static int gravity(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
     const real both = sin(q[0] + q[1]);
-    (void)t; (void)v; (void)dldv; (void)user;
     f[0] -= 2*sin(q[0]) + both;
     f[1] -= both;
     return 0;
@@ -66,7 +64,6 @@ static int gravity(real t, const real *q, const real *v, real *f, real *dldv, vo
 
 static int gravity_value(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int k = 0; k < x->count; ++k)
         x->value[k] -= 2*cos(x->q[k]) + cos(x->q[k] + x->q[x->stride + k]);
     return 0;
@@ -82,7 +79,6 @@ static int only_f(const gvi_points *x, void *user)
 
 static int push(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
-    (void)q; (void)dldv; (void)user;
     f[0] -= v[0]/4 - cos(3*t)/2;
     f[1] -= v[1]/4 + sin(2*t)/3;
     return 0;
@@ -121,7 +117,6 @@ static void by_time(real t, const real *y, real *dy, void *user) { motion_at(*(s
 static void by_tau(real tau, const real *y, real *dy, void *user)
 {
     real g = hypot(y[0], y[1]), dg[2];
-    (void)tau;
     if (*(scene_name *)user != KEPLER) smooth_clock_at(y, &g, dg);
     motion_at(*(scene_name *)user, y[4], y, dy);
     for (int i = 0; i < 4; ++i) dy[i] *= g;
@@ -203,11 +198,10 @@ static errors errors_of(scene_name a, int s, int N)
 
 /* Errors between 1e-2 and 1e-12; the smallest slope of a few belongs to coarse steps.
    An error that happens to pass through zero may fall faster, by less than one.  */
-static void the_order_is_twice_the_degree(void **state)
+TEST(the_order_is_twice_the_degree)
 {
     static const int steps[SCENES][5] = { { 0, 32, 10, 5, 3 }, { 0, 64, 32, 48, 34 },
                                           { 0, 32, 10, 5, 5 }, { 0, 32, 10, 6, 8 } };
-    (void)state;
     for (int a = KEPLER; a < SCENES; ++a)
     for (int s = 1; s <= 4; ++s) {
         const int N = steps[a][s];
@@ -271,10 +265,9 @@ static real defect_of(scene_name a, int s, int extended)
 
 /* Differences of order 8 as in test_structure; without dE^dt the form is missed by far,
    and drag shrinks it by about h/4                                            */
-static void the_map_is_symplectic(void **state)
+TEST(the_map_is_symplectic)
 {
     const real bound = 200*pow((real)EPS, 8/(real)9);
-    (void)state;
     for (int a = KEPLER; a < FORCED; ++a)
     for (int s = 1; s <= 5; s += 2) {
         assert_between(0, defect_of((scene_name)a, s, 1), bound);
@@ -287,10 +280,9 @@ static void the_map_is_symplectic(void **state)
    shown by what it is over the second half against the first; and to rounding at a
    high degree.  The pendulum swings gently: a chaotic orbit is another one with every
    rounding, and its halves differ by more than a drift would make them          */
-static void the_energy_keeps_to_its_level(void **state)
+TEST(the_energy_keeps_to_its_level)
 {
     static const real gentle[4] = { 0.2, -0.1, 0.1, 0.2 };
-    (void)state;
     for (int a = KEPLER; a < FORCED; ++a)
     for (int s = 2; s <= 8; s += 6) {
         gvi_stepper st;
@@ -317,11 +309,10 @@ static int constant_clock(const gvi_points *x, void *user)
 
 /* An orbit of eccentricity 0.9: a rounding of p or q at each step moves q x p by EPS/2
    of |q||dp| + |p||dq| < 2; four standard deviations                          */
-static void angular_momentum_is_constant(void **state)
+TEST(angular_momentum_is_constant)
 {
     const gvi_desc desc = describe(KEPLER, 8);
     gvi_stepper st;
-    (void)state;
     set_up(&st, &desc, memory);
     assert_ok(gvi_start(&st, 0, (const real[]){ (real)0.1, 0 }, (const real[]){ 0, sqrt((real)19) }));
     const real L0 = st.q[0]*st.p[1] - st.q[1]*st.p[0];
@@ -331,9 +322,8 @@ static void angular_momentum_is_constant(void **state)
     }
 }
 
-static void steps_back_return(void **state)
+TEST(steps_back_return)
 {
-    (void)state;
     for (int a = KEPLER; a < SCENES; ++a)
     for (int s = 1; s <= 5; ++s) {
         gvi_stepper st;
@@ -349,10 +339,9 @@ static void steps_back_return(void **state)
 
 /* g = c is nothing but a step of c h.  The scene is regular: roundings of 200 steps
    part the two by their sum at most                                           */
-static void a_constant_clock_is_a_longer_step(void **state)
+TEST(a_constant_clock_is_a_longer_step)
 {
     real c = (real)0.3;
-    (void)state;
     for (int a = PENDULUM; a < SCENES; ++a) {
         gvi_effect effects[3];
         gvi_desc with = describe((scene_name)a, 5), without;
@@ -385,13 +374,12 @@ static void a_constant_clock_is_a_longer_step(void **state)
 }
 
 /* 100,000 times the same increment: added plainly, 0.1 is wrong by 1.9e-8 after them */
-static void time_is_added_up_with_compensation(void **state)
+TEST(time_is_added_up_with_compensation)
 {
     real c = (real)0.1;
     const gvi_effect clock[] = { { .kind = GVI_CLOCK, .points = constant_clock, .user = &c } };
     const gvi_desc desc = { .n = 1, .degree = 2, .effects = clock, .effect_count = 1 };
     gvi_stepper st;
-    (void)state;
     set_up(&st, &desc, memory);
     assert_ok(gvi_start(&st, 0, (const real[]){ 0 }, (const real[]){ 1 }));
     for (int k = 0; k < 100000; ++k) assert_ok(gvi_step(&st, 1));
@@ -399,9 +387,8 @@ static void time_is_added_up_with_compensation(void **state)
     assert_close(st.q[0], 100000*(long double)c, 2*EPS*st.t);
 }
 
-static void a_clock_that_is_off_is_as_if_it_were_not_listed(void **state)
+TEST(a_clock_that_is_off_is_as_if_it_were_not_listed)
 {
-    (void)state;
     for (int a = KEPLER; a < SCENES; ++a) {
         const gvi_desc with = describe((scene_name)a, 4);
         gvi_desc without = with;
@@ -439,12 +426,11 @@ static void a_clock_that_is_off_is_as_if_it_were_not_listed(void **state)
 }
 
 /* Queries about a step are of its own measure of time, and of the effects that are on now */
-static void switching_beside_a_clock_does_not_confuse_the_last_step(void **state)
+TEST(switching_beside_a_clock_does_not_confuse_the_last_step)
 {
     enum { ATTRACTION, CLOCK };
     gvi_stepper st;
     real before[4], after[4], q[2], p[2], number = 7;
-    (void)state;
     begin(&st, KEPLER, 4, start);
     assert_ok(gvi_step(&st, (real)0.125));
     assert_ok(gvi_curve(&st, (real)0.25, before, before + 2));
@@ -477,18 +463,16 @@ static int attraction_alone(const gvi_points *x, void *user)
 
 static int value_without_number(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int k = 0; k < x->count; ++k)
         x->value[k] += x->q[k] < (real)0.6 ? (real)NAN : -1/hypot(x->q[k], x->q[x->stride + k]);
     return 0;
 }
 
-static void a_value_that_is_not_a_number_is_named(void **state)
+TEST(a_value_that_is_not_a_number_is_named)
 {
     gvi_desc desc = describe(KEPLER, 4);
     gvi_effect effects[2];
     gvi_stepper st;
-    (void)state;
     memcpy(effects, desc.effects, sizeof effects);
     effects[0].points = attraction_alone;
     effects[0].value = value_without_number;
@@ -501,13 +485,12 @@ static void a_value_that_is_not_a_number_is_named(void **state)
 }
 
 /* Late: t has too few digits left to move by g h */
-static void the_state_at_a_time_that_stands_still(void **state)
+TEST(the_state_at_a_time_that_stands_still)
 {
     const gvi_desc desc = describe(KEPLER, 4);
     const real late = 1/EPS;
     real q[2];
     gvi_stepper st;
-    (void)state;
     set_up(&st, &desc, memory);
     assert_ok(gvi_start_momentum(&st, late, start, start + 2));
     for (int k = 0; k < 8; ++k) {
@@ -525,13 +508,12 @@ static int attraction_value(const gvi_points *x, void *user)
     return attraction(&y, user);
 }
 
-static void value_and_force_from_one_function_or_two_are_the_same_bits(void **state)
+TEST(value_and_force_from_one_function_or_two_are_the_same_bits)
 {
     const gvi_desc one = describe(KEPLER, 8);
     gvi_effect effects[2];
     gvi_desc two = one;
     gvi_stepper x, y;
-    (void)state;
     memcpy(effects, one.effects, sizeof effects);
     effects[0].points = attraction_alone;
     effects[0].value = attraction_value;
@@ -568,14 +550,13 @@ static int all_points(const gvi_points *x, void *user)
 
 /* The level at the start asks the effects; the velocity that was given must survive it:
    the first iteration begins there */
-static void one_point_a_call_and_all_at_once_start_alike(void **state)
+TEST(one_point_a_call_and_all_at_once_start_alike)
 {
     static gvi_point_fn *fn[2] = { gravity, field };
     const gvi_desc one = describe(MAGNETIC, 6);
     gvi_effect effects[3];
     gvi_desc all = one;
     gvi_stepper x, y;
-    (void)state;
     memcpy(effects, one.effects, sizeof effects);
     for (int e = 0; e < 3; ++e) {
         if (effects[e].kind == GVI_CLOCK) continue;
@@ -610,11 +591,10 @@ static int moody_clock(const gvi_points *x, void *user)
     return 0;
 }
 
-static void a_clock_that_is_not_positive_is_named_and_changes_nothing(void **state)
+TEST(a_clock_that_is_not_positive_is_named_and_changes_nothing)
 {
     const double ills[] = { -4, NAN, INFINITY };
     const gvi_status wanted[] = { GVI_E_CLOCK, GVI_E_NON_FINITE, GVI_E_NON_FINITE };
-    (void)state;
     for (int k = 0; k < COUNT(ills); ++k) {
         real sick = 0;
         const gvi_effect effects[] = { { .kind = GVI_POTENTIAL, .point = gravity, .value = gravity_value },
@@ -639,13 +619,12 @@ static void a_clock_that_is_not_positive_is_named_and_changes_nothing(void **sta
 }
 
 /* In the middle of a step: the pendulum turns back before q1 = 0 is reached only if h is small */
-static void a_clock_that_turns_negative_on_the_way_is_seen(void **state)
+TEST(a_clock_that_turns_negative_on_the_way_is_seen)
 {
     real sick = 0;
     const gvi_effect effects[] = { { .kind = GVI_CLOCK, .points = moody_clock, .user = &sick } };
     const gvi_desc desc = { .n = 1, .degree = 4, .effects = effects, .effect_count = 1 };
     gvi_stepper st;
-    (void)state;
     set_up(&st, &desc, memory);
     assert_ok(gvi_start(&st, 0, (const real[]){ 1 }, (const real[]){ -1 }));
     for (int k = 0; k < 10; ++k) assert_ok(gvi_step(&st, (real)0.5));      // q = exp(-tau) never gets there
@@ -664,15 +643,13 @@ static gvi_status status_of(const gvi_desc *desc)
 
 static int point_clock(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
-    (void)t; (void)q; (void)v; (void)f; (void)dldv; (void)user;
     return 0;
 }
 
-static void clocks_that_cannot_run_are_refused(void **state)
+TEST(clocks_that_cannot_run_are_refused)
 {
     gvi_desc desc = describe(KEPLER, 4);
     gvi_effect effects[3];
-    (void)state;
     memcpy(effects, desc.effects, 2*sizeof effects[0]);
     effects[2] = effects[1];
     desc.effects = effects;
@@ -697,12 +674,11 @@ static void clocks_that_cannot_run_are_refused(void **state)
     assert_int_equal(status_of(&desc), GVI_E_FORMULATION);
 }
 
-static void a_level_needs_values(void **state)
+TEST(a_level_needs_values)
 {
     gvi_desc desc = describe(FORCED, 4);
     gvi_effect effects[3];
     gvi_stepper st;
-    (void)state;
     memcpy(effects, desc.effects, sizeof effects);
     effects[1].value = NULL;
     desc.effects = effects;
@@ -713,11 +689,10 @@ static void a_level_needs_values(void **state)
     assert_status(gvi_step(&st, (real)0.1), GVI_E_VALUE);                   // the first cause
 }
 
-static void questions_about_the_action_are_refused(void **state)
+TEST(questions_about_the_action_are_refused)
 {
     gvi_stepper st;
     real q[2] = { 7, 7 }, number = 7;
-    (void)state;
     begin(&st, PENDULUM, 4, start);
     assert_ok(gvi_step(&st, (real)0.125));
     assert_status(gvi_action(&st, &number), GVI_E_FORMULATION);
@@ -731,10 +706,9 @@ static void questions_about_the_action_are_refused(void **state)
 
 /* The polynomial is in tau: it begins and ends with the step, and its velocity, there of
    order s, is dq/dt                                                           */
-static void the_curve_runs_from_end_to_end(void **state)
+TEST(the_curve_runs_from_end_to_end)
 {
     real miss[2];
-    (void)state;
     for (int k = 0; k < 2; ++k) {
         gvi_stepper st;
         real q[2], v[2], end[2], p[2];
@@ -802,9 +776,8 @@ static void kepler(const ellipse *o, int far, long double t, long double *x, lon
     *y = (far ? -1 : 1)*o->a*sqrtl(o->rest*(1 + e))*sinl(E);
 }
 
-static void kepler_is_solved_to_its_own_rounding(void **state)
+TEST(kepler_is_solved_to_its_own_rounding)
 {
-    (void)state;
     for (int k = 0; k < 8; ++k) {
         const double x = pow(10, -k), v = sqrt((2 - x)/x);
         const ellipse o = ellipse_of(x, v);
@@ -898,7 +871,7 @@ static outcome revolve(const orbit *a)
    rounding.  From the perihelion it is the difference of two terms of 1/(1 - e), each
    wrong by half a unit of its last place: the orbit is followed on a level that is
    wrong by EPS/(1 - e) at the most, and its period by 3/2 2(1/2) of that a revolution. */
-static void eccentric_orbits_are_followed(void **state)
+TEST(eccentric_orbits_are_followed)
 {
     static const orbit all[] = {
         { 0.1,   &power_one,   8000, 1, 8, 5e-12 },
@@ -910,7 +883,6 @@ static void eccentric_orbits_are_followed(void **state)
         { 0.001, &power_more, 17000, 0, 8, 0 },
         { 1e-7,  &power_more, 32000, 0, 8, 0 },
     };
-    (void)state;
     print_message("    from       1 - e   steps   at the end  worst    energy, |q| > 1  |q| < 1  ms\n");
     for (int i = 0; i < COUNT(all); ++i) {
         const outcome z = revolve(&all[i]);
@@ -930,44 +902,14 @@ static void eccentric_orbits_are_followed(void **state)
 }
 
 /* Truncation, where it is seen: degree 4 with 40 and 60 steps a revolution, order 8 */
-static void fewer_steps_are_worse_by_the_order(void **state)
+TEST(fewer_steps_are_worse_by_the_order)
 {
     const orbit few = { 0.1, &power_more, 4000, 1, 4, 0 }, many = { 0.1, &power_more, 6000, 1, 4, 0 };
     const outcome a = revolve(&few), b = revolve(&many);
     const double order = log((double)(a.worst/b.worst))/log(1.5);
-    (void)state;
     print_message("    error %.1Le and %.1Le, order %.1f\n", a.worst, b.worst, order);
     assert_between(7.7, order, 8.3);
 }
 #endif
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_order_is_twice_the_degree),
-        cmocka_unit_test(the_map_is_symplectic),
-        cmocka_unit_test(the_energy_keeps_to_its_level),
-        cmocka_unit_test(angular_momentum_is_constant),
-        cmocka_unit_test(steps_back_return),
-        cmocka_unit_test(a_constant_clock_is_a_longer_step),
-        cmocka_unit_test(time_is_added_up_with_compensation),
-        cmocka_unit_test(a_clock_that_is_off_is_as_if_it_were_not_listed),
-        cmocka_unit_test(value_and_force_from_one_function_or_two_are_the_same_bits),
-        cmocka_unit_test(one_point_a_call_and_all_at_once_start_alike),
-        cmocka_unit_test(a_clock_that_is_not_positive_is_named_and_changes_nothing),
-        cmocka_unit_test(a_clock_that_turns_negative_on_the_way_is_seen),
-        cmocka_unit_test(clocks_that_cannot_run_are_refused),
-        cmocka_unit_test(a_level_needs_values),
-        cmocka_unit_test(questions_about_the_action_are_refused),
-        cmocka_unit_test(the_curve_runs_from_end_to_end),
-#if GVI__KIND == 2
-        cmocka_unit_test(switching_beside_a_clock_does_not_confuse_the_last_step),
-        cmocka_unit_test(a_value_that_is_not_a_number_is_named),
-        cmocka_unit_test(the_state_at_a_time_that_stands_still),
-        cmocka_unit_test(kepler_is_solved_to_its_own_rounding),
-        cmocka_unit_test(eccentric_orbits_are_followed),
-        cmocka_unit_test(fewer_steps_are_worse_by_the_order),
-#endif
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -9,7 +9,6 @@ static real memory[8000], more[8000];
 
 static int spring(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int i = 0; i < x->n; ++i)
         for (int k = 0; k < x->count; ++k) x->f[i*x->stride + k] -= x->q[i*x->stride + k];
     return 0;
@@ -17,7 +16,6 @@ static int spring(const gvi_points *x, void *user)
 
 static int drag(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int i = 0; i < x->n; ++i)
         for (int k = 0; k < x->count; ++k) x->f[i*x->stride + k] -= x->v[i*x->stride + k];
     return 0;
@@ -50,11 +48,10 @@ static gvi_stepper *set_up(gvi_stepper *st, gvi_desc desc, real *where)
 }
 
 /* It decays through the subnormals to 0, where no change has a sure digit */
-static void a_damped_motion_may_die_out(void **state)
+TEST(a_damped_motion_may_die_out)
 {
     static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = spring }, { .kind = GVI_FORCE, .points = drag } };
     const gvi_formulation pins[] = { GVI_AUTO, GVI_VELOCITIES, GVI_MOMENTA, GVI_NEWTON };
-    (void)state;
     for (int f = 0; f < COUNT(pins); ++f) {
         gvi_stepper st;
         set_up(&st, (gvi_desc){ .n = 1, .degree = 3, .effects = scene, .effect_count = 2, .formulation = pins[f] }, memory);
@@ -65,11 +62,10 @@ static void a_damped_motion_may_die_out(void **state)
 }
 
 /* A velocity of 1e-25 beside a position of 1: no scale to measure it by but its own */
-static void a_start_from_next_to_nothing_is_a_start(void **state)
+TEST(a_start_from_next_to_nothing_is_a_start)
 {
     static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = spring }, { .kind = GVI_FORCE, .points = drag } };
     gvi_stepper st;
-    (void)state;
     set_up(&st, (gvi_desc){ .n = 2, .degree = 3, .effects = scene, .effect_count = 2, .formulation = GVI_VELOCITIES }, memory);
     assert_ok(gvi_start(&st, 0, (real[]){ 0, 1 }, (real[]){ (real)1e-25, 0 }));
     for (int k = 0; k < 100; ++k) assert_ok(gvi_step(&st, (real)0.125));
@@ -77,9 +73,8 @@ static void a_start_from_next_to_nothing_is_a_start(void **state)
 }
 
 /* v = 2u, p = 10u, whatever the unit u of the coordinate and that of the other */
-static void velocities_of_different_units_come_out_alike(void **state)
+TEST(velocities_of_different_units_come_out_alike)
 {
-    (void)state;
     for (int e = -12; e <= 12; e += 4) {
         real unit[2] = { 1, (real)pow(10, e) }, q[2] = { 0, 0 }, v[2], p[2];
         const gvi_effect scene[] = { { .kind = GVI_LAGRANGIAN, .points = quartic, .user = unit } };
@@ -93,10 +88,9 @@ static void velocities_of_different_units_come_out_alike(void **state)
 }
 
 /* Two free oscillators, one 1e20 times heavier (and as stiff): nothing conjugate */
-static void heavy_and_light_are_no_conjugate_points(void **state)
+TEST(heavy_and_light_are_no_conjugate_points)
 {
     static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = spring } };
-    (void)state;
     for (int e = 0; e <= 20; e += 4) {
         const real mass[2] = { 1, (real)pow(10, e) }, q0[2] = { 1, 1 }, q1[2] = { (real)1.1, (real)0.9 };
         real p0[2], h = (real)0.125;
@@ -114,7 +108,7 @@ static void heavy_and_light_are_no_conjugate_points(void **state)
 }
 
 /* The first failure of a chain of calls is the one that is left at its end */
-static void a_chain_of_calls_keeps_its_first_cause(void **state)
+TEST(a_chain_of_calls_keeps_its_first_cause)
 {
     static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = spring } };
     const real massless[1] = { 0 }, q[1] = { 1 }, v[1] = { 0 };
@@ -122,7 +116,6 @@ static void a_chain_of_calls_keeps_its_first_cause(void **state)
     const gvi_desc light = { .n = 1, .effects = scene, .effect_count = 1, .mass = { GVI_MASS_DIAGONAL, massless, 0, 0, 0, 0 } };
     gvi_stepper st;
     real x;
-    (void)state;
     assert_status(gvi_init(&st, &heavy, memory, 8), GVI_E_MEMORY);
     assert_status(gvi_start(&st, 0, q, v), GVI_E_MEMORY);
     assert_status(gvi_step(&st, 1), GVI_E_MEMORY);
@@ -134,11 +127,10 @@ static void a_chain_of_calls_keeps_its_first_cause(void **state)
 }
 
 /* Not through the boundary values either */
-static void no_nan_passes_for_a_momentum(void **state)
+TEST(no_nan_passes_for_a_momentum)
 {
     int sick = 1;
     const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = not_a_number, .user = &sick } };
-    (void)state;
     for (int s = 1; s <= 4; ++s) {
         gvi_stepper st;
         real p0 = 7, q0 = 0, q1 = 1;
@@ -151,10 +143,9 @@ static void no_nan_passes_for_a_momentum(void **state)
 }
 
 /* Failed steps and failed queries, in either of two twins, leave no trace */
-static void failures_leave_no_trace_in_later_steps(void **state)
+TEST(failures_leave_no_trace_in_later_steps)
 {
     const gvi_formulation pins[] = { GVI_AUTO, GVI_POSITIONS, GVI_NEWTON };
-    (void)state;
     for (int f = 0; f < COUNT(pins); ++f) {
         int sick = 0;
         const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = spring },
@@ -182,11 +173,10 @@ static void failures_leave_no_trace_in_later_steps(void **state)
 }
 
 /* Sizes whose products leave size_t or int are refused, not wrapped */
-static void sizes_that_do_not_fit_are_refused(void **state)
+TEST(sizes_that_do_not_fit_are_refused)
 {
     static const gvi_effect scene[] = { { .kind = GVI_LAGRANGIAN, .points = quartic } };
     gvi_desc desc = { .n = 40000, .degree = 2, .effects = scene, .effect_count = 1 };
-    (void)state;
     assert_int_equal(gvi_size(&desc), 0);
     desc.n = 10000000;
     desc.effect_count = 0;
@@ -197,11 +187,10 @@ static void sizes_that_do_not_fit_are_refused(void **state)
 }
 
 /* The ends' weights of too many equispaced points are 0 in this type: no basis */
-static void weights_that_vanish_are_refused(void **state)
+TEST(weights_that_vanish_are_refused)
 {
     enum { MANY = 20000 };
     static real x[MANY], w[MANY];
-    (void)state;
     for (int i = 0; i < MANY; ++i) x[i] = (real)i;
     assert_status(gvi_barycentric(sizeof(real) > 8 ? MANY : 1200, x, w), GVI_E_NODES);
 }
@@ -209,17 +198,16 @@ static void weights_that_vanish_are_refused(void **state)
 static int push(const gvi_points *x, void *user)
 {
     for (int k = 0; k < x->n*x->stride; ++k) x->f[k] += x->t[k % x->stride] > 2;
-    return (void)user, 0;
+    return 0;
 }
 
 /* A coordinate next to nothing rests for two steps; then a force of 1 sets in, and it moves by a factor
    whose square no type has.  Of every formulation that iterates: q = t^2/2, p = t.  */
-static void a_force_may_set_in_where_next_to_nothing_was(void **state)
+TEST(a_force_may_set_in_where_next_to_nothing_was)
 {
     static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = push } };
     const gvi_formulation pins[] = { GVI_POSITIONS, GVI_VELOCITIES, GVI_MOMENTA };
     const real none[5] = { 0 };
-    (void)state;
     for (int k = 0; k < COUNT(pins)*2; ++k) {
         gvi_stepper st;
         real tiny[5];
@@ -239,12 +227,11 @@ static void a_force_may_set_in_where_next_to_nothing_was(void **state)
 
 /* What rounding is known to leave, as docs/theory.md quotes it from here: 200,000
    steps of an oscillator by Newton's method and by a fixed point at large h omega. */
-static void the_drift_that_rounding_leaves_is_no_larger_than_documented(void **state)
+TEST(the_drift_that_rounding_leaves_is_no_larger_than_documented)
 {
     static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = spring } };
     const gvi_formulation pins[] = { GVI_NEWTON, GVI_POSITIONS };
     const struct { int s; double h; } runs[] = { { 4, 2.7 }, { 2, 2.7 }, { 8, 1.6 } };
-    (void)state;
     for (int k = 0; k < COUNT(runs)*2; ++k) {
         gvi_stepper st;
         set_up(&st, (gvi_desc){ .n = 1, .degree = runs[k/2].s, .effects = scene, .effect_count = 1,
@@ -260,7 +247,6 @@ static void the_drift_that_rounding_leaves_is_no_larger_than_documented(void **s
 
 static int pendula(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int i = 0; i < x->n; ++i)
         for (int k = 0; k < x->count; ++k) x->f[i*x->stride + k] -= (real)sinl((long double)x->q[i*x->stride + k]);
     return 0;
@@ -268,7 +254,7 @@ static int pendula(const gvi_points *x, void *user)
 
 /* Stage values are made in whole vectors: which lane a coordinate is in must not be seen in a bit of it.  How many there are hardly changes when the iteration ends: with a tolerance the
    sum of all changes has a limit, so eight take a little longer than seven.   */
-static void coordinates_alike_move_alike(void **state)
+TEST(coordinates_alike_move_alike)
 {
     static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = pendula }, { .kind = GVI_FORCE, .points = drag } };
     enum { most = 19, degrees = 9 };
@@ -293,11 +279,10 @@ static void coordinates_alike_move_alike(void **state)
                     if (n == 7) rounds[s - 1][f - GVI_POSITIONS][kind] = its;      // of 40 to 120
                     if (n > 7) assert_between(*seven - 2 - 6*(kind > 1), its, *seven + 2 + 6*(kind > 1));
                 }
-    (void)state;
 }
 
 /* Weights of which no sum has a digit: they overflowed, and were left out as if they were 0     */
-static void weights_that_hide_their_sum_are_refused(void **state)
+TEST(weights_that_hide_their_sum_are_refused)
 {
     const real c[] = { 0, 0, (real)0.5L, 1 }, huge = 1/(EPS*EPS);
     const real b[] = { (real)0.5L, huge, -huge, (real)0.5L };
@@ -305,25 +290,6 @@ static void weights_that_hide_their_sum_are_refused(void **state)
     const gvi_desc desc = { .n = 1, .degree = 1, .rule = { GVI_KICKS, 4, c, b }, .effects = scene, .effect_count = 1 };
     gvi_stepper st;
     assert_status(gvi_init(&st, &desc, memory, sizeof memory), GVI_E_ORDER);
-    (void)state;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_damped_motion_may_die_out),
-        cmocka_unit_test(a_start_from_next_to_nothing_is_a_start),
-        cmocka_unit_test(velocities_of_different_units_come_out_alike),
-        cmocka_unit_test(heavy_and_light_are_no_conjugate_points),
-        cmocka_unit_test(a_chain_of_calls_keeps_its_first_cause),
-        cmocka_unit_test(no_nan_passes_for_a_momentum),
-        cmocka_unit_test(failures_leave_no_trace_in_later_steps),
-        cmocka_unit_test(sizes_that_do_not_fit_are_refused),
-        cmocka_unit_test(weights_that_vanish_are_refused),
-        cmocka_unit_test(a_force_may_set_in_where_next_to_nothing_was),
-        cmocka_unit_test(the_drift_that_rounding_leaves_is_no_larger_than_documented),
-        cmocka_unit_test(coordinates_alike_move_alike),
-        cmocka_unit_test(weights_that_hide_their_sum_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -57,16 +57,19 @@ static wide lagrange(int n, const gvi_real *x, int j, wide t)
     return l;
 }
 
-/* l_j'(t) by the product rule. */
-static wide lagrange_derivative(int n, const gvi_real *x, int j, wide t)
+/* l_j'(t) by the product rule.  condition: what one relative unit in every difference x_j - x_k and t - x_k
+   makes of it: the terms of the sum, added in absolute value.                                            */
+static wide lagrange_derivative(int n, const gvi_real *x, int j, wide t, wide *condition)
 {
     wide sum = 0;
+    *condition = 0;
     for (int m = 0; m < n; ++m) {
         if (m == j) continue;
         wide term = 1/((wide)x[j] - x[m]);
         for (int k = 0; k < n; ++k)
             if (k != j && k != m) term *= (t - x[k])/((wide)x[j] - x[k]);
         sum += term;
+        *condition += wide_abs(term);
     }
     return sum;
 }
@@ -379,6 +382,7 @@ TEST(interpolation_next_to_a_node_at_zero_survives_the_smallest_distances)
     const gvi_real x[] = { -1, 0, (gvi_real)0.5L, 2 }, f[] = { 3, -2, 7, 1 };
     const gvi_real near[] = { LEAST, 3*LEAST, 1/GREAT, (gvi_real)EPS*EPS, (gvi_real)EPS*EPS*EPS };
     gvi_real w[4], l[4];
+    wide unused;
     assert_ok(gvi_barycentric(4, x, w));
     for (int k = 0; k < COUNT(near); ++k)
         for (int side = -1; side <= 1; side += 2) {
@@ -386,7 +390,7 @@ TEST(interpolation_next_to_a_node_at_zero_survives_the_smallest_distances)
             assert_true(same(gvi_interpolate(4, x, w, f, t), -2));
             gvi_basis(4, x, w, t, l);
             assert_close(l[1], 1, EPS);
-            assert_close(l[0], (wide)t*lagrange_derivative(4, x, 0, 0), 32*UNIT*wide_abs(t) + NORMAL);
+            assert_close(l[0], (wide)t*lagrange_derivative(4, x, 0, 0, &unused), 32*UNIT*wide_abs(t) + NORMAL);
             assert_close(gvi_interpolate_derivative(4, x, w, f, t),
                          gvi_interpolate_derivative(4, x, w, f, 0), 100*EPS);
         }
@@ -490,38 +494,23 @@ TEST(runge_by_equispaced_points_diverges_as_known)
 
 /* ------------------------------------------------------------- derivatives */
 
-/* What one relative unit in every difference x_j - x_k and t - x_k makes of
-   l_j': the terms of its product rule, added in absolute value.              */
-static wide derivative_condition(int n, const gvi_real *x, int j, wide t)
-{
-    wide sum = 0;
-    for (int m = 0; m < n; ++m) {
-        if (m == j) continue;
-        wide term = 1/((wide)x[j] - x[m]);
-        for (int k = 0; k < n; ++k)
-            if (k != j && k != m) term *= (t - x[k])/((wide)x[j] - x[k]);
-        sum += wide_abs(term);
-    }
-    return sum;
-}
-
 static void check_derivatives(int n, const gvi_real *x, const gvi_real *f)
 {
     gvi_real w[FEW], l[FEW], t[PLACES];
     assert_ok(gvi_barycentric(n, x, w));
     int count = places(n, x, t);
     for (int i = 0; i < count; ++i) {
-        wide sum = 0, size = 0, exact = 0, greatest = 0;
+        wide sum = 0, size = 0, exact = 0, greatest = 0, slopes[FEW];
         gvi_basis_derivative(n, x, w, t[i], l);
         for (int j = 0; j < n; ++j) {
-            wide slope = lagrange_derivative(n, x, j, t[i]), condition = derivative_condition(n, x, j, t[i]);
+            wide condition, slope = slopes[j] = lagrange_derivative(n, x, j, t[i], &condition);
             size += condition;
             sum += l[j];
             exact += slope*f[j];
             if (wide_abs(f[j]) > greatest) greatest = wide_abs(f[j]);
         }
         for (int j = 0; j < n; ++j)
-            assert_close(l[j], lagrange_derivative(n, x, j, t[i]), 4*n*UNIT*size + NORMAL);
+            assert_close(l[j], slopes[j], 4*n*UNIT*size + NORMAL);
         assert_close(sum, 0, n*UNIT*size);
         assert_close(gvi_interpolate_derivative(n, x, w, f, t[i]), exact,
                      8*n*UNIT*size*greatest + NORMAL);

@@ -89,7 +89,6 @@ static int springs(const gvi_points *x, void *user)
 static int springs_hessian(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *fq, gvi_real *fv,
                            gvi_real *pv, void *user)
 {
-    (void)t; (void)v; (void)fv; (void)pv;
     const row *a = user;
     const int n = MOST;
     for (int i = 0; i < n; ++i) {
@@ -113,7 +112,6 @@ static int damper(const gvi_points *x, void *user)
 static int damper_hessian(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *fq, gvi_real *fv,
                           gvi_real *pv, void *user)
 {
-    (void)t; (void)q; (void)v; (void)fq; (void)pv;
     const row *a = user;
     for (int i = 0; i < MOST; ++i) {
         fv[i*MOST + i] -= a->damping;
@@ -143,7 +141,6 @@ static int magnet(const gvi_points *x, void *user)
 static int magnet_hessian(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *fq, gvi_real *fv,
                           gvi_real *pv, void *user)
 {
-    (void)t;
     const row *a = user;
     for (int i = 0; i + 1 < MOST; i += 2) {
         const gvi_real w = a->turning/2;
@@ -159,7 +156,6 @@ static int magnet_hessian(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_
 /* M_ii = 3 + sin q_i, M_i(i+1) = cos(q_i + q_(i+1))/2: definite for any q */
 static int mass(const gvi_points *x, void *user)
 {
-    (void)user;
     const int n = x->n, d = x->stride;
     for (int k = 0; k < x->count; ++k)
         for (int i = 0; i < n; ++i)
@@ -173,7 +169,6 @@ static int mass(const gvi_points *x, void *user)
 
 static int mass_gradient(const gvi_points *x, void *user)
 {
-    (void)user;
     const int n = x->n, d = x->stride;
     for (int k = 0; k < x->count; ++k)
         for (int i = 0; i < n; ++i) {
@@ -244,9 +239,8 @@ static const int degrees[] = { 2, 3, 4, 5, 7, 8 };
 
 /* Linear scenes: derivatives are the same everywhere, so one factorisation serves all steps of one length; in
    float rounding may ask for a second.                                                       */
-static void linear_scenes_need_one_factorisation(void **state)
+TEST(linear_scenes_need_one_factorisation)
 {
-    (void)state;
     static const int kinds[] = { 0, DAMPED, TURNED, DAMPED | TURNED, DENSE | DAMPED };
     parameters = (row){ 0, (gvi_real)0.7, 3, 1 };
     for (int d = 0; d < COUNT(degrees); ++d)
@@ -265,9 +259,8 @@ static void linear_scenes_need_one_factorisation(void **state)
 
 /* Hessians and differences lead to the same point, and it is that of the fixed point where that covers the
    scene: M(q), damping, Lagrangian terms                                                     */
-static void newton_and_the_fixed_point_end_at_the_same_point(void **state)
+TEST(newton_and_the_fixed_point_end_at_the_same_point)
 {
-    (void)state;
     static const int kinds[] = { 0, HESSIANS, DAMPED | HESSIANS, DAMPED, TURNED | HESSIANS, TURNED, MOVING_MASS,
                                  MOVING_MASS | DAMPED, DENSE | DAMPED | TURNED | HESSIANS };
     parameters = (row){ 1, (gvi_real)0.3, 1, 1 };
@@ -289,9 +282,8 @@ static void newton_and_the_fixed_point_end_at_the_same_point(void **state)
         }
 }
 
-static void a_step_that_fails_leaves_everything_as_it_was(void **state)
+TEST(a_step_that_fails_leaves_everything_as_it_was)
 {
-    (void)state;
     gvi_stepper st, copy;
     parameters = (row){ 400, 0, 0, 1 };
     gvi_desc desc = describe(MOST, 6, HESSIANS, GVI_NEWTON);
@@ -318,9 +310,8 @@ static int refusing(const gvi_points *x, void *user)
 }
 
 /* A refusal at the values that a step begins with is no matrix's fault: once is enough */
-static void a_refusal_at_the_start_is_reported_at_once(void **state)
+TEST(a_refusal_at_the_start_is_reported_at_once)
 {
-    (void)state;
     gvi_stepper st;
     parameters = (row){ 0, 0, 0, 1 };
     const gvi_desc desc = describe(MOST, 6, HESSIANS, GVI_NEWTON);
@@ -336,9 +327,8 @@ static void a_refusal_at_the_start_is_reported_at_once(void **state)
 
 /* A partial step: the state that steps would have.  The derivatives that the steps keep stay as they are:
    what follows has the same bits as without the question                                     */
-static void partial_steps_are_steps(void **state)
+TEST(partial_steps_are_steps)
 {
-    (void)state;
     gvi_stepper st, half;
     parameters = (row){ 0, (gvi_real)0.3, 1, 1 };
     const gvi_desc desc = describe(MOST, 8, DAMPED | TURNED | HESSIANS, GVI_NEWTON);
@@ -375,7 +365,7 @@ static int pendulum(const gvi_points *x, void *user)
         x->f[k] -= s*X/r;
         x->f[x->stride + k] -= s*Y/r;
     }
-    return (void)user, 0;
+    return 0;
 }
 
 typedef struct gauss { wide A[DEGREES][DEGREES], c[DEGREES], b[POINTS]; } gauss;
@@ -480,9 +470,8 @@ static wide error_in_kicks(gvi_formulation formulation)
    of the forces that y was solved with, and of those at the solution; in the first is what the iterations
    before left, a quarter of a quarter and so on: sqrt(1 + 1/(1 - 1/16)) = 1.44 in all, 0.44 kicks.  The
    turn of the spring from node to end only makes it less.                                */
-static void a_stiff_spring_is_as_exact_as_its_force(void **state)
+TEST(a_stiff_spring_is_as_exact_as_its_force)
 {
-    (void)state;
     if ((wide)EPS < 1000*(wide)LDBL_EPSILON) skip();
     assert_between(0.1L, error_in_kicks(GVI_NEWTON), 0.44L);
     assert_between(0.1L, error_in_kicks(GVI_AUTO), 0.44L);
@@ -493,12 +482,12 @@ static int attraction_at(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_r
     const gvi_real d2 = q[0]*q[0] + q[1]*q[1], w = -1/(d2*(gvi_real)sqrt((double)d2));
     f[0] += w*q[0];
     f[1] += w*q[1];
-    return (void)t, (void)v, (void)dldv, (void)user, 0;
+    return 0;
 }
 
 /* Newton's method with a new matrix at each step contracts by about the step itself: what turns by h on
    a circle is foretold to h or better, and rounding is no contraction        */
-static void the_contraction_is_that_of_the_changes(void **state)
+TEST(the_contraction_is_that_of_the_changes)
 {
     static const gvi_effect effect = { .kind = GVI_POTENTIAL, .point = attraction_at };
     static const gvi_desc desc = { .n = 2, .degree = 3, .effects = &effect, .effect_count = 1,
@@ -511,7 +500,6 @@ static void the_contraction_is_that_of_the_changes(void **state)
         for (int j = 0; j < 200; ++j) assert_ok(gvi_step(&st, h));
         assert_between(0, st.counters.worst_contraction, h);
     }
-    (void)state;
 }
 
 /* A heavy top, L(q,v) of Euler's angles; its derivatives by central differences, wrong by 1e-6 and noisy by 1e-13 */
@@ -534,18 +522,17 @@ static int noisy_top(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real 
             y[i] += side*d;
             if (dldv) dldv[i] += (gvi_real)(side*top(x, y)/(2*d));
         }
-    return (void)t, (void)user, 0;
+    return 0;
 }
 
 /* Newton's method may come to rest in noise and then run away from there, as its matrix, of differences of
    differences, is bad.  Once it had been at rest such a step was ok, wherever it ended: theta = 132, and
    more.  The top's is between the poles, 0 and pi, where p_phi != p_psi does not let it go.  */
-static void what_grows_is_not_at_rest(void **state)
+TEST(what_grows_is_not_at_rest)
 {
     static const gvi_effect effect = { .kind = GVI_LAGRANGIAN, .point = noisy_top };
     static const gvi_desc desc = { .n = 3, .degree = 8, .mass = { .kind = GVI_MASS_NONE }, .effects = &effect,
                                    .effect_count = 1 };
-    (void)state;
     if (KIND != 2) skip();
     for (int m = 0; m < 400; ++m) {
         const gvi_real q[] = { (gvi_real)(0.8 + 0.5*(double)uniform()), 0, 0 }, v[] = { 0, (gvi_real)(1 + (double)uniform()), 200 };
@@ -556,17 +543,4 @@ static void what_grows_is_not_at_rest(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(linear_scenes_need_one_factorisation),
-        cmocka_unit_test(newton_and_the_fixed_point_end_at_the_same_point),
-        cmocka_unit_test(a_step_that_fails_leaves_everything_as_it_was),
-        cmocka_unit_test(a_refusal_at_the_start_is_reported_at_once),
-        cmocka_unit_test(partial_steps_are_steps),
-        cmocka_unit_test(a_stiff_spring_is_as_exact_as_its_force),
-        cmocka_unit_test(the_contraction_is_that_of_the_changes),
-        cmocka_unit_test(what_grows_is_not_at_rest),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -195,9 +195,8 @@ static void disturb(twins *z, int k)
 
 static const real tolerances[] = { 0, (real)1e-4L, 64*EPS };
 
-static void questions_and_checkpoints_change_no_bit(void **state)
+TEST(questions_and_checkpoints_change_no_bit)
 {
-    (void)state;
     for (int n = 2; n <= 3; ++n)
         for (int degree = 4; degree <= 16; degree *= 2)
             for (int k = 0; k < COUNT(tolerances); ++k)
@@ -211,9 +210,8 @@ static void questions_and_checkpoints_change_no_bit(void **state)
                 }
 }
 
-static void questions_and_checkpoints_change_no_bit_with_a_mass_that_moves(void **state)
+TEST(questions_and_checkpoints_change_no_bit_with_a_mass_that_moves)
 {
-    (void)state;
     for (int degree = 4; degree <= 16; degree *= 2)
         for (int k = 0; k < COUNT(tolerances); ++k)
             for (int drags = 0; drags < 2; ++drags) {
@@ -230,9 +228,8 @@ static void questions_and_checkpoints_change_no_bit_with_a_mass_that_moves(void 
 /* Steps of two periods of the stiffest spring now and then, for which the fixed point does not contract: to Newton's method
    and back, with checkpoints on both sides.  Kepler's ellipse of eccentricity 0.84 is near the limit, and keeps
    its angular momentum to rounding by either.                                                        */
-static void nor_between_newton_and_the_fixed_point(void **state)
+TEST(nor_between_newton_and_the_fixed_point)
 {
-    (void)state;
     for (int n = 2; n <= 3; ++n) {
         twins z;
         int turned = 0;
@@ -283,9 +280,8 @@ static void failures(gvi_points_fn *points, gvi_desc desc, real x, real h, int h
     assert_between(4, failed, 99);
 }
 
-static void steps_that_fail_leave_no_trace(void **state)
+TEST(steps_that_fail_leave_no_trace)
 {
-    (void)state;
     for (int degree = 4; degree <= 16; degree *= 2) {
         for (int n = 2; n <= 3; ++n) {
             failures(points_hh, described(n, degree, (real)1e-9L, NULL), (real)0.1L, (real)0.7L, 0, GVI_E_CALLBACK);
@@ -300,11 +296,10 @@ static void steps_that_fail_leave_no_trace(void **state)
 
 /* M becomes singular on the way: whatever the step says, it says no, and a way round it goes on as if
    nothing had been.                                                                                 */
-static void nor_does_a_mass_that_has_no_inverse(void **state)
+TEST(nor_does_a_mass_that_has_no_inverse)
 {
     twins z;
     int failed = 0;
-    (void)state;
     begin(&z, points_links, linked(8, (real)1e-9L), 1, (real)0.3L);
     for (int i = 0; i < 30; ++i) assert_ok(both(&z, (real)0.2L));
     for (int i = 0; i < 100; ++i) {
@@ -322,9 +317,8 @@ static void nor_does_a_mass_that_has_no_inverse(void **state)
 }
 
 /* All points of the tenth step are finite, its end is not, in one of the coordinates. */
-static void an_end_that_overflows_is_refused_in_each_coordinate(void **state)
+TEST(an_end_that_overflows_is_refused_in_each_coordinate)
 {
-    (void)state;
     for (int n = 2; n <= 3; ++n)
         for (int far = 0; far < n; ++far) {
             twins z;
@@ -343,9 +337,8 @@ static void an_end_that_overflows_is_refused_in_each_coordinate(void **state)
 }
 
 /* Counted is what was evaluated, also in steps that fail and in queries. */
-static void the_counters_count(void **state)
+TEST(the_counters_count)
 {
-    (void)state;
     for (int moving = 0; moving < 2; ++moving) {
         twins z;
         begin(&z, moving ? points_links : points_hh, moving ? linked(8, 0) : described(2, 8, 0, NULL), (real)0.5L, (real)0.2L);
@@ -367,14 +360,13 @@ static void the_counters_count(void **state)
 static int point_hh(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
     henon_heiles(*(int *)user, q, f);
-    return (void)t, (void)v, (void)dldv, 0;
+    return 0;
 }
 
 /* A checkpoint goes on in a stepper whose effect takes one point a call. */
-static void restored_to_another_callback(void **state)
+TEST(restored_to_another_callback)
 {
     static real third[MOST];
-    (void)state;
     for (int n = 2; n <= 3; ++n) {
         twins z;
         int count = n;
@@ -411,7 +403,7 @@ static int springs(const gvi_points *x, void *user)
 }
 
 /* Powers of two as units of time and length scale the motion to the bit, in every formulation. */
-static void units_change_no_bit(void **state)
+TEST(units_change_no_bit)
 {
     static const real nodes[] = { 0, (real)0.375L, (real)0.625L, 1 };
     static const real weights[] = { (real)0.125L, (real)0.375L, (real)0.375L, (real)0.125L };
@@ -422,7 +414,6 @@ static void units_change_no_bit(void **state)
         { .degree = 5, .formulation = GVI_VELOCITIES }, { .degree = 5, .formulation = GVI_MOMENTA },
         { .degree = 8, .tolerance = (real)1e-5L, .formulation = GVI_POSITIONS } };
     const real q0[ROOM] = { (real)0.5L, (real)-0.25L, (real)0.125L }, v0[ROOM] = { (real)0.25L, (real)0.5L, -1 };
-    (void)state;
     for (int f = 0; f < COUNT(forms); ++f)
         for (int a = -6; a <= 6; a += 4)
             for (int b = -5; b <= 7; b += 6) {
@@ -479,12 +470,11 @@ static void runge_kutta(int n, long double h, int parts, long double *y)
 }
 
 /* Steps of one length, and of lengths in turn up to six times the last and back */
-static void steps_are_right_whatever_their_lengths(void **state)
+TEST(steps_are_right_whatever_their_lengths)
 {
     static const real lengths[][8] = { { (real)0.25L, (real)0.25L, (real)0.25L, (real)0.25L, (real)0.25L, (real)0.25L, (real)0.25L, (real)0.25L },
                                        { (real)0.25L, (real)0.25L, (real)0.125L, (real)0.75L, (real)0.5L, (real)0.25L, (real)-0.25L, (real)0.5L } };
     static const gvi_formulation pins[] = { GVI_AUTO, GVI_POSITIONS, GVI_VELOCITIES, GVI_MOMENTA };
-    (void)state;
     for (int n = 2; n <= 3; ++n)
         for (int f = 0; f < COUNT(pins); ++f)
             for (int k = 0; k < COUNT(lengths); ++k) {
@@ -508,10 +498,9 @@ static void steps_are_right_whatever_their_lengths(void **state)
 
 /* In steps of 3.3, half a period, what extrapolates the last step misses by a thousand times the motion: the
    iteration starts again from free motion and ends where it must.  No step fails.                     */
-static void very_long_steps_get_over_a_bad_guess(void **state)
+TEST(very_long_steps_get_over_a_bad_guess)
 {
     static const gvi_formulation pins[] = { GVI_POSITIONS, GVI_MOMENTA, GVI_AUTO };
-    (void)state;
     if (KIND == 1) skip();
     for (int f = 0; f < COUNT(pins); ++f) {
         twins z;
@@ -541,7 +530,7 @@ static int narrow(const gvi_points *p, void *user)
     return 0;
 }
 
-static void a_guess_that_a_callback_refuses_is_given_up(void **state)
+TEST(a_guess_that_a_callback_refuses_is_given_up)
 {
     int refused = 0;
     const gvi_effect pendulum = { .kind = GVI_POTENTIAL, .points = narrow, .user = &refused };
@@ -549,7 +538,6 @@ static void a_guess_that_a_callback_refuses_is_given_up(void **state)
                             .formulation = GVI_POSITIONS };
     const real q = 1, v = 0;
     gvi_stepper st;
-    (void)state;
     assert_ok(gvi_init(&st, &desc, memory[0], sizeof memory[0]));
     assert_ok(gvi_start(&st, 0, &q, &v));
     for (int k = 0; k < 1000; ++k) {
@@ -568,16 +556,15 @@ static int steep(const gvi_points *x, void *user)
             const real q = x->q[i*x->stride + j];
             x->f[i*x->stride + j] -= q*q*q;
         }
-    return (void)user, 0;
+    return 0;
 }
 
-static void no_step_that_runs_away_is_a_solution(void **state)
+TEST(no_step_that_runs_away_is_a_solution)
 {
     const gvi_effect wall = { .kind = GVI_POTENTIAL, .points = steep };
     const gvi_desc desc = { .n = 3, .degree = 8, .effects = &wall, .effect_count = 1, .formulation = GVI_POSITIONS };
     const real q[ROOM] = { (real)0.75L, 0, (real)0.125L }, v[ROOM] = { 0, (real)1.25L, (real)0.25L };
     int failed = 0, early = 0;
-    (void)state;
     for (real k = 2; k < 12; k += (real)0.015625L) {
         gvi_stepper st;
         assert_ok(gvi_init(&st, &desc, memory[0], sizeof memory[0]));
@@ -592,22 +579,4 @@ static void no_step_that_runs_away_is_a_solution(void **state)
     assert_true(early < 25);                      // of 384
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(questions_and_checkpoints_change_no_bit),
-        cmocka_unit_test(questions_and_checkpoints_change_no_bit_with_a_mass_that_moves),
-        cmocka_unit_test(nor_between_newton_and_the_fixed_point),
-        cmocka_unit_test(steps_that_fail_leave_no_trace),
-        cmocka_unit_test(nor_does_a_mass_that_has_no_inverse),
-        cmocka_unit_test(an_end_that_overflows_is_refused_in_each_coordinate),
-        cmocka_unit_test(the_counters_count),
-        cmocka_unit_test(restored_to_another_callback),
-        cmocka_unit_test(units_change_no_bit),
-        cmocka_unit_test(steps_are_right_whatever_their_lengths),
-        cmocka_unit_test(very_long_steps_get_over_a_bad_guess),
-        cmocka_unit_test(a_guess_that_a_callback_refuses_is_given_up),
-        cmocka_unit_test(no_step_that_runs_away_is_a_solution),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -5,7 +5,7 @@
        --steps k   --h x   --degree s
        --off a,b                    listed, but switched off
        --without a,b                not listed at all
-       --svg file                   the motion, and the energy beside it
+       --svg file                   the motion, with the energy next to it
 
    The energy that is not accounted for is E(t) - E(0) less the work that forces
    did, which is integrated with each step's own curve.                        */

@@ -17,7 +17,7 @@
 
 enum { SCENE_MAX = 192,        /* most degrees of freedom                      */
        SCENE_BODIES = 64,      /* most points in a picture                     */
-       SCENE_CURVES = 4 };     /* most curves beside it, most conserved things */
+       SCENE_CURVES = 4 };     /* most curves next to it, most conserved things */
 
 typedef struct scene_setup {
     gvi_desc    desc;

@@ -64,7 +64,7 @@ typedef struct adjoint {
 #define ADJOINT_ROOM(n, r) (TANGENT_ROOM(n, 1) + 6*(size_t)(n) + 2*(size_t)(r))
 #define ADJOINT_KEPT(n, steps, every) ((2*(size_t)(n) + 1)*((size_t)(steps)/(size_t)(every) + 1))
 
-/* A force and its transposed: rows l take part in dL/dv, so gvi.h is told a Lagrangian term. */
+/* A force and its transposed: rows l take part in dL/dv, so for gvi.h it is a Lagrangian term. */
 static int adjoint_force(const gvi_points *x, void *user)
 {
     const tangent_part *part = user;

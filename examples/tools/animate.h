@@ -1,7 +1,7 @@
 /* animate.h - motion pictures as SVG files, for the scenes of gvi.h
 
    One call writes one film: points that move, lines that join them, trails, and
-   beside it two plots with a mark that runs along.  It plays in a browser without
+   next to it two plots with a mark that runs along.  It plays in a browser without
    a script (SMIL); where nothing moves it shows the start and all of the trails. */
 #ifndef ANIMATE_H
 #define ANIMATE_H

@@ -428,7 +428,7 @@ static inline void check_many(struct check_run *c, int count, int stride)
     }
 }
 
-/* The same of the value callback; with f beside it (`both`) where one function
+/* The same of the value callback; with f as well (`both`) where one function
    gives the two.                                                              */
 static inline void check_many_values(struct check_run *c, int count, int stride)
 {

@@ -11,7 +11,7 @@
      velocity  for mass.velocity: out[n] = velocity of q and p
 
    Only what is analytic: no fabs, no comparisons of the real part with a limit that matters,
-   sqrt(x x + y y) in place of cabs. n at most COMPLEX_MOST, else the callback refuses.
+   sqrt(x x + y y) instead of cabs. n at most COMPLEX_MOST, else the callback fails.
    tangent_check compares with differences.
 
    Use    static const complex_effect weight = { .force = weight_force };

@@ -28,7 +28,7 @@
    effect without its product (GVI_E_ARGUMENT).  gvi_energy of the larger scene
    says GVI_E_VALUE.  A wrong product cannot be seen by a step: tangent_check.
 
-   Limits    In its last bits the motion beside its derivative can differ from the motion
+   Limits    In its last bits the motion computed with its derivative can differ from the motion
              alone, by another number of iterations; desc.iterations makes both the same.
              Columns of a chaotic motion grow: scale them and start again before they
              overflow, as 17_tangent.c does.  In momenta there is no Newton's method to
@@ -126,9 +126,10 @@ static gvi_real *tangent_zero(const gvi_real *a, int n, gvi_real *z)
 static gvi_points tangent_gather(const gvi_points *x, int k, gvi_real *z)
 {
     const int n = x->n;
-    gvi_points y = { n, 1, 1, x->t + k, tangent_take(x->q, k, x, z), tangent_take(x->v, k, x, z + n),
-                     tangent_take(x->p, k, x, z + 2*n), tangent_zero(x->f, n, z + 3*n),
-                     tangent_zero(x->dldv, n, z + 4*n), NULL, NULL, tangent_zero(x->velocity, n, z + 5*n) };
+    gvi_points y = { .n = n, .count = 1, .stride = 1, .t = x->t + k, .q = tangent_take(x->q, k, x, z),
+                     .v = tangent_take(x->v, k, x, z + n), .p = tangent_take(x->p, k, x, z + 2*n),
+                     .f = tangent_zero(x->f, n, z + 3*n), .dldv = tangent_zero(x->dldv, n, z + 4*n),
+                     .velocity = tangent_zero(x->velocity, n, z + 5*n) };
     return y;
 }
 
@@ -307,9 +308,10 @@ static inline gvi_real tangent_check(const tangent *T, gvi_real t, const gvi_rea
         const int mass = i >= GVI_EFFECTS, velocity = i == GVI_EFFECTS;
         const gvi_kind kind = mass ? GVI_FORCE : i < T->plain.effect_count ? T->effect[i].kind : GVI_FORCE;
         gvi_real *Q = T->room + 6*n, *V = Q + n, *out = V + n, *slope = out + 2*n, *product = slope + 2*n;
-        gvi_points x = { n, 1, 1, &t, Q, kind == GVI_POTENTIAL || velocity ? NULL : V,
-                         velocity ? V : NULL, velocity ? NULL : out,
-                         kind == GVI_LAGRANGIAN ? out + n : NULL, NULL, NULL, velocity ? out : NULL };
+        gvi_points x = { .n = n, .count = 1, .stride = 1, .t = &t, .q = Q,
+                         .v = kind == GVI_POTENTIAL || velocity ? NULL : V, .p = velocity ? V : NULL,
+                         .f = velocity ? NULL : out, .dldv = kind == GVI_LAGRANGIAN ? out + n : NULL,
+                         .velocity = velocity ? out : NULL };
         if (mass ? !moving || !a->points : i >= T->plain.effect_count) continue;
         for (int k = 0; k < 2*n; ++k) slope[k] = product[k] = 0;
         for (int z = 0; z < 5; ++z) {

@@ -28,7 +28,6 @@ static double omega = 50;
 static int distance(const gvi_points *x, void *user)
 {
     const double *X = x->q, *Y = X + x->stride;
-    (void)user;
     for (int k = 0; k < x->count; ++k) {
         double d = sqrt(X[k]*X[k] + Y[k]*Y[k]), w = 1/d;
         x->value[k] += d;
@@ -42,7 +41,6 @@ static int distance(const gvi_points *x, void *user)
 static int well(const gvi_points *x, void *user)
 {
     const double *X = x->q, *Y = X + x->stride;
-    (void)user;
     for (int k = 0; k < x->count; ++k) {
         x->f[k] -= X[k] + 2*X[k]*Y[k];
         x->f[x->stride+k] -= Y[k] + (X[k]*X[k] - Y[k]*Y[k]);
@@ -55,7 +53,6 @@ static int sun(const gvi_points *x, void *user)
 {
     const int R = x->stride;
     const double *q = x->q;
-    (void)user;
     for (int k = 0; k < x->count; ++k) {
         double d2 = q[k]*q[k] + q[R+k]*q[R+k] + q[2*R+k]*q[2*R+k], w = 1/(d2*sqrt(d2));
         for (int i = 0; i < 3; ++i) x->f[i*R+k] -= w*q[i*R+k];
@@ -79,7 +76,6 @@ static int pair(const gvi_points *x, int i, int j)
 
 static int gravitation(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int i = 0; i < 5; ++i)
         for (int j = i + 1; j < 6; ++j) pair(x, i, j);
     return 0;
@@ -107,7 +103,6 @@ static void sines(double x, double *sine, double *cosine)
 static int weight(const gvi_points *x, void *user)
 {
     const double *a = x->q, *b = a + x->stride;
-    (void)user;
     for (int k = 0; k < x->count; ++k) {
         double first, both, c;
         sines(a[k], &first, &c);
@@ -121,7 +116,6 @@ static int weight(const gvi_points *x, void *user)
 static int velocity(const gvi_points *x, void *user)
 {
     const double *b = x->q + x->stride, *p = x->p;
-    (void)user;
     for (int k = 0; k < x->count; ++k) {
         double s, c, p2 = p[x->stride+k], less = p[k] - p2;
         sines(b[k], &s, &c);
@@ -134,7 +128,6 @@ static int velocity(const gvi_points *x, void *user)
 static int mass(const gvi_points *x, void *user)
 {
     const int R = x->stride;
-    (void)user;
     for (int k = 0; k < x->count; ++k) {
         double s, c;
         sines(x->q[R+k], &s, &c);
@@ -148,7 +141,6 @@ static int mass(const gvi_points *x, void *user)
 static int mass_gradient(const gvi_points *x, void *user)
 {
     const double *u = x->v, *v = u + x->stride;
-    (void)user;
     for (int k = 0; k < x->count; ++k) {
         double s, c;
         sines(x->q[x->stride+k], &s, &c);
@@ -204,14 +196,14 @@ static int threads(const gvi_points *x, void *user)
         if (i % SIDE < SIDE - 1) thread(x, i, i + 1);
         if (i/SIDE < SIDE - 1) thread(x, i, i + SIDE);
     }
-    return (void)user, 0;
+    return 0;
 }
 
 static int net_weight(const gvi_points *x, void *user)
 {
     for (int i = 0; i < KNOTS; ++i)
         for (int k = 0; k < x->count; ++k) x->f[(3*i+2)*x->stride + k] -= 9.81*0.005;
-    return (void)user, 0;
+    return 0;
 }
 
 #ifndef NO_DRAG
@@ -219,7 +211,7 @@ static int drag(const gvi_points *x, void *user)
 {
     for (int i = 0; i < NET; ++i)
         for (int k = 0; k < x->count; ++k) x->f[i*x->stride + k] -= 0.01*x->v[i*x->stride + k];
-    return (void)user, 0;
+    return 0;
 }
 #endif
 

@@ -63,13 +63,13 @@ static int kepler_point(double t, const double *q, const double *v, double *f, d
     const double d2 = q[0]*q[0] + q[1]*q[1], w = -1/(d2*sqrt(d2));
     f[0] += w*q[0];
     f[1] += w*q[1];
-    return (void)t, (void)v, (void)dldv, (void)user, 0;
+    return 0;
 }
 
 static int pendulum_point(double t, const double *q, const double *v, double *f, double *dldv, void *user)
 {
     f[0] -= sin(q[0]);
-    return (void)t, (void)v, (void)dldv, (void)user, 0;
+    return 0;
 }
 
 static double step_time(const gvi_effect *effect, int n, double h)

@@ -33,7 +33,7 @@ static int attraction_at(double t, const double *q, const double *v, double *f, 
     const double d2 = q[0]*q[0] + q[1]*q[1], w = -1/(d2*sqrt(d2));
     f[0] += w*q[0];
     f[1] += w*q[1];
-    return (void)t, (void)v, (void)dldv, (void)user, 0;
+    return 0;
 }
 
 /* And in space */
@@ -48,7 +48,7 @@ static int sun(const gvi_points *x, void *user)
         f[R + k] += w*q[R + k];
         f[2*R + k] += w*q[2*R + k];
     }
-    return (void)user, 0;
+    return 0;
 }
 
 /* g = |q|^(3/2) */
@@ -63,7 +63,7 @@ static int clock_of_distance(const gvi_points *x, void *user)
             x->f[R + k] += 1.5*s*Y/d;
         }
     }
-    return (void)user, 0;
+    return 0;
 }
 
 static int henon_heiles(const gvi_points *x, void *user)
@@ -74,7 +74,7 @@ static int henon_heiles(const gvi_points *x, void *user)
         x->f[k] -= a + 2*a*b;
         x->f[R + k] -= b + a*a - b*b;
     }
-    return (void)user, 0;
+    return 0;
 }
 
 /* All pairs, and for each of them all points */
@@ -92,7 +92,7 @@ static int gravitation(const gvi_points *x, void *user)
                 e[k] -= w*X;  e[R + k] -= w*Y;  e[2*R + k] -= w*Z;
             }
         }
-    return (void)user, 0;
+    return 0;
 }
 
 /* All points, and for each of them all pairs: no compiler makes vectors of it */
@@ -113,7 +113,7 @@ static int gravitation_plainly(const gvi_points *x, void *user)
                     x->f[(3*j + l)*R + k] -= w*d[l];
                 }
             }
-    return (void)user, 0;
+    return 0;
 }
 
 /* Springs d + 0.3 d^3 in a row between two walls */
@@ -127,7 +127,7 @@ static int chain(const gvi_points *x, void *user)
             if (i > 0) x->f[(i - 1)*R + k] += f;
             if (i < n) x->f[i*R + k] -= f;
         }
-    return (void)user, 0;
+    return 0;
 }
 
 /* Soft and stiff ones in turn, with second derivatives */
@@ -141,7 +141,7 @@ static int springs(const gvi_points *x, void *user)
             if (i > 0) x->f[(i - 1)*R + k] += f;
             if (i < n) x->f[i*R + k] -= f;
         }
-    return (void)user, 0;
+    return 0;
 }
 
 static int springs_hessian(double t, const double *q, const double *v, double *fq, double *fv, double *pv, void *user)
@@ -156,7 +156,7 @@ static int springs_hessian(double t, const double *q, const double *v, double *f
             fq[i*n + i - 1] += k;
         }
     }
-    return (void)t, (void)v, (void)fv, (void)pv, 0;
+    return 0;
 }
 
 /* A pendulum of n links of length 1, of mass 1 at the end of each, absolute angles:
@@ -168,7 +168,7 @@ static int links_mass(const gvi_points *x, void *user)
         for (int j = 0; j <= i; ++j)
             for (int k = 0; k < R; ++k)
                 x->mass[(i*n + j)*R + k] = i == j ? n - i : (n - i)*cos(x->q[i*R + k] - x->q[j*R + k]);
-    return (void)user, 0;
+    return 0;
 }
 static int links_gradient(const gvi_points *x, void *user)
 {
@@ -180,25 +180,25 @@ static int links_gradient(const gvi_points *x, void *user)
                 x->f[i*R + k] -= s;
                 x->f[j*R + k] += s;
             }
-    return (void)user, 0;
+    return 0;
 }
 static int links_weight(const gvi_points *x, void *user)
 {
     const int R = x->stride, n = x->n;
     for (int i = 0; i < n; ++i)
         for (int k = 0; k < R; ++k) x->f[i*R + k] -= (n - i)*9.8*sin(x->q[i*R + k]);
-    return (void)user, 0;
+    return 0;
 }
 
 static int pendulum_at(double t, const double *q, const double *v, double *f, double *dldv, void *user)
 {
     f[0] -= sin(q[0]);
-    return (void)t, (void)v, (void)dldv, (void)user, 0;
+    return 0;
 }
 static int driven_at(double t, const double *q, const double *v, double *f, double *dldv, void *user)
 {
     f[0] += -0.1*v[0] + 0.5*cos(0.7*t);
-    return (void)q, (void)dldv, (void)user, 0;
+    return 0;
 }
 
 /* f = -c m v, c that of a medium that hardly brakes */
@@ -225,7 +225,7 @@ static int field_in_plane(const gvi_points *x, void *user)
             x->dldv[R + k] += X/2;
         }
     }
-    return (void)user, 0;
+    return 0;
 }
 
 /* A = (1 + z/2)(-y, x, 0)/2 in space, and a trap that holds */
@@ -244,14 +244,14 @@ static int field_in_space(const gvi_points *x, void *user)
             x->dldv[R + k] += b*X;
         }
     }
-    return (void)user, 0;
+    return 0;
 }
 static int trap(const gvi_points *x, void *user)
 {
     const int R = x->stride;
     for (int i = 0; i < x->n; ++i)
         for (int k = 0; k < R; ++k) x->f[i*R + k] -= x->q[i*R + k];
-    return (void)user, 0;
+    return 0;
 }
 
 /* L = -sqrt(1 - v'v), and v from p */
@@ -263,7 +263,7 @@ static int relativity(const gvi_points *x, void *user)
         x->dldv[k] += w*vx;
         x->dldv[R + k] += w*vy;
     }
-    return (void)user, 0;
+    return 0;
 }
 static int relativity_velocity(const gvi_points *x, void *user)
 {
@@ -273,7 +273,7 @@ static int relativity_velocity(const gvi_points *x, void *user)
         x->velocity[k] = w*px;
         x->velocity[R + k] = w*py;
     }
-    return (void)user, 0;
+    return 0;
 }
 
 static const double air[2] = { 0.001, 0.001 };

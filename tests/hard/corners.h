@@ -32,7 +32,6 @@ static const real I3 = (real)0.5;
 static int top_mass(const gvi_points *x, void *user)
 {
     const int d = x->stride;
-    (void)user;
     for (int k = 0; k < x->count; ++k) {
         const real c = cos(x->q[k]), s = sin(x->q[k]);
         for (int e = 0; e < 9; ++e) x->mass[e*d + k] = 0;
@@ -47,7 +46,6 @@ static int top_mass(const gvi_points *x, void *user)
 static int top_gradient(const gvi_points *x, void *user)
 {
     const int d = x->stride;
-    (void)user;
     for (int k = 0; k < x->count; ++k) {
         const real c = cos(x->q[k]), s = sin(x->q[k]), ph = x->v[d + k], ps = x->v[2*d + k];
         x->f[k] += s*c*ph*ph - I3*(ps + c*ph)*s*ph;
@@ -57,7 +55,6 @@ static int top_gradient(const gvi_points *x, void *user)
 
 static int top_weight(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int k = 0; k < x->count; ++k) {
         if (x->value) x->value[k] += cos(x->q[k]);
         else x->f[k] += sin(x->q[k]);

@@ -67,7 +67,6 @@ static void chaotic_pendulum(long steps)
 
 static int gravity(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int k = 0; k < x->count; ++k)
         for (int a = 1; a < 3; ++a)
             for (int b = 0; b < a; ++b) {
@@ -124,7 +123,6 @@ static void figure_eight(void)
 
 static int pendulum(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int k = 0; k < x->count; ++k) {
         if (x->value) x->value[k] -= cos(x->q[k]);
         else x->f[k] -= sin(x->q[k]);
@@ -168,7 +166,6 @@ static void winding(void)
    response to the driving is 4/3 cos(t/2), and t in the effect is known to EPS/2 1e9  */
 static int driven(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
-    (void)v; (void)dldv; (void)user;
     f[0] += cos(t/2) - q[0];
     return 0;
 }

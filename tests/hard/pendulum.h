@@ -12,7 +12,6 @@ static const real pendulum_g = (real)9.8;
 
 static int pendulum_forces(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int k = 0; k < x->count; ++k) {
         const real a = x->q[k], b = x->q[x->stride + k], both = pendulum_g*sin(a + b);
         x->f[k] -= 2*pendulum_g*sin(a) + both;
@@ -24,7 +23,6 @@ static int pendulum_forces(const gvi_points *x, void *user)
 static int pendulum_velocity(const gvi_points *x, void *user)
 {
     const real *q2 = x->q + x->stride, *p1 = x->p, *p2 = p1 + x->stride;
-    (void)user;
     for (int k = 0; k < x->count; ++k) {
         const real c = cos(q2[k]), s = sin(q2[k]), p = p1[k] - p2[k];
         x->velocity[k] = (p - c*p2[k])/(1 + s*s);

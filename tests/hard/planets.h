@@ -11,7 +11,6 @@ static real gm[BODIES], mass_of[3*BODIES];
 static int gravity(const gvi_points *x, void *user)
 {
     const int d = x->stride;
-    (void)user;
     for (int i = 1; i < BODIES; ++i)
         for (int j = 0; j < i; ++j)
             for (int k = 0; k < x->count; ++k) {

@@ -31,7 +31,6 @@ static void push(const gvi_points *x, int a, int b, int k, double fu, double fv)
 
 static int gravity(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int k = 0; k < x->count; ++k)
         for (int a = 1; a < 3; ++a)
             for (int b = 0; b < a; ++b) {
@@ -44,7 +43,6 @@ static int gravity(const gvi_points *x, void *user)
 
 static int fall_time(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int k = 0; k < x->count; ++k) {
         double sum = 0, g;
         for (int a = 1; a < 3; ++a)

@@ -290,7 +290,6 @@ static void kicks(long steps)
 
 static int distance(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int k = 0; k < x->count; ++k) {
         const real X = x->q[k], Y = x->q[x->stride + k], d = sqrtf(X*X + Y*Y);
         x->value[k] += d;
@@ -391,7 +390,6 @@ static void eccentric_orbits(void)
 static int three(const gvi_points *x, void *user)
 {
     const int d = x->stride;
-    (void)user;
     for (int k = 0; k < x->count; ++k)
         for (int a = 1; a < 3; ++a)
             for (int b = 0; b < a; ++b) {
@@ -444,7 +442,6 @@ static void figure_eight(void)
 
 static int spinning(const gvi_points *x, void *user)
 {
-    (void)user;
     for (int k = 0; k < x->count; ++k) x->f[k] -= sinf(x->q[k]);
     return 0;
 }
@@ -476,7 +473,6 @@ static void winding(void)
    force wrong by 1/128 sin(t/2)/2 /sqrt(12)                                                */
 static int driven(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
-    (void)v; (void)dldv; (void)user;
     f[0] += cosf(t/2) - q[0];
     return 0;
 }

@@ -147,7 +147,13 @@ job_test() {
     [ -z "$run" ] || level=-O1                  # half the time of compilation; bits are at -O2 everywhere
     set -- $level -w -I$here -Itests -Iexamples
     [ -z "$type" ] || set -- "$@" "-DGVI_REAL=$(real "$type")"
-    compile "$program" "tests/test_$name.c" "$@" || return 1
+    source=tests/test_$name.c
+    if [ "$cc" = tcc ]; then
+        source=$program.c
+        { cat "tests/test_$name.c"; echo 'static void register_tests(void) {'
+          sed -n 's/^TEST(\([a-zA-Z0-9_]*\)).*/    \1_registers();/p' "tests/test_$name.c"; echo '}'; } >"$source"
+    fi
+    compile "$program" "$source" "$@" || return 1
     timed $run "$program" >"$program.log" 2>&1
     status=$?
     rm -f "$program"
