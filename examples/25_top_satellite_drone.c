@@ -1,6 +1,6 @@
 /* 25 - How does a body get its forces? A top, a satellite, a drone
 
-   What tools/body.h leaves to write is what acts on the body, in body axes or in space:
+   tools/body.h leaves to you what acts on the body. The quaternion's length is free, or held by a row (the top):
 
      top         stands on its tip, so it has no place of its own: n = 4. Its weight is a force in space at a
                  place of the body. Spun by C w = A W cos a + m g l/W, tilted by a, it goes round at W
@@ -12,6 +12,7 @@
    prints
 
      top: back after one round of 0.314 s, to 1e-13: yes
+     top, length held: back after one round of 0.314 s, to 1e-13: yes
      satellite: rocks once in 0.822 orbits, by elliptic functions 0.822
      drone: after 10 s at 1.000 2.000 3.000 m
 */
@@ -23,7 +24,7 @@
 #include <stdio.h>
 
 static const double turn = 6.283185307179586;
-static double memory[GVI_LENGTH(7, 8, 8)];
+static double memory[GVI_CONSTRAINED_LENGTH(7, 8, 8, 1)];
 
 /* From the spin w in body axes; at rest in its place.                             */
 static void begin(gvi_stepper *st, const gvi_desc *desc, const double *q, const double *w)
@@ -45,13 +46,13 @@ GVI_POINTS(toy_weight, 4, f)(const gvi_points *x, void *user)
     return (void)user, 0;
 }
 
-static void spin_top(void)
+static void spin_top(int held)
 {
     static const bodies one = { &toy, 1 };
-    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = toy_weight } };
-    const gvi_desc desc = { .n = 4, .effects = scene, .effect_count = 1, .mass = body_mass(&one) };
-    const double W = 20, a = 0.5, A = toy.inertia[0], C = toy.inertia[2];
-    double axis[2][3], off = 0;
+    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = toy_weight }, body_unit(&one) };
+    gvi_desc desc = { .n = 4, .effects = scene, .effect_count = 1 + held, .mass = body_mass(&one) };
+    if (held) desc.mass.velocity = NULL;
+    double axis[2][3], off = 0, W = 20, a = 0.5, A = toy.inertia[0], C = toy.inertia[2];
     gvi_stepper st;
     begin(&st, &desc, (double[]){ cos(a/2), sin(a/2), 0, 0 },
           (double[]){ 0, W*sin(a), (A*W*cos(a) + 0.04*0.981/W)/C });
@@ -59,7 +60,7 @@ static void spin_top(void)
     for (int k = 0; k < 80 && st.status == GVI_OK; ++k) gvi_step(&st, turn/W/80);
     body_rotate(st.q, 0, (double[]){ 0, 0, 1 }, axis[1]);
     for (int i = 0; i < 3; ++i) off = fmax(off, fabs(axis[1][i] - axis[0][i]));
-    printf("top: back after one round of %.3f s, to 1e-13: %s\n", st.t, off < 1e-13 ? "yes" : "no");
+    printf("top%s: back after one round of %.3f s, to 1e-13: %s\n", held ? ", length held" : "", st.t, off < 1e-13 ? "yes" : "no");
 }
 
 static const body boom = { .inertia = { 1, 4, 4.5 } };
@@ -141,7 +142,8 @@ static void fly_drone(void)
 
 int main(void)
 {
-    spin_top();
+    spin_top(0);
+    spin_top(1);
     rock_satellite();
     fly_drone();
 }
