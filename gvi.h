@@ -2107,7 +2107,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
     gvi__count(&st->counters.velocities, 1);
     for (int k = 0, halves = 0, last_places = 0; k < 60; ++k) {
         gvi_real change = 0, miss = 0;
-        int near = 1;
+        int almost = 1;
         gvi_status status = gvi__evaluate(st, x, 0, 1);
         if (status == GVI_OK && gvi__first_non_finite(n, x->dldv) >= 0) status = GVI_E_NON_FINITE;
         if (status == GVI_OK) status = gvi__velocity_hessian(st, x, v, W);
@@ -2115,7 +2115,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
             gvi_real rounding = GVI_ABS(p[i]);
             for (int j = 0; j < n; ++j) rounding += GVI_ABS(W[i*n + j]*v[j]);
             dv[n + i] = p[i] - x->dldv[i];
-            near &= GVI_ABS(dv[n + i]) <= GVI_SQRT(GVI__EPS)*GVI_ABS(p[i]);
+            almost &= GVI_ABS(dv[n + i]) <= GVI_SQRT(GVI__EPS)*GVI_ABS(p[i]);
             if (GVI_ABS(dv[n + i]) > miss*rounding) miss = GVI_ABS(dv[n + i])/rounding;
         }
         if (status == GVI_OK) {
@@ -2145,8 +2145,8 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
         if (!(change <= GVI__MAX)) break;
         // from beyond the root corrections grow threefold, be they of the last place
         const gvi_real small = GVI_SQRT(GVI__EPS);
-        last_places = change <= 64*GVI__EPS ? last_places + 1 : 0;
-        const int rests = last_places > 4 || (change <= 2*GVI__EPS && (last <= small || near)),
+        last_places += change <= 64*GVI__EPS;
+        const int rests = last_places > 4 || (change <= 2*GVI__EPS && (last <= small || almost)),
                   still = change >= last/2 && change <= 2*last && change <= small;
         if (miss <= 8*GVI__EPS*(gvi_real)n && (rests || still)) return GVI_OK;
         last = change;
@@ -5461,11 +5461,11 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
     if (!gvi__finite(t)) return gvi__refuse_call(st, "t is not finite");
     gvi_real ahead = t - st->t0, back = t - st->t;        // one of each sign, or 0
     const gvi_real largest = GVI_ABS(st->t) > GVI_ABS(st->t0) ? st->t : st->t0,
-                   near = 2*GVI__EPS*GVI_ABS(largest);
+                   edge = 2*GVI__EPS*GVI_ABS(largest);
     if ((ahead > 0) == (back > 0) && gvi__nonzero(ahead) && gvi__nonzero(back)) {
         // outside by rounding, as st.t - st.h may be
-        if (GVI_ABS(ahead) <= near) t = st->t0;
-        else if (GVI_ABS(back) <= near) t = st->t;
+        if (GVI_ABS(ahead) <= edge) t = st->t0;
+        else if (GVI_ABS(back) <= edge) t = st->t;
         else return st->status = GVI_E_STATE;
         ahead = t - st->t0;
         back = t - st->t;
