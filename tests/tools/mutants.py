@@ -12,7 +12,7 @@ MUTANTS = [
     ("clock domains", "GVI_FAULT_NONE, k);\n    }\n    return st->x.diagnose ? gvi__check_rows(st, x, slope",
               "GVI_FAULT_NONE, k + 1);\n    }\n    return st->x.diagnose ? gvi__check_rows(st, x, slope"),
     ("clock domains", "return x->off = was, st->status = status;", "return st->status = status;"),
-    ("theorems boundary queries", "x->off |= gvi__of_kind(x, GVI_FORCE);", ""),
+    ("boundary", "x->off |= gvi__of_kind(x, GVI_FORCE);", ""),
     ("order identities", "(gvi_real)(s - 1) : 1/sum;", "(gvi_real)(s - 1) : (1 + GVI_SQRT(GVI__EPS))/sum;"),
     ("mass corners api", "status = gvi__ldl_factor(n, R, x->count, m, (gvi_real)n*GVI__EPS, at);\n    return status == GVI_OK ? GVI_OK : gvi__report(st, status, GVI_FAULT_MASS, at[0], at[1]);",
               "status = gvi__ldl_factor(n, R, x->count, m, (gvi_real)n*GVI__EPS, at);\n    return status == GVI_OK ? GVI_OK : gvi__report(st, status, GVI_FAULT_MASS, at[1], at[0]);"),
@@ -73,7 +73,7 @@ MUTANTS = [
     ("boundary", "if (*negative && !out->negative) return GVI_E_CONJUGATE;", ""),
     ("boundary", "if (*bent > (gvi_real)0.25) return", "if (0) return"),
     ("boundary queries", "y[st->n + i] = length*scale[i]/2;", "y[st->n + i] = 0*length*scale[i];"),
-    ("queries theorems", "minus[i] -= lambda[row]*(by_q0 - by_y0);", "minus[i] -= lambda[row]*by_q0;"),
+    ("queries", "minus[i] -= lambda[row]*(by_q0 - by_y0);", "minus[i] -= lambda[row]*by_q0;"),
 ]
 
 SLOW = "newton clock structure theorems order kinks oracle corners tolerance"
