@@ -639,9 +639,9 @@ struct gvi__newton {
 struct gvi__holonomic {               /* constraints; C = stride of D_0..D_s         */
     gvi_real *d, *w, *hw, *t;         /* [R + C], [s+1] Lobatto's nodes, weights; [R] h w; [C] */
     gvi_real *Phi, *Phi_low;          /* [s][R] modes at D_1..D_s                    */
-    gvi_real *K, *U, *by_force, *by_impulse, *lu, *E; /* see gvi__set_constraints; predictor */
+    gvi_real *K, *U, *by_force, *by_impulse, *lu, *X, *E; /* see gvi__set_constraints; predictor */
     gvi_real *D, *free, *P;           /* [n][R] stage values, free motion; a trial's momenta */
-    gvi_real *force, *rho, *last;     /* [n+m][R] G' lambda, lambda; residual; [n+m][C] last step */
+    gvi_real *force, *rho, *last;     /* [n+m][R] G' lambda, -lambda; residual; [n+m][C] last */
     gvi_real *at, *g, *G, *A, *W, *y; /* [.][C] D, g and rate, G, its matrix; scratch; [m] */
     int       m, C, made, kept;       /* rows that are on; kept: last for the curve, 2 to predict */
     unsigned  bits;                   /* the effects                                 */
@@ -857,7 +857,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 
 /*  The same with constraints, m rows in all.                                  */
 #define GVI_CONSTRAINED_LENGTH(n, s, r, m) (GVI_LENGTH(n, s, r)                  \
-    + (6*GVI__SIZE(n) + 3*GVI__SIZE(m) + 2*GVI__SIZE(r) + 4*GVI__SIZE(s) + 4 + (4 + GVI__SIZE(m)) \
+    + (6*GVI__SIZE(n) + 3*GVI__SIZE(m) + 2*GVI__SIZE(r) + 5*GVI__SIZE(s) + 4 + (4 + GVI__SIZE(m)) \
        *(GVI__SIZE(n) + GVI__SIZE(m)))*(GVI__SIZE(GVI__ROW(r)) + GVI__SIZE(GVI__ROW((s) + 1)))    \
     + (GVI__SIZE(s) + 3)*(GVI__SIZE(s) + 1) + 2*GVI__SIZE(m))
 
@@ -1035,7 +1035,10 @@ static int gvi__first_non_finite(int n, const gvi_real *x)
 
 static void gvi__zero(size_t n, gvi_real *x)
 {
-    for (size_t i = 0; i < n; ++i) x[i] = 0;
+    const gvi__lane none = { 0 };
+    size_t i = 0;
+    for (; GVI__LANES > 1 && i + GVI__LANES <= n; i += GVI__LANES) GVI__STORE(x + i) = none;
+    for (; i < n; ++i) x[i] = 0;
 }
 
 static void gvi__copy(size_t n, const gvi_real *x, gvi_real *y)
@@ -1370,23 +1373,33 @@ static gvi_status gvi__ldl_factor(int n, int R, int count, gvi_real *m, gvi_real
     return GVI_OK;
 }
 
-// rows z [n][R] := M^-1 z; an entry of the matrix is `width` numbers: one for each point, or one
-// for all
+// row -= a top at `count` points, a being `width` numbers: one for each point, or one for all
+GVI__BODY void gvi__subtract_at(int width, int count, const gvi_real *GVI__RESTRICT a,
+                             const gvi_real *GVI__RESTRICT top, gvi_real *GVI__RESTRICT row)
+{
+    int k = 0;
+    for (; GVI__LANES > 1 && width == 1 && k + GVI__LANES <= count; k += GVI__LANES)
+        GVI__STORE(row + k) -= a[0]*GVI__LOAD(top + k);
+    for (; GVI__LANES > 1 && width > 1 && k + GVI__LANES <= count; k += GVI__LANES)
+        GVI__STORE(row + k) -= GVI__LOAD(a + k)*GVI__LOAD(top + k);
+    for (; k < count; ++k) row[k] -= a[width > 1 ? k : 0]*top[k];
+}
+
+// rows z [n][R] := M^-1 z; an entry of the matrix is `width` numbers
 static void gvi__ldl_solve(int n, const gvi_real *m, int width, gvi_real *z, int R, int count)
 {
-    const int each = width > 1;
+    const size_t w = (size_t)width, N = (size_t)n;
     for (int i = 0; i < n; ++i)
-        for (int j = 0; j < i; ++j) {
-            const gvi_real *a = m + (size_t)(i*n + j)*(size_t)width;
-            for (int k = 0; k < count; ++k) z[i*R + k] -= a[k*each]*z[j*R + k];
-        }
+        for (int j = 0; j < i; ++j)
+            gvi__subtract_at(width, count, m + ((size_t)i*N + (size_t)j)*w, z + j*R, z + i*R);
     for (int i = n; i-- > 0; ) {
-        const gvi_real *d = m + (size_t)(i*n + i)*(size_t)width;
-        for (int k = 0; k < count; ++k) z[i*R + k] *= d[k*each];
-        for (int j = i + 1; j < n; ++j) {
-            const gvi_real *a = m + (size_t)(j*n + i)*(size_t)width;
-            for (int k = 0; k < count; ++k) z[i*R + k] -= a[k*each]*z[j*R + k];
-        }
+        const gvi_real *d = m + (size_t)i*(N + 1)*w;
+        int k = 0;
+        for (; GVI__LANES > 1 && width == 1 && k + GVI__LANES <= count; k += GVI__LANES)
+            GVI__STORE(z + i*R + k) *= d[0];
+        for (; k < count; ++k) z[i*R + k] *= d[width > 1 ? k : 0];
+        for (int j = i + 1; j < n; ++j)
+            gvi__subtract_at(width, count, m + ((size_t)j*N + (size_t)i)*w, z + j*R, z + i*R);
     }
 }
 
@@ -2440,7 +2453,12 @@ GVI__COLD gvi_status gvi__set_constraints(gvi_stepper *st)
             if (a < s && e > 0) x->con.by_impulse[a*R + e - 1] = lu[(e - 1)*s + a] = d[e] - S;
         }
     }
-    return gvi_lu_factor(s, lu, lu + s*s) == GVI_OK ? GVI_OK : GVI_E_POINTS;
+    if (gvi_lu_factor(s, lu, lu + s*s) != GVI_OK) return GVI_E_POINTS;
+    for (int a = 0; a < s; ++a) {
+        x->con.X[a*R + a] = 1;
+        gvi_lu_solve(s, lu, lu + s*s, x->con.X + a*R);
+    }
+    return GVI_OK;
 }
 #endif
 
@@ -3925,31 +3943,30 @@ GVI__CALLED void gvi__constraint_rows(const gvi_stepper *st, const gvi__stage *y
     else x->kernel(st, &z, 0);
 }
 
-// G' lambda at the sources
+// G' lambda at the sources; the rows behind the forces hold -lambda
 static void gvi__constraint_forces(const gvi_stepper *st)
 {
     const struct gvi__private *x = &st->x;
     const int n = st->n, R = x->R, C = x->con.C;
     gvi__zero((size_t)(n*R), x->con.force);
     for (int a = 0; a < x->con.m; ++a)
-        for (int i = 0; i < n; ++i) {
-            const gvi_real *G = x->con.G + (a*n + i)*C, *lambda = x->con.force + (n + a)*R;
-            gvi_real *GVI__RESTRICT row = x->con.force + i*R;
-            for (int e = 0; e < st->s; ++e) row[e] += G[e]*lambda[e];
-        }
+        for (int i = 0; i < n; ++i)
+            gvi__subtract_at(C, st->s, x->con.G + (a*n + i)*C, x->con.force + (n + a)*R,
+                             x->con.force + i*R);
 }
 
-// the constraints at D, padded with q0; A in the first two iterations
+// the constraints at D, padded with q0; A in the first iteration
 GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin *from)
 {
     struct gvi__private *x = &st->x;
     const int s = st->s, C = x->con.C;
-    for (int i = 0; i < st->n; ++i)
-        for (int k = 0; k < C; ++k)
-            x->con.at[i*C + k] = k > 0 && k <= s ? x->con.D[i*x->R + k - 1] : from->q[i];
+    for (int i = 0; i < st->n; ++i) {
+        for (int k = 0; k < C; ++k) x->con.at[i*C + k] = from->q[i];
+        gvi__copy((size_t)s, x->con.D + i*x->R, x->con.at + i*C + 1);
+    }
     const gvi_status status =
         gvi__evaluate_constraints(st, C, s + 1, x->con.t, x->con.at, x->con.G);
-    return status != GVI_OK || ++x->con.made > 2 ? status : gvi__factor_constraints(st, C, s);
+    return status != GVI_OK || ++x->con.made > 1 ? status : gvi__factor_constraints(st, C, s);
 }
 
 // the new lambda, and forces.  With momenta D' needs the P and V of the new F
@@ -3957,7 +3974,7 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *y)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, m = x->con.m, s = st->s, R = x->R, C = x->con.C;
-    gvi_real *lambda = x->con.force + n*R, *rho = x->con.rho;
+    gvi_real *lambda = x->con.force + n*R, *rho = x->con.rho, *moved = x->con.W;
     gvi__constraint_forces(st);
     if (gvi__uses(x, GVI_MOMENTA)) {
         gvi_real *const P = x->work.P;
@@ -3969,18 +3986,21 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *y)
         x->work.P = P;
     }
     gvi__constraint_rows(st, y);
+    for (int i = 0; i < n; ++i) {                 // D - D'
+        gvi_real *GVI__RESTRICT z = moved + i*C;
+        const gvi_real *at = x->con.at + i*C + 1, *D = x->con.D + i*R;
+        for (int e = 0; e < s; ++e) z[e] = at[e] - D[e];
+    }
+    gvi__zero((size_t)(m*R), rho);
     for (int a = 0; a < m; ++a) {
-        gvi_real *GVI__RESTRICT z = rho + a*R;
-        gvi__copy((size_t)s, x->con.g + a*C + 1, z);
-        for (int i = 0; i < n; ++i) {
-            const gvi_real *G = x->con.G + (a*n + i)*C + 1, *at = x->con.at + i*C + 1;
-            for (int e = 0; e < s; ++e) z[e] += G[e]*(x->con.D[i*R + e] - at[e]);
-        }
-        gvi_lu_solve(s, x->con.lu, x->con.lu + s*s, z);
+        gvi_real *g = x->con.g + a*C + 1;
+        for (int i = 0; i < n; ++i)
+            gvi__subtract_at(C, s, x->con.G + (a*n + i)*C + 1, moved + i*C, g);
+        for (int b = 0; b < s; ++b) gvi__subtract_row((size_t)R, -g[b], x->con.X + b*R, rho + a*R);
     }
     gvi__ldl_solve(m, x->con.A, C, rho, R, s);
-    for (int k = 0; k < m*R; ++k)
-        if (k % R < s) lambda[k] -= rho[k]/(x->sized.h*x->con.hw[k % R]);
+    for (int a = 0; a < m; ++a)
+        for (int e = 0; e < s; ++e) lambda[a*R + e] += rho[a*R + e]/(x->sized.h*x->con.hw[e]);
     gvi__constraint_forces(st);
 }
 
@@ -4120,7 +4140,7 @@ GVI__CALLED void gvi__commit_constraints(gvi_stepper *st, gvi_real h)
     gvi__add_force(st, x->con.y, x->result);
     for (int i = 0; i < rows; ++i) {
         gvi__copy((size_t)s, x->con.force + i*x->R, x->con.last + i*C);
-        x->con.last[i*C + s] = i < n ? x->result[i] : x->con.y[i - n];
+        x->con.last[i*C + s] = i < n ? x->result[i] : -x->con.y[i - n];
     }
 }
 
@@ -4374,6 +4394,7 @@ GVI__COLD void gvi__layout_constraints(struct gvi__private *x, gvi__arena *a)
     const struct { gvi_real **to; size_t rows, width; } list[] = {
         { &y->D, i*n, R }, { &y->free, i*n, R }, { &y->P, u*n, R }, { &y->force, i*(n + m), R },
         { &y->K, i*r, R }, { &y->U, u*r, R }, { &y->by_force, i*r, R }, { &y->by_impulse, i*r, R },
+        { &y->X, i*s, R },
         { &y->E, i*s, R }, { &y->Phi, i*s, R }, { &y->Phi_low, i*s, R }, { &y->hw, on, R },
         { &y->last, i*(n + m), C }, { &y->at, i*n, C }, { &y->t, i, C }, { &y->W, on*n, C },
         { &y->g, 2*m, C }, { &y->G, m*n, C }, { &y->A, m*m, C }, { &y->d, on, R + C },

@@ -106,8 +106,21 @@ INLINE double norm(const int n, const double *x) { return sqrt(square(n, x)); }
     case 2:   call(2);   break;                                   \
     case 4:   call(4);   break;                                   \
     case 6:   call(6);   break;                                   \
+    case 14:  call(14);  break;                                   \
+    case 16:  call(16);  break;                                   \
     case 18:  call(18);  break;                                   \
     case 100: call(100); break;                                   \
+    default:  o->failed = 1;                                      \
+    } } while (0)
+#define BY_STATE(n, call) do {                                    \
+    switch (n) {                                                  \
+    case 2:   call(4);   break;                                   \
+    case 3:   call(6);   break;                                   \
+    case 6:   call(12);  break;                                   \
+    case 14:  call(28);  break;                                   \
+    case 16:  call(32);  break;                                   \
+    case 18:  call(36);  break;                                   \
+    case 100: call(200); break;                                   \
     default:  o->failed = 1;                                      \
     } } while (0)
 
@@ -116,6 +129,26 @@ static void begin(const problem *p, outcome *o)
     memset(o, 0, sizeof *o);
     memcpy(o->q, p->q, sizeof(double)*(size_t)p->n);
     memcpy(o->v, p->v, sizeof(double)*(size_t)p->n);
+}
+
+/* y = (q, v) or (q, p), n numbers, and its slope, also where only q'' is given                */
+INLINE void get_state(const int n, const outcome *o, double *y)
+{
+    memcpy(y, o->q, sizeof(double)*(size_t)(n/2));
+    memcpy(y + n/2, o->v, sizeof(double)*(size_t)(n/2));
+}
+
+INLINE void put_state(const int n, const double *y, outcome *o)
+{
+    memcpy(o->q, y, sizeof(double)*(size_t)(n/2));
+    memcpy(o->v, y + n/2, sizeof(double)*(size_t)(n/2));
+}
+
+INLINE void slope_at(const int n, const problem *p, const double *y, double *dy)
+{
+    if (p->slope) { p->slope(y, dy); return; }
+    memcpy(dy, y + n/2, sizeof(double)*(size_t)(n/2));
+    p->acceleration(y, dy + n/2);
 }
 
 /* -------------------------------------- compositions and splittings */
@@ -562,16 +595,16 @@ INLINE void gauss_second(const int n, const problem *p, const gauss_rows *t, dou
 }
 
 /* The same for y' = f(y), y = (q, p).                                                         */
-static void gauss_first(const problem *p, const gauss_rows *t, double stop, long steps, watch *w, outcome *o)
+enum { MOST_SLOPES = 8 };
+INLINE void gauss_first(const int n, const problem *p, const gauss_rows *t, double stop, long steps, watch *w, outcome *o)
 {
-    enum { n = 4 };
     const int m = t->second.stages;
-    double y[n], rest[n] = { 0 }, x[GAUSS_STAGES*n], k[GAUSS_STAGES*n], old[GAUSS_STAGES*n], next[n], d[n];
-    double h = p->end/(double)steps, hA[GAUSS_STAGES][GAUSS_STAGES], zeros[n] = { 0 };
+    double y[MOST_SLOPES], rest[MOST_SLOPES] = { 0 }, next[MOST_SLOPES], d[MOST_SLOPES];
+    double x[GAUSS_STAGES*MOST_SLOPES], k[GAUSS_STAGES*MOST_SLOPES], old[GAUSS_STAGES*MOST_SLOPES];
+    double h = p->end/(double)steps, hA[GAUSS_STAGES][GAUSS_STAGES], zeros[MOST_SLOPES] = { 0 };
     for (int i = 0; i < m; ++i)
         for (int j = 0; j < m; ++j) hA[i][j] = h*t->A[i][j];
-    memcpy(y, o->q, 2*sizeof *y);
-    memcpy(y + 2, o->v, 2*sizeof *y);
+    get_state(n, o, y);
     p->slope(y, k);
     for (int i = 1; i < m; ++i) copy(n, k, k + i*n);
     for (long step = 0; step < steps; ++step) {
@@ -585,7 +618,12 @@ static void gauss_first(const problem *p, const gauss_rows *t, double stop, long
             double change = 0;
             for (int i = 0; i < m; ++i) {
                 combine(n, y, 0, zeros, hA[i], 1, m, k, next);
-                if (round > 1) *(lane4 *)d = *(lane4 *)next - *(lane4 *)(x + i*n), change += square(n, d);
+                if (round > 1) {
+#define OP(L) AT(L, d) = OF(L, next) - OF(L, x + i*n)
+                    LANES(n, OP);
+#undef OP
+                    change += square(n, d);
+                }
                 copy(n, next, x + i*n);
             }
             if (round > 1 && settled(change, before, stop, size, round)) break;
@@ -596,10 +634,9 @@ static void gauss_first(const problem *p, const gauss_rows *t, double stop, long
         o->iterations += round - 1;
         sum(n, t->b, 1, m, k, d);
         add_compensated(n, h, d, y, rest);
-        if (watch_due(w)) watch_look(w, y, y + 2);
+        if (watch_due(w)) watch_look(w, y, y + n/2);
     }
-    memcpy(o->q, y, 2*sizeof *y);
-    memcpy(o->v, y + 2, 2*sizeof *y);
+    put_state(n, y, o);
     o->steps = steps;
     o->evaluations = o->iterations*m;
 }
@@ -609,8 +646,9 @@ static void run_gauss(const problem *p, const baseline *m, double parameter, wat
     const gauss_rows *t = gausses + m->option;
     begin(p, o);
     if (p->slope) {
-        gauss_first(p, t, m->stop, (long)parameter, w, o);
-        return;
+#define CALL(n) gauss_first(n, p, t, m->stop, (long)parameter, w, o)
+        switch (p->n) { case 2: CALL(4); return; case 3: CALL(6); return; default: o->failed = 1; return; }
+#undef CALL
     }
 #define CALL(n) gauss_second(n, p, t, m->stop, (long)parameter, w, o)
     BY_SIZE(p->n, CALL);
@@ -637,55 +675,47 @@ static void runge_kutta_begin(runge_kutta_rows *t, const runge_kutta *s)
     make_row(&t->f, s->stages, f);
 }
 
+enum { BOTH = 2*MOST_COORDINATES };
+
 INLINE void runge_kutta_stages(const int n, const problem *p, const runge_kutta_rows *t, const row *hA,
                                const double *y, double *k)
 {
-    double x[MOST_COORDINATES];
+    double x[2*MOST_COORDINATES];
     for (int i = 1; i < t->stages; ++i) {
         combine(n, y, 0, y, hA[i].a, hA[i].lo, hA[i].hi, k, x);
-        p->slope(x, k + i*n);
+        slope_at(n, p, x, k + i*n);
     }
 }
 
-INLINE void runge_kutta_end(const double *y, outcome *o)
-{
-    memcpy(o->q, y, 2*sizeof *y);
-    memcpy(o->v, y + 2, 2*sizeof *y);
-}
-
-static void runge_kutta_fixed(const problem *p, const runge_kutta_rows *t, int compensated, long steps,
+INLINE void runge_kutta_fixed(const int n, const problem *p, const runge_kutta_rows *t, int compensated, long steps,
                               watch *w, outcome *o)
 {
-    enum { n = 4 };
-    double y[n], rest[n] = { 0 }, k[12*n], d[n], h = p->end/(double)steps;
+    double y[BOTH], rest[BOTH] = { 0 }, k[12*BOTH], d[BOTH], h = p->end/(double)steps;
     row hA[12];
-    memcpy(y, o->q, 2*sizeof *y);
-    memcpy(y + 2, o->v, 2*sizeof *y);
+    get_state(n, o, y);
     for (int i = 0; i < t->stages; ++i) scale_row(t->A + i, h, hA + i);
     for (long step = 0; step < steps; ++step) {
-        p->slope(y, k);
+        slope_at(n, p, y, k);
         runge_kutta_stages(n, p, t, hA, y, k);
         sum(n, t->b.a, t->b.lo, t->b.hi, k, d);
         if (compensated) add_compensated(n, h, d, y, rest);
         else add(n, h, d, y);
-        if (watch_due(w)) watch_look(w, y, y + 2);
+        if (watch_due(w)) watch_look(w, y, y + n/2);
     }
-    runge_kutta_end(y, o);
+    put_state(n, y, o);
     o->steps = steps;
     o->evaluations = steps*t->stages;
 }
 
 /* As in DOP853: the estimate of order 5, damped where that of order 3 is larger.              */
-static void runge_kutta_adaptive(const problem *p, const runge_kutta_rows *t, int compensated,
+INLINE void runge_kutta_adaptive(const int n, const problem *p, const runge_kutta_rows *t, int compensated,
                                  double tolerance, watch *w, outcome *o)
 {
-    enum { n = 4 };
-    double y[n], rest[n] = { 0 }, k[12*n], d[n], e[n], f[n], before = 1, h = 0.01*p->end;
+    double y[BOTH], rest[BOTH] = { 0 }, k[12*BOTH], d[BOTH], e[BOTH], f[BOTH], before = 1, h = 0.01*p->end;
     long double time = 0, end = p->end;
     row hA[12];
-    memcpy(y, o->q, 2*sizeof *y);
-    memcpy(y + 2, o->v, 2*sizeof *y);
-    p->slope(y, k);
+    get_state(n, o, y);
+    slope_at(n, p, y, k);
     for (long tries = 0; time < end; ++tries) {
         if (tries > 1000000 || !(h > 1e-12*p->end)) { o->failed = 1; return; }
         if (time + h >= end) h = (double)(end - time);
@@ -703,18 +733,20 @@ static void runge_kutta_adaptive(const problem *p, const runge_kutta_rows *t, in
         time += h;
         h *= factor;
         ++o->steps;
-        p->slope(y, k);
-        if (watch_due(w)) watch_look(w, y, y + 2);
+        slope_at(n, p, y, k);
+        if (watch_due(w)) watch_look(w, y, y + n/2);
     }
-    runge_kutta_end(y, o);
+    put_state(n, y, o);
 }
 
 static void run_runge_kutta(const problem *p, const baseline *m, double parameter, watch *w, outcome *o)
 {
     const runge_kutta_rows *t = runge_kuttas + m->option;
     begin(p, o);
-    if (m->adaptive) runge_kutta_adaptive(p, t, m->compensated, parameter, w, o);
-    else runge_kutta_fixed(p, t, m->compensated, (long)parameter, w, o);
+#define CALL(n) do { if (m->adaptive) runge_kutta_adaptive(n, p, t, m->compensated, parameter, w, o);  \
+                     else runge_kutta_fixed(n, p, t, m->compensated, (long)parameter, w, o); } while (0)
+    BY_STATE(p->n, CALL);
+#undef CALL
 }
 
 /* RK4 for q'' = a(q), as q' = v, v' = a: k of q is v of the stage.                            */
@@ -783,20 +815,16 @@ INLINE void midpoint(const int n, const problem *p, const double *y, const doubl
     copy(n, a, z);
 }
 
-static void run_extrapolation(const problem *p, const baseline *m, double tolerance, watch *w, outcome *o)
+INLINE void extrapolate(const int n, const problem *p, const int columns, double tolerance, watch *w, outcome *o)
 {
-    enum { n = 4 };
-    const int columns = m->option;
-    double y[n], slope[n], T[COLUMNS][n], d[n], before = 1, h = 0.02*p->end;
+    double y[MOST_SLOPES], slope[MOST_SLOPES], T[COLUMNS][MOST_SLOPES], d[MOST_SLOPES], before = 1, h = 0.02*p->end;
     long double time = 0, end = p->end;
-    begin(p, o);
-    memcpy(y, o->q, 2*sizeof *y);
-    memcpy(y + 2, o->v, 2*sizeof *y);
+    get_state(n, o, y);
     p->slope(y, slope);
     for (long tries = 0; time < end; ++tries) {
         if (tries > 1000000 || !(h > 1e-12*p->end)) { o->failed = 1; return; }
         if (time + h >= end) h = (double)(end - time);
-        double last[n] = { 0 };
+        double last[MOST_SLOPES] = { 0 };
         for (int j = 0; j < columns; ++j) {
             int count = 2*(j + 1);
             midpoint(n, p, y, slope, h/count, count, T[j]);
@@ -821,9 +849,17 @@ static void run_extrapolation(const problem *p, const baseline *m, double tolera
         ++o->steps;
         p->slope(y, slope);
         ++o->evaluations;
-        if (watch_due(w)) watch_look(w, y, y + 2);
+        if (watch_due(w)) watch_look(w, y, y + n/2);
     }
-    runge_kutta_end(y, o);
+    put_state(n, y, o);
+}
+
+static void run_extrapolation(const problem *p, const baseline *m, double tolerance, watch *w, outcome *o)
+{
+    begin(p, o);
+    if (p->n == 2) extrapolate(4, p, m->option, tolerance, w, o);
+    else if (p->n == 3) extrapolate(6, p, m->option, tolerance, w, o);
+    else o->failed = 1;
 }
 
 /* ------------------------------------------------------------- the list */

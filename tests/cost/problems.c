@@ -22,7 +22,7 @@
 #if defined(__AVX512F__)
 #define WIDE __attribute__((target("prefer-vector-width=512")))
 #endif
-#define UNROLL _Pragma("GCC unroll 6")
+#define UNROLL _Pragma("GCC unroll 7")
 #define UNROLL18 _Pragma("GCC unroll 18")
 #else
 #define INDEPENDENT
@@ -560,6 +560,8 @@ static int chain(const gvi_points *p, void *user)
     return 0;
 }
 
+#include "ordinary.h"
+
 /* ------------------------------------------------------------- the list */
 
 static const gvi_effect kepler_scene[] = { { .kind = GVI_POTENTIAL, .points = kepler } };
@@ -609,6 +611,33 @@ const problem problems[] = {
     { .key = "P7", .title = "Chain of 100, t = 100", .n = LINKS, .end = 100,
       .q = start_P7, .v = chain_v, .reference = reference_P7, .energy = chain_energy,
       .acceleration = chain_acceleration, SCENE(chain_scene), .evaluations = 100, .limit = 2 },
+    { .key = "P8", .title = "Toda's lattice, 16 masses, t = 100", .n = 16, .end = 100,
+      .q = toda_q, .v = toda_v, .reference = reference_toda, .energy = toda_energy,
+      .acceleration = toda_acceleration, SCENE(toda_scene), .evaluations = 300, .limit = 10 },
+    { .key = "P9", .title = "Arenstorf's orbit, one revolution", .n = 2, .end = 17.065216560157964,
+      .q = arenstorf_q, .v = arenstorf_p, .reference = reference_arenstorf, .energy = arenstorf_energy,
+      .slope = arenstorf_slope, SCENE(arenstorf_scene), .formulation = GVI_VELOCITIES, .evaluations = 2e3, .limit = 20 },
+    { .key = "P10", .title = "Magnetic bottle, t = 200", .n = 3, .end = 200,
+      .q = bottle_q, .v = bottle_v, .reference = reference_bottle, .energy = bottle_energy,
+      .slope = bottle_slope, SCENE(bottle_scene), .formulation = GVI_VELOCITIES, .evaluations = 600, .limit = 4 },
+    { .key = "P11", .title = "Seven atoms, Lennard-Jones, t = 10", .n = 14, .end = 10,
+      .q = atoms_q, .v = atoms_v, .reference = reference_atoms, .energy = atoms_energy,
+      .acceleration = atoms_acceleration, SCENE(atoms_scene), .evaluations = 300, .limit = 4 },
+    { .key = "P12", .title = "Relativistic Kepler, c = 5, t = 200", .n = 2, .end = 200,
+      .q = kepler6_q, .v = relativistic_p, .reference = reference_relativistic, .energy = relativistic_energy,
+      .slope = relativistic_slope, .mass = { .kind = GVI_MASS_NONE, .velocity = relativistic_velocity },
+      SCENE(relativistic_scene), .evaluations = 3e3, .limit = 8 },
+    { .key = "P1o", .title = "P1, ordinary callbacks", .n = 2, .end = 0x1.3a28c59d5433bp+9,
+      .q = kepler6_q, .v = kepler6_v, .reference = reference_P1, .energy = kepler_energy,
+      .acceleration = plain_kepler_acceleration, SCENE(plain_kepler_scene), .evaluations = 8e3, .limit = 16 },
+    { .key = "P4o", .title = "P4, ordinary callbacks", .n = 18, .end = 200000,
+      .q = solar_q, .v = solar_v, .reference = reference_P4, .energy = solar_energy,
+      .acceleration = plain_solar_acceleration, .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = solar_mass },
+      SCENE(plain_solar_scene), .evaluations = 1e3, .limit = 10 },
+    { .key = "P5o", .title = "P5, ordinary callbacks, libm's sine", .n = 2, .end = 100,
+      .q = pendulum_q, .v = pendulum_p, .reference = reference_P5, .energy = pendulum_energy,
+      .slope = plain_pendulum_slope, .mass = { .kind = GVI_MASS_POSITION, .points = plain_pendulum_mass,
+      .gradient = plain_pendulum_gradient }, SCENE(plain_pendulum_scene), .evaluations = 3e3, .limit = 24 },
 };
 const int problem_count = COUNT(problems);
 

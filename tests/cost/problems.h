@@ -1,6 +1,7 @@
 /* problems.h - the problems on which `make cost` compares integrators
 
-   Seven mechanical systems, one of them over two lengths.  Each is there in three forms with
+   Twelve mechanical systems, one of them over two lengths, three also with callbacks as a user
+   writes them (ordinary.h).  Each is there in three forms with
    the same formulas, so that no method gets a better right-hand side than another:
 
      acceleration   q'' = a(q), one point a call             the explicit baselines
@@ -46,6 +47,7 @@ typedef struct problem {
     acceleration_fn   *acceleration;   /* NULL where M depends on q                            */
     slope_fn          *slope;          /* NULL where it does not                               */
     gvi_mass           mass;
+    gvi_formulation    formulation;    /* pinned; 0: momenta with a slope, else positions      */
     const gvi_effect  *effects;
     int                effect_count;
     const gvi_effect  *clocks[2];      /* two effects each: the scene with the clock d^(3/2), d; or NULL */
