@@ -172,12 +172,35 @@ static void units_2_to_the_30_apart_change_nothing(void **state)
     }
 }
 
+/* A spring given as a force is not in the action: its index is 0 where a potential's is 1 */
+static int spring(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k) x->f[k] -= 16*x->q[k];
+    return (void)user, 0;
+}
+
+static void the_index_leaves_forces_out(void **state)
+{
+    (void)state;
+    for (int force = 0; force < 2; ++force) {
+        const gvi_effect scene[] = { { .kind = force ? GVI_FORCE : GVI_POTENTIAL, .points = spring } };
+        const gvi_desc desc = { .n = 1, .degree = 8, .effects = scene, .effect_count = 1 };
+        const real q0 = 1, q1 = (real)0.5;
+        int negative = 7;
+        gvi_stepper st;
+        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+        assert_ok(gvi_discrete_lagrangian(&st, 0, 1, &q0, &q1, &(gvi_discrete){ .negative = &negative }));
+        assert_int_equal(negative, !force);       // omega h = 4 is beyond pi
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_guess_says_which_way_round),
         cmocka_unit_test(near_the_chord_is_the_short_way_round),
         cmocka_unit_test(a_half_circle_is_conjugate),
+        cmocka_unit_test(the_index_leaves_forces_out),
         cmocka_unit_test(units_2_to_the_30_apart_change_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
