@@ -226,8 +226,9 @@
 
    with v = M^-1 p as before.  E is what the energy was at the start, plus the
    work of forces, so every potential and Lagrangian term needs its value; and
-   none of them may depend on t: what does is to be listed as a force.  Without a
-   mass it needs mass.velocity.
+   none of them may depend on t: what does is to be listed as a force (a value that
+   changes with t is refused at the start, GVI_E_FORMULATION).  Without a mass it
+   needs mass.velocity.
 
    Order.  |q1 - exact| = O(h^(min(2s,u)+1)) a step: twice the degree, which
    is the superconvergence theorem [2, thm. 4.1].  It holds for u >= 2s - 2; a
@@ -334,7 +335,8 @@ typedef enum gvi_status {
     GVI_OK            =  0,
     GVI_E_ARGUMENT    = -1,  /* null pointer, memory not aligned as a gvi_real is, size out
                                 of range, h = 0, NaN or Inf given; a matrix, points or
-                                nodes given although the kind takes none            */
+                                nodes given although the kind takes none; effects
+                                without effect_count (fault.argument says which)    */
     GVI_E_MEMORY      = -2,  /* the memory is smaller than gvi_size(desc)               */
     GVI_E_NODES       = -3,  /* own rule: a node outside [0,1], or two that coincide    */
     GVI_E_ORDER       = -4,  /* own rule of order u < s, so also weights that do not sum
@@ -475,7 +477,7 @@ typedef int gvi_hessian_fn(gvi_real t, const gvi_real *q, const gvi_real *v,
                            gvi_real *fq, gvi_real *fv, gvi_real *pv, void *user);
 
 typedef enum gvi_kind {
-    GVI_POTENTIAL  = 0,  /* V(t,q):   reads t, q;    adds -dV/dq to f              */
+    GVI_POTENTIAL  = 0,  /* V(t,q):   reads t, q;    adds -dV/dq to f, or any f(t,q) */
     GVI_FORCE      = 1,  /* f(t,q,v): reads t, q, v; adds f to f                   */
     GVI_LAGRANGIAN = 2,  /* L(t,q,v): reads t, q, v; adds dL/dq to f, dL/dv to dldv */
     GVI_CLOCK      = 3,  /* g(q) > 0: adds g to value and dg/dq to f; at most one   */
@@ -504,7 +506,9 @@ typedef enum gvi_mass_kind {
     GVI_MASS_NONE     = 4   /* all of it comes from Lagrangian terms            */
 } gvi_mass_kind;
 
-/* The kinetic energy.  M must be definite.  matrix is read by gvi_init only.  */
+/* The kinetic energy.  M need not be definite: no leading minor may be 0 (dense, M(q)), no m_i
+   (diagonal).  Where M(q) is singular, as at the pole of Euler's angles (gimbal lock), a step that
+   comes there ends in GVI_E_SINGULAR.  matrix is read by gvi_init only.                       */
 typedef struct gvi_mass {
     gvi_mass_kind   kind;
     const gvi_real *matrix;
@@ -577,6 +581,7 @@ typedef struct gvi_fault {             /* where the last failure came from      
     int effect;                        /* index in effects, or GVI_FAULT_...    */
     int coordinate;                    /* or GVI_FAULT_NONE                     */
     int point;                         /* quadrature point, or GVI_FAULT_NONE   */
+    const char *argument;              /* GVI_E_ARGUMENT: a sentence, else NULL */
 } gvi_fault;
 
 /* Work done, counted since gvi_init.  The caller may set any of it to 0.      */
@@ -593,6 +598,11 @@ typedef struct gvi_counters {
     gvi_real           worst_contraction; /* of the iteration, mean of two; where Newton's
                                              method followed, also of what it replaced */
     gvi_real           worst_change;      /* largest last change of a fixed point, relative */
+    gvi_real           worst_resolution;  /* of a coordinate in a step: (share of its force in the
+                                             highest one or two modes)^2, times h |F|/(|p| + h |F|).
+                                             Above 1e-3 (to degree 3: 5e-5) the points hardly see
+                                             the force: an encounter within the step.  r > 1, not
+                                             where explicit                                 */
 } gvi_counters;
 
 /* stage values, [n][R]; kicks: [n]; or NULL */
@@ -604,6 +614,7 @@ struct gvi__tables {                  /* rule and degree; R = stride of rows    
     gvi_real *phi, *Phi, *phi_low;    /* [s][R] modes at the nodes                  */
     gvi_real *inv_gamma, *gamma;      /* [s] 1/Gamma_kk; LU of Gamma if full        */
     gvi_real *K, *U, *T, *N;          /* [r][R] see gvi__make_tables                */
+    gvi_real *high;                   /* [2][R] weights of the highest modes of a force */
 };
 
 struct gvi__sized {                   /* valid for a step of length h, the key      */
@@ -628,9 +639,9 @@ struct gvi__newton {
 struct gvi__holonomic {               /* constraints; C = stride of D_0..D_s         */
     gvi_real *d, *w, *hw, *t;         /* [R + C], [s+1] Lobatto's nodes, weights; [R] h w; [C] */
     gvi_real *Phi, *Phi_low;          /* [s][R] modes at D_1..D_s                    */
-    gvi_real *K, *U, *by_force, *by_impulse, *lu, *E; /* see gvi__set_constraints; predictor */
+    gvi_real *K, *U, *by_force, *by_impulse, *lu, *X, *E; /* see gvi__set_constraints; predictor */
     gvi_real *D, *free, *P;           /* [n][R] stage values, free motion; a trial's momenta */
-    gvi_real *force, *rho, *last;     /* [n+m][R] G' lambda, lambda; residual; [n+m][C] last step */
+    gvi_real *force, *rho, *last;     /* [n+m][R] G' lambda, -lambda; residual; [n+m][C] last */
     gvi_real *at, *g, *G, *A, *W, *y; /* [.][C] D, g and rate, G, its matrix; scratch; [m] */
     int       m, C, made, kept;       /* rows that are on; kept: last for the curve, 2 to predict */
     unsigned  bits;                   /* the effects                                 */
@@ -700,13 +711,16 @@ typedef struct gvi_discrete {
                                          out: 0, the curve is a minimum; as many as
                                          conjugate points lie inside (Morse), up to
                                          what n (s - 1) modes can show          */
+    const gvi_real *guess;            /* in: velocity at q0 of a motion near the one wanted;
+                                         NULL: the curve near the chord         */
 } gvi_discrete;
 
 /* ------------------------------------------------------------- FUNCTIONS */
 
 /* Set-up.  Bytes of memory that desc needs; 0 if the description is faulty:
    gvi_init, even with a NULL memory, then returns why.  A chain of calls after a
-   failure keeps its first status.  GVI_LENGTH: array length, a constant expression, that
+   failure keeps its first status; st.q and st.p then point at zeros, n of them or 64
+   where there is no memory for them.  GVI_LENGTH: array length, a constant expression, that
    is enough for every scene of n degrees of freedom, degree s, r points.      */
 GVI_DEF size_t     gvi_size(const gvi_desc *desc);
 GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *memory, size_t size);
@@ -749,7 +763,7 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda);
    derivative, error O(h^(min(s,u/2)+1)) and one order less; with a clock tau is
    its own time, and v still dq/dt.
    gvi_state_at: the state at time t (a time, not tau) inside it, at the full
-   order, by a partial step from the nearer end.
+   order, by a partial step from the nearer end; 2 ulp outside it is its end.
    gvi_action: the quadrature of L over it.  This and gvi_state_at use the
    effects that are on now.
    A broken line has neither curve nor action, a clock no action: GVI_E_FORMULATION.
@@ -760,7 +774,11 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
 GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action);
 
 /* L_d(q0, q1; t, h): boundary values given, rows k >= 1 of (1) solved by Newton's method.
-   GVI_E_CONJUGATE where they do not determine the curve (oscillator: h omega = k pi).  Needs
+   The curve is that near the chord, followed from short h; or with a guess that near the motion
+   that starts with it, and gvi_start_momentum(st, t, q0, p0) starts it.  If `negative` is wanted,
+   without a guess, it is whatever curve Newton's method finds from the chord.  GVI_E_CONJUGATE
+   where the ends do not determine the curve (oscillator: h omega = k pi; a half circle about the
+   Sun, whose chord goes through it, or past another conjugate point).  Needs
    GVI_AUTO or GVI_NEWTON if s > 1, and is not for kicks or a clock.  Forced systems: d1, d2 are
    total derivatives, and F-, F+ are h sum b_i f_i dQ_i/dq0, dQ_i/dq1 with the curve's own
    dependence on its ends, as the exact discrete forces are [1, sec. 3.2]; how they share p0
@@ -834,12 +852,12 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI_LENGTH(n, s, r) (                                                    \
     (42 + 6*GVI__SIZE(s) + 20*GVI__SIZE(GVI__ROW(r))                             \
      + (6 + GVI__SIZE(GVI__ROW(r)) + 2*GVI__SIZE(s)*GVI__SIZE(s))*GVI__SIZE(n))*GVI__SIZE(n) \
-    + (18 + 7*GVI__SIZE(r) + 3*GVI__SIZE(s))*GVI__SIZE(GVI__ROW(r))              \
+    + (20 + 7*GVI__SIZE(r) + 3*GVI__SIZE(s))*GVI__SIZE(GVI__ROW(r))              \
     + (GVI__SIZE(s) + 2)*GVI__SIZE(s) + GVI__SIZE(r) + 5 + GVI__SLACK)
 
 /*  The same with constraints, m rows in all.                                  */
 #define GVI_CONSTRAINED_LENGTH(n, s, r, m) (GVI_LENGTH(n, s, r)                  \
-    + (6*GVI__SIZE(n) + 3*GVI__SIZE(m) + 2*GVI__SIZE(r) + 4*GVI__SIZE(s) + 4 + (4 + GVI__SIZE(m)) \
+    + (6*GVI__SIZE(n) + 3*GVI__SIZE(m) + 2*GVI__SIZE(r) + 5*GVI__SIZE(s) + 4 + (4 + GVI__SIZE(m)) \
        *(GVI__SIZE(n) + GVI__SIZE(m)))*(GVI__SIZE(GVI__ROW(r)) + GVI__SIZE(GVI__ROW((s) + 1)))    \
     + (GVI__SIZE(s) + 3)*(GVI__SIZE(s) + 1) + 2*GVI__SIZE(m))
 
@@ -930,6 +948,11 @@ enum {
     GVI__VARIES = GVI__MOMENTA | GVI__NEWTON | GVI__LAGRANGIAN,
     GVI__ITERATES = GVI__POSITIONS | GVI__READS_V
 };
+#if defined(GVI_NO_DENSE) || defined(GVI_NO_DIAGNOSIS) || defined(GVI_NO_LAGRANGIAN)             \
+    || defined(GVI_NO_OWN) || defined(GVI_NO_POINT) || defined(GVI_NO_RESTS)                      \
+    || defined(GVI_NO_TOLERANCE)
+#error "gvi.h: of 0.1's GVI_NO_ macros only GVI_NO_CLOCK and GVI_NO_RULES are left"
+#endif
 #if GVI__KIND == 3 && (LDBL_MANT_DIG == 106 || defined(GVI_NO_RULES))
 #error "gvi.h: long double must be one IEEE number, not two doubles, and goes without GVI_NO_RULES"
 #endif
@@ -1012,7 +1035,10 @@ static int gvi__first_non_finite(int n, const gvi_real *x)
 
 static void gvi__zero(size_t n, gvi_real *x)
 {
-    for (size_t i = 0; i < n; ++i) x[i] = 0;
+    const gvi__lane none = { 0 };
+    size_t i = 0;
+    for (; GVI__LANES > 1 && i + GVI__LANES <= n; i += GVI__LANES) GVI__STORE(x + i) = none;
+    for (; i < n; ++i) x[i] = 0;
 }
 
 static void gvi__copy(size_t n, const gvi_real *x, gvi_real *y)
@@ -1347,23 +1373,33 @@ static gvi_status gvi__ldl_factor(int n, int R, int count, gvi_real *m, gvi_real
     return GVI_OK;
 }
 
-// rows z [n][R] := M^-1 z; an entry of the matrix is `width` numbers: one for each point, or one
-// for all
+// row -= a top at `count` points, a being `width` numbers: one for each point, or one for all
+GVI__BODY void gvi__subtract_at(int width, int count, const gvi_real *GVI__RESTRICT a,
+                             const gvi_real *GVI__RESTRICT top, gvi_real *GVI__RESTRICT row)
+{
+    int k = 0;
+    for (; GVI__LANES > 1 && width == 1 && k + GVI__LANES <= count; k += GVI__LANES)
+        GVI__STORE(row + k) -= a[0]*GVI__LOAD(top + k);
+    for (; GVI__LANES > 1 && width > 1 && k + GVI__LANES <= count; k += GVI__LANES)
+        GVI__STORE(row + k) -= GVI__LOAD(a + k)*GVI__LOAD(top + k);
+    for (; k < count; ++k) row[k] -= a[width > 1 ? k : 0]*top[k];
+}
+
+// rows z [n][R] := M^-1 z; an entry of the matrix is `width` numbers
 static void gvi__ldl_solve(int n, const gvi_real *m, int width, gvi_real *z, int R, int count)
 {
-    const int each = width > 1;
+    const size_t w = (size_t)width, N = (size_t)n;
     for (int i = 0; i < n; ++i)
-        for (int j = 0; j < i; ++j) {
-            const gvi_real *a = m + (size_t)(i*n + j)*(size_t)width;
-            for (int k = 0; k < count; ++k) z[i*R + k] -= a[k*each]*z[j*R + k];
-        }
+        for (int j = 0; j < i; ++j)
+            gvi__subtract_at(width, count, m + ((size_t)i*N + (size_t)j)*w, z + j*R, z + i*R);
     for (int i = n; i-- > 0; ) {
-        const gvi_real *d = m + (size_t)(i*n + i)*(size_t)width;
-        for (int k = 0; k < count; ++k) z[i*R + k] *= d[k*each];
-        for (int j = i + 1; j < n; ++j) {
-            const gvi_real *a = m + (size_t)(j*n + i)*(size_t)width;
-            for (int k = 0; k < count; ++k) z[i*R + k] -= a[k*each]*z[j*R + k];
-        }
+        const gvi_real *d = m + (size_t)i*(N + 1)*w;
+        int k = 0;
+        for (; GVI__LANES > 1 && width == 1 && k + GVI__LANES <= count; k += GVI__LANES)
+            GVI__STORE(z + i*R + k) *= d[0];
+        for (; k < count; ++k) z[i*R + k] *= d[width > 1 ? k : 0];
+        for (int j = i + 1; j < n; ++j)
+            gvi__subtract_at(width, count, m + ((size_t)j*N + (size_t)i)*w, z + j*R, z + i*R);
     }
 }
 
@@ -1718,7 +1754,23 @@ static gvi_status gvi__report(gvi_stepper *st, gvi_status status, int effect, in
     st->fault.effect = effect;
     st->fault.coordinate = coordinate;
     st->fault.point = point;
+    st->fault.argument = NULL;
     return st->status = status;
+}
+
+// an argument is at fault: a row of effects or the mass, a coordinate, and a sentence
+static gvi_status gvi__refuse(gvi_fault *fault, int effect, int coordinate, const char *argument)
+{
+    fault->effect = effect;
+    fault->coordinate = coordinate;
+    fault->point = GVI_FAULT_NONE;
+    fault->argument = argument;
+    return GVI_E_ARGUMENT;
+}
+
+static gvi_status gvi__refuse_call(gvi_stepper *st, const char *argument)
+{
+    return st->status = gvi__refuse(&st->fault, GVI_FAULT_NONE, GVI_FAULT_NONE, argument);
 }
 
 GVI__APART gvi_status gvi__report_effect(gvi_stepper *st, gvi_status status, int effect)
@@ -2026,13 +2078,16 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real
         gvi_real d = 0,
                  next = root*(gvi__nonzero(was) ? GVI_ABS(was) : gvi__norm1(n, v)/(gvi_real)n);
         if (!(next > GVI__MIN/GVI__EPS)) next = root;
-        for (int k = 0; k < 12 && next > 0; ++k) {
+        for (int k = 0; k < 12 && gvi__nonzero(next); ++k) {
             v[j] = was + next;
             const gvi_status status = gvi__evaluate(st, x, 0, 1);
             d = v[j] - was;
             v[j] = was;
-            if (status != GVI_OK) return status;
-            next = !gvi__finite(x->dldv[j]) ? d*root
+            if (status != GVI_OK && (status != GVI_E_CALLBACK || k == 11)) return status;
+            // out of the domain: nearer, and at the last place back towards 0
+            const int beyond = status != GVI_OK || !gvi__finite(x->dldv[j]);
+            next = beyond && GVI_ABS(d)*root < 2*GVI__EPS*GVI_ABS(was) ? -2*GVI__EPS*was
+                 : beyond ? d*root
                  : GVI_ABS(x->dldv[j] - base[j]) < root*GVI_ABS(base[j])/2 ? d/GVI_SQRT(root) : 0;
         }
         for (int i = 0; i < n; ++i) hessian[i*n + j] = (x->dldv[i] - base[i])/d;
@@ -2042,7 +2097,8 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real
 }
 
 /* General Legendre transform at one point: Newton's method for dL/dv(v) = p from the v given.  Ends
-   when the correction stops shrinking.                                                       */
+   when the correction stops shrinking and dL/dv misses p by no more than rounding of v explains.
+   What leaves the domain of L (faster than light), refused or not a number, goes half the way. */
 static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi_real *p,
                                        gvi_real *v)
 {
@@ -2052,32 +2108,50 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
     int at;
     x->v = v;
     gvi__count(&st->counters.velocities, 1);
-    for (int k = 0; k < 40; ++k) {
-        gvi_real change = 0;
+    for (int k = 0, halves = 0, last_places = 0; k < 60; ++k) {
+        gvi_real change = 0, miss = 0;
+        int near = 1;
         gvi_status status = gvi__evaluate(st, x, 0, 1);
-
-        // beyond the domain of L (faster than light): half the way
-        if (k > 0 && status == GVI_OK && gvi__first_non_finite(n, x->dldv) >= 0) {
+        if (status == GVI_OK && gvi__first_non_finite(n, x->dldv) >= 0) status = GVI_E_NON_FINITE;
+        if (status == GVI_OK) status = gvi__velocity_hessian(st, x, v, W);
+        for (int i = 0; status == GVI_OK && i < n; ++i) {
+            gvi_real rounding = GVI_ABS(p[i]);
+            for (int j = 0; j < n; ++j) rounding += GVI_ABS(W[i*n + j]*v[j]);
+            dv[n + i] = p[i] - x->dldv[i];
+            near &= GVI_ABS(dv[n + i]) <= GVI_SQRT(GVI__EPS)*GVI_ABS(p[i]);
+            if (GVI_ABS(dv[n + i]) > miss*rounding) miss = GVI_ABS(dv[n + i])/rounding;
+        }
+        if (status == GVI_OK) {
+            status = gvi__lu_factor(n, W, pivot, &at);
+            gvi__count(&st->counters.factorizations, 1);
+            if (status == GVI_E_SINGULAR)
+                return gvi__report(st, status, GVI_FAULT_MASS, at, GVI_FAULT_NONE);
+        }
+        const int beyond = status == GVI_E_CALLBACK || status == GVI_E_NON_FINITE;
+        if (k > 0 && beyond && halves < 400) {
             for (int i = 0; i < n; ++i) {
                 dv[i] /= 2;
                 v[i] -= dv[i];
             }
+            k -= 1;
+            halves += 1;
             continue;
         }
-        if (status == GVI_OK) status = gvi__velocity_hessian(st, x, v, W);
+        if (status == GVI_E_NON_FINITE) return gvi__report_effect(st, status, GVI_FAULT_MASS);
         if (status != GVI_OK) return status;
-        status = gvi__lu_factor(n, W, pivot, &at);
-        gvi__count(&st->counters.factorizations, 1);
-        if (status != GVI_OK) return gvi__report(st, status, GVI_FAULT_MASS, at, GVI_FAULT_NONE);
-        for (int i = 0; i < n; ++i) dv[i] = p[i] - x->dldv[i];
+        gvi__copy((size_t)n, dv + n, dv);
         gvi_lu_solve(n, W, pivot, dv);
         for (int i = 0; i < n; ++i) {
             v[i] += dv[i];
             if (gvi__nonzero(dv[i])) change += GVI_ABS(dv[i])/(GVI_ABS(dv[i]) + GVI_ABS(v[i]));
         }
         if (!(change <= GVI__MAX)) break;
-        if (!(change > 2*GVI__EPS) || (change >= last/2 && change <= GVI_SQRT(GVI__EPS)))
-            return GVI_OK;
+        // from beyond the root corrections grow threefold, be they of the last place
+        const gvi_real small = GVI_SQRT(GVI__EPS);
+        last_places = change <= 64*GVI__EPS ? last_places + 1 : 0;
+        const int rests = last_places > 4 || (change <= 2*GVI__EPS && (last <= small || near)),
+                  still = change >= last/2 && change <= 2*last && change <= small;
+        if (miss <= 8*GVI__EPS*(gvi_real)n && (rests || still)) return GVI_OK;
         last = change;
     }
     return gvi__report_effect(st, GVI_E_CONVERGENCE, GVI_FAULT_MASS);
@@ -2379,7 +2453,12 @@ GVI__COLD gvi_status gvi__set_constraints(gvi_stepper *st)
             if (a < s && e > 0) x->con.by_impulse[a*R + e - 1] = lu[(e - 1)*s + a] = d[e] - S;
         }
     }
-    return gvi_lu_factor(s, lu, lu + s*s) == GVI_OK ? GVI_OK : GVI_E_POINTS;
+    if (gvi_lu_factor(s, lu, lu + s*s) != GVI_OK) return GVI_E_POINTS;
+    for (int a = 0; a < s; ++a) {
+        x->con.X[a*R + a] = 1;
+        gvi_lu_solve(s, lu, lu + s*s, x->con.X + a*R);
+    }
+    return GVI_OK;
 }
 #endif
 
@@ -2690,11 +2769,32 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     gvi__count(&st->counters.steps, 1);
 }
 
+/* How well the points resolve the force of the step at work: see counters.worst_resolution.  */
+static void gvi__watch_resolution(gvi_stepper *st, gvi_real h)
+{
+    const struct gvi__private *x = &st->x;
+    const gvi_real *a = x->table.high, *b = a + x->R, *F = x->work.F;
+    for (int i = 0; a && i < st->n; ++i, F += x->R) {
+        const gvi_real all = (GVI_ABS(F[0]) + GVI_ABS(F[(st->r - 1)/2]) + GVI_ABS(F[st->r/2])
+                              + GVI_ABS(F[st->r - 1]))/4;
+        gvi_real one = 0, two = 0;
+        for (int k = 0; k < st->r; ++k) {
+            one += a[k]*F[k];
+            two += b[k]*F[k];
+        }
+        const gvi_real share = (GVI_ABS(one) + GVI_ABS(two))/all, push = GVI_ABS(h)*all,
+                       resolution = share*share*(push/(GVI_ABS(x->state.p[i]) + push));
+        if (resolution > st->counters.worst_resolution)      // not where F is 0
+            st->counters.worst_resolution = resolution;
+    }
+}
+
 GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
 {
     const gvi_status ready = gvi__ready(st, st && st->x.started);
     if (ready != GVI_OK) return ready;
-    if (!gvi__nonzero(h) || !gvi__finite(h)) return st->status = GVI_E_ARGUMENT;
+    if (!gvi__nonzero(h) || !gvi__finite(h))
+        return gvi__refuse_call(st, "h is 0, NaN or infinite");
     struct gvi__private *x = &st->x;
     const gvi_formulation was = st->formulation;
     const int left = x->newton.left;
@@ -2704,7 +2804,7 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
     if (x->stepped && gvi__nonzero(h - st->h)) x->newton.left = 0;
     gvi_status status = gvi__solve(st, &from, h, GVI__STEP);
     if (status == GVI_OK && !gvi__finite(st->t + x->dt))
-        status = gvi__report_status(st, GVI_E_ARGUMENT);
+        status = gvi__refuse_call(st, "t + h is not finite");
     if (status != GVI_OK) {
         gvi__count(&st->counters.failures, 1);
         st->formulation = was;
@@ -2712,6 +2812,7 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
         x->newton.h = 0;
         return st->status = status;
     }
+    gvi__watch_resolution(st, h);
     gvi__commit(st, h);
     return gvi__report_status(st, GVI_OK);
 }
@@ -3352,6 +3453,13 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
     for (;;) {
         p.used = *used += 1;
         status = gvi__evaluate_stages(st, from, &at);
+        // free motion may leave the domain of a callback where the motion does not: less of it
+        for (int m = 0; status == GVI_E_CALLBACK && p.used == 1 && !extrapolate && m < 6; ++m) {
+            for (int i = 0; i < st->n; ++i)
+                for (int k = 0; k < x->R; ++k)
+                    x->work.Q[i*x->R + k] = (x->work.Q[i*x->R + k] + from->q[i])/2;
+            status = gvi__evaluate_stages(st, from, &at);
+        }
         if (status != GVI_OK) return status;
         const int diverged = p.growing > 0 || p.before > (gvi_real)st->n;
         const gvi_real change = gvi__new_rows(st, stage, stages, p.rescale);
@@ -3599,6 +3707,17 @@ static void gvi__time_sums(const gvi_stepper *st, const gvi_real *source, gvi_re
     for (int k = 0; k < x->R; ++k) z[k] = gvi__point_sum(st->r, x->R, x->table.T + k, L);
 }
 
+/* H - E for a coordinate whose force is F: as it is, or where its rounding, within `none`, would
+   push a light body by more than 1024 eps of F, 0 up to `none` and as it is from 2 none on.  */
+static gvi_real gvi__sure_level(gvi_real level, gvi_real none, gvi_real slope, gvi_real F)
+{
+    const gvi_real limit = 1024*GVI__EPS*F, push = GVI_ABS(slope)*none, size = GVI_ABS(level);
+    if (push <= limit) return level;
+    if (push < 2*limit) none *= push/limit - 1;
+    const gvi_real sure = size <= none ? 0 : size < 2*none ? 2*(size - none) : size;
+    return level < 0 ? -sure : sure;
+}
+
 /* With a clock: forces first, for their power f'v; then all else, with values.  What it makes
    of F and V: F := g F - dg/dq (H - E), V := g v, with H = (P + A)'v/2 + V_pot - L, and E, with
    the work of the forces, and the times by the rule of Q.                                     */
@@ -3609,7 +3728,7 @@ static gvi_status gvi__evaluate_with_clock(gvi_stepper *st, const gvi__origin *f
     const int n = st->n, r = st->r, R = x->R;
     const unsigned forces = gvi__of_kind(x, GVI_FORCE);
     gvi_real *g = x->time.rate, *power = x->time.power, *level = x->time.level,
-             *L = x->time.lagrangian;
+             *L = x->time.lagrangian, *noise = x->row + R;
     gvi_status status = gvi__effects(st, y, ~forces, NULL);
     gvi__zero((size_t)R, power);
     for (int i = 0; i < n; ++i)
@@ -3621,8 +3740,9 @@ static gvi_status gvi__evaluate_with_clock(gvi_stepper *st, const gvi__origin *f
     if (status == GVI_OK) status = gvi__rate(st, y, g, x->time.slope);
     if (status != GVI_OK) return status;
 
-    // level := H - E
+    // level := H - E; noise: what rounding makes of it
     for (int k = 0; k < R; ++k) {
+        noise[k] = GVI_ABS(level[k]) + GVI_ABS(L[k]) + GVI_ABS(from->E);
         level[k] -= L[k] + from->E;
         power[k] *= g[k];
     }
@@ -3633,13 +3753,22 @@ static gvi_status gvi__evaluate_with_clock(gvi_stepper *st, const gvi__origin *f
     for (int i = 0; i < n; ++i)
         for (int k = 0; k < R; ++k) {
             const int at = i*R + k;
-            level[k] += (w->A ? w->P[at] + w->A[at] : w->P[at])*w->V[at]/2;
+            const gvi_real twice = (w->A ? w->P[at] + w->A[at] : w->P[at])*w->V[at];
+            level[k] += twice/2;
+            noise[k] += GVI_ABS(twice)/2;
         }
-    for (int i = 0; i < n; ++i)
+
+    for (int i = 0; i < n; ++i) {
+        gvi_real *F = w->F + i*R, *V = w->V + i*R, largest = 0;
+        const gvi_real *slope = x->time.slope + i*R;
         for (int k = 0; k < R; ++k) {
-            w->F[i*R + k] = g[k]*w->F[i*R + k] - x->time.slope[i*R + k]*level[k];
-            w->V[i*R + k] *= g[k];
+            F[k] *= g[k];
+            V[k] *= g[k];
+            if (k < r && GVI_ABS(F[k]) > largest) largest = GVI_ABS(F[k]);
         }
+        for (int k = 0; k < r; ++k)
+            F[k] -= slope[k]*gvi__sure_level(level[k], 16*GVI__EPS*noise[k], slope[k], largest);
+    }
     gvi__time_sums(st, g, L);
     for (int k = 0; k < R; ++k) x->t[k] = from->t + (from->t_low + L[k]);
     return GVI_OK;
@@ -3814,31 +3943,30 @@ GVI__CALLED void gvi__constraint_rows(const gvi_stepper *st, const gvi__stage *y
     else x->kernel(st, &z, 0);
 }
 
-// G' lambda at the sources
+// G' lambda at the sources; the rows behind the forces hold -lambda
 static void gvi__constraint_forces(const gvi_stepper *st)
 {
     const struct gvi__private *x = &st->x;
     const int n = st->n, R = x->R, C = x->con.C;
     gvi__zero((size_t)(n*R), x->con.force);
     for (int a = 0; a < x->con.m; ++a)
-        for (int i = 0; i < n; ++i) {
-            const gvi_real *G = x->con.G + (a*n + i)*C, *lambda = x->con.force + (n + a)*R;
-            gvi_real *GVI__RESTRICT row = x->con.force + i*R;
-            for (int e = 0; e < st->s; ++e) row[e] += G[e]*lambda[e];
-        }
+        for (int i = 0; i < n; ++i)
+            gvi__subtract_at(C, st->s, x->con.G + (a*n + i)*C, x->con.force + (n + a)*R,
+                             x->con.force + i*R);
 }
 
-// the constraints at D, padded with q0; A in the first two iterations
+// the constraints at D, padded with q0; A in the first iteration
 GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin *from)
 {
     struct gvi__private *x = &st->x;
     const int s = st->s, C = x->con.C;
-    for (int i = 0; i < st->n; ++i)
-        for (int k = 0; k < C; ++k)
-            x->con.at[i*C + k] = k > 0 && k <= s ? x->con.D[i*x->R + k - 1] : from->q[i];
+    for (int i = 0; i < st->n; ++i) {
+        for (int k = 0; k < C; ++k) x->con.at[i*C + k] = from->q[i];
+        gvi__copy((size_t)s, x->con.D + i*x->R, x->con.at + i*C + 1);
+    }
     const gvi_status status =
         gvi__evaluate_constraints(st, C, s + 1, x->con.t, x->con.at, x->con.G);
-    return status != GVI_OK || ++x->con.made > 2 ? status : gvi__factor_constraints(st, C, s);
+    return status != GVI_OK || ++x->con.made > 1 ? status : gvi__factor_constraints(st, C, s);
 }
 
 // the new lambda, and forces.  With momenta D' needs the P and V of the new F
@@ -3846,7 +3974,7 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *y)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, m = x->con.m, s = st->s, R = x->R, C = x->con.C;
-    gvi_real *lambda = x->con.force + n*R, *rho = x->con.rho;
+    gvi_real *lambda = x->con.force + n*R, *rho = x->con.rho, *moved = x->con.W;
     gvi__constraint_forces(st);
     if (gvi__uses(x, GVI_MOMENTA)) {
         gvi_real *const P = x->work.P;
@@ -3858,18 +3986,21 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *y)
         x->work.P = P;
     }
     gvi__constraint_rows(st, y);
+    for (int i = 0; i < n; ++i) {                 // D - D'
+        gvi_real *GVI__RESTRICT z = moved + i*C;
+        const gvi_real *at = x->con.at + i*C + 1, *D = x->con.D + i*R;
+        for (int e = 0; e < s; ++e) z[e] = at[e] - D[e];
+    }
+    gvi__zero((size_t)(m*R), rho);
     for (int a = 0; a < m; ++a) {
-        gvi_real *GVI__RESTRICT z = rho + a*R;
-        gvi__copy((size_t)s, x->con.g + a*C + 1, z);
-        for (int i = 0; i < n; ++i) {
-            const gvi_real *G = x->con.G + (a*n + i)*C + 1, *at = x->con.at + i*C + 1;
-            for (int e = 0; e < s; ++e) z[e] += G[e]*(x->con.D[i*R + e] - at[e]);
-        }
-        gvi_lu_solve(s, x->con.lu, x->con.lu + s*s, z);
+        gvi_real *g = x->con.g + a*C + 1;
+        for (int i = 0; i < n; ++i)
+            gvi__subtract_at(C, s, x->con.G + (a*n + i)*C + 1, moved + i*C, g);
+        for (int b = 0; b < s; ++b) gvi__subtract_row((size_t)R, -g[b], x->con.X + b*R, rho + a*R);
     }
     gvi__ldl_solve(m, x->con.A, C, rho, R, s);
-    for (int k = 0; k < m*R; ++k)
-        if (k % R < s) lambda[k] -= rho[k]/(x->sized.h*x->con.hw[k % R]);
+    for (int a = 0; a < m; ++a)
+        for (int e = 0; e < s; ++e) lambda[a*R + e] += rho[a*R + e]/(x->sized.h*x->con.hw[e]);
     gvi__constraint_forces(st);
 }
 
@@ -4009,7 +4140,7 @@ GVI__CALLED void gvi__commit_constraints(gvi_stepper *st, gvi_real h)
     gvi__add_force(st, x->con.y, x->result);
     for (int i = 0; i < rows; ++i) {
         gvi__copy((size_t)s, x->con.force + i*x->R, x->con.last + i*C);
-        x->con.last[i*C + s] = i < n ? x->result[i] : x->con.y[i - n];
+        x->con.last[i*C + s] = i < n ? x->result[i] : -x->con.y[i - n];
     }
 }
 
@@ -4023,7 +4154,7 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
     };
     gvi_status status = gvi__ready(st, st && st->x.started);
     if (status != GVI_OK) return status;
-    if (!lambda) return st->status = GVI_E_ARGUMENT;
+    if (!lambda) return gvi__refuse_call(st, "lambda is NULL");
     if (!GVI__CONSTRAINTS || !st->x.con.bits) return st->status = GVI_E_FORMULATION;
     struct gvi__private *x = &st->x;
     const int n = st->n, m = x->con.m;
@@ -4085,23 +4216,32 @@ static int gvi__within(long x, long most) { return x >= 0 && x <= most; }
 /* Are all sizes in range, and is what the kinds of rule, mass and effects need there, and
    nothing that says that a kind was forgotten? Fills in the defaults, and finds what the
    effects read and the clock.                                                                 */
-GVI__COLD gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc)
+GVI__COLD gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc, gvi_fault *fault)
 {
     enum { V = GVI__HAS_VELOCITIES, L = GVI__HAS_LAGRANGIAN };
     // potential, force, Lagrangian, clock, constraint
     static const unsigned char reads[] = { 0, V, V | L, 0, 0 };
-    if (!desc || !gvi__within(desc->n, 0x7FFFF) || desc->n < 1 || !gvi__within(desc->degree, 1024)
-        || !gvi__within(desc->rule.points, 4000) || !gvi__within(desc->effect_count, GVI_EFFECTS)
-        || (desc->effect_count && !desc->effects) || !gvi__within(desc->max_iterations, 1000000)
-        || !gvi__within(desc->iterations, 1000000) || (unsigned)desc->formulation > GVI_NEWTON
-        || (unsigned)desc->mass.kind > GVI_MASS_NONE || (unsigned)desc->rule.kind > GVI_KICKS
-        || !(desc->tolerance >= 0 && desc->tolerance < 1)) return GVI_E_ARGUMENT;
+    const char *wrong = !desc ? "desc is NULL"
+        : !gvi__within(desc->n, 0x7FFFF) || desc->n < 1 ? "n is not 1 to 524,287"
+        : !gvi__within(desc->degree, 1024) ? "degree is not 0 to 1024"
+        : !gvi__within(desc->rule.points, 4000) ? "rule.points is not 0 to 4000"
+        : !gvi__within(desc->effect_count, GVI_EFFECTS) ? "effect_count is not 0 to GVI_EFFECTS"
+        : desc->effect_count && !desc->effects ? "effect_count is given, effects is NULL"
+        : !gvi__within(desc->max_iterations, 1000000) ? "max_iterations is not 0 to 1,000,000"
+        : !gvi__within(desc->iterations, 1000000) ? "iterations is not 0 to 1,000,000"
+        : (unsigned)desc->formulation > GVI_NEWTON ? "formulation is not in its enum"
+        : (unsigned)desc->mass.kind > GVI_MASS_NONE ? "mass.kind is not in its enum"
+        : (unsigned)desc->rule.kind > GVI_KICKS ? "rule.kind is not in its enum"
+        : !(desc->tolerance >= 0 && desc->tolerance < 1) ? "tolerance is not 0 to 1" : NULL;
+    if (wrong) return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE, wrong);
     gvi_desc *d = &x->desc;
     *d = *desc;
     const gvi_rule *rule = &desc->rule;
     const int given = rule->kind == GVI_OWN || rule->kind == GVI_KICKS;
     if (given ? !rule->points || !rule->nodes || !rule->weights : rule->nodes != NULL)
-        return GVI_E_ARGUMENT;
+        return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE,
+                           given ? "rule: this kind needs points, nodes and weights"
+                                 : "rule: this kind takes no nodes");
     if (d->degree == 0) d->degree = rule->kind == GVI_KICKS ? 1 : 8;
     if (d->rule.points == 0) d->rule.points = rule->kind == GVI_LOBATTO ? d->degree + 1 : d->degree;
     if (d->max_iterations == 0) d->max_iterations = 60;
@@ -4112,33 +4252,43 @@ GVI__COLD gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc)
     x->con.m = 0;
     for (int e = 0; e < d->effect_count; ++e) {
         const gvi_effect *effect = d->effects + e;
-        const int holds = effect->kind == GVI_CONSTRAINT;
-        if ((unsigned)effect->kind > GVI_CONSTRAINT || !effect->points == !effect->point
-            || (holds ? effect->rows < 1 || effect->rows > d->n - x->con.m : effect->rows != 0))
-            return GVI_E_ARGUMENT;
+        const int holds = effect->kind == GVI_CONSTRAINT, clock = effect->kind == GVI_CLOCK;
+        wrong = (unsigned)effect->kind > GVI_CONSTRAINT ? "effect: kind is not in its enum"
+            : !effect->points && !effect->point ? "effect: points, or point, is missing"
+            : effect->points && effect->point ? "effect: points and point, one is too many"
+            : !holds && effect->rows != 0 ? "effect: rows is for constraints"
+            : holds && (effect->rows < 1 || effect->rows > d->n - x->con.m)
+                ? "effect: rows is not 1 to what is left of n"
+            : (clock || holds) && !effect->points ? "effect: this kind needs points, not point"
+            : clock && x->clock >= 0 ? "effect: a second clock" : NULL;
+        if (wrong) return gvi__refuse(fault, e, GVI_FAULT_NONE, wrong);
         x->needs |= reads[effect->kind];
         if (effect->kind < GVI_CLOCK) continue;
         x->apart |= 1u << e;
-        if (!effect->points || (!holds && x->clock >= 0)) return GVI_E_ARGUMENT;
         x->con.m += effect->rows;
         if (holds) x->con.bits |= 1u << e;
         else x->clock = e;
     }
     const gvi_mass *m = &d->mass;
-    const int mass = m->kind == GVI_MASS_UNIT ? !m->matrix && !m->points
-        : m->kind == GVI_MASS_POSITION ? m->points && m->gradient
-        : m->kind == GVI_MASS_NONE ? (x->needs & L) != 0 : m->matrix != NULL;
+    const int position = m->kind == GVI_MASS_POSITION;
+    wrong = m->kind == GVI_MASS_UNIT && (m->matrix || m->points)
+            ? "mass: matrix or points is given, kind is GVI_MASS_UNIT"
+        : position && !m->points ? "mass: points is missing"
+        : position && !m->gradient ? "mass: gradient is missing"
+        : m->kind == GVI_MASS_NONE && !(x->needs & L) ? "mass: none, and no Lagrangian term"
+        : (m->kind == GVI_MASS_DIAGONAL || m->kind == GVI_MASS_DENSE) && !m->matrix
+            ? "mass: matrix is missing" : NULL;
     if ((x->needs & L && !GVI__LAGRANGIAN) || (x->clock >= 0 && !GVI__CLOCK)
         || (x->con.bits && (!GVI__CONSTRAINTS || x->clock >= 0 || m->velocity
                             || m->kind == GVI_MASS_NONE || rule->kind == GVI_KICKS))
         || (m->kind > GVI_MASS_DENSE && !gvi__mass_is(x, m->kind)) || !gvi__rule_is(x, rule->kind))
         return GVI_E_FORMULATION;
-    return mass ? GVI_OK : GVI_E_ARGUMENT;
+    return wrong ? gvi__refuse(fault, GVI_FAULT_MASS, GVI_FAULT_NONE, wrong) : GVI_OK;
 }
 
 /* The order of the rule: will it do? Kicks need finite numbers and weights that sum to 1;
    beyond an error of 1 no digit of the sum is sure.                                           */
-GVI__COLD gvi_status gvi__check_rule(struct gvi__private *x, int *order)
+GVI__COLD gvi_status gvi__check_rule(struct gvi__private *x, int *order, gvi_fault *fault)
 {
     const gvi_rule *rule = &x->desc.rule;
     const int s = x->desc.degree, r = rule->points;
@@ -4146,7 +4296,8 @@ GVI__COLD gvi_status gvi__check_rule(struct gvi__private *x, int *order)
     if (gvi__rule_is(x, GVI_KICKS)) {
         gvi_real sum = -1, size = 0;
         *order = 0;
-        if (s != 1) return GVI_E_ARGUMENT;
+        if (s != 1)
+            return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE, "degree: kicks have 1");
         for (int j = 0; j < r; ++j) {
             sum += rule->weights[j];
             size += GVI_ABS(rule->weights[j]);
@@ -4155,7 +4306,10 @@ GVI__COLD gvi_status gvi__check_rule(struct gvi__private *x, int *order)
         const gvi_real error = 4*(gvi_real)(r + 2)*GVI__EPS*size;
         return GVI_ABS(sum) <= error && error < 1 ? GVI_OK : GVI_E_ORDER;
     }
-    if (rule->kind == GVI_LOBATTO && r < 2) return s > 1 ? GVI_E_POINTS : GVI_E_ARGUMENT;
+    if (rule->kind == GVI_LOBATTO && r < 2)
+        return s > 1 ? GVI_E_POINTS
+                     : gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE,
+                                   "rule.points: Lobatto's rule has 2 or more");
     if (gvi__rule_is(x, GVI_OWN)) {
         *order = gvi_rule_order(r, rule->nodes, rule->weights);
         if (*order < 0) return GVI_E_NODES;
@@ -4168,7 +4322,7 @@ GVI__COLD gvi_status gvi__check_rule(struct gvi__private *x, int *order)
 
 /* The first formulation that can do what the scene asks for, or the one that is pinned; Newton's
    method as a fall-back.                                                                     */
-GVI__COLD gvi_status gvi__choose(struct gvi__private *x)
+GVI__COLD gvi_status gvi__choose(struct gvi__private *x, gvi_fault *fault)
 {
     enum { READS = 1, TIMED = 2, KICKED = 4, NOT_KICKED = 8, MORE_POINTS = 16, VARIES = 32,
           NO_VELOCITY = 64, HOLDS = 128 };
@@ -4204,14 +4358,17 @@ GVI__COLD gvi_status gvi__choose(struct gvi__private *x)
     const int matrices =
         gvi__has(x, GVI__HAS_NEWTON | GVI__HAS_LAGRANGIAN) || d->mass.kind >= GVI_MASS_DENSE;
     // indices are int: n*n and s*n
-    return matrices && d->n > 0x7FFF ? GVI_E_ARGUMENT : GVI_OK;
+    return !matrices || d->n <= 0x7FFF ? GVI_OK
+        : gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE,
+                      "n is above 32,767, and matrices may be needed");
 }
 
-GVI__COLD gvi_status gvi__resolve(struct gvi__private *x, const gvi_desc *desc, int *order)
+GVI__COLD gvi_status gvi__resolve(struct gvi__private *x, const gvi_desc *desc, int *order,
+                                  gvi_fault *fault)
 {
-    gvi_status status = gvi__check(x, desc);
-    if (status == GVI_OK) status = gvi__check_rule(x, order);
-    return status == GVI_OK ? gvi__choose(x) : status;
+    gvi_status status = gvi__check(x, desc, fault);
+    if (status == GVI_OK) status = gvi__check_rule(x, order, fault);
+    return status == GVI_OK ? gvi__choose(x, fault) : status;
 }
 
 /* The caller's memory: a base, or NULL to count only, and the numbers handed out so far.     */
@@ -4237,6 +4394,7 @@ GVI__COLD void gvi__layout_constraints(struct gvi__private *x, gvi__arena *a)
     const struct { gvi_real **to; size_t rows, width; } list[] = {
         { &y->D, i*n, R }, { &y->free, i*n, R }, { &y->P, u*n, R }, { &y->force, i*(n + m), R },
         { &y->K, i*r, R }, { &y->U, u*r, R }, { &y->by_force, i*r, R }, { &y->by_impulse, i*r, R },
+        { &y->X, i*s, R },
         { &y->E, i*s, R }, { &y->Phi, i*s, R }, { &y->Phi_low, i*s, R }, { &y->hw, on, R },
         { &y->last, i*(n + m), C }, { &y->at, i*n, C }, { &y->t, i, C }, { &y->W, on*n, C },
         { &y->g, 2*m, C }, { &y->G, m*n, C }, { &y->A, m*m, C }, { &y->d, on, R + C },
@@ -4296,6 +4454,7 @@ GVI__COLD size_t gvi__layout(struct gvi__private *x, int order, gvi_real *base)
     x->table.Phi = gvi__take(a, kicks ? 0 : s, R);
     x->table.phi = gvi__take(a, modes*s, R);
     x->table.phi_low = gvi__take(a, modes*s, R);
+    x->table.high = gvi__take(a, explicitly ? 0 : 2, R);
     x->table.K = gvi__take(a, fixed && !momenta ? r : 0, R);
     x->table.U = gvi__take(a, velocities || momenta ? r : 0, R);
     x->table.T = gvi__take(a, momenta || (velocities && lagrangian) ? r : 0, R);
@@ -4348,8 +4507,9 @@ static size_t gvi__slack(const gvi_desc *d) { return d->rule.points > 4 ? GVI__S
 GVI_DEF size_t gvi_size(const gvi_desc *desc)
 {
     struct gvi__private x;
+    gvi_fault fault;
     int order;
-    if (gvi__resolve(&x, desc, &order) != GVI_OK) return 0;
+    if (gvi__resolve(&x, desc, &order, &fault) != GVI_OK) return 0;
     return (gvi__layout(&x, order, NULL) + gvi__slack(&x.desc))*sizeof(gvi_real);
 }
 
@@ -4366,14 +4526,15 @@ GVI__COLD gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
             for (int j = 0; j <= i; ++j) {
                 m[i*n + j] = x->mass.factor[i*n + j] = mass->matrix[i*n + j];
                 if (!gvi__finite(m[i*n + j]))
-                    return gvi__report(st, GVI_E_ARGUMENT, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
+                    return gvi__refuse(&st->fault, GVI_FAULT_MASS, i, "mass.matrix is not finite");
             }
         else m[i] = mass->kind == GVI_MASS_DIAGONAL ? mass->matrix[i] : 1;
         if (mass->kind != GVI_MASS_DIAGONAL) continue;
         x->mass.inverse[i] = 1/m[i];
-        if (!gvi__finite(m[i]) || !gvi__finite(x->mass.inverse[i]))
-            return gvi__report(st, gvi__finite(m[i]) ? GVI_E_SINGULAR : GVI_E_ARGUMENT,
-                               GVI_FAULT_MASS, i, GVI_FAULT_NONE);
+        if (!gvi__finite(m[i]))
+            return gvi__refuse(&st->fault, GVI_FAULT_MASS, i, "mass.matrix is not finite");
+        if (!gvi__finite(x->mass.inverse[i]))
+            return gvi__report(st, GVI_E_SINGULAR, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
     }
     const gvi_status status =
         dense ? gvi__ldl_factor(n, 1, 1, x->mass.factor, (gvi_real)n*GVI__EPS, at) : GVI_OK;
@@ -4402,6 +4563,17 @@ GVI__COLD gvi_status gvi__set_rule(gvi_stepper *st, const gvi_rule *rule)
 #endif
         gvi__make_tables(st);
     }
+    for (int i = 0; x->table.high && i < st->r; ++i) {       // modes r - 1 and r - 2 of a force
+        const gvi_real X = 1 - 2*x->table.c[i];
+        gvi_real P = 1, before = 0;
+        for (int k = 0; k < st->r - 1; ++k) {
+            const gvi_real next = gvi__legendre_next(k, X, P, before);
+            before = P;
+            P = next;
+        }
+        x->table.high[i] = st->r > 1 ? (gvi_real)(2*st->r - 1)*x->table.b[i]*P : 0;
+        x->table.high[x->R + i] = st->r > 2 ? (gvi_real)(2*st->r - 3)*x->table.b[i]*before : 0;
+    }
 #ifndef GVI_NO_RULES
     if (GVI__CONSTRAINTS && x->con.bits && gvi__set_constraints(st) != GVI_OK) return GVI_E_POINTS;
 #endif
@@ -4418,15 +4590,19 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     if (!st) return GVI_E_ARGUMENT;
     struct gvi__private *x = &st->x;
     unsigned char *bytes = (unsigned char *)st;
+    static const gvi_real zeros[64] = { 0 };      // to be read after a failure
     int order;
     for (size_t i = 0; i < sizeof *st; ++i) bytes[i] = 0;
     gvi__report_status(st, GVI_OK);
-    gvi_status status = gvi__resolve(x, desc, &order);
+    st->q = st->p = st->q_low = st->p_low = zeros;
+    gvi_status status = gvi__resolve(x, desc, &order, &st->fault);
     if (GVI__CONSTRAINTS && status == GVI_E_FORMULATION && x->con.bits)
         return gvi__report_row(st, status, 0, GVI_FAULT_NONE);
     if (status != GVI_OK) return st->status = status;
+    if (desc->effects && !desc->effect_count)     // its count was forgotten
+        return gvi__refuse_call(st, "effects is given, effect_count is 0");
     if (!memory || (uintptr_t)memory % offsetof(gvi__aligned, number))
-        return st->status = GVI_E_ARGUMENT;
+        return gvi__refuse_call(st, memory ? "memory is not aligned" : "memory is NULL");
     st->n = x->desc.n;
     st->s = x->desc.degree;
     st->r = x->desc.rule.points;
@@ -4435,7 +4611,12 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     x->R = GVI__ROW(st->r);
     x->size = gvi__layout(x, order, NULL);
     const size_t slack = gvi__slack(&x->desc);
-    if (size < (x->size + slack)*sizeof(gvi_real)) return st->status = GVI_E_MEMORY;
+    if (size < (x->size + slack)*sizeof(gvi_real)) {
+        if (size/sizeof(gvi_real) < (size_t)st->n) return st->status = GVI_E_MEMORY;
+        gvi__zero((size_t)st->n, memory);
+        st->q = st->p = st->q_low = st->p_low = memory;
+        return st->status = GVI_E_MEMORY;
+    }
     if (slack) x->skip = (size_t)(-(uintptr_t)memory & 63)/sizeof(gvi_real);
     memory += x->skip;
     gvi__hand_out(st, memory);
@@ -4459,7 +4640,8 @@ typedef struct gvi__matrix {
     gvi_real *pivot;
     gvi_real *ends;        /* k0 = 1: columns y_0 and q0, 2n a row; or NULL                 */
     int       k0;
-    int       scaled;      /* rows by their largest entry, for a condition without units    */
+    int       scaled;      /* columns over sqrt M_ii, rows by their largest entry: the condition
+                              then has no units                                      */
     int       halves;      /* are changes taken back that make the residual larger?         */
 } gvi__matrix;
 
@@ -4699,8 +4881,10 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J)
     for (int row = 0; J->scaled && row < size; ++row) {
         gvi_real *a = J->square + (size_t)row*(size_t)size,
                  *ends = J->ends + (size_t)row*2*(size_t)n, big = 0;
-        for (int j = 0; j < size; ++j)
+        for (int j = 0; j < size; ++j) {
+            a[j] *= st->x.watch.scale[j % n];
             if (GVI_ABS(a[j]) > big) big = GVI_ABS(a[j]);
+        }
         for (int j = 0; big > 0 && j < size; ++j) a[j] /= big;
         for (int j = 0; big > 0 && j < 2*n; ++j) ends[j] /= big;
     }
@@ -4712,26 +4896,33 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J)
                        GVI_FAULT_NONE);
 }
 
-// y := modes of the extrapolated V, or constant velocity
-static void gvi__newton_guess(gvi_stepper *st, int extrapolate)
+// y := modes of V as the predictor continues it; rows get that V
+static void gvi__newton_modes(gvi_stepper *st, const gvi_real *V, gvi_real *rows)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, s = st->s, R = x->R;
     gvi__stage z;
-    gvi__zero((size_t)(s*n), x->newton.y);
+    gvi__set_stage(st, &z, rows, NULL, NULL, NULL);
+    gvi__set_predictor(st, &z, V, NULL);
+    x->kernel(st, &z, 0);
+    for (int i = 0; i < n; ++i) {
+        for (int k = 0; k < s; ++k)
+            x->row[k] = gvi__dot3(st->r, x->table.phi + k*R, x->table.b, rows + i*R);
+        gvi__over_gamma(st, x->row);
+        for (int k = 0; k < s; ++k) x->newton.y[k*n + i] = x->row[k];
+    }
+}
+
+// y := modes of the extrapolated V, or constant velocity
+static void gvi__newton_guess(gvi_stepper *st, int extrapolate)
+{
+    struct gvi__private *x = &st->x;
+    gvi__zero((size_t)(st->s*st->n), x->newton.y);
     if (!extrapolate) {
         gvi__velocity_guess(st, x->newton.y);
         return;
     }
-    gvi__set_stage(st, &z, x->work.V, NULL, NULL, NULL);
-    gvi__set_predictor(st, &z, x->last.V, NULL);
-    x->kernel(st, &z, 0);
-    for (int i = 0; i < n; ++i) {
-        for (int k = 0; k < s; ++k)
-            x->row[k] = gvi__dot3(st->r, x->table.phi + k*R, x->table.b, x->work.V + i*R);
-        gvi__over_gamma(st, x->row);
-        for (int k = 0; k < s; ++k) x->newton.y[k*n + i] = x->row[k];
-    }
+    gvi__newton_modes(st, x->last.V, x->work.V);
 }
 
 /* y += dy from row k0 on; returns the sum over coordinates of the relative change.  p->work:
@@ -4906,6 +5097,27 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
 
 /* ---- starting ---- */
 
+/* The energy for a clock, under which values may not change with t: they are looked at twice.  */
+GVI__COLD gvi_status gvi__clock_energy(gvi_stepper *st, gvi_real t, const gvi_real *q,
+                                       const gvi_real *p, gvi_real *v, gvi_real *E)
+{
+    const gvi_real later = t + (gvi_real)0.739085133215160642;
+    const gvi_status status = gvi__hamiltonian(st, t, q, p, v, E);
+    for (int e = 0; status == GVI_OK && e < st->x.desc.effect_count; ++e) {
+        const gvi_kind kind = st->x.desc.effects[e].kind;
+        gvi_real now = 0, then = 0;
+        gvi_points y = gvi__one_point(st, &t, q);
+        y.v = v;
+        if ((st->x.off >> e & 1u) || kind == GVI_FORCE || kind == GVI_CLOCK) continue;
+        gvi_status both = gvi__value(st, &y, e, &now);
+        y.t = &later;
+        if (both == GVI_OK) both = gvi__value(st, &y, e, &then);
+        if (both == GVI_OK && gvi__nonzero(then - now))
+            return gvi__report_effect(st, GVI_E_FORMULATION, e);
+    }
+    return status == GVI_OK ? gvi__report_status(st, GVI_OK) : status;
+}
+
 // from q, p in x->step and a velocity v, all of them seen to be good
 GVI__COLD gvi_status gvi__begin_at(gvi_stepper *st, gvi_real t, const gvi_real *v)
 {
@@ -4919,7 +5131,7 @@ GVI__COLD gvi_status gvi__begin_at(gvi_stepper *st, gvi_real t, const gvi_real *
     if (gvi__clock_is_on(st)) {                   // its energy
         gvi_real E, *V = x->result;
         gvi__copy(n, v, V);
-        const gvi_status status = gvi__hamiltonian(st, t, x->step.q, x->step.p, V, &E);
+        const gvi_status status = gvi__clock_energy(st, t, x->step.q, x->step.p, V, &E);
         if (status != GVI_OK) return status;
         x->time.H = E;
         x->time.H_low = 0;
@@ -4944,11 +5156,23 @@ GVI__COLD gvi_status gvi__check_start(gvi_stepper *st, gvi_real t, const gvi_rea
 {
     const gvi_status ready = gvi__ready(st, st && st->x.memory);
     if (ready != GVI_OK) return ready;
-    if (!q || !w || !gvi__finite(t)) return st->status = GVI_E_ARGUMENT;
+    if (!q || !w) return gvi__refuse_call(st, "q, v or p is NULL");
+    if (!gvi__finite(t)) return gvi__refuse_call(st, "t is not finite");
     const int i = gvi__first_non_finite(st->n, q), j = gvi__first_non_finite(st->n, w);
     if (i < 0 && j < 0) return GVI_OK;
-    return gvi__report(st, GVI_E_ARGUMENT, GVI_FAULT_NONE, j < 0 || (i >= 0 && i < j) ? i : j,
-                       GVI_FAULT_NONE);
+    return st->status = gvi__refuse(&st->fault, GVI_FAULT_NONE,
+                                    j < 0 || (i >= 0 && i < j) ? i : j,
+                                    "q, v or p is not finite");
+}
+
+// p = dL/dv, of the kinetic energy and of Lagrangian terms where there are any, to x.point + 5n
+static gvi_status gvi__momentum(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
+{
+    gvi_points y = gvi__one_point(st, &t, q);
+    y.v = v;
+    if (gvi__has(&st->x, GVI__HAS_LAGRANGIAN)) return gvi__evaluate(st, &y, 0, 1);
+    gvi__zero(2*(size_t)st->n, y.f);              // and y.dldv
+    return gvi__kinetic(st, &y);
 }
 
 GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
@@ -4958,20 +5182,13 @@ GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, con
     struct gvi__private *x = &st->x;
     const size_t n = (size_t)st->n;
 
-    // p = dL/dv: of the kinetic energy, and of Lagrangian terms where there are any
-    gvi_points y = gvi__one_point(st, &t, q);
-    y.v = v;
     x->diagnose = 1;
-    if (gvi__has(x, GVI__HAS_LAGRANGIAN)) status = gvi__evaluate(st, &y, 0, 1);
-    else {
-        gvi__zero(2*n, y.f);                      // and y.dldv
-        status = gvi__kinetic(st, &y);
-    }
+    status = gvi__momentum(st, t, q, v);
     x->diagnose = 0;
     if (status != GVI_OK) return status;
     gvi_real *start = x->result + n;              // v may be st->q or st->p, which change first
     gvi__copy(n, v, start);
-    gvi__copy(n, y.dldv, x->step.p);
+    gvi__copy(n, x->point + 5*n, x->step.p);
     gvi__copy(n, q, x->step.q);
     return gvi__begin_at(st, t, start);
 }
@@ -4997,7 +5214,7 @@ GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_rea
 GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_real h,
                                             const gvi_real *q0, const gvi_real *q1)
 {
-    static const gvi_discrete out = { NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL };
+    static const gvi_discrete out = { NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL };
     gvi_status status = gvi__check_start(st, t, q0, q1);
     // p0 is in step.q then
     if (status == GVI_OK) status = gvi_discrete_lagrangian(st, t, h, q0, q1, &out);
@@ -5009,13 +5226,15 @@ GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
     const gvi_status ready = gvi__ready(st, st && st->x.memory);
     if (ready != GVI_OK) return ready;
     struct gvi__private *x = &st->x;
-    if (index < 0 || index >= x->desc.effect_count) return st->status = GVI_E_ARGUMENT;
+    if (index < 0 || index >= x->desc.effect_count)
+        return gvi__refuse_call(st, "there is no such effect");
     const unsigned bit = 1u << index, was = x->off;
     x->off = on ? was & ~bit : was | bit;
     // another energy, also at the start
     if (gvi__clock_is_on(st) && x->started && x->off != was) {
         gvi_real E, E0 = x->began.H, *v = x->result + st->n;
-        gvi_status status = gvi_energy(st, &E);
+        gvi__velocity_guess(st, v);
+        gvi_status status = gvi__clock_energy(st, st->t, st->q, st->p, v, &E);
         if (status == GVI_OK && x->stepped)
             status = gvi__hamiltonian(st, st->t0, x->began.q, x->began.p, v, &E0);
         if (status != GVI_OK) return x->off = was, st->status = status;
@@ -5053,7 +5272,7 @@ GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const 
         || saved->x.con.bits != x->con.bits
         || saved->x.desc.effect_count != x->desc.effect_count
         || saved->x.desc.mass.kind != x->desc.mass.kind)
-        return st->status = GVI_E_ARGUMENT;
+        return gvi__refuse_call(st, "saved or memory is NULL, not set up, or of another scene");
     const gvi_desc desc = x->desc;
     gvi_real *const own = x->memory;
     gvi__kernel *const kernel = x->kernel;
@@ -5080,7 +5299,7 @@ GVI_DEF gvi_status gvi_velocity(gvi_stepper *st, gvi_real *v)
 {
     gvi_status status = gvi__ready(st, st && st->x.started);
     if (status != GVI_OK) return status;
-    if (!v) return st->status = GVI_E_ARGUMENT;
+    if (!v) return gvi__refuse_call(st, "v is NULL");
     gvi_real *V = st->x.result;
     gvi__velocity_guess(st, V);
     status = gvi__velocity(st, st->t, st->q, st->p, V);
@@ -5092,7 +5311,7 @@ GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy)
 {
     gvi_status status = gvi__ready(st, st && st->x.started);
     if (status != GVI_OK) return status;
-    if (!energy) return st->status = GVI_E_ARGUMENT;
+    if (!energy) return gvi__refuse_call(st, "energy is NULL");
     gvi_real E, *v = st->x.result + st->n;
     gvi__velocity_guess(st, v);
     status = gvi__hamiltonian(st, st->t, st->q, st->p, v, &E);
@@ -5178,7 +5397,7 @@ GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
 {
     gvi_status status = gvi__stepped(st);
     if (status != GVI_OK) return status;
-    if (!(tau >= 0 && tau <= 1)) return st->status = GVI_E_ARGUMENT;
+    if (!(tau >= 0 && tau <= 1)) return gvi__refuse_call(st, "tau is not in [0,1]");
     if (gvi__rule_is(&st->x, GVI_KICKS)) return st->status = GVI_E_FORMULATION;
     gvi_real *Q = st->x.result, *V = Q + st->n, rate;
     gvi__weights_for(st, st->h);
@@ -5242,9 +5461,18 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
     if (status != GVI_OK) return status;
     struct gvi__private *x = &st->x;
     const size_t n = (size_t)st->n;
-    if (!gvi__finite(t)) return st->status = GVI_E_ARGUMENT;
-    const gvi_real ahead = t - st->t0, back = t - st->t;            // one of each sign, or 0
-    if (!((ahead >= 0 && back <= 0) || (ahead <= 0 && back >= 0))) return st->status = GVI_E_STATE;
+    if (!gvi__finite(t)) return gvi__refuse_call(st, "t is not finite");
+    gvi_real ahead = t - st->t0, back = t - st->t;        // one of each sign, or 0
+    const gvi_real largest = GVI_ABS(st->t) > GVI_ABS(st->t0) ? st->t : st->t0,
+                   near = 2*GVI__EPS*GVI_ABS(largest);
+    if ((ahead > 0) == (back > 0) && gvi__nonzero(ahead) && gvi__nonzero(back)) {
+        // outside by rounding, as st.t - st.h may be
+        if (GVI_ABS(ahead) <= near) t = st->t0;
+        else if (GVI_ABS(back) <= near) t = st->t;
+        else return st->status = GVI_E_STATE;
+        ahead = t - st->t0;
+        back = t - st->t;
+    }
     if (gvi__clock_is_on(st) && x->stepped != 2) return st->status = GVI_E_STATE;
 
     // partial step of length h from the nearer end, or none for a rounding of the whole
@@ -5310,7 +5538,7 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action)
 {
     gvi_status status = gvi__stepped(st);
     if (status != GVI_OK) return status;
-    if (!action) return st->status = GVI_E_ARGUMENT;
+    if (!action) return gvi__refuse_call(st, "action is NULL");
     if (gvi__rule_is(&st->x, GVI_KICKS) || st->x.stepped == 2)
         return st->status = GVI_E_FORMULATION;
     gvi_real sum;
@@ -5352,29 +5580,171 @@ GVI__COLD gvi_status gvi__chord(gvi_stepper *st, const gvi__origin *from, gvi_re
     return status;
 }
 
-/* The same by any degree: rows k >= 1 of (1) by Newton's method.  The matrix where it ended
-   says whether there was anything to find: a reciprocal condition below its own relative error
-   is a conjugate point.                                                                       */
+/* Newton's method for a curve of length h from that of length h/grow at hand: the same polynomial
+   followed on; between ends, modes k >= 1 that grow like it.  Two corrections by one matrix first:
+   where a curve is near, the second is no more than a quarter of the first, and all but the `last`
+   piece need no more.  `bent`: the largest of these ratios so far.                           */
+GVI__COLD gvi_status gvi__bend(gvi_stepper *st, const gvi__origin *from, gvi_real h, gvi_real grow,
+                               const gvi__matrix *J, int last, gvi_real *bent)
+{
+    struct gvi__private *x = &st->x;
+    const int n = st->n, size = (st->s - J->k0)*n;
+    gvi__descent p = { 0, 0, GVI__MAX, 0, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0 };
+    gvi_real before = 0;
+    if (grow > 1 && J->k0 == 0) {
+        x->sized.ratio = 0;
+        x->sized.steps = 1;
+        gvi__fit(st, st->r, x->table.c, x->table.c, 0, grow, 1, x->sized.E);
+        gvi__newton_modes(st, x->work.V, x->work.P);
+    }
+    for (int k = n; J->k0 && k < st->s*n; ++k) x->newton.y[k] *= grow;
+    gvi__weights_for(st, h);
+    gvi__times(x->R, from->t, 0, h, x->table.c, x->t);
+    for (int k = 0; k < 2; ++k) {
+        gvi_status status = gvi__newton_values(st, from);
+        if (status != GVI_OK) return status;
+        gvi__residual(st, from, J->k0, &p);
+        if (k == 0) status = gvi__jacobian(st, J);
+        if (status != GVI_OK) return status;
+        gvi_lu_solve(size, J->square, J->pivot, x->newton.dy);
+        const gvi_real change = gvi__newton_update(st, from, J, &p);
+        if (!gvi__finite(change)) return gvi__report_status(st, GVI_E_NON_FINITE);
+        if (k == 1 && change > *bent*before && change > 64*GVI__EPS*(gvi_real)size)
+            *bent = change/before;
+        before = change;
+    }
+    if (*bent > (gvi_real)0.25) return gvi__report_status(st, GVI_E_CONVERGENCE);
+    return last ? gvi__newton_solve(st, from, J) : GVI_OK;
+}
+
+/* The chord, bowed: mode 1 as large as half of it in all coordinates, by sqrt M_ii.  What is linear
+   does not mind; what is not shows it, also where forces cancel on the chord.                */
+GVI__COLD gvi_status gvi__bow(gvi_stepper *st, const gvi__origin *from)
+{
+    gvi__descent p = { 0, 0, GVI__MAX, 0, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0 };
+    gvi_real *y = st->x.newton.y, length = 0;
+    const gvi_real *scale = st->x.watch.scale;
+    const gvi_status status = gvi__newton_values(st, from);
+    if (status != GVI_OK) return status;
+    gvi__residual(st, from, 1, &p);
+    for (int i = 0; i < st->n; ++i) length += GVI_ABS(y[i])/scale[i];
+    for (int i = 0; i < st->n; ++i) y[st->n + i] = length*scale[i]/2;
+    return GVI_OK;
+}
+
+/* The motion from q0 with velocity v, followed in pieces of length h, `count` of them, or as many
+   as there are.  Returns that which ends nearest to q1 by M_ii, from `first` on, or 0.       */
+GVI__COLD int gvi__aim(gvi_stepper *st, const gvi__origin *from, gvi_real h, const gvi_real *q1,
+                       const gvi_real *v, const gvi__matrix *J, int first, int count,
+                       gvi_real *bent)
+{
+    struct gvi__private *x = &st->x;
+    const size_t n = (size_t)st->n;
+    gvi_real least = GVI__MAX;
+    int nearest = 0;
+    gvi__zero((size_t)st->s*n, x->newton.y);
+    gvi__copy(n, v, x->newton.y);
+    for (int k = 1; k <= count; ++k) {
+        const gvi_real at = h*(gvi_real)k, grow = k == 1 ? 1 : (gvi_real)k/(gvi_real)(k - 1);
+        gvi_real miss = 0;
+        if (gvi__bend(st, from, at, grow, J, 0, bent) != GVI_OK) break;
+        for (size_t i = 0; i < n; ++i) {
+            const gvi_real d = (from->q[i] + at*x->newton.y[i] - q1[i])/x->watch.scale[i];
+            miss += d*d;
+        }
+        if (k < first || miss > least) continue;
+        least = miss;
+        nearest = k;
+    }
+    return nearest;
+}
+
+/* A curve of degree 2 or more, followed from where it is known, in as many pieces as it takes: from
+   h = 0, where it is the chord, run through in no time; or, with a guess v, from the motion that v
+   starts, where between h/2 and 3h/2 it is nearest to q1.  Linear equations need none of that: the
+   bowed chord will do.  Returns whether they were, all but.  `any`: any other curve is welcome. */
+GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, const gvi_real *q1,
+                          const gvi_real *v, int any, const gvi__matrix *J, gvi_status *status)
+{
+    struct gvi__private *x = &st->x;
+    const int n = st->n;
+    const gvi__matrix motion = { J->square, J->pivot, NULL, 0, 0, 0 };
+    gvi_real *y = x->newton.y, *end = x->step.q_low;
+    gvi_status bowed = GVI_E_NON_FINITE;
+    int left = v ? 1000 : 2 + x->desc.max_iterations*2/3;         // pieces, in all
+
+    // whoever asks for the index judges for himself: straight from the chord
+    for (int halves = 0; any && !v && halves < 2; ++halves) {
+        const gvi__matrix plain = { J->square, J->pivot, J->ends, 1, 0, halves };
+        gvi__zero((size_t)(st->s*n), y);
+        for (int i = 0; i < n; ++i) y[i] = (q1[i] - from->q[i])/h;
+        gvi__weights_for(st, h);
+        gvi__times(x->R, from->t, 0, h, x->table.c, x->t);
+        *status = gvi__newton_solve(st, from, &plain);
+        if (*status == GVI_OK || halves) return 0;
+    }
+    for (int attempt = v ? 4 : 0; attempt < 9 && left > 0; ++attempt) {
+        const int pieces = 1 << attempt >> (attempt > 0), linear = attempt == 0;
+        const gvi_real piece = h/(gvi_real)pieces;
+        gvi_real bent = 0, at = 0, unused = 0;
+        *status = GVI_OK;
+        gvi__zero((size_t)(st->s*n), y);
+        if (v) {
+            const int nearest =
+                gvi__aim(st, from, piece, q1, v, &motion, pieces/2, pieces*3/2, &unused);
+            if (nearest) gvi__aim(st, from, piece, q1, v, &motion, 0, nearest, &bent);
+            else *status = st->status;
+            at = piece*(gvi_real)nearest;
+            gvi__copy((size_t)n, y, end);
+        }
+        for (int k = 1; k <= pieces && *status == GVI_OK; ++k) {
+            const gvi_real part = (gvi_real)k/(gvi_real)pieces, length = at + part*(h - at),
+                           last = length - (h - at)/(gvi_real)pieces;
+            for (int i = 0; i < n; ++i) {
+                const gvi_real way = q1[i] - from->q[i];
+                y[i] = (v && k < pieces ? part*way + (1 - part)*at*end[i] : way)/length;
+            }
+            if (left-- == 0) *status = gvi__report_status(st, GVI_E_CONVERGENCE);
+            else if (linear) *status = gvi__bow(st, from);
+            const gvi_real grow = v ? last/length : k > 1 ? length/last : 1;
+            if (*status == GVI_OK)
+                *status = gvi__bend(st, from, length, grow, J, k == pieces, &bent);
+        }
+        if (*status == GVI_OK && (!linear || bent < (gvi_real)0.015625)) return linear;
+        if (linear) bowed = *status;
+        if (*status == GVI_E_NON_FINITE && x->diagnose) break;
+    }
+    // there is nothing wrong with the effects, but with the chord
+    if (*status == GVI_E_NON_FINITE && bowed != GVI_E_NON_FINITE) *status = GVI_E_CONJUGATE;
+    return 0;
+}
+
+GVI__COLD gvi_status gvi__morse_index(gvi_stepper *st, const gvi__matrix *J, int *negative);
+
+/* The same by any degree: rows k >= 1 of (1).  The matrix where it ended says whether there was
+   anything to find: a reciprocal condition below its own relative error is a conjugate point.  So
+   is one inside the curve, found from the chord, unless the equations were all but linear there:
+   a half circle is not near its diameter.                                                    */
 GVI__COLD gvi_status gvi__interior(gvi_stepper *st, const gvi__origin *from, gvi_real h,
-                                   const gvi_real *q1, gvi__matrix *J, gvi_real *p)
+                                   const gvi_real *q1, const gvi_discrete *out, gvi__matrix *J,
+                                   gvi_real *p, int *negative)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, size = (st->s - 1)*n;
     if (size == 0) return gvi__chord(st, from, h, q1, p);
+    int linear = 0;
     gvi_status status = GVI_E_NON_FINITE;         // once more to see why, as in gvi__solve
     for (int look = 0; look < 2 && status == GVI_E_NON_FINITE; ++look) {
         x->diagnose = look;
-        for (J->halves = 0; J->halves < 2; ++J->halves) {
-            gvi__zero((size_t)(st->s*n), x->newton.y);
-            for (int i = 0; i < n; ++i) x->newton.y[i] = (q1[i] - from->q[i])/h;
-            status = gvi__newton_solve(st, from, J);
-            const int again = status == GVI_E_CONVERGENCE || status == GVI_E_SINGULAR
-                              || (status == GVI_E_NON_FINITE && !look);
-            if (!again) break;
-        }
+        linear = gvi__follow(st, from, h, q1, out->guess, out->negative != NULL, J, &status);
         x->diagnose = 0;
     }
     if (status != GVI_OK && status != GVI_E_CONVERGENCE) return status;
+    if (out->negative || (!out->guess && !linear)) {
+        const gvi_status index = gvi__morse_index(st, J, negative);
+        if (index != GVI_OK) return index;
+        if (*negative && !out->negative) return GVI_E_CONJUGATE;
+    }
     J->scaled = 1;
     const gvi_status second = gvi__jacobian(st, J);
     if (second != GVI_OK) return second;
@@ -5415,7 +5785,7 @@ GVI__COLD gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__matrix *J,
     gvi_real *lambda = x->newton.dy;
     for (int i = 0; i < n; ++i)
         for (int k = 1; k < s; ++k)
-            lambda[(k - 1)*n + i] = h*gvi__dot3(st->r, hb, Phi + k*R, f + i*R);
+            lambda[(k - 1)*n + i] = h*x->watch.scale[i]*gvi__dot3(st->r, hb, Phi + k*R, f + i*R);
     gvi__lu_solve_transposed(size, J->square, J->pivot, lambda);
     const gvi_real *ends = J->ends;
     for (int row = 0; row < size; ++row, ends += 2*n)
@@ -5500,15 +5870,24 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
     struct gvi__private *x = &st->x;
     const int n = st->n, s = st->s, R = x->R;
     const size_t size = (size_t)(s - 1)*(size_t)n, sn = (size_t)s*(size_t)n;
-    if (!q0 || !q1 || !out || gvi__first_non_finite(n, q0) >= 0 || gvi__first_non_finite(n, q1) >= 0
-        || !gvi__finite(t) || !gvi__finite(h) || !gvi__nonzero(h))
-        return st->status = GVI_E_ARGUMENT;
+    if (!q0 || !q1 || !out) return gvi__refuse_call(st, "q0, q1 or out is NULL");
+    if (gvi__first_non_finite(n, q0) >= 0 || gvi__first_non_finite(n, q1) >= 0 || !gvi__finite(t)
+        || (out->guess && gvi__first_non_finite(n, out->guess) >= 0))
+        return gvi__refuse_call(st, "t, q0, q1 or the guess is not finite");
+    if (!gvi__finite(h) || !gvi__nonzero(h))
+        return gvi__refuse_call(st, "h is 0, NaN or infinite");
     if (GVI__CONSTRAINTS && x->con.bits)
         return gvi__report_row(st, GVI_E_FORMULATION, 0, GVI_FAULT_NONE);
     if ((s > 1 && !gvi__has(x, GVI__HAS_NEWTON)) || gvi__rule_is(x, GVI_KICKS) || x->clock >= 0)
         return st->status = GVI_E_FORMULATION;
-    const gvi__origin from = { t, 0, q0, x->zeros, x->zeros, x->zeros, 0 };
+    gvi__origin from = { t, 0, q0, x->zeros, x->zeros, x->zeros, 0 };
     gvi__matrix J = { NULL, NULL, NULL, 1, 0, 0 };
+    if (out->guess && s > 1) {
+        status = gvi__momentum(st, t, q0, out->guess);
+        if (status != GVI_OK) return st->status = status;
+        gvi__copy((size_t)n, x->point + 5*n, x->step.p);
+        from.p = x->step.p;
+    }
     if (s > 1) {
         J.square = x->newton.J + sn*sn;
         J.ends = J.square + size*size;
@@ -5520,7 +5899,7 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
     gvi_real *p0 = x->step.q, *p1 = x->step.p, *minus = x->result, *plus = minus + n, action = 0;
     const gvi_real *F = x->work.F, *hb = x->sized.hb;
     int negative = 0;
-    status = gvi__interior(st, &from, h, q1, &J, p0);
+    status = gvi__interior(st, &from, h, q1, out, &J, p0, &negative);
     if (status == GVI_E_CONJUGATE
         || (status == GVI_E_SINGULAR && st->fault.effect == GVI_FAULT_NONE))
         return gvi__report_status(st, GVI_E_CONJUGATE);
@@ -5533,7 +5912,6 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
         p1[i] = p0[i] + gvi__dot(st->r, hb, F + i*R);
     }
     status = gvi__discrete_forces(st, &J, minus, plus);
-    if (status == GVI_OK && out->negative) status = gvi__morse_index(st, &J, &negative);
     if (status != GVI_OK) return st->status = status;
     if (out->negative) *out->negative = negative;
     if (out->lagrangian) *out->lagrangian = action;
@@ -5555,7 +5933,8 @@ GVI_DEF const char *gvi_status_text(gvi_status status)
     switch (status) {
     case GVI_OK:            return "ok";
     case GVI_E_ARGUMENT:    return "bad argument: null pointer, size out of range, zero step, "
-                                   "NaN or Inf, or what its kind does not take";
+                                   "NaN or Inf, or what its kind does not take "
+                                   "(fault.argument says which)";
     case GVI_E_MEMORY:      return "memory too small: gvi_size(desc) bytes, "
                                    "or GVI_LENGTH(n, s, r) numbers";
     case GVI_E_NODES:       return "rule: a node is outside [0,1], or two coincide";

@@ -8,7 +8,7 @@
    prints
 
      start with v = 16.400 15.632
-     Jacobians made: 2
+     Jacobians made: 3
      after 2 s at 30.000000 10.000000
 */
 #define GVI_IMPLEMENTATION

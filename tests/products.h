@@ -123,6 +123,32 @@ static MAYBE int pendulum_velocity_product(const gvi_points *x, const gvi_points
     return 0;
 }
 
+/* The same kinetic energy as a Lagrangian term, for GVI_MASS_NONE.             */
+static MAYBE int pendulum_term(const gvi_points *x, void *user)
+{
+    const int s = x->stride;
+    if (x->f) pendulum_gradient(x, NULL);
+    for (int k = 0; k < x->count && x->dldv; ++k) {
+        const real c = coupling*cos(x->q[k] - x->q[s+k]);
+        x->dldv[k] += 2*x->v[k] + c*x->v[s+k];
+        x->dldv[s+k] += c*x->v[k] + x->v[s+k];
+    }
+    return 0;
+}
+
+static MAYBE int pendulum_term_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
+{
+    const int s = x->stride;
+    if (d->f) pendulum_gradient_product(x, d, parameter, NULL);
+    for (int k = 0; k < x->count && d->dldv; ++k) {
+        const real a = x->q[k] - x->q[s+k], da = d->q[k] - d->q[s+k], c = coupling*cos(a);
+        const real dc = -coupling*sin(a)*da + (parameter == 1 ? cos(a) : 0);
+        d->dldv[k] += 2*d->v[k] + c*d->v[s+k] + dc*x->v[s+k];
+        d->dldv[s+k] += c*d->v[k] + d->v[s+k] + dc*x->v[k];
+    }
+    return 0;
+}
+
 static MAYBE const real diagonal[] = { R(1.25), R(0.75) }, dense[] = { R(1.25), 0, R(0.5), R(0.75) };
 
 /* Forest and Ruth's splitting: drifts of g/2, (1-g)/2, ... between kicks of g, 1-2g, g. */

@@ -2,7 +2,7 @@
 
 .PHONY: headers-quick headers symbols parts docs-check bound float instructions prices usable sanitize sanitized any_processor \
         ensemble deps-ensemble firmware deps-firmware fuzz fuzz-short size stats compare everywhere deps-everywhere \
-        cost-horizon ncdp scaling kicks points cost-peers deps-compare cost-embedded hard theorems
+        cost-horizon cost-constraints ncdp scaling kicks points cost-peers deps-compare cost-embedded hard theorems mutants
 
 # -- steps of `make test` and `make check`; each can be run alone
 
@@ -144,9 +144,12 @@ cost-horizon: $(BUILD)/cost/cost
 #: ncdp         rounding over half a million steps, and its price, against the published standard
 #: kicks        splittings as tables of kicks against the same written by hand (ten seconds)
 #: points       callbacks by GVI_POINTS against loops by hand and .point (ten seconds); COST_CFLAGS="-O2 -fno-math-errno"
+#: cost-constraints rods and a top with constraints, against RATTLE's compositions and DOP853 (a minute)
 #: scaling      time and memory against degree, coordinates and points; CSV and pictures in build/cost
 #: cost-peers   GSL, SUNDIALS and Boost.odeint on the problems of make cost
 ncdp kicks points: %: $(BUILD)/cost/%
+	$(Q)$< $(COST_ARGS)
+cost-constraints: cost-%: $(BUILD)/cost/%
 	$(Q)$< $(COST_ARGS)
 scaling: $(BUILD)/cost/scaling
 	$(Q)$< --out $(BUILD)/cost $(COST_ARGS)
@@ -167,16 +170,20 @@ $(BUILD)/cost/%.o: tests/cost/%.c
 $(BUILD)/cost/peers_odeint.o: tests/cost/peers_odeint.cpp
 	@mkdir -p $(@D)
 	$(Q)$(CXX) -std=c++14 $(COST_CFLAGS) -I. -c $< -o $@
-$(BUILD)/cost/ncdp $(BUILD)/cost/scaling $(BUILD)/cost/points: %: %.o
+$(BUILD)/cost/constraints $(BUILD)/cost/ncdp $(BUILD)/cost/scaling $(BUILD)/cost/points: %: %.o
 	$(Q)$(CC) $< -o $@ $(LDLIBS)
 $(BUILD)/cost/peers: $(addprefix $(BUILD)/cost/,peers.o problems.o peers_odeint.o)
 	$(Q)$(CXX) $^ -o $@ $(PEER_LIBS) $(LDLIBS)
 $(BUILD)/cost/kicks $(BUILD)/cost/cost: %: %.o $(addprefix $(BUILD)/cost/,problems.o baselines.o gvi_run.o)
 	$(Q)$(CC) $^ -o $@ $(LDLIBS)
 
+#: mutants      56 slips put into gvi.h one by one: which of them no test sees (Python; twenty minutes)
+mutants: | $(FIRST)
+	$(Q)mkdir -p $(BUILD) && python3 tests/tools/mutants.py $(BUILD)
+
 # -- hard cases and theorems, measured
 
-HARD     = eccentric eccentric-float pythagorean corners stiff long brouwer brouwer-float drift single
+HARD     = constraints constraints-float eccentric flyby eccentric-float pythagorean corners stiff long brouwer brouwer-float drift single
 THEOREMS = order lagrangian curve forced doubled dissipation spectral identities inertia stability
 # These need more digits than long double has on x86.
 $(addprefix $(BUILD)/theorems/,order lagrangian forced): TESTFLAGS += $(shell CC='$(CC)' sh tests/theorems/quad.sh)

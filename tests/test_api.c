@@ -422,7 +422,7 @@ static void use_everything(bench *b)
     gvi_stepper *st = &b->st, saved;
     size_t bytes = b->g.size;
     real *copy = malloc(bytes), q1[N_MAX], number, v[8][N_MAX];
-    const gvi_discrete out = { &number, v[0], v[1], v[2], v[3], v[4], v[5], NULL };
+    const gvi_discrete out = { &number, v[0], v[1], v[2], v[3], v[4], v[5], NULL, NULL };
     gvi_status discrete;
 
     assert_ok(gvi_start(st, 0, q_start, v_start));

@@ -13,6 +13,16 @@ typedef long double exact;
 
 static real memory[40000];
 
+/* With |e| = 1 as a constraint: the row is the scene's last one.                      */
+static void hold(gvi_desc *desc, gvi_effect *scene, const bodies *all)
+{
+    scene[desc->effect_count++] = body_unit(all);
+    desc->effects = scene;
+    desc->mass.velocity = NULL;
+}
+
+static real off_unit(const real *e) { return fabs(sqrt(body_dot(e, e)) - 1); }
+
 /* sn, cn, dn of u with modulus k, by descending means (Abramowitz, Stegun 16.4).   */
 static void jacobi(exact u, exact k, exact *sn, exact *cn, exact *dn)
 {
@@ -101,17 +111,20 @@ static void spin(gvi_stepper *st, real *w)
 }
 
 /* Error of the spin, or of the attitude, at t = 4.                               */
-static real free_error(int s, int steps, int attitudes)
+static real free_error(int s, int steps, int attitudes, int held)
 {
     static const bodies scene = { &stone, 1 };
-    const gvi_desc desc = { .n = 4, .degree = s, .mass = body_mass(&scene) };
+    gvi_desc desc = { .n = 4, .degree = s, .mass = body_mass(&scene) };
+    gvi_effect rows[1];
     const real w0[] = { (real)stone_w[0], (real)stone_w[1], (real)stone_w[2] };
     static exact e[4];
     exact known[3];
     real w[3];
     gvi_stepper st;
+    if (held) hold(&desc, rows, &scene);
     begin(&st, &desc, stone_e, w0);
     for (int k = 0; k < steps; ++k) assert_ok(gvi_step(&st, 4/(real)steps));
+    if (held) assert_between(0, off_unit(st.q), 4*EPS);
     if (attitudes && fabsl(e[0]) < 1e-9L) attitude(4, e);
     if (attitudes) return worst_of(4, st.q, e);
     spin(&st, w);
@@ -127,23 +140,25 @@ static void expect_order(real coarse, real fine, int order)
 TEST(eulers_equations)
 {
     static const int steps[] = { 160, 80, 40, 20 };
-    assert_between(0, free_error(8, 20, 0), 40*EPS);
-    assert_between(0, free_error(8, 20, 1), 40*EPS + R(3e-15));       /* Runge and Kutta's error */
-    for (int s = 1; s <= 4 && DIG > 50; ++s) {
-        const int n = steps[s-1];
-        expect_order(free_error(s, n, 0), free_error(s, 2*n, 0), 2*s);
-        expect_order(free_error(s, n, 1), free_error(s, 2*n, 1), 2*s);
+    for (int held = 0; held < 2; ++held) {
+        assert_between(0, free_error(8, 20, 0, held), 40*EPS);
+        assert_between(0, free_error(8, 20, 1, held), 40*EPS + R(3e-15));       /* Runge and Kutta's error */
+        for (int s = 1; s <= 4 && DIG > 50; ++s)
+            for (int attitudes = 0, n = steps[s-1]; attitudes < 2; ++attitudes)
+                expect_order(free_error(s, n, attitudes, held), free_error(s, 2*n, attitudes, held), 2*s);
     }
 }
 
-/* 20,000 steps: angular momentum in space, energy, and |e|, which nothing holds.     */
-TEST(what_a_long_run_keeps)
+/* 20,000 steps: angular momentum in space, energy, and |e|, which nothing holds, or a constraint.  */
+static void expect_kept(int held)
 {
     static const bodies scene = { &stone, 1 };
-    const gvi_desc desc = { .n = 4, .mass = body_mass(&scene) };
+    gvi_desc desc = { .n = 4, .mass = body_mass(&scene) };
+    gvi_effect rows[1];
     const real w0[] = { (real)stone_w[0], (real)stone_w[1], (real)stone_w[2] };
     real own[3], L[2][3], E[2], size = 0, turned_by = 0, kept = 0;
     gvi_stepper st;
+    if (held) hold(&desc, rows, &scene);
     begin(&st, &desc, stone_e, w0);
     for (int k = 0; k <= 20000; ++k) {
         const int now = k > 0;
@@ -152,13 +167,18 @@ TEST(what_a_long_run_keeps)
         assert_ok(gvi_energy(&st, &E[now]));
         for (int i = 0; i < 3 && now; ++i) turned_by = fmax(turned_by, fabs(L[1][i] - L[0][i]));
         if (now) kept = fmax(kept, fabs(E[1]/E[0] - 1));
-        size = fmax(size, fabs(sqrt(body_dot(st.q, st.q)) - 1));
+        size = fmax(size, off_unit(st.q));
         assert_ok(gvi_step(&st, R(0.2)));
     }
-    assert_between(0, turned_by, 64*EPS);
-    assert_between(0, kept, 64*EPS);
-    assert_between(0, size, 4000*sqrt(R(20000.0))*2*EPS);             /* e.p in a random walk, for 4,000 s */
+    if (getenv("SHOW")) printf("20,000 steps: |e| - 1 %.1Le, energy %.1Le, momentum %.1Le\n", (exact)size, (exact)kept, (exact)turned_by);
+    const real most = held ? 20000*EPS/50 : 64*EPS;                 /* held: level no more, EPS/100 a step */
+    assert_between(0, turned_by, most);
+    assert_between(0, kept, most);
+    assert_between(0, size, held ? 4*EPS : 4000*sqrt(R(20000.0))*2*EPS);     /* e.p in a random walk, for 4,000 s */
 }
+
+TEST(what_a_long_run_keeps) { expect_kept(0); }
+TEST(what_a_long_run_with_the_constraint_keeps) { expect_kept(1); }
 
 /* ---------------------------------------------------------- Lagrange's top */
 
@@ -179,29 +199,37 @@ static const gvi_effect weighted[] = { { .kind = GVI_POTENTIAL, .point = weight 
 static const bodies one_top = { &top, 1 };
 
 /* The axis in space after 0.2 s; spin in body axes at first, tilted about x.       */
-static void spun(int s, int steps, const real *w, real *axis)
+static gvi_counters spun(int s, int steps, int held, const real *w, real *axis)
 {
-    const gvi_desc desc = { .n = 4, .degree = s, .effects = weighted, .effect_count = 1, .mass = body_mass(&one_top) };
+    gvi_desc desc = { .n = 4, .degree = s, .effects = weighted, .effect_count = 1, .mass = body_mass(&one_top) };
+    gvi_effect rows[2] = { weighted[0] };
     gvi_stepper st;
+    if (held) hold(&desc, rows, &one_top);
     begin(&st, &desc, (real[]){ cos(tilt/2), sin(tilt/2), 0, 0 }, w);
     for (int k = 0; k < steps; ++k) assert_ok(gvi_step(&st, R(0.2)/(real)steps));
     body_rotate(st.q, 0, (real[]){ 0, 0, 1 }, axis);
+    if (held) assert_between(0, off_unit(st.q), 4*EPS);
+    return st.counters;
 }
 
 /* Steady precession: A W^2 cos a - C w W + m g l = 0, the axis goes round at W.      */
-static real precession_error(int s, int steps)
+static real precession_error(int s, int steps, int held)
 {
     const exact A = top.inertia[0], C = top.inertia[2], a = tilt, W = 20, mgl = (exact)lever*heavy;
     const exact w = (A*W*W*cosl(a) + mgl)/(C*W);
     const exact known[] = { sinl(a)*sinl(W*0.2L), -sinl(a)*cosl(W*0.2L), cosl(a) };
     real axis[3];
-    spun(s, steps, (real[]){ 0, (real)(W*sinl(a)), (real)w }, axis);
-    return worst_of(3, axis, known);
+    const gvi_counters count = spun(s, steps, held, (real[]){ 0, (real)(W*sinl(a)), (real)w }, axis);
+    const real error = worst_of(3, axis, known);
+    if (getenv("SHOW")) printf("top, degree %d, %3d steps, %s: error %.1Le; points a step: force %.0f, mass %.0f, constraint %.0f\n",
+                               s, steps, held ? "held" : "free", (exact)error, (double)count.effect[0]/steps,
+                               (double)count.mass/steps, (double)count.effect[1]/steps);
+    return error;
 }
 
 /* Let go with the spin w alone: it nods. u = cos(tilt) obeys u'^2 = (c - bu)(1 - u^2) - g^2 (u0 - u)^2, a cubic
    with the roots u1 < u0 < u3:  u = u1 + (u0 - u1) cd^2(sqrt(b (u3 - u1)) t/2).        */
-static real nod_error(int s, int steps)
+static real nod_error(int s, int steps, int held)
 {
     const exact A = top.inertia[0], w = 80, u0 = cosl((exact)tilt), b = 2*(exact)lever*heavy/A;
     const exact g = (exact)top.inertia[2]*w/A, c = b*u0;
@@ -211,20 +239,21 @@ static real nod_error(int s, int steps)
     real axis[3];
     jacobi(sqrtl(b*(u3 - u1))*0.1L, sqrtl((u0 - u1)/(u3 - u1)), &sn, &cn, &dn);
     const exact known = u1 + (u0 - u1)*(cn/dn)*(cn/dn);
-    spun(s, steps, (real[]){ 0, 0, (real)w }, axis);
+    spun(s, steps, held, (real[]){ 0, 0, (real)w }, axis);
     return fabs(axis[2] - (real)known);
 }
 
 TEST(lagranges_top)
 {
     static const int steps[] = { 400, 160, 80, 25 };
-    assert_between(0, precession_error(8, 40), 400*EPS);
-    assert_between(0, nod_error(8, 40), 400*EPS);
-    for (int s = 1; s <= 4 && DIG > 50; ++s) {
-        const int n = steps[s-1];
-        expect_order(precession_error(s, n), precession_error(s, 2*n), 2*s);
-        if (s < 4) expect_order(nod_error(s, n), nod_error(s, 2*n), 2*s);
-        else if (DIG > 60) expect_order(nod_error(s, 2*n), nod_error(s, 4*n), 2*s);     /* else rounding */
+    for (int held = 0; held < 2; ++held) {
+        assert_between(0, precession_error(8, 40, held), 400*EPS);
+        assert_between(0, nod_error(8, 40, held), 400*EPS);
+        for (int s = 1; s <= 4 && DIG > 50; ++s) {
+            const int n = steps[s-1], m = s < 4 ? n : 2*n;                       /* at 25: not yet, then rounding */
+            expect_order(precession_error(s, n, held), precession_error(s, 2*n, held), 2*s);
+            if (s < 4 || DIG > 60) expect_order(nod_error(s, m, held), nod_error(s, 2*m, held), 2*s);
+        }
     }
 }
 
@@ -364,7 +393,19 @@ TEST(the_mass_is_consistent)
     }
 }
 
-/* Momentum and angular momentum of the two bodies on their spring.                      */
+/* Momentum and angular momentum of the two bodies.                                     */
+static void totals(const real *q, const real *p, real *sum)
+{
+    for (int i = 0; i < 6; ++i) sum[i] = 0;
+    for (int j = 0; j < 2; ++j, q += 7, p += 7) {
+        real own[3], L[3];
+        body_momentum(q + 3, p + 3, own);
+        body_rotate(q + 3, 0, own, L);
+        body_cross(q, p, own);
+        for (int i = 0; i < 3; ++i) sum[i] += p[i], sum[3+i] += L[i] + own[i];
+    }
+}
+
 TEST(two_bodies_on_a_spring)
 {
     static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .point = spring } };
@@ -377,20 +418,68 @@ TEST(two_bodies_on_a_spring)
     assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
     assert_ok(gvi_start(&st, 0, q, v));
     for (int k = 0; k <= 200; ++k) {
-        for (int i = 0; i < 6; ++i) now[i] = 0;
-        for (int j = 0; j < 2; ++j) {
-            const real *z = st.q + 7*j, *p = st.p + 7*j;
-            real own[3], L[3];
-            body_momentum(z + 3, p + 3, own);
-            body_rotate(z + 3, 0, own, L);
-            body_cross(z, p, own);
-            for (int i = 0; i < 3; ++i) now[i] += p[i], now[3+i] += L[i] + own[i];
-        }
+        totals(st.q, st.p, now);
         for (int i = 0; i < 6; ++i) {
             if (k == 0) first[i] = now[i];
             else assert_close(now[i], first[i], 128*EPS);
         }
         assert_ok(gvi_step(&st, R(0.125)));
+    }
+}
+
+/* Place a of the first body is place b of the second.  The row of a place is what a unit force there is. */
+static int ball_joint(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k) {
+        real q[14], a[3], b[3];
+        body_take(x, x->q, 0, 14, k, q);
+        place(q, at[0], a);
+        place(q + 7, at[1], b);
+        for (int c = 0; c < 3; ++c) {
+            const real plus[3] = { c == 0, c == 1, c == 2 }, minus[3] = { -plus[0], -plus[1], -plus[2] };
+            real row[14] = { 0 };
+            body_force_in_space(q, at[0], plus, row);
+            body_force_in_space(q + 7, at[1], minus, row + 7);
+            x->g[c*x->stride + k] = a[c] - b[c];
+            for (int i = 0; i < 14; ++i) x->jacobian[(c*14 + i)*x->stride + k] = row[i];
+        }
+    }
+    return 0;
+}
+
+/* Joined, free in space: the joint holds, and nothing changes momentum, angular momentum or energy. */
+TEST(two_bodies_on_a_joint)
+{
+    static const gvi_effect joint = { .kind = GVI_CONSTRAINT, .points = ball_joint, .rows = 3 };
+    for (int held = 0; held < 2; ++held) {
+        gvi_effect scene[2] = { joint };
+        gvi_desc desc = { .n = 14, .degree = 6, .effects = scene, .effect_count = 1, .mass = body_mass(&two) };
+        real q[14] = { 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, R(0.5), R(0.5), R(0.5), R(0.5) }, v[14] = { 0 };
+        real a[3], b[3], gap[3], E[2], sum[2][6];
+        gvi_stepper st;
+        desc.mass.velocity = NULL;
+        if (held) hold(&desc, scene, &two);
+        place(q, at[0], a);
+        place(q + 7, at[1], b);
+        for (int i = 0; i < 3; ++i) q[7 + i] = a[i] - b[i];
+        body_turn(q + 3, (real[]){ 1, R(0.5), 0 }, v + 3);              /* the joint is at rest */
+        body_turn(q + 10, (real[]){ 0, -1, 2 }, v + 10);
+        body_cross((real[]){ 1, R(0.5), 0 }, at[0], v);
+        body_cross((real[]){ 0, -1, 2 }, at[1], b);
+        body_rotate(q + 10, 0, b, v + 7);
+        for (int i = 0; i < 3; ++i) v[i] = -v[i], v[7 + i] = -v[7 + i];
+        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+        assert_ok(gvi_start(&st, 0, q, v));
+        for (int k = 0; k <= 200; ++k) {
+            totals(st.q, st.p, sum[k > 0]);
+            assert_ok(gvi_energy(&st, &E[k > 0]));
+            place(st.q, at[0], a);
+            place(st.q + 7, at[1], gap);
+            for (int i = 0; i < 3; ++i) assert_close(a[i], gap[i], 8*EPS*(1 + fabs(st.q[i])));
+            for (int i = 0; i < 6 && k; ++i) assert_close(sum[1][i], sum[0][i], 128*EPS);
+            if (k) assert_close(E[1], E[0], 64*EPS*E[0]);
+            assert_ok(gvi_step(&st, R(0.05)));
+        }
     }
 }
 

@@ -351,7 +351,7 @@ static void ask_something(gvi_stepper *st)
 {
     real a[N_MAX], b[N_MAX], c[N_MAX], d[N_MAX], number;
     int negative = 0;
-    const gvi_discrete out = { &number, a, b, c, d, NULL, NULL, below(2) ? &negative : NULL };
+    const gvi_discrete out = { &number, a, b, c, d, NULL, NULL, below(2) ? &negative : NULL, NULL };
     random_vector(a);
     random_vector(b);
     switch (below(7)) {

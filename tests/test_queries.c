@@ -608,7 +608,7 @@ typedef struct { real L, d1[2], d2[2], minus[2], plus[2], p0[2], p1[2]; } discre
 
 static void ask_discrete(gvi_stepper *st, real t, real h, const real *q0, const real *q1, discrete *d)
 {
-    const gvi_discrete out = { &d->L, d->d1, d->d2, d->minus, d->plus, d->p0, d->p1, NULL };
+    const gvi_discrete out = { &d->L, d->d1, d->d2, d->minus, d->plus, d->p0, d->p1, NULL, NULL };
     assert_ok(gvi_discrete_lagrangian(st, t, h, q0, q1, &out));
 }
 

@@ -1,4 +1,4 @@
-/* body.h - rigid bodies by quaternions, without constraints, for gvi.h
+/* body.h - rigid bodies by quaternions, for gvi.h
 
    The orientation of a body is a quaternion e = (w, x, y, z), which takes body axes to space:
    a_space = e a_body conj(e)/|e|^2.  Only its direction counts: all formulas are those of e/|e|, so
@@ -14,6 +14,10 @@
 
      coordinates   of a body with mass: x (3), e (4); of one that turns about a fixed point,
                    mass = 0: e (4) alone.  Bodies one after the other; n is their sum
+     |e| = 1       held to rounding by one more row of the scene, body_unit(&scene); then with
+                   .mass.velocity = NULL.  The same curves: each row here serves both ways
+     joints        a row dg/dq of a place held in space, of a body with mass, is what
+                   body_force_in_space makes of a unit force there, in zeros
      body axes     principal axes through the centre of mass, or through the fixed point
      force, torque add to the f of an effect at one point (GVI_POINTS), q and f being that body's
      start         e, and e' = body_turn(e, w) for a spin w in body axes
@@ -23,7 +27,7 @@
           desc:  .n = 4, .mass = body_mass(&scene)
 
    Source: Betsch, Siebert: Rigid body dynamics in terms of quaternions, Int. J. Numer. Meth. Eng. 79,
-   2009, with the scale left free in place of their constraint.                   */
+   2009, with the scale left free in place of their constraint, or with both.       */
 #ifndef BODY_H
 #define BODY_H
 
@@ -218,7 +222,29 @@ static inline int body_mass_rows(const gvi_points *x, void *user)
     return 0;
 }
 
-/* For scenes of potentials and forces; with Lagrangian terms leave .velocity out.      */
+/* The constraints (|e|^2 - 1)/2 = 0, a row for each body.  Their forces are 0 but for the steps' error:
+   nothing acts on |e|.                                                             */
+static inline int body_unit_points(const gvi_points *x, void *user)
+{
+    const bodies *all = user;
+    for (int j = 0, row = 0; j < all->count; row += 4, ++j) {
+        if (all->body[j].mass > 0) row += 3;
+        for (int k = 0; k < x->count; ++k) {
+            gvi_real e[4];
+            body_take(x, x->q, row, 4, k, e);
+            x->g[j*x->stride + k] = (body_dot(e, e) - 1)/2;
+            for (int i = 0; i < 4; ++i) x->jacobian[(j*x->n + row + i)*x->stride + k] = e[i];
+        }
+    }
+    return 0;
+}
+
+static inline gvi_effect body_unit(const bodies *all)
+{
+    return (gvi_effect){ .kind = GVI_CONSTRAINT, .points = body_unit_points, .rows = all->count, .user = (void *)all };
+}
+
+/* For scenes of potentials and forces; with Lagrangian terms or constraints set .velocity = NULL. */
 static inline gvi_mass body_mass(const bodies *all)
 {
     return (gvi_mass){ .kind = GVI_MASS_POSITION, .points = body_mass_points, .gradient = body_mass_rows,

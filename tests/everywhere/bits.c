@@ -366,7 +366,7 @@ static void print_counters(const char *name, const gvi_stepper *st)
 static void boundary_value(const char *name, gvi_stepper *st, const real *q0)
 {
     real Ld = 0, d1[9], d2[9], p0[9], p1[9], q1[9];
-    gvi_discrete out = { 0, 0, 0, 0, 0, 0, 0, 0 };
+    gvi_discrete out = { 0, 0, 0, 0, 0, 0, 0, 0, 0 };
     out.lagrangian = &Ld;
     out.d1 = d1;
     out.d2 = d2;

@@ -1,7 +1,7 @@
 #!/bin/sh
 # usable.sh BUILD: what `make install` puts where, and the ways into a project that the guide names: pkg-config,
 # CMake (the guide's own lines), a C++ sketch beside a C file as the Arduino IDE and PlatformIO compile them.
-build=$1 dir=$1/install
+dir=$1/install
 rm -rf "$dir"
 mkdir -p "$dir/cmake/third_party/gvi" "$dir/sketch"
 fail() { echo "FAILED: usable: $*"; exit 1; }

@@ -1,0 +1,184 @@
+/* Two configurations, one curve: what gvi_start_configurations and gvi_discrete_lagrangian return
+   as ok is the curve near the chord or the guess, and reaches q1; anything else is a status.
+   Lambert's problem against its closed form.                                                  */
+#ifndef GVI_REAL
+#define GVI_REAL double
+#endif
+#include "gvi_test.h"
+#include <tgmath.h>
+
+typedef gvi_real real;
+#include "problems.h"
+
+
+#define PI 3.14159265358979323846L
+static real memory[GVI_LENGTH(3, 41, 41)];
+
+static const gvi_effect sun[] = { { .kind = GVI_POTENTIAL, .points = attraction, .value = attraction,
+                                    .hessian = attraction_hessian } };
+
+static void set_up(gvi_stepper *st, int degree)
+{
+    const gvi_desc desc = { .n = 2, .degree = degree, .effects = sun, .effect_count = 1 };
+    assert_ok(gvi_init(st, &desc, memory, sizeof memory));
+}
+
+/* ----------------------------------------------- Lambert: universal variables
+
+   Bate, Mueller, White: Fundamentals of astrodynamics, 1971, ch. 5.3: the time of flight over
+   one arc grows with z, from hyperbolas (z < 0) to one revolution (z = 4 pi^2).              */
+
+static long double stumpff_c(long double z)
+{
+    return z > 1e-6L ? (1 - cosl(sqrtl(z)))/z : z < -1e-6L ? (coshl(sqrtl(-z)) - 1)/-z : 0.5L - z/24;
+}
+
+static long double stumpff_s(long double z)
+{
+    const long double x = sqrtl(fabsl(z));
+    return z > 1e-6L ? (x - sinl(x))/(x*x*x) : z < -1e-6L ? (sinhl(x) - x)/(x*x*x) : 1/6.0L - z/120;
+}
+
+/* The velocity at (1, 0) of the orbit that takes h to the point at radius r, `span` further on */
+static void lambert(long double r, long double span, long double h, long double *v)
+{
+    const long double A = sinl(span)*sqrtl(r/(1 - cosl(span)));
+    long double below = -100, above = 4*PI*PI - 1e-9L, y = 0;
+    for (int k = 0; k < 200; ++k) {
+        const long double z = (below + above)/2, C = stumpff_c(z), S = stumpff_s(z);
+        y = 1 + r + A*(z*S - 1)/sqrtl(C);
+        const long double x = sqrtl(y/C), time = x*x*x*S + A*sqrtl(y);
+        if (y < 0 || time < h) below = z;
+        else above = z;
+    }
+    v[0] = (r*cosl(span) - (1 - y))/(A*sqrtl(y));
+    v[1] = r*sinl(span)/(A*sqrtl(y));
+}
+
+/* The guess is the circle's velocity, one way or the other, not that of the orbit */
+static void a_guess_says_which_way_round(void **state)
+{
+    (void)state;
+    for (int way = -1; way <= 1; way += 2)
+        for (int degrees = 20; degrees <= 330; degrees += 10) {
+            const long double span = degrees*PI/180, r = 1.1L, h = 1.05L*span;
+            const real q0[2] = { 1, 0 }, guess[2] = { 0, (real)way };
+            const real q1[2] = { (real)(r*cosl(span)), (real)(way*r*sinl(span)) };
+            real p0[2], p1[2];
+            long double v[2];
+            gvi_stepper st;
+            if (degrees == 180) continue;         // the formula is 0/0
+            lambert(r, span, h, v);
+            set_up(&st, 40);
+            assert_ok(gvi_discrete_lagrangian(&st, 0, (real)h, q0, q1, &(gvi_discrete){
+                .p0 = p0, .p1 = p1, .guess = guess }));
+            assert_close(p0[0], v[0], 1e-9L);
+            assert_close(p0[1], way*v[1], 1e-9L);
+            assert_close(q1[0]*p1[1] - q1[1]*p1[0], p0[1], 1e-12L);
+            // and a step of that length ends there
+            if (degrees > 200) continue;
+            assert_ok(gvi_start_momentum(&st, 0, q0, p0));
+            assert_ok(gvi_step(&st, (real)h));
+            assert_close(st.q[0], q1[0], 1e-11L);
+            assert_close(st.q[1], q1[1], 1e-11L);
+        }
+}
+
+/* Without a guess the short way round, prograde or not: it is the curve near the chord */
+static void near_the_chord_is_the_short_way_round(void **state)
+{
+    (void)state;
+    for (int degree = 8; degree <= 32; degree *= 2)
+        for (int degrees = 20; degrees <= 340; degrees += 10) {
+            const long double span = degrees*PI/180, h = 1.2L*span, r = 1.3L;
+            const real q0[2] = { 1, 0 }, q1[2] = { (real)(r*cosl(span)), (real)(r*sinl(span)) };
+            const int way = degrees < 180 ? 1 : -1;
+            long double v[2];
+            gvi_stepper st;
+            if (degrees == 180) continue;
+            lambert(r, way > 0 ? span : 2*PI - span, h, v);
+            set_up(&st, degree);
+            assert_ok(gvi_start_configurations(&st, 0, (real)h, q0, q1));
+            const long double bound = degree == 8 ? 2e-3L : degree == 16 ? 1e-6L : 1e-11L;
+            assert_close(st.p[0], v[0], bound);
+            assert_close(st.p[1], way*v[1], bound);
+        }
+}
+
+/* A half circle is not near its diameter, which goes through the Sun, also where no point is there */
+static void a_half_circle_is_conjugate(void **state)
+{
+    const real q0[2] = { 1, 0 }, q1[2] = { -1, 0 };
+    (void)state;
+    for (int degree = 2; degree <= 41; ++degree) {
+        gvi_stepper st;
+        set_up(&st, degree);
+        assert_status(gvi_start_configurations(&st, 0, (real)PI, q0, q1), GVI_E_CONJUGATE);
+    }
+    // a guess has the direction that the chord has not
+    gvi_stepper st;
+    real p0[2];
+    const real guess[2] = { (real)0.1, (real)-0.9 };
+    set_up(&st, 24);
+    assert_ok(gvi_discrete_lagrangian(&st, 0, (real)PI, q0, q1, &(gvi_discrete){ .p0 = p0, .guess = guess }));
+    assert_close(p0[0], 0, 1e-12L);
+    assert_close(p0[1], -1, 1e-12L);
+}
+
+/* ---------------------------------------------------------------------- units
+
+   Two coupled pendulums, in units that differ by 2^30, with a force: momenta scale, whatever is
+   returned, as 1/unit.  A condition that knew the units would call it a conjugate point.       */
+
+static int pendulums(const gvi_points *x, void *user)
+{
+    const real *unit = user, *a = x->q, *b = x->q + x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        const real A = a[k]/unit[0], B = b[k]/unit[1];
+        x->f[k] -= (sin(A) + (A - B)/2)/unit[0];
+        x->f[x->stride + k] -= (sin(B) + (B - A)/2)/unit[1];
+    }
+    return 0;
+}
+
+static int drag(const gvi_points *x, void *user)
+{
+    const real *unit = user;
+    for (int i = 0; i < 2; ++i)
+        for (int k = 0; k < x->count; ++k) x->f[i*x->stride + k] -= x->v[i*x->stride + k]/(unit[i]*unit[i])/8;
+    return 0;
+}
+
+static void units_2_to_the_30_apart_change_nothing(void **state)
+{
+    real wanted[6] = { 0 };
+    (void)state;
+    for (int k = 0; k < 3; ++k) {
+        real unit[2] = { 1, ldexp((real)1, k == 0 ? 0 : k == 1 ? 30 : -30) }, got[6];
+        const real mass[2] = { 1/(unit[0]*unit[0]), 1/(unit[1]*unit[1]) };
+        const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = pendulums, .user = unit },
+                                     { .kind = GVI_FORCE, .points = drag, .user = unit } };
+        const gvi_desc desc = { .n = 2, .degree = 6, .effects = scene, .effect_count = 2,
+                                .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = mass } };
+        const real q0[2] = { unit[0]/2, -unit[1]/4 }, q1[2] = { unit[0]*7/8, unit[1]/2 };
+        gvi_stepper st;
+        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+        assert_ok(gvi_discrete_lagrangian(&st, 0, 1, q0, q1, &(gvi_discrete){
+            .p0 = got, .minus = got + 2, .plus = got + 4 }));
+        for (int i = 0; i < 6; ++i) {
+            if (k == 0) wanted[i] = got[i];
+            assert_close(got[i]*unit[i % 2], wanted[i], i < 2 ? 256*EPS : 16*sqrt((real)EPS));
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_guess_says_which_way_round),
+        cmocka_unit_test(near_the_chord_is_the_short_way_round),
+        cmocka_unit_test(a_half_circle_is_conjugate),
+        cmocka_unit_test(units_2_to_the_30_apart_change_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

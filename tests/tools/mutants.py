@@ -1,0 +1,137 @@
+#!/usr/bin/env python3
+"""mutants.py BUILD: wrong versions of gvi.h, each of which a test has to notice.
+
+Each entry: the tests that should see it, what stands in gvi.h (once, or the script fails), what
+stands there instead.  The library is compiled anew for each; tests are compiled once.  A mutant that
+no test sees survives; more than two survivors are a failure.  Twenty minutes; not part of CI.
+"""
+import os, subprocess, sys
+
+MUTANTS = [
+    # what survived once
+    ("clock domains", "GVI_FAULT_NONE, k);\n    }\n    return st->x.diagnose ? gvi__check_rows(st, x, slope",
+              "GVI_FAULT_NONE, k + 1);\n    }\n    return st->x.diagnose ? gvi__check_rows(st, x, slope"),
+    ("clock domains", "return x->off = was, st->status = status;", "return st->status = status;"),
+    ("theorems boundary queries", "x->off |= gvi__of_kind(x, GVI_FORCE);", ""),
+    ("order identities", "(gvi_real)(s - 1) : 1/sum;", "(gvi_real)(s - 1) : (1 + GVI_SQRT(GVI__EPS))/sum;"),
+    ("mass corners api", "status = gvi__ldl_factor(n, R, x->count, m, (gvi_real)n*GVI__EPS, at);\n    return status == GVI_OK ? GVI_OK : gvi__report(st, status, GVI_FAULT_MASS, at[0], at[1]);",
+              "status = gvi__ldl_factor(n, R, x->count, m, (gvi_real)n*GVI__EPS, at);\n    return status == GVI_OK ? GVI_OK : gvi__report(st, status, GVI_FAULT_MASS, at[1], at[0]);"),
+    ("newton corners structure", "k == 0 ? -(h*from->p_low[i]) : 0", "0"),
+    ("newton corners structure", "from->q[i] + (from->q_low[i] + x->sized.h*Q[j])", "from->q[i] + x->sized.h*Q[j]"),
+    ("identities structure rows", "x->hb[most] += mirror == most ? rest : rest/2;\n    if (mirror != most) x->hb[mirror] += rest/2;", "x->hb[most] += rest;\n    (void)mirror;"),
+    ("identities structure oracle", "gvi__grid(gvi__coupling(st, st->x.table.Phi, i), GVI__EPS/2)", "gvi__grid(gvi__coupling(st, st->x.table.Phi, i), GVI__EPS/4)"),
+    ("kicks", "x->hb[j] = gvi__grid(gvi__two_prod(b[j], mantissa), GVI__EPS/2);", "x->hb[j] = b[j]*mantissa;"),
+    # linear algebra, quadrature, interpolation
+    ("lu", "if (x > big) { big = x; m = i; }", "if (x > big && i == k) { big = x; m = i; }"),
+    ("lu", "GVI_ABS(a[i*N + k])*pivot[i];", "GVI_ABS(a[i*N + k]);"),
+    ("lu", "2*gvi__norm1(n, x)/(3*(gvi_real)n);", "0*gvi__norm1(n, x);"),
+    ("mass structure", "b[k] = a[k];\n                a[k] *= d[k];", "b[k] = a[k];\n                a[k] *= d[k]*(1 + GVI__EPS*64);"),
+    ("interpolation", "others += l[j];", "others += l[j]*(1 + 256*GVI__EPS);"),
+    ("interpolation", "if (GVI_ABS(t - x[j]) < GVI_ABS(t - x[i])) i = j;", ""),
+    # scene
+    ("api effects", "if (!GVI__READS_V || effect->kind == GVI_POTENTIAL) x->v = NULL;", ""),
+    ("api effects", "skip |= st->x.off | st->x.apart;", "skip |= st->x.apart;"),
+    ("queries effects", "if (effect->kind == GVI_POTENTIAL) y.v = NULL;\n    y.f", "y.f"),
+    ("queries", "(pv - T) - L + V : pv/2 + V;", "(pv - T) - L + V : pv/2 - V;"),
+    ("api effects", "st->counters.effect[e] -= (unsigned long long)x->count;", ""),
+    ("domains", "if (k > 0 && beyond && halves < 400) {", "if (k > 0 && status == GVI_E_NON_FINITE && halves < 400) {"),
+    ("domains", "last_places = change <= 64*GVI__EPS ? last_places + 1 : 0;\n        const int rests = last_places > 4 || (change <= 2*GVI__EPS && (last <= small || near)),", "last_places += 1;\n        const int rests = last_places > 9999 || change <= 2*GVI__EPS,"),
+    # the step
+    ("newton structure twins", "T = gauss && i == j ? (gvi_real)0.5 : gvi__T(st, i, j);", "T = gvi__T(st, i, j)*(1 + (i == j)*GVI__EPS*1024);"),
+    ("tolerance kinks corners", "p->stagnant = D < (gvi_real)0.81*p->least ? 0 : p->stagnant + 1;", "p->stagnant = D < p->least ? 0 : p->stagnant + 1;"),
+    ("corners many kinks", "if (D[i] > place && D[i]*D[i] > tolerance*last) return 0;", ""),
+    ("corners many kinks", "return noise > 0 ? noise/(32*GVI__EPS*largest) : 0;", "return 0*noise*largest;"),
+    ("kinks newton", "for (int plain = !usable; plain < 2; ++plain) {", "for (int plain = !usable; plain < 1 + !usable; ++plain) {"),
+    ("structure oracle corners", "x->step.q_low[i] = gvi__low((q.lo + bend.lo) + (x->free.path_low[i] + from->q_low[i]));", "x->step.q_low[i] = gvi__low(q.lo + bend.lo + x->free.path_low[i]);"),
+    ("structure oracle corners", "x->free.path_low[i] = gvi__low(path.lo + h*v_low[i]);", "x->free.path_low[i] = gvi__low(path.lo);"),
+    ("queries rows", "x->kept = x->kept > 0 && !gvi__nonzero(h - st->h) ? 2 : 1;", "x->kept = 2;"),
+    ("kicks api", "x->has_force = gvi__uses(x, GVI_EXPLICIT) && !gvi__nonzero(x->table.c[0])\n", "x->has_force = gvi__uses(x, GVI_EXPLICIT)\n"),
+    ("kicks api", "x->has_force = 0;\n    x->newton.h = 0;\n    return gvi__report_status(st, GVI_OK);", "x->newton.h = 0;\n    return gvi__report_status(st, GVI_OK);"),
+    ("api newton queries", "x->newton.left = left;\n        x->newton.h = 0;", "x->newton.left = left;"),
+    ("queries", "if (!query) x->newton.h = 0;              // the extrapolation may be to blame", ""),
+    # the clock
+    ("clock", "power[k] *= g[k];", ""),
+    ("clock domains", "if (push <= limit) return level;", "return level;"),
+    ("clock", "F[k] -= slope[k]*gvi__sure_level(", "F[k] += 0*slope[k]*gvi__sure_level("),
+    ("clock", "x->began.H = x->time.H;", ""),
+    ("clock", "for (int i = 0; i < st->n; ++i) V[i] /= rate;", ""),
+    ("domains", "if (both == GVI_OK && gvi__nonzero(then - now))", "if (0)"),
+    # set-up
+    ("api corners", "if (gvi__rule_is(x, GVI_KICKS)) {\n        gvi_real sum = -1, size = 0;", "if (gvi__rule_is(x, GVI_KICKS)) {\n        gvi_real sum = 0, size = 0;"),
+    ("order api", "if (*order < 2*s - 2) x->needs |= GVI__HAS_GAMMA;", ""),
+    ("api", "x->newton.pivot = gvi__take(a, newton*2, sn + 1);", "x->newton.pivot = gvi__take(a, newton, sn + 1);"),
+    ("domains", "if (desc->effects && !desc->effect_count)", "if (0)"),
+    ("api", "x->skip = skip;\n", ""),
+    # Newton's method
+    ("newton queries", "fv[j*n + i] : 0, 0);", "fv[i*n + j] : 0, 0);"),
+    ("newton kinks", "change > p->least/2;", "change > p->least;"),
+    # queries, boundary values
+    ("queries domains", "const gvi_real h = end ? back - st->t_low : ahead;", "const gvi_real h = end ? back : ahead;"),
+    ("domains", "if (GVI_ABS(ahead) <= near) t = st->t0;", "if (0) t = st->t0;"),
+    ("boundary", "a[j] *= st->x.watch.scale[j % n];", ""),
+    ("boundary", "h*x->watch.scale[i]*gvi__dot3(st->r, hb, Phi + k*R, f + i*R);", "h*gvi__dot3(st->r, hb, Phi + k*R, f + i*R);"),
+    ("boundary", "if (*negative && !out->negative) return GVI_E_CONJUGATE;", ""),
+    ("boundary", "if (*bent > (gvi_real)0.25) return", "if (0) return"),
+    ("boundary queries", "y[st->n + i] = length*scale[i]/2;", "y[st->n + i] = 0*length*scale[i];"),
+    ("queries theorems", "minus[i] -= lambda[row]*(by_q0 - by_y0);", "minus[i] -= lambda[row]*by_q0;"),
+]
+
+SLOW = "newton clock structure theorems order kinks oracle corners tolerance"
+
+
+def run(command, **more):
+    return subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, **more).returncode
+
+
+def main(build):
+    text, cc = open("gvi.h").read(), os.environ.get("CC", "cc")
+    room = os.path.join(build, "mutants")
+    os.makedirs(room, exist_ok=True)
+    tests = sorted({t for names, _, _ in MUTANTS for t in names.split()
+                    if os.path.exists("tests/test_%s.c" % t)})
+    lost = [old for _, old, _ in MUTANTS if text.count(old) != 1]
+    for old in lost:
+        print("FAILED: not once in gvi.h: %s" % old.replace("\n", "\\n"))
+    if lost:
+        return 1
+    for t in tests:
+        if run([cc, "-std=c99", "-O1", "-I.", "-Itests", "-Iexamples", "-DGVI_IMPLEMENTED", "-c",
+                "tests/test_%s.c" % t, "-o", "%s/%s.o" % (room, t)]):
+            return print("FAILED: test_%s does not compile" % t) or 1
+
+    real = {t: "long double" if "define GVI_REAL long double" in open("tests/test_%s.c" % t).read()
+            else "double" for t in tests}
+
+    def seen(header, names):
+        open(room + "/gvi.h", "w").write(header)
+        made = set()
+        for t in sorted(names, key=SLOW.find):       # quick ones first
+            library = "%s/gvi-%s.o" % (room, real[t].split()[0])
+            if real[t] not in made and run([cc, "-std=c99", "-O1", "-ffp-contract=off", "-DGVI_REAL=" + real[t],
+                                            "-I" + room, "-c", "tests/compile/implementation.c", "-o", library]):
+                return "does not compile"
+            made.add(real[t])
+            if run([cc, "%s/%s.o" % (room, t), library, "-o", room + "/test", "-lcmocka", "-lm"]):
+                return "does not link"
+            try:
+                if run([room + "/test"], timeout=120):
+                    return "seen by test_" + t
+            except subprocess.TimeoutExpired:
+                return "seen by test_%s, which did not end" % t
+        return None
+
+    if seen(text, tests):
+        return print("FAILED: gvi.h itself: " + seen(text, tests)) or 1
+    survivors = 0
+    for k, (names, old, new) in enumerate(MUTANTS):
+        names = [t for t in names.split() if t in tests]
+        how = seen(text.replace(old, new), names)
+        if how and how.startswith("does not"):
+            return print("FAILED: mutant %d %s: %s" % (k, how, old)) or 1
+        survivors += how is None
+        print("%2d %-28s %s" % (k, how or "SURVIVES", old.split("\n")[0].strip()[:70]), flush=True)
+    print("mutants: %d of %d survive" % (survivors, len(MUTANTS)))
+    return survivors > 2
+
+
+sys.exit(main(sys.argv[1]))
