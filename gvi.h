@@ -1035,10 +1035,7 @@ static int gvi__first_non_finite(int n, const gvi_real *x)
 
 static void gvi__zero(size_t n, gvi_real *x)
 {
-    const gvi__lane none = { 0 };
-    size_t i = 0;
-    for (; GVI__LANES > 1 && i + GVI__LANES <= n; i += GVI__LANES) GVI__STORE(x + i) = none;
-    for (; i < n; ++i) x[i] = 0;
+    for (size_t i = 0; i < n; ++i) x[i] = 0;
 }
 
 static void gvi__copy(size_t n, const gvi_real *x, gvi_real *y)

@@ -29,7 +29,7 @@ static real residual(const gvi_stepper *st, const linkage *a)
     x.rate = rate;
     a->effects[1].points(&x, a->effects[1].user);
     for (int b = 0; b < a->m; ++b) {
-        real size = 0;
+        real size = fabs(rate[b]*st->t);
         for (int i = 0; i < a->n; ++i) size += fabs(G[b*a->n + i]*st->q[i]);
         worst = fabs(g[b]) > worst*EPS*size ? fabs(g[b])/(EPS*size) : worst;
     }
