@@ -113,11 +113,17 @@ $(SCENES:%=scene-%): scene-%: $(BUILD)/studies/scene
 	$(Q)$< $* --svg $(PICTURES)/scenes/$*.svg
 
 advise: $(BUILD)/examples/advise
+ifdef FILE
+	$(Q)$(COMPILE) -Iexamples -Wno-unused-function '-DADVISE_FILE="$(abspath $(FILE))"' examples/tools/advise.c \
+	    $(BUILD)/cost/problems.o $(BUILD)/cost/baselines.o -o $(BUILD)/examples/advise-mine $(LDLIBS)
+	$(Q)$(BUILD)/examples/advise-mine '$(abspath $(FILE))' --error $(or $(ERROR),1e-8)
+endif
 $(BUILD)/examples/advise: examples/tools/advise.c $(BUILD)/cost/problems.o $(BUILD)/cost/baselines.o
 	@mkdir -p $(@D)
-	$(Q)$(COMPILE) -Iexamples $^ -o $@ $(LDLIBS)
+	$(Q)$(COMPILE) -Iexamples $< $(filter %.o,$^) -o $@ $(LDLIBS)
 
-# -- what accuracy costs: optimised as a user in a hurry would
+# -- what accuracy costs: optimised as a user in a hurry would; make cost RECORD=--record puts tables and
+#    pictures into docs
 
 COST_CFLAGS = -O3 -march=native -ffp-contract=fast -fno-math-errno -fno-trapping-math
 PEER_LIBS   = -lgsl -lgslcblas -lsundials_cvode -lsundials_arkode -lsundials_nvecserial -lsundials_sunnonlinsolfixedpoint
@@ -128,6 +134,7 @@ cost: $(BUILD)/studies/price
 else
 cost: $(BUILD)/cost/cost
 	$(Q)$< --out $(BUILD)/cost $(COST_ARGS) | tee $(BUILD)/cost/table.txt
+	$(Q)sh tests/tools/cost_record.sh $(BUILD) $(RECORD)
 endif
 
 #: cost-horizon the outer solar system at 1, 10 and 100 times its length

@@ -1,6 +1,10 @@
 /* advise - finds the cheapest way to integrate a scene with a wanted error
 
      advise                             lists scenes and problems
+     make advise FILE=mine.c ERROR=1e-8        for a scene of your own, to an error of q; the file defines
+                                               static const gvi_desc mine;
+                                               static const double mine_q[], mine_v[], mine_horizon, mine_h;
+                                               (h: a step worth beginning with), and includes nothing of gvi.h's
      advise NAME [options]
        --error e      of q at the horizon, over the largest |q_i|: 1e-8
        --time s       or: the least error that this much CPU time buys
@@ -16,6 +20,10 @@
 #include "../../tests/cost/baselines.h"
 
 enum { TABLES = 5, KICKS = 40 };
+
+#ifdef ADVISE_FILE
+#include ADVISE_FILE
+#endif
 
 typedef struct options { double error, time, horizon, trials; } options;
 
@@ -64,6 +72,12 @@ static int get_case(const char *name, advise_case *a)
         a->desc = (gvi_desc){ .n = p->n, .mass = p->mass, .effects = p->effects,
                               .effect_count = p->effect_count };
     }
+#ifdef ADVISE_FILE
+    if (!strcmp(name, ADVISE_FILE)) {
+        *a = (advise_case){ .desc = mine, .q = mine_q, .v = mine_v, .horizon = mine_horizon, .h = mine_h };
+        return 1;
+    }
+#endif
     return s || p;
 }
 
