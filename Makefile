@@ -119,13 +119,14 @@ unit: $(PROGRAMS)
 PICTURES = $(if $(filter figures,$(MAKECMDGOALS)),docs/img,$(BUILD)/pictures)
 
 #: figures      makes the pictures in docs/img/ again, scenes included; theorems: make theorems PICTURES=docs/img
-figures: scenes $(addprefix $(BUILD)/examples/,02_outer_solar_system 19_low_thrust 20_swing_up 22_section 24_racket)
+figures: scenes $(addprefix $(BUILD)/examples/,02_outer_solar_system 19_low_thrust 20_swing_up 22_section 24_racket 30_rods)
 	$(Q)mkdir -p docs/img
 	$(Q)$(BUILD)/examples/02_outer_solar_system 200000 200 8 docs/img
 	$(Q)$(BUILD)/examples/19_low_thrust --svg docs/img/low_thrust.svg
 	$(Q)$(BUILD)/examples/20_swing_up --svg docs/img/swing_up.svg
 	$(Q)$(BUILD)/examples/22_section --svg docs/img/section.svg
 	$(Q)$(BUILD)/examples/24_racket --svg docs/img/racket.svg
+	$(Q)$(BUILD)/examples/30_rods --svg docs/img/rods.svg
 
 #: synopsis     copies the program at the top of gvi.h to examples/01_kepler.c and README.md
 synopsis:

@@ -106,8 +106,8 @@ TEST(test_energy_balance)
         else assert_true(b.gained <= 5e-14*b.kinetic);
         forced += forces > 0;
     }
-    assert_int_equal(scene_count, 12);
-    assert_int_equal(forced, 5);
+    assert_int_equal(scene_count, 14);
+    assert_int_equal(forced, 7);
 }
 
 /* Without its forces every scene is conservative.                             */
@@ -647,8 +647,9 @@ TEST(test_off_is_unlisted)
             for (int k = 0; k < st.n; ++k) assert_close(st.q[k], bare.q[k], 1e-11*(1e-3 + fabs(bare.q[k])));
         }
     }
-    assert_string_equal(changed, "satellite:air arenstorf:frame net:air crossed_fields:magnetic ");
-    assert_int_equal(same, 25);
+    assert_string_equal(changed, "satellite:air arenstorf:frame net:air crossed_fields:magnetic hanging_chain:air "
+                                 "peaucellier:bearings ");
+    assert_int_equal(same, 29);
 }
 
 /* Off and on again between steps: its counter stands still while it is off, and
@@ -659,6 +660,7 @@ TEST(test_switching_between_steps)
     for (int i = 0; i < scene_count; ++i) {
         build(scenes[i]->name, NULL);
         for (int e = 0; e < made.desc.effect_count; ++e) {
+            if (made.effects[e].kind == GVI_CONSTRAINT) continue;       // the way back is not open
             start();
             for (int part = 0; part < 3; ++part) {
                 memcpy(before, st.counters.effect, sizeof before);

@@ -15,9 +15,12 @@
 #include "net.c"
 #include "crossed_fields.c"
 #include "duffing.c"
+#include "hanging_chain.c"
+#include "peaucellier.c"
 
 const scene *const scenes[] = {
     &outer_solar_system, &satellite, &arenstorf, &figure_eight, &double_pendulum, &elastic_pendulum,
     &lagrange_top, &robot_arm, &fput, &net, &crossed_fields, &duffing,
+    &hanging_chain, &peaucellier,
 };
 const int scene_count = (int)(sizeof scenes/sizeof *scenes);

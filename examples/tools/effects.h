@@ -30,7 +30,8 @@
      magnetic_force    f = e v x B
      magnetic_field    the same as a Lagrangian term
      rotating_frame    Coriolis and centrifugal, a Lagrangian term
-     two_links, top    masses that depend on the position                      */
+     two_links, top    masses that depend on the position
+     rods              constraints: particles at fixed distances, also from fixed points */
 #ifndef EFFECTS_H
 #define EFFECTS_H
 
@@ -808,6 +809,38 @@ static inline gvi_effect rotating_frame(const struct rotating_frame *p)
 {
     return (gvi_effect){ .kind = GVI_LAGRANGIAN, .points = rotating_frame_points,
                          .value = rotating_frame_value, .user = (void *)p };
+}
+
+/* ------------------------------------------------------------- constraints */
+
+/* (r^2 - length^2)/2 = 0 between particles a and b, or for b < 0 from a to a fixed point.  The pull in
+   a rod is -length times its multiplier.                                     */
+struct rod { int a, b; gvi_real length, to[3]; };
+struct rods { particles on; const struct rod *list; int count; };
+
+static inline int rods_hold(const gvi_points *x, void *user)
+{
+    const struct rods *p = user;
+    const int d = x->stride;
+    for (int i = 0; i < p->count; ++i) {
+        const struct rod *s = p->list + i;
+        const size_t a = particle_row(x, p->on, s->a), b = s->b < 0 ? 0 : particle_row(x, p->on, s->b);
+        gvi_real *g = x->g + i*d, *G = x->jacobian + (size_t)i*(size_t)x->n*(size_t)d;
+        for (int k = 0; k < x->count; ++k) g[k] = -s->length*s->length/2;
+        for (int c = 0; c < p->on.dim*d; c += d)
+            for (int k = c; k < c + x->count; ++k) {
+                const gvi_real u = x->q[a + (size_t)k] - (s->b < 0 ? s->to[c/d] : x->q[b + (size_t)k]);
+                g[k - c] += u*u/2;
+                G[a + (size_t)k] = u;
+                if (s->b >= 0) G[b + (size_t)k] = -u;
+            }
+    }
+    return 0;
+}
+
+static inline gvi_effect rods(const struct rods *p)
+{
+    return (gvi_effect){ .kind = GVI_CONSTRAINT, .points = rods_hold, .rows = p->count, .user = (void *)p };
 }
 
 /* ------------------------------------------------------------------- masses */
