@@ -39,7 +39,7 @@ VALGRIND     = test_api test_lu test_interpolation 04_driven_damped 06_building_
 
 # `make test` is for a person, two minutes; `make check` is the rest, twenty.
 TEST_STEPS  = $(TESTS) $(EXAMPLES) docs-check symbols headers-quick
-CHECK_STEPS = headers $(VARIANTS) $(EXAMPLES:%=alone-%) any_processor parts bound float instructions prices usable \
+CHECK_STEPS = headers $(VARIANTS) $(EXAMPLES:%=alone-%) any_processor parts bound float instructions prices ensemble usable \
               $(VALGRIND:%=valgrind-%) sanitize hard-single firmware fuzz-short
 
 STEP = $(Q)sh tests/tools/step.sh $(BUILD)
@@ -119,13 +119,14 @@ unit: $(PROGRAMS)
 PICTURES = $(if $(filter figures,$(MAKECMDGOALS)),docs/img,$(BUILD)/pictures)
 
 #: figures      makes the pictures in docs/img/ again, scenes included; theorems: make theorems PICTURES=docs/img
-figures: scenes $(addprefix $(BUILD)/examples/,02_outer_solar_system 19_low_thrust 20_swing_up 22_section 24_racket 30_rods)
+figures: scenes $(addprefix $(BUILD)/examples/,02_outer_solar_system 19_low_thrust 20_swing_up 22_section 24_racket 29_ensemble 30_rods)
 	$(Q)mkdir -p docs/img
 	$(Q)$(BUILD)/examples/02_outer_solar_system 200000 200 8 docs/img
 	$(Q)$(BUILD)/examples/19_low_thrust --svg docs/img/low_thrust.svg
 	$(Q)$(BUILD)/examples/20_swing_up --svg docs/img/swing_up.svg
 	$(Q)$(BUILD)/examples/22_section --svg docs/img/section.svg
 	$(Q)$(BUILD)/examples/24_racket --svg docs/img/racket.svg
+	$(Q)$(BUILD)/examples/29_ensemble 120 $(BUILD)/ensemble.csv docs/img/ensemble.svg
 	$(Q)$(BUILD)/examples/30_rods --svg docs/img/rods.svg
 
 #: synopsis     copies the program at the top of gvi.h to examples/01_kepler.c and README.md
@@ -134,7 +135,7 @@ synopsis:
 
 # -- programs: what is compiled in "make deps test" waits for deps
 
-FIRST = $(filter deps deps-check deps-firmware,$(MAKECMDGOALS))
+FIRST = $(filter deps deps-check deps-firmware deps-ensemble,$(MAKECMDGOALS))
 
 cmocka: | $(FIRST)
 	$(Q)sh tests/tools/deps.sh --cmocka

@@ -3214,10 +3214,10 @@ static gvi_status gvi__predict_sources(gvi_stepper *st, const gvi__origin *from,
 }
 
 /* Where an iteration stands, in squares: the changes of the last two iterations, of all rows,
-   and the least so far; how often no new least was seen, or no good contraction; are units to
-   be made anew?                                                                               */
+   and the least so far; gvi__noise when it was last made; how often no new least was seen, or no
+   good contraction; are units to be made anew?                                                */
 typedef struct gvi__progress {
-    gvi_real before, earlier, least;
+    gvi_real before, earlier, least, noise;
     int      used, stagnant, growing, rescale;
 } gvi__progress;
 
@@ -3317,7 +3317,9 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
         if (p->stagnant > 1 && (noise <= 0 || (noise <= 1 && p->stagnant > 4)))
             return p->used - p->stagnant >= GVI__DIG/2 && gvi__may_turn(st) ? GVI__DIVERGES
                                                                               : GVI__ONCE_MORE;
-        if (poor && noise > 1 && gvi__may_turn(st)) return GVI__DIVERGES;
+        // a row that tends to 0 changes by its whole size: does its amplitude fall?
+        if (poor && noise > 1 && noise > p->noise/2 && gvi__may_turn(st)) return GVI__DIVERGES;
+        p->noise = noise;
     }
     return p->used < d->max_iterations ? GVI__GO_ON : GVI__DIVERGES;
 }
@@ -3328,7 +3330,7 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
 {
     struct gvi__private *x = &st->x;
     gvi__stage stage[2], first;
-    gvi__progress p = { 0, 0, GVI__MAX, 0, 0, 0, 1 };
+    gvi__progress p = { 0, 0, GVI__MAX, GVI__MAX, 0, 0, 0, 1 };
     gvi_points at = gvi__points_at(st, st->r, x->R, x->t, x->work.Q, x->work.F,
                                    GVI__LAGRANGIAN ? x->work.A : NULL);
     const int stages = gvi__stages(st, from, h, stage);

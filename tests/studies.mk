@@ -1,7 +1,7 @@
 # studies.mk - what Makefile includes: long checks, measurements, pictures.  `make help-all` lists them.
 
 .PHONY: headers-quick headers symbols parts docs-check bound float instructions prices usable sanitize sanitized any_processor \
-        firmware deps-firmware fuzz fuzz-short size stats compare everywhere deps-everywhere \
+        ensemble deps-ensemble firmware deps-firmware fuzz fuzz-short size stats compare everywhere deps-everywhere \
         cost-horizon ncdp scaling kicks points cost-peers deps-compare cost-embedded hard theorems
 
 # -- steps of `make test` and `make check`; each can be run alone
@@ -23,11 +23,12 @@ docs-check: $(BUILD)/gvi-double.o
 #: float        the object code of a float build: nothing is computed in double
 #: instructions points, iterations and instructions of fixed runs; RECORD=--record writes them anew
 #: prices       what an unlisted effect costs in instructions (valgrind): nothing
+#: ensemble     lesson 29 on one thread, two threads, one and three MPI processes: the same bits
 #: usable       what make install puts where, and the ways into a project: pkg-config, CMake, a C++ sketch
 #: firmware     two programs without an operating system, run as Cortex-M3 and M4F by qemu, against this machine
 prices: | $(FIRST)
 	$(STEP) $@ sh tests/tools/instructions.sh $(BUILD) --prices
-parts bound float instructions usable firmware: | $(FIRST)
+parts bound float instructions ensemble usable firmware: | $(FIRST)
 	$(STEP) $@ sh tests/tools/$@.sh $(BUILD) $(RECORD)
 
 #: sanitize     tests and examples under the address and undefined behaviour sanitizers
@@ -69,6 +70,10 @@ fuzz fuzz-short: | $(FIRST)
 #: deps-firmware installs what firmware and size need: compilers for Arm, RISC-V and AVR, qemu
 deps-firmware: | $(filter deps deps-check,$(MAKECMDGOALS))
 	$(Q)sh tests/tools/deps.sh --firmware
+
+#: deps-ensemble installs what ensemble needs: Open MPI
+deps-ensemble: | $(filter deps deps-check deps-firmware,$(MAKECMDGOALS))
+	$(Q)sh tests/tools/deps.sh --ensemble
 
 # -- figures about gvi.h
 
@@ -165,7 +170,7 @@ $(BUILD)/cost/kicks $(BUILD)/cost/cost: %: %.o $(addprefix $(BUILD)/cost/,proble
 # -- hard cases and theorems, measured
 
 HARD     = eccentric eccentric-float pythagorean corners stiff long brouwer brouwer-float drift single
-THEOREMS = order lagrangian curve forced doubled spectral identities inertia stability
+THEOREMS = order lagrangian curve forced doubled dissipation spectral identities inertia stability
 # These need more digits than long double has on x86.
 $(addprefix $(BUILD)/theorems/,order lagrangian forced): TESTFLAGS += $(shell CC='$(CC)' sh tests/theorems/quad.sh)
 SEED =

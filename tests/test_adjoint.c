@@ -227,7 +227,7 @@ static int turning_transposed(const gvi_points *x, const gvi_points *d, int para
     return 0;
 }
 
-/* A magnetic field, L = |q|^2 (x y' - y x')/2: its product serves both.         */
+/* A magnetic field, L = b |q|^2 (x y' - y x')/2, b = 1: its product serves both.  b is parameter 1.  */
 static int magnetic(const gvi_points *x, void *user)
 {
     const int s = x->stride;
@@ -243,6 +243,11 @@ static int magnetic(const gvi_points *x, void *user)
 static int magnetic_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
 {
     const int s = x->stride;
+    if (parameter == 1) {
+        gvi_points y = *x;
+        y.f = d->f, y.dldv = d->dldv;                        /* linear in b */
+        magnetic(&y, NULL);
+    }
     for (int k = 0; k < x->count; ++k) {
         const real a = x->q[k], b = x->q[s+k], z = (a*a + b*b)/2;
         const real da = d->q[k], db = d->q[s+k], dz = a*da + b*db;
@@ -257,11 +262,39 @@ static int magnetic_product(const gvi_points *x, const gvi_points *d, int parame
     return 0;
 }
 
+/* The kinetic energy of the two links as a Lagrangian term, for GVI_MASS_NONE.  */
+static int links(const gvi_points *x, void *user)
+{
+    const int s = x->stride;
+    if (x->f) slope(x, NULL);
+    for (int k = 0; k < x->count && x->dldv; ++k) {
+        const real c = cos(x->q[k] - x->q[s+k]);
+        x->dldv[k] += 2*x->v[k] + c*x->v[s+k];
+        x->dldv[s+k] += c*x->v[k] + x->v[s+k];
+    }
+    return 0;
+}
+
+static int links_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
+{
+    const int s = x->stride;
+    if (d->f) slope_product(x, d, -1, NULL);
+    for (int k = 0; k < x->count && d->dldv; ++k) {
+        const real a = x->q[k] - x->q[s+k], da = d->q[k] - d->q[s+k], c = cos(a), dc = -sin(a)*da;
+        d->dldv[k] += 2*d->v[k] + c*d->v[s+k] + dc*x->v[s+k];
+        d->dldv[s+k] += c*d->v[k] + d->v[s+k] + dc*x->v[k];
+    }
+    return 0;
+}
+
 static const gvi_effect turned[] = { { .kind = GVI_POTENTIAL, .points = attraction },
                                      { .kind = GVI_FORCE, .points = turning },
                                      { .kind = GVI_FORCE, .points = drag } },
                         two_links[] = { { .kind = GVI_POTENTIAL, .points = weight },
                                         { .kind = GVI_FORCE, .points = drag } },
+                        by_term[] = { { .kind = GVI_POTENTIAL, .points = weight },
+                                      { .kind = GVI_LAGRANGIAN, .points = links },
+                                      { .kind = GVI_FORCE, .points = drag } },
                         charged[] = { { .kind = GVI_POTENTIAL, .points = attraction },
                                       { .kind = GVI_LAGRANGIAN, .points = magnetic },
                                       { .kind = GVI_FORCE, .points = drag } };
@@ -288,7 +321,8 @@ static const scene scenes[] = {
     { "kicks", { .n = N, .degree = 1, .effects = turned, .effect_count = 1, .rule = { GVI_KICKS, 4, ruth_at, ruth } },
       { attraction_product }, { attraction_product } },
     { "a magnetic field and drag", { .n = N, .degree = 4, .effects = charged, .effect_count = 3 },
-      { attraction_product, magnetic_product, drag_product }, { attraction_product, magnetic_product, drag_transposed } },
+      { attraction_product, magnetic_product, drag_product },
+      { attraction_product, magnetic_product, drag_transposed } },
     { "Stoermer-Verlet", { .n = N, .degree = 1, .effects = turned, .effect_count = 1, .rule = { .kind = GVI_LOBATTO } },
       { attraction_product }, { attraction_product } },
     { "forces, degree 1", { TURNED, .degree = 1 }, PRODUCTS },
@@ -299,6 +333,14 @@ static const scene scenes[] = {
     { "forces, dense mass", { TURNED, .degree = 4, .mass = { .kind = GVI_MASS_DENSE, .matrix = dense } }, PRODUCTS },
     { "M(q) and friction", { .n = N, .degree = 4, .effects = two_links, .effect_count = 2, .mass = LINKS },
       { weight_product, drag_product }, { weight_product, drag_transposed } },
+    { "no mass but a term, and friction", { .n = N, .degree = 3, .effects = by_term, .effect_count = 3,
+                                            .mass = { .kind = GVI_MASS_NONE, .velocity = velocity } },
+      { weight_product, links_product, drag_product }, { weight_product, links_product, drag_transposed } },
+    { "potential, momenta", { .n = N, .degree = 3, .effects = turned, .effect_count = 1, .formulation = GVI_MOMENTA },
+      { attraction_product }, { attraction_product } },
+    { "potential, Newton", { .n = N, .degree = 3, .effects = turned, .effect_count = 1, .formulation = GVI_NEWTON },
+      { attraction_product }, { attraction_product } },
+    { "forces, Newton", { TURNED, .degree = 4, .formulation = GVI_NEWTON }, PRODUCTS },
 };
 
 /* dJ/dq.dq + dJ/dp.dp is the same at the end and at the start, for every direction.      */
@@ -398,6 +440,82 @@ TEST(running_cost)
     assert_close(g, q_of_1 - q_of_c + 2*v_of_s, 64*EPS);
 }
 
+/* ------------------------------------------------------------ parameters everywhere
+
+   J = end_q.q + end_p.p at the end + integral of k |q|^2/2 + |v|^2, by the drag, by the strength of the
+   magnetic field, which is in the momentum too, and by k: back against the columns of the tangent scene.  */
+
+static const real cost_k = R(0.75);
+
+static int cost_with_k(const gvi_points *x, const gvi_points *d, int parameter, void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        if (d->f) d->f[k] += cost_k*x->q[k], d->f[s+k] += cost_k*x->q[s+k];
+        if (d->dldv) d->dldv[k] += 2*x->v[k], d->dldv[s+k] += 2*x->v[s+k];
+    }
+    return 0;
+}
+
+static void by_all(real t, const real *q, const real *v, const real *l, const real *dl, real w, int node, real *g,
+                   void *user)
+{
+    real f[N] = { 0 }, p[N] = { 0 };
+    const gvi_points x = { N, 1, 1, &t, q, v, NULL, f, p, NULL, NULL, NULL };
+    by_drag(t, q, v, l, dl, w, node, g, NULL);
+    magnetic(&x, NULL);                                      /* linear in its strength, which is 1 */
+    g[1] += w*(l[0]*f[0] + l[1]*f[1] + dl[0]*p[0] + dl[1]*p[1]);
+    g[2] += w*(q[0]*q[0] + q[1]*q[1])/2;
+}
+
+TEST(gradient_by_parameters_of_all_kinds)
+{
+    enum { DEGREE = 4, STEPS = 10 };
+    const gvi_desc plain = { .n = N, .degree = DEGREE, .effects = charged, .effect_count = 3 };
+    const real h = R(0.15625);
+    tangent T = { .plain = plain, .product = { attraction_product, magnetic_product, drag_product }, .parameters = 2,
+                  .room = room, .room_length = TANGENT_ROOM(N, 2) };
+    adjoint A = { .plain = plain, .product = { attraction_product, magnetic_product, drag_transposed },
+                  .running = cost_with_k, .by_parameters = by_all,
+                  .room = room + TANGENT_ROOM(N, 4), .room_length = ADJOINT_ROOM(N, NODES) };
+    gvi_stepper st, ad;
+    real forward[3] = { 0 }, back[3] = { 0 }, size[3] = { 1, 1, 1 }, c[DEGREE], b[DEGREE], q[3*N], v[3*N];
+    drag_c = R(0.125);
+    assert_ok(gvi_gauss(DEGREE, c, b));
+    assert_ok(tangent_scene(&T));
+    assert_ok(adjoint_scene(&A));
+    assert_ok(gvi_init(&st, &T.desc, memory, sizeof memory));
+    assert_ok(gvi_init(&ad, &A.scene.desc, back_memory, sizeof back_memory));
+    assert_ok(tangent_start(&T, &st, 0, q0, p0, NULL, NULL));
+    for (int k = 0; k < STEPS; ++k) {
+        assert_ok(gvi_step(&st, h));
+        for (int i = 0; i < DEGREE; ++i) {
+            assert_ok(gvi_curve(&st, c[i], q, v));
+            for (int j = 0; j < N; ++j) {
+                forward[2] += h*b[i]*q[j]*q[j]/2;
+                for (int z = 0; z < 2; ++z) {
+                    const int at = N*(1 + z) + j;
+                    forward[z] += h*b[i]*(cost_k*q[j]*q[at] + 2*v[j]*v[at]);
+                    size[z] += h*b[i]*fabs(cost_k*q[j]*q[at]) + h*b[i]*fabs(2*v[j]*v[at]);
+                }
+            }
+        }
+    }
+    for (int z = 0; z < 2; ++z) {
+        tangent_column(&T, &st, z, q, v);
+        for (int j = 0; j < N; ++j) {
+            forward[z] += end_q[j]*q[j] + end_p[j]*v[j];
+            size[z] += fabs(end_q[j]*q[j]) + fabs(end_p[j]*v[j]);
+        }
+    }
+    assert_ok(adjoint_start(&A, &ad, st.t, st.q, st.p, end_q, end_p));
+    for (int k = 0; k < STEPS; ++k) assert_ok(adjoint_step(&A, &ad, h, back));
+    for (int z = 0; z < 3; ++z) {
+        assert_true(fabs(forward[z]) > R(0.1));
+        assert_close(back[z], forward[z], 64*EPS*size[z]);
+    }
+}
+
 /* ------------------------------------------------------------ strong damping
 
    q'' = -q - c q' with c = 2.5 over 20: the modes exp(-t/2), exp(-2t) go back as exp(t/2),
@@ -471,8 +589,16 @@ TEST(strong_damping)
     assert_false(fabs(by_q - (real)exact_q) < 10000*EPS);
 }
 
+static int distance(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count && x->value; ++k) x->value[k] += 1;
+    return 0;
+}
+
 TEST(what_is_refused)
 {
+    static const gvi_effect with_clock[] = { { .kind = GVI_POTENTIAL, .points = attraction, .value = attraction },
+                                             { .kind = GVI_CLOCK, .points = distance } };
     static const real at[] = { 0, R(0.25), 1 }, kick[] = { R(0.25), R(0.25), R(0.5) };
     adjoint A = { .plain = { .n = N, .effects = turned, .effect_count = 1, .rule = { GVI_KICKS, 3, at, kick } },
                   .product = { attraction_product }, .room = room, .room_length = ADJOINT_ROOM(N, 8) };
@@ -483,6 +609,21 @@ TEST(what_is_refused)
     assert_ok(gvi_init(&ad, &A.scene.desc, back_memory, sizeof back_memory));
     --A.room_length;
     assert_status(adjoint_start(&A, &ad, 0, q0, p0, end_q, end_p), GVI_E_MEMORY);
+    ++A.room_length;
+
+    real kept[2*(2*N + 1)];                      /* two states, not three */
+    A.kept = kept, A.kept_length = COUNT(kept), A.every = 1;
+    assert_ok(gvi_start_momentum(&ad, 0, (real[]){ 1, 0, 0, 0 }, (real[]){ 0, 1, 0, 0 }));
+    assert_ok(adjoint_keep(&A, &ad));
+    assert_ok(adjoint_keep(&A, &ad));
+    assert_status(adjoint_keep(&A, &ad), GVI_E_MEMORY);
+
+    A.plain.effects = with_clock, A.plain.effect_count = 2;
+    A.product[1] = tangent_constant;
+    assert_status(adjoint_scene(&A), GVI_E_FORMULATION);
+    A.plain.effects = two_links;
+    A.plain.mass = (gvi_mass){ .kind = GVI_MASS_POSITION, .points = matrix, .gradient = slope };
+    assert_status(adjoint_scene(&A), GVI_E_FORMULATION);
 }
 
 RUN_TESTS(NULL, NULL)

@@ -242,4 +242,59 @@ TEST(with_M_half_the_iterations_do)
     }
 }
 
+static real squares(const real *z, int stride, int k)
+{
+    real sum = 0;
+    for (int i = 0; i < 3; ++i) sum += z[i*stride + k]*z[i*stride + k];
+    return sum;
+}
+static int of_direction(const gvi_points *x, void *user)             /* M = 1/|q|^2 */
+{
+    for (int k = 0; k < x->count; ++k)
+        for (int i = 0; i < 3; ++i) x->mass[4*i*x->stride + k] = 1/squares(x->q, x->stride, k);
+    return 0;
+}
+static int of_direction_gradient(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k) {
+        const real qq = squares(x->q, x->stride, k), vv = squares(x->v, x->stride, k);
+        for (int i = 0; i < 3; ++i) x->f[i*x->stride + k] -= vv*x->q[i*x->stride + k]/(qq*qq);
+    }
+    return 0;
+}
+static int velocity_of_direction(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k)
+        for (int i = 0; i < 3; ++i) x->velocity[i*x->stride + k] = squares(x->q, x->stride, k)*x->p[i*x->stride + k];
+    return 0;
+}
+static int weight_of_direction(real t, const real *q, const real *v, real *f, real *dldv, void *user)   /* V = z/|q| */
+{
+    const real qq = squares(q, 1, 0), r = (real)sqrtl(qq);
+    for (int i = 0; i < 3; ++i) f[i] -= ((i == 2) - q[2]*q[i]/qq)/r;
+    return 0;
+}
+
+/* A conical pendulum turns at constant height: its forces on z cancel, and the iteration's P_z tends to 0, by
+   its whole size in each iteration.  The fixed point must not be given up for that. */
+TEST(a_momentum_that_tends_to_0_converges)
+{
+    static const gvi_effect weight[] = { { .kind = GVI_POTENTIAL, .point = weight_of_direction } };
+    const real angle = (real)0.75, z = -2*(real)cos(0.75), turn = 1/(real)sqrtl(-z/2);
+    for (int s = 1; s <= 8; ++s)
+        for (int steps = 20; steps <= 200; steps *= 2) {
+            static real memory[GVI_LENGTH(3, 8, 8)];
+            gvi_desc desc = { .n = 3, .degree = s, .effects = weight, .effect_count = 1 };
+            desc.mass = (gvi_mass){ .kind = GVI_MASS_POSITION, .points = of_direction,
+                                    .gradient = of_direction_gradient, .velocity = velocity_of_direction };
+            const real q[3] = { 2*(real)sin((double)angle), 0, z }, v[3] = { 0, q[0]*turn, 0 };
+            gvi_stepper st;
+            assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+            assert_ok(gvi_start(&st, 0, q, v));
+            for (int k = 0; k < steps; ++k) assert_ok(gvi_step(&st, 3/(real)steps));
+            assert_int_equal(st.formulation, GVI_MOMENTA);
+            if (s == 8) assert_close(st.q[2]*st.q[2]/squares(st.q, 1, 0), z*z/4, 64*EPS*(real)steps);
+        }
+}
+
 RUN_TESTS(NULL, NULL)
