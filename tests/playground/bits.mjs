@@ -61,13 +61,16 @@ const ends = ['pendulum', 'rods'].map(name => {
   const text = p => { let e = p, o = new Uint8Array(x.memory.buffer); while (o[e]) e++; return new TextDecoder().decode(o.subarray(p, e)); };
   let i = 0;
   while (text(x.scene_text(i, 0, 0)) !== name) i++;
-  run(i, name === 'rods' ? 7 : 1, 8, 0, 0, 0, 0.02);
+  const [status] = run(i, name === 'rods' ? 7 : 1, 8, 0, 0, 0, 0.02);
+  if (status !== 1) failed++, console.error(name, 'did not end:', status);
   const q = [...numbers.subarray(x.race_end(1)/8, x.race_end(1)/8 + 4)];
   return name === 'rods' ? q : [Math.sin(q[0]), -Math.cos(q[0]), Math.sin(q[0]) + Math.sin(q[1]), -Math.cos(q[0]) - Math.cos(q[1])];
 });
 const apart = Math.max(...ends[0].map((v, i) => Math.abs(v - ends[1][i])));
+if (Math.abs(ends[1][0] - 1) < 0.01) failed++, console.error('the rods did not move', ends);
 if (apart < 1e-12) passed++; else { failed++; console.error('the double pendulum in angles and as rods differ by', apart); }
 if (!(kinds[1] > 200 && kinds.broken > 3)) { failed++; console.error('too few runs came to their end:', kinds); }
+if (process.env.SHOW) console.log(ends);
 console.log(`playground: ${compared} numbers of ${kinds[1]} runs to the bit, ${kinds.broken} broken rods; rods and angles ${apart.toExponential(1)} apart`);
 console.log(`${passed} passed, ${failed} failed`);
 process.exit(failed ? 1 : 0);
