@@ -679,7 +679,7 @@ function program(j) {
   return `/* ${s.title}: ${describe(j)}. Written by the playground of gvi.h.
    cc -I. -Iexamples -Idocs/playground this.c -lm      in the top folder of gvi.h  */
 #define GVI_IMPLEMENTATION
-#include "${/_clock /.test(code) ? 'clocks.h' : 'effects.h'}"
+#include "${/_clock /.test(code) ? 'clocks.h' : 'tools/effects.h'}"
 #include <stdio.h>
 #include <stdlib.h>
 
