@@ -53,6 +53,7 @@ const scene = () => scenes[set.scene];
 const slug = s => s.replace(/ /g, '-');
 const defaults = i => Object.assign(set, { scene: i, on: scenes[i].first, p: scenes[i].parameters.map(p => p.value), degree: scenes[i].degree, rule: 'gauss', h: scenes[i].h, tol: 0 });
 const ladder = k => +(scene().h * 2 ** Math.floor(k / 4) * [1, 1.189207115002721, 1.4142135623730951, 1.681792830507429][((k % 4) + 4) % 4]).toPrecision(4);
+const held = () => scene().effects.some((e, k) => e.kind === 4 && set.on >> k & 1);
 const clocked = () => scene().clock >= 0 && !!(set.on >> scene().clock & 1);
 
 function address() {
@@ -92,7 +93,7 @@ const open = (world, o, keep = 0) => {
 const calm = matchMedia('(prefers-reduced-motion: reduce)');
 const live = { ok: false, playing: !calm.matches, fast: false, dir: 1, k: 0, t: 0, target: 0, elapsed: 0, origin: [], speed: 0, base: [], said: '' };
 const beside = { on: true, ok: false, h: 0, k: 0, t: 0 };
-const curves = { gvi: [], rk4: [], kept: [[], []] };
+const curves = { gvi: [], rk4: [], kept: [[], []], gap: [], gap4: [] };
 let E0 = 0, Escale = 1, kept0 = [], trails = [], view = 1;
 const turn = { yaw: 0.6, pitch: 0.5 };
 let dirty = true, plotDirty = true;
@@ -101,7 +102,7 @@ function complain(call, status, more = '') {
   const a = $('alert');
   a.hidden = !status;
   if (!status) return;
-  const e = status === -9 || status === -10 || status === -11 || status === -14 ? x.world_number(0, 11, 0) : -1;
+  const e = status === -9 || status === -10 || status === -11 || status < -13 ? x.world_number(0, 11, 0) : -1;
   $('alert-text').textContent = `${call}: ${text(x.status_text(status))}${e >= 0 ? ` (${scene().effects[e].name})` : ''}. ${more}`;
   $('alert').dataset.status = status;
   $('halve').hidden = !(set.h > 0 || set.h < 0);
@@ -116,10 +117,10 @@ function apply(keep, first) {
   if (keep) s.effects.forEach((e, k) => { live.base[k] = (live.base[k] || 0) + x.world_number(0, 3, k); });
   else live.base = s.effects.map(() => 0);
   if (!first) remember();
-  let call = 'gvi_init', status = open(0, set, keep ? 1 : 0);
+  let status = open(0, set, keep ? 1 : 0), call = text(x.world_call(0)) || 'gvi_init';
   if (!status) { call = 'gvi_step'; status = probe(); }
   live.ok = !status;
-  complain(call, status, 'Change the setting to go on.');
+  complain(call, status, status === -15 ? 'What was held has moved away: restart to mount it again.' : 'Change the setting to go on.');
   if (first) complain(first.call, first.status, 'Here is another scene.'), live.playing = !calm.matches;
   Object.assign(live, { k: 0, t: x.world_number(0, 0, 0), elapsed: 0, origin: s.effects && [...Array(s.n)].map((_, i) => x.world_number(0, 30, i)) });
   if (!keep) live.target = live.t, live.dir = 1;
@@ -127,7 +128,7 @@ function apply(keep, first) {
   E0 = x.world_number(0, 20, 0);
   Escale = Math.abs(E0) > 1e-12 ? Math.abs(E0) : 1;
   kept0 = s.kept.map((q, k) => x.world_number(0, 21, k));
-  curves.gvi = []; curves.rk4 = []; curves.kept = [[], []];
+  Object.assign(curves, { gvi: [], rk4: [], kept: [[], []], gap: [], gap4: [] });
   beside.ok = live.ok && beside.on && !x.beside_open(0) && beside.h > 0;
   beside.k = 0; beside.t = live.t;
   if (!keep) { trails = s.radius.map(() => []); view = s.view; if (live.ok) sampleTrail(1); }
@@ -180,6 +181,7 @@ function sampleEnergy() {
   record(curves.gvi, Math.abs(x.world_number(0, 20, 0) - E0) / Escale);
   kept0.forEach((q, k) => record(curves.kept[k], Math.abs(x.world_number(0, 21, k) - q) / (Math.abs(q) > 1e-9 ? Math.abs(q) : 1)));
   if (beside.ok) record(curves.rk4, Math.abs(x.world_number(0, 42, 0) - E0) / Escale);
+  if (held()) record(curves.gap, x.world_number(0, 22, 0)), beside.ok && record(curves.gap4, x.world_number(0, 44, 0));
 }
 
 /* What is drawn lies inside the last step; Runge-Kutta 4 is taken there, too. */
@@ -439,16 +441,17 @@ function drawStability() {
   if (step > 0 && isFinite(step)) { const [X0, Y0] = a.inside(x0, eps * Math.sqrt(x0 / step)), [X1, Y1] = a.inside(x1, eps * Math.sqrt(x1 / step)); out += `<line x1="${X0}" y1="${Y0}" x2="${X1}" y2="${Y1}" stroke="var(--muted)" stroke-dasharray="5 4"/>`; }
   const acting = s.effects.filter((e, k) => set.on >> k & 1), forces = acting.filter(e => e.kind === 1);
   const stays = s.kept.map(q => !acting.some(e => q.unless.includes(e.name)));
-  out += (stays[1] ? line(curves.kept[1], 'verlet', 1.2) : '') + (stays[0] ? line(curves.kept[0], 'dop', 1.2) : '') + line(curves.rk4, 'rk4', 1.8) + line(curves.gvi, 'gvi', 2.2);
+  out += (stays[1] ? line(curves.kept[1], 'verlet', 1.2) : '') + (stays[0] ? line(curves.kept[0], 'dop', 1.2) : '') + line(curves.gap4, 'rk4', 1.4, 'stroke-dasharray="2 3"') + line(curves.gap, 'ink', 1.4, 'stroke-dasharray="2 3"') + line(curves.rk4, 'rk4', 1.8) + line(curves.gvi, 'gvi', 2.2);
   svg.innerHTML = out;
   const last = c => c.length ? c[c.length - 1][1] : 0;
-  svg.setAttribute('aria-label', `Error of the energy over ${short(live.elapsed)} of time: gvi.h ${short(last(curves.gvi))}${curves.rk4.length ? `, Runge-Kutta 4 ${short(last(curves.rk4))}` : ''}.`);
+  svg.setAttribute('aria-label', `Error of the energy over ${short(live.elapsed)} of time: gvi.h ${short(last(curves.gvi))}${curves.rk4.length ? `, Runge-Kutta 4 ${short(last(curves.rk4))}` : ''}.${curves.gap.length ? ` Constraint: gvi.h ${short(last(curves.gap))}${curves.gap4.length ? `, Runge-Kutta 4 ${short(last(curves.gap4))}` : ''}.` : ''}`);
   const swatch = (c, w, dash = '') => `<svg aria-hidden="true"><line x1="1" x2="21" y1="6" y2="6" stroke="var(--${c})" stroke-width="${w}" stroke-dasharray="${dash}"/></svg>`;
   const legend = `<li>${swatch('gvi', 2.2)}energy, gvi.h</li>` + (beside.on ? `<li>${swatch('rk4', 1.8)}energy, Runge-Kutta 4${beside.h ? `, h = ${short(beside.h)}` : ''}</li>` : '')
-    + s.kept.map((q, k) => stays[k] ? `<li>${swatch(k ? 'verlet' : 'dop', 1.2)}${html(q.name)}, gvi.h</li>` : '').join('') + `<li>${swatch('muted', 1.2, '4 3')}Brouwer: ε √steps</li>`;
+    + s.kept.map((q, k) => stays[k] ? `<li>${swatch(k ? 'verlet' : 'dop', 1.2)}${html(q.name)}, gvi.h</li>` : '').join('') + (held() ? `<li>${swatch('ink', 1.4, '2 3')}constraint, |g|, gvi.h</li>` + (beside.ok ? `<li>${swatch('rk4', 1.4, '2 3')}constraint, |g|, Runge-Kutta 4</li>` : '') : '') + `<li>${swatch('muted', 1.2, '4 3')}Brouwer: ε √steps</li>`;
   if ($('stability-legend').dataset.is !== legend) { $('stability-legend').innerHTML = legend; $('stability-legend').dataset.is = legend; }
   const broken = s.kept.filter(q => acting.some(e => q.unless.includes(e.name)));
   let note = forces.length ? `The energy is not to stay while ${forces.map(e => e.name).join(', ')} ${forces.length > 1 ? 'act' : 'acts'}: switch that off to see what the integrator keeps. ` : 'The energy of the exact motion is constant. ';
+  if (held()) note += `The constraint is |g|, the largest over the run${s.length ? `, in ${s.length}²` : ''}: gvi.h solves for it in each step, Runge-Kutta 4 for its second derivative alone. `;
   broken.forEach(q => { note += `The ${q.name} is changed by ${acting.filter(e => q.unless.includes(e.name)).map(e => e.name).join(', ')}. `; });
   $('stability-note').textContent = note;
   $('stability-caption').textContent = `${many(x.world_number(0, 1, 0))} steps since the last change${beside.on ? '; Runge-Kutta 4 gets as many evaluations' : ''}.`;
@@ -615,7 +618,7 @@ function drawCost() {
     + (good.some(q => q.tol) ? `<li><svg aria-hidden="true">${marker(0, 11, 6, 4, 'fill="var(--card)" stroke="var(--gvi)" stroke-width="1.6"')}</svg>iterated to a tolerance</li>` : '')
     + (good.some(q => q.id === here) ? '<li><svg aria-hidden="true"><circle cx="11" cy="6" r="5" fill="none" stroke="var(--gvi)" stroke-width="2"/></svg>as set now</li>' : '');
   const left = (p.todo ? p.todo.length : 40) + wanted.length, none = [1, 2, 3].filter(m => p.points.some(q => q.method === m && q.status === -6));
-  $('cost-caption').textContent = p.note || `A run to t = ${short(s.span, 3)}${s.time ? ' ' + s.time : ''}. ` + (left ? `Measuring, ${left} runs to go.` : none.length ? `${none.map(m => METHODS[m]).join(', ')} cannot: ${set.on && scene().mass.includes('MASS_DIAGONAL') || !scene().mass ? 'a force reads v' : 'the mass depends on q'}.` : 'All measured here, now.');
+  $('cost-caption').textContent = p.note || `A run to t = ${short(s.span, 3)}${s.time ? ' ' + s.time : ''}. ` + (left ? `Measuring, ${left} runs to go.` : none.length ? `${none.map(m => METHODS[m]).join(', ')} cannot: ${held() ? 'a constraint acts (degree 1 with Lobatto is RATTLE)' : set.on && scene().mass.includes('MASS_DIAGONAL') || !scene().mass ? 'a force reads v' : 'the mass depends on q'}.` : 'All measured here, now.');
   svg.dataset.left = left;
   /* the cheapest for the wanted error */
   const fit = m => good.filter(q => (m ? q.method > 0 : q.method === 0) && q.error <= 10 ** set.want).sort((b, c) => costOf(b) - costOf(c))[0];
@@ -676,7 +679,7 @@ function program(j) {
   return `/* ${s.title}: ${describe(j)}. Written by the playground of gvi.h.
    cc -I. -Iexamples -Idocs/playground this.c -lm      in the top folder of gvi.h  */
 #define GVI_IMPLEMENTATION
-#include "${/_clock /.test(code) ? 'clocks.h' : 'effects.h'}"
+#include "${/_clock /.test(code) ? 'clocks.h' : 'tools/effects.h'}"
 #include <stdio.h>
 #include <stdlib.h>
 

@@ -2,7 +2,7 @@
 
    They integrate a scene's effects one point a call.  So that no loop over points is left in them,
    each callback has a copy in which count and stride are the constant 1 (ONE).  With a constant mass
-   the unknowns are (q, v), with M(q) they are (q, p).                                     */
+   the unknowns are (q, v), with M(q) they are (q, p).  Constraints become accelerations (index 1). */
 #ifndef RIVALS_H
 #define RIVALS_H
 
@@ -46,6 +46,9 @@ enum { RIVAL_VERLET = 1, RIVAL_RK4, RIVAL_DOP853, RIVAL_STAGES = 12 };
 typedef struct rival {
     int         n, effects, method, reads_velocity;
     struct { gvi_points_fn *points, *value; void *user; } effect[SCENE_EFFECTS];
+    const scene_setup *setup;                        /* of the constraints in `on`, rows in all */
+    unsigned    on;
+    int         rows;
     gvi_mass    mass;
     double      inverse[SCENE_MOST];                 /* 1/m                                */
     double      t, h, y[2*SCENE_MOST];               /* q, then v or p                     */
@@ -54,6 +57,45 @@ typedef struct rival {
     double      evaluations;
     int         fresh;                               /* k[0] holds the slope at y          */
 } rival;
+
+/* d/de [G(q + e v) v] by a difference over e v and -e v: exact where g is quadratic.       */
+static void rival_bend(const rival *r, int n, const double *q, const double *v, double e, double *bend)
+{
+    static double g[SCENE_ROWS], rate[SCENE_ROWS], G[SCENE_ROWS*SCENE_MOST], moved[SCENE_MOST];
+    for (int a = 0; a < r->rows; ++a) bend[a] = 0;
+    for (double to = e; to > -2*e; to -= 2*e) {
+        for (int i = 0; i < n; ++i) moved[i] = q[i] + to*v[i];
+        scene_hold(r->setup, r->on, n, 0, moved, g, G, rate);
+        for (int a = 0; a < r->rows; ++a)
+            for (int i = 0; i < n; ++i) bend[a] += G[a*n+i]*v[i]/(2*to);
+    }
+}
+
+/* f += M^-1 G' lambda, with (G M^-1 G') lambda = -(G f + bend): positive, so no pivots.     */
+static void rival_hold(const rival *r, int n, const double *y, double *f)
+{
+    static double g[SCENE_ROWS], x[SCENE_ROWS], G[SCENE_ROWS*SCENE_MOST], A[SCENE_ROWS][SCENE_ROWS];
+    const int m = scene_hold(r->setup, r->on, n, 0, y, g, G, x);
+    rival_bend(r, n, y, y + n, 1, x);
+    for (int a = 0; a < m; ++a) {
+        for (int i = 0; i < n; ++i) x[a] += G[a*n+i]*f[i];
+        for (int b = 0; b < m; ++b) {
+            A[a][b] = 0;
+            for (int i = 0; i < n; ++i) A[a][b] += G[a*n+i]*r->inverse[i]*G[b*n+i];
+        }
+    }
+    for (int c = 0; c < m; ++c)
+        for (int a = c + 1; a < m; ++a) {
+            const double l = A[a][c]/A[c][c];
+            for (int b = c; b < m; ++b) A[a][b] -= l*A[c][b];
+            x[a] -= l*x[c];
+        }
+    for (int a = m - 1; a >= 0; --a) {
+        for (int b = a + 1; b < m; ++b) x[a] -= A[a][b]*x[b];
+        x[a] /= A[a][a];
+        for (int i = 0; i < n; ++i) f[i] -= r->inverse[i]*G[a*n+i]*x[a];
+    }
+}
 
 /* dy = slope of y: (v, M^-1 f) or (v, dL/dq + f).                                         */
 ALWAYS void rival_slope(rival *r, int n, double t, const double *y, double *dy)
@@ -73,6 +115,7 @@ ALWAYS void rival_slope(rival *r, int n, double t, const double *y, double *dy)
     for (int e = 0; e < r->effects; ++e) r->effect[e].points(&x, r->effect[e].user);
     if (r->mass.kind == GVI_MASS_DIAGONAL)
         for (int i = 0; i < n; ++i) dy[n+i] *= r->inverse[i];
+    if (r->rows) rival_hold(r, n, y, dy + n);
     r->evaluations += 1;
 }
 
@@ -192,6 +235,20 @@ static double rival_energy(rival *r)
     return T + V;
 }
 
+/* Whether rival_hold may take the constraints: not too many, mass constant, g quadratic, without t. */
+static int rival_holds(rival *r, int n, double t, const double *q)
+{
+    static double g[SCENE_ROWS], rate[SCENE_ROWS], G[SCENE_ROWS*SCENE_MOST], bend[2][SCENE_ROWS], v[SCENE_MOST];
+    r->rows = scene_hold(r->setup, r->on, n, t, q, g, G, rate);
+    if (r->rows <= 0) return r->rows == 0;
+    for (int i = 0; i < n; ++i) v[i] = i + 1;
+    rival_bend(r, n, q, v, 1, bend[0]);
+    rival_bend(r, n, q, v, 0.5, bend[1]);
+    for (int a = 0; a < r->rows; ++a)
+        if (rate[a] > 0 || rate[a] < 0 || !(fabs(bend[0][a] - bend[1][a]) <= 1e-9*(1 + fabs(bend[0][a])))) return 0;
+    return r->mass.kind == GVI_MASS_UNIT || r->mass.kind == GVI_MASS_DIAGONAL;
+}
+
 /* Ready at (t, q, v, p): 0, or -1 where the method does not suit the scene.                */
 static int rival_begin(rival *r, int method, int n, const scene_setup *s, unsigned on,
                        double t, const double *q, const double *v, const double *p)
@@ -199,12 +256,14 @@ static int rival_begin(rival *r, int method, int n, const scene_setup *s, unsign
     r->n = n;
     r->method = method;
     r->mass = s->mass;
+    r->setup = s;
+    r->on = on;
     r->effects = r->reads_velocity = r->fresh = 0;
     r->evaluations = 0;
     r->t = t;
     for (int e = 0; e < s->rows; ++e) {
         const gvi_effect *effect = &s->row[e].force;
-        if (!(on >> e & 1) || effect->kind == GVI_CLOCK) continue;
+        if (!(on >> e & 1) || effect->kind == GVI_CLOCK || effect->kind == GVI_CONSTRAINT) continue;
         if (effect->kind != GVI_POTENTIAL && effect->kind != GVI_FORCE) return -1;
         /* a force that reads no v would do, but nothing says that it does not              */
         if (effect->kind == GVI_FORCE && effect->points != motor_force) r->reads_velocity = 1;
@@ -217,7 +276,8 @@ static int rival_begin(rival *r, int method, int n, const scene_setup *s, unsign
         r->y[i] = q[i];
         r->y[n+i] = s->mass.kind == GVI_MASS_POSITION ? p[i] : v[i];
     }
-    return method == RIVAL_VERLET && (r->reads_velocity || s->mass.kind == GVI_MASS_POSITION) ? -1 : 0;
+    if (!rival_holds(r, n, t, q)) return -1;
+    return method == RIVAL_VERLET && (r->reads_velocity || r->rows || s->mass.kind == GVI_MASS_POSITION) ? -1 : 0;
 }
 
 #endif

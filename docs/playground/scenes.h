@@ -8,8 +8,7 @@
    INSTEAD(s, effect)   the same as a force, for integrators that know no Lagrangian terms
    MASS(s, mass)        if it is not the unit mass
 
-   A row may be of any kind that gvi.h has: the page takes kinds as they come, and the rivals refuse
-   what is neither potential nor force.  So a constraint is one more ADD, and "rods" one more scene. */
+   A row may be of any kind that gvi.h has; the page breaks a constraint with gvi_switch.      */
 #ifndef SCENES_H
 #define SCENES_H
 
@@ -17,7 +16,8 @@
 #include <string.h>
 
 enum { SCENE_MOST = 96,        /* degrees of freedom                                       */
-       SCENE_BODIES = 40, SCENE_PARAMETERS = 3, SCENE_QUANTITIES = 2, SCENE_EFFECTS = 10 };
+       SCENE_BODIES = 40, SCENE_PARAMETERS = 3, SCENE_QUANTITIES = 2, SCENE_EFFECTS = 10,
+       SCENE_ROWS = 24 };      /* of constraints                                           */
 
 typedef struct scene_row {
     const char *name, *what, *text;
@@ -66,6 +66,24 @@ static inline void scene_add(scene_setup *s, const char *name, const char *what,
                              int on, gvi_effect effect)
 {
     s->row[s->rows++] = (scene_row){ name, what, text, effect, effect, on };
+}
+
+/* g, Jacobian and rate of the constraints in `on` at one point; their rows, -1: too many.   */
+static inline int scene_hold(const scene_setup *s, unsigned on, int n, double t, const double *q,
+                             double *g, double *G, double *rate)
+{
+    int m = 0;
+    for (int e = 0; e < s->rows; ++e) {
+        const gvi_effect *a = &s->row[e].effect;
+        if (!(on >> e & 1) || a->kind != GVI_CONSTRAINT) continue;
+        if (m + a->rows > SCENE_ROWS) return -1;
+        for (int i = 0; i < a->rows*n; ++i) G[m*n+i] = 0;
+        for (int i = 0; i < a->rows; ++i) rate[m+i] = 0;
+        a->points(&(gvi_points){ .n = n, .count = 1, .stride = 1, .t = &t, .q = q, .g = g + m,
+                                 .jacobian = G + m*n, .rate = rate + m }, a->user);
+        m += a->rows;
+    }
+    return m;
 }
 
 static inline void scene_point(double *x, double a, double b, double c)
@@ -238,11 +256,16 @@ static void pendulum_build(scene_setup *s)
     ADD(s, "drive", "torque that swings in time", 0, motor(&pendulum_motor));
 }
 
-static void pendulum_place(const double *q, unsigned on, double (*x)[3])
+static void links_place(const double *q, double upper, double lower, double (*x)[3])
 {
     scene_point(x[0], 0, 0, 0);
-    scene_point(x[1], sin(q[0]), -cos(q[0]), 0);
-    scene_point(x[2], sin(q[0]) + sin(q[1]), -cos(q[0]) - cos(q[1]), 0);
+    scene_point(x[1], upper*sin(q[0]), -upper*cos(q[0]), 0);
+    scene_point(x[2], x[1][0] + lower*sin(q[1]), x[1][1] - lower*cos(q[1]), 0);
+}
+
+static void pendulum_place(const double *q, unsigned on, double (*x)[3])
+{
+    links_place(q, 1, 1, x);
     (void)on;
 }
 
@@ -262,6 +285,60 @@ static const scene double_pendulum = {
     .quantity = { { "angular momentum", "gravity,friction,drive" } },
     .text = pendulum_text, .build = pendulum_build, .quantities = pendulum_quantities,
     .bodies = 3, .view = 2.2, .place = pendulum_place, .rod = { { 0, 1, 3 } }, .radius = pendulum_radius,
+    .trails = 4, .fixed = 1,
+};
+
+/* ------------------------------------------------- the same as rods: constraints */
+
+SHOWN(rods_text,
+static const gvi_real rods_mass[] = { 1, 1 };
+static const struct uniform_field rods_weight = { { 0, 2, 2 }, rods_mass, { 0, -9.81 } };
+static const struct rod upper_rod[] = { { 0, -1, 1, { 0, 0 } } };
+static const struct rod lower_rod[] = { { 1, 0, 1, { 0, 0 } } };
+static const struct rods rods_upper = { { 0, 2, 2 }, upper_rod, 1 };
+static const struct rods rods_lower = { { 0, 2, 2 }, lower_rod, 1 };
+static const struct air_drag rods_air = { { 0, 2, 2 }, 0.02, 4 };
+)
+
+static void rods_build(scene_setup *s)
+{
+    const double angle[] = { s->value[0]/57.29577951308232, s->value[1]/57.29577951308232 };
+    double x[3][3];
+    links_place(angle, 1, 1, x);
+    for (int i = 0; i < 2; ++i) memcpy(s->q + 2*i, x[i+1], 2*sizeof(double));
+    ADD(s, "gravity", "potential, uniform", 1, uniform_field(&rods_weight));
+    ADD(s, "upper rod", "constraint, to the pivot", 1, rods(&rods_upper));
+    ADD(s, "lower rod", "constraint, between the bobs", 1, rods(&rods_lower));
+    ADD(s, "drag", "force, reads v: air", 0, air_drag(&rods_air));
+}
+
+/* Pivot, bobs, and the upper end of each rod while it holds                               */
+static void rods_place(const double *q, unsigned on, double (*x)[3])
+{
+    scene_point(x[0], 0, 0, 0);
+    scene_point(x[1], q[0], q[1], 0);
+    scene_point(x[2], q[2], q[3], 0);
+    scene_point(x[3], on & 2 ? 0 : NAN, 0, 0);
+    scene_point(x[4], on & 4 ? q[0] : NAN, q[1], 0);
+}
+
+static void rods_quantities(const double *q, const double *v, const double *p, double *out)
+{
+    out[0] = scene_angular(2, 2, q, p);
+    out[1] = p[0] + p[2];
+    (void)v;
+}
+
+static const double rods_radius[] = { 4, 8, 8, 0, 0 };
+
+static const scene pendulum_rods = {
+    .name = "rods", .title = "Pendulum of rods", .about = "The double pendulum again, in x and y: each rod "
+    "is a constraint. Break one, and the bob flies off.", .n = 4, .degree = 8, .h = 0.08, .span = 10,
+    .speed = 1, .time_unit = "s", .error_unit = "m", .length_unit = "m",
+    .parameter = { { "upper angle", "\xc2\xb0", -180, 180, 5, 90 }, { "lower angle", "\xc2\xb0", -180, 180, 5, 120 } },
+    .quantity = { { "angular momentum", "gravity,drag" }, { "momentum x", "upper rod,drag" } },
+    .text = rods_text, .build = rods_build, .quantities = rods_quantities,
+    .bodies = 5, .view = 2.2, .place = rods_place, .rod = { { 3, -2, 2 }, { 4, -2, 2 } }, .radius = rods_radius,
     .trails = 4, .fixed = 1,
 };
 
@@ -452,9 +529,7 @@ static void arm_build(scene_setup *s)
 
 static void arm_place(const double *q, unsigned on, double (*x)[3])
 {
-    scene_point(x[0], 0, 0, 0);
-    scene_point(x[1], 0.5*sin(q[0]), -0.5*cos(q[0]), 0);
-    scene_point(x[2], x[1][0] + 0.4*sin(q[1]), x[1][1] - 0.4*cos(q[1]), 0);
+    links_place(q, 0.5, 0.4, x);
     (void)on;
 }
 
@@ -511,8 +586,8 @@ static const scene elastic_pendulum = {
 };
 
 static const scene *const scenes[] = {
-    &kepler, &figure_eight, &pythagoras, &double_pendulum, &spinning_top, &spring_net, &charged_particle,
-    &robot_arm, &elastic_pendulum,
+    &kepler, &figure_eight, &pythagoras, &double_pendulum, &pendulum_rods, &spinning_top, &spring_net,
+    &charged_particle, &robot_arm, &elastic_pendulum,
 };
 
 #endif

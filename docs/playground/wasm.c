@@ -51,7 +51,8 @@ typedef struct world {
     unsigned     on;
     gvi_desc     desc;
     gvi_stepper  st;
-    int          open, pinned;
+    int          open, pinned, asked[2];             /* degree and rule as asked for       */
+    const char  *call;                               /* that world_open made last          */
     double       t, q[SCENE_MOST], v[SCENE_MOST], p[SCENE_MOST], before[SCENE_MOST];
     double       total[SCENE_EFFECTS], steps, iterations, evaluations;
     rival        rival;
@@ -183,6 +184,22 @@ static void world_remember(world *w)
     gvi_velocity(&w->st, w->v);
 }
 
+/* Where nothing changed but constraints that the stepper lists: breaks or mounts them.  1: no.  */
+static int world_switch(world *w, unsigned changed)
+{
+    unsigned listed = 0;
+    for (int e = 0; e < w->desc.effect_count; ++e)
+        if (w->effects[e].kind == GVI_CONSTRAINT) listed |= 1u << w->listed[e];
+    if (!changed || changed & ~listed) return 1;
+    for (int e = 0; e < w->desc.effect_count; ++e) {
+        const unsigned bit = 1u << w->listed[e];
+        const int status = changed & bit ? gvi_switch(&w->st, e, !(w->on & bit)) : GVI_OK;
+        if (status != GVI_OK) return status;
+        w->on ^= changed & bit;
+    }
+    return GVI_OK;
+}
+
 /* Sets a scene up with the effects in `on` and starts it, or goes on from where it is.  Effects
    that are off are not in the list: the library chooses its formulation by what is left.  */
 int EXPORT(world_open)(int which, int index, unsigned on, int degree, int rule, double tolerance, int keep)
@@ -193,11 +210,20 @@ int EXPORT(world_open)(int which, int index, unsigned on, int degree, int rule, 
     if (!a) return GVI_E_ARGUMENT;
     if (w->open && keep) world_remember(w);
     keep = keep && w->scene == a;
+    w->steps = w->iterations = w->evaluations = 0;
+    memset(w->total, 0, sizeof w->total);
+    w->call = "gvi_switch";
+    if (keep && w->open && w->asked[0] == degree && w->asked[1] == rule && !(w->desc.tolerance < tolerance)
+        && !(w->desc.tolerance > tolerance)) {
+        const int status = world_switch(w, on ^ w->on);
+        if (status <= 0) return status;
+    }
+    w->call = "gvi_init";
     w->open = w->pinned = 0;
     w->scene = a;
     w->on = on;
-    w->steps = w->iterations = w->evaluations = 0;
-    memset(w->total, 0, sizeof w->total);
+    w->asked[0] = degree;
+    w->asked[1] = rule;
     scene_ready(a, &w->setup, values);
     if (!keep) {                                     /* to be seen even if it does not start */
         w->t = 0;
@@ -220,7 +246,7 @@ int EXPORT(world_open)(int which, int index, unsigned on, int degree, int rule, 
     }
     int status = gvi_init(&w->st, &w->desc, w->memory, sizeof w->memory);
     if (status == GVI_OK)
-        status = keep ? gvi_start(&w->st, w->t, w->q, w->v) : gvi_start(&w->st, 0, w->setup.q, w->setup.v);
+        w->call = "gvi_start", status = keep ? gvi_start(&w->st, w->t, w->q, w->v) : gvi_start(&w->st, 0, w->setup.q, w->setup.v);
     w->open = status == GVI_OK;
     if (w->open) {
         world_remember(w);
@@ -259,6 +285,16 @@ int EXPORT(world_advance)(int which, double h, int count)
     return GVI_OK;
 }
 
+/* The largest |g| of the constraints that act.                                            */
+static double world_gap(const world *w, double t, const double *q)
+{
+    static double g[SCENE_ROWS], rate[SCENE_ROWS], G[SCENE_ROWS*SCENE_MOST];
+    const int m = scene_hold(&w->setup, w->on, w->scene->n, t, q, g, G, rate);
+    double most = m < 0 ? NAN : 0;
+    for (int a = 0; a < m; ++a) most = fabs(g[a]) > most || g[a] != g[a] ? fabs(g[a]) : most;
+    return most;
+}
+
 double EXPORT(world_number)(int which, int field, int i)
 {
     world *w = &worlds[(unsigned)which%WORLDS];
@@ -284,6 +320,7 @@ double EXPORT(world_number)(int which, int field, int i)
         world_remember(w);
         w->scene->quantities(w->q, w->v, w->p, kept);
         return kept[i];
+    case 22: return w->open ? world_gap(w, w->st.t, w->st.q) : NAN;
     case 30: return w->open ? w->st.q[i] : w->q[i];
     case 31: return w->open ? w->st.p[i] : w->p[i];
     case 32: return w->setup.q[i];
@@ -292,11 +329,14 @@ double EXPORT(world_number)(int which, int field, int i)
     case 41: return w->rival.evaluations;
     case 42: return rival_energy(&w->rival);
     case 43: return w->rival.y[i];
+    case 44: return world_gap(w, w->rival.t, w->rival.y);
     default: return 0;
     }
 }
 
 const char *EXPORT(world_formulation)(int which) { return gvi_formulation_text(&worlds[(unsigned)which%WORLDS].st); }
+
+const char *EXPORT(world_call)(int which) { return worlds[(unsigned)which%WORLDS].call; }
 
 static double *world_picture(const world *w, const double *q)
 {

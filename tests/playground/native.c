@@ -1,6 +1,8 @@
 /* The playground's program, natively: runs of every scene, each printed with all the bits of its
    end, for bits.mjs to repeat in WebAssembly.  A line: scene on degree rule tolerance method
-   parameter, then status, evaluations, steps, q, p or v of a rival, and the energy.       */
+   parameter, then status, evaluations, steps, q, p or v of a rival, energy and |g|.
+   method -1: `parameter` is the step; the constraint that is last in the list breaks after 20, and is
+   mounted again after 20 more, which is refused.                                          */
 #include "../../docs/playground/wasm.c"
 #include <inttypes.h>
 #include <stdio.h>
@@ -28,6 +30,24 @@ static void run(int scene, unsigned on, int degree, int rule, double tolerance, 
         for (int i = 0; i < n; ++i) bits(q[i]);
         for (int i = 0; i < n; ++i) bits(method ? world_number(1, 43, n + i) : world_number(1, 31, i));
         bits(method ? world_number(1, 42, 0) : world_number(1, 20, 0));
+        bits(method ? world_number(1, 44, 0) : world_number(1, 22, 0));
+    }
+    printf("\n");
+}
+
+static void broken(int scene, unsigned on, int degree, int rule, double h)
+{
+    unsigned rod = 0;
+    for (int e = 0; e < 32; ++e)
+        if (on >> e & 1 && scene_number(scene, 22, e) == GVI_CONSTRAINT) rod = 1u << e;
+    for (int i = 0; i < SCENE_PARAMETERS; ++i) parameters()[i] = scene_number(scene, 33, i);
+    printf("%d %u %d %d 0 -1 %.17g:", scene, on, degree, rule, h);
+    for (int k = 0; k < 3; ++k) {
+        const int status = world_open(0, scene, k == 1 ? on & ~rod : on, degree, rule, 0, k > 0);
+        printf(" %d %d", status, status ? 0 : world_advance(0, h, 20));
+        for (int i = 0; i < worlds[0].scene->n; ++i) bits(world_number(0, 30, i)), bits(world_number(0, 31, i));
+        bits(world_number(0, 22, 0));
+        for (int e = 0; e < 4; ++e) bits(world_number(0, 3, e));
     }
     printf("\n");
 }
@@ -60,6 +80,12 @@ int main(void)
             run(s, on, 8, RULE_GAUSS, 0, RIVAL_DOP853, 1e-8);
         }
     }
+    for (int s = 0; s < scene_count(); ++s)
+        for (int e = 0; e < (int)scene_number(s, 20, 0); ++e)
+            if (scene_number(s, 22, e) == GVI_CONSTRAINT) {
+                broken(s, (2u << e) - 1, 8, RULE_GAUSS, scene_number(s, 2, 0));
+                broken(s, (2u << e) - 1, 3, RULE_LOBATTO, scene_number(s, 2, 0)/8);
+            }
     run(0, 1, 99, RULE_GAUSS, 0, 0, 0.1);                       /* what the library refuses */
     run(0, 1, 8, RULE_GAUSS, 0, 0, 0);
     run(99, 1, 8, RULE_GAUSS, 0, 0, 0.1);

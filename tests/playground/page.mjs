@@ -161,6 +161,25 @@ await page.waitForFunction(() => window.gvi.live.t > 200, null, { timeout: 60000
 await page.waitForTimeout(500);
 check('the clock keeps the energy', (await lost()) < 1e-11, await lost());
 
+/* ---- a constraint that breaks ---- */
+await page.click('#scenes button[data-scene=rods]');
+await page.waitForFunction(() => window.gvi.live.t > 2, null, { timeout: 20000 });
+const gap = () => page.evaluate(() => Number((/Constraint: gvi.h ([^ ,]+?)[.,]? /.exec(document.querySelector('#stability').getAttribute('aria-label') + ' ') || [])[1]?.replace('−', '-')));
+await page.waitForTimeout(500);
+check('the rods hold, to rounding', (await gap()) < 1e-14, await gap());
+const reach = () => page.evaluate(() => { const n = i => window.gvi.x.world_number(0, 30, i); return Math.hypot(n(2) - n(0), n(3) - n(1)); });
+check('a rod of 1 m', Math.abs((await reach()) - 1) < 1e-14, await reach());
+await page.click('tr[data-effect=lower-rod] input');
+const held = await total(page, 'lower-rod'), upper = await total(page, 'upper-rod');
+await page.waitForTimeout(1500);
+check('a broken rod: its counter stands still', (await total(page, 'lower-rod')) === held && held > 0 && (await total(page, 'upper-rod')) > upper);
+check('and the bob flies off', (await reach()) > 1.5, await reach());
+await page.screenshot({ path: join(build, 'broken.png'), fullPage: true });
+await page.click('tr[data-effect=lower-rod] input');
+check('it cannot be mounted there', /^gvi_switch.*lower rod/.test(await page.textContent('#alert-text')), await page.textContent('#alert-text'));
+await page.click('#restart');
+check('but at the start', !(await page.isVisible('#alert')) && Math.abs((await reach()) - 1) < 1e-14);
+
 /* ---- the address ---- */
 await page.click('#scenes button[data-scene=charge]');
 await page.click('tr[data-effect=electric-field] input');
@@ -202,7 +221,7 @@ for (const name of await page.evaluate(() => [...document.querySelectorAll('#sce
   check(`${name}: runs and is measured`, !state.alert && state.points > 8 && state.reference, { ...state, code: '' });
   programs[name] = state;
 }
-for (const name of ['kepler', 'pendulum', 'net', 'pythagoras']) {
+for (const name of ['kepler', 'pendulum', 'rods', 'net', 'pythagoras']) {
   const source = join(build, `${name}.c`), binary = join(build, name);
   writeFileSync(source, programs[name].code);
   try {
@@ -229,7 +248,7 @@ const at = await page.evaluate(() => window.gvi.live.t);
 await page.waitForTimeout(600);
 check('less motion: it waits', at === await page.evaluate(() => window.gvi.live.t) && await page.evaluate(() => !window.gvi.live.playing));
 await leave(page);
-for (const [name, hash, options] of [['light', '', { colorScheme: 'light', viewport: { width: 1280, height: 1500 } }], ['dark', '#scene=eight', { colorScheme: 'dark', viewport: { width: 1280, height: 1500 } }], ['phone', '#scene=top', { colorScheme: 'light', viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true }], ['phone-dark', '#scene=pendulum', { colorScheme: 'dark', viewport: { width: 360, height: 740 }, isMobile: true, hasTouch: true }]]) {
+for (const [name, hash, options] of [['light', '', { colorScheme: 'light', viewport: { width: 1280, height: 1500 } }], ['dark', '#scene=eight', { colorScheme: 'dark', viewport: { width: 1280, height: 1500 } }], ['rods-dark', '#scene=rods', { colorScheme: 'dark', viewport: { width: 1280, height: 1500 } }], ['phone-rods', '#scene=rods', { colorScheme: 'light', viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true }], ['phone', '#scene=top', { colorScheme: 'light', viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true }], ['phone-dark', '#scene=pendulum', { colorScheme: 'dark', viewport: { width: 360, height: 740 }, isMobile: true, hasTouch: true }]]) {
   page = await visit(hash, options);
   await measured(page);
   check(`${name}: nothing sticks out`, await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), await page.evaluate(() => document.documentElement.scrollWidth));
