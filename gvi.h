@@ -539,7 +539,8 @@ typedef struct gvi_rule {
 
 typedef enum gvi_formulation {
     GVI_AUTO       = 0,   /* the cheapest that covers the scene; Newton when it
-                             contracts badly                                   */
+                             contracts badly and s n <= 1024, since its memory
+                             grows like (s n)^2: beyond, pin GVI_NEWTON         */
     GVI_EXPLICIT   = 1,
     GVI_POSITIONS  = 2,
     GVI_VELOCITIES = 3,
@@ -779,7 +780,7 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action);
    without a guess, it is whatever curve Newton's method finds from the chord.  GVI_E_CONJUGATE
    where the ends do not determine the curve (oscillator: h omega = k pi; a half circle about the
    Sun, whose chord goes through it, or past another conjugate point).  Needs
-   GVI_AUTO or GVI_NEWTON if s > 1, and is not for kicks or a clock.  Forced systems: d1, d2 are
+   GVI_NEWTON, or GVI_AUTO with s n <= 1024, if s > 1, and is not for kicks or a clock.  Forced systems: d1, d2 are
    total derivatives, and F-, F+ are h sum b_i f_i dQ_i/dq0, dQ_i/dq1 with the curve's own
    dependence on its ends, as the exact discrete forces are [1, sec. 3.2]; how they share p0
    and p1 is as exact as the Hessians (sqrt(eps), where these are differences), p0 and p1
@@ -4349,8 +4350,10 @@ GVI__COLD gvi_status gvi__choose(struct gvi__private *x, gvi_fault *fault)
     if (f == GVI_NEWTON && given) return GVI_E_FORMULATION;
     if (!GVI__RULES && f != GVI_EXPLICIT && (d->rule.kind != GVI_GAUSS || r != s || s > 4))
         return GVI_E_FORMULATION;
+    // as a fall-back only where its matrices are small
     if (f == GVI_NEWTON
-        || (GVI__NEWTON && !pinned && f != GVI_EXPLICIT && x->apart == 0 && !given))
+        || (GVI__NEWTON && !pinned && f != GVI_EXPLICIT && x->apart == 0 && !given
+            && s <= 1024/d->n))
         x->needs |= GVI__HAS_NEWTON;
     const int matrices =
         gvi__has(x, GVI__HAS_NEWTON | GVI__HAS_LAGRANGIAN) || d->mass.kind >= GVI_MASS_DENSE;

@@ -502,6 +502,28 @@ TEST(the_contraction_is_that_of_the_changes)
     }
 }
 
+static int harmonic(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *f, gvi_real *dldv, void *user)
+{
+    f[0] -= q[0];
+    return (void)t, (void)v, (void)dldv, (void)user, 0;
+}
+
+/* A large scene is set up in memory that grows like n, and Newton's method is there when it is asked for */
+TEST(a_large_scene_needs_no_matrices)
+{
+    static const gvi_effect effect = { .kind = GVI_POTENTIAL, .point = harmonic };
+    gvi_desc desc = { .n = 512, .degree = 2, .effects = &effect, .effect_count = 1 };
+    const size_t most = gvi_size(&desc);
+    assert_true(most > 2*1024*1024*sizeof(gvi_real));              // two matrices, as far as it is ready
+    desc.n = 513;
+    assert_true(gvi_size(&desc) < most/10);
+    const size_t one = gvi_size(&desc);
+    desc.n = 2*513;
+    assert_between(1.9L*one, gvi_size(&desc), 2.1L*one);
+    desc.formulation = GVI_NEWTON;
+    assert_between(30*one, gvi_size(&desc), 1e12L);
+}
+
 /* A heavy top, L(q,v) of Euler's angles; its derivatives by central differences, wrong by 1e-6 and noisy by 1e-13 */
 static double top(const double *q, const double *v)
 {
