@@ -779,8 +779,8 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action);
    that starts with it, and gvi_start_momentum(st, t, q0, p0) starts it.  If `negative` is wanted,
    without a guess, it is whatever curve Newton's method finds from the chord.  GVI_E_CONJUGATE
    where the ends do not determine the curve (oscillator: h omega = k pi; a half circle about the
-   Sun, whose chord goes through it, or past another conjugate point).  Needs
-   GVI_NEWTON, or GVI_AUTO with s n <= 1024, if s > 1, and is not for kicks or a clock.  Forced systems: d1, d2 are
+   Sun, whose chord goes through it, or past another conjugate point).  Needs GVI_NEWTON, or
+   GVI_AUTO with s n <= 1024, if s > 1, and is not for kicks or a clock.  Forced systems: d1, d2 are
    total derivatives, and F-, F+ are h sum b_i f_i dQ_i/dq0, dQ_i/dq1 with the curve's own
    dependence on its ends, as the exact discrete forces are [1, sec. 3.2]; how they share p0
    and p1 is as exact as the Hessians (sqrt(eps), where these are differences), p0 and p1
@@ -4069,10 +4069,10 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
    rounding is refused; for v by the kinetic energy in it, r' A^-1 r/2, r = G v + dg/dt.      */
 GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, int start)
 {
-    enum { UNITS = 4096 };
+    const gvi_real units = 4096;
     struct gvi__private *x = &st->x;
     const int n = st->n, m = x->con.m, passes = gvi__has(x, GVI__HAS_LAGRANGIAN) ? 40 : 2;
-    const gvi_real t = from->t + (from->t_low + x->dt), far = UNITS*GVI__EPS;
+    const gvi_real t = from->t + (from->t_low + x->dt), far = units*GVI__EPS;
     gvi_real *q = x->result, *p = q + n, *v = p + n, *r = x->con.g, *z = x->con.rho,
              before = GVI__MAX;
     for (int i = 0; i < n; ++i) q[i] = from->q[i] + (x->step.q[i] + x->step.q_low[i]);
@@ -4081,7 +4081,7 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
     gvi_status status = gvi__constraints_at(st, t, q);
     if (start) x->diagnose = 0;
     for (int a = 0; a < m && start && status == GVI_OK; ++a)
-        if (gvi__violated(st, UNITS, t, q, x->con.G, a))
+        if (gvi__violated(st, units, t, q, x->con.G, a))
             return gvi__report_row(st, GVI_E_CONSTRAINT, a, GVI_FAULT_NONE);
     gvi__velocity_guess(st, v);
     for (int pass = 0; pass < passes && status == GVI_OK; ++pass) {

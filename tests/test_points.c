@@ -23,7 +23,7 @@ static void fill(arrays *a)
 /* All arrays of `a` that a callback with these outputs may see */
 static gvi_points points_of(arrays *a, int n, int size, const char *outputs)
 {
-    gvi_points x = { n, sizes[size][0], sizes[size][1], a->t, a->q, a->v, a->p, NULL, NULL, NULL, NULL, NULL };
+    gvi_points x = { .n = n, .count = sizes[size][0], .stride = sizes[size][1], .t = a->t, .q = a->q, .v = a->v, .p = a->p };
     if (strchr(outputs, 'f')) x.f = a->f;
     if (strchr(outputs, 'd')) x.dldv = a->dldv;
     if (strchr(outputs, 'V')) x.value = a->value;

@@ -51,7 +51,7 @@ static MAYBE doubled_result compare_with_doubled(const problem *pb, const method
     static real memory[20000];
     static problem copy;
     copy = *pb;
-    const gvi_effect whole[] = { { GVI_LAGRANGIAN, NULL, doubled_term, NULL, NULL, &copy } };
+    const gvi_effect whole[] = { { .kind = GVI_LAGRANGIAN, .point = doubled_term, .user = &copy } };
     const gvi_desc desc = { .n = 2*pb->n, .degree = m->s, .rule = m->rule, .mass = { .kind = GVI_MASS_NONE },
                             .effects = whole, .effect_count = 1 };
     doubled_result left = { 0, 0, 0 };

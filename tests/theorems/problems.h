@@ -275,13 +275,13 @@ HESSIAN(motor_hessian)
 
    Several starts, so that no leading term of an error is small by accident   */
 
-#define SPRING     { GVI_POTENTIAL, NULL, spring, spring_value, spring_hessian, NULL }
-#define ATTRACTION { GVI_POTENTIAL, NULL, attraction_at, attraction, attraction_hessian, NULL }
-#define WEIGHTS    { GVI_POTENTIAL, NULL, weights, weights_value, weights_hessian, NULL }
-#define TRAP       { GVI_POTENTIAL, NULL, trap, trap_value, trap_hessian, NULL }
-#define FIELD      { GVI_LAGRANGIAN, NULL, field, field_value, field_hessian, NULL }
-#define SWING      { GVI_LAGRANGIAN, NULL, swing, swing_value, swing_hessian, NULL }
-#define FORCE(f)   { GVI_FORCE, NULL, f, NULL, f##_hessian, NULL }
+#define SPRING     { .kind = GVI_POTENTIAL, .point = spring, .value = spring_value, .hessian = spring_hessian }
+#define ATTRACTION { .kind = GVI_POTENTIAL, .point = attraction_at, .value = attraction, .hessian = attraction_hessian }
+#define WEIGHTS    { .kind = GVI_POTENTIAL, .point = weights, .value = weights_value, .hessian = weights_hessian }
+#define TRAP       { .kind = GVI_POTENTIAL, .point = trap, .value = trap_value, .hessian = trap_hessian }
+#define FIELD      { .kind = GVI_LAGRANGIAN, .point = field, .value = field_value, .hessian = field_hessian }
+#define SWING      { .kind = GVI_LAGRANGIAN, .point = swing, .value = swing_value, .hessian = swing_hessian }
+#define FORCE(f)   { .kind = GVI_FORCE, .point = f, .hessian = f##_hessian }
 #define PENDULUM_MASS { GVI_MASS_POSITION, NULL, pendulum_mass, pendulum_mass_gradient, NULL, NULL }
 
 #define KEPLER_STARTS   { { 0.7L, 0 }, { 0.2L, 0.8L }, { -0.9L, 0.1L } }, \
