@@ -27,6 +27,7 @@ static gvi_effect unlist(int e)
 {
     const gvi_effect was = made.effects[e];
     const int last = --made.desc.effect_count;
+    if (!last) made.desc.effects = NULL;
     for (int k = e; k < last; ++k) made.effects[k] = made.effects[k+1];
     made.effects[last] = (gvi_effect){ .kind = was.kind, .points = trap_points, .value = trap_points,
                                        .hessian = trap_hessian };
@@ -61,7 +62,7 @@ TEST(unlisted_effects_are_never_asked)
             free(memory);
         }
     }
-    assert_int_equal(seen, 29);
+    assert_int_equal(seen, 35);
 }
 
 /* The trap works: listed, it is asked.                                         */
@@ -89,7 +90,8 @@ TEST(unlisted_effects_take_no_bytes)
         const size_t all = gvi_size(&made.desc);
         for (int e = 0, count = made.desc.effect_count; e < count; ++e) {
             scene_build(scenes[a], &made, NULL);
-            unlist(e);
+            // what a constraint refuses, Newton's method, has memory without it
+            if (unlist(e).kind == GVI_CONSTRAINT) continue;
             const size_t without = gvi_size(&made.desc);
             assert_true(without > 0 && without <= all);
             less += without < all;
@@ -97,6 +99,9 @@ TEST(unlisted_effects_take_no_bytes)
             gvi_effect twice[2*GVI_EFFECTS];
             const int left = made.desc.effect_count;
             if (left == 0 || 2*left > GVI_EFFECTS) continue;
+            int rows = 0;                       // twice a constraint is two constraints
+            for (int k = 0; k < left; ++k) rows += made.effects[k].rows;
+            if (rows > 0) continue;
             for (int k = 0; k < 2*left; ++k) twice[k] = made.effects[k % left];
             made.desc.effects = twice;
             made.desc.effect_count = 2*left;

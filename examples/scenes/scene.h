@@ -106,6 +106,7 @@ static inline void scene_build(const scene *a, scene_setup *s, const char *witho
         s->effects[kept++] = s->effects[e];
     }
     s->desc.effect_count = kept;
+    if (!kept) s->desc.effects = NULL;
 }
 
 /* The work that each force did in the last step, added to work[effect]: its
