@@ -2771,8 +2771,10 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
 static void gvi__watch_resolution(gvi_stepper *st, gvi_real h)
 {
     const struct gvi__private *x = &st->x;
-    const gvi_real *a = x->table.high, *b = a + x->R, *F = x->work.F;
-    for (int i = 0; a && i < st->n; ++i, F += x->R) {
+    const gvi_real *a = x->table.high, *F = x->work.F;
+    if (!a) return;                               // explicit
+    const gvi_real *b = a + x->R;
+    for (int i = 0; i < st->n; ++i, F += x->R) {
         const gvi_real all = (GVI_ABS(F[0]) + GVI_ABS(F[(st->r - 1)/2]) + GVI_ABS(F[st->r/2])
                               + GVI_ABS(F[st->r - 1]))/4;
         gvi_real one = 0, two = 0;
