@@ -105,7 +105,7 @@
               their low words depend on FMA.
    work       Bounded: docs/embedded.md has the bound, `make bound` counts it.
    converged  A step ends when every coordinate has converged by its own size,
-              whatever stands beside it.  A coordinate that does not, since
+              whatever else the scene holds.  A coordinate that does not, since
               large forces cancel in it, may be taken for rounding below
               32 eps of the largest |q_i|, each times sqrt(M_ii).
 

@@ -1,6 +1,6 @@
 /* 28 - What if a linkage hits a stop? Two rods and a wall
 
-   A pendulum of two rods, in the coordinates of its two bobs, swings beside a wall that the lower bob hits.
+   A pendulum of two rods, in the coordinates of its two bobs, swings next to a wall that the lower bob hits.
    The rods are constraints, g = 0 with G = dg/dq. At the impact the wall pushes along n, and the rods push back
    at the same instant, so that the velocities still fit them:
 

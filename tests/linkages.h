@@ -5,6 +5,7 @@
 #ifndef TESTS_LINKAGES_H
 #define TESTS_LINKAGES_H
 
+#include <string.h>
 #include <tgmath.h>
 #undef I                                          // of <complex.h>, which it includes
 
@@ -309,6 +310,21 @@ LINKAGE gvi_desc linkage_desc(const linkage *a, int degree)
     const gvi_desc desc = { .n = a->n, .degree = degree, .effects = a->effects, .effect_count = a->count,
                             .mass = a->mass };
     return desc;
+}
+
+/* g, G and dg/dt at the state */
+LINKAGE void constraint_of_state(const gvi_stepper *st, const linkage *a, real *g, real *G, real *rate)
+{
+    gvi_points x;
+    memset(&x, 0, sizeof x);
+    x.n = a->n;
+    x.count = x.stride = 1;
+    x.t = &st->t;
+    x.q = st->q;
+    x.g = g;
+    x.jacobian = G;
+    x.rate = rate;
+    a->effects[1].points(&x, a->effects[1].user);
 }
 
 #endif

@@ -18,16 +18,7 @@ static gvi_status set_up(gvi_stepper *st, const linkage *a, const gvi_desc *desc
 static real residual(const gvi_stepper *st, const linkage *a)
 {
     real g[MOST_M] = { 0 }, G[MOST_M*MOST_N] = { 0 }, rate[MOST_M] = { 0 }, worst = 0;
-    gvi_points x;
-    memset(&x, 0, sizeof x);
-    x.n = a->n;
-    x.count = x.stride = 1;
-    x.t = &st->t;
-    x.q = st->q;
-    x.g = g;
-    x.jacobian = G;
-    x.rate = rate;
-    a->effects[1].points(&x, a->effects[1].user);
+    constraint_of_state(st, a, g, G, rate);
     for (int b = 0; b < a->m; ++b) {
         real size = fabs(rate[b]*st->t);
         for (int i = 0; i < a->n; ++i) size += fabs(G[b*a->n + i]*st->q[i]);
@@ -40,17 +31,8 @@ static real residual(const gvi_stepper *st, const linkage *a)
 static real hidden(gvi_stepper *st, const linkage *a)
 {
     real g[MOST_M] = { 0 }, G[MOST_M*MOST_N] = { 0 }, rate[MOST_M] = { 0 }, v[MOST_N], worst = 0, speed = 0;
-    gvi_points x;
-    memset(&x, 0, sizeof x);
     assert_ok(gvi_velocity(st, v));
-    x.n = a->n;
-    x.count = x.stride = 1;
-    x.t = &st->t;
-    x.q = st->q;
-    x.g = g;
-    x.jacobian = G;
-    x.rate = rate;
-    a->effects[1].points(&x, a->effects[1].user);
+    constraint_of_state(st, a, g, G, rate);
     for (int i = 0; i < a->n; ++i) speed += fabs(v[i]) + (real)0.01L;      // at rest there is nothing to measure by
     for (int b = 0; b < a->m; ++b) {
         real sum = rate[b], size = 0;

@@ -14,16 +14,7 @@ static double off(const gvi_stepper *st, const linkage *a, const real *by, int h
 {
     real g[MOST_M], G[MOST_M*MOST_N] = { 0 }, rate[MOST_M];
     double worst = 0;
-    gvi_points x;
-    memset(&x, 0, sizeof x);
-    x.n = a->n;
-    x.count = x.stride = 1;
-    x.t = &st->t;
-    x.q = st->q;
-    x.g = g;
-    x.jacobian = G;
-    x.rate = rate;
-    a->effects[1].points(&x, a->effects[1].user);
+    constraint_of_state(st, a, g, G, rate);
     for (int b = 0; b < a->m; ++b) {
         double size = 0, sum = 0, speed = 0;
         for (int i = 0; i < a->n; ++i) {
