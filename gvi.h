@@ -632,7 +632,7 @@ struct gvi__time {                    /* clock: at the points, and the state's  
 struct gvi__newton {
     gvi_real *y, *dy, *residual, *last;   /* [s*n] modes, change, rows, modes before  */
     gvi_real *found, *branch, *guess, *slope;  /* [s*n] see gvi__newton_connected     */
-    gvi_real  bend;                   /* worst contraction on the way to the last solution */
+    gvi_real  bend;                   /* worst contraction by its own matrices before the last */
     gvi_real *J, *pivot;              /* two matrices of s*n: of steps, of queries   */
     gvi_real *hessian, *column, *moved;   /* scratch                                */
     gvi_real  h;                      /* for which J was made, 0: none              */
@@ -4682,10 +4682,11 @@ static gvi_status gvi__newton_values(gvi_stepper *st, const gvi__origin *from)
    once its change is made the work that does in it, or -1 where either is rounding; the
    residual's norm at the last y that stayed; how often no change was less than half of the
    least; is there a matrix that will do, is it new (1) and was the last one (2); how often was
-   the last change halved, or -1: none to take back.                                           */
+   the last change halved, or -1: none to take back; did that change move the residual by half of
+   itself, or is the residual rounding?                                                        */
 typedef struct gvi__descent {
     gvi_real before, earlier, least, rho, left, work, norm;
-    int      stagnant, have, fresh, halves;
+    int      stagnant, have, fresh, halves, holds;
 } gvi__descent;
 
 /* dy and residual := -(1).  The weights of P are h b_i/h, those that F has, and Phi_0 = c is on
@@ -4697,11 +4698,11 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, 
     struct gvi__private *x = &st->x;
     const int n = st->n, R = x->R, first = !(p->norm < GVI__MAX);
     const gvi_real h = x->sized.h;
-    gvi_real norm = 0;
+    gvi_real norm = 0, moved = 0, before = 0;
     p->work = 0;
     for (int i = 0; i < n; ++i) {
         const gvi_real *P = x->work.P + i*R, *F = x->work.F + i*R;
-        gvi_real length = 0;
+        gvi_real length = 0, change = 0, was = 0;
         for (int k = k0; k < st->s; ++k) {
             // P - p is summed where p occurs: the rounding of P then is not in the sum
             const gvi_real base = k == 0 ? from->p[i] : 0;
@@ -4715,14 +4716,20 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, 
                 size += GVI_ABS(phi*(x->table.b[j]*P[j])) + GVI_ABS(b);
             }
             const gvi_real sum = momentum/h - force;
-            x->newton.dy[(k - k0)*n + i] = x->newton.residual[(k - k0)*n + i] =
-                -(gvi_real)(2*k + 1)*sum;
-            length += (gvi_real)(2*k + 1)*GVI_ABS(sum);
+            gvi_real *rest = x->newton.residual + (k - k0)*n + i;
+            const gvi_real now = -(gvi_real)(2*k + 1)*sum;
+            change += GVI_ABS(now - *rest);
+            was += GVI_ABS(*rest);
+            length += GVI_ABS(now);
+            x->newton.dy[(k - k0)*n + i] = *rest = now;
             if (size > 0 && GVI_ABS(sum)/size > p->work) p->work = GVI_ABS(sum)/size;
         }
         if (first) x->watch.scale[i] = 1/GVI_SQRT(gvi__inertia(st, i));
         norm += length*x->watch.scale[i];
+        moved += change*x->watch.scale[i];
+        before += was*x->watch.scale[i];
     }
+    p->holds = p->work <= 16*GVI__EPS || (!first && moved >= before/2);
     return norm;
 }
 
@@ -4940,7 +4947,8 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
                                    gvi__descent *p)
 {
     struct gvi__private *x = &st->x;
-    const int n = st->n, solved = p->work <= 16*GVI__EPS;
+    const int n = st->n, solved = p->work <= 16*GVI__EPS,
+              sure = p->holds || p->rho < (gvi_real)0.25;
     const gvi_real h = GVI_ABS(x->sized.h), none = GVI__MIN/GVI__EPS;
     gvi_real sum = 0;
     int still = 1;
@@ -4962,7 +4970,7 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
         if (!(size <= none && change <= none)) sum += change/(size < least ? least : size);
         if (!(h*change <= 4*GVI__EPS*GVI_ABS(from->q[i]))) still = 0;
     }
-    if (still || solved) p->work = -1;
+    if ((still && sure) || solved) p->work = -1;
     return sum;
 }
 
@@ -4972,7 +4980,7 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
    same, whatever it is.                                                                       */
 static int gvi__newton_rests(gvi__descent *p, int size, gvi_real change)
 {
-    const int fresh = p->fresh & 1, proven = fresh || p->rho < (gvi_real)0.25;
+    const int fresh = p->fresh & 1, proven = (fresh && p->holds) || p->rho < (gvi_real)0.25;
     const gvi_real small = fresh ? GVI_SQRT(GVI__EPS) : 0, enough = 64*GVI__EPS*(gvi_real)size;
     if (!(p->work < 0) && !(proven && change <= (enough > small ? enough : small))) return 0;
     p->left = p->before;
@@ -5008,7 +5016,8 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__des
     if (rounding) p->left *= p->rho;
 
     const gvi_real enough = wanted > 0 ? wanted : GVI__EPS/4096;
-    if (change*ratio <= enough || p->left <= GVI__EPS/65536 || p->left <= enough) return GVI__DONE;
+    const int small = change*ratio <= enough || p->left <= GVI__EPS/65536 || p->left <= enough;
+    if (small && (p->holds || p->rho < quarter)) return GVI__DONE;
     // rounding, by a matrix that has contracted here
     const int hidden = p->work < 0 && p->rho < quarter;
     if (!rounding && !hidden && before > 0 && ratio > quarter) p->have = 0;
@@ -5054,7 +5063,7 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
     struct gvi__private *x = &st->x;
     // that of steps, not of queries
     const int size = (st->s - J->k0)*st->n, kept = J->pivot == x->newton.pivot;
-    gvi__descent p = { 0, 0, GVI__MAX, (gvi_real)0.25, GVI__MAX, 0, GVI__MAX, 0, 0, 0, -1 };
+    gvi__descent p = { 0, 0, GVI__MAX, (gvi_real)0.25, GVI__MAX, 0, GVI__MAX, 0, 0, 0, -1, 0 };
     p.have = kept && !gvi__nonzero(x->newton.h - x->sized.h);
     x->newton.bend = 0;
     for (int k = 0, made = 0, verdict = GVI__GO_ON; k <= x->desc.max_iterations; ++k) {
@@ -5186,21 +5195,20 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
     return right ? gvi__newton_values(st, from) : gvi__report_status(st, GVI_E_CONVERGENCE);
 }
 
+/* Newton's method for a step.  A solution is taken for the motion's where the iteration contracts
+   well from its start and keeps the orientation, or very well; otherwise it is followed back.  */
 static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int how, int query)
 {
     struct gvi__private *x = &st->x;
     const size_t sn = (size_t)(st->s*st->n);
-    const gvi_real *bend = &x->newton.bend, most = (gvi_real)(st->s > 2 ? 0.25 : 0.0625);
-    gvi__matrix J = { x->newton.J + (query ? sn*sn : 0),
-                      x->newton.pivot + (query ? sn + 1 : 0),
-                      NULL,
-                      0,
-                      0,
-                      how == GVI__HALVED };
+    const gvi_real *bend = &x->newton.bend, tiny = 1/(gvi_real)1024;
+    gvi__matrix J = { x->newton.J + (query ? sn*sn : 0), x->newton.pivot + (query ? sn + 1 : 0),
+                      NULL, 0, 0, how == GVI__HALVED };
     gvi__newton_guess(st, how == GVI__EXTRAPOLATED);
     gvi_status status = gvi__newton_solve(st, from, &J);
-    if (status == GVI_OK && (J.halves || *bend > most
-                             || (*bend > (gvi_real)0.001 && gvi__orientation(&J, sn) < 0))) {
+    // few points see little of what is between
+    if (status == GVI_OK && (J.halves || *bend > (gvi_real)(st->s > 2 ? 0.25 : 0.0625)
+                             || (*bend > tiny && gvi__orientation(&J, sn) < 0))) {
         J.halves = 0;
         status = gvi__newton_connected(st, from, &J);
     }
@@ -5712,7 +5720,7 @@ GVI__COLD gvi_status gvi__bend(gvi_stepper *st, const gvi__origin *from, gvi_rea
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, size = (st->s - J->k0)*n;
-    gvi__descent p = { 0, 0, GVI__MAX, 0, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0 };
+    gvi__descent p = { 0, 0, GVI__MAX, 0, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0 };
     gvi_real before = 0;
     if (grow > 1 && J->k0 == 0) {
         x->sized.ratio = 0;
@@ -5744,7 +5752,7 @@ GVI__COLD gvi_status gvi__bend(gvi_stepper *st, const gvi__origin *from, gvi_rea
    does not mind; what is not shows it, also where forces cancel on the chord.                */
 GVI__COLD gvi_status gvi__bow(gvi_stepper *st, const gvi__origin *from)
 {
-    gvi__descent p = { 0, 0, GVI__MAX, 0, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0 };
+    gvi__descent p = { 0, 0, GVI__MAX, 0, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0 };
     gvi_real *y = st->x.newton.y, length = 0;
     const gvi_real *scale = st->x.watch.scale;
     const gvi_status status = gvi__newton_values(st, from);
