@@ -5162,6 +5162,7 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
     gvi__copy(sn, x->y, x->branch);
     gvi__zero(sn, x->slope);
     while (right < 0) {
+        if ((unsigned)st->counters.newton_iterations - count > enough) right = 0;
         gvi__copy(sn, x->branch, x->y);
         gvi__newton_shorten(st, factor, x->slope);
         gvi__copy(sn, x->y, x->guess);
@@ -5172,8 +5173,7 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
         const gvi_real apart = found ? gvi__newton_apart(st, x->guess) : 1;
         if (!(apart <= near)) {
             factor = GVI_SQRT(factor);
-            if (factor > (gvi_real)0.9998
-                || (unsigned)st->counters.newton_iterations - count > enough) right = 0;
+            if (factor > (gvi_real)0.9998) right = 0;
             continue;
         }
         part *= factor;
