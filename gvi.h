@@ -1766,6 +1766,14 @@ static gvi_status gvi__refuse(gvi_fault *fault, int effect, int coordinate, cons
     return GVI_E_ARGUMENT;
 }
 
+// constraints are there, on or off, and cannot be: the fault is the first of them
+GVI__COLD gvi_status gvi__refuse_constraints(gvi_stepper *st)
+{
+    int e = 0;
+    while (!(st->x.con.bits >> e & 1u)) ++e;
+    return gvi__report(st, GVI_E_FORMULATION, e, 0, GVI_FAULT_NONE);
+}
+
 static gvi_status gvi__refuse_call(gvi_stepper *st, const char *argument)
 {
     return st->status = gvi__refuse(&st->fault, GVI_FAULT_NONE, GVI_FAULT_NONE, argument);
@@ -4599,7 +4607,7 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     st->q = st->p = st->q_low = st->p_low = zeros;
     gvi_status status = gvi__resolve(x, desc, &order, &st->fault);
     if (GVI__CONSTRAINTS && status == GVI_E_FORMULATION && x->con.bits)
-        return gvi__report_row(st, status, 0, GVI_FAULT_NONE);
+        return gvi__refuse_constraints(st);
     if (status != GVI_OK) return st->status = status;
     if (desc->effects && !desc->effect_count)     // its count was forgotten
         return gvi__refuse_call(st, "effects is given, effect_count is 0");
@@ -5878,8 +5886,7 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
         return gvi__refuse_call(st, "t, q0, q1 or the guess is not finite");
     if (!gvi__finite(h) || !gvi__nonzero(h))
         return gvi__refuse_call(st, "h is 0, NaN or infinite");
-    if (GVI__CONSTRAINTS && x->con.bits)
-        return gvi__report_row(st, GVI_E_FORMULATION, 0, GVI_FAULT_NONE);
+    if (GVI__CONSTRAINTS && x->con.bits) return gvi__refuse_constraints(st);
     if ((s > 1 && !gvi__has(x, GVI__HAS_NEWTON)) || gvi__rule_is(x, GVI_KICKS) || x->clock >= 0)
         return st->status = GVI_E_FORMULATION;
     gvi__origin from = { t, 0, q0, x->zeros, x->zeros, x->zeros, 0 };
