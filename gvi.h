@@ -1451,13 +1451,15 @@ GVI__BODY void gvi__ldl_solve_lane(int n, int R, const gvi_real *m, const gvi_re
 /* ------------------------------------------------------------ QUADRATURE */
 
 /* Legendre polynomials by (k+1) P_(k+1) = (2k+1) x P_k - k P_(k-1), always at x = 1 - 2c for c in
-   [0,1]: P_(k+1)(x) from P_k and P_(k-1).                                                    */
-static gvi_real gvi__legendre_next(int k, gvi_real x, gvi_real P, gvi_real before)
+   [0,1]: P_k and P_(k-1) become P_(k+1) and P_k.                                             */
+static void gvi__legendre(int k, gvi_real x, gvi_real *P, gvi_real *before)
 {
-    return ((gvi_real)(2*k + 1)*x*P - (gvi_real)k*before)/(gvi_real)(k + 1);
+    const gvi_real was = *P;
+    *P = ((gvi_real)(2*k + 1)*x*was - (gvi_real)k**before)/(gvi_real)(k + 1);
+    *before = was;
 }
 
-// the same in double-word arithmetic: P_k and P_(k-1) become P_(k+1) and P_k
+// the same in double-word arithmetic
 GVI__COLD void gvi__legendre2(int k, gvi__two x, gvi__two *P, gvi__two *before)
 {
     const gvi__two was = *P, next = gvi__scale2((gvi_real)(2*k + 1), gvi__mul2(x, was));
@@ -1566,11 +1568,7 @@ GVI_DEF int gvi_rule_order(int n, const gvi_real *c, const gvi_real *b)
         gvi_real sum = u > 0 ? 0 : -1;
         for (int i = 0; i < n; ++i) {
             gvi_real P = 1, before = 0;
-            for (int k = 0; k < u; ++k) {
-                const gvi_real next = gvi__legendre_next(k, 1 - 2*c[i], P, before);
-                before = P;
-                P = next;
-            }
+            for (int k = 0; k < u; ++k) gvi__legendre(k, 1 - 2*c[i], &P, &before);
             sum += b[i]*P;
         }
         if (GVI_ABS(sum) > 4*(gvi_real)(u + 2)*GVI__EPS*size) return u;
@@ -1749,20 +1747,16 @@ static int gvi__clock_is_on(const gvi_stepper *st)
 static gvi_status gvi__report(gvi_stepper *st, gvi_status status, int effect, int coordinate,
                               int point)
 {
-    st->fault.effect = effect;
-    st->fault.coordinate = coordinate;
-    st->fault.point = point;
-    st->fault.argument = NULL;
+    const gvi_fault fault = { effect, coordinate, point, NULL };
+    st->fault = fault;
     return st->status = status;
 }
 
 // an argument is at fault: a row of effects or the mass, a coordinate, and a sentence
 static gvi_status gvi__refuse(gvi_fault *fault, int effect, int coordinate, const char *argument)
 {
-    fault->effect = effect;
-    fault->coordinate = coordinate;
-    fault->point = GVI_FAULT_NONE;
-    fault->argument = argument;
+    const gvi_fault found = { effect, coordinate, GVI_FAULT_NONE, argument };
+    *fault = found;
     return GVI_E_ARGUMENT;
 }
 
@@ -1821,16 +1815,8 @@ static unsigned gvi__of_kind(const struct gvi__private *x, gvi_kind kind)
 static gvi_points gvi__points_at(const gvi_stepper *st, int count, int R, const gvi_real *t,
                                  const gvi_real *q, gvi_real *f, gvi_real *dldv)
 {
-    gvi_points x;
-    x.n = st->n;
-    x.count = count;
-    x.stride = R;
-    x.t = t;
-    x.q = q;
-    x.v = x.p = NULL;
-    x.f = f;
-    x.dldv = dldv;
-    x.value = x.mass = x.velocity = x.g = x.jacobian = x.rate = NULL;
+    const gvi_points x = { st->n, count, R,    t,    q,    NULL, NULL, f,
+                           dldv,  NULL,  NULL, NULL, NULL, NULL, NULL };
     return x;
 }
 
@@ -2473,11 +2459,10 @@ static void gvi__modes(const gvi_stepper *st, gvi_real tau, gvi_real *phi, gvi_r
 {
     gvi_real P = 1, before = 1;
     for (int k = 0; k < st->s; ++k) {
-        const gvi_real next = gvi__legendre_next(k, 1 - 2*tau, P, before);
+        const gvi_real last = before;
         phi[k] = P;
-        Phi[k] = (before - next)/(gvi_real)(4*k + 2);
-        before = P;
-        P = next;
+        gvi__legendre(k, 1 - 2*tau, &P, &before);
+        Phi[k] = (last - P)/(gvi_real)(4*k + 2);
     }
     gvi__over_gamma(st, phi);
     gvi__over_gamma(st, Phi);
@@ -4574,13 +4559,9 @@ GVI__COLD gvi_status gvi__set_rule(gvi_stepper *st, const gvi_rule *rule)
         gvi__make_tables(st);
     }
     for (int i = 0; x->table.high && i < st->r; ++i) {       // modes r - 1 and r - 2 of a force
-        const gvi_real X = 1 - 2*x->table.c[i];
         gvi_real P = 1, before = 0;
-        for (int k = 0; k < st->r - 1; ++k) {
-            const gvi_real next = gvi__legendre_next(k, X, P, before);
-            before = P;
-            P = next;
-        }
+        for (int k = 0; k < st->r - 1; ++k)
+            gvi__legendre(k, 1 - 2*x->table.c[i], &P, &before);
         x->table.high[i] = st->r > 1 ? (gvi_real)(2*st->r - 1)*x->table.b[i]*P : 0;
         x->table.high[x->R + i] = st->r > 2 ? (gvi_real)(2*st->r - 3)*x->table.b[i]*before : 0;
     }
@@ -5351,29 +5332,22 @@ static void gvi__curve_at(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_
     const gvi_real *modes = by_forces ? x->table.Phi : x->table.phi;
     const gvi_real *weight = by_forces ? x->sized.hb : x->table.b,
                    *rows = by_forces ? x->last.F : x->last.V;
-    for (int j = 0; j < st->r; ++j) {
+    // the sources at the points; then those of constraints, of which the first has Phi(d_0) = 0
+    const int held = GVI__CONSTRAINTS && by_forces && x->con.kept ? st->s : 0;
+    for (int j = 0; j < st->r + held; ++j) {
+        const int e = j - st->r;
+        const gvi_real *Phi = e < 0 ? modes + j : e > 0 ? x->con.Phi + e - 1 : NULL;
         gvi_real S = 0, T = 0;
-        for (int k = 0; k < st->s; ++k) {
-            S += b[k]*modes[k*R + j];
-            T += a[k]*modes[k*R + j];
+        for (int k = 0; Phi && k < st->s; ++k) {
+            S += b[k]*Phi[k*R];
+            T += a[k]*Phi[k*R];
         }
         if (by_forces) S = tau - S, T = 1 - T;
         for (int i = 0; i < n; ++i) {
-            const gvi_real L = weight[j]*rows[i*R + j];
+            const gvi_real L = e < 0 ? weight[j]*rows[i*R + j]
+                                     : st->h*x->con.w[e]*x->con.last[i*x->con.C + e];
             q[i] += S*L;
             v[i] += T*L;
-        }
-    }
-    for (int e = 0; GVI__CONSTRAINTS && by_forces && x->con.kept && e < st->s; ++e) {
-        gvi_real S = 0, T = 0;
-        for (int k = 0; e > 0 && k < st->s; ++k) {
-            S += b[k]*x->con.Phi[k*R + e - 1];
-            T += a[k]*x->con.Phi[k*R + e - 1];
-        }
-        for (int i = 0; i < n; ++i) {
-            const gvi_real L = st->h*x->con.w[e]*x->con.last[i*x->con.C + e];
-            q[i] += (tau - S)*L;
-            v[i] += (1 - T)*L;
         }
     }
     if (by_forces) {
