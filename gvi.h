@@ -257,13 +257,14 @@
 
 /* Macros that programs and <windows.h> often have are set aside while this file is read. */
 #ifdef __GNUC__
-_Pragma("push_macro(\"E\")") _Pragma("push_macro(\"K\")") _Pragma("push_macro(\"M\")")
-_Pragma("push_macro(\"N\")") _Pragma("push_macro(\"R\")") _Pragma("push_macro(\"T\")")
-_Pragma("push_macro(\"far\")") _Pragma("push_macro(\"g\")") _Pragma("push_macro(\"h\")")
-_Pragma("push_macro(\"m\")") _Pragma("push_macro(\"small\")")
+#define GVI__PRAGMA(text) _Pragma(#text)
+#define GVI__MACROS(do)                                                                         \
+    GVI__PRAGMA(do("E")) GVI__PRAGMA(do("K")) GVI__PRAGMA(do("N")) GVI__PRAGMA(do("R"))         \
+    GVI__PRAGMA(do("T")) GVI__PRAGMA(do("far")) GVI__PRAGMA(do("g")) GVI__PRAGMA(do("h"))       \
+    GVI__PRAGMA(do("m")) GVI__PRAGMA(do("small"))
+GVI__MACROS(push_macro)
 #undef E
 #undef K
-#undef M
 #undef N
 #undef R
 #undef T
@@ -317,10 +318,10 @@ _Pragma("push_macro(\"m\")") _Pragma("push_macro(\"small\")")
 // gcc at -O2 makes vectors only of loops of known length
 #if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 8 && !defined(__OPTIMIZE_SIZE__)
 #define GVI__CHUNK 8
-#define GVI__PRAGMA(text) _Pragma(#text)
+#define GVI__LOOP(text) GVI__PRAGMA(text)
 #else
 #define GVI__CHUNK 0
-#define GVI__PRAGMA(text)
+#define GVI__LOOP(text)
 #endif
 
 #ifdef __cplusplus
@@ -436,8 +437,8 @@ GVI__BODY int gvi__each_point(gvi_points_fn *at, const gvi_points *x, void *user
     int failed = 0;
 #define GVI__COLUMN(name, o) uses & GVI__USES_##name ? a + (o)*n : NULL
 #define GVI__MOVE(mask, m, to, from)                                                            \
-    if (wanted & (mask)) GVI__PRAGMA(GCC unroll 64) for (int i = 0; i < (m); ++i) to = from
-    GVI__PRAGMA(GCC ivdep) for (; k < to; ++k) {
+    if (wanted & (mask)) GVI__LOOP(GCC unroll 64) for (int i = 0; i < (m); ++i) to = from
+    GVI__LOOP(GCC ivdep) for (; k < to; ++k) {
         gvi_points y = { n, 1, 1, x->t + k, a, GVI__COLUMN(v, 1), GVI__COLUMN(p, 2),
                          GVI__COLUMN(f, 3), GVI__COLUMN(dldv, 4), GVI__COLUMN(value, 5),
                          GVI__COLUMN(mass, 5), GVI__COLUMN(velocity, 5), NULL, NULL, NULL };
@@ -1015,11 +1016,7 @@ typedef gvi_real gvi__lane;
 #endif
 #define GVI__LOAD(p) (*(const gvi__lane *)(p))
 #define GVI__STORE(p) (*(gvi__lane *)(p))
-#if GVI__LANES > 1 && !defined(__clang__) && __GNUC__ >= 8
-#define GVI__UNROLL _Pragma("GCC unroll 8")          // a loop's lanes stay in registers with -O2
-#else
-#define GVI__UNROLL
-#endif
+#define GVI__UNROLL GVI__LOOP(GCC unroll 8)             // a loop's lanes stay in registers with -O2
 
 static int gvi__finite(gvi_real x) { return GVI_ABS(x) <= GVI__MAX; }
 
@@ -1504,8 +1501,8 @@ GVI__COLD gvi__two gvi__node_correction(int lobatto, int m, gvi__two c, gvi_real
 static gvi_real gvi__node_guess(int lobatto, int m, int j)
 {
     const gvi_real pi = (gvi_real)3.14159265358979323846L;
-    const gvi_real a = (gvi_real)j + (lobatto ? (gvi_real)0.25 : (gvi_real)0.75), M = (gvi_real)m;
-    const gvi_real theta = lobatto ? pi*a/M - 3/(8*pi*M*a) : pi*a/(M + (gvi_real)0.5);
+    const gvi_real a = (gvi_real)j + (lobatto ? (gvi_real)0.25 : (gvi_real)0.75), k = (gvi_real)m;
+    const gvi_real theta = lobatto ? pi*a/k - 3/(8*pi*k*a) : pi*a/(k + (gvi_real)0.5);
     const gvi_real y = theta*theta/4, sine = theta/2*(1 - y/6*(1 - y/20*(1 - y/42)));
     return sine*sine;
 }
@@ -5965,10 +5962,7 @@ GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st)
 #endif /* GVI_IMPLEMENTATION */
 
 #ifdef __GNUC__
-_Pragma("pop_macro(\"E\")") _Pragma("pop_macro(\"K\")") _Pragma("pop_macro(\"M\")")
-_Pragma("pop_macro(\"N\")") _Pragma("pop_macro(\"R\")") _Pragma("pop_macro(\"T\")")
-_Pragma("pop_macro(\"far\")") _Pragma("pop_macro(\"g\")") _Pragma("pop_macro(\"h\")")
-_Pragma("pop_macro(\"m\")") _Pragma("pop_macro(\"small\")")
+GVI__MACROS(pop_macro)
 #endif
 
 /* --------------------------------------------------------------- LICENCE
