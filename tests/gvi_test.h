@@ -58,6 +58,14 @@ static void register_tests(void);
 
 #define COUNT(a) ((int)(sizeof(a)/sizeof(a)[0]))
 
+/* Callbacks, and a loop over each coordinate at each point: f[a], q[a] */
+#define AT_POINTS(name) static int name(const gvi_points *x, void *user)
+#define AT_POINT(name) \
+    static int name(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *f, gvi_real *dldv, void *user)
+#define FOR_EACH(x, a) \
+    for (int i_ = 0; i_ < (x)->n; ++i_) \
+        for (int a = i_*(x)->stride, end_ = a + (x)->count; a < end_; ++a)
+
 static __attribute__((unused)) void
 check_close(long double a, long double b, long double tol, const char *what, const char *file, int line)
 {
