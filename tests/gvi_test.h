@@ -58,6 +58,28 @@ static void register_tests(void);
 
 #define COUNT(a) ((int)(sizeof(a)/sizeof(a)[0]))
 
+/* SAME_STATE(st) { ... }: t, q and p after it are those before, to the bit */
+typedef struct { const gvi_stepper *st; gvi_real t, q[16], p[16]; } test_state;
+
+static __attribute__((unused)) test_state state_now(const gvi_stepper *st)
+{
+    test_state s = { .st = st, .t = st->t };
+    for (int i = 0; i < st->n && i < 16; ++i) s.q[i] = st->q[i], s.p[i] = st->p[i];
+    return s;
+}
+
+static __attribute__((unused)) const test_state *
+check_state(const test_state *was, const char *file, int line)
+{
+    const test_state now = state_now(was->st);
+    int same = now.t == was->t;
+    for (int i = 0; i < 16; ++i) same = same && now.q[i] == was->q[i] && now.p[i] == was->p[i];
+    if (!same) _fail(file, line);
+    return NULL;
+}
+#define SAME_STATE(st) \
+    for (const test_state was_ = state_now(st), *once_ = &was_; once_; once_ = check_state(once_, __FILE__, __LINE__))
+
 /* Callbacks, and a loop over each coordinate at each point: f[a], q[a] */
 #define AT_POINTS(name) static int name(const gvi_points *x, void *user)
 #define AT_POINT(name) \
