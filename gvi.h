@@ -3315,10 +3315,10 @@ static gvi_status gvi__predict_sources(gvi_stepper *st, const gvi__origin *from,
 }
 
 /* Where an iteration stands, in squares: the changes of the last two iterations, of all rows,
-   and the least so far; gvi__noise when it was last made; how often no new least was seen, or no
-   good contraction; are units to be made anew?                                                */
+   and the least so far; gvi__noise when it was last made, and its least; how often no new least was
+   seen, or no good contraction; are units to be made anew?                                    */
 typedef struct gvi__progress {
-    gvi_real before, earlier, least, noise;
+    gvi_real before, earlier, least, noise, quiet;
     int      used, stagnant, growing, rescale;
 } gvi__progress;
 
@@ -3415,12 +3415,15 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
     const int poor = p->growing > (D > far ? 4 : 2) && D > 65536*rounding;
     if (p->stagnant > 1 || poor) {
         const gvi_real noise = gvi__noise(st, h, y, stages);
-        if (p->stagnant > 1 && (noise <= 0 || (noise <= 1 && p->stagnant > 4)))
+        // what falls to a new least still converges, be it to 0; what grows diverges
+        const int level = noise <= GVI__EPS || (noise >= p->quiet && noise <= p->noise);
+        if (p->stagnant > 1 && (noise <= 0 || (noise <= 1 && p->stagnant > 4 && level)))
             return p->used - p->stagnant >= GVI__DIG/2 && gvi__may_turn(st) ? GVI__DIVERGES
                                                                               : GVI__ONCE_MORE;
         // a row that tends to 0 changes by its whole size: does its amplitude fall?
         if (poor && noise > 1 && noise > p->noise/2 && gvi__may_turn(st)) return GVI__DIVERGES;
         p->noise = noise;
+        if (noise < p->quiet) p->quiet = noise;
     }
     return p->used < d->max_iterations ? GVI__GO_ON : GVI__DIVERGES;
 }
@@ -3431,7 +3434,7 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
 {
     struct gvi__private *x = &st->x;
     gvi__stage stage[2], first;
-    gvi__progress p = { 0, 0, GVI__MAX, GVI__MAX, 0, 0, 0, 1 };
+    gvi__progress p = { 0, 0, GVI__MAX, GVI__MAX, GVI__MAX, 0, 0, 0, 1 };
     gvi_points at = gvi__points_at(st, st->r, x->R, x->t, x->work.Q, x->work.F,
                                    GVI__LAGRANGIAN ? x->work.A : NULL);
     const int stages = gvi__stages(st, from, h, stage);
