@@ -4939,11 +4939,11 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
     struct gvi__private *x = &st->x;
     const int n = st->n, solved = p->work <= 16*GVI__EPS;
     const gvi_real h = GVI_ABS(x->sized.h), none = GVI__MIN/GVI__EPS;
-    gvi_real sum = 0;
-    int still = 1;
+    gvi_real sum = 0, largest = 0, noise = 0;
     p->work = 0;
     for (int i = 0; i < n; ++i) {
         gvi_real change = 0, size = 0;
+        const gvi_real q = GVI_ABS(from->q[i]), unit = x->watch.scale[i];
         for (int k = 0; k < st->s; ++k) {
             gvi_real *y = x->newton.y + k*n + i;
             const int at = (k - J->k0)*n + i;
@@ -4957,9 +4957,10 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
         }
         const gvi_real least = GVI__EPS*change;                       // y may land on 0
         if (!(size <= none && change <= none)) sum += change/(size < least ? least : size);
-        if (!(h*change <= 4*GVI__EPS*GVI_ABS(from->q[i]))) still = 0;
+        if (q + h*size > largest*unit) largest = (q + h*size)/unit;
+        if (!(h*change <= 4*GVI__EPS*q) && h*change > noise*unit) noise = h*change/unit;
     }
-    if (still || solved) p->work = -1;
+    if (noise <= 32*GVI__EPS*largest || solved) p->work = -1;         // see gvi__noise
     return sum;
 }
 
