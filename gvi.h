@@ -5483,7 +5483,7 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
 
     // partial step of length h from the nearer end, or none for a rounding of the whole
     const int end = GVI_ABS(back) <= GVI_ABS(ahead);
-    const gvi_real h = end ? back - st->t_low : ahead;
+    const gvi_real h = !end ? ahead : gvi__nonzero(back) ? back - st->t_low : 0;
     gvi__origin from = {
         st->t, st->t_low, st->q, st->q_low, st->p, st->p_low, x->time.H + x->time.H_low
     };

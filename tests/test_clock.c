@@ -328,7 +328,15 @@ TEST(steps_back_return)
     for (int s = 1; s <= 5; ++s) {
         gvi_stepper st;
         begin(&st, (scene_name)a, s, start);
-        for (int k = 0; k < 20; ++k) assert_ok(gvi_step(&st, (real)0.0625*(real)(1 + k % 2)));
+        real q0[2], q[2], p[2];
+        for (int k = 0; k < 20; ++k) {
+            memcpy(q0, st.q, sizeof q0);
+            assert_ok(gvi_step(&st, (real)0.0625*(real)(1 + k % 2)));
+            assert_ok(gvi_state_at(&st, st.t0, q, NULL, NULL));
+            assert_true(q[0] == q0[0] && q[1] == q0[1]);
+            assert_ok(gvi_state_at(&st, st.t, q, NULL, p));
+            assert_true(q[0] == st.q[0] && q[1] == st.q[1] && p[0] == st.p[0] && p[1] == st.p[1]);
+        }
         for (int k = 20; k-- > 0; ) assert_ok(gvi_step(&st, -(real)0.0625*(real)(1 + k % 2)));
         assert_between(0, distance(st.q, st.p, start), 200*EPS);
         assert_between(0, fabs(st.t), 20*EPS);
