@@ -1910,8 +1910,7 @@ GVI__BODY gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e, gvi_real
 static gvi_real *gvi__value_row(const gvi_stepper *st, int e, gvi_real *level)
 {
     const gvi_kind kind = st->x.desc.effects[e].kind;
-    return !GVI__CLOCK || !level || kind == GVI_FORCE ? NULL
-         : kind == GVI_LAGRANGIAN ? st->x.time.lagrangian : level;
+    return kind == GVI_FORCE ? NULL : kind == GVI_LAGRANGIAN ? st->x.time.lagrangian : level;
 }
 
 /* In the repetition of a step that came to NaN or Inf: which effect gave it? Each is evaluated
@@ -1920,7 +1919,7 @@ GVI__COLD gvi_status gvi__diagnose(gvi_stepper *st, gvi_points *x, unsigned skip
 {
     const size_t length = (size_t)x->n*(size_t)x->stride;
     for (int e = 0; e < st->x.desc.effect_count; ++e) {
-        gvi_real *value = gvi__value_row(st, e, level);
+        gvi_real *value = level ? gvi__value_row(st, e, level) : NULL;
         if (skip >> e & 1u) continue;
         gvi__zero(length, x->f);
         if (x->dldv) gvi__zero(length, x->dldv);
@@ -1950,7 +1949,8 @@ static gvi_status gvi__effects(gvi_stepper *st, gvi_points *x, unsigned skip, gv
         && (gvi__check_rows(st, x, x->q, 0) != GVI_OK || gvi__check_rows(st, x, x->v, 0) != GVI_OK))
         return gvi__report_status(st, GVI_E_CONVERGENCE);
     for (int e = 0; e < st->x.desc.effect_count && status == GVI_OK; ++e)
-        if (!(skip >> e & 1u)) status = gvi__effect(st, x, e, gvi__value_row(st, e, level));
+        if (!(skip >> e & 1u))
+            status = gvi__effect(st, x, e, level ? gvi__value_row(st, e, level) : NULL);
     if (!diagnose || status != GVI_OK) return status;
     const int finite = gvi__check_rows(st, x, x->f, 0) == GVI_OK
                        && gvi__check_rows(st, x, x->dldv, 0) == GVI_OK
@@ -3267,7 +3267,7 @@ static gvi_real gvi__velocities_again(gvi_stepper *st)
 
 /* The stage values of the next iteration from the F, V and A of this one; returns the squares
    of their changes.                                                                           */
-static gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *y, int stages, int rescale)
+GVI__BODY gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *y, int stages, int rescale)
 {
     const struct gvi__private *x = &st->x;
     gvi_real sum = 0;
@@ -3453,17 +3453,18 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
         if (status != GVI_OK) return status;
         gvi__new_rows(st, stage, stages, 0);
     }
-    for (;;) {
-        p.used = *used += 1;
+    p.used = *used = 1;
+    for (int shorter = 0, last = 0; ; ) {
         status = gvi__evaluate_stages(st, from, &at);
         // free motion may leave the domain of a callback where the motion does not: less of it
-        for (int m = 0; status == GVI_E_CALLBACK && p.used == 1 && !extrapolate && m < 6; ++m) {
+        if (status == GVI_E_CALLBACK && p.used == 1 && !extrapolate && shorter++ < 6) {
             for (int i = 0; i < st->n; ++i)
                 for (int k = 0; k < x->R; ++k)
                     x->work.Q[i*x->R + k] = (x->work.Q[i*x->R + k] + from->q[i])/2;
-            status = gvi__evaluate_stages(st, from, &at);
+            continue;
         }
-        if (status != GVI_OK) return status;
+        if (last && status == GVI_OK && gvi__constrained(st)) gvi__constrain(st, stage);
+        if (last || status != GVI_OK) return status;
         const int diverged = p.growing > 0 || p.before > (gvi_real)st->n;
         const gvi_real change = gvi__new_rows(st, stage, stages, p.rescale);
         const int verdict = gvi__converged(st, &p, change, h, stage, stages);
@@ -3472,6 +3473,7 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
             x->watch.before = x->watch.change;
             x->watch.change = spare;
             for (int k = 0; k < stages; ++k) stage[k].change = spare + k*st->n;
+            p.used = *used += 1;
             continue;
         }
         if (verdict == GVI__NOT_FINITE && !diverged && !x->diagnose)  // the effects are looked at
@@ -3480,9 +3482,7 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
         const gvi_real worst = st->counters.worst_change;
         if (change > worst*worst) st->counters.worst_change = GVI_SQRT(change);
         if (verdict == GVI__DONE) return GVI_OK;
-        status = gvi__evaluate_stages(st, from, &at);
-        if (status == GVI_OK && gvi__constrained(st)) gvi__constrain(st, stage);
-        return status;
+        last = 1;
     }
 }
 
