@@ -257,13 +257,14 @@
 
 /* Macros that programs and <windows.h> often have are set aside while this file is read. */
 #ifdef __GNUC__
-_Pragma("push_macro(\"E\")") _Pragma("push_macro(\"K\")") _Pragma("push_macro(\"M\")")
-_Pragma("push_macro(\"N\")") _Pragma("push_macro(\"R\")") _Pragma("push_macro(\"T\")")
-_Pragma("push_macro(\"far\")") _Pragma("push_macro(\"g\")") _Pragma("push_macro(\"h\")")
-_Pragma("push_macro(\"m\")") _Pragma("push_macro(\"small\")")
+#define GVI__PRAGMA(text) _Pragma(#text)
+#define GVI__MACROS(do)                                                                         \
+    GVI__PRAGMA(do("E")) GVI__PRAGMA(do("K")) GVI__PRAGMA(do("N")) GVI__PRAGMA(do("R"))         \
+    GVI__PRAGMA(do("T")) GVI__PRAGMA(do("far")) GVI__PRAGMA(do("g")) GVI__PRAGMA(do("h"))       \
+    GVI__PRAGMA(do("m")) GVI__PRAGMA(do("small"))
+GVI__MACROS(push_macro)
 #undef E
 #undef K
-#undef M
 #undef N
 #undef R
 #undef T
@@ -317,10 +318,10 @@ _Pragma("push_macro(\"m\")") _Pragma("push_macro(\"small\")")
 // gcc at -O2 makes vectors only of loops of known length
 #if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 8 && !defined(__OPTIMIZE_SIZE__)
 #define GVI__CHUNK 8
-#define GVI__PRAGMA(text) _Pragma(#text)
+#define GVI__LOOP(text) GVI__PRAGMA(text)
 #else
 #define GVI__CHUNK 0
-#define GVI__PRAGMA(text)
+#define GVI__LOOP(text)
 #endif
 
 #ifdef __cplusplus
@@ -436,8 +437,8 @@ GVI__BODY int gvi__each_point(gvi_points_fn *at, const gvi_points *x, void *user
     int failed = 0;
 #define GVI__COLUMN(name, o) uses & GVI__USES_##name ? a + (o)*n : NULL
 #define GVI__MOVE(mask, m, to, from)                                                            \
-    if (wanted & (mask)) GVI__PRAGMA(GCC unroll 64) for (int i = 0; i < (m); ++i) to = from
-    GVI__PRAGMA(GCC ivdep) for (; k < to; ++k) {
+    if (wanted & (mask)) GVI__LOOP(GCC unroll 64) for (int i = 0; i < (m); ++i) to = from
+    GVI__LOOP(GCC ivdep) for (; k < to; ++k) {
         gvi_points y = { n, 1, 1, x->t + k, a, GVI__COLUMN(v, 1), GVI__COLUMN(p, 2),
                          GVI__COLUMN(f, 3), GVI__COLUMN(dldv, 4), GVI__COLUMN(value, 5),
                          GVI__COLUMN(mass, 5), GVI__COLUMN(velocity, 5), NULL, NULL, NULL };
@@ -1015,11 +1016,7 @@ typedef gvi_real gvi__lane;
 #endif
 #define GVI__LOAD(p) (*(const gvi__lane *)(p))
 #define GVI__STORE(p) (*(gvi__lane *)(p))
-#if GVI__LANES > 1 && !defined(__clang__) && __GNUC__ >= 8
-#define GVI__UNROLL _Pragma("GCC unroll 8")          // a loop's lanes stay in registers with -O2
-#else
-#define GVI__UNROLL
-#endif
+#define GVI__UNROLL GVI__LOOP(GCC unroll 8)             // a loop's lanes stay in registers with -O2
 
 static int gvi__finite(gvi_real x) { return GVI_ABS(x) <= GVI__MAX; }
 
@@ -1451,13 +1448,15 @@ GVI__BODY void gvi__ldl_solve_lane(int n, int R, const gvi_real *m, const gvi_re
 /* ------------------------------------------------------------ QUADRATURE */
 
 /* Legendre polynomials by (k+1) P_(k+1) = (2k+1) x P_k - k P_(k-1), always at x = 1 - 2c for c in
-   [0,1]: P_(k+1)(x) from P_k and P_(k-1).                                                    */
-static gvi_real gvi__legendre_next(int k, gvi_real x, gvi_real P, gvi_real before)
+   [0,1]: P_k and P_(k-1) become P_(k+1) and P_k.                                             */
+static void gvi__legendre(int k, gvi_real x, gvi_real *P, gvi_real *before)
 {
-    return ((gvi_real)(2*k + 1)*x*P - (gvi_real)k*before)/(gvi_real)(k + 1);
+    const gvi_real was = *P;
+    *P = ((gvi_real)(2*k + 1)*x*was - (gvi_real)k**before)/(gvi_real)(k + 1);
+    *before = was;
 }
 
-// the same in double-word arithmetic: P_k and P_(k-1) become P_(k+1) and P_k
+// the same in double-word arithmetic
 GVI__COLD void gvi__legendre2(int k, gvi__two x, gvi__two *P, gvi__two *before)
 {
     const gvi__two was = *P, next = gvi__scale2((gvi_real)(2*k + 1), gvi__mul2(x, was));
@@ -1502,8 +1501,8 @@ GVI__COLD gvi__two gvi__node_correction(int lobatto, int m, gvi__two c, gvi_real
 static gvi_real gvi__node_guess(int lobatto, int m, int j)
 {
     const gvi_real pi = (gvi_real)3.14159265358979323846L;
-    const gvi_real a = (gvi_real)j + (lobatto ? (gvi_real)0.25 : (gvi_real)0.75), M = (gvi_real)m;
-    const gvi_real theta = lobatto ? pi*a/M - 3/(8*pi*M*a) : pi*a/(M + (gvi_real)0.5);
+    const gvi_real a = (gvi_real)j + (lobatto ? (gvi_real)0.25 : (gvi_real)0.75), k = (gvi_real)m;
+    const gvi_real theta = lobatto ? pi*a/k - 3/(8*pi*k*a) : pi*a/(k + (gvi_real)0.5);
     const gvi_real y = theta*theta/4, sine = theta/2*(1 - y/6*(1 - y/20*(1 - y/42)));
     return sine*sine;
 }
@@ -1566,11 +1565,7 @@ GVI_DEF int gvi_rule_order(int n, const gvi_real *c, const gvi_real *b)
         gvi_real sum = u > 0 ? 0 : -1;
         for (int i = 0; i < n; ++i) {
             gvi_real P = 1, before = 0;
-            for (int k = 0; k < u; ++k) {
-                const gvi_real next = gvi__legendre_next(k, 1 - 2*c[i], P, before);
-                before = P;
-                P = next;
-            }
+            for (int k = 0; k < u; ++k) gvi__legendre(k, 1 - 2*c[i], &P, &before);
             sum += b[i]*P;
         }
         if (GVI_ABS(sum) > 4*(gvi_real)(u + 2)*GVI__EPS*size) return u;
@@ -1749,21 +1744,25 @@ static int gvi__clock_is_on(const gvi_stepper *st)
 static gvi_status gvi__report(gvi_stepper *st, gvi_status status, int effect, int coordinate,
                               int point)
 {
-    st->fault.effect = effect;
-    st->fault.coordinate = coordinate;
-    st->fault.point = point;
-    st->fault.argument = NULL;
+    const gvi_fault fault = { effect, coordinate, point, NULL };
+    st->fault = fault;
     return st->status = status;
 }
 
 // an argument is at fault: a row of effects or the mass, a coordinate, and a sentence
 static gvi_status gvi__refuse(gvi_fault *fault, int effect, int coordinate, const char *argument)
 {
-    fault->effect = effect;
-    fault->coordinate = coordinate;
-    fault->point = GVI_FAULT_NONE;
-    fault->argument = argument;
+    const gvi_fault found = { effect, coordinate, GVI_FAULT_NONE, argument };
+    *fault = found;
     return GVI_E_ARGUMENT;
+}
+
+// constraints are there, on or off, and cannot be: the fault is the first of them
+GVI__COLD gvi_status gvi__refuse_constraints(gvi_stepper *st)
+{
+    int e = 0;
+    while (!(st->x.con.bits >> e & 1u)) ++e;
+    return gvi__report(st, GVI_E_FORMULATION, e, 0, GVI_FAULT_NONE);
 }
 
 static gvi_status gvi__refuse_call(gvi_stepper *st, const char *argument)
@@ -1813,16 +1812,8 @@ static unsigned gvi__of_kind(const struct gvi__private *x, gvi_kind kind)
 static gvi_points gvi__points_at(const gvi_stepper *st, int count, int R, const gvi_real *t,
                                  const gvi_real *q, gvi_real *f, gvi_real *dldv)
 {
-    gvi_points x;
-    x.n = st->n;
-    x.count = count;
-    x.stride = R;
-    x.t = t;
-    x.q = q;
-    x.v = x.p = NULL;
-    x.f = f;
-    x.dldv = dldv;
-    x.value = x.mass = x.velocity = x.g = x.jacobian = x.rate = NULL;
+    const gvi_points x = { st->n, count, R,    t,    q,    NULL, NULL, f,
+                           dldv,  NULL,  NULL, NULL, NULL, NULL, NULL };
     return x;
 }
 
@@ -2465,11 +2456,10 @@ static void gvi__modes(const gvi_stepper *st, gvi_real tau, gvi_real *phi, gvi_r
 {
     gvi_real P = 1, before = 1;
     for (int k = 0; k < st->s; ++k) {
-        const gvi_real next = gvi__legendre_next(k, 1 - 2*tau, P, before);
+        const gvi_real last = before;
         phi[k] = P;
-        Phi[k] = (before - next)/(gvi_real)(4*k + 2);
-        before = P;
-        P = next;
+        gvi__legendre(k, 1 - 2*tau, &P, &before);
+        Phi[k] = (last - P)/(gvi_real)(4*k + 2);
     }
     gvi__over_gamma(st, phi);
     gvi__over_gamma(st, Phi);
@@ -4569,13 +4559,9 @@ GVI__COLD gvi_status gvi__set_rule(gvi_stepper *st, const gvi_rule *rule)
         gvi__make_tables(st);
     }
     for (int i = 0; x->table.high && i < st->r; ++i) {       // modes r - 1 and r - 2 of a force
-        const gvi_real X = 1 - 2*x->table.c[i];
         gvi_real P = 1, before = 0;
-        for (int k = 0; k < st->r - 1; ++k) {
-            const gvi_real next = gvi__legendre_next(k, X, P, before);
-            before = P;
-            P = next;
-        }
+        for (int k = 0; k < st->r - 1; ++k)
+            gvi__legendre(k, 1 - 2*x->table.c[i], &P, &before);
         x->table.high[i] = st->r > 1 ? (gvi_real)(2*st->r - 1)*x->table.b[i]*P : 0;
         x->table.high[x->R + i] = st->r > 2 ? (gvi_real)(2*st->r - 3)*x->table.b[i]*before : 0;
     }
@@ -4602,7 +4588,7 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     st->q = st->p = st->q_low = st->p_low = zeros;
     gvi_status status = gvi__resolve(x, desc, &order, &st->fault);
     if (GVI__CONSTRAINTS && status == GVI_E_FORMULATION && x->con.bits)
-        return gvi__report_row(st, status, 0, GVI_FAULT_NONE);
+        return gvi__refuse_constraints(st);
     if (status != GVI_OK) return st->status = status;
     if (desc->effects && !desc->effect_count)     // its count was forgotten
         return gvi__refuse_call(st, "effects is given, effect_count is 0");
@@ -5347,29 +5333,22 @@ static void gvi__curve_at(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_
     const gvi_real *modes = by_forces ? x->table.Phi : x->table.phi;
     const gvi_real *weight = by_forces ? x->sized.hb : x->table.b,
                    *rows = by_forces ? x->last.F : x->last.V;
-    for (int j = 0; j < st->r; ++j) {
+    // the sources at the points; then those of constraints, of which the first has Phi(d_0) = 0
+    const int held = GVI__CONSTRAINTS && by_forces && x->con.kept ? st->s : 0;
+    for (int j = 0; j < st->r + held; ++j) {
+        const int e = j - st->r;
+        const gvi_real *Phi = e < 0 ? modes + j : e > 0 ? x->con.Phi + e - 1 : NULL;
         gvi_real S = 0, T = 0;
-        for (int k = 0; k < st->s; ++k) {
-            S += b[k]*modes[k*R + j];
-            T += a[k]*modes[k*R + j];
+        for (int k = 0; Phi && k < st->s; ++k) {
+            S += b[k]*Phi[k*R];
+            T += a[k]*Phi[k*R];
         }
         if (by_forces) S = tau - S, T = 1 - T;
         for (int i = 0; i < n; ++i) {
-            const gvi_real L = weight[j]*rows[i*R + j];
+            const gvi_real L = e < 0 ? weight[j]*rows[i*R + j]
+                                     : st->h*x->con.w[e]*x->con.last[i*x->con.C + e];
             q[i] += S*L;
             v[i] += T*L;
-        }
-    }
-    for (int e = 0; GVI__CONSTRAINTS && by_forces && x->con.kept && e < st->s; ++e) {
-        gvi_real S = 0, T = 0;
-        for (int k = 0; e > 0 && k < st->s; ++k) {
-            S += b[k]*x->con.Phi[k*R + e - 1];
-            T += a[k]*x->con.Phi[k*R + e - 1];
-        }
-        for (int i = 0; i < n; ++i) {
-            const gvi_real L = st->h*x->con.w[e]*x->con.last[i*x->con.C + e];
-            q[i] += (tau - S)*L;
-            v[i] += (1 - T)*L;
         }
     }
     if (by_forces) {
@@ -5882,8 +5861,7 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
         return gvi__refuse_call(st, "t, q0, q1 or the guess is not finite");
     if (!gvi__finite(h) || !gvi__nonzero(h))
         return gvi__refuse_call(st, "h is 0, NaN or infinite");
-    if (GVI__CONSTRAINTS && x->con.bits)
-        return gvi__report_row(st, GVI_E_FORMULATION, 0, GVI_FAULT_NONE);
+    if (GVI__CONSTRAINTS && x->con.bits) return gvi__refuse_constraints(st);
     if ((s > 1 && !gvi__has(x, GVI__HAS_NEWTON)) || gvi__rule_is(x, GVI_KICKS) || x->clock >= 0)
         return st->status = GVI_E_FORMULATION;
     gvi__origin from = { t, 0, q0, x->zeros, x->zeros, x->zeros, 0 };
@@ -5988,10 +5966,7 @@ GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st)
 #endif /* GVI_IMPLEMENTATION */
 
 #ifdef __GNUC__
-_Pragma("pop_macro(\"E\")") _Pragma("pop_macro(\"K\")") _Pragma("pop_macro(\"M\")")
-_Pragma("pop_macro(\"N\")") _Pragma("pop_macro(\"R\")") _Pragma("pop_macro(\"T\")")
-_Pragma("pop_macro(\"far\")") _Pragma("pop_macro(\"g\")") _Pragma("pop_macro(\"h\")")
-_Pragma("pop_macro(\"m\")") _Pragma("pop_macro(\"small\")")
+GVI__MACROS(pop_macro)
 #endif
 
 /* --------------------------------------------------------------- LICENCE
