@@ -3315,10 +3315,10 @@ static gvi_status gvi__predict_sources(gvi_stepper *st, const gvi__origin *from,
 }
 
 /* Where an iteration stands, in squares: the changes of the last two iterations, of all rows,
-   and the least so far; gvi__noise when it was last made; how often no new least was seen, or no
-   good contraction; are units to be made anew?                                                */
+   and the least so far; gvi__noise when it was last made, and its least; how often no new least was
+   seen, or no good contraction; are units to be made anew?                                    */
 typedef struct gvi__progress {
-    gvi_real before, earlier, least, noise;
+    gvi_real before, earlier, least, noise, quiet;
     int      used, stagnant, growing, rescale;
 } gvi__progress;
 
@@ -3415,12 +3415,15 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
     const int poor = p->growing > (D > far ? 4 : 2) && D > 65536*rounding;
     if (p->stagnant > 1 || poor) {
         const gvi_real noise = gvi__noise(st, h, y, stages);
-        if (p->stagnant > 1 && (noise <= 0 || (noise <= 1 && p->stagnant > 4)))
+        // what falls to a new least still converges, be it to 0; what grows diverges
+        const int level = noise <= GVI__EPS || (noise >= p->quiet && noise <= p->noise);
+        if (p->stagnant > 1 && (noise <= 0 || (noise <= 1 && p->stagnant > 4 && level)))
             return p->used - p->stagnant >= GVI__DIG/2 && gvi__may_turn(st) ? GVI__DIVERGES
                                                                               : GVI__ONCE_MORE;
         // a row that tends to 0 changes by its whole size: does its amplitude fall?
         if (poor && noise > 1 && noise > p->noise/2 && gvi__may_turn(st)) return GVI__DIVERGES;
         p->noise = noise;
+        if (noise < p->quiet) p->quiet = noise;
     }
     return p->used < d->max_iterations ? GVI__GO_ON : GVI__DIVERGES;
 }
@@ -3431,7 +3434,7 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
 {
     struct gvi__private *x = &st->x;
     gvi__stage stage[2], first;
-    gvi__progress p = { 0, 0, GVI__MAX, GVI__MAX, 0, 0, 0, 1 };
+    gvi__progress p = { 0, 0, GVI__MAX, GVI__MAX, GVI__MAX, 0, 0, 0, 1 };
     gvi_points at = gvi__points_at(st, st->r, x->R, x->t, x->work.Q, x->work.F,
                                    GVI__LAGRANGIAN ? x->work.A : NULL);
     const int stages = gvi__stages(st, from, h, stage);
@@ -4936,11 +4939,11 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
     struct gvi__private *x = &st->x;
     const int n = st->n, solved = p->work <= 16*GVI__EPS;
     const gvi_real h = GVI_ABS(x->sized.h), none = GVI__MIN/GVI__EPS;
-    gvi_real sum = 0;
-    int still = 1;
+    gvi_real sum = 0, largest = 0, noise = 0;
     p->work = 0;
     for (int i = 0; i < n; ++i) {
         gvi_real change = 0, size = 0;
+        const gvi_real q = GVI_ABS(from->q[i]), unit = x->watch.scale[i];
         for (int k = 0; k < st->s; ++k) {
             gvi_real *y = x->newton.y + k*n + i;
             const int at = (k - J->k0)*n + i;
@@ -4954,9 +4957,10 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
         }
         const gvi_real least = GVI__EPS*change;                       // y may land on 0
         if (!(size <= none && change <= none)) sum += change/(size < least ? least : size);
-        if (!(h*change <= 4*GVI__EPS*GVI_ABS(from->q[i]))) still = 0;
+        if (q + h*size > largest*unit) largest = (q + h*size)/unit;
+        if (!(h*change <= 4*GVI__EPS*q) && h*change > noise*unit) noise = h*change/unit;
     }
-    if (still || solved) p->work = -1;
+    if (noise <= 32*GVI__EPS*largest || solved) p->work = -1;         // see gvi__noise
     return sum;
 }
 
@@ -5479,7 +5483,7 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
 
     // partial step of length h from the nearer end, or none for a rounding of the whole
     const int end = GVI_ABS(back) <= GVI_ABS(ahead);
-    const gvi_real h = end ? back - st->t_low : ahead;
+    const gvi_real h = !end ? ahead : gvi__nonzero(back) ? back - st->t_low : 0;
     gvi__origin from = {
         st->t, st->t_low, st->q, st->q_low, st->p, st->p_low, x->time.H + x->time.H_low
     };
