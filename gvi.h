@@ -517,8 +517,7 @@ typedef struct gvi_mass {
                                   points, or velocity, at the same x->q       */
     gvi_points_fn  *velocity;  /* optional: writes x->velocity, the v at which
                                   dL/dv(t,q,v) = p, L being ALL of the scene.
-                                  No linear system is solved then, but it may take
-                                  up to twice as many iterations               */
+                                  No linear system is solved then              */
     void           *user;
 } gvi_mass;
 
@@ -3207,6 +3206,7 @@ static gvi_status gvi__legendre_rows(gvi_stepper *st, const gvi_points *y)
     gvi__count(&st->counters.velocities, st->r);
     if (x->desc.mass.velocity) {
         status = gvi__evaluate_mass(st, y, x->work.P, x->work.V);
+        x->has_factor = 1;
         return status == GVI_OK && x->diagnose ? gvi__check_rows(st, y, x->work.V, GVI_FAULT_MASS)
                                                : status;
     }
@@ -3252,10 +3252,13 @@ static gvi_real gvi__velocities_again(gvi_stepper *st)
               made = GVI__LAGRANGIAN && x->work.A;
     const gvi_real *V = x->work.V + st->r - 1;
     gvi_real *was = x->result, sum = 0;
-    if ((!x->has_factor && (clock || !gvi__mass_is_constant(x))) || x->desc.mass.velocity) return 0;
+    if (!x->has_factor && (clock || !gvi__mass_is_constant(x))) return 0;
     if (made) gvi__gather(n, R, V, was);
     gvi__count(&st->counters.velocities, st->r);
-    gvi__velocity_rows(st);
+    const gvi_points at = gvi__points_at(st, st->r, R, x->t, x->work.Q, NULL, NULL);
+    // where that fails it does so again with the new Q
+    if (x->desc.mass.velocity) (void)gvi__evaluate_mass(st, &at, x->work.P, x->work.V);
+    else gvi__velocity_rows(st);
     for (int i = 0; clock && i < n; ++i)
         for (int k = 0; k < R; ++k) x->work.V[i*R + k] *= x->time.rate[k];
     for (int i = 0; made && i < n; ++i) {
@@ -3364,7 +3367,7 @@ static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *
                       v = !gvi__uses(&st->x, GVI_MOMENTA) && k == 1;
             // the momenta formulation has factored M(q) in place: 1/D_i is there
             const gvi_real at_q = gvi__inertia(st, i), m = gvi__mass_is(&st->x, GVI_MASS_POSITION)
-                && st->x.has_factor ? 1/at_q : at_q;
+                && st->x.has_factor && !st->x.desc.mass.velocity ? 1/at_q : at_q;
             const gvi_real unit = (p ? GVI_ABS(h)/m : v ? GVI_ABS(h) : 1)*GVI_SQRT(m);
             const gvi_real *row = y[k].rows + i*st->x.R;
             gvi_real size = GVI_ABS(y[k].base[i]);
