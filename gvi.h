@@ -518,8 +518,7 @@ typedef struct gvi_mass {
                                   points, or velocity, at the same x->q       */
     gvi_points_fn  *velocity;  /* optional: writes x->velocity, the v at which
                                   dL/dv(t,q,v) = p, L being ALL of the scene.
-                                  No linear system is solved then, but it may take
-                                  up to twice as many iterations               */
+                                  No linear system is solved then              */
     void           *user;
 } gvi_mass;
 
@@ -3197,6 +3196,7 @@ static gvi_status gvi__legendre_rows(gvi_stepper *st, const gvi_points *y)
     gvi__count(&st->counters.velocities, st->r);
     if (x->desc.mass.velocity) {
         status = gvi__evaluate_mass(st, y, x->work.P, x->work.V);
+        x->has_factor = 1;
         return status == GVI_OK && x->diagnose ? gvi__check_rows(st, y, x->work.V, GVI_FAULT_MASS)
                                                : status;
     }
@@ -3242,10 +3242,13 @@ static gvi_real gvi__velocities_again(gvi_stepper *st)
               made = GVI__LAGRANGIAN && x->work.A;
     const gvi_real *V = x->work.V + st->r - 1;
     gvi_real *was = x->result, sum = 0;
-    if ((!x->has_factor && (clock || !gvi__mass_is_constant(x))) || x->desc.mass.velocity) return 0;
+    if (!x->has_factor && (clock || !gvi__mass_is_constant(x))) return 0;
     if (made) gvi__gather(n, R, V, was);
     gvi__count(&st->counters.velocities, st->r);
-    gvi__velocity_rows(st);
+    const gvi_points at = gvi__points_at(st, st->r, R, x->t, x->work.Q, NULL, NULL);
+    // where that fails it does so again with the new Q
+    if (x->desc.mass.velocity) (void)gvi__evaluate_mass(st, &at, x->work.P, x->work.V);
+    else gvi__velocity_rows(st);
     for (int i = 0; clock && i < n; ++i)
         for (int k = 0; k < R; ++k) x->work.V[i*R + k] *= x->time.rate[k];
     for (int i = 0; made && i < n; ++i) {
@@ -3354,7 +3357,7 @@ static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *
                       v = !gvi__uses(&st->x, GVI_MOMENTA) && k == 1;
             // the momenta formulation has factored M(q) in place: 1/D_i is there
             const gvi_real at_q = gvi__inertia(st, i), m = gvi__mass_is(&st->x, GVI_MASS_POSITION)
-                && st->x.has_factor ? 1/at_q : at_q;
+                && st->x.has_factor && !st->x.desc.mass.velocity ? 1/at_q : at_q;
             const gvi_real unit = (p ? GVI_ABS(h)/m : v ? GVI_ABS(h) : 1)*GVI_SQRT(m);
             const gvi_real *row = y[k].rows + i*st->x.R;
             gvi_real size = GVI_ABS(y[k].base[i]);
@@ -3886,14 +3889,14 @@ static void gvi__add_force(const gvi_stepper *st, const gvi_real *y, gvi_real *z
         gvi__add_scaled(st->n, y[a], st->x.con.G + a*st->n, z, z);
 }
 
-// is |g_a| beyond `units` roundings of its terms G_ai q_i and t dg_a/dt, at one point?
-static int gvi__violated(const gvi_stepper *st, gvi_real units, gvi_real t, const gvi_real *q,
-                         const gvi_real *G, int a)
+// |g_a| in roundings of its terms G_ai q_i and t dg_a/dt, at one point
+static gvi_real gvi__violation(const gvi_stepper *st, gvi_real t, const gvi_real *q,
+                               const gvi_real *G, int a)
 {
     const gvi_real *g = st->x.con.g + a;
     gvi_real size = GVI_ABS(g[st->x.con.m]*t);
     for (int i = 0; i < st->n; ++i) size += GVI_ABS(G[a*st->n + i]*q[i]);
-    return !(GVI_ABS(*g) <= units*GVI__EPS*size);
+    return gvi__nonzero(*g) ? GVI_ABS(*g)/(GVI__EPS*size) : 0;
 }
 
 /* ---- in the iteration ---- */
@@ -4039,14 +4042,13 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
         if (status != GVI_OK) return status;
         for (int a = 0; a < m; ++a) z[a] = -x->con.g[a]/h;
         gvi__ldl_solve(m, x->con.A, 1, z, 1, 1);
-        for (int a = 0; a < m; ++a) size += GVI_ABS(x->con.g[a]*z[a]);
-        if (!(size < before/4)) {                 // rounding?
-            for (int a = 0; a < m; ++a)
-                if (gvi__violated(st, 64, t, Q, G, a))
-                    return gvi__report_status(st, gvi__finite(size) || x->diagnose
-                                                      ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE);
-            return GVI_OK;
+        for (int a = 0; a < m; ++a) {             // the largest, or NaN
+            const gvi_real off = gvi__violation(st, t, Q, G, a);
+            if (off > size || !gvi__finite(off)) size = off;
         }
+        if (!(size < before/4))                   // rounding?
+            return gvi__report_status(st, size <= 64 ? GVI_OK : gvi__finite(size) || x->diagnose
+                                                      ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE);
         before = size;
         gvi__zero((size_t)n, d);
         gvi__add_force(st, z, d);
@@ -4076,7 +4078,7 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
     gvi_status status = gvi__constraints_at(st, t, q);
     if (start) x->diagnose = 0;
     for (int a = 0; a < m && start && status == GVI_OK; ++a)
-        if (gvi__violated(st, units, t, q, x->con.G, a))
+        if (!(gvi__violation(st, t, q, x->con.G, a) <= units))
             return gvi__report_row(st, GVI_E_CONSTRAINT, a, GVI_FAULT_NONE);
     gvi__velocity_guess(st, v);
     for (int pass = 0; pass < passes && status == GVI_OK; ++pass) {
@@ -4987,7 +4989,7 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__des
         p->rho = change/p->least;
     if (change < p->least) p->least = change;
     const int rounding = p->left < GVI__MAX || (stagnant && gvi__newton_rests(p, size, change));
-    if (rounding) p->left *= p->rho;
+    if (rounding) p->left *= p->rho < quarter ? p->rho : quarter;
 
     const gvi_real enough = wanted > 0 ? wanted : GVI__EPS/4096;
     if (change*ratio <= enough || p->left <= GVI__EPS/65536 || p->left <= enough) return GVI__DONE;
