@@ -517,8 +517,7 @@ typedef struct gvi_mass {
                                   points, or velocity, at the same x->q       */
     gvi_points_fn  *velocity;  /* optional: writes x->velocity, the v at which
                                   dL/dv(t,q,v) = p, L being ALL of the scene.
-                                  No linear system is solved then, but it may take
-                                  up to twice as many iterations               */
+                                  No linear system is solved then              */
     void           *user;
 } gvi_mass;
 
@@ -1900,8 +1899,7 @@ GVI__BODY gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e, gvi_real
 static gvi_real *gvi__value_row(const gvi_stepper *st, int e, gvi_real *level)
 {
     const gvi_kind kind = st->x.desc.effects[e].kind;
-    return !GVI__CLOCK || !level || kind == GVI_FORCE ? NULL
-         : kind == GVI_LAGRANGIAN ? st->x.time.lagrangian : level;
+    return kind == GVI_FORCE ? NULL : kind == GVI_LAGRANGIAN ? st->x.time.lagrangian : level;
 }
 
 /* In the repetition of a step that came to NaN or Inf: which effect gave it? Each is evaluated
@@ -1910,7 +1908,7 @@ GVI__COLD gvi_status gvi__diagnose(gvi_stepper *st, gvi_points *x, unsigned skip
 {
     const size_t length = (size_t)x->n*(size_t)x->stride;
     for (int e = 0; e < st->x.desc.effect_count; ++e) {
-        gvi_real *value = gvi__value_row(st, e, level);
+        gvi_real *value = level ? gvi__value_row(st, e, level) : NULL;
         if (skip >> e & 1u) continue;
         gvi__zero(length, x->f);
         if (x->dldv) gvi__zero(length, x->dldv);
@@ -1940,7 +1938,8 @@ static gvi_status gvi__effects(gvi_stepper *st, gvi_points *x, unsigned skip, gv
         && (gvi__check_rows(st, x, x->q, 0) != GVI_OK || gvi__check_rows(st, x, x->v, 0) != GVI_OK))
         return gvi__report_status(st, GVI_E_CONVERGENCE);
     for (int e = 0; e < st->x.desc.effect_count && status == GVI_OK; ++e)
-        if (!(skip >> e & 1u)) status = gvi__effect(st, x, e, gvi__value_row(st, e, level));
+        if (!(skip >> e & 1u))
+            status = gvi__effect(st, x, e, level ? gvi__value_row(st, e, level) : NULL);
     if (!diagnose || status != GVI_OK) return status;
     const int finite = gvi__check_rows(st, x, x->f, 0) == GVI_OK
                        && gvi__check_rows(st, x, x->dldv, 0) == GVI_OK
@@ -3123,6 +3122,7 @@ static gvi_status gvi__legendre_rows(gvi_stepper *st, const gvi_points *y)
     gvi__count(&st->counters.velocities, st->r);
     if (x->desc.mass.velocity) {
         status = gvi__evaluate_mass(st, y, x->work.P, x->work.V);
+        x->has_factor = 1;
         return status == GVI_OK && x->diagnose ? gvi__check_rows(st, y, x->work.V, GVI_FAULT_MASS)
                                                : status;
     }
@@ -3168,10 +3168,13 @@ static gvi_real gvi__velocities_again(gvi_stepper *st)
               made = GVI__LAGRANGIAN && x->work.A;
     const gvi_real *V = x->work.V + st->r - 1;
     gvi_real *was = x->result, sum = 0;
-    if ((!x->has_factor && (clock || !gvi__mass_is_constant(x))) || x->desc.mass.velocity) return 0;
+    if (!x->has_factor && (clock || !gvi__mass_is_constant(x))) return 0;
     if (made) gvi__gather(n, R, V, was);
     gvi__count(&st->counters.velocities, st->r);
-    gvi__velocity_rows(st);
+    const gvi_points at = gvi__points_at(st, st->r, R, x->t, x->work.Q, NULL, NULL);
+    // where that fails it does so again with the new Q
+    if (x->desc.mass.velocity) (void)gvi__evaluate_mass(st, &at, x->work.P, x->work.V);
+    else gvi__velocity_rows(st);
     for (int i = 0; clock && i < n; ++i)
         for (int k = 0; k < R; ++k) x->work.V[i*R + k] *= x->time.rate[k];
     for (int i = 0; made && i < n; ++i) {
@@ -3183,7 +3186,7 @@ static gvi_real gvi__velocities_again(gvi_stepper *st)
 
 /* The stage values of the next iteration from the F, V and A of this one; returns the squares
    of their changes.                                                                           */
-static gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *y, int stages, int rescale)
+GVI__BODY gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *y, int stages, int rescale)
 {
     const struct gvi__private *x = &st->x;
     gvi_real sum = 0;
@@ -3231,10 +3234,10 @@ static gvi_status gvi__predict_sources(gvi_stepper *st, const gvi__origin *from,
 }
 
 /* Where an iteration stands, in squares: the changes of the last two iterations, of all rows,
-   and the least so far; gvi__noise when it was last made; how often no new least was seen, or no
-   good contraction; are units to be made anew?                                                */
+   and the least so far; gvi__noise when it was last made, and its least; how often no new least was
+   seen, or no good contraction; are units to be made anew?                                    */
 typedef struct gvi__progress {
-    gvi_real before, earlier, least, noise;
+    gvi_real before, earlier, least, noise, quiet;
     int      used, stagnant, growing, rescale;
 } gvi__progress;
 
@@ -3280,7 +3283,7 @@ static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *
                       v = !gvi__uses(&st->x, GVI_MOMENTA) && k == 1;
             // the momenta formulation has factored M(q) in place: 1/D_i is there
             const gvi_real at_q = gvi__inertia(st, i), m = gvi__mass_is(&st->x, GVI_MASS_POSITION)
-                && st->x.has_factor ? 1/at_q : at_q;
+                && st->x.has_factor && !st->x.desc.mass.velocity ? 1/at_q : at_q;
             const gvi_real unit = (p ? GVI_ABS(h)/m : v ? GVI_ABS(h) : 1)*GVI_SQRT(m);
             const gvi_real *row = y[k].rows + i*st->x.R;
             gvi_real size = GVI_ABS(y[k].base[i]);
@@ -3331,12 +3334,15 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
     const int poor = p->growing > (D > far ? 4 : 2) && D > 65536*rounding;
     if (p->stagnant > 1 || poor) {
         const gvi_real noise = gvi__noise(st, h, y, stages);
-        if (p->stagnant > 1 && (noise <= 0 || (noise <= 1 && p->stagnant > 4)))
+        // what falls to a new least still converges, be it to 0; what grows diverges
+        const int level = noise <= GVI__EPS || (noise >= p->quiet && noise <= p->noise);
+        if (p->stagnant > 1 && (noise <= 0 || (noise <= 1 && p->stagnant > 4 && level)))
             return p->used - p->stagnant >= GVI__DIG/2 && gvi__may_turn(st) ? GVI__DIVERGES
                                                                               : GVI__ONCE_MORE;
         // a row that tends to 0 changes by its whole size: does its amplitude fall?
         if (poor && noise > 1 && noise > p->noise/2 && gvi__may_turn(st)) return GVI__DIVERGES;
         p->noise = noise;
+        if (noise < p->quiet) p->quiet = noise;
     }
     return p->used < d->max_iterations ? GVI__GO_ON : GVI__DIVERGES;
 }
@@ -3347,7 +3353,7 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
 {
     struct gvi__private *x = &st->x;
     gvi__stage stage[2], first;
-    gvi__progress p = { 0, 0, GVI__MAX, GVI__MAX, 0, 0, 0, 1 };
+    gvi__progress p = { 0, 0, GVI__MAX, GVI__MAX, GVI__MAX, 0, 0, 0, 1 };
     gvi_points at = gvi__points_at(st, st->r, x->R, x->t, x->work.Q, x->work.F,
                                    GVI__LAGRANGIAN ? x->work.A : NULL);
     const int stages = gvi__stages(st, from, h, stage);
@@ -3366,17 +3372,18 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
         if (status != GVI_OK) return status;
         gvi__new_rows(st, stage, stages, 0);
     }
-    for (;;) {
-        p.used = *used += 1;
+    p.used = *used = 1;
+    for (int shorter = 0, last = 0; ; ) {
         status = gvi__evaluate_stages(st, from, &at);
         // free motion may leave the domain of a callback where the motion does not: less of it
-        for (int m = 0; status == GVI_E_CALLBACK && p.used == 1 && !extrapolate && m < 6; ++m) {
+        if (status == GVI_E_CALLBACK && p.used == 1 && !extrapolate && shorter++ < 6) {
             for (int i = 0; i < st->n; ++i)
                 for (int k = 0; k < x->R; ++k)
                     x->work.Q[i*x->R + k] = (x->work.Q[i*x->R + k] + from->q[i])/2;
-            status = gvi__evaluate_stages(st, from, &at);
+            continue;
         }
-        if (status != GVI_OK) return status;
+        if (last && status == GVI_OK && gvi__constrained(st)) gvi__constrain(st, stage);
+        if (last || status != GVI_OK) return status;
         const int diverged = p.growing > 0 || p.before > (gvi_real)st->n;
         const gvi_real change = gvi__new_rows(st, stage, stages, p.rescale);
         const int verdict = gvi__converged(st, &p, change, h, stage, stages);
@@ -3385,6 +3392,7 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
             x->watch.before = x->watch.change;
             x->watch.change = spare;
             for (int k = 0; k < stages; ++k) stage[k].change = spare + k*st->n;
+            p.used = *used += 1;
             continue;
         }
         if (verdict == GVI__NOT_FINITE && !diverged && !x->diagnose)  // the effects are looked at
@@ -3393,9 +3401,7 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
         const gvi_real worst = st->counters.worst_change;
         if (change > worst*worst) st->counters.worst_change = GVI_SQRT(change);
         if (verdict == GVI__DONE) return GVI_OK;
-        status = gvi__evaluate_stages(st, from, &at);
-        if (status == GVI_OK && gvi__constrained(st)) gvi__constrain(st, stage);
-        return status;
+        last = 1;
     }
 }
 
@@ -3809,14 +3815,14 @@ static void gvi__add_force(const gvi_stepper *st, const gvi_real *y, gvi_real *z
         gvi__add_scaled(st->n, y[a], st->x.con.G + a*st->n, z, z);
 }
 
-// is |g_a| beyond `units` roundings of its terms G_ai q_i and t dg_a/dt, at one point?
-static int gvi__violated(const gvi_stepper *st, gvi_real units, gvi_real t, const gvi_real *q,
-                         const gvi_real *G, int a)
+// |g_a| in roundings of its terms G_ai q_i and t dg_a/dt, at one point
+static gvi_real gvi__violation(const gvi_stepper *st, gvi_real t, const gvi_real *q,
+                               const gvi_real *G, int a)
 {
     const gvi_real *g = st->x.con.g + a;
     gvi_real size = GVI_ABS(g[st->x.con.m]*t);
     for (int i = 0; i < st->n; ++i) size += GVI_ABS(G[a*st->n + i]*q[i]);
-    return !(GVI_ABS(*g) <= units*GVI__EPS*size);
+    return gvi__nonzero(*g) ? GVI_ABS(*g)/(GVI__EPS*size) : 0;
 }
 
 /* ---- in the iteration ---- */
@@ -3962,14 +3968,13 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
         if (status != GVI_OK) return status;
         for (int a = 0; a < m; ++a) z[a] = -x->con.g[a]/h;
         gvi__ldl_solve(m, x->con.A, 1, z, 1, 1);
-        for (int a = 0; a < m; ++a) size += GVI_ABS(x->con.g[a]*z[a]);
-        if (!(size < before/4)) {                 // rounding?
-            for (int a = 0; a < m; ++a)
-                if (gvi__violated(st, 64, t, Q, G, a))
-                    return gvi__report_status(st, gvi__finite(size) || x->diagnose
-                                                      ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE);
-            return GVI_OK;
+        for (int a = 0; a < m; ++a) {             // the largest, or NaN
+            const gvi_real off = gvi__violation(st, t, Q, G, a);
+            if (off > size || !gvi__finite(off)) size = off;
         }
+        if (!(size < before/4))                   // rounding?
+            return gvi__report_status(st, size <= 64 ? GVI_OK : gvi__finite(size) || x->diagnose
+                                                      ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE);
         before = size;
         gvi__zero((size_t)n, d);
         gvi__add_force(st, z, d);
@@ -3999,7 +4004,7 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
     gvi_status status = gvi__constraints_at(st, t, q);
     if (start) x->diagnose = 0;
     for (int a = 0; a < m && start && status == GVI_OK; ++a)
-        if (gvi__violated(st, units, t, q, x->con.G, a))
+        if (!(gvi__violation(st, t, q, x->con.G, a) <= units))
             return gvi__report_row(st, GVI_E_CONSTRAINT, a, GVI_FAULT_NONE);
     gvi__velocity_guess(st, v);
     for (int pass = 0; pass < passes && status == GVI_OK; ++pass) {
@@ -4842,11 +4847,11 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
     struct gvi__private *x = &st->x;
     const int n = st->n, solved = p->work <= 16*GVI__EPS;
     const gvi_real h = GVI_ABS(x->sized.h), none = GVI__MIN/GVI__EPS;
-    gvi_real sum = 0;
-    int still = 1;
+    gvi_real sum = 0, largest = 0, noise = 0;
     p->work = 0;
     for (int i = 0; i < n; ++i) {
         gvi_real change = 0, size = 0;
+        const gvi_real q = GVI_ABS(from->q[i]), unit = x->watch.scale[i];
         for (int k = 0; k < st->s; ++k) {
             gvi_real *y = x->newton.y + k*n + i;
             const int at = (k - J->k0)*n + i;
@@ -4860,9 +4865,10 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
         }
         const gvi_real least = GVI__EPS*change;                       // y may land on 0
         if (!(size <= none && change <= none)) sum += change/(size < least ? least : size);
-        if (!(h*change <= 4*GVI__EPS*GVI_ABS(from->q[i]))) still = 0;
+        if (q + h*size > largest*unit) largest = (q + h*size)/unit;
+        if (!(h*change <= 4*GVI__EPS*q) && h*change > noise*unit) noise = h*change/unit;
     }
-    if (still || solved) p->work = -1;
+    if (noise <= 32*GVI__EPS*largest || solved) p->work = -1;         // see gvi__noise
     return sum;
 }
 
@@ -4903,7 +4909,7 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__des
         p->rho = change/p->least;
     if (change < p->least) p->least = change;
     const int rounding = p->left < GVI__MAX || (stagnant && gvi__newton_rests(p, size, change));
-    if (rounding) p->left *= p->rho;
+    if (rounding) p->left *= p->rho < quarter ? p->rho : quarter;
 
     const gvi_real enough = wanted > 0 ? wanted : GVI__EPS/4096;
     if (change*ratio <= enough || p->left <= GVI__EPS/65536 || p->left <= enough) return GVI__DONE;
@@ -5378,7 +5384,7 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
 
     // partial step of length h from the nearer end, or none for a rounding of the whole
     const int end = GVI_ABS(back) <= GVI_ABS(ahead);
-    const gvi_real h = end ? back - st->t_low : ahead;
+    const gvi_real h = !end ? ahead : gvi__nonzero(back) ? back - st->t_low : 0;
     gvi__origin from = {
         st->t, st->t_low, st->q, st->q_low, st->p, st->p_low, x->time.H + x->time.H_low
     };
