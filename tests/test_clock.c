@@ -320,8 +320,17 @@ TEST(steps_back_return)
     for (int s = 1; s <= 5; ++s) {
         gvi_stepper st;
         begin(&st, (scene_name)a, s, start);
+        real q0[2], q[2], p[2];
         assert_between(0, there_and_back(&st, 20, (const real[]){ 0.0625, 0.125 }, 2), 100*EPS);
         assert_between(0, fabs(st.t), 20*EPS);
+        for (int k = 0; k < 20; ++k) {
+            memcpy(q0, st.q, sizeof q0);
+            assert_ok(gvi_step(&st, (real)0.0625));
+            assert_ok(gvi_state_at(&st, st.t0, q, NULL, NULL));
+            assert_true(q[0] == q0[0] && q[1] == q0[1]);
+            assert_ok(gvi_state_at(&st, st.t, q, NULL, p));
+            assert_true(q[0] == st.q[0] && q[1] == st.q[1] && p[0] == st.p[0] && p[1] == st.p[1]);
+        }
     }
 }
 
