@@ -517,7 +517,8 @@ typedef struct gvi_mass {
                                   points, or velocity, at the same x->q       */
     gvi_points_fn  *velocity;  /* optional: writes x->velocity, the v at which
                                   dL/dv(t,q,v) = p, L being ALL of the scene.
-                                  No linear system is solved then              */
+                                  No linear system is solved then; needed in steps
+                                  near the speed of light (gamma > 1e3)        */
     void           *user;
 } gvi_mass;
 
@@ -3235,10 +3236,10 @@ static gvi_status gvi__predict_sources(gvi_stepper *st, const gvi__origin *from,
 
 /* Where an iteration stands, in squares: the changes of the last two iterations, of all rows,
    and the least so far; gvi__noise when it was last made, and its least; how often no new least was
-   seen, or no good contraction; are units to be made anew?                                    */
+   seen, of change or noise, or no good contraction; are units to be made anew?                */
 typedef struct gvi__progress {
     gvi_real before, earlier, least, noise, quiet;
-    int      used, stagnant, growing, rescale;
+    int      used, stagnant, still, growing, rescale;
 } gvi__progress;
 
 enum { GVI__GO_ON, GVI__DONE, GVI__ONCE_MORE, GVI__DIVERGES, GVI__NOT_FINITE };
@@ -3335,14 +3336,15 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
     if (p->stagnant > 1 || poor) {
         const gvi_real noise = gvi__noise(st, h, y, stages);
         // what falls to a new least still converges, be it to 0; what grows diverges
-        const int level = noise <= GVI__EPS || (noise >= p->quiet && noise <= p->noise);
+        p->still = noise < p->quiet ? 0 : p->still + 1;
+        const int level = noise <= GVI__EPS || (p->still > 7 && noise <= p->noise);
         if (p->stagnant > 1 && (noise <= 0 || (noise <= 1 && p->stagnant > 4 && level)))
             return p->used - p->stagnant >= GVI__DIG/2 && gvi__may_turn(st) ? GVI__DIVERGES
                                                                               : GVI__ONCE_MORE;
         // a row that tends to 0 changes by its whole size: does its amplitude fall?
         if (poor && noise > 1 && noise > p->noise/2 && gvi__may_turn(st)) return GVI__DIVERGES;
         p->noise = noise;
-        if (noise < p->quiet) p->quiet = noise;
+        if (p->still == 0) p->quiet = noise;
     }
     return p->used < d->max_iterations ? GVI__GO_ON : GVI__DIVERGES;
 }
@@ -3353,7 +3355,7 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
 {
     struct gvi__private *x = &st->x;
     gvi__stage stage[2], first;
-    gvi__progress p = { 0, 0, GVI__MAX, GVI__MAX, GVI__MAX, 0, 0, 0, 1 };
+    gvi__progress p = { 0, 0, GVI__MAX, GVI__MAX, GVI__MAX, 0, 0, 0, 0, 1 };
     gvi_points at = gvi__points_at(st, st->r, x->R, x->t, x->work.Q, x->work.F,
                                    GVI__LAGRANGIAN ? x->work.A : NULL);
     const int stages = gvi__stages(st, from, h, stage);
