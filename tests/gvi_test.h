@@ -139,6 +139,7 @@ there_and_back(gvi_stepper *st, int steps, const gvi_real *h, int m)
     const test_state was = state_now(st);
     gvi_real worst = 0;
     for (int k = 0; k < steps; ++k) assert_ok(gvi_step(st, h[k % m]));
+    assert_true(st->q[0] != was.q[0] && st->p[0] != was.p[0]);
     for (int k = steps; k-- > 0; ) assert_ok(gvi_step(st, -h[k % m]));
     for (int i = 0; i < 2*st->n; ++i) {
         gvi_real d = i % 2 ? st->p[i/2] - was.p[i/2] : st->q[i/2] - was.q[i/2];
