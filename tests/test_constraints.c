@@ -408,6 +408,9 @@ static void test_refusals(void **state)
     assert_ok(set_up(&st, &a, &good));
     assert_status(gvi_discrete_lagrangian(&st, 0, (real)0.1L, a.q, a.q, &out), GVI_E_FORMULATION);
     assert_int_equal(st.fault.effect, 1);
+    assert_ok(gvi_switch(&st, 1, 0));             // off, it is still in the scene
+    assert_status(gvi_discrete_lagrangian(&st, 0, (real)0.1L, a.q, a.q, &out), GVI_E_FORMULATION);
+    assert_int_equal(st.fault.effect, 1);
     assert_status(gvi_start_configurations(&st, 0, (real)0.1L, a.q, a.q), GVI_E_FORMULATION);
     assert_non_null(strstr(gvi_formulation_text(&st), "boundary values"));
     for (int rows = -1; rows < 6; ++rows) {       // more rows than coordinates, or none
