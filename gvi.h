@@ -126,9 +126,8 @@
      GVI_ONLY_NEWTON      these formulations and no others (see HOW IT WORKS)
      GVI_NO_CLOCK         no effects of kind GVI_CLOCK
      GVI_NO_CONSTRAINTS   none of kind GVI_CONSTRAINT, as with GVI_NO_RULES
-     GVI_NO_RULES         no rule but Gauss with r = s <= 4, and in GVI_EXPLICIT those
-                          that it takes; no Lagrangian terms.  Nodes and tables
-                          then are constants, not code
+     GVI_NO_RULES         no rule but Gauss with r = s, and in GVI_EXPLICIT those
+                          that it takes; no Lagrangian terms, no constraints
 
    A description that needs what was left out is refused: GVI_E_FORMULATION.
    With GVI_STATIC, functions that are not called vanish as well.
@@ -954,8 +953,8 @@ enum {
     || defined(GVI_NO_TOLERANCE)
 #error "gvi.h: of 0.1's GVI_NO_ macros only GVI_NO_CLOCK and GVI_NO_RULES are left"
 #endif
-#if GVI__KIND == 3 && (LDBL_MANT_DIG == 106 || defined(GVI_NO_RULES))
-#error "gvi.h: long double must be one IEEE number, not two doubles, and goes without GVI_NO_RULES"
+#if GVI__KIND == 3 && LDBL_MANT_DIG == 106
+#error "gvi.h: long double must be one IEEE number, not two doubles"
 #endif
 
 typedef char gvi__effects_fit_a_word[GVI_EFFECTS >= 1 && GVI_EFFECTS <= 32
@@ -2213,75 +2212,6 @@ GVI__COLD gvi_status gvi__hamiltonian(gvi_stepper *st, gvi_real t, const gvi_rea
 
 /* ---------------------------------------------------------------- TABLES */
 
-#ifdef GVI_NO_RULES
-/* What Gauss's rule has with r = s = 1..4, one after the other (tests/gen/few.py): b; Phi and phi;
-   S_ij, i <= j, and T_ij, i < j.  To be on their grids in any type, Phi_0 and S below 1/2 are given
-   less 1, T plus 1/2.                                                                        */
-#define GVI__4(a, b, c, d) (gvi_real)a, (gvi_real)b, (gvi_real)c, (gvi_real)d
-static const gvi_real gvi__few_numbers[] = {
-    GVI__4(1.0, 0.5, 0.5, 0.2777777777777778),
-    GVI__4(0.4444444444444444, 0.2777777777777778, 0.17392742256872692, 0.32607257743127305),
-    GVI__4(0.32607257743127305, 0.17392742256872692, 0.5, -0.7886751345948129),
-    GVI__4(0.7886751345948129, 0.16666666666666666, 0.16666666666666666, -0.8872983346207417),
-    GVI__4(0.5, 0.8872983346207417, 0.1, 0.25),
-    GVI__4(0.1, 0.07745966692414834, 0.0, -0.07745966692414834),
-    GVI__4(-0.9305681557970263, -0.6699905217924281, 0.6699905217924281, 0.9305681557970263),
-    GVI__4(0.0646110632135477, 0.22110322250073802, 0.22110322250073802, 0.0646110632135477),
-    GVI__4(0.05563893266388464, 0.07517090432577558, -0.07517090432577558, -0.05563893266388464),
-    GVI__4(0.043738115765622414,-0.023329952500316293,-0.023329952500316293,0.043738115765622414),
-    GVI__4(1.0, 1.0, 1.0, 0.5773502691896257),
-    GVI__4(-0.5773502691896257, 1.0, 1.0, 1.0),
-    GVI__4(0.7745966692414834, 0.0, -0.7745966692414834, 0.4),
-    GVI__4(-0.5, 0.4, 1.0, 1.0),
-    GVI__4(1.0, 1.0, 0.8611363115940526, 0.33998104358485626),
-    GVI__4(-0.33998104358485626, -0.8611363115940526, 0.6123336207187138, -0.3266193350044281),
-    GVI__4(-0.3266193350044281, 0.6123336207187138, 0.3047469849552062, -0.4117279996728996),
-    GVI__4(0.4117279996728996, -0.3047469849552062, -0.75, -0.8720084679281462),
-    GVI__4(-0.75, 0.7053418012614795, -0.9272983346207417, -0.8686491673103709),
-    GVI__4(-0.5625, -0.9, 0.5186491673103708, 0.8472983346207417),
-    GVI__4(-0.9537858370068485, -0.9204604031889758, -0.7123705082210899, -0.938679181179479),
-    GVI__4(-0.6566801899987348, 0.6276105353637663, -0.9249524630624897, -0.6781015471748809),
-    GVI__4(0.6800982744004787, 0.9073504745872041, 1.5773502691896257, 1.5809475019311126),
-    GVI__4(1.46475800154489, 1.5809475019311126, 1.58158975003228, 1.4612740734321141),
-    GVI__4(1.5855037514105192, 1.5204404206840407, 1.4612740734321141, 1.58158975003228)
-};
-enum { GVI__FEW_PHI = 10, GVI__FEW_DERIVATIVE = 40, GVI__FEW_S = 70, GVI__FEW_T = 90 };
-
-static gvi_real gvi__few(gvi_real x) { return x < 0 ? 1 + x : x; }
-
-// weights, nodes and modes
-GVI__COLD void gvi__modes_at_nodes(gvi_stepper *st)
-{
-    const struct gvi__tables *x = &st->x.table;
-    const size_t r = (size_t)st->r, at = (r - 1)*r*(2*r - 1)/6;
-    gvi__copy(r, gvi__few_numbers + (r - 1)*r/2, x->b);
-    gvi__copy(r*r, gvi__few_numbers + GVI__FEW_PHI + at, x->Phi);
-    if (x->phi) gvi__copy(r*r, gvi__few_numbers + GVI__FEW_DERIVATIVE + at, x->phi);
-    for (size_t i = 0; i < r; ++i) x->c[i] = gvi__few(x->Phi[i]);
-}
-
-static gvi_real gvi__S(const gvi_stepper *st, int i, int j)
-{
-    const int at = GVI__FEW_S + (st->r - 1)*st->r*(st->r + 1)/6 + j*(j + 1)/2 + i;
-    return gvi__few(gvi__few_numbers[at]);
-}
-
-static gvi_real gvi__T(const gvi_stepper *st, int i, int j)
-{
-    const int at = GVI__FEW_T + (st->r - 2)*(st->r - 1)*st->r/6 + (j - 1)*j/2 + i;
-    return gvi__few_numbers[at] - (gvi_real)0.5;
-}
-
-GVI__COLD void gvi__prepare_column(gvi_stepper *st, const gvi_real *b, int j)
-{
-    (void)st, (void)b, (void)j;
-}
-static void gvi__over_gamma(const gvi_stepper *st, gvi_real *y)
-{
-    for (int k = 0; k < st->s; ++k) y[k] *= (gvi_real)(2*k + 1);
-}
-#else
-
 /* phi_k = P_k(x) and Phi_k = (P_(k-1) - P_(k+1))(x)/(2(2k+1)), P_(-1) = 1, at the nodes, x = 1
    - 2c, in double-word arithmetic: [k*R + node].  Then the nodes go to the grid of S.         */
 GVI__COLD void gvi__modes_of(const gvi_stepper *st, int count, gvi_real *c, const gvi_real *c_low,
@@ -2323,7 +2253,7 @@ GVI__COLD gvi_status gvi__make_gamma(gvi_stepper *st)
     const struct gvi__tables *x = &st->x.table;
     const int s = st->s, r = st->r, R = st->x.R;
     for (int k = 0; k < s; ++k) x->inv_gamma[k] = (gvi_real)(2*k + 1);
-    if (st->order == 2*s - 2) {
+    if (GVI__RULES && st->order == 2*s - 2) {
         const gvi_real *last = x->phi + (s - 1)*R, sum = gvi__dot3(r, x->b, last, last);
         if (!(GVI_ABS(sum) > (gvi_real)s*GVI__EPS)) return GVI_E_POINTS;
         x->inv_gamma[s - 1] = st->x.desc.rule.kind == GVI_LOBATTO ? (gvi_real)(s - 1) : 1/sum;
@@ -2372,16 +2302,15 @@ GVI__COLD gvi__two gvi__coupling(const gvi_stepper *st, const gvi_real *a, int i
 }
 
 // S_ij and T_ij of the column that was prepared last
-static gvi_real gvi__S(const gvi_stepper *st, int i, int j)
+static gvi_real gvi__S(const gvi_stepper *st, int i)
 {
-    return (void)j, gvi__grid(gvi__coupling(st, st->x.table.Phi, i), GVI__EPS/2);
+    return gvi__grid(gvi__coupling(st, st->x.table.Phi, i), GVI__EPS/2);
 }
 
-static gvi_real gvi__T(const gvi_stepper *st, int i, int j)
+static gvi_real gvi__T(const gvi_stepper *st, int i)
 {
-    return (void)j, gvi__grid(gvi__coupling(st, st->x.table.phi, i), GVI__EPS);
+    return gvi__grid(gvi__coupling(st, st->x.table.phi, i), GVI__EPS);
 }
-#endif
 
 /* S and T on grids of eps/2 and eps (|S| <= 1, |T| < 2): what they must fulfil for the step to
    be symplectic then holds exactly in the rounded numbers, S_ij = S_ji, and for Gauss with r =
@@ -2396,25 +2325,23 @@ GVI__COLD void gvi__make_tables(gvi_stepper *st)
     for (int j = 0; j < r; ++j) {
         gvi__prepare_column(st, x->Phi, j);
         for (int i = 0; x->K && i <= j; ++i) {
-            const gvi_real S = gvi__S(st, i, j);
+            const gvi_real S = gvi__S(st, i);
             x->K[j*R + i] = x->c[i] - S;
             x->K[i*R + j] = x->c[j] - S;
         }
         for (int i = 0; x->U && i < (gauss ? j + 1 : r); ++i) {
-            const gvi_real T = gauss && i == j ? (gvi_real)0.5 : gvi__T(st, i, j);
+            const gvi_real T = gauss && i == j ? (gvi_real)0.5 : gvi__T(st, i);
             x->U[j*R + i] = 1 - T;
             if (gauss) x->U[i*R + j] = T;
             if (x->T) x->T[i*R + j] = sign*T;
             if (x->T && gauss) x->T[j*R + i] = sign*(1 - T);
         }
-#ifndef GVI_NO_RULES
-        if (x->N) gvi__prepare_column(st, x->phi, j);
-        for (int i = 0; x->N && i < r; ++i) x->N[j*R + i] = -gvi__coupling(st, x->phi, i).hi;
-#endif
+        if (!GVI__LAGRANGIAN || !x->N) continue;
+        gvi__prepare_column(st, x->phi, j);
+        for (int i = 0; i < r; ++i) x->N[j*R + i] = -gvi__coupling(st, x->phi, i).hi;
     }
 }
 
-#ifndef GVI_NO_RULES
 /* The tables of constraints, on the same grids, by columns: K = c_i - S(c_i, d_e), U = 1 - T(c_i,
    d_e); for D d_a - S(d_a, c_j), or with momenta T(c_j, d_a), and d_a - S(d_a, d_e), with LU. */
 GVI__COLD gvi_status gvi__set_constraints(gvi_stepper *st)
@@ -2428,8 +2355,8 @@ GVI__COLD gvi_status gvi__set_constraints(gvi_stepper *st)
     for (int e = 0; e <= s; ++e) {                // Phi(d_0) = 0
         if (e > 0) gvi__prepare_column(st, x->con.Phi, e - 1);
         for (int i = 0; i < r; ++i) {
-            const gvi_real S = e > 0 ? gvi__S(st, i, 0) : 0;
-            const gvi_real T = e > 0 && x->con.U ? gvi__T(st, i, 0) : 0;
+            const gvi_real S = e > 0 ? gvi__S(st, i) : 0;
+            const gvi_real T = e > 0 && x->con.U ? gvi__T(st, i) : 0;
             if (e < s) x->con.K[e*R + i] = x->table.c[i] - S;
             if (e < s && x->con.U) x->con.U[e*R + i] = 1 - T;
             if (e > 0) x->con.by_force[i*R + e - 1] = momenta ? T : d[e] - S;
@@ -2448,7 +2375,6 @@ GVI__COLD gvi_status gvi__set_constraints(gvi_stepper *st)
     }
     return GVI_OK;
 }
-#endif
 
 // phi_k(tau) and Phi_k(tau), k < s, multiplied by Gamma^-1, at any tau
 static void gvi__modes(const gvi_stepper *st, gvi_real tau, gvi_real *phi, gvi_real *Phi)
@@ -4345,7 +4271,7 @@ GVI__COLD gvi_status gvi__choose(struct gvi__private *x, gvi_fault *fault)
         if (pinned || f++ == GVI_NEWTON) return GVI_E_FORMULATION;
     x->chosen = (gvi_formulation)f;
     if (f == GVI_NEWTON && given) return GVI_E_FORMULATION;
-    if (!GVI__RULES && f != GVI_EXPLICIT && (d->rule.kind != GVI_GAUSS || r != s || s > 4))
+    if (!GVI__RULES && f != GVI_EXPLICIT && (d->rule.kind != GVI_GAUSS || r != s))
         return GVI_E_FORMULATION;
     // as a fall-back only where its matrices are small
     if (f == GVI_NEWTON
@@ -4549,15 +4475,11 @@ GVI__COLD gvi_status gvi__set_rule(gvi_stepper *st, const gvi_rule *rule)
         x->table.c[1] = 1;
         x->table.b[0] = x->table.b[1] = (gvi_real)0.5;
     }
-#ifndef GVI_NO_RULES
-    else gvi__rule(rule->kind == GVI_LOBATTO, st->r, x->table.c, x->t, x->table.b);
-#endif
+    else gvi__rule(GVI__RULES && rule->kind == GVI_LOBATTO, st->r, x->table.c, x->t, x->table.b);
     if (GVI__ITERATES && !gvi__uses(x, GVI_EXPLICIT)) {
         gvi__modes_at_nodes(st);
-#ifndef GVI_NO_RULES
         const gvi_status status = gvi__make_gamma(st);
         if (status != GVI_OK) return status;
-#endif
         gvi__make_tables(st);
     }
     for (int i = 0; x->table.high && i < st->r; ++i) {       // modes r - 1 and r - 2 of a force
@@ -4567,9 +4489,7 @@ GVI__COLD gvi_status gvi__set_rule(gvi_stepper *st, const gvi_rule *rule)
         x->table.high[i] = st->r > 1 ? (gvi_real)(2*st->r - 1)*x->table.b[i]*P : 0;
         x->table.high[x->R + i] = st->r > 2 ? (gvi_real)(2*st->r - 3)*x->table.b[i]*before : 0;
     }
-#ifndef GVI_NO_RULES
     if (GVI__CONSTRAINTS && x->con.bits && gvi__set_constraints(st) != GVI_OK) return GVI_E_POINTS;
-#endif
     // Phi_0 = c on its grid
     if (x->table.Phi) gvi__copy((size_t)st->r, x->table.c, x->table.Phi);
     return GVI_OK;

@@ -2,7 +2,7 @@
 # size.sh BUILD [--detail]: how large gvi.h is on small machines, with GVI_REAL float and -Os:
 # code and constants of gvi.h alone, what it takes of libm and libgcc, the deepest stack; then
 # RAM.  Rows: every function, then gvi_init, gvi_start and gvi_step with one formulation
-# (GVI_ONLY_...), whole and without a clock and with few numbers as constants (GVI_NO_CLOCK,
+# (GVI_ONLY_...), whole and without a clock and with Gauss's rule alone (GVI_NO_CLOCK,
 # GVI_NO_RULES, "least").  Then, on Cortex-M4F, what each part costs.  --detail: also the largest functions and the deepest chain of calls.
 build=$1 detail=$2
 CC=${CC:-cc}
@@ -122,7 +122,7 @@ velocities|$(echo "$all" | sed 's/-DGVI_ONLY_VELOCITIES//')
 momenta|$(echo "$all" | sed 's/-DGVI_ONLY_MOMENTA//')
 Newton's method|$(echo "$all" | sed 's/-DGVI_ONLY_NEWTON//')
 clocks: GVI_NO_CLOCK|-DGVI_NO_CLOCK
-nodes and tables: GVI_NO_RULES|-DGVI_NO_RULES
+other rules, constraints: GVI_NO_RULES|-DGVI_NO_RULES
 END
     while IFS='|' read -r name roots; do
         part_line "added by $name" $(($(linked "$steps $roots") - base))
