@@ -292,7 +292,8 @@ static int   the_number;                            /* of the scene, to find it 
 static int calls_that_worked;
 
 /* After a call: status, work, memory, and the state if it may not have changed */
-static void check_call(const char *what, const gvi_stepper *st, gvi_status got, const whole_state *before, int may_change)
+static void check_call(const char *what, const gvi_stepper *st, gvi_status got, const whole_state *before,
+                       int may_change)
 {
     whole_state after = state_of(st);
     int good = got <= GVI_OK && got >= GVI_E_CLOCK;
