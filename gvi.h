@@ -966,20 +966,17 @@ typedef char gvi__effects_fit_a_word[GVI_EFFECTS >= 1 && GVI_EFFECTS <= 32
    GVI__COLD: set-up and queries, compiled for size.                                          */
 #if defined(__GNUC__)
 #define GVI__COLD static __attribute__((noinline, cold))
+#define GVI__CALLED static __attribute__((noinline))
 #else
 #define GVI__COLD static
+#define GVI__CALLED static
 #endif
 #if defined(__GNUC__) && defined(__OPTIMIZE_SIZE__)
-#define GVI__APART static __attribute__((noinline))
+#define GVI__APART GVI__CALLED
 #define GVI__SMALL 1
 #else
 #define GVI__APART static
 #define GVI__SMALL 0
-#endif
-#if defined(__GNUC__)
-#define GVI__CALLED static __attribute__((noinline))
-#else
-#define GVI__CALLED static
 #endif
 
 /* Registers that hold more than one type's digits round twice: values are stored to round them. */
@@ -1610,14 +1607,6 @@ GVI_DEF gvi_status gvi_barycentric(int n, const gvi_real *x, gvi_real *w)
     return GVI_OK;
 }
 
-static int gvi__nearest(int n, const gvi_real *x, gvi_real t)
-{
-    int i = 0;
-    for (int j = 1; j < n; ++j)
-        if (GVI_ABS(t - x[j]) < GVI_ABS(t - x[i])) i = j;
-    return i;
-}
-
 /* l_j(t) = (w_j/(t - x_j)) / sum_k w_k/(t - x_k).  Both sides multiplied by the
    distance d to the nearest node i, so that t = x_i is no exception; and the
    sum, which may cancel, by what it is equal to: w_i prod_(k != i)
@@ -1625,7 +1614,9 @@ static int gvi__nearest(int n, const gvi_real *x, gvi_real t)
 static int gvi__term(int n, const gvi_real *x, const gvi_real *w, gvi_real t, gvi_real *d,
                      gvi_real *sum)
 {
-    int i = gvi__nearest(n, x, t);
+    int i = 0;
+    for (int j = 1; j < n; ++j)
+        if (GVI_ABS(t - x[j]) < GVI_ABS(t - x[i])) i = j;
     *d = t - x[i];
     *sum = w[i];
     for (int k = 0; k < n; ++k)
@@ -2191,8 +2182,7 @@ GVI__COLD gvi_status gvi__value_sums(gvi_stepper *st, gvi_real t, const gvi_real
         if (status != GVI_OK) return status;
         if (!gvi__finite(*value)) return gvi__report_effect(st, GVI_E_NON_FINITE, e);
     }
-    gvi__zero(2*(size_t)st->n, y.f);              // and y.dldv
-    const gvi_status status = gvi__kinetic(st, &y);
+    const gvi_status status = gvi__evaluate(st, &y, ~0u, 1);
     *T = gvi__dot(st->n, y.dldv, v)/2;
     return status;
 }
@@ -2231,13 +2221,6 @@ GVI__COLD void gvi__modes_of(const gvi_stepper *st, int count, gvi_real *c, cons
         }
         c[i] = gvi__grid(gvi__two_sum(c[i], c_low[i]), GVI__EPS/2);
     }
-}
-
-// the low words of Phi are in E, which is not yet in use
-GVI__COLD void gvi__modes_at_nodes(gvi_stepper *st)
-{
-    const struct gvi__tables *x = &st->x.table;
-    gvi__modes_of(st, st->r, x->c, st->x.t, x->phi, x->phi_low, x->Phi, st->x.sized.E);
 }
 
 // the low words of modes a: phi, Phi, or Phi at constraints' points
@@ -4443,21 +4426,18 @@ GVI__COLD gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, dense = mass->kind == GVI_MASS_DENSE;
+    const gvi_real *matrix = dense || mass->kind == GVI_MASS_DIAGONAL ? mass->matrix : NULL;
     gvi_real *m = x->mass.matrix;
     int at[2] = { 0, 0 };
     for (int i = 0; i < n; ++i) {
-        x->mass.inverse[i] = 1;
-        if (dense)
-            for (int j = 0; j <= i; ++j) {
-                m[i*n + j] = x->mass.factor[i*n + j] = mass->matrix[i*n + j];
-                if (!gvi__finite(m[i*n + j]))
-                    return gvi__refuse(&st->fault, GVI_FAULT_MASS, i, "mass.matrix is not finite");
-            }
-        else m[i] = mass->kind == GVI_MASS_DIAGONAL ? mass->matrix[i] : 1;
-        if (mass->kind != GVI_MASS_DIAGONAL) continue;
-        x->mass.inverse[i] = 1/m[i];
-        if (!gvi__finite(m[i]))
+        gvi_real *row = dense ? m + i*n : m + i;
+        const int width = dense ? i + 1 : 1;
+        if (matrix) gvi__copy((size_t)width, matrix + (row - m), row);
+        else row[0] = 1;
+        if (gvi__first_non_finite(width, row) >= 0)
             return gvi__refuse(&st->fault, GVI_FAULT_MASS, i, "mass.matrix is not finite");
+        if (dense) gvi__copy((size_t)width, row, x->mass.factor + i*n);
+        x->mass.inverse[i] = dense ? 1 : 1/row[0];
         if (!gvi__finite(x->mass.inverse[i]))
             return gvi__report(st, GVI_E_SINGULAR, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
     }
@@ -4479,7 +4459,9 @@ GVI__COLD gvi_status gvi__set_rule(gvi_stepper *st, const gvi_rule *rule)
     }
     else gvi__rule(GVI__RULES && rule->kind == GVI_LOBATTO, st->r, x->table.c, x->t, x->table.b);
     if (GVI__ITERATES && !gvi__uses(x, GVI_EXPLICIT)) {
-        gvi__modes_at_nodes(st);
+        // the low words of Phi go to E, which is not yet in use
+        gvi__modes_of(st, st->r, x->table.c, x->t, x->table.phi, x->table.phi_low, x->table.Phi,
+                      x->sized.E);
         const gvi_status status = gvi__make_gamma(st);
         if (status != GVI_OK) return status;
         gvi__make_tables(st);
@@ -5086,9 +5068,7 @@ static gvi_status gvi__momentum(gvi_stepper *st, gvi_real t, const gvi_real *q, 
 {
     gvi_points y = gvi__one_point(st, &t, q);
     y.v = v;
-    if (gvi__has(&st->x, GVI__HAS_LAGRANGIAN)) return gvi__evaluate(st, &y, 0, 1);
-    gvi__zero(2*(size_t)st->n, y.f);              // and y.dldv
-    return gvi__kinetic(st, &y);
+    return gvi__evaluate(st, &y, gvi__has(&st->x, GVI__HAS_LAGRANGIAN) ? 0 : ~0u, 1);
 }
 
 GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
@@ -5387,14 +5367,10 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
     // partial step of length h from the nearer end, or none for a rounding of the whole
     const int end = GVI_ABS(back) <= GVI_ABS(ahead);
     const gvi_real h = !end ? ahead : gvi__nonzero(back) ? back - st->t_low : 0;
-    gvi__origin from = {
-        st->t, st->t_low, st->q, st->q_low, st->p, st->p_low, x->time.H + x->time.H_low
-    };
-    if (!end) {
-        const gvi__origin first = { st->t0,     0,        x->began.q, x->zeros,
-                                    x->began.p, x->zeros, x->began.H };
-        from = first;
-    }
+    const gvi__origin last = { st->t, st->t_low, st->q, st->q_low, st->p, st->p_low,
+                               x->time.H + x->time.H_low },
+        first = { st->t0, 0, x->began.q, x->zeros, x->began.p, x->zeros, x->began.H },
+        from = end ? last : first;
     const gvi_formulation was = st->formulation;
     if (GVI_ABS(h) > GVI__EPS*(GVI_ABS(ahead) + GVI_ABS(back)))
         status = gvi__partial_step(st, &from, end ? GVI__FROM_END : GVI__FROM_START, h);
