@@ -2087,7 +2087,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
     int at;
     x->v = v;
     gvi__count(&st->counters.velocities, 1);
-    for (int k = 0, halves = 0, last_places = 0; k < 60; ++k) {
+    for (int k = 0, halves = 0; k < 60; ++k) {
         gvi_real change = 0, miss = 0;
         int almost = 1;
         gvi_status status = gvi__evaluate(st, x, 0, 1);
@@ -2127,8 +2127,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
         if (!(change <= GVI__MAX)) break;
         // from beyond the root corrections grow threefold, be they of the last place
         const gvi_real small = GVI_SQRT(GVI__EPS);
-        last_places += change <= 64*GVI__EPS;
-        const int rests = last_places > 4 || (change <= 2*GVI__EPS && (last <= small || almost)),
+        const int rests = k > 4 || (change <= 2*GVI__EPS && (last <= small || almost)),
                   still = change >= last/2 && change <= 2*last && change <= small;
         if (miss <= 8*GVI__EPS*(gvi_real)n && (rests || still)) return GVI_OK;
         last = change;
