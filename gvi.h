@@ -517,7 +517,8 @@ typedef struct gvi_mass {
                                   points, or velocity, at the same x->q       */
     gvi_points_fn  *velocity;  /* optional: writes x->velocity, the v at which
                                   dL/dv(t,q,v) = p, L being ALL of the scene.
-                                  No linear system is solved then              */
+                                  No linear system is solved then; needed in steps
+                                  near the speed of light (gamma > 1e3)        */
     void           *user;
 } gvi_mass;
 
@@ -965,20 +966,17 @@ typedef char gvi__effects_fit_a_word[GVI_EFFECTS >= 1 && GVI_EFFECTS <= 32
    GVI__COLD: set-up and queries, compiled for size.                                          */
 #if defined(__GNUC__)
 #define GVI__COLD static __attribute__((noinline, cold))
+#define GVI__CALLED static __attribute__((noinline))
 #else
 #define GVI__COLD static
+#define GVI__CALLED static
 #endif
 #if defined(__GNUC__) && defined(__OPTIMIZE_SIZE__)
-#define GVI__APART static __attribute__((noinline))
+#define GVI__APART GVI__CALLED
 #define GVI__SMALL 1
 #else
 #define GVI__APART static
 #define GVI__SMALL 0
-#endif
-#if defined(__GNUC__)
-#define GVI__CALLED static __attribute__((noinline))
-#else
-#define GVI__CALLED static
 #endif
 
 /* Registers that hold more than one type's digits round twice: values are stored to round them. */
@@ -1609,14 +1607,6 @@ GVI_DEF gvi_status gvi_barycentric(int n, const gvi_real *x, gvi_real *w)
     return GVI_OK;
 }
 
-static int gvi__nearest(int n, const gvi_real *x, gvi_real t)
-{
-    int i = 0;
-    for (int j = 1; j < n; ++j)
-        if (GVI_ABS(t - x[j]) < GVI_ABS(t - x[i])) i = j;
-    return i;
-}
-
 /* l_j(t) = (w_j/(t - x_j)) / sum_k w_k/(t - x_k).  Both sides multiplied by the
    distance d to the nearest node i, so that t = x_i is no exception; and the
    sum, which may cancel, by what it is equal to: w_i prod_(k != i)
@@ -1624,7 +1614,9 @@ static int gvi__nearest(int n, const gvi_real *x, gvi_real t)
 static int gvi__term(int n, const gvi_real *x, const gvi_real *w, gvi_real t, gvi_real *d,
                      gvi_real *sum)
 {
-    int i = gvi__nearest(n, x, t);
+    int i = 0;
+    for (int j = 1; j < n; ++j)
+        if (GVI_ABS(t - x[j]) < GVI_ABS(t - x[i])) i = j;
     *d = t - x[i];
     *sum = w[i];
     for (int k = 0; k < n; ++k)
@@ -2190,8 +2182,7 @@ GVI__COLD gvi_status gvi__value_sums(gvi_stepper *st, gvi_real t, const gvi_real
         if (status != GVI_OK) return status;
         if (!gvi__finite(*value)) return gvi__report_effect(st, GVI_E_NON_FINITE, e);
     }
-    gvi__zero(2*(size_t)st->n, y.f);              // and y.dldv
-    const gvi_status status = gvi__kinetic(st, &y);
+    const gvi_status status = gvi__evaluate(st, &y, ~0u, 1);
     *T = gvi__dot(st->n, y.dldv, v)/2;
     return status;
 }
@@ -2230,13 +2221,6 @@ GVI__COLD void gvi__modes_of(const gvi_stepper *st, int count, gvi_real *c, cons
         }
         c[i] = gvi__grid(gvi__two_sum(c[i], c_low[i]), GVI__EPS/2);
     }
-}
-
-// the low words of Phi are in E, which is not yet in use
-GVI__COLD void gvi__modes_at_nodes(gvi_stepper *st)
-{
-    const struct gvi__tables *x = &st->x.table;
-    gvi__modes_of(st, st->r, x->c, st->x.t, x->phi, x->phi_low, x->Phi, st->x.sized.E);
 }
 
 // the low words of modes a: phi, Phi, or Phi at constraints' points
@@ -3235,10 +3219,10 @@ static gvi_status gvi__predict_sources(gvi_stepper *st, const gvi__origin *from,
 
 /* Where an iteration stands, in squares: the changes of the last two iterations, of all rows,
    and the least so far; gvi__noise when it was last made, and its least; how often no new least was
-   seen, or no good contraction; are units to be made anew?                                    */
+   seen, of change or noise, or no good contraction; are units to be made anew?                */
 typedef struct gvi__progress {
     gvi_real before, earlier, least, noise, quiet;
-    int      used, stagnant, growing, rescale;
+    int      used, stagnant, still, growing, rescale;
 } gvi__progress;
 
 enum { GVI__GO_ON, GVI__DONE, GVI__ONCE_MORE, GVI__DIVERGES, GVI__NOT_FINITE };
@@ -3335,14 +3319,15 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
     if (p->stagnant > 1 || poor) {
         const gvi_real noise = gvi__noise(st, h, y, stages);
         // what falls to a new least still converges, be it to 0; what grows diverges
-        const int level = noise <= GVI__EPS || (noise >= p->quiet && noise <= p->noise);
+        p->still = noise < p->quiet ? 0 : p->still + 1;
+        const int level = noise <= GVI__EPS || (p->still > 7 && noise <= p->noise);
         if (p->stagnant > 1 && (noise <= 0 || (noise <= 1 && p->stagnant > 4 && level)))
             return p->used - p->stagnant >= GVI__DIG/2 && gvi__may_turn(st) ? GVI__DIVERGES
                                                                               : GVI__ONCE_MORE;
         // a row that tends to 0 changes by its whole size: does its amplitude fall?
         if (poor && noise > 1 && noise > p->noise/2 && gvi__may_turn(st)) return GVI__DIVERGES;
         p->noise = noise;
-        if (noise < p->quiet) p->quiet = noise;
+        if (p->still == 0) p->quiet = noise;
     }
     return p->used < d->max_iterations ? GVI__GO_ON : GVI__DIVERGES;
 }
@@ -3353,7 +3338,7 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
 {
     struct gvi__private *x = &st->x;
     gvi__stage stage[2], first;
-    gvi__progress p = { 0, 0, GVI__MAX, GVI__MAX, GVI__MAX, 0, 0, 0, 1 };
+    gvi__progress p = { 0, 0, GVI__MAX, GVI__MAX, GVI__MAX, 0, 0, 0, 0, 1 };
     gvi_points at = gvi__points_at(st, st->r, x->R, x->t, x->work.Q, x->work.F,
                                    GVI__LAGRANGIAN ? x->work.A : NULL);
     const int stages = gvi__stages(st, from, h, stage);
@@ -4441,21 +4426,18 @@ GVI__COLD gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, dense = mass->kind == GVI_MASS_DENSE;
+    const gvi_real *matrix = dense || mass->kind == GVI_MASS_DIAGONAL ? mass->matrix : NULL;
     gvi_real *m = x->mass.matrix;
     int at[2] = { 0, 0 };
     for (int i = 0; i < n; ++i) {
-        x->mass.inverse[i] = 1;
-        if (dense)
-            for (int j = 0; j <= i; ++j) {
-                m[i*n + j] = x->mass.factor[i*n + j] = mass->matrix[i*n + j];
-                if (!gvi__finite(m[i*n + j]))
-                    return gvi__refuse(&st->fault, GVI_FAULT_MASS, i, "mass.matrix is not finite");
-            }
-        else m[i] = mass->kind == GVI_MASS_DIAGONAL ? mass->matrix[i] : 1;
-        if (mass->kind != GVI_MASS_DIAGONAL) continue;
-        x->mass.inverse[i] = 1/m[i];
-        if (!gvi__finite(m[i]))
+        gvi_real *row = dense ? m + i*n : m + i;
+        const int width = dense ? i + 1 : 1;
+        if (matrix) gvi__copy((size_t)width, matrix + (row - m), row);
+        else row[0] = 1;
+        if (gvi__first_non_finite(width, row) >= 0)
             return gvi__refuse(&st->fault, GVI_FAULT_MASS, i, "mass.matrix is not finite");
+        if (dense) gvi__copy((size_t)width, row, x->mass.factor + i*n);
+        x->mass.inverse[i] = dense ? 1 : 1/row[0];
         if (!gvi__finite(x->mass.inverse[i]))
             return gvi__report(st, GVI_E_SINGULAR, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
     }
@@ -4477,7 +4459,9 @@ GVI__COLD gvi_status gvi__set_rule(gvi_stepper *st, const gvi_rule *rule)
     }
     else gvi__rule(GVI__RULES && rule->kind == GVI_LOBATTO, st->r, x->table.c, x->t, x->table.b);
     if (GVI__ITERATES && !gvi__uses(x, GVI_EXPLICIT)) {
-        gvi__modes_at_nodes(st);
+        // the low words of Phi go to E, which is not yet in use
+        gvi__modes_of(st, st->r, x->table.c, x->t, x->table.phi, x->table.phi_low, x->table.Phi,
+                      x->sized.E);
         const gvi_status status = gvi__make_gamma(st);
         if (status != GVI_OK) return status;
         gvi__make_tables(st);
@@ -5084,9 +5068,7 @@ static gvi_status gvi__momentum(gvi_stepper *st, gvi_real t, const gvi_real *q, 
 {
     gvi_points y = gvi__one_point(st, &t, q);
     y.v = v;
-    if (gvi__has(&st->x, GVI__HAS_LAGRANGIAN)) return gvi__evaluate(st, &y, 0, 1);
-    gvi__zero(2*(size_t)st->n, y.f);              // and y.dldv
-    return gvi__kinetic(st, &y);
+    return gvi__evaluate(st, &y, gvi__has(&st->x, GVI__HAS_LAGRANGIAN) ? 0 : ~0u, 1);
 }
 
 GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
@@ -5385,14 +5367,10 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
     // partial step of length h from the nearer end, or none for a rounding of the whole
     const int end = GVI_ABS(back) <= GVI_ABS(ahead);
     const gvi_real h = !end ? ahead : gvi__nonzero(back) ? back - st->t_low : 0;
-    gvi__origin from = {
-        st->t, st->t_low, st->q, st->q_low, st->p, st->p_low, x->time.H + x->time.H_low
-    };
-    if (!end) {
-        const gvi__origin first = { st->t0,     0,        x->began.q, x->zeros,
-                                    x->began.p, x->zeros, x->began.H };
-        from = first;
-    }
+    const gvi__origin last = { st->t, st->t_low, st->q, st->q_low, st->p, st->p_low,
+                               x->time.H + x->time.H_low },
+        first = { st->t0, 0, x->began.q, x->zeros, x->began.p, x->zeros, x->began.H },
+        from = end ? last : first;
     const gvi_formulation was = st->formulation;
     if (GVI_ABS(h) > GVI__EPS*(GVI_ABS(ahead) + GVI_ABS(back)))
         status = gvi__partial_step(st, &from, end ? GVI__FROM_END : GVI__FROM_START, h);
