@@ -3422,9 +3422,10 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
     p->stagnant = D < (gvi_real)0.81*p->least ? 0 : p->stagnant + 1;
     if (D < p->least) p->least = D;
     const int poor = p->growing > (D > far ? 4 : 2) && D > 65536*rounding;
-    if (p->stagnant > 1 || poor) {
+    const int wait = gvi__constrained(st) ? 0 : 1;           // the rounding of g is in every D
+    if (p->stagnant > wait || poor) {
         const gvi_real noise = gvi__noise(st, h, y, stages);
-        if (p->stagnant > 1 && (noise <= 0 || (noise <= 1 && p->stagnant > 4)))
+        if (p->stagnant > wait && (noise <= 0 || (noise <= 1 && p->stagnant > 1 + 3*wait)))
             return p->used - p->stagnant >= GVI__DIG/2 && gvi__may_turn(st) ? GVI__DIVERGES
                                                                               : GVI__ONCE_MORE;
         // a row that tends to 0 changes by its whole size: does its amplitude fall?
