@@ -257,13 +257,14 @@
 
 /* Macros that programs and <windows.h> often have are set aside while this file is read. */
 #ifdef __GNUC__
-_Pragma("push_macro(\"E\")") _Pragma("push_macro(\"K\")") _Pragma("push_macro(\"M\")")
-_Pragma("push_macro(\"N\")") _Pragma("push_macro(\"R\")") _Pragma("push_macro(\"T\")")
-_Pragma("push_macro(\"far\")") _Pragma("push_macro(\"g\")") _Pragma("push_macro(\"h\")")
-_Pragma("push_macro(\"m\")") _Pragma("push_macro(\"small\")")
+#define GVI__PRAGMA(text) _Pragma(#text)
+#define GVI__MACROS(do)                                                                         \
+    GVI__PRAGMA(do("E")) GVI__PRAGMA(do("K")) GVI__PRAGMA(do("N")) GVI__PRAGMA(do("R"))         \
+    GVI__PRAGMA(do("T")) GVI__PRAGMA(do("far")) GVI__PRAGMA(do("g")) GVI__PRAGMA(do("h"))       \
+    GVI__PRAGMA(do("m")) GVI__PRAGMA(do("small"))
+GVI__MACROS(push_macro)
 #undef E
 #undef K
-#undef M
 #undef N
 #undef R
 #undef T
@@ -317,10 +318,10 @@ _Pragma("push_macro(\"m\")") _Pragma("push_macro(\"small\")")
 // gcc at -O2 makes vectors only of loops of known length
 #if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 8 && !defined(__OPTIMIZE_SIZE__)
 #define GVI__CHUNK 8
-#define GVI__PRAGMA(text) _Pragma(#text)
+#define GVI__LOOP(text) GVI__PRAGMA(text)
 #else
 #define GVI__CHUNK 0
-#define GVI__PRAGMA(text)
+#define GVI__LOOP(text)
 #endif
 
 #ifdef __cplusplus
@@ -436,8 +437,8 @@ GVI__BODY int gvi__each_point(gvi_points_fn *at, const gvi_points *x, void *user
     int failed = 0;
 #define GVI__COLUMN(name, o) uses & GVI__USES_##name ? a + (o)*n : NULL
 #define GVI__MOVE(mask, m, to, from)                                                            \
-    if (wanted & (mask)) GVI__PRAGMA(GCC unroll 64) for (int i = 0; i < (m); ++i) to = from
-    GVI__PRAGMA(GCC ivdep) for (; k < to; ++k) {
+    if (wanted & (mask)) GVI__LOOP(GCC unroll 64) for (int i = 0; i < (m); ++i) to = from
+    GVI__LOOP(GCC ivdep) for (; k < to; ++k) {
         gvi_points y = { n, 1, 1, x->t + k, a, GVI__COLUMN(v, 1), GVI__COLUMN(p, 2),
                          GVI__COLUMN(f, 3), GVI__COLUMN(dldv, 4), GVI__COLUMN(value, 5),
                          GVI__COLUMN(mass, 5), GVI__COLUMN(velocity, 5), NULL, NULL, NULL };
@@ -517,8 +518,7 @@ typedef struct gvi_mass {
                                   points, or velocity, at the same x->q       */
     gvi_points_fn  *velocity;  /* optional: writes x->velocity, the v at which
                                   dL/dv(t,q,v) = p, L being ALL of the scene.
-                                  No linear system is solved then, but it may take
-                                  up to twice as many iterations               */
+                                  No linear system is solved then              */
     void           *user;
 } gvi_mass;
 
@@ -1015,11 +1015,7 @@ typedef gvi_real gvi__lane;
 #endif
 #define GVI__LOAD(p) (*(const gvi__lane *)(p))
 #define GVI__STORE(p) (*(gvi__lane *)(p))
-#if GVI__LANES > 1 && !defined(__clang__) && __GNUC__ >= 8
-#define GVI__UNROLL _Pragma("GCC unroll 8")          // a loop's lanes stay in registers with -O2
-#else
-#define GVI__UNROLL
-#endif
+#define GVI__UNROLL GVI__LOOP(GCC unroll 8)             // a loop's lanes stay in registers with -O2
 
 static int gvi__finite(gvi_real x) { return GVI_ABS(x) <= GVI__MAX; }
 
@@ -1451,13 +1447,15 @@ GVI__BODY void gvi__ldl_solve_lane(int n, int R, const gvi_real *m, const gvi_re
 /* ------------------------------------------------------------ QUADRATURE */
 
 /* Legendre polynomials by (k+1) P_(k+1) = (2k+1) x P_k - k P_(k-1), always at x = 1 - 2c for c in
-   [0,1]: P_(k+1)(x) from P_k and P_(k-1).                                                    */
-static gvi_real gvi__legendre_next(int k, gvi_real x, gvi_real P, gvi_real before)
+   [0,1]: P_k and P_(k-1) become P_(k+1) and P_k.                                             */
+static void gvi__legendre(int k, gvi_real x, gvi_real *P, gvi_real *before)
 {
-    return ((gvi_real)(2*k + 1)*x*P - (gvi_real)k*before)/(gvi_real)(k + 1);
+    const gvi_real was = *P;
+    *P = ((gvi_real)(2*k + 1)*x*was - (gvi_real)k**before)/(gvi_real)(k + 1);
+    *before = was;
 }
 
-// the same in double-word arithmetic: P_k and P_(k-1) become P_(k+1) and P_k
+// the same in double-word arithmetic
 GVI__COLD void gvi__legendre2(int k, gvi__two x, gvi__two *P, gvi__two *before)
 {
     const gvi__two was = *P, next = gvi__scale2((gvi_real)(2*k + 1), gvi__mul2(x, was));
@@ -1502,8 +1500,8 @@ GVI__COLD gvi__two gvi__node_correction(int lobatto, int m, gvi__two c, gvi_real
 static gvi_real gvi__node_guess(int lobatto, int m, int j)
 {
     const gvi_real pi = (gvi_real)3.14159265358979323846L;
-    const gvi_real a = (gvi_real)j + (lobatto ? (gvi_real)0.25 : (gvi_real)0.75), M = (gvi_real)m;
-    const gvi_real theta = lobatto ? pi*a/M - 3/(8*pi*M*a) : pi*a/(M + (gvi_real)0.5);
+    const gvi_real a = (gvi_real)j + (lobatto ? (gvi_real)0.25 : (gvi_real)0.75), k = (gvi_real)m;
+    const gvi_real theta = lobatto ? pi*a/k - 3/(8*pi*k*a) : pi*a/(k + (gvi_real)0.5);
     const gvi_real y = theta*theta/4, sine = theta/2*(1 - y/6*(1 - y/20*(1 - y/42)));
     return sine*sine;
 }
@@ -1566,11 +1564,7 @@ GVI_DEF int gvi_rule_order(int n, const gvi_real *c, const gvi_real *b)
         gvi_real sum = u > 0 ? 0 : -1;
         for (int i = 0; i < n; ++i) {
             gvi_real P = 1, before = 0;
-            for (int k = 0; k < u; ++k) {
-                const gvi_real next = gvi__legendre_next(k, 1 - 2*c[i], P, before);
-                before = P;
-                P = next;
-            }
+            for (int k = 0; k < u; ++k) gvi__legendre(k, 1 - 2*c[i], &P, &before);
             sum += b[i]*P;
         }
         if (GVI_ABS(sum) > 4*(gvi_real)(u + 2)*GVI__EPS*size) return u;
@@ -1749,21 +1743,25 @@ static int gvi__clock_is_on(const gvi_stepper *st)
 static gvi_status gvi__report(gvi_stepper *st, gvi_status status, int effect, int coordinate,
                               int point)
 {
-    st->fault.effect = effect;
-    st->fault.coordinate = coordinate;
-    st->fault.point = point;
-    st->fault.argument = NULL;
+    const gvi_fault fault = { effect, coordinate, point, NULL };
+    st->fault = fault;
     return st->status = status;
 }
 
 // an argument is at fault: a row of effects or the mass, a coordinate, and a sentence
 static gvi_status gvi__refuse(gvi_fault *fault, int effect, int coordinate, const char *argument)
 {
-    fault->effect = effect;
-    fault->coordinate = coordinate;
-    fault->point = GVI_FAULT_NONE;
-    fault->argument = argument;
+    const gvi_fault found = { effect, coordinate, GVI_FAULT_NONE, argument };
+    *fault = found;
     return GVI_E_ARGUMENT;
+}
+
+// constraints are there, on or off, and cannot be: the fault is the first of them
+GVI__COLD gvi_status gvi__refuse_constraints(gvi_stepper *st)
+{
+    int e = 0;
+    while (!(st->x.con.bits >> e & 1u)) ++e;
+    return gvi__report(st, GVI_E_FORMULATION, e, 0, GVI_FAULT_NONE);
 }
 
 static gvi_status gvi__refuse_call(gvi_stepper *st, const char *argument)
@@ -1813,16 +1811,8 @@ static unsigned gvi__of_kind(const struct gvi__private *x, gvi_kind kind)
 static gvi_points gvi__points_at(const gvi_stepper *st, int count, int R, const gvi_real *t,
                                  const gvi_real *q, gvi_real *f, gvi_real *dldv)
 {
-    gvi_points x;
-    x.n = st->n;
-    x.count = count;
-    x.stride = R;
-    x.t = t;
-    x.q = q;
-    x.v = x.p = NULL;
-    x.f = f;
-    x.dldv = dldv;
-    x.value = x.mass = x.velocity = x.g = x.jacobian = x.rate = NULL;
+    const gvi_points x = { st->n, count, R,    t,    q,    NULL, NULL, f,
+                           dldv,  NULL,  NULL, NULL, NULL, NULL, NULL };
     return x;
 }
 
@@ -1910,8 +1900,7 @@ GVI__BODY gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e, gvi_real
 static gvi_real *gvi__value_row(const gvi_stepper *st, int e, gvi_real *level)
 {
     const gvi_kind kind = st->x.desc.effects[e].kind;
-    return !GVI__CLOCK || !level || kind == GVI_FORCE ? NULL
-         : kind == GVI_LAGRANGIAN ? st->x.time.lagrangian : level;
+    return kind == GVI_FORCE ? NULL : kind == GVI_LAGRANGIAN ? st->x.time.lagrangian : level;
 }
 
 /* In the repetition of a step that came to NaN or Inf: which effect gave it? Each is evaluated
@@ -1920,7 +1909,7 @@ GVI__COLD gvi_status gvi__diagnose(gvi_stepper *st, gvi_points *x, unsigned skip
 {
     const size_t length = (size_t)x->n*(size_t)x->stride;
     for (int e = 0; e < st->x.desc.effect_count; ++e) {
-        gvi_real *value = gvi__value_row(st, e, level);
+        gvi_real *value = level ? gvi__value_row(st, e, level) : NULL;
         if (skip >> e & 1u) continue;
         gvi__zero(length, x->f);
         if (x->dldv) gvi__zero(length, x->dldv);
@@ -1950,7 +1939,8 @@ static gvi_status gvi__effects(gvi_stepper *st, gvi_points *x, unsigned skip, gv
         && (gvi__check_rows(st, x, x->q, 0) != GVI_OK || gvi__check_rows(st, x, x->v, 0) != GVI_OK))
         return gvi__report_status(st, GVI_E_CONVERGENCE);
     for (int e = 0; e < st->x.desc.effect_count && status == GVI_OK; ++e)
-        if (!(skip >> e & 1u)) status = gvi__effect(st, x, e, gvi__value_row(st, e, level));
+        if (!(skip >> e & 1u))
+            status = gvi__effect(st, x, e, level ? gvi__value_row(st, e, level) : NULL);
     if (!diagnose || status != GVI_OK) return status;
     const int finite = gvi__check_rows(st, x, x->f, 0) == GVI_OK
                        && gvi__check_rows(st, x, x->dldv, 0) == GVI_OK
@@ -2465,11 +2455,10 @@ static void gvi__modes(const gvi_stepper *st, gvi_real tau, gvi_real *phi, gvi_r
 {
     gvi_real P = 1, before = 1;
     for (int k = 0; k < st->s; ++k) {
-        const gvi_real next = gvi__legendre_next(k, 1 - 2*tau, P, before);
+        const gvi_real last = before;
         phi[k] = P;
-        Phi[k] = (before - next)/(gvi_real)(4*k + 2);
-        before = P;
-        P = next;
+        gvi__legendre(k, 1 - 2*tau, &P, &before);
+        Phi[k] = (last - P)/(gvi_real)(4*k + 2);
     }
     gvi__over_gamma(st, phi);
     gvi__over_gamma(st, Phi);
@@ -3216,6 +3205,7 @@ static gvi_status gvi__legendre_rows(gvi_stepper *st, const gvi_points *y)
     gvi__count(&st->counters.velocities, st->r);
     if (x->desc.mass.velocity) {
         status = gvi__evaluate_mass(st, y, x->work.P, x->work.V);
+        x->has_factor = 1;
         return status == GVI_OK && x->diagnose ? gvi__check_rows(st, y, x->work.V, GVI_FAULT_MASS)
                                                : status;
     }
@@ -3261,10 +3251,13 @@ static gvi_real gvi__velocities_again(gvi_stepper *st)
               made = GVI__LAGRANGIAN && x->work.A;
     const gvi_real *V = x->work.V + st->r - 1;
     gvi_real *was = x->result, sum = 0;
-    if ((!x->has_factor && (clock || !gvi__mass_is_constant(x))) || x->desc.mass.velocity) return 0;
+    if (!x->has_factor && (clock || !gvi__mass_is_constant(x))) return 0;
     if (made) gvi__gather(n, R, V, was);
     gvi__count(&st->counters.velocities, st->r);
-    gvi__velocity_rows(st);
+    const gvi_points at = gvi__points_at(st, st->r, R, x->t, x->work.Q, NULL, NULL);
+    // where that fails it does so again with the new Q
+    if (x->desc.mass.velocity) (void)gvi__evaluate_mass(st, &at, x->work.P, x->work.V);
+    else gvi__velocity_rows(st);
     for (int i = 0; clock && i < n; ++i)
         for (int k = 0; k < R; ++k) x->work.V[i*R + k] *= x->time.rate[k];
     for (int i = 0; made && i < n; ++i) {
@@ -3276,7 +3269,7 @@ static gvi_real gvi__velocities_again(gvi_stepper *st)
 
 /* The stage values of the next iteration from the F, V and A of this one; returns the squares
    of their changes.                                                                           */
-static gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *y, int stages, int rescale)
+GVI__BODY gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *y, int stages, int rescale)
 {
     const struct gvi__private *x = &st->x;
     gvi_real sum = 0;
@@ -3324,10 +3317,10 @@ static gvi_status gvi__predict_sources(gvi_stepper *st, const gvi__origin *from,
 }
 
 /* Where an iteration stands, in squares: the changes of the last two iterations, of all rows,
-   and the least so far; gvi__noise when it was last made; how often no new least was seen, or no
-   good contraction; are units to be made anew?                                                */
+   and the least so far; gvi__noise when it was last made, and its least; how often no new least was
+   seen, or no good contraction; are units to be made anew?                                    */
 typedef struct gvi__progress {
-    gvi_real before, earlier, least, noise;
+    gvi_real before, earlier, least, noise, quiet;
     int      used, stagnant, growing, rescale;
 } gvi__progress;
 
@@ -3373,7 +3366,7 @@ static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *
                       v = !gvi__uses(&st->x, GVI_MOMENTA) && k == 1;
             // the momenta formulation has factored M(q) in place: 1/D_i is there
             const gvi_real at_q = gvi__inertia(st, i), m = gvi__mass_is(&st->x, GVI_MASS_POSITION)
-                && st->x.has_factor ? 1/at_q : at_q;
+                && st->x.has_factor && !st->x.desc.mass.velocity ? 1/at_q : at_q;
             const gvi_real unit = (p ? GVI_ABS(h)/m : v ? GVI_ABS(h) : 1)*GVI_SQRT(m);
             const gvi_real *row = y[k].rows + i*st->x.R;
             gvi_real size = GVI_ABS(y[k].base[i]);
@@ -3425,12 +3418,16 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
     const int wait = gvi__constrained(st) ? 0 : 1;           // the rounding of g is in every D
     if (p->stagnant > wait || poor) {
         const gvi_real noise = gvi__noise(st, h, y, stages);
-        if (p->stagnant > wait && (noise <= 0 || (noise <= 1 && p->stagnant > 1 + 3*wait)))
+        // what falls to a new least still converges, be it to 0; what grows diverges
+        const int level = noise <= GVI__EPS || (noise >= p->quiet && noise <= p->noise);
+        if (p->stagnant > wait && (noise <= 0
+            || (noise <= 1 && (wait ? p->stagnant > 4 && level : p->stagnant > 1))))
             return p->used - p->stagnant >= GVI__DIG/2 && gvi__may_turn(st) ? GVI__DIVERGES
                                                                               : GVI__ONCE_MORE;
         // a row that tends to 0 changes by its whole size: does its amplitude fall?
         if (poor && noise > 1 && noise > p->noise/2 && gvi__may_turn(st)) return GVI__DIVERGES;
         p->noise = noise;
+        if (noise < p->quiet) p->quiet = noise;
     }
     return p->used < d->max_iterations ? GVI__GO_ON : GVI__DIVERGES;
 }
@@ -3441,7 +3438,7 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
 {
     struct gvi__private *x = &st->x;
     gvi__stage stage[2], first;
-    gvi__progress p = { 0, 0, GVI__MAX, GVI__MAX, 0, 0, 0, 1 };
+    gvi__progress p = { 0, 0, GVI__MAX, GVI__MAX, GVI__MAX, 0, 0, 0, 1 };
     gvi_points at = gvi__points_at(st, st->r, x->R, x->t, x->work.Q, x->work.F,
                                    GVI__LAGRANGIAN ? x->work.A : NULL);
     const int stages = gvi__stages(st, from, h, stage);
@@ -3460,17 +3457,18 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
         if (status != GVI_OK) return status;
         gvi__new_rows(st, stage, stages, 0);
     }
-    for (;;) {
-        p.used = *used += 1;
+    p.used = *used = 1;
+    for (int shorter = 0, last = 0; ; ) {
         status = gvi__evaluate_stages(st, from, &at);
         // free motion may leave the domain of a callback where the motion does not: less of it
-        for (int m = 0; status == GVI_E_CALLBACK && p.used == 1 && !extrapolate && m < 6; ++m) {
+        if (status == GVI_E_CALLBACK && p.used == 1 && !extrapolate && shorter++ < 6) {
             for (int i = 0; i < st->n; ++i)
                 for (int k = 0; k < x->R; ++k)
                     x->work.Q[i*x->R + k] = (x->work.Q[i*x->R + k] + from->q[i])/2;
-            status = gvi__evaluate_stages(st, from, &at);
+            continue;
         }
-        if (status != GVI_OK) return status;
+        if (last && status == GVI_OK && gvi__constrained(st)) gvi__constrain(st, stage, from->q);
+        if (last || status != GVI_OK) return status;
         const int diverged = p.growing > 0 || p.before > (gvi_real)st->n;
         const gvi_real change = gvi__new_rows(st, stage, stages, p.rescale);
         const int verdict = gvi__converged(st, &p, change, h, stage, stages);
@@ -3479,6 +3477,7 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
             x->watch.before = x->watch.change;
             x->watch.change = spare;
             for (int k = 0; k < stages; ++k) stage[k].change = spare + k*st->n;
+            p.used = *used += 1;
             continue;
         }
         if (verdict == GVI__NOT_FINITE && !diverged && !x->diagnose)  // the effects are looked at
@@ -3487,9 +3486,7 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
         const gvi_real worst = st->counters.worst_change;
         if (change > worst*worst) st->counters.worst_change = GVI_SQRT(change);
         if (verdict == GVI__DONE) return GVI_OK;
-        status = gvi__evaluate_stages(st, from, &at);
-        if (status == GVI_OK && gvi__constrained(st)) gvi__constrain(st, stage, from->q);
-        return status;
+        last = 1;
     }
 }
 
@@ -3917,14 +3914,14 @@ static void gvi__add_force(const gvi_stepper *st, const gvi_real *y, gvi_real *z
         gvi__add_scaled(st->n, y[a], st->x.con.G + a*st->n, z, z);
 }
 
-// is |g_a| beyond `units` roundings of its terms G_ai q_i and t dg_a/dt, at one point?
-static int gvi__violated(const gvi_stepper *st, gvi_real units, gvi_real t, const gvi_real *q,
-                         const gvi_real *G, int a)
+// |g_a| in roundings of its terms G_ai q_i and t dg_a/dt, at one point
+static gvi_real gvi__violation(const gvi_stepper *st, gvi_real t, const gvi_real *q,
+                               const gvi_real *G, int a)
 {
     const gvi_real *g = st->x.con.g + a;
     gvi_real size = GVI_ABS(g[st->x.con.m]*t);
     for (int i = 0; i < st->n; ++i) size += GVI_ABS(G[a*st->n + i]*q[i]);
-    return !(GVI_ABS(*g) <= units*GVI__EPS*size);
+    return gvi__nonzero(*g) ? GVI_ABS(*g)/(GVI__EPS*size) : 0;
 }
 
 /* ---- in the iteration ---- */
@@ -4072,14 +4069,13 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
         if (status != GVI_OK) return status;
         for (int a = 0; a < m; ++a) z[a] = -x->con.g[a]/h;
         gvi__ldl_solve(m, x->con.A, 1, z, 1, 1);
-        for (int a = 0; a < m; ++a) size += GVI_ABS(x->con.g[a]*z[a]);
-        if (!(size < before/4)) {                 // rounding?
-            for (int a = 0; a < m; ++a)
-                if (gvi__violated(st, 64, t, Q, G, a))
-                    return gvi__report_status(st, gvi__finite(size) || x->diagnose
-                                                      ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE);
-            return GVI_OK;
+        for (int a = 0; a < m; ++a) {             // the largest, or NaN
+            const gvi_real off = gvi__violation(st, t, Q, G, a);
+            if (off > size || !gvi__finite(off)) size = off;
         }
+        if (!(size < before/4))                   // rounding?
+            return gvi__report_status(st, size <= 64 ? GVI_OK : gvi__finite(size) || x->diagnose
+                                                      ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE);
         before = size;
         gvi__zero((size_t)n, d);
         gvi__add_force(st, z, d);
@@ -4109,7 +4105,7 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
     gvi_status status = gvi__constraints_at(st, t, q);
     if (start) x->diagnose = 0;
     for (int a = 0; a < m && start && status == GVI_OK; ++a)
-        if (gvi__violated(st, units, t, q, x->con.G, a))
+        if (!(gvi__violation(st, t, q, x->con.G, a) <= units))
             return gvi__report_row(st, GVI_E_CONSTRAINT, a, GVI_FAULT_NONE);
     gvi__velocity_guess(st, v);
     for (int pass = 0; pass < passes && status == GVI_OK; ++pass) {
@@ -4592,13 +4588,9 @@ GVI__COLD gvi_status gvi__set_rule(gvi_stepper *st, const gvi_rule *rule)
         gvi__make_tables(st);
     }
     for (int i = 0; x->table.high && i < st->r; ++i) {       // modes r - 1 and r - 2 of a force
-        const gvi_real X = 1 - 2*x->table.c[i];
         gvi_real P = 1, before = 0;
-        for (int k = 0; k < st->r - 1; ++k) {
-            const gvi_real next = gvi__legendre_next(k, X, P, before);
-            before = P;
-            P = next;
-        }
+        for (int k = 0; k < st->r - 1; ++k)
+            gvi__legendre(k, 1 - 2*x->table.c[i], &P, &before);
         x->table.high[i] = st->r > 1 ? (gvi_real)(2*st->r - 1)*x->table.b[i]*P : 0;
         x->table.high[x->R + i] = st->r > 2 ? (gvi_real)(2*st->r - 3)*x->table.b[i]*before : 0;
     }
@@ -4625,7 +4617,7 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     st->q = st->p = st->q_low = st->p_low = zeros;
     gvi_status status = gvi__resolve(x, desc, &order, &st->fault);
     if (GVI__CONSTRAINTS && status == GVI_E_FORMULATION && x->con.bits)
-        return gvi__report_row(st, status, 0, GVI_FAULT_NONE);
+        return gvi__refuse_constraints(st);
     if (status != GVI_OK) return st->status = status;
     if (desc->effects && !desc->effect_count)     // its count was forgotten
         return gvi__refuse_call(st, "effects is given, effect_count is 0");
@@ -4962,11 +4954,11 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
     struct gvi__private *x = &st->x;
     const int n = st->n, solved = p->work <= 16*GVI__EPS;
     const gvi_real h = GVI_ABS(x->sized.h), none = GVI__MIN/GVI__EPS;
-    gvi_real sum = 0;
-    int still = 1;
+    gvi_real sum = 0, largest = 0, noise = 0;
     p->work = 0;
     for (int i = 0; i < n; ++i) {
         gvi_real change = 0, size = 0;
+        const gvi_real q = GVI_ABS(from->q[i]), unit = x->watch.scale[i];
         for (int k = 0; k < st->s; ++k) {
             gvi_real *y = x->newton.y + k*n + i;
             const int at = (k - J->k0)*n + i;
@@ -4980,9 +4972,10 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
         }
         const gvi_real least = GVI__EPS*change;                       // y may land on 0
         if (!(size <= none && change <= none)) sum += change/(size < least ? least : size);
-        if (!(h*change <= 4*GVI__EPS*GVI_ABS(from->q[i]))) still = 0;
+        if (q + h*size > largest*unit) largest = (q + h*size)/unit;
+        if (!(h*change <= 4*GVI__EPS*q) && h*change > noise*unit) noise = h*change/unit;
     }
-    if (still || solved) p->work = -1;
+    if (noise <= 32*GVI__EPS*largest || solved) p->work = -1;         // see gvi__noise
     return sum;
 }
 
@@ -5023,7 +5016,7 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__des
         p->rho = change/p->least;
     if (change < p->least) p->least = change;
     const int rounding = p->left < GVI__MAX || (stagnant && gvi__newton_rests(p, size, change));
-    if (rounding) p->left *= p->rho;
+    if (rounding) p->left *= p->rho < quarter ? p->rho : quarter;
 
     const gvi_real enough = wanted > 0 ? wanted : GVI__EPS/4096;
     if (change*ratio <= enough || p->left <= GVI__EPS/65536 || p->left <= enough) return GVI__DONE;
@@ -5369,29 +5362,22 @@ static void gvi__curve_at(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_
     const gvi_real *modes = by_forces ? x->table.Phi : x->table.phi;
     const gvi_real *weight = by_forces ? x->sized.hb : x->table.b,
                    *rows = by_forces ? x->last.F : x->last.V;
-    for (int j = 0; j < st->r; ++j) {
+    // the sources at the points; then those of constraints, of which the first has Phi(d_0) = 0
+    const int held = GVI__CONSTRAINTS && by_forces && x->con.kept ? st->s : 0;
+    for (int j = 0; j < st->r + held; ++j) {
+        const int e = j - st->r;
+        const gvi_real *Phi = e < 0 ? modes + j : e > 0 ? x->con.Phi + e - 1 : NULL;
         gvi_real S = 0, T = 0;
-        for (int k = 0; k < st->s; ++k) {
-            S += b[k]*modes[k*R + j];
-            T += a[k]*modes[k*R + j];
+        for (int k = 0; Phi && k < st->s; ++k) {
+            S += b[k]*Phi[k*R];
+            T += a[k]*Phi[k*R];
         }
         if (by_forces) S = tau - S, T = 1 - T;
         for (int i = 0; i < n; ++i) {
-            const gvi_real L = weight[j]*rows[i*R + j];
+            const gvi_real L = e < 0 ? weight[j]*rows[i*R + j]
+                                     : st->h*x->con.w[e]*x->con.last[i*x->con.C + e];
             q[i] += S*L;
             v[i] += T*L;
-        }
-    }
-    for (int e = 0; GVI__CONSTRAINTS && by_forces && x->con.kept && e < st->s; ++e) {
-        gvi_real S = 0, T = 0;
-        for (int k = 0; e > 0 && k < st->s; ++k) {
-            S += b[k]*x->con.Phi[k*R + e - 1];
-            T += a[k]*x->con.Phi[k*R + e - 1];
-        }
-        for (int i = 0; i < n; ++i) {
-            const gvi_real L = st->h*x->con.w[e]*x->con.last[i*x->con.C + e];
-            q[i] += (tau - S)*L;
-            v[i] += (1 - T)*L;
         }
     }
     if (by_forces) {
@@ -5505,7 +5491,7 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
 
     // partial step of length h from the nearer end, or none for a rounding of the whole
     const int end = GVI_ABS(back) <= GVI_ABS(ahead);
-    const gvi_real h = end ? back - st->t_low : ahead;
+    const gvi_real h = !end ? ahead : gvi__nonzero(back) ? back - st->t_low : 0;
     gvi__origin from = {
         st->t, st->t_low, st->q, st->q_low, st->p, st->p_low, x->time.H + x->time.H_low
     };
@@ -5904,8 +5890,7 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
         return gvi__refuse_call(st, "t, q0, q1 or the guess is not finite");
     if (!gvi__finite(h) || !gvi__nonzero(h))
         return gvi__refuse_call(st, "h is 0, NaN or infinite");
-    if (GVI__CONSTRAINTS && x->con.bits)
-        return gvi__report_row(st, GVI_E_FORMULATION, 0, GVI_FAULT_NONE);
+    if (GVI__CONSTRAINTS && x->con.bits) return gvi__refuse_constraints(st);
     if ((s > 1 && !gvi__has(x, GVI__HAS_NEWTON)) || gvi__rule_is(x, GVI_KICKS) || x->clock >= 0)
         return st->status = GVI_E_FORMULATION;
     gvi__origin from = { t, 0, q0, x->zeros, x->zeros, x->zeros, 0 };
@@ -6010,10 +5995,7 @@ GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st)
 #endif /* GVI_IMPLEMENTATION */
 
 #ifdef __GNUC__
-_Pragma("pop_macro(\"E\")") _Pragma("pop_macro(\"K\")") _Pragma("pop_macro(\"M\")")
-_Pragma("pop_macro(\"N\")") _Pragma("pop_macro(\"R\")") _Pragma("pop_macro(\"T\")")
-_Pragma("pop_macro(\"far\")") _Pragma("pop_macro(\"g\")") _Pragma("pop_macro(\"h\")")
-_Pragma("pop_macro(\"m\")") _Pragma("pop_macro(\"small\")")
+GVI__MACROS(pop_macro)
 #endif
 
 /* --------------------------------------------------------------- LICENCE

@@ -5,7 +5,7 @@
    runs with a quarter, half and all of the degree; energy errors are level lines.
 
    02_outer_solar_system [days [step [degree [directory for the pictures]]]]
-   prints, with any of these the errors as measured, without the next power of 10,
+   prints, errors rounded up to a power of 10 (with an argument, as measured),
 
      6 bodies, 200000 days in steps of 200, degree 8
      relative error of the energy, never above: 1e-14

@@ -1,18 +1,18 @@
 /* 04 - An oscillator that is driven and damped: forces, and switching them off
 
    Three rows in effects[]: a spring (a potential), friction, and a drive that
-   depends on the time.  Here the callbacks see one point a call, the form to
-   begin with.  The exact solution is known.  And although energy is not
+   depends on the time.  Here the callbacks see one point a call, the simplest
+   form.  The exact solution is known.  And although energy is not
    conserved, its balance is: what the forces did in each step, integrated with
    the step's own curve at Gauss points, is the change of the energy.
-   At the end the drive is switched off and is not asked any more.
+   At the end the drive is switched off and is no longer evaluated.
 
    prints
 
      t = 100: q = -0.640327124
      against the exact solution, below 1e-12: yes
      energy gained less work done, below 1e-12: yes
-     drive asked after it was switched off: no
+     drive evaluated after it was switched off: no
      energy 60 later: 0.000004
 */
 #define GVI_IMPLEMENTATION
@@ -84,11 +84,11 @@ int main(void)
     printf("against the exact solution, below 1e-12: %s\n", fabs(st.q[0] - exact(st.t)) < 1e-12 ? "yes" : "no");
     printf("energy gained less work done, below 1e-12: %s\n", fabs(e - e0 - done) < 1e-12 ? "yes" : "no");
 
-    const unsigned long long asked = st.counters.effect[2];
+    const unsigned long long before = st.counters.effect[2];
     gvi_switch(&st, 2, 0);
     for (int k = 0; k < 120 && gvi_step(&st, 0.5) == GVI_OK; ++k) {}
     gvi_energy(&st, &e);
-    printf("drive asked after it was switched off: %s\n", st.counters.effect[2] == asked ? "no" : "yes");
+    printf("drive evaluated after it was switched off: %s\n", st.counters.effect[2] == before ? "no" : "yes");
     printf("energy 60 later: %.6f\n", e);
     return 0;
 }

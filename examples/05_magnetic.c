@@ -8,7 +8,7 @@
    so that the momentum is p = v + A.  The field is symmetric about the origin,
    and x p_y - y p_x is conserved: exactly, whatever the step.  The same field
    as a force f = B (v_y, -v_x) follows the same orbit to the order of the
-   method, but a force is not asked for its symmetries.  The energy is conserved
+   method, but nothing tells the step of its symmetry.  The energy is conserved
    by neither exactly; its error stays level in both.
 
    prints

@@ -3,7 +3,7 @@
    A particle flies at a wall that repels it with the potential 1/x.  The
    callback refuses, by returning non-zero, points where the step cannot be
    right: behind the wall there is nothing to evaluate, and close to it h is too
-   long for a force that is so steep.  Such a step ends with GVI_E_CALLBACK, and
+   long for so steep a force.  Such a step ends with GVI_E_CALLBACK, and
    nothing is lost: t, q and p are bit for bit what they were.  So halve h and
    try again; double it when steps succeed.  h is a power of two throughout, so
    that the end is met exactly.

@@ -6,8 +6,7 @@
    Kahan and Li's of 17 (order 8; SIAM J. Sci. Comput. 18, 1997), and a splitting of
    order 8 of 22 kicks and drifts, which is the one to copy where six digits or more are
    wanted (tests/gen/splitting.py).  All get about as many force evaluations for ten
-   revolutions of a planet, e = 0.5.  A tolerance, whichever, says that roundings need not
-   be carried from step to step: for a short run, in less time.
+   revolutions of a planet, e = 0.5.
 
    prints
 
@@ -62,7 +61,7 @@ static int revolve(const char *name, gvi_rule rule, int steps)
 {
     static double memory[GVI_LENGTH(2, 1, 23)];
     const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = attraction } };
-    const gvi_desc desc = { .n = 2, .rule = rule, .effects = scene, .effect_count = 1, .tolerance = 1e-9 };
+    const gvi_desc desc = { .n = 2, .rule = rule, .effects = scene, .effect_count = 1 };
     gvi_stepper st;
     gvi_init(&st, &desc, memory, sizeof memory);
     gvi_start(&st, 0, (double[]){ 0.5, 0 }, (double[]){ 0, sqrt(3) });

@@ -88,7 +88,7 @@ static int draw(const char *path, passage at[][PASSAGES])
         }
         lines[i] = (svg_line){ names[i], x[i], y[i], 3*PASSAGES };
     }
-    const svg_plot plot = { .title = "Six orbits of energy 1/8, where they pass x = 0", .x_label = "y", .y_label = "y'",
+    const svg_plot plot = { .title = "Where six orbits of energy 1/8 pass x = 0, by their first y, y'", .x_label = "y", .y_label = "y'",
                             .equal = 1, .lines = lines, .line_count = ORBITS };
     return svg_write(path, &plot);
 }

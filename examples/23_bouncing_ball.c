@@ -2,12 +2,12 @@
 
    gvi.h knows no contact. But an impact is an instant: step up to it, change the momentum, start again
    from there. tools/event.h finds the instant, g = 0 for the distance g from the surface, and a start is
-   cheap. So a ball jumps on a wavy table, y = cos(3x)/10, in a trough that keeps it there. It is elastic:
+   cheap. So a ball bounces on a wavy table, y = cos(3x)/10, in a trough that keeps it there. It is elastic:
    the momentum is mirrored at the table, and the energy must come back after 5,000 bounces.
 
    In each step only the first impact counts, for what comes behind it does not happen. A real ball loses a
-   part of its speed each time (elasticity 0.8). Its bounces then follow
-   faster and faster, without end in a finite time: stop them when the jumps are low enough.
+   part of its speed each time (elasticity 0.8). Its bounces then follow faster and faster, infinitely many in
+   a finite time: stop when they are low enough.
    (Then it slides: another scene.)
 
    prints

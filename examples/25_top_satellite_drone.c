@@ -2,7 +2,7 @@
 
    tools/body.h leaves to you what acts on the body. The quaternion's length is free, or held by a row (the top):
 
-     top         stands on its tip, so it has no place of its own: n = 4. Its weight is a force in space at a
+     top         stands on its tip, so its place is no coordinate: n = 4. Its weight is a force in space at a
                  place of the body. Spun by C w = A W cos a + m g l/W, tilted by a, it goes round at W
      satellite   the earth pulls its near end more strongly: a torque in body axes. It rocks about the vertical,
                  sin x = sin a cd(w t, sin a) with w^2 = 3 (B - A)/C, the orbit going round at 1

@@ -7,7 +7,7 @@
 
    tools/damped.h does that. The step in between is drift, kick, drift, a table of one kick in the middle: it
    begins and ends with a drift, so that a new start, which the friction is, costs no evaluation. The whole is
-   of order 2, and the energy that the air did not take is still there: it errs, but does not drift.
+   of order 2, and the energy that the air does not take errs, but does not drift.
 
    prints
 

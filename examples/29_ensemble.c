@@ -1,4 +1,4 @@
-/* 28 - How do I run ten thousand orbits? Threads, and a cluster
+/* 29 - How do I run ten thousand orbits? Threads, and a cluster
 
    Where is a motion regular, and where chaotic? An orbit from each point of a grid says it, and
    the orbits do not know of each other. gvi.h keeps nothing outside of a stepper and its array,

@@ -56,7 +56,7 @@ static double t[STEPS], tension[2][STEPS];
 static int draw(const char *path)
 {
     const svg_line lines[] = { { "upper rod", t, tension[0], STEPS }, { "lower rod", t, tension[1], STEPS } };
-    const svg_plot plot = { .title = "Tension of the rods of a double pendulum", .x_label = "t",
+    const svg_plot plot = { .title = "Tension of the rods of a double pendulum", .x_label = "t, in sqrt(length/g)",
                             .y_label = "in weights of a rod", .lines = lines, .line_count = 2 };
     return svg_write(path, &plot);
 }

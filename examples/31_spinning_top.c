@@ -3,7 +3,7 @@
    Orientation is a quaternion q, four numbers with |q| = 1: no angle, so no position in which
    the description fails. Kinetic energy T = 2 sum_i I_i (conj(q) v)_i^2, a mass M(q) = 4 L'IL
    with L = the matrix of v -> conj(q) v; conj(q) v is (0, half the body's angular velocity) while
-   |q| = 1. The fourth inertia I_0 belongs to no motion, but makes M(q) regular: take it near the
+   |q| = 1. The fourth inertia I_0 belongs to no rotation, but makes M(q) regular: take it near the
    others. Weight: V = m g l (q0^2 - q1^2 - q2^2 + q3^2), the height of the body's axis.
 
    A top with spin w3, tilted by a, precesses steadily with the small root of

@@ -58,6 +58,14 @@ static void register_tests(void);
 
 #define COUNT(a) ((int)(sizeof(a)/sizeof(a)[0]))
 
+/* Callbacks, and a loop over each coordinate at each point: f[a], q[a] */
+#define AT_POINTS(name) static int name(const gvi_points *x, void *user)
+#define AT_POINT(name) \
+    static int name(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *f, gvi_real *dldv, void *user)
+#define FOR_EACH(x, a) \
+    for (int i_ = 0; i_ < (x)->n; ++i_) \
+        for (int a = i_*(x)->stride, end_ = a + (x)->count; a < end_; ++a)
+
 static __attribute__((unused)) void
 check_close(long double a, long double b, long double tol, const char *what, const char *file, int line)
 {
@@ -88,5 +96,72 @@ check_between(long double lo, long double x, long double hi, const char *what, c
     if (got_ != (wanted)) print_error("%s: %s\n", #call, gvi_status_text(got_)); \
     assert_int_equal(got_, (wanted)); } while (0)
 #define assert_ok(call) assert_status(call, GVI_OK)
+
+/* SAME_STATE(st) { ... }: t, q and p after it are those before, to the bit */
+typedef struct { const gvi_stepper *st; gvi_real t, q[16], p[16]; } test_state;
+
+static __attribute__((unused)) test_state state_now(const gvi_stepper *st)
+{
+    test_state s = { .st = st, .t = st->t };
+    for (int i = 0; i < st->n && i < 16; ++i) s.q[i] = st->q[i], s.p[i] = st->p[i];
+    return s;
+}
+
+static __attribute__((unused)) const test_state *
+check_state(const test_state *was, const char *file, int line)
+{
+    const test_state now = state_now(was->st);
+    int same = now.t == was->t;
+    for (int i = 0; i < 16; ++i) same = same && now.q[i] == was->q[i] && now.p[i] == was->p[i];
+    if (!same) _fail(file, line);
+    return NULL;
+}
+#define SAME_STATE(st) \
+    for (const test_state was_ = state_now(st), *once_ = &was_; once_; once_ = check_state(once_, __FILE__, __LINE__))
+
+/* Both make steps of h, and agree to the bit after each */
+static __attribute__((unused)) void
+move_alike(gvi_stepper *a, gvi_stepper *b, int steps, gvi_real h)
+{
+    for (int k = 0; k < steps; ++k) {
+        assert_ok(gvi_step(a, h));
+        assert_ok(gvi_step(b, h));
+        test_state s = state_now(a);
+        s.st = b;
+        check_state(&s, __FILE__, __LINE__);
+    }
+}
+
+/* Steps of h[k % m], and the same back: the largest |q - q0|, |p - p0| */
+static __attribute__((unused)) gvi_real
+there_and_back(gvi_stepper *st, int steps, const gvi_real *h, int m)
+{
+    const test_state was = state_now(st);
+    gvi_real worst = 0;
+    for (int k = 0; k < steps; ++k) assert_ok(gvi_step(st, h[k % m]));
+    assert_true(st->q[0] != was.q[0] && st->p[0] != was.p[0]);
+    for (int k = steps; k-- > 0; ) assert_ok(gvi_step(st, -h[k % m]));
+    for (int i = 0; i < 2*st->n; ++i) {
+        gvi_real d = i % 2 ? st->p[i/2] - was.p[i/2] : st->q[i/2] - was.q[i/2];
+        if (!((d < 0 ? -d : d) <= worst)) worst = d < 0 ? -d : d;                  // keeps NaN
+    }
+    return worst;
+}
+
+/* q x p in a plane is kept to 2 EPS, for reading it, and a walk of `walk` EPS a step: the worst, in EPS */
+static __attribute__((unused)) gvi_real
+check_angular_momentum(gvi_stepper *st, int steps, gvi_real h, gvi_real walk)
+{
+    const gvi_real L0 = st->q[0]*st->p[1] - st->q[1]*st->p[0];
+    gvi_real worst = 0;
+    for (int k = 1; k <= steps; ++k) {
+        assert_ok(gvi_step(st, h));
+        gvi_real d = st->q[0]*st->p[1] - st->q[1]*st->p[0] - L0;
+        d = d < 0 ? -d : d;
+        assert_between(0, d, (2 + walk*sqrtl((long double)k))*EPS);
+        worst = d > worst ? d : worst;
+    }
+    return worst/EPS;
+}
 
 #endif

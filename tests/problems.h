@@ -94,9 +94,9 @@ HESSIAN(weights_hessian)
 static MAYBE int weights_value(const gvi_points *x, void *user)
 {
     const real *a = x->q, *b = a + x->stride;
-    for (int k = 0; k < x->count; ++k) 
+    for (int k = 0; k < x->count; ++k)
         x->value[k] -= gravity_at(x->t[k], user)*(2*cos(a[k]) + cos(a[k] + b[k]));
-    return 0;
+    return x->v != NULL;                                          // a potential has no v
 }
 
 /* L = a(q)'v, a = (-q2 (1 + q1^2), q1)/2 */

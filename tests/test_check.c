@@ -27,6 +27,16 @@ static const scene *build(const char *name)
     return a;
 }
 
+/* A scene of at most one effect, where every number is another */
+static void build_own(int n, gvi_effect effect, gvi_mass mass)
+{
+    static const double q[] = { 0.7, -1.3 }, v[] = { 0.4, 1.9 };
+    memset(&made, 0, sizeof made);
+    made.desc = (gvi_desc){ .n = n, .effects = made.effects, .effect_count = effect.points != NULL, .mass = mass };
+    made.effects[0] = effect;
+    for (int i = 0; i < n && i < 2; ++i) made.q[i] = q[i], made.v[i] = v[i];
+}
+
 /* ------------------------------------------------------------- right scenes */
 
 TEST(right_scenes_pass)
@@ -94,13 +104,12 @@ static void spoil(const gvi_points *x, const char *entry, double *own, double *o
     const slip *s = &planted;
     const int at = rows == x->n*x->n ? s->i*x->n + s->j : s->i, d = x->stride;
     const int here = !strcmp(entry, s->entry);
-    if (here && s->kind == FACTOR)
-        for (int k = 0; k < x->count; ++k) own[at*d+k] *= s->factor;
-    if (here && s->kind == INDEX)                              // i's goes to j
-        for (int k = 0; k < x->count; ++k) own[s->j*d+k] += own[s->i*d+k], own[s->i*d+k] = 0;
+    for (int k = 0; k < x->count && here; ++k) {
+        if (s->kind == FACTOR) own[at*d+k] *= s->factor;
+        if (s->kind == INDEX) own[s->j*d+k] += own[s->i*d+k], own[s->i*d+k] = 0;       // i's goes to j
+        if (s->kind == READS_V && x->v) own[at*d+k] += 1e-3*x->v[k];
+    }
     if (here && s->kind == LAST_POINT && x->count > 1) own[at*d + x->count - 1] = 0;
-    if (here && s->kind == READS_V && x->v)
-        for (int k = 0; k < x->count; ++k) own[at*d+k] += 1e-3*x->v[k];
     const int left = here && s->kind == INDEX && !add ? s->i : -1;
     for (int r = 0; r < rows; ++r)
         for (int k = 0; k < x->count; ++k) {
@@ -128,7 +137,7 @@ static gvi_points on_scratch(const gvi_points *x, int square)
     return y;
 }
 
-static int bad_points(const gvi_points *x, void *user)
+AT_POINTS(bad_points)
 {
     const gvi_points y = on_scratch(x, 0);
     if (planted.kind == REFUSES && !strcmp(planted.entry, "f")) return 1;
@@ -139,7 +148,7 @@ static int bad_points(const gvi_points *x, void *user)
     return 0;
 }
 
-static int bad_value(const gvi_points *x, void *user)
+AT_POINTS(bad_value)
 {
     const gvi_points y = on_scratch(x, 0);
     if (planted.right.value(&y, user)) return 1;
@@ -173,7 +182,7 @@ static int bad_hessian(double t, const double *q, const double *v,
     return 0;
 }
 
-static int bad_mass(const gvi_points *x, void *user)
+AT_POINTS(bad_mass)
 {
     const gvi_points y = on_scratch(x, 1);
     if (planted.mass.points(&y, user)) return 1;
@@ -185,7 +194,7 @@ static int bad_mass(const gvi_points *x, void *user)
     return 0;
 }
 
-static int bad_gradient(const gvi_points *x, void *user)
+AT_POINTS(bad_gradient)
 {
     const gvi_points y = on_scratch(x, 0);
     if (planted.mass.gradient(&y, user)) return 1;
@@ -193,7 +202,7 @@ static int bad_gradient(const gvi_points *x, void *user)
     return 0;
 }
 
-static int bad_velocity(const gvi_points *x, void *user)
+AT_POINTS(bad_velocity)
 {
     const gvi_points y = on_scratch(x, 0);
     if (planted.mass.velocity(&y, user)) return 1;
@@ -235,12 +244,12 @@ static void assert_found(check_what what, int e, const char *entry, int i, int j
     fail();
 }
 
-/* The only findings are the one planted, and of Hessians and batches what follows from it. */
-static int findings_about(int e)
+/* The scene with a slip in it, checked */
+static void slip_in(const char *name, int e, slip_kind kind, const char *entry, int i, int j, double factor)
 {
-    int about = 0;
-    for (int k = 0; k < report.count && k < ROOM; ++k) about += list[k].effect == e;
-    return about;
+    build(name);
+    plant(e, kind, entry, i, j, factor);
+    check();
 }
 
 static void ask(int e, const double *q, const double *v, double *f, double *dldv)
@@ -279,10 +288,8 @@ TEST(wrong_entries_of_f_are_named)
             ask(e, made.q, made.v, f, p);
             for (int i = 0; i < made.desc.n; i += made.desc.n > 40 ? 61 : 1)
                 for (int k = 0; k < COUNT(factors); ++k) {
-                    build(scenes[a]->name);
                     if (fabs(f[i]) < 1e-6*largest(f) || !(largest(f) > 0)) continue;
-                    plant(e, FACTOR, "f", i, 0, factors[k]);
-                    check();
+                    slip_in(scenes[a]->name, e, FACTOR, "f", i, 0, factors[k]);
                     assert_found(CHECK_DERIVATIVE, e, "f", i, -1);
                     const check_finding *y = found(CHECK_DERIVATIVE, e, "f", i, -1);
                     assert_int_equal(y->point, 0);
@@ -303,9 +310,7 @@ TEST(wrong_index_is_two_findings)
         { "outer_solar_system", 0, 3, 4 }, { "satellite", 0, 0, 2 }, { "satellite", 1, 0, 1 },
         { "elastic_pendulum", 1, 0, 1 }, { "figure_eight", 0, 2, 5 }, { "double_pendulum", 0, 0, 1 } };
     for (int k = 0; k < COUNT(cases); ++k) {
-        build(cases[k].scene);
-        plant(cases[k].e, INDEX, "f", cases[k].i, cases[k].j, 1);
-        check();
+        slip_in(cases[k].scene, cases[k].e, INDEX, "f", cases[k].i, cases[k].j, 1);
         assert_found(CHECK_DERIVATIVE, cases[k].e, "f", cases[k].i, -1);
         assert_found(CHECK_DERIVATIVE, cases[k].e, "f", cases[k].j, -1);
         assert_int_equal(report.count, 2);
@@ -323,10 +328,8 @@ TEST(wrong_entries_of_dldv_are_named)
         assert_int_equal(made.effects[e].kind, GVI_LAGRANGIAN);
         for (int i = 0; i < 2; ++i)
             for (int k = 0; k < 2; ++k) {
-                build(where[a]);
                 if (!k && !(fabs(p[i]) > 0)) continue;        // a small part of 0
-                plant(e, FACTOR, "dldv", i, 0, k ? -1 : 1 + 1e-6);
-                check();
+                slip_in(where[a], e, FACTOR, "dldv", i, 0, k ? -1 : 1 + 1e-6);
                 assert_found(CHECK_DERIVATIVE, e, "dldv", i, -1);
                 for (int m = 0; m < report.count; ++m) assert_string_equal(list[m].entry, "dldv");
             }
@@ -344,17 +347,13 @@ TEST(wrong_entries_of_hessians_are_named)
             build(scenes[a]->name);
             const gvi_effect *y = made.effects + e;
             const int n = made.desc.n, forced = y->kind == GVI_FORCE;
-            double v[SCENE_MAX];
             if (!y->hessian || y->kind == GVI_LAGRANGIAN) continue;
-            for (int i = 0; i < n; ++i) v[i] = made.v[i];
             memset(H, 0, sizeof H);
-            assert_int_equal(y->hessian(0, made.q, v, H[0], forced ? H[1] : NULL, NULL, y->user), 0);
+            assert_int_equal(y->hessian(0, made.q, made.v, H[0], forced ? H[1] : NULL, NULL, y->user), 0);
             for (int m = 0; m <= forced; ++m)
                 for (int k = 0, seen = 0; k < n*n; ++k) {
                     if (fabs(H[m][k]) < 1e-3 || (n > 40 && seen++ % 401)) continue;
-                    build(scenes[a]->name);
-                    plant(e, FACTOR, entry[m], k/n, k % n, k % 2 ? -1 : 1 + 1e-5);
-                    check();
+                    slip_in(scenes[a]->name, e, FACTOR, entry[m], k/n, k % n, k % 2 ? -1 : 1 + 1e-5);
                     assert_found(CHECK_DERIVATIVE, e, entry[m], k/n, k % n);
                     assert_int_equal(report.count, 1);
                     ++planted_count;
@@ -365,7 +364,7 @@ TEST(wrong_entries_of_hessians_are_named)
 }
 
 /* A Hessian that is not symmetric, transposed: two blocks of it differ.        */
-static int turn_points(const gvi_points *x, void *user)
+AT_POINTS(turn_points)
 {
     for (int k = 0; k < x->count; ++k) {
         x->f[k] += x->q[k]*x->q[x->stride+k];
@@ -385,20 +384,13 @@ static int turn_hessian(double t, const double *q, const double *v,
     return 0;
 }
 
-static void build_turn(void)
-{
-    memset(&made, 0, sizeof made);
-    made.desc = (gvi_desc){ .n = 2, .effects = made.effects, .effect_count = 1 };
-    made.effects[0] = (gvi_effect){ .kind = GVI_FORCE, .points = turn_points, .hessian = turn_hessian };
-    made.q[0] = 0.7, made.q[1] = -1.3, made.v[0] = 0.4, made.v[1] = 1.9;
-}
-
 TEST(transposed_hessians_are_named)
 {
-    build_turn();
+    const gvi_effect turn = { .kind = GVI_FORCE, .points = turn_points, .hessian = turn_hessian };
+    build_own(2, turn, (gvi_mass){ 0 });
     assert_int_equal(check(), 0);
     for (int m = 0; m < 2; ++m) {
-        build_turn();
+        build_own(2, turn, (gvi_mass){ 0 });
         plant(0, INDEX, m ? "fv" : "fq", 0, 0, 1);
         check();
         assert_int_equal(report.count, 2);
@@ -419,8 +411,9 @@ TEST(forces_without_value_must_have_a_potential)
     assert_int_equal(check(), 0);
     plant(0, FACTOR, "f", 4, 0, 1 + 1e-5);
     check();
-    assert_true(report.count > 0 && findings_about(0) == report.count);
+    assert_true(report.count > 0);
     for (int k = 0; k < report.count && k < ROOM; ++k) {
+        assert_int_equal(list[k].effect, 0);
         assert_int_equal(list[k].what, CHECK_CURL);
         assert_true(list[k].i == 4 || list[k].j == 4);
     }
@@ -449,8 +442,7 @@ TEST(manners_are_checked)
                     const char *entry = output ? "value" : "f";
                     build(scenes[a]->name);
                     if (output && !made.effects[e].value) continue;
-                    plant(e, cases[k].slip, entry, output ? 0 : i, 0, 0);
-                    check();
+                    slip_in(scenes[a]->name, e, cases[k].slip, entry, output ? 0 : i, 0, 0);
                     const int at = cases[k].slip == PAST_ROWS ? -1 : output ? 0 : i;
                     int named = 0;
                     for (int m = 0; m < report.count && m < ROOM; ++m) {
@@ -467,42 +459,25 @@ TEST(manners_are_checked)
     assert_true(planted_count > 100);
 }
 
-TEST(hessians_add_and_stay_inside)
+TEST(other_slips_are_named)
 {
-    build("elastic_pendulum");
-    plant(1, OVERWRITES, "fq", 0, 1, 1);
-    check();
-    assert_found(CHECK_ADDS, 1, "fq", 0, 1);
-    assert_int_equal(report.count, 1);
-    build("elastic_pendulum");
-    plant(1, PAST_ROWS, "fq", 0, 1, 1);
-    check();
-    assert_found(CHECK_BEYOND, 1, "fq", -1, -1);
-    assert_int_equal(report.count, 1);
-}
-
-TEST(a_potential_that_reads_the_velocity_is_named)
-{
-    build("elastic_pendulum");
-    plant(1, READS_V, "f", 1, 0, 1);
-    check();
-    assert_found(CHECK_READS_V, 1, "f", 1, -1);
-    build("elastic_pendulum");
-    plant(1, READS_V, "value", 0, 0, 1);
-    check();
-    assert_found(CHECK_READS_V, 1, "value", -1, -1);
-}
-
-TEST(refusals_are_named)
-{
-    build("duffing");
-    plant(0, REFUSES, "f", 0, 0, 1);
-    check();
-    assert_found(CHECK_REFUSED, 0, "f", -1, -1);
+    static const struct { const char *scene; int e; slip_kind slip; const char *entry; int i, j;
+                          check_what what; int i_found, j_found; } cases[] = {
+        { "elastic_pendulum", 1, OVERWRITES, "fq",    0, 1, CHECK_ADDS,    0, 1 },
+        { "elastic_pendulum", 1, PAST_ROWS,  "fq",    0, 1, CHECK_BEYOND, -1, -1 },
+        { "elastic_pendulum", 1, READS_V,    "f",     1, 0, CHECK_READS_V, 1, -1 },
+        { "elastic_pendulum", 1, READS_V,    "value", 0, 0, CHECK_READS_V, -1, -1 },
+        { "duffing",          0, REFUSES,    "f",     0, 0, CHECK_REFUSED, -1, -1 },
+    };
+    for (int k = 0; k < COUNT(cases); ++k) {
+        slip_in(cases[k].scene, cases[k].e, cases[k].slip, cases[k].entry, cases[k].i, cases[k].j, 1);
+        assert_found(cases[k].what, cases[k].e, cases[k].entry, cases[k].i_found, cases[k].j_found);
+        if (k < 2) assert_int_equal(report.count, 1);
+    }
 }
 
 /* One function for f and value that leaves f out when value is wanted, too.     */
-static int either(const gvi_points *x, void *user)
+AT_POINTS(either)
 {
     for (int k = 0; k < x->count; ++k) {
         if (x->value) x->value[k] += x->q[k]*x->q[k]/2;
@@ -511,7 +486,7 @@ static int either(const gvi_points *x, void *user)
     return 0;
 }
 
-static int each(const gvi_points *x, void *user)
+AT_POINTS(each)
 {
     for (int k = 0; k < x->count; ++k) {
         if (x->value) x->value[k] += x->q[k]*x->q[k]/2;
@@ -522,10 +497,7 @@ static int each(const gvi_points *x, void *user)
 
 TEST(f_and_value_in_one_call)
 {
-    memset(&made, 0, sizeof made);
-    made.desc = (gvi_desc){ .n = 1, .effects = made.effects, .effect_count = 1 };
-    made.effects[0] = (gvi_effect){ .kind = GVI_POTENTIAL, .points = each, .value = each };
-    made.q[0] = 0.6;
+    build_own(1, (gvi_effect){ .kind = GVI_POTENTIAL, .points = each, .value = each }, (gvi_mass){ 0 });
     assert_int_equal(check(), 0);
     made.effects[0].points = made.effects[0].value = either;
     check();
@@ -544,9 +516,7 @@ TEST(slips_of_a_mass_are_named)
         const int n = made.desc.n;
         for (int k = 0; k < n*n; ++k) {                       // every entry of the lower triangle forgotten
             if (k/n < k % n) continue;
-            build(where[a]);
-            plant(GVI_FAULT_MASS, INDEX, "mass", k, 0, 1);
-            check();
+            slip_in(where[a], GVI_FAULT_MASS, INDEX, "mass", k, 0, 1);
             assert_found(CHECK_WRITTEN, GVI_FAULT_MASS, "mass", k/n, k % n);
         }
         build(where[a]);
@@ -554,18 +524,12 @@ TEST(slips_of_a_mass_are_named)
         made.desc.mass.velocity = NULL;
         check();
         if (a < 2) assert_found(CHECK_SYMMETRY, GVI_FAULT_MASS, "mass", 0, n - 1);
-        build(where[a]);
-        plant(GVI_FAULT_MASS, FACTOR, "mass", n - 1, n - 1, -1);
-        check();
+        slip_in(where[a], GVI_FAULT_MASS, FACTOR, "mass", n - 1, n - 1, -1);
         assert_found(CHECK_DEFINITE, GVI_FAULT_MASS, "mass", n - 1, n - 1);
-        build(where[a]);
-        plant(GVI_FAULT_MASS, LAST_POINT, "mass", 0, 0, 1);
-        check();
+        slip_in(where[a], GVI_FAULT_MASS, LAST_POINT, "mass", 0, 0, 1);
         assert_found(CHECK_BATCH, GVI_FAULT_MASS, "mass", 0, 0);
         for (int i = 0; i < n; ++i) {
-            build(where[a]);
-            plant(GVI_FAULT_MASS, FACTOR, "velocity", i, 0, 1 + 1e-4);
-            check();
+            slip_in(where[a], GVI_FAULT_MASS, FACTOR, "velocity", i, 0, 1 + 1e-4);
             assert_found(CHECK_VELOCITY, GVI_FAULT_MASS, "velocity", i, -1);
             assert_int_equal(report.count, 1);
         }
@@ -580,25 +544,19 @@ TEST(slips_of_a_mass_gradient_are_named)
     for (int a = 0; a < COUNT(where); ++a)
         for (int i = 0; i < where[a].n; ++i) {
             for (int k = 0; k < COUNT(factors); ++k) {
-                build(where[a].scene);
-                plant(GVI_FAULT_MASS, FACTOR, "gradient", i, 0, factors[k]);
-                check();
+                slip_in(where[a].scene, GVI_FAULT_MASS, FACTOR, "gradient", i, 0, factors[k]);
                 assert_found(CHECK_DERIVATIVE, GVI_FAULT_MASS, "gradient", i, -1);
                 assert_int_equal(report.count, 1);
             }
-            build(where[a].scene);
-            plant(GVI_FAULT_MASS, OVERWRITES, "gradient", i, 0, 1);
-            check();
+            slip_in(where[a].scene, GVI_FAULT_MASS, OVERWRITES, "gradient", i, 0, 1);
             assert_found(CHECK_ADDS, GVI_FAULT_MASS, "gradient", i, -1);
-            build(where[a].scene);
-            plant(GVI_FAULT_MASS, LAST_POINT, "gradient", i, 0, 1);
-            check();
+            slip_in(where[a].scene, GVI_FAULT_MASS, LAST_POINT, "gradient", i, 0, 1);
             assert_found(CHECK_BATCH, GVI_FAULT_MASS, "gradient", i, -1);
         }
 }
 
 /* velocity must undo all of p: here the charge's canonical momentum, M = 1.     */
-static int forgetful(const gvi_points *x, void *user)
+AT_POINTS(forgetful)
 {
     const double *p = x->p, half = *(const double *)user;
     for (int k = 0; k < x->count; ++k) {
@@ -614,18 +572,10 @@ TEST(velocity_counts_lagrangian_terms)
     static const struct rotating_frame frame = { { 0, 1, 2 }, mass, 0.6 };
     static double half[] = { 0.6, 0 };
     for (int k = 0; k < 2; ++k) {
-        memset(&made, 0, sizeof made);
-        made.desc = (gvi_desc){ .n = 2, .effects = made.effects, .effect_count = 1,
-                                .mass = { .velocity = forgetful, .user = half + k } };
-        made.effects[0] = rotating_frame(&frame);
-        made.q[0] = 1.1, made.q[1] = -0.4, made.v[0] = 0.2, made.v[1] = 0.9;
+        build_own(2, rotating_frame(&frame), (gvi_mass){ .velocity = forgetful, .user = half + k });
         check();
-        if (k == 0) assert_int_equal(report.count, 0);
-        else {
-            assert_found(CHECK_VELOCITY, GVI_FAULT_MASS, "velocity", 0, -1);
-            assert_found(CHECK_VELOCITY, GVI_FAULT_MASS, "velocity", 1, -1);
-            assert_int_equal(report.count, 2);
-        }
+        for (int i = 0; i < 2*k; ++i) assert_found(CHECK_VELOCITY, GVI_FAULT_MASS, "velocity", i, -1);
+        assert_int_equal(report.count, 2*k);
     }
 }
 
@@ -633,8 +583,7 @@ TEST(velocity_counts_lagrangian_terms)
 TEST(a_dense_matrix_must_be_symmetric_and_definite)
 {
     double M[9] = { 2, 0.5, 0, 0.5, 3, 0.1, 0, 0.1, 1 };
-    memset(&made, 0, sizeof made);
-    made.desc = (gvi_desc){ .n = 3, .mass = { .kind = GVI_MASS_DENSE, .matrix = M } };
+    build_own(3, (gvi_effect){ 0 }, (gvi_mass){ .kind = GVI_MASS_DENSE, .matrix = M });
     assert_int_equal(check(), 0);
     M[5] = 0.2;
     check();
@@ -648,7 +597,7 @@ TEST(a_dense_matrix_must_be_symmetric_and_definite)
 /* g = |q|, with a slip on demand.                                               */
 static double clock_sign = 1, clock_factor = 1;
 
-static int distance_clock(const gvi_points *x, void *user)
+AT_POINTS(distance_clock)
 {
     for (int k = 0; k < x->count; ++k) {
         double d = hypot(x->q[k], x->q[x->stride+k]);
@@ -661,10 +610,7 @@ static int distance_clock(const gvi_points *x, void *user)
 
 TEST(clocks_are_checked)
 {
-    memset(&made, 0, sizeof made);
-    made.desc = (gvi_desc){ .n = 2, .effects = made.effects, .effect_count = 1 };
-    made.effects[0] = (gvi_effect){ .kind = GVI_CLOCK, .points = distance_clock };
-    made.q[0] = 0.3, made.q[1] = 0.8;
+    build_own(2, (gvi_effect){ .kind = GVI_CLOCK, .points = distance_clock }, (gvi_mass){ 0 });
     assert_int_equal(check(), 0);
     clock_factor = 1 + 1e-7;
     check();
@@ -692,9 +638,7 @@ static double smallest_found(const scene *a, int e)
         if (fabs(f[k]) > fabs(f[i])) i = k;
     if (made.effects[e].kind == GVI_FORCE || !(fabs(f[i]) > 0)) return 0;
     for (; error > 1e-13; error /= 2) {
-        build(a->name);
-        plant(e, FACTOR, "f", i, 0, 1 + error);
-        check();
+        slip_in(a->name, e, FACTOR, "f", i, 0, 1 + error);
         if (!found(CHECK_DERIVATIVE, e, "f", i, -1)) return 2*error;
         assert_int_equal(report.count, 1);
     }

@@ -196,8 +196,15 @@ static real deviation(const struct system *a, gvi_rule_kind rule, int s, int r, 
                       method_fn *method, const struct tableau *T)
 {
     static gvi_real memory[GVI_LENGTH(N, 3, 3)];
+    const int own = rule == GVI_OWN;
+    gvi_real nodes[3] = { 0 }, weights[3] = { 0 };
+    for (int i = 0; own && i < r; ++i) {
+        for (int j = 0; j < r; ++j) nodes[i] += (gvi_real)T->a[i][j];
+        weights[i] = (gvi_real)T->b[i];
+    }
     const gvi_desc desc = {
-        .n = N, .degree = s, .rule = { .kind = rule, .points = r }, .mass = a->mass,
+        .n = N, .degree = s, .rule = { rule, r, own ? nodes : NULL, own ? weights : NULL },
+        .mass = a->mass,
         .effects = &a->effect, .effect_count = 1, .formulation = how
     };
     real z[2*N] = { a->q[0], a->q[1], a->p[0], a->p[1] }, e[2*N] = { 0 }, dz[2*N], worst = 0;
@@ -278,6 +285,17 @@ TEST(test_lobatto)
     compare("Lobatto IIIA-IIIB 3, separable", &separable, GVI_LOBATTO, 3, 3, partitioned, &lobatto3);
     compare("Lobatto IIIA-IIIB 2, double pendulum", &pendulum, GVI_LOBATTO, 2, 2, partitioned, &lobatto2);
     compare("Lobatto IIIA-IIIB 3, double pendulum", &pendulum, GVI_LOBATTO, 3, 3, partitioned, &lobatto3);
+}
+
+/* Any s nodes: a_ij is the integral of l_j to c_i, ahat_ij = b_j - b_j a_ji/b_i. */
+TEST(test_own)
+{
+    const struct tableau quarters = {
+        2, { { 5/16.0L, -1/16.0L }, { 9/16.0L, 3/16.0L } }, { { 3/16.0L, -1/16.0L }, { 9/16.0L, 5/16.0L } },
+        { 1/2.0L, 1/2.0L }
+    };
+    compare("nodes 1/4 and 3/4, separable", &separable, GVI_OWN, 2, 2, partitioned, &quarters);
+    compare("nodes 1/4 and 3/4, double pendulum", &pendulum, GVI_OWN, 2, 2, partitioned, &quarters);
 }
 
 RUN_TESTS(NULL, NULL)

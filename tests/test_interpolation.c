@@ -1,18 +1,6 @@
 /* Barycentric interpolation against Lagrange's products in twice the digits.  */
 #include "gvi_test.h"
-
-#ifdef __clang__
-#pragma clang diagnostic ignored "-Wdouble-promotion"    /* widening is the purpose here */
-#endif
-
-/* Twice the digits of gvi_real, or as many as there are. */
-#if GVI__KIND == 3 && defined(__SIZEOF_FLOAT128__)
-__extension__ typedef __float128 wide;
-#define WIDE_EPS 1.9e-34L
-#else
-typedef long double wide;
-#define WIDE_EPS LDBL_EPSILON
-#endif
+#include "wide.h"
 
 #if GVI__KIND == 1
 #define NORMAL  FLT_MIN
@@ -26,25 +14,8 @@ typedef long double wide;
 #endif
 #define LEAST   (NORMAL*EPS)                    /* the smallest subnormal */
 
-#define UNIT ((wide)EPS/2)                      /* unit roundoff */
 #define MOST 1000
 #define FEW  20
-
-static wide wide_abs(wide x) { return x < 0 ? -x : x; }
-
-/* Equal once both are rounded to gvi_real, which registers may put off (x87). */
-static int same(gvi_real one, gvi_real other)
-{
-    volatile gvi_real u = one, v = other;
-    return u <= v && u >= v;
-}
-
-static unsigned long long seed;
-static wide random_unit(void)                   /* in (-1,1), of 32 bits */
-{
-    seed = seed*6364136223846793005ULL + 1442695040888963407ULL;
-    return (wide)((long double)(seed >> 32) - 2147483647.5L)/2147483648.0L;
-}
 
 /* ------------------------------------------------------------------ oracle */
 
@@ -118,7 +89,7 @@ static void chebyshev_with_ends(int n, gvi_real *x)
 static void scattered(int n, gvi_real *x)       /* in no order, 0 among them */
 {
     seed = 17;
-    for (int i = 0; i < n; ++i) x[i] = (gvi_real)random_unit();
+    for (int i = 0; i < n; ++i) x[i] = random_unit();
     x[n/2] = 0;
 }
 
@@ -129,6 +100,11 @@ static void clustered(int n, gvi_real *x)       /* towards 0, at 0, and beyond *
 
 typedef void nodes_fn(int n, gvi_real *x);
 static nodes_fn *const families[] = { equispaced, chebyshev, chebyshev_with_ends, scattered, clustered };
+
+/* 1 to `last` nodes x of each family */
+#define EACH_NODES(x, n, last) \
+    for (int k_ = 0; k_ < COUNT(families); ++k_) \
+        for (int n = 1; n <= (last) && (families[k_](n, x), 1); ++n)
 
 static gvi_real next_after(gvi_real x, gvi_real towards)
 {
@@ -214,12 +190,10 @@ static void check_weights(int n, const gvi_real *x, const gvi_real *w)
 TEST(weights_are_the_reciprocal_products_with_a_maximum_of_one)
 {
     gvi_real x[FEW], w[FEW];
-    for (int k = 0; k < COUNT(families); ++k)
-        for (int n = 1; n <= FEW; ++n) {
-            families[k](n, x);
-            assert_ok(gvi_barycentric(n, x, w));
-            check_weights(n, x, w);
-        }
+    EACH_NODES(x, n, FEW) {
+        assert_ok(gvi_barycentric(n, x, w));
+        check_weights(n, x, w);
+    }
 }
 
 TEST(weights_have_the_sign_of_the_products)
@@ -255,16 +229,14 @@ TEST(weights_do_not_depend_on_the_unit_of_the_nodes)
     const gvi_real units[] = { (gvi_real)1e-30L, (gvi_real)1e30L, (gvi_real)ldexp(1, -100),
                                (gvi_real)ldexp(1, 100) };
     gvi_real x[FEW], y[FEW], w[FEW], v[FEW];
-    for (int k = 0; k < COUNT(families); ++k)
-        for (int n = 1; n <= FEW; ++n)
-            for (int unit = 0; unit < COUNT(units); ++unit) {
-                families[k](n, x);
-                for (int i = 0; i < n; ++i) y[i] = x[i]*units[unit];
-                assert_ok(gvi_barycentric(n, x, w));
-                assert_ok(gvi_barycentric(n, y, v));
-                check_weights(n, y, v);
-                for (int i = 0; unit >= 2 && i < n; ++i) assert_true(same(w[i], v[i]));
-            }
+    EACH_NODES(x, n, FEW)
+        for (int unit = 0; unit < COUNT(units); ++unit) {
+            for (int i = 0; i < n; ++i) y[i] = x[i]*units[unit];
+            assert_ok(gvi_barycentric(n, x, w));
+            assert_ok(gvi_barycentric(n, y, v));
+            check_weights(n, y, v);
+            for (int i = 0; unit >= 2 && i < n; ++i) assert_true(same(w[i], v[i]));
+        }
 }
 
 /* ------------------------------------------------------------------ values */
@@ -283,16 +255,14 @@ static void check_values(int n, const gvi_real *x, const gvi_real *f)
 TEST(interpolation_is_that_of_lagrange_at_near_and_far_from_nodes)
 {
     gvi_real x[FEW], f[FEW];
-    for (int k = 0; k < COUNT(families); ++k)
-        for (int n = 1; n <= FEW; ++n) {
-            families[k](n, x);
-            for (int i = 0; i < n; ++i) f[i] = (gvi_real)random_unit();
-            check_values(n, x, f);
-            for (int i = 0; i < n; ++i) f[i] = i % 2 ? -1 : 1;
-            check_values(n, x, f);
-            for (int i = 0; i < n; ++i) f[i] = i == n/2;
-            check_values(n, x, f);
-        }
+    EACH_NODES(x, n, FEW) {
+        for (int i = 0; i < n; ++i) f[i] = random_unit();
+        check_values(n, x, f);
+        for (int i = 0; i < n; ++i) f[i] = i % 2 ? -1 : 1;
+        check_values(n, x, f);
+        for (int i = 0; i < n; ++i) f[i] = i == n/2;
+        check_values(n, x, f);
+    }
 }
 
 /* (t - 1/4)(t + 1/2)^2 ..., whose values at the nodes come from the polynomial. */
@@ -320,11 +290,8 @@ static void check_reproduced(int n, const gvi_real *x, int degree)
 TEST(polynomials_below_the_number_of_nodes_are_reproduced)
 {
     gvi_real x[FEW];
-    for (int k = 0; k < COUNT(families); ++k)
-        for (int n = 1; n <= 12; ++n) {
-            families[k](n, x);
-            for (int degree = 0; degree < n; ++degree) check_reproduced(n, x, degree);
-        }
+    EACH_NODES(x, n, 12)
+        for (int degree = 0; degree < n; ++degree) check_reproduced(n, x, degree);
 }
 
 /* 1, t, ... at t = 10^3 and 10^5, where the l_j are 10^15 and more: what they
@@ -333,17 +300,15 @@ TEST(polynomials_are_reproduced_far_outside)
 {
     const gvi_real far[] = { -50, 1000, -100000 };
     gvi_real x[6], w[6], f[6];
-    for (int k = 0; k < COUNT(families); ++k)
-        for (int n = 1; n <= 6; ++n) {
-            families[k](n, x);
-            assert_ok(gvi_barycentric(n, x, w));
-            for (int degree = 0; degree < n; ++degree)
-                for (int i = 0; i < COUNT(far); ++i) {
-                    for (int j = 0; j < n; ++j) f[j] = (gvi_real)sample(degree, x[j]);
-                    struct exact e = exact_value(n, x, f, far[i]);
-                    assert_close(gvi_interpolate(n, x, w, f, far[i]), e.p, value_bound(n, e));
-                }
-        }
+    EACH_NODES(x, n, 6) {
+        assert_ok(gvi_barycentric(n, x, w));
+        for (int degree = 0; degree < n; ++degree)
+            for (int i = 0; i < COUNT(far); ++i) {
+                for (int j = 0; j < n; ++j) f[j] = (gvi_real)sample(degree, x[j]);
+                struct exact e = exact_value(n, x, f, far[i]);
+                assert_close(gvi_interpolate(n, x, w, f, far[i]), e.p, value_bound(n, e));
+            }
+    }
 }
 
 TEST(a_polynomial_of_the_next_degree_is_missed_by_the_node_polynomial)
@@ -364,17 +329,15 @@ TEST(a_polynomial_of_the_next_degree_is_missed_by_the_node_polynomial)
 TEST(interpolation_is_exact_at_nodes)
 {
     gvi_real x[FEW], w[FEW], f[FEW], l[FEW];
-    for (int k = 0; k < COUNT(families); ++k)
-        for (int n = 1; n <= FEW; ++n) {
-            families[k](n, x);
-            assert_ok(gvi_barycentric(n, x, w));
-            for (int i = 0; i < n; ++i) f[i] = (gvi_real)random_unit();
-            for (int i = 0; i < n; ++i) {
-                assert_true(same(gvi_interpolate(n, x, w, f, x[i]), f[i]));
-                gvi_basis(n, x, w, x[i], l);
-                for (int j = 0; j < n; ++j) assert_true(same(l[j], i == j));
-            }
+    EACH_NODES(x, n, FEW) {
+        assert_ok(gvi_barycentric(n, x, w));
+        for (int i = 0; i < n; ++i) f[i] = random_unit();
+        for (int i = 0; i < n; ++i) {
+            assert_true(same(gvi_interpolate(n, x, w, f, x[i]), f[i]));
+            gvi_basis(n, x, w, x[i], l);
+            for (int j = 0; j < n; ++j) assert_true(same(l[j], i == j));
         }
+    }
 }
 
 TEST(interpolation_next_to_a_node_at_zero_survives_the_smallest_distances)
@@ -401,7 +364,7 @@ TEST(values_of_any_size_are_interpolated)
     gvi_real x[9], w[9], f[9], g[9];
     chebyshev(9, x);
     assert_ok(gvi_barycentric(9, x, w));
-    for (int i = 0; i < 9; ++i) f[i] = (gvi_real)random_unit();
+    for (int i = 0; i < 9; ++i) f[i] = random_unit();
     for (int e = -100; e <= 100; e += 200) {
         for (int i = 0; i < 9; ++i) g[i] = f[i]*(gvi_real)ldexp(1, e);
         for (int i = -20; i <= 20; ++i) {
@@ -433,11 +396,7 @@ static void check_basis(int n, const gvi_real *x)
 TEST(basis_is_that_of_lagrange_and_sums_to_one)
 {
     gvi_real x[FEW];
-    for (int k = 0; k < COUNT(families); ++k)
-        for (int n = 1; n <= FEW; ++n) {
-            families[k](n, x);
-            check_basis(n, x);
-        }
+    EACH_NODES(x, n, FEW) check_basis(n, x);
 }
 
 TEST(basis_of_1000_points_sums_to_one)
@@ -523,7 +482,7 @@ TEST(derivatives_are_those_of_lagrange_at_near_and_far_from_nodes)
     for (int k = 0; k < COUNT(families); ++k)
         for (int n = 1; n <= FEW; n += n < 9 ? 1 : 4) {
             families[k](n, x);
-            for (int i = 0; i < n; ++i) f[i] = (gvi_real)random_unit();
+            for (int i = 0; i < n; ++i) f[i] = random_unit();
             check_derivatives(n, x, f);
         }
 }
@@ -574,17 +533,15 @@ TEST(derivative_of_exp_is_exp)
 TEST(constants_have_exactly_the_derivative_zero)
 {
     gvi_real x[FEW], w[FEW], f[FEW], t[PLACES];
-    for (int k = 0; k < COUNT(families); ++k)
-        for (int n = 1; n <= FEW; ++n) {
-            families[k](n, x);
-            assert_ok(gvi_barycentric(n, x, w));
-            for (int i = 0; i < n; ++i) f[i] = (gvi_real)0.1L;
-            int count = places(n, x, t);
-            for (int i = 0; i < count; ++i) {
-                assert_true(same(gvi_interpolate_derivative(n, x, w, f, t[i]), 0));
-                assert_true(same(gvi_interpolate(n, x, w, f, t[i]), f[0]));
-            }
+    EACH_NODES(x, n, FEW) {
+        assert_ok(gvi_barycentric(n, x, w));
+        for (int i = 0; i < n; ++i) f[i] = (gvi_real)0.1L;
+        int count = places(n, x, t);
+        for (int i = 0; i < count; ++i) {
+            assert_true(same(gvi_interpolate_derivative(n, x, w, f, t[i]), 0));
+            assert_true(same(gvi_interpolate(n, x, w, f, t[i]), f[0]));
         }
+    }
 }
 
 /* One copy of the code for both units: in registers wider than the type (x87)
@@ -598,7 +555,7 @@ TEST(derivative_scales_with_the_unit_of_the_nodes)
     gvi_real x[9], y[9], w[9], v[9], f[9], l[9], m[9];
     scattered(9, x);
     assert_ok(gvi_barycentric(9, x, w));
-    for (int i = 0; i < 9; ++i) f[i] = (gvi_real)random_unit();
+    for (int i = 0; i < 9; ++i) f[i] = random_unit();
     for (int e = -90; e <= 90; e += 180) {
         const gvi_real unit = (gvi_real)ldexp(1, e);
         for (int i = 0; i < 9; ++i) y[i] = x[i]*unit;
@@ -622,7 +579,7 @@ TEST(nodes_may_come_in_any_order)
     chebyshev(FEW, x);
     for (int i = 0; i < FEW; ++i) {
         int j = 7*i % FEW;
-        f[i] = (gvi_real)random_unit();
+        f[i] = random_unit();
         y[j] = x[i], g[j] = f[i];
     }
     assert_ok(gvi_barycentric(FEW, x, w));

@@ -17,18 +17,7 @@ typedef gvi_real real;
 static real dense[4] = { 2, 0.5L, 0.5L, 1 };
 static real diagonal[2] = { 2, 0.75L };
 
-static void force(real t, const real *q, real *f)
-{
-    const real g = 1 + sin(2*t)/2, both = g*sin(q[0] + q[1]);
-    f[0] -= 2*g*sin(q[0]) + both;
-    f[1] -= both;
-}
-
-static int potential(real t, const real *q, const real *v, real *f, real *dldv, void *user)
-{
-    force(t, q, f);
-    return 0;
-}
+static void force(real t, const real *q, real *f) { weights(t, q, NULL, f, NULL, dense); }
 
 static void over_mass(gvi_mass_kind mass, const real *p, real *v)
 {
@@ -46,10 +35,14 @@ static void rates(real t, const real *y, real *dy, void *user)
     force(t, y, dy + 2);
 }
 
-static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .point = potential } };
+static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .point = weights, .user = dense } };
 static const real start[4] = { 0.7L, -0.4L, 1.1L, 0.6L };
 static const real when = 0.3L, length = 1.5L;
 static real memory[4000], more[4000];
+
+static int table_count;
+#define EACH_TABLE(a) \
+    for (const table *first_ = tables(&table_count), *a = first_; a < first_ + table_count; ++a)
 
 static gvi_desc describe(const table *a, gvi_mass_kind mass)
 {
@@ -95,20 +88,18 @@ static void errors(const table *a, gvi_mass_kind mass, int N, real last, real *e
 /* Two-sided: the next term of the expansion is 1/8 or less of the first by then */
 TEST(every_table_has_its_order_on_both_sides)
 {
-    int count;
-    const table *all = tables(&count);
-    for (int i = 0; i < count; ++i)
+    EACH_TABLE(method)
     for (int mass = GVI_MASS_UNIT; mass <= GVI_MASS_DENSE; ++mass) {
-        const int N = all[i].r == 23 ? 6 : all[i].order == 8 ? 12 : all[i].order == 6 ? 10 : 64;
+        const int N = method->r == 23 ? 6 : method->order == 8 ? 12 : method->order == 6 ? 10 : 64;
         const real last = when + length - length/N*3/16;        // inside the last step of both
         real end[2], inside[2];
-        for (int k = 0; k < 2; ++k) errors(&all[i], (gvi_mass_kind)mass, N << k, last, &end[k], &inside[k]);
+        for (int k = 0; k < 2; ++k) errors(method, (gvi_mass_kind)mass, N << k, last, &end[k], &inside[k]);
         const real order = log2(end[0]/end[1]), within = log2(inside[0]/inside[1]);
-        print_message("    %-28s %.2Lf, inside a step %.2Lf, error %.1Le\n", all[i].name,
+        print_message("    %-28s %.2Lf, inside a step %.2Lf, error %.1Le\n", method->name,
                       (long double)order, (long double)within, (long double)end[1]);
         assert_true(end[1] > 1e-15L);          // far above rounding, also that of the tables
-        assert_between(all[i].order - 0.3L, order, all[i].order + 0.3L);
-        assert_between(all[i].order - 0.3L, within, all[i].order + 0.3L);
+        assert_between(method->order - 0.3L, order, method->order + 0.3L);
+        assert_between(method->order - 0.3L, within, method->order + 0.3L);
     }
 }
 
@@ -133,45 +124,35 @@ static void by_hand(const table *a, gvi_mass_kind mass, real t, real h, real *y)
 /* 50 steps of a regular motion: a rounding each of 2r sums a step, passed on about 1:1 */
 TEST(steps_are_those_of_a_splitting_written_by_hand)
 {
-    int count;
-    const table *all = tables(&count);
-    for (int i = 0; i < count; ++i)
+    EACH_TABLE(method)
     for (int mass = GVI_MASS_UNIT; mass <= GVI_MASS_DENSE; ++mass) {
-        const gvi_desc desc = describe(&all[i], (gvi_mass_kind)mass);
+        const gvi_desc desc = describe(method, (gvi_mass_kind)mass);
         gvi_stepper st;
         real y[4];
         memcpy(y, start, sizeof y);
         set_up(&st, &desc, start, memory);
         for (int k = 0; k < 50; ++k) {
-            by_hand(&all[i], (gvi_mass_kind)mass, when + k*0.0625L, 0.0625L, y);
+            by_hand(method, (gvi_mass_kind)mass, when + k*0.0625L, 0.0625L, y);
             assert_ok(gvi_step(&st, 0.0625L));
         }
-        assert_between(0, distance(st.q, st.p, y), 8*EPS*sqrt((real)100*all[i].r));
+        assert_between(0, distance(st.q, st.p, y), 8*EPS*sqrt((real)100*method->r));
         assert_close(st.t, when + 50*0.0625L, 2*EPS);
     }
 }
 
 TEST(two_kicks_are_lobatto_of_degree_one_to_the_bit)
 {
-    const real c[] = { 0, 1 }, b[] = { 0.5L, 0.5L };
+    static const table two = { "", 2, 2, 1, { 0, 1 }, { 0.5L, 0.5L } };
     for (int mass = GVI_MASS_UNIT; mass <= GVI_MASS_DENSE; ++mass) {
-        table two = { "", 2, 2, 1, { 0 }, { 0 } };
-        gvi_desc kicks, lobatto;
+        const gvi_desc kicks = describe(&two, (gvi_mass_kind)mass);
+        gvi_desc lobatto = kicks;
         gvi_stepper x, y;
-        memcpy(two.c, c, sizeof c);
-        memcpy(two.b, b, sizeof b);
-        kicks = lobatto = describe(&two, (gvi_mass_kind)mass);
         lobatto.degree = 1;
         lobatto.rule = (gvi_rule){ GVI_LOBATTO, 2, NULL, NULL };
         set_up(&x, &kicks, start, memory);
         set_up(&y, &lobatto, start, more);
         assert_int_equal(y.formulation, GVI_EXPLICIT);
-        for (int k = 0; k < 1000; ++k) {
-            assert_ok(gvi_step(&x, 0.01L*(k % 3 + 1)));
-            assert_ok(gvi_step(&y, 0.01L*(k % 3 + 1)));
-            for (int i = 0; i < 2; ++i) assert_true(x.q[i] == y.q[i] && x.p[i] == y.p[i]);
-            assert_true(x.t == y.t);
-        }
+        for (int k = 0; k < 1000; ++k) move_alike(&x, &y, 1, 0.01L*(k % 3 + 1));
     }
 }
 
@@ -191,11 +172,10 @@ static void step_map(const void *what, const real *x, real *y)
 
 TEST(every_table_gives_a_symplectic_map)
 {
-    int count;
-    const table *all = tables(&count);
-    for (int i = 0; i < count; ++i)
+    EACH_TABLE(method)
     for (int mass = GVI_MASS_UNIT; mass <= GVI_MASS_DENSE; ++mass)
-        assert_between(0, symplectic_defect(step_map, &(splitting){ &all[i], (gvi_mass_kind)mass }, start, EPS), 100*pow((real)EPS, 8/(real)9));
+        assert_between(0, symplectic_defect(step_map, &(splitting){ method, (gvi_mass_kind)mass }, start, EPS),
+                       100*pow((real)EPS, 8/(real)9));
 }
 
 /* A rounding of a kick or a drift changes q x p by EPS/2 of |q||p| or less, at most 2
@@ -203,35 +183,24 @@ TEST(every_table_gives_a_symplectic_map)
 TEST(angular_momentum_is_kept_by_every_kick)
 {
     static const gvi_effect sun[] = { { .kind = GVI_POTENTIAL, .points = attraction } };
-    int count;
-    const table *all = tables(&count);
-    for (int i = 0; i < count; ++i) {
-        gvi_desc desc = describe(&all[i], GVI_MASS_UNIT);
+    EACH_TABLE(method) {
+        gvi_desc desc = describe(method, GVI_MASS_UNIT);
         gvi_stepper st;
         desc.effects = sun;
         set_up(&st, &desc, (const real[]){ 0.4L, 0, 0, 2 }, memory);
-        const real L0 = st.q[0]*st.p[1] - st.q[1]*st.p[0];
-        for (int k = 1; k <= 2000; ++k) {
-            assert_ok(gvi_step(&st, 0.05L));
-            const real kicks = (real)k*(all[i].r + 1);
-            assert_close(st.q[0]*st.p[1] - st.q[1]*st.p[0], L0, (2 + 4*sqrt(kicks))*EPS);
-        }
+        check_angular_momentum(&st, 2000, 0.05L, 4*sqrt((real)method->r + 1));
     }
 }
 
 /* A symmetric table steps back where it came from; Ruth's does not */
 TEST(symmetric_tables_are_reversible)
 {
-    int count;
-    const table *all = tables(&count);
-    for (int i = 0; i < count; ++i) {
-        const gvi_desc desc = describe(&all[i], GVI_MASS_DENSE);
+    EACH_TABLE(method) {
+        const gvi_desc desc = describe(method, GVI_MASS_DENSE);
         gvi_stepper st;
         set_up(&st, &desc, start, memory);
-        for (int k = 0; k < 20; ++k) assert_ok(gvi_step(&st, 0.125L));
-        for (int k = 0; k < 20; ++k) assert_ok(gvi_step(&st, -0.125L));
-        const real d = distance(st.q, st.p, start);
-        if (all[i].symmetric) assert_between(0, d, 40*EPS*sqrt((real)all[i].r));
+        const real h = 0.125L, d = there_and_back(&st, 20, &h, 1);
+        if (method->symmetric) assert_between(0, d, 40*EPS*sqrt((real)method->r));
         else assert_between(1e-9L, d, 1e-3L);
         assert_close(st.t, when, 2*EPS);
     }
@@ -242,11 +211,9 @@ TEST(symmetric_tables_are_reversible)
 /* The force at the end of a step is that at the start of the next, if both are nodes */
 TEST(the_last_kick_is_not_asked_for_twice)
 {
-    int count;
-    const table *all = tables(&count);
-    for (int i = 0; i < count; ++i) {
-        const gvi_desc desc = describe(&all[i], GVI_MASS_UNIT);
-        const int r = all[i].r, shared = all[i].c[0] == 0 && all[i].c[r - 1] == 1;
+    EACH_TABLE(method) {
+        const gvi_desc desc = describe(method, GVI_MASS_UNIT);
+        const int r = method->r, shared = method->c[0] == 0 && method->c[r - 1] == 1;
         gvi_stepper st;
         set_up(&st, &desc, start, memory);
         for (int k = 0; k < 100; ++k) assert_ok(gvi_step(&st, 0.01L));
@@ -257,7 +224,7 @@ TEST(the_last_kick_is_not_asked_for_twice)
 }
 
 /* A ring of springs d + d^3, at rest but for one: as many coordinates as fill vectors, and more, and fewer */
-static int ring(const gvi_points *x, void *user)
+AT_POINTS(ring)
 {
     for (int i = 0; i < x->n; ++i) {
         const int next = (i + 1) % x->n, R = x->stride;
@@ -293,14 +260,8 @@ TEST(a_tolerance_changes_no_bit_of_a_kick)
         assert_ok(gvi_init(&y, &desc, more, sizeof more));
         assert_ok(gvi_start(&x, 0, here, zero));
         assert_ok(gvi_start(&y, 0, here, zero));
-        for (int k = 0; k < steps; ++k) {
-            assert_ok(gvi_step(&x, 0.0625L));
-            assert_ok(gvi_step(&y, 0.0625L));
-        }
-        for (int k = 0; k < n; ++k) {
-            assert_true(x.q[k] == y.q[k] && x.p[k] == y.p[k]);
-            total += y.p[k];
-        }
+        move_alike(&x, &y, steps, 0.0625L);
+        for (int k = 0; k < n; ++k) total += y.p[k];
         assert_between(0, fabs(total), 4*EPS*sqrt((real)steps*r*n));
     }
 }
@@ -321,15 +282,13 @@ TEST(kicks_of_weight_zero_are_left_out)
     for (int mass = GVI_MASS_UNIT; mass <= GVI_MASS_DENSE; ++mass) {
         const gvi_desc a = describe(&without, (gvi_mass_kind)mass), b = describe(&with[i], (gvi_mass_kind)mass);
         gvi_stepper x, y;
-        real end[4];
         set_up(&x, &a, start, memory);
         set_up(&y, &b, start, more);
         for (int k = 0; k < 100; ++k) {
             assert_ok(gvi_step(&x, 0.01L));
             assert_ok(gvi_step(&y, 0.01L));
         }
-        memcpy(end, y.q, 2*sizeof *end);
-        memcpy(end + 2, y.p, 2*sizeof *end);
+        const real end[] = { y.q[0], y.q[1], y.p[0], y.p[1] };
         assert_between(0, distance(x.q, x.p, end), 8*EPS*sqrt((real)100*with[i].r));
         assert_int_equal(y.counters.effect[0], asked[i]);
     }
@@ -337,7 +296,7 @@ TEST(kicks_of_weight_zero_are_left_out)
 
 /* ------------------------------------------------------------------ statuses */
 
-static int reads_v(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+AT_POINT(reads_v)
 {
     f[0] -= v[0];
     if (dldv) dldv[0] += v[0];
@@ -354,36 +313,27 @@ static gvi_status status_of(const gvi_desc *desc)
 
 TEST(faulty_tables_are_refused)
 {
-    int count;
-    table bad = tables(&count)[1];
-    gvi_desc desc = describe(&bad, GVI_MASS_UNIT);
-    assert_int_equal(status_of(&desc), GVI_OK);
-    bad.b[1] += 1e-6L;
-    assert_int_equal(status_of(&desc), GVI_E_ORDER);
-    bad.b[1] = NAN;
-    assert_int_equal(status_of(&desc), GVI_E_NODES);
-    bad = tables(&count)[1];
-    bad.c[2] = INFINITY;
-    assert_int_equal(status_of(&desc), GVI_E_NODES);
-    bad = tables(&count)[1];
-    desc.rule.weights = NULL;
-    assert_int_equal(status_of(&desc), GVI_E_ARGUMENT);
-    desc = describe(&bad, GVI_MASS_UNIT);
-    desc.degree = 2;
-    assert_int_equal(status_of(&desc), GVI_E_ARGUMENT);
-    desc.degree = 1;
-    assert_int_equal(status_of(&desc), GVI_OK);
-    desc.formulation = GVI_POSITIONS;
-    assert_int_equal(status_of(&desc), GVI_E_FORMULATION);
+    static const gvi_status wanted[] = { GVI_OK, GVI_E_ORDER, GVI_E_NODES, GVI_E_NODES, GVI_E_ARGUMENT,
+                                         GVI_E_ARGUMENT, GVI_OK, GVI_E_FORMULATION };
+    for (int k = 0; k < COUNT(wanted); ++k) {
+        table bad = tables(&table_count)[1];
+        gvi_desc desc = describe(&bad, GVI_MASS_UNIT);
+        if (k == 1) bad.b[1] += 1e-6L;
+        if (k == 2) bad.b[1] = NAN;
+        if (k == 3) bad.c[2] = INFINITY;
+        if (k == 4) desc.rule.weights = NULL;
+        if (k == 5) desc.degree = 2;
+        if (k >= 6) desc.degree = 1;
+        if (k == 7) desc.formulation = GVI_POSITIONS;
+        assert_status(status_of(&desc), wanted[k]);
+    }
 }
 
 TEST(scenes_that_no_kick_can_move_are_refused)
 {
-    int count;
-    const table *a = tables(&count);
     for (int kind = GVI_FORCE; kind <= GVI_LAGRANGIAN; ++kind) {
         const gvi_effect effects[] = { scene[0], { .kind = (gvi_kind)kind, .point = reads_v } };
-        gvi_desc desc = describe(a, GVI_MASS_UNIT);
+        gvi_desc desc = describe(tables(&table_count), GVI_MASS_UNIT);
         desc.effects = effects;
         desc.effect_count = 2;
         assert_int_equal(status_of(&desc), GVI_E_FORMULATION);
@@ -392,9 +342,7 @@ TEST(scenes_that_no_kick_can_move_are_refused)
 
 TEST(questions_that_a_broken_line_cannot_answer_are_refused)
 {
-    int count;
-    const table *all = tables(&count);
-    const gvi_desc desc = describe(&all[3], GVI_MASS_UNIT);
+    const gvi_desc desc = describe(&tables(&table_count)[3], GVI_MASS_UNIT);
     gvi_stepper st;
     real q[2] = { 7, 7 }, number = 7;
     set_up(&st, &desc, start, memory);
@@ -413,10 +361,8 @@ TEST(questions_that_a_broken_line_cannot_answer_are_refused)
 TEST(a_checkpoint_continues_to_the_bit)
 {
     static real saved_memory[4000];
-    int count;
-    const table *all = tables(&count);
-    for (int i = 0; i < count; ++i) {
-        const gvi_desc desc = describe(&all[i], GVI_MASS_DENSE);
+    EACH_TABLE(method) {
+        const gvi_desc desc = describe(method, GVI_MASS_DENSE);
         gvi_stepper a, b, saved;
         set_up(&a, &desc, start, memory);
         for (int k = 0; k < 7; ++k) assert_ok(gvi_step(&a, 0.125L));
@@ -424,18 +370,14 @@ TEST(a_checkpoint_continues_to_the_bit)
         memcpy(saved_memory, memory, sizeof memory);
         assert_ok(gvi_init(&b, &desc, more, sizeof more));
         assert_ok(gvi_restore(&b, &saved, saved_memory));
-        for (int k = 0; k < 7; ++k) {
-            assert_ok(gvi_step(&a, 0.125L));
-            assert_ok(gvi_step(&b, 0.125L));
-            for (int j = 0; j < 2; ++j) assert_true(a.q[j] == b.q[j] && a.p[j] == b.p[j]);
-        }
+        move_alike(&a, &b, 7, 0.125L);
         assert_int_equal(a.counters.effect[0], b.counters.effect[0]);
     }
 }
 
 /* Steps too long, until one fails: that is no fault of an effect, and the state is a number, the last one.
    And a momentum that turns round next to the largest number: p is finite at both ends, its increment not */
-static int spring(const gvi_points *x, void *user)
+AT_POINTS(spring)
 {
     for (int k = 0; k < x->n*x->stride; ++k) x->f[k] -= user ? 0.9L*MAX : x->q[k];
     return 0;
@@ -444,9 +386,9 @@ static int spring(const gvi_points *x, void *user)
 TEST(what_overflows_is_refused)
 {
     static const table some[] = { { "", 2, 1, 0, { 0.5L }, { 1 } }, { "", 2, 2, 0, { 0, 1 }, { 0.5L, 0.5L } } };
-    int turn = 1;
+    static const gvi_effect one[] = { { .kind = GVI_POTENTIAL, .points = spring } };
+    static const gvi_effect turning[] = { { .kind = GVI_POTENTIAL, .points = spring, .user = dense } };
     for (int i = 0; i < 2*40; ++i) {
-        const gvi_effect one[] = { { .kind = GVI_POTENTIAL, .points = spring } };
         const real h = 2.1L + (i/2)*0.5L;
         gvi_desc desc = describe(&some[i % 2], GVI_MASS_UNIT);
         gvi_stepper st;
@@ -458,14 +400,12 @@ TEST(what_overflows_is_refused)
         for (int j = 0; j < 2; ++j) assert_true(isfinite(st.q[j]) && isfinite(st.p[j]));
     }
     for (int i = 0; i < 2; ++i) {
-        const gvi_effect one[] = { { .kind = GVI_POTENTIAL, .points = spring, .user = &turn } };
         const real y[4] = { 0, 0, 0.9L*MAX, 0.9L*MAX };
         gvi_desc desc = describe(&some[i], GVI_MASS_UNIT);
         gvi_stepper st;
-        desc.effects = one;
+        desc.effects = turning;
         set_up(&st, &desc, y, memory);
-        assert_status(gvi_step(&st, 2), GVI_E_CONVERGENCE);
-        for (int j = 0; j < 2; ++j) assert_true(st.q[j] == 0 && st.p[j] == y[2]);
+        SAME_STATE(&st) assert_status(gvi_step(&st, 2), GVI_E_CONVERGENCE);
     }
 }
 
@@ -473,40 +413,32 @@ TEST(what_overflows_is_refused)
 TEST(a_switched_effect_is_in_the_next_kick)
 {
     const gvi_effect twice[] = { scene[0], scene[0] };
-    int count;
-    const table *all = tables(&count);
-    for (int i = 0; i < count; ++i) {
-        const gvi_desc one = describe(&all[i], GVI_MASS_DIAGONAL);
+    EACH_TABLE(method) {
+        const gvi_desc one = describe(method, GVI_MASS_DIAGONAL);
         gvi_desc two = one;
         gvi_stepper a, b;
-        real y[4];
         two.effects = twice;
         two.effect_count = 2;
         set_up(&a, &one, start, memory);
         set_up(&b, &two, start, more);
         assert_ok(gvi_switch(&b, 1, 0));
-        for (int k = 0; k < 5; ++k) {
-            assert_ok(gvi_step(&a, 0.125L));
-            assert_ok(gvi_step(&b, 0.125L));
-            for (int j = 0; j < 2; ++j) assert_true(a.q[j] == b.q[j] && a.p[j] == b.p[j]);
-        }
+        move_alike(&a, &b, 5, 0.125L);
         assert_int_equal(b.counters.effect[1], 0);
 
         // both on: the step from here is that of a stepper that starts here
         gvi_stepper fresh;
-        for (int j = 0; j < 2; ++j) { y[j] = b.q[j]; y[2 + j] = b.p[j]; }
+        const test_state here = state_now(&b);
         assert_ok(gvi_switch(&b, 1, 1));
         assert_ok(gvi_step(&b, 0.125L));
         assert_ok(gvi_init(&fresh, &two, memory, sizeof memory));
-        assert_ok(gvi_start_momentum(&fresh, b.t - 0.125L, y, y + 2));
+        assert_ok(gvi_start_momentum(&fresh, here.t, here.q, here.p));
         assert_ok(gvi_step(&fresh, 0.125L));
-        for (int j = 0; j < 2; ++j) { y[j] = fresh.q[j]; y[2 + j] = fresh.p[j]; }
-        assert_between(0, distance(b.q, b.p, y), 8*EPS);
+        assert_between(0, distance(b.q, b.p, (const real[]){ fresh.q[0], fresh.q[1], fresh.p[0], fresh.p[1] }), 8*EPS);
     }
 }
 
 /* The last kick gives no number: r points, and once more to see whose they are  */
-static int no_number_late(const gvi_points *x, void *user)
+AT_POINTS(no_number_late)
 {
     for (int k = 0; k < x->count; ++k) x->f[k] += x->t[k] > when + 0.24L ? (real)NAN : -x->q[k];
     return 0;
@@ -514,22 +446,17 @@ static int no_number_late(const gvi_points *x, void *user)
 
 TEST(no_number_is_looked_for_once)
 {
-    int count;
-    const table *all = tables(&count);
-    for (int i = 0; i < count; ++i) {
-        const gvi_effect two[] = { { .kind = GVI_POTENTIAL, .point = potential },
-                                   { .kind = GVI_POTENTIAL, .points = no_number_late } };
-        gvi_desc desc = describe(&all[i], GVI_MASS_UNIT);
+    EACH_TABLE(method) {
+        const gvi_effect two[] = { scene[0], { .kind = GVI_POTENTIAL, .points = no_number_late } };
+        gvi_desc desc = describe(method, GVI_MASS_UNIT);
         gvi_stepper st;
         desc.effects = two;
         desc.effect_count = 2;
         set_up(&st, &desc, start, memory);
-        const gvi_status status = gvi_step(&st, 0.25L);
-        if (all[i].c[all[i].r - 1] < 0.96L) continue;                  // no kick so late
-        assert_int_equal(status, GVI_E_NON_FINITE);
+        if (method->c[method->r - 1] < 0.96L) continue;                  // no kick so late
+        SAME_STATE(&st) assert_status(gvi_step(&st, 0.25L), GVI_E_NON_FINITE);
         assert_int_equal(st.fault.effect, 1);
-        assert_between(all[i].r, st.counters.effect[1], 2*all[i].r);
-        assert_true(st.t == when && st.q[0] == start[0] && st.p[1] == start[3]);
+        assert_between(method->r, st.counters.effect[1], 2*method->r);
     }
 }
 

@@ -1,21 +1,9 @@
 /* Dense LU against residuals and inverses formed in twice the digits, never
    against its own numbers.                                                   */
 #include "gvi_test.h"
+#define WIDEST
+#include "wide.h"
 
-#ifdef __clang__
-#pragma clang diagnostic ignored "-Wdouble-promotion"    /* widening is the purpose here */
-#endif
-
-#ifdef __SIZEOF_FLOAT128__
-__extension__ typedef __float128 wide;
-#define WIDE_DIG 113
-#else
-typedef long double wide;
-#define WIDE_DIG LDBL_MANT_DIG
-#endif
-#define WIDE_IS_WIDER (WIDE_DIG > DIG)
-
-#define UNIT ((wide)EPS/2)                      /* unit roundoff */
 #define MOST 60
 
 /* Powers of 2 by which rows and columns are scaled: products stay in range.  */
@@ -27,26 +15,8 @@ typedef long double wide;
 #define SPAN 3000
 #endif
 
-static wide wide_abs(wide x) { return x < 0 ? -x : x; }
-/* Equal once both are rounded to gvi_real, which registers may put off (x87). */
-static int same(gvi_real one, gvi_real other)
-{
-    volatile gvi_real u = one, v = other;
-    return u <= v && u >= v;
-}
-
 static gvi_real power(int e) { return (gvi_real)ldexpl(1, e); }
 
-static unsigned long long seed;
-static unsigned random_bits(void)
-{
-    seed = seed*6364136223846793005ULL + 1442695040888963407ULL;
-    return (unsigned)(seed >> 32);
-}
-static gvi_real random_unit(void)               /* in (-1,1) */
-{
-    return (gvi_real)(((long double)random_bits() - 2147483647.5L)/2147483648.0L);
-}
 static int random_exponent(void) { return (int)(random_bits() % (2*SPAN + 1)) - SPAN; }
 
 /* ------------------------------------------------------------------ oracle */
@@ -308,6 +278,9 @@ static void regular(int kind, int n)
 }
 
 static const int sizes[] = { 1, 2, 3, 4, 5, 8, 13, 20 };
+#define EACH_REGULAR(kind, n) \
+    for (int kind = 0; kind < KINDS; ++kind) \
+        for (int k_ = 0, n = 0; k_ < COUNT(sizes) && (n = sizes[k_]) > 0; ++k_)
 
 /* ------------------------------------------------------- factors, solution */
 
@@ -325,11 +298,10 @@ TEST(lu_reproduces_the_matrix_and_solves)
     integer_matrix(4, zero_diagonal);
     check_all(4);
     check_rcond(4);
-    for (int kind = 0; kind < KINDS; ++kind)
-        for (int k = 0; k < COUNT(sizes); ++k) {
-            regular(kind, sizes[k]);
-            check_all(sizes[k]);
-        }
+    EACH_REGULAR(kind, n) {
+        regular(kind, n);
+        check_all(n);
+    }
 }
 
 TEST(lu_of_a_permutation_is_exact)
@@ -387,64 +359,58 @@ TEST(lu_is_the_same_in_any_unit)
 {
     static gvi_real copy[MOST*MOST], kept[MOST];
     const gvi_real units[] = { (gvi_real)1e-30L, (gvi_real)1e30L, power(-90), power(90) };
-    for (int kind = 0; kind < KINDS; ++kind)
-        for (int k = 0; k < COUNT(sizes); ++k)
-            for (int u = 0; u < COUNT(units); ++u) {
-                int n = sizes[k];
-                regular(kind, n);
-                assert_ok(factor(n));
-                for (int i = 0; i < n*n; ++i) copy[i] = f[i];
-                for (int i = 0; i < n; ++i) kept[i] = pivot[i];
-                scale_all(n, units[u]);
-                check_all(n);
-                for (int i = 0; i < n; ++i) assert_true(same(pivot[i], kept[i]));
-                for (int i = 0; u >= 2 && i < n*n; ++i)      /* a power of 2: to the bit */
-                    assert_true(same(f[i], i/n > i%n ? copy[i] : copy[i]*units[u]));
-            }
+    EACH_REGULAR(kind, n)
+        for (int u = 0; u < COUNT(units); ++u) {
+            regular(kind, n);
+            assert_ok(factor(n));
+            for (int i = 0; i < n*n; ++i) copy[i] = f[i];
+            for (int i = 0; i < n; ++i) kept[i] = pivot[i];
+            scale_all(n, units[u]);
+            check_all(n);
+            for (int i = 0; i < n; ++i) assert_true(same(pivot[i], kept[i]));
+            for (int i = 0; u >= 2 && i < n*n; ++i)      /* a power of 2: to the bit */
+                assert_true(same(f[i], i/n > i%n ? copy[i] : copy[i]*units[u]));
+        }
 }
 
 TEST(badly_scaled_rows_change_neither_pivots_nor_accuracy)
 {
     static gvi_real plain[MOST];
     int e[MOST], p[MOST], q[MOST];
-    for (int kind = 0; kind < KINDS; ++kind)
-        for (int k = 0; k < COUNT(sizes); ++k) {
-            int n = sizes[k];
-            regular(kind, n);
-            assert_ok(factor(n));
-            permutation(n, p);
-            for (int i = 0; i < n; ++i) plain[i] = (gvi_real)i - 2;
-            gvi_lu_solve(n, f, pivot, plain);
+    EACH_REGULAR(kind, n) {
+        regular(kind, n);
+        assert_ok(factor(n));
+        permutation(n, p);
+        for (int i = 0; i < n; ++i) plain[i] = (gvi_real)i - 2;
+        gvi_lu_solve(n, f, pivot, plain);
 
-            random_exponents(n, e);
-            scale_rows(n, e);
-            check_all(n);
-            permutation(n, q);
-            for (int i = 0; i < n; ++i) x[i] = ((gvi_real)i - 2)*power(e[i]);
-            gvi_lu_solve(n, f, pivot, x);
-            for (int i = 0; i < n; ++i) {
-                assert_int_equal(p[i], q[i]);
-                assert_true(same(x[i], plain[i]));               /* powers of 2: to the bit */
-            }
+        random_exponents(n, e);
+        scale_rows(n, e);
+        check_all(n);
+        permutation(n, q);
+        for (int i = 0; i < n; ++i) x[i] = ((gvi_real)i - 2)*power(e[i]);
+        gvi_lu_solve(n, f, pivot, x);
+        for (int i = 0; i < n; ++i) {
+            assert_int_equal(p[i], q[i]);
+            assert_true(same(x[i], plain[i]));               /* powers of 2: to the bit */
         }
+    }
 }
 
 /* D1 A D2 is as regular as A: both verdict and accuracy must stay.  D A D: units of coordinates.  */
 TEST(badly_scaled_columns_and_rows_are_accepted_and_solved)
 {
     int e[MOST];
-    for (int kind = 0; kind < KINDS; ++kind)
-        for (int k = 0; k < COUNT(sizes); ++k)
-            for (int trial = 0; trial < 8; ++trial) {
-                int n = sizes[k];
-                regular(kind, n);
-                seed += (unsigned)trial;
-                random_exponents(n, e);
-                scale_columns(n, e);
-                if (trial % 3 == 1) random_exponents(n, e);
-                if (trial % 3) scale_rows(n, e);
-                check_all(n);
-            }
+    EACH_REGULAR(kind, n)
+        for (int trial = 0; trial < 8; ++trial) {
+            regular(kind, n);
+            seed += (unsigned)trial;
+            random_exponents(n, e);
+            scale_columns(n, e);
+            if (trial % 3 == 1) random_exponents(n, e);
+            if (trial % 3) scale_rows(n, e);
+            check_all(n);
+        }
 }
 
 TEST(graded_matrices_are_solved_to_every_component)
@@ -599,18 +565,15 @@ TEST(rcond_is_that_of_the_matrix_as_given)
     a[0] = 1, a[1] = a[2] = 0, a[3] = power(-100);
     assert_ok(factor(2));
     assert_close(gvi_lu_rcond(2, f, pivot, work)*power(100), 1, 4*EPS);
-    for (int kind = 0; kind < KINDS; ++kind)
-        for (int k = 0; k < COUNT(sizes); ++k) {
-            int n = sizes[k];
-            for (int what = 0; what < 3; ++what) {
-                regular(kind, n);
-                for (int i = 0; i < n; ++i) e[i] = (int)(random_bits() % 7) - 3;
-                if (what == 0) scale_rows(n, e);
-                if (what == 1) scale_columns(n, e);
-                if (what == 2) scale_all(n, (gvi_real)1e-30L);
-                assert_ok(factor(n));
-                check_rcond(n);
-            }
+    EACH_REGULAR(kind, n)
+        for (int what = 0; what < 3; ++what) {
+            regular(kind, n);
+            for (int i = 0; i < n; ++i) e[i] = (int)(random_bits() % 7) - 3;
+            if (what == 0) scale_rows(n, e);
+            if (what == 1) scale_columns(n, e);
+            if (what == 2) scale_all(n, (gvi_real)1e-30L);
+            assert_ok(factor(n));
+            check_rcond(n);
         }
 }
 

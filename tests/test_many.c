@@ -1,6 +1,7 @@
 /* Many coordinates go in whole vectors, one alone does not.  Coordinates that know nothing of each other
    have to move as each of them alone, to the bit: explicit and in the fixed points, any mass that is a number
-   for each, rounded or not, steps forward and back, one that fails between them.                  */
+   for each, rounded or not, steps forward and back, one that fails between them.  In every formulation each
+   converges by its own size, to some roundings of it; and where large forces cancel nothing is refused.  */
 #include "gvi_test.h"
 
 typedef gvi_real real;
@@ -118,6 +119,351 @@ TEST(each_of_many_moves_as_alone)
         for (int j = 0; j < COUNT(counts); ++j)
             for (int with = 0; with < 4; ++with)
                 compare(&rules[k], counts[j], with & 1, with & 2 ? (real)1e-4L : 0);
+}
+
+/* -------------------------------------------------------- sizes from 1 to 1e-13, in float 1e-5 */
+
+enum { DRAG = 1, QUARTIC = 2, MQ = 4, SPEED = 8, CLOCK = 16, HESSIAN = 32, DIAGONAL = 64, DENSE = 128, RODS = 256,
+       SIZES = 14, PLACES = 2*SIZES };
+
+/* each in units of its own: length and mass; spring, its cubic term, drag */
+typedef struct own { real length, mass, k, cubic, drag; } own;
+static own owns[PLACES];
+
+typedef struct form { const char *name; gvi_formulation f; int degree, with; } form;
+static const form forms[] = {
+    { "Verlet",            GVI_EXPLICIT,    1, DIAGONAL },
+    { "degree 1",          GVI_POSITIONS,   1, 0 },
+    { "positions",         GVI_POSITIONS,   3, DIAGONAL },
+    { "degree 8",          GVI_POSITIONS,   8, 0 },
+    { "degree 16",         GVI_POSITIONS,  16, DIAGONAL },
+    { "a full mass",       GVI_POSITIONS,   6, DENSE },
+    { "AUTO",              GVI_AUTO,        2, DIAGONAL },
+    { "drag",              GVI_VELOCITIES,  6, DRAG | DIAGONAL },
+    { "Lagrangian terms",  GVI_VELOCITIES,  6, DRAG | QUARTIC | DIAGONAL },
+    { "momenta",           GVI_MOMENTA,     4, DRAG | DIAGONAL },
+    { "M(q)",              GVI_MOMENTA,     6, DRAG | MQ },
+    { "v = M(q)^-1 p",     GVI_MOMENTA,     6, DRAG | MQ | SPEED },
+    { "a clock",           GVI_MOMENTA,     6, CLOCK | DRAG | DIAGONAL },
+    { "M(q) and a clock",  GVI_MOMENTA,     6, CLOCK | MQ },
+    { "AUTO, M(q)",        GVI_AUTO,        8, DRAG | MQ },
+    { "Newton",            GVI_NEWTON,      4, HESSIAN | DIAGONAL },
+    { "Newton, L",         GVI_NEWTON,      4, DRAG | QUARTIC | DIAGONAL },
+    { "Newton, M(q)",      GVI_NEWTON,      4, DRAG | MQ },
+    { "rods",              GVI_POSITIONS,   4, RODS | DIAGONAL },
+    { "rods, drag",        GVI_VELOCITIES,  4, RODS | DRAG | DIAGONAL },
+    { "rods, momenta",     GVI_MOMENTA,     4, RODS | DRAG | DIAGONAL },
+    { "RATTLE",            GVI_EXPLICIT,    1, RODS | DIAGONAL } };
+
+/* Every callback at coordinate i, point k: its own sizes are o, the numbers at `at` */
+#define EACH(x, user) \
+    const own *o = (const own *)(user); \
+    for (int i = 0; i < (x)->n; ++i, ++o) \
+        for (int k = 0, at = i*(x)->stride; k < (x)->count; ++k, ++at)
+
+static int soft(const gvi_points *x, void *user)
+{
+    EACH(x, user) {
+        const real q = x->q[at], z = q/o->length;
+        if (x->f) x->f[at] -= o->mass*(o->k*q + o->cubic*z*z*q);
+        if (x->value) x->value[k] += o->mass*(o->k*q*q/2 + o->cubic*z*z*q*q/4);
+    }
+    return 0;
+}
+
+static int hessian_size;                                   // which a Hessian is not told
+
+static int soft_hessian(real t, const real *q, const real *v, real *fq, real *fv, real *pv, void *user)
+{
+    const own *o = (const own *)user;
+    for (int i = 0; i < hessian_size; ++i, ++o)
+        fq[i*(hessian_size + 1)] -= o->mass*(o->k + 3*o->cubic*(q[i]/o->length)*(q[i]/o->length));
+    return 0;
+}
+
+static int own_drag(const gvi_points *x, void *user)
+{
+    EACH(x, user) {
+        const real v = x->v[at]/o->length;
+        x->f[at] -= o->mass*o->length*o->drag*(v + v*v*v);
+    }
+    return 0;
+}
+
+static int own_quartic(const gvi_points *x, void *user)
+{
+    EACH(x, user) {
+        const real v = x->v[at]/o->length;
+        x->dldv[at] += o->mass*o->length*v*v*v/64;
+    }
+    return 0;
+}
+
+/* m (1 + (q/l)^2/4) */
+static int own_mass(const gvi_points *x, void *user)
+{
+    EACH(x, user) for (int j = 0; j <= i; ++j) {
+        const real z = x->q[at]/o->length;
+        x->mass[(i*x->n + j)*x->stride + k] = i == j ? o->mass*(1 + z*z/4) : 0;
+    }
+    return 0;
+}
+
+static int own_gradient(const gvi_points *x, void *user)
+{
+    EACH(x, user) x->f[at] += o->mass*(x->q[at]/o->length)*(x->v[at]/o->length)*x->v[at]/4;
+    return 0;
+}
+
+static int own_velocity(const gvi_points *x, void *user)
+{
+    EACH(x, user) {
+        const real z = x->q[at]/o->length;
+        x->velocity[at] = x->p[at]/(o->mass*(1 + z*z/4));
+    }
+    return 0;
+}
+
+static int steady(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k) x->value[k] += (real)1.25L;
+    return 0;
+}
+
+/* pairs at the end of a rod of their length, and a weight */
+static int rods(const gvi_points *x, void *user)
+{
+    EACH(x, user) {
+        const int row = i/2;
+        const real q = x->q[at], r = x->q[at + (i % 2 ? -x->stride : x->stride)];
+        if (i % 2 == 0) x->g[row*x->stride + k] = (q*q + r*r)/o->length - o->length;
+        x->jacobian[(row*x->n + i)*x->stride + k] = 2*q/o->length;
+    }
+    return 0;
+}
+
+static int own_weight(const gvi_points *x, void *user)
+{
+    EACH(x, user) if (i % 2) x->f[at] -= o->mass*o->k*o->length;
+    return 0;
+}
+
+/* Twelve steps of coordinates first to first + n - 1; z: q, then p, of each step.  The number of the step that
+   failed, or -1                                                               */
+static int run_form(const form *f, int first, int n, const real *q, const real *v, real h, real *z)
+{
+    static real memory[1000000], m[PLACES*PLACES];
+    own *user = owns + first;
+    gvi_effect scene[4] = { { .kind = GVI_POTENTIAL, .points = soft, .value = soft, .user = user,
+                              .hessian = f->with & HESSIAN ? soft_hessian : NULL } };
+    gvi_desc d = { .n = n, .degree = f->degree, .effects = scene, .effect_count = 1, .formulation = f->f };
+    gvi_stepper st;
+    if (f->f == GVI_EXPLICIT) d.rule = (gvi_rule){ .kind = GVI_LOBATTO, .points = 2 };
+    if (f->with & RODS) {
+        scene[0] = (gvi_effect){ .kind = GVI_POTENTIAL, .points = own_weight, .user = user };
+        scene[d.effect_count++] = (gvi_effect){ .kind = GVI_CONSTRAINT, .points = rods, .rows = n/2, .user = user };
+    }
+    if (f->with & DRAG) scene[d.effect_count++] = (gvi_effect){ .kind = GVI_FORCE, .points = own_drag, .user = user };
+    if (f->with & QUARTIC)
+        scene[d.effect_count++] = (gvi_effect){ .kind = GVI_LAGRANGIAN, .points = own_quartic, .user = user };
+    if (f->with & CLOCK) scene[d.effect_count++] = (gvi_effect){ .kind = GVI_CLOCK, .points = steady, .value = steady };
+    hessian_size = n;
+    memset(m, 0, sizeof m);
+    for (int i = 0; i < n; ++i) m[f->with & DENSE ? i*(n + 1) : i] = owns[first + i].mass;
+    if (f->with & (DENSE | DIAGONAL))
+        d.mass = (gvi_mass){ .kind = f->with & DENSE ? GVI_MASS_DENSE : GVI_MASS_DIAGONAL, .matrix = m };
+    if (f->with & MQ)
+        d.mass = (gvi_mass){ .kind = GVI_MASS_POSITION, .points = own_mass, .gradient = own_gradient, .user = user,
+                             .velocity = f->with & SPEED ? own_velocity : NULL };
+    assert_true(gvi_size(&d) > 0 && gvi_size(&d) <= sizeof memory);
+    assert_ok(gvi_init(&st, &d, memory, sizeof memory));
+    assert_ok(gvi_start(&st, 0, q, v));
+    for (int k = 0; k < 12; ++k, z += 2*n) {
+        if (gvi_step(&st, h) != GVI_OK) return k;
+        memcpy(z, st.q, sizeof(real)*(size_t)n);
+        memcpy(z + n, st.p, sizeof(real)*(size_t)n);
+    }
+    return -1;
+}
+
+static unsigned long long dice;
+
+static real between(real lo, real hi)
+{
+    dice = dice*6364136223846793005ull + 1442695040888963407ull;
+    return lo + (hi - lo)*(real)(dice >> 40)/(real)(1 << 24);
+}
+
+/* sizes in order, in the opposite one, or at random; masses that differ by 1e20, in float 1e10 */
+static void draw(const form *f, int seed, real *q, real *v)
+{
+    const double span = KIND == 1 ? 5 : 13;
+    dice = 977*(unsigned)seed + 13;
+    for (int i = 0; i < PLACES; ++i) {
+        const double at = span*(f->with & RODS ? i/2 : i%SIZES)/(SIZES - 1);
+        const double e = seed % 3 == 0 ? at : seed % 3 == 1 ? span - at : span*(double)between(0, 1);
+        const real w = between((real)0.3L, 2);
+        own *o = owns + i;
+        *o = (own){ .mass = 1, .k = w*w, .cubic = between(0, w*w/4), .drag = between(0, (real)0.25L) };
+        if (seed % 2 && f->with & (DIAGONAL | DENSE | MQ))
+            o->mass = (real)pow(10, KIND == 1 ? (double)between(-5, 5) : (double)between(-10, 10));
+        o->length = (real)(pow(10, -e)/sqrt((double)o->mass));   // an amplitude is |q| sqrt(m)
+        q[i] = between(-1, 1)*(seed % 5 == 4 && i % 4 == 2 ? 0 : o->length);
+        v[i] = between(-1, 1)*(seed % 5 == 4 && i % 4 == 1 ? 0 : o->length);
+        if (!(f->with & RODS) || i % 2 == 0) continue;
+        const double turn = (double)between(-4, 0);
+        const real spin = between((real)-0.5L, (real)0.5L);
+        *o = o[-1];
+        q[i - 1] = o->length*(real)cos(turn), q[i] = o->length*(real)sin(turn);
+        v[i - 1] = -spin*q[i], v[i] = spin*q[i - 1];
+    }
+}
+
+/* 12 steps round each number some times: 32 units of its last place; rods fall by unstable places, too */
+TEST(each_of_any_size_moves_as_alone)
+{
+    static real all[24*PLACES], one[48], q[PLACES], v[PLACES];
+    for (int f = 0; f < COUNT(forms); ++f) {
+        const int each = forms[f].with & RODS ? 2 : 1, n = each*SIZES;
+        const real allowed = (each == 2 ? 512 : 32)*EPS;
+        for (int seed = 0; seed < 24; ++seed) {
+            draw(&forms[f], seed, q, v);
+            const real h = each == 2 ? between((real)0.02L, (real)0.2L) : between((real)0.05L, (real)0.6L);
+            const int failed = run_form(&forms[f], 0, n, q, v, h, all);
+            for (int i = 0; i < n; i += each) {
+                if (run_form(&forms[f], i, each, q + i, v + i, h, one) >= 0 || failed >= 0)
+                    fail_msg("%s, seed %d, h = %Lg: step %d fails", forms[f].name, seed, (long double)h, failed);
+                for (int k = 0; k < 24*each; ++k) {        // steps, q or p, coordinates
+                    const int at = k/each*n + i + k % each;
+                    const real size = owns[i].length*(k/each % 2 ? owns[i].mass : 1);
+                    if (!(fabsl((long double)(all[at] - one[k])) <= (long double)(allowed*size)))
+                        fail_msg("%s, seed %d, h = %Lg: coordinate %d of size %Lg is %.17Lg, alone %.17Lg", forms[f].name,
+                                 seed, (long double)h, i, (long double)size, (long double)all[at], (long double)one[k]);
+                }
+            }
+        }
+    }
+}
+
+/* a hundred thousand, 1/h = 5 and 1/h = 2 of their periods among them */
+TEST(a_hundred_thousand_move_as_alone)
+{
+    enum { N = 100000 };
+    real *z = (real *)malloc(sizeof(real)*2*N), one[2];
+    own *many = (own *)malloc(sizeof(own)*N);
+    gvi_effect scene = { .kind = GVI_POTENTIAL, .points = soft, .user = many };
+    gvi_desc d = { .n = N, .degree = 4, .effects = &scene, .effect_count = 1, .formulation = GVI_POSITIONS };
+    gvi_real *memory = (gvi_real *)malloc(gvi_size(&d));
+    gvi_stepper st;
+    dice = 7;
+    for (int i = 0; i < N; ++i) {
+        const real w = between((real)0.1L, 2);
+        many[i] = (own){ (real)pow(10, -(KIND == 1 ? 5 : 13)*(double)between(0, 1)), 1, w*w, w*w/4, 0 };
+        z[i] = many[i].length;
+        z[N + i] = between(-1, 1)*many[i].length;
+    }
+    assert_ok(gvi_init(&st, &d, memory, gvi_size(&d)));
+    assert_ok(gvi_start(&st, 0, z, z + N));
+    for (int k = 0; k < 3; ++k) assert_ok(gvi_step(&st, (real)0.4L));
+    d.n = 1;
+    for (int i = 0; i < N; i += 97) {
+        static real room[GVI_LENGTH(1, 4, 4)];
+        gvi_stepper alone;
+        scene.user = many + i;
+        assert_ok(gvi_init(&alone, &d, room, sizeof room));
+        assert_ok(gvi_start(&alone, 0, z + i, z + N + i));
+        for (int k = 0; k < 3; ++k) assert_ok(gvi_step(&alone, (real)0.4L));
+        one[0] = alone.q[0], one[1] = alone.p[0];
+        assert_close(st.q[i], one[0], 8*EPS*many[i].length);
+        assert_close(st.p[i], one[1], 8*EPS*many[i].length);
+    }
+    free(memory);
+    free(many);
+    free(z);
+}
+
+/* ---------------------------------------------------------------- where forces cancel */
+
+enum { BODIES = 9, SPRINGS = 6, SPACE = 3*BODIES + SPRINGS };
+typedef struct sky { int bodies; real mass[BODIES]; } sky;
+
+/* gravity, and behind the bodies springs of constant 1, 2, .. */
+static int heavens(const gvi_points *x, void *user)
+{
+    const sky *s = (const sky *)user;
+    const int R = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        for (int a = 0; a < s->bodies; ++a)
+            for (int b = 0; b < a; ++b) {
+                const real *A = x->q + 3*a*R + k, *B = x->q + 3*b*R + k;
+                const real d[3] = { B[0] - A[0], B[R] - A[R], B[2*R] - A[2*R] };
+                const real r2 = d[0]*d[0] + d[1]*d[1] + d[2]*d[2], w = s->mass[a]*s->mass[b]/(r2*(real)sqrtl((long double)r2));
+                for (int c = 0; c < 3 && x->f; ++c) {
+                    x->f[(3*a + c)*R + k] += w*d[c];
+                    x->f[(3*b + c)*R + k] -= w*d[c];
+                }
+                if (x->value) x->value[k] -= w*r2;
+            }
+        for (int i = 3*s->bodies; i < x->n; ++i) {
+            const real spring = (real)(i - 3*s->bodies + 1), q = x->q[i*R + k];
+            if (x->f) x->f[i*R + k] -= spring*q;
+            if (x->value) x->value[k] += spring*q*q/2;
+        }
+    }
+    return 0;
+}
+
+static int thin_air(const gvi_points *x, void *user)
+{
+    for (int i = 0; i < 3; ++i)                            // on the body in the middle alone
+        for (int k = 0; k < x->count; ++k) x->f[i*x->stride + k] -= ((sky *)user)->mass[0]*x->v[i*x->stride + k]/64;
+    return 0;
+}
+
+/* A body in the middle of `pairs` pairs, each pair opposite: nothing pulls it, but for rounding.  Beside them springs
+   of amplitude 1 to 1e-10 (float: 1e-5), whose motion is a cosine.                              */
+static void symmetric(const form *f, int pairs, int seed)
+{
+    static real memory[2000000], m[SPACE], q[SPACE], v[SPACE];
+    sky s = { .bodies = 1 + 2*pairs };
+    const int n = 3*s.bodies + SPRINGS;
+    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = heavens, .value = heavens, .user = &s },
+                                 { .kind = f->with & CLOCK ? GVI_CLOCK : GVI_FORCE, .points = f->with & CLOCK ? steady : thin_air,
+                                   .value = f->with & CLOCK ? steady : NULL, .user = &s } };
+    const gvi_desc d = { .n = n, .degree = f->degree, .effects = scene, .effect_count = f->with & (CLOCK | DRAG) ? 2 : 1,
+                         .formulation = f->f, .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = m } };
+    const real away = seed % 3 == 2 ? (real)0.7L : 0, drift = seed % 4 == 3 ? (real)0.25L : 0;
+    gvi_stepper st;
+    dice = (unsigned)seed + 5;
+    s.mass[0] = seed % 2 ? 1 : (real)pow(10, -(double)seed/2 - 1);
+    for (int b = 0; b < s.bodies; ++b) {
+        const double turn = seed + (b + 1)/2*2.4, r = 1 + (b + 1)/2*0.5, w = sqrt((seed % 2 ? 1 : (double)pairs)/r);
+        const real sign = b == 0 ? 0 : b % 2 ? 1 : -1;
+        if (b > 0) s.mass[b] = seed % 2 ? (real)0.001L : 1;
+        q[3*b] = away + sign*(real)(r*cos(turn)), v[3*b] = drift - sign*(real)(w*sin(turn));
+        q[3*b + 1] = away + sign*(real)(r*sin(turn)), v[3*b + 1] = sign*(real)(w*cos(turn));
+        q[3*b + 2] = sign*(real)0.125L, v[3*b + 2] = 0;
+    }
+    for (int i = 0; i < 3*s.bodies; ++i) m[i] = s.mass[i/3];
+    for (int i = 3*s.bodies; i < n; ++i) m[i] = 1, v[i] = 0, q[i] = (real)pow(10, -(KIND == 1 ? 1 : 2)*(i - 3*s.bodies));
+    assert_true(gvi_size(&d) <= sizeof memory);
+    assert_ok(gvi_init(&st, &d, memory, sizeof memory));
+    assert_ok(gvi_start(&st, 0, q, v));
+    for (int k = 0; k < 40; ++k)
+        if (gvi_step(&st, (real)0.03L) != GVI_OK)
+            fail_msg("%s, %d pairs, seed %d, step %d: %s", f->name, pairs, seed, k, gvi_status_text(st.status));
+    for (int i = 0; i < SPRINGS; ++i)
+        assert_close(st.q[3*s.bodies + i]/q[3*s.bodies + i], cosl(sqrtl(i + 1)*(long double)st.t), 200*(long double)EPS + 1e-13L);
+}
+
+TEST(where_forces_cancel_nothing_is_refused)
+{
+    static const form skies[] = { { "positions", GVI_POSITIONS, 8, 0 }, { "degree 16", GVI_POSITIONS, 16, 0 },
+        { "AUTO", GVI_AUTO, 8, DRAG }, { "velocities", GVI_VELOCITIES, 8, DRAG }, { "momenta", GVI_MOMENTA, 6, DRAG },
+        { "a clock", GVI_MOMENTA, 6, CLOCK }, { "Newton", GVI_NEWTON, 5, 0 } };
+    for (int f = 0; f < COUNT(skies); ++f)
+        for (int pairs = 1; pairs <= 4; pairs += skies[f].f == GVI_NEWTON ? 3 : 1)
+            for (int seed = 0; seed < 12; ++seed) symmetric(&skies[f], pairs, seed);
 }
 
 RUN_TESTS(NULL, NULL)

@@ -1,32 +1,11 @@
 /* Gauss and Lobatto rules against an independent 40-digit table, and the
    measured order of rules.                                                   */
 #include "gvi_test.h"
+#include "wide.h"
 #include "data/nodes.h"
-
-#ifdef __clang__
-#pragma clang diagnostic ignored "-Wdouble-promotion"    /* widening is the purpose here */
-#endif
 
 #define MOST 1024
 static gvi_real c[MOST], b[MOST];
-
-/* Twice the digits of gvi_real, or as many as there are. */
-#if GVI__KIND == 3 && defined(__SIZEOF_FLOAT128__)
-__extension__ typedef __float128 wide;
-#define WIDE_IS_WIDER 1
-#else
-typedef long double wide;
-#define WIDE_IS_WIDER (LDBL_MANT_DIG > DIG)
-#endif
-
-static wide wide_abs(wide x) { return x < 0 ? -x : x; }
-
-/* Equal once both are rounded to gvi_real, which registers may put off (x87). */
-static int same(gvi_real one, gvi_real other)
-{
-    volatile gvi_real u = one, v = other;
-    return u <= v && u >= v;
-}
 
 typedef gvi_status make_fn(int n, gvi_real *c, gvi_real *b);
 

@@ -269,7 +269,7 @@ function draw() {
   for (let b = 0; b < s.bodies; b++) bodies.push([numbers[at + 3 * b], numbers[at + 3 * b + 1], numbers[at + 3 * b + 2]]);
   let reach = 0;
   bodies.forEach((p, b) => { if (s.trails >>> b & 1) reach = Math.max(reach, Math.hypot(p[0] - s.centre[0], p[1] - s.centre[1], p[2] - s.centre[2])); });
-  const wide = Math.max(s.view, reach > 1.3 * s.view ? Math.min(1.1 * reach, 12 * s.view) : 0);
+  const wide = Math.max(s.view, reach > 1.3 * s.view ? Math.min(1.1 * reach, 4 * s.view) : 0);
   view += (wide - view) * (calm.matches ? 1 : 0.05);
   const scale = Math.min(W, H) / 2 / view * 0.94;
   const cy = Math.cos(turn.yaw), sy = Math.sin(turn.yaw), cp = Math.cos(turn.pitch), sp = Math.sin(turn.pitch);
@@ -322,7 +322,7 @@ function draw() {
     for (const [first, step, count] of s.rods) {
       pen.beginPath();
       for (let j = 0; j < count; j++) { const p = on[first + j * step]; if (j) pen.lineTo(p[0], p[1]); else pen.moveTo(p[0], p[1]); }
-      if (s.name === 'top' && count === 13 && !ghost) { pen.globalAlpha = 0.16; pen.fillStyle = colours.gvi; pen.fill(); pen.globalAlpha = 1; }
+      if (s.bodies === 16 && count === 13 && !ghost) { pen.globalAlpha = 0.16; pen.fillStyle = colours.gvi; pen.fill(); pen.globalAlpha = 1; }
       pen.stroke();
     }
     on.map((p, b) => [p, b]).sort((a, b) => b[0][2] - a[0][2]).forEach(([p, b]) => {
@@ -336,7 +336,7 @@ function draw() {
   if (beside.ok && s.bodies < 20) {
     const g = x.beside_place(0) / 8, list = [];
     for (let b = 0; b < s.bodies; b++) list.push([numbers[g + 3 * b], numbers[g + 3 * b + 1], numbers[g + 3 * b + 2]]);
-    if (s.name !== 'top') figure(list, true);
+    if (s.bodies !== 16) figure(list, true);
     else { const p = project(...list[1]); pen.beginPath(); pen.arc(p[0], p[1], 5, 0, 7); pen.strokeStyle = colours.rk4; pen.lineWidth = 1.6; pen.stroke(); }
   }
   figure(bodies, false);
@@ -451,7 +451,7 @@ function drawStability() {
   if ($('stability-legend').dataset.is !== legend) { $('stability-legend').innerHTML = legend; $('stability-legend').dataset.is = legend; }
   const broken = s.kept.filter(q => acting.some(e => q.unless.includes(e.name)));
   let note = forces.length ? `The energy is not to stay while ${forces.map(e => e.name).join(', ')} ${forces.length > 1 ? 'act' : 'acts'}: switch that off to see what the integrator keeps. ` : 'The energy of the exact motion is constant. ';
-  if (held()) note += `The constraint is |g|, the largest over the run${s.length ? `, in ${s.length}²` : ''}: gvi.h solves for it in each step, Runge-Kutta 4 for its second derivative alone. `;
+  if (held()) note += `The constraint is |g|, the largest over the run${s.length ? `, in ${s.length}²` : ''}: gvi.h satisfies it in each step, Runge-Kutta 4 only its second derivative. `;
   broken.forEach(q => { note += `The ${q.name} is changed by ${acting.filter(e => q.unless.includes(e.name)).map(e => e.name).join(', ')}. `; });
   $('stability-note').textContent = note;
   $('stability-caption').textContent = `${many(x.world_number(0, 1, 0))} steps since the last change${beside.on ? '; Runge-Kutta 4 gets as many evaluations' : ''}.`;
@@ -588,9 +588,9 @@ function drawCost() {
   const a = axes(svg, { x: [lo, hi], y: [-16, 2], xlabel: byTime ? 'time of the run, ms' : 'evaluations of all effects', ylabel: `error at the end${s.unit ? ', ' + s.unit : ''}`, tick: k => byTime && k > -3 && k < 4 ? String(+(10 ** k).toPrecision(1)) : '10' + sup(k) });
   let out = a.out;
   const floor = Math.max(p.floor, 2e-16), top = a.Y(floor);
-  if (p.reference) out += `<rect x="${a.L}" width="${a.W - a.L - a.R}" y="${top}" height="${Math.max(0, a.H - a.B - top)}" fill="var(--soft)"/><text x="${a.W - a.R - 4}" y="${Math.min(top + 14, a.H - a.B - 3)}" text-anchor="end">reference not known better</text>`;
+  if (p.reference) out += `<rect x="${a.L}" width="${a.W - a.L - a.R}" y="${top}" height="${Math.max(0, a.H - a.B - top)}" fill="var(--soft)"/><text x="${a.L + 4}" y="${Math.min(top + 14, a.H - a.B - 3)}">reference not known better</text>`;
   const w = a.Y(10 ** set.want);
-  out += `<line x1="${a.L}" x2="${a.W - a.R}" y1="${w}" y2="${w}" stroke="var(--ink)" stroke-dasharray="2 4"/><text class="axis" x="${a.W - a.R - 4}" y="${w - 5}" text-anchor="end">wanted</text>`;
+  out += `<line x1="${a.L}" x2="${a.W - a.R}" y1="${w}" y2="${w}" stroke="var(--ink)" stroke-dasharray="2 4"/><text class="axis" x="${a.L + 4}" y="${w - 5}">wanted</text>`;
   const groups = new Map();
   for (const q of good) {
     const key = q.method ? 'm' + q.method : [q.degree, q.rule, q.tol].join(' ');
@@ -599,6 +599,7 @@ function drawCost() {
   }
   const here = setting().id;
   let labels = '';
+  const placed = [];
   for (const list of [...groups.values()].sort((g, k) => k[0].method - g[0].method)) {
     list.sort((b, c) => c.h - b.h);
     const colour = `var(--${COLOURS[list[0].method]})`, at = list.map(q => a.inside(costOf(q), Math.max(q.error, 1e-16)));
@@ -609,6 +610,8 @@ function drawCost() {
     });
     if (!list[0].method && at.length) {
       const end = at[at.length - 1], name = list[0].rule === 'gauss' && !list[0].tol ? list[0].degree : '';
+      while (placed.some(o => Math.abs(o[0] - end[0]) < 24 && Math.abs(o[1] - end[1]) < 12)) end[1] -= 12;
+      placed.push(end);
       if (name !== '') labels += `<text x="${end[0] + 8}" y="${end[1] + 4}" style="fill:${colour};font-weight:600">${name}</text>`;
     }
   }
@@ -618,7 +621,7 @@ function drawCost() {
     + (good.some(q => q.tol) ? `<li><svg aria-hidden="true">${marker(0, 11, 6, 4, 'fill="var(--card)" stroke="var(--gvi)" stroke-width="1.6"')}</svg>iterated to a tolerance</li>` : '')
     + (good.some(q => q.id === here) ? '<li><svg aria-hidden="true"><circle cx="11" cy="6" r="5" fill="none" stroke="var(--gvi)" stroke-width="2"/></svg>as set now</li>' : '');
   const left = (p.todo ? p.todo.length : 40) + wanted.length, none = [1, 2, 3].filter(m => p.points.some(q => q.method === m && q.status === -6));
-  $('cost-caption').textContent = p.note || `A run to t = ${short(s.span, 3)}${s.time ? ' ' + s.time : ''}. ` + (left ? `Measuring, ${left} runs to go.` : none.length ? `${none.map(m => METHODS[m]).join(', ')} cannot: ${held() ? 'a constraint acts (degree 1 with Lobatto is RATTLE)' : set.on && scene().mass.includes('MASS_DIAGONAL') || !scene().mass ? 'a force reads v' : 'the mass depends on q'}.` : 'All measured here, now.');
+  $('cost-caption').textContent = p.note || `A run to t = ${short(s.span, 3)}${s.time ? ' ' + s.time : ''}. ` + (left ? `Measuring, ${left} runs to go.` : none.length ? `${none.map(m => METHODS[m]).join(', ')} cannot: ${s.mass && !s.mass.includes('MASS_DIAGONAL') ? 'the mass depends on q' : held() ? 'a constraint acts (degree 1 with Lobatto is RATTLE)' : 'a force reads v'}.` : 'All measured here, now.');
   svg.dataset.left = left;
   /* the cheapest for the wanted error */
   const fit = m => good.filter(q => (m ? q.method > 0 : q.method === 0) && q.error <= 10 ** set.want).sort((b, c) => costOf(b) - costOf(c))[0];
@@ -662,7 +665,7 @@ function pretty(code) {
 /* Only the definitions that the effects which are on lead to. */
 function needed(code, roots) {
   const parts = pretty(code).split(/\n(?=\S)(?!\})/);
-  const name = p => (/(\w+)(\[[^\]]*\])?( =|;|\(void\))/.exec(p) || [])[1];
+  const name = p => (/^(?:GVI_POINTS\(|static.*? )(\w+)(?:[[(,;]| =)/.exec(p) || [])[1];
   for (;;) {
     const keep = parts.filter(p => /^enum/.test(p) || [roots, ...parts.filter(o => o !== p)].some(o => new RegExp(`\\b${name(p)}\\b`).test(o)));
     if (keep.length === parts.length) return keep.join('\n');
@@ -679,7 +682,7 @@ function program(j) {
   return `/* ${s.title}: ${describe(j)}. Written by the playground of gvi.h.
    cc -I. -Iexamples -Idocs/playground this.c -lm      in the top folder of gvi.h  */
 #define GVI_IMPLEMENTATION
-#include "${/_clock /.test(code) ? 'clocks.h' : 'tools/effects.h'}"
+#include "${/_clock /.test(code) ? 'clocks.h' : 'tools/effects.h'}"${/ bodies /.test(code) ? '\n#include "tools/body.h"' : ''}
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -695,7 +698,7 @@ ${on.map(e => `        ${e.code},`).join('\n') || '        { .kind = GVI_POTENTI
 ${kicks && j.rule === 'verlet' ? '    const double nodes[] = { 0, 1 }, weights[] = { 0.5, 0.5 };\n' : kicks ? kicks8() : ''}    gvi_desc desc = { .n = ${s.n}, .degree = ${j.degree},${kicks ? ` .rule = { GVI_KICKS, ${j.rule === 'verlet' ? 2 : 18}, nodes, weights },` : rule}${j.tol ? ` .tolerance = ${j.tol.toExponential(0)},` : ''}
                       .effects = effects, .effect_count = ${on.length} };
     gvi_stepper st;
-${s.make ? `    ${s.make}\n` : ''}${s.mass ? `    desc.mass = ${s.mass.replace(/^\((\(.*)\)$/, '$1')};\n` : ''}    double *memory = malloc(gvi_size(&desc));
+${s.make ? `    ${s.make}\n` : ''}${s.mass ? `    desc.mass = ${s.mass.replace(/^\((\(.*)\)$/, '$1')};\n${held() ? '    desc.mass.velocity = NULL;                  // with constraints gvi.h solves for it\n' : ''}` : ''}    double *memory = malloc(gvi_size(&desc));
     if (gvi_init(&st, &desc, memory, gvi_size(&desc)) == GVI_OK) gvi_start(&st, 0, q, v);
     ${tau ? `while (st.status == GVI_OK && st.t < ${C(s.span)}) gvi_step(&st, ${C(j.h)});      // h in tau` : `for (int k = 0; k < ${steps} && st.status == GVI_OK; ++k) gvi_step(&st, ${C(s.span)}/${steps});`}
     printf("%s at t = %.17g\\n", gvi_status_text(st.status), st.t);
@@ -807,7 +810,8 @@ addEventListener('keydown', e => {
   $(act).click();
 });
 addEventListener('hashchange', () => { if (location.hash !== written) { const bad = recall(); apply(false, bad); } });
-addEventListener('resize', () => { dirty = plotDirty = costDirty = true; });
+const resized = new ResizeObserver(() => { dirty = plotDirty = costDirty = true; });
+for (const id of ['canvas', 'cost', 'stability']) resized.observe($(id));
 
 /* ---- frames ---- */
 let last = now(), told = 0, plotted = 0;

@@ -107,6 +107,7 @@ ALWAYS void rival_slope(rival *r, int n, double t, const double *y, double *dy)
         x.velocity = dy;
         r->mass.velocity(&x, r->mass.user);
         x.v = dy;
+        x.velocity = NULL;
         r->mass.gradient(&x, r->mass.user);
     } else {
         for (int i = 0; i < n; ++i) dy[i] = y[n+i];
@@ -257,13 +258,14 @@ static int rival_begin(rival *r, int method, int n, const scene_setup *s, unsign
     r->method = method;
     r->mass = s->mass;
     r->setup = s;
-    r->on = on;
+    r->on = 0;
     r->effects = r->reads_velocity = r->fresh = 0;
     r->evaluations = 0;
     r->t = t;
     for (int e = 0; e < s->rows; ++e) {
         const gvi_effect *effect = &s->row[e].force;
-        if (!(on >> e & 1) || effect->kind == GVI_CLOCK || effect->kind == GVI_CONSTRAINT) continue;
+        if (!(on >> e & 1) || effect->kind == GVI_CLOCK || !effect->points) continue;
+        if (effect->kind == GVI_CONSTRAINT) { r->on |= 1u << e; continue; }
         if (effect->kind != GVI_POTENTIAL && effect->kind != GVI_FORCE) return -1;
         /* a force that reads no v would do, but nothing says that it does not              */
         if (effect->kind == GVI_FORCE && effect->points != motor_force) r->reads_velocity = 1;

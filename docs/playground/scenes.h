@@ -5,7 +5,7 @@
 
    SHOWN(name, text)    the text as C and, for the program that the page writes, as a string
    ADD(s, name, what, on, effect)    a switch on the page; on = 1: on at first
-   INSTEAD(s, effect)   the same as a force, for integrators that know no Lagrangian terms
+   INSTEAD(s, effect)   the same as a force, for integrators that know no Lagrangian terms; { 0 }: nothing
    MASS(s, mass)        if it is not the unit mass
 
    A row may be of any kind that gvi.h has; the page breaks a constraint with gvi_switch.      */
@@ -13,6 +13,7 @@
 #define SCENES_H
 
 #include "clocks.h"
+#include "tools/body.h"
 #include <string.h>
 
 enum { SCENE_MOST = 96,        /* degrees of freedom                                       */
@@ -363,18 +364,25 @@ static void top_build(scene_setup *s)
     ADD(s, "drive", "torque on the spin", 0, motor(&toy_motor));
 }
 
-/* Tip, end of the axis, and a rim of twelve points that shows the spin                    */
+/* Tip, end of the axis, and a rim of twelve points that shows the spin; columns: its axes in space */
+static void top_points(const double (*axis)[3], double w, double (*x)[3])
+{
+    for (int c = 0; c < 3; ++c) {
+        x[0][c] = 0;
+        x[1][c] = axis[2][c];
+        x[15][c] = 0.62*axis[2][c];
+        for (int i = 0; i <= 12; ++i) {
+            const double a = w + i*0.5235987755982988;
+            x[2+i][c] = x[15][c] + 0.42*(cos(a)*axis[0][c] + sin(a)*axis[1][c]);
+        }
+    }
+}
+
 static void top_place(const double *q, unsigned on, double (*x)[3])
 {
     const double s = sin(q[0]), c = cos(q[0]), a = sin(q[1]), b = cos(q[1]);
-    scene_point(x[0], 0, 0, 0);
-    scene_point(x[1], s*a, -s*b, c);
-    for (int i = 0; i <= 12; ++i) {
-        const double w = fmod(q[2], 6.283185307179586) + i*0.5235987755982988;
-        const double u = 0.42*cos(w), v = 0.42*sin(w);
-        scene_point(x[2+i], 0.62*s*a + u*b - v*c*a, -0.62*s*b + u*a + v*c*b, 0.62*c + v*s);
-    }
-    scene_point(x[15], 0.62*s*a, -0.62*s*b, 0.62*c);
+    const double axis[3][3] = { { b, a, 0 }, { -c*a, c*b, s }, { s*a, -s*b, c } };
+    top_points(axis, fmod(q[2], 6.283185307179586), x);
     (void)on;
 }
 
@@ -396,6 +404,67 @@ static const scene spinning_top = {
     .quantity = { { "p of precession", "friction" }, { "p of spin", "friction,drive" } },
     .text = top_text, .build = top_build, .quantities = top_quantities,
     .bodies = 16, .space = 1, .view = 1.25, .centre = { 0, 0, 0.45 }, .place = top_place,
+    .rod = { { 0, 1, 2 }, { 2, 1, 13 }, { 2, 13, 2 }, { 5, 10, 2 }, { 8, 7, 2 }, { 11, 4, 2 } },
+    .radius = top_radius, .trails = 2, .fixed = 1,
+};
+
+/* --------------------------------------- the same as a quaternion: a constraint */
+
+SHOWN(turn_text,
+static const body turn_body[] = { { 0, { 2e-4, 2e-4, 8e-5 } } };
+static const bodies turn_bodies = { turn_body, 1 };
+static const struct linear_drag turn_drag = { 0, 4, 4e-5, 4 };
+GVI_POINTS(turn_weight, 4, f, value)(const gvi_points *x, void *user) {
+    const gvi_real centre[] = { 0, 0, 0.04 };
+    const gvi_real weight[] = { 0, 0, -0.1*9.81 };
+    gvi_real own[3];
+    body_rotate(x->q, 1, weight, own);
+    body_force_about(x->q, centre, own, x->f);
+    x->value[0] -= centre[2]*own[2];
+    return (void)user, 0;
+}
+)
+
+static void turn_build(scene_setup *s)
+{
+    const double a = s->value[0]/57.29577951308232;
+    const double w[] = { 0, s->value[2]*sin(a), s->value[1] + s->value[2]*cos(a) };
+    s->q[0] = cos(a/2);
+    s->q[1] = sin(a/2);
+    body_turn(s->q, w, s->v);
+    MASS(s, body_mass(&turn_bodies));
+    ADD(s, "gravity", "potential", 1, ((gvi_effect){ .points = turn_weight, .value = turn_weight }));
+    ADD(s, "friction", "torque, reads v", 0, linear_drag(&turn_drag));
+    ADD(s, "unit length", "constraint, |q| = 1", 1, body_unit(&turn_bodies));
+    INSTEAD(s, ((gvi_effect){ 0 }));                 /* its force is 0: nothing acts on |q| */
+}
+
+static void turn_place(const double *q, unsigned on, double (*x)[3])
+{
+    double axis[3][3];
+    for (int i = 0; i < 3; ++i) body_rotate(q, 0, (double[3]){ i == 0, i == 1, i == 2 }, axis[i]);
+    top_points((const double (*)[3])axis, 0, x);
+    (void)on;
+}
+
+/* Along the vertical in space, and along the axis: q turned from the left and from the right */
+static void turn_quantities(const double *q, const double *v, const double *p, double *out)
+{
+    const double a = p[3]*q[0] - p[0]*q[3], b = p[2]*q[1] - p[1]*q[2];
+    out[0] = (a + b)/2;
+    out[1] = (a - b)/2;
+    (void)v;
+}
+
+static const scene quaternion_top = {
+    .name = "quaternion", .title = "Top as a quaternion", .about = "The same toy without angles: four "
+    "numbers, in which no tilt is singular. |q| = 1 is a constraint; without it |q| is left to rounding.",
+    .n = 4, .degree = 8, .h = 0.005, .span = 2, .speed = 0.12, .time_unit = "s", .error_unit = "",
+    .parameter = { { "tilt", "\xc2\xb0", 0, 180, 5, 30 }, { "spin", " rad/s", 60, 300, 10, 150 },
+                   { "push sideways", " rad/s", -10, 10, 0.5, 0 } },
+    .quantity = { { "vertical ang. momentum", "friction" }, { "axial ang. momentum", "friction" } },
+    .text = turn_text, .build = turn_build, .quantities = turn_quantities,
+    .bodies = 16, .space = 1, .view = 1.25, .centre = { 0, 0, 0.45 }, .place = turn_place,
     .rod = { { 0, 1, 2 }, { 2, 1, 13 }, { 2, 13, 2 }, { 5, 10, 2 }, { 8, 7, 2 }, { 11, 4, 2 } },
     .radius = top_radius, .trails = 2, .fixed = 1,
 };
@@ -586,8 +655,8 @@ static const scene elastic_pendulum = {
 };
 
 static const scene *const scenes[] = {
-    &kepler, &figure_eight, &pythagoras, &double_pendulum, &pendulum_rods, &spinning_top, &spring_net,
-    &charged_particle, &robot_arm, &elastic_pendulum,
+    &kepler, &figure_eight, &pythagoras, &double_pendulum, &pendulum_rods, &spinning_top, &quaternion_top,
+    &spring_net, &charged_particle, &robot_arm, &elastic_pendulum,
 };
 
 #endif

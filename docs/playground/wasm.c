@@ -239,6 +239,7 @@ int EXPORT(world_open)(int which, int index, unsigned on, int degree, int rule, 
         w->effects[w->desc.effect_count++] = w->setup.row[i].effect;
     }
     world_rule(&w->desc, degree, rule);
+    if (reads & GVI_CONSTRAINT) w->desc.mass.velocity = NULL;
     /* Newton's method needs the square of s n: for a large scene the formulation is pinned */
     if (a->n > 12 && gvi_size(&w->desc) > sizeof w->memory && a->n*degree > 300) {
         w->desc.formulation = reads ? GVI_VELOCITIES : GVI_POSITIONS;

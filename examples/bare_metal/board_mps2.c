@@ -1,7 +1,7 @@
 /* The board of board.h on Arm's MPS2 with a Cortex-M3 or Cortex-M4F, as
    qemu-system-arm has it (mps2-an385, mps2-an386): vector table, reset, text by
    semihosting, periods by SysTick.  On a board of your own keep its start-up
-   code; gvi.h wants nothing of it but the floating-point unit switched on.
+   code; gvi.h needs nothing of it but the floating-point unit switched on.
    At the end it prints how much of the stack was ever used, and of a period (in
    ticks of 40 ns).                                                             */
 #include "board.h"

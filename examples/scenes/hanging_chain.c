@@ -37,7 +37,7 @@ static void hanging_chain_place(const gvi_real *q, const gvi_real *v, double (*x
 static const double bead_sizes[BEADS + 1] = { 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 5 };
 
 static const scene hanging_chain = {
-    .name = "hanging_chain", .title = "A chain of twenty links: forty coordinates, twenty constraints",
+    .name = "hanging_chain", .title = "A chain of twenty links: twenty constraints",
     .n = 2*BEADS, .degree = 8, .h = 0.001, .duration = 1.4, .build = hanging_chain_build,
     .energy_unit = "J", .energy_scale = 1, .time_unit = "s", .time_scale = 1,
     .caption = "", .unit = "m", .points = BEADS + 1, .trail_first = BEADS, .trails = 1, .samples = -2,

@@ -165,7 +165,7 @@ static void report(const scene *a, const scene_setup *s, const gvi_stepper *st, 
     printf("%s; %.1f iterations a step", gvi_formulation_text(st),
            (double)(c->iterations + c->newton_iterations)/fmax(1, (double)c->steps));
     printf(", %zu bytes\n\n", gvi_size(&s->desc));
-    printf("%-16s points asked    work done, %s\n", "effect", a->energy_unit);
+    printf("%-16s evaluations     work done, %s\n", "effect", a->energy_unit);
     for (int e = 0; e < s->desc.effect_count; ++e) {
         printf("%-16s %12llu", s->names[e], c->effect[e]);
         if (r->off >> e & 1u) printf("    off");

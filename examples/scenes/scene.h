@@ -133,15 +133,20 @@ static inline int scene_work(gvi_stepper *st, const scene_setup *s, unsigned off
     return 0;
 }
 
-/* Potential energy: the sum of the potentials that are on.                    */
+/* Potential energy, of the effects that are on: the potentials, less the Lagrangian terms at rest. */
 static inline gvi_real scene_potential(const scene_setup *s, unsigned off, gvi_real t, const gvi_real *q)
 {
-    gvi_real V = 0;
-    const gvi_points x = { .n = s->desc.n, .count = 1, .stride = 1, .t = &t, .q = q, .value = &V };
-    for (int e = 0; e < s->desc.effect_count; ++e)
-        if (s->effects[e].kind == GVI_POTENTIAL && !(off >> e & 1u))
-            s->effects[e].value(&x, s->effects[e].user);
-    return V;
+    static const gvi_real rest[SCENE_MAX];
+    gvi_real V = 0, L = 0;
+    gvi_points x = { .n = s->desc.n, .count = 1, .stride = 1, .t = &t, .q = q };
+    for (int e = 0; e < s->desc.effect_count; ++e) {
+        const gvi_kind kind = s->effects[e].kind;
+        if ((kind != GVI_POTENTIAL && kind != GVI_LAGRANGIAN) || off >> e & 1u) continue;
+        x.v = kind == GVI_POTENTIAL ? NULL : rest;
+        x.value = kind == GVI_POTENTIAL ? &V : &L;
+        s->effects[e].value(&x, s->effects[e].user);
+    }
+    return V - L;
 }
 
 /* ---- what several scenes draw and conserve ---- */

@@ -200,7 +200,7 @@ static void animate_plot(FILE *f, const animation *a, const svg_plot *plot, doub
                     plot->lines[i].name);
     }
     fprintf(f, "<text x=\"530\" y=\"%.0f\" font-weight=\"bold\">%s</text>\n",
-            top - (plot->line_count > 1 ? 26 : 8), plot->title);
+            top - (plot->line_count > 1 ? 26 : 13), plot->title);
     fprintf(f, "<path d=\"M%.0f %.0fV%.0f\" stroke=\"#d00\"><animateTransform attributeName=\"transform\" "
             "type=\"translate\" from=\"0\" to=\"%.0f\"", x.a, y.a, y.b, x.b - x.a);
     fprintf(f, " dur=\"%.6gs\" repeatCount=\"indefinite\"/></path>\n", a->seconds);

@@ -204,7 +204,7 @@ static inline int svg_write_all(const char *path, const svg_plot *plots, int cou
     size_t longest = 11;
     for (int i = 0; i < plots->line_count; ++i)
         if (strlen(plots->lines[i].name) > longest) longest = strlen(plots->lines[i].name);
-    FILE *f = svg_begin(path, end + 62 + 8*(double)longest, 460);
+    FILE *f = svg_begin(path, end + 40 + 10*(double)longest, 460);
     if (!f) return -1;
     for (int k = 0; k < count; ++k) svg_panel(f, plots + k, 80 + (wide + 120)*k, 80 + (wide + 120)*k + wide);
     for (int i = 0; i < plots->line_count; ++i) {

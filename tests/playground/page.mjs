@@ -57,9 +57,22 @@ check('first frame under a second', ready < 1000, ready);
 check('the planet is the first scene', (await page.textContent('#scene-title')) === 'Planet');
 const drawn = () => page.evaluate(() => { const c = document.querySelector('#canvas'), d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data; let n = 0; for (let i = 3; i < d.length; i += 4) n += d[i] > 0; return n; });
 check('something is drawn', (await drawn()) > 1000);
-const moving = await page.evaluate(() => new Promise(done => { let n = 0, worst = 0, last = performance.now(); const begin = last; const f = () => { const t = performance.now(); worst = Math.max(worst, t - last); last = t; n++; if (t - begin < 2000) requestAnimationFrame(f); else done({ n: n / 2, worst }); }; requestAnimationFrame(f); }));
-check('frames go on while it measures', moving.n > 20 && moving.worst < 300, moving);
-const pace = Math.round(moving.n);
+/* A slice and its picture have to fit into a frame of 60 a second: the time each one takes, not how many a
+   machine without a graphics card shows. */
+const moving = await page.evaluate(() => new Promise(done => {
+  const ask = window.requestAnimationFrame.bind(window), begin = performance.now(), took = [];
+  let worst = 0, last = begin;
+  window.requestAnimationFrame = f => ask(t => {
+    const from = performance.now();
+    worst = Math.max(worst, from - last);
+    last = from;
+    f(t);
+    took.push(performance.now() - from);
+    if (from - begin > 2000 && done) { window.requestAnimationFrame = ask; done({ n: took.length/2, worst, took: took.sort((a, b) => a - b)[took.length >> 1] }); done = null; }
+  });
+}));
+check('a slice fits into a frame, none freezes the page', moving.took < 1000/60 && moving.n > 10 && moving.worst < 500, moving);
+const pace = `${Math.round(moving.n)} frames a second of ${moving.took.toFixed(1)} ms each`;
 
 /* ---- effects: what is off costs nothing ---- */
 await page.click('tr[data-effect=drag] input');
@@ -180,6 +193,16 @@ check('it cannot be mounted there', /^gvi_switch.*lower rod/.test(await page.tex
 await page.click('#restart');
 check('but at the start', !(await page.isVisible('#alert')) && Math.abs((await reach()) - 1) < 1e-14);
 
+await page.click('#scenes button[data-scene=quaternion]');
+await page.waitForFunction(() => window.gvi.live.t > 0.1, null, { timeout: 20000 });
+await page.click('tr[data-effect=unit-length] input');
+const free = await total(page, 'unit-length');
+await page.waitForTimeout(1000);
+check('a free quaternion: its counter stands still', (await total(page, 'unit-length')) === free && free > 0 && (await chosen(page)) === 'momenta');
+await page.click('tr[data-effect=unit-length] input');
+await page.waitForTimeout(1000);
+check('it can be held again, to rounding', !(await page.isVisible('#alert')) && (await total(page, 'unit-length')) > free && (await page.evaluate(() => window.gvi.x.world_number(0, 22, 0))) < 1e-15);
+
 /* ---- the address ---- */
 await page.click('#scenes button[data-scene=charge]');
 await page.click('tr[data-effect=electric-field] input');
@@ -221,7 +244,7 @@ for (const name of await page.evaluate(() => [...document.querySelectorAll('#sce
   check(`${name}: runs and is measured`, !state.alert && state.points > 8 && state.reference, { ...state, code: '' });
   programs[name] = state;
 }
-for (const name of ['kepler', 'pendulum', 'rods', 'net', 'pythagoras']) {
+for (const name of ['kepler', 'pendulum', 'rods', 'quaternion', 'net', 'pythagoras']) {
   const source = join(build, `${name}.c`), binary = join(build, name);
   writeFileSync(source, programs[name].code);
   try {
@@ -255,12 +278,15 @@ for (const [name, hash, options] of [['light', '', { colorScheme: 'light', viewp
   if (options.hasTouch) { await page.tap('#play'); check(`${name}: a touch pauses`, await page.evaluate(() => !window.gvi.live.playing)); }
   const back = await page.evaluate(() => getComputedStyle(document.body).backgroundColor.match(/\d+/g).reduce((a, b) => a + +b, 0));
   check(`${name}: its colours`, options.colorScheme === 'dark' ? back < 200 : back > 600, back);
-  await page.screenshot({ path: join(build, `${name}.png`), fullPage: true });
+  /* as tall as the page: a full-page picture of a phone would draw the plots at another width */
+  await page.setViewportSize({ width: options.viewport.width, height: await page.evaluate(() => document.documentElement.scrollHeight) });
+  await page.waitForTimeout(1000);
+  await page.screenshot({ path: join(build, `${name}.png`) });
   await leave(page);
 }
 check('no error on the console, no request', complaints.length === 0, complaints);
 await browser.close();
 rmSync(profile, { recursive: true, force: true });
-console.log(`playground: ${(bytes/1000).toFixed(0)} KB, first frame after ${ready} ms, ${pace} frames a second while it measures; screens in ${build}`);
+console.log(`playground: ${(bytes/1000).toFixed(0)} KB, first frame after ${ready} ms, ${pace} while it measures; screens in ${build}`);
 console.log(`${passed} passed, ${failed} failed`);
 process.exit(failed ? 1 : 0);

@@ -17,14 +17,14 @@ mkdir -p "$dir"
 fail() { echo "FAILED: instructions: $*" >&2; exit 1; }
 # PROGRAM RUN: the instructions of a run from its first step to its last
 collected() {
-    valgrind --tool=callgrind --callgrind-out-file=/dev/null --toggle-collect=run_steps "$1" "$2" 2>&1 >/dev/null |
+    valgrind --tool=callgrind --callgrind-out-file=/dev/null --toggle-collect=run_steps "$1" --count "$2" 2>&1 >/dev/null |
         sed -n 's/.*Collected *: *\([0-9][0-9]*\).*/\1/p'
 }
 
 if [ "$record" = --prices ]; then
     command -v valgrind >/dev/null 2>&1 || { echo 'skipped: no valgrind'; exit 0; }
 
-    compile() { $CC -std=c99 -O2 -g -I. -Itests tests/cost/instructions.c "$@" -lm || fail "compilation: $*"; }
+    compile() { $CC -std=c99 -O2 -g -I. -Itests -DGVI_IMPLEMENTATION tests/cost/runs.c "$@" -lm || fail "compilation: $*"; }
     compile -o "$dir/drag"
     compile -DNO_DRAG -o "$dir/plain"
     for program in plain drag; do "$dir/$program" --ends | grep '^net ends' >"$dir/$program.end"; done
@@ -43,14 +43,14 @@ if [ "$record" = --prices ]; then
     more=$((unlisted - plain))
     [ ${more#-} -le $((plain/100)) ] || fail "drag that is not listed costs $more instructions of $plain"
     [ "$at_work" -gt $((plain + plain/100)) ] || fail "drag at work costs nothing: this test sees nothing"
-    if nm "$dir/plain" | grep -q ' t drag$'; then fail "drag is in a program without it"; fi
-    nm "$dir/drag" | grep -q ' t drag$' || fail "drag is not in the program that has it"
+    if nm "$dir/plain" | grep -q ' t net_drag$'; then fail "drag is in a program without it"; fi
+    nm "$dir/drag" | grep -q ' t net_drag$' || fail "drag is not in the program that has it"
     echo "prices: 4 passed, 0 failed"
     exit
 fi
 
 # no flag but these: vector registers beyond the common ones are not known to every valgrind
-$CC -std=c99 -O2 -ffp-contract=off -I. tests/cost/instructions.c -o "$program" -lm || fail "compilation"
+$CC -std=c99 -O2 -ffp-contract=off -I. -DGVI_IMPLEMENTATION tests/cost/runs.c -o "$program" -lm || fail "compilation"
 compiler=$("$program" --compiler)
 "$program" --counts >"$dir/counts" || fail "a run ended early"
 
