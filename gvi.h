@@ -4073,7 +4073,7 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
             const gvi_real off = gvi__violation(st, t, Q, G, a);
             if (off > size || !gvi__finite(off)) size = off;
         }
-        if (!(size < before/4))                   // rounding?
+        if (!(size < before/2))                   // rounding?
             return gvi__report_status(st, size <= 64 ? GVI_OK : gvi__finite(size) || x->diagnose
                                                       ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE);
         before = size;
