@@ -126,9 +126,8 @@
      GVI_ONLY_NEWTON      these formulations and no others (see HOW IT WORKS)
      GVI_NO_CLOCK         no effects of kind GVI_CLOCK
      GVI_NO_CONSTRAINTS   none of kind GVI_CONSTRAINT, as with GVI_NO_RULES
-     GVI_NO_RULES         no rule but Gauss with r = s <= 4, and in GVI_EXPLICIT those
-                          that it takes; no Lagrangian terms.  Nodes and tables
-                          then are constants, not code
+     GVI_NO_RULES         no rule but Gauss with r = s, and in GVI_EXPLICIT those
+                          that it takes; no Lagrangian terms, no constraints
 
    A description that needs what was left out is refused: GVI_E_FORMULATION.
    With GVI_STATIC, functions that are not called vanish as well.
@@ -518,7 +517,8 @@ typedef struct gvi_mass {
                                   points, or velocity, at the same x->q       */
     gvi_points_fn  *velocity;  /* optional: writes x->velocity, the v at which
                                   dL/dv(t,q,v) = p, L being ALL of the scene.
-                                  No linear system is solved then              */
+                                  No linear system is solved then; needed in steps
+                                  near the speed of light (gamma > 1e3)        */
     void           *user;
 } gvi_mass;
 
@@ -954,8 +954,8 @@ enum {
     || defined(GVI_NO_TOLERANCE)
 #error "gvi.h: of 0.1's GVI_NO_ macros only GVI_NO_CLOCK and GVI_NO_RULES are left"
 #endif
-#if GVI__KIND == 3 && (LDBL_MANT_DIG == 106 || defined(GVI_NO_RULES))
-#error "gvi.h: long double must be one IEEE number, not two doubles, and goes without GVI_NO_RULES"
+#if GVI__KIND == 3 && LDBL_MANT_DIG == 106
+#error "gvi.h: long double must be one IEEE number, not two doubles"
 #endif
 
 typedef char gvi__effects_fit_a_word[GVI_EFFECTS >= 1 && GVI_EFFECTS <= 32
@@ -966,20 +966,17 @@ typedef char gvi__effects_fit_a_word[GVI_EFFECTS >= 1 && GVI_EFFECTS <= 32
    GVI__COLD: set-up and queries, compiled for size.                                          */
 #if defined(__GNUC__)
 #define GVI__COLD static __attribute__((noinline, cold))
+#define GVI__CALLED static __attribute__((noinline))
 #else
 #define GVI__COLD static
+#define GVI__CALLED static
 #endif
 #if defined(__GNUC__) && defined(__OPTIMIZE_SIZE__)
-#define GVI__APART static __attribute__((noinline))
+#define GVI__APART GVI__CALLED
 #define GVI__SMALL 1
 #else
 #define GVI__APART static
 #define GVI__SMALL 0
-#endif
-#if defined(__GNUC__)
-#define GVI__CALLED static __attribute__((noinline))
-#else
-#define GVI__CALLED static
 #endif
 
 /* Registers that hold more than one type's digits round twice: values are stored to round them. */
@@ -1610,14 +1607,6 @@ GVI_DEF gvi_status gvi_barycentric(int n, const gvi_real *x, gvi_real *w)
     return GVI_OK;
 }
 
-static int gvi__nearest(int n, const gvi_real *x, gvi_real t)
-{
-    int i = 0;
-    for (int j = 1; j < n; ++j)
-        if (GVI_ABS(t - x[j]) < GVI_ABS(t - x[i])) i = j;
-    return i;
-}
-
 /* l_j(t) = (w_j/(t - x_j)) / sum_k w_k/(t - x_k).  Both sides multiplied by the
    distance d to the nearest node i, so that t = x_i is no exception; and the
    sum, which may cancel, by what it is equal to: w_i prod_(k != i)
@@ -1625,7 +1614,9 @@ static int gvi__nearest(int n, const gvi_real *x, gvi_real t)
 static int gvi__term(int n, const gvi_real *x, const gvi_real *w, gvi_real t, gvi_real *d,
                      gvi_real *sum)
 {
-    int i = gvi__nearest(n, x, t);
+    int i = 0;
+    for (int j = 1; j < n; ++j)
+        if (GVI_ABS(t - x[j]) < GVI_ABS(t - x[i])) i = j;
     *d = t - x[i];
     *sum = w[i];
     for (int k = 0; k < n; ++k)
@@ -2191,8 +2182,7 @@ GVI__COLD gvi_status gvi__value_sums(gvi_stepper *st, gvi_real t, const gvi_real
         if (status != GVI_OK) return status;
         if (!gvi__finite(*value)) return gvi__report_effect(st, GVI_E_NON_FINITE, e);
     }
-    gvi__zero(2*(size_t)st->n, y.f);              // and y.dldv
-    const gvi_status status = gvi__kinetic(st, &y);
+    const gvi_status status = gvi__evaluate(st, &y, ~0u, 1);
     *T = gvi__dot(st->n, y.dldv, v)/2;
     return status;
 }
@@ -2212,75 +2202,6 @@ GVI__COLD gvi_status gvi__hamiltonian(gvi_stepper *st, gvi_real t, const gvi_rea
 }
 
 /* ---------------------------------------------------------------- TABLES */
-
-#ifdef GVI_NO_RULES
-/* What Gauss's rule has with r = s = 1..4, one after the other (tests/gen/few.py): b; Phi and phi;
-   S_ij, i <= j, and T_ij, i < j.  To be on their grids in any type, Phi_0 and S below 1/2 are given
-   less 1, T plus 1/2.                                                                        */
-#define GVI__4(a, b, c, d) (gvi_real)a, (gvi_real)b, (gvi_real)c, (gvi_real)d
-static const gvi_real gvi__few_numbers[] = {
-    GVI__4(1.0, 0.5, 0.5, 0.2777777777777778),
-    GVI__4(0.4444444444444444, 0.2777777777777778, 0.17392742256872692, 0.32607257743127305),
-    GVI__4(0.32607257743127305, 0.17392742256872692, 0.5, -0.7886751345948129),
-    GVI__4(0.7886751345948129, 0.16666666666666666, 0.16666666666666666, -0.8872983346207417),
-    GVI__4(0.5, 0.8872983346207417, 0.1, 0.25),
-    GVI__4(0.1, 0.07745966692414834, 0.0, -0.07745966692414834),
-    GVI__4(-0.9305681557970263, -0.6699905217924281, 0.6699905217924281, 0.9305681557970263),
-    GVI__4(0.0646110632135477, 0.22110322250073802, 0.22110322250073802, 0.0646110632135477),
-    GVI__4(0.05563893266388464, 0.07517090432577558, -0.07517090432577558, -0.05563893266388464),
-    GVI__4(0.043738115765622414,-0.023329952500316293,-0.023329952500316293,0.043738115765622414),
-    GVI__4(1.0, 1.0, 1.0, 0.5773502691896257),
-    GVI__4(-0.5773502691896257, 1.0, 1.0, 1.0),
-    GVI__4(0.7745966692414834, 0.0, -0.7745966692414834, 0.4),
-    GVI__4(-0.5, 0.4, 1.0, 1.0),
-    GVI__4(1.0, 1.0, 0.8611363115940526, 0.33998104358485626),
-    GVI__4(-0.33998104358485626, -0.8611363115940526, 0.6123336207187138, -0.3266193350044281),
-    GVI__4(-0.3266193350044281, 0.6123336207187138, 0.3047469849552062, -0.4117279996728996),
-    GVI__4(0.4117279996728996, -0.3047469849552062, -0.75, -0.8720084679281462),
-    GVI__4(-0.75, 0.7053418012614795, -0.9272983346207417, -0.8686491673103709),
-    GVI__4(-0.5625, -0.9, 0.5186491673103708, 0.8472983346207417),
-    GVI__4(-0.9537858370068485, -0.9204604031889758, -0.7123705082210899, -0.938679181179479),
-    GVI__4(-0.6566801899987348, 0.6276105353637663, -0.9249524630624897, -0.6781015471748809),
-    GVI__4(0.6800982744004787, 0.9073504745872041, 1.5773502691896257, 1.5809475019311126),
-    GVI__4(1.46475800154489, 1.5809475019311126, 1.58158975003228, 1.4612740734321141),
-    GVI__4(1.5855037514105192, 1.5204404206840407, 1.4612740734321141, 1.58158975003228)
-};
-enum { GVI__FEW_PHI = 10, GVI__FEW_DERIVATIVE = 40, GVI__FEW_S = 70, GVI__FEW_T = 90 };
-
-static gvi_real gvi__few(gvi_real x) { return x < 0 ? 1 + x : x; }
-
-// weights, nodes and modes
-GVI__COLD void gvi__modes_at_nodes(gvi_stepper *st)
-{
-    const struct gvi__tables *x = &st->x.table;
-    const size_t r = (size_t)st->r, at = (r - 1)*r*(2*r - 1)/6;
-    gvi__copy(r, gvi__few_numbers + (r - 1)*r/2, x->b);
-    gvi__copy(r*r, gvi__few_numbers + GVI__FEW_PHI + at, x->Phi);
-    if (x->phi) gvi__copy(r*r, gvi__few_numbers + GVI__FEW_DERIVATIVE + at, x->phi);
-    for (size_t i = 0; i < r; ++i) x->c[i] = gvi__few(x->Phi[i]);
-}
-
-static gvi_real gvi__S(const gvi_stepper *st, int i, int j)
-{
-    const int at = GVI__FEW_S + (st->r - 1)*st->r*(st->r + 1)/6 + j*(j + 1)/2 + i;
-    return gvi__few(gvi__few_numbers[at]);
-}
-
-static gvi_real gvi__T(const gvi_stepper *st, int i, int j)
-{
-    const int at = GVI__FEW_T + (st->r - 2)*(st->r - 1)*st->r/6 + (j - 1)*j/2 + i;
-    return gvi__few_numbers[at] - (gvi_real)0.5;
-}
-
-GVI__COLD void gvi__prepare_column(gvi_stepper *st, const gvi_real *b, int j)
-{
-    (void)st, (void)b, (void)j;
-}
-static void gvi__over_gamma(const gvi_stepper *st, gvi_real *y)
-{
-    for (int k = 0; k < st->s; ++k) y[k] *= (gvi_real)(2*k + 1);
-}
-#else
 
 /* phi_k = P_k(x) and Phi_k = (P_(k-1) - P_(k+1))(x)/(2(2k+1)), P_(-1) = 1, at the nodes, x = 1
    - 2c, in double-word arithmetic: [k*R + node].  Then the nodes go to the grid of S.         */
@@ -2302,13 +2223,6 @@ GVI__COLD void gvi__modes_of(const gvi_stepper *st, int count, gvi_real *c, cons
     }
 }
 
-// the low words of Phi are in E, which is not yet in use
-GVI__COLD void gvi__modes_at_nodes(gvi_stepper *st)
-{
-    const struct gvi__tables *x = &st->x.table;
-    gvi__modes_of(st, st->r, x->c, st->x.t, x->phi, x->phi_low, x->Phi, st->x.sized.E);
-}
-
 // the low words of modes a: phi, Phi, or Phi at constraints' points
 static const gvi_real *gvi__low_words(const gvi_stepper *st, const gvi_real *a)
 {
@@ -2323,7 +2237,7 @@ GVI__COLD gvi_status gvi__make_gamma(gvi_stepper *st)
     const struct gvi__tables *x = &st->x.table;
     const int s = st->s, r = st->r, R = st->x.R;
     for (int k = 0; k < s; ++k) x->inv_gamma[k] = (gvi_real)(2*k + 1);
-    if (st->order == 2*s - 2) {
+    if (GVI__RULES && st->order == 2*s - 2) {
         const gvi_real *last = x->phi + (s - 1)*R, sum = gvi__dot3(r, x->b, last, last);
         if (!(GVI_ABS(sum) > (gvi_real)s*GVI__EPS)) return GVI_E_POINTS;
         x->inv_gamma[s - 1] = st->x.desc.rule.kind == GVI_LOBATTO ? (gvi_real)(s - 1) : 1/sum;
@@ -2372,16 +2286,15 @@ GVI__COLD gvi__two gvi__coupling(const gvi_stepper *st, const gvi_real *a, int i
 }
 
 // S_ij and T_ij of the column that was prepared last
-static gvi_real gvi__S(const gvi_stepper *st, int i, int j)
+static gvi_real gvi__S(const gvi_stepper *st, int i)
 {
-    return (void)j, gvi__grid(gvi__coupling(st, st->x.table.Phi, i), GVI__EPS/2);
+    return gvi__grid(gvi__coupling(st, st->x.table.Phi, i), GVI__EPS/2);
 }
 
-static gvi_real gvi__T(const gvi_stepper *st, int i, int j)
+static gvi_real gvi__T(const gvi_stepper *st, int i)
 {
-    return (void)j, gvi__grid(gvi__coupling(st, st->x.table.phi, i), GVI__EPS);
+    return gvi__grid(gvi__coupling(st, st->x.table.phi, i), GVI__EPS);
 }
-#endif
 
 /* S and T on grids of eps/2 and eps (|S| <= 1, |T| < 2): what they must fulfil for the step to
    be symplectic then holds exactly in the rounded numbers, S_ij = S_ji, and for Gauss with r =
@@ -2396,25 +2309,23 @@ GVI__COLD void gvi__make_tables(gvi_stepper *st)
     for (int j = 0; j < r; ++j) {
         gvi__prepare_column(st, x->Phi, j);
         for (int i = 0; x->K && i <= j; ++i) {
-            const gvi_real S = gvi__S(st, i, j);
+            const gvi_real S = gvi__S(st, i);
             x->K[j*R + i] = x->c[i] - S;
             x->K[i*R + j] = x->c[j] - S;
         }
         for (int i = 0; x->U && i < (gauss ? j + 1 : r); ++i) {
-            const gvi_real T = gauss && i == j ? (gvi_real)0.5 : gvi__T(st, i, j);
+            const gvi_real T = gauss && i == j ? (gvi_real)0.5 : gvi__T(st, i);
             x->U[j*R + i] = 1 - T;
             if (gauss) x->U[i*R + j] = T;
             if (x->T) x->T[i*R + j] = sign*T;
             if (x->T && gauss) x->T[j*R + i] = sign*(1 - T);
         }
-#ifndef GVI_NO_RULES
-        if (x->N) gvi__prepare_column(st, x->phi, j);
-        for (int i = 0; x->N && i < r; ++i) x->N[j*R + i] = -gvi__coupling(st, x->phi, i).hi;
-#endif
+        if (!GVI__LAGRANGIAN || !x->N) continue;
+        gvi__prepare_column(st, x->phi, j);
+        for (int i = 0; i < r; ++i) x->N[j*R + i] = -gvi__coupling(st, x->phi, i).hi;
     }
 }
 
-#ifndef GVI_NO_RULES
 /* The tables of constraints, on the same grids, by columns: K = c_i - S(c_i, d_e), U = 1 - T(c_i,
    d_e); for D d_a - S(d_a, c_j), or with momenta T(c_j, d_a), and d_a - S(d_a, d_e), with LU. */
 GVI__COLD gvi_status gvi__set_constraints(gvi_stepper *st)
@@ -2428,8 +2339,8 @@ GVI__COLD gvi_status gvi__set_constraints(gvi_stepper *st)
     for (int e = 0; e <= s; ++e) {                // Phi(d_0) = 0
         if (e > 0) gvi__prepare_column(st, x->con.Phi, e - 1);
         for (int i = 0; i < r; ++i) {
-            const gvi_real S = e > 0 ? gvi__S(st, i, 0) : 0;
-            const gvi_real T = e > 0 && x->con.U ? gvi__T(st, i, 0) : 0;
+            const gvi_real S = e > 0 ? gvi__S(st, i) : 0;
+            const gvi_real T = e > 0 && x->con.U ? gvi__T(st, i) : 0;
             if (e < s) x->con.K[e*R + i] = x->table.c[i] - S;
             if (e < s && x->con.U) x->con.U[e*R + i] = 1 - T;
             if (e > 0) x->con.by_force[i*R + e - 1] = momenta ? T : d[e] - S;
@@ -2448,7 +2359,6 @@ GVI__COLD gvi_status gvi__set_constraints(gvi_stepper *st)
     }
     return GVI_OK;
 }
-#endif
 
 // phi_k(tau) and Phi_k(tau), k < s, multiplied by Gamma^-1, at any tau
 static void gvi__modes(const gvi_stepper *st, gvi_real tau, gvi_real *phi, gvi_real *Phi)
@@ -3318,10 +3228,10 @@ static gvi_status gvi__predict_sources(gvi_stepper *st, const gvi__origin *from,
 
 /* Where an iteration stands, in squares: the changes of the last two iterations, of all rows,
    and the least so far; gvi__noise when it was last made, and its least; how often no new least was
-   seen, or no good contraction; are units to be made anew?                                    */
+   seen, of change or noise, or no good contraction; are units to be made anew?                */
 typedef struct gvi__progress {
     gvi_real before, earlier, least, noise, quiet;
-    int      used, stagnant, growing, rescale;
+    int      used, stagnant, still, growing, rescale;
 } gvi__progress;
 
 enum { GVI__GO_ON, GVI__DONE, GVI__ONCE_MORE, GVI__DIVERGES, GVI__NOT_FINITE };
@@ -3419,7 +3329,8 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
     if (p->stagnant > wait || poor) {
         const gvi_real noise = gvi__noise(st, h, y, stages);
         // what falls to a new least still converges, be it to 0; what grows diverges
-        const int level = noise <= GVI__EPS || (noise >= p->quiet && noise <= p->noise);
+        p->still = noise < p->quiet ? 0 : p->still + 1;
+        const int level = noise <= GVI__EPS || (p->still > 7 && noise <= p->noise);
         if (p->stagnant > wait && (noise <= 0
             || (noise <= 1 && (wait ? p->stagnant > 4 && level : p->stagnant > 1))))
             return p->used - p->stagnant >= GVI__DIG/2 && gvi__may_turn(st) ? GVI__DIVERGES
@@ -3427,7 +3338,7 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
         // a row that tends to 0 changes by its whole size: does its amplitude fall?
         if (poor && noise > 1 && noise > p->noise/2 && gvi__may_turn(st)) return GVI__DIVERGES;
         p->noise = noise;
-        if (noise < p->quiet) p->quiet = noise;
+        if (p->still == 0) p->quiet = noise;
     }
     return p->used < d->max_iterations ? GVI__GO_ON : GVI__DIVERGES;
 }
@@ -3438,7 +3349,7 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
 {
     struct gvi__private *x = &st->x;
     gvi__stage stage[2], first;
-    gvi__progress p = { 0, 0, GVI__MAX, GVI__MAX, GVI__MAX, 0, 0, 0, 1 };
+    gvi__progress p = { 0, 0, GVI__MAX, GVI__MAX, GVI__MAX, 0, 0, 0, 0, 1 };
     gvi_points at = gvi__points_at(st, st->r, x->R, x->t, x->work.Q, x->work.F,
                                    GVI__LAGRANGIAN ? x->work.A : NULL);
     const int stages = gvi__stages(st, from, h, stage);
@@ -4372,7 +4283,7 @@ GVI__COLD gvi_status gvi__choose(struct gvi__private *x, gvi_fault *fault)
         if (pinned || f++ == GVI_NEWTON) return GVI_E_FORMULATION;
     x->chosen = (gvi_formulation)f;
     if (f == GVI_NEWTON && given) return GVI_E_FORMULATION;
-    if (!GVI__RULES && f != GVI_EXPLICIT && (d->rule.kind != GVI_GAUSS || r != s || s > 4))
+    if (!GVI__RULES && f != GVI_EXPLICIT && (d->rule.kind != GVI_GAUSS || r != s))
         return GVI_E_FORMULATION;
     // as a fall-back only where its matrices are small
     if (f == GVI_NEWTON
@@ -4542,21 +4453,18 @@ GVI__COLD gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, dense = mass->kind == GVI_MASS_DENSE;
+    const gvi_real *matrix = dense || mass->kind == GVI_MASS_DIAGONAL ? mass->matrix : NULL;
     gvi_real *m = x->mass.matrix;
     int at[2] = { 0, 0 };
     for (int i = 0; i < n; ++i) {
-        x->mass.inverse[i] = 1;
-        if (dense)
-            for (int j = 0; j <= i; ++j) {
-                m[i*n + j] = x->mass.factor[i*n + j] = mass->matrix[i*n + j];
-                if (!gvi__finite(m[i*n + j]))
-                    return gvi__refuse(&st->fault, GVI_FAULT_MASS, i, "mass.matrix is not finite");
-            }
-        else m[i] = mass->kind == GVI_MASS_DIAGONAL ? mass->matrix[i] : 1;
-        if (mass->kind != GVI_MASS_DIAGONAL) continue;
-        x->mass.inverse[i] = 1/m[i];
-        if (!gvi__finite(m[i]))
+        gvi_real *row = dense ? m + i*n : m + i;
+        const int width = dense ? i + 1 : 1;
+        if (matrix) gvi__copy((size_t)width, matrix + (row - m), row);
+        else row[0] = 1;
+        if (gvi__first_non_finite(width, row) >= 0)
             return gvi__refuse(&st->fault, GVI_FAULT_MASS, i, "mass.matrix is not finite");
+        if (dense) gvi__copy((size_t)width, row, x->mass.factor + i*n);
+        x->mass.inverse[i] = dense ? 1 : 1/row[0];
         if (!gvi__finite(x->mass.inverse[i]))
             return gvi__report(st, GVI_E_SINGULAR, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
     }
@@ -4576,15 +4484,13 @@ GVI__COLD gvi_status gvi__set_rule(gvi_stepper *st, const gvi_rule *rule)
         x->table.c[1] = 1;
         x->table.b[0] = x->table.b[1] = (gvi_real)0.5;
     }
-#ifndef GVI_NO_RULES
-    else gvi__rule(rule->kind == GVI_LOBATTO, st->r, x->table.c, x->t, x->table.b);
-#endif
+    else gvi__rule(GVI__RULES && rule->kind == GVI_LOBATTO, st->r, x->table.c, x->t, x->table.b);
     if (GVI__ITERATES && !gvi__uses(x, GVI_EXPLICIT)) {
-        gvi__modes_at_nodes(st);
-#ifndef GVI_NO_RULES
+        // the low words of Phi go to E, which is not yet in use
+        gvi__modes_of(st, st->r, x->table.c, x->t, x->table.phi, x->table.phi_low, x->table.Phi,
+                      x->sized.E);
         const gvi_status status = gvi__make_gamma(st);
         if (status != GVI_OK) return status;
-#endif
         gvi__make_tables(st);
     }
     for (int i = 0; x->table.high && i < st->r; ++i) {       // modes r - 1 and r - 2 of a force
@@ -4594,9 +4500,7 @@ GVI__COLD gvi_status gvi__set_rule(gvi_stepper *st, const gvi_rule *rule)
         x->table.high[i] = st->r > 1 ? (gvi_real)(2*st->r - 1)*x->table.b[i]*P : 0;
         x->table.high[x->R + i] = st->r > 2 ? (gvi_real)(2*st->r - 3)*x->table.b[i]*before : 0;
     }
-#ifndef GVI_NO_RULES
     if (GVI__CONSTRAINTS && x->con.bits && gvi__set_constraints(st) != GVI_OK) return GVI_E_POINTS;
-#endif
     // Phi_0 = c on its grid
     if (x->table.Phi) gvi__copy((size_t)st->r, x->table.c, x->table.Phi);
     return GVI_OK;
@@ -5191,9 +5095,7 @@ static gvi_status gvi__momentum(gvi_stepper *st, gvi_real t, const gvi_real *q, 
 {
     gvi_points y = gvi__one_point(st, &t, q);
     y.v = v;
-    if (gvi__has(&st->x, GVI__HAS_LAGRANGIAN)) return gvi__evaluate(st, &y, 0, 1);
-    gvi__zero(2*(size_t)st->n, y.f);              // and y.dldv
-    return gvi__kinetic(st, &y);
+    return gvi__evaluate(st, &y, gvi__has(&st->x, GVI__HAS_LAGRANGIAN) ? 0 : ~0u, 1);
 }
 
 GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
@@ -5492,14 +5394,10 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
     // partial step of length h from the nearer end, or none for a rounding of the whole
     const int end = GVI_ABS(back) <= GVI_ABS(ahead);
     const gvi_real h = !end ? ahead : gvi__nonzero(back) ? back - st->t_low : 0;
-    gvi__origin from = {
-        st->t, st->t_low, st->q, st->q_low, st->p, st->p_low, x->time.H + x->time.H_low
-    };
-    if (!end) {
-        const gvi__origin first = { st->t0,     0,        x->began.q, x->zeros,
-                                    x->began.p, x->zeros, x->began.H };
-        from = first;
-    }
+    const gvi__origin last = { st->t, st->t_low, st->q, st->q_low, st->p, st->p_low,
+                               x->time.H + x->time.H_low },
+        first = { st->t0, 0, x->began.q, x->zeros, x->began.p, x->zeros, x->began.H },
+        from = end ? last : first;
     const gvi_formulation was = st->formulation;
     if (GVI_ABS(h) > GVI__EPS*(GVI_ABS(ahead) + GVI_ABS(back)))
         status = gvi__partial_step(st, &from, end ? GVI__FROM_END : GVI__FROM_START, h);

@@ -45,7 +45,7 @@ static real hidden(gvi_stepper *st, const linkage *a)
     return worst;
 }
 
-static void state_is(const gvi_stepper *st, int n, const long double *q, const long double *p, real units)
+static void check_reference(const gvi_stepper *st, int n, const long double *q, const long double *p, real units)
 {
     for (int i = 0; i < n; ++i) {
         if (getenv("SHOW")) printf("%.0Lf %.0Lf  ", ((long double)st->q[i] - q[i])/EPS, ((long double)st->p[i] - p[i])/EPS);
@@ -96,7 +96,7 @@ TEST(states_meet_the_references)
             desc.rule.kind = rule ? GVI_LOBATTO : GVI_GAUSS;
             assert_ok(set_up(&st, &a, &desc));
             for (int i = 0; i < runs[k].steps; ++i) assert_ok(gvi_step(&st, (real)10/(real)runs[k].steps));
-            state_is(&st, a.n, runs[k].q, runs[k].p, 1000);
+            check_reference(&st, a.n, runs[k].q, runs[k].p, 1000);
             assert_between(0, residual(&st, &a), 4);
             assert_between(0, hidden(&st, &a), 4);
         }
@@ -110,7 +110,7 @@ TEST(states_meet_the_references)
     gvi_stepper st;
     assert_ok(set_up(&st, &a, &desc));
     for (int i = 0; i < 200; ++i) assert_ok(gvi_step(&st, (real)0.1L));
-    state_is(&st, 4, body_q, body_p, 40000);   // e^(0.58*20) times rounding
+    check_reference(&st, 4, body_q, body_p, 40000);   // e^(0.58*20) times rounding
 }
 
 /* ---------------------------------------------------------------- RATTLE

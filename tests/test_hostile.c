@@ -65,26 +65,24 @@ static real answer(const temper *a, real q)
 }
 
 /* The force, and for Lagrangian terms a dL/dv that is or is not definite */
-static int moody_points(const gvi_points *x, void *user)
+AT_POINTS(moody_points)
 {
     temper *a = user;
     int bad = breaks_out(a);
     points_asked += (unsigned long long)x->count;
     if (bad && a->mood == REFUSE) return 1;
-    for (int i = 0; i < x->n; ++i)
-        for (int k = 0; k < x->count; ++k) {
-            int at = i*x->stride + k;
-            real f = bad ? answer(a, x->q[at]) : -x->q[at];
-            x->f[at] += f;
-            if (x->v) x->f[at] -= x->v[at]/8;
-            if (x->dldv) x->dldv[at] += bad && a->mood > STIFF ? f : x->v[at]*(1 + a->strength);
-        }
+    FOR_EACH(x, at) {
+        const real f = bad ? answer(a, x->q[at]) : -x->q[at];
+        x->f[at] += f;
+        if (x->v) x->f[at] -= x->v[at]/8;
+        if (x->dldv) x->dldv[at] += bad && a->mood > STIFF ? f : x->v[at]*(1 + a->strength);
+    }
     for (int k = 0; k < x->count && x->value; ++k)             /* a clock, or points and value in one */
         x->value[k] += bad ? answer(a, x->q[k]) : 1 + x->q[k]*x->q[k];
     return 0;
 }
 
-static int moody_point(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+AT_POINT(moody_point)
 {
     temper *a = user;
     int bad = breaks_out(a);
@@ -96,7 +94,7 @@ static int moody_point(real t, const real *q, const real *v, real *f, real *dldv
     return 0;
 }
 
-static int moody_value(const gvi_points *x, void *user)
+AT_POINTS(moody_value)
 {
     temper *a = user;
     if (a->mood == REFUSE && breaks_out(a)) return 7;
@@ -108,7 +106,6 @@ static int moody_value(const gvi_points *x, void *user)
 static int moody_hessian(real t, const real *q, const real *v, real *fq, real *fv, real *pv, void *user)
 {
     temper *a = user;
-    (void)t; (void)v;
     if (a->mood == REFUSE && a->when < 0) return 1;
     fq[0] += a->mood == GIVE_NAN ? (real)NAN : -(1 + a->strength*q[0]);
     if (fv) fv[0] -= (real)0.125;
@@ -116,38 +113,35 @@ static int moody_hessian(real t, const real *q, const real *v, real *fq, real *f
     return 0;
 }
 
-static int moody_mass(const gvi_points *x, void *user)
+AT_POINTS(moody_mass)
 {
     temper *a = user;
     int bad = breaks_out(a);
     points_asked += (unsigned long long)x->count;
     if (bad && a->mood == REFUSE) return 1;
-    for (int i = 0; i < x->n; ++i)
-        for (int j = 0; j <= i; ++j)
-            for (int k = 0; k < x->count; ++k) {
-                real q = x->q[i*x->stride + k];
-                x->mass[(i*x->n + j)*x->stride + k]
-                    = bad && a->mood > SPRING ? answer(a, q) : i == j ? 2 + q*q/(1 + q*q) : 0;
-            }
+    FOR_EACH(x, at)
+        for (int j = 0, i = at/x->stride; j <= i; ++j) {
+            const real q = x->q[at];
+            x->mass[(i*(x->n - 1) + j)*x->stride + at]
+                = bad && a->mood > SPRING ? answer(a, q) : i == j ? 2 + q*q/(1 + q*q) : 0;
+        }
     return 0;
 }
 
-static int moody_gradient(const gvi_points *x, void *user)
+AT_POINTS(moody_gradient)
 {
     temper *a = user;
     for (int k = 0; k < x->n*x->stride; k += x->stride) x->f[k] += a->mood == GIVE_INF ? (real)INFINITY : 0;
     return 0;
 }
 
-static int moody_velocity(const gvi_points *x, void *user)
+AT_POINTS(moody_velocity)
 {
     temper *a = user;
     int bad = breaks_out(a);
     points_asked += (unsigned long long)x->count;
     if (bad && a->mood == REFUSE) return 1;
-    for (int i = 0; i < x->n; ++i)
-        for (int k = 0; k < x->count; ++k)
-            x->velocity[i*x->stride + k] = bad ? answer(a, x->p[i*x->stride + k]) : x->p[i*x->stride + k];
+    FOR_EACH(x, at) x->velocity[at] = bad ? answer(a, x->p[at]) : x->p[at];
     return 0;
 }
 
@@ -243,9 +237,9 @@ static int is_whole(size_t length)
 {
     const unsigned char *before = (const unsigned char *)memory;
     const unsigned char *after = (const unsigned char *)(memory + PAD + length);
-    for (size_t k = 0; k < PAD*sizeof(real); ++k)
-        if (before[k] != 0xA5 || after[k] != 0xA5) return 0;
-    return 1;
+    size_t k = 0;
+    while (k < PAD*sizeof(real) && before[k] == 0xA5 && after[k] == 0xA5) ++k;
+    return k == PAD*sizeof(real);
 }
 
 static size_t poisoned;
@@ -260,11 +254,11 @@ static void poison(size_t length)
 
 /* -------------------------------------------------------------------- a call */
 
-typedef struct { real t, q[N_MAX], p[N_MAX]; } state;
+typedef struct { real t, q[N_MAX], p[N_MAX]; } whole_state;
 
-static state state_of(const gvi_stepper *st)
+static whole_state state_of(const gvi_stepper *st)
 {
-    state s;
+    whole_state s;
     memset(&s, 0, sizeof s);
     s.t = st->t;
     memcpy(s.q, st->q, (size_t)st->n*sizeof(real));
@@ -272,7 +266,7 @@ static state state_of(const gvi_stepper *st)
     return s;
 }
 
-static int is_finite_state(const state *s)
+static int is_finite_state(const whole_state *s)
 {
     int finite = isfinite(s->t);
     for (int i = 0; i < N_MAX; ++i) finite = finite && isfinite(s->q[i]) && isfinite(s->p[i]);
@@ -298,9 +292,10 @@ static int   the_number;                            /* of the scene, to find it 
 static int calls_that_worked;
 
 /* After a call: status, work, memory, and the state if it may not have changed */
-static void check_call(const char *what, const gvi_stepper *st, gvi_status got, const state *before, int may_change)
+static void check_call(const char *what, const gvi_stepper *st, gvi_status got, const whole_state *before,
+                       int may_change)
 {
-    state after = state_of(st);
+    whole_state after = state_of(st);
     int good = got <= GVI_OK && got >= GVI_E_CLOCK;
     good = good && is_whole(poisoned);
     good = good && points_asked <= most_points(st, &the_scene.desc);
@@ -314,7 +309,7 @@ static void check_call(const char *what, const gvi_stepper *st, gvi_status got, 
 }
 
 #define CHECK(st, may_change, call) do { \
-    state before_ = state_of(st); \
+    whole_state before_ = state_of(st); \
     points_asked = 0; \
     check_call(#call, (st), (call), &before_, (may_change)); \
 } while (0)
@@ -387,10 +382,9 @@ static void live_through(scene *a)
 
 /* ------------------------------------------------------------------- tests */
 
-static void whatever_a_scene_does_every_call_ends_well(void **unused)
+TEST(whatever_a_scene_does_every_call_ends_well)
 {
     int lived = 0;
-    (void)unused;
     calls_that_worked = 0;
     for (the_number = 0; the_number < SCENES; ++the_number) {
         seed = 1000003u*(uint64_t)the_number + 17;
@@ -404,12 +398,11 @@ static void whatever_a_scene_does_every_call_ends_well(void **unused)
 }
 
 /* No product of sizes may wrap round to a small one */
-static void sizes_that_no_machine_has_are_refused(void **unused)
+TEST(sizes_that_no_machine_has_are_refused)
 {
     static const int sizes[] = { 1, 2, 1000, 1024, 4096, 65536, 0xFFFFFF, INT_MAX/2, INT_MAX };
     static const gvi_effect effects[] = { { .kind = GVI_FORCE, .points = moody_points } };
     static real little[64];
-    (void)unused;
     for (int i = 0; i < COUNT(sizes); ++i)
     for (int j = 0; j < COUNT(sizes); ++j)
     for (int k = 0; k < COUNT(sizes); ++k)
@@ -425,11 +418,4 @@ static void sizes_that_no_machine_has_are_refused(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(whatever_a_scene_does_every_call_ends_well),
-        cmocka_unit_test(sizes_that_no_machine_has_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

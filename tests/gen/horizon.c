@@ -6,6 +6,7 @@
    twice, with steps of 80 and of 100 days.  What the two differ by is printed with each state.
    At one length the result is compared with the reference of 113 bits.                        */
 #include "tests/cost/problems.h"
+#include "tests/gauss.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -20,28 +21,12 @@ enum { S = 12, N = 18 };
 typedef long double real;
 static real c[S], b[S], A2[S][S], E[S][S], gm[6];
 
-static void legendre(int m, real u, real *P)
-{
-    P[0] = 1;
-    P[1] = u;
-    for (int k = 1; k < m; ++k) P[k+1] = ((2*k + 1)*u*P[k] - k*P[k-1])/(k + 1);
-}
-
-/* Nodes by Newton's method; A from integrals of Legendre polynomials; E extrapolates a step.  */
+/* A from integrals of Legendre polynomials; E extrapolates a step.  */
 static void tables(void)
 {
-    static real at[S][S + 2], A[S][S], P[S + 2];
-    for (int i = 0; i < S; ++i) {
-        real u = cosl(3.14159265358979323846L*(i + 0.75L)/(S + 0.5L)), slope = 1;
-        for (int k = 0; k < 8; ++k) {
-            legendre(S, u, P);
-            slope = S*(P[S-1] - u*P[S])/(1 - u*u);
-            u -= P[S]/slope;
-        }
-        c[i] = (1 - u)/2;
-        b[i] = 1/((1 - u*u)*slope*slope);
-        legendre(S + 1, u, at[i]);
-    }
+    static real at[S][S + 2], A[S][S];
+    gauss_nodes(S, c, b);
+    for (int i = 0; i < S; ++i) legendre(S + 1, 1 - 2*c[i], at[i]);
     for (int i = 0; i < S; ++i)
         for (int j = 0; j < S; ++j) {
             A[i][j] = c[i];
@@ -130,7 +115,7 @@ static void print_state(const problem *p, int length)
     }
     printf("/* At %d: the two runs differ by %.1Le.  */\n", length, differ);
     printf("static const long double horizon_%d[] = {\n", length);
-    for (int d = 0; d < N; ++d) printf("    %.21LeL%s\n", q[0][d], d < N - 1 ? "," : "");
+    for (int d = 0; d < N; ++d) printf("%s%.21LeL,%s", d%3 ? " " : "    ", q[0][d], d%3 == 2 ? "\n" : "");
     printf("};\n\n");
 }
 

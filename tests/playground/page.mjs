@@ -57,22 +57,15 @@ check('first frame under a second', ready < 1000, ready);
 check('the planet is the first scene', (await page.textContent('#scene-title')) === 'Planet');
 const drawn = () => page.evaluate(() => { const c = document.querySelector('#canvas'), d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data; let n = 0; for (let i = 3; i < d.length; i += 4) n += d[i] > 0; return n; });
 check('something is drawn', (await drawn()) > 1000);
-/* A slice and its picture have to fit into a frame of 60 a second: the time each one takes, not how many a
-   machine without a graphics card shows. */
-const moving = await page.evaluate(() => new Promise(done => {
-  const ask = window.requestAnimationFrame.bind(window), begin = performance.now(), took = [];
-  let worst = 0, last = begin;
-  window.requestAnimationFrame = f => ask(t => {
-    const from = performance.now();
-    worst = Math.max(worst, from - last);
-    last = from;
-    f(t);
-    took.push(performance.now() - from);
-    if (from - begin > 2000 && done) { window.requestAnimationFrame = ask; done({ n: took.length/2, worst, took: took.sort((a, b) => a - b)[took.length >> 1] }); done = null; }
-  });
-}));
-check('a slice fits into a frame, none freezes the page', moving.took < 1000/60 && moving.n > 10 && moving.worst < 500, moving);
-const pace = `${Math.round(moving.n)} frames a second of ${moving.took.toFixed(1)} ms each`;
+/* A slice and its picture have to fit into a frame of 60 a second: in CPU time, which a busy machine does not change. */
+const cdp = await page.context().newCDPSession(page);
+await cdp.send('Performance.enable', { timeDomain: 'threadTicks' });
+const script = async () => (await cdp.send('Performance.getMetrics')).metrics.find(m => m.name === 'ScriptDuration').value;
+const before = await script();
+const moving = await page.evaluate(() => new Promise(done => { let n = 0, worst = 0, last = performance.now(); const begin = last; const f = () => { const t = performance.now(); worst = Math.max(worst, t - last); last = t; n++; if (t - begin < 2000) requestAnimationFrame(f); else done({ n, worst }); }; requestAnimationFrame(f); }));
+const took = 1000*(await script() - before)/moving.n;
+check('a slice fits into a frame, none freezes the page', took > 1 && took < 1000/60 && moving.worst < 1000, [took, moving]);
+const pace = `${took.toFixed(1)} ms of CPU a frame`;
 
 /* ---- effects: what is off costs nothing ---- */
 await page.click('tr[data-effect=drag] input');
@@ -152,14 +145,14 @@ await page.evaluate(() => document.activeElement.blur());
 await page.keyboard.press('ArrowRight');
 await page.waitForTimeout(400);
 check('the arrow key steps', (await page.textContent('#stepped')) === '1', await page.textContent('#stepped'));
-const before = await page.evaluate(() => document.querySelector('#canvas').toDataURL());
+const seen = await page.evaluate(() => document.querySelector('#canvas').toDataURL());
 const box = await (await page.$('#canvas')).boundingBox();
 await page.mouse.move(box.x + 100, box.y + 100);
 await page.mouse.down();
 await page.mouse.move(box.x + 200, box.y + 140, { steps: 4 });
 await page.mouse.up();
 await page.waitForTimeout(200);
-check('a drag turns the picture', before !== await page.evaluate(() => document.querySelector('#canvas').toDataURL()));
+check('a drag turns the picture', seen !== await page.evaluate(() => document.querySelector('#canvas').toDataURL()));
 
 /* ---- stability ---- */
 await page.click('#break');
