@@ -4860,7 +4860,7 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
     gvi_real sum = 0, largest = 0, noise = 0;
     p->work = 0;
     for (int i = 0; i < n; ++i) {
-        gvi_real change = 0, size = 0;
+        gvi_real change = 0, size = 0, miss = 0;
         const gvi_real q = GVI_ABS(from->q[i]), unit = x->watch.scale[i];
         for (int k = 0; k < st->s; ++k) {
             gvi_real *y = x->newton.y + k*n + i;
@@ -4869,6 +4869,7 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
             if (k >= J->k0) {
                 *y += x->newton.dy[at];
                 change += GVI_ABS(x->newton.dy[at]);
+                miss += GVI_ABS(x->newton.residual[at]);
                 p->work += GVI_ABS(x->newton.dy[at]*x->newton.residual[at]);
             }
             size += GVI_ABS(*y);
@@ -4876,7 +4877,9 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
         const gvi_real least = GVI__EPS*change;                       // y may land on 0
         if (!(size <= none && change <= none)) sum += change/(size < least ? least : size);
         if (q + h*size > largest*unit) largest = (q + h*size)/unit;
-        if (!(h*change <= 4*GVI__EPS*q) && h*change > noise*unit) noise = h*change/unit;
+        // a wrong matrix may make the change small, not the residual
+        const gvi_real moved = change/unit > miss*unit ? change/unit : miss*unit;
+        if (!(h*change <= 4*GVI__EPS*q) && h*moved > noise) noise = h*moved;
     }
     if (noise <= 32*GVI__EPS*largest || solved) p->work = -1;         // see gvi__noise
     return sum;
