@@ -3182,7 +3182,8 @@ GVI__BODY gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *y, int stage
 {
     const struct gvi__private *x = &st->x;
     gvi_real sum = 0;
-    if (gvi__constrained(st) && x->con.made > 0) gvi__constrain(st, y, y[gvi__uses(x, GVI_MOMENTA)].base);
+    if (gvi__constrained(st) && x->con.made > 0)
+        gvi__constrain(st, y, y[gvi__uses(x, GVI_MOMENTA)].base);
     for (int k = 0; k < stages; ++k) {
         if (k == 1 && gvi__uses(x, GVI_MOMENTA)) sum += gvi__velocities_again(st);
         sum += y[k].dense ? gvi__dense_rows(st, y + k, rescale) : x->kernel(st, y + k, rescale);
