@@ -106,7 +106,6 @@ help-all: help
 #: uninstall    removes what install put there
 uninstall:
 	rm -f $(INSTALLED)
-
 #: deps-check   installs what check uses if it can be had: clang, g++, valgrind, cmake, pkg-config, mingw
 deps-check: deps
 	$(Q)sh tests/tools/deps.sh --check
@@ -122,12 +121,9 @@ PICTURES = $(if $(filter figures,$(MAKECMDGOALS)),docs/img,$(BUILD)/pictures)
 figures: scenes $(addprefix $(BUILD)/examples/,02_outer_solar_system 19_low_thrust 20_swing_up 22_section 24_racket 29_ensemble 30_rods)
 	$(Q)mkdir -p docs/img
 	$(Q)$(BUILD)/examples/02_outer_solar_system 200000 200 8 docs/img
-	$(Q)$(BUILD)/examples/19_low_thrust --svg docs/img/low_thrust.svg
-	$(Q)$(BUILD)/examples/20_swing_up --svg docs/img/swing_up.svg
-	$(Q)$(BUILD)/examples/22_section --svg docs/img/section.svg
-	$(Q)$(BUILD)/examples/24_racket --svg docs/img/racket.svg
+	$(Q)set -e; for e in 19_low_thrust 20_swing_up 22_section 24_racket 30_rods; do \
+	    $(BUILD)/examples/$$e --svg docs/img/$${e#*_}.svg; done
 	$(Q)$(BUILD)/examples/29_ensemble 120 $(BUILD)/ensemble.csv docs/img/ensemble.svg
-	$(Q)$(BUILD)/examples/30_rods --svg docs/img/rods.svg
 
 #: synopsis     copies the program at the top of gvi.h to examples/01_kepler.c and README.md
 synopsis:
@@ -165,7 +161,6 @@ $(BUILD)/examples/%: examples/%.c $$(if $$(filter $$(FLOAT_EXAMPLES),$$*),$(BUIL
 $(BUILD)/alone/%: examples/%.c | $(FIRST)
 	@mkdir -p $(@D)
 	$(Q)$(COMPILE) -Iexamples $< -o $@ $(LDLIBS)
-
 # Without a C++ compiler the example is left out, visibly, when it is to run.
 $(BUILD)/examples/% $(BUILD)/alone/%: examples/%.cpp | $(FIRST)
 	@mkdir -p $(@D)

@@ -517,7 +517,8 @@ typedef struct gvi_mass {
                                   points, or velocity, at the same x->q       */
     gvi_points_fn  *velocity;  /* optional: writes x->velocity, the v at which
                                   dL/dv(t,q,v) = p, L being ALL of the scene.
-                                  No linear system is solved then              */
+                                  No linear system is solved then; needed in steps
+                                  near the speed of light (gamma > 1e3)        */
     void           *user;
 } gvi_mass;
 
@@ -965,20 +966,17 @@ typedef char gvi__effects_fit_a_word[GVI_EFFECTS >= 1 && GVI_EFFECTS <= 32
    GVI__COLD: set-up and queries, compiled for size.                                          */
 #if defined(__GNUC__)
 #define GVI__COLD static __attribute__((noinline, cold))
+#define GVI__CALLED static __attribute__((noinline))
 #else
 #define GVI__COLD static
+#define GVI__CALLED static
 #endif
 #if defined(__GNUC__) && defined(__OPTIMIZE_SIZE__)
-#define GVI__APART static __attribute__((noinline))
+#define GVI__APART GVI__CALLED
 #define GVI__SMALL 1
 #else
 #define GVI__APART static
 #define GVI__SMALL 0
-#endif
-#if defined(__GNUC__)
-#define GVI__CALLED static __attribute__((noinline))
-#else
-#define GVI__CALLED static
 #endif
 
 /* Registers that hold more than one type's digits round twice: values are stored to round them. */
@@ -1609,14 +1607,6 @@ GVI_DEF gvi_status gvi_barycentric(int n, const gvi_real *x, gvi_real *w)
     return GVI_OK;
 }
 
-static int gvi__nearest(int n, const gvi_real *x, gvi_real t)
-{
-    int i = 0;
-    for (int j = 1; j < n; ++j)
-        if (GVI_ABS(t - x[j]) < GVI_ABS(t - x[i])) i = j;
-    return i;
-}
-
 /* l_j(t) = (w_j/(t - x_j)) / sum_k w_k/(t - x_k).  Both sides multiplied by the
    distance d to the nearest node i, so that t = x_i is no exception; and the
    sum, which may cancel, by what it is equal to: w_i prod_(k != i)
@@ -1624,7 +1614,9 @@ static int gvi__nearest(int n, const gvi_real *x, gvi_real t)
 static int gvi__term(int n, const gvi_real *x, const gvi_real *w, gvi_real t, gvi_real *d,
                      gvi_real *sum)
 {
-    int i = gvi__nearest(n, x, t);
+    int i = 0;
+    for (int j = 1; j < n; ++j)
+        if (GVI_ABS(t - x[j]) < GVI_ABS(t - x[i])) i = j;
     *d = t - x[i];
     *sum = w[i];
     for (int k = 0; k < n; ++k)
@@ -2095,7 +2087,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
     int at;
     x->v = v;
     gvi__count(&st->counters.velocities, 1);
-    for (int k = 0, halves = 0, last_places = 0; k < 60; ++k) {
+    for (int k = 0, halves = 0; k < 60; ++k) {
         gvi_real change = 0, miss = 0;
         int almost = 1;
         gvi_status status = gvi__evaluate(st, x, 0, 1);
@@ -2135,8 +2127,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
         if (!(change <= GVI__MAX)) break;
         // from beyond the root corrections grow threefold, be they of the last place
         const gvi_real small = GVI_SQRT(GVI__EPS);
-        last_places += change <= 64*GVI__EPS;
-        const int rests = last_places > 4 || (change <= 2*GVI__EPS && (last <= small || almost)),
+        const int rests = k > 4 || (change <= 2*GVI__EPS && (last <= small || almost)),
                   still = change >= last/2 && change <= 2*last && change <= small;
         if (miss <= 8*GVI__EPS*(gvi_real)n && (rests || still)) return GVI_OK;
         last = change;
@@ -2190,8 +2181,7 @@ GVI__COLD gvi_status gvi__value_sums(gvi_stepper *st, gvi_real t, const gvi_real
         if (status != GVI_OK) return status;
         if (!gvi__finite(*value)) return gvi__report_effect(st, GVI_E_NON_FINITE, e);
     }
-    gvi__zero(2*(size_t)st->n, y.f);              // and y.dldv
-    const gvi_status status = gvi__kinetic(st, &y);
+    const gvi_status status = gvi__evaluate(st, &y, ~0u, 1);
     *T = gvi__dot(st->n, y.dldv, v)/2;
     return status;
 }
@@ -2230,13 +2220,6 @@ GVI__COLD void gvi__modes_of(const gvi_stepper *st, int count, gvi_real *c, cons
         }
         c[i] = gvi__grid(gvi__two_sum(c[i], c_low[i]), GVI__EPS/2);
     }
-}
-
-// the low words of Phi are in E, which is not yet in use
-GVI__COLD void gvi__modes_at_nodes(gvi_stepper *st)
-{
-    const struct gvi__tables *x = &st->x.table;
-    gvi__modes_of(st, st->r, x->c, st->x.t, x->phi, x->phi_low, x->Phi, st->x.sized.E);
 }
 
 // the low words of modes a: phi, Phi, or Phi at constraints' points
@@ -2501,7 +2484,7 @@ GVI__CALLED void gvi__constraint_stages(const gvi_stepper *st, const gvi__origin
                                    struct gvi__stage *y, int stages);
 GVI__CALLED void gvi__constraint_rows(const gvi_stepper *st, const struct gvi__stage *y);
 GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin *from);
-GVI__CALLED void gvi__constrain(gvi_stepper *st, const struct gvi__stage *y);
+GVI__CALLED void gvi__constrain(gvi_stepper *st, const struct gvi__stage *y, const gvi_real *q0);
 GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate);
 static gvi_status gvi__stalled(gvi_stepper *st);
 GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h);
@@ -2961,6 +2944,15 @@ static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real 
     }
     if (x->desc.mass.kind == GVI_MASS_DENSE) {
         gvi__over_mass(st, v, 1, 1);
+        for (int i = 0; i < st->n; ++i) {         // p - M v
+            gvi__two left = gvi__two_of(p[i], p_low[i]);
+            for (int j = 0; j < st->n; ++j) {
+                const int ij = i > j ? i*st->n + j : j*st->n + i;
+                const gvi__two z = gvi__two_prod(-x->mass.matrix[ij], v[j]);
+                left = gvi__add_low(left.hi, left.lo, z.hi, z.lo);
+            }
+            v_low[i] = gvi__low(left.hi + left.lo);
+        }
         gvi__over_mass(st, v_low, 1, 1);
     }
     for (int i = 0; i < st->n; ++i) {
@@ -3190,7 +3182,8 @@ GVI__BODY gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *y, int stage
 {
     const struct gvi__private *x = &st->x;
     gvi_real sum = 0;
-    if (gvi__constrained(st) && x->con.made > 0) gvi__constrain(st, y);
+    if (gvi__constrained(st) && x->con.made > 0)
+        gvi__constrain(st, y, y[gvi__uses(x, GVI_MOMENTA)].base);
     for (int k = 0; k < stages; ++k) {
         if (k == 1 && gvi__uses(x, GVI_MOMENTA)) sum += gvi__velocities_again(st);
         sum += y[k].dense ? gvi__dense_rows(st, y + k, rescale) : x->kernel(st, y + k, rescale);
@@ -3235,10 +3228,10 @@ static gvi_status gvi__predict_sources(gvi_stepper *st, const gvi__origin *from,
 
 /* Where an iteration stands, in squares: the changes of the last two iterations, of all rows,
    and the least so far; gvi__noise when it was last made, and its least; how often no new least was
-   seen, or no good contraction; are units to be made anew?                                    */
+   seen, of change or noise, or no good contraction; are units to be made anew?                */
 typedef struct gvi__progress {
     gvi_real before, earlier, least, noise, quiet;
-    int      used, stagnant, growing, rescale;
+    int      used, stagnant, still, growing, rescale;
 } gvi__progress;
 
 enum { GVI__GO_ON, GVI__DONE, GVI__ONCE_MORE, GVI__DIVERGES, GVI__NOT_FINITE };
@@ -3332,17 +3325,20 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
     p->stagnant = D < (gvi_real)0.81*p->least ? 0 : p->stagnant + 1;
     if (D < p->least) p->least = D;
     const int poor = p->growing > (D > far ? 4 : 2) && D > 65536*rounding;
-    if (p->stagnant > 1 || poor) {
+    const int wait = gvi__constrained(st) ? 0 : 1;           // the rounding of g is in every D
+    if (p->stagnant > wait || poor) {
         const gvi_real noise = gvi__noise(st, h, y, stages);
         // what falls to a new least still converges, be it to 0; what grows diverges
-        const int level = noise <= GVI__EPS || (noise >= p->quiet && noise <= p->noise);
-        if (p->stagnant > 1 && (noise <= 0 || (noise <= 1 && p->stagnant > 4 && level)))
+        p->still = noise < p->quiet ? 0 : p->still + 1;
+        const int level = noise <= GVI__EPS || (p->still > 7 && noise <= p->noise);
+        if (p->stagnant > wait && (noise <= 0
+            || (noise <= 1 && (wait ? p->stagnant > 4 && level : p->stagnant > 1))))
             return p->used - p->stagnant >= GVI__DIG/2 && gvi__may_turn(st) ? GVI__DIVERGES
                                                                               : GVI__ONCE_MORE;
         // a row that tends to 0 changes by its whole size: does its amplitude fall?
         if (poor && noise > 1 && noise > p->noise/2 && gvi__may_turn(st)) return GVI__DIVERGES;
         p->noise = noise;
-        if (noise < p->quiet) p->quiet = noise;
+        if (p->still == 0) p->quiet = noise;
     }
     return p->used < d->max_iterations ? GVI__GO_ON : GVI__DIVERGES;
 }
@@ -3353,7 +3349,7 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
 {
     struct gvi__private *x = &st->x;
     gvi__stage stage[2], first;
-    gvi__progress p = { 0, 0, GVI__MAX, GVI__MAX, GVI__MAX, 0, 0, 0, 1 };
+    gvi__progress p = { 0, 0, GVI__MAX, GVI__MAX, GVI__MAX, 0, 0, 0, 0, 1 };
     gvi_points at = gvi__points_at(st, st->r, x->R, x->t, x->work.Q, x->work.F,
                                    GVI__LAGRANGIAN ? x->work.A : NULL);
     const int stages = gvi__stages(st, from, h, stage);
@@ -3382,7 +3378,7 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
                     x->work.Q[i*x->R + k] = (x->work.Q[i*x->R + k] + from->q[i])/2;
             continue;
         }
-        if (last && status == GVI_OK && gvi__constrained(st)) gvi__constrain(st, stage);
+        if (last && status == GVI_OK && gvi__constrained(st)) gvi__constrain(st, stage, from->q);
         if (last || status != GVI_OK) return status;
         const int diverged = p.growing > 0 || p.before > (gvi_real)st->n;
         const gvi_real change = gvi__new_rows(st, stage, stages, p.rescale);
@@ -3458,6 +3454,17 @@ static void gvi__sum_rows(const gvi_stepper *st, gvi_real *rows, const gvi_real 
     }
 }
 
+// sum_j (1 - c_j) w_j F_j with its low word
+GVI__CALLED gvi__two gvi__moment(int count, const gvi_real *c, const gvi_real *w, const gvi_real *F)
+{
+    gvi__two sum = gvi__two_of(0, 0);
+    for (int j = 0; j < count; ++j) {
+        const gvi__two push = gvi__two_prod(w[j], F[j]), z = gvi__two_prod(1 - c[j], push.hi);
+        sum = gvi__add_low(sum.hi, sum.lo, z.hi, z.lo + (1 - c[j])*push.lo);
+    }
+    return sum;
+}
+
 /* Increments of q and p from the F, V and A at the end of the iteration, by (2) and by (3) at
    tau = 1, where S_j = c_j: dq = h (v + M^-1 (sum_j (1 - c_j) h b_j F_j - sum_j b_j A_j)).    */
 static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h)
@@ -3488,9 +3495,12 @@ static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h
             for (int k = 0; k < 4; ++k) sum[k] += (1 - c[o + k])*(hb[o + k]*F[o + k]);
         for (int k = R & ~3; k < R; ++k) sum[k & 3] += (1 - c[k])*(hb[k]*F[k]);
         x->step.q[i] = (sum[0] + sum[2]) + (sum[1] + sum[3]);
+        if (gvi__constrained(st)) {
+            const gvi__two a = gvi__moment(r, c, hb, F),
+                           z = gvi__moment(st->s, x->con.d, x->con.hw, x->con.force + i*R);
+            x->step.q[i] = (a.hi + z.hi) + (a.lo + z.lo);
+        }
         if (GVI__LAGRANGIAN && w->A) x->step.q[i] -= gvi__dot(r, x->table.b, w->A + i*R);
-        for (int e = 0; gvi__constrained(st) && e < st->s; ++e)
-            x->step.q[i] += (1 - x->con.d[e])*(x->con.hw[e]*x->con.force[i*R + e]);
     }
     gvi__over_mass(st, x->step.q, 1, 1);
     for (int i = 0; i < st->n; ++i) {
@@ -3859,6 +3869,7 @@ GVI__CALLED void gvi__constraint_rows(const gvi_stepper *st, const gvi__stage *y
     z.sum[0].table = x->con.by_force;
     z.sum[1].table = gvi__uses(x, GVI_MOMENTA) ? NULL : x->con.by_impulse;
     z.rows = x->con.D;
+    z.base = x->zeros;
     z.free = x->con.free;
     z.scale = z.change = NULL;
     if (z.dense) gvi__dense_rows(st, &z, 0);
@@ -3883,8 +3894,9 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
     struct gvi__private *x = &st->x;
     const int s = st->s, C = x->con.C;
     for (int i = 0; i < st->n; ++i) {
-        for (int k = 0; k < C; ++k) x->con.at[i*C + k] = from->q[i];
-        gvi__copy((size_t)s, x->con.D + i*x->R, x->con.at + i*C + 1);
+        gvi_real *at = x->con.at + i*C;
+        for (int k = 0; k < C; ++k) at[k] = from->q[i];
+        for (int k = 1; k <= s; ++k) at[k] += x->con.D[i*x->R + k - 1];
     }
     const gvi_status status =
         gvi__evaluate_constraints(st, C, s + 1, x->con.t, x->con.at, x->con.G);
@@ -3892,7 +3904,7 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
 }
 
 // the new lambda, and forces.  With momenta D' needs the P and V of the new F
-GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *y)
+GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *y, const gvi_real *q0)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, m = x->con.m, s = st->s, R = x->R, C = x->con.C;
@@ -3911,7 +3923,7 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *y)
     for (int i = 0; i < n; ++i) {                 // D - D'
         gvi_real *GVI__RESTRICT z = moved + i*C;
         const gvi_real *at = x->con.at + i*C + 1, *D = x->con.D + i*R;
-        for (int e = 0; e < s; ++e) z[e] = at[e] - D[e];
+        for (int e = 0; e < s; ++e) z[e] = (at[e] - q0[i]) - D[e];
     }
     gvi__zero((size_t)(m*R), rho);
     for (int a = 0; a < m; ++a) {
@@ -3972,7 +3984,7 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
             const gvi_real off = gvi__violation(st, t, Q, G, a);
             if (off > size || !gvi__finite(off)) size = off;
         }
-        if (!(size < before/4))                   // rounding?
+        if (!(size < before/2))                   // rounding?
             return gvi__report_status(st, size <= 64 ? GVI_OK : gvi__finite(size) || x->diagnose
                                                       ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE);
         before = size;
@@ -4441,21 +4453,18 @@ GVI__COLD gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, dense = mass->kind == GVI_MASS_DENSE;
+    const gvi_real *matrix = dense || mass->kind == GVI_MASS_DIAGONAL ? mass->matrix : NULL;
     gvi_real *m = x->mass.matrix;
     int at[2] = { 0, 0 };
     for (int i = 0; i < n; ++i) {
-        x->mass.inverse[i] = 1;
-        if (dense)
-            for (int j = 0; j <= i; ++j) {
-                m[i*n + j] = x->mass.factor[i*n + j] = mass->matrix[i*n + j];
-                if (!gvi__finite(m[i*n + j]))
-                    return gvi__refuse(&st->fault, GVI_FAULT_MASS, i, "mass.matrix is not finite");
-            }
-        else m[i] = mass->kind == GVI_MASS_DIAGONAL ? mass->matrix[i] : 1;
-        if (mass->kind != GVI_MASS_DIAGONAL) continue;
-        x->mass.inverse[i] = 1/m[i];
-        if (!gvi__finite(m[i]))
+        gvi_real *row = dense ? m + i*n : m + i;
+        const int width = dense ? i + 1 : 1;
+        if (matrix) gvi__copy((size_t)width, matrix + (row - m), row);
+        else row[0] = 1;
+        if (gvi__first_non_finite(width, row) >= 0)
             return gvi__refuse(&st->fault, GVI_FAULT_MASS, i, "mass.matrix is not finite");
+        if (dense) gvi__copy((size_t)width, row, x->mass.factor + i*n);
+        x->mass.inverse[i] = dense ? 1 : 1/row[0];
         if (!gvi__finite(x->mass.inverse[i]))
             return gvi__report(st, GVI_E_SINGULAR, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
     }
@@ -4477,7 +4486,9 @@ GVI__COLD gvi_status gvi__set_rule(gvi_stepper *st, const gvi_rule *rule)
     }
     else gvi__rule(GVI__RULES && rule->kind == GVI_LOBATTO, st->r, x->table.c, x->t, x->table.b);
     if (GVI__ITERATES && !gvi__uses(x, GVI_EXPLICIT)) {
-        gvi__modes_at_nodes(st);
+        // the low words of Phi go to E, which is not yet in use
+        gvi__modes_of(st, st->r, x->table.c, x->t, x->table.phi, x->table.phi_low, x->table.Phi,
+                      x->sized.E);
         const gvi_status status = gvi__make_gamma(st);
         if (status != GVI_OK) return status;
         gvi__make_tables(st);
@@ -4850,7 +4861,7 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
     gvi_real sum = 0, largest = 0, noise = 0;
     p->work = 0;
     for (int i = 0; i < n; ++i) {
-        gvi_real change = 0, size = 0;
+        gvi_real change = 0, size = 0, miss = 0;
         const gvi_real q = GVI_ABS(from->q[i]), unit = x->watch.scale[i];
         for (int k = 0; k < st->s; ++k) {
             gvi_real *y = x->newton.y + k*n + i;
@@ -4859,6 +4870,7 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
             if (k >= J->k0) {
                 *y += x->newton.dy[at];
                 change += GVI_ABS(x->newton.dy[at]);
+                miss += GVI_ABS(x->newton.residual[at]);
                 p->work += GVI_ABS(x->newton.dy[at]*x->newton.residual[at]);
             }
             size += GVI_ABS(*y);
@@ -4866,7 +4878,9 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
         const gvi_real least = GVI__EPS*change;                       // y may land on 0
         if (!(size <= none && change <= none)) sum += change/(size < least ? least : size);
         if (q + h*size > largest*unit) largest = (q + h*size)/unit;
-        if (!(h*change <= 4*GVI__EPS*q) && h*change > noise*unit) noise = h*change/unit;
+        // a wrong matrix may make the change small, not the residual
+        const gvi_real moved = change/unit > miss*unit ? change/unit : miss*unit;
+        if (!(h*change <= 4*GVI__EPS*q) && h*moved > noise) noise = h*moved;
     }
     if (noise <= 32*GVI__EPS*largest || solved) p->work = -1;         // see gvi__noise
     return sum;
@@ -5084,9 +5098,7 @@ static gvi_status gvi__momentum(gvi_stepper *st, gvi_real t, const gvi_real *q, 
 {
     gvi_points y = gvi__one_point(st, &t, q);
     y.v = v;
-    if (gvi__has(&st->x, GVI__HAS_LAGRANGIAN)) return gvi__evaluate(st, &y, 0, 1);
-    gvi__zero(2*(size_t)st->n, y.f);              // and y.dldv
-    return gvi__kinetic(st, &y);
+    return gvi__evaluate(st, &y, gvi__has(&st->x, GVI__HAS_LAGRANGIAN) ? 0 : ~0u, 1);
 }
 
 GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
@@ -5385,14 +5397,10 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
     // partial step of length h from the nearer end, or none for a rounding of the whole
     const int end = GVI_ABS(back) <= GVI_ABS(ahead);
     const gvi_real h = !end ? ahead : gvi__nonzero(back) ? back - st->t_low : 0;
-    gvi__origin from = {
-        st->t, st->t_low, st->q, st->q_low, st->p, st->p_low, x->time.H + x->time.H_low
-    };
-    if (!end) {
-        const gvi__origin first = { st->t0,     0,        x->began.q, x->zeros,
-                                    x->began.p, x->zeros, x->began.H };
-        from = first;
-    }
+    const gvi__origin last = { st->t, st->t_low, st->q, st->q_low, st->p, st->p_low,
+                               x->time.H + x->time.H_low },
+        first = { st->t0, 0, x->began.q, x->zeros, x->began.p, x->zeros, x->began.H },
+        from = end ? last : first;
     const gvi_formulation was = st->formulation;
     if (GVI_ABS(h) > GVI__EPS*(GVI_ABS(ahead) + GVI_ABS(back)))
         status = gvi__partial_step(st, &from, end ? GVI__FROM_END : GVI__FROM_START, h);

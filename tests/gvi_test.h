@@ -108,7 +108,7 @@ static __attribute__((unused)) test_state state_now(const gvi_stepper *st)
 }
 
 static __attribute__((unused)) const test_state *
-check_state(const test_state *was, const char *file, int line)
+compare_state(const test_state *was, const char *file, int line)
 {
     const test_state now = state_now(was->st);
     int same = now.t == was->t;
@@ -117,7 +117,7 @@ check_state(const test_state *was, const char *file, int line)
     return NULL;
 }
 #define SAME_STATE(st) \
-    for (const test_state was_ = state_now(st), *once_ = &was_; once_; once_ = check_state(once_, __FILE__, __LINE__))
+    for (const test_state was_ = state_now(st), *once_ = &was_; once_; once_ = compare_state(once_, __FILE__, __LINE__))
 
 /* Both make steps of h, and agree to the bit after each */
 static __attribute__((unused)) void
@@ -128,7 +128,7 @@ move_alike(gvi_stepper *a, gvi_stepper *b, int steps, gvi_real h)
         assert_ok(gvi_step(b, h));
         test_state s = state_now(a);
         s.st = b;
-        check_state(&s, __FILE__, __LINE__);
+        compare_state(&s, __FILE__, __LINE__);
     }
 }
 

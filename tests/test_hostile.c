@@ -254,11 +254,11 @@ static void poison(size_t length)
 
 /* -------------------------------------------------------------------- a call */
 
-typedef struct { real t, q[N_MAX], p[N_MAX]; } state;
+typedef struct { real t, q[N_MAX], p[N_MAX]; } whole_state;
 
-static state state_of(const gvi_stepper *st)
+static whole_state state_of(const gvi_stepper *st)
 {
-    state s;
+    whole_state s;
     memset(&s, 0, sizeof s);
     s.t = st->t;
     memcpy(s.q, st->q, (size_t)st->n*sizeof(real));
@@ -266,7 +266,7 @@ static state state_of(const gvi_stepper *st)
     return s;
 }
 
-static int is_finite_state(const state *s)
+static int is_finite_state(const whole_state *s)
 {
     int finite = isfinite(s->t);
     for (int i = 0; i < N_MAX; ++i) finite = finite && isfinite(s->q[i]) && isfinite(s->p[i]);
@@ -292,9 +292,10 @@ static int   the_number;                            /* of the scene, to find it 
 static int calls_that_worked;
 
 /* After a call: status, work, memory, and the state if it may not have changed */
-static void check_call(const char *what, const gvi_stepper *st, gvi_status got, const state *before, int may_change)
+static void check_call(const char *what, const gvi_stepper *st, gvi_status got, const whole_state *before,
+                       int may_change)
 {
-    state after = state_of(st);
+    whole_state after = state_of(st);
     int good = got <= GVI_OK && got >= GVI_E_CLOCK;
     good = good && is_whole(poisoned);
     good = good && points_asked <= most_points(st, &the_scene.desc);
@@ -308,7 +309,7 @@ static void check_call(const char *what, const gvi_stepper *st, gvi_status got, 
 }
 
 #define CHECK(st, may_change, call) do { \
-    state before_ = state_of(st); \
+    whole_state before_ = state_of(st); \
     points_asked = 0; \
     check_call(#call, (st), (call), &before_, (may_change)); \
 } while (0)

@@ -288,14 +288,33 @@ TEST(test_lobatto)
 }
 
 /* Any s nodes: a_ij is the integral of l_j to c_i, ahat_ij = b_j - b_j a_ji/b_i. */
+static struct tableau of_nodes(int s, const real *c)
+{
+    struct tableau T = { s, { { 0 } }, { { 0 } }, { 0 } };
+    for (int j = 0; j < s; ++j) {
+        const real x = c[(j + 1) % s], y = s > 2 ? c[(j + 2) % s] : 0;
+        for (int i = 0; i <= s; ++i) {           // l_j = (t - x)(t - y)/..., without y for two nodes
+            const real t = i < s ? c[i] : 1,
+                       area = s > 2 ? t*t*t/3 - (x + y)*t*t/2 + x*y*t : t*t/2 - x*t,
+                       a = area/((c[j] - x)*(s > 2 ? c[j] - y : 1));
+            if (i < s) T.a[i][j] = a;
+            else T.b[j] = a;
+        }
+    }
+    for (int i = 0; i < s; ++i)
+        for (int j = 0; j < s; ++j) T.ahat[i][j] = T.b[j] - T.b[j]*T.a[j][i]/T.b[i];
+    return T;
+}
+
+/* order 2 = 2s - 2, and 3 < 2s - 2 */
 TEST(test_own)
 {
-    const struct tableau quarters = {
-        2, { { 5/16.0L, -1/16.0L }, { 9/16.0L, 3/16.0L } }, { { 3/16.0L, -1/16.0L }, { 9/16.0L, 5/16.0L } },
-        { 1/2.0L, 1/2.0L }
-    };
-    compare("nodes 1/4 and 3/4, separable", &separable, GVI_OWN, 2, 2, partitioned, &quarters);
-    compare("nodes 1/4 and 3/4, double pendulum", &pendulum, GVI_OWN, 2, 2, partitioned, &quarters);
+    const struct tableau two = of_nodes(2, (const real[]){ 1/4.0L, 3/4.0L }),
+                         three = of_nodes(3, (const real[]){ 0, 1/2.0L, 3/4.0L });
+    compare("nodes 1/4 3/4, separable", &separable, GVI_OWN, 2, 2, partitioned, &two);
+    compare("nodes 1/4 3/4, double pendulum", &pendulum, GVI_OWN, 2, 2, partitioned, &two);
+    compare("nodes 0 1/2 3/4, separable", &separable, GVI_OWN, 3, 3, partitioned, &three);
+    compare("nodes 0 1/2 3/4, double pendulum", &pendulum, GVI_OWN, 3, 3, partitioned, &three);
 }
 
 RUN_TESTS(NULL, NULL)

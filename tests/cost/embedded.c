@@ -1,11 +1,9 @@
 /* embedded.c - a step on a small processor: what its instructions buy
 
-     embedded --table COUNTS            Markdown: instructions, bound, drift and error of every setting; steps
-                                        a second for a tenth of 80 MHz, two cycles an instruction
-     embedded --choice FILE COUNTS      over the step size: the cheapest setting for a drift or an error, and
-                                        what gvi.h costs over what a step by hand costs, also with a force
-                                        that takes 300, 1000 or 3000 instructions more; FILE: a picture
-     embedded --rounding COUNTS NAME    a million steps; NAME: carried, or plain where gvi.h was changed
+     embedded COUNTS     Markdown: instructions, drift and error of every setting; steps a second for a
+                         tenth of 80 MHz, two cycles an instruction; over the step size: the cheapest
+                         setting for a drift or an error, and what gvi.h costs over what a step by hand
+                         costs, also with a force that takes 300, 1000 or 3000 instructions more
 
    COUNTS are the lines that embedded_count.c printed; tests/tools/embedded_cost.sh does all of it.
    Drift and error are found here, in the same type: the state after the counted steps must have the same
@@ -19,15 +17,11 @@
 #define GVI_STATIC
 #include "gvi.h"
 #include "embedded_run.h"
-#include "embedded_bound.h"
-#include "embedded_truth.h"
-#include "tools/svg.h"
 
+#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
-enum { DRIFT_STEPS = 100000, SWEPT_STEPS = 30000, ERROR_STEPS = 1000, LONG_STEPS = 1000000 };
-enum { SIZES = 13, LINES = 8 };
+enum { DRIFT_STEPS = 100000, SWEPT_STEPS = 30000, ERROR_STEPS = 1000, SIZES = 13 };
 
 typedef struct counts {
     int      present, steps;
@@ -44,6 +38,84 @@ static void complain(const char *what, const scene *s, const setting *t)
     fprintf(stderr, "FAILED: embedded: %s: %s, method %d, degree %d, %d iterations\n", s->name, what,
             (int)t->method, t->degree, t->iterations);
     bad = 1;
+}
+
+/* ------------------------------------------------------------------- truth */
+
+/* Energies and references in double and with libm's sines, written apart from the callbacks */
+enum { SUBSTEPS = 64 };
+
+typedef struct truth { double y[4], torque[2]; } truth;
+
+static double arm_one(double b) { return ARM_NEAR + ARM_FAR + 2*ARM_MID*cos(b); }
+static double arm_two(double b) { return ARM_FAR + ARM_MID*cos(b); }
+
+static void arm_accelerate(const truth *x, const double *y, double damping, double *dy)
+{
+    const double one = arm_one(y[1]), two = arm_two(y[1]), pull = ARM_MID*sin(y[1]);
+    const double low = ARM_LOWER*sin(y[0] + y[1]), u = y[2], w = y[3];
+    const double f = x->torque[0] - damping*u - ARM_UPPER*sin(y[0]) - low + pull*w*(2*u + w);
+    const double g = x->torque[1] - damping*w - low - pull*u*u, det = one*ARM_FAR - two*two;
+    dy[2] = (ARM_FAR*f - two*g)/det;
+    dy[3] = (one*g - two*f)/det;
+}
+
+static void true_rates(int index, const truth *x, const double *y, double *dy)
+{
+    const int n = scenes[index].n;
+    for (int i = 0; i < n; ++i) dy[i] = y[n + i];
+    if (index == PENDULUM) dy[1] = -WEIGHT*sin(y[0]);
+    if (index == MOTOR) dy[1] = x->torque[0] - DAMPING*y[1] - WEIGHT*sin(y[0]);
+    if (index == ORBIT)
+        for (int i = 0; i < 2; ++i) dy[2 + i] = -y[i]/pow(y[0]*y[0] + y[1]*y[1], 1.5);
+    if (index == ARM || index == DRIVEN_ARM) arm_accelerate(x, y, index == ARM ? 0 : ARM_DAMPING, dy);
+}
+
+static void true_substep(int index, truth *x, double h)
+{
+    const int m = 2*scenes[index].n;
+    double k[4][4], z[4];
+    static const double at[4] = { 0, 0.5, 0.5, 1 };
+    for (int stage = 0; stage < 4; ++stage) {
+        for (int i = 0; i < m; ++i) z[i] = x->y[i] + (stage > 0 ? at[stage]*h*k[stage - 1][i] : 0);
+        true_rates(index, x, z, k[stage]);
+    }
+    for (int i = 0; i < m; ++i) x->y[i] += h/6*(k[0][i] + 2*(k[1][i] + k[2][i]) + k[3][i]);
+}
+
+static void true_start(int index, truth *x)
+{
+    const int n = scenes[index].n;
+    x->torque[0] = x->torque[1] = 0;
+    for (int i = 0; i < n; ++i) {
+        x->y[i] = (double)scenes[index].q[i];
+        x->y[n + i] = (double)scenes[index].v[i];
+    }
+}
+
+/* One step of h, the torque being that of the run                                               */
+static void true_step(int index, truth *x, double h, int substeps)
+{
+    for (int i = 0; i < 2; ++i) x->torque[i] = (double)drive.torque[i];
+    for (int k = 0; k < substeps; ++k) true_substep(index, x, h/substeps);
+}
+
+/* Of configuration and velocity, above the state of least energy; the orbit's is -1/2           */
+static double true_energy(int index, const double *y)
+{
+    if (index == PENDULUM || index == MOTOR) return y[1]*y[1]/2 + WEIGHT*(1 - cos(y[0]));
+    if (index == ORBIT) return (y[2]*y[2] + y[3]*y[3])/2 - 1/hypot(y[0], y[1]);
+    const double kinetic = (arm_one(y[1])*y[2]*y[2] + ARM_FAR*y[3]*y[3])/2 + arm_two(y[1])*y[2]*y[3];
+    return kinetic + ARM_UPPER*(1 - cos(y[0])) + ARM_LOWER*(1 - cos(y[0] + y[1]));
+}
+
+/* Momenta become velocities                                                                     */
+static void true_velocity(int index, double *y)
+{
+    if (index != ARM && index != DRIVEN_ARM) return;
+    const double one = arm_one(y[1]), two = arm_two(y[1]), det = one*ARM_FAR - two*two, p = y[2], o = y[3];
+    y[2] = (ARM_FAR*p - two*o)/det;
+    y[3] = (one*o - two*p)/det;
 }
 
 /* -------------------------------------------------------------------- runs */
@@ -182,15 +254,6 @@ static void name_of(const setting *t, char *name, size_t size)
     else snprintf(name, size, "Gauss, s = %d%s", t->degree, t->method == FIXED_GIVEN ? ", v given" : "");
 }
 
-/* Operations, of which there is a bound where the iterations are fixed                          */
-static double bound_of(const scene *s, const setting *t)
-{
-    const int r = t->method == SUZUKI ? 6 : t->method == EXPLICIT ? 2 : t->degree;
-    if (by_hand_only(t) || (t->method >= FIXED && t->iterations == 0)) return 0;
-    return flops_of_step(t->method < FIXED ? GVI_EXPLICIT : s->fixed,
-                         t->method == FIXED_GIVEN ? GVI_MASS_UNIT : s->mass.kind, s->n, r, t->iterations);
-}
-
 static void print_cell(double x)
 {
     if (!(x < HUGE_VAL)) printf(" fails |");
@@ -202,7 +265,6 @@ static void table_row(const scene *s, int index)
     static run r;
     const setting *t = settings + index;
     const counts *c = &counted[s - scenes][index];
-    const double bound = bound_of(s, t);
     char name[60];
     name_of(t, name, sizeof name);
     printf("| %s |", name);
@@ -210,8 +272,6 @@ static void table_row(const scene *s, int index)
     else if (t->iterations > 0) printf(" %d |", t->iterations);
     else printf(" to rounding: %.1f |", (double)c->iterations/c->steps);
     printf(" %.0f | %ld | %ld |", c->mean, c->most, c->first);
-    if (bound > 0) printf(" %.0f |", bound);
-    else printf(" - |");
     const int fails = c->failures > 0 || run_start(&r, s, t, s->h) != 0;
     if (!(s->turn > 0)) print_cell(fails ? HUGE_VAL : drift_of(&r, DRIFT_STEPS));
     print_cell(fails || run_start(&r, s, t, s->h) ? HUGE_VAL : error_of(&r, ERROR_STEPS, SUBSTEPS));
@@ -239,8 +299,8 @@ static double reference_error(int index)
 static void table(const scene *s)
 {
     printf("\n%s\n\n", s->title);
-    printf("| setting | iterations | instructions | most | first 3 steps | operations at most |");
-    printf("%s\n|---|---|---|---|---|---|---|%s\n", s->turn > 0 ? " error of q |" : " drift | error of q |",
+    printf("| setting | iterations | instructions | most | first 3 steps |");
+    printf("%s\n|---|---|---|---|---|---|%s\n", s->turn > 0 ? " error of q |" : " drift | error of q |",
            s->turn > 0 ? "" : "---|");
     for (int k = 0; k < SETTINGS; ++k)
         if (counted[s - scenes][k].present) {
@@ -259,8 +319,7 @@ static int find(method m, int degree, int n)
     return k;
 }
 
-/* Steps a second that a tenth of a processor of 80 MHz has time for, at two cycles an instruction: more
-   than embedded_trace.awk finds where there are no wait states, but for a root and a quotient      */
+/* Steps a second that a tenth of a processor of 80 MHz has time for, at two cycles an instruction   */
 static void rates_row(int index)
 {
     char name[60];
@@ -394,121 +453,13 @@ static void choice_table(void)
     }
 }
 
-/* ------------------------------------------------------------------- picture */
-
-typedef struct family { const char *name; int setting, dashed; double x[SIZES], y[SIZES]; int count; } family;
-
-static void points_of(const scene *s, family *f)
-{
-    f->count = 0;
-    if (!worth_sweeping(s, f->setting)) return;
-    for (int k = 0; k < SIZES; ++k) {
-        const point *p = &swept[s - scenes][f->setting][k];
-        if (!(p->drift < 1)) continue;
-        f->x[f->count] = counted[s - scenes][f->setting].mean/p->h/1e6;
-        f->y[f->count++] = p->drift;
-    }
-}
-
-static void panel_of(const scene *s, const char *title, family *f, svg_line *lines, svg_plot *panel)
-{
-    static const char *const colours[LINES] = { "#009e73", "#aa4499", "#b8860b", "#444444", "#d55e00", "#56b4e9",
-                                                "#0072b2", "#0072b2" };
-    unsigned dashed = 0;
-    for (int k = 0; k < LINES; ++k) {
-        points_of(s, f + k);
-        const svg_line line = { f[k].name, f[k].x, f[k].y, f[k].count };
-        lines[k] = line;
-        dashed |= (unsigned)f[k].dashed << k;
-        if (f[k].count == 0 && s->verlet) complain("no point in the picture", s, settings + f[k].setting);
-    }
-    const svg_plot p = { .title = title, .x_label = "millions of instructions for a unit of time",
-                         .y_label = "drift of the energy", .log_x = 1, .log_y = 1, .lines = lines, .line_count = LINES,
-                         .dashed = dashed, .colours = colours };
-    *panel = p;
-}
-
-static int picture(const char *path)
-{
-    static family f[2][LINES];
-    svg_line lines[2][LINES];
-    svg_plot panels[2];
-    static const struct { const char *name; setting setting; } wanted[LINES] = {
-        { "gvi.h, s = 2, N = 2", { FIXED, 2, 2 } }, { "gvi.h, s = 2, N = 3", { FIXED, 2, 3 } },
-        { "gvi.h, s = 3, N = 3", { FIXED, 3, 3 } }, { "gvi.h, s = 4, N = 4", { FIXED, 4, 4 } },
-        { "gvi.h, Verlet", { EXPLICIT, 1, 0 } }, { "gvi.h, Suzuki 4", { SUZUKI, 1, 0 } },
-        { "RK4 by hand", { RK4, 4, 0 } }, { "RK4 by hand, compensated", { RK4_CARRIED, 4, 0 } } };
-    for (int k = 0; k < 2*LINES; ++k) {
-        family *x = &f[k/LINES][k%LINES];
-        const setting *t = &wanted[k%LINES].setting;
-        x->name = wanted[k%LINES].name;
-        x->setting = find(t->method, t->degree, t->iterations);
-        x->dashed = t->method == RK4;
-    }
-    panel_of(scenes + ORBIT, "orbit, 298 revolutions", f[0], lines[0], panels);
-    panel_of(scenes + ARM, "arm of two links, 300 s", f[1], lines[1], panels + 1);
-    return svg_write_all(path, panels, 2, 360);
-}
-
-/* ------------------------------------------------------------------ rounding */
-
-typedef struct long_run { int setting; run r; averages m; double error; } long_run;
-
-/* All at once, beside one reference                                                             */
-static void long_runs(const scene *s, long_run *x, int count)
-{
-    truth t;
-    true_start((int)(s - scenes), &t);
-    for (long k = 0; k <= LONG_STEPS; ++k) {
-        if (k > 0) true_step((int)(s - scenes), &t, (double)s->h, SUBSTEPS);
-        for (int i = 0; i < count; ++i) {
-            if (k == 0 && run_start(&x[i].r, s, settings + x[i].setting, s->h) != 0)
-                complain("does not start", s, settings + x[i].setting);
-            if (k > 0) run_step(&x[i].r);
-            average(&x[i].m, &x[i].r, k, LONG_STEPS);
-            if (k > LONG_STEPS - ERROR_STEPS) x[i].error = fmax(x[i].error, distance(&x[i].r, &t));
-        }
-    }
-}
-
-static void rounding(const char *rounds)
-{
-    const int shown[] = { PENDULUM, ORBIT }, plain = !strcmp(rounds, "plain");
-    const int picked[] = { EXPLICIT, find(FIXED, 2, 3), find(FIXED, 3, 3), plain ? VERLET : VERLET_CARRIED,
-                           plain ? RK4 : RK4_CARRIED };
-    for (int i = 0; i < 2; ++i) {
-        static long_run x[5];
-        const scene *s = scenes + shown[i];
-        memset(x, 0, sizeof x);
-        for (int k = 0; k < 5; ++k) x[k].setting = picked[k];
-        long_runs(s, x, 5);
-        for (int k = 0; k < 5; ++k) {
-            char name[60];
-            name_of(settings + (k < 3 ? picked[k] : k == 3 ? VERLET : RK4), name, sizeof name);
-            printf("| %s | %s%s | %s |", s->name, name, k == 1 || k == 2 ? ", N = 3" : "", rounds);
-            printf(" %.0f | %.1e | %.1e |\n", counted[s - scenes][picked[k]].mean, drift(&x[k].m, &x[k].r),
-                   x[k].error);
-        }
-    }
-}
-
 int main(int argc, char **argv)
 {
-    if (argc == 3 && !strcmp(argv[1], "--table")) {
-        read_counts(argv[2]);
-        for (int k = 0; k < SCENES; ++k) table(scenes + k);
-        rates_table();
-    } else if (argc == 4 && !strcmp(argv[1], "--choice")) {
-        read_counts(argv[3]);
-        sweep_all();
-        choice_table();
-        bad |= picture(argv[2]) != 0;
-    } else if (argc == 4 && !strcmp(argv[1], "--rounding")) {
-        read_counts(argv[2]);
-        rounding(argv[3]);
-    } else {
-        fputs("embedded --table COUNTS | --choice FILE COUNTS | --rounding COUNTS NAME\n", stderr);
-        return 2;
-    }
+    if (argc != 2) return fputs("embedded COUNTS\n", stderr), 2;
+    read_counts(argv[1]);
+    for (int k = 0; k < SCENES; ++k) table(scenes + k);
+    rates_table();
+    sweep_all();
+    choice_table();
     return bad;
 }

@@ -2,7 +2,7 @@
 
    For tests/tools/embedded_cost.sh, which runs it under `qemu-system-arm -icount shift=0`: every
    instruction then takes 1 ns, and SysTick, at 25 MHz, ticks once in 40 instructions.  EMBEDDED_SCENE
-   is the index of the scene; settings that the image cannot run are left out.  EMBEDDED_ONE: one of them.
+   is the index of the scene; settings that the image cannot run are left out.
 
    Prints first what it counts of sequences whose length is known:
 
@@ -200,10 +200,6 @@ int main(void)
     SYSTICK_CURRENT = 0;
     SYSTICK_CONTROL = 5;                           // on, the processor's clock, no interrupt
     known_all();
-#ifdef EMBEDDED_ONE
-    row(EMBEDDED_ONE);
-#else
     for (int k = 0; k < SETTINGS; ++k) row(k);
-#endif
     return 0;
 }

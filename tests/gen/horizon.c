@@ -130,7 +130,7 @@ static void print_state(const problem *p, int length)
     }
     printf("/* At %d: the two runs differ by %.1Le.  */\n", length, differ);
     printf("static const long double horizon_%d[] = {\n", length);
-    for (int d = 0; d < N; ++d) printf("    %.21LeL%s\n", q[0][d], d < N - 1 ? "," : "");
+    for (int d = 0; d < N; ++d) printf("%s%.21LeL,%s", d%3 ? " " : "    ", q[0][d], d%3 == 2 ? "\n" : "");
     printf("};\n\n");
 }
 

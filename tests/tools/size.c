@@ -1,37 +1,10 @@
 /* What size.sh compiles for a machine: the three calls that every program makes, and
-   the length of a stepper as that of an array.  With SIZE_DESCRIBED: the same calls,
-   and the description of a scene of one coordinate beside them.  With SIZE_SCENES, for this machine: a
-   program that prints the numbers (gvi_real) of memory that some scenes need.        */
+   the length of a stepper as that of an array.  With SIZE_SCENES, for this machine: a program that prints the numbers (gvi_real) of memory that some scenes need.        */
 #define GVI_IMPLEMENTATION
 #define GVI_STATIC
 #include "gvi.h"
 
-#if defined SIZE_DESCRIBED
-int size_force(const gvi_points *x, void *user);
-gvi_status size_init(gvi_stepper *st);
-gvi_status size_start(gvi_stepper *st);
-gvi_status size_step(gvi_stepper *st);
-
-gvi_status size_init(gvi_stepper *st)
-{
-    static gvi_real memory[GVI_LENGTH(1, 3, 3)];
-    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = size_force } };
-    const gvi_desc desc = { .n = 1, .degree = 3, .effects = scene, .effect_count = 1,
-                            .formulation = GVI_POSITIONS, .iterations = 3 };
-    return gvi_init(st, &desc, memory, sizeof memory);
-}
-
-gvi_status size_start(gvi_stepper *st)
-{
-    static const gvi_real q[1] = { 1 }, v[1] = { 0 };
-    return gvi_start(st, 0, q, v);
-}
-
-gvi_status size_step(gvi_stepper *st) { return gvi_step(st, 1/(gvi_real)128); }
-
-int size_force(const gvi_points *x, void *user) { return (void)x, (void)user, 0; }
-
-#elif !defined SIZE_SCENES
+#if !defined SIZE_SCENES
 gvi_status size_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *memory, size_t size);
 gvi_status size_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v);
 gvi_status size_step(gvi_stepper *st, gvi_real h);

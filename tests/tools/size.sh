@@ -3,7 +3,7 @@
 # code and constants of gvi.h alone, what it takes of libm and libgcc, the deepest stack; then
 # RAM.  Rows: every function, then gvi_init, gvi_start and gvi_step with one formulation
 # (GVI_ONLY_...), whole and without a clock and with Gauss's rule alone (GVI_NO_CLOCK,
-# GVI_NO_RULES, "least").  Then, on Cortex-M4F, what each part costs.  --detail: also the largest functions and the deepest chain of calls.
+# GVI_NO_RULES, "least").  --detail: also the largest functions and the deepest chain of calls.
 build=$1 detail=$2
 CC=${CC:-cc}
 dir=$build/size
@@ -66,7 +66,6 @@ row() {  # name source roots flags...
     constants=$(constants_of "$object.o")
     libraries=$(($(whole "$object.elf") - $(whole "$dir/$target-empty.elf") - code - constants))
     printf '  %-22s %7d %7d %10d %7d %9d %8d\n' "$name" $code $constants $libraries $stack $callback $library
-    echo "$target|$name|$code|$stack" >>"$dir/rows"
     [ "$detail" = --detail ] || return 0
     echo "      deepest chain: $chain"
     echo "      largest:" $(${prefix}nm -S --size-sort -t d "$object.o" |
@@ -94,48 +93,7 @@ table() {  # target title prefix flags link-flags
         row $f tests/tools/size.c "$entries" $only
         row "$f, least" tests/tools/size.c "$entries" $only $least
     done
-    row "positions, described" tests/tools/size.c "$entries" -DGVI_ONLY_POSITIONS $least -DSIZE_DESCRIBED
     echo "$target $(stepper) $(stepper -DGVI_EFFECTS=4)" >>"$dir/steppers"
-}
-
-# code of everything in an image with these functions
-linked() {  # roots flags...
-    roots=$1
-    shift
-    $compiler $cc_flags "$@" -c "$dir/everything.c" -o "$dir/part.o" && link_object "$dir/part" "$roots" ||
-        fail "$target: part"
-    code_of "$dir/part.o" "$dir/part.elf"
-}
-part_line() { printf '  %-58s %6d\n' "$1" "$2"; }
-
-parts() {  # of the last table's machine
-    target=$1 steps='gvi_init gvi_start gvi_step' all= base=$(linked 'gvi_init gvi_start gvi_step')
-    for f in EXPLICIT POSITIONS VELOCITIES MOMENTA NEWTON; do all="$all -DGVI_ONLY_$f"; done
-    echo "What parts cost on $target, bytes of code"
-    part_line 'gvi_init, gvi_start, gvi_step with everything' $base
-    while IFS='|' read -r name flags; do
-        part_line "  of it $name" $((base - $(linked "$steps" $flags)))
-    done <<END
-the explicit formulation|$(echo "$all" | sed 's/-DGVI_ONLY_EXPLICIT//')
-positions|$(echo "$all" | sed 's/-DGVI_ONLY_POSITIONS//')
-velocities|$(echo "$all" | sed 's/-DGVI_ONLY_VELOCITIES//')
-momenta|$(echo "$all" | sed 's/-DGVI_ONLY_MOMENTA//')
-Newton's method|$(echo "$all" | sed 's/-DGVI_ONLY_NEWTON//')
-clocks: GVI_NO_CLOCK|-DGVI_NO_CLOCK
-other rules, constraints: GVI_NO_RULES|-DGVI_NO_RULES
-END
-    while IFS='|' read -r name roots; do
-        part_line "added by $name" $(($(linked "$steps $roots") - base))
-    done <<END
-gvi_velocity, gvi_energy|gvi_velocity gvi_energy
-gvi_curve|gvi_curve
-gvi_state_at|gvi_state_at
-gvi_discrete_lagrangian, gvi_start_configurations|gvi_start_configurations
-all of these, gvi_action and gvi_start_momentum|gvi_velocity gvi_energy gvi_curve gvi_state_at gvi_start_configurations gvi_action
-gvi_switch, gvi_restore, gvi_size|gvi_switch gvi_restore gvi_size
-the building blocks|gvi_gauss gvi_lobatto gvi_rule_order gvi_barycentric gvi_interpolate \
-gvi_interpolate_derivative gvi_basis gvi_basis_derivative gvi_lu_factor gvi_lu_solve gvi_lu_rcond
-END
 }
 
 # a scene needs as many numbers on every machine; the stepper is pointers and counters
@@ -146,39 +104,18 @@ ram() {
     echo 'with the stepper; the same with GVI_EFFECTS 4'
     while read -r target full small; do
         echo "  $target: stepper $full ($small)"
-        awk -F'|' -v full="$full" -v small="$small" -v target="$target" -v rows="$dir/ram" '{
-            printf "    %-36s %5d (%5d) %6d %6d\n", $1, 4*$2, 4*$3, 4*$2 + full, 4*$2 + small
-            print target "|" $1 "|" 4*$2 + full "|" 4*$2 + small >>rows }' "$dir/scenes.txt"
+        awk -F'|' -v full="$full" -v small="$small" '{
+            printf "    %-36s %5d (%5d) %6d %6d\n", $1, 4*$2, 4*$3, 4*$2 + full, 4*$2 + small }' "$dir/scenes.txt"
     done <"$dir/steppers"
-}
-
-aim() {  # what found wanted
-    [ -n "$2" ] && awk -v what="$1" -v found="$2" -v wanted="$3" 'BEGIN {
-        printf "  %-52s %6d  aim %6d  %s\n", what, found, wanted, found + 0 <= wanted + 0 ? "yes" : "no" }'
-}
-found() {  # table row field, of m4f
-    awk -F"|" -v name="$2" -v field="$3" '$1 == "m4f" && $2 == name { print $field }' "$dir/$1"
 }
 
 arm='--specs=nano.specs -nostartfiles -Wl,-e,main'
 m4f='-mthumb -mcpu=cortex-m4 -mfloat-abi=hard -mfpu=fpv4-sp-d16'
 table m0  Cortex-M0  arm-none-eabi- '-mthumb -mcpu=cortex-m0' "$arm"
 table m4f Cortex-M4F arm-none-eabi- "$m4f" "$arm"
-command -v arm-none-eabi-gcc >/dev/null 2>&1 && parts m4f
 table rv  'RISC-V 32 (rv32imc)' riscv64-unknown-elf- '-march=rv32imc -mabi=ilp32 --specs=picolibc.specs'
 table avr 'AVR (ATmega1284P)' avr- -mmcu=atmega1284p
 [ -f "$dir/steppers" ] || fail 'no compiler for a small machine (make deps-firmware installs some)'
 echo 'libraries: of libm and libgcc, arithmetic in software included'
 echo 'stack: of gvi.h alone; so much of it, last columns, lies under a callback and a library function'
 ram
-echo 'aims on Cortex-M4F'
-aim 'code of everything'                             "$(found rows everything 3)" 16384
-aim 'code for potentials only: positions'            "$(found rows positions 3)" 5120
-aim 'code for potentials only: positions, least'     "$(found rows 'positions, least' 3)" 5120
-aim 'code for potentials only: positions, described' "$(found rows 'positions, described' 3)" 5120
-aim 'code for potentials only: explicit, least'      "$(found rows 'explicit, least' 3)" 5120
-aim 'stack of everything'                            "$(found rows everything 4)" 512
-aim 'stack for potentials only: positions, least'    "$(found rows 'positions, least' 4)" 512
-aim 'RAM of the arm, s = 3'                          "$(found ram 'arm of two joints, s = 3: momenta' 3)" 1536
-aim 'RAM of the arm, s = 3, GVI_EFFECTS 4'           "$(found ram 'arm of two joints, s = 3: momenta' 4)" 1536
-exit 0
