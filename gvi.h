@@ -2089,7 +2089,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
     int at;
     x->v = v;
     gvi__count(&st->counters.velocities, 1);
-    for (int k = 0, halves = 0, last_places = 0; k < 60; ++k) {
+    for (int k = 0, halves = 0; k < 60; ++k) {
         gvi_real change = 0, miss = 0;
         int almost = 1;
         gvi_status status = gvi__evaluate(st, x, 0, 1);
@@ -2129,8 +2129,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
         if (!(change <= GVI__MAX)) break;
         // from beyond the root corrections grow threefold, be they of the last place
         const gvi_real small = GVI_SQRT(GVI__EPS);
-        last_places += change <= 64*GVI__EPS;
-        const int rests = last_places > 4 || (change <= 2*GVI__EPS && (last <= small || almost)),
+        const int rests = k > 4 || (change <= 2*GVI__EPS && (last <= small || almost)),
                   still = change >= last/2 && change <= 2*last && change <= small;
         if (miss <= 8*GVI__EPS*(gvi_real)n && (rests || still)) return GVI_OK;
         last = change;
@@ -2487,7 +2486,7 @@ GVI__CALLED void gvi__constraint_stages(const gvi_stepper *st, const gvi__origin
                                    struct gvi__stage *y, int stages);
 GVI__CALLED void gvi__constraint_rows(const gvi_stepper *st, const struct gvi__stage *y);
 GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin *from);
-GVI__CALLED void gvi__constrain(gvi_stepper *st, const struct gvi__stage *y);
+GVI__CALLED void gvi__constrain(gvi_stepper *st, const struct gvi__stage *y, const gvi_real *q0);
 GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate);
 static gvi_status gvi__stalled(gvi_stepper *st);
 GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h);
@@ -2947,6 +2946,15 @@ static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real 
     }
     if (x->desc.mass.kind == GVI_MASS_DENSE) {
         gvi__over_mass(st, v, 1, 1);
+        for (int i = 0; i < st->n; ++i) {         // p - M v
+            gvi__two left = gvi__two_of(p[i], p_low[i]);
+            for (int j = 0; j < st->n; ++j) {
+                const int ij = i > j ? i*st->n + j : j*st->n + i;
+                const gvi__two z = gvi__two_prod(-x->mass.matrix[ij], v[j]);
+                left = gvi__add_low(left.hi, left.lo, z.hi, z.lo);
+            }
+            v_low[i] = gvi__low(left.hi + left.lo);
+        }
         gvi__over_mass(st, v_low, 1, 1);
     }
     for (int i = 0; i < st->n; ++i) {
@@ -3176,7 +3184,8 @@ GVI__BODY gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *y, int stage
 {
     const struct gvi__private *x = &st->x;
     gvi_real sum = 0;
-    if (gvi__constrained(st) && x->con.made > 0) gvi__constrain(st, y);
+    if (gvi__constrained(st) && x->con.made > 0)
+        gvi__constrain(st, y, y[gvi__uses(x, GVI_MOMENTA)].base);
     for (int k = 0; k < stages; ++k) {
         if (k == 1 && gvi__uses(x, GVI_MOMENTA)) sum += gvi__velocities_again(st);
         sum += y[k].dense ? gvi__dense_rows(st, y + k, rescale) : x->kernel(st, y + k, rescale);
@@ -3318,12 +3327,14 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
     p->stagnant = D < (gvi_real)0.81*p->least ? 0 : p->stagnant + 1;
     if (D < p->least) p->least = D;
     const int poor = p->growing > (D > far ? 4 : 2) && D > 65536*rounding;
-    if (p->stagnant > 1 || poor) {
+    const int wait = gvi__constrained(st) ? 0 : 1;           // the rounding of g is in every D
+    if (p->stagnant > wait || poor) {
         const gvi_real noise = gvi__noise(st, h, y, stages);
         // what falls to a new least still converges, be it to 0; what grows diverges
         p->still = noise < p->quiet ? 0 : p->still + 1;
         const int level = noise <= GVI__EPS || (p->still > 7 && noise <= p->noise);
-        if (p->stagnant > 1 && (noise <= 0 || (noise <= 1 && p->stagnant > 4 && level)))
+        if (p->stagnant > wait && (noise <= 0
+            || (noise <= 1 && (wait ? p->stagnant > 4 && level : p->stagnant > 1))))
             return p->used - p->stagnant >= GVI__DIG/2 && gvi__may_turn(st) ? GVI__DIVERGES
                                                                               : GVI__ONCE_MORE;
         // a row that tends to 0 changes by its whole size: does its amplitude fall?
@@ -3369,7 +3380,7 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
                     x->work.Q[i*x->R + k] = (x->work.Q[i*x->R + k] + from->q[i])/2;
             continue;
         }
-        if (last && status == GVI_OK && gvi__constrained(st)) gvi__constrain(st, stage);
+        if (last && status == GVI_OK && gvi__constrained(st)) gvi__constrain(st, stage, from->q);
         if (last || status != GVI_OK) return status;
         const int diverged = p.growing > 0 || p.before > (gvi_real)st->n;
         const gvi_real change = gvi__new_rows(st, stage, stages, p.rescale);
@@ -3445,6 +3456,17 @@ static void gvi__sum_rows(const gvi_stepper *st, gvi_real *rows, const gvi_real 
     }
 }
 
+// sum_j (1 - c_j) w_j F_j with its low word
+GVI__CALLED gvi__two gvi__moment(int count, const gvi_real *c, const gvi_real *w, const gvi_real *F)
+{
+    gvi__two sum = gvi__two_of(0, 0);
+    for (int j = 0; j < count; ++j) {
+        const gvi__two push = gvi__two_prod(w[j], F[j]), z = gvi__two_prod(1 - c[j], push.hi);
+        sum = gvi__add_low(sum.hi, sum.lo, z.hi, z.lo + (1 - c[j])*push.lo);
+    }
+    return sum;
+}
+
 /* Increments of q and p from the F, V and A at the end of the iteration, by (2) and by (3) at
    tau = 1, where S_j = c_j: dq = h (v + M^-1 (sum_j (1 - c_j) h b_j F_j - sum_j b_j A_j)).    */
 static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h)
@@ -3475,9 +3497,12 @@ static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h
             for (int k = 0; k < 4; ++k) sum[k] += (1 - c[o + k])*(hb[o + k]*F[o + k]);
         for (int k = R & ~3; k < R; ++k) sum[k & 3] += (1 - c[k])*(hb[k]*F[k]);
         x->step.q[i] = (sum[0] + sum[2]) + (sum[1] + sum[3]);
+        if (gvi__constrained(st)) {
+            const gvi__two a = gvi__moment(r, c, hb, F),
+                           z = gvi__moment(st->s, x->con.d, x->con.hw, x->con.force + i*R);
+            x->step.q[i] = (a.hi + z.hi) + (a.lo + z.lo);
+        }
         if (GVI__LAGRANGIAN && w->A) x->step.q[i] -= gvi__dot(r, x->table.b, w->A + i*R);
-        for (int e = 0; gvi__constrained(st) && e < st->s; ++e)
-            x->step.q[i] += (1 - x->con.d[e])*(x->con.hw[e]*x->con.force[i*R + e]);
     }
     gvi__over_mass(st, x->step.q, 1, 1);
     for (int i = 0; i < st->n; ++i) {
@@ -3846,6 +3871,7 @@ GVI__CALLED void gvi__constraint_rows(const gvi_stepper *st, const gvi__stage *y
     z.sum[0].table = x->con.by_force;
     z.sum[1].table = gvi__uses(x, GVI_MOMENTA) ? NULL : x->con.by_impulse;
     z.rows = x->con.D;
+    z.base = x->zeros;
     z.free = x->con.free;
     z.scale = z.change = NULL;
     if (z.dense) gvi__dense_rows(st, &z, 0);
@@ -3870,8 +3896,9 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
     struct gvi__private *x = &st->x;
     const int s = st->s, C = x->con.C;
     for (int i = 0; i < st->n; ++i) {
-        for (int k = 0; k < C; ++k) x->con.at[i*C + k] = from->q[i];
-        gvi__copy((size_t)s, x->con.D + i*x->R, x->con.at + i*C + 1);
+        gvi_real *at = x->con.at + i*C;
+        for (int k = 0; k < C; ++k) at[k] = from->q[i];
+        for (int k = 1; k <= s; ++k) at[k] += x->con.D[i*x->R + k - 1];
     }
     const gvi_status status =
         gvi__evaluate_constraints(st, C, s + 1, x->con.t, x->con.at, x->con.G);
@@ -3879,7 +3906,7 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
 }
 
 // the new lambda, and forces.  With momenta D' needs the P and V of the new F
-GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *y)
+GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *y, const gvi_real *q0)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, m = x->con.m, s = st->s, R = x->R, C = x->con.C;
@@ -3898,7 +3925,7 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *y)
     for (int i = 0; i < n; ++i) {                 // D - D'
         gvi_real *GVI__RESTRICT z = moved + i*C;
         const gvi_real *at = x->con.at + i*C + 1, *D = x->con.D + i*R;
-        for (int e = 0; e < s; ++e) z[e] = at[e] - D[e];
+        for (int e = 0; e < s; ++e) z[e] = (at[e] - q0[i]) - D[e];
     }
     gvi__zero((size_t)(m*R), rho);
     for (int a = 0; a < m; ++a) {
@@ -3959,7 +3986,7 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
             const gvi_real off = gvi__violation(st, t, Q, G, a);
             if (off > size || !gvi__finite(off)) size = off;
         }
-        if (!(size < before/4))                   // rounding?
+        if (!(size < before/2))                   // rounding?
             return gvi__report_status(st, size <= 64 ? GVI_OK : gvi__finite(size) || x->diagnose
                                                       ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE);
         before = size;
@@ -4848,7 +4875,7 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
     gvi_real sum = 0, largest = 0, noise = 0;
     p->work = 0;
     for (int i = 0; i < n; ++i) {
-        gvi_real change = 0, size = 0;
+        gvi_real change = 0, size = 0, miss = 0;
         const gvi_real q = GVI_ABS(from->q[i]), unit = x->watch.scale[i];
         for (int k = 0; k < st->s; ++k) {
             gvi_real *y = x->newton.y + k*n + i;
@@ -4857,6 +4884,7 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
             if (k >= J->k0) {
                 *y += x->newton.dy[at];
                 change += GVI_ABS(x->newton.dy[at]);
+                miss += GVI_ABS(x->newton.residual[at]);
                 p->work += GVI_ABS(x->newton.dy[at]*x->newton.residual[at]);
             }
             size += GVI_ABS(*y);
@@ -4864,7 +4892,9 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
         const gvi_real least = GVI__EPS*change;                       // y may land on 0
         if (!(size <= none && change <= none)) sum += change/(size < least ? least : size);
         if (q + h*size > largest*unit) largest = (q + h*size)/unit;
-        if (!(h*change <= 4*GVI__EPS*q) && h*change > noise*unit) noise = h*change/unit;
+        // a wrong matrix may make the change small, not the residual
+        const gvi_real moved = change/unit > miss*unit ? change/unit : miss*unit;
+        if (!(h*change <= 4*GVI__EPS*q) && h*moved > noise) noise = h*moved;
     }
     // see gvi__noise
     if ((noise <= 32*GVI__EPS*largest && sure) || solved) p->work = -1;

@@ -61,7 +61,7 @@ static void split_about(table *a, int half, const long double *b, const long dou
 
 static const table *tables(int *count)
 {
-    static table all[8];
+    static table all[9];
     const long double root = cbrtl(2), five = 1/(4 - cbrtl(4));
     const long double yoshida4[] = { 1/(2 - root), -root/(2 - root), 1/(2 - root) };
     const long double suzuki4[] = { five, five, 1 - 4*five, five, five }, one[] = { 1 };
@@ -92,6 +92,7 @@ static const table *tables(int *count)
     split_about(&all[7], COUNT(splitting8_b), splitting8_b, splitting8_a);
     all[6] = (table){ "Ruth 3", 3, 3, 0, { 0, 2/(gvi_real)3, 0 },
                       { 7/(gvi_real)24, 3/(gvi_real)4, -1/(gvi_real)24 } };
+    all[8] = (table){ "symplectic Euler, drift first", 1, 1, 0, { 1 }, { 1 } };
     return all;
 }
 

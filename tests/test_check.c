@@ -48,10 +48,8 @@ TEST(right_scenes_pass)
         for (int k = 0; k < count && k < ROOM; ++k)
             print_error("  %s: %s\n", scenes[i]->name, check_line(list + k, line, sizeof line));
         assert_int_equal(count, 0);
-        int constraints = 0;                      // have no f
-        for (int e = 0; e < made.desc.effect_count; ++e) constraints += made.effects[e].kind == GVI_CONSTRAINT;
-        assert_int_equal(report.unchecked, constraints);
-        assert_true(report.checked > (constraints ? 0 : 20));
+        assert_int_equal(report.unchecked, 0);
+        assert_true(report.checked > 20);
         print_message("  %-20s %6ld entries, errors from %.1e on would be seen\n", scenes[i]->name,
                       report.checked, report.worst);
         assert_between(1e-10, report.worst, made.desc.n > 40 ? 1e-4 : 1e-8);    // a net's soft direction

@@ -59,9 +59,8 @@ static void check_reference(const gvi_stepper *st, int n, const long double *q, 
    At T = 10 (free body: 20), from two step sizes of degree 12 in quadruple precision, and Taylor series of
    the index-1 equations or of those in angles.                                                       */
 
-static void test_references(void **state)
+TEST(states_meet_the_references)
 {
-    (void)state;
     static const long double rods_q[] = { 0.9717130808687679340841202356L, -0.2361645368562504330536795036L,
         1.6219338957314591733328457283L, -0.9959098178019749018726361532L },
     rods_p[] = { -0.2411897489661919888013098525L, -1.0845368917329706938368110515L, -0.1051258454053549629195169143L,
@@ -170,9 +169,8 @@ static void rattle(real h, real *q, real *p)
     for (int i = 0; i < 4; ++i) p[i] -= G[0][i]*y[0] + G[1][i]*y[1];
 }
 
-static void test_rattle(void **state)
+TEST(degree_1_is_rattle)
 {
-    (void)state;
     const linkage a = make_linkage(RODS);
     for (int pinned = 0; pinned < 2; ++pinned) {
         gvi_desc desc = linkage_desc(&a, 1);
@@ -198,9 +196,8 @@ static void test_rattle(void **state)
 /* ---------------------------------------------------------------- structure */
 
 /* Momentum maps to rounding: the sphere's L_z; the top's about the vertical and its own axis */
-static void test_momentum_maps(void **state)
+TEST(momentum_maps_are_kept)
 {
-    (void)state;
     for (int s = 1; s <= 8; s += s < 3 ? 1 : 5) {
         linkage a = make_linkage(SPHERE);
         gvi_desc desc = linkage_desc(&a, s);
@@ -226,9 +223,8 @@ static void test_momentum_maps(void **state)
     }
 }
 
-static void test_there_and_back(void **state)
+TEST(a_run_can_be_run_back)
 {
-    (void)state;
     for (int id = 0; id < LINKAGES; ++id) {
         if (id == FRICTION) continue;             // which forgets
         const linkage a = make_linkage((linkage_id)id);
@@ -242,9 +238,8 @@ static void test_there_and_back(void **state)
 }
 
 /* g and the hidden constraint stay at rounding, energy within a random walk */
-static void test_long_runs(void **state)
+TEST(g_and_G_v_stay_at_rounding)
 {
-    (void)state;
     for (int id = 0; id < LINKAGES; ++id) {
         const linkage a = make_linkage((linkage_id)id);
         const gvi_desc desc = linkage_desc(&a, EXACT);
@@ -271,9 +266,8 @@ static void test_long_runs(void **state)
 /* ---------------------------------------------------------------- interface */
 
 /* The closed form: at rest at angle a, and swinging, lambda = -(v^2 + cos a) for g = (|q|^2 - 1)/2, m = l = g = 1 */
-static void test_tension(void **state)
+TEST(multipliers_are_the_tension)
 {
-    (void)state;
     linkage a = make_linkage(PENDULUM);
     const gvi_desc desc = linkage_desc(&a, 8);
     gvi_stepper st;
@@ -293,9 +287,8 @@ static void test_tension(void **state)
 
 /* The lower rod breaks: then its end falls freely, and the upper rod swings on; mended where it does not fit:
    refused, and nothing has changed                                                                    */
-static void test_switch(void **state)
+TEST(a_rod_breaks_and_holds_again)
 {
-    (void)state;
     linkage a = make_linkage(RODS);
     static const real mass[4] = { 1, 1, 2, 2 };
     a.mass.kind = GVI_MASS_DIAGONAL;
@@ -339,9 +332,8 @@ static void test_switch(void **state)
 }
 
 /* Inside a step: the state at a time against a run that ends there; the curve's ends; a checkpoint's future */
-static void test_queries(void **state)
+TEST(queries_know_constraints)
 {
-    (void)state;
     static real copy[80000];
     for (int id = 0; id < LINKAGES; ++id) {
         const linkage a = make_linkage((linkage_id)id);
@@ -380,9 +372,8 @@ static void test_queries(void **state)
 static int nothing(const gvi_points *x, void *user) { return (void)x, (void)user, 0; }
 
 /* What does not go with constraints says so by name */
-static void test_refusals(void **state)
+TEST(descriptions_are_refused_by_name)
 {
-    (void)state;
     static const real nodes[1] = { (real)0.5L }, weights[1] = { 1 };
     const linkage a = make_linkage(RODS), body = make_linkage(QUATERNION);
     gvi_stepper st;
@@ -448,9 +439,8 @@ static void fails(gvi_stepper *st, int n, real h, gvi_status wanted)
 }
 
 /* A start off the manifold by 0.01 and by 1, in position and in velocity, is refused with its row */
-static void test_inconsistent(void **state)
+TEST(a_start_off_the_constraint_is_refused)
 {
-    (void)state;
     const linkage a = make_linkage(RODS);
     const gvi_desc desc = linkage_desc(&a, 4);
     gvi_stepper st;
@@ -488,9 +478,8 @@ static int rods_end(const gvi_points *x, void *user)
     return 0;
 }
 
-static void test_dependent(void **state)
+TEST(a_dependent_row_is_named)
 {
-    (void)state;
     linkage a = make_linkage(RODS);
     gvi_stepper st;
     a.effects[1].points = rods_twice;
@@ -533,9 +522,8 @@ static int parallelogram(const gvi_points *x, void *user)
     return (void)user, 0;
 }
 
-static void test_bifurcation(void **state)
+TEST(a_bifurcation_is_refused)
 {
-    (void)state;
     linkage a = make_linkage(FOUR_BAR);
     static const real hs[] = { (real)0.05L, (real)0.03L, (real)0.1L };
     a.effects[1].points = parallelogram;
@@ -559,9 +547,8 @@ static void test_bifurcation(void **state)
 }
 
 /* From h = 1e-6 to one that does not converge, which is said, with the state as it was */
-static void test_steps(void **state)
+TEST(steps_of_all_sizes)
 {
-    (void)state;
     const linkage a = make_linkage(RODS);
     const gvi_desc desc = linkage_desc(&a, 8);
     static const real hs[] = { (real)1e-6L, (real)1e-4L, (real)1e-2L, (real)0.1L, (real)0.3L };
@@ -583,9 +570,8 @@ static void test_steps(void **state)
 }
 
 /* Another unit of length changes exponents, and no bit */
-static void test_units(void **state)
+TEST(units_do_not_matter)
 {
-    (void)state;
     linkage a = make_linkage(RODS);
     static const int exponents[] = { 0, -120, -60, 60, 120 };
     real first[4] = { 0 };
@@ -608,9 +594,8 @@ static void test_units(void **state)
 }
 
 /* A light end, to 1e-12 of the other mass */
-static void test_mass_ratio(void **state)
+TEST(mass_ratios_to_1e_12)
 {
-    (void)state;
     for (int k = 0; k <= 12; k += 3) {
         linkage a = make_linkage(RODS);
         const real light = pow((real)10, (real)-k), mass[4] = { 1, 1, light, light };
@@ -627,9 +612,8 @@ static void test_mass_ratio(void **state)
 }
 
 /* I_0 from 1e-4 to 1e4 is no part of the motion: the same, or a status */
-static void test_fourth_inertia(void **state)
+TEST(the_fourth_inertia_has_a_range)
 {
-    (void)state;
     for (int k = -4; k <= 4; ++k) {
         const real inertia[4] = { pow((real)10, (real)k), 1, 1, (real)0.5L };
         linkage a = make_linkage(QUATERNION);
@@ -645,9 +629,8 @@ static void test_fourth_inertia(void **state)
 }
 
 /* Spin w of the top in directors: steps of h w to 1 converge, beyond it a status */
-static void test_spin(void **state)
+TEST(a_top_that_spins_too_fast_is_refused)
 {
-    (void)state;
     for (int k = -2; k <= 3; ++k) {
         linkage a = make_linkage(DIRECTORS);
         const real w = 20, hw = ldexp((real)1, k);
@@ -680,9 +663,8 @@ static int refuses(const gvi_points *x, void *user)
     return (void)user, 0;
 }
 
-static void test_hostile_callbacks(void **state)
+TEST(callbacks_that_refuse_are_named)
 {
-    (void)state;
     linkage a = make_linkage(RODS);
     a.effects[1].points = refuses;
     const gvi_desc desc = linkage_desc(&a, 4);
@@ -699,27 +681,4 @@ static void test_hostile_callbacks(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_references),
-        cmocka_unit_test(test_rattle),
-        cmocka_unit_test(test_momentum_maps),
-        cmocka_unit_test(test_there_and_back),
-        cmocka_unit_test(test_long_runs),
-        cmocka_unit_test(test_tension),
-        cmocka_unit_test(test_switch),
-        cmocka_unit_test(test_queries),
-        cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_inconsistent),
-        cmocka_unit_test(test_dependent),
-        cmocka_unit_test(test_bifurcation),
-        cmocka_unit_test(test_steps),
-        cmocka_unit_test(test_units),
-        cmocka_unit_test(test_mass_ratio),
-        cmocka_unit_test(test_fourth_inertia),
-        cmocka_unit_test(test_spin),
-        cmocka_unit_test(test_hostile_callbacks),
-    };
-    return cmocka_run_group_tests_name("constraints", tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -202,9 +202,8 @@ static void check_order(linkage_id id, int s, gvi_rule_kind rule, int r, int ord
     }
 }
 
-static void test_order(void **state)
+TEST(orders_of_q_and_p)
 {
-    (void)state;
     for (int id = 0; id < LINKAGES; ++id) {
         const linkage a = make_linkage((linkage_id)id);
         const int constant_mass = id != QUATERNION && id != MAGNET;
@@ -224,9 +223,8 @@ static void test_order(void **state)
 /* ---------------------------------------------------------- multipliers */
 
 /* Along a motion, against those of the index-1 equations at the same state: no method's order is in it */
-static void test_multipliers(void **state)
+TEST(orders_of_multipliers)
 {
-    (void)state;
     for (int id = 0; id < LINKAGES; ++id) {
         const linkage a = make_linkage((linkage_id)id);
         gvi_stepper st;
@@ -250,9 +248,8 @@ static void test_multipliers(void **state)
 
 /* A quaternion's multiplier is that of |q|: T and V are homogeneous of degree 2 in q, so q'(dL/dq) = 2T - 2V,
    and d(q'p)/dt = 0 with q'p = 4 I0 q'v = 0, v'p = 2T: lambda = 2V - 4T                                       */
-static void test_quaternion_multiplier(void **state)
+TEST(the_multiplier_of_a_quaternion)
 {
-    (void)state;
     const linkage a = make_linkage(QUATERNION);
     gvi_stepper st;
     set_up(&st, &a, 4, GVI_GAUSS, 4);
@@ -354,9 +351,8 @@ static real change_of_form(linkage_id id, int s, gvi_rule_kind rule, int r)
     return worst/size;
 }
 
-static void test_symplectic(void **state)
+TEST(steps_are_symplectic)
 {
-    (void)state;
     static const linkage_id ids[] = { PENDULUM, SPHERE, RODS, QUATERNION, MAGNET };
     for (int k = 0; k < COUNT(ids); ++k)
         for (int s = 1; s <= 4; ++s) {
@@ -368,13 +364,4 @@ static void test_symplectic(void **state)
     assert_between(1e-3L, change_of_form(FRICTION, 2, GVI_GAUSS, 2), 1);       // it can fail
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_order),
-        cmocka_unit_test(test_multipliers),
-        cmocka_unit_test(test_quaternion_multiplier),
-        cmocka_unit_test(test_symplectic),
-    };
-    return cmocka_run_group_tests_name("constraints: order", tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

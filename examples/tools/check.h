@@ -20,6 +20,7 @@
      fq, fv, pv    the Hessian callback against differences of f and dldv
      gradient      of the mass against differences of v'M(q)v/2
      velocity      of the mass: does it undo p = M v + sum of dL/dv?
+     jacobian, rate  of a constraint against differences of g in q and t
      mass          lower triangle written, not added to; symmetric; definite
      all           added to, not overwritten; many points as one at a time; nothing
                    written beyond them; f and value in one call where one function
@@ -80,7 +81,7 @@ typedef struct check_report {
     const gvi_real *size_q, *size_v;  /* in: [n] or NULL, see above            */
     int            count;             /* findings, also those without room     */
     long           checked;           /* entries compared                      */
-    int            unchecked;         /* derivatives with nothing to compare, constraints */
+    int            unchecked;         /* derivatives with nothing to compare   */
     long           zero;              /* of those: nothing but rounding        */
     gvi_real       worst;             /* bound over size of the others, largest:
                                          a smaller error would not be seen     */
@@ -92,6 +93,7 @@ struct check_run {
     const gvi_desc *desc;
     check_report   *report;
     int             n, effect, point, reads_v;
+    int             row;              /* 1 + that of a constraint; 0: none     */
     gvi_real        eps, tolerance, t, times[CHECK_POINTS];
     gvi_real       *q, *v;            /* [n] the state looked at               */
     gvi_real       *qs, *vs;          /* [POINTS][n]                           */
@@ -273,7 +275,8 @@ static inline int check_gradient(struct check_run *c, check_fn *f, gvi_real *x, 
     for (int i = 0; i < c->n; ++i) {
         gvi_real best, err;
         check_differentiate(c, f, 1, x + i, size[i], 1, &best, &err);
-        check_finding y = { .what = CHECK_DERIVATIVE, .entry = entry, .against = against, .i = i, .j = -1,
+        check_finding y = { .what = CHECK_DERIVATIVE, .entry = entry, .against = against,
+                            .i = c->row ? c->row - 1 : i, .j = c->row ? i : -1,
                             .found = found[i], .right = (gvi_real)sign*best };
         well &= check_compare(c, y, err, largest/size[i]);
     }
@@ -577,6 +580,43 @@ static inline int check_first(struct check_run *c)
         well &= check_gradient(c, check_value, c->v, c->size + c->n, 1, c->one, "dldv", "dL/dv");
     }
     return well;
+}
+
+/* g of row c->row - 1 at the state; G [rows][n] to found, dg/dt [rows] to two  */
+static inline int check_g(struct check_run *c, gvi_real *out)
+{
+    const gvi_effect *e = check_effect(c);
+    const gvi_points x = { .n = c->n, .count = 1, .stride = 1, .t = &c->t, .q = c->q, .g = c->one,
+                           .rate = c->two, .jacobian = c->found };
+    memset(c->two, 0, (size_t)c->n*sizeof *c->two);
+    memset(c->found, 0, (size_t)(c->n*c->n)*sizeof *c->found);
+    const int refused = e->points(&x, e->user);
+    *out = c->one[c->row - 1];
+    return refused;
+}
+
+/* The Jacobian of a constraint, and dg/dt, against differences of g            */
+static inline void check_constraint(struct check_run *c, int index)
+{
+    c->effect = index;
+    for (int k = 0; k < CHECK_POINTS; ++k)
+        for (c->row = check_effect(c)->rows; c->row > 0; --c->row) {
+            gvi_real g, best, err, *G = c->found + c->n*c->n;
+            check_go_to(c, k);
+            if (check_g(c, &g) || !check_finite(c->n, c->found + (c->row - 1)*c->n)) {
+                check_note(c, CHECK_REFUSED, "g", c->row - 1, -1);
+                continue;
+            }
+            check_finding y = { .what = CHECK_DERIVATIVE, .entry = "rate", .against = "dg/dt", .i = c->row - 1,
+                                .j = -1, .found = c->two[c->row - 1] };
+            memcpy(G, c->found + (c->row - 1)*c->n, (size_t)c->n*sizeof *G);
+            const gvi_real at = check_largest(c->n, G)*check_largest(c->n, c->q);
+            check_gradient(c, check_g, c->q, c->size, 1, G, "jacobian", "dg/dq");
+            c->grain[0] = c->eps*at;
+            check_differentiate(c, check_g, 1, &c->t, fmax(fabs(c->t), (gvi_real)0.125), 1, &best, &err);
+            y.right = best;
+            check_compare(c, y, err, fabs(y.found));
+        }
 }
 
 static inline void check_one_effect(struct check_run *c, int index)
@@ -912,7 +952,7 @@ static inline int check_scene(const gvi_desc *desc, gvi_real t, const gvi_real *
     check_make_points(&c, t, q, v);
     check_whole_mass(&c);
     for (int e = 0; e < desc->effect_count; ++e)
-        if (desc->effects[e].kind == GVI_CONSTRAINT) ++report->unchecked;
+        if (desc->effects[e].kind == GVI_CONSTRAINT) check_constraint(&c, e);
         else check_one_effect(&c, e);
     free(memory);
     return report->count;

@@ -1,28 +1,30 @@
 /* constraints.c - a million steps on constraints: g, G v, and how the energy walks
 
-   The rods, the top in directors and in a quaternion, at degree 8. g and the hidden constraint are 0 to
-   rounding, whatever the number of steps: the largest |g_a| over eps sum |G_ai q_i| is printed for the first and
-   for the last tenth. Energy: sixteen starts of the rods have a mean drift that is not that of a walk, some
-   -0.001 EPS a step at h = 1/32, half of it at 1/64; it is held below 0.002. For float the rods alone.  */
+   Spherical pendulum, rods with and without friction, four-bar linkage, the top in directors and in a
+   quaternion, and a pendulum on a moving pivot, at degree 8: g and the hidden constraint are 0 to rounding,
+   whatever the number of steps.  The energy of 32 starts of the rods walks, but has a mean drift of -0.00017
+   +- 0.00003 EPS a step as well, as large as the walk after 30,000 steps; its cause is not known.
+   For float the rods alone.                                                                          */
 #include "hard.h"
 #include "linkages.h"
 
-enum { STEPS = 1 << 20, STARTS = 16, SHORT = 1 << 16 };
+enum { STEPS = 1 << 20, STARTS = 32, SHORT = 1 << 15 };
 static real memory[60000];
 
-static double off(const gvi_stepper *st, const linkage *a, const real *by, int hidden)
+/* The largest |g_a| in eps sum |G_ai q_i|, or |G v + dg/dt| in eps (|v| + 1/100): at rest there is nothing to
+   measure by */
+static double off(const gvi_stepper *st, const linkage *a, const real *v)
 {
-    real g[MOST_M], G[MOST_M*MOST_N] = { 0 }, rate[MOST_M];
+    real g[MOST_M], G[MOST_M*MOST_N] = { 0 }, rate[MOST_M] = { 0 };
     double worst = 0;
     constraint_of_state(st, a, g, G, rate);
     for (int b = 0; b < a->m; ++b) {
-        double size = 0, sum = 0, speed = 0;
+        double size = v ? 0.01 : fabs((double)(rate[b]*st->t)), sum = (double)(v ? rate[b] : g[b]);
         for (int i = 0; i < a->n; ++i) {
-            size += fabs((double)(G[b*a->n + i]*by[i]));
-            speed += fabs((double)by[i]);
-            sum += (double)(G[b*a->n + i]*by[i]);
+            size += fabs((double)(v ? v[i] : G[b*a->n + i]*st->q[i]));
+            if (v) sum += (double)(G[b*a->n + i]*v[i]);
         }
-        worst = fmax(worst, hidden ? fabs(sum)/(EPS*speed) : fabs((double)g[b])/(EPS*size));
+        worst = fmax(worst, fabs(sum)/(EPS*size));
     }
     return worst;
 }
@@ -45,30 +47,31 @@ static void million(linkage_id id, const char *name, real h)
     must(gvi_energy(&st, &E0));
     for (int k = 0; k < STEPS; ++k) {
         must(gvi_step(&st, h));
-        const double g = off(&st, &a, st.q, 0);
+        const double g = off(&st, &a, NULL);
         if (k < STEPS/10) early = fmax(early, g);
         if (k >= STEPS - STEPS/10) late = fmax(late, g);
         if (k % 64) continue;
         must(gvi_velocity(&st, v));
         must(gvi_energy(&st, &E));
-        hidden = fmax(hidden, off(&st, &a, v, 1));
+        hidden = fmax(hidden, off(&st, &a, v));
         worst = fmax(worst, fabs((double)(E - E0)/(1 + fabs((double)E0))));
     }
     expect("largest |g|, in units of its terms' rounding, first tenth", 0, early, 6);
     expect("the same, last tenth", 0, late, 6);
-    expect("largest G v, in units of EPS |v|", 0, hidden, 6);
-    expect("max |dE| in EPS", 0, worst/EPS, 4000);
+    expect("largest G v + dg/dt, in units of EPS |v|", 0, hidden, 6);
+    if (id != PIVOT && id != FRICTION) expect("max |dE| in EPS", 0, worst/EPS, 4000);
 }
 
-/* Sixteen starts of the rods: rms of the energy's error against time */
+/* Starts of the rods from below the horizontal, where degree 8 at h = 1/32 errs by less than rounding */
 static void ensemble(void)
 {
     const linkage a = make_linkage(RODS);
     const gvi_desc desc = linkage_desc(&a, 8);
     double squares[2] = { 0 }, mean = 0;
-    puts("rods, sixteen starts");
+    puts("rods, 32 starts");
     for (int j = 0; j < STARTS; ++j) {
-        const real c = cos((real)j*(real)0.05), s = sin((real)j*(real)0.05), q[4] = { c, s, c + (real)0.6, s + (real)0.8 };
+        const double angle = -0.3 - 0.02*j;
+        const real c = (real)cos(angle), s = (real)sin(angle), q[4] = { c, s, c + (real)0.6, s + (real)0.8 };
         gvi_stepper st;
         real E0, E;
         begin(&st, &a, &desc, q);
@@ -81,17 +84,23 @@ static void ensemble(void)
             if (k == SHORT) mean += (double)(E - E0)/STARTS;
         }
     }
-    printf("  rms of dE after %d and %d steps: %.1f and %.1f EPS\n", SHORT/16, SHORT, sqrt(squares[0])/EPS, sqrt(squares[1])/EPS);
-    expect("mean drift, in EPS a step", -0.002, mean/EPS/SHORT, 0.002);
+    printf("  rms of dE after %d and %d steps: %.2f and %.2f EPS\n", SHORT/16, SHORT, sqrt(squares[0])/EPS,
+           sqrt(squares[1])/EPS);
+    expect("their ratio; a walk has 4, a drift 16", 0, sqrt(squares[1]/squares[0]), 6);
+    expect("mean drift, in EPS a step", -0.0003, mean/EPS/SHORT, 0.0003);
 }
 
 int main(void)
 {
     ensemble();
+    million(RODS, "rods, h = 1/32", (real)0.03125);
     if (sizeof(real) > sizeof(float)) {
-        million(RODS, "rods, h = 1/32", (real)0.03125);
-        million(QUATERNION, "top in a quaternion, h = 1/25", (real)0.04);
+        million(SPHERE, "spherical pendulum, h = 1/16", (real)0.0625);
+        million(FOUR_BAR, "four-bar linkage, h = 1/32", (real)0.03125);
         million(DIRECTORS, "top in directors, h = 1/25", (real)0.04);
-    } else million(RODS, "rods, h = 1/32", (real)0.03125);
+        million(QUATERNION, "top in a quaternion, h = 1/25", (real)0.04);
+        million(PIVOT, "pendulum on a moving pivot, h = 1/16", (real)0.0625);
+        million(FRICTION, "rods with friction, h = 1/32", (real)0.03125);
+    }
     return verdict("constraints");
 }
