@@ -66,8 +66,8 @@
      INTERPOLATION        barycentric
      SCENE                status, effects, mass, Legendre transform
      TABLES               what depends on rule, degree and h alone; predictor
-     STEP                 attempt and commit: follow gvi_step from here
-     ENGINE               stages, fixed point, increments; kicks; the clock
+     STEP                 attempt and commit: follow gvi_step, its last function
+     ENGINE               free motion, stages, fixed point, increments; kicks; clock
      CONSTRAINTS          multipliers, RATTLE, the hidden constraint, forces
      SET-UP               checks, choice of a formulation, memory
      NEWTON'S METHOD      where the fixed point does not contract
@@ -2455,17 +2455,26 @@ static void gvi__fit(gvi_stepper *st, int r, const gvi_real *from, const gvi_rea
 
 /* ------------------------------------------------------------------ STEP */
 
-/* gvi_step, at the end of this section, asks gvi__solve for increments of q and p and commits
-   them.  gvi__attempt finds them, in this order and that of ENGINE, where they are: free motion;
-   the predictor; the fixed point: stage values, F at them, and from F new ones, until they have
-   converged; increments by (2) and (3).  Explicit steps are kicks; NEWTON'S METHOD has its own.  */
+/* A step of length h takes (q, p, t) to (q + dq, p + dp, t + dt), in double words:
+
+     gvi_step       checks h, calls gvi__solve for dq, dp, dt, and commits them
+     gvi__solve     an attempt; another one that names the effect, if NaN or Inf came up
+     gvi__attempt   kicks, where explicit; else, from ENGINE,
+                      free motion    v = M^-1 p and h v
+                      predictor      F from that of the last step
+                      fixed point    Q by (3), (V by (4), or P and Q by (5),) F(Q), again
+                                     Q, until it has converged
+                      increments     dp = h sum_j b_j F_j, and dq
+                    and where that fails Newton's method (NEWTON'S METHOD)
+
+   Functions stand above those that call them, but for the parts that gvi__attempt lists.     */
 
 /* Where a step, or a query's partial step, starts; E: the energy, with a clock.              */
 typedef struct gvi__origin { gvi_real t, t_low; const gvi_real *q, *q_low, *p, *p_low; gvi_real E;
                             } gvi__origin;
 
-// how Newton's method begins: at constant velocity, at the last step's modes; or as the first, and
-// takes back changes
+// where Newton's method begins: at constant velocity; at the last step's modes, extrapolated; at
+// constant velocity, with changes halved that make the residual larger
 enum { GVI__PLAIN, GVI__EXTRAPOLATED, GVI__HALVED };
 
 // what is solved: a step, or for a query a part of the last one, from its start or its end
@@ -2511,12 +2520,11 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_rea
         return status == GVI_OK && gvi__constrained(st) ? gvi__project(st, from, 0) : status;
     }
 
-    // farther out the last values say nothing
+    // an extrapolation any farther is no better than no force
     const int usable = x->kept > 0 && h/st->h > -2 && h/st->h < 8;
     int used = 0;
     gvi_status status = GVI_E_CONVERGENCE;
-    if (!gvi__uses(x, GVI_NEWTON)
-        && (!gvi__has(x, GVI__HAS_NEWTON) || x->newton.left == 0 || query)) {
+    if (!gvi__uses(x, GVI_NEWTON) && (x->newton.left == 0 || query)) {
         if (usable) gvi__prepare_predictor(st, h, query);
         for (int plain = !usable; plain < 2; ++plain) {
             status = gvi__iterate(st, from, h, !plain, &used);
@@ -2562,7 +2570,7 @@ static int gvi__finite_end(const gvi_stepper *st, const gvi__origin *from)
                  + 0*(GVI__LOAD(from->p + i) + GVI__LOAD(d->p + i));
     for (int k = 0; i > 0 && k < GVI__LANES; ++k) none += GVI__ENTRY(nones, k);
     for (; i < st->n; ++i) {
-        // as it will be kept
+        // rounded, as the commit will store them
         const gvi__rounded q = from->q[i] + d->q[i], p = from->p[i] + d->p[i];
         none += 0*q + 0*p;
     }
@@ -2595,7 +2603,7 @@ static void gvi__rotate_values(gvi_stepper *st)
     struct gvi__values *a = &st->x.older, *b = &st->x.last, *c = &st->x.work;
     gvi_real **const rows[3][3] = { { &a->F, &b->F, &c->F }, { &a->V, &b->V, &c->V },
                                     { &a->A, &b->A, &c->A } };
-    for (int k = 0; k < 1 + (GVI__READS_V > 0) + (GVI__LAGRANGIAN > 0); ++k) {
+    GVI__UNROLL for (int k = 0; k < 1 + (GVI__READS_V > 0) + (GVI__LAGRANGIAN > 0); ++k) {
         gvi_real **older = rows[k][0], **last = rows[k][1], **work = rows[k][2];
         gvi_real *spare = *older ? *older : *last;
         if (*older) *older = *last;
@@ -3246,11 +3254,11 @@ static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *
     return noise > 0 ? noise/(32*GVI__EPS*largest) : 0;
 }
 
-/* The verdict on a change D of all rows.  The iteration ends when the next change,
-   D^2/D_before, is within the tolerance, without one far below rounding, for each row as for
-   all, or the row's D is in its last place; or when D stagnates, without a new least by a tenth for some iterations, at
-   rounding.  Then F is evaluated once more, so that rows that go to and fro in their last
-   places end with their own F, not that of the side that they came from, which would be a bias.
+/* The verdict on a change D of all rows.  The iteration ends when the next change, D^2/D_before,
+   is within the tolerance, without one far below rounding, and for each row as well, unless its
+   own D is in the last place; or when D stagnates at rounding, without a new least by a tenth
+   for some iterations.  Then F is evaluated once more, so that rows that go to and fro in their
+   last places end with their own F, not that of the side that they came from: that is a bias.
    Three changes in a row that fall by less than half are poor, five while they are as large as
    the motion (terms of a cosine grow at first); so is a descent to rounding by factors of less
    than 4: it lets errors grow before they shrink.  All in squares: no root or quotient waits.  */
@@ -3291,7 +3299,7 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
     const int wait = gvi__constrained(st) ? 0 : 1;           // the rounding of g is in every D
     if (p->stagnant > wait || poor) {
         const gvi_real noise = gvi__noise(st, h, y, stages);
-        // what falls to a new least still converges, be it to 0; what grows diverges
+        // noise that reaches a new minimum still converges, perhaps to 0
         p->still = noise < p->quiet ? 0 : p->still + 1;
         const int level = noise <= GVI__EPS || (p->still > 7 && noise <= p->noise);
         if (p->stagnant > wait && (noise <= 0
@@ -3334,7 +3342,7 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
     p.used = *used = 1;
     for (int shorter = 0, last = 0; ; ) {
         status = gvi__evaluate_stages(st, from, &at);
-        // free motion may leave the domain of a callback where the motion does not: less of it
+        // free motion may leave a callback's domain though the motion does not: halve the way
         if (status == GVI_E_CALLBACK && p.used == 1 && !extrapolate && shorter++ < 6) {
             for (int i = 0; i < st->n; ++i)
                 for (int k = 0; k < x->R; ++k)
@@ -3364,6 +3372,16 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
     }
 }
 
+// the sums k and k + half of double words, to k; a constant `half` makes vectors of it
+GVI__BODY void gvi__fold(int half, gvi_real *hi, gvi_real *lo)
+{
+    for (int k = 0; k < half; ++k) {
+        const gvi__two s = gvi__add_low(hi[k], lo[k], hi[k + half], lo[k + half]);
+        hi[k] = s.hi;
+        lo[k] = s.lo;
+    }
+}
+
 /* sum_j a_j b_j with its low word, since the errors of increments add up over the steps.  Eight
    partial sums, then these by halves; past the last point the numbers are 0.                  */
 static gvi__two gvi__exact_dot(int R, const gvi_real *a, const gvi_real *b)
@@ -3387,12 +3405,9 @@ static gvi__two gvi__exact_dot(int R, const gvi_real *a, const gvi_real *b)
             hi[k] = s.hi;
             lo[k] = s.lo;
         }
-    for (int half = R < 8 ? 2 : 4; half > 0; half /= 2)
-        for (int k = 0; k < half; ++k) {
-            const gvi__two s = gvi__add_low(hi[k], lo[k], hi[k + half], lo[k + half]);
-            hi[k] = s.hi;
-            lo[k] = s.lo;
-        }
+    if (R >= 8) gvi__fold(4, hi, lo);
+    gvi__fold(2, hi, lo);
+    gvi__fold(1, hi, lo);
     return gvi__two_of(hi[0], lo[0]);
 }
 
