@@ -66,8 +66,8 @@
      INTERPOLATION        barycentric
      SCENE                status, effects, mass, Legendre transform
      TABLES               what depends on rule, degree and h alone; predictor
-     STEP                 attempt and commit: follow gvi_step from here
-     ENGINE               stages, fixed point, increments; kicks; the clock
+     STEP                 attempt and commit: follow gvi_step, its last function
+     ENGINE               free motion, stages, fixed point, increments; kicks; clock
      CONSTRAINTS          multipliers, RATTLE, the hidden constraint, forces
      SET-UP               checks, choice of a formulation, memory
      NEWTON'S METHOD      where the fixed point does not contract
@@ -2455,17 +2455,26 @@ static void gvi__fit(gvi_stepper *st, int r, const gvi_real *from, const gvi_rea
 
 /* ------------------------------------------------------------------ STEP */
 
-/* gvi_step, at the end of this section, asks gvi__solve for increments of q and p and commits
-   them.  gvi__attempt finds them, in this order and that of ENGINE, where they are: free motion;
-   the predictor; the fixed point: stage values, F at them, and from F new ones, until they have
-   converged; increments by (2) and (3).  Explicit steps are kicks; NEWTON'S METHOD has its own.  */
+/* A step of length h takes (q, p, t) to (q + dq, p + dp, t + dt), in double words:
+
+     gvi_step       checks h, calls gvi__solve for dq, dp, dt, and commits them
+     gvi__solve     an attempt; another one that names the effect, if NaN or Inf came up
+     gvi__attempt   kicks, where explicit; else, from ENGINE,
+                      free motion    v = M^-1 p and h v
+                      predictor      F from that of the last step
+                      fixed point    Q by (3), (V by (4), or P and Q by (5),) F(Q), again
+                                     Q, until it has converged
+                      increments     dp = h sum_j b_j F_j, and dq
+                    and where that fails Newton's method (NEWTON'S METHOD)
+
+   Functions stand above those that call them, but for the parts that gvi__attempt lists.     */
 
 /* Where a step, or a query's partial step, starts; E: the energy, with a clock.              */
 typedef struct gvi__origin { gvi_real t, t_low; const gvi_real *q, *q_low, *p, *p_low; gvi_real E;
                             } gvi__origin;
 
-// how Newton's method begins: at constant velocity, at the last step's modes; or as the first, and
-// takes back changes
+// where Newton's method begins: at constant velocity; at the last step's modes, extrapolated; at
+// constant velocity, with changes halved that make the residual larger
 enum { GVI__PLAIN, GVI__EXTRAPOLATED, GVI__HALVED };
 
 // what is solved: a step, or for a query a part of the last one, from its start or its end
@@ -2481,7 +2490,6 @@ static gvi_status gvi__kicks(gvi_stepper *st, const gvi__origin *from, gvi_real 
 static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int how, int query);
 
 // CONSTRAINTS
-struct gvi__stage;
 GVI__CALLED void gvi__constraint_stages(const gvi_stepper *st, const gvi__origin *from, gvi_real h,
                                    struct gvi__stage *y, int stages);
 GVI__CALLED void gvi__constraint_rows(const gvi_stepper *st, const struct gvi__stage *y);
@@ -2512,12 +2520,11 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_rea
         return status == GVI_OK && gvi__constrained(st) ? gvi__project(st, from, 0) : status;
     }
 
-    // farther out the last values say nothing
+    // an extrapolation any farther is no better than no force
     const int usable = x->kept > 0 && h/st->h > -2 && h/st->h < 8;
     int used = 0;
     gvi_status status = GVI_E_CONVERGENCE;
-    if (!gvi__uses(x, GVI_NEWTON)
-        && (!gvi__has(x, GVI__HAS_NEWTON) || x->newton.left == 0 || query)) {
+    if (!gvi__uses(x, GVI_NEWTON) && (x->newton.left == 0 || query)) {
         if (usable) gvi__prepare_predictor(st, h, query);
         for (int plain = !usable; plain < 2; ++plain) {
             status = gvi__iterate(st, from, h, !plain, &used);
@@ -2563,7 +2570,7 @@ static int gvi__finite_end(const gvi_stepper *st, const gvi__origin *from)
                  + 0*(GVI__LOAD(from->p + i) + GVI__LOAD(d->p + i));
     for (int k = 0; i > 0 && k < GVI__LANES; ++k) none += GVI__ENTRY(nones, k);
     for (; i < st->n; ++i) {
-        // as it will be kept
+        // rounded, as the commit will store them
         const gvi__rounded q = from->q[i] + d->q[i], p = from->p[i] + d->p[i];
         none += 0*q + 0*p;
     }
@@ -2590,21 +2597,19 @@ static gvi_status gvi__solve(gvi_stepper *st, const gvi__origin *from, gvi_real 
     }
 }
 
-// work becomes last, last becomes older (where it is kept that long), and the oldest is free
-static void gvi__rotate(gvi_real **older, gvi_real **last, gvi_real **work)
-{
-    gvi_real *spare = *older ? *older : *last;
-    if (*older) *older = *last;
-    *last = *work;
-    *work = spare;
-}
-
+// work becomes last, last becomes older if two steps are kept, and the oldest is the next work
 static void gvi__rotate_values(gvi_stepper *st)
 {
-    struct gvi__private *x = &st->x;
-    gvi__rotate(&x->older.F, &x->last.F, &x->work.F);
-    if (GVI__READS_V) gvi__rotate(&x->older.V, &x->last.V, &x->work.V);
-    if (GVI__LAGRANGIAN) gvi__rotate(&x->older.A, &x->last.A, &x->work.A);
+    struct gvi__values *a = &st->x.older, *b = &st->x.last, *c = &st->x.work;
+    gvi_real **const rows[3][3] = { { &a->F, &b->F, &c->F }, { &a->V, &b->V, &c->V },
+                                    { &a->A, &b->A, &c->A } };
+    GVI__UNROLL for (int k = 0; k < 1 + (GVI__READS_V > 0) + (GVI__LAGRANGIAN > 0); ++k) {
+        gvi_real **older = rows[k][0], **last = rows[k][1], **work = rows[k][2];
+        gvi_real *spare = *older ? *older : *last;
+        if (*older) *older = *last;
+        *last = *work;
+        *work = spare;
+    }
 }
 
 // was := x, x + x_low := x + dx + dx_low; dx_low NULL: 0
@@ -2636,10 +2641,25 @@ static void gvi__move(int n, const gvi_real *GVI__RESTRICT dx, const gvi_real *G
     }
 }
 
-// the step is done: state and compensation move on, stage values become those of the last step
+/* The step is done: counters.worst_resolution is brought up to date, state and compensation move
+   on, and its stage values become those of the last step.                                    */
 static void gvi__commit(gvi_stepper *st, gvi_real h)
 {
     struct gvi__private *x = &st->x;
+    const gvi_real *a = x->table.high, *F = x->work.F;        // a is NULL where explicit
+    for (int i = 0; a && i < st->n; ++i, F += x->R) {
+        const gvi_real all = (GVI_ABS(F[0]) + GVI_ABS(F[(st->r - 1)/2]) + GVI_ABS(F[st->r/2])
+                              + GVI_ABS(F[st->r - 1]))/4;
+        gvi_real one = 0, two = 0;
+        for (int k = 0; k < st->r; ++k) {
+            one += a[k]*F[k];
+            two += a[x->R + k]*F[k];
+        }
+        const gvi_real share = (GVI_ABS(one) + GVI_ABS(two))/all, push = GVI_ABS(h)*all,
+                       resolution = share*share*(push/(GVI_ABS(x->state.p[i]) + push));
+        if (resolution > st->counters.worst_resolution)      // false where F is 0: NaN
+            st->counters.worst_resolution = resolution;
+    }
     const gvi__two t = gvi__two_sum(st->t, x->dt + st->t_low);
     const int whole = gvi__uses(x, GVI_EXPLICIT);             // whose increments have no low words
     gvi__move(st->n, x->step.q, whole ? NULL : x->step.q_low, x->state.q, x->state.q_low,
@@ -2667,28 +2687,6 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     gvi__count(&st->counters.steps, 1);
 }
 
-/* How well the points resolve the force of the step at work: see counters.worst_resolution.  */
-static void gvi__watch_resolution(gvi_stepper *st, gvi_real h)
-{
-    const struct gvi__private *x = &st->x;
-    const gvi_real *a = x->table.high, *F = x->work.F;
-    if (!a) return;                               // explicit
-    const gvi_real *b = a + x->R;
-    for (int i = 0; i < st->n; ++i, F += x->R) {
-        const gvi_real all = (GVI_ABS(F[0]) + GVI_ABS(F[(st->r - 1)/2]) + GVI_ABS(F[st->r/2])
-                              + GVI_ABS(F[st->r - 1]))/4;
-        gvi_real one = 0, two = 0;
-        for (int k = 0; k < st->r; ++k) {
-            one += a[k]*F[k];
-            two += b[k]*F[k];
-        }
-        const gvi_real share = (GVI_ABS(one) + GVI_ABS(two))/all, push = GVI_ABS(h)*all,
-                       resolution = share*share*(push/(GVI_ABS(x->state.p[i]) + push));
-        if (resolution > st->counters.worst_resolution)      // not where F is 0
-            st->counters.worst_resolution = resolution;
-    }
-}
-
 GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
 {
     const gvi_status ready = gvi__ready(st, st && st->x.started);
@@ -2712,12 +2710,65 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
         x->newton.h = 0;
         return st->status = status;
     }
-    gvi__watch_resolution(st, h);
     gvi__commit(st, h);
     return gvi__report_status(st, GVI_OK);
 }
 
 /* ---------------------------------------------------------------- ENGINE */
+
+/* ---- free motion ---- */
+
+// out := t + (t_low + c h)
+static void gvi__times(int count, gvi_real t, gvi_real t_low, gvi_real h, const gvi_real *c,
+                       gvi_real *out)
+{
+    int k = 0;
+    for (; GVI__LANES > 1 && k + GVI__LANES <= count; k += GVI__LANES)
+        GVI__STORE(out + k) = t + (t_low + GVI__LOAD(c + k)*h);
+    for (; k < count; ++k) out[k] = t + (t_low + c[k]*h);
+}
+
+/* Tables for h, times of the points, and free motion, where the mass is constant: v = M^-1 p
+   and h v with their low words (what v loses by rounding is kept, as what p has lost is).     */
+static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real h)
+{
+    struct gvi__private *x = &st->x;
+    const gvi_real *GVI__RESTRICT p = from->p, *GVI__RESTRICT p_low = from->p_low;
+    const gvi_real *GVI__RESTRICT inverse = x->mass.inverse;
+    gvi_real *GVI__RESTRICT v = x->free.v, *GVI__RESTRICT v_low = x->free.v_low;
+    gvi__weights_for(st, h);
+    x->dt = h;
+    if (GVI__CLOCK) x->time.dH = 0;
+    if (gvi__uses(x, GVI_EXPLICIT)) return;
+    gvi__times(x->R, from->t, from->t_low, h, x->table.c, x->t);
+    if (!gvi__mass_is_constant(x)) return;
+    for (int i = 0; i < st->n; ++i) {
+        const gvi__two z = x->desc.mass.kind == GVI_MASS_DIAGONAL ? gvi__two_prod(p[i], inverse[i])
+                                                                  : gvi__two_of(p[i], 0);
+        v[i] = z.hi;
+        v_low[i] = gvi__low(z.lo + p_low[i]*inverse[i]);
+    }
+    if (x->desc.mass.kind == GVI_MASS_DENSE) {
+        gvi__over_mass(st, v, 1, 1);
+        for (int i = 0; i < st->n; ++i) {         // p - M v
+            gvi__two left = gvi__two_of(p[i], p_low[i]);
+            for (int j = 0; j < st->n; ++j) {
+                const int ij = i > j ? i*st->n + j : j*st->n + i;
+                const gvi__two z = gvi__two_prod(-x->mass.matrix[ij], v[j]);
+                left = gvi__add_low(left.hi, left.lo, z.hi, z.lo);
+            }
+            v_low[i] = gvi__low(left.hi + left.lo);
+        }
+        gvi__over_mass(st, v_low, 1, 1);
+    }
+    for (int i = 0; i < st->n; ++i) {
+        const gvi__two path = gvi__two_prod(h, v[i]);
+        x->free.path[i] = path.hi;
+        x->free.path_low[i] = gvi__low(path.lo + h*v_low[i]);
+    }
+}
+
+/* ---- stages ---- */
 
 /* One stage of an iteration is data: rows of stage values, made of sums over sources,
 
@@ -2914,56 +2965,6 @@ static gvi__kernel *gvi__kernel_for(int n, int r)
 
 /* ---- fixed point ---- */
 
-// out := t + (t_low + c h)
-static void gvi__times(int count, gvi_real t, gvi_real t_low, gvi_real h, const gvi_real *c,
-                       gvi_real *out)
-{
-    int k = 0;
-    for (; GVI__LANES > 1 && k + GVI__LANES <= count; k += GVI__LANES)
-        GVI__STORE(out + k) = t + (t_low + GVI__LOAD(c + k)*h);
-    for (; k < count; ++k) out[k] = t + (t_low + c[k]*h);
-}
-
-/* Tables for h, times of the points, and free motion, where the mass is constant: v = M^-1 p
-   and h v with their low words (what v loses by rounding is kept, as what p has lost is).     */
-static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real h)
-{
-    struct gvi__private *x = &st->x;
-    const gvi_real *GVI__RESTRICT p = from->p, *GVI__RESTRICT p_low = from->p_low;
-    const gvi_real *GVI__RESTRICT inverse = x->mass.inverse;
-    gvi_real *GVI__RESTRICT v = x->free.v, *GVI__RESTRICT v_low = x->free.v_low;
-    gvi__weights_for(st, h);
-    x->dt = h;
-    if (GVI__CLOCK) x->time.dH = 0;
-    if (gvi__uses(x, GVI_EXPLICIT)) return;
-    gvi__times(x->R, from->t, from->t_low, h, x->table.c, x->t);
-    if (!gvi__mass_is_constant(x)) return;
-    for (int i = 0; i < st->n; ++i) {
-        const gvi__two z = x->desc.mass.kind == GVI_MASS_DIAGONAL ? gvi__two_prod(p[i], inverse[i])
-                                                                  : gvi__two_of(p[i], 0);
-        v[i] = z.hi;
-        v_low[i] = gvi__low(z.lo + p_low[i]*inverse[i]);
-    }
-    if (x->desc.mass.kind == GVI_MASS_DENSE) {
-        gvi__over_mass(st, v, 1, 1);
-        for (int i = 0; i < st->n; ++i) {         // p - M v
-            gvi__two left = gvi__two_of(p[i], p_low[i]);
-            for (int j = 0; j < st->n; ++j) {
-                const int ij = i > j ? i*st->n + j : j*st->n + i;
-                const gvi__two z = gvi__two_prod(-x->mass.matrix[ij], v[j]);
-                left = gvi__add_low(left.hi, left.lo, z.hi, z.lo);
-            }
-            v_low[i] = gvi__low(left.hi + left.lo);
-        }
-        gvi__over_mass(st, v_low, 1, 1);
-    }
-    for (int i = 0; i < st->n; ++i) {
-        const gvi__two path = gvi__two_prod(h, v[i]);
-        x->free.path[i] = path.hi;
-        x->free.path_low[i] = gvi__low(path.lo + h*v_low[i]);
-    }
-}
-
 /* Makes the predictor ready: E takes the stage values of the last step (of the last two, if
    they and this one are equally long) to the nodes of this step, which lie at alpha + beta c in
    the last step's tau.  In the positions formulation forces only serve to make new positions: E
@@ -2995,12 +2996,10 @@ static void gvi__prepare_predictor(gvi_stepper *st, gvi_real h, int query)
 GVI__BODY void gvi__set_predictor(const gvi_stepper *st, gvi__stage *y, const gvi_real *last,
                                   const gvi_real *older)
 {
-    const gvi_real *E = st->x.sized.E;
-    y->sum[0].table = E;
-    y->sum[0].source = last;
-    y->sum[1].table = st->x.sized.steps == 2 ? E + st->r*st->x.R : NULL;
-    y->sum[1].source = older;
-    y->sum[0].weight = y->sum[1].weight = NULL;
+    const gvi_real *E = st->x.sized.E, *second = st->x.sized.steps == 2 ? E + st->r*st->x.R : NULL;
+    const gvi__sum one = { E, NULL, last }, two = { second, NULL, older };
+    y->sum[0] = one;
+    y->sum[1] = two;
     y->scale = NULL;
 }
 
@@ -3014,21 +3013,13 @@ GVI__BODY void gvi__free_row(int R, gvi_real low, gvi_real path, gvi_real path_l
     for (; k < R; ++k) row[k] = (low + c[k]*path_low) + c[k]*path;
 }
 
-// a stage of bare sums, of one table
+// a stage that is the sum over one table and nothing else
 GVI__BODY void gvi__set_stage(const gvi_stepper *st, gvi__stage *y, gvi_real *rows,
                               const gvi_real *table, const gvi_real *weight, const gvi_real *source)
 {
-    y->sum[0].table = table;
-    y->sum[0].weight = weight;
-    y->sum[0].source = source;
-    y->sum[1].table = NULL;
-    y->base = st->x.zeros;
-    y->free = NULL;
-    y->inverse = NULL;
-    y->factor = 1;
-    y->rows = rows;
-    y->scale = y->change = NULL;
-    y->dense = 0;
+    const gvi__stage sum = { { { table, weight, source }, { NULL, NULL, NULL } }, st->x.zeros, NULL,
+                             NULL, 1, rows, NULL, NULL, 0 };
+    *y = sum;
 }
 
 /* What an iteration computes, in this order: positions (3); or these, and velocities (4); or
@@ -3056,10 +3047,8 @@ static int gvi__stages(const gvi_stepper *st, const gvi__origin *from, gvi_real 
         for (int k = 0; k < count; ++k) {
             if (x->desc.mass.kind == GVI_MASS_DIAGONAL) y[k].inverse = x->mass.inverse;
             y[k].dense = x->desc.mass.kind == GVI_MASS_DENSE;
-            if (!GVI__LAGRANGIAN || !w->A) continue;
-            y[k].sum[1].table = k == 0 ? x->table.T : x->table.N;
-            y[k].sum[1].weight = x->table.b;
-            y[k].sum[1].source = w->A;
+            const gvi__sum A = { k == 0 ? x->table.T : x->table.N, x->table.b, w->A };
+            if (GVI__LAGRANGIAN && w->A) y[k].sum[1] = A;
         }
     }
     for (int k = 0; k < count; ++k) {
@@ -3108,25 +3097,6 @@ static void gvi__velocity_rows(const gvi_stepper *st)
     else gvi__ldl_solve(n, x->mass.at_points, R, V, R, st->r);
 }
 
-// momenta: V from dL/dv(Q, V) = P
-static gvi_status gvi__legendre_rows(gvi_stepper *st, const gvi_points *y)
-{
-    struct gvi__private *x = &st->x;
-    gvi_status status = GVI_OK;
-    gvi__count(&st->counters.velocities, st->r);
-    if (x->desc.mass.velocity) {
-        status = gvi__evaluate_mass(st, y, x->work.P, x->work.V);
-        x->has_factor = 1;
-        return status == GVI_OK && x->diagnose ? gvi__check_rows(st, y, x->work.V, GVI_FAULT_MASS)
-                                               : status;
-    }
-    if (!gvi__mass_is_constant(x)) status = gvi__factor_mass(st, y);
-    if (status != GVI_OK) return status;
-    x->has_factor = 1;
-    gvi__velocity_rows(st);
-    return GVI_OK;
-}
-
 static gvi_status gvi__evaluate_with_clock(gvi_stepper *st, const gvi__origin *from, gvi_points *y);
 static gvi_status gvi__clock_at(gvi_stepper *st, gvi_real t, const gvi_real *q, gvi_real *rate,
                                 gvi_real *slope);
@@ -3137,14 +3107,21 @@ static gvi_status gvi__evaluate_stages(gvi_stepper *st, const gvi__origin *from,
     struct gvi__private *x = &st->x;
     const size_t length = (size_t)st->n*(size_t)x->R;
     const int momenta = gvi__uses(x, GVI_MOMENTA);
+    gvi_status status = GVI_OK;
     gvi__zero(length, y->f);
-    if (momenta) {
-        const gvi_status status = gvi__legendre_rows(st, y);
+    if (momenta) {                                // V from dL/dv(Q, V) = P
+        gvi__count(&st->counters.velocities, st->r);
+        if (x->desc.mass.velocity) status = gvi__evaluate_mass(st, y, x->work.P, x->work.V);
+        else if (!gvi__mass_is_constant(x)) status = gvi__factor_mass(st, y);
+        if (status != GVI_OK) return status;
+        x->has_factor = 1;
+        if (!x->desc.mass.velocity) gvi__velocity_rows(st);
+        else if (x->diagnose) status = gvi__check_rows(st, y, x->work.V, GVI_FAULT_MASS);
         if (status != GVI_OK) return status;
     }
     if (GVI__LAGRANGIAN && y->dldv) gvi__zero(length, y->dldv);
     if (gvi__clock_is_on(st)) return gvi__evaluate_with_clock(st, from, y);
-    gvi_status status = gvi__effects(st, y, 0, NULL);
+    status = gvi__effects(st, y, 0, NULL);
     if (status == GVI_OK && gvi__constrained(st)) status = gvi__constraint_values(st, from);
     return status == GVI_OK && momenta && gvi__mass_is(x, GVI_MASS_POSITION)
                ? gvi__mass_gradient(st, y)
@@ -3251,19 +3228,6 @@ static gvi_real gvi__inertia(const gvi_stepper *st, int i)
     return gvi__nonzero(m) && gvi__finite(m) ? GVI_ABS(m) : 1;
 }
 
-/* Has every row settled, by its own size? Its next change, D^2/D_before, is within the
-   tolerance, or D in the last place.  No row hides behind a larger one.                       */
-static int gvi__rows_have_settled(const gvi_stepper *st, gvi_real tolerance, int rows, int first)
-{
-    const gvi_real *D = st->x.watch.change, *before = st->x.watch.before;
-    const gvi_real place = 2*GVI__EPS*GVI__EPS;
-    for (int i = 0; i < rows; ++i) {
-        const gvi_real last = first ? D[i] : before[i] < 1 ? before[i] : 1;
-        if (D[i] > place && D[i]*D[i] > tolerance*last) return 0;
-    }
-    return 1;
-}
-
 /* The largest change of a row that is beyond a few units of the last place of its largest
    value, in units of 32 eps of the largest amplitude; 0: there is none.  An amplitude is |Q_i|
    times sqrt(M_ii), with h V_i or h P_i/M_ii in place of Q_i for those rows.  Up to 1 a row
@@ -3290,11 +3254,11 @@ static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *
     return noise > 0 ? noise/(32*GVI__EPS*largest) : 0;
 }
 
-/* The verdict on a change D of all rows.  The iteration ends when the next change,
-   D^2/D_before, is within the tolerance, without one far below rounding, and every row has
-   settled; or when D stagnates, without a new least by a tenth for some iterations, at
-   rounding.  Then F is evaluated once more, so that rows that go to and fro in their last
-   places end with their own F, not that of the side that they came from, which would be a bias.
+/* The verdict on a change D of all rows.  The iteration ends when the next change, D^2/D_before,
+   is within the tolerance, without one far below rounding, and for each row as well, unless its
+   own D is in the last place; or when D stagnates at rounding, without a new least by a tenth
+   for some iterations.  Then F is evaluated once more, so that rows that go to and fro in their
+   last places end with their own F, not that of the side that they came from: that is a bias.
    Three changes in a row that fall by less than half are poor, five while they are as large as
    the motion (terms of a cosine grow at first); so is a descent to rounding by factors of less
    than 4: it lets errors grow before they shrink.  All in squares: no root or quotient waits.  */
@@ -3308,8 +3272,13 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
     const gvi_real before = p->before, earlier = p->earlier, worst = st->counters.worst_contraction;
     const gvi_real last = p->used == 1 ? D : before < 1 ? before : 1;
     const int grows = before > 0 && D >= before/4;
-    if (D*D <= tolerance*last && d->iterations == 0
-        && gvi__rows_have_settled(st, tolerance, stages*st->n, p->used == 1)) return GVI__DONE;
+    int settled = D*D <= tolerance*last && d->iterations == 0;
+    for (int i = 0; settled && i < stages*st->n; ++i) {      // no row hides behind a larger one
+        const gvi_real Di = st->x.watch.change[i], was = st->x.watch.before[i];
+        const gvi_real before_i = p->used == 1 ? Di : was < 1 ? was : 1;
+        settled = !(Di > 2*GVI__EPS*GVI__EPS && Di*Di > tolerance*before_i);
+    }
+    if (settled) return GVI__DONE;
     if (!gvi__finite(D)) return GVI__NOT_FINITE;
 
     // contraction over two iterations, as long as it is not about rounding
@@ -3330,7 +3299,7 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
     const int wait = gvi__constrained(st) ? 0 : 1;           // the rounding of g is in every D
     if (p->stagnant > wait || poor) {
         const gvi_real noise = gvi__noise(st, h, y, stages);
-        // what falls to a new least still converges, be it to 0; what grows diverges
+        // noise that reaches a new minimum still converges, perhaps to 0
         p->still = noise < p->quiet ? 0 : p->still + 1;
         const int level = noise <= GVI__EPS || (p->still > 7 && noise <= p->noise);
         if (p->stagnant > wait && (noise <= 0
@@ -3373,7 +3342,7 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
     p.used = *used = 1;
     for (int shorter = 0, last = 0; ; ) {
         status = gvi__evaluate_stages(st, from, &at);
-        // free motion may leave the domain of a callback where the motion does not: less of it
+        // free motion may leave a callback's domain though the motion does not: halve the way
         if (status == GVI_E_CALLBACK && p.used == 1 && !extrapolate && shorter++ < 6) {
             for (int i = 0; i < st->n; ++i)
                 for (int k = 0; k < x->R; ++k)
@@ -3403,7 +3372,7 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
     }
 }
 
-// the sums k and k + half of double words, to k
+// the sums k and k + half of double words, to k; a constant `half` makes vectors of it
 GVI__BODY void gvi__fold(int half, gvi_real *hi, gvi_real *lo)
 {
     for (int k = 0; k < half; ++k) {
