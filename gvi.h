@@ -5543,36 +5543,33 @@ GVI__COLD gvi_status gvi__bow(gvi_stepper *st, const gvi__origin *from)
     return GVI_OK;
 }
 
-/* The motion from q0 with velocity v, followed in pieces of length h, `count` of them, or as many
-   as there are.  Returns that which ends nearest to q1 by M_ii, from `first` on, or 0.       */
-GVI__COLD int gvi__aim(gvi_stepper *st, const gvi__origin *from, gvi_real h, const gvi_real *q1,
-                       const gvi_real *v, const gvi__matrix *J, int first, int count,
-                       gvi_real *bent)
+/* The motion from q0 with velocity v, in pieces of length h, followed until it leaves q1, by M_ii,
+   between the first `pieces`/2 and three times as many.  Returns for how long.               */
+GVI__COLD gvi_real gvi__aim(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                            const gvi_real *q1, const gvi_real *v, const gvi__matrix *J,
+                            int pieces, gvi_real *bent, gvi_status *status)
 {
     struct gvi__private *x = &st->x;
-    const size_t n = (size_t)st->n;
-    gvi_real least = GVI__MAX;
-    int nearest = 0;
-    gvi__zero((size_t)st->s*n, x->newton.y);
-    gvi__copy(n, v, x->newton.y);
-    for (int k = 1; k <= count; ++k) {
-        const gvi_real at = h*(gvi_real)k, grow = k == 1 ? 1 : (gvi_real)k/(gvi_real)(k - 1);
+    gvi_real last = GVI__MAX, at = 0;
+    gvi__copy((size_t)st->n, v, x->newton.y);
+    for (int k = 1; k <= pieces*3/2; ++k) {
+        const gvi_real grow = k == 1 ? 1 : (gvi_real)k/(gvi_real)(k - 1);
         gvi_real miss = 0;
-        if (gvi__bend(st, from, at, grow, J, 0, bent) != GVI_OK) break;
-        for (size_t i = 0; i < n; ++i) {
+        at = h*(gvi_real)k;
+        *status = gvi__bend(st, from, at, grow, J, 0, bent);
+        for (int i = 0; i < st->n; ++i) {
             const gvi_real d = (from->q[i] + at*x->newton.y[i] - q1[i])/x->watch.scale[i];
             miss += d*d;
         }
-        if (k < first || miss > least) continue;
-        least = miss;
-        nearest = k;
+        if (*status != GVI_OK || (k > pieces/2 && miss > last)) break;
+        last = miss;
     }
-    return nearest;
+    return at;
 }
 
 /* A curve of degree 2 or more, followed from where it is known, in as many pieces as it takes: from
    h = 0, where it is the chord, run through in no time; or, with a guess v, from the motion that v
-   starts, where between h/2 and 3h/2 it is nearest to q1.  Linear equations need none of that: the
+   starts, where between h/2 and 3h/2 it leaves q1.  Linear equations need none of that: the
    bowed chord will do.  Returns whether they were, all but.  `any`: any other curve is welcome. */
 GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, const gvi_real *q1,
                           const gvi_real *v, int any, const gvi__matrix *J, gvi_status *status)
@@ -5596,18 +5593,12 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
     }
     for (int attempt = v ? 4 : 0; attempt < 9 && left > 0; ++attempt) {
         const int pieces = 1 << attempt >> (attempt > 0), linear = attempt == 0;
-        const gvi_real piece = h/(gvi_real)pieces;
-        gvi_real bent = 0, at = 0, unused = 0;
+        gvi_real bent = 0, at = 0;
         *status = GVI_OK;
         gvi__zero((size_t)(st->s*n), y);
-        if (v) {
-            const int nearest =
-                gvi__aim(st, from, piece, q1, v, &motion, pieces/2, pieces*3/2, &unused);
-            if (nearest) gvi__aim(st, from, piece, q1, v, &motion, 0, nearest, &bent);
-            else *status = st->status;
-            at = piece*(gvi_real)nearest;
-            gvi__copy((size_t)n, y, end);
-        }
+        if (v)
+            at = gvi__aim(st, from, h/(gvi_real)pieces, q1, v, &motion, pieces, &bent, status);
+        gvi__copy((size_t)n, y, end);
         for (int k = 1; k <= pieces && *status == GVI_OK; ++k) {
             const gvi_real part = (gvi_real)k/(gvi_real)pieces, length = at + part*(h - at),
                            last = length - (h - at)/(gvi_real)pieces;
