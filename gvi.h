@@ -5494,27 +5494,32 @@ GVI__COLD gvi_status gvi__chord(gvi_stepper *st, const gvi__origin *from, gvi_re
 /* Newton's method for a curve of length h from that of length h/grow at hand: the same polynomial
    followed on; between ends, modes k >= 1 that grow like it.  Two corrections by one matrix first:
    where a curve is near, the second is no more than a quarter of the first, and all but the `last`
-   piece need no more.  `bent`: the largest of these ratios so far.                           */
+   piece need no more.  `bent`: the largest of these ratios so far.
+   `bow`: first mode 1 becomes as large as half the chord in all coordinates, by sqrt M_ii.  What is
+   linear does not mind; what is not shows it, also where forces cancel on the chord.         */
 GVI__COLD gvi_status gvi__bend(gvi_stepper *st, const gvi__origin *from, gvi_real h, gvi_real grow,
-                               const gvi__matrix *J, int last, gvi_real *bent)
+                               const gvi__matrix *J, int last, int bow, gvi_real *bent)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, size = (st->s - J->k0)*n;
     gvi__descent p = { 0, 0, GVI__MAX, 0, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0 };
-    gvi_real before = 0;
+    gvi_real *y = x->newton.y, before = 0, length = 0;
     if (grow > 1 && J->k0 == 0) {
         x->sized.ratio = 0;
         x->sized.steps = 1;
         gvi__fit(st, st->r, x->table.c, x->table.c, 0, grow, 1, x->sized.E);
         gvi__newton_modes(st, x->work.V, x->work.P);
     }
-    for (int k = n; J->k0 && k < st->s*n; ++k) x->newton.y[k] *= grow;
+    for (int k = n; J->k0 && k < st->s*n; ++k) y[k] *= grow;
     gvi__weights_for(st, h);
     gvi__times(x->R, from->t, 0, h, x->table.c, x->t);
-    for (int k = 0; k < 2; ++k) {
+    for (int k = bow ? -1 : 0; k < 2; ++k) {
         gvi_status status = gvi__newton_values(st, from);
         if (status != GVI_OK) return status;
         gvi__residual(st, from, J->k0, &p);
+        for (int i = 0; k < 0 && i < n; ++i) length += GVI_ABS(y[i])/x->watch.scale[i];
+        for (int i = 0; k < 0 && i < n; ++i) y[n + i] = length*x->watch.scale[i]/2;
+        if (k < 0) continue;
         if (k == 0) status = gvi__jacobian(st, J);
         if (status != GVI_OK) return status;
         gvi_lu_solve(size, J->square, J->pivot, x->newton.dy);
@@ -5526,21 +5531,6 @@ GVI__COLD gvi_status gvi__bend(gvi_stepper *st, const gvi__origin *from, gvi_rea
     }
     if (*bent > (gvi_real)0.25) return gvi__report_status(st, GVI_E_CONVERGENCE);
     return last ? gvi__newton_solve(st, from, J) : GVI_OK;
-}
-
-/* The chord, bowed: mode 1 as large as half of it in all coordinates, by sqrt M_ii.  What is linear
-   does not mind; what is not shows it, also where forces cancel on the chord.                */
-GVI__COLD gvi_status gvi__bow(gvi_stepper *st, const gvi__origin *from)
-{
-    gvi__descent p = { 0, 0, GVI__MAX, 0, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0 };
-    gvi_real *y = st->x.newton.y, length = 0;
-    const gvi_real *scale = st->x.watch.scale;
-    const gvi_status status = gvi__newton_values(st, from);
-    if (status != GVI_OK) return status;
-    gvi__residual(st, from, 1, &p);
-    for (int i = 0; i < st->n; ++i) length += GVI_ABS(y[i])/scale[i];
-    for (int i = 0; i < st->n; ++i) y[st->n + i] = length*scale[i]/2;
-    return GVI_OK;
 }
 
 /* The motion from q0 with velocity v, in pieces of length h, followed until it leaves q1, by M_ii,
@@ -5556,7 +5546,7 @@ GVI__COLD gvi_real gvi__aim(gvi_stepper *st, const gvi__origin *from, gvi_real h
         const gvi_real grow = k == 1 ? 1 : (gvi_real)k/(gvi_real)(k - 1);
         gvi_real miss = 0;
         at = h*(gvi_real)k;
-        *status = gvi__bend(st, from, at, grow, J, 0, bent);
+        *status = gvi__bend(st, from, at, grow, J, 0, 0, bent);
         for (int i = 0; i < st->n; ++i) {
             const gvi_real d = (from->q[i] + at*x->newton.y[i] - q1[i])/x->watch.scale[i];
             miss += d*d;
@@ -5607,10 +5597,9 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
                 y[i] = (v && k < pieces ? part*way + (1 - part)*at*end[i] : way)/length;
             }
             if (left-- == 0) *status = gvi__report_status(st, GVI_E_CONVERGENCE);
-            else if (linear) *status = gvi__bow(st, from);
             const gvi_real grow = v ? last/length : k > 1 ? length/last : 1;
             if (*status == GVI_OK)
-                *status = gvi__bend(st, from, length, grow, J, k == pieces, &bent);
+                *status = gvi__bend(st, from, length, grow, J, k == pieces, linear, &bent);
         }
         if (*status == GVI_OK && (!linear || bent < (gvi_real)0.015625)) return linear;
         if (linear) bowed = *status;
