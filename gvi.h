@@ -2007,28 +2007,22 @@ static void gvi__add_momenta(const gvi_points *x, const gvi_real *m, int width)
     }
 }
 
-/* The kinetic energy's share: x->dldv += M v, and for M(q) the gradient.                     */
-static gvi_status gvi__kinetic(gvi_stepper *st, const gvi_points *x)
-{
-    struct gvi__private *y = &st->x;
-    if (gvi__mass_is(y, GVI_MASS_NONE)) return GVI_OK;
-    if (gvi__mass_is(y, GVI_MASS_POSITION)) {
-        gvi_status status = gvi__evaluate_mass(st, x, NULL, NULL);
-        if (status == GVI_OK) status = gvi__mass_gradient(st, x);
-        if (status != GVI_OK) return status;
-        gvi__add_momenta(x, y->mass.at_points, x->stride);
-    } else gvi__add_momenta(x, y->mass.matrix, y->desc.mass.kind == GVI_MASS_DENSE);
-    return y->diagnose ? gvi__check_rows(st, x, x->dldv, GVI_FAULT_MASS) : GVI_OK;
-}
-
 /* F and P = dL/dv at the points from scratch, of everything but the effects with a bit in `skip`;
    the kinetic energy is left out on demand, too.                                             */
 static gvi_status gvi__evaluate(gvi_stepper *st, gvi_points *x, unsigned skip, int kinetic)
 {
+    const struct gvi__private *y = &st->x;
     const size_t length = (size_t)x->n*(size_t)x->stride;
+    gvi_status status = GVI_OK;
     gvi__zero(length, x->f);
     gvi__zero(length, x->dldv);
-    const gvi_status status = kinetic ? gvi__kinetic(st, x) : GVI_OK;
+    if (!kinetic || gvi__mass_is(y, GVI_MASS_NONE)) return gvi__effects(st, x, skip, NULL);
+    if (gvi__mass_is(y, GVI_MASS_POSITION)) {
+        status = gvi__evaluate_mass(st, x, NULL, NULL);
+        if (status == GVI_OK) status = gvi__mass_gradient(st, x);
+        if (status == GVI_OK) gvi__add_momenta(x, y->mass.at_points, x->stride);
+    } else gvi__add_momenta(x, y->mass.matrix, y->desc.mass.kind == GVI_MASS_DENSE);
+    if (status == GVI_OK && y->diagnose) status = gvi__check_rows(st, x, x->dldv, GVI_FAULT_MASS);
     return status == GVI_OK ? gvi__effects(st, x, skip, NULL) : status;
 }
 
@@ -5576,8 +5570,6 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
         const gvi__matrix plain = { J->square, J->pivot, J->ends, 1, 0, halves };
         gvi__zero((size_t)(st->s*n), y);
         for (int i = 0; i < n; ++i) y[i] = (q1[i] - from->q[i])/h;
-        gvi__weights_for(st, h);
-        gvi__times(x->R, from->t, 0, h, x->table.c, x->t);
         *status = gvi__newton_solve(st, from, &plain);
         if (*status == GVI_OK || halves) return 0;
     }
@@ -5610,9 +5602,71 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
     return 0;
 }
 
-GVI__COLD gvi_status gvi__morse_index(gvi_stepper *st, const gvi__matrix *J, int *negative);
+// rows and columns i and j of a symmetric matrix change places
+static void gvi__exchange(size_t n, gvi_real *a, size_t i, size_t j)
+{
+    for (size_t k = 0; k < n; ++k) gvi__swap(a + i*n + k, a + j*n + k);
+    for (size_t k = 0; k < n; ++k) gvi__swap(a + k*n + i, a + k*n + j);
+}
 
-/* The same by any degree: rows k >= 1 of (1).  The matrix where it ended says whether there was
+/* Negative eigenvalues of a symmetric matrix, which is overwritten: by Sylvester's law those of
+   D in L D L', D with blocks of 1 or 2, complete pivoting (Bunch and Parlett, SIAM J.  Numer.
+   Anal.  8, 1971; their alpha, (1 + sqrt 17)/8 = 0.6404, says when a block of 1 is large
+   enough).  A block of 2 has one of each sign.                                                */
+GVI__COLD int gvi__count_negative(size_t n, gvi_real *a)
+{
+    int count = 0;
+    for (size_t k = 0, width = 1; k < n; k += width) {
+        size_t p = k, q = k, r = k;
+        gvi_real diagonal = -1, off = -1;
+        for (size_t i = k; i < n; ++i) {
+            if (GVI_ABS(a[i*n + i]) > diagonal) diagonal = GVI_ABS(a[i*n + i]), p = i;
+            for (size_t j = k; j < i; ++j)
+                if (GVI_ABS(a[i*n + j]) > off) off = GVI_ABS(a[i*n + j]), q = j, r = i;
+        }
+        const int two = !(diagonal >= (gvi_real)0.6404*off);
+        width = two ? 2 : 1;
+        if (!two && !(diagonal > 0)) break;
+        gvi__exchange(n, a, k, two ? q : p);
+        if (two) gvi__exchange(n, a, k + 1, r == k ? q : r);        // k has just gone to q
+        count += two || a[k*n + k] < 0;
+        const gvi_real d = a[k*n + k], e = two ? a[(k + 1)*n + k] : 0,
+                       f = two ? a[(k + 1)*n + k + 1] : 1;
+        for (size_t i = k + width; i < n; ++i) {
+            const gvi_real x = a[i*n + k], y = two ? a[i*n + k + 1] : 0, det = d*f - e*e;
+            const gvi_real u = (f*x - e*y)/det, v = (d*y - e*x)/det;          // the block's inverse
+            for (size_t j = k + width; j < n; ++j)
+                a[i*n + j] -= u*a[k*n + j] + (two ? v*a[(k + 1)*n + j] : 0);
+        }
+    }
+    return count;
+}
+
+/* The Morse index: the second variation is h J without the factors 2k + 1 of its rows, forces
+   left out.                                                                                   */
+GVI__COLD gvi_status gvi__morse_index(gvi_stepper *st, const gvi__matrix *J, int *negative)
+{
+    struct gvi__private *x = &st->x;
+    const size_t n = (size_t)st->n, size = (size_t)(st->s - 1)*n;
+    const unsigned off = x->off;
+    *negative = 0;
+    if (size == 0) return GVI_OK;
+    x->off |= gvi__of_kind(x, GVI_FORCE);
+    const gvi_status status = gvi__jacobian_fill(st, J);
+    x->off = off;
+    if (status != GVI_OK) return status;
+    gvi_real *a = J->square;
+    for (size_t i = 0; i < size; ++i)
+        for (size_t j = 0; j <= i; ++j) {
+            const gvi_real lower = a[i*size + j]/(gvi_real)(2*(i/n) + 3);
+            const gvi_real upper = a[j*size + i]/(gvi_real)(2*(j/n) + 3);
+            a[i*size + j] = a[j*size + i] = (lower + upper)/2*x->sized.h;
+        }
+    *negative = gvi__count_negative(size, a);
+    return GVI_OK;
+}
+
+/* The curve by any degree: rows k >= 1 of (1).  The matrix where it ended says whether there was
    anything to find: a reciprocal condition below its own relative error is a conjugate point.  So
    is one inside the curve, found from the chord, unless the equations were all but linear there:
    a half circle is not near its diameter.                                                    */
@@ -5685,70 +5739,6 @@ GVI__COLD gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__matrix *J,
             plus[i] -= lambda[row]*by_y0;                 // y_0 = (q1 - q0)/h
             minus[i] -= lambda[row]*(by_q0 - by_y0);
         }
-    return GVI_OK;
-}
-
-// rows and columns i and j of a symmetric matrix change places
-static void gvi__exchange(size_t n, gvi_real *a, size_t i, size_t j)
-{
-    for (size_t k = 0; k < n; ++k) gvi__swap(a + i*n + k, a + j*n + k);
-    for (size_t k = 0; k < n; ++k) gvi__swap(a + k*n + i, a + k*n + j);
-}
-
-/* Negative eigenvalues of a symmetric matrix, which is overwritten: by Sylvester's law those of
-   D in L D L', D with blocks of 1 or 2, complete pivoting (Bunch and Parlett, SIAM J.  Numer.
-   Anal.  8, 1971; their alpha, (1 + sqrt 17)/8 = 0.6404, says when a block of 1 is large
-   enough).  A block of 2 has one of each sign.                                                */
-GVI__COLD int gvi__count_negative(size_t n, gvi_real *a)
-{
-    int count = 0;
-    for (size_t k = 0, width = 1; k < n; k += width) {
-        size_t p = k, q = k, r = k;
-        gvi_real diagonal = -1, off = -1;
-        for (size_t i = k; i < n; ++i) {
-            if (GVI_ABS(a[i*n + i]) > diagonal) diagonal = GVI_ABS(a[i*n + i]), p = i;
-            for (size_t j = k; j < i; ++j)
-                if (GVI_ABS(a[i*n + j]) > off) off = GVI_ABS(a[i*n + j]), q = j, r = i;
-        }
-        const int two = !(diagonal >= (gvi_real)0.6404*off);
-        width = two ? 2 : 1;
-        if (!two && !(diagonal > 0)) break;
-        gvi__exchange(n, a, k, two ? q : p);
-        if (two) gvi__exchange(n, a, k + 1, r == k ? q : r);        // k has just gone to q
-        count += two || a[k*n + k] < 0;
-        const gvi_real d = a[k*n + k], e = two ? a[(k + 1)*n + k] : 0,
-                       f = two ? a[(k + 1)*n + k + 1] : 1;
-        for (size_t i = k + width; i < n; ++i) {
-            const gvi_real x = a[i*n + k], y = two ? a[i*n + k + 1] : 0, det = d*f - e*e;
-            const gvi_real u = (f*x - e*y)/det, v = (d*y - e*x)/det;          // the block's inverse
-            for (size_t j = k + width; j < n; ++j)
-                a[i*n + j] -= u*a[k*n + j] + (two ? v*a[(k + 1)*n + j] : 0);
-        }
-    }
-    return count;
-}
-
-/* The Morse index: the second variation is h J without the factors 2k + 1 of its rows, forces
-   left out.                                                                                   */
-GVI__COLD gvi_status gvi__morse_index(gvi_stepper *st, const gvi__matrix *J, int *negative)
-{
-    struct gvi__private *x = &st->x;
-    const size_t n = (size_t)st->n, size = (size_t)(st->s - 1)*n;
-    const unsigned off = x->off;
-    *negative = 0;
-    if (size == 0) return GVI_OK;
-    x->off |= gvi__of_kind(x, GVI_FORCE);
-    const gvi_status status = gvi__jacobian_fill(st, J);
-    x->off = off;
-    if (status != GVI_OK) return status;
-    gvi_real *a = J->square;
-    for (size_t i = 0; i < size; ++i)
-        for (size_t j = 0; j <= i; ++j) {
-            const gvi_real lower = a[i*size + j]/(gvi_real)(2*(i/n) + 3);
-            const gvi_real upper = a[j*size + i]/(gvi_real)(2*(j/n) + 3);
-            a[i*size + j] = a[j*size + i] = (lower + upper)/2*x->sized.h;
-        }
-    *negative = gvi__count_negative(size, a);
     return GVI_OK;
 }
 
