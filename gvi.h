@@ -840,7 +840,7 @@ GVI_DEF void gvi_basis_derivative(int n, const gvi_real *x, const gvi_real *w, g
    terms that made it; GVI_E_NON_FINITE if an entry is.
    gvi_lu_solve: x in: right-hand side, out: solution, length n.
    gvi_lu_rcond: estimate of 1/(|A| |A^-1|), 1-norm [7, sec. 15.3], usually
-   within a factor 3 and never below the truth; work of length 3n.             */
+   within a factor 3 and never below the truth; work of length 2n.             */
 GVI_DEF gvi_status gvi_lu_factor(int n, gvi_real *a, gvi_real *pivot);
 GVI_DEF void       gvi_lu_solve(int n, const gvi_real *lu, const gvi_real *pivot, gvi_real *x);
 GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot, gvi_real *work);
@@ -992,8 +992,7 @@ typedef volatile gvi_real gvi__rounded;
 #if !defined(__GNUC__) || GVI__KIND == 3 || GVI__SMALL                                          \
     || !(FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 16)                                         \
     || !(defined(__SSE2__) || defined(__ARM_NEON) || defined(__ALTIVEC__)                       \
-         || defined(__riscv_vector)                                                             \
-         || defined(__wasm_simd128__))
+         || defined(__riscv_vector) || defined(__wasm_simd128__))
 #define GVI__LANES 1
 #elif defined(__AVX__) && GVI__KIND == 1
 #define GVI__LANES 8
@@ -1292,22 +1291,17 @@ static gvi_real gvi__norm1(int n, const gvi_real *x)
 
 GVI_DEF gvi_real gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot, gvi_real *work)
 {
-    gvi_real *x = work, *z = work + n, *sign = work + 2*n, best = 0;
+    gvi_real *x = work, *z = work + n, best = 0;
 
     // climb |A^-1 x| over the corners of |x| = 1, at most 5 of them
-    for (int i = 0; i < n; ++i) x[i] = 1/(gvi_real)n, sign[i] = 0;
+    for (int i = 0; i < n; ++i) x[i] = 1/(gvi_real)n;
     for (int step = 0, corner = -1; step < 5; ++step) {
         gvi_lu_solve(n, lu, pivot, x);
         const gvi_real norm = gvi__norm1(n, x);
-        int same = step > 0, next = 0;
+        int next = 0;
         if (norm > best) best = norm;
         else if (step > 0) break;
-        for (int i = 0; i < n; ++i) {
-            z[i] = x[i] < 0 ? -1 : 1;
-            if (gvi__nonzero(z[i] - sign[i])) same = 0;
-            sign[i] = z[i];
-        }
-        if (same) break;
+        for (int i = 0; i < n; ++i) z[i] = x[i] < 0 ? -1 : 1;
         gvi__lu_solve_transposed(n, lu, pivot, z);
         for (int i = 1; i < n; ++i)
             if (GVI_ABS(z[i]) > GVI_ABS(z[next])) next = i;
@@ -1693,8 +1687,7 @@ GVI__BODY int gvi__has(const struct gvi__private *x, int bit)
     return (x->needs & GVI__POSSIBLE & bit) != 0;
 }
 
-// is f the formulation of this scene?  A constant where it is the only one that is compiled, or not
-// compiled
+// is f this scene's formulation?  A constant where it is the only one compiled, or not compiled
 GVI__BODY int gvi__uses(const struct gvi__private *x, gvi_formulation f)
 {
     return (GVI__COMPILED >> f & 1) && (GVI__COMPILED == 1 << f || x->chosen == f);
@@ -1843,8 +1836,7 @@ static gvi_status gvi__value(gvi_stepper *st, gvi_points *x, int e, gvi_real *va
     return effect->value(&y, effect->user) ? gvi__report_effect(st, GVI_E_CALLBACK, e) : GVI_OK;
 }
 
-// the one-point form: gather, call, scatter.  Returns 0, or 1 + the point at which the callback
-// failed
+// the one-point form: gather, call, scatter.  Returns 0, or 1 + the point whose callback failed
 static int gvi__point_by_point(gvi_stepper *st, const gvi_effect *e, const gvi_points *x)
 {
     const int n = x->n;
@@ -1894,8 +1886,7 @@ static gvi_real *gvi__value_row(const gvi_stepper *st, int e, gvi_real *level)
     return kind == GVI_FORCE ? NULL : kind == GVI_LAGRANGIAN ? st->x.time.lagrangian : level;
 }
 
-/* In the repetition of a step that came to NaN or Inf: which effect gave it? Each is evaluated
-   alone.                                                                                      */
+// in the repetition of a step that came to NaN or Inf: each effect alone, which gave it?
 GVI__COLD gvi_status gvi__diagnose(gvi_stepper *st, gvi_points *x, unsigned skip, gvi_real *level)
 {
     const size_t length = (size_t)x->n*(size_t)x->stride;
