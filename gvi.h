@@ -842,7 +842,7 @@ GVI_DEF void gvi_basis_derivative(int n, const gvi_real *x, const gvi_real *w, g
    terms that made it; GVI_E_NON_FINITE if an entry is.
    gvi_lu_solve: x in: right-hand side, out: solution, length n.
    gvi_lu_rcond: estimate of 1/(|A| |A^-1|), 1-norm [7, sec. 15.3], usually
-   within a factor 3 and never below the truth; work of length 3n.             */
+   within a factor 3 and never below the truth; work of length 2n.             */
 GVI_DEF gvi_status gvi_lu_factor(int n, gvi_real *a, gvi_real *pivot);
 GVI_DEF void       gvi_lu_solve(int n, const gvi_real *lu, const gvi_real *pivot, gvi_real *x);
 GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot, gvi_real *work);
@@ -994,8 +994,7 @@ typedef volatile gvi_real gvi__rounded;
 #if !defined(__GNUC__) || GVI__KIND == 3 || GVI__SMALL                                          \
     || !(FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 16)                                         \
     || !(defined(__SSE2__) || defined(__ARM_NEON) || defined(__ALTIVEC__)                       \
-         || defined(__riscv_vector)                                                             \
-         || defined(__wasm_simd128__))
+         || defined(__riscv_vector) || defined(__wasm_simd128__))
 #define GVI__LANES 1
 #elif defined(__AVX__) && GVI__KIND == 1
 #define GVI__LANES 8
@@ -1294,22 +1293,17 @@ static gvi_real gvi__norm1(int n, const gvi_real *x)
 
 GVI_DEF gvi_real gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot, gvi_real *work)
 {
-    gvi_real *x = work, *z = work + n, *sign = work + 2*n, best = 0;
+    gvi_real *x = work, *z = work + n, best = 0;
 
     // climb |A^-1 x| over the corners of |x| = 1, at most 5 of them
-    for (int i = 0; i < n; ++i) x[i] = 1/(gvi_real)n, sign[i] = 0;
+    for (int i = 0; i < n; ++i) x[i] = 1/(gvi_real)n;
     for (int step = 0, corner = -1; step < 5; ++step) {
         gvi_lu_solve(n, lu, pivot, x);
         const gvi_real norm = gvi__norm1(n, x);
-        int same = step > 0, next = 0;
+        int next = 0;
         if (norm > best) best = norm;
         else if (step > 0) break;
-        for (int i = 0; i < n; ++i) {
-            z[i] = x[i] < 0 ? -1 : 1;
-            if (gvi__nonzero(z[i] - sign[i])) same = 0;
-            sign[i] = z[i];
-        }
-        if (same) break;
+        for (int i = 0; i < n; ++i) z[i] = x[i] < 0 ? -1 : 1;
         gvi__lu_solve_transposed(n, lu, pivot, z);
         for (int i = 1; i < n; ++i)
             if (GVI_ABS(z[i]) > GVI_ABS(z[next])) next = i;
@@ -1695,8 +1689,7 @@ GVI__BODY int gvi__has(const struct gvi__private *x, int bit)
     return (x->needs & GVI__POSSIBLE & bit) != 0;
 }
 
-// is f the formulation of this scene?  A constant where it is the only one that is compiled, or not
-// compiled
+// is f this scene's formulation?  A constant where it is the only one compiled, or not compiled
 GVI__BODY int gvi__uses(const struct gvi__private *x, gvi_formulation f)
 {
     return (GVI__COMPILED >> f & 1) && (GVI__COMPILED == 1 << f || x->chosen == f);
@@ -1845,8 +1838,7 @@ static gvi_status gvi__value(gvi_stepper *st, gvi_points *x, int e, gvi_real *va
     return effect->value(&y, effect->user) ? gvi__report_effect(st, GVI_E_CALLBACK, e) : GVI_OK;
 }
 
-// the one-point form: gather, call, scatter.  Returns 0, or 1 + the point at which the callback
-// failed
+// the one-point form: gather, call, scatter.  Returns 0, or 1 + the point whose callback failed
 static int gvi__point_by_point(gvi_stepper *st, const gvi_effect *e, const gvi_points *x)
 {
     const int n = x->n;
@@ -1896,8 +1888,7 @@ static gvi_real *gvi__value_row(const gvi_stepper *st, int e, gvi_real *level)
     return kind == GVI_FORCE ? NULL : kind == GVI_LAGRANGIAN ? st->x.time.lagrangian : level;
 }
 
-/* In the repetition of a step that came to NaN or Inf: which effect gave it? Each is evaluated
-   alone.                                                                                      */
+// in the repetition of a step that came to NaN or Inf: each effect alone, which gave it?
 GVI__COLD gvi_status gvi__diagnose(gvi_stepper *st, gvi_points *x, unsigned skip, gvi_real *level)
 {
     const size_t length = (size_t)x->n*(size_t)x->stride;
@@ -2009,28 +2000,22 @@ static void gvi__add_momenta(const gvi_points *x, const gvi_real *m, int width)
     }
 }
 
-/* The kinetic energy's share: x->dldv += M v, and for M(q) the gradient.                     */
-static gvi_status gvi__kinetic(gvi_stepper *st, const gvi_points *x)
-{
-    struct gvi__private *y = &st->x;
-    if (gvi__mass_is(y, GVI_MASS_NONE)) return GVI_OK;
-    if (gvi__mass_is(y, GVI_MASS_POSITION)) {
-        gvi_status status = gvi__evaluate_mass(st, x, NULL, NULL);
-        if (status == GVI_OK) status = gvi__mass_gradient(st, x);
-        if (status != GVI_OK) return status;
-        gvi__add_momenta(x, y->mass.at_points, x->stride);
-    } else gvi__add_momenta(x, y->mass.matrix, y->desc.mass.kind == GVI_MASS_DENSE);
-    return y->diagnose ? gvi__check_rows(st, x, x->dldv, GVI_FAULT_MASS) : GVI_OK;
-}
-
 /* F and P = dL/dv at the points from scratch, of everything but the effects with a bit in `skip`;
    the kinetic energy is left out on demand, too.                                             */
 static gvi_status gvi__evaluate(gvi_stepper *st, gvi_points *x, unsigned skip, int kinetic)
 {
+    const struct gvi__private *y = &st->x;
     const size_t length = (size_t)x->n*(size_t)x->stride;
+    gvi_status status = GVI_OK;
     gvi__zero(length, x->f);
     gvi__zero(length, x->dldv);
-    const gvi_status status = kinetic ? gvi__kinetic(st, x) : GVI_OK;
+    if (!kinetic || gvi__mass_is(y, GVI_MASS_NONE)) return gvi__effects(st, x, skip, NULL);
+    if (gvi__mass_is(y, GVI_MASS_POSITION)) {
+        status = gvi__evaluate_mass(st, x, NULL, NULL);
+        if (status == GVI_OK) status = gvi__mass_gradient(st, x);
+        if (status == GVI_OK) gvi__add_momenta(x, y->mass.at_points, x->stride);
+    } else gvi__add_momenta(x, y->mass.matrix, y->desc.mass.kind == GVI_MASS_DENSE);
+    if (status == GVI_OK && y->diagnose) status = gvi__check_rows(st, x, x->dldv, GVI_FAULT_MASS);
     return status == GVI_OK ? gvi__effects(st, x, skip, NULL) : status;
 }
 
@@ -5595,27 +5580,32 @@ GVI__COLD gvi_status gvi__chord(gvi_stepper *st, const gvi__origin *from, gvi_re
 /* Newton's method for a curve of length h from that of length h/grow at hand: the same polynomial
    followed on; between ends, modes k >= 1 that grow like it.  Two corrections by one matrix first:
    where a curve is near, the second is no more than a quarter of the first, and all but the `last`
-   piece need no more.  `bent`: the largest of these ratios so far.                           */
+   piece need no more.  `bent`: the largest of these ratios so far.
+   `bow`: first mode 1 becomes as large as half the chord in all coordinates, by sqrt M_ii.  What is
+   linear does not mind; what is not shows it, also where forces cancel on the chord.         */
 GVI__COLD gvi_status gvi__bend(gvi_stepper *st, const gvi__origin *from, gvi_real h, gvi_real grow,
-                               const gvi__matrix *J, int last, gvi_real *bent)
+                               const gvi__matrix *J, int last, int bow, gvi_real *bent)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, size = (st->s - J->k0)*n;
     gvi__descent p = { 0, 0, GVI__MAX, 0, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0 };
-    gvi_real before = 0;
+    gvi_real *y = x->newton.y, before = 0, length = 0;
     if (grow > 1 && J->k0 == 0) {
         x->sized.ratio = 0;
         x->sized.steps = 1;
         gvi__fit(st, st->r, x->table.c, x->table.c, 0, grow, 1, x->sized.E);
         gvi__newton_modes(st, x->work.V, x->work.P);
     }
-    for (int k = n; J->k0 && k < st->s*n; ++k) x->newton.y[k] *= grow;
+    for (int k = n; J->k0 && k < st->s*n; ++k) y[k] *= grow;
     gvi__weights_for(st, h);
     gvi__times(x->R, from->t, 0, h, x->table.c, x->t);
-    for (int k = 0; k < 2; ++k) {
+    for (int k = bow ? -1 : 0; k < 2; ++k) {
         gvi_status status = gvi__newton_values(st, from);
         if (status != GVI_OK) return status;
         gvi__residual(st, from, J->k0, &p);
+        for (int i = 0; k < 0 && i < n; ++i) length += GVI_ABS(y[i])/x->watch.scale[i];
+        for (int i = 0; k < 0 && i < n; ++i) y[n + i] = length*x->watch.scale[i]/2;
+        if (k < 0) continue;
         if (k == 0) status = gvi__jacobian(st, J);
         if (status != GVI_OK) return status;
         gvi_lu_solve(size, J->square, J->pivot, x->newton.dy);
@@ -5629,51 +5619,33 @@ GVI__COLD gvi_status gvi__bend(gvi_stepper *st, const gvi__origin *from, gvi_rea
     return last ? gvi__newton_solve(st, from, J) : GVI_OK;
 }
 
-/* The chord, bowed: mode 1 as large as half of it in all coordinates, by sqrt M_ii.  What is linear
-   does not mind; what is not shows it, also where forces cancel on the chord.                */
-GVI__COLD gvi_status gvi__bow(gvi_stepper *st, const gvi__origin *from)
-{
-    gvi__descent p = { 0, 0, GVI__MAX, 0, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0 };
-    gvi_real *y = st->x.newton.y, length = 0;
-    const gvi_real *scale = st->x.watch.scale;
-    const gvi_status status = gvi__newton_values(st, from);
-    if (status != GVI_OK) return status;
-    gvi__residual(st, from, 1, &p);
-    for (int i = 0; i < st->n; ++i) length += GVI_ABS(y[i])/scale[i];
-    for (int i = 0; i < st->n; ++i) y[st->n + i] = length*scale[i]/2;
-    return GVI_OK;
-}
-
-/* The motion from q0 with velocity v, followed in pieces of length h, `count` of them, or as many
-   as there are.  Returns that which ends nearest to q1 by M_ii, from `first` on, or 0.       */
-GVI__COLD int gvi__aim(gvi_stepper *st, const gvi__origin *from, gvi_real h, const gvi_real *q1,
-                       const gvi_real *v, const gvi__matrix *J, int first, int count,
-                       gvi_real *bent)
+/* The motion from q0 with velocity v, in pieces of length h, followed until it leaves q1, by M_ii,
+   between the first `pieces`/2 and three times as many.  Returns for how long.               */
+GVI__COLD gvi_real gvi__aim(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                            const gvi_real *q1, const gvi_real *v, const gvi__matrix *J,
+                            int pieces, gvi_real *bent, gvi_status *status)
 {
     struct gvi__private *x = &st->x;
-    const size_t n = (size_t)st->n;
-    gvi_real least = GVI__MAX;
-    int nearest = 0;
-    gvi__zero((size_t)st->s*n, x->newton.y);
-    gvi__copy(n, v, x->newton.y);
-    for (int k = 1; k <= count; ++k) {
-        const gvi_real at = h*(gvi_real)k, grow = k == 1 ? 1 : (gvi_real)k/(gvi_real)(k - 1);
+    gvi_real last = GVI__MAX, at = 0;
+    gvi__copy((size_t)st->n, v, x->newton.y);
+    for (int k = 1; k <= pieces*3/2; ++k) {
+        const gvi_real grow = k == 1 ? 1 : (gvi_real)k/(gvi_real)(k - 1);
         gvi_real miss = 0;
-        if (gvi__bend(st, from, at, grow, J, 0, bent) != GVI_OK) break;
-        for (size_t i = 0; i < n; ++i) {
+        at = h*(gvi_real)k;
+        *status = gvi__bend(st, from, at, grow, J, 0, 0, bent);
+        for (int i = 0; i < st->n; ++i) {
             const gvi_real d = (from->q[i] + at*x->newton.y[i] - q1[i])/x->watch.scale[i];
             miss += d*d;
         }
-        if (k < first || miss > least) continue;
-        least = miss;
-        nearest = k;
+        if (*status != GVI_OK || (k > pieces/2 && miss > last)) break;
+        last = miss;
     }
-    return nearest;
+    return at;
 }
 
 /* A curve of degree 2 or more, followed from where it is known, in as many pieces as it takes: from
    h = 0, where it is the chord, run through in no time; or, with a guess v, from the motion that v
-   starts, where between h/2 and 3h/2 it is nearest to q1.  Linear equations need none of that: the
+   starts, where between h/2 and 3h/2 it leaves q1.  Linear equations need none of that: the
    bowed chord will do.  Returns whether they were, all but.  `any`: any other curve is welcome. */
 GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, const gvi_real *q1,
                           const gvi_real *v, int any, const gvi__matrix *J, gvi_status *status)
@@ -5690,25 +5662,17 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
         const gvi__matrix plain = { J->square, J->pivot, J->ends, 1, 0, halves };
         gvi__zero((size_t)(st->s*n), y);
         for (int i = 0; i < n; ++i) y[i] = (q1[i] - from->q[i])/h;
-        gvi__weights_for(st, h);
-        gvi__times(x->R, from->t, 0, h, x->table.c, x->t);
         *status = gvi__newton_solve(st, from, &plain);
         if (*status == GVI_OK || halves) return 0;
     }
     for (int attempt = v ? 4 : 0; attempt < 9 && left > 0; ++attempt) {
         const int pieces = 1 << attempt >> (attempt > 0), linear = attempt == 0;
-        const gvi_real piece = h/(gvi_real)pieces;
-        gvi_real bent = 0, at = 0, unused = 0;
+        gvi_real bent = 0, at = 0;
         *status = GVI_OK;
         gvi__zero((size_t)(st->s*n), y);
-        if (v) {
-            const int nearest =
-                gvi__aim(st, from, piece, q1, v, &motion, pieces/2, pieces*3/2, &unused);
-            if (nearest) gvi__aim(st, from, piece, q1, v, &motion, 0, nearest, &bent);
-            else *status = st->status;
-            at = piece*(gvi_real)nearest;
-            gvi__copy((size_t)n, y, end);
-        }
+        if (v)
+            at = gvi__aim(st, from, h/(gvi_real)pieces, q1, v, &motion, pieces, &bent, status);
+        gvi__copy((size_t)n, y, end);
         for (int k = 1; k <= pieces && *status == GVI_OK; ++k) {
             const gvi_real part = (gvi_real)k/(gvi_real)pieces, length = at + part*(h - at),
                            last = length - (h - at)/(gvi_real)pieces;
@@ -5717,10 +5681,9 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
                 y[i] = (v && k < pieces ? part*way + (1 - part)*at*end[i] : way)/length;
             }
             if (left-- == 0) *status = gvi__report_status(st, GVI_E_CONVERGENCE);
-            else if (linear) *status = gvi__bow(st, from);
             const gvi_real grow = v ? last/length : k > 1 ? length/last : 1;
             if (*status == GVI_OK)
-                *status = gvi__bend(st, from, length, grow, J, k == pieces, &bent);
+                *status = gvi__bend(st, from, length, grow, J, k == pieces, linear, &bent);
         }
         if (*status == GVI_OK && (!linear || bent < (gvi_real)0.015625)) return linear;
         if (linear) bowed = *status;
@@ -5731,9 +5694,71 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
     return 0;
 }
 
-GVI__COLD gvi_status gvi__morse_index(gvi_stepper *st, const gvi__matrix *J, int *negative);
+// rows and columns i and j of a symmetric matrix change places
+static void gvi__exchange(size_t n, gvi_real *a, size_t i, size_t j)
+{
+    for (size_t k = 0; k < n; ++k) gvi__swap(a + i*n + k, a + j*n + k);
+    for (size_t k = 0; k < n; ++k) gvi__swap(a + k*n + i, a + k*n + j);
+}
 
-/* The same by any degree: rows k >= 1 of (1).  The matrix where it ended says whether there was
+/* Negative eigenvalues of a symmetric matrix, which is overwritten: by Sylvester's law those of
+   D in L D L', D with blocks of 1 or 2, complete pivoting (Bunch and Parlett, SIAM J.  Numer.
+   Anal.  8, 1971; their alpha, (1 + sqrt 17)/8 = 0.6404, says when a block of 1 is large
+   enough).  A block of 2 has one of each sign.                                                */
+GVI__COLD int gvi__count_negative(size_t n, gvi_real *a)
+{
+    int count = 0;
+    for (size_t k = 0, width = 1; k < n; k += width) {
+        size_t p = k, q = k, r = k;
+        gvi_real diagonal = -1, off = -1;
+        for (size_t i = k; i < n; ++i) {
+            if (GVI_ABS(a[i*n + i]) > diagonal) diagonal = GVI_ABS(a[i*n + i]), p = i;
+            for (size_t j = k; j < i; ++j)
+                if (GVI_ABS(a[i*n + j]) > off) off = GVI_ABS(a[i*n + j]), q = j, r = i;
+        }
+        const int two = !(diagonal >= (gvi_real)0.6404*off);
+        width = two ? 2 : 1;
+        if (!two && !(diagonal > 0)) break;
+        gvi__exchange(n, a, k, two ? q : p);
+        if (two) gvi__exchange(n, a, k + 1, r == k ? q : r);        // k has just gone to q
+        count += two || a[k*n + k] < 0;
+        const gvi_real d = a[k*n + k], e = two ? a[(k + 1)*n + k] : 0,
+                       f = two ? a[(k + 1)*n + k + 1] : 1;
+        for (size_t i = k + width; i < n; ++i) {
+            const gvi_real x = a[i*n + k], y = two ? a[i*n + k + 1] : 0, det = d*f - e*e;
+            const gvi_real u = (f*x - e*y)/det, v = (d*y - e*x)/det;          // the block's inverse
+            for (size_t j = k + width; j < n; ++j)
+                a[i*n + j] -= u*a[k*n + j] + (two ? v*a[(k + 1)*n + j] : 0);
+        }
+    }
+    return count;
+}
+
+/* The Morse index: the second variation is h J without the factors 2k + 1 of its rows, forces
+   left out.                                                                                   */
+GVI__COLD gvi_status gvi__morse_index(gvi_stepper *st, const gvi__matrix *J, int *negative)
+{
+    struct gvi__private *x = &st->x;
+    const size_t n = (size_t)st->n, size = (size_t)(st->s - 1)*n;
+    const unsigned off = x->off;
+    *negative = 0;
+    if (size == 0) return GVI_OK;
+    x->off |= gvi__of_kind(x, GVI_FORCE);
+    const gvi_status status = gvi__jacobian_fill(st, J);
+    x->off = off;
+    if (status != GVI_OK) return status;
+    gvi_real *a = J->square;
+    for (size_t i = 0; i < size; ++i)
+        for (size_t j = 0; j <= i; ++j) {
+            const gvi_real lower = a[i*size + j]/(gvi_real)(2*(i/n) + 3);
+            const gvi_real upper = a[j*size + i]/(gvi_real)(2*(j/n) + 3);
+            a[i*size + j] = a[j*size + i] = (lower + upper)/2*x->sized.h;
+        }
+    *negative = gvi__count_negative(size, a);
+    return GVI_OK;
+}
+
+/* The curve by any degree: rows k >= 1 of (1).  The matrix where it ended says whether there was
    anything to find: a reciprocal condition below its own relative error is a conjugate point.  So
    is one inside the curve, found from the chord, unless the equations were all but linear there:
    a half circle is not near its diameter.                                                    */
@@ -5806,70 +5831,6 @@ GVI__COLD gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__matrix *J,
             plus[i] -= lambda[row]*by_y0;                 // y_0 = (q1 - q0)/h
             minus[i] -= lambda[row]*(by_q0 - by_y0);
         }
-    return GVI_OK;
-}
-
-// rows and columns i and j of a symmetric matrix change places
-static void gvi__exchange(size_t n, gvi_real *a, size_t i, size_t j)
-{
-    for (size_t k = 0; k < n; ++k) gvi__swap(a + i*n + k, a + j*n + k);
-    for (size_t k = 0; k < n; ++k) gvi__swap(a + k*n + i, a + k*n + j);
-}
-
-/* Negative eigenvalues of a symmetric matrix, which is overwritten: by Sylvester's law those of
-   D in L D L', D with blocks of 1 or 2, complete pivoting (Bunch and Parlett, SIAM J.  Numer.
-   Anal.  8, 1971; their alpha, (1 + sqrt 17)/8 = 0.6404, says when a block of 1 is large
-   enough).  A block of 2 has one of each sign.                                                */
-GVI__COLD int gvi__count_negative(size_t n, gvi_real *a)
-{
-    int count = 0;
-    for (size_t k = 0, width = 1; k < n; k += width) {
-        size_t p = k, q = k, r = k;
-        gvi_real diagonal = -1, off = -1;
-        for (size_t i = k; i < n; ++i) {
-            if (GVI_ABS(a[i*n + i]) > diagonal) diagonal = GVI_ABS(a[i*n + i]), p = i;
-            for (size_t j = k; j < i; ++j)
-                if (GVI_ABS(a[i*n + j]) > off) off = GVI_ABS(a[i*n + j]), q = j, r = i;
-        }
-        const int two = !(diagonal >= (gvi_real)0.6404*off);
-        width = two ? 2 : 1;
-        if (!two && !(diagonal > 0)) break;
-        gvi__exchange(n, a, k, two ? q : p);
-        if (two) gvi__exchange(n, a, k + 1, r == k ? q : r);        // k has just gone to q
-        count += two || a[k*n + k] < 0;
-        const gvi_real d = a[k*n + k], e = two ? a[(k + 1)*n + k] : 0,
-                       f = two ? a[(k + 1)*n + k + 1] : 1;
-        for (size_t i = k + width; i < n; ++i) {
-            const gvi_real x = a[i*n + k], y = two ? a[i*n + k + 1] : 0, det = d*f - e*e;
-            const gvi_real u = (f*x - e*y)/det, v = (d*y - e*x)/det;          // the block's inverse
-            for (size_t j = k + width; j < n; ++j)
-                a[i*n + j] -= u*a[k*n + j] + (two ? v*a[(k + 1)*n + j] : 0);
-        }
-    }
-    return count;
-}
-
-/* The Morse index: the second variation is h J without the factors 2k + 1 of its rows, forces
-   left out.                                                                                   */
-GVI__COLD gvi_status gvi__morse_index(gvi_stepper *st, const gvi__matrix *J, int *negative)
-{
-    struct gvi__private *x = &st->x;
-    const size_t n = (size_t)st->n, size = (size_t)(st->s - 1)*n;
-    const unsigned off = x->off;
-    *negative = 0;
-    if (size == 0) return GVI_OK;
-    x->off |= gvi__of_kind(x, GVI_FORCE);
-    const gvi_status status = gvi__jacobian_fill(st, J);
-    x->off = off;
-    if (status != GVI_OK) return status;
-    gvi_real *a = J->square;
-    for (size_t i = 0; i < size; ++i)
-        for (size_t j = 0; j <= i; ++j) {
-            const gvi_real lower = a[i*size + j]/(gvi_real)(2*(i/n) + 3);
-            const gvi_real upper = a[j*size + i]/(gvi_real)(2*(j/n) + 3);
-            a[i*size + j] = a[j*size + i] = (lower + upper)/2*x->sized.h;
-        }
-    *negative = gvi__count_negative(size, a);
     return GVI_OK;
 }
 
