@@ -632,6 +632,8 @@ struct gvi__time {                    /* clock: at the points, and the state's  
 
 struct gvi__newton {
     gvi_real *y, *dy, *residual, *last;   /* [s*n] modes, change, rows, modes before  */
+    gvi_real *found, *branch, *guess, *slope;  /* [s*n] see gvi__newton_connected     */
+    gvi_real  bend;                   /* worst contraction by its own matrices before the last */
     gvi_real *J, *pivot;              /* two matrices of s*n: of steps, of queries   */
     gvi_real *hessian, *column, *moved;   /* scratch                                */
     gvi_real  h;                      /* for which J was made, 0: none              */
@@ -852,7 +854,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__SIZE(a) ((size_t)(a))
 #define GVI__SLACK (63/sizeof(gvi_real))
 #define GVI_LENGTH(n, s, r) (                                                    \
-    (42 + 6*GVI__SIZE(s) + 20*GVI__SIZE(GVI__ROW(r))                             \
+    (42 + 10*GVI__SIZE(s) + 20*GVI__SIZE(GVI__ROW(r))                             \
      + (6 + GVI__SIZE(GVI__ROW(r)) + 2*GVI__SIZE(s)*GVI__SIZE(s))*GVI__SIZE(n))*GVI__SIZE(n) \
     + (20 + 7*GVI__SIZE(r) + 3*GVI__SIZE(s))*GVI__SIZE(GVI__ROW(r))              \
     + (GVI__SIZE(s) + 2)*GVI__SIZE(s) + GVI__SIZE(r) + 5 + GVI__SLACK)
@@ -3183,7 +3185,8 @@ GVI__BODY gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *y, int stage
 {
     const struct gvi__private *x = &st->x;
     gvi_real sum = 0;
-    if (gvi__constrained(st) && x->con.made > 0) gvi__constrain(st, y, y[gvi__uses(x, GVI_MOMENTA)].base);
+    if (gvi__constrained(st) && x->con.made > 0)
+        gvi__constrain(st, y, y[gvi__uses(x, GVI_MOMENTA)].base);
     for (int k = 0; k < stages; ++k) {
         if (k == 1 && gvi__uses(x, GVI_MOMENTA)) sum += gvi__velocities_again(st);
         sum += y[k].dense ? gvi__dense_rows(st, y + k, rescale) : x->kernel(st, y + k, rescale);
@@ -4418,6 +4421,10 @@ GVI__COLD size_t gvi__layout(struct gvi__private *x, int order, gvi_real *base)
     x->newton.dy = gvi__take(a, newton, sn);
     x->newton.residual = gvi__take(a, newton, sn);
     x->newton.last = gvi__take(a, newton, sn);
+    x->newton.found = gvi__take(a, newton, sn);
+    x->newton.branch = gvi__take(a, newton, sn);
+    x->newton.guess = gvi__take(a, newton, sn);
+    x->newton.slope = gvi__take(a, newton, sn);
     x->newton.pivot = gvi__take(a, newton*2, sn + 1);           // twice: queries must not touch
     x->newton.moved = gvi__take(a, newton*4*n, R);
     if (GVI__CONSTRAINTS) gvi__layout_constraints(x, a);
@@ -4598,10 +4605,11 @@ static gvi_status gvi__newton_values(gvi_stepper *st, const gvi__origin *from)
    once its change is made the work that does in it, or -1 where either is rounding; the
    residual's norm at the last y that stayed; how often no change was less than half of the
    least; is there a matrix that will do, is it new (1) and was the last one (2); how often was
-   the last change halved, or -1: none to take back.                                           */
+   the last change halved, or -1: none to take back; did that change move the residual by half of
+   itself, or is the residual rounding?                                                        */
 typedef struct gvi__descent {
     gvi_real before, earlier, least, rho, left, work, norm;
-    int      stagnant, have, fresh, halves;
+    int      stagnant, have, fresh, halves, holds;
 } gvi__descent;
 
 /* dy and residual := -(1).  The weights of P are h b_i/h, those that F has, and Phi_0 = c is on
@@ -4613,11 +4621,11 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, 
     struct gvi__private *x = &st->x;
     const int n = st->n, R = x->R, first = !(p->norm < GVI__MAX);
     const gvi_real h = x->sized.h;
-    gvi_real norm = 0;
+    gvi_real norm = 0, moved = 0, before = 0;
     p->work = 0;
     for (int i = 0; i < n; ++i) {
         const gvi_real *P = x->work.P + i*R, *F = x->work.F + i*R;
-        gvi_real length = 0;
+        gvi_real length = 0, change = 0, was = 0;
         for (int k = k0; k < st->s; ++k) {
             // P - p is summed where p occurs: the rounding of P then is not in the sum
             const gvi_real base = k == 0 ? from->p[i] : 0;
@@ -4631,14 +4639,20 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, 
                 size += GVI_ABS(phi*(x->table.b[j]*P[j])) + GVI_ABS(b);
             }
             const gvi_real sum = momentum/h - force;
-            x->newton.dy[(k - k0)*n + i] = x->newton.residual[(k - k0)*n + i] =
-                -(gvi_real)(2*k + 1)*sum;
-            length += (gvi_real)(2*k + 1)*GVI_ABS(sum);
+            gvi_real *rest = x->newton.residual + (k - k0)*n + i;
+            const gvi_real now = -(gvi_real)(2*k + 1)*sum;
+            change += GVI_ABS(now - *rest);
+            was += GVI_ABS(*rest);
+            length += GVI_ABS(now);
+            x->newton.dy[(k - k0)*n + i] = *rest = now;
             if (size > 0 && GVI_ABS(sum)/size > p->work) p->work = GVI_ABS(sum)/size;
         }
         if (first) x->watch.scale[i] = 1/GVI_SQRT(gvi__inertia(st, i));
         norm += length*x->watch.scale[i];
+        moved += change*x->watch.scale[i];
+        before += was*x->watch.scale[i];
     }
+    p->holds = p->work <= 16*GVI__EPS || (!first && moved >= before/2);
     return norm;
 }
 
@@ -4856,7 +4870,8 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
                                    gvi__descent *p)
 {
     struct gvi__private *x = &st->x;
-    const int n = st->n, solved = p->work <= 16*GVI__EPS;
+    const int n = st->n, solved = p->work <= 16*GVI__EPS,
+              sure = p->holds || p->rho < (gvi_real)0.25;
     const gvi_real h = GVI_ABS(x->sized.h), none = GVI__MIN/GVI__EPS;
     gvi_real sum = 0, largest = 0, noise = 0;
     p->work = 0;
@@ -4882,7 +4897,8 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
         const gvi_real moved = change/unit > miss*unit ? change/unit : miss*unit;
         if (!(h*change <= 4*GVI__EPS*q) && h*moved > noise) noise = h*moved;
     }
-    if (noise <= 32*GVI__EPS*largest || solved) p->work = -1;         // see gvi__noise
+    // see gvi__noise
+    if ((noise <= 32*GVI__EPS*largest && sure) || solved) p->work = -1;
     return sum;
 }
 
@@ -4892,7 +4908,7 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
    same, whatever it is.                                                                       */
 static int gvi__newton_rests(gvi__descent *p, int size, gvi_real change)
 {
-    const int fresh = p->fresh & 1, proven = fresh || p->rho < (gvi_real)0.25;
+    const int fresh = p->fresh & 1, proven = (fresh && p->holds) || p->rho < (gvi_real)0.25;
     const gvi_real small = fresh ? GVI_SQRT(GVI__EPS) : 0, enough = 64*GVI__EPS*(gvi_real)size;
     if (!(p->work < 0) && !(proven && change <= (enough > small ? enough : small))) return 0;
     p->left = p->before;
@@ -4922,11 +4938,14 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__des
         && (change > noise || change < p->rho*p->least))
         p->rho = change/p->least;
     if (change < p->least) p->least = change;
+    if (before > 0 && change > noise && (p->fresh & 3) && change > st->x.newton.bend*before)
+        st->x.newton.bend = change/before;
     const int rounding = p->left < GVI__MAX || (stagnant && gvi__newton_rests(p, size, change));
     if (rounding) p->left *= p->rho < quarter ? p->rho : quarter;
 
     const gvi_real enough = wanted > 0 ? wanted : GVI__EPS/4096;
-    if (change*ratio <= enough || p->left <= GVI__EPS/65536 || p->left <= enough) return GVI__DONE;
+    const int small = change*ratio <= enough || p->left <= GVI__EPS/65536 || p->left <= enough;
+    if (small && (p->holds || p->rho < quarter)) return GVI__DONE;
     // rounding, by a matrix that has contracted here
     const int hidden = p->work < 0 && p->rho < quarter;
     if (!rounding && !hidden && before > 0 && ratio > quarter) p->have = 0;
@@ -4972,8 +4991,9 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
     struct gvi__private *x = &st->x;
     // that of steps, not of queries
     const int size = (st->s - J->k0)*st->n, kept = J->pivot == x->newton.pivot;
-    gvi__descent p = { 0, 0, GVI__MAX, (gvi_real)0.25, GVI__MAX, 0, GVI__MAX, 0, 0, 0, -1 };
+    gvi__descent p = { 0, 0, GVI__MAX, (gvi_real)0.25, GVI__MAX, 0, GVI__MAX, 0, 0, 0, -1, 0 };
     p.have = kept && !gvi__nonzero(x->newton.h - x->sized.h);
+    x->newton.bend = 0;
     for (int k = 0, made = 0, verdict = GVI__GO_ON; k <= x->desc.max_iterations; ++k) {
         gvi_status status = gvi__newton_values(st, from);
         // one more evaluation, then done
@@ -4997,18 +5017,127 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
     return gvi__report_status(st, GVI_E_CONVERGENCE);
 }
 
+/* The sign of the determinant of a matrix.  That of the solution's has it, too, where the iteration
+   contracts; along a branch of solutions it changes where they turn back in h.               */
+static int gvi__orientation(const gvi__matrix *J, size_t size)
+{
+    int sign = 1;
+    for (size_t k = 0; k < size; ++k)
+        if ((J->square[k*(size + 1)] < 0) != (J->pivot[k] > (gvi_real)k)) sign = -sign;
+    return sign;
+}
+
+// y := modes of the first `part` of its curve, and `slope` times what that leaves out
+static void gvi__newton_shorten(gvi_stepper *st, gvi_real part, const gvi_real *slope)
+{
+    struct gvi__private *x = &st->x;
+    const int n = st->n, s = st->s, R = x->R;
+    for (int i = 0; i < n; ++i) {
+        gvi__zero((size_t)s, x->row);
+        for (int j = 0; j < st->r; ++j) {
+            gvi_real V = 0, P = 1, before = 1;
+            for (int k = 0; k < s; ++k) {
+                V += x->newton.y[k*n + i]*P;
+                gvi__legendre(k, 1 - 2*part*x->table.c[j], &P, &before);
+            }
+            for (int k = 0; k < s; ++k) x->row[k] += x->table.phi[k*R + j]*(x->table.b[j]*V);
+        }
+        gvi__over_gamma(st, x->row);
+        for (int k = 0; k < s; ++k)
+            x->newton.y[k*n + i] = x->row[k] + (1 - part)*slope[k*n + i];
+    }
+}
+
+/* How far is y from `other`? The largest distance of a coordinate, in units of its own size there
+   and at h, but no less than 1/64 of the largest, each times sqrt(M_ii).                     */
+static gvi_real gvi__newton_apart(const gvi_stepper *st, const gvi_real *other)
+{
+    const struct gvi__private *x = &st->x;
+    gvi_real apart = 0, most = 0, *moved = x->result, *size = moved + st->n;
+    for (int i = 0; i < st->n; ++i) {
+        moved[i] = size[i] = 0;
+        for (int k = i; k < st->s*st->n; k += st->n) {
+            moved[i] += GVI_ABS(x->newton.y[k] - other[k])/x->watch.scale[i];
+            size[i] += (GVI_ABS(x->newton.found[k]) + GVI_ABS(other[k]))/x->watch.scale[i];
+        }
+        if (size[i] > most) most = size[i];
+    }
+    for (int i = 0; i < st->n && most > 0; ++i)
+        if (!(moved[i]/(size[i] + most/64) <= apart)) apart = moved[i]/(size[i] + most/64);
+    return apart;
+}
+
+/* Is the solution y the motion's, the one that free motion turns into as h grows from 0? It is
+   followed back to shorter steps, from length to length by a prediction: the same curve, changed
+   as it changed last.  From a continuous branch the prediction is not far when the lengths are
+   close; where it is however close they are, the branch has turned back.  A length is enough
+   where the iteration contracts well from constant velocity, h/64 in any case.  If it then comes
+   to the same solution, or to none, y is accepted.                                           */
+static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from,
+                                        const gvi__matrix *J)
+{
+    struct gvi__newton *x = &st->x.newton;
+    const size_t sn = (size_t)(st->s*st->n);
+    const gvi_real h = st->x.sized.h, near = (gvi_real)0.0625, key = x->h;
+    const unsigned count = (unsigned)st->counters.newton_iterations,
+                   enough = 32*(unsigned)st->x.desc.max_iterations;
+    const int sign = gvi__orientation(J, sn);
+    gvi_real part = 1, factor = (gvi_real)0.5;
+    int right = -1;                                                  // not known
+    gvi__copy(sn, x->y, x->found);
+    gvi__copy(sn, x->y, x->branch);
+    gvi__zero(sn, x->slope);
+    while (right < 0) {
+        if ((unsigned)st->counters.newton_iterations - count > enough) right = 0;
+        gvi__copy(sn, x->branch, x->y);
+        gvi__newton_shorten(st, factor, x->slope);
+        gvi__copy(sn, x->y, x->guess);
+        gvi__free_motion(st, from, h*(part*factor));
+        x->h = 0;
+        const int found =
+            gvi__newton_solve(st, from, J) == GVI_OK && gvi__orientation(J, sn) == sign;
+        const gvi_real apart = found ? gvi__newton_apart(st, x->guess) : 1;
+        if (!(apart <= near)) {
+            factor = GVI_SQRT(factor);
+            if (factor > (gvi_real)0.9998) right = 0;
+            continue;
+        }
+        part *= factor;
+        gvi__copy(sn, x->y, x->branch);
+        for (size_t k = 0; k < sn; ++k) x->slope[k] += (x->y[k] - x->guess[k])/(1 - factor);
+        if (factor > (gvi_real)0.5) {
+            if (apart < near/4) factor *= factor;
+            continue;
+        }
+        gvi__newton_guess(st, 0);
+        x->h = 0;
+        const int other = gvi__newton_solve(st, from, J) == GVI_OK;
+        if ((other && x->bend <= near) || part < (gvi_real)(1/64.0))
+            right = !other || gvi__newton_apart(st, x->branch) <= near;
+    }
+    gvi__free_motion(st, from, h);
+    gvi__copy(sn, x->found, x->y);
+    x->h = J->pivot == x->pivot ? 0 : key;
+    return right ? gvi__newton_values(st, from) : gvi__report_status(st, GVI_E_CONVERGENCE);
+}
+
+/* Newton's method for a step.  A solution is taken for the motion's where the iteration contracts
+   well from its start and keeps the orientation, or very well; otherwise it is followed back.  */
 static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int how, int query)
 {
     struct gvi__private *x = &st->x;
     const size_t sn = (size_t)(st->s*st->n);
-    const gvi__matrix J = { x->newton.J + (query ? sn*sn : 0),
-                            x->newton.pivot + (query ? sn + 1 : 0),
-                            NULL,
-                            0,
-                            0,
-                            how == GVI__HALVED };
+    const gvi_real *bend = &x->newton.bend, tiny = 1/(gvi_real)1024;
+    gvi__matrix J = { x->newton.J + (query ? sn*sn : 0), x->newton.pivot + (query ? sn + 1 : 0),
+                      NULL, 0, 0, how == GVI__HALVED };
     gvi__newton_guess(st, how == GVI__EXTRAPOLATED);
-    const gvi_status status = gvi__newton_solve(st, from, &J);
+    gvi_status status = gvi__newton_solve(st, from, &J);
+    // few points see little of what is between
+    if (status == GVI_OK && (J.halves || *bend > (gvi_real)(st->s > 2 ? 0.25 : 0.0625)
+                             || (*bend > tiny && gvi__orientation(&J, sn) < 0))) {
+        J.halves = 0;
+        status = gvi__newton_connected(st, from, &J);
+    }
     if (status != GVI_OK) return status;
     // it made none to go on from
     if (GVI__LAGRANGIAN && x->work.A) gvi__zero((size_t)(st->n*x->R), x->work.A);
@@ -5504,7 +5633,7 @@ GVI__COLD gvi_status gvi__bend(gvi_stepper *st, const gvi__origin *from, gvi_rea
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, size = (st->s - J->k0)*n;
-    gvi__descent p = { 0, 0, GVI__MAX, 0, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0 };
+    gvi__descent p = { 0, 0, GVI__MAX, 0, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0 };
     gvi_real before = 0;
     if (grow > 1 && J->k0 == 0) {
         x->sized.ratio = 0;
@@ -5536,7 +5665,7 @@ GVI__COLD gvi_status gvi__bend(gvi_stepper *st, const gvi__origin *from, gvi_rea
    does not mind; what is not shows it, also where forces cancel on the chord.                */
 GVI__COLD gvi_status gvi__bow(gvi_stepper *st, const gvi__origin *from)
 {
-    gvi__descent p = { 0, 0, GVI__MAX, 0, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0 };
+    gvi__descent p = { 0, 0, GVI__MAX, 0, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0 };
     gvi_real *y = st->x.newton.y, length = 0;
     const gvi_real *scale = st->x.watch.scale;
     const gvi_status status = gvi__newton_values(st, from);

@@ -183,7 +183,7 @@ mutants: | $(FIRST)
 
 # -- hard cases and theorems, measured
 
-HARD     = constraints constraints-float eccentric flyby eccentric-float pythagorean corners corners-float stiff long brouwer brouwer-float drift single
+HARD     = constraints constraints-float eccentric flyby roots eccentric-float pythagorean corners corners-float stiff long brouwer brouwer-float drift single
 THEOREMS = order lagrangian curve forced doubled dissipation spectral identities inertia stability
 # These need more digits than long double has on x86.
 $(addprefix $(BUILD)/theorems/,order lagrangian forced): TESTFLAGS += $(shell CC='$(CC)' sh tests/theorems/quad.sh)

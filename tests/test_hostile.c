@@ -282,6 +282,9 @@ static unsigned long long most_points(const gvi_stepper *st, const gvi_desc *d)
     int most = d->max_iterations ? d->max_iterations : 60, n = st->n, r = st->r;
     int iterations = d->iterations > most ? d->iterations : most;
     int fixed_point = iterations*(r + 1), newton = 2*(iterations + 2 + (2*n + 1)*(iterations/4 + 3));
+    // a solution is followed back in at most 32 times the iterations, a matrix each, and two solutions more
+    newton *= 3;
+    newton += 2*32*iterations*(2*n + 3);
     return 2ull*(unsigned long long)((fixed_point + newton)*r + 40*(n + 2))
          * (unsigned long long)(d->effect_count + 3);
 }

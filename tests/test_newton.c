@@ -524,6 +524,80 @@ TEST(a_large_scene_needs_no_matrices)
     assert_between(30*one, gvi_size(&desc), 1e12L);
 }
 
+/* ------------------------------------------------- whose solution it is */
+
+static int swinging(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *f, gvi_real *dldv, void *user)
+{
+    f[0] -= (gvi_real)sin((double)q[0]);
+    return (void)t, (void)v, (void)dldv, (void)user, 0;
+}
+
+/* A pendulum at rest at 1 rad, steps longer than its period.  Newton's method found solutions, and its energy
+   went from -0.54 to 51.  Steps may fail; none may leave the well (degree 2 to h = 8.5, beyond which it is too coarse) */
+TEST(no_step_is_another_motions)
+{
+    static const gvi_effect effect = { .kind = GVI_POTENTIAL, .point = swinging };
+    const gvi_real q = 1, v = 0;
+    for (int degree = 2; degree <= 8; degree *= 2)
+        for (int k = 0; k < (degree == 2 ? 31 : 40); ++k) {
+            const gvi_desc desc = { .n = 1, .degree = degree, .effects = &effect, .effect_count = 1 };
+            const gvi_real h = (gvi_real)(1 + 0.25*k);
+            gvi_stepper st;
+            assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+            assert_ok(gvi_start(&st, 0, &q, &v));
+            for (int j = 0; j < 20 && gvi_step(&st, h) == GVI_OK; ++j) {
+                const double p = (double)st.p[0];
+                assert_between(-1.0001, p*p/2 - cos((double)st.q[0]), 1);
+            }
+        }
+}
+
+static int wrong_hessian(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *fq, gvi_real *fv, gvi_real *pv,
+                         void *user)
+{
+    fq[0] -= *(const gvi_real *)user;
+    return (void)t, (void)q, (void)v, (void)fv, (void)pv, 0;
+}
+
+/* f = -q, with -K as its derivative: K of 1e10 makes changes that are small, and the solution is not near */
+TEST(a_wrong_hessian_costs_iterations_or_the_step)
+{
+    for (int e = -18; e <= 30; e += 2) {
+        static const double few[] = { 2, -1, 0 };
+        gvi_real stiff = (gvi_real)(e < -12 ? few[(e + 18)/2] : pow(10, e)*(1 + 0.9*sin(e)));
+        const gvi_effect effect = { .kind = GVI_POTENTIAL, .point = harmonic, .hessian = wrong_hessian, .user = &stiff };
+        const gvi_real q = 1, v = 0, h = (gvi_real)0.1L;
+        for (int degree = 2; degree <= 8; degree *= 2) {
+            const gvi_desc desc = { .n = 1, .degree = degree, .effects = &effect, .effect_count = 1,
+                                    .formulation = GVI_NEWTON };
+            gvi_stepper st;
+            assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+            assert_ok(gvi_start(&st, 0, &q, &v));
+            for (int k = 0; k < 10 && gvi_step(&st, h) == GVI_OK; ++k)
+                assert_close(st.q[0], cos((double)st.t), degree == 2 ? 1e-5 : 1e-7 + 100*EPS);
+            if (e <= 0) assert_ok(st.status);
+        }
+    }
+}
+
+/* There and back, a period and a half at a time */
+TEST(a_step_back_returns)
+{
+    static const gvi_effect effect = { .kind = GVI_POTENTIAL, .point = harmonic };
+    static const gvi_desc desc = { .n = 1, .degree = 2, .effects = &effect, .effect_count = 1 };
+    for (int k = 0; k < 60; ++k) {
+        const gvi_real q = 1, v = 0, h = (gvi_real)(1 + 0.17L*k);
+        gvi_stepper st;
+        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+        assert_ok(gvi_start(&st, 0, &q, &v));
+        go(&st, h, 3);
+        const gvi_real was = st.q[0];
+        go(&st, h, 1);
+        go(&st, -h, 1);
+        assert_close(st.q[0], was, 100*EPS);
+    }
+}
+
 /* A heavy top, L(q,v) of Euler's angles; its derivatives by central differences, wrong by 1e-6 and noisy by 1e-13 */
 static double top(const double *q, const double *v)
 {

@@ -6,7 +6,6 @@
    twice, with steps of 80 and of 100 days.  What the two differ by is printed with each state.
    At one length the result is compared with the reference of 113 bits.                        */
 #include "tests/cost/problems.h"
-#include "tests/gauss.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -21,12 +20,28 @@ enum { S = 12, N = 18 };
 typedef long double real;
 static real c[S], b[S], A2[S][S], E[S][S], gm[6];
 
-/* A from integrals of Legendre polynomials; E extrapolates a step.  */
+static void legendre(int m, real u, real *P)
+{
+    P[0] = 1;
+    P[1] = u;
+    for (int k = 1; k < m; ++k) P[k+1] = ((2*k + 1)*u*P[k] - k*P[k-1])/(k + 1);
+}
+
+/* Nodes by Newton's method; A from integrals of Legendre polynomials; E extrapolates a step.  */
 static void tables(void)
 {
-    static real at[S][S + 2], A[S][S];
-    gauss_nodes(S, c, b);
-    for (int i = 0; i < S; ++i) legendre(S + 1, 1 - 2*c[i], at[i]);
+    static real at[S][S + 2], A[S][S], P[S + 2];
+    for (int i = 0; i < S; ++i) {
+        real u = cosl(3.14159265358979323846L*(i + 0.75L)/(S + 0.5L)), slope = 1;
+        for (int k = 0; k < 8; ++k) {
+            legendre(S, u, P);
+            slope = S*(P[S-1] - u*P[S])/(1 - u*u);
+            u -= P[S]/slope;
+        }
+        c[i] = (1 - u)/2;
+        b[i] = 1/((1 - u*u)*slope*slope);
+        legendre(S + 1, u, at[i]);
+    }
     for (int i = 0; i < S; ++i)
         for (int j = 0; j < S; ++j) {
             A[i][j] = c[i];

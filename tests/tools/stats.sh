@@ -1,8 +1,11 @@
 #!/bin/sh
 # stats.sh BUILD [FOLDER]: what there is of gvi.h, that of FOLDER or of this one; COMPILE=no leaves out what takes longer than a second
-#   functions           definitions in what the preprocessor leaves
+#   functions           definitions in what the preprocessor leaves: those that a macro makes count each, branches that this
+#                       compiler does not take do not.  By ctags, where it is: the other way round
 #   preprocessor lines  directives with the lines that continue them
-#   private members     of struct gvi__private: a struct within counts as one; then its members instead
+#   private members     of struct gvi__private: a struct within counts as one; then its members instead, if it is written out there
+#   prose               a line of whose characters, blanks apart, half or more are comment; of all lines that are not empty.
+#                       commented: a line with any comment
 #   CC FLAGS            object: text and constants of a file with GVI_IMPLEMENTATION alone, as size counts them; time of the compiler
 set -eu
 build=$1
@@ -13,10 +16,58 @@ mkdir -p "$dir"
 printf '#define GVI_IMPLEMENTATION\n#include "gvi.h"\n' >"$dir/gvi.c"
 row() { printf '%-23s %s\n' "$1" "$2"; }
 
-awk '
-    { directive = continued || /^#/; continued = directive && /\\$/; n += directive }
-    length($0) > 100 { ++wide }
-    END { printf "%-23s %d\n%-23s %d\n%-23s %d\n", "lines", NR, "over 100 columns", wide, "preprocessor lines", n }' "$from/gvi.h"
+LC_ALL=C awk '
+    function row(name, text) { printf "%-23s %s\n", name, text }
+    function solid(text) { gsub(/[ \t]/, "", text); return length(text) }
+    # comment characters of a line; within: in a comment that a line before began
+    function comment(line,    n, k, c) {
+        n = 0
+        while (line != "") {
+            if (within) {
+                k = index(line, "*/")
+                if (!k) return n + solid(line)
+                n += solid(substr(line, 1, k + 1))
+                line = substr(line, k + 2)
+                within = 0
+                continue
+            }
+            if (!match(line, /["\047]|\/\*|\/\//)) return n
+            c = substr(line, RSTART, 2)
+            line = substr(line, RSTART)
+            if (c == "//") return n + solid(line)
+            if (c == "/*") {
+                n += 2
+                line = substr(line, 3)
+                within = 1
+            }
+            else line = match(line, /^"([^"\\]|\\.)*"|^\047([^\047\\]|\\.)*\047/) ? substr(line, RLENGTH + 1) : substr(line, 2)
+        }
+        return n
+    }
+    {
+        bytes += length($0) + 1
+        if (length($0) > longest) { longest = length($0); where = NR }
+        if (length($0) > 100) ++wide
+        all = solid($0)
+        directive = continued || (!within && $0 ~ /^[ \t]*#/)
+        said = comment($0)
+        if (directive) ++directives
+        continued = directive && $0 ~ /\\$/
+        if (all) {
+            ++full
+            if (2*said >= all) ++prose
+            if (said) ++commented
+        }
+    }
+    END {
+        row("lines", NR)
+        row("bytes", bytes)
+        row("longest line", longest " (line " where ")")
+        row("over 100 columns", wide + 0)
+        row("preprocessor lines", directives)
+        row("prose", sprintf("%.1f %% of %d lines that are not empty", 100*prose/full, full))
+        row("commented", sprintf("%.1f %%", 100*commented/full))
+    }' "$from/gvi.h"
 
 # Comments, directives and what other headers bring are gone; texts and characters go here
 $CC -std=gnu99 -E -I"$from" "$dir/gvi.c" | LC_ALL=C awk '
@@ -48,6 +99,10 @@ tr '\n' ' ' <"$dir/text" | awk '{ gsub(/[{};]/, "\n&\n"); print }' | LC_ALL=C aw
     END {
         printf "%-23s %d\n%-23s %d, %d with those of structs within\n", "functions", functions, "private members", members, leaves
     }'
+
+if ctags --version 2>/dev/null | grep -q Universal; then
+    row "functions, by ctags" "$(ctags -x --languages=C --langmap=C:.h --c-kinds=f "$from/gvi.h" | wc -l)"
+fi
 
 [ "${COMPILE:-}" = no ] && exit 0
 other=$(command -v clang || :)
