@@ -4732,24 +4732,37 @@ static gvi_status gvi__evaluate_plain(gvi_stepper *st, gvi_real *F)
     return gvi__evaluate(st, &y, ~gvi__without_hessian(x), !gvi__mass_is_constant(x));
 }
 
-/* The difference for coordinate j: sqrt(eps) of what it moves in a step, but no less than
-   eps^(3/4) of itself; or for its velocity, that over h.                                      */
+/* What coordinate i moves in a step or could, h v and h^2 f/M_ii; or, unless that is all that is
+   asked for, eps^(1/4) of its position where that is more.                                    */
+static gvi_real gvi__reach(const gvi_stepper *st, int i, int by_v)
+{
+    const struct gvi__private *x = &st->x;
+    const gvi_real h = GVI_ABS(x->sized.h), small = by_v ? 0 : GVI_SQRT(GVI_SQRT(GVI__EPS)),
+                   hw = h*x->watch.scale[i];
+    gvi_real most = 0;
+    for (int k = i*x->R; k < i*x->R + st->r; ++k) {
+        const gvi_real lengths[] = { h*GVI_ABS(x->work.V[k]), hw*GVI_ABS(x->work.F[k])*hw,
+                                     small*GVI_ABS(x->work.Q[k]) };
+        for (int l = 0; l < 3; ++l)
+            if (lengths[l] > most && gvi__finite(lengths[l])) most = lengths[l];
+    }
+    return most;
+}
+
+/* The difference for coordinate j: sqrt(eps) of its reach, or of the largest where it has none,
+   each times sqrt(M_ii); or for its velocity, that over h.                                    */
 static gvi_real gvi__difference(const gvi_stepper *st, int j, int by_v)
 {
     const struct gvi__private *x = &st->x;
-    const gvi_real root = GVI_SQRT(GVI__EPS), small = GVI_SQRT(root), h = GVI_ABS(x->sized.h);
-    gvi_real q = 0, v = 0;
-    for (int k = 0; k < st->r; ++k) {
-        const gvi_real Q = GVI_ABS(x->work.Q[j*x->R + k]), V = GVI_ABS(x->work.V[j*x->R + k]);
-        if (Q > q) q = Q;
-        if (V > v) v = V;
+    const gvi_real root = GVI_SQRT(GVI__EPS), none = GVI__MIN/GVI__EPS, h = GVI_ABS(x->sized.h);
+    gvi_real step = root*gvi__reach(st, j, by_v);
+    for (int i = 0, alone = step > none; i < st->n && !alone; ++i) {
+        const gvi_real other = root*gvi__reach(st, i, by_v)
+                               * (x->watch.scale[j]/x->watch.scale[i]);
+        if (other > step && gvi__finite(other)) step = other;
     }
-    const gvi_real path = root*(h*v > small*q ? h*v : small*q);
-    // at rest at 0
-    const gvi_real step = path > GVI__MIN/GVI__EPS ? path : h < 1 ? root*h : root;
-    if (!by_v) return step;
-    // short steps: no velocity beyond all others
-    return v > 0 && step/h > small*v ? small*v : step/h;
+    if (!(step > none)) step = h < 1 ? root*h : root;           // all of it is at rest at 0
+    return by_v ? step/h : step;
 }
 
 // derivatives of what has no Hessian, by forward differences at all points at once
