@@ -2055,7 +2055,7 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real
     gvi_real *base = st->x.newton.column;
     gvi__copy((size_t)n, x->dldv, base);
     for (int j = 0; j < n; ++j) {
-        const gvi_real was = v[j];
+        const gvi_real was = v[j], push = x->f ? GVI_ABS(st->x.sized.h*x->f[j])*root : 0;
         gvi_real d = 0,
                  next = root*(gvi__nonzero(was) ? GVI_ABS(was) : gvi__norm1(n, v)/(gvi_real)n);
         if (!(next > GVI__MIN/GVI__EPS)) next = root;
@@ -2069,6 +2069,8 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real
             const int beyond = status != GVI_OK || !gvi__finite(x->dldv[j]);
             next = beyond && GVI_ABS(d)*root < 2*GVI__EPS*GVI_ABS(was) ? -2*GVI__EPS*was
                  : beyond ? d*root
+                 : !gvi__nonzero(was) && push > 0 && GVI_ABS(x->dldv[j] - base[j]) > 16*push
+                     ? d*(push/GVI_ABS(x->dldv[j] - base[j]))        // from rest, as far as f takes it
                  : GVI_ABS(x->dldv[j] - base[j]) < root*GVI_ABS(base[j])/2 ? d/GVI_SQRT(root) : 0;
         }
         for (int i = 0; i < n; ++i) hessian[i*n + j] = (x->dldv[i] - base[i])/d;
@@ -4808,6 +4810,9 @@ static gvi_status gvi__check_regular(gvi_stepper *st)
     gvi_status status = gvi__evaluate(st, &y, 0, 1);
     if (status == GVI_OK) status = gvi__velocity_hessian(st, &y, v, W);
     if (status != GVI_OK) return status;
+    for (int i = 0; i < n; ++i)                                      // p/v does not tell the mass
+        if (gvi__mass_is(&st->x, GVI_MASS_NONE) && !gvi__nonzero(v[i]) && gvi__nonzero(W[i*n + i]))
+            st->x.watch.scale[i] = 1/GVI_SQRT(GVI_ABS(W[i*n + i]));
     int at;
     status = gvi__lu_factor(n, W, W + n*n, &at);
     return status == GVI_E_SINGULAR ? gvi__report(st, status, GVI_FAULT_MASS, at, GVI_FAULT_NONE)
@@ -5017,6 +5022,8 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
             status = gvi__jacobian(st, J);
             if (status != GVI_OK) return status;
             p.have = 1;
+            // by the masses that are known now
+            if (k == 0 && gvi__mass_is(x, GVI_MASS_NONE)) p.norm = gvi__residual(st, from, J->k0, &p);
             if (kept) x->newton.h = x->sized.h;
         }
         gvi_lu_solve(size, J->square, J->pivot, x->newton.dy);
