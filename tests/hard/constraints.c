@@ -11,17 +11,19 @@
 enum { STEPS = 1 << 20, STARTS = 32, SHORT = 1 << 15 };
 static real memory[60000];
 
-/* The largest |g_a| in eps sum |G_ai q_i|, or |G v + dg/dt| in eps (|v| + 1/100): at rest there is nothing to
-   measure by */
+/* The largest |g_a| in eps sum |G_ai| max |q|, since all terms of d_a . d_b can pass 0 together; or
+   |G v + dg/dt| in eps (|v| + 1/100): at rest there is nothing to measure by */
 static double off(const gvi_stepper *st, const linkage *a, const real *v)
 {
     real g[MOST_M], G[MOST_M*MOST_N] = { 0 }, rate[MOST_M] = { 0 };
+    real largest = 0;
     double worst = 0;
     constraint_of_state(st, a, g, G, rate);
+    for (int i = 0; i < a->n; ++i) largest = (real)fmax((double)largest, fabs((double)st->q[i]));
     for (int b = 0; b < a->m; ++b) {
         double size = v ? 0.01 : fabs((double)(rate[b]*st->t)), sum = (double)(v ? rate[b] : g[b]);
         for (int i = 0; i < a->n; ++i) {
-            size += fabs((double)(v ? v[i] : G[b*a->n + i]*st->q[i]));
+            size += fabs((double)(v ? v[i] : G[b*a->n + i]*largest));
             if (v) sum += (double)(G[b*a->n + i]*v[i]);
         }
         worst = fmax(worst, fabs(sum)/(EPS*size));
