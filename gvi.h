@@ -2070,7 +2070,7 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real
             next = beyond && GVI_ABS(d)*root < 2*GVI__EPS*GVI_ABS(was) ? -2*GVI__EPS*was
                  : beyond ? d*root
                  : !gvi__nonzero(was) && push > 0 && GVI_ABS(x->dldv[j] - base[j]) > 16*push
-                     ? d*(push/GVI_ABS(x->dldv[j] - base[j]))        // from rest, as far as f takes it
+                     ? d*(push/GVI_ABS(x->dldv[j] - base[j]))        // from rest, as f takes it
                  : GVI_ABS(x->dldv[j] - base[j]) < root*GVI_ABS(base[j])/2 ? d/GVI_SQRT(root) : 0;
         }
         for (int i = 0; i < n; ++i) hessian[i*n + j] = (x->dldv[i] - base[i])/d;
@@ -4734,21 +4734,22 @@ static gvi_status gvi__evaluate_plain(gvi_stepper *st, gvi_real *F)
     return gvi__evaluate(st, &y, ~gvi__without_hessian(x), !gvi__mass_is_constant(x));
 }
 
-/* What coordinate i moves in a step or could, h v and h^2 f/M_ii; or, unless that is all that is
-   asked for, eps^(1/4) of its position where that is more.                                    */
+/* What coordinate i moves in a step: h v, or eps^(1/4) of its position where that is more, or where
+   it is at rest at 0, h^2 f/M_ii.  For its velocity h v or h^2 f/M_ii, whichever is more.  (f
+   near a pole takes positions too far.)                                                       */
 static gvi_real gvi__reach(const gvi_stepper *st, int i, int by_v)
 {
     const struct gvi__private *x = &st->x;
     const gvi_real h = GVI_ABS(x->sized.h), small = by_v ? 0 : GVI_SQRT(GVI_SQRT(GVI__EPS)),
                    hw = h*x->watch.scale[i];
-    gvi_real most = 0;
+    gvi_real most = 0, push = 0;
     for (int k = i*x->R; k < i*x->R + st->r; ++k) {
-        const gvi_real lengths[] = { h*GVI_ABS(x->work.V[k]), hw*GVI_ABS(x->work.F[k])*hw,
-                                     small*GVI_ABS(x->work.Q[k]) };
-        for (int l = 0; l < 3; ++l)
-            if (lengths[l] > most && gvi__finite(lengths[l])) most = lengths[l];
+        const gvi_real lengths[] = { h*GVI_ABS(x->work.V[k]), small*GVI_ABS(x->work.Q[k]) },
+                       f = hw*GVI_ABS(x->work.F[k])*hw;
+        for (int l = 0; l < 2; ++l) if (lengths[l] > most) most = lengths[l];
+        if (f > push && gvi__finite(f)) push = f;
     }
-    return most;
+    return push > most && (by_v || !(most > GVI__MIN/GVI__EPS)) ? push : most;
 }
 
 /* The difference for coordinate j: sqrt(eps) of its reach, or of the largest where it has none,
@@ -5023,7 +5024,8 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
             if (status != GVI_OK) return status;
             p.have = 1;
             // by the masses that are known now
-            if (k == 0 && gvi__mass_is(x, GVI_MASS_NONE)) p.norm = gvi__residual(st, from, J->k0, &p);
+            if (k == 0 && gvi__mass_is(x, GVI_MASS_NONE))
+                p.norm = gvi__residual(st, from, J->k0, &p);
             if (kept) x->newton.h = x->sized.h;
         }
         gvi_lu_solve(size, J->square, J->pivot, x->newton.dy);
