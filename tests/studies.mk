@@ -25,7 +25,7 @@ docs-check: $(BUILD)/gvi-double.o
 #: prices       what an unlisted effect costs in instructions (valgrind): nothing
 #: ensemble     lesson 29 on one thread, two threads, one and three MPI processes: the same bits
 #: usable       what make install puts where, and the ways into a project: pkg-config, CMake, a C++ sketch
-#: firmware     two programs without an operating system, run as Cortex-M3 and M4F by qemu, against this machine
+#: firmware     three programs without an operating system, run as Cortex-M3 and M4F by qemu, against this machine
 prices: | $(FIRST)
 	$(STEP) $@ sh tests/tools/instructions.sh $(BUILD) --prices
 parts bound float instructions ensemble usable firmware: | $(FIRST)
