@@ -82,16 +82,13 @@ int main(void)
     static const gvi_real hanging[4] = { 0, -0.5, 0, -0.75 }, rest[4] = { 0, 0, 0, 0 };
     static gvi_stepper st;
     const gvi_real h = 1/(gvi_real)128;
-    unsigned missed = 0;
 
     gvi_init(&st, &desc, memory, sizeof memory);
     if (gvi_start(&st, 0, hanging, rest) != GVI_OK) return failed(&st);
-    board_every(128);
     for (int k = 0; k <= 2*128; ++k) {
         gvi_real lambda[2];
         torque = k/32 % 2 ? -8 : 8;               // N m, turned at the end of a step
         if (k > 0 && gvi_step(&st, h) != GVI_OK) return failed(&st);
-        if (k > 0) missed += (unsigned)board_wait();
         if (k%16) continue;
         if (gvi_multipliers(&st, lambda) != GVI_OK) return failed(&st);
         print_real(st.t);
@@ -99,8 +96,5 @@ int main(void)
         for (int a = 0; a < 2; ++a) print_real(lambda[a]);
         board_print("\n");
     }
-    board_print("periods missed: ");
-    print_count(missed);
-    board_print("\n");
     return 0;
 }
