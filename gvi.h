@@ -3995,16 +3995,16 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
         gvi_real size = 0, *G = x->con.G + m*n;   // G0 is before it
         if (status == GVI_OK) status = gvi__evaluate_constraints(st, 1, 1, &t, Q, G);
         if (status != GVI_OK) return status;
-        for (int a = 0; a < m; ++a) z[a] = -x->con.g[a]/h;
-        gvi__ldl_solve(m, x->con.A, 1, z, 1, 1);
         for (int a = 0; a < m; ++a) {             // the largest, or NaN
             const gvi_real off = gvi__violation(st, t, Q, G, a);
             if (off > size || !gvi__finite(off)) size = off;
+            z[a] = -x->con.g[a]/h;
         }
         if (!(size < before/2))                   // rounding?
             return gvi__report_status(st, size <= 64 ? GVI_OK : gvi__finite(size) || x->diagnose
                                                       ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE);
         before = size;
+        gvi__ldl_solve(m, x->con.A, 1, z, 1, 1);
         gvi__zero((size_t)n, d);
         gvi__add_force(st, z, d);
         gvi__add_scaled(n, 1, d, x->step.p, x->step.p);
