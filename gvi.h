@@ -66,8 +66,8 @@
      INTERPOLATION        barycentric
      SCENE                status, effects, mass, Legendre transform
      TABLES               what depends on rule, degree and h alone; predictor
-     STEP                 attempt and commit: follow gvi_step from here
-     ENGINE               stages, fixed point, increments; kicks; the clock
+     STEP                 attempt and commit: follow gvi_step, its last function
+     ENGINE               free motion, stages, fixed point, increments; kicks; clock
      CONSTRAINTS          multipliers, RATTLE, the hidden constraint, forces
      SET-UP               checks, choice of a formulation, memory
      NEWTON'S METHOD      where the fixed point does not contract
@@ -842,7 +842,7 @@ GVI_DEF void gvi_basis_derivative(int n, const gvi_real *x, const gvi_real *w, g
    terms that made it; GVI_E_NON_FINITE if an entry is.
    gvi_lu_solve: x in: right-hand side, out: solution, length n.
    gvi_lu_rcond: estimate of 1/(|A| |A^-1|), 1-norm [7, sec. 15.3], usually
-   within a factor 3 and never below the truth; work of length 3n.             */
+   within a factor 3 and never below the truth; work of length 2n.             */
 GVI_DEF gvi_status gvi_lu_factor(int n, gvi_real *a, gvi_real *pivot);
 GVI_DEF void       gvi_lu_solve(int n, const gvi_real *lu, const gvi_real *pivot, gvi_real *x);
 GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot, gvi_real *work);
@@ -994,8 +994,7 @@ typedef volatile gvi_real gvi__rounded;
 #if !defined(__GNUC__) || GVI__KIND == 3 || GVI__SMALL                                          \
     || !(FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 16)                                         \
     || !(defined(__SSE2__) || defined(__ARM_NEON) || defined(__ALTIVEC__)                       \
-         || defined(__riscv_vector)                                                             \
-         || defined(__wasm_simd128__))
+         || defined(__riscv_vector) || defined(__wasm_simd128__))
 #define GVI__LANES 1
 #elif defined(__AVX__) && GVI__KIND == 1
 #define GVI__LANES 8
@@ -1294,22 +1293,17 @@ static gvi_real gvi__norm1(int n, const gvi_real *x)
 
 GVI_DEF gvi_real gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot, gvi_real *work)
 {
-    gvi_real *x = work, *z = work + n, *sign = work + 2*n, best = 0;
+    gvi_real *x = work, *z = work + n, best = 0;
 
     // climb |A^-1 x| over the corners of |x| = 1, at most 5 of them
-    for (int i = 0; i < n; ++i) x[i] = 1/(gvi_real)n, sign[i] = 0;
+    for (int i = 0; i < n; ++i) x[i] = 1/(gvi_real)n;
     for (int step = 0, corner = -1; step < 5; ++step) {
         gvi_lu_solve(n, lu, pivot, x);
         const gvi_real norm = gvi__norm1(n, x);
-        int same = step > 0, next = 0;
+        int next = 0;
         if (norm > best) best = norm;
         else if (step > 0) break;
-        for (int i = 0; i < n; ++i) {
-            z[i] = x[i] < 0 ? -1 : 1;
-            if (gvi__nonzero(z[i] - sign[i])) same = 0;
-            sign[i] = z[i];
-        }
-        if (same) break;
+        for (int i = 0; i < n; ++i) z[i] = x[i] < 0 ? -1 : 1;
         gvi__lu_solve_transposed(n, lu, pivot, z);
         for (int i = 1; i < n; ++i)
             if (GVI_ABS(z[i]) > GVI_ABS(z[next])) next = i;
@@ -1695,8 +1689,7 @@ GVI__BODY int gvi__has(const struct gvi__private *x, int bit)
     return (x->needs & GVI__POSSIBLE & bit) != 0;
 }
 
-// is f the formulation of this scene?  A constant where it is the only one that is compiled, or not
-// compiled
+// is f this scene's formulation?  A constant where it is the only one compiled, or not compiled
 GVI__BODY int gvi__uses(const struct gvi__private *x, gvi_formulation f)
 {
     return (GVI__COMPILED >> f & 1) && (GVI__COMPILED == 1 << f || x->chosen == f);
@@ -1845,8 +1838,7 @@ static gvi_status gvi__value(gvi_stepper *st, gvi_points *x, int e, gvi_real *va
     return effect->value(&y, effect->user) ? gvi__report_effect(st, GVI_E_CALLBACK, e) : GVI_OK;
 }
 
-// the one-point form: gather, call, scatter.  Returns 0, or 1 + the point at which the callback
-// failed
+// the one-point form: gather, call, scatter.  Returns 0, or 1 + the point whose callback failed
 static int gvi__point_by_point(gvi_stepper *st, const gvi_effect *e, const gvi_points *x)
 {
     const int n = x->n;
@@ -1896,8 +1888,7 @@ static gvi_real *gvi__value_row(const gvi_stepper *st, int e, gvi_real *level)
     return kind == GVI_FORCE ? NULL : kind == GVI_LAGRANGIAN ? st->x.time.lagrangian : level;
 }
 
-/* In the repetition of a step that came to NaN or Inf: which effect gave it? Each is evaluated
-   alone.                                                                                      */
+// in the repetition of a step that came to NaN or Inf: each effect alone, which gave it?
 GVI__COLD gvi_status gvi__diagnose(gvi_stepper *st, gvi_points *x, unsigned skip, gvi_real *level)
 {
     const size_t length = (size_t)x->n*(size_t)x->stride;
@@ -2009,28 +2000,22 @@ static void gvi__add_momenta(const gvi_points *x, const gvi_real *m, int width)
     }
 }
 
-/* The kinetic energy's share: x->dldv += M v, and for M(q) the gradient.                     */
-static gvi_status gvi__kinetic(gvi_stepper *st, const gvi_points *x)
-{
-    struct gvi__private *y = &st->x;
-    if (gvi__mass_is(y, GVI_MASS_NONE)) return GVI_OK;
-    if (gvi__mass_is(y, GVI_MASS_POSITION)) {
-        gvi_status status = gvi__evaluate_mass(st, x, NULL, NULL);
-        if (status == GVI_OK) status = gvi__mass_gradient(st, x);
-        if (status != GVI_OK) return status;
-        gvi__add_momenta(x, y->mass.at_points, x->stride);
-    } else gvi__add_momenta(x, y->mass.matrix, y->desc.mass.kind == GVI_MASS_DENSE);
-    return y->diagnose ? gvi__check_rows(st, x, x->dldv, GVI_FAULT_MASS) : GVI_OK;
-}
-
 /* F and P = dL/dv at the points from scratch, of everything but the effects with a bit in `skip`;
    the kinetic energy is left out on demand, too.                                             */
 static gvi_status gvi__evaluate(gvi_stepper *st, gvi_points *x, unsigned skip, int kinetic)
 {
+    const struct gvi__private *y = &st->x;
     const size_t length = (size_t)x->n*(size_t)x->stride;
+    gvi_status status = GVI_OK;
     gvi__zero(length, x->f);
     gvi__zero(length, x->dldv);
-    const gvi_status status = kinetic ? gvi__kinetic(st, x) : GVI_OK;
+    if (!kinetic || gvi__mass_is(y, GVI_MASS_NONE)) return gvi__effects(st, x, skip, NULL);
+    if (gvi__mass_is(y, GVI_MASS_POSITION)) {
+        status = gvi__evaluate_mass(st, x, NULL, NULL);
+        if (status == GVI_OK) status = gvi__mass_gradient(st, x);
+        if (status == GVI_OK) gvi__add_momenta(x, y->mass.at_points, x->stride);
+    } else gvi__add_momenta(x, y->mass.matrix, y->desc.mass.kind == GVI_MASS_DENSE);
+    if (status == GVI_OK && y->diagnose) status = gvi__check_rows(st, x, x->dldv, GVI_FAULT_MASS);
     return status == GVI_OK ? gvi__effects(st, x, skip, NULL) : status;
 }
 
@@ -2455,17 +2440,26 @@ static void gvi__fit(gvi_stepper *st, int r, const gvi_real *from, const gvi_rea
 
 /* ------------------------------------------------------------------ STEP */
 
-/* gvi_step, at the end of this section, asks gvi__solve for increments of q and p and commits
-   them.  gvi__attempt finds them, in this order and that of ENGINE, where they are: free motion;
-   the predictor; the fixed point: stage values, F at them, and from F new ones, until they have
-   converged; increments by (2) and (3).  Explicit steps are kicks; NEWTON'S METHOD has its own.  */
+/* A step of length h takes (q, p, t) to (q + dq, p + dp, t + dt), in double words:
+
+     gvi_step       checks h, calls gvi__solve for dq, dp, dt, and commits them
+     gvi__solve     an attempt; another one that names the effect, if NaN or Inf came up
+     gvi__attempt   kicks, where explicit; else, from ENGINE,
+                      free motion    v = M^-1 p and h v
+                      predictor      F from that of the last step
+                      fixed point    Q by (3), (V by (4), or P and Q by (5),) F(Q), again
+                                     Q, until it has converged
+                      increments     dp = h sum_j b_j F_j, and dq
+                    and where that fails Newton's method (NEWTON'S METHOD)
+
+   Functions stand above those that call them, but for the parts that gvi__attempt lists.     */
 
 /* Where a step, or a query's partial step, starts; E: the energy, with a clock.              */
 typedef struct gvi__origin { gvi_real t, t_low; const gvi_real *q, *q_low, *p, *p_low; gvi_real E;
                             } gvi__origin;
 
-// how Newton's method begins: at constant velocity, at the last step's modes; or as the first, and
-// takes back changes
+// where Newton's method begins: at constant velocity; at the last step's modes, extrapolated; at
+// constant velocity, with changes halved that make the residual larger
 enum { GVI__PLAIN, GVI__EXTRAPOLATED, GVI__HALVED };
 
 // what is solved: a step, or for a query a part of the last one, from its start or its end
@@ -2481,7 +2475,6 @@ static gvi_status gvi__kicks(gvi_stepper *st, const gvi__origin *from, gvi_real 
 static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int how, int query);
 
 // CONSTRAINTS
-struct gvi__stage;
 GVI__CALLED void gvi__constraint_stages(const gvi_stepper *st, const gvi__origin *from, gvi_real h,
                                    struct gvi__stage *y, int stages);
 GVI__CALLED void gvi__constraint_rows(const gvi_stepper *st, const struct gvi__stage *y);
@@ -2512,12 +2505,11 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_rea
         return status == GVI_OK && gvi__constrained(st) ? gvi__project(st, from, 0) : status;
     }
 
-    // farther out the last values say nothing
+    // an extrapolation any farther is no better than no force
     const int usable = x->kept > 0 && h/st->h > -2 && h/st->h < 8;
     int used = 0;
     gvi_status status = GVI_E_CONVERGENCE;
-    if (!gvi__uses(x, GVI_NEWTON)
-        && (!gvi__has(x, GVI__HAS_NEWTON) || x->newton.left == 0 || query)) {
+    if (!gvi__uses(x, GVI_NEWTON) && (x->newton.left == 0 || query)) {
         if (usable) gvi__prepare_predictor(st, h, query);
         for (int plain = !usable; plain < 2; ++plain) {
             status = gvi__iterate(st, from, h, !plain, &used);
@@ -2563,7 +2555,7 @@ static int gvi__finite_end(const gvi_stepper *st, const gvi__origin *from)
                  + 0*(GVI__LOAD(from->p + i) + GVI__LOAD(d->p + i));
     for (int k = 0; i > 0 && k < GVI__LANES; ++k) none += GVI__ENTRY(nones, k);
     for (; i < st->n; ++i) {
-        // as it will be kept
+        // rounded, as the commit will store them
         const gvi__rounded q = from->q[i] + d->q[i], p = from->p[i] + d->p[i];
         none += 0*q + 0*p;
     }
@@ -2590,21 +2582,19 @@ static gvi_status gvi__solve(gvi_stepper *st, const gvi__origin *from, gvi_real 
     }
 }
 
-// work becomes last, last becomes older (where it is kept that long), and the oldest is free
-static void gvi__rotate(gvi_real **older, gvi_real **last, gvi_real **work)
-{
-    gvi_real *spare = *older ? *older : *last;
-    if (*older) *older = *last;
-    *last = *work;
-    *work = spare;
-}
-
+// work becomes last, last becomes older if two steps are kept, and the oldest is the next work
 static void gvi__rotate_values(gvi_stepper *st)
 {
-    struct gvi__private *x = &st->x;
-    gvi__rotate(&x->older.F, &x->last.F, &x->work.F);
-    if (GVI__READS_V) gvi__rotate(&x->older.V, &x->last.V, &x->work.V);
-    if (GVI__LAGRANGIAN) gvi__rotate(&x->older.A, &x->last.A, &x->work.A);
+    struct gvi__values *a = &st->x.older, *b = &st->x.last, *c = &st->x.work;
+    gvi_real **const rows[3][3] = { { &a->F, &b->F, &c->F }, { &a->V, &b->V, &c->V },
+                                    { &a->A, &b->A, &c->A } };
+    GVI__UNROLL for (int k = 0; k < 1 + (GVI__READS_V > 0) + (GVI__LAGRANGIAN > 0); ++k) {
+        gvi_real **older = rows[k][0], **last = rows[k][1], **work = rows[k][2];
+        gvi_real *spare = *older ? *older : *last;
+        if (*older) *older = *last;
+        *last = *work;
+        *work = spare;
+    }
 }
 
 // was := x, x + x_low := x + dx + dx_low; dx_low NULL: 0
@@ -2636,10 +2626,25 @@ static void gvi__move(int n, const gvi_real *GVI__RESTRICT dx, const gvi_real *G
     }
 }
 
-// the step is done: state and compensation move on, stage values become those of the last step
+/* The step is done: counters.worst_resolution is brought up to date, state and compensation move
+   on, and its stage values become those of the last step.                                    */
 static void gvi__commit(gvi_stepper *st, gvi_real h)
 {
     struct gvi__private *x = &st->x;
+    const gvi_real *a = x->table.high, *F = x->work.F;        // a is NULL where explicit
+    for (int i = 0; a && i < st->n; ++i, F += x->R) {
+        const gvi_real all = (GVI_ABS(F[0]) + GVI_ABS(F[(st->r - 1)/2]) + GVI_ABS(F[st->r/2])
+                              + GVI_ABS(F[st->r - 1]))/4;
+        gvi_real one = 0, two = 0;
+        for (int k = 0; k < st->r; ++k) {
+            one += a[k]*F[k];
+            two += a[x->R + k]*F[k];
+        }
+        const gvi_real share = (GVI_ABS(one) + GVI_ABS(two))/all, push = GVI_ABS(h)*all,
+                       resolution = share*share*(push/(GVI_ABS(x->state.p[i]) + push));
+        if (resolution > st->counters.worst_resolution)      // false where F is 0: NaN
+            st->counters.worst_resolution = resolution;
+    }
     const gvi__two t = gvi__two_sum(st->t, x->dt + st->t_low);
     const int whole = gvi__uses(x, GVI_EXPLICIT);             // whose increments have no low words
     gvi__move(st->n, x->step.q, whole ? NULL : x->step.q_low, x->state.q, x->state.q_low,
@@ -2667,28 +2672,6 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     gvi__count(&st->counters.steps, 1);
 }
 
-/* How well the points resolve the force of the step at work: see counters.worst_resolution.  */
-static void gvi__watch_resolution(gvi_stepper *st, gvi_real h)
-{
-    const struct gvi__private *x = &st->x;
-    const gvi_real *a = x->table.high, *F = x->work.F;
-    if (!a) return;                               // explicit
-    const gvi_real *b = a + x->R;
-    for (int i = 0; i < st->n; ++i, F += x->R) {
-        const gvi_real all = (GVI_ABS(F[0]) + GVI_ABS(F[(st->r - 1)/2]) + GVI_ABS(F[st->r/2])
-                              + GVI_ABS(F[st->r - 1]))/4;
-        gvi_real one = 0, two = 0;
-        for (int k = 0; k < st->r; ++k) {
-            one += a[k]*F[k];
-            two += b[k]*F[k];
-        }
-        const gvi_real share = (GVI_ABS(one) + GVI_ABS(two))/all, push = GVI_ABS(h)*all,
-                       resolution = share*share*(push/(GVI_ABS(x->state.p[i]) + push));
-        if (resolution > st->counters.worst_resolution)      // not where F is 0
-            st->counters.worst_resolution = resolution;
-    }
-}
-
 GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
 {
     const gvi_status ready = gvi__ready(st, st && st->x.started);
@@ -2712,12 +2695,65 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
         x->newton.h = 0;
         return st->status = status;
     }
-    gvi__watch_resolution(st, h);
     gvi__commit(st, h);
     return gvi__report_status(st, GVI_OK);
 }
 
 /* ---------------------------------------------------------------- ENGINE */
+
+/* ---- free motion ---- */
+
+// out := t + (t_low + c h)
+static void gvi__times(int count, gvi_real t, gvi_real t_low, gvi_real h, const gvi_real *c,
+                       gvi_real *out)
+{
+    int k = 0;
+    for (; GVI__LANES > 1 && k + GVI__LANES <= count; k += GVI__LANES)
+        GVI__STORE(out + k) = t + (t_low + GVI__LOAD(c + k)*h);
+    for (; k < count; ++k) out[k] = t + (t_low + c[k]*h);
+}
+
+/* Tables for h, times of the points, and free motion, where the mass is constant: v = M^-1 p
+   and h v with their low words (what v loses by rounding is kept, as what p has lost is).     */
+static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real h)
+{
+    struct gvi__private *x = &st->x;
+    const gvi_real *GVI__RESTRICT p = from->p, *GVI__RESTRICT p_low = from->p_low;
+    const gvi_real *GVI__RESTRICT inverse = x->mass.inverse;
+    gvi_real *GVI__RESTRICT v = x->free.v, *GVI__RESTRICT v_low = x->free.v_low;
+    gvi__weights_for(st, h);
+    x->dt = h;
+    if (GVI__CLOCK) x->time.dH = 0;
+    if (gvi__uses(x, GVI_EXPLICIT)) return;
+    gvi__times(x->R, from->t, from->t_low, h, x->table.c, x->t);
+    if (!gvi__mass_is_constant(x)) return;
+    for (int i = 0; i < st->n; ++i) {
+        const gvi__two z = x->desc.mass.kind == GVI_MASS_DIAGONAL ? gvi__two_prod(p[i], inverse[i])
+                                                                  : gvi__two_of(p[i], 0);
+        v[i] = z.hi;
+        v_low[i] = gvi__low(z.lo + p_low[i]*inverse[i]);
+    }
+    if (x->desc.mass.kind == GVI_MASS_DENSE) {
+        gvi__over_mass(st, v, 1, 1);
+        for (int i = 0; i < st->n; ++i) {         // p - M v
+            gvi__two left = gvi__two_of(p[i], p_low[i]);
+            for (int j = 0; j < st->n; ++j) {
+                const int ij = i > j ? i*st->n + j : j*st->n + i;
+                const gvi__two z = gvi__two_prod(-x->mass.matrix[ij], v[j]);
+                left = gvi__add_low(left.hi, left.lo, z.hi, z.lo);
+            }
+            v_low[i] = gvi__low(left.hi + left.lo);
+        }
+        gvi__over_mass(st, v_low, 1, 1);
+    }
+    for (int i = 0; i < st->n; ++i) {
+        const gvi__two path = gvi__two_prod(h, v[i]);
+        x->free.path[i] = path.hi;
+        x->free.path_low[i] = gvi__low(path.lo + h*v_low[i]);
+    }
+}
+
+/* ---- stages ---- */
 
 /* One stage of an iteration is data: rows of stage values, made of sums over sources,
 
@@ -2914,56 +2950,6 @@ static gvi__kernel *gvi__kernel_for(int n, int r)
 
 /* ---- fixed point ---- */
 
-// out := t + (t_low + c h)
-static void gvi__times(int count, gvi_real t, gvi_real t_low, gvi_real h, const gvi_real *c,
-                       gvi_real *out)
-{
-    int k = 0;
-    for (; GVI__LANES > 1 && k + GVI__LANES <= count; k += GVI__LANES)
-        GVI__STORE(out + k) = t + (t_low + GVI__LOAD(c + k)*h);
-    for (; k < count; ++k) out[k] = t + (t_low + c[k]*h);
-}
-
-/* Tables for h, times of the points, and free motion, where the mass is constant: v = M^-1 p
-   and h v with their low words (what v loses by rounding is kept, as what p has lost is).     */
-static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real h)
-{
-    struct gvi__private *x = &st->x;
-    const gvi_real *GVI__RESTRICT p = from->p, *GVI__RESTRICT p_low = from->p_low;
-    const gvi_real *GVI__RESTRICT inverse = x->mass.inverse;
-    gvi_real *GVI__RESTRICT v = x->free.v, *GVI__RESTRICT v_low = x->free.v_low;
-    gvi__weights_for(st, h);
-    x->dt = h;
-    if (GVI__CLOCK) x->time.dH = 0;
-    if (gvi__uses(x, GVI_EXPLICIT)) return;
-    gvi__times(x->R, from->t, from->t_low, h, x->table.c, x->t);
-    if (!gvi__mass_is_constant(x)) return;
-    for (int i = 0; i < st->n; ++i) {
-        const gvi__two z = x->desc.mass.kind == GVI_MASS_DIAGONAL ? gvi__two_prod(p[i], inverse[i])
-                                                                  : gvi__two_of(p[i], 0);
-        v[i] = z.hi;
-        v_low[i] = gvi__low(z.lo + p_low[i]*inverse[i]);
-    }
-    if (x->desc.mass.kind == GVI_MASS_DENSE) {
-        gvi__over_mass(st, v, 1, 1);
-        for (int i = 0; i < st->n; ++i) {         // p - M v
-            gvi__two left = gvi__two_of(p[i], p_low[i]);
-            for (int j = 0; j < st->n; ++j) {
-                const int ij = i > j ? i*st->n + j : j*st->n + i;
-                const gvi__two z = gvi__two_prod(-x->mass.matrix[ij], v[j]);
-                left = gvi__add_low(left.hi, left.lo, z.hi, z.lo);
-            }
-            v_low[i] = gvi__low(left.hi + left.lo);
-        }
-        gvi__over_mass(st, v_low, 1, 1);
-    }
-    for (int i = 0; i < st->n; ++i) {
-        const gvi__two path = gvi__two_prod(h, v[i]);
-        x->free.path[i] = path.hi;
-        x->free.path_low[i] = gvi__low(path.lo + h*v_low[i]);
-    }
-}
-
 /* Makes the predictor ready: E takes the stage values of the last step (of the last two, if
    they and this one are equally long) to the nodes of this step, which lie at alpha + beta c in
    the last step's tau.  In the positions formulation forces only serve to make new positions: E
@@ -2995,12 +2981,10 @@ static void gvi__prepare_predictor(gvi_stepper *st, gvi_real h, int query)
 GVI__BODY void gvi__set_predictor(const gvi_stepper *st, gvi__stage *y, const gvi_real *last,
                                   const gvi_real *older)
 {
-    const gvi_real *E = st->x.sized.E;
-    y->sum[0].table = E;
-    y->sum[0].source = last;
-    y->sum[1].table = st->x.sized.steps == 2 ? E + st->r*st->x.R : NULL;
-    y->sum[1].source = older;
-    y->sum[0].weight = y->sum[1].weight = NULL;
+    const gvi_real *E = st->x.sized.E, *second = st->x.sized.steps == 2 ? E + st->r*st->x.R : NULL;
+    const gvi__sum one = { E, NULL, last }, two = { second, NULL, older };
+    y->sum[0] = one;
+    y->sum[1] = two;
     y->scale = NULL;
 }
 
@@ -3014,21 +2998,13 @@ GVI__BODY void gvi__free_row(int R, gvi_real low, gvi_real path, gvi_real path_l
     for (; k < R; ++k) row[k] = (low + c[k]*path_low) + c[k]*path;
 }
 
-// a stage of bare sums, of one table
+// a stage that is the sum over one table and nothing else
 GVI__BODY void gvi__set_stage(const gvi_stepper *st, gvi__stage *y, gvi_real *rows,
                               const gvi_real *table, const gvi_real *weight, const gvi_real *source)
 {
-    y->sum[0].table = table;
-    y->sum[0].weight = weight;
-    y->sum[0].source = source;
-    y->sum[1].table = NULL;
-    y->base = st->x.zeros;
-    y->free = NULL;
-    y->inverse = NULL;
-    y->factor = 1;
-    y->rows = rows;
-    y->scale = y->change = NULL;
-    y->dense = 0;
+    const gvi__stage sum = { { { table, weight, source }, { NULL, NULL, NULL } }, st->x.zeros, NULL,
+                             NULL, 1, rows, NULL, NULL, 0 };
+    *y = sum;
 }
 
 /* What an iteration computes, in this order: positions (3); or these, and velocities (4); or
@@ -3056,10 +3032,8 @@ static int gvi__stages(const gvi_stepper *st, const gvi__origin *from, gvi_real 
         for (int k = 0; k < count; ++k) {
             if (x->desc.mass.kind == GVI_MASS_DIAGONAL) y[k].inverse = x->mass.inverse;
             y[k].dense = x->desc.mass.kind == GVI_MASS_DENSE;
-            if (!GVI__LAGRANGIAN || !w->A) continue;
-            y[k].sum[1].table = k == 0 ? x->table.T : x->table.N;
-            y[k].sum[1].weight = x->table.b;
-            y[k].sum[1].source = w->A;
+            const gvi__sum A = { k == 0 ? x->table.T : x->table.N, x->table.b, w->A };
+            if (GVI__LAGRANGIAN && w->A) y[k].sum[1] = A;
         }
     }
     for (int k = 0; k < count; ++k) {
@@ -3108,25 +3082,6 @@ static void gvi__velocity_rows(const gvi_stepper *st)
     else gvi__ldl_solve(n, x->mass.at_points, R, V, R, st->r);
 }
 
-// momenta: V from dL/dv(Q, V) = P
-static gvi_status gvi__legendre_rows(gvi_stepper *st, const gvi_points *y)
-{
-    struct gvi__private *x = &st->x;
-    gvi_status status = GVI_OK;
-    gvi__count(&st->counters.velocities, st->r);
-    if (x->desc.mass.velocity) {
-        status = gvi__evaluate_mass(st, y, x->work.P, x->work.V);
-        x->has_factor = 1;
-        return status == GVI_OK && x->diagnose ? gvi__check_rows(st, y, x->work.V, GVI_FAULT_MASS)
-                                               : status;
-    }
-    if (!gvi__mass_is_constant(x)) status = gvi__factor_mass(st, y);
-    if (status != GVI_OK) return status;
-    x->has_factor = 1;
-    gvi__velocity_rows(st);
-    return GVI_OK;
-}
-
 static gvi_status gvi__evaluate_with_clock(gvi_stepper *st, const gvi__origin *from, gvi_points *y);
 static gvi_status gvi__clock_at(gvi_stepper *st, gvi_real t, const gvi_real *q, gvi_real *rate,
                                 gvi_real *slope);
@@ -3137,14 +3092,21 @@ static gvi_status gvi__evaluate_stages(gvi_stepper *st, const gvi__origin *from,
     struct gvi__private *x = &st->x;
     const size_t length = (size_t)st->n*(size_t)x->R;
     const int momenta = gvi__uses(x, GVI_MOMENTA);
+    gvi_status status = GVI_OK;
     gvi__zero(length, y->f);
-    if (momenta) {
-        const gvi_status status = gvi__legendre_rows(st, y);
+    if (momenta) {                                // V from dL/dv(Q, V) = P
+        gvi__count(&st->counters.velocities, st->r);
+        if (x->desc.mass.velocity) status = gvi__evaluate_mass(st, y, x->work.P, x->work.V);
+        else if (!gvi__mass_is_constant(x)) status = gvi__factor_mass(st, y);
+        if (status != GVI_OK) return status;
+        x->has_factor = 1;
+        if (!x->desc.mass.velocity) gvi__velocity_rows(st);
+        else if (x->diagnose) status = gvi__check_rows(st, y, x->work.V, GVI_FAULT_MASS);
         if (status != GVI_OK) return status;
     }
     if (GVI__LAGRANGIAN && y->dldv) gvi__zero(length, y->dldv);
     if (gvi__clock_is_on(st)) return gvi__evaluate_with_clock(st, from, y);
-    gvi_status status = gvi__effects(st, y, 0, NULL);
+    status = gvi__effects(st, y, 0, NULL);
     if (status == GVI_OK && gvi__constrained(st)) status = gvi__constraint_values(st, from);
     return status == GVI_OK && momenta && gvi__mass_is(x, GVI_MASS_POSITION)
                ? gvi__mass_gradient(st, y)
@@ -3254,19 +3216,6 @@ static gvi_real gvi__inertia(const gvi_stepper *st, int i)
     return gvi__nonzero(m) && gvi__finite(m) ? GVI_ABS(m) : 1;
 }
 
-/* Has every row settled, by its own size? Its next change, D^2/D_before, is within the
-   tolerance, or D in the last place.  No row hides behind a larger one.                       */
-static int gvi__rows_have_settled(const gvi_stepper *st, gvi_real tolerance, int rows, int first)
-{
-    const gvi_real *D = st->x.watch.change, *before = st->x.watch.before;
-    const gvi_real place = 2*GVI__EPS*GVI__EPS;
-    for (int i = 0; i < rows; ++i) {
-        const gvi_real last = first ? D[i] : before[i] < 1 ? before[i] : 1;
-        if (D[i] > place && D[i]*D[i] > tolerance*last) return 0;
-    }
-    return 1;
-}
-
 /* The largest change of a row that is beyond a few units of the last place of its largest
    value, in units of 32 eps of the largest amplitude; 0: there is none.  An amplitude is |Q_i|
    times sqrt(M_ii), with h V_i or h P_i/M_ii in place of Q_i for those rows.  Up to 1 a row
@@ -3293,11 +3242,11 @@ static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *
     return noise > 0 ? noise/(32*GVI__EPS*largest) : 0;
 }
 
-/* The verdict on a change D of all rows.  The iteration ends when the next change,
-   D^2/D_before, is within the tolerance, without one far below rounding, and every row has
-   settled; or when D stagnates, without a new least by a tenth for some iterations, at
-   rounding.  Then F is evaluated once more, so that rows that go to and fro in their last
-   places end with their own F, not that of the side that they came from, which would be a bias.
+/* The verdict on a change D of all rows.  The iteration ends when the next change, D^2/D_before,
+   is within the tolerance, without one far below rounding, and for each row as well, unless its
+   own D is in the last place; or when D stagnates at rounding, without a new least by a tenth
+   for some iterations.  Then F is evaluated once more, so that rows that go to and fro in their
+   last places end with their own F, not that of the side that they came from: that is a bias.
    Three changes in a row that fall by less than half are poor, five while they are as large as
    the motion (terms of a cosine grow at first); so is a descent to rounding by factors of less
    than 4: it lets errors grow before they shrink.  All in squares: no root or quotient waits.  */
@@ -3311,8 +3260,13 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
     const gvi_real before = p->before, earlier = p->earlier, worst = st->counters.worst_contraction;
     const gvi_real last = p->used == 1 ? D : before < 1 ? before : 1;
     const int grows = before > 0 && D >= before/4;
-    if (D*D <= tolerance*last && d->iterations == 0
-        && gvi__rows_have_settled(st, tolerance, stages*st->n, p->used == 1)) return GVI__DONE;
+    int settled = D*D <= tolerance*last && d->iterations == 0;
+    for (int i = 0; settled && i < stages*st->n; ++i) {      // no row hides behind a larger one
+        const gvi_real Di = st->x.watch.change[i], was = st->x.watch.before[i];
+        const gvi_real before_i = p->used == 1 ? Di : was < 1 ? was : 1;
+        settled = !(Di > 2*GVI__EPS*GVI__EPS && Di*Di > tolerance*before_i);
+    }
+    if (settled) return GVI__DONE;
     if (!gvi__finite(D)) return GVI__NOT_FINITE;
 
     // contraction over two iterations, as long as it is not about rounding
@@ -3333,7 +3287,7 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
     const int wait = gvi__constrained(st) ? 0 : 1;           // the rounding of g is in every D
     if (p->stagnant > wait || poor) {
         const gvi_real noise = gvi__noise(st, h, y, stages);
-        // what falls to a new least still converges, be it to 0; what grows diverges
+        // noise that reaches a new minimum still converges, perhaps to 0
         p->still = noise < p->quiet ? 0 : p->still + 1;
         const int level = noise <= GVI__EPS || (p->still > 7 && noise <= p->noise);
         if (p->stagnant > wait && (noise <= 0
@@ -3376,7 +3330,7 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
     p.used = *used = 1;
     for (int shorter = 0, last = 0; ; ) {
         status = gvi__evaluate_stages(st, from, &at);
-        // free motion may leave the domain of a callback where the motion does not: less of it
+        // free motion may leave a callback's domain though the motion does not: halve the way
         if (status == GVI_E_CALLBACK && p.used == 1 && !extrapolate && shorter++ < 6) {
             for (int i = 0; i < st->n; ++i)
                 for (int k = 0; k < x->R; ++k)
@@ -3406,7 +3360,7 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
     }
 }
 
-// the sums k and k + half of double words, to k
+// the sums k and k + half of double words, to k; a constant `half` makes vectors of it
 GVI__BODY void gvi__fold(int half, gvi_real *hi, gvi_real *lo)
 {
     for (int k = 0; k < half; ++k) {
@@ -5641,27 +5595,32 @@ GVI__COLD gvi_status gvi__chord(gvi_stepper *st, const gvi__origin *from, gvi_re
 /* Newton's method for a curve of length h from that of length h/grow at hand: the same polynomial
    followed on; between ends, modes k >= 1 that grow like it.  Two corrections by one matrix first:
    where a curve is near, the second is no more than a quarter of the first, and all but the `last`
-   piece need no more.  `bent`: the largest of these ratios so far.                           */
+   piece need no more.  `bent`: the largest of these ratios so far.
+   `bow`: first mode 1 becomes as large as half the chord in all coordinates, by sqrt M_ii.  What is
+   linear does not mind; what is not shows it, also where forces cancel on the chord.         */
 GVI__COLD gvi_status gvi__bend(gvi_stepper *st, const gvi__origin *from, gvi_real h, gvi_real grow,
-                               const gvi__matrix *J, int last, gvi_real *bent)
+                               const gvi__matrix *J, int last, int bow, gvi_real *bent)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, size = (st->s - J->k0)*n;
     gvi__descent p = { 0, 0, GVI__MAX, 0, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0 };
-    gvi_real before = 0;
+    gvi_real *y = x->newton.y, before = 0, length = 0;
     if (grow > 1 && J->k0 == 0) {
         x->sized.ratio = 0;
         x->sized.steps = 1;
         gvi__fit(st, st->r, x->table.c, x->table.c, 0, grow, 1, x->sized.E);
         gvi__newton_modes(st, x->work.V, x->work.P);
     }
-    for (int k = n; J->k0 && k < st->s*n; ++k) x->newton.y[k] *= grow;
+    for (int k = n; J->k0 && k < st->s*n; ++k) y[k] *= grow;
     gvi__weights_for(st, h);
     gvi__times(x->R, from->t, 0, h, x->table.c, x->t);
-    for (int k = 0; k < 2; ++k) {
+    for (int k = bow ? -1 : 0; k < 2; ++k) {
         gvi_status status = gvi__newton_values(st, from);
         if (status != GVI_OK) return status;
         gvi__residual(st, from, J->k0, &p);
+        for (int i = 0; k < 0 && i < n; ++i) length += GVI_ABS(y[i])/x->watch.scale[i];
+        for (int i = 0; k < 0 && i < n; ++i) y[n + i] = length*x->watch.scale[i]/2;
+        if (k < 0) continue;
         if (k == 0) status = gvi__jacobian(st, J);
         if (status != GVI_OK) return status;
         gvi_lu_solve(size, J->square, J->pivot, x->newton.dy);
@@ -5675,51 +5634,33 @@ GVI__COLD gvi_status gvi__bend(gvi_stepper *st, const gvi__origin *from, gvi_rea
     return last ? gvi__newton_solve(st, from, J) : GVI_OK;
 }
 
-/* The chord, bowed: mode 1 as large as half of it in all coordinates, by sqrt M_ii.  What is linear
-   does not mind; what is not shows it, also where forces cancel on the chord.                */
-GVI__COLD gvi_status gvi__bow(gvi_stepper *st, const gvi__origin *from)
-{
-    gvi__descent p = { 0, 0, GVI__MAX, 0, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0 };
-    gvi_real *y = st->x.newton.y, length = 0;
-    const gvi_real *scale = st->x.watch.scale;
-    const gvi_status status = gvi__newton_values(st, from);
-    if (status != GVI_OK) return status;
-    gvi__residual(st, from, 1, &p);
-    for (int i = 0; i < st->n; ++i) length += GVI_ABS(y[i])/scale[i];
-    for (int i = 0; i < st->n; ++i) y[st->n + i] = length*scale[i]/2;
-    return GVI_OK;
-}
-
-/* The motion from q0 with velocity v, followed in pieces of length h, `count` of them, or as many
-   as there are.  Returns that which ends nearest to q1 by M_ii, from `first` on, or 0.       */
-GVI__COLD int gvi__aim(gvi_stepper *st, const gvi__origin *from, gvi_real h, const gvi_real *q1,
-                       const gvi_real *v, const gvi__matrix *J, int first, int count,
-                       gvi_real *bent)
+/* The motion from q0 with velocity v, in pieces of length h, followed until it leaves q1, by M_ii,
+   between the first `pieces`/2 and three times as many.  Returns for how long.               */
+GVI__COLD gvi_real gvi__aim(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                            const gvi_real *q1, const gvi_real *v, const gvi__matrix *J,
+                            int pieces, gvi_real *bent, gvi_status *status)
 {
     struct gvi__private *x = &st->x;
-    const size_t n = (size_t)st->n;
-    gvi_real least = GVI__MAX;
-    int nearest = 0;
-    gvi__zero((size_t)st->s*n, x->newton.y);
-    gvi__copy(n, v, x->newton.y);
-    for (int k = 1; k <= count; ++k) {
-        const gvi_real at = h*(gvi_real)k, grow = k == 1 ? 1 : (gvi_real)k/(gvi_real)(k - 1);
+    gvi_real last = GVI__MAX, at = 0;
+    gvi__copy((size_t)st->n, v, x->newton.y);
+    for (int k = 1; k <= pieces*3/2; ++k) {
+        const gvi_real grow = k == 1 ? 1 : (gvi_real)k/(gvi_real)(k - 1);
         gvi_real miss = 0;
-        if (gvi__bend(st, from, at, grow, J, 0, bent) != GVI_OK) break;
-        for (size_t i = 0; i < n; ++i) {
+        at = h*(gvi_real)k;
+        *status = gvi__bend(st, from, at, grow, J, 0, 0, bent);
+        for (int i = 0; i < st->n; ++i) {
             const gvi_real d = (from->q[i] + at*x->newton.y[i] - q1[i])/x->watch.scale[i];
             miss += d*d;
         }
-        if (k < first || miss > least) continue;
-        least = miss;
-        nearest = k;
+        if (*status != GVI_OK || (k > pieces/2 && miss > last)) break;
+        last = miss;
     }
-    return nearest;
+    return at;
 }
 
 /* A curve of degree 2 or more, followed from where it is known, in as many pieces as it takes: from
    h = 0, where it is the chord, run through in no time; or, with a guess v, from the motion that v
-   starts, where between h/2 and 3h/2 it is nearest to q1.  Linear equations need none of that: the
+   starts, where between h/2 and 3h/2 it leaves q1.  Linear equations need none of that: the
    bowed chord will do.  Returns whether they were, all but.  `any`: any other curve is welcome. */
 GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, const gvi_real *q1,
                           const gvi_real *v, int any, const gvi__matrix *J, gvi_status *status)
@@ -5736,25 +5677,17 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
         const gvi__matrix plain = { J->square, J->pivot, J->ends, 1, 0, halves };
         gvi__zero((size_t)(st->s*n), y);
         for (int i = 0; i < n; ++i) y[i] = (q1[i] - from->q[i])/h;
-        gvi__weights_for(st, h);
-        gvi__times(x->R, from->t, 0, h, x->table.c, x->t);
         *status = gvi__newton_solve(st, from, &plain);
         if (*status == GVI_OK || halves) return 0;
     }
     for (int attempt = v ? 4 : 0; attempt < 9 && left > 0; ++attempt) {
         const int pieces = 1 << attempt >> (attempt > 0), linear = attempt == 0;
-        const gvi_real piece = h/(gvi_real)pieces;
-        gvi_real bent = 0, at = 0, unused = 0;
+        gvi_real bent = 0, at = 0;
         *status = GVI_OK;
         gvi__zero((size_t)(st->s*n), y);
-        if (v) {
-            const int nearest =
-                gvi__aim(st, from, piece, q1, v, &motion, pieces/2, pieces*3/2, &unused);
-            if (nearest) gvi__aim(st, from, piece, q1, v, &motion, 0, nearest, &bent);
-            else *status = st->status;
-            at = piece*(gvi_real)nearest;
-            gvi__copy((size_t)n, y, end);
-        }
+        if (v)
+            at = gvi__aim(st, from, h/(gvi_real)pieces, q1, v, &motion, pieces, &bent, status);
+        gvi__copy((size_t)n, y, end);
         for (int k = 1; k <= pieces && *status == GVI_OK; ++k) {
             const gvi_real part = (gvi_real)k/(gvi_real)pieces, length = at + part*(h - at),
                            last = length - (h - at)/(gvi_real)pieces;
@@ -5763,10 +5696,9 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
                 y[i] = (v && k < pieces ? part*way + (1 - part)*at*end[i] : way)/length;
             }
             if (left-- == 0) *status = gvi__report_status(st, GVI_E_CONVERGENCE);
-            else if (linear) *status = gvi__bow(st, from);
             const gvi_real grow = v ? last/length : k > 1 ? length/last : 1;
             if (*status == GVI_OK)
-                *status = gvi__bend(st, from, length, grow, J, k == pieces, &bent);
+                *status = gvi__bend(st, from, length, grow, J, k == pieces, linear, &bent);
         }
         if (*status == GVI_OK && (!linear || bent < (gvi_real)0.015625)) return linear;
         if (linear) bowed = *status;
@@ -5777,9 +5709,71 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
     return 0;
 }
 
-GVI__COLD gvi_status gvi__morse_index(gvi_stepper *st, const gvi__matrix *J, int *negative);
+// rows and columns i and j of a symmetric matrix change places
+static void gvi__exchange(size_t n, gvi_real *a, size_t i, size_t j)
+{
+    for (size_t k = 0; k < n; ++k) gvi__swap(a + i*n + k, a + j*n + k);
+    for (size_t k = 0; k < n; ++k) gvi__swap(a + k*n + i, a + k*n + j);
+}
 
-/* The same by any degree: rows k >= 1 of (1).  The matrix where it ended says whether there was
+/* Negative eigenvalues of a symmetric matrix, which is overwritten: by Sylvester's law those of
+   D in L D L', D with blocks of 1 or 2, complete pivoting (Bunch and Parlett, SIAM J.  Numer.
+   Anal.  8, 1971; their alpha, (1 + sqrt 17)/8 = 0.6404, says when a block of 1 is large
+   enough).  A block of 2 has one of each sign.                                                */
+GVI__COLD int gvi__count_negative(size_t n, gvi_real *a)
+{
+    int count = 0;
+    for (size_t k = 0, width = 1; k < n; k += width) {
+        size_t p = k, q = k, r = k;
+        gvi_real diagonal = -1, off = -1;
+        for (size_t i = k; i < n; ++i) {
+            if (GVI_ABS(a[i*n + i]) > diagonal) diagonal = GVI_ABS(a[i*n + i]), p = i;
+            for (size_t j = k; j < i; ++j)
+                if (GVI_ABS(a[i*n + j]) > off) off = GVI_ABS(a[i*n + j]), q = j, r = i;
+        }
+        const int two = !(diagonal >= (gvi_real)0.6404*off);
+        width = two ? 2 : 1;
+        if (!two && !(diagonal > 0)) break;
+        gvi__exchange(n, a, k, two ? q : p);
+        if (two) gvi__exchange(n, a, k + 1, r == k ? q : r);        // k has just gone to q
+        count += two || a[k*n + k] < 0;
+        const gvi_real d = a[k*n + k], e = two ? a[(k + 1)*n + k] : 0,
+                       f = two ? a[(k + 1)*n + k + 1] : 1;
+        for (size_t i = k + width; i < n; ++i) {
+            const gvi_real x = a[i*n + k], y = two ? a[i*n + k + 1] : 0, det = d*f - e*e;
+            const gvi_real u = (f*x - e*y)/det, v = (d*y - e*x)/det;          // the block's inverse
+            for (size_t j = k + width; j < n; ++j)
+                a[i*n + j] -= u*a[k*n + j] + (two ? v*a[(k + 1)*n + j] : 0);
+        }
+    }
+    return count;
+}
+
+/* The Morse index: the second variation is h J without the factors 2k + 1 of its rows, forces
+   left out.                                                                                   */
+GVI__COLD gvi_status gvi__morse_index(gvi_stepper *st, const gvi__matrix *J, int *negative)
+{
+    struct gvi__private *x = &st->x;
+    const size_t n = (size_t)st->n, size = (size_t)(st->s - 1)*n;
+    const unsigned off = x->off;
+    *negative = 0;
+    if (size == 0) return GVI_OK;
+    x->off |= gvi__of_kind(x, GVI_FORCE);
+    const gvi_status status = gvi__jacobian_fill(st, J);
+    x->off = off;
+    if (status != GVI_OK) return status;
+    gvi_real *a = J->square;
+    for (size_t i = 0; i < size; ++i)
+        for (size_t j = 0; j <= i; ++j) {
+            const gvi_real lower = a[i*size + j]/(gvi_real)(2*(i/n) + 3);
+            const gvi_real upper = a[j*size + i]/(gvi_real)(2*(j/n) + 3);
+            a[i*size + j] = a[j*size + i] = (lower + upper)/2*x->sized.h;
+        }
+    *negative = gvi__count_negative(size, a);
+    return GVI_OK;
+}
+
+/* The curve by any degree: rows k >= 1 of (1).  The matrix where it ended says whether there was
    anything to find: a reciprocal condition below its own relative error is a conjugate point.  So
    is one inside the curve, found from the chord, unless the equations were all but linear there:
    a half circle is not near its diameter.                                                    */
@@ -5852,70 +5846,6 @@ GVI__COLD gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__matrix *J,
             plus[i] -= lambda[row]*by_y0;                 // y_0 = (q1 - q0)/h
             minus[i] -= lambda[row]*(by_q0 - by_y0);
         }
-    return GVI_OK;
-}
-
-// rows and columns i and j of a symmetric matrix change places
-static void gvi__exchange(size_t n, gvi_real *a, size_t i, size_t j)
-{
-    for (size_t k = 0; k < n; ++k) gvi__swap(a + i*n + k, a + j*n + k);
-    for (size_t k = 0; k < n; ++k) gvi__swap(a + k*n + i, a + k*n + j);
-}
-
-/* Negative eigenvalues of a symmetric matrix, which is overwritten: by Sylvester's law those of
-   D in L D L', D with blocks of 1 or 2, complete pivoting (Bunch and Parlett, SIAM J.  Numer.
-   Anal.  8, 1971; their alpha, (1 + sqrt 17)/8 = 0.6404, says when a block of 1 is large
-   enough).  A block of 2 has one of each sign.                                                */
-GVI__COLD int gvi__count_negative(size_t n, gvi_real *a)
-{
-    int count = 0;
-    for (size_t k = 0, width = 1; k < n; k += width) {
-        size_t p = k, q = k, r = k;
-        gvi_real diagonal = -1, off = -1;
-        for (size_t i = k; i < n; ++i) {
-            if (GVI_ABS(a[i*n + i]) > diagonal) diagonal = GVI_ABS(a[i*n + i]), p = i;
-            for (size_t j = k; j < i; ++j)
-                if (GVI_ABS(a[i*n + j]) > off) off = GVI_ABS(a[i*n + j]), q = j, r = i;
-        }
-        const int two = !(diagonal >= (gvi_real)0.6404*off);
-        width = two ? 2 : 1;
-        if (!two && !(diagonal > 0)) break;
-        gvi__exchange(n, a, k, two ? q : p);
-        if (two) gvi__exchange(n, a, k + 1, r == k ? q : r);        // k has just gone to q
-        count += two || a[k*n + k] < 0;
-        const gvi_real d = a[k*n + k], e = two ? a[(k + 1)*n + k] : 0,
-                       f = two ? a[(k + 1)*n + k + 1] : 1;
-        for (size_t i = k + width; i < n; ++i) {
-            const gvi_real x = a[i*n + k], y = two ? a[i*n + k + 1] : 0, det = d*f - e*e;
-            const gvi_real u = (f*x - e*y)/det, v = (d*y - e*x)/det;          // the block's inverse
-            for (size_t j = k + width; j < n; ++j)
-                a[i*n + j] -= u*a[k*n + j] + (two ? v*a[(k + 1)*n + j] : 0);
-        }
-    }
-    return count;
-}
-
-/* The Morse index: the second variation is h J without the factors 2k + 1 of its rows, forces
-   left out.                                                                                   */
-GVI__COLD gvi_status gvi__morse_index(gvi_stepper *st, const gvi__matrix *J, int *negative)
-{
-    struct gvi__private *x = &st->x;
-    const size_t n = (size_t)st->n, size = (size_t)(st->s - 1)*n;
-    const unsigned off = x->off;
-    *negative = 0;
-    if (size == 0) return GVI_OK;
-    x->off |= gvi__of_kind(x, GVI_FORCE);
-    const gvi_status status = gvi__jacobian_fill(st, J);
-    x->off = off;
-    if (status != GVI_OK) return status;
-    gvi_real *a = J->square;
-    for (size_t i = 0; i < size; ++i)
-        for (size_t j = 0; j <= i; ++j) {
-            const gvi_real lower = a[i*size + j]/(gvi_real)(2*(i/n) + 3);
-            const gvi_real upper = a[j*size + i]/(gvi_real)(2*(j/n) + 3);
-            a[i*size + j] = a[j*size + i] = (lower + upper)/2*x->sized.h;
-        }
-    *negative = gvi__count_negative(size, a);
     return GVI_OK;
 }
 

@@ -63,7 +63,7 @@ static void interpolation(void)
 static void equations(void)
 {
     enum { n = 6 };
-    double a[n*n], pivot[2*n + 1], x[n], work[3*n], worst = 0;
+    double a[n*n], pivot[2*n + 1], x[n], work[2*n], worst = 0;
 
     // A x = b whose solution is 1, 1, ..., 1
     for (int i = 0; i < n; ++i) {

@@ -493,4 +493,31 @@ TEST(where_forces_cancel_nothing_is_refused)
             for (int seed = 0; seed < 12; ++seed) symmetric(&skies[f], pairs, seed);
 }
 
+/* A weak spring about 1, and a push in time alone, whose first iteration is its last */
+static int calm_and_pushed(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k) {
+        x->f[k] -= (x->q[k] - 1)/2;
+        x->f[x->stride + k] += 1000*x->t[k];
+    }
+    return (void)user, 0;
+}
+
+/* The change of all rows falls from 1 to that of the slow one, which looks like a fast descent. */
+TEST(a_row_that_is_done_does_not_speak_for_another)
+{
+    static real memory[GVI_LENGTH(2, 6, 6)];
+    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = calm_and_pushed } };
+    const gvi_desc d = { .n = 2, .degree = 6, .effects = scene, .effect_count = 1 };
+    gvi_stepper st;
+    assert_ok(gvi_init(&st, &d, memory, sizeof memory));
+    for (long double away = 1e-3L; away > EPS; away /= 2) {
+        const real q[] = { 1 + (real)away, 1 }, v[] = { 0, 0 };
+        const long double h = 0.125L, w = sqrtl(0.5L), off = (long double)q[0] - 1;
+        assert_ok(gvi_start(&st, 0, q, v));
+        assert_ok(gvi_step(&st, (real)h));
+        assert_close(st.q[0] + (long double)st.q_low[0], 1 + off*cosl(w*h), EPS/2 + 1e-19L*off);
+    }
+}
+
 RUN_TESTS(NULL, NULL)
