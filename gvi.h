@@ -233,7 +233,7 @@
    is the superconvergence theorem [2, thm. 4.1].  It holds for u >= 2s - 2; a
    weaker rule does not see its highest modes properly, and their error enters
    squared: order min(u, 2(u-s+1)) is what the tests find.  The curve in between
-   is less exact, min(s, u/2) + 1 in the maximum norm [2, sec. 5].  r < s or
+   is less exact, min(s, u - s + 1) + 1 in the maximum norm [2, sec. 5].  r < s or
    u < s cannot work: a mode without kinetic energy, or free motion not exact.
 
    NOTATION       n degrees of freedom   s degree   r points   h step
@@ -508,7 +508,8 @@ typedef enum gvi_mass_kind {
 
 /* The kinetic energy.  M need not be definite: no leading minor may be 0 (dense, M(q)), no m_i
    (diagonal).  Where M(q) is singular, as at the pole of Euler's angles (gimbal lock), a step that
-   comes there ends in GVI_E_SINGULAR.  matrix is read by gvi_init only.                       */
+   comes there ends in GVI_E_SINGULAR; one that would leap over it may be wrong with GVI_OK.
+   matrix is read by gvi_init only.                                                            */
 typedef struct gvi_mass {
     gvi_mass_kind   kind;
     const gvi_real *matrix;
@@ -763,7 +764,7 @@ GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy);
 GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda);
 
 /* In the last step.  gvi_curve: the polynomial at tau in [0,1] and its
-   derivative, error O(h^(min(s,u/2)+1)) and one order less; with a clock tau is
+   derivative, error O(h^(min(s,u-s+1)+1)) and one order less; with a clock tau is
    its own time, and v still dq/dt.
    gvi_state_at: the state at time t (a time, not tau) inside it, at the full
    order, by a partial step from the nearer end; 2 ulp outside it is its end.

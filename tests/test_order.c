@@ -392,6 +392,8 @@ TEST(rules_of_the_caller_have_the_order_that_theory_says)
                      { GVI_OWN, own[k].r, own[k].c, own[k].b } };
         real order = (real)order_with_rule(s, own[k].u);
         expect_slope(own[k].name, &m, end_error, order, order);
+        order = (real)(min_int(s, own[k].u - s + 1) + 1);
+        expect_slope(own[k].name, &m, curve_error, order, order);
         assert_int_equal(the_bench.st.order, own[k].u);
     }
     assert_int_equal(misses, 0);
