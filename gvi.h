@@ -3154,7 +3154,8 @@ GVI__BODY gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *y, int stage
         sum += y[k].dense ? gvi__dense_rows(st, y + k, rescale) : x->kernel(st, y + k, rescale);
     }
     if (gvi__constrained(st)) {
-        st->x.con.near = x->con.made > 0 && sum < GVI__EPS*GVI_SQRT(GVI__EPS);
+        st->x.con.near =
+            GVI__KIND != 1 && x->con.made > 0 && sum < GVI__EPS*GVI_SQRT(GVI__EPS);
         gvi__constraint_rows(st, y);
     }
     if (stages == 2 && !gvi__uses(x, GVI_MOMENTA)) gvi__count(&st->counters.velocities, st->r);
@@ -3849,7 +3850,8 @@ static void gvi__constraint_forces(const gvi_stepper *st)
 }
 
 /* The constraints at D, padded with q0; A in the first iteration.  After a change by less than
-   EPS^(3/4) g is linearised from the last D, since its rounding would change lambda for ever. */
+   EPS^(3/4) g is linearised from the last D, since its rounding would change lambda for ever;
+   not in float, where a step across a bifurcation would end on the wrong branch.             */
 GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin *from)
 {
     struct gvi__private *x = &st->x;
