@@ -2041,7 +2041,7 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real
     gvi_real *base = st->x.newton.column;
     gvi__copy((size_t)n, x->dldv, base);
     for (int j = 0; j < n; ++j) {
-        const gvi_real was = v[j];
+        const gvi_real was = v[j], push = x->f ? GVI_ABS(st->x.sized.h*x->f[j])*root : 0;
         gvi_real d = 0,
                  next = root*(gvi__nonzero(was) ? GVI_ABS(was) : gvi__norm1(n, v)/(gvi_real)n);
         if (!(next > GVI__MIN/GVI__EPS)) next = root;
@@ -2055,6 +2055,8 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real
             const int beyond = status != GVI_OK || !gvi__finite(x->dldv[j]);
             next = beyond && GVI_ABS(d)*root < 2*GVI__EPS*GVI_ABS(was) ? -2*GVI__EPS*was
                  : beyond ? d*root
+                 : !gvi__nonzero(was) && push > 0 && GVI_ABS(x->dldv[j] - base[j]) > 16*push
+                     ? d*(push/GVI_ABS(x->dldv[j] - base[j]))        // from rest, as f takes it
                  : GVI_ABS(x->dldv[j] - base[j]) < root*GVI_ABS(base[j])/2 ? d/GVI_SQRT(root) : 0;
         }
         for (int i = 0; i < n; ++i) hessian[i*n + j] = (x->dldv[i] - base[i])/d;
@@ -4704,24 +4706,38 @@ static gvi_status gvi__evaluate_plain(gvi_stepper *st, gvi_real *F)
     return gvi__evaluate(st, &y, ~gvi__without_hessian(x), !gvi__mass_is_constant(x));
 }
 
-/* The difference for coordinate j: sqrt(eps) of what it moves in a step, but no less than
-   eps^(3/4) of itself; or for its velocity, that over h.                                      */
+/* What coordinate i moves in a step: h v, or eps^(1/4) of its position where that is more, or where
+   it is at rest at 0, h^2 f/M_ii.  For its velocity h v or h^2 f/M_ii, whichever is more.  (f
+   near a pole takes positions too far.)                                                       */
+static gvi_real gvi__reach(const gvi_stepper *st, int i, int by_v)
+{
+    const struct gvi__private *x = &st->x;
+    const gvi_real h = GVI_ABS(x->sized.h), small = by_v ? 0 : GVI_SQRT(GVI_SQRT(GVI__EPS)),
+                   hw = h*x->watch.scale[i];
+    gvi_real most = 0, push = 0;
+    for (int k = i*x->R; k < i*x->R + st->r; ++k) {
+        const gvi_real lengths[] = { h*GVI_ABS(x->work.V[k]), small*GVI_ABS(x->work.Q[k]) },
+                       f = hw*GVI_ABS(x->work.F[k])*hw;
+        for (int l = 0; l < 2; ++l) if (lengths[l] > most) most = lengths[l];
+        if (f > push && gvi__finite(f)) push = f;
+    }
+    return push > most && (by_v || !(most > GVI__MIN/GVI__EPS)) ? push : most;
+}
+
+/* The difference for coordinate j: sqrt(eps) of its reach, or of the largest where it has none,
+   each times sqrt(M_ii); or for its velocity, that over h.                                    */
 static gvi_real gvi__difference(const gvi_stepper *st, int j, int by_v)
 {
     const struct gvi__private *x = &st->x;
-    const gvi_real root = GVI_SQRT(GVI__EPS), small = GVI_SQRT(root), h = GVI_ABS(x->sized.h);
-    gvi_real q = 0, v = 0;
-    for (int k = 0; k < st->r; ++k) {
-        const gvi_real Q = GVI_ABS(x->work.Q[j*x->R + k]), V = GVI_ABS(x->work.V[j*x->R + k]);
-        if (Q > q) q = Q;
-        if (V > v) v = V;
+    const gvi_real root = GVI_SQRT(GVI__EPS), none = GVI__MIN/GVI__EPS, h = GVI_ABS(x->sized.h);
+    gvi_real step = root*gvi__reach(st, j, by_v);
+    for (int i = 0, alone = step > none; i < st->n && !alone; ++i) {
+        const gvi_real other = root*gvi__reach(st, i, by_v)
+                               * (x->watch.scale[j]/x->watch.scale[i]);
+        if (other > step && gvi__finite(other)) step = other;
     }
-    const gvi_real path = root*(h*v > small*q ? h*v : small*q);
-    // at rest at 0
-    const gvi_real step = path > GVI__MIN/GVI__EPS ? path : h < 1 ? root*h : root;
-    if (!by_v) return step;
-    // short steps: no velocity beyond all others
-    return v > 0 && step/h > small*v ? small*v : step/h;
+    if (!(step > none)) step = h < 1 ? root*h : root;           // all of it is at rest at 0
+    return by_v ? step/h : step;
 }
 
 // derivatives of what has no Hessian, by forward differences at all points at once
@@ -4767,6 +4783,9 @@ static gvi_status gvi__check_regular(gvi_stepper *st)
     gvi_status status = gvi__evaluate(st, &y, 0, 1);
     if (status == GVI_OK) status = gvi__velocity_hessian(st, &y, v, W);
     if (status != GVI_OK) return status;
+    for (int i = 0; i < n; ++i)                                      // p/v does not tell the mass
+        if (gvi__mass_is(&st->x, GVI_MASS_NONE) && !gvi__nonzero(v[i]) && gvi__nonzero(W[i*n + i]))
+            st->x.watch.scale[i] = 1/GVI_SQRT(GVI_ABS(W[i*n + i]));
     int at;
     status = gvi__lu_factor(n, W, W + n*n, &at);
     return status == GVI_E_SINGULAR ? gvi__report(st, status, GVI_FAULT_MASS, at, GVI_FAULT_NONE)
@@ -4976,6 +4995,9 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
             status = gvi__jacobian(st, J);
             if (status != GVI_OK) return status;
             p.have = 1;
+            // by the masses that are known now
+            if (k == 0 && gvi__mass_is(x, GVI_MASS_NONE))
+                p.norm = gvi__residual(st, from, J->k0, &p);
             if (kept) x->newton.h = x->sized.h;
         }
         gvi_lu_solve(size, J->square, J->pivot, x->newton.dy);

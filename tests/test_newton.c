@@ -580,6 +580,65 @@ TEST(a_wrong_hessian_costs_iterations_or_the_step)
     }
 }
 
+typedef struct units { gvi_real length[2], time, mass[2]; int term; } units;
+
+/* In units of its own: L = ((1 + x^2) x'^2 + x'^4/2 + y'^2 + x x'y')/2 - (x - 1)^2/2 - y^2/2 + x y/4; or by a
+   constant mass and with forces -(x - 1) + y/4 - x'y/4 - x'^3, -y + x/4 - y'|x'|/8 */
+static int beads(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *f, gvi_real *dldv, void *user)
+{
+    const units *u = user;
+    const gvi_real x = q[0]/u->length[0], y = q[1]/u->length[1];
+    const gvi_real w = v[0]/u->length[0]*u->time, z = v[1]/u->length[1]*u->time;
+    const gvi_real fx = 1 - x + y/4, fy = x/4 - y;
+    if (u->term) {
+        f[0] += (fx + x*w*w + w*z/2)/u->length[0];
+        f[1] += fy/u->length[1];
+        dldv[0] += ((1 + x*x)*w + w*w*w + x*z/2)*u->time/u->length[0];
+        dldv[1] += (z + x*w/2)*u->time/u->length[1];
+    }
+    else {
+        f[0] += (fx - w*y/4 - w*w*w)/u->length[0];
+        f[1] += (fy - z*(gvi_real)fabs((double)w)/8)/u->length[1];
+    }
+    return (void)t, 0;
+}
+
+/* From rest at 0, derivatives by differences; units of length and time of 1e-30 to 1e30, in float of 1e-9 to 1e9.
+   Energies are of 1: masses go with (time/length)^2, to 1e+-120  */
+TEST(differences_have_no_units)
+{
+    const int most = EPS > (gvi_real)1e-10 ? 30 : 100;
+    for (int term = 0; term < 2; ++term) {
+        gvi_real first[2] = { 0, 0 };
+        unsigned long counts[2] = { 0, 0 };
+        for (int k = 0; k < 27; ++k) {
+            // first of all the units of 1
+            const int a = (k + 1)%3 - 1, b = (k/3 + 1)%3 - 1, c = (k/9 + 1)%3 - 1;
+            units u = { { (gvi_real)ldexp(1, most*a), (gvi_real)ldexp(1, most*b) }, (gvi_real)ldexp(1, most*c),
+                        { 0, 0 }, term };
+            for (int i = 0; i < 2; ++i) u.mass[i] = u.time/u.length[i]*(u.time/u.length[i]);
+            const gvi_effect effect = { .kind = term ? GVI_LAGRANGIAN : GVI_FORCE, .point = beads, .user = &u };
+            const gvi_desc desc = { .n = 2, .degree = 4, .effects = &effect, .effect_count = 1,
+                                    .mass = { .kind = term ? GVI_MASS_NONE : GVI_MASS_DIAGONAL, .matrix = u.mass },
+                                    .formulation = GVI_NEWTON };
+            const gvi_real q[2] = { 0, 0 }, v[2] = { 0, 0 };
+            gvi_stepper st;
+            assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+            assert_ok(gvi_start(&st, 0, q, v));
+            go(&st, u.time/4, 1);
+            const unsigned long one = (unsigned long)st.counters.newton_iterations;
+            go(&st, u.time/4, 19);
+            const unsigned long all = (unsigned long)st.counters.newton_iterations;
+            for (int i = 0; i < 2 && k == 0; ++i) first[i] = st.q[i], counts[i] = i ? all : one;
+            for (int i = 0; i < 2; ++i) assert_close(st.q[i]/u.length[i], first[i], 64*EPS);
+            // pivots are chosen by rows, and that depends on the ratio of the units
+            const long double slack = a == b ? 0 : 0.1L;
+            assert_between((1 - slack)*counts[0] - 10*slack, one, (1 + slack)*counts[0] + 10*slack);
+            assert_between((1 - slack)*counts[1], all, (1 + slack)*counts[1]);
+        }
+    }
+}
+
 /* There and back, a period and a half at a time */
 TEST(a_step_back_returns)
 {
