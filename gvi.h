@@ -647,7 +647,7 @@ struct gvi__holonomic {               /* constraints; C = stride of D_0..D_s    
     gvi_real *D, *free, *P;           /* [n][R] stage values, free motion; a trial's momenta */
     gvi_real *force, *rho, *last;     /* [n+m][R] G' lambda, -lambda; residual; [n+m][C] last */
     gvi_real *at, *g, *G, *A, *W, *y; /* [.][C] D, g and rate, G, its matrix; scratch; [m] */
-    int       m, C, made, kept;       /* rows that are on; kept: last for the curve, 2 to predict */
+    int       m, C, made, kept, near; /* rows that are on; kept: last for the curve, 2 to predict */
     unsigned  bits;                   /* the effects                                 */
 };
 
@@ -3155,7 +3155,11 @@ GVI__BODY gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *y, int stage
         if (k == 1 && gvi__uses(x, GVI_MOMENTA)) sum += gvi__velocities_again(st);
         sum += y[k].dense ? gvi__dense_rows(st, y + k, rescale) : x->kernel(st, y + k, rescale);
     }
-    if (gvi__constrained(st)) gvi__constraint_rows(st, y);
+    if (gvi__constrained(st)) {
+        st->x.con.near =
+            GVI__KIND != 1 && x->con.made > 0 && sum < GVI__EPS*GVI_SQRT(GVI__EPS);
+        gvi__constraint_rows(st, y);
+    }
     if (stages == 2 && !gvi__uses(x, GVI_MOMENTA)) gvi__count(&st->counters.velocities, st->r);
     return sum;
 }
@@ -3314,7 +3318,7 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
     const int stages = gvi__stages(st, from, h, stage);
     gvi_status status = GVI_OK;
     if (gvi__constrained(st)) gvi__constraint_stages(st, from, h, stage, stages);
-    if (GVI__CONSTRAINTS) x->con.made = 0;
+    if (GVI__CONSTRAINTS) x->con.made = x->con.near = 0;
     at.v = x->work.V;
     *used = 0;
     x->has_factor = 0;
@@ -3847,18 +3851,31 @@ static void gvi__constraint_forces(const gvi_stepper *st)
                              x->con.force + i*R);
 }
 
-// the constraints at D, padded with q0; A in the first iteration
+/* The constraints at D, padded with q0; A in the first iteration.  After a change by less than
+   EPS^(3/4) g is linearised from the last D, since its rounding would change lambda for ever;
+   not in float, where a step across a bifurcation would end on the wrong branch.             */
 GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin *from)
 {
     struct gvi__private *x = &st->x;
-    const int s = st->s, C = x->con.C;
+    const int s = st->s, R = x->R, C = x->con.C;
     for (int i = 0; i < st->n; ++i) {
-        gvi_real *at = x->con.at + i*C;
-        for (int k = 0; k < C; ++k) at[k] = from->q[i];
-        for (int k = 1; k <= s; ++k) at[k] += x->con.D[i*x->R + k - 1];
+        gvi_real *at = x->con.at + i*C, *moved = x->con.W + i*C - 1;
+        for (int k = 0; k < C; ++k) {
+            const gvi_real D = from->q[i] + (k > 0 && k <= s ? x->con.D[i*R + k - 1] : 0);
+            if (k > 0) moved[k] = at[k] - D - moved[k];
+            at[k] = D;
+        }
+    }
+    for (int a = 0; a < x->con.m && x->con.near; ++a) {
+        gvi_real *g = x->con.g + a*C + 1;
+        for (int i = 0; i < st->n; ++i)
+            gvi__subtract_at(C, s, x->con.G + (a*st->n + i)*C + 1, x->con.W + i*C, g);
+        gvi__copy((size_t)s, g, x->con.rho + a*R);
     }
     const gvi_status status =
         gvi__evaluate_constraints(st, C, s + 1, x->con.t, x->con.at, x->con.G);
+    for (int a = 0; a < x->con.m && x->con.near; ++a)
+        gvi__copy((size_t)s, x->con.rho + a*R, x->con.g + a*C + 1);
     return status != GVI_OK || ++x->con.made > 1 ? status : gvi__factor_constraints(st, C, s);
 }
 
@@ -3937,16 +3954,16 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
         gvi_real size = 0, *G = x->con.G + m*n;   // G0 is before it
         if (status == GVI_OK) status = gvi__evaluate_constraints(st, 1, 1, &t, Q, G);
         if (status != GVI_OK) return status;
-        for (int a = 0; a < m; ++a) z[a] = -x->con.g[a]/h;
-        gvi__ldl_solve(m, x->con.A, 1, z, 1, 1);
         for (int a = 0; a < m; ++a) {             // the largest, or NaN
             const gvi_real off = gvi__violation(st, t, Q, G, a);
             if (off > size || !gvi__finite(off)) size = off;
+            z[a] = -x->con.g[a]/h;
         }
         if (!(size < before/2))                   // rounding?
             return gvi__report_status(st, size <= 64 ? GVI_OK : gvi__finite(size) || x->diagnose
                                                       ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE);
         before = size;
+        gvi__ldl_solve(m, x->con.A, 1, z, 1, 1);
         gvi__zero((size_t)n, d);
         gvi__add_force(st, z, d);
         gvi__add_scaled(n, 1, d, x->step.p, x->step.p);
