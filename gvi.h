@@ -3157,7 +3157,7 @@ GVI__BODY gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *y, int stage
     }
     if (gvi__constrained(st)) {
         st->x.con.near =
-            GVI__KIND != 1 && x->con.made > 0 && sum < GVI__EPS*GVI_SQRT(GVI__EPS);
+            GVI__DIG > FLT_MANT_DIG && x->con.made > 0 && sum < GVI__EPS*GVI_SQRT(GVI__EPS);
         gvi__constraint_rows(st, y);
     }
     if (stages == 2 && !gvi__uses(x, GVI_MOMENTA)) gvi__count(&st->counters.velocities, st->r);
