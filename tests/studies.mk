@@ -25,7 +25,7 @@ docs-check: $(BUILD)/gvi-double.o
 #: prices       what an unlisted effect costs in instructions (valgrind): nothing
 #: ensemble     lesson 29 on one thread, two threads, one and three MPI processes: the same bits
 #: usable       what make install puts where, and the ways into a project: pkg-config, CMake, a C++ sketch
-#: firmware     two programs without an operating system, run as Cortex-M3 and M4F by qemu, against this machine
+#: firmware     three programs without an operating system, run as Cortex-M3 and M4F by qemu, against this machine
 prices: | $(FIRST)
 	$(STEP) $@ sh tests/tools/instructions.sh $(BUILD) --prices
 parts bound float instructions ensemble usable firmware: | $(FIRST)
@@ -144,13 +144,13 @@ cost-horizon: $(BUILD)/cost/cost
 #: ncdp         rounding over half a million steps, and its price, against the published standard
 #: kicks        splittings as tables of kicks against the same written by hand (ten seconds)
 #: points       callbacks by GVI_POINTS against loops by hand and .point (ten seconds); COST_CFLAGS="-O2 -fno-math-errno"
-#: cost-constraints rods and a top with constraints, against RATTLE's compositions and DOP853 (a minute)
+#: cost-constraints rods and a top with constraints, against RATTLE's compositions and DOP853 (a minute) build/cost/constraints.svg
 #: scaling      time and memory against degree, coordinates and points; CSV and pictures in build/cost
 #: cost-peers   GSL, SUNDIALS and Boost.odeint on the problems of make cost
 ncdp kicks points: %: $(BUILD)/cost/%
 	$(Q)$< $(COST_ARGS)
 cost-constraints: cost-%: $(BUILD)/cost/%
-	$(Q)$< $(COST_ARGS)
+	$(Q)$< --out $(BUILD)/cost $(COST_ARGS)
 scaling: $(BUILD)/cost/scaling
 	$(Q)$< --out $(BUILD)/cost $(COST_ARGS)
 cost-peers: $(BUILD)/cost/peers

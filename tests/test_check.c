@@ -210,6 +210,18 @@ AT_POINTS(bad_velocity)
     return 0;
 }
 
+/* Row i, coordinate j of a constraint's Jacobian; what is 0 there gets a factor's excess over 1. */
+AT_POINTS(bad_constraint)
+{
+    if (planted.right.points(x, user)) return 1;
+    for (int k = 0; k < x->count; ++k) {
+        double *at = !strcmp(planted.entry, "rate") ? x->rate + planted.i*x->stride + k
+                                                    : x->jacobian + (planted.i*x->n + planted.j)*x->stride + k;
+        *at += (planted.factor - 1)*(fabs(*at) > 0 ? *at : 1);
+    }
+    return 0;
+}
+
 /* Plants a slip in effect e (or the mass, GVI_FAULT_MASS) of the scene as built. */
 static void plant(int e, slip_kind kind, const char *entry, int i, int j, double factor)
 {
@@ -222,7 +234,7 @@ static void plant(int e, slip_kind kind, const char *entry, int i, int j, double
         return;
     }
     planted.right = made.effects[e];
-    made.effects[e].points = bad_points;
+    made.effects[e].points = made.effects[e].kind == GVI_CONSTRAINT ? bad_constraint : bad_points;
     if (made.effects[e].value) made.effects[e].value = bad_value;
     if (made.effects[e].hessian) made.effects[e].hessian = bad_hessian;
 }
@@ -302,6 +314,39 @@ TEST(wrong_entries_of_f_are_named)
         }
     print_message("  %d planted, %d found\n", planted_count, planted_count);
     assert_true(planted_count > 150);
+}
+
+/* Every entry of seven bars' Jacobian, be it 0 or not, and dg/dt: row and coordinate are named. */
+TEST(wrong_jacobians_are_named)
+{
+    static const double factors[] = { -1, 0, 1 + 1e-3, 1 + 1e-6 };
+    static const check_hint hints[] = { CHECK_SIGN, CHECK_MISSING, CHECK_NO_HINT, CHECK_NO_HINT };
+    const char *name = "peaucellier";
+    int planted_count = 0;
+    build(name);
+    const int n = made.desc.n, e = made.desc.effect_count - 1, rows = made.effects[e].rows;
+    for (int a = 0; a < rows; ++a)
+        for (int i = 0; i <= n; ++i)
+            for (int k = 0; k < COUNT(factors); ++k) {
+                const char *entry = i < n ? "jacobian" : "rate";
+                double t = 0, g[SCENE_MAX], rate[SCENE_MAX] = { 0 }, G[SCENE_MAX*SCENE_MAX] = { 0 };
+                build(name);
+                const gvi_points x = { .n = n, .count = 1, .stride = 1, .t = &t, .q = made.q, .g = g, .rate = rate,
+                                       .jacobian = G };
+                assert_int_equal(made.effects[e].points(&x, made.effects[e].user), 0);
+                const double right = i < n ? G[a*n + i] : 0, size = fabs(right) > 0 ? right : 1;
+                if (size*size > right*right && k != 2) continue;                 // 0: 1e-3 alone
+                slip_in(name, e, FACTOR, entry, a, i, factors[k]);
+                const check_finding *y = found(CHECK_DERIVATIVE, e, entry, a, i < n ? i : -1);
+                if (!y) assert_found(CHECK_DERIVATIVE, e, entry, a, i < n ? i : -1);
+                assert_close(y->right, right, 1e-8);
+                assert_close(y->found, right + (factors[k] - 1)*size, 1e-14);
+                assert_int_equal(y->hint, fabs(right) > 0 ? hints[k] : CHECK_SURPLUS);
+                assert_int_equal(report.count, 1);
+                ++planted_count;
+            }
+    print_message("  %d planted, %d found\n", planted_count, planted_count);
+    assert_int_equal(planted_count, 4*22 + 7*9 - 22);          // three bars hold one joint, four hold two
 }
 
 TEST(wrong_index_is_two_findings)

@@ -5,7 +5,9 @@
    exact matrix for the rods, for the top with the diagonal that orthonormal directors leave; multipliers
    predicted by those of the stage before; the momentum projected once a step, since within a composition
    the next stage does not feel it. DOP853 integrates index-1 equations, the top's in quaternion and body
-   rates, with fixed steps, and projects after each; it keeps no structure. CPU time, best of several.  */
+   rates, with fixed steps, and projects after each; it keeps no structure. CPU time, best of several.
+
+     constraints [--out DIR]  prints the tables; with DIR draws the runs in them, DIR/constraints.svg   */
 #define GVI_STATIC
 #define GVI_IMPLEMENTATION
 #include "gvi.h"
@@ -16,6 +18,7 @@ typedef gvi_real real;
 #include <time.h>
 #include "linkages.h"
 #include "coefficients.h"
+#include "tools/svg.h"
 
 static const double rods_end[4] = { 0.9717130808687679340841202356, -0.2361645368562504330536795036,
                                     1.6219338957314591733328457283, -0.9959098178019749018726361532 };
@@ -279,8 +282,13 @@ static double seconds(int top, int method, int steps, double *error)
     return best;
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
+    static const char *const colours[METHODS] = { "#999999", "#111111", "#d55e00", "#0072b2", "#aa4499", "#b8860b", "#009e73",
+                                                  "#cc3311" };
+    static double times[2][METHODS][4], errors[2][METHODS][4];
+    svg_line lines[2][METHODS];
+    svg_plot panels[2];
     static const double wanted[] = { 1e-4, 1e-7, 1e-10, 1e-12 };
     for (int i = 0; i < 17; ++i) kahan_li8_all[i] = (double)kahan_li8[i < 8 ? i : 16 - i];
     kahan_li8_all[8] = 1;
@@ -294,12 +302,15 @@ int main(void)
         for (int w = 0; w < 4; ++w) printf("%9.0e", wanted[w]);
         puts("   forces, 1e-10");
         for (int method = 0; method < METHODS; ++method) {
-            double need[4] = { 0 }, points = 0;
+            double need[4] = { 0 }, points = 0, *const x = times[top][method], *const y = errors[top][method];
+            int drawn = 0;
             for (int N = 8, found = 0; N < 2000000 && found < 4; N += N/3) {
                 double error = 0;
                 if (run(top, method, N) > wanted[found]) continue;
                 const double t = 1000*seconds(top, method, N, &error);
                 if (t > 400) break;
+                x[drawn] = t;
+                y[drawn++] = error;
                 for (; found < 4 && error <= wanted[found]; ++found) {
                     need[found] = t;
                     if (found == 2) points = forces;
@@ -311,7 +322,21 @@ int main(void)
                 else printf("%9s", "-");
             if (points > 0) printf("%9.0f", points);
             puts("");
+            if (drawn == 1) {                     // a dash, since one point is no line
+                x[1] = 1.15*x[0];
+                x[0] /= 1.15;
+                y[drawn++] = y[0];
+            }
+            lines[top][method] = (svg_line){ names[method], x, y, drawn };
         }
+        panels[top] = (svg_plot){ .title = top ? "heavy top in directors" : "double pendulum of rods", .x_label = "CPU time, ms",
+                                  .y_label = "error of q at the end", .lines = lines[top], .line_count = METHODS,
+                                  .log_x = 1, .log_y = 1, .thick = 7, .dashed = 1 << PROJECTED,
+                                  .colours = colours };
     }
+    if (argc < 3 || strcmp(argv[1], "--out")) return 0;
+    char path[512];
+    snprintf(path, sizeof path, "%s/constraints.svg", argv[2]);
+    if (svg_write_all(path, panels, 2, 360)) return perror(path), 1;
     return 0;
 }

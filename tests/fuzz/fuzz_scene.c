@@ -40,7 +40,7 @@ static double number(void)
 
 /* ---------------------------------------------------------------- callbacks */
 
-typedef struct mood { unsigned kind, when, calls; double strength; } mood;
+typedef struct mood { unsigned kind, when, calls; double strength; int rows; double level[N]; } mood;
 static unsigned long long asked;
 
 static int sick(mood *a) { return a->calls++ % 64 == a->when; }
@@ -129,6 +129,27 @@ static int velocity(const gvi_points *x, void *user)
     return bad && a->kind > 200;
 }
 
+/* Rods |(q_i, q_j)|^2/2 = level, a ring of them: together n rows depend on each other if n is even.  By
+   kind: all the same row, a level that moves, a Jacobian of another function, NaN now and then.  */
+static int rods(const gvi_points *x, void *user)
+{
+    mood *a = user;
+    const int bad = sick(a), kind = (int)(a->kind % 6), n = x->n, R = x->stride;
+    const double rate = kind == 2 ? a->strength : 0;
+    asked += (unsigned long long)x->count;
+    for (int r = 0; r < a->rows; ++r) {
+        const int i = kind == 1 ? 0 : r % n, j = (i + 1) % n;
+        for (int k = 0; k < x->count; ++k) {
+            const double u = x->q[i*R + k], w = x->q[j*R + k];
+            x->g[r*R + k] = (u*u + w*w)/2 - a->level[r % N] - rate*x->t[k];
+            x->jacobian[(r*n + i)*R + k] = bad && kind > 3 ? NAN : kind == 3 ? a->strength : u;
+            x->jacobian[(r*n + j)*R + k] = i == j ? 2*u : w;
+            if (rate < 0 || rate > 0) x->rate[r*R + k] = bad ? answer(a, u) : -rate;
+        }
+    }
+    return bad && a->kind > 200;
+}
+
 /* -------------------------------------------------------------- description */
 
 static gvi_effect effects[EFFECTS];
@@ -142,18 +163,40 @@ static mood any_mood(void)
     return a;
 }
 
+/* A scene with constraints of which gvi_init refuses few: at random hardly one in a thousand starts */
+static void constrain(gvi_desc *d)
+{
+    if (d->effect_count == 0) d->effect_count = 1;
+    for (int e = 0; e < d->effect_count; ++e) {
+        effects[e].rows = moods[e].rows = e ? 0 : 1 + (int)below((unsigned)d->n);
+        if (effects[e].kind > GVI_LAGRANGIAN) effects[e].kind = GVI_FORCE;
+    }
+    effects[0] = (gvi_effect){ .kind = GVI_CONSTRAINT, .points = rods, .user = moods, .rows = moods->rows };
+    d->mass = (gvi_mass){ .kind = below(2) ? GVI_MASS_POSITION : GVI_MASS_UNIT, .user = &moods[EFFECTS] };
+    if (d->mass.kind == GVI_MASS_POSITION) {
+        d->mass.points = mass;
+        d->mass.gradient = gradient;
+    }
+    d->rule = (gvi_rule){ .kind = below(2) ? GVI_LOBATTO : GVI_GAUSS };
+    if (d->formulation == GVI_NEWTON) d->formulation = GVI_AUTO;
+    d->tolerance = 0;
+}
+
 static gvi_desc describe(void)
 {
     gvi_desc d = { .n = (int)below(N) + 1, .degree = (int)below(9), .effects = effects };
     d.effect_count = (int)below(EFFECTS + 1);
     for (int e = 0; e < d.effect_count; ++e) {
         const unsigned how = byte();
-        effects[e] = (gvi_effect){ .kind = (gvi_kind)below(4), .user = &moods[e] };
-        if (how & 1) effects[e].points = points;
+        effects[e] = (gvi_effect){ .kind = (gvi_kind)below(6), .user = &moods[e] };
+        if (effects[e].kind == GVI_CONSTRAINT) effects[e].points = rods;
+        else if (how & 1) effects[e].points = points;
         else effects[e].point = point;
         if (how & 2) effects[e].value = points;
         if (how & 4) effects[e].hessian = hessian;
         moods[e] = any_mood();
+        if (effects[e].kind == GVI_CONSTRAINT || how > 250)
+            effects[e].rows = moods[e].rows = (int)below(how & 128 ? 2 : N + 2);
     }
     d.mass.kind = (gvi_mass_kind)below(5);
     for (int i = 0; i < N*N; ++i) matrix[i] = i % (N + 1) == 0 ? 2 : 0;
@@ -175,6 +218,7 @@ static gvi_desc describe(void)
     if (below(6) == 0) d.tolerance = number();
     d.max_iterations = (int)below(100);
     if (below(4) == 0) d.iterations = (int)below(8);
+    if (below(2)) constrain(&d);
     return d;
 }
 
@@ -200,7 +244,7 @@ static void check(const gvi_stepper *st, const gvi_desc *d, const double *before
         after[1 + N + i] = st->p[i];
         finite = finite && isfinite(st->q[i]) && isfinite(st->p[i]);
     }
-    if (status > GVI_OK || status < GVI_E_CLOCK) fail("a status that is none", status);
+    if (status > GVI_OK || status < GVI_E_CONSTRAINT) fail("a status that is none", status);
     if ((status != GVI_OK || !changes) && memcmp(before, after, sizeof after)) fail("the state has changed",
                                                                                     status);
     if (status == GVI_OK && !finite) fail("a state that is not finite", status);
@@ -208,16 +252,34 @@ static void check(const gvi_stepper *st, const gvi_desc *d, const double *before
     if (asked > 64*2*step*(unsigned long long)(d->effect_count + 3)) fail("too much work", status);
 }
 
-static void call(gvi_stepper *st, const gvi_desc *d)
+/* Makes the levels of all rods those of q at t; v is 0, or turns the first of them and follows its level */
+static void fit(int n, const gvi_desc *d, double t, const double *q, double *v)
+{
+    for (int e = 0; e < d->effect_count; ++e)
+        for (int r = 0; r < moods[e].rows; ++r) {
+            mood *a = &moods[e];
+            const int i = a->kind % 6 == 1 ? 0 : r % n, j = (i + 1) % n;
+            a->level[r % N] = (q[i]*q[i] + q[j]*q[j])/2 - (a->kind % 6 == 2 ? a->strength*t : 0);
+        }
+    const double r = q[0]*q[0] + q[n > 1]*q[n > 1], turn = n > 1 && below(4) == 0;
+    const double out = d->effect_count && moods->kind % 6 == 2 && r > 0 ? moods->strength/r/(n > 1 ? 1 : 2) : 0;
+    for (int i = 0; i < n; ++i) v[i] = i < 2 ? out*q[i] : 0;
+    if (turn > 0) {
+        v[0] -= q[1];
+        v[1] += q[0];
+    }
+}
+
+static void call(gvi_stepper *st, const gvi_desc *d, unsigned what)
 {
     double before[2*N + 1] = { st->t }, a[N], b[N], c[N], e[N], x = 0;
     const gvi_discrete out = { .lagrangian = &x, .d1 = c, .d2 = e };
-    const unsigned what = below(16);
     int changes = 0;
     gvi_status status;
     for (int i = 0; i < N; ++i) { a[i] = number(); b[i] = number(); }
     for (int i = 0; i < st->n; ++i) { before[1 + i] = st->q[i]; before[1 + N + i] = st->p[i]; }
     asked = 0;
+    if ((what == 7 || what == 8) && st->n > 0 && below(4)) fit(st->n, d, a[0], a, b);
     switch (what) {
     case 0:  status = gvi_velocity(st, c); break;
     case 1:  status = gvi_energy(st, &x); break;
@@ -229,6 +291,11 @@ static void call(gvi_stepper *st, const gvi_desc *d)
     case 7:  changes = 1; status = gvi_start(st, a[0], a, b); break;
     case 8:  changes = 1; status = gvi_start_momentum(st, a[0], a, b); break;
     case 9:  changes = 1; status = gvi_start_configurations(st, a[0], b[0], a, b); break;
+    case 10: status = gvi_multipliers(st, c);
+        for (int e = 0, row = 0; e < d->effect_count && status == GVI_OK; ++e)
+            for (int r = 0; r < effects[e].rows; ++r)
+                if (!isfinite(c[row++])) fail("a multiplier that is not finite", status);
+        break;
     default: changes = 1; status = gvi_step(st, a[0]);
     }
     check(st, d, before, status, changes);
@@ -246,10 +313,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     double little[1], *memory = needed ? malloc(needed) : little;
     if (needed > 8u << 20) fail("too much memory for so small a scene", GVI_OK);
     const gvi_status status = gvi_init(&st, &d, memory, needed ? needed : sizeof little);
-    if (status > GVI_OK || status < GVI_E_CLOCK) fail("a status that is none", status);
+    if (status > GVI_OK || status < GVI_E_CONSTRAINT) fail("a status that is none", status);
     if (status == GVI_OK && !needed) fail("no size, and yet it works", status);
     if (status == GVI_OK)
-        for (int k = 0; k < 12 && at < end; ++k) call(&st, &d);
+        for (int k = 0; k < 12 && at < end; ++k) call(&st, &d, k > 0 || below(8) == 0 ? below(17) : 7);
     if (needed) free(memory);
     return 0;
 }

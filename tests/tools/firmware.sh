@@ -83,7 +83,7 @@ compare() {  # program target type
 
 # flash and RAM with start-up code, printing and libm; RAM without the stack, whose use was measured
 printf '  %-18s %7s %6s %6s   %s\n' '' flash RAM stack 'instructions of the busiest period'
-for program in pendulum arm; do
+for program in pendulum arm rods; do
     for sine in own libm; do for type in float double; do on_host $program $sine $type; done; done
     for target in 'm4f float mps2-an386' 'm3 double mps2-an385'; do
         set -- $target
