@@ -3157,7 +3157,7 @@ GVI__BODY gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *y, int stage
     }
     if (gvi__constrained(st)) {
         st->x.con.near =
-            GVI__KIND != 1 && x->con.made > 0 && sum < GVI__EPS*GVI_SQRT(GVI__EPS);
+            GVI__DIG > FLT_MANT_DIG && x->con.made > 0 && sum < GVI__EPS*GVI_SQRT(GVI__EPS);
         gvi__constraint_rows(st, y);
     }
     if (stages == 2 && !gvi__uses(x, GVI_MOMENTA)) gvi__count(&st->counters.velocities, st->r);
@@ -4007,7 +4007,8 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
             if (r[a]*z[a] > r[row]*z[row]) row = a;
             x->con.y[a] += z[a];
         }
-        if (start && pass == 0 && !(size <= far*far*GVI_ABS(gvi__dot(n, p, v))))
+        if (start && pass == 0
+            && !(size <= GVI__MAX && size <= far*far*GVI_ABS(gvi__dot(n, p, v))))
             return gvi__report_row(st, GVI_E_CONSTRAINT, row, GVI_FAULT_NONE);
         gvi__zero((size_t)n, p);
         gvi__add_force(st, z, p);
