@@ -647,7 +647,7 @@ struct gvi__holonomic {               /* constraints; C = stride of D_0..D_s    
     gvi_real *D, *free, *P;           /* [n][R] stage values, free motion; a trial's momenta */
     gvi_real *force, *rho, *last;     /* [n+m][R] G' lambda, -lambda; residual; [n+m][C] last */
     gvi_real *at, *g, *G, *A, *W, *y; /* [.][C] D, g and rate, G, its matrix; scratch; [m] */
-    int       m, C, made, kept, near; /* rows that are on; kept: last for the curve, 2 to predict */
+    int       m, C, made, kept, linear; /* rows that are on; kept: last for the curve, 2 to predict */
     unsigned  bits;                   /* the effects                                 */
 };
 
@@ -3156,7 +3156,7 @@ GVI__BODY gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *y, int stage
         sum += y[k].dense ? gvi__dense_rows(st, y + k, rescale) : x->kernel(st, y + k, rescale);
     }
     if (gvi__constrained(st)) {
-        st->x.con.near =
+        st->x.con.linear =
             GVI__DIG > FLT_MANT_DIG && x->con.made > 0 && sum < GVI__EPS*GVI_SQRT(GVI__EPS);
         gvi__constraint_rows(st, y);
     }
@@ -3293,7 +3293,7 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
         const gvi_real noise = gvi__noise(st, h, y, stages);
         // noise that reaches a new minimum still converges, perhaps to 0
         p->still = noise < p->quiet ? 0 : p->still + 1;
-        const int level = noise <= GVI__EPS || (p->still > 7 && noise <= p->noise);
+        const int level = noise <= GVI__EPS || (p->still > 3 && noise <= p->noise);
         if (p->stagnant > wait && (noise <= 0
             || (noise <= 1 && (wait ? p->stagnant > 4 && level : p->stagnant > 1))))
             return p->used - p->stagnant >= GVI__DIG/2 && gvi__may_turn(st) ? GVI__DIVERGES
@@ -3318,7 +3318,7 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
     const int stages = gvi__stages(st, from, h, stage);
     gvi_status status = GVI_OK;
     if (gvi__constrained(st)) gvi__constraint_stages(st, from, h, stage, stages);
-    if (GVI__CONSTRAINTS) x->con.made = x->con.near = 0;
+    if (GVI__CONSTRAINTS) x->con.made = x->con.linear = 0;
     at.v = x->work.V;
     *used = 0;
     x->has_factor = 0;
@@ -3866,7 +3866,7 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
             at[k] = D;
         }
     }
-    for (int a = 0; a < x->con.m && x->con.near; ++a) {
+    for (int a = 0; a < x->con.m && x->con.linear; ++a) {
         gvi_real *g = x->con.g + a*C + 1;
         for (int i = 0; i < st->n; ++i)
             gvi__subtract_at(C, s, x->con.G + (a*st->n + i)*C + 1, x->con.W + i*C, g);
@@ -3874,7 +3874,7 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
     }
     const gvi_status status =
         gvi__evaluate_constraints(st, C, s + 1, x->con.t, x->con.at, x->con.G);
-    for (int a = 0; a < x->con.m && x->con.near; ++a)
+    for (int a = 0; a < x->con.m && x->con.linear; ++a)
         gvi__copy((size_t)s, x->con.rho + a*R, x->con.g + a*C + 1);
     return status != GVI_OK || ++x->con.made > 1 ? status : gvi__factor_constraints(st, C, s);
 }
@@ -4653,12 +4653,12 @@ static void gvi__add_derivative(const gvi_stepper *st, const gvi__matrix *J, int
     }
 }
 
-// the bits of the effects that are on and bring no Hessian
-static unsigned gvi__without_hessian(const struct gvi__private *x)
+// the bits of the effects that are on and bring a Hessian, or none
+static unsigned gvi__with_hessian(const struct gvi__private *x, int with)
 {
     unsigned bits = 0;
     for (int e = 0; e < x->desc.effect_count; ++e)
-        if (!x->desc.effects[e].hessian) bits |= 1u << e;
+        if ((x->desc.effects[e].hessian != NULL) == with) bits |= 1u << e;
     return bits & ~x->off;
 }
 
@@ -4704,7 +4704,7 @@ static gvi_status gvi__evaluate_plain(gvi_stepper *st, gvi_real *F)
     struct gvi__private *x = &st->x;
     gvi_points y = gvi__points_at(st, st->r, x->R, x->t, x->work.Q, F, F + st->n*x->R);
     y.v = x->work.V;
-    return gvi__evaluate(st, &y, ~gvi__without_hessian(x), !gvi__mass_is_constant(x));
+    return gvi__evaluate(st, &y, ~gvi__with_hessian(x, 0), !gvi__mass_is_constant(x));
 }
 
 /* What coordinate i moves in a step: h v, or eps^(1/4) of its position where that is more, or where
@@ -4746,7 +4746,7 @@ static gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matrix *
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, R = x->R, nR = n*R, varies = !gvi__mass_is_constant(x);
-    const unsigned plain = gvi__without_hessian(x);
+    const unsigned plain = gvi__with_hessian(x, 0);
     const int reads_v = varies || (plain & ~gvi__of_kind(x, GVI_POTENTIAL)) != 0;
     gvi_real *F = x->newton.moved, *P = F + nR, *base_F = P + nR, *base_P = base_F + nR;
     if (!varies && !plain) return GVI_OK;
@@ -5001,6 +5001,8 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
                 p.norm = gvi__residual(st, from, J->k0, &p);
             if (kept) x->newton.h = x->sized.h;
         }
+        // a matrix of differences alone is right
+        if (made) p.holds |= !gvi__with_hessian(x, 1);
         gvi_lu_solve(size, J->square, J->pivot, x->newton.dy);
         gvi__count(&st->counters.newton_iterations, 1);
         verdict = gvi__newton_converged(st, J, &p, gvi__newton_update(st, from, J, &p));
@@ -5072,7 +5074,7 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
 {
     struct gvi__newton *x = &st->x.newton;
     const size_t sn = (size_t)(st->s*st->n);
-    const gvi_real h = st->x.sized.h, near = (gvi_real)0.0625, key = x->h;
+    const gvi_real h = st->x.sized.h, close = (gvi_real)0.0625, key = x->h;
     const unsigned count = (unsigned)st->counters.newton_iterations,
                    enough = 32*(unsigned)st->x.desc.max_iterations;
     const int sign = gvi__orientation(J, sn);
@@ -5091,7 +5093,7 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
         const int found =
             gvi__newton_solve(st, from, J) == GVI_OK && gvi__orientation(J, sn) == sign;
         const gvi_real apart = found ? gvi__newton_apart(st, x->guess) : 1;
-        if (!(apart <= near)) {
+        if (!(apart <= close)) {
             factor = GVI_SQRT(factor);
             if (factor > (gvi_real)0.9998) right = 0;
             continue;
@@ -5100,14 +5102,14 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
         gvi__copy(sn, x->y, x->branch);
         for (size_t k = 0; k < sn; ++k) x->slope[k] += (x->y[k] - x->guess[k])/(1 - factor);
         if (factor > (gvi_real)0.5) {
-            if (apart < near/4) factor *= factor;
+            if (apart < close/4) factor *= factor;
             continue;
         }
         gvi__newton_guess(st, 0);
         x->h = 0;
         const int other = gvi__newton_solve(st, from, J) == GVI_OK;
-        if ((other && x->bend <= near) || part < (gvi_real)(1/64.0))
-            right = !other || gvi__newton_apart(st, x->branch) <= near;
+        if ((other && x->bend <= close) || part < (gvi_real)(1/64.0))
+            right = !other || gvi__newton_apart(st, x->branch) <= close;
     }
     gvi__free_motion(st, from, h);
     gvi__copy(sn, x->found, x->y);
@@ -5826,7 +5828,7 @@ GVI__COLD gvi_status gvi__interior(gvi_stepper *st, const gvi__origin *from, gvi
     J->scaled = 1;
     const gvi_status second = gvi__jacobian(st, J);
     if (second != GVI_OK) return second;
-    const int exact = gvi__mass_is_constant(x) && !gvi__without_hessian(x);
+    const int exact = gvi__mass_is_constant(x) && !gvi__with_hessian(x, 0);
     const gvi_real error = 16*(exact ? GVI__EPS : GVI_SQRT(GVI__EPS));
     if (gvi_lu_rcond(size, J->square, J->pivot, x->newton.moved) < error) status = GVI_E_CONJUGATE;
     for (int i = 0; i < n; ++i) p[i] = gvi__dot(st->r, x->table.b, x->work.P + i*x->R);
