@@ -647,7 +647,7 @@ struct gvi__holonomic {               /* constraints; C = stride of D_0..D_s    
     gvi_real *D, *free, *P;           /* [n][R] stage values, free motion; a trial's momenta */
     gvi_real *force, *rho, *last;     /* [n+m][R] G' lambda, -lambda; residual; [n+m][C] last */
     gvi_real *at, *g, *G, *A, *W, *y; /* [.][C] D, g and rate, G, its matrix; scratch; [m] */
-    int       m, C, made, kept, linear; /* rows that are on; kept: last for the curve, 2 to predict */
+    int       m, C, made, kept, linear; /* rows on; kept: last for the curve, 2 to predict */
     unsigned  bits;                   /* the effects                                 */
 };
 
