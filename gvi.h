@@ -4889,7 +4889,8 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
         if (!(h*change <= 4*GVI__EPS*q) && h*moved > noise) noise = h*moved;
     }
     // see gvi__noise
-    if ((noise <= 32*GVI__EPS*largest && sure) || solved) p->work = -1;
+    const gvi_real place = p->stagnant > 1 ? 32*GVI__EPS*largest : 0;
+    if ((noise <= place && sure) || solved) p->work = -1;
     return sum;
 }
 
@@ -4929,7 +4930,7 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__des
         && (change > noise || change < p->rho*p->least))
         p->rho = change/p->least;
     if (change < p->least) p->least = change;
-    if (before > 0 && change > noise && (p->fresh & 3) && change > st->x.newton.bend*before)
+    if (before > 0 && change > noise && change > st->x.newton.bend*before)
         st->x.newton.bend = change/before;
     const int rounding = p->left < GVI__MAX || (stagnant && gvi__newton_rests(p, size, change));
     if (rounding) p->left *= p->rho < quarter ? p->rho : quarter;
@@ -5074,10 +5075,11 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
 {
     struct gvi__newton *x = &st->x.newton;
     const size_t sn = (size_t)(st->s*st->n);
-    const gvi_real h = st->x.sized.h, close = (gvi_real)0.0625, key = x->h;
+    const gvi_real h = st->x.sized.h, close = (gvi_real)0.0625;
     const unsigned count = (unsigned)st->counters.newton_iterations,
                    enough = 32*(unsigned)st->x.desc.max_iterations;
     const int sign = gvi__orientation(J, sn);
+    const gvi__matrix K = { x->J + sn*sn, x->pivot + sn + 1, NULL, 0, 0, 0 };   // that of queries
     gvi_real part = 1, factor = (gvi_real)0.5;
     int right = -1;                                                  // not known
     gvi__copy(sn, x->y, x->found);
@@ -5089,9 +5091,8 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
         gvi__newton_shorten(st, factor, x->slope);
         gvi__copy(sn, x->y, x->guess);
         gvi__free_motion(st, from, h*(part*factor));
-        x->h = 0;
         const int found =
-            gvi__newton_solve(st, from, J) == GVI_OK && gvi__orientation(J, sn) == sign;
+            gvi__newton_solve(st, from, &K) == GVI_OK && gvi__orientation(&K, sn) == sign;
         const gvi_real apart = found ? gvi__newton_apart(st, x->guess) : 1;
         if (!(apart <= close)) {
             factor = GVI_SQRT(factor);
@@ -5106,14 +5107,12 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
             continue;
         }
         gvi__newton_guess(st, 0);
-        x->h = 0;
-        const int other = gvi__newton_solve(st, from, J) == GVI_OK;
+        const int other = gvi__newton_solve(st, from, &K) == GVI_OK;
         if ((other && x->bend <= close) || part < (gvi_real)(1/64.0))
             right = !other || gvi__newton_apart(st, x->branch) <= close;
     }
     gvi__free_motion(st, from, h);
     gvi__copy(sn, x->found, x->y);
-    x->h = J->pivot == x->pivot ? 0 : key;
     return right ? gvi__newton_values(st, from) : gvi__report_status(st, GVI_E_CONVERGENCE);
 }
 
