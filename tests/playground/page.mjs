@@ -193,6 +193,7 @@ check('but at the start', !(await page.isVisible('#alert')) && Math.abs((await r
 await page.click('#scenes button[data-scene=quaternion]');
 await page.waitForFunction(() => window.gvi.live.t > 0.1, null, { timeout: 20000 });
 await page.click('tr[data-effect=unit-length] input');
+await page.waitForTimeout(500);                          // a slice at work ends, the table is written
 const free = await total(page, 'unit-length');
 await page.waitForTimeout(1000);
 check('a free quaternion: its counter stands still', (await total(page, 'unit-length')) === free && free > 0 && (await chosen(page)) === 'momenta');
