@@ -633,7 +633,7 @@ struct gvi__time {                    /* clock: at the points, and the state's  
 struct gvi__newton {
     gvi_real *y, *dy, *residual, *last;   /* [s*n] modes, change, rows, modes before  */
     gvi_real *found, *branch, *guess, *slope;  /* [s*n] see gvi__newton_connected     */
-    gvi_real  bend;                   /* worst contraction by its own matrices before the last */
+    gvi_real  bend;                   /* worst contraction on the way to the last solution */
     gvi_real *J, *pivot;              /* two matrices of s*n: of steps, of queries   */
     gvi_real *hessian, *column, *moved;   /* scratch                                */
     gvi_real  h;                      /* for which J was made, 0: none              */

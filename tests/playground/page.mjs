@@ -180,6 +180,7 @@ check('the rods hold, to rounding', (await gap()) < 1e-14, await gap());
 const reach = () => page.evaluate(() => { const n = i => window.gvi.x.world_number(0, 30, i); return Math.hypot(n(2) - n(0), n(3) - n(1)); });
 check('a rod of 1 m', Math.abs((await reach()) - 1) < 1e-14, await reach());
 await page.click('tr[data-effect=lower-rod] input');
+await page.waitForTimeout(500);                          // as for the quaternion below
 const held = await total(page, 'lower-rod'), upper = await total(page, 'upper-rod');
 await page.waitForTimeout(1500);
 check('a broken rod: its counter stands still', (await total(page, 'lower-rod')) === held && held > 0 && (await total(page, 'upper-rod')) > upper);
