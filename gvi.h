@@ -396,7 +396,8 @@ typedef int gvi_points_fn(const gvi_points *x, void *user);
 
 /* The same from what happens at one point.  GVI_POINTS(name, n, ...) stands for `static int name`;
    n is a constant; the list names the arrays in use, but t and q: v, p, f, dldv, and one of value,
-   mass, velocity.  With f and value, `name` serves as points and as value.
+   mass, velocity; or rows(m), m a constant, for the g, jacobian and rate of m constraints.
+   With f and value, `name` serves as points and as value.
 
      GVI_POINTS(drag, 2, v, f)(const gvi_points *x, void *user)
      {
@@ -412,12 +413,14 @@ typedef int gvi_points_fn(const gvi_points *x, void *user);
 #define GVI__USES(a, b, c, d, ...)                                                              \
     (GVI__USES_##a | GVI__USES_##b | GVI__USES_##c | GVI__USES_##d)
 enum { GVI__USES_, GVI__USES_v, GVI__USES_p, GVI__USES_f = 4, GVI__USES_dldv = 8,
-       GVI__USES_value = 16, GVI__USES_mass = 32, GVI__USES_velocity = 64 };
+       GVI__USES_value = 16, GVI__USES_mass = 32, GVI__USES_velocity = 64, GVI__ROWS = 128 };
+#define GVI__USES_rows(m) (m)*GVI__ROWS
 #define GVI__POINTS(name, n, uses)                                                              \
     GVI__BODY int gvi__at_##name(const gvi_points *x, void *user);                              \
     static int name(const gvi_points *x, void *user)                                            \
     {                                                                                           \
-        gvi_real a[(n)*(5 + ((uses) & GVI__USES_mass ? (n) : 1))];                              \
+        gvi_real a[(n)*(5 + ((uses) & GVI__USES_mass ? (n) : 1))                                \
+                   + (uses)/GVI__ROWS*((n) + 2)];                                               \
         const int all = uses, both = all & GVI__USES_f && all & GVI__USES_value,                \
                   value = all & ~(GVI__USES_f | GVI__USES_dldv), rest = all & ~GVI__USES_value; \
         return both && !x->f     ? gvi__in_chunks(gvi__at_##name, x, user, n, all, value, a)    \
@@ -431,8 +434,9 @@ GVI__BODY int gvi__each_point(gvi_points_fn *at, const gvi_points *x, void *user
                               int wanted, gvi_real *a, int k, int to, gvi_real *GVI__RESTRICT f)
 {
     const int s = x->stride, value = uses & GVI__USES_value, mass = uses & GVI__USES_mass;
-    const int m = value ? 1 : mass ? n*n : n, any = ~0, last = ~15;
+    const int m = value ? 1 : mass ? n*n : n, any = ~0, last = 112, rows = uses/GVI__ROWS;
     gvi_real *other = value ? x->value : mass ? x->mass : x->velocity;
+    gvi_real *g = rows ? a + 6*n : NULL, *G = rows ? g + rows : NULL, *dg = rows ? G + rows*n : NULL;
     int failed = 0;
 #define GVI__COLUMN(name, o) uses & GVI__USES_##name ? a + (o)*n : NULL
 #define GVI__MOVE(mask, m, to, from)                                                            \
@@ -440,14 +444,18 @@ GVI__BODY int gvi__each_point(gvi_points_fn *at, const gvi_points *x, void *user
     GVI__LOOP(GCC ivdep) for (; k < to; ++k) {
         gvi_points y = { n, 1, 1, x->t + k, a, GVI__COLUMN(v, 1), GVI__COLUMN(p, 2),
                          GVI__COLUMN(f, 3), GVI__COLUMN(dldv, 4), GVI__COLUMN(value, 5),
-                         GVI__COLUMN(mass, 5), GVI__COLUMN(velocity, 5), NULL, NULL, NULL };
+                         GVI__COLUMN(mass, 5), GVI__COLUMN(velocity, 5), g, G, dg };
         GVI__MOVE(any, n, a[i], x->q[i*s + k]);
         GVI__MOVE(GVI__USES_v, n, a[n + i], x->v[i*s + k]);
         GVI__MOVE(GVI__USES_p, n, a[2*n + i], x->p[i*s + k]);
         GVI__MOVE(GVI__USES_f, n, a[3*n + i], f[i*s + k]);
         GVI__MOVE(GVI__USES_dldv, n, a[4*n + i], x->dldv[i*s + k]);
         GVI__MOVE(last, m, if (!mass || i%n <= i/n) a[5*n + i], other[i*s + k]);  // of M, i >= j
+        GVI__MOVE(any, rows*(n + 1), G[i], 0);                                 // and dg
         failed |= (at(&y, user) != 0) & (k < x->count);
+        GVI__MOVE(any, rows, x->g[i*s + k], g[i]);
+        GVI__MOVE(any, rows*n, x->jacobian[i*s + k], G[i]);
+        GVI__MOVE(any, rows, x->rate[i*s + k], dg[i]);
         GVI__MOVE(GVI__USES_f, n, f[i*s + k], a[3*n + i]);
         GVI__MOVE(GVI__USES_dldv, n, x->dldv[i*s + k], a[4*n + i]);
         GVI__MOVE(last, m, if (!mass || i%n <= i/n) other[i*s + k], a[5*n + i]);
@@ -2220,7 +2228,8 @@ static const gvi_real *gvi__low_words(const gvi_stepper *st, const gvi_real *a)
 }
 
 /* 1/Gamma_kk = 2k + 1 while the rule is exact for phi_k^2; Lobatto with r = s gives s - 1 for the
-   last.  A rule of order u < 2s - 2 makes Gamma full: its LU is kept.                         */
+   last.  A rule of order u < 2s - 2 makes Gamma full: its LU is kept.  Of a mode that the rule all
+   but misses, half of the digits would be left.                                               */
 GVI__COLD gvi_status gvi__make_gamma(gvi_stepper *st)
 {
     const struct gvi__tables *x = &st->x.table;
@@ -2228,14 +2237,16 @@ GVI__COLD gvi_status gvi__make_gamma(gvi_stepper *st)
     for (int k = 0; k < s; ++k) x->inv_gamma[k] = (gvi_real)(2*k + 1);
     if (GVI__RULES && st->order == 2*s - 2) {
         const gvi_real *last = x->phi + (s - 1)*R, sum = gvi__dot3(r, x->b, last, last);
-        if (!(GVI_ABS(sum) > (gvi_real)s*GVI__EPS)) return GVI_E_POINTS;
+        if (!(GVI_ABS(sum) > GVI_SQRT(GVI__EPS))) return GVI_E_POINTS;
         x->inv_gamma[s - 1] = st->x.desc.rule.kind == GVI_LOBATTO ? (gvi_real)(s - 1) : 1/sum;
     }
     if (!gvi__has(&st->x, GVI__HAS_GAMMA)) return GVI_OK;
     for (int k = 0; k < s; ++k)
         for (int l = 0; l < s; ++l)
             x->gamma[k*s + l] = gvi__dot3(r, x->b, x->phi + k*R, x->phi + l*R);
-    return gvi_lu_factor(s, x->gamma, x->gamma + s*s) == GVI_OK ? GVI_OK : GVI_E_POINTS;
+    return gvi_lu_factor(s, x->gamma, x->gamma + s*s) == GVI_OK
+           && gvi_lu_rcond(s, x->gamma, x->gamma + s*s, st->x.row) > GVI_SQRT(GVI__EPS)
+               ? GVI_OK : GVI_E_POINTS;
 }
 
 // y := Gamma^-1 y
@@ -3282,7 +3293,8 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
     if (d->iterations > 0) {
         if (p->used < d->iterations) return GVI__GO_ON;
         const int falls = earlier > 0 ? D < earlier/4 : before <= 0 || D < before;
-        return falls || D <= 65536*rounding ? GVI__DONE : GVI__DIVERGES;
+        return falls || D <= 65536*rounding || gvi__noise(st, h, y, stages) <= 1 ? GVI__DONE
+                                                                                  : GVI__DIVERGES;
     }
     p->growing = grows ? p->growing + 1 : 0;
     p->stagnant = D < (gvi_real)0.81*p->least ? 0 : p->stagnant + 1;

@@ -38,17 +38,14 @@ GVI_POINTS(weight, 4, f)(const gvi_points *x, void *user)
 }
 
 /* (|q1|^2 - 1)/2 and (|q2 - q1|^2 - 1)/2                                           */
-static int rods(const gvi_points *x, void *user)
+GVI_POINTS(rods, 4, rows(2))(const gvi_points *x, void *user)
 {
-    const int R = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        const double *q = x->q + k, X = q[0], Y = q[R], U = q[2*R] - X, W = q[3*R] - Y;
-        double *G = x->jacobian + k;
-        x->g[k] = (X*X + Y*Y - 1)/2;
-        x->g[R + k] = (U*U + W*W - 1)/2;
-        G[0] = X, G[R] = Y;
-        G[4*R] = -U, G[5*R] = -W, G[6*R] = U, G[7*R] = W;
-    }
+    const double *q = x->q, X = q[0], Y = q[1], U = q[2] - X, W = q[3] - Y;
+    double *G = x->jacobian;
+    x->g[0] = (X*X + Y*Y - 1)/2;
+    x->g[1] = (U*U + W*W - 1)/2;
+    G[0] = X, G[1] = Y;
+    G[4] = -U, G[5] = -W, G[6] = U, G[7] = W;
     return (void)user, 0;
 }
 

@@ -6,7 +6,7 @@
 
          g1 = (x^2 + y^2 - 1)/2 = 0      g2 = ((u - x)^2 + (w - y)^2 - 1)/2 = 0
 
-   The callback writes g and what is not 0 of the Jacobian dg_a/dq_i, row a*n + i. Multipliers
+   The callback writes g and what is not 0 of the Jacobian dg_a/dq_i, at a*n + i. Multipliers
    come with the state: the force of constraint is G' lambda, so -lambda pulls in a rod of length
    1. Where it is negative the rod is pushed: a thread would hang slack.
 
@@ -22,22 +22,14 @@
 #include "gvi.h"
 #include "tools/svg.h"
 
-static int rods(const gvi_points *x, void *user)
+GVI_POINTS(rods, 4, rows(2))(const gvi_points *x, void *user)
 {
-    const int R = x->stride;
-    const double *X = x->q, *Y = X + R, *U = Y + R, *W = U + R;
-    for (int k = 0; k < x->count; ++k) {
-        const double a = U[k] - X[k], b = W[k] - Y[k];
-        x->g[k] = (X[k]*X[k] + Y[k]*Y[k] - 1)/2;
-        x->g[R + k] = (a*a + b*b - 1)/2;
-        double *G1 = x->jacobian + k, *G2 = G1 + 4*R;
-        G1[0] = X[k];
-        G1[R] = Y[k];
-        G2[0] = -a;
-        G2[R] = -b;
-        G2[2*R] = a;
-        G2[3*R] = b;
-    }
+    const double *q = x->q, a = q[2] - q[0], b = q[3] - q[1];
+    double *G1 = x->jacobian, *G2 = G1 + 4;
+    x->g[0] = (q[0]*q[0] + q[1]*q[1] - 1)/2;
+    x->g[1] = (a*a + b*b - 1)/2;
+    G1[0] = q[0], G1[1] = q[1];
+    G2[0] = -a, G2[1] = -b, G2[2] = a, G2[3] = b;
     return (void)user, 0;
 }
 

@@ -72,15 +72,12 @@ GVI_POINTS(weight, 4, f, value)(const gvi_points *x, void *user)
     return (void)user, 0;
 }
 
-static int unit(const gvi_points *x, void *user)
+GVI_POINTS(unit, 4, rows(1))(const gvi_points *x, void *user)
 {
-    for (int k = 0; k < x->count; ++k) {
-        x->g[k] = -0.5;
-        for (int i = 0; i < 4; ++i) {
-            const double q = x->q[i*x->stride + k];
-            x->g[k] += q*q/2;
-            x->jacobian[i*x->stride + k] = q;
-        }
+    x->g[0] = -0.5;
+    for (int i = 0; i < 4; ++i) {
+        x->g[0] += x->q[i]*x->q[i]/2;
+        x->jacobian[i] = x->q[i];
     }
     return (void)user, 0;
 }

@@ -24,20 +24,16 @@
 
 static const double crank = 0.1, coupler = 0.25, rocker = 0.2, ground = 0.3, gravity = 9.81;
 
-static int bars(const gvi_points *x, void *user)
+GVI_POINTS(bars, 6, rows(3))(const gvi_points *x, void *user)
 {
-    const int R = x->stride;
-    const double *X = x->q, *Y = X + R, *U = Y + R, *W = U + R;
-    for (int k = 0; k < x->count; ++k) {
-        const double a = U[k] - X[k], b = W[k] - Y[k], c = U[k] - ground;
-        double *G1 = x->jacobian + k, *G2 = G1 + x->n*R, *G3 = G2 + x->n*R;       // coordinate i at [i*R]
-        x->g[k] = (X[k]*X[k] + Y[k]*Y[k] - crank*crank)/2;
-        x->g[R + k] = (a*a + b*b - coupler*coupler)/2;
-        x->g[2*R + k] = (c*c + W[k]*W[k] - rocker*rocker)/2;
-        G1[0] = X[k], G1[R] = Y[k];
-        G2[0] = -a, G2[R] = -b, G2[2*R] = a, G2[3*R] = b;
-        G3[2*R] = c, G3[3*R] = W[k];
-    }
+    const double X = x->q[0], Y = x->q[1], U = x->q[2], W = x->q[3], a = U - X, b = W - Y, c = U - ground;
+    double *G1 = x->jacobian, *G2 = G1 + 6, *G3 = G2 + 6;
+    x->g[0] = (X*X + Y*Y - crank*crank)/2;
+    x->g[1] = (a*a + b*b - coupler*coupler)/2;
+    x->g[2] = (c*c + W*W - rocker*rocker)/2;
+    G1[0] = X, G1[1] = Y;
+    G2[0] = -a, G2[1] = -b, G2[2] = a, G2[3] = b;
+    G3[2] = c, G3[3] = W;
     return (void)user, 0;
 }
 

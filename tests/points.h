@@ -158,4 +158,32 @@ static int relativistic_loop(const gvi_points *x, void *user)
     return (void)user, failed;
 }
 
+/* Two rods, the lower one's length 1 + t */
+GVI_POINTS(rods, 4, rows(2))(const gvi_points *x, void *user)
+{
+    const gvi_real *q = x->q, a = q[2] - q[0], b = q[3] - q[1], length = 1 + x->t[0];
+    gvi_real *G = x->jacobian;
+    x->g[0] = (q[0]*q[0] + q[1]*q[1] - 1)/2;
+    x->g[1] = (a*a + b*b - length*length)/2;
+    G[0] = q[0], G[1] = q[1];
+    G[4] = -a, G[5] = -b, G[6] = a, G[7] = b;
+    x->rate[1] = -length;
+    return (void)user, 0;
+}
+
+static int rods_loop(const gvi_points *x, void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        const gvi_real *q = x->q + k, a = q[2*s] - q[0], b = q[3*s] - q[s], length = 1 + x->t[k];
+        gvi_real *G = x->jacobian + k;
+        x->g[k] = (q[0]*q[0] + q[s]*q[s] - 1)/2;
+        x->g[s + k] = (a*a + b*b - length*length)/2;
+        G[0] = q[0], G[s] = q[s];
+        G[4*s] = -a, G[5*s] = -b, G[6*s] = a, G[7*s] = b;
+        x->rate[s + k] = -length;
+    }
+    return (void)user, 0;
+}
+
 #endif

@@ -661,6 +661,8 @@ TEST(rules_that_cannot_work_are_refused)
         { 3, { 0, 0.5, 1 },           { 0.5, 0, 0.5 },                     GVI_E_ORDER },   /* u = 2 < s */
         /* Gauss 2 with a point of no weight: of order 4, but for three modes it is blind */
         { 3, { 0.21132486540518711775, 0.5, 0.78867513459481288225 }, { 0.5, 0, 0.5 }, GVI_E_POINTS },
+        /* the same with next to none: it would leave half of the digits of the third mode */
+        { 3, { 0.21132486539075336, 0.5, 0.78867513460924664 }, { 0.49999999995, 1e-10, 0.49999999995 }, GVI_E_POINTS },
         { 2, { 0.21132486540518711775, 0.5, 0.78867513459481288225 }, { 0.5, 0, 0.5 }, GVI_OK },
     };
     for (int k = 0; k < COUNT(rules); ++k) {

@@ -7,7 +7,8 @@
 enum { N = 12, ROW = 24 };
 
 typedef struct arrays {
-    gvi_real t[ROW], q[N*ROW], v[N*ROW], p[N*ROW], f[N*ROW], dldv[N*ROW], value[ROW], mass[N*N*ROW], velocity[N*ROW];
+    gvi_real t[ROW], q[N*ROW], v[N*ROW], p[N*ROW], f[N*ROW], dldv[N*ROW], value[ROW], mass[N*N*ROW], velocity[N*ROW],
+        g[2*ROW], jacobian[2*4*ROW], rate[2*ROW];
 } arrays;
 static arrays one, two;
 static gvi_real field = (gvi_real)1.25;
@@ -29,6 +30,11 @@ static gvi_points points_of(arrays *a, int n, int size, const char *outputs)
     if (strchr(outputs, 'V')) x.value = a->value;
     if (strchr(outputs, 'M')) x.mass = a->mass;
     if (strchr(outputs, 'v')) x.velocity = a->velocity;
+    if (strchr(outputs, 'g')) {                    // what the library gives is 0 where it is not written
+        x.g = a->g, x.jacobian = a->jacobian, x.rate = a->rate;
+        memset(a->jacobian, 0, sizeof a->jacobian);
+        memset(a->rate, 0, sizeof a->rate);
+    }
     return x;
 }
 
@@ -51,6 +57,9 @@ static void assert_same(int n, gvi_points_fn *made, gvi_points_fn *loop, const c
         assert_rows(1, &x, one.value, two.value);
         for (int i = 0; i < n; ++i) assert_rows(i + 1, &x, one.mass + i*n*x.stride, two.mass + i*n*x.stride);
         assert_rows(n, &x, one.velocity, two.velocity);
+        assert_rows(2, &x, one.g, two.g);
+        assert_rows(2*4, &x, one.jacobian, two.jacobian);
+        assert_rows(2, &x, one.rate, two.rate);
     }
 }
 
@@ -77,6 +86,7 @@ static void every_kind_of_callback(void **state)
     assert_same(2, magnetic, magnetic_value_loop, "V");
     assert_same(2, magnetic, magnetic_both, "fdV");
     assert_same(2, relativistic, relativistic_loop, "v");
+    assert_same(4, rods, rods_loop, "g");
 }
 
 /* A failure counts where there is a point, and not in the padding */

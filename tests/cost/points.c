@@ -26,6 +26,7 @@ static const callback callbacks[] = {
     { "three links, mass", 3, arm_mass, arm_mass_loop },
     { "three links, gradient", 3, arm_gradient, arm_gradient_loop },
     { "relativistic, velocity", 2, relativistic, relativistic_loop },
+    { "two rods, g", 4, rods, rods_loop },
 };
 
 static double now(void)
@@ -45,9 +46,9 @@ static double time_of(gvi_points_fn *volatile fn, const gvi_points *x)
 
 static void compare(const callback *c)
 {
-    static double t[8], q[24], v[24], f[24], mass[72], velocity[24];
+    static double t[8], q[24], v[24], f[24], mass[72], velocity[24], g[16], G[64], rate[16];
     const gvi_points x = { c->n, 8, 8, t, q, v, v, strstr(c->name, "force") || strstr(c->name, "gradient") ? f : NULL, NULL,
-                           NULL, strstr(c->name, "mass") ? mass : NULL, strstr(c->name, "velocity") ? velocity : NULL };
+                           NULL, strstr(c->name, "mass") ? mass : NULL, strstr(c->name, "velocity") ? velocity : NULL, g, G, rate };
     double made = HUGE_VAL, loop = HUGE_VAL;
     for (int i = 0; i < 24; ++i) q[i] = 1 + 0.1*i, v[i] = 0.3 + 0.02*i;
     for (int k = 0; k < RUNS; ++k) {
