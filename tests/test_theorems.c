@@ -4,13 +4,12 @@
 
    Not here, because it is elsewhere: the double pendulum's orders, the state inside
    a step and weak rules (test_order.c), conjugate points of the oscillator and the
-   derivatives of L_d (test_queries.c), published tables (test_identities.c).    */
+   derivatives of L_d and its forces (test_queries.c), other methods that steps are
+   (test_identities.c, test_oracle.c).                                          */
 #ifndef GVI_REAL
 #define GVI_REAL long double
 #endif
 #include "gvi_test.h"
-#include "theorems/doubled.h"
-#include "theorems/identities.h"
 #include "theorems/inertia.h"
 #include "theorems/spectral.h"
 #include "theorems/stability.h"
@@ -143,40 +142,6 @@ TEST(forces_leave_the_order_as_it_is)
     assert_int_equal(misses, 0);
 }
 
-/* L_d and F- + F+ to h^(2s+1); F-, F+ and p0 alone to h^2s (docs/theorems.md) */
-TEST(the_discrete_forces_converge_to_the_exact_ones)
-{
-    misses = 0;
-    for (int i = 0; i < 2; ++i)
-        for (int s = 1; s <= 3; ++s) {
-            const method m = { s, { 0 } };
-            const problem *pb = &forced_problems[i];
-            expect_slope("F-, F+", force_error, pb, &m, 2*s, 20, 0.3L);
-            expect_slope("p0", momentum_error, pb, &m, 2*s, 20, 0.3L);
-            expect_slope("F- + F+", force_sum_error, pb, &m, 2*s + 1, 20, 0.3L);
-            expect_slope("L_d", lagrangian_error, pb, &m, 2*s + 1, 20, 0.3L);
-        }
-    assert_int_equal(misses, 0);
-}
-
-/* 20 steps.  Both solve the same equations, in other unknowns: what differs are
-   roundings, half an eps of q or p a time, of which the pendulum amplifies some.  */
-TEST(the_doubled_lagrangian_gives_the_forced_step)
-{
-    for (int i = 0; i < FORCED; ++i)
-        for (int s = 1; s <= 6; ++s)
-            for (int k = 0; k < 3; ++k) {
-                method m;
-                if (!rule_of(k, s, &m)) continue;
-                for (int start = 0; start < STARTS; ++start) {
-                    doubled_result left = compare_with_doubled(&forced_problems[i], &m, start, 0.1L, 20);
-                    assert_between(0, left.q, 10*EPS);
-                    assert_between(0, left.p, 10*EPS);
-                    assert_between(0, left.diagonal, 10*EPS);
-                }
-            }
-}
-
 /* -------------------------------------------------------------------- spectral */
 
 /* A factor rho^-2 a degree, within 15 per cent, over ten degrees; then flat */
@@ -199,21 +164,6 @@ TEST(at_high_degree_the_error_of_a_large_step_stays_at_rounding)
         for (int s = 24; s <= 64; s += 8) {
             const method m = { s, { 0 } };
             assert_between(0, step_error(&problems[i], &m, h[i]), 8*EPS);
-        }
-}
-
-/* ------------------------------------------------------------------ identities */
-
-/* The pairs that test_identities.c has no published tables for */
-TEST(higher_degrees_are_collocation_and_lobatto_pairs)
-{
-    for (int r = 4; r <= 6; ++r)
-        for (int k = 0; k < 2; ++k) {
-            own_rule rule = k ? lobatto(r) : gauss(r);
-            tableau T = table_of(&rule);
-            const method m = { r, { k ? GVI_LOBATTO : GVI_GAUSS, .points = r } };
-            for (int i = 0; i < PROBLEMS; ++i)
-                assert_between(0, difference(&problems[i], &m, partitioned, &T), 10);
         }
 }
 

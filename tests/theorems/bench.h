@@ -35,7 +35,6 @@ static MAYBE real square_distance(int n, const real *a, const real *b)
 
 /* Keeps NaN */
 static MAYBE real larger(real a, real b) { return isnan(a) || b <= a ? a : b; }
-static MAYBE int smaller_int(int a, int b) { return a < b ? a : b; }
 
 /* Distance of (q, p) from the exact state after pb->time in steps of h, root
    mean square over the starts                                                */
@@ -88,22 +87,6 @@ static MAYBE real lagrangian_error(const problem *pb, const method *m, real h)
         if (st->status != GVI_OK || gvi_discrete_lagrangian(st, st->t, h, y0, y1,
                                         &(gvi_discrete){ .lagrangian = &Ld }) != GVI_OK) return (real)NAN;
         sum += (Ld - exact)*(Ld - exact);
-    }
-    return sqrt(sum/STARTS);
-}
-
-/* -D1 L_d against the exact initial momentum of the same solution: of a
-   conservative problem                                                       */
-static MAYBE real momentum_error(const problem *pb, const method *m, real h)
-{
-    real sum = 0;
-    for (int start = 0; start < STARTS; ++start) {
-        real y0[MAX_Y], y1[MAX_Y], p0[MAX_N];
-        exact_step(pb, start, h, y0, y1);
-        gvi_stepper *st = bench(pb, m, step_time(pb, h), y0);
-        if (st->status != GVI_OK || gvi_discrete_lagrangian(st, st->t, h, y0, y1,
-                                        &(gvi_discrete){ .p0 = p0 }) != GVI_OK) return (real)NAN;
-        sum += square_distance(pb->n, p0, y0 + pb->n);
     }
     return sqrt(sum/STARTS);
 }
