@@ -96,7 +96,7 @@ static MAYBE real lagrangian_error(const problem *pb, const method *m, real h)
    Distances of a curve from the solution in a step: the largest and the integral
    over the step, of the position and of its velocity, root mean square over the
    starts                                                                     */
-enum { INSIDE = 48, NORMS = 4 };
+enum { INSIDE = 24, NORMS = 4 };
 typedef enum curve_kind { OF_THE_STEP, INTERPOLATED, STATE_AT } curve_kind;
 
 /* The polynomial of degree s through the solution at s + 1 Lobatto points */

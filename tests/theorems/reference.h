@@ -17,7 +17,10 @@ static MAYBE void gradient(const problem *pb, real t, const real *q, const real 
 {
     for (int i = 0; i < pb->n; ++i) dq[i] = dv[i] = 0;
     pb->kinetic(q, v, dq, dv);
-    for (int k = 0; k < pb->effect_count - pb->forced; ++k) pb->effects[k].point(t, q, v, dq, dv, NULL);
+    for (int k = 0; k < pb->effect_count - pb->forced; ++k) {
+        const gvi_effect *e = &pb->effects[k];
+        e->point(t, q, v, dq, dv, e->user);
+    }
 }
 
 /* adds the force, if there is one */
