@@ -97,29 +97,7 @@ static MAYBE real lagrangian_error(const problem *pb, const method *m, real h)
    over the step, of the position and of its velocity, root mean square over the
    starts                                                                     */
 enum { INSIDE = 24, NORMS = 4 };
-typedef enum curve_kind { OF_THE_STEP, INTERPOLATED, STATE_AT } curve_kind;
-
-/* The polynomial of degree s through the solution at s + 1 Lobatto points */
-static MAYBE gvi_status interpolant(const problem *pb, int s, real h, const real *y0, real tau,
-                                    real *q, real *v)
-{
-    static real x[40], w[40], f[MAX_N][40];
-    if (!(tau > 0)) {                            /* the first of a step */
-        real y[MAX_Y];
-        gvi_status status = gvi_lobatto(s + 1, x, w);
-        if (status != GVI_OK || gvi_barycentric(s + 1, x, w) != GVI_OK) return GVI_E_NODES;
-        memcpy(y, y0, sizeof y);
-        for (int k = 0; k <= s; ++k) {
-            if (k) flow_of(pb, step_time(pb, h) + x[k - 1]*h, step_time(pb, h) + x[k]*h, y);
-            for (int i = 0; i < pb->n; ++i) f[i][k] = y[i] - y0[i];     /* rounding relative to h */
-        }
-    }
-    for (int i = 0; i < pb->n; ++i) {
-        q[i] = y0[i] + gvi_interpolate(s + 1, x, w, f[i], tau);
-        v[i] = gvi_interpolate_derivative(s + 1, x, w, f[i], tau)/h;
-    }
-    return GVI_OK;
-}
+typedef enum curve_kind { OF_THE_STEP, STATE_AT } curve_kind;
 
 /* |position| and |velocity| of the difference at tau = k/INSIDE, in one step */
 static MAYBE int curve_errors(const problem *pb, const method *m, int start, real h, curve_kind kind,
@@ -134,9 +112,7 @@ static MAYBE int curve_errors(const problem *pb, const method *m, int start, rea
         real tau = (real)k/INSIDE, t = k < INSIDE ? t0 + tau*h : st->t;
         if (k) flow_of(pb, t0 + (real)(k - 1)/INSIDE*h, t, y);
         rates(pb, t, y, dy);
-        gvi_status status = kind == OF_THE_STEP ? gvi_curve(st, tau, q, v)
-                          : kind == STATE_AT ? gvi_state_at(st, t, q, v, NULL)
-                          : interpolant(pb, m->s, h, y0, tau, q, v);
+        gvi_status status = kind == OF_THE_STEP ? gvi_curve(st, tau, q, v) : gvi_state_at(st, t, q, v, NULL);
         if (status != GVI_OK) return 0;
         of_q[k] = sqrt(square_distance(pb->n, q, y));
         of_v[k] = sqrt(square_distance(pb->n, v, dy));
