@@ -1,7 +1,7 @@
 /* The scenes of examples/scenes: every one runs, its energy changes by the work
    of its forces and by nothing else; four come to published ends and periods.
    And a scene pays for what it lists: an effect that is off, or not listed, is
-   not asked, takes no memory, and leaves no trace in the result.              */
+   not asked and leaves no trace in the result; nor memory (test_prices.c).     */
 #include "gvi_test.h"
 #include "scenes/scenes.c"
 
@@ -350,37 +350,6 @@ TEST(test_switching_between_steps)
             }
         }
     }
-}
-
-/* Bytes: a net without "air" takes as many as a net written down by someone who
-   never heard of drag, and its counters are the same; with it, more.           */
-TEST(test_unlisted_costs_nothing)
-{
-    build("net", NULL);
-    const size_t with_air = gvi_size(&made.desc);
-    const gvi_effect plain[] = { uniform_field(&net_weight), springs(&net_threads), tethers(&net_hooks) };
-    const gvi_desc desc = { .n = 3*NET_KNOTS, .degree = 6, .effects = plain, .effect_count = 3,
-                            .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = net_mass } };
-    static gvi_stepper bare;
-    build("net", "air");
-    assert_true(gvi_size(&made.desc) == gvi_size(&desc));
-    assert_true(gvi_size(&desc) < with_air);
-    start();
-    assert_ok(gvi_init(&bare, &desc, spare, gvi_size(&desc)));
-    assert_ok(gvi_start(&bare, 0, made.q, made.v));
-    steps(50, 0.005);
-    for (int k = 0; k < 50; ++k) assert_ok(gvi_step(&bare, 0.005));
-    assert_memory_equal(st.q, bare.q, (size_t)st.n*sizeof *st.q);
-    assert_memory_equal(&st.counters, &bare.counters, sizeof st.counters);
-
-    // the same with a pinned formulation, where it is the rows of velocities that go
-    build("satellite", "air");
-    made.desc.formulation = GVI_POSITIONS;
-    const size_t without = gvi_size(&made.desc);
-    build("satellite", NULL);
-    made.desc.formulation = GVI_VELOCITIES;
-    assert_true(without < gvi_size(&made.desc));
-    assert_true(gvi_formulation_text(&st) != NULL && st.formulation == GVI_POSITIONS);
 }
 
 /* The names on the command line and in `without` mean what they say.           */
