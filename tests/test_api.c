@@ -1290,29 +1290,6 @@ TEST(a_checkpoint_of_a_failed_set_up_is_refused)
     tear_down(&b);
 }
 
-AT_POINT(spring_at_a_point)
-{
-    for (int i = 0; i < 2; ++i) f[i] -= q[i];
-    return 0;
-}
-
-/* As points in the one, as point in the other: the callbacks are those of the stepper that is restored */
-TEST(a_checkpoint_goes_on_with_other_callbacks)
-{
-    static const gvi_effect single = { .kind = GVI_POTENTIAL, .point = spring_at_a_point };
-    static const real q[] = { 1, 0 };
-    const gvi_desc desc[] = { { .n = 2, .degree = 3, .effects = spring_only, .effect_count = 1 },
-                              { .n = 2, .degree = 3, .effects = &single, .effect_count = 1 } };
-    bench a = start_as(&desc[0], q, q), b = start_as(&desc[1], q, q);
-    assert_ok(gvi_step(&a.st, h_good));
-    assert_ok(gvi_restore(&b.st, &a.st, a.g.memory));
-    assert_ok(gvi_step(&a.st, h_good));
-    assert_ok(gvi_step(&b.st, h_good));
-    assert_memory_equal(a.st.q, b.st.q, 2*sizeof(real));
-    tear_down(&a);
-    tear_down(&b);
-}
-
 /* -------------------------------------------------------------------- switching */
 
 /* The momentum is the state: switching keeps q and p to the bit */
