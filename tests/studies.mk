@@ -2,7 +2,7 @@
 
 .PHONY: headers-quick headers symbols parts docs-check bound float instructions prices usable sanitize sanitized any_processor \
         ensemble deps-ensemble firmware deps-firmware fuzz fuzz-short size stats compare everywhere deps-everywhere \
-        cost-horizon cost-constraints ncdp scaling kicks points cost-peers deps-compare cost-embedded hard theorems mutants
+        cost-horizon cost-constraints kicks points cost-embedded hard theorems mutants
 
 # -- steps of `make test` and `make check`; each can be run alone
 
@@ -126,7 +126,6 @@ $(BUILD)/examples/advise: examples/tools/advise.c $(BUILD)/cost/problems.o $(BUI
 #    pictures into docs
 
 COST_CFLAGS = -O3 -march=native -ffp-contract=fast -fno-math-errno -fno-trapping-math
-PEER_LIBS   = -lgsl -lgslcblas -lsundials_cvode -lsundials_arkode -lsundials_nvecserial -lsundials_sunnonlinsolfixedpoint
 
 ifdef SCENE
 cost: $(BUILD)/studies/price
@@ -141,24 +140,13 @@ endif
 cost-horizon: $(BUILD)/cost/cost
 	$(Q)$< --horizon --out $(BUILD)/cost
 
-#: ncdp         rounding over half a million steps, and its price, against the published standard
 #: kicks        splittings as tables of kicks against the same written by hand (ten seconds)
 #: points       callbacks by GVI_POINTS against loops by hand and .point (ten seconds); COST_CFLAGS="-O2 -fno-math-errno"
 #: cost-constraints rods and a top with constraints, against RATTLE's compositions and DOP853 (a minute) build/cost/constraints.svg
-#: scaling      time and memory against degree, coordinates and points; CSV and pictures in build/cost
-#: cost-peers   GSL, SUNDIALS and Boost.odeint on the problems of make cost
-ncdp kicks points: %: $(BUILD)/cost/%
+kicks points: %: $(BUILD)/cost/%
 	$(Q)$< $(COST_ARGS)
 cost-constraints: cost-%: $(BUILD)/cost/%
 	$(Q)$< --out $(BUILD)/cost $(COST_ARGS)
-scaling: $(BUILD)/cost/scaling
-	$(Q)$< --out $(BUILD)/cost $(COST_ARGS)
-cost-peers: $(BUILD)/cost/peers
-	$(Q)$< --out $(BUILD)/cost $(COST_ARGS)
-
-#: deps-compare installs what cost-peers needs: GSL, SUNDIALS, Boost
-deps-compare:
-	$(Q)sh tests/tools/deps.sh --compare
 
 #: cost-embedded instructions of a step on Cortex-M4F and Cortex-M3 and what they buy (qemu-system-arm; 4 minutes)
 cost-embedded:
@@ -167,13 +155,8 @@ cost-embedded:
 $(BUILD)/cost/%.o: tests/cost/%.c
 	@mkdir -p $(@D)
 	$(Q)$(CC) -std=c99 $(WARNINGS) -Wno-double-promotion -Wno-unused-parameter -I. -Iexamples -Itests $(CPPFLAGS) -MMD -MP -MF $@.d -MT $@ $(COST_CFLAGS) -c $< -o $@
-$(BUILD)/cost/peers_odeint.o: tests/cost/peers_odeint.cpp
-	@mkdir -p $(@D)
-	$(Q)$(CXX) -std=c++14 $(COST_CFLAGS) -I. -c $< -o $@
-$(BUILD)/cost/constraints $(BUILD)/cost/ncdp $(BUILD)/cost/scaling $(BUILD)/cost/points: %: %.o
+$(BUILD)/cost/constraints $(BUILD)/cost/points: %: %.o
 	$(Q)$(CC) $< -o $@ $(LDLIBS)
-$(BUILD)/cost/peers: $(addprefix $(BUILD)/cost/,peers.o problems.o peers_odeint.o)
-	$(Q)$(CXX) $^ -o $@ $(PEER_LIBS) $(LDLIBS)
 $(BUILD)/cost/kicks $(BUILD)/cost/cost: %: %.o $(addprefix $(BUILD)/cost/,problems.o baselines.o gvi_run.o)
 	$(Q)$(CC) $^ -o $@ $(LDLIBS)
 
@@ -183,12 +166,13 @@ mutants: | $(FIRST)
 
 # -- hard cases and theorems, measured
 
-HARD     = constraints constraints-float eccentric flyby roots eccentric-float pythagorean corners corners-float stiff long brouwer brouwer-float drift single
-THEOREMS = order lagrangian curve forced doubled dissipation spectral identities inertia stability
-# These need more digits than long double has on x86.
-$(addprefix $(BUILD)/theorems/,order lagrangian forced): TESTFLAGS += $(shell CC='$(CC)' sh tests/theorems/quad.sh)
+HARD     = constraints constraints-float eccentric flyby roots eccentric-float pythagorean corners corners-float stiff long long-float brouwer brouwer-float drift
+ORDERS   = order lagrangian curve forced
+THEOREMS = spectral inertia stability
+# Orders need more digits than long double has on x86.
+$(BUILD)/theorems/orders: TESTFLAGS += $(shell CC='$(CC)' sh tests/theorems/quad.sh)
 SEED =
-.PHONY: $(HARD:%=hard-%) $(THEOREMS:%=theorem-%)
+.PHONY: $(HARD:%=hard-%) $(ORDERS:%=theorem-%) $(THEOREMS:%=theorem-%)
 
 $(BUILD)/hard/%-float: tests/hard/%.c
 	@mkdir -p $(@D)
@@ -204,7 +188,10 @@ $(HARD:%=hard-%): hard-%: $(BUILD)/hard/%
 	$(STEP) $@ $< $(if $(filter stiff,$*),$(PICTURES)) $(if $(filter brouwer% drift,$*),$(SEED))
 
 #: theorems     docs/theorems.md measured again, with its pictures (a few minutes); one: make theorem-curve
-theorems: $(THEOREMS:%=theorem-%)
+theorems: $(ORDERS:%=theorem-%) $(THEOREMS:%=theorem-%)
+$(ORDERS:%=theorem-%): theorem-%: $(BUILD)/theorems/orders
+	$(Q)mkdir -p $(PICTURES)
+	$(Q)$< $* $(PICTURES)
 $(THEOREMS:%=theorem-%): theorem-%: $(BUILD)/theorems/%
 	$(Q)mkdir -p $(PICTURES)
 	$(Q)$< $(PICTURES)

@@ -271,66 +271,6 @@ TEST(pairing_is_kept)
     }
 }
 
-/* ---------------------------------------------------- a running cost, in closed form
-
-   q'' = -q + u, J = integral of q^2/2 + v^2 over 0..T: by q0, p0 and a constant u.       */
-
-static int spring(const gvi_points *x, void *user)
-{
-    for (int k = 0; k < x->count; ++k) x->f[k] -= x->q[k] - R(0.5);
-    return 0;
-}
-
-static int spring_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
-{
-    for (int k = 0; k < x->count; ++k) d->f[k] -= d->q[k];
-    return 0;
-}
-
-static int cost(const gvi_points *x, const gvi_points *d, int parameter, void *user)
-{
-    for (int k = 0; k < x->count; ++k) {
-        if (d->f) d->f[k] += x->q[k];
-        if (d->dldv) d->dldv[k] += 2*x->v[k];
-    }
-    return 0;
-}
-
-static void by_u(real t, const real *q, const real *v, const real *l, const real *dl,
-                 real weight, int node, real *g, void *user)
-{
-    assert_in_range(node, 0, NODES - 1);
-    g[0] += weight*l[0];
-}
-
-TEST(running_cost)
-{
-    const gvi_effect effect = { .kind = GVI_POTENTIAL, .points = spring };
-    adjoint A = { .plain = { .n = 1, .degree = 8, .effects = &effect, .effect_count = 1 },
-                  .product = { spring_product },
-                  .running = cost, .by_parameters = by_u, .room = room, .room_length = ADJOINT_ROOM(1, 8) };
-    gvi_stepper st, ad;
-    real g = 0, by_q, by_p;
-    const real q = 1, p = R(0.25), none = 0, h = R(0.25);
-    assert_ok(adjoint_scene(&A));
-    assert_ok(gvi_init(&st, &A.plain, memory, sizeof memory));
-    assert_ok(gvi_init(&ad, &A.scene.desc, back_memory, sizeof back_memory));
-    assert_ok(gvi_start_momentum(&st, 0, &q, &p));
-    for (int k = 0; k < 12; ++k) assert_ok(gvi_step(&st, h));
-    assert_ok(adjoint_start(&A, &ad, st.t, st.q, st.p, &none, &none));
-    for (int k = 0; k < 12; ++k) assert_ok(adjoint_step(&A, &ad, h, &g));
-    adjoint_gradient(&A, &ad, &by_q, &by_p);
-
-    /* q = u + (q0 - u) c + p0 s, v = p0 c - (q0 - u) s, c = cos t, s = sin t, T = 3          */
-    const long double T = 3, u = 0.5L, a = 0.5L, b = 0.25L, S = sinl(T), C = cosl(T);
-    const long double cc = (T + S*C)/2, ss = (T - S*C)/2, cs = S*S/2;
-    const long double q_of_c = u*S + a*cc + b*cs, q_of_s = u*(1 - C) + a*cs + b*ss;      /* integrals of q c, q s */
-    const long double v_of_c = b*cc - a*cs, v_of_s = b*cs - a*ss, q_of_1 = u*T + a*S + b*(1 - C);
-    assert_close(by_q, q_of_c - 2*v_of_s, 64*EPS);
-    assert_close(by_p, q_of_s + 2*v_of_c, 64*EPS);
-    assert_close(g, q_of_1 - q_of_c + 2*v_of_s, 64*EPS);
-}
-
 /* ------------------------------------------------------------ parameters everywhere
 
    J = end_q.q + end_p.p at the end + integral of k |q|^2/2 + |v|^2, by the drag, by the strength of the

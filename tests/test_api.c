@@ -1247,26 +1247,6 @@ TEST(a_checkpoint_continues_to_the_bit)
             expect_exact_restart(start(&scenes[k]), set_up(&scenes[k]), before, h_good);
 }
 
-/* The factorised matrix and the decision for Newton are part of the checkpoint */
-TEST(a_checkpoint_on_a_stiff_scene_continues_to_the_bit)
-{
-    bench b = start_stiff((gvi_desc){ .degree = 4 });
-    real *copy = malloc(b.g.size), q[20][2];
-    steps(&b.st, 5, 0.5);
-    const gvi_stepper saved = b.st;
-    memcpy(copy, b.g.memory, b.g.size);
-    for (int again = 0; again <= 1; ++again) {
-        if (again) assert_ok(gvi_restore(&b.st, &saved, copy));
-        for (int k = 0; k < 20; ++k) {
-            assert_ok(gvi_step(&b.st, k == 10 ? 0.25 : 0.5));
-            if (again) assert_memory_equal(q[k], b.st.q, sizeof q[k]);
-            else memcpy(q[k], b.st.q, sizeof q[k]);
-        }
-    }
-    free(copy);
-    tear_down(&b);
-}
-
 /* Other sizes; more or fewer effects, which are not copied; another kind of mass: another scene */
 TEST(a_checkpoint_of_another_description_is_refused)
 {
@@ -1310,57 +1290,7 @@ TEST(a_checkpoint_of_a_failed_set_up_is_refused)
     tear_down(&b);
 }
 
-AT_POINT(spring_at_a_point)
-{
-    for (int i = 0; i < 2; ++i) f[i] -= q[i];
-    return 0;
-}
-
-/* As points in the one, as point in the other: the callbacks are those of the stepper that is restored */
-TEST(a_checkpoint_goes_on_with_other_callbacks)
-{
-    static const gvi_effect single = { .kind = GVI_POTENTIAL, .point = spring_at_a_point };
-    static const real q[] = { 1, 0 };
-    const gvi_desc desc[] = { { .n = 2, .degree = 3, .effects = spring_only, .effect_count = 1 },
-                              { .n = 2, .degree = 3, .effects = &single, .effect_count = 1 } };
-    bench a = start_as(&desc[0], q, q), b = start_as(&desc[1], q, q);
-    assert_ok(gvi_step(&a.st, h_good));
-    assert_ok(gvi_restore(&b.st, &a.st, a.g.memory));
-    assert_ok(gvi_step(&a.st, h_good));
-    assert_ok(gvi_step(&b.st, h_good));
-    assert_memory_equal(a.st.q, b.st.q, 2*sizeof(real));
-    tear_down(&a);
-    tear_down(&b);
-}
-
 /* -------------------------------------------------------------------- switching */
-
-TEST(a_switched_off_effect_is_as_if_it_were_not_listed)
-{
-    static const struct { int all, index, left; gvi_mass_kind mass; } cases[] = {
-        { POT | DRAG,        1, POT,        GVI_MASS_UNIT },
-        { POT | COUP,        1, POT,        GVI_MASS_DENSE },
-        { POT | COUP | DRAG, 2, POT | COUP, GVI_MASS_POSITION },
-        { POT | COUP | DRAG, 0, COUP | DRAG, GVI_MASS_DIAGONAL },
-    };
-    for (int k = 0; k < COUNT(cases); ++k) {
-        scene a = { GVI_AUTO, cases[k].mass, cases[k].left, 3, 4, GVI_GAUSS, 4 };
-        bench without = start(&a), b;
-        steps(&without.st, 10, h_good);
-        a.has = cases[k].all;
-        b = set_up(&a);
-        assert_ok(gvi_switch(&b.st, cases[k].index, 0));
-        assert_ok(gvi_start(&b.st, 0.25, q_start, v_start));
-        steps(&b.st, 10, h_good);
-        for (int i = 0; i < 3; ++i) {
-            assert_close(b.st.q[i], without.st.q[i], 32*EPS);
-            assert_close(b.st.p[i], without.st.p[i], 64*EPS);
-        }
-        assert_int_equal(b.st.counters.effect[cases[k].index], 0);
-        tear_down(&without);
-        tear_down(&b);
-    }
-}
 
 /* The momentum is the state: switching keeps q and p to the bit */
 TEST(switching_keeps_the_state_and_refuses_what_is_not_there)

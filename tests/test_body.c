@@ -1,6 +1,6 @@
 /* examples/tools/body.h: rigid bodies.  What is expected comes from Euler's equations in elliptic functions,
-   from Runge's and Kutta's method in long double with tiny steps, from the closed forms of Lagrange's top and
-   of a satellite that rocks in the gravity gradient, and from the work of a force.   */
+   from Runge's and Kutta's method in long double with tiny steps, from the closed forms of Lagrange's top, and from
+   the work of a force.                                                          */
 #include "gvi_test.h"
 #include "tools/body.h"
 
@@ -257,49 +257,6 @@ TEST(lagranges_top)
     }
 }
 
-/* ----------------------------------------------------- the gravity gradient */
-
-static const body dumbbell = { .inertia = { 1, 4, R(4.5) } };
-
-/* Torque 3 r x I r on a circular orbit at rate 1, r the direction from the earth.        */
-static int gradient(real t, const real *q, const real *v, real *f, real *dldv, void *user)
-{
-    real r[3], torque[3];
-    body_rotate(q, 1, (real[]){ cos(t), sin(t), 0 }, r);
-    body_cross(r, (real[]){ 3*dumbbell.inertia[0]*r[0], 3*dumbbell.inertia[1]*r[1], 3*dumbbell.inertia[2]*r[2] }, torque);
-    body_torque(q, torque, f);
-    return 0;
-}
-
-/* Let go at an angle a to the vertical it rocks in the plane of the orbit like a pendulum:
-   sin x = sin a cd(w t, sin a), w^2 = 3 (B - A)/C.                                 */
-static real rocking_error(int s, int steps)
-{
-    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .point = gradient } };
-    static const bodies one = { &dumbbell, 1 };
-    const gvi_desc desc = { .n = 4, .degree = s, .effects = scene, .effect_count = 1, .mass = body_mass(&one) };
-    const exact a = 0.75L, T = 3;
-    exact sn, cn, dn;
-    real along[3];
-    gvi_stepper st;
-    begin(&st, &desc, (real[]){ (real)cosl(a/2), 0, 0, (real)sinl(a/2) }, (real[]){ 0, 0, 1 });
-    for (int k = 0; k < steps; ++k) assert_ok(gvi_step(&st, (real)T/(real)steps));
-    body_rotate(st.q, 0, (real[]){ 1, 0, 0 }, along);
-    jacobi(sqrtl(3*(4 - 1)/4.5L)*T, sinl(a), &sn, &cn, &dn);
-    const exact angle = T + asinl(sinl(a)*cn/dn), known[] = { cosl(angle), sinl(angle), 0 };
-    return worst_of(3, along, known);
-}
-
-TEST(gravity_gradient)
-{
-    static const int steps[] = { 160, 40, 20, 12 };
-    assert_between(0, rocking_error(8, 10), 60*EPS);
-    for (int s = 1; s <= 4 && DIG > 50; ++s) {
-        const int n = steps[s-1];
-        expect_order(rocking_error(s, n), rocking_error(s, 2*n), 2*s);
-    }
-}
-
 /* ------------------------------------------------------- forces and mass */
 
 static const body pair[] = { { R(1.5), { 1, 2, R(2.5) } }, { R(0.75), { R(0.5), R(0.25), R(0.5) } } };
@@ -311,18 +268,6 @@ static void place(const real *q, const real *own, real *out)
 {
     body_rotate(q + 3, 0, own, out);
     for (int i = 0; i < 3; ++i) out[i] += q[i];
-}
-
-/* A spring between two places of two bodies.                                           */
-static int spring(real t, const real *q, const real *v, real *f, real *dldv, void *user)
-{
-    real a[3], b[3], pull[3], back[3];
-    place(q, at[0], a);
-    place(q + 7, at[1], b);
-    for (int i = 0; i < 3; ++i) pull[i] = 2*(b[i] - a[i]), back[i] = -pull[i];
-    body_force_in_space(q, at[0], pull, f);
-    body_force_in_space(q + 7, at[1], back, f + 7);
-    return 0;
 }
 
 /* f.q' is the force times the velocity of its place, for velocities that leave |e| alone: the place's
@@ -406,27 +351,6 @@ static void totals(const real *q, const real *p, real *sum)
     }
 }
 
-TEST(two_bodies_on_a_spring)
-{
-    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .point = spring } };
-    const gvi_desc desc = { .n = 14, .degree = 4, .effects = scene, .effect_count = 1, .mass = body_mass(&two) };
-    const real q[14] = { 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, R(0.5), R(0.5), R(0.5), R(0.5) };
-    real v[14] = { R(0.25), 0, 0, 0, 0, 0, 0, R(-0.5), R(0.5), 1 }, first[6], now[6];
-    gvi_stepper st;
-    body_turn(q + 3, (real[]){ 1, R(0.5), 0 }, v + 3);
-    body_turn(q + 10, (real[]){ 0, -1, 2 }, v + 10);
-    assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-    assert_ok(gvi_start(&st, 0, q, v));
-    for (int k = 0; k <= 200; ++k) {
-        totals(st.q, st.p, now);
-        for (int i = 0; i < 6; ++i) {
-            if (k == 0) first[i] = now[i];
-            else assert_close(now[i], first[i], 128*EPS);
-        }
-        assert_ok(gvi_step(&st, R(0.125)));
-    }
-}
-
 /* Place a of the first body is place b of the second.  The row of a place is what a unit force there is. */
 static int ball_joint(const gvi_points *x, void *user)
 {
@@ -481,59 +405,6 @@ TEST(two_bodies_on_a_joint)
             assert_ok(gvi_step(&st, R(0.05)));
         }
     }
-}
-
-/* ---------------------------------------------------- a direction alone */
-
-/* A spherical pendulum in space, coordinates of any length: M = 1/|q|^2, V = q3/|q|.       */
-static int direction_mass(const gvi_points *x, void *user)
-{
-    for (int k = 0; k < x->count; ++k) {
-        const real *q = x->q + k, one = 1/(q[0]*q[0] + q[x->stride]*q[x->stride] + q[2*x->stride]*q[2*x->stride]);
-        for (int i = 0; i < 9; ++i) x->mass[i*x->stride + k] = i % 4 ? 0 : one;
-    }
-    return 0;
-}
-
-static int direction_gradient(const gvi_points *x, void *user)
-{
-    for (int k = 0; k < x->count; ++k) {
-        real qq = 0, vv = 0;
-        for (int i = 0, j = k; i < 3; ++i, j += x->stride) qq += x->q[j]*x->q[j], vv += x->v[j]*x->v[j];
-        for (int i = 0, j = k; i < 3; ++i, j += x->stride) x->f[j] -= vv*x->q[j]/(qq*qq);
-    }
-    return 0;
-}
-
-static int direction_weight(real t, const real *q, const real *v, real *f, real *dldv, void *user)
-{
-    const real qq = q[0]*q[0] + q[1]*q[1] + q[2]*q[2], r = sqrt(qq);
-    for (int i = 0; i < 3; ++i) f[i] -= ((i == 2) - q[2]*q[i]/qq)/r;
-    return 0;
-}
-
-/* Let go at an angle a it swings in a plane: sin(x/2) = k cd(t, k), k = sin(a/2); here with |q| = 2.  */
-static real swing_error(int s, int steps)
-{
-    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .point = direction_weight } };
-    const gvi_desc desc = { .n = 3, .degree = s, .effects = scene, .effect_count = 1,
-                            .mass = { .kind = GVI_MASS_POSITION, .points = direction_mass, .gradient = direction_gradient } };
-    const exact a = 1.75L, T = 3, k = sinl(a/2);
-    exact sn, cn, dn;
-    gvi_stepper st;
-    jacobi(T, k, &sn, &cn, &dn);
-    const exact x = 2*asinl(k*cn/dn), known[] = { 1.2L*sinl(x), 1.6L*sinl(x), -2*cosl(x) };
-    assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-    assert_ok(gvi_start(&st, 0, (real[]){ (real)(1.2L*sinl(a)), (real)(1.6L*sinl(a)), (real)(-2*cosl(a)) }, (real[]){ 0, 0, 0 }));
-    for (int i = 0; i < steps; ++i) assert_ok(gvi_step(&st, (real)T/(real)steps));
-    return worst_of(3, st.q, known);
-}
-
-TEST(a_spherical_pendulum)
-{
-    static const int steps[] = { 100, 30, 20, 12 };
-    assert_between(0, swing_error(8, 10), 60*EPS);
-    for (int s = 1; s <= 4 && DIG > 50; ++s) expect_order(swing_error(s, steps[s-1]), swing_error(s, 2*steps[s-1]), 2*s);
 }
 
 RUN_TESTS(NULL, NULL)

@@ -56,9 +56,8 @@ static void lambert(long double r, long double span, long double h, long double 
 }
 
 /* The guess is the circle's velocity, one way or the other, not that of the orbit */
-static void a_guess_says_which_way_round(void **state)
+TEST(a_guess_says_which_way_round)
 {
-    (void)state;
     for (int way = -1; way <= 1; way += 2)
         for (int degrees = 20; degrees <= 330; degrees += 10) {
             const long double span = degrees*PI/180, r = 1.1L, h = 1.05L*span;
@@ -85,9 +84,8 @@ static void a_guess_says_which_way_round(void **state)
 }
 
 /* Without a guess the short way round, prograde or not: it is the curve near the chord */
-static void near_the_chord_is_the_short_way_round(void **state)
+TEST(near_the_chord_is_the_short_way_round)
 {
-    (void)state;
     for (int degree = 8; degree <= 32; degree *= 2)
         for (int degrees = 20; degrees <= 340; degrees += 10) {
             const long double span = degrees*PI/180, h = 1.2L*span, r = 1.3L;
@@ -106,10 +104,9 @@ static void near_the_chord_is_the_short_way_round(void **state)
 }
 
 /* A half circle is not near its diameter, which goes through the Sun, also where no point is there */
-static void a_half_circle_is_conjugate(void **state)
+TEST(a_half_circle_is_conjugate)
 {
     const real q0[2] = { 1, 0 }, q1[2] = { -1, 0 };
-    (void)state;
     for (int degree = 2; degree <= 41; ++degree) {
         gvi_stepper st;
         set_up(&st, degree);
@@ -149,10 +146,9 @@ static int drag(const gvi_points *x, void *user)
     return 0;
 }
 
-static void units_2_to_the_30_apart_change_nothing(void **state)
+TEST(units_2_to_the_30_apart_change_nothing)
 {
     real wanted[6] = { 0 };
-    (void)state;
     for (int k = 0; k < 3; ++k) {
         real unit[2] = { 1, ldexp((real)1, k == 0 ? 0 : k == 1 ? 30 : -30) }, got[6];
         const real mass[2] = { 1/(unit[0]*unit[0]), 1/(unit[1]*unit[1]) };
@@ -179,9 +175,8 @@ static int spring(const gvi_points *x, void *user)
     return (void)user, 0;
 }
 
-static void the_index_leaves_forces_out(void **state)
+TEST(the_index_leaves_forces_out)
 {
-    (void)state;
     for (int force = 0; force < 2; ++force) {
         const gvi_effect scene[] = { { .kind = force ? GVI_FORCE : GVI_POTENTIAL, .points = spring } };
         const gvi_desc desc = { .n = 1, .degree = 8, .effects = scene, .effect_count = 1 };
@@ -194,14 +189,4 @@ static void the_index_leaves_forces_out(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_guess_says_which_way_round),
-        cmocka_unit_test(near_the_chord_is_the_short_way_round),
-        cmocka_unit_test(a_half_circle_is_conjugate),
-        cmocka_unit_test(the_index_leaves_forces_out),
-        cmocka_unit_test(units_2_to_the_30_apart_change_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -669,41 +669,4 @@ TEST(clocks_are_checked)
     clock_sign = 1;
 }
 
-/* ---------------------------------------------------------------- sensitivity */
-
-/* The smallest relative error of the largest entry of f that is found, by halves. */
-static double smallest_found(const scene *a, int e)
-{
-    double f[SCENE_MAX], p[SCENE_MAX], error = 1e-3;
-    int i = 0;
-    build(a->name);
-    if (made.effects[e].kind == GVI_CONSTRAINT) return 0;
-    ask(e, made.q, made.v, f, p);
-    for (int k = 0; k < made.desc.n; ++k)
-        if (fabs(f[k]) > fabs(f[i])) i = k;
-    if (made.effects[e].kind == GVI_FORCE || !(fabs(f[i]) > 0)) return 0;
-    for (; error > 1e-13; error /= 2) {
-        slip_in(a->name, e, FACTOR, "f", i, 0, 1 + error);
-        if (!found(CHECK_DERIVATIVE, e, "f", i, -1)) return 2*error;
-        assert_int_equal(report.count, 1);
-    }
-    return 2*error;
-}
-
-TEST(small_errors_are_found)
-{
-    double worst = 0;
-    for (int a = 0; a < scene_count; ++a) {
-        if (scenes[a]->n > 40) continue;
-        for (int e = 0; e == 0 || e < made.desc.effect_count; ++e) {
-            const double smallest = smallest_found(scenes[a], e);
-            if (!(smallest > 0)) continue;
-            print_message("  %-20s %-12s from %.1e on\n", scenes[a]->name, made.names[e], smallest);
-            assert_between(1e-10, smallest, 2e-8);
-            worst = fmax(worst, smallest);
-        }
-    }
-    print_message("  a relative error of %.1e is found everywhere\n", worst);
-}
-
 RUN_TESTS(NULL, NULL)

@@ -7,6 +7,8 @@
 #include "gvi_test.h"
 typedef gvi_real real;
 #include "linkages.h"
+#define EXTRAPOLATE_MOST (2*MOST_N)
+#include "hard/extrapolate.h"
 
 static real memory[60000];
 
@@ -116,43 +118,23 @@ static void slope(const linkage *a, linkage_id id, real t, const real *y, real *
     }
 }
 
-/* Extrapolation of Gragg's midpoint rule, order 16, by increments, so that rounding is relative to them */
+typedef struct which { const linkage *a; linkage_id id; } which;
+
+static void slope_of(real t, const real *y, real *dy, void *user)
+{
+    const which *w = user;
+    slope(w->a, w->id, t, y, dy);
+}
+
 static void reference(const linkage *a, linkage_id id, real T, int steps, real *q, real *p)
 {
-    enum { COLUMNS = 8, LONGEST = 2*MOST_N };
-    const int size = id == QUATERNION ? 7 : 2*a->n;
-    real y[LONGEST], low[LONGEST] = { 0 }, table[COLUMNS][LONGEST], b[LONGEST], c[LONGEST], d[LONGEST], x[LONGEST];
+    which w = { a, id };
+    const motion exact = { id == QUATERNION ? 7 : 2*a->n, slope_of, &w };
+    real y[2*MOST_N];
     memcpy(y, a->q, sizeof(real)*(size_t)a->n);
     memcpy(y + a->n, a->v, sizeof(real)*(size_t)a->n);
     if (id == QUATERNION) y[4] = 0.5L, y[5] = 0, y[6] = 5;
-    for (int step = 0; step < steps; ++step) {
-        const real t = T*step/steps, H = T/steps;
-        for (int j = 0; j < COLUMNS; ++j) {
-            const int n = 2*(j + 1);
-            const real h = H/n;
-            slope(a, id, t, y, d);
-            for (int i = 0; i < size; ++i) b[i] = 0, c[i] = h*d[i];
-            for (int k = 1; k <= n; ++k) {
-                for (int i = 0; i < size; ++i) x[i] = y[i] + c[i];
-                slope(a, id, t + k*h, x, d);
-                for (int i = 0; i < size && k < n; ++i) {
-                    const real next = b[i] + 2*h*d[i];
-                    b[i] = c[i];
-                    c[i] = next;
-                }
-            }
-            for (int i = 0; i < size; ++i) table[j][i] = (b[i] + c[i] + h*d[i])/2;
-            for (int k = j; k-- > 0; ) {
-                const real ratio = (real)(j + 1)/(real)(k + 1), w = 1/(ratio*ratio - 1);
-                for (int i = 0; i < size; ++i) table[k][i] = table[k + 1][i] + w*(table[k + 1][i] - table[k][i]);
-            }
-        }
-        for (int i = 0; i < size; ++i) {
-            const real more = table[0][i] + low[i], sum = y[i] + more;
-            low[i] = more - (sum - y[i]);
-            y[i] = sum;
-        }
-    }
+    flow(&exact, 0, T, T/steps, y);
     memcpy(q, y, sizeof(real)*(size_t)a->n);
     if (id == QUATERNION) {                       /* p = M v = 2 q (0, I w) */
         const real *I = (const real *)a->mass.user, z[4] = { 0, 2*I[1]*y[4], 2*I[2]*y[5], 2*I[3]*y[6] };
@@ -292,7 +274,7 @@ static void at_coordinates(const linkage *a, linkage_id id, const real *z, real 
 }
 
 /* (q, p) after N steps */
-static void flow(gvi_stepper *st, const linkage *a, linkage_id id, const real *z, real h, int N, real *q, real *p)
+static void run(gvi_stepper *st, const linkage *a, linkage_id id, const real *z, real h, int N, real *q, real *p)
 {
     real x[MOST_N], v[MOST_N];
     at_coordinates(a, id, z, x, v);
@@ -302,7 +284,7 @@ static void flow(gvi_stepper *st, const linkage *a, linkage_id id, const real *z
     memcpy(p, st->p, sizeof(real)*(size_t)a->n);
 }
 
-/* Columns of the derivative of `flow` by z, by differences of order 8 */
+/* Columns of the derivative of `run` by z, by differences of order 8 */
 static void tangents(gvi_stepper *st, const linkage *a, linkage_id id, int D, const real *z, real h, int N,
                      real dq[][MOST_N], real dp[][MOST_N])
 {
@@ -315,7 +297,7 @@ static void tangents(gvi_stepper *st, const linkage *a, linkage_id id, int D, co
             if (j == 0) continue;
             memcpy(y, z, sizeof y);
             y[k] += j*e;
-            flow(st, a, id, y, h, N, q, p);
+            run(st, a, id, y, h, N, q, p);
             for (int i = 0; i < a->n; ++i) {
                 const real w = (j < 0 ? -1 : 1)*weight[abs(j) - 1]/e;
                 dq[k][i] += w*q[i];

@@ -1,8 +1,7 @@
 /* Optimal control: lessons 19 and 20 themselves, their functions included.  What is expected are
    solutions of Pontryagin's boundary value problems in 24 to 32 digits by another program (Gauss
    collocation with 12 and 8 stages, Newton's method by differences; the cart there in velocities,
-   with the adjoint equations of that form).  And what they find is the minimum of the discrete
-   problem: by adjoint.h, thrust by thrust.                                    */
+   with the adjoint equations of that form).                                   */
 #include "gvi_test.h"
 #define main lesson_19
 #include "19_low_thrust.c"
@@ -10,8 +9,6 @@
 #define main lesson_20
 #include "20_swing_up.c"
 #undef main
-#include "tools/adjoint.h"
-
 
 /* ------------------------------------------------------------- low thrust */
 
@@ -47,116 +44,6 @@ TEST(the_flight_has_order_2s)
         flight_errors(s, steps[s-2], coarse);
         flight_errors(s, 2*steps[s-2], fine);
         for (int i = 0; i < 2; ++i) assert_between(2*s - 0.2, log2(coarse[i]/fine[i]), 2*s + 0.2);
-    }
-}
-
-/* ------------------------- discretise, then optimise: the thrust at each node as a number
-
-   The craft with thrusts given at the nodes: its gradient by adjoint.h is that of the lesson's costates.    */
-
-typedef struct thrust { int degree; double t, h, node[MOST_NODES], bary[MOST_NODES], u[MOST_NODES]; } thrust;
-
-static double thrust_at(const thrust *T, double t)
-{
-    return gvi_interpolate(T->degree, T->node, T->bary, T->u, (t - T->t)/T->h);
-}
-
-static int gravity_force(const gvi_points *x, void *user)
-{
-    for (int k = 0, s = x->stride; k < x->count; ++k) {
-        const double a = x->q[k], b = x->q[s+k], d2 = a*a + b*b, w = 1/(d2*sqrt(d2));
-        x->f[k] -= w*a;
-        x->f[s+k] -= w*b;
-    }
-    return 0;
-}
-
-static int gravity_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
-{
-    for (int k = 0, s = x->stride; k < x->count; ++k) {
-        const double a = x->q[k], b = x->q[s+k], da = d->q[k], db = d->q[s+k], d2 = a*a + b*b;
-        const double w = 1/(d2*sqrt(d2)), along = 3*(a*da + b*db)/d2;
-        d->f[k] -= w*(da - along*a);
-        d->f[s+k] -= w*(db - along*b);
-    }
-    return 0;
-}
-
-static int engine(const gvi_points *x, void *user)
-{
-    for (int k = 0, s = x->stride; k < x->count; ++k) {
-        const double a = x->q[k], b = x->q[s+k], u = thrust_at(user, x->t[k])/sqrt(a*a + b*b);
-        x->f[k] -= u*b;
-        x->f[s+k] += u*a;
-    }
-    return 0;
-}
-
-static int engine_transposed(const gvi_points *x, const gvi_points *l, int parameter, void *user)
-{
-    for (int k = 0, s = x->stride; k < x->count && l->f; ++k) {
-        const double a = x->q[k], b = x->q[s+k], d = sqrt(a*a + b*b), u = thrust_at(user, x->t[k])/d;
-        const double across = (a*l->q[s+k] - b*l->q[k])/(d*d);
-        l->f[k] += u*(l->q[s+k] - across*a);
-        l->f[s+k] -= u*(l->q[k] + across*b);
-    }
-    return 0;
-}
-
-/* The derivative of the sum of h b u^2/2 and of the end's costate times the end, by u over h b.    */
-static void by_thrust(double t, const double *q, const double *v, const double *l, const double *dl,
-                      double weight, int node, double *g, void *user)
-{
-    g[node] = thrust_at(user, t) + (q[0]*l[1] - q[1]*l[0])/sqrt(q[0]*q[0] + q[1]*q[1]);
-}
-
-TEST(no_thrust_can_be_better)
-{
-    enum { S = 3, K = 24 };
-    static double memory[GVI_LENGTH(4, S, S)], back[GVI_LENGTH(4, S, S)], room[ADJOINT_ROOM(2, S)], u[K][S];
-    thrust T = { .degree = S, .h = flight_time/K };
-    const gvi_effect craft[] = { { .kind = GVI_POTENTIAL, .points = gravity_force },
-                                 { .kind = GVI_FORCE, .points = engine, .user = &T } };
-    const gvi_effect both_scenes[] = { { .kind = GVI_POTENTIAL, .points = flight } };
-    const gvi_desc desc = { .n = FLIGHT, .degree = S, .effects = both_scenes, .effect_count = 1 };
-    adjoint A = { .plain = { .n = 2, .degree = S, .effects = craft, .effect_count = 2 }, .by_parameters = by_thrust,
-                  .product = { gravity_product, engine_transposed }, .user = &T,
-                  .room = room, .room_length = COUNT(room) };
-    double cost, q[FLIGHT], p[FLIGHT], z[FLIGHT], g[S], weight[S];
-    gvi_stepper st, ad;
-    assert_ok(best_flight(S, K, &cost, q, p, NULL));
-    assert_ok(gvi_gauss(S, T.node, weight));
-    assert_ok(gvi_barycentric(S, T.node, T.bary));
-
-    /* the thrusts, and the costate at the end, of the lesson                    */
-    assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-    assert_ok(gvi_start(&st, 0, q, p));
-    for (int k = 0; k < K; ++k) {
-        assert_ok(gvi_step(&st, T.h));
-        for (int i = 0; i < S; ++i) {
-            assert_ok(gvi_curve(&st, T.node[i], z, NULL));
-            u[k][i] = (z[1]*z[2] - z[0]*z[3])/sqrt(z[0]*z[0] + z[1]*z[1]);
-        }
-    }
-    const double by_q[] = { -st.p[2], -st.p[3] }, by_p[] = { st.q[2], st.q[3] }, end[] = { st.q[0], st.q[1] };
-
-    /* the craft with these thrusts goes there, and its discrete gradient is 0   */
-    assert_ok(adjoint_scene(&A));
-    assert_ok(gvi_init(&st, &A.plain, memory, sizeof memory));
-    assert_ok(gvi_init(&ad, &A.scene.desc, back, sizeof back));
-    assert_ok(gvi_start(&st, 0, q, p));
-    for (int k = 0; k < K; ++k) {
-        T.t = k*T.h;
-        memcpy(T.u, u[k], sizeof u[k]);
-        assert_ok(gvi_step(&st, T.h));
-    }
-    for (int i = 0; i < 2; ++i) assert_close(st.q[i], end[i], 1e-13);
-    assert_ok(adjoint_start(&A, &ad, flight_time, st.q, st.p, by_q, by_p));
-    for (int k = K - 1; k >= 0; --k) {
-        T.t = k*T.h;
-        memcpy(T.u, u[k], sizeof u[k]);
-        assert_ok(adjoint_step(&A, &ad, T.h, g));
-        for (int i = 0; i < S; ++i) assert_close(g[i], 0, 1e-14);           /* of 0.013 at most */
     }
 }
 

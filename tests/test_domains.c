@@ -90,10 +90,9 @@ static gvi_status travel(int clock, int distance, real h, real end, real *q, rea
     return gvi_state_at(&st, end, q, NULL, NULL);
 }
 
-static void a_clock_leaves_a_light_body_where_it_is(void **state)
+TEST(a_clock_leaves_a_light_body_where_it_is)
 {
     int done = 0;
-    (void)state;
     for (int exponent = 3; exponent <= 15; exponent += 3) {
         real right[COORDINATES], q[COORDINATES], energy;
         masses[3] = pow((real)10, -(real)exponent);
@@ -129,14 +128,13 @@ static int half(const gvi_points *x, void *user)
 }
 
 /* A potential that reads t, beside a clock: refused at the start, and when it is switched on */
-static void a_clock_refuses_a_potential_that_reads_t(void **state)
+TEST(a_clock_refuses_a_potential_that_reads_t)
 {
     const real one = 1;
     const gvi_effect scene[] = { { .kind = GVI_CLOCK, .points = half },
                                  { .kind = GVI_POTENTIAL, .points = varying, .value = varying } };
     const gvi_desc desc = { .n = 1, .effects = scene, .effect_count = 2 };
     gvi_stepper st;
-    (void)state;
     assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
     assert_status(gvi_start(&st, 0, &one, &one), GVI_E_FORMULATION);
     assert_int_equal(st.fault.effect, 1);
@@ -156,9 +154,8 @@ static int stopping(const gvi_points *x, void *user)
 }
 
 /* A free particle at the points c_k h of its first iteration: the first beyond is the fault's */
-static void a_clock_that_stops_names_the_point(void **state)
+TEST(a_clock_that_stops_names_the_point)
 {
-    (void)state;
     for (int k = 0; k < 5; ++k) {
         real c[5], b[5], at;
         const gvi_effect scene[] = { { .kind = GVI_CLOCK, .points = stopping, .user = &at } };
@@ -177,10 +174,9 @@ static void a_clock_that_stops_names_the_point(void **state)
 
 /* --------------------------------------------------- the ends of a step */
 
-static void times_within_2_ulp_of_a_step_are_in_it(void **state)
+TEST(times_within_2_ulp_of_a_step_are_in_it)
 {
     int outside = 0;
-    (void)state;
     for (int clock = 0; clock < 2; ++clock) {
         const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = attraction, .value = attraction },
                                      { .kind = GVI_CLOCK, .points = half } };
@@ -224,9 +220,8 @@ static int relativity(real t, const real *q, const real *v, real *f, real *dldv,
 }
 
 /* From rest, v is found to the last places: p = gamma v is then as exact as v allows */
-static void relativistic_particles_start_by_momentum(void **state)
+TEST(relativistic_particles_start_by_momentum)
 {
-    (void)state;
     for (refuses = 0; refuses < 2; ++refuses)
         for (int n = 1; n <= 3; ++n)
             for (real size = (real)0.1; size < 2e6L; size *= 10) {
@@ -255,14 +250,13 @@ static int wall(real t, const real *q, const real *v, real *f, real *dldv, void 
     return (void)t, (void)v, (void)dldv, (void)user, 0;
 }
 
-static void free_motion_that_is_refused_is_shortened(void **state)
+TEST(free_motion_that_is_refused_is_shortened)
 {
     const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .point = wall } };
     const gvi_desc desc = { .n = 1, .degree = 4, .effects = scene, .effect_count = 1, .formulation = GVI_POSITIONS };
     const real q = (real)0.75, v = (real)0.5;
     gvi_stepper st, fine;
     static real more[GVI_LENGTH(1, 4, 4)];
-    (void)state;
     assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
     assert_ok(gvi_start(&st, 0, &q, &v));
     assert_ok(gvi_step(&st, (real)0.55));         // 0.75 + 0.55/2 > 1
@@ -282,7 +276,7 @@ static int nothing_at(real t, const real *q, const real *v, real *f, real *dldv,
 }
 
 /* Each slip has a sentence of its own, and the row where there is one */
-static void every_slip_has_its_sentence(void **state)
+TEST(every_slip_has_its_sentence)
 {
     static const gvi_effect good = { .kind = GVI_POTENTIAL, .points = nothing };
     static const gvi_effect wrong[][2] = {
@@ -295,7 +289,6 @@ static void every_slip_has_its_sentence(void **state)
     static const real one[1] = { 1 };
     enum { ROWS = 5, ALL = ROWS + 13 };
     const char *seen[ALL];
-    (void)state;
     for (int k = 0; k < ALL; ++k) {
         gvi_desc d = { .n = 1, .effects = &good, .effect_count = 1 };
         int effect = GVI_FAULT_NONE;
@@ -335,14 +328,13 @@ static void every_slip_has_its_sentence(void **state)
 }
 
 /* The program of the README, with a degree for which its memory is too small */
-static void a_failed_set_up_leaves_something_to_read(void **state)
+TEST(a_failed_set_up_leaves_something_to_read)
 {
     static real small[GVI_LENGTH(2, 8, 8)];
     const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = attraction } };
     const gvi_desc desc = { .n = 2, .degree = 20, .effects = scene, .effect_count = 1 };
     const real start[2] = { 1, 1 };
     gvi_stepper st;
-    (void)state;
     for (size_t i = 0; i < sizeof small/sizeof *small; ++i) small[i] = 7;
     for (int k = 0; k < 3; ++k) {
         static const gvi_status wanted[] = { GVI_E_MEMORY, GVI_E_MEMORY, GVI_E_ARGUMENT };
@@ -354,17 +346,4 @@ static void a_failed_set_up_leaves_something_to_read(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_clock_leaves_a_light_body_where_it_is),
-        cmocka_unit_test(a_clock_refuses_a_potential_that_reads_t),
-        cmocka_unit_test(a_clock_that_stops_names_the_point),
-        cmocka_unit_test(times_within_2_ulp_of_a_step_are_in_it),
-        cmocka_unit_test(relativistic_particles_start_by_momentum),
-        cmocka_unit_test(free_motion_that_is_refused_is_shortened),
-        cmocka_unit_test(every_slip_has_its_sentence),
-        cmocka_unit_test(a_failed_set_up_leaves_something_to_read),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

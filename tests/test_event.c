@@ -359,50 +359,6 @@ static void mirror(const real *at, real *momentum)
     for (int i = 0; i < 4; ++i) momentum[i] -= twice*n[i];
 }
 
-/* Independently, in angles from below and without constraints: z = (a, b, a', b').    */
-static void swinging(const long double *z, long double *rate)
-{
-    const long double c = cosl(z[0] - z[1]), s = sinl(z[0] - z[1]), det = 2 - c*c;
-    const long double A = -z[3]*z[3]*s - 2*sinl(z[0]), B = z[2]*z[2]*s - sinl(z[1]);
-    rate[0] = z[2];
-    rate[1] = z[3];
-    rate[2] = (A - c*B)/det;
-    rate[3] = (2*B - c*A)/det;
-}
-
-static void classical(long double *z, long double h)
-{
-    long double k[4][4], y[4];
-    for (int j = 0; j < 4; ++j) {
-        for (int i = 0; i < 4; ++i) y[i] = z[i] + (j ? h*(j == 3 ? 1 : 0.5L)*k[j-1][i] : 0);
-        swinging(y, k[j]);
-    }
-    for (int i = 0; i < 4; ++i) z[i] += h/6*(k[0][i] + 2*k[1][i] + 2*k[2][i] + k[3][i]);
-}
-
-/* The first impact's time, and z `after` it; Newton's method on a step's length.  */
-static long double reference(long double after, long double *z)
-{
-    const long double h = 1/16384.0L;
-    long double was[4], t = 0, part = h;
-    do {
-        memcpy(was, z, sizeof was);
-        classical(z, h);
-        t += h;
-    } while (sinl(z[0]) + sinl(z[1]) < (long double)wall);
-    for (int k = 0; k < 6; ++k) {
-        part -= (sinl(z[0]) + sinl(z[1]) - (long double)wall)/(cosl(z[0])*z[2] + cosl(z[1])*z[3]);
-        memcpy(z, was, sizeof was);
-        classical(z, part);
-    }
-    const long double along[2] = { cosl(z[0]), cosl(z[1]) }, c = cosl(z[0] - z[1]);
-    const long double n[2] = { (along[0] - c*along[1])/(2 - c*c), (2*along[1] - c*along[0])/(2 - c*c) };
-    const long double twice = 2*(along[0]*z[2] + along[1]*z[3])/(along[0]*n[0] + along[1]*n[1]);
-    for (int i = 0; i < 2; ++i) z[2+i] -= twice*n[i];
-    for (int k = 0; k < 16384; ++k) classical(z, after/16384);
-    return t - h + part;
-}
-
 static real linkage_q[4], linkage_v[4], linkage_p[4];
 
 static gvi_stepper *linkage(int degree, event *e)
@@ -415,52 +371,6 @@ static gvi_stepper *linkage(int degree, event *e)
     assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
     assert_ok(gvi_start(&st, 0, (real[]){ R(0.6), R(0.8), 0, R(1.6) }, (real[]){ 0, 0, 0, 0 }));
     return &st;
-}
-
-/* Errors of the impact's time, of q and of p half a second after it.                */
-static void linkage_errors(int degree, int steps, real *error)
-{
-    static long double z[4], hit;
-    event e;
-    gvi_stepper *st = linkage(degree, &e);
-    if (!(hit > 0)) {
-        z[0] = atan2l(0.6L, -0.8L), z[1] = atan2l(-0.6L, -0.8L);
-        z[2] = z[3] = 0;
-        hit = reference(0.5L, z);
-    }
-    int found;
-    do {
-        assert_ok(gvi_step(st, R(0.8)/(real)steps));
-        assert_true(st->t < 20);
-    } while ((found = event_next(&e, st)) == 0);
-    assert_int_equal(found, 1);
-    error[0] = fabs(e.t - (real)hit);
-    mirror(e.q, e.p);
-    assert_ok(gvi_start_momentum(st, e.t, e.q, e.p));
-    for (int k = 0; k < steps; ++k) assert_ok(gvi_step(st, R(0.5)/(real)steps));
-    const long double known[2][4] = { { sinl(z[0]), -cosl(z[0]), sinl(z[0]) + sinl(z[1]), -cosl(z[0]) - cosl(z[1]) },
-        { cosl(z[0])*z[2], sinl(z[0])*z[2], cosl(z[0])*z[2] + cosl(z[1])*z[3], sinl(z[0])*z[2] + sinl(z[1])*z[3] } };
-    error[1] = error[2] = 0;
-    for (int i = 0; i < 4; ++i) {
-        error[1] = fmax(error[1], fabs(st->q[i] - (real)known[0][i]));
-        error[2] = fmax(error[2], fabs(st->p[i] - (real)known[1][i]));
-    }
-}
-
-TEST(a_linkage_hits_a_wall)
-{
-    static const int steps[] = { 100, 40, 36, 40 };
-    real coarse[3], fine[3];
-    linkage_errors(8, 16, coarse);
-    for (int i = 0; i < 3; ++i) assert_between(0, coarse[i], 1000*EPS + R(1e-13));     /* the reference's */
-    for (int s = 1; s <= (DIG > 60 ? 4 : 3) && DIG > 50; ++s) {
-        linkage_errors(s, steps[s-1], coarse);
-        linkage_errors(s, 2*steps[s-1], fine);
-        for (int i = 0; i < 3; ++i) {
-            if (getenv("SHOW")) printf("degree %d, %s: %.1Le %.1Le, order %.2f\n", s, (const char *[]){ "t", "q", "p" }[i], (long double)coarse[i], (long double)fine[i], (double)log2(coarse[i]/fine[i]));
-            else assert_between((real)(2*s) - R(0.3), log2(coarse[i]/fine[i]), (real)(2*s) + R(0.3));
-        }
-    }
 }
 
 /* 200 impacts: no loss, and the rods as long as before.                                */
@@ -485,22 +395,6 @@ TEST(a_linkage_hits_a_wall_often)
 }
 
 /* ------------------------------------------------------------------- others */
-
-TEST(steps_stay_the_same)
-{
-    real wanted = R(0.3), plain[2] = { 0, 0 };
-    event e = of(level, &wanted);
-    for (int search = 0; search < 2; ++search) {
-        gvi_stepper *st = cosine(4, 0);
-        for (int k = 0; k < 50; ++k) {
-            assert_ok(gvi_step(st, R(0.4)));
-            while (search && event_next(&e, st) > 0) {}
-        }
-        if (search) assert_true(plain[0] == st->q[0] && plain[1] == st->p[0]);
-        plain[0] = st->q[0];
-        plain[1] = st->p[0];
-    }
-}
 
 /* g may read the time alone, and need not be finite.                          */
 TEST(what_g_may_be)

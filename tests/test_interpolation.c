@@ -131,12 +131,13 @@ static int places(int n, const gvi_real *x, gvi_real *t)
         t[count++] = (x[i] + x[(i + 1) % n])/2;
         t[count++] = x[i] + (x[(i + 2) % n] - x[i])*(gvi_real)0.43L;
     }
-    const gvi_real others[] = { -LEAST, 100*LEAST, -1/GREAT, -(gvi_real)1.3L, (gvi_real)1.01L, 2, -3 };
-    for (int i = 0; i < COUNT(others); ++i) t[count++] = others[i];
+    /* far outside l_j is 10^15 and more: what they have in common must not cancel before the values are seen */
+    const gvi_real others[] = { -LEAST, 100*LEAST, -1/GREAT, -(gvi_real)1.3L, (gvi_real)1.01L, 2, -3, -50, 1000, -100000 };
+    for (int i = 0; i < COUNT(others) - (n > 6 ? 3 : 0); ++i) t[count++] = others[i];          /* l_j overflow a float */
     return count;
 }
 
-#define PLACES (7*FEW + 7)
+#define PLACES (7*FEW + 10)
 
 /* ----------------------------------------------------------------- weights */
 
@@ -265,67 +266,6 @@ TEST(interpolation_is_that_of_lagrange_at_near_and_far_from_nodes)
     }
 }
 
-/* (t - 1/4)(t + 1/2)^2 ..., whose values at the nodes come from the polynomial. */
-static wide sample(int degree, wide t)
-{
-    wide p = 1;
-    for (int k = 0; k < degree; ++k) p = p*(t - (wide)(k % 5)/4) + (k % 3 - 1);
-    return p;
-}
-
-static void check_reproduced(int n, const gvi_real *x, int degree)
-{
-    gvi_real w[FEW], f[FEW], t[PLACES];
-    assert_ok(gvi_barycentric(n, x, w));
-    for (int i = 0; i < n; ++i) f[i] = (gvi_real)sample(degree, x[i]);
-    int count = places(n, x, t);
-    for (int i = 0; i < count; ++i) {
-        struct exact e = exact_value(n, x, f, t[i]);
-        /* rounding f to gvi_real is one unit more */
-        assert_close(gvi_interpolate(n, x, w, f, t[i]), sample(degree, t[i]),
-                     value_bound(n, e) + UNIT*e.lebesgue*e.greatest);
-    }
-}
-
-TEST(polynomials_below_the_number_of_nodes_are_reproduced)
-{
-    gvi_real x[FEW];
-    EACH_NODES(x, n, 12)
-        for (int degree = 0; degree < n; ++degree) check_reproduced(n, x, degree);
-}
-
-/* 1, t, ... at t = 10^3 and 10^5, where the l_j are 10^15 and more: what they
-   have in common must not cancel before the values are seen.                 */
-TEST(polynomials_are_reproduced_far_outside)
-{
-    const gvi_real far[] = { -50, 1000, -100000 };
-    gvi_real x[6], w[6], f[6];
-    EACH_NODES(x, n, 6) {
-        assert_ok(gvi_barycentric(n, x, w));
-        for (int degree = 0; degree < n; ++degree)
-            for (int i = 0; i < COUNT(far); ++i) {
-                for (int j = 0; j < n; ++j) f[j] = (gvi_real)sample(degree, x[j]);
-                struct exact e = exact_value(n, x, f, far[i]);
-                assert_close(gvi_interpolate(n, x, w, f, far[i]), e.p, value_bound(n, e));
-            }
-    }
-}
-
-TEST(a_polynomial_of_the_next_degree_is_missed_by_the_node_polynomial)
-{
-    gvi_real x[8], w[8], f[8];
-    for (int n = 2; n <= 8; ++n) {
-        chebyshev(n, x);
-        assert_ok(gvi_barycentric(n, x, w));
-        for (int i = 0; i < n; ++i) f[i] = (gvi_real)sample(n, x[i]);
-        wide t = 1, product = 1;
-        for (int i = 0; i < n; ++i) product *= t - x[i];
-        /* T_n(1)/2^(n-1); nodes and values are rounded */
-        assert_close(product, ldexp(1, 1 - n), 100*EPS*product);
-        assert_close(sample(n, t) - gvi_interpolate(n, x, w, f, 1), product, 50*EPS);
-    }
-}
-
 TEST(interpolation_is_exact_at_nodes)
 {
     gvi_real x[FEW], w[FEW], f[FEW], l[FEW];
@@ -357,21 +297,6 @@ TEST(interpolation_next_to_a_node_at_zero_survives_the_smallest_distances)
             assert_close(gvi_interpolate_derivative(4, x, w, f, t),
                          gvi_interpolate_derivative(4, x, w, f, 0), 100*EPS);
         }
-}
-
-TEST(values_of_any_size_are_interpolated)
-{
-    gvi_real x[9], w[9], f[9], g[9];
-    chebyshev(9, x);
-    assert_ok(gvi_barycentric(9, x, w));
-    for (int i = 0; i < 9; ++i) f[i] = random_unit();
-    for (int e = -100; e <= 100; e += 200) {
-        for (int i = 0; i < 9; ++i) g[i] = f[i]*(gvi_real)ldexp(1, e);
-        for (int i = -20; i <= 20; ++i) {
-            gvi_real t = (gvi_real)i/19, p = gvi_interpolate(9, x, w, f, t);
-            assert_true(same(gvi_interpolate(9, x, w, g, t), p*(gvi_real)ldexp(1, e)));
-        }
-    }
 }
 
 /* ------------------------------------------------------------------- basis */
@@ -431,26 +356,6 @@ TEST(runge_by_1000_chebyshev_points_is_exact_to_rounding)
     }
 }
 
-/* The known greatest errors of degree 10 and 20, to the digits given. */
-TEST(runge_by_equispaced_points_diverges_as_known)
-{
-    const struct { int n; long double error, digits, lebesgue; } known[] = {
-        { 11, 1.91566L, 1e-4L, 30 }, { 21, 59.822L, 2e-2L, 10987 },
-    };
-    for (int k = 0; k < COUNT(known); ++k) {
-        wide worst = 0;
-        equispaced(known[k].n, big_x);
-        assert_ok(gvi_barycentric(known[k].n, big_x, big_w));
-        for (int i = 0; i < known[k].n; ++i) big_f[i] = (gvi_real)runge(big_x[i]);
-        for (int i = 0; i <= 2000; ++i) {
-            gvi_real t = (gvi_real)i/2000;
-            wide error = wide_abs(gvi_interpolate(known[k].n, big_x, big_w, big_f, t) - runge(t));
-            if (error > worst) worst = error;
-        }
-        assert_close(worst, known[k].error, known[k].digits + 40*known[k].lebesgue*EPS);
-    }
-}
-
 /* ------------------------------------------------------------- derivatives */
 
 static void check_derivatives(int n, const gvi_real *x, const gvi_real *f)
@@ -485,28 +390,6 @@ TEST(derivatives_are_those_of_lagrange_at_near_and_far_from_nodes)
             for (int i = 0; i < n; ++i) f[i] = random_unit();
             check_derivatives(n, x, f);
         }
-}
-
-TEST(derivative_of_monomials_is_known)
-{
-    gvi_real x[10], w[10], f[10], t[PLACES];
-    chebyshev_with_ends(10, x);
-    assert_ok(gvi_barycentric(10, x, w));
-    int count = places(10, x, t);
-    for (int degree = 0; degree < 10; ++degree) {
-        for (int i = 0; i < 10; ++i) {
-            wide power = 1;
-            for (int k = 0; k < degree; ++k) power *= x[i];
-            f[i] = (gvi_real)power;
-        }
-        for (int i = 0; i < count; ++i) {
-            if (t[i] < -1 || t[i] > 1) continue;
-            wide power = degree;
-            for (int k = 1; k < degree; ++k) power *= t[i];
-            /* the derivative matrix of 10 such points has the norm 81/3 */
-            assert_close(gvi_interpolate_derivative(10, x, w, f, t[i]), power, 2*81*EPS);
-        }
-    }
 }
 
 /* 24 points: the truncation is below 1e-27, with 28, for the digits that a long
@@ -572,46 +455,6 @@ TEST(derivative_scales_with_the_unit_of_the_nodes)
 }
 
 /* -------------------------------------------------------------- odds and ends */
-
-TEST(nodes_may_come_in_any_order)
-{
-    gvi_real x[FEW], y[FEW], w[FEW], v[FEW], f[FEW], g[FEW], t[PLACES];
-    chebyshev(FEW, x);
-    for (int i = 0; i < FEW; ++i) {
-        int j = 7*i % FEW;
-        f[i] = random_unit();
-        y[j] = x[i], g[j] = f[i];
-    }
-    assert_ok(gvi_barycentric(FEW, x, w));
-    assert_ok(gvi_barycentric(FEW, y, v));
-    int count = places(FEW, x, t);
-    for (int i = 0; i < count; ++i) {
-        struct exact e = exact_value(FEW, x, f, t[i]);
-        assert_close(gvi_interpolate(FEW, y, v, g, t[i]), e.p, value_bound(FEW, e));
-        assert_close(gvi_interpolate(FEW, x, w, f, t[i]), e.p, value_bound(FEW, e));
-    }
-    for (int i = 0; i < FEW; ++i) {
-        gvi_real other = v[7*i % FEW], sign = w[0]*v[0] < 0 ? -1 : 1;
-        assert_close(sign*w[i], other, 4*FEW*EPS);
-    }
-}
-
-TEST(one_node_makes_a_constant)
-{
-    const gvi_real x[] = { (gvi_real)0.3L }, f[] = { (gvi_real)1.7L };
-    const gvi_real t[] = { 0, (gvi_real)0.3L, 5, -(gvi_real)1e30L };
-    gvi_real w[1], l[1];
-    assert_ok(gvi_barycentric(1, x, w));
-    assert_true(same(w[0], 1));
-    for (int i = 0; i < COUNT(t); ++i) {
-        assert_true(same(gvi_interpolate(1, x, w, f, t[i]), f[0]));
-        assert_true(same(gvi_interpolate_derivative(1, x, w, f, t[i]), 0));
-        gvi_basis(1, x, w, t[i], l);
-        assert_true(same(l[0], 1));
-        gvi_basis_derivative(1, x, w, t[i], l);
-        assert_true(same(l[0], 0));
-    }
-}
 
 TEST(coinciding_nodes_are_refused)
 {

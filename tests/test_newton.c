@@ -3,61 +3,12 @@
 #include "gvi_test.h"
 typedef gvi_real real;
 #include "problems.h"
+#include "gauss.h"
 
 typedef long double wide;
-enum { MOST = 20, DEGREES = 16 };
+enum { MOST = 20 };
 
 static gvi_real memory[GVI_LENGTH(MOST, 17, 18)], spare[GVI_LENGTH(MOST, 17, 18)];
-
-/* ------------------------------------------------------------- the matrix A */
-
-static wide legendre(int k, wide x)
-{
-    wide a = 1, b = 0;
-    for (int i = 0; i < k; ++i) {
-        const wide next = ((2*i + 1)*x*a - i*b)/(i + 1);
-        b = a;
-        a = next;
-    }
-    return a;
-}
-
-/* Zeros of P_s by bisection between those of a fine grid, on [0,1] */
-static void nodes(int s, wide *c)
-{
-    const int grid = 20000;
-    int found = 0;
-    for (int i = 0; i < grid && found < s; ++i) {
-        wide a = (wide)i/grid, b = (wide)(i + 1)/grid;
-        const wide fa = legendre(s, 2*a - 1), fb = legendre(s, 2*b - 1);
-        if (fa*fb > 0 || fa == 0) continue;
-        for (int k = 0; k < 80; ++k) {
-            const wide m = (a + b)/2;
-            if (legendre(s, 2*m - 1)*fa > 0) a = m;
-            else b = m;
-        }
-        c[found++] = (a + b)/2;
-    }
-    assert_int_equal(found, s);
-}
-
-/* a_ij = integral of the j-th Lagrange polynomial from 0 to c_i, by Gauss's rule of s points on [0, c_i],
-   whose weights on [0,1] are (1 - x^2)/(s P_(s-1)(x))^2, x = 2c - 1                        */
-static void matrix(int s, wide A[DEGREES][DEGREES], wide *c)
-{
-    nodes(s, c);
-    for (int i = 0; i < s; ++i)
-        for (int j = 0; j < s; ++j) {
-            A[i][j] = 0;
-            for (int k = 0; k < s; ++k) {
-                const wide x = 2*c[k] - 1, P = s*legendre(s - 1, x), w = (1 - x*x)/(P*P), t = c[i]*c[k];
-                wide l = 1;
-                for (int m = 0; m < s; ++m)
-                    if (m != j) l *= (t - c[m])/(c[j] - c[m]);
-                A[i][j] += c[i]*w*l;
-            }
-        }
-}
 
 static unsigned seed = 1;
 
@@ -368,16 +319,23 @@ static int pendulum(const gvi_points *x, void *user)
     return 0;
 }
 
-typedef struct gauss { wide A[DEGREES][DEGREES], c[DEGREES], b[POINTS]; } gauss;
+typedef struct gauss { wide A[POINTS][POINTS], c[POINTS], b[POINTS]; } gauss;
 
+/* a_ij = integral of the j-th Lagrange polynomial from 0 to c_i, by the rule on [0, c_i] */
 static gauss gauss_rule(void)
 {
     gauss g;
-    matrix(POINTS, g.A, g.c);
-    for (int j = 0; j < POINTS; ++j) {
-        const wide x = 2*g.c[j] - 1, P = POINTS*legendre(POINTS - 1, x);
-        g.b[j] = (1 - x*x)/(P*P);
-    }
+    gauss_nodes(POINTS, g.c, g.b);
+    for (int i = 0; i < POINTS; ++i)
+        for (int j = 0; j < POINTS; ++j) {
+            g.A[i][j] = 0;
+            for (int k = 0; k < POINTS; ++k) {
+                wide l = g.c[i]*g.b[k];
+                for (int m = 0; m < POINTS; ++m)
+                    if (m != j) l *= (g.c[i]*g.c[k] - g.c[m])/(g.c[j] - g.c[m]);
+                g.A[i][j] += l;
+            }
+        }
     return g;
 }
 

@@ -73,9 +73,8 @@ static int magnetic_both(const gvi_points *x, void *user)
     return magnetic_loop(x, user) | magnetic_value_loop(x, user);
 }
 
-static void every_kind_of_callback(void **state)
+TEST(every_kind_of_callback)
 {
-    (void)state;
     assert_same(2, kepler, kepler_loop, "f");
     assert_same(2, kepler, kepler_value_loop, "V");
     assert_same(2, kepler, kepler_both, "fV");
@@ -90,9 +89,8 @@ static void every_kind_of_callback(void **state)
 }
 
 /* A failure counts where there is a point, and not in the padding */
-static void failures(void **state)
+TEST(failures)
 {
-    (void)state;
     for (int size = 0; size < COUNT(sizes); ++size)
         for (int k = 0; k < sizes[size][1]; ++k) {
             fill(&one);
@@ -151,17 +149,10 @@ static int permuted_loop(const gvi_points *x, void *user)
     return (void)user, 0;
 }
 
-static void what_stays_a_loop(void **state)
+TEST(what_stays_a_loop)
 {
-    (void)state;
     assert_same(12, all_pairs, all_pairs_loop, "f");
     assert_same(3, permuted, permuted_loop, "f");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_kind_of_callback), cmocka_unit_test(failures), cmocka_unit_test(what_stays_a_loop),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+RUN_TESTS(NULL, NULL)

@@ -150,33 +150,4 @@ TEST(the_price_list_is_right)
     }
 }
 
-/* An effect that does so much work that it must be most of the time is shown so. */
-static int busy_points(const gvi_points *x, void *user)
-{
-    static volatile double sink;
-    double sum = 0;
-    for (int k = 0; k < 3000*x->count; ++k) sum += sin((double)k);
-    sink = sum;
-    return (void)sink, 0;
-}
-
-static void busy_build(scene_setup *s)
-{
-    elastic_pendulum_build(s);
-    scene_add(s, "busy", (gvi_effect){ .kind = GVI_POTENTIAL, .points = busy_points, .value = busy_points });
-}
-
-TEST(shares_of_time_are_seen)
-{
-    scene busy = elastic_pendulum;
-    price all = { .status = GVI_OK }, without[GVI_EFFECTS];
-    busy.build = busy_build;
-    memset(without, 0, sizeof without);
-    assert_ok(price_scene(&busy, 40, 3, &all, without));
-    const double share = 1 - without[2].step/all.step, other = 1 - without[0].step/all.step;
-    print_message("  busy: %.1f %% of the time; weight: %.1f %%\n", 100*share, 100*other);
-    assert_true(share > 0.9);
-    assert_true(other < 0.5);
-}
-
 RUN_TESTS(NULL, NULL)

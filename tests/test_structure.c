@@ -507,12 +507,6 @@ TEST(a_full_mass_matrix_is_read_by_its_lower_triangle)
 
 /* -------------------------------------------------------------------- counters */
 
-AT_POINTS(must_not_be_called)
-{
-    ++*(int *)user;
-    return 0;
-}
-
 TEST(a_conservative_scene_forms_no_velocity_and_no_matrix)
 {
     gvi_stepper *st = start_planet(8, GVI_GAUSS, 8, GVI_AUTO);
@@ -553,29 +547,6 @@ TEST(the_counters_say_how_often_an_effect_was_asked)
         assert_int_equal(st->counters.velocities > 0, ways[w] != GVI_POSITIONS);
         assert_int_equal(st->counters.factorizations > 0, ways[w] == GVI_NEWTON);
     }
-}
-
-/* Off, an effect costs nothing; on again, it acts */
-TEST(an_effect_that_is_switched_off_is_not_evaluated)
-{
-    int calls = 0;
-    const gvi_effect effects[] = {
-        { .kind = GVI_POTENTIAL, .points = springs },
-        { .kind = GVI_FORCE, .points = must_not_be_called, .user = &calls },
-    };
-    const gvi_desc desc = { .n = OSCILLATORS, .degree = 6, .effects = effects, .effect_count = 2 };
-    gvi_stepper *st = set_up(&desc);
-    real v[OSCILLATORS];
-    assert_ok(gvi_switch(st, 1, 0));
-    assert_ok(gvi_start(st, 0, q_of, v_of));
-    for (int k = 0; k < 20; ++k) assert_ok(gvi_step(st, 0.1L));
-    assert_ok(gvi_state_at(st, st->t - 0.03L, NULL, v, NULL));
-    assert_int_equal(calls, 0);
-    assert_int_equal(st->counters.effect[1], 0);
-    assert_ok(gvi_switch(st, 1, 1));
-    assert_ok(gvi_step(st, 0.1L));
-    assert_true(calls > 0);
-    assert_true(st->counters.effect[1] > 0);
 }
 
 RUN_TESTS(NULL, NULL)

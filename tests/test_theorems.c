@@ -4,13 +4,12 @@
 
    Not here, because it is elsewhere: the double pendulum's orders, the state inside
    a step and weak rules (test_order.c), conjugate points of the oscillator and the
-   derivatives of L_d (test_queries.c), published tables (test_identities.c).    */
+   derivatives of L_d and its forces (test_queries.c), other methods that steps are
+   (test_identities.c, test_oracle.c).                                          */
 #ifndef GVI_REAL
 #define GVI_REAL long double
 #endif
 #include "gvi_test.h"
-#include "theorems/doubled.h"
-#include "theorems/identities.h"
 #include "theorems/inertia.h"
 #include "theorems/spectral.h"
 #include "theorems/stability.h"
@@ -98,32 +97,27 @@ TEST(degree_24_gives_the_exact_discrete_lagrangian)
 
 /* ----------------------------------------------------------------------- curve */
 
-static curve_kind what;
 static int which_norm;
 
 static real norm_error(const problem *pb, const method *m, real h)
 {
     real norm[NORMS];
-    curve_norms(pb, m, h, what, norm);
+    curve_norms(pb, m, h, OF_THE_STEP, norm);
     return norm[which_norm];
 }
 
-/* Exactly min(s, u/2) + 1 in the maximum norm, one more in L1, one less each for
-   the velocity; k = 3: the interpolating polynomial of Lemma 3.1               */
+/* Exactly min(s, u/2) + 1 in the maximum norm, one more in L1, one less each for the velocity */
 TEST(the_curve_has_order_min_s_and_half_u_plus_one)
 {
     static const int more[NORMS] = { 1, 2, 0, 1 };
     misses = 0;
     for (int i = 0; i < PROBLEMS; ++i)
         for (int s = 1; s <= 4; ++s)
-            for (int k = 0; k < 4; ++k) {
+            for (int k = 0; k < 3; ++k) {
                 method m;
-                int u = rule_of(k%3, s, &m);
-                if (!u) continue;
-                what = k == 3 ? INTERPOLATED : OF_THE_STEP;
-                for (which_norm = 0; which_norm < NORMS; ++which_norm)
-                    expect_slope(k == 3 ? "interpolation" : "curve", norm_error, &problems[i], &m,
-                                 u/2 + more[which_norm], 192, 0.15L);
+                int u = rule_of(k, s, &m);
+                for (which_norm = 0; which_norm < NORMS && u; ++which_norm)
+                    expect_slope("curve", norm_error, &problems[i], &m, u/2 + more[which_norm], 192, 0.15L);
             }
     assert_int_equal(misses, 0);
 }
@@ -141,40 +135,6 @@ TEST(forces_leave_the_order_as_it_is)
                 if (u) expect_slope("forced step", end_error, &forced_problems[i], &m, u, 48, 0.15L);
             }
     assert_int_equal(misses, 0);
-}
-
-/* L_d and F- + F+ to h^(2s+1); F-, F+ and p0 alone to h^2s (docs/theorems.md) */
-TEST(the_discrete_forces_converge_to_the_exact_ones)
-{
-    misses = 0;
-    for (int i = 0; i < 2; ++i)
-        for (int s = 1; s <= 3; ++s) {
-            const method m = { s, { 0 } };
-            const problem *pb = &forced_problems[i];
-            expect_slope("F-, F+", force_error, pb, &m, 2*s, 20, 0.3L);
-            expect_slope("p0", momentum_error, pb, &m, 2*s, 20, 0.3L);
-            expect_slope("F- + F+", force_sum_error, pb, &m, 2*s + 1, 20, 0.3L);
-            expect_slope("L_d", lagrangian_error, pb, &m, 2*s + 1, 20, 0.3L);
-        }
-    assert_int_equal(misses, 0);
-}
-
-/* 20 steps.  Both solve the same equations, in other unknowns: what differs are
-   roundings, half an eps of q or p a time, of which the pendulum amplifies some.  */
-TEST(the_doubled_lagrangian_gives_the_forced_step)
-{
-    for (int i = 0; i < FORCED; ++i)
-        for (int s = 1; s <= 6; ++s)
-            for (int k = 0; k < 3; ++k) {
-                method m;
-                if (!rule_of(k, s, &m)) continue;
-                for (int start = 0; start < STARTS; ++start) {
-                    doubled_result left = compare_with_doubled(&forced_problems[i], &m, start, 0.1L, 20);
-                    assert_between(0, left.q, 10*EPS);
-                    assert_between(0, left.p, 10*EPS);
-                    assert_between(0, left.diagonal, 10*EPS);
-                }
-            }
 }
 
 /* -------------------------------------------------------------------- spectral */
@@ -202,21 +162,6 @@ TEST(at_high_degree_the_error_of_a_large_step_stays_at_rounding)
         }
 }
 
-/* ------------------------------------------------------------------ identities */
-
-/* The pairs that test_identities.c has no published tables for */
-TEST(higher_degrees_are_collocation_and_lobatto_pairs)
-{
-    for (int r = 4; r <= 6; ++r)
-        for (int k = 0; k < 2; ++k) {
-            own_rule rule = k ? lobatto(r) : gauss(r);
-            tableau T = table_of(&rule);
-            const method m = { r, { k ? GVI_LOBATTO : GVI_GAUSS, .points = r } };
-            for (int i = 0; i < PROBLEMS; ++i)
-                assert_between(0, difference(&problems[i], &m, partitioned, &T), 10);
-        }
-}
-
 /* --------------------------------------------------------------------- inertia */
 
 TEST(negative_directions_of_the_oscillator_count_half_turns)
@@ -227,7 +172,6 @@ TEST(negative_directions_of_the_oscillator_count_half_turns)
         for (int side = 0; side < 2; ++side) {
             real h = (k + (side ? 0.999L : 0.001L))*TAU/2;
             assert_int_equal(index_of_step(&oscillator, &m, 0, y, h), k);
-            assert_int_equal(index_by_query(&oscillator, &m, 0, y, h), k);
         }
 }
 
@@ -246,10 +190,9 @@ TEST(negative_directions_are_as_many_as_conjugate_points)
             real now = jacobi_determinant(pb, 0, y, h);
             count += (now < 0) != (last < 0);
             last = now;
-            assert_int_equal(index_of_step(pb, &m, 0, y, h), count);
-            int by_query = index_by_query(pb, &m, 0, y, h);      // -1: it found another curve
-            assert_true(by_query == count || by_query == -1);
-            asked += by_query == count && count > 0;
+            int index = index_of_step(pb, &m, 0, y, h);          // -1: it found another curve
+            assert_true(index == count || index == -1);
+            asked += index == count && count > 0;
         }
         assert_true(count >= 1 && asked >= 5);
     }

@@ -412,11 +412,13 @@ TEST(units_change_no_bit)
         { .degree = 1, .rule = { GVI_KICKS, 4, nodes, weights } },
         { .degree = 3, .formulation = GVI_POSITIONS }, { .degree = 8, .formulation = GVI_POSITIONS },
         { .degree = 5, .formulation = GVI_VELOCITIES }, { .degree = 5, .formulation = GVI_MOMENTA },
-        { .degree = 8, .tolerance = (real)1e-5L, .formulation = GVI_POSITIONS } };
+        { .degree = 8, .tolerance = (real)1e-5L, .formulation = GVI_POSITIONS },
+        { .degree = 4, .formulation = GVI_NEWTON }, { .degree = 6 } };
+    const int most = KIND == 1 ? 16 : 100;        // squares of momenta and forces are numbers
     const real q0[ROOM] = { (real)0.5L, (real)-0.25L, (real)0.125L }, v0[ROOM] = { (real)0.25L, (real)0.5L, -1 };
     for (int f = 0; f < COUNT(forms); ++f)
-        for (int a = -6; a <= 6; a += 4)
-            for (int b = -5; b <= 7; b += 6) {
+        for (int a = -most; a <= most; a += most/2)
+            for (int b = -most; b <= most; b += most/2) {
                 const real time = (real)ldexp(1, a), length = (real)ldexp(1, b);
                 gvi_stepper st[2];
                 for (int k = 0; k < 2; ++k) {

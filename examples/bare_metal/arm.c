@@ -89,14 +89,6 @@ static void print_state(const gvi_stepper *st)
     board_print("\n");
 }
 
-static int failed(const gvi_stepper *st)
-{
-    board_print("failed with status -");
-    print_count((unsigned)-st->status);
-    board_print("\n");
-    return 1;
-}
-
 int main(void)
 {
     static motors m;
@@ -114,12 +106,12 @@ int main(void)
     unsigned missed = 0;
 
     gvi_init(&st, &desc, memory, sizeof memory);
-    if (gvi_start(&st, 0, rest, rest) != GVI_OK) return failed(&st);
+    if (gvi_start(&st, 0, rest, rest) != GVI_OK) return print_failure(st.status);
     print_state(&st);
     board_every(128);
     for (int k = 1; k <= 2*128; ++k) {
         control(&st, &m, h);
-        if (gvi_step(&st, h) != GVI_OK) return failed(&st);
+        if (gvi_step(&st, h) != GVI_OK) return print_failure(st.status);
         missed += (unsigned)board_wait();
         if (k%16 == 0) print_state(&st);
     }

@@ -42,15 +42,6 @@ static void print_state(const gvi_stepper *st)
     board_print("\n");
 }
 
-/* What a board does then is its own affair; the state is that before the step.  */
-static int failed(const gvi_stepper *st)
-{
-    board_print("failed with status -");
-    print_count((unsigned)-st->status);
-    board_print("\n");
-    return 1;
-}
-
 int main(void)
 {
     static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = weight },
@@ -64,10 +55,10 @@ int main(void)
     const gvi_real h = 1/(gvi_real)128;
 
     gvi_init(&st, &desc, memory, sizeof memory);
-    if (gvi_start(&st, 0, angle, rest) != GVI_OK) return failed(&st);
+    if (gvi_start(&st, 0, angle, rest) != GVI_OK) return print_failure(st.status);
     print_state(&st);
     for (int k = 1; k <= 20*128; ++k) {
-        if (gvi_step(&st, h) != GVI_OK) return failed(&st);
+        if (gvi_step(&st, h) != GVI_OK) return print_failure(st.status);
         if (k%128 == 0) print_state(&st);
     }
     return 0;

@@ -53,3 +53,12 @@ void print_count(unsigned x)
     *--p = 0;
     board_print(digits(p, x, 10, 1));
 }
+
+/* What a board does then is its own affair; the state is that before the step.  */
+int print_failure(int status)
+{
+    board_print("failed with status -");
+    print_count((unsigned)-status);
+    board_print("\n");
+    return 1;
+}

@@ -9,5 +9,6 @@
 
 void print_real(GVI_REAL x);       /* " 3f800000    1.000000", |x| below 1000   */
 void print_count(unsigned x);
+int  print_failure(int status);    /* of a call of gvi.h; returns 1               */
 
 #endif

@@ -60,14 +60,6 @@ static int rods(const gvi_points *x, void *user)
     return (void)user, 0;
 }
 
-static int failed(const gvi_stepper *st)
-{
-    board_print("failed with status -");
-    print_count((unsigned)-st->status);
-    board_print("\n");
-    return 1;
-}
-
 int main(void)
 {
     static gvi_real torque;
@@ -84,13 +76,13 @@ int main(void)
     const gvi_real h = 1/(gvi_real)128;
 
     gvi_init(&st, &desc, memory, sizeof memory);
-    if (gvi_start(&st, 0, hanging, rest) != GVI_OK) return failed(&st);
+    if (gvi_start(&st, 0, hanging, rest) != GVI_OK) return print_failure(st.status);
     for (int k = 0; k <= 2*128; ++k) {
         gvi_real lambda[2];
         torque = k/32 % 2 ? -8 : 8;               // N m, turned at the end of a step
-        if (k > 0 && gvi_step(&st, h) != GVI_OK) return failed(&st);
+        if (k > 0 && gvi_step(&st, h) != GVI_OK) return print_failure(st.status);
         if (k%16) continue;
-        if (gvi_multipliers(&st, lambda) != GVI_OK) return failed(&st);
+        if (gvi_multipliers(&st, lambda) != GVI_OK) return print_failure(st.status);
         print_real(st.t);
         for (int i = 0; i < 4; ++i) print_real(st.q[i]);
         for (int a = 0; a < 2; ++a) print_real(lambda[a]);

@@ -4,7 +4,8 @@
    rest is a sequence of calls with arguments of any bits.  Callbacks compute, refuse
    or give NaN as their bytes say.  What is asserted is the contract of gvi.h: a status
    of the list, a failure that leaves t, q and p as they were, a success that leaves
-   finite numbers, work that is bounded; memory is watched by the sanitizers.
+   finite numbers, work that is bounded; memory is watched by the sanitizers, or by
+   PAD numbers on both sides of it (test_hostile.c).
 
      make fuzz                60 seconds
      fuzz_scene FILE          one input again                                  */
@@ -16,6 +17,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#ifndef PAD
+#define PAD 0
+#endif
 enum { N = 4, EFFECTS = 4, POINTS = 24 };
 
 /* -------------------------------------------------------------------- bytes */
@@ -42,6 +46,7 @@ static double number(void)
 
 typedef struct mood { unsigned kind, when, calls; double strength; int rows; double level[N]; } mood;
 static unsigned long long asked;
+static long started, succeeded;                    /* scenes, calls */
 
 static int sick(mood *a) { return a->calls++ % 64 == a->when; }
 
@@ -158,7 +163,9 @@ static double     matrix[N*N], nodes[POINTS], weights[POINTS];
 
 static mood any_mood(void)
 {
-    mood a = { byte(), below(64), 0, 0 };
+    mood a = { 0 };
+    a.kind = byte();
+    a.when = below(64);
     a.strength = number();
     return a;
 }
@@ -224,7 +231,7 @@ static gvi_desc describe(void)
 
 /* -------------------------------------------------------------------- calls */
 
-static void fail(const char *what, gvi_status status)
+static void broken(const char *what, gvi_status status)
 {
     fprintf(stderr, "%s: status %d, %s\n", what, (int)status, gvi_status_text(status));
     abort();
@@ -244,12 +251,12 @@ static void check(const gvi_stepper *st, const gvi_desc *d, const double *before
         after[1 + N + i] = st->p[i];
         finite = finite && isfinite(st->q[i]) && isfinite(st->p[i]);
     }
-    if (status > GVI_OK || status < GVI_E_CONSTRAINT) fail("a status that is none", status);
-    if ((status != GVI_OK || !changes) && memcmp(before, after, sizeof after)) fail("the state has changed",
+    if (status > GVI_OK || status < GVI_E_CONSTRAINT) broken("a status that is none", status);
+    if ((status != GVI_OK || !changes) && memcmp(before, after, sizeof after)) broken("the state has changed",
                                                                                     status);
-    if (status == GVI_OK && !finite) fail("a state that is not finite", status);
+    if (status == GVI_OK && !finite) broken("a state that is not finite", status);
     // with a clock, gvi_state_at searches for h with at most 60 such steps
-    if (asked > 64*2*step*(unsigned long long)(d->effect_count + 3)) fail("too much work", status);
+    if (asked > 64*2*step*(unsigned long long)(d->effect_count + 3)) broken("too much work", status);
 }
 
 /* Makes the levels of all rods those of q at t; v is 0, or turns the first of them and follows its level */
@@ -272,9 +279,9 @@ static void fit(int n, const gvi_desc *d, double t, const double *q, double *v)
 
 static void call(gvi_stepper *st, const gvi_desc *d, unsigned what)
 {
-    double before[2*N + 1] = { st->t }, a[N], b[N], c[N], e[N], x = 0;
-    const gvi_discrete out = { .lagrangian = &x, .d1 = c, .d2 = e };
-    int changes = 0;
+    double before[2*N + 1] = { st->t }, a[N], b[N], c[N], z[N], x = 0;
+    int changes = 0, negative = 0;
+    const gvi_discrete out = { .lagrangian = &x, .d1 = c, .d2 = z, .negative = below(2) ? &negative : NULL };
     gvi_status status;
     for (int i = 0; i < N; ++i) { a[i] = number(); b[i] = number(); }
     for (int i = 0; i < st->n; ++i) { before[1 + i] = st->q[i]; before[1 + N + i] = st->p[i]; }
@@ -283,8 +290,8 @@ static void call(gvi_stepper *st, const gvi_desc *d, unsigned what)
     switch (what) {
     case 0:  status = gvi_velocity(st, c); break;
     case 1:  status = gvi_energy(st, &x); break;
-    case 2:  status = gvi_curve(st, a[0], c, e); break;
-    case 3:  status = gvi_state_at(st, st->t - st->h*a[0], c, e, b); break;
+    case 2:  status = gvi_curve(st, a[0], c, z); break;
+    case 3:  status = gvi_state_at(st, st->t - st->h*a[0], c, z, b); break;
     case 4:  status = gvi_action(st, &x); break;
     case 5:  status = gvi_switch(st, (int)below(6) - 1, (int)below(2)); break;
     case 6:  status = gvi_discrete_lagrangian(st, a[0], b[0], a, b, &out); break;
@@ -294,11 +301,12 @@ static void call(gvi_stepper *st, const gvi_desc *d, unsigned what)
     case 10: status = gvi_multipliers(st, c);
         for (int e = 0, row = 0; e < d->effect_count && status == GVI_OK; ++e)
             for (int r = 0; r < effects[e].rows; ++r)
-                if (!isfinite(c[row++])) fail("a multiplier that is not finite", status);
+                if (!isfinite(c[row++])) broken("a multiplier that is not finite", status);
         break;
     default: changes = 1; status = gvi_step(st, a[0]);
     }
     check(st, d, before, status, changes);
+    succeeded += status == GVI_OK;
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
@@ -310,13 +318,21 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     end = data + size;
     const gvi_desc d = describe();
     const size_t needed = gvi_size(&d);
-    double little[1], *memory = needed ? malloc(needed) : little;
-    if (needed > 8u << 20) fail("too much memory for so small a scene", GVI_OK);
-    const gvi_status status = gvi_init(&st, &d, memory, needed ? needed : sizeof little);
-    if (status > GVI_OK || status < GVI_E_CONSTRAINT) fail("a status that is none", status);
-    if (status == GVI_OK && !needed) fail("no size, and yet it works", status);
+    const size_t length = (needed + sizeof(double) - 1)/sizeof(double), all = length + 2*PAD;
+    double *const base = malloc((all ? all : 1)*sizeof *base), *const memory = base + PAD;
+    if (!base) return 0;
+    if (needed > 8u << 20) broken("too much memory for so small a scene", GVI_OK);
+    memset(base, 0xA5, all*sizeof *base);
+    memset(memory, 0xFF, length*sizeof *base);                    /* NaN: to be written before it is read */
+    const gvi_status status = gvi_init(&st, &d, memory, needed ? needed : sizeof(double));
+    if (status > GVI_OK || status < GVI_E_CONSTRAINT) broken("a status that is none", status);
+    if (status == GVI_OK && !needed) broken("no size, and yet it works", status);
+    started += status == GVI_OK;
     if (status == GVI_OK)
         for (int k = 0; k < 12 && at < end; ++k) call(&st, &d, k > 0 || below(8) == 0 ? below(17) : 7);
-    if (needed) free(memory);
+    for (size_t k = 0; k < 2*PAD*sizeof *base; ++k)
+        if (((unsigned char *)base)[k < PAD*sizeof *base ? k : k + length*sizeof *base] != 0xA5)
+            broken("written outside the memory", status);
+    free(base);
     return 0;
 }

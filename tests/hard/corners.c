@@ -1,7 +1,5 @@
-/* corners.c - units, tops and oscillators of all sizes, in double and in float
+/* corners.c - tops and oscillators of all sizes, in double and in float
 
-   Units: a planet whose lengths are measured in units of 1e-30 to 1e30 (1.5e-5 to 6.6e4 in float, where squares of
-   momenta, 2^64, and of forces, 2^96, are numbers) moves alike to the bit, where the factors are powers of two.
    Oscillators: masses over 12 decades, every constant different, each against its cosine.  Top: a heavy symmetric
    top by its three Euler angles; upright ("sleeping") it is stable if it spins faster than 2 sqrt(m g l I1)/I3, and
    there Euler angles are singular: the start is 0.05 beside it.
@@ -15,54 +13,6 @@
 static const int single = sizeof(real) < sizeof(double);
 enum { MANY = 32 };
 static real arena[GVI_LENGTH(MANY, 8, 8)];
-
-/* -------------------------------------------------------------------- units */
-
-typedef struct units { real length, time; } units;
-
-/* Attraction with GM = length^3/time^2 in these units */
-static int attraction_in_units(const gvi_points *x, void *user)
-{
-    const units *a = user;
-    for (int k = 0; k < x->count; ++k) {
-        const real X = x->q[k]/a->length, Y = x->q[x->stride + k]/a->length, d2 = X*X + Y*Y;
-        const real w = -a->length/(a->time*a->time)/(d2*sqrt(d2));
-        x->f[k] += w*X;
-        x->f[x->stride + k] += w*Y;
-    }
-    return 0;
-}
-
-static void end_in_units(int length, int time, gvi_formulation formulation, real *q)
-{
-    units a = { ldexp((real)1, length), ldexp((real)1, time) };
-    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = attraction_in_units, .user = &a } };
-    const gvi_desc desc = { .n = 2, .degree = 8, .effects = scene, .effect_count = 1, .formulation = formulation };
-    const real q0[2] = { (real)0.4*a.length, 0 }, v0[2] = { 0, 2*a.length/a.time };
-    gvi_stepper st;
-    must(gvi_init(&st, &desc, arena, sizeof arena));
-    must(gvi_start(&st, 0, q0, v0));
-    for (int k = 0; k < 2000; ++k) must(gvi_step(&st, (real)0.0625*a.time));
-    for (int i = 0; i < 2; ++i) q[i] = st.q[i]/a.length;
-}
-
-static void any_unit(void)
-{
-    static const gvi_formulation pins[] = { GVI_AUTO, GVI_POSITIONS, GVI_VELOCITIES, GVI_MOMENTA, GVI_NEWTON };
-    const int most = single ? 16 : 100;
-    int differ = 0, runs = 0;
-    for (int f = 0; f < COUNT(pins); ++f) {
-        real one[2], q[2];
-        end_in_units(0, 0, pins[f], one);
-        for (int length = -most; length <= most; length += most/2)
-            for (int time = -most; time <= most; time += most/2, ++runs) {
-                end_in_units(length, time, pins[f], q);
-                differ += memcmp(one, q, sizeof q) != 0;
-            }
-    }
-    printf("  %d runs, 2^-%d to 2^%d in length and in time\n", runs, most, most);
-    expect("runs that differ in a bit", 0, differ, 0);
-}
 
 /* -------------------------------------------------------------- oscillators */
 
@@ -182,8 +132,6 @@ static void sleeping_top(void)
 
 int main(void)
 {
-    printf("Units\n");
-    any_unit();
     printf("Oscillators\n");
     oscillators(GVI_AUTO);
     oscillators(GVI_NEWTON);

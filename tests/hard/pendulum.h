@@ -1,4 +1,4 @@
-/* pendulum.h - the double pendulum of long.c, stiff.c, brouwer.c and single.c: relative angles,
+/* pendulum.h - the double pendulum of long.c, stiff.c and brouwer.c: relative angles,
    m = l = 1, g = 9.8, a spring of the given stiffness in the joint; M(q), and the velocity in
    closed form.  Functions of the type of their argument: <tgmath.h>.                       */
 #ifndef HARD_PENDULUM_H

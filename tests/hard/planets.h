@@ -1,4 +1,4 @@
-/* planets.h - the outer solar system of brouwer.c, drift.c and single.c: six bodies, masses times G */
+/* planets.h - the outer solar system of brouwer.c, drift.c and long.c: six bodies, masses times G */
 #ifndef HARD_PLANETS_H
 #define HARD_PLANETS_H
 

@@ -31,71 +31,33 @@ typedef struct family {
 static double between(double lo, double hi) { return lo + (hi - lo)*(uniform() + 1)/2; }
 static double log_between(double lo, double hi) { return exp(between(log(lo), log(hi))); }
 
-static void pendulum_rates(double t, const double *z, double *d, void *user)
-{
-    (void)t, (void)user;
-    d[0] = z[1];
-    d[1] = -sin(z[0]);
-}
+/* One coordinate of unit mass: a pendulum, V = q^4/4, Morse's V = (1 - exp(-q))^2 */
+static double pull(double q) { return -sin(q); }
+static double quartic(double q) { return -q*q*q; }
+static double morse(double q) { return -2*(1 - exp(-q))*exp(-q); }
 
-static int pendulum(double t, const double *q, const double *v, double *f, double *dldv, void *user)
-{
-    f[0] -= sin(q[0]);
-    return (void)t, (void)v, (void)dldv, (void)user, 0;
-}
-
-static void draw_pendulum(double *a, double *q, double *v, double *h)
-{
-    (void)a;
-    q[0] = between(-3, 3);
-    v[0] = between(-2, 2);
-    *h = log_between(0.3, 12);
-}
-
-static void quartic_rates(double t, const double *z, double *d, void *user)
-{
-    (void)t, (void)user;
-    d[0] = z[1];
-    d[1] = -z[0]*z[0]*z[0];
-}
-
-static int quartic(double t, const double *q, const double *v, double *f, double *dldv, void *user)
-{
-    f[0] -= q[0]*q[0]*q[0];
-    return (void)t, (void)v, (void)dldv, (void)user, 0;
-}
-
-static void draw_quartic(double *a, double *q, double *v, double *h)
-{
-    (void)a;
-    q[0] = between(-2, 2);
-    v[0] = between(-2, 2);
-    *h = log_between(0.3, 12);
-}
-
-/* V = (1 - exp(-q))^2 */
-static double morse_force(double q) { return -2*(1 - exp(-q))*exp(-q); }
-
-static void morse_rates(double t, const double *z, double *d, void *user)
-{
-    (void)t, (void)user;
-    d[0] = z[1];
-    d[1] = morse_force(z[0]);
-}
-
-static int morse(double t, const double *q, const double *v, double *f, double *dldv, void *user)
-{
-    f[0] += morse_force(q[0]);
-    return (void)t, (void)v, (void)dldv, (void)user, 0;
-}
-
-static void draw_morse(double *a, double *q, double *v, double *h)
-{
-    (void)a;
-    q[0] = between(-1, 1);
-    v[0] = between(-0.7, 0.7);
-    *h = log_between(0.3, 12);
-}
+#define LINE(force, Q, V) \
+    static void force##_rates(double t, const double *z, double *d, void *user) \
+    { \
+        (void)t, (void)user; \
+        d[0] = z[1]; \
+        d[1] = force(z[0]); \
+    } \
+    static int force##_effect(double t, const double *q, const double *v, double *f, double *dldv, void *user) \
+    { \
+        f[0] += force(q[0]); \
+        return (void)t, (void)v, (void)dldv, (void)user, 0; \
+    } \
+    static void draw_##force(double *a, double *q, double *v, double *h) \
+    { \
+        (void)a; \
+        q[0] = between(-Q, Q); \
+        v[0] = between(-V, V); \
+        *h = log_between(0.3, 12); \
+    }
+LINE(pull, 3, 2)
+LINE(quartic, 2, 2)
+LINE(morse, 1, 0.7)
 
 /* Double pendulum, absolute angles, masses a[2] and a[3], rods a[0] and a[1], g = 9.81 */
 static void double_rates(double t, const double *z, double *d, void *user)
@@ -296,9 +258,9 @@ static void draw_magnet(double *a, double *q, double *v, double *h)
 }
 
 static const family families[] = {
-    { "pendulum", 1, pendulum_rates, draw_pendulum, GVI_POTENTIAL, pendulum, GVI_MASS_UNIT, NULL, NULL },
-    { "quartic", 1, quartic_rates, draw_quartic, GVI_POTENTIAL, quartic, GVI_MASS_UNIT, NULL, NULL },
-    { "Morse", 1, morse_rates, draw_morse, GVI_POTENTIAL, morse, GVI_MASS_UNIT, NULL, NULL },
+    { "pendulum", 1, pull_rates, draw_pull, GVI_POTENTIAL, pull_effect, GVI_MASS_UNIT, NULL, NULL },
+    { "quartic", 1, quartic_rates, draw_quartic, GVI_POTENTIAL, quartic_effect, GVI_MASS_UNIT, NULL, NULL },
+    { "Morse", 1, morse_rates, draw_morse, GVI_POTENTIAL, morse_effect, GVI_MASS_UNIT, NULL, NULL },
     { "double pendulum", 2, double_rates, draw_double, GVI_POTENTIAL, double_weight, GVI_MASS_POSITION,
       double_mass, double_gradient },
     { "rigid body", 3, body_rates, draw_body, GVI_POTENTIAL, nothing, GVI_MASS_POSITION, body_mass, body_gradient },

@@ -35,7 +35,6 @@ static MAYBE real square_distance(int n, const real *a, const real *b)
 
 /* Keeps NaN */
 static MAYBE real larger(real a, real b) { return isnan(a) || b <= a ? a : b; }
-static MAYBE int smaller_int(int a, int b) { return a < b ? a : b; }
 
 /* Distance of (q, p) from the exact state after pb->time in steps of h, root
    mean square over the starts                                                */
@@ -92,51 +91,13 @@ static MAYBE real lagrangian_error(const problem *pb, const method *m, real h)
     return sqrt(sum/STARTS);
 }
 
-/* -D1 L_d against the exact initial momentum of the same solution: of a
-   conservative problem                                                       */
-static MAYBE real momentum_error(const problem *pb, const method *m, real h)
-{
-    real sum = 0;
-    for (int start = 0; start < STARTS; ++start) {
-        real y0[MAX_Y], y1[MAX_Y], p0[MAX_N];
-        exact_step(pb, start, h, y0, y1);
-        gvi_stepper *st = bench(pb, m, step_time(pb, h), y0);
-        if (st->status != GVI_OK || gvi_discrete_lagrangian(st, st->t, h, y0, y1,
-                                        &(gvi_discrete){ .p0 = p0 }) != GVI_OK) return (real)NAN;
-        sum += square_distance(pb->n, p0, y0 + pb->n);
-    }
-    return sqrt(sum/STARTS);
-}
-
 /* ------------------------------------------------------- inside one exact step
 
    Distances of a curve from the solution in a step: the largest and the integral
    over the step, of the position and of its velocity, root mean square over the
    starts                                                                     */
-enum { INSIDE = 48, NORMS = 4 };
-typedef enum curve_kind { OF_THE_STEP, INTERPOLATED, STATE_AT } curve_kind;
-
-/* The polynomial of degree s through the solution at s + 1 Lobatto points */
-static MAYBE gvi_status interpolant(const problem *pb, int s, real h, const real *y0, real tau,
-                                    real *q, real *v)
-{
-    static real x[40], w[40], f[MAX_N][40];
-    if (!(tau > 0)) {                            /* the first of a step */
-        real y[MAX_Y];
-        gvi_status status = gvi_lobatto(s + 1, x, w);
-        if (status != GVI_OK || gvi_barycentric(s + 1, x, w) != GVI_OK) return GVI_E_NODES;
-        memcpy(y, y0, sizeof y);
-        for (int k = 0; k <= s; ++k) {
-            if (k) flow_of(pb, step_time(pb, h) + x[k - 1]*h, step_time(pb, h) + x[k]*h, y);
-            for (int i = 0; i < pb->n; ++i) f[i][k] = y[i] - y0[i];     /* rounding relative to h */
-        }
-    }
-    for (int i = 0; i < pb->n; ++i) {
-        q[i] = y0[i] + gvi_interpolate(s + 1, x, w, f[i], tau);
-        v[i] = gvi_interpolate_derivative(s + 1, x, w, f[i], tau)/h;
-    }
-    return GVI_OK;
-}
+enum { INSIDE = 24, NORMS = 4 };
+typedef enum curve_kind { OF_THE_STEP, STATE_AT } curve_kind;
 
 /* |position| and |velocity| of the difference at tau = k/INSIDE, in one step */
 static MAYBE int curve_errors(const problem *pb, const method *m, int start, real h, curve_kind kind,
@@ -151,9 +112,7 @@ static MAYBE int curve_errors(const problem *pb, const method *m, int start, rea
         real tau = (real)k/INSIDE, t = k < INSIDE ? t0 + tau*h : st->t;
         if (k) flow_of(pb, t0 + (real)(k - 1)/INSIDE*h, t, y);
         rates(pb, t, y, dy);
-        gvi_status status = kind == OF_THE_STEP ? gvi_curve(st, tau, q, v)
-                          : kind == STATE_AT ? gvi_state_at(st, t, q, v, NULL)
-                          : interpolant(pb, m->s, h, y0, tau, q, v);
+        gvi_status status = kind == OF_THE_STEP ? gvi_curve(st, tau, q, v) : gvi_state_at(st, t, q, v, NULL);
         if (status != GVI_OK) return 0;
         of_q[k] = sqrt(square_distance(pb->n, q, y));
         of_v[k] = sqrt(square_distance(pb->n, v, dy));

@@ -286,8 +286,9 @@ HESSIAN(motor_hessian)
 
 #define KEPLER_STARTS   { { 0.7L, 0 }, { 0.2L, 0.8L }, { -0.9L, 0.1L } }, \
                         { { 0.1L, 1.3L }, { -1.1L, 0.2L }, { 0.1L, -1 } }, 2
-#define PENDULUM_STARTS { { 0.7L, -0.4L }, { -0.3L, 1.1L }, { 0.2L, 0.5L } }, \
-                        { { 0.5L, 0.9L }, { 0.8L, -0.2L }, { -0.6L, 0.4L } }, 2
+#define PENDULUM_START_STATES { { 0.7L, -0.4L }, { -0.3L, 1.1L }, { 0.2L, 0.5L } }, \
+                              { { 0.5L, 0.9L }, { 0.8L, -0.2L }, { -0.6L, 0.4L } }
+#define PENDULUM_STARTS PENDULUM_START_STATES, 2
 #define MAGNETIC_STARTS { { 0.7L, -0.4L }, { -0.3L, 0.8L }, { 0.2L, 0.5L } }, \
                         { { 0.5L, 0.9L }, { 0.8L, -0.2L }, { -0.6L, 0.8L } }, 2
 

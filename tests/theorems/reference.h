@@ -1,9 +1,8 @@
 /* reference.h - exact values, to rounding, by means that share nothing with gvi.h
 
    The flow of Hamilton's equations by Gragg-Bulirsch-Stoer extrapolation of
-   order 14 (20 in quadruple precision), the action carried along as one more unknown, S' = L(t,q,v); the
-   solution between two configurations by shooting; from both, the exact discrete
-   Lagrangian and the exact discrete forces of Marsden and West (2001).        */
+   order 14 (20 in quadruple precision), the action carried along as one more
+   unknown, S' = L(t,q,v): of a solution it is the exact discrete Lagrangian.  */
 #ifndef REFERENCE_H
 #define REFERENCE_H
 
@@ -11,14 +10,17 @@
 #define EXTRAPOLATE_COLUMNS (LDBL_MANT_DIG > 64 ? 10 : 7)
 #include "tests/hard/extrapolate.h"
 
-enum { MAX_Y = 2*MAX_N + 1, NODES = 20 };
+enum { MAX_Y = 2*MAX_N + 1 };
 
 /* dL/dq and dL/dv */
 static MAYBE void gradient(const problem *pb, real t, const real *q, const real *v, real *dq, real *dv)
 {
     for (int i = 0; i < pb->n; ++i) dq[i] = dv[i] = 0;
     pb->kinetic(q, v, dq, dv);
-    for (int k = 0; k < pb->effect_count - pb->forced; ++k) pb->effects[k].point(t, q, v, dq, dv, NULL);
+    for (int k = 0; k < pb->effect_count - pb->forced; ++k) {
+        const gvi_effect *e = &pb->effects[k];
+        e->point(t, q, v, dq, dv, e->user);
+    }
 }
 
 /* adds the force, if there is one */
@@ -95,7 +97,7 @@ static MAYBE void exact_step(const problem *pb, int start, real h, real *y0, rea
     y0[2*n] = 0;
 }
 
-/* ------------------------------------------------------ between configurations */
+/* ----------------------------------------------------------- derivatives of it */
 
 /* a x = b by Gauss elimination with pivots, for small n; overwrites a */
 static MAYBE void solve(int n, real *a, real *b)
@@ -117,8 +119,7 @@ static MAYBE void solve(int n, real *a, real *b)
     }
 }
 
-/* Jacobi fields by differences: J[i][j] = d q_i(t + h)/d p_j.  For a Jacobian of
-   Newton's method and for signs of determinants: exact to about 1e-12.        */
+/* Jacobi fields by differences: J[i][j] = d q_i(t + h)/d p_j, exact to about 1e-12  */
 static MAYBE void jacobi(const problem *pb, real t, real h, const real *y0, real *J)
 {
     real delta = cbrt(UNIT);
@@ -132,62 +133,6 @@ static MAYBE void jacobi(const problem *pb, real t, real h, const real *y0, real
         flow_of(pb, t, t + h, up);
         flow_of(pb, t, t + h, down);
         for (int i = 0; i < n; ++i) J[i*n + j] = (up[i] - down[i])/(2*delta);
-    }
-}
-
-/* Shooting: changes the momentum in y0 until the solution meets q1; y1 is where
-   it ends.  Newton's method from a guess that is near, with one Jacobian.      */
-static MAYBE void shoot(const problem *pb, real t, real h, real *y0, const real *q1, real *y1)
-{
-    real J[MAX_N*MAX_N], A[MAX_N*MAX_N], d[MAX_N];
-    int n = pb->n;
-    jacobi(pb, t, h, y0, J);
-    for (int it = 0; it < 40; ++it) {
-        memcpy(y1, y0, MAX_Y*sizeof *y1);
-        flow_of(pb, t, t + h, y1);
-        for (int i = 0; i < n; ++i) d[i] = q1[i] - y1[i];
-        memcpy(A, J, sizeof A);
-        solve(n, A, d);
-        real size = 0;
-        for (int i = 0; i < n; ++i) { size += fabs(d[i]); y0[n + i] += d[i]; }
-        if (size < 2*UNIT) break;
-    }
-}
-
-/* The exact discrete forces: the integrals of f . dq/dq0 and f . dq/dq1 along
-   the solution from q0 to q1.  Gauss-Legendre in time; the derivatives of the
-   solution by its boundary values are central differences of order 8 of
-   solutions that were shot.                                                  */
-static MAYBE void exact_forces(const problem *pb, real t, real h, const real *y0, const real *y1,
-                               real *minus, real *plus)
-{
-    static const real weight[4] = { 4/5.0L, -1/5.0L, 4/105.0L, -1/280.0L };
-    real c[NODES], b[NODES], f[NODES][MAX_N] = { { 0 } }, delta = pow(UNIT, 1/9.0L)/4;
-    int n = pb->n;
-    gvi_gauss(NODES, c, b);
-    for (int k = 0; k < NODES; ++k) {
-        real y[MAX_Y], dy[MAX_Y];
-        memcpy(y, y0, sizeof y);
-        flow_of(pb, t, t + c[k]*h, y);
-        rates(pb, t + c[k]*h, y, dy);
-        add_force(pb, t + c[k]*h, y, dy, f[k]);
-    }
-    for (int j = 0; j < 2*n; ++j) {
-        real sum = 0;
-        for (int step = -4; step <= 4; ++step) {
-            real a[MAX_Y], q1[MAX_N], end[MAX_Y];
-            if (step == 0) continue;
-            memcpy(a, y0, sizeof a);
-            memcpy(q1, y1, sizeof q1);
-            *(j < n ? a + j : q1 + j - n) += step*delta;
-            shoot(pb, t, h, a, q1, end);
-            for (int k = 0; k < NODES; ++k) {
-                flow_of(pb, t + (k ? c[k - 1] : 0)*h, t + c[k]*h, a);
-                for (int i = 0; i < n; ++i)
-                    sum += h*b[k]*f[k][i]*a[i]*(step > 0 ? 1 : -1)*weight[abs(step) - 1]/delta;
-            }
-        }
-        *(j < n ? minus + j : plus + j - n) = sum;
     }
 }
 

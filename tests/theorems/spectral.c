@@ -8,7 +8,7 @@
 
      spectral [folder]     writes theorem_spectral.svg and theorem_spectral_rate.svg */
 #include "spectral.h"
-#include "examples/tools/svg.h"
+#include "tables.h"
 
 enum { S = 64 };
 
@@ -23,7 +23,6 @@ static void four_problems(const char *folder)
     static const char *const names[PROBLEMS] = { "Kepler", "pendulum", "magnetic", "length" };
     static double error[PROBLEMS][S];
     svg_line lines[PROBLEMS];
-    char path[500];
     for (int k = 0; k < PROBLEMS; ++k) {
         for (int s = 1; s <= S; ++s) {
             method m = { s, { 0 } };
@@ -36,11 +35,10 @@ static void four_problems(const char *folder)
         for (int k = 0; k < PROBLEMS; ++k) printf("  %9.2e", error[k][s - 1]);
         printf("\n");
     }
-    snprintf(path, sizeof path, "%s/theorem_spectral.svg", folder);
     const svg_plot plot = { .title = "Error of one step: h = 1/2 (Kepler, pendulum), h = 1",
                             .x_label = "degree s", .y_label = "error of (q, p)", .log_y = 1,
                             .lines = lines, .line_count = PROBLEMS };
-    if (svg_write(path, &plot)) exit(1);
+    draw(folder, "theorem_spectral", &plot);
 }
 
 /* ------------------------------------------------------------- a known rate */
@@ -62,7 +60,6 @@ static void known_rate(const char *folder)
     };
     static const char *const colours[6] = { "#0072b2", "#0072b2", "#d55e00", "#d55e00", "#009e73", "#009e73" };
     svg_line lines[6];
-    char path[500];
     const real e = 0.5L;
     printf("\nOne Kepler step through the pericentre, e = 1/2: factor a degree\n    h    seen   rho^-2\n");
     for (int k = 0; k < 3; ++k) {
@@ -76,11 +73,10 @@ static void known_rate(const char *folder)
         lines[2*k] = (svg_line){ names[2*k], degree, error[k], S };
         lines[2*k + 1] = (svg_line){ names[2*k + 1], degree, theory[k], S };
     }
-    snprintf(path, sizeof path, "%s/theorem_spectral_rate.svg", folder);
     const svg_plot plot = { .title = "One Kepler step through the pericentre, e = 1/2", .x_label = "degree s",
                             .y_label = "error of (q, p)", .log_y = 1, .lines = lines, .line_count = 6,
                             .dashed = 0x2a, .colours = colours };
-    if (svg_write(path, &plot)) exit(1);
+    draw(folder, "theorem_spectral_rate", &plot);
 }
 
 int main(int argc, char **argv)

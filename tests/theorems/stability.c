@@ -6,7 +6,7 @@
 
      stability [folder]    writes theorem_stability_gauss.svg, ..._lobatto.svg  */
 #include "stability.h"
-#include "examples/tools/svg.h"
+#include "tables.h"
 
 enum { S = 6, POINTS = 2001 };
 static const double TOP = 20;
@@ -74,12 +74,11 @@ static void windows(int s)
     printf("\n");
 }
 
-static void draw(const char *folder, int lobatto_)
+static void draw_traces(const char *folder, int lobatto_)
 {
     static const char *const names[S] = { "s = 1", "s = 2", "s = 3", "s = 4", "s = 5", "s = 6" };
     static double shown[S][POINTS];
     svg_line lines[S];
-    char path[500];
     for (int s = 0; s < S; ++s) {
         for (int k = 0; k < POINTS; ++k) {
             double half = seen[s][k];
@@ -87,13 +86,12 @@ static void draw(const char *folder, int lobatto_)
         }
         lines[s] = (svg_line){ names[s], x, shown[s], POINTS };
     }
-    snprintf(path, sizeof path, "%s/theorem_stability_%s.svg", folder, lobatto_ ? "lobatto" : "gauss");
     const char *title = lobatto_ ? "Half trace of a step, oscillator, Lobatto s + 1: beyond 1 it grows"
                                  : "Half trace of a step, oscillator, Gauss s: never beyond 1";
     const svg_plot plot = { .title = title, .x_label = "h omega",
                             .y_label = "half trace (exact: cos h omega)",
                             .lines = lines, .line_count = S };
-    if (svg_write(path, &plot)) exit(1);
+    draw(folder, lobatto_ ? "theorem_stability_lobatto" : "theorem_stability_gauss", &plot);
 }
 
 int main(int argc, char **argv)
@@ -104,7 +102,7 @@ int main(int argc, char **argv)
             printf("windows, with the largest factor a step\n");
             for (int s = 1; s <= S; ++s) windows(s);
         }
-        draw(argc > 1 ? argv[1] : ".", lobatto_);
+        draw_traces(argc > 1 ? argv[1] : ".", lobatto_);
     }
     return 0;
 }

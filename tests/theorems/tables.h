@@ -1,10 +1,17 @@
-/* tables.h - the tables of svg.h as text */
+/* tables.h - pictures of a study, and its tables as text */
 #ifndef TABLES_H
 #define TABLES_H
 
-#include "tools/svg.h"
+#include "examples/tools/svg.h"
 
-static void print_table(const svg_table *t)
+static MAYBE void draw(const char *folder, const char *file, const svg_plot *plot)
+{
+    char path[500];
+    snprintf(path, sizeof path, "%s/%s.svg", folder, file);
+    if (svg_write(path, plot)) exit(1);
+}
+
+static MAYBE void print_table(const svg_table *t)
 {
     printf("\n%-20s", t->title);
     for (int j = 0; j < t->column_count; ++j) printf("%8s", t->columns[j]);

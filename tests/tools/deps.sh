@@ -2,7 +2,6 @@
 # Installs, with the package manager that is there, what a target needs.
 # deps.sh             cmocka, which is all that `make test` needs
 # deps.sh --check     also what `make check` uses if it can be had, and skips if not
-# deps.sh --compare   the libraries that `make cost-peers` compares with
 # deps.sh --firmware  the compilers and the emulator of `make firmware size`
 # deps.sh --ensemble  the MPI of `make ensemble`
 # deps.sh --cmocka    installs nothing: can cmocka be compiled against?
@@ -22,25 +21,22 @@ cmocka=none
 if have apt-get; then
     manager=apt-get install='env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends'
     cmocka=libcmocka-dev mingw=gcc-mingw-w64-x86-64 cxx=g++ mpi=libopenmpi-dev
-    compare='libgsl-dev libsundials-dev libboost-dev g++'
     firmware='gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm gcc-riscv64-unknown-elf
               picolibc-riscv64-unknown-elf gcc-avr avr-libc'
 elif have dnf; then
     manager=dnf install='dnf install -y' cmocka=libcmocka-devel mingw=mingw64-gcc cxx=gcc-c++ mpi=openmpi-devel
-    compare='gsl-devel sundials-devel boost-devel gcc-c++'
     firmware='arm-none-eabi-gcc-cs arm-none-eabi-newlib qemu-system-arm avr-gcc avr-libc'
 elif have pacman; then
     manager=pacman install='pacman -S --noconfirm --needed' cmocka=cmocka mingw=mingw-w64-gcc cxx=gcc mpi=openmpi
-    compare='gsl sundials boost gcc' firmware='arm-none-eabi-gcc arm-none-eabi-newlib qemu-system-arm avr-gcc avr-libc'
+    firmware='arm-none-eabi-gcc arm-none-eabi-newlib qemu-system-arm avr-gcc avr-libc'
 elif have apk; then
     manager=apk install='apk add' cmocka=cmocka-dev mingw=mingw-w64-gcc cxx=g++ mpi='openmpi openmpi-dev'
 elif have brew; then
     manager=brew install='brew install' cmocka=cmocka mingw=mingw-w64 mpi=open-mpi
-    compare='gsl sundials boost' firmware='gcc-arm-embedded qemu coreutils'
+    firmware='gcc-arm-embedded qemu coreutils'
 fi
 welcome=
 case $1 in
---compare)  needed=${compare:-none} by_hand='GSL, SUNDIALS, Boost, a C++ compiler' ;;
 --firmware) needed=${firmware:-none} by_hand='arm-none-eabi-gcc with newlib, qemu-system-arm' ;;
 --ensemble) needed=${mpi:-none} by_hand='Open MPI or MPICH'
             if have mpicc && have mpirun; then needed=; fi ;;

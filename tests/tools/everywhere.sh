@@ -200,7 +200,7 @@ if [ "$1" = --job ]; then
     shift 4
     bits=bits-$1 log=$dir/$kind-$1${2:+-$2}
     sources="gvi.h $here tests/gvi_test.h tests/problems.h tests/compile examples"
-    [ "$kind" != test ] || sources="$sources tests/data tests/cost tests/hard tests/test_${1%:*}.c"
+    [ "$kind" != test ] || sources="$sources tests/data tests/cost tests/hard tests/theorems tests/fuzz tests/test_${1%:*}.c"
     # shellcheck disable=SC2086
     [ -f "$log.out" ] && [ -z "$(find $sources -type f -newer "$log.out")" ] && exit 0
     rm -f "$log.out" "$log.bad"
