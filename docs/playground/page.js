@@ -612,7 +612,7 @@ function drawCost() {
       const end = at[at.length - 1], name = list[0].rule === 'gauss' && !list[0].tol ? list[0].degree : '';
       while (placed.some(o => Math.abs(o[0] - end[0]) < 24 && Math.abs(o[1] - end[1]) < 12)) end[1] -= 12;
       placed.push(end);
-      if (name !== '') labels += `<text x="${end[0] + 8}" y="${end[1] + 4}" style="fill:${colour};font-weight:600">${name}</text>`;
+      if (name !== '') labels += `<text x="${end[0] + 8}" y="${end[1] + 4}" style="fill:${colour};font-weight:600;stroke:var(--card);stroke-width:3;paint-order:stroke">${name}</text>`;
     }
   }
   svg.innerHTML = out + labels;
