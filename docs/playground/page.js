@@ -493,7 +493,7 @@ function* run(p, j, timed, on = p.o.on) {
       const d = now() - t;
       sum += d;
       if (d < 1) chunk = Math.min(2 * chunk, 1 << 20); else if (d > 3) chunk = Math.max(1, chunk >> 1);
-      if (sum > 1200) status = 99;
+      if (sum > (timed ? 1200 : 5000)) status = 99;   // without a reference there is no plot
       yield;
     }
     return sum;
@@ -612,7 +612,7 @@ function drawCost() {
       const end = at[at.length - 1], name = list[0].rule === 'gauss' && !list[0].tol ? list[0].degree : '';
       while (placed.some(o => Math.abs(o[0] - end[0]) < 24 && Math.abs(o[1] - end[1]) < 12)) end[1] -= 12;
       placed.push(end);
-      if (name !== '') labels += `<text x="${end[0] + 8}" y="${end[1] + 4}" style="fill:${colour};font-weight:600">${name}</text>`;
+      if (name !== '') labels += `<text x="${end[0] + 8}" y="${end[1] + 4}" style="fill:${colour};font-weight:600;stroke:var(--card);stroke-width:3;paint-order:stroke">${name}</text>`;
     }
   }
   svg.innerHTML = out + labels;

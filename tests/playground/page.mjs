@@ -25,17 +25,35 @@ const complaints = [];
 async function visit(hash = '', options = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 1400 }, ...options });
   const page = await context.newPage();
+  page.setDefaultTimeout(240000);                          // against hanging alone: the machine may be busy
   page.on('console', m => { if (['error', 'warning'].includes(m.type())) complaints.push(m.text()); });
   page.on('pageerror', e => complaints.push(e.message));
   page.on('request', r => { if (!r.url().startsWith('file:') && !r.url().startsWith('data:') && !r.url().startsWith('blob:')) complaints.push('asked the network for ' + r.url()); });
   await page.goto(url + hash);
-  await page.waitForFunction(() => document.documentElement.dataset.ready, null, { timeout: 20000 });
+  await page.waitForFunction(() => document.documentElement.dataset.ready);
   return page;
 }
 const leave = page => page.context().close();
 const total = (page, effect) => page.evaluate(e => Number(document.querySelector(`tr[data-effect=${e}]`).dataset.total), effect);
+/* Whether it comes true. */
+const soon = (page, what, arg) => page.waitForFunction(what, arg, { timeout: 30000 }).then(() => true, () => false);
+/* Switches an effect off.  The page writes its counters three times a second, 0 a step for what is off: the
+   counts when it does, and a second later, when it has counted on for the other. */
+async function still(page, effect, other) {
+  const counts = async () => [await total(page, effect), await total(page, other)];
+  const shows = zero => soon(page, ([e, zero]) => zero === (document.querySelector(`tr[data-effect=${e}] td:nth-child(2)`).textContent === '0'), [effect, zero]);
+  const acted = await shows(false);
+  await page.click(`tr[data-effect=${effect}] input`);
+  const zero = await shows(true), [held, going] = await counts();
+  await page.waitForTimeout(1000);
+  const goes = await soon(page, ([e, n]) => Number(document.querySelector(`tr[data-effect=${e}]`).dataset.total) > n, [other, going]);
+  const then = await total(page, effect);
+  return { ok: acted && zero && then === held && held > 0, goes, zero, held, then };
+}
+/* The plots are drawn now and then: up to time t, which many frames have led to. */
+const plotted = (page, t) => page.waitForFunction(t => window.gvi.live.t > t && Number(/over (\S+) of time/.exec(document.querySelector('#stability').getAttribute('aria-label'))[1]) > t, t);
 const chosen = page => page.getAttribute('#formulation', 'data-formulation');
-const measured = page => page.waitForFunction(() => document.querySelector('#cost').dataset.left === '0' && document.querySelector('#here'), null, { timeout: 240000 });
+const measured = page => page.waitForFunction(() => document.querySelector('#cost').dataset.left === '0' && document.querySelector('#here'));
 /* The point of the present setting, once it is measured. */
 async function here(page) {
   const found = await page.waitForFunction(() => {
@@ -43,51 +61,63 @@ async function here(page) {
     const p = [...document.querySelectorAll('.point')].find(q => q.dataset.id === [0, kicks ? 1 : set.degree, set.rule, set.tol, set.h].join(' '));
     if (!ring || !p || document.querySelector('#cost').dataset.left === undefined) return null;
     return { ...p.dataset, x: +ring.getAttribute('cx'), y: +ring.getAttribute('cy'), width: document.querySelector('#cost').clientWidth, height: document.querySelector('#cost').clientHeight };
-  }, null, { timeout: 240000 });
+  });
   return found.jsonValue();
 }
+/* Its cost, once it has been timed three times. */
+const costs = async page => (await page.waitForFunction(() => {
+  const { set, problems } = window.gvi, { points } = problems.get(JSON.stringify([set.scene, set.on, set.p]));
+  const p = points.find(q => q.id === [0, set.degree, set.rule, set.tol, set.h].join(' '));
+  return p && p.seen > 1 && { time: p.time, work: p.work };
+})).jsonValue();
 const put = (page, selector, value) => page.evaluate(([s, v]) => { const e = document.querySelector(s); e.value = v; e.dispatchEvent(new Event('input', { bubbles: true })); e.dispatchEvent(new Event('change', { bubbles: true })); }, [selector, value]);
 
 /* ---- it opens ---- */
 const bytes = statSync(file).size;
 check('under 200 KB in all', bytes < 200000, bytes);
 let page = await visit();
-let ready = Infinity;                                      // the best of three: other programs may run
-for (let k = 0; k < 3 && ready >= 1000; k++) {
+/* Other programs may run: a time is divided by how often a loop's CPU time fits into the time it takes, the best of five. */
+const cdp = await page.context().newCDPSession(page);
+await cdp.send('Performance.enable', { timeDomain: 'threadTicks' });
+const spent = async name => (await cdp.send('Performance.getMetrics')).metrics.find(m => m.name === name).value;
+async function alone(time) {
+  const before = await spent('ThreadTime');
+  const loop = await page.evaluate(() => { const begin = performance.now(); while (performance.now() - begin < 300); return performance.now() - begin; });
+  return time/Math.max(1, loop/1000/(await spent('ThreadTime') - before));
+}
+let ready = Infinity;
+for (let k = 0; k < 5 && ready >= 1000; k++) {
   if (k) await page.reload(), await page.waitForFunction(() => document.documentElement.dataset.ready);
-  ready = Math.min(ready, Number(await page.evaluate(() => document.documentElement.dataset.ready)));
+  ready = Math.min(ready, Math.round(await alone(Number(await page.evaluate(() => document.documentElement.dataset.ready)))));
 }
 check('first frame under a second', ready < 1000, ready);
 check('the planet is the first scene', (await page.textContent('#scene-title')) === 'Planet');
 const drawn = () => page.evaluate(() => { const c = document.querySelector('#canvas'), d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data; let n = 0; for (let i = 3; i < d.length; i += 4) n += d[i] > 0; return n; });
 check('something is drawn', (await drawn()) > 1000);
-/* A slice and its picture have to fit into a frame of 60 a second: in CPU time, which a busy machine does not change. */
-const cdp = await page.context().newCDPSession(page);
-await cdp.send('Performance.enable', { timeDomain: 'threadTicks' });
-const script = async () => (await cdp.send('Performance.getMetrics')).metrics.find(m => m.name === 'ScriptDuration').value;
-const before = await script();
-const moving = await page.evaluate(() => new Promise(done => { let n = 0, worst = 0, last = performance.now(); const begin = last; const f = () => { const t = performance.now(); worst = Math.max(worst, t - last); last = t; n++; if (t - begin < 2000) requestAnimationFrame(f); else done({ n, worst }); }; requestAnimationFrame(f); }));
-const took = 1000*(await script() - before)/moving.n;
-check('a slice fits into a frame, none freezes the page', took > 1 && took < 1000/60 && moving.worst < 300, [took, moving]);
+/* A slice and its picture have to fit into a frame of 60 a second, in CPU time. */
+let took, worst = Infinity;
+for (let k = 0; k < 5 && worst >= 300; k++) {
+  const before = await spent('ScriptDuration');
+  const moving = await page.evaluate(() => new Promise(done => { let n = 0, worst = 0, last = performance.now(); const begin = last; const f = () => { const t = performance.now(); worst = Math.max(worst, t - last); last = t; n++; if (t - begin < 2000) requestAnimationFrame(f); else done({ n, worst }); }; requestAnimationFrame(f); }));
+  took = 1000*(await spent('ScriptDuration') - before)/moving.n;
+  worst = await alone(moving.worst);
+}
+check('a slice fits into a frame, none freezes the page', took > 1 && took < 1000/60 && worst < 300, [took, worst]);
 const pace = `${took.toFixed(1)} ms of CPU a frame`;
 
 /* ---- effects: what is off costs nothing ---- */
 await page.click('tr[data-effect=drag] input');
 check('drag reads v: velocities', (await chosen(page)) === 'velocities');
-await measured(page);
-const dear = await here(page);
+const dear = await costs(page);
 check('drag is evaluated', (await total(page, 'drag')) > 0);
-await page.click('tr[data-effect=drag] input');
+const dragless = await still(page, 'drag', 'gravity');
 check('without it: positions', (await chosen(page)) === 'positions');
 check('and the page says why', /constant mass, effects read only t and q/.test(await page.textContent('#formulation')));
-await measured(page);
-const still = await total(page, 'drag'), going = await total(page, 'gravity');
-await page.waitForTimeout(1500);
-check('its counter stands still', (await total(page, 'drag')) === still && still > 0);
-check('the others go on', (await total(page, 'gravity')) > going);
-check('what is off shows 0 a step', (await page.textContent('tr[data-effect=drag] td:nth-child(2)')) === '0');
-const cheap = await here(page);
-check('and its cost falls', Number(cheap.time) < Number(dear.time) && Number(cheap.work) < Number(dear.work), [cheap.time, dear.time, cheap.work, dear.work]);
+check('its counter stands still', dragless.ok, dragless);
+check('the others go on', dragless.goes, dragless);
+check('what is off shows 0 a step', dragless.zero, dragless);
+const cheap = await costs(page);
+check('and its cost falls', cheap.time < dear.time && cheap.work < dear.work, [cheap, dear]);
 await page.click('tr[data-effect=clock] input');
 check('a clock: momenta', (await chosen(page)) === 'momenta');
 await page.click('tr[data-effect=clock] input');
@@ -113,11 +143,9 @@ for (const degree of [8, 4, 3]) {
 check('each position left a point', (await page.evaluate(() => [3, 4, 8].every(d => document.querySelector(`.point[data-degree="${d}"][data-h="0.25"]`)))));
 check('rivals are there', await page.evaluate(() => [1, 2, 3].every(m => document.querySelectorAll(`.point[data-method="${m}"]`).length >= 4)));
 await put(page, '#want', -10);
-await page.waitForTimeout(800);
-check('a cheapest setting is named', /Cheapest setting so far for an error of 10⁻¹⁰ AU: degree \d+/.test(await page.textContent('#cheapest')), await page.textContent('#cheapest'));
+check('a cheapest setting is named', await soon(page, () => /Cheapest setting so far for an error of 10⁻¹⁰ AU: degree \d+/.test(document.querySelector('#cheapest').textContent)), await page.textContent('#cheapest'));
 await page.click('#by-work');
-await page.waitForTimeout(800);
-check('cost in evaluations, too', /evaluations/.test(await page.textContent('#cost')));
+check('cost in evaluations, too', await soon(page, () => /evaluations/.test(document.querySelector('#cost').textContent)));
 await page.click('#by-time');
 
 /* ---- bad input ---- */
@@ -143,7 +171,7 @@ for (let k = 0; k < 40; k++) await page.click('#step');
 check('forty steps', (await page.textContent('#stepped')) === '40', await page.textContent('#stepped'));
 await put(page, '#speed', 4);
 await page.click('#reverse');
-await page.waitForFunction(() => /back at the start/.test(document.querySelector('#from-start').textContent), null, { timeout: 20000 });
+await page.waitForFunction(() => /back at the start/.test(document.querySelector('#from-start').textContent));
 check('backwards to the start', Number(await page.getAttribute('#from-start', 'data-off')) < 1e-13, await page.textContent('#from-start'));
 await page.evaluate(() => document.activeElement.blur());
 await page.keyboard.press('ArrowRight');
@@ -155,36 +183,30 @@ await page.mouse.move(box.x + 100, box.y + 100);
 await page.mouse.down();
 await page.mouse.move(box.x + 200, box.y + 140, { steps: 4 });
 await page.mouse.up();
-await page.waitForTimeout(200);
-check('a drag turns the picture', seen !== await page.evaluate(() => document.querySelector('#canvas').toDataURL()));
+check('a drag turns the picture', await soon(page, seen => seen !== document.querySelector('#canvas').toDataURL(), seen));
 
 /* ---- stability ---- */
 await page.click('#break');
 await put(page, '#speed', 4);
-await page.waitForFunction(() => window.gvi.live.t > 20 || !document.querySelector('#alert').hidden, null, { timeout: 30000 });
+await page.waitForFunction(() => window.gvi.live.t > 20 || !document.querySelector('#alert').hidden);
 const lost = () => page.evaluate(() => { const m = /gvi.h ([^ ,]+)/.exec(document.querySelector('#stability').getAttribute('aria-label')); return Number(m[1].replace('−', '-')); });
-await page.waitForTimeout(500);
+if (!(await page.isVisible('#alert'))) await plotted(page, 20);
 check('a fixed step breaks at the encounter', (await page.isVisible('#alert')) || (await lost()) > 1e-3, await lost());
 await page.click('#clock');
 await page.click('#fast');
-await page.waitForFunction(() => window.gvi.live.t > 200, null, { timeout: 60000 });
-await page.waitForTimeout(500);
+await plotted(page, 200);
 check('the clock keeps the energy', (await lost()) < 1e-11, await lost());
 
 /* ---- a constraint that breaks ---- */
 await page.click('#scenes button[data-scene=rods]');
-await page.waitForFunction(() => window.gvi.live.t > 2, null, { timeout: 20000 });
+await plotted(page, 2);
 const gap = () => page.evaluate(() => Number((/Constraint: gvi.h ([^ ,]+?)[.,]? /.exec(document.querySelector('#stability').getAttribute('aria-label') + ' ') || [])[1]?.replace('−', '-')));
-await page.waitForTimeout(500);
 check('the rods hold, to rounding', (await gap()) < 1e-14, await gap());
 const reach = () => page.evaluate(() => { const n = i => window.gvi.x.world_number(0, 30, i); return Math.hypot(n(2) - n(0), n(3) - n(1)); });
 check('a rod of 1 m', Math.abs((await reach()) - 1) < 1e-14, await reach());
-await page.click('tr[data-effect=lower-rod] input');
-await page.waitForTimeout(500);                          // as for the quaternion below
-const held = await total(page, 'lower-rod'), upper = await total(page, 'upper-rod');
-await page.waitForTimeout(1500);
-check('a broken rod: its counter stands still', (await total(page, 'lower-rod')) === held && held > 0 && (await total(page, 'upper-rod')) > upper);
-check('and the bob flies off', (await reach()) > 1.5, await reach());
+const broken = await still(page, 'lower-rod', 'upper-rod');
+check('a broken rod: its counter stands still', broken.ok && broken.goes, broken);
+check('and the bob flies off', await soon(page, () => { const n = i => window.gvi.x.world_number(0, 30, i); return Math.hypot(n(2) - n(0), n(3) - n(1)) > 1.5; }), await reach());
 await page.screenshot({ path: join(build, 'broken.png'), fullPage: true });
 await page.click('tr[data-effect=lower-rod] input');
 check('it cannot be mounted there', /^gvi_switch.*lower rod/.test(await page.textContent('#alert-text')), await page.textContent('#alert-text'));
@@ -192,15 +214,11 @@ await page.click('#restart');
 check('but at the start', !(await page.isVisible('#alert')) && Math.abs((await reach()) - 1) < 1e-14);
 
 await page.click('#scenes button[data-scene=quaternion]');
-await page.waitForFunction(() => window.gvi.live.t > 0.1, null, { timeout: 20000 });
+await page.waitForFunction(() => window.gvi.live.t > 0.1);
+const free = await still(page, 'unit-length', 'gravity');
+check('a free quaternion: its counter stands still', free.ok && free.goes && (await chosen(page)) === 'momenta', free);
 await page.click('tr[data-effect=unit-length] input');
-await page.waitForTimeout(500);                          // a slice at work ends, the table is written
-const free = await total(page, 'unit-length');
-await page.waitForTimeout(1000);
-check('a free quaternion: its counter stands still', (await total(page, 'unit-length')) === free && free > 0 && (await chosen(page)) === 'momenta');
-await page.click('tr[data-effect=unit-length] input');
-await page.waitForTimeout(1000);
-check('it can be held again, to rounding', !(await page.isVisible('#alert')) && (await total(page, 'unit-length')) > free && (await page.evaluate(() => window.gvi.x.world_number(0, 22, 0))) < 1e-15);
+check('it can be held again, to rounding', (await soon(page, n => Number(document.querySelector('tr[data-effect=unit-length]').dataset.total) > n, free.held)) && !(await page.isVisible('#alert')) && (await page.evaluate(() => window.gvi.x.world_number(0, 22, 0))) < 1e-15);
 
 /* ---- the address ---- */
 await page.click('#scenes button[data-scene=charge]');
@@ -226,11 +244,9 @@ for (const hash of ['#scene=nonsense', '#degree=99', '#h=0', '#h=-1e999&degree=x
 
 page = await visit('#scene=eight');
 await page.evaluate(() => { location.hash = '#scene=no-such-scene'; });
-await page.waitForTimeout(400);
-check('an address typed later is read, too', /no-such-scene.*bad argument/.test(await page.textContent('#alert-text')), await page.textContent('#alert-text'));
+check('an address typed later is read, too', await soon(page, () => /no-such-scene.*bad argument/.test(document.querySelector('#alert-text').textContent)), await page.textContent('#alert-text'));
 await page.evaluate(() => { location.hash = '#scene=arm&degree=5'; });
-await page.waitForTimeout(400);
-check('and another', (await page.evaluate(() => window.gvi.set.degree)) === 5 && (await page.textContent('#scene-title')) === 'Robot arm');
+check('and another', (await soon(page, () => window.gvi.set.degree === 5)) && (await page.textContent('#scene-title')) === 'Robot arm');
 await leave(page);
 
 /* ---- every scene; what it writes compiles and says the same ---- */
