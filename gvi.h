@@ -739,7 +739,8 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
 
 /* Start at time t from velocities, momenta, or two configurations: q0 at t and
    q1 at t + h (solves the boundary-value problem; conjugate points: below; no constraints).
-   A start that is off a constraint by more than 4096 roundings: GVI_E_CONSTRAINT.  */
+   A start that is off a constraint by more than 4096 roundings, of v in units of the root of all
+   kinetic energy: GVI_E_CONSTRAINT.                                           */
 GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v);
 GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                       const gvi_real *p);
@@ -3996,7 +3997,8 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
                 size = GVI_ABS(g[a])/(GVI__EPS*unit[a]);
             finite &= gvi__finite(g[a]);
         }
-        if (size <= 64 && finite && k > 0 && !(size < before/2)) return gvi__report_status(st, GVI_OK);
+        if (finite && size <= 64 && k > 0 && !(size < before/2))
+            return gvi__report_status(st, GVI_OK);
         if (k == 0) most = 4*(size + 4096);
         if (!finite || k > 64 || size > most)
             return gvi__report_status(st, finite || x->diagnose ? GVI_E_CONVERGENCE
@@ -4016,8 +4018,8 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
 
 /* ---- at the end of a step, and at the start ---- */
 
-/* Is each g_a within 4096 roundings?  Of its terms that are seen; or of what it proves to have: with
-   a part of Newton's correction, that part of g_a goes, but for the change of G along it.      */
+/* Is each g_a within 4096 roundings, of its terms that are seen, or of what it proves to have?  With
+   a part of Newton's correction that part of g_a goes, but for the change of G along it.      */
 GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real *q)
 {
     const gvi_real part = (gvi_real)0.618034, units = 4096;
@@ -4133,7 +4135,7 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
     static const gvi_real weight[] = {
         (gvi_real)4/5, -(gvi_real)1/5, (gvi_real)4/105, -(gvi_real)1/280
     };
-    gvi_status status = gvi__ready(st, st && st->x.started);
+    gvi_status trial = GVI_OK, status = gvi__ready(st, st && st->x.started);
     if (status != GVI_OK) return status;
     if (!lambda) return gvi__refuse_call(st, "lambda is NULL");
     if (!GVI__CONSTRAINTS || !st->x.con.bits) return st->status = GVI_E_FORMULATION;
@@ -4159,14 +4161,15 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
     for (int k = 0; k < GVI__DIG/2 && m > 0 && status == GVI_OK; ++k) {
         delta /= k == 0 ? 8 : 2;
         gvi__zero((size_t)m, rate);
-        for (int j = 0; j < 8 && status == GVI_OK; ++j) {
+        trial = GVI_OK;
+        for (int j = 0; j < 8 && trial == GVI_OK; ++j) {
             const gvi_real sign = j % 2 ? -1 : 1, e = sign*delta*(gvi_real)(j/2 + 1), t = st->t + e;
             gvi__add_scaled(n, e, v, st->q, q);
             gvi__add_scaled(n, e, force, st->p, p);
             gvi__copy((size_t)n, v, u);
-            status = gvi__velocity(st, t, q, p, u);
-            if (status == GVI_OK)
-                status = gvi__evaluate_constraints(st, 1, 1, &t, q, x->con.G + m*n);
+            trial = gvi__velocity(st, t, q, p, u);
+            if (trial == GVI_OK)
+                trial = gvi__evaluate_constraints(st, 1, 1, &t, q, x->con.G + m*n);
             for (int a = 0; a < m; ++a)
                 rate[a] += (x->con.g[m + a] + gvi__dot(n, x->con.G + (m + a)*n, u))
                            *(sign*weight[j/2]/delta);
@@ -4174,6 +4177,7 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
         for (int a = 0; a < m; ++a) z[a] = -rate[a];
         gvi__ldl_solve(m, x->con.A, 1, z, 1, 1);
         size = -gvi__dot(m, rate, z);
+        if (trial != GVI_OK || !gvi__finite(size)) continue;      // beyond a domain: nearer
         if (!(size < least) && size <= GVI__EPS*largest) break;
         gvi__add_scaled(m, 1, z, sum, sum);
         gvi__add_force(st, z, force);
@@ -4181,7 +4185,7 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
         if (size < least) least = size, gvi__copy((size_t)m, sum, best);
     }
     if (status == GVI_OK && m > 0 && !(least < GVI__MAX))
-        status = gvi__report_status(st, GVI_E_NON_FINITE);
+        status = trial != GVI_OK ? trial : gvi__report_status(st, GVI_E_NON_FINITE);
     if (status != GVI_OK) return st->status = status;
     for (int e = 0; e < x->desc.effect_count; ++e)
         for (int a = 0; a < x->desc.effects[e].rows; ++a)

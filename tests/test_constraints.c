@@ -285,6 +285,45 @@ TEST(multipliers_are_the_tension)
     assert_close(lambda, -1, 4*EPS);
 }
 
+/* A bead in a bowl whose wall ends at |x| = 1, near its rim: the trials leave the domain, the bead does not.
+   Normal force |v|^2 + z0 at height -z0, and lambda is its vertical part                                     */
+static int weight_in_space(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    (void)t; (void)q; (void)v; (void)dldv; (void)user;
+    f[2] -= 1;
+    return 0;
+}
+
+static int bowl(const gvi_points *x, void *refuses)
+{
+    for (int k = 0; k < x->count; ++k) {
+        const real X = x->q[k], w = 1 - X*X - x->q[x->stride + k]*x->q[x->stride + k], z = sqrt(w);
+        if (refuses && !(w > 0)) return 1;
+        x->g[k] = x->q[2*x->stride + k] + z;
+        x->jacobian[k] = -X/z;
+        x->jacobian[x->stride + k] = -x->q[x->stride + k]/z;
+        x->jacobian[2*x->stride + k] = 1;
+    }
+    return 0;
+}
+
+TEST(multipliers_near_the_end_of_a_domain)
+{
+    static int refuses;
+    const real r = (real)0.99L, z = sqrt(1 - r*r), q[] = { r, 0, -z }, v[] = { 0, 1, 0 };
+    for (int k = 0; k < 2; ++k) {
+        const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .point = weight_in_space },
+            { .kind = GVI_CONSTRAINT, .points = bowl, .rows = 1, .user = k ? &refuses : NULL } };
+        const gvi_desc desc = { .n = 3, .effects = scene, .effect_count = 2 };
+        gvi_stepper st;
+        real lambda;
+        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+        assert_ok(gvi_start(&st, 0, q, v));
+        assert_ok(gvi_multipliers(&st, &lambda));
+        assert_close(lambda, z*(1 + z), 256*EPS);
+    }
+}
+
 /* The lower rod breaks: then its end falls freely, and the upper rod swings on; mended where it does not fit:
    refused, and nothing has changed                                                                    */
 TEST(a_rod_breaks_and_holds_again)
