@@ -4018,8 +4018,8 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
 
 /* ---- at the end of a step, and at the start ---- */
 
-/* Is each g_a within 4096 roundings, of its terms that are seen, or of what it proves to have?  With
-   a part of Newton's correction that part of g_a goes, but for the change of G along it.      */
+/* Is each g_a within 4096 roundings, of its terms that are seen, or of what it proves to have?  A
+   part of Newton's correction takes that part of g_a, but for the change of G along it.       */
 GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real *q)
 {
     const gvi_real part = (gvi_real)0.618034, units = 4096;
