@@ -3896,7 +3896,7 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
     x->con.linear = x->con.made > 0;
     for (int a = 0; a < m; ++a) {
         if (linear) gvi__copy((size_t)s, x->con.rho + a*R, x->con.g + a*C + 1);
-        for (int k = 0; k < s; ++k) {
+        for (int k = 0; k < s && x->con.linear; ++k) {
             gvi_real change = along[a*C + k], size = 0;
             for (int i = 0; i < n; ++i) {
                 const gvi_real z = G[(a*n + i)*C + k]*moved[i*C + k];
