@@ -739,7 +739,8 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
 
 /* Start at time t from velocities, momenta, or two configurations: q0 at t and
    q1 at t + h (solves the boundary-value problem; conjugate points: below; no constraints).
-   A start that is off a constraint by more than 4096 roundings: GVI_E_CONSTRAINT.  */
+   A start that is off a constraint by more than 4096 roundings, of v in units of the root of all
+   kinetic energy: GVI_E_CONSTRAINT.                                           */
 GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v);
 GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                       const gvi_real *p);
@@ -3163,7 +3164,7 @@ GVI__BODY gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *y, int stage
         sum += y[k].dense ? gvi__dense_rows(st, y + k, rescale) : x->kernel(st, y + k, rescale);
     }
     if (gvi__constrained(st)) {
-        st->x.con.linear =
+        st->x.con.linear |=
             GVI__DIG > FLT_MANT_DIG && x->con.made > 0 && sum < GVI__EPS*GVI_SQRT(GVI__EPS);
         gvi__constraint_rows(st, y);
     }
@@ -3231,7 +3232,7 @@ static gvi_real gvi__inertia(const gvi_stepper *st, int i)
    value, in units of 32 eps of the largest amplitude; 0: there is none.  An amplitude is |Q_i|
    times sqrt(M_ii), with h V_i or h P_i/M_ii in place of Q_i for those rows.  Up to 1 a row
    that does not settle is nothing but noise, where large forces cancel: a light body midway
-   between two heavy ones.                                                                     */
+   between two heavy ones.  So is what a force of constraint makes of its own rounding.          */
 static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *y, int stages)
 {
     gvi_real largest = 0, noise = 0;
@@ -3244,11 +3245,17 @@ static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *
                 && st->x.has_factor && !st->x.desc.mass.velocity ? 1/at_q : at_q;
             const gvi_real unit = (p ? GVI_ABS(h)/m : v ? GVI_ABS(h) : 1)*GVI_SQRT(m);
             const gvi_real *row = y[k].rows + i*st->x.R;
-            gvi_real size = GVI_ABS(y[k].base[i]);
+            gvi_real size = GVI_ABS(y[k].base[i]), push = 0;
             for (int j = 0; j < st->r; ++j) size = GVI_ABS(row[j]) > size ? GVI_ABS(row[j]) : size;
-            const gvi_real change = y[k].scale[i] > 0 ? GVI_SQRT(y[k].change[i])/y[k].scale[i] : 0;
+            for (int e = 0; gvi__constrained(st) && e < st->s; ++e) {
+                const gvi_real held = h*h*GVI_ABS(st->x.con.force[i*st->x.R + e])/m;
+                if (held > push) push = held;
+            }
+            gvi_real change = y[k].scale[i] > 0 ? GVI_SQRT(y[k].change[i])/y[k].scale[i] : 0;
             if (unit*size > largest) largest = unit*size;
-            if (change > 4*GVI__EPS*size && unit*change > noise) noise = unit*change;
+            if (!(change > 4*GVI__EPS*size)) continue;
+            if (change <= 32*GVI__EPS*push) change *= GVI__EPS;
+            if (unit*change > noise) noise = unit*change;
         }
     return noise > 0 ? noise/(32*GVI__EPS*largest) : 0;
 }
@@ -3796,14 +3803,13 @@ static void gvi__add_force(const gvi_stepper *st, const gvi_real *y, gvi_real *z
         gvi__add_scaled(st->n, y[a], st->x.con.G + a*st->n, z, z);
 }
 
-// |g_a| in roundings of its terms G_ai q_i and t dg_a/dt, at one point
-static gvi_real gvi__violation(const gvi_stepper *st, gvi_real t, const gvi_real *q,
-                               const gvi_real *G, int a)
+// the terms G_ai q_i and t dg_a/dt of g_a that are seen from outside, at one point
+static gvi_real gvi__terms(const gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *G,
+                           int a)
 {
-    const gvi_real *g = st->x.con.g + a;
-    gvi_real size = GVI_ABS(g[st->x.con.m]*t);
+    gvi_real size = GVI_ABS(st->x.con.g[st->x.con.m + a]*t);
     for (int i = 0; i < st->n; ++i) size += GVI_ABS(G[a*st->n + i]*q[i]);
-    return gvi__nonzero(*g) ? GVI_ABS(*g)/(GVI__EPS*size) : 0;
+    return size;
 }
 
 /* ---- in the iteration ---- */
@@ -3859,31 +3865,43 @@ static void gvi__constraint_forces(const gvi_stepper *st)
                              x->con.force + i*R);
 }
 
-/* The constraints at D, padded with q0; A in the first iteration.  After a change by less than
-   EPS^(3/4) g is linearised from the last D, since its rounding would change lambda for ever;
-   not in float, where a step across a bifurcation would end on the wrong branch.             */
+/* The constraints at D, padded with q0; A in the first iteration.  After a move along which G
+   changed by less than EPS of it, or one of EPS^(3/4) (not in float, where a step across a
+   bifurcation would end on the wrong branch), g is linearised from the last D: its rounding would
+   change lambda for ever, and is not that of D where g has terms that G q does not show.      */
 GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin *from)
 {
     struct gvi__private *x = &st->x;
-    const int s = st->s, R = x->R, C = x->con.C;
-    for (int i = 0; i < st->n; ++i) {
-        gvi_real *at = x->con.at + i*C, *moved = x->con.W + i*C - 1;
+    const int n = st->n, m = x->con.m, s = st->s, R = x->R, C = x->con.C, linear = x->con.linear;
+    const gvi_real *G = x->con.G + 1, *moved = x->con.W;
+    gvi_real *along = x->con.rho + m*R;
+    for (int i = 0; i < n; ++i)
         for (int k = 0; k < C; ++k) {
+            gvi_real *at = x->con.at + i*C + k;
             const gvi_real D = from->q[i] + (k > 0 && k <= s ? x->con.D[i*R + k - 1] : 0);
-            if (k > 0) moved[k] = at[k] - D - moved[k];
-            at[k] = D;
+            if (k > 0) x->con.W[i*C + k - 1] = *at - D;
+            *at = D;
         }
-    }
-    for (int a = 0; a < x->con.m && x->con.linear; ++a) {
-        gvi_real *g = x->con.g + a*C + 1;
-        for (int i = 0; i < st->n; ++i)
-            gvi__subtract_at(C, s, x->con.G + (a*st->n + i)*C + 1, x->con.W + i*C, g);
-        gvi__copy((size_t)s, g, x->con.rho + a*R);
-    }
+    gvi__zero((size_t)(m*C), along);              // by the old G
+    for (int ai = 0; ai < m*n; ++ai)
+        gvi__subtract_at(C, s, G + ai*C, moved + ai%n*C, along + ai/n*C);
+    for (int a = 0; a < m; ++a)
+        for (int k = 0; k < s; ++k) x->con.rho[a*R + k] = x->con.g[a*C + k + 1] + along[a*C + k];
     const gvi_status status =
         gvi__evaluate_constraints(st, C, s + 1, x->con.t, x->con.at, x->con.G);
-    for (int a = 0; a < x->con.m && x->con.linear; ++a)
-        gvi__copy((size_t)s, x->con.rho + a*R, x->con.g + a*C + 1);
+    x->con.linear = x->con.made > 0;
+    for (int a = 0; a < m; ++a) {
+        if (linear) gvi__copy((size_t)s, x->con.rho + a*R, x->con.g + a*C + 1);
+        for (int k = 0; k < s && x->con.linear; ++k) {
+            gvi_real change = along[a*C + k], size = 0;
+            for (int i = 0; i < n; ++i) {
+                const gvi_real z = G[(a*n + i)*C + k]*moved[i*C + k];
+                change += z;
+                size += GVI_ABS(z);
+            }
+            if (!(GVI_ABS(change) <= GVI__EPS*size)) x->con.linear = 0;
+        }
+    }
     return status != GVI_OK || ++x->con.made > 1 ? status : gvi__factor_constraints(st, C, s);
 }
 
@@ -3911,7 +3929,8 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *y, const gvi_
     }
     gvi__zero((size_t)(m*R), rho);
     for (int a = 0; a < m; ++a) {
-        gvi_real *g = x->con.g + a*C + 1;
+        gvi_real *g = x->row;
+        gvi__copy((size_t)s, x->con.g + a*C + 1, g);
         for (int i = 0; i < n; ++i)
             gvi__subtract_at(C, s, x->con.G + (a*n + i)*C + 1, moved + i*C, g);
         for (int b = 0; b < s; ++b) gvi__subtract_row((size_t)R, -g[b], x->con.X + b*R, rho + a*R);
@@ -3949,28 +3968,39 @@ GVI__COLD gvi_status gvi__stalled(gvi_stepper *st)
     return gvi__report_status(st, GVI_E_CONVERGENCE);
 }
 
-// RATTLE: the drift from p to g(q1) = 0 by impulses G0' mu, of a simplified Newton iteration
+/* RATTLE: the drift from p to g(q1) = 0 by impulses G0' mu, of a simplified Newton iteration.  A
+   row that is more than its last correction and the change of G along that leave is rounding. */
 GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, m = x->con.m;
-    gvi_real before = GVI__MAX, *Q = x->work.Q, *z = x->con.rho, *d = x->con.W;
+    gvi_real before = 0, most = 0, *Q = x->work.Q, *z = x->con.rho, *left = x->con.y, *d = x->con.W,
+             *unit = d + n, *g = x->con.g, *G = x->con.G + m*n;  // G0 is before it
     const gvi_real t = from->t + (from->t_low + h);
     gvi_status status = gvi__constraints_at(st, from->t, from->q);
     gvi__zero((size_t)n, x->step.p_low);
-    for (;;) {
-        gvi_real size = 0, *G = x->con.G + m*n;   // G0 is before it
+    for (int k = 0; ; ++k) {
+        gvi_real size = 0;
+        int finite = 1;
         if (status == GVI_OK) status = gvi__evaluate_constraints(st, 1, 1, &t, Q, G);
         if (status != GVI_OK) return status;
-        for (int a = 0; a < m; ++a) {             // the largest, or NaN
-            const gvi_real off = gvi__violation(st, t, Q, G, a);
-            if (off > size || !gvi__finite(off)) size = off;
-            z[a] = -x->con.g[a]/h;
+        for (int a = 0; a < m; ++a) {
+            const gvi_real terms = gvi__terms(st, t, Q, G, a);
+            const int rounding = k > 0 && GVI_ABS(g[a]) > (gvi_real)1.25*(GVI_ABS(left[a])
+                                           + GVI_ABS(h*gvi__dot(n, G + a*n, d) - z[a]));
+            if (k == 0 || terms > unit[a]) unit[a] = terms;
+            if (!rounding && GVI_ABS(g[a]) > size*GVI__EPS*unit[a])
+                size = GVI_ABS(g[a])/(GVI__EPS*unit[a]);
+            finite &= gvi__finite(g[a]);
         }
-        if (!(size < before/2))                   // rounding?
-            return gvi__report_status(st, size <= 64 ? GVI_OK : gvi__finite(size) || x->diagnose
-                                                      ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE);
+        if (finite && size <= 64 && k > 0 && !(size < before/2))
+            return gvi__report_status(st, GVI_OK);
+        if (k == 0) most = 4*(size + 4096);
+        if (!finite || k > 64 || size > most)
+            return gvi__report_status(st, finite || x->diagnose ? GVI_E_CONVERGENCE
+                                                                : GVI_E_NON_FINITE);
         before = size;
+        for (int a = 0; a < m; ++a) z[a] = -g[a]/h;
         gvi__ldl_solve(m, x->con.A, 1, z, 1, 1);
         gvi__zero((size_t)n, d);
         gvi__add_force(st, z, d);
@@ -3978,20 +4008,53 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
         gvi__over_mass(st, d, 1, 1);
         gvi__add_scaled(n, h, d, x->step.q, x->step.q);
         gvi__add_scaled(n, 1, x->step.q, from->q, Q);
+        for (int a = 0; a < m; ++a) z[a] = h*gvi__dot(n, G + a*n, d), left[a] = g[a] + z[a];
     }
 }
 
 /* ---- at the end of a step, and at the start ---- */
+
+/* Is each g_a within 4096 roundings, of its terms that are seen, or of what it proves to have?  A
+   part of Newton's correction takes that part of g_a, but for the change of G along it.       */
+GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real *q)
+{
+    const gvi_real part = (gvi_real)0.618034, units = 4096;
+    struct gvi__private *x = &st->x;
+    const int n = st->n, m = x->con.m;
+    gvi_real *g = x->con.g, *was = x->con.rho, *z = x->con.y, *d = x->con.W, *G = x->con.G,
+             *next = x->result + n;
+    int off = -1;
+    for (int a = 0; a < m; ++a) {
+        if (off < 0 && !(GVI_ABS(g[a]) <= units*GVI__EPS*gvi__terms(st, t, q, G, a))) off = a;
+        was[a] = g[a];
+        z[a] = -part*g[a];
+    }
+    if (off < 0) return GVI_OK;
+    gvi__ldl_solve(m, x->con.A, 1, z, 1, 1);
+    gvi__zero((size_t)n, d);
+    gvi__add_force(st, z, d);
+    if (gvi__mass_is_constant(x)) gvi__over_mass(st, d, 1, 1);
+    else gvi__ldl_solve(n, x->mass.at_points, 1, d, 1, 1);
+    gvi__add_scaled(n, 1, d, q, next);
+    int fulfilled = gvi__evaluate_constraints(st, 1, 1, &t, next, G + m*n) == GVI_OK;
+    for (int a = 0; a < m; ++a) {
+        const gvi_real bend = gvi__dot(n, G + (m + a)*n, d) - gvi__dot(n, G + a*n, d),
+            rounding = GVI_ABS(g[a] - (1 - part)*was[a]) - GVI_ABS(bend),
+            seen = GVI__EPS*gvi__terms(st, t, q, G, a);
+        fulfilled &= GVI_ABS(was[a]) <= units*(rounding > seen ? rounding : seen);
+    }
+    return fulfilled ? gvi__constraints_at(st, t, q)
+                     : gvi__report_row(st, GVI_E_CONSTRAINT, off, GVI_FAULT_NONE);
+}
 
 /* step.p += G' y such that G v + dg/dt = 0 at the end: once, and once more for the rounding of
    that, or with Lagrangian terms until that is left.  At a start, what is farther off than
    rounding is refused; for v by the kinetic energy in it, r' A^-1 r/2, r = G v + dg/dt.      */
 GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, int start)
 {
-    const gvi_real units = 4096;
     struct gvi__private *x = &st->x;
     const int n = st->n, m = x->con.m, passes = gvi__has(x, GVI__HAS_LAGRANGIAN) ? 40 : 2;
-    const gvi_real t = from->t + (from->t_low + x->dt), far = units*GVI__EPS;
+    const gvi_real t = from->t + (from->t_low + x->dt), far = 4096*GVI__EPS;
     gvi_real *q = x->result, *p = q + n, *v = p + n, *r = x->con.g, *z = x->con.rho,
              before = GVI__MAX;
     for (int i = 0; i < n; ++i) q[i] = from->q[i] + (x->step.q[i] + x->step.q_low[i]);
@@ -3999,9 +4062,7 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
     x->diagnose |= start;
     gvi_status status = gvi__constraints_at(st, t, q);
     if (start) x->diagnose = 0;
-    for (int a = 0; a < m && start && status == GVI_OK; ++a)
-        if (!(gvi__violation(st, t, q, x->con.G, a) <= units))
-            return gvi__report_row(st, GVI_E_CONSTRAINT, a, GVI_FAULT_NONE);
+    if (start && status == GVI_OK) status = gvi__fulfilled(st, t, q);
     gvi__velocity_guess(st, v);
     for (int pass = 0; pass < passes && status == GVI_OK; ++pass) {
         gvi_real size = 0;
@@ -4070,7 +4131,7 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
     static const gvi_real weight[] = {
         (gvi_real)4/5, -(gvi_real)1/5, (gvi_real)4/105, -(gvi_real)1/280
     };
-    gvi_status status = gvi__ready(st, st && st->x.started);
+    gvi_status trial = GVI_OK, status = gvi__ready(st, st && st->x.started);
     if (status != GVI_OK) return status;
     if (!lambda) return gvi__refuse_call(st, "lambda is NULL");
     if (!GVI__CONSTRAINTS || !st->x.con.bits) return st->status = GVI_E_FORMULATION;
@@ -4096,14 +4157,15 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
     for (int k = 0; k < GVI__DIG/2 && m > 0 && status == GVI_OK; ++k) {
         delta /= k == 0 ? 8 : 2;
         gvi__zero((size_t)m, rate);
-        for (int j = 0; j < 8 && status == GVI_OK; ++j) {
+        trial = GVI_OK;
+        for (int j = 0; j < 8 && trial == GVI_OK; ++j) {
             const gvi_real sign = j % 2 ? -1 : 1, e = sign*delta*(gvi_real)(j/2 + 1), t = st->t + e;
             gvi__add_scaled(n, e, v, st->q, q);
             gvi__add_scaled(n, e, force, st->p, p);
             gvi__copy((size_t)n, v, u);
-            status = gvi__velocity(st, t, q, p, u);
-            if (status == GVI_OK)
-                status = gvi__evaluate_constraints(st, 1, 1, &t, q, x->con.G + m*n);
+            trial = gvi__velocity(st, t, q, p, u);
+            if (trial == GVI_OK)
+                trial = gvi__evaluate_constraints(st, 1, 1, &t, q, x->con.G + m*n);
             for (int a = 0; a < m; ++a)
                 rate[a] += (x->con.g[m + a] + gvi__dot(n, x->con.G + (m + a)*n, u))
                            *(sign*weight[j/2]/delta);
@@ -4111,6 +4173,7 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
         for (int a = 0; a < m; ++a) z[a] = -rate[a];
         gvi__ldl_solve(m, x->con.A, 1, z, 1, 1);
         size = -gvi__dot(m, rate, z);
+        if (trial != GVI_OK || !gvi__finite(size)) continue;      // beyond a domain: nearer
         if (!(size < least) && size <= GVI__EPS*largest) break;
         gvi__add_scaled(m, 1, z, sum, sum);
         gvi__add_force(st, z, force);
@@ -4118,7 +4181,7 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
         if (size < least) least = size, gvi__copy((size_t)m, sum, best);
     }
     if (status == GVI_OK && m > 0 && !(least < GVI__MAX))
-        status = gvi__report_status(st, GVI_E_NON_FINITE);
+        status = trial != GVI_OK ? trial : gvi__report_status(st, GVI_E_NON_FINITE);
     if (status != GVI_OK) return st->status = status;
     for (int e = 0; e < x->desc.effect_count; ++e)
         for (int a = 0; a < x->desc.effects[e].rows; ++a)
@@ -4318,7 +4381,7 @@ GVI__COLD void gvi__layout_constraints(struct gvi__private *x, gvi__arena *a)
         { &y->E, i*s, R }, { &y->Phi, i*s, R }, { &y->Phi_low, i*s, R }, { &y->hw, on, R },
         { &y->last, i*(n + m), C }, { &y->at, i*n, C }, { &y->t, i, C }, { &y->W, on*n, C },
         { &y->g, 2*m, C }, { &y->G, m*n, C }, { &y->A, m*m, C }, { &y->d, on, R + C },
-        { &y->w, on, s + 1 }, { &y->rho, m, R + 1 }, { &y->lu, i*(s + 1), s + 1 }, { &y->y, on, m }
+        { &y->w, on, s + 1 }, { &y->rho, m, R + C }, { &y->lu, i*(s + 1), s + 1 }, { &y->y, on, m }
     };
     y->C = (int)C;
     for (size_t k = 0; k < sizeof list/sizeof *list; ++k)
