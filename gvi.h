@@ -436,7 +436,7 @@ GVI__BODY int gvi__each_point(gvi_points_fn *at, const gvi_points *x, void *user
     const int s = x->stride, value = uses & GVI__USES_value, mass = uses & GVI__USES_mass;
     const int m = value ? 1 : mass ? n*n : n, any = ~0, last = 112, rows = uses/GVI__ROWS;
     gvi_real *other = value ? x->value : mass ? x->mass : x->velocity;
-    gvi_real *g = rows ? a + 6*n : NULL, *G = rows ? g + rows : NULL, *dg = rows ? G + rows*n : NULL;
+    gvi_real *g = rows ? a + 6*n : NULL, *G = g ? g + rows : NULL, *dg = g ? G + m*rows : NULL;
     int failed = 0;
 #define GVI__COLUMN(name, o) uses & GVI__USES_##name ? a + (o)*n : NULL
 #define GVI__MOVE(mask, m, to, from)                                                            \
