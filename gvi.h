@@ -5146,7 +5146,7 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
 {
     struct gvi__newton *x = &st->x.newton;
     const size_t sn = (size_t)(st->s*st->n);
-    const gvi_real h = st->x.sized.h, close = (gvi_real)0.0625;
+    const gvi_real h = st->x.sized.h, close = (gvi_real)0.03125;
     const unsigned count = (unsigned)st->counters.newton_iterations,
                    enough = 32*(unsigned)st->x.desc.max_iterations;
     const int sign = gvi__orientation(J, sn);
@@ -5188,19 +5188,19 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
 }
 
 /* Newton's method for a step.  A solution is taken for the motion's where the iteration contracts
-   well from its start and keeps the orientation, or very well; otherwise it is followed back.  */
+   well from its start and the orientation is that of free motion; or else it is followed back. */
 static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int how, int query)
 {
     struct gvi__private *x = &st->x;
     const size_t sn = (size_t)(st->s*st->n);
-    const gvi_real *bend = &x->newton.bend, tiny = 1/(gvi_real)1024;
     gvi__matrix J = { x->newton.J + (query ? sn*sn : 0), x->newton.pivot + (query ? sn + 1 : 0),
                       NULL, 0, 0, how == GVI__HALVED };
     gvi__newton_guess(st, how == GVI__EXTRAPOLATED);
     gvi_status status = gvi__newton_solve(st, from, &J);
     // few points see little of what is between
-    if (status == GVI_OK && (J.halves || *bend > (gvi_real)(st->s > 2 ? 0.25 : 0.0625)
-                             || (*bend > tiny && gvi__orientation(&J, sn) < 0))) {
+    const gvi_real far = (gvi_real)(st->s > 2 ? 0.25 : 0.015625);
+    if (status == GVI_OK
+        && (J.halves || x->newton.bend > far || gvi__orientation(&J, sn) < 0)) {
         J.halves = 0;
         status = gvi__newton_connected(st, from, &J);
     }

@@ -381,7 +381,7 @@ static int connected(const gauss *g, const family *f, void *a, const double *z, 
 
 /* ----------------------------------------------------------------- the study */
 
-typedef struct tally { long ok, refused, wrong, lost, coarse, right_refused, good_refused; double worst; } tally;
+typedef struct tally { long ok, refused, wrong, lost, coarse, right_refused, good_refused, many, unseen; double worst; } tally;
 
 static double apart(int m, const double *x, const double *y, const double *unit)
 {
@@ -409,7 +409,9 @@ static void one_step(const family *f, void *a, gvi_stepper *st, double h, const 
     const int n = f->n, m = 2*n;
     double z[2*MOST], end[2*MOST], unit[2*MOST], exact[2*MOST], rougher[2*MOST], branch[2*MOST];
     for (int i = 0; i < n; ++i) z[i] = st->q[i], z[n + i] = st->p[i];
-    const int ok = gvi_step(st, h) == GVI_OK;
+    st->counters.worst_resolution = 0;
+    const int ok = gvi_step(st, h) == GVI_OK, many = g->s > 1;            // a single point sees no modes
+    const int unseen = many && !(st->counters.worst_resolution > (g->s > 3 ? 1e-3 : 5e-5));
     units_of(f, a, z, h, unit);
     *(ok ? &t->ok : &t->refused) += 1;
     const motion exactly = { m, f->rates, a };
@@ -423,7 +425,7 @@ static void one_step(const family *f, void *a, gvi_stepper *st, double h, const 
     flow(&exactly, 0, h, h/31.5, rougher);
     const int known = apart(m, exact, rougher, unit) < 1e-6;
     if (!connected(g, f, a, z, unit, h, branch)) {
-        if (ok) t->lost += 1;
+        if (ok) t->lost += 1, t->many += many, t->unseen += unseen;
         return;
     }
     const double off = apart(m, branch, exact, unit);
@@ -433,7 +435,7 @@ static void one_step(const family *f, void *a, gvi_stepper *st, double h, const 
         return;
     }
     if (apart(m, end, branch, unit) > 1e-6*(1 + off)) {
-        t->wrong += 1;
+        t->wrong += 1, t->many += many, t->unseen += unseen;
         return;
     }
     t->coarse += 1;
@@ -465,19 +467,22 @@ int main(int argc, char **argv)
 {
     const long thousands = argc > 1 ? atol(argv[1]) : 50;
     if (argc > 2) seed = (uint64_t)atol(argv[2]);
-    long wrong = 0, locked = 0, steps = 0, turning = 0;
+    long wrong = 0, locked = 0, steps = 0, turning = 0, many = 0, unseen = 0;
     printf("  steps          ok   refused  wrong  no branch   coarse  (worst)   refused: branch there, and right to 1e-3\n");
     for (int k = 0; k < COUNT(families); ++k) {
-        tally t = { 0, 0, 0, 0, 0, 0, 0, 0 };
+        tally t = { 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 };
         run(&families[k], 1000*thousands/COUNT(families), &t);
         printf("  %-16s %7ld %7ld %7ld %7ld %7ld %8.2g %7ld %7ld\n", families[k].name, t.ok, t.refused, t.wrong, t.lost,
                t.coarse, t.worst, t.right_refused, t.good_refused);
         *(families[k].points == body_mass ? &locked : &wrong) += t.wrong + t.lost;
         *(families[k].points == body_mass ? &turning : &steps) += t.ok + t.refused;
+        many += t.many, unseen += t.unseen;
     }
     // 0 is wanted; this is what is reached.  It was 58 and 147 before solutions were followed back
     printf("  %ld steps\n", steps + turning);
-    expect("ok, but not the motion's, of 1000", 0, 1000.0*(double)wrong/(double)steps, 2);
-    expect("through gimbal lock", 0, 1000.0*(double)locked/(double)turning, 60);
+    expect("ok, but not the motion's, of 1000", 0, 1000.0*(double)wrong/(double)steps, 1);
+    expect("through gimbal lock", 0, 1000.0*(double)locked/(double)turning, 25);
+    printf("  %ld of these are of degree 2 and more\n", many);
+    expect("of which counters.worst_resolution does not see, share", 0, many ? (double)unseen/(double)many : 0, 0.05);
     return verdict("roots");
 }
