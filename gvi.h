@@ -2650,8 +2650,12 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     for (int i = 0; a && i < st->n; ++i, F += x->R) {
         const gvi_real all = (GVI_ABS(F[0]) + GVI_ABS(F[(st->r - 1)/2]) + GVI_ABS(F[st->r/2])
                               + GVI_ABS(F[st->r - 1]))/4;
-        const gvi_real one = gvi__dot(st->r, a, F), two = gvi__dot(st->r, a + x->R, F),
-                       share = (GVI_ABS(one) + GVI_ABS(two))/all, push = GVI_ABS(h)*all,
+        gvi_real one = 0, two = 0;
+        for (int k = 0; k < st->r; ++k) {
+            one += a[k]*F[k];
+            two += a[x->R + k]*F[k];
+        }
+        const gvi_real share = (GVI_ABS(one) + GVI_ABS(two))/all, push = GVI_ABS(h)*all,
                        resolution = share*share*(push/(GVI_ABS(x->state.p[i]) + push));
         if (resolution > st->counters.worst_resolution)      // false where F is 0: NaN
             st->counters.worst_resolution = resolution;

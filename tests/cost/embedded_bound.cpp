@@ -71,7 +71,7 @@ static double flops_row(int r) { return r < 5 ? r : (r + 7)/8*8; }
 static double flops_of_step(gvi_formulation f, gvi_mass_kind mass, int n, int r, int N)
 {
     const double R = flops_row(r), K = f == GVI_POSITIONS ? 1 : 2;
-    double all = (N + 2)*(K*n*R*(2*r + 20) + 30) + 30*K*n*r + 120*n;
+    double all = (N + 2)*(K*n*R*(2*r + 20) + 30) + 30*K*n*r + 132*n;
     if (f == GVI_EXPLICIT) return 10*n*(r + 1) + 32*n + 8*r + 16;
     if (mass == GVI_MASS_DENSE) all += 2*n*n*((N + 2)*K*R + 17) + 8*(N + 2)*K*n*R;
     if (mass == GVI_MASS_POSITION) all += (N + 1)*R*(n*n*n/2.0 + 6*n*n + 4*n);
