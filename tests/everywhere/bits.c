@@ -374,7 +374,7 @@ static void boundary_value(const char *name, gvi_stepper *st, const real *q0)
     out.p1 = p1;
     for (int i = 0; i < st->n; ++i) q1[i] = st->q[i];
     const gvi_status status = gvi_discrete_lagrangian(st, 0, st->h, q0, q1, &out);
-    if (status == GVI_E_FORMULATION) return;              /* without Newton's memory */
+    if (status == GVI_E_FORMULATION || status == GVI_E_CONJUGATE) return;  /* no Newton's memory; h omega > pi */
     check(name, "boundary", status);
     print_line(name, "action", 1, &Ld);
     print_line(name, "d1", st->n, d1);
