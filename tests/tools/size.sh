@@ -113,8 +113,8 @@ arm='--specs=nano.specs -nostartfiles -Wl,-e,main'
 m4f='-mthumb -mcpu=cortex-m4 -mfloat-abi=hard -mfpu=fpv4-sp-d16'
 table m0  Cortex-M0  arm-none-eabi- '-mthumb -mcpu=cortex-m0' "$arm"
 table m4f Cortex-M4F arm-none-eabi- "$m4f" "$arm"
-table rv  'RISC-V 32 (rv32imc)' riscv64-unknown-elf- '-march=rv32imc -mabi=ilp32 --specs=picolibc.specs'
-table avr 'AVR (ATmega1284P)' avr- -mmcu=atmega1284p
+table rv  'RISC-V 32 (rv32imc)' riscv64-unknown-elf- '-march=rv32imc -mabi=ilp32 --specs=picolibc.specs' -Wl,--defsym=__flash_size=0x40000
+table avr 'AVR (ATmega1284P)' avr- -mmcu=atmega1284p -Wl,--defsym=__TEXT_REGION_LENGTH__=0x40000
 [ -f "$dir/steppers" ] || fail 'no compiler for a small machine (make deps-firmware installs some)'
 echo 'libraries: of libm and libgcc, arithmetic in software included'
 echo 'stack: of gvi.h alone; so much of it, last columns, lies under a callback and a library function'
