@@ -3236,7 +3236,8 @@ static gvi_real gvi__inertia(const gvi_stepper *st, int i)
    value, in units of 32 eps of the largest amplitude; 0: there is none.  An amplitude is |Q_i|
    times sqrt(M_ii), with h V_i or h P_i/M_ii in place of Q_i for those rows.  Up to 1 a row
    that does not settle is nothing but noise, where large forces cancel: a light body midway
-   between two heavy ones.  So is what a force of constraint makes of its own rounding.          */
+   between two heavy ones.  So is, whatever the amplitude, what a force of constraint moves by its
+   own rounding, 32 eps of it: that counts next to nothing.                                     */
 static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *y, int stages)
 {
     gvi_real largest = 0, noise = 0;
@@ -3807,7 +3808,7 @@ static void gvi__add_force(const gvi_stepper *st, const gvi_real *y, gvi_real *z
         gvi__add_scaled(st->n, y[a], st->x.con.G + a*st->n, z, z);
 }
 
-// the terms G_ai q_i and t dg_a/dt of g_a that are seen from outside, at one point
+// sum of |G_ai q_i| and |t dg_a/dt|: what is known of the size of g_a's terms, at one point
 static gvi_real gvi__terms(const gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *G,
                            int a)
 {
@@ -3973,7 +3974,8 @@ GVI__COLD gvi_status gvi__stalled(gvi_stepper *st)
 }
 
 /* RATTLE: the drift from p to g(q1) = 0 by impulses G0' mu, of a simplified Newton iteration.  A
-   row that is more than its last correction and the change of G along that leave is rounding. */
+   row that is a quarter more than its last correction and the change of G along that leave is
+   rounding.  To be four times farther off than at the start is divergence.                    */
 GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h)
 {
     struct gvi__private *x = &st->x;
@@ -4018,8 +4020,9 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
 
 /* ---- at the end of a step, and at the start ---- */
 
-/* Is each g_a within 4096 roundings, of its terms that are seen, or of what it proves to have?  A
-   part of Newton's correction takes that part of g_a, but for the change of G along it.       */
+/* Is each g_a within 4096 roundings, of the terms that are known, or of what it proves to have?  A
+   part of Newton's correction takes that part of g_a, but for the change of G along it; not all of
+   it, nor a half, since that may hit g = 0 exactly and show no rounding.                      */
 GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real *q)
 {
     const gvi_real part = (gvi_real)0.618034, units = 4096;
