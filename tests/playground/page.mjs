@@ -198,6 +198,7 @@ check('the clock keeps the energy', (await lost()) < 1e-11, await lost());
 await page.click('#scenes button[data-scene=rods]');
 await plotted(page, 2);
 const gap = () => page.evaluate(() => Number((/Constraint: gvi.h ([^ ,]+?)[.,]? /.exec(document.querySelector('#stability').getAttribute('aria-label') + ' ') || [])[1]?.replace('−', '-')));
+for (let k = 0; k < 100 && Number.isNaN(await gap()); k++) await page.waitForTimeout(100);     // until the label is written
 check('the rods hold, to rounding', (await gap()) < 1e-14, await gap());
 const reach = () => page.evaluate(() => { const n = i => window.gvi.x.world_number(0, 30, i); return Math.hypot(n(2) - n(0), n(3) - n(1)); });
 check('a rod of 1 m', Math.abs((await reach()) - 1) < 1e-14, await reach());
