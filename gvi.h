@@ -5202,10 +5202,16 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
     const size_t sn = (size_t)(st->s*st->n);
     gvi__matrix J = { x->newton.J + (query ? sn*sn : 0), x->newton.pivot + (query ? sn + 1 : 0),
                       NULL, 0, 0, how == GVI__HALVED };
-    gvi__newton_guess(st, how == GVI__EXTRAPOLATED);
-    gvi_status status = gvi__newton_solve(st, from, &J);
     // few points see little of what is between
     const gvi_real far = (gvi_real)(st->s > 2 ? 0.25 : 0.015625);
+    const int old = !query && !gvi__nonzero(x->newton.h - x->sized.h);
+    gvi__newton_guess(st, how == GVI__EXTRAPOLATED);
+    gvi_status status = gvi__newton_solve(st, from, &J);
+    if (old && status == GVI_OK && x->newton.bend > far) {   // that may be the old matrix's fault
+        x->newton.h = 0;
+        gvi__newton_guess(st, how == GVI__EXTRAPOLATED);
+        status = gvi__newton_solve(st, from, &J);
+    }
     if (status == GVI_OK
         && (J.halves || x->newton.bend > far || gvi__orientation(&J, sn) < 0)) {
         J.halves = 0;
