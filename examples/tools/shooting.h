@@ -13,7 +13,7 @@
             One more correction follows, without a run: what is left is about its square
    errors   GVI_E_CONVERGENCE after `most` runs, GVI_E_SINGULAR where the end does not
             depend on some combination of the unknowns, or what a step ends with; q and p
-            then are the last start that was tried
+            then are the last start
    limits   no damping: from far off, move the end in parts (20_swing_up.c)
 
    Source: multiple-shooting textbooks, with one interval; Stoer and Bulirsch, 7.3.1.   */

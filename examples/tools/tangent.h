@@ -23,7 +23,7 @@
    derivative of the discrete action in the direction d.  Varying d gives the
    scene's own equations, varying q their derivative.
 
-   Refused: a clock (time itself would have a derivative; GVI_E_FORMULATION), M(q)
+   Refused: constraints (by gvi_init), a clock (GVI_E_FORMULATION), M(q)
    or no mass without mass.velocity, or pinned to Newton's method (the same), an
    effect without its product (GVI_E_ARGUMENT).  gvi_energy of the larger scene
    says GVI_E_VALUE.  A wrong product cannot be seen by a step: tangent_check.
