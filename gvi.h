@@ -5539,47 +5539,32 @@ GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
     return GVI_OK;
 }
 
-/* With a clock: the h of a partial step for a time dt, by Newton's method, the derivative being
-   g, kept inside the step by bisection.  h is the next to try, or 0 for no more.              */
-typedef struct gvi__bracket { gvi_real dt, h, near_end, far_end; } gvi__bracket;
-
-static gvi_status gvi__clock_time(gvi_stepper *st, const gvi__origin *from, gvi__bracket *b)
-{
-    struct gvi__private *x = &st->x;
-    gvi_real rate, *q = x->result;
-    const gvi_real h = b->h;
-    b->h = 0;
-    if (!gvi__clock_is_on(st) || GVI_ABS(x->dt - b->dt) <= 2*GVI__EPS*GVI_ABS(b->dt)) return GVI_OK;
-    if (GVI_ABS(x->dt) > GVI_ABS(b->dt)) b->far_end = h;
-    else b->near_end = h;
-    for (int i = 0; i < st->n; ++i) q[i] = from->q[i] + x->step.q[i];
-    const gvi_status status = gvi__clock_at(st, from->t, q, &rate, q + st->n);
-    if (status != GVI_OK) return status;
-    gvi_real next = h - (x->dt - b->dt)/rate;
-    if (!((next - b->near_end)*(b->far_end - next) > 0))
-        next = b->near_end + (b->far_end - b->near_end)/2;
-    if (!(GVI_ABS(next - h) <= GVI__EPS*GVI_ABS(st->h))) b->h = next;
-    return GVI_OK;
-}
-
-// increments of a partial step for a time dt from one end of the last step
+/* Increments of a partial step for a time dt from one end of the last step.  With a clock its h is
+   found by Newton's method, the derivative being g, kept inside the step by bisection.       */
 static gvi_status gvi__partial_step(gvi_stepper *st, const gvi__origin *from, int query,
                                     gvi_real dt)
 {
-    const gvi_real far_end = query == GVI__FROM_END ? -st->h : st->h;
-    gvi__bracket b = { dt, dt, 0, far_end };
-    if (gvi__clock_is_on(st)) {
-        b.h = st->h*(dt/(st->t - st->t0));
-        // t did not move, or less than it should
-        if (!(GVI_ABS(b.h) <= GVI_ABS(far_end))) b.h = far_end/2;
+    struct gvi__private *x = &st->x;
+    const int clock = gvi__clock_is_on(st);
+    gvi_real h = clock ? st->h*(dt/(st->t - st->t0)) : dt, rate, *q = x->result;
+    gvi_real near_end = 0, far_end = query == GVI__FROM_END ? -st->h : st->h;
+    // t did not move, or less than it should
+    if (clock && !(GVI_ABS(h) <= GVI_ABS(far_end))) h = far_end/2;
+    for (int k = 0; k < 60; ++k) {
+        gvi_status status = gvi__solve(st, from, h, query);
+        if (status != GVI_OK || !clock || GVI_ABS(x->dt - dt) <= 2*GVI__EPS*GVI_ABS(dt))
+            return status;
+        if (GVI_ABS(x->dt) > GVI_ABS(dt)) far_end = h;
+        else near_end = h;
+        for (int i = 0; i < st->n; ++i) q[i] = from->q[i] + x->step.q[i];
+        status = gvi__clock_at(st, from->t, q, &rate, q + st->n);
+        if (status != GVI_OK) return status;
+        gvi_real next = h - (x->dt - dt)/rate;
+        if (!((next - near_end)*(far_end - next) > 0)) next = near_end + (far_end - near_end)/2;
+        if (!gvi__nonzero(next) || GVI_ABS(next - h) <= GVI__EPS*GVI_ABS(st->h)) return GVI_OK;
+        h = next;
     }
-    gvi_status status = GVI_OK;
-    for (int k = 0; k < 60 && status == GVI_OK && (k == 0 || gvi__nonzero(b.h)); ++k) {
-        status = gvi__solve(st, from, b.h, query);
-        if (status == GVI_OK) status = gvi__clock_time(st, from, &b);
-    }
-    return status == GVI_OK && gvi__nonzero(b.h) ? gvi__report_status(st, GVI_E_CONVERGENCE)
-                                                 : status;
+    return gvi__report_status(st, GVI_E_CONVERGENCE);
 }
 
 GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_real *v, gvi_real *p)
