@@ -4220,18 +4220,16 @@ GVI__COLD gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc, gv
         : (unsigned)desc->formulation > GVI_NEWTON ? "formulation is not in its enum"
         : (unsigned)desc->mass.kind > GVI_MASS_NONE ? "mass.kind is not in its enum"
         : (unsigned)desc->rule.kind > GVI_KICKS ? "rule.kind is not in its enum"
-        : !(desc->tolerance >= 0 && desc->tolerance < 1) ? "tolerance is not 0 to 1" : NULL;
+        : !(desc->tolerance >= 0 && desc->tolerance < 1) ? "tolerance is not 0 to 1"
+        : desc->rule.kind < GVI_OWN ? desc->rule.nodes ? "rule: this kind takes no nodes" : NULL
+        : !desc->rule.points || !desc->rule.nodes || !desc->rule.weights
+            ? "rule: this kind needs points, nodes and weights" : NULL;
     if (wrong) return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE, wrong);
     gvi_desc *d = &x->desc;
     *d = *desc;
-    const gvi_rule *rule = &desc->rule;
-    const int given = rule->kind == GVI_OWN || rule->kind == GVI_KICKS;
-    if (given ? !rule->points || !rule->nodes || !rule->weights : rule->nodes != NULL)
-        return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE,
-                           given ? "rule: this kind needs points, nodes and weights"
-                                 : "rule: this kind takes no nodes");
-    if (d->degree == 0) d->degree = rule->kind == GVI_KICKS ? 1 : 8;
-    if (d->rule.points == 0) d->rule.points = rule->kind == GVI_LOBATTO ? d->degree + 1 : d->degree;
+    const gvi_rule_kind rule = d->rule.kind;
+    if (d->degree == 0) d->degree = rule == GVI_KICKS ? 1 : 8;
+    if (d->rule.points == 0) d->rule.points = rule == GVI_LOBATTO ? d->degree + 1 : d->degree;
     if (d->max_iterations == 0) d->max_iterations = 60;
 
     x->needs = 0;
@@ -4268,8 +4266,8 @@ GVI__COLD gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc, gv
             ? "mass: matrix is missing" : NULL;
     if ((x->needs & L && !GVI__LAGRANGIAN) || (x->clock >= 0 && !GVI__CLOCK)
         || (x->con.bits && (!GVI__CONSTRAINTS || x->clock >= 0 || m->velocity
-                            || m->kind == GVI_MASS_NONE || rule->kind == GVI_KICKS))
-        || (m->kind > GVI_MASS_DENSE && !gvi__mass_is(x, m->kind)) || !gvi__rule_is(x, rule->kind))
+                            || m->kind == GVI_MASS_NONE || rule == GVI_KICKS))
+        || (m->kind > GVI_MASS_DENSE && !gvi__mass_is(x, m->kind)) || !gvi__rule_is(x, rule))
         return GVI_E_FORMULATION;
     return wrong ? gvi__refuse(fault, GVI_FAULT_MASS, GVI_FAULT_NONE, wrong) : GVI_OK;
 }
@@ -4428,6 +4426,10 @@ GVI__COLD size_t gvi__layout(struct gvi__private *x, int order, gvi_real *base)
         &x->step.q_low, &x->step.p_low, &x->began.q, &x->began.p, &x->free.v, &x->zeros, &x->start,
         &x->mass.inverse, &x->free.v_low, &x->free.path, &x->free.path_low
     };
+    gvi_real **const modes_of_newton[] = {
+        &x->newton.y, &x->newton.dy, &x->newton.residual, &x->newton.last,
+        &x->newton.found, &x->newton.branch, &x->newton.guess, &x->newton.slope
+    };
 
     // rows first: they start on a whole lane
     for (int k = 0; k < 3; ++k) {
@@ -4469,14 +4471,7 @@ GVI__COLD size_t gvi__layout(struct gvi__private *x, int order, gvi_real *base)
     x->result = gvi__take(a, 3, n);
     x->newton.column = gvi__take(a, newton || lagrangian ? 4 : 0, n);
     x->newton.hessian = gvi__take(a, newton || lagrangian, (newton ? 4*nn : nn) + n + 1);
-    x->newton.y = gvi__take(a, newton, sn);
-    x->newton.dy = gvi__take(a, newton, sn);
-    x->newton.residual = gvi__take(a, newton, sn);
-    x->newton.last = gvi__take(a, newton, sn);
-    x->newton.found = gvi__take(a, newton, sn);
-    x->newton.branch = gvi__take(a, newton, sn);
-    x->newton.guess = gvi__take(a, newton, sn);
-    x->newton.slope = gvi__take(a, newton, sn);
+    for (int k = 0; k < 8; ++k) *modes_of_newton[k] = gvi__take(a, newton, sn);
     x->newton.pivot = gvi__take(a, newton*2, sn + 1);           // twice: queries must not touch
     x->newton.moved = gvi__take(a, newton*4*n, R);
     if (GVI__CONSTRAINTS) gvi__layout_constraints(x, a);
