@@ -4918,13 +4918,9 @@ static void gvi__newton_modes(gvi_stepper *st, const gvi_real *V, gvi_real *rows
 // y := modes of the extrapolated V, or constant velocity
 static void gvi__newton_guess(gvi_stepper *st, int extrapolate)
 {
-    struct gvi__private *x = &st->x;
-    gvi__zero((size_t)(st->s*st->n), x->newton.y);
-    if (!extrapolate) {
-        gvi__velocity_guess(st, x->newton.y);
-        return;
-    }
-    gvi__newton_modes(st, x->last.V, x->work.V);
+    gvi__zero((size_t)(st->s*st->n), st->x.newton.y);
+    if (extrapolate) gvi__newton_modes(st, st->x.last.V, st->x.work.V);
+    else gvi__velocity_guess(st, st->x.newton.y);
 }
 
 /* y += dy from row k0 on; returns the sum over coordinates of the relative change.  p->work:
@@ -4967,21 +4963,10 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
     return sum;
 }
 
-/* Is a change that does not shrink rounding? It is at the rounding of y, q or the residual, or
-   small and the matrix new.  Then p->left is what it can hide of the error: no more than the
-   change before.  By an older matrix that has not contracted here the next change may be the
-   same, whatever it is.                                                                       */
-static int gvi__newton_rests(gvi__descent *p, int size, gvi_real change)
-{
-    const int fresh = p->fresh & 1, proven = (fresh && p->holds) || p->rho < (gvi_real)0.25;
-    const gvi_real small = fresh ? GVI_SQRT(GVI__EPS) : 0, enough = 64*GVI__EPS*(gvi_real)size;
-    if (!(p->work < 0) && !(proven && change <= (enough > small ? enough : small))) return 0;
-    p->left = p->before;
-    return 1;
-}
-
-/* The verdict on a change.  Where it is rounding, what is left of the error shrinks on by the
-   contraction seen before.  Not to be less than half of the least so far is not to shrink: what
+/* The verdict on a change.  One that does not shrink is rounding if y, q or the residual is, or if
+   it is small and its matrix is new or has contracted here: an older one can repeat any change.  It
+   then hides no more of the error, p->left, than the change before, which shrinks on by the
+   contraction seen.  Not to be less than half of the least so far is not to shrink: what
    is rounded to a grid may go round a few points of it, and fall in every iteration.  Nor is it
    contraction to fall from an overshoot far beyond the size of y.                             */
 static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__descent *p,
@@ -5005,12 +4990,15 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__des
     if (change < p->least) p->least = change;
     if (before > 0 && change > noise && change > st->x.newton.bend*before)
         st->x.newton.bend = change/before;
-    const int rounding = p->left < GVI__MAX || (stagnant && gvi__newton_rests(p, size, change));
+    const int fresh = p->fresh & 1, proven = (fresh && p->holds) || p->rho < quarter;
+    const int small = change <= noise || (fresh && change <= GVI_SQRT(GVI__EPS));
+    if (stagnant && !(p->left < GVI__MAX) && (p->work < 0 || (proven && small))) p->left = before;
+    const int rounding = p->left < GVI__MAX;
     if (rounding) p->left *= p->rho < quarter ? p->rho : quarter;
 
     const gvi_real enough = wanted > 0 ? wanted : GVI__EPS/4096;
-    const int small = change*ratio <= enough || p->left <= GVI__EPS/65536 || p->left <= enough;
-    if (small && (p->holds || p->rho < quarter)) return GVI__DONE;
+    const int done = change*ratio <= enough || p->left <= GVI__EPS/65536 || p->left <= enough;
+    if (done && (p->holds || p->rho < quarter)) return GVI__DONE;
     // rounding, by a matrix that has contracted here
     const int hidden = p->work < 0 && p->rho < quarter;
     if (!rounding && !hidden && before > 0 && ratio > quarter) p->have = 0;
