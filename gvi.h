@@ -2473,8 +2473,7 @@ static void gvi__fit(gvi_stepper *st, int r, const gvi_real *from, const gvi_rea
 typedef struct gvi__origin { gvi_real t, t_low; const gvi_real *q, *q_low, *p, *p_low; gvi_real E;
                             } gvi__origin;
 
-// where Newton's method begins: at constant velocity; at the last step's modes, extrapolated; at
-// constant velocity, with changes halved that make the residual larger
+// Newton's method from constant velocity; extrapolated modes; constant velocity, halving changes
 enum { GVI__PLAIN, GVI__EXTRAPOLATED, GVI__HALVED };
 
 // what is solved: a step, or for a query a part of the last one, from its start or its end
@@ -2531,8 +2530,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_rea
             gvi__count(&st->counters.iterations, used);
             if (!query) st->iterations = used;
             if (used > st->counters.most_iterations) st->counters.most_iterations = used;
-            // where iterations are given, only a callback that failed at extrapolated values is
-            // worth a second try
+            // iterations given: only a callback that failed at extrapolated values is tried again
             if (status == GVI_OK
                 || (x->desc.iterations > 0 && (used > 1 || status == GVI_E_CONVERGENCE)))
                 break;
@@ -2641,8 +2639,7 @@ static void gvi__move(int n, const gvi_real *GVI__RESTRICT dx, const gvi_real *G
     }
 }
 
-/* The step is done: counters.worst_resolution is brought up to date, state and compensation move
-   on, and its stage values become those of the last step.                                    */
+// the step is done: the state moves on, and work's stage values become those of the last step
 static void gvi__commit(gvi_stepper *st, gvi_real h)
 {
     struct gvi__private *x = &st->x;
@@ -2728,8 +2725,7 @@ static void gvi__times(int count, gvi_real t, gvi_real t_low, gvi_real h, const 
     for (; k < count; ++k) out[k] = t + (t_low + c[k]*h);
 }
 
-/* Tables for h, times of the points, and free motion, where the mass is constant: v = M^-1 p
-   and h v with their low words (what v loses by rounding is kept, as what p has lost is).     */
+// tables for h, times of the points; for a constant mass v = M^-1 p and h v, with their low words
 static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real h)
 {
     struct gvi__private *x = &st->x;
@@ -2776,8 +2772,7 @@ static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real 
      z_i    = sum_j table_j (weight_j source_ij)       of one or two tables and sources
 
    with free motion, the same in all iterations, in rows of its own.  factor and 1/m are two
-   products: h times 1/m, rounded once, would be the inverse of another mass in every step than
-   the one that makes v of p, the map no longer symplectic, and energy would drift.
+   products: h/m, rounded once, is not of the mass that makes v of p, and energy would drift.
 
    A stage with a scale is measured, in squares of changes times scale_i: all of them are added
    up and returned, and change_i := those of row i at the last point and the middle.  One point
@@ -2805,8 +2800,7 @@ GVI__BODY const gvi_real *gvi__weighted(int R, const gvi_real *GVI__RESTRICT w,
     return L;
 }
 
-/* The unit of a row: |base| and the displacements of the last point, before and after; 0 where
-   these have no sure digit.                                                                   */
+// 1/(|base| and the last point's displacements, before and after); 0 where these have no sure digit
 GVI__BODY gvi_real gvi__scale_of(gvi_real base, gvi_real was, gvi_real is)
 {
     const gvi_real size = GVI_ABS(base) + GVI_ABS(was - base) + GVI_ABS(is - base);
@@ -2884,8 +2878,7 @@ GVI__BODY void gvi__row_sums(int r, int R, int lanes, const gvi_real *table, con
     GVI__UNROLL for (int v = 0; v < lanes; ++v) z[v] = sum[0][v] + sum[2][v];
 }
 
-/* A stage in lanes of points: R is 4 or a multiple of eight; point by point where a lane is wider
-   than R or a single number.                                                                  */
+// a stage in lanes of points, R being 4 or a multiple of 8; point by point where no lane fits
 GVI__BODY gvi_real gvi__stage_by_lanes(const gvi_stepper *st, const gvi__stage *GVI__RESTRICT y,
                                        int n, int r, int R, int rescale)
 {
@@ -2934,8 +2927,7 @@ GVI__BODY gvi_real gvi__stage_by_lanes(const gvi_stepper *st, const gvi__stage *
     return gvi__sum_squares(total);
 }
 
-/* The sizes that deserve a copy of their own: (n = 2 also in gvi__factor_mass,
-   gvi__velocity_rows).                                                                        */
+// the sizes that deserve a copy of their own (n = 2 also in gvi__factor_mass, gvi__velocity_rows)
 #define GVI__KERNEL(name, by, n, r, R)                                                          \
     static gvi_real name(const gvi_stepper *st, const gvi__stage *GVI__RESTRICT y, int rescale) \
     {                                                                                           \
@@ -2965,10 +2957,9 @@ static gvi__kernel *gvi__kernel_for(int n, int r)
 
 /* ---- fixed point ---- */
 
-/* Makes the predictor ready: E takes the stage values of the last step (of the last two, if
-   they and this one are equally long) to the nodes of this step, which lie at alpha + beta c in
-   the last step's tau.  In the positions formulation forces only serve to make new positions: E
-   := K h b E does both.                                                                       */
+/* E takes the stage values of the last step (of two, if they are as long as this one) to the nodes
+   of this step, at alpha + beta c in the last step's tau.  In the positions formulation forces only
+   serve to make positions: E := K h b E does both.                                           */
 static void gvi__prepare_predictor(gvi_stepper *st, gvi_real h, int query)
 {
     struct gvi__private *x = &st->x;
@@ -3129,9 +3120,8 @@ static gvi_status gvi__evaluate_stages(gvi_stepper *st, const gvi__origin *from,
 }
 
 /* Momenta: V from the new P with the old M(Q) and dL/dv, so that an iteration contracts twice
-   as fast.  Where Lagrangian terms make V it can diverge while Q and P, a short step away, feel
-   nothing of it: returns its squared relative change at the last point, times r as if summed
-   over all.                                                                                   */
+   as fast.  Where Lagrangian terms make V it can diverge unfelt by Q and P: returns its squared
+   relative change at the last point, times r as if summed over all.                           */
 static gvi_real gvi__velocities_again(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
@@ -3155,8 +3145,7 @@ static gvi_real gvi__velocities_again(gvi_stepper *st)
     return (gvi_real)st->r*sum;
 }
 
-/* The stage values of the next iteration from the F, V and A of this one; returns the squares
-   of their changes.                                                                           */
+// the next iteration's stage values from this one's F, V, A; returns the squares of their changes
 GVI__BODY gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *y, int stages, int rescale)
 {
     const struct gvi__private *x = &st->x;
@@ -3176,8 +3165,7 @@ GVI__BODY gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *y, int stage
     return sum;
 }
 
-/* Stage values to begin with: the last step's forces (and V, A), extrapolated; without these, or if
-   they led nowhere, no force and constant velocity.                                          */
+// to begin with: F (V, A) of the last step, extrapolated; or no force and constant velocity
 static gvi_status gvi__predict_sources(gvi_stepper *st, const gvi__origin *from, gvi_real h,
                                        int extrapolate)
 {
@@ -3542,9 +3530,8 @@ static void gvi__drift(gvi_stepper *st, const gvi__origin *from, const gvi_real 
     }
 }
 
-/* Kicks h b_j F_j at the nodes, and drifts from each to the next: one evaluation a kick; none
-   where a weight is 0, but for the last.  `force` is that at the start, if it is known: after a
-   step whose last node was 1.  F stays at the end, where the next step may begin with it.     */
+/* Kicks h b_j F_j at the nodes, drifts between them: one evaluation a kick; none where a weight is
+   0, but for the last, whose F the next step may begin with.  `force`: F at the start, or NULL. */
 static gvi_status gvi__kicks(gvi_stepper *st, const gvi__origin *from, gvi_real h,
                              const gvi_real *force)
 {
@@ -4201,9 +4188,8 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
 // in long: an int may have 16 bits
 static int gvi__within(long x, long most) { return x >= 0 && x <= most; }
 
-/* Are all sizes in range, and is what the kinds of rule, mass and effects need there, and
-   nothing that says that a kind was forgotten? Fills in the defaults, and finds what the
-   effects read and the clock.                                                                 */
+/* Are all sizes in range, is what the kinds need there, and nothing that says that a kind was
+   forgotten?  Fills in the defaults, and finds what the effects read and the clock.           */
 GVI__COLD gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc, gvi_fault *fault)
 {
     enum { V = GVI__HAS_VELOCITIES, L = GVI__HAS_LAGRANGIAN };
@@ -4306,8 +4292,7 @@ GVI__COLD gvi_status gvi__check_rule(struct gvi__private *x, int *order, gvi_fau
     return r < s ? GVI_E_POINTS : GVI_OK;
 }
 
-/* The first formulation that can do what the scene asks for, or the one that is pinned; Newton's
-   method as a fall-back.                                                                     */
+// the first formulation that can do what is asked for, or that pinned; Newton's as a fall-back
 GVI__COLD gvi_status gvi__choose(struct gvi__private *x, gvi_fault *fault)
 {
     enum { READS = 1, TIMED = 2, KICKED = 4, NOT_KICKED = 8, MORE_POINTS = 16, VARIES = 32,
@@ -4393,10 +4378,9 @@ GVI__COLD void gvi__layout_constraints(struct gvi__private *x, gvi__arena *a)
         *list[k].to = gvi__take(a, list[k].rows, list[k].width);
 }
 
-/* The one layout: gvi_size counts with it, gvi_init hands out by it, and GVI_LENGTH is its sum
-   with everything wanted.  What a scene can do without has no length.  The stage values of two
-   steps back make the predictor better up to nine points; with more of them, and in float, they
-   would amplify rounding too much.                                                            */
+/* The one layout: gvi_size counts with it, gvi_init hands out by it, and GVI_LENGTH is its sum with
+   everything wanted.  Stage values of two steps back make the predictor better up to nine points;
+   with more of them, and in float, they would amplify rounding too much.                     */
 GVI__COLD size_t gvi__layout(struct gvi__private *x, int order, gvi_real *base)
 {
     const gvi_desc *d = &x->desc;
@@ -4703,8 +4687,7 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, 
     return norm;
 }
 
-/* Adds what dF_i/du_j = f and dP_i/du_j = p at one point contribute, u = q or v: du = h Phi_l
-   dy_l or phi_l dy_l.                                                                         */
+// adds dF_i/du_j = f and dP_i/du_j = p of one point, u = q or v: du = h Phi_l dy_l or phi_l dy_l
 static void gvi__add_derivative(const gvi_stepper *st, const gvi__matrix *J, int i, int j,
                                 int point, gvi_real f, gvi_real p, int by_v)
 {
@@ -4923,9 +4906,8 @@ static void gvi__newton_guess(gvi_stepper *st, int extrapolate)
     else gvi__velocity_guess(st, st->x.newton.y);
 }
 
-/* y += dy from row k0 on; returns the sum over coordinates of the relative change.  p->work:
-   its work, or -1 where all of it is within a few units of the last place of q, or the residual
-   was rounding.                                                                               */
+/* y += dy from row k0 on; returns the sum of the coordinates' relative changes.  p->work: its work,
+   or -1 where all of it is a few last places of q, or the residual was rounding.              */
 static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, const gvi__matrix *J,
                                    gvi__descent *p)
 {
@@ -5376,8 +5358,7 @@ GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
     return gvi__report_status(st, GVI_OK);
 }
 
-/* Pointers into the memory are those of st: the layout again, the values rotated as they were
-   saved.                                                                                      */
+// pointers into the memory are those of st: the layout again, values rotated as they were saved
 GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const gvi_real *memory)
 {
     const gvi_status ready = gvi__ready(st, st && st->x.memory);
@@ -5436,8 +5417,7 @@ GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy)
     return gvi__done(st, status);
 }
 
-/* Curve and velocity of the last step by the same formulas as at its points, with the table row
-   that belongs to tau.                                                                        */
+// the last step's curve and velocity, by the formulas of its points with the table row of tau
 static void gvi__curve_at(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v)
 {
     const struct gvi__private *x = &st->x;
@@ -5602,8 +5582,7 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
     return gvi__report_status(st, GVI_OK);
 }
 
-/* The action along the curve of the last step, from NULL; or along that between boundary
-   values, at its stage values.                                                                */
+// the action along the last step's curve, `from` NULL; or between boundary values, at stage values
 GVI__COLD gvi_status gvi__curve_action(gvi_stepper *st, const gvi__origin *from, gvi_real h,
                                     const gvi_real *q1, gvi_real *action)
 {
