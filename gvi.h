@@ -2473,8 +2473,7 @@ static void gvi__fit(gvi_stepper *st, int r, const gvi_real *from, const gvi_rea
 typedef struct gvi__origin { gvi_real t, t_low; const gvi_real *q, *q_low, *p, *p_low; gvi_real E;
                             } gvi__origin;
 
-// where Newton's method begins: at constant velocity; at the last step's modes, extrapolated; at
-// constant velocity, with changes halved that make the residual larger
+// Newton's method from constant velocity; extrapolated modes; constant velocity, halving changes
 enum { GVI__PLAIN, GVI__EXTRAPOLATED, GVI__HALVED };
 
 // what is solved: a step, or for a query a part of the last one, from its start or its end
@@ -2531,8 +2530,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_rea
             gvi__count(&st->counters.iterations, used);
             if (!query) st->iterations = used;
             if (used > st->counters.most_iterations) st->counters.most_iterations = used;
-            // where iterations are given, only a callback that failed at extrapolated values is
-            // worth a second try
+            // iterations given: only a callback that failed at extrapolated values is tried again
             if (status == GVI_OK
                 || (x->desc.iterations > 0 && (used > 1 || status == GVI_E_CONVERGENCE)))
                 break;
@@ -2641,8 +2639,7 @@ static void gvi__move(int n, const gvi_real *GVI__RESTRICT dx, const gvi_real *G
     }
 }
 
-/* The step is done: counters.worst_resolution is brought up to date, state and compensation move
-   on, and its stage values become those of the last step.                                    */
+// the step is done: the state moves on, and work's stage values become those of the last step
 static void gvi__commit(gvi_stepper *st, gvi_real h)
 {
     struct gvi__private *x = &st->x;
@@ -2728,8 +2725,7 @@ static void gvi__times(int count, gvi_real t, gvi_real t_low, gvi_real h, const 
     for (; k < count; ++k) out[k] = t + (t_low + c[k]*h);
 }
 
-/* Tables for h, times of the points, and free motion, where the mass is constant: v = M^-1 p
-   and h v with their low words (what v loses by rounding is kept, as what p has lost is).     */
+// tables for h, times of the points; for a constant mass v = M^-1 p and h v, with their low words
 static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real h)
 {
     struct gvi__private *x = &st->x;
@@ -2776,8 +2772,7 @@ static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real 
      z_i    = sum_j table_j (weight_j source_ij)       of one or two tables and sources
 
    with free motion, the same in all iterations, in rows of its own.  factor and 1/m are two
-   products: h times 1/m, rounded once, would be the inverse of another mass in every step than
-   the one that makes v of p, the map no longer symplectic, and energy would drift.
+   products: h/m, rounded once, is not of the mass that makes v of p, and energy would drift.
 
    A stage with a scale is measured, in squares of changes times scale_i: all of them are added
    up and returned, and change_i := those of row i at the last point and the middle.  One point
@@ -2805,8 +2800,7 @@ GVI__BODY const gvi_real *gvi__weighted(int R, const gvi_real *GVI__RESTRICT w,
     return L;
 }
 
-/* The unit of a row: |base| and the displacements of the last point, before and after; 0 where
-   these have no sure digit.                                                                   */
+// 1/(|base| and the last point's displacements, before and after); 0 where these have no sure digit
 GVI__BODY gvi_real gvi__scale_of(gvi_real base, gvi_real was, gvi_real is)
 {
     const gvi_real size = GVI_ABS(base) + GVI_ABS(was - base) + GVI_ABS(is - base);
@@ -2884,8 +2878,7 @@ GVI__BODY void gvi__row_sums(int r, int R, int lanes, const gvi_real *table, con
     GVI__UNROLL for (int v = 0; v < lanes; ++v) z[v] = sum[0][v] + sum[2][v];
 }
 
-/* A stage in lanes of points: R is 4 or a multiple of eight; point by point where a lane is wider
-   than R or a single number.                                                                  */
+// a stage in lanes of points, R being 4 or a multiple of 8; point by point where no lane fits
 GVI__BODY gvi_real gvi__stage_by_lanes(const gvi_stepper *st, const gvi__stage *GVI__RESTRICT y,
                                        int n, int r, int R, int rescale)
 {
@@ -2934,8 +2927,7 @@ GVI__BODY gvi_real gvi__stage_by_lanes(const gvi_stepper *st, const gvi__stage *
     return gvi__sum_squares(total);
 }
 
-/* The sizes that deserve a copy of their own: (n = 2 also in gvi__factor_mass,
-   gvi__velocity_rows).                                                                        */
+// the sizes that deserve a copy of their own (n = 2 also in gvi__factor_mass, gvi__velocity_rows)
 #define GVI__KERNEL(name, by, n, r, R)                                                          \
     static gvi_real name(const gvi_stepper *st, const gvi__stage *GVI__RESTRICT y, int rescale) \
     {                                                                                           \
@@ -2965,10 +2957,9 @@ static gvi__kernel *gvi__kernel_for(int n, int r)
 
 /* ---- fixed point ---- */
 
-/* Makes the predictor ready: E takes the stage values of the last step (of the last two, if
-   they and this one are equally long) to the nodes of this step, which lie at alpha + beta c in
-   the last step's tau.  In the positions formulation forces only serve to make new positions: E
-   := K h b E does both.                                                                       */
+/* E takes the stage values of the last step (of two, if they are as long as this one) to the nodes
+   of this step, at alpha + beta c in the last step's tau.  In the positions formulation forces only
+   serve to make positions: E := K h b E does both.                                           */
 static void gvi__prepare_predictor(gvi_stepper *st, gvi_real h, int query)
 {
     struct gvi__private *x = &st->x;
@@ -3129,9 +3120,8 @@ static gvi_status gvi__evaluate_stages(gvi_stepper *st, const gvi__origin *from,
 }
 
 /* Momenta: V from the new P with the old M(Q) and dL/dv, so that an iteration contracts twice
-   as fast.  Where Lagrangian terms make V it can diverge while Q and P, a short step away, feel
-   nothing of it: returns its squared relative change at the last point, times r as if summed
-   over all.                                                                                   */
+   as fast.  Where Lagrangian terms make V it can diverge unfelt by Q and P: returns its squared
+   relative change at the last point, times r as if summed over all.                           */
 static gvi_real gvi__velocities_again(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
@@ -3155,8 +3145,7 @@ static gvi_real gvi__velocities_again(gvi_stepper *st)
     return (gvi_real)st->r*sum;
 }
 
-/* The stage values of the next iteration from the F, V and A of this one; returns the squares
-   of their changes.                                                                           */
+// the next iteration's stage values from this one's F, V, A; returns the squares of their changes
 GVI__BODY gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *y, int stages, int rescale)
 {
     const struct gvi__private *x = &st->x;
@@ -3176,8 +3165,7 @@ GVI__BODY gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *y, int stage
     return sum;
 }
 
-/* Stage values to begin with: the last step's forces (and V, A), extrapolated; without these, or if
-   they led nowhere, no force and constant velocity.                                          */
+// to begin with: F (V, A) of the last step, extrapolated; or no force and constant velocity
 static gvi_status gvi__predict_sources(gvi_stepper *st, const gvi__origin *from, gvi_real h,
                                        int extrapolate)
 {
@@ -3542,9 +3530,8 @@ static void gvi__drift(gvi_stepper *st, const gvi__origin *from, const gvi_real 
     }
 }
 
-/* Kicks h b_j F_j at the nodes, and drifts from each to the next: one evaluation a kick; none
-   where a weight is 0, but for the last.  `force` is that at the start, if it is known: after a
-   step whose last node was 1.  F stays at the end, where the next step may begin with it.     */
+/* Kicks h b_j F_j at the nodes, drifts between them: one evaluation a kick; none where a weight is
+   0, but for the last, whose F the next step may begin with.  `force`: F at the start, or NULL. */
 static gvi_status gvi__kicks(gvi_stepper *st, const gvi__origin *from, gvi_real h,
                              const gvi_real *force)
 {
@@ -4201,9 +4188,8 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
 // in long: an int may have 16 bits
 static int gvi__within(long x, long most) { return x >= 0 && x <= most; }
 
-/* Are all sizes in range, and is what the kinds of rule, mass and effects need there, and
-   nothing that says that a kind was forgotten? Fills in the defaults, and finds what the
-   effects read and the clock.                                                                 */
+/* Are all sizes in range, is what the kinds need there, and nothing that says that a kind was
+   forgotten?  Fills in the defaults, and finds what the effects read and the clock.           */
 GVI__COLD gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc, gvi_fault *fault)
 {
     enum { V = GVI__HAS_VELOCITIES, L = GVI__HAS_LAGRANGIAN };
@@ -4220,18 +4206,16 @@ GVI__COLD gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc, gv
         : (unsigned)desc->formulation > GVI_NEWTON ? "formulation is not in its enum"
         : (unsigned)desc->mass.kind > GVI_MASS_NONE ? "mass.kind is not in its enum"
         : (unsigned)desc->rule.kind > GVI_KICKS ? "rule.kind is not in its enum"
-        : !(desc->tolerance >= 0 && desc->tolerance < 1) ? "tolerance is not 0 to 1" : NULL;
+        : !(desc->tolerance >= 0 && desc->tolerance < 1) ? "tolerance is not 0 to 1"
+        : desc->rule.kind < GVI_OWN ? desc->rule.nodes ? "rule: this kind takes no nodes" : NULL
+        : !desc->rule.points || !desc->rule.nodes || !desc->rule.weights
+            ? "rule: this kind needs points, nodes and weights" : NULL;
     if (wrong) return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE, wrong);
     gvi_desc *d = &x->desc;
     *d = *desc;
-    const gvi_rule *rule = &desc->rule;
-    const int given = rule->kind == GVI_OWN || rule->kind == GVI_KICKS;
-    if (given ? !rule->points || !rule->nodes || !rule->weights : rule->nodes != NULL)
-        return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE,
-                           given ? "rule: this kind needs points, nodes and weights"
-                                 : "rule: this kind takes no nodes");
-    if (d->degree == 0) d->degree = rule->kind == GVI_KICKS ? 1 : 8;
-    if (d->rule.points == 0) d->rule.points = rule->kind == GVI_LOBATTO ? d->degree + 1 : d->degree;
+    const gvi_rule_kind rule = d->rule.kind;
+    if (d->degree == 0) d->degree = rule == GVI_KICKS ? 1 : 8;
+    if (d->rule.points == 0) d->rule.points = rule == GVI_LOBATTO ? d->degree + 1 : d->degree;
     if (d->max_iterations == 0) d->max_iterations = 60;
 
     x->needs = 0;
@@ -4268,8 +4252,8 @@ GVI__COLD gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc, gv
             ? "mass: matrix is missing" : NULL;
     if ((x->needs & L && !GVI__LAGRANGIAN) || (x->clock >= 0 && !GVI__CLOCK)
         || (x->con.bits && (!GVI__CONSTRAINTS || x->clock >= 0 || m->velocity
-                            || m->kind == GVI_MASS_NONE || rule->kind == GVI_KICKS))
-        || (m->kind > GVI_MASS_DENSE && !gvi__mass_is(x, m->kind)) || !gvi__rule_is(x, rule->kind))
+                            || m->kind == GVI_MASS_NONE || rule == GVI_KICKS))
+        || (m->kind > GVI_MASS_DENSE && !gvi__mass_is(x, m->kind)) || !gvi__rule_is(x, rule))
         return GVI_E_FORMULATION;
     return wrong ? gvi__refuse(fault, GVI_FAULT_MASS, GVI_FAULT_NONE, wrong) : GVI_OK;
 }
@@ -4308,8 +4292,7 @@ GVI__COLD gvi_status gvi__check_rule(struct gvi__private *x, int *order, gvi_fau
     return r < s ? GVI_E_POINTS : GVI_OK;
 }
 
-/* The first formulation that can do what the scene asks for, or the one that is pinned; Newton's
-   method as a fall-back.                                                                     */
+// the first formulation that can do what is asked for, or that pinned; Newton's as a fall-back
 GVI__COLD gvi_status gvi__choose(struct gvi__private *x, gvi_fault *fault)
 {
     enum { READS = 1, TIMED = 2, KICKED = 4, NOT_KICKED = 8, MORE_POINTS = 16, VARIES = 32,
@@ -4395,10 +4378,9 @@ GVI__COLD void gvi__layout_constraints(struct gvi__private *x, gvi__arena *a)
         *list[k].to = gvi__take(a, list[k].rows, list[k].width);
 }
 
-/* The one layout: gvi_size counts with it, gvi_init hands out by it, and GVI_LENGTH is its sum
-   with everything wanted.  What a scene can do without has no length.  The stage values of two
-   steps back make the predictor better up to nine points; with more of them, and in float, they
-   would amplify rounding too much.                                                            */
+/* The one layout: gvi_size counts with it, gvi_init hands out by it, and GVI_LENGTH is its sum with
+   everything wanted.  Stage values of two steps back make the predictor better up to nine points;
+   with more of them, and in float, they would amplify rounding too much.                     */
 GVI__COLD size_t gvi__layout(struct gvi__private *x, int order, gvi_real *base)
 {
     const gvi_desc *d = &x->desc;
@@ -4427,6 +4409,10 @@ GVI__COLD size_t gvi__layout(struct gvi__private *x, int order, gvi_real *base)
         &x->state.q, &x->state.p, &x->state.q_low, &x->state.p_low, &x->step.q, &x->step.p,
         &x->step.q_low, &x->step.p_low, &x->began.q, &x->began.p, &x->free.v, &x->zeros, &x->start,
         &x->mass.inverse, &x->free.v_low, &x->free.path, &x->free.path_low
+    };
+    gvi_real **const modes_of_newton[] = {
+        &x->newton.y, &x->newton.dy, &x->newton.residual, &x->newton.last,
+        &x->newton.found, &x->newton.branch, &x->newton.guess, &x->newton.slope
     };
 
     // rows first: they start on a whole lane
@@ -4469,14 +4455,7 @@ GVI__COLD size_t gvi__layout(struct gvi__private *x, int order, gvi_real *base)
     x->result = gvi__take(a, 3, n);
     x->newton.column = gvi__take(a, newton || lagrangian ? 4 : 0, n);
     x->newton.hessian = gvi__take(a, newton || lagrangian, (newton ? 4*nn : nn) + n + 1);
-    x->newton.y = gvi__take(a, newton, sn);
-    x->newton.dy = gvi__take(a, newton, sn);
-    x->newton.residual = gvi__take(a, newton, sn);
-    x->newton.last = gvi__take(a, newton, sn);
-    x->newton.found = gvi__take(a, newton, sn);
-    x->newton.branch = gvi__take(a, newton, sn);
-    x->newton.guess = gvi__take(a, newton, sn);
-    x->newton.slope = gvi__take(a, newton, sn);
+    for (int k = 0; k < 8; ++k) *modes_of_newton[k] = gvi__take(a, newton, sn);
     x->newton.pivot = gvi__take(a, newton*2, sn + 1);           // twice: queries must not touch
     x->newton.moved = gvi__take(a, newton*4*n, R);
     if (GVI__CONSTRAINTS) gvi__layout_constraints(x, a);
@@ -4708,8 +4687,7 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, 
     return norm;
 }
 
-/* Adds what dF_i/du_j = f and dP_i/du_j = p at one point contribute, u = q or v: du = h Phi_l
-   dy_l or phi_l dy_l.                                                                         */
+// adds dF_i/du_j = f and dP_i/du_j = p of one point, u = q or v: du = h Phi_l dy_l or phi_l dy_l
 static void gvi__add_derivative(const gvi_stepper *st, const gvi__matrix *J, int i, int j,
                                 int point, gvi_real f, gvi_real p, int by_v)
 {
@@ -4923,18 +4901,13 @@ static void gvi__newton_modes(gvi_stepper *st, const gvi_real *V, gvi_real *rows
 // y := modes of the extrapolated V, or constant velocity
 static void gvi__newton_guess(gvi_stepper *st, int extrapolate)
 {
-    struct gvi__private *x = &st->x;
-    gvi__zero((size_t)(st->s*st->n), x->newton.y);
-    if (!extrapolate) {
-        gvi__velocity_guess(st, x->newton.y);
-        return;
-    }
-    gvi__newton_modes(st, x->last.V, x->work.V);
+    gvi__zero((size_t)(st->s*st->n), st->x.newton.y);
+    if (extrapolate) gvi__newton_modes(st, st->x.last.V, st->x.work.V);
+    else gvi__velocity_guess(st, st->x.newton.y);
 }
 
-/* y += dy from row k0 on; returns the sum over coordinates of the relative change.  p->work:
-   its work, or -1 where all of it is within a few units of the last place of q, or the residual
-   was rounding.                                                                               */
+/* y += dy from row k0 on; returns the sum of the coordinates' relative changes.  p->work: its work,
+   or -1 where all of it is a few last places of q, or the residual was rounding.              */
 static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, const gvi__matrix *J,
                                    gvi__descent *p)
 {
@@ -4972,21 +4945,10 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
     return sum;
 }
 
-/* Is a change that does not shrink rounding? It is at the rounding of y, q or the residual, or
-   small and the matrix new.  Then p->left is what it can hide of the error: no more than the
-   change before.  By an older matrix that has not contracted here the next change may be the
-   same, whatever it is.                                                                       */
-static int gvi__newton_rests(gvi__descent *p, int size, gvi_real change)
-{
-    const int fresh = p->fresh & 1, proven = (fresh && p->holds) || p->rho < (gvi_real)0.25;
-    const gvi_real small = fresh ? GVI_SQRT(GVI__EPS) : 0, enough = 64*GVI__EPS*(gvi_real)size;
-    if (!(p->work < 0) && !(proven && change <= (enough > small ? enough : small))) return 0;
-    p->left = p->before;
-    return 1;
-}
-
-/* The verdict on a change.  Where it is rounding, what is left of the error shrinks on by the
-   contraction seen before.  Not to be less than half of the least so far is not to shrink: what
+/* The verdict on a change.  One that does not shrink is rounding if y, q or the residual is, or if
+   it is small and its matrix is new or has contracted here: an older one can repeat any change.  It
+   then hides no more of the error, p->left, than the change before, which shrinks on by the
+   contraction seen.  Not to be less than half of the least so far is not to shrink: what
    is rounded to a grid may go round a few points of it, and fall in every iteration.  Nor is it
    contraction to fall from an overshoot far beyond the size of y.                             */
 static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__descent *p,
@@ -5010,12 +4972,15 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__des
     if (change < p->least) p->least = change;
     if (before > 0 && change > noise && change > st->x.newton.bend*before)
         st->x.newton.bend = change/before;
-    const int rounding = p->left < GVI__MAX || (stagnant && gvi__newton_rests(p, size, change));
+    const int fresh = p->fresh & 1, proven = (fresh && p->holds) || p->rho < quarter;
+    const int small = change <= noise || (fresh && change <= GVI_SQRT(GVI__EPS));
+    if (stagnant && !(p->left < GVI__MAX) && (p->work < 0 || (proven && small))) p->left = before;
+    const int rounding = p->left < GVI__MAX;
     if (rounding) p->left *= p->rho < quarter ? p->rho : quarter;
 
     const gvi_real enough = wanted > 0 ? wanted : GVI__EPS/4096;
-    const int small = change*ratio <= enough || p->left <= GVI__EPS/65536 || p->left <= enough;
-    if (small && (p->holds || p->rho < quarter)) return GVI__DONE;
+    const int done = change*ratio <= enough || p->left <= GVI__EPS/65536 || p->left <= enough;
+    if (done && (p->holds || p->rho < quarter)) return GVI__DONE;
     // rounding, by a matrix that has contracted here
     const int hidden = p->work < 0 && p->rho < quarter;
     if (!rounding && !hidden && before > 0 && ratio > quarter) p->have = 0;
@@ -5393,8 +5358,7 @@ GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
     return gvi__report_status(st, GVI_OK);
 }
 
-/* Pointers into the memory are those of st: the layout again, the values rotated as they were
-   saved.                                                                                      */
+// pointers into the memory are those of st: the layout again, values rotated as they were saved
 GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const gvi_real *memory)
 {
     const gvi_status ready = gvi__ready(st, st && st->x.memory);
@@ -5453,8 +5417,7 @@ GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy)
     return gvi__done(st, status);
 }
 
-/* Curve and velocity of the last step by the same formulas as at its points, with the table row
-   that belongs to tau.                                                                        */
+// the last step's curve and velocity, by the formulas of its points with the table row of tau
 static void gvi__curve_at(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v)
 {
     const struct gvi__private *x = &st->x;
@@ -5539,47 +5502,32 @@ GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
     return GVI_OK;
 }
 
-/* With a clock: the h of a partial step for a time dt, by Newton's method, the derivative being
-   g, kept inside the step by bisection.  h is the next to try, or 0 for no more.              */
-typedef struct gvi__bracket { gvi_real dt, h, near_end, far_end; } gvi__bracket;
-
-static gvi_status gvi__clock_time(gvi_stepper *st, const gvi__origin *from, gvi__bracket *b)
-{
-    struct gvi__private *x = &st->x;
-    gvi_real rate, *q = x->result;
-    const gvi_real h = b->h;
-    b->h = 0;
-    if (!gvi__clock_is_on(st) || GVI_ABS(x->dt - b->dt) <= 2*GVI__EPS*GVI_ABS(b->dt)) return GVI_OK;
-    if (GVI_ABS(x->dt) > GVI_ABS(b->dt)) b->far_end = h;
-    else b->near_end = h;
-    for (int i = 0; i < st->n; ++i) q[i] = from->q[i] + x->step.q[i];
-    const gvi_status status = gvi__clock_at(st, from->t, q, &rate, q + st->n);
-    if (status != GVI_OK) return status;
-    gvi_real next = h - (x->dt - b->dt)/rate;
-    if (!((next - b->near_end)*(b->far_end - next) > 0))
-        next = b->near_end + (b->far_end - b->near_end)/2;
-    if (!(GVI_ABS(next - h) <= GVI__EPS*GVI_ABS(st->h))) b->h = next;
-    return GVI_OK;
-}
-
-// increments of a partial step for a time dt from one end of the last step
+/* Increments of a partial step for a time dt from one end of the last step.  With a clock its h is
+   found by Newton's method, the derivative being g, kept inside the step by bisection.       */
 static gvi_status gvi__partial_step(gvi_stepper *st, const gvi__origin *from, int query,
                                     gvi_real dt)
 {
-    const gvi_real far_end = query == GVI__FROM_END ? -st->h : st->h;
-    gvi__bracket b = { dt, dt, 0, far_end };
-    if (gvi__clock_is_on(st)) {
-        b.h = st->h*(dt/(st->t - st->t0));
-        // t did not move, or less than it should
-        if (!(GVI_ABS(b.h) <= GVI_ABS(far_end))) b.h = far_end/2;
+    struct gvi__private *x = &st->x;
+    const int clock = gvi__clock_is_on(st);
+    gvi_real h = clock ? st->h*(dt/(st->t - st->t0)) : dt, rate, *q = x->result;
+    gvi_real near_end = 0, far_end = query == GVI__FROM_END ? -st->h : st->h;
+    // t did not move, or less than it should
+    if (clock && !(GVI_ABS(h) <= GVI_ABS(far_end))) h = far_end/2;
+    for (int k = 0; k < 60; ++k) {
+        gvi_status status = gvi__solve(st, from, h, query);
+        if (status != GVI_OK || !clock || GVI_ABS(x->dt - dt) <= 2*GVI__EPS*GVI_ABS(dt))
+            return status;
+        if (GVI_ABS(x->dt) > GVI_ABS(dt)) far_end = h;
+        else near_end = h;
+        for (int i = 0; i < st->n; ++i) q[i] = from->q[i] + x->step.q[i];
+        status = gvi__clock_at(st, from->t, q, &rate, q + st->n);
+        if (status != GVI_OK) return status;
+        gvi_real next = h - (x->dt - dt)/rate;
+        if (!((next - near_end)*(far_end - next) > 0)) next = near_end + (far_end - near_end)/2;
+        if (!gvi__nonzero(next) || GVI_ABS(next - h) <= GVI__EPS*GVI_ABS(st->h)) return GVI_OK;
+        h = next;
     }
-    gvi_status status = GVI_OK;
-    for (int k = 0; k < 60 && status == GVI_OK && (k == 0 || gvi__nonzero(b.h)); ++k) {
-        status = gvi__solve(st, from, b.h, query);
-        if (status == GVI_OK) status = gvi__clock_time(st, from, &b);
-    }
-    return status == GVI_OK && gvi__nonzero(b.h) ? gvi__report_status(st, GVI_E_CONVERGENCE)
-                                                 : status;
+    return gvi__report_status(st, GVI_E_CONVERGENCE);
 }
 
 GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_real *v, gvi_real *p)
@@ -5634,8 +5582,7 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
     return gvi__report_status(st, GVI_OK);
 }
 
-/* The action along the curve of the last step, from NULL; or along that between boundary
-   values, at its stage values.                                                                */
+// the action along the last step's curve, `from` NULL; or between boundary values, at stage values
 GVI__COLD gvi_status gvi__curve_action(gvi_stepper *st, const gvi__origin *from, gvi_real h,
                                     const gvi_real *q1, gvi_real *action)
 {
