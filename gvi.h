@@ -99,7 +99,7 @@
               coordinate; no tolerance or test of the library depends on them.
    rounding   Round to nearest, subnormals kept; -ffast-math is refused.
               q, p and t carry compensation terms, so 1e9 steps of t + h are
-              as exact as one.  Same bits on every IEEE machine when compiled
+              as exact as one.  Same bits on every IEEE machine but x87 when compiled
               with -ffp-contract=off, as far as callbacks do, and products stay
               between 1e-290 and 1e299 (float: 1e-30 and 1e34), beyond which
               their low words depend on FMA.
@@ -338,9 +338,10 @@ typedef enum gvi_status {
                                 nodes given although the kind takes none; effects
                                 without effect_count (fault.argument says which)    */
     GVI_E_MEMORY      = -2,  /* the memory is smaller than gvi_size(desc)               */
-    GVI_E_NODES       = -3,  /* own rule: a node outside [0,1], or two that coincide    */
+    GVI_E_NODES       = -3,  /* own rule: a node outside [0,1], or two that coincide;
+                                kicks: not finite                                   */
     GVI_E_ORDER       = -4,  /* own rule of order u < s, so also weights that do not sum
-                                to 1: not even free motion would come out           */
+                                to 1, kicks too: not even free motion would come out */
     GVI_E_POINTS      = -5,  /* r < s, or a rule that does not see every mode           */
     GVI_E_FORMULATION = -6,  /* no formulation, or not the pinned one, covers this scene */
     GVI_E_SINGULAR    = -7,  /* singular matrix: massless coordinate (fault.coordinate), or a
@@ -389,9 +390,8 @@ typedef struct gvi_points {
 } gvi_points;
 
 /* All points at once.  Returns 0, or anything else if it cannot be evaluated
-   here.  The step is then tried once more without its predictor, then by
-   Newton's method if the scene has what that needs; if all fail, it ends with
-   GVI_E_CALLBACK.                                                            */
+   here.  A step that is not explicit is then tried without its predictor, nearer to its
+   start, and by Newton's method; if all fail, it ends with GVI_E_CALLBACK.    */
 typedef int gvi_points_fn(const gvi_points *x, void *user);
 
 /* The same from what happens at one point.  GVI_POINTS(name, n, ...) stands for `static int name`;
@@ -600,7 +600,7 @@ typedef struct gvi_counters {
     unsigned long long failures;          /* steps that did not                 */
     unsigned long long iterations;        /* of the fixed point, also in gvi_state_at */
     unsigned long long newton_iterations;
-    unsigned long long factorizations;    /* LU of s*n, or of M at a point */
+    unsigned long long factorizations;    /* LU of s*n, or at a point */
     unsigned long long velocities;        /* points at which v was formed       */
     unsigned long long mass;              /* points given to mass.points, mass.velocity */
     unsigned long long effect[GVI_EFFECTS]; /* points given to each effect      */
@@ -729,11 +729,11 @@ typedef struct gvi_discrete {
 
 /* ------------------------------------------------------------- FUNCTIONS */
 
-/* Set-up.  Bytes of memory that desc needs; 0 if the description is faulty:
-   gvi_init, even with a NULL memory, then returns why.  A chain of calls after a
-   failure keeps its first status; st.q and st.p then point at zeros, n of them or 64
-   where there is no memory for them.  GVI_LENGTH: array length, a constant expression, that
-   is enough for every scene of n degrees of freedom, degree s, r points.      */
+/* Set-up.  Bytes of memory that desc needs; 0 if its sizes, kinds or callbacks are refused:
+   gvi_init, even with a NULL memory, then returns why.  A chain of calls after a failure keeps
+   its first status; st.q and st.p then point at zeros, n of them or 64 where there is no memory
+   for them.  GVI_LENGTH: array length, a constant expression, that is enough for every scene
+   without constraints of n degrees of freedom, degree s, r points.                            */
 GVI_DEF size_t     gvi_size(const gvi_desc *desc);
 GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *memory, size_t size);
 
@@ -762,7 +762,7 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h);
 GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on);
 
 /* At the present state: velocity (inverse Legendre transform), v[n];
-   energy p'v - L, which needs every effect's value but a force's.            */
+   energy p'v - L, which needs the value of each potential and Lagrangian term that is on. */
 GVI_DEF gvi_status gvi_velocity(gvi_stepper *st, gvi_real *v);
 GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy);
 
@@ -792,11 +792,11 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action);
    without a guess, it is whatever curve Newton's method finds from the chord.  GVI_E_CONJUGATE
    where the ends do not determine the curve (oscillator: h omega = k pi; a half circle about the
    Sun, whose chord goes through it, or past another conjugate point).  Needs GVI_NEWTON, or
-   GVI_AUTO with s n <= 1024, if s > 1, and is not for kicks or a clock.  Forced systems: d1, d2 are
-   total derivatives, and F-, F+ are h sum b_i f_i dQ_i/dq0, dQ_i/dq1 with the curve's own
-   dependence on its ends, as the exact discrete forces are [1, sec. 3.2]; how they share p0
-   and p1 is as exact as the Hessians (sqrt(eps), where these are differences), p0 and p1
-   themselves are exact.  State untouched.                                                     */
+   GVI_AUTO with s n <= 1024 and no given iterations, if s > 1; not for kicks, a clock or
+   constraints.  Forced systems: d1, d2 are total derivatives, and F-, F+ are
+   h sum b_i f_i dQ_i/dq0, dQ_i/dq1 with the curve's own dependence on its ends, as the exact
+   discrete forces are [1, sec. 3.2]; how they share p0 and p1 is as exact as the Hessians
+   (sqrt(eps), where these are differences), p0 and p1 themselves are exact.  State untouched. */
 GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real h,
                                            const gvi_real *q0, const gvi_real *q1,
                                            const gvi_discrete *out);
