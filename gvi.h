@@ -3129,7 +3129,8 @@ static gvi_real gvi__velocities_again(gvi_stepper *st)
               made = GVI__LAGRANGIAN && x->work.A;
     const gvi_real *V = x->work.V + st->r - 1;
     gvi_real *was = x->result, sum = 0;
-    if (!x->has_factor && (clock || !gvi__mass_is_constant(x))) return 0;
+    // before the first evaluation Q, g and M(Q) are those of another step
+    if (!x->has_factor && (clock || x->desc.mass.velocity || !gvi__mass_is_constant(x))) return 0;
     if (made) gvi__gather(n, R, V, was);
     gvi__count(&st->counters.velocities, st->r);
     const gvi_points at = gvi__points_at(st, st->r, R, x->t, x->work.Q, NULL, NULL);
@@ -5493,7 +5494,9 @@ GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
     gvi__weights_for(st, st->h);
     gvi__curve_at(st, tau, Q, V);
     if (GVI__CLOCK && st->x.stepped == 2) {       // v = q'/g
+        st->x.diagnose = 1;
         status = gvi__clock_at(st, st->t, Q, &rate, V + st->n);
+        st->x.diagnose = 0;
         if (status != GVI_OK) return st->status = status;
         for (int i = 0; i < st->n; ++i) V[i] /= rate;
     }

@@ -453,6 +453,29 @@ TEST(a_value_that_is_not_a_number_is_named)
     assert_int_equal(st.fault.effect, 0);
 }
 
+static int clock_without_number(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k) x->value[k] += *(real *)user;
+    return 0;
+}
+
+TEST(a_curve_whose_clock_is_not_a_number_is_refused)
+{
+    gvi_desc desc = describe(KEPLER, 4);
+    gvi_effect *const effects = own_effects(&desc);
+    gvi_stepper st;
+    real g = 1, q[2] = { 7, 7 }, v[2];
+    effects[1].points = clock_without_number;
+    effects[1].user = &g;
+    set_up(&st, &desc, memory);
+    assert_ok(gvi_start_momentum(&st, 0, start, start + 2));
+    assert_ok(gvi_step(&st, (real)0.03125));
+    g = (real)NAN;
+    assert_status(gvi_curve(&st, (real)0.25, q, v), GVI_E_NON_FINITE);
+    assert_int_equal(st.fault.effect, 1);
+    assert_true(q[0] == 7);
+}
+
 /* Late: t has too few digits left to move by g h */
 TEST(the_state_at_a_time_that_stands_still)
 {

@@ -319,4 +319,49 @@ TEST(a_momentum_that_tends_to_0_converges)
         }
 }
 
+static int quartic(real t, const real *q, const real *v, real *f, real *dldv, void *user)   /* V = q^2/2 + q^4/4 */
+{
+    f[0] -= q[0] + q[0]*q[0]*q[0];
+    return 0;
+}
+static int rate_of_cube(real t, const real *q, const real *v, real *f, real *dldv, void *user)  /* L = d(q^3/3)/dt */
+{
+    f[0] += 2*q[0]*v[0];
+    dldv[0] += q[0]*q[0];
+    return 0;
+}
+static int velocity_at_q(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k) x->velocity[k] = x->p[k] - x->q[k]*x->q[k];
+    return 0;
+}
+
+/* mass.velocity reads q: that of this step, whatever a step that failed or a query has left */
+TEST(a_velocity_is_of_its_own_step)
+{
+    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .point = quartic },
+                                        { .kind = GVI_LAGRANGIAN, .point = rate_of_cube } };
+    for (int with = 0; with < 3; ++with) {
+        static real memory[GVI_LENGTH(1, 8, 8)];
+        const gvi_desc desc = { .n = 1, .effects = scene, .effect_count = 2, .formulation = GVI_MOMENTA,
+                                .mass = { .velocity = velocity_at_q }, .iterations = with == 2 ? 4 : 0 };
+        const real q = 1, v = (real)0.5;
+        real end[2][2];
+        for (int disturbed = 0; disturbed < 2; ++disturbed) {
+            gvi_stepper st;
+            assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+            assert_ok(gvi_start(&st, 0, &q, &v));
+            for (int k = 0; k < 20; ++k) {
+                real at;
+                assert_ok(gvi_step(&st, k % 2 ? (real)0.125 : (real)0.0625));
+                if (disturbed && with > 0) assert_ok(gvi_state_at(&st, st.t0 + (real)0.03125, &at, NULL, NULL));
+                if (disturbed && with == 0 && k < 9) assert_true(gvi_step(&st, 10*(real)(k + 1)) != GVI_OK);
+            }
+            end[disturbed][0] = st.q[0];
+            end[disturbed][1] = st.p[0];
+        }
+        assert_true(end[0][0] == end[1][0] && end[0][1] == end[1][1]);
+    }
+}
+
 RUN_TESTS(NULL, NULL)
