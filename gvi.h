@@ -1207,14 +1207,21 @@ GVI__COLD gvi_status gvi__lu_scales(int n, const gvi_real *a, gvi_real *pivot, i
     return status;
 }
 
-/* row -= l top, `count` numbers                                                              */
-static void gvi__subtract_row(size_t count, gvi_real l, const gvi_real *GVI__RESTRICT top,
-                              gvi_real *GVI__RESTRICT row)
+// row -= a top, `count` numbers, a being `width` numbers: one for each, or one for all
+GVI__BODY void gvi__subtract_at(int width, int count, const gvi_real *GVI__RESTRICT a,
+                                const gvi_real *GVI__RESTRICT top, gvi_real *GVI__RESTRICT row)
 {
-    size_t j = 0;
-    for (; GVI__LANES > 1 && j + GVI__LANES <= count; j += GVI__LANES)
-        GVI__STORE(row + j) -= l*GVI__LOAD(top + j);
-    for (; j < count; ++j) row[j] -= l*top[j];
+    int k = 0;
+    for (; GVI__LANES > 1 && width == 1 && k + GVI__LANES <= count; k += GVI__LANES)
+        GVI__STORE(row + k) -= a[0]*GVI__LOAD(top + k);
+    for (; GVI__LANES > 1 && width > 1 && k + GVI__LANES <= count; k += GVI__LANES)
+        GVI__STORE(row + k) -= GVI__LOAD(a + k)*GVI__LOAD(top + k);
+    for (; k < count; ++k) row[k] -= a[width > 1 ? k : 0]*top[k];
+}
+
+static void gvi__subtract_row(size_t count, gvi_real l, const gvi_real *top, gvi_real *row)
+{
+    gvi__subtract_at(1, (int)count, &l, top, row);
 }
 
 // at: the row of zeros or the column at which elimination ended, if A is singular
@@ -1370,18 +1377,6 @@ static gvi_status gvi__ldl_factor(int n, int R, int count, gvi_real *m, gvi_real
     return GVI_OK;
 }
 
-// row -= a top at `count` points, a being `width` numbers: one for each point, or one for all
-GVI__BODY void gvi__subtract_at(int width, int count, const gvi_real *GVI__RESTRICT a,
-                             const gvi_real *GVI__RESTRICT top, gvi_real *GVI__RESTRICT row)
-{
-    int k = 0;
-    for (; GVI__LANES > 1 && width == 1 && k + GVI__LANES <= count; k += GVI__LANES)
-        GVI__STORE(row + k) -= a[0]*GVI__LOAD(top + k);
-    for (; GVI__LANES > 1 && width > 1 && k + GVI__LANES <= count; k += GVI__LANES)
-        GVI__STORE(row + k) -= GVI__LOAD(a + k)*GVI__LOAD(top + k);
-    for (; k < count; ++k) row[k] -= a[width > 1 ? k : 0]*top[k];
-}
-
 // rows z [n][R] := M^-1 z; an entry of the matrix is `width` numbers
 static void gvi__ldl_solve(int n, const gvi_real *m, int width, gvi_real *z, int R, int count)
 {
@@ -1517,11 +1512,9 @@ GVI__COLD void gvi__rule(int lobatto, int n, gvi_real *c, gvi_real *c_low, gvi_r
     const int m = n - lobatto;
     for (int j = 0; 2*j < n; ++j) {
         const int middle = 2*j + 1 == n, known = middle || (lobatto && j == 0);
-        gvi__two x = gvi__two_of(middle  ? (gvi_real)0.5
-                                 : known ? 0
-                                         : gvi__node_guess(lobatto, m, j),
-                                 0);
-        gvi_real last = known ? 0 : 1;
+        gvi_real start = middle ? (gvi_real)0.5 : 0, last = known ? 0 : 1;
+        if (!known) start = gvi__node_guess(lobatto, m, j);
+        gvi__two x = gvi__two_of(start, 0);
         for (int k = 0; k < 12; ++k) {
             const gvi__two dx = gvi__node_correction(lobatto, m, x, b + j);
             if (!(last > GVI__EPS*x.hi)) break;
@@ -1592,13 +1585,12 @@ GVI_DEF gvi_status gvi_barycentric(int n, const gvi_real *x, gvi_real *w)
     for (int pass = 0; pass < 2; ++pass)
         for (int j = 0; j < n; ++j) {
             gvi_real mantissa = 1;
-            int exponent = 0, e;
+            int exponent = 0, e, f;
             for (int k = 0; k < n; ++k)
                 if (k != j) {
-                    mantissa *= GVI_FREXP(x[j] - x[k], &e);
-                    exponent += e;
-                    mantissa = GVI_FREXP(mantissa, &e);
-                    exponent += e;
+                    const gvi_real factor = GVI_FREXP(x[j] - x[k], &e);
+                    mantissa = GVI_FREXP(mantissa*factor, &f);
+                    exponent += e + f;
                 }
             if (pass == 0 && (j == 0 || exponent < least)) least = exponent;
             if (pass == 1) {
@@ -2263,15 +2255,15 @@ GVI__COLD void gvi__prepare_column(gvi_stepper *st, const gvi_real *b, int j)
 {
     const struct gvi__tables *x = &st->x.table;
     const gvi_real *low = gvi__low_words(st, b);
-    const int s = st->s, R = st->x.R;
+    const int s = st->s, R = st->x.R, full = gvi__has(&st->x, GVI__HAS_GAMMA);
     gvi_real *w = st->x.row;
     for (int k = 0; k < s; ++k) {
-        const gvi__two a = gvi__two_of(b[k*R + j], low[k*R + j]),
-                       z = gvi__scale2(x->inv_gamma[k], a);
-        w[k] = gvi__has(&st->x, GVI__HAS_GAMMA) ? a.hi : z.hi;
-        w[s + k] = gvi__has(&st->x, GVI__HAS_GAMMA) ? 0 : z.lo;
+        gvi__two z = gvi__two_of(b[k*R + j], 0);
+        if (!full) z = gvi__scale2(x->inv_gamma[k], gvi__two_of(z.hi, low[k*R + j]));
+        w[k] = z.hi;
+        w[s + k] = z.lo;
     }
-    if (gvi__has(&st->x, GVI__HAS_GAMMA)) gvi__over_gamma(st, w);
+    if (full) gvi__over_gamma(st, w);
 }
 
 // sum_k a_k(c_i) (Gamma^-1 b(c_j))_k; a: phi or Phi.  Products do not wait for the sum
@@ -2286,10 +2278,10 @@ GVI__COLD gvi__two gvi__coupling(const gvi_stepper *st, const gvi_real *a, int i
     return gvi__two_sum(sum.hi, sum.lo);
 }
 
-// S_ij and T_ij of the column that was prepared last
-static gvi_real gvi__S(const gvi_stepper *st, int i)
+// S_ij and T_ij of the column that was prepared last; Phi: at the nodes i
+static gvi_real gvi__S(const gvi_stepper *st, const gvi_real *Phi, int i)
 {
-    return gvi__grid(gvi__coupling(st, st->x.table.Phi, i), GVI__EPS/2);
+    return gvi__grid(gvi__coupling(st, Phi, i), GVI__EPS/2);
 }
 
 static gvi_real gvi__T(const gvi_stepper *st, int i)
@@ -2310,7 +2302,7 @@ GVI__COLD void gvi__make_tables(gvi_stepper *st)
     for (int j = 0; j < r; ++j) {
         gvi__prepare_column(st, x->Phi, j);
         for (int i = 0; x->K && i <= j; ++i) {
-            const gvi_real S = gvi__S(st, i);
+            const gvi_real S = gvi__S(st, x->Phi, i);
             x->K[j*R + i] = x->c[i] - S;
             x->K[i*R + j] = x->c[j] - S;
         }
@@ -2337,18 +2329,17 @@ GVI__COLD gvi_status gvi__set_constraints(gvi_stepper *st)
     gvi__rule(1, s + 1, d, gvi__uses(x, GVI_EXPLICIT) ? NULL : low, x->con.w);
     if (gvi__uses(x, GVI_EXPLICIT)) return GVI_OK;
     gvi__modes_of(st, s, d + 1, low + 1, NULL, NULL, x->con.Phi, x->con.Phi_low);
-    for (int e = 0; e <= s; ++e) {                // Phi(d_0) = 0
+    gvi__zero(2*(size_t)s, x->row);               // the column of d_0: Phi(d_0) = 0
+    for (int e = 0; e <= s; ++e) {
         if (e > 0) gvi__prepare_column(st, x->con.Phi, e - 1);
         for (int i = 0; i < r; ++i) {
-            const gvi_real S = e > 0 ? gvi__S(st, i) : 0;
-            const gvi_real T = e > 0 && x->con.U ? gvi__T(st, i) : 0;
+            const gvi_real S = gvi__S(st, x->table.Phi, i), T = x->con.U ? gvi__T(st, i) : 0;
             if (e < s) x->con.K[e*R + i] = x->table.c[i] - S;
             if (e < s && x->con.U) x->con.U[e*R + i] = 1 - T;
             if (e > 0) x->con.by_force[i*R + e - 1] = momenta ? T : d[e] - S;
         }
         for (int a = e > 1 ? e : 1; a <= s; ++a) {
-            const gvi_real S =
-                e > 0 ? gvi__grid(gvi__coupling(st, x->con.Phi, a - 1), GVI__EPS/2) : 0;
+            const gvi_real S = gvi__S(st, x->con.Phi, a - 1);
             if (e < s) x->con.by_impulse[e*R + a - 1] = lu[(a - 1)*s + e] = d[a] - S;
             if (a < s && e > 0) x->con.by_impulse[a*R + e - 1] = lu[(e - 1)*s + a] = d[e] - S;
         }
