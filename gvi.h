@@ -360,13 +360,11 @@ typedef enum gvi_status {
                                 fault.coordinate                                    */
 } gvi_status;
 
-/* What a callback gets: `count` points.  Coordinate i of point k is at
-   [i*stride + k].  Inputs that the callback's kind may not read, and outputs
-   that its kind does not have, are NULL.  Outputs are ADDED to (f, dldv, value)
-   or WRITTEN (mass, velocity); they do not overlap the inputs or each other.
-   From count to stride rows are padded with t and q of the start of the step and
-   any v and p, so a callback may loop to stride.  What it computes there is
-   ignored, be it NaN.                                                        */
+/* What a callback gets: `count` points.  Coordinate i of point k is at [i*stride + k].  Inputs that
+   the callback's kind may not read, and outputs that its kind does not have, are NULL.  Outputs do
+   not overlap the inputs or each other; "add" is +=, to what other effects have added.  From count
+   to stride rows are padded with t and q of the start of the step and any v and p, so a callback
+   may loop to stride.  What it computes there is ignored, be it NaN.                          */
 typedef struct gvi_points {
     int             n;         /* degrees of freedom                           */
     int             count;     /* points in this call, >= 1                    */
@@ -375,8 +373,7 @@ typedef struct gvi_points {
     const gvi_real *q;         /* [n][stride] configuration                    */
     const gvi_real *v;         /* [n][stride] velocity; NULL for a potential   */
     const gvi_real *p;         /* [n][stride] momentum; for mass.velocity only */
-    gvi_real       *f;         /* [n][stride] add dL/dq: -dV/dq or the force.
-                                  Other effects have added theirs: use +=      */
+    gvi_real       *f;         /* [n][stride] add dL/dq: -dV/dq or the force   */
     gvi_real       *dldv;      /* [n][stride] add dL/dv; Lagrangian terms only */
     gvi_real       *value;     /* [count]    add V, or L of a Lagrangian term; g.
                                   If one function is both points and value, it
@@ -747,12 +744,10 @@ GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_rea
 GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_real h,
                                             const gvi_real *q0, const gvi_real *q1);
 
-/* One step to t + h (with a clock: to tau + h); h < 0 steps back; h may differ
-   from step to step (which keeps the map symplectic but not the energy's
-   long-time bound).  h = 0 is refused.  Let a step end where a force jumps in
-   time.  If what an effect reads through `user` changes between steps, call
-   gvi_switch(st, i, 1): the explicit formulation reuses the force at the end of
-   a step for the next.                                                       */
+/* One step to t + h (with a clock: to tau + h); h < 0 steps back; h may differ from step to step
+   (which keeps the map symplectic but not the energy's long-time bound).  Let a step end where a
+   force jumps in time.  If what an effect reads through `user` changes between steps, call
+   gvi_switch(st, i, 1): the explicit formulation reuses the force at the end of a step.       */
 GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h);
 
 /* Switches effect `index` off (on = 0) or on again, between steps.  An effect that is off is
@@ -772,16 +767,13 @@ GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy);
    to some 100 eps.                                                            */
 GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda);
 
-/* In the last step.  gvi_curve: the polynomial at tau in [0,1] and its
-   derivative, error O(h^(min(s,u-s+1)+1)) and one order less; with a clock tau is
-   its own time, and v still dq/dt.
-   gvi_state_at: the state at time t (a time, not tau) inside it, at the full
-   order, by a partial step from the nearer end; 2 ulp outside it is its end.
-   gvi_action: the quadrature of L over it.  This and gvi_state_at use the
-   effects that are on now.
-   A broken line has neither curve nor action, a clock no action: GVI_E_FORMULATION.
-   q, v, p of length n, or NULL.
-   None of them changes what later steps compute, to the bit.                 */
+/* In the last step; q, v, p of length n, or NULL.  What later steps compute stays the same, to the
+   bit.  A broken line has neither curve nor action, a clock no action: GVI_E_FORMULATION.
+     gvi_curve      the polynomial at tau in [0,1] and its derivative, error O(h^(min(s,u-s+1)+1))
+                    and one order less; with a clock tau is its own time, and v still dq/dt
+     gvi_state_at   the state at time t (a time, not tau), at the full order, by a partial step from
+                    the nearer end; 2 ulp outside the step is its end
+     gvi_action     the quadrature of L; like gvi_state_at with the effects that are on now   */
 GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v);
 GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_real *v, gvi_real *p);
 GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action);
@@ -801,35 +793,33 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
                                            const gvi_real *q0, const gvi_real *q1,
                                            const gvi_discrete *out);
 
-/* Restart from a checkpoint, a copy of a stepper and of its memory, in a
-   stepper that was set up by gvi_init for the same description, in this
-   process or another.  What follows is the same to the bit.  GVI_E_ARGUMENT if
-   sizes, the number of effects, what they read together, the kind of mass or the
-   formulation differ.  A rule of as many points is not compared: that saved is
-   used; callbacks, tolerance and limits are those of st.                     */
+/* Restart from a checkpoint, a copy of a stepper and of its memory, in a stepper that gvi_init set
+   up for the same description, in this process or another.  What follows is the same to the bit.
+   GVI_E_ARGUMENT if sizes, the number of effects, what they read together, the kind of mass or the
+   formulation differ.  A rule of as many points is not compared: that saved is used; callbacks,
+   tolerance and limits are those of st.                                                       */
 GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const gvi_real *memory);
 
 /* A sentence for a status; why st uses the formulation that it uses.         */
 GVI_DEF const char *gvi_status_text(gvi_status status);
 GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st);
 
-/* Rules on [0,1]:  integral_0^1 f  =  sum_i b[i] f(c[i]).  c ascending, c and b
-   of length n, c[i] + c[n-1-i] = 1.  Gauss: n >= 1, exact to degree 2n - 1.
-   Lobatto: n >= 2, c[0] = 0, c[n-1] = 1, exact to degree 2n - 3.  Each c[i] and
-   b[i] has a relative error of a few eps (tests/test_quadrature.c).          */
+/* Rules on [0,1]:  integral_0^1 f  =  sum_i b[i] f(c[i]).  c ascending, c and b of length n,
+   c[i] + c[n-1-i] = 1, relative errors a few eps (tests/test_quadrature.c).  Gauss: n >= 1, exact
+   to degree 2n - 1.  Lobatto: n >= 2, c[0] = 0, c[n-1] = 1, exact to degree 2n - 3.           */
 GVI_DEF gvi_status gvi_gauss(int n, gvi_real *c, gvi_real *b);
 GVI_DEF gvi_status gvi_lobatto(int n, gvi_real *c, gvi_real *b);
 
-/* The measured order of a rule: the largest u such that polynomials of degree
-   < u are integrated exactly, to rounding.  0: the weights do not sum to 1.
-   -1: nodes outside [0,1], or not distinct, or not finite.  Its time grows like n^3, and
-   gvi_size and gvi_init call it for GVI_OWN: a quarter of a second at n = 250.   */
+/* The measured order of a rule: the largest u such that polynomials of degree < u are integrated
+   exactly, to rounding.  0: the weights do not sum to 1.  -1: nodes outside [0,1], not distinct, or
+   not finite.  Takes a quarter of a second at n = 250, like n^3, also in gvi_size and gvi_init
+   with GVI_OWN.                                                                               */
 GVI_DEF int        gvi_rule_order(int n, const gvi_real *c, const gvi_real *b);
 
-/* Barycentric interpolation [6] through n distinct nodes x in any order.
-   gvi_barycentric: the weights w, scaled so that max |w| = 1; GVI_E_NODES if two
-   nodes coincide, or if the smallest weight leaves the range of gvi_real.  Then,
-   at any t, also at and near a node, inside and outside:
+/* Barycentric interpolation [6] through n distinct nodes x in any order, at any t: inside, outside,
+   at and near a node.
+     gvi_barycentric             the weights w, scaled so that max |w| = 1; GVI_E_NODES if two nodes
+                                 coincide or the smallest weight leaves the range of gvi_real
      gvi_interpolate             sum_j f[j] l_j(t)
      gvi_interpolate_derivative  its derivative; exactly 0 for a constant
      gvi_basis                   l[j] = l_j(t)
@@ -844,15 +834,13 @@ GVI_DEF void gvi_basis_derivative(int n, const gvi_real *x, const gvi_real *w, g
                                   gvi_real *l);
 
 /* Dense LU with partial pivoting on equilibrated rows [7, ch. 9]:  P A = L U.
-   a      n*n row-major, in: A, out: unit lower L below the diagonal, U on and
-          above
-   pivot  out, length n + 1: row pivot[k] was exchanged with row k; pivot[n] is
-          the 1-norm of A, for gvi_lu_rcond
-   Returns GVI_E_SINGULAR, scale-free: a pivot is nothing but the rounding of the
-   terms that made it; GVI_E_NON_FINITE if an entry is.
-   gvi_lu_solve: x in: right-hand side, out: solution, length n.
-   gvi_lu_rcond: estimate of 1/(|A| |A^-1|), 1-norm [7, sec. 15.3], usually
-   within a factor 3 and never below the truth; work of length 2n.             */
+     gvi_lu_factor   a: n*n row-major, in: A, out: unit lower L below the diagonal, U on and above;
+                     pivot: out, length n + 1: rows pivot[k] and k were exchanged, pivot[n] = |A|.
+                     GVI_E_SINGULAR, scale-free: a pivot is nothing but the rounding of the terms
+                     that made it; GVI_E_NON_FINITE if an entry is
+     gvi_lu_solve    x: length n, in: right-hand side, out: solution
+     gvi_lu_rcond    estimate of 1/(|A| |A^-1|), 1-norm [7, sec. 15.3], usually within a factor 3
+                     and never below the truth; work of length 2n                              */
 GVI_DEF gvi_status gvi_lu_factor(int n, gvi_real *a, gvi_real *pivot);
 GVI_DEF void       gvi_lu_solve(int n, const gvi_real *lu, const gvi_real *pivot, gvi_real *x);
 GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot, gvi_real *work);
@@ -1507,8 +1495,9 @@ static gvi_real gvi__node_guess(int lobatto, int m, int j)
 /* Nodes and weights; c_low, if given, gets the low words of c.  Nodes are symmetric about 1/2: one
    half is computed.  After a correction below eps the next one would be below its square: c is then
    accurate relative to itself, even next to the end of the interval.                         */
-GVI__COLD void gvi__rule(int lobatto, int n, gvi_real *c, gvi_real *c_low, gvi_real *b)
+GVI__COLD gvi_status gvi__rule(int lobatto, int n, gvi_real *c, gvi_real *c_low, gvi_real *b)
 {
+    if (n < 1 + lobatto || !c || !b) return GVI_E_ARGUMENT;
     const int m = n - lobatto;
     for (int j = 0; 2*j < n; ++j) {
         const int middle = 2*j + 1 == n, known = middle || (lobatto && j == 0);
@@ -1527,20 +1516,17 @@ GVI__COLD void gvi__rule(int lobatto, int n, gvi_real *c, gvi_real *c_low, gvi_r
         if (c_low) c_low[j] = x.lo, c_low[n - 1 - j] = mirror.lo;
         b[n - 1 - j] = b[j];
     }
+    return GVI_OK;
 }
 
 GVI_DEF gvi_status gvi_gauss(int n, gvi_real *c, gvi_real *b)
 {
-    if (n < 1 || !c || !b) return GVI_E_ARGUMENT;
-    gvi__rule(0, n, c, NULL, b);
-    return GVI_OK;
+    return gvi__rule(0, n, c, NULL, b);
 }
 
 GVI_DEF gvi_status gvi_lobatto(int n, gvi_real *c, gvi_real *b)
 {
-    if (n < 2 || !c || !b) return GVI_E_ARGUMENT;
-    gvi__rule(1, n, c, NULL, b);
-    return GVI_OK;
+    return gvi__rule(1, n, c, NULL, b);
 }
 
 GVI_DEF int gvi_rule_order(int n, const gvi_real *c, const gvi_real *b)
@@ -1882,8 +1868,7 @@ GVI__BODY gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e, gvi_real
     return value && !both ? gvi__value(st, x, e, value) : GVI_OK;
 }
 
-/* What an effect adds its value to, with a clock: potentials to level, Lagrangian terms to the row
-   that is taken from it.                                                                     */
+// what an effect adds its value to, with a clock, which needs V (level) and L; NULL: nothing
 static gvi_real *gvi__value_row(const gvi_stepper *st, int e, gvi_real *level)
 {
     const gvi_kind kind = st->x.desc.effects[e].kind;
@@ -2042,7 +2027,7 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real
     gvi_real *base = st->x.newton.column;
     gvi__copy((size_t)n, x->dldv, base);
     for (int j = 0; j < n; ++j) {
-        const gvi_real was = v[j], push = x->f ? GVI_ABS(st->x.sized.h*x->f[j])*root : 0;
+        const gvi_real was = v[j], push = GVI_ABS(st->x.sized.h*x->f[j])*root;
         gvi_real d = 0,
                  next = root*(gvi__nonzero(was) ? GVI_ABS(was) : gvi__norm1(n, v)/(gvi_real)n);
         if (!(next > GVI__MIN/GVI__EPS)) next = root;
