@@ -361,13 +361,11 @@ typedef enum gvi_status {
                                 fault.coordinate                                    */
 } gvi_status;
 
-/* What a callback gets: `count` points.  Coordinate i of point k is at
-   [i*stride + k].  Inputs that the callback's kind may not read, and outputs
-   that its kind does not have, are NULL.  Outputs are ADDED to (f, dldv, value)
-   or WRITTEN (mass, velocity); they do not overlap the inputs or each other.
-   From count to stride rows are padded with t and q of the start of the step and
-   any v and p, so a callback may loop to stride.  What it computes there is
-   ignored, be it NaN.                                                        */
+/* What a callback gets: `count` points.  Coordinate i of point k is at [i*stride + k].  Inputs that
+   the callback's kind may not read, and outputs that its kind does not have, are NULL.  Outputs do
+   not overlap the inputs or each other; "add" is +=, to what other effects have added.  From count
+   to stride rows are padded with t and q of the start of the step and any v and p, so a callback
+   may loop to stride.  What it computes there is ignored, be it NaN.                          */
 typedef struct gvi_points {
     int             n;         /* degrees of freedom                           */
     int             count;     /* points in this call, >= 1                    */
@@ -376,8 +374,7 @@ typedef struct gvi_points {
     const gvi_real *q;         /* [n][stride] configuration                    */
     const gvi_real *v;         /* [n][stride] velocity; NULL for a potential   */
     const gvi_real *p;         /* [n][stride] momentum; for mass.velocity only */
-    gvi_real       *f;         /* [n][stride] add dL/dq: -dV/dq or the force.
-                                  Other effects have added theirs: use +=      */
+    gvi_real       *f;         /* [n][stride] add dL/dq: -dV/dq or the force   */
     gvi_real       *dldv;      /* [n][stride] add dL/dv; Lagrangian terms only */
     gvi_real       *value;     /* [count]    add V, or L of a Lagrangian term; g.
                                   If one function is both points and value, it
@@ -747,12 +744,10 @@ GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_rea
 GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_real h,
                                             const gvi_real *q0, const gvi_real *q1);
 
-/* One step to t + h (with a clock: to tau + h); h < 0 steps back; h may differ
-   from step to step (which keeps the map symplectic but not the energy's
-   long-time bound).  h = 0 is refused.  Let a step end where a force jumps in
-   time.  If what an effect reads through `user` changes between steps, call
-   gvi_switch(st, i, 1): the explicit formulation reuses the force at the end of
-   a step for the next.                                                       */
+/* One step to t + h (with a clock: to tau + h); h < 0 steps back; h may differ from step to step
+   (which keeps the map symplectic but not the energy's long-time bound).  Let a step end where a
+   force jumps in time.  If what an effect reads through `user` changes between steps, call
+   gvi_switch(st, i, 1): the explicit formulation reuses the force at the end of a step.       */
 GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h);
 
 /* Switches effect `index` off (on = 0) or on again, between steps.  An effect that is off is
@@ -772,16 +767,13 @@ GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy);
    to some 100 eps.                                                            */
 GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda);
 
-/* In the last step.  gvi_curve: the polynomial at tau in [0,1] and its
-   derivative, error O(h^(min(s,u-s+1)+1)) and one order less; with a clock tau is
-   its own time, and v still dq/dt.
-   gvi_state_at: the state at time t (a time, not tau) inside it, at the full
-   order, by a partial step from the nearer end; 2 ulp outside it is its end.
-   gvi_action: the quadrature of L over it.  This and gvi_state_at use the
-   effects that are on now.
-   A broken line has neither curve nor action, a clock no action: GVI_E_FORMULATION.
-   q, v, p of length n, or NULL.
-   None of them changes what later steps compute, to the bit.                 */
+/* In the last step; q, v, p of length n, or NULL.  What later steps compute stays the same, to the
+   bit.  A broken line has neither curve nor action, a clock no action: GVI_E_FORMULATION.
+     gvi_curve      the polynomial at tau in [0,1] and its derivative, error O(h^(min(s,u-s+1)+1))
+                    and one order less; with a clock tau is its own time, and v still dq/dt
+     gvi_state_at   the state at time t (a time, not tau), at the full order, by a partial step from
+                    the nearer end; 2 ulp outside the step is its end
+     gvi_action     the quadrature of L; like gvi_state_at with the effects that are on now   */
 GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v);
 GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_real *v, gvi_real *p);
 GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action);
@@ -801,35 +793,33 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
                                            const gvi_real *q0, const gvi_real *q1,
                                            const gvi_discrete *out);
 
-/* Restart from a checkpoint, a copy of a stepper and of its memory, in a
-   stepper that was set up by gvi_init for the same description, in this
-   process or another.  What follows is the same to the bit.  GVI_E_ARGUMENT if
-   sizes, the number of effects, what they read together, the kind of mass or the
-   formulation differ.  A rule of as many points is not compared: that saved is
-   used; callbacks, tolerance and limits are those of st.                     */
+/* Restart from a checkpoint, a copy of a stepper and of its memory, in a stepper that gvi_init set
+   up for the same description, in this process or another.  What follows is the same to the bit.
+   GVI_E_ARGUMENT if sizes, the number of effects, what they read together, the kind of mass or the
+   formulation differ.  A rule of as many points is not compared: that saved is used; callbacks,
+   tolerance and limits are those of st.                                                       */
 GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const gvi_real *memory);
 
 /* A sentence for a status; why st uses the formulation that it uses.         */
 GVI_DEF const char *gvi_status_text(gvi_status status);
 GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st);
 
-/* Rules on [0,1]:  integral_0^1 f  =  sum_i b[i] f(c[i]).  c ascending, c and b
-   of length n, c[i] + c[n-1-i] = 1.  Gauss: n >= 1, exact to degree 2n - 1.
-   Lobatto: n >= 2, c[0] = 0, c[n-1] = 1, exact to degree 2n - 3.  Each c[i] and
-   b[i] has a relative error of a few eps (tests/test_quadrature.c).          */
+/* Rules on [0,1]:  integral_0^1 f  =  sum_i b[i] f(c[i]).  c ascending, c and b of length n,
+   c[i] + c[n-1-i] = 1, relative errors a few eps (tests/test_quadrature.c).  Gauss: n >= 1, exact
+   to degree 2n - 1.  Lobatto: n >= 2, c[0] = 0, c[n-1] = 1, exact to degree 2n - 3.           */
 GVI_DEF gvi_status gvi_gauss(int n, gvi_real *c, gvi_real *b);
 GVI_DEF gvi_status gvi_lobatto(int n, gvi_real *c, gvi_real *b);
 
-/* The measured order of a rule: the largest u such that polynomials of degree
-   < u are integrated exactly, to rounding.  0: the weights do not sum to 1.
-   -1: nodes outside [0,1], or not distinct, or not finite.  Its time grows like n^3, and
-   gvi_size and gvi_init call it for GVI_OWN: a quarter of a second at n = 250.   */
+/* The measured order of a rule: the largest u such that polynomials of degree < u are integrated
+   exactly, to rounding.  0: the weights do not sum to 1.  -1: nodes outside [0,1], not distinct, or
+   not finite.  Takes a quarter of a second at n = 250, like n^3, also in gvi_size and gvi_init
+   with GVI_OWN.                                                                               */
 GVI_DEF int        gvi_rule_order(int n, const gvi_real *c, const gvi_real *b);
 
-/* Barycentric interpolation [6] through n distinct nodes x in any order.
-   gvi_barycentric: the weights w, scaled so that max |w| = 1; GVI_E_NODES if two
-   nodes coincide, or if the smallest weight leaves the range of gvi_real.  Then,
-   at any t, also at and near a node, inside and outside:
+/* Barycentric interpolation [6] through n distinct nodes x in any order, at any t: inside, outside,
+   at and near a node.
+     gvi_barycentric             the weights w, scaled so that max |w| = 1; GVI_E_NODES if two nodes
+                                 coincide or the smallest weight leaves the range of gvi_real
      gvi_interpolate             sum_j f[j] l_j(t)
      gvi_interpolate_derivative  its derivative; exactly 0 for a constant
      gvi_basis                   l[j] = l_j(t)
@@ -844,15 +834,13 @@ GVI_DEF void gvi_basis_derivative(int n, const gvi_real *x, const gvi_real *w, g
                                   gvi_real *l);
 
 /* Dense LU with partial pivoting on equilibrated rows [7, ch. 9]:  P A = L U.
-   a      n*n row-major, in: A, out: unit lower L below the diagonal, U on and
-          above
-   pivot  out, length n + 1: row pivot[k] was exchanged with row k; pivot[n] is
-          the 1-norm of A, for gvi_lu_rcond
-   Returns GVI_E_SINGULAR, scale-free: a pivot is nothing but the rounding of the
-   terms that made it; GVI_E_NON_FINITE if an entry is.
-   gvi_lu_solve: x in: right-hand side, out: solution, length n.
-   gvi_lu_rcond: estimate of 1/(|A| |A^-1|), 1-norm [7, sec. 15.3], usually
-   within a factor 3 and never below the truth; work of length 2n.             */
+     gvi_lu_factor   a: n*n row-major, in: A, out: unit lower L below the diagonal, U on and above;
+                     pivot: out, length n + 1: rows pivot[k] and k were exchanged, pivot[n] = |A|.
+                     GVI_E_SINGULAR, scale-free: a pivot is nothing but the rounding of the terms
+                     that made it; GVI_E_NON_FINITE if an entry is
+     gvi_lu_solve    x: length n, in: right-hand side, out: solution
+     gvi_lu_rcond    estimate of 1/(|A| |A^-1|), 1-norm [7, sec. 15.3], usually within a factor 3
+                     and never below the truth; work of length 2n                              */
 GVI_DEF gvi_status gvi_lu_factor(int n, gvi_real *a, gvi_real *pivot);
 GVI_DEF void       gvi_lu_solve(int n, const gvi_real *lu, const gvi_real *pivot, gvi_real *x);
 GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot, gvi_real *work);
@@ -1207,14 +1195,21 @@ GVI__COLD gvi_status gvi__lu_scales(int n, const gvi_real *a, gvi_real *pivot, i
     return status;
 }
 
-/* row -= l top, `count` numbers                                                              */
-static void gvi__subtract_row(size_t count, gvi_real l, const gvi_real *GVI__RESTRICT top,
-                              gvi_real *GVI__RESTRICT row)
+// row -= a top, `count` numbers, a being `width` numbers: one for each, or one for all
+GVI__BODY void gvi__subtract_at(int width, int count, const gvi_real *GVI__RESTRICT a,
+                                const gvi_real *GVI__RESTRICT top, gvi_real *GVI__RESTRICT row)
 {
-    size_t j = 0;
-    for (; GVI__LANES > 1 && j + GVI__LANES <= count; j += GVI__LANES)
-        GVI__STORE(row + j) -= l*GVI__LOAD(top + j);
-    for (; j < count; ++j) row[j] -= l*top[j];
+    int k = 0;
+    for (; GVI__LANES > 1 && width == 1 && k + GVI__LANES <= count; k += GVI__LANES)
+        GVI__STORE(row + k) -= a[0]*GVI__LOAD(top + k);
+    for (; GVI__LANES > 1 && width > 1 && k + GVI__LANES <= count; k += GVI__LANES)
+        GVI__STORE(row + k) -= GVI__LOAD(a + k)*GVI__LOAD(top + k);
+    for (; k < count; ++k) row[k] -= a[width > 1 ? k : 0]*top[k];
+}
+
+static void gvi__subtract_row(size_t count, gvi_real l, const gvi_real *top, gvi_real *row)
+{
+    gvi__subtract_at(1, (int)count, &l, top, row);
 }
 
 // at: the row of zeros or the column at which elimination ended, if A is singular
@@ -1370,18 +1365,6 @@ static gvi_status gvi__ldl_factor(int n, int R, int count, gvi_real *m, gvi_real
     return GVI_OK;
 }
 
-// row -= a top at `count` points, a being `width` numbers: one for each point, or one for all
-GVI__BODY void gvi__subtract_at(int width, int count, const gvi_real *GVI__RESTRICT a,
-                             const gvi_real *GVI__RESTRICT top, gvi_real *GVI__RESTRICT row)
-{
-    int k = 0;
-    for (; GVI__LANES > 1 && width == 1 && k + GVI__LANES <= count; k += GVI__LANES)
-        GVI__STORE(row + k) -= a[0]*GVI__LOAD(top + k);
-    for (; GVI__LANES > 1 && width > 1 && k + GVI__LANES <= count; k += GVI__LANES)
-        GVI__STORE(row + k) -= GVI__LOAD(a + k)*GVI__LOAD(top + k);
-    for (; k < count; ++k) row[k] -= a[width > 1 ? k : 0]*top[k];
-}
-
 // rows z [n][R] := M^-1 z; an entry of the matrix is `width` numbers
 static void gvi__ldl_solve(int n, const gvi_real *m, int width, gvi_real *z, int R, int count)
 {
@@ -1512,16 +1495,15 @@ static gvi_real gvi__node_guess(int lobatto, int m, int j)
 /* Nodes and weights; c_low, if given, gets the low words of c.  Nodes are symmetric about 1/2: one
    half is computed.  After a correction below eps the next one would be below its square: c is then
    accurate relative to itself, even next to the end of the interval.                         */
-GVI__COLD void gvi__rule(int lobatto, int n, gvi_real *c, gvi_real *c_low, gvi_real *b)
+GVI__COLD gvi_status gvi__rule(int lobatto, int n, gvi_real *c, gvi_real *c_low, gvi_real *b)
 {
+    if (n < 1 + lobatto || !c || !b) return GVI_E_ARGUMENT;
     const int m = n - lobatto;
     for (int j = 0; 2*j < n; ++j) {
         const int middle = 2*j + 1 == n, known = middle || (lobatto && j == 0);
-        gvi__two x = gvi__two_of(middle  ? (gvi_real)0.5
-                                 : known ? 0
-                                         : gvi__node_guess(lobatto, m, j),
-                                 0);
-        gvi_real last = known ? 0 : 1;
+        gvi_real start = middle ? (gvi_real)0.5 : 0, last = known ? 0 : 1;
+        if (!known) start = gvi__node_guess(lobatto, m, j);
+        gvi__two x = gvi__two_of(start, 0);
         for (int k = 0; k < 12; ++k) {
             const gvi__two dx = gvi__node_correction(lobatto, m, x, b + j);
             if (!(last > GVI__EPS*x.hi)) break;
@@ -1534,20 +1516,17 @@ GVI__COLD void gvi__rule(int lobatto, int n, gvi_real *c, gvi_real *c_low, gvi_r
         if (c_low) c_low[j] = x.lo, c_low[n - 1 - j] = mirror.lo;
         b[n - 1 - j] = b[j];
     }
+    return GVI_OK;
 }
 
 GVI_DEF gvi_status gvi_gauss(int n, gvi_real *c, gvi_real *b)
 {
-    if (n < 1 || !c || !b) return GVI_E_ARGUMENT;
-    gvi__rule(0, n, c, NULL, b);
-    return GVI_OK;
+    return gvi__rule(0, n, c, NULL, b);
 }
 
 GVI_DEF gvi_status gvi_lobatto(int n, gvi_real *c, gvi_real *b)
 {
-    if (n < 2 || !c || !b) return GVI_E_ARGUMENT;
-    gvi__rule(1, n, c, NULL, b);
-    return GVI_OK;
+    return gvi__rule(1, n, c, NULL, b);
 }
 
 GVI_DEF int gvi_rule_order(int n, const gvi_real *c, const gvi_real *b)
@@ -1592,13 +1571,12 @@ GVI_DEF gvi_status gvi_barycentric(int n, const gvi_real *x, gvi_real *w)
     for (int pass = 0; pass < 2; ++pass)
         for (int j = 0; j < n; ++j) {
             gvi_real mantissa = 1;
-            int exponent = 0, e;
+            int exponent = 0, e, f;
             for (int k = 0; k < n; ++k)
                 if (k != j) {
-                    mantissa *= GVI_FREXP(x[j] - x[k], &e);
-                    exponent += e;
-                    mantissa = GVI_FREXP(mantissa, &e);
-                    exponent += e;
+                    const gvi_real factor = GVI_FREXP(x[j] - x[k], &e);
+                    mantissa = GVI_FREXP(mantissa*factor, &f);
+                    exponent += e + f;
                 }
             if (pass == 0 && (j == 0 || exponent < least)) least = exponent;
             if (pass == 1) {
@@ -1890,8 +1868,7 @@ GVI__BODY gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e, gvi_real
     return value && !both ? gvi__value(st, x, e, value) : GVI_OK;
 }
 
-/* What an effect adds its value to, with a clock: potentials to level, Lagrangian terms to the row
-   that is taken from it.                                                                     */
+// what an effect adds its value to, with a clock, which needs V (level) and L; NULL: nothing
 static gvi_real *gvi__value_row(const gvi_stepper *st, int e, gvi_real *level)
 {
     const gvi_kind kind = st->x.desc.effects[e].kind;
@@ -2050,7 +2027,7 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real
     gvi_real *base = st->x.newton.column;
     gvi__copy((size_t)n, x->dldv, base);
     for (int j = 0; j < n; ++j) {
-        const gvi_real was = v[j], push = x->f ? GVI_ABS(st->x.sized.h*x->f[j])*root : 0;
+        const gvi_real was = v[j], push = GVI_ABS(st->x.sized.h*x->f[j])*root;
         gvi_real d = 0,
                  next = root*(gvi__nonzero(was) ? GVI_ABS(was) : gvi__norm1(n, v)/(gvi_real)n);
         if (!(next > GVI__MIN/GVI__EPS)) next = root;
@@ -2263,15 +2240,15 @@ GVI__COLD void gvi__prepare_column(gvi_stepper *st, const gvi_real *b, int j)
 {
     const struct gvi__tables *x = &st->x.table;
     const gvi_real *low = gvi__low_words(st, b);
-    const int s = st->s, R = st->x.R;
+    const int s = st->s, R = st->x.R, full = gvi__has(&st->x, GVI__HAS_GAMMA);
     gvi_real *w = st->x.row;
     for (int k = 0; k < s; ++k) {
-        const gvi__two a = gvi__two_of(b[k*R + j], low[k*R + j]),
-                       z = gvi__scale2(x->inv_gamma[k], a);
-        w[k] = gvi__has(&st->x, GVI__HAS_GAMMA) ? a.hi : z.hi;
-        w[s + k] = gvi__has(&st->x, GVI__HAS_GAMMA) ? 0 : z.lo;
+        gvi__two z = gvi__two_of(b[k*R + j], 0);
+        if (!full) z = gvi__scale2(x->inv_gamma[k], gvi__two_of(z.hi, low[k*R + j]));
+        w[k] = z.hi;
+        w[s + k] = z.lo;
     }
-    if (gvi__has(&st->x, GVI__HAS_GAMMA)) gvi__over_gamma(st, w);
+    if (full) gvi__over_gamma(st, w);
 }
 
 // sum_k a_k(c_i) (Gamma^-1 b(c_j))_k; a: phi or Phi.  Products do not wait for the sum
@@ -2286,10 +2263,10 @@ GVI__COLD gvi__two gvi__coupling(const gvi_stepper *st, const gvi_real *a, int i
     return gvi__two_sum(sum.hi, sum.lo);
 }
 
-// S_ij and T_ij of the column that was prepared last
-static gvi_real gvi__S(const gvi_stepper *st, int i)
+// S_ij and T_ij of the column that was prepared last; Phi: at the nodes i
+static gvi_real gvi__S(const gvi_stepper *st, const gvi_real *Phi, int i)
 {
-    return gvi__grid(gvi__coupling(st, st->x.table.Phi, i), GVI__EPS/2);
+    return gvi__grid(gvi__coupling(st, Phi, i), GVI__EPS/2);
 }
 
 static gvi_real gvi__T(const gvi_stepper *st, int i)
@@ -2310,7 +2287,7 @@ GVI__COLD void gvi__make_tables(gvi_stepper *st)
     for (int j = 0; j < r; ++j) {
         gvi__prepare_column(st, x->Phi, j);
         for (int i = 0; x->K && i <= j; ++i) {
-            const gvi_real S = gvi__S(st, i);
+            const gvi_real S = gvi__S(st, x->Phi, i);
             x->K[j*R + i] = x->c[i] - S;
             x->K[i*R + j] = x->c[j] - S;
         }
@@ -2337,18 +2314,17 @@ GVI__COLD gvi_status gvi__set_constraints(gvi_stepper *st)
     gvi__rule(1, s + 1, d, gvi__uses(x, GVI_EXPLICIT) ? NULL : low, x->con.w);
     if (gvi__uses(x, GVI_EXPLICIT)) return GVI_OK;
     gvi__modes_of(st, s, d + 1, low + 1, NULL, NULL, x->con.Phi, x->con.Phi_low);
-    for (int e = 0; e <= s; ++e) {                // Phi(d_0) = 0
+    gvi__zero(2*(size_t)s, x->row);               // the column of d_0: Phi(d_0) = 0
+    for (int e = 0; e <= s; ++e) {
         if (e > 0) gvi__prepare_column(st, x->con.Phi, e - 1);
         for (int i = 0; i < r; ++i) {
-            const gvi_real S = e > 0 ? gvi__S(st, i) : 0;
-            const gvi_real T = e > 0 && x->con.U ? gvi__T(st, i) : 0;
+            const gvi_real S = gvi__S(st, x->table.Phi, i), T = x->con.U ? gvi__T(st, i) : 0;
             if (e < s) x->con.K[e*R + i] = x->table.c[i] - S;
             if (e < s && x->con.U) x->con.U[e*R + i] = 1 - T;
             if (e > 0) x->con.by_force[i*R + e - 1] = momenta ? T : d[e] - S;
         }
         for (int a = e > 1 ? e : 1; a <= s; ++a) {
-            const gvi_real S =
-                e > 0 ? gvi__grid(gvi__coupling(st, x->con.Phi, a - 1), GVI__EPS/2) : 0;
+            const gvi_real S = gvi__S(st, x->con.Phi, a - 1);
             if (e < s) x->con.by_impulse[e*R + a - 1] = lu[(a - 1)*s + e] = d[a] - S;
             if (a < s && e > 0) x->con.by_impulse[a*R + e - 1] = lu[(e - 1)*s + a] = d[e] - S;
         }
