@@ -2,8 +2,8 @@
 # compare.sh OLD NEW [FLAGS]: the headers OLD/gvi.h and NEW/gvi.h (folders) side by side
 #   lines, bytes; size and compile time of the object that holds the implementation
 #   tests/cost/runs.c with either: time of a step and their ratio, iterations, how far apart both end
-# FLAGS are -O2, or e.g. "-O3 -march=native -fno-math-errno".  Both programs run in turn, ROUNDS times (5), each run for
-# MS milliseconds (10); the least time of a run counts.  CC may be set; RUN="taskset -c 1" or the like goes before each program.
+# FLAGS are -O2, or e.g. "-O3 -march=native -fno-math-errno".  Both programs run in turn, ROUNDS times (10), each run for
+# MS milliseconds (10), from a new copy, since where its pages lie can change all times by 1.4; the least time of a run counts.  CC may be set; RUN="taskset -c 1" or the like goes before each program.
 # Noise: compare.sh OLD OLD.
 set -eu
 [ $# -ge 2 ] || { echo "compare.sh OLD NEW [FLAGS]" >&2; exit 2; }
@@ -26,9 +26,11 @@ for which in old new; do
 done
 
 round=0
-while [ $round -lt "${ROUNDS:-5}" ]; do
-    ${RUN:-} "$dir/old" "${MS:-10}" >>"$dir/old.txt" || :
-    ${RUN:-} "$dir/new" "${MS:-10}" >>"$dir/new.txt" || :
+while [ $round -lt "${ROUNDS:-10}" ]; do
+    for which in old new; do
+        cp "$dir/$which" "$dir/$which.$round"
+        ${RUN:-} "$dir/$which.$round" "${MS:-10}" >>"$dir/$which.txt" || :
+    done
     round=$((round + 1))
 done
 awk -F'|' '
