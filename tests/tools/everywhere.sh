@@ -15,10 +15,11 @@ all='gcc clang tcc i386-sse i386-x87 i386-clang armhf aarch64 riscv64 ppc64 s390
 # ------------------------------------------------------------------ the targets
 
 # Tests that say what gvi.h computes.  Not here: those of the examples, of the price list and of the
-# reference integrators (make test); test_order, test_theorems, test_ncdp, a minute and more each.
-quick='api effects identities interpolation kicks lu many mass newton oracle quadrature queries structure tolerance
-       effects:float interpolation:float lu:float many:float newton:float oracle:float'
-more='corners corners:float hostile mass:float scenes tolerance:float twins twins:float'
+# reference integrators (make test); test_order, test_theorems, test_ncdp, a minute and more each.  test_many
+# takes a quarter of an hour where a processor is imitated.
+quick='api effects identities interpolation kicks lu mass newton oracle quadrature queries structure tolerance
+       effects:float interpolation:float lu:float newton:float oracle:float'
+more='corners corners:float hostile many many:float mass:float scenes tolerance:float twins twins:float'
 wide='lu:long interpolation:long oracle:long'
 quad='interpolation:long oracle:long kicks:long effects:long'
 # Some tests are in long double unless told otherwise and mean 64 bits by it: their problems are of
