@@ -597,7 +597,7 @@ typedef struct gvi_counters {
     unsigned long long failures;          /* steps that did not                 */
     unsigned long long iterations;        /* of the fixed point, also in gvi_state_at */
     unsigned long long newton_iterations;
-    unsigned long long factorizations;    /* LU of s*n, or at a point */
+    unsigned long long factorizations;    /* LU of s*n, or of a matrix at a point */
     unsigned long long velocities;        /* points at which v was formed       */
     unsigned long long mass;              /* points given to mass.points, mass.velocity */
     unsigned long long effect[GVI_EFFECTS]; /* points given to each effect      */
@@ -4269,7 +4269,7 @@ GVI__COLD gvi_status gvi__check_rule(struct gvi__private *x, int *order, gvi_fau
     return r < s ? GVI_E_POINTS : GVI_OK;
 }
 
-// the first formulation that can do what is asked for, or that pinned; Newton's as a fall-back
+// the first formulation that covers the scene, or the pinned one; Newton's method as a fall-back
 GVI__COLD gvi_status gvi__choose(struct gvi__private *x, gvi_fault *fault)
 {
     enum { READS = 1, TIMED = 2, KICKED = 4, NOT_KICKED = 8, MORE_POINTS = 16, VARIES = 32,

@@ -3,7 +3,8 @@
 #   lines, bytes; size and compile time of the object that holds the implementation
 #   tests/cost/runs.c with either: time of a step and their ratio, iterations, how far apart both end
 # FLAGS are -O2, or e.g. "-O3 -march=native -fno-math-errno".  Both programs run in turn, ROUNDS times (10), each run for
-# MS milliseconds (10), from a new copy, since where its pages lie can change all times by 1.4; the least time of a run counts.  CC may be set; RUN="taskset -c 1" or the like goes before each program.
+# MS milliseconds (10), from a new copy, since where its pages lie can change all times by 1.4; the least time of a run
+# counts.  CC may be set; RUN="taskset -c 1" or the like goes before each program.
 # Noise: compare.sh OLD OLD.
 set -eu
 [ $# -ge 2 ] || { echo "compare.sh OLD NEW [FLAGS]" >&2; exit 2; }
