@@ -2449,7 +2449,7 @@ static void gvi__fit(gvi_stepper *st, int r, const gvi_real *from, const gvi_rea
 typedef struct gvi__origin { gvi_real t, t_low; const gvi_real *q, *q_low, *p, *p_low; gvi_real E;
                             } gvi__origin;
 
-// Newton's method from constant velocity; extrapolated modes; constant velocity, halving changes
+// Newton's method begins at: constant velocity; extrapolated modes; constant velocity, with halving
 enum { GVI__PLAIN, GVI__EXTRAPOLATED, GVI__HALVED };
 
 // what is solved: a step, or for a query a part of the last one, from its start or its end
@@ -2748,7 +2748,7 @@ static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real 
      z_i    = sum_j table_j (weight_j source_ij)       of one or two tables and sources
 
    with free motion, the same in all iterations, in rows of its own.  factor and 1/m are two
-   products: h/m, rounded once, is not of the mass that makes v of p, and energy would drift.
+   products: h/m, rounded once, would be of another mass than v = p/m, and energy would drift.
 
    A stage with a scale is measured, in squares of changes times scale_i: all of them are added
    up and returned, and change_i := those of row i at the last point and the middle.  One point
@@ -3096,8 +3096,8 @@ static gvi_status gvi__evaluate_stages(gvi_stepper *st, const gvi__origin *from,
 }
 
 /* Momenta: V from the new P with the old M(Q) and dL/dv, so that an iteration contracts twice
-   as fast.  Where Lagrangian terms make V it can diverge unfelt by Q and P: returns its squared
-   relative change at the last point, times r as if summed over all.                           */
+   as fast.  Where Lagrangian terms make V it can diverge while Q and P hardly change: returns its
+   squared relative change at the last point, times r as if summed over all.                   */
 static gvi_real gvi__velocities_again(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
