@@ -1026,6 +1026,11 @@ static int gvi__first_non_finite(int n, const gvi_real *x)
     return -1;
 }
 
+static gvi_real gvi__larger(gvi_real a, gvi_real b) { return a > b ? a : b; }
+
+// how many of n numbers stand in whole lanes
+GVI__BODY int gvi__in_lanes(int n) { return GVI__LANES > 1 ? n - n % GVI__LANES : 0; }
+
 static void gvi__zero(size_t n, gvi_real *x)
 {
     for (size_t i = 0; i < n; ++i) x[i] = 0;
@@ -1121,7 +1126,11 @@ GVI__BODY gvi__two gvi__two_prod(gvi_real a, gvi_real b)
 #endif
 
 // the exact product overflows before a*b does: then it has no low word
-static gvi_real gvi__low(gvi_real x) { return gvi__finite(x) ? x : 0; }
+static gvi_real gvi__low(gvi_real x)
+{
+    if (!gvi__finite(x)) return 0;
+    return x;
+}
 
 // a + b to 3 (eps/2)^2 of the sum (Joldes et al., algorithm 6)
 static gvi__two gvi__add2(gvi__two a, gvi__two b)
@@ -1179,12 +1188,14 @@ GVI__COLD gvi_status gvi__lu_scales(int n, const gvi_real *a, gvi_real *pivot, i
             if (!(x <= GVI__MAX)) return GVI_E_NON_FINITE;
             if (x > big) big = x;
         }
-        if (!(big > 0)) {
+        if (big > 0) {
+            pivot[i] = 1/big;
+            if (!gvi__finite(pivot[i])) pivot[i] = GVI__MAX;      // subnormal row
+        } else {
+            pivot[i] = 0;
             status = GVI_E_SINGULAR;
             *at = (int)i;
         }
-        pivot[i] = big > 0 ? 1/big : 0;
-        if (!gvi__finite(pivot[i])) pivot[i] = GVI__MAX;      // subnormal row
     }
     pivot[n] = 0;
     for (size_t j = 0; j < N; ++j) {
@@ -1199,12 +1210,16 @@ GVI__COLD gvi_status gvi__lu_scales(int n, const gvi_real *a, gvi_real *pivot, i
 GVI__BODY void gvi__subtract_at(int width, int count, const gvi_real *GVI__RESTRICT a,
                                 const gvi_real *GVI__RESTRICT top, gvi_real *GVI__RESTRICT row)
 {
+    const int whole = gvi__in_lanes(count);
     int k = 0;
-    for (; GVI__LANES > 1 && width == 1 && k + GVI__LANES <= count; k += GVI__LANES)
-        GVI__STORE(row + k) -= a[0]*GVI__LOAD(top + k);
-    for (; GVI__LANES > 1 && width > 1 && k + GVI__LANES <= count; k += GVI__LANES)
-        GVI__STORE(row + k) -= GVI__LOAD(a + k)*GVI__LOAD(top + k);
-    for (; k < count; ++k) row[k] -= a[width > 1 ? k : 0]*top[k];
+    if (width > 1) {
+        for (; k < whole; k += GVI__LANES)
+            GVI__STORE(row + k) -= GVI__LOAD(a + k)*GVI__LOAD(top + k);
+        for (; k < count; ++k) row[k] -= a[k]*top[k];
+    } else {
+        for (; k < whole; k += GVI__LANES) GVI__STORE(row + k) -= a[0]*GVI__LOAD(top + k);
+        for (; k < count; ++k) row[k] -= a[0]*top[k];
+    }
 }
 
 static void gvi__subtract_row(size_t count, gvi_real l, const gvi_real *top, gvi_real *row)
@@ -1226,11 +1241,15 @@ static gvi_status gvi__lu_factor(int n, gvi_real *a, gvi_real *pivot, int *at)
         gvi_real big = -1;
         for (size_t i = k; i < N; ++i) {
             const gvi_real x = GVI_ABS(a[i*N + k])*pivot[i];
-            if (x > big) { big = x; m = i; }
+            if (x > big) {
+                big = x;
+                m = i;
+            }
         }
 
         // swap rows k and m, all columns; the scale of row k moves along
-        for (size_t j = 0; m != k && j < N; ++j) gvi__swap(a + k*N + j, a + m*N + j);
+        if (m != k)
+            for (size_t j = 0; j < N; ++j) gvi__swap(a + k*N + j, a + m*N + j);
         pivot[m] = pivot[k];
         pivot[k] = (gvi_real)m;
 
@@ -1308,7 +1327,10 @@ GVI_DEF gvi_real gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot, 
         int next = 0;
         if (norm > best) best = norm;
         else if (step > 0) break;
-        for (int i = 0; i < n; ++i) z[i] = x[i] < 0 ? -1 : 1;
+        for (int i = 0; i < n; ++i) {
+            z[i] = 1;
+            if (x[i] < 0) z[i] = -1;
+        }
         gvi__lu_solve_transposed(n, lu, pivot, z);
         for (int i = 1; i < n; ++i)
             if (GVI_ABS(z[i]) > GVI_ABS(z[next])) next = i;
@@ -1318,15 +1340,17 @@ GVI_DEF gvi_real gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot, 
         x[next] = 1;
     }
 
-    // a vector of alternating signs catches what the climb may miss
-    for (int i = 0; i < n; ++i) {
-        const gvi_real a = 1 + (n > 1 ? (gvi_real)i/(gvi_real)(n - 1) : 0);
-        x[i] = i % 2 ? -a : a;
+    // a vector of alternating signs, 1 to 2 in size, catches what the climb may miss
+    gvi_real sign = 1;
+    x[0] = 1;
+    for (int i = 1; i < n; ++i) {
+        sign = -sign;
+        x[i] = sign*(1 + (gvi_real)i/(gvi_real)(n - 1));
     }
     gvi_lu_solve(n, lu, pivot, x);
-    const gvi_real other = 2*gvi__norm1(n, x)/(3*(gvi_real)n);
-    if (other > best) best = other;
-    return best > 0 ? 1/best/pivot[n] : 0;
+    best = gvi__larger(best, 2*gvi__norm1(n, x)/(3*(gvi_real)n));
+    if (!(best > 0)) return 0;
+    return 1/best/pivot[n];
 }
 
 /* L D L' of a symmetric matrix at each of `count` points, in place: entry (i,j), i >= j, of point k
@@ -1486,8 +1510,12 @@ GVI__COLD gvi__two gvi__node_correction(int lobatto, int m, gvi__two c, gvi_real
 static gvi_real gvi__node_guess(int lobatto, int m, int j)
 {
     const gvi_real pi = (gvi_real)3.14159265358979323846L;
-    const gvi_real a = (gvi_real)j + (lobatto ? (gvi_real)0.25 : (gvi_real)0.75), k = (gvi_real)m;
-    const gvi_real theta = lobatto ? pi*a/k - 3/(8*pi*k*a) : pi*a/(k + (gvi_real)0.5);
+    const gvi_real k = (gvi_real)m;
+    gvi_real theta = pi*((gvi_real)j + (gvi_real)0.75)/(k + (gvi_real)0.5);
+    if (lobatto) {
+        const gvi_real a = (gvi_real)j + (gvi_real)0.25;
+        theta = pi*a/k - 3/(8*pi*k*a);
+    }
     const gvi_real y = theta*theta/4, sine = theta/2*(1 - y/6*(1 - y/20*(1 - y/42)));
     return sine*sine;
 }
@@ -1500,9 +1528,12 @@ GVI__COLD gvi_status gvi__rule(int lobatto, int n, gvi_real *c, gvi_real *c_low,
     if (n < 1 + lobatto || !c || !b) return GVI_E_ARGUMENT;
     const int m = n - lobatto;
     for (int j = 0; 2*j < n; ++j) {
-        const int middle = 2*j + 1 == n, known = middle || (lobatto && j == 0);
-        gvi_real start = middle ? (gvi_real)0.5 : 0, last = known ? 0 : 1;
-        if (!known) start = gvi__node_guess(lobatto, m, j);
+        gvi_real start = 0, last = 0;                  // Lobatto's first node is 0, known exactly
+        if (2*j + 1 == n) start = (gvi_real)0.5;       // and so is the middle
+        else if (j > 0 || !lobatto) {
+            start = gvi__node_guess(lobatto, m, j);
+            last = 1;
+        }
         gvi__two x = gvi__two_of(start, 0);
         for (int k = 0; k < 12; ++k) {
             const gvi__two dx = gvi__node_correction(lobatto, m, x, b + j);
@@ -1513,8 +1544,10 @@ GVI__COLD gvi_status gvi__rule(int lobatto, int n, gvi_real *c, gvi_real *c_low,
         const gvi__two mirror = gvi__sub2(gvi__two_of(1, 0), x);
         c[j] = x.hi;
         c[n - 1 - j] = mirror.hi;
-        if (c_low) c_low[j] = x.lo, c_low[n - 1 - j] = mirror.lo;
         b[n - 1 - j] = b[j];
+        if (!c_low) continue;
+        c_low[j] = x.lo;
+        c_low[n - 1 - j] = mirror.lo;
     }
     return GVI_OK;
 }
@@ -1542,14 +1575,15 @@ GVI_DEF int gvi_rule_order(int n, const gvi_real *c, const gvi_real *b)
 
     // exact for degree u if sum b P_u = [u = 0]; no rule is exact for degree 2n.
     // The rounding of c moves P_u by |P_u'| eps <= u^2 eps at the very end only
+    gvi_real sum = -1;
     for (int u = 0; u < 2*n; ++u) {
-        gvi_real sum = u > 0 ? 0 : -1;
         for (int i = 0; i < n; ++i) {
             gvi_real P = 1, before = 0;
             for (int k = 0; k < u; ++k) gvi__legendre(k, 1 - 2*c[i], &P, &before);
             sum += b[i]*P;
         }
         if (GVI_ABS(sum) > 4*(gvi_real)(u + 2)*GVI__EPS*size) return u;
+        sum = 0;
     }
     return 2*n;
 }
@@ -1612,7 +1646,9 @@ GVI_DEF void gvi_basis(int n, const gvi_real *x, const gvi_real *w, gvi_real t, 
 {
     gvi_real d, sum;
     int i = gvi__term(n, x, w, t, &d, &sum);
-    for (int j = 0; j < n; ++j) l[j] = (j == i ? w[i] : w[j]*(d/(t - x[j])))/sum;
+    for (int j = 0; j < n; ++j)
+        if (j != i) l[j] = w[j]*(d/(t - x[j]))/sum;
+    l[i] = w[i]/sum;
 }
 
 GVI_DEF gvi_real gvi_interpolate(int n, const gvi_real *x, const gvi_real *w, const gvi_real *f,
@@ -1758,13 +1794,15 @@ static gvi_status gvi__ready(gvi_stepper *st, int ready)
 {
     if (!st) return GVI_E_ARGUMENT;
     if (ready) return gvi__report_status(st, GVI_OK);
-    return st->status != GVI_OK ? st->status : (st->status = GVI_E_STATE);
+    if (st->status == GVI_OK) st->status = GVI_E_STATE;
+    return st->status;
 }
 
 // the end of a call
 static gvi_status gvi__done(gvi_stepper *st, gvi_status status)
 {
-    return status == GVI_OK ? gvi__report_status(st, GVI_OK) : (st->status = status);
+    if (status == GVI_OK) return gvi__report_status(st, GVI_OK);
+    return st->status = status;
 }
 
 static void gvi__count(unsigned long long *counter, int more)
@@ -1807,7 +1845,8 @@ static void gvi__gather(int n, int R, const gvi_real *rows, gvi_real *out)
 static gvi_status gvi__check_rows(gvi_stepper *st, const gvi_points *x, const gvi_real *rows,
                                   int effect)
 {
-    for (int i = 0; rows && i < x->n; ++i) {
+    if (!rows) return GVI_OK;
+    for (int i = 0; i < x->n; ++i) {
         const int k = gvi__first_non_finite(x->count, rows + i*x->stride);
         if (k >= 0) return gvi__report(st, GVI_E_NON_FINITE, effect, i, k);
     }
@@ -1823,22 +1862,25 @@ static gvi_status gvi__value(gvi_stepper *st, gvi_points *x, int e, gvi_real *va
     if (effect->kind == GVI_POTENTIAL) y.v = NULL;
     y.f = y.dldv = NULL;
     y.value = value;
-    return effect->value(&y, effect->user) ? gvi__report_effect(st, GVI_E_CALLBACK, e) : GVI_OK;
+    if (effect->value(&y, effect->user)) return gvi__report_effect(st, GVI_E_CALLBACK, e);
+    return GVI_OK;
 }
 
 // the one-point form: gather, call, scatter.  Returns 0, or 1 + the point whose callback failed
 static int gvi__point_by_point(gvi_stepper *st, const gvi_effect *e, const gvi_points *x)
 {
     const int n = x->n;
-    gvi_real *q = st->x.point, *v = q + n, *f = v + n, *dldv = f + n;
+    gvi_real *q = st->x.point, *v = NULL, *f = q + 2*n, *dldv = NULL;
+    if (x->v) v = q + n;
+    if (x->dldv) dldv = f + n;
     for (int k = 0; k < x->count; ++k) {
         gvi__gather(n, x->stride, x->q + k, q);
-        if (x->v) gvi__gather(n, x->stride, x->v + k, v);
+        if (v) gvi__gather(n, x->stride, x->v + k, v);
         gvi__zero(2*(size_t)n, f);
-        if (e->point(x->t[k], q, x->v ? v : NULL, f, x->dldv ? dldv : NULL, e->user)) return 1 + k;
+        if (e->point(x->t[k], q, v, f, dldv, e->user)) return 1 + k;
         for (int i = 0; i < n; ++i) {
             x->f[i*x->stride + k] += f[i];
-            if (x->dldv) x->dldv[i*x->stride + k] += dldv[i];
+            if (dldv) x->dldv[i*x->stride + k] += dldv[i];
         }
     }
     return 0;
@@ -1851,28 +1893,32 @@ GVI__BODY gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e, gvi_real
     const gvi_effect *effect = st->x.desc.effects + e;
     const gvi_real *v = x->v;
     gvi_real *dldv = x->dldv;
-    const int points = effect->points != NULL,
-              both = value && points && effect->value == effect->points;
+    const int both = value && effect->points && effect->value == effect->points;
+    int failed, point = GVI_FAULT_NONE;
     if (!GVI__READS_V || effect->kind == GVI_POTENTIAL) x->v = NULL;
     if (!GVI__LAGRANGIAN || effect->kind != GVI_LAGRANGIAN) x->dldv = NULL;
     if (both) x->value = value;
     gvi__count(&st->counters.effect[e], x->count);
-    const int failed =
-        points ? effect->points(x, effect->user) : gvi__point_by_point(st, effect, x);
+    if (effect->points) failed = effect->points(x, effect->user);
+    else {
+        failed = gvi__point_by_point(st, effect, x);
+        point = failed - 1;
+    }
     x->value = NULL;
     x->v = v;
     x->dldv = dldv;
-    if (failed)
-        return gvi__report(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE,
-                           points ? GVI_FAULT_NONE : failed - 1);
-    return value && !both ? gvi__value(st, x, e, value) : GVI_OK;
+    if (failed) return gvi__report(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, point);
+    if (!value || both) return GVI_OK;
+    return gvi__value(st, x, e, value);
 }
 
 // what an effect adds its value to, with a clock, which needs V (level) and L; NULL: nothing
 static gvi_real *gvi__value_row(const gvi_stepper *st, int e, gvi_real *level)
 {
     const gvi_kind kind = st->x.desc.effects[e].kind;
-    return kind == GVI_FORCE ? NULL : kind == GVI_LAGRANGIAN ? st->x.time.lagrangian : level;
+    if (!level || kind == GVI_FORCE) return NULL;
+    if (kind == GVI_LAGRANGIAN) return st->x.time.lagrangian;
+    return level;
 }
 
 // in the repetition of a step that came to NaN or Inf: each effect alone, which gave it?
@@ -1880,7 +1926,7 @@ GVI__COLD gvi_status gvi__diagnose(gvi_stepper *st, gvi_points *x, unsigned skip
 {
     const size_t length = (size_t)x->n*(size_t)x->stride;
     for (int e = 0; e < st->x.desc.effect_count; ++e) {
-        gvi_real *value = level ? gvi__value_row(st, e, level) : NULL;
+        gvi_real *value = gvi__value_row(st, e, level);
         if (skip >> e & 1u) continue;
         gvi__zero(length, x->f);
         if (x->dldv) gvi__zero(length, x->dldv);
@@ -1890,9 +1936,10 @@ GVI__COLD gvi_status gvi__diagnose(gvi_stepper *st, gvi_points *x, unsigned skip
         st->counters.effect[e] -= (unsigned long long)x->count;
         if (status == GVI_OK) status = gvi__check_rows(st, x, x->f, e);
         if (status == GVI_OK) status = gvi__check_rows(st, x, x->dldv, e);
-        const int k = value && status == GVI_OK ? gvi__first_non_finite(x->count, value) : -1;
-        if (k >= 0) status = gvi__report(st, GVI_E_NON_FINITE, e, GVI_FAULT_NONE, k);
         if (status != GVI_OK) return status;
+        if (!value) continue;
+        const int k = gvi__first_non_finite(x->count, value);
+        if (k >= 0) return gvi__report(st, GVI_E_NON_FINITE, e, GVI_FAULT_NONE, k);
     }
     return gvi__report_status(st, GVI_E_NON_FINITE);
 }
@@ -1902,23 +1949,25 @@ GVI__COLD gvi_status gvi__diagnose(gvi_stepper *st, gvi_points *x, unsigned skip
 static gvi_status gvi__effects(gvi_stepper *st, gvi_points *x, unsigned skip, gvi_real *level)
 {
     const int diagnose = st->x.diagnose;
-    gvi_status status = GVI_OK;
     skip |= st->x.off | st->x.apart;
 
     // points that are not finite: the iteration has diverged, and no effect is to blame
     if (diagnose
         && (gvi__check_rows(st, x, x->q, 0) != GVI_OK || gvi__check_rows(st, x, x->v, 0) != GVI_OK))
         return gvi__report_status(st, GVI_E_CONVERGENCE);
-    for (int e = 0; e < st->x.desc.effect_count && status == GVI_OK; ++e)
-        if (!(skip >> e & 1u))
-            status = gvi__effect(st, x, e, level ? gvi__value_row(st, e, level) : NULL);
-    if (!diagnose || status != GVI_OK) return status;
+    for (int e = 0; e < st->x.desc.effect_count; ++e) {
+        if (skip >> e & 1u) continue;
+        const gvi_status status = gvi__effect(st, x, e, gvi__value_row(st, e, level));
+        if (status != GVI_OK) return status;
+    }
+    if (!diagnose) return GVI_OK;
     const int finite = gvi__check_rows(st, x, x->f, 0) == GVI_OK
                        && gvi__check_rows(st, x, x->dldv, 0) == GVI_OK
                        && (!level
                            || (gvi__first_non_finite(x->count, level) < 0
                                && gvi__first_non_finite(x->count, st->x.time.lagrangian) < 0));
-    return finite ? gvi__report_status(st, GVI_OK) : gvi__diagnose(st, x, skip, level);
+    if (finite) return gvi__report_status(st, GVI_OK);
+    return gvi__diagnose(st, x, skip, level);
 }
 
 /* Evaluates mass.points, or with `v` mass.velocity, which reads p.                           */
@@ -1927,12 +1976,16 @@ static gvi_status gvi__evaluate_mass(gvi_stepper *st, const gvi_points *x, const
 {
     const gvi_mass *mass = &st->x.desc.mass;
     gvi_points y = gvi__points_at(st, x->count, x->stride, x->t, x->q, NULL, NULL);
+    gvi_points_fn *callback = mass->velocity;
     y.p = p;
     y.velocity = v;
-    y.mass = v ? NULL : st->x.mass.at_points;
+    if (!v) {
+        y.mass = st->x.mass.at_points;
+        callback = mass->points;
+    }
     gvi__count(&st->counters.mass, x->count);
-    const int failed = v ? mass->velocity(&y, mass->user) : mass->points(&y, mass->user);
-    return failed ? gvi__report_effect(st, GVI_E_CALLBACK, GVI_FAULT_MASS) : GVI_OK;
+    if (callback(&y, mass->user)) return gvi__report_effect(st, GVI_E_CALLBACK, GVI_FAULT_MASS);
+    return GVI_OK;
 }
 
 /* M(q) at the points, factored.  In whole lanes, with the first point behind the last, unless a
@@ -1949,7 +2002,8 @@ static gvi_status gvi__factor_mass(gvi_stepper *st, const gvi_points *x)
         for (size_t i = 0, S = (size_t)R; i < (size_t)n*(size_t)n; ++i)
             for (size_t k = (size_t)x->count; k < S; ++k) m[i*S + k] = m[i*S];
         for (int o = 0; o < R; o += GVI__LANES)
-            sure &= n == 2 ? gvi__ldl_factor_lane(2, R, m + o) : gvi__ldl_factor_lane(n, R, m + o);
+            if (n == 2) sure &= gvi__ldl_factor_lane(2, R, m + o);
+            else sure &= gvi__ldl_factor_lane(n, R, m + o);
         if (sure) return GVI_OK;
         gvi__zero((size_t)(n*n)*(size_t)R, m);
         status = gvi__evaluate_mass(st, x, NULL, NULL);
@@ -1958,7 +2012,8 @@ static gvi_status gvi__factor_mass(gvi_stepper *st, const gvi_points *x)
     }
     int at[2] = { 0, 0 };
     status = gvi__ldl_factor(n, R, x->count, m, (gvi_real)n*GVI__EPS, at);
-    return status == GVI_OK ? GVI_OK : gvi__report(st, status, GVI_FAULT_MASS, at[0], at[1]);
+    if (status == GVI_OK) return GVI_OK;
+    return gvi__report(st, status, GVI_FAULT_MASS, at[0], at[1]);
 }
 
 // x->f += v' dM/dq v / 2
@@ -1969,8 +2024,12 @@ static gvi_status gvi__mass_gradient(gvi_stepper *st, const gvi_points *x)
     y.dldv = NULL;
     if (mass->gradient(&y, mass->user))
         return gvi__report_effect(st, GVI_E_CALLBACK, GVI_FAULT_MASS);
-    return st->x.diagnose ? gvi__check_rows(st, x, x->f, GVI_FAULT_MASS) : GVI_OK;
+    if (!st->x.diagnose) return GVI_OK;
+    return gvi__check_rows(st, x, x->f, GVI_FAULT_MASS);
 }
+
+// where entry (i,j) of a symmetric matrix stands, of which only i >= j is there
+static int gvi__lower(int n, int i, int j) { return i >= j ? i*n + j : j*n + i; }
 
 /* x->dldv += M v.  Entry (i,j) is `width` numbers: one for each point, one for all, or, 0, only
    those of the diagonal are there.                                                            */
@@ -1979,9 +2038,12 @@ static void gvi__add_momenta(const gvi_points *x, const gvi_real *m, int width)
     const int n = x->n, R = x->stride, each = width > 1;
     for (int i = 0; i < n; ++i) {
         gvi_real *p = x->dldv + i*R;
-        for (int k = 0; width == 0 && k < x->count; ++k) p[k] += m[i]*x->v[i*R + k];
-        for (int j = 0; width > 0 && j < n; ++j) {
-            const gvi_real *a = m + (size_t)(i >= j ? i*n + j : j*n + i)*(size_t)width;
+        if (width == 0) {
+            for (int k = 0; k < x->count; ++k) p[k] += m[i]*x->v[i*R + k];
+            continue;
+        }
+        for (int j = 0; j < n; ++j) {
+            const gvi_real *a = m + (size_t)gvi__lower(n, i, j)*(size_t)width;
             for (int k = 0; k < x->count; ++k) p[k] += a[k*each]*x->v[j*R + k];
         }
     }
@@ -2003,7 +2065,8 @@ static gvi_status gvi__evaluate(gvi_stepper *st, gvi_points *x, unsigned skip, i
         if (status == GVI_OK) gvi__add_momenta(x, y->mass.at_points, x->stride);
     } else gvi__add_momenta(x, y->mass.matrix, y->desc.mass.kind == GVI_MASS_DENSE);
     if (status == GVI_OK && y->diagnose) status = gvi__check_rows(st, x, x->dldv, GVI_FAULT_MASS);
-    return status == GVI_OK ? gvi__effects(st, x, skip, NULL) : status;
+    if (status != GVI_OK) return status;
+    return gvi__effects(st, x, skip, NULL);
 }
 
 // rows z [n][R] := M^-1 z, M constant
@@ -2028,22 +2091,27 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real
     gvi__copy((size_t)n, x->dldv, base);
     for (int j = 0; j < n; ++j) {
         const gvi_real was = v[j], push = GVI_ABS(st->x.sized.h*x->f[j])*root;
-        gvi_real d = 0,
-                 next = root*(gvi__nonzero(was) ? GVI_ABS(was) : gvi__norm1(n, v)/(gvi_real)n);
+        const int rests = !gvi__nonzero(was);
+        gvi_real d = 0, next = root*GVI_ABS(was);
+        if (rests) next = root*(gvi__norm1(n, v)/(gvi_real)n);
         if (!(next > GVI__MIN/GVI__EPS)) next = root;
-        for (int k = 0; k < 12 && gvi__nonzero(next); ++k) {
+        for (int k = 0; k < 12; ++k) {
             v[j] = was + next;
             const gvi_status status = gvi__evaluate(st, x, 0, 1);
             d = v[j] - was;
             v[j] = was;
             if (status != GVI_OK && (status != GVI_E_CALLBACK || k == 11)) return status;
-            // out of the domain: nearer, and at the last place back towards 0
-            const int beyond = status != GVI_OK || !gvi__finite(x->dldv[j]);
-            next = beyond && GVI_ABS(d)*root < 2*GVI__EPS*GVI_ABS(was) ? -2*GVI__EPS*was
-                 : beyond ? d*root
-                 : !gvi__nonzero(was) && push > 0 && GVI_ABS(x->dldv[j] - base[j]) > 16*push
-                     ? d*(push/GVI_ABS(x->dldv[j] - base[j]))        // from rest, as f takes it
-                 : GVI_ABS(x->dldv[j] - base[j]) < root*GVI_ABS(base[j])/2 ? d/GVI_SQRT(root) : 0;
+            const gvi_real moved = GVI_ABS(x->dldv[j] - base[j]);
+            if (status != GVI_OK || !gvi__finite(x->dldv[j])) {
+                // out of the domain: nearer, and at the last place back towards 0
+                next = d*root;
+                if (GVI_ABS(d)*root < 2*GVI__EPS*GVI_ABS(was)) next = -2*GVI__EPS*was;
+            } else if (rests && push > 0 && moved > 16*push) {
+                next = d*(push/moved);                     // from rest, as f takes it
+            } else if (moved < root*GVI_ABS(base[j])/2) {
+                next = d/GVI_SQRT(root);
+            } else break;
+            if (!gvi__nonzero(next)) break;
         }
         for (int i = 0; i < n; ++i) hessian[i*n + j] = (x->dldv[i] - base[i])/d;
     }
@@ -2069,14 +2137,14 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
         gvi_status status = gvi__evaluate(st, x, 0, 1);
         if (status == GVI_OK && gvi__first_non_finite(n, x->dldv) >= 0) status = GVI_E_NON_FINITE;
         if (status == GVI_OK) status = gvi__velocity_hessian(st, x, v, W);
-        for (int i = 0; status == GVI_OK && i < n; ++i) {
-            gvi_real rounding = GVI_ABS(p[i]);
-            for (int j = 0; j < n; ++j) rounding += GVI_ABS(W[i*n + j]*v[j]);
-            dv[n + i] = p[i] - x->dldv[i];
-            almost &= GVI_ABS(dv[n + i]) <= GVI_SQRT(GVI__EPS)*GVI_ABS(p[i]);
-            if (GVI_ABS(dv[n + i]) > miss*rounding) miss = GVI_ABS(dv[n + i])/rounding;
-        }
         if (status == GVI_OK) {
+            for (int i = 0; i < n; ++i) {
+                gvi_real rounding = GVI_ABS(p[i]);
+                for (int j = 0; j < n; ++j) rounding += GVI_ABS(W[i*n + j]*v[j]);
+                dv[n + i] = p[i] - x->dldv[i];
+                almost &= GVI_ABS(dv[n + i]) <= GVI_SQRT(GVI__EPS)*GVI_ABS(p[i]);
+                if (GVI_ABS(dv[n + i]) > miss*rounding) miss = GVI_ABS(dv[n + i])/rounding;
+            }
             status = gvi__lu_factor(n, W, pivot, &at);
             gvi__count(&st->counters.factorizations, 1);
             if (status == GVI_E_SINGULAR)
@@ -2126,7 +2194,8 @@ static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, 
     gvi_points x = gvi__one_point(st, &t, q);
     if (st->x.desc.mass.velocity) {
         const gvi_status status = gvi__evaluate_mass(st, &x, p, v);
-        return status == GVI_OK ? gvi__check_rows(st, &x, v, GVI_FAULT_MASS) : status;
+        if (status != GVI_OK) return status;
+        return gvi__check_rows(st, &x, v, GVI_FAULT_MASS);
     }
     if (gvi__mass_is(&st->x, GVI_MASS_NONE) || gvi__has(&st->x, GVI__HAS_LAGRANGIAN))
         return gvi__legendre_newton(st, &x, p, v);
@@ -2151,7 +2220,8 @@ GVI__COLD gvi_status gvi__value_sums(gvi_stepper *st, gvi_real t, const gvi_real
     *V = *L = *T = 0;
     for (int e = 0; e < d->effect_count; ++e) {
         const gvi_kind kind = d->effects[e].kind;
-        gvi_real *value = kind == GVI_POTENTIAL ? V : L;
+        gvi_real *value = L;
+        if (kind == GVI_POTENTIAL) value = V;
         if (((st->x.off | st->x.apart) >> e & 1u) || kind == GVI_FORCE) continue;
         const gvi_status status = gvi__value(st, &y, e, value);
         if (status != GVI_OK) return status;
@@ -2172,7 +2242,8 @@ GVI__COLD gvi_status gvi__hamiltonian(gvi_stepper *st, gvi_real t, const gvi_rea
     if (status == GVI_OK) status = gvi__value_sums(st, t, q, v, &V, &L, &T);
     if (status != GVI_OK) return status;
     const gvi_real pv = gvi__dot(st->n, p, v);
-    *energy = gvi__has(&st->x, GVI__HAS_LAGRANGIAN) ? (pv - T) - L + V : pv/2 + V;
+    if (gvi__has(&st->x, GVI__HAS_LAGRANGIAN)) *energy = (pv - T) - L + V;
+    else *energy = pv/2 + V;
     return GVI_OK;
 }
 
@@ -2188,7 +2259,10 @@ GVI__COLD void gvi__modes_of(const gvi_stepper *st, int count, gvi_real *c, cons
         gvi__two P = gvi__two_of(1, 0), before = P;
         for (int k = 0, at = i; k < st->s; ++k, at += st->x.R) {
             gvi__two z = before;
-            if (phi) phi[at] = P.hi, phi_low[at] = P.lo;
+            if (phi) {
+                phi[at] = P.hi;
+                phi_low[at] = P.lo;
+            }
             gvi__legendre2(k, X, &P, &before);
             z = gvi__div2_by(gvi__sub2(z, P), 4*k + 2);
             Phi[at] = z.hi;
@@ -2201,8 +2275,9 @@ GVI__COLD void gvi__modes_of(const gvi_stepper *st, int count, gvi_real *c, cons
 // the low words of modes a: phi, Phi, or Phi at constraints' points
 static const gvi_real *gvi__low_words(const gvi_stepper *st, const gvi_real *a)
 {
-    return a == st->x.table.phi ? st->x.table.phi_low : a == st->x.con.Phi ? st->x.con.Phi_low
-                                                                          : st->x.sized.E;
+    if (a == st->x.table.phi) return st->x.table.phi_low;
+    if (a == st->x.con.Phi) return st->x.con.Phi_low;
+    return st->x.sized.E;                         // gvi__set_rule puts those of Phi there
 }
 
 /* 1/Gamma_kk = 2k + 1 while the rule is exact for phi_k^2; Lobatto with r = s gives s - 1 for the
@@ -2216,15 +2291,17 @@ GVI__COLD gvi_status gvi__make_gamma(gvi_stepper *st)
     if (GVI__RULES && st->order == 2*s - 2) {
         const gvi_real *last = x->phi + (s - 1)*R, sum = gvi__dot3(r, x->b, last, last);
         if (!(GVI_ABS(sum) > GVI_SQRT(GVI__EPS))) return GVI_E_POINTS;
-        x->inv_gamma[s - 1] = st->x.desc.rule.kind == GVI_LOBATTO ? (gvi_real)(s - 1) : 1/sum;
+        x->inv_gamma[s - 1] = 1/sum;
+        if (st->x.desc.rule.kind == GVI_LOBATTO) x->inv_gamma[s - 1] = (gvi_real)(s - 1);
     }
     if (!gvi__has(&st->x, GVI__HAS_GAMMA)) return GVI_OK;
     for (int k = 0; k < s; ++k)
         for (int l = 0; l < s; ++l)
             x->gamma[k*s + l] = gvi__dot3(r, x->b, x->phi + k*R, x->phi + l*R);
-    return gvi_lu_factor(s, x->gamma, x->gamma + s*s) == GVI_OK
-           && gvi_lu_rcond(s, x->gamma, x->gamma + s*s, st->x.row) > GVI_SQRT(GVI__EPS)
-               ? GVI_OK : GVI_E_POINTS;
+    if (gvi_lu_factor(s, x->gamma, x->gamma + s*s) != GVI_OK) return GVI_E_POINTS;
+    if (!(gvi_lu_rcond(s, x->gamma, x->gamma + s*s, st->x.row) > GVI_SQRT(GVI__EPS)))
+        return GVI_E_POINTS;
+    return GVI_OK;
 }
 
 // y := Gamma^-1 y
@@ -2283,16 +2360,22 @@ GVI__COLD void gvi__make_tables(gvi_stepper *st)
     const struct gvi__tables *x = &st->x.table;
     const int r = st->r, R = st->x.R;
     const int gauss = !GVI__RULES || (st->x.desc.rule.kind == GVI_GAUSS && r == st->s);
-    const gvi_real sign = gvi__uses(&st->x, GVI_VELOCITIES) ? -1 : 1;
+    gvi_real sign = 1;
+    if (gvi__uses(&st->x, GVI_VELOCITIES)) sign = -1;
     for (int j = 0; j < r; ++j) {
+        int to = r;
         gvi__prepare_column(st, x->Phi, j);
-        for (int i = 0; x->K && i <= j; ++i) {
-            const gvi_real S = gvi__S(st, x->Phi, i);
-            x->K[j*R + i] = x->c[i] - S;
-            x->K[i*R + j] = x->c[j] - S;
-        }
-        for (int i = 0; x->U && i < (gauss ? j + 1 : r); ++i) {
-            const gvi_real T = gauss && i == j ? (gvi_real)0.5 : gvi__T(st, i);
+        if (x->K)
+            for (int i = 0; i <= j; ++i) {
+                const gvi_real S = gvi__S(st, x->Phi, i);
+                x->K[j*R + i] = x->c[i] - S;
+                x->K[i*R + j] = x->c[j] - S;
+            }
+        if (!x->U) continue;
+        if (gauss) to = j + 1;                    // the others by T_ij + T_ji = 1
+        for (int i = 0; i < to; ++i) {
+            gvi_real T = (gvi_real)0.5;
+            if (!gauss || i != j) T = gvi__T(st, i);
             x->U[j*R + i] = 1 - T;
             if (gauss) x->U[i*R + j] = T;
             if (x->T) x->T[i*R + j] = sign*T;
@@ -2370,16 +2453,20 @@ static void gvi__weights_for(gvi_stepper *st, gvi_real h)
         rest -= x->hb[j];
         if (b[j] > b[most]) most = j;
     }
-    const int mirror = gvi__nonzero(b[r - 1 - most] - b[most]) ? most : r - 1 - most;
-    x->hb[most] += mirror == most ? rest : rest/2;
-    if (mirror != most) x->hb[mirror] += rest/2;
+    const int mirror = r - 1 - most;
+    if (mirror == most || gvi__nonzero(b[mirror] - b[most])) x->hb[most] += rest;
+    else {
+        x->hb[most] += rest/2;
+        x->hb[mirror] += rest/2;
+    }
     for (int j = 0; j < r; ++j) x->hb[j] = GVI_LDEXP(x->hb[j], e);
-    for (int j = 0; gvi__uses(&st->x, GVI_EXPLICIT) && j <= r; ++j) {
-        const gvi_real next =
-            j < r ? gvi__grid(gvi__two_prod(st->x.table.c[j], mantissa), GVI__EPS/2) : mantissa;
+    if (!gvi__uses(&st->x, GVI_EXPLICIT)) return;
+    for (int j = 0; j < r; ++j) {
+        const gvi_real next = gvi__grid(gvi__two_prod(st->x.table.c[j], mantissa), GVI__EPS/2);
         x->drift[j] = GVI_LDEXP(next - at, e);
         at = next;
     }
+    x->drift[r] = GVI_LDEXP(mantissa - at, e);
 }
 
 /* The predictor: least squares through the stage values of the last step or the last two, by
@@ -2396,15 +2483,18 @@ static void gvi__fit(gvi_stepper *st, int r, const gvi_real *from, const gvi_rea
 {
     struct gvi__private *x = &st->x;
     const int R = x->R, nodes = steps*R, most = GVI__DIG*2/7;
-    const int wanted = steps == 2 ? r + r/2 - r/8 : r - 1, degree = wanted < most ? wanted : most;
+    int degree = r - 1;
+    if (steps == 2) degree = r + r/2 - r/8;
+    if (degree > most) degree = most;
     gvi_real *p = x->row, *before = p + 3*R, *at = before + 3*R;
     gvi_real coupling = 0;
     const gvi_real norm = 1/GVI_SQRT((gvi_real)(steps*r));
-    for (int m = 0; m < 3*R; ++m) {
-        const gvi_real c = from[m % R];
-        at[m] = m < R ? c : m < 2*R ? c - 1 : alpha + beta*to[m % R];
-        p[m] = m % R < r ? norm : 0;
-        before[m] = 0;
+    gvi__zero(6*(size_t)R, p);                     // and before, which is behind it
+    for (int m = 0; m < R; ++m) {
+        at[m] = from[m];
+        at[R + m] = from[m] - 1;
+        at[2*R + m] = alpha + beta*to[m];
+        if (m < r) p[m] = p[R + m] = p[2*R + m] = norm;
     }
     gvi__zero((size_t)(steps*r*R), E);
     for (int k = 0; k <= degree; ++k) {
@@ -4165,6 +4255,58 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
 // in long: an int may have 16 bits
 static int gvi__within(long x, long most) { return x >= 0 && x <= most; }
 
+// what is wrong with a description's own members, or NULL
+GVI__COLD const char *gvi__wrong_in_desc(const gvi_desc *d)
+{
+    if (!d) return "desc is NULL";
+    if (!gvi__within(d->n, 0x7FFFF) || d->n < 1) return "n is not 1 to 524,287";
+    if (!gvi__within(d->degree, 1024)) return "degree is not 0 to 1024";
+    if (!gvi__within(d->rule.points, 4000)) return "rule.points is not 0 to 4000";
+    if (!gvi__within(d->effect_count, GVI_EFFECTS)) return "effect_count is not 0 to GVI_EFFECTS";
+    if (d->effect_count && !d->effects) return "effect_count is given, effects is NULL";
+    if (!gvi__within(d->max_iterations, 1000000)) return "max_iterations is not 0 to 1,000,000";
+    if (!gvi__within(d->iterations, 1000000)) return "iterations is not 0 to 1,000,000";
+    if ((unsigned)d->formulation > GVI_NEWTON) return "formulation is not in its enum";
+    if ((unsigned)d->mass.kind > GVI_MASS_NONE) return "mass.kind is not in its enum";
+    if ((unsigned)d->rule.kind > GVI_KICKS) return "rule.kind is not in its enum";
+    if (!(d->tolerance >= 0 && d->tolerance < 1)) return "tolerance is not 0 to 1";
+    if (d->rule.kind < GVI_OWN && d->rule.nodes) return "rule: this kind takes no nodes";
+    if (d->rule.kind < GVI_OWN) return NULL;
+    if (!d->rule.points || !d->rule.nodes || !d->rule.weights)
+        return "rule: this kind needs points, nodes and weights";
+    return NULL;
+}
+
+// what is wrong with an effect, or NULL; x knows those before it
+GVI__COLD const char *gvi__wrong_in_effect(const struct gvi__private *x, const gvi_effect *effect)
+{
+    const int holds = effect->kind == GVI_CONSTRAINT, clock = effect->kind == GVI_CLOCK;
+    if ((unsigned)effect->kind > GVI_CONSTRAINT) return "effect: kind is not in its enum";
+    if (!effect->points && !effect->point) return "effect: points, or point, is missing";
+    if (effect->points && effect->point) return "effect: points and point, one is too many";
+    if (!holds && effect->rows != 0) return "effect: rows is for constraints";
+    if (holds && (effect->rows < 1 || effect->rows > x->desc.n - x->con.m))
+        return "effect: rows is not 1 to what is left of n";
+    if ((clock || holds) && !effect->points) return "effect: this kind needs points, not point";
+    if (clock && x->clock >= 0) return "effect: a second clock";
+    return NULL;
+}
+
+// what is wrong with the mass, or NULL
+GVI__COLD const char *gvi__wrong_in_mass(const struct gvi__private *x)
+{
+    const gvi_mass *m = &x->desc.mass;
+    if (m->kind == GVI_MASS_UNIT && (m->matrix || m->points))
+        return "mass: matrix or points is given, kind is GVI_MASS_UNIT";
+    if (m->kind == GVI_MASS_POSITION && !m->points) return "mass: points is missing";
+    if (m->kind == GVI_MASS_POSITION && !m->gradient) return "mass: gradient is missing";
+    if (m->kind == GVI_MASS_NONE && !(x->needs & GVI__HAS_LAGRANGIAN))
+        return "mass: none, and no Lagrangian term";
+    if ((m->kind == GVI_MASS_DIAGONAL || m->kind == GVI_MASS_DENSE) && !m->matrix)
+        return "mass: matrix is missing";
+    return NULL;
+}
+
 /* Are all sizes in range, is what the kinds need there, and nothing that says that a kind was
    forgotten?  Fills in the defaults, and finds what the effects read and the clock.           */
 GVI__COLD gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc, gvi_fault *fault)
@@ -4172,27 +4314,16 @@ GVI__COLD gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc, gv
     enum { V = GVI__HAS_VELOCITIES, L = GVI__HAS_LAGRANGIAN };
     // potential, force, Lagrangian, clock, constraint
     static const unsigned char reads[] = { 0, V, V | L, 0, 0 };
-    const char *wrong = !desc ? "desc is NULL"
-        : !gvi__within(desc->n, 0x7FFFF) || desc->n < 1 ? "n is not 1 to 524,287"
-        : !gvi__within(desc->degree, 1024) ? "degree is not 0 to 1024"
-        : !gvi__within(desc->rule.points, 4000) ? "rule.points is not 0 to 4000"
-        : !gvi__within(desc->effect_count, GVI_EFFECTS) ? "effect_count is not 0 to GVI_EFFECTS"
-        : desc->effect_count && !desc->effects ? "effect_count is given, effects is NULL"
-        : !gvi__within(desc->max_iterations, 1000000) ? "max_iterations is not 0 to 1,000,000"
-        : !gvi__within(desc->iterations, 1000000) ? "iterations is not 0 to 1,000,000"
-        : (unsigned)desc->formulation > GVI_NEWTON ? "formulation is not in its enum"
-        : (unsigned)desc->mass.kind > GVI_MASS_NONE ? "mass.kind is not in its enum"
-        : (unsigned)desc->rule.kind > GVI_KICKS ? "rule.kind is not in its enum"
-        : !(desc->tolerance >= 0 && desc->tolerance < 1) ? "tolerance is not 0 to 1"
-        : desc->rule.kind < GVI_OWN ? desc->rule.nodes ? "rule: this kind takes no nodes" : NULL
-        : !desc->rule.points || !desc->rule.nodes || !desc->rule.weights
-            ? "rule: this kind needs points, nodes and weights" : NULL;
+    const char *wrong = gvi__wrong_in_desc(desc);
     if (wrong) return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE, wrong);
     gvi_desc *d = &x->desc;
     *d = *desc;
     const gvi_rule_kind rule = d->rule.kind;
-    if (d->degree == 0) d->degree = rule == GVI_KICKS ? 1 : 8;
-    if (d->rule.points == 0) d->rule.points = rule == GVI_LOBATTO ? d->degree + 1 : d->degree;
+    if (d->degree == 0) {
+        d->degree = 8;
+        if (rule == GVI_KICKS) d->degree = 1;
+    }
+    if (d->rule.points == 0) d->rule.points = d->degree + (rule == GVI_LOBATTO);
     if (d->max_iterations == 0) d->max_iterations = 60;
 
     x->needs = 0;
@@ -4201,38 +4332,24 @@ GVI__COLD gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc, gv
     x->con.m = 0;
     for (int e = 0; e < d->effect_count; ++e) {
         const gvi_effect *effect = d->effects + e;
-        const int holds = effect->kind == GVI_CONSTRAINT, clock = effect->kind == GVI_CLOCK;
-        wrong = (unsigned)effect->kind > GVI_CONSTRAINT ? "effect: kind is not in its enum"
-            : !effect->points && !effect->point ? "effect: points, or point, is missing"
-            : effect->points && effect->point ? "effect: points and point, one is too many"
-            : !holds && effect->rows != 0 ? "effect: rows is for constraints"
-            : holds && (effect->rows < 1 || effect->rows > d->n - x->con.m)
-                ? "effect: rows is not 1 to what is left of n"
-            : (clock || holds) && !effect->points ? "effect: this kind needs points, not point"
-            : clock && x->clock >= 0 ? "effect: a second clock" : NULL;
+        wrong = gvi__wrong_in_effect(x, effect);
         if (wrong) return gvi__refuse(fault, e, GVI_FAULT_NONE, wrong);
         x->needs |= reads[effect->kind];
         if (effect->kind < GVI_CLOCK) continue;
         x->apart |= 1u << e;
         x->con.m += effect->rows;
-        if (holds) x->con.bits |= 1u << e;
+        if (effect->kind == GVI_CONSTRAINT) x->con.bits |= 1u << e;
         else x->clock = e;
     }
     const gvi_mass *m = &d->mass;
-    const int position = m->kind == GVI_MASS_POSITION;
-    wrong = m->kind == GVI_MASS_UNIT && (m->matrix || m->points)
-            ? "mass: matrix or points is given, kind is GVI_MASS_UNIT"
-        : position && !m->points ? "mass: points is missing"
-        : position && !m->gradient ? "mass: gradient is missing"
-        : m->kind == GVI_MASS_NONE && !(x->needs & L) ? "mass: none, and no Lagrangian term"
-        : (m->kind == GVI_MASS_DIAGONAL || m->kind == GVI_MASS_DENSE) && !m->matrix
-            ? "mass: matrix is missing" : NULL;
     if ((x->needs & L && !GVI__LAGRANGIAN) || (x->clock >= 0 && !GVI__CLOCK)
         || (x->con.bits && (!GVI__CONSTRAINTS || x->clock >= 0 || m->velocity
                             || m->kind == GVI_MASS_NONE || rule == GVI_KICKS))
         || (m->kind > GVI_MASS_DENSE && !gvi__mass_is(x, m->kind)) || !gvi__rule_is(x, rule))
         return GVI_E_FORMULATION;
-    return wrong ? gvi__refuse(fault, GVI_FAULT_MASS, GVI_FAULT_NONE, wrong) : GVI_OK;
+    wrong = gvi__wrong_in_mass(x);
+    if (wrong) return gvi__refuse(fault, GVI_FAULT_MASS, GVI_FAULT_NONE, wrong);
+    return GVI_OK;
 }
 
 /* The order of the rule: will it do? Kicks need finite numbers and weights that sum to 1;
@@ -4241,7 +4358,8 @@ GVI__COLD gvi_status gvi__check_rule(struct gvi__private *x, int *order, gvi_fau
 {
     const gvi_rule *rule = &x->desc.rule;
     const int s = x->desc.degree, r = rule->points;
-    *order = rule->kind == GVI_LOBATTO ? 2*r - 2 : 2*r;
+    *order = 2*r;
+    if (rule->kind == GVI_LOBATTO) *order = 2*r - 2;
     if (gvi__rule_is(x, GVI_KICKS)) {
         gvi_real sum = -1, size = 0;
         *order = 0;
@@ -4253,12 +4371,12 @@ GVI__COLD gvi_status gvi__check_rule(struct gvi__private *x, int *order, gvi_fau
             if (!gvi__finite(rule->nodes[j]) || !gvi__finite(rule->weights[j])) return GVI_E_NODES;
         }
         const gvi_real error = 4*(gvi_real)(r + 2)*GVI__EPS*size;
-        return GVI_ABS(sum) <= error && error < 1 ? GVI_OK : GVI_E_ORDER;
+        if (!(GVI_ABS(sum) <= error && error < 1)) return GVI_E_ORDER;
+        return GVI_OK;
     }
-    if (rule->kind == GVI_LOBATTO && r < 2)
-        return s > 1 ? GVI_E_POINTS
-                     : gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE,
-                                   "rule.points: Lobatto's rule has 2 or more");
+    if (rule->kind == GVI_LOBATTO && r < 2 && s == 1)
+        return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE,
+                           "rule.points: Lobatto's rule has 2 or more");
     if (gvi__rule_is(x, GVI_OWN)) {
         *order = gvi_rule_order(r, rule->nodes, rule->weights);
         if (*order < 0) return GVI_E_NODES;
@@ -4266,7 +4384,8 @@ GVI__COLD gvi_status gvi__check_rule(struct gvi__private *x, int *order, gvi_fau
         if (*order < 2*s - 2) x->needs |= GVI__HAS_GAMMA;
     }
     // r >= s points of Gauss or Lobatto are good enough
-    return r < s ? GVI_E_POINTS : GVI_OK;
+    if (r < s) return GVI_E_POINTS;
+    return GVI_OK;
 }
 
 // the first formulation that covers the scene, or the pinned one; Newton's method as a fall-back
@@ -4286,15 +4405,18 @@ GVI__COLD gvi_status gvi__choose(struct gvi__private *x, gvi_fault *fault)
     const int s = d->degree, r = d->rule.points, kicks = d->rule.kind == GVI_KICKS;
     const int verlet = s == 1 && r == 2 && d->rule.kind == GVI_LOBATTO,
               constant = gvi__mass_is_constant(x), holds = x->con.bits != 0;
-    const int asked =
-        (x->needs & GVI__HAS_VELOCITIES ? READS : 0) | (x->clock >= 0 ? TIMED : 0)
-        | (kicks ? KICKED : verlet ? 0 : NOT_KICKED)
-        | (r != s ? MORE_POINTS : 0) | (holds ? HOLDS : 0)
-        | (constant && !(holds && x->needs & GVI__HAS_LAGRANGIAN) ? 0 : VARIES)
-        | (constant || d->mass.velocity || d->mass.kind == GVI_MASS_POSITION ? 0 : NO_VELOCITY);
     const int pinned = d->formulation != GVI_AUTO, given = d->iterations > 0;
-    int f = pinned ? (int)d->formulation : GVI_EXPLICIT;
-    while (!(GVI__COMPILED >> f & 1) || (asked & cannot[f]))
+    int scene = 0, f = GVI_EXPLICIT;
+    if (x->needs & GVI__HAS_VELOCITIES) scene |= READS;
+    if (x->clock >= 0) scene |= TIMED;
+    if (kicks) scene |= KICKED;
+    if (!kicks && !verlet) scene |= NOT_KICKED;
+    if (r != s) scene |= MORE_POINTS;
+    if (holds) scene |= HOLDS;
+    if (!constant || (holds && x->needs & GVI__HAS_LAGRANGIAN)) scene |= VARIES;
+    if (!constant && !d->mass.velocity && d->mass.kind != GVI_MASS_POSITION) scene |= NO_VELOCITY;
+    if (pinned) f = d->formulation;
+    while (!(GVI__COMPILED >> f & 1) || (scene & cannot[f]))
         if (pinned || f++ == GVI_NEWTON) return GVI_E_FORMULATION;
     x->chosen = (gvi_formulation)f;
     if (f == GVI_NEWTON && given) return GVI_E_FORMULATION;
@@ -4307,10 +4429,10 @@ GVI__COLD gvi_status gvi__choose(struct gvi__private *x, gvi_fault *fault)
         x->needs |= GVI__HAS_NEWTON;
     const int matrices =
         gvi__has(x, GVI__HAS_NEWTON | GVI__HAS_LAGRANGIAN) || d->mass.kind >= GVI_MASS_DENSE;
-    // indices are int: n*n and s*n
-    return !matrices || d->n <= 0x7FFF ? GVI_OK
-        : gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE,
-                      "n is above 32,767, and matrices may be needed");
+    if (matrices && d->n > 0x7FFF)                // indices are int: n*n and s*n
+        return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE,
+                           "n is above 32,767, and matrices may be needed");
+    return GVI_OK;
 }
 
 GVI__COLD gvi_status gvi__resolve(struct gvi__private *x, const gvi_desc *desc, int *order,
@@ -4318,7 +4440,8 @@ GVI__COLD gvi_status gvi__resolve(struct gvi__private *x, const gvi_desc *desc, 
 {
     gvi_status status = gvi__check(x, desc, fault);
     if (status == GVI_OK) status = gvi__check_rule(x, order, fault);
-    return status == GVI_OK ? gvi__choose(x, fault) : status;
+    if (status == GVI_OK) status = gvi__choose(x, fault);
+    return status;
 }
 
 /* The caller's memory: a base, or NULL to count only, and the numbers handed out so far.     */
@@ -4327,9 +4450,12 @@ typedef struct gvi__arena { gvi_real *base; size_t used; } gvi__arena;
 GVI__COLD gvi_real *gvi__take(gvi__arena *arena, size_t a, size_t b)
 {
     const size_t most = (size_t)-1/sizeof(gvi_real) - 64;      // more than anyone has, with slack
-    const size_t count = a == 0 ? 0 : b > most/a ? most : a*b, at = arena->used;
-    arena->used = count > most - at ? most : at + count;
-    return arena->base && count ? arena->base + at : NULL;
+    const size_t at = arena->used;
+    if (a == 0 || b == 0) return NULL;
+    arena->used = most;
+    if (b <= (most - at)/a) arena->used = at + a*b;
+    if (!arena->base) return NULL;
+    return arena->base + at;
 }
 
 // that of constraints: rows of R, then of C
@@ -4403,19 +4529,19 @@ GVI__COLD size_t gvi__layout(struct gvi__private *x, int order, gvi_real *base)
         v->P = gvi__take(a, at_work && (momenta || newton), n*R);
     }
     for (int k = 0; k < 8; ++k) *rows_of_R[k] = gvi__take(a, k < 4 || clock, R);
-    x->free.rows = gvi__take(a, velocities || momenta ? 2 : fixed, n*R);
-    x->table.Phi = gvi__take(a, kicks ? 0 : s, R);
+    x->free.rows = gvi__take(a, fixed + (velocities || momenta), n*R);
+    x->table.Phi = gvi__take(a, !kicks*s, R);
     x->table.phi = gvi__take(a, modes*s, R);
     x->table.phi_low = gvi__take(a, modes*s, R);
-    x->table.high = gvi__take(a, explicitly ? 0 : 2, R);
-    x->table.K = gvi__take(a, fixed && !momenta ? r : 0, R);
-    x->table.U = gvi__take(a, velocities || momenta ? r : 0, R);
-    x->table.T = gvi__take(a, momenta || (velocities && lagrangian) ? r : 0, R);
-    x->table.N = gvi__take(a, velocities && lagrangian ? r : 0, R);
-    x->sized.E = gvi__take(a, explicitly ? 0 : two ? 2*r : r, R);
-    x->row = gvi__take(a, explicitly ? 0 : 9, R);
-    x->mass.at_points = gvi__take(a, d->mass.kind == GVI_MASS_POSITION ? nn : 0, R);
-    x->mass.sums = gvi__take(a, dense && fixed && !momenta ? n : 0, R);
+    x->table.high = gvi__take(a, !explicitly*2, R);
+    x->table.K = gvi__take(a, (fixed && !momenta)*r, R);
+    x->table.U = gvi__take(a, (velocities || momenta)*r, R);
+    x->table.T = gvi__take(a, (momenta || (velocities && lagrangian))*r, R);
+    x->table.N = gvi__take(a, (velocities && lagrangian)*r, R);
+    x->sized.E = gvi__take(a, !explicitly*(1 + two)*r, R);
+    x->row = gvi__take(a, !explicitly*9, R);
+    x->mass.at_points = gvi__take(a, (d->mass.kind == GVI_MASS_POSITION)*nn, R);
+    x->mass.sums = gvi__take(a, (dense && fixed && !momenta)*n, R);
     x->time.slope = gvi__take(a, clock, n*R);
     x->table.inv_gamma = gvi__take(a, 1, s);
     x->table.gamma = gvi__take(a, full, s*s + s + 1);
@@ -4423,15 +4549,15 @@ GVI__COLD size_t gvi__layout(struct gvi__private *x, int order, gvi_real *base)
     for (size_t k = 0; k < sizeof vectors/sizeof *vectors; ++k)
         *vectors[k] = gvi__take(a, k < 14 || !explicitly, n);
 
-    x->mass.matrix = gvi__take(a, dense ? n : 1, n);
+    x->mass.matrix = gvi__take(a, !dense + dense*n, n);
     x->mass.factor = gvi__take(a, dense*n, n);
-    x->watch.scale = gvi__take(a, explicitly ? 0 : 2, n);
-    x->watch.change = gvi__take(a, explicitly ? 0 : 2, n);
-    x->watch.before = gvi__take(a, explicitly ? 0 : 2, n);
+    x->watch.scale = gvi__take(a, !explicitly*2, n);
+    x->watch.change = gvi__take(a, !explicitly*2, n);
+    x->watch.before = gvi__take(a, !explicitly*2, n);
     x->point = gvi__take(a, 6, n);
     x->result = gvi__take(a, 3, n);
-    x->newton.column = gvi__take(a, newton || lagrangian ? 4 : 0, n);
-    x->newton.hessian = gvi__take(a, newton || lagrangian, (newton ? 4*nn : nn) + n + 1);
+    x->newton.column = gvi__take(a, (newton || lagrangian)*4, n);
+    x->newton.hessian = gvi__take(a, newton || lagrangian, (1 + 3*newton)*nn + n + 1);
     for (int k = 0; k < 8; ++k) *modes_of_newton[k] = gvi__take(a, newton, sn);
     x->newton.pivot = gvi__take(a, newton*2, sn + 1);           // twice: queries must not touch
     x->newton.moved = gvi__take(a, newton*4*n, R);
@@ -4452,7 +4578,7 @@ static void gvi__hand_out(gvi_stepper *st, gvi_real *memory)
 }
 
 // stage values start where a cache line does: up to so many numbers are left out at the beginning
-static size_t gvi__slack(const gvi_desc *d) { return d->rule.points > 4 ? GVI__SLACK : 0; }
+static size_t gvi__slack(const gvi_desc *d) { return (d->rule.points > 4)*GVI__SLACK; }
 
 GVI_DEF size_t gvi_size(const gvi_desc *desc)
 {
@@ -4468,24 +4594,34 @@ GVI__COLD gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, dense = mass->kind == GVI_MASS_DENSE;
-    const gvi_real *matrix = dense || mass->kind == GVI_MASS_DIAGONAL ? mass->matrix : NULL;
+    const int given = dense || mass->kind == GVI_MASS_DIAGONAL;
     gvi_real *m = x->mass.matrix;
     int at[2] = { 0, 0 };
     for (int i = 0; i < n; ++i) {
-        gvi_real *row = dense ? m + i*n : m + i;
-        const int width = dense ? i + 1 : 1;
-        if (matrix) gvi__copy((size_t)width, matrix + (row - m), row);
+        int first = i, width = 1;                 // of a diagonal; dense: of row i up to M_ii
+        if (dense) {
+            first = i*n;
+            width = i + 1;
+        }
+        gvi_real *row = m + first;
+        if (given) gvi__copy((size_t)width, mass->matrix + first, row);
         else row[0] = 1;
         if (gvi__first_non_finite(width, row) >= 0)
             return gvi__refuse(&st->fault, GVI_FAULT_MASS, i, "mass.matrix is not finite");
-        if (dense) gvi__copy((size_t)width, row, x->mass.factor + i*n);
-        x->mass.inverse[i] = dense ? 1 : 1/row[0];
+        if (dense) {
+            gvi__copy((size_t)width, row, x->mass.factor + first);
+            x->mass.inverse[i] = 1;
+            continue;
+        }
+        x->mass.inverse[i] = 1/row[0];
         if (!gvi__finite(x->mass.inverse[i]))
             return gvi__report(st, GVI_E_SINGULAR, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
     }
+    if (!dense) return GVI_OK;
     const gvi_status status =
-        dense ? gvi__ldl_factor(n, 1, 1, x->mass.factor, (gvi_real)n*GVI__EPS, at) : GVI_OK;
-    return status == GVI_OK ? GVI_OK : gvi__report(st, status, GVI_FAULT_MASS, at[0], at[1]);
+        gvi__ldl_factor(n, 1, 1, x->mass.factor, (gvi_real)n*GVI__EPS, at);
+    if (status == GVI_OK) return GVI_OK;
+    return gvi__report(st, status, GVI_FAULT_MASS, at[0], at[1]);
 }
 
 // the rule, the modes at its nodes as exactly as they can be had, then the tables
@@ -4540,8 +4676,9 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     if (status != GVI_OK) return st->status = status;
     if (desc->effects && !desc->effect_count)     // its count was forgotten
         return gvi__refuse_call(st, "effects is given, effect_count is 0");
-    if (!memory || (uintptr_t)memory % offsetof(gvi__aligned, number))
-        return gvi__refuse_call(st, memory ? "memory is not aligned" : "memory is NULL");
+    if (!memory) return gvi__refuse_call(st, "memory is NULL");
+    if ((uintptr_t)memory % offsetof(gvi__aligned, number))
+        return gvi__refuse_call(st, "memory is not aligned");
     st->n = x->desc.n;
     st->s = x->desc.degree;
     st->r = x->desc.rule.points;
@@ -4559,8 +4696,9 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     if (slack) x->skip = (size_t)(-(uintptr_t)memory & 63)/sizeof(gvi_real);
     memory += x->skip;
     gvi__hand_out(st, memory);
-    // J is written first
-    gvi__zero(x->newton.J ? (size_t)(x->newton.J - memory) : x->size, memory);
+    size_t cleared = x->size;
+    if (x->newton.J) cleared = (size_t)(x->newton.J - memory);      // J is written first
+    gvi__zero(cleared, memory);
     x->kernel = gvi__kernel_for(st->n, st->r);
     status = gvi__set_mass(st, &desc->mass);
     if (status == GVI_OK) status = gvi__set_rule(st, &desc->rule);
