@@ -2785,8 +2785,9 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
 static void gvi__times(int count, gvi_real t, gvi_real t_low, gvi_real h, const gvi_real *c,
                        gvi_real *out)
 {
+    const int whole = gvi__in_lanes(count);
     int k = 0;
-    for (; GVI__LANES > 1 && k + GVI__LANES <= count; k += GVI__LANES)
+    for (; k < whole; k += GVI__LANES)
         GVI__STORE(out + k) = t + (t_low + GVI__LOAD(c + k)*h);
     for (; k < count; ++k) out[k] = t + (t_low + c[k]*h);
 }
@@ -2805,8 +2806,8 @@ static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real 
     gvi__times(x->R, from->t, from->t_low, h, x->table.c, x->t);
     if (!gvi__mass_is_constant(x)) return;
     for (int i = 0; i < st->n; ++i) {
-        const gvi__two z = x->desc.mass.kind == GVI_MASS_DIAGONAL ? gvi__two_prod(p[i], inverse[i])
-                                                                  : gvi__two_of(p[i], 0);
+        gvi__two z = gvi__two_of(p[i], 0);
+        if (x->desc.mass.kind == GVI_MASS_DIAGONAL) z = gvi__two_prod(p[i], inverse[i]);
         v[i] = z.hi;
         v_low[i] = gvi__low(z.lo + p_low[i]*inverse[i]);
     }
@@ -2815,8 +2816,7 @@ static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real 
         for (int i = 0; i < st->n; ++i) {         // p - M v
             gvi__two left = gvi__two_of(p[i], p_low[i]);
             for (int j = 0; j < st->n; ++j) {
-                const int ij = i > j ? i*st->n + j : j*st->n + i;
-                const gvi__two z = gvi__two_prod(-x->mass.matrix[ij], v[j]);
+                const gvi__two z = gvi__two_prod(-x->mass.matrix[gvi__lower(st->n, i, j)], v[j]);
                 left = gvi__add_low(left.hi, left.lo, z.hi, z.lo);
             }
             v_low[i] = gvi__low(left.hi + left.lo);
@@ -3036,13 +3036,15 @@ static void gvi__prepare_predictor(gvi_stepper *st, gvi_real h, int query)
     const gvi_real beta = h/st->h;
     if (!query && !gvi__nonzero(beta - x->sized.ratio) && x->sized.steps == two + 1
         && x->sized.sums == sums) return;
-    x->sized.ratio = query ? 0 : beta;
+    x->sized.ratio = beta;
+    if (query) x->sized.ratio = 0;                // another start: not to be used again
     x->sized.steps = two + 1;
     x->sized.sums = sums;
     gvi__fit(st, r, x->table.c, x->table.c, query != GVI__FROM_START, beta, two + 1, x->sized.E);
     if (gvi__constrained(st))
         gvi__fit(st, st->s, x->con.d + 1, x->con.d, query != GVI__FROM_START, beta, 1, x->con.E);
-    for (int m = 0; sums && m < x->sized.steps*r; ++m) {
+    if (!sums) return;
+    for (int m = 0; m < x->sized.steps*r; ++m) {
         const gvi_real *L = gvi__weighted(R, x->sized.hb, x->sized.E + m*R, x->row);
         for (int k = 0; k < r; ++k) x->row[R + k] = gvi__point_sum(r, R, x->table.K + k, L);
         gvi__copy((size_t)r, x->row + R, x->sized.E + m*R);
@@ -3053,8 +3055,10 @@ static void gvi__prepare_predictor(gvi_stepper *st, gvi_real h, int query)
 GVI__BODY void gvi__set_predictor(const gvi_stepper *st, gvi__stage *y, const gvi_real *last,
                                   const gvi_real *older)
 {
-    const gvi_real *E = st->x.sized.E, *second = st->x.sized.steps == 2 ? E + st->r*st->x.R : NULL;
-    const gvi__sum one = { E, NULL, last }, two = { second, NULL, older };
+    const gvi_real *E = st->x.sized.E;
+    const gvi__sum one = { E, NULL, last };
+    gvi__sum two = { NULL, NULL, older };
+    if (st->x.sized.steps == 2) two.table = E + st->r*st->x.R;
     y->sum[0] = one;
     y->sum[1] = two;
     y->scale = NULL;
@@ -3064,8 +3068,9 @@ GVI__BODY void gvi__set_predictor(const gvi_stepper *st, gvi__stage *y, const gv
 GVI__BODY void gvi__free_row(int R, gvi_real low, gvi_real path, gvi_real path_low,
                              const gvi_real *GVI__RESTRICT c, gvi_real *GVI__RESTRICT row)
 {
+    const int whole = gvi__in_lanes(R);
     int k = 0;
-    for (; GVI__LANES > 1 && k + GVI__LANES <= R; k += GVI__LANES)
+    for (; k < whole; k += GVI__LANES)
         GVI__STORE(row + k) = (low + GVI__LOAD(c + k)*path_low) + GVI__LOAD(c + k)*path;
     for (; k < R; ++k) row[k] = (low + c[k]*path_low) + c[k]*path;
 }
@@ -3087,25 +3092,30 @@ static int gvi__stages(const gvi_stepper *st, const gvi__origin *from, gvi_real 
     const struct gvi__values *w = &x->work;
     const gvi_real *low[2], *hb = x->sized.hb;
     const int n = st->n, R = x->R, momenta = gvi__uses(x, GVI_MOMENTA);
-    const int count = momenta || gvi__uses(x, GVI_VELOCITIES) ? 2 : 1;
+    const int count = 1 + (momenta || gvi__uses(x, GVI_VELOCITIES));
     if (momenta) {
         gvi__set_stage(st, y, w->P, x->table.U, hb, w->F);
         gvi__set_stage(st, y + 1, w->Q, x->table.T, hb, w->V);
-        y[0].base = from->p, low[0] = from->p_low;
-        y[1].base = from->q, low[1] = from->q_low;
+        y[0].base = from->p;
+        y[1].base = from->q;
+        low[0] = from->p_low;
+        low[1] = from->q_low;
     } else {
         gvi__set_stage(st, y, w->Q, x->table.K, hb, w->F);
-        y[0].base = from->q, low[0] = from->q_low;
+        y[0].base = from->q;
+        low[0] = from->q_low;
         y[0].factor = h;
         if (count == 2) {
             gvi__set_stage(st, y + 1, w->V, x->table.U, hb, w->F);
-            y[1].base = x->free.v, low[1] = x->free.v_low;
+            y[1].base = x->free.v;
+            low[1] = x->free.v_low;
         }
         for (int k = 0; k < count; ++k) {
+            gvi__sum A = { x->table.T, x->table.b, w->A };
+            if (k == 1) A.table = x->table.N;
+            if (GVI__LAGRANGIAN && w->A) y[k].sum[1] = A;
             if (x->desc.mass.kind == GVI_MASS_DIAGONAL) y[k].inverse = x->mass.inverse;
             y[k].dense = x->desc.mass.kind == GVI_MASS_DENSE;
-            const gvi__sum A = { k == 0 ? x->table.T : x->table.N, x->table.b, w->A };
-            if (GVI__LAGRANGIAN && w->A) y[k].sum[1] = A;
         }
     }
     for (int k = 0; k < count; ++k) {
@@ -3114,9 +3124,14 @@ static int gvi__stages(const gvi_stepper *st, const gvi__origin *from, gvi_real 
         y[k].free = free;
         y[k].scale = x->watch.scale + k*n;
         y[k].change = x->watch.change + k*n;
-        for (int i = 0; i < n; ++i, free += R)
-            gvi__free_row(R, low[k][i], moves ? x->free.path[i] : 0,
-                          moves ? x->free.path_low[i] : 0, x->table.c, free);
+        for (int i = 0; i < n; ++i, free += R) {
+            gvi_real path = 0, path_low = 0;
+            if (moves) {
+                path = x->free.path[i];
+                path_low = x->free.path_low[i];
+            }
+            gvi__free_row(R, low[k][i], path, path_low, x->table.c, free);
+        }
     }
     return count;
 }
@@ -3140,16 +3155,19 @@ static void gvi__velocity_rows(const gvi_stepper *st)
 {
     const struct gvi__private *x = &st->x;
     const int n = st->n, R = x->R;
-    const gvi_real *P = x->work.P, *A = GVI__LAGRANGIAN ? x->work.A : NULL;
+    const gvi_real *P = x->work.P, *A = x->work.A;
     gvi_real *V = x->work.V;
-    for (int k = 0; A && k < n*R; ++k) V[k] = P[k] - A[k];
+    if (GVI__LAGRANGIAN && A) {
+        for (int k = 0; k < n*R; ++k) V[k] = P[k] - A[k];
+        P = V;
+    }
     if (GVI__LANES > 1 && R % 8 == 0 && !gvi__mass_is_constant(x)) {
         for (int o = 0; o < R; o += GVI__LANES)
-            if (n == 2) gvi__ldl_solve_lane(2, R, x->mass.at_points + o, (A ? V : P) + o, V + o);
-            else gvi__ldl_solve_lane(n, R, x->mass.at_points + o, (A ? V : P) + o, V + o);
+            if (n == 2) gvi__ldl_solve_lane(2, R, x->mass.at_points + o, P + o, V + o);
+            else gvi__ldl_solve_lane(n, R, x->mass.at_points + o, P + o, V + o);
         return;
     }
-    if (!A) gvi__copy((size_t)(n*R), P, V);
+    if (P != V) gvi__copy((size_t)(n*R), P, V);
     if (gvi__mass_is_constant(x)) gvi__over_mass(st, V, R, st->r);
     else gvi__ldl_solve(n, x->mass.at_points, R, V, R, st->r);
 }
@@ -3180,9 +3198,9 @@ static gvi_status gvi__evaluate_stages(gvi_stepper *st, const gvi__origin *from,
     if (gvi__clock_is_on(st)) return gvi__evaluate_with_clock(st, from, y);
     status = gvi__effects(st, y, 0, NULL);
     if (status == GVI_OK && gvi__constrained(st)) status = gvi__constraint_values(st, from);
-    return status == GVI_OK && momenta && gvi__mass_is(x, GVI_MASS_POSITION)
-               ? gvi__mass_gradient(st, y)
-               : status;
+    if (status == GVI_OK && momenta && gvi__mass_is(x, GVI_MASS_POSITION))
+        status = gvi__mass_gradient(st, y);
+    return status;
 }
 
 /* Momenta: V from the new P with the old M(Q) and dL/dv, so that an iteration contracts twice
@@ -3203,9 +3221,11 @@ static gvi_real gvi__velocities_again(gvi_stepper *st)
     // where that fails it does so again with the new Q
     if (x->desc.mass.velocity) (void)gvi__evaluate_mass(st, &at, x->work.P, x->work.V);
     else gvi__velocity_rows(st);
-    for (int i = 0; clock && i < n; ++i)
-        for (int k = 0; k < R; ++k) x->work.V[i*R + k] *= x->time.rate[k];
-    for (int i = 0; made && i < n; ++i) {
+    if (clock)
+        for (int i = 0; i < n; ++i)
+            for (int k = 0; k < R; ++k) x->work.V[i*R + k] *= x->time.rate[k];
+    if (!made) return 0;
+    for (int i = 0; i < n; ++i) {
         const gvi_real moved = V[i*R] - was[i], size = GVI_ABS(V[i*R]) + GVI_ABS(was[i]);
         if (size > GVI__MIN/GVI__EPS) sum += (moved/size)*(moved/size);
     }
@@ -3221,7 +3241,8 @@ GVI__BODY gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *y, int stage
         gvi__constrain(st, y, y[gvi__uses(x, GVI_MOMENTA)].base);
     for (int k = 0; k < stages; ++k) {
         if (k == 1 && gvi__uses(x, GVI_MOMENTA)) sum += gvi__velocities_again(st);
-        sum += y[k].dense ? gvi__dense_rows(st, y + k, rescale) : x->kernel(st, y + k, rescale);
+        if (y[k].dense) sum += gvi__dense_rows(st, y + k, rescale);
+        else sum += x->kernel(st, y + k, rescale);
     }
     if (gvi__constrained(st)) {
         st->x.con.linear |=
@@ -3238,8 +3259,10 @@ static gvi_status gvi__predict_sources(gvi_stepper *st, const gvi__origin *from,
 {
     struct gvi__private *x = &st->x;
     struct gvi__values *w = &x->work;
-    const int momenta = gvi__uses(x, GVI_MOMENTA), A = GVI__LAGRANGIAN && w->A;
-    gvi_real *const to[3] = { w->F, momenta ? w->V : NULL, A ? w->A : NULL };
+    const int momenta = gvi__uses(x, GVI_MOMENTA);
+    gvi_real *to[3] = { w->F, NULL, NULL };
+    if (momenta) to[1] = w->V;
+    if (GVI__LAGRANGIAN) to[2] = w->A;
     const gvi_real *const last[3] = { x->last.F, x->last.V, x->last.A };
     const gvi_real *const older[3] = { x->older.F, x->older.V, x->older.A };
     gvi_real rate = 1;
@@ -3652,12 +3675,12 @@ static gvi_status gvi__rate(gvi_stepper *st, const gvi_points *x, gvi_real *rate
     gvi__count(&st->counters.effect[st->x.clock], x->count);
     if (clock->points(&y, clock->user)) return gvi__report_effect(st, GVI_E_CALLBACK, st->x.clock);
     for (int k = 0; k < x->count; ++k) {
-        const int bad = rate[k] <= 0, wild = st->x.diagnose && !gvi__finite(rate[k]);
-        if (bad || wild)
-            return gvi__report(st, bad ? GVI_E_CLOCK : GVI_E_NON_FINITE, st->x.clock,
-                               GVI_FAULT_NONE, k);
+        if (rate[k] <= 0) return gvi__report(st, GVI_E_CLOCK, st->x.clock, GVI_FAULT_NONE, k);
+        if (st->x.diagnose && !gvi__finite(rate[k]))
+            return gvi__report(st, GVI_E_NON_FINITE, st->x.clock, GVI_FAULT_NONE, k);
     }
-    return st->x.diagnose ? gvi__check_rows(st, x, slope, st->x.clock) : GVI_OK;
+    if (!st->x.diagnose) return GVI_OK;
+    return gvi__check_rows(st, x, slope, st->x.clock);
 }
 
 // g at one configuration; slope of length n gets dg/dq
@@ -3683,8 +3706,11 @@ static gvi_real gvi__sure_level(gvi_real level, gvi_real none, gvi_real slope, g
     const gvi_real limit = 1024*GVI__EPS*F, push = GVI_ABS(slope)*none, size = GVI_ABS(level);
     if (push <= limit) return level;
     if (push < 2*limit) none *= push/limit - 1;
-    const gvi_real sure = size <= none ? 0 : size < 2*none ? 2*(size - none) : size;
-    return level < 0 ? -sure : sure;
+    gvi_real sure = size;
+    if (size < 2*none) sure = 2*(size - none);
+    if (size <= none) sure = 0;
+    if (level < 0) return -sure;
+    return sure;
 }
 
 /* With a clock: forces first, for their power f'v; then all else, with values.  What it makes
@@ -3722,7 +3748,9 @@ static gvi_status gvi__evaluate_with_clock(gvi_stepper *st, const gvi__origin *f
     for (int i = 0; i < n; ++i)
         for (int k = 0; k < R; ++k) {
             const int at = i*R + k;
-            const gvi_real twice = (w->A ? w->P[at] + w->A[at] : w->P[at])*w->V[at];
+            gvi_real P = w->P[at];
+            if (w->A) P += w->A[at];
+            const gvi_real twice = P*w->V[at];
             level[k] += twice/2;
             noise[k] += GVI_ABS(twice)/2;
         }
@@ -5319,7 +5347,8 @@ GVI__COLD gvi_status gvi__clock_energy(gvi_stepper *st, gvi_real t, const gvi_re
 {
     const gvi_real later = t + (gvi_real)0.739085133215160642;
     const gvi_status status = gvi__hamiltonian(st, t, q, p, v, E);
-    for (int e = 0; status == GVI_OK && e < st->x.desc.effect_count; ++e) {
+    if (status != GVI_OK) return status;
+    for (int e = 0; e < st->x.desc.effect_count; ++e) {
         const gvi_kind kind = st->x.desc.effects[e].kind;
         gvi_real now = 0, then = 0;
         gvi_points y = gvi__one_point(st, &t, q);
@@ -5331,7 +5360,7 @@ GVI__COLD gvi_status gvi__clock_energy(gvi_stepper *st, gvi_real t, const gvi_re
         if (both == GVI_OK && gvi__nonzero(then - now))
             return gvi__report_effect(st, GVI_E_FORMULATION, e);
     }
-    return status == GVI_OK ? gvi__report_status(st, GVI_OK) : status;
+    return gvi__report_status(st, GVI_OK);
 }
 
 // from q, p in x->step and a velocity v, all of them seen to be good
@@ -5374,19 +5403,21 @@ GVI__COLD gvi_status gvi__check_start(gvi_stepper *st, gvi_real t, const gvi_rea
     if (ready != GVI_OK) return ready;
     if (!q || !w) return gvi__refuse_call(st, "q, v or p is NULL");
     if (!gvi__finite(t)) return gvi__refuse_call(st, "t is not finite");
-    const int i = gvi__first_non_finite(st->n, q), j = gvi__first_non_finite(st->n, w);
+    const int j = gvi__first_non_finite(st->n, w);
+    int i = gvi__first_non_finite(st->n, q);
     if (i < 0 && j < 0) return GVI_OK;
-    return st->status = gvi__refuse(&st->fault, GVI_FAULT_NONE,
-                                    j < 0 || (i >= 0 && i < j) ? i : j,
-                                    "q, v or p is not finite");
+    if (i < 0 || (j >= 0 && j < i)) i = j;
+    return st->status = gvi__refuse(&st->fault, GVI_FAULT_NONE, i, "q, v or p is not finite");
 }
 
 // p = dL/dv, of the kinetic energy and of Lagrangian terms where there are any, to x.point + 5n
 static gvi_status gvi__momentum(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
 {
     gvi_points y = gvi__one_point(st, &t, q);
+    unsigned skip = ~0u;
+    if (gvi__has(&st->x, GVI__HAS_LAGRANGIAN)) skip = 0;
     y.v = v;
-    return gvi__evaluate(st, &y, gvi__has(&st->x, GVI__HAS_LAGRANGIAN) ? 0 : ~0u, 1);
+    return gvi__evaluate(st, &y, skip, 1);
 }
 
 GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
@@ -5432,7 +5463,8 @@ GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_rea
     gvi_status status = gvi__check_start(st, t, q0, q1);
     // p0 is in step.q then
     if (status == GVI_OK) status = gvi_discrete_lagrangian(st, t, h, q0, q1, &out);
-    return status == GVI_OK ? gvi_start_momentum(st, t, q0, st->x.step.q) : status;
+    if (status != GVI_OK) return status;
+    return gvi_start_momentum(st, t, q0, st->x.step.q);
 }
 
 GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
@@ -5443,7 +5475,8 @@ GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
     if (index < 0 || index >= x->desc.effect_count)
         return gvi__refuse_call(st, "there is no such effect");
     const unsigned bit = 1u << index, was = x->off;
-    x->off = on ? was & ~bit : was | bit;
+    x->off = was | bit;
+    if (on) x->off = was & ~bit;
     // another energy, also at the start
     if (gvi__clock_is_on(st) && x->started && x->off != was) {
         gvi_real E, E0 = x->began.H, *v = x->result + st->n;
@@ -5451,7 +5484,10 @@ GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
         gvi_status status = gvi__clock_energy(st, st->t, st->q, st->p, v, &E);
         if (status == GVI_OK && x->stepped)
             status = gvi__hamiltonian(st, st->t0, x->began.q, x->began.p, v, &E0);
-        if (status != GVI_OK) return x->off = was, st->status = status;
+        if (status != GVI_OK) {
+            x->off = was;
+            return st->status = status;
+        }
         x->time.H = E;
         x->time.H_low = 0;
         x->began.H = E0;
@@ -5499,10 +5535,12 @@ GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const 
     x->kernel = kernel;
     x->skip = skip;
     gvi__hand_out(st, own);
-    // each goes round in 2 or 3
-    for (int k = 0; k < 6 && ((uintptr_t)x->work.F - (uintptr_t)own != F
-                              || (x->work.V && (uintptr_t)x->work.V - (uintptr_t)own != V)); ++k)
+    for (int k = 0; k < 6; ++k) {                 // each goes round in 2 or 3
+        const int F_fits = (uintptr_t)x->work.F - (uintptr_t)own == F,
+                  V_fits = !x->work.V || (uintptr_t)x->work.V - (uintptr_t)own == V;
+        if (F_fits && V_fits) break;
         gvi__rotate_values(st);
+    }
     return gvi__report_status(st, GVI_OK);
 }
 
@@ -5541,7 +5579,8 @@ static void gvi__curve_at(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_
     if (gvi__uses(x, GVI_EXPLICIT)) {               // a straight line
         for (int i = 0; i < n; ++i) {
             const gvi_real path = (x->state.q[i] - x->began.q[i]) + x->state.q_low[i];
-            q[i] = tau < (gvi_real)0.5 ? x->began.q[i] + tau*path : x->state.q[i] - (1 - tau)*path;
+            if (tau < (gvi_real)0.5) q[i] = x->began.q[i] + tau*path;
+            else q[i] = x->state.q[i] - (1 - tau)*path;
             v[i] = path/st->h;
         }
         return;
@@ -5550,23 +5589,37 @@ static void gvi__curve_at(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_
     gvi__modes(st, tau, a, b);
     gvi__zero((size_t)n, q);
     gvi__zero((size_t)n, v);
-    const gvi_real *modes = by_forces ? x->table.Phi : x->table.phi;
-    const gvi_real *weight = by_forces ? x->sized.hb : x->table.b,
-                   *rows = by_forces ? x->last.F : x->last.V;
-    // the sources at the points; then those of constraints, of which the first has Phi(d_0) = 0
-    const int held = GVI__CONSTRAINTS && by_forces && x->con.kept ? st->s : 0;
+    const gvi_real *modes = x->table.phi, *weight = x->table.b, *rows = x->last.V;
+    int held = 0;                                   // sources of constraints, behind the points
+    if (by_forces) {
+        modes = x->table.Phi;
+        weight = x->sized.hb;
+        rows = x->last.F;
+        if (GVI__CONSTRAINTS && x->con.kept) held = st->s;
+    }
     for (int j = 0; j < st->r + held; ++j) {
-        const int e = j - st->r;
-        const gvi_real *Phi = e < 0 ? modes + j : e > 0 ? x->con.Phi + e - 1 : NULL;
-        gvi_real S = 0, T = 0;
-        for (int k = 0; Phi && k < st->s; ++k) {
-            S += b[k]*Phi[k*R];
-            T += a[k]*Phi[k*R];
+        const gvi_real *Phi = modes + j, *source = rows + j;
+        gvi_real S = 0, T = 0, w = 0;
+        int stride = R;
+        if (j < st->r) w = weight[j];
+        else {
+            const int e = j - st->r;
+            Phi = x->con.Phi + e - 1;
+            source = x->con.last + e;
+            stride = x->con.C;
+            w = st->h*x->con.w[e];
         }
-        if (by_forces) S = tau - S, T = 1 - T;
+        if (j != st->r)                             // Phi(d_0) = 0
+            for (int k = 0; k < st->s; ++k) {
+                S += b[k]*Phi[k*R];
+                T += a[k]*Phi[k*R];
+            }
+        if (by_forces) {
+            S = tau - S;
+            T = 1 - T;
+        }
         for (int i = 0; i < n; ++i) {
-            const gvi_real L = e < 0 ? weight[j]*rows[i*R + j]
-                                     : st->h*x->con.w[e]*x->con.last[i*x->con.C + e];
+            const gvi_real L = w*source[i*stride];
             q[i] += S*L;
             v[i] += T*L;
         }
@@ -5595,7 +5648,9 @@ static void gvi__hand_over(int n, const gvi_real *from, gvi_real *to)
 static gvi_status gvi__stepped(gvi_stepper *st)
 {
     const gvi_status status = gvi__ready(st, st && st->x.started);
-    return status == GVI_OK && !st->x.stepped ? (st->status = GVI_E_STATE) : status;
+    if (status != GVI_OK) return status;
+    if (!st->x.stepped) return st->status = GVI_E_STATE;
+    return GVI_OK;
 }
 
 GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v)
@@ -5624,16 +5679,16 @@ GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
 static gvi_status gvi__partial_step(gvi_stepper *st, const gvi__origin *from, int query,
                                     gvi_real dt)
 {
+    if (!gvi__clock_is_on(st)) return gvi__solve(st, from, dt, query);
     struct gvi__private *x = &st->x;
-    const int clock = gvi__clock_is_on(st);
-    gvi_real h = clock ? st->h*(dt/(st->t - st->t0)) : dt, rate, *q = x->result;
-    gvi_real near_end = 0, far_end = query == GVI__FROM_END ? -st->h : st->h;
+    gvi_real h = st->h*(dt/(st->t - st->t0)), rate, *q = x->result;
+    gvi_real near_end = 0, far_end = st->h;
+    if (query == GVI__FROM_END) far_end = -st->h;
     // t did not move, or less than it should
-    if (clock && !(GVI_ABS(h) <= GVI_ABS(far_end))) h = far_end/2;
+    if (!(GVI_ABS(h) <= GVI_ABS(far_end))) h = far_end/2;
     for (int k = 0; k < 60; ++k) {
         gvi_status status = gvi__solve(st, from, h, query);
-        if (status != GVI_OK || !clock || GVI_ABS(x->dt - dt) <= 2*GVI__EPS*GVI_ABS(dt))
-            return status;
+        if (status != GVI_OK || GVI_ABS(x->dt - dt) <= 2*GVI__EPS*GVI_ABS(dt)) return status;
         if (GVI_ABS(x->dt) > GVI_ABS(dt)) far_end = h;
         else near_end = h;
         for (int i = 0; i < st->n; ++i) q[i] = from->q[i] + x->step.q[i];
@@ -5655,8 +5710,7 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
     const size_t n = (size_t)st->n;
     if (!gvi__finite(t)) return gvi__refuse_call(st, "t is not finite");
     gvi_real ahead = t - st->t0, back = t - st->t;        // one of each sign, or 0
-    const gvi_real largest = GVI_ABS(st->t) > GVI_ABS(st->t0) ? st->t : st->t0,
-                   edge = 2*GVI__EPS*GVI_ABS(largest);
+    const gvi_real edge = 2*GVI__EPS*gvi__larger(GVI_ABS(st->t), GVI_ABS(st->t0));
     if ((ahead > 0) == (back > 0) && gvi__nonzero(ahead) && gvi__nonzero(back)) {
         // outside by rounding, as st.t - st.h may be
         if (GVI_ABS(ahead) <= edge) t = st->t0;
@@ -5668,15 +5722,20 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
     if (gvi__clock_is_on(st) && x->stepped != 2) return st->status = GVI_E_STATE;
 
     // partial step of length h from the nearer end, or none for a rounding of the whole
-    const int end = GVI_ABS(back) <= GVI_ABS(ahead);
-    const gvi_real h = !end ? ahead : gvi__nonzero(back) ? back - st->t_low : 0;
-    const gvi__origin last = { st->t, st->t_low, st->q, st->q_low, st->p, st->p_low,
-                               x->time.H + x->time.H_low },
-        first = { st->t0, 0, x->began.q, x->zeros, x->began.p, x->zeros, x->began.H },
-        from = end ? last : first;
+    const gvi__origin end = { st->t, st->t_low, st->q, st->q_low, st->p, st->p_low,
+                              x->time.H + x->time.H_low };
+    gvi__origin from = { st->t0, 0, x->began.q, x->zeros, x->began.p, x->zeros, x->began.H };
+    gvi_real h = ahead;
+    int query = GVI__FROM_START;
+    if (GVI_ABS(back) <= GVI_ABS(ahead)) {
+        from = end;
+        query = GVI__FROM_END;
+        h = 0;
+        if (gvi__nonzero(back)) h = back - st->t_low;
+    }
     const gvi_formulation was = st->formulation;
     if (GVI_ABS(h) > GVI__EPS*(GVI_ABS(ahead) + GVI_ABS(back)))
-        status = gvi__partial_step(st, &from, end ? GVI__FROM_END : GVI__FROM_START, h);
+        status = gvi__partial_step(st, &from, query, h);
     else {
         gvi__copy(n, from.q_low, x->step.q);
         gvi__copy(n, from.p_low, x->step.p);
@@ -5706,19 +5765,22 @@ GVI__COLD gvi_status gvi__curve_action(gvi_stepper *st, const gvi__origin *from,
     struct gvi__private *x = &st->x;
     const int n = st->n, R = x->R;
     gvi_real V, L, T, *q = x->result, *v = q + n;
-    gvi_status status = GVI_OK;
     *action = 0;
-    for (int j = 0; j < st->r && status == GVI_OK; ++j) {
-        if (!from) gvi__curve_at(st, x->table.c[j], q, v);
-        for (int i = 0; from && i < n; ++i) {
-            q[i] = x->work.Q[i*R + j];
-            v[i] = x->work.V ? x->work.V[i*R + j] : (q1[i] - from->q[i])/h;
-        }
-        status =
-            gvi__value_sums(st, from ? x->t[j] : st->t0 + x->table.c[j]*st->h, q, v, &V, &L, &T);
-        if (status == GVI_OK) *action += x->sized.hb[j]*(T - V + L);
+    for (int j = 0; j < st->r; ++j) {
+        gvi_real t = st->t0 + x->table.c[j]*st->h;
+        if (from) {
+            t = x->t[j];
+            for (int i = 0; i < n; ++i) {
+                q[i] = x->work.Q[i*R + j];
+                if (x->work.V) v[i] = x->work.V[i*R + j];
+                else v[i] = (q1[i] - from->q[i])/h;           // a chord
+            }
+        } else gvi__curve_at(st, x->table.c[j], q, v);
+        const gvi_status status = gvi__value_sums(st, t, q, v, &V, &L, &T);
+        if (status != GVI_OK) return status;
+        *action += x->sized.hb[j]*(T - V + L);
     }
-    return status;
+    return GVI_OK;
 }
 
 GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action)
@@ -5745,9 +5807,8 @@ GVI__COLD gvi_status gvi__chord(gvi_stepper *st, const gvi__origin *from, gvi_re
     struct gvi__private *x = &st->x;
     const int n = st->n, R = x->R;
     gvi_real *q = x->result, *v = q + n;
-    gvi_status status = GVI_OK;
     gvi__zero((size_t)n, p);
-    for (int j = 0; j < R && status == GVI_OK; ++j) {
+    for (int j = 0; j < R; ++j) {
         for (int i = 0; i < n; ++i) {
             v[i] = (q1[i] - from->q[i])/h;
             q[i] = x->work.Q[i*R + j] = from->q[i] + x->table.c[j]*(q1[i] - from->q[i]);
@@ -5757,14 +5818,15 @@ GVI__COLD gvi_status gvi__chord(gvi_stepper *st, const gvi__origin *from, gvi_re
         gvi_points y = gvi__one_point(st, x->t + j, q);
         y.v = v;
         x->diagnose = 1;
-        status = gvi__evaluate(st, &y, 0, 1);
+        const gvi_status status = gvi__evaluate(st, &y, 0, 1);
         x->diagnose = 0;
+        if (status != GVI_OK) return status;
         for (int i = 0; i < n; ++i) {
             x->work.F[i*R + j] = y.f[i];
             p[i] += x->table.b[j]*y.dldv[i];
         }
     }
-    return status;
+    return GVI_OK;
 }
 
 /* Newton's method for a curve of length h from that of length h/grow at hand: the same polynomial
@@ -5786,16 +5848,19 @@ GVI__COLD gvi_status gvi__bend(gvi_stepper *st, const gvi__origin *from, gvi_rea
         gvi__fit(st, st->r, x->table.c, x->table.c, 0, grow, 1, x->sized.E);
         gvi__newton_modes(st, x->work.V, x->work.P);
     }
-    for (int k = n; J->k0 && k < st->s*n; ++k) y[k] *= grow;
+    if (J->k0)
+        for (int k = n; k < st->s*n; ++k) y[k] *= grow;
     gvi__weights_for(st, h);
     gvi__times(x->R, from->t, 0, h, x->table.c, x->t);
-    for (int k = bow ? -1 : 0; k < 2; ++k) {
+    for (int k = -bow; k < 2; ++k) {
         gvi_status status = gvi__newton_values(st, from);
         if (status != GVI_OK) return status;
         gvi__residual(st, from, J->k0, &p);
-        for (int i = 0; k < 0 && i < n; ++i) length += GVI_ABS(y[i])/x->watch.scale[i];
-        for (int i = 0; k < 0 && i < n; ++i) y[n + i] = length*x->watch.scale[i]/2;
-        if (k < 0) continue;
+        if (k < 0) {
+            for (int i = 0; i < n; ++i) length += GVI_ABS(y[i])/x->watch.scale[i];
+            for (int i = 0; i < n; ++i) y[n + i] = length*x->watch.scale[i]/2;
+            continue;
+        }
         if (k == 0) status = gvi__jacobian(st, J);
         if (status != GVI_OK) return status;
         gvi_lu_solve(size, J->square, J->pivot, x->newton.dy);
@@ -5806,7 +5871,8 @@ GVI__COLD gvi_status gvi__bend(gvi_stepper *st, const gvi__origin *from, gvi_rea
         before = change;
     }
     if (*bent > (gvi_real)0.25) return gvi__report_status(st, GVI_E_CONVERGENCE);
-    return last ? gvi__newton_solve(st, from, J) : GVI_OK;
+    if (!last) return GVI_OK;
+    return gvi__newton_solve(st, from, J);
 }
 
 /* The motion from q0 with velocity v, in pieces of length h, followed until it leaves q1, by M_ii,
@@ -5816,13 +5882,13 @@ GVI__COLD gvi_real gvi__aim(gvi_stepper *st, const gvi__origin *from, gvi_real h
                             int pieces, gvi_real *bent, gvi_status *status)
 {
     struct gvi__private *x = &st->x;
-    gvi_real last = GVI__MAX, at = 0;
+    gvi_real last = GVI__MAX, at = 0, grow = 1;
     gvi__copy((size_t)st->n, v, x->newton.y);
     for (int k = 1; k <= pieces*3/2; ++k) {
-        const gvi_real grow = k == 1 ? 1 : (gvi_real)k/(gvi_real)(k - 1);
         gvi_real miss = 0;
         at = h*(gvi_real)k;
         *status = gvi__bend(st, from, at, grow, J, 0, 0, bent);
+        grow = (gvi_real)(k + 1)/(gvi_real)k;
         for (int i = 0; i < st->n; ++i) {
             const gvi_real d = (from->q[i] + at*x->newton.y[i] - q1[i])/x->watch.scale[i];
             miss += d*d;
@@ -5845,17 +5911,22 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
     const gvi__matrix motion = { J->square, J->pivot, NULL, 0, 0, 0 };
     gvi_real *y = x->newton.y, *end = x->step.q_low;
     gvi_status bowed = GVI_E_NON_FINITE;
-    int left = v ? 1000 : 2 + x->desc.max_iterations*2/3;         // pieces, in all
-
-    // whoever asks for the index judges for himself: straight from the chord
-    for (int halves = 0; any && !v && halves < 2; ++halves) {
-        const gvi__matrix plain = { J->square, J->pivot, J->ends, 1, 0, halves };
-        gvi__zero((size_t)(st->s*n), y);
-        for (int i = 0; i < n; ++i) y[i] = (q1[i] - from->q[i])/h;
-        *status = gvi__newton_solve(st, from, &plain);
-        if (*status == GVI_OK || halves) return 0;
+    int first = 0, left = 2 + x->desc.max_iterations*2/3;         // pieces, in all
+    if (v) {
+        first = 4;
+        left = 1000;
+    } else if (any) {
+        // whoever wants the index judges for himself: straight from the chord, then with halving
+        for (int halves = 0; halves < 2; ++halves) {
+            const gvi__matrix plain = { J->square, J->pivot, J->ends, 1, 0, halves };
+            gvi__zero((size_t)(st->s*n), y);
+            for (int i = 0; i < n; ++i) y[i] = (q1[i] - from->q[i])/h;
+            *status = gvi__newton_solve(st, from, &plain);
+            if (*status == GVI_OK) break;
+        }
+        return 0;
     }
-    for (int attempt = v ? 4 : 0; attempt < 9 && left > 0; ++attempt) {
+    for (int attempt = first; attempt < 9; ++attempt) {
         const int pieces = 1 << attempt >> (attempt > 0), linear = attempt == 0;
         gvi_real bent = 0, at = 0;
         *status = GVI_OK;
@@ -5863,21 +5934,25 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
         if (v)
             at = gvi__aim(st, from, h/(gvi_real)pieces, q1, v, &motion, pieces, &bent, status);
         gvi__copy((size_t)n, y, end);
-        for (int k = 1; k <= pieces && *status == GVI_OK; ++k) {
+        for (int k = 1; k <= pieces; ++k) {
             const gvi_real part = (gvi_real)k/(gvi_real)pieces, length = at + part*(h - at),
                            last = length - (h - at)/(gvi_real)pieces;
+            gvi_real grow = 1;
+            if (*status != GVI_OK) break;
             for (int i = 0; i < n; ++i) {
-                const gvi_real way = q1[i] - from->q[i];
-                y[i] = (v && k < pieces ? part*way + (1 - part)*at*end[i] : way)/length;
+                gvi_real way = q1[i] - from->q[i];
+                if (v && k < pieces) way = part*way + (1 - part)*at*end[i];
+                y[i] = way/length;
             }
             if (left-- == 0) *status = gvi__report_status(st, GVI_E_CONVERGENCE);
-            const gvi_real grow = v ? last/length : k > 1 ? length/last : 1;
+            if (v) grow = last/length;
+            else if (k > 1) grow = length/last;
             if (*status == GVI_OK)
                 *status = gvi__bend(st, from, length, grow, J, k == pieces, linear, &bent);
         }
         if (*status == GVI_OK && (!linear || bent < (gvi_real)0.015625)) return linear;
         if (linear) bowed = *status;
-        if (*status == GVI_E_NON_FINITE && x->diagnose) break;
+        if ((*status == GVI_E_NON_FINITE && x->diagnose) || left <= 0) break;
     }
     // there is nothing wrong with the effects, but with the chord
     if (*status == GVI_E_NON_FINITE && bowed != GVI_E_NON_FINITE) *status = GVI_E_CONJUGATE;
@@ -5898,28 +5973,45 @@ static void gvi__exchange(size_t n, gvi_real *a, size_t i, size_t j)
 GVI__COLD int gvi__count_negative(size_t n, gvi_real *a)
 {
     int count = 0;
-    for (size_t k = 0, width = 1; k < n; k += width) {
+    for (size_t k = 0; k < n; ) {
+        // the largest entry on the diagonal, (p,p), and beside it, (r,q)
         size_t p = k, q = k, r = k;
         gvi_real diagonal = -1, off = -1;
         for (size_t i = k; i < n; ++i) {
-            if (GVI_ABS(a[i*n + i]) > diagonal) diagonal = GVI_ABS(a[i*n + i]), p = i;
+            if (GVI_ABS(a[i*n + i]) > diagonal) {
+                diagonal = GVI_ABS(a[i*n + i]);
+                p = i;
+            }
             for (size_t j = k; j < i; ++j)
-                if (GVI_ABS(a[i*n + j]) > off) off = GVI_ABS(a[i*n + j]), q = j, r = i;
+                if (GVI_ABS(a[i*n + j]) > off) {
+                    off = GVI_ABS(a[i*n + j]);
+                    q = j;
+                    r = i;
+                }
         }
-        const int two = !(diagonal >= (gvi_real)0.6404*off);
-        width = two ? 2 : 1;
-        if (!two && !(diagonal > 0)) break;
-        gvi__exchange(n, a, k, two ? q : p);
-        if (two) gvi__exchange(n, a, k + 1, r == k ? q : r);        // k has just gone to q
-        count += two || a[k*n + k] < 0;
-        const gvi_real d = a[k*n + k], e = two ? a[(k + 1)*n + k] : 0,
-                       f = two ? a[(k + 1)*n + k + 1] : 1;
-        for (size_t i = k + width; i < n; ++i) {
-            const gvi_real x = a[i*n + k], y = two ? a[i*n + k + 1] : 0, det = d*f - e*e;
+        const gvi_real *top = a + k*n, *next = top + n;
+        if (diagonal >= (gvi_real)0.6404*off) {   // a block of 1
+            if (!(diagonal > 0)) break;
+            gvi__exchange(n, a, k, p);
+            count += top[k] < 0;
+            for (size_t i = k + 1; i < n; ++i) {
+                const gvi_real u = a[i*n + k]/top[k];
+                for (size_t j = k + 1; j < n; ++j) a[i*n + j] -= u*top[j];
+            }
+            k += 1;
+            continue;
+        }
+        gvi__exchange(n, a, k, q);
+        if (r == k) r = q;                        // k has just gone to q
+        gvi__exchange(n, a, k + 1, r);
+        count += 1;
+        const gvi_real d = top[k], e = next[k], f = next[k + 1], det = d*f - e*e;
+        for (size_t i = k + 2; i < n; ++i) {
+            const gvi_real x = a[i*n + k], y = a[i*n + k + 1];
             const gvi_real u = (f*x - e*y)/det, v = (d*y - e*x)/det;          // the block's inverse
-            for (size_t j = k + width; j < n; ++j)
-                a[i*n + j] -= u*a[k*n + j] + (two ? v*a[(k + 1)*n + j] : 0);
+            for (size_t j = k + 2; j < n; ++j) a[i*n + j] -= u*top[j] + v*next[j];
         }
+        k += 2;
     }
     return count;
 }
@@ -5960,11 +6052,12 @@ GVI__COLD gvi_status gvi__interior(gvi_stepper *st, const gvi__origin *from, gvi
     const int n = st->n, size = (st->s - 1)*n;
     if (size == 0) return gvi__chord(st, from, h, q1, p);
     int linear = 0;
-    gvi_status status = GVI_E_NON_FINITE;         // once more to see why, as in gvi__solve
-    for (int look = 0; look < 2 && status == GVI_E_NON_FINITE; ++look) {
+    gvi_status status = GVI_OK;
+    for (int look = 0; look < 2; ++look) {        // once more to see why, as in gvi__solve
         x->diagnose = look;
         linear = gvi__follow(st, from, h, q1, out->guess, out->negative != NULL, J, &status);
         x->diagnose = 0;
+        if (status != GVI_E_NON_FINITE) break;
     }
     if (status != GVI_OK && status != GVI_E_CONVERGENCE) return status;
     if (out->negative || (!out->guess && !linear)) {
@@ -5975,8 +6068,8 @@ GVI__COLD gvi_status gvi__interior(gvi_stepper *st, const gvi__origin *from, gvi
     J->scaled = 1;
     const gvi_status second = gvi__jacobian(st, J);
     if (second != GVI_OK) return second;
-    const int exact = gvi__mass_is_constant(x) && !gvi__with_hessian(x, 0);
-    const gvi_real error = 16*(exact ? GVI__EPS : GVI_SQRT(GVI__EPS));
+    gvi_real error = 16*GVI_SQRT(GVI__EPS);       // that of differences
+    if (gvi__mass_is_constant(x) && !gvi__with_hessian(x, 0)) error = 16*GVI__EPS;
     if (gvi_lu_rcond(size, J->square, J->pivot, x->newton.moved) < error) status = GVI_E_CONJUGATE;
     for (int i = 0; i < n; ++i) p[i] = gvi__dot(st->r, x->table.b, x->work.P + i*x->R);
     return status;
