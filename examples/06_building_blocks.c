@@ -1,8 +1,9 @@
 /* 06 - The building blocks alone: quadrature, interpolation, linear equations
 
-   What the stepper is made of is public and useful by itself: Gauss and Lobatto
-   rules with any number of points, barycentric interpolation through any nodes,
-   dense LU with an estimate of the condition.
+   Public, and useful by themselves: Gauss and Lobatto rules with any number of
+   points and dense LU with an estimate of the condition, which the stepper uses,
+   too; and barycentric interpolation through any nodes, which it replaces by
+   Legendre modes of the velocity.  39_by_hand.c builds an integrator from all three.
 
    prints
 
