@@ -52,6 +52,20 @@
    again takes its whole cost away.
 
 
+   QUICK NOTES          (enough for most programs)
+
+     describe    gvi_desc: n and the effects; all else has a default, degree 8
+     effect      one row for each thing that acts.  GVI_POTENTIAL reads t and q,
+                 GVI_FORCE also v (friction, motors), GVI_LAGRANGIAN adds to L
+                 (magnetic fields), GVI_CONSTRAINT holds g = 0 (rods, joints)
+     memory      gvi_size(&desc) bytes, or an array of GVI_LENGTH(n, s, r) numbers
+     run         gvi_init once; gvi_start with q and v; gvi_step(&st, h) as often
+                 as you like, an eighth of the fastest period being a good h
+     read        st.t, st.q, st.p; gvi_velocity, gvi_energy; gvi_state_at between steps
+     status      0, or negative, kept in st.status; a step that fails changes nothing
+     angles      their mass depends on q: desc.mass.kind = GVI_MASS_POSITION
+
+
    CONTENTS             (search for the names)
 
      CONVENTIONS          memory, threads, errors, arrays, units, rounding
@@ -104,10 +118,10 @@
               between 1e-290 and 1e299 (float: 1e-30 and 1e34), beyond which
               their low words depend on FMA.
    work       Bounded: docs/embedded.md has the bound, `make bound` counts it.
-   converged  A step ends when every coordinate has converged by its own size,
-              whatever else the scene holds.  A coordinate that does not, since
-              large forces cancel in it, may be taken for rounding below
-              32 eps of the largest |q_i|, each times sqrt(M_ii).
+   converged  A step ends when every coordinate has converged, each measured by
+              its own size.  Where large forces cancel, a coordinate may never
+              settle: its changes then count as rounding below 32 eps of the
+              largest |q_i| sqrt(M_ii).
 
    gvi.h does not: choose or adapt the step, treat contact, run in parallel, or
    read or write anything.
@@ -204,9 +218,9 @@
      momenta      M(q), or velocity from momentum given, and r = s: (5)
      Newton       anything: (1) by Newton's method, dense LU of size s*n
 
-   The fixed points contract like (h omega)^2 or h omega; where they do not,
-   GVI_AUTO goes over to Newton.  All solve the same equations, and all stop at
-   rounding.
+   Each iteration of a fixed point makes the error smaller by about (h omega)^2
+   (positions) or h omega, omega the fastest frequency.  Where that is no gain,
+   GVI_AUTO goes over to Newton.  All solve the same equations, to rounding.
 
    CONSTRAINTS.  Effects g(t,q) = 0 hold at Lobatto's s + 1 points d_e of the step, weights
    w_e, where their multipliers act; Lagrangian and forces stay at the rule's own [8], [9]:
@@ -223,21 +237,34 @@
 
      V_i = g v        F_i = g (dL/dq + f) - dg/dq (H - E)        t' = g
 
-   with v = M^-1 p as before.  E is what the energy was at the start, plus the
-   work of forces, so every potential and Lagrangian term needs its value; and
-   none of them may depend on t: what does is to be listed as a force (a value that
-   changes with t is refused at the start, GVI_E_FORMULATION).  Without a mass it
-   needs mass.velocity.
+   with v = M^-1 p as before.  E is the energy at the start plus the work of forces,
+   so every potential and Lagrangian term needs its value.  None of them may depend
+   on t: list what does as a force (a value that changes with t is refused at the
+   start, GVI_E_FORMULATION).  Without a mass it needs mass.velocity.
 
    Order.  |q1 - exact| = O(h^(min(2s,u)+1)) a step: twice the degree, which
    is the superconvergence theorem [2, thm. 4.1].  It holds for u >= 2s - 2; a
    weaker rule does not see its highest modes properly, and their error enters
    squared: order min(u, 2(u-s+1)) is what the tests find.  The curve in between
-   is less exact, min(s, u - s + 1) + 1 in the maximum norm [2, sec. 5].  r < s or
-   u < s cannot work: a mode without kinetic energy, or free motion not exact.
+   is less exact, min(s, u - s + 1) + 1 in the maximum norm [2, sec. 5].  r < s and
+   u < s are refused: with too few points one mode has no kinetic energy, and with
+   too low an order not even free motion is exact.
 
    NOTATION       n degrees of freedom   s degree   r points   h step
                   q, v, p, t, F, P, V, Q, c, b, S, T, N   as above
+
+   GLOSSARY       point         a quadrature node: where in the step effects are evaluated
+                  stage values  Q, V, P, F at the points of a step
+                  modes         y_k, the Legendre coefficients of the curve's velocity
+                  iteration     one pass of the fixed point, or one of Newton's corrections
+                  predictor     the stage values an iteration starts from, extrapolated
+                  increments    dq, dp, dt: what a step adds to the state
+                  compensation  the low word of a number: what rounding took from it
+                  multiplier    lambda: how hard a constraint pulls
+                  commit        the end of a step that succeeded: the state moves on
+                  query         a question that leaves later steps as they are, to the bit
+                  explicit      without iteration
+                  symplectic    dp ^ dq is conserved, which keeps energy errors bounded
    REFERENCES
    [1] Marsden, West: Discrete mechanics and variational integrators, 2001
    [2] Ober-Bloebaum, Vermeeren: Superconvergence of Galerkin variational
@@ -347,8 +374,8 @@ typedef enum gvi_status {
     GVI_E_SINGULAR    = -7,  /* singular matrix: massless coordinate (fault.coordinate), or a
                                 constraint that depends on the others (fault.effect, its row
                                 in fault.coordinate)                                */
-    GVI_E_CONVERGENCE = -8,  /* no solution found: halve h.  If no h works, a force jumps,
-                                is noisy, or has a wrong derivative                 */
+    GVI_E_CONVERGENCE = -8,  /* no solution found: halve h.  If that never helps, a force
+                                jumps or is noisy, or a derivative is wrong         */
     GVI_E_CALLBACK    = -9,  /* a callback failed, it did not return 0 (fault.effect): halve h */
     GVI_E_NON_FINITE  = -10, /* NaN or Inf came out of an effect (fault.effect)         */
     GVI_E_VALUE       = -11, /* energy or action wanted, or a clock on, but fault.effect
@@ -363,9 +390,9 @@ typedef enum gvi_status {
 
 /* What a callback gets: `count` points.  Coordinate i of point k is at [i*stride + k].  Inputs that
    the callback's kind may not read, and outputs that its kind does not have, are NULL.  Outputs do
-   not overlap the inputs or each other; "add" is +=, to what other effects have added.  From count
-   to stride rows are padded with t and q of the start of the step and any v and p, so a callback
-   may loop to stride.  What it computes there is ignored, be it NaN.                          */
+   not overlap the inputs or each other; "add" is +=, to what other effects have added.  Rows are
+   padded from count to stride, with t and q of the start of the step and any v and p, so a callback
+   may loop to stride; what it computes in the padding is ignored, even if it is NaN.          */
 typedef struct gvi_points {
     int             n;         /* degrees of freedom                           */
     int             count;     /* points in this call, >= 1                    */
@@ -392,9 +419,9 @@ typedef struct gvi_points {
 typedef int gvi_points_fn(const gvi_points *x, void *user);
 
 /* The same from what happens at one point.  GVI_POINTS(name, n, ...) stands for `static int name`;
-   n is a constant; the list names the arrays in use, but t and q: v, p, f, dldv, and one of value,
-   mass, velocity; or rows(m), m a constant, for the g, jacobian and rate of m constraints.
-   With f and value, `name` serves as points and as value.
+   n is a constant.  The list names the arrays that the body uses (t and q are always there): v, p,
+   f, dldv, and one of value, mass, velocity; or rows(m), m a constant, for the g, jacobian and
+   rate of m constraints.  With f and value, `name` serves as points and as value.
 
      GVI_POINTS(drag, 2, v, f)(const gvi_points *x, void *user)
      {
@@ -511,10 +538,10 @@ typedef enum gvi_mass_kind {
     GVI_MASS_NONE     = 4   /* all of it comes from Lagrangian terms            */
 } gvi_mass_kind;
 
-/* The kinetic energy.  M need not be definite: no leading minor may be 0 (dense, M(q)), no m_i
-   (diagonal).  Where M(q) is singular, as at the pole of Euler's angles (gimbal lock), a step that
-   comes there ends in GVI_E_SINGULAR; one that would leap over it may be wrong with GVI_OK.
-   matrix is read by gvi_init only.                                                            */
+/* The kinetic energy.  M need not be definite, but no leading minor may be 0 (dense, M(q)), nor any
+   m_i (diagonal).  M(q) may be singular somewhere, as at the pole of Euler's angles (gimbal lock).
+   A step with a point there ends in GVI_E_SINGULAR; a step that passes over it without a point
+   there may be wrong, and says GVI_OK.  matrix is read by gvi_init only.                      */
 typedef struct gvi_mass {
     gvi_mass_kind   kind;
     const gvi_real *matrix;
@@ -575,9 +602,9 @@ typedef struct gvi_desc {
     int               max_iterations;  /* to 1,000,000.  0: 60                 */
     int               iterations;      /* N: exactly N iterations in every step, for a loop with
                                           a deadline; never Newton.  A step fails unless its last
-                                          change is rounding, or less than half of that two
-                                          iterations before (N = 2: less than the first).  N = 1
-                                          has no such test: see counters.worst_change.
+                                          change is rounding, or less than half of the change two
+                                          iterations before (N = 2: less than the first change).
+                                          N = 1 has no such test: see counters.worst_change.
                                           0: as many as it takes               */
 } gvi_desc;
 
@@ -736,8 +763,8 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
 
 /* Start at time t from velocities, momenta, or two configurations: q0 at t and
    q1 at t + h (solves the boundary-value problem; conjugate points: below; no constraints).
-   A start that is off a constraint by more than 4096 roundings, of v in units of the root of all
-   kinetic energy: GVI_E_CONSTRAINT.                                           */
+   GVI_E_CONSTRAINT where q or v is off a constraint: q by more than 4096 roundings of g, v if what
+   G v + dg/dt = 0 takes from it holds more than (4096 eps)^2 of the kinetic energy.           */
 GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v);
 GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                       const gvi_real *p);
