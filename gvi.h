@@ -113,10 +113,10 @@
               coordinate; no tolerance or test of the library depends on them.
    rounding   Round to nearest, subnormals kept; -ffast-math is refused.
               q, p and t carry compensation terms, so 1e9 steps of t + h are
-              as exact as one.  Same bits on every IEEE machine but x87 when compiled
-              with -ffp-contract=off, as far as callbacks do, and products stay
-              between 1e-290 and 1e299 (float: 1e-30 and 1e34), beyond which
-              their low words depend on FMA.
+              as exact as one.  Compiled with -ffp-contract=off, the same bits on
+              every IEEE machine but x87, if the callbacks give the same bits and
+              products stay between 1e-290 and 1e299 (float: 1e-30 and 1e34);
+              beyond, their low words depend on FMA.
    work       Bounded: docs/embedded.md has the bound, `make bound` counts it.
    converged  A step ends when every coordinate has converged, each measured by
               its own size.  Where large forces cancel, a coordinate may never
