@@ -1,4 +1,4 @@
-/* The theorems of docs/theorems.md, the part of them that fits in seconds.  The
+/* The theorems of docs/theory.md, the part of them that fits in seconds.  The
    measurements are those of the studies in tests/theorems/, whose headers say what
    the expected values are and why they owe nothing to gvi.h.
 
