@@ -4,7 +4,8 @@
    Computes how mechanical systems move: M q'' = -dV/dq + f, or any Lagrangian
    L(t,q,v) with forces f(t,q,v).  Steps conserve momenta to rounding, are
    symplectic, and do not let the energy of a conservative system drift.  The
-   order is min(2s, u): polynomials of degree s, a quadrature rule of order u.
+   order is min(2s, u): polynomials of degree s, a quadrature rule of order
+   u >= 2s - 2, as Gauss's and Lobatto's are.
    One file, C99 or C++11, no dependency but libm, no heap, no globals.
 
    In ONE source file:          #define GVI_IMPLEMENTATION
@@ -226,9 +227,10 @@
    w_e, where their multipliers act; Lagrangian and forces stay at the rule's own [8], [9]:
    h sum_i b_i L(t_i, Q_i, V_i) + h sum_e w_e lambda_e . g(q(d_e h)) is stationary.  The
    step ends on g = 0 and on the hidden constraint G v + dg/dt = 0, G = dg/dq.  q and p are
-   of order min(2s, u), symplectic on the constraint manifold; degree 1 with Lobatto's two
-   points is RATTLE.  G must have full rank; second derivatives are not needed.  Positions,
-   velocities and momenta solve for lambda within the iteration (equations: CONSTRAINTS).
+   of order min(2s, u) for u >= 2s - 2, symplectic on the constraint manifold; degree 1 with
+   Lobatto's two points is RATTLE.  G must have full rank; second derivatives are not needed.
+   Positions, velocities and momenta solve for lambda within the iteration (equations:
+   CONSTRAINTS).
 
    CLOCK.  An effect g(q) > 0 makes time run as dt = g dtau, and h is a step in
    tau: t moves fast or slow, and the map is as symplectic as with fixed steps
@@ -243,10 +245,10 @@
    start, GVI_E_FORMULATION).  Without a mass it needs mass.velocity.
 
    Order.  |q1 - exact| = O(h^(min(2s,u)+1)) a step: twice the degree, which
-   is the superconvergence theorem [2, thm. 4.1].  It holds for u >= 2s - 2; a
-   weaker rule does not see its highest modes properly, and their error enters
-   squared: order min(u, 2(u-s+1)) is what the tests find.  The curve in between
-   is less exact, min(s, u - s + 1) + 1 in the maximum norm [2, sec. 5].  r < s and
+   is the superconvergence theorem [2, thm. 4.1].  It needs u >= 2s - 2: a weaker
+   rule does not see its highest modes properly, and their error enters squared,
+   which leaves order min(u, 2(u-s+1)) (docs/theory.md).  The curve in between is
+   less exact, min(s, u - s + 1) + 1 in the maximum norm [2, sec. 5].  r < s and
    u < s are refused: with too few points one mode has no kinetic energy, and with
    too low an order not even free motion is exact.
 

@@ -175,28 +175,37 @@ static MAYBE int fermi_pasta_ulam_forces(const gvi_points *x, void *user)
     return 0;
 }
 
-/* max |M'JM - J|, J = (0 1; -1 0) in blocks of 2, of the derivative M of a map x = (q, p) -> y, by central
-   differences of order 8.  Maps vary over lengths of about 1/4; with the distance eps^(1/9)/4, truncation and
-   rounding are both of the size of some eps^(8/9).                                                          */
-static MAYBE real symplectic_defect(void (*map)(const void *what, const real *x, real *y), const void *what,
-                                    const real *start, real eps)
+/* M_ij = dy_i/dx_j, m by n, of a map x -> y from n numbers to m, by central differences of order 8.  Maps vary over
+   lengths of about 1/4; with the distance eps^(1/9)/4, truncation and rounding are both of the size of some eps^(8/9). */
+enum { MAP_MOST = 5 };
+typedef void map_fn(const void *what, const real *x, real *y);
+
+static MAYBE void derivative(map_fn *map, const void *what, int n, int m, const real *start, real eps, real *M)
 {
     static const real weight[4] = { (real)4/5, -(real)1/5, (real)4/105, -(real)1/280 };
     const real delta = pow(eps, 1/(real)9)/4;
-    real M[4][4] = { { 0 } }, worst = 0;
-    for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < m*n; ++i) M[i] = 0;
+    for (int j = 0; j < n; ++j)
         for (int k = 1; k <= 4; ++k) {
-            real x[4] = { start[0], start[1], start[2], start[3] }, up[4], down[4];
+            real x[MAP_MOST], up[MAP_MOST], down[MAP_MOST];
+            for (int i = 0; i < n; ++i) x[i] = start[i];
             x[j] = start[j] + (real)k*delta;
             map(what, x, up);
             x[j] = start[j] - (real)k*delta;
             map(what, x, down);
-            for (int i = 0; i < 4; ++i) M[i][j] += weight[k - 1]*(up[i] - down[i])/delta;
+            for (int i = 0; i < m; ++i) M[i*n + j] += weight[k - 1]*(up[i] - down[i])/delta;
         }
+}
+
+/* max |M'JM - J|, J = (0 1; -1 0) in blocks of 2, of the derivative M of a map x = (q, p) -> y */
+static MAYBE real symplectic_defect(map_fn *map, const void *what, const real *start, real eps)
+{
+    real M[16], worst = 0;
+    derivative(map, what, 4, 4, start, eps, M);
     for (int j = 0; j < 4; ++j)
         for (int k = 0; k < 4; ++k) {
             real sum = k == j + 2 ? -1 : j == k + 2 ? 1 : 0;
-            for (int i = 0; i < 2; ++i) sum += M[i][j]*M[i + 2][k] - M[i + 2][j]*M[i][k];
+            for (int i = 0; i < 2; ++i) sum += M[4*i + j]*M[4*i + 8 + k] - M[4*i + 8 + j]*M[4*i + k];
             if (!(fabs(sum) <= worst)) worst = fabs(sum);                  // keeps NaN
         }
     return worst;

@@ -167,8 +167,8 @@ mutants: | $(FIRST)
 # -- hard cases and theorems, measured
 
 HARD     = constraints constraints-float eccentric flyby roots eccentric-float pythagorean corners corners-float stiff long long-float brouwer brouwer-float drift
-ORDERS   = order lagrangian curve forced
-THEOREMS = spectral inertia stability
+ORDERS   = order counterexample lagrangian curve forced
+THEOREMS = spectral inertia stability modified
 # Orders need more digits than long double has on x86.
 $(BUILD)/theorems/orders: TESTFLAGS += $(shell CC='$(CC)' sh tests/theorems/quad.sh)
 SEED =
@@ -187,7 +187,7 @@ $(HARD:%=hard-%): hard-%: $(BUILD)/hard/%
 	$(Q)mkdir -p $(PICTURES)
 	$(STEP) $@ $< $(if $(filter stiff,$*),$(PICTURES)) $(if $(filter brouwer% drift,$*),$(SEED))
 
-#: theorems     docs/theorems.md measured again, with its pictures (a few minutes); one: make theorem-curve
+#: theorems     docs/theory.md measured again, with its pictures (a few minutes); one: make theorem-curve
 theorems: $(ORDERS:%=theorem-%) $(THEOREMS:%=theorem-%)
 $(ORDERS:%=theorem-%): theorem-%: $(BUILD)/theorems/orders
 	$(Q)mkdir -p $(PICTURES)

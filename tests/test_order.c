@@ -215,9 +215,7 @@ TEST(the_state_inside_a_step_has_the_full_order)
     for_all(ALL_PARTS, ALL_PARTS, expect_order_inside);
 }
 
-/* A rule of the caller and its order u by the textbook */
-typedef struct { const char *name; int r, u; real c[7], b[7]; } own_rule;
-
+/* Rules of the caller, and their order u by the textbook */
 #define ROOT6 2.44948974278317809819728407470589139196594748L
 
 static const own_rule own[] = {
@@ -233,16 +231,6 @@ static const own_rule own[] = {
                           { 41/840.0L, 216/840.0L, 27/840.0L, 272/840.0L, 27/840.0L, 216/840.0L, 41/840.0L } },
 };
 
-/* min(2s, u), as long as u >= 2s - 2.  A rule that is weaker than that lets the
-   top modes of the curve go wrong, and they take their share of the order: the
-   stages of (3) satisfy the simplifying conditions C(u-s) and D(s) of Runge-Kutta
-   theory, which give 2(u-s) + 2.                                             */
-static int order_with_rule(int s, int u)
-{
-    int order = min_int(2*s, u);
-    return u < 2*s - 2 ? min_int(order, 2*u - 2*s + 2) : order;
-}
-
 TEST(rules_of_the_caller_have_the_order_that_theory_says)
 {
     static const int which[] = { 0, 1, 2, ALL_PARTS };
@@ -251,7 +239,7 @@ TEST(rules_of_the_caller_have_the_order_that_theory_says)
     for (int s = 1; s <= min_int(own[k].r, 6); ++s)
     for (int i = 0; i < COUNT(which); ++i) {
         const method m = { s, { GVI_OWN, own[k].r, own[k].c, own[k].b } };
-        real order = (real)order_with_rule(s, own[k].u);
+        real order = (real)order_expected(s, own[k].u);
         expect_slope(own[k].name, &sets[which[i]], &m, end_error, order, order);
         order = (real)(min_int(s, own[k].u - s + 1) + 1);
         expect_slope(own[k].name, &sets[which[i]], &m, curve_error, order, order);

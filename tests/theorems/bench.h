@@ -4,7 +4,7 @@
 #ifndef BENCH_H
 #define BENCH_H
 
-#include "reference.h"
+#include "rules.h"
 
 typedef struct method { int s; gvi_rule rule; } method;
 
@@ -91,33 +91,90 @@ static MAYBE real lagrangian_error(const problem *pb, const method *m, real h)
     return sqrt(sum/STARTS);
 }
 
+/* d1, d2, F- and F+ at the two ends of an exact solution, against those of the solution; root mean square over the
+   starts                                                                     */
+static MAYBE void force_errors(const problem *pb, const method *m, real h, real *error)
+{
+    const real t = step_time(pb, h);
+    for (int k = 0; k < PARTS; ++k) error[k] = 0;
+    for (int start = 0; start < STARTS; ++start) {
+        const real *want = kept(exact_parts, pb, start, h);
+        real y0[MAX_Y], y1[MAX_Y], got[PARTS][MAX_N];
+        exact_step(pb, start, h, y0, y1);
+        gvi_stepper *st = bench(pb, m, t, y0);
+        const gvi_discrete out = { .d1 = got[0], .d2 = got[1], .minus = got[2], .plus = got[3] };
+        if (st->status == GVI_OK) gvi_discrete_lagrangian(st, t, h, y0, y1, &out);
+        for (int k = 0; k < PARTS; ++k)
+            error[k] += st->status == GVI_OK ? square_distance(pb->n, got[k], want + k*MAX_N)/STARTS : (real)NAN;
+    }
+    for (int k = 0; k < PARTS; ++k) error[k] = sqrt(error[k]);
+}
+
 /* ------------------------------------------------------- inside one exact step
 
    Distances of a curve from the solution in a step: the largest and the integral
    over the step, of the position and of its velocity, root mean square over the
    starts                                                                     */
-enum { INSIDE = 24, NORMS = 4 };
-typedef enum curve_kind { OF_THE_STEP, STATE_AT } curve_kind;
+enum { NORMS = 4 };
+typedef enum curve_kind { OF_THE_STEP, OF_THE_ENDS, STATE_AT, INTERPOLANT } curve_kind;
+
+/* Ready for gvi_curve: a step from y0, or with the momentum that the boundary-value problem from y0 to y1 gives */
+static MAYBE gvi_stepper *stepped(const problem *pb, const method *m, real t, real h, const real *y0, const real *y1,
+                                  curve_kind kind)
+{
+    real dy[MAX_Y], p0[MAX_N];
+    gvi_stepper *st = bench(pb, m, t, y0);
+    rates(pb, t, y0, dy);
+    const gvi_discrete out = { .p0 = p0, .guess = dy };
+    if (st->status == GVI_OK && kind == OF_THE_ENDS && gvi_discrete_lagrangian(st, t, h, y0, y1, &out) == GVI_OK)
+        gvi_start_momentum(st, t, y0, p0);
+    if (st->status == GVI_OK) gvi_step(st, h);
+    return st;
+}
+
+/* The polynomial of degree s through the solution at Lobatto's s + 1 points: q and its derivative at tau */
+static MAYBE void interpolant(const problem *pb, const own_rule *at, real h, real y[MAX_R][MAX_Y], real tau,
+                              real *q, real *v)
+{
+    for (int i = 0; i < pb->n; ++i) q[i] = v[i] = 0;
+    for (int e = 0; e < at->r; ++e) {
+        real value = 1, slope_ = 0;
+        for (int k = 0; k < at->r; ++k) {
+            if (k == e) continue;
+            const real w = 1/(at->c[e] - at->c[k]), x = (tau - at->c[k])*w;
+            slope_ = slope_*x + value*w;
+            value *= x;
+        }
+        for (int i = 0; i < pb->n; ++i) {
+            q[i] += value*y[e][i];
+            v[i] += slope_*y[e][i]/h;
+        }
+    }
+}
 
 /* |position| and |velocity| of the difference at tau = k/INSIDE, in one step */
 static MAYBE int curve_errors(const problem *pb, const method *m, int start, real h, curve_kind kind,
                               real *of_q, real *of_v)
 {
-    real y0[MAX_Y], y[MAX_Y], dy[MAX_Y], q[MAX_N], v[MAX_N], t0 = step_time(pb, h);
-    exact_step(pb, start, h, y0, y);
-    memcpy(y, y0, sizeof y);
-    gvi_stepper *st = bench(pb, m, t0, y0);
-    if (st->status != GVI_OK || gvi_step(st, h) != GVI_OK) return 0;
-    for (int k = 0; k <= INSIDE; ++k) {
-        real tau = (real)k/INSIDE, t = k < INSIDE ? t0 + tau*h : st->t;
-        if (k) flow_of(pb, t0 + (real)(k - 1)/INSIDE*h, t, y);
+    const real *exact = kept(exact_inside, pb, start, h), *end = exact + INSIDE*MAX_Y, t0 = step_time(pb, h);
+    own_rule at = { 0 };
+    real at_nodes[MAX_R][MAX_Y], dy[MAX_Y], q[MAX_N], v[MAX_N];
+    gvi_stepper *st = stepped(pb, m, t0, h, exact, end, kind);
+    if (kind == INTERPOLANT) at = lobatto(m->s + 1);
+    for (int e = 0; e < at.r; ++e) {
+        memcpy(at_nodes[e], exact, sizeof at_nodes[e]);
+        flow_of(pb, t0, t0 + at.c[e]*h, at_nodes[e]);
+    }
+    for (int k = 0; k <= INSIDE && st->status == GVI_OK; ++k) {
+        const real tau = (real)k/INSIDE, t = k < INSIDE ? t0 + tau*h : st->t, *y = exact + k*MAX_Y;
         rates(pb, t, y, dy);
-        gvi_status status = kind == OF_THE_STEP ? gvi_curve(st, tau, q, v) : gvi_state_at(st, t, q, v, NULL);
-        if (status != GVI_OK) return 0;
+        if (kind == INTERPOLANT) interpolant(pb, &at, h, at_nodes, tau, q, v);
+        else if (kind == STATE_AT) gvi_state_at(st, t, q, v, NULL);
+        else gvi_curve(st, tau, q, v);
         of_q[k] = sqrt(square_distance(pb->n, q, y));
         of_v[k] = sqrt(square_distance(pb->n, v, dy));
     }
-    return 1;
+    return st->status == GVI_OK;
 }
 
 /* Largest |q|, integral of |q|, largest |v|, integral of |v| */
@@ -136,6 +193,26 @@ static MAYBE void curve_norms(const problem *pb, const method *m, real h, curve_
         }
     }
     for (int i = 0; i < NORMS; ++i) norm[i] = sqrt(norm[i]);
+}
+
+/* Size of d^s q/dt^s, the highest derivative of the discrete curve of one exact step: its s-th difference over
+   h/s, root mean square over the starts                                      */
+static MAYBE real top_derivative(const problem *pb, const method *m, real h)
+{
+    const int n = pb->n, s = m->s;
+    real sum = 0;
+    for (int start = 0; start < STARTS; ++start) {
+        real y0[MAX_Y], y1[MAX_Y], d[MAX_N] = { 0 }, q[MAX_N], v[MAX_N], w = pow(s/h, (real)s);
+        exact_step(pb, start, h, y0, y1);
+        gvi_stepper *st = stepped(pb, m, step_time(pb, h), h, y0, y1, OF_THE_STEP);
+        for (int k = 0; k <= s; ++k) {
+            if (gvi_curve(st, (real)k/s, q, v) != GVI_OK) return (real)NAN;
+            for (int i = 0; i < n; ++i) d[i] += w*q[i];
+            w *= -(real)(s - k)/(k + 1);
+        }
+        for (int i = 0; i < n; ++i) sum += d[i]*d[i];
+    }
+    return sqrt(sum/STARTS);
 }
 
 /* ----------------------------------------------------------------------- slopes

@@ -21,6 +21,20 @@ static MAYBE int index_of_step(const problem *pb, const method *m, real t, const
     return count;
 }
 
+/* Most negative directions of steps from the starts; -1 where no step was found */
+static MAYBE int most_negative(const problem *pb, const method *m)
+{
+    int most = -1;
+    for (int start = 0; start < STARTS; ++start)
+        for (real h = 0.5L; h > 0.01L; h /= 2) {
+            real y[MAX_Y];
+            start_state(pb, start, y);
+            const int count = index_of_step(pb, m, 0, y, h);
+            if (count > most) most = count;
+        }
+    return most;
+}
+
 /* det dq(t + h)/dp, p at t: zero at a conjugate point.  Morse: as many negative
    directions of the action as there are conjugate points in (t, t + h).       */
 static MAYBE real jacobi_determinant(const problem *pb, real t, const real *y, real h)

@@ -136,4 +136,79 @@ static MAYBE void jacobi(const problem *pb, real t, real h, const real *y0, real
     }
 }
 
+/* ------------------------------------------------- more of the exact step, kept */
+
+/* Values of a step are wanted again for other methods: the last ones are kept */
+enum { INSIDE = 24, VALUES = (INSIDE + 1)*MAX_Y };
+typedef void fill_fn(const problem *pb, int start, real h, real *values);
+
+static MAYBE const real *kept(fill_fn *fill, const problem *pb, int start, real h)
+{
+    enum { MOST = 256 };
+    static struct { fill_fn *fill; const problem *pb; int start; real h, values[VALUES]; } known[MOST];
+    static int next;
+    for (int k = 0; k < MOST; ++k)
+        if (known[k].fill == fill && known[k].pb == pb && known[k].start == start && known[k].h == h)
+            return known[k].values;
+    const int k = next;
+    next = (next + 1)%MOST;
+    known[k].fill = fill;
+    known[k].pb = pb;
+    known[k].start = start;
+    known[k].h = h;
+    fill(pb, start, h, known[k].values);
+    return known[k].values;
+}
+
+/* (q, p, S) at tau = k/INSIDE */
+static MAYBE void exact_inside(const problem *pb, int start, real h, real *y)
+{
+    const real t = pb->time/2 - h/2;
+    real end[MAX_Y];
+    exact_step(pb, start, h, y, end);
+    for (int k = 1; k <= INSIDE; ++k) {
+        real *to = y + k*MAX_Y;
+        memcpy(to, to - MAX_Y, MAX_Y*sizeof *y);
+        flow_of(pb, t + (real)(k - 1)/INSIDE*h, t + (real)k/INSIDE*h, to);
+    }
+}
+
+/* A stretch of the flow as a map (q, p) -> (q, p, S) */
+typedef struct flow_span { const problem *pb; real t, h; } flow_span;
+
+static MAYBE void flow_map(const void *what, const real *x, real *y)
+{
+    const flow_span *a = what;
+    const int n = a->pb->n;
+    memcpy(y, x, (size_t)(2*n)*sizeof *y);
+    y[2*n] = 0;
+    flow_of(a->pb, a->t, a->t + a->h, y);
+}
+
+/* The derivatives d1 and d2 of the exact discrete Lagrangian by q0 and q1, and the discrete forces F- and F+: with
+   forces it is the action of the forced solution, dS = d1'dq0 + d2'dq1 along all solutions near the given one, and
+   p0 = -d1 - F-, p1 = d2 + F+                                                */
+enum { PARTS = 4 };
+
+static MAYBE void exact_parts(const problem *pb, int start, real h, real *part)
+{
+    real M[MAX_Y*2*MAX_N], A[MAX_N*MAX_N], y0[MAX_Y], y1[MAX_Y];              /* M: rows q1, p1, S; columns q0, p0 */
+    real *d1 = part, *d2 = d1 + MAX_N, *minus = d2 + MAX_N, *plus = minus + MAX_N;
+    const int n = pb->n;
+    const real *S = M + 4*n*n;
+    exact_step(pb, start, h, y0, y1);
+    derivative(flow_map, &(flow_span){ pb, pb->time/2 - h/2, h }, 2*n, 2*n + 1, y0, UNIT, M);
+    for (int i = 0; i < n; ++i) {
+        d2[i] = S[n + i];
+        for (int j = 0; j < n; ++j) A[i*n + j] = M[j*2*n + n + i];
+    }
+    solve(n, A, d2);
+    for (int i = 0; i < n; ++i) {
+        d1[i] = S[i];
+        for (int j = 0; j < n; ++j) d1[i] -= d2[j]*M[j*2*n + i];
+        minus[i] = -y0[n + i] - d1[i];
+        plus[i] = y1[n + i] - d2[i];
+    }
+}
+
 #endif

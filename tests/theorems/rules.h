@@ -16,8 +16,8 @@ static MAYBE gvi_rule rule_or_own(gvi_rule_kind kind, int r, const own_rule *own
     return (gvi_rule){ kind, r, is_own ? own->c : NULL, is_own ? own->b : NULL };
 }
 
-/* What a rule of order u makes of degree s: theorem 4.1, and below u = 2s - 2 what
-   docs/theory.md says; 0: refused                                            */
+/* What a rule of order u makes of degree s: theorem 4.1 where u >= 2s - 2, below that the law that
+   docs/theory.md explains; 0: refused                                        */
 static MAYBE int order_expected(int s, int u)
 {
     int order = 2*s < u ? 2*s : u, weak = 2*(u - s + 1);
@@ -34,16 +34,22 @@ static MAYBE real legendre(int n, real x, real *slope_)
     return b;
 }
 
+/* P_n at a node c in [0,1] */
+static MAYBE real mode_at(int n, real c)
+{
+    const real x = 2*c - 1;
+    real unused;
+    if (x*x < 1) return legendre(n, x, &unused);
+    return x < 0 && n%2 ? -1 : 1;
+}
+
 /* Interpolatory weights on [0,1]: exact for Legendre polynomials of degree < r */
 static MAYBE void weights_for(own_rule *rule)
 {
-    real A[MAX_R*MAX_R], unused;
+    real A[MAX_R*MAX_R];
     int r = rule->r;
     for (int k = 0; k < r; ++k) {
-        for (int i = 0; i < r; ++i) {
-            real x = 2*rule->c[i] - 1;
-            A[k*r + i] = x*x < 1 ? legendre(k, x, &unused) : x < 0 && k%2 ? -1 : 1;
-        }
+        for (int i = 0; i < r; ++i) A[k*r + i] = mode_at(k, rule->c[i]);
         rule->b[k] = k == 0;
     }
     solve(r, A, rule->b);
@@ -57,6 +63,8 @@ static MAYBE own_rule newton_cotes(int r)
     weights_for(&rule);
     return rule;
 }
+
+static const MAYBE own_rule milne = { "Milne", 3, 4, { 0.25L, 0.5L, 0.75L }, { 2/3.0L, -1/3.0L, 2/3.0L } };
 
 /* Extrema of Chebyshev polynomials; order as above */
 static MAYBE own_rule clenshaw_curtis(int r)
@@ -127,10 +135,7 @@ static MAYBE void collocation(const own_rule *rule, real *a)
     for (int i = 0; i < r; ++i) {
         real A[MAX_R*MAX_R], unused, xi = 2*rule->c[i] - 1;
         for (int k = 0; k < r; ++k) {
-            for (int j = 0; j < r; ++j) {
-                real x = 2*rule->c[j] - 1;
-                A[k*r + j] = x*x < 1 ? legendre(k, x, &unused) : x < 0 && k%2 ? -1 : 1;
-            }
+            for (int j = 0; j < r; ++j) A[k*r + j] = mode_at(k, rule->c[j]);
             if (k == 0) a[i*r] = rule->c[i];
             else if (xi*xi < 1)
                 a[i*r + k] = (legendre(k + 1, xi, &unused) - legendre(k - 1, xi, &unused))/(4*k + 2);
@@ -146,6 +151,35 @@ static MAYBE void partner(const own_rule *rule, const real *a, real *ahat)
     int r = rule->r;
     for (int i = 0; i < r; ++i)
         for (int j = 0; j < r; ++j) ahat[i*r + j] = rule->b[j] - rule->b[j]*a[j*r + i]/rule->b[i];
+}
+
+/* Least c with sum_i b_i |w(c_i)|^2 >= c * (integral of |w|^2), over velocities w of degree < s and mean 0: what a
+   quadrature leaves of the action's coercivity.  By the power method on a shifted matrix.                          */
+static MAYBE real coercivity(const own_rule *rule, int s)
+{
+    real C[MAX_R*MAX_R], x[MAX_R], shift = 0, least = 0;
+    for (int k = 1; k < s; ++k) {
+        real row = 0;
+        for (int l = 1; l < s; ++l) {
+            real sum = 0;
+            for (int i = 0; i < rule->r; ++i) sum += rule->b[i]*mode_at(k, rule->c[i])*mode_at(l, rule->c[i]);
+            C[k*s + l] = sqrt((real)((2*k + 1)*(2*l + 1)))*sum;
+            row += fabs(C[k*s + l]);
+        }
+        if (2*row > shift) shift = 2*row;
+        x[k] = 1/(real)k;
+    }
+    for (int it = 0; it < 1000; ++it) {
+        real y[MAX_R], size = 0;
+        for (int k = 1; k < s; ++k) {
+            y[k] = shift*x[k];
+            for (int l = 1; l < s; ++l) y[k] -= C[k*s + l]*x[l];
+            size += y[k]*y[k];
+        }
+        least = shift - sqrt(size);
+        for (int k = 1; k < s; ++k) x[k] = y[k]/sqrt(size);
+    }
+    return least;
 }
 
 #endif
