@@ -690,7 +690,7 @@ struct gvi__private {
     struct { gvi_real *v, *v_low, *path, *path_low, *rows; } free; /* M^-1 p; h times it; stages' */
     struct { gvi_real *matrix, *factor, *inverse, *at_points, *sums; } mass;
     struct { gvi_real *scale, *change, *before;   /* [2n] of the rows of stages     */
-             gvi_real ratio, found; } watch;      /* contraction of the last step, of that at work */
+             gvi_real ratio, found; } watch;      /* contraction: last step, that at work */
     struct gvi__time    time;
     struct gvi__newton  newton;
     struct gvi__holonomic con;
@@ -2506,6 +2506,7 @@ GVI__CALLED void gvi__constraint_rows(const gvi_stepper *st, const struct gvi__s
 GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin *from);
 GVI__CALLED void gvi__constrain(gvi_stepper *st, const struct gvi__stage *y, const gvi_real *q0);
 GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate);
+GVI__CALLED int gvi__constraints_rest(const gvi_stepper *st);
 static gvi_status gvi__constraints_at(gvi_stepper *st, gvi_real t, const gvi_real *q);
 GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h);
 GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, int start);
@@ -3261,9 +3262,12 @@ static gvi_real gvi__inertia(const gvi_stepper *st, int i)
    times sqrt(M_ii), with h V_i or h P_i/M_ii in place of Q_i for those rows.  Up to 1 a row
    that does not settle is nothing but noise, where large forces cancel: a light body midway
    between two heavy ones.  So is, whatever the amplitude, what a force of constraint moves by its
-   own rounding, 32 eps of it: that counts next to nothing.                                     */
+   own rounding, 32 eps of it, or by its last change where that came from the rounding of g, which
+   rows that are nearly dependent make large: that counts next to nothing.                      */
 static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *y, int stages)
 {
+    const int R = st->x.R, C = st->x.con.C;
+    const gvi_real rests = gvi__constrained(st) && gvi__constraints_rest(st) ? 1 : 0;
     gvi_real largest = 0, noise = 0;
     for (int k = 0; k < stages; ++k)
         for (int i = 0; i < st->n && y[k].scale; ++i) {
@@ -3273,17 +3277,20 @@ static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *
             const gvi_real at_q = gvi__inertia(st, i), m = gvi__mass_is(&st->x, GVI_MASS_POSITION)
                 && st->x.has_factor && !st->x.desc.mass.velocity ? 1/at_q : at_q;
             const gvi_real unit = (p ? GVI_ABS(h)/m : v ? GVI_ABS(h) : 1)*GVI_SQRT(m);
-            const gvi_real *row = y[k].rows + i*st->x.R;
+            const gvi_real *row = y[k].rows + i*R;
             gvi_real size = GVI_ABS(y[k].base[i]), push = 0;
             for (int j = 0; j < st->r; ++j) size = GVI_ABS(row[j]) > size ? GVI_ABS(row[j]) : size;
             for (int e = 0; gvi__constrained(st) && e < st->s; ++e) {
-                const gvi_real held = h*h*GVI_ABS(st->x.con.force[i*st->x.R + e])/m;
-                if (held > push) push = held;
+                gvi_real held = 32*GVI__EPS*GVI_ABS(h*st->x.con.force[i*R + e]), moved = 0;
+                for (int a = 0; a < st->x.con.m; ++a)
+                    moved += GVI_ABS(st->x.con.G[(a*st->n + i)*C + e]*st->x.con.rho[a*R + e]);
+                held += rests*moved/GVI_ABS(st->x.con.hw[e]);
+                if (GVI_ABS(h)*held/m > push) push = GVI_ABS(h)*held/m;
             }
             gvi_real change = y[k].scale[i] > 0 ? GVI_SQRT(y[k].change[i])/y[k].scale[i] : 0;
             if (unit*size > largest) largest = unit*size;
             if (!(change > 4*GVI__EPS*size)) continue;
-            if (change <= 32*GVI__EPS*push) change *= GVI__EPS;
+            if (change <= push) change *= GVI__EPS;
             if (unit*change > noise) noise = unit*change;
         }
     return noise > 0 ? noise/(32*GVI__EPS*largest) : 0;
@@ -3971,7 +3978,7 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *y, const gvi_
     }
     gvi__zero((size_t)(m*R), rho);
     for (int a = 0; a < m; ++a) {
-        gvi_real *g = x->row;
+        gvi_real *g = rho + m*R + a*C;             // gvi__constraints_rest reads it
         gvi__copy((size_t)s, x->con.g + a*C + 1, g);
         for (int i = 0; i < n; ++i)
             gvi__subtract_at(C, s, x->con.G + (a*n + i)*C + 1, moved + i*C, g);
@@ -3981,6 +3988,21 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *y, const gvi_
     for (int a = 0; a < m; ++a)
         for (int e = 0; e < s; ++e) lambda[a*R + e] += rho[a*R + e]/(x->sized.h*x->con.hw[e]);
     gvi__constraint_forces(st);
+}
+
+// was all that lambda's last change came from rounding, within 64 units of the terms known?
+GVI__CALLED int gvi__constraints_rest(const gvi_stepper *st)
+{
+    const struct gvi__private *x = &st->x;
+    const int n = st->n, m = x->con.m, C = x->con.C;
+    for (int a = 0; a < m; ++a)
+        for (int k = 1; k <= st->s; ++k) {
+            gvi_real terms = GVI_ABS(x->con.g[(m + a)*C + k]*x->con.t[k]);
+            for (int i = 0; i < n; ++i)
+                terms += GVI_ABS(x->con.G[(a*n + i)*C + k]*x->con.at[i*C + k]);
+            if (!(GVI_ABS(x->con.rho[m*x->R + a*C + k - 1]) <= 64*GVI__EPS*terms)) return 0;
+        }
+    return 1;
 }
 
 // forces and lambda to begin with: those of the last step, extrapolated, or none
