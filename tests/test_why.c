@@ -24,7 +24,6 @@ AT_POINTS(magnet)
 AT_POINTS(nothing) { return 0; }
 AT_POINTS(refuses) { return 1; }
 AT_POINTS(turns_to_nan) { FOR_EACH(x, a) x->f[a] += x->t[0] > 0 ? (real)NAN : 0; return 0; }
-AT_POINTS(jumps) { FOR_EACH(x, a) x->f[a] += x->q[a] > 0 ? -1 : 1; return 0; }
 AT_POINTS(inverse_cube)                                /* -1/q^3, infinite at 0                 */
 {
     FOR_EACH(x, a) if (x->f) x->f[a] -= 1/(x->q[a]*x->q[a]*x->q[a]);
@@ -152,7 +151,7 @@ TEST(calls_that_fail)
     static real one = 1, minus = -1;
     static const real ends[2] = { 0, 1 }, half[2] = { 0.5L, 0.5L };
     static const gvi_effect e[] = { { .points = spring }, { .points = refuses } },
-        bad[] = { { .points = spring }, { .points = turns_to_nan } }, jump[] = { { .points = jumps } },
+        bad[] = { { .points = spring }, { .points = turns_to_nan } },
         slow[] = { { .points = spring, .value = spring }, { .kind = GVI_CLOCK, .points = clock_1, .user = &one } },
         back[] = { { .points = spring, .value = spring }, { .kind = GVI_CLOCK, .points = clock_1, .user = &minus } },
         late[] = { { .points = timed, .value = timed }, { .kind = GVI_CLOCK, .points = clock_1, .user = &one } },
@@ -180,18 +179,18 @@ TEST(calls_that_fail)
     assert_ok(gvi_start(&st, 0, q, v));
     gvi_discrete_lagrangian(&st, 0, 1, q, v, &(gvi_discrete){ .lagrangian = NULL });
     says(&st, GVI_E_FORMULATION, "needs GVI_NEWTON");
-    SET_UP(e, 1, 1, 3, .iterations = 2);
+    SET_UP(e, 1, 1, 3, .iterations = 4);
     assert_ok(gvi_start(&st, 0, q, v));
-    gvi_step(&st, 30);
+    gvi_step(&st, 6);
     says(&st, GVI_E_CONVERGENCE, "desc.iterations");
     SET_UP(bad, 2, 1, 3, .tolerance = 0);
     assert_ok(gvi_start(&st, 0, q, v));
     gvi_step(&st, 1);
     says(&st, GVI_E_NON_FINITE, "gave NaN or Inf");
     assert_int_equal(st.fault.effect, 1);
-    SET_UP(jump, 1, 1, 4, .tolerance = 0);
+    SET_UP(e, 1, 1, 3, .formulation = GVI_POSITIONS);
     assert_ok(gvi_start(&st, 0, q, v));
-    for (int k = 0; k < 40 && st.status == GVI_OK; ++k) gvi_step(&st, (real)0.37L);
+    gvi_step(&st, 30);
     says(&st, GVI_E_CONVERGENCE, "no solution found: halve h");
     SET_UP(slow, 2, 1, 3, .tolerance = 0);
     assert_ok(gvi_start(&st, 0, q, v));
