@@ -24,8 +24,8 @@ CMOCKA_LIBS   = $$(pkg-config --libs cmocka 2>/dev/null || echo -lcmocka)
 
 TESTS = $(sort $(basename $(notdir $(wildcard tests/test_*.c))))
 # These in float and in long double as well, and these compiled for size.
-TYPED = $(filter $(addprefix test_,constraints corners effects interpolation kinks lu many mass newton oracle points quadrature rows tangent adjoint event body damped tolerance twins),$(TESTS))
-SMALL = $(filter $(addprefix test_,constraints corners many mass newton points rows tolerance twins),$(TESTS))
+TYPED = $(filter $(addprefix test_,constraints corners effects interpolation kinks lu many mass newton oracle points quadrature rows tangent adjoint event body damped tolerance twins why),$(TESTS))
+SMALL = $(filter $(addprefix test_,constraints corners many mass newton points rows tolerance twins why),$(TESTS))
 VARIANTS = $(TYPED:%=%-float) $(TYPED:%=%-long) $(SMALL:%=%-small) $(SMALL:%=%-small-float)
 PROGRAMS = $(TESTS) $(VARIANTS)
 # Each links the library, compiled once for each type.
@@ -82,11 +82,14 @@ examples: $(EXAMPLES)
 
 ## cost         CPU time for a given error: gvi.h and the usual alternatives; SCENE=net: what each effect of it costs
 
-## install      copies gvi.h, the whole library, to $(DESTDIR)$(PREFIX)/include, and gvi.pc to share/pkgconfig
-INSTALLED = '$(DESTDIR)$(PREFIX)/include/gvi.h' '$(DESTDIR)$(PREFIX)/share/pkgconfig/gvi.pc'
+## install      copies gvi.h, the whole library, to $(DESTDIR)$(PREFIX)/include, its tools to include/gvi, gvi.pc to share/pkgconfig
+TOOLS     = $(notdir $(wildcard examples/tools/*.h))
+INSTALLED = '$(DESTDIR)$(PREFIX)/include/gvi.h' '$(DESTDIR)$(PREFIX)/share/pkgconfig/gvi.pc' \
+            $(TOOLS:%='$(DESTDIR)$(PREFIX)/include/gvi/%')
 install:
-	mkdir -p '$(DESTDIR)$(PREFIX)/include' '$(DESTDIR)$(PREFIX)/share/pkgconfig'
+	mkdir -p '$(DESTDIR)$(PREFIX)/include/gvi' '$(DESTDIR)$(PREFIX)/share/pkgconfig'
 	cp gvi.h '$(DESTDIR)$(PREFIX)/include/gvi.h'
+	cp $(TOOLS:%=examples/tools/%) '$(DESTDIR)$(PREFIX)/include/gvi'
 	printf '%s\n' 'prefix=$(PREFIX)' '' 'Name: gvi' 'Version: $(shell sed -n 's/^.define GVI_VERSION "\(.*\)"/\1/p' gvi.h)' \
 	    'Description: Galerkin variational integrators for mechanical systems' 'Cflags: -I$${prefix}/include' 'Libs: -lm' \
 	    >'$(DESTDIR)$(PREFIX)/share/pkgconfig/gvi.pc'

@@ -25,11 +25,10 @@
      #include <math.h>
      #include <stdio.h>
 
-     GVI_POINTS(attraction, 2, f)(const gvi_points *x, void *user)
+     GVI_EACH(attraction, 2, f)
      {
          double X = x->q[0], Y = x->q[1], d2 = X*X + Y*Y, w = -1/(d2*sqrt(d2));
          x->f[0] += w*X;  x->f[1] += w*Y;
-         return (void)user, 0;
      }
 
      int main(void)
@@ -37,12 +36,13 @@
          static double memory[GVI_LENGTH(2, 8, 8)];
          const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = attraction } };
          const gvi_desc desc = { .n = 2, .degree = 8, .effects = scene, .effect_count = 1 };
+         const double q[] = { 0.4, 0 }, v[] = { 0, 2 };
          gvi_stepper st;
          gvi_init(&st, &desc, memory, sizeof memory);
-         gvi_start(&st, 0, (double[]){ 0.4, 0 }, (double[]){ 0, 2 });
+         gvi_start(&st, 0, q, v);
          for (int k = 0; k < 10000 && st.status == GVI_OK; ++k)
              gvi_step(&st, 0.1);
-         printf("%s: q = %.9f %.9f\n", gvi_status_text(st.status), st.q[0], st.q[1]);
+         printf("%s: q = %.9f %.9f\n", gvi_why(&st), st.q[0], st.q[1]);
      }
 
    prints
@@ -134,6 +134,7 @@
      GVI_STATIC          [that file]   everything static: private copy
      GVI_REAL            [everywhere]  float, double (default), long double
      GVI_EFFECTS         [everywhere]  most effects a scene may list: 16, to 32
+                                       (files that differ in these two do not link)
 
    Less code, for small machines (docs/embedded.md), all in [that file]:
 
@@ -334,14 +335,59 @@ GVI__MACROS(push_macro)
 #else
 #define GVI_DEF extern
 #endif
+/* Linked names say the type and GVI_EFFECTS where they are not the defaults (gvi_init_float_16):
+   files that differ in them do not link, and libraries of several types fit in one program.  */
+#if GVI__KIND == 1
+#define GVI__TYPE float
+#elif GVI__KIND == 2
+#define GVI__TYPE double
+#else
+#define GVI__TYPE long
+#endif
+#if GVI__KIND != 2 || GVI_EFFECTS != 16
+#define GVI__LINKED(name)                                                                       \
+    GVI__PASTE(GVI__PASTE(name##_, GVI__TYPE), GVI__PASTE(_, GVI_EFFECTS))
+#define gvi_size GVI__LINKED(gvi_size)
+#define gvi_init GVI__LINKED(gvi_init)
+#define gvi_start GVI__LINKED(gvi_start)
+#define gvi_start_momentum GVI__LINKED(gvi_start_momentum)
+#define gvi_start_configurations GVI__LINKED(gvi_start_configurations)
+#define gvi_step GVI__LINKED(gvi_step)
+#define gvi_switch GVI__LINKED(gvi_switch)
+#define gvi_velocity GVI__LINKED(gvi_velocity)
+#define gvi_energy GVI__LINKED(gvi_energy)
+#define gvi_multipliers GVI__LINKED(gvi_multipliers)
+#define gvi_curve GVI__LINKED(gvi_curve)
+#define gvi_state_at GVI__LINKED(gvi_state_at)
+#define gvi_action GVI__LINKED(gvi_action)
+#define gvi_discrete_lagrangian GVI__LINKED(gvi_discrete_lagrangian)
+#define gvi_restore GVI__LINKED(gvi_restore)
+#define gvi_stepper_size GVI__LINKED(gvi_stepper_size)
+#define gvi_why GVI__LINKED(gvi_why)
+#define gvi_status_text GVI__LINKED(gvi_status_text)
+#define gvi_formulation_text GVI__LINKED(gvi_formulation_text)
+#define gvi_gauss GVI__LINKED(gvi_gauss)
+#define gvi_lobatto GVI__LINKED(gvi_lobatto)
+#define gvi_rule_order GVI__LINKED(gvi_rule_order)
+#define gvi_barycentric GVI__LINKED(gvi_barycentric)
+#define gvi_interpolate GVI__LINKED(gvi_interpolate)
+#define gvi_interpolate_derivative GVI__LINKED(gvi_interpolate_derivative)
+#define gvi_basis GVI__LINKED(gvi_basis)
+#define gvi_basis_derivative GVI__LINKED(gvi_basis_derivative)
+#define gvi_lu_factor GVI__LINKED(gvi_lu_factor)
+#define gvi_lu_solve GVI__LINKED(gvi_lu_solve)
+#define gvi_lu_rcond GVI__LINKED(gvi_lu_rcond)
+#endif
 
 // a body whose sizes are constants where it is called, copied there; arrays that do not overlap
 #if defined(__GNUC__)
 #define GVI__BODY static inline __attribute__((always_inline))
 #define GVI__RESTRICT __restrict
+#define GVI__UNUSED __attribute__((unused))
 #else
 #define GVI__BODY static inline
 #define GVI__RESTRICT
+#define GVI__UNUSED
 #endif
 // gcc at -O2 makes vectors only of loops of known length
 #if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 8 && !defined(__OPTIMIZE_SIZE__)
@@ -362,29 +408,22 @@ typedef GVI_REAL gvi_real;
 
 typedef enum gvi_status {
     GVI_OK            =  0,
-    GVI_E_ARGUMENT    = -1,  /* null pointer, memory not aligned as a gvi_real is, size out
-                                of range, h = 0, NaN or Inf given; a matrix, points or
-                                nodes given although the kind takes none; effects
-                                without effect_count (fault.argument says which)    */
+    GVI_E_ARGUMENT    = -1,  /* of a call, in desc, or an effect's callback: gvi_why    */
     GVI_E_MEMORY      = -2,  /* the memory is smaller than gvi_size(desc)               */
     GVI_E_NODES       = -3,  /* own rule: a node outside [0,1], or two that coincide;
                                 kicks: not finite                                   */
-    GVI_E_ORDER       = -4,  /* own rule of order u < s, so also weights that do not sum
-                                to 1, kicks too: not even free motion would come out */
+    GVI_E_ORDER       = -4,  /* own rule of order u < s, weights that do not sum to 1   */
     GVI_E_POINTS      = -5,  /* r < s, or a rule that does not see every mode           */
     GVI_E_FORMULATION = -6,  /* no formulation, or not the pinned one, covers this scene */
     GVI_E_SINGULAR    = -7,  /* singular matrix, and no h helps: massless coordinate
                                 (fault.coordinate), or a constraint that depends on the
                                 others (fault.effect, its row in fault.coordinate)  */
-    GVI_E_CONVERGENCE = -8,  /* no solution found: halve h.  If that never helps, a force
-                                jumps or is noisy, a derivative is wrong, or the motion
-                                comes to where a matrix is singular                 */
-    GVI_E_CALLBACK    = -9,  /* a callback failed, it did not return 0 (fault.effect): halve h */
-    GVI_E_NON_FINITE  = -10, /* NaN or Inf came out of an effect (fault.effect)         */
-    GVI_E_VALUE       = -11, /* energy or action wanted, or a clock on, but fault.effect
-                                has no value                                        */
-    GVI_E_STATE       = -12, /* not started; no step yet; time outside the last step; a
-                                clock was switched on since                         */
+    GVI_E_CONVERGENCE = -8,  /* no solution found: halve h                              */
+    GVI_E_CALLBACK    = -9,  /* a callback did not return 0 (fault.effect): halve h     */
+    GVI_E_NON_FINITE  = -10, /* NaN or Inf came out of an effect (fault.effect); fault.point
+                                is GVI_FAULT_NONE: already where the step starts    */
+    GVI_E_VALUE       = -11, /* an effect (fault.effect) has no value                   */
+    GVI_E_STATE       = -12, /* called too early, or for a time outside the last step   */
     GVI_E_CONJUGATE   = -13, /* boundary values do not determine the curve              */
     GVI_E_CLOCK       = -14, /* a clock's g is not positive (fault.effect, fault.point) */
     GVI_E_CONSTRAINT  = -15  /* the state given is not on a constraint: fault.effect, its row in
@@ -434,9 +473,10 @@ typedef int gvi_points_fn(const gvi_points *x, void *user);
          return (void)user, 0;
      }
 
-   Here count and stride are 1: coordinate i is [i].  The body is copied into a loop over points, of
-   which gcc and clang make vectors (-O2 -fno-math-errno) if it is arithmetic and square roots
-   without branches and loops.  The bits are those of a loop by hand, and so is the time.      */
+   Here count and stride are 1: coordinate i is [i].  GVI_EACH(name, n, ...) { } has no head and no
+   return: a body that cannot fail, of x and user.  It is copied into a loop over points, of which
+   gcc and clang make vectors (-O2 -fno-math-errno) if it is arithmetic and square roots without
+   branches and loops.  The bits are those of a loop by hand, and so is the time.              */
 #define GVI_POINTS(name, n, ...) GVI__POINTS(name, n, GVI__USES(__VA_ARGS__, , , , ))
 #define GVI__USES(a, b, c, d, ...)                                                              \
     (GVI__USES_##a | GVI__USES_##b | GVI__USES_##c | GVI__USES_##d)
@@ -457,6 +497,12 @@ enum { GVI__USES_, GVI__USES_v, GVI__USES_p, GVI__USES_f = 4, GVI__USES_dldv = 8
                                  : gvi__in_chunks(gvi__at_##name, x, user, n, all, all, a);     \
     }                                                                                           \
     GVI__BODY int gvi__at_##name
+
+#define GVI_EACH(name, n, ...)                                                                  \
+    GVI__BODY void gvi__each_##name(const gvi_points *x, void *user);                           \
+    GVI_POINTS(name, n, __VA_ARGS__)(const gvi_points *x, void *user)                           \
+    { return gvi__each_##name(x, user), 0; }                                                    \
+    GVI__BODY void gvi__each_##name(GVI__UNUSED const gvi_points *x, GVI__UNUSED void *user)
 
 // points k..to-1: a column of what is wanted to a, the body, and back
 GVI__BODY int gvi__each_point(gvi_points_fn *at, const gvi_points *x, void *user, int n, int uses,
@@ -847,9 +893,12 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
    tolerance and limits are those of st.                                                       */
 GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const gvi_real *memory);
 
-/* A sentence for a status; why st uses the formulation that it uses.         */
+/* What went wrong in the last call, "ok" if nothing; the same as far as a status tells; why st uses
+   the formulation that it uses; sizeof(gvi_stepper), for other languages.                     */
+GVI_DEF const char *gvi_why(const gvi_stepper *st);
 GVI_DEF const char *gvi_status_text(gvi_status status);
 GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st);
+GVI_DEF size_t      gvi_stepper_size(void);
 
 /* Rules on [0,1]:  integral_0^1 f  =  sum_i b[i] f(c[i]).  c ascending, c and b of length n,
    c[i] + c[n-1-i] = 1, relative errors a few eps (tests/test_quadrature.c).  Gauss: n >= 1, exact
@@ -996,11 +1045,6 @@ enum {
     GVI__VARIES = GVI__MOMENTA | GVI__NEWTON | GVI__LAGRANGIAN,
     GVI__ITERATES = GVI__POSITIONS | GVI__READS_V
 };
-#if defined(GVI_NO_DENSE) || defined(GVI_NO_DIAGNOSIS) || defined(GVI_NO_LAGRANGIAN)             \
-    || defined(GVI_NO_OWN) || defined(GVI_NO_POINT) || defined(GVI_NO_RESTS)                      \
-    || defined(GVI_NO_TOLERANCE)
-#error "gvi.h: of 0.1's GVI_NO_ macros only GVI_NO_CLOCK and GVI_NO_RULES are left"
-#endif
 #if GVI__KIND == 3 && LDBL_MANT_DIG == 106
 #error "gvi.h: long double must be one IEEE number, not two doubles"
 #endif
@@ -1864,7 +1908,7 @@ static gvi_status gvi__ready(gvi_stepper *st, int ready)
 {
     if (!st) return GVI_E_ARGUMENT;
     if (ready) return gvi__report_status(st, GVI_OK);
-    if (st->status == GVI_OK) st->status = GVI_E_STATE;
+    if (st->status == GVI_OK) return gvi__report_status(st, GVI_E_STATE);
     return st->status;
 }
 
@@ -2705,6 +2749,54 @@ static int gvi__finite_end(const gvi_stepper *st, const gvi__origin *from)
     return none >= 0;
 }
 
+/* At a first start: callbacks that fill their first point alone, or set f and dldv with = in place
+   of adding to them.  All points are a little past q, where a force that is 0 at the start is not.
+   From 0 an effect shows which points it fills; from the largest number, whether it adds.     */
+GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
+{
+    struct gvi__private *x = &st->x;
+    const gvi_counters counters = st->counters;          // a probe is no step's work
+    const int n = st->n, kicks = gvi__rule_is(x, GVI_KICKS);
+    const gvi_real past = GVI_SQRT(GVI__EPS);
+    int R = x->R, count = st->r;
+    gvi_real *rows = x->work.F;
+    if (kicks) R = count = 1;
+    if (x->newton.moved) rows = x->newton.moved;
+    if (x->free.rows) rows = x->free.rows;
+    gvi_points y = gvi__points_at(st, count, R, x->t, x->work.Q, rows, rows + n*R);
+    y.v = x->work.V;
+    for (int k = 0; k < R; ++k) x->t[k] = t;
+    for (int i = 0; i < n*R; ++i) {
+        x->work.Q[i] = q[i/R] + past*v[i/R];
+        if (x->work.V) x->work.V[i] = v[i/R];
+    }
+    const char *slip = NULL;
+    for (int e = 0; e < x->desc.effect_count; ++e) {
+        int all = n*R, first = 0, others = 0, huge = 0, set = 0;
+        if ((x->off | x->apart) >> e & 1u) continue;
+        if (x->desc.effects[e].kind == GVI_LAGRANGIAN) all = 2*n*R;
+        gvi__zero((size_t)all, rows);
+        if (gvi__effect(st, &y, e, NULL) != GVI_OK) continue;
+        for (int i = 0; i < all; ++i) {
+            const int k = i % R, filled = k < count && gvi__nonzero(rows[i]);
+            first |= filled && k == 0;
+            others |= filled && k > 0;
+            huge |= filled && GVI_ABS(rows[i]) > GVI__MAX/4;
+        }
+        if (first && !others && count > 1)
+            slip = "effect: fills its first point alone, not x->count of them";
+        for (int i = 0; i < all; ++i) rows[i] = GVI__MAX;
+        if (gvi__effect(st, &y, e, NULL) != GVI_OK) continue;
+        for (int i = 0; i < all; ++i) set |= i % R < count && GVI_ABS(rows[i]) < GVI__MAX/2;
+        if (set && !huge) slip = "effect: sets f or dldv with =, where it has to add with +=";
+        if (!slip) continue;
+        st->counters = counters;
+        return st->status = gvi__refuse(&st->fault, e, GVI_FAULT_NONE, slip);
+    }
+    st->counters = counters;
+    return gvi__report_status(st, GVI_OK);
+}
+
 /* One attempt.  If it met NaN or Inf, the same once more, now looking at what every effect
    returns: that names the effect.  If none is to blame, the iteration diverged.               */
 static gvi_status gvi__solve(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query)
@@ -2815,22 +2907,33 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     gvi__count(&st->counters.steps, 1);
 }
 
-/* No solution was found, or a matrix was singular on the way.  Where one is singular at the start
-   already no h helps; else a shorter step may.                                               */
-GVI__COLD gvi_status gvi__why(gvi_stepper *st)
+/* Why did a step fail?  What is singular, NaN or infinite already where it starts is told as that:
+   no h helps.  All else is the step's own, and a shorter one may do.                          */
+GVI__COLD gvi_status gvi__explain(gvi_stepper *st, gvi_status status)
 {
     struct gvi__private *x = &st->x;
+    const gvi_counters counters = st->counters;
     const gvi_fault fault = st->fault;
-    gvi_status status = GVI_OK;
-    if (!gvi__uses(x, GVI_EXPLICIT) && !x->desc.mass.velocity) {
-        gvi__velocity_guess(st, x->result);
-        status = gvi__velocity(st, st->t, st->q, st->p, x->result);
+    gvi_real *v = x->result;
+    gvi_status start = GVI_OK;
+    gvi__velocity_guess(st, v);
+    if (!gvi__uses(x, GVI_EXPLICIT) && !x->desc.mass.velocity)
+        start = gvi__velocity(st, st->t, st->q, st->p, v);
+    if (start == GVI_OK && gvi__constrained(st)) start = gvi__constraints_at(st, st->t, st->q);
+    if (start == GVI_OK) {
+        gvi_points y = gvi__one_point(st, &st->t, st->q);
+        y.v = v;
+        gvi__zero(2*(size_t)st->n, y.f);                 // and dldv, which is behind it
+        x->diagnose = 1;
+        start = gvi__effects(st, &y, 0, NULL);
+        x->diagnose = 0;
+        st->fault.point = GVI_FAULT_NONE;
     }
-    if (status == GVI_OK && gvi__constrained(st))
-        status = gvi__constraints_at(st, st->t, st->q);
-    if (status == GVI_E_SINGULAR) return status;
+    st->counters = counters;
+    if (start == GVI_E_SINGULAR || start == GVI_E_NON_FINITE) return start;
     st->fault = fault;
-    return st->status = GVI_E_CONVERGENCE;
+    if (status == GVI_E_SINGULAR) status = GVI_E_CONVERGENCE;
+    return st->status = status;
 }
 
 GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
@@ -2850,7 +2953,8 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
     gvi_status status = gvi__solve(st, &from, h, GVI__STEP);
     if (status == GVI_OK && !gvi__finite(st->t + x->dt))
         status = gvi__refuse_call(st, "t + h is not finite");
-    if (status == GVI_E_CONVERGENCE || status == GVI_E_SINGULAR) status = gvi__why(st);
+    if (status == GVI_E_CONVERGENCE || status == GVI_E_SINGULAR || status == GVI_E_NON_FINITE)
+        status = gvi__explain(st, status);
     if (status != GVI_OK) {
         x->failed.status = status;
         x->failed.fault = st->fault;
@@ -4804,11 +4908,12 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     struct gvi__private *x = &st->x;
     unsigned char *bytes = (unsigned char *)st;
     static const gvi_real zeros[64] = { 0 };      // to be read after a failure
-    int order;
+    int order = 0;
     for (size_t i = 0; i < sizeof *st; ++i) bytes[i] = 0;
     gvi__report_status(st, GVI_OK);
     st->q = st->p = st->q_low = st->p_low = zeros;
     gvi_status status = gvi__resolve(x, desc, &order, &st->fault);
+    st->order = order;
     if (GVI__CONSTRAINTS && status == GVI_E_FORMULATION && x->con.bits)
         return gvi__refuse_constraints(st);
     if (status != GVI_OK) return st->status = status;
@@ -4820,7 +4925,6 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     st->n = x->desc.n;
     st->s = x->desc.degree;
     st->r = x->desc.rule.points;
-    st->order = order;
     st->formulation = x->chosen;
     x->R = GVI__ROW(st->r);
     x->size = gvi__layout(x, order, NULL);
@@ -5482,6 +5586,8 @@ GVI__COLD gvi_status gvi__begin_at(gvi_stepper *st, gvi_real t, const gvi_real *
 {
     struct gvi__private *x = &st->x;
     const size_t n = (size_t)st->n;
+    if (!x->started && gvi__probe(st, t, x->step.q, v) != GVI_OK)
+        return st->status;
     if (gvi__constrained(st)) {
         const gvi_status status = gvi__project_start(st, t, x->step.q, x->step.p);
         if (status != GVI_OK) return status;
@@ -6304,39 +6410,76 @@ GVI_DEF const char *gvi_status_text(gvi_status status)
 {
     switch (status) {
     case GVI_OK:            return "ok";
-    case GVI_E_ARGUMENT:    return "bad argument: null pointer, size out of range, zero step, "
-                                   "NaN or Inf, or what its kind does not take "
-                                   "(fault.argument says which)";
-    case GVI_E_MEMORY:      return "memory too small: gvi_size(desc) bytes, "
-                                   "or GVI_LENGTH(n, s, r) numbers";
-    case GVI_E_NODES:       return "rule: a node is outside [0,1], or two coincide";
-    case GVI_E_ORDER:       return "rule: its order is below the degree "
-                                   "(0: the weights do not sum to 1)";
-    case GVI_E_POINTS:      return "rule: too few points (r >= degree), "
-                                   "or it does not see every mode";
-    case GVI_E_FORMULATION: return "no formulation, or not the one asked for, covers this scene";
-    case GVI_E_SINGULAR:    return "singular matrix: a coordinate has no mass, "
-                                   "or a constraint depends on others";
-    case GVI_E_CONVERGENCE: return "no convergence: the step is too large, "
-                                   "or a force jumps or is noisy";
-    case GVI_E_CALLBACK:    return "a callback refused";
-    case GVI_E_NON_FINITE:  return "an effect gave NaN or Inf";
-    case GVI_E_VALUE:       return "an effect has no value callback";
-    case GVI_E_STATE:       return "not started, no step yet, or time outside the last step";
-    case GVI_E_CONJUGATE:   return "conjugate points: "
-                                   "the two configurations do not determine the curve";
-    case GVI_E_CLOCK:       return "a clock must be positive: g <= 0";
+    case GVI_E_ARGUMENT:    return "bad argument (a sentence: fault.argument)";
+    case GVI_E_MEMORY:      return "memory too small: gvi_size(desc) bytes; GVI_LENGTH(n, s, r) "
+                                   "or, with constraints, GVI_CONSTRAINED_LENGTH(n, s, r, m)";
+    case GVI_E_NODES:       return "rule: nodes are not distinct and in [0,1], or not finite";
+    case GVI_E_ORDER:       return "rule: its order is below the degree";
+    case GVI_E_POINTS:      return "rule: it does not see every mode";
+    case GVI_E_FORMULATION: return "no formulation, or not the pinned one, covers this scene";
+    case GVI_E_SINGULAR:    return "singular matrix: a coordinate (fault.coordinate) has no mass";
+    case GVI_E_CONVERGENCE: return "no solution found: halve h; if no h works, a force jumps, "
+                                   "is noisy, or has a wrong derivative";
+    case GVI_E_CALLBACK:    return "an effect (fault.effect) did not return 0: halve h";
+    case GVI_E_NON_FINITE:  return "an effect (fault.effect) gave NaN or Inf: halve h";
+    case GVI_E_VALUE:       return "an effect (fault.effect) has no value callback";
+    case GVI_E_STATE:       return "the time is outside the last step, or a clock is on since";
+    case GVI_E_CONJUGATE:   return "conjugate points: the ends do not determine the curve";
+    case GVI_E_CLOCK:       return "a clock (fault.effect) must be positive: g <= 0";
     case GVI_E_CONSTRAINT:  return "the state is not on a constraint: g(t,q) or its rate is not 0";
     default:                return "unknown status";
     }
 }
 
+// with a description or a call that no formulation covers
+GVI__COLD const char *gvi__why_no_formulation(const gvi_stepper *st)
+{
+    const struct gvi__private *x = &st->x;
+    const int kicks = x->desc.rule.kind == GVI_KICKS, clock = x->clock >= 0, ready = x->memory != 0;
+    if (x->con.bits)
+        return "constraints go with no clock, kicks, Newton's method, boundary values or "
+               "mass.velocity; with M(q) and Lagrangian terms only if r = s";
+    if (ready && st->fault.effect >= 0)
+        return "under a clock this value (fault.effect) must not change with t: list it as a force";
+    if (ready && (kicks || clock)) return "kicks have no curve and no action, clocks no action";
+    if (ready) return "needs GVI_NEWTON, or GVI_AUTO with s n <= 1024 and no given iterations";
+    if (x->chosen == GVI_NEWTON) return "iterations is given, and this takes Newton's method";
+    if (kicks) return "kicks are for constant mass and effects that read only t and q";
+    if (clock) return "a clock needs r = s, and a mass or mass.velocity";
+    if (x->desc.formulation != GVI_AUTO) return "the pinned formulation does not cover this scene";
+    return "what this scene needs is left out by a macro GVI_ONLY_... or GVI_NO_...";
+}
+
+GVI_DEF const char *gvi_why(const gvi_stepper *st)
+{
+    if (!st) return "the stepper is NULL";
+    const struct gvi__private *x = &st->x;
+    const int why = st->status, mass = st->fault.effect == GVI_FAULT_MASS;
+    if (st->fault.argument) return st->fault.argument;
+    if (why == GVI_E_FORMULATION) return gvi__why_no_formulation(st);
+    if (why == GVI_E_ORDER && st->order == 0) return "rule: the weights do not sum to 1";
+    if (why == GVI_E_POINTS && x->desc.rule.points < x->desc.degree)
+        return "rule: fewer points than the degree";
+    if (why == GVI_E_SINGULAR && st->fault.effect >= 0)
+        return "a constraint (fault.effect) depends on the others, or has no gradient";
+    if (why == GVI_E_CONVERGENCE && mass) return "no velocity found that has this momentum";
+    if (why == GVI_E_CONVERGENCE && x->desc.iterations > 0)
+        return "desc.iterations are too few: halve h, or give more";
+    if (why == GVI_E_CALLBACK && mass) return "a callback of the mass did not return 0: halve h";
+    if (why == GVI_E_NON_FINITE && mass) return "a callback of the mass gave NaN or Inf: halve h";
+    if (why == GVI_E_NON_FINITE && st->fault.point < 0)
+        return "an effect (fault.effect) is NaN or Inf where the step starts: no h will do";
+    if (why == GVI_E_STATE && !x->memory) return "not initialised: gvi_init comes first";
+    if (why == GVI_E_STATE && !x->started) return "not started: gvi_start comes first";
+    if (why == GVI_E_STATE && !x->stepped) return "no step yet";
+    return gvi_status_text(st->status);
+}
+
+GVI_DEF size_t gvi_stepper_size(void) { return sizeof(gvi_stepper); }
+
 GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st)
 {
     if (!st) return "no stepper";
-    if (GVI__CONSTRAINTS && st->status == GVI_E_FORMULATION && st->x.con.bits)
-        return "constraints go with no clock, kicks, Newton's method, boundary values or "
-               "mass.velocity; with M(q) and Lagrangian terms only if r = s";
     if (st->x.desc.formulation != GVI_AUTO) return "pinned by the description";
     if (st->formulation == GVI_NEWTON && st->x.chosen != GVI_NEWTON)
         return "Newton: the fixed point contracted badly";

@@ -90,7 +90,7 @@ static gvi_status integrate(bodies *b, int degree, double days, double h, trace 
         out->t[out->count] = out->count ? st.t/365.25 : 0;
         out->error[out->count++] = high, high = 0;
     }
-    if (st.status) fprintf(stderr, "t = %g: %s\n", st.t, gvi_status_text(st.status));
+    if (st.status) fprintf(stderr, "t = %g: %s\n", st.t, gvi_why(&st));
     for (int i = 0; i < desc.n && !st.status; ++i) q[i] = st.q[i];
     free(memory);
     return st.status;

@@ -65,7 +65,7 @@ int main(void)
         gvi_step(&st, 1.0/16);
         if (st.status == GVI_OK && gvi_energy(&st, &e) == GVI_OK) worst = fmax(worst, fabs((e - e0)/e0));
     }
-    if (st.status != GVI_OK) return puts(gvi_status_text(st.status)), 1;
+    if (st.status != GVI_OK) return puts(gvi_why(&st)), 1;
 
     printf("t = %g: a = %.9f, b = %.9f\n", st.t, st.q[0], st.q[1]);
     printf("against 25 digits, below 1e-11: %s\n", fmax(fabs(st.q[0] - a), fabs(st.q[1] - b)) < 1e-11 ? "yes" : "no");

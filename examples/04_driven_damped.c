@@ -78,7 +78,7 @@ int main(void)
     gvi_start(&st, 0, (double[]){ 1 }, (double[]){ 0 });
     gvi_energy(&st, &e0);
     for (int k = 0; k < 200 && gvi_step(&st, 0.5) == GVI_OK; ++k) done += work(&st);
-    if (st.status != GVI_OK) return puts(gvi_status_text(st.status)), 1;
+    if (st.status != GVI_OK) return puts(gvi_why(&st)), 1;
     gvi_energy(&st, &e);
     printf("t = %g: q = %.9f\n", st.t, st.q[0]);
     printf("against the exact solution, below 1e-12: %s\n", fabs(st.q[0] - exact(st.t)) < 1e-12 ? "yes" : "no");

@@ -75,7 +75,7 @@ static int run(const gvi_effect *magnetic, double *momentum, double *energy)
         *energy = fmax(*energy, fabs((e - e0)/e0));
         *momentum = fmax(*momentum, fabs((rotation(&st) - l0)/l0));
     }
-    if (st.status != GVI_OK) puts(gvi_status_text(st.status));
+    if (st.status != GVI_OK) puts(gvi_why(&st));
     return st.status;
 }
 

@@ -49,7 +49,7 @@ int main(void)
         }
         int same = !memcmp(&t, &st.t, sizeof t) && !memcmp(&q, st.q, sizeof q) && !memcmp(&p, st.p, sizeof p);
         if (st.counters.failures == 1)
-            printf("t = %g, h = %g: %s: effect %d, state %s\n", st.t, h, gvi_status_text(st.status),
+            printf("t = %g, h = %g: %s: effect %d, state %s\n", st.t, h, gvi_why(&st),
                    st.fault.effect, same ? "unchanged" : "changed");
         h /= 2;
         if (h < 1e-6) return puts("given up"), 1;

@@ -69,7 +69,7 @@ int main(void)
     gvi_start(&st, 0, (double[]){ 2 }, (double[]){ 0 });
     while (found < 40) {
         double before = st.q[0];
-        if (gvi_step(&st, 0.25) != GVI_OK) return puts(gvi_status_text(st.status)), 1;
+        if (gvi_step(&st, 0.25) != GVI_OK) return puts(gvi_why(&st)), 1;
         if (before*st.q[0] > 0) continue;
         double exact = (2*found++ + 1)*quarter;
         by_curve = fmax(by_curve, fabs(passage(&st, 0) - exact));

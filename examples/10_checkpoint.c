@@ -49,7 +49,7 @@ int main(void)
     // the checkpoint: two writes
     fwrite(&st, sizeof st, 1, file);
     fwrite(memory, sizeof memory, 1, file);
-    if (advance(&st, 1000)) return puts(gvi_status_text(st.status)), 1;
+    if (advance(&st, 1000)) return puts(gvi_why(&st)), 1;
     printf("without a stop:  t = %g, q = %.9f %.9f\n", st.t, st.q[0], st.q[1]);
 
     // another process, another day
@@ -59,7 +59,7 @@ int main(void)
     fclose(file);
     gvi_init(&other, &desc, other_memory, sizeof other_memory);
     gvi_restore(&other, &saved, saved_memory);
-    if (advance(&other, 1000)) return puts(gvi_status_text(other.status)), 1;
+    if (advance(&other, 1000)) return puts(gvi_why(&other)), 1;
     int same = !memcmp(st.q, other.q, 2*sizeof *st.q) && !memcmp(st.p, other.p, 2*sizeof *st.p);
     printf("from checkpoint: t = %g, %s\n", other.t, same ? "the same to the bit" : "different");
     return 0;

@@ -48,5 +48,5 @@ int main()
     gvi_start(&st, 0, q, v);
     for (int k = 0; k < 4000 && st.status == GVI_OK; ++k)
         gvi_step(&st, 3.14159265358979323846/20);
-    std::printf("%s: x = %.9f, v = %.9f\n", gvi_status_text(st.status), st.q[0], st.p[1]);
+    std::printf("%s: x = %.9f, v = %.9f\n", gvi_why(&st), st.q[0], st.p[1]);
 }

@@ -56,7 +56,7 @@ int main(void)
     gvi_velocity(&st, v);
     printf("start with v = %.3f %.3f\n", v[0], v[1]);
     printf("Jacobians made: %d\n", (int)st.counters.factorizations);
-    if (gvi_step(&st, 2) != GVI_OK) return puts(gvi_status_text(st.status)), 1;
+    if (gvi_step(&st, 2) != GVI_OK) return puts(gvi_why(&st)), 1;
     printf("after 2 s at %.6f %.6f\n", st.q[0], st.q[1]);
     return 0;
 }

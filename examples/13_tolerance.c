@@ -38,7 +38,7 @@ int main(void)
         gvi_start(&st, 0, (double[]){ 0.4, 0 }, (double[]){ 0, 2 });
         gvi_energy(&st, &e0);
         for (int k = 0; k < 24000 && st.status == GVI_OK; ++k) gvi_step(&st, 3.14159265358979323846/12);
-        if (st.status != GVI_OK || gvi_energy(&st, &e)) return puts(gvi_status_text(st.status)), 1;
+        if (st.status != GVI_OK || gvi_energy(&st, &e)) return puts(gvi_why(&st)), 1;
         printf("tolerance %-6g iterations a step below %.0f   energy error below %.0e\n", tolerance[i],
                ceil((double)st.counters.iterations/24000), pow(10, ceil(log10(fmax(fabs((e - e0)/e0), 2e-13)))));
     }

@@ -64,7 +64,7 @@ int main(void)
     gvi_start(&st, 0, start, v);
     gvi_energy(&st, &e0);
     while (st.t < 100*turn)
-        if (gvi_step(&st, turn/80) != GVI_OK) return puts(gvi_status_text(st.status)), 1;
+        if (gvi_step(&st, turn/80) != GVI_OK) return puts(gvi_why(&st)), 1;
     gvi_energy(&st, &energy);
     gvi_state_at(&st, 100*turn, q, NULL, NULL);
     printf("clock, 80 a revolution: energy kept to 1e-13: %s, position after 100 to 1e-10: %s\n",

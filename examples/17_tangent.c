@@ -61,7 +61,7 @@ static int follow(double y, double *exponent, double *megno)
     tangent_start(&T, &st, 0, q, p, d, d + 2);
     *megno = 0;
     for (int k = 1; k <= 50000; ++k) {
-        if (gvi_step(&st, 0.4)) return puts(gvi_status_text(st.status)), 1;
+        if (gvi_step(&st, 0.4)) return puts(gvi_why(&st)), 1;
         tangent_column(&T, &st, 0, d, d + 2);
         const double size = sqrt(d[0]*d[0] + d[1]*d[1] + d[2]*d[2] + d[3]*d[3]), growth = log(size/before);
         sum += growth;
@@ -100,7 +100,7 @@ int main(void)
     // All directions at once are the matrix M of the step: M'JM = J.
     gvi_init(&st, &T.desc, memory, sizeof memory);
     tangent_start(&T, &st, 0, q, p, NULL, NULL);
-    if (st.status || gvi_step(&st, 0.25)) return puts(gvi_status_text(st.status)), 1;
+    if (st.status || gvi_step(&st, 0.25)) return puts(gvi_why(&st)), 1;
     for (int j = 0; j < 5; ++j) tangent_column(&T, &st, j, d[j], d[j] + 2);
     for (int a = 0; a < 4; ++a)
         for (int b = 0; b < 4; ++b) {

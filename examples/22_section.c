@@ -119,8 +119,8 @@ int main(int argc, char **argv)
 
     for (int i = 0; i < 2; ++i) begin(&st[i], memory[i], sizeof memory[i], 0.1, 0);
     for (int k = 1; k <= 20; ++k) {
-        if (output_at(&st[0], 0.4, 10*k, a, NULL, NULL)) return puts(gvi_status_text(st[0].status)), 1;
-        if (output_at(&st[1], 0.3, 10*k, b, NULL, NULL)) return puts(gvi_status_text(st[1].status)), 1;
+        if (output_at(&st[0], 0.4, 10*k, a, NULL, NULL)) return puts(gvi_why(&st[0])), 1;
+        if (output_at(&st[1], 0.3, 10*k, b, NULL, NULL)) return puts(gvi_why(&st[1])), 1;
         for (int i = 0; i < 2; ++i) off = fmax(off, fabs(a[i] - b[i]));
     }
     printf("states at t = 10, 20 ... 200, with both steps, agree to 1e-10: %s\n", off < 1e-10 ? "yes" : "no");

@@ -68,7 +68,7 @@ static int jump(int degree, double elasticity, int most, double *t, double *wors
     gvi_start_momentum(&st, 0, q, p);
     *worst = 0;
     while (bounces < most && leaves > 1e-3) {
-        if (gvi_step(&st, 0.1)) return puts(gvi_status_text(st.status)), -1;
+        if (gvi_step(&st, 0.1)) return puts(gvi_why(&st)), -1;
         const int found = event_next(&e, &st);
         if (found < 0) return puts(gvi_status_text((gvi_status)found)), -1;
         if (!found) continue;

@@ -116,7 +116,7 @@ int main(int argc, char **argv)
             body_momentum(st.q, st.p, own);
             body_rotate(st.q, 0, own, M[k > 0]);
             for (int i = 0; i < 3 && k; ++i) kept = fmax(kept, fabs(M[1][i] - M[0][i]));
-            if (gvi_step(&st, 0.05)) return puts(gvi_status_text(st.status)), 1;
+            if (gvi_step(&st, 0.05)) return puts(gvi_why(&st)), 1;
             for (; event_next(&e, &st) > 0; ++flips) {
                 if (!flips) first = e.t;
                 last = e.t;

@@ -77,7 +77,7 @@ static int swing(const gvi_desc *desc, int steps, double h, double *end)
     gvi_start(&st, 0, where, rest);
     if (desc->rule.kind == GVI_KICKS) damped_steps(&st, h, steps, friction, &lost, work);
     else for (int k = 0; k < steps && st.status == GVI_OK; ++k) gvi_step(&st, h);
-    if (st.status) puts(gvi_status_text(st.status)), exit(1);
+    if (st.status) puts(gvi_why(&st)), exit(1);
     for (int i = 0; i < COORDINATES; ++i) end[i] = st.q[i];
     free(memory);
     return (int)st.counters.effect[0];

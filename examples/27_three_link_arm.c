@@ -108,7 +108,7 @@ int main(void)
         largest = fmax(largest, control(&st, target, torque));
         gvi_step(&st, 0.005);
     }
-    if (st.status) return puts(gvi_status_text(st.status)), 1;
+    if (st.status) return puts(gvi_why(&st)), 1;
     printf("after 3 s the hand is at %.3f %.3f m\n", l1*sin(st.q[0]) + l2*sin(st.q[1]) + l3*sin(st.q[2]),
            -l1*cos(st.q[0]) - l2*cos(st.q[1]) - l3*cos(st.q[2]));
     printf("the motors needed no more than %.0f of their 40 Nm\n", ceil(largest));
@@ -120,7 +120,7 @@ int main(void)
         gvi_energy(&st, &now);
         off = fmax(off, fabs(now - first));
     }
-    if (st.status) return puts(gvi_status_text(st.status)), 1;
+    if (st.status) return puts(gvi_why(&st)), 1;
     printf("swinging freely for 20 s the energy is kept to 1e-11: %s\n", off < 1e-11 ? "yes" : "no");
     return 0;
 }

@@ -86,12 +86,12 @@ static report swing(int degree, double elasticity, int most, double until)
     gvi_init(&st, &desc, memory, sizeof memory);
     gvi_start_momentum(&st, 0, q, p);
     while (r.impacts < most && st.t < until) {
-        if (gvi_step(&st, 0.05)) return puts(gvi_status_text(st.status)), r;
+        if (gvi_step(&st, 0.05)) return puts(gvi_why(&st)), r;
         const int found = event_next(&e, &st);
         if (found < 0) return puts(gvi_status_text((gvi_status)found)), r;
         if (found && !e.rising) {
             r.taken += hit(q, p, elasticity);
-            if (gvi_start_momentum(&st, e.t, q, p)) return puts(gvi_status_text(st.status)), r;
+            if (gvi_start_momentum(&st, e.t, q, p)) return puts(gvi_why(&st)), r;
             ++r.impacts;
         }
         r.missing = start - energy(st.q, st.p);

@@ -80,7 +80,7 @@ int main(int argc, char **argv)
         drift = fmax(drift, fabs(hypot(st.q[0], st.q[1]) - 1));
         drift = fmax(drift, fabs(hypot(st.q[2] - st.q[0], st.q[3] - st.q[1]) - 1));
     }
-    if (st.status != GVI_OK) return puts(gvi_status_text(st.status)), 1;
+    if (st.status != GVI_OK) return puts(gvi_why(&st)), 1;
     if (argc == 3 && !strcmp(argv[1], "--svg")) return draw(argv[2]) ? perror(argv[2]), 1 : 0;
     gvi_energy(&st, &e);
     for (int i = 0; i < 4; ++i) error = fmax(error, fabs(st.q[i] - end[i]));

@@ -113,7 +113,7 @@ int main(void)
     gvi_multipliers(&st, &lambda);
     gvi_energy(&st, &e);
     gvi_velocity(&st, now);
-    if (st.status != GVI_OK) return puts(gvi_status_text(st.status)), 1;
+    if (st.status != GVI_OK) return puts(gvi_why(&st)), 1;
     for (int i = 0; i < 4; ++i) kinetic += st.p[i]*now[i]/2;
     axis(st.q, d);
     printf("precession %.7f, 100 revolutions in %.1f s\n", W, T);

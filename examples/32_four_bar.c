@@ -97,7 +97,7 @@ int main(void)
         least = fmin(least, swing), most = fmax(most, swing);
         for (int i = 0; i < 3; ++i) load[i] = fmax(load[i], fabs(lambda[i])*length[i]);
     }
-    if (st.status != GVI_OK) return puts(gvi_status_text(st.status)), 1;
+    if (st.status != GVI_OK) return puts(gvi_why(&st)), 1;
     gvi_energy(&st, &after);
     const double kinetic = (st.p[4]*st.p[4] + st.p[5]*st.p[5])/2, gained = after - kinetic - before;
     printf("turns in 5 s: %.2f\n", turns);

@@ -431,7 +431,7 @@ TEST(descriptions_are_refused_by_name)
         assert_int_equal(gvi_size(desc + k), 0);
         assert_status(gvi_init(&st, desc + k, memory, sizeof memory), GVI_E_FORMULATION);
         assert_int_equal(st.fault.effect, 1);
-        assert_non_null(strstr(gvi_formulation_text(&st), "constraints"));
+        assert_non_null(strstr(gvi_why(&st), "constraints"));
     }
     const gvi_desc good = linkage_desc(&a, 4);
     static const gvi_discrete out;
@@ -442,7 +442,7 @@ TEST(descriptions_are_refused_by_name)
     assert_status(gvi_discrete_lagrangian(&st, 0, (real)0.1L, a.q, a.q, &out), GVI_E_FORMULATION);
     assert_int_equal(st.fault.effect, 1);
     assert_status(gvi_start_configurations(&st, 0, (real)0.1L, a.q, a.q), GVI_E_FORMULATION);
-    assert_non_null(strstr(gvi_formulation_text(&st), "boundary values"));
+    assert_non_null(strstr(gvi_why(&st), "boundary values"));
     for (int rows = -1; rows < 6; ++rows) {       // more rows than coordinates, or none
         gvi_desc d = good;
         memcpy(effects, a.effects, sizeof effects);

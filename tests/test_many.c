@@ -478,7 +478,7 @@ static void symmetric(const form *f, int pairs, int seed)
     assert_ok(gvi_start(&st, 0, q, v));
     for (int k = 0; k < 40; ++k)
         if (gvi_step(&st, (real)0.03L) != GVI_OK)
-            fail_msg("%s, %d pairs, seed %d, step %d: %s", f->name, pairs, seed, k, gvi_status_text(st.status));
+            fail_msg("%s, %d pairs, seed %d, step %d: %s", f->name, pairs, seed, k, gvi_why(&st));
     for (int i = 0; i < SPRINGS; ++i)
         assert_close(st.q[3*s.bodies + i]/q[3*s.bodies + i], cosl(sqrtl(i + 1)*(long double)st.t), 200*(long double)EPS + 1e-13L);
 }

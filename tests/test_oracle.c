@@ -448,7 +448,7 @@ static long double run_case(const struct oracle_case *o, int options, gvi_formul
     work->points += st.counters.effect[0];
     if (e > LIMIT && !work->failed++)
         print_error("\n%s %s s=%d r=%d: %.3Lg eps, %s\n", formulation_names[how],
-                    o->lobatto ? "lobatto" : "gauss", o->s, o->r, e, gvi_status_text(st.status));
+                    o->lobatto ? "lobatto" : "gauss", o->s, o->r, e, gvi_why(&st));
     return e;
 }
 

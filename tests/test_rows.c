@@ -201,7 +201,7 @@ static void run(int which, int degree, watch *w, real *kept)
     real q[N], v[N], p[N], one;
     assert_true(gvi_size(&d) <= sizeof memory);
     if (gvi_init(&st, &d, memory, sizeof memory) != GVI_OK)
-        fail_msg("%s, degree %d: %s", runs[which].name, degree, gvi_status_text(st.status));
+        fail_msg("%s, degree %d: %s", runs[which].name, degree, gvi_why(&st));
     assert_int_equal(gvi_start(&st, 0, q0, v0), GVI_OK);
     for (int k = 0; k < STEPS; ++k) {
         starts(w, 0, &st);
@@ -209,14 +209,14 @@ static void run(int which, int degree, watch *w, real *kept)
         w->bad = k == 6 && with & DRAG;
         if (w->bad) {
             if (gvi_step(&st, (real)0.125L) != GVI_E_NON_FINITE)
-                fail_msg("%s, degree %d: NaN gives %s", runs[which].name, degree, gvi_status_text(st.status));
+                fail_msg("%s, degree %d: NaN gives %s", runs[which].name, degree, gvi_why(&st));
             one = (real)(100*st.fault.effect + 10*st.fault.coordinate + st.fault.point);
             take(kept, &used, &one, 1);
             w->bad = 0;
         }
         if (gvi_step(&st, k < 8 ? (real)0.125L : (real)-0.1L) != GVI_OK)
             fail_msg("%s, degree %d, step %d%s: %s", runs[which].name, degree, k, w->whole ? ", whole" : "",
-                     gvi_status_text(st.status));
+                     gvi_why(&st));
     }
     starts(w, 1, &st);
     take(kept, &used, st.q, N);

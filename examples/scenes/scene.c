@@ -226,7 +226,7 @@ int main(int argc, char **argv)
     r.xy = malloc(2*(size_t)SAMPLES*(size_t)a->points*sizeof *r.xy);
     if (!memory || !r.xy) return fprintf(stderr, "out of memory\n"), 1;
     const gvi_status status = run(a, &made, &st, memory, &o, &r);
-    if (status) fprintf(stderr, "t = %g: %s\n", (double)st.t, gvi_status_text(status));
+    if (status) fprintf(stderr, "t = %g: %s\n", (double)st.t, gvi_why(&st));
     report(a, &made, &st, &r);
     const int undrawn = o.svg && draw(a, &r, o.svg);
     if (undrawn) perror(o.svg);

@@ -38,7 +38,7 @@
 #ifndef ADJOINT_H
 #define ADJOINT_H
 
-#include "tools/tangent.h"
+#include "tangent.h"
 
 /* Adds weight (l.dF/dtheta + dl.dP/dtheta + dg/dtheta) to the gradient, at node i of the step. */
 typedef void adjoint_gradient_fn(gvi_real t, const gvi_real *q, const gvi_real *v, const gvi_real *l,
@@ -65,9 +65,9 @@ typedef struct adjoint {
 #define ADJOINT_KEPT(n, steps, every) ((2*(size_t)(n) + 1)*((size_t)(steps)/(size_t)(every) + 1))
 
 /* A force and its transposed: rows l take part in dL/dv, so for gvi.h it is a Lagrangian term. */
-static int adjoint_force(const gvi_points *x, void *user)
+static inline int adjoint_force(const gvi_points *x, void *user)
 {
-    const tangent_part *part = user;
+    const tangent_part *part = (const tangent_part *)user;
     gvi_points own = *x, d;
     own.n = part->scene->plain.n;
     d = own;
@@ -78,9 +78,9 @@ static int adjoint_force(const gvi_points *x, void *user)
     return part->product(&own, &d, -1, part->user);
 }
 
-static int adjoint_running(const gvi_points *x, void *user)
+static inline int adjoint_running(const gvi_points *x, void *user)
 {
-    const adjoint *A = user;
+    const adjoint *A = (const adjoint *)user;
     gvi_points own = *x, d;
     own.n = A->plain.n;
     d = own;
@@ -89,7 +89,7 @@ static int adjoint_running(const gvi_points *x, void *user)
     return A->running(&own, &d, -1, A->user);
 }
 
-static int adjoint_symmetric(const gvi_rule *rule)
+static inline int adjoint_symmetric(const gvi_rule *rule)
 {
     if (rule->kind != GVI_OWN && rule->kind != GVI_KICKS) return 1;
     for (int i = 0; i < rule->points; ++i) {

@@ -167,14 +167,14 @@ static inline struct advise_run advise_go(struct advise *x, const advise_setting
     struct advise_run run = { GVI_OK, 0, x->z, HUGE_VAL, HUGE_VAL };
     gvi_stepper st;
     if (!s->kicks && x->a->desc.formulation == GVI_AUTO) d.formulation = x->pinned;
-    double *memory = malloc(gvi_size(&d) + 1);
+    double *memory = (double *)malloc(gvi_size(&d) + 1);
     for (int k = 0; memory && k < repeats && (k == 0 || run.seconds < 0.02) && run.status == GVI_OK; ++k) {
         const clock_t begin = clock();
         gvi_init(&st, &d, memory, gvi_size(&d));
         if (x->a->momentum) gvi_start_momentum(&st, 0, x->a->q, x->a->v);
         else gvi_start(&st, 0, x->a->q, x->a->v);
         for (int sample = 0; sample < ADVISE_SAMPLES; ++sample) {
-            for (double i = 0; i < steps/ADVISE_SAMPLES && st.status == GVI_OK; ++i) {
+            for (double i = 0; i < steps/(int)ADVISE_SAMPLES && st.status == GVI_OK; ++i) {
                 gvi_step(&st, span/steps);
                 if (!x->sizing) continue;
                 x->size[0] = fmax(x->size[0], advise_largest(n, st.q, NULL));
@@ -219,7 +219,8 @@ static inline double advise_error(const struct advise *x, const double *z, const
 
 static inline double advise_fours(double steps)
 {
-    return ADVISE_SAMPLES*ceil(fmax(steps, 1)/ADVISE_SAMPLES - 1e-9);
+    const int samples = ADVISE_SAMPLES;
+    return samples*ceil(fmax(steps, 1)/samples - 1e-9);
 }
 
 /* -------------------------------------------------------------- reference */
@@ -334,8 +335,8 @@ static inline void advise_trials(struct advise *x)
         advise_try(x, (advise_setting){ .degree = degrees[i], .order = 2*degrees[i] });
     for (int i = 0; i < x->a->kicks_count; ++i) {
         const advise_kicks *k = &x->a->kicks[i];
-        advise_try(x, (advise_setting){ .degree = 1, .order = k->order, .rule = GVI_KICKS, .kicks = k,
-                                        .points = k->points });
+        advise_try(x, (advise_setting){ .degree = 1, .order = k->order, .points = k->points,
+                                        .rule = GVI_KICKS, .kicks = k });
     }
     advise_sort(x);
     advise_setting best[4];
@@ -373,7 +374,7 @@ static inline double advise_growth(struct advise *x, double h)
         struct advise_run run = advise_go(x, &pilot, x->window, steps);
         const double error = advise_error(x, run.z, x->reference);
         early = advise_error_at(x, run.z, x->reference, 0, 1);
-        power = log(error/early)/log(ADVISE_SAMPLES);
+        power = log(error/early)/log((double)ADVISE_SAMPLES);
         power = fmax(1, power);
         if (!x->proof) return pow(ratio, power);
         if (run.seconds*ratio > x->o->seconds) break;         // the horizon is too far
@@ -410,8 +411,8 @@ static inline void advise_prove(struct advise *x, advise_setting *s)
             const double spent = x->result->spent, growth = x->result->growth, p = x->result->power;
             const int runs = x->result->runs;
             *x->result = (advise_result){ .setting = *s, .h = span/steps, .error = error, .cost = run.cost,
-                                          .steps = (long)steps, .proved = 1, .runs = runs, .spent = spent,
-                                          .growth = growth, .power = p };
+                                          .growth = growth, .power = p, .steps = (long)steps, .proved = 1,
+                                          .runs = runs, .spent = spent };
         }
         if (error <= wanted && error > wanted/4) return;
         if (before > 0 && fabs(steps/before - 1) > 1e-3) {
@@ -456,7 +457,7 @@ static inline gvi_formulation advise_pin(const advise_case *a)
 {
     const advise_setting s = { .degree = 8, .order = 16 };
     const gvi_desc d = advise_desc(a, &s);
-    double *memory = malloc(gvi_size(&d) + 1);
+    double *memory = (double *)malloc(gvi_size(&d) + 1);
     gvi_formulation chosen = GVI_AUTO;
     gvi_stepper st;
     if (memory && gvi_init(&st, &d, memory, gvi_size(&d)) == GVI_OK) chosen = st.formulation;
@@ -472,11 +473,11 @@ static inline int advise_find(const advise_case *a, const advise_options *o, adv
     char line[240];
     int found = -1, shrunk = 0;
     memset(result, 0, sizeof *result);
-    x = (struct advise){ .a = a, .o = o, .result = result, .proof = 1, .best = HUGE_VAL,
-                          .sizing = 1, .pinned = advise_pin(a) };
-    x.reference = malloc(room);
-    x.far = malloc(room);
-    x.z = malloc(room);
+    x = (struct advise){ .a = a, .o = o, .result = result, .best = HUGE_VAL,
+                         .pinned = advise_pin(a), .sizing = 1, .proof = 1 };
+    x.reference = (double *)malloc(room);
+    x.far = (double *)malloc(room);
+    x.z = (double *)malloc(room);
     for (x.window = fmin(a->horizon, fmax(a->horizon/16, 16*a->h)); x.reference && x.far && x.z; ) {
         const double ratio = a->horizon/x.window;
         const double goal = fmax(o->error/ratio/30, 1e-15);

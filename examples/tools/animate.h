@@ -6,7 +6,7 @@
 #ifndef ANIMATE_H
 #define ANIMATE_H
 
-#include "tools/svg.h"
+#include "svg.h"
 #include <stdlib.h>
 
 typedef struct animate_line { int first, step, count; } animate_line;
@@ -26,7 +26,7 @@ typedef struct animation {
 } animation;
 
 /* A colour for each of a few points, one for many.                            */
-static const char *animate_colour(int i, int of)
+static inline const char *animate_colour(int i, int of)
 {
     static const char *const colour[] = { "#0072b2", "#d55e00", "#009e73", "#aa4499", "#b8860b", "#444444" };
     return colour[of > 6 ? 0 : i];
@@ -38,14 +38,14 @@ static const double *animate_at(const animation *a, int sample, int point)
 }
 
 /* Number to a tenth of a pixel, as short as it goes.                          */
-static void animate_number(FILE *f, double x)
+static inline void animate_number(FILE *f, double x)
 {
     double tenths = floor(10*x + 0.5);
     if (fmod(tenths, 10) < 0 || fmod(tenths, 10) > 0) fprintf(f, "%.1f", tenths/10);
     else fprintf(f, "%.0f", tenths/10 + 0.0);
 }
 
-static void animate_point(FILE *f, const animation *a, const svg_axis *x, const svg_axis *y,
+static inline void animate_point(FILE *f, const animation *a, const svg_axis *x, const svg_axis *y,
                           int sample, int point)
 {
     const double *at = animate_at(a, sample, point);
@@ -55,7 +55,7 @@ static void animate_point(FILE *f, const animation *a, const svg_axis *x, const 
 }
 
 /* What the picture must show, then squared by widening.                       */
-static void animate_fit(const animation *a, svg_axis *x, svg_axis *y)
+static inline void animate_fit(const animation *a, svg_axis *x, svg_axis *y)
 {
     x->lo = y->lo = HUGE_VAL;
     x->hi = y->hi = -HUGE_VAL;
@@ -73,18 +73,18 @@ static void animate_fit(const animation *a, svg_axis *x, svg_axis *y)
     svg_square(x, y);
 }
 
-static void animate_begin(FILE *f, const char *attribute)
+static inline void animate_begin(FILE *f, const char *attribute)
 {
     fprintf(f, "<animate attributeName=\"%s\" values=\"", attribute);
 }
 
-static void animate_end(FILE *f, const animation *a)
+static inline void animate_end(FILE *f, const animation *a)
 {
     fprintf(f, "\" dur=\"%.6gs\" repeatCount=\"indefinite\"/>", a->seconds);
 }
 
 /* How far along its trail the point is at each sample, in pixels.             */
-static void animate_lengths(const animation *a, const svg_axis *x, const svg_axis *y,
+static inline void animate_lengths(const animation *a, const svg_axis *x, const svg_axis *y,
                             int point, double *length)
 {
     length[0] = 0;
@@ -97,9 +97,9 @@ static void animate_lengths(const animation *a, const svg_axis *x, const svg_axi
 
 /* All of the trail, pale; over it the last `tail` of it, dark: one dash, which
    an offset moves along.                                                     */
-static void animate_trail(FILE *f, const animation *a, const svg_axis *x, const svg_axis *y, int point)
+static inline void animate_trail(FILE *f, const animation *a, const svg_axis *x, const svg_axis *y, int point)
 {
-    double *length = malloc((size_t)a->samples*sizeof *length), all, tail;
+    double *length = (double *)malloc((size_t)a->samples*sizeof *length), all, tail;
     if (!length) return;
     animate_lengths(a, x, y, point, length);
     all = length[a->samples-1];
@@ -124,7 +124,7 @@ static void animate_trail(FILE *f, const animation *a, const svg_axis *x, const 
     free(length);
 }
 
-static void animate_body(FILE *f, const animation *a, const svg_axis *x, const svg_axis *y, int point)
+static inline void animate_body(FILE *f, const animation *a, const svg_axis *x, const svg_axis *y, int point)
 {
     const double size = a->sizes[point], *at = animate_at(a, 0, point);
     const double r = size < 0 ? -size*fabs(x->b - x->a)/(x->hi - x->lo) : size;
@@ -149,7 +149,7 @@ static void animate_body(FILE *f, const animation *a, const svg_axis *x, const s
     if (moves) fprintf(f, "</circle>\n");
 }
 
-static void animate_joined(FILE *f, const animation *a, const svg_axis *x, const svg_axis *y,
+static inline void animate_joined(FILE *f, const animation *a, const svg_axis *x, const svg_axis *y,
                            const animate_line *l, int s)
 {
     for (int k = 0; k < l->count; ++k) {
@@ -158,7 +158,7 @@ static void animate_joined(FILE *f, const animation *a, const svg_axis *x, const
     }
 }
 
-static void animate_lines(FILE *f, const animation *a, const svg_axis *x, const svg_axis *y)
+static inline void animate_lines(FILE *f, const animation *a, const svg_axis *x, const svg_axis *y)
 {
     for (const animate_line *l = a->lines; l < a->lines + a->line_count; ++l) {
         fprintf(f, "<path fill=\"none\" stroke=\"#555\" stroke-width=\"%s\" stroke-linejoin=\"round\" d=\"",
@@ -176,7 +176,7 @@ static void animate_lines(FILE *f, const animation *a, const svg_axis *x, const 
 }
 
 /* A bar of round length, to tell how large things are.                        */
-static void animate_scale(FILE *f, const animation *a, const svg_axis *x)
+static inline void animate_scale(FILE *f, const animation *a, const svg_axis *x)
 {
     const double bar = svg_tick(x), left = x->a, right = left + bar*(x->b - x->a)/(x->hi - x->lo);
     if (!a->unit) return;
@@ -185,7 +185,7 @@ static void animate_scale(FILE *f, const animation *a, const svg_axis *x)
 }
 
 /* One of the two plots, `top` pixels down, and the mark that runs along.      */
-static void animate_plot(FILE *f, const animation *a, const svg_plot *plot, double top)
+static inline void animate_plot(FILE *f, const animation *a, const svg_plot *plot, double top)
 {
     svg_axis x = { 0, a->t[0], a->t[a->samples-1], 590, 880, 5 }, y = { 0, 0, 1, top + 150, top, 5 };
     svg_fit(&y, plot, 1);
@@ -207,7 +207,7 @@ static void animate_plot(FILE *f, const animation *a, const svg_plot *plot, doub
 }
 
 /* Writes the film.  Returns 0, or -1 if the file cannot be written.           */
-static int animate_write(const char *path, const animation *a)
+static inline int animate_write(const char *path, const animation *a)
 {
     svg_axis x = { 0, 0, 1, 20, 480, 6 }, y = { 0, 0, 1, 480, 40, 6 };
     FILE *f = fopen(path, "w");

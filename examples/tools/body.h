@@ -31,8 +31,9 @@
 #ifndef BODY_H
 #define BODY_H
 
+#include "gvi.h"
 typedef struct body { gvi_real mass, inertia[3]; } body;
-typedef struct bodies { const body *body; int count; } bodies;
+typedef struct bodies { const struct body *body; int count; } bodies;
 
 /* Im(conj(a) b) = G(a) b.                                                         */
 static inline void body_imaginary(const gvi_real *a, const gvi_real *b, gvi_real *out)
@@ -172,7 +173,7 @@ static inline void body_slope(const body *b, const gvi_real *e, const gvi_real *
 
 static inline int body_mass_points(const gvi_points *x, void *user)
 {
-    const bodies *all = user;
+    const bodies *all = (const bodies *)user;
     const int n = x->n;
     for (int i = 0; i < n*n; ++i)
         for (int k = 0; k < x->count; ++k) x->mass[i*x->stride + k] = 0;
@@ -185,7 +186,8 @@ static inline int body_mass_points(const gvi_points *x, void *user)
             body_take(x, x->q, row, 4, k, e);
             const gvi_real size = 1/body_dot(e, e);
             for (int i = 0; i < 4; ++i) {                              // columns of G
-                const gvi_real unit[4] = { i == 0, i == 1, i == 2, i == 3 };
+                gvi_real unit[4] = { 0, 0, 0, 0 };
+                unit[i] = 1;
                 body_imaginary(e, unit, g[i]);
             }
             for (int i = 0; i < 4; ++i)
@@ -202,7 +204,7 @@ static inline int body_mass_points(const gvi_points *x, void *user)
 /* mass.gradient, and mass.velocity where there is a velocity to write.                */
 static inline int body_mass_rows(const gvi_points *x, void *user)
 {
-    const bodies *all = user;
+    const bodies *all = (const bodies *)user;
     for (int j = 0, row = 0; j < all->count; row += 4, ++j) {
         const body *b = all->body + j;
         for (int c = 0; b->mass > 0 && c < 3; ++c, ++row)
@@ -226,7 +228,7 @@ static inline int body_mass_rows(const gvi_points *x, void *user)
    nothing acts on |e|.                                                             */
 static inline int body_unit_points(const gvi_points *x, void *user)
 {
-    const bodies *all = user;
+    const bodies *all = (const bodies *)user;
     for (int j = 0, row = 0; j < all->count; row += 4, ++j) {
         if (all->body[j].mass > 0) row += 3;
         for (int k = 0; k < x->count; ++k) {
@@ -241,7 +243,7 @@ static inline int body_unit_points(const gvi_points *x, void *user)
 
 static inline gvi_effect body_unit(const bodies *all)
 {
-    return (gvi_effect){ .kind = GVI_CONSTRAINT, .points = body_unit_points, .rows = all->count, .user = (void *)all };
+    return (gvi_effect){ .kind = GVI_CONSTRAINT, .points = body_unit_points, .user = (void *)all, .rows = all->count };
 }
 
 /* For scenes of potentials and forces; with Lagrangian terms or constraints set .velocity = NULL. */

@@ -42,7 +42,10 @@
 #include <stdio.h>                    /* snprintf, for check_line alone        */
 #include <stdlib.h>
 #include <string.h>
+#include <math.h>
+#ifndef __cplusplus
 #include <tgmath.h>
+#endif
 
 typedef enum check_what {
     CHECK_DERIVATIVE, /* entry [i] or [i][j] is not the derivative             */
@@ -587,7 +590,7 @@ static inline int check_g(struct check_run *c, gvi_real *out)
 {
     const gvi_effect *e = check_effect(c);
     const gvi_points x = { .n = c->n, .count = 1, .stride = 1, .t = &c->t, .q = c->q, .g = c->one,
-                           .rate = c->two, .jacobian = c->found };
+                           .jacobian = c->found, .rate = c->two };
     memset(c->two, 0, (size_t)c->n*sizeof *c->two);
     memset(c->found, 0, (size_t)(c->n*c->n)*sizeof *c->found);
     const int refused = e->points(&x, e->user);
@@ -761,9 +764,9 @@ static inline void check_velocity(struct check_run *c)
     }
     for (int i = 0; !well && i < n; ++i)
         if (!(fabs(u[i] - c->v[i]) <= far*c->size[n+i]/1000))
-            check_add(c, (check_finding){ .what = CHECK_VELOCITY, .entry = "velocity", .against = "v", .i = i,
-                                          .j = -1, .found = u[i], .right = c->v[i],
-                                          .hint = check_guess(u[i], c->v[i]) });
+            check_add(c, (check_finding){ .what = CHECK_VELOCITY, .hint = check_guess(u[i], c->v[i]),
+                                          .entry = "velocity", .against = "v", .i = i, .j = -1,
+                                          .found = u[i], .right = c->v[i] });
 }
 
 /* The three mass callbacks at many points against one at a time: points; then
@@ -914,7 +917,7 @@ static inline gvi_real *check_memory(struct check_run *c)
     const size_t guarded = (batch > square ? batch : square) + 2*CHECK_GUARD;
     const size_t vectors = (9 + 2*CHECK_POINTS + 2*CHECK_DEPTH + 2*CHECK_STRIDE)*n;
     const size_t total = vectors + 2*rows + 3*square + 3*guarded + 20*CHECK_GUARD;
-    gvi_real *memory = calloc(total, sizeof *memory), *next = memory;
+    gvi_real *memory = (gvi_real *)calloc(total, sizeof *memory), *next = memory;
     if (!memory) return NULL;
     c->q = check_carve(&next, n);
     c->v = check_carve(&next, n);
@@ -969,15 +972,15 @@ static inline const char *check_line(const check_finding *f, char *line, int siz
         "", "", "", "", "is not written, or added to", "is not definite", "overwrites what was there",
         "differs with many points at once", "differs when asked for together", "writes beyond its points",
         "depends on v, which it may not", "is not above 0", "refuses, or is not finite" };
-    char who[32] = "mass", at[48] = "", where[40] = "the state given", and[96] = "";
+    char who[32] = "mass", at[48] = "", where[40] = "the state given", is[96] = "";
     if (f->effect >= 0) snprintf(who, sizeof who, "effect %d", f->effect);
     if (f->i >= 0 && f->j >= 0) snprintf(at, sizeof at, "[%d][%d]", f->i, f->j);
     else if (f->i >= 0) snprintf(at, sizeof at, "[%d]", f->i);
     if (f->point) snprintf(where, sizeof where, "point %d near it", f->point);
     if (*f->against && *words[f->what])
-        snprintf(and, sizeof and, ": %.9g for %.9g", (double)f->found, (double)f->right);
+        snprintf(is, sizeof is, ": %.9g for %.9g", (double)f->found, (double)f->right);
     if (*words[f->what]) {
-        snprintf(line, (size_t)size, "%s: %s%s %s%s (at %s)", who, f->entry, at, words[f->what], and, where);
+        snprintf(line, (size_t)size, "%s: %s%s %s%s (at %s)", who, f->entry, at, words[f->what], is, where);
         return line;
     }
     if (f->what == CHECK_SYMMETRY || f->what == CHECK_CURL)

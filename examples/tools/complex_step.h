@@ -23,7 +23,10 @@
 #ifndef COMPLEX_STEP_H
 #define COMPLEX_STEP_H
 
-#include "tools/tangent.h"
+#ifdef __cplusplus
+#error "complex_step.h is C: C++ has complex numbers of another kind"
+#endif
+#include "tangent.h"
 #include <complex.h>
 
 #ifndef COMPLEX_MOST

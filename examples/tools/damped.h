@@ -28,10 +28,11 @@
 #ifndef DAMPED_H
 #define DAMPED_H
 
+#include "gvi.h"
 typedef void damped_fn(gvi_real h, const gvi_real *q, gvi_real *p, void *user);
 
 /* Friction for the time h, from p of length n, which is left as it is, through `work`. */
-static gvi_status damped_start(gvi_stepper *st, gvi_real t, gvi_real h, damped_fn *friction, void *user, gvi_real *work)
+static inline gvi_status damped_start(gvi_stepper *st, gvi_real t, gvi_real h, damped_fn *friction, void *user, gvi_real *work)
 {
     for (int i = 0; i < st->n; ++i) work[i] = st->p[i];
     friction(h, st->q, work, user);

@@ -36,7 +36,13 @@
 #define EFFECTS_H
 
 #include "gvi.h"
+#include <math.h>
+#ifndef __cplusplus
 #include <tgmath.h>
+#endif
+#ifdef __cplusplus
+#define restrict __restrict            /* to the end of this file */
+#endif
 
 /* Coordinate c of particle i is q[first + i*dim + c]; dim is 2 or 3.          */
 typedef struct particles { int first, count, dim; } particles;
@@ -61,7 +67,7 @@ struct uniform_field { particles on; const gvi_real *charge; gvi_real field[3]; 
 
 static inline int uniform_field_force(const gvi_points *x, void *user)
 {
-    const struct uniform_field *u = user;
+    const struct uniform_field *u = (const struct uniform_field *)user;
     for (int i = 0; i < u->on.count; ++i)
         for (int c = 0; c < u->on.dim; ++c) {
             gvi_real *f = x->f + particle_row(x, u->on, i) + effect_row(x, c);
@@ -73,7 +79,7 @@ static inline int uniform_field_force(const gvi_points *x, void *user)
 
 static inline int uniform_field_value(const gvi_points *x, void *user)
 {
-    const struct uniform_field *u = user;
+    const struct uniform_field *u = (const struct uniform_field *)user;
     for (int i = 0; i < u->on.count; ++i)
         for (int c = 0; c < u->on.dim; ++c) {
             const gvi_real *q = x->q + particle_row(x, u->on, i) + effect_row(x, c);
@@ -113,7 +119,7 @@ static inline void pair_gravity_rows(int count, int d, const gvi_real *restrict 
 
 static inline int pair_gravity_force(const gvi_points *x, void *user)
 {
-    const struct pair_gravity *p = user;
+    const struct pair_gravity *p = (const struct pair_gravity *)user;
     for (int i = 1; i < p->on.count; ++i)
         for (int j = 0; j < i; ++j) {
             const size_t a = particle_row(x, p->on, i), b = particle_row(x, p->on, j);
@@ -127,7 +133,7 @@ static inline int pair_gravity_force(const gvi_points *x, void *user)
 
 static inline int pair_gravity_value(const gvi_points *x, void *user)
 {
-    const struct pair_gravity *p = user;
+    const struct pair_gravity *p = (const struct pair_gravity *)user;
     const int d = x->stride, space = p->on.dim == 3;
     for (int i = 1; i < p->on.count; ++i)
         for (int j = 0; j < i; ++j) {
@@ -165,7 +171,7 @@ static inline void central_gravity_rows(int count, int d, const gvi_real *restri
 
 static inline int central_gravity_force(const gvi_points *x, void *user)
 {
-    const struct central_gravity *p = user;
+    const struct central_gravity *p = (const struct central_gravity *)user;
     for (int i = 0; i < p->on.count; ++i) {
         const size_t at = particle_row(x, p->on, i);
         const gvi_real mm = p->gm*p->mass[i];
@@ -177,7 +183,7 @@ static inline int central_gravity_force(const gvi_points *x, void *user)
 
 static inline int central_gravity_value(const gvi_points *x, void *user)
 {
-    const struct central_gravity *p = user;
+    const struct central_gravity *p = (const struct central_gravity *)user;
     const int d = x->stride, space = p->on.dim == 3;
     for (int i = 0; i < p->on.count; ++i) {
         const gvi_real *q = x->q + particle_row(x, p->on, i), *o = p->centre, mm = p->gm*p->mass[i];
@@ -214,7 +220,7 @@ static inline void oblateness_rows(int count, int d, const gvi_real *restrict q,
 
 static inline int oblateness_force(const gvi_points *x, void *user)
 {
-    const struct oblateness *p = user;
+    const struct oblateness *p = (const struct oblateness *)user;
     for (int i = 0; i < p->on.count; ++i) {
         const size_t at = particle_row(x, p->on, i);
         const gvi_real a = p->gm*p->mass[i]*p->j2*p->radius*p->radius;
@@ -225,7 +231,7 @@ static inline int oblateness_force(const gvi_points *x, void *user)
 
 static inline int oblateness_value(const gvi_points *x, void *user)
 {
-    const struct oblateness *p = user;
+    const struct oblateness *p = (const struct oblateness *)user;
     const int d = x->stride;
     for (int i = 0; i < p->on.count; ++i) {
         const gvi_real *q = x->q + particle_row(x, p->on, i);
@@ -270,7 +276,7 @@ static inline void springs_rows(int count, int d, const gvi_real *restrict a, co
 
 static inline int springs_force(const gvi_points *x, void *user)
 {
-    const struct springs *p = user;
+    const struct springs *p = (const struct springs *)user;
     for (const struct spring *s = p->list; s < p->list + p->count; ++s) {
         const size_t a = particle_row(x, p->on, s->a), b = particle_row(x, p->on, s->b);
         const gvi_real *q = x->q;
@@ -283,7 +289,7 @@ static inline int springs_force(const gvi_points *x, void *user)
 
 static inline int springs_value(const gvi_points *x, void *user)
 {
-    const struct springs *p = user;
+    const struct springs *p = (const struct springs *)user;
     const int d = x->stride, space = p->on.dim == 3;
     for (const struct spring *s = p->list; s < p->list + p->count; ++s) {
         const gvi_real *a = x->q + particle_row(x, p->on, s->a), *b = x->q + particle_row(x, p->on, s->b);
@@ -306,7 +312,7 @@ static inline gvi_real spring_stiffness(gvi_real k, gvi_real rest, int dim, cons
 static inline int springs_hessian(gvi_real t, const gvi_real *q, const gvi_real *v,
                                   gvi_real *fq, gvi_real *fv, gvi_real *pv, void *user)
 {
-    const struct springs *p = user;
+    const struct springs *p = (const struct springs *)user;
     const int dim = p->on.dim;
     for (const struct spring *s = p->list; s < p->list + p->count; ++s) {
         const int a = p->on.first + s->a*dim, b = p->on.first + s->b*dim;
@@ -346,7 +352,7 @@ static inline void tethers_rows(int count, int d, const gvi_real *restrict a, gv
 
 static inline int tethers_force(const gvi_points *x, void *user)
 {
-    const struct tethers *p = user;
+    const struct tethers *p = (const struct tethers *)user;
     for (const struct tether *s = p->list; s < p->list + p->count; ++s) {
         const size_t at = particle_row(x, p->on, s->a);
         if (p->on.dim == 3) tethers_rows(x->count, x->stride, x->q + at, x->f + at, s, 1);
@@ -357,7 +363,7 @@ static inline int tethers_force(const gvi_points *x, void *user)
 
 static inline int tethers_value(const gvi_points *x, void *user)
 {
-    const struct tethers *p = user;
+    const struct tethers *p = (const struct tethers *)user;
     const int d = x->stride, space = p->on.dim == 3;
     for (const struct tether *s = p->list; s < p->list + p->count; ++s) {
         const gvi_real *a = x->q + particle_row(x, p->on, s->a);
@@ -373,7 +379,7 @@ static inline int tethers_value(const gvi_points *x, void *user)
 static inline int tethers_hessian(gvi_real t, const gvi_real *q, const gvi_real *v,
                                   gvi_real *fq, gvi_real *fv, gvi_real *pv, void *user)
 {
-    const struct tethers *p = user;
+    const struct tethers *p = (const struct tethers *)user;
     const int dim = p->on.dim;
     for (const struct tether *s = p->list; s < p->list + p->count; ++s) {
         const int a = p->on.first + s->a*dim;
@@ -400,7 +406,7 @@ struct weights { int first, count; const gvi_real *w; };
 
 static inline int weights_force(const gvi_points *x, void *user)
 {
-    const struct weights *p = user;
+    const struct weights *p = (const struct weights *)user;
     for (int i = 0; i < p->count; ++i) {
         const gvi_real *q = x->q + effect_row(x, p->first + i);
         gvi_real *f = x->f + effect_row(x, p->first + i);
@@ -411,7 +417,7 @@ static inline int weights_force(const gvi_points *x, void *user)
 
 static inline int weights_value(const gvi_points *x, void *user)
 {
-    const struct weights *p = user;
+    const struct weights *p = (const struct weights *)user;
     for (int i = 0; i < p->count; ++i) {
         const gvi_real *q = x->q + effect_row(x, p->first + i);
         for (int k = 0; k < x->count; ++k) x->value[k] -= p->w[i]*cos(q[k]);
@@ -429,7 +435,7 @@ struct quartic_well { int first, count; gvi_real a, b; int n; };
 
 static inline int quartic_well_force(const gvi_points *x, void *user)
 {
-    const struct quartic_well *p = user;
+    const struct quartic_well *p = (const struct quartic_well *)user;
     for (int i = p->first; i < p->first + p->count; ++i) {
         const gvi_real *q = x->q + effect_row(x, i), a = p->a, b = p->b;
         gvi_real *f = x->f + effect_row(x, i);
@@ -440,7 +446,7 @@ static inline int quartic_well_force(const gvi_points *x, void *user)
 
 static inline int quartic_well_value(const gvi_points *x, void *user)
 {
-    const struct quartic_well *p = user;
+    const struct quartic_well *p = (const struct quartic_well *)user;
     for (int i = p->first; i < p->first + p->count; ++i) {
         const gvi_real *q = x->q + effect_row(x, i);
         for (int k = 0; k < x->count; ++k) {
@@ -454,7 +460,7 @@ static inline int quartic_well_value(const gvi_points *x, void *user)
 static inline int quartic_well_hessian(gvi_real t, const gvi_real *q, const gvi_real *v,
                                        gvi_real *fq, gvi_real *fv, gvi_real *pv, void *user)
 {
-    const struct quartic_well *p = user;
+    const struct quartic_well *p = (const struct quartic_well *)user;
     for (int i = p->first; i < p->first + p->count; ++i) fq[i*p->n + i] -= p->a + 3*p->b*q[i]*q[i];
     return (void)t, (void)v, (void)fv, (void)pv, 0;
 }
@@ -471,7 +477,7 @@ struct chain { int first, count; gvi_real k, a, b; int n; };
 
 static inline int chain_force(const gvi_points *x, void *user)
 {
-    const struct chain *p = user;
+    const struct chain *p = (const struct chain *)user;
     for (int i = 0; i <= p->count; ++i) {                      // bond i joins particles i-1 and i
         const int left = i > 0, right = i < p->count;
         const size_t at = effect_row(x, p->first + i), before = at - effect_row(x, left);
@@ -488,7 +494,7 @@ static inline int chain_force(const gvi_points *x, void *user)
 
 static inline int chain_value(const gvi_points *x, void *user)
 {
-    const struct chain *p = user;
+    const struct chain *p = (const struct chain *)user;
     for (int i = 0; i <= p->count; ++i) {
         const int left = i > 0, right = i < p->count;
         const gvi_real *q = x->q + effect_row(x, p->first + i), *l = q - effect_row(x, left);
@@ -503,7 +509,7 @@ static inline int chain_value(const gvi_points *x, void *user)
 static inline int chain_hessian(gvi_real t, const gvi_real *q, const gvi_real *v,
                                 gvi_real *fq, gvi_real *fv, gvi_real *pv, void *user)
 {
-    const struct chain *p = user;
+    const struct chain *p = (const struct chain *)user;
     for (int i = 0; i <= p->count; ++i) {
         const int left = i > 0, right = i < p->count, at = p->first + i;
         gvi_real d = (right ? q[at] : 0) - (left ? q[at-1] : 0), stiff = p->k + (2*p->a + 3*p->b*d)*d;
@@ -526,7 +532,7 @@ struct linear_drag { int first, count; gvi_real c; int n; };
 
 static inline int linear_drag_force(const gvi_points *x, void *user)
 {
-    const struct linear_drag *p = user;
+    const struct linear_drag *p = (const struct linear_drag *)user;
     for (int i = p->first; i < p->first + p->count; ++i) {
         const gvi_real *v = x->v + effect_row(x, i), c = p->c;
         gvi_real *f = x->f + effect_row(x, i);
@@ -538,7 +544,7 @@ static inline int linear_drag_force(const gvi_points *x, void *user)
 static inline int linear_drag_hessian(gvi_real t, const gvi_real *q, const gvi_real *v,
                                       gvi_real *fq, gvi_real *fv, gvi_real *pv, void *user)
 {
-    const struct linear_drag *p = user;
+    const struct linear_drag *p = (const struct linear_drag *)user;
     for (int i = p->first; i < p->first + p->count; ++i) fv[i*p->n + i] -= p->c;
     return (void)t, (void)q, (void)v, (void)fq, (void)pv, 0;
 }
@@ -565,7 +571,7 @@ static inline void air_drag_rows(int count, int d, const gvi_real *restrict v, g
 
 static inline int air_drag_force(const gvi_points *x, void *user)
 {
-    const struct air_drag *p = user;
+    const struct air_drag *p = (const struct air_drag *)user;
     for (int i = 0; i < p->on.count; ++i) {
         const size_t at = particle_row(x, p->on, i);
         if (p->on.dim == 3) air_drag_rows(x->count, x->stride, x->v + at, x->f + at, p->c, 1);
@@ -578,7 +584,7 @@ static inline int air_drag_force(const gvi_points *x, void *user)
 static inline int air_drag_hessian(gvi_real t, const gvi_real *q, const gvi_real *v,
                                    gvi_real *fq, gvi_real *fv, gvi_real *pv, void *user)
 {
-    const struct air_drag *p = user;
+    const struct air_drag *p = (const struct air_drag *)user;
     const int dim = p->on.dim;
     for (int b = 0; b < p->on.count; ++b) {
         const int at = p->on.first + b*dim;
@@ -603,7 +609,7 @@ struct atmosphere { particles on; gvi_real c, radius, height; };
 
 static inline int atmosphere_force(const gvi_points *x, void *user)
 {
-    const struct atmosphere *p = user;
+    const struct atmosphere *p = (const struct atmosphere *)user;
     const int d = x->stride;
     for (int i = 0; i < p->on.count; ++i) {
         const gvi_real *q = x->q + particle_row(x, p->on, i), *v = x->v + particle_row(x, p->on, i);
@@ -634,7 +640,7 @@ struct joint_friction { const joint *list; int count; gvi_real c; };
 
 static inline int joint_friction_force(const gvi_points *x, void *user)
 {
-    const struct joint_friction *p = user;
+    const struct joint_friction *p = (const struct joint_friction *)user;
     for (int i = 0; i < p->count; ++i) {
         const int held = p->list[i].inner >= 0;
         const size_t out = effect_row(x, p->list[i].outer), in = held ? effect_row(x, p->list[i].inner) : out;
@@ -659,7 +665,7 @@ struct motor { joint on; gvi_real a, b, w, phase; };
 
 static inline int motor_force(const gvi_points *x, void *user)
 {
-    const struct motor *p = user;
+    const struct motor *p = (const struct motor *)user;
     const int held = p->on.inner >= 0;
     gvi_real *f = x->f + effect_row(x, p->on.outer), *g = held ? x->f + effect_row(x, p->on.inner) : f;
     for (int k = 0; k < x->count; ++k) {
@@ -682,7 +688,7 @@ struct servo { joint on; gvi_real k, c, a, b, w, phase; };
 
 static inline int servo_force(const gvi_points *x, void *user)
 {
-    const struct servo *p = user;
+    const struct servo *p = (const struct servo *)user;
     const int held = p->on.inner >= 0;
     const size_t out = effect_row(x, p->on.outer), in = held ? effect_row(x, p->on.inner) : out;
     const gvi_real *q = x->q + out, *v = x->v + out, *r = x->q + in, *u = x->v + in;
@@ -720,7 +726,7 @@ static inline void magnetic_force_rows(int count, int d, const gvi_real *restric
 
 static inline int magnetic_force_points(const gvi_points *x, void *user)
 {
-    const struct magnetic *p = user;
+    const struct magnetic *p = (const struct magnetic *)user;
     for (int i = 0; i < p->on.count; ++i) {
         const gvi_real e = p->charge[i];
         const size_t at = particle_row(x, p->on, i);
@@ -737,7 +743,7 @@ static inline gvi_effect magnetic_force(const struct magnetic *p)
 /* dL/dv = e B x r/2, and dL/dr = e v x B/2.                                    */
 static inline int magnetic_field_points(const gvi_points *x, void *user)
 {
-    const struct magnetic *p = user;
+    const struct magnetic *p = (const struct magnetic *)user;
     for (int i = 0; i < p->on.count; ++i) {
         const gvi_real e = p->charge[i]/2;
         const size_t at = particle_row(x, p->on, i);
@@ -749,7 +755,7 @@ static inline int magnetic_field_points(const gvi_points *x, void *user)
 
 static inline int magnetic_field_value(const gvi_points *x, void *user)
 {
-    const struct magnetic *p = user;
+    const struct magnetic *p = (const struct magnetic *)user;
     const int d = x->stride;
     for (int i = 0; i < p->on.count; ++i) {
         const gvi_real e = p->charge[i]/2, a = e*p->B[0], b = e*p->B[1], c = e*p->B[2];
@@ -783,7 +789,7 @@ static inline void rotating_frame_rows(int count, int d, const gvi_real *restric
 
 static inline int rotating_frame_points(const gvi_points *x, void *user)
 {
-    const struct rotating_frame *p = user;
+    const struct rotating_frame *p = (const struct rotating_frame *)user;
     for (int i = 0; i < p->on.count; ++i) {
         const size_t at = particle_row(x, p->on, i);
         rotating_frame_rows(x->count, x->stride, x->q + at, x->v + at, x->f + at, x->dldv + at,
@@ -794,7 +800,7 @@ static inline int rotating_frame_points(const gvi_points *x, void *user)
 
 static inline int rotating_frame_value(const gvi_points *x, void *user)
 {
-    const struct rotating_frame *p = user;
+    const struct rotating_frame *p = (const struct rotating_frame *)user;
     const int d = x->stride;
     for (int i = 0; i < p->on.count; ++i) {
         const gvi_real m = p->mass[i]*p->w;
@@ -820,7 +826,7 @@ struct rods { particles on; const struct rod *list; int count; };
 
 static inline int rods_hold(const gvi_points *x, void *user)
 {
-    const struct rods *p = user;
+    const struct rods *p = (const struct rods *)user;
     const int d = x->stride;
     for (int i = 0; i < p->count; ++i) {
         const struct rod *s = p->list + i;
@@ -840,7 +846,7 @@ static inline int rods_hold(const gvi_points *x, void *user)
 
 static inline gvi_effect rods(const struct rods *p)
 {
-    return (gvi_effect){ .kind = GVI_CONSTRAINT, .points = rods_hold, .rows = p->count, .user = (void *)p };
+    return (gvi_effect){ .kind = GVI_CONSTRAINT, .points = rods_hold, .user = (void *)p, .rows = p->count };
 }
 
 /* ------------------------------------------------------------------- masses */
@@ -852,7 +858,7 @@ struct two_links { gvi_real a, b, c; };
 
 static inline int two_links_mass(const gvi_points *x, void *user)
 {
-    const struct two_links *p = user;
+    const struct two_links *p = (const struct two_links *)user;
     const int d = x->stride;
     for (int k = 0; k < x->count; ++k) {
         x->mass[k] = p->a;
@@ -864,7 +870,7 @@ static inline int two_links_mass(const gvi_points *x, void *user)
 
 static inline int two_links_gradient(const gvi_points *x, void *user)
 {
-    const struct two_links *p = user;
+    const struct two_links *p = (const struct two_links *)user;
     const int d = x->stride;
     for (int k = 0; k < x->count; ++k) {
         gvi_real f = p->c*sin(x->q[k] - x->q[d+k])*x->v[k]*x->v[d+k];
@@ -876,7 +882,7 @@ static inline int two_links_gradient(const gvi_points *x, void *user)
 
 static inline int two_links_velocity(const gvi_points *x, void *user)
 {
-    const struct two_links *p = user;
+    const struct two_links *p = (const struct two_links *)user;
     const int d = x->stride;
     for (int k = 0; k < x->count; ++k) {
         gvi_real m = p->c*cos(x->q[k] - x->q[d+k]), det = p->a*p->b - m*m;
@@ -899,7 +905,7 @@ struct top { gvi_real across, along; };
 
 static inline int top_mass(const gvi_points *x, void *user)
 {
-    const struct top *p = user;
+    const struct top *p = (const struct top *)user;
     const int d = x->stride;
     for (int k = 0; k < x->count; ++k) {
         gvi_real c = cos(x->q[k]), s = sin(x->q[k]);
@@ -915,7 +921,7 @@ static inline int top_mass(const gvi_points *x, void *user)
 
 static inline int top_gradient(const gvi_points *x, void *user)
 {
-    const struct top *p = user;
+    const struct top *p = (const struct top *)user;
     const int d = x->stride;
     for (int k = 0; k < x->count; ++k) {
         gvi_real c = cos(x->q[k]), s = sin(x->q[k]), w = x->v[d+k], axial = x->v[2*d+k] + w*c;
@@ -926,7 +932,7 @@ static inline int top_gradient(const gvi_points *x, void *user)
 
 static inline int top_velocity(const gvi_points *x, void *user)
 {
-    const struct top *p = user;
+    const struct top *p = (const struct top *)user;
     const int d = x->stride;
     for (int k = 0; k < x->count; ++k) {
         gvi_real c = cos(x->q[k]), s = sin(x->q[k]), w = (x->p[d+k] - x->p[2*d+k]*c)/(p->across*s*s);
@@ -943,4 +949,7 @@ static inline gvi_mass top(const struct top *p)
                        .velocity = top_velocity, .user = (void *)p };
 }
 
+#ifdef __cplusplus
+#undef restrict
+#endif
 #endif

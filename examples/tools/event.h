@@ -27,6 +27,7 @@
 #ifndef EVENT_H
 #define EVENT_H
 
+#include "gvi.h"
 typedef gvi_real event_fn(gvi_real t, const gvi_real *q, const gvi_real *v, void *user);
 
 typedef struct event {
@@ -41,13 +42,13 @@ typedef struct event {
     int      asked, found, next;   /* ever; a zero, ever; interval of this step     */
 } event;
 
-static int event_same(gvi_real a, gvi_real b) { return !(a < b) && !(a > b); }
-static gvi_real event_size(gvi_real a) { return a < 0 ? -a : a; }
-static gvi_real event_time(const gvi_stepper *st, gvi_real x) { return x < 1 ? st->t0 + x*(st->t - st->t0) : st->t; }
+static inline int event_same(gvi_real a, gvi_real b) { return !(a < b) && !(a > b); }
+static inline gvi_real event_size(gvi_real a) { return a < 0 ? -a : a; }
+static inline gvi_real event_time(const gvi_stepper *st, gvi_real x) { return x < 1 ? st->t0 + x*(st->t - st->t0) : st->t; }
 
 /* g at fraction x of the last step, of the state or of the curve.  The state at the end is there,
    without a partial step for the rounding of t.                                  */
-static gvi_status event_value(event *e, gvi_stepper *st, gvi_real x, int state, gvi_real *g)
+static inline gvi_status event_value(event *e, gvi_stepper *st, gvi_real x, int state, gvi_real *g)
 {
     const gvi_real t = event_time(st, x);
     const int end = state && !(x < 1);
@@ -60,14 +61,14 @@ static gvi_status event_value(event *e, gvi_stepper *st, gvi_real x, int state, 
 }
 
 /* Is the curve none, or not one over time? Kicks have no order, and with a clock t - t0 is not h. */
-static int event_by_states(const gvi_stepper *st)
+static inline int event_by_states(const gvi_stepper *st)
 {
     const gvi_real size = event_size(st->t0) + event_size(st->t), off = ((st->t - st->t0) - st->h)/8;
     return st->order == 0 || !event_same(size + off, size);
 }
 
 /* Illinois's method between a and b, to `width` or to what the time can tell apart.  */
-static gvi_status event_between(event *e, gvi_stepper *st, int state, gvi_real width, gvi_real a, gvi_real b,
+static inline gvi_status event_between(event *e, gvi_stepper *st, int state, gvi_real width, gvi_real a, gvi_real b,
                                 gvi_real ga, gvi_real gb, gvi_real *x)
 {
     gvi_real g;
@@ -92,7 +93,7 @@ static gvi_status event_between(event *e, gvi_stepper *st, int state, gvi_real w
 
 /* Secants through states from x, where the curve has its zero, the first with the curve's slope,
    until |g| no longer shrinks.  1: that is a zero between a and b.              */
-static int event_secant(event *e, gvi_stepper *st, gvi_real a, gvi_real b, gvi_real *x)
+static inline int event_secant(event *e, gvi_stepper *st, gvi_real a, gvi_real b, gvi_real *x)
 {
     const gvi_real enough = sizeof(gvi_real) < 8 ? (gvi_real)1e-5 : (gvi_real)1e-10, aside = (gvi_real)1e-3;
     const gvi_real low = *x > aside ? *x - aside : 0, high = *x < 1 - aside ? *x + aside : 1;

@@ -20,7 +20,7 @@
 #ifndef SHOOTING_H
 #define SHOOTING_H
 
-#include "tools/tangent.h"
+#include "tangent.h"
 
 typedef void shooting_fn(const gvi_real *q, const gvi_real *p, const gvi_real *dq, const gvi_real *dp,
                          gvi_real *c, void *user);

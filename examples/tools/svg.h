@@ -32,15 +32,15 @@ typedef struct svg_plot {
    most `most` ticks.                                                         */
 typedef struct svg_axis { int log; double lo, hi, a, b; int most; } svg_axis;
 
-static double svg_value(const svg_axis *axis, double x) { return axis->log ? x > 0 ? log10(x) : -HUGE_VAL : x; }
+static inline double svg_value(const svg_axis *axis, double x) { return axis->log ? x > 0 ? log10(x) : -HUGE_VAL : x; }
 
-static double svg_pixel(const svg_axis *axis, double value)
+static inline double svg_pixel(const svg_axis *axis, double value)
 {
     return axis->a + (value - axis->lo)/(axis->hi - axis->lo)*(axis->b - axis->a);
 }
 
 /* 1, 2 or 5 times a power of ten, next to x: below for up = 0.                */
-static double svg_round(double x, int up)
+static inline double svg_round(double x, int up)
 {
     const double ten = pow(10, floor(log10(x) + 1e-9)), m = x/ten;
     if (up) return ten*(m > 5.001 ? 10 : m > 2.001 ? 5 : m > 1.001 ? 2 : 1);
@@ -48,13 +48,13 @@ static double svg_round(double x, int up)
 }
 
 /* Of a logarithmic axis: whole decades.                                       */
-static double svg_tick(const svg_axis *axis)
+static inline double svg_tick(const svg_axis *axis)
 {
     const double step = svg_round((axis->hi - axis->lo)/axis->most, 1);
     return axis->log && step < 1 ? 1 : step;
 }
 
-static void svg_fit(svg_axis *axis, const svg_plot *plot, int vertical)
+static inline void svg_fit(svg_axis *axis, const svg_plot *plot, int vertical)
 {
     axis->lo = HUGE_VAL;
     axis->hi = -HUGE_VAL;
@@ -85,7 +85,7 @@ static void svg_fit(svg_axis *axis, const svg_plot *plot, int vertical)
 }
 
 /* Widens one of two axes until a unit has the same length on both.           */
-static void svg_square(svg_axis *x, svg_axis *y)
+static inline void svg_square(svg_axis *x, svg_axis *y)
 {
     double sx = (x->hi - x->lo)/fabs(x->b - x->a), sy = (y->hi - y->lo)/fabs(y->b - y->a);
     svg_axis *less = sx < sy ? x : y;
@@ -94,7 +94,7 @@ static void svg_square(svg_axis *x, svg_axis *y)
     less->hi = middle + half;
 }
 
-static void svg_mark(FILE *f, const svg_axis *axis, const svg_axis *other, int vertical, double value, const char *text)
+static inline void svg_mark(FILE *f, const svg_axis *axis, const svg_axis *other, int vertical, double value, const char *text)
 {
     const double z = svg_pixel(axis, value);
     if (vertical) {
@@ -108,7 +108,7 @@ static void svg_mark(FILE *f, const svg_axis *axis, const svg_axis *other, int v
 
 /* Powers of ten on logarithmic axes; 1, 2, 5 on a horizontal one that is shorter than two and a half, beyond
    which their numbers would touch.                                            */
-static void svg_ticks(FILE *f, const svg_axis *axis, const svg_axis *other, int vertical)
+static inline void svg_ticks(FILE *f, const svg_axis *axis, const svg_axis *other, int vertical)
 {
     const int fine = axis->log && !vertical && axis->hi - axis->lo < 2.51;
     const double step = svg_tick(axis);
@@ -125,7 +125,7 @@ static void svg_ticks(FILE *f, const svg_axis *axis, const svg_axis *other, int 
 }
 
 /* width and dashes: attributes                                                */
-static void svg_path(FILE *f, const svg_line *line, const svg_axis *x, const svg_axis *y, const char *colour,
+static inline void svg_path(FILE *f, const svg_line *line, const svg_axis *x, const svg_axis *y, const char *colour,
                      const char *width, const char *dashes)
 {
     int drawing = 0;
@@ -160,13 +160,13 @@ static FILE *svg_begin(const char *path, double width, double height)
     return f;
 }
 
-static int svg_end(FILE *f)
+static inline int svg_end(FILE *f)
 {
     fprintf(f, "</svg>\n");
     return fclose(f) ? -1 : 0;
 }
 
-static const char *svg_colour(const svg_plot *plot, int i)
+static inline const char *svg_colour(const svg_plot *plot, int i)
 {
     static const char *const colour[] = { "#0072b2", "#d55e00", "#009e73", "#aa4499", "#b8860b", "#56b4e9", "#88562b",
                                           "#444444" };
@@ -174,13 +174,13 @@ static const char *svg_colour(const svg_plot *plot, int i)
     return plot->thick >> i & 1u ? "#111111" : colour[(i - (int)(plot->thick & 1u))%8];
 }
 
-static const char *svg_dashes(const svg_plot *plot, int i)
+static inline const char *svg_dashes(const svg_plot *plot, int i)
 {
     return plot->dashed >> i & 1u ? " stroke-dasharray=\"6 3\"" : "";
 }
 
 /* One plot between left and right; the first line on top.                     */
-static void svg_panel(FILE *f, const svg_plot *plot, double left, double right)
+static inline void svg_panel(FILE *f, const svg_plot *plot, double left, double right)
 {
     svg_axis x = { plot->log_x, 0, 1, left, right, 8 }, y = { plot->log_y, 0, 1, 400, 50, 8 };
     svg_fit(&x, plot, 0);
@@ -235,23 +235,23 @@ typedef struct svg_table {
 enum { SVG_CELL_WIDTH = 50, SVG_CELL_HEIGHT = 27, SVG_TABLE_LEFT = 150, SVG_TABLE_TOP = 62 };
 
 /* Blue: within the tolerance; orange: not; grey: refused                      */
-static void svg_draw_cell(FILE *f, const svg_cell *cell, double tolerance, double x, double y)
+static inline void svg_draw_cell(FILE *f, const svg_cell *cell, double tolerance, double x, double y)
 {
     const int refused = isnan(cell->expected), good = fabs(cell->got - cell->expected) <= tolerance;
     if (isnan(cell->got) && !refused) return;
     fprintf(f, "<rect x=\"%.0f\" y=\"%.0f\" width=\"%d\" height=\"%d\" fill=\"%s\" stroke=\"#fff\"/>", x, y,
             SVG_CELL_WIDTH, SVG_CELL_HEIGHT, refused ? "#dddddd" : good ? "#b5d6ee" : "#f0a060");
-    fprintf(f, "<text x=\"%.0f\" y=\"%.0f\" text-anchor=\"middle\"", x + SVG_CELL_WIDTH/2.0, y + 19);
+    fprintf(f, "<text x=\"%.0f\" y=\"%.0f\" text-anchor=\"middle\"", x + (int)SVG_CELL_WIDTH/2.0, y + 19);
     if (refused) fprintf(f, " fill=\"#777\">no</text>\n");
     else fprintf(f, ">%.2f</text>\n", cell->got);
 }
 
-static void svg_draw_table(FILE *f, const svg_table *t, double tolerance, double x, double y)
+static inline void svg_draw_table(FILE *f, const svg_table *t, double tolerance, double x, double y)
 {
-    const double left = x + SVG_TABLE_LEFT, top = y + SVG_TABLE_TOP;
+    const double left = x + (int)SVG_TABLE_LEFT, top = y + (int)SVG_TABLE_TOP;
     fprintf(f, "<text x=\"%.0f\" y=\"%.0f\" font-weight=\"bold\">%s</text>\n", left, y + 20, t->title);
     for (int j = 0; j < t->column_count; ++j)
-        fprintf(f, "<text x=\"%.0f\" y=\"%.0f\" text-anchor=\"middle\">%s</text>\n", left + (j + 0.5)*SVG_CELL_WIDTH,
+        fprintf(f, "<text x=\"%.0f\" y=\"%.0f\" text-anchor=\"middle\">%s</text>\n", left + (j + 0.5)*(int)SVG_CELL_WIDTH,
                 top - 14, t->columns[j]);
     for (int i = 0; i < t->row_count; ++i) {
         fprintf(f, "<text x=\"%.0f\" y=\"%.0f\" text-anchor=\"end\">%s</text>\n", left - 8, top + i*SVG_CELL_HEIGHT + 19,

@@ -52,6 +52,7 @@
 #ifndef TANGENT_H
 #define TANGENT_H
 
+#include "gvi.h"
 #include <stddef.h>
 
 /* The product of an effect's derivative with one direction.  x: the scene's points,
@@ -98,7 +99,7 @@ static inline int tangent_constant(const gvi_points *x, const gvi_points *d, int
 }
 
 /* The next block of n rows: block 0 is the scene, block 1 + j its column j.     */
-static void tangent_next(gvi_points *y)
+static inline void tangent_next(gvi_points *y)
 {
     const ptrdiff_t rows = (ptrdiff_t)y->n*y->stride;
     y->q += rows;
@@ -116,7 +117,7 @@ static const gvi_real *tangent_take(const gvi_real *a, int k, const gvi_points *
     return a ? z : NULL;
 }
 
-static gvi_real *tangent_zero(const gvi_real *a, int n, gvi_real *z)
+static inline gvi_real *tangent_zero(const gvi_real *a, int n, gvi_real *z)
 {
     for (int i = 0; i < n; ++i) z[i] = 0;
     return a ? z : NULL;
@@ -134,7 +135,7 @@ static gvi_points tangent_gather(const gvi_points *x, int k, gvi_real *z)
 }
 
 /* The effect itself, whichever form it is given in.                            */
-static int tangent_plain(const tangent_part *part, const gvi_points *x)
+static inline int tangent_plain(const tangent_part *part, const gvi_points *x)
 {
     int failed = 0;
     if (part->points) return part->points(x, part->user);
@@ -148,7 +149,7 @@ static int tangent_plain(const tangent_part *part, const gvi_points *x)
 }
 
 /* The column by h, point by point: it needs this effect's own F, not the sum.   */
-static int tangent_by_h(const tangent_part *part, const gvi_points *whole, const gvi_points *d)
+static inline int tangent_by_h(const tangent_part *part, const gvi_points *whole, const gvi_points *d)
 {
     const gvi_real h = part->scene->h;
     const int n = part->scene->plain.n;
@@ -180,9 +181,9 @@ static int tangent_by_h(const tangent_part *part, const gvi_points *whole, const
 }
 
 /* What gvi.h calls: the effect on block 0, its products on the columns.        */
-static int tangent_points(const gvi_points *x, void *user)
+static inline int tangent_points(const gvi_points *x, void *user)
 {
-    const tangent_part *part = user;
+    const tangent_part *part = (const tangent_part *)user;
     const tangent *T = part->scene;
     gvi_points own = *x, d;
     own.n = T->plain.n;

@@ -110,7 +110,7 @@ static void run(const char *name, const gvi_desc *desc)
     for (int k = 0; k < 20; ++k) gvi_step(&st, (real)0.125);
     real curve[2];
     if (gvi_curve(&st, (real)0.25, curve, NULL) != GVI_OK) curve[0] = 0;
-    printf("%s %s %La %La %La %La %La\n", name, gvi_status_text(st.status), (long double)st.q[0], (long double)st.q[1],
+    printf("%s %s %La %La %La %La %La\n", name, gvi_why(&st), (long double)st.q[0], (long double)st.q[1],
            (long double)st.p[0], (long double)st.p[1], (long double)curve[0]);
 }
 
@@ -126,7 +126,7 @@ static void run_broken(const gvi_desc *desc)
     }
     gvi_start(&st, 0, q, v);
     while (gvi_step(&st, (real)0.125) == GVI_OK) {}
-    printf("broken: %s, effect %d, t %La q %La\n", gvi_status_text(st.status), st.fault.effect, (long double)st.t,
+    printf("broken: %s, effect %d, t %La q %La\n", gvi_why(&st), st.fault.effect, (long double)st.t,
            (long double)st.q[0]);
 }
 

@@ -599,7 +599,7 @@ static int perform(const run *a, double budget)
         const double from = nanoseconds();
         (a->take ? a->take : steps_of)(&st, a);
         const double time = nanoseconds() - from;
-        if (st.status != GVI_OK) return printf("%s|FAILED|%s\n", a->name, gvi_status_text(st.status)), 1;
+        if (st.status != GVI_OK) return printf("%s|FAILED|%s\n", a->name, gvi_why(&st)), 1;
         if (pass == 0 || time < best) best = time;
         spent += time;
     }
@@ -615,7 +615,7 @@ static int count(const run *a, int counts, int ends)
     gvi_stepper st;
     begin(&st, a);
     (a->take ? a->take : steps_of)(&st, a);
-    if (st.status != GVI_OK) return fprintf(stderr, "%s: %s\n", a->counted, gvi_status_text(st.status)), 1;
+    if (st.status != GVI_OK) return fprintf(stderr, "%s: %s\n", a->counted, gvi_why(&st)), 1;
     if (counts) printf("%s %llu %llu %llu\n", a->counted, st.counters.steps, st.counters.effect[0],
                        st.counters.iterations + st.counters.newton_iterations);
     if (ends) printf("%s ends at %a\n", a->counted, st.q[st.n - 1]);

@@ -1,6 +1,6 @@
 #!/bin/sh
-# usable.sh BUILD: what `make install` puts where, and the ways into a project that the guide names: pkg-config,
-# CMake (the guide's own lines), a C++ sketch beside a C file as the Arduino IDE and PlatformIO compile them.
+# usable.sh BUILD: what `make install` puts where, the tools in C and C++20, and the ways into a project that the guide
+# names: pkg-config, CMake (the guide's own lines), a C++ sketch beside a C file as the Arduino IDE and PlatformIO compile them.
 dir=$1/install
 rm -rf "$dir"
 mkdir -p "$dir/cmake/third_party/gvi" "$dir/sketch"
@@ -11,6 +11,16 @@ sh tests/tools/examples.sh expected examples/01_kepler.c >"$dir/wanted"
 count=1
 
 make -s install DESTDIR="$dir/stage" PREFIX=/opt >/dev/null && cmp gvi.h "$dir/stage/opt/include/gvi.h" || fail "gvi.h"
+for tool in examples/tools/*.h; do
+    cmp "$tool" "$dir/stage/opt/include/gvi/$(basename "$tool")" || fail "$tool"
+    grep -q "^\*\*.*$(basename "$tool")\|^| \[$(basename "$tool")\]" docs/guide.md || fail "the guide does not list $tool"
+    count=$((count + 1))
+done
+for compile in "${CC:-cc} -std=c99 -Wall -Wextra -Wpedantic -Werror -xc" "${CXX:-c++} -std=c++20 -Wall -Werror -xc++"; do
+    have "${compile%% *}" || { echo "  skipped: no ${compile%% *}"; continue; }
+    $compile -O1 -I"$dir/stage/opt/include" tests/compile/tools.c -o "$dir/tools" -lm && "$dir/tools" || fail "tools: $compile"
+    count=$((count + 1))
+done
 if have pkg-config; then
     export PKG_CONFIG_PATH="$dir/stage/opt/share/pkgconfig"
     [ "$(pkg-config --modversion gvi)" = "$(sed -n 's/^#define GVI_VERSION "\(.*\)"/\1/p' gvi.h)" ] || fail "version in gvi.pc"

@@ -1,0 +1,77 @@
+/* tools.c - the smallest use of each tool, as docs/guide.md shows it, with the headers that `make install` puts under
+   gvi/.  C99 and C++20.  Runs: a planet on an ellipse; returns the number of the tool that fails. */
+#define GVI_IMPLEMENTATION
+#include <gvi.h>
+#include <gvi/advise.h>
+#include <gvi/animate.h>
+#include <gvi/body.h>
+#include <gvi/check.h>
+#include <gvi/damped.h>
+#include <gvi/effects.h>
+#include <gvi/ensemble.h>
+#include <gvi/event.h>
+#include <gvi/shooting.h>
+#include <gvi/svg.h>
+#include <gvi/adjoint.h>
+#ifndef __cplusplus
+#include <gvi/complex_step.h>
+#endif
+
+static const double one[1] = { 1 };
+static const struct central_gravity sun = { { 0, 1, 2 }, one, 1, { 0, 0, 0 } };
+static double memory[GVI_LENGTH(4, 8, 8)];
+
+static int checked(const gvi_desc *desc, const double *q, const double *v)
+{
+    check_finding list[10];
+    check_report report = { .list = list, .room = 10 };
+    char line[300];
+    check_scene(desc, 0, q, v, &report);
+    for (int i = 0; i < report.count && i < 10; ++i) puts(check_line(&list[i], line, sizeof line));
+    return report.count;
+}
+
+static double height(double t, const double *q, const double *v, void *user) { return (void)t, (void)v, (void)user, q[1]; }
+
+// one run of many: k revolutions of a step each
+static void run(int k, void *result, void *user)
+{
+    double mine[GVI_LENGTH(2, 8, 8)], *angle = (double *)result;
+    const gvi_desc *desc = (const gvi_desc *)user;
+    const double q[] = { 1, 0 }, v[] = { 0, 1 + 0.01*k };
+    gvi_stepper st;
+    gvi_init(&st, desc, mine, sizeof mine);
+    gvi_start(&st, 0, q, v);
+    for (int i = 0; i < 10 && st.status == GVI_OK; ++i) gvi_step(&st, 0.1);
+    *angle = atan2(st.q[1], st.q[0]);
+}
+
+int main(void)
+{
+    const gvi_effect scene[] = { central_gravity(&sun) };
+    gvi_desc desc = { .n = 2, .effects = scene, .effect_count = 1 };
+    const double q[] = { 0.4, 0 }, v[] = { 0, 2 };
+    double at[3][2], x[100], y[100], angles[4];
+    event passage = { .g = height, .q = at[0], .v = at[1], .p = at[2] };
+    gvi_stepper st;
+    int found = 0;
+
+    if (checked(&desc, q, v)) return 1;
+    gvi_init(&st, &desc, memory, sizeof memory);
+    gvi_start(&st, 0, q, v);
+    for (int k = 0; k < 100 && st.status == GVI_OK; ++k) {
+        gvi_step(&st, 0.1);
+        x[k] = st.q[0];
+        y[k] = st.q[1];
+        while (event_next(&passage, &st) > 0) found += passage.rising;
+    }
+    // three passages before t = 10, at 0 (not counted), 2 pi
+    if (st.status || found != 1 || !(passage.t > 9.42 && passage.t < 9.43)) return 2;
+
+    const svg_line line = { .name = "planet", .x = x, .y = y, .count = 100 };
+    const svg_plot plot = { .title = "An orbit", .lines = &line, .line_count = 1 };
+    if (svg_write("build/tools.svg", &plot)) return 3;
+
+    ensemble_run(4, 2, sizeof angles[0], run, &desc, angles);
+    return angles[0] > 0.999999 && angles[0] < 1.000001 && angles[3] > angles[0] ? 0 : 4;
+}

@@ -1,0 +1,343 @@
+/* test_why.c - what went wrong, in one sentence: gvi_why for each status and cause; a force that is infinite where
+   a step starts; two slips that are found at the first start; GVI_EACH.  In all types. */
+#include "gvi_test.h"
+
+typedef gvi_real real;
+static real memory[6000];
+static int calls;                                      /* of the callbacks below                */
+
+/* sound: a spring, and a sheet that drags along x; each counted */
+AT_POINTS(spring)
+{
+    ++calls;
+    FOR_EACH(x, a) if (x->f) x->f[a] -= x->q[a];
+    for (int k = 0; x->value && k < x->count; ++k)
+        for (int i = 0; i < x->n; ++i) x->value[k] += x->q[i*x->stride + k]*x->q[i*x->stride + k]/2;
+    return 0;
+}
+AT_POINTS(drag) { FOR_EACH(x, a) x->f[a] -= x->v[a]/8; return 0; }
+AT_POINTS(magnet)
+{
+    FOR_EACH(x, a) x->dldv[a] += x->q[a]/4, x->f[a] += x->v[a]/4;
+    return 0;
+}
+AT_POINTS(nothing) { return 0; }
+AT_POINTS(refuses) { return 1; }
+AT_POINTS(turns_to_nan) { FOR_EACH(x, a) x->f[a] += x->t[0] > 0 ? (real)NAN : 0; return 0; }
+AT_POINTS(inverse_cube)                                /* -1/q^3, infinite at 0                 */
+{
+    FOR_EACH(x, a) if (x->f) x->f[a] -= 1/(x->q[a]*x->q[a]*x->q[a]);
+    return 0;
+}
+AT_POINTS(clock_1) { for (int k = 0; k < x->count; ++k) x->value[k] += *(real *)user; return 0; }
+AT_POINTS(timed)
+{
+    FOR_EACH(x, a) if (x->f) x->f[a] += 1;
+    for (int k = 0; x->value && k < x->count; ++k) x->value[k] -= x->q[k]*x->t[k];
+    return 0;
+}
+AT_POINTS(wall)                                        /* the row twice, or none, as user says  */
+{
+    const int rows = *(int *)user;
+    for (int k = 0; k < x->count; ++k)
+        for (int r = 0; r < rows; ++r) x->g[r*x->stride + k] = x->q[k] - 1, x->jacobian[r*2*x->stride + k] = 1;
+    return 0;
+}
+AT_POINTS(massless) { FOR_EACH(x, a) x->velocity[a] = 0; return 1; }
+AT_POINTS(no_mass) { for (int k = 0; k < x->count; ++k) x->mass[k] = 0; return 0; }
+AT_POINTS(mass_nan) { for (int k = 0; k < x->count; ++k) x->mass[k] = (real)NAN; return 0; }
+
+/* slips */
+AT_POINTS(first_alone) { x->f[0] -= 1 + x->q[0]; return 0; }
+AT_POINTS(first_alone_of_v) { x->f[0] -= x->v[0]; return 0; }
+AT_POINTS(sets) { FOR_EACH(x, a) x->f[a] = -x->q[a]; return 0; }
+AT_POINTS(sets_of_v) { FOR_EACH(x, a) x->f[a] = -x->v[a]; return 0; }
+AT_POINTS(sets_dldv)
+{
+    FOR_EACH(x, a) x->dldv[a] = x->q[a]/4, x->f[a] += x->v[a]/4;
+    return 0;
+}
+
+static void says(const gvi_stepper *st, gvi_status status, const char *words)
+{
+    if (!strstr(gvi_why(st), words)) print_error("\"%s\" does not say \"%s\"\n", gvi_why(st), words);
+    assert_int_equal(st->status, status);
+    assert_non_null(strstr(gvi_why(st), words));
+}
+
+static gvi_desc scene_of(const gvi_effect *effects, int count)
+{
+    return (gvi_desc){ .n = 1, .degree = 3, .effects = effects, .effect_count = count };
+}
+
+TEST(a_stepper_that_is_not_ready_says_what_comes_first)
+{
+    static const gvi_effect e[] = { { .points = spring, .value = spring } };
+    static gvi_stepper st;                             // zero
+    const gvi_desc d = scene_of(e, 1);
+    real x[3] = { 1, 1, 1 };
+    for (int k = 0; k < 7; ++k) {
+        memset(&st, 0, sizeof st);
+        assert_string_equal(gvi_why(&st), "ok");
+        switch (k) {
+        case 0: gvi_start(&st, 0, x, x); break;
+        case 1: gvi_step(&st, 1); break;
+        case 2: gvi_energy(&st, x); break;
+        case 3: gvi_switch(&st, 0, 0); break;
+        case 4: gvi_curve(&st, 0, x, x); break;
+        case 5: gvi_state_at(&st, 0, x, x, x); break;
+        default: gvi_restore(&st, &st, memory); break;
+        }
+        says(&st, GVI_E_STATE, "not initialised");
+        assert_int_equal(st.fault.effect, GVI_FAULT_NONE);
+        assert_int_equal(st.fault.coordinate, GVI_FAULT_NONE);
+        assert_int_equal(st.fault.point, GVI_FAULT_NONE);
+    }
+    assert_ok(gvi_init(&st, &d, memory, sizeof memory));
+    assert_status(gvi_step(&st, 1), GVI_E_STATE);
+    says(&st, GVI_E_STATE, "not started");
+    assert_ok(gvi_init(&st, &d, memory, sizeof memory));
+    assert_ok(gvi_start(&st, 0, x, x));
+    assert_status(gvi_curve(&st, 0, x, x), GVI_E_STATE);
+    says(&st, GVI_E_STATE, "no step yet");
+    assert_ok(gvi_step(&st, (real)0.25));
+    assert_status(gvi_state_at(&st, 9, x, x, x), GVI_E_STATE);
+    says(&st, GVI_E_STATE, "outside the last step");
+    assert_ok(gvi_step(&st, (real)0.25));
+    assert_string_equal(gvi_why(&st), "ok");
+    assert_string_equal(gvi_why(NULL), "the stepper is NULL");
+    assert_true(gvi_stepper_size() == sizeof st);
+}
+
+/* Descriptions that gvi_init refuses: each cause its own sentence */
+TEST(descriptions_that_are_refused)
+{
+    static int rows = 1;
+    static real one = 1, half[2] = { 0.5L, 0.5L }, ends[2] = { 0, 1 }, twos[2] = { 1, 1 }, far[2] = { 0, 2 };
+    static const real mid[3] = { 0.25L, 0.5L, 0.75L }, even[3] = { 1/(real)3, 1/(real)3, 1/(real)3 };
+    static const gvi_effect e[] = { { .points = spring, .value = spring } },
+        reads[] = { { .kind = GVI_FORCE, .points = drag } },
+        clock[] = { { .points = spring, .value = spring }, { .kind = GVI_CLOCK, .points = clock_1, .user = &one } },
+        held[] = { { .kind = GVI_CONSTRAINT, .points = wall, .rows = 1, .user = &rows } };
+    static const struct { gvi_desc d; size_t size; gvi_status status; const char *words; } cases[] = {
+        { { .n = 1, .effects = e, .effect_count = 1 }, 8, GVI_E_MEMORY, "gvi_size(desc)" },
+        { { .n = 1, .degree = 2000 }, 1, GVI_E_ARGUMENT, "degree is not 0 to 1024" },
+        { { .n = 1, .degree = 2, .rule = { GVI_OWN, 2, far, half } }, 1, GVI_E_NODES, "in [0,1]" },
+        { { .n = 1, .degree = 2, .rule = { GVI_OWN, 2, ends, twos } }, 1, GVI_E_ORDER, "do not sum to 1" },
+        { { .n = 1, .degree = 3, .rule = { GVI_OWN, 3, mid, even } }, 1, GVI_E_ORDER, "below the degree" },
+        { { .n = 1, .rule = { GVI_KICKS, 2, ends, twos } }, 1, GVI_E_ORDER, "do not sum to 1" },
+        { { .n = 1, .degree = 3, .rule = { .points = 2 } }, 1, GVI_E_POINTS, "fewer points than the degree" },
+        { { .n = 1, .effects = reads, .effect_count = 1, .formulation = GVI_POSITIONS }, 1, GVI_E_FORMULATION,
+          "pinned formulation" },
+        { { .n = 1, .effects = reads, .effect_count = 1, .rule = { GVI_KICKS, 2, ends, half } }, 1, GVI_E_FORMULATION,
+          "kicks are for" },
+        { { .n = 1, .effects = clock, .effect_count = 2, .degree = 2, .rule = { .points = 3 } }, 1, GVI_E_FORMULATION,
+          "a clock needs r = s" },
+        { { .n = 1, .formulation = GVI_NEWTON, .iterations = 3 }, 1, GVI_E_FORMULATION, "iterations is given" },
+        { { .n = 1, .effects = held, .effect_count = 1, .formulation = GVI_NEWTON }, 1, GVI_E_FORMULATION, "constraints go with" },
+        { { .n = 1, .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = ends } }, 1, GVI_E_SINGULAR, "has no mass" }
+    };
+    for (int k = 0; k < COUNT(cases); ++k) {
+        gvi_stepper st;
+        gvi_init(&st, &cases[k].d, memory, cases[k].size == 1 ? sizeof memory : cases[k].size);
+        says(&st, cases[k].status, cases[k].words);
+    }
+}
+
+/* Calls that fail, after a good start; 0 is `before` the start already */
+TEST(calls_that_fail)
+{
+    static int two = 2, one_row = 1;
+    static real one = 1, minus = -1;
+    static const real ends[2] = { 0, 1 }, half[2] = { 0.5L, 0.5L };
+    static const gvi_effect e[] = { { .points = spring }, { .points = refuses } },
+        bad[] = { { .points = spring }, { .points = turns_to_nan } },
+        slow[] = { { .points = spring, .value = spring }, { .kind = GVI_CLOCK, .points = clock_1, .user = &one } },
+        back[] = { { .points = spring, .value = spring }, { .kind = GVI_CLOCK, .points = clock_1, .user = &minus } },
+        late[] = { { .points = timed, .value = timed }, { .kind = GVI_CLOCK, .points = clock_1, .user = &one } },
+        same[] = { { .points = spring }, { .kind = GVI_CONSTRAINT, .points = wall, .rows = 2, .user = &two } },
+        held[] = { { .points = spring }, { .kind = GVI_CONSTRAINT, .points = wall, .rows = 1, .user = &one_row } };
+    const real q[2] = { 0.5L, 0 }, on[2] = { 1, 0 }, v[2] = { 0, 0 };
+    real E;
+    gvi_stepper st;
+#define SET_UP(list, count, coordinates, s, ...) do { const gvi_desc d_ = { .n = coordinates, .degree = s, \
+        .effects = list, .effect_count = count, __VA_ARGS__ }; assert_ok(gvi_init(&st, &d_, memory, sizeof memory)); } while (0)
+    SET_UP(e, 2, 1, 3, .tolerance = 0);
+    assert_ok(gvi_start(&st, 0, q, v));
+    gvi_step(&st, 1);
+    says(&st, GVI_E_CALLBACK, "an effect (fault.effect) did not return 0");
+    assert_int_equal(st.fault.effect, 1);
+    SET_UP(e, 1, 1, 20, .tolerance = 0);
+    assert_ok(gvi_start(&st, 0, q, v));
+    gvi_energy(&st, &E);
+    says(&st, GVI_E_VALUE, "no value callback");
+    gvi_step(&st, 0);
+    says(&st, GVI_E_ARGUMENT, "h is 0");
+    gvi_discrete_lagrangian(&st, 0, (real)3.14159265358979323846264L, v, v, &(gvi_discrete){ .lagrangian = NULL });
+    says(&st, GVI_E_CONJUGATE, "conjugate");
+    SET_UP(e, 1, 1, 3, .formulation = GVI_POSITIONS);
+    assert_ok(gvi_start(&st, 0, q, v));
+    gvi_discrete_lagrangian(&st, 0, 1, q, v, &(gvi_discrete){ .lagrangian = NULL });
+    says(&st, GVI_E_FORMULATION, "needs GVI_NEWTON");
+    SET_UP(e, 1, 1, 3, .iterations = 4);
+    assert_ok(gvi_start(&st, 0, q, v));
+    gvi_step(&st, 6);
+    says(&st, GVI_E_CONVERGENCE, "desc.iterations");
+    SET_UP(bad, 2, 1, 3, .tolerance = 0);
+    assert_ok(gvi_start(&st, 0, q, v));
+    gvi_step(&st, 1);
+    says(&st, GVI_E_NON_FINITE, "gave NaN or Inf");
+    assert_int_equal(st.fault.effect, 1);
+    SET_UP(e, 1, 1, 3, .formulation = GVI_POSITIONS);
+    assert_ok(gvi_start(&st, 0, q, v));
+    gvi_step(&st, 30);
+    says(&st, GVI_E_CONVERGENCE, "no solution found: halve h");
+    SET_UP(slow, 2, 1, 3, .tolerance = 0);
+    assert_ok(gvi_start(&st, 0, q, v));
+    assert_ok(gvi_step(&st, (real)0.25));
+    gvi_action(&st, &E);
+    says(&st, GVI_E_FORMULATION, "clocks no action");
+    SET_UP(back, 2, 1, 3, .tolerance = 0);
+    assert_ok(gvi_start(&st, 0, q, v));
+    gvi_step(&st, (real)0.25);
+    says(&st, GVI_E_CLOCK, "must be positive");
+    SET_UP(late, 2, 1, 3, .tolerance = 0);
+    gvi_start(&st, 0, q, v);
+    says(&st, GVI_E_FORMULATION, "list it as a force");
+    SET_UP(e, 1, 1, 1, .rule = { GVI_KICKS, 2, ends, half });
+    assert_ok(gvi_start(&st, 0, q, v));
+    assert_ok(gvi_step(&st, (real)0.25));
+    gvi_curve(&st, 0, &E, NULL);
+    says(&st, GVI_E_FORMULATION, "kicks have no curve");
+    SET_UP(held, 2, 2, 3, .tolerance = 0);
+    gvi_start(&st, 0, q, v);
+    says(&st, GVI_E_CONSTRAINT, "not on a constraint");
+    SET_UP(same, 2, 2, 3, .tolerance = 0);
+    gvi_start(&st, 0, on, v);
+    says(&st, GVI_E_SINGULAR, "depends on the others");
+    SET_UP(e, 1, 1, 3, .mass = { .kind = GVI_MASS_POSITION, .points = no_mass, .gradient = nothing });
+    assert_ok(gvi_start(&st, 0, q, v));
+    gvi_step(&st, 1);
+    says(&st, GVI_E_SINGULAR, "has no mass");
+    SET_UP(e, 1, 1, 3, .mass = { .kind = GVI_MASS_POSITION, .points = refuses, .gradient = nothing });
+    gvi_start(&st, 0, q, v);
+    says(&st, GVI_E_CALLBACK, "of the mass did not return 0");
+    SET_UP(e, 1, 1, 3, .mass = { .kind = GVI_MASS_POSITION, .points = mass_nan, .gradient = nothing });
+    gvi_start(&st, 0, q, v);
+    says(&st, GVI_E_NON_FINITE, "of the mass gave NaN");
+    SET_UP(e, 1, 1, 3, .mass = { .velocity = massless });
+    gvi_start_momentum(&st, 0, q, on);
+    says(&st, GVI_E_CALLBACK, "of the mass did not return 0");
+}
+
+/* A step from where the force is infinite: told as such, at rest or not, in every formulation; not where it is finite */
+TEST(a_force_that_is_infinite_where_the_step_starts)
+{
+    static const gvi_effect e[] = { { .points = spring }, { .points = inverse_cube }, { .kind = GVI_FORCE, .points = drag } };
+    for (int f = GVI_AUTO; f <= GVI_NEWTON; ++f)
+        for (int moving = 0; moving < 2; ++moving) {
+            const real q[2] = { 1, 0 }, near[2] = { 1, (real)1e-3 }, v[2] = { 0, (real)moving };
+            gvi_desc d = { .n = 2, .degree = 3, .effects = e, .effect_count = f == GVI_VELOCITIES ? 3 : 2,
+                           .formulation = (gvi_formulation)f };
+            gvi_stepper st;
+            if (f == GVI_EXPLICIT) d.degree = 1, d.rule.kind = GVI_LOBATTO;
+            assert_ok(gvi_init(&st, &d, memory, sizeof memory));
+            assert_ok(gvi_start(&st, 0, q, v));
+            SAME_STATE(&st) gvi_step(&st, (real)0.1);
+            says(&st, GVI_E_NON_FINITE, "where the step starts");
+            assert_int_equal(st.fault.effect, 1);
+            assert_int_equal(st.fault.coordinate, 1);
+            assert_int_equal(st.fault.point, GVI_FAULT_NONE);
+            assert_int_equal(st.counters.failures, 1);
+            assert_ok(gvi_start(&st, 0, near, v));
+            if (f != GVI_EXPLICIT) {                       // which is content with anything finite
+                assert_true(gvi_step(&st, (real)0.1) != GVI_OK);
+                assert_null(strstr(gvi_why(&st), "where the step starts"));
+            }
+        }
+}
+
+/* Each slip in a list of sound effects: the row and the slip are named, whatever the kind, degree and rule */
+TEST(slips_are_found_at_the_first_start)
+{
+    static const gvi_effect slips[] = { { .points = first_alone }, { .kind = GVI_FORCE, .points = first_alone_of_v },
+        { .points = sets }, { .kind = GVI_FORCE, .points = sets_of_v }, { .kind = GVI_LAGRANGIAN, .points = sets_dldv } };
+    static const real q[2] = { 0, 0.5L }, v[2] = { 1, 0 };
+    for (int k = 0; k < COUNT(slips); ++k)
+        for (int degree = 1; degree <= 9; ++degree)
+            for (int row = 0; row < 2; ++row) {
+                const gvi_effect sound = { .points = spring };
+                const gvi_effect list[] = { row ? sound : slips[k], row ? slips[k] : sound };
+                gvi_desc d = { .n = 2, .degree = degree, .effects = list, .effect_count = 2 };
+                gvi_stepper st;
+                if (degree == 1 && k < 2) continue;    // one point is all that there is
+                assert_ok(gvi_init(&st, &d, memory, sizeof memory));
+                gvi_start(&st, 0, q, v);
+                says(&st, GVI_E_ARGUMENT, k < 2 ? "its first point alone" : "add with +=");
+                assert_int_equal(st.fault.effect, row);
+                assert_int_equal(st.counters.effect[row], k == 4);        // dL/dv at the start
+                assert_status(gvi_step(&st, (real)0.1), GVI_E_ARGUMENT);       // the chain keeps it
+            }
+}
+
+/* What is no slip passes; the look costs no point and is not repeated; steps are those of before */
+TEST(sound_effects_pass_and_are_looked_at_once)
+{
+    static const gvi_effect e[] = { { .points = spring }, { .kind = GVI_FORCE, .points = drag }, { .points = nothing },
+                                    { .kind = GVI_LAGRANGIAN, .points = magnet } };
+    static const real rest[2] = { 0, 0 }, v[2] = { 1, -1 };
+    for (int count = 0; count <= 4; ++count)
+        for (int degree = 1; degree <= 9; ++degree) {
+            const gvi_desc d = { .n = 2, .degree = degree, .effects = count ? e : NULL, .effect_count = count };
+            gvi_stepper st;
+            assert_ok(gvi_init(&st, &d, memory, sizeof memory));
+            calls = 0;
+            assert_ok(gvi_start(&st, 0, rest, v));
+            const int first = calls;
+            for (int k = 0; k < count && k < 3; ++k) assert_int_equal(st.counters.effect[k], count < 4 ? 0 : 1);   // dL/dv
+            assert_true(first <= 3);
+            calls = 0;
+            assert_ok(gvi_start(&st, 0, rest, v));
+            assert_int_equal(calls, count == 4);
+            assert_ok(gvi_step(&st, (real)0.1));
+        }
+}
+
+/* GVI_EACH is GVI_POINTS without its head and return: the same bits */
+GVI_POINTS(by_points, 2, v, f, value)(const gvi_points *x, void *user)
+{
+    x->f[0] -= x->q[0]*x->q[1] + x->v[1];
+    x->f[1] -= x->q[0]*x->q[0]/2 - x->v[0];
+    x->value[0] += x->q[0]*x->q[0]*x->q[1]/2;
+    return (void)user, 0;
+}
+GVI_EACH(by_each, 2, v, f, value)
+{
+    x->f[0] -= x->q[0]*x->q[1] + x->v[1];
+    x->f[1] -= x->q[0]*x->q[0]/2 - x->v[0];
+    x->value[0] += x->q[0]*x->q[0]*x->q[1]/2;
+}
+GVI_EACH(scaled, 1, f) { x->f[0] -= *(const real *)user*x->q[0]; }
+
+TEST(each_point_without_a_return)
+{
+    static const real q[2] = { 1, 0.25L }, v[2] = { 0, 0.5L }, four = 4;
+    static real other[6000];
+    const gvi_effect a = { .kind = GVI_FORCE, .points = by_points }, b = { .kind = GVI_FORCE, .points = by_each };
+    const gvi_desc one = { .n = 2, .degree = 5, .effects = &a, .effect_count = 1 },
+                   two = { .n = 2, .degree = 5, .effects = &b, .effect_count = 1 };
+    gvi_stepper st, st2;
+    assert_ok(gvi_init(&st, &one, memory, sizeof memory));
+    assert_ok(gvi_init(&st2, &two, other, sizeof other));
+    assert_ok(gvi_start(&st, 0, q, v));
+    assert_ok(gvi_start(&st2, 0, q, v));
+    move_alike(&st, &st2, 20, (real)0.125L);
+    const gvi_effect c = { .points = scaled, .user = (void *)&four };
+    const gvi_desc d = scene_of(&c, 1);
+    assert_ok(gvi_init(&st, &d, memory, sizeof memory));
+    assert_ok(gvi_start(&st, 0, q, v));
+    for (int k = 0; k < 8; ++k) assert_ok(gvi_step(&st, (real)3.14159265358979323846264L/16));
+    assert_close(st.q[0], -1, 1e-5L);                       // half a period of omega = 2, error 3e-6 at degree 3
+}
+
+RUN_TESTS(NULL, NULL)
