@@ -22,12 +22,11 @@
 
      #define GVI_IMPLEMENTATION
      #include "gvi.h"
-     #include <math.h>
      #include <stdio.h>
 
      GVI_EACH(attraction, 2, f)
      {
-         double X = x->q[0], Y = x->q[1], d2 = X*X + Y*Y, w = -1/(d2*sqrt(d2));
+         double X = x->q[0], Y = x->q[1], d2 = X*X + Y*Y, w = -1/(d2*GVI_SQRT(d2));
          x->f[0] += w*X;  x->f[1] += w*Y;
      }
 
@@ -308,6 +307,9 @@ GVI__MACROS(push_macro)
 #define GVI_H
 
 #include <stddef.h>
+#if !defined(__GNUC__) && !defined(GVI_SQRT)
+#include <math.h>
+#endif
 
 #define GVI_VERSION "0.2.0"
 
@@ -322,7 +324,13 @@ GVI__MACROS(push_macro)
 #define GVI__KIND_double 2
 #define GVI__KIND_long   1 ? 3 :
 #define GVI__KIND (GVI__PASTE(GVI__KIND_, GVI_REAL))
-#if GVI__KIND == 0
+#if GVI__KIND == 1
+#define GVI__MATH(name) name##f
+#elif GVI__KIND == 2
+#define GVI__MATH(name) name
+#elif GVI__KIND == 3
+#define GVI__MATH(name) name##l
+#else
 #error "GVI_REAL must be float, double or long double"
 #endif
 
@@ -389,13 +397,25 @@ GVI__MACROS(push_macro)
 #define GVI__RESTRICT
 #define GVI__UNUSED
 #endif
-// gcc at -O2 makes vectors only of loops of known length
-#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 8 && !defined(__OPTIMIZE_SIZE__)
+// gcc at -O2 makes vectors only of loops of known length; clang warns where it makes none
+#if defined(__clang__) && !defined(__OPTIMIZE_SIZE__)
+#define GVI__CHUNK 0
+#define GVI__LOOP(text)
+#define GVI__INDEPENDENT GVI__PRAGMA(clang loop vectorize(assume_safety))
+#define GVI__WARNINGS(do) GVI__PRAGMA(clang diagnostic do)
+#define GVI_UNROLL GVI__PRAGMA(clang loop unroll(full))
+#elif defined(__GNUC__) && __GNUC__ >= 8 && !defined(__OPTIMIZE_SIZE__)
 #define GVI__CHUNK 8
 #define GVI__LOOP(text) GVI__PRAGMA(text)
+#define GVI__INDEPENDENT GVI__PRAGMA(GCC ivdep)
+#define GVI__WARNINGS(do)
+#define GVI_UNROLL GVI__PRAGMA(GCC unroll 64)
 #else
 #define GVI__CHUNK 0
 #define GVI__LOOP(text)
+#define GVI__INDEPENDENT
+#define GVI__WARNINGS(do)
+#define GVI_UNROLL
 #endif
 
 #ifdef __cplusplus
@@ -405,6 +425,15 @@ extern "C" {
 /* ----------------------------------------------------------------- TYPES */
 
 typedef GVI_REAL gvi_real;
+
+/* GVI_SQRT(x): the bits of sqrt, but errno is never set.  A compiler that must set it does not make
+   vectors of square roots, unless it is given -fno-math-errno.                                */
+#if defined(__GNUC__) && !defined(GVI_SQRT)
+gvi_real GVI__MATH(__builtin_sqrt)(gvi_real x) __attribute__((const));
+#define GVI_SQRT(x) GVI__MATH(__builtin_sqrt)(x)
+#elif !defined(GVI_SQRT)
+#define GVI_SQRT(x) GVI__MATH(sqrt)(x)
+#endif
 
 typedef enum gvi_status {
     GVI_OK            =  0,
@@ -475,8 +504,14 @@ typedef int gvi_points_fn(const gvi_points *x, void *user);
 
    Here count and stride are 1: coordinate i is [i].  GVI_EACH(name, n, ...) { } has no head and no
    return: a body that cannot fail, of x and user.  It is copied into a loop over points, of which
-   gcc and clang make vectors (-O2 -fno-math-errno) if it is arithmetic and square roots without
-   branches and loops.  The bits are those of a loop by hand, and so is the time.              */
+   gcc and clang make vectors at -O2 and more if it is arithmetic and GVI_SQRT without branches.
+   Loops must have constant lengths, and GVI_UNROLL before each, as over pairs of bodies:
+
+     GVI_UNROLL for (int i = 1; i < 6; ++i)
+         GVI_UNROLL for (int j = 0; j < i; ++j) {
+
+   That pays for at most 64 coordinates and 90 pairs with gcc, about 20 of either with clang (cost of
+   compiling, registers); beyond, write rows.  The bits are those of a loop by hand.         */
 #define GVI_POINTS(name, n, ...) GVI__POINTS(name, n, GVI__USES(__VA_ARGS__, , , , ))
 #define GVI__USES(a, b, c, d, ...)                                                              \
     (GVI__USES_##a | GVI__USES_##b | GVI__USES_##c | GVI__USES_##d)
@@ -486,6 +521,7 @@ enum { GVI__USES_, GVI__USES_v, GVI__USES_p, GVI__USES_f = 4, GVI__USES_dldv = 8
 #define GVI__USES_rows(m) (m)*GVI__ROWS
 #define GVI__POINTS(name, n, uses)                                                              \
     GVI__BODY int gvi__at_##name(const gvi_points *x, void *user);                              \
+    GVI__WARNINGS(push) GVI__WARNINGS(ignored "-Wpass-failed")                                  \
     static int name(const gvi_points *x, void *user)                                            \
     {                                                                                           \
         gvi_real a[(n)*(5 + ((uses) & GVI__USES_mass ? (n) : 1))                                \
@@ -496,6 +532,7 @@ enum { GVI__USES_, GVI__USES_v, GVI__USES_p, GVI__USES_f = 4, GVI__USES_dldv = 8
              : both && !x->value ? gvi__in_chunks(gvi__at_##name, x, user, n, all, rest, a)     \
                                  : gvi__in_chunks(gvi__at_##name, x, user, n, all, all, a);     \
     }                                                                                           \
+    GVI__WARNINGS(pop)                                                                          \
     GVI__BODY int gvi__at_##name
 
 #define GVI_EACH(name, n, ...)                                                                  \
@@ -516,7 +553,7 @@ GVI__BODY int gvi__each_point(gvi_points_fn *at, const gvi_points *x, void *user
 #define GVI__COLUMN(name, o) uses & GVI__USES_##name ? a + (o)*n : NULL
 #define GVI__MOVE(mask, m, to, from)                                                            \
     if (wanted & (mask)) GVI__LOOP(GCC unroll 64) for (int i = 0; i < (m); ++i) to = from
-    GVI__LOOP(GCC ivdep) for (; k < to; ++k) {
+    GVI__INDEPENDENT for (; k < to; ++k) {
         gvi_points y = { n, 1, 1, x->t + k, a, GVI__COLUMN(v, 1), GVI__COLUMN(p, 2),
                          GVI__COLUMN(f, 3), GVI__COLUMN(dldv, 4), GVI__COLUMN(value, 5),
                          GVI__COLUMN(mass, 5), GVI__COLUMN(velocity, 5), g, G, dg };
@@ -978,22 +1015,18 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 
 #if GVI__KIND == 1
 #define GVI__LIMIT(name) FLT_##name
-#define GVI__MATH(name) name##f
 #elif GVI__KIND == 2
 #define GVI__LIMIT(name) DBL_##name
-#define GVI__MATH(name) name
 #else
 #define GVI__LIMIT(name) LDBL_##name
-#define GVI__MATH(name) name##l
 #endif
 #define GVI__EPS GVI__LIMIT(EPSILON)
 #define GVI__MAX GVI__LIMIT(MAX)
 #define GVI__MIN GVI__LIMIT(MIN)
 #define GVI__DIG GVI__LIMIT(MANT_DIG)
 
-#ifndef GVI_SQRT
+#ifndef GVI_ABS
 #include <math.h>
-#define GVI_SQRT(x)      GVI__MATH(sqrt)(x)
 #define GVI_ABS(x)       GVI__MATH(fabs)(x)
 #define GVI_FLOOR(x)     GVI__MATH(floor)(x)
 #define GVI_LDEXP(x, e)  GVI__MATH(ldexp)(x, e)

@@ -10,12 +10,11 @@
 */
 #define GVI_IMPLEMENTATION
 #include "gvi.h"
-#include <math.h>
 #include <stdio.h>
 
 GVI_EACH(attraction, 2, f)
 {
-    double X = x->q[0], Y = x->q[1], d2 = X*X + Y*Y, w = -1/(d2*sqrt(d2));
+    double X = x->q[0], Y = x->q[1], d2 = X*X + Y*Y, w = -1/(d2*GVI_SQRT(d2));
     x->f[0] += w*X;  x->f[1] += w*Y;
 }
 

@@ -24,7 +24,7 @@
 
 GVI_POINTS(magnetic_term, 2, v, f, dldv, value)(const gvi_points *x, void *user)
 {
-    double X = x->q[0], Y = x->q[1], u = x->v[0], v = x->v[1], r = sqrt(X*X + Y*Y);
+    double X = x->q[0], Y = x->q[1], u = x->v[0], v = x->v[1], r = GVI_SQRT(X*X + Y*Y);
     double l = X*v - Y*u;  // L = r l/3
     x->value[0] += r*l/3;
     x->f[0] += (X/r*l + r*v)/3;
@@ -36,7 +36,7 @@ GVI_POINTS(magnetic_term, 2, v, f, dldv, value)(const gvi_points *x, void *user)
 
 GVI_POINTS(magnetic_force, 2, v, f)(const gvi_points *x, void *user)
 {
-    double r = sqrt(x->q[0]*x->q[0] + x->q[1]*x->q[1]);
+    double r = GVI_SQRT(x->q[0]*x->q[0] + x->q[1]*x->q[1]);
     x->f[0] += r*x->v[1];
     x->f[1] -= r*x->v[0];
     return (void)user, 0;
@@ -44,7 +44,7 @@ GVI_POINTS(magnetic_force, 2, v, f)(const gvi_points *x, void *user)
 
 GVI_POINTS(electric, 2, f, value)(const gvi_points *x, void *user)
 {
-    double X = x->q[0], Y = x->q[1], r2 = X*X + Y*Y, r = sqrt(r2);
+    double X = x->q[0], Y = x->q[1], r2 = X*X + Y*Y, r = GVI_SQRT(r2);
     x->value[0] += 0.01/r;
     x->f[0] += 0.01*X/(r2*r);
     x->f[1] += 0.01*Y/(r2*r);

@@ -18,7 +18,7 @@
 /* Force and potential: what is not wanted is not computed.                    */
 GVI_POINTS(attraction, 2, f, value)(const gvi_points *x, void *user)
 {
-    double X = x->q[0], Y = x->q[1], d2 = X*X + Y*Y, d = sqrt(d2);
+    double X = x->q[0], Y = x->q[1], d2 = X*X + Y*Y, d = GVI_SQRT(d2);
     x->value[0] -= 1/d;
     x->f[0] -= X/(d2*d);
     x->f[1] -= Y/(d2*d);

@@ -22,7 +22,7 @@
 
 GVI_POINTS(attraction, 2, f)(const gvi_points *x, void *user)
 {
-    double X = x->q[0], Y = x->q[1], d2 = X*X + Y*Y, w = -1/(d2*sqrt(d2));
+    double X = x->q[0], Y = x->q[1], d2 = X*X + Y*Y, w = -1/(d2*GVI_SQRT(d2));
     x->f[0] += w*X;
     x->f[1] += w*Y;
     return (void)user, 0;

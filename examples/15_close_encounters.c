@@ -20,7 +20,7 @@
 /* Force and potential in one function: with a clock a step wants both         */
 GVI_POINTS(attraction, 2, f, value)(const gvi_points *x, void *user)
 {
-    double X = x->q[0], Y = x->q[1], d2 = X*X + Y*Y, d = sqrt(d2), w = -1/(d2*d);
+    double X = x->q[0], Y = x->q[1], d2 = X*X + Y*Y, d = GVI_SQRT(d2), w = -1/(d2*d);
     x->value[0] -= 1/d;
     x->f[0] += w*X;
     x->f[1] += w*Y;
@@ -30,7 +30,7 @@ GVI_POINTS(attraction, 2, f, value)(const gvi_points *x, void *user)
 /* g = |q| and its gradient                                                    */
 GVI_POINTS(distance, 2, f, value)(const gvi_points *x, void *user)
 {
-    double d = sqrt(x->q[0]*x->q[0] + x->q[1]*x->q[1]);
+    double d = GVI_SQRT(x->q[0]*x->q[0] + x->q[1]*x->q[1]);
     x->value[0] += d;
     x->f[0] += x->q[0]/d;
     x->f[1] += x->q[1]/d;

@@ -28,7 +28,7 @@ static double drag, room[ADJOINT_ROOM(2, DEGREE)], kept[ADJOINT_KEPT(2, STEPS, E
 
 GVI_POINTS(attraction, 2, f)(const gvi_points *x, void *user)
 {
-    const double X = x->q[0], Y = x->q[1], d2 = X*X + Y*Y, w = -1/(d2*sqrt(d2));
+    const double X = x->q[0], Y = x->q[1], d2 = X*X + Y*Y, w = -1/(d2*GVI_SQRT(d2));
     x->f[0] += w*X, x->f[1] += w*Y;
     return (void)user, 0;
 }
@@ -48,7 +48,7 @@ static int attraction_product(const gvi_points *x, const gvi_points *l, int para
 /* The air: f = -c |v| v.                                                        */
 GVI_POINTS(air, 2, v, f)(const gvi_points *x, void *user)
 {
-    const double u = x->v[0], v = x->v[1], z = drag*sqrt(u*u + v*v);
+    const double u = x->v[0], v = x->v[1], z = drag*GVI_SQRT(u*u + v*v);
     x->f[0] -= z*u, x->f[1] -= z*v;
     return (void)user, 0;
 }

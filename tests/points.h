@@ -10,7 +10,7 @@
 
 GVI_POINTS(kepler, 2, f, value)(const gvi_points *x, void *user)
 {
-    const gvi_real X = x->q[0], Y = x->q[1], d2 = X*X + Y*Y, d = sqrt(d2), w = -1/(d2*d);
+    const gvi_real X = x->q[0], Y = x->q[1], d2 = X*X + Y*Y, d = GVI_SQRT(d2), w = -1/(d2*d);
     x->f[0] += w*X;
     x->f[1] += w*Y;
     x->value[0] -= 1/d;
@@ -22,7 +22,7 @@ static int kepler_loop(const gvi_points *x, void *user)
     const gvi_real *X = x->q, *Y = X + x->stride;
     gvi_real *fx = x->f, *fy = fx + x->stride;
     for (int k = 0; k < x->count; ++k) {
-        const gvi_real d2 = X[k]*X[k] + Y[k]*Y[k], d = sqrt(d2), w = -1/(d2*d);
+        const gvi_real d2 = X[k]*X[k] + Y[k]*Y[k], d = GVI_SQRT(d2), w = -1/(d2*d);
         fx[k] += w*X[k];
         fy[k] += w*Y[k];
     }
@@ -32,7 +32,38 @@ static int kepler_loop(const gvi_points *x, void *user)
 static int kepler_value_loop(const gvi_points *x, void *user)
 {
     const gvi_real *X = x->q, *Y = X + x->stride;
-    for (int k = 0; k < x->count; ++k) x->value[k] -= 1/sqrt(X[k]*X[k] + Y[k]*Y[k]);
+    for (int k = 0; k < x->count; ++k) x->value[k] -= 1/GVI_SQRT(X[k]*X[k] + Y[k]*Y[k]);
+    return (void)user, 0;
+}
+
+/* Six bodies of masses 1..6, all pairs */
+GVI_POINTS(bodies, 18, f)(const gvi_points *x, void *user)
+{
+    GVI_UNROLL for (int i = 1; i < 6; ++i)
+        GVI_UNROLL for (int j = 0; j < i; ++j) {
+            const gvi_real *a = x->q + 3*i, *b = x->q + 3*j, X = b[0] - a[0], Y = b[1] - a[1], Z = b[2] - a[2];
+            const gvi_real d2 = X*X + Y*Y + Z*Z, w = (gvi_real)((i + 1)*(j + 1))/(d2*GVI_SQRT(d2));
+            gvi_real *f = x->f + 3*i, *g = x->f + 3*j;
+            f[0] += w*X, f[1] += w*Y, f[2] += w*Z;
+            g[0] -= w*X, g[1] -= w*Y, g[2] -= w*Z;
+        }
+    return (void)user, 0;
+}
+
+static int bodies_loop(const gvi_points *x, void *user)
+{
+    const int s = x->stride;
+    for (int i = 1; i < 6; ++i)
+        for (int j = 0; j < i; ++j) {
+            const gvi_real *a = x->q + 3*i*s, *b = x->q + 3*j*s;
+            gvi_real *f = x->f + 3*i*s, *g = x->f + 3*j*s;
+            for (int k = 0; k < x->count; ++k) {
+                const gvi_real X = b[k] - a[k], Y = b[s + k] - a[s + k], Z = b[2*s + k] - a[2*s + k];
+                const gvi_real d2 = X*X + Y*Y + Z*Z, w = (gvi_real)((i + 1)*(j + 1))/(d2*GVI_SQRT(d2));
+                f[k] += w*X, f[s + k] += w*Y, f[2*s + k] += w*Z;
+                g[k] -= w*X, g[s + k] -= w*Y, g[2*s + k] -= w*Z;
+            }
+        }
     return (void)user, 0;
 }
 
@@ -136,10 +167,10 @@ static int magnetic_value_loop(const gvi_points *x, void *user)
     return 0;
 }
 
-/* v = p/sqrt(1 + p^2); refuses p_1 < -1, for the test */
+/* v = p/GVI_SQRT(1 + p^2); refuses p_1 < -1, for the test */
 GVI_POINTS(relativistic, 2, p, velocity)(const gvi_points *x, void *user)
 {
-    const gvi_real w = 1/sqrt(1 + x->p[0]*x->p[0] + x->p[1]*x->p[1]);
+    const gvi_real w = 1/GVI_SQRT(1 + x->p[0]*x->p[0] + x->p[1]*x->p[1]);
     x->velocity[0] = x->p[0]*w;
     x->velocity[1] = x->p[1]*w;
     return (void)user, x->p[0] < -1;
@@ -150,7 +181,7 @@ static int relativistic_loop(const gvi_points *x, void *user)
     const int s = x->stride;
     int failed = 0;
     for (int k = 0; k < x->count; ++k) {
-        const gvi_real w = 1/sqrt(1 + x->p[k]*x->p[k] + x->p[s + k]*x->p[s + k]);
+        const gvi_real w = 1/GVI_SQRT(1 + x->p[k]*x->p[k] + x->p[s + k]*x->p[s + k]);
         x->velocity[k] = x->p[k]*w;
         x->velocity[s + k] = x->p[s + k]*w;
         failed |= x->p[k] < -1;

@@ -4,7 +4,7 @@
 #include "gvi_test.h"
 #include "points.h"
 
-enum { N = 12, ROW = 24 };
+enum { N = 18, ROW = 24 };
 
 typedef struct arrays {
     gvi_real t[ROW], q[N*ROW], v[N*ROW], p[N*ROW], f[N*ROW], dldv[N*ROW], value[ROW], mass[N*N*ROW], velocity[N*ROW],
@@ -78,6 +78,7 @@ TEST(every_kind_of_callback)
     assert_same(2, kepler, kepler_loop, "f");
     assert_same(2, kepler, kepler_value_loop, "V");
     assert_same(2, kepler, kepler_both, "fV");
+    assert_same(18, bodies, bodies_loop, "f");
     assert_same(1, pendulum, pendulum_loop, "f");
     assert_same(3, arm_mass, arm_mass_loop, "M");
     assert_same(3, arm_gradient, arm_gradient_loop, "f");

@@ -8,7 +8,7 @@
     {                                                               \
         double a[n];                                                \
         acceleration(x->q, a);                                      \
-        UNROLL18 for (int i = 0; i < (n); ++i) x->f[i] += a[i];     \
+        GVI_UNROLL for (int i = 0; i < (n); ++i) x->f[i] += a[i];     \
         return (void)user, 0;                                       \
     }
 
@@ -16,7 +16,7 @@
 
 INLINE void plain_kepler_acceleration(const double *q, double *a)
 {
-    const double d2 = q[0]*q[0] + q[1]*q[1], w = -1/(d2*sqrt(d2));
+    const double d2 = q[0]*q[0] + q[1]*q[1], w = -1/(d2*GVI_SQRT(d2));
     a[0] = w*q[0];
     a[1] = w*q[1];
 }
@@ -28,29 +28,22 @@ static void plain_solar_acceleration(const double *q, double *a)
     for (int i = 1; i < 6; ++i)
         for (int j = 0; j < i; ++j) {
             const double x = q[3*j] - q[3*i], y = q[3*j+1] - q[3*i+1], z = q[3*j+2] - q[3*i+2];
-            const double d2 = x*x + y*y + z*z, w = 1/(d2*sqrt(d2)), to = gm[j]*w, from = gm[i]*w;
+            const double d2 = x*x + y*y + z*z, w = 1/(d2*GVI_SQRT(d2)), to = gm[j]*w, from = gm[i]*w;
             a[3*i] += to*x;  a[3*i+1] += to*y;  a[3*i+2] += to*z;
             a[3*j] -= from*x;  a[3*j+1] -= from*y;  a[3*j+2] -= from*z;
         }
 }
 
-/* As in examples/02_outer_solar_system.c                                                      */
-static void pull(int count, int d, const double *restrict a, const double *restrict c, double *restrict f,
-                 double *restrict g, double mm)
+GVI_POINTS(plain_solar, 18, f)(const gvi_points *x, void *user)
 {
-    for (int k = 0; k < count; ++k) {
-        double u = c[k] - a[k], v = c[d+k] - a[d+k], w = c[2*d+k] - a[2*d+k], r2 = u*u + v*v + w*w, s = mm/(r2*sqrt(r2));
-        f[k] += s*u;  f[d+k] += s*v;  f[2*d+k] += s*w;
-        g[k] -= s*u;  g[d+k] -= s*v;  g[2*d+k] -= s*w;
-    }
-}
-
-static int plain_solar(const gvi_points *x, void *user)
-{
-    const int d = x->stride;
-    for (int i = 1; i < 6; ++i)
-        for (int j = 0; j < i; ++j)
-            pull(x->count, d, x->q + 3*i*d, x->q + 3*j*d, x->f + 3*i*d, x->f + 3*j*d, gm[i]*gm[j]);
+    GVI_UNROLL for (int i = 1; i < 6; ++i)
+        GVI_UNROLL for (int j = 0; j < i; ++j) {
+            const double *a = x->q + 3*i, *c = x->q + 3*j, u = c[0] - a[0], v = c[1] - a[1], w = c[2] - a[2];
+            const double r2 = u*u + v*v + w*w, s = gm[i]*gm[j]/(r2*GVI_SQRT(r2));
+            double *f = x->f + 3*i, *g = x->f + 3*j;
+            f[0] += s*u;  f[1] += s*v;  f[2] += s*w;
+            g[0] -= s*u;  g[1] -= s*v;  g[2] -= s*w;
+        }
     return (void)user, 0;
 }
 
@@ -118,9 +111,9 @@ static const double atoms_q[14] = { 0, 0, 1.12, 0.02, 0.55, 0.98, -0.56, 0.97, -
 
 INLINE void atoms_acceleration(const double *q, double *a)
 {
-    UNROLL18 for (int i = 0; i < 14; ++i) a[i] = 0;
-    UNROLL for (int i = 1; i < 7; ++i)
-        UNROLL for (int j = 0; j < i; ++j) {
+    GVI_UNROLL for (int i = 0; i < 14; ++i) a[i] = 0;
+    GVI_UNROLL for (int i = 1; i < 7; ++i)
+        GVI_UNROLL for (int j = 0; j < i; ++j) {
             const double x = q[2*i] - q[2*j], y = q[2*i+1] - q[2*j+1], u = 1/(x*x + y*y), u3 = u*u*u;
             const double w = (48*u3 - 24)*u3*u;
             a[2*i] += w*x;
@@ -152,7 +145,7 @@ static const double arenstorf_q[] = { 0.994, 0 }, arenstorf_p[] = { 0, 0.994 - 2
 INLINE void arenstorf_pull(const double *q, double *f)
 {
     const double x = q[0] + MOON, z = q[0] - (1 - MOON), y = q[1], d = x*x + y*y, e = z*z + y*y;
-    const double earth = (1 - MOON)/(d*sqrt(d)), moon = MOON/(e*sqrt(e));
+    const double earth = (1 - MOON)/(d*GVI_SQRT(d)), moon = MOON/(e*GVI_SQRT(e));
     f[0] = -earth*x - moon*z;
     f[1] = -earth*y - moon*y;
 }
@@ -219,12 +212,12 @@ static long double bottle_energy(const double *q, const double *v)
 
 /* ----------------------------------------------------- relativistic Kepler */
 
-/* L = -c^2 sqrt(1 - v^2/c^2) + 1/|q|, c = 5: v = p/sqrt(1 + p^2/c^2); the ellipse turns by 5 degrees a revolution */
+/* L = -c^2 GVI_SQRT(1 - v^2/c^2) + 1/|q|, c = 5: v = p/GVI_SQRT(1 + p^2/c^2); the ellipse turns by 5 degrees a revolution */
 static const double relativistic_p[] = { 0, 2 };
 
 GVI_POINTS(relativistic_term, 2, v, f, dldv)(const gvi_points *x, void *user)
 {
-    const double w = 1/sqrt(1 - (x->v[0]*x->v[0] + x->v[1]*x->v[1])/25);
+    const double w = 1/GVI_SQRT(1 - (x->v[0]*x->v[0] + x->v[1]*x->v[1])/25);
     x->dldv[0] += w*x->v[0];
     x->dldv[1] += w*x->v[1];
     return (void)user, 0;
@@ -232,7 +225,7 @@ GVI_POINTS(relativistic_term, 2, v, f, dldv)(const gvi_points *x, void *user)
 
 GVI_POINTS(relativistic_velocity, 2, p, velocity)(const gvi_points *x, void *user)
 {
-    const double w = 1/sqrt(1 + (x->p[0]*x->p[0] + x->p[1]*x->p[1])/25);
+    const double w = 1/GVI_SQRT(1 + (x->p[0]*x->p[0] + x->p[1]*x->p[1])/25);
     x->velocity[0] = w*x->p[0];
     x->velocity[1] = w*x->p[1];
     return (void)user, 0;
@@ -240,7 +233,7 @@ GVI_POINTS(relativistic_velocity, 2, p, velocity)(const gvi_points *x, void *use
 
 static void relativistic_slope(const double *y, double *dy)
 {
-    const double w = 1/sqrt(1 + (y[2]*y[2] + y[3]*y[3])/25);
+    const double w = 1/GVI_SQRT(1 + (y[2]*y[2] + y[3]*y[3])/25);
     dy[0] = w*y[2];
     dy[1] = w*y[3];
     plain_kepler_acceleration(y, dy + 2);

@@ -22,6 +22,7 @@ typedef struct callback {
 
 static const callback callbacks[] = {
     { "Kepler, force", 2, kepler, kepler_loop },
+    { "six bodies, force", 18, bodies, bodies_loop },
     { "pendulum, force", 1, pendulum, pendulum_loop },
     { "three links, mass", 3, arm_mass, arm_mass_loop },
     { "three links, gradient", 3, arm_gradient, arm_gradient_loop },
@@ -46,11 +47,11 @@ static double time_of(gvi_points_fn *volatile fn, const gvi_points *x)
 
 static void compare(const callback *c)
 {
-    static double t[8], q[24], v[24], f[24], mass[72], velocity[24], g[16], G[64], rate[16];
+    static double t[8], q[144], v[144], f[144], mass[72], velocity[24], g[16], G[64], rate[16];
     const gvi_points x = { c->n, 8, 8, t, q, v, v, strstr(c->name, "force") || strstr(c->name, "gradient") ? f : NULL, NULL,
                            NULL, strstr(c->name, "mass") ? mass : NULL, strstr(c->name, "velocity") ? velocity : NULL, g, G, rate };
     double made = HUGE_VAL, loop = HUGE_VAL;
-    for (int i = 0; i < 24; ++i) q[i] = 1 + 0.1*i, v[i] = 0.3 + 0.02*i;
+    for (int i = 0; i < 144; ++i) q[i] = 1 + 0.1*i + 0.5*(i % 13), v[i] = 0.3 + 0.02*i/(1 + i/24);
     for (int k = 0; k < RUNS; ++k) {
         memset(f, 0, sizeof f);
         made = fmin(made, time_of(c->made, &x));
