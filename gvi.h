@@ -653,9 +653,9 @@ struct gvi__holonomic {               /* constraints; C = stride of D_0..D_s    
     gvi_real *force, *rho, *last;     /* [n+m][R] G' lambda, -lambda; residual; [n+m][C] last */
     gvi_real *at, *g, *G, *A, *W, *y; /* [.][C] D, g and rate, G, its matrix; scratch; [m] */
     gvi_real *G1, *A1;                /* [2][m][n], [m][m] at one point                 */
-    gvi_real *column, *columns, *first, *drops; /* see gvi__find_columns, gvi__factor_constraints */
+    gvi_real *runs, *ends, *first, *drops; /* see gvi__find_runs, gvi__factor_constraints */
     int       m, C, made, kept, linear; /* rows on; kept: last for the curve, 2 to predict */
-    int       settled, again;         /* see gvi__find_columns                          */
+    int       settled, again;         /* see gvi__find_runs                          */
     unsigned  bits;                   /* the effects                                 */
 };
 
@@ -863,7 +863,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI_CONSTRAINED_LENGTH(n, s, r, m) (GVI_LENGTH(n, s, r)                  \
     + (6*GVI__SIZE(n) + 3*GVI__SIZE(m) + 2*GVI__SIZE(r) + 5*GVI__SIZE(s) + 4 + (4 + GVI__SIZE(m)) \
        *(GVI__SIZE(n) + GVI__SIZE(m)))*(GVI__SIZE(GVI__ROW(r)) + GVI__SIZE(GVI__ROW((s) + 1)))    \
-    + (GVI__SIZE(s) + 3)*(GVI__SIZE(s) + 1) + 2*GVI__SIZE(m))
+    + (GVI__SIZE(s) + 3)*(GVI__SIZE(s) + 1) + (2*GVI__SIZE(n) + 7)*GVI__SIZE(m))
 
 #ifdef __cplusplus
 }
@@ -3707,10 +3707,11 @@ GVI__COLD gvi_status gvi__report_row(gvi_stepper *st, gvi_status status, int row
     return gvi__report(st, status, e, row, point);
 }
 
-// where in G entry e of row a is, of those that are not 0
-GVI__BODY int gvi__entry(const gvi_stepper *st, int a, int e)
+/* What of row a is read and cleared: runs of columns, from run[e] to run[e + 1], e even.      */
+GVI__BODY const gvi_real *gvi__runs(const gvi_stepper *st, int a, int *ends)
 {
-    return a*st->n + (int)st->x.con.column[a*st->n + e];
+    *ends = (int)st->x.con.ends[a];
+    return st->x.con.runs + a*(st->n + 1);
 }
 
 // g and dg/dt to con.g, and G, at `count` points
@@ -3723,9 +3724,13 @@ static gvi_status gvi__evaluate_constraints(gvi_stepper *st, int S, int count, c
     y.rate = y.g + st->x.con.m*S;
     y.jacobian = G;
     gvi__zero((size_t)(st->x.con.m*S), y.rate);
-    for (int a = 0; a < st->x.con.m; ++a)
-        for (int e = 0; e < (int)st->x.con.columns[a]; ++e)
-            gvi__zero((size_t)S, G + (size_t)gvi__entry(st, a, e)*(size_t)S);
+    for (int a = 0, ends; a < st->x.con.m; ++a) {
+        const gvi_real *run = gvi__runs(st, a, &ends);
+        for (int e = 0; e < ends; e += 2) {
+            const int i = (int)run[e], to = (int)run[e + 1];
+            gvi__zero((size_t)((to - i)*S), G + (size_t)(a*st->n + i)*(size_t)S);
+        }
+    }
     if (st->x.diagnose && gvi__check_rows(st, &y, q, 0) != GVI_OK)
         return gvi__report_status(st, GVI_E_CONVERGENCE);
     for (int e = 0; e < st->x.desc.effect_count && status == GVI_OK; ++e) {
@@ -3751,42 +3756,62 @@ static gvi_status gvi__evaluate_constraints(gvi_stepper *st, int S, int count, c
     return status;
 }
 
-/* The columns in which G has had an entry other than 0, row by row in ascending order: all that is
-   read and cleared of it.  They are looked for at the ends of steps, and within the steps until
-   one has shown nothing new (`settled`); a step at whose end there are new ones is done again.
-   An entry that is 0 at both ends of a later step counts as 0 inside.  first[a]: the first row
-   that shares a coordinate with row a, where L begins; all rows do through a full M.          */
-static int gvi__find_columns(gvi_stepper *st, int S, int count, const gvi_real *G)
+static int gvi__all_zero(const gvi_real *x)
+{
+    const gvi_real a = GVI_ABS(x[0]) + GVI_ABS(x[4]), b = GVI_ABS(x[1]) + GVI_ABS(x[5]),
+                   c = GVI_ABS(x[2]) + GVI_ABS(x[6]), d = GVI_ABS(x[3]) + GVI_ABS(x[7]);
+    return (a + b) + (c + d) <= 0;
+}
+
+// column i begins a run or ends one, or no longer does
+GVI__COLD void gvi__toggle(gvi_real *run, gvi_real *ends, int i)
+{
+    int e = 0, count = (int)*ends;
+    while (e < count && (int)run[e] < i) ++e;
+    if (e < count && (int)run[e] == i)
+        for (--count; e < count; ++e) run[e] = run[e + 1];
+    else {
+        for (int f = count++; f > e; --f) run[f] = run[f - 1];
+        run[e] = (gvi_real)i;
+    }
+    *ends = (gvi_real)count;
+}
+
+/* Runs of the columns in which G has had an entry other than 0.  They are looked for at the ends of
+   steps, and within the steps until one has shown nothing new (`settled`); a step at whose end
+   there are new ones is done again.  An entry that is 0 at both ends of a later step counts as 0
+   inside.  first[a]: the first row that shares a coordinate with row a, where L begins; all rows
+   do through a full M.                                                                        */
+static int gvi__find_runs(gvi_stepper *st, int S, int count, const gvi_real *G)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, m = x->con.m;
     gvi_real *const top = x->point;
-    int grown = 0;
+    int grown = 0, ends;
     for (int a = 0; a < m; ++a) {
-        gvi_real *column = x->con.column + a*n;
-        int columns = (int)x->con.columns[a], e = 0;
-        for (int i = 0; i < n && columns < n; ++i) {
-            const gvi_real *entry = G + ((size_t)a*(size_t)n + (size_t)i)*(size_t)S;
-            gvi_real sum = 0;
-            for (int k = 0; k < count; ++k) sum += GVI_ABS(entry[k]);
-            if (sum <= 0) continue;
-            while (e < columns && column[e] < (gvi_real)i) ++e;
-            if (e < columns && (int)column[e] == i) continue;
-            for (int f = columns++; f > e; --f) column[f] = column[f - 1];
-            column[e] = (gvi_real)i;
+        const gvi_real *run = gvi__runs(st, a, &ends), *row = G + (size_t)(a*n)*(size_t)S;
+        for (int i = 0, e = 0; i < n; ++i) {
+            while (S == 1 && i + 8 <= n && gvi__all_zero(row + i)) i += 8;
+            for (; e < ends && (int)run[e] <= i; ++e)
+                if (e % 2 == 0) i = (int)run[e + 1];
+            if (i >= n || gvi__norm1(count, row + i*S) <= 0) continue;
+            gvi__toggle(x->con.runs + a*(n + 1), x->con.ends + a, i);
+            gvi__toggle(x->con.runs + a*(n + 1), x->con.ends + a, i + 1);
+            run = gvi__runs(st, a, &ends);
+            e = 0;
             grown = 1;
         }
-        x->con.columns[a] = (gvi_real)columns;
     }
     if (!grown) return 0;
     for (int i = 0; i < n; ++i) top[i] = (gvi_real)m;
     for (int a = 0; a < m; ++a) {
+        const gvi_real *run = gvi__runs(st, a, &ends);
         gvi_real first = gvi__full_mass(x) ? 0 : (gvi_real)a;
-        for (int e = 0; e < (int)x->con.columns[a]; ++e) {
-            gvi_real *t = top + (int)x->con.column[a*n + e];
-            if (*t > (gvi_real)a) *t = (gvi_real)a;
-            if (*t < first) first = *t;
-        }
+        for (int e = 0; e < ends; e += 2)
+            for (int i = (int)run[e]; i < (int)run[e + 1]; ++i) {
+                if (top[i] > (gvi_real)a) top[i] = (gvi_real)a;
+                if (top[i] < first) first = top[i];
+            }
         x->con.first[a] = first;
     }
     return 1;
@@ -3795,11 +3820,11 @@ static int gvi__find_columns(gvi_stepper *st, int S, int count, const gvi_real *
 // G_a z at one point
 static gvi_real gvi__row_dot(const gvi_stepper *st, const gvi_real *G, int a, const gvi_real *z)
 {
+    int ends;
+    const gvi_real *run = gvi__runs(st, a, &ends);
     gvi_real sum = 0;
-    for (int e = 0; e < (int)st->x.con.columns[a]; ++e) {
-        const int ai = gvi__entry(st, a, e);
-        sum += G[ai]*z[ai - a*st->n];
-    }
+    for (int e = 0; e < ends; e += 2)
+        for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i) sum += G[a*st->n + i]*z[i];
     return sum;
 }
 
@@ -3816,28 +3841,30 @@ static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, con
     const gvi_real *first = x->con.first, least = 64*(gvi_real)m*GVI__EPS;
     gvi_real *W = x->con.W;
     gvi__zero((size_t)(n*S), W);
-    for (int i = 0; i < m; ++i) {
-        const int from = (int)first[i], columns = (int)x->con.columns[i];
+    for (int i = 0, ends; i < m; ++i) {
+        const int from = (int)first[i];
+        const gvi_real *run = gvi__runs(st, i, &ends);
         gvi_real *d = A + (i*m + i)*S;
-        for (int e = 0; e < columns; ++e) {                   // W = - M^-1 G_i'
-            const int ie = gvi__entry(st, i, e), j = ie - i*n;
-            for (int k = 0; k < count; ++k)
-                W[j*S + k] = -(full ? G[ie*S + k] : G[ie*S + k]*x->mass.inverse[j]);
-        }
+        for (int e = 0; e < ends; e += 2)                    // W = - M^-1 G_i'
+            for (int j = (int)run[e]; j < (int)run[e + 1]; ++j) {
+                const gvi_real *g = G + (i*n + j)*S, inverse = full ? 1 : x->mass.inverse[j];
+                for (int k = 0; k < count; ++k) W[j*S + k] = -(g[k]*inverse);
+            }
         if (full && gvi__mass_is_constant(x)) gvi__over_mass(st, W, S, count);
         else if (full) gvi__ldl_solve(n, x->mass.at_points, S > 1 ? x->R : 1, W, S, count);
         for (int j = from; j <= i; ++j) {
             gvi_real *u = A + (j*m + i)*S;
+            run = gvi__runs(st, j, &ends);
             gvi__zero((size_t)S, u);
-            for (int e = 0; e < (int)x->con.columns[j]; ++e) {
-                const int je = gvi__entry(st, j, e);
-                gvi__subtract_at(S, count, G + je*S, W + (je - j*n)*S, u);
-            }
+            for (int e = 0; e < ends; e += 2)
+                for (int l = (int)run[e], to = (int)run[e + 1]; l < to; ++l)
+                    gvi__subtract_at(S, count, G + (j*n + l)*S, W + l*S, u);
             for (int l = from > (int)first[j] ? from : (int)first[j]; l < j && j < i; ++l)
                 gvi__subtract_at(S, count, A + (j*m + l)*S, A + (l*m + i)*S, u);
         }
-        if (full) gvi__zero((size_t)(n*S), W);
-        for (int e = 0; e < columns; ++e) gvi__zero((size_t)S, W + (gvi__entry(st, i, e) - i*n)*S);
+        run = gvi__runs(st, i, &ends);
+        for (int e = 0; e < ends; e += 2)
+            gvi__zero((size_t)(((int)run[e + 1] - (int)run[e])*S), W + (int)run[e]*S);
         for (int k = 0; k < count; ++k) {
             const gvi_real was = GVI_ABS(d[k]);
             gvi_real rest = d[k];
@@ -3859,8 +3886,8 @@ static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, con
 }
 
 // rows z [m][R] := A^-1 z, at points or at one; 0 for rows that are left out
-static void gvi__solve_constraints(const gvi_stepper *st, const gvi_real *A, int S, int count,
-                                   gvi_real *z, int R)
+GVI__BODY void gvi__solve_at(const gvi_stepper *st, const gvi_real *A, int S, int count,
+                             gvi_real *z, int R)
 {
     const int m = st->x.con.m;
     const gvi_real *first = st->x.con.first;
@@ -3876,6 +3903,13 @@ static void gvi__solve_constraints(const gvi_stepper *st, const gvi_real *A, int
             gvi__subtract_at(S, count, A + (i*m + j)*S, z + i*R, z + j*R);
 }
 
+static void gvi__solve_constraints(const gvi_stepper *st, const gvi_real *A, int S, int count,
+                                   gvi_real *z, int R)
+{
+    if (S == 1) gvi__solve_at(st, A, 1, 1, z, 1);
+    else gvi__solve_at(st, A, S, count, z, R);
+}
+
 // g, dg/dt, G and A at one configuration
 static gvi_status gvi__constraints_at(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                       gvi_real *drops)
@@ -3883,7 +3917,8 @@ static gvi_status gvi__constraints_at(gvi_stepper *st, gvi_real t, const gvi_rea
     const gvi_points y = gvi__one_point(st, &t, q);
     gvi_real *G = st->x.con.G1;
     gvi_status status = gvi__evaluate_constraints(st, 1, 1, &t, q, G);
-    if (status == GVI_OK) st->x.con.again |= gvi__find_columns(st, 1, 1, G);
+    if (status == GVI_OK && (drops != st->x.con.drops || !st->x.con.settled))
+        st->x.con.again |= gvi__find_runs(st, 1, 1, G);
     if (status == GVI_OK && !gvi__mass_is_constant(&st->x)) status = gvi__factor_mass(st, &y);
     return status == GVI_OK ? gvi__factor_constraints(st, 1, 1, G, st->x.con.A1, drops) : status;
 }
@@ -3891,22 +3926,23 @@ static gvi_status gvi__constraints_at(gvi_stepper *st, gvi_real t, const gvi_rea
 // z += G' y at one point
 static void gvi__add_force(const gvi_stepper *st, const gvi_real *y, gvi_real *z)
 {
-    for (int a = 0; a < st->x.con.m; ++a)
-        for (int e = 0; e < (int)st->x.con.columns[a]; ++e) {
-            const int ai = gvi__entry(st, a, e);
-            z[ai - a*st->n] += y[a]*st->x.con.G1[ai];
-        }
+    for (int a = 0, ends; a < st->x.con.m; ++a) {
+        const gvi_real *run = gvi__runs(st, a, &ends);
+        const gvi_real *G = st->x.con.G1 + a*st->n, ya = y[a];
+        for (int e = 0; e < ends; e += 2)
+            for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i) z[i] += ya*G[i];
+    }
 }
 
 // sum of |G_ai q_i| and |t dg_a/dt|: what is known of the size of g_a's terms, at one point
 static gvi_real gvi__terms(const gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *G,
                            int a)
 {
+    int ends;
+    const gvi_real *run = gvi__runs(st, a, &ends);
     gvi_real size = GVI_ABS(st->x.con.g[st->x.con.m + a]*t);
-    for (int e = 0; e < (int)st->x.con.columns[a]; ++e) {
-        const int ai = gvi__entry(st, a, e);
-        size += GVI_ABS(G[ai]*q[ai - a*st->n]);
-    }
+    for (int e = 0; e < ends; e += 2)
+        for (int i = (int)run[e]; i < (int)run[e + 1]; ++i) size += GVI_ABS(G[a*st->n + i]*q[i]);
     return size;
 }
 
@@ -3957,12 +3993,13 @@ static void gvi__constraint_forces(const gvi_stepper *st)
     const struct gvi__private *x = &st->x;
     const int n = st->n, R = x->R, C = x->con.C;
     gvi__zero((size_t)(n*R), x->con.force);
-    for (int a = 0; a < x->con.m; ++a)
-        for (int e = 0; e < (int)x->con.columns[a]; ++e) {
-            const int ai = gvi__entry(st, a, e);
-            gvi__subtract_at(C, st->s, x->con.G + ai*C, x->con.force + (n + a)*R,
-                             x->con.force + (ai - a*n)*R);
-        }
+    for (int a = 0, ends; a < x->con.m; ++a) {
+        const gvi_real *run = gvi__runs(st, a, &ends);
+        for (int e = 0; e < ends; e += 2)
+            for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i)
+                gvi__subtract_at(C, st->s, x->con.G + (a*n + i)*C, x->con.force + (n + a)*R,
+                                 x->con.force + i*R);
+    }
 }
 
 /* The constraints at D, padded with q0; A in the first iteration.  After a move along which G
@@ -3975,6 +4012,7 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
     const int n = st->n, m = x->con.m, s = st->s, R = x->R, C = x->con.C, linear = x->con.linear;
     const gvi_real *G = x->con.G + 1, *moved = x->con.W;
     gvi_real *along = x->con.rho + m*R;
+    int ends;
     for (int i = 0; i < n; ++i)
         for (int k = 0; k < C; ++k) {
             gvi_real *at = x->con.at + i*C + k;
@@ -3983,27 +4021,29 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
             *at = D;
         }
     gvi__zero((size_t)(m*C), along);              // by the old G
-    for (int a = 0; a < m; ++a)
-        for (int e = 0; e < (int)x->con.columns[a]; ++e) {
-            const int ai = gvi__entry(st, a, e);
-            gvi__subtract_at(C, s, G + ai*C, moved + (ai - a*n)*C, along + a*C);
-        }
+    for (int a = 0; a < m; ++a) {
+        const gvi_real *run = gvi__runs(st, a, &ends);
+        for (int e = 0; e < ends; e += 2)
+            for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i)
+                gvi__subtract_at(C, s, G + (a*n + i)*C, moved + i*C, along + a*C);
+    }
     for (int a = 0; a < m; ++a)
         for (int k = 0; k < s; ++k) x->con.rho[a*R + k] = x->con.g[a*C + k + 1] + along[a*C + k];
     const gvi_status status =
         gvi__evaluate_constraints(st, C, s + 1, x->con.t, x->con.at, x->con.G);
-    if (!x->con.settled && gvi__find_columns(st, C, s + 1, x->con.G)) x->con.made = 0;
+    if (!x->con.settled && gvi__find_runs(st, C, s + 1, x->con.G)) x->con.made = 0;
     x->con.linear = x->con.made > 0;
     for (int a = 0; a < m; ++a) {
+        const gvi_real *run = gvi__runs(st, a, &ends);
         if (linear) gvi__copy((size_t)s, x->con.rho + a*R, x->con.g + a*C + 1);
         for (int k = 0; k < s && x->con.linear; ++k) {
             gvi_real change = along[a*C + k], size = 0;
-            for (int e = 0; e < (int)x->con.columns[a]; ++e) {
-                const int ai = gvi__entry(st, a, e);
-                const gvi_real z = G[ai*C + k]*moved[(ai - a*n)*C + k];
-                change += z;
-                size += GVI_ABS(z);
-            }
+            for (int e = 0; e < ends; e += 2)
+                for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i) {
+                    const gvi_real z = G[(a*n + i)*C + k]*moved[i*C + k];
+                    change += z;
+                    size += GVI_ABS(z);
+                }
             if (!(GVI_ABS(change) <= GVI__EPS*size)) x->con.linear = 0;
         }
     }
@@ -4035,13 +4075,13 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *y, const gvi_
         for (int e = 0; e < s; ++e) z[e] = (at[e] - q0[i]) - D[e];
     }
     gvi__zero((size_t)(m*R), rho);
-    for (int a = 0; a < m; ++a) {
+    for (int a = 0, ends; a < m; ++a) {
+        const gvi_real *run = gvi__runs(st, a, &ends);
         gvi_real *g = x->row;
         gvi__copy((size_t)s, x->con.g + a*C + 1, g);
-        for (int e = 0; e < (int)x->con.columns[a]; ++e) {
-            const int ai = gvi__entry(st, a, e);
-            gvi__subtract_at(C, s, x->con.G + ai*C + 1, moved + (ai - a*n)*C, g);
-        }
+        for (int e = 0; e < ends; e += 2)
+            for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i)
+                gvi__subtract_at(C, s, x->con.G + (a*n + i)*C + 1, moved + i*C, g);
         for (int b = 0; b < s; ++b) gvi__subtract_row((size_t)R, -g[b], x->con.X + b*R, rho + a*R);
     }
     gvi__solve_constraints(st, x->con.A, C, s, rho, R);
@@ -4089,11 +4129,13 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
     const gvi_real t = from->t + (from->t_low + h);
     gvi_status status = gvi__constraints_at(st, from->t, from->q, x->con.drops);
     gvi__zero((size_t)n, x->step.p_low);
+    x->con.again = 0;
     for (int k = 0; ; ++k) {
         gvi_real size = 0;
         int finite = 1;
         if (status == GVI_OK) status = gvi__evaluate_constraints(st, 1, 1, &t, Q, G);
         if (status != GVI_OK) return status;
+        if (k == 0 && !x->con.settled) (void)gvi__find_runs(st, 1, 1, G);
         for (int a = 0; a < m; ++a) {
             const gvi_real terms = gvi__terms(st, t, Q, G, a);
             const int rounding = k > 0 && GVI_ABS(g[a]) > (gvi_real)1.25*(GVI_ABS(left[a])
@@ -4215,11 +4257,11 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
 }
 
 // the rows are others now
-GVI__COLD void gvi__forget_columns(gvi_stepper *st)
+GVI__COLD void gvi__forget_runs(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
     const size_t m = (size_t)gvi__count_rows(x, x->con.bits), C = (size_t)x->con.C;
-    gvi__zero(m, x->con.columns);
+    gvi__zero(m, x->con.ends);
     gvi__zero(2*m*(size_t)st->n, x->con.G1);
     gvi__zero(m*m, x->con.A1);
     if (x->con.G) gvi__zero(m*(size_t)st->n*C, x->con.G);
@@ -4302,7 +4344,7 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
             trial = gvi__velocity(st, t, q, p, u);
             if (trial == GVI_OK)
                 trial = gvi__evaluate_constraints(st, 1, 1, &t, q, x->con.G1 + m*n);
-            if (trial == GVI_OK) (void)gvi__find_columns(st, 1, 1, x->con.G1 + m*n);
+            if (trial == GVI_OK) (void)gvi__find_runs(st, 1, 1, x->con.G1 + m*n);
             for (int a = 0; a < m; ++a)
                 rate[a] += (x->con.g[m + a] + gvi__row_dot(st, x->con.G1 + m*n, a, u))
                            *(sign*weight[j/2]/delta);
@@ -4515,7 +4557,7 @@ GVI__COLD void gvi__layout_constraints(struct gvi__private *x, gvi__arena *a)
         { &y->last, i*(n + m), C }, { &y->at, i*n, C }, { &y->t, i, C }, { &y->W, on*n, C },
         { &y->g, 2*m, C }, { &y->G, i*m*n, C }, { &y->A, i*m*m, C }, { &y->d, on, R + C },
         { &y->w, on, s + 1 }, { &y->rho, m, R + C }, { &y->lu, i*(s + 1), s + 1 }, { &y->y, on, m },
-        { &y->G1, 2*m, n }, { &y->A1, m, m }, { &y->column, m, n }, { &y->columns, on, m },
+        { &y->G1, 2*m, n }, { &y->A1, m, m }, { &y->runs, m, n + 1 }, { &y->ends, on, m },
         { &y->first, on, m }, { &y->drops, 2*on, m }
     };
     y->C = (int)C;
@@ -5370,7 +5412,7 @@ GVI__COLD gvi_status gvi__begin_at(gvi_stepper *st, gvi_real t, const gvi_real *
     struct gvi__private *x = &st->x;
     const size_t n = (size_t)st->n;
     if (gvi__constrained(st)) {
-        gvi__forget_columns(st);
+        gvi__forget_runs(st);
         const gvi_status status = gvi__project_start(st, t, x->step.q, x->step.p);
         if (status != GVI_OK) return status;
         v = x->result + 2*n;
@@ -5490,12 +5532,12 @@ GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
     if (GVI__CONSTRAINTS && (x->con.bits >> index & 1u)) {
         gvi_status status = GVI_OK;
         x->con.m = gvi__count_rows(x, gvi__constraints_on(st));
-        gvi__forget_columns(st);
+        gvi__forget_runs(st);
         if (x->started && (was & ~x->off)) status = gvi__project_start(st, st->t, st->q, st->p);
         if (status != GVI_OK) {
             x->off = was;
             x->con.m = gvi__count_rows(x, gvi__constraints_on(st));
-            gvi__forget_columns(st);
+            gvi__forget_runs(st);
             return st->status = status;
         }
         x->con.kept = x->con.kept > 0;
