@@ -4212,7 +4212,6 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
              *drops = x->con.drops + m, energy = 0, before = GVI__MAX;
     int redundant = 0;
     for (int i = 0; i < n; ++i) q[i] = from->q[i] + (x->step.q[i] + x->step.q_low[i]);
-    gvi__zero((size_t)m, x->con.y);
     x->diagnose |= start;
     gvi_status status = gvi__constraints_at(st, t, q, drops);
     if (start) x->diagnose = 0;
@@ -4222,6 +4221,7 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
             status = gvi__report_row(st, GVI_E_SINGULAR, a, GVI_FAULT_NONE);
     }
     if ((start || redundant) && status == GVI_OK) status = gvi__fulfilled(st, t, q);
+    gvi__zero((size_t)m, x->con.y);
     gvi__velocity_guess(st, v);
     for (int pass = 0; pass < passes && status == GVI_OK; ++pass) {
         gvi_real size = 0;
