@@ -455,8 +455,9 @@ typedef enum gvi_status {
     GVI_E_STATE       = -12, /* called too early, or for a time outside the last step   */
     GVI_E_CONJUGATE   = -13, /* boundary values do not determine the curve              */
     GVI_E_CLOCK       = -14, /* a clock's g is not positive (fault.effect, fault.point) */
-    GVI_E_CONSTRAINT  = -15  /* the state given is not on a constraint: fault.effect, its row in
+    GVI_E_CONSTRAINT  = -15, /* the state given is not on a constraint: fault.effect, its row in
                                 fault.coordinate                                    */
+    GVI_E_RESOLUTION  = -16  /* st.resolution is above desc.resolution: halve h             */
 } gvi_status;
 
 /* What a callback gets: `count` points.  Coordinate i of point k is at [i*stride + k].  Inputs that
@@ -705,6 +706,9 @@ typedef struct gvi_desc {
                                           iterations before (N = 2: less than the first change).
                                           N = 1 has no such test: see counters.worst_change.
                                           0: as many as it takes               */
+    gvi_real          resolution;      /* the dial: relative accuracy wanted of a step, below 1; a
+                                          step with a larger st.resolution is refused, with
+                                          GVI_E_RESOLUTION.  0: none is.  From degree 2 on  */
 } gvi_desc;
 
 #define GVI_FAULT_NONE (-1)
@@ -813,6 +817,7 @@ struct gvi__private {
     gvi_real           *row, *point, *result;     /* scratch: [9R], [6n], [3n]           */
     gvi_real           *zeros, *start;                     /* [n]; start: its velocity */
     gvi_real            dt;           /* increment of t                             */
+    gvi_real            reach;        /* rung of the longest step that the dial allowed last */
     gvi_real           *memory;       /* from its first aligned number on           */
     size_t              size, skip;   /* numbers in use; left out for alignment     */
     gvi__kernel        *kernel;       /* for n and r                                */
@@ -837,6 +842,8 @@ typedef struct gvi_stepper {
     gvi_fault       fault;
     int             order;            /* u of the rule; 0 for GVI_KICKS         */
     int             iterations;       /* in the last step                       */
+    gvi_real        resolution;       /* of the last step that was tried; 0 where explicit */
+    gvi_real        next;             /* the length that gvi_advance will try; may be set  */
     gvi_counters    counters;
     struct gvi__private x;
 } gvi_stepper;
@@ -882,6 +889,17 @@ GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_rea
    force jumps in time.  If what an effect reads through `user` changes between steps, call
    gvi_switch(st, i, 1): the explicit formulation reuses the force at the end of a step.       */
 GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h);
+
+/* One step towards t_end, before or after t, as long as desc.resolution allows, never past t_end,
+   and on it to the bit:
+
+     while (st.status == GVI_OK && st.t < t_end) gvi_advance(&st, t_end);
+
+   The length is st.next, the first one found from small ones, as long as the accuracy stays within
+   a band; what is left is divided so that the last step is no shorter than half of that.  A step
+   that fails is tried again, shorter, until t would not move: then its status is returned.  With
+   a clock the length is in tau, and the step may pass t_end: gvi_state_at has the state there. */
+GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end);
 
 /* Switches effect `index` off (on = 0) or on again, between steps.  An effect that is off is
    not evaluated; the formulation stays that of the whole list.  gvi_start leaves the switches
@@ -2699,6 +2717,7 @@ static void gvi__prepare_predictor(gvi_stepper *st, gvi_real h, int query);
 static gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi_real h,
                                int extrapolate, int *used);
 static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h);
+static gvi_real gvi__resolution(const gvi_stepper *st);
 static gvi_status gvi__kicks(gvi_stepper *st, const gvi__origin *from, gvi_real h,
                              const gvi_real *force);
 static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int how, int query);
@@ -2911,20 +2930,6 @@ static void gvi__move(int n, const gvi_real *GVI__RESTRICT dx, const gvi_real *G
 static void gvi__commit(gvi_stepper *st, gvi_real h)
 {
     struct gvi__private *x = &st->x;
-    const gvi_real *a = x->table.high, *F = x->work.F;        // a is NULL where explicit
-    for (int i = 0; a && i < st->n; ++i, F += x->R) {
-        const gvi_real all = (GVI_ABS(F[0]) + GVI_ABS(F[(st->r - 1)/2]) + GVI_ABS(F[st->r/2])
-                              + GVI_ABS(F[st->r - 1]))/4;
-        gvi_real one = 0, two = 0;
-        for (int k = 0; k < st->r; ++k) {
-            one += a[k]*F[k];
-            two += a[x->R + k]*F[k];
-        }
-        const gvi_real share = (GVI_ABS(one) + GVI_ABS(two))/all, push = GVI_ABS(h)*all,
-                       resolution = share*share*(push/(GVI_ABS(x->state.p[i]) + push));
-        if (resolution > st->counters.worst_resolution)      // false where F is 0: NaN
-            st->counters.worst_resolution = resolution;
-    }
     const gvi__two t = gvi__two_sum(st->t, x->dt + st->t_low);
     const int whole = gvi__uses(x, GVI_EXPLICIT);             // whose increments have no low words
     gvi__move(st->n, x->step.q, whole ? NULL : x->step.q_low, x->state.q, x->state.q_low,
@@ -2999,8 +3004,12 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
     gvi_status status = gvi__solve(st, &from, h, GVI__STEP);
     if (status == GVI_OK && !gvi__finite(st->t + x->dt))
         status = gvi__refuse_call(st, "t + h is not finite");
+    st->resolution = 0;
+    if (status == GVI_OK) st->resolution = gvi__resolution(st);
     if (status == GVI_E_CONVERGENCE || status == GVI_E_SINGULAR || status == GVI_E_NON_FINITE)
         status = gvi__explain(st, status);
+    if (x->desc.resolution > 0 && st->resolution > x->desc.resolution)
+        status = gvi__report_status(st, GVI_E_RESOLUTION);
     if (status != GVI_OK) {
         x->failed.status = status;
         x->failed.fault = st->fault;
@@ -3010,8 +3019,93 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
         x->newton.h = 0;
         return st->status = status;
     }
+    if (st->resolution > st->counters.worst_resolution)
+        st->counters.worst_resolution = st->resolution;
     gvi__commit(st, h);
     return gvi__report_status(st, GVI_OK);
+}
+
+/* Lengths have a ladder of four rungs an octave, at 4, 5, 6 and 7 eighths of a power of two: where
+   x stands on it, linear between these; and the rung below k.                                 */
+static gvi_real gvi__rungs(gvi_real x)
+{
+    int e;
+    const gvi_real mantissa = GVI_FREXP(x, &e);
+    return (gvi_real)(4*e) + 8*mantissa;
+}
+
+static gvi_real gvi__length(gvi_real k)
+{
+    const gvi_real octave = GVI_FLOOR(k/4) - 1;
+    return GVI_LDEXP((GVI_FLOOR(k) - 4*octave)/8, (int)octave);
+}
+
+/* st.next after a step of length h.  `room` rungs up the resolution, of order 2s - 1 in h, would be
+   at its limit: as it was in this step, less what it has lost since the last.  Half a rung is too
+   little, two and a half are too much.                                                        */
+static void gvi__set_next(gvi_stepper *st, gvi_status status, gvi_real h)
+{
+    const gvi_real seen = st->resolution > GVI__MIN ? st->resolution : GVI__MIN, at = gvi__rungs(h);
+    const gvi_real most = gvi__rungs(st->x.desc.resolution) - gvi__rungs(seen);
+    gvi_real room = most/(gvi_real)(2*st->s - 1), up = 0;
+    if (status == GVI_OK && room < 8) {
+        const gvi_real loss = st->x.reach - (at + room);
+        st->x.reach = at + room;
+        if (loss > 0) room -= loss;
+    }
+    if (room > (gvi_real)2.5) up = room < 5 ? room - 1 : 4;
+    if (room < (gvi_real)0.5) up = room > -7 ? room - 1 : -8;
+    if (status != GVI_OK && status != GVI_E_RESOLUTION) up = -8;
+    const gvi_real next = gvi__length(at + up);
+    if ((up > 0 && h >= st->next) || (up < 0 && next < st->next)) st->next = next;
+}
+
+/* A first length: less than 1/16 of the time in which the forces would make the kinetic energy that
+   there is.                                                                                   */
+GVI__COLD gvi_real gvi__first_length(gvi_stepper *st, gvi_real left)
+{
+    gvi_real *v = st->x.result, *a = v + st->n;
+    gvi_points y = gvi__one_point(st, &st->t, st->q);
+    gvi__velocity_guess(st, v);
+    gvi_status status = gvi__velocity(st, st->t, st->q, st->p, v);
+    y.v = v;
+    if (status == GVI_OK) status = gvi__evaluate(st, &y, 0, 1);
+    gvi__copy((size_t)st->n, y.f, a + st->n);
+    gvi__copy((size_t)st->n, v, a);
+    if (status == GVI_OK) status = gvi__velocity(st, st->t, st->q, a + st->n, a);
+    const gvi_real moving = GVI_ABS(gvi__dot(st->n, st->p, v)),
+                   pushing = GVI_ABS(gvi__dot(st->n, a + st->n, a)),
+                   time = GVI_SQRT(moving/pushing)/16, longest = left/1024;
+    return status == GVI_OK && time > 0 && time < longest ? time : longest;
+}
+
+GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end)
+{
+    const gvi_status ready = gvi__ready(st, st && st->x.started);
+    if (ready != GVI_OK) return ready;
+    if (!(st->x.desc.resolution > 0))
+        return gvi__refuse_call(st, "gvi_advance needs desc.resolution");
+    if (!gvi__finite(t_end) || !gvi__nonzero(t_end - st->t))
+        return gvi__refuse_call(st, "t_end is t, NaN or infinite");
+    const gvi_real way = (t_end - st->t) - st->t_low, left = GVI_ABS(way);
+    const int clock = gvi__clock_is_on(st);
+    if (!(st->next > 0) || !gvi__finite(st->next)) st->next = gvi__first_length(st, left);
+    for (int tries = 1; ; ++tries) {
+        gvi_real h = st->next;
+        if (!clock && left < h*2) h = left/2;
+        if (!clock && left < st->next*(gvi_real)1.0625) h = left;
+        const gvi_status status = gvi_step(st, way > 0 ? h : -h);
+        gvi__set_next(st, status, h);
+        if (status == GVI_OK) {
+            if (!clock && h >= left) {
+                st->t_low += st->t - t_end;
+                st->t = t_end;
+            }
+            return status;
+        }
+        if (status == GVI_E_ARGUMENT || tries == 64 || !gvi__nonzero(st->t + st->next - st->t))
+            return status;
+    }
 }
 
 /* ---------------------------------------------------------------- ENGINE */
@@ -3545,7 +3639,11 @@ static gvi_real gvi__inertia(const gvi_stepper *st, int i)
                        : gvi__mass_is(x, GVI_MASS_POSITION) ? x->mass.at_points[ii*(size_t)x->R]
                        : gvi__mass_is(x, GVI_MASS_NONE)     ? x->work.P[iR]/x->work.V[iR]
                                                             : x->mass.matrix[i];
-    return gvi__nonzero(m) && gvi__finite(m) ? GVI_ABS(m) : 1;
+    // the momenta formulation factors M(q) in place
+    const int over = gvi__mass_is(x, GVI_MASS_POSITION) && st->formulation == GVI_MOMENTA
+                     && x->has_factor && !x->desc.mass.velocity;
+    if (!gvi__nonzero(m) || !gvi__finite(m)) return 1;
+    return over ? 1/GVI_ABS(m) : GVI_ABS(m);
 }
 
 /* The largest change of a row that is beyond a few units of the last place of its largest
@@ -3564,9 +3662,7 @@ static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *
         for (int i = 0; i < st->n && y[k].scale; ++i) {
             const int p = gvi__uses(&st->x, GVI_MOMENTA) && k == 0,
                       v = !gvi__uses(&st->x, GVI_MOMENTA) && k == 1;
-            // the momenta formulation has factored M(q) in place: 1/D_i is there
-            const gvi_real at_q = gvi__inertia(st, i), m = gvi__mass_is(&st->x, GVI_MASS_POSITION)
-                && st->x.has_factor && !st->x.desc.mass.velocity ? 1/at_q : at_q;
+            const gvi_real m = gvi__inertia(st, i);
             const gvi_real unit = (p ? GVI_ABS(h)/m : v ? GVI_ABS(h) : 1)*GVI_SQRT(m);
             const gvi_real *row = y[k].rows + i*R;
             gvi_real size = GVI_ABS(y[k].base[i]), push = 0;
@@ -3826,6 +3922,61 @@ static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h
         x->step.q[i] = q.hi;
         x->step.q_low[i] = gvi__low((q.lo + bend.lo) + (x->free.path_low[i] + from->q_low[i]));
     }
+}
+
+/* ---- resolution ---- */
+
+/* The error of a step relative to the motion, as Legendre modes y_k of its velocity tell it.  Of a
+   coordinate, with two modes each (at degrees 3 and 4 with one),
+
+     high = |y_(s-1)| + |y_(s-2)|                    push = |change of v| + high + low
+     low  = |y_(s-3)| + |y_(s-4)|                    all  = |v| at both ends + high + low
+     (s high/push high/max(high, low))^2 push/all
+
+   high^2/low is about the pair that the curve lacks, and of push, which forces do, the step lacks
+   the square of that share, since its error is of second order in the curve's [2, thm. 4.1].  In
+   positions the modes are those of M v, from the forces.  |v| is no less than eps of the largest,
+   each times sqrt(M_ii): what moves less is rounding.                                         */
+static gvi_real gvi__resolution(const gvi_stepper *st)
+{
+    const struct gvi__private *x = &st->x;
+    const int s = st->s, r = st->r, R = x->R, pair = s > 4 ? 2 : 1;
+    const int forces = gvi__uses(x, GVI_POSITIONS) && st->formulation == GVI_POSITIONS,
+              held = forces && gvi__constrained(st) ? s : 1;
+    const gvi_real *modes = forces ? x->table.Phi : x->table.phi, *row = x->work.V;
+    const gvi_real *weight = forces ? x->sized.hb : x->table.b;
+    gvi_real *missed = x->result, *size = missed + st->n, largest = 0, worst = 0;
+    if (s < 3) return 0;
+    if (forces) row = x->work.F;
+    for (int i = 0; i < st->n; ++i, row += R) {
+        const gvi_real *L = gvi__weighted(R, weight, row, x->row), m = gvi__inertia(st, i);
+        gvi_real start = row[0], end = row[r - 1], high = 0, low = 0;
+        if (forces) {
+            start = x->state.p[i];
+            end = start + x->step.p[i];
+        }
+        for (int k = s - 1; k >= s - 2*pair; --k) {
+            gvi_real y = gvi__dot(r, modes + k*R, L);
+            for (int e = 1; e < held; ++e)
+                y += x->con.Phi[k*R + e - 1]*(x->con.hw[e]*x->con.force[i*R + e]);
+            y *= x->table.inv_gamma[k];
+            if (k >= s - pair) high += GVI_ABS(y);
+            else low += GVI_ABS(y);
+        }
+        const gvi_real all = GVI_ABS(start) + GVI_ABS(end) + high + low,
+                       push = GVI_ABS(end - start) + high + low;
+        if (pair == 1 && all > 0) high += low*(low/all)/4;   // one mode alone may pass 0
+        const gvi_real most = high > low ? high : low, unit = GVI_SQRT(forces ? 1/m : m),
+                       share = most > 0 ? high/(push + 32*GVI__EPS*all)*(high/most) : 0;
+        missed[i] = share*share*push*unit;
+        size[i] = all*unit;
+        if (size[i] > largest) largest = size[i];
+    }
+    for (int i = 0; i < st->n && largest > 0; ++i) {
+        const gvi_real part = missed[i]/(size[i] + GVI__EPS*largest);
+        if (part > worst) worst = part;
+    }
+    return (gvi_real)(s*s)*worst;
 }
 
 /* ---- explicit ---- */
@@ -4751,6 +4902,7 @@ GVI__COLD const char *gvi__wrong_in_desc(const gvi_desc *d)
     if ((unsigned)d->mass.kind > GVI_MASS_NONE) return "mass.kind is not in its enum";
     if ((unsigned)d->rule.kind > GVI_KICKS) return "rule.kind is not in its enum";
     if (!(d->tolerance >= 0 && d->tolerance < 1)) return "tolerance is not 0 to 1";
+    if (!(d->resolution >= 0 && d->resolution < 1)) return "resolution is not 0 to 1";
     if (d->rule.kind < GVI_OWN && d->rule.nodes) return "rule: this kind takes no nodes";
     if (d->rule.kind < GVI_OWN) return NULL;
     if (!d->rule.points || !d->rule.nodes || !d->rule.weights)
@@ -4806,6 +4958,9 @@ GVI__COLD gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc, gv
     }
     if (d->rule.points == 0) d->rule.points = d->degree + (rule == GVI_LOBATTO);
     if (d->max_iterations == 0) d->max_iterations = 60;
+    if (d->resolution > 0 && d->degree < 3)
+        return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE, "resolution: degree is below 3");
+    if (d->resolution > 0 && d->resolution < GVI__EPS) d->resolution = GVI__EPS;
 
     x->needs = 0;
     x->clock = -1;
@@ -5851,7 +6006,8 @@ GVI__COLD gvi_status gvi__begin_at(gvi_stepper *st, gvi_real t, const gvi_real *
     gvi__zero(n, x->state.q_low);
     gvi__zero(n, x->state.p_low);
     st->t = st->t0 = t;
-    st->h = st->t_low = 0;
+    st->h = st->t_low = st->resolution = st->next = 0;
+    x->reach = -GVI__MAX;
     x->started = 1;
     x->stepped = x->kept = x->con.kept = x->has_force = x->has_velocity = x->newton.left = 0;
     x->newton.h = x->sized.ratio = 0;
@@ -6673,6 +6829,8 @@ GVI_DEF const char *gvi_status_text(gvi_status status)
     case GVI_E_CONJUGATE:   return "conjugate points: the ends do not determine the curve";
     case GVI_E_CLOCK:       return "a clock (fault.effect) must be positive: g <= 0";
     case GVI_E_CONSTRAINT:  return "the state is not on a constraint: g(t,q) or its rate is not 0";
+    case GVI_E_RESOLUTION:  return "the step is not as accurate as desc.resolution wants it: "
+                                   "halve h";
     default:                return "unknown status";
     }
 }
