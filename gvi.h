@@ -2730,7 +2730,8 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
 GVI__CALLED void gvi__constrain(gvi_stepper *st, const struct gvi__stage *y, const gvi_real *q0);
 GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate);
 GVI__CALLED int gvi__constraints_rest(const gvi_stepper *st);
-static gvi_status gvi__constraints_at(gvi_stepper *st, gvi_real t, const gvi_real *q);
+static gvi_status gvi__constraints_at(gvi_stepper *st, gvi_real t, const gvi_real *q,
+                                      gvi_real *drops);
 GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h);
 GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, int start);
 GVI__CALLED void gvi__commit_constraints(gvi_stepper *st, gvi_real h);
@@ -2970,7 +2971,12 @@ GVI__COLD gvi_status gvi__explain(gvi_stepper *st, gvi_status status)
     gvi__velocity_guess(st, v);
     if (!gvi__uses(x, GVI_EXPLICIT) && !x->desc.mass.velocity)
         start = gvi__velocity(st, st->t, st->q, st->p, v);
-    if (start == GVI_OK && gvi__constrained(st)) start = gvi__constraints_at(st, st->t, st->q);
+    if (start == GVI_OK && gvi__constrained(st)) {
+        gvi_real *drops = x->con.drops + x->con.m;
+        start = gvi__constraints_at(st, st->t, st->q, drops);
+        for (int a = 0; a < x->con.m; ++a)               // a rank that is about to change
+            if (start == GVI_OK && status == GVI_E_SINGULAR && drops[a] > 0) return status;
+    }
     if (start == GVI_OK) {
         gvi_points y = gvi__one_point(st, &st->t, st->q);
         y.v = v;
@@ -5141,6 +5147,7 @@ GVI__COLD size_t gvi__layout(struct gvi__private *x, int order, gvi_real *base)
     const size_t modes = !explicitly && (reads_v || order <= 2*d->degree - 2),
                  kicks = gvi__rule_is(x, GVI_KICKS) != 0;
     const size_t dense = d->mass.kind == GVI_MASS_DENSE, full = gvi__has(x, GVI__HAS_GAMMA) != 0;
+    const size_t iterated = !explicitly, legendre = newton || lagrangian;
     const size_t rows = kicks ? n : n*R, sn = s*n, nn = n*n;
     gvi__arena memory = { base, 0 }, *a = &memory;
     struct gvi__values *const values[] = { &x->work, &x->last, &x->older };
@@ -5170,16 +5177,16 @@ GVI__COLD size_t gvi__layout(struct gvi__private *x, int order, gvi_real *base)
     }
     for (int k = 0; k < 8; ++k) *rows_of_R[k] = gvi__take(a, k < 4 || clock, R);
     x->free.rows = gvi__take(a, fixed + (velocities || momenta), n*R);
-    x->table.Phi = gvi__take(a, !kicks*s, R);
+    x->table.Phi = gvi__take(a, (1 - kicks)*s, R);
     x->table.phi = gvi__take(a, modes*s, R);
     x->table.phi_low = gvi__take(a, modes*s, R);
-    x->table.high = gvi__take(a, !explicitly*2, R);
+    x->table.high = gvi__take(a, 2*iterated, R);
     x->table.K = gvi__take(a, (fixed && !momenta)*r, R);
     x->table.U = gvi__take(a, (velocities || momenta)*r, R);
     x->table.T = gvi__take(a, (momenta || (velocities && lagrangian))*r, R);
     x->table.N = gvi__take(a, (velocities && lagrangian)*r, R);
-    x->sized.E = gvi__take(a, !explicitly*(1 + two)*r, R);
-    x->row = gvi__take(a, !explicitly*9, R);
+    x->sized.E = gvi__take(a, iterated*(1 + two)*r, R);
+    x->row = gvi__take(a, 9*iterated, R);
     x->mass.at_points = gvi__take(a, (d->mass.kind == GVI_MASS_POSITION)*nn, R);
     x->mass.sums = gvi__take(a, (dense && fixed && !momenta)*n, R);
     x->time.slope = gvi__take(a, clock, n*R);
@@ -5189,15 +5196,15 @@ GVI__COLD size_t gvi__layout(struct gvi__private *x, int order, gvi_real *base)
     for (size_t k = 0; k < sizeof vectors/sizeof *vectors; ++k)
         *vectors[k] = gvi__take(a, k < 14 || !explicitly, n);
 
-    x->mass.matrix = gvi__take(a, !dense + dense*n, n);
+    x->mass.matrix = gvi__take(a, 1 - dense + dense*n, n);
     x->mass.factor = gvi__take(a, dense*n, n);
-    x->watch.scale = gvi__take(a, !explicitly*2, n);
-    x->watch.change = gvi__take(a, !explicitly*2, n);
-    x->watch.before = gvi__take(a, !explicitly*2, n);
+    x->watch.scale = gvi__take(a, 2*iterated, n);
+    x->watch.change = gvi__take(a, 2*iterated, n);
+    x->watch.before = gvi__take(a, 2*iterated, n);
     x->point = gvi__take(a, 6, n);
     x->result = gvi__take(a, 3, n);
-    x->newton.column = gvi__take(a, (newton || lagrangian)*4, n);
-    x->newton.hessian = gvi__take(a, newton || lagrangian, (1 + 3*newton)*nn + n + 1);
+    x->newton.column = gvi__take(a, 4*legendre, n);
+    x->newton.hessian = gvi__take(a, legendre, (1 + 3*newton)*nn + n + 1);
     for (int k = 0; k < 8; ++k) *modes_of_newton[k] = gvi__take(a, newton, sn);
     x->newton.pivot = gvi__take(a, newton*2, sn + 1);           // twice: queries must not touch
     x->newton.moved = gvi__take(a, newton*4*n, R);
@@ -5218,7 +5225,7 @@ static void gvi__hand_out(gvi_stepper *st, gvi_real *memory)
 }
 
 // stage values start where a cache line does: up to so many numbers are left out at the beginning
-static size_t gvi__slack(const gvi_desc *d) { return (d->rule.points > 4)*GVI__SLACK; }
+static size_t gvi__slack(const gvi_desc *d) { return d->rule.points > 4 ? GVI__SLACK : 0; }
 
 GVI_DEF size_t gvi_size(const gvi_desc *desc)
 {
