@@ -61,6 +61,31 @@ static MAYBE void modified_energies(const problem *pb, real h, const real *q, co
     E[2] = E[1] + h*h*h*h/720*(-x.Upppp + 6*x.UppU + 12*x.UpUp - 3*x.UUU);
 }
 
+typedef struct place { const problem *pb; real h; const real *q; } place;
+
+/* L_mod to h^4 at v, as a map from v */
+static MAYBE void modified_lagrangian(const void *what, const real *v, real *L)
+{
+    const place *at = what;
+    const terms x = at->pb->n == 1 ? pendulum_terms(at->q, v) : kepler_terms(at->q, v);
+    const real h2 = at->h*at->h;
+    *L = -x.U + h2/24*(x.UU - 2*x.Upp) + h2*h2/720*(x.Upppp - 6*x.UppU - 2*x.UpUp + 3*x.UUU);
+    for (int i = 0; i < at->pb->n; ++i) *L += v[i]*v[i]/2;
+}
+
+/* The energy v'p - L_mod, p = dL_mod/dv, less H_mod(q, p), at the first start */
+static MAYBE real legendre_error(const problem *pb, const method *m, real h)
+{
+    const place at = { pb, h, pb->q[0] };
+    const real *v = pb->v[0];
+    real L, p[MAX_N], E[ENERGIES], energy = 0;
+    modified_lagrangian(&at, v, &L);
+    derivative(modified_lagrangian, &at, pb->n, 1, v, UNIT, p);
+    modified_energies(pb, h, at.q, p, E);
+    for (int i = 0; i < pb->n; ++i) energy += v[i]*p[i];
+    return fabs(energy - L - E[2]);
+}
+
 /* How far each of them leaves its first value in a run of Verlet's method from the first start */
 static MAYBE void energy_ranges(const problem *pb, const method *m, real h, real *range)
 {
