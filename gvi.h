@@ -4610,7 +4610,7 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *y, const gvi_
     gvi__constraint_forces(st);
 }
 
-// was all that lambda's last change came from rounding, within 64 units of the terms known?
+// was all that lambda's last change came from rounding, 8 eps of the terms that are known?
 GVI__CALLED int gvi__constraints_rest(const gvi_stepper *st)
 {
     const struct gvi__private *x = &st->x;
@@ -4620,7 +4620,7 @@ GVI__CALLED int gvi__constraints_rest(const gvi_stepper *st)
             gvi_real terms = GVI_ABS(x->con.g[(m + a)*C + k]*x->con.t[k]);
             for (int i = 0; i < n; ++i)
                 terms += GVI_ABS(x->con.G[(a*n + i)*C + k]*x->con.at[i*C + k]);
-            if (!(GVI_ABS(x->con.rho[m*x->R + a*C + k - 1]) <= 64*GVI__EPS*terms)) return 0;
+            if (!(GVI_ABS(x->con.rho[m*x->R + a*C + k - 1]) <= 8*GVI__EPS*terms)) return 0;
         }
     return 1;
 }
