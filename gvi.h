@@ -357,8 +357,9 @@ typedef enum gvi_status {
                                 clock was switched on since                         */
     GVI_E_CONJUGATE   = -13, /* boundary values do not determine the curve              */
     GVI_E_CLOCK       = -14, /* a clock's g is not positive (fault.effect, fault.point) */
-    GVI_E_CONSTRAINT  = -15  /* the state given is not on a constraint: fault.effect, its row in
+    GVI_E_CONSTRAINT  = -15, /* the state given is not on a constraint: fault.effect, its row in
                                 fault.coordinate                                    */
+    GVI_E_RESOLUTION  = -16  /* st.resolution is above desc.resolution: halve h             */
 } gvi_status;
 
 /* What a callback gets: `count` points.  Coordinate i of point k is at [i*stride + k].  Inputs that
@@ -579,6 +580,9 @@ typedef struct gvi_desc {
                                           iterations before (N = 2: less than the first).  N = 1
                                           has no such test: see counters.worst_change.
                                           0: as many as it takes               */
+    gvi_real          resolution;      /* the dial: relative accuracy wanted of a step, below 1; a
+                                          step with a larger st.resolution is refused, with
+                                          GVI_E_RESOLUTION.  0: none is.  From degree 2 on  */
 } gvi_desc;
 
 #define GVI_FAULT_NONE (-1)
@@ -704,6 +708,8 @@ typedef struct gvi_stepper {
     gvi_fault       fault;
     int             order;            /* u of the rule; 0 for GVI_KICKS         */
     int             iterations;       /* in the last step                       */
+    gvi_real        resolution;       /* of the last step that was tried; 0 where explicit */
+    gvi_real        next;             /* the length that gvi_advance will try; may be set  */
     gvi_counters    counters;
     struct gvi__private x;
 } gvi_stepper;
@@ -749,6 +755,17 @@ GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_rea
    force jumps in time.  If what an effect reads through `user` changes between steps, call
    gvi_switch(st, i, 1): the explicit formulation reuses the force at the end of a step.       */
 GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h);
+
+/* One step towards t_end, before or after t, as long as desc.resolution allows, never past t_end,
+   and on it to the bit:
+
+     while (st.status == GVI_OK && st.t < t_end) gvi_advance(&st, t_end);
+
+   The length is st.next, the first one found from small ones, as long as the accuracy stays within
+   a band; what is left is divided so that the last step is no shorter than half of that.  A step
+   that fails is tried again, shorter, until t would not move: then its status is returned.  With
+   a clock the length is in tau, and the step may pass t_end: gvi_state_at has the state there. */
+GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end);
 
 /* Switches effect `index` off (on = 0) or on again, between steps.  An effect that is off is
    not evaluated; the formulation stays that of the whole list.  gvi_start leaves the switches
@@ -2615,11 +2632,12 @@ static void gvi__move(int n, const gvi_real *GVI__RESTRICT dx, const gvi_real *G
     }
 }
 
-// the step is done: the state moves on, and work's stage values become those of the last step
-static void gvi__commit(gvi_stepper *st, gvi_real h)
+// how well do the points see the force?  See counters.worst_resolution
+static gvi_real gvi__resolution(const gvi_stepper *st, gvi_real h)
 {
-    struct gvi__private *x = &st->x;
+    const struct gvi__private *x = &st->x;
     const gvi_real *a = x->table.high, *F = x->work.F;        // a is NULL where explicit
+    gvi_real worst = 0;
     for (int i = 0; a && i < st->n; ++i, F += x->R) {
         const gvi_real all = (GVI_ABS(F[0]) + GVI_ABS(F[(st->r - 1)/2]) + GVI_ABS(F[st->r/2])
                               + GVI_ABS(F[st->r - 1]))/4;
@@ -2630,9 +2648,15 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
         }
         const gvi_real share = (GVI_ABS(one) + GVI_ABS(two))/all, push = GVI_ABS(h)*all,
                        resolution = share*share*(push/(GVI_ABS(x->state.p[i]) + push));
-        if (resolution > st->counters.worst_resolution)      // false where F is 0: NaN
-            st->counters.worst_resolution = resolution;
+        if (resolution > worst) worst = resolution;          // false where F is 0: NaN
     }
+    return worst;
+}
+
+// the step is done: the state moves on, and work's stage values become those of the last step
+static void gvi__commit(gvi_stepper *st, gvi_real h)
+{
+    struct gvi__private *x = &st->x;
     const gvi__two t = gvi__two_sum(st->t, x->dt + st->t_low);
     const int whole = gvi__uses(x, GVI_EXPLICIT);             // whose increments have no low words
     gvi__move(st->n, x->step.q, whole ? NULL : x->step.q_low, x->state.q, x->state.q_low,
@@ -2676,6 +2700,9 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
     gvi_status status = gvi__solve(st, &from, h, GVI__STEP);
     if (status == GVI_OK && !gvi__finite(st->t + x->dt))
         status = gvi__refuse_call(st, "t + h is not finite");
+    st->resolution = status == GVI_OK ? gvi__resolution(st, h) : 0;
+    if (x->desc.resolution > 0 && st->resolution > x->desc.resolution)
+        status = gvi__report_status(st, GVI_E_RESOLUTION);
     if (status != GVI_OK) {
         gvi__count(&st->counters.failures, 1);
         st->formulation = was;
@@ -2683,8 +2710,72 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
         x->newton.h = 0;
         return st->status = status;
     }
+    if (st->resolution > st->counters.worst_resolution)
+        st->counters.worst_resolution = st->resolution;
     gvi__commit(st, h);
     return gvi__report_status(st, GVI_OK);
+}
+
+/* Lengths have a ladder of four rungs an octave, at 4, 5, 6 and 7 eighths of a power of two: where
+   x stands on it, linear between these; and the rung below k.                                 */
+static gvi_real gvi__rungs(gvi_real x)
+{
+    int e;
+    const gvi_real mantissa = GVI_FREXP(x, &e);
+    return (gvi_real)(4*e) + 8*mantissa;
+}
+
+static gvi_real gvi__length(gvi_real k)
+{
+    const gvi_real octave = GVI_FLOOR(k/4) - 1;
+    return GVI_LDEXP((GVI_FLOOR(k) - 4*octave)/8, (int)octave);
+}
+
+/* st.next after a step of length h.  So many rungs up the resolution would be at its limit: less
+   than a half is too near, more than two and a half are too far.                              */
+static void gvi__set_next(gvi_stepper *st, gvi_status status, gvi_real h)
+{
+    const gvi_real seen = st->resolution > GVI__MIN ? st->resolution : GVI__MIN,
+                   most = gvi__rungs(st->x.desc.resolution) - gvi__rungs(seen),
+                   room = most/(gvi_real)(2*st->s - 2), at = gvi__rungs(h);
+    const int measured = status == GVI_OK || status == GVI_E_RESOLUTION;
+    gvi_real up = 0;
+    if (room > (gvi_real)2.5) up = room < 5 ? room - 1 : 4;
+    if (room < (gvi_real)0.5) up = room > -7 ? room - 1 : -8;
+    if (!measured) up = -8;
+    if (up < 0 || (up > 0 && h >= st->next)) {
+        const gvi_real next = gvi__length(at + up);
+        if (up > 0 || next < st->next) st->next = next;
+    }
+}
+
+GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end)
+{
+    const gvi_status ready = gvi__ready(st, st && st->x.started);
+    if (ready != GVI_OK) return ready;
+    if (!(st->x.desc.resolution > 0))
+        return gvi__refuse_call(st, "gvi_advance needs desc.resolution");
+    if (!gvi__finite(t_end) || !gvi__nonzero(t_end - st->t))
+        return gvi__refuse_call(st, "t_end is t, NaN or infinite");
+    const gvi_real way = (t_end - st->t) - st->t_low, left = GVI_ABS(way);
+    const int clock = gvi__clock_is_on(st);
+    if (!(st->next > 0) || !gvi__finite(st->next)) st->next = left/1024;
+    for (int tries = 1; ; ++tries) {
+        gvi_real h = st->next;
+        if (!clock && left < h*2) h = left/2;
+        if (!clock && left < st->next*(gvi_real)1.0625) h = left;
+        const gvi_status status = gvi_step(st, way > 0 ? h : -h);
+        gvi__set_next(st, status, h);
+        if (status == GVI_OK) {
+            if (!clock && h >= left) {
+                st->t_low += st->t - t_end;
+                st->t = t_end;
+            }
+            return status;
+        }
+        if (status == GVI_E_ARGUMENT || tries == 64 || !gvi__nonzero(st->t + st->next - st->t))
+            return status;
+    }
 }
 
 /* ---------------------------------------------------------------- ENGINE */
@@ -4184,6 +4275,7 @@ GVI__COLD gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc, gv
         : (unsigned)desc->mass.kind > GVI_MASS_NONE ? "mass.kind is not in its enum"
         : (unsigned)desc->rule.kind > GVI_KICKS ? "rule.kind is not in its enum"
         : !(desc->tolerance >= 0 && desc->tolerance < 1) ? "tolerance is not 0 to 1"
+        : !(desc->resolution >= 0 && desc->resolution < 1) ? "resolution is not 0 to 1"
         : desc->rule.kind < GVI_OWN ? desc->rule.nodes ? "rule: this kind takes no nodes" : NULL
         : !desc->rule.points || !desc->rule.nodes || !desc->rule.weights
             ? "rule: this kind needs points, nodes and weights" : NULL;
@@ -4194,6 +4286,8 @@ GVI__COLD gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc, gv
     if (d->degree == 0) d->degree = rule == GVI_KICKS ? 1 : 8;
     if (d->rule.points == 0) d->rule.points = rule == GVI_LOBATTO ? d->degree + 1 : d->degree;
     if (d->max_iterations == 0) d->max_iterations = 60;
+    if (d->resolution > 0 && d->degree == 1)
+        return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE, "resolution: not with degree 1");
 
     x->needs = 0;
     x->clock = -1;
@@ -5220,7 +5314,7 @@ GVI__COLD gvi_status gvi__begin_at(gvi_stepper *st, gvi_real t, const gvi_real *
     gvi__zero(n, x->state.q_low);
     gvi__zero(n, x->state.p_low);
     st->t = st->t0 = t;
-    st->h = st->t_low = 0;
+    st->h = st->t_low = st->resolution = st->next = 0;
     x->started = 1;
     x->stepped = x->kept = x->con.kept = x->has_force = x->has_velocity = x->newton.left = 0;
     x->newton.h = x->sized.ratio = 0;
@@ -5979,6 +6073,8 @@ GVI_DEF const char *gvi_status_text(gvi_status status)
                                    "the two configurations do not determine the curve";
     case GVI_E_CLOCK:       return "a clock must be positive: g <= 0";
     case GVI_E_CONSTRAINT:  return "the state is not on a constraint: g(t,q) or its rate is not 0";
+    case GVI_E_RESOLUTION:  return "the step is not as accurate as desc.resolution wants it: "
+                                   "halve h";
     default:                return "unknown status";
     }
 }
