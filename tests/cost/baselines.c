@@ -904,7 +904,7 @@ INLINE void radau_iterate(const int n, const int turning, const problem *p, cons
 }
 
 /* y_m = sum T_mk x_k over k from m on (in powers) or all                                       */
-INLINE void radau_change(const int n, const double (*T)[RADAU], const double *x, double *y)
+INLINE void radau_change(const int n, double (*T)[RADAU], const double *x, double *y)
 {
     UNROLL7 for (int m = 0; m < RADAU - 1; ++m) {
 #define OP(L) L z = T[m][m]*OF(L, x + m*n);                                     \
@@ -945,19 +945,18 @@ INLINE int radau_solve(const int n, const int turning, const int most, const pro
     }
 }
 
-INLINE void radau_loop(const int n, const int turning, const int everhart, const int compensated, const problem *p,
-                       double tolerance, watch *w, outcome *o)
+INLINE void radau_loop(const int n, const int turning, int everhart, int compensated, const problem *p, double tolerance, watch *w, outcome *o)
 {
     double q[MOST_COORDINATES], v[MOST_COORDINATES], qe[MOST_COORDINATES], ve[MOST_COORDINATES], a[MOST_COORDINATES];
     double k[RADAU*MOST_COORDINATES], b[RADAU*MOST_COORDINATES], predicted[RADAU*MOST_COORDINATES],
-           missed[RADAU*MOST_COORDINATES], start[RADAU*MOST_COORDINATES], y[BOTH], dy[BOTH];
+           missed[RADAU*MOST_COORDINATES], start[RADAU*MOST_COORDINATES], both[BOTH], slope[BOTH];
     long double time = 0, end = p->end;
     copy(n, o->q, q);
     copy(n, o->v, v);
     if (turning) {
-        get_state(2*p->n, o, y);
-        p->slope(y, dy);
-        memcpy(v, dy, sizeof *v*(size_t)p->n);
+        get_state(2*p->n, o, both);
+        p->slope(both, slope);
+        memcpy(v, slope, sizeof *v*(size_t)p->n);
     }
     zero(n, qe);
     zero(n, ve);
@@ -1021,10 +1020,8 @@ static void run_radau(const problem *p, const baseline *m, double tolerance, wat
 {
     const int turning = p->law != NULL;
     begin(p, o);
-#define CALL(n) if (turning && m->option) radau_loop(n, 1, 1, m->compensated, p, tolerance, w, o);  \
-                else if (turning) radau_loop(n, 1, 0, m->compensated, p, tolerance, w, o);          \
-                else if (m->option) radau_loop(n, 0, 1, m->compensated, p, tolerance, w, o);        \
-                else radau_loop(n, 0, 0, m->compensated, p, tolerance, w, o)
+#define CALL(n) if (turning) radau_loop(n, 1, m->option, m->compensated, p, tolerance, w, o);  \
+                else radau_loop(n, 0, m->option, m->compensated, p, tolerance, w, o)
     BY_SIZE(p->n == 3 ? 4 : p->n, CALL);
 #undef CALL
 }

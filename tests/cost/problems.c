@@ -579,6 +579,8 @@ static const gvi_effect chain_scene[] = { { .kind = GVI_POTENTIAL, .points = cha
 #define KEPLER_CLOCKS(e, turns) \
     .clocks = { kepler_clock_32, kepler_clock_1 }, .eccentricity = e, .revolutions = turns
 
+#define REVOLUTION 6.283185307179586
+
 /* Ends: 100 and 20 revolutions of 2 pi; 548 years; times.                                     */
 const problem problems[] = {
     { .key = "P1", .title = "Kepler, eccentricity 0.6, 100 revolutions", .n = 2, .end = 0x1.3a28c59d5433bp+9,
@@ -639,6 +641,22 @@ const problem problems[] = {
       .q = pendulum_q, .v = pendulum_p, .reference = reference_P5, .energy = pendulum_energy,
       .slope = plain_pendulum_slope, .law = plain_pendulum_law, .momentum = pendulum_momentum, .mass = { .kind = GVI_MASS_POSITION, .points = plain_pendulum_mass,
       .gradient = plain_pendulum_gradient }, SCENE(plain_pendulum_scene), .evaluations = 3e3, .limit = 24 },
+    { .key = "P13", .title = "Comet, eccentricity 0.99, 20 revolutions", .n = 2, .end = 20*REVOLUTION,
+      .q = comet2_q, .v = comet2_v, .reference = reference_comet2, .energy = kepler_energy,
+      .acceleration = plain_kepler_acceleration, SCENE(plain_kepler_scene), .evaluations = 2e4, .limit = 8 },
+    { .key = "P14", .title = "Comet, eccentricity 0.9999, 10 revolutions", .n = 2, .end = 10*REVOLUTION,
+      .q = comet4_q, .v = comet4_v, .reference = reference_comet4, .energy = kepler_energy,
+      .acceleration = plain_kepler_acceleration, SCENE(plain_kepler_scene), .evaluations = 1e5, .limit = 8 },
+    { .key = "P15", .title = "Pythagorean three bodies, t = 30", .n = 6, .end = 30,
+      .q = burrau_q, .v = burrau_v, .reference = reference_burrau, .energy = burrau_energy,
+      .acceleration = burrau_acceleration, .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = burrau_mass },
+      SCENE(burrau_scene), .evaluations = 1e4, .limit = 20 },
+    { .key = "P16", .title = "Flyby, t = 200", .n = 2, .end = 200,
+      .q = flyby_q, .v = flyby_v, .reference = reference_flyby, .energy = kepler_energy,
+      .acceleration = plain_kepler_acceleration, SCENE(plain_kepler_scene), .evaluations = 1e4, .limit = 4 },
+    { .key = "P17", .title = "Rope of four rods, tumbling, t = 60", .n = ROPE, .end = 60,
+      .q = rope_q, .v = rope_v, .reference = reference_rope, .energy = rope_energy,
+      .slope = rope_slope, .law = rope_law, SCENE(rope_scene), .formulation = GVI_POSITIONS, .evaluations = 600, .limit = 40 },
 };
 const int problem_count = COUNT(problems);
 
