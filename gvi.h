@@ -686,6 +686,7 @@ struct gvi__private {
     gvi_real           *row, *point, *result;     /* scratch: [9R], [6n], [3n]           */
     gvi_real           *zeros, *start;                     /* [n]; start: its velocity */
     gvi_real            dt;           /* increment of t                             */
+    gvi_real            reach;        /* rung of the longest step that the dial allowed last */
     gvi_real           *memory;       /* from its first aligned number on           */
     size_t              size, skip;   /* numbers in use; left out for alignment     */
     gvi__kernel        *kernel;       /* for n and r                                */
@@ -2477,6 +2478,7 @@ static void gvi__prepare_predictor(gvi_stepper *st, gvi_real h, int query);
 static gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi_real h,
                                int extrapolate, int *used);
 static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h);
+static gvi_real gvi__resolution(const gvi_stepper *st);
 static gvi_status gvi__kicks(gvi_stepper *st, const gvi__origin *from, gvi_real h,
                              const gvi_real *force);
 static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int how, int query);
@@ -2632,27 +2634,6 @@ static void gvi__move(int n, const gvi_real *GVI__RESTRICT dx, const gvi_real *G
     }
 }
 
-// how well do the points see the force?  See counters.worst_resolution
-static gvi_real gvi__resolution(const gvi_stepper *st, gvi_real h)
-{
-    const struct gvi__private *x = &st->x;
-    const gvi_real *a = x->table.high, *F = x->work.F;        // a is NULL where explicit
-    gvi_real worst = 0;
-    for (int i = 0; a && i < st->n; ++i, F += x->R) {
-        const gvi_real all = (GVI_ABS(F[0]) + GVI_ABS(F[(st->r - 1)/2]) + GVI_ABS(F[st->r/2])
-                              + GVI_ABS(F[st->r - 1]))/4;
-        gvi_real one = 0, two = 0;
-        for (int k = 0; k < st->r; ++k) {
-            one += a[k]*F[k];
-            two += a[x->R + k]*F[k];
-        }
-        const gvi_real share = (GVI_ABS(one) + GVI_ABS(two))/all, push = GVI_ABS(h)*all,
-                       resolution = share*share*(push/(GVI_ABS(x->state.p[i]) + push));
-        if (resolution > worst) worst = resolution;          // false where F is 0: NaN
-    }
-    return worst;
-}
-
 // the step is done: the state moves on, and work's stage values become those of the last step
 static void gvi__commit(gvi_stepper *st, gvi_real h)
 {
@@ -2700,7 +2681,7 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
     gvi_status status = gvi__solve(st, &from, h, GVI__STEP);
     if (status == GVI_OK && !gvi__finite(st->t + x->dt))
         status = gvi__refuse_call(st, "t + h is not finite");
-    st->resolution = status == GVI_OK ? gvi__resolution(st, h) : 0;
+    st->resolution = status == GVI_OK ? gvi__resolution(st) : 0;
     if (x->desc.resolution > 0 && st->resolution > x->desc.resolution)
         status = gvi__report_status(st, GVI_E_RESOLUTION);
     if (status != GVI_OK) {
@@ -2731,22 +2712,23 @@ static gvi_real gvi__length(gvi_real k)
     return GVI_LDEXP((GVI_FLOOR(k) - 4*octave)/8, (int)octave);
 }
 
-/* st.next after a step of length h.  So many rungs up the resolution would be at its limit: less
-   than a half is too near, more than two and a half are too far.                              */
+/* st.next after a step of length h.  `room` rungs up the resolution, which is of order 2s in h, would
+   be at its limit, as it was in this step, less what it has lost since the last: half a rung is too
+   little, two and a half are too much.                                                        */
 static void gvi__set_next(gvi_stepper *st, gvi_status status, gvi_real h)
 {
-    const gvi_real seen = st->resolution > GVI__MIN ? st->resolution : GVI__MIN,
-                   most = gvi__rungs(st->x.desc.resolution) - gvi__rungs(seen),
-                   room = most/(gvi_real)(2*st->s - 2), at = gvi__rungs(h);
-    const int measured = status == GVI_OK || status == GVI_E_RESOLUTION;
-    gvi_real up = 0;
+    const gvi_real seen = st->resolution > GVI__MIN ? st->resolution : GVI__MIN, at = gvi__rungs(h);
+    gvi_real room = (gvi__rungs(st->x.desc.resolution) - gvi__rungs(seen))/(gvi_real)(2*st->s), up = 0;
+    if (status == GVI_OK && room < 8) {
+        const gvi_real loss = st->x.reach - (at + room);
+        st->x.reach = at + room;
+        if (loss > 0) room -= loss;
+    }
     if (room > (gvi_real)2.5) up = room < 5 ? room - 1 : 4;
     if (room < (gvi_real)0.5) up = room > -7 ? room - 1 : -8;
-    if (!measured) up = -8;
-    if (up < 0 || (up > 0 && h >= st->next)) {
-        const gvi_real next = gvi__length(at + up);
-        if (up > 0 || next < st->next) st->next = next;
-    }
+    if (status != GVI_OK && status != GVI_E_RESOLUTION) up = -8;
+    const gvi_real next = gvi__length(at + up);
+    if ((up > 0 && h >= st->next) || (up < 0 && next < st->next)) st->next = next;
 }
 
 GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end)
@@ -3285,7 +3267,11 @@ static gvi_real gvi__inertia(const gvi_stepper *st, int i)
                        : gvi__mass_is(x, GVI_MASS_POSITION) ? x->mass.at_points[ii*(size_t)x->R]
                        : gvi__mass_is(x, GVI_MASS_NONE)     ? x->work.P[iR]/x->work.V[iR]
                                                             : x->mass.matrix[i];
-    return gvi__nonzero(m) && gvi__finite(m) ? GVI_ABS(m) : 1;
+    // the momenta formulation factors M(q) in place
+    const int over = gvi__mass_is(x, GVI_MASS_POSITION) && st->formulation == GVI_MOMENTA
+                     && x->has_factor && !x->desc.mass.velocity;
+    if (!gvi__nonzero(m) || !gvi__finite(m)) return 1;
+    return over ? 1/GVI_ABS(m) : GVI_ABS(m);
 }
 
 /* The largest change of a row that is beyond a few units of the last place of its largest
@@ -3301,9 +3287,7 @@ static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *
         for (int i = 0; i < st->n && y[k].scale; ++i) {
             const int p = gvi__uses(&st->x, GVI_MOMENTA) && k == 0,
                       v = !gvi__uses(&st->x, GVI_MOMENTA) && k == 1;
-            // the momenta formulation has factored M(q) in place: 1/D_i is there
-            const gvi_real at_q = gvi__inertia(st, i), m = gvi__mass_is(&st->x, GVI_MASS_POSITION)
-                && st->x.has_factor && !st->x.desc.mass.velocity ? 1/at_q : at_q;
+            const gvi_real m = gvi__inertia(st, i);
             const gvi_real unit = (p ? GVI_ABS(h)/m : v ? GVI_ABS(h) : 1)*GVI_SQRT(m);
             const gvi_real *row = y[k].rows + i*st->x.R;
             gvi_real size = GVI_ABS(y[k].base[i]), push = 0;
@@ -3548,6 +3532,55 @@ static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h
         x->step.q[i] = q.hi;
         x->step.q_low[i] = gvi__low((q.lo + bend.lo) + (x->free.path_low[i] + from->q_low[i]));
     }
+}
+
+/* ---- resolution ---- */
+
+/* What a step at work is wrong by, relative to the motion, as its velocity's Legendre modes y_k say:
+   per coordinate, with the two highest and the two below them (to degree 3 one and one),
+
+     y = |y_(s-1)| + |y_(s-2)|, z = |y_(s-3)| + |y_(s-4)|     (s y/|v| y/max(y,z))^2
+
+   y y/z is about the pair that the curve does not have, and the error of a step the square of that:
+   it is of second order in the curve's [2, thm. 4.1].  Positions: modes of M v, from the forces.
+   |v| is that at both ends and in these modes, and no less than eps of the fastest coordinate's,
+   each times sqrt(M_ii): what does not move is rounding.                                      */
+static gvi_real gvi__resolution(const gvi_stepper *st)
+{
+    const struct gvi__private *x = &st->x;
+    const int s = st->s, r = st->r, R = x->R, half = s > 3 ? 2 : 1;
+    const int forces = gvi__uses(x, GVI_POSITIONS) && st->formulation == GVI_POSITIONS,
+              held = forces && gvi__constrained(st) ? s : 1;
+    const gvi_real *modes = forces ? x->table.Phi : x->table.phi, *row = x->work.V;
+    const gvi_real *weight = forces ? x->sized.hb : x->table.b;
+    gvi_real *tail = x->result, *size = tail + st->n, fastest = 0, worst = 0;
+    if (s < 2 || gvi__uses(x, GVI_EXPLICIT)) return 0;
+    if (forces) row = x->work.F;
+    for (int i = 0; i < st->n; ++i, row += R) {
+        const gvi_real *L = gvi__weighted(R, weight, row, x->row);
+        const gvi_real start = x->state.p[i], end = start + x->step.p[i], m = gvi__inertia(st, i);
+        gvi_real all = forces ? GVI_ABS(start) + GVI_ABS(end) : GVI_ABS(row[0]) + GVI_ABS(row[r - 1]);
+        gvi_real y[2] = { 0, 0 };
+        for (int k = s - 1; k >= s - 2*half; --k) {
+            gvi_real sum = gvi__dot(r, modes + k*R, L);
+            for (int e = 1; e < held; ++e)
+                sum += x->con.Phi[k*R + e - 1]*(x->con.hw[e]*x->con.force[i*R + e]);
+            sum *= x->table.inv_gamma[k];
+            if (forces && k == 0) sum -= end;
+            y[k < s - half] += GVI_ABS(sum);
+        }
+        all += y[0] + y[1];
+        if (s == 3 && all > 0) y[0] += y[1]*(y[1]/all);     // one mode alone may pass 0
+        const gvi_real most = y[0] > y[1] ? y[0] : y[1], unit = GVI_SQRT(forces ? 1/m : m);
+        tail[i] = most > 0 ? unit*y[0]*(y[0]/most) : 0;
+        size[i] = unit*all;
+        if (size[i] > fastest) fastest = size[i];
+    }
+    for (int i = 0; i < st->n && fastest > 0; ++i) {
+        const gvi_real share = tail[i]/(size[i] + GVI__EPS*fastest);
+        if (share > worst) worst = share;
+    }
+    return (gvi_real)(s*s)*worst*worst;
 }
 
 /* ---- explicit ---- */
@@ -5315,6 +5348,7 @@ GVI__COLD gvi_status gvi__begin_at(gvi_stepper *st, gvi_real t, const gvi_real *
     gvi__zero(n, x->state.p_low);
     st->t = st->t0 = t;
     st->h = st->t_low = st->resolution = st->next = 0;
+    x->reach = -GVI__MAX;
     x->started = 1;
     x->stepped = x->kept = x->con.kept = x->has_force = x->has_velocity = x->newton.left = 0;
     x->newton.h = x->sized.ratio = 0;
