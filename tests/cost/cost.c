@@ -116,16 +116,18 @@ static int surpassed(const study *y, const sample *s)
 static int chooses(const job *j) { return j->rival ? j->rival->adaptive : j->setting->dial; }
 
 /* Have so many finer steps in a row brought nothing that none will?  The tolerance is the floor then,
-   or rounding; steps too long for the motion bring nothing either, and more of them in a row.   */
-static int given_up(const job *j, double best, int vain)
+   or rounding; steps too long for the motion bring nothing either, and more of them in a row.  What the
+   table of the dial shows of the rest ends at 1e-10.                                          */
+static int given_up(const options *o, const job *j, double best, int vain)
 {
     if (j->setting && j->setting->dial) return 0;
+    if (o->dial && best < 2e-11) return 1;
     if (best < 1e-9) return vain >= 4;
     return j->setting && j->setting->tolerance > 0 && vain >= (best < 1e-3 ? 4 : 12);
 }
 
 /* From coarse to fine until it takes too long or finer steps bring nothing any more.          */
-static void run_curve(const study *y, const sweep *w, curve *c)
+static void run_curve(const study *y, const options *o, const sweep *w, curve *c)
 {
     const job *j = &c->job;
     double best = HUGE_VAL, before = 0;
@@ -144,7 +146,7 @@ static void run_curve(const study *y, const sweep *w, curve *c)
         c->samples[c->count++] = s;
         vain = s.error < 0.7*best ? 0 : vain + 1;
         if (s.error < best) best = s.error;
-        if (given_up(j, best, vain)) return;
+        if (given_up(o, j, best, vain)) return;
     }
 }
 
@@ -263,7 +265,7 @@ static void end_study(study *y)
 
 static sweep steps_from(double first, double limit, const options *o)
 {
-    sweep w = { first, o->quick ? 1.35 : 1.15, limit, 0, o->quick ? 3 : 5 };
+    sweep w = { first, o->quick || o->dial ? 1.35 : 1.15, limit, 0, o->quick || o->dial ? 3 : 5 };
     return w;
 }
 
@@ -283,7 +285,7 @@ static void study_gvi(study *y, const options *o, double length)
         curve *c = new_curve(y, g->dial ? "gvi.h by its dial" : o->dial ? "gvi.h, fixed steps" : "gvi.h", 1, 1);
         c->job = j;
         gvi_setting_name(g, sizeof c->name, c->name);
-        if (j.memory) run_curve(y, &w, c);
+        if (j.memory) run_curve(y, o, &w, c);
         keep_curve(y, c);
     }
 }
@@ -301,7 +303,7 @@ static void study_rival(study *y, const options *o, const baseline *b, double le
     sweep w = steps_from(y->p->evaluations*length/b->cost, 20*y->p->limit*length, o);
     if (b->adaptive) {
         w.first = 1.28;
-        w.factor = o->quick ? 0.2 : 0.5;
+        w.factor = o->quick ? 0.2 : o->dial ? 0.25 : 0.5;
         w.smallest = 2e-16;
     }
     job j = { y->p, b, NULL, NULL };
@@ -309,7 +311,7 @@ static void study_rival(study *y, const options *o, const baseline *b, double le
     c->job = j;
     c->reference = b->reference;
     snprintf(c->name, sizeof c->name, "%s", b->name);
-    run_curve(y, &w, c);
+    run_curve(y, o, &w, c);
     keep_curve(y, c);
 }
 
@@ -368,7 +370,7 @@ static void time_in_turn(study *y, const options *o)
     static entrant e[ENTRANTS];
     int count = 0;
     for (int k = 0; k < ERRORS; ++k) count = enter_all(y, wanted[k], o->dial, count, e);
-    for (int round = 0; round < (o->quick ? 10 : 60); ++round)
+    for (int round = 0; round < (o->quick || o->dial ? 15 : 60); ++round)
         for (int i = 0; i < count; ++i) {
             double total = 0;
             for (int k = 0; k < 2 || (total < 1 && k < 40); ++k) {
