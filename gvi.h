@@ -2712,13 +2712,14 @@ static gvi_real gvi__length(gvi_real k)
     return GVI_LDEXP((GVI_FLOOR(k) - 4*octave)/8, (int)octave);
 }
 
-/* st.next after a step of length h.  `room` rungs up the resolution, which is of order 2s in h, would
-   be at its limit, as it was in this step, less what it has lost since the last: half a rung is too
+/* st.next after a step of length h.  `room` rungs up the resolution, of order 2s - 1 in h, would be
+   at its limit: as it was in this step, less what it has lost since the last.  Half a rung is too
    little, two and a half are too much.                                                        */
 static void gvi__set_next(gvi_stepper *st, gvi_status status, gvi_real h)
 {
     const gvi_real seen = st->resolution > GVI__MIN ? st->resolution : GVI__MIN, at = gvi__rungs(h);
-    gvi_real room = (gvi__rungs(st->x.desc.resolution) - gvi__rungs(seen))/(gvi_real)(2*st->s), up = 0;
+    const gvi_real most = gvi__rungs(st->x.desc.resolution) - gvi__rungs(seen);
+    gvi_real room = most/(gvi_real)(2*st->s - 1), up = 0;
     if (status == GVI_OK && room < 8) {
         const gvi_real loss = st->x.reach - (at + room);
         st->x.reach = at + room;
@@ -3536,51 +3537,57 @@ static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h
 
 /* ---- resolution ---- */
 
-/* What a step at work is wrong by, relative to the motion, as its velocity's Legendre modes y_k say:
-   per coordinate, with the two highest and the two below them (to degree 3 one and one),
+/* The error of a step relative to the motion, as Legendre modes y_k of its velocity tell it.  Of a
+   coordinate, with two modes each (at degrees 3 and 4 with one),
 
-     y = |y_(s-1)| + |y_(s-2)|, z = |y_(s-3)| + |y_(s-4)|     (s y/|v| y/max(y,z))^2
+     high = |y_(s-1)| + |y_(s-2)|                    push = |change of v| + high + low
+     low  = |y_(s-3)| + |y_(s-4)|                    all  = |v| at both ends + high + low
+     (s high/push high/max(high, low))^2 push/all
 
-   y y/z is about the pair that the curve does not have, and the error of a step the square of that:
-   it is of second order in the curve's [2, thm. 4.1].  Positions: modes of M v, from the forces.
-   |v| is that at both ends and in these modes, and no less than eps of the fastest coordinate's,
-   each times sqrt(M_ii): what does not move is rounding.                                      */
+   high^2/low is about the pair that the curve lacks, and of push, which forces do, the step lacks
+   the square of that share, since its error is of second order in the curve's [2, thm. 4.1].  In
+   positions the modes are those of M v, from the forces.  |v| is no less than eps of the largest,
+   each times sqrt(M_ii): what moves less is rounding.                                         */
 static gvi_real gvi__resolution(const gvi_stepper *st)
 {
     const struct gvi__private *x = &st->x;
-    const int s = st->s, r = st->r, R = x->R, half = s > 3 ? 2 : 1;
+    const int s = st->s, r = st->r, R = x->R, pair = s > 4 ? 2 : 1;
     const int forces = gvi__uses(x, GVI_POSITIONS) && st->formulation == GVI_POSITIONS,
               held = forces && gvi__constrained(st) ? s : 1;
     const gvi_real *modes = forces ? x->table.Phi : x->table.phi, *row = x->work.V;
     const gvi_real *weight = forces ? x->sized.hb : x->table.b;
-    gvi_real *tail = x->result, *size = tail + st->n, fastest = 0, worst = 0;
-    if (s < 2 || gvi__uses(x, GVI_EXPLICIT)) return 0;
+    gvi_real *missed = x->result, *size = missed + st->n, largest = 0, worst = 0;
+    if (s < 3) return 0;
     if (forces) row = x->work.F;
     for (int i = 0; i < st->n; ++i, row += R) {
-        const gvi_real *L = gvi__weighted(R, weight, row, x->row);
-        const gvi_real start = x->state.p[i], end = start + x->step.p[i], m = gvi__inertia(st, i);
-        gvi_real all = forces ? GVI_ABS(start) + GVI_ABS(end) : GVI_ABS(row[0]) + GVI_ABS(row[r - 1]);
-        gvi_real y[2] = { 0, 0 };
-        for (int k = s - 1; k >= s - 2*half; --k) {
-            gvi_real sum = gvi__dot(r, modes + k*R, L);
-            for (int e = 1; e < held; ++e)
-                sum += x->con.Phi[k*R + e - 1]*(x->con.hw[e]*x->con.force[i*R + e]);
-            sum *= x->table.inv_gamma[k];
-            if (forces && k == 0) sum -= end;
-            y[k < s - half] += GVI_ABS(sum);
+        const gvi_real *L = gvi__weighted(R, weight, row, x->row), m = gvi__inertia(st, i);
+        gvi_real start = row[0], end = row[r - 1], high = 0, low = 0;
+        if (forces) {
+            start = x->state.p[i];
+            end = start + x->step.p[i];
         }
-        all += y[0] + y[1];
-        if (s == 3 && all > 0) y[0] += y[1]*(y[1]/all);     // one mode alone may pass 0
-        const gvi_real most = y[0] > y[1] ? y[0] : y[1], unit = GVI_SQRT(forces ? 1/m : m);
-        tail[i] = most > 0 ? unit*y[0]*(y[0]/most) : 0;
-        size[i] = unit*all;
-        if (size[i] > fastest) fastest = size[i];
+        for (int k = s - 1; k >= s - 2*pair; --k) {
+            gvi_real y = gvi__dot(r, modes + k*R, L);
+            for (int e = 1; e < held; ++e)
+                y += x->con.Phi[k*R + e - 1]*(x->con.hw[e]*x->con.force[i*R + e]);
+            y *= x->table.inv_gamma[k];
+            if (k >= s - pair) high += GVI_ABS(y);
+            else low += GVI_ABS(y);
+        }
+        const gvi_real all = GVI_ABS(start) + GVI_ABS(end) + high + low,
+                       push = GVI_ABS(end - start) + high + low;
+        if (pair == 1 && all > 0) high += low*(low/all)/4;   // one mode alone may pass 0
+        const gvi_real most = high > low ? high : low, unit = GVI_SQRT(forces ? 1/m : m),
+                       share = most > 0 ? high/(push + 32*GVI__EPS*all)*(high/most) : 0;
+        missed[i] = share*share*push*unit;
+        size[i] = all*unit;
+        if (size[i] > largest) largest = size[i];
     }
-    for (int i = 0; i < st->n && fastest > 0; ++i) {
-        const gvi_real share = tail[i]/(size[i] + GVI__EPS*fastest);
-        if (share > worst) worst = share;
+    for (int i = 0; i < st->n && largest > 0; ++i) {
+        const gvi_real part = missed[i]/(size[i] + GVI__EPS*largest);
+        if (part > worst) worst = part;
     }
-    return (gvi_real)(s*s)*worst*worst;
+    return (gvi_real)(s*s)*worst;
 }
 
 /* ---- explicit ---- */
@@ -4319,8 +4326,9 @@ GVI__COLD gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc, gv
     if (d->degree == 0) d->degree = rule == GVI_KICKS ? 1 : 8;
     if (d->rule.points == 0) d->rule.points = rule == GVI_LOBATTO ? d->degree + 1 : d->degree;
     if (d->max_iterations == 0) d->max_iterations = 60;
-    if (d->resolution > 0 && d->degree == 1)
-        return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE, "resolution: not with degree 1");
+    if (d->resolution > 0 && d->degree < 3)
+        return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE, "resolution: degree is below 3");
+    if (d->resolution > 0 && d->resolution < GVI__EPS) d->resolution = GVI__EPS;
 
     x->needs = 0;
     x->clock = -1;
