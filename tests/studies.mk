@@ -2,7 +2,7 @@
 
 .PHONY: headers-quick headers symbols parts docs-check bound float instructions prices usable sanitize sanitized any_processor \
         ensemble deps-ensemble firmware deps-firmware fuzz fuzz-short size stats compare everywhere deps-everywhere \
-        cost-horizon cost-constraints kicks points cost-embedded hard theorems mutants
+        cost-dial cost-horizon cost-constraints kicks points cost-embedded hard theorems mutants
 
 # -- steps of `make test` and `make check`; each can be run alone
 
@@ -135,6 +135,13 @@ cost: $(BUILD)/cost/cost
 	$(Q)$< --out $(BUILD)/cost $(COST_ARGS) | tee $(BUILD)/cost/table.txt
 	$(Q)sh tests/tools/cost_record.sh $(BUILD) $(RECORD)
 endif
+
+#: cost-dial    what you ask for, what you get, what it takes: gvi.h by its dial, fixed steps, rivals that choose their
+#:              steps, at plain -O2 (four minutes); RECORD=--record puts tables and pictures into docs/cost.md
+cost-dial:
+	$(Q)$(MAKE) --no-print-directory BUILD=$(BUILD)/dial COST_CFLAGS=-O2 $(BUILD)/dial/cost/cost
+	$(Q)$(BUILD)/dial/cost/cost --dial --out $(BUILD)/dial/cost $(COST_ARGS) | tee $(BUILD)/dial/cost/table.txt
+	$(Q)sh tests/tools/cost_record.sh $(BUILD)/dial $(RECORD)
 
 #: cost-horizon the outer solar system at 1, 10 and 100 times its length
 cost-horizon: $(BUILD)/cost/cost

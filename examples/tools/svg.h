@@ -116,7 +116,7 @@ static inline void svg_ticks(FILE *f, const svg_axis *axis, const svg_axis *othe
     for (double k = (fine ? floor(axis->lo) : ceil(axis->lo/step - 1e-9)); k*step <= axis->hi + 1e-9*step; k += 1)
         for (int m = 0; m < (fine ? 3 : 1); ++m) {
             static const double part[] = { 1, 2, 5 };
-            const double value = fine ? k + log10(part[m]) : k*step;
+            const double value = fine ? k + log10(part[m]) : k*step + 0;        // not -0
             if (fine) snprintf(text, sizeof text, "%.6g", pow(10, value));
             else if (!axis->log) snprintf(text, sizeof text, "%.6g", value + 0.0);
             else snprintf(text, sizeof text, "10<tspan dy=\"-7\" font-size=\"12\">%.0f</tspan>", value);

@@ -20,6 +20,11 @@
 #else
 #error "the baselines are written with the vector types of gcc and clang"
 #endif
+#if defined(__clang__)
+#define UNROLL7 _Pragma("clang loop unroll(full)")
+#else
+#define UNROLL7 _Pragma("GCC unroll 7")
+#endif
 
 /* ------------------------------------------------------- vectors of n */
 
@@ -106,6 +111,7 @@ INLINE double norm(const int n, const double *x) { return sqrt(square(n, x)); }
     case 2:   call(2);   break;                                   \
     case 4:   call(4);   break;                                   \
     case 6:   call(6);   break;                                   \
+    case 10:  call(10);  break;                                   \
     case 14:  call(14);  break;                                   \
     case 16:  call(16);  break;                                   \
     case 18:  call(18);  break;                                   \
@@ -117,6 +123,7 @@ INLINE double norm(const int n, const double *x) { return sqrt(square(n, x)); }
     case 2:   call(4);   break;                                   \
     case 3:   call(6);   break;                                   \
     case 6:   call(12);  break;                                   \
+    case 10:  call(20);  break;                                   \
     case 14:  call(28);  break;                                   \
     case 16:  call(32);  break;                                   \
     case 18:  call(36);  break;                                   \
@@ -791,6 +798,234 @@ static void run_rk4(const problem *p, const baseline *m, double parameter, watch
 #undef CALL
 }
 
+/* ------------------------------------------------ Gauss-Radau, order 15 */
+
+/* q'' = a(q, v) at Radau's eight points of a step, the first at its start [Everhart: An efficient integrator that
+   uses Gauss-Radau spacings, 1985]: a = a_0 + sum g_k c (c - c_1)...(c - c_k), each g_k from the newest values as soon
+   as its point is evaluated.  In powers, a = a_0 + sum b_k c^(k+1), it is continued into the next step, and what the
+   last prediction missed is added.  Two controls, each as published:
+     Everhart        two iterations (six in the first step); h^2 |b_6|/72, the last term of q, follows the tolerance;
+                     a step grows by 1.4 at most, and none but the first is done again
+     Rein, Spiegel   (IAS15, 2015) iterations until b_6 changes by no more than 1e-16 |a|; |b_6|/|a| follows the
+                     tolerance; a step that should be a quarter of its length is done again; sums are compensated */
+enum { RADAU = 8 };
+typedef struct radau_rows {
+    double c[RADAU];
+    double q[RADAU][RADAU], v[RADAU][RADAU];         /* of a_0, g_0, ...: integrals to c_i; row 0: to 1 */
+    double d[RADAU][RADAU];                          /* g_(i-1) of a_i - a_0, g_0, ...                  */
+    double C[RADAU][RADAU], D[RADAU][RADAU];         /* b_m = sum C_mk g_k, and its inverse             */
+    double shift[RADAU][RADAU];                      /* binomials (m+1, k+1)                            */
+} radau_rows;
+static radau_rows radau;
+
+static void radau_begin(radau_rows *t)
+{
+    /* zeros of P_7(u) + P_8(u), u = 2c - 1, from four digits by Newton's method */
+    long double c[RADAU] = { 0, 0.0563L, 0.1802L, 0.3526L, 0.5472L, 0.7342L, 0.8853L, 0.9775L };
+    for (int i = 1; i < RADAU; ++i)
+        for (int k = 0; k < 6; ++k) {
+            long double P[RADAU + 2], u = 2*c[i] - 1;
+            legendre(RADAU, u, P);
+            const long double slope = (7*(P[6] - u*P[7]) + 8*(P[7] - u*P[8]))/(1 - u*u);
+            c[i] -= (P[7] + P[8])/slope/2;
+        }
+    long double C[RADAU][RADAU] = { { 1 } }, D[RADAU][RADAU] = { { 0 } };            /* C[k][m] of c^(m+1) */
+    for (int k = 1; k < RADAU - 1; ++k)
+        for (int m = 0; m <= k; ++m) C[k][m] = (m > 0 ? C[k-1][m-1] : 0) - c[k]*C[k-1][m];
+    for (int k = 0; k < RADAU - 1; ++k) {
+        D[k][k] = 1;
+        for (int m = k - 1; m >= 0; --m)
+            for (int j = m + 1; j <= k; ++j) D[m][k] -= C[j][m]*D[j][k];
+    }
+    for (int i = 0; i < RADAU; ++i) {
+        const long double x = i > 0 ? c[i] : 1;
+        long double newton = x;
+        t->c[i] = (double)c[i];
+        t->v[i][0] = (double)x;
+        t->q[i][0] = (double)(x*x/2);
+        for (int k = 0; k < RADAU - 1; ++k) {
+            long double v = 0, q = 0;
+            for (int m = 0; m <= k; ++m) {
+                v += C[k][m]*powl(x, m + 2)/(m + 2);
+                q += C[k][m]*powl(x, m + 3)/((m + 2)*(m + 3));
+                t->C[m][k] = (double)C[k][m];
+                t->D[m][k] = (double)D[m][k];
+            }
+            t->v[i][k+1] = (double)v;
+            t->q[i][k+1] = (double)q;
+        }
+        for (int k = 1; k < i; ++k) newton *= x - c[k];
+        const long double over = 1/newton;
+        t->d[i][0] = (double)over;
+        for (int k = i - 1; k > 0; --k) {
+            newton /= x - c[k];
+            t->d[i][k] = (double)(-newton*over);
+        }
+    }
+    for (int m = 0; m < RADAU - 1; ++m) {
+        t->shift[0][m] = m + 1;
+        for (int k = 1; k <= m; ++k) t->shift[k][m] = t->shift[k-1][m]*(m + 1 - k)/(k + 1);
+    }
+}
+
+INLINE void force_at(const int turning, const problem *p, const double *q, const double *v, double *a)
+{
+    if (turning) p->law(q, v, a);
+    else p->acceleration(q, a);
+}
+
+/* One iteration: k = (a_0, g_0, ..., g_6); the newest g last, which the others wait for        */
+INLINE void radau_iterate(const int n, const int turning, const problem *p, const double *q, const double *v, double h,
+                          double *k, double *a)
+{
+    const radau_rows *t = &radau;
+    double x[MOST_COORDINATES], u[MOST_COORDINATES];
+    UNROLL7 for (int i = 1; i < RADAU; ++i) {
+        const double *r = t->q[i], *s = t->v[i], *d = t->d[i], hc = h*t->c[i], h2 = h*h;
+#define OP(L) L z = r[0]*OF(L, k);                                              \
+        UNROLL7 for (int j = RADAU - 1; j >= i; --j) z += r[j]*OF(L, k + j*n);  \
+        UNROLL7 for (int j = 1; j < i; ++j) z += r[j]*OF(L, k + j*n);           \
+        AT(L, x) = (OF(L, q) + hc*OF(L, v)) + h2*z
+        LANES(n, OP);
+#undef OP
+#define OP(L) L z = s[0]*OF(L, k);                                              \
+        UNROLL7 for (int j = RADAU - 1; j >= i; --j) z += s[j]*OF(L, k + j*n);  \
+        UNROLL7 for (int j = 1; j < i; ++j) z += s[j]*OF(L, k + j*n);           \
+        AT(L, u) = OF(L, v) + h*z
+        if (turning) LANES(n, OP);
+#undef OP
+        force_at(turning, p, x, u, a);
+#define OP(L) L z = -d[0]*OF(L, k);                                             \
+        UNROLL7 for (int j = 1; j < i; ++j) z += d[j]*OF(L, k + j*n);           \
+        AT(L, k + i*n) = z + d[0]*OF(L, a)
+        LANES(n, OP);
+#undef OP
+    }
+}
+
+/* y_m = sum T_mk x_k over k from m on (in powers) or all                                       */
+INLINE void radau_change(const int n, double (*T)[RADAU], const double *x, double *y)
+{
+    UNROLL7 for (int m = 0; m < RADAU - 1; ++m) {
+#define OP(L) L z = T[m][m]*OF(L, x + m*n);                                     \
+        UNROLL7 for (int k = m + 1; k < RADAU - 1; ++k) z += T[m][k]*OF(L, x + k*n); \
+        AT(L, y + m*n) = z
+        LANES(n, OP);
+#undef OP
+    }
+}
+
+/* What the b of the last step make of those of a step ratio times as long                      */
+INLINE void radau_predict(const int n, double ratio, const double *b, double *next)
+{
+    double power = ratio;
+    radau_change(n, radau.shift, b, next);
+    for (int m = 0; m < RADAU - 1; ++m, power *= ratio) {
+#define OP(L) AT(L, next + m*n) = power*OF(L, next + m*n)
+        LANES(n, OP);
+#undef OP
+    }
+}
+
+/* Returns how many iterations it took.                                                         */
+INLINE int radau_solve(const int n, const int turning, const int most, const problem *p, const double *q,
+                       const double *v, double h, double *k, double *a)
+{
+    double before = HUGE_VAL, old[MOST_COORDINATES];
+    for (int round = 1; ; ++round) {
+        double *g6 = k + (RADAU - 1)*n;
+        copy(n, g6, old);
+        radau_iterate(n, turning, p, q, v, h, k, a);
+        if (round >= (most > 0 ? most : 12)) return round;
+        if (most > 0) continue;
+        add(n, -1, g6, old);
+        const double change = square(n, old)/square(n, a);
+        if (change < 1e-32 || (round > 2 && change >= before)) return round;
+        before = change;
+    }
+}
+
+INLINE void radau_loop(const int n, const int turning, int everhart, int compensated, const problem *p, double tolerance, watch *w, outcome *o)
+{
+    double q[MOST_COORDINATES], v[MOST_COORDINATES], qe[MOST_COORDINATES], ve[MOST_COORDINATES], a[MOST_COORDINATES];
+    double k[RADAU*MOST_COORDINATES], b[RADAU*MOST_COORDINATES], predicted[RADAU*MOST_COORDINATES],
+           missed[RADAU*MOST_COORDINATES], start[RADAU*MOST_COORDINATES], both[BOTH], slope[BOTH];
+    long double time = 0, end = p->end;
+    copy(n, o->q, q);
+    copy(n, o->v, v);
+    if (turning) {
+        get_state(2*p->n, o, both);
+        p->slope(both, slope);
+        memcpy(v, slope, sizeof *v*(size_t)p->n);
+    }
+    zero(n, qe);
+    zero(n, ve);
+    zero(n, a);
+    zero(n, k);
+    zero(7*n, b);
+    zero(7*n, predicted);
+    zero(7*n, missed);
+    force_at(turning, p, q, v, k);
+    o->evaluations = 1;
+    double h = 0.1*sqrt(norm(n, q)/(1e-300 + norm(n, k)));
+    if (!(h < p->end/10)) h = p->end/10;
+    double before = h;
+    for (long tries = 0; time < end; ++tries) {
+        if (tries > 1000000 || !(h > 1e-12*p->end)) { o->failed = 1; return; }
+        const int last = time + h >= end;
+        if (last) h = (double)(end - time);
+        if (o->steps > 0) radau_predict(n, h/before, b, predicted);
+        copy(7*n, predicted, start);
+        add(7*n, 1, missed, start);
+        radau_change(n, radau.D, start, k + n);
+        const int rounds = radau_solve(n, turning, everhart ? (o->steps > 0 ? 2 : 6) : 0, p, q, v, h, k, a);
+        o->iterations += rounds;
+        o->evaluations += 7*rounds;
+        const double b6 = norm(n, k + (RADAU - 1)*n) + 1e-300;
+        double factor = everhart ? pow(tolerance/(h*h*b6/72), 1.0/9) : pow(tolerance*norm(n, a)/b6, 1.0/7);
+        const int again = everhart ? o->steps == 0 && factor < 1 : factor < 0.25 && !last;
+        if (!(factor > 0.01)) factor = 0.01;
+        if (again) { h *= everhart ? 0.8*factor : factor; continue; }
+        double dq[MOST_COORDINATES], dv[MOST_COORDINATES];
+        sum(n, radau.q[0], 1, RADAU, k, dq);
+        sum(n, radau.v[0], 1, RADAU, k, dv);
+        if (compensated) {
+#define OP(L) L f = h*OF(L, v) + (h*h*OF(L, dq) + h*OF(L, ve) + OF(L, qe)), y = OF(L, q), z = y + f; \
+            AT(L, q) = z; AT(L, qe) = f - (z - y)
+            LANES(n, OP);
+#undef OP
+            add_compensated(n, h, dv, v, ve);
+        } else {
+#define OP(L) AT(L, q) += h*(OF(L, v) + h*OF(L, dq)); AT(L, v) += h*OF(L, dv)
+            LANES(n, OP);
+#undef OP
+        }
+        time += h;
+        ++o->steps;
+        radau_change(n, radau.C, k + n, b);
+        copy(7*n, b, missed);
+        add(7*n, -1, predicted, missed);
+        before = h;
+        h *= fmin(factor, everhart ? 1.4 : 4);
+        force_at(turning, p, q, v, k);
+        ++o->evaluations;
+        memcpy(o->q, q, sizeof *q*(size_t)p->n);
+        memcpy(o->v, v, sizeof *v*(size_t)p->n);
+        if (p->momentum) p->momentum(q, v, o->v);
+        if (watch_due(w)) watch_look(w, o->q, o->v);
+    }
+}
+
+static void run_radau(const problem *p, const baseline *m, double tolerance, watch *w, outcome *o)
+{
+    const int turning = p->law != NULL;
+    begin(p, o);
+#define CALL(n) if (turning) radau_loop(n, 1, m->option, m->compensated, p, tolerance, w, o);  \
+                else radau_loop(n, 0, m->option, m->compensated, p, tolerance, w, o)
+    BY_SIZE(p->n == 3 ? 4 : p->n, CALL);
+#undef CALL
+}
+
 /* ------------------------------- extrapolation (Gragg, Bulirsch, Stoer) */
 
 /* Modified midpoint with 2, 4, 6, ... steps, extrapolated in h^2 to `columns` columns: order
@@ -918,6 +1153,10 @@ const baseline baselines[] = {
       .option = DOP853 },
     { .name = "DOP853 c", .family = "DOP853", .first_order = 1, .adaptive = 1, .run = run_runge_kutta,
       .option = DOP853, .compensated = 1 },
+    { .name = "Gauss-Radau 15", .family = "Gauss-Radau 15", .adaptive = 1, .run = run_radau, .compensated = 1 },
+    { .name = "Gauss-Radau 15 Everhart", .family = "Gauss-Radau 15", .adaptive = 1, .run = run_radau, .option = 1 },
+    { .name = "Gauss-Radau 15 Everhart c", .family = "Gauss-Radau 15", .adaptive = 1, .run = run_radau, .option = 1,
+      .compensated = 1 },
     EXTRAPOLATE(4), EXTRAPOLATE(5), EXTRAPOLATE(6), EXTRAPOLATE(7), EXTRAPOLATE(8), EXTRAPOLATE(9),
     GAUSSES(4, 1), GAUSSES(6, 1), GAUSSES(8, 1),
 };
@@ -955,4 +1194,5 @@ void baselines_begin(void)
     for (int s = 2; s <= GAUSS_STAGES; ++s) gauss_begin(gausses + s, s);
     runge_kutta_begin(runge_kuttas + CLASSICAL, &classical_table);
     runge_kutta_begin(runge_kuttas + DOP853, &dop853_table);
+    radau_begin(&radau);
 }

@@ -1,6 +1,8 @@
 /* cost.c - what accuracy costs: gvi.h and its rivals on the problems of problems.c
 
      cost [--quick] [--problem P4] [--only gvi|peers] [--out DIR]     the study
+     cost --dial [--problem P14] [--out DIR]      what you ask for, what you get, what it takes: gvi.h by its dial beside
+                                      fixed steps and rivals that choose their steps
      cost --horizon [--out DIR]       P4 at 1, 10 and 100 times its length
      cost --list                      methods and settings
 
@@ -28,7 +30,7 @@ enum { SAMPLES = 80, CURVES = 400, ERRORS = 4 };
 
 static const double wanted[ERRORS] = { 1e-4, 1e-7, 1e-10, 1e-12 };
 
-typedef struct options { int quick, gvi, peers; const char *problem, *out; } options;
+typedef struct options { int quick, gvi, peers, dial; const char *problem, *out; } options;
 
 typedef struct sample {
     double    parameter, ms, error, energy;
@@ -69,7 +71,7 @@ static double run_once(const job *j, double parameter, watch *w, sample *s)
     static gvi_result r;
     double begin = cpu_ms(), time;
     if (j->rival) j->rival->run(j->p, j->rival, parameter, w, &o);
-    else gvi_run(j->p, j->setting, (long)parameter, j->memory, w, &r);
+    else gvi_run(j->p, j->setting, parameter, j->memory, w, &r);
     time = cpu_ms() - begin;
     s->parameter = parameter;
     s->steps = j->rival ? o.steps : r.steps;
@@ -110,34 +112,41 @@ static int surpassed(const study *y, const sample *s)
     return 0;
 }
 
+/* Is the parameter an accuracy, from coarse to fine?  Otherwise it is a number of steps.        */
+static int chooses(const job *j) { return j->rival ? j->rival->adaptive : j->setting->dial; }
+
 /* Have so many finer steps in a row brought nothing that none will?  The tolerance is the floor then,
-   or rounding; steps too long for the motion bring nothing either, and more of them in a row.   */
-static int given_up(const job *j, double best, int vain)
+   or rounding; steps too long for the motion bring nothing either, and more of them in a row.  What the
+   table of the dial shows of the rest ends at 1e-10.                                          */
+static int given_up(const options *o, const job *j, double best, int vain)
 {
+    if (j->setting && j->setting->dial) return 0;
+    if (o->dial && best < 2e-11) return 1;
     if (best < 1e-9) return vain >= 4;
     return j->setting && j->setting->tolerance > 0 && vain >= (best < 1e-3 ? 4 : 12);
 }
 
 /* From coarse to fine until it takes too long or finer steps bring nothing any more.          */
-static void run_curve(const study *y, const sweep *w, curve *c)
+static void run_curve(const study *y, const options *o, const sweep *w, curve *c)
 {
     const job *j = &c->job;
     double best = HUGE_VAL, before = 0;
-    int vain = 0, adaptive = j->rival && j->rival->adaptive;
+    int vain = 0;
+    const int adaptive = chooses(j), dial = j->setting && j->setting->dial;
     c->count = 0;
     for (double x = w->first; c->count < SAMPLES; x *= w->factor) {
         sample s;
         if (adaptive ? x < w->smallest : x > 1e9) return;
         s.ms = run_once(j, adaptive ? x : floor(x + 0.5), NULL, &s);
         s.energy = (double)NAN;
-        if (s.ms > w->limit && s.ms >= before) return;
+        if (s.ms > w->limit && s.ms >= before && (c->count > 0 || !adaptive)) return;
         before = s.ms;
         if (!(s.error < 1) || s.ms > w->limit) continue;
-        if (j->rival || !surpassed(y, &s)) measure(j, w->runs, &s);
+        if (j->rival || dial || !surpassed(y, &s)) measure(j, w->runs, &s);
         c->samples[c->count++] = s;
         vain = s.error < 0.7*best ? 0 : vain + 1;
         if (s.error < best) best = s.error;
-        if (given_up(j, best, vain)) return;
+        if (given_up(o, j, best, vain)) return;
     }
 }
 
@@ -213,11 +222,16 @@ static void add_clocks(const problem *p)
 
 /* Degrees times tolerances in the formulation that suits the scene, without Newton's memory;
    what gvi.h chooses by itself; splittings; clocks.  The likely ones first.                   */
-static void settings_for(const problem *p)
+static void settings_for(const problem *p, int dial)
 {
     static const int degrees[] = { 8, 6, 7, 5, 4, 10, 12, 16, 3, 2 };
     gvi_formulation pinned = p->formulation ? p->formulation : p->slope ? GVI_MOMENTA : GVI_POSITIONS;
     setting_count = 0;
+    add_setting(8, GVI_GAUSS, pinned, 0)->dial = 1;
+    if (dial) {
+        add_setting(8, GVI_GAUSS, pinned, 0);
+        return;
+    }
     for (int i = 0; i < COUNT(degrees); ++i)
         for (int k = 0; k < COUNT(decades); ++k) add_setting(degrees[i], GVI_GAUSS, pinned, decades[k]);
     add_setting(8, GVI_GAUSS, GVI_AUTO, 0);
@@ -251,7 +265,7 @@ static void end_study(study *y)
 
 static sweep steps_from(double first, double limit, const options *o)
 {
-    sweep w = { first, o->quick ? 1.35 : 1.15, limit, 0, o->quick ? 3 : 5 };
+    sweep w = { first, o->quick || o->dial ? 1.35 : 1.15, limit, 0, o->quick || o->dial ? 3 : 5 };
     return w;
 }
 
@@ -259,21 +273,27 @@ static void study_gvi(study *y, const options *o, double length)
 {
     for (int i = 0; i < setting_count; ++i) {
         const gvi_setting *g = settings + i;
-        double work = g->rule == GVI_KICKS ? g->points : 6*g->degree;
+        const double work = g->rule == GVI_KICKS ? g->points : 6*g->degree;
         sweep w = steps_from(g->power > 0 ? 5*y->p->revolutions : y->p->evaluations*length/work,
                              y->p->limit*length, o);
+        if (g->dial) {
+            w.first = 1e-4;
+            w.factor = o->quick ? 0.1 : sqrt(0.1);
+            w.smallest = 0.9e-14;
+        }
         job j = { y->p, NULL, g, malloc(sizeof(double)*(size_t)gvi_run_memory(y->p, g)) };
-        curve *c = new_curve(y, "gvi.h", 1, 1);
+        curve *c = new_curve(y, g->dial ? "gvi.h by its dial" : o->dial ? "gvi.h, fixed steps" : "gvi.h", 1, 1);
         c->job = j;
         gvi_setting_name(g, sizeof c->name, c->name);
-        if (j.memory) run_curve(y, &w, c);
+        if (j.memory) run_curve(y, o, &w, c);
         keep_curve(y, c);
     }
 }
 
-/* DOP853 everywhere: where q'' is given, for (q, v)                                           */
+/* DOP853 everywhere: where q'' is given, for (q, v); Gauss-Radau where the second order form is    */
 static int fits(const baseline *b, const problem *p)
 {
+    if (!strcmp(b->family, "Gauss-Radau 15")) return p->acceleration || p->law;
     return b->first_order == (p->slope != NULL) || !strcmp(b->family, "DOP853");
 }
 
@@ -282,8 +302,8 @@ static void study_rival(study *y, const options *o, const baseline *b, double le
     // to rounding, however long that takes
     sweep w = steps_from(y->p->evaluations*length/b->cost, 20*y->p->limit*length, o);
     if (b->adaptive) {
-        w.first = 1e-2;
-        w.factor = o->quick ? 0.2 : 0.5;
+        w.first = 1.28;
+        w.factor = o->quick ? 0.2 : o->dial ? 0.25 : 0.5;
         w.smallest = 2e-16;
     }
     job j = { y->p, b, NULL, NULL };
@@ -291,7 +311,7 @@ static void study_rival(study *y, const options *o, const baseline *b, double le
     c->job = j;
     c->reference = b->reference;
     snprintf(c->name, sizeof c->name, "%s", b->name);
-    run_curve(y, &w, c);
+    run_curve(y, o, &w, c);
     keep_curve(y, c);
 }
 
@@ -329,7 +349,7 @@ static int enter(curve *c, const sample *s, int count, entrant *e)
 
 /* The samples on which the times to an error rest, of all that come within a quarter of the
    fastest of their group: ours, theirs, and those of theirs that preserve structure.          */
-static int enter_all(study *y, double error, int count, entrant *e)
+static int enter_all(study *y, double error, int all, int count, entrant *e)
 {
     const double limit[3] = { 1.25*fastest(y, 0, 0, error).ms, 1.25*fastest(y, 1, 0, error).ms,
                               1.25*fastest(y, 0, 1, error).ms };
@@ -337,7 +357,7 @@ static int enter_all(study *y, double error, int count, entrant *e)
         curve *c = y->curves + i;
         const sample *s;
         const double ms = time_to(c, error, &s);
-        if (!isfinite(ms) || (ms > limit[c->ours] && (c->ours || !c->structure || ms > limit[2]))) continue;
+        if (!isfinite(ms) || (!all && ms > limit[c->ours] && (c->ours || !c->structure || ms > limit[2]))) continue;
         count = enter(c, s, count, e);
         if (s > c->samples) count = enter(c, s - 1, count, e);
     }
@@ -349,8 +369,8 @@ static void time_in_turn(study *y, const options *o)
 {
     static entrant e[ENTRANTS];
     int count = 0;
-    for (int k = 0; k < ERRORS; ++k) count = enter_all(y, wanted[k], count, e);
-    for (int round = 0; round < (o->quick ? 10 : 60); ++round)
+    for (int k = 0; k < ERRORS; ++k) count = enter_all(y, wanted[k], o->dial, count, e);
+    for (int round = 0; round < (o->quick || o->dial ? 15 : 60); ++round)
         for (int i = 0; i < count; ++i) {
             double total = 0;
             for (int k = 0; k < 2 || (total < 1 && k < 40); ++k) {
@@ -364,10 +384,10 @@ static void time_in_turn(study *y, const options *o)
 
 static void study_problem(study *y, const options *o)
 {
-    settings_for(y->p);
+    settings_for(y->p, o->dial);
     if (o->gvi) study_gvi(y, o, 1);
     for (int i = 0; o->peers && i < baseline_count; ++i)
-        if (fits(baselines + i, y->p)) study_rival(y, o, baselines + i, 1);
+        if (fits(baselines + i, y->p) && (baselines[i].adaptive || !o->dial)) study_rival(y, o, baselines + i, 1);
     time_in_turn(y, o);
     end_study(y);
 }
@@ -455,7 +475,8 @@ static const char *colour_of(const char *family)
         { "Stoermer-Verlet", "#d55e00" }, { "RK4", "#0072b2" }, { "compositions 8, 10", "#009e73" },
         { "Blanes-Moan SRKN", "#aa4499" }, { "splitting 8 by hand", "#b8860b" }, { "RKN8(6)", "#56b4e9" },
         { "RKN12(10)", "#88562b" }, { "Gauss, one point a call", "#444444" }, { "DOP853", "#cc3311" },
-        { "GBS extrapolation", "#8a9a00" } };
+        { "GBS extrapolation", "#8a9a00" }, { "Gauss-Radau 15", "#5e3fbe" },
+        { "gvi.h by its dial", "#111111" }, { "gvi.h, fixed steps", "#888888" } };
     for (int i = 0; i < COUNT(colour); ++i)
         if (!strcmp(family, colour[i][0])) return colour[i][1];
     return NULL;
@@ -648,6 +669,16 @@ static void study_horizon(const options *o)
     if (svg_write_all(path, &panel, 1, 360)) perror(path);
 }
 
+/* --------------------------------------------------------------- the dial */
+
+static void put_time(FILE *f, const char *before, double ms, double over)
+{
+    if (isfinite(ms) && isfinite(over)) fprintf(f, "%s%.2g", before, ms/over);
+    else fprintf(f, "%s-", before);
+}
+
+#include "dial.h"
+
 /* ------------------------------------------------------------------- main */
 
 static void list(void)
@@ -659,20 +690,21 @@ static void list(void)
 
 static int usage(void)
 {
-    fputs("cost [--quick] [--problem KEY] [--only gvi|peers] [--out DIR] | --horizon | --list\n", stderr);
+    fputs("cost [--quick] [--problem KEY] [--only gvi|peers] [--out DIR] | --dial | --horizon | --list\n", stderr);
     return 2;
 }
 
 int main(int argc, char **argv)
 {
-    static study studies[20];
-    options o = { 0, 1, 1, NULL, "." };
+    static study studies[24];
+    options o = { 0, 1, 1, 0, NULL, "." };
     int horizon = 0;
     baselines_begin();
     problems_begin();
     problems_tell(stdout);
     for (int i = 1; i < argc; ++i) {
         if (!strcmp(argv[i], "--quick")) o.quick = 1;
+        else if (!strcmp(argv[i], "--dial")) o.dial = 1;
         else if (!strcmp(argv[i], "--horizon")) horizon = 1;
         else if (!strcmp(argv[i], "--list")) return list(), 0;
         else if (!strcmp(argv[i], "--problem") && i + 1 < argc) o.problem = argv[++i];
@@ -688,6 +720,7 @@ int main(int argc, char **argv)
     int count = 0;
     for (int i = 0; i < problem_count; ++i) {
         if (o.problem && strcmp(o.problem, problems[i].key)) continue;
+        if (o.dial && !o.problem && strchr(problems[i].key, 'o')) continue;          // once is enough
         study *y = studies + count++;
         y->p = problems + i;
         study_problem(y, &o);
@@ -695,6 +728,7 @@ int main(int argc, char **argv)
         write_picture(y, &o);
         print_table(y);
     }
+    if (o.dial) return report_dial(studies, count, &o), 0;
     summarise(studies, count, &o);
     return 0;
 }

@@ -49,7 +49,7 @@ static double run_gvi(job *j)
 {
     static gvi_result r;
     const clock_t from = clock();
-    gvi_run(j->p, &j->setting, j->steps, j->memory, NULL, &r);
+    gvi_run(j->p, &j->setting, (double)j->steps, j->memory, NULL, &r);
     const double time = (double)(clock() - from)/CLOCKS_PER_SEC;
     if (r.status != GVI_OK) fail(j, gvi_status_text(r.status));
     if (llabs(r.evaluations - j->evaluations) > 2) fail(j, "other numbers of evaluations");

@@ -57,6 +57,12 @@ static void plain_pendulum_slope(const double *y, double *dy)
     dy[3] = f - G*sin(y[1]);
 }
 
+static void plain_pendulum_law(const double *q, const double *v, double *a)
+{
+    const double s[2] = { sin(q[0]), sin(q[1]) };
+    pendulum_accelerate(s, cos(q[0] - q[1]), sin(q[0] - q[1]), v, a);
+}
+
 GVI_POINTS(plain_pendulum_mass, 2, mass)(const gvi_points *x, void *user)
 {
     x->mass[0] = 2;
@@ -170,6 +176,20 @@ static void arenstorf_slope(const double *y, double *dy)
     dy[3] = f[1] - y[2];
 }
 
+static void arenstorf_law(const double *q, const double *v, double *a)
+{
+    arenstorf_pull(q, a);
+    a[0] += q[0] + 2*v[1];
+    a[1] += q[1] - 2*v[0];
+}
+
+static void arenstorf_momentum(const double *q, const double *v, double *p)
+{
+    const double u = v[0], w = v[1];
+    p[0] = u - q[1];
+    p[1] = w + q[0];
+}
+
 static long double arenstorf_energy(const double *q, const double *p)
 {
     const long double x = q[0], y = q[1], u = p[0], v = p[1], m = MOON;
@@ -205,6 +225,8 @@ static void bottle_slope(const double *y, double *dy)
     bottle_force(y, y + 3, dy + 3);
 }
 
+static void bottle_law(const double *q, const double *v, double *a) { bottle_force(q, v, a); }
+
 static long double bottle_energy(const double *q, const double *v)
 {
     return (void)q, ((long double)v[0]*v[0] + (long double)v[1]*v[1] + (long double)v[2]*v[2])/2;
@@ -237,6 +259,23 @@ static void relativistic_slope(const double *y, double *dy)
     dy[0] = w*y[2];
     dy[1] = w*y[3];
     plain_kepler_acceleration(y, dy + 2);
+}
+
+/* d(w v)/dt = f: a = (f - v (v f)/25)/w, w = 1/sqrt(1 - v^2/25)                               */
+static void relativistic_law(const double *q, const double *v, double *a)
+{
+    double f[2];
+    plain_kepler_acceleration(q, f);
+    const double root = sqrt(1 - (v[0]*v[0] + v[1]*v[1])/25), s = (v[0]*f[0] + v[1]*f[1])/25;
+    a[0] = root*(f[0] - s*v[0]);
+    a[1] = root*(f[1] - s*v[1]);
+}
+
+static void relativistic_momentum(const double *q, const double *v, double *p)
+{
+    const double u = v[0], x = v[1], w = 1/sqrt(1 - (u*u + x*x)/25);
+    p[0] = w*u;
+    p[1] = w*x;
 }
 
 static long double relativistic_energy(const double *q, const double *p)

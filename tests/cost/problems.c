@@ -335,6 +335,28 @@ static void pendulum_slope(const double *y, double *dy)
     dy[3] = f - G*s[1];
 }
 
+/* M a = (-2 G s1 - sd v2^2, -G s2 + sd v1^2); p = M v                                          */
+INLINE void pendulum_accelerate(const double *s, double cd, double sd, const double *v, double *a)
+{
+    const double f = -2*G*s[0] - sd*v[1]*v[1], g = -G*s[1] + sd*v[0]*v[0], d = 1/(1 + sd*sd);
+    a[0] = (f - cd*g)*d;
+    a[1] = (2*g - cd*f)*d;
+}
+
+static void pendulum_law(const double *q, const double *v, double *a)
+{
+    double s[2], c[2];
+    for (int i = 0; i < 2; ++i) sine_and_cosine(q[i], s + i, c + i);
+    pendulum_accelerate(s, c[0]*c[1] + s[0]*s[1], s[0]*c[1] - c[0]*s[1], v, a);
+}
+
+static void pendulum_momentum(const double *q, const double *v, double *p)
+{
+    const double c = cos(q[0] - q[1]), u = v[0], w = v[1];
+    p[0] = 2*u + c*w;
+    p[1] = c*u + w;
+}
+
 /* M, and the sines that it, the gradient and the weight need: gvi.h asks for them next, at the same
    points.                                                                                     */
 enum { MOST_POINTS = 64 };
@@ -539,6 +561,7 @@ static int chain(const gvi_points *p, void *user)
 }
 
 #include "ordinary.h"
+#include "encounters.h"
 
 /* ------------------------------------------------------------- the list */
 
@@ -555,6 +578,8 @@ static const gvi_effect chain_scene[] = { { .kind = GVI_POTENTIAL, .points = cha
 
 #define KEPLER_CLOCKS(e, turns) \
     .clocks = { kepler_clock_32, kepler_clock_1 }, .eccentricity = e, .revolutions = turns
+
+#define REVOLUTION 6.283185307179586
 
 /* Ends: 100 and 20 revolutions of 2 pi; 548 years; times.                                     */
 const problem problems[] = {
@@ -575,7 +600,7 @@ const problem problems[] = {
       SCENE(solar_scene), .evaluations = 1e3, .limit = 10 },
     { .key = "P5", .title = "Double pendulum, t = 100", .n = 2, .end = 100,
       .q = pendulum_q, .v = pendulum_p, .reference = reference_P5, .energy = pendulum_energy,
-      .slope = pendulum_slope, .mass = { .kind = GVI_MASS_POSITION, .points = pendulum_mass,
+      .slope = pendulum_slope, .law = pendulum_law, .momentum = pendulum_momentum, .mass = { .kind = GVI_MASS_POSITION, .points = pendulum_mass,
       .gradient = pendulum_gradient },
       SCENE(pendulum_scene), .evaluations = 3e3, .limit = 12 },
     { .key = "P6", .title = "Fermi-Pasta-Ulam, frequency 50, t = 200", .n = 6, .end = 200,
@@ -594,16 +619,16 @@ const problem problems[] = {
       .acceleration = toda_acceleration, SCENE(toda_scene), .evaluations = 300, .limit = 10 },
     { .key = "P9", .title = "Arenstorf's orbit, one revolution", .n = 2, .end = 17.065216560157964,
       .q = arenstorf_q, .v = arenstorf_p, .reference = reference_arenstorf, .energy = arenstorf_energy,
-      .slope = arenstorf_slope, SCENE(arenstorf_scene), .formulation = GVI_VELOCITIES, .evaluations = 2e3, .limit = 20 },
+      .slope = arenstorf_slope, .law = arenstorf_law, .momentum = arenstorf_momentum, SCENE(arenstorf_scene), .formulation = GVI_VELOCITIES, .evaluations = 2e3, .limit = 20 },
     { .key = "P10", .title = "Magnetic bottle, t = 200", .n = 3, .end = 200,
       .q = bottle_q, .v = bottle_v, .reference = reference_bottle, .energy = bottle_energy,
-      .slope = bottle_slope, SCENE(bottle_scene), .formulation = GVI_VELOCITIES, .evaluations = 600, .limit = 4 },
+      .slope = bottle_slope, .law = bottle_law, SCENE(bottle_scene), .formulation = GVI_VELOCITIES, .evaluations = 600, .limit = 4 },
     { .key = "P11", .title = "Seven atoms, Lennard-Jones, t = 10", .n = 14, .end = 10,
       .q = atoms_q, .v = atoms_v, .reference = reference_atoms, .energy = atoms_energy,
       .acceleration = atoms_acceleration, SCENE(atoms_scene), .evaluations = 300, .limit = 4 },
     { .key = "P12", .title = "Relativistic Kepler, c = 5, t = 200", .n = 2, .end = 200,
       .q = kepler6_q, .v = relativistic_p, .reference = reference_relativistic, .energy = relativistic_energy,
-      .slope = relativistic_slope, .mass = { .kind = GVI_MASS_NONE, .velocity = relativistic_velocity },
+      .slope = relativistic_slope, .law = relativistic_law, .momentum = relativistic_momentum, .mass = { .kind = GVI_MASS_NONE, .velocity = relativistic_velocity },
       SCENE(relativistic_scene), .evaluations = 3e3, .limit = 8 },
     { .key = "P1o", .title = "P1, ordinary callbacks", .n = 2, .end = 0x1.3a28c59d5433bp+9,
       .q = kepler6_q, .v = kepler6_v, .reference = reference_P1, .energy = kepler_energy,
@@ -614,8 +639,24 @@ const problem problems[] = {
       SCENE(plain_solar_scene), .evaluations = 1e3, .limit = 10 },
     { .key = "P5o", .title = "P5, ordinary callbacks, libm's sine", .n = 2, .end = 100,
       .q = pendulum_q, .v = pendulum_p, .reference = reference_P5, .energy = pendulum_energy,
-      .slope = plain_pendulum_slope, .mass = { .kind = GVI_MASS_POSITION, .points = plain_pendulum_mass,
+      .slope = plain_pendulum_slope, .law = plain_pendulum_law, .momentum = pendulum_momentum, .mass = { .kind = GVI_MASS_POSITION, .points = plain_pendulum_mass,
       .gradient = plain_pendulum_gradient }, SCENE(plain_pendulum_scene), .evaluations = 3e3, .limit = 24 },
+    { .key = "P13", .title = "Comet, eccentricity 0.99, 20 revolutions", .n = 2, .end = 20*REVOLUTION,
+      .q = comet2_q, .v = comet2_v, .reference = reference_comet2, .energy = kepler_energy,
+      .acceleration = plain_kepler_acceleration, SCENE(plain_kepler_scene), .evaluations = 2e4, .limit = 8 },
+    { .key = "P14", .title = "Comet, eccentricity 0.9999, 10 revolutions", .n = 2, .end = 10*REVOLUTION,
+      .q = comet4_q, .v = comet4_v, .reference = reference_comet4, .energy = kepler_energy,
+      .acceleration = plain_kepler_acceleration, SCENE(plain_kepler_scene), .evaluations = 1e5, .limit = 8 },
+    { .key = "P15", .title = "Pythagorean three bodies, t = 30", .n = 6, .end = 30,
+      .q = burrau_q, .v = burrau_v, .reference = reference_burrau, .energy = burrau_energy,
+      .acceleration = burrau_acceleration, .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = burrau_mass },
+      SCENE(burrau_scene), .evaluations = 1e4, .limit = 20 },
+    { .key = "P16", .title = "Flyby, t = 200", .n = 2, .end = 200,
+      .q = flyby_q, .v = flyby_v, .reference = reference_flyby, .energy = kepler_energy,
+      .acceleration = plain_kepler_acceleration, SCENE(plain_kepler_scene), .evaluations = 1e4, .limit = 4 },
+    { .key = "P17", .title = "Rope of four rods, tumbling, t = 60", .n = ROPE, .end = 60,
+      .q = rope_q, .v = rope_v, .reference = reference_rope, .energy = rope_energy,
+      .slope = rope_slope, .law = rope_law, SCENE(rope_scene), .formulation = GVI_POSITIONS, .evaluations = 600, .limit = 40 },
 };
 const int problem_count = COUNT(problems);
 

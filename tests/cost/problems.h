@@ -35,6 +35,7 @@ enum { WIDTH = sizeof(widest)/sizeof(double) };
 /* One point.                                                                                  */
 typedef void acceleration_fn(const double *q, double *a);
 typedef void slope_fn(const double *y, double *dy);
+typedef void law_fn(const double *q, const double *v, double *a);
 typedef long double energy_fn(const double *q, const double *v);
 
 typedef struct problem {
@@ -46,6 +47,8 @@ typedef struct problem {
     energy_fn         *energy;
     acceleration_fn   *acceleration;   /* NULL where M depends on q                            */
     slope_fn          *slope;          /* NULL where it does not                               */
+    law_fn            *law;            /* q'' = a(q, v), where there is a slope                */
+    law_fn            *momentum;       /* p(q, v); NULL: v                                     */
     gvi_mass           mass;
     gvi_formulation    formulation;    /* pinned; 0: momenta with a slope, else positions      */
     const gvi_effect  *effects;

@@ -1,10 +1,11 @@
-/* pythagorean.c - the end of the Pythagorean problem, for tests/hard/pythagorean.c
+/* pythagorean.c - the end of the Pythagorean problem, for tests/hard/pythagorean.c and `make cost`
 
    Burrau's three bodies (1913): masses 3, 4, 5 at rest at (1,3), (-2,-1), (1,-1),
-   G = 1, to T = 63 (Szebehely and Peters 1967).  Quadruple precision, Gragg's rule
+   G = 1, to T = 63, or another time (Szebehely and Peters 1967).  Quadruple precision, Gragg's rule
    extrapolated to order 16, each step a fraction of sqrt(r^3/M) of the closest pair.
 
      gcc -O2 -Itests tests/gen/pythagorean.c -o pythagorean && ./pythagorean 64 && ./pythagorean 96
+     ./pythagorean 128 30 && ./pythagorean 192 30
 
    prints the state with 25 digits; what the two runs have in common is right.   */
 #include <math.h>
@@ -60,12 +61,12 @@ static void print(real x)                          /* 25 digits after the point 
 int main(int argc, char **argv)
 {
     const motion bodies = { 12, attract, NULL };
-    const double fraction = argc > 1 ? atof(argv[1]) : 64;
+    const double fraction = argc > 1 ? atof(argv[1]) : 64, end = argc > 2 ? atof(argv[2]) : 63;
     real y[12] = { 1, 3, -2, -1, 1, -1 }, low[12] = { 0 }, d[12], t = 0;
     int steps = 0;
-    while (t < 63) {
+    while (t < end) {
         real H = shortest(y)*8/fraction;
-        if (t + H > 63) H = 63 - t;
+        if (t + H > end) H = end - t;
         extrapolate(&bodies, t, H, y, d);
         for (int i = 0; i < 12; ++i) {
             real x = d[i] + low[i], sum = y[i] + x;

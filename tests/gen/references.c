@@ -1,9 +1,10 @@
-/* references.c - end states of the problems in tests/cost/ordinary.h that are no others' again
+/* references.c - end states of the problems in tests/cost/ordinary.h and encounters.h that are no others' again
 
      cc -O2 -std=gnu99 tests/gen/references.c -lquadmath -lm && ./a.out      (gcc; three minutes)
 
    Gauss collocation of 14 stages for y' = f(y) in 113-bit arithmetic, with two numbers of steps, one 3/2 of the
-   other; printed is the finer result, and how far it is from the coarser.  The starts are the doubles of ordinary.h. */
+   other; printed is the finer result, and how far it is from the coarser.  Comets and flyby by Kepler's equation.
+   The starts are the doubles of ordinary.h and encounters.h.                                                   */
 #include <quadmath.h>
 #include <stdio.h>
 #include <string.h>
@@ -125,6 +126,57 @@ static void relativistic(const real *y, real *dy)
     dy[3] = -y[1]/(d*d*d);
 }
 
+/* y = (q, v) of 5 balls on 4 rods: G G' lambda = -|rates|^2, v' = G' lambda                    */
+static void rope(const real *y, real *dy)
+{
+    const real *v = y + 10;
+    real d[4][2], M[4][4] = { { 0 } }, lambda[4];
+    for (int i = 0; i < 4; ++i) {
+        lambda[i] = 0;
+        for (int k = 0; k < 2; ++k) {
+            const real rate = v[2*i+2+k] - v[2*i+k];
+            d[i][k] = y[2*i+2+k] - y[2*i+k];
+            lambda[i] -= rate*rate;
+        }
+        M[i][i] = 2*(d[i][0]*d[i][0] + d[i][1]*d[i][1]);
+        if (i > 0) M[i][i-1] = M[i-1][i] = -d[i][0]*d[i-1][0] - d[i][1]*d[i-1][1];
+    }
+    for (int i = 0; i < 4; ++i)                     // Gauss and Jordan
+        for (int j = 0; j < 4; ++j) {
+            const real factor = M[j][i]/M[i][i];
+            if (j == i) continue;
+            for (int k = 0; k < 4; ++k) M[j][k] -= factor*M[i][k];
+            lambda[j] -= factor*lambda[i];
+        }
+    for (int i = 0; i < 10; ++i) dy[i] = v[i], dy[10+i] = 0;
+    for (int i = 0; i < 4; ++i)
+        for (int k = 0; k < 2; ++k) {
+            dy[10+2*i+k] -= lambda[i]/M[i][i]*d[i][k];
+            dy[12+2*i+k] += lambda[i]/M[i][i]*d[i][k];
+        }
+}
+
+/* q = f q0 + g v0 after t, by the difference D of the eccentric anomalies, found by bisection: Kepler's equation
+   n t = D - (e cos E0) sin D + (e sin E0)(1 - cos D), and the same with hyperbolic functions    */
+static void conic(const char *name, const double *q, const double *v, double end)
+{
+    const real r = sqrtq((real)q[0]*q[0] + (real)q[1]*q[1]), square = (real)v[0]*v[0] + (real)v[1]*v[1];
+    const real sign = square < 2/r ? 1 : -1, a = sign/(2/r - square), n = 1/(a*sqrtq(a)), nt = n*end;
+    const real along = 1 - sign*r/a, across = ((real)q[0]*v[0] + (real)q[1]*v[1])/sqrtq(a);
+    real lo = sign > 0 ? nt - 4 : 0, hi = sign > 0 ? nt + 4 : 60, s = 0, c = 0, D = 0;
+    for (int k = 0; k < 150; ++k) {
+        D = (lo + hi)/2;
+        s = sign > 0 ? sinq(D) : sinhq(D);
+        c = sign > 0 ? 1 - cosq(D) : coshq(D) - 1;
+        if (sign*(D - along*s) + across*c < nt) lo = D;
+        else hi = D;
+    }
+    const real f = 1 - a/r*c, g = end - sign*(D - s)/n;
+    char text[2][64];
+    for (int i = 0; i < 2; ++i) quadmath_snprintf(text[i], sizeof text[i], "%.34Qe", f*q[i] + g*v[i]);
+    printf("\nstatic const long double reference_%s[] = {\n    %sL, %sL\n};\n", name, text[0], text[1]);
+}
+
 static void make(const char *name, slope_fn *f, int n, double end, long steps, const double *y0)
 {
     real y[2][MOST], apart = 0;
@@ -145,6 +197,10 @@ static void make(const char *name, slope_fn *f, int n, double end, long steps, c
 int main(void)
 {
     tables();
+    conic("comet2", (double[]){ -1.99, 0 }, (double[]){ 0, -0.070888120500833 }, 20*6.283185307179586);
+    conic("comet4", (double[]){ -1.9999, 0 }, (double[]){ 0, -0.0070712445851 }, 10*6.283185307179586);
+    conic("flyby", (double[]){ -100, 0.2 }, (double[]){ 1.01, 0 }, 200);
+    make("rope", rope, 20, 60, 4000, (double[]){ -2, 0, -1, 0, 0, 0, 1, 0, 2, 0, 0, -2, 0, -1.2, 0, 0.2, 0, 1, 0, 2 });
     make("toda", toda, 32, 100, 400, (double[32]){ [16] = 1, -0.5, 0.25, 0, 0.5, -1, 0.75, 0, -0.25, 0.5, -0.75, 0, 0, 0.25, -0.5, -0.25 });
     make("arenstorf", arenstorf, 4, 17.065216560157964, 20000, (double[]){ 0.994, 0, 0, 0.994 - 2.0015851063790825 });
     make("bottle", bottle, 6, 200, 400, (double[]){ 0.5, 0, 0, 0, 0.5, 0.25 });
