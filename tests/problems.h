@@ -176,7 +176,8 @@ static MAYBE int fermi_pasta_ulam_forces(const gvi_points *x, void *user)
 }
 
 /* M_ij = dy_i/dx_j, m by n, of a map x -> y from n numbers to m, by central differences of order 8.  Maps vary over
-   lengths of about 1/4; with the distance eps^(1/9)/4, truncation and rounding are both of the size of some eps^(8/9). */
+   lengths of about 1/4; with the distance eps^(1/9)/4, truncation and rounding are both of the size of some
+   eps^(8/9).                                                                                                */
 enum { MAP_MOST = 5 };
 typedef void map_fn(const void *what, const real *x, real *y);
 

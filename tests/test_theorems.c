@@ -37,6 +37,18 @@ static int rule_of(int k, int s, method *m)
     return k == 1 ? (s > 1 ? 2*s - 2 : 0) : 2*s;
 }
 
+/* Exponent u/share + more, all degrees up to s and those rules */
+static void expect_slopes(const char *what, error_fn *error, const problem *pb, int s, int share, int more, int most,
+                          real within)
+{
+    for (int degree = 1; degree <= s; ++degree)
+        for (int k = 0; k < 3; ++k) {
+            method m;
+            const int u = rule_of(k, degree, &m);
+            if (u) expect_slope(what, error, pb, &m, u/share + more, most, within);
+        }
+}
+
 static const problem *conservative(int k) { return k ? &problems[k - 1] : &oscillator; }
 
 /* ------------------------------------------------------------------- reference */
@@ -65,26 +77,14 @@ TEST(the_order_of_the_step_is_the_smaller_of_2s_and_u)
 {
     static const int which[3] = { 0, 2, 3 };
     misses = 0;
-    for (int i = 0; i < 3; ++i)
-        for (int s = 1; s <= 5; ++s)
-            for (int k = 0; k < 3; ++k) {
-                method m;
-                int u = rule_of(k, s, &m);
-                if (u) expect_slope("step", end_error, &problems[which[i]], &m, u, 48, 0.15L);
-            }
+    for (int i = 0; i < 3; ++i) expect_slopes("step", end_error, &problems[which[i]], 5, 1, 0, 48, 0.15L);
     assert_int_equal(misses, 0);
 }
 
 TEST(the_discrete_lagrangian_is_exact_to_one_power_more)
 {
     misses = 0;
-    for (int i = 0; i <= PROBLEMS; ++i)
-        for (int s = 1; s <= 4; ++s)
-            for (int k = 0; k < 3; ++k) {
-                method m;
-                int u = rule_of(k, s, &m);
-                if (u) expect_slope("L_d", lagrangian_error, conservative(i), &m, u + 1, 48, 0.15L);
-            }
+    for (int i = 0; i <= PROBLEMS; ++i) expect_slopes("L_d", lagrangian_error, conservative(i), 4, 1, 1, 48, 0.15L);
     assert_int_equal(misses, 0);
 }
 
@@ -153,13 +153,8 @@ TEST(the_curve_has_order_min_s_and_half_u_plus_one)
     misses = 0;
     which_curve = OF_THE_ENDS;
     for (int i = 0; i < PROBLEMS; ++i)
-        for (int s = 1; s <= 4; ++s)
-            for (int k = 0; k < 3; ++k) {
-                method m;
-                int u = rule_of(k, s, &m);
-                for (which_norm = 0; which_norm < NORMS && u; ++which_norm)
-                    expect_slope("curve", norm_error, &problems[i], &m, u/2 + more[which_norm], 192, 0.15L);
-            }
+        for (which_norm = 0; which_norm < NORMS; ++which_norm)
+            expect_slopes("curve", norm_error, &problems[i], 4, 2, more[which_norm], 192, 0.15L);
     assert_int_equal(misses, 0);
 }
 
@@ -179,19 +174,6 @@ TEST(a_polynomial_of_degree_s_comes_as_near_as_s_plus_1)
 
 /* ---------------------------------------------------------------------- forced */
 
-TEST(forces_leave_the_order_as_it_is)
-{
-    misses = 0;
-    for (int i = 0; i < 2; ++i)
-        for (int s = 1; s <= 5; ++s)
-            for (int k = 0; k < 3; ++k) {
-                method m;
-                int u = rule_of(k, s, &m);
-                if (u) expect_slope("forced step", end_error, &forced_problems[i], &m, u, 48, 0.15L);
-            }
-    assert_int_equal(misses, 0);
-}
-
 static int which_part;
 
 static real part_error(const problem *pb, const method *m, real h)
@@ -201,21 +183,18 @@ static real part_error(const problem *pb, const method *m, real h)
     return error[which_part];
 }
 
-/* Section 6.2 bounds them by O(h^(s+1)) */
-TEST(discrete_lagrangian_and_forces_lose_nothing_with_forces)
+/* Section 6.2 bounds L_d and the discrete forces by O(h^(s+1)) */
+TEST(forces_cost_no_order_of_the_step_of_the_discrete_lagrangian_or_of_the_discrete_forces)
 {
     static const char *const part[PARTS] = { "D_1 L_d", "D_2 L_d", "F-", "F+" };
     static const int top[FORCED] = { 4, 4, 2 }, most[FORCED] = { 24, 24, 64 };     /* M(q) has no Hessian: sqrt(EPS) */
     misses = 0;
-    for (int i = 0; i < FORCED; ++i)
-        for (int s = 1; s <= top[i]; ++s)
-            for (int k = 0; k < 3; k += 2) {
-                method m;
-                const int u = rule_of(k, s, &m);
-                expect_slope("L_d", lagrangian_error, &forced_problems[i], &m, u + 1, 48, 0.2L);
-                for (which_part = 0; which_part < PARTS; ++which_part)
-                    expect_slope(part[which_part], part_error, &forced_problems[i], &m, u, most[i], 0.2L);
-            }
+    for (int i = 0; i < FORCED; ++i) {
+        expect_slopes("step", end_error, &forced_problems[i], 5, 1, 0, 48, 0.2L);
+        expect_slopes("L_d", lagrangian_error, &forced_problems[i], 4, 1, 1, 48, 0.2L);
+        for (which_part = 0; which_part < PARTS; ++which_part)
+            expect_slopes(part[which_part], part_error, &forced_problems[i], top[i], 1, 0, most[i], 0.2L);
+    }
     assert_int_equal(misses, 0);
 }
 
@@ -223,31 +202,21 @@ TEST(discrete_lagrangian_and_forces_lose_nothing_with_forces)
 
    Section 6.3: Kepler with drag f = -|v|v/20 as stationary action in variables x = (q1, q2), y = (q3, q4):
      L(x) - L(y) + (f(x) + f(y))'(x - y)/2                                    */
-static int both_attract(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+static int two_copies(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
-    real a[2] = { 0, 0 }, b[2] = { 0, 0 };
-    attraction_at(t, q, v, a, NULL, NULL);
-    attraction_at(t, q + 2, v, b, NULL, NULL);
+    real pull_y[2] = { 0 }, x[2] = { 0 }, y[2] = { 0 }, X[4] = { 0 }, Y[4] = { 0 };
+    attraction_at(t, q, v, f, NULL, NULL);
+    attraction_at(t, q + 2, v, pull_y, NULL, NULL);
+    air(t, q, v, x, NULL, NULL);
+    air(t, q + 2, v + 2, y, NULL, NULL);
+    air_hessian(t, q, v, NULL, X, NULL, NULL);
+    air_hessian(t, q + 2, v + 2, NULL, Y, NULL, NULL);
     for (int i = 0; i < 2; ++i) {
-        f[i] += a[i];
-        f[2 + i] -= b[i];
-    }
-    return 0;
-}
-
-static int both_drag(real t, const real *q, const real *v, real *f, real *dldv, void *user)
-{
-    real a[2] = { 0, 0 }, b[2] = { 0, 0 }, A[4] = { 0 }, B[4] = { 0 };
-    air(t, q, v, a, NULL, NULL);
-    air(t, q + 2, v + 2, b, NULL, NULL);
-    air_hessian(t, q, v, NULL, A, NULL, NULL);
-    air_hessian(t, q + 2, v + 2, NULL, B, NULL, NULL);
-    for (int i = 0; i < 2; ++i) {
-        f[i] += (a[i] + b[i])/2;
-        f[2 + i] -= (a[i] + b[i])/2;
+        f[i] += (x[i] + y[i])/2;
+        f[2 + i] -= pull_y[i] + (x[i] + y[i])/2;
         for (int j = 0; j < 2; ++j) {
-            dldv[i] += A[2*i + j]*(q[j] - q[2 + j])/2;
-            dldv[2 + i] += B[2*i + j]*(q[j] - q[2 + j])/2;
+            dldv[i] += X[2*i + j]*(q[j] - q[2 + j])/2;
+            dldv[2 + i] += Y[2*i + j]*(q[j] - q[2 + j])/2;
         }
     }
     return 0;
@@ -263,14 +232,13 @@ TEST(doubled_variables_move_as_the_forced_system_and_are_a_saddle)
             gvi_stepper twice;
             method m;
             rule_of(k, s, &m);
-            const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .point = both_attract },
-                                         { .kind = GVI_LAGRANGIAN, .point = both_drag } };
+            const gvi_effect scene[] = { { .kind = GVI_LAGRANGIAN, .point = two_copies } };
             const gvi_desc desc = { .n = 4, .degree = s, .rule = m.rule,
                                     .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = masses },
-                                    .effects = scene, .effect_count = 2 };
+                                    .effects = scene, .effect_count = 1 };
             const real *q = pb->q[0], *v = pb->v[0];
             const real q0[4] = { q[0], q[1], q[0], q[1] }, v0[4] = { v[0], v[1], v[0], v[1] };
-            real y[MAX_Y];
+            real y[MAX_Y], q1[4];
             int negative = -1;
             assert_ok(gvi_init(&twice, &desc, memory, sizeof memory));
             assert_ok(gvi_start(&twice, 0, q0, v0));
@@ -279,12 +247,13 @@ TEST(doubled_variables_move_as_the_forced_system_and_are_a_saddle)
             for (int step = 0; step < 200; ++step) {
                 assert_ok(gvi_step(&twice, 1/32.0L));
                 assert_ok(gvi_step(once, 1/32.0L));
+                if (step == 0) memcpy(q1, twice.q, sizeof q1);
                 for (int i = 0; i < 4; ++i) {
                     assert_true(twice.q[i] == once->q[i%2]);
                     assert_true(twice.p[i] == (i < 2 ? 1 : -1)*once->p[i%2]);
                 }
             }
-            assert_ok(gvi_discrete_lagrangian(&twice, 0, 1/32.0L, q0, twice.q, &(gvi_discrete){ .negative = &negative }));
+            assert_ok(gvi_discrete_lagrangian(&twice, 0, 1/32.0L, q0, q1, &(gvi_discrete){ .negative = &negative }));
             assert_int_equal(negative, 2*(s - 1));
         }
 }
@@ -305,8 +274,6 @@ static real shift_error(const problem *pb, const method *m, real h)
     return fabs(shift_measured(0.5L, h) - shift_predicted(0.5L, h));
 }
 
-static real shift_size(const problem *pb, const method *m, real h) { return fabs(shift_measured(0.5L, h)); }
-
 TEST(verlet_keeps_the_energy_of_its_modified_lagrangian)
 {
     static const problem *const which[2] = { &pendulum, &problems[0] };
@@ -322,9 +289,7 @@ TEST(verlet_keeps_the_energy_of_its_modified_lagrangian)
 TEST(keplers_ellipse_turns_as_the_modified_lagrangian_predicts)
 {
     misses = 0;
-    expect_slope("perihelion", shift_size, &problems[0], &verlet, 2, 500, 0.1L);
     expect_slope("perihelion less its prediction", shift_error, &problems[0], &verlet, 4, 500, 0.15L);
-    assert_between(-1.02L, shift_measured(0.5L, 1/128.0L)/-shift_predicted(0.5L, 1/128.0L), -0.98L);
     assert_int_equal(misses, 0);
 }
 

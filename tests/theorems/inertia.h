@@ -21,7 +21,7 @@ static MAYBE int index_of_step(const problem *pb, const method *m, real t, const
     return count;
 }
 
-/* Most negative directions of steps from the starts; -1 where no step was found */
+/* Most negative directions of steps of many lengths from the starts; -1 if one of them was not found */
 static MAYBE int most_negative(const problem *pb, const method *m)
 {
     int most = -1;
@@ -30,6 +30,7 @@ static MAYBE int most_negative(const problem *pb, const method *m)
             real y[MAX_Y];
             start_state(pb, start, y);
             const int count = index_of_step(pb, m, 0, y, h);
+            if (count < 0) return -1;
             if (count > most) most = count;
         }
     return most;

@@ -1,7 +1,7 @@
-/* Why the energy stays level: Stoermer-Verlet's modified Lagrangian, to h^4, on a pendulum and on Kepler's ellipse
+/* Why the energy stays level: Stoermer-Verlet's modified Lagrangian on Kepler's ellipse
 
-   How far the energy, and that of the modified Lagrangian to h^2 and to h^4, leave their first values in a run, with
-   the exponents of h; and by how much the perihelion turns in a revolution.
+   How far the energy, and that of the modified Lagrangian to h^2 and to h^4, leave their first values in a run, and by
+   how much the perihelion turns in a revolution.  Exponents of h: test_theorems.c.
 
      modified [folder]     writes theorem_modified.svg                          */
 #include "modified.h"
@@ -9,33 +9,15 @@
 
 enum { REVOLUTIONS = 3, STEPS = 400 };
 
-static void ranges(const problem *pb)
-{
-    real old[ENERGIES] = { 0 };
-    printf("\n%s: largest |E(t) - E(0)| in 0 < t <= %g, and the exponent of h\n"
-           "      h        H               to h^2          to h^4\n", pb->name, (double)pb->time);
-    for (int N = 32; N <= 512; N *= 2) {
-        real now[ENERGIES];
-        energy_ranges(pb, &verlet, 2/(real)N, now);
-        printf("%9.5f", 2/(double)N);
-        for (int i = 0; i < ENERGIES; ++i) {
-            printf("  %8.2e ", (double)now[i]);
-            if (old[i] > 0) printf("%5.2f", (double)(log(old[i]/now[i])/log(2.0L)));
-            else printf("     ");
-            old[i] = now[i];
-        }
-        printf("\n");
-    }
-}
-
 static void perihelion(void)
 {
     static const double e[4] = { 0.1, 0.3, 0.5, 0.7 };
-    printf("\nPerihelion's turn in a revolution, in degrees: measured, predicted to h^2, their ratio\n");
+    printf("Perihelion's turn in a revolution, in degrees: measured, predicted to h^2, their ratio\n");
     for (int i = 0; i < 4; ++i)
         for (int N = 500; N <= 2000; N *= 2) {
             const real h = TAU/N;
-            const double seen = (double)(360/TAU*shift_measured(e[i], h)), said = (double)(360/TAU*shift_predicted(e[i], h));
+            const double seen = (double)(360/TAU*shift_measured(e[i], h));
+            const double said = (double)(360/TAU*shift_predicted(e[i], h));
             printf("e = %.1f, %4d steps: %9.5f  %9.5f  %7.5f\n", e[i], N, seen, said, seen/said);
         }
 }
@@ -70,8 +52,6 @@ static void picture(const char *folder)
 
 int main(int argc, char **argv)
 {
-    ranges(&pendulum);
-    ranges(&problems[0]);
     perihelion();
     picture(argc > 1 ? argv[1] : ".");
     return 0;

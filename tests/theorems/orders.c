@@ -94,7 +94,8 @@ typedef struct study {
 
 static const study studies[] = {
     { "order", "theorem_order", "Order seen, degree s against rule",
-      "blue: within 0.2 of min(2s, u), all u &gt;= 2s - 2; u = 2r for Gauss, 2r - 2 for Lobatto", standard, 8, 8, 64, 0, 0.2,
+      "blue: within 0.2 of min(2s, u), all u &gt;= 2s - 2; u = 2r for Gauss, 2r - 2 for Lobatto",
+      standard, 8, 8, 64, 0, 0.2,
       { { &problems[0], end_error, 0, NULL }, { &problems[1], end_error, 0, NULL },
         { &problems[2], end_error, 0, NULL }, { &problems[3], end_error, 0, NULL } } },
     { "order", "theorem_weak_rules", "Order seen, rules of the caller",

@@ -139,7 +139,7 @@ static MAYBE void jacobi(const problem *pb, real t, real h, const real *y0, real
 /* ------------------------------------------------- more of the exact step, kept */
 
 /* Values of a step are wanted again for other methods: the last ones are kept */
-enum { INSIDE = 24, VALUES = (INSIDE + 1)*MAX_Y };
+enum { INSIDE = 24, VALUES = (INSIDE + 1)*MAX_Y, PARTS = 4 };
 typedef void fill_fn(const problem *pb, int start, real h, real *values);
 
 static MAYBE const real *kept(fill_fn *fill, const problem *pb, int start, real h)
@@ -150,14 +150,13 @@ static MAYBE const real *kept(fill_fn *fill, const problem *pb, int start, real 
     for (int k = 0; k < MOST; ++k)
         if (known[k].fill == fill && known[k].pb == pb && known[k].start == start && known[k].h == h)
             return known[k].values;
-    const int k = next;
     next = (next + 1)%MOST;
-    known[k].fill = fill;
-    known[k].pb = pb;
-    known[k].start = start;
-    known[k].h = h;
-    fill(pb, start, h, known[k].values);
-    return known[k].values;
+    known[next].fill = fill;
+    known[next].pb = pb;
+    known[next].start = start;
+    known[next].h = h;
+    fill(pb, start, h, known[next].values);
+    return known[next].values;
 }
 
 /* (q, p, S) at tau = k/INSIDE */
@@ -188,8 +187,6 @@ static MAYBE void flow_map(const void *what, const real *x, real *y)
 /* The derivatives d1 and d2 of the exact discrete Lagrangian by q0 and q1, and the discrete forces F- and F+: with
    forces it is the action of the forced solution, dS = d1'dq0 + d2'dq1 along all solutions near the given one, and
    p0 = -d1 - F-, p1 = d2 + F+                                                */
-enum { PARTS = 4 };
-
 static MAYBE void exact_parts(const problem *pb, int start, real h, real *part)
 {
     real M[MAX_Y*2*MAX_N], A[MAX_N*MAX_N], y0[MAX_Y], y1[MAX_Y];              /* M: rows q1, p1, S; columns q0, p0 */

@@ -154,20 +154,18 @@ static MAYBE void partner(const own_rule *rule, const real *a, real *ahat)
 }
 
 /* Least c with sum_i b_i |w(c_i)|^2 >= c * (integral of |w|^2), over velocities w of degree < s and mean 0: what a
-   quadrature leaves of the action's coercivity.  By the power method on a shifted matrix.                          */
+   quadrature leaves of the action's coercivity.  By the power method on C - shift.                                */
 static MAYBE real coercivity(const own_rule *rule, int s)
 {
-    real C[MAX_R*MAX_R], x[MAX_R], shift = 0, least = 0;
+    const real shift = 10;                                   /* beyond all eigenvalues */
+    real C[MAX_R*MAX_R], x[MAX_R], least = 0;
     for (int k = 1; k < s; ++k) {
-        real row = 0;
-        for (int l = 1; l < s; ++l) {
-            real sum = 0;
-            for (int i = 0; i < rule->r; ++i) sum += rule->b[i]*mode_at(k, rule->c[i])*mode_at(l, rule->c[i]);
-            C[k*s + l] = sqrt((real)((2*k + 1)*(2*l + 1)))*sum;
-            row += fabs(C[k*s + l]);
-        }
-        if (2*row > shift) shift = 2*row;
         x[k] = 1/(real)k;
+        for (int l = 1; l < s; ++l) {
+            C[k*s + l] = 0;
+            for (int i = 0; i < rule->r; ++i) C[k*s + l] += rule->b[i]*mode_at(k, rule->c[i])*mode_at(l, rule->c[i]);
+            C[k*s + l] *= sqrt((real)((2*k + 1)*(2*l + 1)));
+        }
     }
     for (int it = 0; it < 1000; ++it) {
         real y[MAX_R], size = 0;
