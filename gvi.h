@@ -2732,6 +2732,25 @@ static void gvi__set_next(gvi_stepper *st, gvi_status status, gvi_real h)
     if ((up > 0 && h >= st->next) || (up < 0 && next < st->next)) st->next = next;
 }
 
+/* A first length: less than 1/16 of the time in which the forces would make the kinetic energy that
+   there is.                                                                                   */
+GVI__COLD gvi_real gvi__first_length(gvi_stepper *st, gvi_real left)
+{
+    gvi_real *v = st->x.result, *a = v + st->n;
+    gvi_points y = gvi__one_point(st, &st->t, st->q);
+    gvi__velocity_guess(st, v);
+    gvi_status status = gvi__velocity(st, st->t, st->q, st->p, v);
+    y.v = v;
+    if (status == GVI_OK) status = gvi__evaluate(st, &y, 0, 1);
+    gvi__copy((size_t)st->n, y.f, a + st->n);
+    gvi__copy((size_t)st->n, v, a);
+    if (status == GVI_OK) status = gvi__velocity(st, st->t, st->q, a + st->n, a);
+    const gvi_real moving = GVI_ABS(gvi__dot(st->n, st->p, v)),
+                   pushing = GVI_ABS(gvi__dot(st->n, a + st->n, a)),
+                   time = GVI_SQRT(moving/pushing)/16, longest = left/1024;
+    return status == GVI_OK && time > 0 && time < longest ? time : longest;
+}
+
 GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end)
 {
     const gvi_status ready = gvi__ready(st, st && st->x.started);
@@ -2742,7 +2761,7 @@ GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end)
         return gvi__refuse_call(st, "t_end is t, NaN or infinite");
     const gvi_real way = (t_end - st->t) - st->t_low, left = GVI_ABS(way);
     const int clock = gvi__clock_is_on(st);
-    if (!(st->next > 0) || !gvi__finite(st->next)) st->next = left/1024;
+    if (!(st->next > 0) || !gvi__finite(st->next)) st->next = gvi__first_length(st, left);
     for (int tries = 1; ; ++tries) {
         gvi_real h = st->next;
         if (!clock && left < h*2) h = left/2;
