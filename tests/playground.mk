@@ -12,7 +12,7 @@ WASM_SIMD  = -msimd128
 # The page has to stay under 200 KB; it says so when it does not.  Loops whose length is known only
 # when they run are not unrolled, and less is inlined, which saves a tenth of it.
 WASM_FLAGS = --target=wasm32-wasi -mexec-model=reactor -O2 $(WASM_SIMD) -fno-math-errno -mllvm -unroll-runtime=false \
-             -mllvm -inline-threshold=80 \
+             -mllvm -inline-threshold=40 \
              -Wl,--gc-sections,--strip-all,-z,stack-size=65536
 # The same text natively, for the test
 PLAYGROUND_FLAGS = -std=c99 -ffp-contract=off -I. -Iexamples -Wall -Wextra -Wno-unused-const-variable

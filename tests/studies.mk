@@ -137,11 +137,11 @@ cost: $(BUILD)/cost/cost
 endif
 
 #: cost-dial    what you ask for, what you get, what it takes: gvi.h by its dial, fixed steps, rivals that choose their
-#:              steps, at plain -O2 (four minutes); RECORD=--record puts tables and pictures into docs/cost.md
+#:              steps, at plain -O2 (a few minutes); RECORD=--record puts tables and pictures into docs/cost.md
 cost-dial:
 	$(Q)$(MAKE) --no-print-directory BUILD=$(BUILD)/dial COST_CFLAGS=-O2 $(BUILD)/dial/cost/cost
 	$(Q)$(BUILD)/dial/cost/cost --dial --out $(BUILD)/dial/cost $(COST_ARGS) | tee $(BUILD)/dial/cost/table.txt
-	$(Q)sh tests/tools/cost_record.sh $(BUILD)/dial $(RECORD)
+	$(Q)sh tests/tools/cost_record.sh $(BUILD)/dial '$(RECORD)' dial
 
 #: cost-horizon the outer solar system at 1, 10 and 100 times its length
 cost-horizon: $(BUILD)/cost/cost

@@ -156,6 +156,28 @@ TEST(compositions_and_splittings_have_their_orders)
     check_order("Splitting 8", 8, 0.5);
 }
 
+/* Steps follow the 7th and the 9th root of the tolerance, the error their 15th power.            */
+TEST(gauss_radau_has_order_15)
+{
+    static const struct { const char *name; double root; } radau[] = {
+        { "Gauss-Radau 15", 7 }, { "Gauss-Radau 15 Everhart", 9 }, { "Gauss-Radau 15 Everhart c", 9 } };
+    for (int i = 0; i < COUNT(radau); ++i) {
+        const baseline *b = baseline_named(radau[i].name);
+        fit f = { 0, 0, 0, 0, 0 };
+        for (int k = 0; k < 100; ++k) {
+            int failed;
+            const double tolerance = 10*pow(0.7, k);
+            const long double e = errors_of(b, tolerance, &failed);
+            if (failed || !(e < 1e-4L)) continue;
+            if (e < 1e-12L) break;
+            add_point(&f, logl(tolerance), logl(e));
+        }
+        assert_true(f.count >= 4);
+        print_message("    %-26s %.2Lf of %.2f\n", radau[i].name, slope_of(&f), 15/radau[i].root);
+        assert_close(slope_of(&f), 15/radau[i].root, 0.2);
+    }
+}
+
 TEST(nystroem_pairs_have_their_orders)
 {
     check_order("RKN8(6) fixed", 8, 0.5);

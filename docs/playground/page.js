@@ -20,6 +20,7 @@ const RULES = ['gauss', 'gauss+2', 'lobatto', 'verlet', 'kicks8'];
 const RULE_NAMES = ['Gauss, as many points as degrees', 'Gauss, two points more', 'Lobatto, one point more', 'kicks: Störmer-Verlet, order 2', 'kicks: Kahan-Li, order 8'];
 const RULE_SHORT = ['Gauss', 'Gauss +2', 'Lobatto', 'Störmer-Verlet kicks', 'Kahan-Li kicks'];
 const TOLERANCES = [0, 1e-12, 1e-9, 1e-6, 1e-3];
+const DIALS = [0, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14];
 const FORMULATIONS = ['not set up', 'explicit', 'positions', 'velocities', 'momenta', 'Newton'];
 const METHODS = ['gvi.h', 'Störmer-Verlet', 'Runge-Kutta 4', 'DOP853'];
 const COLOURS = ['gvi', 'verlet', 'rk4', 'dop'];
@@ -48,17 +49,17 @@ const duration = ms => ms >= 1000 ? (ms / 1000).toPrecision(3) + ' s' : ms >= 1 
 const html = s => String(s).replace(/[&<>"]/g, c => ({ '&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;' }[c]));
 
 /* ---- the state that the address holds ---- */
-const set = { scene: 0, on: 0, p: [], degree: 8, rule: 'gauss', h: 0.1, tol: 0, want: -8, by: 'time' };
+const set = { scene: 0, on: 0, p: [], degree: 8, rule: 'gauss', h: 0.1, tol: 0, dial: 0, want: -8, by: 'time' };
 const scene = () => scenes[set.scene];
 const slug = s => s.replace(/ /g, '-');
-const defaults = i => Object.assign(set, { scene: i, on: scenes[i].first, p: scenes[i].parameters.map(p => p.value), degree: scenes[i].degree, rule: 'gauss', h: scenes[i].h, tol: 0 });
+const defaults = i => Object.assign(set, { scene: i, on: scenes[i].first, p: scenes[i].parameters.map(p => p.value), degree: scenes[i].degree, rule: 'gauss', h: scenes[i].h, tol: 0, dial: 0 });
 const ladder = k => +(scene().h * 2 ** Math.floor(k / 4) * [1, 1.189207115002721, 1.4142135623730951, 1.681792830507429][((k % 4) + 4) % 4]).toPrecision(4);
 const held = () => scene().effects.some((e, k) => e.kind === 4 && set.on >> k & 1);
 const clocked = () => scene().clock >= 0 && !!(set.on >> scene().clock & 1);
 
 function address() {
   const s = scene();
-  const a = { scene: s.name, on: s.effects.filter((e, k) => set.on >> k & 1).map(e => slug(e.name)).join(','), p: set.p.join(','), degree: set.degree, rule: set.rule, h: set.h, tol: set.tol, want: set.want };
+  const a = { scene: s.name, on: s.effects.filter((e, k) => set.on >> k & 1).map(e => slug(e.name)).join(','), p: set.p.join(','), degree: set.degree, rule: set.rule, h: set.h, tol: set.tol, dial: set.dial || '', want: set.want };
   return '#' + Object.entries(a).filter(([k, v]) => v !== '' || k === 'on').map(([k, v]) => k + '=' + encodeURIComponent(v).replace(/%2C/g, ',')).join('&');
 }
 let written = '';
@@ -79,12 +80,13 @@ function recall() {
   if (i < 0) return { call: `scene "${a.scene}": world_open`, status: x.world_open(2, -1, 0, 1, 0, 0, 0) };
   if (a.on !== undefined) set.on = scene().effects.reduce((m, e, k) => m | a.on.split(',').includes(slug(e.name)) << k, 0);
   if (a.p !== undefined) a.p.split(',').slice(0, set.p.length).forEach((v, k) => { set.p[k] = Number(v); });
-  for (const k of ['degree', 'h', 'tol']) if (a[k] !== undefined) set[k] = Number(a[k]);
+  for (const k of ['degree', 'h', 'tol', 'dial']) if (a[k] !== undefined) set[k] = Number(a[k]);
   if (a.rule !== undefined) set.rule = a.rule;
   if (a.want !== undefined && isFinite(+a.want)) set.want = Math.max(-14, Math.min(-1, Math.round(+a.want)));
   return null;
 }
 const open = (world, o, keep = 0) => {
+  numbers[x.parameters() / 8 + 3] = o.dial;
   numbers.set([o.p[0] || 0, o.p[1] || 0, o.p[2] || 0].map((v, k) => o.p[k] !== undefined && !isFinite(o.p[k]) ? NaN : v), x.parameters() / 8);
   return x.world_open(world, o.scene, o.on, o.degree, RULES.indexOf(o.rule), o.tol, keep);
 };
@@ -94,7 +96,7 @@ const calm = matchMedia('(prefers-reduced-motion: reduce)');
 const live = { ok: false, playing: !calm.matches, fast: false, dir: 1, k: 0, t: 0, target: 0, elapsed: 0, origin: [], speed: 0, base: [], said: '' };
 const beside = { on: true, ok: false, h: 0, k: 0, t: 0 };
 const curves = { gvi: [], rk4: [], kept: [[], []], gap: [], gap4: [] };
-let E0 = 0, Escale = 1, kept0 = [], trails = [], view = 1;
+let E0 = 0, Escale = 1, kept0 = [], trails = [], dots = [], view = 1;
 const turn = { yaw: 0.6, pitch: 0.5 };
 let dirty = true, plotDirty = true;
 
@@ -105,7 +107,7 @@ function complain(call, status, more = '') {
   const e = status === -9 || status === -10 || status === -11 || status < -13 ? x.world_number(0, 11, 0) : -1;
   $('alert-text').textContent = `${call}: ${text(x.status_text(status))}${e >= 0 ? ` (${scene().effects[e].name})` : ''}. ${more}`;
   $('alert').dataset.status = status;
-  $('halve').hidden = !(set.h > 0 || set.h < 0);
+  $('halve').hidden = set.dial || !(set.h > 0 || set.h < 0);
   $('alert-clock').hidden = scene().clock < 0 || clocked();
   pause();
 }
@@ -122,7 +124,7 @@ function apply(keep, first) {
   live.ok = !status;
   complain(call, status, status === -15 ? 'What was held has moved away: restart to mount it again.' : 'Change the setting to go on.');
   if (first) complain(first.call, first.status, 'Here is another scene.'), live.playing = !calm.matches;
-  Object.assign(live, { k: 0, t: x.world_number(0, 0, 0), elapsed: 0, origin: s.effects && [...Array(s.n)].map((_, i) => x.world_number(0, 30, i)) });
+  Object.assign(live, { k: 0, t: x.world_number(0, 0, 0), from: x.world_number(0, 0, 0), elapsed: 0, origin: s.effects && [...Array(s.n)].map((_, i) => x.world_number(0, 30, i)) });
   if (!keep) live.target = live.t, live.dir = 1;
   if (Math.abs(live.target - live.t) > 2 * Math.abs(set.h) || !keep) live.target = live.t;
   E0 = x.world_number(0, 20, 0);
@@ -131,6 +133,7 @@ function apply(keep, first) {
   Object.assign(curves, { gvi: [], rk4: [], kept: [[], []], gap: [], gap4: [] });
   beside.ok = live.ok && beside.on && !x.beside_open(0) && beside.h > 0;
   beside.k = 0; beside.t = live.t;
+  dots = [];
   if (!keep) { trails = s.radius.map(() => []); view = s.view; if (live.ok) sampleTrail(1); }
   $('from-start').textContent = '';
   live.said = live.ok ? FORMULATIONS[x.world_number(0, 4, 0)] : '';
@@ -206,6 +209,11 @@ function stepOnce() {
   live.t = t;
   live.elapsed += dt;
   follow();
+  if (set.dial) {                                        // a dot where each step ends
+    const p = x.world_place(0, t) / 8, s = scene();
+    for (let b = 0; b < s.bodies; b++) if (s.trails >>> b & 1) dots.push([...numbers.subarray(p + 3 * b, p + 3 * b + 3)]);
+    if (dots.length > 400) dots.splice(0, 40);
+  }
   const fine = scene().speed / 50, pieces = clocked() ? 6 : Math.min(16, Math.ceil(dt / fine));
   trailed += dt;
   if (drawnPoints > 600) { if (drawnPoints < 1e6) { penUp(); drawnPoints = 1e6; } }
@@ -214,11 +222,14 @@ function stepOnce() {
   return true;
 }
 
+/* At the start again; by the dial the way back may have another number of steps. */
+const back = () => live.dir < 0 && (set.dial ? live.t <= live.from : live.k === 0);
 function arrive() {
   const q = [...Array(scene().n)].map((_, i) => x.world_number(0, 30, i));
   const off = Math.max(...q.map((v, i) => Math.abs(v - live.origin[i])));
   let rk4 = '';
   if (beside.ok) {
+    live.k = 0;
     x.beside_advance(0, -beside.h, Math.max(0, beside.k)); beside.k = 0; beside.t = live.t;
     rk4 = `; Runge-Kutta 4 to ${short(Math.max(...q.map((v, i) => Math.abs(x.world_number(0, 43, i) - live.origin[i]))))}`;
   }
@@ -235,10 +246,10 @@ function simulate(dt) {
   else live.target += live.dir * dt * rate;
   let going = true;
   while (going && live.dir * (live.target - live.t) > 0 && now() < end) {
-    if (live.dir < 0 && live.k === 0) break;
+    if (back()) break;
     going = stepOnce();
   }
-  if (live.dir < 0 && live.k === 0 && live.target <= live.t) { live.target = live.t; arrive(); }
+  if (back() && live.target <= live.t) { live.target = live.t; arrive(); }
   if (live.dir * (live.target - live.t) > 0) live.target = live.t;      // as fast as it goes
   follow();
   dirty = plotDirty = true;
@@ -316,6 +327,8 @@ function draw() {
     }
   });
   pen.globalAlpha = 1;
+  pen.fillStyle = colours.ink;
+  for (const d of dots) { const p = project(...d); pen.beginPath(); pen.arc(p[0], p[1], 2, 0, 7); pen.fill(); }
   const figure = (list, ghost) => {
     const on = list.map(p => project(p[0], p[1], p[2]));
     pen.strokeStyle = ghost ? colours.rk4 : colours.muted; pen.lineWidth = ghost ? 1.2 : s.bodies > 20 ? 1.3 : 2.4;
@@ -391,6 +404,8 @@ function showControls() {
   $('about').textContent = s.about;
   put('degree', set.degree); put('degree-n', set.degree); put('h-n', set.h);
   $('degree').disabled = $('degree-n').disabled = kicks;
+  $('h').disabled = $('h-n').disabled = !!set.dial;
+  put('dial', set.dial);
   put('h', Math.round(4 * Math.log2(Math.abs(set.h) / s.h)) || 0);
   put('rule', RULES.includes(set.rule) ? set.rule : ''); put('tolerance', set.tol);
   $('h').setAttribute('aria-valuetext', `${set.h} ${clocked() ? 'of the clock' : s.time}`);
@@ -472,18 +487,18 @@ function problem() {
   costDirty = true;
   delete $('cost').dataset.left;
 }
-const setting = () => job(0, { degree: set.degree, rule: set.rule, tol: set.tol, h: set.h });
+const setting = () => job(0, { degree: set.degree, rule: set.rule, tol: set.tol, h: set.h, dial: set.dial });
 function job(method, o) {
-  const j = { method, degree: 0, rule: 'gauss', tol: 0, h: 0, ...o };
+  const j = { method, degree: 0, rule: 'gauss', tol: 0, h: 0, dial: 0, ...o };
   if (j.rule === 'verlet' || j.rule === 'kicks8') j.degree = 1;
   if (j.h < 0) j.h = -j.h;
-  j.id = [method, j.degree, j.rule, j.tol, j.h].join(' ');
+  j.id = [method, j.degree, j.rule, j.tol, j.dial ? 'dial ' + j.dial : j.h].join(' ');
   return j;
 }
 
 /* One run: its end, and with `timed` the least of some times. */
 function* run(p, j, timed, on = p.o.on) {
-  const o = { ...p.o, on, degree: j.method ? 8 : j.degree, rule: j.method ? 'gauss' : j.rule, tol: j.method ? 0 : j.tol }, span = scenes[o.scene].span;
+  const o = { ...p.o, on, degree: j.method ? 8 : j.degree, rule: j.method ? 'gauss' : j.rule, tol: j.method ? 0 : j.tol, dial: j.dial }, span = scenes[o.scene].span;
   let chunk = 8, first = 0, status = open(1, o) || x.race_begin(1, j.method, j.h, span);
   const once = function* () {
     let sum = 0;
@@ -537,6 +552,7 @@ function* campaign(p) {
     p.todo = [];
     if (!p.reference) p.note = 'No reference: even small steps of degree 16 fail here.';
     else {
+      for (const dial of DIALS) if (dial) p.todo.push(job(0, { degree: 8, h: s.h, dial }));
       for (let k = 3; k <= 13; k += 2) p.todo.push(job(3, { h: +`1e-${k}` }));
       for (let k = 2; k <= 9; k++) p.todo.push(job(2, { h: s.h / 2 ** k }));
       for (let k = 2; k <= 10; k++) p.todo.push(job(1, { h: s.h / 2 ** k }));
@@ -545,7 +561,7 @@ function* campaign(p) {
     }
     p.all = p.todo.length;
   }
-  const slow = {}, kind = j => [j.method, j.degree, j.rule, j.tol].join(' ');
+  const slow = {}, kind = j => [j.method, j.degree, j.rule, j.tol, !!j.dial].join(' ');
   for (;;) {
     const mine = wanted.length > 0, j = mine ? wanted.shift() : p.todo.shift();
     if (!j) {
@@ -576,7 +592,7 @@ function measure(budget) {
 const costOf = a => set.by === 'time' ? a.time : a.work;
 const priceOf = a => set.by === 'time' ? duration(a.time) : many(a.work) + ' evaluations';
 const power = v => '10' + sup(Math.round(Math.log10(v))), plainly = v => v >= 1e-4 ? String(+v.toPrecision(4)) : short(v, 3);
-const describe = a => a.method === 0 ? `degree ${a.degree}, ${RULE_SHORT[RULES.indexOf(a.rule)] ?? a.rule}, h = ${plainly(a.h)}${a.tol ? `, iterated to ${power(a.tol)}` : ''}`
+const describe = a => a.method === 0 ? `degree ${a.degree}, ${RULE_SHORT[RULES.indexOf(a.rule)] ?? a.rule}, ${a.dial ? `the dial at ${power(a.dial)}` : `h = ${plainly(a.h)}`}${a.tol ? `, iterated to ${power(a.tol)}` : ''}`
   : a.method === 3 ? `DOP853 with tolerance ${power(a.h)}` : `${METHODS[a.method]} with h = ${plainly(a.h)}`;
 let cheapest = null;
 
@@ -593,7 +609,7 @@ function drawCost() {
   out += `<line x1="${a.L}" x2="${a.W - a.R}" y1="${w}" y2="${w}" stroke="var(--ink)" stroke-dasharray="2 4"/><text class="axis" x="${a.L + 4}" y="${w - 5}">wanted</text>`;
   const groups = new Map();
   for (const q of good) {
-    const key = q.method ? 'm' + q.method : [q.degree, q.rule, q.tol].join(' ');
+    const key = q.method ? 'm' + q.method : [q.degree, q.rule, q.tol, !!q.dial].join(' ');
     if (!groups.has(key)) groups.set(key, []);
     groups.get(key).push(q);
   }
@@ -601,7 +617,7 @@ function drawCost() {
   let labels = '';
   const placed = [];
   for (const list of [...groups.values()].sort((g, k) => k[0].method - g[0].method)) {
-    list.sort((b, c) => c.h - b.h);
+    list.sort((b, c) => c.h - b.h || c.dial - b.dial);
     const colour = `var(--${COLOURS[list[0].method]})`, at = list.map(q => a.inside(costOf(q), Math.max(q.error, 1e-16)));
     if (list.length > 1 && (!list[0].tol || list.some(q => q.id === here))) out += `<path d="M${at.map(q => q[0].toFixed(1) + ' ' + q[1].toFixed(1)).join('L')}" fill="none" stroke="${colour}" stroke-width="1.3" opacity="${list[0].method ? 0.75 : 0.45}"/>`;
     list.forEach((q, i) => {
@@ -609,7 +625,7 @@ function drawCost() {
       if (q.id === here) out += `<circle id="here" cx="${at[i][0]}" cy="${at[i][1]}" r="9" fill="none" stroke="${colour}" stroke-width="2.2" pointer-events="none"/>`;
     });
     if (!list[0].method && at.length) {
-      const end = at[at.length - 1], name = list[0].rule === 'gauss' && !list[0].tol ? list[0].degree : '';
+      const end = at[at.length - 1], name = list[0].dial ? 'dial' : list[0].rule === 'gauss' && !list[0].tol ? list[0].degree : '';
       while (placed.some(o => Math.abs(o[0] - end[0]) < 24 && Math.abs(o[1] - end[1]) < 12)) end[1] -= 12;
       placed.push(end);
       if (name !== '') labels += `<text x="${end[0] + 8}" y="${end[1] + 4}" style="fill:${colour};font-weight:600;stroke:var(--card);stroke-width:3;paint-order:stroke">${name}</text>`;
@@ -638,6 +654,7 @@ function drawCost() {
   if ($('cheapest').dataset.is !== words) { $('cheapest').innerHTML = words; $('cheapest').dataset.is = words; }
   svg.setAttribute('aria-label', `Error at the end of the run against ${byTime ? 'time' : 'evaluations'}; ${good.length} points. ${$('cheapest').textContent.replace(/(Use it)?(Copy the C)?$/, '')}`);
   if (current && !pointed) tell(current, 'As set now: ');
+  $('dial-out').textContent = set.dial && current ? `${many(current.steps)} steps in ${duration(current.time)} a run` : '';
   $('code').textContent = program(cheapest || current || setting());
   $('points').innerHTML = '<thead><tr><th>setting</th><th>error</th><th>time</th><th>evaluations</th><th>steps</th></tr></thead><tbody>' + p.points.filter(q => q.time).sort((b, c) => b.method - c.method || b.degree - c.degree || c.h - b.h).map(q => `<tr><td>${describe(q)}</td><td>${short(q.error)}</td><td>${duration(q.time)}</td><td>${many(q.work)}</td><td>${many(q.steps)}</td></tr>`).join('') + '</tbody>';
 }
@@ -695,12 +712,12 @@ int main(void)
     const gvi_effect effects[] = {
 ${on.map(e => `        ${e.code},`).join('\n') || '        { .kind = GVI_POTENTIAL }'}
     };
-${kicks && j.rule === 'verlet' ? '    const double nodes[] = { 0, 1 }, weights[] = { 0.5, 0.5 };\n' : kicks ? kicks8() : ''}    gvi_desc desc = { .n = ${s.n}, .degree = ${j.degree},${kicks ? ` .rule = { GVI_KICKS, ${j.rule === 'verlet' ? 2 : 18}, nodes, weights },` : rule}${j.tol ? ` .tolerance = ${j.tol.toExponential(0)},` : ''}
+${kicks && j.rule === 'verlet' ? '    const double nodes[] = { 0, 1 }, weights[] = { 0.5, 0.5 };\n' : kicks ? kicks8() : ''}    gvi_desc desc = { .n = ${s.n}, .degree = ${j.degree},${kicks ? ` .rule = { GVI_KICKS, ${j.rule === 'verlet' ? 2 : 18}, nodes, weights },` : rule}${j.tol ? ` .tolerance = ${j.tol.toExponential(0)},` : ''}${j.dial ? ` .resolution = ${j.dial.toExponential(0)},` : ''}
                       .effects = effects, .effect_count = ${on.length} };
     gvi_stepper st;
 ${s.make ? `    ${s.make}\n` : ''}${s.mass ? `    desc.mass = ${s.mass.replace(/^\((\(.*)\)$/, '$1')};\n${held() ? '    desc.mass.velocity = NULL;                  // with constraints gvi.h solves for it\n' : ''}` : ''}    double *memory = malloc(gvi_size(&desc));
     if (gvi_init(&st, &desc, memory, gvi_size(&desc)) == GVI_OK) gvi_start(&st, 0, q, v);
-    ${tau ? `while (st.status == GVI_OK && st.t < ${C(s.span)}) gvi_step(&st, ${C(j.h)});      // h in tau` : `for (int k = 0; k < ${steps} && st.status == GVI_OK; ++k) gvi_step(&st, ${C(s.span)}/${steps});`}
+    ${j.dial ? `while (st.status == GVI_OK && st.t < ${C(s.span)}) gvi_advance(&st, ${C(s.span)});` : tau ? `while (st.status == GVI_OK && st.t < ${C(s.span)}) gvi_step(&st, ${C(j.h)});      // h in tau` : `for (int k = 0; k < ${steps} && st.status == GVI_OK; ++k) gvi_step(&st, ${C(s.span)}/${steps});`}
     printf("%s at t = %.17g\\n", gvi_status_text(st.status), st.t);
     for (int i = 0; i < ${s.n}; ++i) printf("q[%d] = %.17g\\n", i, st.q[i]);
     free(memory);
@@ -721,6 +738,7 @@ function kicks8() {
 function change(o, keep = true) { Object.assign(set, o); pointed = false; apply(keep && live.t !== undefined); }
 const list = (id, values, names) => { $(id).innerHTML = values.map((v, i) => `<option value="${v}">${names[i]}</option>`).join(''); };
 list('rule', RULES, RULE_NAMES);
+list('dial', DIALS, DIALS.map(d => d ? `the dial: accurate to 10${sup(Math.log10(d))}` : 'all of length h'));
 list('tolerance', TOLERANCES, TOLERANCES.map(t => t ? `a change below 10${sup(Math.log10(t))}` : 'rounding: symplectic to the last bit'));
 $('scenes').innerHTML = scenes.map((s, i) => `<button type="button" role="radio" data-scene="${s.name}" aria-checked="false">${html(s.title)}</button>`).join('');
 const choose = i => { defaults(i); pointed = false; live.fast = false; $('fast').setAttribute('aria-pressed', false); $('encounter').textContent = ''; live.playing = !calm.matches; turn.yaw = 0.6; turn.pitch = 0.5; apply(false); };
@@ -740,6 +758,7 @@ $('h').oninput = e => { const h = ladder(+e.target.value); $('h-n').value = h; c
 $('h-n').onchange = e => change({ h: e.target.value === '' ? NaN : +e.target.value });
 $('rule').onchange = e => change({ rule: e.target.value, degree: /verlet|kicks/.test(e.target.value) ? 1 : set.degree === 1 ? scene().degree : set.degree });
 $('tolerance').onchange = e => change({ tol: +e.target.value });
+$('dial').onchange = e => change({ dial: +e.target.value, h: +e.target.value ? scene().h : set.h });
 $('play').onclick = () => live.playing ? pause() : play();
 $('restart').onclick = () => { const p = live.playing; apply(false); if (p) play(); };
 $('reverse').onclick = () => {
@@ -749,7 +768,7 @@ $('reverse').onclick = () => {
   $('reverse').setAttribute('aria-pressed', live.dir < 0);
   play();
 };
-$('step').onclick = () => { pause(); if (live.ok && !(live.dir < 0 && live.k === 0)) { stepOnce(); live.target = live.t; sampleEnergy(); if (live.dir < 0 && live.k === 0) arrive(); dirty = plotDirty = true; showNumbers(); } };
+$('step').onclick = () => { pause(); if (live.ok && !back()) { stepOnce(); live.target = live.t; sampleEnergy(); if (back()) arrive(); dirty = plotDirty = true; showNumbers(); } };
 $('speed').oninput = e => { live.speed = +e.target.value; const v = 2 ** live.speed; $('speed-out').textContent = (v < 1 ? `1/${1 / v}` : v) + '×'; };
 $('fast').onclick = () => { live.fast = !live.fast; if (!live.fast) live.target = live.t; $('fast').setAttribute('aria-pressed', live.fast); if (live.fast) play(); };
 $('ghost').onclick = () => { beside.on = !beside.on; $('ghost').setAttribute('aria-pressed', beside.on); apply(true); };
@@ -761,7 +780,7 @@ $('break').onclick = () => {
   if (s.clock < 0) defaults(0);
   const k = scene();
   const o = k.name === 'kepler' ? { on: 1, p: [0.97, set.p[1]], h: 0.125, degree: 8 } : { on: set.on & ~(1 << k.clock), h: k.name === 'pythagoras' ? 0.05 : 0.4, degree: 8, p: k.name === 'eight' ? [-0.1] : set.p };
-  change({ ...o, rule: 'gauss', tol: 0 }, false);
+  change({ ...o, rule: 'gauss', tol: 0, dial: 0 }, false);
   play();
   $('encounter').textContent = `A fixed step of ${set.h} is far too long where the bodies meet, and nothing adapts it: watch the energy at each encounter. Then turn the clock on.`;
 };
@@ -772,7 +791,7 @@ $('by-time').parentNode.onkeydown = e => { if (/^Arrow/.test(e.key)) { e.prevent
 const pointAt = e => { const m = e.target.closest?.('.point'); return m && problemNow.points.find(a => a.id === m.dataset.id); };
 $('cost').onmousemove = e => { const q = pointAt(e); if (q) { pointed = true; tell(q); } };
 $('cost').onmouseleave = () => { pointed = false; costDirty = true; };
-const adopt = q => change({ degree: q.degree, rule: q.rule, tol: q.tol, h: q.h });
+const adopt = q => change({ degree: q.degree, rule: q.rule, tol: q.tol, h: q.h, dial: q.dial });
 $('cost').onclick = e => { const q = pointAt(e); if (q) { tell(q); if (!q.method) adopt(q); } };
 $('cheapest').onclick = e => { if (e.target.id === 'copy-too') copy($('code').textContent, e.target); if (e.target.id === 'use' && cheapest) adopt(cheapest); };
 async function copy(what, button) {

@@ -53,6 +53,7 @@ typedef struct world {
     gvi_stepper  st;
     int          open, pinned, asked[2];             /* degree and rule as asked for       */
     const char  *call;                               /* that world_open made last          */
+    double       dial, from;                         /* desc.resolution; where world_open began */
     double       t, q[SCENE_MOST], v[SCENE_MOST], p[SCENE_MOST], before[SCENE_MOST];
     double       total[SCENE_EFFECTS], steps, iterations, evaluations;
     rival        rival;
@@ -63,7 +64,7 @@ typedef struct world {
 
 static world worlds[WORLDS];
 static double out[3*SCENE_BODIES + 2*SCENE_MOST];
-static double values[SCENE_PARAMETERS];
+static double values[SCENE_PARAMETERS + 1];          /* the last one: the dial, 0 for none */
 static double own_nodes[18], own_weights[18];
 
 static const scene *scene_at(int i)
@@ -213,8 +214,10 @@ int EXPORT(world_open)(int which, int index, unsigned on, int degree, int rule, 
     w->steps = w->iterations = w->evaluations = 0;
     memset(w->total, 0, sizeof w->total);
     w->call = "gvi_switch";
+    const double dial = values[SCENE_PARAMETERS];
     if (keep && w->open && w->asked[0] == degree && w->asked[1] == rule && !(w->desc.tolerance < tolerance)
-        && !(w->desc.tolerance > tolerance)) {
+        && !(w->desc.tolerance > tolerance) && !(w->dial < dial) && !(w->dial > dial)) {
+        w->from = w->st.t;
         const int status = world_switch(w, on ^ w->on);
         if (status <= 0) return status;
     }
@@ -224,6 +227,7 @@ int EXPORT(world_open)(int which, int index, unsigned on, int degree, int rule, 
     w->on = on;
     w->asked[0] = degree;
     w->asked[1] = rule;
+    w->dial = dial;
     scene_ready(a, &w->setup, values);
     if (!keep) {                                     /* to be seen even if it does not start */
         w->t = 0;
@@ -231,7 +235,8 @@ int EXPORT(world_open)(int which, int index, unsigned on, int degree, int rule, 
         memcpy(w->v, w->setup.v, sizeof w->v);
     }
     if (rule < 0 || rule >= RULES || degree < 1) return GVI_E_ARGUMENT;
-    w->desc = (gvi_desc){ .n = a->n, .mass = w->setup.mass, .effects = w->effects, .tolerance = tolerance };
+    w->desc = (gvi_desc){ .n = a->n, .mass = w->setup.mass, .effects = w->effects, .tolerance = tolerance,
+                          .resolution = dial };
     for (int i = 0; i < w->setup.rows; ++i) {
         if (!(on >> i & 1)) continue;
         reads |= w->setup.row[i].effect.kind;
@@ -251,9 +256,16 @@ int EXPORT(world_open)(int which, int index, unsigned on, int degree, int rule, 
     w->open = status == GVI_OK;
     if (w->open) {
         world_remember(w);
+        w->from = w->t;
         memcpy(w->before, w->q, sizeof w->before);
     }
     return status;
+}
+
+/* A step of h; with the dial as long as it allows, back to where world_open began at most. */
+static int one_step(world *w, double h, double end)
+{
+    return w->dial > 0 ? gvi_advance(&w->st, end) : gvi_step(&w->st, h);
 }
 
 /* Steps, counted for what they are: queries leave no mark.                                */
@@ -262,7 +274,7 @@ static int world_step(world *w, double h)
     gvi_counters *c = &w->st.counters;
     memset(c, 0, sizeof *c);
     memcpy(w->before, w->st.q, sizeof(double)*(size_t)w->st.n);
-    const int status = gvi_step(&w->st, h);
+    const int status = one_step(w, h, h < 0 ? w->from : w->st.t + w->scene->span);
     double most = 0;
     for (int e = 0; e < w->desc.effect_count; ++e) {
         const double points = (double)c->effect[e];
@@ -401,7 +413,7 @@ double *EXPORT(beside_place)(int which) { return world_picture(&worlds[(unsigned
 /* -------------------------------------------------------------------- races */
 
 /* From the start to the end of the scene's span: method 0 is gvi.h with steps of at most
-   `parameter`, the others rivals.h with steps of it, DOP853 with it as tolerance.  Follows
+   `parameter`, or by the dial, the others rivals.h with steps of it, DOP853 with it as tolerance.  Follows
    world_open without keep.                                                                */
 int EXPORT(race_begin)(int which, int method, double parameter, double span)
 {
@@ -417,6 +429,7 @@ int EXPORT(race_begin)(int which, int method, double parameter, double span)
     w->count = steps;
     w->step = span/steps;
     if (method == 0) {
+        if (w->dial > 0) w->count = 0;
         for (int e = 0; e < w->desc.effect_count; ++e)
             if (w->effects[e].kind == GVI_CLOCK) w->count = 0, w->step = parameter;
         return GVI_OK;
@@ -438,7 +451,7 @@ int EXPORT(race_steps)(int which, int count)
         if (w->method) {
             if (rival_step(&w->rival, w->step, w->end)) return GVI_E_CONVERGENCE;
         } else {
-            const int status = gvi_step(&w->st, w->step);
+            const int status = one_step(w, w->step, w->end);
             if (status != GVI_OK) return status;
         }
         w->done += 1;

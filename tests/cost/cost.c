@@ -116,12 +116,10 @@ static int surpassed(const study *y, const sample *s)
 static int chooses(const job *j) { return j->rival ? j->rival->adaptive : j->setting->dial; }
 
 /* Have so many finer steps in a row brought nothing that none will?  The tolerance is the floor then,
-   or rounding; steps too long for the motion bring nothing either, and more of them in a row.  What the
-   table of the dial shows of the rest ends at 1e-10.                                          */
-static int given_up(const options *o, const job *j, double best, int vain)
+   or rounding; steps too long for the motion bring nothing either, and more of them in a row.                */
+static int given_up(const job *j, double best, int vain)
 {
     if (j->setting && j->setting->dial) return 0;
-    if (o->dial && best < 2e-11) return 1;
     if (best < 1e-9) return vain >= 4;
     return j->setting && j->setting->tolerance > 0 && vain >= (best < 1e-3 ? 4 : 12);
 }
@@ -144,9 +142,10 @@ static void run_curve(const study *y, const options *o, const sweep *w, curve *c
         if (!(s.error < 1) || s.ms > w->limit) continue;
         if (j->rival || dial || !surpassed(y, &s)) measure(j, w->runs, &s);
         c->samples[c->count++] = s;
+        if (o->dial && !dial && c->count > 1 && fmax(s.error, c->samples[c->count-2].error) < 1e-10) return;
         vain = s.error < 0.7*best ? 0 : vain + 1;
         if (s.error < best) best = s.error;
-        if (given_up(o, j, best, vain)) return;
+        if (given_up(j, best, vain)) return;
     }
 }
 
@@ -275,7 +274,7 @@ static void study_gvi(study *y, const options *o, double length)
         const gvi_setting *g = settings + i;
         const double work = g->rule == GVI_KICKS ? g->points : 6*g->degree;
         sweep w = steps_from(g->power > 0 ? 5*y->p->revolutions : y->p->evaluations*length/work,
-                             y->p->limit*length, o);
+                             y->p->limit*length*(o->dial ? 10 : 1), o);
         if (g->dial) {
             w.first = 1e-4;
             w.factor = o->quick ? 0.1 : sqrt(0.1);
@@ -370,7 +369,7 @@ static void time_in_turn(study *y, const options *o)
     static entrant e[ENTRANTS];
     int count = 0;
     for (int k = 0; k < ERRORS; ++k) count = enter_all(y, wanted[k], o->dial, count, e);
-    for (int round = 0; round < (o->quick || o->dial ? 15 : 60); ++round)
+    for (int round = 0; round < (o->quick || o->dial ? 10 : 60); ++round)
         for (int i = 0; i < count; ++i) {
             double total = 0;
             for (int k = 0; k < 2 || (total < 1 && k < 40); ++k) {
@@ -382,12 +381,15 @@ static void time_in_turn(study *y, const options *o)
     for (int i = 0; i < count; ++i) e[i].s->ms = e[i].ms;
 }
 
+/* What the dial is compared with: the classics that have a step control                        */
+static int chooses_steps(const baseline *b) { return b->adaptive && strcmp(b->family, "GBS extrapolation"); }
+
 static void study_problem(study *y, const options *o)
 {
     settings_for(y->p, o->dial);
     if (o->gvi) study_gvi(y, o, 1);
     for (int i = 0; o->peers && i < baseline_count; ++i)
-        if (fits(baselines + i, y->p) && (baselines[i].adaptive || !o->dial)) study_rival(y, o, baselines + i, 1);
+        if (fits(baselines + i, y->p) && (!o->dial || chooses_steps(baselines + i))) study_rival(y, o, baselines + i, 1);
     time_in_turn(y, o);
     end_study(y);
 }
@@ -720,7 +722,7 @@ int main(int argc, char **argv)
     int count = 0;
     for (int i = 0; i < problem_count; ++i) {
         if (o.problem && strcmp(o.problem, problems[i].key)) continue;
-        if (o.dial && !o.problem && strchr(problems[i].key, 'o')) continue;          // once is enough
+        if (o.dial && !o.problem && !in_dial_study(problems[i].key)) continue;
         study *y = studies + count++;
         y->p = problems + i;
         study_problem(y, &o);

@@ -1,7 +1,7 @@
 /* problems.h - the problems on which `make cost` compares integrators
 
-   Twelve mechanical systems, one of them over two lengths, three also with callbacks as a user
-   writes them (ordinary.h).  Each is there in three forms with
+   Seventeen mechanical systems, one of them over two lengths, three also with callbacks as a user
+   writes them (ordinary.h); the last five want steps that change (encounters.h).  Each is there in three forms with
    the same formulas, so that no method gets a better right-hand side than another:
 
      acceleration   q'' = a(q), one point a call             the explicit baselines

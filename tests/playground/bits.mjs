@@ -12,7 +12,11 @@ const bits = v => { one.setFloat64(0, v === v ? v : NaN); return v === v ? one.g
 
 function run(scene, on, degree, rule, tolerance, method, parameter) {
   for (let i = 0; i < 3; i++) numbers[x.parameters()/8 + i] = x.scene_number(scene, 33, i);
+  const dial = method === -2;
+  numbers[x.parameters()/8 + 3] = dial ? parameter : 0;
   let status = x.world_open(1, scene, on, degree, rule, tolerance, 0);
+  numbers[x.parameters()/8 + 3] = 0;
+  if (dial) method = 0;
   if (!status) status = x.race_begin(1, method, parameter, x.scene_number(scene, 3, 0)/4);
   while (!status) status = x.race_steps(1, 1000);
   const out = [status];
@@ -49,11 +53,11 @@ const kinds = {};
 if (imports.length) { console.error('the program imports', imports); failed++; }
 for (const line of execFileSync(native, { encoding: 'utf8', maxBuffer: 1 << 26 }).trim().split('\n')) {
   const [input, output] = line.split(': '), given = input.split(' ').map(Number);
-  const got = (given[5] < 0 ? broken(given[0], given[1], given[2], given[3], given[6]) : run(...given)).join(' ');
-  const status = given[5] < 0 ? 'broken' : output.split(' ')[0];
+  const got = (given[5] === -1 ? broken(given[0], given[1], given[2], given[3], given[6]) : run(...given)).join(' ');
+  const status = given[5] === -1 ? 'broken' : output.split(' ')[0];
   kinds[status] = (kinds[status] || 0) + 1;
   compared += output.split(' ').length - 1;
-  if (given[5] < 0) {                                      // held, broken, refused with the state as before
+  if (given[5] === -1) {                                    // held, broken, refused with the state as before
     const words = output.split(' '), half = words.length/3, again = given[0] === quaternion ? '0' : '-15';
     if (words[0] !== '0' || words[half] !== '0' || words[2*half] !== again) { failed++; console.error(`${input}\n  statuses`, words[0], words[half], words[2*half]); }
   }

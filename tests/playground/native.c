@@ -2,7 +2,8 @@
    end, for bits.mjs to repeat in WebAssembly.  A line: scene on degree rule tolerance method
    parameter, then status, evaluations, steps, q, p or v of a rival, energy and |g|.
    method -1: `parameter` is the step; the constraint that is last in the list breaks after 20, and is
-   mounted again after 20 more, which is refused (but for the quaternion: its length stays).  */
+   mounted again after 20 more, which is refused (but for the quaternion: its length stays).
+   method -2: gvi.h by the dial, which `parameter` is.                                        */
 #include "../../docs/playground/wasm.c"
 #include <inttypes.h>
 #include <stdio.h>
@@ -18,8 +19,11 @@ static void run(int scene, unsigned on, int degree, int rule, double tolerance, 
 {
     const double span = scene_number(scene, 3, 0)/4;
     for (int i = 0; i < SCENE_PARAMETERS; ++i) parameters()[i] = scene_number(scene, 33, i);
+    const int dial = method == -2;
+    parameters()[SCENE_PARAMETERS] = dial ? parameter : 0;
     int status = world_open(1, scene, on, degree, rule, tolerance, 0);
-    if (!status) status = race_begin(1, method, parameter, span);
+    parameters()[SCENE_PARAMETERS] = 0;
+    if (!status) status = race_begin(1, dial ? 0 : method, parameter, span);
     while (!status) status = race_steps(1, 1000);
     printf("%d %u %d %d %.17g %d %.17g: %d", scene, on, degree, rule, tolerance, method, parameter, status);
     if (status == 1) {
@@ -28,9 +32,9 @@ static void run(int scene, unsigned on, int degree, int rule, double tolerance, 
         bits(race_number(1, 0));
         const double *q = race_end(1);
         for (int i = 0; i < n; ++i) bits(q[i]);
-        for (int i = 0; i < n; ++i) bits(method ? world_number(1, 43, n + i) : world_number(1, 31, i));
-        bits(method ? world_number(1, 42, 0) : world_number(1, 20, 0));
-        bits(method ? world_number(1, 44, 0) : world_number(1, 22, 0));
+        for (int i = 0; i < n; ++i) bits(method > 0 ? world_number(1, 43, n + i) : world_number(1, 31, i));
+        bits(method > 0 ? world_number(1, 42, 0) : world_number(1, 20, 0));
+        bits(method > 0 ? world_number(1, 44, 0) : world_number(1, 22, 0));
     }
     printf("\n");
 }
@@ -75,6 +79,7 @@ int main(void)
             run(s, on, 1, RULE_VERLET, 0, 0, h/16);
             run(s, on, 1, RULE_KICKS8, 0, 0, h/2);
             run(s, on, 8, RULE_GAUSS, 0, 0, 16*h);              /* too large: Newton, or a failure */
+            for (int j = 6; j <= 12 && scene_number(s, 0, 0) < 20; j += 6) run(s, on, 8, RULE_GAUSS, 0, -2, j > 6 ? 1e-12 : 1e-6);
             run(s, on, 8, RULE_GAUSS, 0, RIVAL_VERLET, h/16);
             run(s, on, 8, RULE_GAUSS, 0, RIVAL_RK4, h/16);
             run(s, on, 8, RULE_GAUSS, 0, RIVAL_DOP853, 1e-8);
@@ -92,5 +97,6 @@ int main(void)
     run(99, 1, 8, RULE_GAUSS, 0, 0, 0.1);
     run(0, 1, 8, 99, 0, 0, 0.1);
     run(0, 1, 8, RULE_GAUSS, 2, 0, 0.1);
+    run(0, 1, 1, RULE_VERLET, 0, -2, 1e-6);
     return 0;
 }
