@@ -97,7 +97,9 @@
               overlap unless it is said that they may.
    units      None: time, lengths and masses are the caller's, coordinate by
               coordinate; no tolerance or test of the library depends on them.
-   rounding   Round to nearest, subnormals kept; -ffast-math is refused.
+              What is below 1e-307 (float: 1e-37) counts as 0.
+   rounding   Round to nearest, subnormals kept; -ffast-math and its parts are refused,
+              or without effect.
               q, p and t carry compensation terms, so 1e9 steps of t + h are
               as exact as one.  Same bits on every IEEE machine but x87 when compiled
               with -ffp-contract=off, as far as callbacks do, and products stay
@@ -889,8 +891,12 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI_IMPLEMENTED
 
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) \
-    || (defined(__ASSOCIATIVE_MATH__) && __ASSOCIATIVE_MATH__)
+    || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__)
 #error "gvi.h relies on IEEE arithmetic: compile it without -ffast-math and its parts"
+#endif
+#if defined(__clang__) && __clang_major__ >= 12      // which does not say of the parts that are on
+#pragma float_control(push)
+#pragma clang fp reassociate(off)
 #endif
 
 /* --------------------------------------------------------------- SUPPORT */
@@ -6091,6 +6097,9 @@ GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st)
     }
 }
 
+#if defined(__clang__) && __clang_major__ >= 12
+#pragma float_control(pop)
+#endif
 #endif /* GVI_IMPLEMENTATION */
 
 #ifdef __GNUC__
