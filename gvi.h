@@ -528,7 +528,7 @@ typedef enum gvi_mass_kind {
 
 /* The kinetic energy.  M need not be definite: no leading minor may be 0 (dense, M(q)), no m_i
    (diagonal).  Where M(q) is singular, as at the pole of Euler's angles (gimbal lock), a step that
-   starts there ends in GVI_E_SINGULAR, one that comes there in GVI_E_CONVERGENCE; one that would
+   fails there ends in GVI_E_SINGULAR, one that comes there in GVI_E_CONVERGENCE; one that would
    leap over it may be wrong with GVI_OK.
    matrix is read by gvi_init only.                                                            */
 typedef struct gvi_mass {
