@@ -42,6 +42,7 @@ typedef struct event {
     gvi_real from, to, at, before; /* the step asked about; where it has been searched, g there */
     gvi_real sure, g_sure;         /* up to where with states, g there              */
     int      asked, found, next;   /* ever; a zero, ever; interval of this step     */
+    unsigned long long step;       /* its number: from a zero at its start it may be made again */
 } event;
 
 #define EVENT_PILE_UP (-1000)      /* no gvi_status                                 */
@@ -126,7 +127,8 @@ static inline int event_next(event *e, gvi_stepper *st)
     const int intervals = st->s < 3 ? st->s + 1 : 4, states = event_by_states(st);
     gvi_real g, x;
     gvi_status status;
-    if (!e->asked || !event_same(e->from, st->t0) || !event_same(e->to, st->t)) {       // a new step
+    if (!e->asked || !event_same(e->from, st->t0) || !event_same(e->to, st->t)
+        || e->step != st->counters.steps) {                                             // a new step
         e->at = 0;
         if ((status = event_value(e, st, 0, 1, &g))) return status;
         if (e->asked ? e->found && event_same(e->t, st->t0) : event_same(g, 0)) {       // from a zero
@@ -139,7 +141,7 @@ static inline int event_next(event *e, gvi_stepper *st)
             if (e->asked && (g < 0) != e->rising
                 && event_size(4*half - g - 3*g0) <= event_size(2*g - 4*half + 2*g0)) return EVENT_PILE_UP;
         }
-        e->from = st->t0, e->to = st->t;
+        e->from = st->t0, e->to = st->t, e->step = st->counters.steps;
         e->sure = e->at, e->before = e->g_sure = g;
         e->asked = 1, e->next = 0;
     }
