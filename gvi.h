@@ -111,7 +111,9 @@
               overlap unless it is said that they may.
    units      None: time, lengths and masses are the caller's, coordinate by
               coordinate; no tolerance or test of the library depends on them.
-   rounding   Round to nearest, subnormals kept; -ffast-math is refused.
+              What is below 1e-307 (float: 1e-37) counts as 0.
+   rounding   Round to nearest, subnormals kept; -ffast-math and its parts are refused,
+              or without effect.
               q, p and t carry compensation terms, so 1e9 steps of t + h are
               as exact as one.  Compiled with -ffp-contract=off, the same bits on
               every IEEE machine but x87, if the callbacks give the same bits and
@@ -639,7 +641,7 @@ typedef enum gvi_mass_kind {
 
 /* The kinetic energy.  M need not be definite, but no leading minor may be 0 (dense, M(q)), nor any
    m_i (diagonal).  M(q) may be singular somewhere, as at the pole of Euler's angles (gimbal lock).
-   A step that starts there ends in GVI_E_SINGULAR, one with a point there in GVI_E_CONVERGENCE; a
+   A step that fails there ends in GVI_E_SINGULAR, one with a point there in GVI_E_CONVERGENCE; a
    step that passes over it without a point there may be wrong, and says GVI_OK.  matrix is read
    by gvi_init only.                                                                           */
 typedef struct gvi_mass {
@@ -1025,8 +1027,12 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI_IMPLEMENTED
 
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) \
-    || (defined(__ASSOCIATIVE_MATH__) && __ASSOCIATIVE_MATH__)
+    || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__)
 #error "gvi.h relies on IEEE arithmetic: compile it without -ffast-math and its parts"
+#endif
+#if defined(__clang__) && __clang_major__ >= 12      // which does not say of the parts that are on
+#pragma float_control(push)
+#pragma clang fp reassociate(off)
 #endif
 
 /* --------------------------------------------------------------- SUPPORT */
@@ -6905,6 +6911,9 @@ GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st)
     }
 }
 
+#if defined(__clang__) && __clang_major__ >= 12
+#pragma float_control(pop)
+#endif
 #endif /* GVI_IMPLEMENTATION */
 
 #ifdef __GNUC__

@@ -428,4 +428,34 @@ TEST(output_at_given_times)
     }
 }
 
+/* A ball on a level floor: each impact when the parabola says so; then, if it loses speed, the end of that, above the floor */
+TEST(impacts_pile_up)
+{
+    static const real restitutions[] = { 1, R(0.9), R(0.5), R(0.01), 0 }, hs[] = { R(0.02), R(0.5) };
+    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = weight } };
+    const gvi_desc desc = { .n = 1, .degree = 4, .effects = scene, .effect_count = 1 };
+    for (int i = 0; i < COUNT(restitutions)*COUNT(hs); ++i) {
+        const real k = restitutions[i/2], h = hs[i % 2], floor = 0;
+        gvi_stepper st;
+        event e = of(level, (void *)&floor);
+        real speed = 1, when = 1;                                         /* from 1/2, at rest */
+        int found = 0;
+        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+        assert_ok(gvi_start(&st, 0, (real[]){ R(0.5) }, (real[]){ 0 }));
+        while (found >= 0 && st.t < 40) {
+            assert_ok(gvi_step(&st, h));
+            found = event_next(&e, &st);
+            if (found <= 0) continue;
+            assert_false(e.rising);
+            assert_close(e.t, when, 1000*EPS*when);
+            speed *= k;
+            when += 2*speed;
+            p[0] *= -k;
+            assert_ok(gvi_start_momentum(&st, e.t, q, p));
+        }
+        assert_int_equal(found, k < 1 ? EVENT_PILE_UP : 0);
+        if (k < 1) assert_true(2*speed <= h/4096);
+    }
+}
+
 RUN_TESTS(NULL, NULL)

@@ -121,4 +121,19 @@ for first in gcc clang cc; do have $first && break; done
 refused 'GVI_REAL must be' -DGVI_REAL=int
 refused 'fast-math' -O2 -ffast-math
 
+# the parts of fast-math, each alone: refused, or the same bits as without
+unsafe=$(mktemp -d)
+for first in gcc clang; do
+    have $first || continue
+    bits() { $first -std=c99 -O2 -ffp-contract=off -I. "$@" tests/compile/unsafe.c -o "$unsafe/run" -lm 2>/dev/null && "$unsafe/run"; }
+    plain=$(bits)
+    for flags in -funsafe-math-optimizations -freciprocal-math '-fassociative-math -fno-signed-zeros -fno-trapping-math' \
+                 -fno-signed-zeros -ffinite-math-only; do
+        out=$(bits $flags) || { refused 'fast-math' $flags; continue; }
+        [ "$out" = "$plain" ] || fail "$first $flags changes bits"
+        count=$((count + 1))
+    done
+done
+rm -r "$unsafe"
+
 echo "headers: $count passed, 0 failed"
