@@ -513,8 +513,8 @@ typedef int gvi_points_fn(const gvi_points *x, void *user);
      GVI_UNROLL for (int i = 1; i < 6; ++i)
          GVI_UNROLL for (int j = 0; j < i; ++j) {
 
-   That pays for at most 64 coordinates and 90 pairs with gcc, about 20 of either with clang (cost of
-   compiling, registers); beyond, write rows.  The bits are those of a loop by hand.         */
+   That pays for at most 64 coordinates and 90 pairs with gcc, about 20 of either with clang; beyond,
+   write rows.  The bits are those of a loop by hand.                                         */
 #define GVI_POINTS(name, n, ...) GVI__POINTS(name, n, GVI__USES(__VA_ARGS__, , , , ))
 #define GVI__USES(a, b, c, d, ...)                                                              \
     (GVI__USES_##a | GVI__USES_##b | GVI__USES_##c | GVI__USES_##d)
@@ -4001,39 +4001,42 @@ static void gvi__add_scaled(int n, gvi_real a, const gvi_real *x, const gvi_real
     for (; i < n; ++i) z[i] = y[i] + a*x[i];
 }
 
-/* dp += b F, F := 0, then the drift dq += a (v + M^-1 dp), Q = q + dq                        */
-static void gvi__drift(gvi_stepper *st, const gvi__origin *from, const gvi_real *GVI__RESTRICT v,
-                       gvi_real b, gvi_real a)
+/* dp += b F, then the drift dq += a (v + M^-1 dp), Q = q + dq; F := 0 for the next force.  First
+   in a step, dp and dq are the low words of the state, and F is `first`.                      */
+GVI__BODY void gvi__drift(gvi_stepper *st, const gvi__origin *from, const gvi_real *GVI__RESTRICT v,
+                          const gvi_real *first, gvi_real b, gvi_real a)
 {
     struct gvi__private *x = &st->x;
     const gvi_real *GVI__RESTRICT q = from->q, *GVI__RESTRICT m = x->mass.inverse;
     gvi_real *GVI__RESTRICT F = x->work.F, *GVI__RESTRICT Q = x->work.Q;
     gvi_real *GVI__RESTRICT dp = x->step.p, *GVI__RESTRICT dq = x->step.q, *z = x->result;
+    const gvi_real *p0 = first ? from->p_low : dp, *q0 = first ? from->q_low : dq;
+    const gvi_real *f = first ? first : F;
     int i = 0;
     const int n = st->n;
     if (x->desc.mass.kind == GVI_MASS_DENSE) {
-        for (i = 0; i < n; ++i) z[i] = dp[i] += b*F[i];
+        for (i = 0; i < n; ++i) z[i] = dp[i] = p0[i] + b*f[i];
         gvi__over_mass(st, z, 1, 1);
         for (i = 0; i < n; ++i) {
             F[i] = 0;
-            dq[i] += a*(v[i] + z[i]);
+            dq[i] = q0[i] + a*(v[i] + z[i]);
             Q[i] = q[i] + dq[i];
         }
         return;
     }
     const gvi__lane zero = { 0 };
     for (; GVI__LANES > 1 && n >= 8 && i + GVI__LANES <= n; i += GVI__LANES) {
-        const gvi__lane p = GVI__LOAD(dp + i) + b*GVI__LOAD(F + i);
-        const gvi__lane d = GVI__LOAD(dq + i) + a*(GVI__LOAD(v + i) + p*GVI__LOAD(m + i));
+        const gvi__lane p = GVI__LOAD(p0 + i) + b*GVI__LOAD(f + i);
+        const gvi__lane d = GVI__LOAD(q0 + i) + a*(GVI__LOAD(v + i) + p*GVI__LOAD(m + i));
         GVI__STORE(dp + i) = p;
         GVI__STORE(F + i) = zero;
         GVI__STORE(dq + i) = d;
         GVI__STORE(Q + i) = GVI__LOAD(q + i) + d;
     }
     for (; i < n; ++i) {
-        dp[i] += b*F[i];
+        dp[i] = p0[i] + b*f[i];
         F[i] = 0;
-        dq[i] += a*(v[i] + dp[i]*m[i]);
+        dq[i] = q0[i] + a*(v[i] + dp[i]*m[i]);
         Q[i] = q[i] + dq[i];
     }
 }
@@ -4053,12 +4056,10 @@ static gvi_status gvi__kicks(gvi_stepper *st, const gvi__origin *from, gvi_real 
         gvi__copy((size_t)n, from->p, x->free.v);
         gvi__over_mass(st, x->free.v, 1, 1);
     }
-    gvi__copy((size_t)n, from->q_low, x->step.q);
-    if (known) gvi__add_scaled(n, hb[0], force, from->p_low, x->step.p);
-    else gvi__copy((size_t)n, from->p_low, x->step.p);
-    gvi__zero((size_t)n, x->work.F);
+    if (known) b = hb[0];
     for (int j = known; j < r; ++j) {
-        gvi__drift(st, from, v, b, x->sized.drift[j]);
+        if (j == known) gvi__drift(st, from, v, known ? force : x->zeros, b, x->sized.drift[j]);
+        else gvi__drift(st, from, v, NULL, b, x->sized.drift[j]);
         if (j == held) {
             const gvi_status status = gvi__constrained_drift(st, from, h);
             if (status != GVI_OK) return status;
@@ -4074,7 +4075,7 @@ static gvi_status gvi__kicks(gvi_stepper *st, const gvi__origin *from, gvi_real 
     gvi_real *last = x->result + n;
     if (gvi__nonzero(x->sized.drift[r])) {
         gvi__copy((size_t)n, x->work.F, last);
-        gvi__drift(st, from, v, b, x->sized.drift[r]);
+        gvi__drift(st, from, v, NULL, b, x->sized.drift[r]);
         gvi__copy((size_t)n, last, x->work.F);
     } else gvi__add_scaled(n, b, x->work.F, x->step.p, x->step.p);
     return GVI_OK;

@@ -18,7 +18,7 @@ static int stiff_hessian(double t, const double *q, const double *v, double *fq,
 // g(q) = |q|: value and gradient
 GVI_POINTS(distance, 2, f, value)(const gvi_points *x, void *user)
 {
-    double d = sqrt(x->q[0]*x->q[0] + x->q[1]*x->q[1]);
+    double d = GVI_SQRT(x->q[0]*x->q[0] + x->q[1]*x->q[1]);
     x->value[0] += d;
     x->f[0] += x->q[0]/d;
     x->f[1] += x->q[1]/d;
@@ -32,6 +32,48 @@ GVI_POINTS(attraction, 2, f, value)(const gvi_points *x, void *user)
     x->f[0] += w*X;
     x->f[1] += w*Y;
     return (void)user, 0;
+}
+
+static const double mass[6] = { 1, 2, 3, 4, 5, 6 };
+
+GVI_POINTS(gravity, 18, f)(const gvi_points *x, void *user)
+{
+    GVI_UNROLL for (int i = 1; i < 6; ++i)
+        GVI_UNROLL for (int j = 0; j < i; ++j) {
+            const double *a = x->q + 3*i, *b = x->q + 3*j, u = b[0] - a[0], v = b[1] - a[1], w = b[2] - a[2];
+            const double r2 = u*u + v*v + w*w, s = mass[i]*mass[j]/(r2*GVI_SQRT(r2));
+            double *f = x->f + 3*i, *g = x->f + 3*j;
+            f[0] += s*u;  f[1] += s*v;  f[2] += s*w;
+            g[0] -= s*u;  g[1] -= s*v;  g[2] -= s*w;
+        }
+    return (void)user, 0;
+}
+
+enum { N = 18 };
+static double spring(double d) { return d + 0.3*d*d*d; }
+
+static int chain(const gvi_points *x, void *user)             // springs d + 0.3 d^3 between walls
+{
+    double pull[N + 1];
+    const double *restrict q = x->q;
+    double *restrict f = x->f;
+    pull[0] = spring(q[0]);
+    for (int i = 1; i < N; ++i) pull[i] = spring(q[i] - q[i-1]);
+    pull[N] = spring(-q[N-1]);
+    for (int i = 0; i < N; ++i) f[i] += pull[i+1] - pull[i];
+    return (void)user, 0;
+}
+
+// at rest everywhere but q_0 = 1: two springs pull the first mass back, one the second; six bodies push none
+static int bodies(void)
+{
+    double t = 0, q[18] = { 1 }, f[18] = { 0 }, sum = 0;
+    const gvi_points x = { .n = 18, .count = 1, .stride = 1, .t = &t, .q = q, .f = f };
+    int failed = chain(&x, NULL) || fabs(f[0] + 2.6) > 1e-15 || fabs(f[1] - 1.3) > 1e-15;
+    for (int i = 0; i < 18; ++i) q[i] = sin(i + 1), f[i] = 0;
+    failed |= gravity(&x, NULL) || !(fabs(f[0]) > 0.1);
+    for (int i = 0; i < 18; i += 3) sum += f[i];
+    return failed || fabs(sum) > 1e-12;
 }
 
 static int comet(void)
@@ -71,5 +113,5 @@ int main(void)
     if (gvi_init(&st, &verlet, memory, sizeof memory) || st.formulation != GVI_EXPLICIT) return 1;
     if (gvi_init(&st, &radau, memory, sizeof memory) || st.order != 3) return 2;
     if (gvi_init(&st, &forest, memory, sizeof memory) || st.formulation != GVI_EXPLICIT) return 3;
-    return comet();
+    return comet() || bodies();
 }
