@@ -2611,7 +2611,8 @@ GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, 
     y.v = x->work.V;
     for (int k = 0; k < R; ++k) x->t[k] = t;
     for (int i = 0; i < n*R; ++i) {
-        x->work.Q[i] = q[i/R] + after*v[i/R];
+        x->work.Q[i] = q[i/R];
+        if (i % R < count) x->work.Q[i] += after*v[i/R];
         if (x->work.V) x->work.V[i] = v[i/R];
     }
     for (int e = 0, huge = 0; e < 2*x->desc.effect_count; ++e) {
@@ -2621,7 +2622,7 @@ GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, 
         if (!large) huge = 0;
         for (int i = 0; i < all*R; ++i) rows[i] = large ? GVI__MAX : 0;
         const gvi_status status = gvi__effect(st, &y, e/2, NULL);
-        st->counters.effect[e/2] -= (unsigned long long)count;
+        st->counters.effect[e/2] -= (unsigned long long)count;       // no step's work
         if (status != GVI_OK) continue;
         for (int i = 0; i < all; ++i)
             for (int k = 0; k < count; ++k) {
