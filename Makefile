@@ -109,7 +109,7 @@ help-all: help
 #: uninstall    removes what install put there
 uninstall:
 	rm -f $(INSTALLED)
-#: deps-check   installs what check uses if it can be had: clang, g++, valgrind, cmake, pkg-config, mingw
+#: deps-check   installs what check uses if it can be had: clang, g++, valgrind, cmake, pkg-config, mingw, numpy
 deps-check: deps
 	$(Q)sh tests/tools/deps.sh --check
 

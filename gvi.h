@@ -638,7 +638,7 @@ typedef struct gvi_fault {             /* where the last failure came from      
     const char *argument;              /* GVI_E_ARGUMENT: a sentence, else NULL */
 } gvi_fault;
 
-/* Work done, counted since gvi_init.  The caller may set any of it to 0.      */
+/* Work of steps and queries since gvi_init.  The caller may set any of it to 0. */
 typedef struct gvi_counters {
     unsigned long long steps;             /* that succeeded                     */
     unsigned long long failures;          /* steps that did not                 */

@@ -69,7 +69,7 @@ FUZZ_SECONDS = $(if $(filter fuzz,$(MAKECMDGOALS)),60,20)
 fuzz fuzz-short: | $(FIRST)
 	$(STEP) $@ sh tests/tools/under.sh fuzz $(BUILD) $(FUZZ_SECONDS)
 
-#: deps-firmware installs what firmware and size need: compilers for Arm, RISC-V and AVR, qemu
+#: deps-firmware installs what firmware, size and boards need: compilers for Arm, RISC-V and AVR, qemu, simavr
 deps-firmware: | $(filter deps deps-check,$(MAKECMDGOALS))
 	$(Q)sh tests/tools/deps.sh --firmware
 
