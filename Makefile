@@ -39,7 +39,7 @@ VALGRIND     = test_api test_lu test_interpolation 04_driven_damped 06_building_
 
 # `make test` is for a person, two minutes; `make check` is the rest, twenty.
 TEST_STEPS  = $(TESTS) $(EXAMPLES) docs-check symbols headers-quick
-CHECK_STEPS = headers $(VARIANTS) $(EXAMPLES:%=alone-%) any_processor parts bound float instructions prices ensemble usable \
+CHECK_STEPS = headers $(VARIANTS) $(EXAMPLES:%=alone-%) any_processor parts bound float instructions prices ensemble usable languages boards \
               $(VALGRIND:%=valgrind-%) sanitize hard-long-float hard-corners-float firmware fuzz-short
 
 STEP = $(Q)sh tests/tools/step.sh $(BUILD)
@@ -109,7 +109,7 @@ help-all: help
 #: uninstall    removes what install put there
 uninstall:
 	rm -f $(INSTALLED)
-#: deps-check   installs what check uses if it can be had: clang, g++, valgrind, cmake, pkg-config, mingw
+#: deps-check   installs what check uses if it can be had: clang, g++, valgrind, cmake, pkg-config, mingw, numpy
 deps-check: deps
 	$(Q)sh tests/tools/deps.sh --check
 

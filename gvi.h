@@ -725,7 +725,7 @@ typedef struct gvi_fault {             /* where the last failure came from      
                                           that lists too much: a sentence, else NULL */
 } gvi_fault;
 
-/* Work done, counted since gvi_init.  The caller may set any of it to 0.      */
+/* Work of steps and queries since gvi_init.  The caller may set any of it to 0. */
 typedef struct gvi_counters {
     unsigned long long steps;             /* that succeeded                     */
     unsigned long long failures;          /* steps that did not                 */
@@ -2835,7 +2835,8 @@ GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, 
     y.v = x->work.V;
     for (int k = 0; k < R; ++k) x->t[k] = t;
     for (int i = 0; i < n*R; ++i) {
-        x->work.Q[i] = q[i/R] + past*v[i/R];
+        x->work.Q[i] = q[i/R];
+        if (i % R < count) x->work.Q[i] += past*v[i/R];
         if (x->work.V) x->work.V[i] = v[i/R];
     }
     const char *slip = NULL;

@@ -10,7 +10,7 @@
 
    prints
 
-     t = 1, h = 1: a callback refused: effect 0, state unchanged
+     t = 1, h = 1: an effect (fault.effect) did not return 0: halve h: effect 0, state unchanged
      turned back, shortest step 1/64
      t = 16: v = 4.026682, energy kept to 1e-12: yes
 */

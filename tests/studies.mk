@@ -1,6 +1,6 @@
 # studies.mk - what Makefile includes: long checks, measurements, pictures.  `make help-all` lists them.
 
-.PHONY: headers-quick headers symbols parts docs-check bound float instructions prices usable sanitize sanitized any_processor \
+.PHONY: headers-quick headers symbols parts docs-check bound float instructions prices usable languages boards sanitize sanitized any_processor \
         ensemble deps-ensemble firmware deps-firmware fuzz fuzz-short size stats compare everywhere deps-everywhere \
         cost-dial cost-horizon cost-constraints kicks points cost-embedded hard theorems mutants
 
@@ -24,11 +24,13 @@ docs-check: $(BUILD)/gvi-double.o
 #: instructions points, iterations and instructions of fixed runs; RECORD=--record writes them anew
 #: prices       what an unlisted effect costs in instructions (valgrind): nothing
 #: ensemble     lesson 29 on one thread, two threads, one and three MPI processes: the same bits
-#: usable       what make install puts where, and the ways into a project: pkg-config, CMake, a C++ sketch
+#: usable       what make install puts where, the tools in C and C++, and the ways into a project: pkg-config, CMake, a C++ sketch
+#: languages    docs/languages.md: Python, Rust, JavaScript, Octave, each where it is there
+#: boards       Windows (mingw, clang as cl), flash and RAM of least programs on AVR and Cortex-M, AVR's bits in simavr
 #: firmware     three programs without an operating system, run as Cortex-M3 and M4F by qemu, against this machine
 prices: | $(FIRST)
 	$(STEP) $@ sh tests/tools/instructions.sh $(BUILD) --prices
-parts bound float instructions ensemble usable firmware: | $(FIRST)
+parts bound float instructions ensemble usable languages boards firmware: | $(FIRST)
 	$(STEP) $@ sh tests/tools/$@.sh $(BUILD) $(RECORD)
 
 #: sanitize     tests and examples under the address and undefined behaviour sanitizers
@@ -67,7 +69,7 @@ FUZZ_SECONDS = $(if $(filter fuzz,$(MAKECMDGOALS)),60,20)
 fuzz fuzz-short: | $(FIRST)
 	$(STEP) $@ sh tests/tools/under.sh fuzz $(BUILD) $(FUZZ_SECONDS)
 
-#: deps-firmware installs what firmware and size need: compilers for Arm, RISC-V and AVR, qemu
+#: deps-firmware installs what firmware, size and boards need: compilers for Arm, RISC-V and AVR, qemu, simavr
 deps-firmware: | $(filter deps deps-check,$(MAKECMDGOALS))
 	$(Q)sh tests/tools/deps.sh --firmware
 

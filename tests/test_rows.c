@@ -202,6 +202,8 @@ static void run(int which, int degree, watch *w, real *kept)
     assert_true(gvi_size(&d) <= sizeof memory);
     if (gvi_init(&st, &d, memory, sizeof memory) != GVI_OK)
         fail_msg("%s, degree %d: %s", runs[which].name, degree, gvi_why(&st));
+    for (int i = 0; i < N; ++i) w->start[0][i] = w->start[1][i] = q0[i];
+    w->t[0] = w->t[1] = 0;
     assert_int_equal(gvi_start(&st, 0, q0, v0), GVI_OK);
     for (int k = 0; k < STEPS; ++k) {
         starts(w, 0, &st);

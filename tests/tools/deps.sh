@@ -20,17 +20,17 @@ fi
 cmocka=none
 if have apt-get; then
     manager=apt-get install='env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends'
-    cmocka=libcmocka-dev mingw=gcc-mingw-w64-x86-64 cxx=g++ mpi=libopenmpi-dev
+    cmocka=libcmocka-dev mingw=gcc-mingw-w64-x86-64 cxx=g++ mpi=libopenmpi-dev numpy=python3-numpy
     firmware='gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm gcc-riscv64-unknown-elf
-              picolibc-riscv64-unknown-elf gcc-avr avr-libc'
+              picolibc-riscv64-unknown-elf gcc-avr avr-libc simavr'
 elif have dnf; then
-    manager=dnf install='dnf install -y' cmocka=libcmocka-devel mingw=mingw64-gcc cxx=gcc-c++ mpi=openmpi-devel
+    manager=dnf install='dnf install -y' cmocka=libcmocka-devel mingw=mingw64-gcc cxx=gcc-c++ mpi=openmpi-devel numpy=python3-numpy
     firmware='arm-none-eabi-gcc-cs arm-none-eabi-newlib qemu-system-arm avr-gcc avr-libc'
 elif have pacman; then
-    manager=pacman install='pacman -S --noconfirm --needed' cmocka=cmocka mingw=mingw-w64-gcc cxx=gcc mpi=openmpi
+    manager=pacman install='pacman -S --noconfirm --needed' cmocka=cmocka mingw=mingw-w64-gcc cxx=gcc mpi=openmpi numpy=python-numpy
     firmware='arm-none-eabi-gcc arm-none-eabi-newlib qemu-system-arm avr-gcc avr-libc'
 elif have apk; then
-    manager=apk install='apk add' cmocka=cmocka-dev mingw=mingw-w64-gcc cxx=g++ mpi='openmpi openmpi-dev'
+    manager=apk install='apk add' cmocka=cmocka-dev mingw=mingw-w64-gcc cxx=g++ mpi='openmpi openmpi-dev' numpy=py3-numpy
 elif have brew; then
     manager=brew install='brew install' cmocka=cmocka mingw=mingw-w64 mpi=open-mpi
     firmware='gcc-arm-embedded qemu coreutils'
@@ -47,6 +47,7 @@ if [ "$1" = --check ]; then
     for pair in clang:clang g++:$cxx valgrind:valgrind cmake:cmake pkg-config:pkg-config x86_64-w64-mingw32-gcc:$mingw; do
         have ${pair%%:*} || welcome="$welcome ${pair#*:}"
     done
+    { have /usr/bin/python3 && /usr/bin/python3 -c 'import numpy' 2>/dev/null; } || welcome="$welcome ${numpy:-}"
 fi
 if [ -z "$needed$welcome" ]; then
     echo "deps: everything is there"

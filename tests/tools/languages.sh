@@ -1,0 +1,54 @@
+#!/bin/sh
+# languages.sh BUILD: the examples of docs/languages.md, each where its tool is there; all print what the README's
+# program prints.  Python's structures have the layout of the C compiler's.
+build=$1
+dir=$build/languages from=$(pwd)/examples/languages count=0
+CC=${CC:-cc}
+mkdir -p "$dir"
+rm -rf "${dir:?}"/*
+fail() { echo "FAILED: languages: $*"; exit 1; }
+have() { command -v "$1" >/dev/null 2>&1; }
+wanted='ok: q = -0.602737580 0.799997002'
+prints() {  # name output
+    [ "$(echo "$2" | sed -n 1p)" = "$wanted" ] || fail "$1 prints: $2"
+    echo "  $1"
+    count=$((count + 1))
+}
+
+python=
+for p in /usr/bin/python3 python3; do
+    if [ -z "$python" ] && have $p && $p -c 'import numpy' 2>/dev/null; then python=$p; fi
+done
+if [ -n "$python" ]; then
+    $CC -O2 -shared -fPIC -DGVI_IMPLEMENTATION -xc gvi.h -o "$dir/libgvi.so" -lm || fail "libgvi.so"
+    $python $from/planet.py --layout >"$dir/layout.python" || fail "planet.py --layout"
+    { printf '#include "gvi.h"\n#include <stdio.h>\nint main(void)\n{\n'
+      sed 's/\(.*\) \(.*\) .*/    printf("\1 \2 %d\\n", (int)offsetof(\1, \2));/' "$dir/layout.python"
+      printf '    return 0;\n}\n'; } >"$dir/layout.c"
+    $CC -I. "$dir/layout.c" -o "$dir/layout" && "$dir/layout" | diff - "$dir/layout.python" || fail "the layout of planet.py"
+    count=$((count + 1))
+    prints "Python, numpy" "$($python $from/planet.py "$dir/libgvi.so")"
+    case $($python $from/planet.py "$dir/libgvi.so") in *True*) ;; *) fail "planet.py: energy" ;; esac
+    if $python -c 'import matplotlib' 2>/dev/null; then
+        $python $from/planet.py "$dir/libgvi.so" "$dir/planet.png" >/dev/null && [ -s "$dir/planet.png" ] || fail "planet.png"
+        count=$((count + 1))
+    else echo "  skipped: no matplotlib"; fi
+else echo "  skipped: no python3 with numpy"; fi
+
+if have rustc && rustc --version >/dev/null 2>&1; then
+    $CC -O2 -DGVI_IMPLEMENTATION -xc -c gvi.h -o "$dir/gvi.o" && ar rcs "$dir/libgvi.a" "$dir/gvi.o" &&
+        rustc -O -A dead_code $from/planet.rs -L "$dir" -l static=gvi -l m -o "$dir/planet-rs" || fail "planet.rs"
+    prints "Rust" "$("$dir/planet-rs")"
+else echo "  skipped: no rustc"; fi
+
+if have clang && have node && echo '#include <math.h>
+int x;' | clang --target=wasm32-wasi -mexec-model=reactor -xc - -o "$dir/probe.wasm" 2>/dev/null; then
+    clang --target=wasm32-wasi -mexec-model=reactor -O2 -I. $from/planet.c -o "$dir/planet.wasm" || fail "planet.c"
+    prints "JavaScript, WebAssembly" "$(node $from/planet.mjs "$dir/planet.wasm")"
+else echo "  skipped: no clang for wasm32-wasi, or no node"; fi
+
+if have mkoctfile && have octave-cli; then
+    (root=$(pwd); cd "$dir" && mkoctfile --mex "-I$root" "$from/gvi_run.c" -o gvi_run.mex) >"$dir/mex.log" 2>&1 || { cat "$dir/mex.log"; fail "gvi_run.c"; }
+    prints "Octave (MATLAB's MEX)" "$(cd "$dir" && octave-cli --norc -q "$from/planet.m" 2>&1)"
+else echo "  skipped: no octave with mkoctfile"; fi
+echo "languages: $count passed, 0 failed"
