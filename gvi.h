@@ -213,7 +213,10 @@
    h sum_i b_i L(t_i, Q_i, V_i) + h sum_e w_e lambda_e . g(q(d_e h)) is stationary.  The
    step ends on g = 0 and on the hidden constraint G v + dg/dt = 0, G = dg/dq.  q and p are
    of order min(2s, u), symplectic on the constraint manifold; degree 1 with Lobatto's two
-   points is RATTLE.  G must have full rank; second derivatives are not needed.  Positions,
+   points is RATTLE.  Second derivatives are not needed.  What G has of zeros costs nothing: list
+   rows that share coordinates near each other.  A row that depends on those before it and
+   agrees with them is left out, step by step; its multiplier is 0, and the rank must stay what
+   it is over the step: not so at a change point, where motions part.  Positions,
    velocities and momenta solve for lambda within the iteration (equations: CONSTRAINTS).
 
    CLOCK.  An effect g(q) > 0 makes time run as dt = g dtau, and h is a step in
@@ -345,8 +348,8 @@ typedef enum gvi_status {
     GVI_E_POINTS      = -5,  /* r < s, or a rule that does not see every mode           */
     GVI_E_FORMULATION = -6,  /* no formulation, or not the pinned one, covers this scene */
     GVI_E_SINGULAR    = -7,  /* singular matrix: massless coordinate (fault.coordinate), or a
-                                constraint that depends on the others (fault.effect, its row
-                                in fault.coordinate)                                */
+                                constraint (fault.effect, its row in fault.coordinate) that
+                                depends on the others in a part of the step, or has G = 0 */
     GVI_E_CONVERGENCE = -8,  /* no solution found: halve h.  If no h works, a force jumps,
                                 is noisy, or has a wrong derivative                 */
     GVI_E_CALLBACK    = -9,  /* a callback failed, it did not return 0 (fault.effect): halve h */
@@ -357,8 +360,8 @@ typedef enum gvi_status {
                                 clock was switched on since                         */
     GVI_E_CONJUGATE   = -13, /* boundary values do not determine the curve              */
     GVI_E_CLOCK       = -14, /* a clock's g is not positive (fault.effect, fault.point) */
-    GVI_E_CONSTRAINT  = -15  /* the state given is not on a constraint: fault.effect, its row in
-                                fault.coordinate                                    */
+    GVI_E_CONSTRAINT  = -15  /* the state given is not on a constraint (fault.effect, its row in
+                                fault.coordinate), or that row contradicts others   */
 } gvi_status;
 
 /* What a callback gets: `count` points.  Coordinate i of point k is at [i*stride + k].  Inputs that
@@ -767,7 +770,8 @@ GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy);
 /* The constraints' multipliers at the present state, one for each row in the order of the list,
    0 where it is off: the force of constraint is G' lambda.  From the acceleration that keeps
    G v + dg/dt = 0, so as exact as the state is; second derivatives of g by differences along v,
-   to some 100 eps.                                                            */
+   to some 100 eps.  Of rows that depend on each other the first ones carry the force, the last
+   have 0.                                                                     */
 GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda);
 
 /* In the last step; q, v, p of length n, or NULL.  What later steps compute stays the same, to the
@@ -2481,6 +2485,7 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
 GVI__CALLED void gvi__constrain(gvi_stepper *st, const struct gvi__stage *y, const gvi_real *q0);
 GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate);
 static gvi_status gvi__stalled(gvi_stepper *st);
+GVI__COLD gvi_real gvi__loss(const gvi_stepper *st);
 GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h);
 GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, int start);
 GVI__CALLED void gvi__commit_constraints(gvi_stepper *st, gvi_real h);
@@ -3285,6 +3290,11 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
     p->growing = grows ? p->growing + 1 : 0;
     p->stagnant = D < (gvi_real)0.81*p->least ? 0 : p->stagnant + 1;
     if (D < p->least) p->least = D;
+    if (gvi__constrained(st) && D > 16*p->least && D > 65536*rounding) {
+        // near a bifurcation it would be leaving the motion, perhaps for that of another branch
+        const gvi_real loss = gvi__loss(st);
+        if (loss > 3 && D > 65536*rounding*loss*loss) return GVI__DIVERGES;
+    }
     const int poor = p->growing > (D > far ? 4 : 2) && D > 65536*rounding;
     const int wait = gvi__constrained(st) ? 0 : 1;           // the rounding of g is in every D
     if (p->stagnant > wait || poor) {
@@ -4102,6 +4112,23 @@ GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate
                                              x->con.last + k/R*x->con.C + 1);
 }
 
+// the largest of what a pivot has lost, in units of what is left of it
+GVI__COLD gvi_real gvi__loss(const gvi_stepper *st)
+{
+    const struct gvi__private *x = &st->x;
+    const int m = x->con.m, C = x->con.C;
+    gvi_real most = 0;
+    for (int k = 0; k < st->s && x->con.made > 0; ++k)
+        for (int j = 0; j < m; ++j) {
+            gvi_real was = 0;
+            for (int l = (int)x->con.first[j]; l < j; ++l)
+                was += x->con.A[(j*m + l)*C + k]*x->con.A[(l*m + j)*C + k];
+            const gvi_real loss = was*x->con.A[(j*m + j)*C + k];
+            if (loss > most) most = loss;
+        }
+    return most;
+}
+
 // no convergence: were rows of G all but dependent, a pivot less than 1/1024 of what it came from?
 GVI__COLD gvi_status gvi__stalled(gvi_stepper *st)
 {
@@ -4119,12 +4146,12 @@ GVI__COLD gvi_status gvi__stalled(gvi_stepper *st)
 
 /* RATTLE: the drift from p to g(q1) = 0 by impulses G0' mu, of a simplified Newton iteration.  A
    row that is a quarter more than its last correction and the change of G along that leave is
-   rounding.  To be four times farther off than at the start is divergence.                    */
+   rounding.  To be four times farther off than once before is divergence.                     */
 GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, m = x->con.m;
-    gvi_real before = 0, most = 0, *Q = x->work.Q, *z = x->con.rho, *left = x->con.y, *d = x->con.W,
+    gvi_real before = 0, least = GVI__MAX, *Q = x->work.Q, *z = x->con.rho, *left = x->con.y, *d = x->con.W,
              *unit = d + n, *g = x->con.g, *G = x->con.G1 + m*n; // G0 is before it
     const gvi_real t = from->t + (from->t_low + h);
     gvi_status status = gvi__constraints_at(st, from->t, from->q, x->con.drops);
@@ -4147,8 +4174,8 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
         }
         if (finite && size <= 64 && k > 0 && !(size < before/2))
             return gvi__report_status(st, GVI_OK);
-        if (k == 0) most = 4*(size + 4096);
-        if (!finite || k > 64 || size > most)
+        if (size < least) least = size;
+        if (!finite || k > 64 || size > 4*(least + 4096))
             return gvi__report_status(st, finite || x->diagnose ? GVI_E_CONVERGENCE
                                                                 : GVI_E_NON_FINITE);
         before = size;
