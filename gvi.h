@@ -2485,7 +2485,7 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
 GVI__CALLED void gvi__constrain(gvi_stepper *st, const struct gvi__stage *y, const gvi_real *q0);
 GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate);
 static gvi_status gvi__stalled(gvi_stepper *st);
-GVI__COLD gvi_real gvi__loss(const gvi_stepper *st);
+GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int *at);
 GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h);
 GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, int start);
 GVI__CALLED void gvi__commit_constraints(gvi_stepper *st, gvi_real h);
@@ -3292,7 +3292,8 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
     if (D < p->least) p->least = D;
     if (gvi__constrained(st) && D > 16*p->least && D > 65536*rounding) {
         // near a bifurcation it would be leaving the motion, perhaps for that of another branch
-        const gvi_real loss = gvi__loss(st);
+        int at[2];
+        const gvi_real loss = gvi__loss(st, at);
         if (loss > 3 && D > 65536*rounding*loss*loss) return GVI__DIVERGES;
     }
     const int poor = p->growing > (D > far ? 4 : 2) && D > 65536*rounding;
@@ -4112,8 +4113,8 @@ GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate
                                              x->con.last + k/R*x->con.C + 1);
 }
 
-// the largest of what a pivot has lost, in units of what is left of it
-GVI__COLD gvi_real gvi__loss(const gvi_stepper *st)
+// the largest of what a pivot has lost, in units of what is left of it; at: its row and point
+GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int *at)
 {
     const struct gvi__private *x = &st->x;
     const int m = x->con.m, C = x->con.C;
@@ -4124,7 +4125,10 @@ GVI__COLD gvi_real gvi__loss(const gvi_stepper *st)
             for (int l = (int)x->con.first[j]; l < j; ++l)
                 was += x->con.A[(j*m + l)*C + k]*x->con.A[(l*m + j)*C + k];
             const gvi_real loss = was*x->con.A[(j*m + j)*C + k];
-            if (loss > most) most = loss;
+            if (!(loss > most)) continue;
+            most = loss;
+            at[0] = j;
+            at[1] = k;
         }
     return most;
 }
@@ -4132,15 +4136,9 @@ GVI__COLD gvi_real gvi__loss(const gvi_stepper *st)
 // no convergence: were rows of G all but dependent, a pivot less than 1/1024 of what it came from?
 GVI__COLD gvi_status gvi__stalled(gvi_stepper *st)
 {
-    const struct gvi__private *x = &st->x;
-    const int m = x->con.m, C = x->con.C;
-    for (int k = 0; k < st->s && gvi__constrained(st) && x->con.made > 0; ++k)
-        for (int j = 0; j < m; ++j) {
-            gvi_real was = 0;
-            for (int l = 0; l < j; ++l) was += x->con.A[(j*m + l)*C + k]*x->con.A[(l*m + j)*C + k];
-            if (was*x->con.A[(j*m + j)*C + k] > 1023)
-                return gvi__report_row(st, GVI_E_SINGULAR, j, k);
-        }
+    int at[2] = { 0, 0 };
+    if (gvi__constrained(st) && gvi__loss(st, at) > 1023)
+        return gvi__report_row(st, GVI_E_SINGULAR, at[0], at[1]);
     return gvi__report_status(st, GVI_E_CONVERGENCE);
 }
 
@@ -4151,7 +4149,8 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, m = x->con.m;
-    gvi_real before = 0, least = GVI__MAX, *Q = x->work.Q, *z = x->con.rho, *left = x->con.y, *d = x->con.W,
+    gvi_real before = 0, least = GVI__MAX, *Q = x->work.Q, *z = x->con.rho, *left = x->con.y,
+             *d = x->con.W,
              *unit = d + n, *g = x->con.g, *G = x->con.G1 + m*n; // G0 is before it
     const gvi_real t = from->t + (from->t_low + h);
     gvi_status status = gvi__constraints_at(st, from->t, from->q, x->con.drops);
@@ -4221,7 +4220,9 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
         const gvi_real bend = gvi__row_dot(st, G + m*n, a, d) - gvi__row_dot(st, G, a, d),
             rounding = GVI_ABS(g[a] - (1 - part)*was[a]) - GVI_ABS(bend),
             seen = GVI__EPS*gvi__terms(st, t, q, G, a);
-        fulfilled &= GVI_ABS(was[a]) <= units*(rounding > seen ? rounding : seen);
+        // what is left of a row that is left out may be a contradiction
+        const int proves = rounding > seen && !(x->con.drops[m + a] > 0);
+        fulfilled &= GVI_ABS(was[a]) <= units*(proves ? rounding : seen);
     }
     return fulfilled ? gvi__constraints_at(st, t, q, x->con.drops + m)
                      : gvi__report_row(st, GVI_E_CONSTRAINT, off, GVI_FAULT_NONE);
