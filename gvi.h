@@ -230,9 +230,11 @@
    h sum_i b_i L(t_i, Q_i, V_i) + h sum_e w_e lambda_e . g(q(d_e h)) is stationary.  The
    step ends on g = 0 and on the hidden constraint G v + dg/dt = 0, G = dg/dq.  q and p are
    of order min(2s, u) for u >= 2s - 2, symplectic on the constraint manifold; degree 1 with
-   Lobatto's two points is RATTLE.  G must have full rank; second derivatives are not needed.
-   Positions, velocities and momenta solve for lambda within the iteration (equations:
-   CONSTRAINTS).
+   Lobatto's two points is RATTLE.  Second derivatives are not needed.  What G has of zeros costs
+   nothing: list rows that share coordinates near each other.  A row that depends on those before
+   it and agrees with them is left out, step by step: its multiplier is 0.  The rank must stay what
+   it is over the step, which it does not at a change point, where motions part.  Positions,
+   velocities and momenta solve for lambda within the iteration (equations: CONSTRAINTS).
 
    CLOCK.  An effect g(q) > 0 makes time run as dt = g dtau, and h is a step in
    tau: t moves fast or slow, and the map is as symplectic as with fixed steps
@@ -447,8 +449,9 @@ typedef enum gvi_status {
     GVI_E_POINTS      = -5,  /* r < s, or a rule that does not see every mode           */
     GVI_E_FORMULATION = -6,  /* no formulation, or not the pinned one, covers this scene */
     GVI_E_SINGULAR    = -7,  /* singular matrix, and no h helps: massless coordinate
-                                (fault.coordinate), or a constraint that depends on the
-                                others (fault.effect, its row in fault.coordinate)  */
+                                (fault.coordinate), or a constraint (fault.effect, its row in
+                                fault.coordinate) that depends on the others in a part of the
+                                step, or has G = 0                                  */
     GVI_E_CONVERGENCE = -8,  /* no solution found: halve h                              */
     GVI_E_CALLBACK    = -9,  /* a callback did not return 0 (fault.effect): halve h     */
     GVI_E_NON_FINITE  = -10, /* NaN or Inf came out of an effect (fault.effect); fault.point
@@ -457,9 +460,9 @@ typedef enum gvi_status {
     GVI_E_STATE       = -12, /* called too early, or for a time outside the last step   */
     GVI_E_CONJUGATE   = -13, /* boundary values do not determine the curve              */
     GVI_E_CLOCK       = -14, /* a clock's g is not positive (fault.effect, fault.point) */
-    GVI_E_CONSTRAINT  = -15, /* the state given is not on a constraint: fault.effect, its row in
-                                fault.coordinate                                    */
-    GVI_E_RESOLUTION  = -16  /* st.resolution is above desc.resolution: halve h             */
+    GVI_E_CONSTRAINT  = -15, /* the state given is not on a constraint (fault.effect, its row in
+                                fault.coordinate), or that row contradicts others   */
+    GVI_E_RESOLUTION  = -16  /* st.resolution is above desc.resolution: halve h         */
 } gvi_status;
 
 /* What a callback gets: `count` points.  Coordinate i of point k is at [i*stride + k].  Inputs that
@@ -917,7 +920,8 @@ GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy);
 /* The constraints' multipliers at the present state, one for each row in the order of the list,
    0 where it is off: the force of constraint is G' lambda.  From the acceleration that keeps
    G v + dg/dt = 0, so as exact as the state is; second derivatives of g by differences along v,
-   to some 100 eps.                                                            */
+   to some 100 eps.  Of rows that depend on each other the first ones carry the force, the last
+   have 0.                                                                     */
 GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda);
 
 /* In the last step; q, v, p of length n, or NULL.  What later steps compute stays the same, to the
@@ -2736,6 +2740,7 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
 GVI__CALLED void gvi__constrain(gvi_stepper *st, const struct gvi__stage *y, const gvi_real *q0);
 GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate);
 GVI__CALLED int gvi__constraints_rest(const gvi_stepper *st);
+GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int *at);
 static gvi_status gvi__constraints_at(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                       gvi_real *drops);
 GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h);
@@ -3748,6 +3753,12 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
     p->growing = grows ? p->growing + 1 : 0;
     p->stagnant = D < (gvi_real)0.81*p->least ? 0 : p->stagnant + 1;
     if (D < p->least) p->least = D;
+    if (gvi__constrained(st) && D > 16*p->least && D > 65536*rounding) {
+        // near a bifurcation it would be leaving the motion, perhaps for that of another branch
+        int at[2];
+        const gvi_real loss = gvi__loss(st, at);
+        if (loss > 3 && D > 65536*rounding*loss*loss) return GVI__DIVERGES;
+    }
     const int poor = p->growing > (D > far ? 4 : 2) && D > 65536*rounding;
     const int wait = gvi__constrained(st) ? 0 : 1;           // the rounding of g is in every D
     if (p->stagnant > wait || poor) {
@@ -4644,14 +4655,36 @@ GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate
                                              x->con.last + k/R*x->con.C + 1);
 }
 
+// the largest of what a pivot has lost, in units of what is left of it; at: its row and point
+GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int *at)
+{
+    const struct gvi__private *x = &st->x;
+    const int m = x->con.m, C = x->con.C;
+    gvi_real most = 0;
+    if (x->con.made == 0) return 0;
+    for (int k = 0; k < st->s; ++k)
+        for (int j = 0; j < m; ++j) {
+            gvi_real was = 0;
+            for (int l = (int)x->con.first[j]; l < j; ++l)
+                was += x->con.A[(j*m + l)*C + k]*x->con.A[(l*m + j)*C + k];
+            const gvi_real loss = was*x->con.A[(j*m + j)*C + k];
+            if (!(loss > most)) continue;
+            most = loss;
+            at[0] = j;
+            at[1] = k;
+        }
+    return most;
+}
+
 /* RATTLE: the drift from p to g(q1) = 0 by impulses G0' mu, of a simplified Newton iteration.  A
    row that is a quarter more than its last correction and the change of G along that leave is
-   rounding.  To be four times farther off than at the start is divergence.                    */
+   rounding.  To be four times farther off than once before is divergence.                     */
 GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, m = x->con.m;
-    gvi_real before = 0, most = 0, *Q = x->work.Q, *z = x->con.rho, *left = x->con.y, *d = x->con.W,
+    gvi_real before = 0, least = GVI__MAX, *Q = x->work.Q, *z = x->con.rho, *left = x->con.y,
+             *d = x->con.W,
              *unit = d + n, *g = x->con.g, *G = x->con.G1 + m*n; // G0 is before it
     const gvi_real t = from->t + (from->t_low + h);
     gvi_status status = gvi__constraints_at(st, from->t, from->q, x->con.drops);
@@ -4674,8 +4707,8 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
         }
         if (finite && size <= 64 && k > 0 && !(size < before/2))
             return gvi__report_status(st, GVI_OK);
-        if (k == 0) most = 4*(size + 4096);
-        if (!finite || k > 64 || size > most)
+        if (size < least) least = size;
+        if (!finite || k > 64 || size > 4*(least + 4096))
             return gvi__report_status(st, finite || x->diagnose ? GVI_E_CONVERGENCE
                                                                 : GVI_E_NON_FINITE);
         before = size;
@@ -4721,7 +4754,9 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
         const gvi_real bend = gvi__row_dot(st, G + m*n, a, d) - gvi__row_dot(st, G, a, d),
             rounding = GVI_ABS(g[a] - (1 - part)*was[a]) - GVI_ABS(bend),
             seen = GVI__EPS*gvi__terms(st, t, q, G, a);
-        fulfilled &= GVI_ABS(was[a]) <= units*(rounding > seen ? rounding : seen);
+        // what is left of a row that is left out may be a contradiction
+        const int proves = rounding > seen && !(x->con.drops[m + a] > 0);
+        fulfilled &= GVI_ABS(was[a]) <= units*(proves ? rounding : seen);
     }
     return fulfilled ? gvi__constraints_at(st, t, q, x->con.drops + m)
                      : gvi__report_row(st, GVI_E_CONSTRAINT, off, GVI_FAULT_NONE);
