@@ -1034,8 +1034,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
     || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__)
 #error "gvi.h relies on IEEE arithmetic: compile it without -ffast-math and its parts"
 #endif
-#if defined(__clang__) && __clang_major__ >= 12      // which does not say of the parts that are on
-#pragma float_control(push)
+#if defined(__clang__) && __clang_major__ >= 12      // does not say which parts are on
 #pragma clang fp reassociate(off)
 #endif
 
@@ -3717,10 +3716,12 @@ static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *
 static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_real h,
                           const gvi__stage *y, int stages)
 {
+    enum { POOR = 2, POOR_FAR = 4, STILL = 3, STAGNANT = 4 };     // iterations in a row
     const gvi_desc *d = &st->x.desc;
     const gvi_real wanted = d->tolerance > 0 ? d->tolerance : GVI__EPS/65536,
                    tolerance = wanted*wanted;
-    const gvi_real rounding = 16*GVI__EPS*GVI__EPS*(gvi_real)(st->n*st->r), far = (gvi_real)0.0625;
+    const gvi_real place = 2*GVI__EPS*GVI__EPS, rounding = 8*place*(gvi_real)(st->n*st->r),
+                   sure = 65536*rounding, far = (gvi_real)0.0625, tenth_less = (gvi_real)0.81;
     const gvi_real before = p->before, earlier = p->earlier, worst = st->counters.worst_contraction;
     const int grows = before > 0 && D >= before/4, alone = p->used == 1 || p->ratio > 1;
     const gvi_real last = alone ? D : gvi__least(before, 1);
@@ -3733,13 +3734,13 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
     for (int i = 0; settled && i < stages*st->n; ++i) {      // no row hides behind a larger one
         const gvi_real Di = st->x.watch.change[i];
         const gvi_real before_i = alone ? Di : gvi__least(st->x.watch.before[i], 1);
-        settled = !(Di > 2*GVI__EPS*GVI__EPS && Di*Di > tolerance*before_i);
+        settled = !(Di > place && Di*Di > tolerance*before_i);
     }
     if (settled) return GVI__DONE;
     if (!gvi__finite(D)) return GVI__NOT_FINITE;
 
     // contraction over two iterations, as long as it is not about rounding
-    if (earlier > 0 && D > 1000000*GVI__EPS*GVI__EPS && D > worst*worst*worst*worst*earlier)
+    if (earlier > 0 && D > 500000*place && D > worst*worst*worst*worst*earlier)
         st->counters.worst_contraction = GVI_SQRT(GVI_SQRT(D/earlier));
     p->rescale = D > far || grows;                // those were the units of an overshoot
     p->earlier = before;
@@ -3747,27 +3748,27 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
     if (d->iterations > 0) {
         if (p->used < d->iterations) return GVI__GO_ON;
         const int falls = earlier > 0 ? D < earlier/4 : before <= 0 || D < before;
-        return falls || D <= 65536*rounding || gvi__noise(st, h, y, stages) <= 1 ? GVI__DONE
+        return falls || D <= sure || gvi__noise(st, h, y, stages) <= 1 ? GVI__DONE
                                                                                   : GVI__DIVERGES;
     }
     p->growing = grows ? p->growing + 1 : 0;
-    p->stagnant = D < (gvi_real)0.81*p->least ? 0 : p->stagnant + 1;
+    p->stagnant = D < tenth_less*p->least ? 0 : p->stagnant + 1;
     if (D < p->least) p->least = D;
-    if (gvi__constrained(st) && D > 16*p->least && D > 65536*rounding) {
+    if (gvi__constrained(st) && D > 16*p->least && D > sure) {
         // near a bifurcation it would be leaving the motion, perhaps for that of another branch
         int at[2];
         const gvi_real loss = gvi__loss(st, at);
-        if (loss > 3 && D > 65536*rounding*loss*loss) return GVI__DIVERGES;
+        if (loss > 3 && D > sure*loss*loss) return GVI__DIVERGES;
     }
-    const int poor = p->growing > (D > far ? 4 : 2) && D > 65536*rounding;
+    const int poor = p->growing > (D > far ? POOR_FAR : POOR) && D > sure;
     const int wait = gvi__constrained(st) ? 0 : 1;           // the rounding of g is in every D
     if (p->stagnant > wait || poor) {
         const gvi_real noise = gvi__noise(st, h, y, stages);
         // noise that reaches a new minimum still converges, perhaps to 0
         p->still = noise < p->quiet ? 0 : p->still + 1;
-        const int level = noise <= GVI__EPS || (p->still > 3 && noise <= p->noise);
+        const int level = noise <= GVI__EPS || (p->still > STILL && noise <= p->noise);
         if (p->stagnant > wait && (noise <= 0
-            || (noise <= 1 && (wait ? p->stagnant > 4 && level : p->stagnant > 1))))
+            || (noise <= 1 && (wait ? p->stagnant > STAGNANT && level : p->stagnant > 1))))
             return p->used - p->stagnant >= GVI__DIG/2 && gvi__may_turn(st) ? GVI__DIVERGES
                                                                               : GVI__ONCE_MORE;
         // a row that tends to 0 changes by its whole size: does its amplitude fall?
@@ -3792,7 +3793,7 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
     if (gvi__constrained(st)) gvi__constraint_stages(st, from, h, stage, stages);
     if (GVI__CONSTRAINTS) x->con.made = x->con.linear = 0;
     at.v = x->work.V;
-    if (*used > 0) p.ratio = 2;
+    if (*used > 0) p.ratio = 2;                   // the attempt before this one failed
     else if (extrapolate && GVI_ABS(h) <= GVI_ABS(st->h)) p.ratio = x->watch.ratio;
     x->watch.found = gvi__least(p.ratio, 1);
     *used = 0;
@@ -6180,6 +6181,7 @@ GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
     }
     x->has_force = 0;
     x->newton.h = 0;
+    x->watch.ratio = 1;                           // another scene may contract otherwise
     return gvi__done(st, GVI_OK);
 }
 
@@ -6948,9 +6950,6 @@ GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st)
     }
 }
 
-#if defined(__clang__) && __clang_major__ >= 12
-#pragma float_control(pop)
-#endif
 #endif /* GVI_IMPLEMENTATION */
 
 #ifdef __GNUC__
