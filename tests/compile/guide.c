@@ -93,6 +93,21 @@ static int comet(void)
     return st.status != GVI_OK || !(q[0] < -1 && q[0] > -2);
 }
 
+// the same way by the dial, to its end
+static int dial(void)
+{
+    static double memory[GVI_LENGTH(2, 8, 8)];
+    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = attraction } };
+    const gvi_desc desc = { .n = 2, .effects = scene, .effect_count = 1, .resolution = 1e-13 };
+    const double revolution = 6.283185307179586, q[] = { 0.01, 0 }, v[] = { 0, sqrt(199) };
+    gvi_stepper st;
+    gvi_init(&st, &desc, memory, sizeof memory);
+    gvi_start(&st, 0, q, v);
+    while (st.status == GVI_OK && st.t < revolution)
+        gvi_advance(&st, revolution);
+    return st.status != GVI_OK || fabs(st.q[0] - 0.01) > 1e-9;
+}
+
 int main(void)
 {
     const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .point = stiff, .hessian = stiff_hessian } };
@@ -113,5 +128,5 @@ int main(void)
     if (gvi_init(&st, &verlet, memory, sizeof memory) || st.formulation != GVI_EXPLICIT) return 1;
     if (gvi_init(&st, &radau, memory, sizeof memory) || st.order != 3) return 2;
     if (gvi_init(&st, &forest, memory, sizeof memory) || st.formulation != GVI_EXPLICIT) return 3;
-    return comet() || bodies();
+    return comet() || dial() || bodies();
 }
