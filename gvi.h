@@ -580,9 +580,10 @@ typedef struct gvi_desc {
                                           iterations before (N = 2: less than the first).  N = 1
                                           has no such test: see counters.worst_change.
                                           0: as many as it takes               */
-    gvi_real          resolution;      /* the dial: relative accuracy wanted of a step, below 1; a
-                                          step with a larger st.resolution is refused, with
-                                          GVI_E_RESOLUTION.  0: none is.  From degree 2 on  */
+    gvi_real          resolution;      /* the dial: the relative accuracy wanted of a step, below 1;
+                                          less than eps is eps.  A step whose st.resolution is above
+                                          it is refused: GVI_E_RESOLUTION.  From degree 3 on, where
+                                          not explicit.  0: none is, nothing is measured        */
 } gvi_desc;
 
 #define GVI_FAULT_NONE (-1)
@@ -609,11 +610,7 @@ typedef struct gvi_counters {
     gvi_real           worst_contraction; /* of the iteration, mean of two; where Newton's
                                              method followed, also of what it replaced */
     gvi_real           worst_change;      /* largest last change of a fixed point, relative */
-    gvi_real           worst_resolution;  /* of a coordinate in a step: (share of its force in the
-                                             highest one or two modes)^2, times h |F|/(|p| + h |F|).
-                                             Above 1e-3 (to degree 3: 5e-5) the points hardly see
-                                             the force: an encounter within the step.  r > 1, not
-                                             where explicit                                 */
+    gvi_real           worst_resolution;  /* largest st.resolution of a step that succeeded */
 } gvi_counters;
 
 /* stage values, [n][R]; kicks: [n]; or NULL */
@@ -625,7 +622,7 @@ struct gvi__tables {                  /* rule and degree; R = stride of rows    
     gvi_real *phi, *Phi, *phi_low;    /* [s][R] modes at the nodes                  */
     gvi_real *inv_gamma, *gamma;      /* [s] 1/Gamma_kk; LU of Gamma if full        */
     gvi_real *K, *U, *T, *N;          /* [r][R] see gvi__make_tables                */
-    gvi_real *high;                   /* [2][R] weights of the highest modes of a force */
+    gvi_real *high;                   /* [r][4] sources to the highest modes, with a limit */
 };
 
 struct gvi__sized {                   /* valid for a step of length h, the key      */
@@ -709,7 +706,10 @@ typedef struct gvi_stepper {
     gvi_fault       fault;
     int             order;            /* u of the rule; 0 for GVI_KICKS         */
     int             iterations;       /* in the last step                       */
-    gvi_real        resolution;       /* of the last step that was tried; 0 where explicit */
+    gvi_real        resolution;       /* of the last step that was tried, with desc.resolution:
+                                         the largest error of a coordinate and its velocity, over
+                                         both, as the modes of the curve show it (ENGINE); as a
+                                         rule the error is 1/1000 to 3 times that        */
     gvi_real        next;             /* the length that gvi_advance will try; may be set  */
     gvi_counters    counters;
     struct gvi__private x;
@@ -871,7 +871,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI_LENGTH(n, s, r) (                                                    \
     (42 + 10*GVI__SIZE(s) + 20*GVI__SIZE(GVI__ROW(r))                             \
      + (6 + GVI__SIZE(GVI__ROW(r)) + 2*GVI__SIZE(s)*GVI__SIZE(s))*GVI__SIZE(n))*GVI__SIZE(n) \
-    + (20 + 7*GVI__SIZE(r) + 3*GVI__SIZE(s))*GVI__SIZE(GVI__ROW(r))              \
+    + (22 + 7*GVI__SIZE(r) + 3*GVI__SIZE(s))*GVI__SIZE(GVI__ROW(r))              \
     + (GVI__SIZE(s) + 2)*GVI__SIZE(s) + GVI__SIZE(r) + 5 + GVI__SLACK)
 
 /*  The same with constraints, m rows in all.                                  */
@@ -2681,9 +2681,12 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
     gvi_status status = gvi__solve(st, &from, h, GVI__STEP);
     if (status == GVI_OK && !gvi__finite(st->t + x->dt))
         status = gvi__refuse_call(st, "t + h is not finite");
-    st->resolution = status == GVI_OK ? gvi__resolution(st) : 0;
-    if (x->desc.resolution > 0 && st->resolution > x->desc.resolution)
-        status = gvi__report_status(st, GVI_E_RESOLUTION);
+    st->resolution = 0;
+    if (status == GVI_OK && x->desc.resolution > 0) {
+        st->resolution = gvi__resolution(st);
+        if (st->resolution > x->desc.resolution)
+            status = gvi__report_status(st, GVI_E_RESOLUTION);
+    }
     if (status != GVI_OK) {
         gvi__count(&st->counters.failures, 1);
         st->formulation = was;
@@ -3570,36 +3573,33 @@ static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h
 static gvi_real gvi__resolution(const gvi_stepper *st)
 {
     const struct gvi__private *x = &st->x;
-    const int s = st->s, r = st->r, R = x->R, pair = s > 4 ? 2 : 1;
-    const int forces = gvi__uses(x, GVI_POSITIONS) && st->formulation == GVI_POSITIONS,
-              held = forces && gvi__constrained(st) ? s : 1;
-    const gvi_real *modes = forces ? x->table.Phi : x->table.phi, *row = x->work.V;
-    const gvi_real *weight = forces ? x->sized.hb : x->table.b;
+    const int s = st->s, R = x->R, forces = gvi__uses(x, GVI_POSITIONS), pair = s > 4 ? 2 : 1;
+    const gvi_real *row = forces ? x->work.F : x->work.V, unit = forces ? GVI_ABS(x->sized.h) : 1;
     gvi_real *missed = x->result, *size = missed + st->n, largest = 0, worst = 0;
-    if (s < 3) return 0;
-    if (forces) row = x->work.F;
     for (int i = 0; i < st->n; ++i, row += R) {
-        const gvi_real *L = gvi__weighted(R, weight, row, x->row), m = gvi__inertia(st, i);
-        gvi_real start = row[0], end = row[r - 1], high = 0, low = 0;
+        const gvi_real *a = x->table.high, *force = x->con.force + i*R;
+        gvi_real y[4] = { 0, 0, 0, 0 }, start = row[0], end = row[st->r - 1];
+        for (int j = 0; j < st->r; ++j, a += 4)
+            GVI__UNROLL for (int m = 0; m < 4; ++m) y[m] += a[m]*row[j];
+        for (int m = 0; forces && gvi__constrained(st) && m < 2*pair; ++m) {
+            const int k = s - 1 - m;
+            for (int e = 1; e < s; ++e)
+                y[m*2/pair] += x->table.inv_gamma[k]*x->con.Phi[k*R + e - 1]*(x->con.w[e]*force[e]);
+        }
         if (forces) {
             start = x->state.p[i];
             end = start + x->step.p[i];
         }
-        for (int k = s - 1; k >= s - 2*pair; --k) {
-            gvi_real y = gvi__dot(r, modes + k*R, L);
-            for (int e = 1; e < held; ++e)
-                y += x->con.Phi[k*R + e - 1]*(x->con.hw[e]*x->con.force[i*R + e]);
-            y *= x->table.inv_gamma[k];
-            if (k >= s - pair) high += GVI_ABS(y);
-            else low += GVI_ABS(y);
-        }
+        gvi_real high = unit*(GVI_ABS(y[0]) + GVI_ABS(y[1])),
+                 low = unit*(GVI_ABS(y[2]) + GVI_ABS(y[3]));
         const gvi_real all = GVI_ABS(start) + GVI_ABS(end) + high + low,
                        push = GVI_ABS(end - start) + high + low;
         if (pair == 1 && all > 0) high += low*(low/all)/4;   // one mode alone may pass 0
-        const gvi_real most = high > low ? high : low, unit = GVI_SQRT(forces ? 1/m : m),
-                       share = most > 0 ? high/(push + 32*GVI__EPS*all)*(high/most) : 0;
-        missed[i] = share*share*push*unit;
-        size[i] = all*unit;
+        const gvi_real most = high > low ? high : low,
+                       share = most > 0 ? high/(push + 32*GVI__EPS*all)*(high/most) : 0,
+                       m = gvi__inertia(st, i), root = GVI_SQRT(forces ? 1/m : m);
+        missed[i] = share*share*push*root;
+        size[i] = all*root;
         if (size[i] > largest) largest = size[i];
     }
     for (int i = 0; i < st->n && largest > 0; ++i) {
@@ -4561,7 +4561,7 @@ GVI__COLD size_t gvi__layout(struct gvi__private *x, int order, gvi_real *base)
     x->table.Phi = gvi__take(a, kicks ? 0 : s, R);
     x->table.phi = gvi__take(a, modes*s, R);
     x->table.phi_low = gvi__take(a, modes*s, R);
-    x->table.high = gvi__take(a, explicitly ? 0 : 2, R);
+    x->table.high = gvi__take(a, d->resolution > 0 ? 4 : 0, R);
     x->table.K = gvi__take(a, fixed && !momenta ? r : 0, R);
     x->table.U = gvi__take(a, velocities || momenta ? r : 0, R);
     x->table.T = gvi__take(a, momenta || (velocities && lagrangian) ? r : 0, R);
@@ -4662,13 +4662,13 @@ GVI__COLD gvi_status gvi__set_rule(gvi_stepper *st, const gvi_rule *rule)
         if (status != GVI_OK) return status;
         gvi__make_tables(st);
     }
-    for (int i = 0; x->table.high && i < st->r; ++i) {       // modes r - 1 and r - 2 of a force
-        gvi_real P = 1, before = 0;
-        for (int k = 0; k < st->r - 1; ++k)
-            gvi__legendre(k, 1 - 2*x->table.c[i], &P, &before);
-        x->table.high[i] = st->r > 1 ? (gvi_real)(2*st->r - 1)*x->table.b[i]*P : 0;
-        x->table.high[x->R + i] = st->r > 2 ? (gvi_real)(2*st->r - 3)*x->table.b[i]*before : 0;
-    }
+    const int forces = gvi__uses(x, GVI_POSITIONS), pair = st->s > 4 ? 2 : 1;
+    for (int m = 0; x->table.high && m < 2*pair; ++m)        // see gvi__resolution
+        for (int j = 0; j < st->r; ++j) {
+            const int k = st->s - 1 - m;
+            const gvi_real mode = (forces ? x->table.Phi : x->table.phi)[k*x->R + j];
+            x->table.high[4*j + m*2/pair] = x->table.inv_gamma[k]*mode*x->table.b[j];
+        }
     if (GVI__CONSTRAINTS && x->con.bits && gvi__set_constraints(st) != GVI_OK) return GVI_E_POINTS;
     // Phi_0 = c on its grid
     if (x->table.Phi) gvi__copy((size_t)st->r, x->table.c, x->table.Phi);

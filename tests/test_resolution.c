@@ -1,0 +1,268 @@
+/* The dial: desc.resolution, gvi_advance.  Expected: closed forms of the oscillator, a method that shares nothing
+   with gvi.h, and what must not change at all.  How near the measure is to the error: tests/hard/dial.c, flyby.c. */
+#include "gvi_test.h"
+
+typedef gvi_real real;
+#include "problems.h"
+#include "hard/extrapolate.h"
+
+#define R(x) ((real)x##L)
+
+static real memory[8000], spare[8000];
+static const real at[2] = { R(0.4), 0 }, speed[2] = { 0, 2 };
+static const gvi_effect kepler[] = { { .kind = GVI_POTENTIAL, .points = attraction, .value = attraction } };
+
+static gvi_desc of(int degree, real limit)
+{
+    return (gvi_desc){ .n = 2, .degree = degree, .effects = kepler, .effect_count = 1, .resolution = limit };
+}
+
+static gvi_stepper started(const gvi_desc *desc, real *where, real t)
+{
+    gvi_stepper st;
+    assert_ok(gvi_init(&st, desc, where, sizeof memory));
+    assert_ok(gvi_start(&st, t, at, speed));
+    return st;
+}
+
+/* |q' - exact| and |v - exact| after a step from start, relative to what it has of both */
+static real error_of(const gvi_stepper *st, const real *start, const real *exact, const real *v)
+{
+    real worst = 0;
+    for (int i = 0; i < st->n; ++i) {
+        const real size = fabs(start[st->n + i]) + fabs(v[i]) + fabs(v[i] - start[st->n + i]);
+        const real path = fabs(st->q[i] - exact[i])/fabs(st->h), turn = fabs(v[i] - exact[st->n + i]);
+        worst = fmax(worst, fmax(path, turn)/size);
+    }
+    return worst;
+}
+
+TEST(bad_limits_are_refused_with_a_sentence)
+{
+    static const real wrong[] = { -1, (real)NAN, 1, 2, (real)INFINITY };
+    gvi_stepper st;
+    for (int k = 0; k < COUNT(wrong); ++k) {
+        const gvi_desc desc = of(8, wrong[k]);
+        assert_status(gvi_init(&st, &desc, memory, sizeof memory), GVI_E_ARGUMENT);
+        assert_string_equal(st.fault.argument, "resolution is not 0 to 1");
+        assert_int_equal(gvi_size(&desc), 0);
+    }
+    for (int degree = 1; degree < 3; ++degree) {
+        const gvi_desc desc = of(degree, R(0.5));
+        assert_status(gvi_init(&st, &desc, memory, sizeof memory), GVI_E_ARGUMENT);
+        assert_string_equal(st.fault.argument, "resolution: degree is below 3");
+    }
+    const gvi_desc none = of(8, 0), some = of(8, R(1e-3));
+    st = started(&none, memory, 0);
+    SAME_STATE(&st) assert_status(gvi_advance(&st, 1), GVI_E_ARGUMENT);
+    st = started(&some, memory, 0);
+    SAME_STATE(&st) {
+        assert_status(gvi_advance(&st, 0), GVI_E_ARGUMENT);
+        assert_status(gvi_advance(&st, (real)NAN), GVI_E_ARGUMENT);
+        assert_status(gvi_advance(&st, (real)INFINITY), GVI_E_ARGUMENT);
+    }
+    assert_status(gvi_advance(NULL, 1), GVI_E_ARGUMENT);
+    assert_ok(gvi_advance(&st, 1));
+}
+
+TEST(a_step_that_is_refused_changes_nothing)
+{
+    const gvi_desc desc = of(8, R(1e-3));
+    gvi_stepper a = started(&desc, memory, 0), b = started(&desc, spare, 0);
+    move_alike(&a, &b, 3, R(0.05));
+    for (int k = 0; k < 3; ++k) {
+        SAME_STATE(&a) assert_status(gvi_step(&a, 3), GVI_E_RESOLUTION);
+        assert_true(a.resolution > R(1e-3) && a.h == R(0.05));
+        move_alike(&a, &b, 2, R(0.05));
+    }
+    assert_int_equal(a.counters.failures, 3);
+    assert_true(a.counters.worst_resolution <= R(1e-3));
+}
+
+TEST(it_lands_on_the_end_to_the_bit)
+{
+    unsigned long long seed = 7;
+    for (int k = 0; k < 400; ++k) {
+        real x[3];
+        for (int i = 0; i < 3; ++i) {
+            seed = seed*6364136223846793005u + 1442695040888963407u;
+            x[i] = (real)(seed >> 40)/R(16777216.0);
+        }
+        const gvi_desc desc = of(5 + k % 5, R(1e-4));
+        const real t0 = k % 3 ? (x[0] - R(0.5))*100 : 0, t1 = t0 + (x[1] - R(0.5))*10*(x[2] + R(0.01));
+        gvi_stepper st = started(&desc, memory, t0);
+        real before = 0;
+        for (int m = 0; st.t != t1; ++m) {
+            const real was = st.t;
+            assert_ok(gvi_advance(&st, t1));
+            assert_true(t1 > t0 ? st.t > was && st.t <= t1 : st.t < was && st.t >= t1);
+            if (st.t == t1 && m > 0) assert_true(fabs(st.h) >= R(0.24)*before);
+            before = fabs(st.h);
+            assert_true(m < 1000);
+        }
+        assert_true(fabs(st.t_low) <= EPS*(fabs(t1) + 1));
+    }
+}
+
+TEST(h_stays_where_it_may)
+{
+    /* Kepler, e = 0.05: the size of what is seen varies by (1.05/0.95)^(3/2) */
+    const gvi_desc desc = of(8, KIND == 1 ? R(1e-4) : R(1e-10));
+    gvi_stepper st;
+    assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+    const real q[2] = { R(0.95), 0 }, v[2] = { 0, sqrt(R(1.05)/R(0.95)) };
+    assert_ok(gvi_start(&st, 0, q, v));
+    for (int k = 0; k < 12; ++k) assert_ok(gvi_advance(&st, 300));
+    const real h = st.h;
+    const unsigned long long failures = st.counters.failures;
+    while (st.t < 250) {
+        assert_ok(gvi_advance(&st, 300));
+        assert_true(st.h == h);
+    }
+    assert_int_equal(st.counters.failures, failures);
+}
+
+static int noise(const gvi_points *x, void *user)
+{
+    unsigned *seed = user;
+    for (int k = 0; k < x->count; ++k) {
+        *seed = *seed*1664525u + 1013904223u;
+        x->f[k] += (real)(*seed >> 8)/R(16777216.0) - R(0.5);
+    }
+    return 0;
+}
+
+TEST(a_limit_that_no_step_meets_ends_in_a_status)
+{
+    unsigned seed = 1;
+    const gvi_effect effects[] = { { .kind = GVI_POTENTIAL, .points = noise, .user = &seed } };
+    const gvi_desc desc = { .n = 1, .degree = 8, .effects = effects, .effect_count = 1, .resolution = R(1e-6) };
+    gvi_stepper st;
+    assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+    assert_ok(gvi_start(&st, 0, at, (const real[]){ 0 }));
+    SAME_STATE(&st) assert_true(gvi_advance(&st, 1) < 0);
+    assert_true(st.counters.failures <= 64);
+}
+
+TEST(a_checkpoint_keeps_the_next_length)
+{
+    const gvi_desc desc = of(8, R(1e-4));
+    gvi_stepper a = started(&desc, memory, 0), b = started(&desc, spare, 0);
+    for (int k = 0; k < 10; ++k) assert_ok(gvi_advance(&a, 100));
+    assert_ok(gvi_restore(&b, &a, memory));
+    for (int k = 0; k < 100; ++k) {
+        assert_ok(gvi_advance(&a, 100));
+        assert_ok(gvi_advance(&b, 100));
+        assert_true(a.t == b.t && a.next == b.next && a.q[0] == b.q[0] && a.p[1] == b.p[1]);
+    }
+    a.next = R(0.015625);
+    assert_ok(gvi_advance(&a, 200));
+    assert_true(a.h == R(0.015625));
+}
+
+static int slow_down(const gvi_points *x, void *user)
+{
+    const real *X = x->q, *Y = X + x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        const real d = sqrt(X[k]*X[k] + Y[k]*Y[k]);
+        if (x->value) x->value[k] += d;
+        if (!x->f) continue;
+        x->f[k] += X[k]/d;
+        x->f[x->stride + k] += Y[k]/d;
+    }
+    return 0;
+}
+
+TEST(with_a_clock_the_step_may_pass_the_end)
+{
+    const gvi_effect effects[] = { kepler[0], { .kind = GVI_CLOCK, .points = slow_down, .value = slow_down } };
+    gvi_desc desc = of(8, R(1e-4));
+    desc.effects = effects;
+    desc.effect_count = 2;
+    gvi_stepper st = started(&desc, memory, 0);
+    const real turn = R(6.283185307179586476925286766559);
+    real q[2];
+    while (st.t < turn) assert_ok(gvi_advance(&st, turn));
+    assert_true(st.t0 <= turn && turn <= st.t);
+    assert_ok(gvi_state_at(&st, turn, q, NULL, NULL));
+    assert_close(q[0], at[0], R(1e-2));
+}
+
+/* ---- 1,000 random scenes ---- */
+
+typedef struct { int n; real m[3], k[3], cubic[3], pull, soft, drag, drive; } random_scene;
+
+static void push_of(const random_scene *a, real t, const real *q, const real *v, real *f)
+{
+    real d2 = a->soft*a->soft;
+    for (int i = 0; i < a->n; ++i) d2 += q[i]*q[i];
+    for (int i = 0; i < a->n; ++i)
+        f[i] += a->m[i]*(-a->k[i]*q[i] - a->cubic[i]*q[i]*q[i]*q[i] - a->pull*q[i]/(d2*sqrt(d2)) - a->drag*v[i]
+                         + a->drive*cos(2*t + (real)i));
+}
+
+static int random_point(real t, const real *q, const real *v, real *f, real *dldv, void *user)
+{
+    static const real rest[3] = { 0, 0, 0 };
+    return push_of(user, t, q, v ? v : rest, f), 0;
+}
+
+static void random_rates(real t, const real *y, real *dy, void *user)
+{
+    const random_scene *a = user;
+    for (int i = 0; i < a->n; ++i) {
+        dy[i] = y[a->n + i];
+        dy[a->n + i] = 0;
+    }
+    push_of(a, t, y, y + a->n, dy + a->n);
+    for (int i = 0; i < a->n; ++i) dy[a->n + i] /= a->m[i];
+}
+
+TEST(no_step_of_random_scenes_is_worse_than_100_times_the_limit)
+{
+    unsigned long long seed = 3;
+    int steps = 0, refused = 0;
+    for (int scene = 0; scene < 1000; ++scene) {
+        real x[20];
+        for (int i = 0; i < 20; ++i) {
+            seed = seed*6364136223846793005u + 1442695040888963407u;
+            x[i] = (real)(seed >> 40)/R(16777216.0);
+        }
+        random_scene a = { .n = 1 + scene % 3, .pull = scene % 2 ? 2*x[9] : 0, .soft = R(0.03) + x[10],
+                           .drag = scene % 5 ? 0 : x[11], .drive = scene % 7 ? 0 : x[12] };
+        for (int i = 0; i < 3; ++i) {
+            a.m[i] = pow(R(10.0), 4*x[i] - 2);
+            a.k[i] = 4*x[3 + i]*x[3 + i];
+            a.cubic[i] = 2*x[6 + i];
+        }
+        const real limit = pow(R(10.0), -(KIND == 1 ? 2 + 2*x[13] : 3 + 7*x[13]));
+        const gvi_effect effects[] = { { .kind = a.drag > 0 ? GVI_FORCE : GVI_POTENTIAL, .point = random_point,
+                                         .user = &a } };
+        const gvi_desc desc = { .n = a.n, .degree = 3 + scene % 9, .effects = effects, .effect_count = 1,
+                                .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = a.m }, .resolution = limit };
+        gvi_stepper st;
+        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+        real q[3] = { 2*x[14] - 1, x[15], x[16] }, v[3] = { 2*x[17] - 1, x[18], x[19] }, y[6], start[6];
+        assert_ok(gvi_start(&st, x[0], q, v));
+        const motion exactly = { 2*a.n, random_rates, &a };
+        for (int k = 0; k < 12; ++k) {
+            for (int i = 0; i < a.n; ++i) {
+                y[i] = start[i] = st.q[i];
+                y[a.n + i] = start[a.n + i] = st.p[i]/a.m[i];
+            }
+            assert_ok(gvi_advance(&st, 1000));
+            if (k < 4) continue;                  // small ones, on the way up
+            flow(&exactly, st.t0, st.t, st.h/4, y);
+            assert_ok(gvi_velocity(&st, v));
+            const real error = error_of(&st, start, y, v), rounding = KIND == 1 ? 64*EPS : 4096*EPS;
+            if (!(error <= 100*limit + rounding))
+                print_error("scene %d, degree %d: %g, limit %g\n", scene, desc.degree, (double)error, (double)limit);
+            assert_true(error <= 100*limit + rounding);
+            steps += 1;
+        }
+        refused += (int)st.counters.failures;
+    }
+    assert_true(steps == 8000 && refused < 4000);
+}
+
+RUN_TESTS(NULL, NULL)
