@@ -159,10 +159,10 @@ TEST(compositions_and_splittings_have_their_orders)
 /* Steps follow the 7th and the 9th root of the tolerance, the error their 15th power.            */
 TEST(gauss_radau_has_order_15)
 {
-    static const struct { const char *name; double root; } radau[] = {
+    static const struct { const char *name; double root; } rivals[] = {
         { "Gauss-Radau 15", 7 }, { "Gauss-Radau 15 Everhart", 9 }, { "Gauss-Radau 15 Everhart c", 9 } };
-    for (int i = 0; i < COUNT(radau); ++i) {
-        const baseline *b = baseline_named(radau[i].name);
+    for (int i = 0; i < COUNT(rivals); ++i) {
+        const baseline *b = baseline_named(rivals[i].name);
         fit f = { 0, 0, 0, 0, 0 };
         for (int k = 0; k < 100; ++k) {
             int failed;
@@ -173,8 +173,8 @@ TEST(gauss_radau_has_order_15)
             add_point(&f, logl(tolerance), logl(e));
         }
         assert_true(f.count >= 4);
-        print_message("    %-26s %.2Lf of %.2f\n", radau[i].name, slope_of(&f), 15/radau[i].root);
-        assert_close(slope_of(&f), 15/radau[i].root, 0.2);
+        print_message("    %-26s %.2Lf of %.2f\n", rivals[i].name, slope_of(&f), 15/rivals[i].root);
+        assert_close(slope_of(&f), 15/rivals[i].root, 0.2);
     }
 }
 
