@@ -22,31 +22,28 @@
 #include <stdio.h>
 
 /* Element (i,j) of M is mass[i*n + j], i >= j.                                */
-GVI_POINTS(mass, 2, mass)(const gvi_points *x, void *user)
+GVI_EACH(mass, 2, mass)
 {
     x->mass[0] = 2;
     x->mass[2] = cos(x->q[0] - x->q[1]);
     x->mass[3] = 1;
-    return (void)user, 0;
 }
 
-GVI_POINTS(mass_gradient, 2, v, f)(const gvi_points *x, void *user)
+GVI_EACH(mass_gradient, 2, v, f)
 {
     double f = sin(x->q[0] - x->q[1])*x->v[0]*x->v[1];
     x->f[0] -= f;
     x->f[1] += f;
-    return (void)user, 0;
 }
 
 static const double g = 9.81;
 
 /* Force and potential: what is not wanted is not computed.                    */
-GVI_POINTS(weight, 2, f, value)(const gvi_points *x, void *user)
+GVI_EACH(weight, 2, f, value)
 {
     x->f[0] -= 2*g*sin(x->q[0]);
     x->f[1] -= g*sin(x->q[1]);
     x->value[0] -= 2*g*cos(x->q[0]) + g*cos(x->q[1]);
-    return (void)user, 0;
 }
 
 int main(void)

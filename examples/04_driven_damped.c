@@ -22,23 +22,20 @@
 
 static const double damping = 0.1, strength = 0.5, w = 0.8;
 
-GVI_POINTS(spring, 1, f, value)(const gvi_points *x, void *user)
+GVI_EACH(spring, 1, f, value)
 {
     x->f[0] -= x->q[0];
     x->value[0] += x->q[0]*x->q[0]/2;
-    return (void)user, 0;
 }
 
-GVI_POINTS(friction, 1, v, f)(const gvi_points *x, void *user)
+GVI_EACH(friction, 1, v, f)
 {
     x->f[0] -= 2*damping*x->v[0];
-    return (void)user, 0;
 }
 
-GVI_POINTS(drive, 1, f)(const gvi_points *x, void *user)
+GVI_EACH(drive, 1, f)
 {
     x->f[0] += strength*cos(w*x->t[0]);
-    return (void)user, 0;
 }
 
 /* From q = 1 at rest: the transient, and the response to the drive.           */

@@ -22,7 +22,7 @@
 #include <math.h>
 #include <stdio.h>
 
-GVI_POINTS(magnetic_term, 2, v, f, dldv, value)(const gvi_points *x, void *user)
+GVI_EACH(magnetic_term, 2, v, f, dldv, value)
 {
     double X = x->q[0], Y = x->q[1], u = x->v[0], v = x->v[1], r = GVI_SQRT(X*X + Y*Y);
     double l = X*v - Y*u;  // L = r l/3
@@ -31,24 +31,21 @@ GVI_POINTS(magnetic_term, 2, v, f, dldv, value)(const gvi_points *x, void *user)
     x->f[1] += (Y/r*l - r*u)/3;
     x->dldv[0] -= r*Y/3;
     x->dldv[1] += r*X/3;
-    return (void)user, 0;
 }
 
-GVI_POINTS(magnetic_force, 2, v, f)(const gvi_points *x, void *user)
+GVI_EACH(magnetic_force, 2, v, f)
 {
     double r = GVI_SQRT(x->q[0]*x->q[0] + x->q[1]*x->q[1]);
     x->f[0] += r*x->v[1];
     x->f[1] -= r*x->v[0];
-    return (void)user, 0;
 }
 
-GVI_POINTS(electric, 2, f, value)(const gvi_points *x, void *user)
+GVI_EACH(electric, 2, f, value)
 {
     double X = x->q[0], Y = x->q[1], r2 = X*X + Y*Y, r = GVI_SQRT(r2);
     x->value[0] += 0.01/r;
     x->f[0] += 0.01*X/(r2*r);
     x->f[1] += 0.01*Y/(r2*r);
-    return (void)user, 0;
 }
 
 /* x (v_y + A_y) - y (v_x + A_x), from the velocity: the same for both.        */

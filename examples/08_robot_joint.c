@@ -22,42 +22,37 @@ static const float m1 = 1.2f, m2 = 0.8f, l1 = 0.4f, l2 = 0.3f, g = 9.81f;
 
 typedef struct motor { float torque[2]; } motor;
 
-GVI_POINTS(arm_mass, 2, mass)(const gvi_points *x, void *user)
+GVI_EACH(arm_mass, 2, mass)
 {
     float far = m2*l2*l2, mid = m2*l1*l2*cosf(x->q[1]);
     x->mass[0] = (m1 + m2)*l1*l1 + far + 2*mid;
     x->mass[2] = far + mid;
     x->mass[3] = far;
-    return (void)user, 0;
 }
 
-GVI_POINTS(arm_gradient, 2, v, f)(const gvi_points *x, void *user)
+GVI_EACH(arm_gradient, 2, v, f)
 {
     x->f[1] -= m2*l1*l2*sinf(x->q[1])*x->v[0]*(x->v[0] + x->v[1]);
-    return (void)user, 0;
 }
 
-GVI_POINTS(arm_weight, 2, f)(const gvi_points *x, void *user)
+GVI_EACH(arm_weight, 2, f)
 {
     float far = m2*g*l2*sinf(x->q[0] + x->q[1]);
     x->f[0] -= (m1 + m2)*g*l1*sinf(x->q[0]) + far;
     x->f[1] -= far;
-    return (void)user, 0;
 }
 
-GVI_POINTS(motors, 2, f)(const gvi_points *x, void *user)
+GVI_EACH(motors, 2, f)
 {
     const motor *m = user;
     x->f[0] += m->torque[0];
     x->f[1] += m->torque[1];
-    return 0;
 }
 
-GVI_POINTS(friction, 2, v, f)(const gvi_points *x, void *user)
+GVI_EACH(friction, 2, v, f)
 {
     x->f[0] -= 0.2f*x->v[0];
     x->f[1] -= 0.2f*x->v[1];
-    return (void)user, 0;
 }
 
 /* Proportional, integral and differential control of both joints.             */

@@ -17,10 +17,9 @@
 #include <math.h>
 #include <stdio.h>
 
-GVI_POINTS(weight, 1, f)(const gvi_points *x, void *user)
+GVI_EACH(weight, 1, f)
 {
     x->f[0] -= sin(x->q[0]);
-    return (void)user, 0;
 }
 
 static double quarter_period(double amplitude)

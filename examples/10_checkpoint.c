@@ -19,12 +19,11 @@
 enum { LENGTH = GVI_LENGTH(2, 6, 6) };
 
 /* Henon and Heiles: V = (x^2 + y^2)/2 + x^2 y - y^3/3                         */
-GVI_POINTS(henon_heiles, 2, f)(const gvi_points *x, void *user)
+GVI_EACH(henon_heiles, 2, f)
 {
     const double X = x->q[0], Y = x->q[1];
     x->f[0] -= X + 2*X*Y;
     x->f[1] -= Y + X*X - Y*Y;
-    return (void)user, 0;
 }
 
 static gvi_status advance(gvi_stepper *st, int steps)

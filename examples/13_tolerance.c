@@ -16,13 +16,12 @@
 #include <stdio.h>
 
 /* Force and potential: what is not wanted is not computed.                    */
-GVI_POINTS(attraction, 2, f, value)(const gvi_points *x, void *user)
+GVI_EACH(attraction, 2, f, value)
 {
     double X = x->q[0], Y = x->q[1], d2 = X*X + Y*Y, d = GVI_SQRT(d2);
     x->value[0] -= 1/d;
     x->f[0] -= X/(d2*d);
     x->f[1] -= Y/(d2*d);
-    return (void)user, 0;
 }
 
 int main(void)

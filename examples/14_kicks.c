@@ -20,12 +20,11 @@
 #include <math.h>
 #include <stdio.h>
 
-GVI_POINTS(attraction, 2, f)(const gvi_points *x, void *user)
+GVI_EACH(attraction, 2, f)
 {
     double X = x->q[0], Y = x->q[1], d2 = X*X + Y*Y, w = -1/(d2*GVI_SQRT(d2));
     x->f[0] += w*X;
     x->f[1] += w*Y;
-    return (void)user, 0;
 }
 
 /* Verlet steps of lengths g[0..m-1], h in all: half a kick at both ends of each */

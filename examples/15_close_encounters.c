@@ -23,23 +23,21 @@
 #include "tools/svg.h"
 
 /* Force and potential in one function: with a clock a step wants both         */
-GVI_POINTS(attraction, 2, f, value)(const gvi_points *x, void *user)
+GVI_EACH(attraction, 2, f, value)
 {
     double X = x->q[0], Y = x->q[1], d2 = X*X + Y*Y, d = GVI_SQRT(d2), w = -1/(d2*d);
     x->value[0] -= 1/d;
     x->f[0] += w*X;
     x->f[1] += w*Y;
-    return (void)user, 0;
 }
 
 /* g = |q| and its gradient                                                    */
-GVI_POINTS(distance, 2, f, value)(const gvi_points *x, void *user)
+GVI_EACH(distance, 2, f, value)
 {
     double d = GVI_SQRT(x->q[0]*x->q[0] + x->q[1]*x->q[1]);
     x->value[0] += d;
     x->f[0] += x->q[0]/d;
     x->f[1] += x->q[1]/d;
-    return (void)user, 0;
 }
 
 enum { FIXED, CLOCK, DIAL };

@@ -25,12 +25,11 @@
 #include <math.h>
 #include <stdio.h>
 
-GVI_POINTS(potential, 2, f)(const gvi_points *x, void *user)
+GVI_EACH(potential, 2, f)
 {
     const double X = x->q[0], Y = x->q[1];
     x->f[0] -= X + 2*X*Y;
     x->f[1] -= Y + X*X - Y*Y;
-    return (void)user, 0;
 }
 
 /* The derivative of that force at x, times the direction d.                     */

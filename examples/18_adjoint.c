@@ -26,11 +26,10 @@ enum { STEPS = 10, DEGREE = 8, EVERY = 5 };
 static const double h = 0.2, q0[] = { 1, 0.2 }, p0[] = { -0.1, 1.1 };
 static double drag, room[ADJOINT_ROOM(2, DEGREE)], kept[ADJOINT_KEPT(2, STEPS, EVERY)];
 
-GVI_POINTS(attraction, 2, f)(const gvi_points *x, void *user)
+GVI_EACH(attraction, 2, f)
 {
     const double X = x->q[0], Y = x->q[1], d2 = X*X + Y*Y, w = -1/(d2*GVI_SQRT(d2));
     x->f[0] += w*X, x->f[1] += w*Y;
-    return (void)user, 0;
 }
 
 /* Its derivative times l.  A potential's is symmetric: its own transpose.       */
@@ -46,11 +45,10 @@ static int attraction_product(const gvi_points *x, const gvi_points *l, int para
 }
 
 /* The air: f = -c |v| v.                                                        */
-GVI_POINTS(air, 2, v, f)(const gvi_points *x, void *user)
+GVI_EACH(air, 2, v, f)
 {
     const double u = x->v[0], v = x->v[1], z = drag*GVI_SQRT(u*u + v*v);
     x->f[0] -= z*u, x->f[1] -= z*v;
-    return (void)user, 0;
 }
 
 /* f_v' l, which belongs to the momentum of l; f_q is 0.                         */

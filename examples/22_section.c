@@ -23,12 +23,11 @@
 
 enum { ORBITS = 6, PASSAGES = 400 };
 
-GVI_POINTS(potential, 2, f)(const gvi_points *x, void *user)
+GVI_EACH(potential, 2, f)
 {
     const double X = x->q[0], Y = x->q[1];
     x->f[0] -= X + 2*X*Y;
     x->f[1] -= Y + X*X - Y*Y;
-    return (void)user, 0;
 }
 
 static double energy(const double *q, const double *p)

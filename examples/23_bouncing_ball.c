@@ -25,12 +25,11 @@
 #include <stdio.h>
 
 /* V = y + x^2/2 + x^4/4 + x^2 y/10: weight, and walls                             */
-GVI_POINTS(weight_and_walls, 2, f)(const gvi_points *x, void *user)
+GVI_EACH(weight_and_walls, 2, f)
 {
     const double X = x->q[0], Y = x->q[1];
     x->f[0] -= X*(1 + X*X + Y/5);
     x->f[1] -= 1 + X*X/10;
-    return (void)user, 0;
 }
 
 static double energy(const double *q, const double *p)

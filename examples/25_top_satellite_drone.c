@@ -37,13 +37,12 @@ static void begin(gvi_stepper *st, const gvi_desc *desc, const double *q, const 
 
 static const body toy = { .inertia = { 2e-4, 2e-4, 8e-5 } };              /* kg m^2, about its tip */
 
-GVI_POINTS(toy_weight, 4, f)(const gvi_points *x, void *user)
+GVI_EACH(toy_weight, 4, f)
 {
     const double centre[] = { 0, 0, 0.04 }, weight[] = { 0, 0, -0.981 };  /* m, N   */
     double own[3];
     body_rotate(x->q, 1, weight, own);
     body_force_about(x->q, centre, own, x->f);
-    return (void)user, 0;
 }
 
 static void spin_top(int held)
@@ -66,14 +65,13 @@ static void spin_top(int held)
 static const body boom = { .inertia = { 1, 4, 4.5 } };
 
 /* 3 r x I r, r pointing away from the earth                                       */
-GVI_POINTS(gravity_gradient, 4, f)(const gvi_points *x, void *user)
+GVI_EACH(gravity_gradient, 4, f)
 {
     double r[3], Ir[3], torque[3];
     body_rotate(x->q, 1, (double[]){ cos(*x->t), sin(*x->t), 0 }, r);
     for (int i = 0; i < 3; ++i) Ir[i] = 3*boom.inertia[i]*r[i];
     body_cross(r, Ir, torque);
     body_torque(x->q, torque, x->f);
-    return (void)user, 0;
 }
 
 /* The boom's angle to the vertical, its sine.                                     */

@@ -1,10 +1,10 @@
-/* 27 - How do I write a robot arm as it stands on paper? GVI_POINTS
+/* 27 - How do I write a robot arm as it stands on paper? GVI_EACH
 
    Three rods, hinge after hinge, in the plane; q_i is the angle of rod i to the vertical. On paper:
 
      M_ij = B_ij cos(q_i - q_j)       dT/dq_i = -v_i sum_j B_ij sin(q_i - q_j) v_j       V = -sum_i G_i cos q_i
 
-   with numbers B, G of lengths and masses. gvi.h wants all points of a step at once; GVI_POINTS makes that
+   with numbers B, G of lengths and masses. gvi.h wants all points of a step at once; GVI_EACH makes that
    of what happens at one point, for the mass as for forces. So each formula is a line below, and friction and
    motors of the hinges are two more rows. Hinge i turns rod i against the one before it.
 
@@ -26,45 +26,40 @@ static const double l1 = 0.4, l2 = 0.35, l3 = 0.2;                        /* m *
 static const double B11 = 0.64, B22 = 0.204, B33 = 0.0133, B21 = 0.28, B31 = 0.04, B32 = 0.035;
 static const double G1 = 17.7, G2 = 6.87, G3 = 0.981;
 
-GVI_POINTS(mass, 3, mass)(const gvi_points *x, void *user)
+GVI_EACH(mass, 3, mass)
 {
     const double *q = x->q;
     double *M = x->mass;
     M[0] = B11;
     M[3] = B21*cos(q[1] - q[0]);  M[4] = B22;
     M[6] = B31*cos(q[2] - q[0]);  M[7] = B32*cos(q[2] - q[1]);  M[8] = B33;
-    return (void)user, 0;
 }
 
-GVI_POINTS(gradient, 3, v, f)(const gvi_points *x, void *user)
+GVI_EACH(gradient, 3, v, f)
 {
     const double *q = x->q, *v = x->v;
     const double a = B21*sin(q[1] - q[0])*v[0]*v[1], b = B31*sin(q[2] - q[0])*v[0]*v[2], c = B32*sin(q[2] - q[1])*v[1]*v[2];
     x->f[0] += a + b;  x->f[1] += c - a;  x->f[2] -= b + c;
-    return (void)user, 0;
 }
 
-GVI_POINTS(weight, 3, f, value)(const gvi_points *x, void *user)
+GVI_EACH(weight, 3, f, value)
 {
     const double *q = x->q;
     x->f[0] -= G1*sin(q[0]);  x->f[1] -= G2*sin(q[1]);  x->f[2] -= G3*sin(q[2]);
     x->value[0] -= G1*cos(q[0]) + G2*cos(q[1]) + G3*cos(q[2]);
-    return (void)user, 0;
 }
 
 /* A torque of a hinge turns one rod forward, the one before it back.              */
-GVI_POINTS(friction, 3, v, f)(const gvi_points *x, void *user)
+GVI_EACH(friction, 3, v, f)
 {
     const double *v = x->v, a = 0.4*v[0], b = 0.2*(v[1] - v[0]), c = 0.1*(v[2] - v[1]);
     x->f[0] += b - a;  x->f[1] += c - b;  x->f[2] -= c;
-    return (void)user, 0;
 }
 
-GVI_POINTS(motors, 3, f)(const gvi_points *x, void *user)
+GVI_EACH(motors, 3, f)
 {
     const double *torque = user;
     x->f[0] += torque[0] - torque[1];  x->f[1] += torque[1] - torque[2];  x->f[2] += torque[2];
-    return 0;
 }
 
 /* The hand at (x, y), the last rod level.                                         */

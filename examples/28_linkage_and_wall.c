@@ -30,15 +30,14 @@
 
 static const double wall = 1.1;                         /* m; rods of 1 m, bobs of 1 kg, g = 1 m/s^2 */
 
-GVI_POINTS(weight, 4, f)(const gvi_points *x, void *user)
+GVI_EACH(weight, 4, f)
 {
     x->f[1] -= 1;
     x->f[3] -= 1;
-    return (void)user, 0;
 }
 
 /* (|q1|^2 - 1)/2 and (|q2 - q1|^2 - 1)/2                                           */
-GVI_POINTS(rods, 4, rows(2))(const gvi_points *x, void *user)
+GVI_EACH(rods, 4, rows(2))
 {
     const double *q = x->q, X = q[0], Y = q[1], U = q[2] - X, W = q[3] - Y;
     double *G = x->jacobian;
@@ -46,7 +45,6 @@ GVI_POINTS(rods, 4, rows(2))(const gvi_points *x, void *user)
     x->g[1] = (U*U + W*W - 1)/2;
     G[0] = X, G[1] = Y;
     G[4] = -U, G[5] = -W, G[6] = U, G[7] = W;
-    return (void)user, 0;
 }
 
 static double gap(double t, const double *q, const double *v, void *user)

@@ -31,12 +31,11 @@ static const svg_axis along_y = { 0, -0.45, 0.68, 80, 610, 8 }, along_w = { 0, -
 
 typedef struct result { double y, w, megno; int steps, status; } result;
 
-GVI_POINTS(potential, 2, f)(const gvi_points *x, void *user)
+GVI_EACH(potential, 2, f)
 {
     const double X = x->q[0], Y = x->q[1];
     x->f[0] -= X + 2*X*Y;
     x->f[1] -= Y + X*X - Y*Y;
-    return (void)user, 0;
 }
 
 static int product(const gvi_points *x, const gvi_points *d, int parameter, void *user)

@@ -22,7 +22,7 @@
 #include "gvi.h"
 #include "tools/svg.h"
 
-GVI_POINTS(rods, 4, rows(2))(const gvi_points *x, void *user)
+GVI_EACH(rods, 4, rows(2))
 {
     const double *q = x->q, a = q[2] - q[0], b = q[3] - q[1];
     double *G1 = x->jacobian, *G2 = G1 + 4;
@@ -30,16 +30,14 @@ GVI_POINTS(rods, 4, rows(2))(const gvi_points *x, void *user)
     x->g[1] = (a*a + b*b - 1)/2;
     G1[0] = q[0], G1[1] = q[1];
     G2[0] = -a, G2[1] = -b, G2[2] = a, G2[3] = b;
-    return (void)user, 0;
 }
 
 /* g = 1: half of each rod's weight at each of its ends. */
-GVI_POINTS(weight, 4, f, value)(const gvi_points *x, void *user)
+GVI_EACH(weight, 4, f, value)
 {
     x->f[1] -= 1;
     x->f[3] -= 0.5;
     x->value[0] += x->q[1] + x->q[3]/2;
-    return (void)user, 0;
 }
 
 enum { STEPS = 400 };

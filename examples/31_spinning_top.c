@@ -34,7 +34,7 @@ static void columns(const double *q, double L[4][4])
         for (int i = 0; i < 4; ++i) L[j][i] = rows[j][i];
 }
 
-GVI_POINTS(mass, 4, mass)(const gvi_points *x, void *user)
+GVI_EACH(mass, 4, mass)
 {
     double L[4][4];
     columns(x->q, L);
@@ -44,11 +44,10 @@ GVI_POINTS(mass, 4, mass)(const gvi_points *x, void *user)
             for (int a = 0; a < 4; ++a) sum += I[a]*L[i][a]*L[j][a];
             x->mass[4*i + j] = 4*sum;
         }
-    return (void)user, 0;
 }
 
 /* dT/dq: conj(q) v = conj(conj(v) q), so T is the same with q and v exchanged, but for signs. */
-GVI_POINTS(mass_gradient, 4, v, f)(const gvi_points *x, void *user)
+GVI_EACH(mass_gradient, 4, v, f)
 {
     double Q[4][4], V[4][4];
     columns(x->q, Q);
@@ -58,10 +57,9 @@ GVI_POINTS(mass_gradient, 4, v, f)(const gvi_points *x, void *user)
         for (int j = 0; j < 4; ++j) w += Q[j][a]*x->v[j];
         for (int j = 0; j < 4; ++j) x->f[j] += 4*I[a]*w*(a ? -V[j][a] : V[j][a]);
     }
-    return (void)user, 0;
 }
 
-GVI_POINTS(weight, 4, f, value)(const gvi_points *x, void *user)
+GVI_EACH(weight, 4, f, value)
 {
     const double *q = x->q;
     x->f[0] -= 2*mgl*q[0];
@@ -69,17 +67,15 @@ GVI_POINTS(weight, 4, f, value)(const gvi_points *x, void *user)
     x->f[2] += 2*mgl*q[2];
     x->f[3] -= 2*mgl*q[3];
     x->value[0] += mgl*(q[0]*q[0] - q[1]*q[1] - q[2]*q[2] + q[3]*q[3]);
-    return (void)user, 0;
 }
 
-GVI_POINTS(unit, 4, rows(1))(const gvi_points *x, void *user)
+GVI_EACH(unit, 4, rows(1))
 {
     x->g[0] = -0.5;
     for (int i = 0; i < 4; ++i) {
         x->g[0] += x->q[i]*x->q[i]/2;
         x->jacobian[i] = x->q[i];
     }
-    return (void)user, 0;
 }
 
 /* The body's third axis in space. */

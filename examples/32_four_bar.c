@@ -24,7 +24,7 @@
 
 static const double crank = 0.1, coupler = 0.25, rocker = 0.2, ground = 0.3, gravity = 9.81;
 
-GVI_POINTS(bars, 6, rows(3))(const gvi_points *x, void *user)
+GVI_EACH(bars, 6, rows(3))
 {
     const double X = x->q[0], Y = x->q[1], U = x->q[2], W = x->q[3], a = U - X, b = W - Y, c = U - ground;
     double *G1 = x->jacobian, *G2 = G1 + 6, *G3 = G2 + 6;
@@ -34,21 +34,19 @@ GVI_POINTS(bars, 6, rows(3))(const gvi_points *x, void *user)
     G1[0] = X, G1[1] = Y;
     G2[0] = -a, G2[1] = -b, G2[2] = a, G2[3] = b;
     G3[2] = c, G3[3] = W;
-    return (void)user, 0;
 }
 
 /* Half of each bar's weight at each of its ends. */
-GVI_POINTS(weight, 4, f, value)(const gvi_points *x, void *user)
+GVI_EACH(weight, 4, f, value)
 {
     const double first = (crank + coupler)*gravity, second = (coupler + rocker)*gravity;
     x->f[1] -= first;
     x->f[3] -= second;
     x->value[0] += first*x->q[1] + second*x->q[3];
-    return (void)user, 0;
 }
 
 /* The two powers are coordinates that nothing moves: their momenta are the works. */
-GVI_POINTS(motor, 6, v, f)(const gvi_points *x, void *user)
+GVI_EACH(motor, 6, v, f)
 {
     const double *q = x->q, *v = x->v;
     const double w = (q[0]*v[1] - q[1]*v[0])/(crank*crank), torque = 0.3*(20 - w);
@@ -59,7 +57,6 @@ GVI_POINTS(motor, 6, v, f)(const gvi_points *x, void *user)
     x->f[3] += brake*c/(rocker*rocker);
     x->f[4] += torque*w;
     x->f[5] += brake*turn;
-    return (void)user, 0;
 }
 
 int main(void)

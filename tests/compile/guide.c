@@ -16,22 +16,20 @@ static int stiff_hessian(double t, const double *q, const double *v, double *fq,
 }
 
 // g(q) = |q|: value and gradient
-GVI_POINTS(distance, 2, f, value)(const gvi_points *x, void *user)
+GVI_EACH(distance, 2, f, value)
 {
     double d = GVI_SQRT(x->q[0]*x->q[0] + x->q[1]*x->q[1]);
     x->value[0] += d;
     x->f[0] += x->q[0]/d;
     x->f[1] += x->q[1]/d;
-    return (void)user, 0;
 }
 
-GVI_POINTS(attraction, 2, f, value)(const gvi_points *x, void *user)
+GVI_EACH(attraction, 2, f, value)
 {
     double X = x->q[0], Y = x->q[1], d2 = X*X + Y*Y, d = sqrt(d2), w = -1/(d2*d);
     x->value[0] -= 1/d;
     x->f[0] += w*X;
     x->f[1] += w*Y;
-    return (void)user, 0;
 }
 
 static const double mass[6] = { 1, 2, 3, 4, 5, 6 };
