@@ -1172,7 +1172,8 @@ static int gvi__finite(gvi_real x) { return GVI_ABS(x) <= GVI__MAX; }
 // true for every x but 0 and NaN
 static int gvi__nonzero(gvi_real x) { return x < 0 || x > 0; }
 
-static gvi_real gvi__least(gvi_real a, gvi_real b) { return a < b ? a : b; }
+static gvi_real gvi__smaller(gvi_real a, gvi_real b) { return a < b ? a : b; }
+static gvi_real gvi__larger(gvi_real a, gvi_real b) { return a > b ? a : b; }
 
 // the first entry that is not finite, or -1
 static int gvi__first_non_finite(int n, const gvi_real *x)
@@ -1181,8 +1182,6 @@ static int gvi__first_non_finite(int n, const gvi_real *x)
         if (!gvi__finite(x[i])) return i;
     return -1;
 }
-
-static gvi_real gvi__larger(gvi_real a, gvi_real b) { return a > b ? a : b; }
 
 // how many of n numbers stand in whole lanes
 GVI__BODY int gvi__in_lanes(int n) { return GVI__LANES > 1 ? n - n % GVI__LANES : 0; }
@@ -2760,9 +2759,11 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_rea
     gvi__free_motion(st, from, h);
     st->formulation = x->chosen;
     if (gvi__uses(x, GVI_EXPLICIT)) {
-        const gvi_real *F = x->has_force && query != GVI__FROM_START ? x->last.F : NULL;
+        const gvi_real *F = NULL;                 // the force at the start, if it is known
+        if (x->has_force && query != GVI__FROM_START) F = x->last.F;
         const gvi_status status = gvi__kicks(st, from, h, F);
-        return status == GVI_OK && gvi__constrained(st) ? gvi__project(st, from, 0) : status;
+        if (status != GVI_OK || !gvi__constrained(st)) return status;
+        return gvi__project(st, from, 0);
     }
 
     // an extrapolation any farther is no better than no force
@@ -2791,7 +2792,9 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_rea
     st->formulation = GVI_NEWTON;
     if (usable) gvi__prepare_predictor(st, h, query);
     const int extrapolated = usable && x->has_velocity;
-    status = gvi__newton_step(st, from, extrapolated ? GVI__EXTRAPOLATED : GVI__PLAIN, query);
+    int how = GVI__PLAIN;
+    if (extrapolated) how = GVI__EXTRAPOLATED;
+    status = gvi__newton_step(st, from, how, query);
     if (status == GVI_E_CONVERGENCE || status == GVI_E_SINGULAR
         || (status == GVI_E_CALLBACK && extrapolated)
         || (status == GVI_E_NON_FINITE && !x->diagnose)) {
@@ -2806,13 +2809,15 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_rea
 static int gvi__finite_end(const gvi_stepper *st, const gvi__origin *from)
 {
     const struct gvi__phase *d = &st->x.step;
+    const int whole = (st->n >= 8)*gvi__in_lanes(st->n);
     gvi_real none = 0;
     int i = 0;
     gvi__lane nones = { 0 };
-    for (; GVI__LANES > 1 && st->n >= 8 && i + GVI__LANES <= st->n; i += GVI__LANES)
+    for (; i < whole; i += GVI__LANES)
         nones += 0*(GVI__LOAD(from->q + i) + GVI__LOAD(d->q + i))
                  + 0*(GVI__LOAD(from->p + i) + GVI__LOAD(d->p + i));
-    for (int k = 0; i > 0 && k < GVI__LANES; ++k) none += GVI__ENTRY(nones, k);
+    if (whole > 0)
+        for (int k = 0; k < GVI__LANES; ++k) none += GVI__ENTRY(nones, k);
     for (; i < st->n; ++i) {
         // rounded, as the commit will store them
         const gvi__rounded q = from->q[i] + d->q[i], p = from->p[i] + d->p[i];
@@ -2886,10 +2891,9 @@ static gvi_status gvi__solve(gvi_stepper *st, const gvi__origin *from, gvi_real 
         if (status == GVI_OK && !look && !gvi__finite_end(st, from))
             status = gvi__report_status(st, GVI_E_NON_FINITE);
         const int explained = status != GVI_E_NON_FINITE || st->fault.effect != GVI_FAULT_NONE;
-        if (look)
-            return status != GVI_OK && explained ? status
-                                                 : gvi__report_status(st, GVI_E_CONVERGENCE);
-        if (explained) return status;
+        if (look && (status == GVI_OK || !explained))
+            return gvi__report_status(st, GVI_E_CONVERGENCE);
+        if (look || explained) return status;
         if (!query) x->newton.h = 0;
     }
 }
@@ -2902,8 +2906,11 @@ static void gvi__rotate_values(gvi_stepper *st)
                                     { &a->A, &b->A, &c->A } };
     GVI__UNROLL for (int k = 0; k < 1 + (GVI__READS_V > 0) + (GVI__LAGRANGIAN > 0); ++k) {
         gvi_real **older = rows[k][0], **last = rows[k][1], **work = rows[k][2];
-        gvi_real *spare = *older ? *older : *last;
-        if (*older) *older = *last;
+        gvi_real *spare = *last;
+        if (*older) {
+            spare = *older;
+            *older = *last;
+        }
         *last = *work;
         *work = spare;
     }
@@ -2914,8 +2921,9 @@ static void gvi__move(int n, const gvi_real *GVI__RESTRICT dx, const gvi_real *G
                       gvi_real *GVI__RESTRICT x, gvi_real *GVI__RESTRICT x_low,
                       gvi_real *GVI__RESTRICT was)
 {
+    const int whole = (n >= 8)*gvi__in_lanes(n);
     int i = 0;
-    for (; GVI__LANES > 1 && n >= 8 && i + GVI__LANES <= n; i += GVI__LANES) {
+    for (; i < whole; i += GVI__LANES) {
         // gvi__two_sum, twice
         const gvi__lane a = GVI__LOAD(x + i), d = GVI__LOAD(dx + i), s = a + d, b = s - a;
         gvi__lane e = (a - (s - b)) + (d - b), t = s;
@@ -2943,11 +2951,10 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
 {
     struct gvi__private *x = &st->x;
     const gvi__two t = gvi__two_sum(st->t, x->dt + st->t_low);
-    const int whole = gvi__uses(x, GVI_EXPLICIT);             // whose increments have no low words
-    gvi__move(st->n, x->step.q, whole ? NULL : x->step.q_low, x->state.q, x->state.q_low,
-              x->began.q);
-    gvi__move(st->n, x->step.p, whole ? NULL : x->step.p_low, x->state.p, x->state.p_low,
-              x->began.p);
+    const gvi_real *dq_low = x->step.q_low, *dp_low = x->step.p_low;
+    if (gvi__uses(x, GVI_EXPLICIT)) dq_low = dp_low = NULL;   // whose increments have no low words
+    gvi__move(st->n, x->step.q, dq_low, x->state.q, x->state.q_low, x->began.q);
+    gvi__move(st->n, x->step.p, dp_low, x->state.p, x->state.p_low, x->began.p);
     st->t0 = st->t;
     st->t = t.hi;
     st->t_low = t.lo;
@@ -2958,10 +2965,10 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
         x->time.H_low = H.lo;
     }
     if (GVI__CONSTRAINTS && x->con.bits) gvi__commit_constraints(st, h);
-    x->kept = x->kept > 0 && !gvi__nonzero(h - st->h) ? 2 : 1;
+    x->kept = 1 + (x->kept > 0 && !gvi__nonzero(h - st->h));
     st->h = h;
     gvi__rotate_values(st);
-    x->stepped = gvi__clock_is_on(st) ? 2 : 1;
+    x->stepped = 1 + gvi__clock_is_on(st);
     x->has_force = gvi__uses(x, GVI_EXPLICIT) && !gvi__nonzero(x->table.c[0])
                    && !gvi__nonzero(x->table.c[st->r - 1] - 1);
     x->has_velocity = st->formulation > GVI_POSITIONS;
@@ -3654,15 +3661,16 @@ static gvi_real gvi__inertia(const gvi_stepper *st, int i)
     const struct gvi__private *x = &st->x;
     const size_t n = (size_t)st->n, ii = (size_t)i*(n + 1);
     const size_t iR = (size_t)i*(size_t)x->R;
-    const gvi_real m = x->desc.mass.kind == GVI_MASS_DENSE  ? x->mass.matrix[ii]
-                       : gvi__mass_is(x, GVI_MASS_POSITION) ? x->mass.at_points[ii*(size_t)x->R]
-                       : gvi__mass_is(x, GVI_MASS_NONE)     ? x->work.P[iR]/x->work.V[iR]
-                                                            : x->mass.matrix[i];
-    // the momenta formulation factors M(q) in place
-    const int over = gvi__mass_is(x, GVI_MASS_POSITION) && st->formulation == GVI_MOMENTA
-                     && x->has_factor && !x->desc.mass.velocity;
+    gvi_real m;
+    if (x->desc.mass.kind == GVI_MASS_DENSE) m = x->mass.matrix[ii];
+    else if (gvi__mass_is(x, GVI_MASS_POSITION)) m = x->mass.at_points[ii*(size_t)x->R];
+    else if (gvi__mass_is(x, GVI_MASS_NONE)) m = x->work.P[iR]/x->work.V[iR];
+    else m = x->mass.matrix[i];
     if (!gvi__nonzero(m) || !gvi__finite(m)) return 1;
-    return over ? 1/GVI_ABS(m) : GVI_ABS(m);
+    // the momenta formulation factors M(q) in place: 1/D_i is there
+    if (gvi__mass_is(x, GVI_MASS_POSITION) && st->formulation == GVI_MOMENTA && x->has_factor
+        && !x->desc.mass.velocity) m = 1/m;
+    return GVI_ABS(m);
 }
 
 /* The largest change of a row that is beyond a few units of the last place of its largest
@@ -3674,32 +3682,34 @@ static gvi_real gvi__inertia(const gvi_stepper *st, int i)
    rows that are nearly dependent make large: that counts next to nothing.                      */
 static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *y, int stages)
 {
-    const int R = st->x.R, C = st->x.con.C;
-    const gvi_real rests = gvi__constrained(st) && gvi__constraints_rest(st) ? 1 : 0;
+    const int R = st->x.R, C = st->x.con.C, held = gvi__constrained(st)*st->s;
+    const gvi_real rests = (gvi_real)(held && gvi__constraints_rest(st));
     gvi_real largest = 0, noise = 0;
-    for (int k = 0; k < stages; ++k)
-        for (int i = 0; i < st->n && y[k].scale; ++i) {
-            const int p = gvi__uses(&st->x, GVI_MOMENTA) && k == 0,
-                      v = !gvi__uses(&st->x, GVI_MOMENTA) && k == 1;
-            const gvi_real m = gvi__inertia(st, i);
-            const gvi_real unit = (p ? GVI_ABS(h)/m : v ? GVI_ABS(h) : 1)*GVI_SQRT(m);
-            const gvi_real *row = y[k].rows + i*R;
-            gvi_real size = GVI_ABS(y[k].base[i]), push = 0;
-            for (int j = 0; j < st->r; ++j) size = GVI_ABS(row[j]) > size ? GVI_ABS(row[j]) : size;
-            for (int e = 0; gvi__constrained(st) && e < st->s; ++e) {
-                gvi_real held = 32*GVI__EPS*GVI_ABS(h*st->x.con.force[i*R + e]), moved = 0;
+    for (int k = 0; k < stages; ++k) {
+        if (!y[k].scale) continue;
+        for (int i = 0; i < st->n; ++i) {
+            const gvi_real m = gvi__inertia(st, i), *row = y[k].rows + i*R;
+            gvi_real size = GVI_ABS(y[k].base[i]), push = 0, unit = 1, change = 0;
+            if (stages == 2 && k != gvi__uses(&st->x, GVI_MOMENTA)) unit = GVI_ABS(h);  // V or P
+            if (gvi__uses(&st->x, GVI_MOMENTA) && k == 0) unit /= m;                    // P
+            unit *= GVI_SQRT(m);
+            for (int j = 0; j < st->r; ++j) size = gvi__larger(GVI_ABS(row[j]), size);
+            for (int e = 0; e < held; ++e) {
+                gvi_real force = 32*GVI__EPS*GVI_ABS(h*st->x.con.force[i*R + e]), moved = 0;
                 for (int a = 0; a < st->x.con.m; ++a)
                     moved += GVI_ABS(st->x.con.G[(a*st->n + i)*C + e]*st->x.con.rho[a*R + e]);
-                held += rests*moved/GVI_ABS(st->x.con.hw[e]);
-                if (GVI_ABS(h)*held/m > push) push = GVI_ABS(h)*held/m;
+                force += rests*moved/GVI_ABS(st->x.con.hw[e]);
+                push = gvi__larger(GVI_ABS(h)*force/m, push);
             }
-            gvi_real change = y[k].scale[i] > 0 ? GVI_SQRT(y[k].change[i])/y[k].scale[i] : 0;
-            if (unit*size > largest) largest = unit*size;
+            if (y[k].scale[i] > 0) change = GVI_SQRT(y[k].change[i])/y[k].scale[i];
+            largest = gvi__larger(unit*size, largest);
             if (!(change > 4*GVI__EPS*size)) continue;
             if (change <= push) change *= GVI__EPS;
-            if (unit*change > noise) noise = unit*change;
+            noise = gvi__larger(unit*change, noise);
         }
-    return noise > 0 ? noise/(32*GVI__EPS*largest) : 0;
+    }
+    if (!(noise > 0)) return 0;
+    return noise/(32*GVI__EPS*largest);
 }
 
 /* The verdict on a change D of all rows.  The iteration ends when the next change, D times the
@@ -3718,25 +3728,32 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
 {
     enum { POOR = 2, POOR_FAR = 4, STILL = 3, STAGNANT = 4 };     // iterations in a row
     const gvi_desc *d = &st->x.desc;
-    const gvi_real wanted = d->tolerance > 0 ? d->tolerance : GVI__EPS/65536,
-                   tolerance = wanted*wanted;
+    gvi_real wanted = GVI__EPS/65536;
+    if (d->tolerance > 0) wanted = d->tolerance;
+    const gvi_real tolerance = wanted*wanted;
     const gvi_real place = 2*GVI__EPS*GVI__EPS, rounding = 8*place*(gvi_real)(st->n*st->r),
                    sure = 65536*rounding, far = (gvi_real)0.0625, tenth_less = (gvi_real)0.81;
     const gvi_real before = p->before, earlier = p->earlier, worst = st->counters.worst_contraction;
     const int grows = before > 0 && D >= before/4, alone = p->used == 1 || p->ratio > 1;
-    const gvi_real last = alone ? D : gvi__least(before, 1);
+    gvi_real last = D;
+    if (!alone) last = gvi__smaller(before, 1);
     int settled = D*D <= tolerance*last && d->iterations == 0;
     if (settled && !alone && D > rounding) {
-        const gvi_real other = earlier > 0 ? before/gvi__least(earlier, 1) : p->ratio;
+        gvi_real other = p->ratio;
+        if (earlier > 0) other = before/gvi__smaller(earlier, 1);
         settled = D*other <= tolerance;
         if (settled) st->x.watch.found = D/last;
     }
-    for (int i = 0; settled && i < stages*st->n; ++i) {      // no row hides behind a larger one
-        const gvi_real Di = st->x.watch.change[i];
-        const gvi_real before_i = alone ? Di : gvi__least(st->x.watch.before[i], 1);
-        settled = !(Di > place && Di*Di > tolerance*before_i);
+    if (settled) {
+        int rows = 0;                             // no row hides behind a larger one
+        for (; rows < stages*st->n; ++rows) {
+            const gvi_real Di = st->x.watch.change[rows];
+            gvi_real before_i = Di;
+            if (!alone) before_i = gvi__smaller(st->x.watch.before[rows], 1);
+            if (Di > place && Di*Di > tolerance*before_i) break;
+        }
+        if (rows == stages*st->n) return GVI__DONE;
     }
-    if (settled) return GVI__DONE;
     if (!gvi__finite(D)) return GVI__NOT_FINITE;
 
     // contraction over two iterations, as long as it is not about rounding
@@ -3747,36 +3764,45 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
     p->before = D;
     if (d->iterations > 0) {
         if (p->used < d->iterations) return GVI__GO_ON;
-        const int falls = earlier > 0 ? D < earlier/4 : before <= 0 || D < before;
-        return falls || D <= sure || gvi__noise(st, h, y, stages) <= 1 ? GVI__DONE
-                                                                                  : GVI__DIVERGES;
+        int falls = before <= 0 || D < before;
+        if (earlier > 0) falls = D < earlier/4;
+        if (falls || D <= sure || gvi__noise(st, h, y, stages) <= 1) return GVI__DONE;
+        return GVI__DIVERGES;
     }
-    p->growing = grows ? p->growing + 1 : 0;
-    p->stagnant = D < tenth_less*p->least ? 0 : p->stagnant + 1;
-    if (D < p->least) p->least = D;
+    p->growing += 1;
+    if (!grows) p->growing = 0;
+    p->stagnant += 1;
+    if (D < tenth_less*p->least) p->stagnant = 0;
+    p->least = gvi__smaller(p->least, D);
     if (gvi__constrained(st) && D > 16*p->least && D > sure) {
         // near a bifurcation it would be leaving the motion, perhaps for that of another branch
         int at[2];
         const gvi_real loss = gvi__loss(st, at);
         if (loss > 3 && D > sure*loss*loss) return GVI__DIVERGES;
     }
-    const int poor = p->growing > (D > far ? POOR_FAR : POOR) && D > sure;
-    const int wait = gvi__constrained(st) ? 0 : 1;           // the rounding of g is in every D
+    int allowed = POOR;
+    if (D > far) allowed = POOR_FAR;
+    const int poor = p->growing > allowed && D > sure;
+    const int wait = !gvi__constrained(st);                  // the rounding of g is in every D
     if (p->stagnant > wait || poor) {
         const gvi_real noise = gvi__noise(st, h, y, stages);
-        // noise that reaches a new minimum still converges, perhaps to 0
-        p->still = noise < p->quiet ? 0 : p->still + 1;
+        p->still += 1;
+        if (noise < p->quiet) p->still = 0;       // a new minimum still converges, perhaps to 0
         const int level = noise <= GVI__EPS || (p->still > STILL && noise <= p->noise);
-        if (p->stagnant > wait && (noise <= 0
-            || (noise <= 1 && (wait ? p->stagnant > STAGNANT && level : p->stagnant > 1))))
-            return p->used - p->stagnant >= GVI__DIG/2 && gvi__may_turn(st) ? GVI__DIVERGES
-                                                                              : GVI__ONCE_MORE;
+        int rests = p->stagnant > 1;
+        if (wait) rests = p->stagnant > STAGNANT && level;
+        if (p->stagnant > wait && (noise <= 0 || (noise <= 1 && rests))) {
+            const int slow = p->used - p->stagnant >= GVI__DIG/2;
+            if (slow && gvi__may_turn(st)) return GVI__DIVERGES;
+            return GVI__ONCE_MORE;
+        }
         // a row that tends to 0 changes by its whole size: does its amplitude fall?
         if (poor && noise > 1 && noise > p->noise/2 && gvi__may_turn(st)) return GVI__DIVERGES;
         p->noise = noise;
         if (p->still == 0) p->quiet = noise;
     }
-    return p->used < d->max_iterations ? GVI__GO_ON : GVI__DIVERGES;
+    if (p->used < d->max_iterations) return GVI__GO_ON;
+    return GVI__DIVERGES;
 }
 
 /* Fixed point: F (V, A) at the stage values makes the next stage values.                     */
@@ -3795,7 +3821,7 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
     at.v = x->work.V;
     if (*used > 0) p.ratio = 2;                   // the attempt before this one failed
     else if (extrapolate && GVI_ABS(h) <= GVI_ABS(st->h)) p.ratio = x->watch.ratio;
-    x->watch.found = gvi__least(p.ratio, 1);
+    x->watch.found = gvi__smaller(p.ratio, 1);
     *used = 0;
     x->has_factor = 0;
     if (extrapolate && x->sized.sums) {
@@ -5763,8 +5789,8 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__des
 {
     const int size = (st->s - J->k0)*st->n;
     const gvi_real before = p->before, all = (gvi_real)st->n, quarter = (gvi_real)0.25;
-    const gvi_real ratio = before > 0 ? change/gvi__least(before, all) : 1;
-    const gvi_real other = p->earlier > 0 ? before/gvi__least(p->earlier, all) : 1;
+    const gvi_real ratio = before > 0 ? change/gvi__smaller(before, all) : 1;
+    const gvi_real other = p->earlier > 0 ? before/gvi__smaller(p->earlier, all) : 1;
     const gvi_real wanted = st->x.desc.tolerance, noise = 64*GVI__EPS*(gvi_real)size;
     if (!gvi__finite(change)) return GVI__NOT_FINITE;
     if (p->earlier > 0 && change > 1000*GVI__EPS) {
