@@ -516,7 +516,7 @@ typedef int gvi_points_fn(const gvi_points *x, void *user);
      GVI_UNROLL for (int i = 1; i < 6; ++i)
          GVI_UNROLL for (int j = 0; j < i; ++j) {
 
-   That pays for at most 64 coordinates and 90 pairs with gcc, about 20 of either with clang; beyond,
+   That pays up to 64 coordinates and 90 pairs with gcc, about 20 of either with clang; beyond that,
    write rows.  The bits are those of a loop by hand.                                         */
 #define GVI_POINTS(name, n, ...) GVI__POINTS(name, n, GVI__USES(__VA_ARGS__, , , , ))
 #define GVI__USES(a, b, c, d, ...)                                                              \
@@ -3359,7 +3359,9 @@ GVI__BODY gvi_real gvi__stage_by_lanes(const gvi_stepper *st, const gvi__stage *
 GVI__KERNEL(gvi__rows_any, by_points, st->n, st->r, st->x.R)
 GVI__KERNEL(gvi__rows_2_8,  by_lanes,  2, 8, 8)
 GVI__KERNEL(gvi__rows_8,    by_lanes,  st->n, 8, 8)
+GVI__KERNEL(gvi__rows_6,    by_lanes,  st->n, 6, 8)
 GVI__KERNEL(gvi__rows_to_8, by_lanes,  st->n, st->r, 8)
+GVI__KERNEL(gvi__rows_12,   by_lanes,  st->n, 12, 16)
 GVI__KERNEL(gvi__rows_16,   by_lanes,  st->n, 16, 16)
 GVI__KERNEL(gvi__rows_many, by_lanes,  st->n, st->r, st->x.R)
 GVI__KERNEL(gvi__rows_2,    by_points, st->n, 2, 2)
@@ -3374,6 +3376,8 @@ static gvi__kernel *gvi__kernel_for(int n, int r)
     if (r == 4) return gvi__rows_4;
     if (GVI__LANES == 1) return gvi__rows_any;
     if (r == 8) return n == 2 ? gvi__rows_2_8 : gvi__rows_8;
+    if (r == 6) return gvi__rows_6;
+    if (r == 12) return gvi__rows_12;
     if (r == 16) return gvi__rows_16;
     return r < 8 ? gvi__rows_to_8 : gvi__rows_many;
 }
@@ -3533,6 +3537,15 @@ static gvi_status gvi__evaluate_with_clock(gvi_stepper *st, const gvi__origin *f
 static gvi_status gvi__clock_at(gvi_stepper *st, gvi_real t, const gvi_real *q, gvi_real *rate,
                                 gvi_real *slope);
 
+// x := zero, a 0 that the compiler does not know: it would call memset, and wait for it, every time
+static void gvi__clear(size_t n, gvi_real zero, gvi_real *x)
+{
+    const gvi__lane none = { 0 }, all = none + zero;
+    size_t i = 0;
+    for (; GVI__LANES > 1 && i + GVI__LANES <= n; i += GVI__LANES) GVI__STORE(x + i) = all;
+    for (; i < n; ++i) x[i] = zero;
+}
+
 /* F (and A, V) at the stage values, all points in one call an effect.                        */
 static gvi_status gvi__evaluate_stages(gvi_stepper *st, const gvi__origin *from, gvi_points *y)
 {
@@ -3540,7 +3553,7 @@ static gvi_status gvi__evaluate_stages(gvi_stepper *st, const gvi__origin *from,
     const size_t length = (size_t)st->n*(size_t)x->R;
     const int momenta = gvi__uses(x, GVI_MOMENTA);
     gvi_status status = GVI_OK;
-    gvi__zero(length, y->f);
+    gvi__clear(length, x->zeros[0], y->f);
     if (momenta) {                                // V from dL/dv(Q, V) = P
         gvi__count(&st->counters.velocities, st->r);
         if (x->desc.mass.velocity) status = gvi__evaluate_mass(st, y, x->work.P, x->work.V);
@@ -3551,7 +3564,7 @@ static gvi_status gvi__evaluate_stages(gvi_stepper *st, const gvi__origin *from,
         else if (x->diagnose) status = gvi__check_rows(st, y, x->work.V, GVI_FAULT_MASS);
         if (status != GVI_OK) return status;
     }
-    if (GVI__LAGRANGIAN && y->dldv) gvi__zero(length, y->dldv);
+    if (GVI__LAGRANGIAN && y->dldv) gvi__clear(length, x->zeros[0], y->dldv);
     if (gvi__clock_is_on(st)) return gvi__evaluate_with_clock(st, from, y);
     status = gvi__effects(st, y, 0, NULL);
     if (status == GVI_OK && gvi__constrained(st)) status = gvi__constraint_values(st, from);
@@ -3879,7 +3892,7 @@ GVI__BODY void gvi__fold(int half, gvi_real *hi, gvi_real *lo)
 
 /* sum_j a_j b_j with its low word, since the errors of increments add up over the steps.  Eight
    partial sums, then these by halves; past the last point the numbers are 0.                  */
-static gvi__two gvi__exact_dot(int R, const gvi_real *a, const gvi_real *b)
+GVI__BODY gvi__two gvi__exact_dot(int R, const gvi_real *a, const gvi_real *b)
 {
     gvi_real hi[8], lo[8];
     for (int k = 0; R < 8 && k < 4; ++k) {
@@ -3914,7 +3927,10 @@ static void gvi__sum_rows(const gvi_stepper *st, gvi_real *rows, const gvi_real 
     for (int i = 0; i < st->n; ++i, rows += R) {
         // a callback may have left anything there
         for (int k = st->r; k < R; ++k) rows[k] = 0;
-        const gvi__two z = gvi__exact_dot(R, st->x.sized.hb, rows);
+        gvi__two z;
+        if (R == 8) z = gvi__exact_dot(8, st->x.sized.hb, rows);
+        else if (R == 4) z = gvi__exact_dot(4, st->x.sized.hb, rows);
+        else z = gvi__exact_dot(R, st->x.sized.hb, rows);
         sum[i] = z.hi;
         sum_low[i] = gvi__low(z.lo + low[i]);
     }
