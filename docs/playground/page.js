@@ -212,7 +212,7 @@ function stepOnce() {
   if (set.dial) {                                        // a dot where each step ends
     const p = x.world_place(0, t) / 8, s = scene();
     for (let b = 0; b < s.bodies; b++) if (s.trails >>> b & 1) dots.push([...numbers.subarray(p + 3 * b, p + 3 * b + 3)]);
-    if (dots.length > 400) dots.splice(0, 40);
+    if (dots.length > 120) dots.shift();
   }
   const fine = scene().speed / 50, pieces = clocked() ? 6 : Math.min(16, Math.ceil(dt / fine));
   trailed += dt;
@@ -328,7 +328,7 @@ function draw() {
   });
   pen.globalAlpha = 1;
   pen.fillStyle = colours.ink;
-  for (const d of dots) { const p = project(...d); pen.beginPath(); pen.arc(p[0], p[1], 2, 0, 7); pen.fill(); }
+  for (const d of dots) { const p = project(...d); pen.beginPath(); pen.arc(p[0], p[1], 1.8, 0, 7); pen.fill(); }
   const figure = (list, ghost) => {
     const on = list.map(p => project(p[0], p[1], p[2]));
     pen.strokeStyle = ghost ? colours.rk4 : colours.muted; pen.lineWidth = ghost ? 1.2 : s.bodies > 20 ? 1.3 : 2.4;

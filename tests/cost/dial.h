@@ -5,13 +5,13 @@
 #define DIAL_H
 
 /* The problems of the study: neither those twice in the list nor lattices and stiff chains, which one step suits */
-enum { DRAWN = 13 };
-static const char *const drawn[DRAWN] = { "P1", "P2", "P4", "P5", "P9", "P10", "P11", "P12", "P13", "P14", "P15", "P16", "P17" };
+enum { DRAWN = 8, STUDIED = 13 };          // the first ones are drawn
+static const char *const studied[STUDIED] = { "P1", "P4", "P5", "P9", "P11", "P14", "P15", "P17", "P2", "P10", "P12", "P13", "P16" };
 
 static int in_dial_study(const char *key)
 {
-    for (int d = 0; d < DRAWN; ++d)
-        if (!strcmp(key, drawn[d])) return 1;
+    for (int d = 0; d < STUDIED; ++d)
+        if (!strcmp(key, studied[d])) return 1;
     return 0;
 }
 
@@ -84,7 +84,7 @@ static void draw_dial(const study *studies, int count, const options *o)
     for (int d = 0; d < DRAWN; ++d)
         for (int i = 0; i < count; ++i) {
             const curve *c = dial_of(studies + i);
-            if (strcmp(studies[i].p->key, drawn[d]) || c->count == 0) continue;
+            if (strcmp(studies[i].p->key, studied[d]) || c->count == 0) continue;
             for (int k = 0; k < c->count; ++k) {
                 dial[lines][k] = c->samples[k].parameter;
                 error[lines][k] = c->samples[k].error;
