@@ -3290,11 +3290,11 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
     p->growing = grows ? p->growing + 1 : 0;
     p->stagnant = D < (gvi_real)0.81*p->least ? 0 : p->stagnant + 1;
     if (D < p->least) p->least = D;
-    if (gvi__constrained(st) && D > 16*p->least && D > 65536*rounding) {
+    if (gvi__constrained(st) && D > 16*p->least && D > 256*rounding) {
         // near a bifurcation it would be leaving the motion, perhaps for that of another branch
         int at[2];
         const gvi_real loss = gvi__loss(st, at);
-        if (loss > 3 && D > 65536*rounding*loss*loss) return GVI__DIVERGES;
+        if (loss > 3 && D > 256*rounding*loss*loss) return GVI__DIVERGES;
     }
     const int poor = p->growing > (D > far ? 4 : 2) && D > 65536*rounding;
     const int wait = gvi__constrained(st) ? 0 : 1;           // the rounding of g is in every D
@@ -4174,7 +4174,7 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
         if (finite && size <= 64 && k > 0 && !(size < before/2))
             return gvi__report_status(st, GVI_OK);
         if (size < least) least = size;
-        if (!finite || k > 64 || size > 4*(least + 4096))
+        if (!finite || k > 64 || size > 4*(least + 256))
             return gvi__report_status(st, finite || x->diagnose ? GVI_E_CONVERGENCE
                                                                 : GVI_E_NON_FINITE);
         before = size;
