@@ -3787,11 +3787,11 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
     p->stagnant += 1;
     if (D < tenth_less*p->least) p->stagnant = 0;
     p->least = gvi__smaller(p->least, D);
-    if (gvi__constrained(st) && D > 16*p->least && D > sure) {
+    if (gvi__constrained(st) && D > 16*p->least && D > 256*rounding) {
         // near a bifurcation it would be leaving the motion, perhaps for that of another branch
         int at[2];
         const gvi_real loss = gvi__loss(st, at);
-        if (loss > 3 && D > sure*loss*loss) return GVI__DIVERGES;
+        if (loss > 3 && D > 256*rounding*loss*loss) return GVI__DIVERGES;
     }
     int allowed = POOR;
     if (D > far) allowed = POOR_FAR;
@@ -4751,7 +4751,7 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
         if (finite && size <= 64 && k > 0 && !(size < before/2))
             return gvi__report_status(st, GVI_OK);
         if (size < least) least = size;
-        if (!finite || k > 64 || size > 4*(least + 4096))
+        if (!finite || k > 64 || size > 4*(least + 256))
             return gvi__report_status(st, finite || x->diagnose ? GVI_E_CONVERGENCE
                                                                 : GVI_E_NON_FINITE);
         before = size;
