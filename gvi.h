@@ -214,7 +214,8 @@
    step ends on g = 0 and on the hidden constraint G v + dg/dt = 0, G = dg/dq.  q and p are
    of order min(2s, u), symplectic on the constraint manifold; degree 1 with Lobatto's two
    points is RATTLE.  G must have full rank; second derivatives are not needed.  Positions,
-   velocities and momenta solve for lambda within the iteration (equations: CONSTRAINTS).
+   velocities and momenta solve for lambda within the iteration (equations: CONSTRAINTS); Newton
+   has lambda among its unknowns, s (n + m) of them for m constraints.
 
    CLOCK.  An effect g(q) > 0 makes time run as dt = g dtau, and h is a step in
    tau: t moves fast or slow, and the map is as symplectic as with fixed steps
@@ -546,7 +547,8 @@ typedef struct gvi_rule {
 typedef enum gvi_formulation {
     GVI_AUTO       = 0,   /* the cheapest that covers the scene; Newton when it
                              contracts badly and s n <= 1024, since its memory
-                             grows like (s n)^2: beyond, pin GVI_NEWTON         */
+                             grows like (s n)^2: beyond, pin GVI_NEWTON.  With m
+                             constraints n + m is to be read for n              */
     GVI_EXPLICIT   = 1,
     GVI_POSITIONS  = 2,
     GVI_VELOCITIES = 3,
@@ -4723,9 +4725,11 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, 
             }
             for (int e = 0; e < held; ++e) {
                 const gvi_real W = (k == 0 ? 1 : 0) - (e > 0 ? x->con.Phi[k*R + e - 1] : 0);
-                const gvi_real b = W*(x->con.hw[e]*x->con.force[i*R + e]);
-                force += b;
-                size += GVI_ABS(b);
+                gvi_real push = 0;                // rows that all but depend on others cancel
+                for (int a = 0; a < x->con.m; ++a)
+                    push += GVI_ABS(x->con.G[(a*n + i)*x->con.C + e]*x->con.force[(n + a)*R + e]);
+                force += W*(x->con.hw[e]*x->con.force[i*R + e]);
+                size += GVI_ABS(W*(x->con.hw[e]*push));
             }
             const gvi_real sum = momentum/h - force;
             gvi_real *rest = x->newton.residual + (k - k0)*n + i;
@@ -5110,7 +5114,8 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__des
         && (change > noise || change < p->rho*p->least))
         p->rho = change/p->least;
     if (change < p->least) p->least = change;
-    if (before > 0 && change > noise && change > st->x.newton.bend*before)
+    const int felt = !gvi__constrained(st) || p->work >= 0;   // not the rounding of g
+    if (before > 0 && change > noise && felt && change > st->x.newton.bend*before)
         st->x.newton.bend = change/before;
     const int fresh = p->fresh & 1, proven = (fresh && p->holds) || p->rho < quarter;
     const int small = change <= noise || (fresh && change <= GVI_SQRT(GVI__EPS));
@@ -6152,8 +6157,8 @@ GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st)
 {
     if (!st) return "no stepper";
     if (GVI__CONSTRAINTS && st->status == GVI_E_FORMULATION && st->x.con.bits)
-        return "constraints go with no clock, kicks, Newton's method, boundary values or "
-               "mass.velocity; with M(q) and Lagrangian terms only if r = s";
+        return "constraints go with no clock, kicks or boundary values; with a formulation "
+               "pinned or iterations given, what that covers (GVI_NEWTON: all)";
     if (st->x.desc.formulation != GVI_AUTO) return "pinned by the description";
     if (st->formulation == GVI_NEWTON && st->x.chosen != GVI_NEWTON)
         return "Newton: the fixed point contracted badly";
