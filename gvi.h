@@ -654,7 +654,10 @@ struct gvi__holonomic {               /* constraints; C = stride of D_0..D_s    
     gvi_real *D, *free, *P;           /* [n][R] stage values, free motion; a trial's momenta */
     gvi_real *force, *rho, *last;     /* [n+m][R] G' lambda, -lambda; residual; [n+m][C] last */
     gvi_real *at, *g, *G, *A, *W, *y; /* [.][C] D, g and rate, G, its matrix; scratch; [m] */
+    gvi_real *G1, *A1;                /* [2][m][n], [m][m] at one point                 */
+    gvi_real *runs, *ends, *first, *drops; /* see gvi__find_runs, gvi__factor_constraints */
     int       m, C, made, kept, linear; /* rows on; kept: last for the curve, 2 to predict */
+    int       settled, again;         /* see gvi__find_runs                          */
     unsigned  bits;                   /* the effects                                 */
 };
 
@@ -862,7 +865,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI_CONSTRAINED_LENGTH(n, s, r, m) (GVI_LENGTH(n, s, r)                  \
     + (6*GVI__SIZE(n) + 3*GVI__SIZE(m) + 2*GVI__SIZE(r) + 5*GVI__SIZE(s) + 4 + (4 + GVI__SIZE(m)) \
        *(GVI__SIZE(n) + GVI__SIZE(m)))*(GVI__SIZE(GVI__ROW(r)) + GVI__SIZE(GVI__ROW((s) + 1)))    \
-    + (GVI__SIZE(s) + 3)*(GVI__SIZE(s) + 1) + 2*GVI__SIZE(m)                      \
+    + (GVI__SIZE(s) + 3)*(GVI__SIZE(s) + 1) + (2*GVI__SIZE(n) + 7)*GVI__SIZE(m) \
     + (10 + 2*GVI__SIZE(s)*(2*GVI__SIZE(n) + GVI__SIZE(m)))*GVI__SIZE(s)*GVI__SIZE(m))
 
 #ifdef __cplusplus
@@ -1702,6 +1705,13 @@ GVI__BODY int gvi__rule_is(const struct gvi__private *x, gvi_rule_kind kind)
 {
     return (kind != GVI_OWN || GVI__RULES > 0) && (kind != GVI_KICKS || GVI__EXPLICIT > 0)
            && x->desc.rule.kind == kind;
+}
+
+// does M^-1 couple all coordinates?
+static int gvi__full_mass(const struct gvi__private *x)
+{
+    return x->desc.mass.kind == GVI_MASS_DENSE || !gvi__mass_is_constant(x)
+           || gvi__has(x, GVI__HAS_LAGRANGIAN);
 }
 
 // is a constraint on?
@@ -2562,7 +2572,11 @@ static gvi_status gvi__solve(gvi_stepper *st, const gvi__origin *from, gvi_real 
     struct gvi__private *x = &st->x;
     for (int look = 0; ; look = 1) {
         x->diagnose = look;
-        gvi_status status = gvi__attempt(st, from, h, query);
+        gvi_status status;
+        do {
+            if (GVI__CONSTRAINTS) x->con.again = 0;
+            status = gvi__attempt(st, from, h, query);
+        } while (GVI__CONSTRAINTS && x->con.again);
         x->diagnose = 0;
         if (status == GVI_OK && !look && !gvi__finite_end(st, from))
             status = gvi__report_status(st, GVI_E_NON_FINITE);
@@ -3705,6 +3719,13 @@ GVI__COLD gvi_status gvi__report_row(gvi_stepper *st, gvi_status status, int row
     return gvi__report(st, status, e, row, point);
 }
 
+/* What of row a is read and cleared: runs of columns, from run[e] to run[e + 1], e even.      */
+GVI__BODY const gvi_real *gvi__runs(const gvi_stepper *st, int a, int *ends)
+{
+    *ends = (int)st->x.con.ends[a];
+    return st->x.con.runs + a*(st->n + 1);
+}
+
 // g and dg/dt to con.g, and G, at `count` points
 static gvi_status gvi__evaluate_constraints(gvi_stepper *st, int S, int count, const gvi_real *t,
                                             const gvi_real *q, gvi_real *G)
@@ -3715,7 +3736,13 @@ static gvi_status gvi__evaluate_constraints(gvi_stepper *st, int S, int count, c
     y.rate = y.g + st->x.con.m*S;
     y.jacobian = G;
     gvi__zero((size_t)(st->x.con.m*S), y.rate);
-    gvi__zero((size_t)(st->x.con.m*S)*(size_t)st->n, G);
+    for (int a = 0, ends; a < st->x.con.m; ++a) {
+        const gvi_real *run = gvi__runs(st, a, &ends);
+        for (int e = 0; e < ends; e += 2) {
+            const int i = (int)run[e], to = (int)run[e + 1];
+            gvi__zero((size_t)((to - i)*S), G + (size_t)(a*st->n + i)*(size_t)S);
+        }
+    }
     if (st->x.diagnose && gvi__check_rows(st, &y, q, 0) != GVI_OK)
         return gvi__report_status(st, GVI_E_CONVERGENCE);
     for (int e = 0; e < st->x.desc.effect_count && status == GVI_OK; ++e) {
@@ -3753,40 +3780,172 @@ static void gvi__over_inertia(const gvi_stepper *st, gvi_real *z, int S, int cou
     else gvi__ldl_solve(n, x->mass.at_points, S > 1 ? x->R : 1, z, S, count);
 }
 
-/* con.A := L D L' of G M^-1 G'.  A pivot of 64 m roundings says that a row depends on those before it.                      */
-static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count)
+static int gvi__all_zero(const gvi_real *x)
+{
+    const gvi_real a = GVI_ABS(x[0]) + GVI_ABS(x[4]), b = GVI_ABS(x[1]) + GVI_ABS(x[5]),
+                   c = GVI_ABS(x[2]) + GVI_ABS(x[6]), d = GVI_ABS(x[3]) + GVI_ABS(x[7]);
+    return (a + b) + (c + d) <= 0;
+}
+
+// column i begins a run or ends one, or no longer does
+GVI__COLD void gvi__toggle(gvi_real *run, gvi_real *ends, int i)
+{
+    int e = 0, count = (int)*ends;
+    while (e < count && (int)run[e] < i) ++e;
+    if (e < count && (int)run[e] == i)
+        for (--count; e < count; ++e) run[e] = run[e + 1];
+    else {
+        for (int f = count++; f > e; --f) run[f] = run[f - 1];
+        run[e] = (gvi_real)i;
+    }
+    *ends = (gvi_real)count;
+}
+
+/* Runs of the columns in which G has had an entry other than 0.  They are looked for at the ends of
+   steps, and within the steps until one has shown nothing new (`settled`); a step at whose end
+   there are new ones is done again.  An entry that is 0 at both ends of a later step counts as 0
+   inside.  first[a]: the first row that shares a coordinate with row a, where L begins; all rows
+   do through a full M.                                                                        */
+static int gvi__find_runs(gvi_stepper *st, int S, int count, const gvi_real *G)
+{
+    struct gvi__private *x = &st->x;
+    const int n = st->n, m = x->con.m;
+    gvi_real *const top = x->point;
+    int grown = 0, ends;
+    for (int a = 0; a < m; ++a) {
+        const gvi_real *run = gvi__runs(st, a, &ends), *row = G + (size_t)(a*n)*(size_t)S;
+        for (int i = 0, e = 0; i < n; ++i) {
+            while (S == 1 && i + 8 <= n && gvi__all_zero(row + i)) i += 8;
+            for (; e < ends && (int)run[e] <= i; ++e)
+                if (e % 2 == 0) i = (int)run[e + 1];
+            if (i >= n || gvi__norm1(count, row + i*S) <= 0) continue;
+            gvi__toggle(x->con.runs + a*(n + 1), x->con.ends + a, i);
+            gvi__toggle(x->con.runs + a*(n + 1), x->con.ends + a, i + 1);
+            run = gvi__runs(st, a, &ends);
+            e = 0;
+            grown = 1;
+        }
+    }
+    if (!grown) return 0;
+    for (int i = 0; i < n; ++i) top[i] = (gvi_real)m;
+    for (int a = 0; a < m; ++a) {
+        const gvi_real *run = gvi__runs(st, a, &ends);
+        gvi_real first = gvi__full_mass(x) ? 0 : (gvi_real)a;
+        for (int e = 0; e < ends; e += 2)
+            for (int i = (int)run[e]; i < (int)run[e + 1]; ++i) {
+                if (top[i] > (gvi_real)a) top[i] = (gvi_real)a;
+                if (top[i] < first) first = top[i];
+            }
+        x->con.first[a] = first;
+    }
+    return 1;
+}
+
+// G_a z at one point
+static gvi_real gvi__row_dot(const gvi_stepper *st, const gvi_real *G, int a, const gvi_real *z)
+{
+    int ends;
+    const gvi_real *run = gvi__runs(st, a, &ends);
+    gvi_real sum = 0;
+    for (int e = 0; e < ends; e += 2)
+        for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i) sum += G[a*st->n + i]*z[i];
+    return sum;
+}
+
+/* A := L D L' of G M^-1 G' in its envelope, L below the diagonal, 1/D on it and D L' above it; M(q)
+   is that of the stage values, one for one, or of the one point.  A pivot of 64 m roundings says
+   that a row depends on those before it.  At the first point it is then left out: 1/D and its L
+   are 0, and so is its multiplier; drops[a] is what the diagonal entry was, or 0 for a row that is
+   kept.  At the other points the same rows are left out, and the rest has to have full rank.    */
+static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, const gvi_real *G,
+                                          gvi_real *A, gvi_real *drops)
 {
     const struct gvi__private *x = &st->x;
-    const int n = st->n, m = x->con.m;
-    const gvi_real *G = x->con.G;
+    const int n = st->n, m = x->con.m, full = gvi__full_mass(x);
+    const gvi_real *first = x->con.first, least = 64*(gvi_real)m*GVI__EPS;
     gvi_real *W = x->con.W;
-    for (int a = 0; a < m; ++a) {
-        gvi__copy((size_t)(n*S), G + a*n*S, W);
-        gvi__over_inertia(st, W, S, count);
-        for (int b = 0; b <= a; ++b)
-            for (int k = 0; k < count; ++k) {
-                gvi_real sum = 0;
-                for (int i = 0; i < n; ++i) sum += G[(b*n + i)*S + k]*W[i*S + k];
-                x->con.A[(a*m + b)*S + k] = sum;
+    gvi__zero((size_t)(n*S), W);
+    for (int i = 0, ends; i < m; ++i) {
+        const int from = (int)first[i];
+        const gvi_real *run = gvi__runs(st, i, &ends);
+        gvi_real *d = A + (i*m + i)*S;
+        for (int e = 0; e < ends; e += 2)                    // W = - M^-1 G_i'
+            for (int j = (int)run[e]; j < (int)run[e + 1]; ++j) {
+                const gvi_real *g = G + (i*n + j)*S, inverse = full ? 1 : x->mass.inverse[j];
+                for (int k = 0; k < count; ++k) W[j*S + k] = -(g[k]*inverse);
             }
+        if (full) gvi__over_inertia(st, W, S, count);
+        for (int j = from; j <= i; ++j) {
+            gvi_real *u = A + (j*m + i)*S;
+            run = gvi__runs(st, j, &ends);
+            gvi__zero((size_t)S, u);
+            for (int e = 0; e < ends; e += 2)
+                for (int l = (int)run[e], to = (int)run[e + 1]; l < to; ++l)
+                    gvi__subtract_at(S, count, G + (j*n + l)*S, W + l*S, u);
+            for (int l = from > (int)first[j] ? from : (int)first[j]; l < j && j < i; ++l)
+                gvi__subtract_at(S, count, A + (j*m + l)*S, A + (l*m + i)*S, u);
+        }
+        run = gvi__runs(st, i, &ends);
+        if (full) gvi__zero((size_t)(n*S), W);
+        for (int e = 0; e < ends; e += 2)
+            gvi__zero((size_t)(((int)run[e + 1] - (int)run[e])*S), W + (int)run[e]*S);
+        for (int k = 0; k < count; ++k) {
+            const gvi_real was = GVI_ABS(d[k]);
+            gvi_real rest = d[k];
+            for (int j = from; j < i; ++j) {
+                const gvi_real u = A[(j*m + i)*S + k], l = u*A[(j*m + j)*S + k];
+                A[(i*m + j)*S + k] = l;
+                rest -= l*u;
+            }
+            const int depends = !(GVI_ABS(rest) > least*was);
+            if (!(was <= GVI__MAX) || !gvi__finite(rest))
+                return gvi__report_status(st, GVI_E_NON_FINITE);
+            if (k == 0) drops[i] = depends ? was : 0;
+            d[k] = drops[i] > 0 ? 0 : 1/rest;
+            if (!gvi__finite(d[k]) || (depends && !(drops[i] > 0)))
+                return gvi__report_row(st, GVI_E_SINGULAR, i, k);
+        }
     }
-    int at[2] = { 0, 0 };
-    const gvi_status status =
-        gvi__ldl_factor(m, S, count, x->con.A, 64*(gvi_real)m*GVI__EPS, at);
-    return status == GVI_E_SINGULAR ? gvi__report_row(st, status, at[0], at[1])
-         : status == GVI_OK ? GVI_OK : gvi__report_status(st, status);
+    return GVI_OK;
+}
+
+// rows z [m][R] := A^-1 z, at points or at one; 0 for rows that are left out
+GVI__BODY void gvi__solve_at(const gvi_stepper *st, const gvi_real *A, int S, int count,
+                             gvi_real *z, int R)
+{
+    const int m = st->x.con.m;
+    const gvi_real *first = st->x.con.first;
+    for (int i = 0; i < m; ++i)
+        for (int j = (int)first[i]; j < i; ++j)
+            gvi__subtract_at(S, count, A + (i*m + j)*S, z + j*R, z + i*R);
+    for (int i = m; i-- > 0; ) {
+        gvi_real *row = z + i*R;
+        for (int k = 0; k < count; ++k) row[k] *= A[(i*m + i)*S + k];
+    }
+    for (int i = m; i-- > 0; )
+        for (int j = (int)first[i]; j < i; ++j)
+            gvi__subtract_at(S, count, A + (i*m + j)*S, z + i*R, z + j*R);
+}
+
+static void gvi__solve_constraints(const gvi_stepper *st, const gvi_real *A, int S, int count,
+                                   gvi_real *z, int R)
+{
+    if (S == 1) gvi__solve_at(st, A, 1, 1, z, 1);
+    else gvi__solve_at(st, A, S, count, z, R);
 }
 
 // g, dg/dt, G and A at one configuration; where M depends on v, at that which p makes of v
 static gvi_status gvi__constraints_at(gvi_stepper *st, gvi_real t, const gvi_real *q,
-                                      const gvi_real *p, gvi_real *v)
+                                      const gvi_real *p, gvi_real *v, gvi_real *drops)
 {
     const int n = st->n;
-    gvi_real *H = st->x.newton.hessian;
+    gvi_real *G = st->x.con.G1, *H = st->x.newton.hessian;
     gvi_points y = gvi__one_point(st, &t, q);
-    gvi_status status = gvi__evaluate_constraints(st, 1, 1, &t, q, st->x.con.G);
+    gvi_status status = gvi__evaluate_constraints(st, 1, 1, &t, q, G);
+    if (status == GVI_OK && (drops != st->x.con.drops || !st->x.con.settled))
+        st->x.con.again |= gvi__find_runs(st, 1, 1, G);
     if (status == GVI_OK && gvi__has(&st->x, GVI__HAS_LAGRANGIAN)) {
-        status = gvi__velocity(st, t, q, p, v);
+        if (p) status = gvi__velocity(st, t, q, p, v);
         y.v = v;
         if (status == GVI_OK) status = gvi__evaluate(st, &y, 0, 1);
         if (status == GVI_OK) status = gvi__velocity_hessian(st, &y, v, H);
@@ -3794,22 +3953,29 @@ static gvi_status gvi__constraints_at(gvi_stepper *st, gvi_real t, const gvi_rea
             return gvi__report_effect(st, GVI_E_SINGULAR, GVI_FAULT_MASS);
     } else if (status == GVI_OK && gvi__mass_is(&st->x, GVI_MASS_POSITION))
         status = gvi__factor_mass(st, &y);
-    return status == GVI_OK ? gvi__factor_constraints(st, 1, 1) : status;
+    return status == GVI_OK ? gvi__factor_constraints(st, 1, 1, G, st->x.con.A1, drops) : status;
 }
 
 // z += G' y at one point
 static void gvi__add_force(const gvi_stepper *st, const gvi_real *y, gvi_real *z)
 {
-    for (int a = 0; a < st->x.con.m; ++a)
-        gvi__add_scaled(st->n, y[a], st->x.con.G + a*st->n, z, z);
+    for (int a = 0, ends; a < st->x.con.m; ++a) {
+        const gvi_real *run = gvi__runs(st, a, &ends);
+        const gvi_real *G = st->x.con.G1 + a*st->n, ya = y[a];
+        for (int e = 0; e < ends; e += 2)
+            for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i) z[i] += ya*G[i];
+    }
 }
 
 // sum of |G_ai q_i| and |t dg_a/dt|: what is known of the size of g_a's terms, at one point
 static gvi_real gvi__terms(const gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *G,
                            int a)
 {
+    int ends;
+    const gvi_real *run = gvi__runs(st, a, &ends);
     gvi_real size = GVI_ABS(st->x.con.g[st->x.con.m + a]*t);
-    for (int i = 0; i < st->n; ++i) size += GVI_ABS(G[a*st->n + i]*q[i]);
+    for (int e = 0; e < ends; e += 2)
+        for (int i = (int)run[e]; i < (int)run[e + 1]; ++i) size += GVI_ABS(G[a*st->n + i]*q[i]);
     return size;
 }
 
@@ -3867,10 +4033,13 @@ static void gvi__constraint_forces(const gvi_stepper *st)
     const struct gvi__private *x = &st->x;
     const int n = st->n, R = x->R, C = x->con.C;
     gvi__zero((size_t)(n*R), x->con.force);
-    for (int a = 0; a < x->con.m; ++a)
-        for (int i = 0; i < n; ++i)
-            gvi__subtract_at(C, st->s, x->con.G + (a*n + i)*C, x->con.force + (n + a)*R,
-                             x->con.force + i*R);
+    for (int a = 0, ends; a < x->con.m; ++a) {
+        const gvi_real *run = gvi__runs(st, a, &ends);
+        for (int e = 0; e < ends; e += 2)
+            for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i)
+                gvi__subtract_at(C, st->s, x->con.G + (a*n + i)*C, x->con.force + (n + a)*R,
+                                 x->con.force + i*R);
+    }
 }
 
 /* The constraints at D, padded with q0; A in the first iteration.  After a move along which G
@@ -3883,6 +4052,7 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
     const int n = st->n, m = x->con.m, s = st->s, R = x->R, C = x->con.C, linear = x->con.linear;
     const gvi_real *G = x->con.G + 1, *moved = x->con.W;
     gvi_real *along = x->con.rho + m*R;
+    int ends;
     for (int i = 0; i < n; ++i)
         for (int k = 0; k < C; ++k) {
             gvi_real *at = x->con.at + i*C + k;
@@ -3891,26 +4061,35 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
             *at = D;
         }
     gvi__zero((size_t)(m*C), along);              // by the old G
-    for (int ai = 0; ai < m*n; ++ai)
-        gvi__subtract_at(C, s, G + ai*C, moved + ai%n*C, along + ai/n*C);
+    for (int a = 0; a < m; ++a) {
+        const gvi_real *run = gvi__runs(st, a, &ends);
+        for (int e = 0; e < ends; e += 2)
+            for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i)
+                gvi__subtract_at(C, s, G + (a*n + i)*C, moved + i*C, along + a*C);
+    }
     for (int a = 0; a < m; ++a)
         for (int k = 0; k < s; ++k) x->con.rho[a*R + k] = x->con.g[a*C + k + 1] + along[a*C + k];
     const gvi_status status =
         gvi__evaluate_constraints(st, C, s + 1, x->con.t, x->con.at, x->con.G);
+    if (!x->con.settled && gvi__find_runs(st, C, s + 1, x->con.G)) x->con.made = 0;
     x->con.linear = x->con.made > 0;
     for (int a = 0; a < m; ++a) {
+        const gvi_real *run = gvi__runs(st, a, &ends);
         if (linear) gvi__copy((size_t)s, x->con.rho + a*R, x->con.g + a*C + 1);
         for (int k = 0; k < s && x->con.linear; ++k) {
             gvi_real change = along[a*C + k], size = 0;
-            for (int i = 0; i < n; ++i) {
-                const gvi_real z = G[(a*n + i)*C + k]*moved[i*C + k];
-                change += z;
-                size += GVI_ABS(z);
-            }
+            for (int e = 0; e < ends; e += 2)
+                for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i) {
+                    const gvi_real z = G[(a*n + i)*C + k]*moved[i*C + k];
+                    change += z;
+                    size += GVI_ABS(z);
+                }
             if (!(GVI_ABS(change) <= GVI__EPS*size)) x->con.linear = 0;
         }
     }
-    return status != GVI_OK || ++x->con.made > 1 ? status : gvi__factor_constraints(st, C, s);
+    return status != GVI_OK || ++x->con.made > 1
+               ? status
+               : gvi__factor_constraints(st, C, s, x->con.G, x->con.A, x->con.drops);
 }
 
 // the new lambda, and forces.  With momenta D' needs the P and V of the new F
@@ -3936,14 +4115,16 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *y, const gvi_
         for (int e = 0; e < s; ++e) z[e] = (at[e] - q0[i]) - D[e];
     }
     gvi__zero((size_t)(m*R), rho);
-    for (int a = 0; a < m; ++a) {
+    for (int a = 0, ends; a < m; ++a) {
+        const gvi_real *run = gvi__runs(st, a, &ends);
         gvi_real *g = x->row;
         gvi__copy((size_t)s, x->con.g + a*C + 1, g);
-        for (int i = 0; i < n; ++i)
-            gvi__subtract_at(C, s, x->con.G + (a*n + i)*C + 1, moved + i*C, g);
+        for (int e = 0; e < ends; e += 2)
+            for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i)
+                gvi__subtract_at(C, s, x->con.G + (a*n + i)*C + 1, moved + i*C, g);
         for (int b = 0; b < s; ++b) gvi__subtract_row((size_t)R, -g[b], x->con.X + b*R, rho + a*R);
     }
-    gvi__ldl_solve(m, x->con.A, C, rho, R, s);
+    gvi__solve_constraints(st, x->con.A, C, s, rho, R);
     for (int a = 0; a < m; ++a)
         for (int e = 0; e < s; ++e) lambda[a*R + e] += rho[a*R + e]/(x->sized.h*x->con.hw[e]);
     gvi__constraint_forces(st);
@@ -3984,19 +4165,21 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
     struct gvi__private *x = &st->x;
     const int n = st->n, m = x->con.m;
     gvi_real before = 0, most = 0, *Q = x->work.Q, *z = x->con.rho, *left = x->con.y, *d = x->con.W,
-             *unit = d + n, *g = x->con.g, *G = x->con.G + m*n;  // G0 is before it
+             *unit = d + n, *g = x->con.g, *G = x->con.G1 + m*n; // G0 is before it
     const gvi_real t = from->t + (from->t_low + h);
-    gvi_status status = gvi__constraints_at(st, from->t, from->q, NULL, NULL);
+    gvi_status status = gvi__constraints_at(st, from->t, from->q, NULL, NULL, x->con.drops);
     gvi__zero((size_t)n, x->step.p_low);
+    x->con.again = 0;
     for (int k = 0; ; ++k) {
         gvi_real size = 0;
         int finite = 1;
         if (status == GVI_OK) status = gvi__evaluate_constraints(st, 1, 1, &t, Q, G);
         if (status != GVI_OK) return status;
+        if (k == 0 && !x->con.settled) (void)gvi__find_runs(st, 1, 1, G);
         for (int a = 0; a < m; ++a) {
             const gvi_real terms = gvi__terms(st, t, Q, G, a);
             const int rounding = k > 0 && GVI_ABS(g[a]) > (gvi_real)1.25*(GVI_ABS(left[a])
-                                           + GVI_ABS(h*gvi__dot(n, G + a*n, d) - z[a]));
+                                           + GVI_ABS(h*gvi__row_dot(st, G, a, d) - z[a]));
             if (k == 0 || terms > unit[a]) unit[a] = terms;
             if (!rounding && GVI_ABS(g[a]) > size*GVI__EPS*unit[a])
                 size = GVI_ABS(g[a])/(GVI__EPS*unit[a]);
@@ -4010,14 +4193,14 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
                                                                 : GVI_E_NON_FINITE);
         before = size;
         for (int a = 0; a < m; ++a) z[a] = -g[a]/h;
-        gvi__ldl_solve(m, x->con.A, 1, z, 1, 1);
+        gvi__solve_constraints(st, x->con.A1, 1, 1, z, 1);
         gvi__zero((size_t)n, d);
         gvi__add_force(st, z, d);
         gvi__add_scaled(n, 1, d, x->step.p, x->step.p);
         gvi__over_mass(st, d, 1, 1);
         gvi__add_scaled(n, h, d, x->step.q, x->step.q);
         gvi__add_scaled(n, 1, x->step.q, from->q, Q);
-        for (int a = 0; a < m; ++a) z[a] = h*gvi__dot(n, G + a*n, d), left[a] = g[a] + z[a];
+        for (int a = 0; a < m; ++a) z[a] = h*gvi__row_dot(st, G, a, d), left[a] = g[a] + z[a];
     }
 }
 
@@ -4032,7 +4215,7 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
     const gvi_real part = (gvi_real)0.618034, units = 4096;
     struct gvi__private *x = &st->x;
     const int n = st->n, m = x->con.m;
-    gvi_real *g = x->con.g, *was = x->con.rho, *z = x->con.y, *d = x->con.W, *G = x->con.G,
+    gvi_real *g = x->con.g, *was = x->con.rho, *z = x->con.y, *d = x->con.W, *G = x->con.G1,
              *next = d + n;
     int off = -1;
     for (int a = 0; a < m; ++a) {
@@ -4041,19 +4224,19 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
         z[a] = -part*g[a];
     }
     if (off < 0) return GVI_OK;
-    gvi__ldl_solve(m, x->con.A, 1, z, 1, 1);
+    gvi__solve_constraints(st, x->con.A1, 1, 1, z, 1);
     gvi__zero((size_t)n, d);
     gvi__add_force(st, z, d);
     gvi__over_inertia(st, d, 1, 1);
     gvi__add_scaled(n, 1, d, q, next);
     int fulfilled = gvi__evaluate_constraints(st, 1, 1, &t, next, G + m*n) == GVI_OK;
     for (int a = 0; a < m; ++a) {
-        const gvi_real bend = gvi__dot(n, G + (m + a)*n, d) - gvi__dot(n, G + a*n, d),
+        const gvi_real bend = gvi__row_dot(st, G + m*n, a, d) - gvi__row_dot(st, G, a, d),
             rounding = GVI_ABS(g[a] - (1 - part)*was[a]) - GVI_ABS(bend),
             seen = GVI__EPS*gvi__terms(st, t, q, G, a);
         fulfilled &= GVI_ABS(was[a]) <= units*(rounding > seen ? rounding : seen);
     }
-    return fulfilled ? gvi__constraints_at(st, t, q, p, v)
+    return fulfilled ? gvi__constraints_at(st, t, q, p, v, x->con.drops + m)
                      : gvi__report_row(st, GVI_E_CONSTRAINT, off, GVI_FAULT_NONE);
 }
 
@@ -4066,7 +4249,8 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
     const int n = st->n, m = x->con.m, passes = gvi__has(x, GVI__HAS_LAGRANGIAN) ? 40 : 2;
     const gvi_real t = from->t + (from->t_low + x->dt), far = 4096*GVI__EPS;
     gvi_real *q = x->result, *p = q + n, *v = p + n, *r = x->con.g, *z = x->con.rho,
-             before = GVI__MAX;
+             *drops = x->con.drops + m, energy = 0, before = GVI__MAX;
+    int redundant = 0;
     for (int i = 0; i < n; ++i) {
         q[i] = from->q[i] + (x->step.q[i] + x->step.q_low[i]);
         p[i] = from->p[i] + (x->step.p[i] + x->step.p_low[i]);
@@ -4074,23 +4258,29 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
     gvi__zero((size_t)m, x->con.y);
     gvi__velocity_guess(st, v);
     x->diagnose |= start;
-    gvi_status status = gvi__constraints_at(st, t, q, p, v);
+    gvi_status status = gvi__constraints_at(st, t, q, p, v, drops);
     if (start) x->diagnose = 0;
-    if (start && status == GVI_OK) status = gvi__fulfilled(st, t, q, p, v);
+    for (int a = 0; a < m; ++a) {
+        redundant |= drops[a] > 0;
+        if (!start && status == GVI_OK && (drops[a] > 0) != (x->con.drops[a] > 0))
+            status = gvi__report_row(st, GVI_E_SINGULAR, a, GVI_FAULT_NONE);
+    }
+    if ((start || redundant) && status == GVI_OK) status = gvi__fulfilled(st, t, q, p, v);
     for (int pass = 0; pass < passes && status == GVI_OK; ++pass) {
         gvi_real size = 0;
         int row = 0;
         for (int i = 0; i < n; ++i) p[i] = from->p[i] + (x->step.p[i] + x->step.p_low[i]);
         status = gvi__velocity(st, t, q, p, v);
-        for (int a = 0; a < m; ++a) r[a] = z[a] = -(r[m + a] + gvi__dot(n, x->con.G + a*n, v));
-        gvi__ldl_solve(m, x->con.A, 1, z, 1, 1);
+        energy = GVI_ABS(gvi__dot(n, p, v));
+        for (int a = 0; a < m; ++a) r[a] = z[a] = -(r[m + a] + gvi__row_dot(st, x->con.G1, a, v));
+        gvi__solve_constraints(st, x->con.A1, 1, 1, z, 1);
         for (int a = 0; a < m; ++a) {
             size += r[a]*z[a];
             if (r[a]*z[a] > r[row]*z[row]) row = a;
             x->con.y[a] += z[a];
         }
         if (start && pass == 0
-            && !(size <= GVI__MAX && size <= far*far*GVI_ABS(gvi__dot(n, p, v))))
+            && !(size <= GVI__MAX && size <= far*far*energy))
             return gvi__report_row(st, GVI_E_CONSTRAINT, row, GVI_FAULT_NONE);
         gvi__zero((size_t)n, p);
         gvi__add_force(st, z, p);
@@ -4102,7 +4292,24 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
         if (pass > 0 && !(size < before/4)) break;
         before = size;
     }
+    // rows that are left out had no part in this
+    for (int a = 0; a < m && status == GVI_OK; ++a)
+        if (drops[a] > 0 && !(r[a]*r[a] <= far*far*drops[a]*energy))
+            status = gvi__report_row(st, GVI_E_CONSTRAINT, a, GVI_FAULT_NONE);
     return status;
+}
+
+// the rows are others now
+GVI__COLD void gvi__forget_runs(gvi_stepper *st)
+{
+    struct gvi__private *x = &st->x;
+    const size_t m = (size_t)gvi__count_rows(x, x->con.bits), C = (size_t)x->con.C;
+    gvi__zero(m, x->con.ends);
+    gvi__zero(2*m*(size_t)st->n, x->con.G1);
+    gvi__zero(m*m, x->con.A1);
+    if (x->con.G) gvi__zero(m*(size_t)st->n*C, x->con.G);
+    if (x->con.A) gvi__zero(m*m*C, x->con.A);
+    x->con.settled = 0;
 }
 
 // are q and p, which may be those of the state, on the constraints?  Then in step.q, step.p
@@ -4125,6 +4332,7 @@ GVI__CALLED void gvi__commit_constraints(gvi_stepper *st, gvi_real h)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, s = st->s, C = x->con.C, rows = n + x->con.m;
+    x->con.settled = 1;
     x->con.kept = gvi__constrained(st) && !gvi__uses(x, GVI_EXPLICIT) ? 2 : 0;
     if (x->con.kept == 0) return;
     for (int a = n; a < rows; ++a) x->con.y[a - n] /= h*x->con.w[s];
@@ -4155,7 +4363,7 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
     gvi_real least = GVI__MAX, largest = 0, size = 0, delta = 1;
     gvi_points y = gvi__one_point(st, &st->t, st->q);
     gvi__velocity_guess(st, u);
-    if (m > 0) status = gvi__constraints_at(st, st->t, st->q, st->p, u);
+    if (m > 0) status = gvi__constraints_at(st, st->t, st->q, st->p, u, x->con.drops + m);
     gvi__velocity_guess(st, v);
     if (status == GVI_OK) status = gvi__velocity(st, st->t, st->q, st->p, v);
     y.v = v;
@@ -4179,13 +4387,14 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
             gvi__copy((size_t)n, v, u);
             trial = gvi__velocity(st, t, q, p, u);
             if (trial == GVI_OK)
-                trial = gvi__evaluate_constraints(st, 1, 1, &t, q, x->con.G + m*n);
+                trial = gvi__evaluate_constraints(st, 1, 1, &t, q, x->con.G1 + m*n);
+            if (trial == GVI_OK) (void)gvi__find_runs(st, 1, 1, x->con.G1 + m*n);
             for (int a = 0; a < m; ++a)
-                rate[a] += (x->con.g[m + a] + gvi__dot(n, x->con.G + (m + a)*n, u))
+                rate[a] += (x->con.g[m + a] + gvi__row_dot(st, x->con.G1 + m*n, a, u))
                            *(sign*weight[j/2]/delta);
         }
         for (int a = 0; a < m; ++a) z[a] = -rate[a];
-        gvi__ldl_solve(m, x->con.A, 1, z, 1, 1);
+        gvi__solve_constraints(st, x->con.A1, 1, 1, z, 1);
         size = -gvi__dot(m, rate, z);
         if (trial != GVI_OK || !gvi__finite(size)) continue;      // beyond a domain: nearer
         if (!(size < least) && size <= GVI__EPS*largest) break;
@@ -4389,8 +4598,10 @@ GVI__COLD void gvi__layout_constraints(struct gvi__private *x, gvi__arena *a)
         { &y->X, i*s, R },
         { &y->E, i*s, R }, { &y->Phi, i*s, R }, { &y->Phi_low, i*s, R }, { &y->hw, on, R },
         { &y->last, i*(n + m), C }, { &y->at, i*n, C }, { &y->t, i, C }, { &y->W, on*n, C },
-        { &y->g, 2*m, C }, { &y->G, m*n, C }, { &y->A, m*m, C }, { &y->d, on, R + C },
-        { &y->w, on, s + 1 }, { &y->rho, m, R + C }, { &y->lu, i*(s + 1), s + 1 }, { &y->y, on, m }
+        { &y->g, 2*m, C }, { &y->G, i*m*n, C }, { &y->A, i*m*m, C }, { &y->d, on, R + C },
+        { &y->w, on, s + 1 }, { &y->rho, m, R + C }, { &y->lu, i*(s + 1), s + 1 }, { &y->y, on, m },
+        { &y->G1, 2*m, n }, { &y->A1, m, m }, { &y->runs, m, n + 1 }, { &y->ends, on, m },
+        { &y->first, on, m }, { &y->drops, 2*on, m }
     };
     y->C = (int)C;
     for (size_t k = 0; k < sizeof list/sizeof *list; ++k)
@@ -4654,7 +4865,16 @@ GVI__CALLED gvi_status gvi__newton_constraints(gvi_stepper *st, const gvi__origi
     for (int k = 0; k < s*m; ++k) x->con.force[(n + k % m)*R + k/m] = x->newton.y[s*n + k];
     const gvi_status status =
         gvi__evaluate_constraints(st, C, s + 1, x->con.t, x->con.at, x->con.G);
+    if (!x->con.settled) (void)gvi__find_runs(st, C, s + 1, x->con.G);
     gvi__constraint_forces(st);
+    gvi__zero((size_t)(n*R), x->con.D);           // sum |G lambda|: nearly dependent rows cancel
+    for (int a = 0, ends; a < m; ++a) {
+        const gvi_real *run = gvi__runs(st, a, &ends), *lambda = x->con.force + (n + a)*R;
+        for (int f = 0; f < ends; f += 2)
+            for (int i = (int)run[f]; i < (int)run[f + 1]; ++i)
+                for (int e = 0; e < s; ++e)
+                    x->con.D[i*R + e] += GVI_ABS(x->con.G[(a*n + i)*C + e]*lambda[e]);
+    }
     return status;
 }
 
@@ -4725,11 +4945,8 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, 
             }
             for (int e = 0; e < held; ++e) {
                 const gvi_real W = (k == 0 ? 1 : 0) - (e > 0 ? x->con.Phi[k*R + e - 1] : 0);
-                gvi_real push = 0;                // rows that all but depend on others cancel
-                for (int a = 0; a < x->con.m; ++a)
-                    push += GVI_ABS(x->con.G[(a*n + i)*x->con.C + e]*x->con.force[(n + a)*R + e]);
                 force += W*(x->con.hw[e]*x->con.force[i*R + e]);
-                size += GVI_ABS(W*(x->con.hw[e]*push));
+                size += GVI_ABS(W*(x->con.hw[e]*x->con.D[i*R + e]));
             }
             const gvi_real sum = momentum/h - force;
             gvi_real *rest = x->newton.residual + (k - k0)*n + i;
@@ -4746,14 +4963,19 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, 
         before += was*x->watch.scale[i];
     }
     for (int k = 0; k < held*x->con.m; ++k) {     // g, as the momentum that would undo it
-        const int a = k % x->con.m, e = k/x->con.m + 1, C = x->con.C;
-        const gvi_real now = x->con.g[a*C + e];
+        int ends, a = k % x->con.m, e = k/x->con.m + 1, C = x->con.C;
+        const gvi_real *run = gvi__runs(st, a, &ends), now = x->con.g[a*C + e];
         gvi_real *rest = x->newton.residual + st->s*n + k, size = 0, inertia = 0;
-        for (int i = 0; i < n; ++i) {
-            const gvi_real G = x->con.G[(a*n + i)*C + e];
-            size += GVI_ABS(G*x->con.at[i*C + e]);
-            inertia += G*x->watch.scale[i]*(G*x->watch.scale[i]);
+        if (x->con.drops[a] > 0) {
+            x->newton.dy[st->s*n + k] = 0;
+            continue;
         }
+        for (int f = 0; f < ends; f += 2)
+            for (int i = (int)run[f]; i < (int)run[f + 1]; ++i) {
+                const gvi_real G = x->con.G[(a*n + i)*C + e];
+                size += GVI_ABS(G*x->con.at[i*C + e]);
+                inertia += G*x->watch.scale[i]*(G*x->watch.scale[i]);
+            }
         const gvi_real unit = GVI_ABS(h)*GVI_SQRT(inertia);
         norm += GVI_ABS(now)/unit;
         moved += GVI_ABS(now - *rest)/unit;
@@ -4911,16 +5133,24 @@ GVI__CALLED gvi_status gvi__jacobian_constraints(gvi_stepper *st, const gvi__mat
     gvi_real *force = x->con.force, *base = x->con.free, *at = x->con.at, *was = x->row;
     const size_t size = gvi__unknowns(st, 0), sn = (size_t)(s*n);
     gvi_status status = GVI_OK;
-    for (int k = 0; k < s; ++k)
-        for (int i = 0; i < n; ++i)
-            for (int l = 0; l < s*m; ++l) {
-                const int a = l % m, e = l/m;
-                const gvi_real *G = x->con.G + (a*n + i)*C + e,
-                    W = (k == 0 ? 1 : 0) - (e > 0 ? Phi[k*R + e] : 0);
-                const size_t y = (size_t)(k*n + i), z = sn + (size_t)l;
-                J->square[y*size + z] = (gvi_real)(2*k + 1)*W*(x->con.hw[e]*G[0]);
-                J->square[z*size + y] = -h*Phi[k*R + e + 1]*G[1];
-            }
+    for (int l = 0, ends; l < s*m; ++l) {
+        const int a = l % m, e = l/m;
+        const gvi_real *run = gvi__runs(st, a, &ends);
+        const size_t z = sn + (size_t)l;
+        if (x->con.drops[a] > 0) {                // its multiplier stays 0
+            J->square[z*(size + 1)] = 1;
+            continue;
+        }
+        for (int f = 0; f < ends; f += 2)
+            for (int i = (int)run[f]; i < (int)run[f + 1]; ++i)
+                for (int k = 0; k < s; ++k) {
+                    const gvi_real *G = x->con.G + (a*n + i)*C + e,
+                        W = (k == 0 ? 1 : 0) - (e > 0 ? Phi[k*R + e] : 0);
+                    const size_t y = (size_t)(k*n + i);
+                    J->square[y*size + z] = (gvi_real)(2*k + 1)*W*(x->con.hw[e]*G[0]);
+                    J->square[z*size + y] = -h*Phi[k*R + e + 1]*G[1];
+                }
+    }
     gvi__copy((size_t)(n*R), force, base);
     for (int j = 0; j < moves && status == GVI_OK; ++j) {
         gvi_real *row = at + j*C, d = gvi__difference(st, j, 0);
@@ -5305,6 +5535,45 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
     return right ? gvi__newton_values(st, from) : gvi__stalled(st);
 }
 
+/* Did the rank of G change between two points of the step?  What row j leaves of those before it is
+   c G, c the row of L^-1: where that is a small part of row j at a point, has it turned round at
+   the next?  The motion is not unique from there on, and the step must not choose.  Without a
+   solution: are rows all but dependent where the iteration ended?                            */
+GVI__CALLED gvi_status gvi__newton_crossing(gvi_stepper *st, int solved)
+{
+    struct gvi__private *x = &st->x;
+    const int n = st->n, m = x->con.m, C = x->con.C;
+    gvi_real *c = x->con.y, *now = x->result, *next = now + n;
+    const gvi_points y = gvi__points_at(st, st->r, x->R, x->t, x->work.Q, NULL, NULL);
+    gvi_status status = gvi__mass_is(x, GVI_MASS_POSITION) ? gvi__factor_mass(st, &y) : GVI_OK;
+    if (status == GVI_OK)
+        status = gvi__factor_constraints(st, C, st->s, x->con.G, x->con.A, x->con.drops);
+    x->con.made = status == GVI_OK;
+    if (!solved && status != GVI_E_SINGULAR) return gvi__stalled(st);
+    for (int ej = 0, ends; ej < st->s*m && status == GVI_OK; ++ej) {
+        const int e = ej/m, j = ej % m;
+        const gvi_real *A = x->con.A + e;
+        gvi_real taken = 0, all = 0;
+        for (int l = 0; l < j; ++l) taken += A[(j*m + l)*C]*A[(l*m + j)*C];
+        if (!(taken*A[(j*m + j)*C] > 15)) continue;
+        gvi__zero(2*(size_t)n, now);
+        for (int l = j; l >= 0; --l) {
+            const gvi_real *run = gvi__runs(st, l, &ends), *G = x->con.G + l*n*C + e;
+            c[l] = l == j ? 1 : 0;
+            for (int i = l + 1; i <= j; ++i) c[l] -= A[(i*m + l)*C]*c[i];
+            for (int f = 0; f < ends; f += 2)
+                for (int i = (int)run[f]; i < (int)run[f + 1]; ++i) {
+                    now[i] += c[l]*G[i*C];
+                    next[i] += c[l]*G[i*C + 1];
+                    if (l == j) all += G[i*C]*G[i*C];
+                }
+        }
+        if (16*gvi__dot(n, now, now) < all && gvi__dot(n, now, next) < 0)
+            status = gvi__report_row(st, GVI_E_SINGULAR, j, e);
+    }
+    return status;
+}
+
 /* Newton's method for a step.  A solution is taken for the motion's where the iteration contracts
    well from its start and the orientation is that of free motion; or else it is followed back. */
 static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int how, int query)
@@ -5317,8 +5586,14 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
     // few points see little of what is between
     const gvi_real far = (gvi_real)(st->s > 2 ? 0.25 : 0.015625);
     const int old = !query && !gvi__nonzero(x->newton.h - x->sized.h);
+    gvi_real *v = x->result + 2*st->n;
+    gvi_status status = GVI_OK;
+    gvi__velocity_guess(st, v);
+    if (gvi__constrained(st))                     // which rows depend on others at the start?
+        status = gvi__constraints_at(st, from->t, from->q, NULL, v, x->con.drops);
+    if (status != GVI_OK) return status;
     gvi__newton_guess(st, how == GVI__EXTRAPOLATED);
-    gvi_status status = gvi__newton_solve(st, from, &J);
+    status = gvi__newton_solve(st, from, &J);
     if (old && status == GVI_OK && x->newton.bend > far) {   // that may be the old matrix's fault
         x->newton.h = 0;
         gvi__newton_guess(st, how == GVI__EXTRAPOLATED);
@@ -5329,6 +5604,8 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
         J.halves = 0;
         status = gvi__newton_connected(st, from, &J);
     }
+    if (gvi__constrained(st) && (status == GVI_OK || status == GVI_E_CONVERGENCE))
+        status = gvi__newton_crossing(st, status == GVI_OK);
     if (status != GVI_OK) return status;
     // it made none to go on from
     if (GVI__LAGRANGIAN && x->work.A) gvi__zero((size_t)(st->n*x->R), x->work.A);
@@ -5372,6 +5649,7 @@ GVI__COLD gvi_status gvi__begin_at(gvi_stepper *st, gvi_real t, const gvi_real *
     struct gvi__private *x = &st->x;
     const size_t n = (size_t)st->n;
     if (gvi__constrained(st)) {
+        gvi__forget_runs(st);
         const gvi_status status = gvi__project_start(st, t, x->step.q, x->step.p);
         if (status != GVI_OK) return status;
         v = x->result + 2*n;
@@ -5491,10 +5769,12 @@ GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
     if (GVI__CONSTRAINTS && (x->con.bits >> index & 1u)) {
         gvi_status status = GVI_OK;
         x->con.m = gvi__count_rows(x, gvi__constraints_on(st));
+        gvi__forget_runs(st);
         if (x->started && (was & ~x->off)) status = gvi__project_start(st, st->t, st->q, st->p);
         if (status != GVI_OK) {
             x->off = was;
             x->con.m = gvi__count_rows(x, gvi__constraints_on(st));
+            gvi__forget_runs(st);
             return st->status = status;
         }
         x->con.kept = x->con.kept > 0;
