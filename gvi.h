@@ -749,6 +749,15 @@ GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_rea
 GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_real h,
                                             const gvi_real *q0, const gvi_real *q1);
 
+/* q and v [n], in place, to the nearest that fulfil the constraints that are on at t, to rounding: q
+   such that (q' - q)'M(q' - q) is least, then v likewise, M that there (with Lagrangian terms
+   d2L/dv2).  For coordinates from a file; then gvi_start takes them.  moved, or NULL: the lengths
+   sqrt(dq'M dq), sqrt(dv'M dv) of what was added to q and v.  The state and the switches stay: for
+   a constraint to come, where the state is off it, gvi_init, this, gvi_start.  GVI_E_SINGULAR where
+   rows depend on others but g does not; GVI_E_CONVERGENCE too far off: q and v are as they were. */
+GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_real *v,
+                               gvi_real *moved);
+
 /* One step to t + h (with a clock: to tau + h); h < 0 steps back; h may differ from step to step
    (which keeps the map symplectic but not the energy's long-time bound).  Let a step end where a
    force jumps in time.  If what an effect reads through `user` changes between steps, call
@@ -5537,8 +5546,8 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
 
 /* Did the rank of G change between two points of the step?  What row j leaves of those before it is
    c G, c the row of L^-1: where that is a small part of row j at a point, has it turned round at
-   the next?  The motion is not unique from there on, and the step must not choose.  Without a
-   solution: are rows all but dependent where the iteration ended?                            */
+   the next, or is nothing left of it?  The motion is not unique from there on, and the step must
+   not choose.  Without a solution: are rows all but dependent where the iteration ended?     */
 GVI__CALLED gvi_status gvi__newton_crossing(gvi_stepper *st, int solved)
 {
     struct gvi__private *x = &st->x;
@@ -5568,7 +5577,8 @@ GVI__CALLED gvi_status gvi__newton_crossing(gvi_stepper *st, int solved)
                     if (l == j) all += G[i*C]*G[i*C];
                 }
         }
-        if (16*gvi__dot(n, now, now) < all && gvi__dot(n, now, next) < 0)
+        const gvi_real part = 16*gvi__dot(n, now, now);
+        if (part < all && 256*gvi__dot(n, now, next) < part)
             status = gvi__report_row(st, GVI_E_SINGULAR, j, e);
     }
     return status;
@@ -5743,6 +5753,69 @@ GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_rea
     // p0 is in step.q then
     if (status == GVI_OK) status = gvi_discrete_lagrangian(st, t, h, q0, q1, &out);
     return status == GVI_OK ? gvi_start_momentum(st, t, q0, st->x.step.q) : status;
+}
+
+/* The iteration q' = q + e, e = M^-1 G'z with g + G(e_new - e) = 0: (G M^-1 G') z = G e - g at the
+   last q'.  So e is normal to the constraints where it ends, and e'M e is z'(G e - g).        */
+GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_real *v,
+                               gvi_real *moved)
+{
+    gvi_status status = gvi__check_start(st, t, q, v);
+    if (status != GVI_OK) return status;
+    struct gvi__private *x = &st->x;
+    const int n = st->n, m = x->con.m;
+    gvi_real *e = x->step.q, *f = x->step.p, *next = x->result, *d = next + n, *u = d + n,
+             *push = x->point, *z = x->con.rho, *r = z + m, *drops = x->con.drops + m,
+             far[2] = { 0, 0 }, change = GVI__MAX, before;
+    gvi__zero((size_t)n, e);
+    gvi__zero((size_t)n, f);
+    gvi__copy((size_t)n, q, next);
+    gvi__copy((size_t)n, v, u);
+    if (gvi__constrained(st)) gvi__forget_runs(st);
+    x->diagnose = 1;
+    for (int k = 0; gvi__constrained(st); ++k) {
+        status = gvi__constraints_at(st, t, next, NULL, u, drops);
+        if (k > 1 && !(change < before/2) && status == GVI_OK) {
+            if (gvi__fulfilled(st, t, next, NULL, u) == GVI_OK) break;
+            status = k > 100 ? GVI_E_CONVERGENCE
+                             : gvi__constraints_at(st, t, next, NULL, u, drops);
+        }
+        if (status != GVI_OK) break;
+        for (int a = 0; a < m; ++a)
+            z[a] = r[a] = gvi__row_dot(st, x->con.G1, a, e) - x->con.g[a];
+        gvi__solve_constraints(st, x->con.A1, 1, 1, z, 1);
+        gvi__zero((size_t)n, push);
+        gvi__add_force(st, z, push);
+        gvi__copy((size_t)n, push, d);
+        gvi__over_inertia(st, d, 1, 1);
+        far[0] = gvi__dot(m, r, z);
+        before = change;
+        change = 0;
+        for (int i = 0; i < n; ++i) {
+            change += (push[i] - f[i])*(d[i] - e[i]);
+            f[i] = push[i];
+            e[i] = d[i];
+            next[i] = q[i] + e[i];
+        }
+        change = GVI_SQRT(GVI_ABS(change));
+    }
+    x->diagnose = 0;
+    for (int pass = 0; pass < 2 && gvi__constrained(st) && status == GVI_OK; ++pass) {
+        for (int a = 0; a < m; ++a)
+            z[a] = r[a] = -(x->con.g[m + a] + gvi__row_dot(st, x->con.G1, a, u));
+        gvi__solve_constraints(st, x->con.A1, 1, 1, z, 1);
+        gvi__zero((size_t)n, d);
+        gvi__add_force(st, z, d);
+        gvi__over_inertia(st, d, 1, 1);
+        gvi__add_scaled(n, 1, d, u, u);
+        if (pass == 0) far[1] = gvi__dot(m, r, z);
+    }
+    if (gvi__constrained(st)) gvi__forget_runs(st);
+    if (status != GVI_OK) return st->status = status;
+    gvi__copy((size_t)n, next, q);
+    gvi__copy((size_t)n, u, v);
+    for (int k = 0; moved && k < 2; ++k) moved[k] = GVI_SQRT(GVI_ABS(far[k]));
+    return gvi__report_status(st, GVI_OK);
 }
 
 GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
