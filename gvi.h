@@ -5756,7 +5756,8 @@ GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_rea
 }
 
 /* The iteration q' = q + e, e = M^-1 G'z with g + G(e_new - e) = 0: (G M^-1 G') z = G e - g at the
-   last q'.  So e is normal to the constraints where it ends, and e'M e is z'(G e - g).        */
+   last q'.  So e is normal to the constraints where it ends, and e'M e is z'(G e - g).  What moves
+   along the constraints is damped, by `share`, where changes grow; g is taken to 0 in any case. */
 GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_real *v,
                                gvi_real *moved)
 {
@@ -5765,8 +5766,8 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
     struct gvi__private *x = &st->x;
     const int n = st->n, m = x->con.m;
     gvi_real *e = x->step.q, *f = x->step.p, *next = x->result, *d = next + n, *u = d + n,
-             *push = x->point, *z = x->con.rho, *r = z + m, *drops = x->con.drops + m,
-             far[2] = { 0, 0 }, change = GVI__MAX, before;
+             *push = x->point, *z = x->con.rho, *r = z + m, *back = r + m,
+             *drops = x->con.drops + m, far[2] = { 0, 0 }, change = GVI__MAX, before, share = 1;
     gvi__zero((size_t)n, e);
     gvi__zero((size_t)n, f);
     gvi__copy((size_t)n, q, next);
@@ -5775,29 +5776,34 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
     x->diagnose = 1;
     for (int k = 0; gvi__constrained(st); ++k) {
         status = gvi__constraints_at(st, t, next, NULL, u, drops);
-        if (k > 1 && !(change < before/2) && status == GVI_OK) {
+        if (k > 1 && !(change < before*(gvi_real)0.9) && status == GVI_OK) {
             if (gvi__fulfilled(st, t, next, NULL, u) == GVI_OK) break;
             status = k > 100 ? GVI_E_CONVERGENCE
                              : gvi__constraints_at(st, t, next, NULL, u, drops);
         }
         if (status != GVI_OK) break;
-        for (int a = 0; a < m; ++a)
+        for (int a = 0; a < m; ++a) {
+            back[a] = -x->con.g[a];
             z[a] = r[a] = gvi__row_dot(st, x->con.G1, a, e) - x->con.g[a];
+        }
         gvi__solve_constraints(st, x->con.A1, 1, 1, z, 1);
+        gvi__solve_constraints(st, x->con.A1, 1, 1, back, 1);
+        far[0] = gvi__dot(m, r, z);
+        for (int a = 0; a < m; ++a) z[a] = share*z[a] + (1 - share)*back[a];
         gvi__zero((size_t)n, push);
         gvi__add_force(st, z, push);
         gvi__copy((size_t)n, push, d);
         gvi__over_inertia(st, d, 1, 1);
-        far[0] = gvi__dot(m, r, z);
         before = change;
         change = 0;
         for (int i = 0; i < n; ++i) {
-            change += (push[i] - f[i])*(d[i] - e[i]);
-            f[i] = push[i];
-            e[i] = d[i];
+            change += (push[i] - share*f[i])*(d[i] - share*e[i]);
+            f[i] = push[i] + (1 - share)*f[i];
+            e[i] = d[i] + (1 - share)*e[i];
             next[i] = q[i] + e[i];
         }
         change = GVI_SQRT(GVI_ABS(change));
+        if (change > before && share > (gvi_real)0.02) share /= 2;
     }
     x->diagnose = 0;
     for (int pass = 0; pass < 2 && gvi__constrained(st) && status == GVI_OK; ++pass) {
