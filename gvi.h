@@ -97,7 +97,9 @@
               overlap unless it is said that they may.
    units      None: time, lengths and masses are the caller's, coordinate by
               coordinate; no tolerance or test of the library depends on them.
-   rounding   Round to nearest, subnormals kept; -ffast-math is refused.
+              What is below 1e-307 (float: 1e-37) counts as 0.
+   rounding   Round to nearest, subnormals kept; -ffast-math and its parts are refused,
+              or without effect.
               q, p and t carry compensation terms, so 1e9 steps of t + h are
               as exact as one.  Same bits on every IEEE machine but x87 when compiled
               with -ffp-contract=off, as far as callbacks do, and products stay
@@ -345,11 +347,12 @@ typedef enum gvi_status {
                                 to 1, kicks too: not even free motion would come out */
     GVI_E_POINTS      = -5,  /* r < s, or a rule that does not see every mode           */
     GVI_E_FORMULATION = -6,  /* no formulation, or not the pinned one, covers this scene */
-    GVI_E_SINGULAR    = -7,  /* singular matrix: massless coordinate (fault.coordinate), or a
-                                constraint that depends on the others (fault.effect, its row
-                                in fault.coordinate)                                */
+    GVI_E_SINGULAR    = -7,  /* singular matrix, and no h helps: massless coordinate
+                                (fault.coordinate), or a constraint that depends on the
+                                others (fault.effect, its row in fault.coordinate)  */
     GVI_E_CONVERGENCE = -8,  /* no solution found: halve h.  If no h works, a force jumps,
-                                is noisy, or has a wrong derivative                 */
+                                is noisy, or has a wrong derivative, or the motion comes
+                                to where a matrix is singular                       */
     GVI_E_CALLBACK    = -9,  /* a callback failed, it did not return 0 (fault.effect): halve h */
     GVI_E_NON_FINITE  = -10, /* NaN or Inf came out of an effect (fault.effect)         */
     GVI_E_VALUE       = -11, /* energy or action wanted, or a clock on, but fault.effect
@@ -395,7 +398,8 @@ typedef int gvi_points_fn(const gvi_points *x, void *user);
 /* The same from what happens at one point.  GVI_POINTS(name, n, ...) stands for `static int name`;
    n is a constant; the list names the arrays in use, but t and q: v, p, f, dldv, and one of value,
    mass, velocity; or rows(m), m a constant, for the g, jacobian and rate of m constraints.
-   With f and value, `name` serves as points and as value.
+   With f and value, `name` serves as points and as value.  An array that is listed and not there,
+   since the effect's kind does not have it, ends in GVI_E_CALLBACK with a fault.argument.
 
      GVI_POINTS(drag, 2, v, f)(const gvi_points *x, void *user)
      {
@@ -411,7 +415,8 @@ typedef int gvi_points_fn(const gvi_points *x, void *user);
 #define GVI__USES(a, b, c, d, ...)                                                              \
     (GVI__USES_##a | GVI__USES_##b | GVI__USES_##c | GVI__USES_##d)
 enum { GVI__USES_, GVI__USES_v, GVI__USES_p, GVI__USES_f = 4, GVI__USES_dldv = 8,
-       GVI__USES_value = 16, GVI__USES_mass = 32, GVI__USES_velocity = 64, GVI__ROWS = 128 };
+       GVI__USES_value = 16, GVI__USES_mass = 32, GVI__USES_velocity = 64, GVI__ROWS = 128,
+       GVI__MISSING = 0x7656 };
 #define GVI__USES_rows(m) (m)*GVI__ROWS
 #define GVI__POINTS(name, n, uses)                                                              \
     GVI__BODY int gvi__at_##name(const gvi_points *x, void *user);                              \
@@ -461,10 +466,20 @@ GVI__BODY int gvi__each_point(gvi_points_fn *at, const gvi_points *x, void *user
     return failed;
 }
 
+// is an array listed that is not there?
+GVI__BODY int gvi__missing(const gvi_points *x, int wanted)
+{
+    const gvi_real *const arrays[] = { x->v, x->p, x->f, x->dldv, x->value, x->mass, x->velocity };
+    int missing = wanted >= GVI__ROWS && !x->g;
+    for (int k = 0; k < 7; ++k) missing |= (wanted >> k & 1) && !arrays[k];
+    return missing;
+}
+
 GVI__BODY int gvi__in_chunks(gvi_points_fn *at, const gvi_points *x, void *user, int n, int uses,
                              int wanted, gvi_real *a)
 {
     int failed = 0, k = 0;
+    if (gvi__missing(x, wanted)) return GVI__MISSING;
     for (; GVI__CHUNK && k + GVI__CHUNK <= x->stride; k += GVI__CHUNK)
         failed |= gvi__each_point(at, x, user, n, uses, wanted, a, k, k + GVI__CHUNK, x->f);
     return failed | gvi__each_point(at, x, user, n, uses, wanted, a, k, x->count, x->f);
@@ -514,7 +529,8 @@ typedef enum gvi_mass_kind {
 
 /* The kinetic energy.  M need not be definite: no leading minor may be 0 (dense, M(q)), no m_i
    (diagonal).  Where M(q) is singular, as at the pole of Euler's angles (gimbal lock), a step that
-   comes there ends in GVI_E_SINGULAR; one that would leap over it may be wrong with GVI_OK.
+   fails there ends in GVI_E_SINGULAR, one that comes there in GVI_E_CONVERGENCE; one that would
+   leap over it may be wrong with GVI_OK.
    matrix is read by gvi_init only.                                                            */
 typedef struct gvi_mass {
     gvi_mass_kind   kind;
@@ -590,7 +606,8 @@ typedef struct gvi_fault {             /* where the last failure came from      
     int effect;                        /* index in effects, or GVI_FAULT_...    */
     int coordinate;                    /* or GVI_FAULT_NONE                     */
     int point;                         /* quadrature point, or GVI_FAULT_NONE   */
-    const char *argument;              /* GVI_E_ARGUMENT: a sentence, else NULL */
+    const char *argument;              /* GVI_E_ARGUMENT, and GVI_E_CALLBACK of a GVI_POINTS
+                                          that lists too much: a sentence, else NULL */
 } gvi_fault;
 
 /* Work done, counted since gvi_init.  The caller may set any of it to 0.      */
@@ -679,7 +696,8 @@ struct gvi__private {
     struct { gvi_real *q, *p, H; } began;                  /* start of the last step */
     struct { gvi_real *v, *v_low, *path, *path_low, *rows; } free; /* M^-1 p; h times it; stages' */
     struct { gvi_real *matrix, *factor, *inverse, *at_points, *sums; } mass;
-    struct { gvi_real *scale, *change, *before; } watch;   /* [2n] of the rows of stages */
+    struct { gvi_real *scale, *change, *before;   /* [2n] of the rows of stages     */
+             gvi_real ratio, found; } watch;      /* contraction: last step, that at work */
     struct gvi__time    time;
     struct gvi__newton  newton;
     struct gvi__holonomic con;
@@ -690,6 +708,7 @@ struct gvi__private {
     gvi_real           *memory;       /* from its first aligned number on           */
     size_t              size, skip;   /* numbers in use; left out for alignment     */
     gvi__kernel        *kernel;       /* for n and r                                */
+    struct { gvi_status status; gvi_fault fault; } failed;  /* the last step, if it did  */
     int started, stepped;             /* stepped: 2 by a clock                      */
     int kept;                         /* valid steps in last and older, equally long */
     int has_force, has_velocity;      /* last.F ends with the force at (t, q); last.V holds */
@@ -699,7 +718,8 @@ struct gvi__private {
 /* The stepper, to be read; x is private.                                      */
 typedef struct gvi_stepper {
     int             n, s, r;          /* as resolved from the description       */
-    gvi_status      status;           /* of the last call                       */
+    gvi_status      status;           /* of the last call; of a step that failed, like its fault,
+                                         until the next step or start: queries leave it */
     gvi_formulation formulation;      /* used by the last step, or the next     */
     gvi_real        t, t_low;         /* time and its compensation: t + t_low   */
     const gvi_real *q, *p;            /* [n] configuration and momentum at t    */
@@ -753,8 +773,8 @@ GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_rea
    such that (q' - q)'M(q' - q) is least, then v likewise, M that there (with Lagrangian terms
    d2L/dv2).  For coordinates from a file; then gvi_start takes them.  moved, or NULL: the lengths
    sqrt(dq'M dq), sqrt(dv'M dv) of what was added to q and v.  The state and the switches stay: for
-   a constraint to come, where the state is off it, gvi_init, this, gvi_start.  GVI_E_SINGULAR where
-   rows depend on others but g does not; GVI_E_CONVERGENCE too far off: q and v are as they were. */
+   a constraint to come, where the state is off it, gvi_init, this, gvi_start.  GVI_E_CONVERGENCE:
+   too far off (an effect and row that is left, if any); q and v are then as they were.        */
 GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_real *v,
                                gvi_real *moved);
 
@@ -886,8 +906,12 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI_IMPLEMENTED
 
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) \
-    || (defined(__ASSOCIATIVE_MATH__) && __ASSOCIATIVE_MATH__)
+    || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__)
 #error "gvi.h relies on IEEE arithmetic: compile it without -ffast-math and its parts"
+#endif
+#if defined(__clang__) && __clang_major__ >= 12      // which does not say of the parts that are on
+#pragma float_control(push)
+#pragma clang fp reassociate(off)
 #endif
 
 /* --------------------------------------------------------------- SUPPORT */
@@ -1032,6 +1056,8 @@ static int gvi__finite(gvi_real x) { return GVI_ABS(x) <= GVI__MAX; }
 
 // true for every x but 0 and NaN
 static int gvi__nonzero(gvi_real x) { return x < 0 || x > 0; }
+
+static gvi_real gvi__least(gvi_real a, gvi_real b) { return a < b ? a : b; }
 
 // the first entry that is not finite, or -1
 static int gvi__first_non_finite(int n, const gvi_real *x)
@@ -1760,11 +1786,6 @@ GVI__COLD gvi_status gvi__refuse_constraints(gvi_stepper *st)
     return gvi__report(st, GVI_E_FORMULATION, e, 0, GVI_FAULT_NONE);
 }
 
-static gvi_status gvi__refuse_call(gvi_stepper *st, const char *argument)
-{
-    return st->status = gvi__refuse(&st->fault, GVI_FAULT_NONE, GVI_FAULT_NONE, argument);
-}
-
 GVI__APART gvi_status gvi__report_effect(gvi_stepper *st, gvi_status status, int effect)
 {
     return gvi__report(st, status, effect, GVI_FAULT_NONE, GVI_FAULT_NONE);
@@ -1775,18 +1796,38 @@ GVI__APART gvi_status gvi__report_status(gvi_stepper *st, gvi_status status)
     return gvi__report(st, status, GVI_FAULT_NONE, GVI_FAULT_NONE, GVI_FAULT_NONE);
 }
 
+// the end of a call; a step that failed stays in sight
+static gvi_status gvi__done(gvi_stepper *st, gvi_status status)
+{
+    if (status == GVI_OK) gvi__report_status(st, GVI_OK);
+    st->status = status;
+    if (st->x.failed.status != GVI_OK) {
+        st->status = st->x.failed.status;
+        st->fault = st->x.failed.fault;
+    }
+    return status;
+}
+
+static gvi_status gvi__refuse_call(gvi_stepper *st, const char *argument)
+{
+    return gvi__done(st, gvi__refuse(&st->fault, GVI_FAULT_NONE, GVI_FAULT_NONE, argument));
+}
+
+// a callback returned `failed`
+GVI__COLD gvi_status gvi__report_callback(gvi_stepper *st, int failed, int effect)
+{
+    gvi__report_effect(st, GVI_E_CALLBACK, effect);
+    if (failed == GVI__MISSING)
+        st->fault.argument = "GVI_POINTS lists what this kind does not have, as v: is .kind set?";
+    return GVI_E_CALLBACK;
+}
+
 // may a call go on?  A chain of calls to a stepper that is not ready keeps its first failure
 static gvi_status gvi__ready(gvi_stepper *st, int ready)
 {
     if (!st) return GVI_E_ARGUMENT;
     if (ready) return gvi__report_status(st, GVI_OK);
     return st->status != GVI_OK ? st->status : (st->status = GVI_E_STATE);
-}
-
-// the end of a call
-static gvi_status gvi__done(gvi_stepper *st, gvi_status status)
-{
-    return status == GVI_OK ? gvi__report_status(st, GVI_OK) : (st->status = status);
 }
 
 static void gvi__count(unsigned long long *counter, int more)
@@ -1845,7 +1886,8 @@ static gvi_status gvi__value(gvi_stepper *st, gvi_points *x, int e, gvi_real *va
     if (effect->kind == GVI_POTENTIAL) y.v = NULL;
     y.f = y.dldv = NULL;
     y.value = value;
-    return effect->value(&y, effect->user) ? gvi__report_effect(st, GVI_E_CALLBACK, e) : GVI_OK;
+    const int failed = effect->value(&y, effect->user);
+    return failed ? gvi__report_callback(st, failed, e) : GVI_OK;
 }
 
 // the one-point form: gather, call, scatter.  Returns 0, or 1 + the point whose callback failed
@@ -1884,9 +1926,8 @@ GVI__BODY gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e, gvi_real
     x->value = NULL;
     x->v = v;
     x->dldv = dldv;
-    if (failed)
-        return gvi__report(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE,
-                           points ? GVI_FAULT_NONE : failed - 1);
+    if (failed && points) return gvi__report_callback(st, failed, e);
+    if (failed) return gvi__report(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, failed - 1);
     return value && !both ? gvi__value(st, x, e, value) : GVI_OK;
 }
 
@@ -1954,7 +1995,7 @@ static gvi_status gvi__evaluate_mass(gvi_stepper *st, const gvi_points *x, const
     y.mass = v ? NULL : st->x.mass.at_points;
     gvi__count(&st->counters.mass, x->count);
     const int failed = v ? mass->velocity(&y, mass->user) : mass->points(&y, mass->user);
-    return failed ? gvi__report_effect(st, GVI_E_CALLBACK, GVI_FAULT_MASS) : GVI_OK;
+    return failed ? gvi__report_callback(st, failed, GVI_FAULT_MASS) : GVI_OK;
 }
 
 /* M(q) at the points, factored.  In whole lanes, with the first point behind the last, unless a
@@ -1989,8 +2030,8 @@ static gvi_status gvi__mass_gradient(gvi_stepper *st, const gvi_points *x)
     const gvi_mass *mass = &st->x.desc.mass;
     gvi_points y = *x;
     y.dldv = NULL;
-    if (mass->gradient(&y, mass->user))
-        return gvi__report_effect(st, GVI_E_CALLBACK, GVI_FAULT_MASS);
+    const int failed = mass->gradient(&y, mass->user);
+    if (failed) return gvi__report_callback(st, failed, GVI_FAULT_MASS);
     return st->x.diagnose ? gvi__check_rows(st, x, x->f, GVI_FAULT_MASS) : GVI_OK;
 }
 
@@ -2493,7 +2534,9 @@ GVI__CALLED void gvi__constraint_rows(const gvi_stepper *st, const struct gvi__s
 GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin *from);
 GVI__CALLED void gvi__constrain(gvi_stepper *st, const struct gvi__stage *y, const gvi_real *q0);
 GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate);
-static gvi_status gvi__stalled(gvi_stepper *st);
+GVI__CALLED int gvi__constraints_rest(const gvi_stepper *st);
+static gvi_status gvi__constraints_at(gvi_stepper *st, gvi_real t, const gvi_real *q,
+                                      const gvi_real *p, gvi_real *v, gvi_real *drops);
 GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h);
 GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, int start);
 GVI__CALLED void gvi__commit_constraints(gvi_stepper *st, gvi_real h);
@@ -2521,7 +2564,6 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_rea
     const int usable = x->kept > 0 && h/st->h > -2 && h/st->h < 8;
     int used = 0;
     gvi_status status = GVI_E_CONVERGENCE;
-    if (GVI__CONSTRAINTS) x->con.made = 0;
     if (!gvi__uses(x, GVI_NEWTON) && (x->newton.left == 0 || query)) {
         if (usable) gvi__prepare_predictor(st, h, query);
         for (int plain = !usable; plain < 2; ++plain) {
@@ -2683,14 +2725,35 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     x->has_force = gvi__uses(x, GVI_EXPLICIT) && !gvi__nonzero(x->table.c[0])
                    && !gvi__nonzero(x->table.c[st->r - 1] - 1);
     x->has_velocity = st->formulation > GVI_POSITIONS;
+    if (st->formulation != GVI_NEWTON) x->watch.ratio = x->watch.found;
     if (x->newton.left > 0) x->newton.left -= 1;
     gvi__count(&st->counters.steps, 1);
+}
+
+/* No solution was found, or a matrix was singular on the way.  Where one is singular at the start
+   already no h helps; else a shorter step may.                                               */
+GVI__COLD gvi_status gvi__why(gvi_stepper *st)
+{
+    struct gvi__private *x = &st->x;
+    const gvi_fault fault = st->fault;
+    gvi_status status = GVI_OK;
+    if (!gvi__uses(x, GVI_EXPLICIT) && !x->desc.mass.velocity) {
+        gvi__velocity_guess(st, x->result);
+        status = gvi__velocity(st, st->t, st->q, st->p, x->result);
+    }
+    if (status == GVI_OK && gvi__constrained(st))
+        status = gvi__constraints_at(st, st->t, st->q, st->p, x->result,
+                                     x->con.drops + x->con.m);
+    if (status == GVI_E_SINGULAR) return status;
+    st->fault = fault;
+    return st->status = GVI_E_CONVERGENCE;
 }
 
 GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
 {
     const gvi_status ready = gvi__ready(st, st && st->x.started);
     if (ready != GVI_OK) return ready;
+    st->x.failed.status = GVI_OK;
     if (!gvi__nonzero(h) || !gvi__finite(h))
         return gvi__refuse_call(st, "h is 0, NaN or infinite");
     struct gvi__private *x = &st->x;
@@ -2703,7 +2766,10 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
     gvi_status status = gvi__solve(st, &from, h, GVI__STEP);
     if (status == GVI_OK && !gvi__finite(st->t + x->dt))
         status = gvi__refuse_call(st, "t + h is not finite");
+    if (status == GVI_E_CONVERGENCE || status == GVI_E_SINGULAR) status = gvi__why(st);
     if (status != GVI_OK) {
+        x->failed.status = status;
+        x->failed.fault = st->fault;
         gvi__count(&st->counters.failures, 1);
         st->formulation = was;
         x->newton.left = left;
@@ -2807,7 +2873,7 @@ GVI__BODY const gvi_real *gvi__weighted(int R, const gvi_real *GVI__RESTRICT w,
 GVI__BODY gvi_real gvi__scale_of(gvi_real base, gvi_real was, gvi_real is)
 {
     const gvi_real size = GVI_ABS(base) + GVI_ABS(was - base) + GVI_ABS(is - base);
-    return size > GVI__MIN/GVI__EPS ? 1/size : 0;
+    return size > GVI__MIN ? 1/size : 0;
 }
 
 // the squares at eight points, added up in one order everywhere
@@ -3144,7 +3210,7 @@ static gvi_real gvi__velocities_again(gvi_stepper *st)
         for (int k = 0; k < R; ++k) x->work.V[i*R + k] *= x->time.rate[k];
     for (int i = 0; made && i < n; ++i) {
         const gvi_real moved = V[i*R] - was[i], size = GVI_ABS(V[i*R]) + GVI_ABS(was[i]);
-        if (size > GVI__MIN/GVI__EPS) sum += (moved/size)*(moved/size);
+        if (size > GVI__MIN) sum += (moved/size)*(moved/size);
     }
     return (gvi_real)st->r*sum;
 }
@@ -3202,10 +3268,11 @@ static gvi_status gvi__predict_sources(gvi_stepper *st, const gvi__origin *from,
 }
 
 /* Where an iteration stands, in squares: the changes of the last two iterations, of all rows,
-   and the least so far; gvi__noise when it was last made, and its least; how often no new least was
-   seen, of change or noise, or no good contraction; are units to be made anew?                */
+   and the least so far; the contraction of the last step, 1 if there is none, or 2 if no ratio
+   counts; gvi__noise when it was last made, and its least; how often no new least was seen, of
+   change or noise, or no good contraction; are units to be made anew?                         */
 typedef struct gvi__progress {
-    gvi_real before, earlier, least, noise, quiet;
+    gvi_real before, earlier, least, ratio, noise, quiet;
     int      used, stagnant, still, growing, rescale;
 } gvi__progress;
 
@@ -3229,9 +3296,12 @@ static gvi_real gvi__inertia(const gvi_stepper *st, int i)
    times sqrt(M_ii), with h V_i or h P_i/M_ii in place of Q_i for those rows.  Up to 1 a row
    that does not settle is nothing but noise, where large forces cancel: a light body midway
    between two heavy ones.  So is, whatever the amplitude, what a force of constraint moves by its
-   own rounding, 32 eps of it: that counts next to nothing.                                     */
+   own rounding, 32 eps of it, or by its last change where that came from the rounding of g, which
+   rows that are nearly dependent make large: that counts next to nothing.                      */
 static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *y, int stages)
 {
+    const int R = st->x.R, C = st->x.con.C;
+    const gvi_real rests = gvi__constrained(st) && gvi__constraints_rest(st) ? 1 : 0;
     gvi_real largest = 0, noise = 0;
     for (int k = 0; k < stages; ++k)
         for (int i = 0; i < st->n && y[k].scale; ++i) {
@@ -3241,30 +3311,36 @@ static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *
             const gvi_real at_q = gvi__inertia(st, i), m = gvi__mass_is(&st->x, GVI_MASS_POSITION)
                 && st->x.has_factor && !st->x.desc.mass.velocity ? 1/at_q : at_q;
             const gvi_real unit = (p ? GVI_ABS(h)/m : v ? GVI_ABS(h) : 1)*GVI_SQRT(m);
-            const gvi_real *row = y[k].rows + i*st->x.R;
+            const gvi_real *row = y[k].rows + i*R;
             gvi_real size = GVI_ABS(y[k].base[i]), push = 0;
             for (int j = 0; j < st->r; ++j) size = GVI_ABS(row[j]) > size ? GVI_ABS(row[j]) : size;
             for (int e = 0; gvi__constrained(st) && e < st->s; ++e) {
-                const gvi_real held = h*h*GVI_ABS(st->x.con.force[i*st->x.R + e])/m;
-                if (held > push) push = held;
+                gvi_real held = 32*GVI__EPS*GVI_ABS(h*st->x.con.force[i*R + e]), moved = 0;
+                for (int a = 0; a < st->x.con.m; ++a)
+                    moved += GVI_ABS(st->x.con.G[(a*st->n + i)*C + e]*st->x.con.rho[a*R + e]);
+                held += rests*moved/GVI_ABS(st->x.con.hw[e]);
+                if (GVI_ABS(h)*held/m > push) push = GVI_ABS(h)*held/m;
             }
             gvi_real change = y[k].scale[i] > 0 ? GVI_SQRT(y[k].change[i])/y[k].scale[i] : 0;
             if (unit*size > largest) largest = unit*size;
             if (!(change > 4*GVI__EPS*size)) continue;
-            if (change <= 32*GVI__EPS*push) change *= GVI__EPS;
+            if (change <= push) change *= GVI__EPS;
             if (unit*change > noise) noise = unit*change;
         }
     return noise > 0 ? noise/(32*GVI__EPS*largest) : 0;
 }
 
-/* The verdict on a change D of all rows.  The iteration ends when the next change, D^2/D_before,
-   is within the tolerance, without one far below rounding, and for each row as well, unless its
-   own D is in the last place; or when D stagnates at rounding, without a new least by a tenth
-   for some iterations.  Then F is evaluated once more, so that rows that go to and fro in their
-   last places end with their own F, not that of the side that they came from: that is a bias.
-   Three changes in a row that fall by less than half are poor, five while they are as large as
-   the motion (terms of a cosine grow at first); so is a descent to rounding by factors of less
-   than 4: it lets errors grow before they shrink.  All in squares: no root or quotient waits.  */
+/* The verdict on a change D of all rows.  The iteration ends when the next change, D times the
+   ratio of the last two, is within the tolerance, without one far below rounding, and for each
+   row as well, unless its own D is in the last place.  One ratio may be luck: unless D is
+   rounding, the one before, or that of the last step, must tell the same; after an attempt that
+   failed D itself must be within the tolerance.  Or it ends when D stagnates at rounding, without
+   a new least by a tenth for some iterations.  Then F is evaluated once more, so that rows that
+   go to and fro in their last places end with their own F, not that of the side that they came
+   from: that is a bias.  Three changes in a row that fall by less than half are poor, five while
+   they are as large as the motion (terms of a cosine grow at first); so is a descent to rounding
+   by factors of less than 4: it lets errors grow before they shrink.  All in squares: no root
+   waits.                                                                                      */
 static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_real h,
                           const gvi__stage *y, int stages)
 {
@@ -3273,12 +3349,17 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
                    tolerance = wanted*wanted;
     const gvi_real rounding = 16*GVI__EPS*GVI__EPS*(gvi_real)(st->n*st->r), far = (gvi_real)0.0625;
     const gvi_real before = p->before, earlier = p->earlier, worst = st->counters.worst_contraction;
-    const gvi_real last = p->used == 1 ? D : before < 1 ? before : 1;
-    const int grows = before > 0 && D >= before/4;
+    const int grows = before > 0 && D >= before/4, alone = p->used == 1 || p->ratio > 1;
+    const gvi_real last = alone ? D : gvi__least(before, 1);
     int settled = D*D <= tolerance*last && d->iterations == 0;
+    if (settled && !alone && D > rounding) {
+        const gvi_real other = earlier > 0 ? before/gvi__least(earlier, 1) : p->ratio;
+        settled = D*other <= tolerance;
+        if (settled) st->x.watch.found = D/last;
+    }
     for (int i = 0; settled && i < stages*st->n; ++i) {      // no row hides behind a larger one
-        const gvi_real Di = st->x.watch.change[i], was = st->x.watch.before[i];
-        const gvi_real before_i = p->used == 1 ? Di : was < 1 ? was : 1;
+        const gvi_real Di = st->x.watch.change[i];
+        const gvi_real before_i = alone ? Di : gvi__least(st->x.watch.before[i], 1);
         settled = !(Di > 2*GVI__EPS*GVI__EPS && Di*Di > tolerance*before_i);
     }
     if (settled) return GVI__DONE;
@@ -3324,7 +3405,7 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
 {
     struct gvi__private *x = &st->x;
     gvi__stage stage[2], first;
-    gvi__progress p = { 0, 0, GVI__MAX, GVI__MAX, GVI__MAX, 0, 0, 0, 0, 1 };
+    gvi__progress p = { 0, 0, GVI__MAX, 1, GVI__MAX, GVI__MAX, 0, 0, 0, 0, 1 };
     gvi_points at = gvi__points_at(st, st->r, x->R, x->t, x->work.Q, x->work.F,
                                    GVI__LAGRANGIAN ? x->work.A : NULL);
     const int stages = gvi__stages(st, from, h, stage);
@@ -3332,6 +3413,9 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
     if (gvi__constrained(st)) gvi__constraint_stages(st, from, h, stage, stages);
     if (GVI__CONSTRAINTS) x->con.made = x->con.linear = 0;
     at.v = x->work.V;
+    if (*used > 0) p.ratio = 2;
+    else if (extrapolate && GVI_ABS(h) <= GVI_ABS(st->h)) p.ratio = x->watch.ratio;
+    x->watch.found = gvi__least(p.ratio, 1);
     *used = 0;
     x->has_factor = 0;
     if (extrapolate && x->sized.sums) {
@@ -3368,7 +3452,8 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
         }
         if (verdict == GVI__NOT_FINITE && !diverged && !x->diagnose)  // the effects are looked at
             return gvi__report_status(st, GVI_E_NON_FINITE);
-        if (verdict == GVI__NOT_FINITE || verdict == GVI__DIVERGES) return gvi__stalled(st);
+        if (verdict == GVI__NOT_FINITE || verdict == GVI__DIVERGES)
+            return gvi__report_status(st, GVI_E_CONVERGENCE);
         const gvi_real worst = st->counters.worst_change;
         if (change > worst*worst) st->counters.worst_change = GVI_SQRT(change);
         if (verdict == GVI__DONE) return GVI_OK;
@@ -3594,7 +3679,8 @@ static gvi_status gvi__rate(gvi_stepper *st, const gvi_points *x, gvi_real *rate
     gvi__zero((size_t)x->n*(size_t)x->stride, slope);
     gvi__zero((size_t)x->stride, rate);
     gvi__count(&st->counters.effect[st->x.clock], x->count);
-    if (clock->points(&y, clock->user)) return gvi__report_effect(st, GVI_E_CALLBACK, st->x.clock);
+    const int failed = clock->points(&y, clock->user);
+    if (failed) return gvi__report_callback(st, failed, st->x.clock);
     for (int k = 0; k < x->count; ++k) {
         const int bad = rate[k] <= 0, wild = st->x.diagnose && !gvi__finite(rate[k]);
         if (bad || wild)
@@ -3758,7 +3844,8 @@ static gvi_status gvi__evaluate_constraints(gvi_stepper *st, int S, int count, c
         const gvi_effect *effect = st->x.desc.effects + e;
         if (!(gvi__constraints_on(st) >> e & 1u)) continue;
         gvi__count(&st->counters.effect[e], count);
-        if (effect->points(&y, effect->user)) return gvi__report_effect(st, GVI_E_CALLBACK, e);
+        const int failed = effect->points(&y, effect->user);
+        if (failed) return gvi__report_callback(st, failed, e);
         if (st->x.diagnose) {
             gvi_points rows = y;
             rows.n = effect->rows;
@@ -4126,7 +4213,7 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *y, const gvi_
     gvi__zero((size_t)(m*R), rho);
     for (int a = 0, ends; a < m; ++a) {
         const gvi_real *run = gvi__runs(st, a, &ends);
-        gvi_real *g = x->row;
+        gvi_real *g = rho + m*R + a*C;             // gvi__constraints_rest reads it
         gvi__copy((size_t)s, x->con.g + a*C + 1, g);
         for (int e = 0; e < ends; e += 2)
             for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i)
@@ -4139,6 +4226,21 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *y, const gvi_
     gvi__constraint_forces(st);
 }
 
+// was all that lambda's last change came from rounding, 8 eps of the terms that are known?
+GVI__CALLED int gvi__constraints_rest(const gvi_stepper *st)
+{
+    const struct gvi__private *x = &st->x;
+    const int n = st->n, m = x->con.m, C = x->con.C;
+    for (int a = 0; a < m; ++a)
+        for (int k = 1; k <= st->s; ++k) {
+            gvi_real terms = GVI_ABS(x->con.g[(m + a)*C + k]*x->con.t[k]);
+            for (int i = 0; i < n; ++i)
+                terms += GVI_ABS(x->con.G[(a*n + i)*C + k]*x->con.at[i*C + k]);
+            if (!(GVI_ABS(x->con.rho[m*x->R + a*C + k - 1]) <= 8*GVI__EPS*terms)) return 0;
+        }
+    return 1;
+}
+
 // forces and lambda to begin with: those of the last step, extrapolated, or none
 GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate)
 {
@@ -4149,21 +4251,6 @@ GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate
         if (k % R < st->s)
             x->con.force[k] = gvi__point_sum(st->s, R, x->con.E + k % R,
                                              x->con.last + k/R*x->con.C + 1);
-}
-
-// no convergence: were rows of G all but dependent, a pivot less than 1/1024 of what it came from?
-GVI__COLD gvi_status gvi__stalled(gvi_stepper *st)
-{
-    const struct gvi__private *x = &st->x;
-    const int m = x->con.m, C = x->con.C;
-    for (int k = 0; k < st->s && gvi__constrained(st) && x->con.made > 0; ++k)
-        for (int j = 0; j < m; ++j) {
-            gvi_real was = 0;
-            for (int l = 0; l < j; ++l) was += x->con.A[(j*m + l)*C + k]*x->con.A[(l*m + j)*C + k];
-            if (was*x->con.A[(j*m + j)*C + k] > 1023)
-                return gvi__report_row(st, GVI_E_SINGULAR, j, k);
-        }
-    return gvi__report_status(st, GVI_E_CONVERGENCE);
 }
 
 /* RATTLE: the drift from p to g(q1) = 0 by impulses G0' mu, of a simplified Newton iteration.  A
@@ -4364,7 +4451,7 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
     gvi_status trial = GVI_OK, status = gvi__ready(st, st && st->x.started);
     if (status != GVI_OK) return status;
     if (!lambda) return gvi__refuse_call(st, "lambda is NULL");
-    if (!GVI__CONSTRAINTS || !st->x.con.bits) return st->status = GVI_E_FORMULATION;
+    if (!GVI__CONSTRAINTS || !st->x.con.bits) return gvi__done(st, GVI_E_FORMULATION);
     struct gvi__private *x = &st->x;
     const int n = st->n, m = x->con.m;
     gvi_real *q = x->result, *p = q + n, *u = p + n, *v = x->con.W, *force = v + n;
@@ -4414,11 +4501,11 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
     }
     if (status == GVI_OK && m > 0 && !(least < GVI__MAX))
         status = trial != GVI_OK ? trial : gvi__report_status(st, GVI_E_NON_FINITE);
-    if (status != GVI_OK) return st->status = status;
+    if (status != GVI_OK) return gvi__done(st, status);
     for (int e = 0; e < x->desc.effect_count; ++e)
         for (int a = 0; a < x->desc.effects[e].rows; ++a)
             *lambda++ = gvi__constraints_on(st) >> e & 1u ? *best++ : 0;
-    return gvi__report_status(st, GVI_OK);
+    return gvi__done(st, GVI_OK);
 }
 
 /* ---------------------------------------------------------------- SET-UP */
@@ -4495,25 +4582,26 @@ GVI__COLD gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc, gv
     return wrong ? gvi__refuse(fault, GVI_FAULT_MASS, GVI_FAULT_NONE, wrong) : GVI_OK;
 }
 
-/* The order of the rule: will it do? Kicks need finite numbers and weights that sum to 1;
-   beyond an error of 1 no digit of the sum is sure.                                           */
+/* The order of the rule: will it do? Weights given must be finite and sum to 1, and their rounding
+   must leave half of the sum's digits.                                                        */
 GVI__COLD gvi_status gvi__check_rule(struct gvi__private *x, int *order, gvi_fault *fault)
 {
     const gvi_rule *rule = &x->desc.rule;
     const int s = x->desc.degree, r = rule->points;
     *order = rule->kind == GVI_LOBATTO ? 2*r - 2 : 2*r;
+    gvi_real sum = -1, error = 0;
+    for (int j = 0; j < r && rule->weights; ++j) {
+        sum += rule->weights[j];
+        error += 4*(gvi_real)(r + 2)*GVI__EPS*GVI_ABS(rule->weights[j]);
+    }
+    const int sums = GVI_ABS(sum) <= error && error < GVI_SQRT(GVI__EPS);
     if (gvi__rule_is(x, GVI_KICKS)) {
-        gvi_real sum = -1, size = 0;
         *order = 0;
         if (s != 1)
             return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE, "degree: kicks have 1");
-        for (int j = 0; j < r; ++j) {
-            sum += rule->weights[j];
-            size += GVI_ABS(rule->weights[j]);
+        for (int j = 0; j < r; ++j)
             if (!gvi__finite(rule->nodes[j]) || !gvi__finite(rule->weights[j])) return GVI_E_NODES;
-        }
-        const gvi_real error = 4*(gvi_real)(r + 2)*GVI__EPS*size;
-        return GVI_ABS(sum) <= error && error < 1 ? GVI_OK : GVI_E_ORDER;
+        return sums ? GVI_OK : GVI_E_ORDER;
     }
     if (rule->kind == GVI_LOBATTO && r < 2)
         return s > 1 ? GVI_E_POINTS
@@ -4522,7 +4610,7 @@ GVI__COLD gvi_status gvi__check_rule(struct gvi__private *x, int *order, gvi_fau
     if (gvi__rule_is(x, GVI_OWN)) {
         *order = gvi_rule_order(r, rule->nodes, rule->weights);
         if (*order < 0) return GVI_E_NODES;
-        if (r >= s && *order < s) return GVI_E_ORDER;
+        if (r >= s && (*order < s || !sums)) return GVI_E_ORDER;
         if (*order < 2*s - 2) x->needs |= GVI__HAS_GAMMA;
     }
     // r >= s points of Gauss or Lobatto are good enough
@@ -5333,13 +5421,15 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
    then hides no more of the error, p->left, than the change before, which shrinks on by the
    contraction seen.  Not to be less than half of the least so far is not to shrink: what
    is rounded to a grid may go round a few points of it, and fall in every iteration.  Nor is it
-   contraction to fall from an overshoot far beyond the size of y.                             */
+   contraction to fall from an overshoot far beyond the size of y.  One ratio by an old matrix may
+   be luck: unless the change is rounding, that before must tell the same.                     */
 static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__descent *p,
                                  gvi_real change)
 {
     const int size = (st->s - J->k0)*st->n;
     const gvi_real before = p->before, all = (gvi_real)st->n, quarter = (gvi_real)0.25;
-    const gvi_real ratio = before > 0 ? change/(before > all ? all : before) : 1;
+    const gvi_real ratio = before > 0 ? change/gvi__least(before, all) : 1;
+    const gvi_real other = p->earlier > 0 ? before/gvi__least(p->earlier, all) : 1;
     const gvi_real wanted = st->x.desc.tolerance, noise = 64*p->grain*(gvi_real)size;
     if (!gvi__finite(change)) return GVI__NOT_FINITE;
     if (p->earlier > 0 && change > 1000*GVI__EPS) {
@@ -5363,7 +5453,9 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__des
     if (rounding) p->left *= p->rho < quarter ? p->rho : quarter;
 
     const gvi_real enough = wanted > 0 ? wanted : GVI__EPS/4096;
-    const int done = p->each*ratio <= enough || p->left <= GVI__EPS/65536 || p->left <= enough;
+    const int confirmed = (fresh && p->holds) || change <= noise || change*other <= enough;
+    const int done = (p->each*ratio <= enough && confirmed) || p->left <= GVI__EPS/65536
+                     || p->left <= enough;
     if (done && (p->holds || p->rho < quarter)) return GVI__DONE;
     // rounding, by a matrix that has contracted here
     const int hidden = p->work < 0 && p->rho < quarter;
@@ -5439,7 +5531,7 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
             return gvi__report_status(st, st->x.diagnose ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE);
         p.halves = 0;
     }
-    return gvi__stalled(st);
+    return gvi__report_status(st, GVI_E_CONVERGENCE);
 }
 
 /* The sign of the determinant of a matrix.  That of the solution's has it, too, where the iteration
@@ -5541,14 +5633,14 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
     }
     gvi__free_motion(st, from, h);
     gvi__copy(all, x->found, x->y);
-    return right ? gvi__newton_values(st, from) : gvi__stalled(st);
+    return right ? gvi__newton_values(st, from) : gvi__report_status(st, GVI_E_CONVERGENCE);
 }
 
 /* Did the rank of G change between two points of the step?  What row j leaves of those before it is
    c G, c the row of L^-1: where that is a small part of row j at a point, has it turned round at
    the next, or is nothing left of it?  The motion is not unique from there on, and the step must
-   not choose.  Without a solution: are rows all but dependent where the iteration ended?     */
-GVI__CALLED gvi_status gvi__newton_crossing(gvi_stepper *st, int solved)
+   not choose.                                                                                */
+GVI__CALLED gvi_status gvi__newton_crossing(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, m = x->con.m, C = x->con.C;
@@ -5557,8 +5649,6 @@ GVI__CALLED gvi_status gvi__newton_crossing(gvi_stepper *st, int solved)
     gvi_status status = gvi__mass_is(x, GVI_MASS_POSITION) ? gvi__factor_mass(st, &y) : GVI_OK;
     if (status == GVI_OK)
         status = gvi__factor_constraints(st, C, st->s, x->con.G, x->con.A, x->con.drops);
-    x->con.made = status == GVI_OK;
-    if (!solved && status != GVI_E_SINGULAR) return gvi__stalled(st);
     for (int ej = 0, ends; ej < st->s*m && status == GVI_OK; ++ej) {
         const int e = ej/m, j = ej % m;
         const gvi_real *A = x->con.A + e;
@@ -5614,8 +5704,7 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
         J.halves = 0;
         status = gvi__newton_connected(st, from, &J);
     }
-    if (gvi__constrained(st) && (status == GVI_OK || status == GVI_E_CONVERGENCE))
-        status = gvi__newton_crossing(st, status == GVI_OK);
+    if (status == GVI_OK && gvi__constrained(st)) status = gvi__newton_crossing(st);
     if (status != GVI_OK) return status;
     // it made none to go on from
     if (GVI__LAGRANGIAN && x->work.A) gvi__zero((size_t)(st->n*x->R), x->work.A);
@@ -5682,6 +5771,7 @@ GVI__COLD gvi_status gvi__begin_at(gvi_stepper *st, gvi_real t, const gvi_real *
     x->started = 1;
     x->stepped = x->kept = x->con.kept = x->has_force = x->has_velocity = x->newton.left = 0;
     x->newton.h = x->sized.ratio = 0;
+    x->watch.ratio = x->watch.found = 1;
     st->formulation = x->chosen;
     return gvi__report_status(st, GVI_OK);
 }
@@ -5692,6 +5782,7 @@ GVI__COLD gvi_status gvi__check_start(gvi_stepper *st, gvi_real t, const gvi_rea
 {
     const gvi_status ready = gvi__ready(st, st && st->x.memory);
     if (ready != GVI_OK) return ready;
+    st->x.failed.status = GVI_OK;
     if (!q || !w) return gvi__refuse_call(st, "q, v or p is NULL");
     if (!gvi__finite(t)) return gvi__refuse_call(st, "t is not finite");
     const int i = gvi__first_non_finite(st->n, q), j = gvi__first_non_finite(st->n, w);
@@ -5840,7 +5931,7 @@ GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
         gvi_status status = gvi__clock_energy(st, st->t, st->q, st->p, v, &E);
         if (status == GVI_OK && x->stepped)
             status = gvi__hamiltonian(st, st->t0, x->began.q, x->began.p, v, &E0);
-        if (status != GVI_OK) return x->off = was, st->status = status;
+        if (status != GVI_OK) return x->off = was, gvi__done(st, status);
         x->time.H = E;
         x->time.H_low = 0;
         x->began.H = E0;
@@ -5854,14 +5945,14 @@ GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
             x->off = was;
             x->con.m = gvi__count_rows(x, gvi__constraints_on(st));
             gvi__forget_runs(st);
-            return st->status = status;
+            return gvi__done(st, status);
         }
         x->con.kept = x->con.kept > 0;
         x->sized.ratio = 0;
     }
     x->has_force = 0;
     x->newton.h = 0;
-    return gvi__report_status(st, GVI_OK);
+    return gvi__done(st, GVI_OK);
 }
 
 // pointers into the memory are those of st: the layout again, values rotated as they were saved
@@ -5889,6 +5980,7 @@ GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const 
     x->memory = own;
     x->kernel = kernel;
     x->skip = skip;
+    x->failed.status = GVI_OK;
     gvi__hand_out(st, own);
     // each goes round in 2 or 3
     for (int k = 0; k < 6 && ((uintptr_t)x->work.F - (uintptr_t)own != F
@@ -5986,7 +6078,7 @@ static void gvi__hand_over(int n, const gvi_real *from, gvi_real *to)
 static gvi_status gvi__stepped(gvi_stepper *st)
 {
     const gvi_status status = gvi__ready(st, st && st->x.started);
-    return status == GVI_OK && !st->x.stepped ? (st->status = GVI_E_STATE) : status;
+    return status == GVI_OK && !st->x.stepped ? gvi__done(st, GVI_E_STATE) : status;
 }
 
 GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v)
@@ -5994,7 +6086,7 @@ GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
     gvi_status status = gvi__stepped(st);
     if (status != GVI_OK) return status;
     if (!(tau >= 0 && tau <= 1)) return gvi__refuse_call(st, "tau is not in [0,1]");
-    if (gvi__rule_is(&st->x, GVI_KICKS)) return st->status = GVI_E_FORMULATION;
+    if (gvi__rule_is(&st->x, GVI_KICKS)) return gvi__done(st, GVI_E_FORMULATION);
     gvi_real *Q = st->x.result, *V = Q + st->n, rate;
     gvi__weights_for(st, st->h);
     gvi__curve_at(st, tau, Q, V);
@@ -6002,12 +6094,12 @@ GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
         st->x.diagnose = 1;
         status = gvi__clock_at(st, st->t, Q, &rate, V + st->n);
         st->x.diagnose = 0;
-        if (status != GVI_OK) return st->status = status;
+        if (status != GVI_OK) return gvi__done(st, status);
         for (int i = 0; i < st->n; ++i) V[i] /= rate;
     }
     gvi__hand_over(st->n, Q, q);
     gvi__hand_over(st->n, V, v);
-    return GVI_OK;
+    return gvi__done(st, GVI_OK);
 }
 
 /* Increments of a partial step for a time dt from one end of the last step.  With a clock its h is
@@ -6052,11 +6144,11 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
         // outside by rounding, as st.t - st.h may be
         if (GVI_ABS(ahead) <= edge) t = st->t0;
         else if (GVI_ABS(back) <= edge) t = st->t;
-        else return st->status = GVI_E_STATE;
+        else return gvi__done(st, GVI_E_STATE);
         ahead = t - st->t0;
         back = t - st->t;
     }
-    if (gvi__clock_is_on(st) && x->stepped != 2) return st->status = GVI_E_STATE;
+    if (gvi__clock_is_on(st) && x->stepped != 2) return gvi__done(st, GVI_E_STATE);
 
     // partial step of length h from the nearer end, or none for a rounding of the whole
     const int end = GVI_ABS(back) <= GVI_ABS(ahead);
@@ -6075,7 +6167,7 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
         gvi__zero(n, x->step.p_low);
     }
     st->formulation = was;
-    if (status != GVI_OK) return st->status = status;
+    if (status != GVI_OK) return gvi__done(st, status);
     gvi_real *Q = x->result, *P = Q + n, *V = P + n;
     for (size_t i = 0; i < n; ++i) {
         Q[i] = from.q[i] + (x->step.q[i] + x->step.q_low[i]);
@@ -6083,11 +6175,11 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
     }
     gvi__velocity_guess(st, V);
     if (v) status = gvi__velocity(st, t, Q, P, V);
-    if (status != GVI_OK) return st->status = status;
+    if (status != GVI_OK) return gvi__done(st, status);
     gvi__hand_over(st->n, Q, q);
     gvi__hand_over(st->n, V, v);
     gvi__hand_over(st->n, P, p);
-    return gvi__report_status(st, GVI_OK);
+    return gvi__done(st, GVI_OK);
 }
 
 // the action along the last step's curve, `from` NULL; or between boundary values, at stage values
@@ -6118,12 +6210,12 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action)
     if (status != GVI_OK) return status;
     if (!action) return gvi__refuse_call(st, "action is NULL");
     if (gvi__rule_is(&st->x, GVI_KICKS) || st->x.stepped == 2)
-        return st->status = GVI_E_FORMULATION;
+        return gvi__done(st, GVI_E_FORMULATION);
     gvi_real sum;
     gvi__weights_for(st, st->h);
     status = gvi__curve_action(st, NULL, 0, NULL, &sum);
     if (status == GVI_OK) *action = sum;
-    return status;
+    return gvi__done(st, status);
 }
 
 /* ------------------------------------------------------- BOUNDARY VALUES */
@@ -6430,14 +6522,14 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
         return gvi__refuse_call(st, "t, q0, q1 or the guess is not finite");
     if (!gvi__finite(h) || !gvi__nonzero(h))
         return gvi__refuse_call(st, "h is 0, NaN or infinite");
-    if (GVI__CONSTRAINTS && x->con.bits) return gvi__refuse_constraints(st);
+    if (GVI__CONSTRAINTS && x->con.bits) return gvi__done(st, gvi__refuse_constraints(st));
     if ((s > 1 && !gvi__has(x, GVI__HAS_NEWTON)) || gvi__rule_is(x, GVI_KICKS) || x->clock >= 0)
-        return st->status = GVI_E_FORMULATION;
+        return gvi__done(st, GVI_E_FORMULATION);
     gvi__origin from = { t, 0, q0, x->zeros, x->zeros, x->zeros, 0 };
     gvi__matrix J = { NULL, NULL, NULL, 1, 0, 0 };
     if (out->guess && s > 1) {
         status = gvi__momentum(st, t, q0, out->guess);
-        if (status != GVI_OK) return st->status = status;
+        if (status != GVI_OK) return gvi__done(st, status);
         gvi__copy((size_t)n, x->point + 5*n, x->step.p);
         from.p = x->step.p;
     }
@@ -6455,9 +6547,9 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
     status = gvi__interior(st, &from, h, q1, out, &J, p0, &negative);
     if (status == GVI_E_CONJUGATE
         || (status == GVI_E_SINGULAR && st->fault.effect == GVI_FAULT_NONE))
-        return gvi__report_status(st, GVI_E_CONJUGATE);
+        return gvi__done(st, gvi__report_status(st, GVI_E_CONJUGATE));
     if (status == GVI_OK && out->lagrangian) status = gvi__curve_action(st, &from, h, q1, &action);
-    if (status != GVI_OK) return st->status = status;
+    if (status != GVI_OK) return gvi__done(st, status);
 
     // row 0 of (1) for p0, then (2)
     for (int i = 0; i < n; ++i) {
@@ -6465,7 +6557,7 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
         p1[i] = p0[i] + gvi__dot(st->r, hb, F + i*R);
     }
     status = gvi__discrete_forces(st, &J, minus, plus);
-    if (status != GVI_OK) return st->status = status;
+    if (status != GVI_OK) return gvi__done(st, status);
     if (out->negative) *out->negative = negative;
     if (out->lagrangian) *out->lagrangian = action;
     for (int i = 0; i < n; ++i) {
@@ -6476,7 +6568,7 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
     gvi__hand_over(n, plus, out->plus);
     gvi__hand_over(n, p0, out->p0);
     gvi__hand_over(n, p1, out->p1);
-    return gvi__report_status(st, GVI_OK);
+    return gvi__done(st, GVI_OK);
 }
 
 /* ----------------------------------------------------------------- TEXTS */
@@ -6532,6 +6624,9 @@ GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st)
     }
 }
 
+#if defined(__clang__) && __clang_major__ >= 12
+#pragma float_control(pop)
+#endif
 #endif /* GVI_IMPLEMENTATION */
 
 #ifdef __GNUC__

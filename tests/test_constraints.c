@@ -631,7 +631,7 @@ TEST(a_bifurcation_is_refused)
             }
         }
         if (getenv("SHOW")) printf("parallelogram h %.2Lf: %s at t = %.2Lf\n", (long double)hs[k], gvi_status_text(status), (long double)st.t);
-        assert_status(status, GVI_E_SINGULAR);
+        assert_status(status, GVI_E_CONVERGENCE);     /* a shorter step would come nearer */
     }
 }
 

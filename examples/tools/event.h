@@ -10,11 +10,14 @@
    secant method on gvi_state_at: the zero has the order of the steps, 2s, not the curve's.
    Nothing is changed: the steps that follow are the same to the bit.
 
-     event_next  1: a zero; 0: no more in this step; a negative gvi_status
+     event_next  1: a zero; 0: no more in this step; a negative gvi_status, or EVENT_PILE_UP
      once        the sign on both sides of a zero is that of states, and the states where two
                  steps meet are the same: none is found twice, or lost between.  Where a run
                  starts anew from a zero (a bounce), or begins at one, this zero does not
                  count again: g is looked at 1/4096 of the step later
+     pile up     impacts that lose speed come ever faster, at last within 1/4096 of the step: then
+                 g has turned back there already, and the answer is EVENT_PILE_UP.  Let the body
+                 rest from there on
      not seen    two zeros within one interval: the sign is the same at its ends.  Take h so
                  short that g has one extremum in a step at most
      ask         after every step; a step not asked about is not searched
@@ -40,6 +43,8 @@ typedef struct event {
     gvi_real sure, g_sure;         /* up to where with states, g there              */
     int      asked, found, next;   /* ever; a zero, ever; interval of this step     */
 } event;
+
+#define EVENT_PILE_UP (-1000)      /* no gvi_status                                 */
 
 static int event_same(gvi_real a, gvi_real b) { return !(a < b) && !(a > b); }
 static gvi_real event_size(gvi_real a) { return a < 0 ? -a : a; }
@@ -125,8 +130,14 @@ static inline int event_next(event *e, gvi_stepper *st)
         e->at = 0;
         if ((status = event_value(e, st, 0, 1, &g))) return status;
         if (e->asked ? e->found && event_same(e->t, st->t0) : event_same(g, 0)) {       // from a zero
+            const gvi_real g0 = g;
+            gvi_real half;
             e->at = (gvi_real)1/4096;
-            if ((status = event_value(e, st, e->at, 1, &g))) return status;
+            if ((status = event_value(e, st, e->at/2, 1, &half)) || (status = event_value(e, st, e->at, 1, &g)))
+                return status;
+            // of g0 + b x + c x^2 through the three, is c x^2 more than b x?  Then g turned back, to where it went before
+            if (e->asked && (g < 0) != e->rising
+                && event_size(4*half - g - 3*g0) <= event_size(2*g - 4*half + 2*g0)) return EVENT_PILE_UP;
         }
         e->from = st->t0, e->to = st->t;
         e->sure = e->at, e->before = e->g_sure = g;
