@@ -118,10 +118,10 @@ unit: $(PROGRAMS)
 PICTURES = $(if $(filter figures,$(MAKECMDGOALS)),docs/img,$(BUILD)/pictures)
 
 #: figures      makes the pictures in docs/img/ again, scenes included; theorems: make theorems PICTURES=docs/img
-figures: scenes $(addprefix $(BUILD)/examples/,02_outer_solar_system 19_low_thrust 20_swing_up 22_section 24_racket 29_ensemble 30_rods)
+figures: scenes $(addprefix $(BUILD)/examples/,02_outer_solar_system 19_low_thrust 20_swing_up 22_section 24_racket 29_ensemble 30_rods 38_engine)
 	$(Q)mkdir -p docs/img
 	$(Q)$(BUILD)/examples/02_outer_solar_system 200000 200 8 docs/img
-	$(Q)set -e; for e in 19_low_thrust 20_swing_up 22_section 24_racket 30_rods; do \
+	$(Q)set -e; for e in 19_low_thrust 20_swing_up 22_section 24_racket 30_rods 38_engine; do \
 	    $(BUILD)/examples/$$e --svg docs/img/$${e#*_}.svg; done
 	$(Q)$(BUILD)/examples/29_ensemble 120 $(BUILD)/ensemble.csv docs/img/ensemble.svg
 

@@ -28,7 +28,8 @@
 #include <string.h>
 
 static const double crank = 0.04, rod = 0.14, bore = 0.08, piston = 0.55, ratio = 9, outside = 1.01325e5;
-static const double wheel = 0.06, rod_mass = 0.6, pi = 3.14159265358979;   // kg m^2, kg; a third of the rod goes with the piston
+// kg m^2, kg; a third of the rod goes with the piston
+static const double wheel = 0.06, rod_mass = 0.6, pi = 3.14159265358979;
 
 /* |pin| - r, |piston - pin| - l, w */
 GVI_POINTS(joints, 4, rows(3))(const gvi_points *x, void *user)
@@ -109,7 +110,7 @@ int main(int argc, char **argv)
         const int at = k - (TURNS - 1)*STEPS + 1;
         if (at < 0) continue;
         angle[at] = at == 0 ? a*180/pi : angle[at - 1] + remainder(a*180/pi - angle[at - 1], 360);
-        force[0][at] = lambda[0];
+        force[0][at] = lambda[0] + wheel/crank*speed*speed;       // the flywheel bears its own inertia
         force[1][at] = S;
         force[2][at] = lambda[2];
     }
