@@ -215,7 +215,10 @@
    h sum_i b_i L(t_i, Q_i, V_i) + h sum_e w_e lambda_e . g(q(d_e h)) is stationary.  The
    step ends on g = 0 and on the hidden constraint G v + dg/dt = 0, G = dg/dq.  q and p are
    of order min(2s, u), symplectic on the constraint manifold; degree 1 with Lobatto's two
-   points is RATTLE.  G must have full rank; second derivatives are not needed.  Positions,
+   points is RATTLE.  Second derivatives are not needed.  What G has of zeros costs nothing: list
+   rows that share coordinates near each other.  A row that depends on those before it and
+   agrees with them is left out, step by step; its multiplier is 0, and the rank must stay what
+   it is over the step: not so at a change point, where motions part.  Positions,
    velocities and momenta solve for lambda within the iteration (equations: CONSTRAINTS); Newton
    has lambda among its unknowns, s (n + m) of them for m constraints.
 
@@ -348,8 +351,9 @@ typedef enum gvi_status {
     GVI_E_POINTS      = -5,  /* r < s, or a rule that does not see every mode           */
     GVI_E_FORMULATION = -6,  /* no formulation, or not the pinned one, covers this scene */
     GVI_E_SINGULAR    = -7,  /* singular matrix, and no h helps: massless coordinate
-                                (fault.coordinate), or a constraint that depends on the
-                                others (fault.effect, its row in fault.coordinate)  */
+                                (fault.coordinate), or a constraint (fault.effect, its row in
+                                fault.coordinate) that depends on the others in a part of
+                                the step, or has G = 0                              */
     GVI_E_CONVERGENCE = -8,  /* no solution found: halve h.  If no h works, a force jumps,
                                 is noisy, or has a wrong derivative, or the motion comes
                                 to where a matrix is singular                       */
@@ -361,8 +365,8 @@ typedef enum gvi_status {
                                 clock was switched on since                         */
     GVI_E_CONJUGATE   = -13, /* boundary values do not determine the curve              */
     GVI_E_CLOCK       = -14, /* a clock's g is not positive (fault.effect, fault.point) */
-    GVI_E_CONSTRAINT  = -15  /* the state given is not on a constraint: fault.effect, its row in
-                                fault.coordinate                                    */
+    GVI_E_CONSTRAINT  = -15  /* the state given is not on a constraint (fault.effect, its row in
+                                fault.coordinate), or that row contradicts others   */
 } gvi_status;
 
 /* What a callback gets: `count` points.  Coordinate i of point k is at [i*stride + k].  Inputs that
@@ -798,7 +802,8 @@ GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy);
 /* The constraints' multipliers at the present state, one for each row in the order of the list,
    0 where it is off: the force of constraint is G' lambda.  From the acceleration that keeps
    G v + dg/dt = 0, so as exact as the state is; second derivatives of g by differences along v,
-   to some 100 eps.                                                            */
+   to some 100 eps.  Of rows that depend on each other the first ones carry the force, the last
+   have 0.                                                                     */
 GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda);
 
 /* In the last step; q, v, p of length n, or NULL.  What later steps compute stays the same, to the
@@ -2537,6 +2542,7 @@ GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate
 GVI__CALLED int gvi__constraints_rest(const gvi_stepper *st);
 static gvi_status gvi__constraints_at(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                       const gvi_real *p, gvi_real *v, gvi_real *drops);
+GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int *at);
 GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h);
 GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, int start);
 GVI__CALLED void gvi__commit_constraints(gvi_stepper *st, gvi_real h);
@@ -2736,6 +2742,7 @@ GVI__COLD gvi_status gvi__why(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
     const gvi_fault fault = st->fault;
+    const int singular = st->status == GVI_E_SINGULAR;
     gvi_status status = GVI_OK;
     if (!gvi__uses(x, GVI_EXPLICIT) && !x->desc.mass.velocity) {
         gvi__velocity_guess(st, x->result);
@@ -2746,6 +2753,9 @@ GVI__COLD gvi_status gvi__why(gvi_stepper *st)
                                      x->con.drops + x->con.m);
     if (status == GVI_E_SINGULAR) return status;
     st->fault = fault;
+    // a row that was left out at the start, and cannot be
+    for (int a = 0; singular && gvi__constrained(st) && a < x->con.m; ++a)
+        if (x->con.drops[x->con.m + a] > 0) return st->status = GVI_E_SINGULAR;
     return st->status = GVI_E_CONVERGENCE;
 }
 
@@ -3380,6 +3390,12 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
     p->growing = grows ? p->growing + 1 : 0;
     p->stagnant = D < (gvi_real)0.81*p->least ? 0 : p->stagnant + 1;
     if (D < p->least) p->least = D;
+    if (gvi__constrained(st) && D > 16*p->least && D > 65536*rounding) {
+        // near a bifurcation it would be leaving the motion, perhaps for that of another branch
+        int at[2];
+        const gvi_real loss = gvi__loss(st, at);
+        if (loss > 3 && D > 65536*rounding*loss*loss) return GVI__DIVERGES;
+    }
     const int poor = p->growing > (D > far ? 4 : 2) && D > 65536*rounding;
     const int wait = gvi__constrained(st) ? 0 : 1;           // the rounding of g is in every D
     if (p->stagnant > wait || poor) {
@@ -4253,14 +4269,35 @@ GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate
                                              x->con.last + k/R*x->con.C + 1);
 }
 
+// the largest of what a pivot has lost, in units of what is left of it; at: its row and point
+GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int *at)
+{
+    const struct gvi__private *x = &st->x;
+    const int m = x->con.m, C = x->con.C;
+    gvi_real most = 0;
+    for (int k = 0; k < st->s && x->con.made > 0; ++k)
+        for (int j = 0; j < m; ++j) {
+            gvi_real was = 0;
+            for (int l = (int)x->con.first[j]; l < j; ++l)
+                was += x->con.A[(j*m + l)*C + k]*x->con.A[(l*m + j)*C + k];
+            const gvi_real loss = was*x->con.A[(j*m + j)*C + k];
+            if (!(loss > most)) continue;
+            most = loss;
+            at[0] = j;
+            at[1] = k;
+        }
+    return most;
+}
+
 /* RATTLE: the drift from p to g(q1) = 0 by impulses G0' mu, of a simplified Newton iteration.  A
    row that is a quarter more than its last correction and the change of G along that leave is
-   rounding.  To be four times farther off than at the start is divergence.                    */
+   rounding.  To be four times farther off than once before is divergence.                     */
 GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h)
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, m = x->con.m;
-    gvi_real before = 0, most = 0, *Q = x->work.Q, *z = x->con.rho, *left = x->con.y, *d = x->con.W,
+    gvi_real before = 0, least = GVI__MAX, *Q = x->work.Q, *z = x->con.rho, *left = x->con.y,
+             *d = x->con.W,
              *unit = d + n, *g = x->con.g, *G = x->con.G1 + m*n; // G0 is before it
     const gvi_real t = from->t + (from->t_low + h);
     gvi_status status = gvi__constraints_at(st, from->t, from->q, NULL, NULL, x->con.drops);
@@ -4283,8 +4320,8 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
         }
         if (finite && size <= 64 && k > 0 && !(size < before/2))
             return gvi__report_status(st, GVI_OK);
-        if (k == 0) most = 4*(size + 4096);
-        if (!finite || k > 64 || size > most)
+        if (size < least) least = size;
+        if (!finite || k > 64 || size > 4*(least + 4096))
             return gvi__report_status(st, finite || x->diagnose ? GVI_E_CONVERGENCE
                                                                 : GVI_E_NON_FINITE);
         before = size;
@@ -4330,7 +4367,9 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
         const gvi_real bend = gvi__row_dot(st, G + m*n, a, d) - gvi__row_dot(st, G, a, d),
             rounding = GVI_ABS(g[a] - (1 - part)*was[a]) - GVI_ABS(bend),
             seen = GVI__EPS*gvi__terms(st, t, q, G, a);
-        fulfilled &= GVI_ABS(was[a]) <= units*(rounding > seen ? rounding : seen);
+        // what is left of a row that is left out may be a contradiction
+        const int proves = rounding > seen && !(x->con.drops[m + a] > 0);
+        fulfilled &= GVI_ABS(was[a]) <= units*(proves ? rounding : seen);
     }
     return fulfilled ? gvi__constraints_at(st, t, q, p, v, x->con.drops + m)
                      : gvi__report_row(st, GVI_E_CONSTRAINT, off, GVI_FAULT_NONE);
@@ -4351,7 +4390,6 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
         q[i] = from->q[i] + (x->step.q[i] + x->step.q_low[i]);
         p[i] = from->p[i] + (x->step.p[i] + x->step.p_low[i]);
     }
-    gvi__zero((size_t)m, x->con.y);
     gvi__velocity_guess(st, v);
     x->diagnose |= start;
     gvi_status status = gvi__constraints_at(st, t, q, p, v, drops);
@@ -4362,6 +4400,7 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
             status = gvi__report_row(st, GVI_E_SINGULAR, a, GVI_FAULT_NONE);
     }
     if ((start || redundant) && status == GVI_OK) status = gvi__fulfilled(st, t, q, p, v);
+    gvi__zero((size_t)m, x->con.y);
     for (int pass = 0; pass < passes && status == GVI_OK; ++pass) {
         gvi_real size = 0;
         int row = 0;
@@ -5637,9 +5676,9 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
 }
 
 /* Did the rank of G change between two points of the step?  What row j leaves of those before it is
-   c G, c the row of L^-1: where that is a small part of row j at a point, has it turned round at
-   the next, or is nothing left of it?  The motion is not unique from there on, and the step must
-   not choose.                                                                                */
+   c G, c the row of L^-1: where that is a small part of row j at a point, has it turned by more
+   than 25 degrees at the next, or is next to nothing left of it?  It passes 0 where motions part,
+   and has another direction on each branch: the step must not choose.                        */
 GVI__CALLED gvi_status gvi__newton_crossing(gvi_stepper *st)
 {
     struct gvi__private *x = &st->x;
@@ -5667,8 +5706,9 @@ GVI__CALLED gvi_status gvi__newton_crossing(gvi_stepper *st)
                     if (l == j) all += G[i*C]*G[i*C];
                 }
         }
-        const gvi_real part = 16*gvi__dot(n, now, now);
-        if (part < all && 256*gvi__dot(n, now, next) < part)
+        const gvi_real part = gvi__dot(n, now, now), there = gvi__dot(n, next, next);
+        if (16*part < all && !(gvi__dot(n, now, next) > (gvi_real)0.9*GVI_SQRT(part)*GVI_SQRT(there)
+                               && 256*there > part))
             status = gvi__report_row(st, GVI_E_SINGULAR, j, e);
     }
     return status;

@@ -1,0 +1,298 @@
+/* Constraints of mechanisms: rows that depend on others, zeros of G that come and go, change points.   */
+#include "gvi_test.h"
+typedef gvi_real real;
+#include "linkages.h"
+
+static real memory[60000];
+
+static gvi_status set_up(gvi_stepper *st, const gvi_desc *desc, const real *q, const real *v)
+{
+    assert_true(gvi_size(desc) > 0 && gvi_size(desc) <= sizeof memory);
+    assert_ok(gvi_init(st, desc, memory, sizeof memory));
+    return gvi_start(st, 0, q, v);
+}
+
+/* ---------------------------------------------------------------- redundant rows */
+
+/* the two rods, and the first of them again, in another unit */
+static int rods_and_one(const gvi_points *x, void *user)
+{
+    const real unit = *(const real *)user;
+    rods(x, NULL);
+    rod(x, 2, 0, -1, 1, 0, 0);
+    for (int k = 0; k < x->count; ++k) {
+        x->g[2*x->stride + k] *= unit;
+        for (int i = 0; i < x->n; ++i) x->jacobian[(2*x->n + i)*x->stride + k] *= unit;
+    }
+    return 0;
+}
+
+TEST(a_row_that_is_there_twice_changes_nothing)
+{
+    for (int s = 1; s <= 8; s *= 2)
+        for (int rule = 0; rule < 2; ++rule)
+            for (int k = -12; k <= 12; k += 6) {
+                linkage a = make_linkage(RODS), b = a;
+                real unit = pow((real)10, (real)k), last[4] = { 0 }, one[2], two[3];
+                b.effects[1] = (gvi_effect){ .kind = GVI_CONSTRAINT, .points = rods_and_one, .rows = 3, .user = &unit };
+                for (int twice = 0; twice < 2; ++twice) {
+                    gvi_desc desc = linkage_desc(twice ? &b : &a, s);
+                    gvi_stepper st;
+                    desc.rule.kind = rule ? GVI_LOBATTO : GVI_GAUSS;
+                    assert_ok(set_up(&st, &desc, a.q, a.v));
+                    for (int i = 0; i < 100; ++i) assert_ok(gvi_step(&st, (real)0.02L));
+                    for (int i = 0; i < 4 && twice; ++i) assert_close(st.q[i], last[i], 32*EPS);
+                    memcpy(last, st.q, sizeof last);
+                    assert_ok(gvi_multipliers(&st, twice ? two : one));
+                }
+                for (int i = 0; i < 2; ++i) assert_close(two[i], one[i], 4096*EPS*(1 + fabs(one[i])));
+                assert_true(two[2] == 0);         // the first two carry it all
+            }
+}
+
+/* Three equal cranks in parallel, all bars between their ends: 6 rows of rank 5.  Each end swings as a pendulum */
+static int cranks(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < 3; ++k) rod(x, k, k, -1, 1, (real)(k*(k + 1)/2), 0);
+    rod(x, 3, 1, 0, 1, 0, 0);
+    rod(x, 4, 2, 1, 2, 0, 0);
+    rod(x, 5, 2, 0, 3, 0, 0);
+    return (void)user, 0;
+}
+
+/* angle at time T from rest at angle `start`: theta'' = -cos theta, by Runge and Kutta in 4000 steps */
+static long double swing(long double start, long double T)
+{
+    const long double h = T/4000;
+    long double a = start, w = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const long double k1 = -cosl(a), k2 = -cosl(a + h/2*w), k3 = -cosl(a + h/2*(w + h/2*k1)),
+                          k4 = -cosl(a + h*(w + h/2*k2));
+        a += h*(w + h/6*(k1 + k2 + k3));
+        w += h/6*(k1 + 2*k2 + 2*k3 + k4);
+    }
+    return a;
+}
+
+static void set_cranks(gvi_effect *e, gvi_desc *desc, int s, real *q)
+{
+    static real down[6] = { 0, -1, 0, -1, 0, -1 };
+    e[0] = (gvi_effect){ .kind = GVI_POTENTIAL, .points = constant, .value = constant, .user = down };
+    e[1] = (gvi_effect){ .kind = GVI_CONSTRAINT, .points = cranks, .rows = 6 };
+    *desc = (gvi_desc){ .n = 6, .degree = s, .effects = e, .effect_count = 2 };
+    for (int k = 0; k < 3; ++k) q[2*k] = cos((real)1.2L) + (real)(k*(k + 1)/2), q[2*k + 1] = sin((real)1.2L);
+}
+
+TEST(orders_with_redundant_rows)
+{
+    const int most = sizeof(real) == sizeof(float) ? 1 : 3;
+    const long double angle = swing(1.2L, 1);
+    for (int s = 1; s <= most; ++s)
+        for (int rule = 0; rule < 2; ++rule) {
+            real error[2];
+            for (int fine = 0; fine < 2; ++fine) {
+                gvi_effect e[2];
+                gvi_desc desc;
+                gvi_stepper st;
+                real q[6], v[6] = { 0 };
+                const int steps = fine ? 16 : 8;
+                set_cranks(e, &desc, s, q);
+                desc.rule.kind = rule ? GVI_LOBATTO : GVI_GAUSS;
+                assert_ok(set_up(&st, &desc, q, v));
+                for (int i = 0; i < steps; ++i) assert_ok(gvi_step(&st, 1/(real)steps));
+                error[fine] = fabs((real)(st.q[1] - sinl(angle)));
+            }
+            const real order = log2(error[0]/error[1]);
+            if (getenv("SHOW")) printf("degree %d rule %d: order %.3Lf (%.1Le)\n", s, rule, (long double)order, (long double)error[1]);
+            assert_between((real)(2*s) - (real)0.25L, order, (real)(2*s) + (real)0.35L);
+        }
+}
+
+TEST(a_closed_loop_does_not_drift)
+{
+    gvi_effect e[2];
+    gvi_desc desc;
+    gvi_stepper st;
+    real q[6], v[6] = { 0 }, E0, E, off = 0, g[6] = { 0 }, G[36] = { 0 }, t = 0, worst = 0;
+    set_cranks(e, &desc, 4, q);
+    for (int k = 0; k < 3; ++k) q[2*k] = (real)(k*(k + 1)/2) + sin((real)0.5L), q[2*k + 1] = -cos((real)0.5L);   /* never flat */
+    assert_ok(set_up(&st, &desc, q, v));
+    assert_ok(gvi_energy(&st, &E0));
+    for (int i = 0; i < 20000; ++i) {
+        assert_ok(gvi_step(&st, (real)0.1L));
+        const gvi_points x = { .n = 6, .count = 1, .stride = 1, .t = &t, .q = st.q, .g = g, .jacobian = G };
+        cranks(&x, NULL);
+        for (int a = 0; a < 6; ++a) worst = fmax(worst, fabs(g[a]));
+        if (i % 16) continue;
+        assert_ok(gvi_energy(&st, &E));
+        off = fmax(off, fabs(E - E0));
+    }
+    if (getenv("SHOW")) printf("loop: g %.1Lf eps, energy %.1Lf eps\n", (long double)(worst/EPS), (long double)(off/EPS));
+    assert_between(0, worst, 32*EPS);
+    assert_between(0, off, 2000*EPS + (real)1e-9L);
+}
+
+/* ---------------------------------------------------------------- rows that contradict, vanish, or are too many */
+
+/* x = a t^p and x = b t^p: they agree at t = 0, in velocity too for p = 2 */
+static int two_places(const gvi_points *x, void *user)
+{
+    const real *a = (const real *)user;
+    for (int row = 0; row < 2; ++row)
+        for (int k = 0; k < x->count; ++k) {
+            const real t = x->t[k];
+            x->g[row*x->stride + k] = x->q[k] - a[row]*(a[2] > 1 ? t*t : t) - a[3 + row];
+            x->rate[row*x->stride + k] = -a[row]*(a[2] > 1 ? 2*t : 1);
+            x->jacobian[row*x->n*x->stride + k] = a[5];
+        }
+    return 0;
+}
+
+TEST(rows_that_contradict_are_named)
+{
+    static const struct { real a[6]; gvi_status start, step; } cases[] = {
+        { { 1, 1, 1, 0, 0, 1 }, GVI_OK, GVI_OK },                     // they agree
+        { { 1, 1, 1, 0, 1, 1 }, GVI_E_CONSTRAINT, GVI_OK },           // two places
+        { { 1, 2, 1, 0, 0, 1 }, GVI_E_CONSTRAINT, GVI_OK },           // two velocities
+        { { 1, 2, 2, 0, 0, 1 }, GVI_OK, GVI_E_CONSTRAINT },           // two accelerations
+        { { 1, 1, 1, 0, 0, 0 }, GVI_E_SINGULAR, GVI_OK }              // no row at all
+    };
+    for (int k = 0; k < COUNT(cases); ++k)
+        for (int s = 1; s <= 4; s += 3) {
+            real a[6], q[3] = { 0, 1, 2 }, v[3] = { k == 3 ? 0 : 1, 0, 0 };
+            memcpy(a, cases[k].a, sizeof a);
+            const gvi_effect e = { .kind = GVI_CONSTRAINT, .points = two_places, .rows = 2, .user = a };
+            const gvi_desc desc = { .n = 3, .degree = s, .effects = &e, .effect_count = 1 };
+            gvi_stepper st;
+            assert_status(set_up(&st, &desc, q, v), cases[k].start);
+            if (cases[k].start != GVI_OK) continue;
+            assert_status(gvi_step(&st, (real)0.125L), cases[k].step);
+            if (cases[k].step == GVI_OK) { assert_close(st.q[0], (real)0.125L, 4*EPS); continue; }
+            assert_int_equal(st.fault.effect, 0);
+            assert_int_equal(st.fault.coordinate, 1);
+            assert_true(st.q[0] == 0 && st.t == 0);
+        }
+    const gvi_effect e = { .kind = GVI_CONSTRAINT, .points = two_places, .rows = 2 };
+    const gvi_desc desc = { .n = 1, .degree = 2, .effects = &e, .effect_count = 1 };      // m > n
+    assert_int_equal(gvi_size(&desc), 0);
+}
+
+/* ---------------------------------------------------------------- zeros of G */
+
+/* Hanging at rest G = (0, y): then a side wind.  The same in a frame turned by 1 rad, where G is full */
+static int wind(const gvi_points *x, void *user)
+{
+    const real *f = (const real *)user;
+    for (int i = 0; i < 2; ++i)
+        for (int k = 0; k < x->count; ++k) x->f[i*x->stride + k] += f[i] + x->t[k]*f[i + 2];
+    return 0;
+}
+
+TEST(zeros_of_G_may_end)
+{
+    for (int s = 1; s <= 8; ++s)
+        for (int rule = 0; rule < 2; ++rule) {
+            real end[2][2];
+            for (int turned = 0; turned < 2; ++turned) {
+                const real c = turned ? cos((real)1) : 1, d = turned ? sin((real)1) : 0;
+                real f[4] = { d, -c, c, d }, q[2] = { d, -c }, v[2] = { 0 };
+                gvi_effect e[2] = { { .kind = GVI_POTENTIAL, .points = wind, .user = f },
+                                    { .kind = GVI_CONSTRAINT, .points = sphere, .rows = 1 } };
+                gvi_desc desc = { .n = 2, .degree = s, .effects = e, .effect_count = 2 };
+                gvi_stepper st;
+                desc.rule.kind = rule ? GVI_LOBATTO : GVI_GAUSS;
+                assert_ok(set_up(&st, &desc, q, v));
+                for (int i = 0; i < 20; ++i) assert_ok(gvi_step(&st, (real)0.1L));
+                end[turned][0] = c*st.q[0] + d*st.q[1];
+                end[turned][1] = c*st.q[1] - d*st.q[0];
+            }
+            for (int i = 0; i < 2; ++i) assert_close(end[0][i], end[1][i], 256*EPS);
+            assert_true(end[0][0] > (real)0.5L);
+        }
+}
+
+/* ---------------------------------------------------------------- change points */
+
+/* Four-bars whose bars can lie in one line (a + c = b + d), and a slider-crank of equal bars, a step long enough to pass
+   that position.  After it the coupler's side is smooth in the crank's angle, as before; or the step is refused.       */
+static int bars(const gvi_points *x, void *user)
+{
+    const real *L = (const real *)user;           // crank, ground, coupler, rocker; no rocker: a slide
+    rod(x, 0, 0, -1, L[0], 0, 0);
+    rod(x, 1, 1, 0, L[2], 0, 0);
+    if (L[3] > 0) rod(x, 2, 1, -1, L[3], L[1], 0);
+    for (int k = 0; k < x->count && !(L[3] > 0); ++k) {
+        x->g[2*x->stride + k] = x->q[3*x->stride + k];
+        x->jacobian[(2*4 + 3)*x->stride + k] = 1;
+    }
+    return 0;
+}
+
+/* the other end of the coupler on the smooth branch, crank at angle th */
+static void place(const real *L, long double th, real *q)
+{
+    q[0] = (real)(L[0]*cosl(th));
+    q[1] = (real)(L[0]*sinl(th));
+    q[2] = 2*q[0];
+    q[3] = 0;
+    if (!(L[3] > 0)) return;
+    const long double dx = L[1] - L[0]*cosl(th), dy = -L[0]*sinl(th), r2 = dx*dx + dy*dy, b = L[2], c = L[3],
+                      along = (r2 + b*b - c*c)/(2*r2), side = sqrtl(((b + c)*(b + c) - r2)*L[0]*L[1])*sinl(th/2)/r2;
+    q[2] = (real)(q[0] + along*dx + side*dy);
+    q[3] = (real)(q[1] + along*dy - side*dx);
+}
+
+static real dice(unsigned *state)
+{
+    *state = *state*1664525u + 1013904223u;
+    return (real)(*state >> 8)/(real)(1 << 24);
+}
+
+TEST(no_step_changes_branch)
+{
+    const int fine = sizeof(real) == sizeof(float) ? 2 : 3;
+    unsigned seed = 1;
+    int right = 0, wrong = 0;
+    for (int trial = 0; trial < 2000; ++trial) {
+        const int kind = trial % 4, s = 1 + trial/4 % 8;
+        real L[4] = { (real)0.3L + dice(&seed), (real)0.5L + 2*dice(&seed), 0, (real)0.3L + 2*dice(&seed) };
+        if (kind == 0) L[3] = L[0];               // a parallelogram
+        if (kind == 1) L[1] = L[0];               // a kite
+        L[2] = kind == 3 ? L[0] : L[3] + L[1] - L[0];
+        if (kind == 3) L[3] = 0;
+        const real dist = pow((real)10, -(real)fine*dice(&seed) - (real)0.5L), side = dice(&seed) < (real)0.5L ? -1 : 1;
+        const real turn = dice(&seed) < (real)0.5L ? -1 : 1, h = dist*((real)0.2L + (real)2.8L*dice(&seed));
+        const long double th = (kind == 3 ? acosl(0) : 0) + (long double)(side*dist);
+        if (L[2] < (real)0.1L) continue;
+        gvi_effect e = { .kind = GVI_CONSTRAINT, .points = bars, .rows = 3, .user = L };
+        gvi_desc desc = { .n = 4, .degree = s, .effects = &e, .effect_count = 1 };
+        gvi_stepper st;
+        real q[4], v[4], a[4], zero = 0;
+        desc.rule.kind = trial % 3 ? GVI_GAUSS : GVI_LOBATTO;
+        place(L, th, q);
+        // G v = 0: minors of G
+        real g[3], G[12] = { 0 };
+        const gvi_points x = { .n = 4, .count = 1, .stride = 1, .t = &zero, .q = q, .g = g, .jacobian = G };
+        bars(&x, L);
+        for (int i = 0; i < 4; ++i) {
+            const int j = i == 0, k = i < 2 ? 2 : 1, l = i < 3 ? 3 : 2;
+            v[i] = (i % 2 ? -1 : 1)*(G[j]*(G[4 + k]*G[8 + l] - G[4 + l]*G[8 + k]) - G[k]*(G[4 + j]*G[8 + l] - G[4 + l]*G[8 + j])
+                                     + G[l]*(G[4 + j]*G[8 + k] - G[4 + k]*G[8 + j]));
+        }
+        const real w = turn*L[0]*L[0]/(q[0]*v[1] - q[1]*v[0]);
+        for (int i = 0; i < 4; ++i) v[i] *= w;
+        if (set_up(&st, &desc, q, v) != GVI_OK || gvi_step(&st, h) != GVI_OK) continue;
+        const long double angle = atan2l(st.q[1], st.q[0]);
+        place(L, angle, a);
+        const real size = L[0] + L[1], off = hypot(st.q[2] - a[2], st.q[3] - a[3])/size;
+        if (off <= sqrt(EPS)*4) ++right;
+        else ++wrong;
+        if (off > sqrt(EPS)*4 && getenv("SHOW"))
+            printf("kind %d degree %d from %.4Lf h %.4Lf: off by %.1Le after %d iterations form %d\n", kind, s, (long double)(side*dist), (long double)h, (long double)off, st.iterations, st.formulation);
+    }
+    if (getenv("SHOW")) printf("right %d, on another branch %d\n", right, wrong);
+    assert_int_equal(wrong, 0);
+    assert_true(right > 500);
+}
+
+RUN_TESTS(NULL, NULL)
