@@ -24,7 +24,7 @@ CMOCKA_LIBS   = $$(pkg-config --libs cmocka 2>/dev/null || echo -lcmocka)
 
 TESTS = $(sort $(basename $(notdir $(wildcard tests/test_*.c))))
 # These in float and in long double as well, and these compiled for size.
-TYPED = $(filter $(addprefix test_,constraints loops resolution corners effects interpolation kinks lu many mass newton oracle points quadrature rows tangent adjoint event body damped tolerance twins why),$(TESTS))
+TYPED = $(filter $(addprefix test_,constraints constraints_newton loops resolution corners effects interpolation kinks lu many mass newton oracle points quadrature rows tangent adjoint event body damped tolerance twins why),$(TESTS))
 SMALL = $(filter $(addprefix test_,constraints loops corners many mass newton points rows tolerance twins why),$(TESTS))
 VARIANTS = $(TYPED:%=%-float) $(TYPED:%=%-long) $(SMALL:%=%-small) $(SMALL:%=%-small-float)
 PROGRAMS = $(TESTS) $(VARIANTS)
@@ -121,10 +121,10 @@ unit: $(PROGRAMS)
 PICTURES = $(if $(filter figures,$(MAKECMDGOALS)),docs/img,$(BUILD)/pictures)
 
 #: figures      makes the pictures in docs/img/ again, scenes included; theorems: make theorems PICTURES=docs/img
-figures: scenes $(addprefix $(BUILD)/examples/,02_outer_solar_system 15_close_encounters 19_low_thrust 20_swing_up 22_section 24_racket 29_ensemble 30_rods)
+figures: scenes $(addprefix $(BUILD)/examples/,02_outer_solar_system 15_close_encounters 19_low_thrust 20_swing_up 22_section 24_racket 29_ensemble 30_rods 38_engine)
 	$(Q)mkdir -p docs/img
 	$(Q)$(BUILD)/examples/02_outer_solar_system 200000 200 8 docs/img
-	$(Q)set -e; for e in 19_low_thrust 20_swing_up 22_section 24_racket 30_rods; do \
+	$(Q)set -e; for e in 19_low_thrust 20_swing_up 22_section 24_racket 30_rods 38_engine; do \
 	    $(BUILD)/examples/$$e --svg docs/img/$${e#*_}.svg; done
 	$(Q)$(BUILD)/examples/15_close_encounters --svg docs/img/three_ways.svg
 	$(Q)$(BUILD)/examples/29_ensemble 120 $(BUILD)/ensemble.csv docs/img/ensemble.svg

@@ -234,7 +234,8 @@
    nothing: list rows that share coordinates near each other.  A row that depends on those before
    it and agrees with them is left out, step by step: its multiplier is 0.  The rank must stay what
    it is over the step, which it does not at a change point, where motions part.  Positions,
-   velocities and momenta solve for lambda within the iteration (equations: CONSTRAINTS).
+   velocities and momenta solve for lambda within the iteration (equations: CONSTRAINTS); Newton
+   has lambda among its unknowns, s (n + m) of them for m constraints.
 
    CLOCK.  An effect g(q) > 0 makes time run as dt = g dtau, and h is a step in
    tau: t moves fast or slow, and the map is as symplectic as with fixed steps
@@ -678,7 +679,8 @@ typedef struct gvi_rule {
 typedef enum gvi_formulation {
     GVI_AUTO       = 0,   /* the cheapest that covers the scene; Newton when it
                              contracts badly and s n <= 1024, since its memory
-                             grows like (s n)^2: beyond, pin GVI_NEWTON         */
+                             grows like (s n)^2: beyond, pin GVI_NEWTON.  With m
+                             constraints n + m is to be read for n              */
     GVI_EXPLICIT   = 1,
     GVI_POSITIONS  = 2,
     GVI_VELOCITIES = 3,
@@ -769,10 +771,10 @@ struct gvi__time {                    /* clock: at the points, and the state's  
 };
 
 struct gvi__newton {
-    gvi_real *y, *dy, *residual, *last;   /* [s*n] modes, change, rows, modes before  */
-    gvi_real *found, *branch, *guess, *slope;  /* [s*n] see gvi__newton_connected     */
+    gvi_real *y, *dy, *residual, *last;   /* [s*(n+m)] unknowns, change, rows, before */
+    gvi_real *found, *branch, *guess, *slope;  /* [s*(n+m)] see gvi__newton_connected */
     gvi_real  bend;                   /* worst contraction on the way to the last solution */
-    gvi_real *J, *pivot;              /* two matrices of s*n: of steps, of queries   */
+    gvi_real *J, *pivot;              /* two matrices of s*(n+m): of steps, of queries */
     gvi_real *hessian, *column, *moved;   /* scratch                                */
     gvi_real  h;                      /* for which J was made, 0: none              */
     int       left;                   /* steps until the fixed point is tried       */
@@ -888,6 +890,15 @@ GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_rea
                                       const gvi_real *p);
 GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_real h,
                                             const gvi_real *q0, const gvi_real *q1);
+
+/* q and v [n], in place, to the nearest that fulfil the constraints that are on at t, to rounding: q
+   such that (q' - q)'M(q' - q) is least, then v likewise, M that there (with Lagrangian terms
+   d2L/dv2).  For coordinates from a file; then gvi_start takes them.  moved, or NULL: the lengths
+   sqrt(dq'M dq), sqrt(dv'M dv) of what was added to q and v.  The state and the switches stay: for
+   a constraint to come, where the state is off it, gvi_init, this, gvi_start.  GVI_E_CONVERGENCE:
+   too far off (an effect and row that is left, if any); q and v are then as they were.        */
+GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_real *v,
+                               gvi_real *moved);
 
 /* One step to t + h (with a clock: to tau + h); h < 0 steps back; h may differ from step to step
    (which keeps the map symplectic but not the energy's long-time bound).  Let a step end where a
@@ -1020,7 +1031,8 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI_CONSTRAINED_LENGTH(n, s, r, m) (GVI_LENGTH(n, s, r)                  \
     + (6*GVI__SIZE(n) + 3*GVI__SIZE(m) + 2*GVI__SIZE(r) + 5*GVI__SIZE(s) + 4 + (4 + GVI__SIZE(m)) \
        *(GVI__SIZE(n) + GVI__SIZE(m)))*(GVI__SIZE(GVI__ROW(r)) + GVI__SIZE(GVI__ROW((s) + 1)))    \
-    + (GVI__SIZE(s) + 3)*(GVI__SIZE(s) + 1) + (2*GVI__SIZE(n) + 7)*GVI__SIZE(m))
+    + (GVI__SIZE(s) + 3)*(GVI__SIZE(s) + 1) + (2*GVI__SIZE(n) + 7)*GVI__SIZE(m) \
+    + (10 + 2*GVI__SIZE(s)*(2*GVI__SIZE(n) + GVI__SIZE(m)))*GVI__SIZE(s)*GVI__SIZE(m))
 
 #ifdef __cplusplus
 }
@@ -1895,7 +1907,8 @@ GVI__BODY int gvi__rule_is(const struct gvi__private *x, gvi_rule_kind kind)
 // does M^-1 couple all coordinates?
 static int gvi__full_mass(const struct gvi__private *x)
 {
-    return x->desc.mass.kind == GVI_MASS_DENSE || !gvi__mass_is_constant(x);
+    return x->desc.mass.kind == GVI_MASS_DENSE || !gvi__mass_is_constant(x)
+           || gvi__has(x, GVI__HAS_LAGRANGIAN);
 }
 
 // is a constraint on?
@@ -2738,9 +2751,9 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
 GVI__CALLED void gvi__constrain(gvi_stepper *st, const struct gvi__stage *y, const gvi_real *q0);
 GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate);
 GVI__CALLED int gvi__constraints_rest(const gvi_stepper *st);
-GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int *at);
 static gvi_status gvi__constraints_at(gvi_stepper *st, gvi_real t, const gvi_real *q,
-                                      gvi_real *drops);
+                                      const gvi_real *p, gvi_real *v, gvi_real *drops);
+GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int *at);
 GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h);
 GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, int start);
 GVI__CALLED void gvi__commit_constraints(gvi_stepper *st, gvi_real h);
@@ -2785,7 +2798,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_rea
         if (status == GVI_OK) gvi__increments(st, from, h);
         if (status == GVI_OK && gvi__constrained(st)) status = gvi__project(st, from, 0);
         if (status == GVI_OK || !gvi__may_turn(st)) return status;
-        if (!query && status == GVI_E_CONVERGENCE) x->newton.left = 64;
+        if (!query && (status == GVI_E_CONVERGENCE || gvi__constrained(st))) x->newton.left = 64;
     }
     if (!GVI__NEWTON) return status;
     const unsigned count = (unsigned)st->counters.newton_iterations;
@@ -2802,7 +2815,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_rea
         status = gvi__newton_step(st, from, GVI__HALVED, query);
     }
     if (!query) st->iterations = used + (int)((unsigned)st->counters.newton_iterations - count);
-    return status;
+    return status == GVI_OK && gvi__constrained(st) ? gvi__project(st, from, 0) : status;
 }
 
 // are q + dq and p + dp finite?  0 x is 0 or NaN
@@ -2991,9 +3004,10 @@ GVI__COLD gvi_status gvi__explain(gvi_stepper *st, gvi_status status)
         start = gvi__velocity(st, st->t, st->q, st->p, v);
     if (start == GVI_OK && gvi__constrained(st)) {
         gvi_real *drops = x->con.drops + x->con.m;
-        start = gvi__constraints_at(st, st->t, st->q, drops);
-        for (int a = 0; a < x->con.m; ++a)               // a rank that is about to change
-            if (start == GVI_OK && status == GVI_E_SINGULAR && drops[a] > 0) return status;
+        start = gvi__constraints_at(st, st->t, st->q, st->p, v, drops);
+        if (start == GVI_OK && status == GVI_E_SINGULAR)
+            for (int a = 0; a < x->con.m; ++a)           // left out at the start, and cannot be
+                if (drops[a] > 0) return status;
     }
     if (start == GVI_OK) {
         gvi_points y = gvi__one_point(st, &st->t, st->q);
@@ -3947,6 +3961,19 @@ GVI__CALLED gvi__two gvi__moment(int count, const gvi_real *c, const gvi_real *w
     return sum;
 }
 
+// dp from the F at the points and the forces of constraint at theirs
+static void gvi__momentum_increment(gvi_stepper *st, const gvi__origin *from)
+{
+    struct gvi__private *x = &st->x;
+    gvi__sum_rows(st, x->work.F, from->p_low, x->step.p, x->step.p_low);
+    for (int i = 0; gvi__constrained(st) && i < st->n; ++i) {
+        const gvi__two z = gvi__exact_dot(x->R, x->con.hw, x->con.force + i*x->R),
+                       p = gvi__add_low(x->step.p[i], x->step.p_low[i], z.hi, z.lo);
+        x->step.p[i] = p.hi;
+        x->step.p_low[i] = p.lo;
+    }
+}
+
 /* Increments of q and p from the F, V and A at the end of the iteration, by (2) and by (3) at
    tau = 1, where S_j = c_j: dq = h (v + M^-1 (sum_j (1 - c_j) h b_j F_j - sum_j b_j A_j)).    */
 static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h)
@@ -3959,13 +3986,7 @@ static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h
         x->dt = gvi__dot(r, hb, x->time.rate);
         x->time.dH = gvi__dot(r, hb, x->time.power);
     }
-    gvi__sum_rows(st, w->F, from->p_low, x->step.p, x->step.p_low);
-    for (int i = 0; gvi__constrained(st) && i < st->n; ++i) {
-        const gvi__two z = gvi__exact_dot(R, x->con.hw, x->con.force + i*R),
-                       p = gvi__add_low(x->step.p[i], x->step.p_low[i], z.hi, z.lo);
-        x->step.p[i] = p.hi;
-        x->step.p_low[i] = p.lo;
-    }
+    gvi__momentum_increment(st, from);
     if (gvi__uses(x, GVI_MOMENTA)) {
         gvi__sum_rows(st, w->V, from->q_low, x->step.q, x->step.q_low);
         return;
@@ -4337,6 +4358,18 @@ static gvi_status gvi__evaluate_constraints(gvi_stepper *st, int S, int count, c
     return status;
 }
 
+/* z := M^-1 z.  M(q) is that of the stage values, one for one, or of the one point, where with
+   Lagrangian terms M is d2L/dv2, of which gvi__constraints_at has made the LU.               */
+static void gvi__over_inertia(const gvi_stepper *st, gvi_real *z, int S, int count)
+{
+    const struct gvi__private *x = &st->x;
+    const int n = st->n;
+    const gvi_real *lu = x->newton.hessian;
+    if (S == 1 && gvi__has(x, GVI__HAS_LAGRANGIAN)) gvi_lu_solve(n, lu, lu + n*n, z);
+    else if (!gvi__mass_is(x, GVI_MASS_POSITION)) gvi__over_mass(st, z, S, count);
+    else gvi__ldl_solve(n, x->mass.at_points, S > 1 ? x->R : 1, z, S, count);
+}
+
 static int gvi__all_zero(const gvi_real *x)
 {
     const gvi_real a = GVI_ABS(x[0]) + GVI_ABS(x[4]), b = GVI_ABS(x[1]) + GVI_ABS(x[5]),
@@ -4431,8 +4464,7 @@ static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, con
                 const gvi_real *g = G + (i*n + j)*S, inverse = full ? 1 : x->mass.inverse[j];
                 for (int k = 0; k < count; ++k) W[j*S + k] = -(g[k]*inverse);
             }
-        if (full && gvi__mass_is_constant(x)) gvi__over_mass(st, W, S, count);
-        else if (full) gvi__ldl_solve(n, x->mass.at_points, S > 1 ? x->R : 1, W, S, count);
+        if (full) gvi__over_inertia(st, W, S, count);
         for (int j = from; j <= i; ++j) {
             gvi_real *u = A + (j*m + i)*S;
             run = gvi__runs(st, j, &ends);
@@ -4444,6 +4476,7 @@ static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, con
                 gvi__subtract_at(S, count, A + (j*m + l)*S, A + (l*m + i)*S, u);
         }
         run = gvi__runs(st, i, &ends);
+        if (full) gvi__zero((size_t)(n*S), W);
         for (int e = 0; e < ends; e += 2)
             gvi__zero((size_t)(((int)run[e + 1] - (int)run[e])*S), W + (int)run[e]*S);
         for (int k = 0; k < count; ++k) {
@@ -4491,16 +4524,25 @@ static void gvi__solve_constraints(const gvi_stepper *st, const gvi_real *A, int
     else gvi__solve_at(st, A, S, count, z, R);
 }
 
-// g, dg/dt, G and A at one configuration
+// g, dg/dt, G and A at one configuration; where M depends on v, at that which p makes of v
 static gvi_status gvi__constraints_at(gvi_stepper *st, gvi_real t, const gvi_real *q,
-                                      gvi_real *drops)
+                                      const gvi_real *p, gvi_real *v, gvi_real *drops)
 {
-    const gvi_points y = gvi__one_point(st, &t, q);
-    gvi_real *G = st->x.con.G1;
+    const int n = st->n;
+    gvi_real *G = st->x.con.G1, *H = st->x.newton.hessian;
+    gvi_points y = gvi__one_point(st, &t, q);
     gvi_status status = gvi__evaluate_constraints(st, 1, 1, &t, q, G);
     if (status == GVI_OK && (drops != st->x.con.drops || !st->x.con.settled))
         st->x.con.again |= gvi__find_runs(st, 1, 1, G);
-    if (status == GVI_OK && !gvi__mass_is_constant(&st->x)) status = gvi__factor_mass(st, &y);
+    if (status == GVI_OK && gvi__has(&st->x, GVI__HAS_LAGRANGIAN)) {
+        if (p) status = gvi__velocity(st, t, q, p, v);
+        y.v = v;
+        if (status == GVI_OK) status = gvi__evaluate(st, &y, 0, 1);
+        if (status == GVI_OK) status = gvi__velocity_hessian(st, &y, v, H);
+        if (status == GVI_OK && gvi_lu_factor(n, H, H + n*n) != GVI_OK)
+            return gvi__report_effect(st, GVI_E_SINGULAR, GVI_FAULT_MASS);
+    } else if (status == GVI_OK && gvi__mass_is(&st->x, GVI_MASS_POSITION))
+        status = gvi__factor_mass(st, &y);
     return status == GVI_OK ? gvi__factor_constraints(st, 1, 1, G, st->x.con.A1, drops) : status;
 }
 
@@ -4529,6 +4571,14 @@ static gvi_real gvi__terms(const gvi_stepper *st, gvi_real t, const gvi_real *q,
 
 /* ---- in the iteration ---- */
 
+// h w and the times of D, for a step of length h
+static void gvi__constraint_points(const gvi_stepper *st, const gvi__origin *from, gvi_real h)
+{
+    const struct gvi__private *x = &st->x;
+    for (int e = 0; e < x->R; ++e) x->con.hw[e] = e < st->s ? h*x->con.w[e] : 0;
+    gvi__times(x->con.C, from->t, from->t_low, h, x->con.d, x->con.t);
+}
+
 /* One more sum in the stages; free motion and times of D.  P or V is not judged: lambda turns the
    rounding of D into X eps/h, across the constraints, where no motion feels it.              */
 GVI__CALLED void gvi__constraint_stages(const gvi_stepper *st, const gvi__origin *from, gvi_real h,
@@ -4536,7 +4586,7 @@ GVI__CALLED void gvi__constraint_stages(const gvi_stepper *st, const gvi__origin
 {
     const struct gvi__private *x = &st->x;
     const int R = x->R, momenta = gvi__uses(x, GVI_MOMENTA);
-    for (int e = 0; e < R; ++e) x->con.hw[e] = e < st->s ? h*x->con.w[e] : 0;
+    gvi__constraint_points(st, from, h);
     for (int k = 0; k < (momenta ? 1 : stages); ++k) {
         y[k].sum[1].table = momenta || k == 1 ? x->con.U : x->con.K;
         y[k].sum[1].weight = x->con.hw;
@@ -4547,7 +4597,6 @@ GVI__CALLED void gvi__constraint_stages(const gvi_stepper *st, const gvi__origin
         gvi__zero((size_t)st->n, x->watch.change + !momenta*st->n);
         gvi__zero((size_t)st->n, x->watch.before + !momenta*st->n);
     }
-    gvi__times(x->con.C, from->t, from->t_low, h, x->con.d, x->con.t);
     for (int i = 0; i < st->n; ++i)
         gvi__free_row(R, from->q_low[i], momenta ? 0 : x->free.path[i],
                       momenta ? 0 : x->free.path_low[i], x->con.d + 1, x->con.free + i*R);
@@ -4730,7 +4779,7 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
              *d = x->con.W,
              *unit = d + n, *g = x->con.g, *G = x->con.G1 + m*n; // G0 is before it
     const gvi_real t = from->t + (from->t_low + h);
-    gvi_status status = gvi__constraints_at(st, from->t, from->q, x->con.drops);
+    gvi_status status = gvi__constraints_at(st, from->t, from->q, NULL, NULL, x->con.drops);
     gvi__zero((size_t)n, x->step.p_low);
     x->con.again = 0;
     for (int k = 0; ; ++k) {
@@ -4772,13 +4821,14 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
 /* Is each g_a within 4096 roundings, of the terms that are known, or of what it proves to have?  A
    part of Newton's correction takes that part of g_a, but for the change of G along it; not all of
    it, nor a half, since that may hit g = 0 exactly and show no rounding.                      */
-GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real *q)
+GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real *q,
+                                    const gvi_real *p, gvi_real *v)
 {
     const gvi_real part = (gvi_real)0.618034, units = 4096;
     struct gvi__private *x = &st->x;
     const int n = st->n, m = x->con.m;
     gvi_real *g = x->con.g, *was = x->con.rho, *z = x->con.y, *d = x->con.W, *G = x->con.G1,
-             *next = x->result + n;
+             *next = d + n;
     int off = -1;
     for (int a = 0; a < m; ++a) {
         if (off < 0 && !(GVI_ABS(g[a]) <= units*GVI__EPS*gvi__terms(st, t, q, G, a))) off = a;
@@ -4789,8 +4839,7 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
     gvi__solve_constraints(st, x->con.A1, 1, 1, z, 1);
     gvi__zero((size_t)n, d);
     gvi__add_force(st, z, d);
-    if (gvi__mass_is_constant(x)) gvi__over_mass(st, d, 1, 1);
-    else gvi__ldl_solve(n, x->mass.at_points, 1, d, 1, 1);
+    gvi__over_inertia(st, d, 1, 1);
     gvi__add_scaled(n, 1, d, q, next);
     int fulfilled = gvi__evaluate_constraints(st, 1, 1, &t, next, G + m*n) == GVI_OK;
     for (int a = 0; a < m; ++a) {
@@ -4801,7 +4850,7 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
         const int proves = rounding > seen && !(x->con.drops[m + a] > 0);
         fulfilled &= GVI_ABS(was[a]) <= units*(proves ? rounding : seen);
     }
-    return fulfilled ? gvi__constraints_at(st, t, q, x->con.drops + m)
+    return fulfilled ? gvi__constraints_at(st, t, q, p, v, x->con.drops + m)
                      : gvi__report_row(st, GVI_E_CONSTRAINT, off, GVI_FAULT_NONE);
 }
 
@@ -4816,18 +4865,21 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
     gvi_real *q = x->result, *p = q + n, *v = p + n, *r = x->con.g, *z = x->con.rho,
              *drops = x->con.drops + m, energy = 0, before = GVI__MAX;
     int redundant = 0;
-    for (int i = 0; i < n; ++i) q[i] = from->q[i] + (x->step.q[i] + x->step.q_low[i]);
+    for (int i = 0; i < n; ++i) {
+        q[i] = from->q[i] + (x->step.q[i] + x->step.q_low[i]);
+        p[i] = from->p[i] + (x->step.p[i] + x->step.p_low[i]);
+    }
+    gvi__velocity_guess(st, v);
     x->diagnose |= start;
-    gvi_status status = gvi__constraints_at(st, t, q, drops);
+    gvi_status status = gvi__constraints_at(st, t, q, p, v, drops);
     if (start) x->diagnose = 0;
     for (int a = 0; a < m; ++a) {
         redundant |= drops[a] > 0;
         if (!start && status == GVI_OK && (drops[a] > 0) != (x->con.drops[a] > 0))
             status = gvi__report_row(st, GVI_E_SINGULAR, a, GVI_FAULT_NONE);
     }
-    if ((start || redundant) && status == GVI_OK) status = gvi__fulfilled(st, t, q);
+    if ((start || redundant) && status == GVI_OK) status = gvi__fulfilled(st, t, q, p, v);
     gvi__zero((size_t)m, x->con.y);
-    gvi__velocity_guess(st, v);
     for (int pass = 0; pass < passes && status == GVI_OK; ++pass) {
         gvi_real size = 0;
         int row = 0;
@@ -4924,7 +4976,8 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
     gvi_real *z = x->con.rho, *rate = z + m, *sum = x->con.y, *best = x->con.g + 2*m;
     gvi_real least = GVI__MAX, largest = 0, size = 0, delta = 1;
     gvi_points y = gvi__one_point(st, &st->t, st->q);
-    if (m > 0) status = gvi__constraints_at(st, st->t, st->q, x->con.drops + m);
+    gvi__velocity_guess(st, u);
+    if (m > 0) status = gvi__constraints_at(st, st->t, st->q, st->p, u, x->con.drops + m);
     gvi__velocity_guess(st, v);
     if (status == GVI_OK) status = gvi__velocity(st, st->t, st->q, st->p, v);
     y.v = v;
@@ -5070,8 +5123,7 @@ GVI__COLD gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc, gv
     }
     const gvi_mass *m = &d->mass;
     if ((x->needs & L && !GVI__LAGRANGIAN) || (x->clock >= 0 && !GVI__CLOCK)
-        || (x->con.bits && (!GVI__CONSTRAINTS || x->clock >= 0 || m->velocity
-                            || m->kind == GVI_MASS_NONE || rule == GVI_KICKS))
+        || (x->con.bits && (!GVI__CONSTRAINTS || x->clock >= 0 || rule == GVI_KICKS))
         || (m->kind > GVI_MASS_DENSE && !gvi__mass_is(x, m->kind)) || !gvi__rule_is(x, rule))
         return GVI_E_FORMULATION;
     wrong = gvi__wrong_in_mass(x);
@@ -5121,19 +5173,20 @@ GVI__COLD gvi_status gvi__check_rule(struct gvi__private *x, int *order, gvi_fau
 GVI__COLD gvi_status gvi__choose(struct gvi__private *x, gvi_fault *fault)
 {
     enum { READS = 1, TIMED = 2, KICKED = 4, NOT_KICKED = 8, MORE_POINTS = 16, VARIES = 32,
-          NO_VELOCITY = 64, HOLDS = 128 };
+          NO_VELOCITY = 64 };
     static const unsigned char cannot[] = {
         255,                                            // GVI_AUTO
         READS | TIMED | NOT_KICKED | VARIES,            // GVI_EXPLICIT
         READS | TIMED | KICKED | VARIES,                // GVI_POSITIONS
         TIMED | KICKED | VARIES,                        // GVI_VELOCITIES
         KICKED | MORE_POINTS | NO_VELOCITY,             // GVI_MOMENTA
-        TIMED | KICKED | HOLDS                          // GVI_NEWTON
+        TIMED | KICKED                                  // GVI_NEWTON
     };
     const gvi_desc *d = &x->desc;
     const int s = d->degree, r = d->rule.points, kicks = d->rule.kind == GVI_KICKS;
     const int verlet = s == 1 && r == 2 && d->rule.kind == GVI_LOBATTO,
-              constant = gvi__mass_is_constant(x), holds = x->con.bits != 0;
+              constant = gvi__mass_is_constant(x), holds = x->con.bits != 0,
+              lacks = !constant && d->mass.kind != GVI_MASS_POSITION;   // M, if it is wanted
     const int pinned = d->formulation != GVI_AUTO, given = d->iterations > 0;
     int scene = 0, f = GVI_EXPLICIT;
     if (x->needs & GVI__HAS_VELOCITIES) scene |= READS;
@@ -5141,10 +5194,9 @@ GVI__COLD gvi_status gvi__choose(struct gvi__private *x, gvi_fault *fault)
     if (kicks) scene |= KICKED;
     if (!kicks && !verlet) scene |= NOT_KICKED;
     if (r != s) scene |= MORE_POINTS;
-    if (holds) scene |= HOLDS;
     if (!constant || (holds && x->needs & GVI__HAS_LAGRANGIAN)) scene |= VARIES;
-    if (!constant && !d->mass.velocity && d->mass.kind != GVI_MASS_POSITION) scene |= NO_VELOCITY;
-    if (pinned) f = d->formulation;
+    if ((d->mass.velocity && holds) || (!d->mass.velocity && lacks)) scene |= NO_VELOCITY;
+    if (pinned) f = (int)d->formulation;
     while (!(GVI__COMPILED >> f & 1) || (scene & cannot[f]))
         if (pinned || f++ == GVI_NEWTON) return GVI_E_FORMULATION;
     x->chosen = (gvi_formulation)f;
@@ -5153,8 +5205,8 @@ GVI__COLD gvi_status gvi__choose(struct gvi__private *x, gvi_fault *fault)
         return GVI_E_FORMULATION;
     // as a fall-back only where its matrices are small
     if (f == GVI_NEWTON
-        || (GVI__NEWTON && !pinned && f != GVI_EXPLICIT && x->apart == 0 && !given
-            && s <= 1024/d->n))
+        || (GVI__NEWTON && !pinned && f != GVI_EXPLICIT && x->clock < 0 && !given
+            && s <= 1024/(d->n + x->con.m)))
         x->needs |= GVI__HAS_NEWTON;
     const int matrices =
         gvi__has(x, GVI__HAS_NEWTON | GVI__HAS_LAGRANGIAN) || d->mass.kind >= GVI_MASS_DENSE;
@@ -5234,7 +5286,8 @@ GVI__COLD size_t gvi__layout(struct gvi__private *x, int order, gvi_real *base)
     const size_t dense = d->mass.kind == GVI_MASS_DENSE, full = gvi__has(x, GVI__HAS_GAMMA) != 0;
     const size_t iterated = !explicitly, legendre = newton || lagrangian,
                  limited = d->resolution > 0;
-    const size_t rows = kicks ? n : n*R, sn = s*n, nn = n*n;
+    const size_t rows = kicks ? n : n*R, nn = n*n,
+                 N = s*(n + (size_t)gvi__count_rows(x, x->con.bits));
     gvi__arena memory = { base, 0 }, *a = &memory;
     struct gvi__values *const values[] = { &x->work, &x->last, &x->older };
     gvi_real **const rows_of_R[] = {
@@ -5291,12 +5344,12 @@ GVI__COLD size_t gvi__layout(struct gvi__private *x, int order, gvi_real *base)
     x->result = gvi__take(a, 3, n);
     x->newton.column = gvi__take(a, 4*legendre, n);
     x->newton.hessian = gvi__take(a, legendre, (1 + 3*newton)*nn + n + 1);
-    for (int k = 0; k < 8; ++k) *modes_of_newton[k] = gvi__take(a, newton, sn);
-    x->newton.pivot = gvi__take(a, newton*2, sn + 1);           // twice: queries must not touch
+    for (int k = 0; k < 8; ++k) *modes_of_newton[k] = gvi__take(a, newton, N);
+    x->newton.pivot = gvi__take(a, newton*2, N + 1);            // twice: queries must not touch
     x->newton.moved = gvi__take(a, newton*4*n, R);
     if (GVI__CONSTRAINTS) gvi__layout_constraints(x, a);
     // what the steps keep.  J comes last
-    x->newton.J = gvi__take(a, newton*2*sn, sn);
+    x->newton.J = gvi__take(a, newton*2*N, N);
     return memory.used;
 }
 
@@ -5444,7 +5497,10 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
 
 /* Newton's method on (1).  Unknowns y[k*n + i]; the rows are those of (1) times 2k + 1, from k0 on:
    k0 = 0 for a step, 1 for the boundary-value problem.  The matrix of the derivatives is kept while
-   the iteration contracts by 1/4 or better, over iterations and over steps.                  */
+   the iteration contracts by 1/4 or better, over iterations and over steps.
+
+   With constraints, y[s*n + e*m + a] is -lambda_a at D_e, e = 0..s-1, and the rows behind those of
+   (1) are -g_a at D_(e+1).  So signed, the determinant of free motion is positive.           */
 typedef struct gvi__matrix {
     gvi_real *square;      /* rows and columns k0..s-1, row-major, then its LU              */
     gvi_real *pivot;
@@ -5454,6 +5510,43 @@ typedef struct gvi__matrix {
                               then has no units                                      */
     int       halves;      /* are changes taken back that make the residual larger?         */
 } gvi__matrix;
+
+static size_t gvi__unknowns(const gvi_stepper *st, int k0)
+{
+    return (size_t)(st->s - k0)*(size_t)st->n
+           + (gvi__constrained(st) ? (size_t)st->s*(size_t)st->x.con.m : 0);
+}
+
+// g and G at the D that y makes, and the forces of its multipliers
+GVI__CALLED gvi_status gvi__newton_constraints(gvi_stepper *st, const gvi__origin *from)
+{
+    struct gvi__private *x = &st->x;
+    const int n = st->n, m = x->con.m, s = st->s, R = x->R, C = x->con.C;
+    gvi__constraint_points(st, from, x->sized.h);
+    for (int i = 0; i < n; ++i) {
+        gvi_real *at = x->con.at + i*C;
+        for (int e = 0; e < C; ++e) at[e] = from->q[i];
+        for (int e = 1; e <= s; ++e) {
+            gvi_real D = 0;
+            for (int k = 0; k < s; ++k) D += x->con.Phi[k*R + e - 1]*x->newton.y[k*n + i];
+            at[e] += from->q_low[i] + x->sized.h*D;
+        }
+    }
+    for (int k = 0; k < s*m; ++k) x->con.force[(n + k % m)*R + k/m] = x->newton.y[s*n + k];
+    const gvi_status status =
+        gvi__evaluate_constraints(st, C, s + 1, x->con.t, x->con.at, x->con.G);
+    if (!x->con.settled) (void)gvi__find_runs(st, C, s + 1, x->con.G);
+    gvi__constraint_forces(st);
+    gvi__zero((size_t)(n*R), x->con.D);           // sum |G lambda|: nearly dependent rows cancel
+    for (int a = 0, ends; a < m; ++a) {
+        const gvi_real *run = gvi__runs(st, a, &ends), *lambda = x->con.force + (n + a)*R;
+        for (int f = 0; f < ends; f += 2)
+            for (int i = (int)run[f]; i < (int)run[f + 1]; ++i)
+                for (int e = 0; e < s; ++e)
+                    x->con.D[i*R + e] += GVI_ABS(x->con.G[(a*n + i)*C + e]*lambda[e]);
+    }
+    return status;
+}
 
 // Q and V from y; then F and P at these
 static gvi_status gvi__newton_values(gvi_stepper *st, const gvi__origin *from)
@@ -5476,18 +5569,20 @@ static gvi_status gvi__newton_values(gvi_stepper *st, const gvi__origin *from)
     gvi__count(&st->counters.velocities, st->r);
     gvi_points at = gvi__points_at(st, st->r, R, x->t, x->work.Q, x->work.F, x->work.P);
     at.v = x->work.V;
-    return gvi__evaluate(st, &at, 0, 1);
+    const gvi_status status = gvi__evaluate(st, &at, 0, 1);
+    return status == GVI_OK && gvi__constrained(st) ? gvi__newton_constraints(st, from) : status;
 }
 
 /* Where Newton's method stands: the last changes and the least; rho, the contraction seen; what
    is left of the error, once a change was rounding; the residual in units of its own terms, and
    once its change is made the work that does in it, or -1 where either is rounding; the
-   residual's norm at the last y that stayed; how often no change was less than half of the
+   residual's norm at the last y that stayed; the last change by each coordinate's size, and what
+   rounding makes of one, see gvi__newton_update; how often no change was less than half of the
    least; is there a matrix that will do, is it new (1) and was the last one (2); how often was
    the last change halved, or -1: none to take back; did that change move the residual by half of
    itself, or is the residual rounding?                                                        */
 typedef struct gvi__descent {
-    gvi_real before, earlier, least, rho, left, work, norm;
+    gvi_real before, earlier, least, rho, left, work, norm, each, grain;
     int      stagnant, have, fresh, halves, holds;
 } gvi__descent;
 
@@ -5498,7 +5593,8 @@ typedef struct gvi__descent {
 static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, gvi__descent *p)
 {
     struct gvi__private *x = &st->x;
-    const int n = st->n, R = x->R, first = !(p->norm < GVI__MAX);
+    const int n = st->n, R = x->R, first = !(p->norm < GVI__MAX),
+              held = gvi__constrained(st) ? st->s : 0;
     const gvi_real h = x->sized.h;
     gvi_real norm = 0, moved = 0, before = 0;
     p->work = 0;
@@ -5517,6 +5613,11 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, 
                 force += b;
                 size += GVI_ABS(phi*(x->table.b[j]*P[j])) + GVI_ABS(b);
             }
+            for (int e = 0; e < held; ++e) {
+                const gvi_real W = (k == 0 ? 1 : 0) - (e > 0 ? x->con.Phi[k*R + e - 1] : 0);
+                force += W*(x->con.hw[e]*x->con.force[i*R + e]);
+                size += GVI_ABS(W*(x->con.hw[e]*x->con.D[i*R + e]));
+            }
             const gvi_real sum = momentum/h - force;
             gvi_real *rest = x->newton.residual + (k - k0)*n + i;
             const gvi_real now = -(gvi_real)(2*k + 1)*sum;
@@ -5531,6 +5632,27 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, 
         moved += change*x->watch.scale[i];
         before += was*x->watch.scale[i];
     }
+    for (int k = 0; k < held*x->con.m; ++k) {     // g, as the momentum that would undo it
+        int ends, a = k % x->con.m, e = k/x->con.m + 1, C = x->con.C;
+        const gvi_real *run = gvi__runs(st, a, &ends), now = x->con.g[a*C + e];
+        gvi_real *rest = x->newton.residual + st->s*n + k, size = 0, inertia = 0;
+        if (x->con.drops[a] > 0) {
+            x->newton.dy[st->s*n + k] = 0;
+            continue;
+        }
+        for (int f = 0; f < ends; f += 2)
+            for (int i = (int)run[f]; i < (int)run[f + 1]; ++i) {
+                const gvi_real G = x->con.G[(a*n + i)*C + e];
+                size += GVI_ABS(G*x->con.at[i*C + e]);
+                inertia += G*x->watch.scale[i]*(G*x->watch.scale[i]);
+            }
+        const gvi_real unit = GVI_ABS(h)*GVI_SQRT(inertia);
+        norm += GVI_ABS(now)/unit;
+        moved += GVI_ABS(now - *rest)/unit;
+        before += GVI_ABS(*rest)/unit;
+        x->newton.dy[st->s*n + k] = *rest = now;
+        if (size > 0 && GVI_ABS(now)/size > p->work) p->work = GVI_ABS(now)/size;
+    }
     p->holds = p->work <= 16*GVI__EPS || (!first && moved >= before/2);
     return norm;
 }
@@ -5541,7 +5663,7 @@ static void gvi__add_derivative(const gvi_stepper *st, const gvi__matrix *J, int
 {
     const struct gvi__private *x = &st->x;
     const int n = st->n, R = x->R, s = st->s, k0 = J->k0;
-    const size_t size = (size_t)(s - k0)*(size_t)n;
+    const size_t size = gvi__unknowns(st, k0);
     const gvi_real h = x->sized.h, *phi = x->table.phi + point, *Phi = x->table.Phi + point;
     if (f <= 0 && f >= 0 && p <= 0 && p >= 0) return;
     for (int k = k0; k < s; ++k) {
@@ -5672,6 +5794,58 @@ static gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matrix *
     return status;
 }
 
+// multipliers, constraints, and by differences of G the forces G' lambda, which move with D
+GVI__CALLED gvi_status gvi__jacobian_constraints(gvi_stepper *st, const gvi__matrix *J)
+{
+    struct gvi__private *x = &st->x;
+    const int n = st->n, m = x->con.m, s = st->s, R = x->R, C = x->con.C, moves = s > 1 ? n : 0;
+    const gvi_real *const Phi = x->con.Phi - 1, *const t = x->con.t;      // at D_e: [e]
+    const gvi_real h = x->sized.h;
+    gvi_real *force = x->con.force, *base = x->con.free, *at = x->con.at, *was = x->row;
+    const size_t size = gvi__unknowns(st, 0), sn = (size_t)(s*n);
+    gvi_status status = GVI_OK;
+    for (int l = 0, ends; l < s*m; ++l) {
+        const int a = l % m, e = l/m;
+        const gvi_real *run = gvi__runs(st, a, &ends);
+        const size_t z = sn + (size_t)l;
+        if (x->con.drops[a] > 0) {                // its multiplier stays 0
+            J->square[z*(size + 1)] = 1;
+            continue;
+        }
+        for (int f = 0; f < ends; f += 2)
+            for (int i = (int)run[f]; i < (int)run[f + 1]; ++i)
+                for (int k = 0; k < s; ++k) {
+                    const gvi_real *G = x->con.G + (a*n + i)*C + e,
+                        W = (k == 0 ? 1 : 0) - (e > 0 ? Phi[k*R + e] : 0);
+                    const size_t y = (size_t)(k*n + i);
+                    J->square[y*size + z] = (gvi_real)(2*k + 1)*W*(x->con.hw[e]*G[0]);
+                    J->square[z*size + y] = -h*Phi[k*R + e + 1]*G[1];
+                }
+    }
+    gvi__copy((size_t)(n*R), force, base);
+    for (int j = 0; j < moves && status == GVI_OK; ++j) {
+        gvi_real *row = at + j*C, d = gvi__difference(st, j, 0);
+        gvi__copy((size_t)C, row, was);
+        for (int e = 1; e < s; ++e) row[e] += d;
+        status = gvi__evaluate_constraints(st, C, s + 1, t, at, x->con.G);
+        gvi__constraint_forces(st);
+        for (int e = 1; e < s; ++e)
+            for (int i = 0; i < n; ++i) {
+                d = x->con.hw[e]*(force[i*R + e] - base[i*R + e])/(row[e] - was[e]);
+                for (int kl = 0; kl < s*s; ++kl) {
+                    const int k = kl/s, l = kl % s;
+                    const gvi_real W = (k == 0 ? 1 : 0) - Phi[k*R + e];
+                    J->square[(size_t)(k*n + i)*size + (size_t)(l*n + j)] -=
+                        (gvi_real)(2*k + 1)*W*d*(h*Phi[l*R + e]);
+                }
+            }
+        gvi__copy((size_t)C, was, row);
+    }
+    if (status == GVI_OK) status = gvi__evaluate_constraints(st, C, s + 1, t, at, x->con.G);
+    gvi__constraint_forces(st);
+    return status;
+}
+
 /* A Lagrangian whose d2L/dv2 is singular (linear in v, a coordinate without mass) would make (1)
    solvable all the same, and its solution worthless.                                         */
 static gvi_status gvi__check_regular(gvi_stepper *st)
@@ -5699,16 +5873,17 @@ static gvi_status gvi__check_regular(gvi_stepper *st)
 
 static gvi_status gvi__jacobian_fill(gvi_stepper *st, const gvi__matrix *J)
 {
-    const size_t n = (size_t)st->n, size = (size_t)(st->s - J->k0)*n;
+    const size_t n = (size_t)st->n, size = gvi__unknowns(st, J->k0);
     gvi__zero(size*(size + (J->ends ? 2*n : 0)), J->square);
     gvi_status status = gvi__check_regular(st);
     if (status == GVI_OK) status = gvi__jacobian_exact(st, J);
+    if (status == GVI_OK && gvi__constrained(st)) status = gvi__jacobian_constraints(st, J);
     return status == GVI_OK ? gvi__jacobian_differences(st, J) : status;
 }
 
 static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J)
 {
-    const int n = st->n, size = (st->s - J->k0)*n;
+    const int n = st->n, size = (int)gvi__unknowns(st, J->k0), modes = (st->s - J->k0)*n;
     int at;
     gvi_status status = gvi__jacobian_fill(st, J);
     for (int row = 0; J->scaled && row < size; ++row) {
@@ -5725,6 +5900,7 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J)
     status = gvi__lu_factor(size, J->square, J->pivot, &at);
     gvi__count(&st->counters.factorizations, 1);
     if (status == GVI_OK) return GVI_OK;
+    if (at >= modes) return gvi__report_row(st, status, (at - modes) % st->x.con.m, GVI_FAULT_NONE);
     return gvi__report(st, status, GVI_FAULT_NONE, at < 0 ? GVI_FAULT_NONE : at % n,
                        GVI_FAULT_NONE);
 }
@@ -5746,16 +5922,27 @@ static void gvi__newton_modes(gvi_stepper *st, const gvi_real *V, gvi_real *rows
     }
 }
 
-// y := modes of the extrapolated V, or constant velocity
+// y := modes of the extrapolated V, and multipliers; or constant velocity
 static void gvi__newton_guess(gvi_stepper *st, int extrapolate)
 {
-    gvi__zero((size_t)(st->s*st->n), st->x.newton.y);
-    if (extrapolate) gvi__newton_modes(st, st->x.last.V, st->x.work.V);
-    else gvi__velocity_guess(st, st->x.newton.y);
+    struct gvi__private *x = &st->x;
+    gvi_real *y = x->newton.y;
+    gvi__zero(gvi__unknowns(st, 0), y);
+    if (!extrapolate) {
+        gvi__velocity_guess(st, y);
+        return;
+    }
+    gvi__newton_modes(st, x->last.V, x->work.V);
+    if (!gvi__constrained(st)) return;
+    gvi__predict_constraints(st, 1);
+    for (int k = 0, m = x->con.m; k < st->s*m; ++k)
+        y[st->s*st->n + k] = x->con.force[(st->n + k % m)*x->R + k/m];
 }
 
-/* y += dy from row k0 on; returns the sum of the coordinates' relative changes.  p->work: its work,
-   or -1 where all of it is a few last places of q, or the residual was rounding.              */
+/* y += dy from row k0 on; returns the sum of the coordinates' relative changes, to p->each as well;
+   but with constraints, which give each coordinate the rounding of all q, the sum of changes over
+   the largest coordinate, each times sqrt(M_ii), and to p->grain that rounding.  p->work: the work
+   of the change, or -1 where all of it is a few last places of q, or the residual was rounding. */
 static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, const gvi__matrix *J,
                                    gvi__descent *p)
 {
@@ -5763,7 +5950,7 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
     const int n = st->n, solved = p->work <= 16*GVI__EPS,
               sure = p->holds || p->rho < (gvi_real)0.25;
     const gvi_real h = GVI_ABS(x->sized.h), none = GVI__MIN/GVI__EPS;
-    gvi_real sum = 0, largest = 0, noise = 0;
+    gvi_real sum = 0, largest = 0, noise = 0, all = 0, length = 0;
     p->work = 0;
     for (int i = 0; i < n; ++i) {
         gvi_real change = 0, size = 0, miss = 0;
@@ -5782,15 +5969,25 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
         }
         const gvi_real least = GVI__EPS*change;                       // y may land on 0
         if (!(size <= none && change <= none)) sum += change/(size < least ? least : size);
+        all += change/unit;
+        if (size > length*unit) length = size/unit;
         if (q + h*size > largest*unit) largest = (q + h*size)/unit;
         // a wrong matrix may make the change small, not the residual
         const gvi_real moved = change/unit > miss*unit ? change/unit : miss*unit;
         if (!(h*change <= 4*GVI__EPS*q) && h*moved > noise) noise = h*moved;
     }
+    for (size_t k = (size_t)(st->s*n); k < gvi__unknowns(st, 0); ++k) {   // multipliers
+        x->newton.last[k] = x->newton.y[k];
+        x->newton.y[k] += x->newton.dy[k];
+    }
     // see gvi__noise
     const gvi_real place = p->stagnant > 1 ? 32*GVI__EPS*largest : 0;
     if ((noise <= place && sure) || solved) p->work = -1;
-    return sum;
+    p->each = sum;
+    p->grain = GVI__EPS;
+    if (!gvi__constrained(st) || !(length > none)) return sum;
+    if (largest > h*length) p->grain *= largest/(h*length);
+    return all/length;
 }
 
 /* The verdict on a change.  One that does not shrink is rounding if y, q or the residual is, or if
@@ -5805,9 +6002,10 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__des
 {
     const int size = (st->s - J->k0)*st->n;
     const gvi_real before = p->before, all = (gvi_real)st->n, quarter = (gvi_real)0.25;
-    const gvi_real ratio = before > 0 ? change/gvi__smaller(before, all) : 1;
-    const gvi_real other = p->earlier > 0 ? before/gvi__smaller(p->earlier, all) : 1;
-    const gvi_real wanted = st->x.desc.tolerance, noise = 64*GVI__EPS*(gvi_real)size;
+    gvi_real ratio = 1, other = 1;
+    if (before > 0) ratio = change/gvi__smaller(before, all);
+    if (p->earlier > 0) other = before/gvi__smaller(p->earlier, all);
+    const gvi_real wanted = st->x.desc.tolerance, noise = 64*p->grain*(gvi_real)size;
     if (!gvi__finite(change)) return GVI__NOT_FINITE;
     if (p->earlier > 0 && change > 1000*GVI__EPS) {
         const gvi_real contraction = GVI_SQRT(change/p->earlier);
@@ -5820,7 +6018,8 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__des
         && (change > noise || change < p->rho*p->least))
         p->rho = change/p->least;
     if (change < p->least) p->least = change;
-    if (before > 0 && change > noise && change > st->x.newton.bend*before)
+    const int felt = !gvi__constrained(st) || p->work >= 0;   // not the rounding of g
+    if (before > 0 && change > noise && felt && change > st->x.newton.bend*before)
         st->x.newton.bend = change/before;
     const int fresh = p->fresh & 1, proven = (fresh && p->holds) || p->rho < quarter;
     const int small = change <= noise || (fresh && change <= GVI_SQRT(GVI__EPS));
@@ -5830,7 +6029,7 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__des
 
     const gvi_real enough = wanted > 0 ? wanted : GVI__EPS/4096;
     const int confirmed = (fresh && p->holds) || change <= noise || change*other <= enough;
-    const int done = (change*ratio <= enough && confirmed) || p->left <= GVI__EPS/65536
+    const int done = (p->each*ratio <= enough && confirmed) || p->left <= GVI__EPS/65536
                      || p->left <= enough;
     if (done && (p->holds || p->rho < quarter)) return GVI__DONE;
     // rounding, by a matrix that has contracted here
@@ -5856,7 +6055,8 @@ static int gvi__newton_stays(gvi_stepper *st, const gvi__matrix *J, gvi__descent
         const gvi_real part = !fresh               ? 0
                               : p->halves < HALVES ? (gvi_real)0.5
                                                    : (gvi_real)(1 << HALVES);
-        for (int i = 0; i < st->s*st->n; ++i) y[i] = last[i] + part*(y[i] - last[i]);
+        for (size_t i = 0, all = gvi__unknowns(st, 0); i < all; ++i)
+            y[i] = last[i] + part*(y[i] - last[i]);
         if (fresh) p->halves += 1;
         else p->have = 0, p->halves = -1;
         gvi__count(&st->counters.newton_iterations, 1);
@@ -5877,8 +6077,10 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
 {
     struct gvi__private *x = &st->x;
     // that of steps, not of queries
-    const int size = (st->s - J->k0)*st->n, kept = J->pivot == x->newton.pivot;
-    gvi__descent p = { 0, 0, GVI__MAX, (gvi_real)0.25, GVI__MAX, 0, GVI__MAX, 0, 0, 0, -1, 0 };
+    const int size = (int)gvi__unknowns(st, J->k0), kept = J->pivot == x->newton.pivot;
+    gvi__descent p = {
+        0, 0, GVI__MAX, (gvi_real)0.25, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0, -1, 0
+    };
     p.have = kept && !gvi__nonzero(x->newton.h - x->sized.h);
     x->newton.bend = 0;
     for (int k = 0, made = 0, verdict = GVI__GO_ON; k <= x->desc.max_iterations; ++k) {
@@ -5969,25 +6171,26 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
                                         const gvi__matrix *J)
 {
     struct gvi__newton *x = &st->x.newton;
-    const size_t sn = (size_t)(st->s*st->n);
+    const size_t all = gvi__unknowns(st, 0), modes = (size_t)(st->s*st->n);
     const gvi_real h = st->x.sized.h, close = (gvi_real)0.03125;
     const unsigned count = (unsigned)st->counters.newton_iterations,
                    enough = 32*(unsigned)st->x.desc.max_iterations;
-    const int sign = gvi__orientation(J, sn);
-    const gvi__matrix K = { x->J + sn*sn, x->pivot + sn + 1, NULL, 0, 0, 0 };   // that of queries
+    const int sign = gvi__orientation(J, all);
+    // that of queries
+    const gvi__matrix K = { x->J + all*all, x->pivot + all + 1, NULL, 0, 0, 0 };
     gvi_real part = 1, factor = (gvi_real)0.5;
     int right = -1;                                                  // not known
-    gvi__copy(sn, x->y, x->found);
-    gvi__copy(sn, x->y, x->branch);
-    gvi__zero(sn, x->slope);
+    gvi__copy(all, x->y, x->found);
+    gvi__copy(all, x->y, x->branch);
+    gvi__zero(all, x->slope);
     while (right < 0) {
         if ((unsigned)st->counters.newton_iterations - count > enough) right = 0;
-        gvi__copy(sn, x->branch, x->y);
+        gvi__copy(all, x->branch, x->y);
         gvi__newton_shorten(st, factor, x->slope);
-        gvi__copy(sn, x->y, x->guess);
+        gvi__copy(all, x->y, x->guess);
         gvi__free_motion(st, from, h*(part*factor));
         const int found =
-            gvi__newton_solve(st, from, &K) == GVI_OK && gvi__orientation(&K, sn) == sign;
+            gvi__newton_solve(st, from, &K) == GVI_OK && gvi__orientation(&K, all) == sign;
         const gvi_real apart = found ? gvi__newton_apart(st, x->guess) : 1;
         if (!(apart <= close)) {
             factor = GVI_SQRT(factor);
@@ -5995,8 +6198,8 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
             continue;
         }
         part *= factor;
-        gvi__copy(sn, x->y, x->branch);
-        for (size_t k = 0; k < sn; ++k) x->slope[k] += (x->y[k] - x->guess[k])/(1 - factor);
+        gvi__copy(all, x->y, x->branch);
+        for (size_t k = 0; k < modes; ++k) x->slope[k] += (x->y[k] - x->guess[k])/(1 - factor);
         if (factor > (gvi_real)0.5) {
             if (apart < close/4) factor *= factor;
             continue;
@@ -6007,8 +6210,47 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
             right = !other || gvi__newton_apart(st, x->branch) <= close;
     }
     gvi__free_motion(st, from, h);
-    gvi__copy(sn, x->found, x->y);
+    gvi__copy(all, x->found, x->y);
     return right ? gvi__newton_values(st, from) : gvi__report_status(st, GVI_E_CONVERGENCE);
+}
+
+/* Did the rank of G change between two points of the step?  What row j leaves of those before it is
+   c G, c the row of L^-1: where that is a small part of row j at a point, has it turned by more
+   than 25 degrees at the next, or is next to nothing left of it?  It passes 0 where motions part,
+   and has another direction on each branch: the step must not choose.                        */
+GVI__CALLED gvi_status gvi__newton_crossing(gvi_stepper *st)
+{
+    struct gvi__private *x = &st->x;
+    const int n = st->n, m = x->con.m, C = x->con.C;
+    gvi_real *c = x->con.y, *now = x->result, *next = now + n;
+    const gvi_points y = gvi__points_at(st, st->r, x->R, x->t, x->work.Q, NULL, NULL);
+    gvi_status status = gvi__mass_is(x, GVI_MASS_POSITION) ? gvi__factor_mass(st, &y) : GVI_OK;
+    if (status == GVI_OK)
+        status = gvi__factor_constraints(st, C, st->s, x->con.G, x->con.A, x->con.drops);
+    for (int ej = 0, ends; ej < st->s*m && status == GVI_OK; ++ej) {
+        const int e = ej/m, j = ej % m;
+        const gvi_real *A = x->con.A + e;
+        gvi_real taken = 0, all = 0;
+        for (int l = 0; l < j; ++l) taken += A[(j*m + l)*C]*A[(l*m + j)*C];
+        if (!(taken*A[(j*m + j)*C] > 15)) continue;
+        gvi__zero(2*(size_t)n, now);
+        for (int l = j; l >= 0; --l) {
+            const gvi_real *run = gvi__runs(st, l, &ends), *G = x->con.G + l*n*C + e;
+            c[l] = l == j ? 1 : 0;
+            for (int i = l + 1; i <= j; ++i) c[l] -= A[(i*m + l)*C]*c[i];
+            for (int f = 0; f < ends; f += 2)
+                for (int i = (int)run[f]; i < (int)run[f + 1]; ++i) {
+                    now[i] += c[l]*G[i*C];
+                    next[i] += c[l]*G[i*C + 1];
+                    if (l == j) all += G[i*C]*G[i*C];
+                }
+        }
+        const gvi_real part = gvi__dot(n, now, now), there = gvi__dot(n, next, next);
+        if (16*part < all && !(gvi__dot(n, now, next) > (gvi_real)0.9*GVI_SQRT(part)*GVI_SQRT(there)
+                               && 256*there > part))
+            status = gvi__report_row(st, GVI_E_SINGULAR, j, e);
+    }
+    return status;
 }
 
 /* Newton's method for a step.  A solution is taken for the motion's where the iteration contracts
@@ -6016,24 +6258,32 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
 static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int how, int query)
 {
     struct gvi__private *x = &st->x;
-    const size_t sn = (size_t)(st->s*st->n);
-    gvi__matrix J = { x->newton.J + (query ? sn*sn : 0), x->newton.pivot + (query ? sn + 1 : 0),
+    const size_t all = gvi__unknowns(st, 0);
+    gvi__matrix J = { x->newton.J + (query ? all*all : 0),
+                      x->newton.pivot + (query ? all + 1 : 0),
                       NULL, 0, 0, how == GVI__HALVED };
     // few points see little of what is between
     const gvi_real far = (gvi_real)(st->s > 2 ? 0.25 : 0.015625);
     const int old = !query && !gvi__nonzero(x->newton.h - x->sized.h);
+    gvi_real *v = x->result + 2*st->n;
+    gvi_status status = GVI_OK;
+    gvi__velocity_guess(st, v);
+    if (gvi__constrained(st))                     // which rows depend on others at the start?
+        status = gvi__constraints_at(st, from->t, from->q, NULL, v, x->con.drops);
+    if (status != GVI_OK) return status;
     gvi__newton_guess(st, how == GVI__EXTRAPOLATED);
-    gvi_status status = gvi__newton_solve(st, from, &J);
+    status = gvi__newton_solve(st, from, &J);
     if (old && status == GVI_OK && x->newton.bend > far) {   // that may be the old matrix's fault
         x->newton.h = 0;
         gvi__newton_guess(st, how == GVI__EXTRAPOLATED);
         status = gvi__newton_solve(st, from, &J);
     }
     if (status == GVI_OK
-        && (J.halves || x->newton.bend > far || gvi__orientation(&J, sn) < 0)) {
+        && (J.halves || x->newton.bend > far || gvi__orientation(&J, all) < 0)) {
         J.halves = 0;
         status = gvi__newton_connected(st, from, &J);
     }
+    if (status == GVI_OK && gvi__constrained(st)) status = gvi__newton_crossing(st);
     if (status != GVI_OK) return status;
     // it made none to go on from
     if (GVI__LAGRANGIAN && x->work.A) gvi__zero((size_t)(st->n*x->R), x->work.A);
@@ -6042,7 +6292,7 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
         x->step.q[i] = q.hi;
         x->step.q_low[i] = gvi__low(q.lo + from->q_low[i]);
     }
-    gvi__sum_rows(st, x->work.F, from->p_low, x->step.p, x->step.p_low);
+    gvi__momentum_increment(st, from);
     return GVI_OK;
 }
 
@@ -6180,6 +6430,75 @@ GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_rea
     if (status == GVI_OK) status = gvi_discrete_lagrangian(st, t, h, q0, q1, &out);
     if (status != GVI_OK) return status;
     return gvi_start_momentum(st, t, q0, st->x.step.q);
+}
+
+/* The iteration q' = q + e, e = M^-1 G'z with g + G(e_new - e) = 0: (G M^-1 G') z = G e - g at the
+   last q'.  So e is normal to the constraints where it ends, and e'M e is z'(G e - g).  What moves
+   along the constraints is damped, by `share`, where changes grow; g is taken to 0 in any case. */
+GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_real *v,
+                               gvi_real *moved)
+{
+    gvi_status status = gvi__check_start(st, t, q, v);
+    if (status != GVI_OK) return status;
+    struct gvi__private *x = &st->x;
+    const int n = st->n, m = x->con.m;
+    gvi_real *e = x->step.q, *f = x->step.p, *next = x->result, *d = next + n, *u = d + n,
+             *push = x->point, *z = x->con.rho, *r = z + m, *back = r + m,
+             *drops = x->con.drops + m, far[2] = { 0, 0 }, change = GVI__MAX, before, share = 1;
+    gvi__zero((size_t)n, e);
+    gvi__zero((size_t)n, f);
+    gvi__copy((size_t)n, q, next);
+    gvi__copy((size_t)n, v, u);
+    if (gvi__constrained(st)) gvi__forget_runs(st);
+    x->diagnose = 1;
+    for (int k = 0; gvi__constrained(st); ++k) {
+        status = gvi__constraints_at(st, t, next, NULL, u, drops);
+        if (k > 1 && !(change < before*(gvi_real)0.9) && status == GVI_OK) {
+            if (gvi__fulfilled(st, t, next, NULL, u) == GVI_OK) break;
+            status = k > 100 ? GVI_E_CONVERGENCE
+                             : gvi__constraints_at(st, t, next, NULL, u, drops);
+        }
+        if (status != GVI_OK) break;
+        for (int a = 0; a < m; ++a) {
+            back[a] = -x->con.g[a];
+            z[a] = r[a] = gvi__row_dot(st, x->con.G1, a, e) - x->con.g[a];
+        }
+        gvi__solve_constraints(st, x->con.A1, 1, 1, z, 1);
+        gvi__solve_constraints(st, x->con.A1, 1, 1, back, 1);
+        far[0] = gvi__dot(m, r, z);
+        for (int a = 0; a < m; ++a) z[a] = share*z[a] + (1 - share)*back[a];
+        gvi__zero((size_t)n, push);
+        gvi__add_force(st, z, push);
+        gvi__copy((size_t)n, push, d);
+        gvi__over_inertia(st, d, 1, 1);
+        before = change;
+        change = 0;
+        for (int i = 0; i < n; ++i) {
+            change += (push[i] - share*f[i])*(d[i] - share*e[i]);
+            f[i] = push[i] + (1 - share)*f[i];
+            e[i] = d[i] + (1 - share)*e[i];
+            next[i] = q[i] + e[i];
+        }
+        change = GVI_SQRT(GVI_ABS(change));
+        if (change > before && share > (gvi_real)0.02) share /= 2;
+    }
+    x->diagnose = 0;
+    for (int pass = 0; pass < 2 && gvi__constrained(st) && status == GVI_OK; ++pass) {
+        for (int a = 0; a < m; ++a)
+            z[a] = r[a] = -(x->con.g[m + a] + gvi__row_dot(st, x->con.G1, a, u));
+        gvi__solve_constraints(st, x->con.A1, 1, 1, z, 1);
+        gvi__zero((size_t)n, d);
+        gvi__add_force(st, z, d);
+        gvi__over_inertia(st, d, 1, 1);
+        gvi__add_scaled(n, 1, d, u, u);
+        if (pass == 0) far[1] = gvi__dot(m, r, z);
+    }
+    if (gvi__constrained(st)) gvi__forget_runs(st);
+    if (status != GVI_OK) return st->status = status;
+    gvi__copy((size_t)n, next, q);
+    gvi__copy((size_t)n, u, v);
+    for (int k = 0; moved && k < 2; ++k) moved[k] = GVI_SQRT(GVI_ABS(far[k]));
+    return gvi__report_status(st, GVI_OK);
 }
 
 GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
@@ -6559,7 +6878,7 @@ GVI__COLD gvi_status gvi__bend(gvi_stepper *st, const gvi__origin *from, gvi_rea
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, size = (st->s - J->k0)*n;
-    gvi__descent p = { 0, 0, GVI__MAX, 0, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0 };
+    gvi__descent p = { 0, 0, GVI__MAX, 0, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0, 0, 0 };
     gvi_real *y = x->newton.y, before = 0, length = 0;
     if (grow > 1 && J->k0 == 0) {
         x->sized.ratio = 0;
@@ -6935,8 +7254,8 @@ GVI__COLD const char *gvi__why_no_formulation(const gvi_stepper *st)
     const struct gvi__private *x = &st->x;
     const int kicks = x->desc.rule.kind == GVI_KICKS, clock = x->clock >= 0, ready = x->memory != 0;
     if (x->con.bits)
-        return "constraints go with no clock, kicks, Newton's method, boundary values or "
-               "mass.velocity; with M(q) and Lagrangian terms only if r = s";
+        return "constraints go with no clock, kicks or boundary values; with a formulation "
+               "pinned or iterations given, what that covers (GVI_NEWTON: all)";
     if (ready && st->fault.effect >= 0)
         return "under a clock this value (fault.effect) must not change with t: list it as a force";
     if (ready && (kicks || clock)) return "kicks have no curve and no action, clocks no action";

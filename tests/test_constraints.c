@@ -424,9 +424,10 @@ TEST(descriptions_are_refused_by_name)
     desc[0].effects = effects;
     desc[0].effect_count = 3;
     desc[1].rule = (gvi_rule){ .kind = GVI_KICKS, .points = 1, .nodes = nodes, .weights = weights };
-    desc[2].formulation = GVI_NEWTON;
+    desc[2].formulation = GVI_EXPLICIT;
     desc[3].rule.points = 6;
     desc[4].mass.velocity = nothing;
+    desc[3].formulation = desc[4].formulation = GVI_MOMENTA;
     for (int k = 0; k < 5; ++k) {
         assert_int_equal(gvi_size(desc + k), 0);
         assert_status(gvi_init(&st, desc + k, memory, sizeof memory), GVI_E_FORMULATION);

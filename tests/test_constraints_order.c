@@ -11,12 +11,14 @@ typedef gvi_real real;
 #include "hard/extrapolate.h"
 
 static real memory[60000];
+static gvi_formulation formulation;
 
 static void set_up(gvi_stepper *st, const linkage *a, int degree, gvi_rule_kind rule, int points)
 {
     gvi_desc desc = linkage_desc(a, degree);
     desc.rule.kind = rule;
     desc.rule.points = points;
+    desc.formulation = formulation;
     assert_true(gvi_size(&desc) > 0 && gvi_size(&desc) <= sizeof memory);
     assert_ok(gvi_init(st, &desc, memory, sizeof memory));
     assert_true(gvi_size(&desc) <= sizeof(real)*GVI_CONSTRAINED_LENGTH(a->n, degree, st->r, a->m));
@@ -189,6 +191,7 @@ TEST(orders_of_q_and_p)
     for (int id = 0; id < LINKAGES; ++id) {
         const linkage a = make_linkage((linkage_id)id);
         const int constant_mass = id != QUATERNION && id != MAGNET;
+        formulation = GVI_AUTO;
         real q[MOST_N], p[MOST_N], q2[MOST_N], p2[MOST_N];
         reference(&a, (linkage_id)id, 1, 60, q, p);
         reference(&a, (linkage_id)id, 1, 50, q2, p2);
@@ -199,6 +202,12 @@ TEST(orders_of_q_and_p)
             if (constant_mass) check_order((linkage_id)id, s, GVI_LOBATTO, s + 1, 2*s, q, p);
             if (s > 1 && constant_mass) check_order((linkage_id)id, s, GVI_LOBATTO, s, 2*s - 2, q, p);
         }
+        formulation = GVI_NEWTON;                 // of which M(q) and Lagrangian terms may have any rule
+        for (int s = 1; s <= 4; ++s) {
+            check_order((linkage_id)id, s, GVI_GAUSS, s, 2*s, q, p);
+            check_order((linkage_id)id, s, GVI_LOBATTO, s + 1, 2*s, q, p);
+        }
+        formulation = GVI_AUTO;
     }
 }
 
@@ -342,6 +351,11 @@ TEST(steps_are_symplectic)
             const real lobatto = ids[k] < QUATERNION ? change_of_form(ids[k], s, GVI_LOBATTO, s + 1) : 0;
             if (getenv("SHOW")) printf("form %d s=%d %.1Le %.1Le\n", ids[k], s, (long double)gauss, (long double)lobatto);
             else { assert_between(0, gauss, 2e-14L); assert_between(0, lobatto, 2e-14L); }
+            formulation = GVI_NEWTON;
+            const real newton = s > 3 ? 0 : change_of_form(ids[k], s, GVI_LOBATTO, s + 1);
+            formulation = GVI_AUTO;
+            if (getenv("SHOW")) printf("form %d s=%d newton %.1Le\n", ids[k], s, (long double)newton);
+            else assert_between(0, newton, 2e-14L);
         }
     assert_between(1e-3L, change_of_form(FRICTION, 2, GVI_GAUSS, 2), 1);       // it can fail
 }

@@ -288,7 +288,7 @@ TEST(no_step_changes_branch)
         if (off <= sqrt(EPS)*4) ++right;
         else ++wrong;
         if (off > sqrt(EPS)*4 && getenv("SHOW"))
-            printf("kind %d degree %d from %.4Lf h %.4Lf: off by %.1Le after %d iterations\n", kind, s, (long double)(side*dist), (long double)h, (long double)off, st.iterations);
+            printf("kind %d degree %d from %.4Lf h %.4Lf: off by %.1Le after %d iterations form %d\n", kind, s, (long double)(side*dist), (long double)h, (long double)off, st.iterations, st.formulation);
     }
     if (getenv("SHOW")) printf("right %d, on another branch %d\n", right, wrong);
     assert_int_equal(wrong, 0);
