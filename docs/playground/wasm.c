@@ -143,8 +143,6 @@ double EXPORT(scene_number)(int scene, int field, int i)
     }
 }
 
-const char *EXPORT(status_text)(int status) { return gvi_status_text((gvi_status)status); }
-
 /* ------------------------------------------------------------------ a world */
 
 /* To be filled before world_open.                                                         */
@@ -348,6 +346,13 @@ double EXPORT(world_number)(int which, int field, int i)
 }
 
 const char *EXPORT(world_formulation)(int which) { return gvi_formulation_text(&worlds[(unsigned)which%WORLDS].st); }
+
+/* What is behind the status of the scene that moves; of any other, what a status alone says.   */
+const char *EXPORT(status_text)(int status)
+{
+    const gvi_stepper *st = &worlds[0].st;
+    return (int)st->status == status ? gvi_why(st) : gvi_status_text((gvi_status)status);
+}
 
 const char *EXPORT(world_call)(int which) { return worlds[(unsigned)which%WORLDS].call; }
 
