@@ -4906,8 +4906,8 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
         if (pass > 0 && !(size < before/4)) break;
         before = size;
     }
-    // rows that are left out had no part in this
-    for (int a = 0; a < m && status == GVI_OK; ++a)
+    // rows that are left out had no part in this; later their g shows what is wrong
+    for (int a = 0; start && a < m && status == GVI_OK; ++a)
         if (drops[a] > 0 && !(r[a]*r[a] <= far*far*drops[a]*energy))
             status = gvi__report_row(st, GVI_E_CONSTRAINT, a, GVI_FAULT_NONE);
     return status;
