@@ -1567,10 +1567,10 @@ static void gvi__ldl_solve(int n, const gvi_real *m, int width, gvi_real *z, int
             gvi__subtract_at(width, count, m + ((size_t)i*N + (size_t)j)*w, z + j*R, z + i*R);
     for (int i = n; i-- > 0; ) {
         const gvi_real *d = m + (size_t)i*(N + 1)*w;
+        const int whole = (width == 1)*gvi__in_lanes(count), each = width > 1;
         int k = 0;
-        for (; GVI__LANES > 1 && width == 1 && k + GVI__LANES <= count; k += GVI__LANES)
-            GVI__STORE(z + i*R + k) *= d[0];
-        for (; k < count; ++k) z[i*R + k] *= d[width > 1 ? k : 0];
+        for (; k < whole; k += GVI__LANES) GVI__STORE(z + i*R + k) *= d[0];
+        for (; k < count; ++k) z[i*R + k] *= d[k*each];
         for (int j = i + 1; j < n; ++j)
             gvi__subtract_at(width, count, m + ((size_t)j*N + (size_t)i)*w, z + j*R, z + i*R);
     }
@@ -1588,7 +1588,7 @@ GVI__BODY int gvi__ldl_factor_lane(int n, int R, gvi_real *m)
     for (size_t j = 0; j < N; ++j) {
         gvi_real *d = m + (j*N + j)*S;
         gvi__lane rest = GVI__LOAD(d);
-        for (size_t l = 0; l < j && l < N; ++l)
+        for (size_t l = 0; l < j; ++l)
             rest -= GVI__LOAD(m + (j*N + l)*S)*GVI__LOAD(m + (l*N + j)*S);
         const gvi__lane inverse = 1/rest, loss = GVI__LOAD(d)*inverse, off = rest*inverse - 1;
         sum += loss*loss + off*off;
@@ -1596,7 +1596,7 @@ GVI__BODY int gvi__ldl_factor_lane(int n, int R, gvi_real *m)
         for (size_t i = j + 1; i < N; ++i) {
             gvi_real *a = m + (i*N + j)*S;
             rest = GVI__LOAD(a);
-            for (size_t l = 0; l < j && l < N; ++l)
+            for (size_t l = 0; l < j; ++l)
                 rest -= GVI__LOAD(m + (j*N + l)*S)*GVI__LOAD(m + (l*N + i)*S);
             GVI__STORE(m + (j*N + i)*S) = rest;
             GVI__STORE(a) = rest*inverse;
@@ -3232,8 +3232,9 @@ GVI__BODY const gvi_real *gvi__weighted(int R, const gvi_real *GVI__RESTRICT w,
                                         const gvi_real *source, gvi_real *GVI__RESTRICT L)
 {
     if (!w) return source;
+    const int whole = gvi__in_lanes(R);
     int j = 0;
-    GVI__UNROLL for (; GVI__LANES > 1 && j + GVI__LANES <= R; j += GVI__LANES)
+    GVI__UNROLL for (; j < whole; j += GVI__LANES)
         GVI__STORE(L + j) = GVI__LOAD(w + j)*GVI__LOAD(source + j);
     for (; j < R; ++j) L[j] = w[j]*source[j];
     return L;
@@ -3557,8 +3558,9 @@ static gvi_status gvi__clock_at(gvi_stepper *st, gvi_real t, const gvi_real *q, 
 static void gvi__clear(size_t n, gvi_real zero, gvi_real *x)
 {
     const gvi__lane none = { 0 }, all = none + zero;
+    const size_t whole = n - n % GVI__LANES;
     size_t i = 0;
-    for (; GVI__LANES > 1 && i + GVI__LANES <= n; i += GVI__LANES) GVI__STORE(x + i) = all;
+    for (; i < whole; i += GVI__LANES) GVI__STORE(x + i) = all;
     for (; i < n; ++i) x[i] = zero;
 }
 
@@ -3910,13 +3912,14 @@ GVI__BODY void gvi__fold(int half, gvi_real *hi, gvi_real *lo)
    partial sums, then these by halves; past the last point the numbers are 0.                  */
 GVI__BODY gvi__two gvi__exact_dot(int R, const gvi_real *a, const gvi_real *b)
 {
-    gvi_real hi[8], lo[8];
-    for (int k = 0; R < 8 && k < 4; ++k) {
-        const gvi__two z = k < R ? gvi__two_prod(a[k], b[k]) : gvi__two_of(0, 0);
-        hi[k] = z.hi;
-        lo[k] = z.lo;
-    }
-    for (int o = 0; o < 8 && R >= 8; o += 8)
+    gvi_real hi[8] = { 0 }, lo[8] = { 0 };
+    if (R < 8)
+        for (int k = 0; k < R; ++k) {
+            const gvi__two z = gvi__two_prod(a[k], b[k]);
+            hi[k] = z.hi;
+            lo[k] = z.lo;
+        }
+    else
         for (int k = 0; k < 8; ++k) {
             const gvi__two z = gvi__two_prod(a[k], b[k]);
             hi[k] = z.hi;
@@ -3968,7 +3971,8 @@ static void gvi__momentum_increment(gvi_stepper *st, const gvi__origin *from)
 {
     struct gvi__private *x = &st->x;
     gvi__sum_rows(st, x->work.F, from->p_low, x->step.p, x->step.p_low);
-    for (int i = 0; gvi__constrained(st) && i < st->n; ++i) {
+    if (!gvi__constrained(st)) return;
+    for (int i = 0; i < st->n; ++i) {
         const gvi__two z = gvi__exact_dot(x->R, x->con.hw, x->con.force + i*x->R),
                        p = gvi__add_low(x->step.p[i], x->step.p_low[i], z.hi, z.lo);
         x->step.p[i] = p.hi;
@@ -4032,15 +4036,20 @@ static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h
 static gvi_real gvi__resolution(const gvi_stepper *st)
 {
     const struct gvi__private *x = &st->x;
-    const int s = st->s, R = x->R, forces = gvi__uses(x, GVI_POSITIONS), pair = s > 4 ? 2 : 1;
-    const gvi_real *row = forces ? x->work.F : x->work.V, unit = forces ? GVI_ABS(x->sized.h) : 1;
-    gvi_real *missed = x->result, *size = missed + st->n, largest = 0, worst = 0;
+    const int s = st->s, R = x->R, forces = gvi__uses(x, GVI_POSITIONS), pair = 1 + (s > 4),
+              held = forces && gvi__constrained(st);
+    const gvi_real *row = x->work.V;
+    gvi_real *missed = x->result, *size = missed + st->n, largest = 0, worst = 0, unit = 1;
+    if (forces) {
+        row = x->work.F;
+        unit = GVI_ABS(x->sized.h);
+    }
     for (int i = 0; i < st->n; ++i, row += R) {
         const gvi_real *a = x->table.high, *force = x->con.force + i*R;
         gvi_real y[4] = { 0, 0, 0, 0 }, start = row[0], end = row[st->r - 1];
         for (int j = 0; j < st->r; ++j, a += 4)
             GVI__UNROLL for (int m = 0; m < 4; ++m) y[m] += a[m]*row[j];
-        for (int m = 0; forces && gvi__constrained(st) && m < 2*pair; ++m) {
+        for (int m = 0; m < held*2*pair; ++m) {
             const int k = s - 1 - m;
             for (int e = 1; e < s; ++e)
                 y[m*2/pair] += x->table.inv_gamma[k]*x->con.Phi[k*R + e - 1]*(x->con.w[e]*force[e]);
@@ -4054,17 +4063,17 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
         const gvi_real all = GVI_ABS(start) + GVI_ABS(end) + high + low,
                        push = GVI_ABS(end - start) + high + low;
         if (pair == 1 && all > 0) high += low*(low/all)/4;   // one mode alone may pass 0
-        const gvi_real most = high > low ? high : low,
-                       share = most > 0 ? high/(push + 32*GVI__EPS*all)*(high/most) : 0,
-                       m = gvi__inertia(st, i), root = GVI_SQRT(forces ? 1/m : m);
-        missed[i] = share*share*push*root;
-        size[i] = all*root;
-        if (size[i] > largest) largest = size[i];
+        const gvi_real most = gvi__larger(high, low);
+        gvi_real share = 0, mass = gvi__inertia(st, i);
+        if (most > 0) share = high/(push + 32*GVI__EPS*all)*(high/most);
+        if (forces) mass = 1/mass;                // p over M
+        missed[i] = share*share*push*GVI_SQRT(mass);
+        size[i] = all*GVI_SQRT(mass);
+        largest = gvi__larger(size[i], largest);
     }
-    for (int i = 0; i < st->n && largest > 0; ++i) {
-        const gvi_real part = missed[i]/(size[i] + GVI__EPS*largest);
-        if (part > worst) worst = part;
-    }
+    if (!(largest > 0)) return 0;
+    for (int i = 0; i < st->n; ++i)
+        worst = gvi__larger(missed[i]/(size[i] + GVI__EPS*largest), worst);
     return (gvi_real)(s*s)*worst;
 }
 
@@ -4073,8 +4082,9 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
 /* z := y + a x                                                                                */
 static void gvi__add_scaled(int n, gvi_real a, const gvi_real *x, const gvi_real *y, gvi_real *z)
 {
+    const int whole = gvi__in_lanes(n);
     int i = 0;
-    for (; GVI__LANES > 1 && i + GVI__LANES <= n; i += GVI__LANES)
+    for (; i < whole; i += GVI__LANES)
         GVI__STORE(z + i) = GVI__LOAD(y + i) + a*GVI__LOAD(x + i);
     for (; i < n; ++i) z[i] = y[i] + a*x[i];
 }
@@ -4103,7 +4113,8 @@ GVI__BODY void gvi__drift(gvi_stepper *st, const gvi__origin *from, const gvi_re
         return;
     }
     const gvi__lane zero = { 0 };
-    for (; GVI__LANES > 1 && n >= 8 && i + GVI__LANES <= n; i += GVI__LANES) {
+    const int whole = (n >= 8)*gvi__in_lanes(n);
+    for (; i < whole; i += GVI__LANES) {
         const gvi__lane p = GVI__LOAD(p0 + i) + b*GVI__LOAD(f + i);
         const gvi__lane d = GVI__LOAD(q0 + i) + a*(GVI__LOAD(v + i) + p*GVI__LOAD(m + i));
         GVI__STORE(dp + i) = p;
@@ -4336,7 +4347,7 @@ static gvi_status gvi__evaluate_constraints(gvi_stepper *st, int S, int count, c
     }
     if (st->x.diagnose && gvi__check_rows(st, &y, q, 0) != GVI_OK)
         return gvi__report_status(st, GVI_E_CONVERGENCE);
-    for (int e = 0; e < st->x.desc.effect_count && status == GVI_OK; ++e) {
+    for (int e = 0; e < st->x.desc.effect_count; ++e) {
         const gvi_effect *effect = st->x.desc.effects + e;
         if (!(gvi__constraints_on(st) >> e & 1u)) continue;
         gvi__count(&st->counters.effect[e], count);
@@ -4347,17 +4358,19 @@ static gvi_status gvi__evaluate_constraints(gvi_stepper *st, int S, int count, c
             rows.n = effect->rows;
             status = gvi__check_rows(st, &rows, y.g, e);
             if (status == GVI_OK) status = gvi__check_rows(st, &rows, y.rate, e);
+            if (status != GVI_OK) return status;
             rows.n *= st->n;
-            if (status == GVI_OK && gvi__check_rows(st, &rows, y.jacobian, e) != GVI_OK) {
-                status = GVI_E_NON_FINITE;
+            status = gvi__check_rows(st, &rows, y.jacobian, e);
+            if (status != GVI_OK) {
                 st->fault.coordinate /= st->n;
+                return status;
             }
         }
         y.g += effect->rows*S;
         y.rate += effect->rows*S;
         y.jacobian += effect->rows*st->n*S;
     }
-    return status;
+    return GVI_OK;
 }
 
 /* z := M^-1 z.  M(q) is that of the stage values, one for one, or of the one point, where with
@@ -4474,8 +4487,10 @@ static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, con
             for (int e = 0; e < ends; e += 2)
                 for (int l = (int)run[e], to = (int)run[e + 1]; l < to; ++l)
                     gvi__subtract_at(S, count, G + (j*n + l)*S, W + l*S, u);
-            for (int l = from > (int)first[j] ? from : (int)first[j]; l < j && j < i; ++l)
-                gvi__subtract_at(S, count, A + (j*m + l)*S, A + (l*m + i)*S, u);
+            if (j == i) break;
+            int l = (int)first[j];
+            if (l < from) l = from;
+            for (; l < j; ++l) gvi__subtract_at(S, count, A + (j*m + l)*S, A + (l*m + i)*S, u);
         }
         run = gvi__runs(st, i, &ends);
         if (full) gvi__zero((size_t)(n*S), W);
@@ -4668,8 +4683,9 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
     for (int a = 0; a < m; ++a) {
         const gvi_real *run = gvi__runs(st, a, &ends);
         if (linear) gvi__copy((size_t)s, x->con.rho + a*R, x->con.g + a*C + 1);
-        for (int k = 0; k < s && x->con.linear; ++k) {
+        for (int k = 0; k < s; ++k) {
             gvi_real change = along[a*C + k], size = 0;
+            if (!x->con.linear) break;
             for (int e = 0; e < ends; e += 2)
                 for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i) {
                     const gvi_real z = G[(a*n + i)*C + k]*moved[i*C + k];
@@ -4679,9 +4695,10 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
             if (!(GVI_ABS(change) <= GVI__EPS*size)) x->con.linear = 0;
         }
     }
-    return status != GVI_OK || ++x->con.made > 1
-               ? status
-               : gvi__factor_constraints(st, C, s, x->con.G, x->con.A, x->con.drops);
+    if (status != GVI_OK) return status;
+    x->con.made += 1;
+    if (x->con.made > 1) return GVI_OK;
+    return gvi__factor_constraints(st, C, s, x->con.G, x->con.A, x->con.drops);
 }
 
 // the new lambda, and forces.  With momenta D' needs the P and V of the new F
@@ -4743,10 +4760,11 @@ GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate
     const struct gvi__private *x = &st->x;
     const int R = x->R, rows = st->n + x->con.m;
     gvi__zero((size_t)(rows*R), x->con.force);
-    for (int k = 0; k < rows*R && extrapolate && x->con.kept == 2; ++k)
-        if (k % R < st->s)
-            x->con.force[k] = gvi__point_sum(st->s, R, x->con.E + k % R,
-                                             x->con.last + k/R*x->con.C + 1);
+    if (!extrapolate || x->con.kept < 2) return;
+    for (int i = 0; i < rows; ++i)
+        for (int e = 0; e < st->s; ++e)
+            x->con.force[i*R + e] = gvi__point_sum(st->s, R, x->con.E + e,
+                                                   x->con.last + i*x->con.C + 1);
 }
 
 // the largest of what a pivot has lost, in units of what is left of it; at: its row and point
@@ -4881,12 +4899,14 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
             status = gvi__report_row(st, GVI_E_SINGULAR, a, GVI_FAULT_NONE);
     }
     if ((start || redundant) && status == GVI_OK) status = gvi__fulfilled(st, t, q, p, v);
+    if (status != GVI_OK) return status;
     gvi__zero((size_t)m, x->con.y);
-    for (int pass = 0; pass < passes && status == GVI_OK; ++pass) {
+    for (int pass = 0; pass < passes; ++pass) {
         gvi_real size = 0;
         int row = 0;
         for (int i = 0; i < n; ++i) p[i] = from->p[i] + (x->step.p[i] + x->step.p_low[i]);
         status = gvi__velocity(st, t, q, p, v);
+        if (status != GVI_OK) return status;
         energy = GVI_ABS(gvi__dot(n, p, v));
         for (int a = 0; a < m; ++a) r[a] = z[a] = -(r[m + a] + gvi__row_dot(st, x->con.G1, a, v));
         gvi__solve_constraints(st, x->con.A1, 1, 1, z, 1);
@@ -4909,10 +4929,11 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
         before = size;
     }
     // rows that are left out had no part in this; later their g shows what is wrong
-    for (int a = 0; start && a < m && status == GVI_OK; ++a)
+    if (!start) return GVI_OK;
+    for (int a = 0; a < m; ++a)
         if (drops[a] > 0 && !(r[a]*r[a] <= far*far*drops[a]*energy))
-            status = gvi__report_row(st, GVI_E_CONSTRAINT, a, GVI_FAULT_NONE);
-    return status;
+            return gvi__report_row(st, GVI_E_CONSTRAINT, a, GVI_FAULT_NONE);
+    return GVI_OK;
 }
 
 // the rows are others now
@@ -5432,13 +5453,17 @@ GVI__COLD gvi_status gvi__set_rule(gvi_stepper *st, const gvi_rule *rule)
         if (status != GVI_OK) return status;
         gvi__make_tables(st);
     }
-    const int forces = gvi__uses(x, GVI_POSITIONS), pair = st->s > 4 ? 2 : 1;
-    for (int m = 0; x->table.high && m < 2*pair; ++m)        // see gvi__resolution
-        for (int j = 0; j < st->r; ++j) {
+    if (x->table.high) {                                     // see gvi__resolution
+        const int pair = 1 + (st->s > 4);
+        const gvi_real *modes = x->table.phi;
+        if (gvi__uses(x, GVI_POSITIONS)) modes = x->table.Phi;
+        for (int m = 0; m < 2*pair; ++m) {
             const int k = st->s - 1 - m;
-            const gvi_real mode = (forces ? x->table.Phi : x->table.phi)[k*x->R + j];
-            x->table.high[4*j + m*2/pair] = x->table.inv_gamma[k]*mode*x->table.b[j];
+            for (int j = 0; j < st->r; ++j)
+                x->table.high[4*j + m*2/pair] =
+                    x->table.inv_gamma[k]*modes[k*x->R + j]*x->table.b[j];
         }
+    }
     if (GVI__CONSTRAINTS && x->con.bits && gvi__set_constraints(st) != GVI_OK) return GVI_E_POINTS;
     // Phi_0 = c on its grid
     if (x->table.Phi) gvi__copy((size_t)st->r, x->table.c, x->table.Phi);
@@ -5700,12 +5725,14 @@ static gvi_status gvi__jacobian_exact(gvi_stepper *st, const gvi__matrix *J)
     for (int k = 0; k < st->r; ++k) {
         gvi__gather(n, R, x->work.Q + k, q);
         gvi__gather(n, R, x->work.V + k, v);
-        for (int i = 0; i < n && gvi__mass_is_constant(x); ++i)
-            for (int j = 0; j < n; ++j) {
-                gvi_real m = i == j ? x->mass.matrix[i] : 0;
-                if (x->desc.mass.kind == GVI_MASS_DENSE)
-                    m = x->mass.matrix[i > j ? i*n + j : j*n + i];
-                gvi__add_derivative(st, J, i, j, k, 0, m, 1);
+        if (gvi__mass_is_constant(x))
+            for (int i = 0; i < n; ++i) {
+                if (x->desc.mass.kind != GVI_MASS_DENSE) {
+                    gvi__add_derivative(st, J, i, i, k, 0, x->mass.matrix[i], 1);
+                    continue;
+                }
+                for (int j = 0; j < n; ++j)
+                    gvi__add_derivative(st, J, i, j, k, 0, x->mass.matrix[gvi__lower(n, i, j)], 1);
             }
         for (int e = 0; e < x->desc.effect_count; ++e) {
             const gvi_effect *effect = x->desc.effects + e;
@@ -5760,13 +5787,15 @@ static gvi_real gvi__difference(const gvi_stepper *st, int j, int by_v)
     const struct gvi__private *x = &st->x;
     const gvi_real root = GVI_SQRT(GVI__EPS), none = GVI__MIN/GVI__EPS, h = GVI_ABS(x->sized.h);
     gvi_real step = root*gvi__reach(st, j, by_v);
-    for (int i = 0, alone = step > none; i < st->n && !alone; ++i) {
-        const gvi_real other = root*gvi__reach(st, i, by_v)
-                               * (x->watch.scale[j]/x->watch.scale[i]);
-        if (other > step && gvi__finite(other)) step = other;
-    }
-    if (!(step > none)) step = h < 1 ? root*h : root;           // all of it is at rest at 0
-    return by_v ? step/h : step;
+    if (!(step > none))
+        for (int i = 0; i < st->n; ++i) {
+            const gvi_real other = root*gvi__reach(st, i, by_v)
+                                   * (x->watch.scale[j]/x->watch.scale[i]);
+            if (other > step && gvi__finite(other)) step = other;
+        }
+    if (!(step > none)) step = root*gvi__smaller(h, 1);         // all of it is at rest at 0
+    if (by_v) return step/h;
+    return step;
 }
 
 // derivatives of what has no Hessian, by forward differences at all points at once
@@ -5779,21 +5808,25 @@ static gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matrix *
     gvi_real *F = x->newton.moved, *P = F + nR, *base_F = P + nR, *base_P = base_F + nR;
     if (!varies && !plain) return GVI_OK;
     gvi_status status = gvi__evaluate_plain(st, base_F);
+    if (status != GVI_OK) return status;
     // of each coordinate q, then v
-    for (int k = 0; k < 2*n && status == GVI_OK; k += 2 - reads_v) {
+    for (int k = 0; k < 2*n; k += 2 - reads_v) {
         const int j = k/2, by_v = k % 2;
-        gvi_real *row = (by_v ? x->work.V : x->work.Q) + j*R, *was = x->row;
+        gvi_real *row = x->work.Q + j*R, *was = x->row;
+        if (by_v) row = x->work.V + j*R;
         const gvi_real d = gvi__difference(st, j, by_v);
         gvi__copy((size_t)R, row, was);
         for (int m = 0; m < st->r; ++m) row[m] += d;
         status = gvi__evaluate_plain(st, F);
-        for (int m = 0; m < st->r && status == GVI_OK; ++m)
-            for (int i = 0, o = m; i < n; ++i, o += R)
-                gvi__add_derivative(st, J, i, j, m, (F[o] - base_F[o])/(row[m] - was[m]),
-                                    (P[o] - base_P[o])/(row[m] - was[m]), by_v);
+        if (status == GVI_OK)
+            for (int m = 0; m < st->r; ++m)
+                for (int i = 0, o = m; i < n; ++i, o += R)
+                    gvi__add_derivative(st, J, i, j, m, (F[o] - base_F[o])/(row[m] - was[m]),
+                                        (P[o] - base_P[o])/(row[m] - was[m]), by_v);
         gvi__copy((size_t)R, was, row);
+        if (status != GVI_OK) return status;
     }
-    return status;
+    return GVI_OK;
 }
 
 // multipliers, constraints, and by differences of G the forces G' lambda, which move with D
@@ -5888,17 +5921,18 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J)
     const int n = st->n, size = (int)gvi__unknowns(st, J->k0), modes = (st->s - J->k0)*n;
     int at;
     gvi_status status = gvi__jacobian_fill(st, J);
-    for (int row = 0; J->scaled && row < size; ++row) {
+    if (status != GVI_OK) return status;
+    for (int row = 0; row < J->scaled*size; ++row) {
         gvi_real *a = J->square + (size_t)row*(size_t)size,
                  *ends = J->ends + (size_t)row*2*(size_t)n, big = 0;
         for (int j = 0; j < size; ++j) {
             a[j] *= st->x.watch.scale[j % n];
-            if (GVI_ABS(a[j]) > big) big = GVI_ABS(a[j]);
+            big = gvi__larger(GVI_ABS(a[j]), big);
         }
-        for (int j = 0; big > 0 && j < size; ++j) a[j] /= big;
-        for (int j = 0; big > 0 && j < 2*n; ++j) ends[j] /= big;
+        if (!(big > 0)) continue;
+        for (int j = 0; j < size; ++j) a[j] /= big;
+        for (int j = 0; j < 2*n; ++j) ends[j] /= big;
     }
-    if (status != GVI_OK) return status;
     status = gvi__lu_factor(size, J->square, J->pivot, &at);
     gvi__count(&st->counters.factorizations, 1);
     if (status == GVI_OK) return GVI_OK;
@@ -6156,9 +6190,10 @@ static gvi_real gvi__newton_apart(const gvi_stepper *st, const gvi_real *other)
             moved[i] += GVI_ABS(x->newton.y[k] - other[k])/x->watch.scale[i];
             size[i] += (GVI_ABS(x->newton.found[k]) + GVI_ABS(other[k]))/x->watch.scale[i];
         }
-        if (size[i] > most) most = size[i];
+        most = gvi__larger(size[i], most);
     }
-    for (int i = 0; i < st->n && most > 0; ++i)
+    if (!(most > 0)) return 0;
+    for (int i = 0; i < st->n; ++i)
         if (!(moved[i]/(size[i] + most/64) <= apart)) apart = moved[i]/(size[i] + most/64);
     return apart;
 }
@@ -6226,10 +6261,12 @@ GVI__CALLED gvi_status gvi__newton_crossing(gvi_stepper *st)
     const int n = st->n, m = x->con.m, C = x->con.C;
     gvi_real *c = x->con.y, *now = x->result, *next = now + n;
     const gvi_points y = gvi__points_at(st, st->r, x->R, x->t, x->work.Q, NULL, NULL);
-    gvi_status status = gvi__mass_is(x, GVI_MASS_POSITION) ? gvi__factor_mass(st, &y) : GVI_OK;
+    gvi_status status = GVI_OK;
+    if (gvi__mass_is(x, GVI_MASS_POSITION)) status = gvi__factor_mass(st, &y);
     if (status == GVI_OK)
         status = gvi__factor_constraints(st, C, st->s, x->con.G, x->con.A, x->con.drops);
-    for (int ej = 0, ends; ej < st->s*m && status == GVI_OK; ++ej) {
+    if (status != GVI_OK) return status;
+    for (int ej = 0, ends; ej < st->s*m; ++ej) {
         const int e = ej/m, j = ej % m;
         const gvi_real *A = x->con.A + e;
         gvi_real taken = 0, all = 0;
@@ -6238,7 +6275,7 @@ GVI__CALLED gvi_status gvi__newton_crossing(gvi_stepper *st)
         gvi__zero(2*(size_t)n, now);
         for (int l = j; l >= 0; --l) {
             const gvi_real *run = gvi__runs(st, l, &ends), *G = x->con.G + l*n*C + e;
-            c[l] = l == j ? 1 : 0;
+            c[l] = (gvi_real)(l == j);
             for (int i = l + 1; i <= j; ++i) c[l] -= A[(i*m + l)*C]*c[i];
             for (int f = 0; f < ends; f += 2)
                 for (int i = (int)run[f]; i < (int)run[f + 1]; ++i) {
@@ -6248,11 +6285,11 @@ GVI__CALLED gvi_status gvi__newton_crossing(gvi_stepper *st)
                 }
         }
         const gvi_real part = gvi__dot(n, now, now), there = gvi__dot(n, next, next);
-        if (16*part < all && !(gvi__dot(n, now, next) > (gvi_real)0.9*GVI_SQRT(part)*GVI_SQRT(there)
-                               && 256*there > part))
-            status = gvi__report_row(st, GVI_E_SINGULAR, j, e);
+        const int goes_on = 256*there > part
+            && gvi__dot(n, now, next) > (gvi_real)0.9*GVI_SQRT(part)*GVI_SQRT(there);
+        if (16*part < all && !goes_on) return gvi__report_row(st, GVI_E_SINGULAR, j, e);
     }
-    return status;
+    return GVI_OK;
 }
 
 /* Newton's method for a step.  A solution is taken for the motion's where the iteration contracts
@@ -6485,7 +6522,9 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
         if (change > before && share > (gvi_real)0.02) share /= 2;
     }
     x->diagnose = 0;
-    for (int pass = 0; pass < 2 && gvi__constrained(st) && status == GVI_OK; ++pass) {
+    int passes = 0;
+    if (gvi__constrained(st) && status == GVI_OK) passes = 2;
+    for (int pass = 0; pass < passes; ++pass) {
         for (int a = 0; a < m; ++a)
             z[a] = r[a] = -(x->con.g[m + a] + gvi__row_dot(st, x->con.G1, a, u));
         gvi__solve_constraints(st, x->con.A1, 1, 1, z, 1);
@@ -6499,7 +6538,8 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
     if (status != GVI_OK) return st->status = status;
     gvi__copy((size_t)n, next, q);
     gvi__copy((size_t)n, u, v);
-    for (int k = 0; moved && k < 2; ++k) moved[k] = GVI_SQRT(GVI_ABS(far[k]));
+    if (!moved) return gvi__report_status(st, GVI_OK);
+    for (int k = 0; k < 2; ++k) moved[k] = GVI_SQRT(GVI_ABS(far[k]));
     return gvi__report_status(st, GVI_OK);
 }
 
