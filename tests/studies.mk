@@ -166,7 +166,7 @@ mutants: | $(FIRST)
 
 # -- hard cases and theorems, measured
 
-HARD     = constraints constraints-float eccentric flyby roots eccentric-float pythagorean corners corners-float stiff long long-float brouwer brouwer-float drift
+HARD     = dial constraints constraints-float eccentric flyby roots eccentric-float pythagorean corners corners-float stiff long long-float brouwer brouwer-float drift
 ORDERS   = order lagrangian curve forced
 THEOREMS = spectral inertia stability
 # Orders need more digits than long double has on x86.
