@@ -850,8 +850,8 @@ typedef struct gvi_stepper {
     int             iterations;       /* in the last step                       */
     gvi_real        resolution;       /* of the last step that was tried, with desc.resolution:
                                          the largest error of a coordinate and its velocity, over
-                                         both, as the modes of the curve show it (ENGINE); as a
-                                         rule the error is 1/1000 to 3 times that        */
+                                         both, as the modes of the curve show it (ENGINE); the
+                                         error is usually far smaller, rarely 10 times that */
     gvi_real        next;             /* the length that gvi_advance will try; may be set  */
     gvi_counters    counters;
     struct gvi__private x;
