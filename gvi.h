@@ -2716,8 +2716,8 @@ static gvi_real gvi__length(gvi_real k)
 }
 
 /* st.next after a step of length h.  `room` rungs up the resolution, of order 2s - 1 in h, would be
-   at its limit: as it was in this step, less what it has lost since the last.  Half a rung is too
-   little, two and a half are too much.                                                        */
+   at its limit: as it was in this step, less what it has lost since the last.  From 0 to 4 of them
+   h stays as it is.                                                                           */
 static void gvi__set_next(gvi_stepper *st, gvi_status status, gvi_real h)
 {
     const gvi_real seen = st->resolution > GVI__MIN ? st->resolution : GVI__MIN, at = gvi__rungs(h);
@@ -2728,8 +2728,8 @@ static void gvi__set_next(gvi_stepper *st, gvi_status status, gvi_real h)
         st->x.reach = at + room;
         if (loss > 0) room -= loss;
     }
-    if (room > (gvi_real)2.5) up = room < 5 ? room - 1 : 4;
-    if (room < (gvi_real)0.5) up = room > -7 ? room - 1 : -8;
+    if (room > 4) up = room < 6 ? room - (gvi_real)1.5 : 4;
+    if (room < 0) up = room > -7 ? room - 1 : -8;
     if (status != GVI_OK && status != GVI_E_RESOLUTION) up = -8;
     const gvi_real next = gvi__length(at + up);
     if ((up > 0 && h >= st->next) || (up < 0 && next < st->next)) st->next = next;

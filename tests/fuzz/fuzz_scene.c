@@ -251,7 +251,7 @@ static void check(const gvi_stepper *st, const gvi_desc *d, const double *before
         after[1 + N + i] = st->p[i];
         finite = finite && isfinite(st->q[i]) && isfinite(st->p[i]);
     }
-    if (status > GVI_OK || status < GVI_E_CONSTRAINT) broken("a status that is none", status);
+    if (status > GVI_OK || status < GVI_E_RESOLUTION) broken("a status that is none", status);
     if ((status != GVI_OK || !changes) && memcmp(before, after, sizeof after)) broken("the state has changed",
                                                                                     status);
     if (status == GVI_OK && !finite) broken("a state that is not finite", status);
@@ -325,7 +325,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     memset(base, 0xA5, all*sizeof *base);
     memset(memory, 0xFF, length*sizeof *base);                    /* NaN: to be written before it is read */
     const gvi_status status = gvi_init(&st, &d, memory, needed ? needed : sizeof(double));
-    if (status > GVI_OK || status < GVI_E_CONSTRAINT) broken("a status that is none", status);
+    if (status > GVI_OK || status < GVI_E_RESOLUTION) broken("a status that is none", status);
     if (status == GVI_OK && !needed) broken("no size, and yet it works", status);
     started += status == GVI_OK;
     if (status == GVI_OK)

@@ -410,8 +410,8 @@ static void one_step(const family *f, void *a, gvi_stepper *st, double h, const 
     double z[2*MOST], end[2*MOST], unit[2*MOST], exact[2*MOST], rougher[2*MOST], branch[2*MOST];
     for (int i = 0; i < n; ++i) z[i] = st->q[i], z[n + i] = st->p[i];
     st->counters.worst_resolution = 0;
-    const int ok = gvi_step(st, h) == GVI_OK, many = g->s > 1;            // a single point sees no modes
-    const int unseen = many && !(st->counters.worst_resolution > (g->s > 3 ? 1e-3 : 5e-5));
+    const int ok = gvi_step(st, h) == GVI_OK, many = g->s > 2;            // lower degrees have no measure
+    const int unseen = many && !(st->resolution > 1e-5);
     units_of(f, a, z, h, unit);
     *(ok ? &t->ok : &t->refused) += 1;
     const motion exactly = { m, f->rates, a };
@@ -453,7 +453,7 @@ static void run(const family *f, long steps, tally *t)
         const int d = (int)(k/3 % COUNT(degrees));
         f->draw(a, q, v, &h);
         const gvi_effect effect = { .kind = f->kind, .point = f->effect, .user = a };
-        const gvi_desc desc = { .n = f->n, .degree = degrees[d], .effects = &effect, .effect_count = 1,
+        const gvi_desc desc = { .n = f->n, .degree = degrees[d], .resolution = degrees[d] > 2 ? 0.99 : 0, .effects = &effect, .effect_count = 1,
                                 .mass = { .kind = f->mass, .points = f->points, .gradient = f->gradient, .user = a },
                                 .formulation = k/18 % 4 == 3 ? GVI_NEWTON : GVI_AUTO };
         gvi_stepper st;
