@@ -156,30 +156,34 @@ TEST(compositions_and_splittings_have_their_orders)
     check_order("Splitting 8", 8, 0.5);
 }
 
-/* Over the number of steps, which its controls choose                                          */
+/* Its eight points integrate c^m exactly to m = 14, twice to m = 13, and no further: order 15.   */
 TEST(gauss_radau_has_order_15)
 {
-    static const char *const names[] = { "Gauss-Radau 15", "Gauss-Radau 15 Everhart", "Gauss-Radau 15 Everhart c" };
-    for (int i = 0; i < COUNT(names); ++i) {
-        const baseline *b = baseline_named(names[i]);
-        fit f = { 0, 0, 0, 0, 0 };
-        for (int k = 0; k < 100; ++k) {
-            static const double ends[] = { 20, 21.3, 22.9, 24.1 };
-            long double worst = 0, steps = 0, reference[3];
-            for (int j = 0; j < COUNT(ends); ++j) {
-                static outcome o;
-                const problem p = problem_for(b, ends[j], reference);
-                b->run(&p, b, pow(0.7, k), NULL, &o);
-                worst = o.failed ? 1 : fmaxl(worst, error_at(&p, &o));
-                steps += o.steps;
-            }
-            if (!(worst < 1e-5L)) continue;
-            if (worst < 1e-12L) break;
-            add_point(&f, logl(steps), -logl(worst));
+    for (int m = 0; m <= 15; ++m) {
+        double k[RADAU], v = 0, q = 0;
+        for (int i = 0; i < RADAU; ++i) {
+            k[i] = i > 0 ? radau.d[i][0]*(pow(radau.c[i], m) - k[0]) : m == 0;
+            for (int j = 1; j < i; ++j) k[i] += radau.d[i][j]*k[j];
         }
-        assert_true(f.count >= 4);
-        print_message("    %-26s 15: %.2Lf\n", names[i], slope_of(&f));
-        assert_close(slope_of(&f), 15, 1.5);
+        for (int i = 0; i < RADAU; ++i) {
+            v += radau.v[0][i]*k[i];
+            q += radau.q[0][i]*k[i];
+        }
+        assert_true((fabs(v - 1.0/(m + 1)) < 1e-15) == (m <= 14));
+        assert_true((fabs(q - 1.0/((m + 1)*(m + 2))) < 1e-15) == (m <= 13));
+    }
+}
+
+TEST(gauss_radau_follows_its_tolerance)
+{
+    static const struct { const char *name; double coarse, fine; } runs[] = {
+        { "Gauss-Radau 15", 1, 1e-3 }, { "Gauss-Radau 15 Everhart", 1e-4, 1e-9 }, { "Gauss-Radau 15 Everhart c", 1e-4, 1e-9 } };
+    for (int i = 0; i < COUNT(runs); ++i) {
+        int failed[2];
+        const baseline *b = baseline_named(runs[i].name);
+        const double coarse = (double)errors_of(b, runs[i].coarse, failed), fine = (double)errors_of(b, runs[i].fine, failed + 1);
+        print_message("    %-26s %.1e, %.1e\n", runs[i].name, coarse, fine);
+        assert_true(!failed[0] && !failed[1] && coarse < 1e-2 && coarse > 1e-9 && fine < 1e-10);
     }
 }
 

@@ -281,7 +281,8 @@ static void study_gvi(study *y, const options *o, double length)
             w.smallest = 0.9e-14;
         }
         job j = { y->p, NULL, g, malloc(sizeof(double)*(size_t)gvi_run_memory(y->p, g)) };
-        curve *c = new_curve(y, g->dial ? "gvi.h by its dial" : o->dial ? "gvi.h, fixed steps" : "gvi.h", 1, 1);
+        const char *rest = o->dial ? "gvi.h, fixed steps" : "gvi.h";
+        curve *c = new_curve(y, g->dial ? "gvi.h by its dial" : rest, 1, 1);
         c->job = j;
         gvi_setting_name(g, sizeof c->name, c->name);
         if (j.memory) run_curve(y, o, &w, c);
@@ -302,7 +303,7 @@ static void study_rival(study *y, const options *o, const baseline *b, double le
     sweep w = steps_from(y->p->evaluations*length/b->cost, 20*y->p->limit*length, o);
     if (b->adaptive) {
         w.first = 1.28;
-        w.factor = o->quick ? 0.2 : o->dial ? 0.25 : 0.5;
+        w.factor = o->quick || o->dial ? 0.2 : 0.5;
         w.smallest = 2e-16;
     }
     job j = { y->p, b, NULL, NULL };
