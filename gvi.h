@@ -3394,7 +3394,7 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
         // near a bifurcation it would be leaving the motion, perhaps for that of another branch
         int at[2];
         const gvi_real loss = gvi__loss(st, at);
-        if (loss > 3 && D > 65536*rounding*loss*loss) return GVI__DIVERGES;
+        if (loss > 3 && D > 65536*rounding*loss*loss*loss) return GVI__DIVERGES;
     }
     const int poor = p->growing > (D > far ? 4 : 2) && D > 65536*rounding;
     const int wait = gvi__constrained(st) ? 0 : 1;           // the rounding of g is in every D
