@@ -773,8 +773,8 @@ GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_rea
 GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_real h,
                                             const gvi_real *q0, const gvi_real *q1);
 
-/* q and v [n], in place, to the nearest that fulfil the constraints that are on at t, to rounding: q
-   such that (q' - q)'M(q' - q) is least, then v likewise, M that there (with Lagrangian terms
+/* q and v [n], in place, to the nearest that fulfil the constraints that are on, at t, to rounding:
+   q such that (q' - q)'M(q' - q) is least, then v likewise, M that there (with Lagrangian terms
    d2L/dv2).  For coordinates from a file; then gvi_start takes them.  moved, or NULL: the lengths
    sqrt(dq'M dq), sqrt(dv'M dv) of what was added to q and v.  The state and the switches stay: for
    a constraint to come, where the state is off it, gvi_init, this, gvi_start.  GVI_E_CONVERGENCE:
@@ -5265,7 +5265,7 @@ GVI__CALLED gvi_status gvi__jacobian_constraints(gvi_stepper *st, const gvi__mat
 {
     struct gvi__private *x = &st->x;
     const int n = st->n, m = x->con.m, s = st->s, R = x->R, C = x->con.C, moves = s > 1 ? n : 0;
-    const gvi_real *const Phi = x->con.Phi - 1, h = x->sized.h, *const t = x->con.t;   // at D_e: [e]
+    const gvi_real *const Phi = x->con.Phi - 1, h = x->sized.h, *const t = x->con.t;  // D_e: [e]
     gvi_real *force = x->con.force, *base = x->con.free, *at = x->con.at, *was = x->row;
     const size_t size = gvi__unknowns(st, 0), sn = (size_t)(s*n);
     gvi_status status = GVI_OK;
@@ -5542,7 +5542,8 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
     struct gvi__private *x = &st->x;
     // that of steps, not of queries
     const int size = (int)gvi__unknowns(st, J->k0), kept = J->pivot == x->newton.pivot;
-    gvi__descent p = { 0, 0, GVI__MAX, (gvi_real)0.25, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0, -1, 0 };
+    gvi__descent p = { 0, 0, GVI__MAX, (gvi_real)0.25, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0, -1,
+                       0 };
     p.have = kept && !gvi__nonzero(x->newton.h - x->sized.h);
     x->newton.bend = 0;
     for (int k = 0, made = 0, verdict = GVI__GO_ON; k <= x->desc.max_iterations; ++k) {
@@ -5638,7 +5639,7 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
     const unsigned count = (unsigned)st->counters.newton_iterations,
                    enough = 32*(unsigned)st->x.desc.max_iterations;
     const int sign = gvi__orientation(J, all);
-    const gvi__matrix K = { x->J + all*all, x->pivot + all + 1, NULL, 0, 0, 0 };   // that of queries
+    const gvi__matrix K = { x->J + all*all, x->pivot + all + 1, NULL, 0, 0, 0 };  // of queries
     gvi_real part = 1, factor = (gvi_real)0.5;
     int right = -1;                                                  // not known
     gvi__copy(all, x->y, x->found);
