@@ -893,8 +893,8 @@ GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_rea
 GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_real h,
                                             const gvi_real *q0, const gvi_real *q1);
 
-/* q and v [n], in place, to the nearest that fulfil the constraints that are on at t, to rounding: q
-   such that (q' - q)'M(q' - q) is least, then v likewise, M that there (with Lagrangian terms
+/* q and v [n], in place, to the nearest that fulfil the constraints that are on, at t, to rounding:
+   q such that (q' - q)'M(q' - q) is least, then v likewise, M that there (with Lagrangian terms
    d2L/dv2).  For coordinates from a file; then gvi_start takes them.  moved, or NULL: the lengths
    sqrt(dq'M dq), sqrt(dv'M dv) of what was added to q and v.  The state and the switches stay: for
    a constraint to come, where the state is off it, gvi_init, this, gvi_start.  GVI_E_CONVERGENCE:
@@ -3809,7 +3809,7 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
         // near a bifurcation it would be leaving the motion, perhaps for that of another branch
         int at[2];
         const gvi_real loss = gvi__loss(st, at);
-        if (loss > 3 && D > 256*rounding*loss*loss) return GVI__DIVERGES;
+        if (loss > 3 && D > 256*rounding*loss*loss*loss) return GVI__DIVERGES;
     }
     int allowed = POOR;
     if (D > far) allowed = POOR_FAR;
