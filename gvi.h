@@ -2841,18 +2841,15 @@ static int gvi__finite_end(const gvi_stepper *st, const gvi__origin *from)
     return none >= 0;
 }
 
-/* At a first start: callbacks that fill their first point alone, or set f and dldv with = in place
-   of adding to them.  All points are a little past q, where a force that is 0 at the start is not.
-   From 0 an effect shows which points it fills; from the largest number, whether it adds.     */
-GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
+/* All points of a step at one state, at rows [n][R] for f and, behind them, dldv; of kicks one.  */
+GVI__COLD gvi_points gvi__all_points_at(gvi_stepper *st, gvi_real t, const gvi_real *q,
+                                        const gvi_real *v)
 {
     struct gvi__private *x = &st->x;
-    const gvi_counters counters = st->counters;          // a probe is no step's work
-    const int n = st->n, kicks = gvi__rule_is(x, GVI_KICKS);
-    const gvi_real past = GVI_SQRT(GVI__EPS);
+    const int n = st->n;
     int R = x->R, count = st->r;
     gvi_real *rows = x->work.F;
-    if (kicks) R = count = 1;
+    if (gvi__rule_is(x, GVI_KICKS)) R = count = 1;
     if (x->newton.moved) rows = x->newton.moved;
     if (x->free.rows) rows = x->free.rows;
     gvi_points y = gvi__points_at(st, count, R, x->t, x->work.Q, rows, rows + n*R);
@@ -2860,9 +2857,23 @@ GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, 
     for (int k = 0; k < R; ++k) x->t[k] = t;
     for (int i = 0; i < n*R; ++i) {
         x->work.Q[i] = q[i/R];
-        if (i % R < count) x->work.Q[i] += past*v[i/R];
         if (x->work.V) x->work.V[i] = v[i/R];
     }
+    return y;
+}
+
+/* At a first start: callbacks that fill their first point alone, or set f and dldv with = in place
+   of adding to them.  All points are a little past q, where a force that is 0 at the start is not.
+   From 0 an effect shows which points it fills; from the largest number, whether it adds.     */
+GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
+{
+    struct gvi__private *x = &st->x;
+    const gvi_counters counters = st->counters;          // a probe is no step's work
+    gvi_points y = gvi__all_points_at(st, t, q, v);
+    const int n = st->n, R = y.stride, count = y.count;
+    gvi_real *rows = y.f;
+    for (int i = 0; i < n*R; ++i)
+        if (i % R < count) x->work.Q[i] += GVI_SQRT(GVI__EPS)*v[i/R];
     const char *slip = NULL;
     for (int e = 0; e < x->desc.effect_count; ++e) {
         int all = n*R, first = 0, others = 0, huge = 0, set = 0;
@@ -3012,13 +3023,19 @@ GVI__COLD gvi_status gvi__explain(gvi_stepper *st, gvi_status status)
                 if (drops[a] > 0) return status;
     }
     if (start == GVI_OK) {
-        gvi_points y = gvi__one_point(st, &st->t, st->q);
-        y.v = v;
-        gvi__zero(2*(size_t)st->n, y.f);                 // and dldv, which is behind it
+        gvi_points y = gvi__all_points_at(st, st->t, st->q, v);
+        gvi__zero((size_t)(st->n*y.stride), y.f);
+        if (gvi__has(x, GVI__HAS_LAGRANGIAN)) gvi__zero((size_t)(st->n*y.stride), y.dldv);
+        else y.dldv = NULL;
         x->diagnose = 1;
         start = gvi__effects(st, &y, 0, NULL);
         x->diagnose = 0;
-        st->fault.point = GVI_FAULT_NONE;
+        if (start == GVI_E_NON_FINITE) {                 // of the state, if it is so at all points
+            const int row = st->fault.coordinate*y.stride;
+            for (int k = row; k < row + y.count; ++k)
+                if (gvi__finite(y.f[k]) && (!y.dldv || gvi__finite(y.dldv[k]))) start = GVI_OK;
+            st->fault.point = GVI_FAULT_NONE;
+        }
     }
     st->counters = counters;
     if (start == GVI_E_SINGULAR || start == GVI_E_NON_FINITE) return start;

@@ -106,6 +106,29 @@ static int dial(void)
     return st.status != GVI_OK || fabs(st.q[0] - 0.01) > 1e-9;
 }
 
+GVI_POINTS(rod, 2, rows(1))(const gvi_points *x, void *user)
+{
+    x->g[0] = (x->q[0]*x->q[0] + x->q[1]*x->q[1] - 1)/2;
+    x->jacobian[0] = x->q[0];
+    x->jacobian[1] = x->q[1];
+    return (void)user, 0;
+}
+
+// three digits on a circle of radius 1
+static int from_a_file(void)
+{
+    static double memory[GVI_CONSTRAINED_LENGTH(2, 8, 8, 1)];
+    const gvi_effect scene[] = { { .kind = GVI_CONSTRAINT, .points = rod, .rows = 1 } };
+    const gvi_desc desc = { .n = 2, .effects = scene, .effect_count = 1 };
+    double q[] = { 0.6, 0.801 }, v[] = { 1, 1 };
+    gvi_stepper st;
+    double moved[2];
+    gvi_init(&st, &desc, memory, sizeof memory);
+    gvi_project(&st, 0, q, v, moved);          // moved: of q and of v, sqrt(d'M d)
+    gvi_start(&st, 0, q, v);
+    return st.status != GVI_OK || !(moved[0] > 1e-4 && moved[0] < 1e-3);
+}
+
 int main(void)
 {
     const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .point = stiff, .hessian = stiff_hessian } };
@@ -126,5 +149,5 @@ int main(void)
     if (gvi_init(&st, &verlet, memory, sizeof memory) || st.formulation != GVI_EXPLICIT) return 1;
     if (gvi_init(&st, &radau, memory, sizeof memory) || st.order != 3) return 2;
     if (gvi_init(&st, &forest, memory, sizeof memory) || st.formulation != GVI_EXPLICIT) return 3;
-    return comet() || dial() || bodies();
+    return comet() || dial() || bodies() || from_a_file();
 }
