@@ -6,6 +6,8 @@
 #   private members     of struct gvi__private: a struct within counts as one; then its members instead, if it is written out there
 #   prose               a line of whose characters, blanks apart, half or more are comment; of all lines that are not empty.
 #                       commented: a line with any comment
+#   conditionals        ?: in 100 lines of code of the implementation, and statements that hold two or more; of the for loops,
+#                       those whose condition holds an &&
 #   CC FLAGS            object: text and constants of a file with GVI_IMPLEMENTATION alone, as size counts them; time of the compiler
 set -eu
 build=$1
@@ -68,6 +70,27 @@ LC_ALL=C awk '
         row("prose", sprintf("%.1f %% of %d lines that are not empty", 100*prose/full, full))
         row("commented", sprintf("%.1f %%", 100*commented/full))
     }' "$from/gvi.h"
+
+sed -n '/^#if defined(GVI_IMPLEMENTATION)/,$p' "$from/gvi.h" | LC_ALL=C awk '
+    { gsub(/"([^"\\]|\\.)*"/, "text"); sub(/\/\/.*/, ""); gsub(/\/\*[^*]*\*\//, "") }
+    within { if (!sub(/.*\*\//, "")) next; within = 0 }
+    /\/\*/ { sub(/\/\*.*/, ""); within = 1 }
+    /^[ \t]*#/ || !/[^ \t]/ { next }
+    {
+        ++code
+        conditionals += gsub(/\?/, "?")
+        if (/for \(/) { ++loops; if (/for \([^;]*;[^;]*&&/) ++folded }
+        statement = statement $0
+        while (match(statement, /[;{}]/)) {
+            one = substr(statement, 1, RSTART)
+            if (gsub(/\?/, "?", one) > 1) ++nested
+            statement = substr(statement, RSTART + 1)
+        }
+    }
+    END {
+        printf "%-23s %.1f in 100 lines of code, %d nested\n", "conditionals", 100*conditionals/code, nested
+        printf "%-23s %d of %d for loops, %.0f %%\n", "folded loops", folded, loops, 100*folded/loops
+    }'
 
 # Comments, directives and what other headers bring are gone; texts and characters go here
 $CC -std=gnu99 -E -I"$from" "$dir/gvi.c" | LC_ALL=C awk '
