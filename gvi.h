@@ -60,9 +60,11 @@
                  (magnetic fields), GVI_CONSTRAINT holds g = 0 (rods, joints)
      memory      gvi_size(&desc) bytes, or an array of GVI_LENGTH(n, s, r) numbers
      run         gvi_init once; gvi_start with q and v; gvi_step(&st, h) as often
-                 as you like, an eighth of the fastest period being a good h
+                 as you like: an eighth of the fastest period is a good first h
+     accuracy    or set desc.resolution, 1e-12 say, and gvi_advance chooses each h
      read        st.t, st.q, st.p; gvi_velocity, gvi_energy; gvi_state_at between steps
-     status      0, or negative, kept in st.status; a step that fails changes nothing
+     status      0, or negative, kept in st.status; a step that fails changes nothing,
+                 and gvi_why(&st) is a sentence that says what to do
      angles      their mass depends on q: desc.mass.kind = GVI_MASS_POSITION
 
 
@@ -112,10 +114,9 @@
    units      None: time, lengths and masses are the caller's, coordinate by
               coordinate; no tolerance or test of the library depends on them.
               What is below 1e-307 (float: 1e-37) counts as 0.
-   rounding   Round to nearest, subnormals kept; -ffast-math and its parts are refused,
-              or without effect.
-              q, p and t carry compensation terms, so 1e9 steps of t + h are
-              as exact as one.  Compiled with -ffp-contract=off, the same bits on
+   rounding   Round to nearest, subnormals kept; -ffast-math and its parts are
+              refused, or without effect.  q, p and t carry compensation terms,
+              so 1e9 steps of t + h are as exact as one.  Compiled with -ffp-contract=off, the same bits on
               every IEEE machine but x87, if the callbacks give the same bits and
               products stay between 1e-290 and 1e299 (float: 1e-30 and 1e34);
               beyond, their low words depend on FMA.
@@ -125,8 +126,7 @@
               settle: its changes then count as rounding below 32 eps of the
               largest |q_i| sqrt(M_ii).
 
-   gvi.h does not: choose or adapt the step, treat contact, run in parallel, or
-   read or write anything.
+   gvi.h does not: treat contact, run in parallel, or read or write anything.
 
 
    OPTIONS
