@@ -2752,7 +2752,7 @@ GVI__CALLED void gvi__constraint_rows(const gvi_stepper *st, const struct gvi__s
 GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin *from);
 GVI__CALLED void gvi__constrain(gvi_stepper *st, const struct gvi__stage *y, const gvi_real *q0);
 GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate);
-GVI__CALLED int gvi__constraints_rest(const gvi_stepper *st);
+GVI__CALLED void gvi__constraints_moved(const gvi_stepper *st, gvi_real *moved);
 static gvi_status gvi__constraints_at(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                       const gvi_real *p, gvi_real *v, gvi_real *drops);
 GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int *at);
@@ -3714,8 +3714,8 @@ static gvi_real gvi__inertia(const gvi_stepper *st, int i)
 static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *y, int stages)
 {
     const int R = st->x.R, C = st->x.con.C, held = gvi__constrained(st)*st->s;
-    const gvi_real rests = (gvi_real)(held && gvi__constraints_rest(st));
-    gvi_real largest = 0, noise = 0;
+    gvi_real largest = 0, noise = 0, *moved = st->x.con.W;       // n sums for each source
+    if (held) gvi__constraints_moved(st, moved);
     for (int k = 0; k < stages; ++k) {
         if (!y[k].scale) continue;
         for (int i = 0; i < st->n; ++i) {
@@ -3726,10 +3726,8 @@ static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *
             unit *= GVI_SQRT(m);
             for (int j = 0; j < st->r; ++j) size = gvi__larger(GVI_ABS(row[j]), size);
             for (int e = 0; e < held; ++e) {
-                gvi_real force = 32*GVI__EPS*GVI_ABS(h*st->x.con.force[i*R + e]), moved = 0;
-                for (int a = 0; a < st->x.con.m; ++a)
-                    moved += GVI_ABS(st->x.con.G[(a*st->n + i)*C + e]*st->x.con.rho[a*R + e]);
-                force += rests*moved/GVI_ABS(st->x.con.hw[e]);
+                const gvi_real force = 32*GVI__EPS*GVI_ABS(h*st->x.con.force[i*R + e])
+                                       + moved[i*C + e]/GVI_ABS(st->x.con.hw[e]);
                 push = gvi__larger(GVI_ABS(h)*force/m, push);
             }
             if (y[k].scale[i] > 0) change = GVI_SQRT(y[k].change[i])/y[k].scale[i];
@@ -4726,7 +4724,7 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *y, const gvi_
     gvi__zero((size_t)(m*R), rho);
     for (int a = 0, ends; a < m; ++a) {
         const gvi_real *run = gvi__runs(st, a, &ends);
-        gvi_real *g = rho + m*R + a*C;             // gvi__constraints_rest reads it
+        gvi_real *g = rho + m*R + a*C;             // gvi__constraints_moved reads it
         gvi__copy((size_t)s, x->con.g + a*C + 1, g);
         for (int e = 0; e < ends; e += 2)
             for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i)
@@ -4739,19 +4737,27 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *y, const gvi_
     gvi__constraint_forces(st);
 }
 
-// was all that lambda's last change came from rounding, 8 eps of the terms that are known?
-GVI__CALLED int gvi__constraints_rest(const gvi_stepper *st)
+// |G|'|rho| of lambda's last change, or 0 if that was not all rounding, 8 eps of the known terms
+GVI__CALLED void gvi__constraints_moved(const gvi_stepper *st, gvi_real *moved)
 {
     const struct gvi__private *x = &st->x;
-    const int n = st->n, m = x->con.m, C = x->con.C;
-    for (int a = 0; a < m; ++a)
+    const int n = st->n, m = x->con.m, R = x->R, C = x->con.C;
+    int rests = 1;
+    gvi__zero((size_t)(n*C), moved);
+    for (int a = 0, ends; a < m; ++a) {
+        const gvi_real *run = gvi__runs(st, a, &ends);
         for (int k = 1; k <= st->s; ++k) {
             gvi_real terms = GVI_ABS(x->con.g[(m + a)*C + k]*x->con.t[k]);
-            for (int i = 0; i < n; ++i)
-                terms += GVI_ABS(x->con.G[(a*n + i)*C + k]*x->con.at[i*C + k]);
-            if (!(GVI_ABS(x->con.rho[m*x->R + a*C + k - 1]) <= 8*GVI__EPS*terms)) return 0;
+            for (int e = 0; e < ends; e += 2)
+                for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i) {
+                    const gvi_real *G = x->con.G + (a*n + i)*C + k;
+                    terms += GVI_ABS(G[0]*x->con.at[i*C + k]);
+                    moved[i*C + k - 1] += GVI_ABS(G[-1]*x->con.rho[a*R + k - 1]);
+                }
+            rests &= GVI_ABS(x->con.rho[m*R + a*C + k - 1]) <= 8*GVI__EPS*terms;
         }
-    return 1;
+    }
+    if (!rests) gvi__zero((size_t)(n*C), moved);
 }
 
 // forces and lambda to begin with: those of the last step, extrapolated, or none
@@ -6484,13 +6490,17 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
     gvi_real *e = x->step.q, *f = x->step.p, *next = x->result, *d = next + n, *u = d + n,
              *push = x->point, *z = x->con.rho, *r = z + m, *back = r + m,
              *drops = x->con.drops + m, far[2] = { 0, 0 }, change = GVI__MAX, before, share = 1;
+    if (!gvi__constrained(st)) {
+        if (moved) moved[0] = moved[1] = 0;
+        return gvi__report_status(st, GVI_OK);
+    }
     gvi__zero((size_t)n, e);
     gvi__zero((size_t)n, f);
     gvi__copy((size_t)n, q, next);
     gvi__copy((size_t)n, v, u);
-    if (gvi__constrained(st)) gvi__forget_runs(st);
+    gvi__forget_runs(st);
     x->diagnose = 1;
-    for (int k = 0; gvi__constrained(st); ++k) {
+    for (int k = 0; ; ++k) {
         status = gvi__constraints_at(st, t, next, NULL, u, drops);
         if (k > 1 && !(change < before*(gvi_real)0.9) && status == GVI_OK) {
             if (gvi__fulfilled(st, t, next, NULL, u) == GVI_OK) break;
@@ -6522,9 +6532,11 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
         if (change > before && share > (gvi_real)0.02) share /= 2;
     }
     x->diagnose = 0;
-    int passes = 0;
-    if (gvi__constrained(st) && status == GVI_OK) passes = 2;
-    for (int pass = 0; pass < passes; ++pass) {
+    if (status != GVI_OK) {
+        gvi__forget_runs(st);
+        return st->status = status;
+    }
+    for (int pass = 0; pass < 2; ++pass) {
         for (int a = 0; a < m; ++a)
             z[a] = r[a] = -(x->con.g[m + a] + gvi__row_dot(st, x->con.G1, a, u));
         gvi__solve_constraints(st, x->con.A1, 1, 1, z, 1);
@@ -6534,8 +6546,7 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
         gvi__add_scaled(n, 1, d, u, u);
         if (pass == 0) far[1] = gvi__dot(m, r, z);
     }
-    if (gvi__constrained(st)) gvi__forget_runs(st);
-    if (status != GVI_OK) return st->status = status;
+    gvi__forget_runs(st);
     gvi__copy((size_t)n, next, q);
     gvi__copy((size_t)n, u, v);
     if (!moved) return gvi__report_status(st, GVI_OK);
