@@ -4672,7 +4672,6 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
     const int n = st->n, m = x->con.m, s = st->s, R = x->R, C = x->con.C, linear = x->con.linear;
     const gvi_real *G = x->con.G + 1, *moved = x->con.W;
     gvi_real *along = x->con.rho + m*R;
-    int ends;
     for (int i = 0; i < n; ++i)
         for (int k = 0; k < C; ++k) {
             gvi_real *at = x->con.at + i*C + k;
@@ -4681,7 +4680,7 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
             *at = D;
         }
     gvi__zero((size_t)(m*C), along);              // by the old G
-    for (int a = 0; a < m; ++a) {
+    for (int a = 0, ends; a < m; ++a) {
         const gvi_real *run = gvi__runs(st, a, &ends);
         for (int e = 0; e < ends; e += 2)
             for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i)
@@ -4692,7 +4691,7 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
         gvi__evaluate_constraints(st, C, s + 1, x->con.t, x->con.at, x->con.G);
     if (!x->con.settled && gvi__find_runs(st, C, s + 1, x->con.G)) x->con.made = 0;
     x->con.linear = x->con.made > 0;
-    for (int a = 0; a < m; ++a) {
+    for (int a = 0, ends; a < m; ++a) {
         const gvi_real *run = gvi__runs(st, a, &ends);
         if (linear) gvi__copy((size_t)s, x->con.rho + a*R, x->con.g + a*C + 1);
         for (int k = 0; k < s; ++k) {
@@ -4756,13 +4755,12 @@ GVI__CALLED void gvi__constraints_moved(const gvi_stepper *st, gvi_real *moved)
 {
     const struct gvi__private *x = &st->x;
     const int n = st->n, m = x->con.m, R = x->R, C = x->con.C;
-    const gvi_real *G = x->con.G, *at = x->con.at + 1, *t = x->con.t + 1,
-                   *rate = x->con.g + m*C + 1;
     gvi__zero((size_t)(n*C), moved);
     for (int a = 0; a < m; ++a)
-        for (int k = 0; k < st->s; ++k) {
-            const gvi_real terms = gvi__terms(st, C, t[k], at + k, G + k + 1, rate + k, a);
-            if (!(GVI_ABS(x->con.rho[m*R + a*C + k]) <= 8*GVI__EPS*terms)) return;
+        for (int k = 1; k <= st->s; ++k) {
+            const gvi_real terms = gvi__terms(st, C, x->con.t[k], x->con.at + k, x->con.G + k,
+                                              x->con.g + m*C + k, a);
+            if (!(GVI_ABS(x->con.rho[m*R + a*C + k - 1]) <= 8*GVI__EPS*terms)) return;
         }
     gvi__force_sizes(st, x->con.rho, C, moved);
 }
@@ -4859,8 +4857,8 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
     const gvi_real part = (gvi_real)0.618034, units = 4096;
     struct gvi__private *x = &st->x;
     const int n = st->n, m = x->con.m;
-    gvi_real *g = x->con.g, *was = x->con.rho, *z = x->con.y, *d = x->con.W, *G = x->con.G1,
-             *next = d + n;
+    gvi_real *g = x->con.g, *was = x->con.rho, *z = x->con.y, *d = x->con.W, *G = x->con.G1;
+    gvi_real *next = d + n;
     int off = -1;
     for (int a = 0; a < m; ++a) {
         const gvi_real rounding = GVI__EPS*gvi__terms(st, 1, t, q, G, g + m, a);
