@@ -2752,7 +2752,7 @@ GVI__CALLED void gvi__constraint_rows(const gvi_stepper *st, const struct gvi__s
 GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin *from);
 GVI__CALLED void gvi__constrain(gvi_stepper *st, const struct gvi__stage *y, const gvi_real *q0);
 GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate);
-GVI__CALLED int gvi__constraints_rest(const gvi_stepper *st);
+GVI__CALLED void gvi__constraints_moved(const gvi_stepper *st, gvi_real *moved);
 static gvi_status gvi__constraints_at(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                       const gvi_real *p, gvi_real *v, gvi_real *drops);
 GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int *at);
@@ -3731,8 +3731,8 @@ static gvi_real gvi__inertia(const gvi_stepper *st, int i)
 static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *y, int stages)
 {
     const int R = st->x.R, C = st->x.con.C, held = gvi__constrained(st)*st->s;
-    const gvi_real rests = (gvi_real)(held && gvi__constraints_rest(st));
-    gvi_real largest = 0, noise = 0;
+    gvi_real largest = 0, noise = 0, *moved = st->x.con.W;       // n sums for each source
+    if (held) gvi__constraints_moved(st, moved);
     for (int k = 0; k < stages; ++k) {
         if (!y[k].scale) continue;
         for (int i = 0; i < st->n; ++i) {
@@ -3743,10 +3743,8 @@ static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *
             unit *= GVI_SQRT(m);
             for (int j = 0; j < st->r; ++j) size = gvi__larger(GVI_ABS(row[j]), size);
             for (int e = 0; e < held; ++e) {
-                gvi_real force = 32*GVI__EPS*GVI_ABS(h*st->x.con.force[i*R + e]), moved = 0;
-                for (int a = 0; a < st->x.con.m; ++a)
-                    moved += GVI_ABS(st->x.con.G[(a*st->n + i)*C + e]*st->x.con.rho[a*R + e]);
-                force += rests*moved/GVI_ABS(st->x.con.hw[e]);
+                const gvi_real force = 32*GVI__EPS*GVI_ABS(h*st->x.con.force[i*R + e])
+                                       + moved[i*C + e]/GVI_ABS(st->x.con.hw[e]);
                 push = gvi__larger(GVI_ABS(h)*force/m, push);
             }
             if (y[k].scale[i] > 0) change = GVI_SQRT(y[k].change[i])/y[k].scale[i];
@@ -4592,14 +4590,15 @@ static void gvi__add_force(const gvi_stepper *st, const gvi_real *y, gvi_real *z
 }
 
 // sum of |G_ai q_i| and |t dg_a/dt|: what is known of the size of g_a's terms, at one point
-static gvi_real gvi__terms(const gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *G,
-                           int a)
+static gvi_real gvi__terms(const gvi_stepper *st, int S, gvi_real t, const gvi_real *q,
+                           const gvi_real *G, const gvi_real *rate, int a)
 {
     int ends;
     const gvi_real *run = gvi__runs(st, a, &ends);
-    gvi_real size = GVI_ABS(st->x.con.g[st->x.con.m + a]*t);
+    gvi_real size = GVI_ABS(rate[a*S]*t);
     for (int e = 0; e < ends; e += 2)
-        for (int i = (int)run[e]; i < (int)run[e + 1]; ++i) size += GVI_ABS(G[a*st->n + i]*q[i]);
+        for (int i = (int)run[e]; i < (int)run[e + 1]; ++i)
+            size += GVI_ABS(G[(a*st->n + i)*S]*q[i*S]);
     return size;
 }
 
@@ -4666,6 +4665,20 @@ static void gvi__constraint_forces(const gvi_stepper *st)
     }
 }
 
+// sum_a |G_a z_a| at the sources, to rows of S numbers; z [m][R]
+static void gvi__force_sizes(const gvi_stepper *st, const gvi_real *z, int S, gvi_real *sum)
+{
+    const int n = st->n, C = st->x.con.C;
+    gvi__zero((size_t)(n*S), sum);
+    for (int a = 0, ends; a < st->x.con.m; ++a, z += st->x.R) {
+        const gvi_real *run = gvi__runs(st, a, &ends);
+        for (int f = 0; f < ends; f += 2)
+            for (int i = (int)run[f], to = (int)run[f + 1]; i < to; ++i)
+                for (int e = 0; e < st->s; ++e)
+                    sum[i*S + e] += GVI_ABS(st->x.con.G[(a*n + i)*C + e]*z[e]);
+    }
+}
+
 /* The constraints at D, padded with q0; A in the first iteration.  After a move along which G
    changed by less than EPS of it, or one of EPS^(3/4) (not in float, where a step across a
    bifurcation would end on the wrong branch), g is linearised from the last D: its rounding would
@@ -4676,7 +4689,6 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
     const int n = st->n, m = x->con.m, s = st->s, R = x->R, C = x->con.C, linear = x->con.linear;
     const gvi_real *G = x->con.G + 1, *moved = x->con.W;
     gvi_real *along = x->con.rho + m*R;
-    int ends;
     for (int i = 0; i < n; ++i)
         for (int k = 0; k < C; ++k) {
             gvi_real *at = x->con.at + i*C + k;
@@ -4685,19 +4697,18 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
             *at = D;
         }
     gvi__zero((size_t)(m*C), along);              // by the old G
-    for (int a = 0; a < m; ++a) {
+    for (int a = 0, ends; a < m; ++a) {
         const gvi_real *run = gvi__runs(st, a, &ends);
         for (int e = 0; e < ends; e += 2)
             for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i)
                 gvi__subtract_at(C, s, G + (a*n + i)*C, moved + i*C, along + a*C);
-    }
-    for (int a = 0; a < m; ++a)
         for (int k = 0; k < s; ++k) x->con.rho[a*R + k] = x->con.g[a*C + k + 1] + along[a*C + k];
+    }
     const gvi_status status =
         gvi__evaluate_constraints(st, C, s + 1, x->con.t, x->con.at, x->con.G);
     if (!x->con.settled && gvi__find_runs(st, C, s + 1, x->con.G)) x->con.made = 0;
     x->con.linear = x->con.made > 0;
-    for (int a = 0; a < m; ++a) {
+    for (int a = 0, ends; a < m; ++a) {
         const gvi_real *run = gvi__runs(st, a, &ends);
         if (linear) gvi__copy((size_t)s, x->con.rho + a*R, x->con.g + a*C + 1);
         for (int k = 0; k < s; ++k) {
@@ -4743,7 +4754,7 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *y, const gvi_
     gvi__zero((size_t)(m*R), rho);
     for (int a = 0, ends; a < m; ++a) {
         const gvi_real *run = gvi__runs(st, a, &ends);
-        gvi_real *g = rho + m*R + a*C;             // gvi__constraints_rest reads it
+        gvi_real *g = rho + m*R + a*C;             // gvi__constraints_moved reads it
         gvi__copy((size_t)s, x->con.g + a*C + 1, g);
         for (int e = 0; e < ends; e += 2)
             for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i)
@@ -4756,19 +4767,19 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *y, const gvi_
     gvi__constraint_forces(st);
 }
 
-// was all that lambda's last change came from rounding, 8 eps of the terms that are known?
-GVI__CALLED int gvi__constraints_rest(const gvi_stepper *st)
+// |G|'|rho| of lambda's last change, or 0 if that was not all rounding, 8 eps of the known terms
+GVI__CALLED void gvi__constraints_moved(const gvi_stepper *st, gvi_real *moved)
 {
     const struct gvi__private *x = &st->x;
-    const int n = st->n, m = x->con.m, C = x->con.C;
+    const int n = st->n, m = x->con.m, R = x->R, C = x->con.C;
+    gvi__zero((size_t)(n*C), moved);
     for (int a = 0; a < m; ++a)
         for (int k = 1; k <= st->s; ++k) {
-            gvi_real terms = GVI_ABS(x->con.g[(m + a)*C + k]*x->con.t[k]);
-            for (int i = 0; i < n; ++i)
-                terms += GVI_ABS(x->con.G[(a*n + i)*C + k]*x->con.at[i*C + k]);
-            if (!(GVI_ABS(x->con.rho[m*x->R + a*C + k - 1]) <= 8*GVI__EPS*terms)) return 0;
+            const gvi_real terms = gvi__terms(st, C, x->con.t[k], x->con.at + k, x->con.G + k,
+                                              x->con.g + m*C + k, a);
+            if (!(GVI_ABS(x->con.rho[m*R + a*C + k - 1]) <= 8*GVI__EPS*terms)) return;
         }
-    return 1;
+    gvi__force_sizes(st, x->con.rho, C, moved);
 }
 
 // forces and lambda to begin with: those of the last step, extrapolated, or none
@@ -4813,8 +4824,7 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
     struct gvi__private *x = &st->x;
     const int n = st->n, m = x->con.m;
     gvi_real before = 0, least = GVI__MAX, *Q = x->work.Q, *z = x->con.rho, *left = x->con.y,
-             *d = x->con.W,
-             *unit = d + n, *g = x->con.g, *G = x->con.G1 + m*n; // G0 is before it
+             *d = x->con.W, *unit = d + n, *g = x->con.g, *G = x->con.G1 + m*n; // G0 is before it
     const gvi_real t = from->t + (from->t_low + h);
     gvi_status status = gvi__constraints_at(st, from->t, from->q, NULL, NULL, x->con.drops);
     gvi__zero((size_t)n, x->step.p_low);
@@ -4826,7 +4836,7 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
         if (status != GVI_OK) return status;
         if (k == 0 && !x->con.settled) (void)gvi__find_runs(st, 1, 1, G);
         for (int a = 0; a < m; ++a) {
-            const gvi_real terms = gvi__terms(st, t, Q, G, a);
+            const gvi_real terms = gvi__terms(st, 1, t, Q, G, g + m, a);
             const int rounding = k > 0 && GVI_ABS(g[a]) > (gvi_real)1.25*(GVI_ABS(left[a])
                                            + GVI_ABS(h*gvi__row_dot(st, G, a, d) - z[a]));
             if (k == 0 || terms > unit[a]) unit[a] = terms;
@@ -4864,11 +4874,12 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
     const gvi_real part = (gvi_real)0.618034, units = 4096;
     struct gvi__private *x = &st->x;
     const int n = st->n, m = x->con.m;
-    gvi_real *g = x->con.g, *was = x->con.rho, *z = x->con.y, *d = x->con.W, *G = x->con.G1,
-             *next = d + n;
+    gvi_real *g = x->con.g, *was = x->con.rho, *z = x->con.y, *d = x->con.W, *G = x->con.G1;
+    gvi_real *next = d + n;
     int off = -1;
     for (int a = 0; a < m; ++a) {
-        if (off < 0 && !(GVI_ABS(g[a]) <= units*GVI__EPS*gvi__terms(st, t, q, G, a))) off = a;
+        const gvi_real rounding = GVI__EPS*gvi__terms(st, 1, t, q, G, g + m, a);
+        if (off < 0 && !(GVI_ABS(g[a]) <= units*rounding)) off = a;
         was[a] = g[a];
         z[a] = -part*g[a];
     }
@@ -4882,7 +4893,7 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
     for (int a = 0; a < m; ++a) {
         const gvi_real bend = gvi__row_dot(st, G + m*n, a, d) - gvi__row_dot(st, G, a, d),
             rounding = GVI_ABS(g[a] - (1 - part)*was[a]) - GVI_ABS(bend),
-            seen = GVI__EPS*gvi__terms(st, t, q, G, a);
+            seen = GVI__EPS*gvi__terms(st, 1, t, q, G, g + m, a);
         // what is left of a row that is left out may be a contradiction
         const int proves = rounding > seen && !(x->con.drops[m + a] > 0);
         fulfilled &= GVI_ABS(was[a]) <= units*(proves ? rounding : seen);
@@ -4932,8 +4943,7 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
             if (r[a]*z[a] > r[row]*z[row]) row = a;
             x->con.y[a] += z[a];
         }
-        if (start && pass == 0
-            && !(size <= GVI__MAX && size <= far*far*energy))
+        if (start && pass == 0 && !(size <= GVI__MAX && size <= far*far*energy))
             return gvi__report_row(st, GVI_E_CONSTRAINT, row, GVI_FAULT_NONE);
         gvi__zero((size_t)n, p);
         gvi__add_force(st, z, p);
@@ -5581,14 +5591,7 @@ GVI__CALLED gvi_status gvi__newton_constraints(gvi_stepper *st, const gvi__origi
         gvi__evaluate_constraints(st, C, s + 1, x->con.t, x->con.at, x->con.G);
     if (!x->con.settled) (void)gvi__find_runs(st, C, s + 1, x->con.G);
     gvi__constraint_forces(st);
-    gvi__zero((size_t)(n*R), x->con.D);           // sum |G lambda|: nearly dependent rows cancel
-    for (int a = 0, ends; a < m; ++a) {
-        const gvi_real *run = gvi__runs(st, a, &ends), *lambda = x->con.force + (n + a)*R;
-        for (int f = 0; f < ends; f += 2)
-            for (int i = (int)run[f]; i < (int)run[f + 1]; ++i)
-                for (int e = 0; e < s; ++e)
-                    x->con.D[i*R + e] += GVI_ABS(x->con.G[(a*n + i)*C + e]*lambda[e]);
-    }
+    gvi__force_sizes(st, x->con.force + n*R, R, x->con.D);      // nearly dependent rows cancel
     return status;
 }
 
@@ -6501,13 +6504,16 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
     gvi_real *e = x->step.q, *f = x->step.p, *next = x->result, *d = next + n, *u = d + n,
              *push = x->point, *z = x->con.rho, *r = z + m, *back = r + m,
              *drops = x->con.drops + m, far[2] = { 0, 0 }, change = GVI__MAX, before, share = 1;
+    if (!moved) moved = far;
+    moved[0] = moved[1] = 0;
+    if (!gvi__constrained(st)) return gvi__report_status(st, GVI_OK);
     gvi__zero((size_t)n, e);
     gvi__zero((size_t)n, f);
     gvi__copy((size_t)n, q, next);
     gvi__copy((size_t)n, v, u);
-    if (gvi__constrained(st)) gvi__forget_runs(st);
+    gvi__forget_runs(st);
     x->diagnose = 1;
-    for (int k = 0; gvi__constrained(st); ++k) {
+    for (int k = 0; ; ++k) {
         status = gvi__constraints_at(st, t, next, NULL, u, drops);
         if (k > 1 && !(change < before*(gvi_real)0.9) && status == GVI_OK) {
             if (gvi__fulfilled(st, t, next, NULL, u) == GVI_OK) break;
@@ -6539,8 +6545,7 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
         if (change > before && share > (gvi_real)0.02) share /= 2;
     }
     x->diagnose = 0;
-    int passes = 0;
-    if (gvi__constrained(st) && status == GVI_OK) passes = 2;
+    const int passes = 2*(status == GVI_OK);
     for (int pass = 0; pass < passes; ++pass) {
         for (int a = 0; a < m; ++a)
             z[a] = r[a] = -(x->con.g[m + a] + gvi__row_dot(st, x->con.G1, a, u));
@@ -6551,11 +6556,10 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
         gvi__add_scaled(n, 1, d, u, u);
         if (pass == 0) far[1] = gvi__dot(m, r, z);
     }
-    if (gvi__constrained(st)) gvi__forget_runs(st);
+    gvi__forget_runs(st);
     if (status != GVI_OK) return st->status = status;
     gvi__copy((size_t)n, next, q);
     gvi__copy((size_t)n, u, v);
-    if (!moved) return gvi__report_status(st, GVI_OK);
     for (int k = 0; k < 2; ++k) moved[k] = GVI_SQRT(GVI_ABS(far[k]));
     return gvi__report_status(st, GVI_OK);
 }
