@@ -4031,18 +4031,20 @@ static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h
 
    high^2/low is about the pair that the curve lacks, and of push, which forces do, the step lacks
    the square of that share, since its error is of second order in the curve's [2, thm. 4.1].  In
-   positions the modes are those of M v, from the forces.  |v| is no less than eps of the largest,
-   each times sqrt(M_ii): what moves less is rounding.                                         */
+   positions the modes are those of M v, from the forces.  An error below eps (max |v| + max |q|/h),
+   each times sqrt(M_ii), is rounding, and relative to that sum instead.                       */
 static gvi_real gvi__resolution(const gvi_stepper *st)
 {
     const struct gvi__private *x = &st->x;
     const int s = st->s, R = x->R, forces = gvi__uses(x, GVI_POSITIONS), pair = 1 + (s > 4),
               held = forces && gvi__constrained(st);
     const gvi_real *row = x->work.V;
-    gvi_real *missed = x->result, *size = missed + st->n, largest = 0, worst = 0, unit = 1;
+    const gvi_real h = GVI_ABS(x->sized.h);
+    gvi_real *missed = x->result, *size = missed + st->n, unit = 1;
+    gvi_real fastest = 0, farthest = 0, worst = 0;
     if (forces) {
         row = x->work.F;
-        unit = GVI_ABS(x->sized.h);
+        unit = h;
     }
     for (int i = 0; i < st->n; ++i, row += R) {
         const gvi_real *a = x->table.high, *force = x->con.force + i*R;
@@ -4064,16 +4066,21 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
                        push = GVI_ABS(end - start) + high + low;
         if (pair == 1 && all > 0) high += low*(low/all)/4;   // one mode alone may pass 0
         const gvi_real most = gvi__larger(high, low);
-        gvi_real share = 0, mass = gvi__inertia(st, i);
+        const gvi_real mass = GVI_SQRT(gvi__inertia(st, i));
+        gvi_real share = 0, scale = mass;
         if (most > 0) share = high/(push + 32*GVI__EPS*all)*(high/most);
-        if (forces) mass = 1/mass;                // p over M
-        missed[i] = share*share*push*GVI_SQRT(mass);
-        size[i] = all*GVI_SQRT(mass);
-        largest = gvi__larger(size[i], largest);
+        if (forces) scale = 1/mass;               // p over M
+        missed[i] = share*share*push*scale;
+        size[i] = all*scale;
+        fastest = gvi__larger(size[i], fastest);
+        farthest = gvi__larger(GVI_ABS(x->state.q[i])*mass, farthest);
     }
-    if (!(largest > 0)) return 0;
-    for (int i = 0; i < st->n; ++i)
-        worst = gvi__larger(missed[i]/(size[i] + GVI__EPS*largest), worst);
+    const gvi_real whole = fastest + farthest/h;
+    if (!(whole > 0)) return 0;
+    for (int i = 0; i < st->n; ++i) {
+        if (missed[i] <= GVI__EPS*whole) size[i] = whole;
+        worst = gvi__larger(missed[i]/size[i], worst);
+    }
     return (gvi_real)(s*s)*worst;
 }
 
