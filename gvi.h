@@ -1240,6 +1240,16 @@ static gvi_real gvi__dot3(int n, const gvi_real *a, const gvi_real *b, const gvi
     return sum;
 }
 
+// z := y + a x
+static void gvi__add_scaled(int n, gvi_real a, const gvi_real *x, const gvi_real *y, gvi_real *z)
+{
+    const int whole = gvi__in_lanes(n);
+    int i = 0;
+    for (; i < whole; i += GVI__LANES)
+        GVI__STORE(z + i) = GVI__LOAD(y + i) + a*GVI__LOAD(x + i);
+    for (; i < n; ++i) z[i] = y[i] + a*x[i];
+}
+
 /* Double-word arithmetic: an unevaluated sum hi + lo, |lo| <= ulp(hi)/2, carries twice the digits
    of gvi_real (Dekker, Numer. Math. 18, 1971; Joldes, Muller, Popescu, ACM Trans. Math. Softw. 44,
    2017).  Tables are made in it, since the rounding of a coefficient would act in every step in the
@@ -2672,7 +2682,7 @@ static void gvi__fit(gvi_stepper *st, int r, const gvi_real *from, const gvi_rea
                      gvi_real alpha, gvi_real beta, int steps, gvi_real *E)
 {
     struct gvi__private *x = &st->x;
-    const int R = x->R, nodes = steps*R, most = GVI__DIG*2/7;
+    const int R = x->R, nodes = steps*R, all = nodes + R, most = GVI__DIG*2/7;
     int degree = r - 1;
     if (steps == 2) degree = r + r/2 - r/8;
     if (degree > most) degree = most;
@@ -2683,21 +2693,23 @@ static void gvi__fit(gvi_stepper *st, int r, const gvi_real *from, const gvi_rea
     for (int m = 0; m < R; ++m) {
         at[m] = from[m];
         at[R + m] = from[m] - 1;
-        at[2*R + m] = alpha + beta*to[m];
-        if (m < r) p[m] = p[R + m] = p[2*R + m] = norm;
+        at[nodes + m] = alpha + beta*to[m];
+        if (m < r) p[m] = p[R + m] = p[nodes + m] = norm;
     }
     gvi__zero((size_t)(steps*r*R), E);
     for (int k = 0; k <= degree; ++k) {
-        for (int j = 0; j < r; ++j)
-            for (int i = 0; i < r; ++i) {
-                E[j*R + i] += p[2*R + i]*p[j];
-                if (steps == 2) E[(r + j)*R + i] += p[2*R + i]*p[R + j];
-            }
+        for (int j = 0; j < r; ++j) {
+            gvi_real *last = E + j*R;
+            gvi__add_scaled(R, p[j], p + nodes, last, last);
+            if (steps == 1) continue;
+            gvi_real *older = E + (r + j)*R;
+            gvi__add_scaled(R, p[R + j], p + nodes, older, older);
+        }
 
         // p_(k+1) ~ (x - <x p_k, p_k>) p_k - coupling p_(k-1), over its norm
-        gvi_real middle = 0, size = 0;
-        for (int m = 0; m < nodes; ++m) middle += at[m]*p[m]*p[m];
-        for (int m = 0; m < 3*R; ++m) {
+        const gvi_real middle = gvi__dot3(nodes, at, p, p);
+        gvi_real size = 0;
+        for (int m = 0; m < all; ++m) {
             const gvi_real next = (at[m] - middle)*p[m] - coupling*before[m];
             before[m] = p[m];
             p[m] = next;
@@ -2705,7 +2717,7 @@ static void gvi__fit(gvi_stepper *st, int r, const gvi_real *from, const gvi_rea
         }
         coupling = GVI_SQRT(size);
         if (coupling < (gvi_real)0.015625) break;
-        for (int m = 0; m < 3*R; ++m) p[m] /= coupling;
+        for (int m = 0; m < all; ++m) p[m] /= coupling;
     }
 }
 
@@ -3403,15 +3415,15 @@ static gvi__kernel *gvi__kernel_for(int n, int r)
 
 /* E takes the stage values of the last step (of two, if they are as long as this one) to the nodes
    of this step, at alpha + beta c in the last step's tau.  In the positions formulation forces only
-   serve to make positions: E := K h b E does both.                                           */
+   serve to make positions: E := K h b E does both, for steps as long as the last.            */
 static void gvi__prepare_predictor(gvi_stepper *st, gvi_real h, int query)
 {
     struct gvi__private *x = &st->x;
     const int newton = GVI__NEWTON && st->formulation == GVI_NEWTON, r = st->r, R = x->R;
     const int two = !query && !newton && x->kept == 2 && x->older.F && !gvi__nonzero(h - st->h);
-    const int sums = gvi__uses(x, GVI_POSITIONS) && !newton && x->desc.mass.kind != GVI_MASS_DENSE
-                     && !gvi__constrained(st);
     const gvi_real beta = h/st->h;
+    const int sums = !gvi__nonzero(beta - 1) && gvi__uses(x, GVI_POSITIONS) && !newton
+                     && x->desc.mass.kind != GVI_MASS_DENSE && !gvi__constrained(st);
     if (!query && !gvi__nonzero(beta - x->sized.ratio) && x->sized.steps == two + 1
         && x->sized.sums == sums) return;
     x->sized.ratio = beta;
@@ -4085,16 +4097,6 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
 }
 
 /* ---- explicit ---- */
-
-/* z := y + a x                                                                                */
-static void gvi__add_scaled(int n, gvi_real a, const gvi_real *x, const gvi_real *y, gvi_real *z)
-{
-    const int whole = gvi__in_lanes(n);
-    int i = 0;
-    for (; i < whole; i += GVI__LANES)
-        GVI__STORE(z + i) = GVI__LOAD(y + i) + a*GVI__LOAD(x + i);
-    for (; i < n; ++i) z[i] = y[i] + a*x[i];
-}
 
 /* dp += b F, then the drift dq += a (v + M^-1 dp), Q = q + dq; F := 0 for the next force.  First
    in a step, dp and dq are the low words of the state, and F is `first`.                      */
