@@ -4043,8 +4043,8 @@ static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h
 
    high^2/low is about the pair that the curve lacks, and of push, which forces do, the step lacks
    the square of that share, since its error is of second order in the curve's [2, thm. 4.1].  In
-   positions the modes are those of M v, from the forces.  An error below eps (max |v| + max |q|/h),
-   each times sqrt(M_ii), is rounding, and relative to that sum instead.                       */
+   positions the modes are those of M v, from the forces.  Where a coordinate hardly moves, an error
+   below eps (max |v| + max |q|/h), each times sqrt(M_ii), is rounding, and relative to that sum. */
 static gvi_real gvi__resolution(const gvi_stepper *st)
 {
     const struct gvi__private *x = &st->x;
@@ -4090,7 +4090,7 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
     const gvi_real whole = fastest + farthest/h;
     if (!(whole > 0)) return 0;
     for (int i = 0; i < st->n; ++i) {
-        if (missed[i] <= GVI__EPS*whole) size[i] = whole;
+        if (missed[i] <= GVI__EPS*whole && size[i] < whole/64) size[i] = whole;
         worst = gvi__larger(missed[i]/size[i], worst);
     }
     return (gvi_real)(s*s)*worst;
