@@ -4090,7 +4090,7 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
     const gvi_real whole = fastest + farthest/h;
     if (!(whole > 0)) return 0;
     for (int i = 0; i < st->n; ++i) {
-        if (missed[i] <= GVI__EPS*whole && size[i] < whole/64) size[i] = whole;
+        if (missed[i] <= GVI__EPS*whole && size[i] < whole/4096) size[i] = whole;
         worst = gvi__larger(missed[i]/size[i], worst);
     }
     return (gvi_real)(s*s)*worst;
