@@ -1240,6 +1240,16 @@ static gvi_real gvi__dot3(int n, const gvi_real *a, const gvi_real *b, const gvi
     return sum;
 }
 
+// z := y + a x
+static void gvi__add_scaled(int n, gvi_real a, const gvi_real *x, const gvi_real *y, gvi_real *z)
+{
+    const int whole = gvi__in_lanes(n);
+    int i = 0;
+    for (; i < whole; i += GVI__LANES)
+        GVI__STORE(z + i) = GVI__LOAD(y + i) + a*GVI__LOAD(x + i);
+    for (; i < n; ++i) z[i] = y[i] + a*x[i];
+}
+
 /* Double-word arithmetic: an unevaluated sum hi + lo, |lo| <= ulp(hi)/2, carries twice the digits
    of gvi_real (Dekker, Numer. Math. 18, 1971; Joldes, Muller, Popescu, ACM Trans. Math. Softw. 44,
    2017).  Tables are made in it, since the rounding of a coefficient would act in every step in the
@@ -2672,7 +2682,7 @@ static void gvi__fit(gvi_stepper *st, int r, const gvi_real *from, const gvi_rea
                      gvi_real alpha, gvi_real beta, int steps, gvi_real *E)
 {
     struct gvi__private *x = &st->x;
-    const int R = x->R, nodes = steps*R, most = GVI__DIG*2/7;
+    const int R = x->R, nodes = steps*R, all = nodes + R, most = GVI__DIG*2/7;
     int degree = r - 1;
     if (steps == 2) degree = r + r/2 - r/8;
     if (degree > most) degree = most;
@@ -2683,21 +2693,23 @@ static void gvi__fit(gvi_stepper *st, int r, const gvi_real *from, const gvi_rea
     for (int m = 0; m < R; ++m) {
         at[m] = from[m];
         at[R + m] = from[m] - 1;
-        at[2*R + m] = alpha + beta*to[m];
-        if (m < r) p[m] = p[R + m] = p[2*R + m] = norm;
+        at[nodes + m] = alpha + beta*to[m];
+        if (m < r) p[m] = p[R + m] = p[nodes + m] = norm;
     }
     gvi__zero((size_t)(steps*r*R), E);
     for (int k = 0; k <= degree; ++k) {
-        for (int j = 0; j < r; ++j)
-            for (int i = 0; i < r; ++i) {
-                E[j*R + i] += p[2*R + i]*p[j];
-                if (steps == 2) E[(r + j)*R + i] += p[2*R + i]*p[R + j];
-            }
+        for (int j = 0; j < r; ++j) {
+            gvi_real *last = E + j*R;
+            gvi__add_scaled(R, p[j], p + nodes, last, last);
+            if (steps == 1) continue;
+            gvi_real *older = E + (r + j)*R;
+            gvi__add_scaled(R, p[R + j], p + nodes, older, older);
+        }
 
         // p_(k+1) ~ (x - <x p_k, p_k>) p_k - coupling p_(k-1), over its norm
-        gvi_real middle = 0, size = 0;
-        for (int m = 0; m < nodes; ++m) middle += at[m]*p[m]*p[m];
-        for (int m = 0; m < 3*R; ++m) {
+        const gvi_real middle = gvi__dot3(nodes, at, p, p);
+        gvi_real size = 0;
+        for (int m = 0; m < all; ++m) {
             const gvi_real next = (at[m] - middle)*p[m] - coupling*before[m];
             before[m] = p[m];
             p[m] = next;
@@ -2705,7 +2717,7 @@ static void gvi__fit(gvi_stepper *st, int r, const gvi_real *from, const gvi_rea
         }
         coupling = GVI_SQRT(size);
         if (coupling < (gvi_real)0.015625) break;
-        for (int m = 0; m < 3*R; ++m) p[m] /= coupling;
+        for (int m = 0; m < all; ++m) p[m] /= coupling;
     }
 }
 
@@ -3420,15 +3432,15 @@ static gvi__kernel *gvi__kernel_for(int n, int r)
 
 /* E takes the stage values of the last step (of two, if they are as long as this one) to the nodes
    of this step, at alpha + beta c in the last step's tau.  In the positions formulation forces only
-   serve to make positions: E := K h b E does both.                                           */
+   serve to make positions: E := K h b E does both, for steps as long as the last.            */
 static void gvi__prepare_predictor(gvi_stepper *st, gvi_real h, int query)
 {
     struct gvi__private *x = &st->x;
     const int newton = GVI__NEWTON && st->formulation == GVI_NEWTON, r = st->r, R = x->R;
     const int two = !query && !newton && x->kept == 2 && x->older.F && !gvi__nonzero(h - st->h);
-    const int sums = gvi__uses(x, GVI_POSITIONS) && !newton && x->desc.mass.kind != GVI_MASS_DENSE
-                     && !gvi__constrained(st);
     const gvi_real beta = h/st->h;
+    const int sums = !gvi__nonzero(beta - 1) && gvi__uses(x, GVI_POSITIONS) && !newton
+                     && x->desc.mass.kind != GVI_MASS_DENSE && !gvi__constrained(st);
     if (!query && !gvi__nonzero(beta - x->sized.ratio) && x->sized.steps == two + 1
         && x->sized.sums == sums) return;
     x->sized.ratio = beta;
@@ -4046,18 +4058,20 @@ static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h
 
    high^2/low is about the pair that the curve lacks, and of push, which forces do, the step lacks
    the square of that share, since its error is of second order in the curve's [2, thm. 4.1].  In
-   positions the modes are those of M v, from the forces.  |v| is no less than eps of the largest,
-   each times sqrt(M_ii): what moves less is rounding.                                         */
+   positions the modes are those of M v, from the forces.  Where a coordinate hardly moves, an error
+   below eps (max |v| + max |q|/h), each times sqrt(M_ii), is rounding, and relative to that sum. */
 static gvi_real gvi__resolution(const gvi_stepper *st)
 {
     const struct gvi__private *x = &st->x;
     const int s = st->s, R = x->R, forces = gvi__uses(x, GVI_POSITIONS), pair = 1 + (s > 4),
               held = forces && gvi__constrained(st);
     const gvi_real *row = x->work.V;
-    gvi_real *missed = x->result, *size = missed + st->n, largest = 0, worst = 0, unit = 1;
+    const gvi_real h = GVI_ABS(x->sized.h);
+    gvi_real *missed = x->result, *size = missed + st->n, unit = 1;
+    gvi_real fastest = 0, farthest = 0, worst = 0;
     if (forces) {
         row = x->work.F;
-        unit = GVI_ABS(x->sized.h);
+        unit = h;
     }
     for (int i = 0; i < st->n; ++i, row += R) {
         const gvi_real *a = x->table.high, *force = x->con.force + i*R;
@@ -4079,30 +4093,25 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
                        push = GVI_ABS(end - start) + high + low;
         if (pair == 1 && all > 0) high += low*(low/all)/4;   // one mode alone may pass 0
         const gvi_real most = gvi__larger(high, low);
-        gvi_real share = 0, mass = gvi__inertia(st, i);
+        const gvi_real mass = GVI_SQRT(gvi__inertia(st, i));
+        gvi_real share = 0, scale = mass;
         if (most > 0) share = high/(push + 32*GVI__EPS*all)*(high/most);
-        if (forces) mass = 1/mass;                // p over M
-        missed[i] = share*share*push*GVI_SQRT(mass);
-        size[i] = all*GVI_SQRT(mass);
-        largest = gvi__larger(size[i], largest);
+        if (forces) scale = 1/mass;               // p over M
+        missed[i] = share*share*push*scale;
+        size[i] = all*scale;
+        fastest = gvi__larger(size[i], fastest);
+        farthest = gvi__larger(GVI_ABS(x->state.q[i])*mass, farthest);
     }
-    if (!(largest > 0)) return 0;
-    for (int i = 0; i < st->n; ++i)
-        worst = gvi__larger(missed[i]/(size[i] + GVI__EPS*largest), worst);
+    const gvi_real whole = fastest + farthest/h;
+    if (!(whole > 0)) return 0;
+    for (int i = 0; i < st->n; ++i) {
+        if (missed[i] <= GVI__EPS*whole && size[i] < whole/4096) size[i] = whole;
+        worst = gvi__larger(missed[i]/size[i], worst);
+    }
     return (gvi_real)(s*s)*worst;
 }
 
 /* ---- explicit ---- */
-
-/* z := y + a x                                                                                */
-static void gvi__add_scaled(int n, gvi_real a, const gvi_real *x, const gvi_real *y, gvi_real *z)
-{
-    const int whole = gvi__in_lanes(n);
-    int i = 0;
-    for (; i < whole; i += GVI__LANES)
-        GVI__STORE(z + i) = GVI__LOAD(y + i) + a*GVI__LOAD(x + i);
-    for (; i < n; ++i) z[i] = y[i] + a*x[i];
-}
 
 /* dp += b F, then the drift dq += a (v + M^-1 dp), Q = q + dq; F := 0 for the next force.  First
    in a step, dp and dq are the low words of the state, and F is `first`.                      */
