@@ -48,7 +48,6 @@ static real hidden(gvi_stepper *st, const linkage *a)
 static void check_reference(const gvi_stepper *st, int n, const long double *q, const long double *p, real units)
 {
     for (int i = 0; i < n; ++i) {
-        if (getenv("SHOW")) printf("%.0Lf %.0Lf  ", ((long double)st->q[i] - q[i])/EPS, ((long double)st->p[i] - p[i])/EPS);
         assert_close(st->q[i], q[i], units*EPS);
         assert_close(st->p[i], p[i], units*EPS*(1 + fabs((real)p[i])));
     }
@@ -256,7 +255,6 @@ TEST(g_and_G_v_stay_at_rounding)
             if (conserves) assert_ok(gvi_energy(&st, &E));
             off = fmax(off, fabs(E - E0)/(1 + fabs(E0)));
         }
-        if (getenv("SHOW")) printf("%d: g %.2Lf hidden %.2Lf energy %.1Lf eps\n", id, (long double)g, (long double)v, (long double)(off/EPS));
         assert_between(0, g, 6);
         assert_between(0, v, 6);
         assert_between(0, off, 100*EPS);
@@ -630,7 +628,6 @@ TEST(a_bifurcation_is_refused)
                 assert_close(st.q[3], st.q[1], (real)1e-4L);
             }
         }
-        if (getenv("SHOW")) printf("parallelogram h %.2Lf: %s at t = %.2Lf\n", (long double)hs[k], gvi_status_text(status), (long double)st.t);
         assert_status(status, GVI_E_CONVERGENCE);     /* a shorter step would come nearer */
     }
 }
@@ -714,7 +711,6 @@ TEST(the_fourth_inertia_has_a_range)
         gvi_stepper st;
         gvi_status status = set_up(&st, &a, &desc);
         for (int i = 0; i < 200 && status == GVI_OK; ++i) status = gvi_step(&st, (real)0.05L);
-        if (getenv("SHOW")) printf("I0 1e%d: %s after %llu\n", k, gvi_status_text(status), st.counters.steps);
         if (k >= -2 && k <= 0) assert_ok(status);
         if (status == GVI_OK) assert_close(st.q[3], 0.8362546361450629900108049131L, 10000*EPS + (real)1e-12L);
     }
@@ -739,7 +735,6 @@ TEST(a_top_that_spins_too_fast_is_refused)
         assert_true(status == GVI_OK || status == GVI_E_CONVERGENCE);
         if (k <= 0) assert_ok(status);
         assert_ok(gvi_energy(&st, &E));
-        if (getenv("SHOW")) printf("h w %.2Lf: %s after %llu, %.1Le\n", (long double)hw, gvi_status_text(status), st.counters.steps, (long double)((E - E0)/E0));
         if (status == GVI_OK) assert_close(E, E0, E0*(k < 1 ? 100*EPS + (real)1e-12L : (real)1e-5L));
     }
 }
