@@ -957,6 +957,31 @@ TEST(a_given_number_of_iterations_is_made)
     assert_true(run_given(12, GVI_AUTO, &size) < 100*EPS);
 }
 
+/* q'' = -q by the midpoint rule, which iterates Q := q + h p/2 - (h^2/4) Q: every change is h^2/4 of the one before,
+   the first that of Q itself                                                  */
+TEST(counters_tell_the_worst_of_all_steps)
+{
+    static real memory[2000];
+    for (int N = 0; N < 5; ++N) {
+        const gvi_desc desc = { .n = 1, .degree = 1, .effects = spring_only, .effect_count = 1, .iterations = N };
+        const real hs[] = { 0.25, 0.5, 0.125 };
+        int most = 0;
+        gvi_stepper st;
+        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+        for (int k = 0; k < 3; ++k) {
+            assert_ok(gvi_start(&st, 0, (const real[]){ 1 }, (const real[]){ 0.25 }));
+            assert_ok(gvi_step(&st, hs[k]));
+            if (st.iterations > most) most = st.iterations;
+            const real ratio = (real)(k ? 0.0625L : 0.015625L), left = pow(ratio, N);
+            assert_int_equal(st.counters.most_iterations, most);
+            assert_close(st.counters.worst_contraction, N == 0 || N > 2 ? ratio : 0, ratio*1e-6);
+            if (N) assert_between(0.9*left, st.counters.worst_change, 1.1*left);
+            else assert_between(0, st.counters.worst_change, EPS);
+        }
+        assert_true(N > 0 || most > st.iterations);
+    }
+}
+
 /* ------------------------------------------------------ equivalent callbacks */
 
 /* One point a call; second derivatives in place of differences; the caller's M^-1 p */
