@@ -862,6 +862,15 @@ TEST(short_steps_do_not_hide_velocities_that_diverge)
 TEST(short_steps_do_not_leave_velocities_half_way)
 {
     static const real share[] = { 1.25, 0.75, 1 };
+    for (int f = GVI_VELOCITIES; f <= GVI_NEWTON; ++f)            /* the increment, with its low word */
+        for (int k = 0; k < 16; ++k) {
+            const long double h = powl(10, -k - 2), moved = sinl(h) - 2*sinl(h/2)*sinl(h/2);
+            more_mass = k % 2 ? 0.5 : -0.5;
+            bench b = start_heavy(2, f, 1);
+            assert_ok(gvi_step(&b.st, (real)h));
+            assert_close(((long double)b.st.q[0] - 1 + b.st.q_low[0])/moved, 1, 16*EPS + powl(h, 4));
+            tear_down(&b);
+        }
     more_mass = 0.5;
     for (int f = GVI_VELOCITIES; f <= GVI_NEWTON; ++f) {
         bench b = start_heavy(3, f, 0);
