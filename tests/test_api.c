@@ -1345,4 +1345,28 @@ TEST(switching_keeps_the_state_and_refuses_what_is_not_there)
     tear_down(&b);
 }
 
+/* q and p in the second half of a step are rounded once: low words of q, p and t are in them */
+AT_POINT(pull) { return f[0] += 0.7, 0; }
+
+TEST(a_state_between_is_rounded_once)
+{
+    static const gvi_effect effect = { .kind = GVI_POTENTIAL, .point = pull };
+    static const gvi_desc desc = { .n = 1, .degree = 2, .effects = &effect, .effect_count = 1 };
+    static real room[2000];
+    gvi_stepper st;
+    assert_ok(gvi_init(&st, &desc, room, sizeof room));
+    assert_ok(gvi_start(&st, 0, (const real[]){ 1 }, (const real[]){ 1.1 }));
+    for (int k = 0; k < 150; ++k) {
+        assert_ok(gvi_step(&st, 0.001));
+        for (int i = 1; i < 5; ++i) {
+            const real t = st.t - st.h*i/10;
+            const long double T = t, f = (real)0.7, v = (real)1.1;
+            real q, p;
+            assert_ok(gvi_state_at(&st, t, &q, NULL, &p));
+            assert_close(q, 1 + T*(v + T*f/2), 0.53L*EPS);
+            assert_close(p, v + T*f, 0.53L*EPS);
+        }
+    }
+}
+
 RUN_TESTS(NULL, NULL)

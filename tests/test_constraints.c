@@ -232,7 +232,7 @@ TEST(a_run_can_be_run_back)
         assert_ok(set_up(&st, &a, &desc));
         for (int k = 0; k < 40; ++k) assert_ok(gvi_step(&st, (real)0.05L));
         for (int k = 0; k < 40; ++k) assert_ok(gvi_step(&st, -(real)0.05L));
-        for (int i = 0; i < a.n; ++i) assert_close(st.q[i], a.q[i], 3000*EPS);
+        for (int i = 0; i < a.n; ++i) assert_close(st.q[i], a.q[i], 100*EPS);
     }
 }
 
@@ -318,7 +318,7 @@ TEST(multipliers_near_the_end_of_a_domain)
         assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
         assert_ok(gvi_start(&st, 0, q, v));
         assert_ok(gvi_multipliers(&st, &lambda));
-        assert_close(lambda, z*(1 + z), 256*EPS);
+        assert_close(lambda, z*(1 + z), 8*EPS);
     }
 }
 
@@ -396,7 +396,7 @@ TEST(queries_know_constraints)
         assert_ok(gvi_curve(&st, 1, at, v));
         for (int j = 0; j < a.n; ++j) assert_close(at[j], st.q[j], 20*EPS);
         assert_ok(gvi_curve(&st, (real)0.75L, at, v));
-        for (int j = 0; j < a.n; ++j) assert_close(at[j], q[j], (real)1e-7L + 4*EPS);
+        for (int j = 0; j < a.n; ++j) assert_close(at[j], q[j], (real)1e-15L + 40*EPS);
         assert_ok(gvi_step(&st, (real)0.04L));
         memcpy(q, st.q, sizeof q[0]*(size_t)a.n);
         assert_ok(gvi_restore(&st, &saved, copy));
@@ -624,8 +624,8 @@ TEST(a_bifurcation_is_refused)
         for (int i = 0; i < 400 && status == GVI_OK; ++i) {
             status = gvi_step(&st, hs[k]);
             if (status == GVI_OK) {               // the parallel branch, as long as it says so
-                assert_close(st.q[2] - st.q[0], 3, (real)1e-4L);
-                assert_close(st.q[3], st.q[1], (real)1e-4L);
+                assert_close(st.q[2] - st.q[0], 3, 100*EPS);
+                assert_close(st.q[3], st.q[1], 400*EPS);
             }
         }
         assert_status(status, GVI_E_CONVERGENCE);     /* a shorter step would come nearer */
@@ -735,7 +735,7 @@ TEST(a_top_that_spins_too_fast_is_refused)
         assert_true(status == GVI_OK || status == GVI_E_CONVERGENCE);
         if (k <= 0) assert_ok(status);
         assert_ok(gvi_energy(&st, &E));
-        if (status == GVI_OK) assert_close(E, E0, E0*(k < 1 ? 100*EPS + (real)1e-12L : (real)1e-5L));
+        if (status == GVI_OK) assert_close(E, E0, E0*(100*EPS + (k < 1 ? 0 : (real)1e-8L)));
     }
 }
 

@@ -127,7 +127,7 @@ TEST(a_closed_loop_does_not_drift)
         off = fmax(off, fabs(E - E0));
     }
     assert_between(0, worst, 32*EPS);
-    assert_between(0, off, 2000*EPS + (real)1e-9L);
+    assert_between(0, off, 500*EPS + (real)1e-14L);
 }
 
 /* ---------------------------------------------------------------- rows that contradict, vanish, or are too many */
