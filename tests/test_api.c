@@ -1345,6 +1345,33 @@ TEST(switching_keeps_the_state_and_refuses_what_is_not_there)
     tear_down(&b);
 }
 
+/* Newton's method follows for 64 steps, then the fixed point is tried again: at the same step, whatever was queried */
+TEST(queries_leave_the_choice_of_method_alone)
+{
+    int iterations[80];
+    for (int queried = 0; queried < 2; ++queried) {
+        bench b = start_stiff((gvi_desc){ .degree = 4 });
+        for (int k = 0; k < 80; ++k) {
+            real q[2];
+            assert_ok(gvi_step(&b.st, 0.5));
+            if (!queried) iterations[k] = b.st.iterations;
+            assert_int_equal(b.st.iterations, iterations[k]);
+            if (queried) assert_ok(gvi_state_at(&b.st, b.st.t - (real)0.2, q, NULL, NULL));
+        }
+        tear_down(&b);
+    }
+}
+
+TEST(a_start_has_no_time_left_over)
+{
+    bench b = start(&scenes[1]);
+    steps(&b.st, 3, 0.1);
+    assert_true(b.st.t_low != 0);
+    assert_ok(gvi_start(&b.st, 1, q_start, v_start));
+    assert_true(b.st.t == 1 && b.st.t_low == 0 && b.st.h == 0);
+    tear_down(&b);
+}
+
 /* q and p in the second half of a step are rounded once: low words of q, p and t are in them */
 AT_POINT(pull) { return f[0] += 0.7, 0; }
 
