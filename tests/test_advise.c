@@ -98,7 +98,7 @@ static double best_of_sweep(const advise_case *a, const problem *p, double error
 
 static void say(const char *line)
 {
-    if (getenv("ADVISE_SAYS")) print_message("%s\n", line);
+    assert_true(line[0] != 0);
 }
 
 /* weight: operations of a point, 15 for a root or a quotient. */

@@ -862,6 +862,15 @@ TEST(short_steps_do_not_hide_velocities_that_diverge)
 TEST(short_steps_do_not_leave_velocities_half_way)
 {
     static const real share[] = { 1.25, 0.75, 1 };
+    for (int f = GVI_VELOCITIES; f <= GVI_NEWTON; ++f)            /* the increment, with its low word */
+        for (int k = 0; k < 16; ++k) {
+            const long double h = powl(10, -k - 2), moved = sinl(h) - 2*sinl(h/2)*sinl(h/2);
+            more_mass = k % 2 ? 0.5 : -0.5;
+            bench b = start_heavy(2, f, 1);
+            assert_ok(gvi_step(&b.st, (real)h));
+            assert_close(((long double)b.st.q[0] - 1 + b.st.q_low[0])/moved, 1, 16*EPS + powl(h, 4));
+            tear_down(&b);
+        }
     more_mass = 0.5;
     for (int f = GVI_VELOCITIES; f <= GVI_NEWTON; ++f) {
         bench b = start_heavy(3, f, 0);
@@ -955,6 +964,31 @@ TEST(a_given_number_of_iterations_is_made)
         if (N == 1) assert_true(first > 1e-6);                /* one is not enough */
     }
     assert_true(run_given(12, GVI_AUTO, &size) < 100*EPS);
+}
+
+/* q'' = -q by the midpoint rule, which iterates Q := q + h p/2 - (h^2/4) Q: every change is h^2/4 of the one before,
+   the first that of Q itself                                                  */
+TEST(counters_tell_the_worst_of_all_steps)
+{
+    static real memory[2000];
+    for (int N = 0; N < 5; ++N) {
+        const gvi_desc desc = { .n = 1, .degree = 1, .effects = spring_only, .effect_count = 1, .iterations = N };
+        const real hs[] = { 0.25, 0.5, 0.125 };
+        int most = 0;
+        gvi_stepper st;
+        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+        for (int k = 0; k < 3; ++k) {
+            assert_ok(gvi_start(&st, 0, (const real[]){ 1 }, (const real[]){ 0.25 }));
+            assert_ok(gvi_step(&st, hs[k]));
+            if (st.iterations > most) most = st.iterations;
+            const real ratio = (real)(k ? 0.0625L : 0.015625L), left = pow(ratio, N);
+            assert_int_equal(st.counters.most_iterations, most);
+            assert_close(st.counters.worst_contraction, N == 0 || N > 2 ? ratio : 0, ratio*1e-6);
+            if (N) assert_between(0.9*left, st.counters.worst_change, 1.1*left);
+            else assert_between(0, st.counters.worst_change, EPS);
+        }
+        assert_true(N > 0 || most > st.iterations);
+    }
 }
 
 /* ------------------------------------------------------ equivalent callbacks */
@@ -1309,6 +1343,57 @@ TEST(switching_keeps_the_state_and_refuses_what_is_not_there)
         assert_ok(gvi_step(&b.st, h_good));
     }
     tear_down(&b);
+}
+
+/* Newton's method follows for 64 steps, then the fixed point is tried again: at the same step, whatever was queried */
+TEST(queries_leave_the_choice_of_method_alone)
+{
+    int iterations[80];
+    for (int queried = 0; queried < 2; ++queried) {
+        bench b = start_stiff((gvi_desc){ .degree = 4 });
+        for (int k = 0; k < 80; ++k) {
+            real q[2];
+            assert_ok(gvi_step(&b.st, 0.5));
+            if (!queried) iterations[k] = b.st.iterations;
+            assert_int_equal(b.st.iterations, iterations[k]);
+            if (queried) assert_ok(gvi_state_at(&b.st, b.st.t - (real)0.2, q, NULL, NULL));
+        }
+        tear_down(&b);
+    }
+}
+
+TEST(a_start_has_no_time_left_over)
+{
+    bench b = start(&scenes[1]);
+    steps(&b.st, 3, 0.1);
+    assert_true(b.st.t_low != 0);
+    assert_ok(gvi_start(&b.st, 1, q_start, v_start));
+    assert_true(b.st.t == 1 && b.st.t_low == 0 && b.st.h == 0);
+    tear_down(&b);
+}
+
+/* q and p in the second half of a step are rounded once: low words of q, p and t are in them */
+AT_POINT(pull) { return f[0] += 0.7, 0; }
+
+TEST(a_state_between_is_rounded_once)
+{
+    static const gvi_effect effect = { .kind = GVI_POTENTIAL, .point = pull };
+    static const gvi_desc desc = { .n = 1, .degree = 2, .effects = &effect, .effect_count = 1 };
+    static real room[2000];
+    gvi_stepper st;
+    assert_ok(gvi_init(&st, &desc, room, sizeof room));
+    assert_ok(gvi_start(&st, 0, (const real[]){ 1 }, (const real[]){ 1.1 }));
+    for (int k = 0; k < 150; ++k) {
+        assert_ok(gvi_step(&st, 0.001));
+        for (int i = 1; i < 5; ++i) {
+            const real t = st.t - st.h*i/10;
+            const long double T = t, f = (real)0.7, v = (real)1.1;
+            real q, p;
+            assert_ok(gvi_state_at(&st, t, &q, NULL, &p));
+            assert_close(q, 1 + T*(v + T*f/2), 0.53L*EPS);
+            assert_close(p, v + T*f, 0.53L*EPS);
+        }
+    }
 }
 
 RUN_TESTS(NULL, NULL)

@@ -50,7 +50,6 @@ static real hidden(gvi_stepper *st, const linkage *a)
 static void check_reference(const gvi_stepper *st, int n, const long double *q, const long double *p, real units)
 {
     for (int i = 0; i < n; ++i) {
-        if (getenv("SHOW")) printf("%.0Lf %.0Lf  ", ((long double)st->q[i] - q[i])/EPS, ((long double)st->p[i] - p[i])/EPS);
         assert_close(st->q[i], q[i], units*EPS);
         assert_close(st->p[i], p[i], units*EPS*(1 + fabs((real)p[i])));
     }
@@ -235,7 +234,7 @@ TEST(a_run_can_be_run_back)
         assert_ok(set_up(&st, &a, &desc));
         for (int k = 0; k < 40; ++k) assert_ok(gvi_step(&st, (real)0.05L));
         for (int k = 0; k < 40; ++k) assert_ok(gvi_step(&st, -(real)0.05L));
-        for (int i = 0; i < a.n; ++i) assert_close(st.q[i], a.q[i], 3000*EPS);
+        for (int i = 0; i < a.n; ++i) assert_close(st.q[i], a.q[i], 100*EPS);
     }
 }
 
@@ -258,7 +257,6 @@ TEST(g_and_G_v_stay_at_rounding)
             if (conserves) assert_ok(gvi_energy(&st, &E));
             off = fmax(off, fabs(E - E0)/(1 + fabs(E0)));
         }
-        if (getenv("SHOW")) printf("%d: g %.2Lf hidden %.2Lf energy %.1Lf eps\n", id, (long double)g, (long double)v, (long double)(off/EPS));
         assert_between(0, g, 2);
         assert_between(0, v, 6);
         assert_between(0, off, 100*EPS);
@@ -322,7 +320,7 @@ TEST(multipliers_near_the_end_of_a_domain)
         assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
         assert_ok(gvi_start(&st, 0, q, v));
         assert_ok(gvi_multipliers(&st, &lambda));
-        assert_close(lambda, z*(1 + z), 256*EPS);
+        assert_close(lambda, z*(1 + z), 8*EPS);
     }
 }
 
@@ -400,7 +398,7 @@ TEST(queries_know_constraints)
         assert_ok(gvi_curve(&st, 1, at, v));
         for (int j = 0; j < a.n; ++j) assert_close(at[j], st.q[j], 20*EPS);
         assert_ok(gvi_curve(&st, (real)0.75L, at, v));
-        for (int j = 0; j < a.n; ++j) assert_close(at[j], q[j], (real)1e-7L + 4*EPS);
+        for (int j = 0; j < a.n; ++j) assert_close(at[j], q[j], (real)1e-15L + 40*EPS);
         assert_ok(gvi_step(&st, (real)0.04L));
         memcpy(q, st.q, sizeof q[0]*(size_t)a.n);
         assert_ok(gvi_restore(&st, &saved, copy));
@@ -628,11 +626,10 @@ TEST(a_bifurcation_is_refused)
         for (int i = 0; i < 400 && status == GVI_OK; ++i) {
             status = gvi_step(&st, hs[k]);
             if (status == GVI_OK) {               // the parallel branch, as long as it says so
-                assert_close(st.q[2] - st.q[0], 3, (real)1e-4L);
-                assert_close(st.q[3], st.q[1], (real)1e-4L);
+                assert_close(st.q[2] - st.q[0], 3, 100*EPS);
+                assert_close(st.q[3], st.q[1], 400*EPS);
             }
         }
-        if (getenv("SHOW")) printf("parallelogram h %.2Lf: %s at t = %.2Lf\n", (long double)hs[k], gvi_status_text(status), (long double)st.t);
         assert_status(status, GVI_E_CONVERGENCE);     /* a shorter step would come nearer */
     }
 }
@@ -716,7 +713,6 @@ TEST(the_fourth_inertia_has_a_range)
         gvi_stepper st;
         gvi_status status = set_up(&st, &a, &desc);
         for (int i = 0; i < 200 && status == GVI_OK; ++i) status = gvi_step(&st, (real)0.05L);
-        if (getenv("SHOW")) printf("I0 1e%d: %s after %llu\n", k, gvi_status_text(status), st.counters.steps);
         if (k >= -2 && k <= 0) assert_ok(status);
         if (status == GVI_OK) assert_close(st.q[3], 0.8362546361450629900108049131L, 10000*EPS + (real)1e-12L);
     }
@@ -741,8 +737,7 @@ TEST(a_top_that_spins_too_fast_is_refused)
         assert_true(status == GVI_OK || status == GVI_E_CONVERGENCE);
         if (k <= 0) assert_ok(status);
         assert_ok(gvi_energy(&st, &E));
-        if (getenv("SHOW")) printf("h w %.2Lf: %s after %llu, %.1Le\n", (long double)hw, gvi_status_text(status), st.counters.steps, (long double)((E - E0)/E0));
-        if (status == GVI_OK) assert_close(E, E0, E0*(k < 1 ? 100*EPS + (real)1e-12L : (real)1e-5L));
+        if (status == GVI_OK) assert_close(E, E0, E0*(100*EPS + (k < 1 ? 0 : (real)1e-8L)));
     }
 }
 

@@ -317,4 +317,24 @@ TEST(test_own)
     compare("nodes 0 1/2 3/4, double pendulum", &pendulum, GVI_OWN, 3, 3, partitioned, &three);
 }
 
+/* What makes a step symplectic holds in the rounded tables exactly: S_ij = S_ji, and T_ij + T_ji = 1 for Gauss */
+TEST(tables_are_symplectic_to_the_bit)
+{
+    static gvi_real memory[20000];
+    for (int s = 1; s <= 16; ++s)
+        for (int rule = GVI_GAUSS; rule <= GVI_LOBATTO; ++rule) {
+            const gvi_desc desc = { .n = 1, .degree = s, .rule = { .kind = (gvi_rule_kind)rule },
+                                    .formulation = GVI_VELOCITIES };
+            gvi_stepper st;
+            assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+            const gvi_real *c = st.x.table.c, *K = st.x.table.K, *U = st.x.table.U;
+            const int R = st.x.R;
+            for (int i = 0; i < st.r; ++i)
+                for (int j = 0; j <= i; ++j) {
+                    assert_true((real)c[i] - K[j*R + i] == (real)c[j] - K[i*R + j]);
+                    if (rule == GVI_GAUSS) assert_true((real)U[j*R + i] + U[i*R + j] == 1);
+                }
+        }
+}
+
 RUN_TESTS(NULL, NULL)

@@ -103,7 +103,6 @@ TEST(orders_with_redundant_rows)
                 error[fine] = fabs((real)(st.q[1] - sinl(angle)));
             }
             const real order = log2(error[0]/error[1]);
-            if (getenv("SHOW")) printf("degree %d rule %d: order %.3Lf (%.1Le)\n", s, rule, (long double)order, (long double)error[1]);
             assert_between((real)(2*s) - (real)0.25L, order, (real)(2*s) + (real)0.35L);
         }
 }
@@ -127,9 +126,8 @@ TEST(a_closed_loop_does_not_drift)
         assert_ok(gvi_energy(&st, &E));
         off = fmax(off, fabs(E - E0));
     }
-    if (getenv("SHOW")) printf("loop: g %.1Lf eps, energy %.1Lf eps\n", (long double)(worst/EPS), (long double)(off/EPS));
     assert_between(0, worst, 32*EPS);
-    assert_between(0, off, 2000*EPS + (real)1e-9L);
+    assert_between(0, off, 500*EPS + (real)1e-14L);
 }
 
 /* ---------------------------------------------------------------- rows that contradict, vanish, or are too many */
@@ -287,10 +285,7 @@ TEST(no_step_changes_branch)
         const real size = L[0] + L[1], off = hypot(st.q[2] - a[2], st.q[3] - a[3])/size;
         if (off <= sqrt(EPS)*4) ++right;
         else ++wrong;
-        if (off > sqrt(EPS)*4 && getenv("SHOW"))
-            printf("kind %d degree %d from %.4Lf h %.4Lf: off by %.1Le after %d iterations form %d\n", kind, s, (long double)(side*dist), (long double)h, (long double)off, st.iterations, st.formulation);
     }
-    if (getenv("SHOW")) printf("right %d, on another branch %d\n", right, wrong);
     assert_true(wrong <= (fine < 3 ? right/100 : 0));          // float: 6 of 1,121
     assert_true(right > 500);
 }

@@ -264,8 +264,8 @@ TEST(the_motion_is_the_same)
         for (int k = 0; k < 50; ++k) assert_ok(gvi_step(st, h));
         alone(&scenes[i], start, h, 50, end);
         for (int k = 0; k < N; ++k) {
-            assert_close(st->q[k], end[k], 2000*EPS);
-            assert_close(st->p[k], end[N+k], 2000*EPS);
+            assert_close(st->q[k], end[k], 40*EPS);
+            assert_close(st->p[k], end[N+k], 40*EPS);
         }
     }
 }
