@@ -24,8 +24,8 @@ CMOCKA_LIBS   = $$(pkg-config --libs cmocka 2>/dev/null || echo -lcmocka)
 
 TESTS = $(sort $(basename $(notdir $(wildcard tests/test_*.c))))
 # These in float and in long double as well, and these compiled for size.
-TYPED = $(filter $(addprefix test_,constraints constraints_newton loops resolution corners effects interpolation kinks lu many mass newton oracle points quadrature rows tangent adjoint event body damped tolerance twins why),$(TESTS))
-SMALL = $(filter $(addprefix test_,constraints loops corners many mass newton points rows tolerance twins why),$(TESTS))
+TYPED = $(filter $(addprefix test_,constraints constraints_newton loops resolution regressions effects interpolation jumps lu uncoupled mass newton oracle points quadrature padding tangent adjoint event body damped tolerance no_trace why),$(TESTS))
+SMALL = $(filter $(addprefix test_,constraints loops regressions uncoupled mass newton points padding tolerance no_trace why),$(TESTS))
 VARIANTS = $(TYPED:%=%-float) $(TYPED:%=%-long) $(SMALL:%=%-small) $(SMALL:%=%-small-float)
 PROGRAMS = $(TESTS) $(VARIANTS)
 # Each links the library, compiled once for each type.

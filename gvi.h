@@ -116,10 +116,11 @@
               What is below 1e-307 (float: 1e-37) counts as 0.
    rounding   Round to nearest, subnormals kept; -ffast-math and its parts are
               refused, or without effect.  q, p and t carry compensation terms,
-              so 1e9 steps of t + h are as exact as one.  Compiled with -ffp-contract=off, the same bits on
-              every IEEE machine but x87, if the callbacks give the same bits and
-              products stay between 1e-290 and 1e299 (float: 1e-30 and 1e34);
-              beyond, their low words depend on FMA.
+              so 1e9 steps of t + h are as exact as one.  Compiled with
+              -ffp-contract=off, the same bits on every IEEE machine but x87, if
+              the callbacks give the same bits and products stay between 1e-290
+              and 1e299 (float: 1e-30 and 1e34); beyond, their low words depend
+              on FMA.
    work       Bounded: docs/embedded.md has the bound, `make bound` counts it.
    converged  A step ends when every coordinate has converged, each measured by
               its own size.  Where large forces cancel, a coordinate may never
@@ -834,7 +835,7 @@ struct gvi__private {
     int has_factor, diagnose;         /* at_points is factored; look for what is not finite */
 };
 
-/* The stepper, to be read; x is private.                                      */
+/* The stepper, to be read; in is private.                                     */
 typedef struct gvi_stepper {
     int             n, s, r;          /* as resolved from the description       */
     gvi_status      status;           /* of the last call; of a step that failed, like its fault,
@@ -854,7 +855,7 @@ typedef struct gvi_stepper {
                                          error is usually far smaller, rarely 10 times that */
     gvi_real        next;             /* the length that gvi_advance will try; may be set  */
     gvi_counters    counters;
-    struct gvi__private x;
+    struct gvi__private in;
 } gvi_stepper;
 
 /* The discrete Lagrangian and what belongs to it; pointers may be NULL for what
@@ -1887,51 +1888,51 @@ enum {                        /* what a scene needs that others do without, as b
                   + GVI__NEWTON*GVI__HAS_NEWTON + GVI__RULES*GVI__HAS_GAMMA
 };
 
-GVI__BODY int gvi__has(const struct gvi__private *x, int bit)
+GVI__BODY int gvi__has(const struct gvi__private *in, int bit)
 {
-    return (x->needs & GVI__POSSIBLE & bit) != 0;
+    return (in->needs & GVI__POSSIBLE & bit) != 0;
 }
 
 // is f this scene's formulation?  A constant where it is the only one compiled, or not compiled
-GVI__BODY int gvi__uses(const struct gvi__private *x, gvi_formulation f)
+GVI__BODY int gvi__uses(const struct gvi__private *in, gvi_formulation f)
 {
-    return (GVI__COMPILED >> f & 1) && (GVI__COMPILED == 1 << f || x->chosen == f);
+    return (GVI__COMPILED >> f & 1) && (GVI__COMPILED == 1 << f || in->chosen == f);
 }
 
-GVI__BODY int gvi__mass_is(const struct gvi__private *x, gvi_mass_kind kind)
+GVI__BODY int gvi__mass_is(const struct gvi__private *in, gvi_mass_kind kind)
 {
     if (kind == GVI_MASS_NONE && !GVI__LAGRANGIAN) return 0;
     if (kind == GVI_MASS_POSITION && !GVI__VARIES) return 0;
-    return x->desc.mass.kind == kind;
+    return in->desc.mass.kind == kind;
 }
 
-GVI__BODY int gvi__mass_is_constant(const struct gvi__private *x)
+GVI__BODY int gvi__mass_is_constant(const struct gvi__private *in)
 {
-    return GVI__VARIES == 0 || x->desc.mass.kind <= GVI_MASS_DENSE;
+    return GVI__VARIES == 0 || in->desc.mass.kind <= GVI_MASS_DENSE;
 }
 
-GVI__BODY int gvi__rule_is(const struct gvi__private *x, gvi_rule_kind kind)
+GVI__BODY int gvi__rule_is(const struct gvi__private *in, gvi_rule_kind kind)
 {
     return (kind != GVI_OWN || GVI__RULES > 0) && (kind != GVI_KICKS || GVI__EXPLICIT > 0)
-           && x->desc.rule.kind == kind;
+           && in->desc.rule.kind == kind;
 }
 
 // does M^-1 couple all coordinates?
-static int gvi__full_mass(const struct gvi__private *x)
+static int gvi__full_mass(const struct gvi__private *in)
 {
-    return x->desc.mass.kind == GVI_MASS_DENSE || !gvi__mass_is_constant(x)
-           || gvi__has(x, GVI__HAS_LAGRANGIAN);
+    return in->desc.mass.kind == GVI_MASS_DENSE || !gvi__mass_is_constant(in)
+           || gvi__has(in, GVI__HAS_LAGRANGIAN);
 }
 
 // is a constraint on?
 GVI__BODY int gvi__constrained(const gvi_stepper *st)
 {
-    return GVI__CONSTRAINTS && st->x.con.m > 0;
+    return GVI__CONSTRAINTS && st->in.con.m > 0;
 }
 
 static int gvi__clock_is_on(const gvi_stepper *st)
 {
-    return GVI__CLOCK && st->x.clock >= 0 && !(st->x.off >> st->x.clock & 1u);
+    return GVI__CLOCK && st->in.clock >= 0 && !(st->in.off >> st->in.clock & 1u);
 }
 
 /* Status and fault of a call.  gvi__report_effect: an effect or the mass is at fault, but no
@@ -1956,7 +1957,7 @@ static gvi_status gvi__refuse(gvi_fault *fault, int effect, int coordinate, cons
 GVI__COLD gvi_status gvi__refuse_constraints(gvi_stepper *st)
 {
     int e = 0;
-    while (!(st->x.con.bits >> e & 1u)) ++e;
+    while (!(st->in.con.bits >> e & 1u)) ++e;
     return gvi__report(st, GVI_E_FORMULATION, e, 0, GVI_FAULT_NONE);
 }
 
@@ -1975,9 +1976,9 @@ static gvi_status gvi__done(gvi_stepper *st, gvi_status status)
 {
     if (status == GVI_OK) gvi__report_status(st, GVI_OK);
     st->status = status;
-    if (st->x.failed.status != GVI_OK) {
-        st->status = st->x.failed.status;
-        st->fault = st->x.failed.fault;
+    if (st->in.failed.status != GVI_OK) {
+        st->status = st->in.failed.status;
+        st->fault = st->in.failed.fault;
     }
     return status;
 }
@@ -2011,11 +2012,11 @@ static void gvi__count(unsigned long long *counter, int more)
 }
 
 // the bits of all effects of a kind
-static unsigned gvi__of_kind(const struct gvi__private *x, gvi_kind kind)
+static unsigned gvi__of_kind(const struct gvi__private *in, gvi_kind kind)
 {
     unsigned bits = 0;
-    for (int e = 0; e < x->desc.effect_count; ++e)
-        if (x->desc.effects[e].kind == kind) bits |= 1u << e;
+    for (int e = 0; e < in->desc.effect_count; ++e)
+        if (in->desc.effects[e].kind == kind) bits |= 1u << e;
     return bits;
 }
 
@@ -2023,15 +2024,15 @@ static unsigned gvi__of_kind(const struct gvi__private *x, gvi_kind kind)
 static gvi_points gvi__points_at(const gvi_stepper *st, int count, int R, const gvi_real *t,
                                  const gvi_real *q, gvi_real *f, gvi_real *dldv)
 {
-    const gvi_points x = { st->n, count, R,    t,    q,    NULL, NULL, f,
+    const gvi_points at = { st->n, count, R,    t,    q,    NULL, NULL, f,
                            dldv,  NULL,  NULL, NULL, NULL, NULL, NULL };
-    return x;
+    return at;
 }
 
 // one point, f and dldv in scratch
 static gvi_points gvi__one_point(const gvi_stepper *st, const gvi_real *t, const gvi_real *q)
 {
-    gvi_real *f = st->x.point + 4*st->n;
+    gvi_real *f = st->in.point + 4*st->n;
     return gvi__points_at(st, 1, 1, t, q, f, f + st->n);
 }
 
@@ -2042,12 +2043,12 @@ static void gvi__gather(int n, int R, const gvi_real *rows, gvi_real *out)
 }
 
 // the first entry of rows [n][count] that is not finite is the fault
-static gvi_status gvi__check_rows(gvi_stepper *st, const gvi_points *x, const gvi_real *rows,
+static gvi_status gvi__check_rows(gvi_stepper *st, const gvi_points *at, const gvi_real *rows,
                                   int effect)
 {
     if (!rows) return GVI_OK;
-    for (int i = 0; i < x->n; ++i) {
-        const int k = gvi__first_non_finite(x->count, rows + i*x->stride);
+    for (int i = 0; i < at->n; ++i) {
+        const int k = gvi__first_non_finite(at->count, rows + i*at->stride);
         if (k >= 0) return gvi__report(st, GVI_E_NON_FINITE, effect, i, k);
     }
     return GVI_OK;
@@ -2056,32 +2057,32 @@ static gvi_status gvi__check_rows(gvi_stepper *st, const gvi_points *x, const gv
 // the value callback of effect e, added to `value`
 static gvi_status gvi__value(gvi_stepper *st, gvi_points *x, int e, gvi_real *value)
 {
-    const gvi_effect *effect = st->x.desc.effects + e;
-    gvi_points y = *x;
+    const gvi_effect *effect = st->in.desc.effects + e;
+    gvi_points at = *x;
     if (!effect->value) return gvi__report_effect(st, GVI_E_VALUE, e);
-    if (effect->kind == GVI_POTENTIAL) y.v = NULL;
-    y.f = y.dldv = NULL;
-    y.value = value;
-    const int failed = effect->value(&y, effect->user);
+    if (effect->kind == GVI_POTENTIAL) at.v = NULL;
+    at.f = at.dldv = NULL;
+    at.value = value;
+    const int failed = effect->value(&at, effect->user);
     if (failed) return gvi__report_callback(st, failed, e);
     return GVI_OK;
 }
 
 // the one-point form: gather, call, scatter.  Returns 0, or 1 + the point whose callback failed
-static int gvi__point_by_point(gvi_stepper *st, const gvi_effect *e, const gvi_points *x)
+static int gvi__point_by_point(gvi_stepper *st, const gvi_effect *e, const gvi_points *at)
 {
-    const int n = x->n;
-    gvi_real *q = st->x.point, *v = NULL, *f = q + 2*n, *dldv = NULL;
-    if (x->v) v = q + n;
-    if (x->dldv) dldv = f + n;
-    for (int k = 0; k < x->count; ++k) {
-        gvi__gather(n, x->stride, x->q + k, q);
-        if (v) gvi__gather(n, x->stride, x->v + k, v);
+    const int n = at->n;
+    gvi_real *q = st->in.point, *v = NULL, *f = q + 2*n, *dldv = NULL;
+    if (at->v) v = q + n;
+    if (at->dldv) dldv = f + n;
+    for (int k = 0; k < at->count; ++k) {
+        gvi__gather(n, at->stride, at->q + k, q);
+        if (v) gvi__gather(n, at->stride, at->v + k, v);
         gvi__zero(2*(size_t)n, f);
-        if (e->point(x->t[k], q, v, f, dldv, e->user)) return 1 + k;
+        if (e->point(at->t[k], q, v, f, dldv, e->user)) return 1 + k;
         for (int i = 0; i < n; ++i) {
-            x->f[i*x->stride + k] += f[i];
-            if (dldv) x->dldv[i*x->stride + k] += dldv[i];
+            at->f[i*at->stride + k] += f[i];
+            if (dldv) at->dldv[i*at->stride + k] += dldv[i];
         }
     }
     return 0;
@@ -2089,101 +2090,102 @@ static int gvi__point_by_point(gvi_stepper *st, const gvi_effect *e, const gvi_p
 
 /* One effect at all points; it sees only what its kind may read.  `value`, if not NULL, gets V
    or L, in the same call where one function gives both.                                       */
-GVI__BODY gvi_status gvi__effect(gvi_stepper *st, gvi_points *x, int e, gvi_real *value)
+GVI__BODY gvi_status gvi__effect(gvi_stepper *st, gvi_points *at, int e, gvi_real *value)
 {
-    const gvi_effect *effect = st->x.desc.effects + e;
-    const gvi_real *v = x->v;
-    gvi_real *dldv = x->dldv;
+    const gvi_effect *effect = st->in.desc.effects + e;
+    const gvi_real *v = at->v;
+    gvi_real *dldv = at->dldv;
     const int both = value && effect->points && effect->value == effect->points;
     int failed;
-    if (!GVI__READS_V || effect->kind == GVI_POTENTIAL) x->v = NULL;
-    if (!GVI__LAGRANGIAN || effect->kind != GVI_LAGRANGIAN) x->dldv = NULL;
-    if (both) x->value = value;
-    gvi__count(&st->counters.effect[e], x->count);
-    if (effect->points) failed = effect->points(x, effect->user);
-    else failed = gvi__point_by_point(st, effect, x);
-    x->value = NULL;
-    x->v = v;
-    x->dldv = dldv;
+    if (!GVI__READS_V || effect->kind == GVI_POTENTIAL) at->v = NULL;
+    if (!GVI__LAGRANGIAN || effect->kind != GVI_LAGRANGIAN) at->dldv = NULL;
+    if (both) at->value = value;
+    gvi__count(&st->counters.effect[e], at->count);
+    if (effect->points) failed = effect->points(at, effect->user);
+    else failed = gvi__point_by_point(st, effect, at);
+    at->value = NULL;
+    at->v = v;
+    at->dldv = dldv;
     if (failed && effect->points) return gvi__report_callback(st, failed, e);
     if (failed) return gvi__report(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, failed - 1);
     if (!value || both) return GVI_OK;
-    return gvi__value(st, x, e, value);
+    return gvi__value(st, at, e, value);
 }
 
 // what an effect adds its value to, with a clock, which needs V (level) and L; NULL: nothing
 static gvi_real *gvi__value_row(const gvi_stepper *st, int e, gvi_real *level)
 {
-    const gvi_kind kind = st->x.desc.effects[e].kind;
+    const gvi_kind kind = st->in.desc.effects[e].kind;
     if (!level || kind == GVI_FORCE) return NULL;
-    if (kind == GVI_LAGRANGIAN) return st->x.time.lagrangian;
+    if (kind == GVI_LAGRANGIAN) return st->in.time.lagrangian;
     return level;
 }
 
 // in the repetition of a step that came to NaN or Inf: each effect alone, which gave it?
-GVI__COLD gvi_status gvi__diagnose(gvi_stepper *st, gvi_points *x, unsigned skip, gvi_real *level)
+GVI__COLD gvi_status gvi__diagnose(gvi_stepper *st, gvi_points *at, unsigned skip, gvi_real *level)
 {
-    const size_t length = (size_t)x->n*(size_t)x->stride;
-    for (int e = 0; e < st->x.desc.effect_count; ++e) {
+    const size_t length = (size_t)at->n*(size_t)at->stride;
+    for (int e = 0; e < st->in.desc.effect_count; ++e) {
         gvi_real *value = gvi__value_row(st, e, level);
         if (skip >> e & 1u) continue;
-        gvi__zero(length, x->f);
-        if (x->dldv) gvi__zero(length, x->dldv);
-        if (value) gvi__zero((size_t)x->stride, value);
-        gvi_status status = gvi__effect(st, x, e, value);
+        gvi__zero(length, at->f);
+        if (at->dldv) gvi__zero(length, at->dldv);
+        if (value) gvi__zero((size_t)at->stride, value);
+        gvi_status status = gvi__effect(st, at, e, value);
         // to look at it is no step's work
-        st->counters.effect[e] -= (unsigned long long)x->count;
-        if (status == GVI_OK) status = gvi__check_rows(st, x, x->f, e);
-        if (status == GVI_OK) status = gvi__check_rows(st, x, x->dldv, e);
+        st->counters.effect[e] -= (unsigned long long)at->count;
+        if (status == GVI_OK) status = gvi__check_rows(st, at, at->f, e);
+        if (status == GVI_OK) status = gvi__check_rows(st, at, at->dldv, e);
         if (status != GVI_OK) return status;
         if (!value) continue;
-        const int k = gvi__first_non_finite(x->count, value);
+        const int k = gvi__first_non_finite(at->count, value);
         if (k >= 0) return gvi__report(st, GVI_E_NON_FINITE, e, GVI_FAULT_NONE, k);
     }
     return gvi__report_status(st, GVI_E_NON_FINITE);
 }
 
-/* Every effect that is on, but clock, constraints and those with a bit in `skip`: adds to x->f and
-   x->dldv, and with a level (a clock) to the values.                                          */
-static gvi_status gvi__effects(gvi_stepper *st, gvi_points *x, unsigned skip, gvi_real *level)
+/* Every effect that is on, but clock, constraints and those with a bit in `skip`: adds to at->f and
+   at->dldv, and with a level (a clock) to the values.                                          */
+static gvi_status gvi__effects(gvi_stepper *st, gvi_points *at, unsigned skip, gvi_real *level)
 {
-    const int diagnose = st->x.diagnose;
-    skip |= st->x.off | st->x.apart;
+    const int diagnose = st->in.diagnose;
+    skip |= st->in.off | st->in.apart;
 
     // points that are not finite: the iteration has diverged, and no effect is to blame
     if (diagnose
-        && (gvi__check_rows(st, x, x->q, 0) != GVI_OK || gvi__check_rows(st, x, x->v, 0) != GVI_OK))
+        && (gvi__check_rows(st, at, at->q, 0) != GVI_OK
+            || gvi__check_rows(st, at, at->v, 0) != GVI_OK))
         return gvi__report_status(st, GVI_E_CONVERGENCE);
-    for (int e = 0; e < st->x.desc.effect_count; ++e) {
+    for (int e = 0; e < st->in.desc.effect_count; ++e) {
         if (skip >> e & 1u) continue;
-        const gvi_status status = gvi__effect(st, x, e, gvi__value_row(st, e, level));
+        const gvi_status status = gvi__effect(st, at, e, gvi__value_row(st, e, level));
         if (status != GVI_OK) return status;
     }
     if (!diagnose) return GVI_OK;
-    const int finite = gvi__check_rows(st, x, x->f, 0) == GVI_OK
-                       && gvi__check_rows(st, x, x->dldv, 0) == GVI_OK
+    const int finite = gvi__check_rows(st, at, at->f, 0) == GVI_OK
+                       && gvi__check_rows(st, at, at->dldv, 0) == GVI_OK
                        && (!level
-                           || (gvi__first_non_finite(x->count, level) < 0
-                               && gvi__first_non_finite(x->count, st->x.time.lagrangian) < 0));
+                           || (gvi__first_non_finite(at->count, level) < 0
+                               && gvi__first_non_finite(at->count, st->in.time.lagrangian) < 0));
     if (finite) return gvi__report_status(st, GVI_OK);
-    return gvi__diagnose(st, x, skip, level);
+    return gvi__diagnose(st, at, skip, level);
 }
 
 /* Evaluates mass.points, or with `v` mass.velocity, which reads p.                           */
 static gvi_status gvi__evaluate_mass(gvi_stepper *st, const gvi_points *x, const gvi_real *p,
                                      gvi_real *v)
 {
-    const gvi_mass *mass = &st->x.desc.mass;
-    gvi_points y = gvi__points_at(st, x->count, x->stride, x->t, x->q, NULL, NULL);
+    const gvi_mass *mass = &st->in.desc.mass;
+    gvi_points at = gvi__points_at(st, x->count, x->stride, x->t, x->q, NULL, NULL);
     gvi_points_fn *callback = mass->velocity;
-    y.p = p;
-    y.velocity = v;
+    at.p = p;
+    at.velocity = v;
     if (!v) {
-        y.mass = st->x.mass.at_points;
+        at.mass = st->in.mass.at_points;
         callback = mass->points;
     }
     gvi__count(&st->counters.mass, x->count);
-    const int failed = callback(&y, mass->user);
+    const int failed = callback(&at, mass->user);
     if (failed) return gvi__report_callback(st, failed, GVI_FAULT_MASS);
     return GVI_OK;
 }
@@ -2193,7 +2195,7 @@ static gvi_status gvi__evaluate_mass(gvi_stepper *st, const gvi_points *x, const
 static gvi_status gvi__factor_mass(gvi_stepper *st, const gvi_points *x)
 {
     const int n = st->n, R = x->stride;
-    gvi_real *m = st->x.mass.at_points;
+    gvi_real *m = st->in.mass.at_points;
     gvi_status status = gvi__evaluate_mass(st, x, NULL, NULL);
     if (status != GVI_OK) return status;
     gvi__count(&st->counters.factorizations, x->count);
@@ -2219,90 +2221,92 @@ static gvi_status gvi__factor_mass(gvi_stepper *st, const gvi_points *x)
 // x->f += v' dM/dq v / 2
 static gvi_status gvi__mass_gradient(gvi_stepper *st, const gvi_points *x)
 {
-    const gvi_mass *mass = &st->x.desc.mass;
-    gvi_points y = *x;
-    y.dldv = NULL;
-    const int failed = mass->gradient(&y, mass->user);
+    const gvi_mass *mass = &st->in.desc.mass;
+    gvi_points at = *x;
+    at.dldv = NULL;
+    const int failed = mass->gradient(&at, mass->user);
     if (failed) return gvi__report_callback(st, failed, GVI_FAULT_MASS);
-    if (!st->x.diagnose) return GVI_OK;
+    if (!st->in.diagnose) return GVI_OK;
     return gvi__check_rows(st, x, x->f, GVI_FAULT_MASS);
 }
 
 // where entry (i,j) of a symmetric matrix stands, of which only i >= j is there
 static int gvi__lower(int n, int i, int j) { return i >= j ? i*n + j : j*n + i; }
 
-/* x->dldv += M v.  Entry (i,j) is `width` numbers: one for each point, one for all, or, 0, only
+/* at->dldv += M v.  Entry (i,j) is `width` numbers: one for each point, one for all, or, 0, only
    those of the diagonal are there.                                                            */
-static void gvi__add_momenta(const gvi_points *x, const gvi_real *m, int width)
+static void gvi__add_momenta(const gvi_points *at, const gvi_real *m, int width)
 {
-    const int n = x->n, R = x->stride, each = width > 1;
+    const int n = at->n, R = at->stride, each = width > 1;
     for (int i = 0; i < n; ++i) {
-        gvi_real *p = x->dldv + i*R;
+        gvi_real *p = at->dldv + i*R;
         if (width == 0) {
-            for (int k = 0; k < x->count; ++k) p[k] += m[i]*x->v[i*R + k];
+            for (int k = 0; k < at->count; ++k) p[k] += m[i]*at->v[i*R + k];
             continue;
         }
         for (int j = 0; j < n; ++j) {
             const gvi_real *a = m + (size_t)gvi__lower(n, i, j)*(size_t)width;
-            for (int k = 0; k < x->count; ++k) p[k] += a[k*each]*x->v[j*R + k];
+            for (int k = 0; k < at->count; ++k) p[k] += a[k*each]*at->v[j*R + k];
         }
     }
 }
 
 /* F and P = dL/dv at the points from scratch, of everything but the effects with a bit in `skip`;
    the kinetic energy is left out on demand, too.                                             */
-static gvi_status gvi__evaluate(gvi_stepper *st, gvi_points *x, unsigned skip, int kinetic)
+static gvi_status gvi__evaluate(gvi_stepper *st, gvi_points *at, unsigned skip, int kinetic)
 {
-    const struct gvi__private *y = &st->x;
-    const size_t length = (size_t)x->n*(size_t)x->stride;
+    const struct gvi__private *in = &st->in;
+    const size_t length = (size_t)at->n*(size_t)at->stride;
     gvi_status status = GVI_OK;
-    gvi__zero(length, x->f);
-    gvi__zero(length, x->dldv);
-    if (!kinetic || gvi__mass_is(y, GVI_MASS_NONE)) return gvi__effects(st, x, skip, NULL);
-    if (gvi__mass_is(y, GVI_MASS_POSITION)) {
-        status = gvi__evaluate_mass(st, x, NULL, NULL);
-        if (status == GVI_OK) status = gvi__mass_gradient(st, x);
-        if (status == GVI_OK) gvi__add_momenta(x, y->mass.at_points, x->stride);
-    } else gvi__add_momenta(x, y->mass.matrix, y->desc.mass.kind == GVI_MASS_DENSE);
-    if (status == GVI_OK && y->diagnose) status = gvi__check_rows(st, x, x->dldv, GVI_FAULT_MASS);
+    gvi__zero(length, at->f);
+    gvi__zero(length, at->dldv);
+    if (!kinetic || gvi__mass_is(in, GVI_MASS_NONE)) return gvi__effects(st, at, skip, NULL);
+    if (gvi__mass_is(in, GVI_MASS_POSITION)) {
+        status = gvi__evaluate_mass(st, at, NULL, NULL);
+        if (status == GVI_OK) status = gvi__mass_gradient(st, at);
+        if (status == GVI_OK) gvi__add_momenta(at, in->mass.at_points, at->stride);
+    } else gvi__add_momenta(at, in->mass.matrix, in->desc.mass.kind == GVI_MASS_DENSE);
+    if (status == GVI_OK && in->diagnose)
+        status = gvi__check_rows(st, at, at->dldv, GVI_FAULT_MASS);
     if (status != GVI_OK) return status;
-    return gvi__effects(st, x, skip, NULL);
+    return gvi__effects(st, at, skip, NULL);
 }
 
 // rows z [n][R] := M^-1 z, M constant
 static void gvi__over_mass(const gvi_stepper *st, gvi_real *z, int R, int count)
 {
-    const struct gvi__private *x = &st->x;
-    if (x->desc.mass.kind == GVI_MASS_DENSE) gvi__ldl_solve(st->n, x->mass.factor, 1, z, R, count);
-    if (x->desc.mass.kind != GVI_MASS_DIAGONAL) return;
+    const struct gvi__private *in = &st->in;
+    if (in->desc.mass.kind == GVI_MASS_DENSE)
+        gvi__ldl_solve(st->n, in->mass.factor, 1, z, R, count);
+    if (in->desc.mass.kind != GVI_MASS_DIAGONAL) return;
     for (int i = 0; i < st->n; ++i)
-        for (int k = 0; k < count; ++k) z[i*R + k] *= x->mass.inverse[i];
+        for (int k = 0; k < count; ++k) z[i*R + k] *= in->mass.inverse[i];
 }
 
 /* d(dL/dv)/dv at one point, n*n, by differences of dL/dv, to `hessian`.  x has been evaluated, and
    x->v is v.  The difference is shortened where it leaves the domain of L, and made longer where
    P_j, which need not be 0 with v, hides it.                                                 */
-static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real *v,
+static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_real *v,
                                         gvi_real *hessian)
 {
     const int n = st->n;
     const gvi_real root = GVI_SQRT(GVI__EPS);
-    gvi_real *base = st->x.newton.column;
-    gvi__copy((size_t)n, x->dldv, base);
+    gvi_real *base = st->in.newton.column;
+    gvi__copy((size_t)n, at->dldv, base);
     for (int j = 0; j < n; ++j) {
-        const gvi_real was = v[j], push = GVI_ABS(st->x.sized.h*x->f[j])*root;
+        const gvi_real was = v[j], push = GVI_ABS(st->in.sized.h*at->f[j])*root;
         const int rests = !gvi__nonzero(was);
         gvi_real d = 0, next = root*GVI_ABS(was);
         if (rests) next = root*(gvi__norm1(n, v)/(gvi_real)n);
         if (!(next > GVI__MIN/GVI__EPS)) next = root;
         for (int k = 0; k < 12; ++k) {
             v[j] = was + next;
-            const gvi_status status = gvi__evaluate(st, x, 0, 1);
+            const gvi_status status = gvi__evaluate(st, at, 0, 1);
             d = v[j] - was;
             v[j] = was;
             if (status != GVI_OK && (status != GVI_E_CALLBACK || k == 11)) return status;
-            const gvi_real moved = GVI_ABS(x->dldv[j] - base[j]);
-            if (status != GVI_OK || !gvi__finite(x->dldv[j])) {
+            const gvi_real moved = GVI_ABS(at->dldv[j] - base[j]);
+            if (status != GVI_OK || !gvi__finite(at->dldv[j])) {
                 // out of the domain: nearer, and at the last place back towards 0
                 next = d*root;
                 if (GVI_ABS(d)*root < 2*GVI__EPS*GVI_ABS(was)) next = -2*GVI__EPS*was;
@@ -2313,9 +2317,9 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *x, gvi_real
             } else break;
             if (!gvi__nonzero(next)) break;
         }
-        for (int i = 0; i < n; ++i) hessian[i*n + j] = (x->dldv[i] - base[i])/d;
+        for (int i = 0; i < n; ++i) hessian[i*n + j] = (at->dldv[i] - base[i])/d;
     }
-    gvi__copy((size_t)n, base, x->dldv);
+    gvi__copy((size_t)n, base, at->dldv);
     return GVI_OK;
 }
 
@@ -2326,7 +2330,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
                                        gvi_real *v)
 {
     const int n = st->n;
-    gvi_real *W = st->x.newton.hessian, *pivot = W + n*n, *dv = st->x.newton.column + n,
+    gvi_real *W = st->in.newton.hessian, *pivot = W + n*n, *dv = st->in.newton.column + n,
              last = GVI__MAX;
     int at;
     x->v = v;
@@ -2382,28 +2386,28 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
 // a velocity near the present one: that at the end of the last step, or of the start
 static void gvi__velocity_guess(const gvi_stepper *st, gvi_real *v)
 {
-    const struct gvi__private *x = &st->x;
-    if (GVI__READS_V && x->has_velocity) gvi__gather(st->n, x->R, x->last.V + st->r - 1, v);
-    else gvi__copy((size_t)st->n, x->start, v);
+    const struct gvi__private *in = &st->in;
+    if (GVI__READS_V && in->has_velocity) gvi__gather(st->n, in->R, in->last.V + st->r - 1, v);
+    else gvi__copy((size_t)st->n, in->start, v);
 }
 
 // v from p at one point; v holds a guess on entry
 static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *p,
                                 gvi_real *v)
 {
-    gvi_points x = gvi__one_point(st, &t, q);
-    if (st->x.desc.mass.velocity) {
-        const gvi_status status = gvi__evaluate_mass(st, &x, p, v);
+    gvi_points at = gvi__one_point(st, &t, q);
+    if (st->in.desc.mass.velocity) {
+        const gvi_status status = gvi__evaluate_mass(st, &at, p, v);
         if (status != GVI_OK) return status;
-        return gvi__check_rows(st, &x, v, GVI_FAULT_MASS);
+        return gvi__check_rows(st, &at, v, GVI_FAULT_MASS);
     }
-    if (gvi__mass_is(&st->x, GVI_MASS_NONE) || gvi__has(&st->x, GVI__HAS_LAGRANGIAN))
-        return gvi__legendre_newton(st, &x, p, v);
+    if (gvi__mass_is(&st->in, GVI_MASS_NONE) || gvi__has(&st->in, GVI__HAS_LAGRANGIAN))
+        return gvi__legendre_newton(st, &at, p, v);
     gvi__copy((size_t)st->n, p, v);
-    if (gvi__mass_is(&st->x, GVI_MASS_POSITION)) {
-        const gvi_status status = gvi__factor_mass(st, &x);
+    if (gvi__mass_is(&st->in, GVI_MASS_POSITION)) {
+        const gvi_status status = gvi__factor_mass(st, &at);
         if (status != GVI_OK) return status;
-        gvi__ldl_solve(st->n, st->x.mass.at_points, 1, v, 1, 1);
+        gvi__ldl_solve(st->n, st->in.mass.at_points, 1, v, 1, 1);
         gvi__count(&st->counters.velocities, 1);
     } else gvi__over_mass(st, v, 1, 1);
     return GVI_OK;
@@ -2414,21 +2418,21 @@ static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, 
 GVI__COLD gvi_status gvi__value_sums(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                      const gvi_real *v, gvi_real *V, gvi_real *L, gvi_real *T)
 {
-    const gvi_desc *d = &st->x.desc;
-    gvi_points y = gvi__one_point(st, &t, q);
-    y.v = v;
+    const gvi_desc *d = &st->in.desc;
+    gvi_points at = gvi__one_point(st, &t, q);
+    at.v = v;
     *V = *L = *T = 0;
     for (int e = 0; e < d->effect_count; ++e) {
         const gvi_kind kind = d->effects[e].kind;
         gvi_real *value = L;
         if (kind == GVI_POTENTIAL) value = V;
-        if (((st->x.off | st->x.apart) >> e & 1u) || kind == GVI_FORCE) continue;
-        const gvi_status status = gvi__value(st, &y, e, value);
+        if (((st->in.off | st->in.apart) >> e & 1u) || kind == GVI_FORCE) continue;
+        const gvi_status status = gvi__value(st, &at, e, value);
         if (status != GVI_OK) return status;
         if (!gvi__finite(*value)) return gvi__report_effect(st, GVI_E_NON_FINITE, e);
     }
-    const gvi_status status = gvi__evaluate(st, &y, ~0u, 1);
-    *T = gvi__dot(st->n, y.dldv, v)/2;
+    const gvi_status status = gvi__evaluate(st, &at, ~0u, 1);
+    *T = gvi__dot(st->n, at.dldv, v)/2;
     return status;
 }
 
@@ -2442,7 +2446,7 @@ GVI__COLD gvi_status gvi__hamiltonian(gvi_stepper *st, gvi_real t, const gvi_rea
     if (status == GVI_OK) status = gvi__value_sums(st, t, q, v, &V, &L, &T);
     if (status != GVI_OK) return status;
     const gvi_real pv = gvi__dot(st->n, p, v);
-    if (gvi__has(&st->x, GVI__HAS_LAGRANGIAN)) *energy = (pv - T) - L + V;
+    if (gvi__has(&st->in, GVI__HAS_LAGRANGIAN)) *energy = (pv - T) - L + V;
     else *energy = pv/2 + V;
     return GVI_OK;
 }
@@ -2457,7 +2461,7 @@ GVI__COLD void gvi__modes_of(const gvi_stepper *st, int count, gvi_real *c, cons
     for (int i = 0; i < count; ++i) {
         const gvi__two X = gvi__argument2(gvi__two_of(c[i], c_low[i]));
         gvi__two P = gvi__two_of(1, 0), before = P;
-        for (int k = 0, at = i; k < st->s; ++k, at += st->x.R) {
+        for (int k = 0, at = i; k < st->s; ++k, at += st->in.R) {
             gvi__two z = before;
             if (phi) {
                 phi[at] = P.hi;
@@ -2475,9 +2479,9 @@ GVI__COLD void gvi__modes_of(const gvi_stepper *st, int count, gvi_real *c, cons
 // the low words of modes a: phi, Phi, or Phi at constraints' points
 static const gvi_real *gvi__low_words(const gvi_stepper *st, const gvi_real *a)
 {
-    if (a == st->x.table.phi) return st->x.table.phi_low;
-    if (a == st->x.con.Phi) return st->x.con.Phi_low;
-    return st->x.sized.E;                         // gvi__set_rule puts those of Phi there
+    if (a == st->in.table.phi) return st->in.table.phi_low;
+    if (a == st->in.con.Phi) return st->in.con.Phi_low;
+    return st->in.sized.E;                         // gvi__set_rule puts those of Phi there
 }
 
 /* 1/Gamma_kk = 2k + 1 while the rule is exact for phi_k^2; Lobatto with r = s gives s - 1 for the
@@ -2485,21 +2489,21 @@ static const gvi_real *gvi__low_words(const gvi_stepper *st, const gvi_real *a)
    but misses, half of the digits would be left.                                               */
 GVI__COLD gvi_status gvi__make_gamma(gvi_stepper *st)
 {
-    const struct gvi__tables *x = &st->x.table;
-    const int s = st->s, r = st->r, R = st->x.R;
-    for (int k = 0; k < s; ++k) x->inv_gamma[k] = (gvi_real)(2*k + 1);
+    const struct gvi__tables *table = &st->in.table;
+    const int s = st->s, r = st->r, R = st->in.R;
+    for (int k = 0; k < s; ++k) table->inv_gamma[k] = (gvi_real)(2*k + 1);
     if (GVI__RULES && st->order == 2*s - 2) {
-        const gvi_real *last = x->phi + (s - 1)*R, sum = gvi__dot3(r, x->b, last, last);
+        const gvi_real *last = table->phi + (s - 1)*R, sum = gvi__dot3(r, table->b, last, last);
         if (!(GVI_ABS(sum) > GVI_SQRT(GVI__EPS))) return GVI_E_POINTS;
-        x->inv_gamma[s - 1] = 1/sum;
-        if (st->x.desc.rule.kind == GVI_LOBATTO) x->inv_gamma[s - 1] = (gvi_real)(s - 1);
+        table->inv_gamma[s - 1] = 1/sum;
+        if (st->in.desc.rule.kind == GVI_LOBATTO) table->inv_gamma[s - 1] = (gvi_real)(s - 1);
     }
-    if (!gvi__has(&st->x, GVI__HAS_GAMMA)) return GVI_OK;
+    if (!gvi__has(&st->in, GVI__HAS_GAMMA)) return GVI_OK;
     for (int k = 0; k < s; ++k)
         for (int l = 0; l < s; ++l)
-            x->gamma[k*s + l] = gvi__dot3(r, x->b, x->phi + k*R, x->phi + l*R);
-    if (gvi_lu_factor(s, x->gamma, x->gamma + s*s) != GVI_OK) return GVI_E_POINTS;
-    if (!(gvi_lu_rcond(s, x->gamma, x->gamma + s*s, st->x.row) > GVI_SQRT(GVI__EPS)))
+            table->gamma[k*s + l] = gvi__dot3(r, table->b, table->phi + k*R, table->phi + l*R);
+    if (gvi_lu_factor(s, table->gamma, table->gamma + s*s) != GVI_OK) return GVI_E_POINTS;
+    if (!(gvi_lu_rcond(s, table->gamma, table->gamma + s*s, st->in.row) > GVI_SQRT(GVI__EPS)))
         return GVI_E_POINTS;
     return GVI_OK;
 }
@@ -2507,21 +2511,22 @@ GVI__COLD gvi_status gvi__make_gamma(gvi_stepper *st)
 // y := Gamma^-1 y
 static void gvi__over_gamma(const gvi_stepper *st, gvi_real *y)
 {
-    const struct gvi__tables *x = &st->x.table;
-    if (gvi__has(&st->x, GVI__HAS_GAMMA)) gvi_lu_solve(st->s, x->gamma, x->gamma + st->s*st->s, y);
-    else for (int k = 0; k < st->s; ++k) y[k] *= x->inv_gamma[k];
+    const struct gvi__tables *table = &st->in.table;
+    if (gvi__has(&st->in, GVI__HAS_GAMMA))
+        gvi_lu_solve(st->s, table->gamma, table->gamma + st->s*st->s, y);
+    else for (int k = 0; k < st->s; ++k) y[k] *= table->inv_gamma[k];
 }
 
 // w := Gamma^-1 b(c_j) as double words, low words s further, for gvi__coupling; b: phi or Phi
 GVI__COLD void gvi__prepare_column(gvi_stepper *st, const gvi_real *b, int j)
 {
-    const struct gvi__tables *x = &st->x.table;
+    const struct gvi__tables *table = &st->in.table;
     const gvi_real *low = gvi__low_words(st, b);
-    const int s = st->s, R = st->x.R, full = gvi__has(&st->x, GVI__HAS_GAMMA);
-    gvi_real *w = st->x.row;
+    const int s = st->s, R = st->in.R, full = gvi__has(&st->in, GVI__HAS_GAMMA);
+    gvi_real *w = st->in.row;
     for (int k = 0; k < s; ++k) {
         gvi__two z = gvi__two_of(b[k*R + j], 0);
-        if (!full) z = gvi__scale2(x->inv_gamma[k], gvi__two_of(z.hi, low[k*R + j]));
+        if (!full) z = gvi__scale2(table->inv_gamma[k], gvi__two_of(z.hi, low[k*R + j]));
         w[k] = z.hi;
         w[s + k] = z.lo;
     }
@@ -2531,9 +2536,9 @@ GVI__COLD void gvi__prepare_column(gvi_stepper *st, const gvi_real *b, int j)
 // sum_k a_k(c_i) (Gamma^-1 b(c_j))_k; a: phi or Phi.  Products do not wait for the sum
 GVI__COLD gvi__two gvi__coupling(const gvi_stepper *st, const gvi_real *a, int i)
 {
-    const gvi_real *low = gvi__low_words(st, a), *w = st->x.row;
+    const gvi_real *low = gvi__low_words(st, a), *w = st->in.row;
     gvi__two sum = gvi__two_of(0, 0);
-    for (int k = 0, at = i; k < st->s; ++k, at += st->x.R) {
+    for (int k = 0, at = i; k < st->s; ++k, at += st->in.R) {
         const gvi__two z = gvi__mul2(gvi__two_of(a[at], low[at]), gvi__two_of(w[k], w[st->s + k]));
         sum = gvi__add_low(sum.hi, sum.lo, z.hi, z.lo);
     }
@@ -2548,7 +2553,7 @@ static gvi_real gvi__S(const gvi_stepper *st, const gvi_real *Phi, int i)
 
 static gvi_real gvi__T(const gvi_stepper *st, int i)
 {
-    return gvi__grid(gvi__coupling(st, st->x.table.phi, i), GVI__EPS);
+    return gvi__grid(gvi__coupling(st, st->in.table.phi, i), GVI__EPS);
 }
 
 /* S and T on grids of eps/2 and eps (|S| <= 1, |T| < 2): what they must fulfil for the step to
@@ -2557,33 +2562,33 @@ static gvi_real gvi__T(const gvi_stepper *st, int i)
    where Lagrangian terms are taken away, in the velocities formulation, -T_ji and -N_ij.      */
 GVI__COLD void gvi__make_tables(gvi_stepper *st)
 {
-    const struct gvi__tables *x = &st->x.table;
-    const int r = st->r, R = st->x.R;
-    const int gauss = !GVI__RULES || (st->x.desc.rule.kind == GVI_GAUSS && r == st->s);
+    const struct gvi__tables *table = &st->in.table;
+    const int r = st->r, R = st->in.R;
+    const int gauss = !GVI__RULES || (st->in.desc.rule.kind == GVI_GAUSS && r == st->s);
     gvi_real sign = 1;
-    if (gvi__uses(&st->x, GVI_VELOCITIES)) sign = -1;
+    if (gvi__uses(&st->in, GVI_VELOCITIES)) sign = -1;
     for (int j = 0; j < r; ++j) {
         int to = r;
-        gvi__prepare_column(st, x->Phi, j);
-        if (x->K)
+        gvi__prepare_column(st, table->Phi, j);
+        if (table->K)
             for (int i = 0; i <= j; ++i) {
-                const gvi_real S = gvi__S(st, x->Phi, i);
-                x->K[j*R + i] = x->c[i] - S;
-                x->K[i*R + j] = x->c[j] - S;
+                const gvi_real S = gvi__S(st, table->Phi, i);
+                table->K[j*R + i] = table->c[i] - S;
+                table->K[i*R + j] = table->c[j] - S;
             }
-        if (!x->U) continue;
+        if (!table->U) continue;
         if (gauss) to = j + 1;                    // the others by T_ij + T_ji = 1
         for (int i = 0; i < to; ++i) {
             gvi_real T = (gvi_real)0.5;
             if (!gauss || i != j) T = gvi__T(st, i);
-            x->U[j*R + i] = 1 - T;
-            if (gauss) x->U[i*R + j] = T;
-            if (x->T) x->T[i*R + j] = sign*T;
-            if (x->T && gauss) x->T[j*R + i] = sign*(1 - T);
+            table->U[j*R + i] = 1 - T;
+            if (gauss) table->U[i*R + j] = T;
+            if (table->T) table->T[i*R + j] = sign*T;
+            if (table->T && gauss) table->T[j*R + i] = sign*(1 - T);
         }
-        if (!GVI__LAGRANGIAN || !x->N) continue;
-        gvi__prepare_column(st, x->phi, j);
-        for (int i = 0; i < r; ++i) x->N[j*R + i] = -gvi__coupling(st, x->phi, i).hi;
+        if (!GVI__LAGRANGIAN || !table->N) continue;
+        gvi__prepare_column(st, table->phi, j);
+        for (int i = 0; i < r; ++i) table->N[j*R + i] = -gvi__coupling(st, table->phi, i).hi;
     }
 }
 
@@ -2591,31 +2596,31 @@ GVI__COLD void gvi__make_tables(gvi_stepper *st)
    d_e); for D d_a - S(d_a, c_j), or with momenta T(c_j, d_a), and d_a - S(d_a, d_e), with LU. */
 GVI__COLD gvi_status gvi__set_constraints(gvi_stepper *st)
 {
-    const struct gvi__private *x = &st->x;
-    const int s = st->s, r = st->r, R = x->R, momenta = gvi__uses(x, GVI_MOMENTA);
-    gvi_real *d = x->con.d, *low = x->row, *lu = x->con.lu;
-    gvi__rule(1, s + 1, d, gvi__uses(x, GVI_EXPLICIT) ? NULL : low, x->con.w);
-    if (gvi__uses(x, GVI_EXPLICIT)) return GVI_OK;
-    gvi__modes_of(st, s, d + 1, low + 1, NULL, NULL, x->con.Phi, x->con.Phi_low);
-    gvi__zero(2*(size_t)s, x->row);               // the column of d_0: Phi(d_0) = 0
+    const struct gvi__private *in = &st->in;
+    const int s = st->s, r = st->r, R = in->R, momenta = gvi__uses(in, GVI_MOMENTA);
+    gvi_real *d = in->con.d, *low = in->row, *lu = in->con.lu;
+    gvi__rule(1, s + 1, d, gvi__uses(in, GVI_EXPLICIT) ? NULL : low, in->con.w);
+    if (gvi__uses(in, GVI_EXPLICIT)) return GVI_OK;
+    gvi__modes_of(st, s, d + 1, low + 1, NULL, NULL, in->con.Phi, in->con.Phi_low);
+    gvi__zero(2*(size_t)s, in->row);               // the column of d_0: Phi(d_0) = 0
     for (int e = 0; e <= s; ++e) {
-        if (e > 0) gvi__prepare_column(st, x->con.Phi, e - 1);
+        if (e > 0) gvi__prepare_column(st, in->con.Phi, e - 1);
         for (int i = 0; i < r; ++i) {
-            const gvi_real S = gvi__S(st, x->table.Phi, i), T = x->con.U ? gvi__T(st, i) : 0;
-            if (e < s) x->con.K[e*R + i] = x->table.c[i] - S;
-            if (e < s && x->con.U) x->con.U[e*R + i] = 1 - T;
-            if (e > 0) x->con.by_force[i*R + e - 1] = momenta ? T : d[e] - S;
+            const gvi_real S = gvi__S(st, in->table.Phi, i), T = in->con.U ? gvi__T(st, i) : 0;
+            if (e < s) in->con.K[e*R + i] = in->table.c[i] - S;
+            if (e < s && in->con.U) in->con.U[e*R + i] = 1 - T;
+            if (e > 0) in->con.by_force[i*R + e - 1] = momenta ? T : d[e] - S;
         }
         for (int a = e > 1 ? e : 1; a <= s; ++a) {
-            const gvi_real S = gvi__S(st, x->con.Phi, a - 1);
-            if (e < s) x->con.by_impulse[e*R + a - 1] = lu[(a - 1)*s + e] = d[a] - S;
-            if (a < s && e > 0) x->con.by_impulse[a*R + e - 1] = lu[(e - 1)*s + a] = d[e] - S;
+            const gvi_real S = gvi__S(st, in->con.Phi, a - 1);
+            if (e < s) in->con.by_impulse[e*R + a - 1] = lu[(a - 1)*s + e] = d[a] - S;
+            if (a < s && e > 0) in->con.by_impulse[a*R + e - 1] = lu[(e - 1)*s + a] = d[e] - S;
         }
     }
     if (gvi_lu_factor(s, lu, lu + s*s) != GVI_OK) return GVI_E_POINTS;
     for (int a = 0; a < s; ++a) {
-        x->con.X[a*R + a] = 1;
-        gvi_lu_solve(s, lu, lu + s*s, x->con.X + a*R);
+        in->con.X[a*R + a] = 1;
+        gvi_lu_solve(s, lu, lu + s*s, in->con.X + a*R);
     }
     return GVI_OK;
 }
@@ -2639,34 +2644,34 @@ static void gvi__modes(const gvi_stepper *st, gvi_real tau, gvi_real *phi, gvi_r
    mirror image.  Explicit, the drifts between the nodes sum to h as well.                    */
 static void gvi__weights_for(gvi_stepper *st, gvi_real h)
 {
-    struct gvi__sized *x = &st->x.sized;
-    const gvi_real *b = st->x.table.b;
+    struct gvi__sized *sized = &st->in.sized;
+    const gvi_real *b = st->in.table.b;
     const int r = st->r;
     int e, most = 0;
-    if (!gvi__nonzero(x->h - h)) return;
-    x->h = h;
-    x->ratio = 0;                                  // E may hold sums with the old weights
+    if (!gvi__nonzero(sized->h - h)) return;
+    sized->h = h;
+    sized->ratio = 0;                                  // E may hold sums with the old weights
 
     gvi_real mantissa = GVI_FREXP(h, &e), rest = mantissa, at = 0;
     for (int j = 0; j < r; ++j) {
-        x->hb[j] = gvi__grid(gvi__two_prod(b[j], mantissa), GVI__EPS/2);
-        rest -= x->hb[j];
+        sized->hb[j] = gvi__grid(gvi__two_prod(b[j], mantissa), GVI__EPS/2);
+        rest -= sized->hb[j];
         if (b[j] > b[most]) most = j;
     }
     const int mirror = r - 1 - most;
-    if (mirror == most || gvi__nonzero(b[mirror] - b[most])) x->hb[most] += rest;
+    if (mirror == most || gvi__nonzero(b[mirror] - b[most])) sized->hb[most] += rest;
     else {
-        x->hb[most] += rest/2;
-        x->hb[mirror] += rest/2;
+        sized->hb[most] += rest/2;
+        sized->hb[mirror] += rest/2;
     }
-    for (int j = 0; j < r; ++j) x->hb[j] = GVI_LDEXP(x->hb[j], e);
-    if (!gvi__uses(&st->x, GVI_EXPLICIT)) return;
+    for (int j = 0; j < r; ++j) sized->hb[j] = GVI_LDEXP(sized->hb[j], e);
+    if (!gvi__uses(&st->in, GVI_EXPLICIT)) return;
     for (int j = 0; j < r; ++j) {
-        const gvi_real next = gvi__grid(gvi__two_prod(st->x.table.c[j], mantissa), GVI__EPS/2);
-        x->drift[j] = GVI_LDEXP(next - at, e);
+        const gvi_real next = gvi__grid(gvi__two_prod(st->in.table.c[j], mantissa), GVI__EPS/2);
+        sized->drift[j] = GVI_LDEXP(next - at, e);
         at = next;
     }
-    x->drift[r] = GVI_LDEXP(mantissa - at, e);
+    sized->drift[r] = GVI_LDEXP(mantissa - at, e);
 }
 
 /* The predictor: least squares through the stage values of the last step or the last two, by
@@ -2681,12 +2686,12 @@ static void gvi__weights_for(gvi_stepper *st, gvi_real h)
 static void gvi__fit(gvi_stepper *st, int r, const gvi_real *from, const gvi_real *to,
                      gvi_real alpha, gvi_real beta, int steps, gvi_real *E)
 {
-    struct gvi__private *x = &st->x;
-    const int R = x->R, nodes = steps*R, all = nodes + R, most = GVI__DIG*2/7;
+    struct gvi__private *in = &st->in;
+    const int R = in->R, nodes = steps*R, all = nodes + R, most = GVI__DIG*2/7;
     int degree = r - 1;
     if (steps == 2) degree = r + r/2 - r/8;
     if (degree > most) degree = most;
-    gvi_real *p = x->row, *before = p + 3*R, *at = before + 3*R;
+    gvi_real *p = in->row, *before = p + 3*R, *at = before + 3*R;
     gvi_real coupling = 0;
     const gvi_real norm = 1/GVI_SQRT((gvi_real)(steps*r));
     gvi__zero(6*(size_t)R, p);                     // and before, which is behind it
@@ -2775,29 +2780,29 @@ GVI__CALLED void gvi__commit_constraints(gvi_stepper *st, gvi_real h);
 // may a step that does not converge turn to Newton's method?
 static int gvi__may_turn(const gvi_stepper *st)
 {
-    return st->x.desc.formulation == GVI_AUTO && gvi__has(&st->x, GVI__HAS_NEWTON);
+    return st->in.desc.formulation == GVI_AUTO && gvi__has(&st->in, GVI__HAS_NEWTON);
 }
 
 /* One attempt at a step or a partial step, to its increments; nothing of it is kept yet.  The
    fixed point from extrapolated values, then from plain ones, then Newton's method, likewise.  */
 static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query)
 {
-    struct gvi__private *x = &st->x;
+    struct gvi__private *in = &st->in;
     gvi__free_motion(st, from, h);
-    st->formulation = x->chosen;
-    if (gvi__uses(x, GVI_EXPLICIT)) {
+    st->formulation = in->chosen;
+    if (gvi__uses(in, GVI_EXPLICIT)) {
         const gvi_real *F = NULL;                 // the force at the start, if it is known
-        if (x->has_force && query != GVI__FROM_START) F = x->last.F;
+        if (in->has_force && query != GVI__FROM_START) F = in->last.F;
         const gvi_status status = gvi__kicks(st, from, h, F);
         if (status != GVI_OK || !gvi__constrained(st)) return status;
         return gvi__project(st, from, 0);
     }
 
     // an extrapolation any farther is no better than no force
-    const int usable = x->kept > 0 && h/st->h > -2 && h/st->h < 8;
+    const int usable = in->kept > 0 && h/st->h > -2 && h/st->h < 8;
     int used = 0;
     gvi_status status = GVI_E_CONVERGENCE;
-    if (!gvi__uses(x, GVI_NEWTON) && (x->newton.left == 0 || query)) {
+    if (!gvi__uses(in, GVI_NEWTON) && (in->newton.left == 0 || query)) {
         if (usable) gvi__prepare_predictor(st, h, query);
         for (int plain = !usable; plain < 2; ++plain) {
             status = gvi__iterate(st, from, h, !plain, &used);
@@ -2806,26 +2811,26 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_rea
             if (used > st->counters.most_iterations) st->counters.most_iterations = used;
             // iterations given: only a callback that failed at extrapolated values is tried again
             if (status == GVI_OK
-                || (x->desc.iterations > 0 && (used > 1 || status == GVI_E_CONVERGENCE)))
+                || (in->desc.iterations > 0 && (used > 1 || status == GVI_E_CONVERGENCE)))
                 break;
         }
         if (status == GVI_OK) gvi__increments(st, from, h);
         if (status == GVI_OK && gvi__constrained(st)) status = gvi__project(st, from, 0);
         if (status == GVI_OK || !gvi__may_turn(st)) return status;
-        if (!query && (status == GVI_E_CONVERGENCE || gvi__constrained(st))) x->newton.left = 64;
+        if (!query && (status == GVI_E_CONVERGENCE || gvi__constrained(st))) in->newton.left = 64;
     }
     if (!GVI__NEWTON) return status;
     const unsigned count = (unsigned)st->counters.newton_iterations;
     st->formulation = GVI_NEWTON;
     if (usable) gvi__prepare_predictor(st, h, query);
-    const int extrapolated = usable && x->has_velocity;
+    const int extrapolated = usable && in->has_velocity;
     int how = GVI__PLAIN;
     if (extrapolated) how = GVI__EXTRAPOLATED;
     status = gvi__newton_step(st, from, how, query);
     if (status == GVI_E_CONVERGENCE || status == GVI_E_SINGULAR
         || (status == GVI_E_CALLBACK && extrapolated)
-        || (status == GVI_E_NON_FINITE && !x->diagnose)) {
-        if (!query) x->newton.h = 0;              // the extrapolation may be to blame
+        || (status == GVI_E_NON_FINITE && !in->diagnose)) {
+        if (!query) in->newton.h = 0;              // the extrapolation may be to blame
         status = gvi__newton_step(st, from, GVI__HALVED, query);
     }
     if (!query) st->iterations = used + (int)((unsigned)st->counters.newton_iterations - count);
@@ -2835,7 +2840,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_rea
 // are q + dq and p + dp finite?  0 x is 0 or NaN
 static int gvi__finite_end(const gvi_stepper *st, const gvi__origin *from)
 {
-    const struct gvi__phase *d = &st->x.step;
+    const struct gvi__phase *d = &st->in.step;
     const int whole = (st->n >= 8)*gvi__in_lanes(st->n);
     gvi_real none = 0;
     int i = 0;
@@ -2857,21 +2862,21 @@ static int gvi__finite_end(const gvi_stepper *st, const gvi__origin *from)
 GVI__COLD gvi_points gvi__all_points_at(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                         const gvi_real *v)
 {
-    struct gvi__private *x = &st->x;
+    struct gvi__private *in = &st->in;
     const int n = st->n;
-    int R = x->R, count = st->r;
-    gvi_real *rows = x->work.F;
-    if (gvi__rule_is(x, GVI_KICKS)) R = count = 1;
-    if (x->newton.moved) rows = x->newton.moved;
-    if (x->free.rows) rows = x->free.rows;
-    gvi_points y = gvi__points_at(st, count, R, x->t, x->work.Q, rows, rows + n*R);
-    y.v = x->work.V;
-    for (int k = 0; k < R; ++k) x->t[k] = t;
+    int R = in->R, count = st->r;
+    gvi_real *rows = in->work.F;
+    if (gvi__rule_is(in, GVI_KICKS)) R = count = 1;
+    if (in->newton.moved) rows = in->newton.moved;
+    if (in->free.rows) rows = in->free.rows;
+    gvi_points at = gvi__points_at(st, count, R, in->t, in->work.Q, rows, rows + n*R);
+    at.v = in->work.V;
+    for (int k = 0; k < R; ++k) in->t[k] = t;
     for (int i = 0; i < n*R; ++i) {
-        x->work.Q[i] = q[i/R];
-        if (x->work.V) x->work.V[i] = v[i/R];
+        in->work.Q[i] = q[i/R];
+        if (in->work.V) in->work.V[i] = v[i/R];
     }
-    return y;
+    return at;
 }
 
 /* At a first start: callbacks that fill their first point alone, or set f and dldv with = in place
@@ -2879,20 +2884,20 @@ GVI__COLD gvi_points gvi__all_points_at(gvi_stepper *st, gvi_real t, const gvi_r
    From 0 an effect shows which points it fills; from the largest number, whether it adds.     */
 GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
 {
-    struct gvi__private *x = &st->x;
+    struct gvi__private *in = &st->in;
     const gvi_counters counters = st->counters;          // a probe is no step's work
-    gvi_points y = gvi__all_points_at(st, t, q, v);
-    const int n = st->n, R = y.stride, count = y.count;
-    gvi_real *rows = y.f;
+    gvi_points at = gvi__all_points_at(st, t, q, v);
+    const int n = st->n, R = at.stride, count = at.count;
+    gvi_real *rows = at.f;
     for (int i = 0; i < n*R; ++i)
-        if (i % R < count) x->work.Q[i] += GVI_SQRT(GVI__EPS)*v[i/R];
+        if (i % R < count) in->work.Q[i] += GVI_SQRT(GVI__EPS)*v[i/R];
     const char *slip = NULL;
-    for (int e = 0; e < x->desc.effect_count; ++e) {
+    for (int e = 0; e < in->desc.effect_count; ++e) {
         int all = n*R, first = 0, others = 0, huge = 0, set = 0;
-        if ((x->off | x->apart) >> e & 1u) continue;
-        if (x->desc.effects[e].kind == GVI_LAGRANGIAN) all = 2*n*R;
+        if ((in->off | in->apart) >> e & 1u) continue;
+        if (in->desc.effects[e].kind == GVI_LAGRANGIAN) all = 2*n*R;
         gvi__zero((size_t)all, rows);
-        if (gvi__effect(st, &y, e, NULL) != GVI_OK) continue;
+        if (gvi__effect(st, &at, e, NULL) != GVI_OK) continue;
         for (int i = 0; i < all; ++i) {
             const int k = i % R, filled = k < count && gvi__nonzero(rows[i]);
             first |= filled && k == 0;
@@ -2902,7 +2907,7 @@ GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, 
         if (first && !others && count > 1)
             slip = "effect: fills its first point alone, not x->count of them";
         for (int i = 0; i < all; ++i) rows[i] = GVI__MAX;
-        if (gvi__effect(st, &y, e, NULL) != GVI_OK) continue;
+        if (gvi__effect(st, &at, e, NULL) != GVI_OK) continue;
         for (int i = 0; i < all; ++i) set |= i % R < count && GVI_ABS(rows[i]) < GVI__MAX/2;
         if (set && !huge) slip = "effect: sets f or dldv with =, where it has to add with +=";
         if (!slip) continue;
@@ -2917,29 +2922,29 @@ GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, 
    returns: that names the effect.  If none is to blame, the iteration diverged.               */
 static gvi_status gvi__solve(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query)
 {
-    struct gvi__private *x = &st->x;
+    struct gvi__private *in = &st->in;
     for (int look = 0; ; look = 1) {
-        x->diagnose = look;
+        in->diagnose = look;
         gvi_status status;
         do {
-            if (GVI__CONSTRAINTS) x->con.again = 0;
+            if (GVI__CONSTRAINTS) in->con.again = 0;
             status = gvi__attempt(st, from, h, query);
-        } while (GVI__CONSTRAINTS && x->con.again);
-        x->diagnose = 0;
+        } while (GVI__CONSTRAINTS && in->con.again);
+        in->diagnose = 0;
         if (status == GVI_OK && !look && !gvi__finite_end(st, from))
             status = gvi__report_status(st, GVI_E_NON_FINITE);
         const int explained = status != GVI_E_NON_FINITE || st->fault.effect != GVI_FAULT_NONE;
         if (look && (status == GVI_OK || !explained))
             return gvi__report_status(st, GVI_E_CONVERGENCE);
         if (look || explained) return status;
-        if (!query) x->newton.h = 0;
+        if (!query) in->newton.h = 0;
     }
 }
 
 // work becomes last, last becomes older if two steps are kept, and the oldest is the next work
 static void gvi__rotate_values(gvi_stepper *st)
 {
-    struct gvi__values *a = &st->x.older, *b = &st->x.last, *c = &st->x.work;
+    struct gvi__values *a = &st->in.older, *b = &st->in.last, *c = &st->in.work;
     gvi_real **const rows[3][3] = { { &a->F, &b->F, &c->F }, { &a->V, &b->V, &c->V },
                                     { &a->A, &b->A, &c->A } };
     GVI__UNROLL for (int k = 0; k < 1 + (GVI__READS_V > 0) + (GVI__LAGRANGIAN > 0); ++k) {
@@ -2987,31 +2992,31 @@ static void gvi__move(int n, const gvi_real *GVI__RESTRICT dx, const gvi_real *G
 // the step is done: the state moves on, and work's stage values become those of the last step
 static void gvi__commit(gvi_stepper *st, gvi_real h)
 {
-    struct gvi__private *x = &st->x;
-    const gvi__two t = gvi__two_sum(st->t, x->dt + st->t_low);
-    const gvi_real *dq_low = x->step.q_low, *dp_low = x->step.p_low;
-    if (gvi__uses(x, GVI_EXPLICIT)) dq_low = dp_low = NULL;   // whose increments have no low words
-    gvi__move(st->n, x->step.q, dq_low, x->state.q, x->state.q_low, x->began.q);
-    gvi__move(st->n, x->step.p, dp_low, x->state.p, x->state.p_low, x->began.p);
+    struct gvi__private *in = &st->in;
+    const gvi__two t = gvi__two_sum(st->t, in->dt + st->t_low);
+    const gvi_real *dq_low = in->step.q_low, *dp_low = in->step.p_low;
+    if (gvi__uses(in, GVI_EXPLICIT)) dq_low = dp_low = NULL;   // whose increments have no low words
+    gvi__move(st->n, in->step.q, dq_low, in->state.q, in->state.q_low, in->began.q);
+    gvi__move(st->n, in->step.p, dp_low, in->state.p, in->state.p_low, in->began.p);
     st->t0 = st->t;
     st->t = t.hi;
     st->t_low = t.lo;
     if (GVI__CLOCK) {
-        const gvi__two H = gvi__two_sum(x->time.H, x->time.dH + x->time.H_low);
-        x->began.H = x->time.H;
-        x->time.H = H.hi;
-        x->time.H_low = H.lo;
+        const gvi__two H = gvi__two_sum(in->time.H, in->time.dH + in->time.H_low);
+        in->began.H = in->time.H;
+        in->time.H = H.hi;
+        in->time.H_low = H.lo;
     }
-    if (GVI__CONSTRAINTS && x->con.bits) gvi__commit_constraints(st, h);
-    x->kept = 1 + (x->kept > 0 && !gvi__nonzero(h - st->h));
+    if (GVI__CONSTRAINTS && in->con.bits) gvi__commit_constraints(st, h);
+    in->kept = 1 + (in->kept > 0 && !gvi__nonzero(h - st->h));
     st->h = h;
     gvi__rotate_values(st);
-    x->stepped = 1 + gvi__clock_is_on(st);
-    x->has_force = gvi__uses(x, GVI_EXPLICIT) && !gvi__nonzero(x->table.c[0])
-                   && !gvi__nonzero(x->table.c[st->r - 1] - 1);
-    x->has_velocity = st->formulation > GVI_POSITIONS;
-    if (st->formulation != GVI_NEWTON) x->watch.ratio = x->watch.found;
-    if (x->newton.left > 0) x->newton.left -= 1;
+    in->stepped = 1 + gvi__clock_is_on(st);
+    in->has_force = gvi__uses(in, GVI_EXPLICIT) && !gvi__nonzero(in->table.c[0])
+                   && !gvi__nonzero(in->table.c[st->r - 1] - 1);
+    in->has_velocity = st->formulation > GVI_POSITIONS;
+    if (st->formulation != GVI_NEWTON) in->watch.ratio = in->watch.found;
+    if (in->newton.left > 0) in->newton.left -= 1;
     gvi__count(&st->counters.steps, 1);
 }
 
@@ -3019,33 +3024,33 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
    no h helps.  All else is the step's own, and a shorter one may do.                          */
 GVI__COLD gvi_status gvi__explain(gvi_stepper *st, gvi_status status)
 {
-    struct gvi__private *x = &st->x;
+    struct gvi__private *in = &st->in;
     const gvi_counters counters = st->counters;
     const gvi_fault fault = st->fault;
-    gvi_real *v = x->result;
+    gvi_real *v = in->result;
     gvi_status start = GVI_OK;
     gvi__velocity_guess(st, v);
-    if (!gvi__uses(x, GVI_EXPLICIT) && !x->desc.mass.velocity)
+    if (!gvi__uses(in, GVI_EXPLICIT) && !in->desc.mass.velocity)
         start = gvi__velocity(st, st->t, st->q, st->p, v);
     if (start == GVI_OK && gvi__constrained(st)) {
-        gvi_real *drops = x->con.drops + x->con.m;
+        gvi_real *drops = in->con.drops + in->con.m;
         start = gvi__constraints_at(st, st->t, st->q, st->p, v, drops);
         if (start == GVI_OK && status == GVI_E_SINGULAR)
-            for (int a = 0; a < x->con.m; ++a)           // left out at the start, and cannot be
+            for (int a = 0; a < in->con.m; ++a)           // left out at the start, and cannot be
                 if (drops[a] > 0) return status;
     }
     if (start == GVI_OK) {
-        gvi_points y = gvi__all_points_at(st, st->t, st->q, v);
-        gvi__zero((size_t)(st->n*y.stride), y.f);
-        if (gvi__has(x, GVI__HAS_LAGRANGIAN)) gvi__zero((size_t)(st->n*y.stride), y.dldv);
-        else y.dldv = NULL;
-        x->diagnose = 1;
-        start = gvi__effects(st, &y, 0, NULL);
-        x->diagnose = 0;
+        gvi_points at = gvi__all_points_at(st, st->t, st->q, v);
+        gvi__zero((size_t)(st->n*at.stride), at.f);
+        if (gvi__has(in, GVI__HAS_LAGRANGIAN)) gvi__zero((size_t)(st->n*at.stride), at.dldv);
+        else at.dldv = NULL;
+        in->diagnose = 1;
+        start = gvi__effects(st, &at, 0, NULL);
+        in->diagnose = 0;
         if (start == GVI_E_NON_FINITE) {                 // of the state, if it is so at all points
-            const int row = st->fault.coordinate*y.stride;
-            for (int k = row; k < row + y.count; ++k)
-                if (gvi__finite(y.f[k]) && (!y.dldv || gvi__finite(y.dldv[k]))) start = GVI_OK;
+            const int row = st->fault.coordinate*at.stride;
+            for (int k = row; k < row + at.count; ++k)
+                if (gvi__finite(at.f[k]) && (!at.dldv || gvi__finite(at.dldv[k]))) start = GVI_OK;
             st->fault.point = GVI_FAULT_NONE;
         }
     }
@@ -3058,36 +3063,36 @@ GVI__COLD gvi_status gvi__explain(gvi_stepper *st, gvi_status status)
 
 GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
 {
-    const gvi_status ready = gvi__ready(st, st && st->x.started);
+    const gvi_status ready = gvi__ready(st, st && st->in.started);
     if (ready != GVI_OK) return ready;
-    st->x.failed.status = GVI_OK;
+    st->in.failed.status = GVI_OK;
     if (!gvi__nonzero(h) || !gvi__finite(h))
         return gvi__refuse_call(st, "h is 0, NaN or infinite");
-    struct gvi__private *x = &st->x;
+    struct gvi__private *in = &st->in;
     const gvi_formulation was = st->formulation;
-    const int left = x->newton.left;
+    const int left = in->newton.left;
     const gvi__origin from = {
-        st->t, st->t_low, st->q, st->q_low, st->p, st->p_low, x->time.H + x->time.H_low
+        st->t, st->t_low, st->q, st->q_low, st->p, st->p_low, in->time.H + in->time.H_low
     };
-    if (x->stepped && gvi__nonzero(h - st->h)) x->newton.left = 0;
+    if (in->stepped && gvi__nonzero(h - st->h)) in->newton.left = 0;
     gvi_status status = gvi__solve(st, &from, h, GVI__STEP);
-    if (status == GVI_OK && !gvi__finite(st->t + x->dt))
+    if (status == GVI_OK && !gvi__finite(st->t + in->dt))
         status = gvi__refuse_call(st, "t + h is not finite");
     st->resolution = 0;
     if (status == GVI_E_CONVERGENCE || status == GVI_E_SINGULAR || status == GVI_E_NON_FINITE)
         status = gvi__explain(st, status);
-    if (status == GVI_OK && x->desc.resolution > 0) {
+    if (status == GVI_OK && in->desc.resolution > 0) {
         st->resolution = gvi__resolution(st);
-        if (st->resolution > x->desc.resolution)
+        if (st->resolution > in->desc.resolution)
             status = gvi__report_status(st, GVI_E_RESOLUTION);
     }
     if (status != GVI_OK) {
-        x->failed.status = status;
-        x->failed.fault = st->fault;
+        in->failed.status = status;
+        in->failed.fault = st->fault;
         gvi__count(&st->counters.failures, 1);
         st->formulation = was;
-        x->newton.left = left;
-        x->newton.h = 0;
+        in->newton.left = left;
+        in->newton.h = 0;
         return st->status = status;
     }
     if (st->resolution > st->counters.worst_resolution)
@@ -3117,11 +3122,11 @@ static gvi_real gvi__length(gvi_real k)
 static void gvi__set_next(gvi_stepper *st, gvi_status status, gvi_real h)
 {
     const gvi_real seen = st->resolution > GVI__MIN ? st->resolution : GVI__MIN, at = gvi__rungs(h);
-    const gvi_real most = gvi__rungs(st->x.desc.resolution) - gvi__rungs(seen);
+    const gvi_real most = gvi__rungs(st->in.desc.resolution) - gvi__rungs(seen);
     gvi_real room = most/(gvi_real)(2*st->s - 1), up = 0;
     if (status == GVI_OK && room < 8) {
-        const gvi_real loss = st->x.reach - (at + room);
-        st->x.reach = at + room;
+        const gvi_real loss = st->in.reach - (at + room);
+        st->in.reach = at + room;
         if (loss > 0) room -= loss;
     }
     if (room > 4) up = room < 6 ? room - (gvi_real)1.5 : 4;
@@ -3135,13 +3140,13 @@ static void gvi__set_next(gvi_stepper *st, gvi_status status, gvi_real h)
    there is.                                                                                   */
 GVI__COLD gvi_real gvi__first_length(gvi_stepper *st, gvi_real left)
 {
-    gvi_real *v = st->x.result, *a = v + st->n;
-    gvi_points y = gvi__one_point(st, &st->t, st->q);
+    gvi_real *v = st->in.result, *a = v + st->n;
+    gvi_points at = gvi__one_point(st, &st->t, st->q);
     gvi__velocity_guess(st, v);
     gvi_status status = gvi__velocity(st, st->t, st->q, st->p, v);
-    y.v = v;
-    if (status == GVI_OK) status = gvi__evaluate(st, &y, 0, 1);
-    gvi__copy((size_t)st->n, y.f, a + st->n);
+    at.v = v;
+    if (status == GVI_OK) status = gvi__evaluate(st, &at, 0, 1);
+    gvi__copy((size_t)st->n, at.f, a + st->n);
     gvi__copy((size_t)st->n, v, a);
     if (status == GVI_OK) status = gvi__velocity(st, st->t, st->q, a + st->n, a);
     const gvi_real moving = GVI_ABS(gvi__dot(st->n, st->p, v)),
@@ -3152,9 +3157,9 @@ GVI__COLD gvi_real gvi__first_length(gvi_stepper *st, gvi_real left)
 
 GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end)
 {
-    const gvi_status ready = gvi__ready(st, st && st->x.started);
+    const gvi_status ready = gvi__ready(st, st && st->in.started);
     if (ready != GVI_OK) return ready;
-    if (!(st->x.desc.resolution > 0))
+    if (!(st->in.desc.resolution > 0))
         return gvi__refuse_call(st, "gvi_advance needs desc.resolution");
     if (!gvi__finite(t_end) || !gvi__nonzero(t_end - st->t))
         return gvi__refuse_call(st, "t_end is t, NaN or infinite");
@@ -3197,28 +3202,28 @@ static void gvi__times(int count, gvi_real t, gvi_real t_low, gvi_real h, const 
 // tables for h, times of the points; for a constant mass v = M^-1 p and h v, with their low words
 static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real h)
 {
-    struct gvi__private *x = &st->x;
+    struct gvi__private *in = &st->in;
     const gvi_real *GVI__RESTRICT p = from->p, *GVI__RESTRICT p_low = from->p_low;
-    const gvi_real *GVI__RESTRICT inverse = x->mass.inverse;
-    gvi_real *GVI__RESTRICT v = x->free.v, *GVI__RESTRICT v_low = x->free.v_low;
+    const gvi_real *GVI__RESTRICT inverse = in->mass.inverse;
+    gvi_real *GVI__RESTRICT v = in->free.v, *GVI__RESTRICT v_low = in->free.v_low;
     gvi__weights_for(st, h);
-    x->dt = h;
-    if (GVI__CLOCK) x->time.dH = 0;
-    if (gvi__uses(x, GVI_EXPLICIT)) return;
-    gvi__times(x->R, from->t, from->t_low, h, x->table.c, x->t);
-    if (!gvi__mass_is_constant(x)) return;
+    in->dt = h;
+    if (GVI__CLOCK) in->time.dH = 0;
+    if (gvi__uses(in, GVI_EXPLICIT)) return;
+    gvi__times(in->R, from->t, from->t_low, h, in->table.c, in->t);
+    if (!gvi__mass_is_constant(in)) return;
     for (int i = 0; i < st->n; ++i) {
         gvi__two z = gvi__two_of(p[i], 0);
-        if (x->desc.mass.kind == GVI_MASS_DIAGONAL) z = gvi__two_prod(p[i], inverse[i]);
+        if (in->desc.mass.kind == GVI_MASS_DIAGONAL) z = gvi__two_prod(p[i], inverse[i]);
         v[i] = z.hi;
         v_low[i] = gvi__low(z.lo + p_low[i]*inverse[i]);
     }
-    if (x->desc.mass.kind == GVI_MASS_DENSE) {
+    if (in->desc.mass.kind == GVI_MASS_DENSE) {
         gvi__over_mass(st, v, 1, 1);
         for (int i = 0; i < st->n; ++i) {         // p - M v
             gvi__two left = gvi__two_of(p[i], p_low[i]);
             for (int j = 0; j < st->n; ++j) {
-                const gvi__two z = gvi__two_prod(-x->mass.matrix[gvi__lower(st->n, i, j)], v[j]);
+                const gvi__two z = gvi__two_prod(-in->mass.matrix[gvi__lower(st->n, i, j)], v[j]);
                 left = gvi__add_low(left.hi, left.lo, z.hi, z.lo);
             }
             v_low[i] = gvi__low(left.hi + left.lo);
@@ -3227,8 +3232,8 @@ static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real 
     }
     for (int i = 0; i < st->n; ++i) {
         const gvi__two path = gvi__two_prod(h, v[i]);
-        x->free.path[i] = path.hi;
-        x->free.path_low[i] = gvi__low(path.lo + h*v_low[i]);
+        in->free.path[i] = path.hi;
+        in->free.path_low[i] = gvi__low(path.lo + h*v_low[i]);
     }
 }
 
@@ -3296,32 +3301,34 @@ GVI__BODY gvi_real gvi__point_sum(int r, int R, const gvi_real *table, const gvi
 }
 
 /* A stage, point by point; from the last on, where its unit is made.                         */
-GVI__BODY gvi_real gvi__stage_by_points(const gvi_stepper *st, const gvi__stage *y, int n, int r,
-                                        int R, int rescale)
+GVI__BODY gvi_real gvi__stage_by_points(const gvi_stepper *st, const gvi__stage *stage, int n,
+                                        int r, int R, int rescale)
 {
     gvi_real square[8] = { 0, 0, 0, 0, 0, 0, 0, 0 };
     for (int i = 0; i < n; ++i) {
         const gvi_real *first =
-            gvi__weighted(R, y->sum[0].weight, y->sum[0].source + i*R, st->x.row);
-        const gvi_real *second = !y->sum[1].table ? NULL
-            : gvi__weighted(R, y->sum[1].weight, y->sum[1].source + i*R, st->x.row + R);
-        gvi_real *GVI__RESTRICT row = y->rows + i*R, scale = y->scale ? y->scale[i] : 0, two = 0;
+            gvi__weighted(R, stage->sum[0].weight, stage->sum[0].source + i*R, st->in.row);
+        const gvi_real *second = !stage->sum[1].table ? NULL
+            : gvi__weighted(R, stage->sum[1].weight, stage->sum[1].source + i*R, st->in.row + R);
+        gvi_real *GVI__RESTRICT row = stage->rows + i*R, scale = 0, two = 0;
+        if (stage->scale) scale = stage->scale[i];
         for (int k = R - 1; k >= 0; --k) {
             gvi_real z =
-                y->sum[0].table ? gvi__point_sum(r, R, y->sum[0].table + k, first) : first[k];
-            if (second) z += gvi__point_sum(r, R, y->sum[1].table + k, second);
-            if (y->inverse) z *= y->inverse[i];
-            if (y->free) z = y->base[i] + (y->free[i*R + k] + z*y->factor);
-            if (rescale && k == r - 1) scale = gvi__scale_of(y->base[i], row[k], z);
+                !stage->sum[0].table ? first[k]
+                                     : gvi__point_sum(r, R, stage->sum[0].table + k, first);
+            if (second) z += gvi__point_sum(r, R, stage->sum[1].table + k, second);
+            if (stage->inverse) z *= stage->inverse[i];
+            if (stage->free) z = stage->base[i] + (stage->free[i*R + k] + z*stage->factor);
+            if (rescale && k == r - 1) scale = gvi__scale_of(stage->base[i], row[k], z);
             const gvi_real moved = (z - row[k])*scale;
             square[k & 7] += moved*moved;
             if (k == r - 1) two += moved*moved;
             if (k == (r - 1)/2) two += moved*moved;
             row[k] = z;
         }
-        if (!y->scale) continue;
-        y->scale[i] = scale;
-        y->change[i] = two;
+        if (!stage->scale) continue;
+        stage->scale[i] = scale;
+        stage->change[i] = two;
     }
     return gvi__sum_squares(square);
 }
@@ -3348,35 +3355,37 @@ GVI__BODY void gvi__row_sums(int r, int R, int lanes, const gvi_real *table, con
 }
 
 // a stage in lanes of points, R being 4 or a multiple of 8; point by point where no lane fits
-GVI__BODY gvi_real gvi__stage_by_lanes(const gvi_stepper *st, const gvi__stage *GVI__RESTRICT y,
+GVI__BODY gvi_real gvi__stage_by_lanes(const gvi_stepper *st, const gvi__stage *GVI__RESTRICT stage,
                                        int n, int r, int R, int rescale)
 {
     const int block = R < 8 ? R : 8, lanes = block/GVI__LANES, last = r - 1, middle = (r - 1)/2;
     const gvi__lane none = { 0 };
     if (GVI__LANES == 1 || (GVI__LANES == 8 && R == 4))
-        return gvi__stage_by_points(st, y, n, r, R, rescale);
-    gvi_real few[32], *L = R <= 16 ? few : st->x.row, total[8];
+        return gvi__stage_by_points(st, stage, n, r, R, rescale);
+    gvi_real few[32], *L = R <= 16 ? few : st->in.row, total[8];
     gvi__lane square[GVI__BLOCK] = { none };
     for (int i = 0; i < n; ++i) {
-        const gvi_real *first = gvi__weighted(R, y->sum[0].weight, y->sum[0].source + i*R, L);
-        const gvi_real *second = !y->sum[1].table ? NULL
-            : gvi__weighted(R, y->sum[1].weight, y->sum[1].source + i*R, L + R);
-        gvi_real *row = y->rows + i*R, scale = y->scale ? y->scale[i] : 0;
-        const gvi_real base = y->base[i], was = row[last], half = row[middle];
+        const gvi_real *first =
+            gvi__weighted(R, stage->sum[0].weight, stage->sum[0].source + i*R, L);
+        const gvi_real *second = !stage->sum[1].table ? NULL
+            : gvi__weighted(R, stage->sum[1].weight, stage->sum[1].source + i*R, L + R);
+        gvi_real *row = stage->rows + i*R, scale = stage->scale ? stage->scale[i] : 0;
+        const gvi_real base = stage->base[i], was = row[last], half = row[middle];
         for (int o = R - block; o >= 0; o -= block) {
-            const gvi_real *free = y->free ? y->free + i*R + o : NULL;
+            const gvi_real *free = stage->free ? stage->free + i*R + o : NULL;
             gvi__lane z[GVI__BLOCK] = { none }, w[GVI__BLOCK];
-            if (y->sum[0].table) gvi__row_sums(r, R, lanes, y->sum[0].table + o, first, z);
+            if (stage->sum[0].table) gvi__row_sums(r, R, lanes, stage->sum[0].table + o, first, z);
             else
                 GVI__UNROLL for (int v = 0; v < lanes; ++v) z[v] =
                     GVI__LOAD(first + o + v*GVI__LANES);
             if (second) {
-                gvi__row_sums(r, R, lanes, y->sum[1].table + o, second, w);
+                gvi__row_sums(r, R, lanes, stage->sum[1].table + o, second, w);
                 GVI__UNROLL for (int v = 0; v < lanes; ++v) z[v] += w[v];
             }
-            if (y->inverse) GVI__UNROLL for (int v = 0; v < lanes; ++v) z[v] *= y->inverse[i];
+            if (stage->inverse)
+                GVI__UNROLL for (int v = 0; v < lanes; ++v) z[v] *= stage->inverse[i];
             if (free) GVI__UNROLL for (int v = 0; v < lanes; ++v)
-                z[v] = base + (GVI__LOAD(free + v*GVI__LANES) + z[v]*y->factor);
+                z[v] = base + (GVI__LOAD(free + v*GVI__LANES) + z[v]*stage->factor);
             if (rescale && last - o < block)
                 scale = gvi__scale_of(base, was, GVI__ENTRY(z[(last - o)/GVI__LANES],
                                                          (last - o) % GVI__LANES));
@@ -3387,10 +3396,10 @@ GVI__BODY gvi_real gvi__stage_by_lanes(const gvi_stepper *st, const gvi__stage *
                 GVI__STORE(at) = z[v];
             }
         }
-        if (!y->scale) continue;
+        if (!stage->scale) continue;
         const gvi_real a = (row[last] - was)*scale, b = (row[middle] - half)*scale;
-        y->scale[i] = scale;
-        y->change[i] = a*a + b*b;
+        stage->scale[i] = scale;
+        stage->change[i] = a*a + b*b;
     }
     GVI__UNROLL for (int v = 0; v < GVI__BLOCK; ++v) GVI__STORE(total + v*GVI__LANES) = square[v];
     return gvi__sum_squares(total);
@@ -3402,14 +3411,14 @@ GVI__BODY gvi_real gvi__stage_by_lanes(const gvi_stepper *st, const gvi__stage *
     {                                                                                           \
         return gvi__stage_##by(st, y, n, r, R, rescale);                                        \
     }
-GVI__KERNEL(gvi__rows_any, by_points, st->n, st->r, st->x.R)
+GVI__KERNEL(gvi__rows_any, by_points, st->n, st->r, st->in.R)
 GVI__KERNEL(gvi__rows_2_8,  by_lanes,  2, 8, 8)
 GVI__KERNEL(gvi__rows_8,    by_lanes,  st->n, 8, 8)
 GVI__KERNEL(gvi__rows_6,    by_lanes,  st->n, 6, 8)
 GVI__KERNEL(gvi__rows_to_8, by_lanes,  st->n, st->r, 8)
 GVI__KERNEL(gvi__rows_12,   by_lanes,  st->n, 12, 16)
 GVI__KERNEL(gvi__rows_16,   by_lanes,  st->n, 16, 16)
-GVI__KERNEL(gvi__rows_many, by_lanes,  st->n, st->r, st->x.R)
+GVI__KERNEL(gvi__rows_many, by_lanes,  st->n, st->r, st->in.R)
 GVI__KERNEL(gvi__rows_2,    by_points, st->n, 2, 2)
 GVI__KERNEL(gvi__rows_3,    by_points, st->n, 3, 3)
 GVI__KERNEL(gvi__rows_4,    by_lanes,  st->n, 4, 4)
@@ -3435,40 +3444,40 @@ static gvi__kernel *gvi__kernel_for(int n, int r)
    serve to make positions: E := K h b E does both, for steps as long as the last.            */
 static void gvi__prepare_predictor(gvi_stepper *st, gvi_real h, int query)
 {
-    struct gvi__private *x = &st->x;
-    const int newton = GVI__NEWTON && st->formulation == GVI_NEWTON, r = st->r, R = x->R;
-    const int two = !query && !newton && x->kept == 2 && x->older.F && !gvi__nonzero(h - st->h);
+    struct gvi__private *in = &st->in;
+    const int newton = GVI__NEWTON && st->formulation == GVI_NEWTON, r = st->r, R = in->R;
+    const int two = !query && !newton && in->kept == 2 && in->older.F && !gvi__nonzero(h - st->h);
     const gvi_real beta = h/st->h;
-    const int sums = !gvi__nonzero(beta - 1) && gvi__uses(x, GVI_POSITIONS) && !newton
-                     && x->desc.mass.kind != GVI_MASS_DENSE && !gvi__constrained(st);
-    if (!query && !gvi__nonzero(beta - x->sized.ratio) && x->sized.steps == two + 1
-        && x->sized.sums == sums) return;
-    x->sized.ratio = beta;
-    if (query) x->sized.ratio = 0;                // another start: not to be used again
-    x->sized.steps = two + 1;
-    x->sized.sums = sums;
-    gvi__fit(st, r, x->table.c, x->table.c, query != GVI__FROM_START, beta, two + 1, x->sized.E);
+    const int sums = !gvi__nonzero(beta - 1) && gvi__uses(in, GVI_POSITIONS) && !newton
+                     && in->desc.mass.kind != GVI_MASS_DENSE && !gvi__constrained(st);
+    if (!query && !gvi__nonzero(beta - in->sized.ratio) && in->sized.steps == two + 1
+        && in->sized.sums == sums) return;
+    in->sized.ratio = beta;
+    if (query) in->sized.ratio = 0;                // another start: not to be used again
+    in->sized.steps = two + 1;
+    in->sized.sums = sums;
+    gvi__fit(st, r, in->table.c, in->table.c, query != GVI__FROM_START, beta, two + 1, in->sized.E);
     if (gvi__constrained(st))
-        gvi__fit(st, st->s, x->con.d + 1, x->con.d, query != GVI__FROM_START, beta, 1, x->con.E);
+        gvi__fit(st, st->s, in->con.d + 1, in->con.d, query != GVI__FROM_START, beta, 1, in->con.E);
     if (!sums) return;
-    for (int m = 0; m < x->sized.steps*r; ++m) {
-        const gvi_real *L = gvi__weighted(R, x->sized.hb, x->sized.E + m*R, x->row);
-        for (int k = 0; k < r; ++k) x->row[R + k] = gvi__point_sum(r, R, x->table.K + k, L);
-        gvi__copy((size_t)r, x->row + R, x->sized.E + m*R);
+    for (int m = 0; m < in->sized.steps*r; ++m) {
+        const gvi_real *L = gvi__weighted(R, in->sized.hb, in->sized.E + m*R, in->row);
+        for (int k = 0; k < r; ++k) in->row[R + k] = gvi__point_sum(r, R, in->table.K + k, L);
+        gvi__copy((size_t)r, in->row + R, in->sized.E + m*R);
     }
 }
 
 // in place of a stage's own sums: E over the values of one or two steps
-GVI__BODY void gvi__set_predictor(const gvi_stepper *st, gvi__stage *y, const gvi_real *last,
+GVI__BODY void gvi__set_predictor(const gvi_stepper *st, gvi__stage *stage, const gvi_real *last,
                                   const gvi_real *older)
 {
-    const gvi_real *E = st->x.sized.E;
+    const gvi_real *E = st->in.sized.E;
     const gvi__sum one = { E, NULL, last };
     gvi__sum two = { NULL, NULL, older };
-    if (st->x.sized.steps == 2) two.table = E + st->r*st->x.R;
-    y->sum[0] = one;
-    y->sum[1] = two;
-    y->scale = NULL;
+    if (st->in.sized.steps == 2) two.table = E + st->r*st->in.R;
+    stage->sum[0] = one;
+    stage->sum[1] = two;
+    stage->scale = NULL;
 }
 
 // row := low + (c path_low + c path), one coordinate's free motion over its base
@@ -3483,61 +3492,63 @@ GVI__BODY void gvi__free_row(int R, gvi_real low, gvi_real path, gvi_real path_l
 }
 
 // a stage that is the sum over one table and nothing else
-GVI__BODY void gvi__set_stage(const gvi_stepper *st, gvi__stage *y, gvi_real *rows,
+GVI__BODY void gvi__set_stage(const gvi_stepper *st, gvi__stage *stage, gvi_real *rows,
                               const gvi_real *table, const gvi_real *weight, const gvi_real *source)
 {
-    const gvi__stage sum = { { { table, weight, source }, { NULL, NULL, NULL } }, st->x.zeros, NULL,
+    const gvi__stage sum = { { { table, weight, source }, { NULL, NULL, NULL } }, st->in.zeros,
+                             NULL,
                              NULL, 1, rows, NULL, NULL, 0 };
-    *y = sum;
+    *stage = sum;
 }
 
 /* What an iteration computes, in this order: positions (3); or these, and velocities (4); or
    momenta and positions (5).  Returns the number of stages.                                  */
-static int gvi__stages(const gvi_stepper *st, const gvi__origin *from, gvi_real h, gvi__stage *y)
+static int gvi__stages(const gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                       gvi__stage *stage)
 {
-    const struct gvi__private *x = &st->x;
-    const struct gvi__values *w = &x->work;
-    const gvi_real *low[2], *hb = x->sized.hb;
-    const int n = st->n, R = x->R, momenta = gvi__uses(x, GVI_MOMENTA);
-    const int count = 1 + (momenta || gvi__uses(x, GVI_VELOCITIES));
+    const struct gvi__private *in = &st->in;
+    const struct gvi__values *w = &in->work;
+    const gvi_real *low[2], *hb = in->sized.hb;
+    const int n = st->n, R = in->R, momenta = gvi__uses(in, GVI_MOMENTA);
+    const int count = 1 + (momenta || gvi__uses(in, GVI_VELOCITIES));
     if (momenta) {
-        gvi__set_stage(st, y, w->P, x->table.U, hb, w->F);
-        gvi__set_stage(st, y + 1, w->Q, x->table.T, hb, w->V);
-        y[0].base = from->p;
-        y[1].base = from->q;
+        gvi__set_stage(st, stage, w->P, in->table.U, hb, w->F);
+        gvi__set_stage(st, stage + 1, w->Q, in->table.T, hb, w->V);
+        stage[0].base = from->p;
+        stage[1].base = from->q;
         low[0] = from->p_low;
         low[1] = from->q_low;
     } else {
-        gvi__set_stage(st, y, w->Q, x->table.K, hb, w->F);
-        y[0].base = from->q;
+        gvi__set_stage(st, stage, w->Q, in->table.K, hb, w->F);
+        stage[0].base = from->q;
         low[0] = from->q_low;
-        y[0].factor = h;
+        stage[0].factor = h;
         if (count == 2) {
-            gvi__set_stage(st, y + 1, w->V, x->table.U, hb, w->F);
-            y[1].base = x->free.v;
-            low[1] = x->free.v_low;
+            gvi__set_stage(st, stage + 1, w->V, in->table.U, hb, w->F);
+            stage[1].base = in->free.v;
+            low[1] = in->free.v_low;
         }
         for (int k = 0; k < count; ++k) {
-            gvi__sum A = { x->table.T, x->table.b, w->A };
-            if (k == 1) A.table = x->table.N;
-            if (GVI__LAGRANGIAN && w->A) y[k].sum[1] = A;
-            if (x->desc.mass.kind == GVI_MASS_DIAGONAL) y[k].inverse = x->mass.inverse;
-            y[k].dense = x->desc.mass.kind == GVI_MASS_DENSE;
+            gvi__sum A = { in->table.T, in->table.b, w->A };
+            if (k == 1) A.table = in->table.N;
+            if (GVI__LAGRANGIAN && w->A) stage[k].sum[1] = A;
+            if (in->desc.mass.kind == GVI_MASS_DIAGONAL) stage[k].inverse = in->mass.inverse;
+            stage[k].dense = in->desc.mass.kind == GVI_MASS_DENSE;
         }
     }
     for (int k = 0; k < count; ++k) {
-        gvi_real *free = x->free.rows + k*n*R;
+        gvi_real *free = in->free.rows + k*n*R;
         const int moves = !momenta && k == 0;
-        y[k].free = free;
-        y[k].scale = x->watch.scale + k*n;
-        y[k].change = x->watch.change + k*n;
+        stage[k].free = free;
+        stage[k].scale = in->watch.scale + k*n;
+        stage[k].change = in->watch.change + k*n;
         for (int i = 0; i < n; ++i, free += R) {
             gvi_real path = 0, path_low = 0;
             if (moves) {
-                path = x->free.path[i];
-                path_low = x->free.path_low[i];
+                path = in->free.path[i];
+                path_low = in->free.path_low[i];
             }
-            gvi__free_row(R, low[k][i], path, path_low, x->table.c, free);
+            gvi__free_row(R, low[k][i], path, path_low, in->table.c, free);
         }
     }
     return count;
@@ -3546,37 +3557,37 @@ static int gvi__stages(const gvi_stepper *st, const gvi__origin *from, gvi_real 
 /* The rows of a stage where M is full: all sums first, then M^-1 of them.                    */
 static gvi_real gvi__dense_rows(const gvi_stepper *st, const gvi__stage *stage, int rescale)
 {
-    const struct gvi__private *x = &st->x;
+    const struct gvi__private *in = &st->in;
     gvi__stage y = *stage, sums;
-    gvi__set_stage(st, &sums, x->mass.sums, y.sum[0].table, y.sum[0].weight, y.sum[0].source);
+    gvi__set_stage(st, &sums, in->mass.sums, y.sum[0].table, y.sum[0].weight, y.sum[0].source);
     sums.sum[1] = y.sum[1];
-    x->kernel(st, &sums, 0);
-    gvi__over_mass(st, x->mass.sums, x->R, x->R);
+    in->kernel(st, &sums, 0);
+    gvi__over_mass(st, in->mass.sums, in->R, in->R);
     y.sum[0].table = y.sum[0].weight = y.sum[1].table = NULL;
-    y.sum[0].source = x->mass.sums;
-    return x->kernel(st, &y, rescale);
+    y.sum[0].source = in->mass.sums;
+    return in->kernel(st, &y, rescale);
 }
 
 /* V := M^-1 (P - A), with the constant mass or the factored M(Q)                             */
 static void gvi__velocity_rows(const gvi_stepper *st)
 {
-    const struct gvi__private *x = &st->x;
-    const int n = st->n, R = x->R;
-    const gvi_real *P = x->work.P, *A = x->work.A;
-    gvi_real *V = x->work.V;
+    const struct gvi__private *in = &st->in;
+    const int n = st->n, R = in->R;
+    const gvi_real *P = in->work.P, *A = in->work.A;
+    gvi_real *V = in->work.V;
     if (GVI__LAGRANGIAN && A) {
         for (int k = 0; k < n*R; ++k) V[k] = P[k] - A[k];
         P = V;
     }
-    if (GVI__LANES > 1 && R % 8 == 0 && !gvi__mass_is_constant(x)) {
+    if (GVI__LANES > 1 && R % 8 == 0 && !gvi__mass_is_constant(in)) {
         for (int o = 0; o < R; o += GVI__LANES)
-            if (n == 2) gvi__ldl_solve_lane(2, R, x->mass.at_points + o, P + o, V + o);
-            else gvi__ldl_solve_lane(n, R, x->mass.at_points + o, P + o, V + o);
+            if (n == 2) gvi__ldl_solve_lane(2, R, in->mass.at_points + o, P + o, V + o);
+            else gvi__ldl_solve_lane(n, R, in->mass.at_points + o, P + o, V + o);
         return;
     }
     if (P != V) gvi__copy((size_t)(n*R), P, V);
-    if (gvi__mass_is_constant(x)) gvi__over_mass(st, V, R, st->r);
-    else gvi__ldl_solve(n, x->mass.at_points, R, V, R, st->r);
+    if (gvi__mass_is_constant(in)) gvi__over_mass(st, V, R, st->r);
+    else gvi__ldl_solve(n, in->mass.at_points, R, V, R, st->r);
 }
 
 static gvi_status gvi__evaluate_with_clock(gvi_stepper *st, const gvi__origin *from, gvi_points *y);
@@ -3594,29 +3605,29 @@ static void gvi__clear(size_t n, gvi_real zero, gvi_real *x)
 }
 
 /* F (and A, V) at the stage values, all points in one call an effect.                        */
-static gvi_status gvi__evaluate_stages(gvi_stepper *st, const gvi__origin *from, gvi_points *y)
+static gvi_status gvi__evaluate_stages(gvi_stepper *st, const gvi__origin *from, gvi_points *at)
 {
-    struct gvi__private *x = &st->x;
-    const size_t length = (size_t)st->n*(size_t)x->R;
-    const int momenta = gvi__uses(x, GVI_MOMENTA);
+    struct gvi__private *in = &st->in;
+    const size_t length = (size_t)st->n*(size_t)in->R;
+    const int momenta = gvi__uses(in, GVI_MOMENTA);
     gvi_status status = GVI_OK;
-    gvi__clear(length, x->zeros[0], y->f);
+    gvi__clear(length, in->zeros[0], at->f);
     if (momenta) {                                // V from dL/dv(Q, V) = P
         gvi__count(&st->counters.velocities, st->r);
-        if (x->desc.mass.velocity) status = gvi__evaluate_mass(st, y, x->work.P, x->work.V);
-        else if (!gvi__mass_is_constant(x)) status = gvi__factor_mass(st, y);
+        if (in->desc.mass.velocity) status = gvi__evaluate_mass(st, at, in->work.P, in->work.V);
+        else if (!gvi__mass_is_constant(in)) status = gvi__factor_mass(st, at);
         if (status != GVI_OK) return status;
-        x->has_factor = 1;
-        if (!x->desc.mass.velocity) gvi__velocity_rows(st);
-        else if (x->diagnose) status = gvi__check_rows(st, y, x->work.V, GVI_FAULT_MASS);
+        in->has_factor = 1;
+        if (!in->desc.mass.velocity) gvi__velocity_rows(st);
+        else if (in->diagnose) status = gvi__check_rows(st, at, in->work.V, GVI_FAULT_MASS);
         if (status != GVI_OK) return status;
     }
-    if (GVI__LAGRANGIAN && y->dldv) gvi__clear(length, x->zeros[0], y->dldv);
-    if (gvi__clock_is_on(st)) return gvi__evaluate_with_clock(st, from, y);
-    status = gvi__effects(st, y, 0, NULL);
+    if (GVI__LAGRANGIAN && at->dldv) gvi__clear(length, in->zeros[0], at->dldv);
+    if (gvi__clock_is_on(st)) return gvi__evaluate_with_clock(st, from, at);
+    status = gvi__effects(st, at, 0, NULL);
     if (status == GVI_OK && gvi__constrained(st)) status = gvi__constraint_values(st, from);
-    if (status == GVI_OK && momenta && gvi__mass_is(x, GVI_MASS_POSITION))
-        status = gvi__mass_gradient(st, y);
+    if (status == GVI_OK && momenta && gvi__mass_is(in, GVI_MASS_POSITION))
+        status = gvi__mass_gradient(st, at);
     return status;
 }
 
@@ -3625,22 +3636,23 @@ static gvi_status gvi__evaluate_stages(gvi_stepper *st, const gvi__origin *from,
    squared relative change at the last point, times r as if summed over all.                   */
 static gvi_real gvi__velocities_again(gvi_stepper *st)
 {
-    struct gvi__private *x = &st->x;
-    const int n = st->n, R = x->R, clock = gvi__clock_is_on(st),
-              made = GVI__LAGRANGIAN && x->work.A;
-    const gvi_real *V = x->work.V + st->r - 1;
-    gvi_real *was = x->result, sum = 0;
+    struct gvi__private *in = &st->in;
+    const int n = st->n, R = in->R, clock = gvi__clock_is_on(st),
+              made = GVI__LAGRANGIAN && in->work.A;
+    const gvi_real *V = in->work.V + st->r - 1;
+    gvi_real *was = in->result, sum = 0;
     // before the first evaluation Q, g and M(Q) are those of another step
-    if (!x->has_factor && (clock || x->desc.mass.velocity || !gvi__mass_is_constant(x))) return 0;
+    if (!in->has_factor && (clock || in->desc.mass.velocity || !gvi__mass_is_constant(in)))
+        return 0;
     if (made) gvi__gather(n, R, V, was);
     gvi__count(&st->counters.velocities, st->r);
-    const gvi_points at = gvi__points_at(st, st->r, R, x->t, x->work.Q, NULL, NULL);
+    const gvi_points at = gvi__points_at(st, st->r, R, in->t, in->work.Q, NULL, NULL);
     // where that fails it does so again with the new Q
-    if (x->desc.mass.velocity) (void)gvi__evaluate_mass(st, &at, x->work.P, x->work.V);
+    if (in->desc.mass.velocity) (void)gvi__evaluate_mass(st, &at, in->work.P, in->work.V);
     else gvi__velocity_rows(st);
     if (clock)
         for (int i = 0; i < n; ++i)
-            for (int k = 0; k < R; ++k) x->work.V[i*R + k] *= x->time.rate[k];
+            for (int k = 0; k < R; ++k) in->work.V[i*R + k] *= in->time.rate[k];
     if (!made) return 0;
     for (int i = 0; i < n; ++i) {
         const gvi_real moved = V[i*R] - was[i], size = GVI_ABS(V[i*R]) + GVI_ABS(was[i]);
@@ -3650,23 +3662,23 @@ static gvi_real gvi__velocities_again(gvi_stepper *st)
 }
 
 // the next iteration's stage values from this one's F, V, A; returns the squares of their changes
-GVI__BODY gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *y, int stages, int rescale)
+GVI__BODY gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *stage, int stages, int rescale)
 {
-    const struct gvi__private *x = &st->x;
+    const struct gvi__private *in = &st->in;
     gvi_real sum = 0;
-    if (gvi__constrained(st) && x->con.made > 0)
-        gvi__constrain(st, y, y[gvi__uses(x, GVI_MOMENTA)].base);
+    if (gvi__constrained(st) && in->con.made > 0)
+        gvi__constrain(st, stage, stage[gvi__uses(in, GVI_MOMENTA)].base);
     for (int k = 0; k < stages; ++k) {
-        if (k == 1 && gvi__uses(x, GVI_MOMENTA)) sum += gvi__velocities_again(st);
-        if (y[k].dense) sum += gvi__dense_rows(st, y + k, rescale);
-        else sum += x->kernel(st, y + k, rescale);
+        if (k == 1 && gvi__uses(in, GVI_MOMENTA)) sum += gvi__velocities_again(st);
+        if (stage[k].dense) sum += gvi__dense_rows(st, stage + k, rescale);
+        else sum += in->kernel(st, stage + k, rescale);
     }
     if (gvi__constrained(st)) {
-        st->x.con.linear |=
-            GVI__DIG > FLT_MANT_DIG && x->con.made > 0 && sum < GVI__EPS*GVI_SQRT(GVI__EPS);
-        gvi__constraint_rows(st, y);
+        st->in.con.linear |=
+            GVI__DIG > FLT_MANT_DIG && in->con.made > 0 && sum < GVI__EPS*GVI_SQRT(GVI__EPS);
+        gvi__constraint_rows(st, stage);
     }
-    if (stages == 2 && !gvi__uses(x, GVI_MOMENTA)) gvi__count(&st->counters.velocities, st->r);
+    if (stages == 2 && !gvi__uses(in, GVI_MOMENTA)) gvi__count(&st->counters.velocities, st->r);
     return sum;
 }
 
@@ -3674,33 +3686,33 @@ GVI__BODY gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *y, int stage
 static gvi_status gvi__predict_sources(gvi_stepper *st, const gvi__origin *from, gvi_real h,
                                        int extrapolate)
 {
-    struct gvi__private *x = &st->x;
-    struct gvi__values *w = &x->work;
-    const int momenta = gvi__uses(x, GVI_MOMENTA);
+    struct gvi__private *in = &st->in;
+    struct gvi__values *w = &in->work;
+    const int momenta = gvi__uses(in, GVI_MOMENTA);
     gvi_real *to[3] = { w->F, NULL, NULL };
     if (momenta) to[1] = w->V;
     if (GVI__LAGRANGIAN) to[2] = w->A;
-    const gvi_real *const last[3] = { x->last.F, x->last.V, x->last.A };
-    const gvi_real *const older[3] = { x->older.F, x->older.V, x->older.A };
+    const gvi_real *const last[3] = { in->last.F, in->last.V, in->last.A };
+    const gvi_real *const older[3] = { in->older.F, in->older.V, in->older.A };
     gvi_real rate = 1;
     if (gvi__clock_is_on(st)) {                   // times of the points as if g stayed as it is
-        const gvi_status status = gvi__clock_at(st, from->t, from->q, &rate, x->result);
+        const gvi_status status = gvi__clock_at(st, from->t, from->q, &rate, in->result);
         if (status != GVI_OK) return status;
-        gvi__times(st->r, from->t, from->t_low, h*rate, x->table.c, x->t);
+        gvi__times(st->r, from->t, from->t_low, h*rate, in->table.c, in->t);
     }
     if (gvi__constrained(st)) gvi__predict_constraints(st, extrapolate);
     for (int k = 0; k < 3; ++k) {
-        gvi__stage z;
+        gvi__stage stage;
         if (!to[k]) continue;
-        gvi__set_stage(st, &z, to[k], NULL, NULL, NULL);
-        gvi__set_predictor(st, &z, last[k], older[k]);
-        if (extrapolate) x->kernel(st, &z, 0);
-        else gvi__zero((size_t)st->n*(size_t)x->R, to[k]);
+        gvi__set_stage(st, &stage, to[k], NULL, NULL, NULL);
+        gvi__set_predictor(st, &stage, last[k], older[k]);
+        if (extrapolate) in->kernel(st, &stage, 0);
+        else gvi__zero((size_t)st->n*(size_t)in->R, to[k]);
     }
     if (!momenta || extrapolate) return GVI_OK;
-    gvi__velocity_guess(st, x->result);
+    gvi__velocity_guess(st, in->result);
     for (int i = 0; i < st->n; ++i)
-        for (int k = 0; k < st->r; ++k) w->V[i*x->R + k] = rate*x->result[i];
+        for (int k = 0; k < st->r; ++k) w->V[i*in->R + k] = rate*in->result[i];
     return GVI_OK;
 }
 
@@ -3718,18 +3730,18 @@ enum { GVI__GO_ON, GVI__DONE, GVI__ONCE_MORE, GVI__DIVERGES, GVI__NOT_FINITE };
 // M_ii, or p_i/v_i where the effects alone make the mass, where F was evaluated last: first point
 static gvi_real gvi__inertia(const gvi_stepper *st, int i)
 {
-    const struct gvi__private *x = &st->x;
+    const struct gvi__private *in = &st->in;
     const size_t n = (size_t)st->n, ii = (size_t)i*(n + 1);
-    const size_t iR = (size_t)i*(size_t)x->R;
+    const size_t iR = (size_t)i*(size_t)in->R;
     gvi_real m;
-    if (x->desc.mass.kind == GVI_MASS_DENSE) m = x->mass.matrix[ii];
-    else if (gvi__mass_is(x, GVI_MASS_POSITION)) m = x->mass.at_points[ii*(size_t)x->R];
-    else if (gvi__mass_is(x, GVI_MASS_NONE)) m = x->work.P[iR]/x->work.V[iR];
-    else m = x->mass.matrix[i];
+    if (in->desc.mass.kind == GVI_MASS_DENSE) m = in->mass.matrix[ii];
+    else if (gvi__mass_is(in, GVI_MASS_POSITION)) m = in->mass.at_points[ii*(size_t)in->R];
+    else if (gvi__mass_is(in, GVI_MASS_NONE)) m = in->work.P[iR]/in->work.V[iR];
+    else m = in->mass.matrix[i];
     if (!gvi__nonzero(m) || !gvi__finite(m)) return 1;
     // the momenta formulation factors M(q) in place: 1/D_i is there
-    if (gvi__mass_is(x, GVI_MASS_POSITION) && st->formulation == GVI_MOMENTA && x->has_factor
-        && !x->desc.mass.velocity) m = 1/m;
+    if (gvi__mass_is(in, GVI_MASS_POSITION) && st->formulation == GVI_MOMENTA && in->has_factor
+        && !in->desc.mass.velocity) m = 1/m;
     return GVI_ABS(m);
 }
 
@@ -3740,26 +3752,26 @@ static gvi_real gvi__inertia(const gvi_stepper *st, int i)
    between two heavy ones.  So is, whatever the amplitude, what a force of constraint moves by its
    own rounding, 32 eps of it, or by its last change where that came from the rounding of g, which
    rows that are nearly dependent make large: that counts next to nothing.                      */
-static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *y, int stages)
+static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *stage, int stages)
 {
-    const int R = st->x.R, C = st->x.con.C, held = gvi__constrained(st)*st->s;
-    gvi_real largest = 0, noise = 0, *moved = st->x.con.W;       // n sums for each source
+    const int R = st->in.R, C = st->in.con.C, held = gvi__constrained(st)*st->s;
+    gvi_real largest = 0, noise = 0, *moved = st->in.con.W;       // n sums for each source
     if (held) gvi__constraints_moved(st, moved);
     for (int k = 0; k < stages; ++k) {
-        if (!y[k].scale) continue;
+        if (!stage[k].scale) continue;
         for (int i = 0; i < st->n; ++i) {
-            const gvi_real m = gvi__inertia(st, i), *row = y[k].rows + i*R;
-            gvi_real size = GVI_ABS(y[k].base[i]), push = 0, unit = 1, change = 0;
-            if (stages == 2 && k != gvi__uses(&st->x, GVI_MOMENTA)) unit = GVI_ABS(h);  // V or P
-            if (gvi__uses(&st->x, GVI_MOMENTA) && k == 0) unit /= m;                    // P
+            const gvi_real m = gvi__inertia(st, i), *row = stage[k].rows + i*R;
+            gvi_real size = GVI_ABS(stage[k].base[i]), push = 0, unit = 1, change = 0;
+            if (stages == 2 && k != gvi__uses(&st->in, GVI_MOMENTA)) unit = GVI_ABS(h);  // V or P
+            if (gvi__uses(&st->in, GVI_MOMENTA) && k == 0) unit /= m;                    // P
             unit *= GVI_SQRT(m);
             for (int j = 0; j < st->r; ++j) size = gvi__larger(GVI_ABS(row[j]), size);
             for (int e = 0; e < held; ++e) {
-                const gvi_real force = 32*GVI__EPS*GVI_ABS(h*st->x.con.force[i*R + e])
-                                       + moved[i*C + e]/GVI_ABS(st->x.con.hw[e]);
+                const gvi_real force = 32*GVI__EPS*GVI_ABS(h*st->in.con.force[i*R + e])
+                                       + moved[i*C + e]/GVI_ABS(st->in.con.hw[e]);
                 push = gvi__larger(GVI_ABS(h)*force/m, push);
             }
-            if (y[k].scale[i] > 0) change = GVI_SQRT(y[k].change[i])/y[k].scale[i];
+            if (stage[k].scale[i] > 0) change = GVI_SQRT(stage[k].change[i])/stage[k].scale[i];
             largest = gvi__larger(unit*size, largest);
             if (!(change > 4*GVI__EPS*size)) continue;
             if (change <= push) change *= GVI__EPS;
@@ -3782,10 +3794,10 @@ static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *
    by factors of less than 4: it lets errors grow before they shrink.  All in squares: no root
    waits.                                                                                      */
 static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_real h,
-                          const gvi__stage *y, int stages)
+                          const gvi__stage *stage, int stages)
 {
     enum { POOR = 2, POOR_FAR = 4, STILL = 3, STAGNANT = 4 };     // iterations in a row
-    const gvi_desc *d = &st->x.desc;
+    const gvi_desc *d = &st->in.desc;
     gvi_real wanted = GVI__EPS/65536;
     if (d->tolerance > 0) wanted = d->tolerance;
     const gvi_real tolerance = wanted*wanted;
@@ -3800,14 +3812,14 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
         gvi_real other = p->ratio;
         if (earlier > 0) other = before/gvi__smaller(earlier, 1);
         settled = D*other <= tolerance;
-        if (settled) st->x.watch.found = D/last;
+        if (settled) st->in.watch.found = D/last;
     }
     if (settled) {
         int rows = 0;                             // no row hides behind a larger one
         for (; rows < stages*st->n; ++rows) {
-            const gvi_real Di = st->x.watch.change[rows];
+            const gvi_real Di = st->in.watch.change[rows];
             gvi_real before_i = Di;
-            if (!alone) before_i = gvi__smaller(st->x.watch.before[rows], 1);
+            if (!alone) before_i = gvi__smaller(st->in.watch.before[rows], 1);
             if (Di > place && Di*Di > tolerance*before_i) break;
         }
         if (rows == stages*st->n) return GVI__DONE;
@@ -3824,7 +3836,7 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
         if (p->used < d->iterations) return GVI__GO_ON;
         int falls = before <= 0 || D < before;
         if (earlier > 0) falls = D < earlier/4;
-        if (falls || D <= sure || gvi__noise(st, h, y, stages) <= 1) return GVI__DONE;
+        if (falls || D <= sure || gvi__noise(st, h, stage, stages) <= 1) return GVI__DONE;
         return GVI__DIVERGES;
     }
     p->growing += 1;
@@ -3843,7 +3855,7 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
     const int poor = p->growing > allowed && D > sure;
     const int wait = !gvi__constrained(st);                  // the rounding of g is in every D
     if (p->stagnant > wait || poor) {
-        const gvi_real noise = gvi__noise(st, h, y, stages);
+        const gvi_real noise = gvi__noise(st, h, stage, stages);
         p->still += 1;
         if (noise < p->quiet) p->still = 0;       // a new minimum still converges, perhaps to 0
         const int level = noise <= GVI__EPS || (p->still > STILL && noise <= p->noise);
@@ -3867,25 +3879,25 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
 GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi_real h,
                                    int extrapolate, int *used)
 {
-    struct gvi__private *x = &st->x;
+    struct gvi__private *in = &st->in;
     gvi__stage stage[2], first;
     gvi__progress p = { 0, 0, GVI__MAX, 1, GVI__MAX, GVI__MAX, 0, 0, 0, 0, 1 };
-    gvi_points at = gvi__points_at(st, st->r, x->R, x->t, x->work.Q, x->work.F,
-                                   GVI__LAGRANGIAN ? x->work.A : NULL);
+    gvi_points at = gvi__points_at(st, st->r, in->R, in->t, in->work.Q, in->work.F,
+                                   GVI__LAGRANGIAN ? in->work.A : NULL);
     const int stages = gvi__stages(st, from, h, stage);
     gvi_status status = GVI_OK;
     if (gvi__constrained(st)) gvi__constraint_stages(st, from, h, stage, stages);
-    if (GVI__CONSTRAINTS) x->con.made = x->con.linear = 0;
-    at.v = x->work.V;
+    if (GVI__CONSTRAINTS) in->con.made = in->con.linear = 0;
+    at.v = in->work.V;
     if (*used > 0) p.ratio = 2;                   // the attempt before this one failed
-    else if (extrapolate && GVI_ABS(h) <= GVI_ABS(st->h)) p.ratio = x->watch.ratio;
-    x->watch.found = gvi__smaller(p.ratio, 1);
+    else if (extrapolate && GVI_ABS(h) <= GVI_ABS(st->h)) p.ratio = in->watch.ratio;
+    in->watch.found = gvi__smaller(p.ratio, 1);
     *used = 0;
-    x->has_factor = 0;
-    if (extrapolate && x->sized.sums) {
+    in->has_factor = 0;
+    if (extrapolate && in->sized.sums) {
         first = stage[0];
-        gvi__set_predictor(st, &first, x->last.F, x->older.F);
-        x->kernel(st, &first, 0);
+        gvi__set_predictor(st, &first, in->last.F, in->older.F);
+        in->kernel(st, &first, 0);
     } else {
         status = gvi__predict_sources(st, from, h, extrapolate);
         if (status != GVI_OK) return status;
@@ -3897,8 +3909,8 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
         // free motion may leave a callback's domain though the motion does not: halve the way
         if (status == GVI_E_CALLBACK && p.used == 1 && !extrapolate && shorter++ < 6) {
             for (int i = 0; i < st->n; ++i)
-                for (int k = 0; k < x->R; ++k)
-                    x->work.Q[i*x->R + k] = (x->work.Q[i*x->R + k] + from->q[i])/2;
+                for (int k = 0; k < in->R; ++k)
+                    in->work.Q[i*in->R + k] = (in->work.Q[i*in->R + k] + from->q[i])/2;
             continue;
         }
         if (last && status == GVI_OK && gvi__constrained(st)) gvi__constrain(st, stage, from->q);
@@ -3907,14 +3919,14 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
         const gvi_real change = gvi__new_rows(st, stage, stages, p.rescale);
         const int verdict = gvi__converged(st, &p, change, h, stage, stages);
         if (verdict == GVI__GO_ON) {
-            gvi_real *spare = x->watch.before;
-            x->watch.before = x->watch.change;
-            x->watch.change = spare;
+            gvi_real *spare = in->watch.before;
+            in->watch.before = in->watch.change;
+            in->watch.change = spare;
             for (int k = 0; k < stages; ++k) stage[k].change = spare + k*st->n;
             p.used = *used += 1;
             continue;
         }
-        if (verdict == GVI__NOT_FINITE && !diverged && !x->diagnose)  // the effects are looked at
+        if (verdict == GVI__NOT_FINITE && !diverged && !in->diagnose)  // the effects are looked at
             return gvi__report_status(st, GVI_E_NON_FINITE);
         if (verdict == GVI__NOT_FINITE || verdict == GVI__DIVERGES)
             return gvi__report_status(st, GVI_E_CONVERGENCE);
@@ -3969,14 +3981,14 @@ GVI__BODY gvi__two gvi__exact_dot(int R, const gvi_real *a, const gvi_real *b)
 static void gvi__sum_rows(const gvi_stepper *st, gvi_real *rows, const gvi_real *low, gvi_real *sum,
                           gvi_real *sum_low)
 {
-    const int R = st->x.R;
+    const int R = st->in.R;
     for (int i = 0; i < st->n; ++i, rows += R) {
         // a callback may have left anything there
         for (int k = st->r; k < R; ++k) rows[k] = 0;
         gvi__two z;
-        if (R == 8) z = gvi__exact_dot(8, st->x.sized.hb, rows);
-        else if (R == 4) z = gvi__exact_dot(4, st->x.sized.hb, rows);
-        else z = gvi__exact_dot(R, st->x.sized.hb, rows);
+        if (R == 8) z = gvi__exact_dot(8, st->in.sized.hb, rows);
+        else if (R == 4) z = gvi__exact_dot(4, st->in.sized.hb, rows);
+        else z = gvi__exact_dot(R, st->in.sized.hb, rows);
         sum[i] = z.hi;
         sum_low[i] = gvi__low(z.lo + low[i]);
     }
@@ -3996,14 +4008,14 @@ GVI__CALLED gvi__two gvi__moment(int count, const gvi_real *c, const gvi_real *w
 // dp from the F at the points and the forces of constraint at theirs
 static void gvi__momentum_increment(gvi_stepper *st, const gvi__origin *from)
 {
-    struct gvi__private *x = &st->x;
-    gvi__sum_rows(st, x->work.F, from->p_low, x->step.p, x->step.p_low);
+    struct gvi__private *in = &st->in;
+    gvi__sum_rows(st, in->work.F, from->p_low, in->step.p, in->step.p_low);
     if (!gvi__constrained(st)) return;
     for (int i = 0; i < st->n; ++i) {
-        const gvi__two z = gvi__exact_dot(x->R, x->con.hw, x->con.force + i*x->R),
-                       p = gvi__add_low(x->step.p[i], x->step.p_low[i], z.hi, z.lo);
-        x->step.p[i] = p.hi;
-        x->step.p_low[i] = p.lo;
+        const gvi__two z = gvi__exact_dot(in->R, in->con.hw, in->con.force + i*in->R),
+                       p = gvi__add_low(in->step.p[i], in->step.p_low[i], z.hi, z.lo);
+        in->step.p[i] = p.hi;
+        in->step.p_low[i] = p.lo;
     }
 }
 
@@ -4011,17 +4023,17 @@ static void gvi__momentum_increment(gvi_stepper *st, const gvi__origin *from)
    tau = 1, where S_j = c_j: dq = h (v + M^-1 (sum_j (1 - c_j) h b_j F_j - sum_j b_j A_j)).    */
 static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h)
 {
-    struct gvi__private *x = &st->x;
-    struct gvi__values *w = &x->work;
-    const gvi_real *c = x->table.c, *hb = x->sized.hb;
-    const int R = x->R, r = st->r;
+    struct gvi__private *in = &st->in;
+    struct gvi__values *w = &in->work;
+    const gvi_real *c = in->table.c, *hb = in->sized.hb;
+    const int R = in->R, r = st->r;
     if (gvi__clock_is_on(st)) {
-        x->dt = gvi__dot(r, hb, x->time.rate);
-        x->time.dH = gvi__dot(r, hb, x->time.power);
+        in->dt = gvi__dot(r, hb, in->time.rate);
+        in->time.dH = gvi__dot(r, hb, in->time.power);
     }
     gvi__momentum_increment(st, from);
-    if (gvi__uses(x, GVI_MOMENTA)) {
-        gvi__sum_rows(st, w->V, from->q_low, x->step.q, x->step.q_low);
+    if (gvi__uses(in, GVI_MOMENTA)) {
+        gvi__sum_rows(st, w->V, from->q_low, in->step.q, in->step.q_low);
         return;
     }
     for (int i = 0; i < st->n; ++i) {
@@ -4030,20 +4042,20 @@ static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h
         for (int o = 0; o + 3 < R; o += 4)
             for (int k = 0; k < 4; ++k) sum[k] += (1 - c[o + k])*(hb[o + k]*F[o + k]);
         for (int k = R & ~3; k < R; ++k) sum[k & 3] += (1 - c[k])*(hb[k]*F[k]);
-        x->step.q[i] = (sum[0] + sum[2]) + (sum[1] + sum[3]);
+        in->step.q[i] = (sum[0] + sum[2]) + (sum[1] + sum[3]);
         if (gvi__constrained(st)) {
             const gvi__two a = gvi__moment(r, c, hb, F),
-                           z = gvi__moment(st->s, x->con.d, x->con.hw, x->con.force + i*R);
-            x->step.q[i] = (a.hi + z.hi) + (a.lo + z.lo);
+                           z = gvi__moment(st->s, in->con.d, in->con.hw, in->con.force + i*R);
+            in->step.q[i] = (a.hi + z.hi) + (a.lo + z.lo);
         }
-        if (GVI__LAGRANGIAN && w->A) x->step.q[i] -= gvi__dot(r, x->table.b, w->A + i*R);
+        if (GVI__LAGRANGIAN && w->A) in->step.q[i] -= gvi__dot(r, in->table.b, w->A + i*R);
     }
-    gvi__over_mass(st, x->step.q, 1, 1);
+    gvi__over_mass(st, in->step.q, 1, 1);
     for (int i = 0; i < st->n; ++i) {
-        const gvi__two bend = gvi__two_prod(h, x->step.q[i]),
-                       q = gvi__two_sum(x->free.path[i], bend.hi);
-        x->step.q[i] = q.hi;
-        x->step.q_low[i] = gvi__low((q.lo + bend.lo) + (x->free.path_low[i] + from->q_low[i]));
+        const gvi__two bend = gvi__two_prod(h, in->step.q[i]),
+                       q = gvi__two_sum(in->free.path[i], bend.hi);
+        in->step.q[i] = q.hi;
+        in->step.q_low[i] = gvi__low((q.lo + bend.lo) + (in->free.path_low[i] + from->q_low[i]));
     }
 }
 
@@ -4062,30 +4074,31 @@ static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h
    below eps (max |v| + max |q|/h), each times sqrt(M_ii), is rounding, and relative to that sum. */
 static gvi_real gvi__resolution(const gvi_stepper *st)
 {
-    const struct gvi__private *x = &st->x;
-    const int s = st->s, R = x->R, forces = gvi__uses(x, GVI_POSITIONS), pair = 1 + (s > 4),
+    const struct gvi__private *in = &st->in;
+    const int s = st->s, R = in->R, forces = gvi__uses(in, GVI_POSITIONS), pair = 1 + (s > 4),
               held = forces && gvi__constrained(st);
-    const gvi_real *row = x->work.V;
-    const gvi_real h = GVI_ABS(x->sized.h);
-    gvi_real *missed = x->result, *size = missed + st->n, unit = 1;
+    const gvi_real *row = in->work.V;
+    const gvi_real h = GVI_ABS(in->sized.h);
+    gvi_real *missed = in->result, *size = missed + st->n, unit = 1;
     gvi_real fastest = 0, farthest = 0, worst = 0;
     if (forces) {
-        row = x->work.F;
+        row = in->work.F;
         unit = h;
     }
     for (int i = 0; i < st->n; ++i, row += R) {
-        const gvi_real *a = x->table.high, *force = x->con.force + i*R;
+        const gvi_real *a = in->table.high, *force = in->con.force + i*R;
         gvi_real y[4] = { 0, 0, 0, 0 }, start = row[0], end = row[st->r - 1];
         for (int j = 0; j < st->r; ++j, a += 4)
             GVI__UNROLL for (int m = 0; m < 4; ++m) y[m] += a[m]*row[j];
         for (int m = 0; m < held*2*pair; ++m) {
             const int k = s - 1 - m;
             for (int e = 1; e < s; ++e)
-                y[m*2/pair] += x->table.inv_gamma[k]*x->con.Phi[k*R + e - 1]*(x->con.w[e]*force[e]);
+                y[m*2/pair] +=
+                    in->table.inv_gamma[k]*in->con.Phi[k*R + e - 1]*(in->con.w[e]*force[e]);
         }
         if (forces) {
-            start = x->state.p[i];
-            end = start + x->step.p[i];
+            start = in->state.p[i];
+            end = start + in->step.p[i];
         }
         gvi_real high = unit*(GVI_ABS(y[0]) + GVI_ABS(y[1])),
                  low = unit*(GVI_ABS(y[2]) + GVI_ABS(y[3]));
@@ -4100,7 +4113,7 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
         missed[i] = share*share*push*scale;
         size[i] = all*scale;
         fastest = gvi__larger(size[i], fastest);
-        farthest = gvi__larger(GVI_ABS(x->state.q[i])*mass, farthest);
+        farthest = gvi__larger(GVI_ABS(in->state.q[i])*mass, farthest);
     }
     const gvi_real whole = fastest + farthest/h;
     if (!(whole > 0)) return 0;
@@ -4118,15 +4131,15 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
 GVI__BODY void gvi__drift(gvi_stepper *st, const gvi__origin *from, const gvi_real *GVI__RESTRICT v,
                           const gvi_real *first, gvi_real b, gvi_real a)
 {
-    struct gvi__private *x = &st->x;
-    const gvi_real *GVI__RESTRICT q = from->q, *GVI__RESTRICT m = x->mass.inverse;
-    gvi_real *GVI__RESTRICT F = x->work.F, *GVI__RESTRICT Q = x->work.Q;
-    gvi_real *GVI__RESTRICT dp = x->step.p, *GVI__RESTRICT dq = x->step.q, *z = x->result;
+    struct gvi__private *in = &st->in;
+    const gvi_real *GVI__RESTRICT q = from->q, *GVI__RESTRICT m = in->mass.inverse;
+    gvi_real *GVI__RESTRICT F = in->work.F, *GVI__RESTRICT Q = in->work.Q;
+    gvi_real *GVI__RESTRICT dp = in->step.p, *GVI__RESTRICT dq = in->step.q, *z = in->result;
     const gvi_real *p0 = first ? from->p_low : dp, *q0 = first ? from->q_low : dq;
     const gvi_real *f = first ? first : F;
     int i = 0;
     const int n = st->n;
-    if (x->desc.mass.kind == GVI_MASS_DENSE) {
+    if (in->desc.mass.kind == GVI_MASS_DENSE) {
         for (i = 0; i < n; ++i) z[i] = dp[i] = p0[i] + b*f[i];
         gvi__over_mass(st, z, 1, 1);
         for (i = 0; i < n; ++i) {
@@ -4159,38 +4172,39 @@ GVI__BODY void gvi__drift(gvi_stepper *st, const gvi__origin *from, const gvi_re
 static gvi_status gvi__kicks(gvi_stepper *st, const gvi__origin *from, gvi_real h,
                              const gvi_real *force)
 {
-    struct gvi__private *x = &st->x;
-    const int n = st->n, r = st->r, known = force && gvi__nonzero(x->sized.hb[0]);
+    struct gvi__private *in = &st->in;
+    const int n = st->n, r = st->r, known = force && gvi__nonzero(in->sized.hb[0]);
     const int held = gvi__constrained(st) ? 1 : -1;
-    const gvi_real *hb = x->sized.hb, *v = x->desc.mass.kind == GVI_MASS_UNIT ? from->p : x->free.v;
+    const gvi_real *hb = in->sized.hb, *v = in->free.v;
+    if (in->desc.mass.kind == GVI_MASS_UNIT) v = from->p;
     gvi_real t = from->t, b = 0;
-    gvi_points y = gvi__points_at(st, 1, 1, &t, x->work.Q, x->work.F, NULL);
+    gvi_points at = gvi__points_at(st, 1, 1, &t, in->work.Q, in->work.F, NULL);
     if (v != from->p) {
-        gvi__copy((size_t)n, from->p, x->free.v);
-        gvi__over_mass(st, x->free.v, 1, 1);
+        gvi__copy((size_t)n, from->p, in->free.v);
+        gvi__over_mass(st, in->free.v, 1, 1);
     }
     if (known) b = hb[0];
     for (int j = known; j < r; ++j) {
-        if (j == known) gvi__drift(st, from, v, known ? force : x->zeros, b, x->sized.drift[j]);
-        else gvi__drift(st, from, v, NULL, b, x->sized.drift[j]);
+        if (j == known) gvi__drift(st, from, v, known ? force : in->zeros, b, in->sized.drift[j]);
+        else gvi__drift(st, from, v, NULL, b, in->sized.drift[j]);
         if (j == held) {
             const gvi_status status = gvi__constrained_drift(st, from, h);
             if (status != GVI_OK) return status;
         }
-        t = from->t + (from->t_low + x->table.c[j]*h);
+        t = from->t + (from->t_low + in->table.c[j]*h);
         b = hb[j];
         if (j < r - 1 && !gvi__nonzero(b)) continue;
-        const gvi_status status = gvi__effects(st, &y, 0, NULL);
+        const gvi_status status = gvi__effects(st, &at, 0, NULL);
         if (status != GVI_OK) return status;
     }
 
     // the last kick, and the drift behind it, if there is one
-    gvi_real *last = x->result + n;
-    if (gvi__nonzero(x->sized.drift[r])) {
-        gvi__copy((size_t)n, x->work.F, last);
-        gvi__drift(st, from, v, NULL, b, x->sized.drift[r]);
-        gvi__copy((size_t)n, last, x->work.F);
-    } else gvi__add_scaled(n, b, x->work.F, x->step.p, x->step.p);
+    gvi_real *last = in->result + n;
+    if (gvi__nonzero(in->sized.drift[r])) {
+        gvi__copy((size_t)n, in->work.F, last);
+        gvi__drift(st, from, v, NULL, b, in->sized.drift[r]);
+        gvi__copy((size_t)n, last, in->work.F);
+    } else gvi__add_scaled(n, b, in->work.F, in->step.p, in->step.p);
     return GVI_OK;
 }
 
@@ -4199,37 +4213,37 @@ static gvi_status gvi__kicks(gvi_stepper *st, const gvi__origin *from, gvi_real 
 // the clock's g and dg/dq at the points
 static gvi_status gvi__rate(gvi_stepper *st, const gvi_points *x, gvi_real *rate, gvi_real *slope)
 {
-    const gvi_effect *clock = st->x.desc.effects + st->x.clock;
-    gvi_points y = gvi__points_at(st, x->count, x->stride, x->t, x->q, slope, NULL);
-    y.value = rate;
+    const gvi_effect *clock = st->in.desc.effects + st->in.clock;
+    gvi_points at = gvi__points_at(st, x->count, x->stride, x->t, x->q, slope, NULL);
+    at.value = rate;
     gvi__zero((size_t)x->n*(size_t)x->stride, slope);
     gvi__zero((size_t)x->stride, rate);
-    gvi__count(&st->counters.effect[st->x.clock], x->count);
-    const int failed = clock->points(&y, clock->user);
-    if (failed) return gvi__report_callback(st, failed, st->x.clock);
+    gvi__count(&st->counters.effect[st->in.clock], x->count);
+    const int failed = clock->points(&at, clock->user);
+    if (failed) return gvi__report_callback(st, failed, st->in.clock);
     for (int k = 0; k < x->count; ++k) {
-        if (rate[k] <= 0) return gvi__report(st, GVI_E_CLOCK, st->x.clock, GVI_FAULT_NONE, k);
-        if (st->x.diagnose && !gvi__finite(rate[k]))
-            return gvi__report(st, GVI_E_NON_FINITE, st->x.clock, GVI_FAULT_NONE, k);
+        if (rate[k] <= 0) return gvi__report(st, GVI_E_CLOCK, st->in.clock, GVI_FAULT_NONE, k);
+        if (st->in.diagnose && !gvi__finite(rate[k]))
+            return gvi__report(st, GVI_E_NON_FINITE, st->in.clock, GVI_FAULT_NONE, k);
     }
-    if (!st->x.diagnose) return GVI_OK;
-    return gvi__check_rows(st, x, slope, st->x.clock);
+    if (!st->in.diagnose) return GVI_OK;
+    return gvi__check_rows(st, x, slope, st->in.clock);
 }
 
 // g at one configuration; slope of length n gets dg/dq
 static gvi_status gvi__clock_at(gvi_stepper *st, gvi_real t, const gvi_real *q, gvi_real *rate,
                                 gvi_real *slope)
 {
-    const gvi_points y = gvi__one_point(st, &t, q);
-    return gvi__rate(st, &y, rate, slope);
+    const gvi_points at = gvi__one_point(st, &t, q);
+    return gvi__rate(st, &at, rate, slope);
 }
 
 // z := sum_j T_j h b_j source_j at all points: the rule of Q
 static void gvi__time_sums(const gvi_stepper *st, const gvi_real *source, gvi_real *z)
 {
-    const struct gvi__private *x = &st->x;
-    const gvi_real *L = gvi__weighted(x->R, x->sized.hb, source, x->row);
-    for (int k = 0; k < x->R; ++k) z[k] = gvi__point_sum(st->r, x->R, x->table.T + k, L);
+    const struct gvi__private *in = &st->in;
+    const gvi_real *L = gvi__weighted(in->R, in->sized.hb, source, in->row);
+    for (int k = 0; k < in->R; ++k) z[k] = gvi__point_sum(st->r, in->R, in->table.T + k, L);
 }
 
 /* H - E for a coordinate whose force is F: as it is, or where its rounding, within `none`, would
@@ -4251,21 +4265,21 @@ static gvi_real gvi__sure_level(gvi_real level, gvi_real none, gvi_real slope, g
    the work of the forces, and the times by the rule of Q.                                     */
 static gvi_status gvi__evaluate_with_clock(gvi_stepper *st, const gvi__origin *from, gvi_points *y)
 {
-    struct gvi__private *x = &st->x;
-    const struct gvi__values *w = &x->work;
-    const int n = st->n, r = st->r, R = x->R;
-    const unsigned forces = gvi__of_kind(x, GVI_FORCE);
-    gvi_real *g = x->time.rate, *power = x->time.power, *level = x->time.level,
-             *L = x->time.lagrangian, *noise = x->row + R;
+    struct gvi__private *in = &st->in;
+    const struct gvi__values *w = &in->work;
+    const int n = st->n, r = st->r, R = in->R;
+    const unsigned forces = gvi__of_kind(in, GVI_FORCE);
+    gvi_real *g = in->time.rate, *power = in->time.power, *level = in->time.level,
+             *L = in->time.lagrangian, *noise = in->row + R;
     gvi_status status = gvi__effects(st, y, ~forces, NULL);
     gvi__zero((size_t)R, power);
     for (int i = 0; i < n; ++i)
         for (int k = 0; k < r; ++k) power[k] += w->F[i*R + k]*w->V[i*R + k];
     gvi__zero((size_t)R, level);
     gvi__zero((size_t)R, L);
-    if (status == GVI_OK && gvi__mass_is(x, GVI_MASS_POSITION)) status = gvi__mass_gradient(st, y);
+    if (status == GVI_OK && gvi__mass_is(in, GVI_MASS_POSITION)) status = gvi__mass_gradient(st, y);
     if (status == GVI_OK) status = gvi__effects(st, y, forces, level);
-    if (status == GVI_OK) status = gvi__rate(st, y, g, x->time.slope);
+    if (status == GVI_OK) status = gvi__rate(st, y, g, in->time.slope);
     if (status != GVI_OK) return status;
 
     // level := H - E; noise: what rounding makes of it
@@ -4274,7 +4288,7 @@ static gvi_status gvi__evaluate_with_clock(gvi_stepper *st, const gvi__origin *f
         level[k] -= L[k] + from->E;
         power[k] *= g[k];
     }
-    if (forces & ~x->off) {
+    if (forces & ~in->off) {
         gvi__time_sums(st, power, L);
         for (int k = 0; k < R; ++k) level[k] -= L[k];
     }
@@ -4290,7 +4304,7 @@ static gvi_status gvi__evaluate_with_clock(gvi_stepper *st, const gvi__origin *f
 
     for (int i = 0; i < n; ++i) {
         gvi_real *F = w->F + i*R, *V = w->V + i*R, largest = 0;
-        const gvi_real *slope = x->time.slope + i*R;
+        const gvi_real *slope = in->time.slope + i*R;
         for (int k = 0; k < R; ++k) {
             F[k] *= g[k];
             V[k] *= g[k];
@@ -4300,7 +4314,7 @@ static gvi_status gvi__evaluate_with_clock(gvi_stepper *st, const gvi__origin *f
             F[k] -= slope[k]*gvi__sure_level(level[k], 16*GVI__EPS*noise[k], slope[k], largest);
     }
     gvi__time_sums(st, g, L);
-    for (int k = 0; k < R; ++k) x->t[k] = from->t + (from->t_low + L[k]);
+    for (int k = 0; k < R; ++k) in->t[k] = from->t + (from->t_low + L[k]);
     return GVI_OK;
 }
 
@@ -4325,20 +4339,20 @@ static gvi_status gvi__evaluate_with_clock(gvi_stepper *st, const gvi__origin *f
    D_0..D_s, rows of C; at one point, numbers at the beginning of these.  Rows that are off are left
    out.                                                                                        */
 
-static unsigned gvi__constraints_on(const gvi_stepper *st) { return st->x.con.bits & ~st->x.off; }
+static unsigned gvi__constraints_on(const gvi_stepper *st) { return st->in.con.bits & ~st->in.off; }
 
-static int gvi__count_rows(const struct gvi__private *x, unsigned bits)
+static int gvi__count_rows(const struct gvi__private *in, unsigned bits)
 {
     int rows = 0;
-    for (int e = 0; e < x->desc.effect_count; ++e)
-        if (bits >> e & 1u) rows += x->desc.effects[e].rows;
+    for (int e = 0; e < in->desc.effect_count; ++e)
+        if (bits >> e & 1u) rows += in->desc.effects[e].rows;
     return rows;
 }
 
 // row `row` of those that are on is at fault: which effect, and which row of it?
 GVI__COLD gvi_status gvi__report_row(gvi_stepper *st, gvi_status status, int row, int point)
 {
-    const gvi_effect *effects = st->x.desc.effects;
+    const gvi_effect *effects = st->in.desc.effects;
     int e = 0;
     for (; !(gvi__constraints_on(st) >> e & 1u) || row >= effects[e].rows; ++e)
         if (gvi__constraints_on(st) >> e & 1u) row -= effects[e].rows;
@@ -4348,51 +4362,51 @@ GVI__COLD gvi_status gvi__report_row(gvi_stepper *st, gvi_status status, int row
 /* What of row a is read and cleared: runs of columns, from run[e] to run[e + 1], e even.      */
 GVI__BODY const gvi_real *gvi__runs(const gvi_stepper *st, int a, int *ends)
 {
-    *ends = (int)st->x.con.ends[a];
-    return st->x.con.runs + a*(st->n + 1);
+    *ends = (int)st->in.con.ends[a];
+    return st->in.con.runs + a*(st->n + 1);
 }
 
 // g and dg/dt to con.g, and G, at `count` points
 static gvi_status gvi__evaluate_constraints(gvi_stepper *st, int S, int count, const gvi_real *t,
                                             const gvi_real *q, gvi_real *G)
 {
-    gvi_points y = gvi__points_at(st, count, S, t, q, NULL, NULL);
+    gvi_points at = gvi__points_at(st, count, S, t, q, NULL, NULL);
     gvi_status status = GVI_OK;
-    y.g = st->x.con.g;
-    y.rate = y.g + st->x.con.m*S;
-    y.jacobian = G;
-    gvi__zero((size_t)(st->x.con.m*S), y.rate);
-    for (int a = 0, ends; a < st->x.con.m; ++a) {
+    at.g = st->in.con.g;
+    at.rate = at.g + st->in.con.m*S;
+    at.jacobian = G;
+    gvi__zero((size_t)(st->in.con.m*S), at.rate);
+    for (int a = 0, ends; a < st->in.con.m; ++a) {
         const gvi_real *run = gvi__runs(st, a, &ends);
         for (int e = 0; e < ends; e += 2) {
             const int i = (int)run[e], to = (int)run[e + 1];
             gvi__zero((size_t)((to - i)*S), G + (size_t)(a*st->n + i)*(size_t)S);
         }
     }
-    if (st->x.diagnose && gvi__check_rows(st, &y, q, 0) != GVI_OK)
+    if (st->in.diagnose && gvi__check_rows(st, &at, q, 0) != GVI_OK)
         return gvi__report_status(st, GVI_E_CONVERGENCE);
-    for (int e = 0; e < st->x.desc.effect_count; ++e) {
-        const gvi_effect *effect = st->x.desc.effects + e;
+    for (int e = 0; e < st->in.desc.effect_count; ++e) {
+        const gvi_effect *effect = st->in.desc.effects + e;
         if (!(gvi__constraints_on(st) >> e & 1u)) continue;
         gvi__count(&st->counters.effect[e], count);
-        const int failed = effect->points(&y, effect->user);
+        const int failed = effect->points(&at, effect->user);
         if (failed) return gvi__report_callback(st, failed, e);
-        if (st->x.diagnose) {
-            gvi_points rows = y;
+        if (st->in.diagnose) {
+            gvi_points rows = at;
             rows.n = effect->rows;
-            status = gvi__check_rows(st, &rows, y.g, e);
-            if (status == GVI_OK) status = gvi__check_rows(st, &rows, y.rate, e);
+            status = gvi__check_rows(st, &rows, at.g, e);
+            if (status == GVI_OK) status = gvi__check_rows(st, &rows, at.rate, e);
             if (status != GVI_OK) return status;
             rows.n *= st->n;
-            status = gvi__check_rows(st, &rows, y.jacobian, e);
+            status = gvi__check_rows(st, &rows, at.jacobian, e);
             if (status != GVI_OK) {
                 st->fault.coordinate /= st->n;
                 return status;
             }
         }
-        y.g += effect->rows*S;
-        y.rate += effect->rows*S;
-        y.jacobian += effect->rows*st->n*S;
+        at.g += effect->rows*S;
+        at.rate += effect->rows*S;
+        at.jacobian += effect->rows*st->n*S;
     }
     return GVI_OK;
 }
@@ -4401,12 +4415,12 @@ static gvi_status gvi__evaluate_constraints(gvi_stepper *st, int S, int count, c
    Lagrangian terms M is d2L/dv2, of which gvi__constraints_at has made the LU.               */
 static void gvi__over_inertia(const gvi_stepper *st, gvi_real *z, int S, int count)
 {
-    const struct gvi__private *x = &st->x;
+    const struct gvi__private *in = &st->in;
     const int n = st->n;
-    const gvi_real *lu = x->newton.hessian;
-    if (S == 1 && gvi__has(x, GVI__HAS_LAGRANGIAN)) gvi_lu_solve(n, lu, lu + n*n, z);
-    else if (!gvi__mass_is(x, GVI_MASS_POSITION)) gvi__over_mass(st, z, S, count);
-    else gvi__ldl_solve(n, x->mass.at_points, S > 1 ? x->R : 1, z, S, count);
+    const gvi_real *lu = in->newton.hessian;
+    if (S == 1 && gvi__has(in, GVI__HAS_LAGRANGIAN)) gvi_lu_solve(n, lu, lu + n*n, z);
+    else if (!gvi__mass_is(in, GVI_MASS_POSITION)) gvi__over_mass(st, z, S, count);
+    else gvi__ldl_solve(n, in->mass.at_points, S > 1 ? in->R : 1, z, S, count);
 }
 
 static int gvi__all_zero(const gvi_real *x)
@@ -4437,9 +4451,9 @@ GVI__COLD void gvi__toggle(gvi_real *run, gvi_real *ends, int i)
    do through a full M.                                                                        */
 static int gvi__find_runs(gvi_stepper *st, int S, int count, const gvi_real *G)
 {
-    struct gvi__private *x = &st->x;
-    const int n = st->n, m = x->con.m;
-    gvi_real *const top = x->point;
+    struct gvi__private *in = &st->in;
+    const int n = st->n, m = in->con.m;
+    gvi_real *const top = in->point;
     int grown = 0, ends;
     for (int a = 0; a < m; ++a) {
         const gvi_real *run = gvi__runs(st, a, &ends), *row = G + (size_t)(a*n)*(size_t)S;
@@ -4448,8 +4462,8 @@ static int gvi__find_runs(gvi_stepper *st, int S, int count, const gvi_real *G)
             for (; e < ends && (int)run[e] <= i; ++e)
                 if (e % 2 == 0) i = (int)run[e + 1];
             if (i >= n || gvi__norm1(count, row + i*S) <= 0) continue;
-            gvi__toggle(x->con.runs + a*(n + 1), x->con.ends + a, i);
-            gvi__toggle(x->con.runs + a*(n + 1), x->con.ends + a, i + 1);
+            gvi__toggle(in->con.runs + a*(n + 1), in->con.ends + a, i);
+            gvi__toggle(in->con.runs + a*(n + 1), in->con.ends + a, i + 1);
             run = gvi__runs(st, a, &ends);
             e = 0;
             grown = 1;
@@ -4459,13 +4473,13 @@ static int gvi__find_runs(gvi_stepper *st, int S, int count, const gvi_real *G)
     for (int i = 0; i < n; ++i) top[i] = (gvi_real)m;
     for (int a = 0; a < m; ++a) {
         const gvi_real *run = gvi__runs(st, a, &ends);
-        gvi_real first = gvi__full_mass(x) ? 0 : (gvi_real)a;
+        gvi_real first = gvi__full_mass(in) ? 0 : (gvi_real)a;
         for (int e = 0; e < ends; e += 2)
             for (int i = (int)run[e]; i < (int)run[e + 1]; ++i) {
                 if (top[i] > (gvi_real)a) top[i] = (gvi_real)a;
                 if (top[i] < first) first = top[i];
             }
-        x->con.first[a] = first;
+        in->con.first[a] = first;
     }
     return 1;
 }
@@ -4489,10 +4503,10 @@ static gvi_real gvi__row_dot(const gvi_stepper *st, const gvi_real *G, int a, co
 static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, const gvi_real *G,
                                           gvi_real *A, gvi_real *drops)
 {
-    const struct gvi__private *x = &st->x;
-    const int n = st->n, m = x->con.m, full = gvi__full_mass(x);
-    const gvi_real *first = x->con.first, least = 64*(gvi_real)m*GVI__EPS;
-    gvi_real *W = x->con.W;
+    const struct gvi__private *in = &st->in;
+    const int n = st->n, m = in->con.m, full = gvi__full_mass(in);
+    const gvi_real *first = in->con.first, least = 64*(gvi_real)m*GVI__EPS;
+    gvi_real *W = in->con.W;
     gvi__zero((size_t)(n*S), W);
     for (int i = 0, ends; i < m; ++i) {
         const int from = (int)first[i];
@@ -4500,7 +4514,7 @@ static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, con
         gvi_real *d = A + (i*m + i)*S;
         for (int e = 0; e < ends; e += 2)                    // W = - M^-1 G_i'
             for (int j = (int)run[e]; j < (int)run[e + 1]; ++j) {
-                const gvi_real *g = G + (i*n + j)*S, inverse = full ? 1 : x->mass.inverse[j];
+                const gvi_real *g = G + (i*n + j)*S, inverse = full ? 1 : in->mass.inverse[j];
                 for (int k = 0; k < count; ++k) W[j*S + k] = -(g[k]*inverse);
             }
         if (full) gvi__over_inertia(st, W, S, count);
@@ -4544,8 +4558,8 @@ static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, con
 GVI__BODY void gvi__solve_at(const gvi_stepper *st, const gvi_real *A, int S, int count,
                              gvi_real *z, int R)
 {
-    const int m = st->x.con.m;
-    const gvi_real *first = st->x.con.first;
+    const int m = st->in.con.m;
+    const gvi_real *first = st->in.con.first;
     for (int i = 0; i < m; ++i)
         for (int j = (int)first[i]; j < i; ++j)
             gvi__subtract_at(S, count, A + (i*m + j)*S, z + j*R, z + i*R);
@@ -4570,29 +4584,29 @@ static gvi_status gvi__constraints_at(gvi_stepper *st, gvi_real t, const gvi_rea
                                       const gvi_real *p, gvi_real *v, gvi_real *drops)
 {
     const int n = st->n;
-    gvi_real *G = st->x.con.G1, *H = st->x.newton.hessian;
-    gvi_points y = gvi__one_point(st, &t, q);
+    gvi_real *G = st->in.con.G1, *H = st->in.newton.hessian;
+    gvi_points at = gvi__one_point(st, &t, q);
     gvi_status status = gvi__evaluate_constraints(st, 1, 1, &t, q, G);
-    if (status == GVI_OK && (drops != st->x.con.drops || !st->x.con.settled))
-        st->x.con.again |= gvi__find_runs(st, 1, 1, G);
-    if (status == GVI_OK && gvi__has(&st->x, GVI__HAS_LAGRANGIAN)) {
+    if (status == GVI_OK && (drops != st->in.con.drops || !st->in.con.settled))
+        st->in.con.again |= gvi__find_runs(st, 1, 1, G);
+    if (status == GVI_OK && gvi__has(&st->in, GVI__HAS_LAGRANGIAN)) {
         if (p) status = gvi__velocity(st, t, q, p, v);
-        y.v = v;
-        if (status == GVI_OK) status = gvi__evaluate(st, &y, 0, 1);
-        if (status == GVI_OK) status = gvi__velocity_hessian(st, &y, v, H);
+        at.v = v;
+        if (status == GVI_OK) status = gvi__evaluate(st, &at, 0, 1);
+        if (status == GVI_OK) status = gvi__velocity_hessian(st, &at, v, H);
         if (status == GVI_OK && gvi_lu_factor(n, H, H + n*n) != GVI_OK)
             return gvi__report_effect(st, GVI_E_SINGULAR, GVI_FAULT_MASS);
-    } else if (status == GVI_OK && gvi__mass_is(&st->x, GVI_MASS_POSITION))
-        status = gvi__factor_mass(st, &y);
-    return status == GVI_OK ? gvi__factor_constraints(st, 1, 1, G, st->x.con.A1, drops) : status;
+    } else if (status == GVI_OK && gvi__mass_is(&st->in, GVI_MASS_POSITION))
+        status = gvi__factor_mass(st, &at);
+    return status == GVI_OK ? gvi__factor_constraints(st, 1, 1, G, st->in.con.A1, drops) : status;
 }
 
 // z += G' y at one point
 static void gvi__add_force(const gvi_stepper *st, const gvi_real *y, gvi_real *z)
 {
-    for (int a = 0, ends; a < st->x.con.m; ++a) {
+    for (int a = 0, ends; a < st->in.con.m; ++a) {
         const gvi_real *run = gvi__runs(st, a, &ends);
-        const gvi_real *G = st->x.con.G1 + a*st->n, ya = y[a];
+        const gvi_real *G = st->in.con.G1 + a*st->n, ya = y[a];
         for (int e = 0; e < ends; e += 2)
             for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i) z[i] += ya*G[i];
     }
@@ -4616,75 +4630,75 @@ static gvi_real gvi__terms(const gvi_stepper *st, int S, gvi_real t, const gvi_r
 // h w and the times of D, for a step of length h
 static void gvi__constraint_points(const gvi_stepper *st, const gvi__origin *from, gvi_real h)
 {
-    const struct gvi__private *x = &st->x;
-    for (int e = 0; e < x->R; ++e) x->con.hw[e] = e < st->s ? h*x->con.w[e] : 0;
-    gvi__times(x->con.C, from->t, from->t_low, h, x->con.d, x->con.t);
+    const struct gvi__private *in = &st->in;
+    for (int e = 0; e < in->R; ++e) in->con.hw[e] = e < st->s ? h*in->con.w[e] : 0;
+    gvi__times(in->con.C, from->t, from->t_low, h, in->con.d, in->con.t);
 }
 
 /* One more sum in the stages; free motion and times of D.  P or V is not judged: lambda turns the
    rounding of D into X eps/h, across the constraints, where no motion feels it.              */
 GVI__CALLED void gvi__constraint_stages(const gvi_stepper *st, const gvi__origin *from, gvi_real h,
-                                   gvi__stage *y, int stages)
+                                   gvi__stage *stage, int stages)
 {
-    const struct gvi__private *x = &st->x;
-    const int R = x->R, momenta = gvi__uses(x, GVI_MOMENTA);
+    const struct gvi__private *in = &st->in;
+    const int R = in->R, momenta = gvi__uses(in, GVI_MOMENTA);
     gvi__constraint_points(st, from, h);
     for (int k = 0; k < (momenta ? 1 : stages); ++k) {
-        y[k].sum[1].table = momenta || k == 1 ? x->con.U : x->con.K;
-        y[k].sum[1].weight = x->con.hw;
-        y[k].sum[1].source = x->con.force;
+        stage[k].sum[1].table = momenta || k == 1 ? in->con.U : in->con.K;
+        stage[k].sum[1].weight = in->con.hw;
+        stage[k].sum[1].source = in->con.force;
     }
     if (stages == 2) {
-        y[!momenta].scale = NULL;
-        gvi__zero((size_t)st->n, x->watch.change + !momenta*st->n);
-        gvi__zero((size_t)st->n, x->watch.before + !momenta*st->n);
+        stage[!momenta].scale = NULL;
+        gvi__zero((size_t)st->n, in->watch.change + !momenta*st->n);
+        gvi__zero((size_t)st->n, in->watch.before + !momenta*st->n);
     }
     for (int i = 0; i < st->n; ++i)
-        gvi__free_row(R, from->q_low[i], momenta ? 0 : x->free.path[i],
-                      momenta ? 0 : x->free.path_low[i], x->con.d + 1, x->con.free + i*R);
+        gvi__free_row(R, from->q_low[i], momenta ? 0 : in->free.path[i],
+                      momenta ? 0 : in->free.path_low[i], in->con.d + 1, in->con.free + i*R);
 }
 
 // D, from the stage that makes Q
-GVI__CALLED void gvi__constraint_rows(const gvi_stepper *st, const gvi__stage *y)
+GVI__CALLED void gvi__constraint_rows(const gvi_stepper *st, const gvi__stage *stage)
 {
-    const struct gvi__private *x = &st->x;
-    gvi__stage z = y[gvi__uses(x, GVI_MOMENTA)];
-    z.sum[0].table = x->con.by_force;
-    z.sum[1].table = gvi__uses(x, GVI_MOMENTA) ? NULL : x->con.by_impulse;
-    z.rows = x->con.D;
-    z.base = x->zeros;
-    z.free = x->con.free;
+    const struct gvi__private *in = &st->in;
+    gvi__stage z = stage[gvi__uses(in, GVI_MOMENTA)];
+    z.sum[0].table = in->con.by_force;
+    z.sum[1].table = gvi__uses(in, GVI_MOMENTA) ? NULL : in->con.by_impulse;
+    z.rows = in->con.D;
+    z.base = in->zeros;
+    z.free = in->con.free;
     z.scale = z.change = NULL;
     if (z.dense) gvi__dense_rows(st, &z, 0);
-    else x->kernel(st, &z, 0);
+    else in->kernel(st, &z, 0);
 }
 
 // G' lambda at the sources; the rows behind the forces hold -lambda
 static void gvi__constraint_forces(const gvi_stepper *st)
 {
-    const struct gvi__private *x = &st->x;
-    const int n = st->n, R = x->R, C = x->con.C;
-    gvi__zero((size_t)(n*R), x->con.force);
-    for (int a = 0, ends; a < x->con.m; ++a) {
+    const struct gvi__private *in = &st->in;
+    const int n = st->n, R = in->R, C = in->con.C;
+    gvi__zero((size_t)(n*R), in->con.force);
+    for (int a = 0, ends; a < in->con.m; ++a) {
         const gvi_real *run = gvi__runs(st, a, &ends);
         for (int e = 0; e < ends; e += 2)
             for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i)
-                gvi__subtract_at(C, st->s, x->con.G + (a*n + i)*C, x->con.force + (n + a)*R,
-                                 x->con.force + i*R);
+                gvi__subtract_at(C, st->s, in->con.G + (a*n + i)*C, in->con.force + (n + a)*R,
+                                 in->con.force + i*R);
     }
 }
 
 // sum_a |G_a z_a| at the sources, to rows of S numbers; z [m][R]
 static void gvi__force_sizes(const gvi_stepper *st, const gvi_real *z, int S, gvi_real *sum)
 {
-    const int n = st->n, C = st->x.con.C;
+    const int n = st->n, C = st->in.con.C;
     gvi__zero((size_t)(n*S), sum);
-    for (int a = 0, ends; a < st->x.con.m; ++a, z += st->x.R) {
+    for (int a = 0, ends; a < st->in.con.m; ++a, z += st->in.R) {
         const gvi_real *run = gvi__runs(st, a, &ends);
         for (int f = 0; f < ends; f += 2)
             for (int i = (int)run[f], to = (int)run[f + 1]; i < to; ++i)
                 for (int e = 0; e < st->s; ++e)
-                    sum[i*S + e] += GVI_ABS(st->x.con.G[(a*n + i)*C + e]*z[e]);
+                    sum[i*S + e] += GVI_ABS(st->in.con.G[(a*n + i)*C + e]*z[e]);
     }
 }
 
@@ -4694,15 +4708,16 @@ static void gvi__force_sizes(const gvi_stepper *st, const gvi_real *z, int S, gv
    change lambda for ever, and is not that of D where g has terms that G q does not show.      */
 GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin *from)
 {
-    struct gvi__private *x = &st->x;
-    const int n = st->n, m = x->con.m, s = st->s, R = x->R, C = x->con.C, linear = x->con.linear;
-    const gvi_real *G = x->con.G + 1, *moved = x->con.W;
-    gvi_real *along = x->con.rho + m*R;
+    struct gvi__private *in = &st->in;
+    const int n = st->n, m = in->con.m, s = st->s, R = in->R, C = in->con.C;
+    const int linear = in->con.linear;
+    const gvi_real *G = in->con.G + 1, *moved = in->con.W;
+    gvi_real *along = in->con.rho + m*R;
     for (int i = 0; i < n; ++i)
         for (int k = 0; k < C; ++k) {
-            gvi_real *at = x->con.at + i*C + k;
-            const gvi_real D = from->q[i] + (k > 0 && k <= s ? x->con.D[i*R + k - 1] : 0);
-            if (k > 0) x->con.W[i*C + k - 1] = *at - D;
+            gvi_real *at = in->con.at + i*C + k;
+            const gvi_real D = from->q[i] + (k > 0 && k <= s ? in->con.D[i*R + k - 1] : 0);
+            if (k > 0) in->con.W[i*C + k - 1] = *at - D;
             *at = D;
         }
     gvi__zero((size_t)(m*C), along);              // by the old G
@@ -4711,112 +4726,112 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
         for (int e = 0; e < ends; e += 2)
             for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i)
                 gvi__subtract_at(C, s, G + (a*n + i)*C, moved + i*C, along + a*C);
-        for (int k = 0; k < s; ++k) x->con.rho[a*R + k] = x->con.g[a*C + k + 1] + along[a*C + k];
+        for (int k = 0; k < s; ++k) in->con.rho[a*R + k] = in->con.g[a*C + k + 1] + along[a*C + k];
     }
     const gvi_status status =
-        gvi__evaluate_constraints(st, C, s + 1, x->con.t, x->con.at, x->con.G);
-    if (!x->con.settled && gvi__find_runs(st, C, s + 1, x->con.G)) x->con.made = 0;
-    x->con.linear = x->con.made > 0;
+        gvi__evaluate_constraints(st, C, s + 1, in->con.t, in->con.at, in->con.G);
+    if (!in->con.settled && gvi__find_runs(st, C, s + 1, in->con.G)) in->con.made = 0;
+    in->con.linear = in->con.made > 0;
     for (int a = 0, ends; a < m; ++a) {
         const gvi_real *run = gvi__runs(st, a, &ends);
-        if (linear) gvi__copy((size_t)s, x->con.rho + a*R, x->con.g + a*C + 1);
+        if (linear) gvi__copy((size_t)s, in->con.rho + a*R, in->con.g + a*C + 1);
         for (int k = 0; k < s; ++k) {
             gvi_real change = along[a*C + k], size = 0;
-            if (!x->con.linear) break;
+            if (!in->con.linear) break;
             for (int e = 0; e < ends; e += 2)
                 for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i) {
                     const gvi_real z = G[(a*n + i)*C + k]*moved[i*C + k];
                     change += z;
                     size += GVI_ABS(z);
                 }
-            if (!(GVI_ABS(change) <= GVI__EPS*size)) x->con.linear = 0;
+            if (!(GVI_ABS(change) <= GVI__EPS*size)) in->con.linear = 0;
         }
     }
     if (status != GVI_OK) return status;
-    x->con.made += 1;
-    if (x->con.made > 1) return GVI_OK;
-    return gvi__factor_constraints(st, C, s, x->con.G, x->con.A, x->con.drops);
+    in->con.made += 1;
+    if (in->con.made > 1) return GVI_OK;
+    return gvi__factor_constraints(st, C, s, in->con.G, in->con.A, in->con.drops);
 }
 
 // the new lambda, and forces.  With momenta D' needs the P and V of the new F
-GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *y, const gvi_real *q0)
+GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *stage, const gvi_real *q0)
 {
-    struct gvi__private *x = &st->x;
-    const int n = st->n, m = x->con.m, s = st->s, R = x->R, C = x->con.C;
-    gvi_real *lambda = x->con.force + n*R, *rho = x->con.rho, *moved = x->con.W;
+    struct gvi__private *in = &st->in;
+    const int n = st->n, m = in->con.m, s = st->s, R = in->R, C = in->con.C;
+    gvi_real *lambda = in->con.force + n*R, *rho = in->con.rho, *moved = in->con.W;
     gvi__constraint_forces(st);
-    if (gvi__uses(x, GVI_MOMENTA)) {
-        gvi_real *const P = x->work.P;
-        gvi__stage z = y[0];
-        z.rows = x->work.P = x->con.P;
+    if (gvi__uses(in, GVI_MOMENTA)) {
+        gvi_real *const P = in->work.P;
+        gvi__stage z = stage[0];
+        z.rows = in->work.P = in->con.P;
         z.scale = z.change = NULL;
-        x->kernel(st, &z, 0);
+        in->kernel(st, &z, 0);
         gvi__velocities_again(st);
-        x->work.P = P;
+        in->work.P = P;
     }
-    gvi__constraint_rows(st, y);
+    gvi__constraint_rows(st, stage);
     for (int i = 0; i < n; ++i) {                 // D - D'
         gvi_real *GVI__RESTRICT z = moved + i*C;
-        const gvi_real *at = x->con.at + i*C + 1, *D = x->con.D + i*R;
+        const gvi_real *at = in->con.at + i*C + 1, *D = in->con.D + i*R;
         for (int e = 0; e < s; ++e) z[e] = (at[e] - q0[i]) - D[e];
     }
     gvi__zero((size_t)(m*R), rho);
     for (int a = 0, ends; a < m; ++a) {
         const gvi_real *run = gvi__runs(st, a, &ends);
         gvi_real *g = rho + m*R + a*C;             // gvi__constraints_moved reads it
-        gvi__copy((size_t)s, x->con.g + a*C + 1, g);
+        gvi__copy((size_t)s, in->con.g + a*C + 1, g);
         for (int e = 0; e < ends; e += 2)
             for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i)
-                gvi__subtract_at(C, s, x->con.G + (a*n + i)*C + 1, moved + i*C, g);
-        for (int b = 0; b < s; ++b) gvi__subtract_row((size_t)R, -g[b], x->con.X + b*R, rho + a*R);
+                gvi__subtract_at(C, s, in->con.G + (a*n + i)*C + 1, moved + i*C, g);
+        for (int b = 0; b < s; ++b) gvi__subtract_row((size_t)R, -g[b], in->con.X + b*R, rho + a*R);
     }
-    gvi__solve_constraints(st, x->con.A, C, s, rho, R);
+    gvi__solve_constraints(st, in->con.A, C, s, rho, R);
     for (int a = 0; a < m; ++a)
-        for (int e = 0; e < s; ++e) lambda[a*R + e] += rho[a*R + e]/(x->sized.h*x->con.hw[e]);
+        for (int e = 0; e < s; ++e) lambda[a*R + e] += rho[a*R + e]/(in->sized.h*in->con.hw[e]);
     gvi__constraint_forces(st);
 }
 
 // |G|'|rho| of lambda's last change, or 0 if that was not all rounding, 8 eps of the known terms
 GVI__CALLED void gvi__constraints_moved(const gvi_stepper *st, gvi_real *moved)
 {
-    const struct gvi__private *x = &st->x;
-    const int n = st->n, m = x->con.m, R = x->R, C = x->con.C;
+    const struct gvi__private *in = &st->in;
+    const int n = st->n, m = in->con.m, R = in->R, C = in->con.C;
     gvi__zero((size_t)(n*C), moved);
     for (int a = 0; a < m; ++a)
         for (int k = 1; k <= st->s; ++k) {
-            const gvi_real terms = gvi__terms(st, C, x->con.t[k], x->con.at + k, x->con.G + k,
-                                              x->con.g + m*C + k, a);
-            if (!(GVI_ABS(x->con.rho[m*R + a*C + k - 1]) <= 8*GVI__EPS*terms)) return;
+            const gvi_real terms = gvi__terms(st, C, in->con.t[k], in->con.at + k, in->con.G + k,
+                                              in->con.g + m*C + k, a);
+            if (!(GVI_ABS(in->con.rho[m*R + a*C + k - 1]) <= 8*GVI__EPS*terms)) return;
         }
-    gvi__force_sizes(st, x->con.rho, C, moved);
+    gvi__force_sizes(st, in->con.rho, C, moved);
 }
 
 // forces and lambda to begin with: those of the last step, extrapolated, or none
 GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate)
 {
-    const struct gvi__private *x = &st->x;
-    const int R = x->R, rows = st->n + x->con.m;
-    gvi__zero((size_t)(rows*R), x->con.force);
-    if (!extrapolate || x->con.kept < 2) return;
+    const struct gvi__private *in = &st->in;
+    const int R = in->R, rows = st->n + in->con.m;
+    gvi__zero((size_t)(rows*R), in->con.force);
+    if (!extrapolate || in->con.kept < 2) return;
     for (int i = 0; i < rows; ++i)
         for (int e = 0; e < st->s; ++e)
-            x->con.force[i*R + e] = gvi__point_sum(st->s, R, x->con.E + e,
-                                                   x->con.last + i*x->con.C + 1);
+            in->con.force[i*R + e] = gvi__point_sum(st->s, R, in->con.E + e,
+                                                   in->con.last + i*in->con.C + 1);
 }
 
 // the largest of what a pivot has lost, in units of what is left of it; at: its row and point
 GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int *at)
 {
-    const struct gvi__private *x = &st->x;
-    const int m = x->con.m, C = x->con.C;
+    const struct gvi__private *in = &st->in;
+    const int m = in->con.m, C = in->con.C;
     gvi_real most = 0;
-    if (x->con.made == 0) return 0;
+    if (in->con.made == 0) return 0;
     for (int k = 0; k < st->s; ++k)
         for (int j = 0; j < m; ++j) {
             gvi_real was = 0;
-            for (int l = (int)x->con.first[j]; l < j; ++l)
-                was += x->con.A[(j*m + l)*C + k]*x->con.A[(l*m + j)*C + k];
-            const gvi_real loss = was*x->con.A[(j*m + j)*C + k];
+            for (int l = (int)in->con.first[j]; l < j; ++l)
+                was += in->con.A[(j*m + l)*C + k]*in->con.A[(l*m + j)*C + k];
+            const gvi_real loss = was*in->con.A[(j*m + j)*C + k];
             if (!(loss > most)) continue;
             most = loss;
             at[0] = j;
@@ -4830,20 +4845,21 @@ GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int *at)
    rounding.  To be four times farther off than once before is divergence.                     */
 GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h)
 {
-    struct gvi__private *x = &st->x;
-    const int n = st->n, m = x->con.m;
-    gvi_real before = 0, least = GVI__MAX, *Q = x->work.Q, *z = x->con.rho, *left = x->con.y,
-             *d = x->con.W, *unit = d + n, *g = x->con.g, *G = x->con.G1 + m*n; // G0 is before it
+    struct gvi__private *in = &st->in;
+    const int n = st->n, m = in->con.m;
+    gvi_real before = 0, least = GVI__MAX, *Q = in->work.Q, *z = in->con.rho, *left = in->con.y,
+             *d = in->con.W, *unit = d + n, *g = in->con.g,
+             *G = in->con.G1 + m*n;                  // G0 is before it
     const gvi_real t = from->t + (from->t_low + h);
-    gvi_status status = gvi__constraints_at(st, from->t, from->q, NULL, NULL, x->con.drops);
-    gvi__zero((size_t)n, x->step.p_low);
-    x->con.again = 0;
+    gvi_status status = gvi__constraints_at(st, from->t, from->q, NULL, NULL, in->con.drops);
+    gvi__zero((size_t)n, in->step.p_low);
+    in->con.again = 0;
     for (int k = 0; ; ++k) {
         gvi_real size = 0;
         int finite = 1;
         if (status == GVI_OK) status = gvi__evaluate_constraints(st, 1, 1, &t, Q, G);
         if (status != GVI_OK) return status;
-        if (k == 0 && !x->con.settled) (void)gvi__find_runs(st, 1, 1, G);
+        if (k == 0 && !in->con.settled) (void)gvi__find_runs(st, 1, 1, G);
         for (int a = 0; a < m; ++a) {
             const gvi_real terms = gvi__terms(st, 1, t, Q, G, g + m, a);
             const int rounding = k > 0 && GVI_ABS(g[a]) > (gvi_real)1.25*(GVI_ABS(left[a])
@@ -4857,17 +4873,17 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
             return gvi__report_status(st, GVI_OK);
         if (size < least) least = size;
         if (!finite || k > 64 || size > 4*(least + 256))
-            return gvi__report_status(st, finite || x->diagnose ? GVI_E_CONVERGENCE
+            return gvi__report_status(st, finite || in->diagnose ? GVI_E_CONVERGENCE
                                                                 : GVI_E_NON_FINITE);
         before = size;
         for (int a = 0; a < m; ++a) z[a] = -g[a]/h;
-        gvi__solve_constraints(st, x->con.A1, 1, 1, z, 1);
+        gvi__solve_constraints(st, in->con.A1, 1, 1, z, 1);
         gvi__zero((size_t)n, d);
         gvi__add_force(st, z, d);
-        gvi__add_scaled(n, 1, d, x->step.p, x->step.p);
+        gvi__add_scaled(n, 1, d, in->step.p, in->step.p);
         gvi__over_mass(st, d, 1, 1);
-        gvi__add_scaled(n, h, d, x->step.q, x->step.q);
-        gvi__add_scaled(n, 1, x->step.q, from->q, Q);
+        gvi__add_scaled(n, h, d, in->step.q, in->step.q);
+        gvi__add_scaled(n, 1, in->step.q, from->q, Q);
         for (int a = 0; a < m; ++a) z[a] = h*gvi__row_dot(st, G, a, d), left[a] = g[a] + z[a];
     }
 }
@@ -4881,9 +4897,9 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
                                     const gvi_real *p, gvi_real *v)
 {
     const gvi_real part = (gvi_real)0.618034, units = 4096;
-    struct gvi__private *x = &st->x;
-    const int n = st->n, m = x->con.m;
-    gvi_real *g = x->con.g, *was = x->con.rho, *z = x->con.y, *d = x->con.W, *G = x->con.G1;
+    struct gvi__private *in = &st->in;
+    const int n = st->n, m = in->con.m;
+    gvi_real *g = in->con.g, *was = in->con.rho, *z = in->con.y, *d = in->con.W, *G = in->con.G1;
     gvi_real *next = d + n;
     int off = -1;
     for (int a = 0; a < m; ++a) {
@@ -4893,7 +4909,7 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
         z[a] = -part*g[a];
     }
     if (off < 0) return GVI_OK;
-    gvi__solve_constraints(st, x->con.A1, 1, 1, z, 1);
+    gvi__solve_constraints(st, in->con.A1, 1, 1, z, 1);
     gvi__zero((size_t)n, d);
     gvi__add_force(st, z, d);
     gvi__over_inertia(st, d, 1, 1);
@@ -4904,10 +4920,10 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
             rounding = GVI_ABS(g[a] - (1 - part)*was[a]) - GVI_ABS(bend),
             seen = GVI__EPS*gvi__terms(st, 1, t, q, G, g + m, a);
         // what is left of a row that is left out may be a contradiction
-        const int proves = rounding > seen && !(x->con.drops[m + a] > 0);
+        const int proves = rounding > seen && !(in->con.drops[m + a] > 0);
         fulfilled &= GVI_ABS(was[a]) <= units*(proves ? rounding : seen);
     }
-    return fulfilled ? gvi__constraints_at(st, t, q, p, v, x->con.drops + m)
+    return fulfilled ? gvi__constraints_at(st, t, q, p, v, in->con.drops + m)
                      : gvi__report_row(st, GVI_E_CONSTRAINT, off, GVI_FAULT_NONE);
 }
 
@@ -4916,50 +4932,50 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
    rounding is refused; for v by the kinetic energy in it, r' A^-1 r/2, r = G v + dg/dt.      */
 GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, int start)
 {
-    struct gvi__private *x = &st->x;
-    const int n = st->n, m = x->con.m, passes = gvi__has(x, GVI__HAS_LAGRANGIAN) ? 40 : 2;
-    const gvi_real t = from->t + (from->t_low + x->dt), far = 4096*GVI__EPS;
-    gvi_real *q = x->result, *p = q + n, *v = p + n, *r = x->con.g, *z = x->con.rho,
-             *drops = x->con.drops + m, energy = 0, before = GVI__MAX;
+    struct gvi__private *in = &st->in;
+    const int n = st->n, m = in->con.m, passes = gvi__has(in, GVI__HAS_LAGRANGIAN) ? 40 : 2;
+    const gvi_real t = from->t + (from->t_low + in->dt), far = 4096*GVI__EPS;
+    gvi_real *q = in->result, *p = q + n, *v = p + n, *r = in->con.g, *z = in->con.rho,
+             *drops = in->con.drops + m, energy = 0, before = GVI__MAX;
     int redundant = 0;
     for (int i = 0; i < n; ++i) {
-        q[i] = from->q[i] + (x->step.q[i] + x->step.q_low[i]);
-        p[i] = from->p[i] + (x->step.p[i] + x->step.p_low[i]);
+        q[i] = from->q[i] + (in->step.q[i] + in->step.q_low[i]);
+        p[i] = from->p[i] + (in->step.p[i] + in->step.p_low[i]);
     }
     gvi__velocity_guess(st, v);
-    x->diagnose |= start;
+    in->diagnose |= start;
     gvi_status status = gvi__constraints_at(st, t, q, p, v, drops);
-    if (start) x->diagnose = 0;
+    if (start) in->diagnose = 0;
     for (int a = 0; a < m; ++a) {
         redundant |= drops[a] > 0;
-        if (!start && status == GVI_OK && (drops[a] > 0) != (x->con.drops[a] > 0))
+        if (!start && status == GVI_OK && (drops[a] > 0) != (in->con.drops[a] > 0))
             status = gvi__report_row(st, GVI_E_SINGULAR, a, GVI_FAULT_NONE);
     }
     if ((start || redundant) && status == GVI_OK) status = gvi__fulfilled(st, t, q, p, v);
     if (status != GVI_OK) return status;
-    gvi__zero((size_t)m, x->con.y);
+    gvi__zero((size_t)m, in->con.y);
     for (int pass = 0; pass < passes; ++pass) {
         gvi_real size = 0;
         int row = 0;
-        for (int i = 0; i < n; ++i) p[i] = from->p[i] + (x->step.p[i] + x->step.p_low[i]);
+        for (int i = 0; i < n; ++i) p[i] = from->p[i] + (in->step.p[i] + in->step.p_low[i]);
         status = gvi__velocity(st, t, q, p, v);
         if (status != GVI_OK) return status;
         energy = GVI_ABS(gvi__dot(n, p, v));
-        for (int a = 0; a < m; ++a) r[a] = z[a] = -(r[m + a] + gvi__row_dot(st, x->con.G1, a, v));
-        gvi__solve_constraints(st, x->con.A1, 1, 1, z, 1);
+        for (int a = 0; a < m; ++a) r[a] = z[a] = -(r[m + a] + gvi__row_dot(st, in->con.G1, a, v));
+        gvi__solve_constraints(st, in->con.A1, 1, 1, z, 1);
         for (int a = 0; a < m; ++a) {
             size += r[a]*z[a];
             if (r[a]*z[a] > r[row]*z[row]) row = a;
-            x->con.y[a] += z[a];
+            in->con.y[a] += z[a];
         }
         if (start && pass == 0 && !(size <= GVI__MAX && size <= far*far*energy))
             return gvi__report_row(st, GVI_E_CONSTRAINT, row, GVI_FAULT_NONE);
         gvi__zero((size_t)n, p);
         gvi__add_force(st, z, p);
         for (int i = 0; i < n; ++i) {
-            const gvi__two sum = gvi__add_low(x->step.p[i], x->step.p_low[i], p[i], 0);
-            x->step.p[i] = sum.hi;
-            x->step.p_low[i] = sum.lo;
+            const gvi__two sum = gvi__add_low(in->step.p[i], in->step.p_low[i], p[i], 0);
+            in->step.p[i] = sum.hi;
+            in->step.p_low[i] = sum.lo;
         }
         if (pass > 0 && !(size < before/4)) break;
         before = size;
@@ -4975,45 +4991,45 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
 // the rows are others now
 GVI__COLD void gvi__forget_runs(gvi_stepper *st)
 {
-    struct gvi__private *x = &st->x;
-    const size_t m = (size_t)gvi__count_rows(x, x->con.bits), C = (size_t)x->con.C;
-    gvi__zero(m, x->con.ends);
-    gvi__zero(2*m*(size_t)st->n, x->con.G1);
-    gvi__zero(m*m, x->con.A1);
-    if (x->con.G) gvi__zero(m*(size_t)st->n*C, x->con.G);
-    if (x->con.A) gvi__zero(m*m*C, x->con.A);
-    x->con.settled = 0;
+    struct gvi__private *in = &st->in;
+    const size_t m = (size_t)gvi__count_rows(in, in->con.bits), C = (size_t)in->con.C;
+    gvi__zero(m, in->con.ends);
+    gvi__zero(2*m*(size_t)st->n, in->con.G1);
+    gvi__zero(m*m, in->con.A1);
+    if (in->con.G) gvi__zero(m*(size_t)st->n*C, in->con.G);
+    if (in->con.A) gvi__zero(m*m*C, in->con.A);
+    in->con.settled = 0;
 }
 
 // are q and p, which may be those of the state, on the constraints?  Then in step.q, step.p
 GVI__COLD gvi_status gvi__project_start(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                         const gvi_real *p)
 {
-    struct gvi__private *x = &st->x;
-    const gvi__origin from = { t, 0, x->zeros, x->zeros, x->zeros, x->zeros, 0 };
+    struct gvi__private *in = &st->in;
+    const gvi__origin from = { t, 0, in->zeros, in->zeros, in->zeros, in->zeros, 0 };
     const size_t n = (size_t)st->n;
-    if (q != x->step.q) gvi__copy(n, q, x->step.q);
-    if (p != x->step.p) gvi__copy(n, p, x->step.p);
-    gvi__zero(n, x->step.q_low);
-    gvi__zero(n, x->step.p_low);
-    x->dt = 0;
+    if (q != in->step.q) gvi__copy(n, q, in->step.q);
+    if (p != in->step.p) gvi__copy(n, p, in->step.p);
+    gvi__zero(n, in->step.q_low);
+    gvi__zero(n, in->step.p_low);
+    in->dt = 0;
     return gvi__project(st, &from, 1);
 }
 
 // forces and lambda of the step, with those at its end, for the curve and the next prediction
 GVI__CALLED void gvi__commit_constraints(gvi_stepper *st, gvi_real h)
 {
-    struct gvi__private *x = &st->x;
-    const int n = st->n, s = st->s, C = x->con.C, rows = n + x->con.m;
-    x->con.settled = 1;
-    x->con.kept = gvi__constrained(st) && !gvi__uses(x, GVI_EXPLICIT) ? 2 : 0;
-    if (x->con.kept == 0) return;
-    for (int a = n; a < rows; ++a) x->con.y[a - n] /= h*x->con.w[s];
-    gvi__zero((size_t)n, x->result);
-    gvi__add_force(st, x->con.y, x->result);
+    struct gvi__private *in = &st->in;
+    const int n = st->n, s = st->s, C = in->con.C, rows = n + in->con.m;
+    in->con.settled = 1;
+    in->con.kept = gvi__constrained(st) && !gvi__uses(in, GVI_EXPLICIT) ? 2 : 0;
+    if (in->con.kept == 0) return;
+    for (int a = n; a < rows; ++a) in->con.y[a - n] /= h*in->con.w[s];
+    gvi__zero((size_t)n, in->result);
+    gvi__add_force(st, in->con.y, in->result);
     for (int i = 0; i < rows; ++i) {
-        gvi__copy((size_t)s, x->con.force + i*x->R, x->con.last + i*C);
-        x->con.last[i*C + s] = i < n ? x->result[i] : -x->con.y[i - n];
+        gvi__copy((size_t)s, in->con.force + i*in->R, in->con.last + i*C);
+        in->con.last[i*C + s] = i < n ? in->result[i] : -in->con.y[i - n];
     }
 }
 
@@ -5025,29 +5041,29 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
     static const gvi_real weight[] = {
         (gvi_real)4/5, -(gvi_real)1/5, (gvi_real)4/105, -(gvi_real)1/280
     };
-    gvi_status trial = GVI_OK, status = gvi__ready(st, st && st->x.started);
+    gvi_status trial = GVI_OK, status = gvi__ready(st, st && st->in.started);
     if (status != GVI_OK) return status;
     if (!lambda) return gvi__refuse_call(st, "lambda is NULL");
-    if (!GVI__CONSTRAINTS || !st->x.con.bits) return gvi__done(st, GVI_E_FORMULATION);
-    struct gvi__private *x = &st->x;
-    const int n = st->n, m = x->con.m;
-    gvi_real *q = x->result, *p = q + n, *u = p + n, *v = x->con.W, *force = v + n;
-    gvi_real *z = x->con.rho, *rate = z + m, *sum = x->con.y, *best = x->con.g + 2*m;
+    if (!GVI__CONSTRAINTS || !st->in.con.bits) return gvi__done(st, GVI_E_FORMULATION);
+    struct gvi__private *in = &st->in;
+    const int n = st->n, m = in->con.m;
+    gvi_real *q = in->result, *p = q + n, *u = p + n, *v = in->con.W, *force = v + n;
+    gvi_real *z = in->con.rho, *rate = z + m, *sum = in->con.y, *best = in->con.g + 2*m;
     gvi_real least = GVI__MAX, largest = 0, size = 0, delta = 1;
-    gvi_points y = gvi__one_point(st, &st->t, st->q);
+    gvi_points at = gvi__one_point(st, &st->t, st->q);
     gvi__velocity_guess(st, u);
-    if (m > 0) status = gvi__constraints_at(st, st->t, st->q, st->p, u, x->con.drops + m);
+    if (m > 0) status = gvi__constraints_at(st, st->t, st->q, st->p, u, in->con.drops + m);
     gvi__velocity_guess(st, v);
     if (status == GVI_OK) status = gvi__velocity(st, st->t, st->q, st->p, v);
-    y.v = v;
-    if (status == GVI_OK) status = gvi__evaluate(st, &y, 0, 1);
-    gvi__copy((size_t)n, y.f, force);
+    at.v = v;
+    if (status == GVI_OK) status = gvi__evaluate(st, &at, 0, 1);
+    gvi__copy((size_t)n, at.f, force);
     gvi__zero((size_t)m, sum);
 
     // a time in which much changes: |p||q|/p'v, or a step
     for (int i = 0; i < n; ++i) size += GVI_ABS(st->p[i]*st->q[i]);
     if (size > 0) delta = size/GVI_ABS(gvi__dot(n, st->p, v));
-    if (x->stepped && !(delta < GVI_ABS(st->h))) delta = GVI_ABS(st->h);
+    if (in->stepped && !(delta < GVI_ABS(st->h))) delta = GVI_ABS(st->h);
     if (!gvi__finite(delta)) delta = 1;
     for (int k = 0; k < GVI__DIG/2 && m > 0 && status == GVI_OK; ++k) {
         delta /= k == 0 ? 8 : 2;
@@ -5060,14 +5076,14 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
             gvi__copy((size_t)n, v, u);
             trial = gvi__velocity(st, t, q, p, u);
             if (trial == GVI_OK)
-                trial = gvi__evaluate_constraints(st, 1, 1, &t, q, x->con.G1 + m*n);
-            if (trial == GVI_OK) (void)gvi__find_runs(st, 1, 1, x->con.G1 + m*n);
+                trial = gvi__evaluate_constraints(st, 1, 1, &t, q, in->con.G1 + m*n);
+            if (trial == GVI_OK) (void)gvi__find_runs(st, 1, 1, in->con.G1 + m*n);
             for (int a = 0; a < m; ++a)
-                rate[a] += (x->con.g[m + a] + gvi__row_dot(st, x->con.G1 + m*n, a, u))
+                rate[a] += (in->con.g[m + a] + gvi__row_dot(st, in->con.G1 + m*n, a, u))
                            *(sign*weight[j/2]/delta);
         }
         for (int a = 0; a < m; ++a) z[a] = -rate[a];
-        gvi__solve_constraints(st, x->con.A1, 1, 1, z, 1);
+        gvi__solve_constraints(st, in->con.A1, 1, 1, z, 1);
         size = -gvi__dot(m, rate, z);
         if (trial != GVI_OK || !gvi__finite(size)) continue;      // beyond a domain: nearer
         if (!(size < least) && size <= GVI__EPS*largest) break;
@@ -5079,8 +5095,8 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
     if (status == GVI_OK && m > 0 && !(least < GVI__MAX))
         status = trial != GVI_OK ? trial : gvi__report_status(st, GVI_E_NON_FINITE);
     if (status != GVI_OK) return gvi__done(st, status);
-    for (int e = 0; e < x->desc.effect_count; ++e)
-        for (int a = 0; a < x->desc.effects[e].rows; ++a)
+    for (int e = 0; e < in->desc.effect_count; ++e)
+        for (int a = 0; a < in->desc.effects[e].rows; ++a)
             *lambda++ = gvi__constraints_on(st) >> e & 1u ? *best++ : 0;
     return gvi__done(st, GVI_OK);
 }
@@ -5114,29 +5130,29 @@ GVI__COLD const char *gvi__wrong_in_desc(const gvi_desc *d)
 }
 
 // what is wrong with an effect, or NULL; x knows those before it
-GVI__COLD const char *gvi__wrong_in_effect(const struct gvi__private *x, const gvi_effect *effect)
+GVI__COLD const char *gvi__wrong_in_effect(const struct gvi__private *in, const gvi_effect *effect)
 {
     const int holds = effect->kind == GVI_CONSTRAINT, clock = effect->kind == GVI_CLOCK;
     if ((unsigned)effect->kind > GVI_CONSTRAINT) return "effect: kind is not in its enum";
     if (!effect->points && !effect->point) return "effect: points, or point, is missing";
     if (effect->points && effect->point) return "effect: points and point, one is too many";
     if (!holds && effect->rows != 0) return "effect: rows is for constraints";
-    if (holds && (effect->rows < 1 || effect->rows > x->desc.n - x->con.m))
+    if (holds && (effect->rows < 1 || effect->rows > in->desc.n - in->con.m))
         return "effect: rows is not 1 to what is left of n";
     if ((clock || holds) && !effect->points) return "effect: this kind needs points, not point";
-    if (clock && x->clock >= 0) return "effect: a second clock";
+    if (clock && in->clock >= 0) return "effect: a second clock";
     return NULL;
 }
 
 // what is wrong with the mass, or NULL
-GVI__COLD const char *gvi__wrong_in_mass(const struct gvi__private *x)
+GVI__COLD const char *gvi__wrong_in_mass(const struct gvi__private *in)
 {
-    const gvi_mass *m = &x->desc.mass;
+    const gvi_mass *m = &in->desc.mass;
     if (m->kind == GVI_MASS_UNIT && (m->matrix || m->points))
         return "mass: matrix or points is given, kind is GVI_MASS_UNIT";
     if (m->kind == GVI_MASS_POSITION && !m->points) return "mass: points is missing";
     if (m->kind == GVI_MASS_POSITION && !m->gradient) return "mass: gradient is missing";
-    if (m->kind == GVI_MASS_NONE && !(x->needs & GVI__HAS_LAGRANGIAN))
+    if (m->kind == GVI_MASS_NONE && !(in->needs & GVI__HAS_LAGRANGIAN))
         return "mass: none, and no Lagrangian term";
     if ((m->kind == GVI_MASS_DIAGONAL || m->kind == GVI_MASS_DENSE) && !m->matrix)
         return "mass: matrix is missing";
@@ -5145,14 +5161,14 @@ GVI__COLD const char *gvi__wrong_in_mass(const struct gvi__private *x)
 
 /* Are all sizes in range, is what the kinds need there, and nothing that says that a kind was
    forgotten?  Fills in the defaults, and finds what the effects read and the clock.           */
-GVI__COLD gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc, gvi_fault *fault)
+GVI__COLD gvi_status gvi__check(struct gvi__private *in, const gvi_desc *desc, gvi_fault *fault)
 {
     enum { V = GVI__HAS_VELOCITIES, L = GVI__HAS_LAGRANGIAN };
     // potential, force, Lagrangian, clock, constraint
     static const unsigned char reads[] = { 0, V, V | L, 0, 0 };
     const char *wrong = gvi__wrong_in_desc(desc);
     if (wrong) return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE, wrong);
-    gvi_desc *d = &x->desc;
+    gvi_desc *d = &in->desc;
     *d = *desc;
     const gvi_rule_kind rule = d->rule.kind;
     if (d->degree == 0) {
@@ -5165,37 +5181,37 @@ GVI__COLD gvi_status gvi__check(struct gvi__private *x, const gvi_desc *desc, gv
         return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE, "resolution: degree is below 3");
     if (d->resolution > 0 && d->resolution < GVI__EPS) d->resolution = GVI__EPS;
 
-    x->needs = 0;
-    x->clock = -1;
-    x->apart = x->con.bits = 0;
-    x->con.m = 0;
+    in->needs = 0;
+    in->clock = -1;
+    in->apart = in->con.bits = 0;
+    in->con.m = 0;
     for (int e = 0; e < d->effect_count; ++e) {
         const gvi_effect *effect = d->effects + e;
-        wrong = gvi__wrong_in_effect(x, effect);
+        wrong = gvi__wrong_in_effect(in, effect);
         if (wrong) return gvi__refuse(fault, e, GVI_FAULT_NONE, wrong);
-        x->needs |= reads[effect->kind];
+        in->needs |= reads[effect->kind];
         if (effect->kind < GVI_CLOCK) continue;
-        x->apart |= 1u << e;
-        x->con.m += effect->rows;
-        if (effect->kind == GVI_CONSTRAINT) x->con.bits |= 1u << e;
-        else x->clock = e;
+        in->apart |= 1u << e;
+        in->con.m += effect->rows;
+        if (effect->kind == GVI_CONSTRAINT) in->con.bits |= 1u << e;
+        else in->clock = e;
     }
     const gvi_mass *m = &d->mass;
-    if ((x->needs & L && !GVI__LAGRANGIAN) || (x->clock >= 0 && !GVI__CLOCK)
-        || (x->con.bits && (!GVI__CONSTRAINTS || x->clock >= 0 || rule == GVI_KICKS))
-        || (m->kind > GVI_MASS_DENSE && !gvi__mass_is(x, m->kind)) || !gvi__rule_is(x, rule))
+    if ((in->needs & L && !GVI__LAGRANGIAN) || (in->clock >= 0 && !GVI__CLOCK)
+        || (in->con.bits && (!GVI__CONSTRAINTS || in->clock >= 0 || rule == GVI_KICKS))
+        || (m->kind > GVI_MASS_DENSE && !gvi__mass_is(in, m->kind)) || !gvi__rule_is(in, rule))
         return GVI_E_FORMULATION;
-    wrong = gvi__wrong_in_mass(x);
+    wrong = gvi__wrong_in_mass(in);
     if (wrong) return gvi__refuse(fault, GVI_FAULT_MASS, GVI_FAULT_NONE, wrong);
     return GVI_OK;
 }
 
 /* The order of the rule: will it do? Weights given must be finite and sum to 1, and their rounding
    must leave half of the sum's digits.                                                        */
-GVI__COLD gvi_status gvi__check_rule(struct gvi__private *x, int *order, gvi_fault *fault)
+GVI__COLD gvi_status gvi__check_rule(struct gvi__private *in, int *order, gvi_fault *fault)
 {
-    const gvi_rule *rule = &x->desc.rule;
-    const int s = x->desc.degree, r = rule->points;
+    const gvi_rule *rule = &in->desc.rule;
+    const int s = in->desc.degree, r = rule->points;
     gvi_real sum = -1, error = 0;
     *order = 2*r;
     if (rule->kind == GVI_LOBATTO) *order = 2*r - 2;
@@ -5205,7 +5221,7 @@ GVI__COLD gvi_status gvi__check_rule(struct gvi__private *x, int *order, gvi_fau
             error += 4*(gvi_real)(r + 2)*GVI__EPS*GVI_ABS(rule->weights[j]);
         }
     const int sums = GVI_ABS(sum) <= error && error < GVI_SQRT(GVI__EPS);
-    if (gvi__rule_is(x, GVI_KICKS)) {
+    if (gvi__rule_is(in, GVI_KICKS)) {
         *order = 0;
         if (s != 1)
             return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE, "degree: kicks have 1");
@@ -5217,11 +5233,11 @@ GVI__COLD gvi_status gvi__check_rule(struct gvi__private *x, int *order, gvi_fau
     if (rule->kind == GVI_LOBATTO && r < 2 && s == 1)
         return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE,
                            "rule.points: Lobatto's rule has 2 or more");
-    if (gvi__rule_is(x, GVI_OWN)) {
+    if (gvi__rule_is(in, GVI_OWN)) {
         *order = gvi_rule_order(r, rule->nodes, rule->weights);
         if (*order < 0) return GVI_E_NODES;
         if (r >= s && (*order < s || !sums)) return GVI_E_ORDER;
-        if (*order < 2*s - 2) x->needs |= GVI__HAS_GAMMA;
+        if (*order < 2*s - 2) in->needs |= GVI__HAS_GAMMA;
     }
     // r >= s points of Gauss or Lobatto are good enough
     if (r < s) return GVI_E_POINTS;
@@ -5229,7 +5245,7 @@ GVI__COLD gvi_status gvi__check_rule(struct gvi__private *x, int *order, gvi_fau
 }
 
 // the first formulation that covers the scene, or the pinned one; Newton's method as a fall-back
-GVI__COLD gvi_status gvi__choose(struct gvi__private *x, gvi_fault *fault)
+GVI__COLD gvi_status gvi__choose(struct gvi__private *in, gvi_fault *fault)
 {
     enum { READS = 1, TIMED = 2, KICKED = 4, NOT_KICKED = 8, MORE_POINTS = 16, VARIES = 32,
           NO_VELOCITY = 64 };
@@ -5241,46 +5257,46 @@ GVI__COLD gvi_status gvi__choose(struct gvi__private *x, gvi_fault *fault)
         KICKED | MORE_POINTS | NO_VELOCITY,             // GVI_MOMENTA
         TIMED | KICKED                                  // GVI_NEWTON
     };
-    const gvi_desc *d = &x->desc;
+    const gvi_desc *d = &in->desc;
     const int s = d->degree, r = d->rule.points, kicks = d->rule.kind == GVI_KICKS;
     const int verlet = s == 1 && r == 2 && d->rule.kind == GVI_LOBATTO,
-              constant = gvi__mass_is_constant(x), holds = x->con.bits != 0,
+              constant = gvi__mass_is_constant(in), holds = in->con.bits != 0,
               lacks = !constant && d->mass.kind != GVI_MASS_POSITION;   // M, if it is wanted
     const int pinned = d->formulation != GVI_AUTO, given = d->iterations > 0;
     int scene = 0, f = GVI_EXPLICIT;
-    if (x->needs & GVI__HAS_VELOCITIES) scene |= READS;
-    if (x->clock >= 0) scene |= TIMED;
+    if (in->needs & GVI__HAS_VELOCITIES) scene |= READS;
+    if (in->clock >= 0) scene |= TIMED;
     if (kicks) scene |= KICKED;
     if (!kicks && !verlet) scene |= NOT_KICKED;
     if (r != s) scene |= MORE_POINTS;
-    if (!constant || (holds && x->needs & GVI__HAS_LAGRANGIAN)) scene |= VARIES;
+    if (!constant || (holds && in->needs & GVI__HAS_LAGRANGIAN)) scene |= VARIES;
     if ((d->mass.velocity && holds) || (!d->mass.velocity && lacks)) scene |= NO_VELOCITY;
     if (pinned) f = (int)d->formulation;
     while (!(GVI__COMPILED >> f & 1) || (scene & cannot[f]))
         if (pinned || f++ == GVI_NEWTON) return GVI_E_FORMULATION;
-    x->chosen = (gvi_formulation)f;
+    in->chosen = (gvi_formulation)f;
     if (f == GVI_NEWTON && given) return GVI_E_FORMULATION;
     if (!GVI__RULES && f != GVI_EXPLICIT && (d->rule.kind != GVI_GAUSS || r != s))
         return GVI_E_FORMULATION;
     // as a fall-back only where its matrices are small
     if (f == GVI_NEWTON
-        || (GVI__NEWTON && !pinned && f != GVI_EXPLICIT && x->clock < 0 && !given
-            && s <= 1024/(d->n + x->con.m)))
-        x->needs |= GVI__HAS_NEWTON;
+        || (GVI__NEWTON && !pinned && f != GVI_EXPLICIT && in->clock < 0 && !given
+            && s <= 1024/(d->n + in->con.m)))
+        in->needs |= GVI__HAS_NEWTON;
     const int matrices =
-        gvi__has(x, GVI__HAS_NEWTON | GVI__HAS_LAGRANGIAN) || d->mass.kind >= GVI_MASS_DENSE;
+        gvi__has(in, GVI__HAS_NEWTON | GVI__HAS_LAGRANGIAN) || d->mass.kind >= GVI_MASS_DENSE;
     if (matrices && d->n > 0x7FFF)                // indices are int: n*n and s*n
         return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE,
                            "n is above 32,767, and matrices may be needed");
     return GVI_OK;
 }
 
-GVI__COLD gvi_status gvi__resolve(struct gvi__private *x, const gvi_desc *desc, int *order,
+GVI__COLD gvi_status gvi__resolve(struct gvi__private *in, const gvi_desc *desc, int *order,
                                   gvi_fault *fault)
 {
-    gvi_status status = gvi__check(x, desc, fault);
-    if (status == GVI_OK) status = gvi__check_rule(x, order, fault);
-    if (status == GVI_OK) status = gvi__choose(x, fault);
+    gvi_status status = gvi__check(in, desc, fault);
+    if (status == GVI_OK) status = gvi__check_rule(in, order, fault);
+    if (status == GVI_OK) status = gvi__choose(in, fault);
     return status;
 }
 
@@ -5299,26 +5315,30 @@ GVI__COLD gvi_real *gvi__take(gvi__arena *arena, size_t a, size_t b)
 }
 
 // that of constraints: rows of R, then of C
-GVI__COLD void gvi__layout_constraints(struct gvi__private *x, gvi__arena *a)
+GVI__COLD void gvi__layout_constraints(struct gvi__private *in, gvi__arena *a)
 {
-    struct gvi__holonomic *y = &x->con;
-    const size_t n = (size_t)x->desc.n, s = (size_t)x->desc.degree, r = (size_t)x->desc.rule.points,
+    struct gvi__holonomic *con = &in->con;
+    const size_t n = (size_t)in->desc.n, s = (size_t)in->desc.degree,
+                 r = (size_t)in->desc.rule.points,
                  R = (size_t)GVI__ROW(r), C = (size_t)GVI__ROW(s + 1),
-                 m = (size_t)gvi__count_rows(x, y->bits),
-                 on = m > 0, i = on && !gvi__uses(x, GVI_EXPLICIT),
-                 u = i && !gvi__uses(x, GVI_POSITIONS);
+                 m = (size_t)gvi__count_rows(in, con->bits),
+                 on = m > 0, i = on && !gvi__uses(in, GVI_EXPLICIT),
+                 u = i && !gvi__uses(in, GVI_POSITIONS);
     const struct { gvi_real **to; size_t rows, width; } list[] = {
-        { &y->D, i*n, R }, { &y->free, i*n, R }, { &y->P, u*n, R }, { &y->force, i*(n + m), R },
-        { &y->K, i*r, R }, { &y->U, u*r, R }, { &y->by_force, i*r, R }, { &y->by_impulse, i*r, R },
-        { &y->X, i*s, R },
-        { &y->E, i*s, R }, { &y->Phi, i*s, R }, { &y->Phi_low, i*s, R }, { &y->hw, on, R },
-        { &y->last, i*(n + m), C }, { &y->at, i*n, C }, { &y->t, i, C }, { &y->W, on*n, C },
-        { &y->g, 2*m, C }, { &y->G, i*m*n, C }, { &y->A, i*m*m, C }, { &y->d, on, R + C },
-        { &y->w, on, s + 1 }, { &y->rho, m, R + C }, { &y->lu, i*(s + 1), s + 1 }, { &y->y, on, m },
-        { &y->G1, 2*m, n }, { &y->A1, m, m }, { &y->runs, m, n + 1 }, { &y->ends, on, m },
-        { &y->first, on, m }, { &y->drops, 2*on, m }
+        { &con->D, i*n, R }, { &con->free, i*n, R }, { &con->P, u*n, R },
+        { &con->force, i*(n + m), R },
+        { &con->K, i*r, R }, { &con->U, u*r, R }, { &con->by_force, i*r, R },
+        { &con->by_impulse, i*r, R },
+        { &con->X, i*s, R },
+        { &con->E, i*s, R }, { &con->Phi, i*s, R }, { &con->Phi_low, i*s, R }, { &con->hw, on, R },
+        { &con->last, i*(n + m), C }, { &con->at, i*n, C }, { &con->t, i, C }, { &con->W, on*n, C },
+        { &con->g, 2*m, C }, { &con->G, i*m*n, C }, { &con->A, i*m*m, C }, { &con->d, on, R + C },
+        { &con->w, on, s + 1 }, { &con->rho, m, R + C }, { &con->lu, i*(s + 1), s + 1 },
+        { &con->y, on, m },
+        { &con->G1, 2*m, n }, { &con->A1, m, m }, { &con->runs, m, n + 1 }, { &con->ends, on, m },
+        { &con->first, on, m }, { &con->drops, 2*on, m }
     };
-    y->C = (int)C;
+    con->C = (int)C;
     for (size_t k = 0; k < sizeof list/sizeof *list; ++k)
         *list[k].to = gvi__take(a, list[k].rows, list[k].width);
 }
@@ -5326,41 +5346,42 @@ GVI__COLD void gvi__layout_constraints(struct gvi__private *x, gvi__arena *a)
 /* The one layout: gvi_size counts with it, gvi_init hands out by it, and GVI_LENGTH is its sum with
    everything wanted.  Stage values of two steps back make the predictor better up to nine points;
    with more of them, and in float, they would amplify rounding too much.                     */
-GVI__COLD size_t gvi__layout(struct gvi__private *x, int order, gvi_real *base)
+GVI__COLD size_t gvi__layout(struct gvi__private *in, int order, gvi_real *base)
 {
-    const gvi_desc *d = &x->desc;
+    const gvi_desc *d = &in->desc;
     const size_t n = (size_t)d->n, s = (size_t)d->degree, r = (size_t)d->rule.points,
                  R = (size_t)GVI__ROW(r);
-    const size_t explicitly = gvi__uses(x, GVI_EXPLICIT) != 0,
-                 momenta = gvi__uses(x, GVI_MOMENTA) != 0;
-    const size_t velocities = gvi__uses(x, GVI_VELOCITIES) != 0,
-                 newton = gvi__has(x, GVI__HAS_NEWTON) != 0;
-    const size_t lagrangian = gvi__has(x, GVI__HAS_LAGRANGIAN) != 0,
-                 clock = GVI__CLOCK && x->clock >= 0;
-    const size_t fixed = gvi__uses(x, GVI_POSITIONS) || velocities || momenta,
+    const size_t explicitly = gvi__uses(in, GVI_EXPLICIT) != 0,
+                 momenta = gvi__uses(in, GVI_MOMENTA) != 0;
+    const size_t velocities = gvi__uses(in, GVI_VELOCITIES) != 0,
+                 newton = gvi__has(in, GVI__HAS_NEWTON) != 0;
+    const size_t lagrangian = gvi__has(in, GVI__HAS_LAGRANGIAN) != 0,
+                 clock = GVI__CLOCK && in->clock >= 0;
+    const size_t fixed = gvi__uses(in, GVI_POSITIONS) || velocities || momenta,
                  A = lagrangian && fixed;
     const size_t two = fixed && r < 10 && GVI__DIG > 24, reads_v = velocities || momenta || newton;
     const size_t modes = !explicitly && (reads_v || order <= 2*d->degree - 2),
-                 kicks = gvi__rule_is(x, GVI_KICKS) != 0;
-    const size_t dense = d->mass.kind == GVI_MASS_DENSE, full = gvi__has(x, GVI__HAS_GAMMA) != 0;
+                 kicks = gvi__rule_is(in, GVI_KICKS) != 0;
+    const size_t dense = d->mass.kind == GVI_MASS_DENSE, full = gvi__has(in, GVI__HAS_GAMMA) != 0;
     const size_t iterated = !explicitly, legendre = newton || lagrangian,
                  limited = d->resolution > 0;
     const size_t rows = kicks ? n : n*R, nn = n*n,
-                 N = s*(n + (size_t)gvi__count_rows(x, x->con.bits));
+                 N = s*(n + (size_t)gvi__count_rows(in, in->con.bits));
     gvi__arena memory = { base, 0 }, *a = &memory;
-    struct gvi__values *const values[] = { &x->work, &x->last, &x->older };
+    struct gvi__values *const values[] = { &in->work, &in->last, &in->older };
     gvi_real **const rows_of_R[] = {
-        &x->table.c, &x->table.b, &x->sized.hb, &x->t,
-        &x->time.rate, &x->time.power, &x->time.level, &x->time.lagrangian
+        &in->table.c, &in->table.b, &in->sized.hb, &in->t,
+        &in->time.rate, &in->time.power, &in->time.level, &in->time.lagrangian
     };
     gvi_real **const vectors[] = {
-        &x->state.q, &x->state.p, &x->state.q_low, &x->state.p_low, &x->step.q, &x->step.p,
-        &x->step.q_low, &x->step.p_low, &x->began.q, &x->began.p, &x->free.v, &x->zeros, &x->start,
-        &x->mass.inverse, &x->free.v_low, &x->free.path, &x->free.path_low
+        &in->state.q, &in->state.p, &in->state.q_low, &in->state.p_low, &in->step.q, &in->step.p,
+        &in->step.q_low, &in->step.p_low, &in->began.q, &in->began.p, &in->free.v, &in->zeros,
+        &in->start,
+        &in->mass.inverse, &in->free.v_low, &in->free.path, &in->free.path_low
     };
     gvi_real **const modes_of_newton[] = {
-        &x->newton.y, &x->newton.dy, &x->newton.residual, &x->newton.last,
-        &x->newton.found, &x->newton.branch, &x->newton.guess, &x->newton.slope
+        &in->newton.y, &in->newton.dy, &in->newton.residual, &in->newton.last,
+        &in->newton.found, &in->newton.branch, &in->newton.guess, &in->newton.slope
     };
 
     // rows first: they start on a whole lane
@@ -5374,52 +5395,52 @@ GVI__COLD size_t gvi__layout(struct gvi__private *x, int order, gvi_real *base)
         v->P = gvi__take(a, at_work && (momenta || newton), n*R);
     }
     for (int k = 0; k < 8; ++k) *rows_of_R[k] = gvi__take(a, k < 4 || clock, R);
-    x->free.rows = gvi__take(a, fixed + (velocities || momenta), n*R);
-    x->table.Phi = gvi__take(a, (1 - kicks)*s, R);
-    x->table.phi = gvi__take(a, modes*s, R);
-    x->table.phi_low = gvi__take(a, modes*s, R);
-    x->table.high = gvi__take(a, 4*limited, R);
-    x->table.K = gvi__take(a, (fixed && !momenta)*r, R);
-    x->table.U = gvi__take(a, (velocities || momenta)*r, R);
-    x->table.T = gvi__take(a, (momenta || (velocities && lagrangian))*r, R);
-    x->table.N = gvi__take(a, (velocities && lagrangian)*r, R);
-    x->sized.E = gvi__take(a, iterated*(1 + two)*r, R);
-    x->row = gvi__take(a, 9*iterated, R);
-    x->mass.at_points = gvi__take(a, (d->mass.kind == GVI_MASS_POSITION)*nn, R);
-    x->mass.sums = gvi__take(a, (dense && fixed && !momenta)*n, R);
-    x->time.slope = gvi__take(a, clock, n*R);
-    x->table.inv_gamma = gvi__take(a, 1, s);
-    x->table.gamma = gvi__take(a, full, s*s + s + 1);
-    x->sized.drift = gvi__take(a, explicitly, r + 1);
+    in->free.rows = gvi__take(a, fixed + (velocities || momenta), n*R);
+    in->table.Phi = gvi__take(a, (1 - kicks)*s, R);
+    in->table.phi = gvi__take(a, modes*s, R);
+    in->table.phi_low = gvi__take(a, modes*s, R);
+    in->table.high = gvi__take(a, 4*limited, R);
+    in->table.K = gvi__take(a, (fixed && !momenta)*r, R);
+    in->table.U = gvi__take(a, (velocities || momenta)*r, R);
+    in->table.T = gvi__take(a, (momenta || (velocities && lagrangian))*r, R);
+    in->table.N = gvi__take(a, (velocities && lagrangian)*r, R);
+    in->sized.E = gvi__take(a, iterated*(1 + two)*r, R);
+    in->row = gvi__take(a, 9*iterated, R);
+    in->mass.at_points = gvi__take(a, (d->mass.kind == GVI_MASS_POSITION)*nn, R);
+    in->mass.sums = gvi__take(a, (dense && fixed && !momenta)*n, R);
+    in->time.slope = gvi__take(a, clock, n*R);
+    in->table.inv_gamma = gvi__take(a, 1, s);
+    in->table.gamma = gvi__take(a, full, s*s + s + 1);
+    in->sized.drift = gvi__take(a, explicitly, r + 1);
     for (size_t k = 0; k < sizeof vectors/sizeof *vectors; ++k)
         *vectors[k] = gvi__take(a, k < 14 || !explicitly, n);
 
-    x->mass.matrix = gvi__take(a, 1 - dense + dense*n, n);
-    x->mass.factor = gvi__take(a, dense*n, n);
-    x->watch.scale = gvi__take(a, 2*iterated, n);
-    x->watch.change = gvi__take(a, 2*iterated, n);
-    x->watch.before = gvi__take(a, 2*iterated, n);
-    x->point = gvi__take(a, 6, n);
-    x->result = gvi__take(a, 3, n);
-    x->newton.column = gvi__take(a, 4*legendre, n);
-    x->newton.hessian = gvi__take(a, legendre, (1 + 3*newton)*nn + n + 1);
+    in->mass.matrix = gvi__take(a, 1 - dense + dense*n, n);
+    in->mass.factor = gvi__take(a, dense*n, n);
+    in->watch.scale = gvi__take(a, 2*iterated, n);
+    in->watch.change = gvi__take(a, 2*iterated, n);
+    in->watch.before = gvi__take(a, 2*iterated, n);
+    in->point = gvi__take(a, 6, n);
+    in->result = gvi__take(a, 3, n);
+    in->newton.column = gvi__take(a, 4*legendre, n);
+    in->newton.hessian = gvi__take(a, legendre, (1 + 3*newton)*nn + n + 1);
     for (int k = 0; k < 8; ++k) *modes_of_newton[k] = gvi__take(a, newton, N);
-    x->newton.pivot = gvi__take(a, newton*2, N + 1);            // twice: queries must not touch
-    x->newton.moved = gvi__take(a, newton*4*n, R);
-    if (GVI__CONSTRAINTS) gvi__layout_constraints(x, a);
+    in->newton.pivot = gvi__take(a, newton*2, N + 1);            // twice: queries must not touch
+    in->newton.moved = gvi__take(a, newton*4*n, R);
+    if (GVI__CONSTRAINTS) gvi__layout_constraints(in, a);
     // what the steps keep.  J comes last
-    x->newton.J = gvi__take(a, newton*2*N, N);
+    in->newton.J = gvi__take(a, newton*2*N, N);
     return memory.used;
 }
 
 // pointers into the memory, also those of the state that the caller reads
 static void gvi__hand_out(gvi_stepper *st, gvi_real *memory)
 {
-    gvi__layout(&st->x, st->order, memory);
-    st->q = st->x.state.q;
-    st->p = st->x.state.p;
-    st->q_low = st->x.state.q_low;
-    st->p_low = st->x.state.p_low;
+    gvi__layout(&st->in, st->order, memory);
+    st->q = st->in.state.q;
+    st->p = st->in.state.p;
+    st->q_low = st->in.state.q_low;
+    st->p_low = st->in.state.p_low;
 }
 
 // stage values start where a cache line does: up to so many numbers are left out at the beginning
@@ -5437,10 +5458,10 @@ GVI_DEF size_t gvi_size(const gvi_desc *desc)
 // mass matrix into the memory, factored; inverse is 1 where M is no diagonal
 GVI__COLD gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
 {
-    struct gvi__private *x = &st->x;
+    struct gvi__private *in = &st->in;
     const int n = st->n, dense = mass->kind == GVI_MASS_DENSE;
     const int given = dense || mass->kind == GVI_MASS_DIAGONAL;
-    gvi_real *m = x->mass.matrix;
+    gvi_real *m = in->mass.matrix;
     int at[2] = { 0, 0 };
     for (int i = 0; i < n; ++i) {
         int first = i, width = 1;                 // of a diagonal; dense: of row i up to M_ii
@@ -5454,17 +5475,17 @@ GVI__COLD gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
         if (gvi__first_non_finite(width, row) >= 0)
             return gvi__refuse(&st->fault, GVI_FAULT_MASS, i, "mass.matrix is not finite");
         if (dense) {
-            gvi__copy((size_t)width, row, x->mass.factor + first);
-            x->mass.inverse[i] = 1;
+            gvi__copy((size_t)width, row, in->mass.factor + first);
+            in->mass.inverse[i] = 1;
             continue;
         }
-        x->mass.inverse[i] = 1/row[0];
-        if (!gvi__finite(x->mass.inverse[i]))
+        in->mass.inverse[i] = 1/row[0];
+        if (!gvi__finite(in->mass.inverse[i]))
             return gvi__report(st, GVI_E_SINGULAR, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
     }
     if (!dense) return GVI_OK;
     const gvi_status status =
-        gvi__ldl_factor(n, 1, 1, x->mass.factor, (gvi_real)n*GVI__EPS, at);
+        gvi__ldl_factor(n, 1, 1, in->mass.factor, (gvi_real)n*GVI__EPS, at);
     if (status == GVI_OK) return GVI_OK;
     return gvi__report(st, status, GVI_FAULT_MASS, at[0], at[1]);
 }
@@ -5472,37 +5493,38 @@ GVI__COLD gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
 // the rule, the modes at its nodes as exactly as they can be had, then the tables
 GVI__COLD gvi_status gvi__set_rule(gvi_stepper *st, const gvi_rule *rule)
 {
-    struct gvi__private *x = &st->x;
-    if (gvi__rule_is(x, GVI_OWN) || gvi__rule_is(x, GVI_KICKS)) {
-        gvi__copy((size_t)st->r, rule->nodes, x->table.c);
-        gvi__copy((size_t)st->r, rule->weights, x->table.b);
-    } else if (gvi__uses(x, GVI_EXPLICIT)) {                 // Stoermer-Verlet: c = 0, 1
-        x->table.c[1] = 1;
-        x->table.b[0] = x->table.b[1] = (gvi_real)0.5;
+    struct gvi__private *in = &st->in;
+    if (gvi__rule_is(in, GVI_OWN) || gvi__rule_is(in, GVI_KICKS)) {
+        gvi__copy((size_t)st->r, rule->nodes, in->table.c);
+        gvi__copy((size_t)st->r, rule->weights, in->table.b);
+    } else if (gvi__uses(in, GVI_EXPLICIT)) {                 // Stoermer-Verlet: c = 0, 1
+        in->table.c[1] = 1;
+        in->table.b[0] = in->table.b[1] = (gvi_real)0.5;
     }
-    else gvi__rule(GVI__RULES && rule->kind == GVI_LOBATTO, st->r, x->table.c, x->t, x->table.b);
-    if (GVI__ITERATES && !gvi__uses(x, GVI_EXPLICIT)) {
+    else gvi__rule(GVI__RULES && rule->kind == GVI_LOBATTO, st->r, in->table.c, in->t, in->table.b);
+    if (GVI__ITERATES && !gvi__uses(in, GVI_EXPLICIT)) {
         // the low words of Phi go to E, which is not yet in use
-        gvi__modes_of(st, st->r, x->table.c, x->t, x->table.phi, x->table.phi_low, x->table.Phi,
-                      x->sized.E);
+        gvi__modes_of(st, st->r, in->table.c, in->t, in->table.phi, in->table.phi_low,
+                      in->table.Phi,
+                      in->sized.E);
         const gvi_status status = gvi__make_gamma(st);
         if (status != GVI_OK) return status;
         gvi__make_tables(st);
     }
-    if (x->table.high) {                                     // see gvi__resolution
+    if (in->table.high) {                                     // see gvi__resolution
         const int pair = 1 + (st->s > 4);
-        const gvi_real *modes = x->table.phi;
-        if (gvi__uses(x, GVI_POSITIONS)) modes = x->table.Phi;
+        const gvi_real *modes = in->table.phi;
+        if (gvi__uses(in, GVI_POSITIONS)) modes = in->table.Phi;
         for (int m = 0; m < 2*pair; ++m) {
             const int k = st->s - 1 - m;
             for (int j = 0; j < st->r; ++j)
-                x->table.high[4*j + m*2/pair] =
-                    x->table.inv_gamma[k]*modes[k*x->R + j]*x->table.b[j];
+                in->table.high[4*j + m*2/pair] =
+                    in->table.inv_gamma[k]*modes[k*in->R + j]*in->table.b[j];
         }
     }
-    if (GVI__CONSTRAINTS && x->con.bits && gvi__set_constraints(st) != GVI_OK) return GVI_E_POINTS;
+    if (GVI__CONSTRAINTS && in->con.bits && gvi__set_constraints(st) != GVI_OK) return GVI_E_POINTS;
     // Phi_0 = c on its grid
-    if (x->table.Phi) gvi__copy((size_t)st->r, x->table.c, x->table.Phi);
+    if (in->table.Phi) gvi__copy((size_t)st->r, in->table.c, in->table.Phi);
     return GVI_OK;
 }
 
@@ -5512,16 +5534,16 @@ typedef struct gvi__aligned { char byte; gvi_real number; } gvi__aligned;
 GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *memory, size_t size)
 {
     if (!st) return GVI_E_ARGUMENT;
-    struct gvi__private *x = &st->x;
+    struct gvi__private *in = &st->in;
     unsigned char *bytes = (unsigned char *)st;
     static const gvi_real zeros[64] = { 0 };      // to be read after a failure
     int order = 0;
     for (size_t i = 0; i < sizeof *st; ++i) bytes[i] = 0;
     gvi__report_status(st, GVI_OK);
     st->q = st->p = st->q_low = st->p_low = zeros;
-    gvi_status status = gvi__resolve(x, desc, &order, &st->fault);
+    gvi_status status = gvi__resolve(in, desc, &order, &st->fault);
     st->order = order;
-    if (GVI__CONSTRAINTS && status == GVI_E_FORMULATION && x->con.bits)
+    if (GVI__CONSTRAINTS && status == GVI_E_FORMULATION && in->con.bits)
         return gvi__refuse_constraints(st);
     if (status != GVI_OK) return st->status = status;
     if (desc->effects && !desc->effect_count)     // its count was forgotten
@@ -5529,30 +5551,30 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     if (!memory) return gvi__refuse_call(st, "memory is NULL");
     if ((uintptr_t)memory % offsetof(gvi__aligned, number))
         return gvi__refuse_call(st, "memory is not aligned");
-    st->n = x->desc.n;
-    st->s = x->desc.degree;
-    st->r = x->desc.rule.points;
-    st->formulation = x->chosen;
-    x->R = GVI__ROW(st->r);
-    x->size = gvi__layout(x, order, NULL);
-    const size_t slack = gvi__slack(&x->desc);
-    if (size < (x->size + slack)*sizeof(gvi_real)) {
+    st->n = in->desc.n;
+    st->s = in->desc.degree;
+    st->r = in->desc.rule.points;
+    st->formulation = in->chosen;
+    in->R = GVI__ROW(st->r);
+    in->size = gvi__layout(in, order, NULL);
+    const size_t slack = gvi__slack(&in->desc);
+    if (size < (in->size + slack)*sizeof(gvi_real)) {
         if (size/sizeof(gvi_real) < (size_t)st->n) return st->status = GVI_E_MEMORY;
         gvi__zero((size_t)st->n, memory);
         st->q = st->p = st->q_low = st->p_low = memory;
         return st->status = GVI_E_MEMORY;
     }
-    if (slack) x->skip = (size_t)(-(uintptr_t)memory & 63)/sizeof(gvi_real);
-    memory += x->skip;
+    if (slack) in->skip = (size_t)(-(uintptr_t)memory & 63)/sizeof(gvi_real);
+    memory += in->skip;
     gvi__hand_out(st, memory);
-    size_t cleared = x->size;
-    if (x->newton.J) cleared = (size_t)(x->newton.J - memory);      // J is written first
+    size_t cleared = in->size;
+    if (in->newton.J) cleared = (size_t)(in->newton.J - memory);      // J is written first
     gvi__zero(cleared, memory);
-    x->kernel = gvi__kernel_for(st->n, st->r);
+    in->kernel = gvi__kernel_for(st->n, st->r);
     status = gvi__set_mass(st, &desc->mass);
     if (status == GVI_OK) status = gvi__set_rule(st, &desc->rule);
     if (status != GVI_OK) return st->status = status;
-    x->memory = memory;                                      // from here on it can be used
+    in->memory = memory;                                      // from here on it can be used
     return GVI_OK;
 }
 
@@ -5577,54 +5599,54 @@ typedef struct gvi__matrix {
 static size_t gvi__unknowns(const gvi_stepper *st, int k0)
 {
     return (size_t)(st->s - k0)*(size_t)st->n
-           + (gvi__constrained(st) ? (size_t)st->s*(size_t)st->x.con.m : 0);
+           + (gvi__constrained(st) ? (size_t)st->s*(size_t)st->in.con.m : 0);
 }
 
 // g and G at the D that y makes, and the forces of its multipliers
 GVI__CALLED gvi_status gvi__newton_constraints(gvi_stepper *st, const gvi__origin *from)
 {
-    struct gvi__private *x = &st->x;
-    const int n = st->n, m = x->con.m, s = st->s, R = x->R, C = x->con.C;
-    gvi__constraint_points(st, from, x->sized.h);
+    struct gvi__private *in = &st->in;
+    const int n = st->n, m = in->con.m, s = st->s, R = in->R, C = in->con.C;
+    gvi__constraint_points(st, from, in->sized.h);
     for (int i = 0; i < n; ++i) {
-        gvi_real *at = x->con.at + i*C;
+        gvi_real *at = in->con.at + i*C;
         for (int e = 0; e < C; ++e) at[e] = from->q[i];
         for (int e = 1; e <= s; ++e) {
             gvi_real D = 0;
-            for (int k = 0; k < s; ++k) D += x->con.Phi[k*R + e - 1]*x->newton.y[k*n + i];
-            at[e] += from->q_low[i] + x->sized.h*D;
+            for (int k = 0; k < s; ++k) D += in->con.Phi[k*R + e - 1]*in->newton.y[k*n + i];
+            at[e] += from->q_low[i] + in->sized.h*D;
         }
     }
-    for (int k = 0; k < s*m; ++k) x->con.force[(n + k % m)*R + k/m] = x->newton.y[s*n + k];
+    for (int k = 0; k < s*m; ++k) in->con.force[(n + k % m)*R + k/m] = in->newton.y[s*n + k];
     const gvi_status status =
-        gvi__evaluate_constraints(st, C, s + 1, x->con.t, x->con.at, x->con.G);
-    if (!x->con.settled) (void)gvi__find_runs(st, C, s + 1, x->con.G);
+        gvi__evaluate_constraints(st, C, s + 1, in->con.t, in->con.at, in->con.G);
+    if (!in->con.settled) (void)gvi__find_runs(st, C, s + 1, in->con.G);
     gvi__constraint_forces(st);
-    gvi__force_sizes(st, x->con.force + n*R, R, x->con.D);      // nearly dependent rows cancel
+    gvi__force_sizes(st, in->con.force + n*R, R, in->con.D);      // nearly dependent rows cancel
     return status;
 }
 
 // Q and V from y; then F and P at these
 static gvi_status gvi__newton_values(gvi_stepper *st, const gvi__origin *from)
 {
-    struct gvi__private *x = &st->x;
-    const int n = st->n, R = x->R;
+    struct gvi__private *in = &st->in;
+    const int n = st->n, R = in->R;
     for (int i = 0; i < n; ++i) {
-        gvi_real *GVI__RESTRICT V = x->work.V + i*R, *GVI__RESTRICT Q = x->work.Q + i*R;
+        gvi_real *GVI__RESTRICT V = in->work.V + i*R, *GVI__RESTRICT Q = in->work.Q + i*R;
         gvi__zero((size_t)R, V);
         gvi__zero((size_t)R, Q);
         for (int k = 0; k < st->s; ++k) {
-            const gvi_real y = x->newton.y[k*n + i];
+            const gvi_real y = in->newton.y[k*n + i];
             for (int j = 0; j < R; ++j) {
-                V[j] += x->table.phi[k*R + j]*y;
-                Q[j] += x->table.Phi[k*R + j]*y;
+                V[j] += in->table.phi[k*R + j]*y;
+                Q[j] += in->table.Phi[k*R + j]*y;
             }
         }
-        for (int j = 0; j < R; ++j) Q[j] = from->q[i] + (from->q_low[i] + x->sized.h*Q[j]);
+        for (int j = 0; j < R; ++j) Q[j] = from->q[i] + (from->q_low[i] + in->sized.h*Q[j]);
     }
     gvi__count(&st->counters.velocities, st->r);
-    gvi_points at = gvi__points_at(st, st->r, R, x->t, x->work.Q, x->work.F, x->work.P);
-    at.v = x->work.V;
+    gvi_points at = gvi__points_at(st, st->r, R, in->t, in->work.Q, in->work.F, in->work.P);
+    at.v = in->work.V;
     const gvi_status status = gvi__evaluate(st, &at, 0, 1);
     return status == GVI_OK && gvi__constrained(st) ? gvi__newton_constraints(st, from) : status;
 }
@@ -5648,65 +5670,65 @@ typedef struct gvi__descent {
    all coordinates.  M is that of the first y.                                                 */
 static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, gvi__descent *p)
 {
-    struct gvi__private *x = &st->x;
-    const int n = st->n, R = x->R, first = !(p->norm < GVI__MAX),
+    struct gvi__private *in = &st->in;
+    const int n = st->n, R = in->R, first = !(p->norm < GVI__MAX),
               held = gvi__constrained(st) ? st->s : 0;
-    const gvi_real h = x->sized.h;
+    const gvi_real h = in->sized.h;
     gvi_real norm = 0, moved = 0, before = 0;
     p->work = 0;
     for (int i = 0; i < n; ++i) {
-        const gvi_real *P = x->work.P + i*R, *F = x->work.F + i*R;
+        const gvi_real *P = in->work.P + i*R, *F = in->work.F + i*R;
         gvi_real length = 0, change = 0, was = 0;
         for (int k = k0; k < st->s; ++k) {
             // P - p is summed where p occurs: the rounding of P then is not in the sum
             const gvi_real base = k == 0 ? from->p[i] : 0;
             gvi_real momentum = k == 0 ? -(h*from->p_low[i]) : 0, force = 0, size = 0;
             for (int j = 0; j < st->r; ++j) {
-                const gvi_real phi = x->table.phi[k*R + j],
-                               W = (k == 0 ? 1 : 0) - x->table.Phi[k*R + j];
-                const gvi_real b = W*(x->sized.hb[j]*F[j]);
-                momentum += phi*(x->sized.hb[j]*(P[j] - base));
+                const gvi_real phi = in->table.phi[k*R + j],
+                               W = (k == 0 ? 1 : 0) - in->table.Phi[k*R + j];
+                const gvi_real b = W*(in->sized.hb[j]*F[j]);
+                momentum += phi*(in->sized.hb[j]*(P[j] - base));
                 force += b;
-                size += GVI_ABS(phi*(x->table.b[j]*P[j])) + GVI_ABS(b);
+                size += GVI_ABS(phi*(in->table.b[j]*P[j])) + GVI_ABS(b);
             }
             for (int e = 0; e < held; ++e) {
-                const gvi_real W = (k == 0 ? 1 : 0) - (e > 0 ? x->con.Phi[k*R + e - 1] : 0);
-                force += W*(x->con.hw[e]*x->con.force[i*R + e]);
-                size += GVI_ABS(W*(x->con.hw[e]*x->con.D[i*R + e]));
+                const gvi_real W = (k == 0 ? 1 : 0) - (e > 0 ? in->con.Phi[k*R + e - 1] : 0);
+                force += W*(in->con.hw[e]*in->con.force[i*R + e]);
+                size += GVI_ABS(W*(in->con.hw[e]*in->con.D[i*R + e]));
             }
             const gvi_real sum = momentum/h - force;
-            gvi_real *rest = x->newton.residual + (k - k0)*n + i;
+            gvi_real *rest = in->newton.residual + (k - k0)*n + i;
             const gvi_real now = -(gvi_real)(2*k + 1)*sum;
             change += GVI_ABS(now - *rest);
             was += GVI_ABS(*rest);
             length += GVI_ABS(now);
-            x->newton.dy[(k - k0)*n + i] = *rest = now;
+            in->newton.dy[(k - k0)*n + i] = *rest = now;
             if (size > 0 && GVI_ABS(sum)/size > p->work) p->work = GVI_ABS(sum)/size;
         }
-        if (first) x->watch.scale[i] = 1/GVI_SQRT(gvi__inertia(st, i));
-        norm += length*x->watch.scale[i];
-        moved += change*x->watch.scale[i];
-        before += was*x->watch.scale[i];
+        if (first) in->watch.scale[i] = 1/GVI_SQRT(gvi__inertia(st, i));
+        norm += length*in->watch.scale[i];
+        moved += change*in->watch.scale[i];
+        before += was*in->watch.scale[i];
     }
-    for (int k = 0; k < held*x->con.m; ++k) {     // g, as the momentum that would undo it
-        int ends, a = k % x->con.m, e = k/x->con.m + 1, C = x->con.C;
-        const gvi_real *run = gvi__runs(st, a, &ends), now = x->con.g[a*C + e];
-        gvi_real *rest = x->newton.residual + st->s*n + k, size = 0, inertia = 0;
-        if (x->con.drops[a] > 0) {
-            x->newton.dy[st->s*n + k] = 0;
+    for (int k = 0; k < held*in->con.m; ++k) {     // g, as the momentum that would undo it
+        int ends, a = k % in->con.m, e = k/in->con.m + 1, C = in->con.C;
+        const gvi_real *run = gvi__runs(st, a, &ends), now = in->con.g[a*C + e];
+        gvi_real *rest = in->newton.residual + st->s*n + k, size = 0, inertia = 0;
+        if (in->con.drops[a] > 0) {
+            in->newton.dy[st->s*n + k] = 0;
             continue;
         }
         for (int f = 0; f < ends; f += 2)
             for (int i = (int)run[f]; i < (int)run[f + 1]; ++i) {
-                const gvi_real G = x->con.G[(a*n + i)*C + e];
-                size += GVI_ABS(G*x->con.at[i*C + e]);
-                inertia += G*x->watch.scale[i]*(G*x->watch.scale[i]);
+                const gvi_real G = in->con.G[(a*n + i)*C + e];
+                size += GVI_ABS(G*in->con.at[i*C + e]);
+                inertia += G*in->watch.scale[i]*(G*in->watch.scale[i]);
             }
         const gvi_real unit = GVI_ABS(h)*GVI_SQRT(inertia);
         norm += GVI_ABS(now)/unit;
         moved += GVI_ABS(now - *rest)/unit;
         before += GVI_ABS(*rest)/unit;
-        x->newton.dy[st->s*n + k] = *rest = now;
+        in->newton.dy[st->s*n + k] = *rest = now;
         if (size > 0 && GVI_ABS(now)/size > p->work) p->work = GVI_ABS(now)/size;
     }
     p->holds = p->work <= 16*GVI__EPS || (!first && moved >= before/2);
@@ -5717,15 +5739,15 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, 
 static void gvi__add_derivative(const gvi_stepper *st, const gvi__matrix *J, int i, int j,
                                 int point, gvi_real f, gvi_real p, int by_v)
 {
-    const struct gvi__private *x = &st->x;
-    const int n = st->n, R = x->R, s = st->s, k0 = J->k0;
+    const struct gvi__private *in = &st->in;
+    const int n = st->n, R = in->R, s = st->s, k0 = J->k0;
     const size_t size = gvi__unknowns(st, k0);
-    const gvi_real h = x->sized.h, *phi = x->table.phi + point, *Phi = x->table.Phi + point;
+    const gvi_real h = in->sized.h, *phi = in->table.phi + point, *Phi = in->table.Phi + point;
     if (f <= 0 && f >= 0 && p <= 0 && p >= 0) return;
     for (int k = k0; k < s; ++k) {
         const gvi_real W = (k == 0 ? 1 : 0) - Phi[k*R];
         const gvi_real a = (gvi_real)(2*k + 1)
-                           * (x->table.b[point]*phi[k*R]*p - x->sized.hb[point]*W*f);
+                           * (in->table.b[point]*phi[k*R]*p - in->sized.hb[point]*W*f);
         const size_t row = (size_t)((k - k0)*n + i);
         gvi_real *square = J->square + row*size + j,
                  *ends = J->ends ? J->ends + row*2*(size_t)n + j : NULL;
@@ -5736,40 +5758,40 @@ static void gvi__add_derivative(const gvi_stepper *st, const gvi__matrix *J, int
 }
 
 // the bits of the effects that are on and bring a Hessian, or none
-static unsigned gvi__with_hessian(const struct gvi__private *x, int with)
+static unsigned gvi__with_hessian(const struct gvi__private *in, int with)
 {
     unsigned bits = 0;
-    for (int e = 0; e < x->desc.effect_count; ++e)
-        if ((x->desc.effects[e].hessian != NULL) == with) bits |= 1u << e;
-    return bits & ~x->off;
+    for (int e = 0; e < in->desc.effect_count; ++e)
+        if ((in->desc.effects[e].hessian != NULL) == with) bits |= 1u << e;
+    return bits & ~in->off;
 }
 
 // derivatives of the constant mass, and of the effects that bring their Hessians
 static gvi_status gvi__jacobian_exact(gvi_stepper *st, const gvi__matrix *J)
 {
-    struct gvi__private *x = &st->x;
-    const int n = st->n, R = x->R;
+    struct gvi__private *in = &st->in;
+    const int n = st->n, R = in->R;
     const size_t nn = (size_t)n*(size_t)n;
-    gvi_real *fq = x->newton.hessian, *fv = fq + nn, *pv = fv + nn, *q = x->point, *v = q + n;
+    gvi_real *fq = in->newton.hessian, *fv = fq + nn, *pv = fv + nn, *q = in->point, *v = q + n;
     for (int k = 0; k < st->r; ++k) {
-        gvi__gather(n, R, x->work.Q + k, q);
-        gvi__gather(n, R, x->work.V + k, v);
-        if (gvi__mass_is_constant(x))
+        gvi__gather(n, R, in->work.Q + k, q);
+        gvi__gather(n, R, in->work.V + k, v);
+        if (gvi__mass_is_constant(in))
             for (int i = 0; i < n; ++i) {
-                if (x->desc.mass.kind != GVI_MASS_DENSE) {
-                    gvi__add_derivative(st, J, i, i, k, 0, x->mass.matrix[i], 1);
+                if (in->desc.mass.kind != GVI_MASS_DENSE) {
+                    gvi__add_derivative(st, J, i, i, k, 0, in->mass.matrix[i], 1);
                     continue;
                 }
                 for (int j = 0; j < n; ++j)
-                    gvi__add_derivative(st, J, i, j, k, 0, x->mass.matrix[gvi__lower(n, i, j)], 1);
+                    gvi__add_derivative(st, J, i, j, k, 0, in->mass.matrix[gvi__lower(n, i, j)], 1);
             }
-        for (int e = 0; e < x->desc.effect_count; ++e) {
-            const gvi_effect *effect = x->desc.effects + e;
-            if ((x->off >> e & 1u) || !effect->hessian) continue;
+        for (int e = 0; e < in->desc.effect_count; ++e) {
+            const gvi_effect *effect = in->desc.effects + e;
+            if ((in->off >> e & 1u) || !effect->hessian) continue;
             const int reads_v = effect->kind != GVI_POTENTIAL,
                       term = effect->kind == GVI_LAGRANGIAN;
             gvi__zero(3*nn, fq);
-            if (effect->hessian(x->t[k], q, reads_v ? v : NULL, fq, reads_v ? fv : NULL,
+            if (effect->hessian(in->t[k], q, reads_v ? v : NULL, fq, reads_v ? fv : NULL,
                                 term ? pv : NULL, effect->user))
                 return gvi__report(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, k);
             for (int i = 0; i < n; ++i)
@@ -5785,10 +5807,10 @@ static gvi_status gvi__jacobian_exact(gvi_stepper *st, const gvi__matrix *J)
 // F and P of what has no Hessian, one behind the other
 static gvi_status gvi__evaluate_plain(gvi_stepper *st, gvi_real *F)
 {
-    struct gvi__private *x = &st->x;
-    gvi_points y = gvi__points_at(st, st->r, x->R, x->t, x->work.Q, F, F + st->n*x->R);
-    y.v = x->work.V;
-    return gvi__evaluate(st, &y, ~gvi__with_hessian(x, 0), !gvi__mass_is_constant(x));
+    struct gvi__private *in = &st->in;
+    gvi_points at = gvi__points_at(st, st->r, in->R, in->t, in->work.Q, F, F + st->n*in->R);
+    at.v = in->work.V;
+    return gvi__evaluate(st, &at, ~gvi__with_hessian(in, 0), !gvi__mass_is_constant(in));
 }
 
 /* What coordinate i moves in a step: h v, or eps^(1/4) of its position where that is more, or where
@@ -5796,13 +5818,13 @@ static gvi_status gvi__evaluate_plain(gvi_stepper *st, gvi_real *F)
    near a pole takes positions too far.)                                                       */
 static gvi_real gvi__reach(const gvi_stepper *st, int i, int by_v)
 {
-    const struct gvi__private *x = &st->x;
-    const gvi_real h = GVI_ABS(x->sized.h), small = by_v ? 0 : GVI_SQRT(GVI_SQRT(GVI__EPS)),
-                   hw = h*x->watch.scale[i];
+    const struct gvi__private *in = &st->in;
+    const gvi_real h = GVI_ABS(in->sized.h), small = by_v ? 0 : GVI_SQRT(GVI_SQRT(GVI__EPS)),
+                   hw = h*in->watch.scale[i];
     gvi_real most = 0, push = 0;
-    for (int k = i*x->R; k < i*x->R + st->r; ++k) {
-        const gvi_real lengths[] = { h*GVI_ABS(x->work.V[k]), small*GVI_ABS(x->work.Q[k]) },
-                       f = hw*GVI_ABS(x->work.F[k])*hw;
+    for (int k = i*in->R; k < i*in->R + st->r; ++k) {
+        const gvi_real lengths[] = { h*GVI_ABS(in->work.V[k]), small*GVI_ABS(in->work.Q[k]) },
+                       f = hw*GVI_ABS(in->work.F[k])*hw;
         for (int l = 0; l < 2; ++l) if (lengths[l] > most) most = lengths[l];
         if (f > push && gvi__finite(f)) push = f;
     }
@@ -5813,13 +5835,13 @@ static gvi_real gvi__reach(const gvi_stepper *st, int i, int by_v)
    each times sqrt(M_ii); or for its velocity, that over h.                                    */
 static gvi_real gvi__difference(const gvi_stepper *st, int j, int by_v)
 {
-    const struct gvi__private *x = &st->x;
-    const gvi_real root = GVI_SQRT(GVI__EPS), none = GVI__MIN/GVI__EPS, h = GVI_ABS(x->sized.h);
+    const struct gvi__private *in = &st->in;
+    const gvi_real root = GVI_SQRT(GVI__EPS), none = GVI__MIN/GVI__EPS, h = GVI_ABS(in->sized.h);
     gvi_real step = root*gvi__reach(st, j, by_v);
     if (!(step > none))
         for (int i = 0; i < st->n; ++i) {
             const gvi_real other = root*gvi__reach(st, i, by_v)
-                                   * (x->watch.scale[j]/x->watch.scale[i]);
+                                   * (in->watch.scale[j]/in->watch.scale[i]);
             if (other > step && gvi__finite(other)) step = other;
         }
     if (!(step > none)) step = root*gvi__smaller(h, 1);         // all of it is at rest at 0
@@ -5830,19 +5852,19 @@ static gvi_real gvi__difference(const gvi_stepper *st, int j, int by_v)
 // derivatives of what has no Hessian, by forward differences at all points at once
 static gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matrix *J)
 {
-    struct gvi__private *x = &st->x;
-    const int n = st->n, R = x->R, nR = n*R, varies = !gvi__mass_is_constant(x);
-    const unsigned plain = gvi__with_hessian(x, 0);
-    const int reads_v = varies || (plain & ~gvi__of_kind(x, GVI_POTENTIAL)) != 0;
-    gvi_real *F = x->newton.moved, *P = F + nR, *base_F = P + nR, *base_P = base_F + nR;
+    struct gvi__private *in = &st->in;
+    const int n = st->n, R = in->R, nR = n*R, varies = !gvi__mass_is_constant(in);
+    const unsigned plain = gvi__with_hessian(in, 0);
+    const int reads_v = varies || (plain & ~gvi__of_kind(in, GVI_POTENTIAL)) != 0;
+    gvi_real *F = in->newton.moved, *P = F + nR, *base_F = P + nR, *base_P = base_F + nR;
     if (!varies && !plain) return GVI_OK;
     gvi_status status = gvi__evaluate_plain(st, base_F);
     if (status != GVI_OK) return status;
     // of each coordinate q, then v
     for (int k = 0; k < 2*n; k += 2 - reads_v) {
         const int j = k/2, by_v = k % 2;
-        gvi_real *row = x->work.Q + j*R, *was = x->row;
-        if (by_v) row = x->work.V + j*R;
+        gvi_real *row = in->work.Q + j*R, *was = in->row;
+        if (by_v) row = in->work.V + j*R;
         const gvi_real d = gvi__difference(st, j, by_v);
         gvi__copy((size_t)R, row, was);
         for (int m = 0; m < st->r; ++m) row[m] += d;
@@ -5861,28 +5883,28 @@ static gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matrix *
 // multipliers, constraints, and by differences of G the forces G' lambda, which move with D
 GVI__CALLED gvi_status gvi__jacobian_constraints(gvi_stepper *st, const gvi__matrix *J)
 {
-    struct gvi__private *x = &st->x;
-    const int n = st->n, m = x->con.m, s = st->s, R = x->R, C = x->con.C, moves = s > 1 ? n : 0;
-    const gvi_real *const Phi = x->con.Phi - 1, *const t = x->con.t;      // at D_e: [e]
-    const gvi_real h = x->sized.h;
-    gvi_real *force = x->con.force, *base = x->con.free, *at = x->con.at, *was = x->row;
+    struct gvi__private *in = &st->in;
+    const int n = st->n, m = in->con.m, s = st->s, R = in->R, C = in->con.C, moves = s > 1 ? n : 0;
+    const gvi_real *const Phi = in->con.Phi - 1, *const t = in->con.t;      // at D_e: [e]
+    const gvi_real h = in->sized.h;
+    gvi_real *force = in->con.force, *base = in->con.free, *at = in->con.at, *was = in->row;
     const size_t size = gvi__unknowns(st, 0), sn = (size_t)(s*n);
     gvi_status status = GVI_OK;
     for (int l = 0, ends; l < s*m; ++l) {
         const int a = l % m, e = l/m;
         const gvi_real *run = gvi__runs(st, a, &ends);
         const size_t z = sn + (size_t)l;
-        if (x->con.drops[a] > 0) {                // its multiplier stays 0
+        if (in->con.drops[a] > 0) {                // its multiplier stays 0
             J->square[z*(size + 1)] = 1;
             continue;
         }
         for (int f = 0; f < ends; f += 2)
             for (int i = (int)run[f]; i < (int)run[f + 1]; ++i)
                 for (int k = 0; k < s; ++k) {
-                    const gvi_real *G = x->con.G + (a*n + i)*C + e,
+                    const gvi_real *G = in->con.G + (a*n + i)*C + e,
                         W = (k == 0 ? 1 : 0) - (e > 0 ? Phi[k*R + e] : 0);
                     const size_t y = (size_t)(k*n + i);
-                    J->square[y*size + z] = (gvi_real)(2*k + 1)*W*(x->con.hw[e]*G[0]);
+                    J->square[y*size + z] = (gvi_real)(2*k + 1)*W*(in->con.hw[e]*G[0]);
                     J->square[z*size + y] = -h*Phi[k*R + e + 1]*G[1];
                 }
     }
@@ -5891,11 +5913,11 @@ GVI__CALLED gvi_status gvi__jacobian_constraints(gvi_stepper *st, const gvi__mat
         gvi_real *row = at + j*C, d = gvi__difference(st, j, 0);
         gvi__copy((size_t)C, row, was);
         for (int e = 1; e < s; ++e) row[e] += d;
-        status = gvi__evaluate_constraints(st, C, s + 1, t, at, x->con.G);
+        status = gvi__evaluate_constraints(st, C, s + 1, t, at, in->con.G);
         gvi__constraint_forces(st);
         for (int e = 1; e < s; ++e)
             for (int i = 0; i < n; ++i) {
-                d = x->con.hw[e]*(force[i*R + e] - base[i*R + e])/(row[e] - was[e]);
+                d = in->con.hw[e]*(force[i*R + e] - base[i*R + e])/(row[e] - was[e]);
                 for (int kl = 0; kl < s*s; ++kl) {
                     const int k = kl/s, l = kl % s;
                     const gvi_real W = (k == 0 ? 1 : 0) - Phi[k*R + e];
@@ -5905,7 +5927,7 @@ GVI__CALLED gvi_status gvi__jacobian_constraints(gvi_stepper *st, const gvi__mat
             }
         gvi__copy((size_t)C, was, row);
     }
-    if (status == GVI_OK) status = gvi__evaluate_constraints(st, C, s + 1, t, at, x->con.G);
+    if (status == GVI_OK) status = gvi__evaluate_constraints(st, C, s + 1, t, at, in->con.G);
     gvi__constraint_forces(st);
     return status;
 }
@@ -5914,21 +5936,21 @@ GVI__CALLED gvi_status gvi__jacobian_constraints(gvi_stepper *st, const gvi__mat
    solvable all the same, and its solution worthless.                                         */
 static gvi_status gvi__check_regular(gvi_stepper *st)
 {
-    struct gvi__private *x = &st->x;
+    struct gvi__private *in = &st->in;
     const int n = st->n;
-    gvi_real *q = x->newton.column + 2*n, *v = q + n, *W = x->newton.hessian;
-    if (gvi__mass_is_constant(x) && !gvi__has(x, GVI__HAS_LAGRANGIAN)) return GVI_OK;
-    gvi__gather(n, x->R, x->work.Q, q);
-    gvi__gather(n, x->R, x->work.V, v);
-    gvi_points y = gvi__one_point(st, x->t, q);
+    gvi_real *q = in->newton.column + 2*n, *v = q + n, *W = in->newton.hessian;
+    if (gvi__mass_is_constant(in) && !gvi__has(in, GVI__HAS_LAGRANGIAN)) return GVI_OK;
+    gvi__gather(n, in->R, in->work.Q, q);
+    gvi__gather(n, in->R, in->work.V, v);
+    gvi_points y = gvi__one_point(st, in->t, q);
     y.v = v;
-    if (!gvi__has(x, GVI__HAS_LAGRANGIAN)) return gvi__factor_mass(st, &y);
+    if (!gvi__has(in, GVI__HAS_LAGRANGIAN)) return gvi__factor_mass(st, &y);
     gvi_status status = gvi__evaluate(st, &y, 0, 1);
     if (status == GVI_OK) status = gvi__velocity_hessian(st, &y, v, W);
     if (status != GVI_OK) return status;
     for (int i = 0; i < n; ++i)                                      // p/v does not tell the mass
-        if (gvi__mass_is(&st->x, GVI_MASS_NONE) && !gvi__nonzero(v[i]) && gvi__nonzero(W[i*n + i]))
-            st->x.watch.scale[i] = 1/GVI_SQRT(GVI_ABS(W[i*n + i]));
+        if (gvi__mass_is(&st->in, GVI_MASS_NONE) && !gvi__nonzero(v[i]) && gvi__nonzero(W[i*n + i]))
+            st->in.watch.scale[i] = 1/GVI_SQRT(GVI_ABS(W[i*n + i]));
     int at;
     status = gvi__lu_factor(n, W, W + n*n, &at);
     return status == GVI_E_SINGULAR ? gvi__report(st, status, GVI_FAULT_MASS, at, GVI_FAULT_NONE)
@@ -5955,7 +5977,7 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J)
         gvi_real *a = J->square + (size_t)row*(size_t)size,
                  *ends = J->ends + (size_t)row*2*(size_t)n, big = 0;
         for (int j = 0; j < size; ++j) {
-            a[j] *= st->x.watch.scale[j % n];
+            a[j] *= st->in.watch.scale[j % n];
             big = gvi__larger(GVI_ABS(a[j]), big);
         }
         if (!(big > 0)) continue;
@@ -5965,7 +5987,8 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J)
     status = gvi__lu_factor(size, J->square, J->pivot, &at);
     gvi__count(&st->counters.factorizations, 1);
     if (status == GVI_OK) return GVI_OK;
-    if (at >= modes) return gvi__report_row(st, status, (at - modes) % st->x.con.m, GVI_FAULT_NONE);
+    if (at >= modes)
+        return gvi__report_row(st, status, (at - modes) % st->in.con.m, GVI_FAULT_NONE);
     return gvi__report(st, status, GVI_FAULT_NONE, at < 0 ? GVI_FAULT_NONE : at % n,
                        GVI_FAULT_NONE);
 }
@@ -5973,35 +5996,35 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J)
 // y := modes of V as the predictor continues it; rows get that V
 static void gvi__newton_modes(gvi_stepper *st, const gvi_real *V, gvi_real *rows)
 {
-    struct gvi__private *x = &st->x;
-    const int n = st->n, s = st->s, R = x->R;
-    gvi__stage z;
-    gvi__set_stage(st, &z, rows, NULL, NULL, NULL);
-    gvi__set_predictor(st, &z, V, NULL);
-    x->kernel(st, &z, 0);
+    struct gvi__private *in = &st->in;
+    const int n = st->n, s = st->s, R = in->R;
+    gvi__stage stage;
+    gvi__set_stage(st, &stage, rows, NULL, NULL, NULL);
+    gvi__set_predictor(st, &stage, V, NULL);
+    in->kernel(st, &stage, 0);
     for (int i = 0; i < n; ++i) {
         for (int k = 0; k < s; ++k)
-            x->row[k] = gvi__dot3(st->r, x->table.phi + k*R, x->table.b, rows + i*R);
-        gvi__over_gamma(st, x->row);
-        for (int k = 0; k < s; ++k) x->newton.y[k*n + i] = x->row[k];
+            in->row[k] = gvi__dot3(st->r, in->table.phi + k*R, in->table.b, rows + i*R);
+        gvi__over_gamma(st, in->row);
+        for (int k = 0; k < s; ++k) in->newton.y[k*n + i] = in->row[k];
     }
 }
 
 // y := modes of the extrapolated V, and multipliers; or constant velocity
 static void gvi__newton_guess(gvi_stepper *st, int extrapolate)
 {
-    struct gvi__private *x = &st->x;
-    gvi_real *y = x->newton.y;
+    struct gvi__private *in = &st->in;
+    gvi_real *y = in->newton.y;
     gvi__zero(gvi__unknowns(st, 0), y);
     if (!extrapolate) {
         gvi__velocity_guess(st, y);
         return;
     }
-    gvi__newton_modes(st, x->last.V, x->work.V);
+    gvi__newton_modes(st, in->last.V, in->work.V);
     if (!gvi__constrained(st)) return;
     gvi__predict_constraints(st, 1);
-    for (int k = 0, m = x->con.m; k < st->s*m; ++k)
-        y[st->s*st->n + k] = x->con.force[(st->n + k % m)*x->R + k/m];
+    for (int k = 0, m = in->con.m; k < st->s*m; ++k)
+        y[st->s*st->n + k] = in->con.force[(st->n + k % m)*in->R + k/m];
 }
 
 /* y += dy from row k0 on; returns the sum of the coordinates' relative changes, to p->each as well;
@@ -6011,24 +6034,24 @@ static void gvi__newton_guess(gvi_stepper *st, int extrapolate)
 static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, const gvi__matrix *J,
                                    gvi__descent *p)
 {
-    struct gvi__private *x = &st->x;
+    struct gvi__private *in = &st->in;
     const int n = st->n, solved = p->work <= 16*GVI__EPS,
               sure = p->holds || p->rho < (gvi_real)0.25;
-    const gvi_real h = GVI_ABS(x->sized.h), none = GVI__MIN/GVI__EPS;
+    const gvi_real h = GVI_ABS(in->sized.h), none = GVI__MIN/GVI__EPS;
     gvi_real sum = 0, largest = 0, noise = 0, all = 0, length = 0;
     p->work = 0;
     for (int i = 0; i < n; ++i) {
         gvi_real change = 0, size = 0, miss = 0;
-        const gvi_real q = GVI_ABS(from->q[i]), unit = x->watch.scale[i];
+        const gvi_real q = GVI_ABS(from->q[i]), unit = in->watch.scale[i];
         for (int k = 0; k < st->s; ++k) {
-            gvi_real *y = x->newton.y + k*n + i;
+            gvi_real *y = in->newton.y + k*n + i;
             const int at = (k - J->k0)*n + i;
-            x->newton.last[k*n + i] = *y;
+            in->newton.last[k*n + i] = *y;
             if (k >= J->k0) {
-                *y += x->newton.dy[at];
-                change += GVI_ABS(x->newton.dy[at]);
-                miss += GVI_ABS(x->newton.residual[at]);
-                p->work += GVI_ABS(x->newton.dy[at]*x->newton.residual[at]);
+                *y += in->newton.dy[at];
+                change += GVI_ABS(in->newton.dy[at]);
+                miss += GVI_ABS(in->newton.residual[at]);
+                p->work += GVI_ABS(in->newton.dy[at]*in->newton.residual[at]);
             }
             size += GVI_ABS(*y);
         }
@@ -6042,8 +6065,8 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
         if (!(h*change <= 4*GVI__EPS*q) && h*moved > noise) noise = h*moved;
     }
     for (size_t k = (size_t)(st->s*n); k < gvi__unknowns(st, 0); ++k) {   // multipliers
-        x->newton.last[k] = x->newton.y[k];
-        x->newton.y[k] += x->newton.dy[k];
+        in->newton.last[k] = in->newton.y[k];
+        in->newton.y[k] += in->newton.dy[k];
     }
     // see gvi__noise
     const gvi_real place = p->stagnant > 1 ? 32*GVI__EPS*largest : 0;
@@ -6070,7 +6093,7 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__des
     gvi_real ratio = 1, other = 1;
     if (before > 0) ratio = change/gvi__smaller(before, all);
     if (p->earlier > 0) other = before/gvi__smaller(p->earlier, all);
-    const gvi_real wanted = st->x.desc.tolerance, noise = 64*p->grain*(gvi_real)size;
+    const gvi_real wanted = st->in.desc.tolerance, noise = 64*p->grain*(gvi_real)size;
     if (!gvi__finite(change)) return GVI__NOT_FINITE;
     if (p->earlier > 0 && change > 1000*GVI__EPS) {
         const gvi_real contraction = GVI_SQRT(change/p->earlier);
@@ -6084,8 +6107,8 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__des
         p->rho = change/p->least;
     if (change < p->least) p->least = change;
     const int felt = !gvi__constrained(st) || p->work >= 0;   // not the rounding of g
-    if (before > 0 && change > noise && felt && change > st->x.newton.bend*before)
-        st->x.newton.bend = change/before;
+    if (before > 0 && change > noise && felt && change > st->in.newton.bend*before)
+        st->in.newton.bend = change/before;
     const int fresh = p->fresh & 1, proven = (fresh && p->holds) || p->rho < quarter;
     const int small = change <= noise || (fresh && change <= GVI_SQRT(GVI__EPS));
     if (stagnant && !(p->left < GVI__MAX) && (p->work < 0 || (proven && small))) p->left = before;
@@ -6116,7 +6139,7 @@ static int gvi__newton_stays(gvi_stepper *st, const gvi__matrix *J, gvi__descent
     const int rests = p->left < GVI__MAX, fresh = p->fresh & 1;
     if (J->halves && p->halves >= 0 && p->halves <= HALVES && !(norm < p->norm) && !rests
         && p->before > GVI_SQRT(GVI__EPS)) {
-        gvi_real *y = st->x.newton.y, *last = st->x.newton.last;
+        gvi_real *y = st->in.newton.y, *last = st->in.newton.last;
         const gvi_real part = !fresh               ? 0
                               : p->halves < HALVES ? (gvi_real)0.5
                                                    : (gvi_real)(1 << HALVES);
@@ -6140,37 +6163,37 @@ static int gvi__newton_stays(gvi_stepper *st, const gvi__matrix *J, gvi__descent
 /* Solves rows k0..s-1 of (1) from the y at hand and leaves F, P, Q, V at the solution.       */
 static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, const gvi__matrix *J)
 {
-    struct gvi__private *x = &st->x;
+    struct gvi__private *in = &st->in;
     // that of steps, not of queries
-    const int size = (int)gvi__unknowns(st, J->k0), kept = J->pivot == x->newton.pivot;
+    const int size = (int)gvi__unknowns(st, J->k0), kept = J->pivot == in->newton.pivot;
     gvi__descent p = {
         0, 0, GVI__MAX, (gvi_real)0.25, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0, -1, 0
     };
-    p.have = kept && !gvi__nonzero(x->newton.h - x->sized.h);
-    x->newton.bend = 0;
-    for (int k = 0, made = 0, verdict = GVI__GO_ON; k <= x->desc.max_iterations; ++k) {
+    p.have = kept && !gvi__nonzero(in->newton.h - in->sized.h);
+    in->newton.bend = 0;
+    for (int k = 0, made = 0, verdict = GVI__GO_ON; k <= in->desc.max_iterations; ++k) {
         gvi_status status = gvi__newton_values(st, from);
         // one more evaluation, then done
         if (status != GVI_OK || verdict == GVI__DONE) return status;
         if (!gvi__newton_stays(st, J, &p, gvi__residual(st, from, J->k0, &p))) continue;
         p.fresh = (p.fresh & 1) << 1 | !p.have;
         if (!p.have) {
-            if (++made > x->desc.max_iterations/4 + 2) break;
+            if (++made > in->desc.max_iterations/4 + 2) break;
             status = gvi__jacobian(st, J);
             if (status != GVI_OK) return status;
             p.have = 1;
             // by the masses that are known now
-            if (k == 0 && gvi__mass_is(x, GVI_MASS_NONE))
+            if (k == 0 && gvi__mass_is(in, GVI_MASS_NONE))
                 p.norm = gvi__residual(st, from, J->k0, &p);
-            if (kept) x->newton.h = x->sized.h;
+            if (kept) in->newton.h = in->sized.h;
         }
         // a matrix of differences alone is right
-        if (made) p.holds |= !gvi__with_hessian(x, 1);
-        gvi_lu_solve(size, J->square, J->pivot, x->newton.dy);
+        if (made) p.holds |= !gvi__with_hessian(in, 1);
+        gvi_lu_solve(size, J->square, J->pivot, in->newton.dy);
         gvi__count(&st->counters.newton_iterations, 1);
         verdict = gvi__newton_converged(st, J, &p, gvi__newton_update(st, from, J, &p));
         if (verdict == GVI__NOT_FINITE)
-            return gvi__report_status(st, st->x.diagnose ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE);
+            return gvi__report_status(st, st->in.diagnose ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE);
         p.halves = 0;
     }
     return gvi__report_status(st, GVI_E_CONVERGENCE);
@@ -6189,21 +6212,21 @@ static int gvi__orientation(const gvi__matrix *J, size_t size)
 // y := modes of the first `part` of its curve, and `slope` times what that leaves out
 static void gvi__newton_shorten(gvi_stepper *st, gvi_real part, const gvi_real *slope)
 {
-    struct gvi__private *x = &st->x;
-    const int n = st->n, s = st->s, R = x->R;
+    struct gvi__private *in = &st->in;
+    const int n = st->n, s = st->s, R = in->R;
     for (int i = 0; i < n; ++i) {
-        gvi__zero((size_t)s, x->row);
+        gvi__zero((size_t)s, in->row);
         for (int j = 0; j < st->r; ++j) {
             gvi_real V = 0, P = 1, before = 1;
             for (int k = 0; k < s; ++k) {
-                V += x->newton.y[k*n + i]*P;
-                gvi__legendre(k, 1 - 2*part*x->table.c[j], &P, &before);
+                V += in->newton.y[k*n + i]*P;
+                gvi__legendre(k, 1 - 2*part*in->table.c[j], &P, &before);
             }
-            for (int k = 0; k < s; ++k) x->row[k] += x->table.phi[k*R + j]*(x->table.b[j]*V);
+            for (int k = 0; k < s; ++k) in->row[k] += in->table.phi[k*R + j]*(in->table.b[j]*V);
         }
-        gvi__over_gamma(st, x->row);
+        gvi__over_gamma(st, in->row);
         for (int k = 0; k < s; ++k)
-            x->newton.y[k*n + i] = x->row[k] + (1 - part)*slope[k*n + i];
+            in->newton.y[k*n + i] = in->row[k] + (1 - part)*slope[k*n + i];
     }
 }
 
@@ -6211,13 +6234,13 @@ static void gvi__newton_shorten(gvi_stepper *st, gvi_real part, const gvi_real *
    and at h, but no less than 1/64 of the largest, each times sqrt(M_ii).                     */
 static gvi_real gvi__newton_apart(const gvi_stepper *st, const gvi_real *other)
 {
-    const struct gvi__private *x = &st->x;
-    gvi_real apart = 0, most = 0, *moved = x->result, *size = moved + st->n;
+    const struct gvi__private *in = &st->in;
+    gvi_real apart = 0, most = 0, *moved = in->result, *size = moved + st->n;
     for (int i = 0; i < st->n; ++i) {
         moved[i] = size[i] = 0;
         for (int k = i; k < st->s*st->n; k += st->n) {
-            moved[i] += GVI_ABS(x->newton.y[k] - other[k])/x->watch.scale[i];
-            size[i] += (GVI_ABS(x->newton.found[k]) + GVI_ABS(other[k]))/x->watch.scale[i];
+            moved[i] += GVI_ABS(in->newton.y[k] - other[k])/in->watch.scale[i];
+            size[i] += (GVI_ABS(in->newton.found[k]) + GVI_ABS(other[k]))/in->watch.scale[i];
         }
         most = gvi__larger(size[i], most);
     }
@@ -6236,47 +6259,48 @@ static gvi_real gvi__newton_apart(const gvi_stepper *st, const gvi_real *other)
 static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from,
                                         const gvi__matrix *J)
 {
-    struct gvi__newton *x = &st->x.newton;
+    struct gvi__newton *newton = &st->in.newton;
     const size_t all = gvi__unknowns(st, 0), modes = (size_t)(st->s*st->n);
-    const gvi_real h = st->x.sized.h, close = (gvi_real)0.03125;
+    const gvi_real h = st->in.sized.h, close = (gvi_real)0.03125;
     const unsigned count = (unsigned)st->counters.newton_iterations,
-                   enough = 32*(unsigned)st->x.desc.max_iterations;
+                   enough = 32*(unsigned)st->in.desc.max_iterations;
     const int sign = gvi__orientation(J, all);
     // that of queries
-    const gvi__matrix K = { x->J + all*all, x->pivot + all + 1, NULL, 0, 0, 0 };
+    const gvi__matrix K = { newton->J + all*all, newton->pivot + all + 1, NULL, 0, 0, 0 };
     gvi_real part = 1, factor = (gvi_real)0.5;
     int right = -1;                                                  // not known
-    gvi__copy(all, x->y, x->found);
-    gvi__copy(all, x->y, x->branch);
-    gvi__zero(all, x->slope);
+    gvi__copy(all, newton->y, newton->found);
+    gvi__copy(all, newton->y, newton->branch);
+    gvi__zero(all, newton->slope);
     while (right < 0) {
         if ((unsigned)st->counters.newton_iterations - count > enough) right = 0;
-        gvi__copy(all, x->branch, x->y);
-        gvi__newton_shorten(st, factor, x->slope);
-        gvi__copy(all, x->y, x->guess);
+        gvi__copy(all, newton->branch, newton->y);
+        gvi__newton_shorten(st, factor, newton->slope);
+        gvi__copy(all, newton->y, newton->guess);
         gvi__free_motion(st, from, h*(part*factor));
         const int found =
             gvi__newton_solve(st, from, &K) == GVI_OK && gvi__orientation(&K, all) == sign;
-        const gvi_real apart = found ? gvi__newton_apart(st, x->guess) : 1;
+        const gvi_real apart = found ? gvi__newton_apart(st, newton->guess) : 1;
         if (!(apart <= close)) {
             factor = GVI_SQRT(factor);
             if (factor > (gvi_real)0.9998) right = 0;
             continue;
         }
         part *= factor;
-        gvi__copy(all, x->y, x->branch);
-        for (size_t k = 0; k < modes; ++k) x->slope[k] += (x->y[k] - x->guess[k])/(1 - factor);
+        gvi__copy(all, newton->y, newton->branch);
+        for (size_t k = 0; k < modes; ++k)
+            newton->slope[k] += (newton->y[k] - newton->guess[k])/(1 - factor);
         if (factor > (gvi_real)0.5) {
             if (apart < close/4) factor *= factor;
             continue;
         }
         gvi__newton_guess(st, 0);
         const int other = gvi__newton_solve(st, from, &K) == GVI_OK;
-        if ((other && x->bend <= close) || part < (gvi_real)(1/64.0))
-            right = !other || gvi__newton_apart(st, x->branch) <= close;
+        if ((other && newton->bend <= close) || part < (gvi_real)(1/64.0))
+            right = !other || gvi__newton_apart(st, newton->branch) <= close;
     }
     gvi__free_motion(st, from, h);
-    gvi__copy(all, x->found, x->y);
+    gvi__copy(all, newton->found, newton->y);
     return right ? gvi__newton_values(st, from) : gvi__report_status(st, GVI_E_CONVERGENCE);
 }
 
@@ -6286,24 +6310,24 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
    and has another direction on each branch: the step must not choose.                        */
 GVI__CALLED gvi_status gvi__newton_crossing(gvi_stepper *st)
 {
-    struct gvi__private *x = &st->x;
-    const int n = st->n, m = x->con.m, C = x->con.C;
-    gvi_real *c = x->con.y, *now = x->result, *next = now + n;
-    const gvi_points y = gvi__points_at(st, st->r, x->R, x->t, x->work.Q, NULL, NULL);
+    struct gvi__private *in = &st->in;
+    const int n = st->n, m = in->con.m, C = in->con.C;
+    gvi_real *c = in->con.y, *now = in->result, *next = now + n;
+    const gvi_points at = gvi__points_at(st, st->r, in->R, in->t, in->work.Q, NULL, NULL);
     gvi_status status = GVI_OK;
-    if (gvi__mass_is(x, GVI_MASS_POSITION)) status = gvi__factor_mass(st, &y);
+    if (gvi__mass_is(in, GVI_MASS_POSITION)) status = gvi__factor_mass(st, &at);
     if (status == GVI_OK)
-        status = gvi__factor_constraints(st, C, st->s, x->con.G, x->con.A, x->con.drops);
+        status = gvi__factor_constraints(st, C, st->s, in->con.G, in->con.A, in->con.drops);
     if (status != GVI_OK) return status;
     for (int ej = 0, ends; ej < st->s*m; ++ej) {
         const int e = ej/m, j = ej % m;
-        const gvi_real *A = x->con.A + e;
+        const gvi_real *A = in->con.A + e;
         gvi_real taken = 0, all = 0;
         for (int l = 0; l < j; ++l) taken += A[(j*m + l)*C]*A[(l*m + j)*C];
         if (!(taken*A[(j*m + j)*C] > 15)) continue;
         gvi__zero(2*(size_t)n, now);
         for (int l = j; l >= 0; --l) {
-            const gvi_real *run = gvi__runs(st, l, &ends), *G = x->con.G + l*n*C + e;
+            const gvi_real *run = gvi__runs(st, l, &ends), *G = in->con.G + l*n*C + e;
             c[l] = (gvi_real)(l == j);
             for (int i = l + 1; i <= j; ++i) c[l] -= A[(i*m + l)*C]*c[i];
             for (int f = 0; f < ends; f += 2)
@@ -6325,40 +6349,40 @@ GVI__CALLED gvi_status gvi__newton_crossing(gvi_stepper *st)
    well from its start and the orientation is that of free motion; or else it is followed back. */
 static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int how, int query)
 {
-    struct gvi__private *x = &st->x;
+    struct gvi__private *in = &st->in;
     const size_t all = gvi__unknowns(st, 0);
-    gvi__matrix J = { x->newton.J + (query ? all*all : 0),
-                      x->newton.pivot + (query ? all + 1 : 0),
+    gvi__matrix J = { in->newton.J + (query ? all*all : 0),
+                      in->newton.pivot + (query ? all + 1 : 0),
                       NULL, 0, 0, how == GVI__HALVED };
     // few points see little of what is between
     const gvi_real far = (gvi_real)(st->s > 2 ? 0.25 : 0.015625);
-    const int old = !query && !gvi__nonzero(x->newton.h - x->sized.h);
-    gvi_real *v = x->result + 2*st->n;
+    const int old = !query && !gvi__nonzero(in->newton.h - in->sized.h);
+    gvi_real *v = in->result + 2*st->n;
     gvi_status status = GVI_OK;
     gvi__velocity_guess(st, v);
     if (gvi__constrained(st))                     // which rows depend on others at the start?
-        status = gvi__constraints_at(st, from->t, from->q, NULL, v, x->con.drops);
+        status = gvi__constraints_at(st, from->t, from->q, NULL, v, in->con.drops);
     if (status != GVI_OK) return status;
     gvi__newton_guess(st, how == GVI__EXTRAPOLATED);
     status = gvi__newton_solve(st, from, &J);
-    if (old && status == GVI_OK && x->newton.bend > far) {   // that may be the old matrix's fault
-        x->newton.h = 0;
+    if (old && status == GVI_OK && in->newton.bend > far) {   // that may be the old matrix's fault
+        in->newton.h = 0;
         gvi__newton_guess(st, how == GVI__EXTRAPOLATED);
         status = gvi__newton_solve(st, from, &J);
     }
     if (status == GVI_OK
-        && (J.halves || x->newton.bend > far || gvi__orientation(&J, all) < 0)) {
+        && (J.halves || in->newton.bend > far || gvi__orientation(&J, all) < 0)) {
         J.halves = 0;
         status = gvi__newton_connected(st, from, &J);
     }
     if (status == GVI_OK && gvi__constrained(st)) status = gvi__newton_crossing(st);
     if (status != GVI_OK) return status;
     // it made none to go on from
-    if (GVI__LAGRANGIAN && x->work.A) gvi__zero((size_t)(st->n*x->R), x->work.A);
+    if (GVI__LAGRANGIAN && in->work.A) gvi__zero((size_t)(st->n*in->R), in->work.A);
     for (int i = 0; i < st->n; ++i) {
-        const gvi__two q = gvi__two_prod(x->sized.h, x->newton.y[i]);
-        x->step.q[i] = q.hi;
-        x->step.q_low[i] = gvi__low(q.lo + from->q_low[i]);
+        const gvi__two q = gvi__two_prod(in->sized.h, in->newton.y[i]);
+        in->step.q[i] = q.hi;
+        in->step.q_low[i] = gvi__low(q.lo + from->q_low[i]);
     }
     gvi__momentum_increment(st, from);
     return GVI_OK;
@@ -6375,15 +6399,15 @@ GVI__COLD gvi_status gvi__clock_energy(gvi_stepper *st, gvi_real t, const gvi_re
     const gvi_real later = t + (gvi_real)0.739085133215160642;
     const gvi_status status = gvi__hamiltonian(st, t, q, p, v, E);
     if (status != GVI_OK) return status;
-    for (int e = 0; e < st->x.desc.effect_count; ++e) {
-        const gvi_kind kind = st->x.desc.effects[e].kind;
+    for (int e = 0; e < st->in.desc.effect_count; ++e) {
+        const gvi_kind kind = st->in.desc.effects[e].kind;
         gvi_real now = 0, then = 0;
-        gvi_points y = gvi__one_point(st, &t, q);
-        y.v = v;
-        if ((st->x.off >> e & 1u) || kind == GVI_FORCE || kind == GVI_CLOCK) continue;
-        gvi_status both = gvi__value(st, &y, e, &now);
-        y.t = &later;
-        if (both == GVI_OK) both = gvi__value(st, &y, e, &then);
+        gvi_points at = gvi__one_point(st, &t, q);
+        at.v = v;
+        if ((st->in.off >> e & 1u) || kind == GVI_FORCE || kind == GVI_CLOCK) continue;
+        gvi_status both = gvi__value(st, &at, e, &now);
+        at.t = &later;
+        if (both == GVI_OK) both = gvi__value(st, &at, e, &then);
         if (both == GVI_OK && gvi__nonzero(then - now))
             return gvi__report_effect(st, GVI_E_FORMULATION, e);
     }
@@ -6393,37 +6417,37 @@ GVI__COLD gvi_status gvi__clock_energy(gvi_stepper *st, gvi_real t, const gvi_re
 // from q, p in x->step and a velocity v, all of them seen to be good
 GVI__COLD gvi_status gvi__begin_at(gvi_stepper *st, gvi_real t, const gvi_real *v)
 {
-    struct gvi__private *x = &st->x;
+    struct gvi__private *in = &st->in;
     const size_t n = (size_t)st->n;
-    if (!x->started && gvi__probe(st, t, x->step.q, v) != GVI_OK)
+    if (!in->started && gvi__probe(st, t, in->step.q, v) != GVI_OK)
         return st->status;
     if (gvi__constrained(st)) {
         gvi__forget_runs(st);
-        const gvi_status status = gvi__project_start(st, t, x->step.q, x->step.p);
+        const gvi_status status = gvi__project_start(st, t, in->step.q, in->step.p);
         if (status != GVI_OK) return status;
-        v = x->result + 2*n;
+        v = in->result + 2*n;
     }
     if (gvi__clock_is_on(st)) {                   // its energy
-        gvi_real E, *V = x->result;
+        gvi_real E, *V = in->result;
         gvi__copy(n, v, V);
-        const gvi_status status = gvi__clock_energy(st, t, x->step.q, x->step.p, V, &E);
+        const gvi_status status = gvi__clock_energy(st, t, in->step.q, in->step.p, V, &E);
         if (status != GVI_OK) return status;
-        x->time.H = E;
-        x->time.H_low = 0;
+        in->time.H = E;
+        in->time.H_low = 0;
     }
-    gvi__copy(n, v, x->start);
-    gvi__copy(n, x->step.q, x->state.q);
-    gvi__copy(n, x->step.p, x->state.p);
-    gvi__zero(n, x->state.q_low);
-    gvi__zero(n, x->state.p_low);
+    gvi__copy(n, v, in->start);
+    gvi__copy(n, in->step.q, in->state.q);
+    gvi__copy(n, in->step.p, in->state.p);
+    gvi__zero(n, in->state.q_low);
+    gvi__zero(n, in->state.p_low);
     st->t = st->t0 = t;
     st->h = st->t_low = st->resolution = st->next = 0;
-    x->reach = -GVI__MAX;
-    x->started = 1;
-    x->stepped = x->kept = x->con.kept = x->has_force = x->has_velocity = x->newton.left = 0;
-    x->newton.h = x->sized.ratio = 0;
-    x->watch.ratio = x->watch.found = 1;
-    st->formulation = x->chosen;
+    in->reach = -GVI__MAX;
+    in->started = 1;
+    in->stepped = in->kept = in->con.kept = in->has_force = in->has_velocity = in->newton.left = 0;
+    in->newton.h = in->sized.ratio = 0;
+    in->watch.ratio = in->watch.found = 1;
+    st->formulation = in->chosen;
     return gvi__report_status(st, GVI_OK);
 }
 
@@ -6431,9 +6455,9 @@ GVI__COLD gvi_status gvi__begin_at(gvi_stepper *st, gvi_real t, const gvi_real *
 GVI__COLD gvi_status gvi__check_start(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                       const gvi_real *w)
 {
-    const gvi_status ready = gvi__ready(st, st && st->x.memory);
+    const gvi_status ready = gvi__ready(st, st && st->in.memory);
     if (ready != GVI_OK) return ready;
-    st->x.failed.status = GVI_OK;
+    st->in.failed.status = GVI_OK;
     if (!q || !w) return gvi__refuse_call(st, "q, v or p is NULL");
     if (!gvi__finite(t)) return gvi__refuse_call(st, "t is not finite");
     const int j = gvi__first_non_finite(st->n, w);
@@ -6446,28 +6470,28 @@ GVI__COLD gvi_status gvi__check_start(gvi_stepper *st, gvi_real t, const gvi_rea
 // p = dL/dv, of the kinetic energy and of Lagrangian terms where there are any, to x.point + 5n
 static gvi_status gvi__momentum(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
 {
-    gvi_points y = gvi__one_point(st, &t, q);
+    gvi_points at = gvi__one_point(st, &t, q);
     unsigned skip = ~0u;
-    if (gvi__has(&st->x, GVI__HAS_LAGRANGIAN)) skip = 0;
-    y.v = v;
-    return gvi__evaluate(st, &y, skip, 1);
+    if (gvi__has(&st->in, GVI__HAS_LAGRANGIAN)) skip = 0;
+    at.v = v;
+    return gvi__evaluate(st, &at, skip, 1);
 }
 
 GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
 {
     gvi_status status = gvi__check_start(st, t, q, v);
     if (status != GVI_OK) return status;
-    struct gvi__private *x = &st->x;
+    struct gvi__private *in = &st->in;
     const size_t n = (size_t)st->n;
 
-    x->diagnose = 1;
+    in->diagnose = 1;
     status = gvi__momentum(st, t, q, v);
-    x->diagnose = 0;
+    in->diagnose = 0;
     if (status != GVI_OK) return status;
-    gvi_real *start = x->result + n;              // v may be st->q or st->p, which change first
+    gvi_real *start = in->result + n;              // v may be st->q or st->p, which change first
     gvi__copy(n, v, start);
-    gvi__copy(n, x->point + 5*n, x->step.p);
-    gvi__copy(n, q, x->step.q);
+    gvi__copy(n, in->point + 5*n, in->step.p);
+    gvi__copy(n, q, in->step.q);
     return gvi__begin_at(st, t, start);
 }
 
@@ -6476,14 +6500,14 @@ GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_rea
 {
     gvi_status status = gvi__check_start(st, t, q, p);
     if (status != GVI_OK) return status;
-    struct gvi__private *x = &st->x;
+    struct gvi__private *in = &st->in;
     const size_t n = (size_t)st->n;
-    gvi_real *v = x->result;
-    gvi__copy(n, p, x->step.p);                   // p may be x->step.q
-    gvi__copy(n, q, x->step.q);
+    gvi_real *v = in->result;
+    gvi__copy(n, p, in->step.p);                   // p may be x->step.q
+    gvi__copy(n, q, in->step.q);
     // a velocity to start the first iteration from; where there is none, the step says so
     gvi__zero(n, v);
-    status = gvi__velocity(st, t, x->step.q, x->step.p, v);
+    status = gvi__velocity(st, t, in->step.q, in->step.p, v);
     if (status == GVI_E_SINGULAR || status == GVI_E_CONVERGENCE) gvi__zero(n, v);
     else if (status != GVI_OK) return status;
     return gvi__begin_at(st, t, v);
@@ -6497,7 +6521,7 @@ GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_rea
     // p0 is in step.q then
     if (status == GVI_OK) status = gvi_discrete_lagrangian(st, t, h, q0, q1, &out);
     if (status != GVI_OK) return status;
-    return gvi_start_momentum(st, t, q0, st->x.step.q);
+    return gvi_start_momentum(st, t, q0, st->in.step.q);
 }
 
 /* The iteration q' = q + e, e = M^-1 G'z with g + G(e_new - e) = 0: (G M^-1 G') z = G e - g at the
@@ -6508,11 +6532,11 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
 {
     gvi_status status = gvi__check_start(st, t, q, v);
     if (status != GVI_OK) return status;
-    struct gvi__private *x = &st->x;
-    const int n = st->n, m = x->con.m;
-    gvi_real *e = x->step.q, *f = x->step.p, *next = x->result, *d = next + n, *u = d + n,
-             *push = x->point, *z = x->con.rho, *r = z + m, *back = r + m,
-             *drops = x->con.drops + m, far[2] = { 0, 0 }, change = GVI__MAX, before, share = 1;
+    struct gvi__private *in = &st->in;
+    const int n = st->n, m = in->con.m;
+    gvi_real *e = in->step.q, *f = in->step.p, *next = in->result, *d = next + n, *u = d + n,
+             *push = in->point, *z = in->con.rho, *r = z + m, *back = r + m,
+             *drops = in->con.drops + m, far[2] = { 0, 0 }, change = GVI__MAX, before, share = 1;
     if (!moved) moved = far;
     moved[0] = moved[1] = 0;
     if (!gvi__constrained(st)) return gvi__report_status(st, GVI_OK);
@@ -6521,7 +6545,7 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
     gvi__copy((size_t)n, q, next);
     gvi__copy((size_t)n, v, u);
     gvi__forget_runs(st);
-    x->diagnose = 1;
+    in->diagnose = 1;
     for (int k = 0; ; ++k) {
         status = gvi__constraints_at(st, t, next, NULL, u, drops);
         if (k > 1 && !(change < before*(gvi_real)0.9) && status == GVI_OK) {
@@ -6531,11 +6555,11 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
         }
         if (status != GVI_OK) break;
         for (int a = 0; a < m; ++a) {
-            back[a] = -x->con.g[a];
-            z[a] = r[a] = gvi__row_dot(st, x->con.G1, a, e) - x->con.g[a];
+            back[a] = -in->con.g[a];
+            z[a] = r[a] = gvi__row_dot(st, in->con.G1, a, e) - in->con.g[a];
         }
-        gvi__solve_constraints(st, x->con.A1, 1, 1, z, 1);
-        gvi__solve_constraints(st, x->con.A1, 1, 1, back, 1);
+        gvi__solve_constraints(st, in->con.A1, 1, 1, z, 1);
+        gvi__solve_constraints(st, in->con.A1, 1, 1, back, 1);
         far[0] = gvi__dot(m, r, z);
         for (int a = 0; a < m; ++a) z[a] = share*z[a] + (1 - share)*back[a];
         gvi__zero((size_t)n, push);
@@ -6553,12 +6577,12 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
         change = GVI_SQRT(GVI_ABS(change));
         if (change > before && share > (gvi_real)0.02) share /= 2;
     }
-    x->diagnose = 0;
+    in->diagnose = 0;
     const int passes = 2*(status == GVI_OK);
     for (int pass = 0; pass < passes; ++pass) {
         for (int a = 0; a < m; ++a)
-            z[a] = r[a] = -(x->con.g[m + a] + gvi__row_dot(st, x->con.G1, a, u));
-        gvi__solve_constraints(st, x->con.A1, 1, 1, z, 1);
+            z[a] = r[a] = -(in->con.g[m + a] + gvi__row_dot(st, in->con.G1, a, u));
+        gvi__solve_constraints(st, in->con.A1, 1, 1, z, 1);
         gvi__zero((size_t)n, d);
         gvi__add_force(st, z, d);
         gvi__over_inertia(st, d, 1, 1);
@@ -6575,79 +6599,79 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
 
 GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
 {
-    const gvi_status ready = gvi__ready(st, st && st->x.memory);
+    const gvi_status ready = gvi__ready(st, st && st->in.memory);
     if (ready != GVI_OK) return ready;
-    struct gvi__private *x = &st->x;
-    if (index < 0 || index >= x->desc.effect_count)
+    struct gvi__private *in = &st->in;
+    if (index < 0 || index >= in->desc.effect_count)
         return gvi__refuse_call(st, "there is no such effect");
-    const unsigned bit = 1u << index, was = x->off;
-    x->off = was | bit;
-    if (on) x->off = was & ~bit;
+    const unsigned bit = 1u << index, was = in->off;
+    in->off = was | bit;
+    if (on) in->off = was & ~bit;
     // another energy, also at the start
-    if (gvi__clock_is_on(st) && x->started && x->off != was) {
-        gvi_real E, E0 = x->began.H, *v = x->result + st->n;
+    if (gvi__clock_is_on(st) && in->started && in->off != was) {
+        gvi_real E, E0 = in->began.H, *v = in->result + st->n;
         gvi__velocity_guess(st, v);
         gvi_status status = gvi__clock_energy(st, st->t, st->q, st->p, v, &E);
-        if (status == GVI_OK && x->stepped)
-            status = gvi__hamiltonian(st, st->t0, x->began.q, x->began.p, v, &E0);
+        if (status == GVI_OK && in->stepped)
+            status = gvi__hamiltonian(st, st->t0, in->began.q, in->began.p, v, &E0);
         if (status != GVI_OK) {
-            x->off = was;
+            in->off = was;
             return gvi__done(st, status);
         }
-        x->time.H = E;
-        x->time.H_low = 0;
-        x->began.H = E0;
+        in->time.H = E;
+        in->time.H_low = 0;
+        in->began.H = E0;
     }
-    if (GVI__CONSTRAINTS && (x->con.bits >> index & 1u)) {
+    if (GVI__CONSTRAINTS && (in->con.bits >> index & 1u)) {
         gvi_status status = GVI_OK;
-        x->con.m = gvi__count_rows(x, gvi__constraints_on(st));
+        in->con.m = gvi__count_rows(in, gvi__constraints_on(st));
         gvi__forget_runs(st);
-        if (x->started && (was & ~x->off)) status = gvi__project_start(st, st->t, st->q, st->p);
+        if (in->started && (was & ~in->off)) status = gvi__project_start(st, st->t, st->q, st->p);
         if (status != GVI_OK) {
-            x->off = was;
-            x->con.m = gvi__count_rows(x, gvi__constraints_on(st));
+            in->off = was;
+            in->con.m = gvi__count_rows(in, gvi__constraints_on(st));
             gvi__forget_runs(st);
             return gvi__done(st, status);
         }
-        x->con.kept = x->con.kept > 0;
-        x->sized.ratio = 0;
+        in->con.kept = in->con.kept > 0;
+        in->sized.ratio = 0;
     }
-    x->has_force = 0;
-    x->newton.h = 0;
-    x->watch.ratio = 1;                           // another scene may contract otherwise
+    in->has_force = 0;
+    in->newton.h = 0;
+    in->watch.ratio = 1;                           // another scene may contract otherwise
     return gvi__done(st, GVI_OK);
 }
 
 // pointers into the memory are those of st: the layout again, values rotated as they were saved
 GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const gvi_real *memory)
 {
-    const gvi_status ready = gvi__ready(st, st && st->x.memory);
+    const gvi_status ready = gvi__ready(st, st && st->in.memory);
     if (ready != GVI_OK) return ready;
-    struct gvi__private *x = &st->x;
-    if (!saved || !memory || !saved->x.memory || saved->n != st->n || saved->s != st->s
-        || saved->r != st->r || saved->x.size != x->size || saved->x.needs != x->needs
-        || saved->x.chosen != x->chosen || saved->x.clock != x->clock
-        || saved->x.con.bits != x->con.bits
-        || saved->x.desc.effect_count != x->desc.effect_count
-        || saved->x.desc.mass.kind != x->desc.mass.kind)
+    struct gvi__private *in = &st->in;
+    if (!saved || !memory || !saved->in.memory || saved->n != st->n || saved->s != st->s
+        || saved->r != st->r || saved->in.size != in->size || saved->in.needs != in->needs
+        || saved->in.chosen != in->chosen || saved->in.clock != in->clock
+        || saved->in.con.bits != in->con.bits
+        || saved->in.desc.effect_count != in->desc.effect_count
+        || saved->in.desc.mass.kind != in->desc.mass.kind)
         return gvi__refuse_call(st, "saved or memory is NULL, not set up, or of another scene");
-    const gvi_desc desc = x->desc;
-    gvi_real *const own = x->memory;
-    gvi__kernel *const kernel = x->kernel;
-    const size_t skip = x->skip;
-    const uintptr_t base = (uintptr_t)saved->x.memory;
-    const uintptr_t F = (uintptr_t)saved->x.work.F - base, V = (uintptr_t)saved->x.work.V - base;
-    gvi__copy(x->size, memory + saved->x.skip, own);
+    const gvi_desc desc = in->desc;
+    gvi_real *const own = in->memory;
+    gvi__kernel *const kernel = in->kernel;
+    const size_t skip = in->skip;
+    const uintptr_t base = (uintptr_t)saved->in.memory;
+    const uintptr_t F = (uintptr_t)saved->in.work.F - base, V = (uintptr_t)saved->in.work.V - base;
+    gvi__copy(in->size, memory + saved->in.skip, own);
     *st = *saved;
-    x->desc = desc;
-    x->memory = own;
-    x->kernel = kernel;
-    x->skip = skip;
-    x->failed.status = GVI_OK;
+    in->desc = desc;
+    in->memory = own;
+    in->kernel = kernel;
+    in->skip = skip;
+    in->failed.status = GVI_OK;
     gvi__hand_out(st, own);
     for (int k = 0; k < 6; ++k) {                 // each goes round in 2 or 3
-        const int F_fits = (uintptr_t)x->work.F - (uintptr_t)own == F,
-                  V_fits = !x->work.V || (uintptr_t)x->work.V - (uintptr_t)own == V;
+        const int F_fits = (uintptr_t)in->work.F - (uintptr_t)own == F,
+                  V_fits = !in->work.V || (uintptr_t)in->work.V - (uintptr_t)own == V;
         if (F_fits && V_fits) break;
         gvi__rotate_values(st);
     }
@@ -6658,10 +6682,10 @@ GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const 
 
 GVI_DEF gvi_status gvi_velocity(gvi_stepper *st, gvi_real *v)
 {
-    gvi_status status = gvi__ready(st, st && st->x.started);
+    gvi_status status = gvi__ready(st, st && st->in.started);
     if (status != GVI_OK) return status;
     if (!v) return gvi__refuse_call(st, "v is NULL");
-    gvi_real *V = st->x.result;
+    gvi_real *V = st->in.result;
     gvi__velocity_guess(st, V);
     status = gvi__velocity(st, st->t, st->q, st->p, V);
     if (status == GVI_OK) gvi__copy((size_t)st->n, V, v);
@@ -6670,10 +6694,10 @@ GVI_DEF gvi_status gvi_velocity(gvi_stepper *st, gvi_real *v)
 
 GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy)
 {
-    gvi_status status = gvi__ready(st, st && st->x.started);
+    gvi_status status = gvi__ready(st, st && st->in.started);
     if (status != GVI_OK) return status;
     if (!energy) return gvi__refuse_call(st, "energy is NULL");
-    gvi_real E, *v = st->x.result + st->n;
+    gvi_real E, *v = st->in.result + st->n;
     gvi__velocity_guess(st, v);
     status = gvi__hamiltonian(st, st->t, st->q, st->p, v, &E);
     if (status == GVI_OK) *energy = E;
@@ -6683,29 +6707,29 @@ GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy)
 // the last step's curve and velocity, by the formulas of its points with the table row of tau
 static void gvi__curve_at(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v)
 {
-    const struct gvi__private *x = &st->x;
-    const int n = st->n, R = x->R;
-    const int by_forces = x->chosen <= GVI_POSITIONS && st->formulation != GVI_NEWTON;
-    if (gvi__uses(x, GVI_EXPLICIT)) {               // a straight line
+    const struct gvi__private *in = &st->in;
+    const int n = st->n, R = in->R;
+    const int by_forces = in->chosen <= GVI_POSITIONS && st->formulation != GVI_NEWTON;
+    if (gvi__uses(in, GVI_EXPLICIT)) {               // a straight line
         for (int i = 0; i < n; ++i) {
-            const gvi_real path = (x->state.q[i] - x->began.q[i]) + x->state.q_low[i];
-            if (tau < (gvi_real)0.5) q[i] = x->began.q[i] + tau*path;
-            else q[i] = x->state.q[i] - (1 - tau)*path;
+            const gvi_real path = (in->state.q[i] - in->began.q[i]) + in->state.q_low[i];
+            if (tau < (gvi_real)0.5) q[i] = in->began.q[i] + tau*path;
+            else q[i] = in->state.q[i] - (1 - tau)*path;
             v[i] = path/st->h;
         }
         return;
     }
-    gvi_real *a = x->row, *b = a + R;               // at tau: phi, Phi over Gamma
+    gvi_real *a = in->row, *b = a + R;               // at tau: phi, Phi over Gamma
     gvi__modes(st, tau, a, b);
     gvi__zero((size_t)n, q);
     gvi__zero((size_t)n, v);
-    const gvi_real *modes = x->table.phi, *weight = x->table.b, *rows = x->last.V;
+    const gvi_real *modes = in->table.phi, *weight = in->table.b, *rows = in->last.V;
     int held = 0;                                   // sources of constraints, behind the points
     if (by_forces) {
-        modes = x->table.Phi;
-        weight = x->sized.hb;
-        rows = x->last.F;
-        if (GVI__CONSTRAINTS && x->con.kept) held = st->s;
+        modes = in->table.Phi;
+        weight = in->sized.hb;
+        rows = in->last.F;
+        if (GVI__CONSTRAINTS && in->con.kept) held = st->s;
     }
     for (int j = 0; j < st->r + held; ++j) {
         const gvi_real *Phi = modes + j, *source = rows + j;
@@ -6714,10 +6738,10 @@ static void gvi__curve_at(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_
         if (j < st->r) w = weight[j];
         else {
             const int e = j - st->r;
-            Phi = x->con.Phi + e - 1;
-            source = x->con.last + e;
-            stride = x->con.C;
-            w = st->h*x->con.w[e];
+            Phi = in->con.Phi + e - 1;
+            source = in->con.last + e;
+            stride = in->con.C;
+            w = st->h*in->con.w[e];
         }
         if (j != st->r)                             // Phi(d_0) = 0
             for (int k = 0; k < st->s; ++k) {
@@ -6735,17 +6759,17 @@ static void gvi__curve_at(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_
         }
     }
     if (by_forces) {
-        gvi_real *v0 = x->free.v;
+        gvi_real *v0 = in->free.v;
         gvi__over_mass(st, q, 1, 1);
         gvi__over_mass(st, v, 1, 1);
-        gvi__copy((size_t)n, x->began.p, v0);
+        gvi__copy((size_t)n, in->began.p, v0);
         gvi__over_mass(st, v0, 1, 1);
         for (int i = 0; i < n; ++i) {
             q[i] += tau*v0[i];
             v[i] += v0[i];
         }
     }
-    for (int i = 0; i < n; ++i) q[i] = x->began.q[i] + st->h*q[i];
+    for (int i = 0; i < n; ++i) q[i] = in->began.q[i] + st->h*q[i];
 }
 
 // what was asked for
@@ -6757,9 +6781,9 @@ static void gvi__hand_over(int n, const gvi_real *from, gvi_real *to)
 // is there a last step to look into?
 static gvi_status gvi__stepped(gvi_stepper *st)
 {
-    const gvi_status status = gvi__ready(st, st && st->x.started);
+    const gvi_status status = gvi__ready(st, st && st->in.started);
     if (status != GVI_OK) return status;
-    if (!st->x.stepped) return gvi__done(st, GVI_E_STATE);
+    if (!st->in.stepped) return gvi__done(st, GVI_E_STATE);
     return GVI_OK;
 }
 
@@ -6768,14 +6792,14 @@ GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
     gvi_status status = gvi__stepped(st);
     if (status != GVI_OK) return status;
     if (!(tau >= 0 && tau <= 1)) return gvi__refuse_call(st, "tau is not in [0,1]");
-    if (gvi__rule_is(&st->x, GVI_KICKS)) return gvi__done(st, GVI_E_FORMULATION);
-    gvi_real *Q = st->x.result, *V = Q + st->n, rate;
+    if (gvi__rule_is(&st->in, GVI_KICKS)) return gvi__done(st, GVI_E_FORMULATION);
+    gvi_real *Q = st->in.result, *V = Q + st->n, rate;
     gvi__weights_for(st, st->h);
     gvi__curve_at(st, tau, Q, V);
-    if (GVI__CLOCK && st->x.stepped == 2) {       // v = q'/g
-        st->x.diagnose = 1;
+    if (GVI__CLOCK && st->in.stepped == 2) {       // v = q'/g
+        st->in.diagnose = 1;
         status = gvi__clock_at(st, st->t, Q, &rate, V + st->n);
-        st->x.diagnose = 0;
+        st->in.diagnose = 0;
         if (status != GVI_OK) return gvi__done(st, status);
         for (int i = 0; i < st->n; ++i) V[i] /= rate;
     }
@@ -6790,21 +6814,21 @@ static gvi_status gvi__partial_step(gvi_stepper *st, const gvi__origin *from, in
                                     gvi_real dt)
 {
     if (!gvi__clock_is_on(st)) return gvi__solve(st, from, dt, query);
-    struct gvi__private *x = &st->x;
-    gvi_real h = st->h*(dt/(st->t - st->t0)), rate, *q = x->result;
+    struct gvi__private *in = &st->in;
+    gvi_real h = st->h*(dt/(st->t - st->t0)), rate, *q = in->result;
     gvi_real near_end = 0, far_end = st->h;
     if (query == GVI__FROM_END) far_end = -st->h;
     // t did not move, or less than it should
     if (!(GVI_ABS(h) <= GVI_ABS(far_end))) h = far_end/2;
     for (int k = 0; k < 60; ++k) {
         gvi_status status = gvi__solve(st, from, h, query);
-        if (status != GVI_OK || GVI_ABS(x->dt - dt) <= 2*GVI__EPS*GVI_ABS(dt)) return status;
-        if (GVI_ABS(x->dt) > GVI_ABS(dt)) far_end = h;
+        if (status != GVI_OK || GVI_ABS(in->dt - dt) <= 2*GVI__EPS*GVI_ABS(dt)) return status;
+        if (GVI_ABS(in->dt) > GVI_ABS(dt)) far_end = h;
         else near_end = h;
-        for (int i = 0; i < st->n; ++i) q[i] = from->q[i] + x->step.q[i];
+        for (int i = 0; i < st->n; ++i) q[i] = from->q[i] + in->step.q[i];
         status = gvi__clock_at(st, from->t, q, &rate, q + st->n);
         if (status != GVI_OK) return status;
-        gvi_real next = h - (x->dt - dt)/rate;
+        gvi_real next = h - (in->dt - dt)/rate;
         if (!((next - near_end)*(far_end - next) > 0)) next = near_end + (far_end - near_end)/2;
         if (!gvi__nonzero(next) || GVI_ABS(next - h) <= GVI__EPS*GVI_ABS(st->h)) return GVI_OK;
         h = next;
@@ -6816,7 +6840,7 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
 {
     gvi_status status = gvi__stepped(st);
     if (status != GVI_OK) return status;
-    struct gvi__private *x = &st->x;
+    struct gvi__private *in = &st->in;
     const size_t n = (size_t)st->n;
     if (!gvi__finite(t)) return gvi__refuse_call(st, "t is not finite");
     gvi_real ahead = t - st->t0, back = t - st->t;        // one of each sign, or 0
@@ -6829,12 +6853,12 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
         ahead = t - st->t0;
         back = t - st->t;
     }
-    if (gvi__clock_is_on(st) && x->stepped != 2) return gvi__done(st, GVI_E_STATE);
+    if (gvi__clock_is_on(st) && in->stepped != 2) return gvi__done(st, GVI_E_STATE);
 
     // partial step of length h from the nearer end, or none for a rounding of the whole
     const gvi__origin end = { st->t, st->t_low, st->q, st->q_low, st->p, st->p_low,
-                              x->time.H + x->time.H_low };
-    gvi__origin from = { st->t0, 0, x->began.q, x->zeros, x->began.p, x->zeros, x->began.H };
+                              in->time.H + in->time.H_low };
+    gvi__origin from = { st->t0, 0, in->began.q, in->zeros, in->began.p, in->zeros, in->began.H };
     gvi_real h = ahead;
     int query = GVI__FROM_START;
     if (GVI_ABS(back) <= GVI_ABS(ahead)) {
@@ -6847,17 +6871,17 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
     if (GVI_ABS(h) > GVI__EPS*(GVI_ABS(ahead) + GVI_ABS(back)))
         status = gvi__partial_step(st, &from, query, h);
     else {
-        gvi__copy(n, from.q_low, x->step.q);
-        gvi__copy(n, from.p_low, x->step.p);
-        gvi__zero(n, x->step.q_low);
-        gvi__zero(n, x->step.p_low);
+        gvi__copy(n, from.q_low, in->step.q);
+        gvi__copy(n, from.p_low, in->step.p);
+        gvi__zero(n, in->step.q_low);
+        gvi__zero(n, in->step.p_low);
     }
     st->formulation = was;
     if (status != GVI_OK) return gvi__done(st, status);
-    gvi_real *Q = x->result, *P = Q + n, *V = P + n;
+    gvi_real *Q = in->result, *P = Q + n, *V = P + n;
     for (size_t i = 0; i < n; ++i) {
-        Q[i] = from.q[i] + (x->step.q[i] + x->step.q_low[i]);
-        P[i] = from.p[i] + (x->step.p[i] + x->step.p_low[i]);
+        Q[i] = from.q[i] + (in->step.q[i] + in->step.q_low[i]);
+        P[i] = from.p[i] + (in->step.p[i] + in->step.p_low[i]);
     }
     gvi__velocity_guess(st, V);
     if (v) status = gvi__velocity(st, t, Q, P, V);
@@ -6872,23 +6896,23 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
 GVI__COLD gvi_status gvi__curve_action(gvi_stepper *st, const gvi__origin *from, gvi_real h,
                                     const gvi_real *q1, gvi_real *action)
 {
-    struct gvi__private *x = &st->x;
-    const int n = st->n, R = x->R;
-    gvi_real V, L, T, *q = x->result, *v = q + n;
+    struct gvi__private *in = &st->in;
+    const int n = st->n, R = in->R;
+    gvi_real V, L, T, *q = in->result, *v = q + n;
     *action = 0;
     for (int j = 0; j < st->r; ++j) {
-        gvi_real t = st->t0 + x->table.c[j]*st->h;
+        gvi_real t = st->t0 + in->table.c[j]*st->h;
         if (from) {
-            t = x->t[j];
+            t = in->t[j];
             for (int i = 0; i < n; ++i) {
-                q[i] = x->work.Q[i*R + j];
-                if (x->work.V) v[i] = x->work.V[i*R + j];
+                q[i] = in->work.Q[i*R + j];
+                if (in->work.V) v[i] = in->work.V[i*R + j];
                 else v[i] = (q1[i] - from->q[i])/h;           // a chord
             }
-        } else gvi__curve_at(st, x->table.c[j], q, v);
+        } else gvi__curve_at(st, in->table.c[j], q, v);
         const gvi_status status = gvi__value_sums(st, t, q, v, &V, &L, &T);
         if (status != GVI_OK) return status;
-        *action += x->sized.hb[j]*(T - V + L);
+        *action += in->sized.hb[j]*(T - V + L);
     }
     return GVI_OK;
 }
@@ -6898,7 +6922,7 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action)
     gvi_status status = gvi__stepped(st);
     if (status != GVI_OK) return status;
     if (!action) return gvi__refuse_call(st, "action is NULL");
-    if (gvi__rule_is(&st->x, GVI_KICKS) || st->x.stepped == 2)
+    if (gvi__rule_is(&st->in, GVI_KICKS) || st->in.stepped == 2)
         return gvi__done(st, GVI_E_FORMULATION);
     gvi_real sum;
     gvi__weights_for(st, st->h);
@@ -6914,26 +6938,26 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action)
 GVI__COLD gvi_status gvi__chord(gvi_stepper *st, const gvi__origin *from, gvi_real h,
                                 const gvi_real *q1, gvi_real *p)
 {
-    struct gvi__private *x = &st->x;
-    const int n = st->n, R = x->R;
-    gvi_real *q = x->result, *v = q + n;
+    struct gvi__private *in = &st->in;
+    const int n = st->n, R = in->R;
+    gvi_real *q = in->result, *v = q + n;
     gvi__zero((size_t)n, p);
     for (int j = 0; j < R; ++j) {
         for (int i = 0; i < n; ++i) {
             v[i] = (q1[i] - from->q[i])/h;
-            q[i] = x->work.Q[i*R + j] = from->q[i] + x->table.c[j]*(q1[i] - from->q[i]);
-            if (x->work.V) x->work.V[i*R + j] = v[i];
+            q[i] = in->work.Q[i*R + j] = from->q[i] + in->table.c[j]*(q1[i] - from->q[i]);
+            if (in->work.V) in->work.V[i*R + j] = v[i];
         }
         if (j >= st->r) continue;
-        gvi_points y = gvi__one_point(st, x->t + j, q);
-        y.v = v;
-        x->diagnose = 1;
-        const gvi_status status = gvi__evaluate(st, &y, 0, 1);
-        x->diagnose = 0;
+        gvi_points at = gvi__one_point(st, in->t + j, q);
+        at.v = v;
+        in->diagnose = 1;
+        const gvi_status status = gvi__evaluate(st, &at, 0, 1);
+        in->diagnose = 0;
         if (status != GVI_OK) return status;
         for (int i = 0; i < n; ++i) {
-            x->work.F[i*R + j] = y.f[i];
-            p[i] += x->table.b[j]*y.dldv[i];
+            in->work.F[i*R + j] = at.f[i];
+            p[i] += in->table.b[j]*at.dldv[i];
         }
     }
     return GVI_OK;
@@ -6948,32 +6972,32 @@ GVI__COLD gvi_status gvi__chord(gvi_stepper *st, const gvi__origin *from, gvi_re
 GVI__COLD gvi_status gvi__bend(gvi_stepper *st, const gvi__origin *from, gvi_real h, gvi_real grow,
                                const gvi__matrix *J, int last, int bow, gvi_real *bent)
 {
-    struct gvi__private *x = &st->x;
+    struct gvi__private *in = &st->in;
     const int n = st->n, size = (st->s - J->k0)*n;
     gvi__descent p = { 0, 0, GVI__MAX, 0, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0, 0, 0 };
-    gvi_real *y = x->newton.y, before = 0, length = 0;
+    gvi_real *y = in->newton.y, before = 0, length = 0;
     if (grow > 1 && J->k0 == 0) {
-        x->sized.ratio = 0;
-        x->sized.steps = 1;
-        gvi__fit(st, st->r, x->table.c, x->table.c, 0, grow, 1, x->sized.E);
-        gvi__newton_modes(st, x->work.V, x->work.P);
+        in->sized.ratio = 0;
+        in->sized.steps = 1;
+        gvi__fit(st, st->r, in->table.c, in->table.c, 0, grow, 1, in->sized.E);
+        gvi__newton_modes(st, in->work.V, in->work.P);
     }
     if (J->k0)
         for (int k = n; k < st->s*n; ++k) y[k] *= grow;
     gvi__weights_for(st, h);
-    gvi__times(x->R, from->t, 0, h, x->table.c, x->t);
+    gvi__times(in->R, from->t, 0, h, in->table.c, in->t);
     for (int k = -bow; k < 2; ++k) {
         gvi_status status = gvi__newton_values(st, from);
         if (status != GVI_OK) return status;
         gvi__residual(st, from, J->k0, &p);
         if (k < 0) {
-            for (int i = 0; i < n; ++i) length += GVI_ABS(y[i])/x->watch.scale[i];
-            for (int i = 0; i < n; ++i) y[n + i] = length*x->watch.scale[i]/2;
+            for (int i = 0; i < n; ++i) length += GVI_ABS(y[i])/in->watch.scale[i];
+            for (int i = 0; i < n; ++i) y[n + i] = length*in->watch.scale[i]/2;
             continue;
         }
         if (k == 0) status = gvi__jacobian(st, J);
         if (status != GVI_OK) return status;
-        gvi_lu_solve(size, J->square, J->pivot, x->newton.dy);
+        gvi_lu_solve(size, J->square, J->pivot, in->newton.dy);
         const gvi_real change = gvi__newton_update(st, from, J, &p);
         if (!gvi__finite(change)) return gvi__report_status(st, GVI_E_NON_FINITE);
         if (k == 1 && change > *bent*before && change > 64*GVI__EPS*(gvi_real)size)
@@ -6991,16 +7015,16 @@ GVI__COLD gvi_real gvi__aim(gvi_stepper *st, const gvi__origin *from, gvi_real h
                             const gvi_real *q1, const gvi_real *v, const gvi__matrix *J,
                             int pieces, gvi_real *bent, gvi_status *status)
 {
-    struct gvi__private *x = &st->x;
+    struct gvi__private *in = &st->in;
     gvi_real last = GVI__MAX, at = 0, grow = 1;
-    gvi__copy((size_t)st->n, v, x->newton.y);
+    gvi__copy((size_t)st->n, v, in->newton.y);
     for (int k = 1; k <= pieces*3/2; ++k) {
         gvi_real miss = 0;
         at = h*(gvi_real)k;
         *status = gvi__bend(st, from, at, grow, J, 0, 0, bent);
         grow = (gvi_real)(k + 1)/(gvi_real)k;
         for (int i = 0; i < st->n; ++i) {
-            const gvi_real d = (from->q[i] + at*x->newton.y[i] - q1[i])/x->watch.scale[i];
+            const gvi_real d = (from->q[i] + at*in->newton.y[i] - q1[i])/in->watch.scale[i];
             miss += d*d;
         }
         if (*status != GVI_OK || (k > pieces/2 && miss > last)) break;
@@ -7016,12 +7040,12 @@ GVI__COLD gvi_real gvi__aim(gvi_stepper *st, const gvi__origin *from, gvi_real h
 GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, const gvi_real *q1,
                           const gvi_real *v, int any, const gvi__matrix *J, gvi_status *status)
 {
-    struct gvi__private *x = &st->x;
+    struct gvi__private *in = &st->in;
     const int n = st->n;
     const gvi__matrix motion = { J->square, J->pivot, NULL, 0, 0, 0 };
-    gvi_real *y = x->newton.y, *end = x->step.q_low;
+    gvi_real *y = in->newton.y, *end = in->step.q_low;
     gvi_status bowed = GVI_E_NON_FINITE;
-    int first = 0, left = 2 + x->desc.max_iterations*2/3;         // pieces, in all
+    int first = 0, left = 2 + in->desc.max_iterations*2/3;         // pieces, in all
     if (v) {
         first = 4;
         left = 1000;
@@ -7062,7 +7086,7 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
         }
         if (*status == GVI_OK && (!linear || bent < (gvi_real)0.015625)) return linear;
         if (linear) bowed = *status;
-        if ((*status == GVI_E_NON_FINITE && x->diagnose) || left <= 0) break;
+        if ((*status == GVI_E_NON_FINITE && in->diagnose) || left <= 0) break;
     }
     // there is nothing wrong with the effects, but with the chord
     if (*status == GVI_E_NON_FINITE && bowed != GVI_E_NON_FINITE) *status = GVI_E_CONJUGATE;
@@ -7130,21 +7154,21 @@ GVI__COLD int gvi__count_negative(size_t n, gvi_real *a)
    left out.                                                                                   */
 GVI__COLD gvi_status gvi__morse_index(gvi_stepper *st, const gvi__matrix *J, int *negative)
 {
-    struct gvi__private *x = &st->x;
+    struct gvi__private *in = &st->in;
     const size_t n = (size_t)st->n, size = (size_t)(st->s - 1)*n;
-    const unsigned off = x->off;
+    const unsigned off = in->off;
     *negative = 0;
     if (size == 0) return GVI_OK;
-    x->off |= gvi__of_kind(x, GVI_FORCE);
+    in->off |= gvi__of_kind(in, GVI_FORCE);
     const gvi_status status = gvi__jacobian_fill(st, J);
-    x->off = off;
+    in->off = off;
     if (status != GVI_OK) return status;
     gvi_real *a = J->square;
     for (size_t i = 0; i < size; ++i)
         for (size_t j = 0; j <= i; ++j) {
             const gvi_real lower = a[i*size + j]/(gvi_real)(2*(i/n) + 3);
             const gvi_real upper = a[j*size + i]/(gvi_real)(2*(j/n) + 3);
-            a[i*size + j] = a[j*size + i] = (lower + upper)/2*x->sized.h;
+            a[i*size + j] = a[j*size + i] = (lower + upper)/2*in->sized.h;
         }
     *negative = gvi__count_negative(size, a);
     return GVI_OK;
@@ -7158,15 +7182,15 @@ GVI__COLD gvi_status gvi__interior(gvi_stepper *st, const gvi__origin *from, gvi
                                    const gvi_real *q1, const gvi_discrete *out, gvi__matrix *J,
                                    gvi_real *p, int *negative)
 {
-    struct gvi__private *x = &st->x;
+    struct gvi__private *in = &st->in;
     const int n = st->n, size = (st->s - 1)*n;
     if (size == 0) return gvi__chord(st, from, h, q1, p);
     int linear = 0;
     gvi_status status = GVI_OK;
     for (int look = 0; look < 2; ++look) {        // once more to see why, as in gvi__solve
-        x->diagnose = look;
+        in->diagnose = look;
         linear = gvi__follow(st, from, h, q1, out->guess, out->negative != NULL, J, &status);
-        x->diagnose = 0;
+        in->diagnose = 0;
         if (status != GVI_E_NON_FINITE) break;
     }
     if (status != GVI_OK && status != GVI_E_CONVERGENCE) return status;
@@ -7179,9 +7203,9 @@ GVI__COLD gvi_status gvi__interior(gvi_stepper *st, const gvi__origin *from, gvi
     const gvi_status second = gvi__jacobian(st, J);
     if (second != GVI_OK) return second;
     gvi_real error = 16*GVI_SQRT(GVI__EPS);       // that of differences
-    if (gvi__mass_is_constant(x) && !gvi__with_hessian(x, 0)) error = 16*GVI__EPS;
-    if (gvi_lu_rcond(size, J->square, J->pivot, x->newton.moved) < error) status = GVI_E_CONJUGATE;
-    for (int i = 0; i < n; ++i) p[i] = gvi__dot(st->r, x->table.b, x->work.P + i*x->R);
+    if (gvi__mass_is_constant(in) && !gvi__with_hessian(in, 0)) error = 16*GVI__EPS;
+    if (gvi_lu_rcond(size, J->square, J->pivot, in->newton.moved) < error) status = GVI_E_CONJUGATE;
+    for (int i = 0; i < n; ++i) p[i] = gvi__dot(st->r, in->table.b, in->work.P + i*in->R);
     return status;
 }
 
@@ -7191,17 +7215,17 @@ GVI__COLD gvi_status gvi__interior(gvi_stepper *st, const gvi__origin *from, gvi
 GVI__COLD gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__matrix *J, gvi_real *minus,
                                           gvi_real *plus)
 {
-    struct gvi__private *x = &st->x;
-    const int n = st->n, s = st->s, R = x->R, size = (s - 1)*n;
-    const unsigned forces = gvi__of_kind(x, GVI_FORCE);
-    const gvi_real *hb = x->sized.hb, *Phi = x->table.Phi, h = x->sized.h;
-    gvi_real *f = x->work.F;                // not needed any more
+    struct gvi__private *in = &st->in;
+    const int n = st->n, s = st->s, R = in->R, size = (s - 1)*n;
+    const unsigned forces = gvi__of_kind(in, GVI_FORCE);
+    const gvi_real *hb = in->sized.hb, *Phi = in->table.Phi, h = in->sized.h;
+    gvi_real *f = in->work.F;                // not needed any more
 
     // the forces alone, at the points of the curve
-    gvi_points y = gvi__points_at(st, st->r, R, x->t, x->work.Q, f, NULL);
-    y.v = x->work.V;
+    gvi_points at = gvi__points_at(st, st->r, R, in->t, in->work.Q, f, NULL);
+    at.v = in->work.V;
     gvi__zero((size_t)n*(size_t)R, f);
-    const gvi_status status = gvi__effects(st, &y, ~forces, NULL);
+    const gvi_status status = gvi__effects(st, &at, ~forces, NULL);
 
     // at fixed y_k, k >= 1:  dQ_i/dq1 = c_i, dQ_i/dq0 = 1 - c_i  (Phi_0 = c)
     for (int i = 0; i < n; ++i) {
@@ -7209,13 +7233,13 @@ GVI__COLD gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__matrix *J,
         minus[i] = 0;
         for (int j = 0; j < st->r; ++j) minus[i] += hb[j]*(1 - Phi[j])*f[i*R + j];
     }
-    if (status != GVI_OK || size == 0 || !(forces & ~x->off)) return status;
+    if (status != GVI_OK || size == 0 || !(forces & ~in->off)) return status;
 
     // the interior: J is that of the solution, with the columns of both ends
-    gvi_real *lambda = x->newton.dy;
+    gvi_real *lambda = in->newton.dy;
     for (int i = 0; i < n; ++i)
         for (int k = 1; k < s; ++k)
-            lambda[(k - 1)*n + i] = h*x->watch.scale[i]*gvi__dot3(st->r, hb, Phi + k*R, f + i*R);
+            lambda[(k - 1)*n + i] = h*in->watch.scale[i]*gvi__dot3(st->r, hb, Phi + k*R, f + i*R);
     gvi__lu_solve_transposed(size, J->square, J->pivot, lambda);
     const gvi_real *ends = J->ends;
     for (int row = 0; row < size; ++row, ends += 2*n)
@@ -7231,10 +7255,10 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
                                            const gvi_real *q0, const gvi_real *q1,
                                            const gvi_discrete *out)
 {
-    gvi_status status = gvi__ready(st, st && st->x.memory);
+    gvi_status status = gvi__ready(st, st && st->in.memory);
     if (status != GVI_OK) return status;
-    struct gvi__private *x = &st->x;
-    const int n = st->n, s = st->s, R = x->R;
+    struct gvi__private *in = &st->in;
+    const int n = st->n, s = st->s, R = in->R;
     const size_t size = (size_t)(s - 1)*(size_t)n, sn = (size_t)s*(size_t)n;
     if (!q0 || !q1 || !out) return gvi__refuse_call(st, "q0, q1 or out is NULL");
     if (gvi__first_non_finite(n, q0) >= 0 || gvi__first_non_finite(n, q1) >= 0 || !gvi__finite(t)
@@ -7242,27 +7266,27 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
         return gvi__refuse_call(st, "t, q0, q1 or the guess is not finite");
     if (!gvi__finite(h) || !gvi__nonzero(h))
         return gvi__refuse_call(st, "h is 0, NaN or infinite");
-    if (GVI__CONSTRAINTS && x->con.bits) return gvi__done(st, gvi__refuse_constraints(st));
-    if ((s > 1 && !gvi__has(x, GVI__HAS_NEWTON)) || gvi__rule_is(x, GVI_KICKS) || x->clock >= 0)
+    if (GVI__CONSTRAINTS && in->con.bits) return gvi__done(st, gvi__refuse_constraints(st));
+    if ((s > 1 && !gvi__has(in, GVI__HAS_NEWTON)) || gvi__rule_is(in, GVI_KICKS) || in->clock >= 0)
         return gvi__done(st, GVI_E_FORMULATION);
-    gvi__origin from = { t, 0, q0, x->zeros, x->zeros, x->zeros, 0 };
+    gvi__origin from = { t, 0, q0, in->zeros, in->zeros, in->zeros, 0 };
     gvi__matrix J = { NULL, NULL, NULL, 1, 0, 0 };
     if (out->guess && s > 1) {
         status = gvi__momentum(st, t, q0, out->guess);
         if (status != GVI_OK) return gvi__done(st, status);
-        gvi__copy((size_t)n, x->point + 5*n, x->step.p);
-        from.p = x->step.p;
+        gvi__copy((size_t)n, in->point + 5*n, in->step.p);
+        from.p = in->step.p;
     }
     if (s > 1) {
-        J.square = x->newton.J + sn*sn;
+        J.square = in->newton.J + sn*sn;
         J.ends = J.square + size*size;
-        J.pivot = x->newton.pivot + sn + 1;
+        J.pivot = in->newton.pivot + sn + 1;
     }
     gvi__free_motion(st, &from, h);
-    gvi__times(st->r, t, 0, h, x->table.c, x->t);     // explicit steps need none
+    gvi__times(st->r, t, 0, h, in->table.c, in->t);     // explicit steps need none
 
-    gvi_real *p0 = x->step.q, *p1 = x->step.p, *minus = x->result, *plus = minus + n, action = 0;
-    const gvi_real *F = x->work.F, *hb = x->sized.hb;
+    gvi_real *p0 = in->step.q, *p1 = in->step.p, *minus = in->result, *plus = minus + n, action = 0;
+    const gvi_real *F = in->work.F, *hb = in->sized.hb;
     int negative = 0;
     status = gvi__interior(st, &from, h, q1, out, &J, p0, &negative);
     if (status == GVI_E_CONJUGATE
@@ -7273,7 +7297,7 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
 
     // row 0 of (1) for p0, then (2)
     for (int i = 0; i < n; ++i) {
-        for (int j = 0; j < st->r; ++j) p0[i] -= hb[j]*(1 - x->table.Phi[j])*F[i*R + j];
+        for (int j = 0; j < st->r; ++j) p0[i] -= hb[j]*(1 - in->table.Phi[j])*F[i*R + j];
         p1[i] = p0[i] + gvi__dot(st->r, hb, F + i*R);
     }
     status = gvi__discrete_forces(st, &J, minus, plus);
@@ -7323,44 +7347,45 @@ GVI_DEF const char *gvi_status_text(gvi_status status)
 // with a description or a call that no formulation covers
 GVI__COLD const char *gvi__why_no_formulation(const gvi_stepper *st)
 {
-    const struct gvi__private *x = &st->x;
-    const int kicks = x->desc.rule.kind == GVI_KICKS, clock = x->clock >= 0, ready = x->memory != 0;
-    if (x->con.bits)
+    const struct gvi__private *in = &st->in;
+    const int kicks = in->desc.rule.kind == GVI_KICKS, clock = in->clock >= 0,
+              ready = in->memory != 0;
+    if (in->con.bits)
         return "constraints go with no clock, kicks or boundary values; with a formulation "
                "pinned or iterations given, what that covers (GVI_NEWTON: all)";
     if (ready && st->fault.effect >= 0)
         return "under a clock this value (fault.effect) must not change with t: list it as a force";
     if (ready && (kicks || clock)) return "kicks have no curve and no action, clocks no action";
     if (ready) return "needs GVI_NEWTON, or GVI_AUTO with s n <= 1024 and no given iterations";
-    if (x->chosen == GVI_NEWTON) return "iterations is given, and this takes Newton's method";
+    if (in->chosen == GVI_NEWTON) return "iterations is given, and this takes Newton's method";
     if (kicks) return "kicks are for constant mass and effects that read only t and q";
     if (clock) return "a clock needs r = s, and a mass or mass.velocity";
-    if (x->desc.formulation != GVI_AUTO) return "the pinned formulation does not cover this scene";
+    if (in->desc.formulation != GVI_AUTO) return "the pinned formulation does not cover this scene";
     return "what this scene needs is left out by a macro GVI_ONLY_... or GVI_NO_...";
 }
 
 GVI_DEF const char *gvi_why(const gvi_stepper *st)
 {
     if (!st) return "the stepper is NULL";
-    const struct gvi__private *x = &st->x;
+    const struct gvi__private *in = &st->in;
     const int why = st->status, mass = st->fault.effect == GVI_FAULT_MASS;
     if (st->fault.argument) return st->fault.argument;
     if (why == GVI_E_FORMULATION) return gvi__why_no_formulation(st);
     if (why == GVI_E_ORDER && st->order == 0) return "rule: the weights do not sum to 1";
-    if (why == GVI_E_POINTS && x->desc.rule.points < x->desc.degree)
+    if (why == GVI_E_POINTS && in->desc.rule.points < in->desc.degree)
         return "rule: fewer points than the degree";
     if (why == GVI_E_SINGULAR && st->fault.effect >= 0)
         return "a constraint (fault.effect) depends on the others, or has no gradient";
     if (why == GVI_E_CONVERGENCE && mass) return "no velocity found that has this momentum";
-    if (why == GVI_E_CONVERGENCE && x->desc.iterations > 0)
+    if (why == GVI_E_CONVERGENCE && in->desc.iterations > 0)
         return "desc.iterations are too few: halve h, or give more";
     if (why == GVI_E_CALLBACK && mass) return "a callback of the mass did not return 0: halve h";
     if (why == GVI_E_NON_FINITE && mass) return "a callback of the mass gave NaN or Inf: halve h";
     if (why == GVI_E_NON_FINITE && st->fault.point < 0)
         return "an effect (fault.effect) is NaN or Inf where the step starts: no h will do";
-    if (why == GVI_E_STATE && !x->memory) return "not initialised: gvi_init comes first";
-    if (why == GVI_E_STATE && !x->started) return "not started: gvi_start comes first";
-    if (why == GVI_E_STATE && !x->stepped) return "no step yet";
+    if (why == GVI_E_STATE && !in->memory) return "not initialised: gvi_init comes first";
+    if (why == GVI_E_STATE && !in->started) return "not started: gvi_start comes first";
+    if (why == GVI_E_STATE && !in->stepped) return "no step yet";
     return gvi_status_text(st->status);
 }
 
@@ -7369,8 +7394,8 @@ GVI_DEF size_t gvi_stepper_size(void) { return sizeof(gvi_stepper); }
 GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st)
 {
     if (!st) return "no stepper";
-    if (st->x.desc.formulation != GVI_AUTO) return "pinned by the description";
-    if (st->formulation == GVI_NEWTON && st->x.chosen != GVI_NEWTON)
+    if (st->in.desc.formulation != GVI_AUTO) return "pinned by the description";
+    if (st->formulation == GVI_NEWTON && st->in.chosen != GVI_NEWTON)
         return "Newton: the fixed point contracted badly";
     switch (st->formulation) {
     case GVI_EXPLICIT:

@@ -15,11 +15,11 @@ all='gcc clang tcc i386-sse i386-x87 i386-clang armhf aarch64 riscv64 ppc64 s390
 # ------------------------------------------------------------------ the targets
 
 # Tests that say what gvi.h computes.  Not here: those of the examples, of the price list and of the
-# reference integrators (make test); test_order, test_theorems, test_ncdp, a minute and more each.  test_many
+# reference integrators (make test); test_order, test_theorems, test_ncdp, a minute and more each.  test_uncoupled
 # takes a quarter of an hour where a processor is imitated.
 quick='api effects identities interpolation kicks lu mass newton oracle quadrature queries structure tolerance
        effects:float interpolation:float lu:float newton:float oracle:float'
-more='corners corners:float hostile many many:float mass:float scenes tolerance:float twins twins:float'
+more='regressions regressions:float hostile uncoupled uncoupled:float mass:float scenes tolerance:float no_trace no_trace:float'
 wide='lu:long interpolation:long oracle:long'
 quad='interpolation:long oracle:long kicks:long effects:long'
 # Some tests are in long double unless told otherwise and mean 64 bits by it: their problems are of
@@ -40,7 +40,7 @@ target() {
     tcc)
         # 0.9.27: no vectors, no FLT_EVAL_METHOD; 3*n*e/(1 - 3*n*e)*s*f(x[k]) in long double is NaN
         label=$native cc=tcc flags="-DFLT_EVAL_METHOD=0 -I$here/tcc" dialect=-std=c99 warnings='-Wall -Werror'
-        tests='identities corners hostile quadrature queries structure corners:float'
+        tests='identities regressions hostile quadrature queries structure regressions:float'
         less="clock, interpolation, lu, oracle (tcc's long double gives NaN in their bounds), api, effects, kicks,
             scenes (tcc refuses their initialisers)" ;;
     i386-sse)
@@ -50,9 +50,9 @@ target() {
     i386-clang)
         # its __float128 comes back from functions as garbage
         label='i386, x87' cc=clang flags='-m32 -mno-sse2 -U__SIZEOF_FLOAT128__'
-        tests="$(without "$quick clock $more" oracle:float corners:float) oracle:long"
+        tests="$(without "$quick clock $more" oracle:float regressions:float) oracle:long"
         less="oracle in float (results are right, but in such registers Newton needs
-            338 iterations with second derivatives and 277 without, and 10 % more are allowed), corners in float
+            338 iterations with second derivatives and 277 without, and 10 % more are allowed), regressions in float
             (200,000 steps of a fixed point of degree 2 at h omega = 2.7 drift by 6.2e4 eps, and 6e4 are documented)" ;;
     armhf)
         label=ARMv7 cc=arm-linux-gnueabihf-gcc flags=-static run=qemu-arm
