@@ -5987,7 +5987,7 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J)
     status = gvi__lu_factor(size, J->square, J->pivot, &at);
     gvi__count(&st->counters.factorizations, 1);
     if (status == GVI_OK) return GVI_OK;
-    if (at >= modes)
+    if (GVI__CONSTRAINTS && at >= modes)
         return gvi__report_row(st, status, (at - modes) % st->in.con.m, GVI_FAULT_NONE);
     return gvi__report(st, status, GVI_FAULT_NONE, at < 0 ? GVI_FAULT_NONE : at % n,
                        GVI_FAULT_NONE);

@@ -327,8 +327,8 @@ TEST(tables_are_symplectic_to_the_bit)
                                     .formulation = GVI_VELOCITIES };
             gvi_stepper st;
             assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-            const gvi_real *c = st.x.table.c, *K = st.x.table.K, *U = st.x.table.U;
-            const int R = st.x.R;
+            const gvi_real *c = st.in.table.c, *K = st.in.table.K, *U = st.in.table.U;
+            const int R = st.in.R;
             for (int i = 0; i < st.r; ++i)
                 for (int j = 0; j <= i; ++j) {
                     assert_true((real)c[i] - K[j*R + i] == (real)c[j] - K[i*R + j]);
