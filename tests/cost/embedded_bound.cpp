@@ -81,7 +81,7 @@ static double flops_of_step(gvi_formulation f, gvi_mass_kind mass, int n, int r,
 /* What a new h costs besides, in the step that has it and the next two                          */
 static inline double flops_of_new_h(gvi_formulation f, int r)
 {
-    return f == GVI_EXPLICIT ? 1800*r : 6*r*r*r + 4*(r + 10)*r*flops_row(r) + 70*r + 60;
+    return f == GVI_EXPLICIT ? 1800*r : 6*r*r*flops_row(r) + 4*(r + 10)*r*flops_row(r) + 70*r + 60;
 }
 
 enum { MOST_N = 6, MOST_S = 8, MOST_KICKS = 24, MOST_ITERATIONS = 8, STEPS = 20, FIRST = 3 };
