@@ -1053,6 +1053,21 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #pragma clang fp reassociate(off)
 #endif
 
+/* NAMES, one meaning each in what follows:
+
+     st, in        the stepper; its internals, st->in
+     from          where a step, or a query's partial step, starts
+     at            points that are handed to a callback
+     stage         one of the sums that make new stage values (gvi__stage)
+     Q V P F A     stage values, rows [n][R]: row i at point k is [i*R + k]
+     R, C          length of a row at quadrature points, at constraints' points
+     n s r m       degrees of freedom, degree, points, rows of constraints
+     i; j, k       a coordinate; points (k also an iteration or a mode)
+     e; a, b       an effect, or a source of constraints; rows of constraints
+     y, dy         modes of the curve and their correction, [k*n + i]
+     z             a right-hand side on the way to a solution
+     ..._low       compensation: what rounding took from the name before      */
+
 /* --------------------------------------------------------------- SUPPORT */
 
 #include <float.h>
