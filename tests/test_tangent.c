@@ -227,6 +227,22 @@ TEST(a_step_with_its_derivative_is_symplectic)
         }
 }
 
+TEST(so_is_a_run_by_the_dial)
+{
+    const scene kepler = { "Kepler", { .n = N, .effects = of_kepler, .effect_count = 1, .resolution = KIND == 1 ? R(1e-4) : R(1e-9) },
+                           { attraction_product }, 0, GVI_POSITIONS };
+    tangent T;
+    real M[2*N][2*N], most, q[] = { R(0.5), 0 }, p[] = { 0, R(1.75) };
+    gvi_stepper *st = made(&T, &kepler, 2*N, 0, 0);
+    int steps = 0;
+    assert_ok(tangent_start(&T, st, 0, q, p, NULL, NULL));
+    for (; st->t < 8; ++steps) assert_ok(gvi_advance(st, 8));
+    for (int j = 0; j < 2*N; ++j) tangent_column(&T, st, j, M[j], M[j] + N);
+    const real d = defect(M, &most);
+    assert_between(0, d, 16*EPS*(real)steps*most*most);
+    assert_true(steps > 4);
+}
+
 /* By state, by parameters and by h, after 8 steps.                            */
 TEST(every_column_is_what_differences_say)
 {

@@ -32,6 +32,9 @@
    states on the way (adjoint_keep), every tenth step for instance: rounding then grows
    over ten steps only.  2n + 1 numbers each.
 
+   By the dial: record st.h of each step of gvi_advance, set scene.desc.resolution = 0 before gvi_init,
+   and go back over these steps.
+
    Refused (GVI_E_FORMULATION): a clock, rules that are not symmetric; as in tangent.h,
    M(q) without mass.velocity.  Kicks have gradients by the state alone.
    Source: the doubled Lagrangian L(q + e l) - L(q) + e l.f, to first order in e.   */

@@ -42,7 +42,7 @@
           tangent_scene(&T);                             fills T.desc
           gvi_init(&st, &T.desc, memory, sizeof memory);
           tangent_start(&T, &st, 0, q, p, NULL, NULL);   NULL: the unit directions
-          gvi_step(&st, h);
+          gvi_step(&st, h);                              or gvi_advance: the columns count, too
           tangent_column(&T, &st, j, dq, dp);
 
    T must stay where it is while the stepper is used; two steppers that run at
