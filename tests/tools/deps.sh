@@ -39,7 +39,7 @@ welcome=
 case $1 in
 --firmware) needed=${firmware:-none} by_hand='arm-none-eabi-gcc with newlib, qemu-system-arm' ;;
 --ensemble) needed=${mpi:-none} by_hand='Open MPI or MPICH'
-            if have mpicc && have mpirun; then needed=; fi ;;
+            if echo '#include <mpi.h>' | mpicc -x c -fsyntax-only - 2>/dev/null && have mpirun; then needed=; fi ;;
 *)          needed=$cmocka by_hand=cmocka
             if have_cmocka; then needed=; fi ;;
 esac

@@ -36,7 +36,7 @@ else
     echo "skipped: $CC has no OpenMP"
 fi
 
-if command -v mpicc >/dev/null 2>&1 && command -v mpirun >/dev/null 2>&1; then
+if echo '#include <mpi.h>' | mpicc -x c -fsyntax-only - 2>/dev/null && command -v mpirun >/dev/null 2>&1; then
     export OMPI_CC="$CC" MPICH_CC="$CC" OMP_NUM_THREADS=1
     # more processes than processors, and as root, as in a container: for Open MPI
     export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
