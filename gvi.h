@@ -406,7 +406,7 @@ GVI__MACROS(push_macro)
 #define GVI__UNUSED
 #endif
 // gcc at -O2 makes vectors only of loops of known length; clang warns where it makes none
-#if defined(__clang__) && !defined(__OPTIMIZE_SIZE__)
+#if defined(__clang__) && defined(__GNUC__) && !defined(__OPTIMIZE_SIZE__)
 #define GVI__CHUNK 0
 #define GVI__LOOP(text)
 #define GVI__INDEPENDENT GVI__PRAGMA(clang loop vectorize(assume_safety))

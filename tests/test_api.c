@@ -1380,7 +1380,9 @@ TEST(a_state_between_is_rounded_once)
     static const gvi_effect effect = { .kind = GVI_POTENTIAL, .point = pull };
     static const gvi_desc desc = { .n = 1, .degree = 2, .effects = &effect, .effect_count = 1 };
     static real room[2000];
+    const volatile long double one = 1, more = LDBL_EPSILON;
     gvi_stepper st;
+    if (LDBL_MANT_DIG == DIG || one + more <= one) skip();      // valgrind's long double is a double
     assert_ok(gvi_init(&st, &desc, room, sizeof room));
     assert_ok(gvi_start(&st, 0, (const real[]){ 1 }, (const real[]){ 1.1 }));
     for (int k = 0; k < 150; ++k) {
