@@ -277,7 +277,9 @@ TEST(coordinates_alike_move_alike)
                                     && st.q_low[i] == st.q_low[0] && st.p_low[i] == st.p_low[0]);
                     const int its = (int)st.counters.iterations, *seven = &rounds[s - 1][f - GVI_POSITIONS][kind];
                     if (n == 7) rounds[s - 1][f - GVI_POSITIONS][kind] = its;      // of 40 to 120
-                    if (n > 7) assert_between(*seven - 2 - 6*(kind > 1), its, *seven + 2 + 6*(kind > 1));
+                    // a tolerance is for the sum over all rows: one iteration more in each of the 12 steps at most
+                    const int more = kind > 1 ? 12 : 2;
+                    if (n > 7) assert_between(*seven - more, its, *seven + more);
                 }
 }
 
