@@ -278,8 +278,8 @@ TEST(coordinates_alike_move_alike)
                     const int its = (int)st.counters.iterations, *seven = &rounds[s - 1][f - GVI_POSITIONS][kind];
                     if (n == 7) rounds[s - 1][f - GVI_POSITIONS][kind] = its;      // of 40 to 120
                     // a tolerance is for the sum over all rows: one iteration more in each of the 12 steps at most
-                    const int more = kind > 1 ? 12 : 2;
-                    if (n > 7) assert_between(*seven - more, its, *seven + more);
+                    const int spread = kind > 1 ? 12 : 2;
+                    if (n > 7) assert_between(*seven - spread, its, *seven + spread);
                 }
 }
 
