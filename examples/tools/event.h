@@ -17,7 +17,7 @@
                  count again: g is looked at 1/4096 of the step later
      pile up     impacts that lose speed come ever faster, at last within 1/4096 of the step: then
                  g has turned back there already, and the answer is EVENT_PILE_UP.  Let the body
-                 rest from there on
+                 rest from there on.  Not in float, whose digits do not show it
      not seen    two zeros within one interval: the sign is the same at its ends.  Take h so
                  short that g has one extremum in a step at most
      ask         after every step; a step not asked about is not searched
@@ -139,7 +139,7 @@ static inline int event_next(event *e, gvi_stepper *st)
             if ((status = event_value(e, st, e->at/2, 1, &half)) || (status = event_value(e, st, e->at, 1, &g)))
                 return status;
             // of g0 + b x + c x^2 through the three, is c x^2 more than b x?  Then g turned back, to where it went before
-            if (e->asked && (g < 0) != e->rising
+            if (sizeof(gvi_real) > sizeof(float) && e->asked && (g < 0) != e->rising
                 && event_size(4*half - g - 3*g0) <= event_size(2*g - 4*half + 2*g0)) return EVENT_PILE_UP;
         }
         e->from = st->t0, e->to = st->t, e->step = st->counters.steps;
