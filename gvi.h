@@ -113,7 +113,7 @@
               overlap unless it is said that they may.
    units      None: time, lengths and masses are the caller's, coordinate by
               coordinate; no tolerance or test of the library depends on them.
-              What is below 1e-307 (float: 1e-37) counts as 0.
+              What is below 1e-307 (float: 1e-31) counts as 0.
    rounding   Round to nearest, subnormals kept; -ffast-math and its parts are
               refused, or without effect.  q, p and t carry compensation terms,
               so 1e9 steps of t + h are as exact as one.  Compiled with
@@ -1084,6 +1084,8 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__MAX GVI__LIMIT(MAX)
 #define GVI__MIN GVI__LIMIT(MIN)
 #define GVI__DIG GVI__LIMIT(MANT_DIG)
+// amplitudes below this count as 0: in float, forces that cancel leave noise down there
+#define GVI__NOTHING (GVI__KIND == 1 ? GVI__MIN/GVI__EPS : GVI__MIN)
 
 #ifndef GVI_ABS
 #include <math.h>
@@ -3293,7 +3295,7 @@ GVI__BODY const gvi_real *gvi__weighted(int R, const gvi_real *GVI__RESTRICT w,
 GVI__BODY gvi_real gvi__scale_of(gvi_real base, gvi_real was, gvi_real is)
 {
     const gvi_real size = GVI_ABS(base) + GVI_ABS(was - base) + GVI_ABS(is - base);
-    return size > GVI__MIN ? 1/size : 0;
+    return size > GVI__NOTHING ? 1/size : 0;
 }
 
 // the squares at eight points, added up in one order everywhere
@@ -3671,7 +3673,7 @@ static gvi_real gvi__velocities_again(gvi_stepper *st)
     if (!made) return 0;
     for (int i = 0; i < n; ++i) {
         const gvi_real moved = V[i*R] - was[i], size = GVI_ABS(V[i*R]) + GVI_ABS(was[i]);
-        if (size > GVI__MIN) sum += (moved/size)*(moved/size);
+        if (size > GVI__NOTHING) sum += (moved/size)*(moved/size);
     }
     return (gvi_real)st->r*sum;
 }
