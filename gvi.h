@@ -1085,7 +1085,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__MIN GVI__LIMIT(MIN)
 #define GVI__DIG GVI__LIMIT(MANT_DIG)
 // amplitudes below this count as 0: in float, forces that cancel leave noise down there
-#define GVI__NOTHING (GVI__KIND == 1 ? GVI__MIN/GVI__EPS : GVI__MIN)
+#define GVI__NOTHING (GVI__DIG > FLT_MANT_DIG ? GVI__MIN : GVI__MIN/GVI__EPS)
 
 #ifndef GVI_ABS
 #include <math.h>
