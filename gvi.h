@@ -3037,7 +3037,7 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     gvi__count(&st->counters.steps, 1);
 }
 
-/* Why did a step fail?  What is singular, NaN or infinite already where it starts is told as that:
+/* Why did a step fail?  What is singular, NaN or infinite already where it starts is reported as that:
    no h helps.  All else is the step's own, and a shorter one may do.                          */
 GVI__COLD gvi_status gvi__explain(gvi_stepper *st, gvi_status status)
 {
@@ -7125,7 +7125,7 @@ GVI__COLD int gvi__count_negative(size_t n, gvi_real *a)
 {
     int count = 0;
     for (size_t k = 0; k < n; ) {
-        // the largest entry on the diagonal, (p,p), and beside it, (r,q)
+        // the largest entry on the diagonal, (p,p), and off it, (r,q)
         size_t p = k, q = k, r = k;
         gvi_real diagonal = -1, off = -1;
         for (size_t i = k; i < n; ++i) {
