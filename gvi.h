@@ -2908,6 +2908,8 @@ GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, 
     gvi_real *rows = at.f;
     for (int i = 0; i < n*R; ++i)
         if (i % R < count) in->work.Q[i] += GVI_SQRT(GVI__EPS)*v[i/R];
+    // effects may use what M(q) has computed: it comes first, as in a step
+    if (gvi__mass_is(in, GVI_MASS_POSITION)) gvi__evaluate_mass(st, &at, NULL, NULL);
     const char *slip = NULL;
     for (int e = 0; e < in->desc.effect_count; ++e) {
         int all = n*R, first = 0, others = 0, huge = 0, set = 0;

@@ -48,6 +48,19 @@ AT_POINTS(massless) { FOR_EACH(x, a) x->velocity[a] = 0; return 1; }
 AT_POINTS(no_mass) { for (int k = 0; k < x->count; ++k) x->mass[k] = 0; return 0; }
 AT_POINTS(mass_nan) { for (int k = 0; k < x->count; ++k) x->mass[k] = (real)NAN; return 0; }
 
+/* M(q), and what the force needs of it: at the same points it is called next */
+static real weight_there[64];
+AT_POINTS(mass_and_weight)
+{
+    for (int k = 0; k < x->count; ++k) {
+        x->mass[k] = 2 + x->q[k]*x->q[k];
+        weight_there[k] = x->q[k];
+    }
+    return 0;
+}
+AT_POINTS(mass_gradient) { for (int k = 0; k < x->count; ++k) x->f[k] += x->q[k]*x->v[k]*x->v[k]; return 0; }
+AT_POINTS(weight) { for (int k = 0; k < x->count; ++k) x->f[k] -= weight_there[k]; return 0; }
+
 /* slips */
 AT_POINTS(first_alone) { x->f[0] -= 1 + x->q[0]; return 0; }
 AT_POINTS(first_alone_of_v) { x->f[0] -= x->v[0]; return 0; }
@@ -308,6 +321,19 @@ TEST(sound_effects_pass_and_are_looked_at_once)
             assert_int_equal(calls, count == 4);
             assert_ok(gvi_step(&st, (real)0.1));
         }
+}
+
+TEST(a_force_uses_what_the_mass_computed)
+{
+    static const gvi_effect e[] = { { .points = weight } };
+    const gvi_desc d = { .n = 1, .degree = 4, .effects = e, .effect_count = 1,
+                         .mass = { .kind = GVI_MASS_POSITION, .points = mass_and_weight, .gradient = mass_gradient } };
+    static const real q[1] = { 1 }, v[1] = { 0 };
+    gvi_stepper st;
+    for (int k = 0; k < COUNT(weight_there); ++k) weight_there[k] = 0;
+    assert_ok(gvi_init(&st, &d, memory, sizeof memory));
+    assert_ok(gvi_start(&st, 0, q, v));
+    assert_ok(gvi_step(&st, (real)0.1));
 }
 
 /* GVI_EACH is GVI_POINTS without its head and return: the same bits */
