@@ -487,7 +487,7 @@ typedef struct gvi_points {
     gvi_real       *value;     /* [count]    add V, or L of a Lagrangian term; g.
                                   If one function is both points and value, it
                                   fills whichever of f and value is not NULL   */
-    gvi_real       *mass;      /* [n*n][stride] write M_ij, i >= j, row i*n + j */
+    gvi_real       *mass;      /* [n*n][stride] write M_ij, i >= j, row i*n + j: what is not 0 */
     gvi_real       *velocity;  /* [n][stride] write v                          */
     gvi_real       *g;         /* [rows][stride] write g(t,q); constraints only */
     gvi_real       *jacobian;  /* [rows*n][stride] write dg_a/dq_i, row a*n + i: what is not 0 */
@@ -2200,6 +2200,7 @@ static gvi_status gvi__evaluate_mass(gvi_stepper *st, const gvi_points *x, const
     if (!v) {
         at.mass = st->in.mass.at_points;
         callback = mass->points;
+        gvi__zero((size_t)(x->n*x->n)*(size_t)x->stride, at.mass);
     }
     gvi__count(&st->counters.mass, x->count);
     const int failed = callback(&at, mass->user);
@@ -2224,7 +2225,6 @@ static gvi_status gvi__factor_mass(gvi_stepper *st, const gvi_points *x)
             if (n == 2) sure &= gvi__ldl_factor_lane(2, R, m + o);
             else sure &= gvi__ldl_factor_lane(n, R, m + o);
         if (sure) return GVI_OK;
-        gvi__zero((size_t)(n*n)*(size_t)R, m);
         status = gvi__evaluate_mass(st, x, NULL, NULL);
         st->counters.mass -= (unsigned long long)x->count;
         if (status != GVI_OK) return status;
@@ -4137,6 +4137,8 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
     const gvi_real whole = fastest + farthest/h;
     if (!(whole > 0)) return 0;
     for (int i = 0; i < st->n; ++i) {
+        // forces of constraint carry more of it, in every coordinate, and no h makes it smaller
+        if (held && missed[i] <= 64*GVI__EPS*whole) continue;
         if (missed[i] <= GVI__EPS*whole && size[i] < whole/4096) size[i] = whole;
         worst = gvi__larger(missed[i]/size[i], worst);
     }

@@ -366,4 +366,42 @@ TEST(a_velocity_is_of_its_own_step)
     }
 }
 
+/* M(q) = diag(2 + q_1^2, 3), as it is and with its zero written: the same bits */
+static int diagonal_mass(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k) {
+        x->mass[k] = 2 + x->q[x->stride + k]*x->q[x->stride + k];
+        if (user) x->mass[2*x->stride + k] = 0;
+        x->mass[3*x->stride + k] = 3;
+    }
+    return 0;
+}
+static int diagonal_gradient(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k) x->f[x->stride + k] += x->q[x->stride + k]*x->v[k]*x->v[k];
+    return 0;
+}
+
+TEST(entries_of_mass_are_0_before)
+{
+    static const real q[] = { 1, 0.5L }, v[] = { 0.25L, -1 };
+    static real memory[4000];
+    for (int degree = 1; degree <= 9; ++degree)
+        for (int newton = 0; newton < 2; ++newton) {
+            real u[2][2], E[2];
+            for (int k = 0; k < 2; ++k) {
+                const gvi_desc d = { .n = 2, .degree = degree, .formulation = newton ? GVI_NEWTON : GVI_MOMENTA,
+                                     .mass = { .kind = GVI_MASS_POSITION, .points = diagonal_mass,
+                                               .gradient = diagonal_gradient, .user = k ? &seed : NULL } };
+                gvi_stepper st;
+                assert_ok(gvi_init(&st, &d, memory, sizeof memory));
+                assert_ok(gvi_start(&st, 0, q, v));
+                for (int i = 0; i < 5; ++i) assert_ok(gvi_step(&st, (real)0.125));
+                assert_ok(gvi_velocity(&st, u[k]));
+                assert_ok(gvi_energy(&st, &E[k]));
+            }
+            assert_true(E[0] == E[1] && u[0][0] == u[1][0] && u[0][1] == u[1][1]);
+        }
+}
+
 RUN_TESTS(NULL, NULL)

@@ -21,9 +21,9 @@
      gradient      of the mass against differences of v'M(q)v/2
      velocity      of the mass: does it undo p = M v + sum of dL/dv?
      jacobian, rate  of a constraint against differences of g in q and t
-     mass          lower triangle written, not added to; symmetric; definite
+     mass          symmetric where both triangles are there; definite
      all           added to, not overwritten; many points as one at a time; nothing
-                   written beyond them; f and value in one call where one function
+                   written beyond the rows; f and value in one call where one function
                    gives both; a potential asks for no velocity
 
    Derivatives by central differences at 24 widths, each half the one before, and
@@ -45,6 +45,7 @@
 #include <math.h>
 #ifndef __cplusplus
 #include <tgmath.h>
+#undef I                              /* <complex.h> comes with it; I is a user's name */
 #endif
 
 typedef enum check_what {
@@ -52,7 +53,6 @@ typedef enum check_what {
     CHECK_CURL,       /* potential without value: df_i/dq_j is not df_j/dq_i   */
     CHECK_VELOCITY,   /* mass.velocity gives another v than p was made from    */
     CHECK_SYMMETRY,   /* M_ij is not M_ji                                      */
-    CHECK_WRITTEN,    /* M_ij is left as it was, or added to                   */
     CHECK_DEFINITE,   /* M is not definite: pivot i                            */
     CHECK_ADDS,       /* overwrites what others have added                     */
     CHECK_BATCH,      /* many points at once are not as one at a time          */
@@ -340,19 +340,15 @@ static inline gvi_real *check_fill(struct check_run *c, int which, int rows, int
 
 static inline int check_same(gvi_real a, gvi_real b) { return !(a < b) && !(a > b); }
 
-/* Is all but `count` points of each row as it was filled?                     */
-static inline void check_guards(struct check_run *c, int which, int rows, int count, int stride,
-                                gvi_real unit, const char *entry)
+/* Is what lies before and behind the rows as it was filled?  The padding of a row may be written. */
+static inline void check_guards(struct check_run *c, int which, int rows, int stride, gvi_real unit,
+                                const char *entry)
 {
     const gvi_real *a = c->guarded[which] + CHECK_GUARD;
     for (int k = 0; k < CHECK_GUARD; ++k)
         if (!check_same(a[k - CHECK_GUARD], check_filling(unit, 1, k))
             || !check_same(a[rows*stride + k], check_filling(unit, 1, k)))
             check_note(c, CHECK_BEYOND, entry, -1, -1);
-    for (int i = 0; i < rows; ++i)
-        for (int k = count; k < stride; ++k)
-            if (!check_same(a[i*stride + k], check_filling(unit, i, k)))
-                check_note(c, CHECK_BEYOND, entry, i, -1);
 }
 
 /* Output of point k, row i, is what was there and `alone`; `unit` is above |alone|. */
@@ -420,9 +416,9 @@ static inline void check_many(struct check_run *c, int count, int stride)
         check_note(c, CHECK_REFUSED, "points", -1, -1);
         return;
     }
-    check_guards(c, 0, c->n, count, stride, units[0], "f");
-    if (with_dldv) check_guards(c, 1, c->n, count, stride, units[1], "dldv");
-    if (with_g) check_guards(c, 2, 1, count, stride, units[2], "value");
+    check_guards(c, 0, c->n, stride, units[0], "f");
+    if (with_dldv) check_guards(c, 1, c->n, stride, units[1], "dldv");
+    if (with_g) check_guards(c, 2, 1, stride, units[2], "value");
     for (int k = 0; k < count; ++k) {
         check_go_to(c, k);
         check_ask(c, e, 0, c->one, with_dldv ? c->two : NULL, with_g ? &g : NULL);
@@ -451,7 +447,7 @@ static inline void check_many_values(struct check_run *c, int count, int stride)
     x.value = check_fill(c, 0, 1, stride, unit);
     c->point = 0;
     if (e->value(&x, e->user)) check_note(c, CHECK_REFUSED, "value", -1, -1);
-    check_guards(c, 0, 1, count, stride, unit, "value");
+    check_guards(c, 0, 1, stride, unit, "value");
     for (int k = 0; k < count; ++k) {
         check_go_to(c, k);
         check_ask(c, e, 1, NULL, NULL, &value);
@@ -517,7 +513,7 @@ static inline int check_get_hessian(struct check_run *c)
         for (int m = 0; m < parts; ++m) {
             gvi_real *found = c->found + m*n*n, unit = pass ? check_unit(n*n, found) : 0;
             if (!pass) memcpy(found, out[m], (size_t)(n*n)*sizeof *found);
-            check_guards(c, m, n*n, 1, 1, unit, entry[m]);
+            check_guards(c, m, n*n, 1, unit, entry[m]);
             for (int k = 0; pass && k < n*n; ++k) {
                 const gvi_real sum = check_filling(unit, k, 0) + found[k];
                 if (!(fabs(out[m][k] - sum) <= c->tolerance*unit))
@@ -656,6 +652,7 @@ static inline int check_mass(struct check_run *c, gvi_real *M)
     const gvi_mass *m = &c->desc->mass;
     const int n = c->n;
     const gvi_points x = { .n = n, .count = 1, .stride = 1, .t = &c->t, .q = c->q, .mass = M };
+    memset(M, 0, (size_t)(n*n)*sizeof *M);
     if (m->kind == GVI_MASS_POSITION && m->points(&x, m->user)) return -1;
     if (m->kind == GVI_MASS_DENSE) memcpy(M, m->matrix, (size_t)(n*n)*sizeof *M);
     for (int i = 0; m->kind != GVI_MASS_POSITION && m->kind != GVI_MASS_DENSE && i < n; ++i) {
@@ -678,22 +675,21 @@ static inline int check_kinetic(struct check_run *c, gvi_real *out)
     return 0;
 }
 
-/* Both triangles where the upper one is given; M_ij written, whatever was there. */
+/* Both triangles, where the upper one is given.                                */
 static inline int check_mass_entries(struct check_run *c)
 {
     const gvi_mass *m = &c->desc->mass;
     const int n = c->n;
-    gvi_real *M = c->found, unit = 1;
-    for (int pass = 0; m->kind == GVI_MASS_POSITION && pass < 2; ++pass) {
-        gvi_real *out = check_fill(c, 0, n*n, 1, pass ? 2*unit : unit);
+    gvi_real *M = c->found;
+    if (m->kind == GVI_MASS_POSITION) {
+        gvi_real *out = check_fill(c, 0, n*n, 1, 0);
         const gvi_points x = { .n = n, .count = 1, .stride = 1, .t = &c->t, .q = c->q, .mass = out };
         if (m->points(&x, m->user)) return -1;
-        check_guards(c, 0, n*n, 1, 1, pass ? 2*unit : unit, "mass");
-        for (int k = 0; k < n*n && pass; ++k)
-            if (k % n <= k/n && !check_same(M[k], out[k])) check_note(c, CHECK_WRITTEN, "mass", k/n, k % n);
-        for (int k = 0; k < n*n && pass; ++k)                  // upper triangle left alone: mirrored
-            if (k % n > k/n && !check_same(M[k], out[k])) M[k] = M[k % n*n + k/n];
-        if (!pass) memcpy(M, out, (size_t)(n*n)*sizeof *M);
+        check_guards(c, 0, n*n, 1, 0, "mass");
+        for (int k = 0; k < n*n; ++k) {
+            M[k] = out[k];
+            if (k % n > k/n && !(fabs(out[k]) > 0)) M[k] = out[k % n*n + k/n];    // left alone: mirrored
+        }
     }
     if (m->kind != GVI_MASS_POSITION) memcpy(M, m->matrix, (size_t)(n*n)*sizeof *M);
     for (int i = 1; i < n; ++i)
@@ -755,7 +751,7 @@ static inline void check_velocity(struct check_run *c)
         check_note(c, CHECK_REFUSED, "velocity", -1, -1);
         return;
     }
-    check_guards(c, 0, n, 1, 1, 1, "velocity");
+    check_guards(c, 0, n, 1, 1, "velocity");
     if (check_momentum(c, u, again, more)) return;
     for (int i = 0; i < n; ++i) {
         well &= fabs(again[i] - p[i]) <= c->tolerance*(size[i] + more[i]);
@@ -777,9 +773,9 @@ static inline void check_many_masses(struct check_run *c, int count, int stride)
     const int n = c->n;
     gvi_points x = check_inputs(c, count, stride), y = { .n = n, .count = 1, .stride = 1, .t = &c->t };
     gvi_real unit = 0, *M = c->found;
-    x.mass = check_fill(c, 0, n*n, stride, 1);
+    x.mass = check_fill(c, 0, n*n, stride, 0);
     if (m->points(&x, m->user)) return;
-    check_guards(c, 0, n*n, count, stride, 1, "mass");
+    check_guards(c, 0, n*n, stride, 0, "mass");
     x.mass = NULL;
     for (int k = 0; k < count; ++k) {
         check_go_to(c, k);
@@ -810,7 +806,7 @@ static inline void check_many_masses(struct check_run *c, int count, int stride)
     x.f = check_fill(c, 0, n, stride, unit);
     c->point = 0;
     if (m->gradient(&x, m->user)) return;
-    check_guards(c, 0, n, count, stride, unit, "gradient");
+    check_guards(c, 0, n, stride, unit, "gradient");
     for (int k = 0; k < count; ++k)
         for (int i = 0; i < n; ++i) {
             c->point = k;

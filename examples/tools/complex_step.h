@@ -47,8 +47,8 @@ static int complex_both(const gvi_points *x, const gvi_points *d, const complex_
     for (int k = 0; k < x->count; ++k) {
         complex_number Q[COMPLEX_MOST], V[COMPLEX_MOST], out[COMPLEX_MOST];
         for (int i = 0, at = k; i < x->n; ++i, at += x->stride) {
-            Q[i] = x->q[at] + (d ? e*y->q[at]*(complex_number)I : 0);
-            V[i] = (v ? v[at] : 0) + (d && v ? e*dv[at]*(complex_number)I : 0);
+            Q[i] = x->q[at] + (d ? e*y->q[at]*(complex_number)_Complex_I : 0);
+            V[i] = (v ? v[at] : 0) + (d && v ? e*dv[at]*(complex_number)_Complex_I : 0);
             out[i] = 0;
         }
         (y->velocity ? effect->velocity : effect->force)(Q, V, out);

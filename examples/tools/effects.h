@@ -39,6 +39,7 @@
 #include <math.h>
 #ifndef __cplusplus
 #include <tgmath.h>
+#undef I                              /* <complex.h> comes with it; I is a user's name */
 #endif
 #ifdef __cplusplus
 #define restrict __restrict            /* to the end of this file */
