@@ -6,7 +6,7 @@
    shorter. Nothing else has to be chosen, and no step passes the time given.
 
    Output does not bind the steps: gvi_state_at has the state at any time in the last one. Nor does
-   the event: tools/event.h finds the perihelion, where q.v passes zero from below.
+   the event: tools/event.h finds the perihelion, where q.v passes zero from below (lesson 19).
 
    Units: astronomical unit, year. The comet starts at its aphelion.
 

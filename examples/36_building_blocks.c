@@ -1,9 +1,9 @@
 /* 36 - The building blocks alone: quadrature, interpolation, linear equations
 
    Public, and useful by themselves: Gauss and Lobatto rules with any number of
-   points and dense LU with an estimate of the condition, which the stepper uses,
-   too; and barycentric interpolation through any nodes, which it replaces by
-   Legendre modes of the velocity.  37_by_hand.c builds an integrator from all three.
+   points; dense LU with an estimate of the condition; barycentric interpolation
+   through any nodes.  The stepper uses the first two, and Legendre modes of the
+   velocity in place of the third.  37_by_hand.c builds an integrator from all three.
 
    prints
 
