@@ -75,7 +75,7 @@ GVI_EACH(gravity_gradient, 4, f)
 }
 
 /* The boom's angle to the vertical, its sine.                                     */
-static double beside(double t, const double *e, const double *v, void *user)
+static double sideways(double t, const double *e, const double *v, void *user)
 {
     double r[3];
     body_rotate(e, 1, (double[]){ cos(t), sin(t), 0 }, r);
@@ -88,7 +88,7 @@ static void rock_satellite(void)
     const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = gravity_gradient } };
     const gvi_desc desc = { .n = 4, .effects = scene, .effect_count = 1, .mass = body_mass(&one) };
     double q[4], v[4], p[4], x = 0.75, mean = 1, other = cos(x);
-    event e = { .g = beside, .q = q, .v = v, .p = p };
+    event e = { .g = sideways, .q = q, .v = v, .p = p };
     gvi_stepper st;
     begin(&st, &desc, (double[]){ cos(x/2), 0, 0, sin(x/2) }, (double[]){ 0, 0, 1 });
     while (gvi_step(&st, 0.1) == GVI_OK && !event_next(&e, &st)) {}         /* a quarter of its period */
