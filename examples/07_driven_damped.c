@@ -1,11 +1,10 @@
 /* 07 - An oscillator that is driven and damped: forces, and switching them off
 
    Three rows in effects[]: a spring (a potential), friction, and a drive that
-   depends on the time.  Here the callbacks see one point a call, the simplest
-   form.  The exact solution is known.  And although energy is not
-   conserved, its balance is: what the forces did in each step, integrated with
-   the step's own curve at Gauss points, is the change of the energy.
-   At the end the drive is switched off and is no longer evaluated.
+   depends on the time.  The result is compared with the exact solution.  Energy
+   is not conserved, but its balance is: the work of the forces in each step,
+   integrated along the step's own curve at Gauss points, is the change of the
+   energy.  At the end the drive is switched off and is no longer evaluated.
 
    prints
 

@@ -1,12 +1,12 @@
-/* 10 - How do I write a robot arm as it stands on paper? GVI_EACH
+/* 10 - How do I write a robot arm as it stands on paper?
 
    Three rods, hinge after hinge, in the plane; q_i is the angle of rod i to the vertical. On paper:
 
      M_ij = B_ij cos(q_i - q_j)       dT/dq_i = -v_i sum_j B_ij sin(q_i - q_j) v_j       V = -sum_i G_i cos q_i
 
-   with numbers B, G of lengths and masses. gvi.h wants all points of a step at once; GVI_EACH makes that
-   of what happens at one point, for the mass as for forces. So each formula is a line below, and friction and
-   motors of the hinges are two more rows. Hinge i turns rod i against the one before it.
+   with numbers B, G of lengths and masses. GVI_EACH takes a function for one point, for the mass as for
+   forces. So each formula is a line below, and friction and motors of the hinges are two more rows. Hinge i
+   turns rod i against the one before it.
 
    A controller sets the motors once a step, 200 times a second: to the target on a smooth way, with the
    weight taken off, within what the motors can give. Then both rows are switched off and the arm swings freely.
