@@ -2,9 +2,9 @@
 
    A charge on a spring, V = (|q| - 1)^2/2, in a magnetic field, L = B (x y' - y x')/2,
    and in air, f = -|v| v.  Written down twice: with slips that everybody makes, and
-   mended.  A wrong derivative does not stop a step: another system comes out of it,
-   or an energy that drifts.  So check_scene compares each with what it should be the
-   derivative of.
+   mended.  A wrong derivative does not stop a step: the result is the motion of another
+   system, or an energy that drifts.  So check_scene compares each with differences of
+   the function that it belongs to.
 
    prints
 

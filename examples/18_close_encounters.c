@@ -7,7 +7,7 @@
    dt = g dtau, h being a step in tau: 80 of them a revolution are enough.  gvi_state_at
    gives the state at a wanted time, here after 100 periods of 2 pi.
 
-   Or let the steps follow an accuracy (02_comet.c).  That asks for no clock, but steps that change are not
+   Or let the steps follow an accuracy (02_comet.c).  That needs no clock, but steps that change are not
    symplectic: the error of the energy grows, slowly.  The picture has all three at e = 0.8, where a fixed step
    can follow, with 1,500 evaluations a revolution at most: 63 steps, 20 by the clock, a dial of 1e-10.
 

@@ -1,6 +1,6 @@
 /* 19 - Where does the orbit pass a plane? Events, and output at given times
 
-   The star of Henon and Heiles again, V = (x^2 + y^2)/2 + x^2 y - y^3/3, at energy 1/8. Its orbits
+   The star of Henon and Heiles, V = (x^2 + y^2)/2 + x^2 y - y^3/3, at energy 1/8. Its orbits
    fill a surface of three dimensions, which cannot be drawn; so mark (y, y') each time the star passes
    x = 0 to the right. A regular orbit draws a closed curve, or some islands; a chaotic one fills an area
    with dots. The steps do not meet x = 0: tools/event.h finds the passages, at the order of the steps.

@@ -5,8 +5,8 @@
    cheap. So a ball bounces on a wavy table, y = cos(3x)/10, in a trough that keeps it there. It is elastic:
    the momentum is mirrored at the table, and the energy must come back after 5,000 bounces.
 
-   In each step only the first impact counts, for what comes behind it does not happen. A real ball loses a
-   part of its speed each time (elasticity 0.8). Its bounces then follow faster and faster, infinitely many in
+   In each step only the first impact counts; what the step computes beyond it does not happen. A real ball
+   loses a part of its speed each time (elasticity 0.8). Its bounces then follow faster and faster, infinitely many in
    a finite time: stop when they are low enough.
    (Then it slides: another scene.)
 

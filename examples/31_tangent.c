@@ -7,7 +7,7 @@
    derivative of the force times the direction. What comes out is the derivative of the step
    itself, to rounding; so it is symplectic, as the step is.
 
-   The star of Henon and Heiles, V = (x^2 + y^2)/2 + x^2 y - y^3/3, at energy 1/8. MEGNO (Cincotta
+   The star of lesson 19, V = (x^2 + y^2)/2 + x^2 y - y^3/3, at energy 1/8. MEGNO (Cincotta
    and Simo 2000) is a weighted mean of the rate of growth: it tends to 2 on a regular orbit,
    and grows like half the Lyapunov exponent times the time on a chaotic one.
 
