@@ -23,7 +23,7 @@ docs-check: $(BUILD)/gvi-double.o
 #: float        the object code of a float build: nothing is computed in double
 #: instructions points, iterations and instructions of fixed runs; RECORD=--record writes them anew
 #: prices       what an unlisted effect costs in instructions (valgrind): nothing
-#: ensemble     lesson 29 on one thread, two threads, one and three MPI processes: the same bits
+#: ensemble     lesson 32 on one thread, two threads, one and three MPI processes: the same bits
 #: usable       what make install puts where, the tools in C and C++, and the ways into a project: pkg-config, CMake, a C++ sketch
 #: languages    docs/languages.md: Python, Rust, JavaScript, Octave, each where it is there
 #: boards       Windows (mingw, clang as cl), flash and RAM of least programs on AVR and Cortex-M, AVR's bits in simavr

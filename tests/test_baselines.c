@@ -226,11 +226,11 @@ TEST(gauss_methods_have_their_orders)
     check_order("Gauss 6", 12, 0.8);
 }
 
-/* What is to be copied from examples/14_kicks.c is what is proved here: the numbers behind `name`, in braces */
+/* What is to be copied from examples/12_kicks.c is what is proved here: the numbers behind `name`, in braces */
 static void expect_in_example(const char *name, int count, const long double *published)
 {
     static char text[1 << 14];
-    FILE *file = fopen("examples/14_kicks.c", "r");
+    FILE *file = fopen("examples/12_kicks.c", "r");
     assert_non_null(file);
     text[fread(text, 1, sizeof text - 1, file)] = 0;
     fclose(file);

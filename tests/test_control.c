@@ -1,13 +1,13 @@
-/* Optimal control: lessons 19 and 20 themselves, their functions included.  What is expected are
+/* Optimal control: lessons 34 and 35 themselves, their functions included.  What is expected are
    solutions of Pontryagin's boundary value problems in 24 to 32 digits by another program (Gauss
    collocation with 12 and 8 stages, Newton's method by differences; the cart there in velocities,
    with the adjoint equations of that form).                                   */
 #include "gvi_test.h"
-#define main lesson_19
-#include "19_low_thrust.c"
+#define main lesson_34
+#include "34_low_thrust.c"
 #undef main
-#define main lesson_20
-#include "20_swing_up.c"
+#define main lesson_35
+#include "35_swing_up.c"
 #undef main
 
 /* ------------------------------------------------------------- low thrust */

@@ -1,4 +1,4 @@
-/* motion.c - all that takes time: the force, and gvi.h beside it as a private copy.  MOTION names the form
+/* motion.c - all that takes time: the force, and gvi.h as a private copy.  MOTION names the form
    that this compilation is; without it the plain one.                                                   */
 #define GVI_STATIC
 #define GVI_IMPLEMENTATION

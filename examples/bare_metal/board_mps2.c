@@ -104,7 +104,7 @@ void reset(void)
     run();
 }
 
-/* A fault, such as a stack that has grown below memory, or an interrupt nobody asked for. */
+/* A fault, such as a stack that has grown below memory, or an unexpected interrupt. */
 static void fault(void)
 {
     board_print("board: fault\n");

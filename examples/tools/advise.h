@@ -1,7 +1,7 @@
 /* advise.h - which degree, rule, step and tolerance for a wanted error?
 
    advise_find runs a scene for a short while with one setting after the other and
-   returns the cheapest one whose error at the horizon is what was asked for:
+   returns the cheapest one that has the wanted error at the horizon:
 
      1 reference   the scene over a window, a sixteenth of the horizon, with
                    degree 12 and steps that are made shorter until two runs agree to

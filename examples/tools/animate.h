@@ -1,4 +1,4 @@
-/* animate.h - motion pictures as SVG files, for the scenes of gvi.h
+/* animate.h - films of points, lines and trails as SVG files, for gvi.h; needs svg.h
 
    One call writes one film: points that move, lines that join them, trails, and
    next to it two plots with a mark that runs along.  It plays in a browser without

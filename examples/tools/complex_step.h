@@ -1,5 +1,6 @@
-/* complex_step.h - a force written once, and its product for tangent.h without working it
-   out. For gvi.h in double; needs tangent.h and C99's complex numbers
+/* complex_step.h - products for tangent.h from a force written once, for complex numbers
+
+   For gvi.h in double; needs tangent.h and C99's complex numbers.
 
    An analytic f, written for complex numbers, has f(x + i e d) = f(x) + i e f'(x) d + O(e^2).
    With e = 1e-100 the imaginary part divided by e is the product f'(x) d to rounding:

@@ -14,7 +14,7 @@
    errors   GVI_E_CONVERGENCE after `most` runs, GVI_E_SINGULAR where the end does not
             depend on some combination of the unknowns, or what a step ends with; q and p
             then are the last start
-   limits   no damping: from far off, move the end in parts (20_swing_up.c)
+   limits   no damping: from far off, move the end in parts (35_swing_up.c)
 
    Source: multiple-shooting textbooks, with one interval; Stoer and Bulirsch, 7.3.1.   */
 #ifndef SHOOTING_H

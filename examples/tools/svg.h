@@ -1,4 +1,4 @@
-/* svg.h - plots and tables as SVG files, for the examples, studies and figures of gvi.h
+/* svg.h - plots and tables as SVG files, for programs that use gvi.h
 
    One call writes one picture: lines with a legend, linear or logarithmic
    axes, ticks at round numbers; several panels side by side; tables whose cells

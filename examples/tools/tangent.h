@@ -31,7 +31,7 @@
    Limits    In its last bits the motion computed with its derivative can differ from the motion
              alone, by another number of iterations; desc.iterations makes both the same.
              Columns of a chaotic motion grow: scale them and start again before they
-             overflow, as 17_tangent.c does.  In momenta there is no Newton's method to
+             overflow, as 31_tangent.c does.  In momenta there is no Newton's method to
              fall back to: where a step fails, halve it.
    Time      One column: twice that of the scene alone; four: 3.6 to 4.4 times, with as many
              iterations (Henon-Heiles, degree 8; gcc -O3 -march=native, -O2).

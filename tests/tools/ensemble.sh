@@ -1,5 +1,5 @@
 #!/bin/sh
-# ensemble.sh BUILD: examples/29_ensemble.c by one thread, by two, by one MPI process and by three: the same
+# ensemble.sh BUILD: examples/32_ensemble.c by one thread, by two, by one MPI process and by three: the same
 # numbers to the last bit.  Without OpenMP or MPI (make deps-ensemble) what needs them is skipped.
 build=$1
 CC=${CC:-cc}
@@ -13,7 +13,7 @@ warnings='-Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow -Wun
 compile() {  # program, compiler and flags
     to=$dir/$1
     shift
-    "$@" -std=c99 -O2 -ffp-contract=off $warnings -Werror -I. -Iexamples examples/29_ensemble.c -o "$to" -lm
+    "$@" -std=c99 -O2 -ffp-contract=off $warnings -Werror -I. -Iexamples examples/32_ensemble.c -o "$to" -lm
 }
 agrees() {  # name command...: its numbers are those of one thread
     name=$1
