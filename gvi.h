@@ -838,8 +838,8 @@ struct gvi__private {
 /* The stepper, to be read; in is private.                                     */
 typedef struct gvi_stepper {
     int             n, s, r;          /* as resolved from the description       */
-    gvi_status      status;           /* of the last call; of a step that failed, like its fault,
-                                         until the next step or start: queries leave it */
+    gvi_status      status;           /* of the last call, a query's too; but that of a step that failed,
+                                         like its fault, stays until the next step or start */
     gvi_formulation formulation;      /* used by the last step, or the next     */
     gvi_real        t, t_low;         /* time and its compensation: t + t_low   */
     const gvi_real *q, *p;            /* [n] configuration and momentum at t    */

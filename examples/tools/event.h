@@ -18,8 +18,10 @@
      pile up     impacts that lose speed come ever faster, at last within 1/4096 of the step: then
                  g has turned back there already, and the answer is EVENT_PILE_UP.  Let the body
                  rest from there on.  Not in float, whose digits do not show it
-     not seen    two zeros within one interval: the sign is the same at its ends.  Take h so
-                 short that g has one extremum in a step at most
+     not seen    two zeros within one interval: the sign is the same at its ends.  Take h (with
+                 gvi_advance: t_end) so short that g has one extremum in a step at most
+     output_at   output_at(&st, h, t, q, v, p): steps of h past t, and the state at t there; q, v,
+                 p are [st.n] each, or NULL
      ask         after every step; a step not asked about is not searched
      kicks and a clock have no curve over t: states are taken instead, at a partial step each
 
@@ -36,7 +38,7 @@ typedef gvi_real event_fn(gvi_real t, const gvi_real *q, const gvi_real *v, void
 typedef struct event {
     event_fn *g;
     void     *user;                /* handed to g                                   */
-    gvi_real *q, *v, *p;           /* [n] each, of the caller: the state at the zero */
+    gvi_real *q, *v, *p;           /* [st.n] each, of the caller: the state at the zero */
     gvi_real  t;                   /* its time                                      */
     int       rising;              /* g goes from - to +                            */
 

@@ -40,8 +40,9 @@
                         .product = { product }, .directions = 4,
                         .room = room, .room_length = TANGENT_ROOM(2, 4) };
           tangent_scene(&T);                             fills T.desc
-          gvi_init(&st, &T.desc, memory, sizeof memory);
-          tangent_start(&T, &st, 0, q, p, NULL, NULL);   NULL: the unit directions
+          gvi_init(&st, &T.desc, memory, sizeof memory);       GVI_LENGTH(TANGENT_N(2, 4), s, r) numbers
+          tangent_start(&T, &st, 0, q, p, NULL, NULL);   NULL: the unit directions; else dq[n*j + i],
+                                                         dp likewise: coordinate i of direction j
           gvi_step(&st, h);                              or gvi_advance: the columns count, too
           tangent_column(&T, &st, j, dq, dp);
 
