@@ -713,13 +713,15 @@ typedef struct gvi_desc {
     int               iterations;      /* N: exactly N iterations in every step, for a loop with
                                           a deadline; never Newton.  A step fails unless its last
                                           change is rounding, or less than half of the change two
-                                          iterations before (N = 2: less than the first change).
+                                          iterations before (N = 2: less than the first change),
+                                          and less than a quarter of the motion.
                                           N = 1 has no such test: see counters.worst_change.
                                           0: as many as it takes               */
     gvi_real          resolution;      /* the dial: the relative accuracy wanted of a step, below 1;
                                           less than eps is eps.  A step whose st.resolution is above
-                                          it is refused: GVI_E_RESOLUTION.  From degree 3 on, where
-                                          not explicit.  0: none is, nothing is measured        */
+                                          it is refused: GVI_E_RESOLUTION.  From degree 3 on, with
+                                          a rule of order 2 degree or more, where not explicit.
+                                          0: none is, nothing is measured                       */
 } gvi_desc;
 
 #define GVI_FAULT_NONE (-1)
@@ -916,7 +918,8 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h);
 
    The length is st.next, the first one found from small ones, as long as the accuracy stays within
    a band; what is left is divided so that the last step is no shorter than half of that.  A step
-   that fails is tried again, shorter, until t would not move: then its status is returned.  With
+   that fails is tried again, shorter, 64 times at most or until t would not move: then its status is
+   returned.  With
    a clock the length is in tau, and the step may pass t_end: gvi_state_at has the state there. */
 GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end);
 
@@ -3142,7 +3145,9 @@ static void gvi__set_next(gvi_stepper *st, gvi_status status, gvi_real h)
 {
     const gvi_real seen = st->resolution > GVI__MIN ? st->resolution : GVI__MIN, at = gvi__rungs(h);
     const gvi_real most = gvi__rungs(st->in.desc.resolution) - gvi__rungs(seen);
-    gvi_real room = most/(gvi_real)(2*st->s - 1), up = 0;
+    // the modes end at rounding: above degree 24 the resolution falls no faster than there
+    const int order = st->s < 24 ? 2*st->s - 1 : 47;
+    gvi_real room = most/(gvi_real)order, up = 0;
     if (status == GVI_OK && room < 8) {
         const gvi_real loss = st->in.reach - (at + room);
         st->in.reach = at + room;
@@ -3855,6 +3860,7 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
         if (p->used < d->iterations) return GVI__GO_ON;
         int falls = before <= 0 || D < before;
         if (earlier > 0) falls = D < earlier/4;
+        if (D > far) falls = 0;                   // it leaves the motion, and its units grow with it
         if (falls || D <= sure || gvi__noise(st, h, stage, stages) <= 1) return GVI__DONE;
         return GVI__DIVERGES;
     }
@@ -4088,9 +4094,9 @@ static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h
      (s high/push high/max(high, low))^2 push/all
 
    high^2/low is about the pair that the curve lacks, and of push, which forces do, the step lacks
-   the square of that share, since its error is of second order in the curve's [2, thm. 4.1].  In
-   positions the modes are those of M v, from the forces.  Where a coordinate hardly moves, an error
-   below eps (max |v| + max |q|/h), each times sqrt(M_ii), is rounding, and relative to that sum. */
+   the square of that share, since its error is of second order in the curve's [2, thm. 4.1], with a
+   rule of order u >= 2s.  In positions the modes are those of M v, from the forces.  Where a coordinate hardly moves, an error below
+   eps (max |v| + max |q|/h), each times sqrt(M_ii), is rounding, and relative to that sum.    */
 static gvi_real gvi__resolution(const gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
@@ -4123,7 +4129,8 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
                  low = unit*(GVI_ABS(y[2]) + GVI_ABS(y[3]));
         const gvi_real all = GVI_ABS(start) + GVI_ABS(end) + high + low,
                        push = GVI_ABS(end - start) + high + low;
-        if (pair == 1 && all > 0) high += low*(low/all)/4;   // one mode alone may pass 0
+        // one mode alone may pass 0; one that is rounding is 0: a force as simple as the curve
+        if (pair == 1 && high > 256*GVI__EPS*low) high += low*(low/all)/4;
         const gvi_real most = gvi__larger(high, low);
         const gvi_real mass = GVI_SQRT(gvi__inertia(st, i));
         gvi_real share = 0, scale = mass;
@@ -5262,6 +5269,9 @@ GVI__COLD gvi_status gvi__check_rule(struct gvi__private *in, int *order, gvi_fa
     }
     // r >= s points of Gauss or Lobatto are good enough
     if (r < s) return GVI_E_POINTS;
+    if (in->desc.resolution > 0 && *order < 2*s)
+        return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE,
+                           "resolution: the order of the rule is below twice the degree");
     return GVI_OK;
 }
 
