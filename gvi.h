@@ -227,17 +227,15 @@
    (positions) or h omega, omega the fastest frequency.  Where that is no gain,
    GVI_AUTO goes over to Newton.  All solve the same equations, to rounding.
 
-   CONSTRAINTS.  Effects g(t,q) = 0 hold at Lobatto's s + 1 points d_e of the step, weights
-   w_e, where their multipliers act; Lagrangian and forces stay at the rule's own [8], [9]:
-   h sum_i b_i L(t_i, Q_i, V_i) + h sum_e w_e lambda_e . g(q(d_e h)) is stationary.  The
-   step ends on g = 0 and on the hidden constraint G v + dg/dt = 0, G = dg/dq.  q and p are
-   of order min(2s, u) for u >= 2s - 2, symplectic on the constraint manifold; degree 1 with
-   Lobatto's two points is RATTLE.  Second derivatives are not needed.  What G has of zeros costs
-   nothing: list rows that share coordinates near each other.  A row that depends on those before
-   it and agrees with them is left out, step by step: its multiplier is 0.  The rank must stay what
-   it is over the step, which it does not at a change point, where motions part.  Positions,
-   velocities and momenta solve for lambda within the iteration (equations: CONSTRAINTS); Newton
-   has lambda among its unknowns, s (n + m) of them for m constraints.
+   CONSTRAINTS.  Effects g(t,q) = 0 hold at Lobatto's s + 1 points of the step, where their
+   multipliers act; Lagrangian and forces stay at the rule's own [8], [9] (equations: CONSTRAINTS).
+   The step ends on g = 0 and on the hidden constraint G v + dg/dt = 0, G = dg/dq.  q and p are of
+   order min(2s, u) for u >= 2s - 2, symplectic on the constraint manifold; degree 1 with Lobatto's
+   two points is RATTLE.  Second derivatives are not needed.  What G has of zeros costs nothing:
+   list rows that share coordinates near each other.  A row that depends on those before it and
+   agrees with them is left out, step by step: its multiplier is 0.  The rank must stay what it is
+   over the step, which it does not at a change point, where motions part.  Newton has lambda among
+   its unknowns, s (n + m) of them for m constraints; the fixed points solve for it as they go.
 
    CLOCK.  An effect g(q) > 0 makes time run as dt = g dtau, and h is a step in
    tau: t moves fast or slow, and the map is as symplectic as with fixed steps
@@ -1215,8 +1213,22 @@ static int gvi__first_non_finite(int n, const gvi_real *x)
     return -1;
 }
 
-// how many of n numbers stand in whole lanes
-GVI__BODY int gvi__in_lanes(int n) { return GVI__LANES > 1 ? n - n % GVI__LANES : 0; }
+/* GVI__ALONG(n, body): the body for n numbers, GVI__LANES of them at a time and what is left one by
+   one; in it GVI__AT(x) stands for those of x, and gvi__number is their type.                 */
+#define GVI__AT(x) (*(gvi__number *)((x) + gvi__at))
+#define GVI__ALONG(n, ...)                                                                      \
+    {                                                                                           \
+        const int gvi__whole = GVI__LANES > 1 ? (n) - (n) % GVI__LANES : 0;                     \
+        int gvi__at = 0;                                                                        \
+        GVI__UNROLL for (; gvi__at < gvi__whole; gvi__at += GVI__LANES) {                       \
+            typedef gvi__lane gvi__number;                                                      \
+            __VA_ARGS__;                                                                        \
+        }                                                                                       \
+        for (; gvi__at < (n); ++gvi__at) {                                                      \
+            typedef gvi__rounded gvi__number;                                                   \
+            __VA_ARGS__;                                                                        \
+        }                                                                                       \
+    }
 
 static void gvi__zero(size_t n, gvi_real *x)
 {
@@ -1261,11 +1273,7 @@ static gvi_real gvi__dot3(int n, const gvi_real *a, const gvi_real *b, const gvi
 // z := y + a x
 static void gvi__add_scaled(int n, gvi_real a, const gvi_real *x, const gvi_real *y, gvi_real *z)
 {
-    const int whole = gvi__in_lanes(n);
-    int i = 0;
-    for (; i < whole; i += GVI__LANES)
-        GVI__STORE(z + i) = GVI__LOAD(y + i) + a*GVI__LOAD(x + i);
-    for (; i < n; ++i) z[i] = y[i] + a*x[i];
+    GVI__ALONG(n, GVI__AT(z) = GVI__AT(y) + a*GVI__AT(x))
 }
 
 /* Double-word arithmetic: an unevaluated sum hi + lo, |lo| <= ulp(hi)/2, carries twice the digits
@@ -1454,16 +1462,8 @@ GVI__COLD gvi_status gvi__lu_scales(int n, const gvi_real *a, gvi_real *pivot, i
 GVI__BODY void gvi__subtract_at(int width, int count, const gvi_real *GVI__RESTRICT a,
                                 const gvi_real *GVI__RESTRICT top, gvi_real *GVI__RESTRICT row)
 {
-    const int whole = gvi__in_lanes(count);
-    int k = 0;
-    if (width > 1) {
-        for (; k < whole; k += GVI__LANES)
-            GVI__STORE(row + k) -= GVI__LOAD(a + k)*GVI__LOAD(top + k);
-        for (; k < count; ++k) row[k] -= a[k]*top[k];
-    } else {
-        for (; k < whole; k += GVI__LANES) GVI__STORE(row + k) -= a[0]*GVI__LOAD(top + k);
-        for (; k < count; ++k) row[k] -= a[0]*top[k];
-    }
+    if (width > 1) GVI__ALONG(count, GVI__AT(row) = GVI__AT(row) - GVI__AT(a)*GVI__AT(top))
+    else GVI__ALONG(count, GVI__AT(row) = GVI__AT(row) - a[0]*GVI__AT(top))
 }
 
 static void gvi__subtract_row(size_t count, gvi_real l, const gvi_real *top, gvi_real *row)
@@ -1622,8 +1622,7 @@ static gvi_status gvi__ldl_factor(int n, int R, int count, gvi_real *m, gvi_real
         for (size_t i = j + 1; i < N; ++i) {
             gvi_real *a = m + (i*N + j)*S, *b = m + (j*N + i)*S;
             for (size_t l = 0; l < j; ++l)
-                for (int k = 0; k < count; ++k)
-                    a[k] -= m[(j*N + l)*S + (size_t)k]*m[(l*N + i)*S + (size_t)k];
+                gvi__subtract_at(R, count, m + (j*N + l)*S, m + (l*N + i)*S, a);
             for (int k = 0; k < count; ++k) {
                 b[k] = a[k];
                 a[k] *= d[k];
@@ -1642,10 +1641,9 @@ static void gvi__ldl_solve(int n, const gvi_real *m, int width, gvi_real *z, int
             gvi__subtract_at(width, count, m + ((size_t)i*N + (size_t)j)*w, z + j*R, z + i*R);
     for (int i = n; i-- > 0; ) {
         const gvi_real *d = m + (size_t)i*(N + 1)*w;
-        const int whole = (width == 1)*gvi__in_lanes(count), each = width > 1;
-        int k = 0;
-        for (; k < whole; k += GVI__LANES) GVI__STORE(z + i*R + k) *= d[0];
-        for (; k < count; ++k) z[i*R + k] *= d[k*each];
+        gvi_real *row = z + i*R;
+        if (width > 1) for (int k = 0; k < count; ++k) row[k] *= d[k];
+        else GVI__ALONG(count, GVI__AT(row) = GVI__AT(row)*d[0])
         for (int j = i + 1; j < n; ++j)
             gvi__subtract_at(width, count, m + ((size_t)j*N + (size_t)i)*w, z + j*R, z + i*R);
     }
@@ -2825,11 +2823,7 @@ enum { GVI__STEP, GVI__FROM_START, GVI__FROM_END };
 static void gvi__times(int count, gvi_real t, gvi_real t_low, gvi_real h, const gvi_real *c,
                        gvi_real *out)
 {
-    const int whole = gvi__in_lanes(count);
-    int k = 0;
-    for (; k < whole; k += GVI__LANES)
-        GVI__STORE(out + k) = t + (t_low + GVI__LOAD(c + k)*h);
-    for (; k < count; ++k) out[k] = t + (t_low + c[k]*h);
+    GVI__ALONG(count, GVI__AT(out) = t + (t_low + GVI__AT(c)*h))
 }
 
 // 1) tables for h, times of the points; for a constant mass v = M^-1 p and h v in double words
@@ -2899,11 +2893,7 @@ GVI__BODY const gvi_real *gvi__weighted(int R, const gvi_real *GVI__RESTRICT w,
                                         const gvi_real *source, gvi_real *GVI__RESTRICT L)
 {
     if (!w) return source;
-    const int whole = gvi__in_lanes(R);
-    int j = 0;
-    GVI__UNROLL for (; j < whole; j += GVI__LANES)
-        GVI__STORE(L + j) = GVI__LOAD(w + j)*GVI__LOAD(source + j);
-    for (; j < R; ++j) L[j] = w[j]*source[j];
+    GVI__ALONG(R, GVI__AT(L) = GVI__AT(w)*GVI__AT(source))
     return L;
 }
 
@@ -3074,11 +3064,7 @@ static gvi__kernel *gvi__kernel_for(int n, int r)
 GVI__BODY void gvi__free_row(int R, gvi_real low, gvi_real path, gvi_real path_low,
                              const gvi_real *GVI__RESTRICT c, gvi_real *GVI__RESTRICT row)
 {
-    const int whole = gvi__in_lanes(R);
-    int k = 0;
-    for (; k < whole; k += GVI__LANES)
-        GVI__STORE(row + k) = (low + GVI__LOAD(c + k)*path_low) + GVI__LOAD(c + k)*path;
-    for (; k < R; ++k) row[k] = (low + c[k]*path_low) + c[k]*path;
+    GVI__ALONG(R, GVI__AT(row) = (low + GVI__AT(c)*path_low) + GVI__AT(c)*path)
 }
 
 // a stage that is the sum over one table and nothing else
@@ -3329,18 +3315,11 @@ GVI__BODY void gvi__fold(int half, gvi_real *hi, gvi_real *lo)
 GVI__BODY gvi__two gvi__exact_dot(int R, const gvi_real *a, const gvi_real *b)
 {
     gvi_real hi[8] = { 0 }, lo[8] = { 0 };
-    if (R < 8)
-        for (int k = 0; k < R; ++k) {
-            const gvi__two z = gvi__two_prod(a[k], b[k]);
-            hi[k] = z.hi;
-            lo[k] = z.lo;
-        }
-    else
-        for (int k = 0; k < 8; ++k) {
-            const gvi__two z = gvi__two_prod(a[k], b[k]);
-            hi[k] = z.hi;
-            lo[k] = z.lo;
-        }
+    for (int k = 0; k < 8 && k < R; ++k) {
+        const gvi__two z = gvi__two_prod(a[k], b[k]);
+        hi[k] = z.hi;
+        lo[k] = z.lo;
+    }
     for (int o = 8; o < R; o += 8)
         for (int k = 0; k < 8; ++k) {
             const gvi__two z = gvi__two_prod(a[o + k], b[o + k]),
@@ -5594,21 +5573,16 @@ static gvi_status gvi__predict_sources(gvi_stepper *st, const gvi__origin *from,
 }
 
 // x := zero, a 0 that the compiler does not know: it would call memset, and wait for it, every time
-static void gvi__clear(size_t n, gvi_real zero, gvi_real *x)
+static void gvi__clear(int n, gvi_real zero, gvi_real *x)
 {
-    const gvi__lane none = { 0 }, all = none + zero;
-    const size_t whole = n - n % GVI__LANES;
-    size_t i = 0;
-    for (; i < whole; i += GVI__LANES) GVI__STORE(x + i) = all;
-    for (; i < n; ++i) x[i] = zero;
+    GVI__ALONG(n, const gvi__number none = { 0 }; GVI__AT(x) = none + zero)
 }
 
 // 4) F (and A, V) at the stage values, all points in one call an effect
 static gvi_status gvi__evaluate_stages(gvi_stepper *st, const gvi__origin *from, gvi_points *at)
 {
     struct gvi__private *in = &st->in;
-    const size_t length = (size_t)st->n*(size_t)in->R;
-    const int momenta = gvi__has(in, GVI__BY_MOMENTA);
+    const int length = st->n*in->R, momenta = gvi__has(in, GVI__BY_MOMENTA);
     gvi_status status = GVI_OK;
     gvi__clear(length, in->zeros[0], at->f);
     if (momenta) {                                // V from dL/dv(Q, V) = P
@@ -5718,7 +5692,7 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
     const gvi_real eps2 = GVI__EPS*GVI__EPS, all = eps2*(gvi_real)(st->n*st->r),
                    rounding = GVI__PLACE*GVI__PLACE*all, sure = GVI__SURE*GVI__SURE*all;
     const gvi_real before = p->before, earlier = p->earlier, worst = st->counters.worst_contraction;
-    const int grows = before > 0 && D >= before*GVI__POOR*GVI__POOR;
+    const int grows = before > 0 && D >= before*(GVI__POOR*GVI__POOR);
     const int alone = p->used == 1 || p->ratio > 1;
     gvi_real last = D;
     if (!alone) last = gvi__smaller(before, 1);
@@ -5750,7 +5724,7 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
     if (d->iterations > 0) {
         if (p->used < d->iterations) return GVI__GO_ON;
         int falls = before <= 0 || D < before;
-        if (earlier > 0) falls = D < earlier*GVI__POOR*GVI__POOR;
+        if (earlier > 0) falls = D < earlier*(GVI__POOR*GVI__POOR);
         if (falls || D <= sure || gvi__noise(st, h, stage, stages) <= 1) return GVI__DONE;
         return GVI__DIVERGES;
     }
@@ -5914,36 +5888,30 @@ GVI__BODY void gvi__drift(gvi_stepper *st, const gvi__origin *from, const gvi_re
     const gvi_real *GVI__RESTRICT q = from->q, *GVI__RESTRICT m = in->mass.inverse;
     gvi_real *GVI__RESTRICT F = in->work.F, *GVI__RESTRICT Q = in->work.Q;
     gvi_real *GVI__RESTRICT dp = in->step.p, *GVI__RESTRICT dq = in->step.q, *z = in->result;
-    const gvi_real *p0 = first ? from->p_low : dp, *q0 = first ? from->q_low : dq;
-    const gvi_real *f = first ? first : F;
-    int i = 0;
+    const gvi_real *p0 = dp, *q0 = dq, *f = F;
+    if (first) {
+        p0 = from->p_low;
+        q0 = from->q_low;
+        f = first;
+    }
     const int n = st->n;
     if (in->desc.mass.kind == GVI_MASS_DENSE) {
-        for (i = 0; i < n; ++i) z[i] = dp[i] = p0[i] + b*f[i];
+        for (int i = 0; i < n; ++i) z[i] = dp[i] = p0[i] + b*f[i];
         gvi__over_mass(st, z, 1, 1);
-        for (i = 0; i < n; ++i) {
+        for (int i = 0; i < n; ++i) {
             F[i] = 0;
             dq[i] = q0[i] + a*(v[i] + z[i]);
             Q[i] = q[i] + dq[i];
         }
         return;
     }
-    const gvi__lane zero = { 0 };
-    const int whole = (n >= 8)*gvi__in_lanes(n);
-    for (; i < whole; i += GVI__LANES) {
-        const gvi__lane p = GVI__LOAD(p0 + i) + b*GVI__LOAD(f + i);
-        const gvi__lane d = GVI__LOAD(q0 + i) + a*(GVI__LOAD(v + i) + p*GVI__LOAD(m + i));
-        GVI__STORE(dp + i) = p;
-        GVI__STORE(F + i) = zero;
-        GVI__STORE(dq + i) = d;
-        GVI__STORE(Q + i) = GVI__LOAD(q + i) + d;
-    }
-    for (; i < n; ++i) {
-        dp[i] = p0[i] + b*f[i];
-        F[i] = 0;
-        dq[i] = q0[i] + a*(v[i] + dp[i]*m[i]);
-        Q[i] = q[i] + dq[i];
-    }
+    GVI__ALONG(n,
+        const gvi__number p = GVI__AT(p0) + b*GVI__AT(f), none = { 0 };
+        const gvi__number d = GVI__AT(q0) + a*(GVI__AT(v) + p*GVI__AT(m));
+        GVI__AT(dp) = p;
+        GVI__AT(F) = none;
+        GVI__AT(dq) = d;
+        GVI__AT(Q) = GVI__AT(q) + d)
 }
 
 /* Kicks h b_j F_j at the nodes, drifts between them: one evaluation a kick; none where a weight is
@@ -6048,16 +6016,8 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_rea
 static int gvi__finite_end(const gvi_stepper *st, const gvi__origin *from)
 {
     const struct gvi__phase *d = &st->in.step;
-    const int whole = (st->n >= 8)*gvi__in_lanes(st->n);
     gvi_real none = 0;
-    int i = 0;
-    gvi__lane nones = { 0 };
-    for (; i < whole; i += GVI__LANES)
-        nones += 0*(GVI__LOAD(from->q + i) + GVI__LOAD(d->q + i))
-                 + 0*(GVI__LOAD(from->p + i) + GVI__LOAD(d->p + i));
-    if (whole > 0)
-        for (int k = 0; k < GVI__LANES; ++k) none += GVI__ENTRY(nones, k);
-    for (; i < st->n; ++i) {
+    for (int i = 0; i < st->n; ++i) {
         // rounded, as the commit will store them
         const gvi__rounded q = from->q[i] + d->q[i], p = from->p[i] + d->p[i];
         none += 0*q + 0*p;
@@ -6111,29 +6071,19 @@ static void gvi__move(int n, const gvi_real *GVI__RESTRICT dx, const gvi_real *G
                       gvi_real *GVI__RESTRICT x, gvi_real *GVI__RESTRICT x_low,
                       gvi_real *GVI__RESTRICT was)
 {
-    const int whole = (n >= 8)*gvi__in_lanes(n);
-    int i = 0;
-    for (; i < whole; i += GVI__LANES) {
-        // gvi__two_sum, twice
-        const gvi__lane a = GVI__LOAD(x + i), d = GVI__LOAD(dx + i), s = a + d, b = s - a;
-        gvi__lane e = (a - (s - b)) + (d - b), t = s;
-        if (dx_low) {
-            e += GVI__LOAD(dx_low + i);
-            t = s + e;
-            const gvi__lane f = t - s;
-            e = (s - (t - f)) + (e - f);
-        }
-        GVI__STORE(was + i) = a;
-        GVI__STORE(x + i) = t;
-        GVI__STORE(x_low + i) = e;
-    }
-    for (; i < n; ++i) {
-        gvi__two sum = gvi__two_sum(x[i], dx[i]);
-        if (dx_low) sum = gvi__two_sum(sum.hi, sum.lo + dx_low[i]);
-        was[i] = x[i];
-        x[i] = sum.hi;
-        x_low[i] = sum.lo;
-    }
+    // gvi__two_sum, twice
+    GVI__ALONG(n,
+        const gvi__number a = GVI__AT(x), d = GVI__AT(dx), s = a + d, b = s - a;
+        const gvi__number da = s - b, e = (a - da) + (d - b);
+        GVI__AT(was) = a;
+        GVI__AT(x) = s;
+        GVI__AT(x_low) = e)
+    if (!dx_low) return;
+    GVI__ALONG(n,
+        const gvi__number s = GVI__AT(x), e = GVI__AT(x_low) + GVI__AT(dx_low), t = s + e;
+        const gvi__number f = t - s, ds = t - f;
+        GVI__AT(x) = t;
+        GVI__AT(x_low) = (s - ds) + (e - f))
 }
 
 // 7) the state moves on, and work's stage values become those of the last step
@@ -7163,59 +7113,37 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
     return 0;
 }
 
-// rows and columns i and j of a symmetric matrix change places
-static void gvi__exchange(size_t n, gvi_real *a, size_t i, size_t j)
-{
-    for (size_t k = 0; k < n; ++k) gvi__swap(a + i*n + k, a + j*n + k);
-    for (size_t k = 0; k < n; ++k) gvi__swap(a + k*n + i, a + k*n + j);
-}
-
-/* Negative eigenvalues of a symmetric matrix, which is overwritten: by Sylvester's law those of
-   D in L D L', D with blocks of 1 or 2, complete pivoting (Bunch and Parlett, SIAM J.  Numer.
-   Anal.  8, 1971; their alpha, (1 + sqrt 17)/8 = 0.6404, says when a block of 1 is large
-   enough).  A block of 2 has one of each sign.                                                */
-GVI__COLD int gvi__count_negative(size_t n, gvi_real *a)
+/* Negative eigenvalues of a symmetric matrix, which is overwritten; v: 2n numbers.  Householder's
+   reflections make it tridiagonal; by Sylvester's law there are as many as negative pivots then. */
+GVI__COLD int gvi__count_negative(int n, gvi_real *a, gvi_real *v)
 {
     int count = 0;
-    for (size_t k = 0; k < n; ) {
-        // the largest entry on the diagonal, (p,p), and off it, (r,q)
-        size_t p = k, q = k, r = k;
-        gvi_real diagonal = -1, off = -1;
-        for (size_t i = k; i < n; ++i) {
-            if (GVI_ABS(a[i*n + i]) > diagonal) {
-                diagonal = GVI_ABS(a[i*n + i]);
-                p = i;
-            }
-            for (size_t j = k; j < i; ++j)
-                if (GVI_ABS(a[i*n + j]) > off) {
-                    off = GVI_ABS(a[i*n + j]);
-                    q = j;
-                    r = i;
-                }
+    gvi_real pivot = 1, off = 0, *z = v + n;
+    for (int k = 0; k < n; ++k) {
+        gvi_real *row = a + (size_t)k*(size_t)n + k + 1, big = 0;       // right of the diagonal
+        const int m = n - 1 - k;
+        pivot = row[-1] - off/pivot*off;
+        count += pivot < 0;
+        if (!gvi__nonzero(pivot)) pivot = GVI__MIN;
+        for (int i = 0; i < m; ++i) big = gvi__larger(GVI_ABS(row[i]), big);
+        off = 0;
+        if (!(big > 0)) continue;
+        for (int i = 0; i < m; ++i) v[i] = row[i]/big;
+
+        // I - v v'/half takes that to (norm, 0, ...); then B -= v z' + z v', B the rest
+        gvi_real norm = GVI_SQRT(gvi__dot(m, v, v));
+        if (v[0] > 0) norm = -norm;
+        v[0] -= norm;
+        off = norm*big;
+        const gvi_real half = -norm*v[0];
+        for (int i = 0; i < m; ++i) z[i] = gvi__dot(m, row + (size_t)(i + 1)*(size_t)n, v)/half;
+        const gvi_real share = gvi__dot(m, v, z)/(2*half);
+        for (int i = 0; i < m; ++i) z[i] -= share*v[i];
+        for (int i = 0; i < m; ++i) {
+            gvi_real *rest = row + (size_t)(i + 1)*(size_t)n;
+            gvi__subtract_row((size_t)m, v[i], z, rest);
+            gvi__subtract_row((size_t)m, z[i], v, rest);
         }
-        const gvi_real *top = a + k*n, *next = top + n;
-        if (diagonal >= (gvi_real)0.6404*off) {   // a block of 1
-            if (!(diagonal > 0)) break;
-            gvi__exchange(n, a, k, p);
-            count += top[k] < 0;
-            for (size_t i = k + 1; i < n; ++i) {
-                const gvi_real u = a[i*n + k]/top[k];
-                for (size_t j = k + 1; j < n; ++j) a[i*n + j] -= u*top[j];
-            }
-            k += 1;
-            continue;
-        }
-        gvi__exchange(n, a, k, q);
-        if (r == k) r = q;                        // k has just gone to q
-        gvi__exchange(n, a, k + 1, r);
-        count += 1;
-        const gvi_real d = top[k], e = next[k], f = next[k + 1], det = d*f - e*e;
-        for (size_t i = k + 2; i < n; ++i) {
-            const gvi_real x = a[i*n + k], y = a[i*n + k + 1];
-            const gvi_real u = (f*x - e*y)/det, v = (d*y - e*x)/det;          // the block's inverse
-            for (size_t j = k + 2; j < n; ++j) a[i*n + j] -= u*top[j] + v*next[j];
-        }
-        k += 2;
     }
     return count;
 }
@@ -7240,7 +7168,7 @@ GVI__COLD gvi_status gvi__morse_index(gvi_stepper *st, const gvi__matrix *J, int
             const gvi_real upper = a[j*size + i]/(gvi_real)(2*(j/n) + 3);
             a[i*size + j] = a[j*size + i] = (lower + upper)/2*in->sized.h;
         }
-    *negative = gvi__count_negative(size, a);
+    *negative = gvi__count_negative((int)size, a, J->ends);
     return GVI_OK;
 }
 
@@ -7389,29 +7317,29 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
 
 GVI_DEF const char *gvi_status_text(gvi_status status)
 {
-    switch (status) {
-    case GVI_OK:            return "ok";
-    case GVI_E_ARGUMENT:    return "bad argument (a sentence: fault.argument)";
-    case GVI_E_MEMORY:      return "memory too small: gvi_size(desc) bytes; GVI_LENGTH(n, s, r) "
-                                   "or, with constraints, GVI_CONSTRAINED_LENGTH(n, s, r, m)";
-    case GVI_E_NODES:       return "rule: nodes are not distinct and in [0,1], or not finite";
-    case GVI_E_ORDER:       return "rule: its order is below the degree";
-    case GVI_E_POINTS:      return "rule: it does not see every mode";
-    case GVI_E_FORMULATION: return "no formulation, or not the pinned one, covers this scene";
-    case GVI_E_SINGULAR:    return "singular matrix: a coordinate (fault.coordinate) has no mass";
-    case GVI_E_CONVERGENCE: return "no solution found: halve h; if no h works, a force jumps, "
-                                   "is noisy, or has a wrong derivative";
-    case GVI_E_CALLBACK:    return "an effect (fault.effect) did not return 0: halve h";
-    case GVI_E_NON_FINITE:  return "an effect (fault.effect) gave NaN or Inf: halve h";
-    case GVI_E_VALUE:       return "an effect (fault.effect) has no value callback";
-    case GVI_E_STATE:       return "the time is outside the last step, or a clock is on since";
-    case GVI_E_CONJUGATE:   return "conjugate points: the ends do not determine the curve";
-    case GVI_E_CLOCK:       return "a clock (fault.effect) must be positive: g <= 0";
-    case GVI_E_CONSTRAINT:  return "the state is not on a constraint: g(t,q) or its rate is not 0";
-    case GVI_E_RESOLUTION:  return "the step is not as accurate as desc.resolution wants it: "
-                                   "halve h";
-    default:                return "unknown status";
-    }
+    static const char *const text[] = {
+        "ok",
+        "bad argument (a sentence: fault.argument)",
+        "memory too small: gvi_size(desc) bytes; GVI_LENGTH(n, s, r) or, with constraints, "
+        "GVI_CONSTRAINED_LENGTH(n, s, r, m)",
+        "rule: nodes are not distinct and in [0,1], or not finite",
+        "rule: its order is below the degree",
+        "rule: it does not see every mode",
+        "no formulation, or not the pinned one, covers this scene",
+        "singular matrix: a coordinate (fault.coordinate) has no mass",
+        "no solution found: halve h; if no h works, a force jumps, is noisy, or has a wrong "
+        "derivative",
+        "an effect (fault.effect) did not return 0: halve h",
+        "an effect (fault.effect) gave NaN or Inf: halve h",
+        "an effect (fault.effect) has no value callback",
+        "the time is outside the last step, or a clock is on since",
+        "conjugate points: the ends do not determine the curve",
+        "a clock (fault.effect) must be positive: g <= 0",
+        "the state is not on a constraint: g(t,q) or its rate is not 0",
+        "the step is not as accurate as desc.resolution wants it: halve h"
+    };
+    if (status > GVI_OK || status < GVI_E_RESOLUTION) return "unknown status";
+    return text[-(int)status];
 }
 
 // with a description or a call that no formulation covers
@@ -7463,19 +7391,19 @@ GVI_DEF size_t gvi_stepper_size(void) { return sizeof(gvi_stepper); }
 
 GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st)
 {
+    static const char *const text[] = {
+        "not set up",
+        "explicit: Lobatto 2 or kicks, constant mass, effects read only t and q",
+        "positions: constant mass, effects read only t and q",
+        "velocities: constant mass, an effect reads v",
+        "momenta: r = s, velocity from momentum at each point",
+        "Newton: no fixed point covers this mass, degree and rule"
+    };
     if (!st) return "no stepper";
     if (st->in.desc.formulation != GVI_AUTO) return "pinned by the description";
     if (st->formulation == GVI_NEWTON && st->in.chosen != GVI_NEWTON)
         return "Newton: the fixed point contracted badly";
-    switch (st->formulation) {
-    case GVI_EXPLICIT:
-        return "explicit: Lobatto 2 or kicks, constant mass, effects read only t and q";
-    case GVI_POSITIONS:  return "positions: constant mass, effects read only t and q";
-    case GVI_VELOCITIES: return "velocities: constant mass, an effect reads v";
-    case GVI_MOMENTA:    return "momenta: r = s, velocity from momentum at each point";
-    case GVI_NEWTON:     return "Newton: no fixed point covers this mass, degree and rule";
-    case GVI_AUTO: default: return "not set up";
-    }
+    return text[st->formulation];
 }
 
 #endif /* GVI_IMPLEMENTATION */

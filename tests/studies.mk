@@ -169,7 +169,7 @@ $(BUILD)/cost/constraints $(BUILD)/cost/points: %: %.o
 $(BUILD)/cost/kicks $(BUILD)/cost/cost: %: %.o $(addprefix $(BUILD)/cost/,problems.o baselines.o gvi_run.o)
 	$(Q)$(CC) $^ -o $@ $(LDLIBS)
 
-#: tolerances   each constant of gvi.h's section TOLERANCES by half and by two: iterations, tests that fail (15 minutes of CPU); NAME=GVI__NOISE
+#: tolerances   each constant of gvi.h's section TOLERANCES by half and by two: iterations, tests that fail (ten minutes); NAME=GVI__NOISE
 tolerances: | $(FIRST)
 	$(Q)sh tests/tools/tolerances.sh $(BUILD) $(NAME)
 
