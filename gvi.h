@@ -5477,7 +5477,7 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
      2) predictor     F (V, A) at the points, extrapolated from the last step
      3) stages        Q by (3) from F; V by (4), or P and Q by (5)
      4) effects       F(Q), at all points in one call
-     5) verdict       again from 3), until Q has converged
+     5) verdict       again from 3), until Q has converged: by the list at gvi__iterate
      6) increments    dp by (2), dq by (3) at tau = 1
      7) commit        the state moves on
 
@@ -5793,6 +5793,8 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
     in->watch.found = gvi__smaller(p.ratio, 1);
     *used = 0;
     in->has_factor = 0;
+
+    // 2) what the predictor makes: stage values at once, or F (V, A), and of these stage values
     if (extrapolate && in->sized.sums) {
         first = stage[0];
         gvi__set_predictor(st, &first, in->last.F, in->older.F);
@@ -5804,10 +5806,9 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
     }
     p.used = *used = 1;
     for (int shorter = 0, last = 0; ; ) {
-        status = gvi__evaluate_stages(st, from, &at);
+        status = gvi__evaluate_stages(st, from, &at);                                        // 4)
         // free motion may leave a callback's domain though the motion does not: halve the way
-        if (status == GVI_E_CALLBACK && p.used == 1 && !extrapolate
-            && shorter++ < GVI__NEARER) {
+        if (status == GVI_E_CALLBACK && p.used == 1 && !extrapolate && shorter++ < GVI__NEARER) {
             for (int i = 0; i < st->n; ++i)
                 for (int k = 0; k < in->R; ++k)
                     in->work.Q[i*in->R + k] = (in->work.Q[i*in->R + k] + from->q[i])/2;
@@ -5816,8 +5817,8 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
         if (last && status == GVI_OK && gvi__constrained(st)) gvi__constrain(st, stage, from->q);
         if (last || status != GVI_OK) return status;
         const int diverged = p.growing > 0 || p.before > (gvi_real)st->n;
-        const gvi_real change = gvi__new_rows(st, stage, stages, p.rescale);
-        const int verdict = gvi__converged(st, &p, change, h, stage, stages);
+        const gvi_real change = gvi__new_rows(st, stage, stages, p.rescale);                  // 3)
+        const int verdict = gvi__converged(st, &p, change, h, stage, stages);                 // 5)
         if (verdict == GVI__GO_ON) {
             gvi_real *spare = in->watch.before;
             in->watch.before = in->watch.change;
@@ -5962,7 +5963,7 @@ static gvi_status gvi__kicks(gvi_stepper *st, const gvi__origin *from, gvi_real 
 static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query)
 {
     struct gvi__private *in = &st->in;
-    gvi__free_motion(st, from, h);
+    gvi__free_motion(st, from, h);                                                           // 1)
     st->formulation = in->chosen;
     if (!gvi__has(in, GVI__ITERATES)) {
         const gvi_real *F = NULL;                 // the force at the start, if it is known
@@ -5979,7 +5980,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_rea
     if (gvi__has(in, GVI__FIXED_POINT) && (in->newton.left == 0 || query)) {
         if (usable) gvi__prepare_predictor(st, h, query);
         for (int plain = !usable; plain < 2; ++plain) {
-            status = gvi__iterate(st, from, h, !plain, &used);
+            status = gvi__iterate(st, from, h, !plain, &used);                           // 2) to 5)
             gvi__count(&st->counters.iterations, used);
             if (!query) st->iterations = used;
             if (used > st->counters.most_iterations) st->counters.most_iterations = used;
@@ -5988,7 +5989,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_rea
                 || (in->desc.iterations > 0 && (used > 1 || status == GVI_E_CONVERGENCE)))
                 break;
         }
-        if (status == GVI_OK) gvi__increments(st, from, h);
+        if (status == GVI_OK) gvi__increments(st, from, h);                                  // 6)
         if (status == GVI_OK && gvi__constrained(st)) status = gvi__project(st, from, 0);
         if (status == GVI_OK || !gvi__may_turn(st)) return status;
         if (!query && (status == GVI_E_CONVERGENCE || gvi__constrained(st)))
@@ -6280,7 +6281,7 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
     }
     if (st->resolution > st->counters.worst_resolution)
         st->counters.worst_resolution = st->resolution;
-    gvi__commit(st, h);
+    gvi__commit(st, h);                                                                      // 7)
     return gvi__report_status(st, GVI_OK);
 }
 
@@ -7317,29 +7318,29 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
 
 GVI_DEF const char *gvi_status_text(gvi_status status)
 {
-    static const char *const text[] = {
-        "ok",
-        "bad argument (a sentence: fault.argument)",
-        "memory too small: gvi_size(desc) bytes; GVI_LENGTH(n, s, r) or, with constraints, "
-        "GVI_CONSTRAINED_LENGTH(n, s, r, m)",
-        "rule: nodes are not distinct and in [0,1], or not finite",
-        "rule: its order is below the degree",
-        "rule: it does not see every mode",
-        "no formulation, or not the pinned one, covers this scene",
-        "singular matrix: a coordinate (fault.coordinate) has no mass",
-        "no solution found: halve h; if no h works, a force jumps, is noisy, or has a wrong "
-        "derivative",
-        "an effect (fault.effect) did not return 0: halve h",
-        "an effect (fault.effect) gave NaN or Inf: halve h",
-        "an effect (fault.effect) has no value callback",
-        "the time is outside the last step, or a clock is on since",
-        "conjugate points: the ends do not determine the curve",
-        "a clock (fault.effect) must be positive: g <= 0",
-        "the state is not on a constraint: g(t,q) or its rate is not 0",
-        "the step is not as accurate as desc.resolution wants it: halve h"
-    };
-    if (status > GVI_OK || status < GVI_E_RESOLUTION) return "unknown status";
-    return text[-(int)status];
+    switch (status) {
+    case GVI_OK:            return "ok";
+    case GVI_E_ARGUMENT:    return "bad argument (a sentence: fault.argument)";
+    case GVI_E_MEMORY:      return "memory too small: gvi_size(desc) bytes; GVI_LENGTH(n, s, r) "
+                                   "or, with constraints, GVI_CONSTRAINED_LENGTH(n, s, r, m)";
+    case GVI_E_NODES:       return "rule: nodes are not distinct and in [0,1], or not finite";
+    case GVI_E_ORDER:       return "rule: its order is below the degree";
+    case GVI_E_POINTS:      return "rule: it does not see every mode";
+    case GVI_E_FORMULATION: return "no formulation, or not the pinned one, covers this scene";
+    case GVI_E_SINGULAR:    return "singular matrix: a coordinate (fault.coordinate) has no mass";
+    case GVI_E_CONVERGENCE: return "no solution found: halve h; if no h works, a force jumps, "
+                                   "is noisy, or has a wrong derivative";
+    case GVI_E_CALLBACK:    return "an effect (fault.effect) did not return 0: halve h";
+    case GVI_E_NON_FINITE:  return "an effect (fault.effect) gave NaN or Inf: halve h";
+    case GVI_E_VALUE:       return "an effect (fault.effect) has no value callback";
+    case GVI_E_STATE:       return "the time is outside the last step, or a clock is on since";
+    case GVI_E_CONJUGATE:   return "conjugate points: the ends do not determine the curve";
+    case GVI_E_CLOCK:       return "a clock (fault.effect) must be positive: g <= 0";
+    case GVI_E_CONSTRAINT:  return "the state is not on a constraint: g(t,q) or its rate is not 0";
+    case GVI_E_RESOLUTION:  return "the step is not as accurate as desc.resolution wants it: "
+                                   "halve h";
+    default:                return "unknown status";
+    }
 }
 
 // with a description or a call that no formulation covers
@@ -7391,19 +7392,19 @@ GVI_DEF size_t gvi_stepper_size(void) { return sizeof(gvi_stepper); }
 
 GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st)
 {
-    static const char *const text[] = {
-        "not set up",
-        "explicit: Lobatto 2 or kicks, constant mass, effects read only t and q",
-        "positions: constant mass, effects read only t and q",
-        "velocities: constant mass, an effect reads v",
-        "momenta: r = s, velocity from momentum at each point",
-        "Newton: no fixed point covers this mass, degree and rule"
-    };
     if (!st) return "no stepper";
     if (st->in.desc.formulation != GVI_AUTO) return "pinned by the description";
     if (st->formulation == GVI_NEWTON && st->in.chosen != GVI_NEWTON)
         return "Newton: the fixed point contracted badly";
-    return text[st->formulation];
+    switch (st->formulation) {
+    case GVI_EXPLICIT:
+        return "explicit: Lobatto 2 or kicks, constant mass, effects read only t and q";
+    case GVI_POSITIONS:  return "positions: constant mass, effects read only t and q";
+    case GVI_VELOCITIES: return "velocities: constant mass, an effect reads v";
+    case GVI_MOMENTA:    return "momenta: r = s, velocity from momentum at each point";
+    case GVI_NEWTON:     return "Newton: no fixed point covers this mass, degree and rule";
+    case GVI_AUTO: default: return "not set up";
+    }
 }
 
 #endif /* GVI_IMPLEMENTATION */

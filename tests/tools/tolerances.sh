@@ -5,7 +5,7 @@
 build=$1 dir=$1/tolerances
 shift
 CC=${CC:-cc}
-TESTS='constraints_newton resolution boundary'
+TESTS=${TESTS-constraints_newton resolution boundary}
 mkdir -p "$dir"
 cp gvi.h "$dir/base.h"
 flags='-std=c99 -w -O1 -ffp-contract=off -Itests -Iexamples'
