@@ -77,16 +77,17 @@
      FUNCTIONS            stepper first, then the building blocks
      -- implementation, to be read as a course --
      SUPPORT              what is compiled, lanes, double-word arithmetic
+     TOLERANCES           every constant of judgement
      LINEAR ALGEBRA       dense LU, its condition; L D L' at many points
      QUADRATURE           Gauss and Lobatto nodes, order of a rule
      INTERPOLATION        barycentric
-     SCENE                status, effects, mass, Legendre transform
+     SCENE                what formulations differ in; effects, mass, Legendre transform
      TABLES               what depends on rule, degree and h alone; predictor
-     STEP                 attempt and commit: follow gvi_step, its last function
-     ENGINE               free motion, stages, fixed point, increments; kicks; clock
+     ENGINE               free motion, stages, predictor; clock
      CONSTRAINTS          multipliers, RATTLE, the hidden constraint, forces
      SET-UP               checks, choice of a formulation, memory
      NEWTON'S METHOD      where the fixed point does not contract
+     STEP                 in seven parts, from the fixed point to gvi_step; kicks; the dial
      STATE                start, switch, restore
      QUERIES              velocity, energy, curve, state at a time, action
      BOUNDARY VALUES      discrete Lagrangian, forces, conjugate points
@@ -226,17 +227,15 @@
    (positions) or h omega, omega the fastest frequency.  Where that is no gain,
    GVI_AUTO goes over to Newton.  All solve the same equations, to rounding.
 
-   CONSTRAINTS.  Effects g(t,q) = 0 hold at Lobatto's s + 1 points d_e of the step, weights
-   w_e, where their multipliers act; Lagrangian and forces stay at the rule's own [8], [9]:
-   h sum_i b_i L(t_i, Q_i, V_i) + h sum_e w_e lambda_e . g(q(d_e h)) is stationary.  The
-   step ends on g = 0 and on the hidden constraint G v + dg/dt = 0, G = dg/dq.  q and p are
-   of order min(2s, u) for u >= 2s - 2, symplectic on the constraint manifold; degree 1 with
-   Lobatto's two points is RATTLE.  Second derivatives are not needed.  What G has of zeros costs
-   nothing: list rows that share coordinates near each other.  A row that depends on those before
-   it and agrees with them is left out, step by step: its multiplier is 0.  The rank must stay what
-   it is over the step, which it does not at a change point, where motions part.  Positions,
-   velocities and momenta solve for lambda within the iteration (equations: CONSTRAINTS); Newton
-   has lambda among its unknowns, s (n + m) of them for m constraints.
+   CONSTRAINTS.  Effects g(t,q) = 0 hold at Lobatto's s + 1 points of the step, where their
+   multipliers act; Lagrangian and forces stay at the rule's own [8], [9] (equations: CONSTRAINTS).
+   The step ends on g = 0 and on the hidden constraint G v + dg/dt = 0, G = dg/dq.  q and p are of
+   order min(2s, u) for u >= 2s - 2, symplectic on the constraint manifold; degree 1 with Lobatto's
+   two points is RATTLE.  Second derivatives are not needed.  What G has of zeros costs nothing:
+   list rows that share coordinates near each other.  A row that depends on those before it and
+   agrees with them is left out, step by step: its multiplier is 0.  The rank must stay what it is
+   over the step, which it does not at a change point, where motions part.  Newton has lambda among
+   its unknowns, s (n + m) of them for m constraints; the fixed points solve for it as they go.
 
    CLOCK.  An effect g(q) > 0 makes time run as dt = g dtau, and h is a step in
    tau: t moves fast or slow, and the map is as symplectic as with fixed steps
@@ -807,7 +806,7 @@ typedef gvi_real gvi__kernel(const struct gvi_stepper *st, const struct gvi__sta
 struct gvi__private {
     gvi_desc            desc;         /* with its defaults filled in                */
     gvi_formulation     chosen;       /* by the scene, or pinned                    */
-    int                 R, needs;     /* stride of rows; what the scene needs       */
+    int                 R, facts;     /* stride of rows; see gvi__has               */
     int                 clock;        /* effect that is one, or -1                  */
     unsigned            off, apart;   /* effects switched off, one bit each; clock, constraints */
     struct gvi__tables  table;
@@ -1140,8 +1139,7 @@ enum {
     GVI__NEWTON = GVI__COMPILED >> GVI_NEWTON & 1,
     GVI__READS_V = GVI__VELOCITIES | GVI__MOMENTA | GVI__NEWTON,
     GVI__LAGRANGIAN = GVI__READS_V & GVI__RULES,
-    GVI__VARIES = GVI__MOMENTA | GVI__NEWTON | GVI__LAGRANGIAN,
-    GVI__ITERATES = GVI__POSITIONS | GVI__READS_V
+    GVI__VARIES = GVI__MOMENTA | GVI__NEWTON | GVI__LAGRANGIAN
 };
 #if GVI__KIND == 3 && LDBL_MANT_DIG == 106
 #error "gvi.h: long double must be one IEEE number, not two doubles"
@@ -1218,8 +1216,22 @@ static int gvi__first_non_finite(int n, const gvi_real *x)
     return -1;
 }
 
-// how many of n numbers stand in whole lanes
-GVI__BODY int gvi__in_lanes(int n) { return GVI__LANES > 1 ? n - n % GVI__LANES : 0; }
+/* GVI__ALONG(n, body): the body for n numbers, GVI__LANES of them at a time and what is left one by
+   one; in it GVI__AT(x) stands for those of x, and gvi__number is their type.                 */
+#define GVI__AT(x) (*(gvi__number *)((x) + gvi__at))
+#define GVI__ALONG(n, ...)                                                                      \
+    {                                                                                           \
+        const int gvi__whole = GVI__LANES > 1 ? (n) - (n) % GVI__LANES : 0;                     \
+        int gvi__at = 0;                                                                        \
+        GVI__UNROLL for (; gvi__at < gvi__whole; gvi__at += GVI__LANES) {                       \
+            typedef gvi__lane gvi__number;                                                      \
+            __VA_ARGS__;                                                                        \
+        }                                                                                       \
+        for (; gvi__at < (n); ++gvi__at) {                                                      \
+            typedef gvi__rounded gvi__number;                                                   \
+            __VA_ARGS__;                                                                        \
+        }                                                                                       \
+    }
 
 static void gvi__zero(size_t n, gvi_real *x)
 {
@@ -1264,11 +1276,7 @@ static gvi_real gvi__dot3(int n, const gvi_real *a, const gvi_real *b, const gvi
 // z := y + a x
 static void gvi__add_scaled(int n, gvi_real a, const gvi_real *x, const gvi_real *y, gvi_real *z)
 {
-    const int whole = gvi__in_lanes(n);
-    int i = 0;
-    for (; i < whole; i += GVI__LANES)
-        GVI__STORE(z + i) = GVI__LOAD(y + i) + a*GVI__LOAD(x + i);
-    for (; i < n; ++i) z[i] = y[i] + a*x[i];
+    GVI__ALONG(n, GVI__AT(z) = GVI__AT(y) + a*GVI__AT(x))
 }
 
 /* Double-word arithmetic: an unevaluated sum hi + lo, |lo| <= ulp(hi)/2, carries twice the digits
@@ -1374,6 +1382,55 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
     return (whole + GVI_FLOOR((a.hi/unit - whole) + (a.lo/unit + (gvi_real)0.5)))*unit;
 }
 
+/* ------------------------------------------------------------ TOLERANCES
+
+   Every constant of judgement, once: nothing else decides whether a change is rounding, whether an
+   iteration has converged, or how long the next step is.  `make tolerances` takes each by half and
+   by two, and counts the iterations of fixed runs and the tests that then fail.              */
+
+// rounding, in eps
+#define GVI__PLACE 4                       // of a value: its last places
+#define GVI__SOLVED 16                     // of the terms of a sum that is to be 0
+#define GVI__NOISE 32                      // of the largest amplitude: forces that cancel
+#define GVI__GRAIN 64                      // for each unknown of a linear system: its solution
+#define GVI__SURE 1024                     // more than any rounding: ratios are contraction
+#define GVI__HELD 4096                     // of a constraint's terms: off it where a motion starts
+
+// the change yet to come when an iteration ends, relative; more is a drift of energy
+#define GVI__ENOUGH (GVI__EPS/65536)
+#define GVI__NEWTON_ENOUGH (GVI__EPS/4096)  // after Newton's change: the next one falls faster
+
+// fixed point: contraction of an iteration; how many in a row say what one cannot
+#define GVI__POOR ((gvi_real)0.5)          // it gains less than a bit
+#define GVI__SLOW (GVI__DIG/2)             // to rounding by less than 2 bits: errors grew first
+#define GVI__FAR ((gvi_real)0.25)          // of the motion, a change: the units are an overshoot's
+#define GVI__LEAST ((gvi_real)0.9)         // of the least change so far: a new one
+#define GVI__FEW_POOR 2                    // iterations that are poor: diverges
+#define GVI__MANY_POOR 4                   // the same while changes are far: a cosine's terms grow
+#define GVI__STAGNANT 4                    // iterations without a new least: rounding
+#define GVI__STILL 3                       // iterations without less noise: that is its level
+#define GVI__NEARER 6                      // halvings, where a domain or Newton's residual wants it
+#define GVI__BY_NEWTON 64                  // steps until the fixed point is tried again
+
+// predictor: times the last step, ahead or back, that an extrapolation is better than nothing
+#define GVI__AHEAD 8
+#define GVI__BACK 2
+#define GVI__SEEN ((gvi_real)0.015625)     // coupling of a polynomial that its nodes see
+
+// Newton's method: contraction
+#define GVI__CONTRACTS ((gvi_real)0.25)    // keeps its matrix; a curve is near
+#define GVI__LINEAR ((gvi_real)0.015625)   // the equations are all but linear
+#define GVI__CLOSE ((gvi_real)0.03125)     // of a curve, from its prediction: on the same branch
+#define GVI__SHORT 64                      // h over this: free motion leads to the motion
+#define GVI__LOST 4                        // of a pivot's entry what is left: rank may be changing
+
+// the dial, in rungs, four an octave
+#define GVI__BAND 4                        // room at which h stays; and the most that it grows
+#define GVI__FALL 8                        // the most that it shrinks, and after a failure
+#define GVI__RESTS 4096                    // times slower than the fastest: judged with it
+#define GVI__PULLED 64                     // eps of the motion: rounding of forces of constraint
+#define GVI__DEEP 24                       // degree whose modes reach rounding
+
 /* -------------------------------------------------------- LINEAR ALGEBRA */
 
 // pivot[0..n-1]: row scales 1/max_j |a_ij|; pivot[n]: 1-norm of A
@@ -1410,16 +1467,8 @@ GVI__COLD gvi_status gvi__lu_scales(int n, const gvi_real *a, gvi_real *pivot, i
 GVI__BODY void gvi__subtract_at(int width, int count, const gvi_real *GVI__RESTRICT a,
                                 const gvi_real *GVI__RESTRICT top, gvi_real *GVI__RESTRICT row)
 {
-    const int whole = gvi__in_lanes(count);
-    int k = 0;
-    if (width > 1) {
-        for (; k < whole; k += GVI__LANES)
-            GVI__STORE(row + k) -= GVI__LOAD(a + k)*GVI__LOAD(top + k);
-        for (; k < count; ++k) row[k] -= a[k]*top[k];
-    } else {
-        for (; k < whole; k += GVI__LANES) GVI__STORE(row + k) -= a[0]*GVI__LOAD(top + k);
-        for (; k < count; ++k) row[k] -= a[0]*top[k];
-    }
+    if (width > 1) GVI__ALONG(count, GVI__AT(row) = GVI__AT(row) - GVI__AT(a)*GVI__AT(top))
+    else GVI__ALONG(count, GVI__AT(row) = GVI__AT(row) - a[0]*GVI__AT(top))
 }
 
 static void gvi__subtract_row(size_t count, gvi_real l, const gvi_real *top, gvi_real *row)
@@ -1578,8 +1627,7 @@ static gvi_status gvi__ldl_factor(int n, int R, int count, gvi_real *m, gvi_real
         for (size_t i = j + 1; i < N; ++i) {
             gvi_real *a = m + (i*N + j)*S, *b = m + (j*N + i)*S;
             for (size_t l = 0; l < j; ++l)
-                for (int k = 0; k < count; ++k)
-                    a[k] -= m[(j*N + l)*S + (size_t)k]*m[(l*N + i)*S + (size_t)k];
+                gvi__subtract_at(R, count, m + (j*N + l)*S, m + (l*N + i)*S, a);
             for (int k = 0; k < count; ++k) {
                 b[k] = a[k];
                 a[k] *= d[k];
@@ -1598,10 +1646,9 @@ static void gvi__ldl_solve(int n, const gvi_real *m, int width, gvi_real *z, int
             gvi__subtract_at(width, count, m + ((size_t)i*N + (size_t)j)*w, z + j*R, z + i*R);
     for (int i = n; i-- > 0; ) {
         const gvi_real *d = m + (size_t)i*(N + 1)*w;
-        const int whole = (width == 1)*gvi__in_lanes(count), each = width > 1;
-        int k = 0;
-        for (; k < whole; k += GVI__LANES) GVI__STORE(z + i*R + k) *= d[0];
-        for (; k < count; ++k) z[i*R + k] *= d[k*each];
+        gvi_real *row = z + i*R;
+        if (width > 1) for (int k = 0; k < count; ++k) row[k] *= d[k];
+        else GVI__ALONG(count, GVI__AT(row) = GVI__AT(row)*d[0])
         for (int j = i + 1; j < n; ++j)
             gvi__subtract_at(width, count, m + ((size_t)j*N + (size_t)i)*w, z + j*R, z + i*R);
     }
@@ -1899,24 +1946,41 @@ GVI_DEF gvi_real gvi_interpolate_derivative(int n, const gvi_real *x, const gvi_
 
 /* ----------------------------------------------------------------- SCENE */
 
-enum {                        /* what a scene needs that others do without, as bits        */
-    GVI__HAS_VELOCITIES = 1,  /* an effect reads v                                          */
-    GVI__HAS_LAGRANGIAN = 2,  /* an effect adds to dL/dv                                    */
-    GVI__HAS_NEWTON     = 4,  /* Newton's method is used, or ready as the fall-back         */
-    GVI__HAS_GAMMA      = 8,  /* Gamma is a full matrix                                     */
-    GVI__POSSIBLE = GVI__READS_V*GVI__HAS_VELOCITIES + GVI__LAGRANGIAN*GVI__HAS_LAGRANGIAN
-                  + GVI__NEWTON*GVI__HAS_NEWTON + GVI__RULES*GVI__HAS_GAMMA
+/* Facts about a scene, found once by gvi_init, as bits: gvi__has(in, fact).  The first five are all
+   that the formulations differ in.                                                            */
+enum {
+    GVI__ITERATES    = 1,         /* has stage values and tables; otherwise kicks and drifts  */
+    GVI__FIXED_POINT = 2,         /* finds the stage values by (3) to (5); Newton's does not  */
+    GVI__BY_FORCES   = 4,         /* has no V: the forces alone make the curve                */
+    GVI__TWO_STAGES  = 8,         /* Q and V by (3) and (4), or P and Q by (5)                */
+    GVI__BY_MOMENTA  = 16,        /* V from P = dL/dv, (5)                                    */
+
+    GVI__OF_EXPLICIT   = GVI__BY_FORCES,
+    GVI__OF_POSITIONS  = GVI__ITERATES | GVI__FIXED_POINT | GVI__BY_FORCES,
+    GVI__OF_VELOCITIES = GVI__ITERATES | GVI__FIXED_POINT | GVI__TWO_STAGES,
+    GVI__OF_MOMENTA    = GVI__ITERATES | GVI__FIXED_POINT | GVI__TWO_STAGES | GVI__BY_MOMENTA,
+    GVI__OF_NEWTON     = GVI__ITERATES,
+
+    GVI__HAS_VELOCITIES = 32,     /* an effect reads v                                        */
+    GVI__HAS_LAGRANGIAN = 64,     /* an effect adds to dL/dv                                  */
+    GVI__HAS_NEWTON     = 128,    /* Newton's method is used, or ready as the fall-back       */
+    GVI__HAS_GAMMA      = 256,    /* Gamma is a full matrix                                   */
+
+    // what is true of a formulation that is compiled; what is false of one
+    GVI__POSSIBLE = GVI__EXPLICIT*GVI__OF_EXPLICIT | GVI__POSITIONS*GVI__OF_POSITIONS
+                  | GVI__VELOCITIES*GVI__OF_VELOCITIES | GVI__MOMENTA*GVI__OF_MOMENTA
+                  | GVI__NEWTON*(GVI__OF_NEWTON | GVI__HAS_NEWTON)
+                  | GVI__READS_V*GVI__HAS_VELOCITIES | GVI__LAGRANGIAN*GVI__HAS_LAGRANGIAN
+                  | GVI__RULES*GVI__HAS_GAMMA,
+    GVI__DOUBTFUL = GVI__EXPLICIT*~GVI__OF_EXPLICIT | GVI__POSITIONS*~GVI__OF_POSITIONS
+                  | GVI__VELOCITIES*~GVI__OF_VELOCITIES | GVI__MOMENTA*~GVI__OF_MOMENTA
+                  | GVI__NEWTON*~GVI__OF_NEWTON
 };
 
-GVI__BODY int gvi__has(const struct gvi__private *in, int bit)
+// a constant where all formulations that are compiled agree
+GVI__BODY int gvi__has(const struct gvi__private *in, int fact)
 {
-    return (in->needs & GVI__POSSIBLE & bit) != 0;
-}
-
-// is f this scene's formulation?  A constant where it is the only one compiled, or not compiled
-GVI__BODY int gvi__uses(const struct gvi__private *in, gvi_formulation f)
-{
-    return (GVI__COMPILED >> f & 1) && (GVI__COMPILED == 1 << f || in->chosen == f);
+    return (fact & GVI__POSSIBLE & (in->facts | ~GVI__DOUBTFUL)) != 0;
 }
 
 GVI__BODY int gvi__mass_is(const struct gvi__private *in, gvi_mass_kind kind)
@@ -2395,9 +2459,9 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
         if (!(change <= GVI__MAX)) break;
         // from beyond the root corrections grow threefold, be they of the last place
         const gvi_real small = GVI_SQRT(GVI__EPS);
-        const int rests = k > 4 || (change <= 2*GVI__EPS && (last <= small || almost)),
+        const int rests = k > 4 || (change <= GVI__EPS*GVI__PLACE/2 && (last <= small || almost)),
                   still = change >= last/2 && change <= 2*last && change <= small;
-        if (miss <= 8*GVI__EPS*(gvi_real)n && (rests || still)) return GVI_OK;
+        if (miss <= 2*GVI__PLACE*GVI__EPS*(gvi_real)n && (rests || still)) return GVI_OK;
         last = change;
     }
     return gvi__report_effect(st, GVI_E_CONVERGENCE, GVI_FAULT_MASS);
@@ -2586,7 +2650,7 @@ GVI__COLD void gvi__make_tables(gvi_stepper *st)
     const int r = st->r, R = st->in.R;
     const int gauss = !GVI__RULES || (st->in.desc.rule.kind == GVI_GAUSS && r == st->s);
     gvi_real sign = 1;
-    if (gvi__uses(&st->in, GVI_VELOCITIES)) sign = -1;
+    if (!gvi__has(&st->in, GVI__BY_MOMENTA)) sign = -1;
     for (int j = 0; j < r; ++j) {
         int to = r;
         gvi__prepare_column(st, table->Phi, j);
@@ -2617,10 +2681,10 @@ GVI__COLD void gvi__make_tables(gvi_stepper *st)
 GVI__COLD gvi_status gvi__set_constraints(gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
-    const int s = st->s, r = st->r, R = in->R, momenta = gvi__uses(in, GVI_MOMENTA);
+    const int s = st->s, r = st->r, R = in->R, momenta = gvi__has(in, GVI__BY_MOMENTA);
     gvi_real *d = in->con.d, *low = in->row, *lu = in->con.lu;
-    gvi__rule(1, s + 1, d, gvi__uses(in, GVI_EXPLICIT) ? NULL : low, in->con.w);
-    if (gvi__uses(in, GVI_EXPLICIT)) return GVI_OK;
+    gvi__rule(1, s + 1, d, gvi__has(in, GVI__ITERATES) ? low : NULL, in->con.w);
+    if (!gvi__has(in, GVI__ITERATES)) return GVI_OK;
     gvi__modes_of(st, s, d + 1, low + 1, NULL, NULL, in->con.Phi, in->con.Phi_low);
     gvi__zero(2*(size_t)s, in->row);               // the column of d_0: Phi(d_0) = 0
     for (int e = 0; e <= s; ++e) {
@@ -2685,7 +2749,7 @@ static void gvi__weights_for(gvi_stepper *st, gvi_real h)
         sized->hb[mirror] += rest/2;
     }
     for (int j = 0; j < r; ++j) sized->hb[j] = GVI_LDEXP(sized->hb[j], e);
-    if (!gvi__uses(&st->in, GVI_EXPLICIT)) return;
+    if (gvi__has(&st->in, GVI__ITERATES)) return;
     for (int j = 0; j < r; ++j) {
         const gvi_real next = gvi__grid(gvi__two_prod(st->in.table.c[j], mantissa), GVI__EPS/2);
         sized->drift[j] = GVI_LDEXP(next - at, e);
@@ -2741,30 +2805,16 @@ static void gvi__fit(gvi_stepper *st, int r, const gvi_real *from, const gvi_rea
             if (m < nodes) size += next*next;
         }
         coupling = GVI_SQRT(size);
-        if (coupling < (gvi_real)0.015625) break;
+        if (coupling < GVI__SEEN) break;
         for (int m = 0; m < all; ++m) p[m] /= coupling;
     }
 }
 
-/* ------------------------------------------------------------------ STEP */
-
-/* A step of length h takes (q, p, t) to (q + dq, p + dp, t + dt), in double words:
-
-     gvi_step       checks h, calls gvi__solve for dq, dp, dt, and commits them
-     gvi__solve     an attempt; another one that names the effect, if NaN or Inf came up
-     gvi__attempt   kicks, where explicit; else, from ENGINE,
-                      free motion    v = M^-1 p and h v
-                      predictor      F from that of the last step
-                      fixed point    Q by (3), (V by (4), or P and Q by (5),) F(Q), again
-                                     Q, until it has converged
-                      increments     dp = h sum_j b_j F_j, and dq
-                    and where that fails Newton's method (NEWTON'S METHOD)
-
-   Functions stand above those that call them, but for the parts that gvi__attempt lists.     */
+/* ---------------------------------------------------------------- ENGINE */
 
 /* Where a step, or a query's partial step, starts; E: the energy, with a clock.              */
-typedef struct gvi__origin { gvi_real t, t_low; const gvi_real *q, *q_low, *p, *p_low; gvi_real E;
-                            } gvi__origin;
+typedef struct gvi__origin { gvi_real t, t_low; const gvi_real *q, *q_low, *p, *p_low; gvi_real E; }
+    gvi__origin;
 
 // Newton's method begins at: constant velocity; extrapolated modes; constant velocity, with halving
 enum { GVI__PLAIN, GVI__EXTRAPOLATED, GVI__HALVED };
@@ -2772,458 +2822,16 @@ enum { GVI__PLAIN, GVI__EXTRAPOLATED, GVI__HALVED };
 // what is solved: a step, or for a query a part of the last one, from its start or its end
 enum { GVI__STEP, GVI__FROM_START, GVI__FROM_END };
 
-static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real h);
-static void gvi__prepare_predictor(gvi_stepper *st, gvi_real h, int query);
-static gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi_real h,
-                               int extrapolate, int *used);
-static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h);
-static gvi_real gvi__resolution(const gvi_stepper *st);
-static gvi_status gvi__kicks(gvi_stepper *st, const gvi__origin *from, gvi_real h,
-                             const gvi_real *force);
-static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int how, int query);
-
-// CONSTRAINTS
-GVI__CALLED void gvi__constraint_stages(const gvi_stepper *st, const gvi__origin *from, gvi_real h,
-                                   struct gvi__stage *y, int stages);
-GVI__CALLED void gvi__constraint_rows(const gvi_stepper *st, const struct gvi__stage *y);
-GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin *from);
-GVI__CALLED void gvi__constrain(gvi_stepper *st, const struct gvi__stage *y, const gvi_real *q0);
-GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate);
-GVI__CALLED void gvi__constraints_moved(const gvi_stepper *st, gvi_real *moved);
-static gvi_status gvi__constraints_at(gvi_stepper *st, gvi_real t, const gvi_real *q,
-                                      const gvi_real *p, gvi_real *v, gvi_real *drops);
-GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int *at);
-GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h);
-GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, int start);
-GVI__CALLED void gvi__commit_constraints(gvi_stepper *st, gvi_real h);
-
-// may a step that does not converge turn to Newton's method?
-static int gvi__may_turn(const gvi_stepper *st)
-{
-    return st->in.desc.formulation == GVI_AUTO && gvi__has(&st->in, GVI__HAS_NEWTON);
-}
-
-/* One attempt at a step or a partial step, to its increments; nothing of it is kept yet.  The
-   fixed point from extrapolated values, then from plain ones, then Newton's method, likewise.  */
-static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query)
-{
-    struct gvi__private *in = &st->in;
-    gvi__free_motion(st, from, h);
-    st->formulation = in->chosen;
-    if (gvi__uses(in, GVI_EXPLICIT)) {
-        const gvi_real *F = NULL;                 // the force at the start, if it is known
-        if (in->has_force && query != GVI__FROM_START) F = in->last.F;
-        const gvi_status status = gvi__kicks(st, from, h, F);
-        if (status != GVI_OK || !gvi__constrained(st)) return status;
-        return gvi__project(st, from, 0);
-    }
-
-    // an extrapolation any farther is no better than no force
-    const int usable = in->kept > 0 && h/st->h > -2 && h/st->h < 8;
-    int used = 0;
-    gvi_status status = GVI_E_CONVERGENCE;
-    if (!gvi__uses(in, GVI_NEWTON) && (in->newton.left == 0 || query)) {
-        if (usable) gvi__prepare_predictor(st, h, query);
-        for (int plain = !usable; plain < 2; ++plain) {
-            status = gvi__iterate(st, from, h, !plain, &used);
-            gvi__count(&st->counters.iterations, used);
-            if (!query) st->iterations = used;
-            if (used > st->counters.most_iterations) st->counters.most_iterations = used;
-            // iterations given: only a callback that failed at extrapolated values is tried again
-            if (status == GVI_OK
-                || (in->desc.iterations > 0 && (used > 1 || status == GVI_E_CONVERGENCE)))
-                break;
-        }
-        if (status == GVI_OK) gvi__increments(st, from, h);
-        if (status == GVI_OK && gvi__constrained(st)) status = gvi__project(st, from, 0);
-        if (status == GVI_OK || !gvi__may_turn(st)) return status;
-        if (!query && (status == GVI_E_CONVERGENCE || gvi__constrained(st))) in->newton.left = 64;
-    }
-    if (!GVI__NEWTON) return status;
-    const unsigned count = (unsigned)st->counters.newton_iterations;
-    st->formulation = GVI_NEWTON;
-    if (usable) gvi__prepare_predictor(st, h, query);
-    const int extrapolated = usable && in->has_velocity;
-    int how = GVI__PLAIN;
-    if (extrapolated) how = GVI__EXTRAPOLATED;
-    status = gvi__newton_step(st, from, how, query);
-    if (status == GVI_E_CONVERGENCE || status == GVI_E_SINGULAR
-        || (status == GVI_E_CALLBACK && extrapolated)
-        || (status == GVI_E_NON_FINITE && !in->diagnose)) {
-        if (!query) in->newton.h = 0;              // the extrapolation may be to blame
-        status = gvi__newton_step(st, from, GVI__HALVED, query);
-    }
-    if (!query) st->iterations = used + (int)((unsigned)st->counters.newton_iterations - count);
-    return status == GVI_OK && gvi__constrained(st) ? gvi__project(st, from, 0) : status;
-}
-
-// are q + dq and p + dp finite?  0 x is 0 or NaN
-static int gvi__finite_end(const gvi_stepper *st, const gvi__origin *from)
-{
-    const struct gvi__phase *d = &st->in.step;
-    const int whole = (st->n >= 8)*gvi__in_lanes(st->n);
-    gvi_real none = 0;
-    int i = 0;
-    gvi__lane nones = { 0 };
-    for (; i < whole; i += GVI__LANES)
-        nones += 0*(GVI__LOAD(from->q + i) + GVI__LOAD(d->q + i))
-                 + 0*(GVI__LOAD(from->p + i) + GVI__LOAD(d->p + i));
-    if (whole > 0)
-        for (int k = 0; k < GVI__LANES; ++k) none += GVI__ENTRY(nones, k);
-    for (; i < st->n; ++i) {
-        // rounded, as the commit will store them
-        const gvi__rounded q = from->q[i] + d->q[i], p = from->p[i] + d->p[i];
-        none += 0*q + 0*p;
-    }
-    return none >= 0;
-}
-
-/* All points of a step at one state, at rows [n][R] for f and, behind them, dldv; of kicks one.  */
-GVI__COLD gvi_points gvi__all_points_at(gvi_stepper *st, gvi_real t, const gvi_real *q,
-                                        const gvi_real *v)
-{
-    struct gvi__private *in = &st->in;
-    const int n = st->n;
-    int R = in->R, count = st->r;
-    gvi_real *rows = in->work.F;
-    if (gvi__rule_is(in, GVI_KICKS)) R = count = 1;
-    if (in->newton.moved) rows = in->newton.moved;
-    if (in->free.rows) rows = in->free.rows;
-    gvi_points at = gvi__points_at(st, count, R, in->t, in->work.Q, rows, rows + n*R);
-    at.v = in->work.V;
-    for (int k = 0; k < R; ++k) in->t[k] = t;
-    for (int i = 0; i < n*R; ++i) {
-        in->work.Q[i] = q[i/R];
-        if (in->work.V) in->work.V[i] = v[i/R];
-    }
-    return at;
-}
-
-/* At a first start: callbacks that fill their first point alone, or set f and dldv with = in place
-   of adding to them.  All points are a little past q, where a force that is 0 at the start is not.
-   From 0 an effect shows which points it fills; from the largest number, whether it adds.     */
-GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
-{
-    struct gvi__private *in = &st->in;
-    const gvi_counters counters = st->counters;          // a probe is no step's work
-    gvi_points at = gvi__all_points_at(st, t, q, v);
-    const int n = st->n, R = at.stride, count = at.count;
-    gvi_real *rows = at.f;
-    for (int i = 0; i < n*R; ++i)
-        if (i % R < count) in->work.Q[i] += GVI_SQRT(GVI__EPS)*v[i/R];
-    // effects may use what M(q) has computed: it comes first, as in a step
-    if (gvi__mass_is(in, GVI_MASS_POSITION)) gvi__evaluate_mass(st, &at, NULL, NULL);
-    const char *slip = NULL;
-    for (int e = 0; e < in->desc.effect_count; ++e) {
-        int all = n*R, first = 0, others = 0, huge = 0, set = 0;
-        if ((in->off | in->apart) >> e & 1u) continue;
-        if (in->desc.effects[e].kind == GVI_LAGRANGIAN) all = 2*n*R;
-        gvi__zero((size_t)all, rows);
-        if (gvi__effect(st, &at, e, NULL) != GVI_OK) continue;
-        for (int i = 0; i < all; ++i) {
-            const int k = i % R, filled = k < count && gvi__nonzero(rows[i]);
-            first |= filled && k == 0;
-            others |= filled && k > 0;
-            huge |= filled && GVI_ABS(rows[i]) > GVI__MAX/4;
-        }
-        if (first && !others && count > 1)
-            slip = "effect: fills its first point alone, not x->count of them";
-        for (int i = 0; i < all; ++i) rows[i] = GVI__MAX;
-        if (gvi__effect(st, &at, e, NULL) != GVI_OK) continue;
-        for (int i = 0; i < all; ++i) set |= i % R < count && GVI_ABS(rows[i]) < GVI__MAX/2;
-        if (set && !huge) slip = "effect: sets f or dldv with =, where it has to add with +=";
-        if (!slip) continue;
-        st->counters = counters;
-        return st->status = gvi__refuse(&st->fault, e, GVI_FAULT_NONE, slip);
-    }
-    st->counters = counters;
-    return gvi__report_status(st, GVI_OK);
-}
-
-/* One attempt.  If it met NaN or Inf, the same once more, now looking at what every effect
-   returns: that names the effect.  If none is to blame, the iteration diverged.               */
-static gvi_status gvi__solve(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query)
-{
-    struct gvi__private *in = &st->in;
-    for (int look = 0; ; look = 1) {
-        in->diagnose = look;
-        gvi_status status;
-        do {
-            if (GVI__CONSTRAINTS) in->con.again = 0;
-            status = gvi__attempt(st, from, h, query);
-        } while (GVI__CONSTRAINTS && in->con.again);
-        in->diagnose = 0;
-        if (status == GVI_OK && !look && !gvi__finite_end(st, from))
-            status = gvi__report_status(st, GVI_E_NON_FINITE);
-        const int explained = status != GVI_E_NON_FINITE || st->fault.effect != GVI_FAULT_NONE;
-        if (look && (status == GVI_OK || !explained))
-            return gvi__report_status(st, GVI_E_CONVERGENCE);
-        if (look || explained) return status;
-        if (!query) in->newton.h = 0;
-    }
-}
-
-// work becomes last, last becomes older if two steps are kept, and the oldest is the next work
-static void gvi__rotate_values(gvi_stepper *st)
-{
-    struct gvi__values *a = &st->in.older, *b = &st->in.last, *c = &st->in.work;
-    gvi_real **const rows[3][3] = { { &a->F, &b->F, &c->F }, { &a->V, &b->V, &c->V },
-                                    { &a->A, &b->A, &c->A } };
-    GVI__UNROLL for (int k = 0; k < 1 + (GVI__READS_V > 0) + (GVI__LAGRANGIAN > 0); ++k) {
-        gvi_real **older = rows[k][0], **last = rows[k][1], **work = rows[k][2];
-        gvi_real *spare = *last;
-        if (*older) {
-            spare = *older;
-            *older = *last;
-        }
-        *last = *work;
-        *work = spare;
-    }
-}
-
-// was := x, x + x_low := x + dx + dx_low; dx_low NULL: 0
-static void gvi__move(int n, const gvi_real *GVI__RESTRICT dx, const gvi_real *GVI__RESTRICT dx_low,
-                      gvi_real *GVI__RESTRICT x, gvi_real *GVI__RESTRICT x_low,
-                      gvi_real *GVI__RESTRICT was)
-{
-    const int whole = (n >= 8)*gvi__in_lanes(n);
-    int i = 0;
-    for (; i < whole; i += GVI__LANES) {
-        // gvi__two_sum, twice
-        const gvi__lane a = GVI__LOAD(x + i), d = GVI__LOAD(dx + i), s = a + d, b = s - a;
-        gvi__lane e = (a - (s - b)) + (d - b), t = s;
-        if (dx_low) {
-            e += GVI__LOAD(dx_low + i);
-            t = s + e;
-            const gvi__lane f = t - s;
-            e = (s - (t - f)) + (e - f);
-        }
-        GVI__STORE(was + i) = a;
-        GVI__STORE(x + i) = t;
-        GVI__STORE(x_low + i) = e;
-    }
-    for (; i < n; ++i) {
-        gvi__two sum = gvi__two_sum(x[i], dx[i]);
-        if (dx_low) sum = gvi__two_sum(sum.hi, sum.lo + dx_low[i]);
-        was[i] = x[i];
-        x[i] = sum.hi;
-        x_low[i] = sum.lo;
-    }
-}
-
-// the step is done: the state moves on, and work's stage values become those of the last step
-static void gvi__commit(gvi_stepper *st, gvi_real h)
-{
-    struct gvi__private *in = &st->in;
-    const gvi__two t = gvi__two_sum(st->t, in->dt + st->t_low);
-    const gvi_real *dq_low = in->step.q_low, *dp_low = in->step.p_low;
-    if (gvi__uses(in, GVI_EXPLICIT)) dq_low = dp_low = NULL;   // whose increments have no low words
-    gvi__move(st->n, in->step.q, dq_low, in->state.q, in->state.q_low, in->began.q);
-    gvi__move(st->n, in->step.p, dp_low, in->state.p, in->state.p_low, in->began.p);
-    st->t0 = st->t;
-    st->t = t.hi;
-    st->t_low = t.lo;
-    if (GVI__CLOCK) {
-        const gvi__two H = gvi__two_sum(in->time.H, in->time.dH + in->time.H_low);
-        in->began.H = in->time.H;
-        in->time.H = H.hi;
-        in->time.H_low = H.lo;
-    }
-    if (GVI__CONSTRAINTS && in->con.bits) gvi__commit_constraints(st, h);
-    in->kept = 1 + (in->kept > 0 && !gvi__nonzero(h - st->h));
-    st->h = h;
-    gvi__rotate_values(st);
-    in->stepped = 1 + gvi__clock_is_on(st);
-    in->has_force = gvi__uses(in, GVI_EXPLICIT) && !gvi__nonzero(in->table.c[0])
-                   && !gvi__nonzero(in->table.c[st->r - 1] - 1);
-    in->has_velocity = st->formulation > GVI_POSITIONS;
-    if (st->formulation != GVI_NEWTON) in->watch.ratio = in->watch.found;
-    if (in->newton.left > 0) in->newton.left -= 1;
-    gvi__count(&st->counters.steps, 1);
-}
-
-/* Why did a step fail?  What is singular, NaN or infinite already where it starts is reported as that:
-   no h helps.  All else is the step's own, and a shorter one may do.                          */
-GVI__COLD gvi_status gvi__explain(gvi_stepper *st, gvi_status status)
-{
-    struct gvi__private *in = &st->in;
-    const gvi_counters counters = st->counters;
-    const gvi_fault fault = st->fault;
-    gvi_real *v = in->result;
-    gvi_status start = GVI_OK;
-    gvi__velocity_guess(st, v);
-    if (!gvi__uses(in, GVI_EXPLICIT) && !in->desc.mass.velocity)
-        start = gvi__velocity(st, st->t, st->q, st->p, v);
-    if (start == GVI_OK && gvi__constrained(st)) {
-        gvi_real *drops = in->con.drops + in->con.m;
-        start = gvi__constraints_at(st, st->t, st->q, st->p, v, drops);
-        if (start == GVI_OK && status == GVI_E_SINGULAR)
-            for (int a = 0; a < in->con.m; ++a)           // left out at the start, and cannot be
-                if (drops[a] > 0) return status;
-    }
-    if (start == GVI_OK) {
-        gvi_points at = gvi__all_points_at(st, st->t, st->q, v);
-        gvi__zero((size_t)(st->n*at.stride), at.f);
-        if (gvi__has(in, GVI__HAS_LAGRANGIAN)) gvi__zero((size_t)(st->n*at.stride), at.dldv);
-        else at.dldv = NULL;
-        in->diagnose = 1;
-        start = gvi__effects(st, &at, 0, NULL);
-        in->diagnose = 0;
-        if (start == GVI_E_NON_FINITE) {                 // of the state, if it is so at all points
-            const int row = st->fault.coordinate*at.stride;
-            for (int k = row; k < row + at.count; ++k)
-                if (gvi__finite(at.f[k]) && (!at.dldv || gvi__finite(at.dldv[k]))) start = GVI_OK;
-            st->fault.point = GVI_FAULT_NONE;
-        }
-    }
-    st->counters = counters;
-    if (start == GVI_E_SINGULAR || start == GVI_E_NON_FINITE) return start;
-    st->fault = fault;
-    if (status == GVI_E_SINGULAR) status = GVI_E_CONVERGENCE;
-    return st->status = status;
-}
-
-GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
-{
-    const gvi_status ready = gvi__ready(st, st && st->in.started);
-    if (ready != GVI_OK) return ready;
-    st->in.failed.status = GVI_OK;
-    if (!gvi__nonzero(h) || !gvi__finite(h))
-        return gvi__refuse_call(st, "h is 0, NaN or infinite");
-    struct gvi__private *in = &st->in;
-    const gvi_formulation was = st->formulation;
-    const int left = in->newton.left;
-    const gvi__origin from = {
-        st->t, st->t_low, st->q, st->q_low, st->p, st->p_low, in->time.H + in->time.H_low
-    };
-    if (in->stepped && gvi__nonzero(h - st->h)) in->newton.left = 0;
-    gvi_status status = gvi__solve(st, &from, h, GVI__STEP);
-    if (status == GVI_OK && !gvi__finite(st->t + in->dt))
-        status = gvi__refuse_call(st, "t + h is not finite");
-    st->resolution = 0;
-    if (status == GVI_E_CONVERGENCE || status == GVI_E_SINGULAR || status == GVI_E_NON_FINITE)
-        status = gvi__explain(st, status);
-    if (status == GVI_OK && in->desc.resolution > 0) {
-        st->resolution = gvi__resolution(st);
-        if (st->resolution > in->desc.resolution)
-            status = gvi__report_status(st, GVI_E_RESOLUTION);
-    }
-    if (status != GVI_OK) {
-        in->failed.status = status;
-        in->failed.fault = st->fault;
-        gvi__count(&st->counters.failures, 1);
-        st->formulation = was;
-        in->newton.left = left;
-        in->newton.h = 0;
-        return st->status = status;
-    }
-    if (st->resolution > st->counters.worst_resolution)
-        st->counters.worst_resolution = st->resolution;
-    gvi__commit(st, h);
-    return gvi__report_status(st, GVI_OK);
-}
-
-/* Lengths have a ladder of four rungs an octave, at 4, 5, 6 and 7 eighths of a power of two: where
-   x stands on it, linear between these; and the rung below k.                                 */
-static gvi_real gvi__rungs(gvi_real x)
-{
-    int e;
-    const gvi_real mantissa = GVI_FREXP(x, &e);
-    return (gvi_real)(4*e) + 8*mantissa;
-}
-
-static gvi_real gvi__length(gvi_real k)
-{
-    const gvi_real octave = GVI_FLOOR(k/4) - 1;
-    return GVI_LDEXP((GVI_FLOOR(k) - 4*octave)/8, (int)octave);
-}
-
-/* st.next after a step of length h.  `room` rungs up the resolution, of order 2s - 1 in h, would be
-   at its limit: as it was in this step, less what it has lost since the last.  From 0 to 4 of them
-   h stays as it is.                                                                           */
-static void gvi__set_next(gvi_stepper *st, gvi_status status, gvi_real h)
-{
-    const gvi_real seen = st->resolution > GVI__MIN ? st->resolution : GVI__MIN, at = gvi__rungs(h);
-    const gvi_real most = gvi__rungs(st->in.desc.resolution) - gvi__rungs(seen);
-    // the modes end at rounding: above degree 24 the resolution falls no faster than there
-    const int order = st->s < 24 ? 2*st->s - 1 : 47;
-    gvi_real room = most/(gvi_real)order, up = 0;
-    if (status == GVI_OK && room < 8) {
-        const gvi_real loss = st->in.reach - (at + room);
-        st->in.reach = at + room;
-        if (loss > 0) room -= loss;
-    }
-    if (room > 4) up = room < 6 ? room - (gvi_real)1.5 : 4;
-    if (room < 0) up = room > -7 ? room - 1 : -8;
-    if (status != GVI_OK && status != GVI_E_RESOLUTION) up = -8;
-    const gvi_real next = gvi__length(at + up);
-    if ((up > 0 && h >= st->next) || (up < 0 && next < st->next)) st->next = next;
-}
-
-/* A first length: less than 1/16 of the time in which the forces would make the kinetic energy that
-   there is.                                                                                   */
-GVI__COLD gvi_real gvi__first_length(gvi_stepper *st, gvi_real left)
-{
-    gvi_real *v = st->in.result, *a = v + st->n;
-    gvi_points at = gvi__one_point(st, &st->t, st->q);
-    gvi__velocity_guess(st, v);
-    gvi_status status = gvi__velocity(st, st->t, st->q, st->p, v);
-    at.v = v;
-    if (status == GVI_OK) status = gvi__evaluate(st, &at, 0, 1);
-    gvi__copy((size_t)st->n, at.f, a + st->n);
-    gvi__copy((size_t)st->n, v, a);
-    if (status == GVI_OK) status = gvi__velocity(st, st->t, st->q, a + st->n, a);
-    const gvi_real moving = GVI_ABS(gvi__dot(st->n, st->p, v)),
-                   pushing = GVI_ABS(gvi__dot(st->n, a + st->n, a)),
-                   time = GVI_SQRT(moving/pushing)/16, longest = left/1024;
-    return status == GVI_OK && time > 0 && time < longest ? time : longest;
-}
-
-GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end)
-{
-    const gvi_status ready = gvi__ready(st, st && st->in.started);
-    if (ready != GVI_OK) return ready;
-    if (!(st->in.desc.resolution > 0))
-        return gvi__refuse_call(st, "gvi_advance needs desc.resolution");
-    if (!gvi__finite(t_end) || !gvi__nonzero(t_end - st->t))
-        return gvi__refuse_call(st, "t_end is t, NaN or infinite");
-    const gvi_real way = (t_end - st->t) - st->t_low, left = GVI_ABS(way);
-    const int clock = gvi__clock_is_on(st);
-    if (!(st->next > 0) || !gvi__finite(st->next)) st->next = gvi__first_length(st, left);
-    for (int tries = 1; ; ++tries) {
-        gvi_real h = st->next;
-        if (!clock && left < h*2) h = left/2;
-        if (!clock && left < st->next*(gvi_real)1.0625) h = left;
-        const gvi_status status = gvi_step(st, way > 0 ? h : -h);
-        gvi__set_next(st, status, h);
-        if (status == GVI_OK) {
-            if (!clock && h >= left) {
-                st->t_low += st->t - t_end;
-                st->t = t_end;
-            }
-            return status;
-        }
-        if (status == GVI_E_ARGUMENT || tries == 64 || !gvi__nonzero(st->t + st->next - st->t))
-            return status;
-    }
-}
-
-/* ---------------------------------------------------------------- ENGINE */
-
 /* ---- free motion ---- */
 
 // out := t + (t_low + c h)
 static void gvi__times(int count, gvi_real t, gvi_real t_low, gvi_real h, const gvi_real *c,
                        gvi_real *out)
 {
-    const int whole = gvi__in_lanes(count);
-    int k = 0;
-    for (; k < whole; k += GVI__LANES)
-        GVI__STORE(out + k) = t + (t_low + GVI__LOAD(c + k)*h);
-    for (; k < count; ++k) out[k] = t + (t_low + c[k]*h);
+    GVI__ALONG(count, GVI__AT(out) = t + (t_low + GVI__AT(c)*h))
 }
 
-// tables for h, times of the points; for a constant mass v = M^-1 p and h v, with their low words
+// 1) tables for h, times of the points; for a constant mass v = M^-1 p and h v in double words
 static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real h)
 {
     struct gvi__private *in = &st->in;
@@ -3233,7 +2841,7 @@ static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real 
     gvi__weights_for(st, h);
     in->dt = h;
     if (GVI__CLOCK) in->time.dH = 0;
-    if (gvi__uses(in, GVI_EXPLICIT)) return;
+    if (!gvi__has(in, GVI__ITERATES)) return;
     gvi__times(in->R, from->t, from->t_low, h, in->table.c, in->t);
     if (!gvi__mass_is_constant(in)) return;
     for (int i = 0; i < st->n; ++i) {
@@ -3290,11 +2898,7 @@ GVI__BODY const gvi_real *gvi__weighted(int R, const gvi_real *GVI__RESTRICT w,
                                         const gvi_real *source, gvi_real *GVI__RESTRICT L)
 {
     if (!w) return source;
-    const int whole = gvi__in_lanes(R);
-    int j = 0;
-    GVI__UNROLL for (; j < whole; j += GVI__LANES)
-        GVI__STORE(L + j) = GVI__LOAD(w + j)*GVI__LOAD(source + j);
-    for (; j < R; ++j) L[j] = w[j]*source[j];
+    GVI__ALONG(R, GVI__AT(L) = GVI__AT(w)*GVI__AT(source))
     return L;
 }
 
@@ -3461,58 +3065,11 @@ static gvi__kernel *gvi__kernel_for(int n, int r)
     return r < 8 ? gvi__rows_to_8 : gvi__rows_many;
 }
 
-/* ---- fixed point ---- */
-
-/* E takes the stage values of the last step (of two, if they are as long as this one) to the nodes
-   of this step, at alpha + beta c in the last step's tau.  In the positions formulation forces only
-   serve to make positions: E := K h b E does both, for steps as long as the last.            */
-static void gvi__prepare_predictor(gvi_stepper *st, gvi_real h, int query)
-{
-    struct gvi__private *in = &st->in;
-    const int newton = GVI__NEWTON && st->formulation == GVI_NEWTON, r = st->r, R = in->R;
-    const int two = !query && !newton && in->kept == 2 && in->older.F && !gvi__nonzero(h - st->h);
-    const gvi_real beta = h/st->h;
-    const int sums = !gvi__nonzero(beta - 1) && gvi__uses(in, GVI_POSITIONS) && !newton
-                     && in->desc.mass.kind != GVI_MASS_DENSE && !gvi__constrained(st);
-    if (!query && !gvi__nonzero(beta - in->sized.ratio) && in->sized.steps == two + 1
-        && in->sized.sums == sums) return;
-    in->sized.ratio = beta;
-    if (query) in->sized.ratio = 0;                // another start: not to be used again
-    in->sized.steps = two + 1;
-    in->sized.sums = sums;
-    gvi__fit(st, r, in->table.c, in->table.c, query != GVI__FROM_START, beta, two + 1, in->sized.E);
-    if (gvi__constrained(st))
-        gvi__fit(st, st->s, in->con.d + 1, in->con.d, query != GVI__FROM_START, beta, 1, in->con.E);
-    if (!sums) return;
-    for (int m = 0; m < in->sized.steps*r; ++m) {
-        const gvi_real *L = gvi__weighted(R, in->sized.hb, in->sized.E + m*R, in->row);
-        for (int k = 0; k < r; ++k) in->row[R + k] = gvi__point_sum(r, R, in->table.K + k, L);
-        gvi__copy((size_t)r, in->row + R, in->sized.E + m*R);
-    }
-}
-
-// in place of a stage's own sums: E over the values of one or two steps
-GVI__BODY void gvi__set_predictor(const gvi_stepper *st, gvi__stage *stage, const gvi_real *last,
-                                  const gvi_real *older)
-{
-    const gvi_real *E = st->in.sized.E;
-    const gvi__sum one = { E, NULL, last };
-    gvi__sum two = { NULL, NULL, older };
-    if (st->in.sized.steps == 2) two.table = E + st->r*st->in.R;
-    stage->sum[0] = one;
-    stage->sum[1] = two;
-    stage->scale = NULL;
-}
-
 // row := low + (c path_low + c path), one coordinate's free motion over its base
 GVI__BODY void gvi__free_row(int R, gvi_real low, gvi_real path, gvi_real path_low,
                              const gvi_real *GVI__RESTRICT c, gvi_real *GVI__RESTRICT row)
 {
-    const int whole = gvi__in_lanes(R);
-    int k = 0;
-    for (; k < whole; k += GVI__LANES)
-        GVI__STORE(row + k) = (low + GVI__LOAD(c + k)*path_low) + GVI__LOAD(c + k)*path;
-    for (; k < R; ++k) row[k] = (low + c[k]*path_low) + c[k]*path;
+    GVI__ALONG(R, GVI__AT(row) = (low + GVI__AT(c)*path_low) + GVI__AT(c)*path)
 }
 
 // a stage that is the sum over one table and nothing else
@@ -3523,59 +3080,6 @@ GVI__BODY void gvi__set_stage(const gvi_stepper *st, gvi__stage *stage, gvi_real
                              NULL,
                              NULL, 1, rows, NULL, NULL, 0 };
     *stage = sum;
-}
-
-/* What an iteration computes, in this order: positions (3); or these, and velocities (4); or
-   momenta and positions (5).  Returns the number of stages.                                  */
-static int gvi__stages(const gvi_stepper *st, const gvi__origin *from, gvi_real h,
-                       gvi__stage *stage)
-{
-    const struct gvi__private *in = &st->in;
-    const struct gvi__values *w = &in->work;
-    const gvi_real *low[2], *hb = in->sized.hb;
-    const int n = st->n, R = in->R, momenta = gvi__uses(in, GVI_MOMENTA);
-    const int count = 1 + (momenta || gvi__uses(in, GVI_VELOCITIES));
-    if (momenta) {
-        gvi__set_stage(st, stage, w->P, in->table.U, hb, w->F);
-        gvi__set_stage(st, stage + 1, w->Q, in->table.T, hb, w->V);
-        stage[0].base = from->p;
-        stage[1].base = from->q;
-        low[0] = from->p_low;
-        low[1] = from->q_low;
-    } else {
-        gvi__set_stage(st, stage, w->Q, in->table.K, hb, w->F);
-        stage[0].base = from->q;
-        low[0] = from->q_low;
-        stage[0].factor = h;
-        if (count == 2) {
-            gvi__set_stage(st, stage + 1, w->V, in->table.U, hb, w->F);
-            stage[1].base = in->free.v;
-            low[1] = in->free.v_low;
-        }
-        for (int k = 0; k < count; ++k) {
-            gvi__sum A = { in->table.T, in->table.b, w->A };
-            if (k == 1) A.table = in->table.N;
-            if (GVI__LAGRANGIAN && w->A) stage[k].sum[1] = A;
-            if (in->desc.mass.kind == GVI_MASS_DIAGONAL) stage[k].inverse = in->mass.inverse;
-            stage[k].dense = in->desc.mass.kind == GVI_MASS_DENSE;
-        }
-    }
-    for (int k = 0; k < count; ++k) {
-        gvi_real *free = in->free.rows + k*n*R;
-        const int moves = !momenta && k == 0;
-        stage[k].free = free;
-        stage[k].scale = in->watch.scale + k*n;
-        stage[k].change = in->watch.change + k*n;
-        for (int i = 0; i < n; ++i, free += R) {
-            gvi_real path = 0, path_low = 0;
-            if (moves) {
-                path = in->free.path[i];
-                path_low = in->free.path_low[i];
-            }
-            gvi__free_row(R, low[k][i], path, path_low, in->table.c, free);
-        }
-    }
-    return count;
 }
 
 /* The rows of a stage where M is full: all sums first, then M^-1 of them.                    */
@@ -3614,626 +3118,47 @@ static void gvi__velocity_rows(const gvi_stepper *st)
     else gvi__ldl_solve(n, in->mass.at_points, R, V, R, st->r);
 }
 
-static gvi_status gvi__evaluate_with_clock(gvi_stepper *st, const gvi__origin *from, gvi_points *y);
-static gvi_status gvi__clock_at(gvi_stepper *st, gvi_real t, const gvi_real *q, gvi_real *rate,
-                                gvi_real *slope);
+/* ---- predictor ---- */
 
-// x := zero, a 0 that the compiler does not know: it would call memset, and wait for it, every time
-static void gvi__clear(size_t n, gvi_real zero, gvi_real *x)
+// in place of a stage's own sums: E over the values of one or two steps
+GVI__BODY void gvi__set_predictor(const gvi_stepper *st, gvi__stage *stage, const gvi_real *last,
+                                  const gvi_real *older)
 {
-    const gvi__lane none = { 0 }, all = none + zero;
-    const size_t whole = n - n % GVI__LANES;
-    size_t i = 0;
-    for (; i < whole; i += GVI__LANES) GVI__STORE(x + i) = all;
-    for (; i < n; ++i) x[i] = zero;
+    const gvi_real *E = st->in.sized.E;
+    const gvi__sum one = { E, NULL, last };
+    gvi__sum two = { NULL, NULL, older };
+    if (st->in.sized.steps == 2) two.table = E + st->r*st->in.R;
+    stage->sum[0] = one;
+    stage->sum[1] = two;
+    stage->scale = NULL;
 }
 
-/* F (and A, V) at the stage values, all points in one call an effect.                        */
-static gvi_status gvi__evaluate_stages(gvi_stepper *st, const gvi__origin *from, gvi_points *at)
+/* E takes the stage values of the last step (of two, if they are as long as this one) to the nodes
+   of this step, at alpha + beta c in the last step's tau.  In the positions formulation forces only
+   serve to make positions: E := K h b E does both, for steps as long as the last.            */
+static void gvi__prepare_predictor(gvi_stepper *st, gvi_real h, int query)
 {
     struct gvi__private *in = &st->in;
-    const size_t length = (size_t)st->n*(size_t)in->R;
-    const int momenta = gvi__uses(in, GVI_MOMENTA);
-    gvi_status status = GVI_OK;
-    gvi__clear(length, in->zeros[0], at->f);
-    if (momenta) {                                // V from dL/dv(Q, V) = P
-        gvi__count(&st->counters.velocities, st->r);
-        if (in->desc.mass.velocity) status = gvi__evaluate_mass(st, at, in->work.P, in->work.V);
-        else if (!gvi__mass_is_constant(in)) status = gvi__factor_mass(st, at);
-        if (status != GVI_OK) return status;
-        in->has_factor = 1;
-        if (!in->desc.mass.velocity) gvi__velocity_rows(st);
-        else if (in->diagnose) status = gvi__check_rows(st, at, in->work.V, GVI_FAULT_MASS);
-        if (status != GVI_OK) return status;
+    const int newton = GVI__NEWTON && st->formulation == GVI_NEWTON, r = st->r, R = in->R;
+    const int two = !query && !newton && in->kept == 2 && in->older.F && !gvi__nonzero(h - st->h);
+    const gvi_real beta = h/st->h;
+    const int sums = !gvi__nonzero(beta - 1) && gvi__has(in, GVI__BY_FORCES) && !newton
+                     && in->desc.mass.kind != GVI_MASS_DENSE && !gvi__constrained(st);
+    if (!query && !gvi__nonzero(beta - in->sized.ratio) && in->sized.steps == two + 1
+        && in->sized.sums == sums) return;
+    in->sized.ratio = beta;
+    if (query) in->sized.ratio = 0;                // another start: not to be used again
+    in->sized.steps = two + 1;
+    in->sized.sums = sums;
+    gvi__fit(st, r, in->table.c, in->table.c, query != GVI__FROM_START, beta, two + 1, in->sized.E);
+    if (gvi__constrained(st))
+        gvi__fit(st, st->s, in->con.d + 1, in->con.d, query != GVI__FROM_START, beta, 1, in->con.E);
+    if (!sums) return;
+    for (int m = 0; m < in->sized.steps*r; ++m) {
+        const gvi_real *L = gvi__weighted(R, in->sized.hb, in->sized.E + m*R, in->row);
+        for (int k = 0; k < r; ++k) in->row[R + k] = gvi__point_sum(r, R, in->table.K + k, L);
+        gvi__copy((size_t)r, in->row + R, in->sized.E + m*R);
     }
-    if (GVI__LAGRANGIAN && at->dldv) gvi__clear(length, in->zeros[0], at->dldv);
-    if (gvi__clock_is_on(st)) return gvi__evaluate_with_clock(st, from, at);
-    status = gvi__effects(st, at, 0, NULL);
-    if (status == GVI_OK && gvi__constrained(st)) status = gvi__constraint_values(st, from);
-    if (status == GVI_OK && momenta && gvi__mass_is(in, GVI_MASS_POSITION))
-        status = gvi__mass_gradient(st, at);
-    return status;
-}
-
-/* Momenta: V from the new P with the old M(Q) and dL/dv, so that an iteration contracts twice
-   as fast.  Where Lagrangian terms make V it can diverge while Q and P hardly change: returns its
-   squared relative change at the last point, times r as if summed over all.                   */
-static gvi_real gvi__velocities_again(gvi_stepper *st)
-{
-    struct gvi__private *in = &st->in;
-    const int n = st->n, R = in->R, clock = gvi__clock_is_on(st),
-              made = GVI__LAGRANGIAN && in->work.A;
-    const gvi_real *V = in->work.V + st->r - 1;
-    gvi_real *was = in->result, sum = 0;
-    // before the first evaluation Q, g and M(Q) are those of another step
-    if (!in->has_factor && (clock || in->desc.mass.velocity || !gvi__mass_is_constant(in)))
-        return 0;
-    if (made) gvi__gather(n, R, V, was);
-    gvi__count(&st->counters.velocities, st->r);
-    const gvi_points at = gvi__points_at(st, st->r, R, in->t, in->work.Q, NULL, NULL);
-    // where that fails it does so again with the new Q
-    if (in->desc.mass.velocity) (void)gvi__evaluate_mass(st, &at, in->work.P, in->work.V);
-    else gvi__velocity_rows(st);
-    if (clock)
-        for (int i = 0; i < n; ++i)
-            for (int k = 0; k < R; ++k) in->work.V[i*R + k] *= in->time.rate[k];
-    if (!made) return 0;
-    for (int i = 0; i < n; ++i) {
-        const gvi_real moved = V[i*R] - was[i], size = GVI_ABS(V[i*R]) + GVI_ABS(was[i]);
-        if (size > GVI__NOTHING) sum += (moved/size)*(moved/size);
-    }
-    return (gvi_real)st->r*sum;
-}
-
-// the next iteration's stage values from this one's F, V, A; returns the squares of their changes
-GVI__BODY gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *stage, int stages, int rescale)
-{
-    const struct gvi__private *in = &st->in;
-    gvi_real sum = 0;
-    if (gvi__constrained(st) && in->con.made > 0)
-        gvi__constrain(st, stage, stage[gvi__uses(in, GVI_MOMENTA)].base);
-    for (int k = 0; k < stages; ++k) {
-        if (k == 1 && gvi__uses(in, GVI_MOMENTA)) sum += gvi__velocities_again(st);
-        if (stage[k].dense) sum += gvi__dense_rows(st, stage + k, rescale);
-        else sum += in->kernel(st, stage + k, rescale);
-    }
-    if (gvi__constrained(st)) {
-        st->in.con.linear |=
-            GVI__DIG > FLT_MANT_DIG && in->con.made > 0 && sum < GVI__EPS*GVI_SQRT(GVI__EPS);
-        gvi__constraint_rows(st, stage);
-    }
-    if (stages == 2 && !gvi__uses(in, GVI_MOMENTA)) gvi__count(&st->counters.velocities, st->r);
-    return sum;
-}
-
-// to begin with: F (V, A) of the last step, extrapolated; or no force and constant velocity
-static gvi_status gvi__predict_sources(gvi_stepper *st, const gvi__origin *from, gvi_real h,
-                                       int extrapolate)
-{
-    struct gvi__private *in = &st->in;
-    struct gvi__values *w = &in->work;
-    const int momenta = gvi__uses(in, GVI_MOMENTA);
-    gvi_real *to[3] = { w->F, NULL, NULL };
-    if (momenta) to[1] = w->V;
-    if (GVI__LAGRANGIAN) to[2] = w->A;
-    const gvi_real *const last[3] = { in->last.F, in->last.V, in->last.A };
-    const gvi_real *const older[3] = { in->older.F, in->older.V, in->older.A };
-    gvi_real rate = 1;
-    if (gvi__clock_is_on(st)) {                   // times of the points as if g stayed as it is
-        const gvi_status status = gvi__clock_at(st, from->t, from->q, &rate, in->result);
-        if (status != GVI_OK) return status;
-        gvi__times(st->r, from->t, from->t_low, h*rate, in->table.c, in->t);
-    }
-    if (gvi__constrained(st)) gvi__predict_constraints(st, extrapolate);
-    for (int k = 0; k < 3; ++k) {
-        gvi__stage stage;
-        if (!to[k]) continue;
-        gvi__set_stage(st, &stage, to[k], NULL, NULL, NULL);
-        gvi__set_predictor(st, &stage, last[k], older[k]);
-        if (extrapolate) in->kernel(st, &stage, 0);
-        else gvi__zero((size_t)st->n*(size_t)in->R, to[k]);
-    }
-    if (!momenta || extrapolate) return GVI_OK;
-    gvi__velocity_guess(st, in->result);
-    for (int i = 0; i < st->n; ++i)
-        for (int k = 0; k < st->r; ++k) w->V[i*in->R + k] = rate*in->result[i];
-    return GVI_OK;
-}
-
-/* Where an iteration stands, in squares: the changes of the last two iterations, of all rows,
-   and the least so far; the contraction of the last step, 1 if there is none, or 2 if no ratio
-   counts; gvi__noise when it was last made, and its least; how often no new least was seen, of
-   change or noise, or no good contraction; are units to be made anew?                         */
-typedef struct gvi__progress {
-    gvi_real before, earlier, least, ratio, noise, quiet;
-    int      used, stagnant, still, growing, rescale;
-} gvi__progress;
-
-enum { GVI__GO_ON, GVI__DONE, GVI__ONCE_MORE, GVI__DIVERGES, GVI__NOT_FINITE };
-
-// M_ii, or p_i/v_i where the effects alone make the mass, where F was evaluated last: first point
-static gvi_real gvi__inertia(const gvi_stepper *st, int i)
-{
-    const struct gvi__private *in = &st->in;
-    const size_t n = (size_t)st->n, ii = (size_t)i*(n + 1);
-    const size_t iR = (size_t)i*(size_t)in->R;
-    gvi_real m;
-    if (in->desc.mass.kind == GVI_MASS_DENSE) m = in->mass.matrix[ii];
-    else if (gvi__mass_is(in, GVI_MASS_POSITION)) m = in->mass.at_points[ii*(size_t)in->R];
-    else if (gvi__mass_is(in, GVI_MASS_NONE)) m = in->work.P[iR]/in->work.V[iR];
-    else m = in->mass.matrix[i];
-    if (!gvi__nonzero(m) || !gvi__finite(m)) return 1;
-    // the momenta formulation factors M(q) in place: 1/D_i is there
-    if (gvi__mass_is(in, GVI_MASS_POSITION) && st->formulation == GVI_MOMENTA && in->has_factor
-        && !in->desc.mass.velocity) m = 1/m;
-    return GVI_ABS(m);
-}
-
-/* The largest change of a row that is beyond a few units of the last place of its largest
-   value, in units of 32 eps of the largest amplitude; 0: there is none.  An amplitude is |Q_i|
-   times sqrt(M_ii), with h V_i or h P_i/M_ii in place of Q_i for those rows.  Up to 1 a row
-   that does not settle is nothing but noise, where large forces cancel: a light body midway
-   between two heavy ones.  So is, whatever the amplitude, what a force of constraint moves by its
-   own rounding, 32 eps of it, or by its last change where that came from the rounding of g, which
-   rows that are nearly dependent make large: that counts next to nothing.                      */
-static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *stage, int stages)
-{
-    const int R = st->in.R, C = st->in.con.C, held = gvi__constrained(st)*st->s;
-    gvi_real largest = 0, noise = 0, *moved = st->in.con.W;       // n sums for each source
-    if (held) gvi__constraints_moved(st, moved);
-    for (int k = 0; k < stages; ++k) {
-        if (!stage[k].scale) continue;
-        for (int i = 0; i < st->n; ++i) {
-            const gvi_real m = gvi__inertia(st, i), *row = stage[k].rows + i*R;
-            gvi_real size = GVI_ABS(stage[k].base[i]), push = 0, unit = 1, change = 0;
-            if (stages == 2 && k != gvi__uses(&st->in, GVI_MOMENTA)) unit = GVI_ABS(h);  // V or P
-            if (gvi__uses(&st->in, GVI_MOMENTA) && k == 0) unit /= m;                    // P
-            unit *= GVI_SQRT(m);
-            for (int j = 0; j < st->r; ++j) size = gvi__larger(GVI_ABS(row[j]), size);
-            for (int e = 0; e < held; ++e) {
-                const gvi_real force = 32*GVI__EPS*GVI_ABS(h*st->in.con.force[i*R + e])
-                                       + moved[i*C + e]/GVI_ABS(st->in.con.hw[e]);
-                push = gvi__larger(GVI_ABS(h)*force/m, push);
-            }
-            if (stage[k].scale[i] > 0) change = GVI_SQRT(stage[k].change[i])/stage[k].scale[i];
-            largest = gvi__larger(unit*size, largest);
-            if (!(change > 4*GVI__EPS*size)) continue;
-            if (change <= push) change *= GVI__EPS;
-            noise = gvi__larger(unit*change, noise);
-        }
-    }
-    if (!(noise > 0)) return 0;
-    return noise/(32*GVI__EPS*largest);
-}
-
-/* The verdict on a change D of all rows.  The iteration ends when the next change, D times the
-   ratio of the last two, is within the tolerance, without one far below rounding, and for each
-   row as well, unless its own D is in the last place.  One ratio may be luck: unless D is
-   rounding, the one before, or that of the last step, must tell the same; after an attempt that
-   failed D itself must be within the tolerance.  Or it ends when D stagnates at rounding, without
-   a new least by a tenth for some iterations.  Then F is evaluated once more, so that rows that
-   go to and fro in their last places end with their own F, not that of the side that they came
-   from: that is a bias.  Three changes in a row that fall by less than half are poor, five while
-   they are as large as the motion (terms of a cosine grow at first); so is a descent to rounding
-   by factors of less than 4: it lets errors grow before they shrink.  All in squares: no root
-   waits.                                                                                      */
-static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_real h,
-                          const gvi__stage *stage, int stages)
-{
-    enum { POOR = 2, POOR_FAR = 4, STILL = 3, STAGNANT = 4 };     // iterations in a row
-    const gvi_desc *d = &st->in.desc;
-    gvi_real wanted = GVI__EPS/65536;
-    if (d->tolerance > 0) wanted = d->tolerance;
-    const gvi_real tolerance = wanted*wanted;
-    const gvi_real place = 2*GVI__EPS*GVI__EPS, rounding = 8*place*(gvi_real)(st->n*st->r),
-                   sure = 65536*rounding, far = (gvi_real)0.0625, tenth_less = (gvi_real)0.81;
-    const gvi_real before = p->before, earlier = p->earlier, worst = st->counters.worst_contraction;
-    const int grows = before > 0 && D >= before/4, alone = p->used == 1 || p->ratio > 1;
-    gvi_real last = D;
-    if (!alone) last = gvi__smaller(before, 1);
-    int settled = D*D <= tolerance*last && d->iterations == 0;
-    if (settled && !alone && D > rounding) {
-        gvi_real other = p->ratio;
-        if (earlier > 0) other = before/gvi__smaller(earlier, 1);
-        settled = D*other <= tolerance;
-        if (settled) st->in.watch.found = D/last;
-    }
-    if (settled) {
-        int rows = 0;                             // no row hides behind a larger one
-        for (; rows < stages*st->n; ++rows) {
-            const gvi_real Di = st->in.watch.change[rows];
-            gvi_real before_i = Di;
-            if (!alone) before_i = gvi__smaller(st->in.watch.before[rows], 1);
-            if (Di > place && Di*Di > tolerance*before_i) break;
-        }
-        if (rows == stages*st->n) return GVI__DONE;
-    }
-    if (!gvi__finite(D)) return GVI__NOT_FINITE;
-
-    // contraction over two iterations, as long as it is not about rounding
-    if (earlier > 0 && D > 500000*place && D > worst*worst*worst*worst*earlier)
-        st->counters.worst_contraction = GVI_SQRT(GVI_SQRT(D/earlier));
-    p->rescale = D > far || grows;                // those were the units of an overshoot
-    p->earlier = before;
-    p->before = D;
-    if (d->iterations > 0) {
-        if (p->used < d->iterations) return GVI__GO_ON;
-        int falls = before <= 0 || D < before;
-        if (earlier > 0) falls = D < earlier/4;
-        if (D > far) falls = 0;                   // it leaves the motion, and its units grow with it
-        if (falls || D <= sure || gvi__noise(st, h, stage, stages) <= 1) return GVI__DONE;
-        return GVI__DIVERGES;
-    }
-    p->growing += 1;
-    if (!grows) p->growing = 0;
-    p->stagnant += 1;
-    if (D < tenth_less*p->least) p->stagnant = 0;
-    p->least = gvi__smaller(p->least, D);
-    if (gvi__constrained(st) && D > 16*p->least && D > 256*rounding) {
-        // near a bifurcation it would be leaving the motion, perhaps for that of another branch
-        int at[2];
-        const gvi_real loss = gvi__loss(st, at);
-        if (loss > 3 && D > 256*rounding*loss*loss*loss) return GVI__DIVERGES;
-    }
-    int allowed = POOR;
-    if (D > far) allowed = POOR_FAR;
-    const int poor = p->growing > allowed && D > sure;
-    const int wait = !gvi__constrained(st);                  // the rounding of g is in every D
-    if (p->stagnant > wait || poor) {
-        const gvi_real noise = gvi__noise(st, h, stage, stages);
-        p->still += 1;
-        if (noise < p->quiet) p->still = 0;       // a new minimum still converges, perhaps to 0
-        const int level = noise <= GVI__EPS || (p->still > STILL && noise <= p->noise);
-        int rests = p->stagnant > 1;
-        if (wait) rests = p->stagnant > STAGNANT && level;
-        if (p->stagnant > wait && (noise <= 0 || (noise <= 1 && rests))) {
-            const int slow = p->used - p->stagnant >= GVI__DIG/2;
-            if (slow && gvi__may_turn(st)) return GVI__DIVERGES;
-            return GVI__ONCE_MORE;
-        }
-        // a row that tends to 0 changes by its whole size: does its amplitude fall?
-        if (poor && noise > 1 && noise > p->noise/2 && gvi__may_turn(st)) return GVI__DIVERGES;
-        p->noise = noise;
-        if (p->still == 0) p->quiet = noise;
-    }
-    if (p->used < d->max_iterations) return GVI__GO_ON;
-    return GVI__DIVERGES;
-}
-
-/* Fixed point: F (V, A) at the stage values makes the next stage values.                     */
-GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi_real h,
-                                   int extrapolate, int *used)
-{
-    struct gvi__private *in = &st->in;
-    gvi__stage stage[2], first;
-    gvi__progress p = { 0, 0, GVI__MAX, 1, GVI__MAX, GVI__MAX, 0, 0, 0, 0, 1 };
-    gvi_points at = gvi__points_at(st, st->r, in->R, in->t, in->work.Q, in->work.F,
-                                   GVI__LAGRANGIAN ? in->work.A : NULL);
-    const int stages = gvi__stages(st, from, h, stage);
-    gvi_status status = GVI_OK;
-    if (gvi__constrained(st)) gvi__constraint_stages(st, from, h, stage, stages);
-    if (GVI__CONSTRAINTS) in->con.made = in->con.linear = 0;
-    at.v = in->work.V;
-    if (*used > 0) p.ratio = 2;                   // the attempt before this one failed
-    else if (extrapolate && GVI_ABS(h) <= GVI_ABS(st->h)) p.ratio = in->watch.ratio;
-    in->watch.found = gvi__smaller(p.ratio, 1);
-    *used = 0;
-    in->has_factor = 0;
-    if (extrapolate && in->sized.sums) {
-        first = stage[0];
-        gvi__set_predictor(st, &first, in->last.F, in->older.F);
-        in->kernel(st, &first, 0);
-    } else {
-        status = gvi__predict_sources(st, from, h, extrapolate);
-        if (status != GVI_OK) return status;
-        gvi__new_rows(st, stage, stages, 0);
-    }
-    p.used = *used = 1;
-    for (int shorter = 0, last = 0; ; ) {
-        status = gvi__evaluate_stages(st, from, &at);
-        // free motion may leave a callback's domain though the motion does not: halve the way
-        if (status == GVI_E_CALLBACK && p.used == 1 && !extrapolate && shorter++ < 6) {
-            for (int i = 0; i < st->n; ++i)
-                for (int k = 0; k < in->R; ++k)
-                    in->work.Q[i*in->R + k] = (in->work.Q[i*in->R + k] + from->q[i])/2;
-            continue;
-        }
-        if (last && status == GVI_OK && gvi__constrained(st)) gvi__constrain(st, stage, from->q);
-        if (last || status != GVI_OK) return status;
-        const int diverged = p.growing > 0 || p.before > (gvi_real)st->n;
-        const gvi_real change = gvi__new_rows(st, stage, stages, p.rescale);
-        const int verdict = gvi__converged(st, &p, change, h, stage, stages);
-        if (verdict == GVI__GO_ON) {
-            gvi_real *spare = in->watch.before;
-            in->watch.before = in->watch.change;
-            in->watch.change = spare;
-            for (int k = 0; k < stages; ++k) stage[k].change = spare + k*st->n;
-            p.used = *used += 1;
-            continue;
-        }
-        if (verdict == GVI__NOT_FINITE && !diverged && !in->diagnose)  // the effects are looked at
-            return gvi__report_status(st, GVI_E_NON_FINITE);
-        if (verdict == GVI__NOT_FINITE || verdict == GVI__DIVERGES)
-            return gvi__report_status(st, GVI_E_CONVERGENCE);
-        const gvi_real worst = st->counters.worst_change;
-        if (change > worst*worst) st->counters.worst_change = GVI_SQRT(change);
-        if (verdict == GVI__DONE) return GVI_OK;
-        last = 1;
-    }
-}
-
-// the sums k and k + half of double words, to k; a constant `half` makes vectors of it
-GVI__BODY void gvi__fold(int half, gvi_real *hi, gvi_real *lo)
-{
-    for (int k = 0; k < half; ++k) {
-        const gvi__two s = gvi__add_low(hi[k], lo[k], hi[k + half], lo[k + half]);
-        hi[k] = s.hi;
-        lo[k] = s.lo;
-    }
-}
-
-/* sum_j a_j b_j with its low word, since the errors of increments add up over the steps.  Eight
-   partial sums, then these by halves; past the last point the numbers are 0.                  */
-GVI__BODY gvi__two gvi__exact_dot(int R, const gvi_real *a, const gvi_real *b)
-{
-    gvi_real hi[8] = { 0 }, lo[8] = { 0 };
-    if (R < 8)
-        for (int k = 0; k < R; ++k) {
-            const gvi__two z = gvi__two_prod(a[k], b[k]);
-            hi[k] = z.hi;
-            lo[k] = z.lo;
-        }
-    else
-        for (int k = 0; k < 8; ++k) {
-            const gvi__two z = gvi__two_prod(a[k], b[k]);
-            hi[k] = z.hi;
-            lo[k] = z.lo;
-        }
-    for (int o = 8; o < R; o += 8)
-        for (int k = 0; k < 8; ++k) {
-            const gvi__two z = gvi__two_prod(a[o + k], b[o + k]),
-                           s = gvi__add_low(hi[k], lo[k], z.hi, z.lo);
-            hi[k] = s.hi;
-            lo[k] = s.lo;
-        }
-    if (R >= 8) gvi__fold(4, hi, lo);
-    gvi__fold(2, hi, lo);
-    gvi__fold(1, hi, lo);
-    return gvi__two_of(hi[0], lo[0]);
-}
-
-// increments := sums of h b times rows, their low words with those of the start
-static void gvi__sum_rows(const gvi_stepper *st, gvi_real *rows, const gvi_real *low, gvi_real *sum,
-                          gvi_real *sum_low)
-{
-    const int R = st->in.R;
-    for (int i = 0; i < st->n; ++i, rows += R) {
-        // a callback may have left anything there
-        for (int k = st->r; k < R; ++k) rows[k] = 0;
-        gvi__two z;
-        if (R == 8) z = gvi__exact_dot(8, st->in.sized.hb, rows);
-        else if (R == 4) z = gvi__exact_dot(4, st->in.sized.hb, rows);
-        else z = gvi__exact_dot(R, st->in.sized.hb, rows);
-        sum[i] = z.hi;
-        sum_low[i] = gvi__low(z.lo + low[i]);
-    }
-}
-
-// sum_j (1 - c_j) w_j F_j with its low word
-GVI__CALLED gvi__two gvi__moment(int count, const gvi_real *c, const gvi_real *w, const gvi_real *F)
-{
-    gvi__two sum = gvi__two_of(0, 0);
-    for (int j = 0; j < count; ++j) {
-        const gvi__two push = gvi__two_prod(w[j], F[j]), z = gvi__two_prod(1 - c[j], push.hi);
-        sum = gvi__add_low(sum.hi, sum.lo, z.hi, z.lo + (1 - c[j])*push.lo);
-    }
-    return sum;
-}
-
-// dp from the F at the points and the forces of constraint at theirs
-static void gvi__momentum_increment(gvi_stepper *st, const gvi__origin *from)
-{
-    struct gvi__private *in = &st->in;
-    gvi__sum_rows(st, in->work.F, from->p_low, in->step.p, in->step.p_low);
-    if (!gvi__constrained(st)) return;
-    for (int i = 0; i < st->n; ++i) {
-        const gvi__two z = gvi__exact_dot(in->R, in->con.hw, in->con.force + i*in->R),
-                       p = gvi__add_low(in->step.p[i], in->step.p_low[i], z.hi, z.lo);
-        in->step.p[i] = p.hi;
-        in->step.p_low[i] = p.lo;
-    }
-}
-
-/* Increments of q and p from the F, V and A at the end of the iteration, by (2) and by (3) at
-   tau = 1, where S_j = c_j: dq = h (v + M^-1 (sum_j (1 - c_j) h b_j F_j - sum_j b_j A_j)).    */
-static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h)
-{
-    struct gvi__private *in = &st->in;
-    struct gvi__values *w = &in->work;
-    const gvi_real *c = in->table.c, *hb = in->sized.hb;
-    const int R = in->R, r = st->r;
-    if (gvi__clock_is_on(st)) {
-        in->dt = gvi__dot(r, hb, in->time.rate);
-        in->time.dH = gvi__dot(r, hb, in->time.power);
-    }
-    gvi__momentum_increment(st, from);
-    if (gvi__uses(in, GVI_MOMENTA)) {
-        gvi__sum_rows(st, w->V, from->q_low, in->step.q, in->step.q_low);
-        return;
-    }
-    for (int i = 0; i < st->n; ++i) {
-        const gvi_real *F = w->F + i*R;
-        gvi_real sum[4] = { 0, 0, 0, 0 };
-        for (int o = 0; o + 3 < R; o += 4)
-            for (int k = 0; k < 4; ++k) sum[k] += (1 - c[o + k])*(hb[o + k]*F[o + k]);
-        for (int k = R & ~3; k < R; ++k) sum[k & 3] += (1 - c[k])*(hb[k]*F[k]);
-        in->step.q[i] = (sum[0] + sum[2]) + (sum[1] + sum[3]);
-        if (gvi__constrained(st)) {
-            const gvi__two a = gvi__moment(r, c, hb, F),
-                           z = gvi__moment(st->s, in->con.d, in->con.hw, in->con.force + i*R);
-            in->step.q[i] = (a.hi + z.hi) + (a.lo + z.lo);
-        }
-        if (GVI__LAGRANGIAN && w->A) in->step.q[i] -= gvi__dot(r, in->table.b, w->A + i*R);
-    }
-    gvi__over_mass(st, in->step.q, 1, 1);
-    for (int i = 0; i < st->n; ++i) {
-        const gvi__two bend = gvi__two_prod(h, in->step.q[i]),
-                       q = gvi__two_sum(in->free.path[i], bend.hi);
-        in->step.q[i] = q.hi;
-        in->step.q_low[i] = gvi__low((q.lo + bend.lo) + (in->free.path_low[i] + from->q_low[i]));
-    }
-}
-
-/* ---- resolution ---- */
-
-/* The error of a step relative to the motion, as Legendre modes y_k of its velocity tell it.  Of a
-   coordinate, with two modes each (at degrees 3 and 4 with one),
-
-     high = |y_(s-1)| + |y_(s-2)|                    push = |change of v| + high + low
-     low  = |y_(s-3)| + |y_(s-4)|                    all  = |v| at both ends + high + low
-     (s high/push high/max(high, low))^2 push/all
-
-   high^2/low is about the pair that the curve lacks, and of push, which forces do, the step lacks
-   the square of that share, since its error is of second order in the curve's [2, thm. 4.1], with a
-   rule of order u >= 2s.  In positions the modes are those of M v, from the forces.  Where a coordinate hardly moves, an error below
-   eps (max |v| + max |q|/h), each times sqrt(M_ii), is rounding, and relative to that sum.    */
-static gvi_real gvi__resolution(const gvi_stepper *st)
-{
-    const struct gvi__private *in = &st->in;
-    const int s = st->s, R = in->R, forces = gvi__uses(in, GVI_POSITIONS), pair = 1 + (s > 4),
-              held = forces && gvi__constrained(st);
-    const gvi_real *row = in->work.V;
-    const gvi_real h = GVI_ABS(in->sized.h);
-    gvi_real *missed = in->result, *size = missed + st->n, unit = 1;
-    gvi_real fastest = 0, farthest = 0, worst = 0;
-    if (forces) {
-        row = in->work.F;
-        unit = h;
-    }
-    for (int i = 0; i < st->n; ++i, row += R) {
-        const gvi_real *a = in->table.high, *force = in->con.force + i*R;
-        gvi_real y[4] = { 0, 0, 0, 0 }, start = row[0], end = row[st->r - 1];
-        for (int j = 0; j < st->r; ++j, a += 4)
-            GVI__UNROLL for (int m = 0; m < 4; ++m) y[m] += a[m]*row[j];
-        for (int m = 0; m < held*2*pair; ++m) {
-            const int k = s - 1 - m;
-            for (int e = 1; e < s; ++e)
-                y[m*2/pair] +=
-                    in->table.inv_gamma[k]*in->con.Phi[k*R + e - 1]*(in->con.w[e]*force[e]);
-        }
-        if (forces) {
-            start = in->state.p[i];
-            end = start + in->step.p[i];
-        }
-        gvi_real high = unit*(GVI_ABS(y[0]) + GVI_ABS(y[1])),
-                 low = unit*(GVI_ABS(y[2]) + GVI_ABS(y[3]));
-        const gvi_real all = GVI_ABS(start) + GVI_ABS(end) + high + low,
-                       push = GVI_ABS(end - start) + high + low;
-        // one mode alone may pass 0; one that is rounding is 0: a force as simple as the curve
-        if (pair == 1 && high > 256*GVI__EPS*low) high += low*(low/all)/4;
-        const gvi_real most = gvi__larger(high, low);
-        const gvi_real mass = GVI_SQRT(gvi__inertia(st, i));
-        gvi_real share = 0, scale = mass;
-        if (most > 0) share = high/(push + 32*GVI__EPS*all)*(high/most);
-        if (forces) scale = 1/mass;               // p over M
-        missed[i] = share*share*push*scale;
-        size[i] = all*scale;
-        fastest = gvi__larger(size[i], fastest);
-        farthest = gvi__larger(GVI_ABS(in->state.q[i])*mass, farthest);
-    }
-    const gvi_real whole = fastest + farthest/h;
-    if (!(whole > 0)) return 0;
-    for (int i = 0; i < st->n; ++i) {
-        // forces of constraint carry more of it, in every coordinate, and no h makes it smaller
-        if (held && missed[i] <= 64*GVI__EPS*whole) continue;
-        if (missed[i] <= GVI__EPS*whole && size[i] < whole/4096) size[i] = whole;
-        worst = gvi__larger(missed[i]/size[i], worst);
-    }
-    return (gvi_real)(s*s)*worst;
-}
-
-/* ---- explicit ---- */
-
-/* dp += b F, then the drift dq += a (v + M^-1 dp), Q = q + dq; F := 0 for the next force.  First
-   in a step, dp and dq are the low words of the state, and F is `first`.                      */
-GVI__BODY void gvi__drift(gvi_stepper *st, const gvi__origin *from, const gvi_real *GVI__RESTRICT v,
-                          const gvi_real *first, gvi_real b, gvi_real a)
-{
-    struct gvi__private *in = &st->in;
-    const gvi_real *GVI__RESTRICT q = from->q, *GVI__RESTRICT m = in->mass.inverse;
-    gvi_real *GVI__RESTRICT F = in->work.F, *GVI__RESTRICT Q = in->work.Q;
-    gvi_real *GVI__RESTRICT dp = in->step.p, *GVI__RESTRICT dq = in->step.q, *z = in->result;
-    const gvi_real *p0 = first ? from->p_low : dp, *q0 = first ? from->q_low : dq;
-    const gvi_real *f = first ? first : F;
-    int i = 0;
-    const int n = st->n;
-    if (in->desc.mass.kind == GVI_MASS_DENSE) {
-        for (i = 0; i < n; ++i) z[i] = dp[i] = p0[i] + b*f[i];
-        gvi__over_mass(st, z, 1, 1);
-        for (i = 0; i < n; ++i) {
-            F[i] = 0;
-            dq[i] = q0[i] + a*(v[i] + z[i]);
-            Q[i] = q[i] + dq[i];
-        }
-        return;
-    }
-    const gvi__lane zero = { 0 };
-    const int whole = (n >= 8)*gvi__in_lanes(n);
-    for (; i < whole; i += GVI__LANES) {
-        const gvi__lane p = GVI__LOAD(p0 + i) + b*GVI__LOAD(f + i);
-        const gvi__lane d = GVI__LOAD(q0 + i) + a*(GVI__LOAD(v + i) + p*GVI__LOAD(m + i));
-        GVI__STORE(dp + i) = p;
-        GVI__STORE(F + i) = zero;
-        GVI__STORE(dq + i) = d;
-        GVI__STORE(Q + i) = GVI__LOAD(q + i) + d;
-    }
-    for (; i < n; ++i) {
-        dp[i] = p0[i] + b*f[i];
-        F[i] = 0;
-        dq[i] = q0[i] + a*(v[i] + dp[i]*m[i]);
-        Q[i] = q[i] + dq[i];
-    }
-}
-
-/* Kicks h b_j F_j at the nodes, drifts between them: one evaluation a kick; none where a weight is
-   0, but for the last, whose F the next step may begin with.  `force`: F at the start, or NULL. */
-static gvi_status gvi__kicks(gvi_stepper *st, const gvi__origin *from, gvi_real h,
-                             const gvi_real *force)
-{
-    struct gvi__private *in = &st->in;
-    const int n = st->n, r = st->r, known = force && gvi__nonzero(in->sized.hb[0]);
-    const int held = gvi__constrained(st) ? 1 : -1;
-    const gvi_real *hb = in->sized.hb, *v = in->free.v;
-    if (in->desc.mass.kind == GVI_MASS_UNIT) v = from->p;
-    gvi_real t = from->t, b = 0;
-    gvi_points at = gvi__points_at(st, 1, 1, &t, in->work.Q, in->work.F, NULL);
-    if (v != from->p) {
-        gvi__copy((size_t)n, from->p, in->free.v);
-        gvi__over_mass(st, in->free.v, 1, 1);
-    }
-    if (known) b = hb[0];
-    for (int j = known; j < r; ++j) {
-        if (j == known) gvi__drift(st, from, v, known ? force : in->zeros, b, in->sized.drift[j]);
-        else gvi__drift(st, from, v, NULL, b, in->sized.drift[j]);
-        if (j == held) {
-            const gvi_status status = gvi__constrained_drift(st, from, h);
-            if (status != GVI_OK) return status;
-        }
-        t = from->t + (from->t_low + in->table.c[j]*h);
-        b = hb[j];
-        if (j < r - 1 && !gvi__nonzero(b)) continue;
-        const gvi_status status = gvi__effects(st, &at, 0, NULL);
-        if (status != GVI_OK) return status;
-    }
-
-    // the last kick, and the drift behind it, if there is one
-    gvi_real *last = in->result + n;
-    if (gvi__nonzero(in->sized.drift[r])) {
-        gvi__copy((size_t)n, in->work.F, last);
-        gvi__drift(st, from, v, NULL, b, in->sized.drift[r]);
-        gvi__copy((size_t)n, last, in->work.F);
-    } else gvi__add_scaled(n, b, in->work.F, in->step.p, in->step.p);
-    return GVI_OK;
 }
 
 /* ---- a clock ---- */
@@ -4278,7 +3203,7 @@ static void gvi__time_sums(const gvi_stepper *st, const gvi_real *source, gvi_re
    push a light body by more than 1024 eps of F, 0 up to `none` and as it is from 2 none on.  */
 static gvi_real gvi__sure_level(gvi_real level, gvi_real none, gvi_real slope, gvi_real F)
 {
-    const gvi_real limit = 1024*GVI__EPS*F, push = GVI_ABS(slope)*none, size = GVI_ABS(level);
+    const gvi_real limit = GVI__SURE*GVI__EPS*F, push = GVI_ABS(slope)*none, size = GVI_ABS(level);
     if (push <= limit) return level;
     if (push < 2*limit) none *= push/limit - 1;
     gvi_real sure = size;
@@ -4338,12 +3263,141 @@ static gvi_status gvi__evaluate_with_clock(gvi_stepper *st, const gvi__origin *f
             V[k] *= g[k];
             if (k < r && GVI_ABS(F[k]) > largest) largest = GVI_ABS(F[k]);
         }
-        for (int k = 0; k < r; ++k)
-            F[k] -= slope[k]*gvi__sure_level(level[k], 16*GVI__EPS*noise[k], slope[k], largest);
+        for (int k = 0; k < r; ++k) {
+            const gvi_real none = GVI__SOLVED*GVI__EPS*noise[k];
+            F[k] -= slope[k]*gvi__sure_level(level[k], none, slope[k], largest);
+        }
     }
     gvi__time_sums(st, g, L);
     for (int k = 0; k < R; ++k) in->t[k] = from->t + (from->t_low + L[k]);
     return GVI_OK;
+}
+
+/* ---- velocities, increments ---- */
+
+/* Momenta: V from the new P with the old M(Q) and dL/dv, so that an iteration contracts twice
+   as fast.  Where Lagrangian terms make V it can diverge while Q and P hardly change: returns its
+   squared relative change at the last point, times r as if summed over all.                   */
+static gvi_real gvi__velocities_again(gvi_stepper *st)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n, R = in->R, clock = gvi__clock_is_on(st),
+              made = GVI__LAGRANGIAN && in->work.A;
+    const gvi_real *V = in->work.V + st->r - 1;
+    gvi_real *was = in->result, sum = 0;
+    // before the first evaluation Q, g and M(Q) are those of another step
+    if (!in->has_factor && (clock || in->desc.mass.velocity || !gvi__mass_is_constant(in)))
+        return 0;
+    if (made) gvi__gather(n, R, V, was);
+    gvi__count(&st->counters.velocities, st->r);
+    const gvi_points at = gvi__points_at(st, st->r, R, in->t, in->work.Q, NULL, NULL);
+    // where that fails it does so again with the new Q
+    if (in->desc.mass.velocity) (void)gvi__evaluate_mass(st, &at, in->work.P, in->work.V);
+    else gvi__velocity_rows(st);
+    if (clock)
+        for (int i = 0; i < n; ++i)
+            for (int k = 0; k < R; ++k) in->work.V[i*R + k] *= in->time.rate[k];
+    if (!made) return 0;
+    for (int i = 0; i < n; ++i) {
+        const gvi_real moved = V[i*R] - was[i], size = GVI_ABS(V[i*R]) + GVI_ABS(was[i]);
+        if (size > GVI__NOTHING) sum += (moved/size)*(moved/size);
+    }
+    return (gvi_real)st->r*sum;
+}
+
+// the sums k and k + half of double words, to k; a constant `half` makes vectors of it
+GVI__BODY void gvi__fold(int half, gvi_real *hi, gvi_real *lo)
+{
+    for (int k = 0; k < half; ++k) {
+        const gvi__two s = gvi__add_low(hi[k], lo[k], hi[k + half], lo[k + half]);
+        hi[k] = s.hi;
+        lo[k] = s.lo;
+    }
+}
+
+/* sum_j a_j b_j with its low word, since the errors of increments add up over the steps.  Eight
+   partial sums, then these by halves; past the last point the numbers are 0.                  */
+GVI__BODY gvi__two gvi__exact_dot(int R, const gvi_real *a, const gvi_real *b)
+{
+    gvi_real hi[8] = { 0 }, lo[8] = { 0 };
+    for (int k = 0; k < 8 && k < R; ++k) {
+        const gvi__two z = gvi__two_prod(a[k], b[k]);
+        hi[k] = z.hi;
+        lo[k] = z.lo;
+    }
+    for (int o = 8; o < R; o += 8)
+        for (int k = 0; k < 8; ++k) {
+            const gvi__two z = gvi__two_prod(a[o + k], b[o + k]),
+                           s = gvi__add_low(hi[k], lo[k], z.hi, z.lo);
+            hi[k] = s.hi;
+            lo[k] = s.lo;
+        }
+    if (R >= 8) gvi__fold(4, hi, lo);
+    gvi__fold(2, hi, lo);
+    gvi__fold(1, hi, lo);
+    return gvi__two_of(hi[0], lo[0]);
+}
+
+// increments := sums of h b times rows, their low words with those of the start
+static void gvi__sum_rows(const gvi_stepper *st, gvi_real *rows, const gvi_real *low, gvi_real *sum,
+                          gvi_real *sum_low)
+{
+    const int R = st->in.R;
+    for (int i = 0; i < st->n; ++i, rows += R) {
+        // a callback may have left anything there
+        for (int k = st->r; k < R; ++k) rows[k] = 0;
+        gvi__two z;
+        if (R == 8) z = gvi__exact_dot(8, st->in.sized.hb, rows);
+        else if (R == 4) z = gvi__exact_dot(4, st->in.sized.hb, rows);
+        else z = gvi__exact_dot(R, st->in.sized.hb, rows);
+        sum[i] = z.hi;
+        sum_low[i] = gvi__low(z.lo + low[i]);
+    }
+}
+
+// sum_j (1 - c_j) w_j F_j with its low word
+GVI__CALLED gvi__two gvi__moment(int count, const gvi_real *c, const gvi_real *w, const gvi_real *F)
+{
+    gvi__two sum = gvi__two_of(0, 0);
+    for (int j = 0; j < count; ++j) {
+        const gvi__two push = gvi__two_prod(w[j], F[j]), z = gvi__two_prod(1 - c[j], push.hi);
+        sum = gvi__add_low(sum.hi, sum.lo, z.hi, z.lo + (1 - c[j])*push.lo);
+    }
+    return sum;
+}
+
+// dp from the F at the points and the forces of constraint at theirs
+static void gvi__momentum_increment(gvi_stepper *st, const gvi__origin *from)
+{
+    struct gvi__private *in = &st->in;
+    gvi__sum_rows(st, in->work.F, from->p_low, in->step.p, in->step.p_low);
+    if (!gvi__constrained(st)) return;
+    for (int i = 0; i < st->n; ++i) {
+        const gvi__two z = gvi__exact_dot(in->R, in->con.hw, in->con.force + i*in->R),
+                       p = gvi__add_low(in->step.p[i], in->step.p_low[i], z.hi, z.lo);
+        in->step.p[i] = p.hi;
+        in->step.p_low[i] = p.lo;
+    }
+}
+
+enum { GVI__GO_ON, GVI__DONE, GVI__ONCE_MORE, GVI__DIVERGES, GVI__NOT_FINITE };
+
+// M_ii, or p_i/v_i where the effects alone make the mass, where F was evaluated last: first point
+static gvi_real gvi__inertia(const gvi_stepper *st, int i)
+{
+    const struct gvi__private *in = &st->in;
+    const size_t n = (size_t)st->n, ii = (size_t)i*(n + 1);
+    const size_t iR = (size_t)i*(size_t)in->R;
+    gvi_real m;
+    if (in->desc.mass.kind == GVI_MASS_DENSE) m = in->mass.matrix[ii];
+    else if (gvi__mass_is(in, GVI_MASS_POSITION)) m = in->mass.at_points[ii*(size_t)in->R];
+    else if (gvi__mass_is(in, GVI_MASS_NONE)) m = in->work.P[iR]/in->work.V[iR];
+    else m = in->mass.matrix[i];
+    if (!gvi__nonzero(m) || !gvi__finite(m)) return 1;
+    // the momenta formulation factors M(q) in place: 1/D_i is there
+    if (gvi__mass_is(in, GVI_MASS_POSITION) && st->formulation == GVI_MOMENTA && in->has_factor
+        && !in->desc.mass.velocity) m = 1/m;
+    return GVI_ABS(m);
 }
 
 /* ----------------------------------------------------------- CONSTRAINTS */
@@ -4533,7 +3587,7 @@ static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, con
 {
     const struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m, full = gvi__full_mass(in);
-    const gvi_real *first = in->con.first, least = 64*(gvi_real)m*GVI__EPS;
+    const gvi_real *first = in->con.first, least = GVI__GRAIN*(gvi_real)m*GVI__EPS;
     gvi_real *W = in->con.W;
     gvi__zero((size_t)(n*S), W);
     for (int i = 0, ends; i < m; ++i) {
@@ -4669,7 +3723,7 @@ GVI__CALLED void gvi__constraint_stages(const gvi_stepper *st, const gvi__origin
                                    gvi__stage *stage, int stages)
 {
     const struct gvi__private *in = &st->in;
-    const int R = in->R, momenta = gvi__uses(in, GVI_MOMENTA);
+    const int R = in->R, momenta = gvi__has(in, GVI__BY_MOMENTA);
     gvi__constraint_points(st, from, h);
     for (int k = 0; k < (momenta ? 1 : stages); ++k) {
         stage[k].sum[1].table = momenta || k == 1 ? in->con.U : in->con.K;
@@ -4690,9 +3744,9 @@ GVI__CALLED void gvi__constraint_stages(const gvi_stepper *st, const gvi__origin
 GVI__CALLED void gvi__constraint_rows(const gvi_stepper *st, const gvi__stage *stage)
 {
     const struct gvi__private *in = &st->in;
-    gvi__stage z = stage[gvi__uses(in, GVI_MOMENTA)];
+    gvi__stage z = stage[gvi__has(in, GVI__BY_MOMENTA)];
     z.sum[0].table = in->con.by_force;
-    z.sum[1].table = gvi__uses(in, GVI_MOMENTA) ? NULL : in->con.by_impulse;
+    z.sum[1].table = gvi__has(in, GVI__BY_MOMENTA) ? NULL : in->con.by_impulse;
     z.rows = in->con.D;
     z.base = in->zeros;
     z.free = in->con.free;
@@ -4788,7 +3842,7 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *stage, const 
     const int n = st->n, m = in->con.m, s = st->s, R = in->R, C = in->con.C;
     gvi_real *lambda = in->con.force + n*R, *rho = in->con.rho, *moved = in->con.W;
     gvi__constraint_forces(st);
-    if (gvi__uses(in, GVI_MOMENTA)) {
+    if (gvi__has(in, GVI__BY_MOMENTA)) {
         gvi_real *const P = in->work.P;
         gvi__stage z = stage[0];
         z.rows = in->work.P = in->con.P;
@@ -4897,7 +3951,7 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
                 size = GVI_ABS(g[a])/(GVI__EPS*unit[a]);
             finite &= gvi__finite(g[a]);
         }
-        if (finite && size <= 64 && k > 0 && !(size < before/2))
+        if (finite && size <= GVI__GRAIN && k > 0 && !(size < before/2))
             return gvi__report_status(st, GVI_OK);
         if (size < least) least = size;
         if (!finite || k > 64 || size > 4*(least + 256))
@@ -4924,7 +3978,7 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
 GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                     const gvi_real *p, gvi_real *v)
 {
-    const gvi_real part = (gvi_real)0.618034, units = 4096;
+    const gvi_real part = (gvi_real)0.618034, units = GVI__HELD;
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
     gvi_real *g = in->con.g, *was = in->con.rho, *z = in->con.y, *d = in->con.W, *G = in->con.G1;
@@ -4962,7 +4016,7 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m, passes = gvi__has(in, GVI__HAS_LAGRANGIAN) ? 40 : 2;
-    const gvi_real t = from->t + (from->t_low + in->dt), far = 4096*GVI__EPS;
+    const gvi_real t = from->t + (from->t_low + in->dt), far = GVI__HELD*GVI__EPS;
     gvi_real *q = in->result, *p = q + n, *v = p + n, *r = in->con.g, *z = in->con.rho,
              *drops = in->con.drops + m, energy = 0, before = GVI__MAX;
     int redundant = 0;
@@ -5050,7 +4104,7 @@ GVI__CALLED void gvi__commit_constraints(gvi_stepper *st, gvi_real h)
     struct gvi__private *in = &st->in;
     const int n = st->n, s = st->s, C = in->con.C, rows = n + in->con.m;
     in->con.settled = 1;
-    in->con.kept = gvi__constrained(st) && !gvi__uses(in, GVI_EXPLICIT) ? 2 : 0;
+    in->con.kept = gvi__constrained(st) && gvi__has(in, GVI__ITERATES) ? 2 : 0;
     if (in->con.kept == 0) return;
     for (int a = n; a < rows; ++a) in->con.y[a - n] /= h*in->con.w[s];
     gvi__zero((size_t)n, in->result);
@@ -5180,7 +4234,7 @@ GVI__COLD const char *gvi__wrong_in_mass(const struct gvi__private *in)
         return "mass: matrix or points is given, kind is GVI_MASS_UNIT";
     if (m->kind == GVI_MASS_POSITION && !m->points) return "mass: points is missing";
     if (m->kind == GVI_MASS_POSITION && !m->gradient) return "mass: gradient is missing";
-    if (m->kind == GVI_MASS_NONE && !(in->needs & GVI__HAS_LAGRANGIAN))
+    if (m->kind == GVI_MASS_NONE && !(in->facts & GVI__HAS_LAGRANGIAN))
         return "mass: none, and no Lagrangian term";
     if ((m->kind == GVI_MASS_DIAGONAL || m->kind == GVI_MASS_DENSE) && !m->matrix)
         return "mass: matrix is missing";
@@ -5209,7 +4263,7 @@ GVI__COLD gvi_status gvi__check(struct gvi__private *in, const gvi_desc *desc, g
         return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE, "resolution: degree is below 3");
     if (d->resolution > 0 && d->resolution < GVI__EPS) d->resolution = GVI__EPS;
 
-    in->needs = 0;
+    in->facts = 0;
     in->clock = -1;
     in->apart = in->con.bits = 0;
     in->con.m = 0;
@@ -5217,7 +4271,7 @@ GVI__COLD gvi_status gvi__check(struct gvi__private *in, const gvi_desc *desc, g
         const gvi_effect *effect = d->effects + e;
         wrong = gvi__wrong_in_effect(in, effect);
         if (wrong) return gvi__refuse(fault, e, GVI_FAULT_NONE, wrong);
-        in->needs |= reads[effect->kind];
+        in->facts |= reads[effect->kind];
         if (effect->kind < GVI_CLOCK) continue;
         in->apart |= 1u << e;
         in->con.m += effect->rows;
@@ -5225,7 +4279,7 @@ GVI__COLD gvi_status gvi__check(struct gvi__private *in, const gvi_desc *desc, g
         else in->clock = e;
     }
     const gvi_mass *m = &d->mass;
-    if ((in->needs & L && !GVI__LAGRANGIAN) || (in->clock >= 0 && !GVI__CLOCK)
+    if ((in->facts & L && !GVI__LAGRANGIAN) || (in->clock >= 0 && !GVI__CLOCK)
         || (in->con.bits && (!GVI__CONSTRAINTS || in->clock >= 0 || rule == GVI_KICKS))
         || (m->kind > GVI_MASS_DENSE && !gvi__mass_is(in, m->kind)) || !gvi__rule_is(in, rule))
         return GVI_E_FORMULATION;
@@ -5265,7 +4319,7 @@ GVI__COLD gvi_status gvi__check_rule(struct gvi__private *in, int *order, gvi_fa
         *order = gvi_rule_order(r, rule->nodes, rule->weights);
         if (*order < 0) return GVI_E_NODES;
         if (r >= s && (*order < s || !sums)) return GVI_E_ORDER;
-        if (*order < 2*s - 2) in->needs |= GVI__HAS_GAMMA;
+        if (*order < 2*s - 2) in->facts |= GVI__HAS_GAMMA;
     }
     // r >= s points of Gauss or Lobatto are good enough
     if (r < s) return GVI_E_POINTS;
@@ -5288,6 +4342,8 @@ GVI__COLD gvi_status gvi__choose(struct gvi__private *in, gvi_fault *fault)
         KICKED | MORE_POINTS | NO_VELOCITY,             // GVI_MOMENTA
         TIMED | KICKED                                  // GVI_NEWTON
     };
+    static const unsigned char facts[] = { 0, GVI__OF_EXPLICIT, GVI__OF_POSITIONS,
+                                           GVI__OF_VELOCITIES, GVI__OF_MOMENTA, GVI__OF_NEWTON };
     const gvi_desc *d = &in->desc;
     const int s = d->degree, r = d->rule.points, kicks = d->rule.kind == GVI_KICKS;
     const int verlet = s == 1 && r == 2 && d->rule.kind == GVI_LOBATTO,
@@ -5295,17 +4351,18 @@ GVI__COLD gvi_status gvi__choose(struct gvi__private *in, gvi_fault *fault)
               lacks = !constant && d->mass.kind != GVI_MASS_POSITION;   // M, if it is wanted
     const int pinned = d->formulation != GVI_AUTO, given = d->iterations > 0;
     int scene = 0, f = GVI_EXPLICIT;
-    if (in->needs & GVI__HAS_VELOCITIES) scene |= READS;
+    if (in->facts & GVI__HAS_VELOCITIES) scene |= READS;
     if (in->clock >= 0) scene |= TIMED;
     if (kicks) scene |= KICKED;
     if (!kicks && !verlet) scene |= NOT_KICKED;
     if (r != s) scene |= MORE_POINTS;
-    if (!constant || (holds && in->needs & GVI__HAS_LAGRANGIAN)) scene |= VARIES;
+    if (!constant || (holds && in->facts & GVI__HAS_LAGRANGIAN)) scene |= VARIES;
     if ((d->mass.velocity && holds) || (!d->mass.velocity && lacks)) scene |= NO_VELOCITY;
     if (pinned) f = (int)d->formulation;
     while (!(GVI__COMPILED >> f & 1) || (scene & cannot[f]))
         if (pinned || f++ == GVI_NEWTON) return GVI_E_FORMULATION;
     in->chosen = (gvi_formulation)f;
+    in->facts |= facts[f];
     if (f == GVI_NEWTON && given) return GVI_E_FORMULATION;
     if (!GVI__RULES && f != GVI_EXPLICIT && (d->rule.kind != GVI_GAUSS || r != s))
         return GVI_E_FORMULATION;
@@ -5313,7 +4370,7 @@ GVI__COLD gvi_status gvi__choose(struct gvi__private *in, gvi_fault *fault)
     if (f == GVI_NEWTON
         || (GVI__NEWTON && !pinned && f != GVI_EXPLICIT && in->clock < 0 && !given
             && s <= 1024/(d->n + in->con.m)))
-        in->needs |= GVI__HAS_NEWTON;
+        in->facts |= GVI__HAS_NEWTON;
     const int matrices =
         gvi__has(in, GVI__HAS_NEWTON | GVI__HAS_LAGRANGIAN) || d->mass.kind >= GVI_MASS_DENSE;
     if (matrices && d->n > 0x7FFF)                // indices are int: n*n and s*n
@@ -5353,8 +4410,8 @@ GVI__COLD void gvi__layout_constraints(struct gvi__private *in, gvi__arena *a)
                  r = (size_t)in->desc.rule.points,
                  R = (size_t)GVI__ROW(r), C = (size_t)GVI__ROW(s + 1),
                  m = (size_t)gvi__count_rows(in, con->bits),
-                 on = m > 0, i = on && !gvi__uses(in, GVI_EXPLICIT),
-                 u = i && !gvi__uses(in, GVI_POSITIONS);
+                 on = m > 0, i = on && gvi__has(in, GVI__ITERATES),
+                 u = i && !gvi__has(in, GVI__BY_FORCES);
     const struct { gvi_real **to; size_t rows, width; } list[] = {
         { &con->D, i*n, R }, { &con->free, i*n, R }, { &con->P, u*n, R },
         { &con->force, i*(n + m), R },
@@ -5382,19 +4439,19 @@ GVI__COLD size_t gvi__layout(struct gvi__private *in, int order, gvi_real *base)
     const gvi_desc *d = &in->desc;
     const size_t n = (size_t)d->n, s = (size_t)d->degree, r = (size_t)d->rule.points,
                  R = (size_t)GVI__ROW(r);
-    const size_t explicitly = gvi__uses(in, GVI_EXPLICIT) != 0,
-                 momenta = gvi__uses(in, GVI_MOMENTA) != 0;
-    const size_t velocities = gvi__uses(in, GVI_VELOCITIES) != 0,
-                 newton = gvi__has(in, GVI__HAS_NEWTON) != 0;
-    const size_t lagrangian = gvi__has(in, GVI__HAS_LAGRANGIAN) != 0,
-                 clock = GVI__CLOCK && in->clock >= 0;
-    const size_t fixed = gvi__uses(in, GVI_POSITIONS) || velocities || momenta,
-                 A = lagrangian && fixed;
-    const size_t two = fixed && r < 10 && GVI__DIG > 24, reads_v = velocities || momenta || newton;
-    const size_t modes = !explicitly && (reads_v || order <= 2*d->degree - 2),
-                 kicks = gvi__rule_is(in, GVI_KICKS) != 0;
-    const size_t dense = d->mass.kind == GVI_MASS_DENSE, full = gvi__has(in, GVI__HAS_GAMMA) != 0;
-    const size_t iterated = !explicitly, legendre = newton || lagrangian,
+    const size_t iterates = gvi__has(in, GVI__ITERATES) != 0,
+                 fixed = gvi__has(in, GVI__FIXED_POINT) != 0,
+                 stages = gvi__has(in, GVI__TWO_STAGES) != 0,
+                 momenta = gvi__has(in, GVI__BY_MOMENTA) != 0,
+                 newton = gvi__has(in, GVI__HAS_NEWTON) != 0,
+                 lagrangian = gvi__has(in, GVI__HAS_LAGRANGIAN) != 0,
+                 full = gvi__has(in, GVI__HAS_GAMMA) != 0,
+                 kicks = gvi__rule_is(in, GVI_KICKS) != 0,
+                 velocities = stages && !momenta, reads_v = stages || newton,
+                 legendre = newton || lagrangian, A = lagrangian && fixed,
+                 two = fixed && r < 10 && GVI__DIG > 24,
+                 modes = iterates && (reads_v || order <= 2*d->degree - 2),
+                 clock = GVI__CLOCK && in->clock >= 0, dense = d->mass.kind == GVI_MASS_DENSE,
                  limited = d->resolution > 0;
     const size_t rows = kicks ? n : n*R, nn = n*n,
                  N = s*(n + (size_t)gvi__count_rows(in, in->con.bits));
@@ -5426,31 +4483,31 @@ GVI__COLD size_t gvi__layout(struct gvi__private *in, int order, gvi_real *base)
         v->P = gvi__take(a, at_work && (momenta || newton), n*R);
     }
     for (int k = 0; k < 8; ++k) *rows_of_R[k] = gvi__take(a, k < 4 || clock, R);
-    in->free.rows = gvi__take(a, fixed + (velocities || momenta), n*R);
+    in->free.rows = gvi__take(a, fixed + stages, n*R);
     in->table.Phi = gvi__take(a, (1 - kicks)*s, R);
     in->table.phi = gvi__take(a, modes*s, R);
     in->table.phi_low = gvi__take(a, modes*s, R);
     in->table.high = gvi__take(a, 4*limited, R);
     in->table.K = gvi__take(a, (fixed && !momenta)*r, R);
-    in->table.U = gvi__take(a, (velocities || momenta)*r, R);
+    in->table.U = gvi__take(a, stages*r, R);
     in->table.T = gvi__take(a, (momenta || (velocities && lagrangian))*r, R);
     in->table.N = gvi__take(a, (velocities && lagrangian)*r, R);
-    in->sized.E = gvi__take(a, iterated*(1 + two)*r, R);
-    in->row = gvi__take(a, 9*iterated, R);
+    in->sized.E = gvi__take(a, iterates*(1 + two)*r, R);
+    in->row = gvi__take(a, 9*iterates, R);
     in->mass.at_points = gvi__take(a, (d->mass.kind == GVI_MASS_POSITION)*nn, R);
     in->mass.sums = gvi__take(a, (dense && fixed && !momenta)*n, R);
     in->time.slope = gvi__take(a, clock, n*R);
     in->table.inv_gamma = gvi__take(a, 1, s);
     in->table.gamma = gvi__take(a, full, s*s + s + 1);
-    in->sized.drift = gvi__take(a, explicitly, r + 1);
+    in->sized.drift = gvi__take(a, 1 - iterates, r + 1);
     for (size_t k = 0; k < sizeof vectors/sizeof *vectors; ++k)
-        *vectors[k] = gvi__take(a, k < 14 || !explicitly, n);
+        *vectors[k] = gvi__take(a, k < 14 || iterates, n);
 
     in->mass.matrix = gvi__take(a, 1 - dense + dense*n, n);
     in->mass.factor = gvi__take(a, dense*n, n);
-    in->watch.scale = gvi__take(a, 2*iterated, n);
-    in->watch.change = gvi__take(a, 2*iterated, n);
-    in->watch.before = gvi__take(a, 2*iterated, n);
+    in->watch.scale = gvi__take(a, 2*iterates, n);
+    in->watch.change = gvi__take(a, 2*iterates, n);
+    in->watch.before = gvi__take(a, 2*iterates, n);
     in->point = gvi__take(a, 6, n);
     in->result = gvi__take(a, 3, n);
     in->newton.column = gvi__take(a, 4*legendre, n);
@@ -5528,12 +4585,12 @@ GVI__COLD gvi_status gvi__set_rule(gvi_stepper *st, const gvi_rule *rule)
     if (gvi__rule_is(in, GVI_OWN) || gvi__rule_is(in, GVI_KICKS)) {
         gvi__copy((size_t)st->r, rule->nodes, in->table.c);
         gvi__copy((size_t)st->r, rule->weights, in->table.b);
-    } else if (gvi__uses(in, GVI_EXPLICIT)) {                 // Stoermer-Verlet: c = 0, 1
+    } else if (!gvi__has(in, GVI__ITERATES)) {                 // Stoermer-Verlet: c = 0, 1
         in->table.c[1] = 1;
         in->table.b[0] = in->table.b[1] = (gvi_real)0.5;
     }
     else gvi__rule(GVI__RULES && rule->kind == GVI_LOBATTO, st->r, in->table.c, in->t, in->table.b);
-    if (GVI__ITERATES && !gvi__uses(in, GVI_EXPLICIT)) {
+    if (gvi__has(in, GVI__ITERATES)) {
         // the low words of Phi go to E, which is not yet in use
         gvi__modes_of(st, st->r, in->table.c, in->t, in->table.phi, in->table.phi_low,
                       in->table.Phi,
@@ -5545,7 +4602,7 @@ GVI__COLD gvi_status gvi__set_rule(gvi_stepper *st, const gvi_rule *rule)
     if (in->table.high) {                                     // see gvi__resolution
         const int pair = 1 + (st->s > 4);
         const gvi_real *modes = in->table.phi;
-        if (gvi__uses(in, GVI_POSITIONS)) modes = in->table.Phi;
+        if (gvi__has(in, GVI__BY_FORCES)) modes = in->table.Phi;
         for (int m = 0; m < 2*pair; ++m) {
             const int k = st->s - 1 - m;
             for (int j = 0; j < st->r; ++j)
@@ -5762,7 +4819,7 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, 
         in->newton.dy[st->s*n + k] = *rest = now;
         if (size > 0 && GVI_ABS(now)/size > p->work) p->work = GVI_ABS(now)/size;
     }
-    p->holds = p->work <= 16*GVI__EPS || (!first && moved >= before/2);
+    p->holds = p->work <= GVI__SOLVED*GVI__EPS || (!first && moved >= before/2);
     return norm;
 }
 
@@ -6066,8 +5123,8 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
                                    gvi__descent *p)
 {
     struct gvi__private *in = &st->in;
-    const int n = st->n, solved = p->work <= 16*GVI__EPS,
-              sure = p->holds || p->rho < (gvi_real)0.25;
+    const int n = st->n, solved = p->work <= GVI__SOLVED*GVI__EPS,
+              sure = p->holds || p->rho < GVI__CONTRACTS;
     const gvi_real h = GVI_ABS(in->sized.h), none = GVI__MIN/GVI__EPS;
     gvi_real sum = 0, largest = 0, noise = 0, all = 0, length = 0;
     p->work = 0;
@@ -6093,14 +5150,14 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
         if (q + h*size > largest*unit) largest = (q + h*size)/unit;
         // a wrong matrix may make the change small, not the residual
         const gvi_real moved = change/unit > miss*unit ? change/unit : miss*unit;
-        if (!(h*change <= 4*GVI__EPS*q) && h*moved > noise) noise = h*moved;
+        if (!(h*change <= GVI__PLACE*GVI__EPS*q) && h*moved > noise) noise = h*moved;
     }
     for (size_t k = (size_t)(st->s*n); k < gvi__unknowns(st, 0); ++k) {   // multipliers
         in->newton.last[k] = in->newton.y[k];
         in->newton.y[k] += in->newton.dy[k];
     }
     // see gvi__noise
-    const gvi_real place = p->stagnant > 1 ? 32*GVI__EPS*largest : 0;
+    const gvi_real place = p->stagnant > 1 ? GVI__NOISE*GVI__EPS*largest : 0;
     if ((noise <= place && sure) || solved) p->work = -1;
     p->each = sum;
     p->grain = GVI__EPS;
@@ -6120,13 +5177,13 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__des
                                  gvi_real change)
 {
     const int size = (st->s - J->k0)*st->n;
-    const gvi_real before = p->before, all = (gvi_real)st->n, quarter = (gvi_real)0.25;
+    const gvi_real before = p->before, all = (gvi_real)st->n, quarter = GVI__CONTRACTS;
     gvi_real ratio = 1, other = 1;
     if (before > 0) ratio = change/gvi__smaller(before, all);
     if (p->earlier > 0) other = before/gvi__smaller(p->earlier, all);
-    const gvi_real wanted = st->in.desc.tolerance, noise = 64*p->grain*(gvi_real)size;
+    const gvi_real wanted = st->in.desc.tolerance, noise = GVI__GRAIN*p->grain*(gvi_real)size;
     if (!gvi__finite(change)) return GVI__NOT_FINITE;
-    if (p->earlier > 0 && change > 1000*GVI__EPS) {
+    if (p->earlier > 0 && change > GVI__SURE*GVI__EPS) {
         const gvi_real contraction = GVI_SQRT(change/p->earlier);
         if (contraction > st->counters.worst_contraction)
             st->counters.worst_contraction = contraction;
@@ -6146,9 +5203,9 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__des
     const int rounding = p->left < GVI__MAX;
     if (rounding) p->left *= p->rho < quarter ? p->rho : quarter;
 
-    const gvi_real enough = wanted > 0 ? wanted : GVI__EPS/4096;
+    const gvi_real enough = wanted > 0 ? wanted : GVI__NEWTON_ENOUGH;
     const int confirmed = (fresh && p->holds) || change <= noise || change*other <= enough;
-    const int done = (p->each*ratio <= enough && confirmed) || p->left <= GVI__EPS/65536
+    const int done = (p->each*ratio <= enough && confirmed) || p->left <= GVI__ENOUGH
                      || p->left <= enough;
     if (done && (p->holds || p->rho < quarter)) return GVI__DONE;
     // rounding, by a matrix that has contracted here
@@ -6166,7 +5223,7 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__des
    was no rounding.                                                                            */
 static int gvi__newton_stays(gvi_stepper *st, const gvi__matrix *J, gvi__descent *p, gvi_real norm)
 {
-    enum { HALVES = 6 };
+    enum { HALVES = GVI__NEARER };
     const int rests = p->left < GVI__MAX, fresh = p->fresh & 1;
     if (J->halves && p->halves >= 0 && p->halves <= HALVES && !(norm < p->norm) && !rests
         && p->before > GVI_SQRT(GVI__EPS)) {
@@ -6185,7 +5242,7 @@ static int gvi__newton_stays(gvi_stepper *st, const gvi__matrix *J, gvi__descent
     if (rests && norm/16 > p->norm) {
         p->before = 0;
         p->least = p->left = GVI__MAX;
-        p->rho = (gvi_real)0.25;
+        p->rho = GVI__CONTRACTS;
     }
     if (!(p->left < GVI__MAX)) p->norm = norm;
     return 1;
@@ -6198,7 +5255,7 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
     // that of steps, not of queries
     const int size = (int)gvi__unknowns(st, J->k0), kept = J->pivot == in->newton.pivot;
     gvi__descent p = {
-        0, 0, GVI__MAX, (gvi_real)0.25, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0, -1, 0
+        0, 0, GVI__MAX, GVI__CONTRACTS, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0, -1, 0
     };
     p.have = kept && !gvi__nonzero(in->newton.h - in->sized.h);
     in->newton.bend = 0;
@@ -6292,7 +5349,7 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
 {
     struct gvi__newton *newton = &st->in.newton;
     const size_t all = gvi__unknowns(st, 0), modes = (size_t)(st->s*st->n);
-    const gvi_real h = st->in.sized.h, close = (gvi_real)0.03125;
+    const gvi_real h = st->in.sized.h, close = GVI__CLOSE;
     const unsigned count = (unsigned)st->counters.newton_iterations,
                    enough = 32*(unsigned)st->in.desc.max_iterations;
     const int sign = gvi__orientation(J, all);
@@ -6327,7 +5384,7 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
         }
         gvi__newton_guess(st, 0);
         const int other = gvi__newton_solve(st, from, &K) == GVI_OK;
-        if ((other && newton->bend <= close) || part < (gvi_real)(1/64.0))
+        if ((other && newton->bend <= close) || part < 1/(gvi_real)GVI__SHORT)
             right = !other || gvi__newton_apart(st, newton->branch) <= close;
     }
     gvi__free_motion(st, from, h);
@@ -6355,7 +5412,7 @@ GVI__CALLED gvi_status gvi__newton_crossing(gvi_stepper *st)
         const gvi_real *A = in->con.A + e;
         gvi_real taken = 0, all = 0;
         for (int l = 0; l < j; ++l) taken += A[(j*m + l)*C]*A[(l*m + j)*C];
-        if (!(taken*A[(j*m + j)*C] > 15)) continue;
+        if (!(taken*A[(j*m + j)*C] > GVI__LOST*GVI__LOST - 1)) continue;
         gvi__zero(2*(size_t)n, now);
         for (int l = j; l >= 0; --l) {
             const gvi_real *run = gvi__runs(st, l, &ends), *G = in->con.G + l*n*C + e;
@@ -6371,7 +5428,8 @@ GVI__CALLED gvi_status gvi__newton_crossing(gvi_stepper *st)
         const gvi_real part = gvi__dot(n, now, now), there = gvi__dot(n, next, next);
         const int goes_on = 256*there > part
             && gvi__dot(n, now, next) > (gvi_real)0.9*GVI_SQRT(part)*GVI_SQRT(there);
-        if (16*part < all && !goes_on) return gvi__report_row(st, GVI_E_SINGULAR, j, e);
+        if (GVI__LOST*GVI__LOST*part < all && !goes_on)
+            return gvi__report_row(st, GVI_E_SINGULAR, j, e);
     }
     return GVI_OK;
 }
@@ -6386,7 +5444,7 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
                       in->newton.pivot + (query ? all + 1 : 0),
                       NULL, 0, 0, how == GVI__HALVED };
     // few points see little of what is between
-    const gvi_real far = (gvi_real)(st->s > 2 ? 0.25 : 0.015625);
+    const gvi_real far = st->s > 2 ? GVI__CONTRACTS : GVI__LINEAR;
     const int old = !query && !gvi__nonzero(in->newton.h - in->sized.h);
     gvi_real *v = in->result + 2*st->n;
     gvi_status status = GVI_OK;
@@ -6419,6 +5477,915 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
     return GVI_OK;
 }
 
+/* ------------------------------------------------------------------ STEP
+
+   A step of length h takes (q, p, t) to (q + dq, p + dp, t + dt), in double words.  In this order:
+
+     1) free motion   v = M^-1 p and h c_i v, the terms of (3) and (4) without forces
+     2) predictor     F (V, A) at the points, extrapolated from the last step
+     3) stages        Q by (3) from F; V by (4), or P and Q by (5)
+     4) effects       F(Q), at all points in one call
+     5) verdict       again from 3), until Q has converged: by the list at gvi__iterate
+     6) increments    dp by (2), dq by (3) at tau = 1
+     7) commit        the state moves on
+
+   gvi__iterate is 2) to 5), gvi__attempt 1) to 6), with Newton's method (1) where the fixed point
+   fails, gvi__solve one attempt and a second that names the effect where NaN came up, and gvi_step
+   all of it.  Where explicit, gvi__kicks stands for 2) to 6).                                 */
+
+/* What an iteration computes, in this order: positions (3); or these, and velocities (4); or
+   momenta and positions (5).  Returns the number of stages.                                  */
+static int gvi__stages(const gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                       gvi__stage *stage)
+{
+    const struct gvi__private *in = &st->in;
+    const struct gvi__values *w = &in->work;
+    const gvi_real *low[2], *hb = in->sized.hb;
+    const int n = st->n, R = in->R, momenta = gvi__has(in, GVI__BY_MOMENTA);
+    const int count = 1 + gvi__has(in, GVI__TWO_STAGES);
+    if (momenta) {
+        gvi__set_stage(st, stage, w->P, in->table.U, hb, w->F);
+        gvi__set_stage(st, stage + 1, w->Q, in->table.T, hb, w->V);
+        stage[0].base = from->p;
+        stage[1].base = from->q;
+        low[0] = from->p_low;
+        low[1] = from->q_low;
+    } else {
+        gvi__set_stage(st, stage, w->Q, in->table.K, hb, w->F);
+        stage[0].base = from->q;
+        low[0] = from->q_low;
+        stage[0].factor = h;
+        if (count == 2) {
+            gvi__set_stage(st, stage + 1, w->V, in->table.U, hb, w->F);
+            stage[1].base = in->free.v;
+            low[1] = in->free.v_low;
+        }
+        for (int k = 0; k < count; ++k) {
+            gvi__sum A = { in->table.T, in->table.b, w->A };
+            if (k == 1) A.table = in->table.N;
+            if (GVI__LAGRANGIAN && w->A) stage[k].sum[1] = A;
+            if (in->desc.mass.kind == GVI_MASS_DIAGONAL) stage[k].inverse = in->mass.inverse;
+            stage[k].dense = in->desc.mass.kind == GVI_MASS_DENSE;
+        }
+    }
+    for (int k = 0; k < count; ++k) {
+        gvi_real *free = in->free.rows + k*n*R;
+        const int moves = !momenta && k == 0;
+        stage[k].free = free;
+        stage[k].scale = in->watch.scale + k*n;
+        stage[k].change = in->watch.change + k*n;
+        for (int i = 0; i < n; ++i, free += R) {
+            gvi_real path = 0, path_low = 0;
+            if (moves) {
+                path = in->free.path[i];
+                path_low = in->free.path_low[i];
+            }
+            gvi__free_row(R, low[k][i], path, path_low, in->table.c, free);
+        }
+    }
+    return count;
+}
+
+// 2) F (V, A) of the last step, extrapolated; or no force and constant velocity
+static gvi_status gvi__predict_sources(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                                       int extrapolate)
+{
+    struct gvi__private *in = &st->in;
+    struct gvi__values *w = &in->work;
+    const int momenta = gvi__has(in, GVI__BY_MOMENTA);
+    gvi_real *to[3] = { w->F, NULL, NULL };
+    if (momenta) to[1] = w->V;
+    if (GVI__LAGRANGIAN) to[2] = w->A;
+    const gvi_real *const last[3] = { in->last.F, in->last.V, in->last.A };
+    const gvi_real *const older[3] = { in->older.F, in->older.V, in->older.A };
+    gvi_real rate = 1;
+    if (gvi__clock_is_on(st)) {                   // times of the points as if g stayed as it is
+        const gvi_status status = gvi__clock_at(st, from->t, from->q, &rate, in->result);
+        if (status != GVI_OK) return status;
+        gvi__times(st->r, from->t, from->t_low, h*rate, in->table.c, in->t);
+    }
+    if (gvi__constrained(st)) gvi__predict_constraints(st, extrapolate);
+    for (int k = 0; k < 3; ++k) {
+        gvi__stage stage;
+        if (!to[k]) continue;
+        gvi__set_stage(st, &stage, to[k], NULL, NULL, NULL);
+        gvi__set_predictor(st, &stage, last[k], older[k]);
+        if (extrapolate) in->kernel(st, &stage, 0);
+        else gvi__zero((size_t)st->n*(size_t)in->R, to[k]);
+    }
+    if (!momenta || extrapolate) return GVI_OK;
+    gvi__velocity_guess(st, in->result);
+    for (int i = 0; i < st->n; ++i)
+        for (int k = 0; k < st->r; ++k) w->V[i*in->R + k] = rate*in->result[i];
+    return GVI_OK;
+}
+
+// x := zero, a 0 that the compiler does not know: it would call memset, and wait for it, every time
+static void gvi__clear(int n, gvi_real zero, gvi_real *x)
+{
+    GVI__ALONG(n, const gvi__number none = { 0 }; GVI__AT(x) = none + zero)
+}
+
+// 4) F (and A, V) at the stage values, all points in one call an effect
+static gvi_status gvi__evaluate_stages(gvi_stepper *st, const gvi__origin *from, gvi_points *at)
+{
+    struct gvi__private *in = &st->in;
+    const int length = st->n*in->R, momenta = gvi__has(in, GVI__BY_MOMENTA);
+    gvi_status status = GVI_OK;
+    gvi__clear(length, in->zeros[0], at->f);
+    if (momenta) {                                // V from dL/dv(Q, V) = P
+        gvi__count(&st->counters.velocities, st->r);
+        if (in->desc.mass.velocity) status = gvi__evaluate_mass(st, at, in->work.P, in->work.V);
+        else if (!gvi__mass_is_constant(in)) status = gvi__factor_mass(st, at);
+        if (status != GVI_OK) return status;
+        in->has_factor = 1;
+        if (!in->desc.mass.velocity) gvi__velocity_rows(st);
+        else if (in->diagnose) status = gvi__check_rows(st, at, in->work.V, GVI_FAULT_MASS);
+        if (status != GVI_OK) return status;
+    }
+    if (GVI__LAGRANGIAN && at->dldv) gvi__clear(length, in->zeros[0], at->dldv);
+    if (gvi__clock_is_on(st)) return gvi__evaluate_with_clock(st, from, at);
+    status = gvi__effects(st, at, 0, NULL);
+    if (status == GVI_OK && gvi__constrained(st)) status = gvi__constraint_values(st, from);
+    if (status == GVI_OK && momenta && gvi__mass_is(in, GVI_MASS_POSITION))
+        status = gvi__mass_gradient(st, at);
+    return status;
+}
+
+// 3) new stage values from F, V, A; returns the squares of their changes
+GVI__BODY gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *stage, int stages, int rescale)
+{
+    const struct gvi__private *in = &st->in;
+    gvi_real sum = 0;
+    if (gvi__constrained(st) && in->con.made > 0)
+        gvi__constrain(st, stage, stage[gvi__has(in, GVI__BY_MOMENTA)].base);
+    for (int k = 0; k < stages; ++k) {
+        if (k == 1 && gvi__has(in, GVI__BY_MOMENTA)) sum += gvi__velocities_again(st);
+        if (stage[k].dense) sum += gvi__dense_rows(st, stage + k, rescale);
+        else sum += in->kernel(st, stage + k, rescale);
+    }
+    if (gvi__constrained(st)) {
+        st->in.con.linear |=
+            GVI__DIG > FLT_MANT_DIG && in->con.made > 0 && sum < GVI__EPS*GVI_SQRT(GVI__EPS);
+        gvi__constraint_rows(st, stage);
+    }
+    if (stages == 2 && !gvi__has(in, GVI__BY_MOMENTA)) gvi__count(&st->counters.velocities, st->r);
+    return sum;
+}
+
+// may a step that does not converge turn to Newton's method?
+static int gvi__may_turn(const gvi_stepper *st)
+{
+    return st->in.desc.formulation == GVI_AUTO && gvi__has(&st->in, GVI__HAS_NEWTON);
+}
+
+/* Where an iteration stands, in squares: the changes of the last two iterations, of all rows,
+   and the least so far; the contraction of the last step, 1 if there is none, or 2 if no ratio
+   counts; gvi__noise when it was last made, and its least; how often no new least was seen, of
+   change or noise, or no good contraction; are units to be made anew?                         */
+typedef struct gvi__progress {
+    gvi_real before, earlier, least, ratio, noise, quiet;
+    int      used, stagnant, still, growing, rescale;
+} gvi__progress;
+
+/* The largest change of a row that is beyond a few units of the last place of its largest
+   value, in units of 32 eps of the largest amplitude; 0: there is none.  An amplitude is |Q_i|
+   times sqrt(M_ii), with h V_i or h P_i/M_ii in place of Q_i for those rows.  Up to 1 a row
+   that does not settle is nothing but noise, where large forces cancel: a light body midway
+   between two heavy ones.  So is, whatever the amplitude, what a force of constraint moves by its
+   own rounding, 32 eps of it, or by its last change where that came from the rounding of g, which
+   rows that are nearly dependent make large: that counts next to nothing.                      */
+static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *stage, int stages)
+{
+    const int R = st->in.R, C = st->in.con.C, held = gvi__constrained(st)*st->s,
+              momenta = gvi__has(&st->in, GVI__BY_MOMENTA);
+    gvi_real largest = 0, noise = 0, *moved = st->in.con.W;       // n sums for each source
+    if (held) gvi__constraints_moved(st, moved);
+    for (int k = 0; k < stages; ++k) {
+        if (!stage[k].scale) continue;
+        for (int i = 0; i < st->n; ++i) {
+            const gvi_real m = gvi__inertia(st, i), *row = stage[k].rows + i*R;
+            gvi_real size = GVI_ABS(stage[k].base[i]), push = 0, unit = 1, change = 0;
+            if (stages == 2 && k != momenta) unit = GVI_ABS(h);                  // V or P
+            if (momenta && k == 0) unit /= m;                                    // P
+            unit *= GVI_SQRT(m);
+            for (int j = 0; j < st->r; ++j) size = gvi__larger(GVI_ABS(row[j]), size);
+            for (int e = 0; e < held; ++e) {
+                const gvi_real force = GVI__NOISE*GVI__EPS*GVI_ABS(h*st->in.con.force[i*R + e])
+                                       + moved[i*C + e]/GVI_ABS(st->in.con.hw[e]);
+                push = gvi__larger(GVI_ABS(h)*force/m, push);
+            }
+            if (stage[k].scale[i] > 0) change = GVI_SQRT(stage[k].change[i])/stage[k].scale[i];
+            largest = gvi__larger(unit*size, largest);
+            if (!(change > GVI__PLACE*GVI__EPS*size)) continue;
+            if (change <= push) change *= GVI__EPS;
+            noise = gvi__larger(unit*change, noise);
+        }
+    }
+    if (!(noise > 0)) return 0;
+    return noise/(GVI__NOISE*GVI__EPS*largest);
+}
+
+/* 5) The verdict on a change D of all rows; what ends an iteration is listed at gvi__iterate.  One
+   ratio may be luck: unless D is rounding, the one before, or that of the last step, must tell the
+   same; after an attempt that failed D itself must be within the tolerance.  All in squares: no
+   root waits.                                                                                 */
+static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_real h,
+                          const gvi__stage *stage, int stages)
+{
+    const gvi_desc *d = &st->in.desc;
+    gvi_real wanted = GVI__ENOUGH;
+    if (d->tolerance > 0) wanted = d->tolerance;
+    const gvi_real tolerance = wanted*wanted;
+    const gvi_real eps2 = GVI__EPS*GVI__EPS, all = eps2*(gvi_real)(st->n*st->r),
+                   rounding = GVI__PLACE*GVI__PLACE*all, sure = GVI__SURE*GVI__SURE*all;
+    const gvi_real before = p->before, earlier = p->earlier, worst = st->counters.worst_contraction;
+    const int grows = before > 0 && D >= before*(GVI__POOR*GVI__POOR);
+    const int alone = p->used == 1 || p->ratio > 1;
+    gvi_real last = D;
+    if (!alone) last = gvi__smaller(before, 1);
+    int settled = D*D <= tolerance*last && d->iterations == 0;
+    if (settled && !alone && D > rounding) {
+        gvi_real other = p->ratio;
+        if (earlier > 0) other = before/gvi__smaller(earlier, 1);
+        settled = D*other <= tolerance;
+        if (settled) st->in.watch.found = D/last;
+    }
+    if (settled) {
+        int rows = 0;                             // no row hides behind a larger one
+        for (; rows < stages*st->n; ++rows) {
+            const gvi_real Di = st->in.watch.change[rows];
+            gvi_real before_i = Di;
+            if (!alone) before_i = gvi__smaller(st->in.watch.before[rows], 1);
+            if (Di > 2*eps2 && Di*Di > tolerance*before_i) break;
+        }
+        if (rows == stages*st->n) return GVI__DONE;
+    }
+    if (!gvi__finite(D)) return GVI__NOT_FINITE;
+
+    // contraction over two iterations, as long as it is not about rounding
+    if (earlier > 0 && D > GVI__SURE*GVI__SURE*eps2 && D > worst*worst*worst*worst*earlier)
+        st->counters.worst_contraction = GVI_SQRT(GVI_SQRT(D/earlier));
+    p->rescale = D > GVI__FAR*GVI__FAR || grows;  // those were the units of an overshoot
+    p->earlier = before;
+    p->before = D;
+    if (d->iterations > 0) {
+        if (p->used < d->iterations) return GVI__GO_ON;
+        int falls = before <= 0 || D < before;
+        if (earlier > 0) falls = D < earlier*(GVI__POOR*GVI__POOR);
+        if (D > GVI__FAR*GVI__FAR) falls = 0;     // it leaves the motion, and its units grow with it
+        if (falls || D <= sure || gvi__noise(st, h, stage, stages) <= 1) return GVI__DONE;
+        return GVI__DIVERGES;
+    }
+    p->growing += 1;
+    if (!grows) p->growing = 0;
+    p->stagnant += 1;
+    if (D < GVI__LEAST*GVI__LEAST*p->least) p->stagnant = 0;
+    p->least = gvi__smaller(p->least, D);
+    const gvi_real grain = GVI__GRAIN*GVI__GRAIN*all;
+    if (gvi__constrained(st) && D > 16*p->least && D > grain) {
+        // near a bifurcation it would be leaving the motion, perhaps for that of another branch
+        int at[2];
+        const gvi_real loss = gvi__loss(st, at);
+        if (loss > GVI__LOST - 1 && D > grain*loss*loss*loss) return GVI__DIVERGES;
+    }
+    int allowed = GVI__FEW_POOR;
+    if (D > GVI__FAR*GVI__FAR) allowed = GVI__MANY_POOR;
+    const int poor = p->growing > allowed && D > sure;
+    const int wait = !gvi__constrained(st);                  // the rounding of g is in every D
+    if (p->stagnant > wait || poor) {
+        const gvi_real noise = gvi__noise(st, h, stage, stages);
+        p->still += 1;
+        if (noise < p->quiet) p->still = 0;       // a new minimum still converges, perhaps to 0
+        const int level = noise <= GVI__EPS || (p->still > GVI__STILL && noise <= p->noise);
+        int rests = p->stagnant > 1;
+        if (wait) rests = p->stagnant > GVI__STAGNANT && level;
+        if (p->stagnant > wait && (noise <= 0 || (noise <= 1 && rests))) {
+            const int slow = p->used - p->stagnant >= GVI__SLOW;
+            if (slow && gvi__may_turn(st)) return GVI__DIVERGES;
+            return GVI__ONCE_MORE;
+        }
+        // a row that tends to 0 changes by its whole size: does its amplitude fall?
+        if (poor && noise > 1 && noise > p->noise/2 && gvi__may_turn(st)) return GVI__DIVERGES;
+        p->noise = noise;
+        if (p->still == 0) p->quiet = noise;
+    }
+    if (p->used < d->max_iterations) return GVI__GO_ON;
+    return GVI__DIVERGES;
+}
+
+/* The fixed point.  It ends where
+     - the next change, D times the ratio of the last two, is within the tolerance, or far below
+       rounding, of all rows and of each whose own D is not in its last place: done;
+     - D stagnates at rounding: F once more, so that rows that go to and fro in their last places
+       end with their own F, not that of the side they came from, which is a bias: done;
+     - iterations are given and made: done if D falls, or is rounding;
+     - D falls by less than GVI__POOR too often, or reached rounding slowly, which lets errors grow
+       before they shrink: Newton's method;
+     - constraints lose rank, or max_iterations are made: no convergence;
+     - D is NaN: no convergence, or an effect's fault.                                         */
+GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                                   int extrapolate, int *used)
+{
+    struct gvi__private *in = &st->in;
+    gvi__stage stage[2], first;
+    gvi__progress p = { 0, 0, GVI__MAX, 1, GVI__MAX, GVI__MAX, 0, 0, 0, 0, 1 };
+    gvi_points at = gvi__points_at(st, st->r, in->R, in->t, in->work.Q, in->work.F,
+                                   GVI__LAGRANGIAN ? in->work.A : NULL);
+    const int stages = gvi__stages(st, from, h, stage);
+    gvi_status status = GVI_OK;
+    if (gvi__constrained(st)) gvi__constraint_stages(st, from, h, stage, stages);
+    if (GVI__CONSTRAINTS) in->con.made = in->con.linear = 0;
+    at.v = in->work.V;
+    if (*used > 0) p.ratio = 2;                   // the attempt before this one failed
+    else if (extrapolate && GVI_ABS(h) <= GVI_ABS(st->h)) p.ratio = in->watch.ratio;
+    in->watch.found = gvi__smaller(p.ratio, 1);
+    *used = 0;
+    in->has_factor = 0;
+
+    // 2) what the predictor makes: stage values at once, or F (V, A), and of these stage values
+    if (extrapolate && in->sized.sums) {
+        first = stage[0];
+        gvi__set_predictor(st, &first, in->last.F, in->older.F);
+        in->kernel(st, &first, 0);
+    } else {
+        status = gvi__predict_sources(st, from, h, extrapolate);
+        if (status != GVI_OK) return status;
+        gvi__new_rows(st, stage, stages, 0);
+    }
+    p.used = *used = 1;
+    for (int shorter = 0, last = 0; ; ) {
+        status = gvi__evaluate_stages(st, from, &at);                                        // 4)
+        // free motion may leave a callback's domain though the motion does not: halve the way
+        if (status == GVI_E_CALLBACK && p.used == 1 && !extrapolate && shorter++ < GVI__NEARER) {
+            for (int i = 0; i < st->n; ++i)
+                for (int k = 0; k < in->R; ++k)
+                    in->work.Q[i*in->R + k] = (in->work.Q[i*in->R + k] + from->q[i])/2;
+            continue;
+        }
+        if (last && status == GVI_OK && gvi__constrained(st)) gvi__constrain(st, stage, from->q);
+        if (last || status != GVI_OK) return status;
+        const int diverged = p.growing > 0 || p.before > (gvi_real)st->n;
+        const gvi_real change = gvi__new_rows(st, stage, stages, p.rescale);                  // 3)
+        const int verdict = gvi__converged(st, &p, change, h, stage, stages);                 // 5)
+        if (verdict == GVI__GO_ON) {
+            gvi_real *spare = in->watch.before;
+            in->watch.before = in->watch.change;
+            in->watch.change = spare;
+            for (int k = 0; k < stages; ++k) stage[k].change = spare + k*st->n;
+            p.used = *used += 1;
+            continue;
+        }
+        if (verdict == GVI__NOT_FINITE && !diverged && !in->diagnose)  // the effects are looked at
+            return gvi__report_status(st, GVI_E_NON_FINITE);
+        if (verdict == GVI__NOT_FINITE || verdict == GVI__DIVERGES)
+            return gvi__report_status(st, GVI_E_CONVERGENCE);
+        const gvi_real worst = st->counters.worst_change;
+        if (change > worst*worst) st->counters.worst_change = GVI_SQRT(change);
+        if (verdict == GVI__DONE) return GVI_OK;
+        last = 1;
+    }
+}
+
+/* 6) Increments of q and p from the F, V and A at the end of the iteration, by (2) and by (3) at
+   tau = 1, where S_j = c_j: dq = h (v + M^-1 (sum_j (1 - c_j) h b_j F_j - sum_j b_j A_j)).    */
+static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h)
+{
+    struct gvi__private *in = &st->in;
+    struct gvi__values *w = &in->work;
+    const gvi_real *c = in->table.c, *hb = in->sized.hb;
+    const int R = in->R, r = st->r;
+    if (gvi__clock_is_on(st)) {
+        in->dt = gvi__dot(r, hb, in->time.rate);
+        in->time.dH = gvi__dot(r, hb, in->time.power);
+    }
+    gvi__momentum_increment(st, from);
+    if (gvi__has(in, GVI__BY_MOMENTA)) {
+        gvi__sum_rows(st, w->V, from->q_low, in->step.q, in->step.q_low);
+        return;
+    }
+    for (int i = 0; i < st->n; ++i) {
+        const gvi_real *F = w->F + i*R;
+        gvi_real sum[4] = { 0, 0, 0, 0 };
+        for (int o = 0; o + 3 < R; o += 4)
+            for (int k = 0; k < 4; ++k) sum[k] += (1 - c[o + k])*(hb[o + k]*F[o + k]);
+        for (int k = R & ~3; k < R; ++k) sum[k & 3] += (1 - c[k])*(hb[k]*F[k]);
+        in->step.q[i] = (sum[0] + sum[2]) + (sum[1] + sum[3]);
+        if (gvi__constrained(st)) {
+            const gvi__two a = gvi__moment(r, c, hb, F),
+                           z = gvi__moment(st->s, in->con.d, in->con.hw, in->con.force + i*R);
+            in->step.q[i] = (a.hi + z.hi) + (a.lo + z.lo);
+        }
+        if (GVI__LAGRANGIAN && w->A) in->step.q[i] -= gvi__dot(r, in->table.b, w->A + i*R);
+    }
+    gvi__over_mass(st, in->step.q, 1, 1);
+    for (int i = 0; i < st->n; ++i) {
+        const gvi__two bend = gvi__two_prod(h, in->step.q[i]),
+                       q = gvi__two_sum(in->free.path[i], bend.hi);
+        in->step.q[i] = q.hi;
+        in->step.q_low[i] = gvi__low((q.lo + bend.lo) + (in->free.path_low[i] + from->q_low[i]));
+    }
+}
+
+/* ---- kicks ---- */
+
+/* dp += b F, then the drift dq += a (v + M^-1 dp), Q = q + dq; F := 0 for the next force.  First
+   in a step, dp and dq are the low words of the state, and F is `first`.                      */
+GVI__BODY void gvi__drift(gvi_stepper *st, const gvi__origin *from, const gvi_real *GVI__RESTRICT v,
+                          const gvi_real *first, gvi_real b, gvi_real a)
+{
+    struct gvi__private *in = &st->in;
+    const gvi_real *GVI__RESTRICT q = from->q, *GVI__RESTRICT m = in->mass.inverse;
+    gvi_real *GVI__RESTRICT F = in->work.F, *GVI__RESTRICT Q = in->work.Q;
+    gvi_real *GVI__RESTRICT dp = in->step.p, *GVI__RESTRICT dq = in->step.q, *z = in->result;
+    const gvi_real *p0 = dp, *q0 = dq, *f = F;
+    if (first) {
+        p0 = from->p_low;
+        q0 = from->q_low;
+        f = first;
+    }
+    const int n = st->n;
+    if (in->desc.mass.kind == GVI_MASS_DENSE) {
+        for (int i = 0; i < n; ++i) z[i] = dp[i] = p0[i] + b*f[i];
+        gvi__over_mass(st, z, 1, 1);
+        for (int i = 0; i < n; ++i) {
+            F[i] = 0;
+            dq[i] = q0[i] + a*(v[i] + z[i]);
+            Q[i] = q[i] + dq[i];
+        }
+        return;
+    }
+    GVI__ALONG(n,
+        const gvi__number p = GVI__AT(p0) + b*GVI__AT(f), none = { 0 };
+        const gvi__number d = GVI__AT(q0) + a*(GVI__AT(v) + p*GVI__AT(m));
+        GVI__AT(dp) = p;
+        GVI__AT(F) = none;
+        GVI__AT(dq) = d;
+        GVI__AT(Q) = GVI__AT(q) + d)
+}
+
+/* Kicks h b_j F_j at the nodes, drifts between them: one evaluation a kick; none where a weight is
+   0, but for the last, whose F the next step may begin with.  `force`: F at the start, or NULL. */
+static gvi_status gvi__kicks(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                             const gvi_real *force)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n, r = st->r, known = force && gvi__nonzero(in->sized.hb[0]);
+    const int held = gvi__constrained(st) ? 1 : -1;
+    const gvi_real *hb = in->sized.hb, *v = in->free.v;
+    if (in->desc.mass.kind == GVI_MASS_UNIT) v = from->p;
+    gvi_real t = from->t, b = 0;
+    gvi_points at = gvi__points_at(st, 1, 1, &t, in->work.Q, in->work.F, NULL);
+    if (v != from->p) {
+        gvi__copy((size_t)n, from->p, in->free.v);
+        gvi__over_mass(st, in->free.v, 1, 1);
+    }
+    if (known) b = hb[0];
+    for (int j = known; j < r; ++j) {
+        if (j == known) gvi__drift(st, from, v, known ? force : in->zeros, b, in->sized.drift[j]);
+        else gvi__drift(st, from, v, NULL, b, in->sized.drift[j]);
+        if (j == held) {
+            const gvi_status status = gvi__constrained_drift(st, from, h);
+            if (status != GVI_OK) return status;
+        }
+        t = from->t + (from->t_low + in->table.c[j]*h);
+        b = hb[j];
+        if (j < r - 1 && !gvi__nonzero(b)) continue;
+        const gvi_status status = gvi__effects(st, &at, 0, NULL);
+        if (status != GVI_OK) return status;
+    }
+
+    // the last kick, and the drift behind it, if there is one
+    gvi_real *last = in->result + n;
+    if (gvi__nonzero(in->sized.drift[r])) {
+        gvi__copy((size_t)n, in->work.F, last);
+        gvi__drift(st, from, v, NULL, b, in->sized.drift[r]);
+        gvi__copy((size_t)n, last, in->work.F);
+    } else gvi__add_scaled(n, b, in->work.F, in->step.p, in->step.p);
+    return GVI_OK;
+}
+
+/* ---- an attempt, and the step ---- */
+
+/* One attempt at a step or a partial step, to its increments; nothing of it is kept yet.  The
+   fixed point from extrapolated values, then from plain ones, then Newton's method, likewise.  */
+static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query)
+{
+    struct gvi__private *in = &st->in;
+    gvi__free_motion(st, from, h);                                                           // 1)
+    st->formulation = in->chosen;
+    if (!gvi__has(in, GVI__ITERATES)) {
+        const gvi_real *F = NULL;                 // the force at the start, if it is known
+        if (in->has_force && query != GVI__FROM_START) F = in->last.F;
+        const gvi_status status = gvi__kicks(st, from, h, F);
+        if (status != GVI_OK || !gvi__constrained(st)) return status;
+        return gvi__project(st, from, 0);
+    }
+
+    // an extrapolation any farther is no better than no force
+    const int usable = in->kept > 0 && h/st->h > -GVI__BACK && h/st->h < GVI__AHEAD;
+    int used = 0;
+    gvi_status status = GVI_E_CONVERGENCE;
+    if (gvi__has(in, GVI__FIXED_POINT) && (in->newton.left == 0 || query)) {
+        if (usable) gvi__prepare_predictor(st, h, query);
+        for (int plain = !usable; plain < 2; ++plain) {
+            status = gvi__iterate(st, from, h, !plain, &used);                           // 2) to 5)
+            gvi__count(&st->counters.iterations, used);
+            if (!query) st->iterations = used;
+            if (used > st->counters.most_iterations) st->counters.most_iterations = used;
+            // iterations given: only a callback that failed at extrapolated values is tried again
+            if (status == GVI_OK
+                || (in->desc.iterations > 0 && (used > 1 || status == GVI_E_CONVERGENCE)))
+                break;
+        }
+        if (status == GVI_OK) gvi__increments(st, from, h);                                  // 6)
+        if (status == GVI_OK && gvi__constrained(st)) status = gvi__project(st, from, 0);
+        if (status == GVI_OK || !gvi__may_turn(st)) return status;
+        if (!query && (status == GVI_E_CONVERGENCE || gvi__constrained(st)))
+            in->newton.left = GVI__BY_NEWTON;
+    }
+    if (!GVI__NEWTON) return status;
+    const unsigned count = (unsigned)st->counters.newton_iterations;
+    st->formulation = GVI_NEWTON;
+    if (usable) gvi__prepare_predictor(st, h, query);
+    const int extrapolated = usable && in->has_velocity;
+    int how = GVI__PLAIN;
+    if (extrapolated) how = GVI__EXTRAPOLATED;
+    status = gvi__newton_step(st, from, how, query);
+    if (status == GVI_E_CONVERGENCE || status == GVI_E_SINGULAR
+        || (status == GVI_E_CALLBACK && extrapolated)
+        || (status == GVI_E_NON_FINITE && !in->diagnose)) {
+        if (!query) in->newton.h = 0;              // the extrapolation may be to blame
+        status = gvi__newton_step(st, from, GVI__HALVED, query);
+    }
+    if (!query) st->iterations = used + (int)((unsigned)st->counters.newton_iterations - count);
+    return status == GVI_OK && gvi__constrained(st) ? gvi__project(st, from, 0) : status;
+}
+
+// are q + dq and p + dp finite?  0 x is 0 or NaN
+static int gvi__finite_end(const gvi_stepper *st, const gvi__origin *from)
+{
+    const struct gvi__phase *d = &st->in.step;
+    gvi_real none = 0;
+    for (int i = 0; i < st->n; ++i) {
+        // rounded, as the commit will store them
+        const gvi__rounded q = from->q[i] + d->q[i], p = from->p[i] + d->p[i];
+        none += 0*q + 0*p;
+    }
+    return none >= 0;
+}
+
+/* One attempt.  If it met NaN or Inf, the same once more, now looking at what every effect
+   returns: that names the effect.  If none is to blame, the iteration diverged.               */
+static gvi_status gvi__solve(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query)
+{
+    struct gvi__private *in = &st->in;
+    for (int look = 0; ; look = 1) {
+        in->diagnose = look;
+        gvi_status status;
+        do {
+            if (GVI__CONSTRAINTS) in->con.again = 0;
+            status = gvi__attempt(st, from, h, query);
+        } while (GVI__CONSTRAINTS && in->con.again);
+        in->diagnose = 0;
+        if (status == GVI_OK && !look && !gvi__finite_end(st, from))
+            status = gvi__report_status(st, GVI_E_NON_FINITE);
+        const int explained = status != GVI_E_NON_FINITE || st->fault.effect != GVI_FAULT_NONE;
+        if (look && (status == GVI_OK || !explained))
+            return gvi__report_status(st, GVI_E_CONVERGENCE);
+        if (look || explained) return status;
+        if (!query) in->newton.h = 0;
+    }
+}
+
+// work becomes last, last becomes older if two steps are kept, and the oldest is the next work
+static void gvi__rotate_values(gvi_stepper *st)
+{
+    struct gvi__values *a = &st->in.older, *b = &st->in.last, *c = &st->in.work;
+    gvi_real **const rows[3][3] = { { &a->F, &b->F, &c->F }, { &a->V, &b->V, &c->V },
+                                    { &a->A, &b->A, &c->A } };
+    GVI__UNROLL for (int k = 0; k < 1 + (GVI__READS_V > 0) + (GVI__LAGRANGIAN > 0); ++k) {
+        gvi_real **older = rows[k][0], **last = rows[k][1], **work = rows[k][2];
+        gvi_real *spare = *last;
+        if (*older) {
+            spare = *older;
+            *older = *last;
+        }
+        *last = *work;
+        *work = spare;
+    }
+}
+
+// was := x, x + x_low := x + dx + dx_low; dx_low NULL: 0
+static void gvi__move(int n, const gvi_real *GVI__RESTRICT dx, const gvi_real *GVI__RESTRICT dx_low,
+                      gvi_real *GVI__RESTRICT x, gvi_real *GVI__RESTRICT x_low,
+                      gvi_real *GVI__RESTRICT was)
+{
+    // gvi__two_sum, twice
+    GVI__ALONG(n,
+        const gvi__number a = GVI__AT(x), d = GVI__AT(dx), s = a + d, b = s - a;
+        const gvi__number da = s - b, e = (a - da) + (d - b);
+        GVI__AT(was) = a;
+        GVI__AT(x) = s;
+        GVI__AT(x_low) = e)
+    if (!dx_low) return;
+    GVI__ALONG(n,
+        const gvi__number s = GVI__AT(x), e = GVI__AT(x_low) + GVI__AT(dx_low), t = s + e;
+        const gvi__number f = t - s, ds = t - f;
+        GVI__AT(x) = t;
+        GVI__AT(x_low) = (s - ds) + (e - f))
+}
+
+// 7) the state moves on, and work's stage values become those of the last step
+static void gvi__commit(gvi_stepper *st, gvi_real h)
+{
+    struct gvi__private *in = &st->in;
+    const gvi__two t = gvi__two_sum(st->t, in->dt + st->t_low);
+    const gvi_real *dq_low = in->step.q_low, *dp_low = in->step.p_low;
+    if (!gvi__has(in, GVI__ITERATES)) dq_low = dp_low = NULL;   // kicks make no low words
+    gvi__move(st->n, in->step.q, dq_low, in->state.q, in->state.q_low, in->began.q);
+    gvi__move(st->n, in->step.p, dp_low, in->state.p, in->state.p_low, in->began.p);
+    st->t0 = st->t;
+    st->t = t.hi;
+    st->t_low = t.lo;
+    if (GVI__CLOCK) {
+        const gvi__two H = gvi__two_sum(in->time.H, in->time.dH + in->time.H_low);
+        in->began.H = in->time.H;
+        in->time.H = H.hi;
+        in->time.H_low = H.lo;
+    }
+    if (GVI__CONSTRAINTS && in->con.bits) gvi__commit_constraints(st, h);
+    in->kept = 1 + (in->kept > 0 && !gvi__nonzero(h - st->h));
+    st->h = h;
+    gvi__rotate_values(st);
+    in->stepped = 1 + gvi__clock_is_on(st);
+    in->has_force = !gvi__has(in, GVI__ITERATES) && !gvi__nonzero(in->table.c[0])
+                   && !gvi__nonzero(in->table.c[st->r - 1] - 1);
+    in->has_velocity = st->formulation > GVI_POSITIONS;
+    if (st->formulation != GVI_NEWTON) in->watch.ratio = in->watch.found;
+    if (in->newton.left > 0) in->newton.left -= 1;
+    gvi__count(&st->counters.steps, 1);
+}
+
+/* ---- resolution ---- */
+
+/* The error of a step relative to the motion, as Legendre modes y_k of its velocity tell it.  Of a
+   coordinate, with two modes each (at degrees 3 and 4 with one),
+
+     high = |y_(s-1)| + |y_(s-2)|                    push = |change of v| + high + low
+     low  = |y_(s-3)| + |y_(s-4)|                    all  = |v| at both ends + high + low
+     (s high/push high/max(high, low))^2 push/all
+
+   high^2/low is about the pair that the curve lacks, and of push, which forces do, the step lacks
+   the square of that share, since its error is of second order in the curve's [2, thm. 4.1], by a
+   rule of order u >= 2s.  In positions the modes are those of M v, from the forces.  Where a
+   coordinate hardly moves, an error below eps (max |v| + max |q|/h), each times sqrt(M_ii), is
+   rounding, and relative to that sum.                                                         */
+static gvi_real gvi__resolution(const gvi_stepper *st)
+{
+    const struct gvi__private *in = &st->in;
+    const int s = st->s, R = in->R, forces = gvi__has(in, GVI__BY_FORCES), pair = 1 + (s > 4),
+              held = forces && gvi__constrained(st);
+    const gvi_real *row = in->work.V;
+    const gvi_real h = GVI_ABS(in->sized.h);
+    gvi_real *missed = in->result, *size = missed + st->n, unit = 1;
+    gvi_real fastest = 0, farthest = 0, worst = 0;
+    if (forces) {
+        row = in->work.F;
+        unit = h;
+    }
+    for (int i = 0; i < st->n; ++i, row += R) {
+        const gvi_real *a = in->table.high, *force = in->con.force + i*R;
+        gvi_real y[4] = { 0, 0, 0, 0 }, start = row[0], end = row[st->r - 1];
+        for (int j = 0; j < st->r; ++j, a += 4)
+            GVI__UNROLL for (int m = 0; m < 4; ++m) y[m] += a[m]*row[j];
+        for (int m = 0; m < held*2*pair; ++m) {
+            const int k = s - 1 - m;
+            for (int e = 1; e < s; ++e)
+                y[m*2/pair] +=
+                    in->table.inv_gamma[k]*in->con.Phi[k*R + e - 1]*(in->con.w[e]*force[e]);
+        }
+        if (forces) {
+            start = in->state.p[i];
+            end = start + in->step.p[i];
+        }
+        gvi_real high = unit*(GVI_ABS(y[0]) + GVI_ABS(y[1])),
+                 low = unit*(GVI_ABS(y[2]) + GVI_ABS(y[3]));
+        const gvi_real all = GVI_ABS(start) + GVI_ABS(end) + high + low,
+                       push = GVI_ABS(end - start) + high + low;
+        // one mode alone may pass 0; one that is rounding is 0: a force as simple as the curve
+        if (pair == 1 && high > GVI__SURE*GVI__EPS*low) high += low*(low/all)/4;
+        const gvi_real most = gvi__larger(high, low);
+        const gvi_real mass = GVI_SQRT(gvi__inertia(st, i));
+        gvi_real share = 0, scale = mass;
+        if (most > 0) share = high/(push + GVI__NOISE*GVI__EPS*all)*(high/most);
+        if (forces) scale = 1/mass;               // p over M
+        missed[i] = share*share*push*scale;
+        size[i] = all*scale;
+        fastest = gvi__larger(size[i], fastest);
+        farthest = gvi__larger(GVI_ABS(in->state.q[i])*mass, farthest);
+    }
+    const gvi_real whole = fastest + farthest/h;
+    if (!(whole > 0)) return 0;
+    for (int i = 0; i < st->n; ++i) {
+        // forces of constraint bring more of it, to every coordinate, and no h makes it smaller
+        if (held && missed[i] <= GVI__PULLED*GVI__EPS*whole) continue;
+        if (missed[i] <= GVI__EPS*whole && size[i] < whole/GVI__RESTS) size[i] = whole;
+        worst = gvi__larger(missed[i]/size[i], worst);
+    }
+    return (gvi_real)(s*s)*worst;
+}
+
+/* All points of a step at one state, at rows [n][R] for f and, behind them, dldv; of kicks one.  */
+GVI__COLD gvi_points gvi__all_points_at(gvi_stepper *st, gvi_real t, const gvi_real *q,
+                                        const gvi_real *v)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n;
+    int R = in->R, count = st->r;
+    gvi_real *rows = in->work.F;
+    if (gvi__rule_is(in, GVI_KICKS)) R = count = 1;
+    if (in->newton.moved) rows = in->newton.moved;
+    if (in->free.rows) rows = in->free.rows;
+    gvi_points at = gvi__points_at(st, count, R, in->t, in->work.Q, rows, rows + n*R);
+    at.v = in->work.V;
+    for (int k = 0; k < R; ++k) in->t[k] = t;
+    for (int i = 0; i < n*R; ++i) {
+        in->work.Q[i] = q[i/R];
+        if (in->work.V) in->work.V[i] = v[i/R];
+    }
+    return at;
+}
+
+/* Why did a step fail?  What is singular, NaN or infinite already where it starts is reported as
+   that: no h helps.  All else is the step's own, and a shorter one may do.                    */
+GVI__COLD gvi_status gvi__explain(gvi_stepper *st, gvi_status status)
+{
+    struct gvi__private *in = &st->in;
+    const gvi_counters counters = st->counters;
+    const gvi_fault fault = st->fault;
+    gvi_real *v = in->result;
+    gvi_status start = GVI_OK;
+    gvi__velocity_guess(st, v);
+    if (gvi__has(in, GVI__ITERATES) && !in->desc.mass.velocity)
+        start = gvi__velocity(st, st->t, st->q, st->p, v);
+    if (start == GVI_OK && gvi__constrained(st)) {
+        gvi_real *drops = in->con.drops + in->con.m;
+        start = gvi__constraints_at(st, st->t, st->q, st->p, v, drops);
+        if (start == GVI_OK && status == GVI_E_SINGULAR)
+            for (int a = 0; a < in->con.m; ++a)           // left out at the start, and cannot be
+                if (drops[a] > 0) return status;
+    }
+    if (start == GVI_OK) {
+        gvi_points at = gvi__all_points_at(st, st->t, st->q, v);
+        gvi__zero((size_t)(st->n*at.stride), at.f);
+        if (gvi__has(in, GVI__HAS_LAGRANGIAN)) gvi__zero((size_t)(st->n*at.stride), at.dldv);
+        else at.dldv = NULL;
+        in->diagnose = 1;
+        start = gvi__effects(st, &at, 0, NULL);
+        in->diagnose = 0;
+        if (start == GVI_E_NON_FINITE) {                 // of the state, if it is so at all points
+            const int row = st->fault.coordinate*at.stride;
+            for (int k = row; k < row + at.count; ++k)
+                if (gvi__finite(at.f[k]) && (!at.dldv || gvi__finite(at.dldv[k]))) start = GVI_OK;
+            st->fault.point = GVI_FAULT_NONE;
+        }
+    }
+    st->counters = counters;
+    if (start == GVI_E_SINGULAR || start == GVI_E_NON_FINITE) return start;
+    st->fault = fault;
+    if (status == GVI_E_SINGULAR) status = GVI_E_CONVERGENCE;
+    return st->status = status;
+}
+
+GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
+{
+    const gvi_status ready = gvi__ready(st, st && st->in.started);
+    if (ready != GVI_OK) return ready;
+    st->in.failed.status = GVI_OK;
+    if (!gvi__nonzero(h) || !gvi__finite(h))
+        return gvi__refuse_call(st, "h is 0, NaN or infinite");
+    struct gvi__private *in = &st->in;
+    const gvi_formulation was = st->formulation;
+    const int left = in->newton.left;
+    const gvi__origin from = {
+        st->t, st->t_low, st->q, st->q_low, st->p, st->p_low, in->time.H + in->time.H_low
+    };
+    if (in->stepped && gvi__nonzero(h - st->h)) in->newton.left = 0;
+    gvi_status status = gvi__solve(st, &from, h, GVI__STEP);
+    if (status == GVI_OK && !gvi__finite(st->t + in->dt))
+        status = gvi__refuse_call(st, "t + h is not finite");
+    st->resolution = 0;
+    if (status == GVI_E_CONVERGENCE || status == GVI_E_SINGULAR || status == GVI_E_NON_FINITE)
+        status = gvi__explain(st, status);
+    if (status == GVI_OK && in->desc.resolution > 0) {
+        st->resolution = gvi__resolution(st);
+        if (st->resolution > in->desc.resolution)
+            status = gvi__report_status(st, GVI_E_RESOLUTION);
+    }
+    if (status != GVI_OK) {
+        in->failed.status = status;
+        in->failed.fault = st->fault;
+        gvi__count(&st->counters.failures, 1);
+        st->formulation = was;
+        in->newton.left = left;
+        in->newton.h = 0;
+        return st->status = status;
+    }
+    if (st->resolution > st->counters.worst_resolution)
+        st->counters.worst_resolution = st->resolution;
+    gvi__commit(st, h);                                                                      // 7)
+    return gvi__report_status(st, GVI_OK);
+}
+
+/* ---- the dial ---- */
+
+/* Lengths have a ladder of four rungs an octave, at 4, 5, 6 and 7 eighths of a power of two: where
+   x stands on it, linear between these; and the rung below k.                                 */
+static gvi_real gvi__rungs(gvi_real x)
+{
+    int e;
+    const gvi_real mantissa = GVI_FREXP(x, &e);
+    return (gvi_real)(4*e) + 8*mantissa;
+}
+
+static gvi_real gvi__length(gvi_real k)
+{
+    const gvi_real octave = GVI_FLOOR(k/4) - 1;
+    return GVI_LDEXP((GVI_FLOOR(k) - 4*octave)/8, (int)octave);
+}
+
+/* st.next after a step of length h.  `room` rungs up the resolution, of order 2s - 1 in h, would be
+   at its limit: as it was in this step, less what it has lost since the last.  From 0 to 4 of them
+   h stays as it is.                                                                           */
+static void gvi__set_next(gvi_stepper *st, gvi_status status, gvi_real h)
+{
+    const gvi_real seen = st->resolution > GVI__MIN ? st->resolution : GVI__MIN, at = gvi__rungs(h);
+    const gvi_real most = gvi__rungs(st->in.desc.resolution) - gvi__rungs(seen);
+    // the modes end at rounding: above GVI__DEEP the resolution falls no faster than there
+    int degree = GVI__DEEP;
+    if (st->s < degree) degree = st->s;
+    gvi_real room = most/(gvi_real)(2*degree - 1), up = 0;
+    if (status == GVI_OK && room < 2*GVI__BAND) {
+        const gvi_real loss = st->in.reach - (at + room);
+        st->in.reach = at + room;
+        if (loss > 0) room -= loss;
+    }
+    if (room > GVI__BAND) up = gvi__smaller(room - (gvi_real)1.5, GVI__BAND);
+    if (room < 0) up = gvi__larger(room - 1, -GVI__FALL);
+    if (status != GVI_OK && status != GVI_E_RESOLUTION) up = -GVI__FALL;
+    const gvi_real next = gvi__length(at + up);
+    if ((up > 0 && h >= st->next) || (up < 0 && next < st->next)) st->next = next;
+}
+
+/* A first length: less than 1/16 of the time in which the forces would make the kinetic energy that
+   there is.                                                                                   */
+GVI__COLD gvi_real gvi__first_length(gvi_stepper *st, gvi_real left)
+{
+    gvi_real *v = st->in.result, *a = v + st->n;
+    gvi_points at = gvi__one_point(st, &st->t, st->q);
+    gvi__velocity_guess(st, v);
+    gvi_status status = gvi__velocity(st, st->t, st->q, st->p, v);
+    at.v = v;
+    if (status == GVI_OK) status = gvi__evaluate(st, &at, 0, 1);
+    gvi__copy((size_t)st->n, at.f, a + st->n);
+    gvi__copy((size_t)st->n, v, a);
+    if (status == GVI_OK) status = gvi__velocity(st, st->t, st->q, a + st->n, a);
+    const gvi_real moving = GVI_ABS(gvi__dot(st->n, st->p, v)),
+                   pushing = GVI_ABS(gvi__dot(st->n, a + st->n, a)),
+                   time = GVI_SQRT(moving/pushing)/16, longest = left/1024;
+    return status == GVI_OK && time > 0 && time < longest ? time : longest;
+}
+
+GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end)
+{
+    const gvi_status ready = gvi__ready(st, st && st->in.started);
+    if (ready != GVI_OK) return ready;
+    if (!(st->in.desc.resolution > 0))
+        return gvi__refuse_call(st, "gvi_advance needs desc.resolution");
+    if (!gvi__finite(t_end) || !gvi__nonzero(t_end - st->t))
+        return gvi__refuse_call(st, "t_end is t, NaN or infinite");
+    const gvi_real way = (t_end - st->t) - st->t_low, left = GVI_ABS(way);
+    const int clock = gvi__clock_is_on(st);
+    if (!(st->next > 0) || !gvi__finite(st->next)) st->next = gvi__first_length(st, left);
+    for (int tries = 1; ; ++tries) {
+        gvi_real h = st->next;
+        if (!clock && left < h*2) h = left/2;
+        if (!clock && left < st->next*(gvi_real)1.0625) h = left;
+        const gvi_status status = gvi_step(st, way > 0 ? h : -h);
+        gvi__set_next(st, status, h);
+        if (status == GVI_OK) {
+            if (!clock && h >= left) {
+                st->t_low += st->t - t_end;
+                st->t = t_end;
+            }
+            return status;
+        }
+        if (status == GVI_E_ARGUMENT || tries == 64 || !gvi__nonzero(st->t + st->next - st->t))
+            return status;
+    }
+}
+
 /* ----------------------------------------------------------------- STATE */
 
 /* ---- starting ---- */
@@ -6442,6 +6409,47 @@ GVI__COLD gvi_status gvi__clock_energy(gvi_stepper *st, gvi_real t, const gvi_re
         if (both == GVI_OK && gvi__nonzero(then - now))
             return gvi__report_effect(st, GVI_E_FORMULATION, e);
     }
+    return gvi__report_status(st, GVI_OK);
+}
+
+/* At a first start: callbacks that fill their first point alone, or set f and dldv with = in place
+   of adding to them.  All points are a little past q, where a force that is 0 at the start is not.
+   From 0 an effect shows which points it fills; from the largest number, whether it adds.     */
+GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
+{
+    struct gvi__private *in = &st->in;
+    const gvi_counters counters = st->counters;          // a probe is no step's work
+    gvi_points at = gvi__all_points_at(st, t, q, v);
+    const int n = st->n, R = at.stride, count = at.count;
+    gvi_real *rows = at.f;
+    for (int i = 0; i < n*R; ++i)
+        if (i % R < count) in->work.Q[i] += GVI_SQRT(GVI__EPS)*v[i/R];
+    // effects may use what M(q) has computed: it comes first, as in a step
+    if (gvi__mass_is(in, GVI_MASS_POSITION)) gvi__evaluate_mass(st, &at, NULL, NULL);
+    const char *slip = NULL;
+    for (int e = 0; e < in->desc.effect_count; ++e) {
+        int all = n*R, first = 0, others = 0, huge = 0, set = 0;
+        if ((in->off | in->apart) >> e & 1u) continue;
+        if (in->desc.effects[e].kind == GVI_LAGRANGIAN) all = 2*n*R;
+        gvi__zero((size_t)all, rows);
+        if (gvi__effect(st, &at, e, NULL) != GVI_OK) continue;
+        for (int i = 0; i < all; ++i) {
+            const int k = i % R, filled = k < count && gvi__nonzero(rows[i]);
+            first |= filled && k == 0;
+            others |= filled && k > 0;
+            huge |= filled && GVI_ABS(rows[i]) > GVI__MAX/4;
+        }
+        if (first && !others && count > 1)
+            slip = "effect: fills its first point alone, not x->count of them";
+        for (int i = 0; i < all; ++i) rows[i] = GVI__MAX;
+        if (gvi__effect(st, &at, e, NULL) != GVI_OK) continue;
+        for (int i = 0; i < all; ++i) set |= i % R < count && GVI_ABS(rows[i]) < GVI__MAX/2;
+        if (set && !huge) slip = "effect: sets f or dldv with =, where it has to add with +=";
+        if (!slip) continue;
+        st->counters = counters;
+        return st->status = gvi__refuse(&st->fault, e, GVI_FAULT_NONE, slip);
+    }
+    st->counters = counters;
     return gvi__report_status(st, GVI_OK);
 }
 
@@ -6680,7 +6688,7 @@ GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const 
     if (ready != GVI_OK) return ready;
     struct gvi__private *in = &st->in;
     if (!saved || !memory || !saved->in.memory || saved->n != st->n || saved->s != st->s
-        || saved->r != st->r || saved->in.size != in->size || saved->in.needs != in->needs
+        || saved->r != st->r || saved->in.size != in->size || saved->in.facts != in->facts
         || saved->in.chosen != in->chosen || saved->in.clock != in->clock
         || saved->in.con.bits != in->con.bits
         || saved->in.desc.effect_count != in->desc.effect_count
@@ -6740,8 +6748,8 @@ static void gvi__curve_at(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_
 {
     const struct gvi__private *in = &st->in;
     const int n = st->n, R = in->R;
-    const int by_forces = in->chosen <= GVI_POSITIONS && st->formulation != GVI_NEWTON;
-    if (gvi__uses(in, GVI_EXPLICIT)) {               // a straight line
+    const int by_forces = gvi__has(in, GVI__BY_FORCES) && st->formulation != GVI_NEWTON;
+    if (!gvi__has(in, GVI__ITERATES)) {               // a straight line
         for (int i = 0; i < n; ++i) {
             const gvi_real path = (in->state.q[i] - in->began.q[i]) + in->state.q_low[i];
             if (tau < (gvi_real)0.5) q[i] = in->began.q[i] + tau*path;
@@ -7031,11 +7039,11 @@ GVI__COLD gvi_status gvi__bend(gvi_stepper *st, const gvi__origin *from, gvi_rea
         gvi_lu_solve(size, J->square, J->pivot, in->newton.dy);
         const gvi_real change = gvi__newton_update(st, from, J, &p);
         if (!gvi__finite(change)) return gvi__report_status(st, GVI_E_NON_FINITE);
-        if (k == 1 && change > *bent*before && change > 64*GVI__EPS*(gvi_real)size)
+        if (k == 1 && change > *bent*before && change > GVI__GRAIN*GVI__EPS*(gvi_real)size)
             *bent = change/before;
         before = change;
     }
-    if (*bent > (gvi_real)0.25) return gvi__report_status(st, GVI_E_CONVERGENCE);
+    if (*bent > GVI__CONTRACTS) return gvi__report_status(st, GVI_E_CONVERGENCE);
     if (!last) return GVI_OK;
     return gvi__newton_solve(st, from, J);
 }
@@ -7115,7 +7123,7 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
             if (*status == GVI_OK)
                 *status = gvi__bend(st, from, length, grow, J, k == pieces, linear, &bent);
         }
-        if (*status == GVI_OK && (!linear || bent < (gvi_real)0.015625)) return linear;
+        if (*status == GVI_OK && (!linear || bent < GVI__LINEAR)) return linear;
         if (linear) bowed = *status;
         if ((*status == GVI_E_NON_FINITE && in->diagnose) || left <= 0) break;
     }
@@ -7124,59 +7132,37 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
     return 0;
 }
 
-// rows and columns i and j of a symmetric matrix change places
-static void gvi__exchange(size_t n, gvi_real *a, size_t i, size_t j)
-{
-    for (size_t k = 0; k < n; ++k) gvi__swap(a + i*n + k, a + j*n + k);
-    for (size_t k = 0; k < n; ++k) gvi__swap(a + k*n + i, a + k*n + j);
-}
-
-/* Negative eigenvalues of a symmetric matrix, which is overwritten: by Sylvester's law those of
-   D in L D L', D with blocks of 1 or 2, complete pivoting (Bunch and Parlett, SIAM J.  Numer.
-   Anal.  8, 1971; their alpha, (1 + sqrt 17)/8 = 0.6404, says when a block of 1 is large
-   enough).  A block of 2 has one of each sign.                                                */
-GVI__COLD int gvi__count_negative(size_t n, gvi_real *a)
+/* Negative eigenvalues of a symmetric matrix, which is overwritten; v: 2n numbers.  Householder's
+   reflections make it tridiagonal; by Sylvester's law there are as many as negative pivots then. */
+GVI__COLD int gvi__count_negative(int n, gvi_real *a, gvi_real *v)
 {
     int count = 0;
-    for (size_t k = 0; k < n; ) {
-        // the largest entry on the diagonal, (p,p), and off it, (r,q)
-        size_t p = k, q = k, r = k;
-        gvi_real diagonal = -1, off = -1;
-        for (size_t i = k; i < n; ++i) {
-            if (GVI_ABS(a[i*n + i]) > diagonal) {
-                diagonal = GVI_ABS(a[i*n + i]);
-                p = i;
-            }
-            for (size_t j = k; j < i; ++j)
-                if (GVI_ABS(a[i*n + j]) > off) {
-                    off = GVI_ABS(a[i*n + j]);
-                    q = j;
-                    r = i;
-                }
+    gvi_real pivot = 1, off = 0, *z = v + n;
+    for (int k = 0; k < n; ++k) {
+        gvi_real *row = a + (size_t)k*(size_t)n + k + 1, big = 0;       // right of the diagonal
+        const int m = n - 1 - k;
+        pivot = row[-1] - off/pivot*off;
+        count += pivot < 0;
+        if (!gvi__nonzero(pivot)) pivot = GVI__MIN;
+        for (int i = 0; i < m; ++i) big = gvi__larger(GVI_ABS(row[i]), big);
+        off = 0;
+        if (!(big > 0)) continue;
+        for (int i = 0; i < m; ++i) v[i] = row[i]/big;
+
+        // I - v v'/half takes that to (norm, 0, ...); then B -= v z' + z v', B the rest
+        gvi_real norm = GVI_SQRT(gvi__dot(m, v, v));
+        if (v[0] > 0) norm = -norm;
+        v[0] -= norm;
+        off = norm*big;
+        const gvi_real half = -norm*v[0];
+        for (int i = 0; i < m; ++i) z[i] = gvi__dot(m, row + (size_t)(i + 1)*(size_t)n, v)/half;
+        const gvi_real share = gvi__dot(m, v, z)/(2*half);
+        for (int i = 0; i < m; ++i) z[i] -= share*v[i];
+        for (int i = 0; i < m; ++i) {
+            gvi_real *rest = row + (size_t)(i + 1)*(size_t)n;
+            gvi__subtract_row((size_t)m, v[i], z, rest);
+            gvi__subtract_row((size_t)m, z[i], v, rest);
         }
-        const gvi_real *top = a + k*n, *next = top + n;
-        if (diagonal >= (gvi_real)0.6404*off) {   // a block of 1
-            if (!(diagonal > 0)) break;
-            gvi__exchange(n, a, k, p);
-            count += top[k] < 0;
-            for (size_t i = k + 1; i < n; ++i) {
-                const gvi_real u = a[i*n + k]/top[k];
-                for (size_t j = k + 1; j < n; ++j) a[i*n + j] -= u*top[j];
-            }
-            k += 1;
-            continue;
-        }
-        gvi__exchange(n, a, k, q);
-        if (r == k) r = q;                        // k has just gone to q
-        gvi__exchange(n, a, k + 1, r);
-        count += 1;
-        const gvi_real d = top[k], e = next[k], f = next[k + 1], det = d*f - e*e;
-        for (size_t i = k + 2; i < n; ++i) {
-            const gvi_real x = a[i*n + k], y = a[i*n + k + 1];
-            const gvi_real u = (f*x - e*y)/det, v = (d*y - e*x)/det;          // the block's inverse
-            for (size_t j = k + 2; j < n; ++j) a[i*n + j] -= u*top[j] + v*next[j];
-        }
-        k += 2;
     }
     return count;
 }
@@ -7201,7 +7187,7 @@ GVI__COLD gvi_status gvi__morse_index(gvi_stepper *st, const gvi__matrix *J, int
             const gvi_real upper = a[j*size + i]/(gvi_real)(2*(j/n) + 3);
             a[i*size + j] = a[j*size + i] = (lower + upper)/2*in->sized.h;
         }
-    *negative = gvi__count_negative(size, a);
+    *negative = gvi__count_negative((int)size, a, J->ends);
     return GVI_OK;
 }
 
@@ -7233,8 +7219,8 @@ GVI__COLD gvi_status gvi__interior(gvi_stepper *st, const gvi__origin *from, gvi
     J->scaled = 1;
     const gvi_status second = gvi__jacobian(st, J);
     if (second != GVI_OK) return second;
-    gvi_real error = 16*GVI_SQRT(GVI__EPS);       // that of differences
-    if (gvi__mass_is_constant(in) && !gvi__with_hessian(in, 0)) error = 16*GVI__EPS;
+    gvi_real error = GVI__SOLVED*GVI_SQRT(GVI__EPS);       // that of differences
+    if (gvi__mass_is_constant(in) && !gvi__with_hessian(in, 0)) error = GVI__SOLVED*GVI__EPS;
     if (gvi_lu_rcond(size, J->square, J->pivot, in->newton.moved) < error) status = GVI_E_CONJUGATE;
     for (int i = 0; i < n; ++i) p[i] = gvi__dot(st->r, in->table.b, in->work.P + i*in->R);
     return status;

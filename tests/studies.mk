@@ -1,7 +1,7 @@
 # studies.mk - what Makefile includes: long checks, measurements, pictures.  `make help-all` lists them.
 
 .PHONY: headers-quick headers symbols parts docs-check bound float instructions prices usable languages boards sanitize sanitized any_processor \
-        ensemble deps-ensemble firmware deps-firmware fuzz fuzz-short size stats compare everywhere deps-everywhere \
+        ensemble deps-ensemble tolerances firmware deps-firmware fuzz fuzz-short size stats compare everywhere deps-everywhere \
         cost-dial cost-horizon cost-constraints kicks points cost-embedded hard theorems mutants
 
 # -- steps of `make test` and `make check`; each can be run alone
@@ -168,6 +168,10 @@ $(BUILD)/cost/constraints $(BUILD)/cost/points: %: %.o
 	$(Q)$(CC) $< -o $@ $(LDLIBS)
 $(BUILD)/cost/kicks $(BUILD)/cost/cost: %: %.o $(addprefix $(BUILD)/cost/,problems.o baselines.o gvi_run.o)
 	$(Q)$(CC) $^ -o $@ $(LDLIBS)
+
+#: tolerances   each constant of gvi.h's section TOLERANCES by half and by two: iterations, tests that fail (ten minutes); NAME=GVI__NOISE
+tolerances: | $(FIRST)
+	$(Q)sh tests/tools/tolerances.sh $(BUILD) $(NAME)
 
 #: mutants      53 slips put into gvi.h one by one: which of them no test sees (Python; an hour)
 mutants: | $(FIRST)

@@ -37,13 +37,13 @@ MUTANTS = [
     ("domains", "if (k > 0 && beyond && halves < 400) {", "if (k > 0 && status == GVI_E_NON_FINITE && halves < 400) {"),
     # the step
     ("newton structure no_trace", "if (!gauss || i != j) T = gvi__T(st, i);", "T = gvi__T(st, i)*(1 + (i == j)*GVI__EPS*1024);"),
-    ("uncoupled regressions jumps", "if (Di > place && Di*Di > tolerance*before_i) break;", "(void)before_i;"),
-    ("regressions uncoupled jumps", "return noise/(32*GVI__EPS*largest);", "return 0*noise*largest;"),
+    ("uncoupled regressions jumps", "if (Di > 2*eps2 && Di*Di > tolerance*before_i) break;", "(void)before_i;"),
+    ("regressions uncoupled jumps", "return noise/(GVI__NOISE*GVI__EPS*largest);", "return 0*noise*largest;"),
     ("jumps newton", "for (int plain = !usable; plain < 2; ++plain) {", "for (int plain = !usable; plain < 1 + !usable; ++plain) {"),
     ("structure oracle regressions", "in->step.q_low[i] = gvi__low((q.lo + bend.lo) + (in->free.path_low[i] + from->q_low[i]));", "in->step.q_low[i] = gvi__low(q.lo + bend.lo + in->free.path_low[i]);"),
     ("structure oracle regressions", "in->free.path_low[i] = gvi__low(path.lo + h*v_low[i]);", "in->free.path_low[i] = gvi__low(path.lo);"),
     ("queries padding", "in->kept = 1 + (in->kept > 0 && !gvi__nonzero(h - st->h));", "in->kept = 2;"),
-    ("kicks api", "in->has_force = gvi__uses(in, GVI_EXPLICIT) && !gvi__nonzero(in->table.c[0])\n", "in->has_force = gvi__uses(in, GVI_EXPLICIT)\n"),
+    ("kicks api", "in->has_force = !gvi__has(in, GVI__ITERATES) && !gvi__nonzero(in->table.c[0])\n", "in->has_force = !gvi__has(in, GVI__ITERATES)\n"),
     ("kicks api", "in->has_force = 0;\n    in->newton.h = 0;", "in->newton.h = 0;"),
     ("queries", "if (!query) in->newton.h = 0;              // the extrapolation may be to blame", ""),
     # the clock
@@ -55,7 +55,7 @@ MUTANTS = [
     ("domains", "if (both == GVI_OK && gvi__nonzero(then - now))", "if (0)"),
     # set-up
     ("api regressions", "gvi_real sum = -1, error = 0;", "gvi_real sum = 0, error = 0;"),
-    ("identities order", "if (*order < 2*s - 2) in->needs |= GVI__HAS_GAMMA;", ""),
+    ("identities order", "if (*order < 2*s - 2) in->facts |= GVI__HAS_GAMMA;", ""),
     ("api", "in->newton.pivot = gvi__take(a, newton*2, N + 1);", "in->newton.pivot = gvi__take(a, newton, N + 1);"),
     ("domains", "if (desc->effects && !desc->effect_count)", "if (0)"),
     ("api", "in->skip = skip;\n", ""),
@@ -68,7 +68,7 @@ MUTANTS = [
     ("boundary", "a[j] *= st->in.watch.scale[j % n];", ""),
     ("boundary", "h*in->watch.scale[i]*gvi__dot3(st->r, hb, Phi + k*R, f + i*R);", "h*gvi__dot3(st->r, hb, Phi + k*R, f + i*R);"),
     ("boundary", "if (*negative && !out->negative) return GVI_E_CONJUGATE;", ""),
-    ("boundary", "if (*bent > (gvi_real)0.25) return", "if (0) return"),
+    ("boundary", "if (*bent > GVI__CONTRACTS) return", "if (0) return"),
     ("boundary queries", "y[n + i] = length*in->watch.scale[i]/2;", "y[n + i] = 0*length;"),
     ("queries", "minus[i] -= lambda[row]*(by_q0 - by_y0);", "minus[i] -= lambda[row]*by_q0;"),
 ]
