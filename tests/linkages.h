@@ -1,7 +1,7 @@
 /* linkages.h - constrained systems that tests and studies integrate, for all types
 
    To be included after gvi.h and a typedef of `real`; brings <tgmath.h>.  Each brings constraint, effects,
-   mass, start, and what of it an index-1 integration needs that shares nothing with gvi.h.           */
+   mass, start, and what of it an index-1 integration needs that shares nothing with gvi.h. */
 #ifndef TESTS_LINKAGES_H
 #define TESTS_LINKAGES_H
 
@@ -12,8 +12,6 @@
 enum { MOST_N = 9, MOST_M = 6 };
 typedef enum { PENDULUM, SPHERE, RODS, FOUR_BAR, DIRECTORS, QUATERNION, PIVOT, FRICTION, MAGNET, LINKAGES } linkage_id;
 #define LINKAGE static __attribute__((unused))
-
-/* ---- constraints ---- */
 
 /* |q| = 1, from the pivot if there is one: (sin(2t)/3, 0, ...) */
 LINKAGE int sphere(const gvi_points *x, void *user)
@@ -90,8 +88,6 @@ LINKAGE int directors(const gvi_points *x, void *user)
     return 0;
 }
 
-/* ---- effects ---- */
-
 /* A constant force; V = -force'q */
 LINKAGE int constant(const gvi_points *x, void *user)
 {
@@ -141,8 +137,6 @@ LINKAGE int top_weight(const gvi_points *x, void *user)
     return 0;
 }
 
-/* ---- a body in a quaternion: T = 2 sum_i I_i (conj(q) v)_i^2, user = I_0..I_3 ---- */
-
 LINKAGE void quaternion_product(const real *a, const real *b, real *c)
 {
     c[0] = a[0]*b[0] - a[1]*b[1] - a[2]*b[2] - a[3]*b[3];
@@ -191,8 +185,6 @@ LINKAGE int body_gradient(const gvi_points *x, void *user)
     }
     return 0;
 }
-
-/* ---- the list ---- */
 
 typedef struct { int n, m; gvi_effect effects[3]; int count; gvi_mass mass; real q[MOST_N], v[MOST_N]; } linkage;
 

@@ -1,7 +1,7 @@
 /* problems.h - the effects and masses that more than one test or study integrates, for all types
 
    To be included after gvi.h and a typedef of `real`; brings <tgmath.h>.  Tables of kicks: splittings.h; what
-   make cost times, written for speed: cost/problems.c; ready effects for scenes: examples/tools/effects.h.    */
+   make cost times, written for speed: cost/problems.c; ready effects for scenes: examples/tools/effects.h. */
 #ifndef TESTS_PROBLEMS_H
 #define TESTS_PROBLEMS_H
 
@@ -177,7 +177,7 @@ static MAYBE int fermi_pasta_ulam_forces(const gvi_points *x, void *user)
 
 /* M_ij = dy_i/dx_j, m by n, of a map x -> y from n numbers to m, by central differences of order 8.  Maps vary over
    lengths of about 1/4; with the distance eps^(1/9)/4, truncation and rounding are both of the size of some
-   eps^(8/9).                                                                                                */
+   eps^(8/9). */
 enum { MAP_MOST = 5 };
 typedef void map_fn(const void *what, const real *x, real *y);
 

@@ -1,31 +1,23 @@
 /* examples/tools/adjoint.h: the gradient of a cost by stepping back.  What is expected comes from
    Gauss collocation in 40 digits, from closed forms, and from the pairing that an adjoint keeps
-   with every direction.                                                       */
+   with every direction. */
 #include "gvi_test.h"
 #include "tools/adjoint.h"
-
-typedef gvi_real real;
 #include "products.h"
 enum { N = 2, NODES = 8 };
 
 static real memory[20000], back_memory[20000], room[2*TANGENT_ROOM(2, 6)];
 
-/* --------------------------------------------- Kepler with quadratic drag */
-
 static real drag_c;
 
-static int drag(const gvi_points *x, void *user)
+GVI_EACH(drag, 2, v, f)
 {
-    const int s = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        const real a = x->v[k], b = x->v[s+k], z = drag_c*sqrt(a*a + b*b);
-        x->f[k] -= z*a;
-        x->f[s+k] -= z*b;
-    }
-    return 0;
+    const real a = x->v[0], b = x->v[1], z = drag_c*sqrt(a*a + b*b);
+    x->f[0] -= z*a;
+    x->f[1] -= z*b;
 }
 
-/* f_v l, symmetric here: -c (|v| l + v (v.l)/|v|)                              */
+/* f_v l, symmetric here: -c (|v| l + v (v.l)/|v|) */
 static void drag_slope(const gvi_points *x, int k, real la, real lb, real *out)
 {
     const real a = x->v[k], b = x->v[x->stride+k], z = sqrt(a*a + b*b), along = z > 0 ? (a*la + b*lb)/z : 0;
@@ -70,7 +62,7 @@ static const gvi_effect with_drag[] = { { .kind = GVI_POTENTIAL, .points = attra
 static const real q0[] = { 1, R(0.2) }, p0[] = { R(-0.1), R(1.1) }, end_q[] = { 1, -2 }, end_p[] = { R(0.4), 3 };
 
 /* d(q1 - 2 q2 + 0.4 p1 + 3 p2)/dc after 10 steps of 0.2 with c = 0.05.  s = 1, 2, 4, 8: collocation at
-   Gauss nodes in 40 digits and differences of order 4.                        */
+   Gauss nodes in 40 digits and differences of order 4. */
 static const long double gradient[] = { -1.41923704319197546044L, -1.384460345420786965887L,
                                         -1.384460604060167018781L, -1.384460604036492789706L };
 
@@ -85,8 +77,8 @@ TEST(gradient_by_the_drag)
         real g = 0;
         drag_c = R(0.05);
         assert_ok(adjoint_scene(&A));
-        assert_ok(gvi_init(&st, &A.plain, memory, sizeof memory));
-        assert_ok(gvi_init(&ad, &A.scene.desc, back_memory, sizeof back_memory));
+        st = new_stepper(&A.plain);
+        ad = new_stepper(&A.scene.desc);
         assert_ok(gvi_start_momentum(&st, 0, q0, p0));
         for (int k = 0; k < 10; ++k) assert_ok(gvi_step(&st, R(0.2)));
         assert_ok(adjoint_start(&A, &ad, st.t, st.q, st.p, end_q, end_p));
@@ -112,8 +104,8 @@ TEST(gradient_over_the_steps_of_the_dial)
     drag_c = R(0.05);
     assert_ok(adjoint_scene(&A));
     A.scene.desc.resolution = 0;                      /* back: the steps are given */
-    assert_ok(gvi_init(&st, &A.plain, memory, sizeof memory));
-    assert_ok(gvi_init(&ad, &A.scene.desc, back_memory, sizeof back_memory));
+    st = new_stepper(&A.plain);
+    ad = new_stepper(&A.scene.desc);
     assert_ok(gvi_start_momentum(&st, 0, q0, p0));
     for (; st.t < 2; ++steps) {
         assert_true(steps < COUNT(taken));
@@ -126,8 +118,6 @@ TEST(gradient_over_the_steps_of_the_dial)
     assert_close(g, gradient[3], 100*dial);
     for (int i = 0; i < N; ++i) assert_close(ad.q[i], q0[i], 8*(real)steps*EPS);
 }
-
-/* ------------------------------------- a pendulum of two links in a liquid: M(q), friction */
 
 static void velocity_of(const gvi_points *x, const gvi_points *d, const int transposed)
 {
@@ -157,15 +147,11 @@ static int velocity_transposed(const gvi_points *x, const gvi_points *d, int par
     return 0;
 }
 
-/* A force that turns: neither a gradient nor of the velocity.                  */
-static int turning(const gvi_points *x, void *user)
+/* A force that turns: neither a gradient nor of the velocity. */
+GVI_EACH(turning, 2, f)
 {
-    const int s = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        x->f[k] -= x->q[s+k]/4;
-        x->f[s+k] += x->q[k]*x->q[k]/4;
-    }
-    return 0;
+    x->f[0] -= x->q[1]/4;
+    x->f[1] += x->q[0]*x->q[0]/4;
 }
 
 static int turning_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
@@ -188,7 +174,7 @@ static int turning_transposed(const gvi_points *x, const gvi_points *d, int para
     return 0;
 }
 
-/* The kinetic energy of the two links as a Lagrangian term, for GVI_MASS_NONE.  */
+/* The kinetic energy of the two links as a Lagrangian term, for GVI_MASS_NONE. */
 static int links(const gvi_points *x, void *user)
 {
     const int s = x->stride;
@@ -262,7 +248,7 @@ static const scene scenes[] = {
     { "forces, Newton", { TURNED, .degree = 4, .formulation = GVI_NEWTON }, PRODUCTS },
 };
 
-/* dJ/dq.dq + dJ/dp.dp is the same at the end and at the start, for every direction.      */
+/* dJ/dq.dq + dJ/dp.dp is the same at the end and at the start, for every direction. */
 TEST(pairing_is_kept)
 {
     for (int i = 0; i < COUNT(scenes); ++i) {
@@ -278,8 +264,8 @@ TEST(pairing_is_kept)
         drag_c = R(0.125);
         assert_ok(tangent_scene(&T));
         assert_ok(adjoint_scene(&A));
-        assert_ok(gvi_init(&st, &T.desc, memory, sizeof memory));
-        assert_ok(gvi_init(&ad, &A.scene.desc, back_memory, sizeof back_memory));
+        st = new_stepper(&T.desc);
+        ad = new_stepper(&A.scene.desc);
         assert_ok(tangent_start(&T, &st, 0, q0, p0, NULL, NULL));
         for (int k = 0; k < 12; ++k) assert_ok(gvi_step(&st, h));
         assert_ok(adjoint_start(&A, &ad, st.t, st.q, st.p, end_q, end_p));
@@ -299,10 +285,8 @@ TEST(pairing_is_kept)
     }
 }
 
-/* ------------------------------------------------------------ parameters everywhere
-
-   J = end_q.q + end_p.p at the end + integral of k |q|^2/2 + |v|^2, by the drag, by the strength of the
-   magnetic field, which is in the momentum too, and by k: back against the columns of the tangent scene.  */
+/* J = end_q.q + end_p.p at the end + integral of k |q|^2/2 + |v|^2, by the drag, by the strength of the
+   magnetic field, which is in the momentum too, and by k: back against the columns of the tangent scene. */
 
 static const real cost_k = R(0.75);
 
@@ -343,8 +327,8 @@ TEST(gradient_by_parameters_of_all_kinds)
     assert_ok(gvi_gauss(DEGREE, c, b));
     assert_ok(tangent_scene(&T));
     assert_ok(adjoint_scene(&A));
-    assert_ok(gvi_init(&st, &T.desc, memory, sizeof memory));
-    assert_ok(gvi_init(&ad, &A.scene.desc, back_memory, sizeof back_memory));
+    st = new_stepper(&T.desc);
+    ad = new_stepper(&A.scene.desc);
     assert_ok(tangent_start(&T, &st, 0, q0, p0, NULL, NULL));
     for (int k = 0; k < STEPS; ++k) {
         assert_ok(gvi_step(&st, h));
@@ -375,17 +359,11 @@ TEST(gradient_by_parameters_of_all_kinds)
     }
 }
 
-/* ------------------------------------------------------------ strong damping
-
-   q'' = -q - c q' with c = 2.5 over 20: the modes exp(-t/2), exp(-2t) go back as exp(t/2),
+/* q'' = -q - c q' with c = 2.5 over 20: the modes exp(-t/2), exp(-2t) go back as exp(t/2),
    exp(2t), and 80 steps multiply the rounding of the end by 1e17.  States kept at every fourth
-   step hold the gradient of J, the integral of q^2, to rounding.              */
+   step hold the gradient of J, the integral of q^2, to rounding. */
 
-static int damped(const gvi_points *x, void *user)
-{
-    for (int k = 0; k < x->count; ++k) x->f[k] -= x->q[k] + R(2.5)*x->v[k];
-    return 0;
-}
+GVI_EACH(damped, 1, v, f) { x->f[0] -= x->q[0] + R(2.5)*x->v[0]; }
 
 static int damped_transposed(const gvi_points *x, const gvi_points *d, int parameter, void *user)
 {
@@ -421,8 +399,8 @@ static void damped_gradient(int every, real *by_q, real *by_damping)
     const real q = 1, p = R(0.25), none = 0, h = R(0.25);
     *by_damping = 0;
     assert_ok(adjoint_scene(&A));
-    assert_ok(gvi_init(&st, &A.plain, memory, sizeof memory));
-    assert_ok(gvi_init(&ad, &A.scene.desc, back_memory, sizeof back_memory));
+    st = new_stepper(&A.plain);
+    ad = new_stepper(&A.scene.desc);
     assert_ok(gvi_start_momentum(&st, 0, &q, &p));
     if (every) assert_ok(adjoint_keep(&A, &st));
     for (int k = 0; k < 80; ++k) {
@@ -434,7 +412,7 @@ static void damped_gradient(int every, real *by_q, real *by_damping)
     adjoint_gradient(&A, &ad, by_q, &by_p);
 }
 
-/* From the closed form of J, in 40 digits.                                    */
+/* From the closed form of J, in 40 digits. */
 TEST(strong_damping)
 {
     const long double exact_q = 3.149999991755385510245948704788715L, exact_c = 0.4149999398830193455394625389761956L;
@@ -465,7 +443,7 @@ TEST(what_is_refused)
     assert_status(adjoint_scene(&A), GVI_E_FORMULATION);
     A.plain.rule = (gvi_rule){ 0 };
     assert_ok(adjoint_scene(&A));
-    assert_ok(gvi_init(&ad, &A.scene.desc, back_memory, sizeof back_memory));
+    ad = new_stepper(&A.scene.desc);
     --A.room_length;
     assert_status(adjoint_start(&A, &ad, 0, q0, p0, end_q, end_p), GVI_E_MEMORY);
     ++A.room_length;

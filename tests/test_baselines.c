@@ -3,7 +3,7 @@
 
    The system for q'' = a(q) is Kepler's, eccentricity 0.3, up to t = 20 and a little more; the exact
    state comes from Kepler's equation in long double.  The order is the slope of log error over
-   log steps, by least squares over the errors between 1e-10 and 1e-4.                         */
+   log steps, by least squares over the errors between 1e-10 and 1e-4. */
 #define GVI_REAL double
 #include "gvi_test.h"
 #include "cost/problems.h"
@@ -27,7 +27,7 @@ static void ellipse_slope(const double *y, double *dy)
 
 /* For explicit methods for y' = f(y): three equations with known solutions, and the time; all
    errors stay where they are made.  (On an ellipse the drift of a dissipative method's energy,
-   one order higher, grows with t^2 in the phase and covers the order looked for.)             */
+   one order higher, grows with t^2 in the phase and covers the order looked for.) */
 static const double known_q[] = { 1, 1 }, known_v[] = { 1, 0 };
 
 static void known_slope(const double *y, double *dy)
@@ -45,10 +45,10 @@ static void known(long double t, long double *y)
     y[2] = expl(sinl(t));
 }
 
-/* Here nobody watches; the functions of problems.c that the baselines refer to.               */
+/* Here nobody watches; the functions of problems.c that the baselines refer to. */
 void watch_look(watch *w, const double *q, const double *v) { (void)w, (void)q, (void)v; }
 
-/* From the elements that belong to the rounded start, which is at an apsis.                   */
+/* From the elements that belong to the rounded start, which is at an apsis. */
 static void exact(long double t, long double *q)
 {
     long double r = ellipse_q[0], v = ellipse_v[1], a = 1/(2/r - v*v), e = 1 - r/a, n = 1/(a*sqrtl(a));
@@ -95,7 +95,7 @@ static long double slope_of(const fit *f)
 }
 
 /* The largest error at four times, which no zero of the error function can hide; *failed where
-   an iteration did not converge.                                                              */
+   an iteration did not converge. */
 static long double errors_of(const baseline *b, double parameter, int *failed)
 {
     static const double ends[] = { 20, 21.3, 22.9, 24.1 };
@@ -111,7 +111,7 @@ static long double errors_of(const baseline *b, double parameter, int *failed)
     return worst;
 }
 
-/* Over steps; for adaptive methods over their tolerance, from 1e-3 to 1e-11.                  */
+/* Over steps; for adaptive methods over their tolerance, from 1e-3 to 1e-11. */
 static long double order_of(const baseline *b)
 {
     fit f = { 0, 0, 0, 0, 0 };
@@ -156,7 +156,7 @@ TEST(compositions_and_splittings_have_their_orders)
     check_order("Splitting 8", 8, 0.5);
 }
 
-/* Its eight points integrate c^m exactly to m = 14, twice to m = 13, and no further: order 15.   */
+/* Its eight points integrate c^m exactly to m = 14, twice to m = 13, and no further: order 15. */
 TEST(gauss_radau_has_order_15)
 {
     for (int m = 0; m <= 15; ++m) {
@@ -203,7 +203,7 @@ TEST(first_order_methods_have_their_orders)
 }
 
 /* An error per step of order q, held at the tolerance, and the global one of order p of the
-   solution that is carried on: p/q, which is between 1 and 8/7.                               */
+   solution that is carried on: p/q, which is between 1 and 8/7. */
 TEST(adaptive_methods_follow_their_tolerance)
 {
     check_order("RKN8(6)", 8/7.0, 0.2);

@@ -1,22 +1,18 @@
 /* Newton's method with constraints, and gvi_project: orders on both sides in every type, against reduced motions in
-   angles, closed forms, and what defines the nearest point; none of it computed by gvi.h.                      */
+   angles, closed forms, and what defines the nearest point; none of it computed by gvi.h. */
+#define OWN_REAL
 #include "gvi_test.h"
 typedef long double real;
 #define EXTRAPOLATE_MOST 4
 #include "hard/extrapolate.h"
-#include <tgmath.h>
-#undef I
 
 static gvi_real memory[120000];
 
 static gvi_status start(gvi_stepper *st, const gvi_desc *desc, const gvi_real *q, const gvi_real *v)
 {
-    assert_true(gvi_size(desc) > 0 && gvi_size(desc) <= sizeof memory);
-    assert_ok(gvi_init(st, desc, memory, sizeof memory));
+    *st = new_stepper(desc);
     return gvi_start(st, 0, q, v);
 }
-
-/* ---- scenes ---- */
 
 AT_POINTS(circle)                                 // |q| = 1 in the plane; with a user on the line y = x as well
 {
@@ -82,7 +78,7 @@ AT_POINTS(slower_than_light)                      // v from p
     return 0;
 }
 
-/* ---- stiff springs: constrained to a line, the step is Gauss's for one oscillator, whose map is the diagonal Pade
+/* stiff springs: constrained to a line, the step is Gauss's for one oscillator, whose map is the diagonal Pade
    approximation of e^(i z), z = h omega, of modulus 1 and argument 2 arg P(i z), P of degree s                 ---- */
 
 static real pade_argument(int s, real z)
@@ -116,8 +112,6 @@ TEST(stiff_springs_on_a_line)
             if (z > 20) assert_int_equal(st.formulation, GVI_NEWTON);
         }
 }
-
-/* ---- a bead on a circle whose mass is not that of the matrix: d(dL/dw)/dt = -sin(angle), w = angle'          ---- */
 
 typedef struct bead { gvi_real a; int relativistic, own; } bead;
 
@@ -170,8 +164,6 @@ TEST(a_mass_that_depends_on_velocity)
         assert_between(0, bead_error(&b, KIND == 3 ? 10 : 8, GVI_AUTO, 20, end), 400*EPS);
     }
 }
-
-/* ---- near singular: three bodies held in all but a line, which turn at a constant rate ---- */
 
 typedef struct rods { int n, from[4], to[4]; gvi_real length2[4]; } rods;
 
@@ -231,7 +223,7 @@ TEST(nearly_dependent_rows_turn_as_a_body)
 }
 
 /* A parallelogram through its flat position, where it could go on as another linkage: no step gets there, and the
-   state before it stays the state                                                                                    */
+   state before it stays the state */
 TEST(the_flat_position_is_refused)
 {
     for (int s = 1; s <= 6; ++s)
@@ -251,8 +243,6 @@ TEST(the_flat_position_is_refused)
                 for (int i = 0; status != GVI_OK && i < 4; ++i) assert_true(st.q[i] == q[i]);
             }
 }
-
-/* ---- memory ---- */
 
 TEST(memory_is_what_the_macro_says)
 {
@@ -278,9 +268,7 @@ TEST(memory_is_what_the_macro_says)
     assert_true(gvi_size(&desc) < small/8);
 }
 
-/* ---- gvi_project ---- */
-
-/* Of a circle with two masses: q' - q normal in the metric M, so M(q' - q) = lambda q'; v' likewise         */
+/* Of a circle with two masses: q' - q normal in the metric M, so M(q' - q) = lambda q'; v' likewise */
 TEST(the_nearest_point_of_a_circle)
 {
     gvi_real mass[2] = { 1, 9 };
@@ -292,8 +280,7 @@ TEST(the_nearest_point_of_a_circle)
             const real r = k % 4 == 0 ? 1.001L : k % 4 == 1 ? 0.9L : k % 4 == 2 ? 1.2L : 1 + 8*EPS, w[2] = { 1, unit ? 1 : 9 };
             gvi_real q[2] = { (gvi_real)(r*cos(0.3L*k)), (gvi_real)(r*sin(0.3L*k)) }, v[2] = { 1, 2 }, far[2];
             const real q0[2] = { q[0], q[1] };
-            gvi_stepper st;
-            assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+            gvi_stepper st = new_stepper(&desc);
             assert_ok(gvi_project(&st, 0, q, v, far));
             const real d[2] = { q[0] - q0[0], q[1] - q0[1] }, dv[2] = { (real)v[0] - 1, (real)v[1] - 2 };
             assert_close((real)q[0]*q[0] + (real)q[1]*q[1], 1, 8*EPS);
@@ -312,7 +299,7 @@ TEST(the_nearest_point_of_a_circle)
         }
 }
 
-/* Three digits of a file: a closed loop of four bodies with a diagonal is rigid up to a turn; the turn stays   */
+/* Three digits of a file: a closed loop of four bodies with a diagonal is rigid up to a turn; the turn stays */
 TEST(a_frame_from_three_digits)
 {
     rods r = { 4, { 0, 1, 2, 3 }, { 1, 2, 3, 0 }, { 0 } };
@@ -321,7 +308,6 @@ TEST(a_frame_from_three_digits)
     measure(&r, plan);
     const gvi_effect hold = { .kind = GVI_CONSTRAINT, .points = rods_hold, .rows = 4, .user = &r };
     const gvi_desc desc = { .n = 8, .degree = 4, .effects = &hold, .effect_count = 1 };
-    gvi_stepper st;
     gvi_real q[8], v[8] = { 0 }, file[8], far[2], p[8];
     for (int i = 0; i < 8; i += 2) {
         q[i] = (gvi_real)(rint(1000*(plan[i]*cos(angle) - plan[i + 1]*sin(angle)))/1000);
@@ -329,7 +315,7 @@ TEST(a_frame_from_three_digits)
     }
     memcpy(file, q, sizeof q);
     v[0] = 1;
-    assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+    gvi_stepper st = new_stepper(&desc);
     assert_status(gvi_start(&st, 0, q, v), GVI_E_CONSTRAINT);
     assert_ok(gvi_project(&st, 0, q, v, far));
     real push[3] = { 0, 0, 0 }, size = 0;         // what is added has no momentum and no angular momentum about q'
@@ -353,16 +339,15 @@ TEST(a_frame_from_three_digits)
     }
 }
 
-/* What cannot be: too far, dependent, not a number; q and v stay as they are, and so does a motion that is on     */
+/* What cannot be: too far, dependent, not a number; q and v stay as they are, and so does a motion that is on */
 TEST(projections_that_fail_change_nothing)
 {
     const gvi_effect hold = { .kind = GVI_CONSTRAINT, .points = circle, .rows = 1 };
     const gvi_desc desc = { .n = 2, .degree = 3, .effects = &hold, .effect_count = 1 };
     gvi_stepper st, twin;
-    static gvi_real other[120000];
     const gvi_real q0[2] = { 1, 0 }, v0[2] = { 0, 1 };
     gvi_real zero[2] = { 0, 0 }, v[2] = { 1, 1 }, bad[2] = { (gvi_real)NAN, 1 }, q[2] = { (gvi_real)1.01L, 0 };
-    assert_ok(gvi_init(&twin, &desc, other, sizeof other));
+    twin = new_stepper(&desc);
     assert_ok(gvi_start(&twin, 0, q0, v0));
     assert_ok(start(&st, &desc, q0, v0));
     for (int k = 0; k < 10; ++k) {
@@ -380,7 +365,7 @@ TEST(projections_that_fail_change_nothing)
     }
     const gvi_desc none = { .n = 2, .degree = 3 };              // without constraints: nothing to do
     gvi_real far[2] = { 1, 1 };
-    assert_ok(gvi_init(&st, &none, memory, sizeof memory));
+    st = new_stepper(&none);
     assert_ok(gvi_project(&st, 0, q, v, far));
     assert_true(far[0] == 0 && far[1] == 0 && v[0] == 1);
     assert_status(gvi_project(NULL, 0, q, v, far), GVI_E_ARGUMENT);

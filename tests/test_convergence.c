@@ -1,15 +1,11 @@
 /* What a step says of itself: right, or refused with the right reason.  Expected values are those of closed forms, of
-   another solver in long double (lucky.h), or conserved.                                                            */
+   another solver in long double (lucky.h), or conserved. */
 #include "gvi_test.h"
 #include "lucky.h"
 
-typedef gvi_real real;
-
 static real memory[GVI_CONSTRAINED_LENGTH(9, 8, 9, 3)];
 
-/* ------------------------------------------------------------ one lucky ratio */
-
-/* make hard-lucky: a million                                                 */
+/* make hard-lucky: a million */
 TEST(a_small_ratio_of_changes_ends_no_iteration)
 {
     lucky_found found;
@@ -33,17 +29,13 @@ TEST(a_first_iterate_that_hits_the_solution)
     const gvi_desc desc = { .n = 1, .degree = 1, .effects = scene, .effect_count = 1 };
     for (int i = 0; i < COUNT(starts); ++i) {
         const real h = 0.8, q0 = starts[i][0], v0 = starts[i][1];
-        gvi_stepper st;
-        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-        assert_ok(gvi_start(&st, 0, &q0, &v0));
+        gvi_stepper st = new_motion(&desc, 0, &q0, &v0);
         assert_ok(gvi_step(&st, h));
         long double Q = q0;
         for (int k = 0; k < 300; ++k) Q = q0 + (long double)h/2*v0 - (long double)h*h/4*sinl(Q);
         assert_close(st.p[0] + (long double)st.p_low[0], v0 - (long double)h*sinl(Q), 8*EPS);
     }
 }
-
-/* --------------------------------------------------- rows that are nearly dependent */
 
 static real lengths[3];
 
@@ -76,7 +68,6 @@ TEST(rods_nearly_in_line_go_on)
             const real off = pow(10.0, -i);
             const real q[9] = { -1, -off/3, 0, 0, 2*off/3, 0, 1, -off/3, 0 };
             real v[9], E0 = 0, E = 0, L0[3] = { 0 }, L[3] = { 0 }, h = 0.01;
-            gvi_stepper st;
             const gvi_desc desc = { .n = 9, .degree = degrees[d], .effects = scene, .effect_count = 1 };
             for (int b = 0; b < 3; ++b) {                        /* turns with (0, 0.3, 1) */
                 const real *x = q + 3*b;
@@ -86,8 +77,7 @@ TEST(rods_nearly_in_line_go_on)
                 const real *x = q + (a ? 6 : 3), *y = q + (a == 2 ? 3 : 0);
                 lengths[a] = sqrt((x[0] - y[0])*(x[0] - y[0]) + (x[1] - y[1])*(x[1] - y[1]));
             }
-            assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-            assert_ok(gvi_start(&st, 0, q, v));
+            gvi_stepper st = new_motion(&desc, 0, q, v);
             assert_ok(gvi_energy(&st, &E0));
             for (int c = 0; c < 3; ++c)
                 for (int b = 0; b < 9; b += 3)
@@ -113,8 +103,6 @@ TEST(rods_nearly_in_line_go_on)
         }
 }
 
-/* ------------------------------------------------------------- a singular M(q) */
-
 static int ball_mass(const gvi_points *x, void *user)     /* on a sphere: latitude from the pole, longitude */
 {
     for (int k = 0, s = x->stride; k < x->count; ++k) {
@@ -131,15 +119,14 @@ static int ball_gradient(const gvi_points *x, void *user)
     return 0;
 }
 
-/* At the pole no h helps; on the way to it half of h does                     */
+/* At the pole no h helps; on the way to it half of h does */
 TEST(singular_means_that_no_h_helps)
 {
     const gvi_formulation formulations[] = { GVI_AUTO, GVI_MOMENTA, GVI_NEWTON };
     for (int i = 0; i < COUNT(formulations); ++i) {
         const gvi_desc desc = { .n = 2, .degree = 3, .formulation = formulations[i],
                                 .mass = { .kind = GVI_MASS_POSITION, .points = ball_mass, .gradient = ball_gradient } };
-        gvi_stepper st;
-        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+        gvi_stepper st = new_stepper(&desc);
         for (real h = 1; h > 1e-6; h /= 10) {
             gvi_status status = gvi_start_momentum(&st, 0, (real[]){ 0, 0 }, (real[]){ 0.1, 0.5 });
             if (status == GVI_OK) status = gvi_step(&st, h);
@@ -152,8 +139,6 @@ TEST(singular_means_that_no_h_helps)
         assert_ok(gvi_step(&st, 0.01));
     }
 }
-
-/* ------------------------------------------------- callbacks that list too much */
 
 GVI_POINTS(drag, 1, v, f)(const gvi_points *x, void *user) { x->f[0] -= x->v[0]; return (void)user, 0; }
 GVI_POINTS(magnet, 1, v, f, dldv)(const gvi_points *x, void *user) { x->dldv[0] += x->v[0]; return (void)user, 0; }
@@ -183,8 +168,6 @@ TEST(a_forgotten_kind_is_told)
     }
 }
 
-/* ----------------------------------------------------------------- own rules */
-
 TEST(weights_whose_sum_is_not_sure_are_refused)
 {
     const gvi_effect scene[] = { { .points = pendulum } };
@@ -195,11 +178,9 @@ TEST(weights_whose_sum_is_not_sure_are_refused)
             gvi_stepper st;
             assert_status(gvi_init(&st, &desc, memory, sizeof memory), GVI_E_ORDER);
             desc.rule.weights = good;
-            assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+            st = new_stepper(&desc);
         }
 }
-
-/* -------------------------------------------------------- the bottom of the range */
 
 static int spring(const gvi_points *x, void *user)
 {
@@ -215,16 +196,12 @@ TEST(small_amplitudes_are_like_others)
         if (f == GVI_EXPLICIT) continue;
         for (int e = 0; e >= -1010; e -= 101) {
             const real q = ldexp(1.0, e), v = ldexp(0.25, e);
-            gvi_stepper st;
-            assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-            assert_ok(gvi_start(&st, 0, &q, &v));
+            gvi_stepper st = new_motion(&desc, 0, &q, &v);
             assert_ok(gvi_step(&st, 0.7));
             assert_close(ldexp(st.q[0], -e), cos(0.7) + 0.25*sin(0.7), 1e-8);       /* the method's error: 5e-9 */
         }
     }
 }
-
-/* ------------------------------------------------------ a failed step stays in sight */
 
 static int worth(const gvi_points *x, void *user)
 {
@@ -238,10 +215,8 @@ TEST(a_failed_step_stays_in_sight)
     int refuse = 0;
     const gvi_effect scene[] = { { .points = refuses, .value = worth, .user = &refuse } };
     const gvi_desc desc = { .n = 1, .degree = 2, .effects = scene, .effect_count = 1 };
-    gvi_stepper st;
     real x, y;
-    assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-    assert_ok(gvi_start(&st, 0, (real[]){ 1 }, (real[]){ 0 }));
+    gvi_stepper st = new_motion(&desc, 0, (real[]){ 1 }, (real[]){ 0 });
     assert_ok(gvi_step(&st, 0.1));
     refuse = 1;
     assert_status(gvi_step(&st, 0.1), GVI_E_CALLBACK);

@@ -1,12 +1,8 @@
 /* examples/tools/event.h: zeros inside a step.  What is expected are closed forms: Kepler's equation,
-   the oscillator, the parabola, free motion.                                   */
+   the oscillator, the parabola, free motion. */
 #include "gvi_test.h"
 #include "tools/event.h"
-
-typedef gvi_real real;
 #include "problems.h"
-
-#define R(x) ((real)x##L)
 
 enum { N = 2 };
 static real memory[20000], q[N], v[N], p[N];
@@ -14,17 +10,8 @@ static const real pi = R(3.14159265358979323846264338328);
 
 static event of(event_fn *g, void *user) { return (event){ .g = g, .user = user, .q = q, .v = v, .p = p }; }
 
-static int spring(const gvi_points *x, void *user)
-{
-    for (int k = 0; k < x->count; ++k) x->f[k] -= x->q[k];
-    return 0;
-}
-
-static int weight(const gvi_points *x, void *user)
-{
-    for (int k = 0; k < x->count; ++k) x->f[k] -= 1;
-    return 0;
-}
+GVI_EACH(spring, 1, f) { x->f[0] -= x->q[0]; }
+GVI_EACH(weight, 1, f) { x->f[0] -= 1; }
 
 static int distance(const gvi_points *x, void *user)
 {
@@ -45,24 +32,21 @@ static real undefined(real t, const real *at, const real *rate, void *user) { re
 
 static const gvi_effect oscillator[] = { { .kind = GVI_POTENTIAL, .points = spring } };
 
-/* q = cos t from t on                                                         */
+/* q = cos t from t on */
 static gvi_stepper *cosine(int degree, real t)
 {
     static gvi_stepper st;
     const gvi_desc desc = { .n = 1, .degree = degree, .effects = oscillator, .effect_count = 1 };
-    assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-    assert_ok(gvi_start(&st, t, (real[]){ cos(t) }, (real[]){ -sin(t) }));
+    st = new_motion(&desc, t, (real[]){ cos(t) }, (real[]){ -sin(t) });
     return &st;
 }
-
-/* ------------------------------------------------------------------- order */
 
 static const gvi_effect attracted[] = { { .kind = GVI_POTENTIAL, .points = attraction, .value = attraction },
                                         { .kind = GVI_CLOCK, .points = distance } };
 static const real ellipse = R(0.3);                     /* eccentricity, half axis 1, from the perihelion */
 
 /* Largest error of three times within a revolution, q passing x = cos E - e for E = 1, E = 2, and the
-   aphelion, in steps of h.  Each must be found once.                          */
+   aphelion, in steps of h.  Each must be found once. */
 static real kepler_error(const gvi_desc *desc, real h)
 {
     static const real E[] = { 1, 2, R(3.14159265358979323846264338328) };
@@ -71,9 +55,7 @@ static real kepler_error(const gvi_desc *desc, real h)
         real x = cos(E[k]) - ellipse;
         const real exact = E[k] - ellipse*sin(E[k]);
         event e = of(k == 2 ? apsis : level, &x);
-        gvi_stepper st;
-        assert_ok(gvi_init(&st, desc, memory, sizeof memory));
-        assert_ok(gvi_start(&st, 0, (real[]){ 1 - ellipse, 0 }, (real[]){ 0, sqrt((1 + ellipse)/(1 - ellipse)) }));
+        gvi_stepper st = new_motion(desc, 0, (real[]){ 1 - ellipse, 0 }, (real[]){ 0, sqrt((1 + ellipse)/(1 - ellipse)) });
         for (int found = 0; !found; ) {
             assert_ok(gvi_step(&st, h));
             found = event_next(&e, &st);
@@ -117,9 +99,7 @@ TEST(times_have_the_order_of_the_steps)
     }
 }
 
-/* ------------------------------------------------------ each once, and both faults */
-
-/* cos t = 0.3, twice a period; and again with a new start at every zero.      */
+/* cos t = 0.3, twice a period; and again with a new start at every zero. */
 TEST(every_zero_once)
 {
     static const real h[] = { R(0.0625), R(0.3), R(0.7), R(-0.45) };
@@ -149,7 +129,7 @@ TEST(every_zero_once)
         }
 }
 
-/* q = t - 1 is 0 where the fourth step ends; so is q = 1 - t.                  */
+/* q = t - 1 is 0 where the fourth step ends; so is q = 1 - t. */
 TEST(a_zero_where_two_steps_meet)
 {
     const gvi_desc desc = { .n = 1, .degree = 2 };
@@ -157,10 +137,8 @@ TEST(a_zero_where_two_steps_meet)
         real zero = 0;
         const real rate = rising ? 1 : -1;
         event e = of(level, &zero);
-        gvi_stepper st;
         int count = 0;
-        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-        assert_ok(gvi_start(&st, 0, (real[]){ -rate }, (real[]){ rate }));
+        gvi_stepper st = new_motion(&desc, 0, (real[]){ -rate }, (real[]){ rate });
         for (int k = 0; k < 12; ++k) {
             int found;
             assert_ok(gvi_step(&st, R(0.25)));
@@ -182,7 +160,7 @@ TEST(a_zero_where_two_steps_meet)
 }
 
 /* Four intervals of a quarter each; the top of cos t in the middle of one.  Zeros of cos t - level that
-   are 0.2 apart lie both inside and are not seen, 0.3 apart they are; nor are those lost in shorter steps.  */
+   are 0.2 apart lie both inside and are not seen, 0.3 apart they are; nor are those lost in shorter steps. */
 TEST(two_zeros_in_one_interval)
 {
     static const struct { real apart, h; int zeros; } cases[] = { { R(0.2), 1, 0 }, { R(0.3), 1, 2 }, { R(0.2), R(0.5), 2 } };
@@ -201,7 +179,7 @@ TEST(two_zeros_in_one_interval)
 }
 
 /* cos t - level where only the curve passes the level, above the top of the states, and a sample lies
-   between its two zeros. What counts are states.                                 */
+   between its two zeros. What counts are states. */
 TEST(a_touch_that_only_the_curve_sees)
 {
     real curve, top, wanted;
@@ -231,9 +209,7 @@ TEST(two_zeros_by_a_clock)
     static const real E[] = { R(0.35), R(0.85) };
     const gvi_desc desc = { .n = N, .degree = 4, .effects = attracted, .effect_count = 2 };
     event e = of(two_lines, NULL);
-    gvi_stepper st;
-    assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-    assert_ok(gvi_start(&st, 0, (real[]){ R(0.2), 0 }, (real[]){ 0, 3 }));
+    gvi_stepper st = new_motion(&desc, 0, (real[]){ R(0.2), 0 }, (real[]){ 0, 3 });
     assert_ok(gvi_step(&st, R(1.5)));
     for (int k = 0; k < 2; ++k) {
         assert_int_equal(event_next(&e, &st), 1);
@@ -242,8 +218,6 @@ TEST(two_zeros_by_a_clock)
     assert_int_equal(event_next(&e, &st), 0);
 }
 
-/* ------------------------------------------------------------------ bounces */
-
 /* From height 1 with weight 1: impacts at sqrt(2) (1 + 2k), back at height 1 in between. */
 TEST(an_elastic_ball)
 {
@@ -251,9 +225,7 @@ TEST(an_elastic_ball)
     const gvi_desc desc = { .n = 1, .degree = 2, .effects = scene, .effect_count = 1 };
     real zero = 0;
     event e = of(level, &zero);
-    gvi_stepper st;
-    assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-    assert_ok(gvi_start(&st, 0, (real[]){ 1 }, (real[]){ 0 }));
+    gvi_stepper st = new_motion(&desc, 0, (real[]){ 1 }, (real[]){ 0 });
     for (int k = 0; k < 300; ) {
         assert_ok(gvi_step(&st, R(0.37)));
         const int found = event_next(&e, &st);
@@ -269,12 +241,8 @@ TEST(an_elastic_ball)
     }
 }
 
-/* q'' = -1 - q^2 above a floor: a step that hits it, split there.                       */
-static int curved(const gvi_points *x, void *user)
-{
-    for (int k = 0; k < x->count; ++k) x->f[k] -= 1 + x->q[k]*x->q[k];
-    return 0;
-}
+/* q'' = -1 - q^2 above a floor: a step that hits it, split there. */
+GVI_EACH(curved, 1, f) { x->f[0] -= 1 + x->q[0]*x->q[0]; }
 
 static void bounce(int degree, real h, real *at, real *momentum)
 {
@@ -282,8 +250,7 @@ static void bounce(int degree, real h, real *at, real *momentum)
     const gvi_desc desc = { .n = 1, .degree = degree, .effects = scene, .effect_count = 1 };
     real zero = 0;
     event e = of(level, &zero);
-    gvi_stepper st;
-    assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+    gvi_stepper st = new_stepper(&desc);
     assert_ok(gvi_start_momentum(&st, 0, at, momentum));
     assert_ok(gvi_step(&st, h));
     assert_int_equal(event_next(&e, &st), 1);
@@ -294,7 +261,7 @@ static void bounce(int degree, real h, real *at, real *momentum)
     *momentum = st.p[0];
 }
 
-/* det - 1 of the map of a step with a bounce, by differences.                         */
+/* det - 1 of the map of a step with a bounce, by differences. */
 static real area_defect(int degree, real h)
 {
     const real d = R(1e-4);
@@ -320,18 +287,13 @@ TEST(a_bounce_is_symplectic_to_the_order)
     assert_between(0, area_defect(4, R(0.1)), R(1e-7));                 /* differences */
 }
 
-/* --------------------------------------------------- a linkage hits a wall */
-
-/* Two rods of 1, bobs of 1, g = 1; the wall at x = 1.1. Elastic.                   */
+/* Two rods of 1, bobs of 1, g = 1; the wall at x = 1.1. Elastic. */
 static const real wall = R(1.1);
 
-static int bobs(const gvi_points *x, void *user)
+GVI_EACH(bobs, 4, f, value)
 {
-    for (int k = 0; k < x->count; ++k) {
-        if (x->f) x->f[x->stride + k] -= 1, x->f[3*x->stride + k] -= 1;
-        if (x->value) x->value[k] += x->q[x->stride + k] + x->q[3*x->stride + k];
-    }
-    return 0;
+    x->f[1] -= 1, x->f[3] -= 1;
+    x->value[0] += x->q[1] + x->q[3];
 }
 
 static int rods(const gvi_points *x, void *user)
@@ -350,7 +312,7 @@ static int rods(const gvi_points *x, void *user)
 
 static real gap(real t, const real *at, const real *rate, void *user) { return wall - at[2]; }
 
-/* p+ = p- - 2 (n.p-)/(n.n) n, n the wall's normal without what the rods hold.      */
+/* p+ = p- - 2 (n.p-)/(n.n) n, n the wall's normal without what the rods hold. */
 static void mirror(const real *at, real *momentum)
 {
     const real U = at[2] - at[0], W = at[3] - at[1], c = at[0]*U + at[1]*W, a = c*U/(2 - c*c), b = U/(2 - c*c);
@@ -368,12 +330,11 @@ static gvi_stepper *linkage(int degree, event *e)
                                         { .kind = GVI_CONSTRAINT, .points = rods, .rows = 2 } };
     const gvi_desc desc = { .n = 4, .degree = degree, .effects = scene, .effect_count = 2 };
     *e = (event){ .g = gap, .q = linkage_q, .v = linkage_v, .p = linkage_p };
-    assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-    assert_ok(gvi_start(&st, 0, (real[]){ R(0.6), R(0.8), 0, R(1.6) }, (real[]){ 0, 0, 0, 0 }));
+    st = new_motion(&desc, 0, (real[]){ R(0.6), R(0.8), 0, R(1.6) }, (real[]){ 0, 0, 0, 0 });
     return &st;
 }
 
-/* 200 impacts: no loss, and the rods as long as before.                                */
+/* 200 impacts: no loss, and the rods as long as before. */
 TEST(a_linkage_hits_a_wall_often)
 {
     event e;
@@ -394,9 +355,7 @@ TEST(a_linkage_hits_a_wall_often)
     }
 }
 
-/* ------------------------------------------------------------------- others */
-
-/* g may read the time alone, and need not be finite.                          */
+/* g may read the time alone, and need not be finite. */
 TEST(what_g_may_be)
 {
     real noon = R(1.3);
@@ -437,12 +396,10 @@ TEST(impacts_pile_up)
     const gvi_desc desc = { .n = 1, .degree = 4, .effects = scene, .effect_count = 1 };
     for (int i = 0; i < COUNT(restitutions)*COUNT(hs); ++i) {
         const real k = restitutions[i/2], h = hs[i % 2], floor = 0;
-        gvi_stepper st;
         event e = of(level, (void *)&floor);
         real speed = 1, when = 1;                                         /* from 1/2, at rest */
         int found = 0;
-        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-        assert_ok(gvi_start(&st, 0, (real[]){ R(0.5) }, (real[]){ 0 }));
+        gvi_stepper st = new_motion(&desc, 0, (real[]){ R(0.5) }, (real[]){ 0 });
         while (found >= 0 && st.t < 40) {
             assert_ok(gvi_step(&st, h));
             found = event_next(&e, &st);

@@ -1,18 +1,17 @@
-/* What Galerkin variational integrators are known to coincide with, to round-off
-   over many steps: the midpoint rule, Stoermer-Verlet, Gauss collocation, the
-   Lobatto IIIA-IIIB pair.  These are written here in Hamilton's equations, with
-   the published coefficients, in long double.                                */
+/* What Galerkin variational integrators are known to coincide with, to round-off over many steps:
+   the midpoint rule, Stoermer-Verlet, Gauss collocation, the Lobatto IIIA-IIIB pair. These are
+   written here in Hamilton's equations, with the published coefficients, in long double. */
+#define OWN_REAL
 #include "gvi_test.h"
 
 typedef long double real;
 
 enum { STEPS = 50, N = 2 };
 
-/* The largest difference allowed after STEPS steps, in eps.                  */
+/* The largest difference allowed after STEPS steps, in eps. */
 #define LIMIT 10
 
-
-/* ------------------------------------------------ two systems, each told twice:
+/* two systems, each told twice:
    to gvi.h as a Lagrangian, to the methods below as z = (q, p), dz = (dH/dp, -dH/dq) */
 
 typedef void rates_fn(const real *z, real *dz);
@@ -21,15 +20,11 @@ typedef void rates_fn(const real *z, real *dz);
 
 static const gvi_real two_masses[] = { 5/(gvi_real)4, 3/(gvi_real)4 };
 
-static int separable_points(const gvi_points *x, void *user)
+GVI_EACH(separable_points, 2, f)
 {
-    int d = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        gvi_real a = x->q[k], b = x->q[d + k];
-        x->f[k] -= a + 2*a*b;
-        x->f[d + k] -= 3*b/2 + a*a - b*b;
-    }
-    return 0;
+    gvi_real a = x->q[0], b = x->q[1];
+    x->f[0] -= a + 2*a*b;
+    x->f[1] -= 3*b/2 + a*a - b*b;
 }
 
 static void separable_rates(const real *z, real *dz)
@@ -41,7 +36,7 @@ static void separable_rates(const real *z, real *dz)
 }
 
 /* double pendulum: T = a v0^2/2 + b v1^2/2 + c v0 v1 cos(q0 - q1), a = 11/4,
-   b = 7/8, c = 9/8; V = -11/2 cos q0 - 7/4 cos q1                             */
+   b = 7/8, c = 9/8; V = -11/2 cos q0 - 7/4 cos q1 */
 
 #if GVI__KIND == 1
 #define SIN sinf
@@ -116,8 +111,6 @@ static const struct system pendulum = {
     { 3/(gvi_real)4, -3/(gvi_real)8 }, { 13/(gvi_real)8, -5/(gvi_real)16 }, 1/(gvi_real)8
 };
 
-/* ------------------------------------------------------ the methods, once more */
-
 /* Partitioned Runge-Kutta: Q = q0 + h sum a V,  P = p0 + h sum ahat F */
 struct tableau {
     int  stages;
@@ -180,7 +173,7 @@ static void add(real *z, real *e, const real *dz)
 }
 
 /* Hairer, Lubich, Wanner, tables II.1.1, II.2.1 and II.2.2; in the functions,
-   since a long double of two doubles has no constant quotients.               */
+   since a long double of two doubles has no constant quotients. */
 #define SQRT3  1.7320508075688772935274463415058723669L
 #define SQRT15 3.8729833462074168851792653997823996108L
 #define GAUSS2 { { 1/4.0L, 1/4.0L - SQRT3/6 }, { 1/4.0L + SQRT3/6, 1/4.0L } }
@@ -188,10 +181,8 @@ static void add(real *z, real *e, const real *dz)
                  { 5/36.0L + SQRT15/24, 2/9.0L, 5/36.0L - SQRT15/24 }, \
                  { 5/36.0L + SQRT15/30, 2/9.0L + SQRT15/15, 5/36.0L } }
 
-/* ------------------------------------------------------------- the comparison */
-
 /* The largest difference from the method over STEPS steps, in eps; the step
-   size changes every five steps.  -1 if the formulation does not cover it.    */
+   size changes every five steps.  -1 if the formulation does not cover it. */
 static real deviation(const struct system *a, gvi_rule_kind rule, int s, int r, gvi_formulation how,
                       method_fn *method, const struct tableau *T)
 {
@@ -242,8 +233,6 @@ static void compare(const char *what, const struct system *a, gvi_rule_kind rule
     for (int how = 0; how < COUNT(worst); ++how) assert_between(-1, worst[how], LIMIT);
 }
 
-/* ------------------------------------------------------------------- tests */
-
 TEST(test_midpoint)
 {
     print_message("  worst differences in eps                           "
@@ -268,7 +257,7 @@ TEST(test_gauss)
 }
 
 /* With constant mass and potentials the degrees r - 1 and r give one method;
-   else it is degree r, equation (5).                                         */
+   else it is degree r, equation (5). */
 TEST(test_lobatto)
 {
     const struct tableau lobatto2 = {
@@ -320,13 +309,11 @@ TEST(test_own)
 /* What makes a step symplectic holds in the rounded tables exactly: S_ij = S_ji, and T_ij + T_ji = 1 for Gauss */
 TEST(tables_are_symplectic_to_the_bit)
 {
-    static gvi_real memory[20000];
     for (int s = 1; s <= 16; ++s)
         for (int rule = GVI_GAUSS; rule <= GVI_LOBATTO; ++rule) {
             const gvi_desc desc = { .n = 1, .degree = s, .rule = { .kind = (gvi_rule_kind)rule },
                                     .formulation = GVI_VELOCITIES };
-            gvi_stepper st;
-            assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+            gvi_stepper st = new_stepper(&desc);
             const gvi_real *c = st.in.table.c, *K = st.in.table.K, *U = st.in.table.U;
             const int R = st.in.R;
             for (int i = 0; i < st.r; ++i)

@@ -1,18 +1,14 @@
-/* Constraints of mechanisms: rows that depend on others, zeros of G that come and go, change points.   */
+/* Constraints of mechanisms: rows that depend on others, zeros of G that come and go, change points. */
 #include "gvi_test.h"
-typedef gvi_real real;
 #include "linkages.h"
 
 static real memory[60000];
 
 static gvi_status set_up(gvi_stepper *st, const gvi_desc *desc, const real *q, const real *v)
 {
-    assert_true(gvi_size(desc) > 0 && gvi_size(desc) <= sizeof memory);
-    assert_ok(gvi_init(st, desc, memory, sizeof memory));
+    *st = new_stepper(desc);
     return gvi_start(st, 0, q, v);
 }
-
-/* ---------------------------------------------------------------- redundant rows */
 
 /* the two rods, and the first of them again, in another unit */
 static int rods_and_one(const gvi_points *x, void *user)
@@ -130,8 +126,6 @@ TEST(a_closed_loop_does_not_drift)
     assert_between(0, off, 500*EPS + (real)1e-14L);
 }
 
-/* ---------------------------------------------------------------- rows that contradict, vanish, or are too many */
-
 /* x = a t^p and x = b t^p: they agree at t = 0, in velocity too for p = 2 */
 static int two_places(const gvi_points *x, void *user)
 {
@@ -175,8 +169,6 @@ TEST(rows_that_contradict_are_named)
     assert_int_equal(gvi_size(&desc), 0);
 }
 
-/* ---------------------------------------------------------------- zeros of G */
-
 /* Hanging at rest G = (0, y): then a side wind.  The same in a frame turned by 1 rad, where G is full */
 static int wind(const gvi_points *x, void *user)
 {
@@ -209,10 +201,8 @@ TEST(zeros_of_G_may_end)
         }
 }
 
-/* ---------------------------------------------------------------- change points */
-
 /* Four-bars whose bars can lie in one line (a + c = b + d), and a slider-crank of equal bars, a step long enough to pass
-   that position.  After it the coupler's side is smooth in the crank's angle, as before; or the step is refused.       */
+   that position.  After it the coupler's side is smooth in the crank's angle, as before; or the step is refused. */
 static int bars(const gvi_points *x, void *user)
 {
     const real *L = (const real *)user;           // crank, ground, coupler, rocker; no rocker: a slide

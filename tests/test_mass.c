@@ -1,7 +1,6 @@
-/* M(q): velocities and momenta against each other in more digits, points without an inverse, and what asking for M saves where M^-1 p could be had.          */
+/* M(q): velocities and momenta against each other in more digits, points without an inverse, and what asking for M saves where M^-1 p could be had. */
 #include "gvi_test.h"
 
-typedef gvi_real real;
 enum { MOST = 6, POINTS = 16 };
 
 static unsigned long long seed;
@@ -42,7 +41,7 @@ static int constant_mass(const gvi_points *x, void *user)
 }
 
 /* |M v - p|_i <= (3n + 4) eps sqrt(M_ii) sum_j sqrt(M_jj) |v_j|: the bound of Cholesky's solution (Higham, Accuracy
-   and stability of numerical algorithms, thm. 10.4, with eps/2 for each rounding), and some for 1/D        */
+   and stability of numerical algorithms, thm. 10.4, with eps/2 for each rounding), and some for 1/D */
 static void assert_solves(const constant *a, const real *v, const real *p, long double more)
 {
     for (int i = 0; i < a->n; ++i) {
@@ -56,10 +55,9 @@ static void assert_solves(const constant *a, const real *v, const real *p, long 
 }
 
 /* At one point, by a query; and at all points of a step, where free motion makes of it h M^-1 p.  M positive
-   and negative.                                                                                       */
+   and negative. */
 TEST(velocities_solve_for_the_momenta)
 {
-    static real memory[GVI_LENGTH(MOST, POINTS, POINTS)];
     static const real zero[MOST];
     seed = 1;
     for (int n = 1; n <= MOST; ++n)
@@ -71,10 +69,9 @@ TEST(velocities_solve_for_the_momenta)
                                                   .user = &a } };
                 real p[MOST], v[MOST], moved[MOST];
                 long double most = 0;
-                gvi_stepper st;
                 random_mass(n, 1, 1, (real)s, a.m);
                 for (int i = 0; i < n; ++i) p[i] = random_unit();
-                assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+                gvi_stepper st = new_stepper(&desc);
                 assert_ok(gvi_start_momentum(&st, 0, zero, p));
                 assert_ok(gvi_velocity(&st, v));
                 assert_solves(&a, v, p, 0);
@@ -88,23 +85,17 @@ TEST(velocities_solve_for_the_momenta)
             }
 }
 
-/* ------------------------------------------------------------ in steps */
-
 /* diag(1, 1), but (1, 0) where q_1 > 1 */
-static int ends_at_one(const gvi_points *x, void *user)
+GVI_EACH(ends_at_one, 2, mass)
 {
-    for (int k = 0; k < x->count; ++k) {
-        x->mass[k] = 1;
-        x->mass[2*x->stride + k] = 0;
-        x->mass[3*x->stride + k] = x->q[k] <= 1;
-    }
-    return 0;
+    x->mass[0] = 1;
+    x->mass[2] = 0;
+    x->mass[3] = x->q[0] <= 1;
 }
 
 /* q_1 = 3/4 + c/2 at the nodes of a free step: the first point beyond 1 is named */
 TEST(the_point_without_an_inverse_is_named)
 {
-    static real memory[GVI_LENGTH(2, 16, 16)];
     static const gvi_effect none[] = { { .kind = GVI_POTENTIAL, .points = nothing } };
     static const int degrees[] = { 2, 3, 6, 8, 12, 16 };
     for (int i = 0; i < COUNT(degrees); ++i) {
@@ -114,11 +105,9 @@ TEST(the_point_without_an_inverse_is_named)
         const gvi_desc desc = { .n = 2, .degree = degrees[i], .effects = none, .effect_count = 1,
                                 .mass = { .kind = GVI_MASS_POSITION, .points = ends_at_one, .gradient = nothing },
                                 .formulation = GVI_MOMENTA };
-        gvi_stepper st;
         assert_ok(gvi_gauss(degrees[i], c, b));
         while ((real)0.75 + c[first]/2 <= 1) ++first;
-        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-        assert_ok(gvi_start(&st, 0, q, v));
+        gvi_stepper st = new_motion(&desc, 0, q, v);
         assert_status(gvi_step(&st, 1), GVI_E_CONVERGENCE);           /* half of it helps */
         assert_int_equal(st.fault.effect, GVI_FAULT_MASS);
         assert_int_equal(st.fault.coordinate, 1);
@@ -128,28 +117,22 @@ TEST(the_point_without_an_inverse_is_named)
 }
 
 /* Beyond q_1 = 1 what is left of M_22 overflows, though all that is given is finite */
-static int overflows(const gvi_points *x, void *user)
+GVI_EACH(overflows, 2, mass)
 {
-    for (int k = 0; k < x->count; ++k) {
-        x->mass[k] = x->q[k] > 1 ? MIN*4 : 1;
-        x->mass[2*x->stride + k] = x->q[k] > 1 ? MAX/4 : 0;
-        x->mass[3*x->stride + k] = 1;
-    }
-    return 0;
+    x->mass[0] = x->q[0] > 1 ? MIN*4 : 1;
+    x->mass[2] = x->q[0] > 1 ? MAX/4 : 0;
+    x->mass[3] = 1;
 }
 
 TEST(a_pivot_that_overflows_is_named)
 {
-    static real memory[GVI_LENGTH(2, 16, 16)];
     static const gvi_effect none[] = { { .kind = GVI_POTENTIAL, .points = nothing } };
     for (int degree = 3; degree <= 16; ++degree) {
         const real q[2] = { (real)0.75, 0 }, v[2] = { (real)0.5, 0 };
         const gvi_desc desc = { .n = 2, .degree = degree, .effects = none, .effect_count = 1,
                                 .mass = { .kind = GVI_MASS_POSITION, .points = overflows, .gradient = nothing },
                                 .formulation = GVI_MOMENTA };
-        gvi_stepper st;
-        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-        assert_ok(gvi_start(&st, 0, q, v));
+        gvi_stepper st = new_motion(&desc, 0, q, v);
         assert_status(gvi_step(&st, 1), GVI_E_NON_FINITE);
         assert_int_equal(st.fault.effect, GVI_FAULT_MASS);
         assert_int_equal(st.fault.coordinate, 1);
@@ -158,49 +141,34 @@ TEST(a_pivot_that_overflows_is_named)
 
 /* What is left of M_22 is 3/2 of what rounding can leave, at all points: regular, though barely, and no
    matter how many points there are */
-static int barely(const gvi_points *x, void *user)
+GVI_EACH(barely, 2, mass)
 {
-    for (int k = 0; k < x->count; ++k) {
-        x->mass[k] = x->mass[2*x->stride + k] = 1;
-        x->mass[3*x->stride + k] = 1 + 3*EPS;
-    }
-    return 0;
+    x->mass[0] = x->mass[2] = 1;
+    x->mass[3] = 1 + 3*EPS;
 }
 
 TEST(a_matrix_that_is_barely_regular_is_taken)
 {
-    static real memory[GVI_LENGTH(2, 16, 16)];
     static const gvi_effect none[] = { { .kind = GVI_POTENTIAL, .points = nothing } };
     const real zero[2] = { 0, 0 };
     for (int degree = 2; degree <= 16; ++degree) {
         const gvi_desc desc = { .n = 2, .degree = degree, .effects = none, .effect_count = 1,
                                 .mass = { .kind = GVI_MASS_POSITION, .points = barely, .gradient = nothing },
                                 .formulation = GVI_MOMENTA };
-        gvi_stepper st;
-        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+        gvi_stepper st = new_stepper(&desc);
         assert_ok(gvi_start_momentum(&st, 0, zero, zero));
         for (int k = 0; k < 3; ++k) assert_ok(gvi_step(&st, 1));
         assert_true(st.q[0] == 0 && st.q[1] == 0);
     }
 }
 
-/* ---------------------------------------------------- M or M^-1 p? */
-
 /* M = (2, 1; 1, 1), springs of 1: omega^2 = (3 +- sqrt 5)/2, 2.618 and 0.382 */
-static int springs(const gvi_points *x, void *user)
-{
-    for (int i = 0; i < x->n; ++i)
-        for (int k = 0; k < x->count; ++k) x->f[i*x->stride + k] -= x->q[i*x->stride + k];
-    return 0;
-}
+AT_EACH(springs) { x->f[a] -= x->q[a]; }
 
-static int of_points(const gvi_points *x, void *user)
+GVI_EACH(of_points, 2, mass)
 {
-    for (int k = 0; k < x->count; ++k) {
-        x->mass[k] = 2;
-        x->mass[2*x->stride + k] = x->mass[3*x->stride + k] = 1;
-    }
-    return 0;
+    x->mass[0] = 2;
+    x->mass[2] = x->mass[3] = 1;
 }
 
 static int of_momentum(const gvi_points *x, void *user)
@@ -215,14 +183,12 @@ static int of_momentum(const gvi_points *x, void *user)
 
 static double iterations(int by_velocity, real h, real *q)
 {
-    static real memory[GVI_LENGTH(2, 8, 8)];
     static const gvi_effect pull[] = { { .kind = GVI_POTENTIAL, .points = springs } };
     const real start[2] = { 1, 0 }, rest[2] = { 0, 0 };
     const gvi_desc desc = { .n = 2, .degree = 8, .effects = pull, .effect_count = 1, .formulation = GVI_MOMENTA,
                             .mass = { .kind = GVI_MASS_POSITION, .points = of_points, .gradient = nothing,
                                       .velocity = by_velocity ? of_momentum : NULL } };
-    gvi_stepper st;
-    assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+    gvi_stepper st = new_stepper(&desc);
     assert_ok(gvi_start_momentum(&st, 0, start, rest));
     for (int k = 0; k < 100; ++k) assert_ok(gvi_step(&st, h));
     q[0] = st.q[0];
@@ -248,14 +214,12 @@ TEST(one_iteration_from_rest_moves_q)
     static const gvi_effect pull[] = { { .kind = GVI_POTENTIAL, .points = springs } };
     const real start[2] = { 1, 0 }, rest[2] = { 0, 0 }, h = (real)0.1;
     for (int with = 0; with < 4; ++with) {
-        static real memory[GVI_LENGTH(2, 4, 4)];
         gvi_desc desc = { .n = 2, .degree = 4, .effects = pull, .effect_count = 1, .formulation = GVI_MOMENTA,
                           .mass = { .kind = GVI_MASS_POSITION, .points = of_points, .gradient = nothing,
                                     .velocity = with & 1 ? of_momentum : NULL } };
-        gvi_stepper st;
         if (with & 2) desc.tolerance = (real)0.01;
         else desc.iterations = 1;
-        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+        gvi_stepper st = new_stepper(&desc);
         assert_ok(gvi_start_momentum(&st, 0, start, rest));
         assert_ok(gvi_step(&st, h));
         const real p = st.p[0]/h, r = st.p[1]/h;           // v = M^-1 p grows from 0 to that
@@ -306,14 +270,11 @@ TEST(a_momentum_that_tends_to_0_converges)
     const real angle = (real)0.75, z = -2*(real)cos(0.75), turn = 1/(real)sqrtl(-z/2);
     for (int s = 1; s <= 8; ++s)
         for (int steps = 20; steps <= 200; steps *= 2) {
-            static real memory[GVI_LENGTH(3, 8, 8)];
             gvi_desc desc = { .n = 3, .degree = s, .effects = weight, .effect_count = 1 };
             desc.mass = (gvi_mass){ .kind = GVI_MASS_POSITION, .points = of_direction,
                                     .gradient = of_direction_gradient, .velocity = velocity_of_direction };
             const real q[3] = { 2*(real)sin((double)angle), 0, z }, v[3] = { 0, q[0]*turn, 0 };
-            gvi_stepper st;
-            assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-            assert_ok(gvi_start(&st, 0, q, v));
+            gvi_stepper st = new_motion(&desc, 0, q, v);
             for (int k = 0; k < steps; ++k) assert_ok(gvi_step(&st, 3/(real)steps));
             assert_int_equal(st.formulation, GVI_MOMENTA);
             if (s == 8) assert_close(st.q[2]*st.q[2]/squares(st.q, 1, 0), z*z/4, 64*EPS*(real)steps);
@@ -343,16 +304,13 @@ TEST(a_velocity_is_of_its_own_step)
     static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .point = quartic },
                                         { .kind = GVI_LAGRANGIAN, .point = rate_of_cube } };
     for (int with = 0; with < 3; ++with) {
-        static real memory[GVI_LENGTH(1, 8, 8)];
         const gvi_desc desc = { .n = 1, .effects = scene, .effect_count = 2, .formulation = GVI_MOMENTA,
                                 .mass = { .velocity = velocity_at_q }, .tolerance = with == 1 ? (real)0.0001 : 0,
                                 .iterations = with == 2 ? 4 : 0 };
         const real q = 1, v = (real)0.5;
         real end[2][2];
         for (int disturbed = 0; disturbed < 2; ++disturbed) {
-            gvi_stepper st;
-            assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-            assert_ok(gvi_start(&st, 0, &q, &v));
+            gvi_stepper st = new_motion(&desc, 0, &q, &v);
             for (int k = 0; k < 20; ++k) {
                 real at;
                 assert_ok(gvi_step(&st, k % 2 ? (real)0.125 : (real)0.0625));

@@ -11,7 +11,7 @@
    Second angle relative to the first, m = l = 1, g = 9.8:
      T = th1'^2 + th2'^2/2 + th1' th2' cos(q2)     th1 = q1, th2 = q1 + q2
        = v'M v/2,  M = (3 + 2 cos q2, 1 + cos q2; 1 + cos q2, 1)
-     V = -2 g cos(q1) - g cos(q1 + q2)                                        */
+     V = -2 g cos(q1) - g cos(q1 + q2) */
 #define GVI_REAL double
 #include "gvi_test.h"
 #include <time.h>
@@ -106,12 +106,11 @@ static void report(const gvi_stepper *st, const long double *dE, long double wor
 static gvi_stepper *start(const double *q, const double *p)
 {
     static const gvi_effect effects[] = { { .kind = GVI_POTENTIAL, .points = gravity } };
-    static double memory[GVI_LENGTH(2, 6, 6)];
     static gvi_stepper st;
     const gvi_desc desc = { .n = 2, .degree = 6, .effects = effects, .effect_count = 1,
                             .mass = { .kind = GVI_MASS_POSITION, .points = mass,
                                       .gradient = mass_gradient, .velocity = velocity } };
-    assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+    st = new_stepper(&desc);
     assert_int_equal(st.formulation, GVI_MOMENTA);
     assert_ok(gvi_start_momentum(&st, 0, q, p));
     return &st;
@@ -143,7 +142,7 @@ TEST(half_a_million_steps_keep_the_energy_to_round_off)
 
 /* Neighbours walk independently: their mean is no drift as long as it is within
    four of its standard errors.  After 2^16 steps their spread is 256 times that of a
-   step; that of ten is known to 1/sqrt(20), four times which are allowed.     */
+   step; that of ten is known to 1/sqrt(20), four times which are allowed. */
 TEST(the_energy_error_of_an_ensemble_is_a_random_walk_without_drift)
 {
     enum { RUNS = 10, LENGTH = 1 << 16 };

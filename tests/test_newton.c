@@ -1,7 +1,6 @@
 /* Newton's method: steps against those of the fixed points, of other derivatives, and of the Runge-Kutta
-   matrix A of Gauss's method, which is made here from its definition.                 */
+   matrix A of Gauss's method, which is made here from its definition. */
 #include "gvi_test.h"
-typedef gvi_real real;
 #include "problems.h"
 #include "gauss.h"
 
@@ -17,8 +16,6 @@ static wide uniform(void)
     seed = seed*1664525u + 1013904223u;
     return (wide)(seed >> 8)/(1u << 23) - 1;
 }
-
-/* ------------------------------------------------------------------- scenes */
 
 /* Springs of different stiffness; `cubic` of u^3 in all of them */
 typedef struct row { gvi_real cubic, damping, turning; int hessians; } row;
@@ -167,7 +164,7 @@ static void begin(gvi_stepper *st, const gvi_desc *desc, gvi_real *where, size_t
         q[i] = (gvi_real)(0.5*sin(0.7*i + 0.3));
         v[i] = (gvi_real)(0.5*cos(1.3*i));
     }
-    assert_ok(gvi_init(st, desc, where, size));
+    *st = new_stepper(desc);
     assert_ok(gvi_start(st, 0, q, v));
 }
 
@@ -189,7 +186,7 @@ static wide apart(const gvi_stepper *a, const gvi_stepper *b)
 static const int degrees[] = { 2, 3, 4, 5, 7, 8 };
 
 /* Linear scenes: derivatives are the same everywhere, so one factorisation serves all steps of one length; in
-   float rounding may ask for a second.                                                       */
+   float rounding may ask for a second. */
 TEST(linear_scenes_need_one_factorisation)
 {
     static const int kinds[] = { 0, DAMPED, TURNED, DAMPED | TURNED, DENSE | DAMPED };
@@ -209,7 +206,7 @@ TEST(linear_scenes_need_one_factorisation)
 }
 
 /* Hessians and differences lead to the same point, and it is that of the fixed point where that covers the
-   scene: M(q), damping, Lagrangian terms                                                     */
+   scene: M(q), damping, Lagrangian terms */
 TEST(newton_and_the_fixed_point_end_at_the_same_point)
 {
     static const int kinds[] = { 0, HESSIANS, DAMPED | HESSIANS, DAMPED, TURNED | HESSIANS, TURNED, MOVING_MASS,
@@ -277,7 +274,7 @@ TEST(a_refusal_at_the_start_is_reported_at_once)
 }
 
 /* A partial step: the state that steps would have.  The derivatives that the steps keep stay as they are:
-   what follows has the same bits as without the question                                     */
+   what follows has the same bits as without the question */
 TEST(partial_steps_are_steps)
 {
     gvi_stepper st, half;
@@ -303,20 +300,15 @@ TEST(partial_steps_are_steps)
     assert_memory_equal(end, half.q, sizeof end);
 }
 
-/* -------------------------------------------------------------- rounding */
-
 /* A point at a spring of length 1 and frequency 64, h omega = 6.4, as in everywhere/bits.c */
 enum { STIFFNESS = 4096, POINTS = 8 };
 
-static int pendulum(const gvi_points *x, void *user)
+GVI_EACH(pendulum, 2, f)
 {
-    for (int k = 0; k < x->count; ++k) {
-        const gvi_real X = x->q[k], Y = x->q[x->stride + k], r = (gvi_real)sqrtl((wide)(X*X + Y*Y));
-        const gvi_real s = STIFFNESS*(r - 1);
-        x->f[k] -= s*X/r;
-        x->f[x->stride + k] -= s*Y/r;
-    }
-    return 0;
+    const gvi_real X = x->q[0], Y = x->q[1], r = (gvi_real)sqrtl((wide)(X*X + Y*Y));
+    const gvi_real s = STIFFNESS*(r - 1);
+    x->f[0] -= s*X/r;
+    x->f[1] -= s*Y/r;
 }
 
 typedef struct gauss { wide A[POINTS][POINTS], c[POINTS], b[POINTS]; } gauss;
@@ -376,7 +368,7 @@ static void state_of(const gvi_stepper *st, wide *z)
 }
 
 /* The square of the error of p after a step: the same step from the same state in long double, which starts
-   from the forces that were found                                                        */
+   from the forces that were found */
 static wide error_of_step(const gauss *g, gvi_stepper *st, gvi_real h)
 {
     wide z[4], after[4], F[2][POINTS], sum = 0;
@@ -408,11 +400,9 @@ static wide error_in_kicks(gvi_formulation formulation)
     const gauss g = gauss_rule();
     wide error = 0, kicks = 0;
     for (int m = 0; m < 20; ++m) {
-        gvi_stepper st;
         const gvi_real q[] = { 1 + (gvi_real)uniform()/1024, 1/(gvi_real)64 };
         const gvi_real v[] = { 1/(gvi_real)4, (1 + (gvi_real)uniform()/1024)/3 };
-        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-        assert_ok(gvi_start(&st, 0, q, v));
+        gvi_stepper st = new_motion(&desc, 0, q, v);
         for (int k = 0; k < 100; ++k) {
             const gvi_real h = (gvi_real)(k % 50 == 49 ? 0.05 : 0.1);   // then AUTO tries its fixed point
             const wide squared = error_of_step(&g, &st, h);
@@ -430,7 +420,7 @@ static wide error_in_kicks(gvi_formulation formulation)
    1/16/3 with its terms: 0.094.  A force that is off at node j is a kick h b_j.  In p there are two of each:
    of the forces that y was solved with, and of those at the solution; in the first is what the iterations
    before left, a quarter of a quarter and so on: sqrt(1 + 1/(1 - 1/16)) = 1.44 in all, 0.44 kicks.  The
-   turn of the spring from node to end only makes it less.                                */
+   turn of the spring from node to end only makes it less. */
 TEST(a_stiff_spring_is_as_exact_as_its_force)
 {
     if ((wide)EPS < 1000*(wide)LDBL_EPSILON) skip();
@@ -447,7 +437,7 @@ static int attraction_at(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_r
 }
 
 /* Newton's method with a new matrix at each step contracts by about the step itself: what turns by h on
-   a circle is foretold to h or better, and rounding is no contraction        */
+   a circle is foretold to h or better, and rounding is no contraction */
 TEST(the_contraction_is_that_of_the_changes)
 {
     static const gvi_effect effect = { .kind = GVI_POTENTIAL, .point = attraction_at };
@@ -455,9 +445,7 @@ TEST(the_contraction_is_that_of_the_changes)
                                    .formulation = GVI_NEWTON };
     for (int k = 3; k < 8; ++k) {
         const gvi_real h = 1/(gvi_real)(1 << k);
-        gvi_stepper st;
-        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-        assert_ok(gvi_start(&st, 0, (const gvi_real[]){ 1, 0 }, (const gvi_real[]){ 0, 1 }));
+        gvi_stepper st = new_motion(&desc, 0, (const gvi_real[]){ 1, 0 }, (const gvi_real[]){ 0, 1 });
         for (int j = 0; j < 200; ++j) assert_ok(gvi_step(&st, h));
         assert_between(0, st.counters.worst_contraction, h);
     }
@@ -485,8 +473,6 @@ TEST(a_large_scene_needs_no_matrices)
     assert_between(30*one, gvi_size(&desc), 1e12L);
 }
 
-/* ------------------------------------------------- whose solution it is */
-
 static int swinging(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *f, gvi_real *dldv, void *user)
 {
     f[0] -= (gvi_real)sin((double)q[0]);
@@ -503,9 +489,7 @@ TEST(no_step_is_another_motions)
         for (int k = 0; k < (degree == 2 ? 31 : 40); ++k) {
             const gvi_desc desc = { .n = 1, .degree = degree, .effects = &effect, .effect_count = 1 };
             const gvi_real h = (gvi_real)(1 + 0.25*k);
-            gvi_stepper st;
-            assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-            assert_ok(gvi_start(&st, 0, &q, &v));
+            gvi_stepper st = new_motion(&desc, 0, &q, &v);
             for (int j = 0; j < 20 && gvi_step(&st, h) == GVI_OK; ++j) {
                 const double p = (double)st.p[0];
                 assert_between(-1.0001, p*p/2 - cos((double)st.q[0]), 1);
@@ -531,9 +515,7 @@ TEST(a_wrong_hessian_costs_iterations_or_the_step)
         for (int degree = 2; degree <= 8; degree *= 2) {
             const gvi_desc desc = { .n = 1, .degree = degree, .effects = &effect, .effect_count = 1,
                                     .formulation = GVI_NEWTON };
-            gvi_stepper st;
-            assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-            assert_ok(gvi_start(&st, 0, &q, &v));
+            gvi_stepper st = new_motion(&desc, 0, &q, &v);
             for (int k = 0; k < 10 && gvi_step(&st, h) == GVI_OK; ++k)
                 assert_close(st.q[0], cos((double)st.t), degree == 2 ? 1e-5 : 1e-7 + 100*EPS);
             if (e <= 0) assert_ok(st.status);
@@ -565,7 +547,7 @@ static int beads(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *f, 
 }
 
 /* From rest at 0, derivatives by differences; units of length and time of 1e-30 to 1e30, in float of 1e-6 to 1e6.
-   Energies are of 1: masses go with (time/length)^2, to 1e+-120  */
+   Energies are of 1: masses go with (time/length)^2, to 1e+-120 */
 TEST(differences_have_no_units)
 {
     const int most = EPS > (gvi_real)1e-10 ? 20 : 100;
@@ -583,9 +565,7 @@ TEST(differences_have_no_units)
                                     .mass = { .kind = term ? GVI_MASS_NONE : GVI_MASS_DIAGONAL, .matrix = u.mass },
                                     .formulation = GVI_NEWTON };
             const gvi_real q[2] = { 0, 0 }, v[2] = { 0, 0 };
-            gvi_stepper st;
-            assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-            assert_ok(gvi_start(&st, 0, q, v));
+            gvi_stepper st = new_motion(&desc, 0, q, v);
             go(&st, u.time/4, 1);
             const unsigned long one = (unsigned long)st.counters.newton_iterations;
             go(&st, u.time/4, 19);
@@ -597,24 +577,6 @@ TEST(differences_have_no_units)
             assert_between((1 - slack)*counts[0] - 10*slack, one, (1 + slack)*counts[0] + 10*slack);
             assert_between((1 - slack)*counts[1], all, (1 + slack)*counts[1]);
         }
-    }
-}
-
-/* There and back, a period and a half at a time */
-TEST(a_step_back_returns)
-{
-    static const gvi_effect effect = { .kind = GVI_POTENTIAL, .point = harmonic };
-    static const gvi_desc desc = { .n = 1, .degree = 2, .effects = &effect, .effect_count = 1 };
-    for (int k = 0; k < 60; ++k) {
-        const gvi_real q = 1, v = 0, h = (gvi_real)(1 + 0.17L*k);
-        gvi_stepper st;
-        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-        assert_ok(gvi_start(&st, 0, &q, &v));
-        go(&st, h, 3);
-        const gvi_real was = st.q[0];
-        go(&st, h, 1);
-        go(&st, -h, 1);
-        assert_close(st.q[0], was, 100*EPS);
     }
 }
 
@@ -643,7 +605,7 @@ static int noisy_top(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real 
 
 /* Newton's method may come to rest in noise and then run away from there, as its matrix, of differences of
    differences, is bad.  Once it had been at rest such a step was ok, wherever it ended: theta = 132, and
-   more.  The top's is between the poles, 0 and pi, where p_phi != p_psi does not let it go.  */
+   more.  The top's is between the poles, 0 and pi, where p_phi != p_psi does not let it go. */
 TEST(what_grows_is_not_at_rest)
 {
     static const gvi_effect effect = { .kind = GVI_LAGRANGIAN, .point = noisy_top };
@@ -652,9 +614,7 @@ TEST(what_grows_is_not_at_rest)
     if (KIND != 2) skip();
     for (int m = 0; m < 400; ++m) {
         const gvi_real q[] = { (gvi_real)(0.8 + 0.5*(double)uniform()), 0, 0 }, v[] = { 0, (gvi_real)(1 + (double)uniform()), 200 };
-        gvi_stepper st;
-        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-        assert_ok(gvi_start(&st, 0, q, v));
+        gvi_stepper st = new_motion(&desc, 0, q, v);
         for (int k = 0; k < 10 && gvi_step(&st, (gvi_real)0.01) == GVI_OK; ++k) assert_between(-10, st.q[0], 10);
     }
 }

@@ -1,16 +1,15 @@
 /* One step of every formulation against a 50-digit solution of the equations in
    control points (tests/gen/oracle.py): q1, p1, the curve and the action, for
-   seven problems, degrees 1 to 8, Gauss and Lobatto rules.                     */
+   seven problems, degrees 1 to 8, Gauss and Lobatto rules. */
 #include "gvi_test.h"
 #include "data/oracle.h"
-#include <tgmath.h>
 
 enum { N_MAX = 3, TERMS = 3, FORMULATIONS = 6 };
 
 /* The largest error allowed, in eps of the magnitudes of q, p and the action. */
 #define LIMIT 4
 
-/* ----------------------------------------------------------- the problems
+/* the problems
    Constants are quotients of integers, so that they are exact in any gvi_real. */
 
 typedef gvi_real value_fn(gvi_real t, const gvi_real *q, const gvi_real *v);
@@ -172,15 +171,11 @@ HESSIAN(relativistic_hessian)
     return 0;
 }
 
-static int relativistic_velocity(const gvi_points *x, void *user)
+GVI_EACH(relativistic_velocity, 2, p, velocity)
 {
-    int d = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        gvi_real a = x->p[k], b = x->p[d + k], w = sqrt(9/(gvi_real)16 + 16*(a*a + b*b)/25);
-        x->velocity[k] = a/w;
-        x->velocity[d + k] = b/w;
-    }
-    return 0;
+    gvi_real a = x->p[0], b = x->p[1], w = sqrt(9/(gvi_real)16 + 16*(a*a + b*b)/25);
+    x->velocity[0] = a/w;
+    x->velocity[1] = b/w;
 }
 
 POINT(bowl_point)
@@ -341,8 +336,6 @@ static int all_values(const gvi_points *x, void *user)
     return 0;
 }
 
-/* ------------------------------------------------------------- one variant */
-
 enum { ONE_POINT = 1, WITH_HESSIAN = 2, WITH_VELOCITY = 4 };
 
 struct work { unsigned long long newton, points; int failed; };
@@ -442,7 +435,7 @@ static long double run_case(const struct oracle_case *o, int options, gvi_formul
         assert_status(gvi_init(&st, &desc, memory, sizeof memory), GVI_E_FORMULATION);
         return -1;
     }
-    assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+    st = new_stepper(&desc);
     e = step_error(&st, o);
     work->newton += st.counters.newton_iterations;
     work->points += st.counters.effect[0];
@@ -453,7 +446,7 @@ static long double run_case(const struct oracle_case *o, int options, gvi_formul
 }
 
 /* All cases of a problem in all formulations: prints the worst errors and the
-   first that is too large, returns the work of Newton and all failures.      */
+   first that is too large, returns the work of Newton and all failures. */
 static struct work run(int problem, int options, const char *with)
 {
     struct work work[FORMULATIONS] = { { 0, 0, 0 } };
@@ -470,8 +463,6 @@ static struct work run(int problem, int options, const char *with)
     print_message("\n");
     return work[GVI_NEWTON];
 }
-
-/* ------------------------------------------------------------------- tests */
 
 TEST(test_plain)
 {
@@ -491,7 +482,7 @@ TEST(test_one_point)
 }
 
 /* Second derivatives change the work of Newton's method and nothing else: no
-   more iterations, fewer evaluations.                                        */
+   more iterations, fewer evaluations. */
 TEST(test_hessian)
 {
     int failed = 0;
@@ -512,20 +503,18 @@ TEST(test_velocity)
 }
 
 /* Far out the term of fourth order in v outweighs M(q), and the fixed point of
-   the momenta diverges, to infinity: whatever it says there, never "ok".      */
+   the momenta diverges, to infinity: whatever it says there, never "ok". */
 TEST(test_divergence)
 {
-    static gvi_real memory[GVI_LENGTH(2, 8, 11)];
     for (int k = 0; k < COUNT(oracle_cases); ++k)
         for (int scale = 4; scale <= 4096; scale *= 4) {
             const struct oracle_case *o = &oracle_cases[k];
             const gvi_real q[] = { 1/(gvi_real)2, -1/(gvi_real)4 }, p[] = { (gvi_real)scale, -(gvi_real)scale };
             gvi_effect effects[TERMS];
             gvi_desc desc;
-            gvi_stepper st;
             if (o->problem != 6 || o->r != o->s) continue;
             describe(&desc, effects, 0, o, GVI_MOMENTA);
-            assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+            gvi_stepper st = new_stepper(&desc);
             assert_ok(gvi_start_momentum(&st, 0, q, p));
             assert_true(gvi_step(&st, 1/(gvi_real)8) != GVI_OK);
             assert_true(st.q[0] == q[0] && st.p[1] == p[1] && st.t == 0);

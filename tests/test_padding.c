@@ -1,9 +1,7 @@
 /* What lies behind the points of a row, from count to stride: t and q of the step's start, which a
    callback may go on to.  Every formulation, mass, clock and query is run twice, with callbacks that
-   end at count and with ones that go on and leave NaN there: not one bit may differ.          */
+   end at count and with ones that go on and leave NaN there: not one bit may differ. */
 #include "gvi_test.h"
-
-typedef gvi_real real;
 
 enum { N = 3, STEPS = 12, MOST = 24 };
 

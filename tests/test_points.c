@@ -1,6 +1,6 @@
 /* GVI_POINTS: the callback that it makes of one point gives the bits of a loop over points written
    by hand, for every kind of callback, every number of points and the padding behind them; bodies that
-   no compiler makes vectors of as well.  Expected values are those of the loops in points.h.   */
+   no compiler makes vectors of as well.  Expected values are those of the loops in points.h. */
 #include "gvi_test.h"
 #include "points.h"
 

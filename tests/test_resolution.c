@@ -1,12 +1,8 @@
 /* The dial: desc.resolution, gvi_advance.  Expected: closed forms of the oscillator, a method that shares nothing
    with gvi.h, and what must not change at all.  How near the measure is to the error: tests/hard/dial.c, flyby.c. */
 #include "gvi_test.h"
-
-typedef gvi_real real;
 #include "problems.h"
 #include "hard/extrapolate.h"
-
-#define R(x) ((real)x##L)
 
 static real memory[8000], spare[8000];
 static const real at[2] = { R(0.4), 0 }, speed[2] = { 0, 2 };
@@ -114,8 +110,7 @@ TEST(h_stays_within_a_band)
 {
     /* Kepler, e = 0.01: the length that the limit allows varies by (1.01/0.99)^(3/2) */
     const gvi_desc desc = of(8, KIND == 1 ? R(1e-4) : R(1e-10));
-    gvi_stepper st;
-    assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+    gvi_stepper st = new_stepper(&desc);
     const real q[2] = { R(0.99), 0 }, v[2] = { 0, sqrt(R(1.01)/R(0.99)) };
     assert_ok(gvi_start(&st, 0, q, v));
     for (int k = 0; k < 12; ++k) assert_ok(gvi_advance(&st, 300));
@@ -146,8 +141,7 @@ TEST(a_limit_that_no_step_meets_ends_in_a_status)
     unsigned seed = 1;
     const gvi_effect effects[] = { { .kind = GVI_POTENTIAL, .points = noise, .user = &seed } };
     const gvi_desc desc = { .n = 1, .degree = 8, .effects = effects, .effect_count = 1, .resolution = R(1e-6) };
-    gvi_stepper st;
-    assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+    gvi_stepper st = new_stepper(&desc);
     assert_ok(gvi_start(&st, 0, (const real[]){ 0 }, (const real[]){ 0 }));   // at 0 no error is below an ulp of q
     SAME_STATE(&st) assert_true(gvi_advance(&st, 1) < 0);
     assert_true(st.counters.failures <= 64);
@@ -178,9 +172,7 @@ TEST(what_moves_by_rounding_alone_does_not_decide)
         const gvi_desc desc = { .n = 2, .degree = 4 + 4*(k/2), .effects = effects + k % 2, .effect_count = 1,
                                 .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = mass },
                                 .resolution = KIND == 1 ? R(1e-3) : R(1e-9) };
-        gvi_stepper st;
-        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-        assert_ok(gvi_start(&st, 0, (const real[]){ R(0.4), 0 }, (const real[]){ 0, 0 }));
+        gvi_stepper st = new_motion(&desc, 0, (const real[]){ R(0.4), 0 }, (const real[]){ 0, 0 });
         int steps = 0;
         for (; st.t < 1 && steps < 1000; ++steps) assert_ok(gvi_advance(&st, 1));
         assert_true(st.t >= 1);
@@ -230,8 +222,6 @@ TEST(with_a_clock_the_step_may_pass_the_end)
     assert_ok(gvi_state_at(&st, turn, q, NULL, NULL));
     assert_close(q[0], at[0], R(1e-2));
 }
-
-/* ---- 1,000 random scenes ---- */
 
 typedef struct { int n; real m[3], k[3], cubic[3], pull, soft, drag, drive; } random_scene;
 
@@ -283,8 +273,7 @@ TEST(no_step_of_random_scenes_is_worse_than_100_times_the_limit)
                                          .user = &a } };
         const gvi_desc desc = { .n = a.n, .degree = 3 + scene % 9, .effects = effects, .effect_count = 1,
                                 .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = a.m }, .resolution = limit };
-        gvi_stepper st;
-        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+        gvi_stepper st = new_stepper(&desc);
         real q[3] = { 2*x[14] - 1, x[15], x[16] }, v[3] = { 2*x[17] - 1, x[18], x[19] }, y[6], start[6];
         assert_ok(gvi_start(&st, x[0], q, v));
         const motion exactly = { 2*a.n, random_rates, &a };

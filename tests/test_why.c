@@ -2,9 +2,8 @@
    a step starts; two slips that are found at the first start; GVI_EACH.  In all types. */
 #include "gvi_test.h"
 
-typedef gvi_real real;
 static real memory[6000];
-static int calls;                                      /* of the callbacks below                */
+static int calls;                                      /* of the callbacks below */
 
 /* sound: a spring, and a sheet that drags along x; each counted */
 AT_POINTS(spring)
@@ -15,19 +14,14 @@ AT_POINTS(spring)
         for (int i = 0; i < x->n; ++i) x->value[k] += x->q[i*x->stride + k]*x->q[i*x->stride + k]/2;
     return 0;
 }
-AT_POINTS(drag) { FOR_EACH(x, a) x->f[a] -= x->v[a]/8; return 0; }
-AT_POINTS(magnet)
-{
-    FOR_EACH(x, a) x->dldv[a] += x->q[a]/4, x->f[a] += x->v[a]/4;
-    return 0;
-}
+AT_EACH(drag) { x->f[a] -= x->v[a]/8; }
+AT_EACH(magnet) { x->dldv[a] += x->q[a]/4, x->f[a] += x->v[a]/4; }
 AT_POINTS(nothing) { return 0; }
 AT_POINTS(refuses) { return 1; }
-AT_POINTS(turns_to_nan) { FOR_EACH(x, a) x->f[a] += x->t[0] > 0 ? (real)NAN : 0; return 0; }
-AT_POINTS(inverse_cube)                                /* -1/q^3, infinite at 0                 */
+AT_EACH(turns_to_nan) { x->f[a] += x->t[0] > 0 ? (real)NAN : 0; }
+AT_EACH(inverse_cube)                                /* -1/q^3, infinite at 0 */
 {
-    FOR_EACH(x, a) if (x->f) x->f[a] -= 1/(x->q[a]*x->q[a]*x->q[a]);
-    return 0;
+    if (x->f) x->f[a] -= 1/(x->q[a]*x->q[a]*x->q[a]);
 }
 AT_POINTS(clock_1) { for (int k = 0; k < x->count; ++k) x->value[k] += *(real *)user; return 0; }
 AT_POINTS(timed)
@@ -36,7 +30,7 @@ AT_POINTS(timed)
     for (int k = 0; x->value && k < x->count; ++k) x->value[k] -= x->q[k]*x->t[k];
     return 0;
 }
-AT_POINTS(wall)                                        /* the row twice, or none, as user says  */
+AT_POINTS(wall)                                        /* the row twice, or none, as user says */
 {
     const int rows = *(int *)user;
     for (int k = 0; k < x->count; ++k)
@@ -51,13 +45,9 @@ AT_POINTS(mass_nan) { for (int k = 0; k < x->count; ++k) x->mass[k] = (real)NAN;
 /* slips */
 AT_POINTS(first_alone) { x->f[0] -= 1 + x->q[0]; return 0; }
 AT_POINTS(first_alone_of_v) { x->f[0] -= x->v[0]; return 0; }
-AT_POINTS(sets) { FOR_EACH(x, a) x->f[a] = -x->q[a]; return 0; }
-AT_POINTS(sets_of_v) { FOR_EACH(x, a) x->f[a] = -x->v[a]; return 0; }
-AT_POINTS(sets_dldv)
-{
-    FOR_EACH(x, a) x->dldv[a] = x->q[a]/4, x->f[a] += x->v[a]/4;
-    return 0;
-}
+AT_EACH(sets) { x->f[a] = -x->q[a]; }
+AT_EACH(sets_of_v) { x->f[a] = -x->v[a]; }
+AT_EACH(sets_dldv) { x->dldv[a] = x->q[a]/4, x->f[a] += x->v[a]/4; }
 
 static void says(const gvi_stepper *st, gvi_status status, const char *words)
 {
@@ -94,10 +84,10 @@ TEST(a_stepper_that_is_not_ready_says_what_comes_first)
         assert_int_equal(st.fault.coordinate, GVI_FAULT_NONE);
         assert_int_equal(st.fault.point, GVI_FAULT_NONE);
     }
-    assert_ok(gvi_init(&st, &d, memory, sizeof memory));
+    st = new_stepper(&d);
     assert_status(gvi_step(&st, 1), GVI_E_STATE);
     says(&st, GVI_E_STATE, "not started");
-    assert_ok(gvi_init(&st, &d, memory, sizeof memory));
+    st = new_stepper(&d);
     assert_ok(gvi_start(&st, 0, x, x));
     assert_status(gvi_curve(&st, 0, x, x), GVI_E_STATE);
     says(&st, GVI_E_STATE, "no step yet");
@@ -156,7 +146,7 @@ TEST(descriptions_that_are_refused)
 /* Calls that fail, after a good start; 0 is `before` the start already */
 TEST(calls_that_fail)
 {
-    static int two = 2, one_row = 1;
+    static int one_row = 1;
     static real one = 1, minus = -1;
     static const real ends[2] = { 0, 1 }, half[2] = { 0.5L, 0.5L };
     static const gvi_effect e[] = { { .points = spring }, { .points = refuses } },
@@ -170,7 +160,7 @@ TEST(calls_that_fail)
     real E;
     gvi_stepper st;
 #define SET_UP(list, count, coordinates, s, ...) do { const gvi_desc d_ = { .n = coordinates, .degree = s, \
-        .effects = list, .effect_count = count, __VA_ARGS__ }; assert_ok(gvi_init(&st, &d_, memory, sizeof memory)); } while (0)
+        .effects = list, .effect_count = count, __VA_ARGS__ }; st = new_stepper(&d_); } while (0)
     SET_UP(e, 2, 1, 3, .tolerance = 0);
     assert_ok(gvi_start(&st, 0, q, v));
     gvi_step(&st, 1);
@@ -248,10 +238,8 @@ TEST(a_force_that_is_infinite_where_the_step_starts)
             const real q[2] = { 1, 0 }, near[2] = { 1, (real)1e-3 }, v[2] = { 0, (real)moving };
             gvi_desc d = { .n = 2, .degree = 3, .effects = e, .effect_count = f == GVI_VELOCITIES ? 3 : 2,
                            .formulation = (gvi_formulation)f };
-            gvi_stepper st;
             if (f == GVI_EXPLICIT) d.degree = 1, d.rule.kind = GVI_LOBATTO;
-            assert_ok(gvi_init(&st, &d, memory, sizeof memory));
-            assert_ok(gvi_start(&st, 0, q, v));
+            gvi_stepper st = new_motion(&d, 0, q, v);
             SAME_STATE(&st) gvi_step(&st, (real)0.1);
             says(&st, GVI_E_NON_FINITE, "where the step starts");
             assert_int_equal(st.fault.effect, 1);
@@ -278,9 +266,8 @@ TEST(slips_are_found_at_the_first_start)
                 const gvi_effect sound = { .points = spring };
                 const gvi_effect list[] = { row ? sound : slips[k], row ? slips[k] : sound };
                 gvi_desc d = { .n = 2, .degree = degree, .effects = list, .effect_count = 2 };
-                gvi_stepper st;
                 if (degree == 1 && k < 2) continue;    // one point is all that there is
-                assert_ok(gvi_init(&st, &d, memory, sizeof memory));
+                gvi_stepper st = new_stepper(&d);
                 gvi_start(&st, 0, q, v);
                 says(&st, GVI_E_ARGUMENT, k < 2 ? "its first point alone" : "add with +=");
                 assert_int_equal(st.fault.effect, row);
@@ -297,8 +284,7 @@ TEST(sound_effects_pass_and_are_looked_at_once)
     for (int count = 0; count <= 4; ++count)
         for (int degree = 1; degree <= 9; ++degree) {
             const gvi_desc d = { .n = 2, .degree = degree, .effects = count ? e : NULL, .effect_count = count };
-            gvi_stepper st;
-            assert_ok(gvi_init(&st, &d, memory, sizeof memory));
+            gvi_stepper st = new_stepper(&d);
             calls = 0;
             assert_ok(gvi_start(&st, 0, rest, v));
             assert_int_equal(calls, (count ? 2 : 0) + (count == 4));              // the last for dL/dv
@@ -329,20 +315,18 @@ GVI_EACH(scaled, 1, f) { x->f[0] -= *(const real *)user*x->q[0]; }
 TEST(each_point_without_a_return)
 {
     static const real q[2] = { 1, 0.25L }, v[2] = { 0, 0.5L }, four = 4;
-    static real other[6000];
     const gvi_effect a = { .kind = GVI_FORCE, .points = by_points }, b = { .kind = GVI_FORCE, .points = by_each };
     const gvi_desc one = { .n = 2, .degree = 5, .effects = &a, .effect_count = 1 },
                    two = { .n = 2, .degree = 5, .effects = &b, .effect_count = 1 };
     gvi_stepper st, st2;
-    assert_ok(gvi_init(&st, &one, memory, sizeof memory));
-    assert_ok(gvi_init(&st2, &two, other, sizeof other));
+    st = new_stepper(&one);
+    st2 = new_stepper(&two);
     assert_ok(gvi_start(&st, 0, q, v));
     assert_ok(gvi_start(&st2, 0, q, v));
     move_alike(&st, &st2, 20, (real)0.125L);
     const gvi_effect c = { .points = scaled, .user = (void *)&four };
     const gvi_desc d = scene_of(&c, 1);
-    assert_ok(gvi_init(&st, &d, memory, sizeof memory));
-    assert_ok(gvi_start(&st, 0, q, v));
+    st = new_motion(&d, 0, q, v);
     for (int k = 0; k < 8; ++k) assert_ok(gvi_step(&st, (real)3.14159265358979323846264L/16));
     assert_close(st.q[0], -1, 1e-5L);                       // half a period of omega = 2, error 3e-6 at degree 3
 }

@@ -1,6 +1,6 @@
 /* wide.h - what a test expects in twice the digits of gvi_real, or as many as there are; after gvi_test.h
 
-   WIDEST defined before it: the most digits there are for double too, at the price of time.      */
+   WIDEST defined before it: the most digits there are for double too, at the price of time. */
 #ifndef TESTS_WIDE_H
 #define TESTS_WIDE_H
 
