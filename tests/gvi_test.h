@@ -110,6 +110,19 @@ check_between(long double lo, long double x, long double hi, const char *what, c
     assert_int_equal(got_, (wanted)); } while (0)
 #define assert_ok(call) assert_status(call, GVI_OK)
 
+/* Reproducible numbers, the same on every machine (Knuth's MMIX): 32 bits, in (-1, 1), in (0, 1) */
+static __attribute__((unused)) uint64_t dice;
+static __attribute__((unused)) unsigned random_bits(void)
+{
+    dice = dice*6364136223846793005u + 1442695040888963407u;
+    return (unsigned)(dice >> 32);
+}
+static __attribute__((unused)) gvi_real random_unit(void)
+{
+    return (gvi_real)(((long double)random_bits() - 2147483647.5L)/2147483648.0L);
+}
+static __attribute__((unused)) gvi_real uniform(void) { return (random_unit() + 1)/2; }
+
 /* A stepper of this description, not started, in the next part of a ring: memory for the last few of them */
 static __attribute__((unused)) gvi_stepper new_stepper(const gvi_desc *desc)
 {

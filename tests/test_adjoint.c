@@ -91,34 +91,6 @@ TEST(gradient_by_the_drag)
     }
 }
 
-/* The same by the dial: back over the steps that were taken.  Degree 8 with h = 0.2 is the motion's own to 1e-14. */
-TEST(gradient_over_the_steps_of_the_dial)
-{
-    const real dial = KIND == 1 ? R(1e-5) : R(1e-12);
-    adjoint A = { .plain = { .n = N, .effects = with_drag, .effect_count = 2, .resolution = dial },
-                  .product = { attraction_product, drag_transposed }, .by_parameters = by_drag,
-                  .room = room, .room_length = ADJOINT_ROOM(N, 8) };
-    gvi_stepper st, ad;
-    real g = 0, taken[1000];
-    int steps = 0;
-    drag_c = R(0.05);
-    assert_ok(adjoint_scene(&A));
-    A.scene.desc.resolution = 0;                      /* back: the steps are given */
-    st = new_stepper(&A.plain);
-    ad = new_stepper(&A.scene.desc);
-    assert_ok(gvi_start_momentum(&st, 0, q0, p0));
-    for (; st.t < 2; ++steps) {
-        assert_true(steps < COUNT(taken));
-        assert_ok(gvi_advance(&st, 2));
-        taken[steps] = st.h;
-    }
-    assert_true(steps > 2);
-    assert_ok(adjoint_start(&A, &ad, st.t, st.q, st.p, end_q, end_p));
-    for (int k = steps; k-- > 0; ) assert_ok(adjoint_step(&A, &ad, taken[k], &g));
-    assert_close(g, gradient[3], 100*dial);
-    for (int i = 0; i < N; ++i) assert_close(ad.q[i], q0[i], 8*(real)steps*EPS);
-}
-
 static void velocity_of(const gvi_points *x, const gvi_points *d, const int transposed)
 {
     const int s = x->stride;

@@ -884,21 +884,6 @@ TEST(refusals_nan_and_inf_are_traced_to_effect_coordinate_and_point)
             expect_recovery(&scenes[k], (harm_kind)what, harm_status[what]);
 }
 
-TEST(a_mass_callback_that_fails_is_named)
-{
-    for (int k = 0; k < COUNT(scenes); ++k)
-        for (int what = REFUSE; what <= GIVE_INF; ++what) {
-            if (scenes[k].mass != GVI_MASS_POSITION) continue;
-            bench b = start(&scenes[k]);
-            assert_ok(gvi_step(&b.st, h_good));
-            mass_harm = (harm_kind)what;
-            expect_failure(&b, h_good, harm_status[what], harm_status[what]);
-            assert_int_equal(b.st.fault.effect, GVI_FAULT_MASS);
-            assert_ok(gvi_step(&b.st, h_good));
-            tear_down(&b);
-        }
-}
-
 /* Further than a fixed point can follow; its divergence, which overflows, must not
    pass for convergence.  (An effect may be the first to overflow, v^2 say.)  Not
    EXPLICIT, which does not iterate. */

@@ -116,23 +116,17 @@ TEST(a_half_circle_is_conjugate)
 /* Two coupled pendulums, in units that differ by 2^30, with a force: momenta scale, whatever is
    returned, as 1/unit.  A condition that knew the units would call it a conjugate point. */
 
-static int pendulums(const gvi_points *x, void *user)
+GVI_EACH(pendulums, 2, f)
 {
-    const real *unit = user, *a = x->q, *b = x->q + x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        const real A = a[k]/unit[0], B = b[k]/unit[1];
-        x->f[k] -= (sin(A) + (A - B)/2)/unit[0];
-        x->f[x->stride + k] -= (sin(B) + (B - A)/2)/unit[1];
-    }
-    return 0;
+    const real *unit = user, A = x->q[0]/unit[0], B = x->q[1]/unit[1];
+    x->f[0] -= (sin(A) + (A - B)/2)/unit[0];
+    x->f[1] -= (sin(B) + (B - A)/2)/unit[1];
 }
 
-static int drag(const gvi_points *x, void *user)
+AT_EACH(drag)
 {
-    const real *unit = user;
-    for (int i = 0; i < 2; ++i)
-        for (int k = 0; k < x->count; ++k) x->f[i*x->stride + k] -= x->v[i*x->stride + k]/(unit[i]*unit[i])/8;
-    return 0;
+    const real unit = ((const real *)user)[a/x->stride];
+    x->f[a] -= x->v[a]/(unit*unit)/8;
 }
 
 TEST(units_2_to_the_30_apart_change_nothing)

@@ -48,8 +48,6 @@ TEST(right_scenes_pass)
         assert_int_equal(count, 0);
         assert_int_equal(report.unchecked, 0);
         assert_true(report.checked > 20);
-        print_message("  %-20s %6ld entries, errors from %.1e on would be seen\n", scenes[i]->name,
-                      report.checked, report.worst);
         assert_between(1e-10, report.worst, made.desc.n > 40 ? 1e-4 : 1e-8);    // a net's soft direction
         checked += report.checked;
     }
@@ -286,7 +284,6 @@ TEST(wrong_entries_of_f_are_named)
                     ++planted_count;
                 }
         }
-    print_message("  %d planted, %d found\n", planted_count, planted_count);
     assert_true(planted_count > 150);
 }
 
@@ -319,7 +316,6 @@ TEST(wrong_jacobians_are_named)
                 assert_int_equal(report.count, 1);
                 ++planted_count;
             }
-    print_message("  %d planted, %d found\n", planted_count, planted_count);
     assert_int_equal(planted_count, 4*22 + 7*9 - 22);          // three bars hold one joint, four hold two
 }
 
@@ -365,7 +361,6 @@ TEST(wrong_entries_of_hessians_are_named)
                     ++planted_count;
                 }
         }
-    print_message("  %d planted, %d found\n", planted_count, planted_count);
     assert_true(planted_count >= 8);
 }
 
@@ -456,7 +451,6 @@ TEST(manners_are_checked)
                     ++planted_count;
                 }
         }
-    print_message("  %d planted, %d found\n", planted_count, planted_count);
     assert_true(planted_count > 100);
 }
 

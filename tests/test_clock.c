@@ -14,16 +14,13 @@ typedef enum scene_name { KEPLER, PENDULUM, MAGNETIC, FORCED, SCENES } scene_nam
 static const char *const names[] = { "Kepler", "double pendulum", "magnetic particle", "drag and driving" };
 
 /* g = |q|^a at the centre's distance, a from `user` */
-AT_POINTS(distance_clock)
+GVI_EACH(distance_clock, 2, f, value)
 {
-    const real a = *(const real *)user, *X = x->q, *Y = X + x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        const real d2 = X[k]*X[k] + Y[k]*Y[k], d = sqrt(d2), g = a > 1 ? d*sqrt(d) : d, w = a*g/d2;
-        x->value[k] += g;
-        x->f[k] += w*X[k];
-        x->f[x->stride + k] += w*Y[k];
-    }
-    return 0;
+    const real a = *(const real *)user, d2 = x->q[0]*x->q[0] + x->q[1]*x->q[1], d = sqrt(d2);
+    const real g = a > 1 ? d*sqrt(d) : d, w = a*g/d2;
+    x->value[0] += g;
+    x->f[0] += w*x->q[0];
+    x->f[1] += w*x->q[1];
 }
 
 /* g = exp(sin(q1 + 2 q2)/2) */
@@ -204,9 +201,6 @@ TEST(the_order_is_twice_the_degree)
         const errors e = errors_of((scene_name)a, s, 2*N), f = errors_of((scene_name)a, s, 4*N);
         const real by_state = log2(e.state/f.state), by_time_too = log2(e.time/f.time);
         const real inside = log2(e.inside/f.inside);
-        print_message("    %-18s degree %d: order %.2f, of t %.2f, at a wanted time %.2f; error %.1e\n",
-                      names[a], s,
-                      (double)by_state, (double)by_time_too, (double)inside, (double)f.state);
         assert_true(f.state > 50*EPS);
         assert_between(2*s - 0.3, by_state, 2*s + 0.4);
         assert_between(2*s - 0.3, by_time_too, 2*s + 0.9);
@@ -275,8 +269,6 @@ TEST(the_energy_keeps_to_its_level)
             assert_ok(gvi_energy(&st, &E));
             worst[k/10000] = fmax(worst[k/10000], fabs(E - E0));
         }
-        print_message("    %-18s degree %d: energy within %.1e, then %.1e\n", names[a], s,
-                      (double)worst[0], (double)worst[1]);
         if (s == 2) assert_between(0.7, worst[1]/worst[0], 1.4);
         else assert_between(0, worst[1], 4*sqrt((real)20000)*EPS);
     }
@@ -411,11 +403,9 @@ AT_POINTS(attraction_alone)
     return attraction(&y, user);
 }
 
-AT_POINTS(value_without_number)
+GVI_EACH(value_without_number, 2, value)
 {
-    for (int k = 0; k < x->count; ++k)
-        x->value[k] += x->q[k] < (real)0.6 ? (real)NAN : -1/hypot(x->q[k], x->q[x->stride + k]);
-    return 0;
+    x->value[0] += x->q[0] < (real)0.6 ? (real)NAN : -1/hypot(x->q[0], x->q[1]);
 }
 
 TEST(a_value_that_is_not_a_number_is_named)
@@ -468,78 +458,10 @@ TEST(the_state_at_a_time_that_stands_still)
     }
 }
 
-AT_POINTS(attraction_value)
-{
-    gvi_points y = *x;
-    y.f = NULL;
-    return attraction(&y, user);
-}
-
-TEST(value_and_force_from_one_function_or_two_are_the_same_bits)
-{
-    const gvi_desc one = describe(KEPLER, 8);
-    gvi_desc two = one;
-    gvi_effect *const effects = own_effects(&two);
-    gvi_stepper x, y;
-    effects[0].points = attraction_alone;
-    effects[0].value = attraction_value;
-    begin_both(&x, &one, &y, &two);
-    move_alike(&x, &y, 500, (real)0.125);
-}
-
-/* A one-point effect, handed over by `user`, at all points of a call */
-AT_POINTS(all_points)
-{
-    gvi_point_fn *const point = *(gvi_point_fn *const *)user;
-    const int far = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        real f[2] = { 0, 0 }, dldv[2] = { 0, 0 };
-        const real q[2] = { x->q[k], x->q[far + k] };
-        const real v[2] = { x->v ? x->v[k] : 0, x->v ? x->v[far + k] : 0 };
-        if (point(x->t[k], q, x->v ? v : NULL, f, x->dldv ? dldv : NULL, NULL)) return 1;
-        for (int i = 0; i < 2; ++i) {
-            x->f[i*far + k] += f[i];
-            if (x->dldv) x->dldv[i*far + k] += dldv[i];
-        }
-    }
-    return 0;
-}
-
-AT_POINTS(steady_value) { return weights_value(x, NULL); }     /* with a user it changes with t */
-
-/* The level at the start asks the effects; the velocity that was given must survive it:
-   the first iteration begins there */
-TEST(one_point_a_call_and_all_at_once_start_alike)
-{
-    static gvi_point_fn *fn[2] = { weights, field };
-    const gvi_desc one = describe(MAGNETIC, 6);
-    gvi_desc all = one;
-    gvi_effect *const effects = own_effects(&all);
-    gvi_stepper x, y;
-    for (int e = 0; e < 3; ++e) {
-        if (effects[e].kind == GVI_CLOCK) continue;
-        effects[e].user = &fn[effects[e].kind == GVI_LAGRANGIAN];
-        effects[e].points = all_points;
-        effects[e].point = NULL;
-        if (effects[e].kind == GVI_POTENTIAL) effects[e].value = steady_value;
-    }
-    begin_both(&x, &one, &y, &all);
-    assert_ok(gvi_start(&x, 0, (const real[]){ (real)0.5, -100 }, (const real[]){ 1, -1 }));
-    assert_ok(gvi_start(&y, 0, (const real[]){ (real)0.5, -100 }, (const real[]){ 1, -1 }));
-    for (int k = 0; k < 20; ++k) {
-        move_alike(&x, &y, 1, (real)0.0625);
-        assert_int_equal(x.iterations, y.iterations);
-    }
-}
-
 /* g = q1, or what sick says */
 AT_POINTS(moody_clock)
 {
-    const real *sick = (const real *)user;
-    for (int k = 0; k < x->count; ++k) {
-        x->value[k] += x->q[k] + *sick;
-        x->f[k] += 1;
-    }
+    for (int k = 0; k < x->count; ++k) x->value[k] += x->q[k] + *(const real *)user, x->f[k] += 1;
     return 0;
 }
 
@@ -592,10 +514,7 @@ static gvi_status status_of(const gvi_desc *desc)
     return status;
 }
 
-AT_POINT(point_clock)
-{
-    return 0;
-}
+AT_POINT(point_clock) { return 0; }
 
 TEST(clocks_that_cannot_run_are_refused)
 {

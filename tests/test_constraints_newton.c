@@ -257,15 +257,6 @@ TEST(memory_is_what_the_macro_says)
                                                 .effect_count = 1 + f, .formulation = f ? GVI_NEWTON : GVI_AUTO };
                         assert_between(1, gvi_size(&desc)/sizeof(gvi_real), GVI_CONSTRAINED_LENGTH(n, s, r, m));
                     }
-    // the fall-back has matrices of s (n + m): a pinned formulation does without, and so does a large scene
-    const gvi_effect hold = { .kind = GVI_CONSTRAINT, .points = circle, .rows = 20 };
-    gvi_desc desc = { .n = 108, .degree = 8, .effects = &hold, .effect_count = 1 };
-    const size_t small = gvi_size(&desc);
-    desc.formulation = GVI_POSITIONS;
-    assert_true(gvi_size(&desc) < small/8);
-    desc.formulation = GVI_AUTO;
-    desc.n = 109;                                 // 8*(109 + 20) is above 1024
-    assert_true(gvi_size(&desc) < small/8);
 }
 
 /* Of a circle with two masses: q' - q normal in the metric M, so M(q' - q) = lambda q'; v' likewise */

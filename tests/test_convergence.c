@@ -15,11 +15,7 @@ TEST(a_small_ratio_of_changes_ends_no_iteration)
     assert_true(found.ok > 19000);
 }
 
-static int pendulum(const gvi_points *x, void *user)
-{
-    for (int k = 0; k < x->count; ++k) x->f[k] -= sin(x->q[k]);
-    return 0;
-}
+GVI_EACH(pendulum, 1, f) { x->f[0] -= sin(x->q[0]); }
 
 /* Midpoint rule; from here the first iterate is the solution to 1e-13, by chance */
 TEST(a_first_iterate_that_hits_the_solution)
@@ -103,21 +99,13 @@ TEST(rods_nearly_in_line_go_on)
         }
 }
 
-static int ball_mass(const gvi_points *x, void *user)     /* on a sphere: latitude from the pole, longitude */
+GVI_EACH(ball_mass, 2, mass)                      /* on a sphere: latitude from the pole, longitude */
 {
-    for (int k = 0, s = x->stride; k < x->count; ++k) {
-        const real z = sin(x->q[k]);
-        x->mass[k] = 1;
-        x->mass[2*s + k] = 0;
-        x->mass[3*s + k] = z*z;
-    }
-    return 0;
+    x->mass[0] = 1;
+    x->mass[2] = 0;
+    x->mass[3] = sin(x->q[0])*sin(x->q[0]);
 }
-static int ball_gradient(const gvi_points *x, void *user)
-{
-    for (int k = 0, s = x->stride; k < x->count; ++k) x->f[k] += sin(x->q[k])*cos(x->q[k])*x->v[s + k]*x->v[s + k];
-    return 0;
-}
+GVI_EACH(ball_gradient, 2, v, f) { x->f[0] += sin(x->q[0])*cos(x->q[0])*x->v[1]*x->v[1]; }
 
 /* At the pole no h helps; on the way to it half of h does */
 TEST(singular_means_that_no_h_helps)
@@ -140,12 +128,12 @@ TEST(singular_means_that_no_h_helps)
     }
 }
 
-GVI_POINTS(drag, 1, v, f)(const gvi_points *x, void *user) { x->f[0] -= x->v[0]; return (void)user, 0; }
-GVI_POINTS(magnet, 1, v, f, dldv)(const gvi_points *x, void *user) { x->dldv[0] += x->v[0]; return (void)user, 0; }
-GVI_POINTS(level, 1, value)(const gvi_points *x, void *user) { x->value[0] += x->q[0]; return (void)user, 0; }
-GVI_POINTS(slope, 1, f)(const gvi_points *x, void *user) { x->f[0] -= x->q[0]; return (void)user, 0; }
-GVI_POINTS(inverse, 1, p, velocity)(const gvi_points *x, void *user) { x->velocity[0] = x->p[0]; return (void)user, 0; }
-GVI_POINTS(held, 1, rows(1))(const gvi_points *x, void *user) { x->g[0] = x->q[0]; return (void)user, 0; }
+GVI_EACH(drag, 1, v, f) { x->f[0] -= x->v[0]; }
+GVI_EACH(magnet, 1, v, f, dldv) { x->dldv[0] += x->v[0]; }
+GVI_EACH(level, 1, value) { x->value[0] += x->q[0]; }
+GVI_EACH(slope, 1, f) { x->f[0] -= x->q[0]; }
+GVI_EACH(inverse, 1, p, velocity) { x->velocity[0] = x->p[0]; }
+GVI_EACH(held, 1, rows(1)) { x->g[0] = x->q[0]; }
 
 TEST(a_forgotten_kind_is_told)
 {
@@ -182,15 +170,9 @@ TEST(weights_whose_sum_is_not_sure_are_refused)
         }
 }
 
-static int spring(const gvi_points *x, void *user)
-{
-    for (int k = 0; k < x->count; ++k) x->f[k] -= x->q[k];
-    return 0;
-}
-
 TEST(small_amplitudes_are_like_others)
 {
-    const gvi_effect scene[] = { { .points = spring } };
+    const gvi_effect scene[] = { { .points = slope } };
     for (int f = GVI_AUTO; f <= GVI_NEWTON; ++f) {
         const gvi_desc desc = { .n = 1, .degree = 4, .effects = scene, .effect_count = 1, .formulation = (gvi_formulation)f };
         if (f == GVI_EXPLICIT) continue;
@@ -203,12 +185,8 @@ TEST(small_amplitudes_are_like_others)
     }
 }
 
-static int worth(const gvi_points *x, void *user)
-{
-    for (int k = 0; k < x->count; ++k) x->value[k] += x->q[k]*x->q[k]/2;
-    return 0;
-}
-static int refuses(const gvi_points *x, void *user) { return spring(x, NULL), *(int *)user; }
+GVI_EACH(worth, 1, value) { x->value[0] += x->q[0]*x->q[0]/2; }
+AT_POINTS(refuses) { return slope(x, NULL), *(int *)user; }
 
 TEST(a_failed_step_stays_in_sight)
 {

@@ -101,14 +101,11 @@ TEST(a_clock_leaves_a_light_body_where_it_is)
     assert_between(50, done, 70);
 }
 
-static int varying(const gvi_points *x, void *user)
+GVI_EACH(varying, 1, f, value)
 {
-    for (int k = 0; k < x->count; ++k) {
-        const real w = 1 + sin(x->t[k])/8;
-        if (x->value) x->value[k] += w*x->q[k]*x->q[k]/2;
-        if (x->f) x->f[k] -= w*x->q[k];
-    }
-    return (void)user, 0;
+    const real w = 1 + sin(x->t[0])/8;
+    x->value[0] += w*x->q[0]*x->q[0]/2;
+    x->f[0] -= w*x->q[0];
 }
 
 GVI_EACH(half, 1, value) { x->value[0] += (real)0.5; }

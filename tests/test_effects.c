@@ -8,15 +8,6 @@
 
 enum { N = 17, ROOM = 16, POINTS = 13 };
 
-static uint64_t seed;
-
-/* Reproducible numbers in [0,1) */
-static real uniform(void)
-{
-    seed = seed*6364136223846793005u + 1442695040888963407u;
-    return (real)(seed >> 41)/(real)8388608;
-}
-
 /* Every effect, acting on coordinates first..last-1 of N = 17. */
 
 static const real mass[] = { 2, 1, 3, 1 };
@@ -82,7 +73,7 @@ static const specimen *specimens(void)
 /* Particles on a rough line, so that no two come closer than 1/2. */
 static void draw(uint64_t from, real *q, real *v)
 {
-    seed = from;
+    dice = from;
     for (int i = 0; i < N; ++i) {
         q[i] = (real)(i % 7)/2 + 1 + uniform()/4;
         v[i] = 2*uniform() - 1;
@@ -138,7 +129,7 @@ static real mismatch(const gvi_effect *force, const gvi_effect *valued, uint64_t
     return worst;
 }
 
-TEST(test_forces_are_derivatives)
+TEST(forces_are_derivatives_of_their_values)
 {
     const specimen *s = specimens();
     int seen = 0;
@@ -182,7 +173,7 @@ static real hessian_mismatch(const gvi_effect *e, uint64_t from)
     return worst;
 }
 
-TEST(test_hessians)
+TEST(hessians_are_derivatives_of_the_forces)
 {
     const specimen *s = specimens();
     int seen = 0;
@@ -203,7 +194,7 @@ TEST(test_hessians)
     assert_null(springs(&no_n).hessian);
 }
 
-TEST(test_own_coordinates_only)
+TEST(each_effect_reads_and_writes_its_own_coordinates_only)
 {
     const specimen *s = specimens();
     for (int e = 0; e < SPECIMENS; ++e) {
@@ -236,7 +227,7 @@ TEST(test_own_coordinates_only)
     }
 }
 
-TEST(test_batch_is_point_by_point)
+TEST(all_points_at_once_are_the_points_one_by_one)
 {
     static real q[N*ROOM], v[N*ROOM], f[N*ROOM], g[N*ROOM], V[ROOM], t[ROOM];
     const specimen *s = specimens();
@@ -276,7 +267,7 @@ static real power(const gvi_effect *e, uint64_t from)
     return sum;
 }
 
-TEST(test_power)
+TEST(drag_takes_power_and_a_magnetic_force_none)
 {
     const gvi_effect drags[] = { linear_drag(&oil), air_drag(&air), air_drag(&flat_air),
                                  atmosphere(&thin_air), joint_friction(&gears) };
@@ -299,7 +290,7 @@ TEST(test_power)
     assert_true(f[4] == -6 && f[5] == 0 && f[6] == 0);
 }
 
-TEST(test_air_drag_is_quadratic)
+TEST(air_drag_is_quadratic)
 {
     real q[N], v[N], f[N], g[N], twice[N];
     const gvi_effect e = air_drag(&air), thin = atmosphere(&thin_air);
@@ -320,7 +311,7 @@ TEST(test_air_drag_is_quadratic)
 }
 
 /* Forces between particles: they sum to nothing, and so do their torques. */
-TEST(test_inner_forces_cancel)
+TEST(inner_forces_and_their_torques_cancel)
 {
     const gvi_effect inner[] = { pair_gravity(&pairs), springs(&net),
                                  pair_gravity(&flat_pairs), springs(&flat_net) };
@@ -343,7 +334,7 @@ TEST(test_inner_forces_cancel)
 }
 
 /* Two bodies: Newton's law in numbers; the flattened body over pole and equator. */
-TEST(test_gravity_in_numbers)
+TEST(gravity_is_newtons_in_numbers)
 {
     const struct pair_gravity two = { { 0, 2, 3 }, mass, 3 };
     const struct oblateness flat = { { 0, 1, 3 }, mass, 3, 1, (real)0.5L };
@@ -364,7 +355,7 @@ TEST(test_gravity_in_numbers)
 }
 
 /* A spring of rest length 0 has a force, and a Hessian, where its ends meet. */
-TEST(test_spring_without_length)
+TEST(a_spring_without_length_has_a_force_where_its_ends_meet)
 {
     const struct spring s[] = { { 0, 1, 3, 0 } };
     const struct springs p = { { 0, 2, 2 }, s, 1, N };
@@ -378,7 +369,7 @@ TEST(test_spring_without_length)
     assert_true(fq[0] == -3 && fq[2] == 3 && fq[1] == 0);
 }
 
-TEST(test_motors)
+TEST(motors_and_servos_do_as_their_numbers_say)
 {
     real q[N] = { 0 }, v[N] = { 0 }, f[N], g[N];
     const real t = (real)0.7L, clock = 2*t + 1, target = 1 + cos(clock)/2, rate = -sin(clock);
@@ -403,7 +394,7 @@ TEST(test_motors)
 
 /* The term linear in v has no energy v dL/dv - L; the frame has -w^2 r^2/2, and
    its force with that of dL/dv's change is Coriolis 2 w x v and centrifugal. */
-TEST(test_magnetic_and_frame)
+TEST(the_magnetic_term_is_its_force_and_the_frame_is_coriolis)
 {
     real q[N], v[N], f[N], g[N], full[N], sum = 0, centrifugal = 0;
     const gvi_effect term = magnetic_field(&magnet), force = magnetic_force(&magnet);
@@ -469,7 +460,7 @@ static void check_mass(gvi_mass m, int n)
     }
 }
 
-TEST(test_masses)
+TEST(masses_are_consistent)
 {
     static const struct two_links rods = { 3, 1, (real)1.25L };
     static const struct top spinner = { 2, (real)0.75L };

@@ -13,16 +13,12 @@ static event of(event_fn *g, void *user) { return (event){ .g = g, .user = user,
 GVI_EACH(spring, 1, f) { x->f[0] -= x->q[0]; }
 GVI_EACH(weight, 1, f) { x->f[0] -= 1; }
 
-static int distance(const gvi_points *x, void *user)
+GVI_EACH(distance, 2, f, value)
 {
-    for (int k = 0; k < x->count; ++k) {
-        const real d = sqrt(x->q[k]*x->q[k] + x->q[x->stride+k]*x->q[x->stride+k]);
-        x->value[k] += d;
-        if (!x->f) continue;
-        x->f[k] += x->q[k]/d;
-        x->f[x->stride+k] += x->q[x->stride+k]/d;
-    }
-    return 0;
+    const real d = sqrt(x->q[0]*x->q[0] + x->q[1]*x->q[1]);
+    x->value[0] += d;
+    x->f[0] += x->q[0]/d;
+    x->f[1] += x->q[1]/d;
 }
 
 static real level(real t, const real *at, const real *rate, void *user) { return at[0] - *(real *)user; }
@@ -198,49 +194,6 @@ TEST(a_touch_that_only_the_curve_sees)
     assert_int_equal(event_next(&e, st), 0);
 }
 
-/* Far from the start of a step time runs faster with a clock: samples at fractions of the time, not of tau. */
-static real two_lines(real t, const real *at, const real *rate, void *user)
-{
-    return (at[0] - cos(R(0.35)) + R(0.8))*(at[0] - cos(R(0.85)) + R(0.8));
-}
-
-TEST(two_zeros_by_a_clock)
-{
-    static const real E[] = { R(0.35), R(0.85) };
-    const gvi_desc desc = { .n = N, .degree = 4, .effects = attracted, .effect_count = 2 };
-    event e = of(two_lines, NULL);
-    gvi_stepper st = new_motion(&desc, 0, (real[]){ R(0.2), 0 }, (real[]){ 0, 3 });
-    assert_ok(gvi_step(&st, R(1.5)));
-    for (int k = 0; k < 2; ++k) {
-        assert_int_equal(event_next(&e, &st), 1);
-        assert_close(e.t, E[k] - R(0.8)*sin(E[k]), R(1e-4));
-    }
-    assert_int_equal(event_next(&e, &st), 0);
-}
-
-/* From height 1 with weight 1: impacts at sqrt(2) (1 + 2k), back at height 1 in between. */
-TEST(an_elastic_ball)
-{
-    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = weight } };
-    const gvi_desc desc = { .n = 1, .degree = 2, .effects = scene, .effect_count = 1 };
-    real zero = 0;
-    event e = of(level, &zero);
-    gvi_stepper st = new_motion(&desc, 0, (real[]){ 1 }, (real[]){ 0 });
-    for (int k = 0; k < 300; ) {
-        assert_ok(gvi_step(&st, R(0.37)));
-        const int found = event_next(&e, &st);
-        assert_true(found >= 0);
-        if (!found) continue;
-        const real exact = sqrt(R(2.0))*(real)(1 + 2*k);
-        assert_close(e.t, exact, 8*EPS*exact*sqrt((real)(k + 1)));
-        assert_false(e.rising);
-        assert_close(e.p[0]*e.p[0]/2, 1, 300*EPS*(real)(k + 1));
-        e.p[0] = -e.p[0];
-        assert_ok(gvi_start_momentum(&st, e.t, e.q, e.p));
-        ++k;
-    }
-}
-
 /* q'' = -1 - q^2 above a floor: a step that hits it, split there. */
 GVI_EACH(curved, 1, f) { x->f[0] -= 1 + x->q[0]*x->q[0]; }
 
@@ -296,18 +249,13 @@ GVI_EACH(bobs, 4, f, value)
     x->value[0] += x->q[1] + x->q[3];
 }
 
-static int rods(const gvi_points *x, void *user)
+GVI_EACH(rods, 4, rows(2))
 {
-    for (int k = 0, S = x->stride; k < x->count; ++k)
-        for (int i = 0; i < 2; ++i) {
-            const real a = x->q[i*S + k], d = x->q[(2 + i)*S + k] - a;
-            x->g[k] = i ? x->g[k] + a*a/2 : a*a/2 - R(0.5);
-            x->g[S + k] = i ? x->g[S + k] + d*d/2 : d*d/2 - R(0.5);
-            x->jacobian[i*S + k] = a;
-            x->jacobian[(4 + i)*S + k] = -d;
-            x->jacobian[(6 + i)*S + k] = d;
-        }
-    return 0;
+    const real *z = x->q, a = z[2] - z[0], b = z[3] - z[1];
+    const real G[8] = { z[0], z[1], 0, 0, -a, -b, a, b };
+    x->g[0] = (z[0]*z[0] + z[1]*z[1] - 1)/2;
+    x->g[1] = (a*a + b*b - 1)/2;
+    for (int i = 0; i < 8; ++i) x->jacobian[i] = G[i];
 }
 
 static real gap(real t, const real *at, const real *rate, void *user) { return wall - at[2]; }

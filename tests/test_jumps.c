@@ -102,13 +102,6 @@ static int points(const gvi_points *x, void *user)
     return 0;
 }
 
-static unsigned long long seed = 1;
-static wide uniform(void)                                      /* in [-1, 1] */
-{
-    seed = seed*6364136223846793005ULL + 1442695040888963407ULL;
-    return (wide)(seed >> 11)/(wide)(1ULL << 52) - 1;
-}
-
 /* What p0 and q0 come to by the step's own curve, p0 + h sum b_j F(Q_j) and q0 + h v0 + h^2 sum b_j (1 - c_j) F(Q_j)/m,
    in units of what is added up, and of the rounding of q in the force.  An end by energy may leave 1000 EPS of what a
    step moves; 2^16 EPS is 64 times that, and what is wrong is of order 1 */
@@ -139,18 +132,18 @@ static void check_step(const scene *a, gvi_stepper *st, wide m, const real *q0, 
 /* Returns the number of steps that were ok */
 static int run(const law *l, int degree, gvi_formulation formulation)
 {
-    scene a = { l, (real)expl(4 + 4*uniform()) };
+    scene a = { l, (real)expl(4 + 4*random_unit()) };
     const gvi_effect effect = { .kind = GVI_POTENTIAL, .points = points, .user = &a };
     const gvi_desc desc = { .n = l->n, .degree = degree, .effects = &effect, .effect_count = 1,
                             .formulation = formulation };
-    const real h = (real)(0.1L*expl(2*uniform()));
+    const real h = (real)(0.1L*expl(2*random_unit()));
     wide c[MOST_POINTS], b[MOST_POINTS];
     real q[MOST], v[MOST], q0[MOST], p0[MOST];
     int ok = 0;
     gauss_nodes(degree, c, b);
     for (int i = 0; i < l->n; ++i) {
-        q[i] = (real)(1.2L*i + 0.5L*uniform());
-        v[i] = (real)uniform();
+        q[i] = (real)(1.2L*i + 0.5L*random_unit());
+        v[i] = (real)random_unit();
     }
     gvi_stepper st = new_motion(&desc, 0, q, v);
     for (int k = 0; k < STEPS; ++k) {
@@ -271,8 +264,8 @@ TEST(an_overshoot_of_the_first_rows_hides_nothing)
     for (int run = 0; run < 2000; ++run) {
         const gvi_desc desc = { .n = 8, .degree = 1 + run % 8, .effects = &effect, .effect_count = 1,
                                 .formulation = run/8 % 2 ? GVI_POSITIONS : GVI_AUTO };
-        const real h = (real)(0.22L*expl(1.5L*uniform())), speed = (real)(0.05L + 0.45L*uniform());
-        const real radius = (real)(1.175L + 0.125L*uniform());
+        const real h = (real)(0.22L*expl(1.5L*random_unit())), speed = (real)(0.05L + 0.45L*random_unit());
+        const real radius = (real)(1.175L + 0.125L*random_unit());
         real q[8] = { 0 }, v[8] = { 0 }, q0[8], p0[8];
         wide c[MOST_POINTS], b[MOST_POINTS];
         gauss_nodes(desc.degree, c, b);

@@ -127,17 +127,14 @@ TEST(a_closed_loop_does_not_drift)
 }
 
 /* x = a t^p and x = b t^p: they agree at t = 0, in velocity too for p = 2 */
-static int two_places(const gvi_points *x, void *user)
+GVI_EACH(two_places, 3, rows(2))
 {
-    const real *a = (const real *)user;
-    for (int row = 0; row < 2; ++row)
-        for (int k = 0; k < x->count; ++k) {
-            const real t = x->t[k];
-            x->g[row*x->stride + k] = x->q[k] - a[row]*(a[2] > 1 ? t*t : t) - a[3 + row];
-            x->rate[row*x->stride + k] = -a[row]*(a[2] > 1 ? 2*t : 1);
-            x->jacobian[row*x->n*x->stride + k] = a[5];
-        }
-    return 0;
+    const real *a = (const real *)user, t = x->t[0];
+    for (int row = 0; row < 2; ++row) {
+        x->g[row] = x->q[0] - a[row]*(a[2] > 1 ? t*t : t) - a[3 + row];
+        x->rate[row] = -a[row]*(a[2] > 1 ? 2*t : 1);
+        x->jacobian[3*row] = a[5];
+    }
 }
 
 TEST(rows_that_contradict_are_named)
@@ -170,12 +167,10 @@ TEST(rows_that_contradict_are_named)
 }
 
 /* Hanging at rest G = (0, y): then a side wind.  The same in a frame turned by 1 rad, where G is full */
-static int wind(const gvi_points *x, void *user)
+GVI_EACH(wind, 2, f)
 {
     const real *f = (const real *)user;
-    for (int i = 0; i < 2; ++i)
-        for (int k = 0; k < x->count; ++k) x->f[i*x->stride + k] += f[i] + x->t[k]*f[i + 2];
-    return 0;
+    for (int i = 0; i < 2; ++i) x->f[i] += f[i] + x->t[0]*f[i + 2];
 }
 
 TEST(zeros_of_G_may_end)
@@ -230,26 +225,19 @@ static void place(const real *L, long double th, real *q)
     q[3] = (real)(q[1] + along*dy - side*dx);
 }
 
-static real dice(unsigned *state)
-{
-    *state = *state*1664525u + 1013904223u;
-    return (real)(*state >> 8)/(real)(1 << 24);
-}
-
 TEST(no_step_changes_branch)
 {
     const int fine = sizeof(real) == sizeof(float) ? 2 : 3;
-    unsigned seed = 1;
     int right = 0, wrong = 0;
     for (int trial = 0; trial < 2000; ++trial) {
         const int kind = trial % 4, s = 1 + trial/4 % 8;
-        real L[4] = { (real)0.3L + dice(&seed), (real)0.5L + 2*dice(&seed), 0, (real)0.3L + 2*dice(&seed) };
+        real L[4] = { (real)0.3L + uniform(), (real)0.5L + 2*uniform(), 0, (real)0.3L + 2*uniform() };
         if (kind == 0) L[3] = L[0];               // a parallelogram
         if (kind == 1) L[1] = L[0];               // a kite
         L[2] = kind == 3 ? L[0] : L[3] + L[1] - L[0];
         if (kind == 3) L[3] = 0;
-        const real dist = pow((real)10, -(real)fine*dice(&seed) - (real)0.5L), side = dice(&seed) < (real)0.5L ? -1 : 1;
-        const real turn = dice(&seed) < (real)0.5L ? -1 : 1, h = dist*((real)0.2L + (real)2.8L*dice(&seed));
+        const real dist = pow((real)10, -(real)fine*uniform() - (real)0.5L), side = uniform() < (real)0.5L ? -1 : 1;
+        const real turn = uniform() < (real)0.5L ? -1 : 1, h = dist*((real)0.2L + (real)2.8L*uniform());
         const long double th = (kind == 3 ? acosl(0) : 0) + (long double)(side*dist);
         if (L[2] < (real)0.1L) continue;
         gvi_effect e = { .kind = GVI_CONSTRAINT, .points = bars, .rows = 3, .user = L };

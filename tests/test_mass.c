@@ -3,13 +3,6 @@
 
 enum { MOST = 6, POINTS = 16 };
 
-static unsigned long long seed;
-static real random_unit(void)                   /* in (-1,1) */
-{
-    seed = seed*6364136223846793005ULL + 1442695040888963407ULL;
-    return (real)((double)(seed >> 33)/1073741824.0 - 1);
-}
-
 /* [n*n][stride], B B' + 1/2 at each point, its sign as wanted: definite, condition below 100 */
 static void random_mass(int n, int stride, int count, real sign, real *m)
 {
@@ -59,7 +52,6 @@ static void assert_solves(const constant *a, const real *v, const real *p, long 
 TEST(velocities_solve_for_the_momenta)
 {
     static const real zero[MOST];
-    seed = 1;
     for (int n = 1; n <= MOST; ++n)
         for (int degree = 1; degree <= POINTS; ++degree)
             for (int s = -1; s <= 1; s += 2) {
@@ -171,14 +163,10 @@ GVI_EACH(of_points, 2, mass)
     x->mass[2] = x->mass[3] = 1;
 }
 
-static int of_momentum(const gvi_points *x, void *user)
+GVI_EACH(of_momentum, 2, p, velocity)
 {
-    const real *p = x->p, *r = p + x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        x->velocity[k] = p[k] - r[k];
-        x->velocity[x->stride + k] = 2*r[k] - p[k];
-    }
-    return 0;
+    x->velocity[0] = x->p[0] - x->p[1];
+    x->velocity[1] = 2*x->p[1] - x->p[0];
 }
 
 static double iterations(int by_velocity, real h, real *q)
@@ -202,7 +190,6 @@ TEST(with_M_or_its_inverse_as_many_iterations_do)
     for (real h = (real)0.25; h < (real)1.25; h += (real)0.25) {
         real q[2][2];
         const double by_points = iterations(0, h, q[0]), by_velocity = iterations(1, h, q[1]);
-        print_message("    h = %.2f: %.2f iterations with M, %.2f with M^-1 p\n", (double)h, by_points, by_velocity);
         assert_between(by_points - 0.5, by_velocity, by_points + 0.5);
         for (int i = 0; i < 2; ++i) assert_close(q[0][i], q[1][i], 4096*EPS);
     }
@@ -229,44 +216,30 @@ TEST(one_iteration_from_rest_moves_q)
     }
 }
 
-static real squares(const real *z, int stride, int k)
+static real squares(const real *z) { return z[0]*z[0] + z[1]*z[1] + z[2]*z[2]; }
+GVI_EACH(of_direction, 3, mass)                   /* M = 1/|q|^2 */
 {
-    real sum = 0;
-    for (int i = 0; i < 3; ++i) sum += z[i*stride + k]*z[i*stride + k];
-    return sum;
+    for (int i = 0; i < 3; ++i) x->mass[4*i] = 1/squares(x->q);
 }
-static int of_direction(const gvi_points *x, void *user)             /* M = 1/|q|^2 */
+GVI_EACH(of_direction_gradient, 3, v, f)
 {
-    for (int k = 0; k < x->count; ++k)
-        for (int i = 0; i < 3; ++i) x->mass[4*i*x->stride + k] = 1/squares(x->q, x->stride, k);
-    return 0;
+    for (int i = 0; i < 3; ++i) x->f[i] -= squares(x->v)*x->q[i]/(squares(x->q)*squares(x->q));
 }
-static int of_direction_gradient(const gvi_points *x, void *user)
+GVI_EACH(velocity_of_direction, 3, p, velocity)
 {
-    for (int k = 0; k < x->count; ++k) {
-        const real qq = squares(x->q, x->stride, k), vv = squares(x->v, x->stride, k);
-        for (int i = 0; i < 3; ++i) x->f[i*x->stride + k] -= vv*x->q[i*x->stride + k]/(qq*qq);
-    }
-    return 0;
+    for (int i = 0; i < 3; ++i) x->velocity[i] = squares(x->q)*x->p[i];
 }
-static int velocity_of_direction(const gvi_points *x, void *user)
+GVI_EACH(weight_of_direction, 3, f)               /* V = z/|q| */
 {
-    for (int k = 0; k < x->count; ++k)
-        for (int i = 0; i < 3; ++i) x->velocity[i*x->stride + k] = squares(x->q, x->stride, k)*x->p[i*x->stride + k];
-    return 0;
-}
-static int weight_of_direction(real t, const real *q, const real *v, real *f, real *dldv, void *user)   /* V = z/|q| */
-{
-    const real qq = squares(q, 1, 0), r = (real)sqrtl(qq);
-    for (int i = 0; i < 3; ++i) f[i] -= ((i == 2) - q[2]*q[i]/qq)/r;
-    return 0;
+    const real qq = squares(x->q), r = sqrt(qq);
+    for (int i = 0; i < 3; ++i) x->f[i] -= ((i == 2) - x->q[2]*x->q[i]/qq)/r;
 }
 
 /* A conical pendulum turns at constant height: its forces on z cancel, and the iteration's P_z tends to 0, by
    its whole size in each iteration.  The fixed point must not be given up for that. */
 TEST(a_momentum_that_tends_to_0_converges)
 {
-    static const gvi_effect weight[] = { { .kind = GVI_POTENTIAL, .point = weight_of_direction } };
+    static const gvi_effect weight[] = { { .kind = GVI_POTENTIAL, .points = weight_of_direction } };
     const real angle = (real)0.75, z = -2*(real)cos(0.75), turn = 1/(real)sqrtl(-z/2);
     for (int s = 1; s <= 8; ++s)
         for (int steps = 20; steps <= 200; steps *= 2) {
@@ -277,32 +250,23 @@ TEST(a_momentum_that_tends_to_0_converges)
             gvi_stepper st = new_motion(&desc, 0, q, v);
             for (int k = 0; k < steps; ++k) assert_ok(gvi_step(&st, 3/(real)steps));
             assert_int_equal(st.formulation, GVI_MOMENTA);
-            if (s == 8) assert_close(st.q[2]*st.q[2]/squares(st.q, 1, 0), z*z/4, 64*EPS*(real)steps);
+            if (s == 8) assert_close(st.q[2]*st.q[2]/squares(st.q), z*z/4, 64*EPS*(real)steps);
         }
 }
 
-static int quartic(real t, const real *q, const real *v, real *f, real *dldv, void *user)   /* V = q^2/2 + q^4/4 */
+GVI_EACH(quartic, 1, f) { x->f[0] -= x->q[0] + x->q[0]*x->q[0]*x->q[0]; }      /* V = q^2/2 + q^4/4 */
+GVI_EACH(rate_of_cube, 1, v, f, dldv)             /* L = d(q^3/3)/dt */
 {
-    f[0] -= q[0] + q[0]*q[0]*q[0];
-    return 0;
+    x->f[0] += 2*x->q[0]*x->v[0];
+    x->dldv[0] += x->q[0]*x->q[0];
 }
-static int rate_of_cube(real t, const real *q, const real *v, real *f, real *dldv, void *user)  /* L = d(q^3/3)/dt */
-{
-    f[0] += 2*q[0]*v[0];
-    dldv[0] += q[0]*q[0];
-    return 0;
-}
-static int velocity_at_q(const gvi_points *x, void *user)
-{
-    for (int k = 0; k < x->count; ++k) x->velocity[k] = x->p[k] - x->q[k]*x->q[k];
-    return 0;
-}
+GVI_EACH(velocity_at_q, 1, p, velocity) { x->velocity[0] = x->p[0] - x->q[0]*x->q[0]; }
 
 /* mass.velocity reads q: that of this step, whatever a step that failed or a query has left */
 TEST(a_velocity_is_of_its_own_step)
 {
-    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .point = quartic },
-                                        { .kind = GVI_LAGRANGIAN, .point = rate_of_cube } };
+    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = quartic },
+                                        { .kind = GVI_LAGRANGIAN, .points = rate_of_cube } };
     for (int with = 0; with < 3; ++with) {
         const gvi_desc desc = { .n = 1, .effects = scene, .effect_count = 2, .formulation = GVI_MOMENTA,
                                 .mass = { .velocity = velocity_at_q }, .tolerance = with == 1 ? (real)0.0001 : 0,

@@ -14,55 +14,25 @@
      V = -2 g cos(q1) - g cos(q1 + q2) */
 #define GVI_REAL double
 #include "gvi_test.h"
+#include "problems.h"
 #include <time.h>
 
 #define G 9.8
 #define PER_STEP 3e-18L                     /* standard deviation of dE/E, a step */
 
-static int gravity(const gvi_points *x, void *user)
+GVI_EACH(gravity, 2, f)
 {
-    const double *q1 = x->q, *q2 = q1 + x->stride;
-    double *f1 = x->f, *f2 = f1 + x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        double both = G*sin(q1[k] + q2[k]);
-        f1[k] -= 2*G*sin(q1[k]) + both;
-        f2[k] -= both;
-    }
-    return 0;
-}
-
-static int mass(const gvi_points *x, void *user)
-{
-    const double *q2 = x->q + x->stride;
-    double *m11 = x->mass, *m21 = m11 + 2*x->stride, *m22 = m11 + 3*x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        double c = cos(q2[k]);
-        m11[k] = 3 + 2*c;
-        m21[k] = 1 + c;
-        m22[k] = 1;
-    }
-    return 0;
+    const double both = G*sin(x->q[0] + x->q[1]);
+    x->f[0] -= 2*G*sin(x->q[0]) + both;
+    x->f[1] -= both;
 }
 
 /* v = M^-1 p, with p1 - p2 for what both angles share */
-static int velocity(const gvi_points *x, void *user)
+GVI_EACH(velocity, 2, p, velocity)
 {
-    const double *q2 = x->q + x->stride, *p1 = x->p, *p2 = p1 + x->stride;
-    double *v1 = x->velocity, *v2 = v1 + x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        double c = cos(q2[k]), s = sin(q2[k]), p = p1[k] - p2[k];
-        v1[k] = (p - c*p2[k])/(1 + s*s);
-        v2[k] = ((2 + c)*p2[k] - (1 + c)*p)/(1 + s*s);
-    }
-    return 0;
-}
-
-static int mass_gradient(const gvi_points *x, void *user)
-{
-    const double *q2 = x->q + x->stride, *v1 = x->v, *v2 = v1 + x->stride;
-    double *f2 = x->f + x->stride;
-    for (int k = 0; k < x->count; ++k) f2[k] -= sin(q2[k])*v1[k]*(v1[k] + v2[k]);
-    return 0;
+    const double c = cos(x->q[1]), s = sin(x->q[1]), p2 = x->p[1], p = x->p[0] - p2;
+    x->velocity[0] = (p - c*p2)/(1 + s*s);
+    x->velocity[1] = ((2 + c)*p2 - (1 + c)*p)/(1 + s*s);
 }
 
 /* In long double, so that only the error of q and p is seen.  det M = 2 - cos^2 */
@@ -108,8 +78,8 @@ static gvi_stepper *start(const double *q, const double *p)
     static const gvi_effect effects[] = { { .kind = GVI_POTENTIAL, .points = gravity } };
     static gvi_stepper st;
     const gvi_desc desc = { .n = 2, .degree = 6, .effects = effects, .effect_count = 1,
-                            .mass = { .kind = GVI_MASS_POSITION, .points = mass,
-                                      .gradient = mass_gradient, .velocity = velocity } };
+                            .mass = { .kind = GVI_MASS_POSITION, .points = pendulum_mass,
+                                      .gradient = pendulum_mass_gradient, .velocity = velocity } };
     st = new_stepper(&desc);
     assert_int_equal(st.formulation, GVI_MOMENTA);
     assert_ok(gvi_start_momentum(&st, 0, q, p));

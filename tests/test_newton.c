@@ -9,14 +9,6 @@ enum { MOST = 20 };
 
 static gvi_real memory[GVI_LENGTH(MOST, 17, 18)], spare[GVI_LENGTH(MOST, 17, 18)];
 
-static unsigned seed = 1;
-
-static wide uniform(void)
-{
-    seed = seed*1664525u + 1013904223u;
-    return (wide)(seed >> 8)/(1u << 23) - 1;
-}
-
 /* Springs of different stiffness; `cubic` of u^3 in all of them */
 typedef struct row { gvi_real cubic, damping, turning; int hessians; } row;
 
@@ -400,8 +392,8 @@ static wide error_in_kicks(gvi_formulation formulation)
     const gauss g = gauss_rule();
     wide error = 0, kicks = 0;
     for (int m = 0; m < 20; ++m) {
-        const gvi_real q[] = { 1 + (gvi_real)uniform()/1024, 1/(gvi_real)64 };
-        const gvi_real v[] = { 1/(gvi_real)4, (1 + (gvi_real)uniform()/1024)/3 };
+        const gvi_real q[] = { 1 + (gvi_real)random_unit()/1024, 1/(gvi_real)64 };
+        const gvi_real v[] = { 1/(gvi_real)4, (1 + (gvi_real)random_unit()/1024)/3 };
         gvi_stepper st = new_motion(&desc, 0, q, v);
         for (int k = 0; k < 100; ++k) {
             const gvi_real h = (gvi_real)(k % 50 == 49 ? 0.05 : 0.1);   // then AUTO tries its fixed point
@@ -613,7 +605,7 @@ TEST(what_grows_is_not_at_rest)
                                    .effect_count = 1 };
     if (KIND != 2) skip();
     for (int m = 0; m < 400; ++m) {
-        const gvi_real q[] = { (gvi_real)(0.8 + 0.5*(double)uniform()), 0, 0 }, v[] = { 0, (gvi_real)(1 + (double)uniform()), 200 };
+        const gvi_real q[] = { (gvi_real)(0.8 + 0.5*(double)random_unit()), 0, 0 }, v[] = { 0, (gvi_real)(1 + (double)random_unit()), 200 };
         gvi_stepper st = new_motion(&desc, 0, q, v);
         for (int k = 0; k < 10 && gvi_step(&st, (gvi_real)0.01) == GVI_OK; ++k) assert_between(-10, st.q[0], 10);
     }

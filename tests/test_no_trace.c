@@ -503,37 +503,6 @@ TEST(a_guess_that_a_callback_refuses_is_given_up)
         assert_ok(gvi_step(&st, 2));
         assert_close((long double)st.p[0]*st.p[0]/2 - cosl((long double)st.q[0]), -cosl(1), 4e-6L + 64*EPS);
     }
-    print_message("    %d guesses were refused\n", refused);
-}
-
-/* A quartic wall, steps up to eight times the last one, and longer than any iteration can follow: none that
-   runs away is taken for a solution. */
-static int steep(const gvi_points *x, void *user)
-{
-    for (int i = 0; i < x->n; ++i)
-        for (int j = 0; j < x->count; ++j) {
-            const real q = x->q[i*x->stride + j];
-            x->f[i*x->stride + j] -= q*q*q;
-        }
-    return 0;
-}
-
-TEST(no_step_that_runs_away_is_a_solution)
-{
-    const gvi_effect wall = { .kind = GVI_POTENTIAL, .points = steep };
-    const gvi_desc desc = { .n = 3, .degree = 8, .effects = &wall, .effect_count = 1, .formulation = GVI_POSITIONS };
-    const real q[ROOM] = { (real)0.75L, 0, (real)0.125L }, v[ROOM] = { 0, (real)1.25L, (real)0.25L };
-    int failed = 0, early = 0;
-    for (real k = 2; k < 12; k += (real)0.015625L) {
-        gvi_stepper st = new_motion(&desc, 0, q, v);
-        for (int i = 0; i < 4; ++i) assert_ok(gvi_step(&st, (real)0.5L));
-        const gvi_status status = gvi_step(&st, k/2);
-        failed += status != GVI_OK;
-        early += status != GVI_OK && k < 8;
-        for (int c = 0; c < 3 && status == GVI_OK; ++c) assert_between(-4, st.q[c], 4);
-    }
-    assert_true(failed > 225);
-    assert_true(early < 25);                      // of 384
 }
 
 RUN_TESTS(NULL, NULL)

@@ -381,19 +381,14 @@ TEST(queries_do_not_change_later_steps_to_the_bit)
 }
 
 /* A charge in a field B = 1 + x^2 + y^2, L = B (x v_y - y v_x)/2, with a quartic well */
-AT_POINTS(field_and_well)
+GVI_EACH(field_and_well, 2, v, f, dldv)
 {
-    const real K = *(const real *)user;
-    const int d = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        const real a = x->q[k], b = x->q[d + k], u = x->v[k], w = x->v[d + k];
-        const real B = 1 + a*a + b*b, area = (a*w - b*u)/2;
-        x->dldv[k] -= B*b/2;
-        x->dldv[d + k] += B*a/2;
-        x->f[k] += 2*a*area + B*w/2 - K*a*a*a;
-        x->f[d + k] += 2*b*area - B*u/2 - K*b*b*b;
-    }
-    return 0;
+    const real K = *(const real *)user, a = x->q[0], b = x->q[1], u = x->v[0], w = x->v[1];
+    const real B = 1 + a*a + b*b, area = (a*w - b*u)/2;
+    x->dldv[0] -= B*b/2;
+    x->dldv[1] += B*a/2;
+    x->f[0] += 2*a*area + B*w/2 - K*a*a*a;
+    x->f[1] += 2*b*area - B*u/2 - K*b*b*b;
 }
 
 /* A step by Newton's method leaves no momenta of Lagrangian terms: where the fixed point comes after
@@ -439,11 +434,10 @@ TEST(the_action_of_a_step_is_the_discrete_lagrangian_of_its_ends)
 
 #define OMEGA 1.3L
 
-AT_POINTS(spring)
+GVI_EACH(spring, 1, f, value)
 {
-    for (int k = 0; k < x->count && x->f; ++k) x->f[k] -= OMEGA*OMEGA*x->q[k];
-    for (int k = 0; k < x->count && x->value; ++k) x->value[k] += OMEGA*OMEGA*x->q[k]*x->q[k]/2;
-    return 0;
+    x->f[0] -= OMEGA*OMEGA*x->q[0];
+    x->value[0] += OMEGA*OMEGA*x->q[0]*x->q[0]/2;
 }
 
 static const gvi_effect oscillator[] = { { .kind = GVI_POTENTIAL, .points = spring, .value = spring } };
@@ -455,13 +449,10 @@ static void start_oscillator(gvi_stepper *st, int s, gvi_rule_kind rule)
     assert_ok(gvi_start(st, 0, (const real[]){ 1 }, (const real[]){ 0.5L }));
 }
 
-/* V = -t q, a force that grows with time: at degree 1 with Lobatto's points the action is
-   h v^2/2 + h/2 (t q0 + (t + h) q1), also where steps are explicit and need no times */
-AT_POINTS(growing)
+GVI_EACH(growing, 1, f, value)
 {
-    for (int k = 0; k < x->count && x->f; ++k) x->f[k] += x->t[k];
-    for (int k = 0; k < x->count && x->value; ++k) x->value[k] -= x->t[k]*x->q[k];
-    return 0;
+    x->f[0] += x->t[0];
+    x->value[0] -= x->t[0]*x->q[0];
 }
 
 TEST(the_discrete_lagrangian_knows_the_time_in_every_formulation)

@@ -6,23 +6,13 @@ static real memory[8000], more[8000];
 AT_EACH(spring) { x->f[a] -= x->q[a]; }
 AT_EACH(drag) { x->f[a] -= x->v[a]; }
 
-static int not_a_number(const gvi_points *x, void *user)
-{
-    const int *sick = (const int *)user;
-    for (int k = 0; k < x->count; ++k) x->f[k] += *sick ? (real)NAN : 0;
-    return 0;
-}
+GVI_EACH(not_a_number, 1, f) { x->f[0] += *(const int *)user ? (real)NAN : 0; }
 
 /* L = sum m_i (v_i^2/2 + v_i^4/(4 u^2)): momentum v + v^3/u^2 in units of u */
-static int quartic(const gvi_points *x, void *user)
+AT_EACH(quartic)
 {
-    const real *unit = (const real *)user;
-    for (int i = 0; i < x->n; ++i)
-        for (int k = 0; k < x->count; ++k) {
-            real v = x->v[i*x->stride + k]/unit[i];
-            x->dldv[i*x->stride + k] += (v + v*v*v)*unit[i];
-        }
-    return 0;
+    const real unit = ((const real *)user)[a/x->stride], v = x->v[a]/unit;
+    x->dldv[a] += (v + v*v*v)*unit;
 }
 
 static gvi_stepper *set_up(gvi_stepper *st, gvi_desc desc, real *where)
@@ -135,11 +125,7 @@ TEST(weights_that_vanish_are_refused)
     assert_status(gvi_barycentric(sizeof(real) > 8 ? MANY : 1200, x, w), GVI_E_NODES);
 }
 
-static int push(const gvi_points *x, void *user)
-{
-    for (int k = 0; k < x->n*x->stride; ++k) x->f[k] += x->t[k % x->stride] > 2;
-    return 0;
-}
+AT_EACH(push) { x->f[a] += x->t[a % x->stride] > 2; }
 
 /* A coordinate next to nothing rests for two steps; then a force of 1 sets in, and it moves by a factor
    whose square no type has.  Of every formulation that iterates: q = t^2/2, p = t. */

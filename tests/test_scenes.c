@@ -87,7 +87,7 @@ static int list_forces(const scene *a, char *names, size_t size)
 
 /* Over its whole duration each scene keeps its energy, or changes it by the work
    of its forces, to rounding: 1e-12 of the kinetic energy, in 80 to 16384 steps. */
-TEST(test_energy_balance)
+TEST(energy_changes_by_the_work_of_forces_alone)
 {
     char names[256];
     int forced = 0;
@@ -95,8 +95,6 @@ TEST(test_energy_balance)
         const balance b = run_balance(scenes[i], NULL);
         assert_true(b.kinetic > 0);
         const int forces = list_forces(scenes[i], names, sizeof names);
-        print_message("  %-20s gained %8.1e  not accounted for %8.1e\n", scenes[i]->name,
-                      b.gained/b.kinetic, b.missing/b.kinetic);
         assert_true(b.missing <= 1e-12*b.kinetic);
         if (forces) assert_true(b.gained > 0.01*b.kinetic);
         else assert_true(b.gained <= 5e-14*b.kinetic);
@@ -108,7 +106,7 @@ TEST(test_energy_balance)
 
 /* What the scenes say they conserve, in units of the momentum or angular momentum
    that there is; the satellite without its air. */
-TEST(test_conserved_quantities)
+TEST(what_scenes_say_they_conserve_is_conserved)
 {
     int seen = 0;
     for (int i = 0; i < scene_count; ++i) {
@@ -154,7 +152,7 @@ static double solar_system_error(int degree, int parts)
     return worst;
 }
 
-TEST(test_solar_system_against_reference)
+TEST(the_solar_system_ends_where_the_reference_does)
 {
     assert_between(0, solar_system_error(8, 1), 1e-11);
     assert_between(7.5, log2(solar_system_error(4, 1)/solar_system_error(4, 2)), 8.5);
@@ -162,7 +160,7 @@ TEST(test_solar_system_against_reference)
 
 /* The three bodies come back after Simo's period, and after a third of it each
    stands where another began; to the 8 digits that the data have. */
-TEST(test_figure_eight_period)
+TEST(the_figure_eight_closes_after_its_period)
 {
     const double period = 6.32591398;
     double v[6], miss = 0, far = 0, along = 0, speed = 0;
@@ -178,13 +176,12 @@ TEST(test_figure_eight_period)
         along += (made.q[i] - st.q[i])*v[i];
         speed += v[i]*v[i];
     }
-    print_message("  closes to %.1e; period %.9f\n", far, period + along/speed);
     assert_between(1e-10, far, 1e-7);
     assert_close(period + along/speed, period, 5e-8);
 }
 
 /* Arenstorf's orbit closes, though a perturbation of its start grows 1e4-fold. */
-TEST(test_arenstorf_closes)
+TEST(arenstorfs_orbit_closes)
 {
     const scene *a = build("arenstorf", NULL);
     double nudged;
@@ -224,14 +221,13 @@ static double recurrence(int degree, gvi_rule_kind rule, double h, double *share
    the literature belong to the step of the report itself, leapfrog with h^2 = 1/8,
    whose error weakens the dispersion by 1/8 and so delays the return by
    sqrt(8/7) = 1.069; Stoermer-Verlet is that method. */
-TEST(test_fput_recurrence)
+TEST(the_fput_chain_returns_when_it_should)
 {
     double share, exact = recurrence(6, GVI_GAUSS, 1, &share), leapfrog, fine;
     assert_between(0.975, share, 0.985);
     assert_between(146, exact, 147);
     leapfrog = recurrence(1, GVI_LOBATTO, sqrt(1/8.0), &share);
     assert_int_equal(st.formulation, GVI_EXPLICIT);
-    print_message("  exact %.2f periods, with the step of the report %.2f\n", exact, leapfrog);
     assert_between(156, leapfrog, 158);
     assert_between(0.97, share, 0.985);
     assert_close(leapfrog/exact, sqrt(8/7.0), 0.005);
@@ -278,7 +274,7 @@ static int off_and_unlisted(const scene *a, int e, long count, gvi_stepper *bare
    same bits as long as the formulation is the same.  Where it was the effect that
    asked for velocities, the formulation differs, both steppers say so, and the
    results agree as two ways of computing the same numbers do. */
-TEST(test_off_is_unlisted)
+TEST(off_is_as_if_not_listed)
 {
     static gvi_stepper bare;
     int same = 0;

@@ -106,20 +106,6 @@ TEST(a_rule_that_is_too_weak_lowers_the_order_although_every_curve_is_a_minimum)
     assert_int_equal(misses, 0);
 }
 
-/* By hand: Milne -5/16, the only mode that it does not integrate; 3/8 the smaller eigenvalue of (1, b; b, c) */
-TEST(the_quadrature_of_the_kinetic_energy_is_coercive_or_not)
-{
-    const own_rule three_eighths = newton_cotes(4);
-    const real b = 4*sqrt(21.0L)/27, c = 7*(0.25L + 363/2916.0L);
-    assert_close(coercivity(&milne, 3), -5/16.0L, 100*EPS);
-    assert_close(coercivity(&three_eighths, 4), (1 + c)/2 - sqrt((c - 1)*(c - 1)/4 + b*b), 100*EPS);
-    for (int s = 2; s <= 6; ++s) {
-        const own_rule exact = gauss(s), ends = lobatto(s);
-        assert_close(coercivity(&exact, s), 1, 100*EPS);
-        if (s > 2) assert_close(coercivity(&ends, s), 1, 100*EPS);          /* s = 2: its one mode counts 3 times */
-    }
-}
-
 static int which_norm;
 static curve_kind which_curve;
 
@@ -140,20 +126,6 @@ TEST(the_curve_has_order_min_s_and_half_u_plus_one)
     for (int i = 0; i < PROBLEMS; ++i)
         for (which_norm = 0; which_norm < NORMS; ++which_norm)
             expect_slopes("curve", norm_error, &problems[i], 4, 2, more[which_norm], 192, 0.15L);
-    assert_int_equal(misses, 0);
-}
-
-/* Lemma 3.1, k = 0, 1: without a method, from the solution alone */
-TEST(a_polynomial_of_degree_s_comes_as_near_as_s_plus_1)
-{
-    misses = 0;
-    which_curve = INTERPOLANT;
-    for (int i = 0; i < PROBLEMS; ++i)
-        for (int s = 1; s <= 4; ++s) {
-            const method m = { s, { 0 } };
-            for (which_norm = 0; which_norm < NORMS; which_norm += 2)
-                expect_slope("interpolant", norm_error, &problems[i], &m, s + 1 - which_norm/2, 48, 0.15L);
-        }
     assert_int_equal(misses, 0);
 }
 
@@ -338,23 +310,6 @@ TEST(the_stability_functions_are_those_of_theory)
             assert_between(-1 - 32*EPS, turn, 1 + 32*EPS);
             assert_close(half_trace(&lobatto_s, h), want, 400*EPS*(1 + want*want));
         }
-}
-
-/* The edges of Lobatto's first windows: half trace -1, then 1, by hand from
-   1 - x/2 and, degree 2, (x^2 - 22 x + 48)/(2 (x + 24)), x = (h omega)^2 */
-TEST(lobatto_is_unstable_in_its_windows_and_not_outside)
-{
-    static const struct { int s; real edge; int grows_after; } edges[] = {
-        { 1, 2, 1 }, { 2, 2.8284271247461900976L, 1 },
-        { 2, 3.4641016151377545871L, 0 }, { 2, 4.8989794855663561964L, 1 }
-    };
-    for (int i = 0; i < COUNT(edges); ++i) {
-        const method m = { edges[i].s, { GVI_LOBATTO, .points = edges[i].s + 1 } };
-        for (int side = -1; side <= 1; side += 2) {
-            int grows = fabs(half_trace(&m, edges[i].edge + side*1e-6L)) > 1;
-            assert_int_equal(grows, (side > 0) == edges[i].grows_after);
-        }
-    }
 }
 
 RUN_TESTS(NULL, NULL)

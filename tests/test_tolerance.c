@@ -5,25 +5,18 @@
 enum { MOST = 9, STEPS = 24 };                  /* coordinates; steps */
 
 /* V = sum q_i^4/4 + sum (q_i+1 - q_i)^2/2; a potential is not to see velocities, whatever else is there */
-static int chain(const gvi_points *x, void *user)
+AT_POINTS(chain)
 {
-    const int R = x->stride;
     if (x->v || x->dldv || x->p) return 1;
-    for (int k = 0; k < x->count; ++k)
-        for (int i = 0; i < x->n; ++i) {
-            const real q = x->q[i*R + k];
-            const real left = i > 0 ? q - x->q[(i - 1)*R + k] : 0, right = i < x->n - 1 ? x->q[(i + 1)*R + k] - q : 0;
-            x->f[i*R + k] += right - left - q*q*q;
-        }
+    FOR_EACH(x, a) {
+        const int i = a/x->stride;
+        const real q = x->q[a], left = i > 0 ? q - x->q[a - x->stride] : 0;
+        x->f[a] += (i < x->n - 1 ? x->q[a + x->stride] - q : 0) - left - q*q*q;
+    }
     return 0;
 }
 
-static int friction(const gvi_points *x, void *user)
-{
-    for (int k = 0; k < x->count; ++k)
-        for (int i = 0; i < x->n; ++i) x->f[i*x->stride + k] -= x->v[i*x->stride + k]/16;
-    return 0;
-}
+AT_EACH(friction) { x->f[a] -= x->v[a]/16; }
 
 /* L = q_1 v_2 - q_2 v_1, halved */
 GVI_EACH(magnetic, 2, v, f, dldv)
@@ -35,22 +28,13 @@ GVI_EACH(magnetic, 2, v, f, dldv)
 }
 
 /* M = diag(2 + cos q_i) */
-static int mass(const gvi_points *x, void *user)
+AT_EACH(mass)
 {
-    const int R = x->stride;
-    for (int k = 0; k < x->count; ++k)
-        for (int i = 0; i < x->n; ++i)
-            for (int j = 0; j <= i; ++j)
-                x->mass[(i*x->n + j)*R + k] = i == j ? 2 + (real)cosl((long double)x->q[i*R + k]) : 0;
-    return 0;
+    for (int j = 0, i = a/x->stride; j <= i; ++j)
+        x->mass[(i*(x->n - 1) + j)*x->stride + a] = i == j ? 2 + cos(x->q[a]) : 0;
 }
 
-static int gradient(const gvi_points *x, void *user)
-{
-    for (int k = 0; k < x->n*x->stride; ++k)
-        if (k % x->stride < x->count) x->f[k] -= (real)sinl((long double)x->q[k])*x->v[k]*x->v[k]/2;
-    return 0;
-}
+AT_EACH(gradient) { x->f[a] -= sin(x->q[a])*x->v[a]*x->v[a]/2; }
 
 enum { FRICTION = 1, MAGNETIC = 2, OFF = 4 };   /* OFF: friction is listed, and switched off */
 typedef struct scene {

@@ -272,8 +272,6 @@ static int run_form(const form *f, int first, int n, const real *q, const real *
     return -1;
 }
 
-static unsigned long long dice;
-
 static real between(real lo, real hi)
 {
     dice = dice*6364136223846793005ull + 1442695040888963407ull;

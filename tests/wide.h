@@ -29,15 +29,4 @@ static int same(gvi_real one, gvi_real other)
     return u <= v && u >= v;
 }
 
-static unsigned long long seed;
-static __attribute__((unused)) unsigned random_bits(void)
-{
-    seed = seed*6364136223846793005ULL + 1442695040888963407ULL;
-    return (unsigned)(seed >> 32);
-}
-static __attribute__((unused)) gvi_real random_unit(void)               /* in (-1,1) */
-{
-    return (gvi_real)(((long double)random_bits() - 2147483647.5L)/2147483648.0L);
-}
-
 #endif
