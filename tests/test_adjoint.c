@@ -91,31 +91,17 @@ TEST(gradient_by_the_drag)
     }
 }
 
-static void velocity_of(const gvi_points *x, const gvi_points *d, const int transposed)
+static int velocity_transposed(const gvi_points *x, const gvi_points *d, int parameter, void *user)
 {
     const int s = x->stride;
     for (int k = 0; k < x->count; ++k) {
         const real a = x->q[k] - x->q[s+k], da = d->q[k] - d->q[s+k], c = cos(a), D = 1/(2 - c*c), dc = -sin(a)*da;
-        real pa = d->p[k] - dc*x->v[s+k], pb = d->p[s+k] - dc*x->v[k], z[2];
-        if (transposed) {
-            drag_slope(x, k, d->q[k], d->q[s+k], z);
-            pa -= z[0];
-            pb -= z[1];
-        }
+        real z[2];
+        drag_slope(x, k, d->q[k], d->q[s+k], z);
+        const real pa = d->p[k] - dc*x->v[s+k] - z[0], pb = d->p[s+k] - dc*x->v[k] - z[1];
         d->velocity[k] = (pa - c*pb)*D;
         d->velocity[s+k] = (2*pb - c*pa)*D;
     }
-}
-
-static int velocity_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
-{
-    velocity_of(x, d, 0);
-    return 0;
-}
-
-static int velocity_transposed(const gvi_points *x, const gvi_points *d, int parameter, void *user)
-{
-    velocity_of(x, d, 1);
     return 0;
 }
 
@@ -146,38 +132,13 @@ static int turning_transposed(const gvi_points *x, const gvi_points *d, int para
     return 0;
 }
 
-/* The kinetic energy of the two links as a Lagrangian term, for GVI_MASS_NONE. */
-static int links(const gvi_points *x, void *user)
-{
-    const int s = x->stride;
-    if (x->f) pendulum_gradient(x, NULL);
-    for (int k = 0; k < x->count && x->dldv; ++k) {
-        const real c = cos(x->q[k] - x->q[s+k]);
-        x->dldv[k] += 2*x->v[k] + c*x->v[s+k];
-        x->dldv[s+k] += c*x->v[k] + x->v[s+k];
-    }
-    return 0;
-}
-
-static int links_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
-{
-    const int s = x->stride;
-    if (d->f) pendulum_gradient_product(x, d, -1, NULL);
-    for (int k = 0; k < x->count && d->dldv; ++k) {
-        const real a = x->q[k] - x->q[s+k], da = d->q[k] - d->q[s+k], c = cos(a), dc = -sin(a)*da;
-        d->dldv[k] += 2*d->v[k] + c*d->v[s+k] + dc*x->v[s+k];
-        d->dldv[s+k] += c*d->v[k] + d->v[s+k] + dc*x->v[k];
-    }
-    return 0;
-}
-
 static const gvi_effect turned[] = { { .kind = GVI_POTENTIAL, .points = attraction },
                                      { .kind = GVI_FORCE, .points = turning },
                                      { .kind = GVI_FORCE, .points = drag } },
                         two_links[] = { { .kind = GVI_POTENTIAL, .points = weight },
                                         { .kind = GVI_FORCE, .points = drag } },
                         by_term[] = { { .kind = GVI_POTENTIAL, .points = weight },
-                                      { .kind = GVI_LAGRANGIAN, .points = links },
+                                      { .kind = GVI_LAGRANGIAN, .points = pendulum_term },
                                       { .kind = GVI_FORCE, .points = drag } },
                         charged[] = { { .kind = GVI_POTENTIAL, .points = attraction },
                                       { .kind = GVI_LAGRANGIAN, .points = magnetic },
@@ -212,7 +173,7 @@ static const scene scenes[] = {
       { weight_product, drag_product }, { weight_product, drag_transposed } },
     { "no mass but a term, and friction", { .n = N, .degree = 3, .effects = by_term, .effect_count = 3,
                                             .mass = { .kind = GVI_MASS_NONE, .velocity = pendulum_velocity } },
-      { weight_product, links_product, drag_product }, { weight_product, links_product, drag_transposed } },
+      { weight_product, pendulum_term_product, drag_product }, { weight_product, pendulum_term_product, drag_transposed } },
     { "potential, momenta", { .n = N, .degree = 3, .effects = turned, .effect_count = 1, .formulation = GVI_MOMENTA },
       { attraction_product }, { attraction_product } },
     { "potential, Newton", { .n = N, .degree = 3, .effects = turned, .effect_count = 1, .formulation = GVI_NEWTON },
@@ -226,7 +187,7 @@ TEST(pairing_is_kept)
     for (int i = 0; i < COUNT(scenes); ++i) {
         const scene *s = &scenes[i];
         const real h = R(0.15625);
-        tangent T = { .plain = s->desc, .gradient = pendulum_gradient_product, .velocity = velocity_product, .directions = 2*N,
+        tangent T = { .plain = s->desc, .gradient = pendulum_gradient_product, .velocity = pendulum_velocity_product, .directions = 2*N,
                       .room = room, .room_length = TANGENT_ROOM(N, 4) };
         adjoint A = { .plain = s->desc, .gradient = pendulum_gradient_product, .velocity = velocity_transposed,
                       .room = room + TANGENT_ROOM(N, 4), .room_length = ADJOINT_ROOM(N, NODES) };

@@ -365,10 +365,13 @@ TEST(wrong_entries_of_hessians_are_named)
 }
 
 /* A Hessian that is not symmetric, transposed: two blocks of it differ. */
-GVI_EACH(turn_points, 2, v, f)
+AT_POINTS(turn_points)
 {
-    x->f[0] += x->q[0]*x->q[1];
-    x->f[1] -= 2*x->q[0] + x->v[0]*x->v[1];
+    for (int k = 0; k < x->count; ++k) {
+        x->f[k] += x->q[k]*x->q[x->stride+k];
+        x->f[x->stride+k] -= 2*x->q[k] + x->v[k]*x->v[x->stride+k];
+    }
+    return 0;
 }
 
 static int turn_hessian(double t, const double *q, const double *v,
@@ -481,10 +484,11 @@ AT_POINTS(either)
     return 0;
 }
 
-GVI_EACH(each, 1, f, value)
+AT_POINTS(each)
 {
-    x->value[0] += x->q[0]*x->q[0]/2;
-    x->f[0] -= x->q[0];
+    for (int k = 0; x->value && k < x->count; ++k) x->value[k] += x->q[k]*x->q[k]/2;
+    FOR_EACH(x, a) if (x->f) x->f[a] -= x->q[a];
+    return 0;
 }
 
 TEST(f_and_value_in_one_call)

@@ -290,46 +290,6 @@ TEST(the_nearest_point_of_a_circle)
         }
 }
 
-/* Three digits of a file: a closed loop of four bodies with a diagonal is rigid up to a turn; the turn stays */
-TEST(a_frame_from_three_digits)
-{
-    rods r = { 4, { 0, 1, 2, 3 }, { 1, 2, 3, 0 }, { 0 } };
-    const real angle = 0.7L;
-    const gvi_real plan[8] = { 0, 0, (gvi_real)1.5L, 0, (gvi_real)1.7L, 1, (gvi_real)0.2L, (gvi_real)1.1L };
-    measure(&r, plan);
-    const gvi_effect hold = { .kind = GVI_CONSTRAINT, .points = rods_hold, .rows = 4, .user = &r };
-    const gvi_desc desc = { .n = 8, .degree = 4, .effects = &hold, .effect_count = 1 };
-    gvi_real q[8], v[8] = { 0 }, file[8], far[2], p[8];
-    for (int i = 0; i < 8; i += 2) {
-        q[i] = (gvi_real)(rint(1000*(plan[i]*cos(angle) - plan[i + 1]*sin(angle)))/1000);
-        q[i + 1] = (gvi_real)(rint(1000*(plan[i]*sin(angle) + plan[i + 1]*cos(angle)))/1000);
-    }
-    memcpy(file, q, sizeof q);
-    v[0] = 1;
-    gvi_stepper st = new_stepper(&desc);
-    assert_status(gvi_start(&st, 0, q, v), GVI_E_CONSTRAINT);
-    assert_ok(gvi_project(&st, 0, q, v, far));
-    real push[3] = { 0, 0, 0 }, size = 0;         // what is added has no momentum and no angular momentum about q'
-    for (int i = 0; i < 8; i += 2) {
-        const real dx = q[i] - file[i], dy = q[i + 1] - file[i + 1];
-        push[0] += dx;
-        push[1] += dy;
-        push[2] += q[i]*dy - q[i + 1]*dx;
-        size += dx*dx + dy*dy;
-    }
-    for (int k = 0; k < 3; ++k) assert_close(push[k], 0, 20*EPS);
-    assert_close(far[0], sqrt(size), 20*EPS);
-    assert_between(1e-5L, far[0], 2e-3L);
-    assert_ok(gvi_start(&st, 0, q, v));
-    memcpy(p, st.p, sizeof p);
-    for (int k = 0; k < 100; ++k) assert_ok(gvi_step(&st, (gvi_real)0.02L));
-    for (int d = 0; d < 2; ++d) {
-        real was = 0, is = 0;
-        for (int i = d; i < 8; i += 2) was += p[i], is += st.p[i];
-        assert_close(is, was, 100*EPS);
-    }
-}
-
 /* What cannot be: too far, dependent, not a number; q and v stay as they are, and so does a motion that is on */
 TEST(projections_that_fail_change_nothing)
 {

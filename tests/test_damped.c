@@ -113,20 +113,6 @@ TEST(areas_shrink_exactly)
     }
 }
 
-/* There and back, to rounding: the splitting is symmetric. */
-TEST(back_again)
-{
-    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = fall } };
-    const gvi_desc desc = { .n = 1, .rule = drift_kick_drift, .effects = scene, .effect_count = 1 };
-    gvi_stepper st = new_motion(&desc, 0, (real[]){ 1 }, (real[]){ R(0.25) });
-    assert_ok(damped_steps(&st, R(0.125), 8, air, NULL, work));
-    assert_between(0.5L, fabs(st.p[0] - R(0.25)), 2);
-    assert_ok(damped_steps(&st, R(-0.125), 8, air, NULL, work));
-    assert_close(st.q[0], 1, 300*EPS);
-    assert_close(st.p[0], R(0.25), 300*EPS);
-    assert_close(st.t, 0, 0);
-}
-
 static int limit;
 
 static int fails(const gvi_points *x, void *user)

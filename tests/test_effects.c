@@ -310,29 +310,6 @@ TEST(air_drag_is_quadratic)
     assert_close(f[3], -2*sqrt((real)17)*exp((real)-1), 16*(real)EPS);
 }
 
-/* Forces between particles: they sum to nothing, and so do their torques. */
-TEST(inner_forces_and_their_torques_cancel)
-{
-    const gvi_effect inner[] = { pair_gravity(&pairs), springs(&net),
-                                 pair_gravity(&flat_pairs), springs(&flat_net) };
-    const particles on[] = { pairs.on, net.on, flat_pairs.on, flat_net.on };
-    for (int e = 0; e < COUNT(inner); ++e) {
-        real q[N], v[N], f[N], g[N], sum[2] = { 0, 0 }, torque = 0, size = 0;
-        draw(3, q, v);
-        ask(&inner[e], 0, q, v, f, g);
-        for (int i = 0; i < on[e].count; ++i) {
-            const real *r = q + on[e].first + i*on[e].dim, *a = f + on[e].first + i*on[e].dim;
-            sum[0] += a[0], sum[1] += a[1];
-            torque += r[0]*a[1] - r[1]*a[0];
-            size += 5*(fabs(a[0]) + fabs(a[1]));
-        }
-        assert_close(sum[0], 0, 8*(real)EPS*size);
-        assert_close(sum[1], 0, 8*(real)EPS*size);
-        assert_close(torque, 0, 8*(real)EPS*size);
-        assert_true(size > 1);
-    }
-}
-
 /* Two bodies: Newton's law in numbers; the flattened body over pole and equator. */
 TEST(gravity_is_newtons_in_numbers)
 {

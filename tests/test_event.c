@@ -194,52 +194,6 @@ TEST(a_touch_that_only_the_curve_sees)
     assert_int_equal(event_next(&e, st), 0);
 }
 
-/* q'' = -1 - q^2 above a floor: a step that hits it, split there. */
-GVI_EACH(curved, 1, f) { x->f[0] -= 1 + x->q[0]*x->q[0]; }
-
-static void bounce(int degree, real h, real *at, real *momentum)
-{
-    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = curved } };
-    const gvi_desc desc = { .n = 1, .degree = degree, .effects = scene, .effect_count = 1 };
-    real zero = 0;
-    event e = of(level, &zero);
-    gvi_stepper st = new_stepper(&desc);
-    assert_ok(gvi_start_momentum(&st, 0, at, momentum));
-    assert_ok(gvi_step(&st, h));
-    assert_int_equal(event_next(&e, &st), 1);
-    e.p[0] = -e.p[0];
-    assert_ok(gvi_start_momentum(&st, e.t, e.q, e.p));
-    assert_ok(gvi_step(&st, h - e.t));
-    *at = st.q[0];
-    *momentum = st.p[0];
-}
-
-/* det - 1 of the map of a step with a bounce, by differences. */
-static real area_defect(int degree, real h)
-{
-    const real d = R(1e-4);
-    real J[2][2], z[2][2];
-    for (int j = 0; j < 2; ++j) {
-        for (int k = 0; k < 2; ++k) {
-            z[k][0] = h/4;
-            z[k][1] = R(-0.9);
-            z[k][j] += k ? d : -d;
-            bounce(degree, h, &z[k][0], &z[k][1]);
-        }
-        for (int i = 0; i < 2; ++i) J[i][j] = (z[1][i] - z[0][i])/(2*d);
-    }
-    return fabs(J[0][0]*J[1][1] - J[0][1]*J[1][0] - 1);
-}
-
-/* It is symplectic to the order of a step, h^3 at degree 1, and not to rounding; at degree 4 as well as exactly. */
-TEST(a_bounce_is_symplectic_to_the_order)
-{
-    if (DIG < 50) return;
-    assert_between(R(2.8), log2(area_defect(1, R(0.2))/area_defect(1, R(0.1))), R(3.2));
-    assert_between(R(1e-3), area_defect(1, R(0.4)), R(1e-2));
-    assert_between(0, area_defect(4, R(0.1)), R(1e-7));                 /* differences */
-}
-
 /* Two rods of 1, bobs of 1, g = 1; the wall at x = 1.1. Elastic. */
 static const real wall = R(1.1);
 
@@ -280,27 +234,6 @@ static gvi_stepper *linkage(int degree, event *e)
     *e = (event){ .g = gap, .q = linkage_q, .v = linkage_v, .p = linkage_p };
     st = new_motion(&desc, 0, (real[]){ R(0.6), R(0.8), 0, R(1.6) }, (real[]){ 0, 0, 0, 0 });
     return &st;
-}
-
-/* 200 impacts: no loss, and the rods as long as before. */
-TEST(a_linkage_hits_a_wall_often)
-{
-    event e;
-    gvi_stepper *st = linkage(8, &e);
-    real start, now;
-    assert_ok(gvi_energy(st, &start));
-    for (int hits = 0; hits < 200; ) {
-        assert_ok(gvi_step(st, R(0.02)));
-        const int found = event_next(&e, st);
-        assert_true(found >= 0);
-        if (!found || e.rising) continue;
-        mirror(e.q, e.p);
-        assert_ok(gvi_start_momentum(st, e.t, e.q, e.p));
-        ++hits;
-        assert_ok(gvi_energy(st, &now));
-        assert_close(now, start, 32*EPS*(real)(hits + 4));
-        assert_close(e.q[0]*e.q[0] + e.q[1]*e.q[1], 1, 8*EPS);
-    }
 }
 
 /* g may read the time alone, and need not be finite. */

@@ -266,31 +266,4 @@ TEST(what_is_behind_the_points_is_not_read)
     }
 }
 
-TEST(between_two_configurations_neither)
-{
-    static real memory[GVI_LENGTH(N, 8, 8)];
-    static const real q0[N] = { 1, (real)0.25L, (real)0.125L }, q1[N] = { (real)0.96L, (real)0.31L, (real)0.16L };
-    for (int degree = 1; degree < 8; ++degree) {
-        real got[2][KEPT] = { { 0 } };
-        for (int whole = 0; whole < 2; ++whole) {
-            watch w = { .near = 16*EPS, .whole = whole, .t = { (real)0.5L, (real)0.5L } };
-            gvi_effect scene[5];
-            gvi_stepper st;
-            gvi_desc d = describe(DRAG, GVI_NEWTON, degree, scene, &w);
-            int used = 0;
-            real p[4*N];
-            for (int i = 0; i < N; ++i) w.start[0][i] = w.start[1][i] = q0[i];
-            if (degree < 6) d.rule.points = 6;
-            assert_int_equal(gvi_init(&st, &d, memory, sizeof memory), GVI_OK);
-            const gvi_discrete out = { .p0 = p, .p1 = p + N, .minus = p + 2*N, .plus = p + 3*N };
-            assert_int_equal(gvi_discrete_lagrangian(&st, (real)0.5L, (real)0.125L, q0, q1, &out), GVI_OK);
-            take(got[whole], &used, p, COUNT(p));
-#ifndef __OPTIMIZE_SIZE__
-            assert_true(w.behind > 0);
-#endif
-        }
-        compare("discrete Lagrangian", degree, got[0], got[1]);
-    }
-}
-
 RUN_TESTS(NULL, NULL)

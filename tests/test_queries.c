@@ -188,31 +188,6 @@ TEST(velocities_next_to_0_are_found_beside_a_vector_potential)
         }
 }
 
-/* Differences for Newton's matrix: however short the step, no velocity beyond that of light */
-TEST(short_steps_stay_in_the_domain_of_L)
-{
-    const gvi_desc desc = { .n = 2, .degree = 4, .effects = fast, .effect_count = 2, .mass = { .kind = GVI_MASS_NONE } };
-    const real v0[] = { 0.6L, 0.5L };
-    gvi_stepper st;
-    set_up(&st, &desc, 0);
-    for (real h = 0.1L; h > 1e-25L; h /= 100) {
-        real v[2];
-        assert_ok(gvi_start(&st, 0.3L, q_start, v0));
-        assert_ok(gvi_step(&st, h));
-        assert_ok(gvi_velocity(&st, v));
-        assert_vectors_close(v, v0, 2*h + 16*EPS);               // |a| < 2
-    }
-    assert_ok(gvi_start(&st, 0.3L, q_start, v0));
-    for (int k = 0; k < 100; ++k) {
-        real q[2], back = 1e-16L;
-        assert_ok(gvi_step(&st, 0.1L));
-        assert_ok(gvi_state_at(&st, st.t, q, NULL, NULL));
-        assert_vectors_close(q, st.q, EPS*st.t + 4*EPS);          // t is rounded, and speeds are below 1
-        assert_ok(gvi_state_at(&st, st.t - back, q, NULL, NULL));
-        assert_vectors_close(q, st.q, back + EPS*st.t + 4*EPS);
-    }
-}
-
 TEST(the_three_starts_agree)
 {
     for (int kind = GVI_MASS_UNIT; kind <= GVI_MASS_POSITION; ++kind)

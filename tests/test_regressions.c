@@ -46,21 +46,6 @@ TEST(a_start_from_next_to_nothing_is_a_start)
     assert_between(0, fabsl((long double)st.q[0]), 1e-25L);
 }
 
-/* v = 2u, p = 10u, whatever the unit u of the coordinate and that of the other */
-TEST(velocities_of_different_units_come_out_alike)
-{
-    for (int e = -12; e <= 12; e += 4) {
-        real unit[2] = { 1, (real)pow(10, e) }, q[2] = { 0, 0 }, v[2], p[2];
-        const gvi_effect scene[] = { { .kind = GVI_LAGRANGIAN, .points = quartic, .user = unit } };
-        gvi_stepper st;
-        for (int i = 0; i < 2; ++i) p[i] = 10*unit[i];
-        set_up(&st, (gvi_desc){ .n = 2, .degree = 2, .effects = scene, .effect_count = 1, .mass = { .kind = GVI_MASS_NONE } }, memory);
-        assert_ok(gvi_start_momentum(&st, 0, q, p));
-        assert_ok(gvi_velocity(&st, v));
-        for (int i = 0; i < 2; ++i) assert_close(v[i]/unit[i], 2, 8*EPS);
-    }
-}
-
 /* Two free oscillators, one 1e20 times heavier (and as stiff): nothing conjugate */
 TEST(heavy_and_light_are_no_conjugate_points)
 {

@@ -234,17 +234,6 @@ TEST(the_fput_chain_returns_when_it_should)
     fine = recurrence(1, GVI_LOBATTO, sqrt(1/512.0), &share);
     assert_close(fine, exact, 0.5);
 
-    // in between it was elsewhere
-    double v[FPUT_BONDS], least = 1;
-    build("fput", NULL);
-    start();
-    const double first = fput_mode(made.q, made.v, 1);
-    for (int k = 0; k < 100*64; ++k) {
-        steps(1, 1);
-        velocity(v);
-        least = fmin(least, fput_mode(st.q, v, 1)/first);
-    }
-    assert_between(0.01, least, 0.15);
 }
 
 /* Runs `count` steps of scene a with effect e switched off (in st) and not listed (in bare); the

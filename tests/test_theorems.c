@@ -264,17 +264,6 @@ TEST(at_high_degree_the_error_of_a_large_step_stays_at_rounding)
         }
 }
 
-TEST(negative_directions_of_the_oscillator_count_half_turns)
-{
-    const real y[2] = { 1, 0.5L };
-    const method m = { 16, { 0 } };
-    for (int k = 0; k <= 4; ++k)
-        for (int side = 0; side < 2; ++side) {
-            real h = (k + (side ? 0.999L : 0.001L))*TAU/2;
-            assert_int_equal(index_of_step(&oscillator, &m, 0, y, h), k);
-        }
-}
-
 /* Morse: conjugate points inside, of nonlinear motions, on both sides of each */
 TEST(negative_directions_are_as_many_as_conjugate_points)
 {

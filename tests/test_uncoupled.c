@@ -369,25 +369,6 @@ TEST(a_hundred_thousand_move_as_alone)
     free(z);
 }
 
-/* Friction for which an iteration contracts by 0.9 only: what still falls is no rounding */
-TEST(the_slowest_converges_too)
-{
-    static real q[2], v[2], z[2];
-    for (int alone = 0; alone < 2; ++alone) {
-        gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = soft, .user = owns + alone },
-                               { .kind = GVI_FORCE, .points = own_drag, .user = owns + alone } };
-        const gvi_desc d = { .n = 2 - alone, .degree = 2, .effects = scene, .effect_count = 2, .max_iterations = 1000,
-                             .formulation = GVI_VELOCITIES };
-        owns[0] = (own){ .length = 1, .mass = 1, .k = 1 };
-        owns[1] = (own){ .length = (real)(KIND == 1 ? 1e-5 : 1e-13), .mass = 1, .k = (real)0.015625L, .drag = 3 };
-        for (int i = 0; i < 2; ++i) q[i] = owns[i].length/4, v[i] = owns[i].length/64;
-        gvi_stepper st = new_motion(&d, 0, q + alone, v + alone);
-        assert_ok(gvi_step(&st, 1));
-        z[alone] = st.p[1 - alone];
-    }
-    assert_close(z[0], z[1], 64*EPS*owns[1].length);
-}
-
 enum { BODIES = 9, SPRINGS = 6, SPACE = 3*BODIES + SPRINGS };
 typedef struct sky { int bodies; real mass[BODIES]; } sky;
 
