@@ -80,7 +80,7 @@ deps-ensemble: | $(filter deps deps-check deps-firmware,$(MAKECMDGOALS))
 #: coverage     lines and branches of gvi.h that the tests take (gcc, three minutes); what they do not: build/coverage/missing
 coverage:
 	$(Q)mkdir -p $(BUILD)/coverage
-	$(Q)$(MAKE) --no-print-directory BUILD=$(BUILD)/coverage CFLAGS='-O0 --coverage' covered
+	$(Q)$(MAKE) --no-print-directory BUILD=$(BUILD)/coverage CFLAGS='-O0 --coverage -Dalways_inline=noinline -w' covered
 covered: $(TESTS:%=$(BUILD)/tests/%)
 	$(Q)sh tests/tools/coverage.sh $(BUILD) $(TESTS)
 

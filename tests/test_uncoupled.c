@@ -352,7 +352,7 @@ TEST(a_hundred_thousand_move_as_alone)
         z[i] = many[i].length;
         z[N + i] = between(-1, 1)*many[i].length;
     }
-    st = new_stepper(&d);
+    assert_ok(gvi_init(&st, &d, memory, gvi_size(&d)));
     assert_ok(gvi_start(&st, 0, z, z + N));
     for (int k = 0; k < 3; ++k) assert_ok(gvi_step(&st, (real)0.4L));
     d.n = 1;

@@ -1,7 +1,7 @@
 #!/bin/sh
 # coverage.sh BUILD PROGRAM...: lines and branches of gvi.h that the test programs BUILD/tests/PROGRAM take, which are linked
-# with libraries compiled with --coverage -O0.  Counts of the double and of the long double library are those of one text,
-# so a branch that either takes is taken.  BUILD/missing: what none takes, by line.
+# with libraries compiled with --coverage -O0, nothing inlined.  Counts of the double and of the long double library are those of
+# one text, so a branch that either takes is taken.  BUILD/missing: what none takes, by line.
 set -eu
 build=$(cd "$1" && pwd)
 shift
@@ -9,13 +9,12 @@ rm -f "$build"/*.gcda "$build"/gvi-*.gcov
 for program in "$@"; do
     nice -n 15 "$build/tests/$program" >"$build/tests/$program.log" 2>&1 || echo "FAILED: $program, see $build/tests/$program.log"
 done
-for type in double long; do
-    mkdir -p "$build/$type"
-    (cd "$build/$type" && gcov -b -c -s "$OLDPWD" "$build/gvi-$type.gcda" >/dev/null 2>&1; cp gvi.h.gcov "../gvi-$type.gcov")
-done
+for type in double long; do gcov -t -b -c "$build/gvi-$type.gcda" >"$build/gvi-$type.gcov"; done
 awk -v missing="$build/missing" '
     function flat(text) { gsub(/^[ \t]+|[ \t]+$/, "", text); return text }
-    /^ *[0-9#=*-]+\*?: *[0-9]+:/ {
+    / 0:Source:/ { ours = /gvi[.]h$/ }
+    !ours { next }
+    /^ *[-0-9#=*]+: *[0-9]+:/ {
         split($0, part, ":")
         line = part[2] + 0
         n = 0
@@ -26,7 +25,8 @@ awk -v missing="$build/missing" '
         next
     }
     /^branch/ {
-        key = line SUBSEP ++n
+        ++n
+        key = line SUBSEP n
         branches[key]
         if ($3 == "taken" && $4 > 0) took[key]
     }
