@@ -121,26 +121,26 @@ static void advise_well(const char *key, double weight, double error)
     assert_true(cost <= 1.5*best);
 }
 
-TEST(kepler_06)
+TEST(the_choice_for_kepler_has_the_error_and_costs_little)
 {
     advise_well("P1", 36, 1e-5);
     advise_well("P1", 36, 1e-8);
 }
 
-TEST(henon_heiles)
+TEST(so_does_that_for_henon_heiles)
 {
     advise_well("P3", 10, 1e-5);
     advise_well("P3", 10, 1e-9);
 }
 
-TEST(solar_system)
+TEST(so_does_that_for_the_solar_system)
 {
     advise_well("P4", 15*47, 1e-6);
     advise_well("P4", 15*47, 1e-9);
 }
 
 /* Eccentricity 0.9; stiff springs; a chain of 100, where splittings are cheap. */
-TEST(other_problems)
+TEST(so_do_those_for_other_problems)
 {
     // at 1e-5 and 1e-7 a sweep finds a loose tolerance whose errors cancel by luck
     advise_well("P2", 36, 1e-6);

@@ -130,7 +130,7 @@ static void expect_order(real coarse, real fine, int order)
     assert_between((real)order - R(0.15), log2(coarse/fine), (real)order + R(0.15));
 }
 
-TEST(eulers_equations)
+TEST(a_free_body_obeys_eulers_equations)
 {
     static const int steps[] = { 160, 80, 40, 20 };
     for (int held = 0; held < 2; ++held) {
@@ -212,11 +212,11 @@ static real precession_error(int s, int steps, int held)
     return worst_of(3, axis, known);
 }
 
-TEST(lagranges_top)
+TEST(lagranges_top_precesses_steadily)
 {
     static const int steps[] = { 400, 160, 80, 25 };
     for (int held = 0; held < 2; ++held) {
-        assert_between(0, precession_error(8, 40, held), 400*EPS);
+        assert_between(0, precession_error(8, 40, held), 80*EPS);
         for (int s = 1, n; s <= 4 && DIG > 50; ++s)
             n = steps[s-1], expect_order(precession_error(s, n, held), precession_error(s, 2*n, held), 2*s);
     }
@@ -235,7 +235,7 @@ static void place(const real *q, const real *own, real *out)
 
 /* f.q' is the force times the velocity of its place, for velocities that leave |e| alone: the place's
    velocity by differences. */
-TEST(the_work_of_a_force)
+TEST(the_work_of_a_force_is_that_of_its_place)
 {
     const real q[] = { 1, 2, 3, R(0.75), R(-0.5), R(0.25), 1 }, force[] = { R(0.5), -1, 2 }, w[] = { 1, R(-0.75), R(0.5) };
     real v[7] = { R(0.25), R(-0.5), 1 }, f[4][7] = { { 0 } }, moved[2][7], there[2][3], own[3], spun_back[3];
@@ -297,7 +297,7 @@ TEST(the_mass_is_consistent)
                 for (int j = 0; j < 14; ++j) T[k] += v[i]*M[i > j ? i*14 + j : j*14 + i]*v[j]/2;
         }
         q[c] = was;
-        assert_close(f[c], (T[1] - T[0])/(2*d), 1000*d*d*(1 + fabs(f[c])));
+        assert_close(f[c], (T[1] - T[0])/(2*d), 50*d*d*(1 + fabs(f[c])));
     }
 }
 
@@ -335,7 +335,7 @@ static int ball_joint(const gvi_points *x, void *user)
 }
 
 /* Joined, free in space: the joint holds, and nothing changes momentum, angular momentum or energy. */
-TEST(two_bodies_on_a_joint)
+TEST(two_bodies_on_a_joint_keep_momentum_and_energy)
 {
     static const gvi_effect joint = { .kind = GVI_CONSTRAINT, .points = ball_joint, .rows = 3 };
     for (int held = 0; held < 2; ++held) {

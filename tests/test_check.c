@@ -422,7 +422,7 @@ TEST(forces_without_value_must_have_a_potential)
 
 /* For every effect of every scene: overwriting, a forgotten last point, writing past
    the points of a row and past the rows; of all outputs that it has. */
-TEST(manners_are_checked)
+TEST(callbacks_that_overwrite_or_leave_points_out_are_named)
 {
     static const struct { slip_kind slip; check_what what; } cases[] = {
         { OVERWRITES, CHECK_ADDS }, { LAST_POINT, CHECK_BATCH }, { PAST_POINTS, CHECK_BEYOND },
@@ -491,7 +491,7 @@ AT_POINTS(each)
     return 0;
 }
 
-TEST(f_and_value_in_one_call)
+TEST(f_left_out_beside_value_is_named)
 {
     build_own(1, (gvi_effect){ .kind = GVI_POTENTIAL, .points = each, .value = each }, (gvi_mass){ 0 });
     assert_int_equal(check(), 0);

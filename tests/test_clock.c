@@ -270,7 +270,7 @@ TEST(the_energy_keeps_to_its_level)
             worst[k/10000] = fmax(worst[k/10000], fabs(E - E0));
         }
         if (s == 2) assert_between(0.7, worst[1]/worst[0], 1.4);
-        else assert_between(0, worst[1], 4*sqrt((real)20000)*EPS);
+        else assert_between(0, worst[1], 40*EPS);
     }
 }
 
@@ -294,8 +294,8 @@ TEST(steps_back_return)
         gvi_stepper st;
         begin(&st, (scene_name)a, s, start);
         real q0[2], q[2], p[2];
-        assert_between(0, there_and_back(&st, 20, (const real[]){ 0.0625, 0.125 }, 2), 100*EPS);
-        assert_between(0, fabs(st.t), 20*EPS);
+        assert_between(0, there_and_back(&st, 20, (const real[]){ 0.0625, 0.125 }, 2), 8*EPS);
+        assert_between(0, fabs(st.t), 2*EPS);
         for (int k = 0; k < 20; ++k) {
             memcpy(q0, st.q, sizeof q0);
             assert_ok(gvi_step(&st, (real)0.0625));
@@ -324,7 +324,7 @@ TEST(a_constant_clock_is_a_longer_step)
             assert_ok(gvi_step(&y, (real)0.25*c));
         }
         assert_close(x.t, y.t, 8*EPS*fabs(y.t));
-        assert_between(0, distance(x.q, x.p, (const real[]){ y.q[0], y.q[1], y.p[0], y.p[1] }), 2000*EPS);
+        assert_between(0, distance(x.q, x.p, (const real[]){ y.q[0], y.q[1], y.p[0], y.p[1] }), 200*EPS);
     }
 }
 

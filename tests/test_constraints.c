@@ -94,7 +94,7 @@ TEST(states_meet_the_references)
             desc.rule.kind = rule ? GVI_LOBATTO : GVI_GAUSS;
             assert_ok(set_up(&st, &a, &desc));
             for (int i = 0; i < runs[k].steps; ++i) assert_ok(gvi_step(&st, (real)10/(real)runs[k].steps));
-            check_reference(&st, a.n, runs[k].q, runs[k].p, 1000);
+            check_reference(&st, a.n, runs[k].q, runs[k].p, 200);
             assert_between(0, residual(&st, &a), 2);
             assert_between(0, hidden(&st, &a), 4);
         }
@@ -108,7 +108,7 @@ TEST(states_meet_the_references)
     gvi_stepper st;
     assert_ok(set_up(&st, &a, &desc));
     for (int i = 0; i < 200; ++i) assert_ok(gvi_step(&st, (real)0.1L));
-    check_reference(&st, 4, body_q, body_p, 40000);   // e^(0.58*20) times rounding
+    check_reference(&st, 4, body_q, body_p, 8000);   // e^(0.58*20) times rounding
 }
 
 /* Andersen 1983, for the rods: p at half the step and q on the constraint, mu by Newton's method; then p at
@@ -281,7 +281,7 @@ TEST(multipliers_near_the_end_of_a_domain)
         real lambda;
         gvi_stepper st = new_motion(&desc, 0, q, v);
         assert_ok(gvi_multipliers(&st, &lambda));
-        assert_close(lambda, z*(1 + z), 8*EPS);
+        assert_close(lambda, z*(1 + z), 2*EPS);
     }
 }
 
@@ -312,7 +312,7 @@ TEST(a_rod_breaks_and_holds_again)
     for (int k = 0; k < 10; ++k) assert_ok(gvi_step(&st, (real)0.1L));
     assert_int_equal(st.counters.effect[2], calls);
     assert_close(st.q[2], q[2] + v[2], 40*EPS);
-    assert_close(st.q[3], q[3] + v[3] - (real)0.125L, 40*EPS);      // weight 1/2, mass 2
+    assert_close(st.q[3], q[3] + v[3] - (real)0.125L, 8*EPS);      // weight 1/2, mass 2
     assert_close(st.q[0]*st.q[0] + st.q[1]*st.q[1], 1, 4*EPS);
     assert_ok(gvi_multipliers(&st, lambda));
     assert_true(lambda[0] < 0 && lambda[1] == 0);
@@ -354,7 +354,7 @@ TEST(queries_know_constraints)
             assert_ok(gvi_state_at(&st, saved.t + (real)0.03L, later, v, mom));
             assert_ok(gvi_multipliers(&st, lambda));
             for (int j = 0; j < a.n; ++j) assert_close(later[j], q[j], 40*EPS);
-            for (int j = 0; j < a.n; ++j) assert_close(mom[j], p[j], 400*EPS*(1 + fabs(p[j])));
+            for (int j = 0; j < a.n; ++j) assert_close(mom[j], p[j], 16*EPS*(1 + fabs(p[j])));
         }
         assert_ok(gvi_curve(&st, 1, at, v));
         for (int j = 0; j < a.n; ++j) assert_close(at[j], st.q[j], 20*EPS);
@@ -555,7 +555,7 @@ TEST(a_joint_may_be_anywhere)
 }
 
 /* From h = 1e-6 to one that does not converge, which is said, with the state as it was */
-TEST(steps_of_all_sizes)
+TEST(steps_of_all_sizes_are_right_or_refused)
 {
     const linkage a = make_linkage(RODS);
     gvi_desc desc = linkage_desc(&a, 8);

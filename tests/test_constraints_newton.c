@@ -92,7 +92,7 @@ static real pade_argument(int s, real z)
     return 2*atan2(part[1] - part[3], part[0] - part[2]);
 }
 
-TEST(stiff_springs_on_a_line)
+TEST(stiff_springs_on_a_line_turn_as_pades_fraction)
 {
     static const int degrees[] = { 1, 2, 4, 8 };
     for (int d = 0; d < COUNT(degrees); ++d)
@@ -145,7 +145,7 @@ static real bead_error(const bead *b, int s, gvi_formulation f, int steps, const
     return miss + fabs(w[0]*cos(end[0]) + w[1]*sin(end[0]) - end[1]);
 }
 
-TEST(a_mass_that_depends_on_velocity)
+TEST(a_mass_that_depends_on_velocity_costs_no_order)
 {
     static const bead beads[] = { { (gvi_real)0.1L, 0, 0 }, { 1, 0, 0 }, { 30, 0, 0 }, { 0, 1, 0 }, { 0, 1, 1 } };
     static const int steps[] = { 0, KIND == 1 ? 10 : 40, KIND == 1 ? 4 : 12, 8 };
@@ -161,7 +161,7 @@ TEST(a_mass_that_depends_on_velocity)
                 const real first = bead_error(&b, s, use, N, end), second = bead_error(&b, s, use, 2*N, end);
                 assert_between(2*s - 0.25L, log2(first/second), 2*s + 0.45L);
             }
-        assert_between(0, bead_error(&b, KIND == 3 ? 10 : 8, GVI_AUTO, 20, end), 400*EPS);
+        assert_between(0, bead_error(&b, KIND == 3 ? 10 : 8, GVI_AUTO, 20, end), 40*EPS);
     }
 }
 
@@ -239,7 +239,7 @@ TEST(the_flat_position_is_refused)
                 assert_ok(start(&st, &desc, q, v));
                 const gvi_status status = gvi_step(&st, h);
                 if (pinned || status != GVI_OK) assert_true(status == GVI_E_SINGULAR || status == GVI_E_CONVERGENCE);
-                else assert_close(st.q[1], st.q[3], a/50);          // never on the other branch
+                else assert_close(st.q[1], st.q[3], a/(KIND == 1 ? 50 : 1000));          // never on the other branch
                 for (int i = 0; status != GVI_OK && i < 4; ++i) assert_true(st.q[i] == q[i]);
             }
 }
@@ -260,7 +260,7 @@ TEST(memory_is_what_the_macro_says)
 }
 
 /* Of a circle with two masses: q' - q normal in the metric M, so M(q' - q) = lambda q'; v' likewise */
-TEST(the_nearest_point_of_a_circle)
+TEST(a_projection_is_the_nearest_point)
 {
     gvi_real mass[2] = { 1, 9 };
     const gvi_effect hold = { .kind = GVI_CONSTRAINT, .points = circle, .rows = 1 };

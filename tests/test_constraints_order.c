@@ -179,7 +179,7 @@ static void check_order(linkage_id id, int s, gvi_rule_kind rule, int r, int ord
     }
 }
 
-TEST(orders_of_q_and_p)
+TEST(q_and_p_have_the_full_order)
 {
     for (int id = 0; id < LINKAGES; ++id) {
         const linkage a = make_linkage((linkage_id)id);
@@ -204,7 +204,7 @@ TEST(orders_of_q_and_p)
 }
 
 /* Along a motion, against those of the index-1 equations at the same state: no method's order is in it */
-TEST(orders_of_multipliers)
+TEST(multipliers_are_those_of_the_index_1_equations)
 {
     for (int id = 0; id < LINKAGES; ++id) {
         const linkage a = make_linkage((linkage_id)id);
@@ -228,7 +228,7 @@ TEST(orders_of_multipliers)
 
 /* A quaternion's multiplier is that of |q|: T and V are homogeneous of degree 2 in q, so q'(dL/dq) = 2T - 2V,
    and d(q'p)/dt = 0 with q'p = 4 I0 q'v = 0, v'p = 2T: lambda = 2V - 4T */
-TEST(the_multiplier_of_a_quaternion)
+TEST(the_multiplier_of_a_quaternion_is_2V_less_4T)
 {
     const linkage a = make_linkage(QUATERNION);
     gvi_stepper st;

@@ -24,7 +24,7 @@ static void flight_errors(int degree, int steps, double *e)
                 fmax(fabs(p[2] - flight_start[2]), fabs(p[3] - flight_start[3])));
 }
 
-TEST(the_best_flight)
+TEST(the_best_flight_is_that_of_24_digits)
 {
     double cost, q[FLIGHT], p[FLIGHT];
     assert_ok(best_flight(6, 48, &cost, q, p, NULL));
@@ -58,7 +58,7 @@ static void swing_errors(int degree, int steps, double *e)
                 fmax(fabs(p[2] - swing_start[2]), fabs(p[3] - swing_start[3])));
 }
 
-TEST(the_least_effort)
+TEST(the_least_effort_is_that_of_pontryagin)
 {
     double e[2];
     swing_errors(6, 80, e);
@@ -77,7 +77,7 @@ TEST(the_swing_has_order_2s)
 }
 
 /* The lesson's products, by complex steps, agree with differences. */
-TEST(complex_products)
+TEST(complex_products_agree_with_differences)
 {
     const double q[] = { 0.1, 0.4, 0.3, 0.2 }, v[] = { 0.5, 0.3, 0.2, 0.1 };
     int part = -1;
@@ -92,7 +92,7 @@ static void nowhere(const double *q, const double *p, const double *dq, const do
     for (int i = 0; i < 4; ++i) c[i] = dq ? 0 : 1;
 }
 
-TEST(what_shooting_refuses)
+TEST(shooting_that_cannot_arrive_is_refused)
 {
     static double work[SHOOTING_ROOM(CART, CART)];
     static const double dq[16] = { [2] = 1, [7] = 1 }, dp[16] = { [10] = 1, [15] = 1 };

@@ -42,7 +42,7 @@ static real error(int drag, int steps, int fourth)
     return fmax(fabs(st.q[0] - (real)q), fabs(st.p[0] - (real)p));
 }
 
-TEST(orders_2_and_4)
+TEST(orders_are_2_and_4)
 {
     for (int drag = 0; drag < 2; ++drag) {
         const int steps = DIG < 50 ? 16 : 64;
@@ -122,7 +122,7 @@ static int fails(const gvi_points *x, void *user)
 }
 
 /* The third of five steps fails: two are done, as if these had been all; and a first one leaves all as it was. */
-TEST(a_step_that_fails)
+TEST(a_step_that_fails_leaves_those_before)
 {
     static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = fails } };
     const gvi_desc desc = { .n = 1, .rule = drift_kick_drift, .effects = scene, .effect_count = 1 };

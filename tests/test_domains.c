@@ -229,7 +229,7 @@ TEST(free_motion_that_is_refused_is_shortened)
     assert_ok(gvi_step(&st, (real)0.55));         // 0.75 + 0.55/2 > 1
     fine = new_motion(&desc, 0, &q, &v);
     for (int k = 0; k < 64; ++k) assert_ok(gvi_step(&fine, (real)0.55/64));
-    assert_close(st.q[0], fine.q[0], 1e-3L);
+    assert_close(st.q[0], fine.q[0], 2e-5L);
     assert_true(st.counters.effect[0] > 0);
 }
 

@@ -96,7 +96,7 @@ TEST(times_have_the_order_of_the_steps)
 }
 
 /* cos t = 0.3, twice a period; and again with a new start at every zero. */
-TEST(every_zero_once)
+TEST(every_zero_is_found_once)
 {
     static const real h[] = { R(0.0625), R(0.3), R(0.7), R(-0.45) };
     real wanted = R(0.3);
@@ -126,7 +126,7 @@ TEST(every_zero_once)
 }
 
 /* q = t - 1 is 0 where the fourth step ends; so is q = 1 - t. */
-TEST(a_zero_where_two_steps_meet)
+TEST(a_zero_where_two_steps_meet_counts_once)
 {
     const gvi_desc desc = { .n = 1, .degree = 2 };
     for (int rising = 0; rising < 2; ++rising) {
@@ -157,7 +157,7 @@ TEST(a_zero_where_two_steps_meet)
 
 /* Four intervals of a quarter each; the top of cos t in the middle of one.  Zeros of cos t - level that
    are 0.2 apart lie both inside and are not seen, 0.3 apart they are; nor are those lost in shorter steps. */
-TEST(two_zeros_in_one_interval)
+TEST(two_zeros_in_one_interval_are_not_seen)
 {
     static const struct { real apart, h; int zeros; } cases[] = { { R(0.2), 1, 0 }, { R(0.3), 1, 2 }, { R(0.2), R(0.5), 2 } };
     for (int i = 0; i < COUNT(cases); ++i) {
@@ -176,7 +176,7 @@ TEST(two_zeros_in_one_interval)
 
 /* cos t - level where only the curve passes the level, above the top of the states, and a sample lies
    between its two zeros. What counts are states. */
-TEST(a_touch_that_only_the_curve_sees)
+TEST(a_touch_that_only_the_curve_sees_does_not_count)
 {
     real curve, top, wanted;
     event e = of(level, &wanted);
@@ -237,7 +237,7 @@ static gvi_stepper *linkage(int degree, event *e)
 }
 
 /* g may read the time alone, and need not be finite. */
-TEST(what_g_may_be)
+TEST(g_may_read_the_time_alone_and_be_undefined)
 {
     real noon = R(1.3);
     event e = of(clock_hand, &noon);
@@ -252,7 +252,7 @@ TEST(what_g_may_be)
     assert_int_equal(event_next(&e, st), GVI_E_NON_FINITE);
 }
 
-TEST(output_at_given_times)
+TEST(output_at_given_times_is_the_motion)
 {
     for (int way = -1; way <= 1; way += 2) {
         gvi_stepper *st = cosine(8, 0);
@@ -269,7 +269,7 @@ TEST(output_at_given_times)
 }
 
 /* A ball on a level floor: each impact when the parabola says so; then, if it loses speed, the end of that, above the floor */
-TEST(impacts_pile_up)
+TEST(impacts_that_pile_up_end_in_a_status)
 {
     if (KIND == 1) skip();                            // the digits of float do not show it
     static const real restitutions[] = { 1, R(0.9), R(0.5), R(0.01), 0 }, hs[] = { R(0.02), R(0.5) };

@@ -171,11 +171,11 @@ static void run_all(gvi_formulation formulation)
         }
 }
 
-TEST(the_default) { run_all(GVI_AUTO); }
-TEST(the_fixed_point) { run_all(GVI_POSITIONS); }
-TEST(the_fixed_point_with_velocities) { run_all(GVI_VELOCITIES); }
-TEST(momenta) { run_all(GVI_MOMENTA); }
-TEST(newton) { run_all(GVI_NEWTON); }
+TEST(no_step_is_ok_and_wrong_by_default) { run_all(GVI_AUTO); }
+TEST(nor_by_the_fixed_point) { run_all(GVI_POSITIONS); }
+TEST(nor_with_velocities) { run_all(GVI_VELOCITIES); }
+TEST(nor_in_momenta) { run_all(GVI_MOMENTA); }
+TEST(nor_by_newton) { run_all(GVI_NEWTON); }
 
 /* A mass of 0.1 on a rope of stiffness 1e6, just before it is taut, with a tolerance: Newton's method overshot to
    1e16 times the size of y, and the fall from there to 1 was taken for convergence.  Energy went from 0 to 1247
@@ -216,7 +216,7 @@ static gvi_status long_step(const scene *a, gvi_desc desc, const gvi_stepper *st
 /* It falls, is taut and slack in turn; from where it then is one long step: h omega is 13, 32 and 63.  A
    damped Newton's method with Hessians of its own solves all of these; undamped it was 63 to 97 in 100.
    Not in float, where K times the rounding of q is a tenth of the weight. */
-TEST(a_cable_by_halved_changes)
+TEST(halved_changes_solve_a_cable)
 {
     enum { n = MOST };
     static const double steps[] = { 0.002, 0.005, 0.01 };
@@ -315,7 +315,7 @@ TEST(a_curve_that_is_0_is_no_end)
 
 /* A mass on a spring of stiffness 10,000, swinging: the first change of Newton's method meets the length of the
    spring, and every one that then goes round leads up before it leads down.  200 states, one long step each, h omega = 64 */
-TEST(a_stiff_pendulum_by_whole_changes)
+TEST(whole_changes_solve_a_stiff_pendulum)
 {
     const scene a = { &(law){ "pendulum", pendulum_force, 2 }, 10000 };
     const gvi_effect effect = { .kind = GVI_POTENTIAL, .points = points, .user = (void *)&a };
@@ -343,7 +343,7 @@ static int dry_friction(const gvi_points *x, void *user)
    method that is too large lands where tanh is flat.  The steps are 100 times as long as a velocity of that
    width lasts; of degree 1 also 1000 times.  One in 70 failed, of the longer one in nine.  (In float that
    width is hardly more than rounding.) */
-TEST(dry_friction_by_halved_changes)
+TEST(halved_changes_solve_dry_friction)
 {
     wide width = 0.0001L, c[MOST_POINTS], b[MOST_POINTS];
     const gvi_effect effect = { .kind = GVI_FORCE, .points = dry_friction, .user = &width };

@@ -79,7 +79,7 @@ static void set_cranks(gvi_effect *e, gvi_desc *desc, int s, real *q)
     for (int k = 0; k < 3; ++k) q[2*k] = cos((real)1.2L) + (real)(k*(k + 1)/2), q[2*k + 1] = sin((real)1.2L);
 }
 
-TEST(orders_with_redundant_rows)
+TEST(redundant_rows_cost_no_order)
 {
     const int most = sizeof(real) == sizeof(float) ? 1 : 3;
     const long double angle = swing(1.2L, 1);
@@ -168,7 +168,7 @@ TEST(zeros_of_G_may_end)
                 end[turned][0] = c*st.q[0] + d*st.q[1];
                 end[turned][1] = c*st.q[1] - d*st.q[0];
             }
-            for (int i = 0; i < 2; ++i) assert_close(end[0][i], end[1][i], 256*EPS);
+            for (int i = 0; i < 2; ++i) assert_close(end[0][i], end[1][i], 32*EPS);
             assert_true(end[0][0] > (real)0.5L);
         }
 }

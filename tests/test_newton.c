@@ -14,43 +14,35 @@ typedef struct row { gvi_real cubic, damping, turning; int hessians; } row;
 
 static gvi_real spring_of(int i) { return (gvi_real)(1 + 400*(i % 2)); }
 
-static int springs(const gvi_points *x, void *user)
+AT_POINTS(springs)
 {
     const row *a = user;
-    const int n = x->n, d = x->stride;
-    for (int i = 0; i < n; ++i)
+    for (int i = 0, n = x->n, d = x->stride; i < n; ++i)
         for (int k = 0; k < x->count; ++k) {
-            const gvi_real u = stretch(n, i, d, x->q + k);
+            const real u = stretch(n, i, d, x->q + k);
             add_tension(n, i, d, spring_of(i)*u + a->cubic*u*u*u, x->f + k);
         }
     return 0;
 }
 
-static int springs_hessian(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *fq, gvi_real *fv,
-                           gvi_real *pv, void *user)
+HESSIAN(springs_hessian)
 {
     const row *a = user;
-    const int n = MOST;
-    for (int i = 0; i < n; ++i) {
-        const gvi_real u = stretch(n, i, 1, q);
-        add_stiffness(n, i, spring_of(i) + 3*a->cubic*u*u, fq);
+    for (int i = 0; i < MOST; ++i) {
+        const real u = stretch(MOST, i, 1, q);
+        add_stiffness(MOST, i, spring_of(i) + 3*a->cubic*u*u, fq);
     }
     return 0;
 }
 
 /* f_i = -damping (v_i - v_(i+1)/2): not symmetric */
-static int damper(const gvi_points *x, void *user)
+AT_EACH(damper)
 {
-    const row *a = user;
-    const int n = x->n, d = x->stride;
-    for (int i = 0; i < n; ++i)
-        for (int k = 0; k < x->count; ++k)
-            x->f[i*d + k] -= a->damping*(x->v[i*d + k] - (i + 1 < n ? x->v[(i + 1)*d + k]/2 : 0));
-    return 0;
+    const real next = a/x->stride + 1 < x->n ? x->v[a + x->stride]/2 : 0;
+    x->f[a] -= ((const row *)user)->damping*(x->v[a] - next);
 }
 
-static int damper_hessian(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *fq, gvi_real *fv,
-                          gvi_real *pv, void *user)
+HESSIAN(damper_hessian)
 {
     const row *a = user;
     for (int i = 0; i < MOST; ++i) {
@@ -61,31 +53,24 @@ static int damper_hessian(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_
 }
 
 /* L = sum turning (q_i v_(i+1) - q_(i+1) v_i)/2 + cubic q_i^2 v_i^2/100 over even i */
-static int magnet(const gvi_points *x, void *user)
+AT_EACH(magnet)
 {
-    const row *a = user;
-    const int n = x->n, d = x->stride;
-    for (int i = 0; i + 1 < n; i += 2)
-        for (int k = 0; k < x->count; ++k) {
-            const gvi_real *q = x->q + i*d + k, *v = x->v + i*d + k, w = a->turning/2;
-            x->f[i*d + k] += w*v[d];
-            x->f[(i + 1)*d + k] -= w*v[0];
-            x->dldv[i*d + k] -= w*q[d];
-            x->dldv[(i + 1)*d + k] += w*q[0];
-            x->f[i*d + k] += a->cubic*q[0]*v[0]*v[0]/50;
-            x->dldv[i*d + k] += a->cubic*q[0]*q[0]*v[0]/50;
-        }
-    return 0;
+    const row *r = user;
+    const int b = a + x->stride, i = a/x->stride;
+    const real w = r->turning/2;
+    if (i % 2 || i + 1 == x->n) return;
+    x->f[a] += w*x->v[b] + r->cubic*x->q[a]*x->v[a]*x->v[a]/50;
+    x->f[b] -= w*x->v[a];
+    x->dldv[a] -= w*x->q[b] - r->cubic*x->q[a]*x->q[a]*x->v[a]/50;
+    x->dldv[b] += w*x->q[a];
 }
 
-static int magnet_hessian(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *fq, gvi_real *fv,
-                          gvi_real *pv, void *user)
+HESSIAN(magnet_hessian)
 {
     const row *a = user;
     for (int i = 0; i + 1 < MOST; i += 2) {
-        const gvi_real w = a->turning/2;
-        fv[i*MOST + i + 1] += w;
-        fv[(i + 1)*MOST + i] -= w;
+        fv[i*MOST + i + 1] += a->turning/2;
+        fv[(i + 1)*MOST + i] -= a->turning/2;
         fq[i*MOST + i] += a->cubic*v[i]*v[i]/50;
         fv[i*MOST + i] += a->cubic*q[i]*v[i]/25;
         pv[i*MOST + i] += a->cubic*q[i]*q[i]/50;
@@ -94,32 +79,22 @@ static int magnet_hessian(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_
 }
 
 /* M_ii = 3 + sin q_i, M_i(i+1) = cos(q_i + q_(i+1))/2: definite for any q */
-static int mass(const gvi_points *x, void *user)
+AT_EACH(mass)
 {
-    const int n = x->n, d = x->stride;
-    for (int k = 0; k < x->count; ++k)
-        for (int i = 0; i < n; ++i)
-            for (int j = 0; j <= i; ++j) {
-                const gvi_real a = x->q[i*d + k], b = x->q[j*d + k];
-                x->mass[(i*n + j)*d + k] = i == j ? 3 + (gvi_real)sin((double)a)
-                                         : i == j + 1 ? (gvi_real)cos((double)(a + b))/2 : 0;
-            }
-    return 0;
+    for (int i = a/x->stride, j = 0; j <= i; ++j) x->mass[(i*(x->n - 1) + j)*x->stride + a] = i == j ? 3 + sin(x->q[a]) : 0;
+    if (a < x->stride) return;
+    const int i = a/x->stride;
+    x->mass[(i*(x->n - 1) + i - 1)*x->stride + a] = cos(x->q[a] + x->q[a - x->stride])/2;
 }
 
-static int mass_gradient(const gvi_points *x, void *user)
+AT_EACH(mass_gradient)
 {
-    const int n = x->n, d = x->stride;
-    for (int k = 0; k < x->count; ++k)
-        for (int i = 0; i < n; ++i) {
-            const gvi_real *q = x->q + i*d + k, *v = x->v + i*d + k;
-            x->f[i*d + k] += (gvi_real)cos((double)q[0])*v[0]*v[0]/2;
-            if (i + 1 == n) continue;
-            const gvi_real w = -(gvi_real)sin((double)(q[0] + q[d]))/2*v[0]*v[d];
-            x->f[i*d + k] += w;
-            x->f[(i + 1)*d + k] += w;
-        }
-    return 0;
+    const int b = a + x->stride;
+    x->f[a] += cos(x->q[a])*x->v[a]*x->v[a]/2;
+    if (b >= x->n*x->stride) return;
+    const real w = -sin(x->q[a] + x->q[b])/2*x->v[a]*x->v[b];
+    x->f[a] += w;
+    x->f[b] += w;
 }
 
 /* What a scene of the tests consists of */
@@ -218,7 +193,7 @@ TEST(newton_and_the_fixed_point_end_at_the_same_point)
             }
             begin(&other, &desc, spare, sizeof spare);
             go(&other, (gvi_real)0.05, 30);
-            assert_close(apart(&newton, &other), 0, 400*EPS);
+            assert_close(apart(&newton, &other), 0, 40*EPS);
         }
 }
 
@@ -280,8 +255,8 @@ TEST(partial_steps_are_steps)
     go(&half, (gvi_real)0.015625, 1);
     assert_ok(gvi_state_at(&st, (gvi_real)0.078125, q, NULL, p));
     for (int i = 0; i < MOST; ++i) {
-        assert_close(q[i], half.q[i], 200*EPS);
-        assert_close(p[i], half.p[i], 2000*EPS);
+        assert_close(q[i], half.q[i], 16*EPS);
+        assert_close(p[i], half.p[i], 100*EPS);
     }
     st.counters.factorizations = 0;
     go(&st, (gvi_real)0.0625, 1);
@@ -420,19 +395,11 @@ TEST(a_stiff_spring_is_as_exact_as_its_force)
     assert_between(0.1L, error_in_kicks(GVI_AUTO), 0.44L);
 }
 
-static int attraction_at(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *f, gvi_real *dldv, void *user)
-{
-    const gvi_real d2 = q[0]*q[0] + q[1]*q[1], w = -1/(d2*(gvi_real)sqrt((double)d2));
-    f[0] += w*q[0];
-    f[1] += w*q[1];
-    return 0;
-}
-
 /* Newton's method with a new matrix at each step contracts by about the step itself: what turns by h on
    a circle is foretold to h or better, and rounding is no contraction */
 TEST(the_contraction_is_that_of_the_changes)
 {
-    static const gvi_effect effect = { .kind = GVI_POTENTIAL, .point = attraction_at };
+    static const gvi_effect effect = { .kind = GVI_POTENTIAL, .points = attraction };
     static const gvi_desc desc = { .n = 2, .degree = 3, .effects = &effect, .effect_count = 1,
                                    .formulation = GVI_NEWTON };
     for (int k = 3; k < 8; ++k) {
@@ -443,11 +410,7 @@ TEST(the_contraction_is_that_of_the_changes)
     }
 }
 
-static int harmonic(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *f, gvi_real *dldv, void *user)
-{
-    f[0] -= q[0];
-    return (void)t, (void)v, (void)dldv, (void)user, 0;
-}
+AT_POINT(harmonic) { return f[0] -= q[0], 0; }
 
 /* A large scene is set up in memory that grows like n, and Newton's method is there when it is asked for */
 TEST(a_large_scene_needs_no_matrices)
@@ -465,11 +428,7 @@ TEST(a_large_scene_needs_no_matrices)
     assert_between(30*one, gvi_size(&desc), 1e12L);
 }
 
-static int swinging(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *f, gvi_real *dldv, void *user)
-{
-    f[0] -= (gvi_real)sin((double)q[0]);
-    return (void)t, (void)v, (void)dldv, (void)user, 0;
-}
+AT_POINT(swinging) { return f[0] -= sin(q[0]), 0; }
 
 /* A pendulum at rest at 1 rad, steps longer than its period.  Newton's method found solutions, and its energy
    went from -0.54 to 51.  Steps may fail; none may leave the well (degree 2 to h = 8.5, beyond which it is too coarse) */
@@ -489,12 +448,7 @@ TEST(no_step_is_another_motions)
         }
 }
 
-static int wrong_hessian(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *fq, gvi_real *fv, gvi_real *pv,
-                         void *user)
-{
-    fq[0] -= *(const gvi_real *)user;
-    return (void)t, (void)q, (void)v, (void)fv, (void)pv, 0;
-}
+HESSIAN(wrong_hessian) { return fq[0] -= *(const real *)user, 0; }
 
 /* f = -q, with -K as its derivative: K of 1e10 makes changes that are small, and the solution is not near */
 TEST(a_wrong_hessian_costs_iterations_or_the_step)
@@ -509,7 +463,7 @@ TEST(a_wrong_hessian_costs_iterations_or_the_step)
                                     .formulation = GVI_NEWTON };
             gvi_stepper st = new_motion(&desc, 0, &q, &v);
             for (int k = 0; k < 10 && gvi_step(&st, h) == GVI_OK; ++k)
-                assert_close(st.q[0], cos((double)st.t), degree == 2 ? 1e-5 : 1e-7 + 100*EPS);
+                assert_close(st.q[0], cos((double)st.t), degree == 2 ? 5e-7 + 20*EPS : 1e-8 + 20*EPS);
             if (e <= 0) assert_ok(st.status);
         }
     }

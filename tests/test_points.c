@@ -73,7 +73,7 @@ static int magnetic_both(const gvi_points *x, void *user)
     return magnetic_loop(x, user) | magnetic_value_loop(x, user);
 }
 
-TEST(every_kind_of_callback)
+TEST(every_kind_of_callback_has_the_bits_of_a_loop)
 {
     assert_same(2, kepler, kepler_loop, "f");
     assert_same(2, kepler, kepler_value_loop, "V");
@@ -90,7 +90,7 @@ TEST(every_kind_of_callback)
 }
 
 /* A failure counts where there is a point, and not in the padding */
-TEST(failures)
+TEST(a_failure_counts_at_points_alone)
 {
     for (int size = 0; size < COUNT(sizes); ++size)
         for (int k = 0; k < sizes[size][1]; ++k) {
@@ -128,7 +128,7 @@ static int all_pairs_loop(const gvi_points *x, void *user)
     return (void)user, 0;
 }
 
-TEST(what_stays_a_loop)
+TEST(what_stays_a_loop_has_the_same_bits)
 {
     assert_same(12, all_pairs, all_pairs_loop, "f");
 

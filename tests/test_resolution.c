@@ -197,7 +197,7 @@ TEST(with_a_clock_the_step_may_pass_the_end)
     while (st.t < turn) assert_ok(gvi_advance(&st, turn));
     assert_true(st.t0 <= turn && turn <= st.t);
     assert_ok(gvi_state_at(&st, turn, q, NULL, NULL));
-    assert_close(q[0], at[0], R(1e-2));
+    assert_close(q[0], at[0], R(1e-4));
 }
 
 typedef struct { int n; real m[3], k[3], cubic[3], pull, soft, drag, drive; } random_scene;

@@ -226,9 +226,8 @@ TEST(a_step_back_returns)
     }
 }
 
-/* 200 steps of different lengths, and the same back.  Independent errors of 2
-   EPS a step, and a motion that is regular: neighbours part linearly, by less
-   than 20 times in the 20 units of time.  sqrt(400) * 2 * 20 = 800. */
+/* 200 steps of different lengths, and the same back.  Independent errors of EPS/4 a step, and a motion that is
+   regular: neighbours part linearly, by less than 20 times in the 20 units of time.  sqrt(400)/4 * 20 = 100. */
 TEST(many_different_steps_and_back_return)
 {
     enum { STEPS = 200 };
@@ -240,7 +239,7 @@ TEST(many_different_steps_and_back_return)
         gvi_stepper *st = set_up_variant(&variants[chosen[i]]);
         const real q[2] = { 0.2L, -0.1L }, p[2] = { 0.1L, 0.1L };
         assert_ok(gvi_start_momentum(st, 0, q, p));
-        assert_between(0, there_and_back(st, STEPS, h, STEPS), 800*EPS);
+        assert_between(0, there_and_back(st, STEPS, h, STEPS), 100*EPS);
         assert_close(st->t, 0, 4*EPS);
     }
 }
@@ -272,7 +271,7 @@ TEST(the_energy_of_a_chaotic_pendulum_stays_in_its_band)
     }
     assert_between(1e-9L, band[0], 1e-6L);                   /* it is truncation that is seen */
     assert_between(0.7L*band[0], band[1], 1.4L*band[0]);
-    assert_close(mean[0], mean[1], band[0]/50);
+    assert_close(mean[0], mean[1], band[0]/250);
 }
 
 TEST(a_conservative_scene_forms_no_velocity_and_no_matrix)

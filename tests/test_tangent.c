@@ -209,7 +209,7 @@ TEST(so_is_a_run_by_the_dial)
     for (; st->t < 8; ++steps) assert_ok(gvi_advance(st, 8));
     for (int j = 0; j < 2*N; ++j) tangent_column(&T, st, j, M[j], M[j] + N);
     const real d = defect(M, &most);
-    assert_between(0, d, 16*EPS*(real)steps*most*most);
+    assert_between(0, d, EPS*most*most);
     assert_true(steps > 4);
 }
 
@@ -250,8 +250,8 @@ TEST(the_motion_is_the_same)
         for (int k = 0; k < 50; ++k) assert_ok(gvi_step(st, h));
         alone(&scenes[i], start, h, 50, end);
         for (int k = 0; k < N; ++k) {
-            assert_close(st->q[k], end[k], 40*EPS);
-            assert_close(st->p[k], end[N+k], 40*EPS);
+            assert_close(st->q[k], end[k], 8*EPS);
+            assert_close(st->p[k], end[N+k], 8*EPS);
         }
     }
 }
@@ -319,7 +319,7 @@ TEST(keplers_derivative_has_order_2s)
     assert_between(0, kepler_error(8, 80), 79*100*EPS + R(1e-15));
 }
 
-TEST(what_is_refused)
+TEST(scenes_without_a_tangent_are_refused)
 {
     static const gvi_effect with_clock[] = { { .kind = GVI_POTENTIAL, .points = heiles, .value = heiles },
                                              { .kind = GVI_CLOCK, .points = clock_rate } };
@@ -363,7 +363,7 @@ static int wrong_product(const gvi_points *x, const gvi_points *d, int parameter
 }
 
 /* Products that are right agree with differences; a term that is off by 2 % is found. */
-TEST(what_the_check_finds)
+TEST(the_check_finds_what_is_off_by_2_percent)
 {
     const real v[] = { R(0.5), R(-0.75) }, dq[] = { R(0.25), R(0.5) }, dv[] = { R(-0.5), R(0.75) };
     tangent T;

@@ -122,8 +122,8 @@ TEST(a_tolerance_below_rounding_changes_the_last_places_only)
             run(scenes + i, points[j], 0, 0, q[0], inside[0]);
             run(scenes + i, points[j], EPS/256, 0, q[1], inside[1]);
             for (int k = 0; k < scenes[i].n; ++k) {
-                assert_close(q[0][k], q[1][k], 10*STEPS*EPS);
-                assert_close(inside[0][k], inside[1][k], 10*STEPS*EPS);
+                assert_close(q[0][k], q[1][k], STEPS*EPS);
+                assert_close(inside[0][k], inside[1][k], STEPS*EPS);
             }
         }
 }

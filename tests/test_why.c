@@ -101,7 +101,7 @@ TEST(a_stepper_that_is_not_ready_says_what_comes_first)
 }
 
 /* Descriptions that gvi_init refuses: each cause its own sentence */
-TEST(descriptions_that_are_refused)
+TEST(each_refused_description_has_its_sentence)
 {
     static int rows = 1;
     static real one = 1, half[2] = { 0.5L, 0.5L }, ends[2] = { 0, 1 }, twos[2] = { 1, 1 }, far[2] = { 0, 2 };
@@ -144,7 +144,7 @@ TEST(descriptions_that_are_refused)
 }
 
 /* Calls that fail, after a good start; 0 is `before` the start already */
-TEST(calls_that_fail)
+TEST(each_call_that_fails_has_its_sentence)
 {
     static int one_row = 1;
     static real one = 1, minus = -1;
@@ -230,7 +230,7 @@ TEST(calls_that_fail)
 }
 
 /* A step from where the force is infinite: told as such, at rest or not, in every formulation; not where it is finite */
-TEST(a_force_that_is_infinite_where_the_step_starts)
+TEST(a_force_that_is_infinite_at_the_start_is_told)
 {
     static const gvi_effect e[] = { { .points = spring }, { .points = inverse_cube }, { .kind = GVI_FORCE, .points = drag } };
     for (int f = GVI_AUTO; f <= GVI_NEWTON; ++f)
@@ -312,7 +312,7 @@ GVI_EACH(by_each, 2, v, f, value)
 }
 GVI_EACH(scaled, 1, f) { x->f[0] -= *(const real *)user*x->q[0]; }
 
-TEST(each_point_without_a_return)
+TEST(gvi_each_has_the_bits_of_gvi_points)
 {
     static const real q[2] = { 1, 0.25L }, v[2] = { 0, 0.5L }, four = 4;
     const gvi_effect a = { .kind = GVI_FORCE, .points = by_points }, b = { .kind = GVI_FORCE, .points = by_each };
