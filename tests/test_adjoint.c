@@ -212,7 +212,6 @@ TEST(the_pairing_with_every_direction_is_kept)
                 size += fabs(end_q[k]*dq[k]) + fabs(end_p[k]*dp[k]);
             }
             const real back = j < N ? by_q[j] : by_p[j-N];
-            if (!(fabs(back - forward) < 64*EPS*size)) print_error("%s, direction %d\n", s->name, j);
             assert_close(back, forward, 64*EPS*size);
         }
     }

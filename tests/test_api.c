@@ -1,5 +1,5 @@
 /* The contract: defaults, memory, every status and what it leaves behind (conjugate points: test_queries.c),
-   moved steppers, checkpoints, pinned formulations, switched effects. */
+   checkpoints, switched effects. */
 #include "gvi_test.h"
 #include "problems.h"
 
@@ -439,7 +439,6 @@ TEST(faulty_descriptions_are_refused)
         gvi_desc desc = { .n = 2, .effects = bad_effects, .effect_count = 1 };
         for (int i = 0; i < COUNT(bad_effects); ++i) bad_effects[i] = chain_only[0];
         if (!spoil(&desc, k)) break;
-        if (init(&desc) != GVI_E_ARGUMENT) print_error("way %d to spoil a description\n", k);
         assert_int_equal(refused.status, GVI_E_ARGUMENT);
         assert_non_null(refused.fault.argument);
         if (k > 1) assert_int_equal(gvi_size(&desc), 0);       /* the matrix is gvi_init's to read */
@@ -537,7 +536,6 @@ TEST(rules_that_cannot_work_are_refused)
         const gvi_desc desc = { .n = 2, .degree = rules[k].s, .rule = { GVI_OWN, 3, rules[k].c, rules[k].b },
                                 .effects = chain_only, .effect_count = 1 };
         gvi_status got = init(&desc);
-        if (got != rules[k].wanted) print_error("rule %d\n", k);
         assert_status(got, rules[k].wanted);
         if (got == GVI_E_NODES || got == GVI_E_ORDER || 3 < rules[k].s) assert_int_equal(gvi_size(&desc), 0);
     }
@@ -638,7 +636,6 @@ TEST(a_fixed_point_that_contracts_is_never_called_divergent)
         gvi_stepper st = new_motion(&desc, 0, (const real[]){ 1 }, (const real[]){ 0 });
         int failures = 0;
         for (int j = 0; j < 300; ++j) failures += gvi_step(&st, (real)0.4*(real)k) != GVI_OK;
-        if (failures) print_error("h omega = %.1f: %d of 300 steps failed\n", 0.4*k, failures);
         assert_int_equal(failures, 0);
         assert_close(st.q[0]*st.q[0] + st.p[0]*st.p[0], 1, 600*EPS);
     }
@@ -842,7 +839,6 @@ static void expect_failure(bench *b, real h, gvi_status wanted, gvi_status or_th
     UNTOUCHED(&b->st) {
         const gvi_counters before = b->st.counters;
         gvi_status got = gvi_step(&b->st, h);
-        if (got != wanted && got != or_this) print_error("h = %g: %s\n", (double)h, gvi_status_text(got));
         assert_true(got == wanted || got == or_this);
         assert_int_equal(b->st.status, got);
         assert_int_equal(b->st.counters.failures, before.failures + 1);

@@ -449,7 +449,6 @@ TEST(callbacks_that_overwrite_or_leave_points_out_are_named)
                         named |= list[m].what == cases[k].what && !strcmp(list[m].entry, entry)
                               && (list[m].i == at || cases[k].what == CHECK_BEYOND);
                     }
-                    if (!named) print_error("  %s:%s, %d of %s\n", scenes[a]->name, made.names[e], k, entry);
                     assert_true(named);
                     ++planted_count;
                 }

@@ -138,7 +138,6 @@ TEST(forces_are_derivatives_of_their_values)
         assert_non_null(s[e].effect.value);
         for (uint64_t from = 1; from <= 5; ++from, ++seen) {
             const real worst = mismatch(&s[e].effect, &s[e].effect, from);
-            if (!(worst < 1)) print_error("%s: %g\n", s[e].name, (double)worst);
             assert_true(worst < 1);
         }
     }
@@ -182,7 +181,6 @@ TEST(hessians_are_derivatives_of_the_forces)
         ++seen;
         for (uint64_t from = 1; from <= 3; ++from) {
             const real worst = hessian_mismatch(&s[e].effect, from);
-            if (!(worst < 1)) print_error("%s: %g\n", s[e].name, (double)worst);
             assert_true(worst < 1);
         }
     }
@@ -219,7 +217,6 @@ TEST(each_effect_reads_and_writes_its_own_coordinates_only)
         assert_int_equal(x->points(&one, x->user), 0);
         for (int i = 0; i < N; ++i) {
             const int own = i >= s[e].first && i < s[e].last;
-            if (f[i] != (own ? full[i] : before[i])) print_error("%s, coordinate %d\n", s[e].name, i);
             assert_true(f[i] == (own ? full[i] : before[i]));
             assert_true(g[i] == (own ? (x->kind == GVI_LAGRANGIAN ? full_g[i] : 0) : before[i]));
         }

@@ -1,7 +1,6 @@
 /* What a variational integrator keeps: the symplectic form, momentum maps, the energy within
-   bounds, reversal in time. And what it must not confuse: coordinates, and effects that are not
-   there. In long double by default, so that differences of the step map say something; every bound
-   is a multiple of a power of EPS, so that -DGVI_REAL=double serves as well. */
+   bounds, reversal in time. In long double by default, so that differences of the step map say something;
+   every bound is a multiple of a power of EPS, so that -DGVI_REAL=double serves as well. */
 #ifndef GVI_REAL
 #define GVI_REAL long double
 #endif

@@ -190,7 +190,6 @@ TEST(a_step_with_its_derivative_is_symplectic)
                 assert_ok(gvi_step(st, pendulum ? h/4 : h));
                 for (int j = 0; j < 2*N; ++j) tangent_column(&T, st, j, M[j], M[j] + N);
                 const real d = defect(M, &most);
-                if (!(d < 16*EPS*most*most)) print_error("%s, step %d\n", scenes[i].name, k);
                 assert_between(0, d, 16*EPS*most*most);
             }
             assert_int_equal(st->formulation, scenes[i].used);
@@ -230,7 +229,6 @@ TEST(every_column_is_what_differences_say)
             for (int k = 0; k < 2*N; ++k) most = fmax(most, fabs(wanted[k]));
             for (int k = 0; k < 2*N; ++k) {
                 const real tol = 400*pow((real)EPS, R(0.8))*most;
-                if (!(fabs(column[k] - wanted[k]) <= tol)) print_error("%s, column %d, row %d\n", s->name, j, k);
                 assert_close(column[k], wanted[k], tol);
             }
         }

@@ -129,6 +129,18 @@ TEST(the_curve_has_order_min_s_and_half_u_plus_one)
     assert_int_equal(misses, 0);
 }
 
+/* Lemma 3.1, k = 0, 1: without a method, from the solution alone */
+TEST(a_polynomial_of_degree_s_comes_as_near_as_s_plus_1)
+{
+    misses = 0;
+    which_curve = INTERPOLANT;
+    for (int i = 0; i < PROBLEMS; ++i)
+        for (int s = 1; s <= 4; ++s)
+            for (which_norm = 0; which_norm < NORMS; which_norm += 2)
+                expect_slope("interpolant", norm_error, &problems[i], &(method){ s, { 0 } }, s + 1 - which_norm/2, 48, 0.15L);
+    assert_int_equal(misses, 0);
+}
+
 static int which_part;
 
 static real part_error(const problem *pb, const method *m, real h)

@@ -51,7 +51,6 @@ AT_EACH(sets_dldv) { x->dldv[a] = x->q[a]/4, x->f[a] += x->v[a]/4; }
 
 static void says(const gvi_stepper *st, gvi_status status, const char *words)
 {
-    if (!strstr(gvi_why(st), words)) print_error("\"%s\" does not say \"%s\"\n", gvi_why(st), words);
     assert_int_equal(st->status, status);
     assert_non_null(strstr(gvi_why(st), words));
 }
@@ -161,50 +160,42 @@ TEST(each_call_that_fails_has_its_sentence)
     gvi_stepper st;
 #define SET_UP(list, count, coordinates, s, ...) do { const gvi_desc d_ = { .n = coordinates, .degree = s, \
         .effects = list, .effect_count = count, __VA_ARGS__ }; st = new_stepper(&d_); } while (0)
-    SET_UP(e, 2, 1, 3, .tolerance = 0);
-    assert_ok(gvi_start(&st, 0, q, v));
+#define BEGIN(...) do { SET_UP(__VA_ARGS__); assert_ok(gvi_start(&st, 0, q, v)); } while (0)
+    BEGIN(e, 2, 1, 3, .tolerance = 0);
     gvi_step(&st, 1);
     says(&st, GVI_E_CALLBACK, "an effect (fault.effect) did not return 0");
     assert_int_equal(st.fault.effect, 1);
-    SET_UP(e, 1, 1, 20, .tolerance = 0);
-    assert_ok(gvi_start(&st, 0, q, v));
+    BEGIN(e, 1, 1, 20, .tolerance = 0);
     gvi_energy(&st, &E);
     says(&st, GVI_E_VALUE, "no value callback");
     gvi_step(&st, 0);
     says(&st, GVI_E_ARGUMENT, "h is 0");
     gvi_discrete_lagrangian(&st, 0, (real)3.14159265358979323846264L, v, v, &(gvi_discrete){ .lagrangian = NULL });
     says(&st, GVI_E_CONJUGATE, "conjugate");
-    SET_UP(e, 1, 1, 3, .formulation = GVI_POSITIONS);
-    assert_ok(gvi_start(&st, 0, q, v));
+    BEGIN(e, 1, 1, 3, .formulation = GVI_POSITIONS);
     gvi_discrete_lagrangian(&st, 0, 1, q, v, &(gvi_discrete){ .lagrangian = NULL });
     says(&st, GVI_E_FORMULATION, "needs GVI_NEWTON");
-    SET_UP(e, 1, 1, 3, .iterations = 4);
-    assert_ok(gvi_start(&st, 0, q, v));
+    BEGIN(e, 1, 1, 3, .iterations = 4);
     gvi_step(&st, 6);
     says(&st, GVI_E_CONVERGENCE, "desc.iterations");
-    SET_UP(bad, 2, 1, 3, .tolerance = 0);
-    assert_ok(gvi_start(&st, 0, q, v));
+    BEGIN(bad, 2, 1, 3, .tolerance = 0);
     gvi_step(&st, 1);
     says(&st, GVI_E_NON_FINITE, "gave NaN or Inf");
     assert_int_equal(st.fault.effect, 1);
-    SET_UP(e, 1, 1, 3, .formulation = GVI_POSITIONS);
-    assert_ok(gvi_start(&st, 0, q, v));
+    BEGIN(e, 1, 1, 3, .formulation = GVI_POSITIONS);
     gvi_step(&st, 30);
     says(&st, GVI_E_CONVERGENCE, "no solution found: halve h");
-    SET_UP(slow, 2, 1, 3, .tolerance = 0);
-    assert_ok(gvi_start(&st, 0, q, v));
+    BEGIN(slow, 2, 1, 3, .tolerance = 0);
     assert_ok(gvi_step(&st, (real)0.25));
     gvi_action(&st, &E);
     says(&st, GVI_E_FORMULATION, "clocks no action");
-    SET_UP(back, 2, 1, 3, .tolerance = 0);
-    assert_ok(gvi_start(&st, 0, q, v));
+    BEGIN(back, 2, 1, 3, .tolerance = 0);
     gvi_step(&st, (real)0.25);
     says(&st, GVI_E_CLOCK, "must be positive");
     SET_UP(late, 2, 1, 3, .tolerance = 0);
     gvi_start(&st, 0, q, v);
     says(&st, GVI_E_FORMULATION, "list it as a force");
-    SET_UP(e, 1, 1, 1, .rule = { GVI_KICKS, 2, ends, half });
-    assert_ok(gvi_start(&st, 0, q, v));
+    BEGIN(e, 1, 1, 1, .rule = { GVI_KICKS, 2, ends, half });
     assert_ok(gvi_step(&st, (real)0.25));
     gvi_curve(&st, 0, &E, NULL);
     says(&st, GVI_E_FORMULATION, "kicks have no curve");
@@ -214,8 +205,7 @@ TEST(each_call_that_fails_has_its_sentence)
     SET_UP(flat, 2, 2, 3, .tolerance = 0);
     gvi_start(&st, 0, on, v);
     says(&st, GVI_E_SINGULAR, "has no gradient");
-    SET_UP(e, 1, 1, 3, .mass = { .kind = GVI_MASS_POSITION, .points = no_mass, .gradient = nothing });
-    assert_ok(gvi_start(&st, 0, q, v));
+    BEGIN(e, 1, 1, 3, .mass = { .kind = GVI_MASS_POSITION, .points = no_mass, .gradient = nothing });
     gvi_step(&st, 1);
     says(&st, GVI_E_SINGULAR, "has no mass");
     SET_UP(e, 1, 1, 3, .mass = { .kind = GVI_MASS_POSITION, .points = refuses, .gradient = nothing });
