@@ -402,49 +402,6 @@ TEST(nothing_outside_the_memory_is_touched)
         }
 }
 
-static real bad_mass[4];
-static gvi_effect bad_effects[GVI_EFFECTS + 1];
-
-/* The k-th way to spoil a good description, 0 when there is none left; more of them: test_domains.c */
-static int spoil(gvi_desc *d, int k)
-{
-    const gvi_mass full = { .kind = GVI_MASS_DENSE, .matrix = bad_mass };
-    bad_mass[0] = bad_mass[3] = 1;
-    bad_mass[2] = 0;
-    switch (k) {
-    case 0:  d->mass = full; bad_mass[2] = (real)NAN; break;
-    case 1:  d->mass = full; bad_mass[2] = (real)INFINITY; break;
-    case 2:  d->n = -1; break;
-    case 3:  d->degree = -1; break;
-    case 4:  d->rule.points = -1; break;
-    case 5:  d->rule.kind = (gvi_rule_kind)7; break;
-    case 6:  d->effect_count = -1; break;
-    case 7:  d->effect_count = GVI_EFFECTS + 1; break;
-    case 8:  d->mass.kind = (gvi_mass_kind)9; break;
-    case 9:  d->mass.kind = GVI_MASS_DIAGONAL; break;                             /* no matrix */
-    case 10: d->mass.points = mass_points; d->mass.gradient = mass_gradient; break;
-    case 11: d->formulation = (gvi_formulation)9; break;
-    case 12: d->tolerance = -1; break;
-    case 13: d->tolerance = (real)NAN; break;
-    case 14: d->iterations = -1; break;
-    case 15: d->iterations = 1000001; break;
-    default: return 0;
-    }
-    return 1;
-}
-
-TEST(faulty_descriptions_are_refused)
-{
-    for (int k = 0; ; ++k) {
-        gvi_desc desc = { .n = 2, .effects = bad_effects, .effect_count = 1 };
-        for (int i = 0; i < COUNT(bad_effects); ++i) bad_effects[i] = chain_only[0];
-        if (!spoil(&desc, k)) break;
-        assert_int_equal(refused.status, GVI_E_ARGUMENT);
-        assert_non_null(refused.fault.argument);
-        if (k > 1) assert_int_equal(gvi_size(&desc), 0);       /* the matrix is gvi_init's to read */
-    }
-}
-
 #define REFUSED(call) assert_status(call, GVI_E_ARGUMENT)
 
 TEST(null_pointers_are_refused)

@@ -233,62 +233,6 @@ TEST(free_motion_that_is_refused_is_shortened)
     assert_true(st.counters.effect[0] > 0);
 }
 
-static int nothing(const gvi_points *x, void *user) { return (void)x, (void)user, 0; }
-static int nothing_at(real t, const real *q, const real *v, real *f, real *dldv, void *user)
-{
-    return (void)t, (void)q, (void)v, (void)f, (void)dldv, (void)user, 0;
-}
-
-/* Each slip has a sentence of its own, and the row where there is one */
-TEST(every_slip_has_its_sentence)
-{
-    static const gvi_effect good = { .kind = GVI_POTENTIAL, .points = nothing };
-    static const gvi_effect wrong[][2] = {
-        { { .kind = GVI_POTENTIAL, .points = nothing }, { .kind = GVI_FORCE } },
-        { { .kind = GVI_POTENTIAL, .points = nothing }, { .kind = (gvi_kind)9, .points = nothing } },
-        { { .kind = GVI_POTENTIAL, .points = nothing }, { .kind = GVI_FORCE, .points = nothing, .point = nothing_at } },
-        { { .kind = GVI_CLOCK, .points = nothing }, { .kind = GVI_CLOCK, .points = nothing } },
-        { { .kind = GVI_POTENTIAL, .points = nothing }, { .kind = GVI_CLOCK, .point = nothing_at } },
-    };
-    static const real one[1] = { 1 };
-    enum { ROWS = 5, ALL = ROWS + 13 };
-    const char *seen[ALL];
-    for (int k = 0; k < ALL; ++k) {
-        gvi_desc d = { .n = 1, .effects = &good, .effect_count = 1 };
-        int effect = GVI_FAULT_NONE;
-        gvi_stepper st;
-        if (k < ROWS) d.effects = wrong[k], d.effect_count = 2, effect = 1;
-        switch (k - ROWS) {
-        case 0:  d.effect_count = 0; break;
-        case 1:  d.effects = NULL; break;
-        case 2:  d.n = 0; break;
-        case 3:  d.degree = 1025; break;
-        case 4:  d.mass.kind = GVI_MASS_POSITION; effect = GVI_FAULT_MASS; break;
-        case 5:  d.mass.kind = GVI_MASS_POSITION, d.mass.points = nothing; effect = GVI_FAULT_MASS; break;
-        case 6:  d.mass.kind = GVI_MASS_DENSE; effect = GVI_FAULT_MASS; break;
-        case 7:  d.mass.kind = GVI_MASS_NONE; effect = GVI_FAULT_MASS; break;
-        case 8:  d.mass.matrix = one; effect = GVI_FAULT_MASS; break;
-        case 9:  d.rule.kind = GVI_OWN; break;
-        case 10: d.rule.nodes = one; break;
-        case 11: d.tolerance = 1; break;
-        case 12: d.max_iterations = -1; break;
-        }
-        assert_status(gvi_init(&st, &d, memory, sizeof memory), GVI_E_ARGUMENT);
-        assert_int_equal(st.fault.effect, effect);
-        assert_non_null(st.fault.argument);
-        seen[k] = st.fault.argument;
-        for (int j = 0; j < k; ++j) assert_string_not_equal(seen[j], seen[k]);
-        assert_true(st.q[0] == 0 && st.p[0] == 0 && st.q_low[0] == 0 && st.p_low[0] == 0);
-    }
-    // and in calls: h, then nothing is left of it
-    const gvi_desc d = { .n = 1, .effects = &good, .effect_count = 1 };
-    gvi_stepper st = new_motion(&d, 0, one, one);
-    assert_status(gvi_step(&st, 0), GVI_E_ARGUMENT);
-    assert_non_null(strstr(st.fault.argument, "h is 0"));
-    assert_ok(gvi_step(&st, 1));
-    assert_null(st.fault.argument);
-}
-
 /* The program of the README, with a degree for which its memory is too small */
 TEST(a_failed_set_up_leaves_something_to_read)
 {

@@ -17,6 +17,7 @@ AT_POINTS(spring)
 AT_EACH(drag) { x->f[a] -= x->v[a]/8; }
 AT_EACH(magnet) { x->dldv[a] += x->q[a]/4, x->f[a] += x->v[a]/4; }
 AT_POINTS(nothing) { return 0; }
+AT_POINT(nothing_at) { return 0; }
 AT_POINTS(refuses) { return 1; }
 AT_EACH(turns_to_nan) { x->f[a] += x->t[0] > 0 ? (real)NAN : 0; }
 AT_EACH(inverse_cube)                                /* -1/q^3, infinite at 0 */
@@ -95,6 +96,7 @@ TEST(a_stepper_that_is_not_ready_says_what_comes_first)
     says(&st, GVI_E_STATE, "outside the last step");
     assert_ok(gvi_step(&st, (real)0.25));
     assert_string_equal(gvi_why(&st), "ok");
+    assert_null(st.fault.argument);
     assert_string_equal(gvi_why(NULL), "the stepper is NULL");
     assert_true(gvi_stepper_size() == sizeof st);
 }
@@ -109,6 +111,12 @@ TEST(each_refused_description_has_its_sentence)
         reads[] = { { .kind = GVI_FORCE, .points = drag } },
         clock[] = { { .points = spring, .value = spring }, { .kind = GVI_CLOCK, .points = clock_1, .user = &one } },
         held[] = { { .kind = GVI_CONSTRAINT, .points = wall, .rows = 1, .user = &rows } };
+    static const real not_finite[4] = { 1, 0, (real)NAN, 1 };
+    static const gvi_effect slips[][2] = {
+        { { .points = spring }, { .kind = GVI_FORCE } }, { { .points = spring }, { .kind = (gvi_kind)9, .points = nothing } },
+        { { .points = spring }, { .kind = GVI_FORCE, .points = nothing, .point = nothing_at } },
+        { { .kind = GVI_CLOCK, .points = nothing }, { .kind = GVI_CLOCK, .points = nothing } },
+        { { .points = spring }, { .kind = GVI_CLOCK, .point = nothing_at } } };
     static const struct { gvi_desc d; size_t size; gvi_status status; const char *words; } cases[] = {
         { { .n = 1, .effects = e, .effect_count = 1 }, 8, GVI_E_MEMORY, "gvi_size(desc)" },
         { { .n = 1, .degree = 2000 }, 1, GVI_E_ARGUMENT, "degree is not 0 to 1024" },
@@ -133,12 +141,50 @@ TEST(each_refused_description_has_its_sentence)
           "a clock needs r = s" },
         { { .n = 1, .formulation = GVI_NEWTON, .iterations = 3 }, 1, GVI_E_FORMULATION, "iterations is given" },
         { { .n = 1, .effects = held, .effect_count = 1, .rule = { GVI_KICKS, 2, ends, half } }, 1, GVI_E_FORMULATION, "constraints go with" },
-        { { .n = 1, .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = ends } }, 1, GVI_E_SINGULAR, "has no mass" }
+        { { .n = 1, .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = ends } }, 1, GVI_E_SINGULAR, "has no mass" },
+        { { .n = 0 }, 1, GVI_E_ARGUMENT, "n is not 1 to 524,287" },
+        { { .n = -1 }, 1, GVI_E_ARGUMENT, "n is not 1 to 524,287" },
+        { { .n = 1, .degree = -1 }, 1, GVI_E_ARGUMENT, "degree is not 0 to 1024" },
+        { { .n = 1, .rule = { .points = -1 } }, 1, GVI_E_ARGUMENT, "rule.points is not 0 to 4000" },
+        { { .n = 1, .rule = { .kind = (gvi_rule_kind)7 } }, 1, GVI_E_ARGUMENT, "rule.kind is not in its enum" },
+        { { .n = 1, .rule = { .kind = GVI_OWN, .points = 8 } }, 1, GVI_E_ARGUMENT, "rule: this kind needs points, nodes and weights" },
+        { { .n = 1, .rule = { .points = 8, .nodes = ends, .weights = half } }, 1, GVI_E_ARGUMENT, "rule: this kind takes no nodes" },
+        { { .n = 1, .effects = e, .effect_count = -1 }, 1, GVI_E_ARGUMENT, "effect_count is not 0 to GVI_EFFECTS" },
+        { { .n = 1, .effects = e, .effect_count = GVI_EFFECTS + 1 }, 1, GVI_E_ARGUMENT, "effect_count is not 0 to GVI_EFFECTS" },
+        { { .n = 1, .effect_count = 1 }, 1, GVI_E_ARGUMENT, "effects is NULL" },
+        { { .n = 1, .effects = e }, 1, GVI_E_ARGUMENT, "effect_count is 0" },
+        { { .n = 1, .max_iterations = -1 }, 1, GVI_E_ARGUMENT, "max_iterations is not" },
+        { { .n = 1, .iterations = -1 }, 1, GVI_E_ARGUMENT, "iterations is not" },
+        { { .n = 1, .iterations = 1000001 }, 1, GVI_E_ARGUMENT, "iterations is not" },
+        { { .n = 1, .formulation = (gvi_formulation)9 }, 1, GVI_E_ARGUMENT, "formulation is not in its enum" },
+        { { .n = 1, .tolerance = -1 }, 1, GVI_E_ARGUMENT, "tolerance is not 0 to 1" },
+        { { .n = 1, .tolerance = 1 }, 1, GVI_E_ARGUMENT, "tolerance is not 0 to 1" },
+        { { .n = 1, .tolerance = (real)NAN }, 1, GVI_E_ARGUMENT, "tolerance is not 0 to 1" },
+        { { .n = 1, .mass = { .kind = (gvi_mass_kind)9 } }, 1, GVI_E_ARGUMENT, "mass.kind is not in its enum" },
+        { { .n = 1, .mass = { .matrix = ends } }, 1, GVI_E_ARGUMENT, "mass: matrix or points is given" },
+        { { .n = 1, .mass = { .points = no_mass, .gradient = nothing } }, 1, GVI_E_ARGUMENT, "mass: matrix or points is given" },
+        { { .n = 1, .mass = { .kind = GVI_MASS_POSITION } }, 1, GVI_E_ARGUMENT, "mass: points is missing" },
+        { { .n = 1, .mass = { .kind = GVI_MASS_POSITION, .points = no_mass } }, 1, GVI_E_ARGUMENT, "mass: gradient is missing" },
+        { { .n = 1, .mass = { .kind = GVI_MASS_NONE } }, 1, GVI_E_ARGUMENT, "mass: none, and no Lagrangian term" },
+        { { .n = 1, .mass = { .kind = GVI_MASS_DENSE } }, 1, GVI_E_ARGUMENT, "mass: matrix is missing" },
+        { { .n = 1, .mass = { .kind = GVI_MASS_DIAGONAL } }, 1, GVI_E_ARGUMENT, "mass: matrix is missing" },
+        { { .n = 2, .mass = { .kind = GVI_MASS_DENSE, .matrix = not_finite } }, 1, GVI_E_ARGUMENT, "mass.matrix is not finite" },
+        { { .n = 1, .effects = slips[0], .effect_count = 2 }, 1, GVI_E_ARGUMENT, "effect: points, or point, is missing" },
+        { { .n = 1, .effects = slips[1], .effect_count = 2 }, 1, GVI_E_ARGUMENT, "effect: kind is not in its enum" },
+        { { .n = 1, .effects = slips[2], .effect_count = 2 }, 1, GVI_E_ARGUMENT, "effect: points and point, one is too many" },
+        { { .n = 1, .effects = slips[3], .effect_count = 2 }, 1, GVI_E_ARGUMENT, "effect: a second clock" },
+        { { .n = 1, .effects = slips[4], .effect_count = 2 }, 1, GVI_E_ARGUMENT, "effect: this kind needs points, not point" },
     };
     for (int k = 0; k < COUNT(cases); ++k) {
         gvi_stepper st;
         gvi_init(&st, &cases[k].d, memory, cases[k].size == 1 ? sizeof memory : cases[k].size);
         says(&st, cases[k].status, cases[k].words);
+        if (cases[k].status != GVI_E_ARGUMENT) continue;
+        if (!strncmp(cases[k].words, "effect: ", 8)) assert_int_equal(st.fault.effect, 1);
+        else if (!strncmp(cases[k].words, "mass", 4) && !strstr(cases[k].words, "kind is not")) assert_int_equal(st.fault.effect, GVI_FAULT_MASS);
+        else assert_int_equal(st.fault.effect, GVI_FAULT_NONE);
+        if (strstr(cases[k].words, "finite") || strstr(cases[k].words, "effect_count is 0")) continue;      /* gvi_init's to read */
+        assert_int_equal(gvi_size(&cases[k].d), 0);
     }
 }
 
