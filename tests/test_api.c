@@ -426,6 +426,15 @@ TEST(null_pointers_are_refused)
     REFUSED(gvi_discrete_lagrangian(&b.st, 0, 1, x, x, NULL));
     REFUSED(gvi_step(NULL, 0.1));
     REFUSED(gvi_restore(&b.st, NULL, b.g.memory));
+    REFUSED(gvi_discrete_lagrangian(&b.st, 0, 1, NULL, x, &(gvi_discrete){ .p0 = x }));
+    REFUSED(gvi_discrete_lagrangian(&b.st, 0, 1, x, NULL, &(gvi_discrete){ .p0 = x }));
+    REFUSED(gvi_discrete_lagrangian(NULL, 0, 1, x, x, &(gvi_discrete){ .p0 = x }));
+    REFUSED(gvi_velocity(NULL, x));
+    REFUSED(gvi_energy(NULL, x));
+    REFUSED(gvi_action(NULL, x));
+    REFUSED(gvi_multipliers(NULL, x));
+    REFUSED(gvi_switch(NULL, 0, 0));
+    REFUSED(gvi_restore(NULL, &b.st, b.g.memory));
     REFUSED(gvi_restore(&b.st, &b.st, NULL));
     tear_down(&b);
 }
@@ -434,7 +443,7 @@ TEST(numbers_that_are_none_are_refused_and_change_nothing)
 {
     static const real wrong[] = { (real)NAN, (real)INFINITY, -(real)INFINITY };
     bench b = start(&scenes[5]);
-    real bad[N_MAX] = { 0 };
+    real bad[N_MAX] = { 0 }, p[N_MAX];
     assert_ok(gvi_step(&b.st, 0.1));
     UNTOUCHED(&b.st) {
         REFUSED(gvi_step(&b.st, 0));
@@ -449,6 +458,9 @@ TEST(numbers_that_are_none_are_refused_and_change_nothing)
             REFUSED(gvi_start_momentum(&b.st, 0, q_start, bad));
             REFUSED(gvi_start_configurations(&b.st, 0, 0.1, q_start, bad));
             REFUSED(gvi_start_configurations(&b.st, 0, wrong[k], q_start, q_start));
+            REFUSED(gvi_discrete_lagrangian(&b.st, wrong[k], 0.1, q_start, q_start, &(gvi_discrete){ .p0 = p }));
+            REFUSED(gvi_discrete_lagrangian(&b.st, 0, 0.1, bad, q_start, &(gvi_discrete){ .p0 = p }));
+            REFUSED(gvi_discrete_lagrangian(&b.st, 0, 0.1, q_start, q_start, &(gvi_discrete){ .p0 = p, .guess = bad }));
             assert_true(gvi_curve(&b.st, wrong[k], bad, NULL) != GVI_OK);
             assert_true(gvi_state_at(&b.st, wrong[k], bad, NULL, NULL) != GVI_OK);
         }

@@ -425,6 +425,7 @@ TEST(descriptions_are_refused_by_name)
     real q[2] = { 0 };
     st = new_motion(&none, 0, q, q);
     assert_status(gvi_multipliers(&st, q), GVI_E_FORMULATION);
+    assert_status(gvi_multipliers(&st, NULL), GVI_E_ARGUMENT);
 }
 
 /* The state after a failed step is what it was */

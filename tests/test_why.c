@@ -70,6 +70,7 @@ TEST(a_stepper_that_is_not_ready_says_what_comes_first)
     for (int k = 0; k < 7; ++k) {
         memset(&st, 0, sizeof st);
         assert_string_equal(gvi_why(&st), "ok");
+        assert_string_equal(gvi_formulation_text(&st), "not set up");
         switch (k) {
         case 0: gvi_start(&st, 0, x, x); break;
         case 1: gvi_step(&st, 1); break;
@@ -97,6 +98,7 @@ TEST(a_stepper_that_is_not_ready_says_what_comes_first)
     assert_ok(gvi_step(&st, (real)0.25));
     assert_string_equal(gvi_why(&st), "ok");
     assert_null(st.fault.argument);
+    assert_string_equal(gvi_formulation_text(NULL), "no stepper");
     assert_string_equal(gvi_why(NULL), "the stepper is NULL");
     assert_true(gvi_stepper_size() == sizeof st);
 }
@@ -148,6 +150,8 @@ TEST(each_refused_description_has_its_sentence)
         { { .n = 1, .rule = { .points = -1 } }, 1, GVI_E_ARGUMENT, "rule.points is not 0 to 4000" },
         { { .n = 1, .rule = { .kind = (gvi_rule_kind)7 } }, 1, GVI_E_ARGUMENT, "rule.kind is not in its enum" },
         { { .n = 1, .rule = { .kind = GVI_OWN, .points = 8 } }, 1, GVI_E_ARGUMENT, "rule: this kind needs points, nodes and weights" },
+        { { .n = 1, .rule = { .kind = GVI_OWN, .points = 2, .nodes = ends } }, 1, GVI_E_ARGUMENT, "rule: this kind needs points, nodes and weights" },
+        { { .n = 1, .degree = 1, .rule = { .kind = GVI_LOBATTO, .points = 1 } }, 1, GVI_E_ARGUMENT, "Lobatto's rule has 2 or more" },
         { { .n = 1, .rule = { .points = 8, .nodes = ends, .weights = half } }, 1, GVI_E_ARGUMENT, "rule: this kind takes no nodes" },
         { { .n = 1, .effects = e, .effect_count = -1 }, 1, GVI_E_ARGUMENT, "effect_count is not 0 to GVI_EFFECTS" },
         { { .n = 1, .effects = e, .effect_count = GVI_EFFECTS + 1 }, 1, GVI_E_ARGUMENT, "effect_count is not 0 to GVI_EFFECTS" },
@@ -221,6 +225,14 @@ TEST(each_call_that_fails_has_its_sentence)
     BEGIN(e, 1, 1, 3, .formulation = GVI_POSITIONS);
     gvi_discrete_lagrangian(&st, 0, 1, q, v, &(gvi_discrete){ .lagrangian = NULL });
     says(&st, GVI_E_FORMULATION, "needs GVI_NEWTON");
+    assert_string_equal(gvi_formulation_text(&st), "pinned by the description");
+    SET_UP(NULL, 0, 1, 3, .tolerance = 0);
+    assert_ok(gvi_start(&st, MAX, q, v));
+    gvi_step(&st, MAX);
+    says(&st, GVI_E_ARGUMENT, "t + h is not finite");
+    BEGIN(e, 1, 1, 3, .resolution = (real)1e-6L);
+    gvi_step(&st, 1);
+    says(&st, GVI_E_RESOLUTION, "not as accurate as desc.resolution");
     BEGIN(e, 1, 1, 3, .iterations = 4);
     gvi_step(&st, 6);
     says(&st, GVI_E_CONVERGENCE, "desc.iterations");
