@@ -70,7 +70,7 @@ static MAYBE int pendulum_mass_gradient(const gvi_points *x, void *user)
     return 0;
 }
 
-#define LINKS_MASS { .kind = GVI_MASS_POSITION, .points = pendulum_mass, .gradient = pendulum_mass_gradient }
+#define RELATIVE_ANGLES { .kind = GVI_MASS_POSITION, .points = pendulum_mass, .gradient = pendulum_mass_gradient }
 
 /* V = -g (2 cos q1 + cos(q1 + q2)), the double pendulum's; g = 1, or 1 + sin(2t)/2 with any user */
 static MAYBE real gravity_at(real t, const void *user) { return user ? 1 + sin(2*t)/2 : 1; }
@@ -103,7 +103,7 @@ static MAYBE int weights_value(const gvi_points *x, void *user)
 
 /* Two links in angles from the vertical: T = (11/4 v0^2 + 7/8 v1^2)/2 + 9/8 v0 v1 cos(q0 - q1), V = -11/2 cos q0 - 7/4 cos q1;
    the upper triangle of M is not read */
-static MAYBE int links_mass(const gvi_points *x, void *user)
+static MAYBE int absolute_mass(const gvi_points *x, void *user)
 {
     for (int k = 0, d = x->stride; k < x->count; ++k) {
         x->mass[k] = 11/(gvi_real)4;
@@ -114,7 +114,7 @@ static MAYBE int links_mass(const gvi_points *x, void *user)
     return 0;
 }
 
-static MAYBE int links_gradient(const gvi_points *x, void *user)
+static MAYBE int absolute_gradient(const gvi_points *x, void *user)
 {
     for (int k = 0, d = x->stride; k < x->count; ++k) {
         const gvi_real w = 9*x->v[k]*x->v[d + k]*sin(x->q[k] - x->q[d + k])/8;
@@ -124,7 +124,7 @@ static MAYBE int links_gradient(const gvi_points *x, void *user)
     return 0;
 }
 
-static MAYBE int links_weight(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *f, gvi_real *dldv, void *user)
+static MAYBE int absolute_weight(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *f, gvi_real *dldv, void *user)
 {
     f[0] -= 11*sin(q[0])/2;
     f[1] -= 7*sin(q[1])/4;

@@ -63,8 +63,8 @@ static const struct system separable = {
     { 3/(gvi_real)8, -1/(gvi_real)4 }, { 1/(gvi_real)8, 1/(gvi_real)4 }, 1/(gvi_real)4
 };
 static const struct system pendulum = {
-    pendulum_rates, { .kind = GVI_MASS_POSITION, .points = links_mass, .gradient = links_gradient },
-    { .kind = GVI_POTENTIAL, .point = links_weight },
+    pendulum_rates, { .kind = GVI_MASS_POSITION, .points = absolute_mass, .gradient = absolute_gradient },
+    { .kind = GVI_POTENTIAL, .point = absolute_weight },
     { 3/(gvi_real)4, -3/(gvi_real)8 }, { 13/(gvi_real)8, -5/(gvi_real)16 }, 1/(gvi_real)8
 };
 

@@ -249,8 +249,8 @@ VALUE(extra_value)
 static struct problem problems[] = {
     { { .kind = GVI_MASS_DIAGONAL, .matrix = two_masses }, 1,
       { { GVI_POTENTIAL, separable_point, separable_value, separable_hessian } } },
-    { { .kind = GVI_MASS_POSITION, .points = links_mass, .gradient = links_gradient }, 1,
-      { { GVI_POTENTIAL, links_weight, pendulum_value, NULL } } },
+    { { .kind = GVI_MASS_POSITION, .points = absolute_mass, .gradient = absolute_gradient }, 1,
+      { { GVI_POTENTIAL, absolute_weight, pendulum_value, NULL } } },
     { { .kind = GVI_MASS_UNIT }, 2,
       { { GVI_POTENTIAL, trap_point, trap_value, trap_hessian },
         { GVI_LAGRANGIAN, curved_point, curved_value, curved_hessian } } },
@@ -262,8 +262,8 @@ static struct problem problems[] = {
     { { .kind = GVI_MASS_DENSE, .matrix = damped_mass }, 2,
       { { GVI_POTENTIAL, swing_point, swing_value, swing_hessian },
         { GVI_FORCE, drag_point, NULL, drag_hessian } } },
-    { { .kind = GVI_MASS_POSITION, .points = links_mass, .gradient = links_gradient }, 3,
-      { { GVI_POTENTIAL, links_weight, pendulum_value, NULL },
+    { { .kind = GVI_MASS_POSITION, .points = absolute_mass, .gradient = absolute_gradient }, 3,
+      { { GVI_POTENTIAL, absolute_weight, pendulum_value, NULL },
         { GVI_FORCE, drag_point, NULL, drag_hessian },
         { GVI_LAGRANGIAN, extra_point, extra_value, NULL } } }
 };

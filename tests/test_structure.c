@@ -34,7 +34,7 @@ static gvi_stepper *set_up_variant(const variant *a)
     static const real dense[4] = { 2, 0.5L, 0.5L, 1 };
     static gvi_effect effects[3];
     gvi_desc desc = { .n = 2, .degree = a->s, .rule = { .kind = a->rule, .points = a->r },
-                      .effects = effects, .formulation = a->formulation, .mass = LINKS_MASS };
+                      .effects = effects, .formulation = a->formulation, .mass = RELATIVE_ANGLES };
     if (!a->moving_mass) desc.mass = (gvi_mass){ .kind = GVI_MASS_DENSE, .matrix = dense };
     effects[desc.effect_count++] = (gvi_effect){ .kind = GVI_POTENTIAL, .point = weights, .user = effects };
     if (a->extra & FIELD) effects[desc.effect_count++] = (gvi_effect){ .kind = GVI_LAGRANGIAN, .point = field };
@@ -258,7 +258,7 @@ TEST(the_energy_of_a_chaotic_pendulum_stays_in_its_band)
 {
     enum { STEPS = 60000 };
     static const gvi_effect effects[] = { { .kind = GVI_POTENTIAL, .point = weights } };
-    const gvi_desc desc = { .n = 2, .degree = 3, .effects = effects, .effect_count = 1, .mass = LINKS_MASS };
+    const gvi_desc desc = { .n = 2, .degree = 3, .effects = effects, .effect_count = 1, .mass = RELATIVE_ANGLES };
     gvi_stepper st = new_motion(&desc, 0, (const real[]){ 2, 1 }, (const real[]){ 0, 0 });
     real band[2] = { 0, 0 }, E0 = pendulum_energy(st.q, st.p), mean[2] = { 0, 0 };
     for (int k = 0; k < STEPS; ++k) {
