@@ -18,6 +18,7 @@ AT_EACH(drag) { x->f[a] -= x->v[a]/8; }
 AT_EACH(magnet) { x->dldv[a] += x->q[a]/4, x->f[a] += x->v[a]/4; }
 AT_POINTS(nothing) { return 0; }
 AT_POINT(nothing_at) { return 0; }
+static int refuses_hessian(real t, const real *q, const real *v, real *fq, real *fv, real *pv, void *user) { return 1; }
 AT_POINTS(refuses) { return 1; }
 AT_EACH(turns_to_nan) { x->f[a] += x->t[0] > 0 ? (real)NAN : 0; }
 AT_EACH(inverse_cube)                                /* -1/q^3, infinite at 0 */
@@ -199,7 +200,7 @@ TEST(each_call_that_fails_has_its_sentence)
     static real one = 1, minus = -1;
     static const real ends[2] = { 0, 1 }, half[2] = { 0.5L, 0.5L };
     static const gvi_effect e[] = { { .points = spring }, { .points = refuses } },
-        bad[] = { { .points = spring }, { .points = turns_to_nan } },
+        bad[] = { { .points = spring }, { .points = turns_to_nan } }, flawed[] = { { .points = spring, .hessian = refuses_hessian } },
         slow[] = { { .points = spring, .value = spring }, { .kind = GVI_CLOCK, .points = clock_1, .user = &one } },
         back[] = { { .points = spring, .value = spring }, { .kind = GVI_CLOCK, .points = clock_1, .user = &minus } },
         late[] = { { .points = timed, .value = timed }, { .kind = GVI_CLOCK, .points = clock_1, .user = &one } },
@@ -215,6 +216,9 @@ TEST(each_call_that_fails_has_its_sentence)
     gvi_step(&st, 1);
     says(&st, GVI_E_CALLBACK, "an effect (fault.effect) did not return 0");
     assert_int_equal(st.fault.effect, 1);
+    BEGIN(flawed, 1, 1, 3, .formulation = GVI_NEWTON);
+    gvi_step(&st, (real)0.25);
+    says(&st, GVI_E_CALLBACK, "an effect (fault.effect) did not return 0");
     BEGIN(e, 1, 1, 20, .tolerance = 0);
     gvi_energy(&st, &E);
     says(&st, GVI_E_VALUE, "no value callback");
