@@ -1,6 +1,6 @@
 /* What every test includes: gvi.h with its implementation (for most compiled once and
    linked: Makefile), cmocka, and a comparison of its own (cmocka 1.1.5 compares
-   doubles as floats, and accepts NaN against NaN).                           */
+   doubles as floats, and accepts NaN against NaN). */
 #ifndef GVI_TEST_H
 #define GVI_TEST_H
 
@@ -17,6 +17,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include <cmocka.h>
+#include <tgmath.h>
+#undef I
 
 #if GVI__KIND == 1
 #define KIND 1                  /* 1 float, 2 double, 3 long double: GVI__KIND is for #if */
@@ -58,6 +60,11 @@ static void register_tests(void);
 
 #define COUNT(a) ((int)(sizeof(a)/sizeof(a)[0]))
 
+#ifndef OWN_REAL
+typedef gvi_real real;
+#define R(x) ((real)x##L)
+#endif
+
 /* Callbacks, and a loop over each coordinate at each point: f[a], q[a] */
 #define AT_POINTS(name) static int name(const gvi_points *x, void *user)
 #define AT_POINT(name) \
@@ -65,6 +72,12 @@ static void register_tests(void);
 #define FOR_EACH(x, a) \
     for (int i_ = 0; i_ < (x)->n; ++i_) \
         for (int a = i_*(x)->stride, end_ = a + (x)->count; a < end_; ++a)
+
+/* AT_EACH(name) { what x->f[a], x->q[a] is for this a } */
+#define AT_EACH(name) \
+    static void name##_at_each(const gvi_points *x, void *user, int a); \
+    AT_POINTS(name) { FOR_EACH(x, a) name##_at_each(x, user, a); return 0; } \
+    static void name##_at_each(const gvi_points *x, void *user, int a)
 
 static __attribute__((unused)) void
 check_close(long double a, long double b, long double tol, const char *what, const char *file, int line)
@@ -96,6 +109,42 @@ check_between(long double lo, long double x, long double hi, const char *what, c
     if (got_ != (wanted)) print_error("%s: %s\n", #call, gvi_status_text(got_)); \
     assert_int_equal(got_, (wanted)); } while (0)
 #define assert_ok(call) assert_status(call, GVI_OK)
+
+/* Reproducible numbers, the same on every machine (Knuth's MMIX): 32 bits, in (-1, 1), in (0, 1) */
+static __attribute__((unused)) uint64_t dice;
+static __attribute__((unused)) unsigned random_bits(void)
+{
+    dice = dice*6364136223846793005u + 1442695040888963407u;
+    return (unsigned)(dice >> 32);
+}
+static __attribute__((unused)) gvi_real random_unit(void)
+{
+    return (gvi_real)(((long double)random_bits() - 2147483647.5L)/2147483648.0L);
+}
+static __attribute__((unused)) gvi_real uniform(void) { return (random_unit() + 1)/2; }
+
+/* A stepper of this description, not started, in the next part of a ring: memory for the last few of them */
+static __attribute__((unused)) gvi_stepper new_stepper(const gvi_desc *desc)
+{
+    static long double room[1 << 21];
+    static size_t used;
+    const size_t size = (gvi_size(desc) + sizeof *room - 1)/sizeof *room;
+    gvi_stepper st;
+    assert_between(1, size, COUNT(room)/4);
+    if (used + size > COUNT(room)) used = 0;
+    assert_ok(gvi_init(&st, desc, (gvi_real *)(void *)(room + used), size*sizeof *room));
+    used += size;
+    return st;
+}
+
+/* The same, started */
+static __attribute__((unused)) gvi_stepper
+new_motion(const gvi_desc *desc, gvi_real t, const gvi_real *q, const gvi_real *v)
+{
+    gvi_stepper st = new_stepper(desc);
+    assert_ok(gvi_start(&st, t, q, v));
+    return st;
+}
 
 /* SAME_STATE(st) { ... }: t, q and p after it are those before, to the bit */
 typedef struct { const gvi_stepper *st; gvi_real t, q[16], p[16]; } test_state;

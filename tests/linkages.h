@@ -1,7 +1,7 @@
 /* linkages.h - constrained systems that tests and studies integrate, for all types
 
    To be included after gvi.h and a typedef of `real`; brings <tgmath.h>.  Each brings constraint, effects,
-   mass, start, and what of it an index-1 integration needs that shares nothing with gvi.h.           */
+   mass, start, and what of it an index-1 integration needs that shares nothing with gvi.h. */
 #ifndef TESTS_LINKAGES_H
 #define TESTS_LINKAGES_H
 
@@ -12,8 +12,6 @@
 enum { MOST_N = 9, MOST_M = 6 };
 typedef enum { PENDULUM, SPHERE, RODS, FOUR_BAR, DIRECTORS, QUATERNION, PIVOT, FRICTION, MAGNET, LINKAGES } linkage_id;
 #define LINKAGE static __attribute__((unused))
-
-/* ---- constraints ---- */
 
 /* |q| = 1, from the pivot if there is one: (sin(2t)/3, 0, ...) */
 LINKAGE int sphere(const gvi_points *x, void *user)
@@ -70,27 +68,19 @@ LINKAGE int four_bar(const gvi_points *x, void *user)
 }
 
 /* d_a . d_b = delta_ab for three directors */
-LINKAGE int directors(const gvi_points *x, void *user)
+GVI_EACH(directors, 9, rows(6))
 {
-    const int R = x->stride;
-    (void)user;
     for (int row = 0, a = 0; a < 3; ++a)
-        for (int b = a; b < 3; ++b, ++row)
-            for (int k = 0; k < x->count; ++k) {
-                const real half = a == b ? (real)0.5L : 1;
-                real sum = a == b ? -1 : 0;
-                for (int i = 0; i < 3; ++i) {
-                    const real u = x->q[(3*a + i)*R + k], w = x->q[(3*b + i)*R + k];
-                    sum += u*w;
-                    x->jacobian[(row*9 + 3*a + i)*R + k] = w;
-                    x->jacobian[(row*9 + 3*b + i)*R + k] = u;
-                }
-                x->g[row*R + k] = half*sum;
+        for (int b = a; b < 3; ++b, ++row) {
+            real sum = a == b ? -1 : 0;
+            for (int i = 0; i < 3; ++i) {
+                sum += x->q[3*a + i]*x->q[3*b + i];
+                x->jacobian[row*9 + 3*a + i] = x->q[3*b + i];
+                x->jacobian[row*9 + 3*b + i] = x->q[3*a + i];
             }
-    return 0;
+            x->g[row] = a == b ? sum/2 : sum;
+        }
 }
-
-/* ---- effects ---- */
 
 /* A constant force; V = -force'q */
 LINKAGE int constant(const gvi_points *x, void *user)
@@ -112,36 +102,25 @@ LINKAGE int drag(const gvi_points *x, void *user)
 }
 
 /* L = (x vy - y vx)/2: a homogeneous field */
-LINKAGE int magnet(const gvi_points *x, void *user)
+GVI_EACH(magnet, 3, v, f, dldv, value)
 {
-    const int R = x->stride;
-    (void)user;
-    for (int k = 0; k < x->count; ++k) {
-        if (x->value) x->value[k] += (x->q[k]*x->v[R + k] - x->q[R + k]*x->v[k])/2;
-        if (!x->f) continue;
-        x->f[k] += x->v[R + k]/2;
-        x->f[R + k] -= x->v[k]/2;
-        x->dldv[k] -= x->q[R + k]/2;
-        x->dldv[R + k] += x->q[k]/2;
-    }
-    return 0;
+    const real *q = x->q, *v = x->v;
+    x->value[0] += (q[0]*v[1] - q[1]*v[0])/2;
+    x->f[0] += v[1]/2;
+    x->f[1] -= v[0]/2;
+    x->dldv[0] -= q[1]/2;
+    x->dldv[1] += q[0]/2;
 }
 
 /* V = q0^2 - q1^2 - q2^2 + q3^2: the height of the body's third axis */
-LINKAGE int top_weight(const gvi_points *x, void *user)
+GVI_EACH(top_weight, 4, f, value)
 {
-    static const real sign[4] = { 1, -1, -1, 1 };
-    (void)user;
-    for (int i = 0; i < 4; ++i)
-        for (int k = 0; k < x->count; ++k) {
-            const real q = x->q[i*x->stride + k];
-            if (x->f) x->f[i*x->stride + k] -= 2*sign[i]*q;
-            if (x->value) x->value[k] += sign[i]*q*q;
-        }
-    return 0;
+    for (int i = 0; i < 4; ++i) {
+        const real q = x->q[i], sign = i % 3 ? -1 : 1;
+        x->f[i] -= 2*sign*q;
+        x->value[0] += sign*q*q;
+    }
 }
-
-/* ---- a body in a quaternion: T = 2 sum_i I_i (conj(q) v)_i^2, user = I_0..I_3 ---- */
 
 LINKAGE void quaternion_product(const real *a, const real *b, real *c)
 {
@@ -152,47 +131,34 @@ LINKAGE void quaternion_product(const real *a, const real *b, real *c)
 }
 
 /* M = 4 L'IL, the columns of L = conj(q) e_j */
-LINKAGE int body_mass(const gvi_points *x, void *user)
+GVI_EACH(body_mass, 4, mass)
 {
-    const real *I0 = (const real *)user;
-    const int R = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        const real q[4] = { x->q[k], -x->q[R + k], -x->q[2*R + k], -x->q[3*R + k] };
-        real L[4][4];
-        for (int j = 0; j < 4; ++j) {
-            const real e[4] = { j == 0, j == 1, j == 2, j == 3 };
-            quaternion_product(q, e, L[j]);
-        }
-        for (int i = 0; i < 4; ++i)
-            for (int j = 0; j <= i; ++j) {
-                real sum = 0;
-                for (int a = 0; a < 4; ++a) sum += I0[a]*L[i][a]*L[j][a];
-                x->mass[(i*4 + j)*R + k] = 4*sum;
-            }
+    const real *I0 = (const real *)user, q[4] = { x->q[0], -x->q[1], -x->q[2], -x->q[3] };
+    real L[4][4];
+    for (int j = 0; j < 4; ++j) {
+        const real e[4] = { j == 0, j == 1, j == 2, j == 3 };
+        quaternion_product(q, e, L[j]);
     }
-    return 0;
+    for (int i = 0; i < 4; ++i)
+        for (int j = 0; j <= i; ++j) {
+            real sum = 0;
+            for (int a = 0; a < 4; ++a) sum += I0[a]*L[i][a]*L[j][a];
+            x->mass[i*4 + j] = 4*sum;
+        }
 }
 
 /* dT/dq_j = 4 sum_i I_i (conj(q) v)_i (conj(e_j) v)_i */
-LINKAGE int body_gradient(const gvi_points *x, void *user)
+GVI_EACH(body_gradient, 4, v, f)
 {
-    const real *I0 = (const real *)user;
-    const int R = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        const real q[4] = { x->q[k], -x->q[R + k], -x->q[2*R + k], -x->q[3*R + k] };
-        const real v[4] = { x->v[k], x->v[R + k], x->v[2*R + k], x->v[3*R + k] };
-        real w[4], u[4];
-        quaternion_product(q, v, w);
-        for (int j = 0; j < 4; ++j) {
-            const real e[4] = { j == 0, j == 1 ? -1 : 0, j == 2 ? -1 : 0, j == 3 ? -1 : 0 };
-            quaternion_product(e, v, u);
-            for (int a = 0; a < 4; ++a) x->f[j*R + k] += 4*I0[a]*w[a]*u[a];
-        }
+    const real *I0 = (const real *)user, q[4] = { x->q[0], -x->q[1], -x->q[2], -x->q[3] };
+    real w[4], u[4];
+    quaternion_product(q, x->v, w);
+    for (int j = 0; j < 4; ++j) {
+        const real e[4] = { j == 0, j == 1 ? -1 : 0, j == 2 ? -1 : 0, j == 3 ? -1 : 0 };
+        quaternion_product(e, x->v, u);
+        for (int a = 0; a < 4; ++a) x->f[j] += 4*I0[a]*w[a]*u[a];
     }
-    return 0;
 }
-
-/* ---- the list ---- */
 
 typedef struct { int n, m; gvi_effect effects[3]; int count; gvi_mass mass; real q[MOST_N], v[MOST_N]; } linkage;
 

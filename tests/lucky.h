@@ -4,7 +4,7 @@
 
    Degrees 1 to 8, Gauss's rule, everything else default.  The fixed point of such terms contracts by what is independent
    of the length of the step, or does not: there changes can be small by chance.  Newton's method in long double goes on
-   from the curve of the step to the solution of (1) in gvi.h; what it moves q1 and p1 is the error of the step.      */
+   from the curve of the step to the solution of (1) in gvi.h; what it moves q1 and p1 is the error of the step. */
 #ifndef LUCKY_H
 #define LUCKY_H
 
@@ -117,7 +117,7 @@ static int lucky_invert(int N, long double *A)
 }
 
 /* The error of q1, relative to the largest |q0| and way, and what the rounding of the terms of (1) explains of it; -1: no
-   solution is near.  V [n][s]: the velocities of the curve at the nodes.                                          */
+   solution is near.  V [n][s]: the velocities of the curve at the nodes. */
 static long double lucky_error(const lucky *z, const lucky_rule *r, long double h, const gvi_real *q0, const gvi_real *p0,
                                const gvi_real *q1, const gvi_real *V, long double *explained)
 {
@@ -170,7 +170,7 @@ static gvi_real lucky_log(double low, double high)        /* of either sign, its
 typedef struct lucky_found { long steps, ok, wrong; long double worst; } lucky_found;
 
 /* Scenes of at most 8 steps, until there are so many.  Wrong: off by more than 1e-13 and 200 times what the rounding of
-   the equations explains.  */
+   the equations explains. */
 static void lucky_run(long steps, lucky_found *found)
 {
     static gvi_real memory[GVI_LENGTH(2, 8, 8)];

@@ -1,7 +1,7 @@
 /* points.h - callbacks written twice: with GVI_POINTS, and as the loop over points that it stands for
 
    Kepler's problem, a pendulum, an arm of three links in absolute angles, a uniform magnetic field,
-   and a relativistic particle; for test_points.c and cost/points.c, after gvi.h.            */
+   and a relativistic particle; for test_points.c and cost/points.c, after gvi.h. */
 #ifndef TESTS_POINTS_H
 #define TESTS_POINTS_H
 

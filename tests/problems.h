@@ -1,7 +1,7 @@
 /* problems.h - the effects and masses that more than one test or study integrates, for all types
 
    To be included after gvi.h and a typedef of `real`; brings <tgmath.h>.  Tables of kicks: splittings.h; what
-   make cost times, written for speed: cost/problems.c; ready effects for scenes: examples/tools/effects.h.    */
+   make cost times, written for speed: cost/problems.c; ready effects for scenes: examples/tools/effects.h. */
 #ifndef TESTS_PROBLEMS_H
 #define TESTS_PROBLEMS_H
 
@@ -70,6 +70,8 @@ static MAYBE int pendulum_mass_gradient(const gvi_points *x, void *user)
     return 0;
 }
 
+#define RELATIVE_ANGLES { .kind = GVI_MASS_POSITION, .points = pendulum_mass, .gradient = pendulum_mass_gradient }
+
 /* V = -g (2 cos q1 + cos(q1 + q2)), the double pendulum's; g = 1, or 1 + sin(2t)/2 with any user */
 static MAYBE real gravity_at(real t, const void *user) { return user ? 1 + sin(2*t)/2 : 1; }
 
@@ -97,6 +99,36 @@ static MAYBE int weights_value(const gvi_points *x, void *user)
     for (int k = 0; k < x->count; ++k)
         x->value[k] -= gravity_at(x->t[k], user)*(2*cos(a[k]) + cos(a[k] + b[k]));
     return x->v != NULL;                                          // a potential has no v
+}
+
+/* Two links in angles from the vertical: T = (11/4 v0^2 + 7/8 v1^2)/2 + 9/8 v0 v1 cos(q0 - q1), V = -11/2 cos q0 - 7/4 cos q1;
+   the upper triangle of M is not read */
+static MAYBE int absolute_mass(const gvi_points *x, void *user)
+{
+    for (int k = 0, d = x->stride; k < x->count; ++k) {
+        x->mass[k] = 11/(gvi_real)4;
+        x->mass[d + k] = (gvi_real)NAN;
+        x->mass[2*d + k] = 9*cos(x->q[k] - x->q[d + k])/8;
+        x->mass[3*d + k] = 7/(gvi_real)8;
+    }
+    return 0;
+}
+
+static MAYBE int absolute_gradient(const gvi_points *x, void *user)
+{
+    for (int k = 0, d = x->stride; k < x->count; ++k) {
+        const gvi_real w = 9*x->v[k]*x->v[d + k]*sin(x->q[k] - x->q[d + k])/8;
+        x->f[k] -= w;
+        x->f[d + k] += w;
+    }
+    return 0;
+}
+
+static MAYBE int absolute_weight(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *f, gvi_real *dldv, void *user)
+{
+    f[0] -= 11*sin(q[0])/2;
+    f[1] -= 7*sin(q[1])/4;
+    return 0;
 }
 
 /* L = a(q)'v, a = (-q2 (1 + q1^2), q1)/2 */
@@ -177,7 +209,7 @@ static MAYBE int fermi_pasta_ulam_forces(const gvi_points *x, void *user)
 
 /* M_ij = dy_i/dx_j, m by n, of a map x -> y from n numbers to m, by central differences of order 8.  Maps vary over
    lengths of about 1/4; with the distance eps^(1/9)/4, truncation and rounding are both of the size of some
-   eps^(8/9).                                                                                                */
+   eps^(8/9). */
 enum { MAP_MOST = 5 };
 typedef void map_fn(const void *what, const real *x, real *y);
 

@@ -1,13 +1,11 @@
 /* products.h - effects with their derivatives times a direction, for the tests of tangent.h and adjoint.h;
-   to be included after a typedef of `real`                                                               */
+   to be included after a typedef of `real` */
 #ifndef TESTS_PRODUCTS_H
 #define TESTS_PRODUCTS_H
 
 #include "problems.h"
 
-#define R(x) ((real)x##L)
-
-/* A magnetic field: L = b |q|^2 (x y' - y x')/2, b = 1; b is parameter 1        */
+/* A magnetic field: L = b |q|^2 (x y' - y x')/2, b = 1; b is parameter 1 */
 static MAYBE int magnetic(const gvi_points *x, void *user)
 {
     const int s = x->stride;
@@ -41,7 +39,7 @@ static MAYBE int magnetic_product(const gvi_points *x, const gvi_points *d, int 
     return 0;
 }
 
-/* The double pendulum, M = [2, c; c, 1], c = e cos(a - b); e is parameter 1.   */
+/* The double pendulum, M = [2, c; c, 1], c = e cos(a - b); e is parameter 1. */
 static MAYBE real coupling = 1;
 
 static MAYBE int weight(const gvi_points *x, void *user)
@@ -123,7 +121,7 @@ static MAYBE int pendulum_velocity_product(const gvi_points *x, const gvi_points
     return 0;
 }
 
-/* The same kinetic energy as a Lagrangian term, for GVI_MASS_NONE.             */
+/* The same kinetic energy as a Lagrangian term, for GVI_MASS_NONE. */
 static MAYBE int pendulum_term(const gvi_points *x, void *user)
 {
     const int s = x->stride;

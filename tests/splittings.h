@@ -1,5 +1,5 @@
 /* splittings.h - tables of kicks, for the tests: Stoermer-Verlet, compositions of it, splittings, one that
-   is not symmetric.  coefficients.h has 15 digits of most of them.               */
+   is not symmetric.  coefficients.h has 15 digits of most of them. */
 #ifndef SPLITTINGS_H
 #define SPLITTINGS_H
 
@@ -30,7 +30,7 @@ static void compose_half(table *a, int half, const long double *g)
 }
 
 /* Symmetric splitting from the first halves of its kicks and drifts; `drift_first` has
-   one drift more before the first kick                                        */
+   one drift more before the first kick */
 static void split(table *a, int kicks, const long double *b, const long double *drifts, int drift_first)
 {
     long double at = 0;
@@ -44,7 +44,7 @@ static void split(table *a, int kicks, const long double *b, const long double *
     }
 }
 
-/* The same with a kick in the middle, which closes the sum to 1; kick first      */
+/* The same with a kick in the middle, which closes the sum to 1; kick first */
 static void split_about(table *a, int half, const long double *b, const long double *drifts)
 {
     long double at = 0, sum = 0;

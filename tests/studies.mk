@@ -2,7 +2,7 @@
 
 .PHONY: headers-quick headers symbols parts docs-check bound float instructions prices usable languages boards sanitize sanitized any_processor \
         ensemble deps-ensemble tolerances firmware deps-firmware fuzz fuzz-short size stats compare everywhere deps-everywhere \
-        cost-dial cost-horizon cost-constraints kicks points cost-embedded hard theorems mutants
+        cost-dial cost-horizon cost-constraints kicks points cost-embedded hard theorems mutants coverage covered
 
 # -- steps of `make test` and `make check`; each can be run alone
 
@@ -76,6 +76,13 @@ deps-firmware: | $(filter deps deps-check,$(MAKECMDGOALS))
 #: deps-ensemble installs what ensemble needs: Open MPI
 deps-ensemble: | $(filter deps deps-check deps-firmware,$(MAKECMDGOALS))
 	$(Q)sh tests/tools/deps.sh --ensemble
+
+#: coverage     lines and branches of gvi.h that the tests take (gcc, three minutes); what they do not: build/coverage/missing
+coverage:
+	$(Q)mkdir -p $(BUILD)/coverage
+	$(Q)$(MAKE) --no-print-directory BUILD=$(BUILD)/coverage CFLAGS='-O0 --coverage -Dalways_inline=noinline -w' covered
+covered: $(TESTS:%=$(BUILD)/tests/%)
+	$(Q)sh tests/tools/coverage.sh $(BUILD) $(TESTS)
 
 # -- figures about gvi.h
 

@@ -1,31 +1,23 @@
 /* examples/tools/adjoint.h: the gradient of a cost by stepping back.  What is expected comes from
    Gauss collocation in 40 digits, from closed forms, and from the pairing that an adjoint keeps
-   with every direction.                                                       */
+   with every direction. */
 #include "gvi_test.h"
 #include "tools/adjoint.h"
-
-typedef gvi_real real;
 #include "products.h"
 enum { N = 2, NODES = 8 };
 
 static real memory[20000], back_memory[20000], room[2*TANGENT_ROOM(2, 6)];
 
-/* --------------------------------------------- Kepler with quadratic drag */
-
 static real drag_c;
 
-static int drag(const gvi_points *x, void *user)
+GVI_EACH(drag, 2, v, f)
 {
-    const int s = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        const real a = x->v[k], b = x->v[s+k], z = drag_c*sqrt(a*a + b*b);
-        x->f[k] -= z*a;
-        x->f[s+k] -= z*b;
-    }
-    return 0;
+    const real a = x->v[0], b = x->v[1], z = drag_c*sqrt(a*a + b*b);
+    x->f[0] -= z*a;
+    x->f[1] -= z*b;
 }
 
-/* f_v l, symmetric here: -c (|v| l + v (v.l)/|v|)                              */
+/* f_v l, symmetric here: -c (|v| l + v (v.l)/|v|) */
 static void drag_slope(const gvi_points *x, int k, real la, real lb, real *out)
 {
     const real a = x->v[k], b = x->v[x->stride+k], z = sqrt(a*a + b*b), along = z > 0 ? (a*la + b*lb)/z : 0;
@@ -70,11 +62,11 @@ static const gvi_effect with_drag[] = { { .kind = GVI_POTENTIAL, .points = attra
 static const real q0[] = { 1, R(0.2) }, p0[] = { R(-0.1), R(1.1) }, end_q[] = { 1, -2 }, end_p[] = { R(0.4), 3 };
 
 /* d(q1 - 2 q2 + 0.4 p1 + 3 p2)/dc after 10 steps of 0.2 with c = 0.05.  s = 1, 2, 4, 8: collocation at
-   Gauss nodes in 40 digits and differences of order 4.                        */
+   Gauss nodes in 40 digits and differences of order 4. */
 static const long double gradient[] = { -1.41923704319197546044L, -1.384460345420786965887L,
                                         -1.384460604060167018781L, -1.384460604036492789706L };
 
-TEST(gradient_by_the_drag)
+TEST(the_gradient_by_the_drag_is_that_of_40_digits)
 {
     for (int e = 0; e < 4; ++e) {
         const int s = 1 << e;
@@ -85,8 +77,8 @@ TEST(gradient_by_the_drag)
         real g = 0;
         drag_c = R(0.05);
         assert_ok(adjoint_scene(&A));
-        assert_ok(gvi_init(&st, &A.plain, memory, sizeof memory));
-        assert_ok(gvi_init(&ad, &A.scene.desc, back_memory, sizeof back_memory));
+        st = new_stepper(&A.plain);
+        ad = new_stepper(&A.scene.desc);
         assert_ok(gvi_start_momentum(&st, 0, q0, p0));
         for (int k = 0; k < 10; ++k) assert_ok(gvi_step(&st, R(0.2)));
         assert_ok(adjoint_start(&A, &ad, st.t, st.q, st.p, end_q, end_p));
@@ -99,73 +91,25 @@ TEST(gradient_by_the_drag)
     }
 }
 
-/* The same by the dial: back over the steps that were taken.  Degree 8 with h = 0.2 is the motion's own to 1e-14. */
-TEST(gradient_over_the_steps_of_the_dial)
-{
-    const real dial = KIND == 1 ? R(1e-5) : R(1e-12);
-    adjoint A = { .plain = { .n = N, .effects = with_drag, .effect_count = 2, .resolution = dial },
-                  .product = { attraction_product, drag_transposed }, .by_parameters = by_drag,
-                  .room = room, .room_length = ADJOINT_ROOM(N, 8) };
-    gvi_stepper st, ad;
-    real g = 0, taken[1000];
-    int steps = 0;
-    drag_c = R(0.05);
-    assert_ok(adjoint_scene(&A));
-    A.scene.desc.resolution = 0;                      /* back: the steps are given */
-    assert_ok(gvi_init(&st, &A.plain, memory, sizeof memory));
-    assert_ok(gvi_init(&ad, &A.scene.desc, back_memory, sizeof back_memory));
-    assert_ok(gvi_start_momentum(&st, 0, q0, p0));
-    for (; st.t < 2; ++steps) {
-        assert_true(steps < COUNT(taken));
-        assert_ok(gvi_advance(&st, 2));
-        taken[steps] = st.h;
-    }
-    assert_true(steps > 2);
-    assert_ok(adjoint_start(&A, &ad, st.t, st.q, st.p, end_q, end_p));
-    for (int k = steps; k-- > 0; ) assert_ok(adjoint_step(&A, &ad, taken[k], &g));
-    assert_close(g, gradient[3], 100*dial);
-    for (int i = 0; i < N; ++i) assert_close(ad.q[i], q0[i], 8*(real)steps*EPS);
-}
-
-/* ------------------------------------- a pendulum of two links in a liquid: M(q), friction */
-
-static void velocity_of(const gvi_points *x, const gvi_points *d, const int transposed)
+static int velocity_transposed(const gvi_points *x, const gvi_points *d, int parameter, void *user)
 {
     const int s = x->stride;
     for (int k = 0; k < x->count; ++k) {
         const real a = x->q[k] - x->q[s+k], da = d->q[k] - d->q[s+k], c = cos(a), D = 1/(2 - c*c), dc = -sin(a)*da;
-        real pa = d->p[k] - dc*x->v[s+k], pb = d->p[s+k] - dc*x->v[k], z[2];
-        if (transposed) {
-            drag_slope(x, k, d->q[k], d->q[s+k], z);
-            pa -= z[0];
-            pb -= z[1];
-        }
+        real z[2];
+        drag_slope(x, k, d->q[k], d->q[s+k], z);
+        const real pa = d->p[k] - dc*x->v[s+k] - z[0], pb = d->p[s+k] - dc*x->v[k] - z[1];
         d->velocity[k] = (pa - c*pb)*D;
         d->velocity[s+k] = (2*pb - c*pa)*D;
     }
-}
-
-static int velocity_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
-{
-    velocity_of(x, d, 0);
     return 0;
 }
 
-static int velocity_transposed(const gvi_points *x, const gvi_points *d, int parameter, void *user)
+/* A force that turns: neither a gradient nor of the velocity. */
+GVI_EACH(turning, 2, f)
 {
-    velocity_of(x, d, 1);
-    return 0;
-}
-
-/* A force that turns: neither a gradient nor of the velocity.                  */
-static int turning(const gvi_points *x, void *user)
-{
-    const int s = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        x->f[k] -= x->q[s+k]/4;
-        x->f[s+k] += x->q[k]*x->q[k]/4;
-    }
-    return 0;
+    x->f[0] -= x->q[1]/4;
+    x->f[1] += x->q[0]*x->q[0]/4;
 }
 
 static int turning_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
@@ -188,38 +132,13 @@ static int turning_transposed(const gvi_points *x, const gvi_points *d, int para
     return 0;
 }
 
-/* The kinetic energy of the two links as a Lagrangian term, for GVI_MASS_NONE.  */
-static int links(const gvi_points *x, void *user)
-{
-    const int s = x->stride;
-    if (x->f) pendulum_gradient(x, NULL);
-    for (int k = 0; k < x->count && x->dldv; ++k) {
-        const real c = cos(x->q[k] - x->q[s+k]);
-        x->dldv[k] += 2*x->v[k] + c*x->v[s+k];
-        x->dldv[s+k] += c*x->v[k] + x->v[s+k];
-    }
-    return 0;
-}
-
-static int links_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
-{
-    const int s = x->stride;
-    if (d->f) pendulum_gradient_product(x, d, -1, NULL);
-    for (int k = 0; k < x->count && d->dldv; ++k) {
-        const real a = x->q[k] - x->q[s+k], da = d->q[k] - d->q[s+k], c = cos(a), dc = -sin(a)*da;
-        d->dldv[k] += 2*d->v[k] + c*d->v[s+k] + dc*x->v[s+k];
-        d->dldv[s+k] += c*d->v[k] + d->v[s+k] + dc*x->v[k];
-    }
-    return 0;
-}
-
 static const gvi_effect turned[] = { { .kind = GVI_POTENTIAL, .points = attraction },
                                      { .kind = GVI_FORCE, .points = turning },
                                      { .kind = GVI_FORCE, .points = drag } },
                         two_links[] = { { .kind = GVI_POTENTIAL, .points = weight },
                                         { .kind = GVI_FORCE, .points = drag } },
                         by_term[] = { { .kind = GVI_POTENTIAL, .points = weight },
-                                      { .kind = GVI_LAGRANGIAN, .points = links },
+                                      { .kind = GVI_LAGRANGIAN, .points = pendulum_term },
                                       { .kind = GVI_FORCE, .points = drag } },
                         charged[] = { { .kind = GVI_POTENTIAL, .points = attraction },
                                       { .kind = GVI_LAGRANGIAN, .points = magnetic },
@@ -254,7 +173,7 @@ static const scene scenes[] = {
       { weight_product, drag_product }, { weight_product, drag_transposed } },
     { "no mass but a term, and friction", { .n = N, .degree = 3, .effects = by_term, .effect_count = 3,
                                             .mass = { .kind = GVI_MASS_NONE, .velocity = pendulum_velocity } },
-      { weight_product, links_product, drag_product }, { weight_product, links_product, drag_transposed } },
+      { weight_product, pendulum_term_product, drag_product }, { weight_product, pendulum_term_product, drag_transposed } },
     { "potential, momenta", { .n = N, .degree = 3, .effects = turned, .effect_count = 1, .formulation = GVI_MOMENTA },
       { attraction_product }, { attraction_product } },
     { "potential, Newton", { .n = N, .degree = 3, .effects = turned, .effect_count = 1, .formulation = GVI_NEWTON },
@@ -262,13 +181,13 @@ static const scene scenes[] = {
     { "forces, Newton", { TURNED, .degree = 4, .formulation = GVI_NEWTON }, PRODUCTS },
 };
 
-/* dJ/dq.dq + dJ/dp.dp is the same at the end and at the start, for every direction.      */
-TEST(pairing_is_kept)
+/* dJ/dq.dq + dJ/dp.dp is the same at the end and at the start, for every direction. */
+TEST(the_pairing_with_every_direction_is_kept)
 {
     for (int i = 0; i < COUNT(scenes); ++i) {
         const scene *s = &scenes[i];
         const real h = R(0.15625);
-        tangent T = { .plain = s->desc, .gradient = pendulum_gradient_product, .velocity = velocity_product, .directions = 2*N,
+        tangent T = { .plain = s->desc, .gradient = pendulum_gradient_product, .velocity = pendulum_velocity_product, .directions = 2*N,
                       .room = room, .room_length = TANGENT_ROOM(N, 4) };
         adjoint A = { .plain = s->desc, .gradient = pendulum_gradient_product, .velocity = velocity_transposed,
                       .room = room + TANGENT_ROOM(N, 4), .room_length = ADJOINT_ROOM(N, NODES) };
@@ -278,8 +197,8 @@ TEST(pairing_is_kept)
         drag_c = R(0.125);
         assert_ok(tangent_scene(&T));
         assert_ok(adjoint_scene(&A));
-        assert_ok(gvi_init(&st, &T.desc, memory, sizeof memory));
-        assert_ok(gvi_init(&ad, &A.scene.desc, back_memory, sizeof back_memory));
+        st = new_stepper(&T.desc);
+        ad = new_stepper(&A.scene.desc);
         assert_ok(tangent_start(&T, &st, 0, q0, p0, NULL, NULL));
         for (int k = 0; k < 12; ++k) assert_ok(gvi_step(&st, h));
         assert_ok(adjoint_start(&A, &ad, st.t, st.q, st.p, end_q, end_p));
@@ -293,16 +212,13 @@ TEST(pairing_is_kept)
                 size += fabs(end_q[k]*dq[k]) + fabs(end_p[k]*dp[k]);
             }
             const real back = j < N ? by_q[j] : by_p[j-N];
-            if (!(fabs(back - forward) < 64*EPS*size)) print_error("%s, direction %d\n", s->name, j);
             assert_close(back, forward, 64*EPS*size);
         }
     }
 }
 
-/* ------------------------------------------------------------ parameters everywhere
-
-   J = end_q.q + end_p.p at the end + integral of k |q|^2/2 + |v|^2, by the drag, by the strength of the
-   magnetic field, which is in the momentum too, and by k: back against the columns of the tangent scene.  */
+/* J = end_q.q + end_p.p at the end + integral of k |q|^2/2 + |v|^2, by the drag, by the strength of the
+   magnetic field, which is in the momentum too, and by k: back against the columns of the tangent scene. */
 
 static const real cost_k = R(0.75);
 
@@ -343,8 +259,8 @@ TEST(gradient_by_parameters_of_all_kinds)
     assert_ok(gvi_gauss(DEGREE, c, b));
     assert_ok(tangent_scene(&T));
     assert_ok(adjoint_scene(&A));
-    assert_ok(gvi_init(&st, &T.desc, memory, sizeof memory));
-    assert_ok(gvi_init(&ad, &A.scene.desc, back_memory, sizeof back_memory));
+    st = new_stepper(&T.desc);
+    ad = new_stepper(&A.scene.desc);
     assert_ok(tangent_start(&T, &st, 0, q0, p0, NULL, NULL));
     for (int k = 0; k < STEPS; ++k) {
         assert_ok(gvi_step(&st, h));
@@ -375,17 +291,11 @@ TEST(gradient_by_parameters_of_all_kinds)
     }
 }
 
-/* ------------------------------------------------------------ strong damping
-
-   q'' = -q - c q' with c = 2.5 over 20: the modes exp(-t/2), exp(-2t) go back as exp(t/2),
+/* q'' = -q - c q' with c = 2.5 over 20: the modes exp(-t/2), exp(-2t) go back as exp(t/2),
    exp(2t), and 80 steps multiply the rounding of the end by 1e17.  States kept at every fourth
-   step hold the gradient of J, the integral of q^2, to rounding.              */
+   step hold the gradient of J, the integral of q^2, to rounding. */
 
-static int damped(const gvi_points *x, void *user)
-{
-    for (int k = 0; k < x->count; ++k) x->f[k] -= x->q[k] + R(2.5)*x->v[k];
-    return 0;
-}
+GVI_EACH(damped, 1, v, f) { x->f[0] -= x->q[0] + R(2.5)*x->v[0]; }
 
 static int damped_transposed(const gvi_points *x, const gvi_points *d, int parameter, void *user)
 {
@@ -421,8 +331,8 @@ static void damped_gradient(int every, real *by_q, real *by_damping)
     const real q = 1, p = R(0.25), none = 0, h = R(0.25);
     *by_damping = 0;
     assert_ok(adjoint_scene(&A));
-    assert_ok(gvi_init(&st, &A.plain, memory, sizeof memory));
-    assert_ok(gvi_init(&ad, &A.scene.desc, back_memory, sizeof back_memory));
+    st = new_stepper(&A.plain);
+    ad = new_stepper(&A.scene.desc);
     assert_ok(gvi_start_momentum(&st, 0, &q, &p));
     if (every) assert_ok(adjoint_keep(&A, &st));
     for (int k = 0; k < 80; ++k) {
@@ -434,15 +344,15 @@ static void damped_gradient(int every, real *by_q, real *by_damping)
     adjoint_gradient(&A, &ad, by_q, &by_p);
 }
 
-/* From the closed form of J, in 40 digits.                                    */
-TEST(strong_damping)
+/* From the closed form of J, in 40 digits. */
+TEST(kept_states_hold_the_gradient_under_strong_damping)
 {
     const long double exact_q = 3.149999991755385510245948704788715L, exact_c = 0.4149999398830193455394625389761956L;
     real by_q, by_damping;
     for (int every = 1; every <= 4; every += 3) {
         damped_gradient(every, &by_q, &by_damping);
-        assert_close(by_q, exact_q, 64*EPS);
-        assert_close(by_damping, exact_c, 64*EPS);
+        assert_close(by_q, exact_q, 8*EPS);
+        assert_close(by_damping, exact_c, 8*EPS);
     }
     damped_gradient(0, &by_q, &by_damping);                /* nothing kept: that is what it is for */
     assert_false(fabs(by_q - (real)exact_q) < 10000*EPS);
@@ -454,7 +364,7 @@ static int distance(const gvi_points *x, void *user)
     return 0;
 }
 
-TEST(what_is_refused)
+TEST(scenes_without_an_adjoint_are_refused)
 {
     static const gvi_effect with_clock[] = { { .kind = GVI_POTENTIAL, .points = attraction, .value = attraction },
                                              { .kind = GVI_CLOCK, .points = distance } };
@@ -465,7 +375,7 @@ TEST(what_is_refused)
     assert_status(adjoint_scene(&A), GVI_E_FORMULATION);
     A.plain.rule = (gvi_rule){ 0 };
     assert_ok(adjoint_scene(&A));
-    assert_ok(gvi_init(&ad, &A.scene.desc, back_memory, sizeof back_memory));
+    ad = new_stepper(&A.scene.desc);
     --A.room_length;
     assert_status(adjoint_start(&A, &ad, 0, q0, p0, end_q, end_p), GVI_E_MEMORY);
     ++A.room_length;

@@ -1,136 +1,59 @@
 /* The contract: defaults, memory, every status and what it leaves behind (conjugate points: test_queries.c),
-   moved steppers, checkpoints, pinned formulations, switched effects.                                      */
-#ifndef GVI_REAL
-#define GVI_REAL double
-#endif
+   checkpoints, switched effects. */
 #include "gvi_test.h"
-#include <tgmath.h>
-
-typedef gvi_real real;
 #include "problems.h"
 
-/* ------------------------------------------------------------------ scenes
-
-   For any n: a chain of pendulums, a term linear in v, drag; and one effect that
-   does nothing until `harm` tells it to misbehave.                            */
+/* For any n: a chain of pendulums, a term linear in v, drag; and one effect that
+   does nothing until `harm` tells it to misbehave. */
 enum { N_MAX = 6 };
 
-AT_POINTS(chain)
+AT_EACH(chain)
 {
-    FOR_EACH(x, a) {
-        const int i = a/x->stride;
-        real f = -(real)(1 + i)*sin(x->q[a]);
-        if (i > 0) f += (x->q[a - x->stride] - x->q[a])/2;
-        if (i + 1 < x->n) f += (x->q[a + x->stride] - x->q[a])/2;
-        x->f[a] += f;
-    }
-    return 0;
+    const int i = a/x->stride;
+    real f = -(real)(1 + i)*sin(x->q[a]);
+    if (i > 0) f += (x->q[a - x->stride] - x->q[a])/2;
+    if (i + 1 < x->n) f += (x->q[a + x->stride] - x->q[a])/2;
+    x->f[a] += f;
 }
 
-AT_POINTS(chain_value)
+AT_EACH(chain_value)
 {
-    FOR_EACH(x, a) {
-        const real d = a >= x->stride ? x->q[a - x->stride] - x->q[a] : 0;
-        x->value[a % x->stride] += d*d/4 - (real)(1 + a/x->stride)*cos(x->q[a]);
-    }
-    return 0;
-}
-
-/* The same, one point a call, for n = *user */
-AT_POINT(chain_at_a_point)
-{
-    const gvi_points x = { .n = *(const int *)user, .count = 1, .stride = 1, .q = q, .f = f };
-    return chain(&x, NULL);
-}
-
-HESSIAN(chain_hessian)
-{
-    const int n = *(const int *)user;
-    for (int i = 0; i < n; ++i) {
-        fq[i*n + i] -= (real)(1 + i)*cos(q[i]) + (i > 0 ? 0.5 : 0) + (i + 1 < n ? 0.5 : 0);
-        if (i > 0) fq[i*n + i - 1] += 0.5;
-        if (i + 1 < n) fq[i*n + i + 1] += 0.5;
-    }
-    return 0;
+    const real d = a >= x->stride ? x->q[a - x->stride] - x->q[a] : 0;
+    x->value[a % x->stride] += d*d/4 - (real)(1 + a/x->stride)*cos(x->q[a]);
 }
 
 /* L = sum_i q_(i+1) v_i/5 */
 static int next(const gvi_points *x, int a) { return (a + x->stride)%(x->n*x->stride); }
 
-AT_POINTS(coupling)
+AT_EACH(coupling)
 {
-    FOR_EACH(x, a) {
-        x->dldv[a] += x->q[next(x, a)]/5;
-        x->f[next(x, a)] += x->v[a]/5;
-    }
-    return 0;
+    x->dldv[a] += x->q[next(x, a)]/5;
+    x->f[next(x, a)] += x->v[a]/5;
 }
 
-AT_POINTS(coupling_value)
-{
-    FOR_EACH(x, a) x->value[a % x->stride] += x->q[next(x, a)]*x->v[a]/5;
-    return 0;
-}
+AT_EACH(coupling_value) { x->value[a % x->stride] += x->q[next(x, a)]*x->v[a]/5; }
 
-AT_POINTS(drag)
-{
-    FOR_EACH(x, a) x->f[a] -= x->v[a]/10;
-    return 0;
-}
+AT_EACH(drag) { x->f[a] -= x->v[a]/10; }
 
 /* Kinetic energy as a Lagrangian term: sum v^2/2 + v^4/20 */
-AT_POINTS(kinetic)
-{
-    FOR_EACH(x, a) x->dldv[a] += x->v[a] + x->v[a]*x->v[a]*x->v[a]/5;
-    return 0;
-}
+AT_EACH(kinetic) { x->dldv[a] += x->v[a] + x->v[a]*x->v[a]*x->v[a]/5; }
 
-AT_POINTS(kinetic_value)
+AT_EACH(kinetic_value)
 {
-    FOR_EACH(x, a) {
-        const real v2 = x->v[a]*x->v[a];
-        x->value[a % x->stride] += v2/2 + v2*v2/20;
-    }
-    return 0;
+    const real v2 = x->v[a]*x->v[a];
+    x->value[a % x->stride] += v2/2 + v2*v2/20;
 }
 
 /* M = diag(2 + cos q_i) + 1/10 everywhere */
-AT_POINTS(mass_points)
+AT_EACH(mass_points)
 {
-    FOR_EACH(x, a)
-        for (int j = 0, i = a/x->stride; j <= i; ++j)
-            x->mass[(i*(x->n - 1) + j)*x->stride + a] = (i == j ? 2 + cos(x->q[a]) : 0) + (real)0.1;
-    return 0;
+    
+    for (int j = 0, i = a/x->stride; j <= i; ++j)
+        x->mass[(i*(x->n - 1) + j)*x->stride + a] = (i == j ? 2 + cos(x->q[a]) : 0) + (real)0.1;
 }
 
-AT_POINTS(mass_gradient)
-{
-    FOR_EACH(x, a) x->f[a] -= sin(x->q[a])*x->v[a]*x->v[a]/2;
-    return 0;
-}
-
-/* M^-1 p by Sherman and Morrison's formula */
-AT_POINTS(mass_velocity)
-{
-    for (int k = 0; k < x->count; ++k) {
-        real sum = 0, trace = 0;
-        for (int i = 0; i < x->n; ++i) {
-            const real d = 2 + cos(x->q[i*x->stride + k]);
-            sum += x->p[i*x->stride + k]/d;
-            trace += 1/d;
-        }
-        sum *= (real)0.1/(1 + (real)0.1*trace);
-        for (int a = k; a < x->n*x->stride; a += x->stride) x->velocity[a] = (x->p[a] - sum)/(2 + cos(x->q[a]));
-    }
-    return 0;
-}
-
-AT_POINTS(spring)
-{
-    FOR_EACH(x, a) x->f[a] -= x->q[a];
-    return 0;
-}
-
+AT_EACH(mass_gradient) { x->f[a] -= sin(x->q[a])*x->v[a]*x->v[a]/2; }
+AT_EACH(spring) { x->f[a] -= x->q[a]; }
 AT_POINTS(nothing) { return 0; }
 
 static const gvi_effect chain_only[] = { { .kind = GVI_POTENTIAL, .points = chain } };
@@ -164,7 +87,7 @@ typedef struct {
 } scene;
 
 /* The description of a scene; the troublemaker is the last effect.  One at a
-   time: the effects are kept here.                                           */
+   time: the effects are kept here. */
 static gvi_effect effects[8];
 
 static gvi_desc describe(const scene *a)
@@ -210,8 +133,6 @@ static const scene scenes[] = {
     { GVI_AUTO,       GVI_MASS_POSITION, POT | COUP,        2, 3, GVI_GAUSS,   5 },
     { GVI_AUTO,       GVI_MASS_NONE,     POT | KIN,         2, 3, GVI_GAUSS,   3 },
 };
-
-/* ------------------------------------------------------------ guarded memory */
 
 enum { PAD = 64 };                                    /* reals on both sides */
 
@@ -284,6 +205,7 @@ static gvi_stepper refused;
 static gvi_status init(const gvi_desc *desc)
 {
     static real memory[20000];
+    memset(&refused, 0, sizeof refused);
     return gvi_init(&refused, desc, memory, sizeof memory);
 }
 
@@ -331,39 +253,23 @@ static void expect_snapshot(gvi_stepper *st, const snapshot *before)
 #define UNTOUCHED(st) \
     for (snapshot was_ = take(st), *once_ = &was_; once_; expect_snapshot(st, once_), once_ = NULL)
 
-/* ------------------------------------------------------------------- defaults */
-
 TEST(a_description_of_zeros_is_filled_in)
 {
     gvi_desc desc = { .n = 2, .effects = chain_only, .effect_count = 1 };
-    bench b = set_up_as(&desc);
-    assert_int_equal(b.st.n, 2);
-    assert_int_equal(b.st.s, 8);
-    assert_int_equal(b.st.r, 8);
-    assert_int_equal(b.st.order, 16);
-    assert_int_equal(b.st.formulation, GVI_POSITIONS);
-    assert_int_equal(b.st.status, GVI_OK);
-    assert_true(b.st.h == 0);
-    assert_int_equal(b.st.counters.steps, 0);
-    tear_down(&b);
+    gvi_stepper st = new_stepper(&desc);
+    assert_int_equal(st.n, 2);
+    assert_int_equal(st.s, 8);
+    assert_int_equal(st.r, 8);
+    assert_int_equal(st.order, 16);
+    assert_int_equal(st.formulation, GVI_POSITIONS);
+    assert_int_equal(st.status, GVI_OK);
+    assert_true(st.h == 0);
+    assert_int_equal(st.counters.steps, 0);
     desc.degree = 3;
     desc.rule.kind = GVI_LOBATTO;
-    b = set_up_as(&desc);
-    assert_int_equal(b.st.r, 4);
-    assert_int_equal(b.st.order, 6);
-    tear_down(&b);
-}
-
-/* Nothing acts: straight lines */
-TEST(a_scene_without_effects_moves_uniformly)
-{
-    const gvi_desc desc = { .n = 2, .degree = 3 };
-    bench b = start_as(&desc, (const real[]){ 1, 2 }, (const real[]){ 3, -4 });
-    steps(&b.st, 1, 0.5);
-    assert_close(b.st.q[0], 2.5, 4*EPS);
-    assert_close(b.st.q[1], 0, 4*EPS);
-    assert_true(b.st.p[0] == 3 && b.st.p[1] == -4);
-    tear_down(&b);
+    st = new_stepper(&desc);
+    assert_int_equal(st.r, 4);
+    assert_int_equal(st.order, 6);
 }
 
 TEST(the_scene_chooses_the_formulation)
@@ -399,8 +305,6 @@ TEST(every_status_has_a_sentence_of_its_own)
     assert_non_null(gvi_status_text((gvi_status)99));
 }
 
-/* --------------------------------------------------------------------- memory */
-
 /* Everything the interface has, in an order that a user might have */
 static void use_everything(bench *b)
 {
@@ -429,7 +333,7 @@ static void use_everything(bench *b)
 }
 
 /* gvi_size is exact, a byte less is refused, and GVI_LENGTH is enough.  What a pinned formulation does
-   not cover is refused and returns 0; AUTO covers everything.                                         */
+   not cover is refused and returns 0; AUTO covers everything. */
 static int expect_memory_to_be_exact(const scene *a)
 {
     gvi_desc desc = describe(a);
@@ -498,77 +402,6 @@ TEST(nothing_outside_the_memory_is_touched)
         }
 }
 
-/* "pinned: no fall-back and no memory for one" */
-TEST(a_pinned_formulation_needs_less_memory)
-{
-    scene a = { GVI_AUTO, GVI_MASS_UNIT, POT, 3, 8, GVI_GAUSS, 8 };
-    gvi_desc desc = describe(&a);
-    size_t with_newton = gvi_size(&desc);
-    desc.formulation = GVI_POSITIONS;
-    assert_true(gvi_size(&desc) < with_newton);
-}
-
-/* ---------------------------------------------------------- faulty arguments */
-
-static int count_two = 2, count_three = 3;
-static real bad_mass[4];
-static gvi_effect bad_effects[GVI_EFFECTS + 1];
-
-/* The k-th way to spoil a good description, 0 when there is none left */
-static int spoil(gvi_desc *d, int k)
-{
-    gvi_effect *e = bad_effects;
-    const gvi_mass full = { .kind = GVI_MASS_DENSE, .matrix = bad_mass };
-    bad_mass[0] = bad_mass[3] = 1;
-    bad_mass[2] = 0;
-    switch (k) {
-    case 0:  d->n = 0; break;
-    case 1:  d->n = -1; break;
-    case 2:  d->degree = -1; break;
-    case 3:  d->rule.points = -1; break;
-    case 4:  d->rule.kind = (gvi_rule_kind)7; break;
-    case 5:  d->rule.kind = GVI_OWN; d->rule.points = 8; break;                   /* no nodes */
-    case 6:  d->effects = NULL; break;
-    case 7:  d->effect_count = -1; break;
-    case 8:  d->effect_count = GVI_EFFECTS + 1; break;
-    case 9:  e->kind = (gvi_kind)9; break;
-    case 10: e->points = NULL; break;                                             /* neither */
-    case 11: e->point = chain_at_a_point; e->user = &count_two; break;            /* both */
-    case 12: d->mass.kind = (gvi_mass_kind)9; break;
-    case 13: d->mass.kind = GVI_MASS_DIAGONAL; break;                             /* no matrix */
-    case 14: d->mass.kind = GVI_MASS_DENSE; break;
-    case 15: d->mass.kind = GVI_MASS_POSITION; d->mass.gradient = mass_gradient; break;
-    case 16: d->mass.kind = GVI_MASS_POSITION; d->mass.points = mass_points; break;
-    case 17: d->mass = full; bad_mass[2] = (real)NAN; break;
-    case 18: d->mass = full; bad_mass[2] = (real)INFINITY; break;
-    case 19: d->formulation = (gvi_formulation)9; break;
-    case 20: d->tolerance = -1; break;
-    case 21: d->tolerance = (real)NAN; break;
-    case 22: d->max_iterations = -1; break;
-    case 23: d->iterations = -1; break;
-    case 24: d->iterations = 1000001; break;
-    case 25: d->mass.matrix = bad_mass; break;                                    /* of which kind? */
-    case 26: d->mass.points = mass_points; d->mass.gradient = mass_gradient; break;
-    case 27: d->rule.points = 8; d->rule.nodes = d->rule.weights = bad_mass; break;
-    default: return 0;
-    }
-    return 1;
-}
-
-TEST(faulty_descriptions_are_refused)
-{
-    for (int k = 0; ; ++k) {
-        gvi_desc desc = { .n = 2, .effects = bad_effects, .effect_count = 1 };
-        gvi_status got;
-        for (int i = 0; i < COUNT(bad_effects); ++i) bad_effects[i] = chain_only[0];
-        if (!spoil(&desc, k)) break;
-        got = init(&desc);
-        if (got != GVI_E_ARGUMENT) print_error("way %d to spoil a description\n", k);
-        assert_int_equal(got, GVI_E_ARGUMENT);
-        if (k != 17 && k != 18) assert_int_equal(gvi_size(&desc), 0);  /* the matrix is gvi_init's to read */
-    }
-}
-
 #define REFUSED(call) assert_status(call, GVI_E_ARGUMENT)
 
 TEST(null_pointers_are_refused)
@@ -593,6 +426,15 @@ TEST(null_pointers_are_refused)
     REFUSED(gvi_discrete_lagrangian(&b.st, 0, 1, x, x, NULL));
     REFUSED(gvi_step(NULL, 0.1));
     REFUSED(gvi_restore(&b.st, NULL, b.g.memory));
+    REFUSED(gvi_discrete_lagrangian(&b.st, 0, 1, NULL, x, &(gvi_discrete){ .p0 = x }));
+    REFUSED(gvi_discrete_lagrangian(&b.st, 0, 1, x, NULL, &(gvi_discrete){ .p0 = x }));
+    REFUSED(gvi_discrete_lagrangian(NULL, 0, 1, x, x, &(gvi_discrete){ .p0 = x }));
+    REFUSED(gvi_velocity(NULL, x));
+    REFUSED(gvi_energy(NULL, x));
+    REFUSED(gvi_action(NULL, x));
+    REFUSED(gvi_multipliers(NULL, x));
+    REFUSED(gvi_switch(NULL, 0, 0));
+    REFUSED(gvi_restore(NULL, &b.st, b.g.memory));
     REFUSED(gvi_restore(&b.st, &b.st, NULL));
     tear_down(&b);
 }
@@ -601,7 +443,7 @@ TEST(numbers_that_are_none_are_refused_and_change_nothing)
 {
     static const real wrong[] = { (real)NAN, (real)INFINITY, -(real)INFINITY };
     bench b = start(&scenes[5]);
-    real bad[N_MAX] = { 0 };
+    real bad[N_MAX] = { 0 }, p[N_MAX];
     assert_ok(gvi_step(&b.st, 0.1));
     UNTOUCHED(&b.st) {
         REFUSED(gvi_step(&b.st, 0));
@@ -616,6 +458,9 @@ TEST(numbers_that_are_none_are_refused_and_change_nothing)
             REFUSED(gvi_start_momentum(&b.st, 0, q_start, bad));
             REFUSED(gvi_start_configurations(&b.st, 0, 0.1, q_start, bad));
             REFUSED(gvi_start_configurations(&b.st, 0, wrong[k], q_start, q_start));
+            REFUSED(gvi_discrete_lagrangian(&b.st, wrong[k], 0.1, q_start, q_start, &(gvi_discrete){ .p0 = p }));
+            REFUSED(gvi_discrete_lagrangian(&b.st, 0, 0.1, bad, q_start, &(gvi_discrete){ .p0 = p }));
+            REFUSED(gvi_discrete_lagrangian(&b.st, 0, 0.1, q_start, q_start, &(gvi_discrete){ .p0 = p, .guess = bad }));
             assert_true(gvi_curve(&b.st, wrong[k], bad, NULL) != GVI_OK);
             assert_true(gvi_state_at(&b.st, wrong[k], bad, NULL, NULL) != GVI_OK);
         }
@@ -623,28 +468,19 @@ TEST(numbers_that_are_none_are_refused_and_change_nothing)
     tear_down(&b);
 }
 
-TEST(questions_at_the_wrong_time_are_refused)
+/* Without a start and outside of the step: test_why.c, test_domains.c */
+TEST(questions_beyond_the_step_are_refused)
 {
-    bench b = set_up(&scenes[1]);
+    bench b = start(&scenes[1]);
     real x[N_MAX], number;
-    assert_status(gvi_step(&b.st, 0.1), GVI_E_STATE);
-    assert_status(gvi_velocity(&b.st, x), GVI_E_STATE);
-    assert_status(gvi_energy(&b.st, &number), GVI_E_STATE);
-    assert_ok(gvi_start(&b.st, 0.25, q_start, v_start));
-    assert_status(gvi_curve(&b.st, 0.5, x, NULL), GVI_E_STATE);
     assert_status(gvi_action(&b.st, &number), GVI_E_STATE);
-    assert_status(gvi_state_at(&b.st, 0.3, x, NULL, NULL), GVI_E_STATE);
     assert_ok(gvi_step(&b.st, 0.1));
-    assert_status(gvi_state_at(&b.st, 0.24, x, NULL, NULL), GVI_E_STATE);
-    assert_status(gvi_state_at(&b.st, 0.36, x, NULL, NULL), GVI_E_STATE);
     assert_true(gvi_curve(&b.st, -0.01, x, NULL) != GVI_OK);
     assert_true(gvi_curve(&b.st, 1.01, x, NULL) != GVI_OK);
     assert_ok(gvi_start(&b.st, 0, q_start, v_start));          /* a new start forgets the step */
     assert_status(gvi_curve(&b.st, 0.5, x, NULL), GVI_E_STATE);
     tear_down(&b);
 }
-
-/* ------------------------------------------------------------------ own rules */
 
 TEST(rules_that_cannot_work_are_refused)
 {
@@ -669,19 +505,9 @@ TEST(rules_that_cannot_work_are_refused)
         const gvi_desc desc = { .n = 2, .degree = rules[k].s, .rule = { GVI_OWN, 3, rules[k].c, rules[k].b },
                                 .effects = chain_only, .effect_count = 1 };
         gvi_status got = init(&desc);
-        if (got != rules[k].wanted) print_error("rule %d\n", k);
         assert_status(got, rules[k].wanted);
         if (got == GVI_E_NODES || got == GVI_E_ORDER || 3 < rules[k].s) assert_int_equal(gvi_size(&desc), 0);
     }
-}
-
-static void run_ten(const gvi_desc *desc, real *q, gvi_counters *counters)
-{
-    bench b = start_as(desc, q_start, v_start);
-    steps(&b.st, 10, 0.1);
-    memcpy(q, b.st.q, (size_t)b.st.n*sizeof(real));
-    if (counters) *counters = b.st.counters;
-    tear_down(&b);
 }
 
 /* The caller's own copy of a built-in rule is the built-in rule */
@@ -695,87 +521,55 @@ TEST(own_nodes_may_come_in_any_order)
     memcpy(b + 3, b, 3*sizeof(real));
     for (int way = 0; way < 2; ++way) {
         desc.rule = (gvi_rule){ GVI_OWN, 3, c + 2*way, b + 2*way };
-        run_ten(&desc, q[way], NULL);
-        assert_ok(init(&desc));
-        assert_int_equal(refused.order, 6);
+        bench z = start_as(&desc, q_start, v_start);
+        steps(&z.st, 10, 0.1);
+        assert_int_equal(z.st.order, 6);
+        memcpy(q[way], z.st.q, 2*sizeof(real));
+        tear_down(&z);
     }
     for (int i = 0; i < 2; ++i) assert_close(q[0][i], q[1][i], 16*EPS);
-}
-
-/* --------------------------------------------------------------- formulations */
-
-TEST(pinned_formulations_that_do_not_cover_the_scene_are_refused)
-{
-    static const scene impossible[] = {
-        { GVI_EXPLICIT,   GVI_MASS_UNIT,     POT,        2, 2, GVI_LOBATTO, 3 },
-        { GVI_EXPLICIT,   GVI_MASS_UNIT,     POT,        2, 1, GVI_GAUSS,   1 },
-        { GVI_EXPLICIT,   GVI_MASS_UNIT,     POT | DRAG, 2, 1, GVI_LOBATTO, 2 },
-        { GVI_EXPLICIT,   GVI_MASS_POSITION, POT,        2, 1, GVI_LOBATTO, 2 },
-        { GVI_POSITIONS,  GVI_MASS_UNIT,     POT | DRAG, 2, 4, GVI_GAUSS,   4 },
-        { GVI_POSITIONS,  GVI_MASS_UNIT,     POT | COUP, 2, 4, GVI_GAUSS,   4 },
-        { GVI_POSITIONS,  GVI_MASS_POSITION, POT,        2, 4, GVI_GAUSS,   4 },
-        { GVI_VELOCITIES, GVI_MASS_POSITION, POT,        2, 4, GVI_GAUSS,   4 },
-        { GVI_VELOCITIES, GVI_MASS_NONE,     POT | KIN,  2, 4, GVI_GAUSS,   4 },
-        { GVI_MOMENTA,    GVI_MASS_POSITION, POT,        2, 4, GVI_GAUSS,   5 },
-        { GVI_MOMENTA,    GVI_MASS_NONE,     POT | KIN,  2, 4, GVI_GAUSS,   4 },
-    };
-    for (int k = 0; k < COUNT(impossible); ++k) {
-        gvi_desc desc = describe(&impossible[k]);
-        gvi_status got = init(&desc);
-        if (got != GVI_E_FORMULATION) print_error("case %d: %s\n", k, gvi_status_text(got));
-        assert_int_equal(got, GVI_E_FORMULATION);
-        assert_int_equal(gvi_size(&desc), 0);
-    }
 }
 
 TEST(the_boundary_value_problem_needs_newtons_memory)
 {
     static const scene line = { GVI_POSITIONS, GVI_MASS_UNIT, POT, 2, 1, GVI_GAUSS, 1 };       /* nothing to solve */
-    bench b = start(&scenes[1]), easy;
-    real Ld;
-    const gvi_discrete out = { .lagrangian = &Ld };
+    bench b = start(&scenes[1]), easy = start(&line);
+    const gvi_discrete out = { .lagrangian = &(real){ 0 } };
     assert_status(gvi_discrete_lagrangian(&b.st, 0, 0.1, q_start, v_start, &out), GVI_E_FORMULATION);
     assert_status(gvi_start_configurations(&b.st, 0, 0.1, q_start, v_start), GVI_E_FORMULATION);
-    tear_down(&b);
-    easy = start(&line);
     assert_ok(gvi_discrete_lagrangian(&easy.st, 0, 0.1, q_start, v_start, &out));
+    tear_down(&b);
     tear_down(&easy);
 }
 
-AT_POINTS(stiff_springs)
-{
-    FOR_EACH(x, a) x->f[a] -= (a < x->stride ? 10000 : 1)*x->q[a];
-    return 0;
-}
+AT_EACH(stiff_springs) { x->f[a] -= (a < x->stride ? 10000 : 1)*x->q[a]; }
 
 static const gvi_effect stiff[] = { { .kind = GVI_POTENTIAL, .points = stiff_springs } };
 
-static bench start_stiff(gvi_desc more)
+static gvi_stepper start_stiff(gvi_desc more)
 {
     more.n = 2;
     more.effects = stiff;
     more.effect_count = 1;
-    return start_as(&more, (const real[]){ 0.01, 1 }, (const real[]){ 1, 0 });
+    return new_motion(&more, 0, (const real[]){ 0.01, 1 }, (const real[]){ 1, 0 });
 }
 
 /* h omega = 50.  Gauss keeps quadratic invariants, stiff or not. */
 TEST(auto_goes_over_to_newton_on_a_stiff_scene_and_says_so)
 {
     char before[200] = "";
-    bench b = start_stiff((gvi_desc){ .degree = 4 });
-    gvi_stepper *st = &b.st;
-    strncpy(before, gvi_formulation_text(st), sizeof before - 1);
-    assert_int_equal(st->formulation, GVI_POSITIONS);
+    gvi_stepper st = start_stiff((gvi_desc){ .degree = 4 });
+    strncpy(before, gvi_formulation_text(&st), sizeof before - 1);
+    assert_int_equal(st.formulation, GVI_POSITIONS);
     for (int k = 0; k < 50; ++k) {
-        assert_ok(gvi_step(st, 0.5));
-        assert_int_equal(st->formulation, GVI_NEWTON);
-        assert_close(st->p[0]*st->p[0] + 10000*st->q[0]*st->q[0], 2, 2000*EPS);
-        assert_close(st->p[1]*st->p[1] + st->q[1]*st->q[1], 1, 200*EPS);
+        assert_ok(gvi_step(&st, 0.5));
+        assert_int_equal(st.formulation, GVI_NEWTON);
+        assert_close(st.p[0]*st.p[0] + 10000*st.q[0]*st.q[0], 2, 2000*EPS);
+        assert_close(st.p[1]*st.p[1] + st.q[1]*st.q[1], 1, 30*EPS);
     }
-    assert_string_not_equal(before, gvi_formulation_text(st));
-    assert_true(st->counters.factorizations > 0);
-    assert_true(st->counters.newton_iterations > 0);
-    tear_down(&b);
+    assert_string_not_equal(before, gvi_formulation_text(&st));
+    assert_true(st.counters.factorizations > 0);
+    assert_true(st.counters.newton_iterations > 0);
 }
 
 /* A fixed point that is pinned, one of a given number of iterations, one of too few */
@@ -787,16 +581,14 @@ TEST(iterations_that_do_not_converge_are_a_failure_and_leave_everything_alone)
         { { .degree = 4, .formulation = GVI_POSITIONS, .max_iterations = 3 }, 0.01 },
     };
     for (int k = 0; k < COUNT(cases); ++k) {
-        bench b = start_stiff(cases[k].desc);
-        const gvi_stepper *st = &b.st;
-        assert_status(gvi_step(&b.st, cases[k].h), GVI_E_CONVERGENCE);
-        assert_int_equal(st->formulation, GVI_POSITIONS);
-        assert_int_equal(st->counters.failures, 1);
-        assert_int_equal(st->counters.steps, 0);
-        assert_true(st->t == 0 && st->h == 0 && st->q[0] == (real)0.01 && st->p[0] == 1);
-        if (k == 2) assert_true(st->counters.iterations <= 3);
-        else assert_ok(gvi_step(&b.st, 0.005));                /* a shorter one */
-        tear_down(&b);
+        gvi_stepper st = start_stiff(cases[k].desc);
+        assert_status(gvi_step(&st, cases[k].h), GVI_E_CONVERGENCE);
+        assert_int_equal(st.formulation, GVI_POSITIONS);
+        assert_int_equal(st.counters.failures, 1);
+        assert_int_equal(st.counters.steps, 0);
+        assert_true(st.t == 0 && st.h == 0 && st.q[0] == (real)0.01 && st.p[0] == 1);
+        if (k == 2) assert_true(st.counters.iterations <= 3);
+        else assert_ok(gvi_step(&st, 0.005));                /* a shorter one */
     }
     const gvi_desc newton = { .n = 2, .effects = stiff, .effect_count = 1, .iterations = 5, .formulation = GVI_NEWTON };
     assert_status(init(&newton), GVI_E_FORMULATION);           /* it has no fixed point */
@@ -805,18 +597,16 @@ TEST(iterations_that_do_not_converge_are_a_failure_and_leave_everything_alone)
 /* Up to h omega = 4 the fixed point of degree 8 contracts: a tolerance of 1e-14 is
    reached in 17 iterations.  Then the end at rounding must be seen too, at every
    phase: also where q begins and ends the step near zero, and is large inside.
-   Roundings of a few EPS h a step, independent, 300 steps.                    */
+   Roundings of a few EPS h a step, independent, 300 steps. */
 TEST(a_fixed_point_that_contracts_is_never_called_divergent)
 {
     const gvi_desc desc = { .n = 1, .effects = spring_only, .effect_count = 1, .formulation = GVI_POSITIONS };
     for (int k = 1; k <= 10; ++k) {
-        bench b = start_as(&desc, (const real[]){ 1 }, (const real[]){ 0 });
+        gvi_stepper st = new_motion(&desc, 0, (const real[]){ 1 }, (const real[]){ 0 });
         int failures = 0;
-        for (int j = 0; j < 300; ++j) failures += gvi_step(&b.st, (real)0.4*(real)k) != GVI_OK;
-        if (failures) print_error("h omega = %.1f: %d of 300 steps failed\n", 0.4*k, failures);
+        for (int j = 0; j < 300; ++j) failures += gvi_step(&st, (real)0.4*(real)k) != GVI_OK;
         assert_int_equal(failures, 0);
-        assert_close(b.st.q[0]*b.st.q[0] + b.st.p[0]*b.st.p[0], 1, 600*EPS);
-        tear_down(&b);
+        assert_close(st.q[0]*st.q[0] + st.p[0]*st.p[0], 1, 600*EPS);
     }
 }
 
@@ -824,25 +614,16 @@ TEST(a_fixed_point_that_contracts_is_never_called_divergent)
    found by iterations that contract like a, at any h */
 static real more_mass;
 
-AT_POINTS(added_mass)
-{
-    FOR_EACH(x, a) x->dldv[a] += more_mass*x->v[a];
-    return 0;
-}
+AT_EACH(added_mass) { x->dldv[a] += more_mass*x->v[a]; }
+AT_EACH(strong_spring) { x->f[a] -= (1 + more_mass)*x->q[a]; }
 
-AT_POINTS(strong_spring)
-{
-    FOR_EACH(x, a) x->f[a] -= (1 + more_mass)*x->q[a];
-    return 0;
-}
-
-static bench start_heavy(int degree, int formulation, real v)
+static gvi_stepper start_heavy(int degree, int formulation, real v)
 {
     static const gvi_effect added[] = { { .kind = GVI_LAGRANGIAN, .points = added_mass },
                                         { .kind = GVI_POTENTIAL, .points = strong_spring } };
     const gvi_desc desc = { .n = 1, .degree = degree, .effects = added, .effect_count = 2,
                             .formulation = (gvi_formulation)formulation };
-    return start_as(&desc, (const real[]){ 1 }, &v);
+    return new_motion(&desc, 0, (const real[]){ 1 }, &v);
 }
 
 TEST(short_steps_do_not_hide_velocities_that_diverge)
@@ -850,12 +631,11 @@ TEST(short_steps_do_not_hide_velocities_that_diverge)
     more_mass = 3;
     for (int f = GVI_VELOCITIES; f <= GVI_NEWTON; ++f)
     for (real h = 1e-15; h < 2e-3; h *= 100) {
-        bench b = start_heavy(2, f, 1);
-        const gvi_status got = gvi_step(&b.st, h);
+        gvi_stepper st = start_heavy(2, f, 1);
+        const gvi_status got = gvi_step(&st, h);
         if (f == GVI_NEWTON) assert_ok(got);
-        if (got == GVI_OK) assert_close(b.st.q[0], cos(h) + sin(h), 4*EPS);
+        if (got == GVI_OK) assert_close(st.q[0], cos(h) + sin(h), 4*EPS);
         else assert_status(got, GVI_E_CONVERGENCE);
-        tear_down(&b);
     }
 }
 
@@ -866,17 +646,15 @@ TEST(short_steps_do_not_leave_velocities_half_way)
         for (int k = 0; k < 16; ++k) {
             const long double h = powl(10, -k - 2), moved = sinl(h) - 2*sinl(h/2)*sinl(h/2);
             more_mass = k % 2 ? 0.5 : -0.5;
-            bench b = start_heavy(2, f, 1);
-            assert_ok(gvi_step(&b.st, (real)h));
-            assert_close(((long double)b.st.q[0] - 1 + b.st.q_low[0])/moved, 1, 16*EPS + powl(h, 4));
-            tear_down(&b);
+            gvi_stepper st = start_heavy(2, f, 1);
+            assert_ok(gvi_step(&st, (real)h));
+            assert_close(((long double)st.q[0] - 1 + st.q_low[0])/moved, 1, 16*EPS + powl(h, 4));
         }
     more_mass = 0.5;
     for (int f = GVI_VELOCITIES; f <= GVI_NEWTON; ++f) {
-        bench b = start_heavy(3, f, 0);
-        for (int k = 0; k < 30000; ++k) assert_ok(gvi_step(&b.st, 1e-5*share[k % 3]));
-        assert_close(b.st.q[0], cos(b.st.t), 4*EPS);
-        tear_down(&b);
+        gvi_stepper st = start_heavy(3, f, 0);
+        for (int k = 0; k < 30000; ++k) assert_ok(gvi_step(&st, 1e-5*share[k % 3]));
+        assert_close(st.q[0], cos(st.t), 4*EPS);
     }
 }
 
@@ -891,11 +669,7 @@ AT_POINTS(spring_that_looks)
     return spring(x, user);
 }
 
-AT_POINTS(unit_mass)
-{
-    FOR_EACH(x, a) x->mass[a] = 1;
-    return 0;
-}
+AT_EACH(unit_mass) { x->mass[a] = 1; }
 
 TEST(an_iteration_starts_near_the_motion_with_every_rule)
 {
@@ -909,51 +683,34 @@ TEST(an_iteration_starts_near_the_motion_with_every_rule)
         gvi_desc desc = { .n = 1, .degree = k < 2 ? 2 : r, .rule = k < 2 ? own[k] : rule, .effects = looking,
                           .effect_count = 1, .mass = { .kind = GVI_MASS_POSITION, .points = unit_mass,
                           .gradient = nothing } };
-        bench b = start_as(&desc, (const real[]){ 1 }, (const real[]){ 0.3 });
+        gvi_stepper st = new_motion(&desc, 0, (const real[]){ 1 }, (const real[]){ 0.3 });
         farthest = 0;
-        steps(&b.st, 20, 0.1);
+        steps(&st, 20, 0.1);
         assert_true(farthest < 2);
-        tear_down(&b);
     }
 }
 
-TEST(a_tolerance_buys_iterations)
-{
-    gvi_counters counters[2];
-    real q[2][N_MAX];
-    gvi_desc desc = describe(&scenes[3]);
-    run_ten(&desc, q[0], &counters[0]);
-    desc.tolerance = (real)sqrt((real)EPS);
-    run_ten(&desc, q[1], &counters[1]);
-    assert_true(counters[1].iterations < counters[0].iterations);
-    for (int i = 0; i < 3; ++i) assert_close(q[0][i], q[1][i], 100*sqrt((real)EPS));
-}
-
-/* ------------------------------------------------- a given number of iterations */
-
 /* 20 steps of N iterations on q'' = -q, each with N evaluations at all points.
-   Returns the largest error against cos, sin.                                 */
+   Returns the largest error against cos, sin. */
 static real run_given(int N, gvi_formulation formulation, size_t *size)
 {
     const gvi_desc desc = { .n = 1, .degree = 4, .effects = spring_only, .effect_count = 1,
                             .formulation = formulation, .iterations = N };
-    bench b = start_as(&desc, (const real[]){ 1 }, (const real[]){ 0 });
-    const gvi_stepper *st = &b.st;
+    gvi_stepper st = new_motion(&desc, 0, (const real[]){ 1 }, (const real[]){ 0 });
     real worst = 0;
-    *size = b.g.size;
+    *size = gvi_size(&desc);
     for (int k = 1; k <= 20; ++k) {
-        assert_ok(gvi_step(&b.st, 0.125));
-        assert_int_equal(st->iterations, N);
-        assert_int_equal(st->counters.effect[0], (unsigned long long)(4*N*k));
-        worst = fmax(worst, fabs(st->q[0] - cos(st->t)) + fabs(st->p[0] + sin(st->t)));
+        assert_ok(gvi_step(&st, 0.125));
+        assert_int_equal(st.iterations, N);
+        assert_int_equal(st.counters.effect[0], (unsigned long long)(4*N*k));
+        worst = fmax(worst, fabs(st.q[0] - cos(st.t)) + fabs(st.p[0] + sin(st.t)));
     }
-    assert_int_equal(st->counters.newton_iterations, 0);
-    tear_down(&b);
+    assert_int_equal(st.counters.newton_iterations, 0);
     return worst;
 }
 
 /* An iteration of (3) changes Q by no more than h^2/2 of what the one before did:
-   what is left after N falls by that or better, until it is rounding.         */
+   what is left after N falls by that or better, until it is rounding. */
 TEST(a_given_number_of_iterations_is_made)
 {
     size_t size, pinned;
@@ -967,16 +724,14 @@ TEST(a_given_number_of_iterations_is_made)
 }
 
 /* q'' = -q by the midpoint rule, which iterates Q := q + h p/2 - (h^2/4) Q: every change is h^2/4 of the one before,
-   the first that of Q itself                                                  */
+   the first that of Q itself */
 TEST(counters_tell_the_worst_of_all_steps)
 {
-    static real memory[2000];
     for (int N = 0; N < 5; ++N) {
         const gvi_desc desc = { .n = 1, .degree = 1, .effects = spring_only, .effect_count = 1, .iterations = N };
         const real hs[] = { 0.25, 0.5, 0.125 };
         int most = 0;
-        gvi_stepper st;
-        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+        gvi_stepper st = new_stepper(&desc);
         for (int k = 0; k < 3; ++k) {
             assert_ok(gvi_start(&st, 0, (const real[]){ 1 }, (const real[]){ 0.25 }));
             assert_ok(gvi_step(&st, hs[k]));
@@ -990,31 +745,6 @@ TEST(counters_tell_the_worst_of_all_steps)
         assert_true(N > 0 || most > st.iterations);
     }
 }
-
-/* ------------------------------------------------------ equivalent callbacks */
-
-/* One point a call; second derivatives in place of differences; the caller's M^-1 p */
-TEST(equivalent_callbacks_move_alike)
-{
-    static const scene newton = { GVI_NEWTON, GVI_MASS_DENSE, POT, 3, 4, GVI_GAUSS, 5 };
-    const scene *all[] = { &scenes[1], &newton, &scenes[6] };
-    for (int k = 0; k < COUNT(all); ++k) {
-        gvi_desc desc = describe(all[k]);
-        gvi_counters counters[2];
-        real q[2][N_MAX];
-        if (k == 1) desc.effect_count = 1;                    /* the troublemaker has no hessian */
-        run_ten(&desc, q[0], &counters[0]);
-        if (k < 2)
-            effects[0] = (gvi_effect){ .kind = GVI_POTENTIAL, .point = chain_at_a_point, .user = &count_three };
-        if (k == 1) effects[0].hessian = chain_hessian;
-        if (k == 2) desc.mass.velocity = mass_velocity;
-        run_ten(&desc, q[1], &counters[1]);
-        for (int i = 0; i < 3; ++i) assert_close(q[0][i], q[1][i], (k == 0 ? 8 : 16)*EPS);
-        if (k == 2) assert_true(counters[0].factorizations > 0 && counters[1].factorizations == 0);
-    }
-}
-
-/* ------------------------------------------------------- singular mass matrices */
 
 TEST(a_massless_coordinate_is_named)
 {
@@ -1032,11 +762,10 @@ TEST(a_massless_coordinate_is_named)
 }
 
 /* diag(1, 0, 1) by callback */
-AT_POINTS(mass_with_a_hole)
+AT_EACH(mass_with_a_hole)
 {
-    FOR_EACH(x, a)
-        for (int j = 0, i = a/x->stride; j <= i; ++j) x->mass[(i*(x->n - 1) + j)*x->stride + a] = i == j && i != 1;
-    return 0;
+    
+    for (int j = 0, i = a/x->stride; j <= i; ++j) x->mass[(i*(x->n - 1) + j)*x->stride + a] = i == j && i != 1;
 }
 
 TEST(a_singular_mass_matrix_in_a_step_is_named_and_changes_nothing)
@@ -1046,41 +775,32 @@ TEST(a_singular_mass_matrix_in_a_step_is_named_and_changes_nothing)
         gvi_desc desc = describe(&a);
         desc.mass.points = mass_with_a_hole;
         desc.mass.gradient = nothing;
-        bench b = start_as(&desc, q_start, v_start);               /* p = M v needs no inverse */
-        const gvi_stepper *st = &b.st;
-        assert_status(gvi_step(&b.st, 0.1), GVI_E_SINGULAR);
-        assert_int_equal(st->fault.coordinate, 1);
-        assert_true(st->t == 0 && st->q[1] == q_start[1] && st->p[0] == v_start[0] && st->p[1] == 0);
-        if (gvi_start_momentum(&b.st, 5, v_start, q_start) == GVI_OK) (void)gvi_step(&b.st, 0.1);
-        assert_int_equal(st->status, GVI_E_SINGULAR);
-        assert_int_equal(st->fault.coordinate, 1);
-        tear_down(&b);
+        gvi_stepper st = new_motion(&desc, 0, q_start, v_start);               /* p = M v needs no inverse */
+        assert_status(gvi_step(&st, 0.1), GVI_E_SINGULAR);
+        assert_int_equal(st.fault.coordinate, 1);
+        assert_true(st.t == 0 && st.q[1] == q_start[1] && st.p[0] == v_start[0] && st.p[1] == 0);
+        if (gvi_start_momentum(&st, 5, v_start, q_start) == GVI_OK) (void)gvi_step(&st, 0.1);
+        assert_int_equal(st.status, GVI_E_SINGULAR);
+        assert_int_equal(st.fault.coordinate, 1);
     }
 }
 
 /* Kinetic energy for the first coordinate only */
-AT_POINTS(half_kinetic)
-{
-    for (int k = 0; k < x->count; ++k) x->dldv[k] += x->v[k];
-    return 0;
-}
+GVI_EACH(half_kinetic, 1, v, dldv) { x->dldv[0] += x->v[0]; }
 
 TEST(a_lagrangian_without_kinetic_energy_for_a_coordinate_is_named)
 {
     static const gvi_effect some[] = { { .kind = GVI_LAGRANGIAN, .points = half_kinetic } };
     const gvi_desc desc = { .n = 2, .degree = 3, .effects = some, .effect_count = 1,
                             .mass = { .kind = GVI_MASS_NONE } };
-    bench b = set_up_as(&desc);
+    gvi_stepper st = new_stepper(&desc);
     real v[2];
-    if (gvi_start_momentum(&b.st, 0, q_start, (const real[]){ 1, 0 }) == GVI_OK)
-        assert_status(gvi_step(&b.st, 0.1), GVI_E_SINGULAR);
-    assert_int_equal(b.st.status, GVI_E_SINGULAR);
-    assert_int_equal(b.st.fault.coordinate, 1);
-    assert_true(gvi_velocity(&b.st, v) != GVI_OK);
-    tear_down(&b);
+    if (gvi_start_momentum(&st, 0, q_start, (const real[]){ 1, 0 }) == GVI_OK)
+        assert_status(gvi_step(&st, 0.1), GVI_E_SINGULAR);
+    assert_int_equal(st.status, GVI_E_SINGULAR);
+    assert_int_equal(st.fault.coordinate, 1);
+    assert_true(gvi_velocity(&st, v) != GVI_OK);
 }
-
-/* --------------------------------------------------------------------- failures */
 
 /* A step that fails, with all that it may not change */
 static void expect_failure(bench *b, real h, gvi_status wanted, gvi_status or_this)
@@ -1088,7 +808,6 @@ static void expect_failure(bench *b, real h, gvi_status wanted, gvi_status or_th
     UNTOUCHED(&b->st) {
         const gvi_counters before = b->st.counters;
         gvi_status got = gvi_step(&b->st, h);
-        if (got != wanted && got != or_this) print_error("h = %g: %s\n", (double)h, gvi_status_text(got));
         assert_true(got == wanted || got == or_this);
         assert_int_equal(b->st.status, got);
         assert_int_equal(b->st.counters.failures, before.failures + 1);
@@ -1130,24 +849,9 @@ TEST(refusals_nan_and_inf_are_traced_to_effect_coordinate_and_point)
             expect_recovery(&scenes[k], (harm_kind)what, harm_status[what]);
 }
 
-TEST(a_mass_callback_that_fails_is_named)
-{
-    for (int k = 0; k < COUNT(scenes); ++k)
-        for (int what = REFUSE; what <= GIVE_INF; ++what) {
-            if (scenes[k].mass != GVI_MASS_POSITION) continue;
-            bench b = start(&scenes[k]);
-            assert_ok(gvi_step(&b.st, h_good));
-            mass_harm = (harm_kind)what;
-            expect_failure(&b, h_good, harm_status[what], harm_status[what]);
-            assert_int_equal(b.st.fault.effect, GVI_FAULT_MASS);
-            assert_ok(gvi_step(&b.st, h_good));
-            tear_down(&b);
-        }
-}
-
 /* Further than a fixed point can follow; its divergence, which overflows, must not
    pass for convergence.  (An effect may be the first to overflow, v^2 say.)  Not
-   EXPLICIT, which does not iterate.                                          */
+   EXPLICIT, which does not iterate. */
 TEST(a_step_that_is_too_large_leaves_everything_and_a_smaller_one_works)
 {
     for (int k = 1; k < COUNT(scenes); ++k) {
@@ -1215,27 +919,6 @@ TEST(energy_without_a_value_names_the_effect)
     assert_ok(gvi_switch(&b.st, 1, 0));                        /* who is off is not asked */
     assert_ok(gvi_energy(&b.st, &number));
     tear_down(&b);
-}
-
-/* ----------------------------------------------------------- plain data, moved */
-
-TEST(a_stepper_may_be_moved)
-{
-    for (int k = 0; k < COUNT(scenes); ++k) {
-        bench b = start(&scenes[k]);
-        gvi_stepper *elsewhere = malloc(sizeof *elsewhere);
-        steps(&b.st, 6, h_good);
-        const snapshot stayed = take(&b.st);
-        tear_down(&b);
-        b = start(&scenes[k]);
-        steps(&b.st, 3, h_good);
-        memcpy(elsewhere, &b.st, sizeof b.st);
-        memset(&b.st, 0xFF, sizeof b.st);
-        steps(elsewhere, 3, h_good);
-        expect_snapshot(elsewhere, &stayed);
-        free(elsewhere);
-        tear_down(&b);
-    }
 }
 
 enum { RECORDED = 12 };
@@ -1313,33 +996,25 @@ TEST(a_checkpoint_of_a_failed_set_up_is_refused)
     static const real one[] = { 1, 1 }, none[] = { 1, 0 };
     gvi_desc desc = { .n = 2, .degree = 3, .effects = spring_only, .effect_count = 1,
                       .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = one } };
-    bench b = start_as(&desc, none, none);
-    guarded g = guard(b.g.size);
-    gvi_stepper st;
+    static real memory[2000];
+    gvi_stepper st, good = new_motion(&desc, 0, none, none);
     desc.mass.matrix = none;
-    assert_status(gvi_init(&st, &desc, g.memory, g.size), GVI_E_SINGULAR);
-    REFUSED(gvi_restore(&b.st, &st, g.memory));
-    assert_ok(gvi_step(&b.st, h_good));
-    release(&g);
-    tear_down(&b);
+    assert_status(gvi_init(&st, &desc, memory, sizeof memory), GVI_E_SINGULAR);
+    REFUSED(gvi_restore(&good, &st, memory));
+    assert_ok(gvi_step(&good, h_good));
 }
-
-/* -------------------------------------------------------------------- switching */
 
 /* The momentum is the state: switching keeps q and p to the bit */
 TEST(switching_keeps_the_state_and_refuses_what_is_not_there)
 {
     bench b = start(&scenes[5]);
-    real q[N_MAX], p[N_MAX];
     assert_ok(gvi_step(&b.st, h_good));
     for (int on = 0; on <= 1; ++on) {
-        memcpy(q, b.st.q, 2*sizeof(real));
-        memcpy(p, b.st.p, 2*sizeof(real));
-        REFUSED(gvi_switch(&b.st, -1, 0));
-        REFUSED(gvi_switch(&b.st, b.desc.effect_count, 0));
-        assert_ok(gvi_switch(&b.st, 1, on));
-        assert_memory_equal(q, b.st.q, 2*sizeof(real));
-        assert_memory_equal(p, b.st.p, 2*sizeof(real));
+        SAME_STATE(&b.st) {
+            REFUSED(gvi_switch(&b.st, -1, 0));
+            REFUSED(gvi_switch(&b.st, b.desc.effect_count, 0));
+            assert_ok(gvi_switch(&b.st, 1, on));
+        }
         assert_ok(gvi_step(&b.st, h_good));
     }
     tear_down(&b);
@@ -1350,15 +1025,14 @@ TEST(queries_leave_the_choice_of_method_alone)
 {
     int iterations[80];
     for (int queried = 0; queried < 2; ++queried) {
-        bench b = start_stiff((gvi_desc){ .degree = 4 });
+        gvi_stepper st = start_stiff((gvi_desc){ .degree = 4 });
         for (int k = 0; k < 80; ++k) {
             real q[2];
-            assert_ok(gvi_step(&b.st, 0.5));
-            if (!queried) iterations[k] = b.st.iterations;
-            assert_int_equal(b.st.iterations, iterations[k]);
-            if (queried) assert_ok(gvi_state_at(&b.st, b.st.t - (real)0.2, q, NULL, NULL));
+            assert_ok(gvi_step(&st, 0.5));
+            if (!queried) iterations[k] = st.iterations;
+            assert_int_equal(st.iterations, iterations[k]);
+            if (queried) assert_ok(gvi_state_at(&st, st.t - (real)0.2, q, NULL, NULL));
         }
-        tear_down(&b);
     }
 }
 
@@ -1379,12 +1053,9 @@ TEST(a_state_between_is_rounded_once)
 {
     static const gvi_effect effect = { .kind = GVI_POTENTIAL, .point = pull };
     static const gvi_desc desc = { .n = 1, .degree = 2, .effects = &effect, .effect_count = 1 };
-    static real room[2000];
     const volatile long double one = 1, more = LDBL_EPSILON;
-    gvi_stepper st;
     if (LDBL_MANT_DIG == DIG || one + more <= one) skip();      // valgrind's long double is a double
-    assert_ok(gvi_init(&st, &desc, room, sizeof room));
-    assert_ok(gvi_start(&st, 0, (const real[]){ 1 }, (const real[]){ 1.1 }));
+    gvi_stepper st = new_motion(&desc, 0, (const real[]){ 1 }, (const real[]){ 1.1 });
     for (int k = 0; k < 150; ++k) {
         assert_ok(gvi_step(&st, 0.001));
         for (int i = 1; i < 5; ++i) {

@@ -1,19 +1,14 @@
 /* examples/tools/body.h: rigid bodies.  What is expected comes from Euler's equations in elliptic functions,
    from Runge's and Kutta's method in long double with tiny steps, from the closed forms of Lagrange's top, and from
-   the work of a force.                                                          */
+   the work of a force. */
 #include "gvi_test.h"
 #include "tools/body.h"
 
-typedef gvi_real real;
 typedef long double exact;
-#include <tgmath.h>
-#undef I
-
-#define R(x) ((real)x##L)
 
 static real memory[40000];
 
-/* With |e| = 1 as a constraint: the row is the scene's last one.                      */
+/* With |e| = 1 as a constraint: the row is the scene's last one. */
 static void hold(gvi_desc *desc, gvi_effect *scene, const bodies *all)
 {
     scene[desc->effect_count++] = body_unit(all);
@@ -23,7 +18,7 @@ static void hold(gvi_desc *desc, gvi_effect *scene, const bodies *all)
 
 static real off_unit(const real *e) { return fabs(sqrt(body_dot(e, e)) - 1); }
 
-/* sn, cn, dn of u with modulus k, by descending means (Abramowitz, Stegun 16.4).   */
+/* sn, cn, dn of u with modulus k, by descending means (Abramowitz, Stegun 16.4). */
 static void jacobi(exact u, exact k, exact *sn, exact *cn, exact *dn)
 {
     exact a[12] = { 1 }, c[12] = { k }, b = sqrtl(1 - k*k);
@@ -48,13 +43,11 @@ static real worst_of(int n, const real *a, const exact *b)
     return worst;
 }
 
-/* -------------------------------------------------------------- a free body */
-
 static const body stone = { .inertia = { 1, R(1.75), R(2.5) } };
 static const real stone_e[] = { R(0.5), R(0.5), R(-0.5), R(0.5) };
 static const exact stone_w[] = { 0.75L, 0, 1 };                  /* 2 E I2 < M^2 */
 
-/* Landau, Lifshitz: Mechanics, 37.                                               */
+/* Landau, Lifshitz: Mechanics, 37. */
 static void euler(exact t, exact *w)
 {
     const exact A = stone.inertia[0], B = stone.inertia[1], C = stone.inertia[2];
@@ -68,7 +61,7 @@ static void euler(exact t, exact *w)
     w[2] = stone_w[2]*dn;
 }
 
-/* Independently: e' = e (0, w)/2 with that w, by the classical method.             */
+/* Independently: e' = e (0, w)/2 with that w, by the classical method. */
 static void turned(const exact *e, exact t, exact *rate)
 {
     exact w[3];
@@ -99,7 +92,7 @@ static void begin(gvi_stepper *st, const gvi_desc *desc, const real *e, const re
 {
     real rate[4];
     body_turn(e, w, rate);
-    assert_ok(gvi_init(st, desc, memory, sizeof memory));
+    *st = new_stepper(desc);
     assert_ok(gvi_start(st, 0, e, rate));
 }
 
@@ -110,7 +103,7 @@ static void spin(gvi_stepper *st, real *w)
     body_spin(st->q, v, w);
 }
 
-/* Error of the spin, or of the attitude, at t = 4.                               */
+/* Error of the spin, or of the attitude, at t = 4. */
 static real free_error(int s, int steps, int attitudes, int held)
 {
     static const bodies scene = { &stone, 1 };
@@ -137,7 +130,7 @@ static void expect_order(real coarse, real fine, int order)
     assert_between((real)order - R(0.15), log2(coarse/fine), (real)order + R(0.15));
 }
 
-TEST(eulers_equations)
+TEST(a_free_body_obeys_eulers_equations)
 {
     static const int steps[] = { 160, 80, 40, 20 };
     for (int held = 0; held < 2; ++held) {
@@ -149,7 +142,7 @@ TEST(eulers_equations)
     }
 }
 
-/* 20,000 steps: angular momentum in space, energy, and |e|, which nothing holds, or a constraint.  */
+/* 20,000 steps: angular momentum in space, energy, and |e|, which nothing holds, or a constraint. */
 static void expect_kept(int held)
 {
     static const bodies scene = { &stone, 1 };
@@ -179,8 +172,6 @@ static void expect_kept(int held)
 TEST(what_a_long_run_keeps) { expect_kept(0); }
 TEST(what_a_long_run_with_the_constraint_keeps) { expect_kept(1); }
 
-/* ---------------------------------------------------------- Lagrange's top */
-
 static const body top = { .inertia = { R(2e-4), R(2e-4), R(8e-5) } };
 static const real lever = R(0.04), heavy = R(0.981);                    /* m, N */
 static const real tilt = R(0.5);
@@ -197,7 +188,7 @@ static int weight(real t, const real *q, const real *v, real *f, real *dldv, voi
 static const gvi_effect weighted[] = { { .kind = GVI_POTENTIAL, .point = weight } };
 static const bodies one_top = { &top, 1 };
 
-/* The axis in space after 0.2 s; spin in body axes at first, tilted about x.       */
+/* The axis in space after 0.2 s; spin in body axes at first, tilted about x. */
 static void spun(int s, int steps, int held, const real *w, real *axis)
 {
     gvi_desc desc = { .n = 4, .degree = s, .effects = weighted, .effect_count = 1, .mass = body_mass(&one_top) };
@@ -210,7 +201,7 @@ static void spun(int s, int steps, int held, const real *w, real *axis)
     if (held) assert_between(0, off_unit(st.q), 4*EPS);
 }
 
-/* Steady precession: A W^2 cos a - C w W + m g l = 0, the axis goes round at W.      */
+/* Steady precession: A W^2 cos a - C w W + m g l = 0, the axis goes round at W. */
 static real precession_error(int s, int steps, int held)
 {
     const exact A = top.inertia[0], C = top.inertia[2], a = tilt, W = 20, mgl = (exact)lever*heavy;
@@ -221,43 +212,21 @@ static real precession_error(int s, int steps, int held)
     return worst_of(3, axis, known);
 }
 
-/* Let go with the spin w alone: it nods. u = cos(tilt) obeys u'^2 = (c - bu)(1 - u^2) - g^2 (u0 - u)^2, a cubic
-   with the roots u1 < u0 < u3:  u = u1 + (u0 - u1) cd^2(sqrt(b (u3 - u1)) t/2).        */
-static real nod_error(int s, int steps, int held)
-{
-    const exact A = top.inertia[0], w = 80, u0 = cosl((exact)tilt), b = 2*(exact)lever*heavy/A;
-    const exact g = (exact)top.inertia[2]*w/A, c = b*u0;
-    const exact c1 = -(c + g*g) + b*u0, c0 = 2*g*g*u0 - b + c1*u0, root = sqrtl(c1*c1 - 4*b*c0);
-    const exact u1 = 2*c0/(-c1 + root), u3 = (-c1 + root)/(2*b);
-    exact sn, cn, dn;
-    real axis[3];
-    jacobi(sqrtl(b*(u3 - u1))*0.1L, sqrtl((u0 - u1)/(u3 - u1)), &sn, &cn, &dn);
-    const exact known = u1 + (u0 - u1)*(cn/dn)*(cn/dn);
-    spun(s, steps, held, (real[]){ 0, 0, (real)w }, axis);
-    return fabs(axis[2] - (real)known);
-}
-
-TEST(lagranges_top)
+TEST(lagranges_top_precesses_steadily)
 {
     static const int steps[] = { 400, 160, 80, 25 };
     for (int held = 0; held < 2; ++held) {
-        assert_between(0, precession_error(8, 40, held), 400*EPS);
-        assert_between(0, nod_error(8, 40, held), 400*EPS);
-        for (int s = 1; s <= 4 && DIG > 50; ++s) {
-            const int n = steps[s-1], m = s < 4 ? n : 2*n;                       /* at 25: not yet, then rounding */
-            expect_order(precession_error(s, n, held), precession_error(s, 2*n, held), 2*s);
-            if (s < 4 || DIG > 60) expect_order(nod_error(s, m, held), nod_error(s, 2*m, held), 2*s);
-        }
+        assert_between(0, precession_error(8, 40, held), 80*EPS);
+        for (int s = 1, n; s <= 4 && DIG > 50; ++s)
+            n = steps[s-1], expect_order(precession_error(s, n, held), precession_error(s, 2*n, held), 2*s);
     }
 }
-
-/* ------------------------------------------------------- forces and mass */
 
 static const body pair[] = { { R(1.5), { 1, 2, R(2.5) } }, { R(0.75), { R(0.5), R(0.25), R(0.5) } } };
 static const bodies two = { pair, 2 };
 static const real at[2][3] = { { R(0.5), R(-0.25), R(0.125) }, { R(-0.25), R(0.5), R(0.75) } };
 
-/* Where at is, in space.                                                            */
+/* Where at is, in space. */
 static void place(const real *q, const real *own, real *out)
 {
     body_rotate(q + 3, 0, own, out);
@@ -265,8 +234,8 @@ static void place(const real *q, const real *own, real *out)
 }
 
 /* f.q' is the force times the velocity of its place, for velocities that leave |e| alone: the place's
-   velocity by differences.                                                             */
-TEST(the_work_of_a_force)
+   velocity by differences. */
+TEST(the_work_of_a_force_is_that_of_its_place)
 {
     const real q[] = { 1, 2, 3, R(0.75), R(-0.5), R(0.25), 1 }, force[] = { R(0.5), -1, 2 }, w[] = { 1, R(-0.75), R(0.5) };
     real v[7] = { R(0.25), R(-0.5), 1 }, f[4][7] = { { 0 } }, moved[2][7], there[2][3], own[3], spun_back[3];
@@ -328,11 +297,11 @@ TEST(the_mass_is_consistent)
                 for (int j = 0; j < 14; ++j) T[k] += v[i]*M[i > j ? i*14 + j : j*14 + i]*v[j]/2;
         }
         q[c] = was;
-        assert_close(f[c], (T[1] - T[0])/(2*d), 1000*d*d*(1 + fabs(f[c])));
+        assert_close(f[c], (T[1] - T[0])/(2*d), 50*d*d*(1 + fabs(f[c])));
     }
 }
 
-/* Momentum and angular momentum of the two bodies.                                     */
+/* Momentum and angular momentum of the two bodies. */
 static void totals(const real *q, const real *p, real *sum)
 {
     for (int i = 0; i < 6; ++i) sum[i] = 0;
@@ -366,7 +335,7 @@ static int ball_joint(const gvi_points *x, void *user)
 }
 
 /* Joined, free in space: the joint holds, and nothing changes momentum, angular momentum or energy. */
-TEST(two_bodies_on_a_joint)
+TEST(two_bodies_on_a_joint_keep_momentum_and_energy)
 {
     static const gvi_effect joint = { .kind = GVI_CONSTRAINT, .points = ball_joint, .rows = 3 };
     for (int held = 0; held < 2; ++held) {
@@ -374,7 +343,6 @@ TEST(two_bodies_on_a_joint)
         gvi_desc desc = { .n = 14, .degree = 6, .effects = scene, .effect_count = 1, .mass = body_mass(&two) };
         real q[14] = { 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, R(0.5), R(0.5), R(0.5), R(0.5) }, v[14] = { 0 };
         real a[3], b[3], gap[3], E[2], sum[2][6];
-        gvi_stepper st;
         desc.mass.velocity = NULL;
         if (held) hold(&desc, scene, &two);
         place(q, at[0], a);
@@ -386,8 +354,7 @@ TEST(two_bodies_on_a_joint)
         body_cross((real[]){ 0, -1, 2 }, at[1], b);
         body_rotate(q + 10, 0, b, v + 7);
         for (int i = 0; i < 3; ++i) v[i] = -v[i], v[7 + i] = -v[7 + i];
-        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-        assert_ok(gvi_start(&st, 0, q, v));
+        gvi_stepper st = new_motion(&desc, 0, q, v);
         for (int k = 0; k <= 200; ++k) {
             totals(st.q, st.p, sum[k > 0]);
             assert_ok(gvi_energy(&st, &E[k > 0]));

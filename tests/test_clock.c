@@ -1,36 +1,26 @@
 /* GVI_CLOCK: time that runs as dt = g(q) dtau.  Order and structure on four scenes,
    against extrapolation of g times Hamilton's equations; then eccentric orbits
-   against Kepler's equation, which no fixed step can follow.                  */
-#ifndef GVI_REAL
-#define GVI_REAL double
-#endif
+   against Kepler's equation, which no fixed step can follow. */
 #include "gvi_test.h"
-#include <tgmath.h>
 #include <time.h>
 
-typedef gvi_real real;
 #include "problems.h"
 #include "hard/extrapolate.h"
 
-/* ------------------------------------------------------------------- scenes
-
-   Each with two degrees of freedom: forces of its effects, the velocity that
-   belongs to p, and a clock.                                                  */
+/* Each with two degrees of freedom: forces of its effects, the velocity that
+   belongs to p, and a clock. */
 
 typedef enum scene_name { KEPLER, PENDULUM, MAGNETIC, FORCED, SCENES } scene_name;
 static const char *const names[] = { "Kepler", "double pendulum", "magnetic particle", "drag and driving" };
 
 /* g = |q|^a at the centre's distance, a from `user` */
-AT_POINTS(distance_clock)
+GVI_EACH(distance_clock, 2, f, value)
 {
-    const real a = *(const real *)user, *X = x->q, *Y = X + x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        const real d2 = X[k]*X[k] + Y[k]*Y[k], d = sqrt(d2), g = a > 1 ? d*sqrt(d) : d, w = a*g/d2;
-        x->value[k] += g;
-        x->f[k] += w*X[k];
-        x->f[x->stride + k] += w*Y[k];
-    }
-    return 0;
+    const real a = *(const real *)user, d2 = x->q[0]*x->q[0] + x->q[1]*x->q[1], d = sqrt(d2);
+    const real g = a > 1 ? d*sqrt(d) : d, w = a*g/d2;
+    x->value[0] += g;
+    x->f[0] += w*x->q[0];
+    x->f[1] += w*x->q[1];
 }
 
 /* g = exp(sin(q1 + 2 q2)/2) */
@@ -42,16 +32,13 @@ static void smooth_clock_at(const real *q, real *g, real *dg)
     dg[1] = *g*c*2;
 }
 
-AT_POINTS(smooth_clock)
+GVI_EACH(smooth_clock, 2, f, value)
 {
-    for (int k = 0; k < x->count; ++k) {
-        real g, dg[2], q[2] = { x->q[k], x->q[x->stride + k] };
-        smooth_clock_at(q, &g, dg);
-        x->value[k] += g;
-        x->f[k] += dg[0];
-        x->f[x->stride + k] += dg[1];
-    }
-    return 0;
+    real g, dg[2], q[2] = { x->q[0], x->q[1] };
+    smooth_clock_at(q, &g, dg);
+    x->value[0] += g;
+    x->f[0] += dg[0];
+    x->f[1] += dg[1];
 }
 
 /* The gradient's share of f, and nothing else to add to: the level that a clock sums is not its business. */
@@ -127,8 +114,7 @@ static real memory[6000], more[6000];
 
 static gvi_stepper *set_up(gvi_stepper *st, const gvi_desc *desc, real *where)
 {
-    assert_true(gvi_size(desc) > 0 && gvi_size(desc) <= sizeof memory);
-    assert_ok(gvi_init(st, desc, where, sizeof memory));
+    *st = new_stepper(desc);
     return st;
 }
 
@@ -177,12 +163,10 @@ static real distance(const real *q, const real *p, const real *y)
     return hypot(hypot(q[0] - y[0], q[1] - y[1]), hypot(p[0] - y[2], p[1] - y[3]));
 }
 
-/* -------------------------------------------------------------------- order */
-
 typedef struct errors { real state, time, inside; } errors;
 
 /* After N steps to tau = 2: the state, the time, and the state at a wanted time in
-   the last step, at 3/8 of it                                                 */
+   the last step, at 3/8 of it */
 static errors errors_of(scene_name a, int s, int N)
 {
     const motion transformed = { 5, by_tau, &a }, physical = { 4, by_time, &a };
@@ -206,7 +190,7 @@ static errors errors_of(scene_name a, int s, int N)
 }
 
 /* Errors between 1e-2 and 1e-12; the smallest slope of a few belongs to coarse steps.
-   An error that happens to pass through zero may fall faster, by less than one.  */
+   An error that happens to pass through zero may fall faster, by less than one. */
 TEST(the_order_is_twice_the_degree)
 {
     static const int steps[SCENES][5] = { { 0, 32, 10, 5, 3 }, { 0, 64, 32, 48, 34 },
@@ -217,17 +201,12 @@ TEST(the_order_is_twice_the_degree)
         const errors e = errors_of((scene_name)a, s, 2*N), f = errors_of((scene_name)a, s, 4*N);
         const real by_state = log2(e.state/f.state), by_time_too = log2(e.time/f.time);
         const real inside = log2(e.inside/f.inside);
-        print_message("    %-18s degree %d: order %.2f, of t %.2f, at a wanted time %.2f; error %.1e\n",
-                      names[a], s,
-                      (double)by_state, (double)by_time_too, (double)inside, (double)f.state);
         assert_true(f.state > 50*EPS);
         assert_between(2*s - 0.3, by_state, 2*s + 0.4);
         assert_between(2*s - 0.3, by_time_too, 2*s + 0.9);
         assert_between(2*s - 0.4, inside, 2*s + 0.4);
     }
 }
-
-/* ---------------------------------------------------------------- structure */
 
 /* With t0 fixed and E = H at the start, one step to (q, p, t) keeps dq^dp + dE^dt:
    the extended phase space's form.  M: derivatives of q, p, t, E by the start */
@@ -260,7 +239,7 @@ static real defect_of(scene_name a, int s, int extended)
 }
 
 /* Differences of order 8 as in test_structure; without dE^dt the form is missed by far,
-   and drag shrinks it by about h/4                                            */
+   and drag shrinks it by about h/4 */
 TEST(the_map_is_symplectic)
 {
     const real bound = 200*pow((real)EPS, 8/(real)9);
@@ -275,7 +254,7 @@ TEST(the_map_is_symplectic)
 /* The energy stays on the level it started from: within truncation for ever, which is
    shown by what it is over the second half against the first; and to rounding at a
    high degree.  The pendulum swings gently: a chaotic orbit is another one with every
-   rounding, and its halves differ by more than a drift would make them          */
+   rounding, and its halves differ by more than a drift would make them */
 TEST(the_energy_keeps_to_its_level)
 {
     static const real gentle[4] = { 0.2, -0.1, 0.1, 0.2 };
@@ -290,21 +269,15 @@ TEST(the_energy_keeps_to_its_level)
             assert_ok(gvi_energy(&st, &E));
             worst[k/10000] = fmax(worst[k/10000], fabs(E - E0));
         }
-        print_message("    %-18s degree %d: energy within %.1e, then %.1e\n", names[a], s,
-                      (double)worst[0], (double)worst[1]);
         if (s == 2) assert_between(0.7, worst[1]/worst[0], 1.4);
-        else assert_between(0, worst[1], 4*sqrt((real)20000)*EPS);
+        else assert_between(0, worst[1], 40*EPS);
     }
 }
 
-AT_POINTS(constant_clock)
-{
-    for (int k = 0; k < x->count; ++k) x->value[k] += *(const real *)user;
-    return 0;
-}
+GVI_EACH(constant_clock, 1, value) { x->value[0] += *(const real *)user; }
 
 /* An orbit of eccentricity 0.9: a rounding of p or q at each step moves q x p by EPS/2
-   of |q||dp| + |p||dq| < 2; four standard deviations                          */
+   of |q||dp| + |p||dq| < 2; four standard deviations */
 TEST(angular_momentum_is_constant)
 {
     const gvi_desc desc = describe(KEPLER, 8);
@@ -320,24 +293,22 @@ TEST(steps_back_return)
     for (int s = 1; s <= 5; ++s) {
         gvi_stepper st;
         begin(&st, (scene_name)a, s, start);
-        real q0[2], q[2], p[2];
-        assert_between(0, there_and_back(&st, 20, (const real[]){ 0.0625, 0.125 }, 2), 100*EPS);
-        assert_between(0, fabs(st.t), 20*EPS);
+        assert_between(0, there_and_back(&st, 20, (const real[]){ 0.0625, 0.125 }, 2), 8*EPS);
+        assert_between(0, fabs(st.t), 2*EPS);
         for (int k = 0; k < 20; ++k) {
-            memcpy(q0, st.q, sizeof q0);
+            const test_state before = state_now(&st);
+            real q[2], p[2];
             assert_ok(gvi_step(&st, (real)0.0625));
             assert_ok(gvi_state_at(&st, st.t0, q, NULL, NULL));
-            assert_true(q[0] == q0[0] && q[1] == q0[1]);
+            assert_true(q[0] == before.q[0] && q[1] == before.q[1]);
             assert_ok(gvi_state_at(&st, st.t, q, NULL, p));
             assert_true(q[0] == st.q[0] && q[1] == st.q[1] && p[0] == st.p[0] && p[1] == st.p[1]);
         }
     }
 }
 
-/* --------------------------------------------------------------------- time */
-
 /* g = c is nothing but a step of c h.  The scene is regular: roundings of 200 steps
-   part the two by their sum at most                                           */
+   part the two by their sum at most */
 TEST(a_constant_clock_is_a_longer_step)
 {
     real c = (real)0.3;
@@ -353,7 +324,7 @@ TEST(a_constant_clock_is_a_longer_step)
             assert_ok(gvi_step(&y, (real)0.25*c));
         }
         assert_close(x.t, y.t, 8*EPS*fabs(y.t));
-        assert_between(0, distance(x.q, x.p, (const real[]){ y.q[0], y.q[1], y.p[0], y.p[1] }), 2000*EPS);
+        assert_between(0, distance(x.q, x.p, (const real[]){ y.q[0], y.q[1], y.p[0], y.p[1] }), 200*EPS);
     }
 }
 
@@ -432,11 +403,9 @@ AT_POINTS(attraction_alone)
     return attraction(&y, user);
 }
 
-AT_POINTS(value_without_number)
+GVI_EACH(value_without_number, 2, value)
 {
-    for (int k = 0; k < x->count; ++k)
-        x->value[k] += x->q[k] < (real)0.6 ? (real)NAN : -1/hypot(x->q[k], x->q[x->stride + k]);
-    return 0;
+    x->value[0] += x->q[0] < (real)0.6 ? (real)NAN : -1/hypot(x->q[0], x->q[1]);
 }
 
 TEST(a_value_that_is_not_a_number_is_named)
@@ -453,11 +422,7 @@ TEST(a_value_that_is_not_a_number_is_named)
     assert_int_equal(st.fault.effect, 0);
 }
 
-static int clock_without_number(const gvi_points *x, void *user)
-{
-    for (int k = 0; k < x->count; ++k) x->value[k] += *(real *)user;
-    return 0;
-}
+GVI_EACH(clock_without_number, 1, value) { x->value[0] += *(real *)user; }
 
 TEST(a_curve_whose_clock_is_not_a_number_is_refused)
 {
@@ -493,80 +458,10 @@ TEST(the_state_at_a_time_that_stands_still)
     }
 }
 
-AT_POINTS(attraction_value)
-{
-    gvi_points y = *x;
-    y.f = NULL;
-    return attraction(&y, user);
-}
-
-TEST(value_and_force_from_one_function_or_two_are_the_same_bits)
-{
-    const gvi_desc one = describe(KEPLER, 8);
-    gvi_desc two = one;
-    gvi_effect *const effects = own_effects(&two);
-    gvi_stepper x, y;
-    effects[0].points = attraction_alone;
-    effects[0].value = attraction_value;
-    begin_both(&x, &one, &y, &two);
-    move_alike(&x, &y, 500, (real)0.125);
-}
-
-/* A one-point effect, handed over by `user`, at all points of a call */
-AT_POINTS(all_points)
-{
-    gvi_point_fn *const point = *(gvi_point_fn *const *)user;
-    const int far = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        real f[2] = { 0, 0 }, dldv[2] = { 0, 0 };
-        const real q[2] = { x->q[k], x->q[far + k] };
-        const real v[2] = { x->v ? x->v[k] : 0, x->v ? x->v[far + k] : 0 };
-        if (point(x->t[k], q, x->v ? v : NULL, f, x->dldv ? dldv : NULL, NULL)) return 1;
-        for (int i = 0; i < 2; ++i) {
-            x->f[i*far + k] += f[i];
-            if (x->dldv) x->dldv[i*far + k] += dldv[i];
-        }
-    }
-    return 0;
-}
-
-AT_POINTS(steady_value) { return weights_value(x, NULL); }     /* with a user it changes with t */
-
-/* The level at the start asks the effects; the velocity that was given must survive it:
-   the first iteration begins there */
-TEST(one_point_a_call_and_all_at_once_start_alike)
-{
-    static gvi_point_fn *fn[2] = { weights, field };
-    const gvi_desc one = describe(MAGNETIC, 6);
-    gvi_desc all = one;
-    gvi_effect *const effects = own_effects(&all);
-    gvi_stepper x, y;
-    for (int e = 0; e < 3; ++e) {
-        if (effects[e].kind == GVI_CLOCK) continue;
-        effects[e].user = &fn[effects[e].kind == GVI_LAGRANGIAN];
-        effects[e].points = all_points;
-        effects[e].point = NULL;
-        if (effects[e].kind == GVI_POTENTIAL) effects[e].value = steady_value;
-    }
-    begin_both(&x, &one, &y, &all);
-    assert_ok(gvi_start(&x, 0, (const real[]){ (real)0.5, -100 }, (const real[]){ 1, -1 }));
-    assert_ok(gvi_start(&y, 0, (const real[]){ (real)0.5, -100 }, (const real[]){ 1, -1 }));
-    for (int k = 0; k < 20; ++k) {
-        move_alike(&x, &y, 1, (real)0.0625);
-        assert_int_equal(x.iterations, y.iterations);
-    }
-}
-
-/* ------------------------------------------------------------------ statuses */
-
 /* g = q1, or what sick says */
 AT_POINTS(moody_clock)
 {
-    const real *sick = (const real *)user;
-    for (int k = 0; k < x->count; ++k) {
-        x->value[k] += x->q[k] + *sick;
-        x->f[k] += 1;
-    }
+    for (int k = 0; k < x->count; ++k) x->value[k] += x->q[k] + *(const real *)user, x->f[k] += 1;
     return 0;
 }
 
@@ -619,27 +514,12 @@ static gvi_status status_of(const gvi_desc *desc)
     return status;
 }
 
-AT_POINT(point_clock)
-{
-    return 0;
-}
+AT_POINT(point_clock) { return 0; }
 
+/* Two clocks, one of one point a call, r > s: test_why.c */
 TEST(clocks_that_cannot_run_are_refused)
 {
     gvi_desc desc = describe(KEPLER, 4);
-    gvi_effect *const effects = own_effects(&desc);
-    effects[2] = effects[1];
-    assert_int_equal(status_of(&desc), GVI_OK);
-    desc.effect_count = 3;
-    assert_int_equal(status_of(&desc), GVI_E_ARGUMENT);                    // two clocks
-    desc.effect_count = 2;
-    effects[1].points = NULL;
-    effects[1].point = point_clock;
-    assert_int_equal(status_of(&desc), GVI_E_ARGUMENT);                    // one point a call
-    effects[1] = effects[2];
-    desc.rule.points = 5;
-    assert_int_equal(status_of(&desc), GVI_E_FORMULATION);                 // r > s
-    desc.rule.points = 4;
     for (int f = GVI_EXPLICIT; f <= GVI_NEWTON; ++f) {
         desc.formulation = (gvi_formulation)f;
         assert_int_equal(status_of(&desc), f == GVI_MOMENTA ? GVI_OK : GVI_E_FORMULATION);
@@ -678,7 +558,7 @@ TEST(questions_about_the_action_are_refused)
 }
 
 /* The polynomial is in tau: it begins and ends with the step, and its velocity, there of
-   order s, is dq/dt                                                           */
+   order s, is dq/dt */
 TEST(the_curve_runs_from_end_to_end)
 {
     real miss[2];
@@ -698,8 +578,6 @@ TEST(the_curve_runs_from_end_to_end)
     }
     assert_between(5.5, log2(miss[0]/miss[1]), 6.5);
 }
-
-/* ------------------------------------------------------------ eccentric orbits */
 
 #if GVI__KIND == 2
 
@@ -747,24 +625,6 @@ static void kepler(const ellipse *o, int far, long double t, long double *x, lon
     s = sinl(E/2);
     *x = (far ? -1 : 1)*o->a*(o->rest - 2*s*s);
     *y = (far ? -1 : 1)*o->a*sqrtl(o->rest*(1 + e))*sinl(E);
-}
-
-TEST(kepler_is_solved_to_its_own_rounding)
-{
-    for (int k = 0; k < 8; ++k) {
-        const double x = pow(10, -k), v = sqrt((2 - x)/x);
-        const ellipse o = ellipse_of(x, v);
-        long double X, Y;
-        kepler(&o, 0, 0, &X, &Y);
-        assert_close(X/x, 1, 1e-18L);
-        kepler(&o, 0, o.period/2, &X, &Y);
-        assert_close(X, -o.a*(2 - o.rest), 1e-15L);                        // cos is flat there
-        assert_close(o.a, 1, 4*EPS/x);
-        if (k) continue;
-        kepler(&o, 0, 1, &X, &Y);                                             // a circle
-        assert_close(X, cosl(1), 1e-18L);
-        assert_close(Y, sinl(1), 1e-18L);
-    }
 }
 
 /* Length of a period in tau for g = |q|^a: of a = 1, 2 pi; of 3/2, the complete elliptic
@@ -874,15 +734,6 @@ TEST(eccentric_orbits_are_followed)
     }
 }
 
-/* Truncation, where it is seen: degree 4 with 40 and 60 steps a revolution, order 8 */
-TEST(fewer_steps_are_worse_by_the_order)
-{
-    const orbit few = { 0.1, &power_more, 4000, 1, 4, 0 }, many = { 0.1, &power_more, 6000, 1, 4, 0 };
-    const outcome a = revolve(&few), b = revolve(&many);
-    const double order = log((double)(a.worst/b.worst))/log(1.5);
-    print_message("    error %.1Le and %.1Le, order %.1f\n", a.worst, b.worst, order);
-    assert_between(7.7, order, 8.3);
-}
 #endif
 
 RUN_TESTS(NULL, NULL)

@@ -1,7 +1,6 @@
 /* Constraints: states to rounding against 28 digits, RATTLE written out, long runs, refusals, hard cases.
-   Orders and the symplectic form are in test_constraints_order.c.                                    */
+   Orders and the symplectic form are in test_constraints_order.c. */
 #include "gvi_test.h"
-typedef gvi_real real;
 #include "linkages.h"
 
 static real memory[120000];
@@ -15,7 +14,7 @@ static gvi_status set_up(gvi_stepper *st, const linkage *a, const gvi_desc *desc
 }
 
 /* g of the constraint at the state, and the largest |g_a| in units of eps sum |G_ai| max |q_j|: the product of two
-   directors has terms that all are small when each is near an axis                                              */
+   directors has terms that all are small when each is near an axis */
 static real residual(const gvi_stepper *st, const linkage *a)
 {
     real g[MOST_M] = { 0 }, G[MOST_M*MOST_N] = { 0 }, rate[MOST_M] = { 0 }, worst = 0, largest = 0;
@@ -55,10 +54,8 @@ static void check_reference(const gvi_stepper *st, int n, const long double *q, 
     }
 }
 
-/* ------------------------------------------------------------- references
-
-   At T = 10 (free body: 20), from two step sizes of degree 12 in quadruple precision, and Taylor series of
-   the index-1 equations or of those in angles.                                                       */
+/* At T = 10 (free body: 20), from two step sizes of degree 12 in quadruple precision, and Taylor series of
+   the index-1 equations or of those in angles. */
 
 TEST(states_meet_the_references)
 {
@@ -97,7 +94,7 @@ TEST(states_meet_the_references)
             desc.rule.kind = rule ? GVI_LOBATTO : GVI_GAUSS;
             assert_ok(set_up(&st, &a, &desc));
             for (int i = 0; i < runs[k].steps; ++i) assert_ok(gvi_step(&st, (real)10/(real)runs[k].steps));
-            check_reference(&st, a.n, runs[k].q, runs[k].p, 1000);
+            check_reference(&st, a.n, runs[k].q, runs[k].p, 200);
             assert_between(0, residual(&st, &a), 2);
             assert_between(0, hidden(&st, &a), 4);
         }
@@ -111,13 +108,11 @@ TEST(states_meet_the_references)
     gvi_stepper st;
     assert_ok(set_up(&st, &a, &desc));
     for (int i = 0; i < 200; ++i) assert_ok(gvi_step(&st, (real)0.1L));
-    check_reference(&st, 4, body_q, body_p, 40000);   // e^(0.58*20) times rounding
+    check_reference(&st, 4, body_q, body_p, 8000);   // e^(0.58*20) times rounding
 }
 
-/* ---------------------------------------------------------------- RATTLE
-
-   Andersen 1983, for the rods: p at half the step and q on the constraint, mu by Newton's method; then p at
-   the end on the hidden constraint.  M^-1 = 6/7 (2, -1; -1, 4) of each direction.                     */
+/* Andersen 1983, for the rods: p at half the step and q on the constraint, mu by Newton's method; then p at
+   the end on the hidden constraint.  M^-1 = 6/7 (2, -1; -1, 4) of each direction. */
 
 static void rods_over_mass(const real *p, real *v)
 {
@@ -194,36 +189,6 @@ TEST(degree_1_is_rattle)
     }
 }
 
-/* ---------------------------------------------------------------- structure */
-
-/* Momentum maps to rounding: the sphere's L_z; the top's about the vertical and its own axis */
-TEST(momentum_maps_are_kept)
-{
-    for (int s = 1; s <= 8; s += s < 3 ? 1 : 5) {
-        linkage a = make_linkage(SPHERE);
-        gvi_desc desc = linkage_desc(&a, s);
-        gvi_stepper st;
-        assert_ok(set_up(&st, &a, &desc));
-        const real L = st.q[0]*st.p[1] - st.q[1]*st.p[0];
-        for (int k = 0; k < 500; ++k) assert_ok(gvi_step(&st, (real)0.1L));
-        assert_close(st.q[0]*st.p[1] - st.q[1]*st.p[0], L, 60*EPS);
-
-        a = make_linkage(QUATERNION);
-        desc = linkage_desc(&a, s);
-        assert_ok(set_up(&st, &a, &desc));
-        real before[2], after[2];
-        for (int end = 0; end < 2; ++end) {
-            const real *q = st.q, *p = st.p, left = q[1]*p[2] - q[2]*p[1], right = q[0]*p[3] - q[3]*p[0];
-            real *map = end ? after : before;
-            map[0] = right + left;
-            map[1] = right - left;
-            for (int k = 0; k < 500 && !end; ++k) assert_ok(gvi_step(&st, (real)0.05L));
-        }
-        assert_close(after[0], before[0], 400*EPS);
-        assert_close(after[1], before[1], 400*EPS);
-    }
-}
-
 TEST(a_run_can_be_run_back)
 {
     for (int id = 0; id < LINKAGES; ++id) {
@@ -263,8 +228,6 @@ TEST(g_and_G_v_stay_at_rounding)
     }
 }
 
-/* ---------------------------------------------------------------- interface */
-
 /* The closed form: at rest at angle a, and swinging, lambda = -(v^2 + cos a) for g = (|q|^2 - 1)/2, m = l = g = 1 */
 TEST(multipliers_are_the_tension)
 {
@@ -286,7 +249,7 @@ TEST(multipliers_are_the_tension)
 }
 
 /* A bead in a bowl whose wall ends at |x| = 1, near its rim: the trials leave the domain, the bead does not.
-   Normal force |v|^2 + z0 at height -z0, and lambda is its vertical part                                     */
+   Normal force |v|^2 + z0 at height -z0, and lambda is its vertical part */
 static int weight_in_space(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
     (void)t; (void)q; (void)v; (void)dldv; (void)user;
@@ -315,17 +278,15 @@ TEST(multipliers_near_the_end_of_a_domain)
         const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .point = weight_in_space },
             { .kind = GVI_CONSTRAINT, .points = bowl, .rows = 1, .user = k ? &refuses : NULL } };
         const gvi_desc desc = { .n = 3, .effects = scene, .effect_count = 2 };
-        gvi_stepper st;
         real lambda;
-        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-        assert_ok(gvi_start(&st, 0, q, v));
+        gvi_stepper st = new_motion(&desc, 0, q, v);
         assert_ok(gvi_multipliers(&st, &lambda));
-        assert_close(lambda, z*(1 + z), 8*EPS);
+        assert_close(lambda, z*(1 + z), 2*EPS);
     }
 }
 
 /* The lower rod breaks: then its end falls freely, and the upper rod swings on; mended where it does not fit:
-   refused, and nothing has changed                                                                    */
+   refused, and nothing has changed */
 TEST(a_rod_breaks_and_holds_again)
 {
     linkage a = make_linkage(RODS);
@@ -351,7 +312,7 @@ TEST(a_rod_breaks_and_holds_again)
     for (int k = 0; k < 10; ++k) assert_ok(gvi_step(&st, (real)0.1L));
     assert_int_equal(st.counters.effect[2], calls);
     assert_close(st.q[2], q[2] + v[2], 40*EPS);
-    assert_close(st.q[3], q[3] + v[3] - (real)0.125L, 40*EPS);      // weight 1/2, mass 2
+    assert_close(st.q[3], q[3] + v[3] - (real)0.125L, 8*EPS);      // weight 1/2, mass 2
     assert_close(st.q[0]*st.q[0] + st.q[1]*st.q[1], 1, 4*EPS);
     assert_ok(gvi_multipliers(&st, lambda));
     assert_true(lambda[0] < 0 && lambda[1] == 0);
@@ -393,10 +354,14 @@ TEST(queries_know_constraints)
             assert_ok(gvi_state_at(&st, saved.t + (real)0.03L, later, v, mom));
             assert_ok(gvi_multipliers(&st, lambda));
             for (int j = 0; j < a.n; ++j) assert_close(later[j], q[j], 40*EPS);
-            for (int j = 0; j < a.n; ++j) assert_close(mom[j], p[j], 400*EPS*(1 + fabs(p[j])));
+            for (int j = 0; j < a.n; ++j) assert_close(mom[j], p[j], 16*EPS*(1 + fabs(p[j])));
         }
         assert_ok(gvi_curve(&st, 1, at, v));
         for (int j = 0; j < a.n; ++j) assert_close(at[j], st.q[j], 20*EPS);
+        memcpy(at, st.q, sizeof at[0]*(size_t)a.n);          // its own state is a start
+        memcpy(v, st.p, sizeof v[0]*(size_t)a.n);
+        gvi_stepper again = new_stepper(&desc);
+        assert_ok(gvi_start_momentum(&again, st.t, at, v));
         assert_ok(gvi_curve(&st, (real)0.75L, at, v));
         for (int j = 0; j < a.n; ++j) assert_close(at[j], q[j], (real)1e-15L + 40*EPS);
         assert_ok(gvi_step(&st, (real)0.04L));
@@ -458,25 +423,13 @@ TEST(descriptions_are_refused_by_name)
     assert_int_equal(gvi_size(&d), 0);
     const gvi_desc none = { .n = 2 };
     real q[2] = { 0 };
-    assert_ok(gvi_init(&st, &none, memory, sizeof memory));
-    assert_ok(gvi_start(&st, 0, q, q));
+    st = new_motion(&none, 0, q, q);
     assert_status(gvi_multipliers(&st, q), GVI_E_FORMULATION);
+    assert_status(gvi_multipliers(&st, NULL), GVI_E_ARGUMENT);
 }
-
-/* ---------------------------------------------------------------- hard cases */
 
 /* The state after a failed step is what it was */
-static void fails(gvi_stepper *st, int n, real h, gvi_status wanted)
-{
-    real q[MOST_N], p[MOST_N];
-    memcpy(q, st->q, sizeof(real)*(size_t)n);
-    memcpy(p, st->p, sizeof(real)*(size_t)n);
-    const real t = st->t;
-    assert_status(gvi_step(st, h), wanted);
-    assert_memory_equal(q, st->q, sizeof(real)*(size_t)n);
-    assert_memory_equal(p, st->p, sizeof(real)*(size_t)n);
-    assert_true(t == st->t);
-}
+static void fails(gvi_stepper *st, real h, gvi_status wanted) { SAME_STATE(st) assert_status(gvi_step(st, h), wanted); }
 
 /* A start off the manifold by 0.01 and by 1, in position and in velocity, is refused with its row */
 TEST(a_start_off_the_constraint_is_refused)
@@ -503,14 +456,7 @@ TEST(a_start_off_the_constraint_is_refused)
     assert_status(gvi_start(&st, 0, b.q, b.v), GVI_E_CONSTRAINT);
 }
 
-/* rods, and what the tests below add as a third row: twice the first; |end|^2, nearly the sum where they align */
-static int rods_twice(const gvi_points *x, void *user)
-{
-    rods(x, NULL);
-    rod(x, 2, 0, -1, 1, 0, 0);
-    return (void)user, 0;
-}
-
+/* rods, and as a third row |end|^2, nearly the sum where they align */
 static int rods_end(const gvi_points *x, void *user)
 {
     rods(x, NULL);
@@ -522,18 +468,15 @@ TEST(a_row_that_becomes_independent_is_named)
 {
     linkage a = make_linkage(RODS);
     gvi_stepper st;
-    a.effects[1].points = rods_twice;
     a.effects[1].rows = 3;
     gvi_desc desc = linkage_desc(&a, 4);
-    assert_ok(set_up(&st, &a, &desc));            // twice the same: see test_loops.c
-
     // stretched out: the third row is the sum of the others, until they bend
     real length = 2;
     a.effects[1].points = rods_end;
     a.effects[1].user = &length;
     a.q[2] = 2; a.q[3] = 0;
     assert_ok(set_up(&st, &a, &desc));
-    fails(&st, 4, (real)0.1L, GVI_E_SINGULAR);
+    fails(&st, (real)0.1L, GVI_E_SINGULAR);
     assert_int_equal(st.fault.effect, 1);
     assert_int_equal(st.fault.coordinate, 2);
     a.q[2] = (real)1.6L; a.q[3] = (real)0.8L;                 // bent: a rigid triangle, and a pendulum
@@ -554,7 +497,7 @@ TEST(a_row_that_becomes_independent_is_named)
 }
 
 /* A pendulum hung where its bob passes the origin: the terms of g are those of the joint, not of q.  theta is
-   a cos(w t), w = 1 - a^2/16, to a^3/192; RATTLE at least does not leave the circle, or swing farther.        */
+   a cos(w t), w = 1 - a^2/16, to a^3/192; RATTLE at least does not leave the circle, or swing farther. */
 static int hung(const gvi_points *x, void *user)
 {
     const real *joint = (const real *)user;
@@ -602,40 +545,8 @@ TEST(a_joint_may_be_anywhere)
     assert_ok(set_up(&st, &a, &desc));
 }
 
-/* A parallelogram driven through its flat position, where two motions part: refused, not taken by chance */
-static int parallelogram(const gvi_points *x, void *user)
-{
-    rod(x, 0, 0, -1, 1, 0, 0);
-    rod(x, 1, 1, 0, 3, 0, 0);
-    rod(x, 2, 1, -1, 1, 3, 0);
-    return (void)user, 0;
-}
-
-TEST(a_bifurcation_is_refused)
-{
-    linkage a = make_linkage(FOUR_BAR);
-    static const real hs[] = { (real)0.05L, (real)0.03L, (real)0.1L };
-    a.effects[1].points = parallelogram;
-    for (int k = 0; k < COUNT(hs); ++k) {
-        gvi_stepper st;
-        const gvi_desc desc = linkage_desc(&a, 6);
-        a.q[0] = 0; a.q[1] = 1; a.q[2] = 3; a.q[3] = 1;
-        a.v[0] = a.v[2] = 1; a.v[1] = a.v[3] = 0;
-        assert_ok(set_up(&st, &a, &desc));
-        gvi_status status = GVI_OK;
-        for (int i = 0; i < 400 && status == GVI_OK; ++i) {
-            status = gvi_step(&st, hs[k]);
-            if (status == GVI_OK) {               // the parallel branch, as long as it says so
-                assert_close(st.q[2] - st.q[0], 3, 100*EPS);
-                assert_close(st.q[3], st.q[1], 400*EPS);
-            }
-        }
-        assert_status(status, GVI_E_CONVERGENCE);     /* a shorter step would come nearer */
-    }
-}
-
 /* From h = 1e-6 to one that does not converge, which is said, with the state as it was */
-TEST(steps_of_all_sizes)
+TEST(steps_of_all_sizes_are_right_or_refused)
 {
     const linkage a = make_linkage(RODS);
     gvi_desc desc = linkage_desc(&a, 8);
@@ -655,8 +566,8 @@ TEST(steps_of_all_sizes)
     desc.iterations = 0;
     assert_ok(set_up(&st, &a, &desc));
     for (int i = 0; i < 5; ++i) assert_ok(gvi_step(&st, (real)0.1L));
-    fails(&st, 4, 3, GVI_E_CONVERGENCE);
-    fails(&st, 4, (real)1e3L, GVI_E_CONVERGENCE);
+    fails(&st, 3, GVI_E_CONVERGENCE);
+    fails(&st, (real)1e3L, GVI_E_CONVERGENCE);
     assert_ok(gvi_step(&st, (real)0.1L));
 }
 
@@ -684,63 +595,6 @@ TEST(units_do_not_matter)
     }
 }
 
-/* A light end, to 1e-12 of the other mass */
-TEST(mass_ratios_to_1e_12)
-{
-    for (int k = 0; k <= 12; k += 3) {
-        linkage a = make_linkage(RODS);
-        const real light = pow((real)10, (real)-k), mass[4] = { 1, 1, light, light };
-        real force[4] = { 0, -1, 0, -light };
-        a.mass.kind = GVI_MASS_DIAGONAL;
-        a.mass.matrix = mass;
-        a.effects[0].user = force;
-        const gvi_desc desc = linkage_desc(&a, 8);
-        gvi_stepper st;
-        assert_ok(set_up(&st, &a, &desc));
-        for (int i = 0; i < 100; ++i) assert_ok(gvi_step(&st, (real)0.05L));
-        assert_between(0, residual(&st, &a), 6);
-    }
-}
-
-/* I_0 from 1e-4 to 1e4 is no part of the motion: the same, or a status */
-TEST(the_fourth_inertia_has_a_range)
-{
-    for (int k = -4; k <= 4; ++k) {
-        const real inertia[4] = { pow((real)10, (real)k), 1, 1, (real)0.5L };
-        linkage a = make_linkage(QUATERNION);
-        a.mass.user = (void *)inertia;
-        const gvi_desc desc = linkage_desc(&a, 8);
-        gvi_stepper st;
-        gvi_status status = set_up(&st, &a, &desc);
-        for (int i = 0; i < 200 && status == GVI_OK; ++i) status = gvi_step(&st, (real)0.05L);
-        if (k >= -2 && k <= 0) assert_ok(status);
-        if (status == GVI_OK) assert_close(st.q[3], 0.8362546361450629900108049131L, 10000*EPS + (real)1e-12L);
-    }
-}
-
-/* Spin w of the top in directors: steps of h w to 1 converge, beyond it a status */
-TEST(a_top_that_spins_too_fast_is_refused)
-{
-    for (int k = -2; k <= 3; ++k) {
-        linkage a = make_linkage(DIRECTORS);
-        const real w = 20, hw = ldexp((real)1, k);
-        for (int i = 0; i < 9; ++i) a.v[i] = 0;
-        for (int i = 0; i < 3; ++i) a.v[i] = w*a.q[3 + i], a.v[3 + i] = -w*a.q[i];
-        gvi_desc desc = linkage_desc(&a, 8);
-        if (EPS < (real)1e-17L) desc.max_iterations = 200;      /* at h w = 1 all its digits take more than 60 */
-        gvi_stepper st;
-        real E0, E;
-        assert_ok(set_up(&st, &a, &desc));
-        assert_ok(gvi_energy(&st, &E0));
-        gvi_status status = GVI_OK;
-        for (int i = 0; i < 100 && status == GVI_OK; ++i) status = gvi_step(&st, hw/w);
-        assert_true(status == GVI_OK || status == GVI_E_CONVERGENCE);
-        if (k <= 0) assert_ok(status);
-        assert_ok(gvi_energy(&st, &E));
-        if (status == GVI_OK) assert_close(E, E0, E0*(100*EPS + (k < 1 ? 0 : (real)1e-8L)));
-    }
-}
-
 static int refuse_at;
 
 static int refuses(const gvi_points *x, void *user)
@@ -762,7 +616,7 @@ TEST(callbacks_that_refuse_are_named)
         if (refuse_at == 0) continue;
         assert_ok(set_up(&st, &a, &desc));
         for (int k = 0; k < 4; ++k) assert_ok(gvi_step(&st, (real)0.1L));
-        fails(&st, 4, (real)0.2L, refuse_at < 0 ? GVI_E_CALLBACK : GVI_E_NON_FINITE);
+        fails(&st, (real)0.2L, refuse_at < 0 ? GVI_E_CALLBACK : GVI_E_NON_FINITE);
         assert_int_equal(st.fault.effect, 1);
         if (refuse_at > 0) assert_int_equal(st.fault.coordinate, 1);
         assert_ok(gvi_step(&st, (real)0.05L));

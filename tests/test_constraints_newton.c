@@ -1,22 +1,18 @@
 /* Newton's method with constraints, and gvi_project: orders on both sides in every type, against reduced motions in
-   angles, closed forms, and what defines the nearest point; none of it computed by gvi.h.                      */
+   angles, closed forms, and what defines the nearest point; none of it computed by gvi.h. */
+#define OWN_REAL
 #include "gvi_test.h"
 typedef long double real;
 #define EXTRAPOLATE_MOST 4
 #include "hard/extrapolate.h"
-#include <tgmath.h>
-#undef I
 
 static gvi_real memory[120000];
 
 static gvi_status start(gvi_stepper *st, const gvi_desc *desc, const gvi_real *q, const gvi_real *v)
 {
-    assert_true(gvi_size(desc) > 0 && gvi_size(desc) <= sizeof memory);
-    assert_ok(gvi_init(st, desc, memory, sizeof memory));
+    *st = new_stepper(desc);
     return gvi_start(st, 0, q, v);
 }
-
-/* ---- scenes ---- */
 
 AT_POINTS(circle)                                 // |q| = 1 in the plane; with a user on the line y = x as well
 {
@@ -82,7 +78,7 @@ AT_POINTS(slower_than_light)                      // v from p
     return 0;
 }
 
-/* ---- stiff springs: constrained to a line, the step is Gauss's for one oscillator, whose map is the diagonal Pade
+/* stiff springs: constrained to a line, the step is Gauss's for one oscillator, whose map is the diagonal Pade
    approximation of e^(i z), z = h omega, of modulus 1 and argument 2 arg P(i z), P of degree s                 ---- */
 
 static real pade_argument(int s, real z)
@@ -96,7 +92,7 @@ static real pade_argument(int s, real z)
     return 2*atan2(part[1] - part[3], part[0] - part[2]);
 }
 
-TEST(stiff_springs_on_a_line)
+TEST(stiff_springs_on_a_line_turn_as_pades_fraction)
 {
     static const int degrees[] = { 1, 2, 4, 8 };
     for (int d = 0; d < COUNT(degrees); ++d)
@@ -116,8 +112,6 @@ TEST(stiff_springs_on_a_line)
             if (z > 20) assert_int_equal(st.formulation, GVI_NEWTON);
         }
 }
-
-/* ---- a bead on a circle whose mass is not that of the matrix: d(dL/dw)/dt = -sin(angle), w = angle'          ---- */
 
 typedef struct bead { gvi_real a; int relativistic, own; } bead;
 
@@ -151,7 +145,7 @@ static real bead_error(const bead *b, int s, gvi_formulation f, int steps, const
     return miss + fabs(w[0]*cos(end[0]) + w[1]*sin(end[0]) - end[1]);
 }
 
-TEST(a_mass_that_depends_on_velocity)
+TEST(a_mass_that_depends_on_velocity_costs_no_order)
 {
     static const bead beads[] = { { (gvi_real)0.1L, 0, 0 }, { 1, 0, 0 }, { 30, 0, 0 }, { 0, 1, 0 }, { 0, 1, 1 } };
     static const int steps[] = { 0, KIND == 1 ? 10 : 40, KIND == 1 ? 4 : 12, 8 };
@@ -167,11 +161,9 @@ TEST(a_mass_that_depends_on_velocity)
                 const real first = bead_error(&b, s, use, N, end), second = bead_error(&b, s, use, 2*N, end);
                 assert_between(2*s - 0.25L, log2(first/second), 2*s + 0.45L);
             }
-        assert_between(0, bead_error(&b, KIND == 3 ? 10 : 8, GVI_AUTO, 20, end), 400*EPS);
+        assert_between(0, bead_error(&b, KIND == 3 ? 10 : 8, GVI_AUTO, 20, end), 40*EPS);
     }
 }
-
-/* ---- near singular: three bodies held in all but a line, which turn at a constant rate ---- */
 
 typedef struct rods { int n, from[4], to[4]; gvi_real length2[4]; } rods;
 
@@ -231,7 +223,7 @@ TEST(nearly_dependent_rows_turn_as_a_body)
 }
 
 /* A parallelogram through its flat position, where it could go on as another linkage: no step gets there, and the
-   state before it stays the state                                                                                    */
+   state before it stays the state */
 TEST(the_flat_position_is_refused)
 {
     for (int s = 1; s <= 6; ++s)
@@ -247,12 +239,10 @@ TEST(the_flat_position_is_refused)
                 assert_ok(start(&st, &desc, q, v));
                 const gvi_status status = gvi_step(&st, h);
                 if (pinned || status != GVI_OK) assert_true(status == GVI_E_SINGULAR || status == GVI_E_CONVERGENCE);
-                else assert_close(st.q[1], st.q[3], a/50);          // never on the other branch
+                else assert_close(st.q[1], st.q[3], a/(KIND == 1 ? 50 : 1000));          // never on the other branch
                 for (int i = 0; status != GVI_OK && i < 4; ++i) assert_true(st.q[i] == q[i]);
             }
 }
-
-/* ---- memory ---- */
 
 TEST(memory_is_what_the_macro_says)
 {
@@ -267,21 +257,10 @@ TEST(memory_is_what_the_macro_says)
                                                 .effect_count = 1 + f, .formulation = f ? GVI_NEWTON : GVI_AUTO };
                         assert_between(1, gvi_size(&desc)/sizeof(gvi_real), GVI_CONSTRAINED_LENGTH(n, s, r, m));
                     }
-    // the fall-back has matrices of s (n + m): a pinned formulation does without, and so does a large scene
-    const gvi_effect hold = { .kind = GVI_CONSTRAINT, .points = circle, .rows = 20 };
-    gvi_desc desc = { .n = 108, .degree = 8, .effects = &hold, .effect_count = 1 };
-    const size_t small = gvi_size(&desc);
-    desc.formulation = GVI_POSITIONS;
-    assert_true(gvi_size(&desc) < small/8);
-    desc.formulation = GVI_AUTO;
-    desc.n = 109;                                 // 8*(109 + 20) is above 1024
-    assert_true(gvi_size(&desc) < small/8);
 }
 
-/* ---- gvi_project ---- */
-
-/* Of a circle with two masses: q' - q normal in the metric M, so M(q' - q) = lambda q'; v' likewise         */
-TEST(the_nearest_point_of_a_circle)
+/* Of a circle with two masses: q' - q normal in the metric M, so M(q' - q) = lambda q'; v' likewise */
+TEST(a_projection_is_the_nearest_point)
 {
     gvi_real mass[2] = { 1, 9 };
     const gvi_effect hold = { .kind = GVI_CONSTRAINT, .points = circle, .rows = 1 };
@@ -292,8 +271,7 @@ TEST(the_nearest_point_of_a_circle)
             const real r = k % 4 == 0 ? 1.001L : k % 4 == 1 ? 0.9L : k % 4 == 2 ? 1.2L : 1 + 8*EPS, w[2] = { 1, unit ? 1 : 9 };
             gvi_real q[2] = { (gvi_real)(r*cos(0.3L*k)), (gvi_real)(r*sin(0.3L*k)) }, v[2] = { 1, 2 }, far[2];
             const real q0[2] = { q[0], q[1] };
-            gvi_stepper st;
-            assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+            gvi_stepper st = new_stepper(&desc);
             assert_ok(gvi_project(&st, 0, q, v, far));
             const real d[2] = { q[0] - q0[0], q[1] - q0[1] }, dv[2] = { (real)v[0] - 1, (real)v[1] - 2 };
             assert_close((real)q[0]*q[0] + (real)q[1]*q[1], 1, 8*EPS);
@@ -312,57 +290,15 @@ TEST(the_nearest_point_of_a_circle)
         }
 }
 
-/* Three digits of a file: a closed loop of four bodies with a diagonal is rigid up to a turn; the turn stays   */
-TEST(a_frame_from_three_digits)
-{
-    rods r = { 4, { 0, 1, 2, 3 }, { 1, 2, 3, 0 }, { 0 } };
-    const real angle = 0.7L;
-    const gvi_real plan[8] = { 0, 0, (gvi_real)1.5L, 0, (gvi_real)1.7L, 1, (gvi_real)0.2L, (gvi_real)1.1L };
-    measure(&r, plan);
-    const gvi_effect hold = { .kind = GVI_CONSTRAINT, .points = rods_hold, .rows = 4, .user = &r };
-    const gvi_desc desc = { .n = 8, .degree = 4, .effects = &hold, .effect_count = 1 };
-    gvi_stepper st;
-    gvi_real q[8], v[8] = { 0 }, file[8], far[2], p[8];
-    for (int i = 0; i < 8; i += 2) {
-        q[i] = (gvi_real)(rint(1000*(plan[i]*cos(angle) - plan[i + 1]*sin(angle)))/1000);
-        q[i + 1] = (gvi_real)(rint(1000*(plan[i]*sin(angle) + plan[i + 1]*cos(angle)))/1000);
-    }
-    memcpy(file, q, sizeof q);
-    v[0] = 1;
-    assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-    assert_status(gvi_start(&st, 0, q, v), GVI_E_CONSTRAINT);
-    assert_ok(gvi_project(&st, 0, q, v, far));
-    real push[3] = { 0, 0, 0 }, size = 0;         // what is added has no momentum and no angular momentum about q'
-    for (int i = 0; i < 8; i += 2) {
-        const real dx = q[i] - file[i], dy = q[i + 1] - file[i + 1];
-        push[0] += dx;
-        push[1] += dy;
-        push[2] += q[i]*dy - q[i + 1]*dx;
-        size += dx*dx + dy*dy;
-    }
-    for (int k = 0; k < 3; ++k) assert_close(push[k], 0, 20*EPS);
-    assert_close(far[0], sqrt(size), 20*EPS);
-    assert_between(1e-5L, far[0], 2e-3L);
-    assert_ok(gvi_start(&st, 0, q, v));
-    memcpy(p, st.p, sizeof p);
-    for (int k = 0; k < 100; ++k) assert_ok(gvi_step(&st, (gvi_real)0.02L));
-    for (int d = 0; d < 2; ++d) {
-        real was = 0, is = 0;
-        for (int i = d; i < 8; i += 2) was += p[i], is += st.p[i];
-        assert_close(is, was, 100*EPS);
-    }
-}
-
-/* What cannot be: too far, dependent, not a number; q and v stay as they are, and so does a motion that is on     */
+/* What cannot be: too far, dependent, not a number; q and v stay as they are, and so does a motion that is on */
 TEST(projections_that_fail_change_nothing)
 {
     const gvi_effect hold = { .kind = GVI_CONSTRAINT, .points = circle, .rows = 1 };
     const gvi_desc desc = { .n = 2, .degree = 3, .effects = &hold, .effect_count = 1 };
     gvi_stepper st, twin;
-    static gvi_real other[120000];
     const gvi_real q0[2] = { 1, 0 }, v0[2] = { 0, 1 };
     gvi_real zero[2] = { 0, 0 }, v[2] = { 1, 1 }, bad[2] = { (gvi_real)NAN, 1 }, q[2] = { (gvi_real)1.01L, 0 };
-    assert_ok(gvi_init(&twin, &desc, other, sizeof other));
+    twin = new_stepper(&desc);
     assert_ok(gvi_start(&twin, 0, q0, v0));
     assert_ok(start(&st, &desc, q0, v0));
     for (int k = 0; k < 10; ++k) {
@@ -380,7 +316,7 @@ TEST(projections_that_fail_change_nothing)
     }
     const gvi_desc none = { .n = 2, .degree = 3 };              // without constraints: nothing to do
     gvi_real far[2] = { 1, 1 };
-    assert_ok(gvi_init(&st, &none, memory, sizeof memory));
+    st = new_stepper(&none);
     assert_ok(gvi_project(&st, 0, q, v, far));
     assert_true(far[0] == 0 && far[1] == 0 && v[0] == 1);
     assert_status(gvi_project(NULL, 0, q, v, far), GVI_E_ARGUMENT);

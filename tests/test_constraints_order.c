@@ -1,11 +1,10 @@
 /* Constraints: order of positions, momenta and multipliers, two-sided, and what the discrete motion keeps,
    on linkages and bodies of every kind.  In long double, so that rounding does not blur the slopes.  The
-   reference integrates index-1 equations, or Euler's, by extrapolation: it shares no line with gvi.h.  */
+   reference integrates index-1 equations, or Euler's, by extrapolation: it shares no line with gvi.h. */
 #ifndef GVI_REAL
 #define GVI_REAL long double
 #endif
 #include "gvi_test.h"
-typedef gvi_real real;
 #include "linkages.h"
 #define EXTRAPOLATE_MOST (2*MOST_N)
 #include "hard/extrapolate.h"
@@ -19,13 +18,10 @@ static void set_up(gvi_stepper *st, const linkage *a, int degree, gvi_rule_kind 
     desc.rule.kind = rule;
     desc.rule.points = points;
     desc.formulation = formulation;
-    assert_true(gvi_size(&desc) > 0 && gvi_size(&desc) <= sizeof memory);
-    assert_ok(gvi_init(st, &desc, memory, sizeof memory));
+    *st = new_stepper(&desc);
     assert_true(gvi_size(&desc) <= sizeof(real)*GVI_CONSTRAINED_LENGTH(a->n, degree, st->r, a->m));
     assert_ok(gvi_start(st, 0, a->q, a->v));
 }
-
-/* ---------------------------------------------------------- reference */
 
 static void solve(int n, real *A, real *b)        /* symmetric, positive: no pivots */
 {
@@ -67,7 +63,7 @@ static void constraint_at(const linkage *a, real t, const real *q, real *g, real
 }
 
 /* Acceleration and multipliers: G q'' = -v'Hv - ..., with the quadratic g of this file d(Gv + rate) =
-   (G(q + v) - G(q)) v + 2 (rate(q + v) - rate(q)) + d2g/dt2                                          */
+   (G(q + v) - G(q)) v + 2 (rate(q + v) - rate(q)) + d2g/dt2 */
 static void accelerate(const linkage *a, linkage_id id, real t, const real *q, const real *v, real *acc, real *lambda)
 {
     const int n = a->n, m = a->m;
@@ -151,8 +147,6 @@ static void reference(const linkage *a, linkage_id id, real T, int steps, real *
     if (id == MAGNET) p[0] -= q[1]/2, p[1] += q[0]/2;
 }
 
-/* -------------------------------------------------------------- order */
-
 static real distance(int n, const real *a, const real *b)
 {
     real d = 0;
@@ -185,7 +179,7 @@ static void check_order(linkage_id id, int s, gvi_rule_kind rule, int r, int ord
     }
 }
 
-TEST(orders_of_q_and_p)
+TEST(q_and_p_have_the_full_order)
 {
     for (int id = 0; id < LINKAGES; ++id) {
         const linkage a = make_linkage((linkage_id)id);
@@ -209,10 +203,8 @@ TEST(orders_of_q_and_p)
     }
 }
 
-/* ---------------------------------------------------------- multipliers */
-
 /* Along a motion, against those of the index-1 equations at the same state: no method's order is in it */
-TEST(orders_of_multipliers)
+TEST(multipliers_are_those_of_the_index_1_equations)
 {
     for (int id = 0; id < LINKAGES; ++id) {
         const linkage a = make_linkage((linkage_id)id);
@@ -235,8 +227,8 @@ TEST(orders_of_multipliers)
 }
 
 /* A quaternion's multiplier is that of |q|: T and V are homogeneous of degree 2 in q, so q'(dL/dq) = 2T - 2V,
-   and d(q'p)/dt = 0 with q'p = 4 I0 q'v = 0, v'p = 2T: lambda = 2V - 4T                                       */
-TEST(the_multiplier_of_a_quaternion)
+   and d(q'p)/dt = 0 with q'p = 4 I0 q'v = 0, v'p = 2T: lambda = 2V - 4T */
+TEST(the_multiplier_of_a_quaternion_is_2V_less_4T)
 {
     const linkage a = make_linkage(QUATERNION);
     gvi_stepper st;
@@ -252,8 +244,6 @@ TEST(the_multiplier_of_a_quaternion)
         assert_ok(gvi_step(&st, 0.05L));
     }
 }
-
-/* -------------------------------------------------------------- structure */
 
 /* A point of the constraint manifold from angles and their rates; a quaternion from (1, z) and body rates */
 static void at_coordinates(const linkage *a, linkage_id id, const real *z, real *q, real *v)

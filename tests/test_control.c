@@ -1,8 +1,9 @@
 /* Optimal control: lessons 34 and 35 themselves, their functions included.  What is expected are
    solutions of Pontryagin's boundary value problems in 24 to 32 digits by another program (Gauss
    collocation with 12 and 8 stages, Newton's method by differences; the cart there in velocities,
-   with the adjoint equations of that form).                                   */
+   with the adjoint equations of that form). */
 #include "gvi_test.h"
+#define I _Complex_I
 #define main lesson_34
 #include "34_low_thrust.c"
 #undef main
@@ -10,12 +11,10 @@
 #include "35_swing_up.c"
 #undef main
 
-/* ------------------------------------------------------------- low thrust */
-
 static const double flight_cost = 0.0004374230531335397759746, flight_start[] = { -0.001223261471621544535146,
                     -0.008026228113038987346453, 0.009170708578766099044291, 0.001223261471621544535146 };
 
-/* Errors of the cost and of the costate at the start.                          */
+/* Errors of the cost and of the costate at the start. */
 static void flight_errors(int degree, int steps, double *e)
 {
     double cost, q[FLIGHT], p[FLIGHT];
@@ -25,7 +24,7 @@ static void flight_errors(int degree, int steps, double *e)
                 fmax(fabs(p[2] - flight_start[2]), fabs(p[3] - flight_start[3])));
 }
 
-TEST(the_best_flight)
+TEST(the_best_flight_is_that_of_24_digits)
 {
     double cost, q[FLIGHT], p[FLIGHT];
     assert_ok(best_flight(6, 48, &cost, q, p, NULL));
@@ -47,8 +46,6 @@ TEST(the_flight_has_order_2s)
     }
 }
 
-/* ---------------------------------------------------------------- swing-up */
-
 static const double swing_cost = 57.9447803067280225, swing_start[] = { 6.86114732239437159, -44.992257478480388,
                     -3.15295148504546297, 17.7809038154745571 };
 
@@ -61,7 +58,7 @@ static void swing_errors(int degree, int steps, double *e)
                 fmax(fabs(p[2] - swing_start[2]), fabs(p[3] - swing_start[3])));
 }
 
-TEST(the_least_effort)
+TEST(the_least_effort_is_that_of_pontryagin)
 {
     double e[2];
     swing_errors(6, 80, e);
@@ -79,8 +76,8 @@ TEST(the_swing_has_order_2s)
     }
 }
 
-/* The lesson's products, by complex steps, agree with differences.             */
-TEST(complex_products)
+/* The lesson's products, by complex steps, agree with differences. */
+TEST(complex_products_agree_with_differences)
 {
     const double q[] = { 0.1, 0.4, 0.3, 0.2 }, v[] = { 0.5, 0.3, 0.2, 0.1 };
     int part = -1;
@@ -88,16 +85,16 @@ TEST(complex_products)
     assert_between(0, tangent_check(&swing, 0, q, v, v, q, &part), 1e-11);
 }
 
-/* An end that does not depend on the start, and too few runs.                  */
+/* An end that does not depend on the start, and too few runs. */
 static void nowhere(const double *q, const double *p, const double *dq, const double *dp,
                     double *c, void *user)
 {
     for (int i = 0; i < 4; ++i) c[i] = dq ? 0 : 1;
 }
 
-TEST(what_shooting_refuses)
+TEST(shooting_that_cannot_arrive_is_refused)
 {
-    static double memory[GVI_LENGTH(20, 4, 4)], work[SHOOTING_ROOM(CART, CART)];
+    static double work[SHOOTING_ROOM(CART, CART)];
     static const double dq[16] = { [2] = 1, [7] = 1 }, dp[16] = { [10] = 1, [15] = 1 };
     shooting S = { .scene = &swing, .dq = dq, .dp = dp, .h = 0.1, .steps = 20, .end = nowhere, .tolerance = 1e-8,
                    .most = 10, .room = work };
@@ -105,7 +102,7 @@ TEST(what_shooting_refuses)
     gvi_stepper st;
     swing.plain.degree = 4;
     assert_ok(tangent_scene(&swing));
-    assert_ok(gvi_init(&st, &swing.desc, memory, sizeof memory));
+    st = new_stepper(&swing.desc);
     assert_status(shoot(&S, &st, q, p), GVI_E_SINGULAR);
     S.end = arrive;
     S.user = &all;

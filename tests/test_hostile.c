@@ -1,8 +1,7 @@
-/* Random scenes with callbacks that lie, overflow and refuse, sizes and steps that
-   make no sense: what `make fuzz` does, from random bytes and with guarded memory.
-   Whatever happens, every call returns after a bounded amount of work with a status
-   from the list; a failure leaves the state as it was; a success leaves finite
-   numbers; and nothing outside the memory is touched.                          */
+/* Random scenes with callbacks that lie, overflow and refuse, sizes and steps that make no sense:
+   what `make fuzz` does, from random bytes and with guarded memory. Whatever happens, every call
+   returns after a bounded amount of work with a status from the list; a failure leaves the state as
+   it was; a success leaves finite numbers; and nothing outside the memory is touched. */
 #define GVI_REAL double
 #define PAD 16
 #include "gvi_test.h"
@@ -22,7 +21,6 @@ TEST(whatever_a_scene_does_every_call_ends_well)
         }
         LLVMFuzzerTestOneInput(bytes, sizeof bytes);
     }
-    print_message("    %ld scenes of %d could be set up, %ld calls succeeded\n", started, SCENES, succeeded);
     assert_true(started > SCENES/5);                             /* the menu is not all poison */
     assert_true(succeeded > SCENES/2);
 }

@@ -1,4 +1,4 @@
-/* Barycentric interpolation against Lagrange's products in twice the digits.  */
+/* Barycentric interpolation against Lagrange's products in twice the digits. */
 #include "gvi_test.h"
 #include "wide.h"
 
@@ -17,8 +17,6 @@
 #define MOST 1000
 #define FEW  20
 
-/* ------------------------------------------------------------------ oracle */
-
 /* l_j(t) by the product. */
 static wide lagrange(int n, const gvi_real *x, int j, wide t)
 {
@@ -29,7 +27,7 @@ static wide lagrange(int n, const gvi_real *x, int j, wide t)
 }
 
 /* l_j'(t) by the product rule.  condition: what one relative unit in every difference x_j - x_k and t - x_k
-   makes of it: the terms of the sum, added in absolute value.                                            */
+   makes of it: the terms of the sum, added in absolute value. */
 static wide lagrange_derivative(int n, const gvi_real *x, int j, wide t, wide *condition)
 {
     wide sum = 0;
@@ -61,13 +59,11 @@ static struct exact exact_value(int n, const gvi_real *x, const gvi_real *f, wid
 }
 
 /* A relative error of one unit in each value may move p by lebesgue*greatest
-   units, near and far; some 4n roundings are in every term.                  */
+   units, near and far; some 4n roundings are in every term. */
 static wide value_bound(int n, struct exact e)
 {
     return (4*n*UNIT + 4*n*WIDE_EPS)*e.lebesgue*e.greatest + NORMAL;
 }
-
-/* ------------------------------------------------------------------- nodes */
 
 static const wide pi = 3.14159265358979323846264338327950288L;
 
@@ -88,7 +84,7 @@ static void chebyshev_with_ends(int n, gvi_real *x)
 
 static void scattered(int n, gvi_real *x)       /* in no order, 0 among them */
 {
-    seed = 17;
+    dice = 17;
     for (int i = 0; i < n; ++i) x[i] = random_unit();
     x[n/2] = 0;
 }
@@ -118,7 +114,7 @@ static gvi_real next_after(gvi_real x, gvi_real towards)
 }
 
 /* Where to look: nodes, closest neighbours of nodes, nearly there, between,
-   outside.  Returns how many.                                                */
+   outside.  Returns how many. */
 static int places(int n, const gvi_real *x, gvi_real *t)
 {
     int count = 0;
@@ -139,8 +135,6 @@ static int places(int n, const gvi_real *x, gvi_real *t)
 
 #define PLACES (7*FEW + 10)
 
-/* ----------------------------------------------------------------- weights */
-
 /* prod_(k /= j) (x_j - x_k) = mantissa 2^exponent, 2^-64 <= |mantissa| < 2^64. */
 struct scaled { wide mantissa; int exponent; };
 
@@ -159,7 +153,7 @@ static struct scaled node_product(int n, const gvi_real *x, int j)
 }
 
 /* |a| < |b|, roughly enough: up to a factor that changes nothing but which of
-   two equal maxima is taken.                                                 */
+   two equal maxima is taken. */
 static int smaller(struct scaled a, struct scaled b)
 {
     long double d = ldexpl((long double)wide_abs(a.mantissa/b.mantissa), a.exponent - b.exponent);
@@ -224,7 +218,7 @@ TEST(weights_of_1000_points_neither_overflow_nor_vanish)
 }
 
 /* x scaled by a power of 2 has the same weights to the bit, and by another
-   factor the weights of the points that rounding leaves.                     */
+   factor the weights of the points that rounding leaves. */
 TEST(weights_do_not_depend_on_the_unit_of_the_nodes)
 {
     const gvi_real units[] = { (gvi_real)1e-30L, (gvi_real)1e30L, (gvi_real)ldexp(1, -100),
@@ -239,8 +233,6 @@ TEST(weights_do_not_depend_on_the_unit_of_the_nodes)
             for (int i = 0; unit >= 2 && i < n; ++i) assert_true(same(w[i], v[i]));
         }
 }
-
-/* ------------------------------------------------------------------ values */
 
 static void check_values(int n, const gvi_real *x, const gvi_real *f)
 {
@@ -299,8 +291,6 @@ TEST(interpolation_next_to_a_node_at_zero_survives_the_smallest_distances)
         }
 }
 
-/* ------------------------------------------------------------------- basis */
-
 static void check_basis(int n, const gvi_real *x)
 {
     gvi_real w[FEW], l[FEW], t[PLACES];
@@ -324,25 +314,10 @@ TEST(basis_is_that_of_lagrange_and_sums_to_one)
     EACH_NODES(x, n, FEW) check_basis(n, x);
 }
 
-TEST(basis_of_1000_points_sums_to_one)
-{
-    chebyshev(MOST, big_x);
-    assert_ok(gvi_barycentric(MOST, big_x, big_w));
-    for (int i = -50; i <= 50; ++i) {
-        wide sum = 0, size = 0;
-        gvi_basis(MOST, big_x, big_w, (gvi_real)i/50, big_l);
-        for (int j = 0; j < MOST; ++j) sum += big_l[j], size += wide_abs(big_l[j]);
-        assert_close(sum, 1, MOST*UNIT*size);
-        assert_true(size < 20);                       /* the Lebesgue constant: 5.4 */
-    }
-}
-
-/* ------------------------------------------------------------------- Runge */
-
 static wide runge(wide t) { return 1/(1 + 25*t*t); }
 
 /* 1.22^-1000 of truncation, and rounding that does not grow with n in practice:
-   Higham's bound would be 6000 units times the Lebesgue constant.            */
+   Higham's bound would be 6000 units times the Lebesgue constant. */
 TEST(runge_by_1000_chebyshev_points_is_exact_to_rounding)
 {
     for (int k = 1; k <= 2; ++k) {
@@ -355,8 +330,6 @@ TEST(runge_by_1000_chebyshev_points_is_exact_to_rounding)
         }
     }
 }
-
-/* ------------------------------------------------------------- derivatives */
 
 static void check_derivatives(int n, const gvi_real *x, const gvi_real *f)
 {
@@ -392,27 +365,6 @@ TEST(derivatives_are_those_of_lagrange_at_near_and_far_from_nodes)
         }
 }
 
-/* 24 points: the truncation is below 1e-27, with 28, for the digits that a long
-   double may have, below 1e-34; the norm of the derivative is (n - 1)^2/3 at the
-   ends.                                                                      */
-#define MANY (DIG > 64 ? 28 : 24)
-TEST(derivative_of_exp_is_exp)
-{
-    gvi_real x[MANY], w[MANY], f[MANY];
-    chebyshev_with_ends(MANY, x);
-    assert_ok(gvi_barycentric(MANY, x, w));
-    for (int i = 0; i < MANY; ++i) f[i] = (gvi_real)expl(x[i]);
-    for (int i = -100; i <= 100; ++i) {
-        gvi_real t = (gvi_real)i/100;
-        assert_close(gvi_interpolate(MANY, x, w, f, t), expl(t), 8*EPS);
-        assert_close(gvi_interpolate_derivative(MANY, x, w, f, t), expl(t), 200*expl(1)*EPS);
-        if (i > -80 && i < 80)
-            assert_close(gvi_interpolate_derivative(MANY, x, w, f, t), expl(t), 40*expl(1)*EPS);
-    }
-    for (int i = 0; i < MANY; ++i)
-        assert_close(gvi_interpolate_derivative(MANY, x, w, f, x[i]), expl(x[i]), 200*expl(1)*EPS);
-}
-
 TEST(constants_have_exactly_the_derivative_zero)
 {
     gvi_real x[FEW], w[FEW], f[FEW], t[PLACES];
@@ -426,35 +378,6 @@ TEST(constants_have_exactly_the_derivative_zero)
         }
     }
 }
-
-/* One copy of the code for both units: in registers wider than the type (x87)
-   two may round at different places.                                         */
-TEST(derivative_scales_with_the_unit_of_the_nodes)
-{
-    typedef gvi_real at_fn(int n, const gvi_real *x, const gvi_real *w, const gvi_real *f, gvi_real t);
-    typedef void row_fn(int n, const gvi_real *x, const gvi_real *w, gvi_real t, gvi_real *l);
-    at_fn *volatile const value_at = gvi_interpolate, *volatile const slope_at = gvi_interpolate_derivative;
-    row_fn *volatile const slopes_at = gvi_basis_derivative;
-    gvi_real x[9], y[9], w[9], v[9], f[9], l[9], m[9];
-    scattered(9, x);
-    assert_ok(gvi_barycentric(9, x, w));
-    for (int i = 0; i < 9; ++i) f[i] = random_unit();
-    for (int e = -90; e <= 90; e += 180) {
-        const gvi_real unit = (gvi_real)ldexp(1, e);
-        for (int i = 0; i < 9; ++i) y[i] = x[i]*unit;
-        assert_ok(gvi_barycentric(9, y, v));
-        for (int i = -20; i <= 20; ++i) {
-            gvi_real t = (gvi_real)i/17;
-            assert_true(same(value_at(9, y, v, f, t*unit), value_at(9, x, w, f, t)));
-            assert_true(same(slope_at(9, y, v, f, t*unit)*unit, slope_at(9, x, w, f, t)));
-            slopes_at(9, x, w, t, l);
-            slopes_at(9, y, v, t*unit, m);
-            for (int j = 0; j < 9; ++j) assert_true(same(m[j]*unit, l[j]));
-        }
-    }
-}
-
-/* -------------------------------------------------------------- odds and ends */
 
 TEST(coinciding_nodes_are_refused)
 {

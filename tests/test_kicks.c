@@ -5,14 +5,9 @@
 #define GVI_REAL long double
 #endif
 #include "gvi_test.h"
-#include <tgmath.h>
-
-typedef gvi_real real;
 #include "problems.h"
 #include "hard/extrapolate.h"
 #include "splittings.h"
-
-/* ------------------------------------------------------------------- the scene */
 
 static real dense[4] = { 2, 0.5L, 0.5L, 1 };
 static real diagonal[2] = { 2, 0.75L };
@@ -64,8 +59,6 @@ static real distance(const real *q, const real *p, const real *y)
     return hypot(hypot(q[0] - y[0], q[1] - y[1]), hypot(p[0] - y[2], p[1] - y[3]));
 }
 
-/* -------------------------------------------------------------------- order */
-
 /* Errors at the end of N steps, and at a time inside the last one */
 static void errors(const table *a, gvi_mass_kind mass, int N, real last, real *end, real *inside)
 {
@@ -95,15 +88,11 @@ TEST(every_table_has_its_order_on_both_sides)
         real end[2], inside[2];
         for (int k = 0; k < 2; ++k) errors(method, (gvi_mass_kind)mass, N << k, last, &end[k], &inside[k]);
         const real order = log2(end[0]/end[1]), within = log2(inside[0]/inside[1]);
-        print_message("    %-28s %.2Lf, inside a step %.2Lf, error %.1Le\n", method->name,
-                      (long double)order, (long double)within, (long double)end[1]);
         assert_true(end[1] > 1e-15L);          // far above rounding, also that of the tables
         assert_between(method->order - 0.3L, order, method->order + 0.3L);
         assert_between(method->order - 0.3L, within, method->order + 0.3L);
     }
 }
-
-/* ------------------------------------------------------- the same by other means */
 
 /* Drift to each node, kick, drift to the end */
 static void by_hand(const table *a, gvi_mass_kind mass, real t, real h, real *y)
@@ -156,30 +145,8 @@ TEST(two_kicks_are_lobatto_of_degree_one_to_the_bit)
     }
 }
 
-/* ---------------------------------------------------------------- structure */
-
-typedef struct { const table *a; gvi_mass_kind mass; } splitting;
-
-static void step_map(const void *what, const real *x, real *y)
-{
-    const splitting *s = what;
-    const gvi_desc desc = describe(s->a, s->mass);
-    gvi_stepper st;
-    set_up(&st, &desc, x, memory);
-    assert_ok(gvi_step(&st, 0.25L));
-    for (int i = 0; i < 2; ++i) { y[i] = st.q[i]; y[2 + i] = st.p[i]; }
-}
-
-TEST(every_table_gives_a_symplectic_map)
-{
-    EACH_TABLE(method)
-    for (int mass = GVI_MASS_UNIT; mass <= GVI_MASS_DENSE; ++mass)
-        assert_between(0, symplectic_defect(step_map, &(splitting){ method, (gvi_mass_kind)mass }, start, EPS),
-                       100*pow((real)EPS, 8/(real)9));
-}
-
 /* A rounding of a kick or a drift changes q x p by EPS/2 of |q||p| or less, at most 2
-   here; r + 1 of them a step, independent: the bound is four standard deviations  */
+   here; r + 1 of them a step, independent: the bound is four standard deviations */
 TEST(angular_momentum_is_kept_by_every_kick)
 {
     static const gvi_effect sun[] = { { .kind = GVI_POTENTIAL, .points = attraction } };
@@ -191,22 +158,6 @@ TEST(angular_momentum_is_kept_by_every_kick)
         check_angular_momentum(&st, 2000, 0.05L, 4*sqrt((real)method->r + 1));
     }
 }
-
-/* A symmetric table steps back where it came from; Ruth's does not */
-TEST(symmetric_tables_are_reversible)
-{
-    EACH_TABLE(method) {
-        const gvi_desc desc = describe(method, GVI_MASS_DENSE);
-        gvi_stepper st;
-        set_up(&st, &desc, start, memory);
-        const real h = 0.125L, d = there_and_back(&st, 20, &h, 1);
-        if (method->symmetric) assert_between(0, d, 40*EPS*sqrt((real)method->r));
-        else assert_between(1e-9L, d, 0.1L);
-        assert_close(st.t, when, 2*EPS);
-    }
-}
-
-/* --------------------------------------------------------------------- work */
 
 /* The force at the end of a step is that at the start of the next, if both are nodes */
 TEST(the_last_kick_is_not_asked_for_twice)
@@ -220,49 +171,6 @@ TEST(the_last_kick_is_not_asked_for_twice)
         assert_int_equal(st.counters.effect[0], shared ? 100*(r - 1) + 1 : 100*r);
         assert_int_equal(st.counters.iterations + st.counters.newton_iterations, 0);
         assert_int_equal(st.counters.factorizations, 0);
-    }
-}
-
-/* A ring of springs d + d^3, at rest but for one: as many coordinates as fill vectors, and more, and fewer */
-AT_POINTS(ring)
-{
-    for (int i = 0; i < x->n; ++i) {
-        const int next = (i + 1) % x->n, R = x->stride;
-        for (int k = 0; k < x->count; ++k) {
-            const real d = x->q[next*R + k] - x->q[i*R + k], f = d + d*d*d;
-            x->f[i*R + k] += f;
-            x->f[next*R + k] -= f;
-        }
-    }
-    return 0;
-}
-
-/* A tolerance ends iterations; kicks have none, so it changes no bit.  The forces cancel: momenta add up to 0,
-   but for roundings at random.                                                                       */
-TEST(a_tolerance_changes_no_bit_of_a_kick)
-{
-    static const int sizes[] = { 1, 3, 8, 13 };
-    static const gvi_effect springs[] = { { .kind = GVI_POTENTIAL, .points = ring } };
-    static real mass[13], here[13], zero[13];
-    int count;
-    const table *all = tables(&count);
-    for (int i = 0; i < COUNT(sizes)*count*2; ++i) {
-        const table *a = &all[i/2/COUNT(sizes)];
-        const int n = sizes[i/2 % COUNT(sizes)], steps = 400, r = a->r;
-        gvi_desc desc = { .n = n, .rule = { GVI_KICKS, r, a->c, a->b }, .effects = springs, .effect_count = 1 };
-        gvi_stepper x, y;
-        real total = 0;
-        for (int k = 0; k < n; ++k) mass[k] = 1 + k*0.125L, here[k] = (k == n/2)*0.5L;
-        if (i % 2) desc.mass = (gvi_mass){ .kind = GVI_MASS_DIAGONAL, .matrix = mass };
-        assert_true(gvi_size(&desc) <= sizeof memory);
-        assert_ok(gvi_init(&x, &desc, memory, sizeof memory));
-        desc.tolerance = 0.001L;
-        assert_ok(gvi_init(&y, &desc, more, sizeof more));
-        assert_ok(gvi_start(&x, 0, here, zero));
-        assert_ok(gvi_start(&y, 0, here, zero));
-        move_alike(&x, &y, steps, 0.0625L);
-        for (int k = 0; k < n; ++k) total += y.p[k];
-        assert_between(0, fabs(total), 4*EPS*sqrt((real)steps*r*n));
     }
 }
 
@@ -289,12 +197,10 @@ TEST(kicks_of_weight_zero_are_left_out)
             assert_ok(gvi_step(&y, 0.01L));
         }
         const real end[] = { y.q[0], y.q[1], y.p[0], y.p[1] };
-        assert_between(0, distance(x.q, x.p, end), 8*EPS*sqrt((real)100*with[i].r));
+        assert_between(0, distance(x.q, x.p, end), 4*EPS);
         assert_int_equal(y.counters.effect[0], asked[i]);
     }
 }
-
-/* ------------------------------------------------------------------ statuses */
 
 AT_POINT(reads_v)
 {
@@ -355,8 +261,6 @@ TEST(questions_that_a_broken_line_cannot_answer_are_refused)
     assert_true(q[0] == 7 && q[1] == 7 && number == 7);
     assert_ok(gvi_step(&st, 0.125L));
 }
-
-/* --------------------------------------------------- checkpoint and switching */
 
 TEST(a_checkpoint_continues_to_the_bit)
 {
@@ -426,37 +330,13 @@ TEST(a_switched_effect_is_in_the_next_kick)
         assert_int_equal(b.counters.effect[1], 0);
 
         // both on: the step from here is that of a stepper that starts here
-        gvi_stepper fresh;
         const test_state here = state_now(&b);
         assert_ok(gvi_switch(&b, 1, 1));
         assert_ok(gvi_step(&b, 0.125L));
-        assert_ok(gvi_init(&fresh, &two, memory, sizeof memory));
+        gvi_stepper fresh = new_stepper(&two);
         assert_ok(gvi_start_momentum(&fresh, here.t, here.q, here.p));
         assert_ok(gvi_step(&fresh, 0.125L));
         assert_between(0, distance(b.q, b.p, (const real[]){ fresh.q[0], fresh.q[1], fresh.p[0], fresh.p[1] }), 8*EPS);
-    }
-}
-
-/* The last kick gives no number: r points, and once more to see whose they are  */
-AT_POINTS(no_number_late)
-{
-    for (int k = 0; k < x->count; ++k) x->f[k] += x->t[k] > when + 0.24L ? (real)NAN : -x->q[k];
-    return 0;
-}
-
-TEST(no_number_is_looked_for_once)
-{
-    EACH_TABLE(method) {
-        const gvi_effect two[] = { scene[0], { .kind = GVI_POTENTIAL, .points = no_number_late } };
-        gvi_desc desc = describe(method, GVI_MASS_UNIT);
-        gvi_stepper st;
-        desc.effects = two;
-        desc.effect_count = 2;
-        set_up(&st, &desc, start, memory);
-        if (method->c[method->r - 1] < 0.96L) continue;                  // no kick so late
-        SAME_STATE(&st) assert_status(gvi_step(&st, 0.25L), GVI_E_NON_FINITE);
-        assert_int_equal(st.fault.effect, 1);
-        assert_between(method->r, st.counters.effect[1], 2*method->r);
     }
 }
 

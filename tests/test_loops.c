@@ -1,18 +1,14 @@
-/* Constraints of mechanisms: rows that depend on others, zeros of G that come and go, change points.   */
+/* Constraints of mechanisms: rows that depend on others, zeros of G that come and go, change points. */
 #include "gvi_test.h"
-typedef gvi_real real;
 #include "linkages.h"
 
 static real memory[60000];
 
 static gvi_status set_up(gvi_stepper *st, const gvi_desc *desc, const real *q, const real *v)
 {
-    assert_true(gvi_size(desc) > 0 && gvi_size(desc) <= sizeof memory);
-    assert_ok(gvi_init(st, desc, memory, sizeof memory));
+    *st = new_stepper(desc);
     return gvi_start(st, 0, q, v);
 }
-
-/* ---------------------------------------------------------------- redundant rows */
 
 /* the two rods, and the first of them again, in another unit */
 static int rods_and_one(const gvi_points *x, void *user)
@@ -83,7 +79,7 @@ static void set_cranks(gvi_effect *e, gvi_desc *desc, int s, real *q)
     for (int k = 0; k < 3; ++k) q[2*k] = cos((real)1.2L) + (real)(k*(k + 1)/2), q[2*k + 1] = sin((real)1.2L);
 }
 
-TEST(orders_with_redundant_rows)
+TEST(redundant_rows_cost_no_order)
 {
     const int most = sizeof(real) == sizeof(float) ? 1 : 3;
     const long double angle = swing(1.2L, 1);
@@ -107,43 +103,15 @@ TEST(orders_with_redundant_rows)
         }
 }
 
-TEST(a_closed_loop_does_not_drift)
-{
-    gvi_effect e[2];
-    gvi_desc desc;
-    gvi_stepper st;
-    real q[6], v[6] = { 0 }, E0, E, off = 0, g[6] = { 0 }, G[36] = { 0 }, t = 0, worst = 0;
-    set_cranks(e, &desc, 4, q);
-    for (int k = 0; k < 3; ++k) q[2*k] = (real)(k*(k + 1)/2) + sin((real)0.5L), q[2*k + 1] = -cos((real)0.5L);   /* never flat */
-    assert_ok(set_up(&st, &desc, q, v));
-    assert_ok(gvi_energy(&st, &E0));
-    for (int i = 0; i < 20000; ++i) {
-        assert_ok(gvi_step(&st, (real)0.1L));
-        const gvi_points x = { .n = 6, .count = 1, .stride = 1, .t = &t, .q = st.q, .g = g, .jacobian = G };
-        cranks(&x, NULL);
-        for (int a = 0; a < 6; ++a) worst = fmax(worst, fabs(g[a]));
-        if (i % 16) continue;
-        assert_ok(gvi_energy(&st, &E));
-        off = fmax(off, fabs(E - E0));
-    }
-    assert_between(0, worst, 32*EPS);
-    assert_between(0, off, 500*EPS + (real)1e-14L);
-}
-
-/* ---------------------------------------------------------------- rows that contradict, vanish, or are too many */
-
 /* x = a t^p and x = b t^p: they agree at t = 0, in velocity too for p = 2 */
-static int two_places(const gvi_points *x, void *user)
+GVI_EACH(two_places, 3, rows(2))
 {
-    const real *a = (const real *)user;
-    for (int row = 0; row < 2; ++row)
-        for (int k = 0; k < x->count; ++k) {
-            const real t = x->t[k];
-            x->g[row*x->stride + k] = x->q[k] - a[row]*(a[2] > 1 ? t*t : t) - a[3 + row];
-            x->rate[row*x->stride + k] = -a[row]*(a[2] > 1 ? 2*t : 1);
-            x->jacobian[row*x->n*x->stride + k] = a[5];
-        }
-    return 0;
+    const real *a = (const real *)user, t = x->t[0];
+    for (int row = 0; row < 2; ++row) {
+        x->g[row] = x->q[0] - a[row]*(a[2] > 1 ? t*t : t) - a[3 + row];
+        x->rate[row] = -a[row]*(a[2] > 1 ? 2*t : 1);
+        x->jacobian[3*row] = a[5];
+    }
 }
 
 TEST(rows_that_contradict_are_named)
@@ -175,15 +143,11 @@ TEST(rows_that_contradict_are_named)
     assert_int_equal(gvi_size(&desc), 0);
 }
 
-/* ---------------------------------------------------------------- zeros of G */
-
 /* Hanging at rest G = (0, y): then a side wind.  The same in a frame turned by 1 rad, where G is full */
-static int wind(const gvi_points *x, void *user)
+GVI_EACH(wind, 2, f)
 {
     const real *f = (const real *)user;
-    for (int i = 0; i < 2; ++i)
-        for (int k = 0; k < x->count; ++k) x->f[i*x->stride + k] += f[i] + x->t[k]*f[i + 2];
-    return 0;
+    for (int i = 0; i < 2; ++i) x->f[i] += f[i] + x->t[0]*f[i + 2];
 }
 
 TEST(zeros_of_G_may_end)
@@ -204,15 +168,13 @@ TEST(zeros_of_G_may_end)
                 end[turned][0] = c*st.q[0] + d*st.q[1];
                 end[turned][1] = c*st.q[1] - d*st.q[0];
             }
-            for (int i = 0; i < 2; ++i) assert_close(end[0][i], end[1][i], 256*EPS);
+            for (int i = 0; i < 2; ++i) assert_close(end[0][i], end[1][i], 32*EPS);
             assert_true(end[0][0] > (real)0.5L);
         }
 }
 
-/* ---------------------------------------------------------------- change points */
-
 /* Four-bars whose bars can lie in one line (a + c = b + d), and a slider-crank of equal bars, a step long enough to pass
-   that position.  After it the coupler's side is smooth in the crank's angle, as before; or the step is refused.       */
+   that position.  After it the coupler's side is smooth in the crank's angle, as before; or the step is refused. */
 static int bars(const gvi_points *x, void *user)
 {
     const real *L = (const real *)user;           // crank, ground, coupler, rocker; no rocker: a slide
@@ -240,26 +202,26 @@ static void place(const real *L, long double th, real *q)
     q[3] = (real)(q[1] + along*dy - side*dx);
 }
 
-static real dice(unsigned *state)
+static real fraction(unsigned *draw)
 {
-    *state = *state*1664525u + 1013904223u;
-    return (real)(*state >> 8)/(real)(1 << 24);
+    *draw = *draw*1664525u + 1013904223u;
+    return (real)(*draw >> 8)/(real)(1 << 24);
 }
 
 TEST(no_step_changes_branch)
 {
+    unsigned draw = 1;
     const int fine = sizeof(real) == sizeof(float) ? 2 : 3;
-    unsigned seed = 1;
     int right = 0, wrong = 0;
     for (int trial = 0; trial < 2000; ++trial) {
         const int kind = trial % 4, s = 1 + trial/4 % 8;
-        real L[4] = { (real)0.3L + dice(&seed), (real)0.5L + 2*dice(&seed), 0, (real)0.3L + 2*dice(&seed) };
+        real L[4] = { (real)0.3L + fraction(&draw), (real)0.5L + 2*fraction(&draw), 0, (real)0.3L + 2*fraction(&draw) };
         if (kind == 0) L[3] = L[0];               // a parallelogram
         if (kind == 1) L[1] = L[0];               // a kite
         L[2] = kind == 3 ? L[0] : L[3] + L[1] - L[0];
         if (kind == 3) L[3] = 0;
-        const real dist = pow((real)10, -(real)fine*dice(&seed) - (real)0.5L), side = dice(&seed) < (real)0.5L ? -1 : 1;
-        const real turn = dice(&seed) < (real)0.5L ? -1 : 1, h = dist*((real)0.2L + (real)2.8L*dice(&seed));
+        const real dist = pow((real)10, -(real)fine*fraction(&draw) - (real)0.5L), side = fraction(&draw) < (real)0.5L ? -1 : 1;
+        const real turn = fraction(&draw) < (real)0.5L ? -1 : 1, h = dist*((real)0.2L + (real)2.8L*fraction(&draw));
         const long double th = (kind == 3 ? acosl(0) : 0) + (long double)(side*dist);
         if (L[2] < (real)0.1L) continue;
         gvi_effect e = { .kind = GVI_CONSTRAINT, .points = bars, .rows = 3, .user = L };

@@ -1,7 +1,6 @@
 /* Newton's method: steps against those of the fixed points, of other derivatives, and of the Runge-Kutta
-   matrix A of Gauss's method, which is made here from its definition.                 */
+   matrix A of Gauss's method, which is made here from its definition. */
 #include "gvi_test.h"
-typedef gvi_real real;
 #include "problems.h"
 #include "gauss.h"
 
@@ -10,58 +9,40 @@ enum { MOST = 20 };
 
 static gvi_real memory[GVI_LENGTH(MOST, 17, 18)], spare[GVI_LENGTH(MOST, 17, 18)];
 
-static unsigned seed = 1;
-
-static wide uniform(void)
-{
-    seed = seed*1664525u + 1013904223u;
-    return (wide)(seed >> 8)/(1u << 23) - 1;
-}
-
-/* ------------------------------------------------------------------- scenes */
-
 /* Springs of different stiffness; `cubic` of u^3 in all of them */
 typedef struct row { gvi_real cubic, damping, turning; int hessians; } row;
 
 static gvi_real spring_of(int i) { return (gvi_real)(1 + 400*(i % 2)); }
 
-static int springs(const gvi_points *x, void *user)
+AT_POINTS(springs)
 {
     const row *a = user;
-    const int n = x->n, d = x->stride;
-    for (int i = 0; i < n; ++i)
+    for (int i = 0, n = x->n, d = x->stride; i < n; ++i)
         for (int k = 0; k < x->count; ++k) {
-            const gvi_real u = stretch(n, i, d, x->q + k);
+            const real u = stretch(n, i, d, x->q + k);
             add_tension(n, i, d, spring_of(i)*u + a->cubic*u*u*u, x->f + k);
         }
     return 0;
 }
 
-static int springs_hessian(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *fq, gvi_real *fv,
-                           gvi_real *pv, void *user)
+HESSIAN(springs_hessian)
 {
     const row *a = user;
-    const int n = MOST;
-    for (int i = 0; i < n; ++i) {
-        const gvi_real u = stretch(n, i, 1, q);
-        add_stiffness(n, i, spring_of(i) + 3*a->cubic*u*u, fq);
+    for (int i = 0; i < MOST; ++i) {
+        const real u = stretch(MOST, i, 1, q);
+        add_stiffness(MOST, i, spring_of(i) + 3*a->cubic*u*u, fq);
     }
     return 0;
 }
 
 /* f_i = -damping (v_i - v_(i+1)/2): not symmetric */
-static int damper(const gvi_points *x, void *user)
+AT_EACH(damper)
 {
-    const row *a = user;
-    const int n = x->n, d = x->stride;
-    for (int i = 0; i < n; ++i)
-        for (int k = 0; k < x->count; ++k)
-            x->f[i*d + k] -= a->damping*(x->v[i*d + k] - (i + 1 < n ? x->v[(i + 1)*d + k]/2 : 0));
-    return 0;
+    const real next = a/x->stride + 1 < x->n ? x->v[a + x->stride]/2 : 0;
+    x->f[a] -= ((const row *)user)->damping*(x->v[a] - next);
 }
 
-static int damper_hessian(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *fq, gvi_real *fv,
-                          gvi_real *pv, void *user)
+HESSIAN(damper_hessian)
 {
     const row *a = user;
     for (int i = 0; i < MOST; ++i) {
@@ -72,31 +53,24 @@ static int damper_hessian(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_
 }
 
 /* L = sum turning (q_i v_(i+1) - q_(i+1) v_i)/2 + cubic q_i^2 v_i^2/100 over even i */
-static int magnet(const gvi_points *x, void *user)
+AT_EACH(magnet)
 {
-    const row *a = user;
-    const int n = x->n, d = x->stride;
-    for (int i = 0; i + 1 < n; i += 2)
-        for (int k = 0; k < x->count; ++k) {
-            const gvi_real *q = x->q + i*d + k, *v = x->v + i*d + k, w = a->turning/2;
-            x->f[i*d + k] += w*v[d];
-            x->f[(i + 1)*d + k] -= w*v[0];
-            x->dldv[i*d + k] -= w*q[d];
-            x->dldv[(i + 1)*d + k] += w*q[0];
-            x->f[i*d + k] += a->cubic*q[0]*v[0]*v[0]/50;
-            x->dldv[i*d + k] += a->cubic*q[0]*q[0]*v[0]/50;
-        }
-    return 0;
+    const row *r = user;
+    const int b = a + x->stride, i = a/x->stride;
+    const real w = r->turning/2;
+    if (i % 2 || i + 1 == x->n) return;
+    x->f[a] += w*x->v[b] + r->cubic*x->q[a]*x->v[a]*x->v[a]/50;
+    x->f[b] -= w*x->v[a];
+    x->dldv[a] -= w*x->q[b] - r->cubic*x->q[a]*x->q[a]*x->v[a]/50;
+    x->dldv[b] += w*x->q[a];
 }
 
-static int magnet_hessian(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *fq, gvi_real *fv,
-                          gvi_real *pv, void *user)
+HESSIAN(magnet_hessian)
 {
     const row *a = user;
     for (int i = 0; i + 1 < MOST; i += 2) {
-        const gvi_real w = a->turning/2;
-        fv[i*MOST + i + 1] += w;
-        fv[(i + 1)*MOST + i] -= w;
+        fv[i*MOST + i + 1] += a->turning/2;
+        fv[(i + 1)*MOST + i] -= a->turning/2;
         fq[i*MOST + i] += a->cubic*v[i]*v[i]/50;
         fv[i*MOST + i] += a->cubic*q[i]*v[i]/25;
         pv[i*MOST + i] += a->cubic*q[i]*q[i]/50;
@@ -105,32 +79,22 @@ static int magnet_hessian(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_
 }
 
 /* M_ii = 3 + sin q_i, M_i(i+1) = cos(q_i + q_(i+1))/2: definite for any q */
-static int mass(const gvi_points *x, void *user)
+AT_EACH(mass)
 {
-    const int n = x->n, d = x->stride;
-    for (int k = 0; k < x->count; ++k)
-        for (int i = 0; i < n; ++i)
-            for (int j = 0; j <= i; ++j) {
-                const gvi_real a = x->q[i*d + k], b = x->q[j*d + k];
-                x->mass[(i*n + j)*d + k] = i == j ? 3 + (gvi_real)sin((double)a)
-                                         : i == j + 1 ? (gvi_real)cos((double)(a + b))/2 : 0;
-            }
-    return 0;
+    for (int i = a/x->stride, j = 0; j <= i; ++j) x->mass[(i*(x->n - 1) + j)*x->stride + a] = i == j ? 3 + sin(x->q[a]) : 0;
+    if (a < x->stride) return;
+    const int i = a/x->stride;
+    x->mass[(i*(x->n - 1) + i - 1)*x->stride + a] = cos(x->q[a] + x->q[a - x->stride])/2;
 }
 
-static int mass_gradient(const gvi_points *x, void *user)
+AT_EACH(mass_gradient)
 {
-    const int n = x->n, d = x->stride;
-    for (int k = 0; k < x->count; ++k)
-        for (int i = 0; i < n; ++i) {
-            const gvi_real *q = x->q + i*d + k, *v = x->v + i*d + k;
-            x->f[i*d + k] += (gvi_real)cos((double)q[0])*v[0]*v[0]/2;
-            if (i + 1 == n) continue;
-            const gvi_real w = -(gvi_real)sin((double)(q[0] + q[d]))/2*v[0]*v[d];
-            x->f[i*d + k] += w;
-            x->f[(i + 1)*d + k] += w;
-        }
-    return 0;
+    const int b = a + x->stride;
+    x->f[a] += cos(x->q[a])*x->v[a]*x->v[a]/2;
+    if (b >= x->n*x->stride) return;
+    const real w = -sin(x->q[a] + x->q[b])/2*x->v[a]*x->v[b];
+    x->f[a] += w;
+    x->f[b] += w;
 }
 
 /* What a scene of the tests consists of */
@@ -167,7 +131,7 @@ static void begin(gvi_stepper *st, const gvi_desc *desc, gvi_real *where, size_t
         q[i] = (gvi_real)(0.5*sin(0.7*i + 0.3));
         v[i] = (gvi_real)(0.5*cos(1.3*i));
     }
-    assert_ok(gvi_init(st, desc, where, size));
+    *st = new_stepper(desc);
     assert_ok(gvi_start(st, 0, q, v));
 }
 
@@ -189,7 +153,7 @@ static wide apart(const gvi_stepper *a, const gvi_stepper *b)
 static const int degrees[] = { 2, 3, 4, 5, 7, 8 };
 
 /* Linear scenes: derivatives are the same everywhere, so one factorisation serves all steps of one length; in
-   float rounding may ask for a second.                                                       */
+   float rounding may ask for a second. */
 TEST(linear_scenes_need_one_factorisation)
 {
     static const int kinds[] = { 0, DAMPED, TURNED, DAMPED | TURNED, DENSE | DAMPED };
@@ -209,7 +173,7 @@ TEST(linear_scenes_need_one_factorisation)
 }
 
 /* Hessians and differences lead to the same point, and it is that of the fixed point where that covers the
-   scene: M(q), damping, Lagrangian terms                                                     */
+   scene: M(q), damping, Lagrangian terms */
 TEST(newton_and_the_fixed_point_end_at_the_same_point)
 {
     static const int kinds[] = { 0, HESSIANS, DAMPED | HESSIANS, DAMPED, TURNED | HESSIANS, TURNED, MOVING_MASS,
@@ -229,7 +193,7 @@ TEST(newton_and_the_fixed_point_end_at_the_same_point)
             }
             begin(&other, &desc, spare, sizeof spare);
             go(&other, (gvi_real)0.05, 30);
-            assert_close(apart(&newton, &other), 0, 400*EPS);
+            assert_close(apart(&newton, &other), 0, 40*EPS);
         }
 }
 
@@ -277,7 +241,7 @@ TEST(a_refusal_at_the_start_is_reported_at_once)
 }
 
 /* A partial step: the state that steps would have.  The derivatives that the steps keep stay as they are:
-   what follows has the same bits as without the question                                     */
+   what follows has the same bits as without the question */
 TEST(partial_steps_are_steps)
 {
     gvi_stepper st, half;
@@ -291,8 +255,8 @@ TEST(partial_steps_are_steps)
     go(&half, (gvi_real)0.015625, 1);
     assert_ok(gvi_state_at(&st, (gvi_real)0.078125, q, NULL, p));
     for (int i = 0; i < MOST; ++i) {
-        assert_close(q[i], half.q[i], 200*EPS);
-        assert_close(p[i], half.p[i], 2000*EPS);
+        assert_close(q[i], half.q[i], 16*EPS);
+        assert_close(p[i], half.p[i], 100*EPS);
     }
     st.counters.factorizations = 0;
     go(&st, (gvi_real)0.0625, 1);
@@ -303,20 +267,15 @@ TEST(partial_steps_are_steps)
     assert_memory_equal(end, half.q, sizeof end);
 }
 
-/* -------------------------------------------------------------- rounding */
-
 /* A point at a spring of length 1 and frequency 64, h omega = 6.4, as in everywhere/bits.c */
 enum { STIFFNESS = 4096, POINTS = 8 };
 
-static int pendulum(const gvi_points *x, void *user)
+GVI_EACH(pendulum, 2, f)
 {
-    for (int k = 0; k < x->count; ++k) {
-        const gvi_real X = x->q[k], Y = x->q[x->stride + k], r = (gvi_real)sqrtl((wide)(X*X + Y*Y));
-        const gvi_real s = STIFFNESS*(r - 1);
-        x->f[k] -= s*X/r;
-        x->f[x->stride + k] -= s*Y/r;
-    }
-    return 0;
+    const gvi_real X = x->q[0], Y = x->q[1], r = (gvi_real)sqrtl((wide)(X*X + Y*Y));
+    const gvi_real s = STIFFNESS*(r - 1);
+    x->f[0] -= s*X/r;
+    x->f[1] -= s*Y/r;
 }
 
 typedef struct gauss { wide A[POINTS][POINTS], c[POINTS], b[POINTS]; } gauss;
@@ -376,7 +335,7 @@ static void state_of(const gvi_stepper *st, wide *z)
 }
 
 /* The square of the error of p after a step: the same step from the same state in long double, which starts
-   from the forces that were found                                                        */
+   from the forces that were found */
 static wide error_of_step(const gauss *g, gvi_stepper *st, gvi_real h)
 {
     wide z[4], after[4], F[2][POINTS], sum = 0;
@@ -408,11 +367,9 @@ static wide error_in_kicks(gvi_formulation formulation)
     const gauss g = gauss_rule();
     wide error = 0, kicks = 0;
     for (int m = 0; m < 20; ++m) {
-        gvi_stepper st;
-        const gvi_real q[] = { 1 + (gvi_real)uniform()/1024, 1/(gvi_real)64 };
-        const gvi_real v[] = { 1/(gvi_real)4, (1 + (gvi_real)uniform()/1024)/3 };
-        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-        assert_ok(gvi_start(&st, 0, q, v));
+        const gvi_real q[] = { 1 + (gvi_real)random_unit()/1024, 1/(gvi_real)64 };
+        const gvi_real v[] = { 1/(gvi_real)4, (1 + (gvi_real)random_unit()/1024)/3 };
+        gvi_stepper st = new_motion(&desc, 0, q, v);
         for (int k = 0; k < 100; ++k) {
             const gvi_real h = (gvi_real)(k % 50 == 49 ? 0.05 : 0.1);   // then AUTO tries its fixed point
             const wide squared = error_of_step(&g, &st, h);
@@ -430,7 +387,7 @@ static wide error_in_kicks(gvi_formulation formulation)
    1/16/3 with its terms: 0.094.  A force that is off at node j is a kick h b_j.  In p there are two of each:
    of the forces that y was solved with, and of those at the solution; in the first is what the iterations
    before left, a quarter of a quarter and so on: sqrt(1 + 1/(1 - 1/16)) = 1.44 in all, 0.44 kicks.  The
-   turn of the spring from node to end only makes it less.                                */
+   turn of the spring from node to end only makes it less. */
 TEST(a_stiff_spring_is_as_exact_as_its_force)
 {
     if ((wide)EPS < 1000*(wide)LDBL_EPSILON) skip();
@@ -438,36 +395,22 @@ TEST(a_stiff_spring_is_as_exact_as_its_force)
     assert_between(0.1L, error_in_kicks(GVI_AUTO), 0.44L);
 }
 
-static int attraction_at(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *f, gvi_real *dldv, void *user)
-{
-    const gvi_real d2 = q[0]*q[0] + q[1]*q[1], w = -1/(d2*(gvi_real)sqrt((double)d2));
-    f[0] += w*q[0];
-    f[1] += w*q[1];
-    return 0;
-}
-
 /* Newton's method with a new matrix at each step contracts by about the step itself: what turns by h on
-   a circle is foretold to h or better, and rounding is no contraction        */
+   a circle is foretold to h or better, and rounding is no contraction */
 TEST(the_contraction_is_that_of_the_changes)
 {
-    static const gvi_effect effect = { .kind = GVI_POTENTIAL, .point = attraction_at };
+    static const gvi_effect effect = { .kind = GVI_POTENTIAL, .points = attraction };
     static const gvi_desc desc = { .n = 2, .degree = 3, .effects = &effect, .effect_count = 1,
                                    .formulation = GVI_NEWTON };
     for (int k = 3; k < 8; ++k) {
         const gvi_real h = 1/(gvi_real)(1 << k);
-        gvi_stepper st;
-        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-        assert_ok(gvi_start(&st, 0, (const gvi_real[]){ 1, 0 }, (const gvi_real[]){ 0, 1 }));
+        gvi_stepper st = new_motion(&desc, 0, (const gvi_real[]){ 1, 0 }, (const gvi_real[]){ 0, 1 });
         for (int j = 0; j < 200; ++j) assert_ok(gvi_step(&st, h));
         assert_between(0, st.counters.worst_contraction, h);
     }
 }
 
-static int harmonic(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *f, gvi_real *dldv, void *user)
-{
-    f[0] -= q[0];
-    return (void)t, (void)v, (void)dldv, (void)user, 0;
-}
+AT_POINT(harmonic) { return f[0] -= q[0], 0; }
 
 /* A large scene is set up in memory that grows like n, and Newton's method is there when it is asked for */
 TEST(a_large_scene_needs_no_matrices)
@@ -485,13 +428,7 @@ TEST(a_large_scene_needs_no_matrices)
     assert_between(30*one, gvi_size(&desc), 1e12L);
 }
 
-/* ------------------------------------------------- whose solution it is */
-
-static int swinging(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *f, gvi_real *dldv, void *user)
-{
-    f[0] -= (gvi_real)sin((double)q[0]);
-    return (void)t, (void)v, (void)dldv, (void)user, 0;
-}
+AT_POINT(swinging) { return f[0] -= sin(q[0]), 0; }
 
 /* A pendulum at rest at 1 rad, steps longer than its period.  Newton's method found solutions, and its energy
    went from -0.54 to 51.  Steps may fail; none may leave the well (degree 2 to h = 8.5, beyond which it is too coarse) */
@@ -503,9 +440,7 @@ TEST(no_step_is_another_motions)
         for (int k = 0; k < (degree == 2 ? 31 : 40); ++k) {
             const gvi_desc desc = { .n = 1, .degree = degree, .effects = &effect, .effect_count = 1 };
             const gvi_real h = (gvi_real)(1 + 0.25*k);
-            gvi_stepper st;
-            assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-            assert_ok(gvi_start(&st, 0, &q, &v));
+            gvi_stepper st = new_motion(&desc, 0, &q, &v);
             for (int j = 0; j < 20 && gvi_step(&st, h) == GVI_OK; ++j) {
                 const double p = (double)st.p[0];
                 assert_between(-1.0001, p*p/2 - cos((double)st.q[0]), 1);
@@ -513,12 +448,7 @@ TEST(no_step_is_another_motions)
         }
 }
 
-static int wrong_hessian(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *fq, gvi_real *fv, gvi_real *pv,
-                         void *user)
-{
-    fq[0] -= *(const gvi_real *)user;
-    return (void)t, (void)q, (void)v, (void)fv, (void)pv, 0;
-}
+HESSIAN(wrong_hessian) { return fq[0] -= *(const real *)user, 0; }
 
 /* f = -q, with -K as its derivative: K of 1e10 makes changes that are small, and the solution is not near */
 TEST(a_wrong_hessian_costs_iterations_or_the_step)
@@ -531,11 +461,9 @@ TEST(a_wrong_hessian_costs_iterations_or_the_step)
         for (int degree = 2; degree <= 8; degree *= 2) {
             const gvi_desc desc = { .n = 1, .degree = degree, .effects = &effect, .effect_count = 1,
                                     .formulation = GVI_NEWTON };
-            gvi_stepper st;
-            assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-            assert_ok(gvi_start(&st, 0, &q, &v));
+            gvi_stepper st = new_motion(&desc, 0, &q, &v);
             for (int k = 0; k < 10 && gvi_step(&st, h) == GVI_OK; ++k)
-                assert_close(st.q[0], cos((double)st.t), degree == 2 ? 1e-5 : 1e-7 + 100*EPS);
+                assert_close(st.q[0], cos((double)st.t), degree == 2 ? 5e-7 + 20*EPS : 1e-8 + 20*EPS);
             if (e <= 0) assert_ok(st.status);
         }
     }
@@ -565,7 +493,7 @@ static int beads(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real *f, 
 }
 
 /* From rest at 0, derivatives by differences; units of length and time of 1e-30 to 1e30, in float of 1e-6 to 1e6.
-   Energies are of 1: masses go with (time/length)^2, to 1e+-120  */
+   Energies are of 1: masses go with (time/length)^2, to 1e+-120 */
 TEST(differences_have_no_units)
 {
     const int most = EPS > (gvi_real)1e-10 ? 20 : 100;
@@ -583,9 +511,7 @@ TEST(differences_have_no_units)
                                     .mass = { .kind = term ? GVI_MASS_NONE : GVI_MASS_DIAGONAL, .matrix = u.mass },
                                     .formulation = GVI_NEWTON };
             const gvi_real q[2] = { 0, 0 }, v[2] = { 0, 0 };
-            gvi_stepper st;
-            assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-            assert_ok(gvi_start(&st, 0, q, v));
+            gvi_stepper st = new_motion(&desc, 0, q, v);
             go(&st, u.time/4, 1);
             const unsigned long one = (unsigned long)st.counters.newton_iterations;
             go(&st, u.time/4, 19);
@@ -597,24 +523,6 @@ TEST(differences_have_no_units)
             assert_between((1 - slack)*counts[0] - 10*slack, one, (1 + slack)*counts[0] + 10*slack);
             assert_between((1 - slack)*counts[1], all, (1 + slack)*counts[1]);
         }
-    }
-}
-
-/* There and back, a period and a half at a time */
-TEST(a_step_back_returns)
-{
-    static const gvi_effect effect = { .kind = GVI_POTENTIAL, .point = harmonic };
-    static const gvi_desc desc = { .n = 1, .degree = 2, .effects = &effect, .effect_count = 1 };
-    for (int k = 0; k < 60; ++k) {
-        const gvi_real q = 1, v = 0, h = (gvi_real)(1 + 0.17L*k);
-        gvi_stepper st;
-        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-        assert_ok(gvi_start(&st, 0, &q, &v));
-        go(&st, h, 3);
-        const gvi_real was = st.q[0];
-        go(&st, h, 1);
-        go(&st, -h, 1);
-        assert_close(st.q[0], was, 100*EPS);
     }
 }
 
@@ -643,7 +551,7 @@ static int noisy_top(gvi_real t, const gvi_real *q, const gvi_real *v, gvi_real 
 
 /* Newton's method may come to rest in noise and then run away from there, as its matrix, of differences of
    differences, is bad.  Once it had been at rest such a step was ok, wherever it ended: theta = 132, and
-   more.  The top's is between the poles, 0 and pi, where p_phi != p_psi does not let it go.  */
+   more.  The top's is between the poles, 0 and pi, where p_phi != p_psi does not let it go. */
 TEST(what_grows_is_not_at_rest)
 {
     static const gvi_effect effect = { .kind = GVI_LAGRANGIAN, .point = noisy_top };
@@ -651,10 +559,8 @@ TEST(what_grows_is_not_at_rest)
                                    .effect_count = 1 };
     if (KIND != 2) skip();
     for (int m = 0; m < 400; ++m) {
-        const gvi_real q[] = { (gvi_real)(0.8 + 0.5*(double)uniform()), 0, 0 }, v[] = { 0, (gvi_real)(1 + (double)uniform()), 200 };
-        gvi_stepper st;
-        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
-        assert_ok(gvi_start(&st, 0, q, v));
+        const gvi_real q[] = { (gvi_real)(0.8 + 0.5*(double)random_unit()), 0, 0 }, v[] = { 0, (gvi_real)(1 + (double)random_unit()), 200 };
+        gvi_stepper st = new_motion(&desc, 0, q, v);
         for (int k = 0; k < 10 && gvi_step(&st, (gvi_real)0.01) == GVI_OK; ++k) assert_between(-10, st.q[0], 10);
     }
 }

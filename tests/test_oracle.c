@@ -1,16 +1,16 @@
 /* One step of every formulation against a 50-digit solution of the equations in
    control points (tests/gen/oracle.py): q1, p1, the curve and the action, for
-   seven problems, degrees 1 to 8, Gauss and Lobatto rules.                     */
+   seven problems, degrees 1 to 8, Gauss and Lobatto rules. */
 #include "gvi_test.h"
+#include "problems.h"
 #include "data/oracle.h"
-#include <tgmath.h>
 
 enum { N_MAX = 3, TERMS = 3, FORMULATIONS = 6 };
 
 /* The largest error allowed, in eps of the magnitudes of q, p and the action. */
 #define LIMIT 4
 
-/* ----------------------------------------------------------- the problems
+/* the problems
    Constants are quotients of integers, so that they are exact in any gvi_real. */
 
 typedef gvi_real value_fn(gvi_real t, const gvi_real *q, const gvi_real *v);
@@ -29,17 +29,12 @@ struct problem {
     struct term terms[TERMS];
 };
 
-#define POINT(name) static int name(gvi_real t, const gvi_real *q, const gvi_real *v, \
-                                    gvi_real *f, gvi_real *dldv, void *user)
 #define VALUE(name) static gvi_real name(gvi_real t, const gvi_real *q, const gvi_real *v)
-#define HESSIAN(name) static int name(gvi_real t, const gvi_real *q, const gvi_real *v, \
-                                      gvi_real *fq, gvi_real *fv, gvi_real *pv, void *user)
 
 /* separable */
-
 static const gvi_real two_masses[] = { 5/(gvi_real)4, 3/(gvi_real)4 };
 
-POINT(separable_point)
+AT_POINT(separable_point)
 {
     gvi_real x = q[0], y = q[1];
     f[0] -= x + 5*x*y/2 + 5*x*x*x/2 + y/4;
@@ -63,43 +58,13 @@ HESSIAN(separable_hessian)
 
 /* pendulum: T = (11/4 v0^2 + 7/8 v1^2)/2 + 9/8 v0 v1 cos(q0 - q1) */
 
-static int pendulum_mass(const gvi_points *x, void *user)
-{
-    int d = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        x->mass[k]       = 11/(gvi_real)4;
-        x->mass[2*d + k] = 9*cos(x->q[k] - x->q[d + k])/8;
-        x->mass[3*d + k] = 7/(gvi_real)8;
-    }
-    return 0;
-}
-
-static int pendulum_gradient(const gvi_points *x, void *user)
-{
-    int d = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        gvi_real a = 9*x->v[k]*x->v[d + k]*sin(x->q[k] - x->q[d + k])/8;
-        x->f[k] -= a;
-        x->f[d + k] += a;
-    }
-    return 0;
-}
-
-POINT(pendulum_point)
-{
-    f[0] -= 11*sin(q[0])/2;
-    f[1] -= 7*sin(q[1])/4;
-    return 0;
-}
-
 VALUE(pendulum_value)
 {
     return -11*cos(q[0])/2 - 7*cos(q[1])/4;
 }
 
 /* magnetic: a potential, and A(q).v with a field that is not uniform */
-
-POINT(trap_point)
+AT_POINT(trap_point)
 {
     gvi_real x = q[0], y = q[1];
     f[0] -= 2*x + x*y*y;
@@ -121,7 +86,7 @@ HESSIAN(trap_hessian)
     return 0;
 }
 
-POINT(field_point)
+AT_POINT(curved_point)
 {
     gvi_real x = q[0], y = q[1];
     f[0] += v[0]*y*y/4 + v[1]*(2 + 3*x)/4;
@@ -131,13 +96,13 @@ POINT(field_point)
     return 0;
 }
 
-VALUE(field_value)
+VALUE(curved_value)
 {
     gvi_real x = q[0], y = q[1];
     return v[0]*(x*y*y - 3*y)/4 + v[1]*(4*x + 3*x*x)/8;
 }
 
-HESSIAN(field_hessian)
+HESSIAN(curved_hessian)
 {
     gvi_real x = q[0], y = q[1];
     fq[0] += 3*v[1]/4;        fq[1] += y*v[0]/2;
@@ -148,10 +113,9 @@ HESSIAN(field_hessian)
 }
 
 /* relativistic: m = 3/4, c = 5/4 */
-
 static gvi_real slowness(const gvi_real *v) { return sqrt(1 - 16*(v[0]*v[0] + v[1]*v[1])/25); }
 
-POINT(relativistic_point)
+AT_POINT(relativistic_point)
 {
     gvi_real w = slowness(v);
     for (int i = 0; i < 2; ++i) dldv[i] += 3*v[i]/(4*w);
@@ -172,18 +136,14 @@ HESSIAN(relativistic_hessian)
     return 0;
 }
 
-static int relativistic_velocity(const gvi_points *x, void *user)
+GVI_EACH(relativistic_velocity, 2, p, velocity)
 {
-    int d = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        gvi_real a = x->p[k], b = x->p[d + k], w = sqrt(9/(gvi_real)16 + 16*(a*a + b*b)/25);
-        x->velocity[k] = a/w;
-        x->velocity[d + k] = b/w;
-    }
-    return 0;
+    gvi_real a = x->p[0], b = x->p[1], w = sqrt(9/(gvi_real)16 + 16*(a*a + b*b)/25);
+    x->velocity[0] = a/w;
+    x->velocity[1] = b/w;
 }
 
-POINT(bowl_point)
+AT_POINT(bowl_point)
 {
     gvi_real x = q[0], y = q[1];
     f[0] -= (5*x + 3*y*y)/4;
@@ -212,7 +172,7 @@ static const gvi_real driven_mass[] = {
     -1/(gvi_real)8,  1/(gvi_real)2, 5/(gvi_real)4
 };
 
-POINT(driven_point)
+AT_POINT(driven_point)
 {
     gvi_real x = q[0], y = q[1], z = q[2], d = x - y, w = cos(5*t/2);
     f[0] -= x + 3*y*z/8 + d*z*z + 11*w/8;
@@ -229,10 +189,9 @@ VALUE(driven_value)
 }
 
 /* damped */
-
 static const gvi_real damped_mass[] = { 3/(gvi_real)2, 99, 3/(gvi_real)8, 5/(gvi_real)8 };
 
-POINT(swing_point)
+AT_POINT(swing_point)
 {
     f[0] -= (9*sin(q[0]) + q[1])/4;
     f[1] -= (9*sin(q[1]) + 2*q[0])/8;
@@ -251,7 +210,7 @@ HESSIAN(swing_hessian)
     return 0;
 }
 
-POINT(drag_point)
+AT_POINT(drag_point)
 {
     gvi_real w = sqrt(v[0]*v[0] + v[1]*v[1]);
     f[0] += (6*cos(3*t/2) - (3 + 2*w)*v[0])/8;
@@ -270,7 +229,7 @@ HESSIAN(drag_hessian)
 
 /* mixed: the pendulum, with the drag and this, which reads t, q and v */
 
-POINT(extra_point)
+AT_POINT(extra_point)
 {
     gvi_real w = v[0]*v[0] + 2*v[1]*v[1];
     f[0] += 3*q[1]*v[1]/8;
@@ -290,11 +249,11 @@ VALUE(extra_value)
 static struct problem problems[] = {
     { { .kind = GVI_MASS_DIAGONAL, .matrix = two_masses }, 1,
       { { GVI_POTENTIAL, separable_point, separable_value, separable_hessian } } },
-    { { .kind = GVI_MASS_POSITION, .points = pendulum_mass, .gradient = pendulum_gradient }, 1,
-      { { GVI_POTENTIAL, pendulum_point, pendulum_value, NULL } } },
+    { { .kind = GVI_MASS_POSITION, .points = absolute_mass, .gradient = absolute_gradient }, 1,
+      { { GVI_POTENTIAL, absolute_weight, pendulum_value, NULL } } },
     { { .kind = GVI_MASS_UNIT }, 2,
       { { GVI_POTENTIAL, trap_point, trap_value, trap_hessian },
-        { GVI_LAGRANGIAN, field_point, field_value, field_hessian } } },
+        { GVI_LAGRANGIAN, curved_point, curved_value, curved_hessian } } },
     { { .kind = GVI_MASS_NONE, .velocity = relativistic_velocity }, 2,
       { { GVI_LAGRANGIAN, relativistic_point, relativistic_value, relativistic_hessian },
         { GVI_POTENTIAL, bowl_point, bowl_value, bowl_hessian } } },
@@ -303,8 +262,8 @@ static struct problem problems[] = {
     { { .kind = GVI_MASS_DENSE, .matrix = damped_mass }, 2,
       { { GVI_POTENTIAL, swing_point, swing_value, swing_hessian },
         { GVI_FORCE, drag_point, NULL, drag_hessian } } },
-    { { .kind = GVI_MASS_POSITION, .points = pendulum_mass, .gradient = pendulum_gradient }, 3,
-      { { GVI_POTENTIAL, pendulum_point, pendulum_value, NULL },
+    { { .kind = GVI_MASS_POSITION, .points = absolute_mass, .gradient = absolute_gradient }, 3,
+      { { GVI_POTENTIAL, absolute_weight, pendulum_value, NULL },
         { GVI_FORCE, drag_point, NULL, drag_hessian },
         { GVI_LAGRANGIAN, extra_point, extra_value, NULL } } }
 };
@@ -340,8 +299,6 @@ static int all_values(const gvi_points *x, void *user)
     }
     return 0;
 }
-
-/* ------------------------------------------------------------- one variant */
 
 enum { ONE_POINT = 1, WITH_HESSIAN = 2, WITH_VELOCITY = 4 };
 
@@ -442,7 +399,7 @@ static long double run_case(const struct oracle_case *o, int options, gvi_formul
         assert_status(gvi_init(&st, &desc, memory, sizeof memory), GVI_E_FORMULATION);
         return -1;
     }
-    assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+    st = new_stepper(&desc);
     e = step_error(&st, o);
     work->newton += st.counters.newton_iterations;
     work->points += st.counters.effect[0];
@@ -453,7 +410,7 @@ static long double run_case(const struct oracle_case *o, int options, gvi_formul
 }
 
 /* All cases of a problem in all formulations: prints the worst errors and the
-   first that is too large, returns the work of Newton and all failures.      */
+   first that is too large, returns the work of Newton and all failures. */
 static struct work run(int problem, int options, const char *with)
 {
     struct work work[FORMULATIONS] = { { 0, 0, 0 } };
@@ -471,9 +428,7 @@ static struct work run(int problem, int options, const char *with)
     return work[GVI_NEWTON];
 }
 
-/* ------------------------------------------------------------------- tests */
-
-TEST(test_plain)
+TEST(all_points_at_once_to_4_eps)
 {
     int failed = 0;
     print_message("  worst errors in eps          ");
@@ -483,7 +438,7 @@ TEST(test_plain)
     assert_int_equal(failed, 0);
 }
 
-TEST(test_one_point)
+TEST(one_point_a_call_to_4_eps)
 {
     int failed = 0;
     for (int k = 0; k < COUNT(problems); ++k) failed += run(k, ONE_POINT, "one point").failed;
@@ -491,8 +446,8 @@ TEST(test_one_point)
 }
 
 /* Second derivatives change the work of Newton's method and nothing else: no
-   more iterations, fewer evaluations.                                        */
-TEST(test_hessian)
+   more iterations, fewer evaluations. */
+TEST(hessians_save_evaluations_and_change_nothing_else)
 {
     int failed = 0;
     for (int k = 0; k < COUNT(problems); ++k)
@@ -504,7 +459,7 @@ TEST(test_hessian)
     assert_int_equal(failed, 0);
 }
 
-TEST(test_velocity)
+TEST(a_velocity_callback_changes_nothing)
 {
     int failed = run(3, WITH_VELOCITY, "velocity").failed;
     failed += run(3, WITH_VELOCITY | WITH_HESSIAN | ONE_POINT, "velocity, all").failed;
@@ -512,20 +467,18 @@ TEST(test_velocity)
 }
 
 /* Far out the term of fourth order in v outweighs M(q), and the fixed point of
-   the momenta diverges, to infinity: whatever it says there, never "ok".      */
-TEST(test_divergence)
+   the momenta diverges, to infinity: whatever it says there, never "ok". */
+TEST(what_diverges_is_never_ok)
 {
-    static gvi_real memory[GVI_LENGTH(2, 8, 11)];
     for (int k = 0; k < COUNT(oracle_cases); ++k)
         for (int scale = 4; scale <= 4096; scale *= 4) {
             const struct oracle_case *o = &oracle_cases[k];
             const gvi_real q[] = { 1/(gvi_real)2, -1/(gvi_real)4 }, p[] = { (gvi_real)scale, -(gvi_real)scale };
             gvi_effect effects[TERMS];
             gvi_desc desc;
-            gvi_stepper st;
             if (o->problem != 6 || o->r != o->s) continue;
             describe(&desc, effects, 0, o, GVI_MOMENTA);
-            assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+            gvi_stepper st = new_stepper(&desc);
             assert_ok(gvi_start_momentum(&st, 0, q, p));
             assert_true(gvi_step(&st, 1/(gvi_real)8) != GVI_OK);
             assert_true(st.q[0] == q[0] && st.p[1] == p[1] && st.t == 0);

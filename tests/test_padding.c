@@ -1,9 +1,7 @@
 /* What lies behind the points of a row, from count to stride: t and q of the step's start, which a
    callback may go on to.  Every formulation, mass, clock and query is run twice, with callbacks that
-   end at count and with ones that go on and leave NaN there: not one bit may differ.          */
+   end at count and with ones that go on and leave NaN there: not one bit may differ. */
 #include "gvi_test.h"
-
-typedef gvi_real real;
 
 enum { N = 3, STEPS = 12, MOST = 24 };
 
@@ -265,33 +263,6 @@ TEST(what_is_behind_the_points_is_not_read)
 #ifndef __OPTIMIZE_SIZE__                                  /* small code has rows of r numbers */
         assert_true(behind > 0);
 #endif
-    }
-}
-
-TEST(between_two_configurations_neither)
-{
-    static real memory[GVI_LENGTH(N, 8, 8)];
-    static const real q0[N] = { 1, (real)0.25L, (real)0.125L }, q1[N] = { (real)0.96L, (real)0.31L, (real)0.16L };
-    for (int degree = 1; degree < 8; ++degree) {
-        real got[2][KEPT] = { { 0 } };
-        for (int whole = 0; whole < 2; ++whole) {
-            watch w = { .near = 16*EPS, .whole = whole, .t = { (real)0.5L, (real)0.5L } };
-            gvi_effect scene[5];
-            gvi_stepper st;
-            gvi_desc d = describe(DRAG, GVI_NEWTON, degree, scene, &w);
-            int used = 0;
-            real p[4*N];
-            for (int i = 0; i < N; ++i) w.start[0][i] = w.start[1][i] = q0[i];
-            if (degree < 6) d.rule.points = 6;
-            assert_int_equal(gvi_init(&st, &d, memory, sizeof memory), GVI_OK);
-            const gvi_discrete out = { .p0 = p, .p1 = p + N, .minus = p + 2*N, .plus = p + 3*N };
-            assert_int_equal(gvi_discrete_lagrangian(&st, (real)0.5L, (real)0.125L, q0, q1, &out), GVI_OK);
-            take(got[whole], &used, p, COUNT(p));
-#ifndef __OPTIMIZE_SIZE__
-            assert_true(w.behind > 0);
-#endif
-        }
-        compare("discrete Lagrangian", degree, got[0], got[1]);
     }
 }
 

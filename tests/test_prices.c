@@ -1,16 +1,13 @@
-/* The price list of examples/scenes/price.c, and the promise behind it: what a
-   scene does not list is not asked, not once, takes no byte, and leaves no trace.
-   Instructions are counted by make prices; results to the bit and
-   switching are in test_scenes.c.                                             */
+/* The promise behind the price list of examples/scenes/price.c: what a scene does not list
+   is not asked, not once, takes no byte, and leaves no trace. Instructions are counted by make
+   prices; results to the bit and switching are in test_scenes.c. */
 #include "gvi_test.h"
 #include "scenes/scenes.c"
-#define PRICE_NO_MAIN
-#include "scenes/price.c"
 
 static scene_setup made;
 static gvi_stepper st;
 
-/* In the place of an effect that is not listed: whoever asks it is counted.     */
+/* In the place of an effect that is not listed: whoever asks it is counted. */
 static int asked;
 
 static int trap_points(const gvi_points *x, void *user) { return ++asked, 0; }
@@ -21,8 +18,7 @@ static int trap_hessian(gvi_real t, const gvi_real *q, const gvi_real *v,
     return ++asked, 0;
 }
 
-/* Puts effect e at the end of the array and leaves it out of the count, its
-   callbacks trapped.                                                          */
+/* Puts effect e at the end of the array and leaves it out of the count, its callbacks trapped. */
 static gvi_effect unlist(int e)
 {
     const gvi_effect was = made.effects[e];
@@ -35,7 +31,7 @@ static gvi_effect unlist(int e)
 }
 
 /* Every scene, every effect: the rest of the scene is all that is asked, in steps
-   and in all queries, and it has no counter.                                  */
+   and in all queries, and it has no counter. */
 TEST(unlisted_effects_are_never_asked)
 {
     int seen = 0;
@@ -65,23 +61,10 @@ TEST(unlisted_effects_are_never_asked)
     assert_int_equal(seen, 35);
 }
 
-/* The trap works: listed, it is asked.                                         */
-TEST(the_trap_counts)
-{
-    double memory[20000];
-    scene_build(scene_find("elastic_pendulum"), &made, NULL);
-    made.effects[1].points = trap_points;
-    asked = 0;
-    assert_ok(gvi_init(&st, &made.desc, memory, sizeof memory));
-    assert_ok(gvi_start(&st, 0, made.q, made.v));
-    assert_ok(gvi_step(&st, 0.05));
-    assert_true(asked > 0);
-}
-
 /* Memory depends on what the list as a whole asks for, not on its length: for every
    scene and effect, leaving it out gives the bytes of a scene with whatever other
    effect of the kinds that are left; and as many as the scene with all of them
-   unless the formulation is another, which then is smaller.                    */
+   unless the formulation is another, which then is smaller. */
 TEST(unlisted_effects_take_no_bytes)
 {
     int less = 0;
@@ -108,46 +91,7 @@ TEST(unlisted_effects_take_no_bytes)
             assert_true(gvi_size(&made.desc) == without);
         }
     }
-    print_message("  %d of them, unlisted, make the memory smaller\n", less);
     assert_true(less >= 3);
-}
-
-/* ----------------------------------------------------------- the list itself */
-
-static const price *without_effect(const scene *a, const price *without, const char *name)
-{
-    scene_build(a, &made, NULL);
-    return without + scene_effect(&made, name);
-}
-
-/* Points are what counters say they are: whole iterations of r points a step; and the
-   formulation with and without what asks for velocities.                       */
-TEST(the_price_list_is_right)
-{
-    static const struct { const char *scene, *effect; gvi_formulation with, without; } known[] = {
-        { "net", "air", GVI_VELOCITIES, GVI_POSITIONS },
-        { "net", "hooks", GVI_VELOCITIES, GVI_VELOCITIES },
-        { "satellite", "air", GVI_VELOCITIES, GVI_POSITIONS },
-        { "satellite", "oblateness", GVI_VELOCITIES, GVI_VELOCITIES },
-        { "arenstorf", "frame", GVI_VELOCITIES, GVI_POSITIONS },
-        { "robot_arm", "weight", GVI_MOMENTA, GVI_MOMENTA } };
-    for (int k = 0; k < COUNT(known); ++k) {
-        const scene *a = scene_find(known[k].scene);
-        price all = { .status = GVI_OK }, without[GVI_EFFECTS];
-        memset(without, 0, sizeof without);
-        assert_ok(price_scene(a, 30, 1, &all, without));
-        const price *p = without_effect(a, without, known[k].effect);
-        assert_int_equal(all.formulation, known[k].with);
-        assert_int_equal(p->formulation, known[k].without);
-        assert_true(p->bytes <= all.bytes && all.bytes > 0);
-        assert_true(all.step >= 0 && p->step >= 0);
-        // each point of each iteration: all effects alike, as many as iterations times r or a few more
-        const int count = made.desc.effect_count;
-        for (int e = 1; e < count; ++e) assert_true(all.points[e] == all.points[0]);
-        assert_between(all.iterations*a->degree, all.points[0], (all.iterations + 2)*a->degree + 1);
-        for (int e = count; e < GVI_EFFECTS; ++e) assert_true(all.points[e] == 0);
-        for (int e = count - 1; e < GVI_EFFECTS; ++e) assert_true(p->points[e] == 0);
-    }
 }
 
 RUN_TESTS(NULL, NULL)

@@ -1,14 +1,10 @@
-/* What can be asked of a stepper: velocity, energy, the curve, the state inside
-   a step, the action, the discrete Lagrangian with all that belongs to it.
-   Against closed forms, against each other, and against differences (in long
-   double by default, so that those say something).                          */
+/* What can be asked of a stepper: velocity, energy, the curve, the state inside a step, the action,
+   the discrete Lagrangian with all that belongs to it. Against closed forms, against each other,
+   and against differences (in long double by default, so that those say something). */
 #ifndef GVI_REAL
 #define GVI_REAL long double
 #endif
 #include "gvi_test.h"
-#include <tgmath.h>
-
-typedef gvi_real real;
 #include "problems.h"
 
 #define PI 3.14159265358979323846264338327950288L
@@ -17,8 +13,7 @@ static real memory[2][60000];
 
 static void set_up(gvi_stepper *st, const gvi_desc *desc, int slot)
 {
-    assert_true(gvi_size(desc) > 0 && gvi_size(desc) <= sizeof memory[slot]);
-    assert_ok(gvi_init(st, desc, memory[slot], sizeof memory[slot]));
+    *st = new_stepper(desc);
 }
 
 /* Not memcmp: long double has padding */
@@ -31,13 +26,10 @@ static void assert_vectors_close(const real *a, const real *b, real tol)
     for (int i = 0; i < 2; ++i) assert_close(a[i], b[i], tol);
 }
 
-/* ------------------------------------------------------------------ scenes
-
-   Two degrees of freedom.  V = -g(t) (2 cos q1 + cos(q1 + q2)), g = 1 + sin(2t)/2;
-   a term linear in v, a = (-q2 (1 + q1^2), q1)/2; drag and a drive.            */
+/* Two degrees of freedom.  V = -g(t) (2 cos q1 + cos(q1 + q2)), g = 1 + sin(2t)/2;
+   a term linear in v, a = (-q2 (1 + q1^2), q1)/2; drag and a drive. */
 
 static real clock_of(real t) { return 1 + sin(2*t)/2; }
-
 static real V(real t, const real *q) { return -clock_of(t)*(2*cos(q[0]) + cos(q[0] + q[1])); }
 
 AT_POINT(drag)
@@ -97,8 +89,6 @@ static void start_scene(gvi_stepper *st, int kind, int effect_count, int s, int 
     assert_ok(gvi_start(st, t, q_start, v_start));
 }
 
-/* -------------------------------------------------------- velocity and energy */
-
 TEST(velocity_and_energy_are_right_for_every_mass)
 {
     for (int kind = GVI_MASS_UNIT; kind <= GVI_MASS_POSITION; ++kind) {
@@ -120,7 +110,7 @@ TEST(velocity_and_energy_are_right_for_every_mass)
 }
 
 /* L = -sqrt(1 - v'v): p = v/sqrt(1 - v'v), so v = p/sqrt(1 + p'p) and the energy
-   is sqrt(1 + p'p).                                                          */
+   is sqrt(1 + p'p). */
 AT_POINT(relativistic)
 {
     real w = 1 - v[0]*v[0] - v[1]*v[1];
@@ -130,22 +120,16 @@ AT_POINT(relativistic)
     return 0;
 }
 
-AT_POINTS(relativistic_value)
+GVI_EACH(relativistic_value, 2, v, value)
 {
-    for (int k = 0; k < x->count; ++k) {
-        real a = x->v[k], b = x->v[x->stride + k];
-        x->value[k] -= sqrt(1 - a*a - b*b);
-    }
-    return 0;
+    real a = x->v[0], b = x->v[1];
+    x->value[0] -= sqrt(1 - a*a - b*b);
 }
 
-AT_POINTS(relativistic_velocity)
+AT_EACH(relativistic_velocity)
 {
-    FOR_EACH(x, a) {
-        const int k = a % x->stride;
-        x->velocity[a] = x->p[a]/sqrt(1 + x->p[k]*x->p[k] + x->p[x->stride + k]*x->p[x->stride + k]);
-    }
-    return 0;
+    const int k = a % x->stride;
+    x->velocity[a] = x->p[a]/sqrt(1 + x->p[k]*x->p[k] + x->p[x->stride + k]*x->p[x->stride + k]);
 }
 
 static const gvi_effect fast[] = {
@@ -179,14 +163,10 @@ TEST(velocity_and_energy_are_right_for_a_general_lagrangian)
 }
 
 /* A charge in a field, dL/dv = v + a(q): a difference of dL/dv by a v_i next to 0 must not be lost in a */
-AT_POINTS(uniform_field)
+GVI_EACH(uniform_field, 2, v, f, dldv)
 {
-    const int R = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        if (x->f) x->f[k] += x->v[R + k]/2, x->f[R + k] -= x->v[k]/2;
-        if (x->dldv) x->dldv[k] -= x->q[R + k]/2, x->dldv[R + k] += x->q[k]/2;
-    }
-    return 0;
+    x->f[0] += x->v[1]/2, x->f[1] -= x->v[0]/2;
+    x->dldv[0] -= x->q[1]/2, x->dldv[1] += x->q[0]/2;
 }
 
 TEST(velocities_next_to_0_are_found_beside_a_vector_potential)
@@ -207,33 +187,6 @@ TEST(velocities_next_to_0_are_found_beside_a_vector_potential)
             assert_close(hypot(v[0], v[1]), hypot(1, small), 16*EPS);
         }
 }
-
-/* Differences for Newton's matrix: however short the step, no velocity beyond that of light */
-TEST(short_steps_stay_in_the_domain_of_L)
-{
-    const gvi_desc desc = { .n = 2, .degree = 4, .effects = fast, .effect_count = 2, .mass = { .kind = GVI_MASS_NONE } };
-    const real v0[] = { 0.6L, 0.5L };
-    gvi_stepper st;
-    set_up(&st, &desc, 0);
-    for (real h = 0.1L; h > 1e-25L; h /= 100) {
-        real v[2];
-        assert_ok(gvi_start(&st, 0.3L, q_start, v0));
-        assert_ok(gvi_step(&st, h));
-        assert_ok(gvi_velocity(&st, v));
-        assert_vectors_close(v, v0, 2*h + 16*EPS);               // |a| < 2
-    }
-    assert_ok(gvi_start(&st, 0.3L, q_start, v0));
-    for (int k = 0; k < 100; ++k) {
-        real q[2], back = 1e-16L;
-        assert_ok(gvi_step(&st, 0.1L));
-        assert_ok(gvi_state_at(&st, st.t, q, NULL, NULL));
-        assert_vectors_close(q, st.q, EPS*st.t + 4*EPS);          // t is rounded, and speeds are below 1
-        assert_ok(gvi_state_at(&st, st.t - back, q, NULL, NULL));
-        assert_vectors_close(q, st.q, back + EPS*st.t + 4*EPS);
-    }
-}
-
-/* ---------------------------------------------------------------------- starts */
 
 TEST(the_three_starts_agree)
 {
@@ -268,8 +221,6 @@ TEST(the_three_starts_agree)
     }
 }
 
-/* ---------------------------------------------------------- inside the last step */
-
 TEST(the_curve_begins_at_q0_and_ends_at_q1)
 {
     for (int kind = GVI_MASS_UNIT; kind <= GVI_MASS_POSITION; ++kind)
@@ -284,28 +235,6 @@ TEST(the_curve_begins_at_q0_and_ends_at_q1)
         assert_vectors_close(q, q0, EPS);
         assert_ok(gvi_curve(&st, 1, q, NULL));
         assert_vectors_close(q, st.q, 2*EPS);
-    }
-}
-
-/* v is the derivative of q: differences of order 8 of a polynomial of degree 6
-   have no truncation error, only EPS/delta.                                  */
-TEST(the_curve_gives_its_own_derivative)
-{
-    static const real weight[4] = { (real)4/5, -(real)1/5, (real)4/105, -(real)1/280 };
-    gvi_stepper st;
-    real h = 0.5L, delta = 0.09L;
-    start_scene(&st, GVI_MASS_POSITION, CONSERVATIVE, 6, 6, 0.3L);
-    assert_ok(gvi_step(&st, h));
-    for (int k = 0; k <= 2; ++k) {
-        real tau = 0.4L + 0.1L*k, v[2], sum[2] = { 0, 0 };
-        assert_ok(gvi_curve(&st, tau, NULL, v));
-        for (int j = 1; j <= 4; ++j) {
-            real up[2], down[2];
-            assert_ok(gvi_curve(&st, tau + j*delta, up, NULL));
-            assert_ok(gvi_curve(&st, tau - j*delta, down, NULL));
-            for (int i = 0; i < 2; ++i) sum[i] += weight[j - 1]*(up[i] - down[i])/(delta*h);
-        }
-        assert_vectors_close(v, sum, 4*EPS/(delta*h));
     }
 }
 
@@ -397,14 +326,11 @@ static void expect_queries_to_change_nothing(const gvi_desc *desc, real h, gvi_f
     assert_true(quiet.t == asked.t);
 }
 
-AT_POINTS(stiff_springs)
+AT_EACH(stiff_springs)
 {
-    FOR_EACH(x, a) {
-        const real stiffness = a < x->stride ? 10000 : 1;
-        if (x->f) x->f[a] -= stiffness*x->q[a];
-        if (x->value) x->value[a % x->stride] += stiffness*x->q[a]*x->q[a]/2;
-    }
-    return 0;
+    const real stiffness = a < x->stride ? 10000 : 1;
+    if (x->f) x->f[a] -= stiffness*x->q[a];
+    if (x->value) x->value[a % x->stride] += stiffness*x->q[a]*x->q[a]/2;
 }
 
 /* In every formulation, and where AUTO has gone over to Newton's method */
@@ -430,23 +356,18 @@ TEST(queries_do_not_change_later_steps_to_the_bit)
 }
 
 /* A charge in a field B = 1 + x^2 + y^2, L = B (x v_y - y v_x)/2, with a quartic well */
-AT_POINTS(field_and_well)
+GVI_EACH(field_and_well, 2, v, f, dldv)
 {
-    const real K = *(const real *)user;
-    const int d = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        const real a = x->q[k], b = x->q[d + k], u = x->v[k], w = x->v[d + k];
-        const real B = 1 + a*a + b*b, area = (a*w - b*u)/2;
-        x->dldv[k] -= B*b/2;
-        x->dldv[d + k] += B*a/2;
-        x->f[k] += 2*a*area + B*w/2 - K*a*a*a;
-        x->f[d + k] += 2*b*area - B*u/2 - K*b*b*b;
-    }
-    return 0;
+    const real K = *(const real *)user, a = x->q[0], b = x->q[1], u = x->v[0], w = x->v[1];
+    const real B = 1 + a*a + b*b, area = (a*w - b*u)/2;
+    x->dldv[0] -= B*b/2;
+    x->dldv[1] += B*a/2;
+    x->f[0] += 2*a*area + B*w/2 - K*a*a*a;
+    x->f[1] += 2*b*area - B*u/2 - K*b*b*b;
 }
 
 /* A step by Newton's method leaves no momenta of Lagrangian terms: where the fixed point comes after
-   it, what it begins with is not what a query has left in scratch.  (17 of 4000 such runs.)  */
+   it, what it begins with is not what a query has left in scratch.  (17 of 4000 such runs.) */
 TEST(queries_change_nothing_between_newton_and_fixed_point)
 {
     int both = 0;
@@ -486,15 +407,12 @@ TEST(the_action_of_a_step_is_the_discrete_lagrangian_of_its_ends)
     }
 }
 
-/* ------------------------------------------------------- the discrete Lagrangian */
-
 #define OMEGA 1.3L
 
-AT_POINTS(spring)
+GVI_EACH(spring, 1, f, value)
 {
-    for (int k = 0; k < x->count && x->f; ++k) x->f[k] -= OMEGA*OMEGA*x->q[k];
-    for (int k = 0; k < x->count && x->value; ++k) x->value[k] += OMEGA*OMEGA*x->q[k]*x->q[k]/2;
-    return 0;
+    x->f[0] -= OMEGA*OMEGA*x->q[0];
+    x->value[0] += OMEGA*OMEGA*x->q[0]*x->q[0]/2;
 }
 
 static const gvi_effect oscillator[] = { { .kind = GVI_POTENTIAL, .points = spring, .value = spring } };
@@ -506,39 +424,10 @@ static void start_oscillator(gvi_stepper *st, int s, gvi_rule_kind rule)
     assert_ok(gvi_start(st, 0, (const real[]){ 1 }, (const real[]){ 0.5L }));
 }
 
-/* L_d = w ((q0^2 + q1^2) cos wh - 2 q0 q1)/(2 sin wh), exactly; how it converges there: test_theorems.c */
-static real exact_oscillator(real h, real q0, real q1, real *d1, real *d2)
+GVI_EACH(growing, 1, f, value)
 {
-    real c = cos(OMEGA*h), s = sin(OMEGA*h);
-    *d1 = OMEGA*(q0*c - q1)/s;
-    *d2 = OMEGA*(q1*c - q0)/s;
-    return OMEGA*((q0*q0 + q1*q1)*c - 2*q0*q1)/(2*s);
-}
-
-/* The two that fit on a line: midpoint and trapezoidal rule */
-TEST(degree_one_gives_the_discrete_lagrangians_of_the_textbook)
-{
-    const real h = 0.7L, q0 = 0.8L, q1 = 0.5L, v = (q1 - q0)/h, mid = (q0 + q1)/2, w2 = OMEGA*OMEGA;
-    for (int rule = GVI_GAUSS; rule <= GVI_LOBATTO; ++rule) {
-        const int gauss = rule == GVI_GAUSS;
-        gvi_stepper st;
-        real Ld, d1, d2;
-        start_oscillator(&st, 1, (gvi_rule_kind)rule);
-        assert_ok(gvi_discrete_lagrangian(&st, 0, h, &q0, &q1,
-                                          &(gvi_discrete){ .lagrangian = &Ld, .d1 = &d1, .d2 = &d2 }));
-        assert_close(Ld, h*(v*v - w2*(gauss ? mid*mid : (q0*q0 + q1*q1)/2))/2, 4*EPS);
-        assert_close(d1, -v - h*w2*(gauss ? mid : q0)/2, 4*EPS);
-        assert_close(d2, v - h*w2*(gauss ? mid : q1)/2, 4*EPS);
-    }
-}
-
-/* V = -t q, a force that grows with time: at degree 1 with Lobatto's points the action is
-   h v^2/2 + h/2 (t q0 + (t + h) q1), also where steps are explicit and need no times */
-AT_POINTS(growing)
-{
-    for (int k = 0; k < x->count && x->f; ++k) x->f[k] += x->t[k];
-    for (int k = 0; k < x->count && x->value; ++k) x->value[k] -= x->t[k]*x->q[k];
-    return 0;
+    x->f[0] += x->t[0];
+    x->value[0] -= x->t[0]*x->q[0];
 }
 
 TEST(the_discrete_lagrangian_knows_the_time_in_every_formulation)
@@ -595,7 +484,7 @@ static real difference(gvi_stepper *st, real t, real h, int which)
 /* The derivatives that are returned are those of the value that is returned: of
    the whole of it, so also where forces bend the curve.  Rounding of L over
    delta = EPS^(1/9), truncation of that size too.  With forces the answer needs
-   second derivatives: those of M(q) are differences, exact to sqrt(EPS).      */
+   second derivatives: those of M(q) are differences, exact to sqrt(EPS). */
 TEST(d1_and_d2_are_the_derivatives_of_the_value)
 {
     static const int rules[][2] = { { 1, 1 }, { 3, 3 }, { 3, 5 }, { 6, 6 } };
@@ -615,7 +504,7 @@ TEST(d1_and_d2_are_the_derivatives_of_the_value)
 }
 
 /* p0 = -d1 - minus and p1 = d2 + plus are the momenta of the step from q0 to q1.
-   1/h = 2.5 is the size of the second derivatives of L_d.                     */
+   1/h = 2.5 is the size of the second derivatives of L_d. */
 TEST(its_momenta_are_those_of_the_step)
 {
     for (int count = 1; count <= FORCED; ++count)
@@ -627,7 +516,7 @@ TEST(its_momenta_are_those_of_the_step)
         ask_discrete(&st, 0.3L, 0.4L, q_start, q_end, &d);
         for (int i = 0; i < 2; ++i) {
             assert_close(d.p0[i], -d.d1[i] - d.minus[i], 32*EPS);
-            assert_close(d.p1[i], d.d2[i] + d.plus[i], 32*EPS);
+            assert_close(d.p1[i], d.d2[i] + d.plus[i], 4*EPS);
             if (count < FORCED) assert_true(d.minus[i] == 0 && d.plus[i] == 0);
             else assert_true(fabs(d.minus[i]) > 1e-3L && fabs(d.plus[i]) > 1e-3L);
         }
@@ -635,22 +524,6 @@ TEST(its_momenta_are_those_of_the_step)
         assert_ok(gvi_step(&st, 0.4L));
         assert_vectors_close(st.q, q_end, 32*EPS);
         assert_vectors_close(st.p, d.p1, 64*EPS);
-    }
-}
-
-/* Degree 1, Gauss 1: the curve is the chord, so F- = F+ = h f(midpoint)/2 */
-TEST(the_discrete_forces_of_the_midpoint_rule_are_half_the_force_each)
-{
-    gvi_stepper st;
-    discrete d;
-    real h = 0.4L, q[2], v[2], f[2] = { 0, 0 };
-    start_scene(&st, GVI_MASS_POSITION, FORCED, 1, 1, 0);
-    ask_discrete(&st, 0.3L, h, q_start, q_end, &d);
-    for (int i = 0; i < 2; ++i) { q[i] = (q_start[i] + q_end[i])/2; v[i] = (q_end[i] - q_start[i])/h; }
-    drag(0.3L + h/2, q, v, f, NULL, NULL);
-    for (int i = 0; i < 2; ++i) {
-        assert_close(d.minus[i], h*f[i]/2, 8*EPS);
-        assert_close(d.plus[i], h*f[i]/2, 8*EPS);
     }
 }
 
@@ -665,11 +538,8 @@ TEST(the_discrete_lagrangian_leaves_the_state_alone)
     assert_true(st.h == (real)0.1L);
 }
 
-/* ------------------------------------------------------------ conjugate points */
-
-/* h omega = k pi: any curve A sin(omega t) joins 0 to 0.  Degree 24 knows that to
-   rounding.  The step, which is given q0 and p0, does not care: it turns the
-   phase by k pi.                                                             */
+/* h omega = k pi: any curve A sin(omega t) joins 0 to 0. Degree 24 knows that to rounding. The
+   step, which is given q0 and p0, does not care: it turns the phase by k pi. */
 TEST(conjugate_points_are_reported_and_the_step_does_not_care)
 {
     for (int k = 1; k <= 2; ++k) {
@@ -683,20 +553,6 @@ TEST(conjugate_points_are_reported_and_the_step_does_not_care)
         assert_ok(gvi_step(&st, h));
         assert_close(st.q[0], q1, 50*EPS);                   /* rounding of h*omega too */
         assert_close(st.p[0], q1/2, 50*EPS);
-    }
-}
-
-/* Away from it by a tenth of a per cent there is an answer, with some 1000 EPS */
-TEST(near_a_conjugate_point_the_answer_is_as_exact_as_it_can_be)
-{
-    for (int side = -1; side <= 1; side += 2) {
-        real h = (real)PI/(real)OMEGA*(1 + side*0.001L), q0 = 1, q1 = 0.5L, Ld, e1, e2, exact;
-        gvi_stepper st;
-        start_oscillator(&st, 24, GVI_GAUSS);
-        exact = exact_oscillator(h, q0, q1, &e1, &e2);
-        assert_ok(gvi_discrete_lagrangian(&st, 0, h, &q0, &q1, &(gvi_discrete){ .lagrangian = &Ld }));
-        /* rounding of h alone moves 1/sin by 1/0.001 */
-        assert_close(Ld, exact, fabs(exact)*1000*20*EPS);
     }
 }
 

@@ -1,49 +1,23 @@
-/* Corners that went wrong once: each a few lines, each its own reason.        */
-#ifndef GVI_REAL
-#define GVI_REAL double
-#endif
+/* Corners that went wrong once: each a few lines, each its own reason. */
 #include "gvi_test.h"
 
-typedef gvi_real real;
 static real memory[8000], more[8000];
 
-static int spring(const gvi_points *x, void *user)
-{
-    for (int i = 0; i < x->n; ++i)
-        for (int k = 0; k < x->count; ++k) x->f[i*x->stride + k] -= x->q[i*x->stride + k];
-    return 0;
-}
+AT_EACH(spring) { x->f[a] -= x->q[a]; }
+AT_EACH(drag) { x->f[a] -= x->v[a]; }
 
-static int drag(const gvi_points *x, void *user)
-{
-    for (int i = 0; i < x->n; ++i)
-        for (int k = 0; k < x->count; ++k) x->f[i*x->stride + k] -= x->v[i*x->stride + k];
-    return 0;
-}
-
-static int not_a_number(const gvi_points *x, void *user)
-{
-    const int *sick = (const int *)user;
-    for (int k = 0; k < x->count; ++k) x->f[k] += *sick ? (real)NAN : 0;
-    return 0;
-}
+GVI_EACH(not_a_number, 1, f) { x->f[0] += *(const int *)user ? (real)NAN : 0; }
 
 /* L = sum m_i (v_i^2/2 + v_i^4/(4 u^2)): momentum v + v^3/u^2 in units of u */
-static int quartic(const gvi_points *x, void *user)
+AT_EACH(quartic)
 {
-    const real *unit = (const real *)user;
-    for (int i = 0; i < x->n; ++i)
-        for (int k = 0; k < x->count; ++k) {
-            real v = x->v[i*x->stride + k]/unit[i];
-            x->dldv[i*x->stride + k] += (v + v*v*v)*unit[i];
-        }
-    return 0;
+    const real unit = ((const real *)user)[a/x->stride], v = x->v[a]/unit;
+    x->dldv[a] += (v + v*v*v)*unit;
 }
 
 static gvi_stepper *set_up(gvi_stepper *st, gvi_desc desc, real *where)
 {
-    assert_true(gvi_size(&desc) > 0 && gvi_size(&desc) <= sizeof memory);
-    assert_ok(gvi_init(st, &desc, where, sizeof memory));
+    *st = new_stepper(&desc);
     return st;
 }
 
@@ -70,21 +44,6 @@ TEST(a_start_from_next_to_nothing_is_a_start)
     assert_ok(gvi_start(&st, 0, (real[]){ 0, 1 }, (real[]){ (real)1e-25, 0 }));
     for (int k = 0; k < 100; ++k) assert_ok(gvi_step(&st, (real)0.125));
     assert_between(0, fabsl((long double)st.q[0]), 1e-25L);
-}
-
-/* v = 2u, p = 10u, whatever the unit u of the coordinate and that of the other */
-TEST(velocities_of_different_units_come_out_alike)
-{
-    for (int e = -12; e <= 12; e += 4) {
-        real unit[2] = { 1, (real)pow(10, e) }, q[2] = { 0, 0 }, v[2], p[2];
-        const gvi_effect scene[] = { { .kind = GVI_LAGRANGIAN, .points = quartic, .user = unit } };
-        gvi_stepper st;
-        for (int i = 0; i < 2; ++i) p[i] = 10*unit[i];
-        set_up(&st, (gvi_desc){ .n = 2, .degree = 2, .effects = scene, .effect_count = 1, .mass = { .kind = GVI_MASS_NONE } }, memory);
-        assert_ok(gvi_start_momentum(&st, 0, q, p));
-        assert_ok(gvi_velocity(&st, v));
-        for (int i = 0; i < 2; ++i) assert_close(v[i]/unit[i], 2, 8*EPS);
-    }
 }
 
 /* Two free oscillators, one 1e20 times heavier (and as stiff): nothing conjugate */
@@ -142,50 +101,6 @@ TEST(no_nan_passes_for_a_momentum)
     }
 }
 
-/* Failed steps and failed queries, in either of two twins, leave no trace */
-TEST(failures_leave_no_trace_in_later_steps)
-{
-    const gvi_formulation pins[] = { GVI_AUTO, GVI_POSITIONS, GVI_NEWTON };
-    for (int f = 0; f < COUNT(pins); ++f) {
-        int sick = 0;
-        const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = spring },
-                                     { .kind = GVI_POTENTIAL, .points = not_a_number, .user = &sick } };
-        const gvi_desc desc = { .n = 2, .degree = 4, .effects = scene, .effect_count = 2, .formulation = pins[f] };
-        const real q[2] = { 1, 2 }, v[2] = { 0, 1 };
-        gvi_stepper a, b;
-        real x[2];
-        set_up(&a, desc, memory);
-        set_up(&b, desc, more);
-        assert_ok(gvi_start(&a, 0, q, v));
-        assert_ok(gvi_start(&b, 0, q, v));
-        for (int k = 0; k < 40; ++k) {
-            assert_ok(gvi_step(&a, (real)0.25));
-            assert_ok(gvi_step(&b, (real)0.25));
-            sick = 1;
-            assert_status(gvi_state_at(&b, b.t - (real)0.0625, x, NULL, NULL), GVI_E_NON_FINITE);
-            if (pins[f] != GVI_NEWTON) assert_status(gvi_step(&b, (real)0.25), GVI_E_NON_FINITE);
-            sick = 0;
-            assert_memory_equal(a.q, b.q, sizeof q);
-            assert_memory_equal(a.p, b.p, sizeof q);
-        }
-        assert_int_equal(a.counters.newton_iterations > 0, pins[f] == GVI_NEWTON);
-    }
-}
-
-/* Sizes whose products leave size_t or int are refused, not wrapped */
-TEST(sizes_that_do_not_fit_are_refused)
-{
-    static const gvi_effect scene[] = { { .kind = GVI_LAGRANGIAN, .points = quartic } };
-    gvi_desc desc = { .n = 40000, .degree = 2, .effects = scene, .effect_count = 1 };
-    assert_int_equal(gvi_size(&desc), 0);
-    desc.n = 10000000;
-    desc.effect_count = 0;
-    desc.formulation = GVI_POSITIONS;
-    assert_int_equal(gvi_size(&desc), 0);
-    desc.n = 100000;
-    assert_true(gvi_size(&desc) > 0);
-}
-
 /* The ends' weights of too many equispaced points are 0 in this type: no basis */
 TEST(weights_that_vanish_are_refused)
 {
@@ -195,14 +110,10 @@ TEST(weights_that_vanish_are_refused)
     assert_status(gvi_barycentric(sizeof(real) > 8 ? MANY : 1200, x, w), GVI_E_NODES);
 }
 
-static int push(const gvi_points *x, void *user)
-{
-    for (int k = 0; k < x->n*x->stride; ++k) x->f[k] += x->t[k % x->stride] > 2;
-    return 0;
-}
+AT_EACH(push) { x->f[a] += x->t[a % x->stride] > 2; }
 
 /* A coordinate next to nothing rests for two steps; then a force of 1 sets in, and it moves by a factor
-   whose square no type has.  Of every formulation that iterates: q = t^2/2, p = t.  */
+   whose square no type has.  Of every formulation that iterates: q = t^2/2, p = t. */
 TEST(a_force_may_set_in_where_next_to_nothing_was)
 {
     static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = push } };
@@ -245,15 +156,10 @@ TEST(the_drift_that_rounding_leaves_is_no_larger_than_documented)
     }
 }
 
-static int pendula(const gvi_points *x, void *user)
-{
-    for (int i = 0; i < x->n; ++i)
-        for (int k = 0; k < x->count; ++k) x->f[i*x->stride + k] -= (real)sinl((long double)x->q[i*x->stride + k]);
-    return 0;
-}
+AT_EACH(pendula) { x->f[a] -= (real)sinl((long double)x->q[a]); }
 
 /* Stage values are made in whole vectors: which lane a coordinate is in must not be seen in a bit of it.  How many there are hardly changes when the iteration ends: with a tolerance the
-   sum of all changes has a limit, so eight take a little longer than seven.   */
+   sum of all changes has a limit, so eight take a little longer than seven. */
 TEST(coordinates_alike_move_alike)
 {
     static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = pendula }, { .kind = GVI_FORCE, .points = drag } };
@@ -281,17 +187,6 @@ TEST(coordinates_alike_move_alike)
                     const int spread = kind > 1 ? 12 : 2;
                     if (n > 7) assert_between(*seven - spread, its, *seven + spread);
                 }
-}
-
-/* Weights of which no sum has a digit: they overflowed, and were left out as if they were 0     */
-TEST(weights_that_hide_their_sum_are_refused)
-{
-    const real c[] = { 0, 0, (real)0.5L, 1 }, huge = 1/(EPS*EPS);
-    const real b[] = { (real)0.5L, huge, -huge, (real)0.5L };
-    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = spring } };
-    const gvi_desc desc = { .n = 1, .degree = 1, .rule = { GVI_KICKS, 4, c, b }, .effects = scene, .effect_count = 1 };
-    gvi_stepper st;
-    assert_status(gvi_init(&st, &desc, memory, sizeof memory), GVI_E_ORDER);
 }
 
 RUN_TESTS(NULL, NULL)

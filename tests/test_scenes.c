@@ -1,7 +1,7 @@
 /* The scenes of examples/scenes: every one runs, its energy changes by the work
    of its forces and by nothing else; four come to published ends and periods.
    And a scene pays for what it lists: an effect that is off, or not listed, is
-   not asked and leaves no trace in the result; nor memory (test_prices.c).     */
+   not asked and leaves no trace in the result; nor memory (test_prices.c). */
 #include "gvi_test.h"
 #include "scenes/scenes.c"
 
@@ -47,12 +47,10 @@ static void steps(long count, double h)
 
 static void velocity(double *v) { assert_ok(gvi_velocity(&st, v)); }
 
-/* --------------------------------------------------------- energy and balance */
-
 typedef struct balance { double gained, missing, kinetic; } balance;
 
 /* Runs a scene; the most that the energy changed, that it did so without work
-   being done, and that the kinetic energy was.                               */
+   being done, and that the kinetic energy was. */
 static balance run_balance(const scene *a, const char *without)
 {
     balance b = { 0, 0, 0 };
@@ -73,7 +71,7 @@ static balance run_balance(const scene *a, const char *without)
     return b;
 }
 
-/* All forces of a scene, for leaving them out.                                */
+/* All forces of a scene, for leaving them out. */
 static int list_forces(const scene *a, char *names, size_t size)
 {
     int count = 0;
@@ -89,7 +87,7 @@ static int list_forces(const scene *a, char *names, size_t size)
 
 /* Over its whole duration each scene keeps its energy, or changes it by the work
    of its forces, to rounding: 1e-12 of the kinetic energy, in 80 to 16384 steps. */
-TEST(test_energy_balance)
+TEST(energy_changes_by_the_work_of_forces_alone)
 {
     char names[256];
     int forced = 0;
@@ -97,8 +95,6 @@ TEST(test_energy_balance)
         const balance b = run_balance(scenes[i], NULL);
         assert_true(b.kinetic > 0);
         const int forces = list_forces(scenes[i], names, sizeof names);
-        print_message("  %-20s gained %8.1e  not accounted for %8.1e\n", scenes[i]->name,
-                      b.gained/b.kinetic, b.missing/b.kinetic);
         assert_true(b.missing <= 1e-12*b.kinetic);
         if (forces) assert_true(b.gained > 0.01*b.kinetic);
         else assert_true(b.gained <= 5e-14*b.kinetic);
@@ -108,22 +104,9 @@ TEST(test_energy_balance)
     assert_int_equal(forced, 7);
 }
 
-/* Without its forces every scene is conservative.                             */
-TEST(test_energy_without_forces)
-{
-    char names[256];
-    for (int i = 0; i < scene_count; ++i) {
-        if (!list_forces(scenes[i], names, sizeof names)) continue;
-        const balance b = run_balance(scenes[i], names);
-        print_message("  %-20s without %s: kept to %.1e\n", scenes[i]->name, names, b.gained/b.kinetic);
-        assert_true(b.kinetic > 0 && b.gained <= 1e-10*b.kinetic);
-        assert_true(b.missing == b.gained);
-    }
-}
-
 /* What the scenes say they conserve, in units of the momentum or angular momentum
-   that there is; the satellite without its air.                              */
-TEST(test_conserved_quantities)
+   that there is; the satellite without its air. */
+TEST(what_scenes_say_they_conserve_is_conserved)
 {
     int seen = 0;
     for (int i = 0; i < scene_count; ++i) {
@@ -147,8 +130,6 @@ TEST(test_conserved_quantities)
     assert_int_equal(seen, 80*9);
 }
 
-/* ------------------------------------------------------------- the sky's laws */
-
 /* Against the 25-digit end state of examples/outer_solar_system_reference.txt. */
 static double solar_system_error(int degree, int parts)
 {
@@ -171,15 +152,15 @@ static double solar_system_error(int degree, int parts)
     return worst;
 }
 
-TEST(test_solar_system_against_reference)
+TEST(the_solar_system_ends_where_the_reference_does)
 {
     assert_between(0, solar_system_error(8, 1), 1e-11);
     assert_between(7.5, log2(solar_system_error(4, 1)/solar_system_error(4, 2)), 8.5);
 }
 
 /* The three bodies come back after Simo's period, and after a third of it each
-   stands where another began; to the 8 digits that the data have.            */
-TEST(test_figure_eight_period)
+   stands where another began; to the 8 digits that the data have. */
+TEST(the_figure_eight_closes_after_its_period)
 {
     const double period = 6.32591398;
     double v[6], miss = 0, far = 0, along = 0, speed = 0;
@@ -195,13 +176,12 @@ TEST(test_figure_eight_period)
         along += (made.q[i] - st.q[i])*v[i];
         speed += v[i]*v[i];
     }
-    print_message("  closes to %.1e; period %.9f\n", far, period + along/speed);
     assert_between(1e-10, far, 1e-7);
     assert_close(period + along/speed, period, 5e-8);
 }
 
-/* Arenstorf's orbit closes, though a perturbation of its start grows 1e4-fold.  */
-TEST(test_arenstorf_closes)
+/* Arenstorf's orbit closes, though a perturbation of its start grows 1e4-fold. */
+TEST(arenstorfs_orbit_closes)
 {
     const scene *a = build("arenstorf", NULL);
     double nudged;
@@ -240,39 +220,24 @@ static double recurrence(int degree, gvi_rule_kind rule, double h, double *share
 /* The energy of the FPUT chain returns after 146.4 periods of mode 1.  The 157 of
    the literature belong to the step of the report itself, leapfrog with h^2 = 1/8,
    whose error weakens the dispersion by 1/8 and so delays the return by
-   sqrt(8/7) = 1.069; Stoermer-Verlet is that method.                          */
-TEST(test_fput_recurrence)
+   sqrt(8/7) = 1.069; Stoermer-Verlet is that method. */
+TEST(the_fput_chain_returns_when_it_should)
 {
     double share, exact = recurrence(6, GVI_GAUSS, 1, &share), leapfrog, fine;
     assert_between(0.975, share, 0.985);
     assert_between(146, exact, 147);
     leapfrog = recurrence(1, GVI_LOBATTO, sqrt(1/8.0), &share);
     assert_int_equal(st.formulation, GVI_EXPLICIT);
-    print_message("  exact %.2f periods, with the step of the report %.2f\n", exact, leapfrog);
     assert_between(156, leapfrog, 158);
     assert_between(0.97, share, 0.985);
     assert_close(leapfrog/exact, sqrt(8/7.0), 0.005);
     fine = recurrence(1, GVI_LOBATTO, sqrt(1/512.0), &share);
     assert_close(fine, exact, 0.5);
 
-    // in between it was elsewhere
-    double v[FPUT_BONDS], least = 1;
-    build("fput", NULL);
-    start();
-    const double first = fput_mode(made.q, made.v, 1);
-    for (int k = 0; k < 100*64; ++k) {
-        steps(1, 1);
-        velocity(v);
-        least = fmin(least, fput_mode(st.q, v, 1)/first);
-    }
-    assert_between(0.01, least, 0.15);
 }
 
-/* ------------------------------------------------------- pay for what is listed */
-
-/* Runs `count` steps of scene a with effect e switched off (in st) and not listed
-   (in bare); the two steppers stay for comparison.  Do both have the same
-   formulation, as chosen from the list?                                      */
+/* Runs `count` steps of scene a with effect e switched off (in st) and not listed (in bare); the
+   two steppers stay for comparison. Do both have the same formulation, as chosen from the list? */
 static int off_and_unlisted(const scene *a, int e, long count, gvi_stepper *bare)
 {
     const char *name;
@@ -297,8 +262,8 @@ static int off_and_unlisted(const scene *a, int e, long count, gvi_stepper *bare
 /* Off is as if it were not listed: not one evaluation, and the same work and the
    same bits as long as the formulation is the same.  Where it was the effect that
    asked for velocities, the formulation differs, both steppers say so, and the
-   results agree as two ways of computing the same numbers do.                */
-TEST(test_off_is_unlisted)
+   results agree as two ways of computing the same numbers do. */
+TEST(off_is_as_if_not_listed)
 {
     static gvi_stepper bare;
     int same = 0;
@@ -329,47 +294,6 @@ TEST(test_off_is_unlisted)
     assert_string_equal(changed, "satellite:air arenstorf:frame net:air crossed_fields:magnetic hanging_chain:air "
                                  "peaucellier:bearings ");
     assert_int_equal(same, 29);
-}
-
-/* Off and on again between steps: its counter stands still while it is off, and
-   the others' does not.                                                      */
-TEST(test_switching_between_steps)
-{
-    unsigned long long before[GVI_EFFECTS];
-    for (int i = 0; i < scene_count; ++i) {
-        build(scenes[i]->name, NULL);
-        for (int e = 0; e < made.desc.effect_count; ++e) {
-            if (made.effects[e].kind == GVI_CONSTRAINT) continue;       // the way back is not open
-            start();
-            for (int part = 0; part < 3; ++part) {
-                memcpy(before, st.counters.effect, sizeof before);
-                assert_ok(gvi_switch(&st, e, part != 1));
-                steps(4, scenes[i]->h/2);
-                for (int k = 0; k < made.desc.effect_count; ++k)
-                    assert_true((st.counters.effect[k] > before[k]) == (k != e || part != 1));
-            }
-        }
-    }
-}
-
-/* The names on the command line and in `without` mean what they say.           */
-TEST(test_lists)
-{
-    assert_true(scene_lists("air,hooks", "air") && scene_lists("air,hooks", "hooks"));
-    assert_false(scene_lists("air,hooks", "hook"));
-    assert_false(scene_lists("airy", "air"));
-    assert_false(scene_lists("", "air"));
-    assert_false(scene_lists(NULL, "air"));
-    assert_null(scene_find("no such scene"));
-    build("net", "threads,air");
-    assert_int_equal(made.desc.effect_count, 2);
-    assert_int_equal(scene_effect(&made, "hooks"), 1);
-    for (int i = 0; i < scene_count; ++i) {
-        scene_build(scenes[i], &made, NULL);
-        assert_true(scenes[i]->n <= SCENE_MAX && scenes[i]->points <= SCENE_BODIES);
-        assert_true(made.desc.effect_count > 0);
-        assert_ptr_equal(scene_find(scenes[i]->name), scenes[i]);
-    }
 }
 
 RUN_TESTS(get_memory, free_memory)

@@ -1,27 +1,19 @@
 /* examples/tools/tangent.h: the derivative of a step.  What is expected comes from
    theory (the matrix of a step is symplectic), from Kepler's equation in 50 digits,
-   and from differences of the scene alone.                                     */
+   and from differences of the scene alone. */
 #include "gvi_test.h"
 #include "tools/tangent.h"
-
-typedef gvi_real real;
 #include "products.h"
 enum { N = 2, MOST = 6, ROWS = N*(1 + MOST), ROOM = 13*ROWS + ROWS*ROWS };
 
 static real memory[60000], other_memory[20000], room[ROOM];
 
-/* ---------------------------------------------------- effects and products */
-
-/* Henon and Heiles: V = (x^2 + y^2)/2 + x^2 y - y^3/3                         */
-static int heiles(const gvi_points *x, void *user)
+/* Henon and Heiles: V = (x^2 + y^2)/2 + x^2 y - y^3/3 */
+GVI_EACH(heiles, 2, f)
 {
-    const int s = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        const real a = x->q[k], b = x->q[s+k];
-        x->f[k] -= a + 2*a*b;
-        x->f[s+k] -= b + a*a - b*b;
-    }
-    return 0;
+    const real a = x->q[0], b = x->q[1];
+    x->f[0] -= a + 2*a*b;
+    x->f[1] -= b + a*a - b*b;
 }
 
 static int heiles_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
@@ -42,18 +34,14 @@ static int heiles_point(real t, const real *q, const real *v, real *f, real *dld
     return 0;
 }
 
-/* Friction -c |v|^2 v; c is parameter 0.                                      */
+/* Friction -c |v|^2 v; c is parameter 0. */
 static real friction_c;
 
-static int friction(const gvi_points *x, void *user)
+GVI_EACH(friction, 2, v, f)
 {
-    const int s = x->stride;
-    for (int k = 0; k < x->count; ++k) {
-        const real a = x->v[k], b = x->v[s+k], z = a*a + b*b;
-        x->f[k] -= friction_c*z*a;
-        x->f[s+k] -= friction_c*z*b;
-    }
-    return 0;
+    const real a = x->v[0], b = x->v[1], z = a*a + b*b;
+    x->f[0] -= friction_c*z*a;
+    x->f[1] -= friction_c*z*b;
 }
 
 static int friction_product(const gvi_points *x, const gvi_points *d, int parameter, void *user)
@@ -74,8 +62,6 @@ static int clock_rate(const gvi_points *x, void *user)
     return 0;
 }
 
-/* ------------------------------------------------------------------ scenes */
-
 static const gvi_effect
     of_heiles[] = { { .kind = GVI_POTENTIAL, .points = heiles } },
     of_heiles_point[] = { { .kind = GVI_POTENTIAL, .point = heiles_point } },
@@ -92,20 +78,17 @@ typedef struct scene {
     const char *name;
     gvi_desc    desc;
     tangent_fn *product[2];
-    int         forced;              /* friction: not symplectic                */
+    int         forced;              /* friction: not symplectic */
     gvi_formulation used;
 } scene;
 
 static const scene scenes[] = {
     { "positions, degree 1", { HEILES, .degree = 1 }, { heiles_product }, 0, GVI_POSITIONS },
-    { "positions, degree 2", { HEILES, .degree = 2 }, { heiles_product }, 0, GVI_POSITIONS },
     { "positions, degree 3", { HEILES, .degree = 3 }, { heiles_product }, 0, GVI_POSITIONS },
-    { "positions, degree 4", { HEILES, .degree = 4 }, { heiles_product }, 0, GVI_POSITIONS },
     { "positions, degree 8", { HEILES, .degree = 8 }, { heiles_product }, 0, GVI_POSITIONS },
     { "one point a call", { .n = N, .degree = 4, .effects = of_heiles_point, .effect_count = 1 },
       { heiles_product }, 0, GVI_POSITIONS },
-    { "Stoermer-Verlet", { HEILES, .degree = 1, .rule = { .kind = GVI_LOBATTO } },
-      { heiles_product }, 0, GVI_EXPLICIT },
+    { "Stoermer-Verlet", { HEILES, .degree = 1, .rule = { .kind = GVI_LOBATTO } }, { heiles_product }, 0, GVI_EXPLICIT },
     { "kicks of Forest and Ruth", { HEILES, .degree = 1, .rule = { GVI_KICKS, 4, ruth_at, ruth } },
       { heiles_product }, 0, GVI_EXPLICIT },
     { "Lobatto, 6 points, degree 3", { HEILES, .degree = 3, .rule = { .kind = GVI_LOBATTO, .points = 6 } },
@@ -118,19 +101,9 @@ static const scene scenes[] = {
     { "unit mass in momenta", { HEILES, .degree = 4, .formulation = GVI_MOMENTA }, { heiles_product }, 0, GVI_MOMENTA },
     { "velocities, friction", { .n = N, .degree = 4, .effects = of_friction, .effect_count = 2 },
       { heiles_product, friction_product }, 1, GVI_VELOCITIES },
-    { "velocities, magnetic", { .n = N, .degree = 4, .effects = of_magnetic, .effect_count = 2 },
-      { heiles_product, magnetic_product }, 0, GVI_VELOCITIES },
     { "Newton, magnetic", { .n = N, .degree = 3, .effects = of_magnetic, .effect_count = 2, .formulation = GVI_NEWTON },
       { heiles_product, magnetic_product }, 0, GVI_NEWTON },
-    { "Newton, friction", { .n = N, .degree = 3, .effects = of_friction, .effect_count = 2, .formulation = GVI_NEWTON },
-      { heiles_product, friction_product }, 1, GVI_NEWTON },
-    { "M(q), degree 1", { .n = N, .degree = 1, .effects = of_weight, .effect_count = 1, .mass = PENDULUM },
-      { weight_product }, 0, GVI_MOMENTA },
-    { "M(q), degree 2", { .n = N, .degree = 2, .effects = of_weight, .effect_count = 1, .mass = PENDULUM },
-      { weight_product }, 0, GVI_MOMENTA },
     { "M(q), degree 4", { .n = N, .degree = 4, .effects = of_weight, .effect_count = 1, .mass = PENDULUM },
-      { weight_product }, 0, GVI_MOMENTA },
-    { "M(q), degree 8", { .n = N, .degree = 8, .effects = of_weight, .effect_count = 1, .mass = PENDULUM },
       { weight_product }, 0, GVI_MOMENTA },
     { "M(q) and friction", { .n = N, .degree = 4, .effects = of_rubbed, .effect_count = 2, .mass = PENDULUM },
       { weight_product, friction_product }, 1, GVI_MOMENTA },
@@ -141,7 +114,7 @@ static const scene scenes[] = {
 
 static const real q0[] = { R(0.125), R(0.25) }, p0[] = { R(0.4375), R(-0.125) };
 
-/* The scene with its directions, 2 parameters if wanted, and h if wanted.      */
+/* The scene with its directions, 2 parameters if wanted, and h if wanted. */
 static gvi_stepper *made(tangent *T, const scene *s, int directions, int parameters, real h)
 {
     static gvi_stepper st;
@@ -152,25 +125,24 @@ static gvi_stepper *made(tangent *T, const scene *s, int directions, int paramet
     friction_c = R(0.25);
     coupling = 1;
     assert_ok(tangent_scene(T));
-    assert_true(gvi_size(&T->desc) > 0 && gvi_size(&T->desc) <= sizeof memory);
-    assert_ok(gvi_init(&st, &T->desc, memory, sizeof memory));
+    st = new_stepper(&T->desc);
     assert_ok(tangent_start(T, &st, 0, q0, p0, NULL, NULL));
     return &st;
 }
 
-/* The scene alone, for `steps` of h, from where start says: the end (q, p).    */
+/* The scene alone, for `steps` of h, from where start says: the end (q, p). */
 static void alone(const scene *s, const real *start, real h, int steps, real *end)
 {
     gvi_stepper st;
     assert_true(gvi_size(&s->desc) <= sizeof other_memory);
-    assert_ok(gvi_init(&st, &s->desc, other_memory, sizeof other_memory));
+    st = new_stepper(&s->desc);
     assert_ok(gvi_start_momentum(&st, 0, start, start + N));
     for (int k = 0; k < steps; ++k) assert_ok(gvi_step(&st, h));
     for (int i = 0; i < N; ++i) end[i] = st.q[i], end[N + i] = st.p[i];
 }
 
 /* Differences of the scene alone, to order 4: by state variable j < 4, by the parameters
-   (4 the friction, 5 the coupling), or by h (6).                              */
+   (4 the friction, 5 the coupling), or by h (6). */
 static void differences(const scene *s, int j, real h, int steps, real *out)
 {
     const real D = pow((real)EPS, R(0.2))/4;
@@ -188,7 +160,7 @@ static void differences(const scene *s, int j, real h, int steps, real *out)
     coupling = 1;
 }
 
-/* |M' J M - J|, the largest entry; M by columns (q, p).                       */
+/* |M' J M - J|, the largest entry; M by columns (q, p). */
 static real defect(real M[2*N][2*N], real *most)
 {
     real worst = 0;
@@ -204,8 +176,6 @@ static real defect(real M[2*N][2*N], real *most)
     return worst;
 }
 
-/* ------------------------------------------------------------------- tests */
-
 TEST(a_step_with_its_derivative_is_symplectic)
 {
     for (int i = 0; i < COUNT(scenes); ++i)
@@ -220,7 +190,6 @@ TEST(a_step_with_its_derivative_is_symplectic)
                 assert_ok(gvi_step(st, pendulum ? h/4 : h));
                 for (int j = 0; j < 2*N; ++j) tangent_column(&T, st, j, M[j], M[j] + N);
                 const real d = defect(M, &most);
-                if (!(d < 16*EPS*most*most)) print_error("%s, step %d\n", scenes[i].name, k);
                 assert_between(0, d, 16*EPS*most*most);
             }
             assert_int_equal(st->formulation, scenes[i].used);
@@ -239,11 +208,11 @@ TEST(so_is_a_run_by_the_dial)
     for (; st->t < 8; ++steps) assert_ok(gvi_advance(st, 8));
     for (int j = 0; j < 2*N; ++j) tangent_column(&T, st, j, M[j], M[j] + N);
     const real d = defect(M, &most);
-    assert_between(0, d, 16*EPS*(real)steps*most*most);
+    assert_between(0, d, EPS*most*most);
     assert_true(steps > 4);
 }
 
-/* By state, by parameters and by h, after 8 steps.                            */
+/* By state, by parameters and by h, after 8 steps. */
 TEST(every_column_is_what_differences_say)
 {
     for (int i = 0; i < COUNT(scenes); ++i) {
@@ -260,7 +229,6 @@ TEST(every_column_is_what_differences_say)
             for (int k = 0; k < 2*N; ++k) most = fmax(most, fabs(wanted[k]));
             for (int k = 0; k < 2*N; ++k) {
                 const real tol = 400*pow((real)EPS, R(0.8))*most;
-                if (!(fabs(column[k] - wanted[k]) <= tol)) print_error("%s, column %d, row %d\n", s->name, j, k);
                 assert_close(column[k], wanted[k], tol);
             }
         }
@@ -268,7 +236,7 @@ TEST(every_column_is_what_differences_say)
 }
 
 /* The state beside its derivative is that of the scene alone, but for another number of
-   iterations.                                                                 */
+   iterations. */
 TEST(the_motion_is_the_same)
 {
     for (int i = 0; i < COUNT(scenes); ++i) {
@@ -280,14 +248,14 @@ TEST(the_motion_is_the_same)
         for (int k = 0; k < 50; ++k) assert_ok(gvi_step(st, h));
         alone(&scenes[i], start, h, 50, end);
         for (int k = 0; k < N; ++k) {
-            assert_close(st->q[k], end[k], 40*EPS);
-            assert_close(st->p[k], end[N+k], 40*EPS);
+            assert_close(st->q[k], end[k], 8*EPS);
+            assert_close(st->p[k], end[N+k], 8*EPS);
         }
     }
 }
 
 /* With a given number of iterations not even that differs: the same bits.  Left to themselves they part
-   (in float they happen not to).                                              */
+   (in float they happen not to). */
 TEST(given_iterations_make_the_same_bits)
 {
     scene s = { "given", { HEILES, .degree = 8, .iterations = 12 }, { heiles_product }, 0, GVI_POSITIONS };
@@ -306,7 +274,7 @@ TEST(given_iterations_make_the_same_bits)
 }
 
 /* Kepler, e = 0.6, three quarters of a revolution from the pericentre: the derivative of the
-   motion, from Kepler's equation in 80 digits.                                */
+   motion, from Kepler's equation in 80 digits. */
 static const long double kepler_exact[4][4] = {
     { -79.07308723498460733702751L, -2.000955817470989425996232L,
       -0.7472129229862102570649894L, -25.80888329793299832150607L },
@@ -349,24 +317,7 @@ TEST(keplers_derivative_has_order_2s)
     assert_between(0, kepler_error(8, 80), 79*100*EPS + R(1e-15));
 }
 
-/* A step and a step back: the columns are where they began.                   */
-TEST(back_again)
-{
-    for (int i = 0; i < COUNT(scenes); ++i) {
-        const real h = scenes[i].desc.effects[0].points == weight ? R(0.0625) : R(0.25);
-        tangent T;
-        gvi_stepper *st = made(&T, &scenes[i], 2*N, 0, 0);
-        assert_ok(gvi_step(st, h));
-        assert_ok(gvi_step(st, -h));
-        for (int j = 0; j < 2*N; ++j) {
-            real z[2*N];
-            tangent_column(&T, st, j, z, z + N);
-            for (int k = 0; k < 2*N; ++k) assert_close(z[k], k == j, 32*EPS);
-        }
-    }
-}
-
-TEST(what_is_refused)
+TEST(scenes_without_a_tangent_are_refused)
 {
     static const gvi_effect with_clock[] = { { .kind = GVI_POTENTIAL, .points = heiles, .value = heiles },
                                              { .kind = GVI_CLOCK, .points = clock_rate } };
@@ -378,7 +329,7 @@ TEST(what_is_refused)
     assert_status(tangent_scene(&T), GVI_E_FORMULATION);
     T.plain.effect_count = 1;
     assert_ok(tangent_scene(&T));
-    assert_ok(gvi_init(&st, &T.desc, memory, sizeof memory));
+    st = new_stepper(&T.desc);
     assert_ok(tangent_start(&T, &st, 0, q0, p0, NULL, NULL));
     assert_status(gvi_energy(&st, &energy), GVI_E_VALUE);
     T.room_length = 20*N + 3*5*N - 1;
@@ -391,7 +342,7 @@ TEST(what_is_refused)
     assert_status(tangent_scene(&T), GVI_E_ARGUMENT);
     T.by_h = 0;
     T.plain.mass = (gvi_mass)PENDULUM;
-    assert_status(tangent_scene(&T), GVI_E_ARGUMENT);            /* no products   */
+    assert_status(tangent_scene(&T), GVI_E_ARGUMENT);            /* no products */
     T.velocity = pendulum_velocity_product;
     T.gradient = pendulum_gradient_product;
     assert_ok(tangent_scene(&T));
@@ -409,8 +360,8 @@ static int wrong_product(const gvi_points *x, const gvi_points *d, int parameter
     return 0;
 }
 
-/* Products that are right agree with differences; a term that is off by 2 % is found.  */
-TEST(what_the_check_finds)
+/* Products that are right agree with differences; a term that is off by 2 % is found. */
+TEST(the_check_finds_what_is_off_by_2_percent)
 {
     const real v[] = { R(0.5), R(-0.75) }, dq[] = { R(0.25), R(0.5) }, dv[] = { R(-0.5), R(0.75) };
     tangent T;

@@ -5,10 +5,11 @@
    Not here, because it is elsewhere: the double pendulum's orders, the state inside
    a step and weak rules (test_order.c), conjugate points of the oscillator and the
    derivatives of L_d and its forces (test_queries.c), other methods that steps are
-   (test_identities.c, test_oracle.c).                                          */
+   (test_identities.c, test_oracle.c). */
 #ifndef GVI_REAL
 #define GVI_REAL long double
 #endif
+#define OWN_REAL
 #include "gvi_test.h"
 #include "theorems/inertia.h"
 #include "theorems/modified.h"
@@ -51,8 +52,6 @@ static void expect_slopes(const char *what, error_fn *error, const problem *pb, 
 
 static const problem *conservative(int k) { return k ? &problems[k - 1] : &oscillator; }
 
-/* ------------------------------------------------------------------- reference */
-
 /* Against itself with half the step, and against Kepler's equation */
 TEST(the_reference_is_exact_to_rounding)
 {
@@ -71,16 +70,6 @@ TEST(the_reference_is_exact_to_rounding)
     assert_close(sqrt(square_distance(4, y, end)), 0, 20*EPS);
 }
 
-/* -------------------------------------------------------------- the two theorems */
-
-TEST(the_order_of_the_step_is_the_smaller_of_2s_and_u)
-{
-    static const int which[3] = { 0, 2, 3 };
-    misses = 0;
-    for (int i = 0; i < 3; ++i) expect_slopes("step", end_error, &problems[which[i]], 5, 1, 0, 48, 0.15L);
-    assert_int_equal(misses, 0);
-}
-
 TEST(the_discrete_lagrangian_is_exact_to_one_power_more)
 {
     misses = 0;
@@ -96,10 +85,8 @@ TEST(degree_24_gives_the_exact_discrete_lagrangian)
     for (int i = 0; i < FORCED; ++i) assert_close(lagrangian_error(&forced_problems[i], &m, 0.25L), 0, 8*EPS);
 }
 
-/* ------------------------------------------------ theorem 4.1 and what it needs
-
-   The hypotheses hold for the 3/8 rule with s = 4 and Boole's with s = 5, and the order is not min(2s, u) = 4, 6.
-   Milne's rule with s = 3 is the converse: a negative weight, no minimum at any step, and the full order.          */
+/* The hypotheses hold for the 3/8 rule with s = 4 and Boole's with s = 5, and the order is not min(2s, u) = 4, 6.
+   Milne's rule with s = 3 is the converse: a negative weight, no minimum at any step, and the full order. */
 TEST(a_rule_that_is_too_weak_lowers_the_order_although_every_curve_is_a_minimum)
 {
     static const struct { int r, s, order, top, negative; } cases[] = {
@@ -119,22 +106,6 @@ TEST(a_rule_that_is_too_weak_lowers_the_order_although_every_curve_is_a_minimum)
     assert_int_equal(misses, 0);
 }
 
-/* By hand: Milne -5/16, the only mode that it does not integrate; 3/8 the smaller eigenvalue of (1, b; b, c)        */
-TEST(the_quadrature_of_the_kinetic_energy_is_coercive_or_not)
-{
-    const own_rule three_eighths = newton_cotes(4);
-    const real b = 4*sqrt(21.0L)/27, c = 7*(0.25L + 363/2916.0L);
-    assert_close(coercivity(&milne, 3), -5/16.0L, 100*EPS);
-    assert_close(coercivity(&three_eighths, 4), (1 + c)/2 - sqrt((c - 1)*(c - 1)/4 + b*b), 100*EPS);
-    for (int s = 2; s <= 6; ++s) {
-        const own_rule exact = gauss(s), ends = lobatto(s);
-        assert_close(coercivity(&exact, s), 1, 100*EPS);
-        if (s > 2) assert_close(coercivity(&ends, s), 1, 100*EPS);          /* s = 2: its one mode counts 3 times */
-    }
-}
-
-/* ----------------------------------------------------------------------- curve */
-
 static int which_norm;
 static curve_kind which_curve;
 
@@ -146,7 +117,7 @@ static real norm_error(const problem *pb, const method *m, real h)
 }
 
 /* Theorem 5.1, the curve between given ends: exactly min(s, u/2) + 1 in the maximum norm, one more in L1, one less
-   each for the velocity                                                                                            */
+   each for the velocity */
 TEST(the_curve_has_order_min_s_and_half_u_plus_one)
 {
     static const int more[NORMS] = { 1, 2, 0, 1 };
@@ -164,15 +135,11 @@ TEST(a_polynomial_of_degree_s_comes_as_near_as_s_plus_1)
     misses = 0;
     which_curve = INTERPOLANT;
     for (int i = 0; i < PROBLEMS; ++i)
-        for (int s = 1; s <= 4; ++s) {
-            const method m = { s, { 0 } };
+        for (int s = 1; s <= 4; ++s)
             for (which_norm = 0; which_norm < NORMS; which_norm += 2)
-                expect_slope("interpolant", norm_error, &problems[i], &m, s + 1 - which_norm/2, 48, 0.15L);
-        }
+                expect_slope("interpolant", norm_error, &problems[i], &(method){ s, { 0 } }, s + 1 - which_norm/2, 48, 0.15L);
     assert_int_equal(misses, 0);
 }
-
-/* ---------------------------------------------------------------------- forced */
 
 static int which_part;
 
@@ -198,10 +165,8 @@ TEST(forces_cost_no_order_of_the_step_of_the_discrete_lagrangian_or_of_the_discr
     assert_int_equal(misses, 0);
 }
 
-/* ------------------------------------------------------------ doubled variables
-
-   Section 6.3: Kepler with drag f = -|v|v/20 as stationary action in variables x = (q1, q2), y = (q3, q4):
-     L(x) - L(y) + (f(x) + f(y))'(x - y)/2                                    */
+/* Section 6.3: Kepler with drag f = -|v|v/20 as stationary action in variables x = (q1, q2), y = (q3, q4):
+     L(x) - L(y) + (f(x) + f(y))'(x - y)/2 */
 static int two_copies(real t, const real *q, const real *v, real *f, real *dldv, void *user)
 {
     real pull_y[2] = { 0 }, x[2] = { 0 }, y[2] = { 0 }, X[4] = { 0 }, Y[4] = { 0 };
@@ -225,11 +190,9 @@ static int two_copies(real t, const real *q, const real *v, real *f, real *dldv,
 TEST(doubled_variables_move_as_the_forced_system_and_are_a_saddle)
 {
     static const real masses[4] = { 1, 1, -1, -1 };
-    static real memory[100000];
     const problem *pb = &forced_problems[1];
     for (int s = 1; s <= 8; ++s)
         for (int k = 0; k < 3; k += 2) {
-            gvi_stepper twice;
             method m;
             rule_of(k, s, &m);
             const gvi_effect scene[] = { { .kind = GVI_LAGRANGIAN, .point = two_copies } };
@@ -240,8 +203,7 @@ TEST(doubled_variables_move_as_the_forced_system_and_are_a_saddle)
             const real q0[4] = { q[0], q[1], q[0], q[1] }, v0[4] = { v[0], v[1], v[0], v[1] };
             real y[MAX_Y], q1[4];
             int negative = -1;
-            assert_ok(gvi_init(&twice, &desc, memory, sizeof memory));
-            assert_ok(gvi_start(&twice, 0, q0, v0));
+            gvi_stepper twice = new_motion(&desc, 0, q0, v0);
             start_state(pb, 0, y);
             gvi_stepper *once = bench(pb, &m, 0, y);
             for (int step = 0; step < 200; ++step) {
@@ -257,8 +219,6 @@ TEST(doubled_variables_move_as_the_forced_system_and_are_a_saddle)
             assert_int_equal(negative, 2*(s - 1));
         }
 }
-
-/* --------------------------------------------------------- modified Lagrangian */
 
 static int which_energy;
 
@@ -293,8 +253,6 @@ TEST(keplers_ellipse_turns_as_the_modified_lagrangian_predicts)
     assert_int_equal(misses, 0);
 }
 
-/* -------------------------------------------------------------------- spectral */
-
 /* A factor rho^-2 a degree, within 15 per cent, over ten degrees; then flat */
 TEST(the_error_falls_with_the_degree_as_fast_as_the_solution_is_analytic)
 {
@@ -315,19 +273,6 @@ TEST(at_high_degree_the_error_of_a_large_step_stays_at_rounding)
         for (int s = 24; s <= 64; s += 8) {
             const method m = { s, { 0 } };
             assert_between(0, step_error(&problems[i], &m, h[i]), 8*EPS);
-        }
-}
-
-/* --------------------------------------------------------------------- inertia */
-
-TEST(negative_directions_of_the_oscillator_count_half_turns)
-{
-    const real y[2] = { 1, 0.5L };
-    const method m = { 16, { 0 } };
-    for (int k = 0; k <= 4; ++k)
-        for (int side = 0; side < 2; ++side) {
-            real h = (k + (side ? 0.999L : 0.001L))*TAU/2;
-            assert_int_equal(index_of_step(&oscillator, &m, 0, y, h), k);
         }
 }
 
@@ -354,8 +299,6 @@ TEST(negative_directions_are_as_many_as_conjugate_points)
     }
 }
 
-/* ------------------------------------------------------------------- stability */
-
 /* Relative to the size of the matrix's entries, up to h^2 = 400 of which meet */
 TEST(the_stability_functions_are_those_of_theory)
 {
@@ -368,23 +311,6 @@ TEST(the_stability_functions_are_those_of_theory)
             assert_between(-1 - 32*EPS, turn, 1 + 32*EPS);
             assert_close(half_trace(&lobatto_s, h), want, 400*EPS*(1 + want*want));
         }
-}
-
-/* The edges of Lobatto's first windows: half trace -1, then 1, by hand from
-   1 - x/2 and, degree 2, (x^2 - 22 x + 48)/(2 (x + 24)), x = (h omega)^2         */
-TEST(lobatto_is_unstable_in_its_windows_and_not_outside)
-{
-    static const struct { int s; real edge; int grows_after; } edges[] = {
-        { 1, 2, 1 }, { 2, 2.8284271247461900976L, 1 },
-        { 2, 3.4641016151377545871L, 0 }, { 2, 4.8989794855663561964L, 1 }
-    };
-    for (int i = 0; i < COUNT(edges); ++i) {
-        const method m = { edges[i].s, { GVI_LOBATTO, .points = edges[i].s + 1 } };
-        for (int side = -1; side <= 1; side += 2) {
-            int grows = fabs(half_trace(&m, edges[i].edge + side*1e-6L)) > 1;
-            assert_int_equal(grows, (side > 0) == edges[i].grows_after);
-        }
-    }
 }
 
 RUN_TESTS(NULL, NULL)

@@ -2,9 +2,8 @@
    a step starts; two slips that are found at the first start; GVI_EACH.  In all types. */
 #include "gvi_test.h"
 
-typedef gvi_real real;
 static real memory[6000];
-static int calls;                                      /* of the callbacks below                */
+static int calls;                                      /* of the callbacks below */
 
 /* sound: a spring, and a sheet that drags along x; each counted */
 AT_POINTS(spring)
@@ -15,19 +14,16 @@ AT_POINTS(spring)
         for (int i = 0; i < x->n; ++i) x->value[k] += x->q[i*x->stride + k]*x->q[i*x->stride + k]/2;
     return 0;
 }
-AT_POINTS(drag) { FOR_EACH(x, a) x->f[a] -= x->v[a]/8; return 0; }
-AT_POINTS(magnet)
-{
-    FOR_EACH(x, a) x->dldv[a] += x->q[a]/4, x->f[a] += x->v[a]/4;
-    return 0;
-}
+AT_EACH(drag) { x->f[a] -= x->v[a]/8; }
+AT_EACH(magnet) { x->dldv[a] += x->q[a]/4, x->f[a] += x->v[a]/4; }
 AT_POINTS(nothing) { return 0; }
+AT_POINT(nothing_at) { return 0; }
+static int refuses_hessian(real t, const real *q, const real *v, real *fq, real *fv, real *pv, void *user) { return 1; }
 AT_POINTS(refuses) { return 1; }
-AT_POINTS(turns_to_nan) { FOR_EACH(x, a) x->f[a] += x->t[0] > 0 ? (real)NAN : 0; return 0; }
-AT_POINTS(inverse_cube)                                /* -1/q^3, infinite at 0                 */
+AT_EACH(turns_to_nan) { x->f[a] += x->t[0] > 0 ? (real)NAN : 0; }
+AT_EACH(inverse_cube)                                /* -1/q^3, infinite at 0 */
 {
-    FOR_EACH(x, a) if (x->f) x->f[a] -= 1/(x->q[a]*x->q[a]*x->q[a]);
-    return 0;
+    if (x->f) x->f[a] -= 1/(x->q[a]*x->q[a]*x->q[a]);
 }
 AT_POINTS(clock_1) { for (int k = 0; k < x->count; ++k) x->value[k] += *(real *)user; return 0; }
 AT_POINTS(timed)
@@ -36,7 +32,7 @@ AT_POINTS(timed)
     for (int k = 0; x->value && k < x->count; ++k) x->value[k] -= x->q[k]*x->t[k];
     return 0;
 }
-AT_POINTS(wall)                                        /* the row twice, or none, as user says  */
+AT_POINTS(wall)                                        /* the row twice, or none, as user says */
 {
     const int rows = *(int *)user;
     for (int k = 0; k < x->count; ++k)
@@ -64,17 +60,12 @@ AT_POINTS(weight) { for (int k = 0; k < x->count; ++k) x->f[k] -= weight_there[k
 /* slips */
 AT_POINTS(first_alone) { x->f[0] -= 1 + x->q[0]; return 0; }
 AT_POINTS(first_alone_of_v) { x->f[0] -= x->v[0]; return 0; }
-AT_POINTS(sets) { FOR_EACH(x, a) x->f[a] = -x->q[a]; return 0; }
-AT_POINTS(sets_of_v) { FOR_EACH(x, a) x->f[a] = -x->v[a]; return 0; }
-AT_POINTS(sets_dldv)
-{
-    FOR_EACH(x, a) x->dldv[a] = x->q[a]/4, x->f[a] += x->v[a]/4;
-    return 0;
-}
+AT_EACH(sets) { x->f[a] = -x->q[a]; }
+AT_EACH(sets_of_v) { x->f[a] = -x->v[a]; }
+AT_EACH(sets_dldv) { x->dldv[a] = x->q[a]/4, x->f[a] += x->v[a]/4; }
 
 static void says(const gvi_stepper *st, gvi_status status, const char *words)
 {
-    if (!strstr(gvi_why(st), words)) print_error("\"%s\" does not say \"%s\"\n", gvi_why(st), words);
     assert_int_equal(st->status, status);
     assert_non_null(strstr(gvi_why(st), words));
 }
@@ -93,6 +84,7 @@ TEST(a_stepper_that_is_not_ready_says_what_comes_first)
     for (int k = 0; k < 7; ++k) {
         memset(&st, 0, sizeof st);
         assert_string_equal(gvi_why(&st), "ok");
+        assert_string_equal(gvi_formulation_text(&st), "not set up");
         switch (k) {
         case 0: gvi_start(&st, 0, x, x); break;
         case 1: gvi_step(&st, 1); break;
@@ -107,10 +99,10 @@ TEST(a_stepper_that_is_not_ready_says_what_comes_first)
         assert_int_equal(st.fault.coordinate, GVI_FAULT_NONE);
         assert_int_equal(st.fault.point, GVI_FAULT_NONE);
     }
-    assert_ok(gvi_init(&st, &d, memory, sizeof memory));
+    st = new_stepper(&d);
     assert_status(gvi_step(&st, 1), GVI_E_STATE);
     says(&st, GVI_E_STATE, "not started");
-    assert_ok(gvi_init(&st, &d, memory, sizeof memory));
+    st = new_stepper(&d);
     assert_ok(gvi_start(&st, 0, x, x));
     assert_status(gvi_curve(&st, 0, x, x), GVI_E_STATE);
     says(&st, GVI_E_STATE, "no step yet");
@@ -119,12 +111,14 @@ TEST(a_stepper_that_is_not_ready_says_what_comes_first)
     says(&st, GVI_E_STATE, "outside the last step");
     assert_ok(gvi_step(&st, (real)0.25));
     assert_string_equal(gvi_why(&st), "ok");
+    assert_null(st.fault.argument);
+    assert_string_equal(gvi_formulation_text(NULL), "no stepper");
     assert_string_equal(gvi_why(NULL), "the stepper is NULL");
     assert_true(gvi_stepper_size() == sizeof st);
 }
 
 /* Descriptions that gvi_init refuses: each cause its own sentence */
-TEST(descriptions_that_are_refused)
+TEST(each_refused_description_has_its_sentence)
 {
     static int rows = 1;
     static real one = 1, half[2] = { 0.5L, 0.5L }, ends[2] = { 0, 1 }, twos[2] = { 1, 1 }, far[2] = { 0, 2 };
@@ -133,6 +127,12 @@ TEST(descriptions_that_are_refused)
         reads[] = { { .kind = GVI_FORCE, .points = drag } },
         clock[] = { { .points = spring, .value = spring }, { .kind = GVI_CLOCK, .points = clock_1, .user = &one } },
         held[] = { { .kind = GVI_CONSTRAINT, .points = wall, .rows = 1, .user = &rows } };
+    static const real not_finite[4] = { 1, 0, (real)NAN, 1 };
+    static const gvi_effect slips[][2] = {
+        { { .points = spring }, { .kind = GVI_FORCE } }, { { .points = spring }, { .kind = (gvi_kind)9, .points = nothing } },
+        { { .points = spring }, { .kind = GVI_FORCE, .points = nothing, .point = nothing_at } },
+        { { .kind = GVI_CLOCK, .points = nothing }, { .kind = GVI_CLOCK, .points = nothing } },
+        { { .points = spring }, { .kind = GVI_CLOCK, .point = nothing_at } } };
     static const struct { gvi_desc d; size_t size; gvi_status status; const char *words; } cases[] = {
         { { .n = 1, .effects = e, .effect_count = 1 }, 8, GVI_E_MEMORY, "gvi_size(desc)" },
         { { .n = 1, .degree = 2000 }, 1, GVI_E_ARGUMENT, "degree is not 0 to 1024" },
@@ -157,23 +157,63 @@ TEST(descriptions_that_are_refused)
           "a clock needs r = s" },
         { { .n = 1, .formulation = GVI_NEWTON, .iterations = 3 }, 1, GVI_E_FORMULATION, "iterations is given" },
         { { .n = 1, .effects = held, .effect_count = 1, .rule = { GVI_KICKS, 2, ends, half } }, 1, GVI_E_FORMULATION, "constraints go with" },
-        { { .n = 1, .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = ends } }, 1, GVI_E_SINGULAR, "has no mass" }
+        { { .n = 1, .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = ends } }, 1, GVI_E_SINGULAR, "has no mass" },
+        { { .n = 0 }, 1, GVI_E_ARGUMENT, "n is not 1 to 524,287" },
+        { { .n = -1 }, 1, GVI_E_ARGUMENT, "n is not 1 to 524,287" },
+        { { .n = 1, .degree = -1 }, 1, GVI_E_ARGUMENT, "degree is not 0 to 1024" },
+        { { .n = 1, .rule = { .points = -1 } }, 1, GVI_E_ARGUMENT, "rule.points is not 0 to 4000" },
+        { { .n = 1, .rule = { .kind = (gvi_rule_kind)7 } }, 1, GVI_E_ARGUMENT, "rule.kind is not in its enum" },
+        { { .n = 1, .rule = { .kind = GVI_OWN, .points = 8 } }, 1, GVI_E_ARGUMENT, "rule: this kind needs points, nodes and weights" },
+        { { .n = 1, .rule = { .kind = GVI_OWN, .points = 2, .nodes = ends } }, 1, GVI_E_ARGUMENT, "rule: this kind needs points, nodes and weights" },
+        { { .n = 1, .degree = 1, .rule = { .kind = GVI_LOBATTO, .points = 1 } }, 1, GVI_E_ARGUMENT, "Lobatto's rule has 2 or more" },
+        { { .n = 1, .rule = { .points = 8, .nodes = ends, .weights = half } }, 1, GVI_E_ARGUMENT, "rule: this kind takes no nodes" },
+        { { .n = 1, .effects = e, .effect_count = -1 }, 1, GVI_E_ARGUMENT, "effect_count is not 0 to GVI_EFFECTS" },
+        { { .n = 1, .effects = e, .effect_count = GVI_EFFECTS + 1 }, 1, GVI_E_ARGUMENT, "effect_count is not 0 to GVI_EFFECTS" },
+        { { .n = 1, .effect_count = 1 }, 1, GVI_E_ARGUMENT, "effects is NULL" },
+        { { .n = 1, .effects = e }, 1, GVI_E_ARGUMENT, "effect_count is 0" },
+        { { .n = 1, .max_iterations = -1 }, 1, GVI_E_ARGUMENT, "max_iterations is not" },
+        { { .n = 1, .iterations = -1 }, 1, GVI_E_ARGUMENT, "iterations is not" },
+        { { .n = 1, .iterations = 1000001 }, 1, GVI_E_ARGUMENT, "iterations is not" },
+        { { .n = 1, .formulation = (gvi_formulation)9 }, 1, GVI_E_ARGUMENT, "formulation is not in its enum" },
+        { { .n = 1, .tolerance = -1 }, 1, GVI_E_ARGUMENT, "tolerance is not 0 to 1" },
+        { { .n = 1, .tolerance = 1 }, 1, GVI_E_ARGUMENT, "tolerance is not 0 to 1" },
+        { { .n = 1, .tolerance = (real)NAN }, 1, GVI_E_ARGUMENT, "tolerance is not 0 to 1" },
+        { { .n = 1, .mass = { .kind = (gvi_mass_kind)9 } }, 1, GVI_E_ARGUMENT, "mass.kind is not in its enum" },
+        { { .n = 1, .mass = { .matrix = ends } }, 1, GVI_E_ARGUMENT, "mass: matrix or points is given" },
+        { { .n = 1, .mass = { .points = no_mass, .gradient = nothing } }, 1, GVI_E_ARGUMENT, "mass: matrix or points is given" },
+        { { .n = 1, .mass = { .kind = GVI_MASS_POSITION } }, 1, GVI_E_ARGUMENT, "mass: points is missing" },
+        { { .n = 1, .mass = { .kind = GVI_MASS_POSITION, .points = no_mass } }, 1, GVI_E_ARGUMENT, "mass: gradient is missing" },
+        { { .n = 1, .mass = { .kind = GVI_MASS_NONE } }, 1, GVI_E_ARGUMENT, "mass: none, and no Lagrangian term" },
+        { { .n = 1, .mass = { .kind = GVI_MASS_DENSE } }, 1, GVI_E_ARGUMENT, "mass: matrix is missing" },
+        { { .n = 1, .mass = { .kind = GVI_MASS_DIAGONAL } }, 1, GVI_E_ARGUMENT, "mass: matrix is missing" },
+        { { .n = 2, .mass = { .kind = GVI_MASS_DENSE, .matrix = not_finite } }, 1, GVI_E_ARGUMENT, "mass.matrix is not finite" },
+        { { .n = 1, .effects = slips[0], .effect_count = 2 }, 1, GVI_E_ARGUMENT, "effect: points, or point, is missing" },
+        { { .n = 1, .effects = slips[1], .effect_count = 2 }, 1, GVI_E_ARGUMENT, "effect: kind is not in its enum" },
+        { { .n = 1, .effects = slips[2], .effect_count = 2 }, 1, GVI_E_ARGUMENT, "effect: points and point, one is too many" },
+        { { .n = 1, .effects = slips[3], .effect_count = 2 }, 1, GVI_E_ARGUMENT, "effect: a second clock" },
+        { { .n = 1, .effects = slips[4], .effect_count = 2 }, 1, GVI_E_ARGUMENT, "effect: this kind needs points, not point" },
     };
     for (int k = 0; k < COUNT(cases); ++k) {
         gvi_stepper st;
         gvi_init(&st, &cases[k].d, memory, cases[k].size == 1 ? sizeof memory : cases[k].size);
         says(&st, cases[k].status, cases[k].words);
+        if (cases[k].status != GVI_E_ARGUMENT) continue;
+        if (!strncmp(cases[k].words, "effect: ", 8)) assert_int_equal(st.fault.effect, 1);
+        else if (!strncmp(cases[k].words, "mass", 4) && !strstr(cases[k].words, "kind is not")) assert_int_equal(st.fault.effect, GVI_FAULT_MASS);
+        else assert_int_equal(st.fault.effect, GVI_FAULT_NONE);
+        if (strstr(cases[k].words, "finite") || strstr(cases[k].words, "effect_count is 0")) continue;      /* gvi_init's to read */
+        assert_int_equal(gvi_size(&cases[k].d), 0);
     }
 }
 
 /* Calls that fail, after a good start; 0 is `before` the start already */
-TEST(calls_that_fail)
+TEST(each_call_that_fails_has_its_sentence)
 {
-    static int two = 2, one_row = 1;
+    static int one_row = 1;
     static real one = 1, minus = -1;
     static const real ends[2] = { 0, 1 }, half[2] = { 0.5L, 0.5L };
     static const gvi_effect e[] = { { .points = spring }, { .points = refuses } },
-        bad[] = { { .points = spring }, { .points = turns_to_nan } },
+        bad[] = { { .points = spring }, { .points = turns_to_nan } }, flawed[] = { { .points = spring, .hessian = refuses_hessian } },
         slow[] = { { .points = spring, .value = spring }, { .kind = GVI_CLOCK, .points = clock_1, .user = &one } },
         back[] = { { .points = spring, .value = spring }, { .kind = GVI_CLOCK, .points = clock_1, .user = &minus } },
         late[] = { { .points = timed, .value = timed }, { .kind = GVI_CLOCK, .points = clock_1, .user = &one } },
@@ -183,51 +223,54 @@ TEST(calls_that_fail)
     real E;
     gvi_stepper st;
 #define SET_UP(list, count, coordinates, s, ...) do { const gvi_desc d_ = { .n = coordinates, .degree = s, \
-        .effects = list, .effect_count = count, __VA_ARGS__ }; assert_ok(gvi_init(&st, &d_, memory, sizeof memory)); } while (0)
-    SET_UP(e, 2, 1, 3, .tolerance = 0);
-    assert_ok(gvi_start(&st, 0, q, v));
+        .effects = list, .effect_count = count, __VA_ARGS__ }; st = new_stepper(&d_); } while (0)
+#define BEGIN(...) do { SET_UP(__VA_ARGS__); assert_ok(gvi_start(&st, 0, q, v)); } while (0)
+    BEGIN(e, 2, 1, 3, .tolerance = 0);
     gvi_step(&st, 1);
     says(&st, GVI_E_CALLBACK, "an effect (fault.effect) did not return 0");
     assert_int_equal(st.fault.effect, 1);
-    SET_UP(e, 1, 1, 20, .tolerance = 0);
-    assert_ok(gvi_start(&st, 0, q, v));
+    BEGIN(flawed, 1, 1, 3, .formulation = GVI_NEWTON);
+    gvi_step(&st, (real)0.25);
+    says(&st, GVI_E_CALLBACK, "an effect (fault.effect) did not return 0");
+    BEGIN(e, 1, 1, 20, .tolerance = 0);
     gvi_energy(&st, &E);
     says(&st, GVI_E_VALUE, "no value callback");
     gvi_step(&st, 0);
     says(&st, GVI_E_ARGUMENT, "h is 0");
     gvi_discrete_lagrangian(&st, 0, (real)3.14159265358979323846264L, v, v, &(gvi_discrete){ .lagrangian = NULL });
     says(&st, GVI_E_CONJUGATE, "conjugate");
-    SET_UP(e, 1, 1, 3, .formulation = GVI_POSITIONS);
-    assert_ok(gvi_start(&st, 0, q, v));
+    BEGIN(e, 1, 1, 3, .formulation = GVI_POSITIONS);
     gvi_discrete_lagrangian(&st, 0, 1, q, v, &(gvi_discrete){ .lagrangian = NULL });
     says(&st, GVI_E_FORMULATION, "needs GVI_NEWTON");
-    SET_UP(e, 1, 1, 3, .iterations = 4);
-    assert_ok(gvi_start(&st, 0, q, v));
+    assert_string_equal(gvi_formulation_text(&st), "pinned by the description");
+    SET_UP(NULL, 0, 1, 3, .tolerance = 0);
+    assert_ok(gvi_start(&st, MAX, q, v));
+    gvi_step(&st, MAX);
+    says(&st, GVI_E_ARGUMENT, "t + h is not finite");
+    BEGIN(e, 1, 1, 3, .resolution = (real)1e-6L);
+    gvi_step(&st, 1);
+    says(&st, GVI_E_RESOLUTION, "not as accurate as desc.resolution");
+    BEGIN(e, 1, 1, 3, .iterations = 4);
     gvi_step(&st, 6);
     says(&st, GVI_E_CONVERGENCE, "desc.iterations");
-    SET_UP(bad, 2, 1, 3, .tolerance = 0);
-    assert_ok(gvi_start(&st, 0, q, v));
+    BEGIN(bad, 2, 1, 3, .tolerance = 0);
     gvi_step(&st, 1);
     says(&st, GVI_E_NON_FINITE, "gave NaN or Inf");
     assert_int_equal(st.fault.effect, 1);
-    SET_UP(e, 1, 1, 3, .formulation = GVI_POSITIONS);
-    assert_ok(gvi_start(&st, 0, q, v));
+    BEGIN(e, 1, 1, 3, .formulation = GVI_POSITIONS);
     gvi_step(&st, 30);
     says(&st, GVI_E_CONVERGENCE, "no solution found: halve h");
-    SET_UP(slow, 2, 1, 3, .tolerance = 0);
-    assert_ok(gvi_start(&st, 0, q, v));
+    BEGIN(slow, 2, 1, 3, .tolerance = 0);
     assert_ok(gvi_step(&st, (real)0.25));
     gvi_action(&st, &E);
     says(&st, GVI_E_FORMULATION, "clocks no action");
-    SET_UP(back, 2, 1, 3, .tolerance = 0);
-    assert_ok(gvi_start(&st, 0, q, v));
+    BEGIN(back, 2, 1, 3, .tolerance = 0);
     gvi_step(&st, (real)0.25);
     says(&st, GVI_E_CLOCK, "must be positive");
     SET_UP(late, 2, 1, 3, .tolerance = 0);
     gvi_start(&st, 0, q, v);
     says(&st, GVI_E_FORMULATION, "list it as a force");
-    SET_UP(e, 1, 1, 1, .rule = { GVI_KICKS, 2, ends, half });
-    assert_ok(gvi_start(&st, 0, q, v));
+    BEGIN(e, 1, 1, 1, .rule = { GVI_KICKS, 2, ends, half });
     assert_ok(gvi_step(&st, (real)0.25));
     gvi_curve(&st, 0, &E, NULL);
     says(&st, GVI_E_FORMULATION, "kicks have no curve");
@@ -237,8 +280,7 @@ TEST(calls_that_fail)
     SET_UP(flat, 2, 2, 3, .tolerance = 0);
     gvi_start(&st, 0, on, v);
     says(&st, GVI_E_SINGULAR, "has no gradient");
-    SET_UP(e, 1, 1, 3, .mass = { .kind = GVI_MASS_POSITION, .points = no_mass, .gradient = nothing });
-    assert_ok(gvi_start(&st, 0, q, v));
+    BEGIN(e, 1, 1, 3, .mass = { .kind = GVI_MASS_POSITION, .points = no_mass, .gradient = nothing });
     gvi_step(&st, 1);
     says(&st, GVI_E_SINGULAR, "has no mass");
     SET_UP(e, 1, 1, 3, .mass = { .kind = GVI_MASS_POSITION, .points = refuses, .gradient = nothing });
@@ -253,7 +295,7 @@ TEST(calls_that_fail)
 }
 
 /* A step from where the force is infinite: told as such, at rest or not, in every formulation; not where it is finite */
-TEST(a_force_that_is_infinite_where_the_step_starts)
+TEST(a_force_that_is_infinite_at_the_start_is_told)
 {
     static const gvi_effect e[] = { { .points = spring }, { .points = inverse_cube }, { .kind = GVI_FORCE, .points = drag } };
     for (int f = GVI_AUTO; f <= GVI_NEWTON; ++f)
@@ -261,10 +303,8 @@ TEST(a_force_that_is_infinite_where_the_step_starts)
             const real q[2] = { 1, 0 }, near[2] = { 1, (real)1e-3 }, v[2] = { 0, (real)moving };
             gvi_desc d = { .n = 2, .degree = 3, .effects = e, .effect_count = f == GVI_VELOCITIES ? 3 : 2,
                            .formulation = (gvi_formulation)f };
-            gvi_stepper st;
             if (f == GVI_EXPLICIT) d.degree = 1, d.rule.kind = GVI_LOBATTO;
-            assert_ok(gvi_init(&st, &d, memory, sizeof memory));
-            assert_ok(gvi_start(&st, 0, q, v));
+            gvi_stepper st = new_motion(&d, 0, q, v);
             SAME_STATE(&st) gvi_step(&st, (real)0.1);
             says(&st, GVI_E_NON_FINITE, "where the step starts");
             assert_int_equal(st.fault.effect, 1);
@@ -291,9 +331,8 @@ TEST(slips_are_found_at_the_first_start)
                 const gvi_effect sound = { .points = spring };
                 const gvi_effect list[] = { row ? sound : slips[k], row ? slips[k] : sound };
                 gvi_desc d = { .n = 2, .degree = degree, .effects = list, .effect_count = 2 };
-                gvi_stepper st;
                 if (degree == 1 && k < 2) continue;    // one point is all that there is
-                assert_ok(gvi_init(&st, &d, memory, sizeof memory));
+                gvi_stepper st = new_stepper(&d);
                 gvi_start(&st, 0, q, v);
                 says(&st, GVI_E_ARGUMENT, k < 2 ? "its first point alone" : "add with +=");
                 assert_int_equal(st.fault.effect, row);
@@ -310,8 +349,7 @@ TEST(sound_effects_pass_and_are_looked_at_once)
     for (int count = 0; count <= 4; ++count)
         for (int degree = 1; degree <= 9; ++degree) {
             const gvi_desc d = { .n = 2, .degree = degree, .effects = count ? e : NULL, .effect_count = count };
-            gvi_stepper st;
-            assert_ok(gvi_init(&st, &d, memory, sizeof memory));
+            gvi_stepper st = new_stepper(&d);
             calls = 0;
             assert_ok(gvi_start(&st, 0, rest, v));
             assert_int_equal(calls, (count ? 2 : 0) + (count == 4));              // the last for dL/dv
@@ -352,23 +390,21 @@ GVI_EACH(by_each, 2, v, f, value)
 }
 GVI_EACH(scaled, 1, f) { x->f[0] -= *(const real *)user*x->q[0]; }
 
-TEST(each_point_without_a_return)
+TEST(gvi_each_has_the_bits_of_gvi_points)
 {
     static const real q[2] = { 1, 0.25L }, v[2] = { 0, 0.5L }, four = 4;
-    static real other[6000];
     const gvi_effect a = { .kind = GVI_FORCE, .points = by_points }, b = { .kind = GVI_FORCE, .points = by_each };
     const gvi_desc one = { .n = 2, .degree = 5, .effects = &a, .effect_count = 1 },
                    two = { .n = 2, .degree = 5, .effects = &b, .effect_count = 1 };
     gvi_stepper st, st2;
-    assert_ok(gvi_init(&st, &one, memory, sizeof memory));
-    assert_ok(gvi_init(&st2, &two, other, sizeof other));
+    st = new_stepper(&one);
+    st2 = new_stepper(&two);
     assert_ok(gvi_start(&st, 0, q, v));
     assert_ok(gvi_start(&st2, 0, q, v));
     move_alike(&st, &st2, 20, (real)0.125L);
     const gvi_effect c = { .points = scaled, .user = (void *)&four };
     const gvi_desc d = scene_of(&c, 1);
-    assert_ok(gvi_init(&st, &d, memory, sizeof memory));
-    assert_ok(gvi_start(&st, 0, q, v));
+    st = new_motion(&d, 0, q, v);
     for (int k = 0; k < 8; ++k) assert_ok(gvi_step(&st, (real)3.14159265358979323846264L/16));
     assert_close(st.q[0], -1, 1e-5L);                       // half a period of omega = 2, error 3e-6 at degree 3
 }

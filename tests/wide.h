@@ -1,6 +1,6 @@
 /* wide.h - what a test expects in twice the digits of gvi_real, or as many as there are; after gvi_test.h
 
-   WIDEST defined before it: the most digits there are for double too, at the price of time.      */
+   WIDEST defined before it: the most digits there are for double too, at the price of time. */
 #ifndef TESTS_WIDE_H
 #define TESTS_WIDE_H
 
@@ -27,17 +27,6 @@ static int same(gvi_real one, gvi_real other)
 {
     volatile gvi_real u = one, v = other;
     return u <= v && u >= v;
-}
-
-static unsigned long long seed;
-static __attribute__((unused)) unsigned random_bits(void)
-{
-    seed = seed*6364136223846793005ULL + 1442695040888963407ULL;
-    return (unsigned)(seed >> 32);
-}
-static __attribute__((unused)) gvi_real random_unit(void)               /* in (-1,1) */
-{
-    return (gvi_real)(((long double)random_bits() - 2147483647.5L)/2147483648.0L);
 }
 
 #endif
