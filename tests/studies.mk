@@ -1,6 +1,6 @@
 # studies.mk - what Makefile includes: long checks, measurements, pictures.  `make help-all` lists them.
 
-.PHONY: headers-quick headers symbols parts docs-check bound float instructions prices usable languages boards sanitize sanitized any_processor \
+.PHONY: advise-run headers-quick headers symbols parts docs-check bound float instructions prices usable languages boards sanitize sanitized any_processor \
         ensemble deps-ensemble firmware deps-firmware fuzz fuzz-short size stats compare everywhere deps-everywhere \
         cost-dial cost-horizon cost-constraints kicks points cost-embedded hard theorems mutants
 
@@ -34,12 +34,16 @@ parts bound float instructions ensemble usable languages boards firmware: | $(FI
 	$(STEP) $@ sh tests/tools/$@.sh $(BUILD) $(RECORD)
 
 #: sanitize     tests and examples under the address and undefined behaviour sanitizers
-SANITIZED = $(TESTS) $(TYPED:%=%-float) $(EXAMPLES)
+# Without those that take minutes and call nothing that others do not: test_uncoupled, in vectors and alone, and the
+# sweeps of test_advise, instead of which the advisor itself runs.
+SANITIZED = $(filter-out test_uncoupled test_advise,$(TESTS)) $(TYPED:%=%-float) $(EXAMPLES) advise-run
+advise-run: $(BUILD)/examples/advise
+	$(STEP) $@ $< P3 --error 1e-6
 sanitize: | $(FIRST)
 	$(Q)mkdir -p $(BUILD)/result; echo 0 0 1 >$(BUILD)/result/$@
 	$(Q)if sh tests/tools/under.sh sanitizer '$(CC)' -xc && sh tests/tools/under.sh sanitizer '$(CXX)' -xc++; then \
 	    $(MAKE) --no-print-directory BUILD=$(BUILD)/sanitize sanitized \
-	    CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' && \
+	    COST_CFLAGS='$$(CFLAGS)' CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' && \
 	    cp $(BUILD)/sanitize/result/sanitized $(BUILD)/result/$@; fi
 sanitized: $(SANITIZED)
 	$(SUM) sanitized $(SANITIZED)
@@ -65,7 +69,7 @@ any_processor: $(BUILD)/alone/any_processor
 	$(STEP) $@ sh tests/tools/examples.sh run $(BUILD) $@ $<
 
 #: fuzz         a minute of libFuzzer on descriptions and calls (clang); FUZZ_SECONDS=600
-FUZZ_SECONDS = $(if $(filter fuzz,$(MAKECMDGOALS)),60,20)
+FUZZ_SECONDS = $(if $(filter fuzz,$(MAKECMDGOALS)),60,12)
 fuzz fuzz-short: | $(FIRST)
 	$(STEP) $@ sh tests/tools/under.sh fuzz $(BUILD) $(FUZZ_SECONDS)
 
@@ -104,6 +108,7 @@ deps-everywhere:
 
 SCENES = $(filter-out scene scenes price,$(basename $(notdir $(wildcard examples/scenes/*.c))))
 .PHONY: $(SCENES:%=scene-%)
+## scenes       runs every scene and draws it in build/pictures/; one: make scene-net
 scenes: $(SCENES:%=scene-%)
 
 $(BUILD)/studies/scene $(BUILD)/studies/price: $(BUILD)/studies/%: examples/scenes/%.c
@@ -114,6 +119,7 @@ $(SCENES:%=scene-%): scene-%: $(BUILD)/studies/scene
 	$(Q)mkdir -p $(PICTURES)/scenes
 	$(Q)$< $* --svg $(PICTURES)/scenes/$*.svg
 
+## advise       builds build/examples/advise: degree, step and tolerance for a wanted error
 advise: $(BUILD)/examples/advise
 ifdef FILE
 	$(Q)$(COMPILE) -Iexamples -Wno-unused-function '-DADVISE_FILE="$(abspath $(FILE))"' examples/tools/advise.c \
@@ -129,6 +135,7 @@ $(BUILD)/examples/advise: examples/tools/advise.c $(BUILD)/cost/problems.o $(BUI
 
 COST_CFLAGS = -O3 -march=native -ffp-contract=fast -fno-math-errno -fno-trapping-math
 
+## cost         CPU time for a given error: gvi.h and the usual alternatives; SCENE=net: what each effect of it costs
 ifdef SCENE
 cost: $(BUILD)/studies/price
 	$(Q)$< $(SCENE)
