@@ -34,16 +34,15 @@ parts bound float instructions ensemble usable languages boards firmware: | $(FI
 	$(STEP) $@ sh tests/tools/$@.sh $(BUILD) $(RECORD)
 
 #: sanitize     tests and examples under the address and undefined behaviour sanitizers
-# Without those that take minutes and call nothing that others do not: test_uncoupled, in vectors and alone, and the
-# sweeps of test_advise, instead of which the advisor itself runs.
-SANITIZED = $(filter-out test_uncoupled test_advise,$(TESTS)) $(TYPED:%=%-float) $(EXAMPLES) advise-run
+# The advisor itself runs, not the sweeps of test_advise that it is held against: minutes of the same calls.
+SANITIZED = $(filter-out test_advise,$(TESTS)) $(TYPED:%=%-float) $(EXAMPLES) advise-run
 advise-run: $(BUILD)/examples/advise
 	$(STEP) $@ $< P3 --error 1e-6
 sanitize: | $(FIRST)
 	$(Q)mkdir -p $(BUILD)/result; echo 0 0 1 >$(BUILD)/result/$@
 	$(Q)if sh tests/tools/under.sh sanitizer '$(CC)' -xc && sh tests/tools/under.sh sanitizer '$(CXX)' -xc++; then \
 	    $(MAKE) --no-print-directory BUILD=$(BUILD)/sanitize sanitized \
-	    COST_CFLAGS='$$(CFLAGS)' CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' && \
+	    CPPFLAGS=-DTHINNED=8 COST_CFLAGS='$$(CFLAGS)' CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' && \
 	    cp $(BUILD)/sanitize/result/sanitized $(BUILD)/result/$@; fi
 sanitized: $(SANITIZED)
 	$(SUM) sanitized $(SANITIZED)

@@ -212,12 +212,6 @@ TEST(adaptive_methods_follow_their_tolerance)
     check_order("RKN12(10) c", 12/11.0, 0.2);
     check_order("DOP853", 1, 0.2);
     check_order("DOP853 c", 1, 0.2);
-    check_order("GBS order 4 x 2", 8/7.0, 0.2);
-    check_order("GBS order 5 x 2", 10/9.0, 0.2);
-    check_order("GBS order 6 x 2", 12/11.0, 0.2);
-    check_order("GBS order 7 x 2", 14/13.0, 0.2);
-    check_order("GBS order 8 x 2", 16/15.0, 0.2);
-    check_order("GBS order 9 x 2", 18/17.0, 0.2);
 }
 
 TEST(gauss_methods_have_their_orders)

@@ -86,8 +86,11 @@ for compiler in $compilers; do
             -o "$dir/units" -lm && "$dir/units" || fail "$compiler: two units that share one implementation, $type"
         count=$((count + 1))
     done
-    $cc tests/compile/static_main.c tests/compile/static_float.c tests/compile/static_double.c \
-        -o "$dir/static" -lm && "$dir/static" || fail "$compiler: float and double in one program"
+    for type in float double; do
+        $cc -DCOPY=$type -c tests/compile/static_copy.c -o "$dir/$type.o" || fail "$compiler: static_copy.c, $type"
+    done
+    $cc tests/compile/static_main.c "$dir/float.o" "$dir/double.o" -o "$dir/static" -lm && "$dir/static" ||
+        fail "$compiler: float and double in one program"
     for page in guide embedded; do
         $cc -c tests/compile/$page.c -o /dev/null || fail "$compiler: tests/compile/$page.c"
     done
