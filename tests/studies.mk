@@ -1,6 +1,6 @@
 # studies.mk - what Makefile includes: long checks, measurements, pictures.  `make help-all` lists them.
 
-.PHONY: advise-run headers-quick headers symbols parts docs-check bound float instructions prices usable languages boards sanitize sanitized any_processor \
+.PHONY: headers-quick headers symbols parts docs-check bound float instructions prices usable languages boards sanitize sanitized any_processor \
         ensemble deps-ensemble firmware deps-firmware fuzz fuzz-short size stats compare everywhere deps-everywhere \
         cost-dial cost-horizon cost-constraints kicks points cost-embedded hard theorems mutants
 
@@ -34,15 +34,13 @@ parts bound float instructions ensemble usable languages boards firmware: | $(FI
 	$(STEP) $@ sh tests/tools/$@.sh $(BUILD) $(RECORD)
 
 #: sanitize     tests and examples under the address and undefined behaviour sanitizers
-# The advisor itself runs, not the sweeps of test_advise that it is held against: minutes of the same calls.
-SANITIZED = $(filter-out test_advise,$(TESTS)) $(TYPED:%=%-float) $(EXAMPLES) advise-run
-advise-run: $(BUILD)/examples/advise
-	$(STEP) $@ $< P3 --error 1e-6
+# Not test_advise: its sweeps are minutes of calls that the others make too.
+SANITIZED = $(filter-out test_advise,$(TESTS)) $(TYPED:%=%-float) $(EXAMPLES)
 sanitize: | $(FIRST)
 	$(Q)mkdir -p $(BUILD)/result; echo 0 0 1 >$(BUILD)/result/$@
 	$(Q)if sh tests/tools/under.sh sanitizer '$(CC)' -xc && sh tests/tools/under.sh sanitizer '$(CXX)' -xc++; then \
 	    $(MAKE) --no-print-directory BUILD=$(BUILD)/sanitize sanitized \
-	    CPPFLAGS=-DTHINNED=8 COST_CFLAGS='$$(CFLAGS)' CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' && \
+	    CPPFLAGS=-DTHINNED=8 CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' && \
 	    cp $(BUILD)/sanitize/result/sanitized $(BUILD)/result/$@; fi
 sanitized: $(SANITIZED)
 	$(SUM) sanitized $(SANITIZED)
