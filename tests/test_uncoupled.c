@@ -351,7 +351,7 @@ TEST(each_of_any_size_moves_as_alone)
                 }
             }
         }
-        assert_true(compared > 24*SIZES/4);
+        assert_true(compared > 24/THINNED*SIZES/4);
     }
 }
 
