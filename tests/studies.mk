@@ -34,12 +34,13 @@ parts bound float instructions ensemble usable languages boards firmware: | $(FI
 	$(STEP) $@ sh tests/tools/$@.sh $(BUILD) $(RECORD)
 
 #: sanitize     tests and examples under the address and undefined behaviour sanitizers
-SANITIZED = $(TESTS) $(TYPED:%=%-float) $(EXAMPLES)
+# Not test_advise: its sweeps are minutes of calls that the others make too.
+SANITIZED = $(filter-out test_advise,$(TESTS)) $(TYPED:%=%-float) $(EXAMPLES)
 sanitize: | $(FIRST)
 	$(Q)mkdir -p $(BUILD)/result; echo 0 0 1 >$(BUILD)/result/$@
 	$(Q)if sh tests/tools/under.sh sanitizer '$(CC)' -xc && sh tests/tools/under.sh sanitizer '$(CXX)' -xc++; then \
 	    $(MAKE) --no-print-directory BUILD=$(BUILD)/sanitize sanitized \
-	    CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' && \
+	    CPPFLAGS=-DTHINNED=8 CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' && \
 	    cp $(BUILD)/sanitize/result/sanitized $(BUILD)/result/$@; fi
 sanitized: $(SANITIZED)
 	$(SUM) sanitized $(SANITIZED)
@@ -65,7 +66,7 @@ any_processor: $(BUILD)/alone/any_processor
 	$(STEP) $@ sh tests/tools/examples.sh run $(BUILD) $@ $<
 
 #: fuzz         a minute of libFuzzer on descriptions and calls (clang); FUZZ_SECONDS=600
-FUZZ_SECONDS = $(if $(filter fuzz,$(MAKECMDGOALS)),60,20)
+FUZZ_SECONDS = $(if $(filter fuzz,$(MAKECMDGOALS)),60,12)
 fuzz fuzz-short: | $(FIRST)
 	$(STEP) $@ sh tests/tools/under.sh fuzz $(BUILD) $(FUZZ_SECONDS)
 
@@ -111,6 +112,7 @@ deps-everywhere:
 
 SCENES = $(filter-out scene scenes price,$(basename $(notdir $(wildcard examples/scenes/*.c))))
 .PHONY: $(SCENES:%=scene-%)
+## scenes       runs every scene and draws it in build/pictures/; one: make scene-net
 scenes: $(SCENES:%=scene-%)
 
 $(BUILD)/studies/scene $(BUILD)/studies/price: $(BUILD)/studies/%: examples/scenes/%.c
@@ -121,6 +123,7 @@ $(SCENES:%=scene-%): scene-%: $(BUILD)/studies/scene
 	$(Q)mkdir -p $(PICTURES)/scenes
 	$(Q)$< $* --svg $(PICTURES)/scenes/$*.svg
 
+## advise       builds build/examples/advise: degree, step and tolerance for a wanted error
 advise: $(BUILD)/examples/advise
 ifdef FILE
 	$(Q)$(COMPILE) -Iexamples -Wno-unused-function '-DADVISE_FILE="$(abspath $(FILE))"' examples/tools/advise.c \
@@ -136,6 +139,7 @@ $(BUILD)/examples/advise: examples/tools/advise.c $(BUILD)/cost/problems.o $(BUI
 
 COST_CFLAGS = -O3 -march=native -ffp-contract=fast -fno-math-errno -fno-trapping-math
 
+## cost         CPU time for a given error: gvi.h and the usual alternatives; SCENE=net: what each effect of it costs
 ifdef SCENE
 cost: $(BUILD)/studies/price
 	$(Q)$< $(SCENE)

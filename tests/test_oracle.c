@@ -1,6 +1,6 @@
 /* One step of every formulation against a 50-digit solution of the equations in
    control points (tests/gen/oracle.py): q1, p1, the curve and the action, for
-   seven problems, degrees 1 to 8, Gauss and Lobatto rules. */
+   seven problems, degrees 1 to 5 and 8, Gauss and Lobatto rules. */
 #include "gvi_test.h"
 #include "problems.h"
 #include "data/oracle.h"

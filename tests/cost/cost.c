@@ -382,15 +382,13 @@ static void time_in_turn(study *y, const options *o)
     for (int i = 0; i < count; ++i) e[i].s->ms = e[i].ms;
 }
 
-/* What the dial is compared with: the classics that have a step control                        */
-static int chooses_steps(const baseline *b) { return b->adaptive && strcmp(b->family, "GBS extrapolation"); }
-
+/* What the dial is compared with: the rivals that choose their steps                           */
 static void study_problem(study *y, const options *o)
 {
     settings_for(y->p, o->dial);
     if (o->gvi) study_gvi(y, o, 1);
     for (int i = 0; o->peers && i < baseline_count; ++i)
-        if (fits(baselines + i, y->p) && (!o->dial || chooses_steps(baselines + i))) study_rival(y, o, baselines + i, 1);
+        if (fits(baselines + i, y->p) && (!o->dial || baselines[i].adaptive)) study_rival(y, o, baselines + i, 1);
     time_in_turn(y, o);
     end_study(y);
 }
@@ -478,7 +476,7 @@ static const char *colour_of(const char *family)
         { "Stoermer-Verlet", "#d55e00" }, { "RK4", "#0072b2" }, { "compositions 8, 10", "#009e73" },
         { "Blanes-Moan SRKN", "#aa4499" }, { "splitting 8 by hand", "#b8860b" }, { "RKN8(6)", "#56b4e9" },
         { "RKN12(10)", "#88562b" }, { "Gauss, one point a call", "#444444" }, { "DOP853", "#cc3311" },
-        { "GBS extrapolation", "#8a9a00" }, { "Gauss-Radau 15", "#5e3fbe" },
+        { "Gauss-Radau 15", "#5e3fbe" },
         { "gvi.h by its dial", "#111111" }, { "gvi.h, fixed steps", "#888888" } };
     for (int i = 0; i < COUNT(colour); ++i)
         if (!strcmp(family, colour[i][0])) return colour[i][1];
@@ -622,7 +620,7 @@ static void summarise(const study *studies, int count, const options *o)
 
 /* ---------------------------------------------------------------- horizon */
 
-/* P4 over longer times; the reference from tests/gen/horizon.c.                               */
+/* P4 over longer times; the reference is that of horizon.h.                                    */
 static void study_horizon(const options *o)
 {
     static const char *const rivals[] = { "RKN12(10) fixed c", "RKN12(10) c" };

@@ -22,7 +22,7 @@ import sys
 from mpmath import mp, mpf, nstr
 
 mp.dps = 60
-SIZES = list(range(1, 33)) + [48, 64, 100, 128, 256, 512, 1024]
+SIZES = list(range(1, 18)) + [24, 25, 32, 64, 100, 128, 1024]
 
 
 class Recurrence:

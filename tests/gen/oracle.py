@@ -21,7 +21,7 @@ from mpmath import mp, mpf
 mp.dps = 50
 DIGITS = 36                     # also enough for a long double of 113 bits
 TAUS = (mpf(1)/4, mpf(3)/4)
-DEGREES = range(1, 9)
+DEGREES = (1, 2, 3, 4, 5, 8)
 MORE_POINTS = (0, 1, 3)         # r - s
 
 

@@ -1,16 +1,20 @@
-/* references.c - end states of the problems in tests/cost/ordinary.h and encounters.h that are no others' again
+/* references.c - end states of the problems in tests/cost/ordinary.h and encounters.h that are no others' again, and
+   those of horizon.h: the outer solar system after 1, 10 and 100 times 548 years
 
-     cc -O2 -std=gnu99 tests/gen/references.c -lquadmath -lm && ./a.out      (gcc; three minutes)
+     gcc -O2 -std=gnu99 -I. tests/gen/references.c -lquadmath -lm && ./a.out      (three minutes)
+     ./a.out 100             the outer solar system at 100 times its length (hours), or at 1 or 10 times
 
    Gauss collocation of 14 stages for y' = f(y) in 113-bit arithmetic, with two numbers of steps, one 3/2 of the
    other; printed is the finer result, and how far it is from the coarser.  Comets and flyby by Kepler's equation.
    The starts are the doubles of ordinary.h and encounters.h.                                                   */
+#include "tests/cost/solar.h"
 #include <quadmath.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 typedef __float128 real;
-enum { S = 14, MOST = 32 };
+enum { S = 14, MOST = 36 };
 static real c[S], A[S][S], b[S];
 
 static void legendre(int m, real u, real *P)
@@ -75,6 +79,20 @@ static void integrate(slope_fn *f, int n, real end, long steps, real *y)
             y[d] += h*s;
         }
     }
+}
+
+static void solar(const real *y, real *dy)
+{
+    for (int i = 0; i < 18; ++i) dy[i] = y[18+i], dy[18+i] = 0;
+    for (int i = 0; i < 6; ++i)
+        for (int j = 0; j < 6; ++j) {
+            const real x = y[3*j] - y[3*i], z = y[3*j+1] - y[3*i+1], w = y[3*j+2] - y[3*i+2], d2 = x*x + z*z + w*w;
+            if (i == j) continue;
+            const real s = solar_mass[3*j]/(d2*sqrtq(d2));
+            dy[18+3*i] += s*x;
+            dy[19+3*i] += s*z;
+            dy[20+3*i] += s*w;
+        }
 }
 
 static void toda(const real *y, real *dy)
@@ -194,9 +212,15 @@ static void make(const char *name, slope_fn *f, int n, double end, long steps, c
     printf("\n};\n");
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
     tables();
+    if (argc > 1) {
+        double y[36];
+        memcpy(y, solar_q, sizeof solar_q);
+        memcpy(y + 18, solar_v, sizeof solar_v);
+        return make("solar", solar, 36, 200000*atof(argv[1]), 1000*atol(argv[1]), y), 0;
+    }
     conic("comet2", (double[]){ -1.99, 0 }, (double[]){ 0, -0.070888120500833 }, 20*6.283185307179586);
     conic("comet4", (double[]){ -1.9999, 0 }, (double[]){ 0, -0.0070712445851 }, 10*6.283185307179586);
     conic("flyby", (double[]){ -100, 0.2 }, (double[]){ 1.01, 0 }, 200);

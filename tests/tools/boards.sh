@@ -15,7 +15,7 @@ strict='-std=c99 -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -I.'
 
 if have x86_64-w64-mingw32-gcc; then
     for before in -DBEFORE -DAFTER; do
-        x86_64-w64-mingw32-gcc $strict -O1 $before tests/compile/windows.c -o "$dir/windows.exe" || fail "mingw, $before"
+        x86_64-w64-mingw32-gcc $strict -O0 $before tests/compile/windows.c -o "$dir/windows.exe" || fail "mingw, $before"
         ! have wine || wine "$dir/windows.exe" 2>/dev/null || fail "wine, $before"
         count=$((count + 1))
     done

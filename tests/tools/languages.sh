@@ -15,12 +15,13 @@ prints() {  # name output
     count=$((count + 1))
 }
 
+$CC -O2 -fPIC -DGVI_IMPLEMENTATION -xc -c gvi.h -o "$dir/gvi.o" || fail "gvi.o"
 python=
 for p in /usr/bin/python3 python3; do
     if [ -z "$python" ] && have $p && $p -c 'import numpy' 2>/dev/null; then python=$p; fi
 done
 if [ -n "$python" ]; then
-    $CC -O2 -shared -fPIC -DGVI_IMPLEMENTATION -xc gvi.h -o "$dir/libgvi.so" -lm || fail "libgvi.so"
+    $CC -shared "$dir/gvi.o" -o "$dir/libgvi.so" -lm || fail "libgvi.so"
     $python $from/planet.py --layout >"$dir/layout.python" || fail "planet.py --layout"
     { printf '#include "gvi.h"\n#include <stdio.h>\nint main(void)\n{\n'
       sed 's/\(.*\) \(.*\) .*/    printf("\1 \2 %d\\n", (int)offsetof(\1, \2));/' "$dir/layout.python"
@@ -36,14 +37,14 @@ if [ -n "$python" ]; then
 else echo "  skipped: no python3 with numpy"; fi
 
 if have rustc && rustc --version >/dev/null 2>&1; then
-    $CC -O2 -DGVI_IMPLEMENTATION -xc -c gvi.h -o "$dir/gvi.o" && ar rcs "$dir/libgvi.a" "$dir/gvi.o" &&
+    ar rcs "$dir/libgvi.a" "$dir/gvi.o" &&
         rustc -O -A dead_code $from/planet.rs -L "$dir" -l static=gvi -l m -o "$dir/planet-rs" || fail "planet.rs"
     prints "Rust" "$("$dir/planet-rs")"
 else echo "  skipped: no rustc"; fi
 
 if have clang && have node && echo '#include <math.h>
 int x;' | clang --target=wasm32-wasi -mexec-model=reactor -xc - -o "$dir/probe.wasm" 2>/dev/null; then
-    clang --target=wasm32-wasi -mexec-model=reactor -O2 -I. $from/planet.c -o "$dir/planet.wasm" || fail "planet.c"
+    clang --target=wasm32-wasi -mexec-model=reactor -O1 -I. $from/planet.c -o "$dir/planet.wasm" || fail "planet.c"
     prints "JavaScript, WebAssembly" "$(node $from/planet.mjs "$dir/planet.wasm")"
 else echo "  skipped: no clang for wasm32-wasi, or no node"; fi
 
