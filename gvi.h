@@ -839,8 +839,8 @@ struct gvi__private {
 /* The stepper, to be read; in is private.                                     */
 typedef struct gvi_stepper {
     int             n, s, r;          /* as resolved from the description       */
-    gvi_status      status;           /* of the last call, a query's too; but that of a step that failed,
-                                         like its fault, stays until the next step or start */
+    gvi_status      status;           /* of the last call, a query's too; but that of a step that
+                                         failed, like its fault, stays until the next step or start */
     gvi_formulation formulation;      /* used by the last step, or the next     */
     gvi_real        t, t_low;         /* time and its compensation: t + t_low   */
     const gvi_real *q, *p;            /* [n] configuration and momentum at t    */
@@ -917,8 +917,8 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h);
 
    The length is st.next, the first one found from small ones, as long as the accuracy stays within
    a band; what is left is divided so that the last step is no shorter than half of that.  A step
-   that fails is tried again, shorter, 64 times at most or until t would not move: then its status is
-   returned.  With
+   that fails is tried again, shorter, 64 times at most or until t would not move: then its status
+   is returned.  With
    a clock the length is in tau, and the step may pass t_end: gvi_state_at has the state there. */
 GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end);
 
@@ -5733,7 +5733,7 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
         if (p->used < d->iterations) return GVI__GO_ON;
         int falls = before <= 0 || D < before;
         if (earlier > 0) falls = D < earlier*(GVI__POOR*GVI__POOR);
-        if (D > GVI__FAR*GVI__FAR) falls = 0;     // it leaves the motion, and its units grow with it
+        if (before > 0 && D > GVI__FAR*GVI__FAR) falls = 0;         // its units may grow with it
         if (falls || D <= sure || gvi__noise(st, h, stage, stages) <= 1) return GVI__DONE;
         return GVI__DIVERGES;
     }

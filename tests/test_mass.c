@@ -314,7 +314,7 @@ TEST(entries_of_mass_are_0_before)
             for (int k = 0; k < 2; ++k) {
                 const gvi_desc d = { .n = 2, .degree = degree, .formulation = newton ? GVI_NEWTON : GVI_MOMENTA,
                                      .mass = { .kind = GVI_MASS_POSITION, .points = diagonal_mass,
-                                               .gradient = diagonal_gradient, .user = k ? &seed : NULL } };
+                                               .gradient = diagonal_gradient, .user = k ? memory : NULL } };
                 gvi_stepper st;
                 assert_ok(gvi_init(&st, &d, memory, sizeof memory));
                 assert_ok(gvi_start(&st, 0, q, v));
