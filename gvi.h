@@ -840,7 +840,7 @@ struct gvi__private {
 typedef struct gvi_stepper {
     int             n, s, r;          /* as resolved from the description       */
     gvi_status      status;           /* of the last call, a query's too; but that of a step that
-                                         failed, like its fault, stays until the next step or start */
+                                         failed, and its fault, stay until the next step or start */
     gvi_formulation formulation;      /* used by the last step, or the next     */
     gvi_real        t, t_low;         /* time and its compensation: t + t_low   */
     const gvi_real *q, *p;            /* [n] configuration and momentum at t    */
@@ -1429,7 +1429,7 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 #define GVI__FALL 8                        // the most that it shrinks, and after a failure
 #define GVI__RESTS 4096                    // times slower than the fastest: judged with it
 #define GVI__PULLED 64                     // eps of the motion: rounding of forces of constraint
-#define GVI__DEEP 24                       // degree whose modes reach rounding
+#define GVI__DEEP (GVI__DIG/2)             // degree whose modes reach rounding
 
 /* -------------------------------------------------------- LINEAR ALGEBRA */
 

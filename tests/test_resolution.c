@@ -4,7 +4,7 @@
 #include "problems.h"
 #include "hard/extrapolate.h"
 
-static real memory[8000], spare[8000];
+static real room[8000], spare[8000];
 static const real at[2] = { R(0.4), 0 }, speed[2] = { 0, 2 };
 static const gvi_effect kepler[] = { { .kind = GVI_POTENTIAL, .points = attraction, .value = attraction } };
 
@@ -16,7 +16,7 @@ static gvi_desc of(int degree, real limit)
 static gvi_stepper started(const gvi_desc *desc, real *where, real t)
 {
     gvi_stepper st;
-    assert_ok(gvi_init(&st, desc, where, sizeof memory));
+    assert_ok(gvi_init(&st, desc, where, sizeof room));
     assert_ok(gvi_start(&st, t, at, speed));
     return st;
 }
@@ -40,19 +40,25 @@ TEST(bad_limits_are_refused_with_a_sentence)
     gvi_stepper st;
     for (int k = 0; k < COUNT(wrong); ++k) {
         const gvi_desc desc = of(8, wrong[k]);
-        assert_status(gvi_init(&st, &desc, memory, sizeof memory), GVI_E_ARGUMENT);
+        assert_status(gvi_init(&st, &desc, room, sizeof room), GVI_E_ARGUMENT);
         assert_string_equal(st.fault.argument, "resolution is not 0 to 1");
         assert_int_equal(gvi_size(&desc), 0);
     }
     for (int degree = 1; degree < 3; ++degree) {
         const gvi_desc desc = of(degree, R(0.5));
-        assert_status(gvi_init(&st, &desc, memory, sizeof memory), GVI_E_ARGUMENT);
+        assert_status(gvi_init(&st, &desc, room, sizeof room), GVI_E_ARGUMENT);
         assert_string_equal(st.fault.argument, "resolution: degree is below 3");
     }
+    for (int points = 4; points < 6; ++points) {
+        gvi_desc desc = of(4, R(0.5));
+        desc.rule = (gvi_rule){ .kind = GVI_LOBATTO, .points = points };
+        assert_status(gvi_init(&st, &desc, room, sizeof room), points == 4 ? GVI_E_ARGUMENT : GVI_OK);
+        if (points == 4) assert_string_equal(st.fault.argument, "resolution: the order of the rule is below twice the degree");
+    }
     const gvi_desc none = of(8, 0), some = of(8, R(1e-3));
-    st = started(&none, memory, 0);
+    st = started(&none, room, 0);
     SAME_STATE(&st) assert_status(gvi_advance(&st, 1), GVI_E_ARGUMENT);
-    st = started(&some, memory, 0);
+    st = started(&some, room, 0);
     SAME_STATE(&st) {
         assert_status(gvi_advance(&st, 0), GVI_E_ARGUMENT);
         assert_status(gvi_advance(&st, (real)NAN), GVI_E_ARGUMENT);
@@ -65,7 +71,7 @@ TEST(bad_limits_are_refused_with_a_sentence)
 TEST(a_step_that_is_refused_changes_nothing)
 {
     const gvi_desc desc = of(8, R(1e-3));
-    gvi_stepper a = started(&desc, memory, 0), b = started(&desc, spare, 0);
+    gvi_stepper a = started(&desc, room, 0), b = started(&desc, spare, 0);
     move_alike(&a, &b, 3, R(0.05));
     a.counters.worst_resolution = 0;
     real worst = 0;
@@ -88,7 +94,7 @@ TEST(it_lands_on_the_end_to_the_bit)
         for (int i = 0; i < 3; ++i) x[i] = uniform();
         const gvi_desc desc = of(5 + k % 5, R(1e-4));
         const real t0 = k % 3 ? (x[0] - R(0.5))*100 : 0, t1 = t0 + (x[1] - R(0.5))*10*(x[2] + R(0.01));
-        gvi_stepper st = started(&desc, memory, t0);
+        gvi_stepper st = started(&desc, room, t0);
         real before = 0;
         for (int m = 0; st.t != t1; ++m) {
             const real was = st.t;
@@ -134,6 +140,67 @@ TEST(a_limit_that_no_step_meets_ends_in_a_status)
     assert_true(st.counters.failures <= 64);
 }
 
+/* q'' = -q to t = 100: at these degrees the modes of all steps that are short enough are rounding */
+GVI_EACH(pull, 1, f) { x->f[0] -= x->q[0]; }
+
+TEST(long_steps_are_found_at_high_degrees)
+{
+    static const gvi_effect effects[] = { { .points = pull } };
+    static const int degrees[] = { 16, 24, 40, 64 };
+    for (int k = 0; k < COUNT(degrees); ++k) {
+        const gvi_desc desc = { .n = 1, .degree = degrees[k], .effects = effects, .effect_count = 1,
+                                .resolution = KIND == 1 ? R(1e-5) : R(1e-13) };
+        gvi_stepper st = new_motion(&desc, 0, (const real[]){ 1 }, (const real[]){ 0 });
+        int steps = 0;
+        for (; st.t < 100; ++steps) assert_ok(gvi_advance(&st, 100));
+        assert_true(steps <= 30);
+        assert_close(st.q[0], cos((real)100), 100*(KIND == 1 ? R(1e-5) : R(1e-13)));
+    }
+}
+
+/* From rest at 0, where no speed and no place says what is small */
+GVI_EACH(weight, 1, f) { x->f[0] += R(9.81); }
+
+TEST(a_fall_from_rest_is_found_exact)
+{
+    static const gvi_effect effects[] = { { .points = weight } };
+    for (int degree = 3; degree < 9; ++degree) {
+        const gvi_desc desc = { .n = 1, .degree = degree, .effects = effects, .effect_count = 1, .resolution = R(1e-5) };
+        gvi_stepper st = new_motion(&desc, 0, (const real[]){ 0 }, (const real[]){ 0 });
+        for (int steps = 0; st.t < 1 && steps < 64; ++steps) assert_ok(gvi_advance(&st, 1));
+        assert_close(st.q[0], R(4.905), 64*EPS);
+        assert_int_equal(st.counters.failures, 0);
+    }
+}
+
+#if GVI__KIND == 2
+#define main lesson_25
+#include "25_bricard.c"
+#undef main
+
+/* Thirty rods, one too many, from rest: the multipliers' rounding is all that some coordinates have */
+TEST(redundant_rods_leave_rest)
+{
+    assert_int_equal(lesson_25(), 0);                       // fills from, to, square
+    static const gvi_effect scene[] = { { .points = springs }, { .kind = GVI_CONSTRAINT, .points = rods, .rows = ROWS } };
+    for (int k = 4; k < 15; k += 2) {
+        const gvi_desc desc = { .n = N, .degree = DEGREE, .effects = scene, .effect_count = 2, .resolution = pow(10.0, -k) };
+        double q[N], v[N] = { 0 };
+        for (int p = 0; p < POINTS; ++p) {
+            const int hinge = p/2, sign = p%2 ? 1 : -1;
+            const double r = hinge%2 ? 2 : 1 + 0.5*sign;
+            q[3*p] = r*cos(acos(-1.0)/3*hinge);
+            q[3*p + 1] = r*sin(acos(-1.0)/3*hinge);
+            q[3*p + 2] = hinge%2 ? 0.5*sign : 0;
+        }
+        gvi_stepper st = new_motion(&desc, 0, q, v);
+        int steps = 0;
+        for (; st.t < 10 && steps < 200; ++steps) assert_ok(gvi_advance(&st, 10));
+        assert_true(st.t >= 10);
+    }
+}
+#endif
+
 /* A knot of 10 g in the middle between two springs, with its weight: sideways it moves by rounding alone */
 GVI_EACH(threads, 2, f)
 {
@@ -164,9 +231,9 @@ TEST(what_moves_by_rounding_alone_does_not_decide)
 TEST(a_checkpoint_keeps_the_next_length)
 {
     const gvi_desc desc = of(8, R(1e-4));
-    gvi_stepper a = started(&desc, memory, 0), b = started(&desc, spare, 0);
+    gvi_stepper a = started(&desc, room, 0), b = started(&desc, spare, 0);
     for (int k = 0; k < 10; ++k) assert_ok(gvi_advance(&a, 100));
-    assert_ok(gvi_restore(&b, &a, memory));
+    assert_ok(gvi_restore(&b, &a, room));
     for (int k = 0; k < 100; ++k) {
         assert_ok(gvi_advance(&a, 100));
         assert_ok(gvi_advance(&b, 100));
@@ -191,7 +258,7 @@ TEST(with_a_clock_the_step_may_pass_the_end)
     gvi_desc desc = of(8, R(1e-4));
     desc.effects = effects;
     desc.effect_count = 2;
-    gvi_stepper st = started(&desc, memory, 0);
+    gvi_stepper st = started(&desc, room, 0);
     const real turn = R(6.283185307179586476925286766559);
     real q[2];
     while (st.t < turn) assert_ok(gvi_advance(&st, turn));
