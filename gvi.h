@@ -1219,11 +1219,12 @@ static int gvi__first_non_finite(int n, const gvi_real *x)
 /* GVI__ALONG(n, body): the body for n numbers, GVI__LANES of them at a time and what is left one by
    one; in it GVI__AT(x) stands for those of x, and gvi__number is their type.                 */
 #define GVI__AT(x) (*(gvi__number *)((x) + gvi__at))
-#define GVI__ALONG(n, ...)                                                                      \
+#define GVI__ALONG(n, ...) GVI__ALONG_BY(, n, __VA_ARGS__)
+#define GVI__ALONG_BY(loop, n, ...)                                                             \
     {                                                                                           \
         const int gvi__whole = GVI__LANES > 1 ? (n) - (n) % GVI__LANES : 0;                     \
         int gvi__at = 0;                                                                        \
-        GVI__UNROLL for (; gvi__at < gvi__whole; gvi__at += GVI__LANES) {                       \
+        loop for (; gvi__at < gvi__whole; gvi__at += GVI__LANES) {                              \
             typedef gvi__lane gvi__number;                                                      \
             __VA_ARGS__;                                                                        \
         }                                                                                       \
@@ -2898,7 +2899,7 @@ GVI__BODY const gvi_real *gvi__weighted(int R, const gvi_real *GVI__RESTRICT w,
                                         const gvi_real *source, gvi_real *GVI__RESTRICT L)
 {
     if (!w) return source;
-    GVI__ALONG(R, GVI__AT(L) = GVI__AT(w)*GVI__AT(source))
+    GVI__ALONG_BY(GVI__UNROLL, R, GVI__AT(L) = GVI__AT(w)*GVI__AT(source))
     return L;
 }
 
