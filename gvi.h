@@ -791,9 +791,9 @@ struct gvi__holonomic {               /* constraints; C = stride of D_0..D_s    
     gvi_real *force, *rho, *last;     /* [n+m][R] G' lambda, -lambda; residual; [n+m][C] last */
     gvi_real *at, *g, *G, *A, *W, *y; /* [.][C] D, g and rate, G, its matrix; scratch; [m] */
     gvi_real *G1, *A1;                /* [2][m][n], [m][m] at one point                 */
-    gvi_real *runs, *ends, *first, *drops; /* see gvi__find_runs, gvi__factor_constraints */
+    gvi_real *column, *first, *drops; /* see gvi__find_columns, gvi__factor_constraints */
     int       m, C, made, kept, linear; /* rows on; kept: last for the curve, 2 to predict */
-    int       settled, again;         /* see gvi__find_runs                          */
+    int       settled, again;         /* see gvi__find_columns                          */
     unsigned  bits;                   /* the effects                                 */
 };
 
@@ -4376,11 +4376,10 @@ GVI__COLD gvi_status gvi__report_row(gvi_stepper *st, gvi_status status, int row
     return gvi__report(st, status, e, row, point);
 }
 
-/* What of row a is read and cleared: runs of columns, from run[e] to run[e + 1], e even.      */
-GVI__BODY const gvi_real *gvi__runs(const gvi_stepper *st, int a, int *ends)
+// of the columns of row a that are read and cleared, the first from i on; n: there is none
+GVI__BODY int gvi__column(const gvi_stepper *st, int a, int i)
 {
-    *ends = (int)st->in.con.ends[a];
-    return st->in.con.runs + a*(st->n + 1);
+    return (int)st->in.con.column[a*(st->n + 1) + i];
 }
 
 // g and dg/dt to con.g, and G, at `count` points
@@ -4393,13 +4392,11 @@ static gvi_status gvi__evaluate_constraints(gvi_stepper *st, int S, int count, c
     at.rate = at.g + st->in.con.m*S;
     at.jacobian = G;
     gvi__zero((size_t)(st->in.con.m*S), at.rate);
-    for (int a = 0, ends; a < st->in.con.m; ++a) {
-        const gvi_real *run = gvi__runs(st, a, &ends);
-        for (int e = 0; e < ends; e += 2) {
-            const int i = (int)run[e], to = (int)run[e + 1];
+    for (int a = 0; a < st->in.con.m; ++a)
+        for (int i = gvi__column(st, a, 0), to; i < st->n; i = gvi__column(st, a, to)) {
+            for (to = i + 1; gvi__column(st, a, to) == to && to < st->n; ++to) { }
             gvi__zero((size_t)((to - i)*S), G + (size_t)(a*st->n + i)*(size_t)S);
         }
-    }
     if (st->in.diagnose && gvi__check_rows(st, &at, q, 0) != GVI_OK)
         return gvi__report_status(st, GVI_E_CONVERGENCE);
     for (int e = 0; e < st->in.desc.effect_count; ++e) {
@@ -4447,55 +4444,35 @@ static int gvi__all_zero(const gvi_real *x)
     return (a + b) + (c + d) <= 0;
 }
 
-// column i begins a run or ends one, or no longer does
-GVI__COLD void gvi__toggle(gvi_real *run, gvi_real *ends, int i)
-{
-    int e = 0, count = (int)*ends;
-    while (e < count && (int)run[e] < i) ++e;
-    if (e < count && (int)run[e] == i)
-        for (--count; e < count; ++e) run[e] = run[e + 1];
-    else {
-        for (int f = count++; f > e; --f) run[f] = run[f - 1];
-        run[e] = (gvi_real)i;
-    }
-    *ends = (gvi_real)count;
-}
-
-/* Runs of the columns in which G has had an entry other than 0.  They are looked for at the ends of
-   steps, and within the steps until one has shown nothing new (`settled`); a step at whose end
+/* The columns of each row in which G has had an entry other than 0.  They are looked for at the
+   ends of steps, and within the steps until one has shown nothing new (`settled`); a step at whose end
    there are new ones is done again.  An entry that is 0 at both ends of a later step counts as 0
    inside.  first[a]: the first row that shares a coordinate with row a, where L begins; all rows
    do through a full M.                                                                        */
-static int gvi__find_runs(gvi_stepper *st, int S, int count, const gvi_real *G)
+static int gvi__find_columns(gvi_stepper *st, int S, int count, const gvi_real *G)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
     gvi_real *const top = in->point;
-    int grown = 0, ends;
+    int grown = 0;
     for (int a = 0; a < m; ++a) {
-        const gvi_real *run = gvi__runs(st, a, &ends), *row = G + (size_t)(a*n)*(size_t)S;
-        for (int i = 0, e = 0; i < n; ++i) {
+        gvi_real *column = in->con.column + a*(n + 1);
+        const gvi_real *row = G + (size_t)(a*n)*(size_t)S;
+        for (int i = 0; i < n; ++i) {
             while (S == 1 && i + 8 <= n && gvi__all_zero(row + i)) i += 8;
-            for (; e < ends && (int)run[e] <= i; ++e)
-                if (e % 2 == 0) i = (int)run[e + 1];
-            if (i >= n || gvi__norm1(count, row + i*S) <= 0) continue;
-            gvi__toggle(in->con.runs + a*(n + 1), in->con.ends + a, i);
-            gvi__toggle(in->con.runs + a*(n + 1), in->con.ends + a, i + 1);
-            run = gvi__runs(st, a, &ends);
-            e = 0;
+            if (i == n || (int)column[i] == i || gvi__norm1(count, row + i*S) <= 0) continue;
+            for (int j = i; j >= 0 && (int)column[j] > i; --j) column[j] = (gvi_real)i;
             grown = 1;
         }
     }
     if (!grown) return 0;
     for (int i = 0; i < n; ++i) top[i] = (gvi_real)m;
     for (int a = 0; a < m; ++a) {
-        const gvi_real *run = gvi__runs(st, a, &ends);
         gvi_real first = gvi__full_mass(in) ? 0 : (gvi_real)a;
-        for (int e = 0; e < ends; e += 2)
-            for (int i = (int)run[e]; i < (int)run[e + 1]; ++i) {
-                if (top[i] > (gvi_real)a) top[i] = (gvi_real)a;
-                if (top[i] < first) first = top[i];
-            }
+        for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1)) {
+            top[i] = gvi__smaller((gvi_real)a, top[i]);
+            first = gvi__smaller(top[i], first);
+        }
         in->con.first[a] = first;
     }
     return 1;
@@ -4504,11 +4481,9 @@ static int gvi__find_runs(gvi_stepper *st, int S, int count, const gvi_real *G)
 // G_a z at one point
 static gvi_real gvi__row_dot(const gvi_stepper *st, const gvi_real *G, int a, const gvi_real *z)
 {
-    int ends;
-    const gvi_real *run = gvi__runs(st, a, &ends);
     gvi_real sum = 0;
-    for (int e = 0; e < ends; e += 2)
-        for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i) sum += G[a*st->n + i]*z[i];
+    for (int i = gvi__column(st, a, 0); i < st->n; i = gvi__column(st, a, i + 1))
+        sum += G[a*st->n + i]*z[i];
     return sum;
 }
 
@@ -4525,32 +4500,27 @@ static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, con
     const gvi_real *first = in->con.first, least = 64*(gvi_real)m*GVI__EPS;
     gvi_real *W = in->con.W;
     gvi__zero((size_t)(n*S), W);
-    for (int i = 0, ends; i < m; ++i) {
+    for (int i = 0; i < m; ++i) {
         const int from = (int)first[i];
-        const gvi_real *run = gvi__runs(st, i, &ends);
         gvi_real *d = A + (i*m + i)*S;
-        for (int e = 0; e < ends; e += 2)                    // W = - M^-1 G_i'
-            for (int j = (int)run[e]; j < (int)run[e + 1]; ++j) {
-                const gvi_real *g = G + (i*n + j)*S, inverse = full ? 1 : in->mass.inverse[j];
-                for (int k = 0; k < count; ++k) W[j*S + k] = -(g[k]*inverse);
-            }
+        for (int j = gvi__column(st, i, 0); j < n; j = gvi__column(st, i, j + 1)) {   // W = - M^-1 G_i'
+            const gvi_real *g = G + (i*n + j)*S, inverse = full ? 1 : in->mass.inverse[j];
+            for (int k = 0; k < count; ++k) W[j*S + k] = -(g[k]*inverse);
+        }
         if (full) gvi__over_inertia(st, W, S, count);
         for (int j = from; j <= i; ++j) {
             gvi_real *u = A + (j*m + i)*S;
-            run = gvi__runs(st, j, &ends);
-            gvi__zero((size_t)S, u);
-            for (int e = 0; e < ends; e += 2)
-                for (int l = (int)run[e], to = (int)run[e + 1]; l < to; ++l)
-                    gvi__subtract_at(S, count, G + (j*n + l)*S, W + l*S, u);
+            for (int k = 0; k < count; ++k) u[k] = 0;
+            for (int l = gvi__column(st, j, 0); l < n; l = gvi__column(st, j, l + 1))
+                gvi__subtract_at(S, count, G + (j*n + l)*S, W + l*S, u);
             if (j == i) break;
             int l = (int)first[j];
             if (l < from) l = from;
             for (; l < j; ++l) gvi__subtract_at(S, count, A + (j*m + l)*S, A + (l*m + i)*S, u);
         }
-        run = gvi__runs(st, i, &ends);
         if (full) gvi__zero((size_t)(n*S), W);
-        for (int e = 0; e < ends; e += 2)
-            gvi__zero((size_t)(((int)run[e + 1] - (int)run[e])*S), W + (int)run[e]*S);
+        for (int j = gvi__column(st, i, 0); j < n; j = gvi__column(st, i, j + 1))
+            for (int k = 0; k < count; ++k) W[j*S + k] = 0;
         for (int k = 0; k < count; ++k) {
             const gvi_real was = GVI_ABS(d[k]);
             gvi_real rest = d[k];
@@ -4605,7 +4575,7 @@ static gvi_status gvi__constraints_at(gvi_stepper *st, gvi_real t, const gvi_rea
     gvi_points at = gvi__one_point(st, &t, q);
     gvi_status status = gvi__evaluate_constraints(st, 1, 1, &t, q, G);
     if (status == GVI_OK && (drops != st->in.con.drops || !st->in.con.settled))
-        st->in.con.again |= gvi__find_runs(st, 1, 1, G);
+        st->in.con.again |= gvi__find_columns(st, 1, 1, G);
     if (status == GVI_OK && gvi__has(&st->in, GVI__HAS_LAGRANGIAN)) {
         if (p) status = gvi__velocity(st, t, q, p, v);
         at.v = v;
@@ -4621,24 +4591,18 @@ static gvi_status gvi__constraints_at(gvi_stepper *st, gvi_real t, const gvi_rea
 // z += G' y at one point
 static void gvi__add_force(const gvi_stepper *st, const gvi_real *y, gvi_real *z)
 {
-    for (int a = 0, ends; a < st->in.con.m; ++a) {
-        const gvi_real *run = gvi__runs(st, a, &ends);
-        const gvi_real *G = st->in.con.G1 + a*st->n, ya = y[a];
-        for (int e = 0; e < ends; e += 2)
-            for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i) z[i] += ya*G[i];
-    }
+    for (int a = 0; a < st->in.con.m; ++a)
+        for (int i = gvi__column(st, a, 0); i < st->n; i = gvi__column(st, a, i + 1))
+            z[i] += y[a]*st->in.con.G1[a*st->n + i];
 }
 
 // sum of |G_ai q_i| and |t dg_a/dt|: what is known of the size of g_a's terms, at one point
 static gvi_real gvi__terms(const gvi_stepper *st, int S, gvi_real t, const gvi_real *q,
                            const gvi_real *G, const gvi_real *rate, int a)
 {
-    int ends;
-    const gvi_real *run = gvi__runs(st, a, &ends);
     gvi_real size = GVI_ABS(rate[a*S]*t);
-    for (int e = 0; e < ends; e += 2)
-        for (int i = (int)run[e]; i < (int)run[e + 1]; ++i)
-            size += GVI_ABS(G[(a*st->n + i)*S]*q[i*S]);
+    for (int i = gvi__column(st, a, 0); i < st->n; i = gvi__column(st, a, i + 1))
+        size += GVI_ABS(G[(a*st->n + i)*S]*q[i*S]);
     return size;
 }
 
@@ -4696,13 +4660,10 @@ static void gvi__constraint_forces(const gvi_stepper *st)
     const struct gvi__private *in = &st->in;
     const int n = st->n, R = in->R, C = in->con.C;
     gvi__zero((size_t)(n*R), in->con.force);
-    for (int a = 0, ends; a < in->con.m; ++a) {
-        const gvi_real *run = gvi__runs(st, a, &ends);
-        for (int e = 0; e < ends; e += 2)
-            for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i)
-                gvi__subtract_at(C, st->s, in->con.G + (a*n + i)*C, in->con.force + (n + a)*R,
-                                 in->con.force + i*R);
-    }
+    for (int a = 0; a < in->con.m; ++a)
+        for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1))
+            gvi__subtract_at(C, st->s, in->con.G + (a*n + i)*C, in->con.force + (n + a)*R,
+                             in->con.force + i*R);
 }
 
 // sum_a |G_a z_a| at the sources, to rows of S numbers; z [m][R]
@@ -4710,13 +4671,10 @@ static void gvi__force_sizes(const gvi_stepper *st, const gvi_real *z, int S, gv
 {
     const int n = st->n, C = st->in.con.C;
     gvi__zero((size_t)(n*S), sum);
-    for (int a = 0, ends; a < st->in.con.m; ++a, z += st->in.R) {
-        const gvi_real *run = gvi__runs(st, a, &ends);
-        for (int f = 0; f < ends; f += 2)
-            for (int i = (int)run[f], to = (int)run[f + 1]; i < to; ++i)
-                for (int e = 0; e < st->s; ++e)
-                    sum[i*S + e] += GVI_ABS(st->in.con.G[(a*n + i)*C + e]*z[e]);
-    }
+    for (int a = 0; a < st->in.con.m; ++a, z += st->in.R)
+        for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1))
+            for (int e = 0; e < st->s; ++e)
+                sum[i*S + e] += GVI_ABS(st->in.con.G[(a*n + i)*C + e]*z[e]);
 }
 
 /* The constraints at D, padded with q0; A in the first iteration.  After a move along which G
@@ -4738,29 +4696,25 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
             *at = D;
         }
     gvi__zero((size_t)(m*C), along);              // by the old G
-    for (int a = 0, ends; a < m; ++a) {
-        const gvi_real *run = gvi__runs(st, a, &ends);
-        for (int e = 0; e < ends; e += 2)
-            for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i)
-                gvi__subtract_at(C, s, G + (a*n + i)*C, moved + i*C, along + a*C);
+    for (int a = 0; a < m; ++a) {
+        for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1))
+            gvi__subtract_at(C, s, G + (a*n + i)*C, moved + i*C, along + a*C);
         for (int k = 0; k < s; ++k) in->con.rho[a*R + k] = in->con.g[a*C + k + 1] + along[a*C + k];
     }
     const gvi_status status =
         gvi__evaluate_constraints(st, C, s + 1, in->con.t, in->con.at, in->con.G);
-    if (!in->con.settled && gvi__find_runs(st, C, s + 1, in->con.G)) in->con.made = 0;
+    if (!in->con.settled && gvi__find_columns(st, C, s + 1, in->con.G)) in->con.made = 0;
     in->con.linear = in->con.made > 0;
-    for (int a = 0, ends; a < m; ++a) {
-        const gvi_real *run = gvi__runs(st, a, &ends);
+    for (int a = 0; a < m; ++a) {
         if (linear) gvi__copy((size_t)s, in->con.rho + a*R, in->con.g + a*C + 1);
         for (int k = 0; k < s; ++k) {
             gvi_real change = along[a*C + k], size = 0;
             if (!in->con.linear) break;
-            for (int e = 0; e < ends; e += 2)
-                for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i) {
-                    const gvi_real z = G[(a*n + i)*C + k]*moved[i*C + k];
-                    change += z;
-                    size += GVI_ABS(z);
-                }
+            for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1)) {
+                const gvi_real z = G[(a*n + i)*C + k]*moved[i*C + k];
+                change += z;
+                size += GVI_ABS(z);
+            }
             if (!(GVI_ABS(change) <= GVI__EPS*size)) in->con.linear = 0;
         }
     }
@@ -4793,13 +4747,11 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *stage, const 
         for (int e = 0; e < s; ++e) z[e] = (at[e] - q0[i]) - D[e];
     }
     gvi__zero((size_t)(m*R), rho);
-    for (int a = 0, ends; a < m; ++a) {
-        const gvi_real *run = gvi__runs(st, a, &ends);
+    for (int a = 0; a < m; ++a) {
         gvi_real *g = rho + m*R + a*C;             // gvi__constraints_moved reads it
         gvi__copy((size_t)s, in->con.g + a*C + 1, g);
-        for (int e = 0; e < ends; e += 2)
-            for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i)
-                gvi__subtract_at(C, s, in->con.G + (a*n + i)*C + 1, moved + i*C, g);
+        for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1))
+            gvi__subtract_at(C, s, in->con.G + (a*n + i)*C + 1, moved + i*C, g);
         for (int b = 0; b < s; ++b) gvi__subtract_row((size_t)R, -g[b], in->con.X + b*R, rho + a*R);
     }
     gvi__solve_constraints(st, in->con.A, C, s, rho, R);
@@ -4876,7 +4828,7 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
         int finite = 1;
         if (status == GVI_OK) status = gvi__evaluate_constraints(st, 1, 1, &t, Q, G);
         if (status != GVI_OK) return status;
-        if (k == 0 && !in->con.settled) (void)gvi__find_runs(st, 1, 1, G);
+        if (k == 0 && !in->con.settled) (void)gvi__find_columns(st, 1, 1, G);
         for (int a = 0; a < m; ++a) {
             const gvi_real terms = gvi__terms(st, 1, t, Q, G, g + m, a);
             const int rounding = k > 0 && GVI_ABS(g[a]) > (gvi_real)1.25*(GVI_ABS(left[a])
@@ -5006,11 +4958,11 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
 }
 
 // the rows are others now
-GVI__COLD void gvi__forget_runs(gvi_stepper *st)
+GVI__COLD void gvi__forget_columns(gvi_stepper *st)
 {
     struct gvi__private *in = &st->in;
     const size_t m = (size_t)gvi__count_rows(in, in->con.bits), C = (size_t)in->con.C;
-    gvi__zero(m, in->con.ends);
+    for (size_t k = 0; k < m*(size_t)(st->n + 1); ++k) in->con.column[k] = (gvi_real)st->n;
     gvi__zero(2*m*(size_t)st->n, in->con.G1);
     gvi__zero(m*m, in->con.A1);
     if (in->con.G) gvi__zero(m*(size_t)st->n*C, in->con.G);
@@ -5094,7 +5046,7 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
             trial = gvi__velocity(st, t, q, p, u);
             if (trial == GVI_OK)
                 trial = gvi__evaluate_constraints(st, 1, 1, &t, q, in->con.G1 + m*n);
-            if (trial == GVI_OK) (void)gvi__find_runs(st, 1, 1, in->con.G1 + m*n);
+            if (trial == GVI_OK) (void)gvi__find_columns(st, 1, 1, in->con.G1 + m*n);
             for (int a = 0; a < m; ++a)
                 rate[a] += (in->con.g[m + a] + gvi__row_dot(st, in->con.G1 + m*n, a, u))
                            *(sign*weight[j/2]/delta);
@@ -5352,7 +5304,7 @@ GVI__COLD void gvi__layout_constraints(struct gvi__private *in, gvi__arena *a)
         { &con->g, 2*m, C }, { &con->G, i*m*n, C }, { &con->A, i*m*m, C }, { &con->d, on, R + C },
         { &con->w, on, s + 1 }, { &con->rho, m, R + C }, { &con->lu, i*(s + 1), s + 1 },
         { &con->y, on, m },
-        { &con->G1, 2*m, n }, { &con->A1, m, m }, { &con->runs, m, n + 1 }, { &con->ends, on, m },
+        { &con->G1, 2*m, n }, { &con->A1, m, m }, { &con->column, m, n + 1 },
         { &con->first, on, m }, { &con->drops, 2*on, m }
     };
     con->C = (int)C;
@@ -5637,7 +5589,7 @@ GVI__CALLED gvi_status gvi__newton_constraints(gvi_stepper *st, const gvi__origi
     for (int k = 0; k < s*m; ++k) in->con.force[(n + k % m)*R + k/m] = in->newton.y[s*n + k];
     const gvi_status status =
         gvi__evaluate_constraints(st, C, s + 1, in->con.t, in->con.at, in->con.G);
-    if (!in->con.settled) (void)gvi__find_runs(st, C, s + 1, in->con.G);
+    if (!in->con.settled) (void)gvi__find_columns(st, C, s + 1, in->con.G);
     gvi__constraint_forces(st);
     gvi__force_sizes(st, in->con.force + n*R, R, in->con.D);      // nearly dependent rows cancel
     return status;
@@ -5728,19 +5680,18 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, 
         before += was*in->watch.scale[i];
     }
     for (int k = 0; k < held*in->con.m; ++k) {     // g, as the momentum that would undo it
-        int ends, a = k % in->con.m, e = k/in->con.m + 1, C = in->con.C;
-        const gvi_real *run = gvi__runs(st, a, &ends), now = in->con.g[a*C + e];
+        const int a = k % in->con.m, e = k/in->con.m + 1, C = in->con.C;
+        const gvi_real now = in->con.g[a*C + e];
         gvi_real *rest = in->newton.residual + st->s*n + k, size = 0, inertia = 0;
         if (in->con.drops[a] > 0) {
             in->newton.dy[st->s*n + k] = 0;
             continue;
         }
-        for (int f = 0; f < ends; f += 2)
-            for (int i = (int)run[f]; i < (int)run[f + 1]; ++i) {
-                const gvi_real G = in->con.G[(a*n + i)*C + e];
-                size += GVI_ABS(G*in->con.at[i*C + e]);
-                inertia += G*in->watch.scale[i]*(G*in->watch.scale[i]);
-            }
+        for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1)) {
+            const gvi_real G = in->con.G[(a*n + i)*C + e];
+            size += GVI_ABS(G*in->con.at[i*C + e]);
+            inertia += G*in->watch.scale[i]*(G*in->watch.scale[i]);
+        }
         const gvi_real unit = GVI_ABS(h)*GVI_SQRT(inertia);
         norm += GVI_ABS(now)/unit;
         moved += GVI_ABS(now - *rest)/unit;
@@ -5907,23 +5858,21 @@ GVI__CALLED gvi_status gvi__jacobian_constraints(gvi_stepper *st, const gvi__mat
     gvi_real *force = in->con.force, *base = in->con.free, *at = in->con.at, *was = in->row;
     const size_t size = gvi__unknowns(st, 0), sn = (size_t)(s*n);
     gvi_status status = GVI_OK;
-    for (int l = 0, ends; l < s*m; ++l) {
+    for (int l = 0; l < s*m; ++l) {
         const int a = l % m, e = l/m;
-        const gvi_real *run = gvi__runs(st, a, &ends);
         const size_t z = sn + (size_t)l;
         if (in->con.drops[a] > 0) {                // its multiplier stays 0
             J->square[z*(size + 1)] = 1;
             continue;
         }
-        for (int f = 0; f < ends; f += 2)
-            for (int i = (int)run[f]; i < (int)run[f + 1]; ++i)
-                for (int k = 0; k < s; ++k) {
-                    const gvi_real *G = in->con.G + (a*n + i)*C + e,
-                        W = (k == 0 ? 1 : 0) - (e > 0 ? Phi[k*R + e] : 0);
-                    const size_t y = (size_t)(k*n + i);
-                    J->square[y*size + z] = (gvi_real)(2*k + 1)*W*(in->con.hw[e]*G[0]);
-                    J->square[z*size + y] = -h*Phi[k*R + e + 1]*G[1];
-                }
+        for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1))
+            for (int k = 0; k < s; ++k) {
+                const gvi_real *G = in->con.G + (a*n + i)*C + e,
+                    W = (k == 0 ? 1 : 0) - (e > 0 ? Phi[k*R + e] : 0);
+                const size_t y = (size_t)(k*n + i);
+                J->square[y*size + z] = (gvi_real)(2*k + 1)*W*(in->con.hw[e]*G[0]);
+                J->square[z*size + y] = -h*Phi[k*R + e + 1]*G[1];
+            }
     }
     gvi__copy((size_t)(n*R), force, base);
     for (int j = 0; j < moves && status == GVI_OK; ++j) {
@@ -6336,7 +6285,7 @@ GVI__CALLED gvi_status gvi__newton_crossing(gvi_stepper *st)
     if (status == GVI_OK)
         status = gvi__factor_constraints(st, C, st->s, in->con.G, in->con.A, in->con.drops);
     if (status != GVI_OK) return status;
-    for (int ej = 0, ends; ej < st->s*m; ++ej) {
+    for (int ej = 0; ej < st->s*m; ++ej) {
         const int e = ej/m, j = ej % m;
         const gvi_real *A = in->con.A + e;
         gvi_real taken = 0, all = 0;
@@ -6344,15 +6293,14 @@ GVI__CALLED gvi_status gvi__newton_crossing(gvi_stepper *st)
         if (!(taken*A[(j*m + j)*C] > 15)) continue;
         gvi__zero(2*(size_t)n, now);
         for (int l = j; l >= 0; --l) {
-            const gvi_real *run = gvi__runs(st, l, &ends), *G = in->con.G + l*n*C + e;
+            const gvi_real *G = in->con.G + l*n*C + e;
             c[l] = (gvi_real)(l == j);
             for (int i = l + 1; i <= j; ++i) c[l] -= A[(i*m + l)*C]*c[i];
-            for (int f = 0; f < ends; f += 2)
-                for (int i = (int)run[f]; i < (int)run[f + 1]; ++i) {
-                    now[i] += c[l]*G[i*C];
-                    next[i] += c[l]*G[i*C + 1];
-                    if (l == j) all += G[i*C]*G[i*C];
-                }
+            for (int i = gvi__column(st, l, 0); i < n; i = gvi__column(st, l, i + 1)) {
+                now[i] += c[l]*G[i*C];
+                next[i] += c[l]*G[i*C + 1];
+                if (l == j) all += G[i*C]*G[i*C];
+            }
         }
         const gvi_real part = gvi__dot(n, now, now), there = gvi__dot(n, next, next);
         const int goes_on = 256*there > part
@@ -6439,7 +6387,7 @@ GVI__COLD gvi_status gvi__begin_at(gvi_stepper *st, gvi_real t, const gvi_real *
     if (!in->started && gvi__probe(st, t, in->step.q, v) != GVI_OK)
         return st->status;
     if (gvi__constrained(st)) {
-        gvi__forget_runs(st);
+        gvi__forget_columns(st);
         const gvi_status status = gvi__project_start(st, t, in->step.q, in->step.p);
         if (status != GVI_OK) return status;
         v = in->result + 2*n;
@@ -6561,7 +6509,7 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
     gvi__zero((size_t)n, f);
     gvi__copy((size_t)n, q, next);
     gvi__copy((size_t)n, v, u);
-    gvi__forget_runs(st);
+    gvi__forget_columns(st);
     in->diagnose = 1;
     for (int k = 0; ; ++k) {
         status = gvi__constraints_at(st, t, next, NULL, u, drops);
@@ -6606,7 +6554,7 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
         gvi__add_scaled(n, 1, d, u, u);
         if (pass == 0) far[1] = gvi__dot(m, r, z);
     }
-    gvi__forget_runs(st);
+    gvi__forget_columns(st);
     if (status != GVI_OK) return st->status = status;
     gvi__copy((size_t)n, next, q);
     gvi__copy((size_t)n, u, v);
@@ -6642,12 +6590,12 @@ GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
     if (GVI__CONSTRAINTS && (in->con.bits >> index & 1u)) {
         gvi_status status = GVI_OK;
         in->con.m = gvi__count_rows(in, gvi__constraints_on(st));
-        gvi__forget_runs(st);
+        gvi__forget_columns(st);
         if (in->started && (was & ~in->off)) status = gvi__project_start(st, st->t, st->q, st->p);
         if (status != GVI_OK) {
             in->off = was;
             in->con.m = gvi__count_rows(in, gvi__constraints_on(st));
-            gvi__forget_runs(st);
+            gvi__forget_columns(st);
             return gvi__done(st, status);
         }
         in->con.kept = in->con.kept > 0;
