@@ -2789,7 +2789,7 @@ GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate
 GVI__CALLED void gvi__constraints_moved(const gvi_stepper *st, gvi_real *moved);
 static gvi_status gvi__constraints_at(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                       const gvi_real *p, gvi_real *v, gvi_real *drops);
-GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int *at);
+GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int row, int point);
 GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h);
 GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, int start);
 GVI__CALLED void gvi__commit_constraints(gvi_stepper *st, gvi_real h);
@@ -3863,8 +3863,10 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
     p->least = gvi__smaller(p->least, D);
     if (gvi__constrained(st) && D > 16*p->least && D > 256*rounding) {
         // near a bifurcation it would be leaving the motion, perhaps for that of another branch
-        int at[2];
-        const gvi_real loss = gvi__loss(st, at);
+        const int m = st->in.con.m;
+        gvi_real loss = 0;
+        for (int k = 0; st->in.con.made > 0 && k < st->s*m; ++k)
+            loss = gvi__larger(gvi__loss(st, k % m, k/m), loss);
         if (loss > 3 && D > 256*rounding*loss*loss*loss) return GVI__DIVERGES;
     }
     int allowed = POOR;
@@ -4542,8 +4544,8 @@ static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, con
 }
 
 // rows z [m][R] := A^-1 z, at points or at one; 0 for rows that are left out
-GVI__BODY void gvi__solve_at(const gvi_stepper *st, const gvi_real *A, int S, int count,
-                             gvi_real *z, int R)
+static void gvi__solve_constraints(const gvi_stepper *st, const gvi_real *A, int S, int count,
+                                   gvi_real *z, int R)
 {
     const int m = st->in.con.m;
     const gvi_real *first = st->in.con.first;
@@ -4557,13 +4559,6 @@ GVI__BODY void gvi__solve_at(const gvi_stepper *st, const gvi_real *A, int S, in
     for (int i = m; i-- > 0; )
         for (int j = (int)first[i]; j < i; ++j)
             gvi__subtract_at(S, count, A + (i*m + j)*S, z + i*R, z + j*R);
-}
-
-static void gvi__solve_constraints(const gvi_stepper *st, const gvi_real *A, int S, int count,
-                                   gvi_real *z, int R)
-{
-    if (S == 1) gvi__solve_at(st, A, 1, 1, z, 1);
-    else gvi__solve_at(st, A, S, count, z, R);
 }
 
 // g, dg/dt, G and A at one configuration; where M depends on v, at that which p makes of v
@@ -4788,25 +4783,15 @@ GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate
                                                    in->con.last + i*in->con.C + 1);
 }
 
-// the largest of what a pivot has lost, in units of what is left of it; at: its row and point
-GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int *at)
+// what the pivot of a row has lost at a point, in units of what is left of it
+GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int row, int point)
 {
-    const struct gvi__private *in = &st->in;
-    const int m = in->con.m, C = in->con.C;
-    gvi_real most = 0;
-    if (in->con.made == 0) return 0;
-    for (int k = 0; k < st->s; ++k)
-        for (int j = 0; j < m; ++j) {
-            gvi_real was = 0;
-            for (int l = (int)in->con.first[j]; l < j; ++l)
-                was += in->con.A[(j*m + l)*C + k]*in->con.A[(l*m + j)*C + k];
-            const gvi_real loss = was*in->con.A[(j*m + j)*C + k];
-            if (!(loss > most)) continue;
-            most = loss;
-            at[0] = j;
-            at[1] = k;
-        }
-    return most;
+    const int m = st->in.con.m, C = st->in.con.C;
+    const gvi_real *A = st->in.con.A + point;
+    gvi_real lost = 0;
+    for (int l = (int)st->in.con.first[row]; l < row; ++l)
+        lost += A[(row*m + l)*C]*A[(l*m + row)*C];
+    return lost*A[(row*m + row)*C];
 }
 
 /* RATTLE: the drift from p to g(q1) = 0 by impulses G0' mu, of a simplified Newton iteration.  A
@@ -6288,9 +6273,8 @@ GVI__CALLED gvi_status gvi__newton_crossing(gvi_stepper *st)
     for (int ej = 0; ej < st->s*m; ++ej) {
         const int e = ej/m, j = ej % m;
         const gvi_real *A = in->con.A + e;
-        gvi_real taken = 0, all = 0;
-        for (int l = 0; l < j; ++l) taken += A[(j*m + l)*C]*A[(l*m + j)*C];
-        if (!(taken*A[(j*m + j)*C] > 15)) continue;
+        gvi_real all = 0;
+        if (!(gvi__loss(st, j, e) > 15)) continue;
         gvi__zero(2*(size_t)n, now);
         for (int l = j; l >= 0; --l) {
             const gvi_real *G = in->con.G + l*n*C + e;
@@ -6321,19 +6305,19 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
                       NULL, 0, 0, how == GVI__HALVED };
     // few points see little of what is between
     const gvi_real far = (gvi_real)(st->s > 2 ? 0.25 : 0.015625);
-    const int old = !query && !gvi__nonzero(in->newton.h - in->sized.h);
+    int old = !query && !gvi__nonzero(in->newton.h - in->sized.h);
     gvi_real *v = in->result + 2*st->n;
     gvi_status status = GVI_OK;
     gvi__velocity_guess(st, v);
     if (gvi__constrained(st))                     // which rows depend on others at the start?
         status = gvi__constraints_at(st, from->t, from->q, NULL, v, in->con.drops);
     if (status != GVI_OK) return status;
-    gvi__newton_guess(st, how == GVI__EXTRAPOLATED);
-    status = gvi__newton_solve(st, from, &J);
-    if (old && status == GVI_OK && in->newton.bend > far) {   // that may be the old matrix's fault
-        in->newton.h = 0;
+    for (;;) {
         gvi__newton_guess(st, how == GVI__EXTRAPOLATED);
         status = gvi__newton_solve(st, from, &J);
+        if (!old || status != GVI_OK || !(in->newton.bend > far)) break;
+        in->newton.h = 0;                          // that may be the old matrix's fault
+        old = 0;
     }
     if (status == GVI_OK
         && (J.halves || in->newton.bend > far || gvi__orientation(&J, all) < 0)) {
