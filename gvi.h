@@ -793,7 +793,9 @@ struct gvi__holonomic {               /* constraints; C = stride of D_0..D_s    
     gvi_real *G1, *A1;                /* [2][m][n], [m][m] at one point                 */
     gvi_real *column, *first, *drops; /* see gvi__find_columns, gvi__factor_constraints */
     int       m, C, made, kept, linear; /* rows on; kept: last for the curve, 2 to predict */
-    int       settled, again;         /* see gvi__find_columns                          */
+    gvi_real *doubt;                  /* [m][3] see gvi__check_jacobian: share, size, times */
+    int       settled, again;         /* steps since the start; see gvi__find_columns    */
+    int       wrong;                  /* a row whose derivative is, or -1                */
     unsigned  bits;                   /* the effects                                 */
 };
 
@@ -1034,7 +1036,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI_CONSTRAINED_LENGTH(n, s, r, m) (GVI_LENGTH(n, s, r)                  \
     + (6*GVI__SIZE(n) + 3*GVI__SIZE(m) + 2*GVI__SIZE(r) + 5*GVI__SIZE(s) + 4 + (4 + GVI__SIZE(m)) \
        *(GVI__SIZE(n) + GVI__SIZE(m)))*(GVI__SIZE(GVI__ROW(r)) + GVI__SIZE(GVI__ROW((s) + 1)))    \
-    + (GVI__SIZE(s) + 3)*(GVI__SIZE(s) + 1) + (2*GVI__SIZE(n) + 7)*GVI__SIZE(m) \
+    + (GVI__SIZE(s) + 3)*(GVI__SIZE(s) + 1) + (2*GVI__SIZE(n) + 9)*GVI__SIZE(m) \
     + (10 + 2*GVI__SIZE(s)*(2*GVI__SIZE(n) + GVI__SIZE(m)))*GVI__SIZE(s)*GVI__SIZE(m))
 
 #ifdef __cplusplus
@@ -2792,6 +2794,7 @@ static gvi_status gvi__constraints_at(gvi_stepper *st, gvi_real t, const gvi_rea
 GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int row, int point);
 GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h);
 GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, int start);
+GVI__COLD gvi_status gvi__report_row(gvi_stepper *st, gvi_status status, int row, int point);
 GVI__CALLED void gvi__commit_constraints(gvi_stepper *st, gvi_real h);
 
 // may a step that does not converge turn to Newton's method?
@@ -2940,6 +2943,7 @@ GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, 
 static gvi_status gvi__solve(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query)
 {
     struct gvi__private *in = &st->in;
+    if (GVI__CONSTRAINTS) in->con.wrong = -1;
     for (int look = 0; ; look = 1) {
         in->diagnose = look;
         gvi_status status;
@@ -2947,6 +2951,11 @@ static gvi_status gvi__solve(gvi_stepper *st, const gvi__origin *from, gvi_real 
             if (GVI__CONSTRAINTS) in->con.again = 0;
             status = gvi__attempt(st, from, h, query);
         } while (GVI__CONSTRAINTS && in->con.again);
+        if (gvi__constrained(st) && in->con.wrong >= 0) {
+            status = gvi__report_row(st, GVI_E_CONVERGENCE, in->con.wrong, GVI_FAULT_NONE);
+            st->fault.argument = "a jacobian is not the derivative of g, in fault.coordinate's row";
+            return status;
+        }
         in->diagnose = 0;
         if (status == GVI_OK && !look && !gvi__finite_end(st, from))
             status = gvi__report_status(st, GVI_E_NON_FINITE);
@@ -4672,15 +4681,48 @@ static void gvi__force_sizes(const gvi_stepper *st, const gvi_real *z, int S, gv
                 sum[i*S + e] += GVI_ABS(st->in.con.G[(a*n + i)*C + e]*z[e]);
 }
 
-/* The constraints at D, padded with q0; A in the first iteration.  After a move along which G
-   changed by less than EPS of it, or one of EPS^(3/4) (not in float, where a step across a
-   bifurcation would end on the wrong branch), g is linearised from the last D: its rounding would
-   change lambda for ever, and is not that of D where g has terms that G q does not show.      */
-GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin *from)
+/* Is row a of G the derivative of g?  A move dD of D moves g by (G + G') dD/2, G and G' at its ends,
+   to third order.  What g has moved beside that, `missed`, shows a wrong entry where it is above
+   1/512 of size = sum |G' dD| and twice bend = |(G' - G) dD|, and keeps its share of size in four
+   iterations in a row that each move less.  Rounding does not: of known terms it is no more
+   than EPS terms, and of those that G q does not show about EPS size^2/bend.                  */
+static int gvi__beyond_rounding(gvi_real missed, gvi_real bend, gvi_real size)
+{
+    return bend > 8*GVI__EPS*size && missed*bend > 64*GVI__EPS*size*size;
+}
+
+GVI__CALLED gvi_status gvi__check_jacobian(gvi_stepper *st, int a, gvi_real missed, gvi_real bend,
+                                           gvi_real size, gvi_real terms)
+{
+    gvi_real *was = st->in.con.doubt + 3*a;
+    const gvi_real share = missed/size;
+    if (size < was[1] && share < 2*was[0] && was[0] < 2*share) was[2] += 1;
+    else was[2] = 1;
+    if (!(missed > size/512 && missed > 2*bend && missed > 64*GVI__EPS*terms)
+        || (bend > 8*GVI__EPS*size && !gvi__beyond_rounding(missed, bend, size))) was[2] = 0;
+    was[0] = share;
+    was[1] = size;
+    if (!(was[2] > 3)) return GVI_OK;
+    if (st->in.con.wrong < 0) st->in.con.wrong = a;
+    return gvi__report_status(st, GVI_E_CONVERGENCE);
+}
+
+// in steps 1, 2, 3, 5, 9 .. after a start, and after 8 iterations: so it costs nothing
+static int gvi__looks_at_jacobian(const gvi_stepper *st)
+{
+    const int steps = st->in.con.settled;
+    return st->in.con.made > 0 && (st->in.con.made > 8 || (steps & (steps - 1)) == 0);
+}
+
+/* The constraints at D, padded with q0.  After a move along which G changed by less than EPS of it,
+   or one of EPS^(3/4) (not in float, where a step across a bifurcation would end on the wrong
+   branch), g is linearised from the last D: its rounding would change lambda for ever, and is not
+   that of D where g has terms that G q does not show.                                        */
+static gvi_status gvi__evaluate_at_D(gvi_stepper *st, const gvi__origin *from)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m, s = st->s, R = in->R, C = in->con.C;
-    const int linear = in->con.linear;
+    const int linear = in->con.linear, looks = gvi__looks_at_jacobian(st);
     const gvi_real *G = in->con.G + 1, *moved = in->con.W;
     gvi_real *along = in->con.rho + m*R;
     for (int i = 0; i < n; ++i)
@@ -4696,27 +4738,42 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
             gvi__subtract_at(C, s, G + (a*n + i)*C, moved + i*C, along + a*C);
         for (int k = 0; k < s; ++k) in->con.rho[a*R + k] = in->con.g[a*C + k + 1] + along[a*C + k];
     }
-    const gvi_status status =
+    gvi_status status =
         gvi__evaluate_constraints(st, C, s + 1, in->con.t, in->con.at, in->con.G);
     if (!in->con.settled && gvi__find_columns(st, C, s + 1, in->con.G)) in->con.made = 0;
     in->con.linear = in->con.made > 0;
     for (int a = 0; a < m; ++a) {
+        gvi_real missed = 0, bend = 0, all = 0, terms = 0;
         if (linear) gvi__copy((size_t)s, in->con.rho + a*R, in->con.g + a*C + 1);
         for (int k = 0; k < s; ++k) {
             gvi_real change = along[a*C + k], size = 0;
-            if (!in->con.linear) break;
+            if (!in->con.linear && !looks) break;
             for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1)) {
                 const gvi_real z = G[(a*n + i)*C + k]*moved[i*C + k];
                 change += z;
                 size += GVI_ABS(z);
             }
             if (!(GVI_ABS(change) <= GVI__EPS*size)) in->con.linear = 0;
+            missed += GVI_ABS(in->con.g[a*C + k + 1] - in->con.rho[a*R + k] + change/2);
+            bend += GVI_ABS(change);
+            all += size;
+            if (looks)
+                terms += gvi__terms(st, C, in->con.t[k + 1], in->con.at + k + 1, G + k,
+                                    in->con.g + m*C + k + 1, a);
         }
+        if (looks && status == GVI_OK) status = gvi__check_jacobian(st, a, missed, bend, all, terms);
     }
-    if (status != GVI_OK) return status;
     in->con.made += 1;
-    if (in->con.made > 1) return GVI_OK;
-    return gvi__factor_constraints(st, C, s, in->con.G, in->con.A, in->con.drops);
+    return status;
+}
+
+// the same, and A in the first iteration
+GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin *from)
+{
+    const gvi_status status = gvi__evaluate_at_D(st, from);
+    if (status != GVI_OK || st->in.con.made > 1) return status;
+    return gvi__factor_constraints(st, st->in.con.C, st->s, st->in.con.G, st->in.con.A,
+                                   st->in.con.drops);
 }
 
 // the new lambda, and forces.  With momenta D' needs the P and V of the new F
@@ -4812,16 +4869,26 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
         gvi_real size = 0;
         int finite = 1;
         if (status == GVI_OK) status = gvi__evaluate_constraints(st, 1, 1, &t, Q, G);
+        in->con.made = k;
         if (status != GVI_OK) return status;
         if (k == 0 && !in->con.settled) (void)gvi__find_columns(st, 1, 1, G);
         for (int a = 0; a < m; ++a) {
             const gvi_real terms = gvi__terms(st, 1, t, Q, G, g + m, a);
-            const int rounding = k > 0 && GVI_ABS(g[a]) > (gvi_real)1.25*(GVI_ABS(left[a])
-                                           + GVI_ABS(h*gvi__row_dot(st, G, a, d) - z[a]));
+            gvi_real change = -z[a], all = 0;
+            for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1)) {
+                change += h*(G[a*n + i]*d[i]);
+                all += GVI_ABS(h*(G[a*n + i]*d[i]));
+            }
+            const gvi_real missed = GVI_ABS(g[a] - left[a] - change/2), bend = GVI_ABS(change);
+            const int rounding = k > 0 && !gvi__beyond_rounding(missed/64, bend, all)
+                                 && GVI_ABS(g[a]) > (gvi_real)1.25*(GVI_ABS(left[a]) + bend);
             if (k == 0 || terms > unit[a]) unit[a] = terms;
             if (!rounding && GVI_ABS(g[a]) > size*GVI__EPS*unit[a])
                 size = GVI_ABS(g[a])/(GVI__EPS*unit[a]);
             finite &= gvi__finite(g[a]);
+            if (gvi__looks_at_jacobian(st))
+                status = gvi__check_jacobian(st, a, missed, bend, all, terms);
+            if (status != GVI_OK) return status;
         }
         if (finite && size <= 64 && k > 0 && !(size < before/2))
             return gvi__report_status(st, GVI_OK);
@@ -4975,7 +5042,7 @@ GVI__CALLED void gvi__commit_constraints(gvi_stepper *st, gvi_real h)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, s = st->s, C = in->con.C, rows = n + in->con.m;
-    in->con.settled = 1;
+    if (in->con.settled < 0x4001) in->con.settled += 1;
     in->con.kept = gvi__constrained(st) && !gvi__uses(in, GVI_EXPLICIT) ? 2 : 0;
     if (in->con.kept == 0) return;
     for (int a = n; a < rows; ++a) in->con.y[a - n] /= h*in->con.w[s];
@@ -5290,7 +5357,7 @@ GVI__COLD void gvi__layout_constraints(struct gvi__private *in, gvi__arena *a)
         { &con->w, on, s + 1 }, { &con->rho, m, R + C }, { &con->lu, i*(s + 1), s + 1 },
         { &con->y, on, m },
         { &con->G1, 2*m, n }, { &con->A1, m, m }, { &con->column, m, n + 1 },
-        { &con->first, on, m }, { &con->drops, 2*on, m }
+        { &con->first, on, m }, { &con->drops, 2*on, m }, { &con->doubt, 3*on, m }
     };
     con->C = (int)C;
     for (size_t k = 0; k < sizeof list/sizeof *list; ++k)
@@ -5560,21 +5627,17 @@ static size_t gvi__unknowns(const gvi_stepper *st, int k0)
 GVI__CALLED gvi_status gvi__newton_constraints(gvi_stepper *st, const gvi__origin *from)
 {
     struct gvi__private *in = &st->in;
-    const int n = st->n, m = in->con.m, s = st->s, R = in->R, C = in->con.C;
+    const int n = st->n, m = in->con.m, s = st->s, R = in->R;
     gvi__constraint_points(st, from, in->sized.h);
-    for (int i = 0; i < n; ++i) {
-        gvi_real *at = in->con.at + i*C;
-        for (int e = 0; e < C; ++e) at[e] = from->q[i];
-        for (int e = 1; e <= s; ++e) {
+    for (int i = 0; i < n; ++i)
+        for (int e = 0; e < s; ++e) {
             gvi_real D = 0;
-            for (int k = 0; k < s; ++k) D += in->con.Phi[k*R + e - 1]*in->newton.y[k*n + i];
-            at[e] += from->q_low[i] + in->sized.h*D;
+            for (int k = 0; k < s; ++k) D += in->con.Phi[k*R + e]*in->newton.y[k*n + i];
+            in->con.D[i*R + e] = from->q_low[i] + in->sized.h*D;
         }
-    }
     for (int k = 0; k < s*m; ++k) in->con.force[(n + k % m)*R + k/m] = in->newton.y[s*n + k];
-    const gvi_status status =
-        gvi__evaluate_constraints(st, C, s + 1, in->con.t, in->con.at, in->con.G);
-    if (!in->con.settled) (void)gvi__find_columns(st, C, s + 1, in->con.G);
+    in->con.linear = 0;
+    const gvi_status status = gvi__evaluate_at_D(st, from);
     gvi__constraint_forces(st);
     gvi__force_sizes(st, in->con.force + n*R, R, in->con.D);      // nearly dependent rows cancel
     return status;
@@ -6122,6 +6185,7 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
     };
     p.have = kept && !gvi__nonzero(in->newton.h - in->sized.h);
     in->newton.bend = 0;
+    in->con.made = 0;
     for (int k = 0, made = 0, verdict = GVI__GO_ON; k <= in->desc.max_iterations; ++k) {
         gvi_status status = gvi__newton_values(st, from);
         // one more evaluation, then done
