@@ -456,7 +456,8 @@ typedef enum gvi_status {
                                 (fault.coordinate), or a constraint (fault.effect, its row in
                                 fault.coordinate) that depends on the others in a part of the
                                 step, or has G = 0                                  */
-    GVI_E_CONVERGENCE = -8,  /* no solution found: halve h                              */
+    GVI_E_CONVERGENCE = -8,  /* no solution found: halve h; or a jacobian is not the derivative
+                                of its g (fault.effect, its row in fault.coordinate) */
     GVI_E_CALLBACK    = -9,  /* a callback did not return 0 (fault.effect): halve h     */
     GVI_E_NON_FINITE  = -10, /* NaN or Inf came out of an effect (fault.effect); fault.point
                                 is GVI_FAULT_NONE: already where the step starts    */
@@ -729,8 +730,9 @@ typedef struct gvi_fault {             /* where the last failure came from      
     int effect;                        /* index in effects, or GVI_FAULT_...    */
     int coordinate;                    /* or GVI_FAULT_NONE                     */
     int point;                         /* quadrature point, or GVI_FAULT_NONE   */
-    const char *argument;              /* GVI_E_ARGUMENT, and GVI_E_CALLBACK of a GVI_POINTS
-                                          that lists too much: a sentence, else NULL */
+    const char *argument;              /* GVI_E_ARGUMENT, GVI_E_CALLBACK of a GVI_POINTS that
+                                          lists too much, GVI_E_CONVERGENCE by a wrong
+                                          jacobian: a sentence, else NULL       */
 } gvi_fault;
 
 /* Work of steps and queries since gvi_init.  The caller may set any of it to 0. */
@@ -795,7 +797,7 @@ struct gvi__holonomic {               /* constraints; C = stride of D_0..D_s    
     int       m, C, made, kept, linear; /* rows on; kept: last for the curve, 2 to predict */
     gvi_real *doubt;                  /* [m][3] see gvi__check_jacobian: share, size, times */
     int       settled, again;         /* steps since the start; see gvi__find_columns    */
-    int       wrong;                  /* a row whose derivative is, or -1                */
+    int       wrong;                  /* the row of a wrong jacobian, or -1             */
     unsigned  bits;                   /* the effects                                 */
 };
 
@@ -4456,8 +4458,8 @@ static int gvi__all_zero(const gvi_real *x)
 }
 
 /* The columns of each row in which G has had an entry other than 0.  They are looked for at the
-   ends of steps, and within the steps until one has shown nothing new (`settled`); a step at whose end
-   there are new ones is done again.  An entry that is 0 at both ends of a later step counts as 0
+   ends of steps, and within the first step after a start; a step at whose end there are new ones
+   is done again.  An entry that is 0 at both ends of a later step counts as 0
    inside.  first[a]: the first row that shares a coordinate with row a, where L begins; all rows
    do through a full M.                                                                        */
 static int gvi__find_columns(gvi_stepper *st, int S, int count, const gvi_real *G)
@@ -4514,7 +4516,8 @@ static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, con
     for (int i = 0; i < m; ++i) {
         const int from = (int)first[i];
         gvi_real *d = A + (i*m + i)*S;
-        for (int j = gvi__column(st, i, 0); j < n; j = gvi__column(st, i, j + 1)) {   // W = - M^-1 G_i'
+        // W = - M^-1 G_i'
+        for (int j = gvi__column(st, i, 0); j < n; j = gvi__column(st, i, j + 1)) {
             const gvi_real *g = G + (i*n + j)*S, inverse = full ? 1 : in->mass.inverse[j];
             for (int k = 0; k < count; ++k) W[j*S + k] = -(g[k]*inverse);
         }
@@ -4681,7 +4684,7 @@ static void gvi__force_sizes(const gvi_stepper *st, const gvi_real *z, int S, gv
                 sum[i*S + e] += GVI_ABS(st->in.con.G[(a*n + i)*C + e]*z[e]);
 }
 
-/* Is row a of G the derivative of g?  A move dD of D moves g by (G + G') dD/2, G and G' at its ends,
+/* Is row a of G the derivative of g?  A move dD of D moves g by (G + G') dD/2, of both its ends,
    to third order.  What g has moved beside that, `missed`, shows a wrong entry where it is above
    1/512 of size = sum |G' dD| and twice bend = |(G' - G) dD|, and keeps its share of size in four
    iterations in a row that each move less.  Rounding does not: of known terms it is no more
@@ -4722,7 +4725,8 @@ static gvi_status gvi__evaluate_at_D(gvi_stepper *st, const gvi__origin *from)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m, s = st->s, R = in->R, C = in->con.C;
-    const int linear = in->con.linear, looks = gvi__looks_at_jacobian(st);
+    const int linear = in->con.linear, looks = gvi__looks_at_jacobian(st),
+              rows = looks || st->formulation != GVI_NEWTON ? m : 0;         // to compare
     const gvi_real *G = in->con.G + 1, *moved = in->con.W;
     gvi_real *along = in->con.rho + m*R;
     for (int i = 0; i < n; ++i)
@@ -4733,7 +4737,7 @@ static gvi_status gvi__evaluate_at_D(gvi_stepper *st, const gvi__origin *from)
             *at = D;
         }
     gvi__zero((size_t)(m*C), along);              // by the old G
-    for (int a = 0; a < m; ++a) {
+    for (int a = 0; a < rows; ++a) {
         for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1))
             gvi__subtract_at(C, s, G + (a*n + i)*C, moved + i*C, along + a*C);
         for (int k = 0; k < s; ++k) in->con.rho[a*R + k] = in->con.g[a*C + k + 1] + along[a*C + k];
@@ -4742,7 +4746,7 @@ static gvi_status gvi__evaluate_at_D(gvi_stepper *st, const gvi__origin *from)
         gvi__evaluate_constraints(st, C, s + 1, in->con.t, in->con.at, in->con.G);
     if (!in->con.settled && gvi__find_columns(st, C, s + 1, in->con.G)) in->con.made = 0;
     in->con.linear = in->con.made > 0;
-    for (int a = 0; a < m; ++a) {
+    for (int a = 0; a < rows; ++a) {
         gvi_real missed = 0, bend = 0, all = 0, terms = 0;
         if (linear) gvi__copy((size_t)s, in->con.rho + a*R, in->con.g + a*C + 1);
         for (int k = 0; k < s; ++k) {
@@ -4761,7 +4765,8 @@ static gvi_status gvi__evaluate_at_D(gvi_stepper *st, const gvi__origin *from)
                 terms += gvi__terms(st, C, in->con.t[k + 1], in->con.at + k + 1, G + k,
                                     in->con.g + m*C + k + 1, a);
         }
-        if (looks && status == GVI_OK) status = gvi__check_jacobian(st, a, missed, bend, all, terms);
+        if (looks && status == GVI_OK)
+            status = gvi__check_jacobian(st, a, missed, bend, all, terms);
     }
     in->con.made += 1;
     return status;
