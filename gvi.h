@@ -795,9 +795,8 @@ struct gvi__holonomic {               /* constraints; C = stride of D_0..D_s    
     gvi_real *G1, *A1;                /* [2][m][n], [m][m] at one point                 */
     gvi_real *column, *first, *drops; /* see gvi__find_columns, gvi__factor_constraints */
     int       m, C, made, kept, linear; /* rows on; kept: last for the curve, 2 to predict */
-    gvi_real *doubt;                  /* [m][3] see gvi__check_jacobian: share, size, times */
+    gvi_real *doubt;                  /* [1+3m] see gvi__check_jacobian                 */
     int       settled, again;         /* steps since the start; see gvi__find_columns    */
-    int       wrong;                  /* the row of a wrong jacobian, or -1             */
     unsigned  bits;                   /* the effects                                 */
 };
 
@@ -2945,7 +2944,7 @@ GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, 
 static gvi_status gvi__solve(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query)
 {
     struct gvi__private *in = &st->in;
-    if (GVI__CONSTRAINTS) in->con.wrong = -1;
+    if (gvi__constrained(st)) in->con.doubt[0] = -1;
     for (int look = 0; ; look = 1) {
         in->diagnose = look;
         gvi_status status;
@@ -2953,8 +2952,9 @@ static gvi_status gvi__solve(gvi_stepper *st, const gvi__origin *from, gvi_real 
             if (GVI__CONSTRAINTS) in->con.again = 0;
             status = gvi__attempt(st, from, h, query);
         } while (GVI__CONSTRAINTS && in->con.again);
-        if (gvi__constrained(st) && in->con.wrong >= 0) {
-            status = gvi__report_row(st, GVI_E_CONVERGENCE, in->con.wrong, GVI_FAULT_NONE);
+        if (gvi__constrained(st) && in->con.doubt[0] >= 0) {
+            const int row = (int)in->con.doubt[0];
+            status = gvi__report_row(st, GVI_E_CONVERGENCE, row, GVI_FAULT_NONE);
             st->fault.argument = "a jacobian is not the derivative of g, in fault.coordinate's row";
             return status;
         }
@@ -4697,7 +4697,7 @@ static int gvi__beyond_rounding(gvi_real missed, gvi_real bend, gvi_real size)
 GVI__CALLED gvi_status gvi__check_jacobian(gvi_stepper *st, int a, gvi_real missed, gvi_real bend,
                                            gvi_real size, gvi_real terms)
 {
-    gvi_real *was = st->in.con.doubt + 3*a;
+    gvi_real *wrong = st->in.con.doubt, *was = wrong + 1 + 3*a;   // a row or -1; share, size, times
     const gvi_real share = missed/size;
     if (size < was[1] && share < 2*was[0] && was[0] < 2*share) was[2] += 1;
     else was[2] = 1;
@@ -4706,7 +4706,7 @@ GVI__CALLED gvi_status gvi__check_jacobian(gvi_stepper *st, int a, gvi_real miss
     was[0] = share;
     was[1] = size;
     if (!(was[2] > 3)) return GVI_OK;
-    if (st->in.con.wrong < 0) st->in.con.wrong = a;
+    if (wrong[0] < 0) wrong[0] = (gvi_real)a;
     return gvi__report_status(st, GVI_E_CONVERGENCE);
 }
 
@@ -5362,7 +5362,7 @@ GVI__COLD void gvi__layout_constraints(struct gvi__private *in, gvi__arena *a)
         { &con->w, on, s + 1 }, { &con->rho, m, R + C }, { &con->lu, i*(s + 1), s + 1 },
         { &con->y, on, m },
         { &con->G1, 2*m, n }, { &con->A1, m, m }, { &con->column, m, n + 1 },
-        { &con->first, on, m }, { &con->drops, 2*on, m }, { &con->doubt, 3*on, m }
+        { &con->first, on, m }, { &con->drops, 2*on, m }, { &con->doubt, on, 3*m + 1 }
     };
     con->C = (int)C;
     for (size_t k = 0; k < sizeof list/sizeof *list; ++k)
