@@ -455,7 +455,8 @@ typedef enum gvi_status {
                                 (fault.coordinate), or a constraint (fault.effect, its row in
                                 fault.coordinate) that depends on the others in a part of the
                                 step, or has G = 0                                  */
-    GVI_E_CONVERGENCE = -8,  /* no solution found: halve h                              */
+    GVI_E_CONVERGENCE = -8,  /* no solution found: halve h; or a jacobian is not the derivative
+                                of its g (fault.effect, its row in fault.coordinate) */
     GVI_E_CALLBACK    = -9,  /* a callback did not return 0 (fault.effect): halve h     */
     GVI_E_NON_FINITE  = -10, /* NaN or Inf came out of an effect (fault.effect); fault.point
                                 is GVI_FAULT_NONE: already where the step starts    */
@@ -730,8 +731,9 @@ typedef struct gvi_fault {             /* where the last failure came from      
     int effect;                        /* index in effects, or GVI_FAULT_...    */
     int coordinate;                    /* or GVI_FAULT_NONE                     */
     int point;                         /* quadrature point, or GVI_FAULT_NONE   */
-    const char *argument;              /* GVI_E_ARGUMENT, and GVI_E_CALLBACK of a GVI_POINTS
-                                          that lists too much: a sentence, else NULL */
+    const char *argument;              /* GVI_E_ARGUMENT, GVI_E_CALLBACK of a GVI_POINTS that
+                                          lists too much, GVI_E_CONVERGENCE by a wrong
+                                          jacobian: a sentence, else NULL       */
 } gvi_fault;
 
 /* Work of steps and queries since gvi_init.  The caller may set any of it to 0. */
@@ -792,9 +794,10 @@ struct gvi__holonomic {               /* constraints; C = stride of D_0..D_s    
     gvi_real *force, *rho, *last;     /* [n+m][R] G' lambda, -lambda; residual; [n+m][C] last */
     gvi_real *at, *g, *G, *A, *W, *y; /* [.][C] D, g and rate, G, its matrix; scratch; [m] */
     gvi_real *G1, *A1;                /* [2][m][n], [m][m] at one point                 */
-    gvi_real *runs, *ends, *first, *drops; /* see gvi__find_runs, gvi__factor_constraints */
+    gvi_real *column, *first, *drops; /* see gvi__find_columns, gvi__factor_constraints */
     int       m, C, made, kept, linear; /* rows on; kept: last for the curve, 2 to predict */
-    int       settled, again;         /* see gvi__find_runs                          */
+    gvi_real *doubt;                  /* [1+3m] see gvi__check_jacobian                 */
+    int       settled, again;         /* steps since the start; see gvi__find_columns    */
     unsigned  bits;                   /* the effects                                 */
 };
 
@@ -1036,7 +1039,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI_CONSTRAINED_LENGTH(n, s, r, m) (GVI_LENGTH(n, s, r)                  \
     + (6*GVI__SIZE(n) + 3*GVI__SIZE(m) + 2*GVI__SIZE(r) + 5*GVI__SIZE(s) + 4 + (4 + GVI__SIZE(m)) \
        *(GVI__SIZE(n) + GVI__SIZE(m)))*(GVI__SIZE(GVI__ROW(r)) + GVI__SIZE(GVI__ROW((s) + 1)))    \
-    + (GVI__SIZE(s) + 3)*(GVI__SIZE(s) + 1) + (2*GVI__SIZE(n) + 7)*GVI__SIZE(m) \
+    + (GVI__SIZE(s) + 3)*(GVI__SIZE(s) + 1) + (2*GVI__SIZE(n) + 9)*GVI__SIZE(m) \
     + (10 + 2*GVI__SIZE(s)*(2*GVI__SIZE(n) + GVI__SIZE(m)))*GVI__SIZE(s)*GVI__SIZE(m))
 
 #ifdef __cplusplus
@@ -3442,11 +3445,10 @@ GVI__COLD gvi_status gvi__report_row(gvi_stepper *st, gvi_status status, int row
     return gvi__report(st, status, e, row, point);
 }
 
-/* What of row a is read and cleared: runs of columns, from run[e] to run[e + 1], e even.      */
-GVI__BODY const gvi_real *gvi__runs(const gvi_stepper *st, int a, int *ends)
+// of the columns of row a that are read and cleared, the first from i on; n: there is none
+GVI__BODY int gvi__column(const gvi_stepper *st, int a, int i)
 {
-    *ends = (int)st->in.con.ends[a];
-    return st->in.con.runs + a*(st->n + 1);
+    return (int)st->in.con.column[a*(st->n + 1) + i];
 }
 
 // g and dg/dt to con.g, and G, at `count` points
@@ -3459,13 +3461,11 @@ static gvi_status gvi__evaluate_constraints(gvi_stepper *st, int S, int count, c
     at.rate = at.g + st->in.con.m*S;
     at.jacobian = G;
     gvi__zero((size_t)(st->in.con.m*S), at.rate);
-    for (int a = 0, ends; a < st->in.con.m; ++a) {
-        const gvi_real *run = gvi__runs(st, a, &ends);
-        for (int e = 0; e < ends; e += 2) {
-            const int i = (int)run[e], to = (int)run[e + 1];
+    for (int a = 0; a < st->in.con.m; ++a)
+        for (int i = gvi__column(st, a, 0), to; i < st->n; i = gvi__column(st, a, to)) {
+            for (to = i + 1; gvi__column(st, a, to) == to && to < st->n; ++to) { }
             gvi__zero((size_t)((to - i)*S), G + (size_t)(a*st->n + i)*(size_t)S);
         }
-    }
     if (st->in.diagnose && gvi__check_rows(st, &at, q, 0) != GVI_OK)
         return gvi__report_status(st, GVI_E_CONVERGENCE);
     for (int e = 0; e < st->in.desc.effect_count; ++e) {
@@ -3513,55 +3513,35 @@ static int gvi__all_zero(const gvi_real *x)
     return (a + b) + (c + d) <= 0;
 }
 
-// column i begins a run or ends one, or no longer does
-GVI__COLD void gvi__toggle(gvi_real *run, gvi_real *ends, int i)
-{
-    int e = 0, count = (int)*ends;
-    while (e < count && (int)run[e] < i) ++e;
-    if (e < count && (int)run[e] == i)
-        for (--count; e < count; ++e) run[e] = run[e + 1];
-    else {
-        for (int f = count++; f > e; --f) run[f] = run[f - 1];
-        run[e] = (gvi_real)i;
-    }
-    *ends = (gvi_real)count;
-}
-
-/* Runs of the columns in which G has had an entry other than 0.  They are looked for at the ends of
-   steps, and within the steps until one has shown nothing new (`settled`); a step at whose end
-   there are new ones is done again.  An entry that is 0 at both ends of a later step counts as 0
+/* The columns of each row in which G has had an entry other than 0.  They are looked for at the
+   ends of steps, and within the first step after a start; a step at whose end there are new ones
+   is done again.  An entry that is 0 at both ends of a later step counts as 0
    inside.  first[a]: the first row that shares a coordinate with row a, where L begins; all rows
    do through a full M.                                                                        */
-static int gvi__find_runs(gvi_stepper *st, int S, int count, const gvi_real *G)
+static int gvi__find_columns(gvi_stepper *st, int S, int count, const gvi_real *G)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
     gvi_real *const top = in->point;
-    int grown = 0, ends;
+    int grown = 0;
     for (int a = 0; a < m; ++a) {
-        const gvi_real *run = gvi__runs(st, a, &ends), *row = G + (size_t)(a*n)*(size_t)S;
-        for (int i = 0, e = 0; i < n; ++i) {
+        gvi_real *column = in->con.column + a*(n + 1);
+        const gvi_real *row = G + (size_t)(a*n)*(size_t)S;
+        for (int i = 0; i < n; ++i) {
             while (S == 1 && i + 8 <= n && gvi__all_zero(row + i)) i += 8;
-            for (; e < ends && (int)run[e] <= i; ++e)
-                if (e % 2 == 0) i = (int)run[e + 1];
-            if (i >= n || gvi__norm1(count, row + i*S) <= 0) continue;
-            gvi__toggle(in->con.runs + a*(n + 1), in->con.ends + a, i);
-            gvi__toggle(in->con.runs + a*(n + 1), in->con.ends + a, i + 1);
-            run = gvi__runs(st, a, &ends);
-            e = 0;
+            if (i == n || (int)column[i] == i || gvi__norm1(count, row + i*S) <= 0) continue;
+            for (int j = i; j >= 0 && (int)column[j] > i; --j) column[j] = (gvi_real)i;
             grown = 1;
         }
     }
     if (!grown) return 0;
     for (int i = 0; i < n; ++i) top[i] = (gvi_real)m;
     for (int a = 0; a < m; ++a) {
-        const gvi_real *run = gvi__runs(st, a, &ends);
         gvi_real first = gvi__full_mass(in) ? 0 : (gvi_real)a;
-        for (int e = 0; e < ends; e += 2)
-            for (int i = (int)run[e]; i < (int)run[e + 1]; ++i) {
-                if (top[i] > (gvi_real)a) top[i] = (gvi_real)a;
-                if (top[i] < first) first = top[i];
-            }
+        for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1)) {
+            top[i] = gvi__smaller((gvi_real)a, top[i]);
+            first = gvi__smaller(top[i], first);
+        }
         in->con.first[a] = first;
     }
     return 1;
@@ -3570,11 +3550,9 @@ static int gvi__find_runs(gvi_stepper *st, int S, int count, const gvi_real *G)
 // G_a z at one point
 static gvi_real gvi__row_dot(const gvi_stepper *st, const gvi_real *G, int a, const gvi_real *z)
 {
-    int ends;
-    const gvi_real *run = gvi__runs(st, a, &ends);
     gvi_real sum = 0;
-    for (int e = 0; e < ends; e += 2)
-        for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i) sum += G[a*st->n + i]*z[i];
+    for (int i = gvi__column(st, a, 0); i < st->n; i = gvi__column(st, a, i + 1))
+        sum += G[a*st->n + i]*z[i];
     return sum;
 }
 
@@ -3591,32 +3569,28 @@ static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, con
     const gvi_real *first = in->con.first, least = GVI__GRAIN*(gvi_real)m*GVI__EPS;
     gvi_real *W = in->con.W;
     gvi__zero((size_t)(n*S), W);
-    for (int i = 0, ends; i < m; ++i) {
+    for (int i = 0; i < m; ++i) {
         const int from = (int)first[i];
-        const gvi_real *run = gvi__runs(st, i, &ends);
         gvi_real *d = A + (i*m + i)*S;
-        for (int e = 0; e < ends; e += 2)                    // W = - M^-1 G_i'
-            for (int j = (int)run[e]; j < (int)run[e + 1]; ++j) {
-                const gvi_real *g = G + (i*n + j)*S, inverse = full ? 1 : in->mass.inverse[j];
-                for (int k = 0; k < count; ++k) W[j*S + k] = -(g[k]*inverse);
-            }
+        // W = - M^-1 G_i'
+        for (int j = gvi__column(st, i, 0); j < n; j = gvi__column(st, i, j + 1)) {
+            const gvi_real *g = G + (i*n + j)*S, inverse = full ? 1 : in->mass.inverse[j];
+            for (int k = 0; k < count; ++k) W[j*S + k] = -(g[k]*inverse);
+        }
         if (full) gvi__over_inertia(st, W, S, count);
         for (int j = from; j <= i; ++j) {
             gvi_real *u = A + (j*m + i)*S;
-            run = gvi__runs(st, j, &ends);
-            gvi__zero((size_t)S, u);
-            for (int e = 0; e < ends; e += 2)
-                for (int l = (int)run[e], to = (int)run[e + 1]; l < to; ++l)
-                    gvi__subtract_at(S, count, G + (j*n + l)*S, W + l*S, u);
+            for (int k = 0; k < count; ++k) u[k] = 0;
+            for (int l = gvi__column(st, j, 0); l < n; l = gvi__column(st, j, l + 1))
+                gvi__subtract_at(S, count, G + (j*n + l)*S, W + l*S, u);
             if (j == i) break;
             int l = (int)first[j];
             if (l < from) l = from;
             for (; l < j; ++l) gvi__subtract_at(S, count, A + (j*m + l)*S, A + (l*m + i)*S, u);
         }
-        run = gvi__runs(st, i, &ends);
         if (full) gvi__zero((size_t)(n*S), W);
-        for (int e = 0; e < ends; e += 2)
-            gvi__zero((size_t)(((int)run[e + 1] - (int)run[e])*S), W + (int)run[e]*S);
+        for (int j = gvi__column(st, i, 0); j < n; j = gvi__column(st, i, j + 1))
+            for (int k = 0; k < count; ++k) W[j*S + k] = 0;
         for (int k = 0; k < count; ++k) {
             const gvi_real was = GVI_ABS(d[k]);
             gvi_real rest = d[k];
@@ -3638,8 +3612,8 @@ static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, con
 }
 
 // rows z [m][R] := A^-1 z, at points or at one; 0 for rows that are left out
-GVI__BODY void gvi__solve_at(const gvi_stepper *st, const gvi_real *A, int S, int count,
-                             gvi_real *z, int R)
+static void gvi__solve_constraints(const gvi_stepper *st, const gvi_real *A, int S, int count,
+                                   gvi_real *z, int R)
 {
     const int m = st->in.con.m;
     const gvi_real *first = st->in.con.first;
@@ -3655,13 +3629,6 @@ GVI__BODY void gvi__solve_at(const gvi_stepper *st, const gvi_real *A, int S, in
             gvi__subtract_at(S, count, A + (i*m + j)*S, z + i*R, z + j*R);
 }
 
-static void gvi__solve_constraints(const gvi_stepper *st, const gvi_real *A, int S, int count,
-                                   gvi_real *z, int R)
-{
-    if (S == 1) gvi__solve_at(st, A, 1, 1, z, 1);
-    else gvi__solve_at(st, A, S, count, z, R);
-}
-
 // g, dg/dt, G and A at one configuration; where M depends on v, at that which p makes of v
 static gvi_status gvi__constraints_at(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                       const gvi_real *p, gvi_real *v, gvi_real *drops)
@@ -3671,7 +3638,7 @@ static gvi_status gvi__constraints_at(gvi_stepper *st, gvi_real t, const gvi_rea
     gvi_points at = gvi__one_point(st, &t, q);
     gvi_status status = gvi__evaluate_constraints(st, 1, 1, &t, q, G);
     if (status == GVI_OK && (drops != st->in.con.drops || !st->in.con.settled))
-        st->in.con.again |= gvi__find_runs(st, 1, 1, G);
+        st->in.con.again |= gvi__find_columns(st, 1, 1, G);
     if (status == GVI_OK && gvi__has(&st->in, GVI__HAS_LAGRANGIAN)) {
         if (p) status = gvi__velocity(st, t, q, p, v);
         at.v = v;
@@ -3687,24 +3654,18 @@ static gvi_status gvi__constraints_at(gvi_stepper *st, gvi_real t, const gvi_rea
 // z += G' y at one point
 static void gvi__add_force(const gvi_stepper *st, const gvi_real *y, gvi_real *z)
 {
-    for (int a = 0, ends; a < st->in.con.m; ++a) {
-        const gvi_real *run = gvi__runs(st, a, &ends);
-        const gvi_real *G = st->in.con.G1 + a*st->n, ya = y[a];
-        for (int e = 0; e < ends; e += 2)
-            for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i) z[i] += ya*G[i];
-    }
+    for (int a = 0; a < st->in.con.m; ++a)
+        for (int i = gvi__column(st, a, 0); i < st->n; i = gvi__column(st, a, i + 1))
+            z[i] += y[a]*st->in.con.G1[a*st->n + i];
 }
 
 // sum of |G_ai q_i| and |t dg_a/dt|: what is known of the size of g_a's terms, at one point
 static gvi_real gvi__terms(const gvi_stepper *st, int S, gvi_real t, const gvi_real *q,
                            const gvi_real *G, const gvi_real *rate, int a)
 {
-    int ends;
-    const gvi_real *run = gvi__runs(st, a, &ends);
     gvi_real size = GVI_ABS(rate[a*S]*t);
-    for (int e = 0; e < ends; e += 2)
-        for (int i = (int)run[e]; i < (int)run[e + 1]; ++i)
-            size += GVI_ABS(G[(a*st->n + i)*S]*q[i*S]);
+    for (int i = gvi__column(st, a, 0); i < st->n; i = gvi__column(st, a, i + 1))
+        size += GVI_ABS(G[(a*st->n + i)*S]*q[i*S]);
     return size;
 }
 
@@ -3762,13 +3723,10 @@ static void gvi__constraint_forces(const gvi_stepper *st)
     const struct gvi__private *in = &st->in;
     const int n = st->n, R = in->R, C = in->con.C;
     gvi__zero((size_t)(n*R), in->con.force);
-    for (int a = 0, ends; a < in->con.m; ++a) {
-        const gvi_real *run = gvi__runs(st, a, &ends);
-        for (int e = 0; e < ends; e += 2)
-            for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i)
-                gvi__subtract_at(C, st->s, in->con.G + (a*n + i)*C, in->con.force + (n + a)*R,
-                                 in->con.force + i*R);
-    }
+    for (int a = 0; a < in->con.m; ++a)
+        for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1))
+            gvi__subtract_at(C, st->s, in->con.G + (a*n + i)*C, in->con.force + (n + a)*R,
+                             in->con.force + i*R);
 }
 
 // sum_a |G_a z_a| at the sources, to rows of S numbers; z [m][R]
@@ -3776,24 +3734,55 @@ static void gvi__force_sizes(const gvi_stepper *st, const gvi_real *z, int S, gv
 {
     const int n = st->n, C = st->in.con.C;
     gvi__zero((size_t)(n*S), sum);
-    for (int a = 0, ends; a < st->in.con.m; ++a, z += st->in.R) {
-        const gvi_real *run = gvi__runs(st, a, &ends);
-        for (int f = 0; f < ends; f += 2)
-            for (int i = (int)run[f], to = (int)run[f + 1]; i < to; ++i)
-                for (int e = 0; e < st->s; ++e)
-                    sum[i*S + e] += GVI_ABS(st->in.con.G[(a*n + i)*C + e]*z[e]);
-    }
+    for (int a = 0; a < st->in.con.m; ++a, z += st->in.R)
+        for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1))
+            for (int e = 0; e < st->s; ++e)
+                sum[i*S + e] += GVI_ABS(st->in.con.G[(a*n + i)*C + e]*z[e]);
 }
 
-/* The constraints at D, padded with q0; A in the first iteration.  After a move along which G
-   changed by less than EPS of it, or one of EPS^(3/4) (not in float, where a step across a
-   bifurcation would end on the wrong branch), g is linearised from the last D: its rounding would
-   change lambda for ever, and is not that of D where g has terms that G q does not show.      */
-GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin *from)
+/* Is row a of G the derivative of g?  A move dD of D moves g by (G + G') dD/2, of both its ends,
+   to third order.  What g has moved beside that, `missed`, shows a wrong entry where it is above
+   1/512 of size = sum |G' dD| and twice bend = |(G' - G) dD|, and keeps its share of size in four
+   iterations in a row that each move less.  Rounding does not: of known terms it is no more
+   than EPS terms, and of those that G q does not show about EPS size^2/bend.                  */
+static int gvi__beyond_rounding(gvi_real missed, gvi_real bend, gvi_real size)
+{
+    return bend > 8*GVI__EPS*size && missed*bend > 64*GVI__EPS*size*size;
+}
+
+GVI__CALLED gvi_status gvi__check_jacobian(gvi_stepper *st, int a, gvi_real missed, gvi_real bend,
+                                           gvi_real size, gvi_real terms)
+{
+    gvi_real *wrong = st->in.con.doubt, *was = wrong + 1 + 3*a;   // a row or -1; share, size, times
+    const gvi_real share = missed/size;
+    if (size < was[1] && share < 2*was[0] && was[0] < 2*share) was[2] += 1;
+    else was[2] = 1;
+    if (!(missed > size/512 && missed > 2*bend && missed > 64*GVI__EPS*terms)
+        || (bend > 8*GVI__EPS*size && !gvi__beyond_rounding(missed, bend, size))) was[2] = 0;
+    was[0] = share;
+    was[1] = size;
+    if (!(was[2] > 3)) return GVI_OK;
+    if (wrong[0] < 0) wrong[0] = (gvi_real)a;
+    return gvi__report_status(st, GVI_E_CONVERGENCE);
+}
+
+// in steps 1, 2, 3, 5, 9 .. after a start, and after 8 iterations: so it costs nothing
+static int gvi__looks_at_jacobian(const gvi_stepper *st)
+{
+    const int steps = st->in.con.settled;
+    return st->in.con.made > 0 && (st->in.con.made > 8 || (steps & (steps - 1)) == 0);
+}
+
+/* The constraints at D, padded with q0.  After a move along which G changed by less than EPS of it,
+   or one of EPS^(3/4) (not in float, where a step across a bifurcation would end on the wrong
+   branch), g is linearised from the last D: its rounding would change lambda for ever, and is not
+   that of D where g has terms that G q does not show.                                        */
+static gvi_status gvi__evaluate_at_D(gvi_stepper *st, const gvi__origin *from)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m, s = st->s, R = in->R, C = in->con.C;
-    const int linear = in->con.linear;
+    const int linear = in->con.linear, looks = gvi__looks_at_jacobian(st),
+              rows = looks || st->formulation != GVI_NEWTON ? m : 0;         // to compare
     const gvi_real *G = in->con.G + 1, *moved = in->con.W;
     gvi_real *along = in->con.rho + m*R;
     for (int i = 0; i < n; ++i)
@@ -3804,36 +3793,48 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
             *at = D;
         }
     gvi__zero((size_t)(m*C), along);              // by the old G
-    for (int a = 0, ends; a < m; ++a) {
-        const gvi_real *run = gvi__runs(st, a, &ends);
-        for (int e = 0; e < ends; e += 2)
-            for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i)
-                gvi__subtract_at(C, s, G + (a*n + i)*C, moved + i*C, along + a*C);
+    for (int a = 0; a < rows; ++a) {
+        for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1))
+            gvi__subtract_at(C, s, G + (a*n + i)*C, moved + i*C, along + a*C);
         for (int k = 0; k < s; ++k) in->con.rho[a*R + k] = in->con.g[a*C + k + 1] + along[a*C + k];
     }
-    const gvi_status status =
+    gvi_status status =
         gvi__evaluate_constraints(st, C, s + 1, in->con.t, in->con.at, in->con.G);
-    if (!in->con.settled && gvi__find_runs(st, C, s + 1, in->con.G)) in->con.made = 0;
+    if (!in->con.settled && gvi__find_columns(st, C, s + 1, in->con.G)) in->con.made = 0;
     in->con.linear = in->con.made > 0;
-    for (int a = 0, ends; a < m; ++a) {
-        const gvi_real *run = gvi__runs(st, a, &ends);
+    for (int a = 0; a < rows; ++a) {
+        gvi_real missed = 0, bend = 0, all = 0, terms = 0;
         if (linear) gvi__copy((size_t)s, in->con.rho + a*R, in->con.g + a*C + 1);
         for (int k = 0; k < s; ++k) {
             gvi_real change = along[a*C + k], size = 0;
-            if (!in->con.linear) break;
-            for (int e = 0; e < ends; e += 2)
-                for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i) {
-                    const gvi_real z = G[(a*n + i)*C + k]*moved[i*C + k];
-                    change += z;
-                    size += GVI_ABS(z);
-                }
+            if (!in->con.linear && !looks) break;
+            for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1)) {
+                const gvi_real z = G[(a*n + i)*C + k]*moved[i*C + k];
+                change += z;
+                size += GVI_ABS(z);
+            }
             if (!(GVI_ABS(change) <= GVI__EPS*size)) in->con.linear = 0;
+            missed += GVI_ABS(in->con.g[a*C + k + 1] - in->con.rho[a*R + k] + change/2);
+            bend += GVI_ABS(change);
+            all += size;
+            if (looks)
+                terms += gvi__terms(st, C, in->con.t[k + 1], in->con.at + k + 1, G + k,
+                                    in->con.g + m*C + k + 1, a);
         }
+        if (looks && status == GVI_OK)
+            status = gvi__check_jacobian(st, a, missed, bend, all, terms);
     }
-    if (status != GVI_OK) return status;
     in->con.made += 1;
-    if (in->con.made > 1) return GVI_OK;
-    return gvi__factor_constraints(st, C, s, in->con.G, in->con.A, in->con.drops);
+    return status;
+}
+
+// the same, and A in the first iteration
+GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin *from)
+{
+    const gvi_status status = gvi__evaluate_at_D(st, from);
+    if (status != GVI_OK || st->in.con.made > 1) return status;
+    return gvi__factor_constraints(st, st->in.con.C, st->s, st->in.con.G, st->in.con.A,
+                                   st->in.con.drops);
 }
 
 // the new lambda, and forces.  With momenta D' needs the P and V of the new F
@@ -3859,13 +3860,11 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *stage, const 
         for (int e = 0; e < s; ++e) z[e] = (at[e] - q0[i]) - D[e];
     }
     gvi__zero((size_t)(m*R), rho);
-    for (int a = 0, ends; a < m; ++a) {
-        const gvi_real *run = gvi__runs(st, a, &ends);
+    for (int a = 0; a < m; ++a) {
         gvi_real *g = rho + m*R + a*C;             // gvi__constraints_moved reads it
         gvi__copy((size_t)s, in->con.g + a*C + 1, g);
-        for (int e = 0; e < ends; e += 2)
-            for (int i = (int)run[e], to = (int)run[e + 1]; i < to; ++i)
-                gvi__subtract_at(C, s, in->con.G + (a*n + i)*C + 1, moved + i*C, g);
+        for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1))
+            gvi__subtract_at(C, s, in->con.G + (a*n + i)*C + 1, moved + i*C, g);
         for (int b = 0; b < s; ++b) gvi__subtract_row((size_t)R, -g[b], in->con.X + b*R, rho + a*R);
     }
     gvi__solve_constraints(st, in->con.A, C, s, rho, R);
@@ -3902,25 +3901,15 @@ GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate
                                                    in->con.last + i*in->con.C + 1);
 }
 
-// the largest of what a pivot has lost, in units of what is left of it; at: its row and point
-GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int *at)
+// what the pivot of a row has lost at a point, in units of what is left of it
+GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int row, int point)
 {
-    const struct gvi__private *in = &st->in;
-    const int m = in->con.m, C = in->con.C;
-    gvi_real most = 0;
-    if (in->con.made == 0) return 0;
-    for (int k = 0; k < st->s; ++k)
-        for (int j = 0; j < m; ++j) {
-            gvi_real was = 0;
-            for (int l = (int)in->con.first[j]; l < j; ++l)
-                was += in->con.A[(j*m + l)*C + k]*in->con.A[(l*m + j)*C + k];
-            const gvi_real loss = was*in->con.A[(j*m + j)*C + k];
-            if (!(loss > most)) continue;
-            most = loss;
-            at[0] = j;
-            at[1] = k;
-        }
-    return most;
+    const int m = st->in.con.m, C = st->in.con.C;
+    const gvi_real *A = st->in.con.A + point;
+    gvi_real lost = 0;
+    for (int l = (int)st->in.con.first[row]; l < row; ++l)
+        lost += A[(row*m + l)*C]*A[(l*m + row)*C];
+    return lost*A[(row*m + row)*C];
 }
 
 /* RATTLE: the drift from p to g(q1) = 0 by impulses G0' mu, of a simplified Newton iteration.  A
@@ -3941,16 +3930,26 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
         gvi_real size = 0;
         int finite = 1;
         if (status == GVI_OK) status = gvi__evaluate_constraints(st, 1, 1, &t, Q, G);
+        in->con.made = k;
         if (status != GVI_OK) return status;
-        if (k == 0 && !in->con.settled) (void)gvi__find_runs(st, 1, 1, G);
+        if (k == 0 && !in->con.settled) (void)gvi__find_columns(st, 1, 1, G);
         for (int a = 0; a < m; ++a) {
             const gvi_real terms = gvi__terms(st, 1, t, Q, G, g + m, a);
-            const int rounding = k > 0 && GVI_ABS(g[a]) > (gvi_real)1.25*(GVI_ABS(left[a])
-                                           + GVI_ABS(h*gvi__row_dot(st, G, a, d) - z[a]));
+            gvi_real change = -z[a], all = 0;
+            for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1)) {
+                change += h*(G[a*n + i]*d[i]);
+                all += GVI_ABS(h*(G[a*n + i]*d[i]));
+            }
+            const gvi_real missed = GVI_ABS(g[a] - left[a] - change/2), bend = GVI_ABS(change);
+            const int rounding = k > 0 && !gvi__beyond_rounding(missed/64, bend, all)
+                                 && GVI_ABS(g[a]) > (gvi_real)1.25*(GVI_ABS(left[a]) + bend);
             if (k == 0 || terms > unit[a]) unit[a] = terms;
             if (!rounding && GVI_ABS(g[a]) > size*GVI__EPS*unit[a])
                 size = GVI_ABS(g[a])/(GVI__EPS*unit[a]);
             finite &= gvi__finite(g[a]);
+            if (gvi__looks_at_jacobian(st))
+                status = gvi__check_jacobian(st, a, missed, bend, all, terms);
+            if (status != GVI_OK) return status;
         }
         if (finite && size <= GVI__GRAIN && k > 0 && !(size < before/2))
             return gvi__report_status(st, GVI_OK);
@@ -4072,11 +4071,11 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
 }
 
 // the rows are others now
-GVI__COLD void gvi__forget_runs(gvi_stepper *st)
+GVI__COLD void gvi__forget_columns(gvi_stepper *st)
 {
     struct gvi__private *in = &st->in;
     const size_t m = (size_t)gvi__count_rows(in, in->con.bits), C = (size_t)in->con.C;
-    gvi__zero(m, in->con.ends);
+    for (size_t k = 0; k < m*(size_t)(st->n + 1); ++k) in->con.column[k] = (gvi_real)st->n;
     gvi__zero(2*m*(size_t)st->n, in->con.G1);
     gvi__zero(m*m, in->con.A1);
     if (in->con.G) gvi__zero(m*(size_t)st->n*C, in->con.G);
@@ -4104,7 +4103,7 @@ GVI__CALLED void gvi__commit_constraints(gvi_stepper *st, gvi_real h)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, s = st->s, C = in->con.C, rows = n + in->con.m;
-    in->con.settled = 1;
+    if (in->con.settled < 0x4001) in->con.settled += 1;
     in->con.kept = gvi__constrained(st) && gvi__has(in, GVI__ITERATES) ? 2 : 0;
     if (in->con.kept == 0) return;
     for (int a = n; a < rows; ++a) in->con.y[a - n] /= h*in->con.w[s];
@@ -4160,7 +4159,7 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
             trial = gvi__velocity(st, t, q, p, u);
             if (trial == GVI_OK)
                 trial = gvi__evaluate_constraints(st, 1, 1, &t, q, in->con.G1 + m*n);
-            if (trial == GVI_OK) (void)gvi__find_runs(st, 1, 1, in->con.G1 + m*n);
+            if (trial == GVI_OK) (void)gvi__find_columns(st, 1, 1, in->con.G1 + m*n);
             for (int a = 0; a < m; ++a)
                 rate[a] += (in->con.g[m + a] + gvi__row_dot(st, in->con.G1 + m*n, a, u))
                            *(sign*weight[j/2]/delta);
@@ -4424,8 +4423,8 @@ GVI__COLD void gvi__layout_constraints(struct gvi__private *in, gvi__arena *a)
         { &con->g, 2*m, C }, { &con->G, i*m*n, C }, { &con->A, i*m*m, C }, { &con->d, on, R + C },
         { &con->w, on, s + 1 }, { &con->rho, m, R + C }, { &con->lu, i*(s + 1), s + 1 },
         { &con->y, on, m },
-        { &con->G1, 2*m, n }, { &con->A1, m, m }, { &con->runs, m, n + 1 }, { &con->ends, on, m },
-        { &con->first, on, m }, { &con->drops, 2*on, m }
+        { &con->G1, 2*m, n }, { &con->A1, m, m }, { &con->column, m, n + 1 },
+        { &con->first, on, m }, { &con->drops, 2*on, m }, { &con->doubt, on, 3*m + 1 }
     };
     con->C = (int)C;
     for (size_t k = 0; k < sizeof list/sizeof *list; ++k)
@@ -4695,21 +4694,17 @@ static size_t gvi__unknowns(const gvi_stepper *st, int k0)
 GVI__CALLED gvi_status gvi__newton_constraints(gvi_stepper *st, const gvi__origin *from)
 {
     struct gvi__private *in = &st->in;
-    const int n = st->n, m = in->con.m, s = st->s, R = in->R, C = in->con.C;
+    const int n = st->n, m = in->con.m, s = st->s, R = in->R;
     gvi__constraint_points(st, from, in->sized.h);
-    for (int i = 0; i < n; ++i) {
-        gvi_real *at = in->con.at + i*C;
-        for (int e = 0; e < C; ++e) at[e] = from->q[i];
-        for (int e = 1; e <= s; ++e) {
+    for (int i = 0; i < n; ++i)
+        for (int e = 0; e < s; ++e) {
             gvi_real D = 0;
-            for (int k = 0; k < s; ++k) D += in->con.Phi[k*R + e - 1]*in->newton.y[k*n + i];
-            at[e] += from->q_low[i] + in->sized.h*D;
+            for (int k = 0; k < s; ++k) D += in->con.Phi[k*R + e]*in->newton.y[k*n + i];
+            in->con.D[i*R + e] = from->q_low[i] + in->sized.h*D;
         }
-    }
     for (int k = 0; k < s*m; ++k) in->con.force[(n + k % m)*R + k/m] = in->newton.y[s*n + k];
-    const gvi_status status =
-        gvi__evaluate_constraints(st, C, s + 1, in->con.t, in->con.at, in->con.G);
-    if (!in->con.settled) (void)gvi__find_runs(st, C, s + 1, in->con.G);
+    in->con.linear = 0;
+    const gvi_status status = gvi__evaluate_at_D(st, from);
     gvi__constraint_forces(st);
     gvi__force_sizes(st, in->con.force + n*R, R, in->con.D);      // nearly dependent rows cancel
     return status;
@@ -4800,19 +4795,18 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, 
         before += was*in->watch.scale[i];
     }
     for (int k = 0; k < held*in->con.m; ++k) {     // g, as the momentum that would undo it
-        int ends, a = k % in->con.m, e = k/in->con.m + 1, C = in->con.C;
-        const gvi_real *run = gvi__runs(st, a, &ends), now = in->con.g[a*C + e];
+        const int a = k % in->con.m, e = k/in->con.m + 1, C = in->con.C;
+        const gvi_real now = in->con.g[a*C + e];
         gvi_real *rest = in->newton.residual + st->s*n + k, size = 0, inertia = 0;
         if (in->con.drops[a] > 0) {
             in->newton.dy[st->s*n + k] = 0;
             continue;
         }
-        for (int f = 0; f < ends; f += 2)
-            for (int i = (int)run[f]; i < (int)run[f + 1]; ++i) {
-                const gvi_real G = in->con.G[(a*n + i)*C + e];
-                size += GVI_ABS(G*in->con.at[i*C + e]);
-                inertia += G*in->watch.scale[i]*(G*in->watch.scale[i]);
-            }
+        for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1)) {
+            const gvi_real G = in->con.G[(a*n + i)*C + e];
+            size += GVI_ABS(G*in->con.at[i*C + e]);
+            inertia += G*in->watch.scale[i]*(G*in->watch.scale[i]);
+        }
         const gvi_real unit = GVI_ABS(h)*GVI_SQRT(inertia);
         norm += GVI_ABS(now)/unit;
         moved += GVI_ABS(now - *rest)/unit;
@@ -4979,23 +4973,21 @@ GVI__CALLED gvi_status gvi__jacobian_constraints(gvi_stepper *st, const gvi__mat
     gvi_real *force = in->con.force, *base = in->con.free, *at = in->con.at, *was = in->row;
     const size_t size = gvi__unknowns(st, 0), sn = (size_t)(s*n);
     gvi_status status = GVI_OK;
-    for (int l = 0, ends; l < s*m; ++l) {
+    for (int l = 0; l < s*m; ++l) {
         const int a = l % m, e = l/m;
-        const gvi_real *run = gvi__runs(st, a, &ends);
         const size_t z = sn + (size_t)l;
         if (in->con.drops[a] > 0) {                // its multiplier stays 0
             J->square[z*(size + 1)] = 1;
             continue;
         }
-        for (int f = 0; f < ends; f += 2)
-            for (int i = (int)run[f]; i < (int)run[f + 1]; ++i)
-                for (int k = 0; k < s; ++k) {
-                    const gvi_real *G = in->con.G + (a*n + i)*C + e,
-                        W = (k == 0 ? 1 : 0) - (e > 0 ? Phi[k*R + e] : 0);
-                    const size_t y = (size_t)(k*n + i);
-                    J->square[y*size + z] = (gvi_real)(2*k + 1)*W*(in->con.hw[e]*G[0]);
-                    J->square[z*size + y] = -h*Phi[k*R + e + 1]*G[1];
-                }
+        for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1))
+            for (int k = 0; k < s; ++k) {
+                const gvi_real *G = in->con.G + (a*n + i)*C + e,
+                    W = (k == 0 ? 1 : 0) - (e > 0 ? Phi[k*R + e] : 0);
+                const size_t y = (size_t)(k*n + i);
+                J->square[y*size + z] = (gvi_real)(2*k + 1)*W*(in->con.hw[e]*G[0]);
+                J->square[z*size + y] = -h*Phi[k*R + e + 1]*G[1];
+            }
     }
     gvi__copy((size_t)(n*R), force, base);
     for (int j = 0; j < moves && status == GVI_OK; ++j) {
@@ -5260,6 +5252,7 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
     };
     p.have = kept && !gvi__nonzero(in->newton.h - in->sized.h);
     in->newton.bend = 0;
+    in->con.made = 0;
     for (int k = 0, made = 0, verdict = GVI__GO_ON; k <= in->desc.max_iterations; ++k) {
         gvi_status status = gvi__newton_values(st, from);
         // one more evaluation, then done
@@ -5408,23 +5401,21 @@ GVI__CALLED gvi_status gvi__newton_crossing(gvi_stepper *st)
     if (status == GVI_OK)
         status = gvi__factor_constraints(st, C, st->s, in->con.G, in->con.A, in->con.drops);
     if (status != GVI_OK) return status;
-    for (int ej = 0, ends; ej < st->s*m; ++ej) {
+    for (int ej = 0; ej < st->s*m; ++ej) {
         const int e = ej/m, j = ej % m;
         const gvi_real *A = in->con.A + e;
-        gvi_real taken = 0, all = 0;
-        for (int l = 0; l < j; ++l) taken += A[(j*m + l)*C]*A[(l*m + j)*C];
-        if (!(taken*A[(j*m + j)*C] > GVI__LOST*GVI__LOST - 1)) continue;
+        gvi_real all = 0;
+        if (!(gvi__loss(st, j, e) > GVI__LOST*GVI__LOST - 1)) continue;
         gvi__zero(2*(size_t)n, now);
         for (int l = j; l >= 0; --l) {
-            const gvi_real *run = gvi__runs(st, l, &ends), *G = in->con.G + l*n*C + e;
+            const gvi_real *G = in->con.G + l*n*C + e;
             c[l] = (gvi_real)(l == j);
             for (int i = l + 1; i <= j; ++i) c[l] -= A[(i*m + l)*C]*c[i];
-            for (int f = 0; f < ends; f += 2)
-                for (int i = (int)run[f]; i < (int)run[f + 1]; ++i) {
-                    now[i] += c[l]*G[i*C];
-                    next[i] += c[l]*G[i*C + 1];
-                    if (l == j) all += G[i*C]*G[i*C];
-                }
+            for (int i = gvi__column(st, l, 0); i < n; i = gvi__column(st, l, i + 1)) {
+                now[i] += c[l]*G[i*C];
+                next[i] += c[l]*G[i*C + 1];
+                if (l == j) all += G[i*C]*G[i*C];
+            }
         }
         const gvi_real part = gvi__dot(n, now, now), there = gvi__dot(n, next, next);
         const int goes_on = 256*there > part
@@ -5446,19 +5437,19 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
                       NULL, 0, 0, how == GVI__HALVED };
     // few points see little of what is between
     const gvi_real far = st->s > 2 ? GVI__CONTRACTS : GVI__LINEAR;
-    const int old = !query && !gvi__nonzero(in->newton.h - in->sized.h);
+    int old = !query && !gvi__nonzero(in->newton.h - in->sized.h);
     gvi_real *v = in->result + 2*st->n;
     gvi_status status = GVI_OK;
     gvi__velocity_guess(st, v);
     if (gvi__constrained(st))                     // which rows depend on others at the start?
         status = gvi__constraints_at(st, from->t, from->q, NULL, v, in->con.drops);
     if (status != GVI_OK) return status;
-    gvi__newton_guess(st, how == GVI__EXTRAPOLATED);
-    status = gvi__newton_solve(st, from, &J);
-    if (old && status == GVI_OK && in->newton.bend > far) {   // that may be the old matrix's fault
-        in->newton.h = 0;
+    for (;;) {
         gvi__newton_guess(st, how == GVI__EXTRAPOLATED);
         status = gvi__newton_solve(st, from, &J);
+        if (!old || status != GVI_OK || !(in->newton.bend > far)) break;
+        in->newton.h = 0;                          // that may be the old matrix's fault
+        old = 0;
     }
     if (status == GVI_OK
         && (J.halves || in->newton.bend > far || gvi__orientation(&J, all) < 0)) {
@@ -5746,8 +5737,10 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
     const gvi_real grain = GVI__GRAIN*GVI__GRAIN*all;
     if (gvi__constrained(st) && D > 16*p->least && D > grain) {
         // near a bifurcation it would be leaving the motion, perhaps for that of another branch
-        int at[2];
-        const gvi_real loss = gvi__loss(st, at);
+        const int m = st->in.con.m;
+        gvi_real loss = 0;
+        for (int k = 0; st->in.con.made > 0 && k < st->s*m; ++k)
+            loss = gvi__larger(gvi__loss(st, k % m, k/m), loss);
         if (loss > GVI__LOST - 1 && D > grain*loss*loss*loss) return GVI__DIVERGES;
     }
     int allowed = GVI__FEW_POOR;
@@ -6041,6 +6034,7 @@ static int gvi__finite_end(const gvi_stepper *st, const gvi__origin *from)
 static gvi_status gvi__solve(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query)
 {
     struct gvi__private *in = &st->in;
+    if (gvi__constrained(st)) in->con.doubt[0] = -1;
     for (int look = 0; ; look = 1) {
         in->diagnose = look;
         gvi_status status;
@@ -6048,6 +6042,12 @@ static gvi_status gvi__solve(gvi_stepper *st, const gvi__origin *from, gvi_real 
             if (GVI__CONSTRAINTS) in->con.again = 0;
             status = gvi__attempt(st, from, h, query);
         } while (GVI__CONSTRAINTS && in->con.again);
+        if (gvi__constrained(st) && in->con.doubt[0] >= 0) {
+            const int row = (int)in->con.doubt[0];
+            status = gvi__report_row(st, GVI_E_CONVERGENCE, row, GVI_FAULT_NONE);
+            st->fault.argument = "a jacobian is not the derivative of g, in fault.coordinate's row";
+            return status;
+        }
         in->diagnose = 0;
         if (status == GVI_OK && !look && !gvi__finite_end(st, from))
             status = gvi__report_status(st, GVI_E_NON_FINITE);
@@ -6462,7 +6462,7 @@ GVI__COLD gvi_status gvi__begin_at(gvi_stepper *st, gvi_real t, const gvi_real *
     if (!in->started && gvi__probe(st, t, in->step.q, v) != GVI_OK)
         return st->status;
     if (gvi__constrained(st)) {
-        gvi__forget_runs(st);
+        gvi__forget_columns(st);
         const gvi_status status = gvi__project_start(st, t, in->step.q, in->step.p);
         if (status != GVI_OK) return status;
         v = in->result + 2*n;
@@ -6584,7 +6584,7 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
     gvi__zero((size_t)n, f);
     gvi__copy((size_t)n, q, next);
     gvi__copy((size_t)n, v, u);
-    gvi__forget_runs(st);
+    gvi__forget_columns(st);
     in->diagnose = 1;
     for (int k = 0; ; ++k) {
         status = gvi__constraints_at(st, t, next, NULL, u, drops);
@@ -6629,7 +6629,7 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
         gvi__add_scaled(n, 1, d, u, u);
         if (pass == 0) far[1] = gvi__dot(m, r, z);
     }
-    gvi__forget_runs(st);
+    gvi__forget_columns(st);
     if (status != GVI_OK) return st->status = status;
     gvi__copy((size_t)n, next, q);
     gvi__copy((size_t)n, u, v);
@@ -6665,12 +6665,12 @@ GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
     if (GVI__CONSTRAINTS && (in->con.bits >> index & 1u)) {
         gvi_status status = GVI_OK;
         in->con.m = gvi__count_rows(in, gvi__constraints_on(st));
-        gvi__forget_runs(st);
+        gvi__forget_columns(st);
         if (in->started && (was & ~in->off)) status = gvi__project_start(st, st->t, st->q, st->p);
         if (status != GVI_OK) {
             in->off = was;
             in->con.m = gvi__count_rows(in, gvi__constraints_on(st));
-            gvi__forget_runs(st);
+            gvi__forget_columns(st);
             return gvi__done(st, status);
         }
         in->con.kept = in->con.kept > 0;

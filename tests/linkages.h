@@ -82,6 +82,16 @@ GVI_EACH(directors, 9, rows(6))
         }
 }
 
+/* Three equal cranks in parallel, all bars between their ends: 6 rows of rank 5.  Each end swings as a pendulum */
+LINKAGE int cranks(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < 3; ++k) rod(x, k, k, -1, 1, (real)(k*(k + 1)/2), 0);
+    rod(x, 3, 1, 0, 1, 0, 0);
+    rod(x, 4, 2, 1, 2, 0, 0);
+    rod(x, 5, 2, 0, 3, 0, 0);
+    return (void)user, 0;
+}
+
 /* A constant force; V = -force'q */
 LINKAGE int constant(const gvi_points *x, void *user)
 {

@@ -46,16 +46,6 @@ TEST(a_row_that_is_there_twice_changes_nothing)
             }
 }
 
-/* Three equal cranks in parallel, all bars between their ends: 6 rows of rank 5.  Each end swings as a pendulum */
-static int cranks(const gvi_points *x, void *user)
-{
-    for (int k = 0; k < 3; ++k) rod(x, k, k, -1, 1, (real)(k*(k + 1)/2), 0);
-    rod(x, 3, 1, 0, 1, 0, 0);
-    rod(x, 4, 2, 1, 2, 0, 0);
-    rod(x, 5, 2, 0, 3, 0, 0);
-    return (void)user, 0;
-}
-
 /* angle at time T from rest at angle `start`: theta'' = -cos theta, by Runge and Kutta in 4000 steps */
 static long double swing(long double start, long double T)
 {
