@@ -6,7 +6,7 @@
 #include "products.h"
 enum { N = 2, NODES = 8 };
 
-static real memory[20000], back_memory[20000], room[2*TANGENT_ROOM(2, 6)];
+static real room[2*TANGENT_ROOM(2, 6)];
 
 static real drag_c;
 

@@ -6,8 +6,6 @@
 
 typedef long double exact;
 
-static real memory[40000];
-
 /* With |e| = 1 as a constraint: the row is the scene's last one. */
 static void hold(gvi_desc *desc, gvi_effect *scene, const bodies *all)
 {

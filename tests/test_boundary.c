@@ -5,8 +5,6 @@
 #include "problems.h"
 
 #define PI 3.14159265358979323846L
-static real memory[GVI_LENGTH(3, 41, 41)];
-
 static const gvi_effect sun[] = { { .kind = GVI_POTENTIAL, .points = attraction, .value = attraction,
                                     .hessian = attraction_hessian } };
 

@@ -432,9 +432,9 @@ TEST(padding_may_be_written)
     static const gvi_effect e = { .points = to_the_stride };
     static const double q[] = { 0.4, 0.7 }, v[] = { 0, 2 };
     const gvi_desc d = { .n = 2, .degree = 8, .effects = &e, .effect_count = 1 };
-    check_report report = { .room = 0 };
-    check_scene(&d, 0, q, v, &report);
-    assert_int_equal(report.count, 0);
+    check_report found_here = { .room = 0 };
+    check_scene(&d, 0, q, v, &found_here);
+    assert_int_equal(found_here.count, 0);
 }
 
 /* For every effect of every scene: overwriting, a forgotten last point, writing past the rows; of all

@@ -11,8 +11,6 @@
    belongs to p, and a clock. */
 
 typedef enum scene_name { KEPLER, PENDULUM, MAGNETIC, FORCED, SCENES } scene_name;
-static const char *const names[] = { "Kepler", "double pendulum", "magnetic particle", "drag and driving" };
-
 /* g = |q|^a at the centre's distance, a from `user` */
 GVI_EACH(distance_clock, 2, f, value)
 {
@@ -513,8 +511,6 @@ static gvi_status status_of(const gvi_desc *desc)
     assert_int_equal(gvi_size(desc) > 0, status == GVI_OK);
     return status;
 }
-
-AT_POINT(point_clock) { return 0; }
 
 /* Two clocks, one of one point a call, r > s: test_why.c */
 TEST(clocks_that_cannot_run_are_refused)

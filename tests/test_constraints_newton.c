@@ -6,8 +6,6 @@ typedef long double real;
 #define EXTRAPOLATE_MOST 4
 #include "hard/extrapolate.h"
 
-static gvi_real memory[120000];
-
 static gvi_status start(gvi_stepper *st, const gvi_desc *desc, const gvi_real *q, const gvi_real *v)
 {
     *st = new_stepper(desc);

@@ -9,7 +9,6 @@
 #define EXTRAPOLATE_MOST (2*MOST_N)
 #include "hard/extrapolate.h"
 
-static real memory[60000];
 static gvi_formulation formulation;
 
 static void set_up(gvi_stepper *st, const linkage *a, int degree, gvi_rule_kind rule, int points)

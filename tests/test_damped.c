@@ -4,7 +4,7 @@
 #include "tools/damped.h"
 
 enum { N = 6 };
-static real memory[4000], work[2*N];
+static real work[2*N];
 static const real middle[] = { R(0.5) }, whole[] = { 1 };
 static const gvi_rule drift_kick_drift = { .kind = GVI_KICKS, .points = 1, .nodes = middle, .weights = whole };
 

@@ -3,8 +3,6 @@
 #include "gvi_test.h"
 #include "problems.h"
 
-static real memory[1 << 17];
-
 /* Sun, Jupiter, Saturn and a comet, AU and days.  A body without mass moves as one of mass m does,
    to m: what a clock adds must not depend on m. */
 

@@ -5,7 +5,7 @@
 #include "problems.h"
 
 enum { N = 2 };
-static real memory[20000], q[N], v[N], p[N];
+static real q[N], v[N], p[N];
 static const real pi = R(3.14159265358979323846264338328);
 
 static event of(event_fn *g, void *user) { return (event){ .g = g, .user = user, .q = q, .v = v, .p = p }; }
@@ -234,6 +234,27 @@ static gvi_stepper *linkage(int degree, event *e)
     *e = (event){ .g = gap, .q = linkage_q, .v = linkage_v, .p = linkage_p };
     st = new_motion(&desc, 0, (real[]){ R(0.6), R(0.8), 0, R(1.6) }, (real[]){ 0, 0, 0, 0 });
     return &st;
+}
+
+/* 200 impacts: no loss, and the rods as long as before */
+TEST(a_linkage_hits_a_wall_often_without_loss)
+{
+    event e;
+    gvi_stepper *st = linkage(8, &e);
+    real start, now;
+    assert_ok(gvi_energy(st, &start));
+    for (int hits = 0; hits < 200; ) {
+        assert_ok(gvi_step(st, R(0.02)));
+        const int found = event_next(&e, st);
+        assert_true(found >= 0);
+        if (!found || e.rising) continue;
+        mirror(e.q, e.p);
+        assert_ok(gvi_start_momentum(st, e.t, e.q, e.p));
+        ++hits;
+        assert_ok(gvi_energy(st, &now));
+        assert_close(now, start, 32*EPS*(real)(hits + 4));
+        assert_close(e.q[0]*e.q[0] + e.q[1]*e.q[1], 1, 8*EPS);
+    }
 }
 
 /* g may read the time alone, and need not be finite. */

@@ -201,7 +201,7 @@ TEST(weights_have_the_sign_of_the_products)
     assert_close(w[2], -1, 0);
 }
 
-static gvi_real big_x[MOST], big_w[MOST], big_f[MOST], big_l[MOST];
+static gvi_real big_x[MOST], big_w[MOST], big_f[MOST];
 
 TEST(weights_of_1000_points_neither_overflow_nor_vanish)
 {

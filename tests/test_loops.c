@@ -2,8 +2,6 @@
 #include "gvi_test.h"
 #include "linkages.h"
 
-static real memory[60000];
-
 static gvi_status set_up(gvi_stepper *st, const gvi_desc *desc, const real *q, const real *v)
 {
     *st = new_stepper(desc);

@@ -1,19 +1,10 @@
 /* Corners that went wrong once: each a few lines, each its own reason. */
 #include "gvi_test.h"
 
-static real memory[8000], more[8000];
-
 AT_EACH(spring) { x->f[a] -= x->q[a]; }
 AT_EACH(drag) { x->f[a] -= x->v[a]; }
 
 GVI_EACH(not_a_number, 1, f) { x->f[0] += *(const int *)user ? (real)NAN : 0; }
-
-/* L = sum m_i (v_i^2/2 + v_i^4/(4 u^2)): momentum v + v^3/u^2 in units of u */
-AT_EACH(quartic)
-{
-    const real unit = ((const real *)user)[a/x->stride], v = x->v[a]/unit;
-    x->dldv[a] += (v + v*v*v)*unit;
-}
 
 static gvi_stepper *set_up(gvi_stepper *st, gvi_desc desc, real *where)
 {

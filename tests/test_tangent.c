@@ -6,7 +6,7 @@
 #include "products.h"
 enum { N = 2, MOST = 6, ROWS = N*(1 + MOST), ROOM = 13*ROWS + ROWS*ROWS };
 
-static real memory[60000], other_memory[20000], room[ROOM];
+static real other_memory[20000], room[ROOM];
 
 /* Henon and Heiles: V = (x^2 + y^2)/2 + x^2 y - y^3/3 */
 GVI_EACH(heiles, 2, f)
