@@ -1,6 +1,8 @@
 /* Corners that went wrong once: each a few lines, each its own reason. */
 #include "gvi_test.h"
 
+static real memory[8000];
+
 AT_EACH(spring) { x->f[a] -= x->q[a]; }
 AT_EACH(drag) { x->f[a] -= x->v[a]; }
 
