@@ -797,6 +797,7 @@ struct gvi__holonomic {               /* constraints; C = stride of D_0..D_s    
     gvi_real *column, *first, *drops; /* see gvi__find_columns, gvi__factor_constraints */
     int       m, C, made, kept, linear; /* rows on; kept: last for the curve, 2 to predict */
     gvi_real *doubt;                  /* [1+3m] see gvi__check_jacobian                 */
+    gvi_real *unit;                   /* [2][s*m] of multipliers, see gvi__jacobian      */
     int       settled, again;         /* steps since the start; see gvi__find_columns    */
     unsigned  bits;                   /* the effects                                 */
 };
@@ -1040,7 +1041,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
     + (6*GVI__SIZE(n) + 3*GVI__SIZE(m) + 2*GVI__SIZE(r) + 5*GVI__SIZE(s) + 4 + (4 + GVI__SIZE(m)) \
        *(GVI__SIZE(n) + GVI__SIZE(m)))*(GVI__SIZE(GVI__ROW(r)) + GVI__SIZE(GVI__ROW((s) + 1)))    \
     + (GVI__SIZE(s) + 3)*(GVI__SIZE(s) + 1) + (2*GVI__SIZE(n) + 9)*GVI__SIZE(m) \
-    + (10 + 2*GVI__SIZE(s)*(2*GVI__SIZE(n) + GVI__SIZE(m)))*GVI__SIZE(s)*GVI__SIZE(m))
+    + (12 + 2*GVI__SIZE(s)*(2*GVI__SIZE(n) + GVI__SIZE(m)))*GVI__SIZE(s)*GVI__SIZE(m))
 
 #ifdef __cplusplus
 }
@@ -4411,6 +4412,7 @@ GVI__COLD void gvi__layout_constraints(struct gvi__private *in, gvi__arena *a)
                  R = (size_t)GVI__ROW(r), C = (size_t)GVI__ROW(s + 1),
                  m = (size_t)gvi__count_rows(in, con->bits),
                  on = m > 0, i = on && gvi__has(in, GVI__ITERATES),
+                 newton = on && gvi__has(in, GVI__HAS_NEWTON),
                  u = i && !gvi__has(in, GVI__BY_FORCES);
     const struct { gvi_real **to; size_t rows, width; } list[] = {
         { &con->D, i*n, R }, { &con->free, i*n, R }, { &con->P, u*n, R },
@@ -4424,7 +4426,8 @@ GVI__COLD void gvi__layout_constraints(struct gvi__private *in, gvi__arena *a)
         { &con->w, on, s + 1 }, { &con->rho, m, R + C }, { &con->lu, i*(s + 1), s + 1 },
         { &con->y, on, m },
         { &con->G1, 2*m, n }, { &con->A1, m, m }, { &con->column, m, n + 1 },
-        { &con->first, on, m }, { &con->drops, 2*on, m }, { &con->doubt, on, 3*m + 1 }
+        { &con->first, on, m }, { &con->drops, 2*on, m }, { &con->doubt, on, 3*m + 1 },
+        { &con->unit, 2*newton, s*m }
     };
     con->C = (int)C;
     for (size_t k = 0; k < sizeof list/sizeof *list; ++k)
@@ -4682,6 +4685,7 @@ typedef struct gvi__matrix {
     int       scaled;      /* columns over sqrt M_ii, rows by their largest entry: the condition
                               then has no units                                      */
     int       halves;      /* are changes taken back that make the residual larger?         */
+    gvi_real *unit;        /* of the multipliers, in which the LU has their columns         */
 } gvi__matrix;
 
 static size_t gvi__unknowns(const gvi_stepper *st, int k0)
@@ -5065,6 +5069,18 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J)
         for (int j = 0; j < size; ++j) a[j] /= big;
         for (int j = 0; j < 2*n; ++j) ends[j] /= big;
     }
+    // multipliers in units that make their columns as large as those of the modes
+    for (int z = modes; z < size; ++z) {
+        gvi_real column = 0, diagonal = 0;
+        for (int i = 0; i < modes; ++i) {
+            column = gvi__larger(GVI_ABS(J->square[(size_t)i*(size_t)size + (size_t)z]), column);
+            diagonal = gvi__larger(GVI_ABS(J->square[(size_t)i*((size_t)size + 1)]), diagonal);
+        }
+        J->unit[z - modes] = 1;
+        if (column > 0 && diagonal > 0) J->unit[z - modes] = diagonal/column;
+        for (int i = 0; i < size; ++i)
+            J->square[(size_t)i*(size_t)size + (size_t)z] *= J->unit[z - modes];
+    }
     status = gvi__lu_factor(size, J->square, J->pivot, &at);
     gvi__count(&st->counters.factorizations, 1);
     if (status == GVI_OK) return GVI_OK;
@@ -5246,7 +5262,8 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
 {
     struct gvi__private *in = &st->in;
     // that of steps, not of queries
-    const int size = (int)gvi__unknowns(st, J->k0), kept = J->pivot == in->newton.pivot;
+    const int size = (int)gvi__unknowns(st, J->k0), modes = (st->s - J->k0)*st->n,
+              kept = J->pivot == in->newton.pivot;
     gvi__descent p = {
         0, 0, GVI__MAX, GVI__CONTRACTS, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0, -1, 0
     };
@@ -5272,6 +5289,7 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
         // a matrix of differences alone is right
         if (made) p.holds |= !gvi__with_hessian(in, 1);
         gvi_lu_solve(size, J->square, J->pivot, in->newton.dy);
+        for (int z = modes; z < size; ++z) in->newton.dy[z] *= J->unit[z - modes];
         gvi__count(&st->counters.newton_iterations, 1);
         verdict = gvi__newton_converged(st, J, &p, gvi__newton_update(st, from, J, &p));
         if (verdict == GVI__NOT_FINITE)
@@ -5348,7 +5366,9 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
                    enough = 32*(unsigned)st->in.desc.max_iterations;
     const int sign = gvi__orientation(J, all);
     // that of queries
-    const gvi__matrix K = { newton->J + all*all, newton->pivot + all + 1, NULL, 0, 0, 0 };
+    gvi__matrix K = { newton->J + all*all, newton->pivot + all + 1, NULL, 0, 0, 0,
+                      st->in.con.unit };
+    if (K.unit) K.unit += all - modes;
     gvi_real part = 1, factor = (gvi_real)0.5;
     int right = -1;                                                  // not known
     gvi__copy(all, newton->y, newton->found);
@@ -5434,7 +5454,8 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
     const size_t all = gvi__unknowns(st, 0);
     gvi__matrix J = { in->newton.J + (query ? all*all : 0),
                       in->newton.pivot + (query ? all + 1 : 0),
-                      NULL, 0, 0, how == GVI__HALVED };
+                      NULL, 0, 0, how == GVI__HALVED, in->con.unit };
+    if (query && J.unit) J.unit += all - (size_t)(st->s*st->n);
     // few points see little of what is between
     const gvi_real far = st->s > 2 ? GVI__CONTRACTS : GVI__LINEAR;
     int old = !query && !gvi__nonzero(in->newton.h - in->sized.h);
@@ -7082,7 +7103,7 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
 {
     struct gvi__private *in = &st->in;
     const int n = st->n;
-    const gvi__matrix motion = { J->square, J->pivot, NULL, 0, 0, 0 };
+    const gvi__matrix motion = { J->square, J->pivot, NULL, 0, 0, 0, NULL };
     gvi_real *y = in->newton.y, *end = in->step.q_low;
     gvi_status bowed = GVI_E_NON_FINITE;
     int first = 0, left = 2 + in->desc.max_iterations*2/3;         // pieces, in all
@@ -7092,7 +7113,7 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
     } else if (any) {
         // whoever wants the index judges for himself: straight from the chord, then with halving
         for (int halves = 0; halves < 2; ++halves) {
-            const gvi__matrix plain = { J->square, J->pivot, J->ends, 1, 0, halves };
+            const gvi__matrix plain = { J->square, J->pivot, J->ends, 1, 0, halves, NULL };
             gvi__zero((size_t)(st->s*n), y);
             for (int i = 0; i < n; ++i) y[i] = (q1[i] - from->q[i])/h;
             *status = gvi__newton_solve(st, from, &plain);
@@ -7288,7 +7309,7 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
     if ((s > 1 && !gvi__has(in, GVI__HAS_NEWTON)) || gvi__rule_is(in, GVI_KICKS) || in->clock >= 0)
         return gvi__done(st, GVI_E_FORMULATION);
     gvi__origin from = { t, 0, q0, in->zeros, in->zeros, in->zeros, 0 };
-    gvi__matrix J = { NULL, NULL, NULL, 1, 0, 0 };
+    gvi__matrix J = { NULL, NULL, NULL, 1, 0, 0, NULL };
     if (out->guess && s > 1) {
         status = gvi__momentum(st, t, q0, out->guess);
         if (status != GVI_OK) return gvi__done(st, status);

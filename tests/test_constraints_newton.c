@@ -320,4 +320,41 @@ TEST(projections_that_fail_change_nothing)
     assert_status(gvi_project(NULL, 0, q, v, far), GVI_E_ARGUMENT);
 }
 
+/* A pendulum of length L in a field of strength L, in powers of two: the same motion, times L, to rounding */
+static gvi_real unit_of_length;
+AT_POINTS(long_rod)
+{
+    const int R = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        const gvi_real X = x->q[k], Y = x->q[R + k];
+        x->g[k] = (X*X + Y*Y - unit_of_length*unit_of_length)/2;
+        x->jacobian[k] = X;
+        x->jacobian[R + k] = Y;
+    }
+    return 0;
+}
+AT_POINTS(strong_weight)
+{
+    for (int k = 0; k < x->count; ++k) x->f[x->stride + k] -= unit_of_length;
+    return 0;
+}
+
+TEST(the_unit_of_length_does_not_matter)
+{
+    static const gvi_effect scene[] = { { .points = strong_weight }, { .kind = GVI_CONSTRAINT, .points = long_rod, .rows = 1 } };
+    static const int powers[] = { 0, 10, -10, 30, -30, 60, -60, 180, -180 };
+    gvi_real right = 0;
+    for (int k = 0; k < COUNT(powers); ++k) {
+        const gvi_desc desc = { .n = 2, .degree = 4, .effects = scene, .effect_count = 2, .formulation = GVI_NEWTON };
+        gvi_stepper st;
+        if (KIND == 1 && abs(powers[k]) > 30) continue;         // L^2 is no number of that type
+        unit_of_length = (gvi_real)ldexpl(1, powers[k]);
+        const gvi_real q[] = { (gvi_real)0.6L*unit_of_length, (gvi_real)-0.8L*unit_of_length }, v[2] = { 0, 0 };
+        assert_ok(start(&st, &desc, q, v));
+        for (int i = 0; i < 20; ++i) assert_ok(gvi_step(&st, (gvi_real)0.3L));
+        if (k == 0) right = st.q[0];
+        assert_close(st.q[0]/unit_of_length, right, 256*EPS);
+    }
+}
+
 RUN_TESTS(NULL, NULL)
