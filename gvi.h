@@ -902,9 +902,10 @@ GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_rea
 /* q and v [n], in place, to the nearest that fulfil the constraints that are on, at t, to rounding:
    q such that (q' - q)'M(q' - q) is least, then v likewise, M that there (with Lagrangian terms
    d2L/dv2).  For coordinates from a file; then gvi_start takes them.  moved, or NULL: the lengths
-   sqrt(dq'M dq), sqrt(dv'M dv) of what was added to q and v.  The state and the switches stay: for
-   a constraint to come, where the state is off it, gvi_init, this, gvi_start.  GVI_E_CONVERGENCE:
-   too far off (an effect and row that is left, if any); q and v are then as they were.        */
+   sqrt(dq'M dq), sqrt(dv'M dv) of what was added to q and v.  The state and the switches stay (last
+   places of later steps may not): for a constraint to come, where the state is off it, gvi_init,
+   this, gvi_start.  GVI_E_CONVERGENCE: too far off (an effect and row that is left, if any); q and
+   v are then as they were.                                                                    */
 GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_real *v,
                                gvi_real *moved);
 
