@@ -3759,7 +3759,9 @@ GVI__CALLED gvi_status gvi__check_jacobian(gvi_stepper *st, int a, gvi_real miss
     const gvi_real share = missed/size;
     if (size < was[1] && share < 2*was[0] && was[0] < 2*share) was[2] += 1;
     else was[2] = 1;
+    // where g has not moved at all, it was its rounding that hid the move
     if (!(missed > size/512 && missed > 2*bend && missed > 64*GVI__EPS*terms)
+        || GVI_ABS(share - 1) < (gvi_real)0.0009765625
         || (bend > 8*GVI__EPS*size && !gvi__beyond_rounding(missed, bend, size))) was[2] = 0;
     was[0] = share;
     was[1] = size;
