@@ -1429,6 +1429,7 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 #define GVI__CLOSE ((gvi_real)0.03125)     // of a curve, from its prediction: on the same branch
 #define GVI__SHORT 64                      // h over this: free motion leads to the motion
 #define GVI__LOST 4                        // of a pivot's entry what is left: rank may be changing
+#define GVI__WRONG 512                     // of a move of g, G's miss over this: not its derivative
 
 // the dial, in rungs, four an octave
 #define GVI__BAND 4                        // room at which h stays; and the most that it grows
@@ -3749,7 +3750,7 @@ static void gvi__force_sizes(const gvi_stepper *st, const gvi_real *z, int S, gv
    than EPS terms, and of those that G q does not show about EPS size^2/bend.                  */
 static int gvi__beyond_rounding(gvi_real missed, gvi_real bend, gvi_real size)
 {
-    return bend > 8*GVI__EPS*size && missed*bend > 64*GVI__EPS*size*size;
+    return bend > GVI__SOLVED*GVI__EPS*size && missed*bend > GVI__GRAIN*GVI__EPS*size*size;
 }
 
 GVI__CALLED gvi_status gvi__check_jacobian(gvi_stepper *st, int a, gvi_real missed, gvi_real bend,
@@ -3760,9 +3761,9 @@ GVI__CALLED gvi_status gvi__check_jacobian(gvi_stepper *st, int a, gvi_real miss
     if (size < was[1] && share < 2*was[0] && was[0] < 2*share) was[2] += 1;
     else was[2] = 1;
     // where g has not moved at all, it was its rounding that hid the move
-    if (!(missed > size/512 && missed > 2*bend && missed > 64*GVI__EPS*terms)
-        || GVI_ABS(share - 1) < (gvi_real)0.0009765625
-        || (bend > 8*GVI__EPS*size && !gvi__beyond_rounding(missed, bend, size))) was[2] = 0;
+    if (!(missed > size/GVI__WRONG && missed > 2*bend && missed > GVI__GRAIN*GVI__EPS*terms)
+        || GVI_ABS(share - 1)*GVI__SURE < 1
+        || (bend > GVI__SOLVED*GVI__EPS*size && !gvi__beyond_rounding(missed, bend, size))) was[2] = 0;
     was[0] = share;
     was[1] = size;
     if (!(was[2] > 3)) return GVI_OK;
