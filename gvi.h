@@ -1222,8 +1222,9 @@ static int gvi__first_non_finite(int n, const gvi_real *x)
 }
 
 /* GVI__ALONG(n, body): the body for n numbers, GVI__LANES of them at a time and what is left one by
-   one; in it GVI__AT(x) stands for those of x, and gvi__number is their type.                 */
-#define GVI__AT(x) (*(gvi__number *)((x) + gvi__at))
+   one; in it GVI__AT(x), GVI__TO(x) to write, are those of x, and gvi__number is their type.    */
+#define GVI__AT(x) (*(const gvi__number *)((x) + gvi__at))
+#define GVI__TO(x) (*(gvi__number *)((x) + gvi__at))
 #define GVI__ALONG(n, ...) GVI__ALONG_BY(, n, __VA_ARGS__)
 #define GVI__ALONG_BY(loop, n, ...)                                                             \
     {                                                                                           \
@@ -1282,7 +1283,7 @@ static gvi_real gvi__dot3(int n, const gvi_real *a, const gvi_real *b, const gvi
 // z := y + a x
 static void gvi__add_scaled(int n, gvi_real a, const gvi_real *x, const gvi_real *y, gvi_real *z)
 {
-    GVI__ALONG(n, GVI__AT(z) = GVI__AT(y) + a*GVI__AT(x))
+    GVI__ALONG(n, GVI__TO(z) = GVI__AT(y) + a*GVI__AT(x))
 }
 
 /* Double-word arithmetic: an unevaluated sum hi + lo, |lo| <= ulp(hi)/2, carries twice the digits
@@ -1429,7 +1430,7 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 #define GVI__CLOSE ((gvi_real)0.03125)     // of a curve, from its prediction: on the same branch
 #define GVI__SHORT 64                      // h over this: free motion leads to the motion
 #define GVI__LOST 4                        // of a pivot's entry what is left: rank may be changing
-#define GVI__WRONG 512                     // of a move of g, G's miss over this: not its derivative
+#define GVI__WRONG 512                     // of a move, what g misses times this: G is wrong
 
 // the dial, in rungs, four an octave
 #define GVI__BAND 4                        // room at which h stays; and the most that it grows
@@ -1474,8 +1475,8 @@ GVI__COLD gvi_status gvi__lu_scales(int n, const gvi_real *a, gvi_real *pivot, i
 GVI__BODY void gvi__subtract_at(int width, int count, const gvi_real *GVI__RESTRICT a,
                                 const gvi_real *GVI__RESTRICT top, gvi_real *GVI__RESTRICT row)
 {
-    if (width > 1) GVI__ALONG(count, GVI__AT(row) = GVI__AT(row) - GVI__AT(a)*GVI__AT(top))
-    else GVI__ALONG(count, GVI__AT(row) = GVI__AT(row) - a[0]*GVI__AT(top))
+    if (width > 1) GVI__ALONG(count, GVI__TO(row) = GVI__AT(row) - GVI__AT(a)*GVI__AT(top))
+    else GVI__ALONG(count, GVI__TO(row) = GVI__AT(row) - a[0]*GVI__AT(top))
 }
 
 static void gvi__subtract_row(size_t count, gvi_real l, const gvi_real *top, gvi_real *row)
@@ -1655,7 +1656,7 @@ static void gvi__ldl_solve(int n, const gvi_real *m, int width, gvi_real *z, int
         const gvi_real *d = m + (size_t)i*(N + 1)*w;
         gvi_real *row = z + i*R;
         if (width > 1) for (int k = 0; k < count; ++k) row[k] *= d[k];
-        else GVI__ALONG(count, GVI__AT(row) = GVI__AT(row)*d[0])
+        else GVI__ALONG(count, GVI__TO(row) = GVI__AT(row)*d[0])
         for (int j = i + 1; j < n; ++j)
             gvi__subtract_at(width, count, m + ((size_t)j*N + (size_t)i)*w, z + j*R, z + i*R);
     }
@@ -2835,7 +2836,7 @@ enum { GVI__STEP, GVI__FROM_START, GVI__FROM_END };
 static void gvi__times(int count, gvi_real t, gvi_real t_low, gvi_real h, const gvi_real *c,
                        gvi_real *out)
 {
-    GVI__ALONG(count, GVI__AT(out) = t + (t_low + GVI__AT(c)*h))
+    GVI__ALONG(count, GVI__TO(out) = t + (t_low + GVI__AT(c)*h))
 }
 
 // 1) tables for h, times of the points; for a constant mass v = M^-1 p and h v in double words
@@ -2905,7 +2906,7 @@ GVI__BODY const gvi_real *gvi__weighted(int R, const gvi_real *GVI__RESTRICT w,
                                         const gvi_real *source, gvi_real *GVI__RESTRICT L)
 {
     if (!w) return source;
-    GVI__ALONG_BY(GVI__UNROLL, R, GVI__AT(L) = GVI__AT(w)*GVI__AT(source))
+    GVI__ALONG_BY(GVI__UNROLL, R, GVI__TO(L) = GVI__AT(w)*GVI__AT(source))
     return L;
 }
 
@@ -3076,7 +3077,7 @@ static gvi__kernel *gvi__kernel_for(int n, int r)
 GVI__BODY void gvi__free_row(int R, gvi_real low, gvi_real path, gvi_real path_low,
                              const gvi_real *GVI__RESTRICT c, gvi_real *GVI__RESTRICT row)
 {
-    GVI__ALONG(R, GVI__AT(row) = (low + GVI__AT(c)*path_low) + GVI__AT(c)*path)
+    GVI__ALONG(R, GVI__TO(row) = (low + GVI__AT(c)*path_low) + GVI__AT(c)*path)
 }
 
 // a stage that is the sum over one table and nothing else
@@ -3763,7 +3764,8 @@ GVI__CALLED gvi_status gvi__check_jacobian(gvi_stepper *st, int a, gvi_real miss
     // where g has not moved at all, it was its rounding that hid the move
     if (!(missed > size/GVI__WRONG && missed > 2*bend && missed > GVI__GRAIN*GVI__EPS*terms)
         || GVI_ABS(share - 1)*GVI__SURE < 1
-        || (bend > GVI__SOLVED*GVI__EPS*size && !gvi__beyond_rounding(missed, bend, size))) was[2] = 0;
+        || (bend > GVI__SOLVED*GVI__EPS*size && !gvi__beyond_rounding(missed, bend, size)))
+        was[2] = 0;
     was[0] = share;
     was[1] = size;
     if (!(was[2] > 3)) return GVI_OK;
@@ -5073,7 +5075,7 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J)
         for (int j = 0; j < size; ++j) a[j] /= big;
         for (int j = 0; j < 2*n; ++j) ends[j] /= big;
     }
-    // multipliers in units that make their columns as large as those of the modes
+    // columns of multipliers that would hide the modes': in units that make them as large
     for (int z = modes; z < size; ++z) {
         gvi_real column = 0, diagonal = 0;
         for (int i = 0; i < modes; ++i) {
@@ -5081,7 +5083,8 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J)
             diagonal = gvi__larger(GVI_ABS(J->square[(size_t)i*((size_t)size + 1)]), diagonal);
         }
         J->unit[z - modes] = 1;
-        if (column > 0 && diagonal > 0) J->unit[z - modes] = diagonal/column;
+        if (diagonal > 0 && column*GVI_SQRT(GVI__EPS) > diagonal)
+            J->unit[z - modes] = diagonal/column;
         for (int i = 0; i < size; ++i)
             J->square[(size_t)i*(size_t)size + (size_t)z] *= J->unit[z - modes];
     }
@@ -5600,7 +5603,7 @@ static gvi_status gvi__predict_sources(gvi_stepper *st, const gvi__origin *from,
 // x := zero, a 0 that the compiler does not know: it would call memset, and wait for it, every time
 static void gvi__clear(int n, gvi_real zero, gvi_real *x)
 {
-    GVI__ALONG(n, const gvi__number none = { 0 }; GVI__AT(x) = none + zero)
+    GVI__ALONG(n, const gvi__number none = { 0 }; GVI__TO(x) = none + zero)
 }
 
 // 4) F (and A, V) at the stage values, all points in one call an effect
@@ -5937,10 +5940,10 @@ GVI__BODY void gvi__drift(gvi_stepper *st, const gvi__origin *from, const gvi_re
     GVI__ALONG(n,
         const gvi__number p = GVI__AT(p0) + b*GVI__AT(f), none = { 0 };
         const gvi__number d = GVI__AT(q0) + a*(GVI__AT(v) + p*GVI__AT(m));
-        GVI__AT(dp) = p;
-        GVI__AT(F) = none;
-        GVI__AT(dq) = d;
-        GVI__AT(Q) = GVI__AT(q) + d)
+        GVI__TO(dp) = p;
+        GVI__TO(F) = none;
+        GVI__TO(dq) = d;
+        GVI__TO(Q) = GVI__AT(q) + d)
 }
 
 /* Kicks h b_j F_j at the nodes, drifts between them: one evaluation a kick; none where a weight is
@@ -6111,15 +6114,15 @@ static void gvi__move(int n, const gvi_real *GVI__RESTRICT dx, const gvi_real *G
     GVI__ALONG(n,
         const gvi__number a = GVI__AT(x), d = GVI__AT(dx), s = a + d, b = s - a;
         const gvi__number da = s - b, e = (a - da) + (d - b);
-        GVI__AT(was) = a;
-        GVI__AT(x) = s;
-        GVI__AT(x_low) = e)
+        GVI__TO(was) = a;
+        GVI__TO(x) = s;
+        GVI__TO(x_low) = e)
     if (!dx_low) return;
     GVI__ALONG(n,
         const gvi__number s = GVI__AT(x), e = GVI__AT(x_low) + GVI__AT(dx_low), t = s + e;
         const gvi__number f = t - s, ds = t - f;
-        GVI__AT(x) = t;
-        GVI__AT(x_low) = (s - ds) + (e - f))
+        GVI__TO(x) = t;
+        GVI__TO(x_low) = (s - ds) + (e - f))
 }
 
 // 7) the state moves on, and work's stage values become those of the last step

@@ -965,8 +965,8 @@ static inline const char *check_line(const check_finding *f, char *line, int siz
                                          ": twice what it should be", ": half of what it should be",
                                          ": transposed?" };
     static const char *const words[] = {
-        "", "", "", "", "is not written, or added to", "is not definite", "overwrites what was there",
-        "differs with many points at once", "differs when asked for together", "writes beyond its points",
+        "", "", "", "", "is not definite", "overwrites what was there",
+        "differs with many points at once", "differs when both are wanted at once", "writes beyond its rows",
         "depends on v, which it may not", "is not above 0", "refuses, or is not finite" };
     char who[32] = "mass", at[48] = "", where[40] = "the state given", is[96] = "";
     if (f->effect >= 0) snprintf(who, sizeof who, "effect %d", f->effect);
