@@ -4,16 +4,16 @@
    Computes how mechanical systems move: M q'' = -dV/dq + f, or any Lagrangian
    L(t,q,v) with forces f(t,q,v).  Steps conserve momenta to rounding, are
    symplectic, and do not let the energy of a conservative system drift.  The
-   order is min(2s, u): polynomials of degree s, a quadrature rule of order
-   u >= 2s - 2, as Gauss's and Lobatto's are.
+   order is min(2s, u), for polynomials of degree s and a quadrature rule of order
+   u >= 2s - 2, such as Gauss's or Lobatto's.
    One file, C99 or C++11, no dependency but libm, no heap, no globals.
 
    In ONE source file:          #define GVI_IMPLEMENTATION
                                 #include "gvi.h"
    In all others:               #include "gvi.h"
 
-   first in that file, before other headers' macros can touch its names, or in
-   a file of its own.
+   The two lines come first in the ONE file, before other headers' macros can touch
+   the library's names, or in a file of their own.
 
 
    SYNOPSIS
@@ -48,8 +48,8 @@
 
      ok: q = -0.602737580 0.799997002
 
-   Adding drag is one more row in scene[], and effect_count = 2.  Taking it out
-   again takes its whole cost away.
+   To add drag, add one row to scene[] and set effect_count = 2.  Removing the row
+   removes its whole cost.
 
 
    QUICK NOTES          (enough for most programs)
@@ -98,9 +98,9 @@
 
    memory     Nothing is allocated, ever.  The caller hands gvi_init one array
               and keeps it as long as the stepper is used; there is nothing to
-              free.  The stepper points into that array, never into itself: it
-              may be moved.  Copy of stepper and array = checkpoint, see
-              gvi_restore.
+              free.  The stepper points into that array, never into itself, so
+              the stepper may be moved.  A copy of stepper and array is a
+              checkpoint: see gvi_restore.
    threads    No mutable static data.  Different steppers are independent.  A callback
               must not call a function with the stepper that called it.
    errors     0 (GVI_OK) or a negative gvi_status; also kept in st->status,
@@ -110,15 +110,15 @@
               go on.
    arrays     Row-major, A[i*n + j].  Values of one coordinate at the points
               of a step are contiguous: coordinate i at point k is
-              [i*stride + k].  Inputs are const.  Arrays of one call do not
-              overlap unless it is said that they may.
+              [i*stride + k].  Inputs are const.  Arrays of one call must not
+              overlap unless stated otherwise.
    units      None: time, lengths and masses are the caller's, coordinate by
               coordinate; no tolerance or test of the library depends on them.
-              What is below 1e-307 (float: 1e-31) counts as 0.
-   rounding   Round to nearest, subnormals kept; -ffast-math and its parts are
-              refused, or without effect.  q, p and t carry compensation terms,
+              Magnitudes below 1e-307 (float: 1e-31) count as 0.
+   rounding   Needs round to nearest and subnormals; -ffast-math and its parts are
+              refused, or have no effect.  q, p and t carry compensation terms,
               so 1e9 steps of t + h are as exact as one.  Compiled with
-              -ffp-contract=off, the same bits on every IEEE machine but x87, if
+              -ffp-contract=off, it gives the same bits on every IEEE machine but x87, if
               the callbacks give the same bits and products stay between 1e-290
               and 1e299 (float: 1e-30 and 1e34); beyond, their low words depend
               on FMA.
@@ -144,9 +144,9 @@
      GVI_ONLY_EXPLICIT, GVI_ONLY_POSITIONS, GVI_ONLY_VELOCITIES, GVI_ONLY_MOMENTA,
      GVI_ONLY_NEWTON      these formulations and no others (see HOW IT WORKS)
      GVI_NO_CLOCK         no effects of kind GVI_CLOCK
-     GVI_NO_CONSTRAINTS   none of kind GVI_CONSTRAINT, as with GVI_NO_RULES
-     GVI_NO_RULES         no rule but Gauss with r = s, and in GVI_EXPLICIT those
-                          that it takes; no Lagrangian terms, no constraints
+     GVI_NO_CONSTRAINTS   none of kind GVI_CONSTRAINT; GVI_NO_RULES implies it
+     GVI_NO_RULES         no rule but Gauss with r = s, and those that GVI_EXPLICIT
+                          takes; no Lagrangian terms, no constraints
 
    A description that needs what was left out is refused: GVI_E_FORMULATION.
    With GVI_STATIC, functions that are not called vanish as well.
@@ -158,8 +158,8 @@
 
    A mechanical system moves so that its action, the integral of L(t, q, q'),
    is stationary.  A variational integrator approximates the action, not the
-   equation of motion [1]; whatever the step does is then stationary action
-   again, which is why symmetry means exact momentum and why the map is
+   equation of motion [1]; each step then has a stationary action of its own, which
+   is why symmetries conserve momentum exactly and why the map is
    symplectic.  The Galerkin kind [2] takes
 
      curve        q(t0 + h tau) = q0 + h sum_k Phi_k(tau) y_k     0 <= tau <= 1
@@ -170,8 +170,8 @@
                   t_i = t0 + c_i h
                   F_i = dL/dq + f     P_i = dL/dv        at (t_i, Q_i, V_i)
 
-   A polynomial of degree s through q0, by its velocity's Legendre modes y_k:
-   the same curves as with control points [2, sec. 2.2], but well conditioned
+   The curve is a polynomial of degree s through q0, given by its velocity's Legendre
+   modes y_k: the same curves as with control points [2, sec. 2.2], but well conditioned
    at any degree, and with ends that are simply q0 and q1 = q0 + h y_0.  The
    action h sum_i b_i L(t_i, Q_i, V_i) is stationary, with the forces acting
    by the Lagrange-d'Alembert principle, when for k = 0..s-1
@@ -186,7 +186,7 @@
 
    Constant mass.  P_i = M V_i turns (1) into y = Gamma^-1 (...) with the s*s
    matrix Gamma_kl = sum_i b_i phi_k(c_i) phi_l(c_i), which is diagonal,
-   1/(2k+1), if u >= 2s - 1.  Put into Q and V,
+   1/(2k+1), if u >= 2s - 1.  Inserted into Q and V, this gives
 
      Q_i = q0 + h c_i v0 + h M^-1 sum_j (c_i - S_ij) h b_j F_j              (3)
      V_i = v0 + M^-1 sum_j (1 - T_ij) h b_j F_j                             (4)
@@ -228,13 +228,13 @@
    GVI_AUTO goes over to Newton.  All solve the same equations, to rounding.
 
    CONSTRAINTS.  Effects g(t,q) = 0 hold at Lobatto's s + 1 points of the step, where their
-   multipliers act; Lagrangian and forces stay at the rule's own [8], [9] (equations: CONSTRAINTS).
+   multipliers act; Lagrangian and forces keep the rule's points [8], [9] (equations: CONSTRAINTS).
    The step ends on g = 0 and on the hidden constraint G v + dg/dt = 0, G = dg/dq.  q and p are of
    order min(2s, u) for u >= 2s - 2, symplectic on the constraint manifold; degree 1 with Lobatto's
-   two points is RATTLE.  Second derivatives are not needed.  What G has of zeros costs nothing:
-   list rows that share coordinates near each other.  A row that depends on those before it and
-   agrees with them is left out, step by step: its multiplier is 0.  The rank must stay what it is
-   over the step, which it does not at a change point, where motions part.  Newton has lambda among
+   two points is RATTLE.  Second derivatives are not needed.  Zeros in G cost nothing: list rows
+   that share coordinates near each other.  A row that depends on those before it and
+   agrees with them is left out, step by step: its multiplier is 0.  The rank must not change
+   within a step, as it does at a change point, where the motion branches.  Newton has lambda among
    its unknowns, s (n + m) of them for m constraints; the fixed points solve for it as they go.
 
    CLOCK.  An effect g(q) > 0 makes time run as dt = g dtau, and h is a step in
@@ -247,7 +247,7 @@
    with v = M^-1 p as before.  E is the energy at the start plus the work of forces,
    so every potential and Lagrangian term needs its value.  None of them may depend
    on t: list what does as a force (a value that changes with t is refused at the
-   start, GVI_E_FORMULATION).  Without a mass it needs mass.velocity.
+   start, GVI_E_FORMULATION).  Without a mass, a clock needs mass.velocity.
 
    Order.  |q1 - exact| = O(h^(min(2s,u)+1)) a step: twice the degree, which
    is the superconvergence theorem [2, thm. 4.1].  It needs u >= 2s - 2: a weaker
@@ -433,8 +433,8 @@ extern "C" {
 
 typedef GVI_REAL gvi_real;
 
-/* GVI_SQRT(x): the bits of sqrt, but errno is never set.  A compiler that must set it does not make
-   vectors of square roots, unless it is given -fno-math-errno.                                */
+/* GVI_SQRT(x): the same bits as sqrt, but errno is never set.  A compiler that must set it does not
+   vectorise square roots unless given -fno-math-errno.                                        */
 #if defined(__GNUC__) && !defined(GVI_SQRT)
 gvi_real GVI__MATH(__builtin_sqrt)(gvi_real x) __attribute__((const));
 #define GVI_SQRT(x) GVI__MATH(__builtin_sqrt)(x)
@@ -499,11 +499,11 @@ typedef struct gvi_points {
    start, and by Newton's method; if all fail, it ends with GVI_E_CALLBACK.    */
 typedef int gvi_points_fn(const gvi_points *x, void *user);
 
-/* The same from what happens at one point.  GVI_POINTS(name, n, ...) stands for `static int name`;
+/* The same, written for one point.  GVI_POINTS(name, n, ...) stands for `static int name`;
    n is a constant.  The list names the arrays that the body uses (t and q are always there): v, p,
    f, dldv, and one of value, mass, velocity; or rows(m), m a constant, for the g, jacobian and
-   rate of m constraints.  With f and value, `name` serves as points and as value.  An array that
-   is listed but that the effect's kind does not have: GVI_E_CALLBACK, with a fault.argument.
+   rate of m constraints.  With f and value, `name` serves as points and as value.  Listing an array
+   that the effect's kind does not have gives GVI_E_CALLBACK, with a fault.argument.
 
      GVI_POINTS(drag, 2, v, f)(const gvi_points *x, void *user)
      {
@@ -513,15 +513,15 @@ typedef int gvi_points_fn(const gvi_points *x, void *user);
      }
 
    Here count and stride are 1: coordinate i is [i].  GVI_EACH(name, n, ...) { } has no head and no
-   return: a body that cannot fail, of x and user.  It is copied into a loop over points, of which
-   gcc and clang make vectors at -O2 and more if it is arithmetic and GVI_SQRT without branches.
-   Loops must have constant lengths, and GVI_UNROLL before each, as over pairs of bodies:
+   return: a body of x and user that cannot fail.  It is copied into a loop over points, which
+   gcc and clang vectorise from -O2 on if it is arithmetic and GVI_SQRT without branches.
+   Its loops must have constant lengths, and GVI_UNROLL before each, as here over pairs of bodies:
 
      GVI_UNROLL for (int i = 1; i < 6; ++i)
          GVI_UNROLL for (int j = 0; j < i; ++j) {
 
-   That pays up to 64 coordinates and 90 pairs with gcc, about 20 of either with clang; beyond that,
-   write rows.  The bits are those of a loop by hand.                                         */
+   That pays off up to 64 coordinates and 90 pairs with gcc, about 20 of either with clang; beyond,
+   loop over rows.  The results are, to the bit, those of a loop written by hand.             */
 #define GVI_POINTS(name, n, ...) GVI__POINTS(name, n, GVI__USES(__VA_ARGS__, , , , ))
 #define GVI__USES(a, b, c, d, ...)                                                              \
     (GVI__USES_##a | GVI__USES_##b | GVI__USES_##c | GVI__USES_##d)
@@ -680,10 +680,10 @@ typedef struct gvi_rule {
 } gvi_rule;
 
 typedef enum gvi_formulation {
-    GVI_AUTO       = 0,   /* the cheapest that covers the scene; Newton when it
-                             contracts badly and s n <= 1024, since its memory
-                             grows like (s n)^2: beyond, pin GVI_NEWTON.  With m
-                             constraints n + m is to be read for n              */
+    GVI_AUTO       = 0,   /* the cheapest that covers the scene; Newton if that
+                             contracts badly and s n <= 1024, since Newton's memory
+                             grows like (s n)^2: above that, pin GVI_NEWTON.
+                             With m constraints, read n + m for n               */
     GVI_EXPLICIT   = 1,
     GVI_POSITIONS  = 2,
     GVI_VELOCITIES = 3,
@@ -719,9 +719,9 @@ typedef struct gvi_desc {
                                           0: as many as it takes               */
     gvi_real          resolution;      /* the dial: the relative accuracy wanted of a step, below 1;
                                           less than eps is eps.  A step whose st.resolution is above
-                                          it is refused: GVI_E_RESOLUTION.  From degree 3 on, with
-                                          a rule of order 2 degree or more, where not explicit.
-                                          0: none is, nothing is measured                       */
+                                          it is refused: GVI_E_RESOLUTION.  Needs degree 3 or more,
+                                          a rule of order 2 degree or more, and steps that are not
+                                          explicit.  0: none is refused, nothing is measured    */
 } gvi_desc;
 
 #define GVI_FAULT_NONE (-1)
@@ -843,8 +843,8 @@ struct gvi__private {
 /* The stepper, to be read; in is private.                                     */
 typedef struct gvi_stepper {
     int             n, s, r;          /* as resolved from the description       */
-    gvi_status      status;           /* of the last call, a query's too; but that of a step that
-                                         failed, and its fault, stay until the next step or start */
+    gvi_status      status;           /* of the last call, queries included; but status and fault of
+                                         a step that failed stay until the next step or start     */
     gvi_formulation formulation;      /* used by the last step, or the next     */
     gvi_real        t, t_low;         /* time and its compensation: t + t_low   */
     const gvi_real *q, *p;            /* [n] configuration and momentum at t    */
@@ -855,9 +855,9 @@ typedef struct gvi_stepper {
     int             order;            /* u of the rule; 0 for GVI_KICKS         */
     int             iterations;       /* in the last step                       */
     gvi_real        resolution;       /* of the last step that was tried, with desc.resolution:
-                                         the largest error of a coordinate and its velocity, over
-                                         both, as the modes of the curve show it (ENGINE); the
-                                         error is usually far smaller, rarely 10 times that */
+                                         the largest relative error of a coordinate and its velocity
+                                         together, as the curve's modes show it (STEP); the true
+                                         error is usually far smaller, rarely 10 times as large */
     gvi_real        next;             /* the length that gvi_advance will try; may be set  */
     gvi_counters    counters;
     struct gvi__private in;
@@ -891,8 +891,8 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
 
 /* Start at time t from velocities, momenta, or two configurations: q0 at t and
    q1 at t + h (solves the boundary-value problem; conjugate points: below; no constraints).
-   GVI_E_CONSTRAINT where q or v is off a constraint: q by more than 4096 roundings of g, v if what
-   G v + dg/dt = 0 takes from it holds more than (4096 eps)^2 of the kinetic energy.           */
+   GVI_E_CONSTRAINT where q or v is off a constraint: q by more than 4096 roundings of g, v if the
+   part that G v + dg/dt = 0 removes has more than (4096 eps)^2 of the kinetic energy.         */
 GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v);
 GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                       const gvi_real *p);
@@ -915,13 +915,13 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
    gvi_switch(st, i, 1): the explicit formulation reuses the force at the end of a step.       */
 GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h);
 
-/* One step towards t_end, before or after t, as long as desc.resolution allows, never past t_end,
-   and on it to the bit:
+/* One step towards t_end, which may be before or after t: as long as desc.resolution allows, but
+   never past t_end, and the last one ends on it to the bit:
 
      while (st.status == GVI_OK && st.t < t_end) gvi_advance(&st, t_end);
 
-   The length is st.next, the first one found from small ones, as long as the accuracy stays within
-   a band; what is left is divided so that the last step is no shorter than half of that.  A step
+   The length is st.next, found at first from short steps, kept while the accuracy stays within
+   a band; what is left is divided so that the last step is no shorter than half of it.  A step
    that fails is tried again, shorter, 64 times at most or until t would not move: then its status
    is returned.  With
    a clock the length is in tau, and the step may pass t_end: gvi_state_at has the state there. */
@@ -939,10 +939,10 @@ GVI_DEF gvi_status gvi_velocity(gvi_stepper *st, gvi_real *v);
 GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy);
 
 /* The constraints' multipliers at the present state, one for each row in the order of the list,
-   0 where it is off: the force of constraint is G' lambda.  From the acceleration that keeps
-   G v + dg/dt = 0, so as exact as the state is; second derivatives of g by differences along v,
-   to some 100 eps.  Of rows that depend on each other the first ones carry the force, the last
-   have 0.                                                                     */
+   0 where it is off: the force of constraint is G' lambda.  They follow from the acceleration that
+   keeps G v + dg/dt = 0, so they are as exact as the state; second derivatives of g are differences
+   along v, good to some 100 eps.  Of rows that depend on each other the first ones carry the
+   force, the last have 0.                                                     */
 GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda);
 
 /* In the last step; q, v, p of length n, or NULL.  What later steps compute stays the same, to the
@@ -950,16 +950,16 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda);
      gvi_curve      the polynomial at tau in [0,1] and its derivative, error O(h^(min(s,u-s+1)+1))
                     and one order less; with a clock tau is its own time, and v still dq/dt
      gvi_state_at   the state at time t (a time, not tau), at the full order, by a partial step from
-                    the nearer end; 2 ulp outside the step is its end
+                    the nearer end; up to 2 ulp outside the step, t counts as its end
      gvi_action     the quadrature of L; like gvi_state_at with the effects that are on now   */
 GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v);
 GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_real *v, gvi_real *p);
 GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action);
 
 /* L_d(q0, q1; t, h): boundary values given, rows k >= 1 of (1) solved by Newton's method.
-   The curve is that near the chord, followed from short h; or with a guess that near the motion
-   that starts with it, and gvi_start_momentum(st, t, q0, p0) starts it.  If `negative` is wanted,
-   without a guess, it is whatever curve Newton's method finds from the chord.  GVI_E_CONJUGATE
+   The curve is the one near the chord, followed from short h; or, with a guess, the one near the
+   motion that the guess starts; gvi_start_momentum(st, t, q0, p0) starts it.  If `negative` is
+   wanted without a guess, it is whatever Newton's method finds from the chord.  GVI_E_CONJUGATE
    where the ends do not determine the curve (oscillator: h omega = k pi; a half circle about the
    Sun, whose chord goes through it, or past another conjugate point).  Needs GVI_NEWTON, or
    GVI_AUTO with s n <= 1024 and no given iterations, if s > 1; not for kicks, a clock or
@@ -974,12 +974,12 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
 /* Restart from a checkpoint, a copy of a stepper and of its memory, in a stepper that gvi_init set
    up for the same description, in this process or another.  What follows is the same to the bit.
    GVI_E_ARGUMENT if sizes, the number of effects, what they read together, the kind of mass or the
-   formulation differ.  A rule of as many points is not compared: that saved is used; callbacks,
-   tolerance and limits are those of st.                                                       */
+   formulation differ.  Rules of equally many points are not compared: the saved one is used;
+   callbacks, tolerance and limits are those of st.                                            */
 GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const gvi_real *memory);
 
-/* What went wrong in the last call, "ok" if nothing; the same as far as a status tells; why st uses
-   the formulation that it uses; sizeof(gvi_stepper), for other languages.                     */
+/* In this order: what went wrong in the last call, "ok" if nothing; the same, as far as a status
+   alone can say; why st uses its formulation; sizeof(gvi_stepper), for other languages.       */
 GVI_DEF const char *gvi_why(const gvi_stepper *st);
 GVI_DEF const char *gvi_status_text(gvi_status status);
 GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st);
@@ -1391,9 +1391,9 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 
 /* ------------------------------------------------------------ TOLERANCES
 
-   Every constant of judgement, once: nothing else decides whether a change is rounding, whether an
-   iteration has converged, or how long the next step is.  `make tolerances` takes each by half and
-   by two, and counts the iterations of fixed runs and the tests that then fail.              */
+   Every constant of judgement is here: nothing else decides whether a change is rounding, whether
+   an iteration has converged, or how long the next step is.  `make tolerances` halves and doubles
+   each, and counts the iterations of fixed runs and the tests that then fail.                */
 
 // rounding, in eps
 #define GVI__PLACE 4                       // of a value: its last places
@@ -1419,7 +1419,7 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 #define GVI__NEARER 6                      // halvings, where a domain or Newton's residual wants it
 #define GVI__BY_NEWTON 64                  // steps until the fixed point is tried again
 
-// predictor: times the last step, ahead or back, that an extrapolation is better than nothing
+// predictor: how many last steps, ahead or back, an extrapolation is still better than nothing
 #define GVI__AHEAD 8
 #define GVI__BACK 2
 #define GVI__SEEN ((gvi_real)0.015625)     // coupling of a polynomial that its nodes see
@@ -1662,9 +1662,9 @@ static void gvi__ldl_solve(int n, const gvi_real *m, int width, gvi_real *z, int
     }
 }
 
-/* The same for whole lanes of points.  Returns whether all pivots D are sure: the squares of what
-   they were in units of what they are, and of what rounding leaves of D/D - 1, do not add up to
-   1/(n eps)^2.  Otherwise gvi__ldl_factor has to decide, from the matrix made anew.          */
+/* The same for whole lanes of points.  Returns whether all pivots D are sure: the squares of
+   (diagonal entry before elimination)/D, and of what rounding leaves of D/D - 1, add up to less
+   than 1/(n eps)^2.  Otherwise gvi__ldl_factor has to decide, from the matrix made anew.     */
 GVI__BODY int gvi__ldl_factor_lane(int n, int R, gvi_real *m)
 {
     const size_t N = (size_t)n, S = (size_t)R;
@@ -2417,7 +2417,7 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_rea
 
 /* General Legendre transform at one point: Newton's method for dL/dv(v) = p from the v given.  Ends
    when the correction stops shrinking and dL/dv misses p by no more than rounding of v explains.
-   What leaves the domain of L (faster than light), refused or not a number, goes half the way. */
+   A correction out of the domain of L (faster than light), refused or not a number, is halved. */
 static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi_real *p,
                                        gvi_real *v)
 {
@@ -2771,10 +2771,10 @@ static void gvi__weights_for(gvi_stepper *st, gvi_real h)
    (Forsythe 1957): E_ij = sum_k p_k(y_i) p_k(x_j) at the points y_i = alpha + beta c_i of the
    next; those are `to`, which are the same nodes but for constraints.
 
-   Degree: r - 1, through all values of one step; of two, what `make cost` found to be best; no
-   more than amplifies rounding, by about 5.8^degree at the end of the step, to 1e-4 in double;
-   and none that only points tell apart that nearly coincide, as 0 and 1 - 1 do in two steps of
-   Lobatto's: its coupling is then small, elsewhere it is above 0.1.                           */
+   Degree: for one step r - 1, through all values; for two, what `make cost` found best.  It stops
+   before rounding, amplified by about 5.8^degree at the end of the step, exceeds 1e-4 in double,
+   and before a polynomial that only distinguishes points that nearly coincide, as 0 and 1 - 1 do
+   in two steps of Lobatto's: its coupling is then small, elsewhere it is above 0.1.           */
 static void gvi__fit(gvi_stepper *st, int r, const gvi_real *from, const gvi_real *to,
                      gvi_real alpha, gvi_real beta, int steps, gvi_real *E)
 {
@@ -2884,12 +2884,12 @@ static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real 
      row_i := base_i + (free_i + factor (z_i/m_i))
      z_i    = sum_j table_j (weight_j source_ij)       of one or two tables and sources
 
-   with free motion, the same in all iterations, in rows of its own.  factor and 1/m are two
-   products: h/m, rounded once, would be of another mass than v = p/m, and energy would drift.
+   with free motion, the same in all iterations, in rows of its own.  factor and 1/m multiply one by
+   one: h/m, rounded once, would belong to another mass than v = p/m, and energy would drift.
 
    A stage with a scale is measured, in squares of changes times scale_i: all of them are added
    up and returned, and change_i := those of row i at the last point and the middle.  One point
-   would not do: where eigenvalues are complex changes turn, and pass 0 at one, not at two.    */
+   would not do: where eigenvalues are complex, changes rotate and may be 0 at one, not at both. */
 typedef struct gvi__sum { const gvi_real *table, *weight, *source; } gvi__sum;
 
 typedef struct gvi__stage {
@@ -3207,8 +3207,8 @@ static void gvi__time_sums(const gvi_stepper *st, const gvi_real *source, gvi_re
     for (int k = 0; k < in->R; ++k) z[k] = gvi__point_sum(st->r, in->R, in->table.T + k, L);
 }
 
-/* H - E for a coordinate whose force is F: as it is, or where its rounding, within `none`, would
-   push a light body by more than 1024 eps of F, 0 up to `none` and as it is from 2 none on.  */
+/* H - E for a coordinate whose force is F: unchanged, unless its rounding, within `none`, would
+   push a light body by more than 1024 eps of F; then 0 up to `none`, unchanged from 2 none on. */
 static gvi_real gvi__sure_level(gvi_real level, gvi_real none, gvi_real slope, gvi_real F)
 {
     const gvi_real limit = GVI__SURE*GVI__EPS*F, push = GVI_ABS(slope)*none, size = GVI_ABS(level);
@@ -3744,11 +3744,11 @@ static void gvi__force_sizes(const gvi_stepper *st, const gvi_real *z, int S, gv
                 sum[i*S + e] += GVI_ABS(st->in.con.G[(a*n + i)*C + e]*z[e]);
 }
 
-/* Is row a of G the derivative of g?  A move dD of D moves g by (G + G') dD/2, of both its ends,
-   to third order.  What g has moved beside that, `missed`, shows a wrong entry where it is above
-   1/512 of size = sum |G' dD| and twice bend = |(G' - G) dD|, and keeps its share of size in four
-   iterations in a row that each move less.  Rounding does not: of known terms it is no more
-   than EPS terms, and of those that G q does not show about EPS size^2/bend.                  */
+/* Is row a of G the derivative of g?  A move dD of D changes g by (G + G') dD/2, from both ends,
+   to third order.  Any further change of g, `missed`, shows a wrong entry where it is above
+   1/512 of size = sum |G' dD| and above twice bend = |(G' - G) dD|, and keeps its share of size in
+   four iterations in a row that each move less.  Rounding does not: it is at most EPS terms
+   from known terms, and about EPS size^2/bend from those that G q does not show.              */
 static int gvi__beyond_rounding(gvi_real missed, gvi_real bend, gvi_real size)
 {
     return bend > GVI__SOLVED*GVI__EPS*size && missed*bend > GVI__GRAIN*GVI__EPS*size*size;
@@ -3919,9 +3919,9 @@ GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int row, int point)
     return lost*A[(row*m + row)*C];
 }
 
-/* RATTLE: the drift from p to g(q1) = 0 by impulses G0' mu, of a simplified Newton iteration.  A
-   row that is a quarter more than its last correction and the change of G along that leave is
-   rounding.  To be four times farther off than once before is divergence.                     */
+/* RATTLE: the drift from p to g(q1) = 0 by impulses G0' mu, from a simplified Newton iteration.  A
+   row is rounding if it exceeds by a quarter what its last correction, and the change of G along
+   it, should have left.  An error four times the least so far is divergence.                  */
 GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h)
 {
     struct gvi__private *in = &st->in;
@@ -3979,9 +3979,9 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
 
 /* ---- at the end of a step, and at the start ---- */
 
-/* Is each g_a within 4096 roundings, of the terms that are known, or of what it proves to have?  A
-   part of Newton's correction takes that part of g_a, but for the change of G along it; not all of
-   it, nor a half, since that may hit g = 0 exactly and show no rounding.                      */
+/* Is each g_a within 4096 roundings, of its known terms or as measured?  To measure, take a part of
+   Newton's correction: it should remove that part of g_a, but for the change of G along it.  Not
+   all of it, nor a half, since that may hit g = 0 exactly and show no rounding.               */
 GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                     const gvi_real *p, gvi_real *v)
 {
@@ -4248,8 +4248,8 @@ GVI__COLD const char *gvi__wrong_in_mass(const struct gvi__private *in)
     return NULL;
 }
 
-/* Are all sizes in range, is what the kinds need there, and nothing that says that a kind was
-   forgotten?  Fills in the defaults, and finds what the effects read and the clock.           */
+/* Are all sizes in range, is everything there that the kinds need, and nothing that suggests a
+   forgotten kind?  Fills in the defaults, and finds the clock and what the effects read.      */
 GVI__COLD gvi_status gvi__check(struct gvi__private *in, const gvi_desc *desc, gvi_fault *fault)
 {
     enum { V = GVI__HAS_VELOCITIES, L = GVI__HAS_LAGRANGIAN };
@@ -5185,10 +5185,10 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
 /* The verdict on a change.  One that does not shrink is rounding if y, q or the residual is, or if
    it is small and its matrix is new or has contracted here: an older one can repeat any change.  It
    then hides no more of the error, p->left, than the change before, which shrinks on by the
-   contraction seen.  Not to be less than half of the least so far is not to shrink: what
-   is rounded to a grid may go round a few points of it, and fall in every iteration.  Nor is it
-   contraction to fall from an overshoot far beyond the size of y.  One ratio by an old matrix may
-   be luck: unless the change is rounding, that before must tell the same.                     */
+   contraction seen.  To shrink is to be at most half of the least so far: what is rounded to
+   a grid may circle among a few of its points, and fall in every iteration.  Nor is a fall from an
+   overshoot far beyond the size of y a contraction.  One ratio by an old matrix may
+   be luck: unless the change is rounding, the one before must agree.                          */
 static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__descent *p,
                                  gvi_real change)
 {
@@ -5232,11 +5232,10 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__des
     return GVI__GO_ON;
 }
 
-/* Does y stay, of that norm? Where a change that is not small has not made the residual less:
-   back to where it began, for a new matrix; or if it was new, half of the way.  Where six
-   halves have not helped all of the change stands: across a kink, or from one curve to the
-   next, the way down may lead up first.  And where what seemed to be rounding grows again, that
-   was no rounding.                                                                            */
+/* Does y, whose residual has that norm, stay?  A change that is not small and has not reduced the
+   residual is taken back, for a new matrix; or halved, if the matrix was new.  Where six halvings
+   have not helped, the whole change stands: across a kink, or from one curve to the next, the way
+   down may lead up first.  And what seemed to be rounding but grows again was no rounding.    */
 static int gvi__newton_stays(gvi_stepper *st, const gvi__matrix *J, gvi__descent *p, gvi_real norm)
 {
     enum { HALVES = GVI__NEARER };
@@ -5306,8 +5305,8 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
     return gvi__report_status(st, GVI_E_CONVERGENCE);
 }
 
-/* The sign of the determinant of a matrix.  That of the solution's has it, too, where the iteration
-   contracts; along a branch of solutions it changes where they turn back in h.               */
+/* The sign of the determinant of a matrix.  Where the iteration contracts, that of the solution
+   has the same sign; along a branch of solutions it changes where they turn back in h.       */
 static int gvi__orientation(const gvi__matrix *J, size_t size)
 {
     int sign = 1;
@@ -5413,9 +5412,9 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
     return right ? gvi__newton_values(st, from) : gvi__report_status(st, GVI_E_CONVERGENCE);
 }
 
-/* Did the rank of G change between two points of the step?  What row j leaves of those before it is
+/* Did the rank of G change between two points of the step?  What those before row j leave of it is
    c G, c the row of L^-1: where that is a small part of row j at a point, has it turned by more
-   than 25 degrees at the next, or is next to nothing left of it?  It passes 0 where motions part,
+   than 25 degrees at the next, or almost vanished?  It passes 0 where the motion branches,
    and has another direction on each branch: the step must not choose.                        */
 GVI__CALLED gvi_status gvi__newton_crossing(gvi_stepper *st)
 {
@@ -5672,9 +5671,9 @@ typedef struct gvi__progress {
    value, in units of 32 eps of the largest amplitude; 0: there is none.  An amplitude is |Q_i|
    times sqrt(M_ii), with h V_i or h P_i/M_ii in place of Q_i for those rows.  Up to 1 a row
    that does not settle is nothing but noise, where large forces cancel: a light body midway
-   between two heavy ones.  So is, whatever the amplitude, what a force of constraint moves by its
-   own rounding, 32 eps of it, or by its last change where that came from the rounding of g, which
-   rows that are nearly dependent make large: that counts next to nothing.                      */
+   between two heavy ones.  So, whatever the amplitude, is a move due to the rounding of a force of
+   constraint, 32 eps of it, or to its last change where that came from the rounding of g, which
+   nearly dependent rows make large: such a move counts next to nothing.                        */
 static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *stage, int stages)
 {
     const int R = st->in.R, C = st->in.con.C, held = gvi__constrained(st)*st->s,
@@ -5707,9 +5706,9 @@ static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *
 }
 
 /* 5) The verdict on a change D of all rows; what ends an iteration is listed at gvi__iterate.  One
-   ratio may be luck: unless D is rounding, the one before, or that of the last step, must tell the
-   same; after an attempt that failed D itself must be within the tolerance.  All in squares: no
-   root waits.                                                                                 */
+   ratio may be luck: unless D is rounding, the one before, or that of the last step, must agree;
+   after an attempt that failed D itself must be within the tolerance.  All in squares, so that
+   nothing waits for a root.                                                                   */
 static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_real h,
                           const gvi__stage *stage, int stages)
 {
@@ -6165,9 +6164,9 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
      low  = |y_(s-3)| + |y_(s-4)|                    all  = |v| at both ends + high + low
      (s high/push high/max(high, low))^2 push/all
 
-   high^2/low is about the pair that the curve lacks, and of push, which forces do, the step lacks
-   the square of that share, since its error is of second order in the curve's [2, thm. 4.1], by a
-   rule of order u >= 2s.  In positions the modes are those of M v, from the forces.  Where a
+   high^2/low is about the pair that the curve lacks.  Of push, the forces' doing, the step lacks
+   the square of that share, since with a rule of order u >= 2s its error is of second order in the
+   curve's [2, thm. 4.1].  In positions the modes are those of M v, from the forces.  Where a
    coordinate hardly moves, an error below eps (max |v| + max |q|/h), each times sqrt(M_ii), is
    rounding, and relative to that sum.                                                         */
 static gvi_real gvi__resolution(const gvi_stepper *st)
@@ -6344,8 +6343,8 @@ static gvi_real gvi__length(gvi_real k)
     return GVI_LDEXP((GVI_FLOOR(k) - 4*octave)/8, (int)octave);
 }
 
-/* st.next after a step of length h.  `room` rungs up the resolution, of order 2s - 1 in h, would be
-   at its limit: as it was in this step, less what it has lost since the last.  From 0 to 4 of them
+/* st.next after a step of length h.  `room`: how many rungs up the resolution, of order 2s - 1 in
+   h, would reach its limit, by this step, less what was lost since the last.  From 0 to 4 rungs
    h stays as it is.                                                                           */
 static void gvi__set_next(gvi_stepper *st, gvi_status status, gvi_real h)
 {
@@ -6441,8 +6440,8 @@ GVI__COLD gvi_status gvi__clock_energy(gvi_stepper *st, gvi_real t, const gvi_re
     return gvi__report_status(st, GVI_OK);
 }
 
-/* At a first start: callbacks that fill their first point alone, or set f and dldv with = in place
-   of adding to them.  All points are a little past q, where a force that is 0 at the start is not.
+/* At a first start, finds callbacks that fill only their first point, or set f and dldv with =
+   instead of adding to them.  All points are a little past q, where a force 0 at the start is not.
    From 0 an effect shows which points it fills; from the largest number, whether it adds.     */
 GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
 {
@@ -6840,7 +6839,7 @@ static void gvi__curve_at(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_
     for (int i = 0; i < n; ++i) q[i] = in->began.q[i] + st->h*q[i];
 }
 
-// what was asked for
+// what was requested
 static void gvi__hand_over(int n, const gvi_real *from, gvi_real *to)
 {
     if (to) gvi__copy((size_t)n, from, to);
@@ -7103,8 +7102,8 @@ GVI__COLD gvi_real gvi__aim(gvi_stepper *st, const gvi__origin *from, gvi_real h
 
 /* A curve of degree 2 or more, followed from where it is known, in as many pieces as it takes: from
    h = 0, where it is the chord, run through in no time; or, with a guess v, from the motion that v
-   starts, where between h/2 and 3h/2 it leaves q1.  Linear equations need none of that: the
-   bowed chord will do.  Returns whether they were, all but.  `any`: any other curve is welcome. */
+   starts, where between h/2 and 3h/2 it begins to leave q1.  Linear equations need none of that:
+   the bowed chord will do.  Returns whether they are all but linear.  `any`: any curve will do. */
 GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, const gvi_real *q1,
                           const gvi_real *v, int any, const gvi__matrix *J, gvi_status *status)
 {
@@ -7220,10 +7219,10 @@ GVI__COLD gvi_status gvi__morse_index(gvi_stepper *st, const gvi__matrix *J, int
     return GVI_OK;
 }
 
-/* The curve by any degree: rows k >= 1 of (1).  The matrix where it ended says whether there was
-   anything to find: a reciprocal condition below its own relative error is a conjugate point.  So
-   is one inside the curve, found from the chord, unless the equations were all but linear there:
-   a half circle is not near its diameter.                                                    */
+/* The curve by any degree: rows k >= 1 of (1).  The matrix where it ended shows whether the ends
+   determine it: a reciprocal condition below its own relative error is a conjugate point.
+   One inside a curve found from the chord is refused too, unless the equations were all but linear
+   there: a half circle is not near its diameter.                                             */
 GVI__COLD gvi_status gvi__interior(gvi_stepper *st, const gvi__origin *from, gvi_real h,
                                    const gvi_real *q1, const gvi_discrete *out, gvi__matrix *J,
                                    gvi_real *p, int *negative)
