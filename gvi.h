@@ -122,7 +122,7 @@
               the callbacks give the same bits and products stay between 1e-290
               and 1e299 (float: 1e-30 and 1e34); beyond, their low words depend
               on FMA.
-   work       Bounded: docs/embedded.md has the bound, `make bound` counts it.
+   work       Bounded: docs/embedded.md has the bound, but not that of constraints.
    converged  A step ends when every coordinate has converged, each measured by
               its own size.  Where large forces cancel, a coordinate may never
               settle: its changes then count as rounding below 32 eps of the
@@ -219,13 +219,13 @@
      explicit     s = 1, Lobatto with r = 2 or kicks, constant mass, effects read only
                   t and q: Stoermer-Verlet and splittings, no iteration
      positions    constant mass, effects read only t and q: (3) as fixed point
-     velocities   constant mass, any effects: (3) and (4) as fixed point
+     velocities   constant mass, any effects but a clock: (3) and (4) as fixed point
      momenta      M(q), or velocity from momentum given, and r = s: (5)
-     Newton       anything: (1) by Newton's method, dense LU of size s*n
+     Newton       all but a clock and kicks: (1) by Newton's method, dense LU of size s*n
 
-   Each iteration of a fixed point makes the error smaller by about (h omega)^2
-   (positions) or h omega, omega the fastest frequency.  Where that is no gain,
-   GVI_AUTO goes over to Newton.  All solve the same equations, to rounding.
+   Each iteration of a fixed point makes the error smaller by (rho h omega)^2 (positions) or
+   rho h omega: omega the fastest frequency, rho 1/2 at degree 1, 0.29 at 2, less above.  Where
+   that is no gain, GVI_AUTO goes over to Newton.  All solve the same equations, to rounding.
 
    CONSTRAINTS.  Effects g(t,q) = 0 hold at Lobatto's s + 1 points of the step, where their
    multipliers act; Lagrangian and forces keep the rule's points [8], [9] (equations: CONSTRAINTS).
@@ -688,7 +688,7 @@ typedef enum gvi_formulation {
     GVI_POSITIONS  = 2,
     GVI_VELOCITIES = 3,
     GVI_MOMENTA    = 4,
-    GVI_NEWTON     = 5
+    GVI_NEWTON     = 5    /* last: GVI_AUTO takes the first that covers the scene */
 } gvi_formulation;
 
 /* A scene and how it is to be integrated.  Zero-initialise; then only n and
@@ -746,7 +746,7 @@ typedef struct gvi_counters {
     unsigned long long velocities;        /* points at which v was formed       */
     unsigned long long mass;              /* points given to mass.points, mass.velocity */
     unsigned long long effect[GVI_EFFECTS]; /* points given to each effect      */
-    int                most_iterations;   /* in one step or gvi_state_at        */
+    int                most_iterations;   /* of the fixed point, in one attempt */
     gvi_real           worst_contraction; /* of the iteration, mean of two; where Newton's
                                              method followed, also of what it replaced */
     gvi_real           worst_change;      /* largest last change of a fixed point, relative */
@@ -1060,7 +1060,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #pragma clang fp reassociate(off)
 #endif
 
-/* NAMES, one meaning each in what follows:
+/* NAMES, their usual meaning in what follows:
 
      st, in        the stepper; its internals, st->in
      from          where a step, or a query's partial step, starts
@@ -1121,7 +1121,7 @@ enum {
 #ifdef GVI_ONLY_NEWTON
     | 1 << GVI_NEWTON
 #endif
-    , GVI__COMPILED = GVI__LISTED ? GVI__LISTED : 62,
+    , GVI__COMPILED = GVI__LISTED ? GVI__LISTED : (2 << GVI_NEWTON) - 2,
 #ifdef GVI_NO_RULES
     GVI__RULES = 0,
 #else
@@ -1391,9 +1391,9 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 
 /* ------------------------------------------------------------ TOLERANCES
 
-   Every constant of judgement is here: nothing else decides whether a change is rounding, whether
-   an iteration has converged, or how long the next step is.  `make tolerances` halves and doubles
-   each, and counts the iterations of fixed runs and the tests that then fail.                */
+   The constants of judgement that decide most; those of one place stand there, with their reason.
+   `make tolerances` halves and doubles each, and counts the iterations of fixed runs and the tests
+   that then fail.                                                                             */
 
 // rounding, in eps
 #define GVI__PLACE 4                       // of a value: its last places
@@ -1612,12 +1612,13 @@ GVI_DEF gvi_real gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot, 
 
 /* L D L' of a symmetric matrix at each of `count` points, in place: entry (i,j), i >= j, of point k
    at [(i*n + j)*R + k].  L goes below the diagonal, 1/D on it, and D L' above it, where the rest of
-   the matrix is made.  A pivot that is nothing but the rounding of its diagonal entry, `least` of
+   the matrix is made.  A pivot that is nothing but the rounding of its diagonal entry, n eps of
    it, belongs to a coordinate without mass: GVI_E_SINGULAR, at[0] the coordinate and at[1] the
    point.                                                                                      */
-static gvi_status gvi__ldl_factor(int n, int R, int count, gvi_real *m, gvi_real least, int *at)
+static gvi_status gvi__ldl_factor(int n, int R, int count, gvi_real *m, int *at)
 {
     const size_t N = (size_t)n, S = (size_t)R;
+    const gvi_real least = (gvi_real)n*GVI__EPS;
     for (size_t j = 0; j < N; ++j) {
         gvi_real *d = m + (j*N + j)*S;
         for (int k = 0; k < count; ++k) {
@@ -1978,7 +1979,7 @@ enum {
     GVI__POSSIBLE = GVI__EXPLICIT*GVI__OF_EXPLICIT | GVI__POSITIONS*GVI__OF_POSITIONS
                   | GVI__VELOCITIES*GVI__OF_VELOCITIES | GVI__MOMENTA*GVI__OF_MOMENTA
                   | GVI__NEWTON*(GVI__OF_NEWTON | GVI__HAS_NEWTON)
-                  | GVI__READS_V*GVI__HAS_VELOCITIES | GVI__LAGRANGIAN*GVI__HAS_LAGRANGIAN
+                  | GVI__LAGRANGIAN*GVI__HAS_LAGRANGIAN
                   | GVI__RULES*GVI__HAS_GAMMA,
     GVI__DOUBTFUL = GVI__EXPLICIT*~GVI__OF_EXPLICIT | GVI__POSITIONS*~GVI__OF_POSITIONS
                   | GVI__VELOCITIES*~GVI__OF_VELOCITIES | GVI__MOMENTA*~GVI__OF_MOMENTA
@@ -2305,7 +2306,7 @@ static gvi_status gvi__factor_mass(gvi_stepper *st, const gvi_points *x)
         if (status != GVI_OK) return status;
     }
     int at[2] = { 0, 0 };
-    status = gvi__ldl_factor(n, R, x->count, m, (gvi_real)n*GVI__EPS, at);
+    status = gvi__ldl_factor(n, R, x->count, m, at);
     if (status == GVI_OK) return GVI_OK;
     return gvi__report(st, status, GVI_FAULT_MASS, at[0], at[1]);
 }
@@ -4218,7 +4219,7 @@ GVI__COLD const char *gvi__wrong_in_desc(const gvi_desc *d)
     return NULL;
 }
 
-// what is wrong with an effect, or NULL; x knows those before it
+// what is wrong with an effect, or NULL; `in` knows those before it
 GVI__COLD const char *gvi__wrong_in_effect(const struct gvi__private *in, const gvi_effect *effect)
 {
     const int holds = effect->kind == GVI_CONSTRAINT, clock = effect->kind == GVI_CLOCK;
@@ -4383,6 +4384,9 @@ GVI__COLD gvi_status gvi__choose(struct gvi__private *in, gvi_fault *fault)
     if (matrices && d->n > 0x7FFF)                // indices are int: n*n and s*n
         return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE,
                            "n is above 32,767, and matrices may be needed");
+    if (GVI__CONSTRAINTS && in->con.m > 0x7FFFFFFF/(GVI__ROW(s + 1)*d->n))        // of G
+        return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE,
+                           "n, degree and rows of constraints are too large together");
     return GVI_OK;
 }
 
@@ -4440,9 +4444,9 @@ GVI__COLD void gvi__layout_constraints(struct gvi__private *in, gvi__arena *a)
         *list[k].to = gvi__take(a, list[k].rows, list[k].width);
 }
 
-/* The one layout: gvi_size counts with it, gvi_init hands out by it, and GVI_LENGTH is its sum with
-   everything wanted.  Stage values of two steps back make the predictor better up to nine points;
-   with more of them, and in float, they would amplify rounding too much.                     */
+/* The one layout: gvi_size counts with it, gvi_init hands out by it, and GVI_LENGTH is no less than
+   its sum with everything wanted.  Stage values of two steps back make the predictor better up to
+   nine points; with more of them, and in float, they would amplify rounding too much.         */
 GVI__COLD size_t gvi__layout(struct gvi__private *in, int order, gvi_real *base)
 {
     const gvi_desc *d = &in->desc;
@@ -4582,7 +4586,7 @@ GVI__COLD gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
     }
     if (!dense) return GVI_OK;
     const gvi_status status =
-        gvi__ldl_factor(n, 1, 1, in->mass.factor, (gvi_real)n*GVI__EPS, at);
+        gvi__ldl_factor(n, 1, 1, in->mass.factor, at);
     if (status == GVI_OK) return GVI_OK;
     return gvi__report(st, status, GVI_FAULT_MASS, at[0], at[1]);
 }
@@ -5504,8 +5508,8 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
      2) predictor     F (V, A) at the points, extrapolated from the last step
      3) stages        Q by (3) from F; V by (4), or P and Q by (5)
      4) effects       F(Q), at all points in one call
-     5) verdict       again from 3), until Q has converged: by the list at gvi__iterate
-     6) increments    dp by (2), dq by (3) at tau = 1
+     5) verdict       3) once more, then again from 4), until all rows converge: gvi__iterate
+     6) increments    dp by (2), dq by (3) at tau = 1 or by (5); then G v + dg/dt = 0
      7) commit        the state moves on
 
    gvi__iterate is 2) to 5), gvi__attempt 1) to 6), with Newton's method (1) where the fixed point
@@ -5802,9 +5806,9 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
        end with their own F, not that of the side they came from, which is a bias: done;
      - iterations are given and made: done if D falls, or is rounding;
      - D falls by less than GVI__POOR too often, or reached rounding slowly, which lets errors grow
-       before they shrink: Newton's method;
-     - constraints lose rank, or max_iterations are made: no convergence;
-     - D is NaN: no convergence, or an effect's fault.                                         */
+       before they shrink; constraints lose rank; max_iterations are made: no convergence, and
+       gvi__attempt goes on from plain values or by Newton's method;
+     - D is not finite: no convergence, or an effect's fault.                                  */
 GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi_real h,
                                    int extrapolate, int *used)
 {
@@ -6014,7 +6018,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_rea
             gvi__count(&st->counters.iterations, used);
             if (!query) st->iterations = used;
             if (used > st->counters.most_iterations) st->counters.most_iterations = used;
-            // iterations given: only a callback that failed at extrapolated values is tried again
+            // iterations given: only what failed in the first one is tried again
             if (status == GVI_OK
                 || (in->desc.iterations > 0 && (used > 1 || status == GVI_E_CONVERGENCE)))
                 break;
@@ -6149,7 +6153,7 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
     in->stepped = 1 + gvi__clock_is_on(st);
     in->has_force = !gvi__has(in, GVI__ITERATES) && !gvi__nonzero(in->table.c[0])
                    && !gvi__nonzero(in->table.c[st->r - 1] - 1);
-    in->has_velocity = st->formulation > GVI_POSITIONS;
+    in->has_velocity = st->formulation == GVI_NEWTON || !gvi__has(in, GVI__BY_FORCES);
     if (st->formulation != GVI_NEWTON) in->watch.ratio = in->watch.found;
     if (in->newton.left > 0) in->newton.left -= 1;
     gvi__count(&st->counters.steps, 1);
@@ -6166,9 +6170,9 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
 
    high^2/low is about the pair that the curve lacks.  Of push, the forces' doing, the step lacks
    the square of that share, since with a rule of order u >= 2s its error is of second order in the
-   curve's [2, thm. 4.1].  In positions the modes are those of M v, from the forces.  Where a
-   coordinate hardly moves, an error below eps (max |v| + max |q|/h), each times sqrt(M_ii), is
-   rounding, and relative to that sum.                                                         */
+   curve's [2, thm. 4.1].  In positions the modes are those of M v, from the forces.  Where
+   motion is far below max |v| + max |q|/h, each times sqrt(M_ii), an error below s^2 eps of that
+   sum is rounding, and relative to it.                                                        */
 static gvi_real gvi__resolution(const gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
@@ -6366,8 +6370,8 @@ static void gvi__set_next(gvi_stepper *st, gvi_status status, gvi_real h)
     if ((up > 0 && h >= st->next) || (up < 0 && next < st->next)) st->next = next;
 }
 
-/* A first length: less than 1/16 of the time in which the forces would make the kinetic energy that
-   there is.                                                                                   */
+/* A first length: 1/16 of the time in which the forces would make the kinetic energy that there is;
+   1/1024 of the way where that is less, or from rest.                                         */
 GVI__COLD gvi_real gvi__first_length(gvi_stepper *st, gvi_real left)
 {
     gvi_real *v = st->in.result, *a = v + st->n;
@@ -6481,7 +6485,7 @@ GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, 
     return gvi__report_status(st, GVI_OK);
 }
 
-// from q, p in x->step and a velocity v, all of them seen to be good
+// from q, p in in->step and a velocity v, all of them seen to be good
 GVI__COLD gvi_status gvi__begin_at(gvi_stepper *st, gvi_real t, const gvi_real *v)
 {
     struct gvi__private *in = &st->in;
@@ -6534,7 +6538,7 @@ GVI__COLD gvi_status gvi__check_start(gvi_stepper *st, gvi_real t, const gvi_rea
     return st->status = gvi__refuse(&st->fault, GVI_FAULT_NONE, i, "q, v or p is not finite");
 }
 
-// p = dL/dv, of the kinetic energy and of Lagrangian terms where there are any, to x.point + 5n
+// p = dL/dv, of the kinetic energy and of Lagrangian terms where there are any, to in->point + 5n
 static gvi_status gvi__momentum(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
 {
     gvi_points at = gvi__one_point(st, &t, q);
@@ -6570,7 +6574,7 @@ GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_rea
     struct gvi__private *in = &st->in;
     const size_t n = (size_t)st->n;
     gvi_real *v = in->result;
-    gvi__copy(n, p, in->step.p);                   // p may be x->step.q
+    gvi__copy(n, p, in->step.p);                   // p may be in->step.q
     gvi__copy(n, q, in->step.q);
     // a velocity to start the first iteration from; where there is none, the step says so
     gvi__zero(n, v);
@@ -7203,7 +7207,6 @@ GVI__COLD gvi_status gvi__morse_index(gvi_stepper *st, const gvi__matrix *J, int
     const size_t n = (size_t)st->n, size = (size_t)(st->s - 1)*n;
     const unsigned off = in->off;
     *negative = 0;
-    if (size == 0) return GVI_OK;
     in->off |= gvi__of_kind(in, GVI_FORCE);
     const gvi_status status = gvi__jacobian_fill(st, J);
     in->off = off;
@@ -7379,7 +7382,7 @@ GVI_DEF const char *gvi_status_text(gvi_status status)
     case GVI_E_CALLBACK:    return "an effect (fault.effect) did not return 0: halve h";
     case GVI_E_NON_FINITE:  return "an effect (fault.effect) gave NaN or Inf: halve h";
     case GVI_E_VALUE:       return "an effect (fault.effect) has no value callback";
-    case GVI_E_STATE:       return "the time is outside the last step, or a clock is on since";
+    case GVI_E_STATE:       return "too early, outside the last step, or a clock is on since";
     case GVI_E_CONJUGATE:   return "conjugate points: the ends do not determine the curve";
     case GVI_E_CLOCK:       return "a clock (fault.effect) must be positive: g <= 0";
     case GVI_E_CONSTRAINT:  return "the state is not on a constraint: g(t,q) or its rate is not 0";
@@ -7393,9 +7396,9 @@ GVI_DEF const char *gvi_status_text(gvi_status status)
 GVI__COLD const char *gvi__why_no_formulation(const gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
-    const int kicks = in->desc.rule.kind == GVI_KICKS, clock = in->clock >= 0,
+    const int kicks = gvi__rule_is(in, GVI_KICKS), clock = GVI__CLOCK && in->clock >= 0,
               ready = in->memory != 0;
-    if (in->con.bits)
+    if (GVI__CONSTRAINTS && in->con.bits)
         return "constraints go with no clock, kicks or boundary values; with a formulation "
                "pinned or iterations given, what that covers (GVI_NEWTON: all)";
     if (ready && st->fault.effect >= 0)
@@ -7405,7 +7408,8 @@ GVI__COLD const char *gvi__why_no_formulation(const gvi_stepper *st)
     if (in->chosen == GVI_NEWTON) return "iterations is given, and this takes Newton's method";
     if (kicks) return "kicks are for constant mass and effects that read only t and q";
     if (clock) return "a clock needs r = s, and a mass or mass.velocity";
-    if (in->desc.formulation != GVI_AUTO) return "the pinned formulation does not cover this scene";
+    if (in->desc.formulation != GVI_AUTO) 
+        return "the pinned formulation does not cover this scene, or a macro leaves it out";
     return "what this scene needs is left out by a macro GVI_ONLY_... or GVI_NO_...";
 }
 
