@@ -1396,12 +1396,12 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
    that then fail.                                                                             */
 
 // rounding, in eps
-#define GVI__PLACE 4                       // of a value: its last places
-#define GVI__SOLVED 16                     // of the terms of a sum that is to be 0
-#define GVI__NOISE 32                      // of the largest amplitude: forces that cancel
-#define GVI__GRAIN 64                      // for each unknown of a linear system: its solution
-#define GVI__SURE 1024                     // more than any rounding: ratios are contraction
-#define GVI__HELD 4096                     // of a constraint's terms: off it where a motion starts
+#define GVI__PLACE ((gvi_real)4)           // of a value: its last places
+#define GVI__SOLVED ((gvi_real)16)         // of the terms of a sum that is to be 0
+#define GVI__NOISE ((gvi_real)32)          // of the largest amplitude: forces that cancel
+#define GVI__GRAIN ((gvi_real)64)          // for each unknown of a linear system: its solution
+#define GVI__SURE ((gvi_real)1024)         // more than any rounding: ratios are contraction
+#define GVI__HELD ((gvi_real)4096)         // of a constraint's terms: off it where a motion starts
 
 // the change yet to come when an iteration ends, relative; more is a drift of energy
 #define GVI__ENOUGH (GVI__EPS/65536)
@@ -4331,7 +4331,7 @@ GVI__COLD gvi_status gvi__check_rule(struct gvi__private *in, int *order, gvi_fa
     }
     // r >= s points of Gauss or Lobatto are good enough
     if (r < s) return GVI_E_POINTS;
-    if (in->desc.resolution > 0 && *order < 2*s)
+    if (GVI__COMPILED != 1 << GVI_EXPLICIT && in->desc.resolution > 0 && *order < 2*s)
         return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE,
                            "resolution: the order of the rule is below twice the degree");
     return GVI_OK;
