@@ -97,13 +97,13 @@ clean:
 	rm -rf $(BUILD)
 
 ## help         this list, by the files in which the targets are; make help-all: everything there is
-MAKEFILES = Makefile tests/studies.mk tests/playground.mk
+MAKE_PARTS = Makefile tests/studies.mk tests/playground.mk
 help:
-	$(Q)awk 'sub(/^## /, "  make ") { if (FILENAME != file) print FILENAME; file = FILENAME; print }' $(MAKEFILES)
+	$(Q)awk 'sub(/^## /, "  make ") { if (FILENAME != file) print FILENAME; file = FILENAME; print }' $(MAKE_PARTS)
 
 help-all:
 	$(Q)awk 'sub(/^#:  +/, "                    ") || sub(/^#[#:] /, "  make ") { \
-	    if (FILENAME != file) print FILENAME; file = FILENAME; print }' $(MAKEFILES)
+	    if (FILENAME != file) print FILENAME; file = FILENAME; print }' $(MAKE_PARTS)
 
 #: uninstall    removes what install put there
 uninstall:
