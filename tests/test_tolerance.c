@@ -219,4 +219,28 @@ TEST(a_checkpoint_with_a_tolerance_goes_on_with_one)
     }
 }
 
+/* q'' = -k q - c q^3 from q = 1 at rest, so |q| <= 1: given iterations that have left that are refused */
+GVI_EACH(bowl, 1, f)
+{
+    const real *k = user;
+    x->f[0] -= x->q[0]*(k[0] + k[1]*x->q[0]*x->q[0]);
+}
+
+TEST(given_iterations_do_not_leave_the_motion)
+{
+    static const real bowls[][2] = { { 1, (real)0.25L }, { (real)0.1L, 1 }, { 1, 0 } };
+    int taken = 0;
+    for (int b = 0; b < COUNT(bowls); ++b)
+        for (int N = 2; N <= 10; ++N)
+            for (int degree = 2; degree < 6; ++degree)
+                for (real h = (real)0.25L; h < 12; h += (real)0.0731L) {
+                    const gvi_effect effect = { .points = bowl, .user = (void *)bowls[b] };
+                    const gvi_desc desc = { .n = 1, .degree = degree, .effects = &effect, .effect_count = 1, .iterations = N };
+                    gvi_stepper st = new_motion(&desc, 0, (const real[]){ 1 }, (const real[]){ 0 });
+                    for (int k = 0; k < 8 && gvi_step(&st, h) == GVI_OK; ++k) ++taken;
+                    assert_true(fabs(st.q[0]) < 16);      // a last change of a quarter of the motion is allowed
+                }
+    assert_true(taken > 5000);
+}
+
 RUN_TESTS(NULL, NULL)

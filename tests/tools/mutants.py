@@ -72,10 +72,64 @@ MUTANTS = [
     ("boundary", "if (*bent > GVI__CONTRACTS) return", "if (0) return"),
     ("boundary queries", "y[n + i] = length*in->watch.scale[i]/2;", "y[n + i] = 0*length;"),
     ("queries", "minus[i] -= lambda[row]*(by_q0 - by_y0);", "minus[i] -= lambda[row]*by_q0;"),
+    # the dial
+    ("resolution", "const gvi_real whole = fastest + farthest/h;", "const gvi_real whole = fastest;"),
+    ("resolution", "if (held && missed[i] <= GVI__PULLED*GVI__EPS*whole) continue;", ""),
+    ("resolution", "if (pair == 1 && high > GVI__SURE*GVI__EPS*low) high += low*(low/all)/4;", "if (pair == 1) high += low*(low/all)/4;"),
+    ("resolution", "return (gvi_real)(s*s)*worst;", "return worst/(gvi_real)(s*s*s*s);"),
+    ("resolution", "if (st->s < degree) degree = st->s;", "degree = st->s;"),
+    ("resolution why", "if (GVI__COMPILED != 1 << GVI_EXPLICIT && in->desc.resolution > 0 && *order < 2*s)", "if (0)"),
+    ("resolution", "st->t_low += st->t - t_end;", ""),
+    ("resolution", "if (!clock && left < h*2) h = left/2;", ""),
+    ("resolution api", "if (st->resolution > st->counters.worst_resolution)", "if (0)"),
+    ("resolution", "if (room > GVI__BAND) up = ", "if (room > -1) up = "),
+    ("resolution", "if (forces) scale = 1/mass;", ""),
+    # verdicts
+    ("tolerance", "if (before > 0 && D > GVI__FAR*GVI__FAR) falls = 0;", ""),
+    ("convergence", "settled = D*other <= tolerance;", ""),
+    ("convergence regressions", "alone = p->used == 1 || p->ratio > 1;", "alone = p->used == 1;"),
+    ("tolerance api", "if (earlier > 0 && D > GVI__SURE*GVI__SURE*eps2 && D > worst*worst*worst*worst*earlier)", "if (0)"),
+    ("api no_trace", "in->failed.status = status;\n        in->failed.fault = st->fault;\n        gvi__count", "gvi__count"),
+    ("newton uncoupled", "if (slow && gvi__may_turn(st)) return GVI__DIVERGES;", ""),
+    # constraints
+    ("loops", "d[k] = drops[i] > 0 ? 0 : 1/rest;", "d[k] = 1/rest;"),
+    ("loops constraints", "if (!gvi__finite(d[k]) || (depends && !(drops[i] > 0)))", "if (!gvi__finite(d[k]))"),
+    ("constraints", "if (!(was[2] > 3)) return GVI_OK;", "return GVI_OK;"),
+    ("constraints", "&& missed > 2*bend && missed", "&& missed"),
+    ("constraints body", "if (full) gvi__over_inertia(st, W, S, count);", ""),
+    ("constraints_newton", "for (int z = modes; z < size; ++z) in->newton.dy[z] *= J->unit[z - modes];", ""),
+    ("constraints_newton", "if (diagonal > 0 && column*GVI_SQRT(GVI__EPS) > diagonal)", "if (0)"),
+    ("constraints", "size += GVI_ABS(G[(a*st->n + i)*S]*q[i*S]);", "size += 0*q[i*S];"),
+    ("constraints loops", "if (!in->con.settled && gvi__find_columns(st, C, s + 1, in->con.G)) in->con.made = 0;", ""),
+    ("loops constraints_newton", "if (loss > GVI__LOST - 1 && D > grain*loss*loss*loss) return GVI__DIVERGES;", ""),
+    ("loops constraints_newton", "if (!(gvi__loss(st, j, e) > GVI__LOST*GVI__LOST - 1)) continue;", "continue;"),
+    ("constraints effects", "in->con.kept = in->con.kept > 0;", ""),
+    # what a start looks at
+    ("mass", "gvi__zero((size_t)(x->n*x->n)*(size_t)x->stride, at.mass);", ""),
+    ("why", "if (gvi__mass_is(in, GVI_MASS_POSITION)) gvi__evaluate_mass(st, &at, NULL, NULL);", ""),
+    ("why", "if (set && !huge) slip", "if (0) slip"),
+    ("why", "if (first && !others && count > 1)", "if (0)"),
+    ("why newton", "if (start == GVI_E_SINGULAR || start == GVI_E_NON_FINITE) return start;", ""),
+    ("why newton constraints", "if (status == GVI_E_SINGULAR) status = GVI_E_CONVERGENCE;", ""),
+    # quadrature, time, queries
+    ("structure regressions", "const gvi__two t = gvi__two_sum(st->t, in->dt + st->t_low);", "const gvi__two t = gvi__two_of(st->t + in->dt, 0);"),
+    ("quadrature", "if (!(last > GVI__EPS*x.hi)) break;", "if (!(last > GVI_SQRT(GVI__EPS)*x.hi)) break;"),
+    ("quadrature", "if (2*j + 1 == n) start = (gvi_real)0.5;", "if (0) start = 1;"),
+    ("quadrature", "if (!(c[i] >= 0 && c[i] <= 1) || !gvi__finite(b[i])) return -1;", ""),
+    ("quadrature", "size += GVI_ABS(b[i]);", "size += b[i];"),
+    ("queries", "if (GVI_ABS(back) <= GVI_ABS(ahead)) {\n        from = end;", "if (0) {\n        from = end;"),
+    ("queries no_trace", "    st->formulation = was;\n    if (status != GVI_OK) return gvi__done(st, status);\n    gvi_real *Q", "    if (status != GVI_OK) return gvi__done(st, status);\n    gvi_real *Q"),
+    ("effects no_trace", "in->watch.ratio = 1;                           // another scene may contract otherwise", ""),
+    ("api", "if (index < 0 || index >= in->desc.effect_count)", "if (index < 0)"),
+    ("clock", "in->time.H_low = H.lo;", "in->time.H_low = 0;"),
+    ("resolution", "for (int m = 0; m < held*2*pair; ++m) {", "for (int m = 0; m < 0; ++m) {"),
+    ("constraints constraints_order", "in->con.y[a - n] /= h*in->con.w[s];", "in->con.y[a - n] /= h;"),
+    ("newton", "p.have = kept && !gvi__nonzero(in->newton.h - in->sized.h);", "p.have = kept;"),
+    ("newton constraints_newton", "if ((J->square[k*(size + 1)] < 0) != (J->pivot[k] > (gvi_real)k)) sign = -sign;", "if (J->square[k*(size + 1)] < 0) sign = -sign;"),
 ]
 
 # What the tests that are named do not see meets all of these.
-ALL = """no_trace padding effects api kicks domains boundary newton mass uncoupled queries tangent control regressions
+ALL = """why resolution convergence quadrature constraints loops constraints_newton no_trace padding effects api kicks domains boundary newton mass uncoupled queries tangent control regressions
          tolerance oracle identities structure hostile jumps clock ncdp"""
 SLOW = "newton clock structure theorems order jumps oracle regressions tolerance uncoupled"
 
