@@ -4026,7 +4026,7 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
     const int n = st->n, m = in->con.m, passes = gvi__has(in, GVI__HAS_LAGRANGIAN) ? 40 : 2;
     const gvi_real t = from->t + (from->t_low + in->dt), far = GVI__HELD*GVI__EPS;
     gvi_real *q = in->result, *p = q + n, *v = p + n, *r = in->con.g, *z = in->con.rho,
-             *drops = in->con.drops + m, energy = 0, before = GVI__MAX;
+             *drops = in->con.drops + m, energy = 0, size = 0, before = GVI__MAX;
     int redundant = 0;
     for (int i = 0; i < n; ++i) {
         q[i] = from->q[i] + (in->step.q[i] + in->step.q_low[i]);
@@ -4045,8 +4045,8 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
     if (status != GVI_OK) return status;
     gvi__zero((size_t)m, in->con.y);
     for (int pass = 0; pass < passes; ++pass) {
-        gvi_real size = 0;
         int row = 0;
+        size = 0;
         for (int i = 0; i < n; ++i) p[i] = from->p[i] + (in->step.p[i] + in->step.p_low[i]);
         status = gvi__velocity(st, t, q, p, v);
         if (status != GVI_OK) return status;
@@ -4070,6 +4070,8 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
         if (pass > 0 && !(size < before/4)) break;
         before = size;
     }
+    if (passes > 2 && !(size <= far*far*energy))
+        return gvi__report_status(st, GVI_E_CONVERGENCE);
     // rows that are left out had no part in this; later their g shows what is wrong
     if (!start) return GVI_OK;
     for (int a = 0; a < m; ++a)
