@@ -24,7 +24,7 @@ typedef struct svg_plot {
     const svg_line *lines;
     int             line_count;
     int             from_zero;          /* a linear y axis that begins at 0    */
-    unsigned        thick, dashed;      /* lines drawn so, one bit each        */
+    unsigned        thick, dashed, faint; /* lines drawn so, one bit each; faint: thin and grey */
     const char *const *colours;         /* of the lines; NULL, also for one: by its place */
 } svg_plot;
 
@@ -170,8 +170,15 @@ static inline const char *svg_colour(const svg_plot *plot, int i)
 {
     static const char *const colour[] = { "#0072b2", "#d55e00", "#009e73", "#aa4499", "#b8860b", "#56b4e9", "#88562b",
                                           "#444444" };
+    if (plot->faint >> i & 1u) return "#c8c8c8";
     if (plot->colours && plot->colours[i]) return plot->colours[i];
     return plot->thick >> i & 1u ? "#111111" : colour[(i - (int)(plot->thick & 1u))%8];
+}
+
+static inline const char *svg_width(const svg_plot *plot, int i)
+{
+    if (plot->faint >> i & 1u) return "1";
+    return plot->thick >> i & 1u ? "3.6" : "1.7";
 }
 
 static inline const char *svg_dashes(const svg_plot *plot, int i)
@@ -179,7 +186,7 @@ static inline const char *svg_dashes(const svg_plot *plot, int i)
     return plot->dashed >> i & 1u ? " stroke-dasharray=\"6 3\"" : "";
 }
 
-/* One plot between left and right; the first line on top.                     */
+/* One plot between left and right; the first line on top, the faint ones behind the others.  */
 static inline void svg_panel(FILE *f, const svg_plot *plot, double left, double right)
 {
     svg_axis x = { plot->log_x, 0, 1, left, right, 8 }, y = { plot->log_y, 0, 1, 400, 50, 8 };
@@ -189,8 +196,11 @@ static inline void svg_panel(FILE *f, const svg_plot *plot, double left, double 
     svg_ticks(f, &x, &y, 0);
     svg_ticks(f, &y, &x, 1);
     fprintf(f, "<path d=\"M%.0f %.0fV%.0fH%.0f\" fill=\"none\" stroke=\"#222\"/>\n", x.a, y.b, y.a, x.b);
-    for (int i = plot->line_count - 1; i >= 0; --i)
-        svg_path(f, &plot->lines[i], &x, &y, svg_colour(plot, i), plot->thick >> i & 1u ? "3.6" : "1.7", svg_dashes(plot, i));
+    for (int k = 2*plot->line_count - 1; k >= 0; --k) {
+        const int i = k % plot->line_count, behind = k >= plot->line_count;
+        if ((int)(plot->faint >> i & 1u) != behind) continue;
+        svg_path(f, &plot->lines[i], &x, &y, svg_colour(plot, i), svg_width(plot, i), svg_dashes(plot, i));
+    }
     fprintf(f, "<text x=\"%.0f\" y=\"28\" font-size=\"17\" font-weight=\"bold\">%s</text>\n", x.a, plot->title);
     fprintf(f, "<text x=\"%.0f\" y=\"448\" text-anchor=\"middle\">%s</text>\n", (x.a + x.b)/2, plot->x_label);
     fprintf(f, "<text transform=\"translate(%.0f %.0f) rotate(-90)\" text-anchor=\"middle\">%s</text>\n", x.a - 58,
@@ -211,8 +221,8 @@ static inline int svg_write_all(const char *path, const svg_plot *plots, int cou
         const int thick = plots->thick >> i & 1u;
         fprintf(f, "<path d=\"M%.0f %dh22\" stroke=\"%s\" stroke-width=\"%s\"%s/>", end + 18, 70 + 26*i,
                 svg_colour(plots, i), thick ? "4.5" : "3", svg_dashes(plots, i));
-        fprintf(f, "<text x=\"%.0f\" y=\"%d\"%s>%s</text>\n", end + 47, 75 + 26*i, thick ? " font-weight=\"bold\"" : "",
-                plots->lines[i].name);
+        fprintf(f, "<text x=\"%.0f\" y=\"%d\"%s%s>%s</text>\n", end + 47, 75 + 26*i, thick ? " font-weight=\"bold\"" : "",
+                plots->faint >> i & 1u ? " fill=\"#999\"" : "", plots->lines[i].name);
     }
     return svg_end(f);
 }

@@ -469,7 +469,7 @@ static void make_envelope(const study *y, const char *family, int of_energy, env
     }
 }
 
-/* The same method has the same colour in all pictures.                                         */
+/* The same method has the same colour in all pictures, where it is not grey (faint_ones).      */
 static const char *colour_of(const char *family)
 {
     static const char *const colour[][2] = {
@@ -483,13 +483,43 @@ static const char *colour_of(const char *family)
     return NULL;
 }
 
+static double drawn_time(const envelope *v, double error)
+{
+    int k = 0;
+    while (k < v->count && v->y[k] > error) ++k;
+    return k < v->count ? v->x[k] : HUGE_VAL;
+}
+
+/* All but six: ours, which are first, stay, then the rivals fastest at the most errors, then those nearest to the
+   fastest.                                                                                    */
+static unsigned faint_ones(const envelope *v, int ours, int count)
+{
+    double merit[12] = { 0 };
+    for (int e = 0; e < ERRORS; ++e) {
+        double least = HUGE_VAL;
+        for (int i = ours; i < count; ++i) least = fmin(least, drawn_time(v + i, wanted[e]));
+        for (int i = ours; i < count; ++i) {
+            const double ms = drawn_time(v + i, wanted[e]);
+            if (isfinite(ms)) merit[i] += least/ms + (ms <= least ? ERRORS : 0);
+        }
+    }
+    unsigned faint = 0;
+    for (int left = count; left > 6; --left) {
+        int worst = ours;
+        for (int i = ours; i < count; ++i) if (merit[i] < merit[worst]) worst = i;
+        merit[worst] = HUGE_VAL;
+        faint |= 1u << worst;
+    }
+    return faint;
+}
+
 static void write_picture(const study *y, const options *o)
 {
     const char *colours[12];
     static envelope envelopes[2][12];
     svg_line lines[2][12];
-    unsigned ours = 0;
-    int count = 0;
+    unsigned dashed = 0;
+    int ours = 0, count = 0;
     for (int i = 0; i < y->count && count < 12; ++i) {
         int known = 0;
         for (int k = 0; k < count; ++k) known |= !strcmp(lines[0][k].name, y->curves[i].family);
@@ -501,7 +531,9 @@ static void write_picture(const study *y, const options *o)
             lines[e][count] = line;
         }
         colours[count] = colour_of(y->curves[i].family);
-        ours |= (unsigned)(y->curves[i].ours != 0) << count++;
+        dashed |= (unsigned)!strcmp(y->curves[i].family, "gvi.h by its dial") << count;
+        ours += y->curves[i].ours;
+        ++count;
     }
     char path[512];
     snprintf(path, sizeof path, "%s/%s.svg", o->out, y->p->key);
@@ -511,7 +543,9 @@ static void write_picture(const study *y, const options *o)
     for (int e = 0; e < 2; ++e) {
         panels[e].log_x = panels[e].log_y = 1;
         panels[e].line_count = count;
-        panels[e].thick = ours;
+        panels[e].thick = (1u << ours) - 1;
+        panels[e].dashed = dashed;
+        panels[e].faint = faint_ones(envelopes[0], ours, count);
         panels[e].colours = colours;
     }
     if (svg_write_all(path, panels, 2, 360)) perror(path);
