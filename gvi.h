@@ -5772,8 +5772,8 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
         // near a bifurcation it would be leaving the motion, perhaps for that of another branch
         const int m = st->in.con.m;
         gvi_real loss = 0;
-        for (int k = 0; st->in.con.made > 0 && k < st->s*m; ++k)
-            loss = gvi__larger(gvi__loss(st, k % m, k/m), loss);
+        if (st->in.con.made > 0)
+            for (int k = 0; k < st->s*m; ++k) loss = gvi__larger(gvi__loss(st, k % m, k/m), loss);
         if (loss > GVI__LOST - 1 && D > grain*loss*loss*loss) return GVI__DIVERGES;
     }
     int allowed = GVI__FEW_POOR;
