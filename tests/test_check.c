@@ -269,9 +269,10 @@ TEST(wrong_entries_of_f_are_named)
             build(scenes[a]->name);
             if (made.effects[e].kind == GVI_FORCE || made.effects[e].kind == GVI_CONSTRAINT) continue;
             ask(e, made.q, made.v, f, p);
-            for (int i = 0; i < made.desc.n; i += made.desc.n > 40 ? 61 : 1)
+            for (int i = 0; i < made.desc.n; ++i)
                 for (int k = 0; k < COUNT(factors); ++k) {
                     if (fabs(f[i]) < 1e-6*largest(f) || !(largest(f) > 0)) continue;
+                    if (made.desc.n > 40 && (i + k) % 149) continue;          // a net takes its time
                     slip_in(scenes[a]->name, e, FACTOR, "f", i, 0, factors[k]);
                     assert_found(CHECK_DERIVATIVE, e, "f", i, -1);
                     const check_finding *y = found(CHECK_DERIVATIVE, e, "f", i, -1);
@@ -353,7 +354,7 @@ TEST(wrong_entries_of_hessians_are_named)
             assert_int_equal(y->hessian(0, made.q, made.v, H[0], forced ? H[1] : NULL, NULL, y->user), 0);
             for (int m = 0; m <= forced; ++m)
                 for (int k = 0, seen = 0; k < n*n; ++k) {
-                    if (fabs(H[m][k]) < 1e-3 || (n > 40 && seen++ % 401)) continue;
+                    if (fabs(H[m][k]) < 1e-3 || (n > 40 && seen++ % 1601)) continue;
                     slip_in(scenes[a]->name, e, FACTOR, entry[m], k/n, k % n, k % 2 ? -1 : 1 + 1e-5);
                     assert_found(CHECK_DERIVATIVE, e, entry[m], k/n, k % n);
                     assert_int_equal(report.count, 1);
