@@ -606,7 +606,7 @@ const problem problems[] = {
     { .key = "P6", .title = "Fermi-Pasta-Ulam, frequency 50, t = 200", .n = 6, .end = 200,
       .q = fpu_q, .v = fpu_v, .reference = reference_P6, .energy = fpu_energy,
       .acceleration = fpu_acceleration, SCENE(fpu_scene),
-      .evaluations = 1e4, .limit = 16 },
+      .evaluations = 1e4, .limit = 48 },
     { .key = "P6b", .title = "Fermi-Pasta-Ulam, frequency 50, t = 50", .n = 6, .end = 50,
       .q = fpu_q, .v = fpu_v, .reference = reference_P6b, .energy = fpu_energy,
       .acceleration = fpu_acceleration, SCENE(fpu_scene),
