@@ -3048,17 +3048,18 @@ GVI__BODY gvi_real gvi__stage_by_lanes(const gvi_stepper *st, const gvi__stage *
     {                                                                                           \
         return gvi__stage_##by(st, y, n, r, R, rescale);                                        \
     }
-GVI__KERNEL(gvi__rows_any, by_points, st->n, st->r, st->in.R)
-GVI__KERNEL(gvi__rows_2_8,  by_lanes,  2, 8, 8)
-GVI__KERNEL(gvi__rows_8,    by_lanes,  st->n, 8, 8)
-GVI__KERNEL(gvi__rows_6,    by_lanes,  st->n, 6, 8)
-GVI__KERNEL(gvi__rows_to_8, by_lanes,  st->n, st->r, 8)
-GVI__KERNEL(gvi__rows_12,   by_lanes,  st->n, 12, 16)
-GVI__KERNEL(gvi__rows_16,   by_lanes,  st->n, 16, 16)
-GVI__KERNEL(gvi__rows_many, by_lanes,  st->n, st->r, st->in.R)
-GVI__KERNEL(gvi__rows_2,    by_points, st->n, 2, 2)
-GVI__KERNEL(gvi__rows_3,    by_points, st->n, 3, 3)
-GVI__KERNEL(gvi__rows_4,    by_lanes,  st->n, 4, 4)
+GVI__KERNEL(gvi__rows_any,   by_points, st->n, st->r, st->in.R)
+GVI__KERNEL(gvi__rows_2,     by_points, st->n, 2, 2)
+GVI__KERNEL(gvi__rows_3,     by_points, st->n, 3, 3)
+GVI__KERNEL(gvi__rows_4,     by_lanes,  st->n, 4, 4)
+GVI__KERNEL(gvi__rows_6,     by_lanes,  st->n, 6, 8)
+GVI__KERNEL(gvi__rows_2_8,   by_lanes,  2, 8, 8)
+GVI__KERNEL(gvi__rows_8,     by_lanes,  st->n, 8, 8)
+GVI__KERNEL(gvi__rows_to_8,  by_lanes,  st->n, st->r, 8)
+GVI__KERNEL(gvi__rows_12,    by_lanes,  st->n, 12, 16)
+GVI__KERNEL(gvi__rows_16,    by_lanes,  st->n, 16, 16)
+GVI__KERNEL(gvi__rows_to_16, by_lanes,  st->n, st->r, 16)
+GVI__KERNEL(gvi__rows_many,  by_lanes,  st->n, st->r, st->in.R)
 
 static gvi__kernel *gvi__kernel_for(int n, int r)
 {
@@ -3071,7 +3072,8 @@ static gvi__kernel *gvi__kernel_for(int n, int r)
     if (r == 6) return gvi__rows_6;
     if (r == 12) return gvi__rows_12;
     if (r == 16) return gvi__rows_16;
-    return r < 8 ? gvi__rows_to_8 : gvi__rows_many;
+    if (r < 8) return gvi__rows_to_8;
+    return r < 16 ? gvi__rows_to_16 : gvi__rows_many;
 }
 
 // row := low + (c path_low + c path), one coordinate's free motion over its base
