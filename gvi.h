@@ -4843,18 +4843,24 @@ static void gvi__add_derivative(const gvi_stepper *st, const gvi__matrix *J, int
     const struct gvi__private *in = &st->in;
     const int n = st->n, R = in->R, s = st->s, k0 = J->k0;
     const size_t size = gvi__unknowns(st, k0);
-    const gvi_real h = in->sized.h, *phi = in->table.phi + point, *Phi = in->table.Phi + point;
+    const gvi_real *phi = in->table.phi + point, *Phi = in->table.Phi + point, *u = phi;
+    gvi_real unit = 1;
     if (f <= 0 && f >= 0 && p <= 0 && p >= 0) return;
+    if (!by_v) {
+        u = Phi;
+        unit = in->sized.h;
+    }
     for (int k = k0; k < s; ++k) {
         const gvi_real W = (k == 0 ? 1 : 0) - Phi[k*R];
         const gvi_real a = (gvi_real)(2*k + 1)
                            * (in->table.b[point]*phi[k*R]*p - in->sized.hb[point]*W*f);
         const size_t row = (size_t)((k - k0)*n + i);
-        gvi_real *square = J->square + row*size + j,
-                 *ends = J->ends ? J->ends + row*2*(size_t)n + j : NULL;
-        for (int l = k0; l < s; ++l, square += n) *square += a*(by_v ? phi[l*R] : h*Phi[l*R]);
-        if (ends) ends[0] += a*(by_v ? 1 : h*Phi[0]);
-        if (ends && !by_v) ends[n] += a;
+        gvi_real *square = J->square + row*size + j;
+        for (int l = k0; l < s; ++l, square += n) *square += a*(unit*u[l*R]);
+        if (!J->ends) continue;
+        gvi_real *ends = J->ends + row*2*(size_t)n + j;
+        ends[0] += a*(unit*u[0]);
+        if (!by_v) ends[n] += a;
     }
 }
 
