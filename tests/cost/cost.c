@@ -755,7 +755,8 @@ int main(int argc, char **argv)
     int count = 0;
     for (int i = 0; i < problem_count; ++i) {
         if (o.problem && strcmp(o.problem, problems[i].key)) continue;
-        if (o.dial && !o.problem && !in_dial_study(problems[i].key)) continue;
+        if (!o.problem && !o.dial && problems[i].by_dial) continue;
+        if (!o.problem && o.dial && !in_dial_study(problems[i].key)) continue;
         study *y = studies + count++;
         y->p = problems + i;
         study_problem(y, &o);

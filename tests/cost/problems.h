@@ -57,6 +57,7 @@ typedef struct problem {
     double             eccentricity, revolutions;      /* of the orbit that they are for       */
     double             evaluations;    /* of q'' for an error of about 0.1: where sweeps begin */
     double             limit;          /* CPU ms above which no setting is of interest         */
+    int                by_dial;        /* in the study of the dial alone                       */
 } problem;
 
 extern const problem problems[];
