@@ -4143,8 +4143,7 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
     const int n = st->n, m = in->con.m;
     gvi_real *q = in->result, *p = q + n, *u = p + n, *v = in->con.W, *force = v + n;
     gvi_real *z = in->con.rho, *rate = z + m, *sum = in->con.y, *best = in->con.g + 2*m;
-    gvi_real *F = in->step.p;
-    gvi_real least = GVI__MAX, whole = 0, size = 0, delta = 1;
+    gvi_real *F = in->step.p, least = GVI__MAX, size = 0, delta = 1;
     gvi_points at = gvi__one_point(st, &st->t, st->q);
     gvi__velocity_guess(st, u);
     if (m > 0) status = gvi__constraints_at(st, st->t, st->q, st->p, u, in->con.drops + m);
@@ -4153,7 +4152,6 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
     at.v = v;
     if (status == GVI_OK) status = gvi__evaluate(st, &at, 0, 1);
     gvi__copy((size_t)n, at.f, F);
-    gvi__copy((size_t)n, F, force);
     gvi__zero((size_t)m, sum);
 
     // a time in which much changes: |p||q|/p'v
@@ -4162,6 +4160,12 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
     if (!gvi__finite(delta)) delta = 1;
     for (int k = 0; k < GVI__DIG && m > 0 && status == GVI_OK; ++k) {
         delta /= k == 0 ? 8 : 2;
+        gvi__zero((size_t)n, q);
+        gvi__add_force(st, sum, q);                // of all of it: what rounding took is seen
+        gvi__add_scaled(n, 1, q, F, force);
+        gvi__copy((size_t)n, q, p);
+        gvi__over_inertia(st, p, 1, 1);
+        const gvi_real whole = GVI_ABS(gvi__dot(n, q, p));
         gvi__zero((size_t)m, rate);
         trial = GVI_OK;
         for (int j = 0; j < 8 && trial == GVI_OK; ++j) {
@@ -4183,12 +4187,6 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
         if (trial != GVI_OK || !gvi__finite(size)) continue;      // beyond a domain: nearer
         if (!(size < least) && size <= GVI__EPS*whole) break;
         gvi__add_scaled(m, 1, z, sum, sum);
-        gvi__zero((size_t)n, q);
-        gvi__add_force(st, sum, q);                // of all of it: what rounding took is seen
-        gvi__add_scaled(n, 1, q, F, force);
-        gvi__copy((size_t)n, q, p);
-        gvi__over_inertia(st, p, 1, 1);
-        whole = GVI_ABS(gvi__dot(n, q, p));
         if (size < least) least = size, gvi__copy((size_t)m, sum, best);
     }
     if (status == GVI_OK && m > 0 && !(least < GVI__MAX))
