@@ -300,7 +300,7 @@ TEST(multipliers_near_the_end_of_a_domain)
 }
 
 /* A bead on z = cosh x, lambda = (1 + cosh x vx^2)/cosh^2 x: at the start and after a step so short that differences
-   over it would be rounding; beside a body so far away that in |q|/|v| the bead would be at cosh 600 */
+   over it would be rounding; and with a body so far away that in |q|/|v| the bead would be at cosh 600 */
 static int catenary(const gvi_points *x, void *user)
 {
     for (int k = 0; k < x->count; ++k) {
