@@ -703,7 +703,7 @@ typedef struct gvi_desc {
     gvi_rule          rule;            /* zero: Gauss with s points            */
     gvi_mass          mass;            /* zero: unit mass                      */
     const gvi_effect *effects;
-    int               effect_count;    /* 0 to GVI_EFFECTS                     */
+    int               effect_count;    /* to GVI_EFFECTS; 0 only where effects is NULL */
     gvi_formulation   formulation;     /* pinned: no fall-back and no memory for one */
     gvi_real          tolerance;       /* 0: iterate to rounding.  Else, below 1, the iteration
                                           ends when the change yet to come, as the last two
@@ -3964,9 +3964,11 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
         if (finite && size <= GVI__GRAIN && k > 0 && !(size < before/2))
             return gvi__report_status(st, GVI_OK);
         if (size < least) least = size;
+        // far off already, it was on its way to infinity
+        if (!finite && !in->diagnose && before*GVI__EPS < (gvi_real)0.125)
+            return gvi__report_status(st, GVI_E_NON_FINITE);
         if (!finite || k > 64 || size > 4*(least + 256))
-            return gvi__report_status(st, finite || in->diagnose ? GVI_E_CONVERGENCE
-                                                                : GVI_E_NON_FINITE);
+            return gvi__report_status(st, GVI_E_CONVERGENCE);
         before = size;
         for (int a = 0; a < m; ++a) z[a] = -g[a]/h;
         gvi__solve_constraints(st, in->con.A1, 1, 1, z, 1);
@@ -4143,7 +4145,7 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
     const int n = st->n, m = in->con.m;
     gvi_real *q = in->result, *p = q + n, *u = p + n, *v = in->con.W, *force = v + n;
     gvi_real *z = in->con.rho, *rate = z + m, *sum = in->con.y, *best = in->con.g + 2*m;
-    gvi_real least = GVI__MAX, largest = 0, size = 0, delta = 1;
+    gvi_real *F = in->step.p, least = GVI__MAX, size = 0, delta = 1;
     gvi_points at = gvi__one_point(st, &st->t, st->q);
     gvi__velocity_guess(st, u);
     if (m > 0) status = gvi__constraints_at(st, st->t, st->q, st->p, u, in->con.drops + m);
@@ -4151,16 +4153,21 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
     if (status == GVI_OK) status = gvi__velocity(st, st->t, st->q, st->p, v);
     at.v = v;
     if (status == GVI_OK) status = gvi__evaluate(st, &at, 0, 1);
-    gvi__copy((size_t)n, at.f, force);
+    gvi__copy((size_t)n, at.f, F);
     gvi__zero((size_t)m, sum);
 
-    // a time in which much changes: |p||q|/p'v, or a step
+    // a time in which much changes: |p||q|/p'v
     for (int i = 0; i < n; ++i) size += GVI_ABS(st->p[i]*st->q[i]);
     if (size > 0) delta = size/GVI_ABS(gvi__dot(n, st->p, v));
-    if (in->stepped && !(delta < GVI_ABS(st->h))) delta = GVI_ABS(st->h);
     if (!gvi__finite(delta)) delta = 1;
-    for (int k = 0; k < GVI__DIG/2 && m > 0 && status == GVI_OK; ++k) {
+    for (int k = 0; k < GVI__DIG && m > 0 && status == GVI_OK; ++k) {
         delta /= k == 0 ? 8 : 2;
+        gvi__zero((size_t)n, q);
+        gvi__add_force(st, sum, q);                // of all of it: what rounding took is seen
+        gvi__add_scaled(n, 1, q, F, force);
+        gvi__copy((size_t)n, q, p);
+        gvi__over_inertia(st, p, 1, 1);
+        const gvi_real whole = GVI_ABS(gvi__dot(n, q, p));
         gvi__zero((size_t)m, rate);
         trial = GVI_OK;
         for (int j = 0; j < 8 && trial == GVI_OK; ++j) {
@@ -4180,10 +4187,8 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
         gvi__solve_constraints(st, in->con.A1, 1, 1, z, 1);
         size = -gvi__dot(m, rate, z);
         if (trial != GVI_OK || !gvi__finite(size)) continue;      // beyond a domain: nearer
-        if (!(size < least) && size <= GVI__EPS*largest) break;
+        if (!(size < least) && size <= GVI__EPS*whole) break;
         gvi__add_scaled(m, 1, z, sum, sum);
-        gvi__add_force(st, z, force);
-        if (size > largest) largest = size;
         if (size < least) least = size, gvi__copy((size_t)m, sum, best);
     }
     if (status == GVI_OK && m > 0 && !(least < GVI__MAX))
@@ -4209,6 +4214,7 @@ GVI__COLD const char *gvi__wrong_in_desc(const gvi_desc *d)
     if (!gvi__within(d->rule.points, 4000)) return "rule.points is not 0 to 4000";
     if (!gvi__within(d->effect_count, GVI_EFFECTS)) return "effect_count is not 0 to GVI_EFFECTS";
     if (d->effect_count && !d->effects) return "effect_count is given, effects is NULL";
+    if (d->effects && !d->effect_count) return "effects is given, effect_count is 0";
     if (!gvi__within(d->max_iterations, 1000000)) return "max_iterations is not 0 to 1,000,000";
     if (!gvi__within(d->iterations, 1000000)) return "iterations is not 0 to 1,000,000";
     if ((unsigned)d->formulation > GVI_NEWTON) return "formulation is not in its enum";
@@ -4651,8 +4657,6 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     if (GVI__CONSTRAINTS && status == GVI_E_FORMULATION && in->con.bits)
         return gvi__refuse_constraints(st);
     if (status != GVI_OK) return st->status = status;
-    if (desc->effects && !desc->effect_count)     // its count was forgotten
-        return gvi__refuse_call(st, "effects is given, effect_count is 0");
     if (!memory) return gvi__refuse_call(st, "memory is NULL");
     if ((uintptr_t)memory % offsetof(gvi__aligned, number))
         return gvi__refuse_call(st, "memory is not aligned");
@@ -7251,6 +7255,8 @@ GVI__COLD gvi_status gvi__interior(gvi_stepper *st, const gvi__origin *from, gvi
         in->diagnose = 0;
         if (status != GVI_E_NON_FINITE) break;
     }
+    if (status == GVI_E_NON_FINITE && st->fault.effect == GVI_FAULT_NONE)      // h, q1 - q0 or M
+        return gvi__report_status(st, GVI_E_CONVERGENCE);
     if (status != GVI_OK && status != GVI_E_CONVERGENCE) return status;
     if (out->negative || (!out->guess && !linear)) {
         const gvi_status index = gvi__morse_index(st, J, negative);

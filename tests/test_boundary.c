@@ -164,4 +164,17 @@ TEST(the_index_leaves_forces_out)
     }
 }
 
+/* Where h leaves the range no effect is at fault, and nothing is wrong where the curve starts */
+TEST(a_length_beyond_the_range_is_no_effects_fault)
+{
+    const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = spring } };
+    for (int degree = 2; degree < 5; ++degree) {
+        const gvi_desc desc = { .n = 1, .degree = degree, .effects = scene, .effect_count = 1 };
+        const real q0 = 1, q1 = (real)0.5;
+        gvi_stepper st = new_stepper(&desc);
+        assert_status(gvi_discrete_lagrangian(&st, 0, MAX/64, &q0, &q1, &(gvi_discrete){ .lagrangian = NULL }), GVI_E_CONVERGENCE);
+        assert_non_null(strstr(gvi_why(&st), "halve h"));
+    }
+}
+
 RUN_TESTS(NULL, NULL)

@@ -189,6 +189,20 @@ TEST(degree_1_is_rattle)
     }
 }
 
+/* A step too long for RATTLE diverges; that is no effect's fault, though the rods' g overflows on the way */
+TEST(a_step_too_long_for_rattle_finds_no_solution)
+{
+    const linkage a = make_linkage(RODS);
+    gvi_desc desc = linkage_desc(&a, 1);
+    gvi_stepper st;
+    desc.rule.kind = GVI_LOBATTO;
+    assert_ok(set_up(&st, &a, &desc));
+    for (int k = 0; k < 12; ++k) {
+        assert_status(gvi_step(&st, (real)(2 + k)), GVI_E_CONVERGENCE);
+        assert_int_equal(st.fault.effect, GVI_FAULT_NONE);
+    }
+}
+
 TEST(a_run_can_be_run_back)
 {
     for (int id = 0; id < LINKAGES; ++id) {
@@ -282,6 +296,37 @@ TEST(multipliers_near_the_end_of_a_domain)
         gvi_stepper st = new_motion(&desc, 0, q, v);
         assert_ok(gvi_multipliers(&st, &lambda));
         assert_close(lambda, z*(1 + z), 2*EPS);
+    }
+}
+
+/* A bead on z = cosh x, lambda = (1 + cosh x vx^2)/cosh^2 x: at the start and after a step so short that differences
+   over it would be rounding; and with a body so far away that in |q|/|v| the bead would be at cosh 600 */
+static int catenary(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k) {
+        x->g[k] = x->q[2*x->stride + k] - cosh(x->q[k]);
+        x->jacobian[k] = -sinh(x->q[k]);
+        x->jacobian[2*x->stride + k] = 1;
+    }
+    return (void)user, 0;
+}
+
+TEST(multipliers_have_no_length_but_the_states_own)
+{
+    static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .point = weight_in_space },
+                                        { .kind = GVI_CONSTRAINT, .points = catenary, .rows = 1 } };
+    const gvi_desc desc = { .n = 3, .degree = 4, .effects = scene, .effect_count = 2 };
+    static const real far[] = { 0, 10, 50, 300, 1000, 10000 };
+    for (int k = 0; k < COUNT(far); ++k) {
+        const real q[] = { 1, far[k], cosh((real)1) }, v[] = { 1, 1, sinh((real)1) };
+        gvi_stepper st = new_motion(&desc, 0, q, v);
+        for (int step = 0; step < 2; ++step) {
+            real lambda;
+            assert_ok(gvi_multipliers(&st, &lambda));
+            const real c = cosh(st.q[0]);
+            assert_close(lambda, (1 + c*st.p[0]*st.p[0])/(c*c), 4000*EPS);
+            assert_ok(gvi_step(&st, 64*EPS));
+        }
     }
 }
 
