@@ -128,7 +128,7 @@ static void kepler_build(scene_setup *s)
     INSTEAD(s, magnetic_force(&planet_field));
     ADD(s, "drag", "force, reads v: dust", 0, linear_drag(&dust));
     ADD(s, "drive", "force that swings in time", 0, motor(&push));
-    ADD(s, "clock", "dt = |q| dtau", 0, distance_clock(&planet_clock));
+    ADD(s, "clock", "dt = |q| d\xcf\x84", 0, distance_clock(&planet_clock));
 }
 
 static void kepler_place(const double *q, unsigned on, double (*x)[3])
