@@ -73,7 +73,7 @@ static void put_dial_tables(FILE *f, const study *studies, int count)
     }
 }
 
-/* What is got, and what it takes, over the dial                                       */
+/* What is got, and what it takes, over the dial                                                 */
 static void draw_dial(const study *studies, int count, const options *o)
 {
     static double dial[DRAWN][SAMPLES], error[DRAWN][SAMPLES], ms[DRAWN][SAMPLES];
