@@ -94,18 +94,18 @@ const open = (world, o, keep = 0) => {
 /* ---- what moves ---- */
 const calm = matchMedia('(prefers-reduced-motion: reduce)');
 const live = { ok: false, playing: !calm.matches, fast: false, dir: 1, k: 0, t: 0, target: 0, elapsed: 0, origin: [], speed: 0, base: [], said: '' };
-const beside = { on: true, ok: false, h: 0, k: 0, t: 0 };
+const ghost = { on: true, ok: false, h: 0, k: 0, t: 0 };
 const curves = { gvi: [], rk4: [], kept: [[], []], gap: [], gap4: [] };
 let E0 = 0, Escale = 1, kept0 = [], trails = [], dots = [], view = 1;
 const turn = { yaw: 0.6, pitch: 0.5 };
 let dirty = true, plotDirty = true;
 
-function complain(call, status, more = '') {
+function complain(call, status, more = '', world = 0) {
   const a = $('alert');
   a.hidden = !status;
   if (!status) return;
-  const e = status === -9 || status === -10 || status === -11 || status < -13 ? x.world_number(0, 11, 0) : -1;
-  $('alert-text').textContent = `${call}: ${text(x.status_text(status))}${e >= 0 ? ` (${scene().effects[e].name})` : ''}. ${more}`;
+  const e = status === -9 || status === -10 || status === -11 || status < -13 ? x.world_number(world, 11, 0) : -1;
+  $('alert-text').textContent = `${call}: ${text(x.status_text(world, status))}${e >= 0 ? ` (${scene().effects[e].name})` : ''}. ${more}`;
   $('alert').dataset.status = status;
   $('halve').hidden = set.dial || !(set.h > 0 || set.h < 0);
   $('alert-clock').hidden = scene().clock < 0 || clocked();
@@ -119,11 +119,11 @@ function apply(keep, first) {
   if (keep) s.effects.forEach((e, k) => { live.base[k] = (live.base[k] || 0) + x.world_number(0, 3, k); });
   else live.base = s.effects.map(() => 0);
   if (!first) remember();
-  let status = open(0, set, keep ? 1 : 0), call = text(x.world_call(0)) || 'gvi_init';
-  if (!status) { call = 'gvi_step'; status = probe(); }
+  let status = open(0, set, keep ? 1 : 0), call = text(x.world_call(0)) || 'gvi_init', world = 0;
+  if (!status) { call = 'gvi_step'; world = 2; status = probe(); }
   live.ok = !status;
-  complain(call, status, status === -15 ? 'What was held has moved away: restart to mount it again.' : 'Change the setting to go on.');
-  if (first) complain(first.call, first.status, 'Here is another scene.'), live.playing = !calm.matches;
+  complain(call, status, status === -15 ? 'What was held has moved away: restart to mount it again.' : 'Change the setting to go on.', world);
+  if (first) complain(first.call, first.status, 'Here is another scene.', 2), live.playing = !calm.matches;
   Object.assign(live, { k: 0, t: x.world_number(0, 0, 0), from: x.world_number(0, 0, 0), elapsed: 0, origin: s.effects && [...Array(s.n)].map((_, i) => x.world_number(0, 30, i)) });
   if (!keep) live.target = live.t, live.dir = 1;
   if (Math.abs(live.target - live.t) > 2 * Math.abs(set.h) || !keep) live.target = live.t;
@@ -131,8 +131,8 @@ function apply(keep, first) {
   Escale = Math.abs(E0) > 1e-12 ? Math.abs(E0) : 1;
   kept0 = s.kept.map((q, k) => x.world_number(0, 21, k));
   Object.assign(curves, { gvi: [], rk4: [], kept: [[], []], gap: [], gap4: [] });
-  beside.ok = live.ok && beside.on && !x.beside_open(0) && beside.h > 0;
-  beside.k = 0; beside.t = live.t;
+  ghost.ok = live.ok && ghost.on && !x.ghost_open(0) && ghost.h > 0;
+  ghost.k = 0; ghost.t = live.t;
   dots = [];
   if (!keep) { trails = s.radius.map(() => []); view = s.view; if (live.ok) sampleTrail(1); }
   $('from-start').textContent = '';
@@ -151,7 +151,7 @@ function probe() {
   let n = 0;
   while (!status && now() < end && n < 400 && (n < 12 || (clocked() && x.world_number(2, 0, 0) < scene().span / 4))) { status = x.world_advance(2, set.h, 1); n++; }
   const evaluations = x.world_number(2, 12, 0), t = x.world_number(2, 0, 0);
-  beside.h = evaluations > 0 && t > 0 ? 4 * t / evaluations : 0;
+  ghost.h = evaluations > 0 && t > 0 ? 4 * t / evaluations : 0;
   return n <= 1 ? status : 0;
 }
 
@@ -183,21 +183,21 @@ function record(curve, error) {
 function sampleEnergy() {
   record(curves.gvi, Math.abs(x.world_number(0, 20, 0) - E0) / Escale);
   kept0.forEach((q, k) => record(curves.kept[k], Math.abs(x.world_number(0, 21, k) - q) / (Math.abs(q) > 1e-9 ? Math.abs(q) : 1)));
-  if (beside.ok) record(curves.rk4, Math.abs(x.world_number(0, 42, 0) - E0) / Escale);
-  if (held()) record(curves.gap, x.world_number(0, 22, 0)), beside.ok && record(curves.gap4, x.world_number(0, 44, 0));
+  if (ghost.ok) record(curves.rk4, Math.abs(x.world_number(0, 42, 0) - E0) / Escale);
+  if (held()) record(curves.gap, x.world_number(0, 22, 0)), ghost.ok && record(curves.gap4, x.world_number(0, 44, 0));
 }
 
 /* What is drawn lies inside the last step; Runge-Kutta 4 is taken there, too. */
 const shown = () => live.dir > 0 ? Math.min(live.t, live.target) : Math.max(live.t, live.target);
 function follow() {
-  if (!beside.ok) return;
-  const count = Math.min(4000, Math.ceil(live.dir * (shown() - beside.t) / beside.h - 1e-9));
+  if (!ghost.ok) return;
+  const count = Math.min(4000, Math.ceil(live.dir * (shown() - ghost.t) / ghost.h - 1e-9));
   if (count > 0) {
-    x.beside_advance(0, live.dir * beside.h, count);
-    beside.t += live.dir * beside.h * count;
-    beside.k += live.dir * count;
+    x.ghost_advance(0, live.dir * ghost.h, count);
+    ghost.t += live.dir * ghost.h * count;
+    ghost.k += live.dir * count;
   }
-  if (!isFinite(x.world_number(0, 43, 0))) beside.ok = false;
+  if (!isFinite(x.world_number(0, 43, 0))) ghost.ok = false;
 }
 
 let sampled = 0, trailed = 0, drawnPoints = 0;
@@ -228,9 +228,9 @@ function arrive() {
   const q = [...Array(scene().n)].map((_, i) => x.world_number(0, 30, i));
   const off = Math.max(...q.map((v, i) => Math.abs(v - live.origin[i])));
   let rk4 = '';
-  if (beside.ok) {
+  if (ghost.ok) {
     live.k = 0;
-    x.beside_advance(0, -beside.h, Math.max(0, beside.k)); beside.k = 0; beside.t = live.t;
+    x.ghost_advance(0, -ghost.h, Math.max(0, ghost.k)); ghost.k = 0; ghost.t = live.t;
     rk4 = `; Runge-Kutta 4 to ${short(Math.max(...q.map((v, i) => Math.abs(x.world_number(0, 43, i) - live.origin[i]))))}`;
   }
   $('from-start').textContent = `back at the start, to ${short(off)} ${scene().unit}${rk4}`;
@@ -329,25 +329,25 @@ function draw() {
   pen.globalAlpha = 1;
   pen.fillStyle = colours.ink;
   for (const d of dots) { const p = project(...d); pen.beginPath(); pen.arc(p[0], p[1], 1.8, 0, 7); pen.fill(); }
-  const figure = (list, ghost) => {
+  const figure = (list, rk4) => {
     const on = list.map(p => project(p[0], p[1], p[2]));
-    pen.strokeStyle = ghost ? colours.rk4 : colours.muted; pen.lineWidth = ghost ? 1.2 : s.bodies > 20 ? 1.3 : 2.4;
+    pen.strokeStyle = rk4 ? colours.rk4 : colours.muted; pen.lineWidth = rk4 ? 1.2 : s.bodies > 20 ? 1.3 : 2.4;
     for (const [first, step, count] of s.rods) {
       pen.beginPath();
       for (let j = 0; j < count; j++) { const p = on[first + j * step]; if (j) pen.lineTo(p[0], p[1]); else pen.moveTo(p[0], p[1]); }
-      if (s.bodies === 16 && count === 13 && !ghost) { pen.globalAlpha = 0.16; pen.fillStyle = colours.gvi; pen.fill(); pen.globalAlpha = 1; }
+      if (count > 3 && s.bodies < 20 && !rk4) { pen.globalAlpha = 0.16; pen.fillStyle = colours.gvi; pen.fill(); pen.globalAlpha = 1; }
       pen.stroke();
     }
     on.map((p, b) => [p, b]).sort((a, b) => b[0][2] - a[0][2]).forEach(([p, b]) => {
-      if (!isFinite(p[0]) || !s.radius[b] || (ghost && s.fixed >> b & 1)) return;
+      if (!isFinite(p[0]) || !s.radius[b] || (rk4 && s.fixed >> b & 1)) return;
       pen.beginPath();
       pen.arc(p[0], p[1], s.radius[b], 0, 7);
-      if (ghost) { pen.strokeStyle = colours.rk4; pen.lineWidth = 1.6; pen.stroke(); }
+      if (rk4) { pen.strokeStyle = colours.rk4; pen.lineWidth = 1.6; pen.stroke(); }
       else { pen.fillStyle = colourOf(b); pen.fill(); pen.strokeStyle = colours.card; pen.lineWidth = 1.5; pen.stroke(); }
     });
   };
-  if (beside.ok && s.bodies < 20) {
-    const g = x.beside_place(0) / 8, list = [];
+  if (ghost.ok && s.bodies < 20) {
+    const g = x.ghost_place(0) / 8, list = [];
     for (let b = 0; b < s.bodies; b++) list.push([numbers[g + 3 * b], numbers[g + 3 * b + 1], numbers[g + 3 * b + 2]]);
     if (s.bodies !== 16) figure(list, true);
     else { const p = project(...list[1]); pen.beginPath(); pen.arc(p[0], p[1], 5, 0, 7); pen.strokeStyle = colours.rk4; pen.lineWidth = 1.6; pen.stroke(); }
@@ -358,9 +358,10 @@ function draw() {
     const L = unit * scale, X = W - 20 - L, Y = H - 14;
     pen.strokeStyle = pen.fillStyle = colours.muted; pen.lineWidth = 1.2;
     pen.beginPath(); pen.moveTo(X, Y - 4); pen.lineTo(X, Y); pen.lineTo(X + L, Y); pen.lineTo(X + L, Y - 4); pen.stroke();
-    pen.font = '12px system-ui, sans-serif'; pen.textAlign = 'center'; pen.fillText(`${short(unit)} ${s.length}`, X + L / 2, Y - 8);
+    pen.font = '12px system-ui, sans-serif'; pen.textAlign = 'center'; pen.strokeStyle = colours.card; pen.lineWidth = 4;
+    for (const f of ['strokeText', 'fillText']) pen[f](`${short(unit)} ${s.length}`, X + L / 2, Y - 8);
   }
-  $('ghost-key').hidden = !(beside.ok && s.bodies < 20);
+  $('ghost-key').hidden = !(ghost.ok && s.bodies < 20);
 }
 
 /* ---- readouts ---- */
@@ -423,8 +424,8 @@ function showControls() {
   }
   s.effects.forEach((e, k) => { const row = $('rows').children[k]; row.querySelector('input').checked = !!(set.on >> k & 1); row.classList.toggle('off', !(set.on >> k & 1)); });
   s.parameters.forEach((p, k) => { $('p' + k).value = set.p[k]; $(`p${k}-out`).textContent = `${set.p[k]}${p.unit}`; });
-  $('clock').disabled = s.clock < 0 || clocked();
-  $('clock').title = s.clock < 0 ? 'This scene has no clock' : '';
+  $('clocks').hidden = s.clock < 0;
+  $('clock').disabled = clocked();
   $('reverse').setAttribute('aria-pressed', live.dir < 0);
   $('want').value = set.want; $('want-out').textContent = '10' + sup(set.want); $('want').setAttribute('aria-valuetext', `10 to the ${set.want}`);
   $('play').classList.toggle('paused', !live.playing);
@@ -461,15 +462,15 @@ function drawStability() {
   const last = c => c.length ? c[c.length - 1][1] : 0;
   svg.setAttribute('aria-label', `Error of the energy over ${short(live.elapsed)} of time: gvi.h ${short(last(curves.gvi))}${curves.rk4.length ? `, Runge-Kutta 4 ${short(last(curves.rk4))}` : ''}.${curves.gap.length ? ` Constraint: gvi.h ${short(last(curves.gap))}${curves.gap4.length ? `, Runge-Kutta 4 ${short(last(curves.gap4))}` : ''}.` : ''}`);
   const swatch = (c, w, dash = '') => `<svg aria-hidden="true"><line x1="1" x2="21" y1="6" y2="6" stroke="var(--${c})" stroke-width="${w}" stroke-dasharray="${dash}"/></svg>`;
-  const legend = `<li>${swatch('gvi', 2.2)}energy, gvi.h</li>` + (beside.on ? `<li>${swatch('rk4', 1.8)}energy, Runge-Kutta 4${beside.h ? `, h = ${short(beside.h)}` : ''}</li>` : '')
-    + s.kept.map((q, k) => stays[k] ? `<li>${swatch(k ? 'verlet' : 'dop', 1.2)}${html(q.name)}, gvi.h</li>` : '').join('') + (held() ? `<li>${swatch('ink', 1.4, '2 3')}constraint, |g|, gvi.h</li>` + (beside.ok ? `<li>${swatch('rk4', 1.4, '2 3')}constraint, |g|, Runge-Kutta 4</li>` : '') : '') + `<li>${swatch('muted', 1.2, '4 3')}Brouwer: ε √steps</li>`;
+  const legend = `<li>${swatch('gvi', 2.2)}energy, gvi.h</li>` + (ghost.on ? `<li>${swatch('rk4', 1.8)}energy, Runge-Kutta 4${ghost.h ? `, h = ${short(ghost.h)}` : ''}</li>` : '')
+    + s.kept.map((q, k) => stays[k] ? `<li>${swatch(k ? 'verlet' : 'dop', 1.2)}${html(q.name)}, gvi.h</li>` : '').join('') + (held() ? `<li>${swatch('ink', 1.4, '2 3')}constraint, |g|, gvi.h</li>` + (ghost.ok ? `<li>${swatch('rk4', 1.4, '2 3')}constraint, |g|, Runge-Kutta 4</li>` : '') : '') + `<li>${swatch('muted', 1.2, '4 3')}Brouwer: ε √steps</li>`;
   if ($('stability-legend').dataset.is !== legend) { $('stability-legend').innerHTML = legend; $('stability-legend').dataset.is = legend; }
   const broken = s.kept.filter(q => acting.some(e => q.unless.includes(e.name)));
   let note = forces.length ? `The energy is not to stay while ${forces.map(e => e.name).join(', ')} ${forces.length > 1 ? 'act' : 'acts'}: switch that off to see what the integrator keeps. ` : 'The energy of the exact motion is constant. ';
   if (held()) note += `The constraint is |g|, the largest over the run${s.length ? `, in ${s.length}²` : ''}: gvi.h satisfies it in each step, Runge-Kutta 4 only its second derivative. `;
   broken.forEach(q => { note += `The ${q.name} is changed by ${acting.filter(e => q.unless.includes(e.name)).map(e => e.name).join(', ')}. `; });
   $('stability-note').textContent = note;
-  $('stability-caption').textContent = `${many(x.world_number(0, 1, 0))} steps since the last change${beside.on ? '; Runge-Kutta 4 gets as many evaluations' : ''}.`;
+  $('stability-caption').textContent = `${many(x.world_number(0, 1, 0))} steps since the last change${ghost.on ? '; Runge-Kutta 4 gets as many evaluations' : ''}.`;
 }
 
 /* ---- races: a queue that runs in slices between frames ---- */
@@ -552,16 +553,16 @@ function* campaign(p) {
     p.todo = [];
     if (!p.reference) p.note = 'No reference: even small steps of degree 16 fail here.';
     else {
-      for (const dial of DIALS) if (dial) p.todo.push(job(0, { degree: 8, h: s.h, dial }));
+      for (const dial of [1e-8, 1e-10, 1e-12, 1e-14, 1e-6, 1e-4]) p.todo.push(job(0, { degree: 8, h: s.h, dial, longer: dial > 1e-8 }));
       for (let k = 3; k <= 13; k += 2) p.todo.push(job(3, { h: +`1e-${k}` }));
       for (let k = 2; k <= 9; k++) p.todo.push(job(2, { h: s.h / 2 ** k }));
       for (let k = 2; k <= 10; k++) p.todo.push(job(1, { h: s.h / 2 ** k }));
       for (const [degree, tol] of [[2, 0], [4, 0], [8, 0], [16, 0], [4, 1e-9], [8, 1e-12], [8, 1e-6], [16, 1e-12]])
-        for (const k of tol ? [1, 0, -1, -2] : [2, 1, 0, -1, -2, -3]) p.todo.push(job(0, { degree, tol, h: s.h * 2 ** (k + (degree === 16) - (degree === 2)) }));
+        for (const k of tol ? [0, -1, -2, 1] : [0, -1, -2, -3, 1, 2]) p.todo.push(job(0, { degree, tol, h: s.h * 2 ** (k + (degree === 16) - (degree === 2)), longer: k > 0 }));
     }
     p.all = p.todo.length;
   }
-  const slow = {}, kind = j => [j.method, j.degree, j.rule, j.tol, !!j.dial].join(' ');
+  const slow = {}, kind = j => [j.method, j.degree, j.rule, j.tol, !!j.dial, !!j.longer].join(' ');
   for (;;) {
     const mine = wanted.length > 0, j = mine ? wanted.shift() : p.todo.shift();
     if (!j) {
@@ -604,7 +605,7 @@ function drawCost() {
   const a = axes(svg, { x: [lo, hi], y: [-16, 2], xlabel: byTime ? 'time of the run, ms' : 'evaluations of all effects', ylabel: `error at the end${s.unit ? ', ' + s.unit : ''}`, tick: k => byTime && k > -3 && k < 4 ? String(+(10 ** k).toPrecision(1)) : '10' + sup(k) });
   let out = a.out;
   const floor = Math.max(p.floor, 2e-16), top = a.Y(floor);
-  if (p.reference) out += `<rect x="${a.L}" width="${a.W - a.L - a.R}" y="${top}" height="${Math.max(0, a.H - a.B - top)}" fill="var(--soft)"/><text x="${a.L + 4}" y="${Math.min(top + 14, a.H - a.B - 3)}">reference not known better</text>`;
+  if (p.reference) out += `<rect x="${a.L}" width="${a.W - a.L - a.R}" y="${top}" height="${Math.max(0, a.H - a.B - top)}" fill="var(--soft)"/><text x="${a.L + 4}" y="${Math.min(top + 14, a.H - a.B - 3)}">error of the reference</text>`;
   const w = a.Y(10 ** set.want);
   out += `<line x1="${a.L}" x2="${a.W - a.R}" y1="${w}" y2="${w}" stroke="var(--ink)" stroke-dasharray="2 4"/><text class="axis" x="${a.L + 4}" y="${w - 5}">wanted</text>`;
   const groups = new Map();
@@ -626,9 +627,13 @@ function drawCost() {
     });
     if (!list[0].method && at.length) {
       const end = at[at.length - 1], name = list[0].dial ? 'dial' : list[0].rule === 'gauss' && !list[0].tol ? list[0].degree : '';
-      while (placed.some(o => Math.abs(o[0] - end[0]) < 24 && Math.abs(o[1] - end[1]) < 12)) end[1] -= 12;
-      placed.push(end);
-      if (name !== '') labels += `<text x="${end[0] + 8}" y="${end[1] + 4}" style="fill:${colour};font-weight:600;stroke:var(--card);stroke-width:3;paint-order:stroke">${name}</text>`;
+      const places = [[8, 4], [-8, 4], [8, -9], [8, 17], [-8, -9], [-8, 17]].map(([dx, dy]) => [end[0] + dx, end[1] + dy, dx < 0]);
+      const free = ([X, Y, left]) => (left || X < a.W - 32) && !placed.some(o => Math.abs(o[0] - X - (left ? -12 : 12)) < 24 && Math.abs(o[1] - Y) < 13);
+      const [X, Y, left] = places.find(free) || places[0];
+      if (name !== '') {
+        placed.push([X + (left ? -12 : 12), Y]);
+        labels += `<text x="${X}" y="${Y}" text-anchor="${left ? 'end' : 'start'}" style="fill:${colour};font-weight:600;stroke:var(--card);stroke-width:3;paint-order:stroke">${name}</text>`;
+      }
     }
   }
   svg.innerHTML = out + labels;
@@ -718,7 +723,7 @@ ${kicks && j.rule === 'verlet' ? '    const double nodes[] = { 0, 1 }, weights[]
 ${s.make ? `    ${s.make}\n` : ''}${s.mass ? `    desc.mass = ${s.mass.replace(/^\((\(.*)\)$/, '$1')};\n${held() ? '    desc.mass.velocity = NULL;                  // with constraints gvi.h solves for it\n' : ''}` : ''}    double *memory = malloc(gvi_size(&desc));
     if (gvi_init(&st, &desc, memory, gvi_size(&desc)) == GVI_OK) gvi_start(&st, 0, q, v);
     ${j.dial ? `while (st.status == GVI_OK && st.t < ${C(s.span)}) gvi_advance(&st, ${C(s.span)});` : tau ? `while (st.status == GVI_OK && st.t < ${C(s.span)}) gvi_step(&st, ${C(j.h)});      // h in tau` : `for (int k = 0; k < ${steps} && st.status == GVI_OK; ++k) gvi_step(&st, ${C(s.span)}/${steps});`}
-    printf("%s at t = %.17g\\n", gvi_status_text(st.status), st.t);
+    printf("%s at t = %.17g\\n", gvi_why(&st), st.t);
     for (int i = 0; i < ${s.n}; ++i) printf("q[%d] = %.17g\\n", i, st.q[i]);
     free(memory);
     return st.status != GVI_OK;
@@ -771,15 +776,13 @@ $('reverse').onclick = () => {
 $('step').onclick = () => { pause(); if (live.ok && !back()) { stepOnce(); live.target = live.t; sampleEnergy(); if (back()) arrive(); dirty = plotDirty = true; showNumbers(); } };
 $('speed').oninput = e => { live.speed = +e.target.value; const v = 2 ** live.speed; $('speed-out').textContent = (v < 1 ? `1/${1 / v}` : v) + '×'; };
 $('fast').onclick = () => { live.fast = !live.fast; if (!live.fast) live.target = live.t; $('fast').setAttribute('aria-pressed', live.fast); if (live.fast) play(); };
-$('ghost').onclick = () => { beside.on = !beside.on; $('ghost').setAttribute('aria-pressed', beside.on); apply(true); };
+$('ghost').onclick = () => { ghost.on = !ghost.on; $('ghost').setAttribute('aria-pressed', ghost.on); apply(true); };
 $('halve').onclick = () => { change({ h: +(set.h / 2).toPrecision(6) }); play(); };
 const clockOn = () => { change({ on: set.on | 1 << scene().clock, rule: 'gauss' }, false); play(); $('encounter').textContent = `The clock runs slowly near the encounter: h = ${set.h} is now a step in τ, with dt = g(q) dτ, and the map is as symplectic as with fixed steps.`; };
 $('clock').onclick = $('alert-clock').onclick = clockOn;
 $('break').onclick = () => {
   const s = scene();
-  if (s.clock < 0) defaults(0);
-  const k = scene();
-  const o = k.name === 'kepler' ? { on: 1, p: [0.97, set.p[1]], h: 0.125, degree: 8 } : { on: set.on & ~(1 << k.clock), h: k.name === 'pythagoras' ? 0.05 : 0.4, degree: 8, p: k.name === 'eight' ? [-0.1] : set.p };
+  const o = s.name === 'kepler' ? { on: 1, p: [0.97, set.p[1]], h: 0.125, degree: 8 } : { on: set.on & ~(1 << s.clock), h: s.name === 'pythagoras' ? 0.05 : 0.4, degree: 8, p: s.name === 'eight' ? [-0.1] : set.p };
   change({ ...o, rule: 'gauss', tol: 0, dial: 0 }, false);
   play();
   $('encounter').textContent = `A fixed step of ${set.h} is far too long where the bodies meet, and nothing adapts it: watch the energy at each encounter. Then turn the clock on.`;
@@ -833,7 +836,7 @@ const resized = new ResizeObserver(() => { dirty = plotDirty = costDirty = true;
 for (const id of ['canvas', 'cost', 'stability']) resized.observe($(id));
 
 /* ---- frames ---- */
-let last = now(), told = 0, plotted = 0;
+let last = now(), counted = 0, plotted = 0;
 function frame() {
   requestAnimationFrame(frame);                          // first: whatever goes wrong, there is a next one
   const t = now(), dt = Math.min(0.05, (t - last) / 1000);
@@ -841,7 +844,7 @@ function frame() {
   if (live.playing && live.ok) simulate(dt);
   measure(live.fast ? 3 : 4);
   if (dirty) { draw(); dirty = live.playing; }
-  if (t - told > 300) { showNumbers(); told = t; }
+  if (t - counted > 300) { showNumbers(); counted = t; }
   if (t - plotted > 160) {
     if (plotDirty) { drawStability(); plotDirty = false; plotted = t; }
     else if (costDirty) { drawCost(); plotted = t; }

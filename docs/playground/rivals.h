@@ -71,10 +71,12 @@ static void rival_bend(const rival *r, int n, const double *q, const double *v, 
     }
 }
 
-/* f += M^-1 G' lambda, with (G M^-1 G') lambda = -(G f + bend): positive, so no pivots.     */
+/* f += M^-1 G' lambda, with (G M^-1 G') lambda = -(G f + bend): positive, so no pivots; a row that
+   depends on those before it gets no force.                                               */
 static void rival_hold(const rival *r, int n, const double *y, double *f)
 {
-    static double g[SCENE_ROWS], x[SCENE_ROWS], G[SCENE_ROWS*SCENE_MOST], A[SCENE_ROWS][SCENE_ROWS];
+    static double g[SCENE_ROWS], x[SCENE_ROWS], whole[SCENE_ROWS];
+    static double G[SCENE_ROWS*SCENE_MOST], A[SCENE_ROWS][SCENE_ROWS];
     const int m = scene_hold(r->setup, r->on, n, 0, y, g, G, x);
     rival_bend(r, n, y, y + n, 1, x);
     for (int a = 0; a < m; ++a) {
@@ -83,13 +85,16 @@ static void rival_hold(const rival *r, int n, const double *y, double *f)
             A[a][b] = 0;
             for (int i = 0; i < n; ++i) A[a][b] += G[a*n+i]*r->inverse[i]*G[b*n+i];
         }
+        whole[a] = A[a][a];
     }
-    for (int c = 0; c < m; ++c)
+    for (int c = 0; c < m; ++c) {
+        if (!(A[c][c] > 1e-9*whole[c])) A[c][c] = INFINITY;
         for (int a = c + 1; a < m; ++a) {
             const double l = A[a][c]/A[c][c];
             for (int b = c; b < m; ++b) A[a][b] -= l*A[c][b];
             x[a] -= l*x[c];
         }
+    }
     for (int a = m - 1; a >= 0; --a) {
         for (int b = a + 1; b < m; ++b) x[a] -= A[a][b]*x[b];
         x[a] /= A[a][a];

@@ -128,7 +128,7 @@ static void kepler_build(scene_setup *s)
     INSTEAD(s, magnetic_force(&planet_field));
     ADD(s, "drag", "force, reads v: dust", 0, linear_drag(&dust));
     ADD(s, "drive", "force that swings in time", 0, motor(&push));
-    ADD(s, "clock", "dt = |q| dtau", 0, distance_clock(&planet_clock));
+    ADD(s, "clock", "dt = |q| d\xcf\x84", 0, distance_clock(&planet_clock));
 }
 
 static void kepler_place(const double *q, unsigned on, double (*x)[3])
@@ -341,6 +341,66 @@ static const scene pendulum_rods = {
     .text = rods_text, .build = rods_build, .quantities = rods_quantities,
     .bodies = 5, .view = 2.2, .place = rods_place, .rod = { { 3, -2, 2 }, { 4, -2, 2 } }, .radius = rods_radius,
     .trails = 4, .fixed = 1,
+};
+
+/* ------------------------------------- a frame with one rod more than it needs */
+
+SHOWN(frame_text,
+static const gvi_real frame_mass[] = { 1, 1, 1, 1 };
+static const struct uniform_field frame_weight = { { 0, 4, 2 }, frame_mass, { 0, -9.81 } };
+static const struct rod hanger_rod[] = { { 0, -1, 0.6, { 0, 0 } } };
+static const struct rod side_rods[] = {
+    { 0, 1, 1.05, { 0, 0 } }, { 1, 2, 0.65, { 0, 0 } }, { 2, 3, 0.55, { 0, 0 } }, { 3, 0, 0.65, { 0, 0 } } };
+static const struct rod brace_rod[] = { { 0, 2, 1, { 0, 0 } } };
+static const struct rod spare_rod[] = { { 1, 3, 1, { 0, 0 } } };
+static const struct rods frame_hanger = { { 0, 4, 2 }, hanger_rod, 1 };
+static const struct rods frame_sides = { { 0, 4, 2 }, side_rods, 4 };
+static const struct rods frame_brace = { { 0, 4, 2 }, brace_rod, 1 };
+static const struct rods frame_spare = { { 0, 4, 2 }, spare_rod, 1 };
+static const struct air_drag frame_air = { { 0, 4, 2 }, 0.02, 8 };
+)
+
+static void frame_build(scene_setup *s)
+{
+    static const double corner[4][2] = { { 0, 0 }, { 1.05, 0 }, { 0.8, -0.6 }, { 0.25, -0.6 } };
+    const double a = s->value[0]/57.29577951308232, b = s->value[1]/57.29577951308232;
+    for (int i = 0; i < 4; ++i) {
+        s->q[2*i] = 0.6*sin(a) + cos(b)*corner[i][0] - sin(b)*corner[i][1];
+        s->q[2*i+1] = -0.6*cos(a) + sin(b)*corner[i][0] + cos(b)*corner[i][1];
+    }
+    ADD(s, "gravity", "potential, uniform", 1, uniform_field(&frame_weight));
+    ADD(s, "hanger", "constraint, to the pivot", 1, rods(&frame_hanger));
+    ADD(s, "sides", "four constraints", 1, rods(&frame_sides));
+    ADD(s, "diagonal", "constraint, keeps the shape", 1, rods(&frame_brace));
+    ADD(s, "second diagonal", "constraint, redundant", 1, rods(&frame_spare));
+    ADD(s, "drag", "force, reads v: air", 0, air_drag(&frame_air));
+}
+
+/* Pivot, corners, then the ends of what holds                                             */
+static void frame_place(const double *q, unsigned on, double (*x)[3])
+{
+    scene_point(x[0], 0, 0, 0);
+    for (int i = 0; i < 5; ++i) {
+        const double *p = q + i%4*2;
+        scene_point(x[5+i], on & 4 ? p[0] : NAN, p[1], 0);
+        if (i < 4) scene_point(x[1+i], p[0], p[1], 0);
+    }
+    scene_point(x[10], on & 8 ? q[0] : NAN, q[1], 0);
+    scene_point(x[11], on & 16 ? q[2] : NAN, q[3], 0);
+    scene_point(x[12], on & 2 ? 0 : NAN, 0, 0);
+}
+
+static const double frame_radius[13] = { 4, 7, 7, 7, 7 };
+
+static const scene braced_frame = {
+    .name = "frame", .title = "Braced frame", .about = "One diagonal keeps the frame in shape, the second is "
+    "redundant. Switch it off: the motion stays the same. Switch both off: the frame folds.",
+    .n = 8, .degree = 8, .h = 0.04, .span = 10, .speed = 1, .time_unit = "s", .error_unit = "m", .length_unit = "m",
+    .parameter = { { "hanger", "\xc2\xb0", -180, 180, 5, 90 }, { "frame", "\xc2\xb0", -180, 180, 5, 0 } },
+    .text = frame_text, .build = frame_build,
+    .bodies = 13, .view = 1.9, .centre = { 0, -0.4, 0 }, .place = frame_place,
+    .rod = { { 5, 1, 5 }, { 10, -7, 2 }, { 11, -7, 2 }, { 12, -11, 2 } }, .radius = frame_radius,
+    .trails = 8, .fixed = 1,
 };
 
 /* ---------------------------------------------------------------------- top */
@@ -655,8 +715,8 @@ static const scene elastic_pendulum = {
 };
 
 static const scene *const scenes[] = {
-    &kepler, &figure_eight, &pythagoras, &double_pendulum, &pendulum_rods, &spinning_top, &quaternion_top,
-    &spring_net, &charged_particle, &robot_arm, &elastic_pendulum,
+    &kepler, &figure_eight, &pythagoras, &double_pendulum, &pendulum_rods, &braced_frame,
+    &spinning_top, &quaternion_top, &spring_net, &charged_particle, &robot_arm, &elastic_pendulum,
 };
 
 #endif

@@ -51,7 +51,7 @@ typedef struct world {
     unsigned     on;
     gvi_desc     desc;
     gvi_stepper  st;
-    int          open, pinned, asked[2];             /* degree and rule as asked for       */
+    int          open, pinned, chosen[2];             /* degree and rule given to world_open */
     const char  *call;                               /* that world_open made last          */
     double       dial, from;                         /* desc.resolution; where world_open began */
     double       t, q[SCENE_MOST], v[SCENE_MOST], p[SCENE_MOST], before[SCENE_MOST];
@@ -213,7 +213,7 @@ int EXPORT(world_open)(int which, int index, unsigned on, int degree, int rule, 
     memset(w->total, 0, sizeof w->total);
     w->call = "gvi_switch";
     const double dial = values[SCENE_PARAMETERS];
-    if (keep && w->open && w->asked[0] == degree && w->asked[1] == rule && !(w->desc.tolerance < tolerance)
+    if (keep && w->open && w->chosen[0] == degree && w->chosen[1] == rule && !(w->desc.tolerance < tolerance)
         && !(w->desc.tolerance > tolerance) && !(w->dial < dial) && !(w->dial > dial)) {
         w->from = w->st.t;
         const int status = world_switch(w, on ^ w->on);
@@ -223,8 +223,8 @@ int EXPORT(world_open)(int which, int index, unsigned on, int degree, int rule, 
     w->open = w->pinned = 0;
     w->scene = a;
     w->on = on;
-    w->asked[0] = degree;
-    w->asked[1] = rule;
+    w->chosen[0] = degree;
+    w->chosen[1] = rule;
     w->dial = dial;
     scene_ready(a, &w->setup, values);
     if (!keep) {                                     /* to be seen even if it does not start */
@@ -347,10 +347,10 @@ double EXPORT(world_number)(int which, int field, int i)
 
 const char *EXPORT(world_formulation)(int which) { return gvi_formulation_text(&worlds[(unsigned)which%WORLDS].st); }
 
-/* What is behind the status of the scene that moves; of any other, what a status alone says.   */
-const char *EXPORT(status_text)(int status)
+/* What is behind a status of the world's last call; of an earlier one, what a status alone says. */
+const char *EXPORT(status_text)(int which, int status)
 {
-    const gvi_stepper *st = &worlds[0].st;
+    const gvi_stepper *st = &worlds[(unsigned)which%WORLDS].st;
     return (int)st->status == status ? gvi_why(st) : gvi_status_text((gvi_status)status);
 }
 
@@ -395,9 +395,9 @@ double *EXPORT(world_curve)(int which, double tau)
     return world_picture(w, q);
 }
 
-/* ------------------------------------------- Runge-Kutta 4 beside what one sees */
+/* --------------------------------------- Runge-Kutta 4, next to what one sees */
 
-int EXPORT(beside_open)(int which)
+int EXPORT(ghost_open)(int which)
 {
     world *w = &worlds[(unsigned)which%WORLDS];
     if (!w->open) return GVI_E_STATE;
@@ -405,7 +405,7 @@ int EXPORT(beside_open)(int which)
     return rival_begin(&w->rival, RIVAL_RK4, w->scene->n, &w->setup, w->on, w->t, w->q, w->v, w->p);
 }
 
-int EXPORT(beside_advance)(int which, double h, int count)
+int EXPORT(ghost_advance)(int which, double h, int count)
 {
     world *w = &worlds[(unsigned)which%WORLDS];
     for (int k = 0; k < count; ++k)
@@ -413,7 +413,7 @@ int EXPORT(beside_advance)(int which, double h, int count)
     return GVI_OK;
 }
 
-double *EXPORT(beside_place)(int which) { return world_picture(&worlds[(unsigned)which%WORLDS], worlds[(unsigned)which%WORLDS].rival.y); }
+double *EXPORT(ghost_place)(int which) { return world_picture(&worlds[(unsigned)which%WORLDS], worlds[(unsigned)which%WORLDS].rival.y); }
 
 /* -------------------------------------------------------------------- races */
 

@@ -73,7 +73,7 @@ static void put_dial_tables(FILE *f, const study *studies, int count)
     }
 }
 
-/* What is got, and what it takes, over what is asked for                                       */
+/* What is got, and what it takes, over the dial                                                 */
 static void draw_dial(const study *studies, int count, const options *o)
 {
     static double dial[DRAWN][SAMPLES], error[DRAWN][SAMPLES], ms[DRAWN][SAMPLES];
@@ -94,7 +94,7 @@ static void draw_dial(const study *studies, int count, const options *o)
             takes[lines] = (svg_line){ studies[i].p->title, dial[lines], ms[lines], c->count };
             ++lines;
         }
-    got[lines] = (svg_line){ "what is asked for", diagonal, diagonal, 2 };
+    got[lines] = (svg_line){ "the dial", diagonal, diagonal, 2 };
     colours[lines] = "#999999";
     char path[512];
     snprintf(path, sizeof path, "%s/dial.svg", o->out);

@@ -46,7 +46,9 @@ function broken(scene, on, degree, rule, h) {
 
 const text = p => { let e = p, o = new Uint8Array(x.memory.buffer); while (o[e]) e++; return new TextDecoder().decode(o.subarray(p, e)); };
 const scene = name => { let i = 0; while (text(x.scene_text(i, 0, 0)) !== name) i++; return i; };
-const quaternion = scene('quaternion');                    // can be held again: nothing acts on its length
+/* What can be held again: nothing acts on the quaternion's length, nor does the second diagonal change the motion. */
+const quaternion = scene('quaternion'), frame = scene('frame'), spare = 31;
+const stays = ([scene, on]) => scene === quaternion || (scene === frame && on === spare);
 
 let passed = 0, failed = 0, compared = 0;
 const kinds = {};
@@ -58,7 +60,7 @@ for (const line of execFileSync(native, { encoding: 'utf8', maxBuffer: 1 << 26 }
   kinds[status] = (kinds[status] || 0) + 1;
   compared += output.split(' ').length - 1;
   if (given[5] === -1) {                                    // held, broken, refused with the state as before
-    const words = output.split(' '), half = words.length/3, again = given[0] === quaternion ? '0' : '-15';
+    const words = output.split(' '), half = words.length/3, again = stays(given) ? '0' : '-15';
     if (words[0] !== '0' || words[half] !== '0' || words[2*half] !== again) { failed++; console.error(`${input}\n  statuses`, words[0], words[half], words[2*half]); }
   }
   if (got === output) passed++;
@@ -78,12 +80,13 @@ const agree = (what, a, b, least) => {
 };
 const q = end(scene('pendulum'), 1, 0.02, 2), rods = end(scene('rods'), 7, 0.02, 4);
 const apart = agree('the double pendulum in angles and as rods', [Math.sin(q[0]), -Math.cos(q[0]), Math.sin(q[0]) + Math.sin(q[1]), -Math.cos(q[0]) - Math.cos(q[1])], rods, Math.abs(rods[0] - 1));
+const swung = end(frame, spare, 0.02, 8), braced = agree('a frame with and without its redundant diagonal', end(frame, 15, 0.02, 8), swung, Math.abs(swung[7] + 0.6));
 /* tilt, precession and spin as a quaternion: turns about z, x and z */
 const [tilt, turn, spin] = end(scene('top'), 1, 0.01, 3), e = end(quaternion, 5, 0.0025, 4), c = Math.cos(tilt/2), s = Math.sin(tilt/2);
 const half = [c*Math.cos((turn + spin)/2), s*Math.cos((turn - spin)/2), s*Math.sin((turn - spin)/2), c*Math.sin((turn + spin)/2)];
 const sign = Math.sign(half[0]*e[0] + half[1]*e[1] + half[2]*e[2] + half[3]*e[3]);
 const tops = agree('the top in angles and as a quaternion', half.map(v => sign*v), e, Math.abs(turn));
 if (!(kinds[1] > 200 && kinds.broken > 3)) { failed++; console.error('too few runs came to their end:', kinds); }
-console.log(`playground: ${compared} numbers of ${kinds[1]} runs to the bit, ${kinds.broken} broken constraints; rods and angles ${apart} apart, quaternion and angles ${tops}`);
+console.log(`playground: ${compared} numbers of ${kinds[1]} runs to the bit, ${kinds.broken} broken constraints; rods and angles ${apart} apart, quaternion and angles ${tops}, a frame with and without a redundant rod ${braced}`);
 console.log(`${passed} passed, ${failed} failed`);
 process.exit(failed ? 1 : 0);

@@ -2,7 +2,7 @@
    end, for bits.mjs to repeat in WebAssembly.  A line: scene on degree rule tolerance method
    parameter, then status, evaluations, steps, q, p or v of a rival, energy and |g|.
    method -1: `parameter` is the step; the constraint that is last in the list breaks after 20, and is
-   mounted again after 20 more, which is refused (but for the quaternion: its length stays).
+   mounted again after 20 more, which is refused, but where what was held stays.
    method -2: gvi.h by the dial, which `parameter` is.                                        */
 #include "../../docs/playground/wasm.c"
 #include <inttypes.h>

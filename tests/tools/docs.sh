@@ -4,7 +4,7 @@
 #   2  every complete program in README and guide: compiled, run, compared with the output below it
 #   3  every other piece of C in them stands in an example or in tests/compile
 #   4  the version: first line and macro of gvi.h, first entry of the changelog
-#   5  every relative link leads to a file
+#   5  every relative link leads to a file, and its #anchor to a heading
 build=$1 object=$2
 CC=${CC:-cc}
 dir=$build/docs
@@ -58,10 +58,18 @@ log=$(sed -n 's/^## \([0-9][0-9.]*\).*/\1/p' docs/changelog.md | head -1)
     fail "versions: macro $macro, first line $first, changelog $log"
 count=$((count + 1))
 
-# -- 5
+# -- 5; GitHub's anchors: lower case, no punctuation, hyphens for spaces, -1 for the second of a name
+anchors() {
+    awk '/^ *```/ { on = !on } !on && /^#+ /' "$1" | sed 's/^#* *//; s/\[\([^]]*\)\]([^)]*)/\1/g' | tr 'A-Z ' 'a-z-' |
+        tr -d '!"#$%&'"'"'()*+,./:;<=>?@[\\]^`{|}~' | awk '{ print seen[$0]++ ? $0 "-" seen[$0] - 1 : $0 }'
+}
 for page in README.md docs/*.md; do
-    for link in $(sed 's/`[^`]*`//g' "$page" | grep -o '](\([^)]*\))' | sed 's/^](//; s/)$//; s/#.*//' | grep -v '^[a-z]*:'); do
-        [ -z "$link" ] || [ -e "$(dirname "$page")/$link" ] || fail "$page links to $link, which does not exist"
+    for link in $(sed 's/`[^`]*`//g' "$page" | tr '\n' ' ' | grep -o '](\([^)]*\))' | sed 's/^](//; s/)$//' | grep -v '^[a-z]*:'); do
+        file=$page anchor=
+        case $link in [!#]*) file=$(dirname "$page")/${link%%#*} ;; esac
+        case $link in *#*) anchor=${link#*#} ;; esac
+        [ -e "$file" ] || fail "$page links to $link, which does not exist"
+        [ -z "$anchor" ] || anchors "$file" | grep -qxF -e "$anchor" || fail "$page links to $link, but there is no such heading"
         count=$((count + 1))
     done
     for image in $(grep -o '<img[^>]* src="[^"]*"' "$page" | sed 's/.* src="//; s/"$//'); do

@@ -1,5 +1,6 @@
 /* What size.sh compiles for a machine: the three calls that every program makes, and
-   the length of a stepper as that of an array.  With SIZE_SCENES, for this machine: a program that prints the numbers (gvi_real) of memory that some scenes need.        */
+   the length of a stepper as that of an array.  With SIZE_SCENES, for this machine: a program that
+   prints the numbers (gvi_real) of memory that some scenes need, and the bound for any of that size.  */
 #define GVI_IMPLEMENTATION
 #define GVI_STATIC
 #include "gvi.h"
@@ -42,6 +43,16 @@ static void print(const char *name, int n, int s, gvi_formulation formulation)
     printf("%s|%u|%u\n", name, (unsigned)(gvi_size(&desc)/sizeof(gvi_real)), (unsigned)GVI_LENGTH(n, s, r));
 }
 
+/* Two rods in the plane, s = 2. */
+static void print_rods(const char *name, gvi_formulation formulation)
+{
+    static const gvi_effect both[] = { { .kind = GVI_POTENTIAL, .points = anything },
+                                       { .kind = GVI_CONSTRAINT, .points = anything, .rows = 2 } };
+    const gvi_desc desc = { .n = 4, .degree = 2, .effects = both, .effect_count = 2, .formulation = formulation };
+    printf("%s|%u|%u\n", name, (unsigned)(gvi_size(&desc)/sizeof(gvi_real)),
+           (unsigned)GVI_CONSTRAINED_LENGTH(4, 2, 2, 2));
+}
+
 int main(void)
 {
     print("planet, Verlet: explicit", 2, 1, GVI_EXPLICIT);
@@ -52,6 +63,8 @@ int main(void)
     print("arm of two joints, s = 3: momenta", 2, 3, GVI_MOMENTA);
     print("arm of six joints, s = 2: momenta", 6, 2, GVI_MOMENTA);
     print("arm of two joints, s = 3: Newton", 2, 3, GVI_NEWTON);
+    print_rods("two rods, s = 2: not pinned", GVI_AUTO);
+    print_rods("two rods, s = 2: positions", GVI_POSITIONS);
     return 0;
 }
 #endif

@@ -100,7 +100,7 @@ table() {  # target title prefix flags link-flags
 ram() {
     $CC -std=c99 -DSIZE_SCENES -DGVI_REAL=float -I. tests/tools/size.c -o "$dir/scenes" -lm &&
         "$dir/scenes" >"$dir/scenes.txt" || fail 'scenes'
-    echo 'RAM, bytes: gvi_size of a scene, in brackets GVI_LENGTH, enough for every scene of that size;'
+    echo 'RAM, bytes: gvi_size of a scene, in brackets the bound for any scene of that size;'
     echo 'with the stepper; the same with GVI_EFFECTS 4'
     while read -r target full small; do
         echo "  $target: stepper $full ($small)"
