@@ -3755,16 +3755,17 @@ static int gvi__beyond_rounding(gvi_real missed, gvi_real bend, gvi_real size)
     return bend > GVI__SOLVED*GVI__EPS*size && missed*bend > GVI__GRAIN*GVI__EPS*size*size;
 }
 
-GVI__CALLED gvi_status gvi__check_jacobian(gvi_stepper *st, int a, gvi_real missed, gvi_real bend,
-                                           gvi_real size, gvi_real terms)
+GVI__CALLED gvi_status gvi__check_jacobian(gvi_stepper *st, int a, gvi_real missed,
+                                           gvi_real stirred, gvi_real bend, gvi_real size,
+                                           gvi_real terms)
 {
     gvi_real *wrong = st->in.con.doubt, *was = wrong + 1 + 3*a;   // a row or -1; share, size, times
     const gvi_real share = missed/size;
     if (size < was[1] && share < 2*was[0] && was[0] < 2*share) was[2] += 1;
     else was[2] = 1;
-    // where g has not moved at all, it was its rounding that hid the move
+    // where g has not changed at all, it was its rounding that hid the move
     if (!(missed > size/GVI__WRONG && missed > 2*bend && missed > GVI__GRAIN*GVI__EPS*terms)
-        || GVI_ABS(share - 1)*GVI__SURE < 1
+        || !(stirred*GVI__SURE > size)
         || (bend > GVI__SOLVED*GVI__EPS*size && !gvi__beyond_rounding(missed, bend, size)))
         was[2] = 0;
     was[0] = share;
@@ -3772,6 +3773,13 @@ GVI__CALLED gvi_status gvi__check_jacobian(gvi_stepper *st, int a, gvi_real miss
     if (!(was[2] > 3)) return GVI_OK;
     if (wrong[0] < 0) wrong[0] = (gvi_real)a;
     return gvi__report_status(st, GVI_E_CONVERGENCE);
+}
+
+/* Is row a suspected of a wrong entry in this iteration, and, but for the first two, in the last?
+   Then what it misses does not pass for rounding.                                            */
+static int gvi__doubted(const gvi_stepper *st, int a)
+{
+    return st->in.con.doubt[3*a + 3] > (st->in.con.made > 2);
 }
 
 // in steps 1, 2, 3, 5, 9 .. after a start, and after 8 iterations: so it costs nothing
@@ -3811,8 +3819,7 @@ static gvi_status gvi__evaluate_at_D(gvi_stepper *st, const gvi__origin *from)
     if (!in->con.settled && gvi__find_columns(st, C, s + 1, in->con.G)) in->con.made = 0;
     in->con.linear = in->con.made > 0;
     for (int a = 0; a < rows; ++a) {
-        gvi_real missed = 0, bend = 0, all = 0, terms = 0;
-        if (linear) gvi__copy((size_t)s, in->con.rho + a*R, in->con.g + a*C + 1);
+        gvi_real missed = 0, stirred = 0, bend = 0, all = 0, terms = 0;
         for (int k = 0; k < s; ++k) {
             gvi_real change = along[a*C + k], size = 0;
             if (!in->con.linear && !looks) break;
@@ -3822,7 +3829,9 @@ static gvi_status gvi__evaluate_at_D(gvi_stepper *st, const gvi__origin *from)
                 size += GVI_ABS(z);
             }
             if (!(GVI_ABS(change) <= GVI__EPS*size)) in->con.linear = 0;
-            missed += GVI_ABS(in->con.g[a*C + k + 1] - in->con.rho[a*R + k] + change/2);
+            const gvi_real beyond = in->con.g[a*C + k + 1] - in->con.rho[a*R + k];
+            missed += GVI_ABS(beyond + change/2);
+            stirred += GVI_ABS(beyond + along[a*C + k]);
             bend += GVI_ABS(change);
             all += size;
             if (looks)
@@ -3830,7 +3839,11 @@ static gvi_status gvi__evaluate_at_D(gvi_stepper *st, const gvi__origin *from)
                                     in->con.g + m*C + k + 1, a);
         }
         if (looks && status == GVI_OK)
-            status = gvi__check_jacobian(st, a, missed, bend, all, terms);
+            status = gvi__check_jacobian(st, a, missed, stirred, bend, all, terms);
+        if (linear && !(looks && gvi__doubted(st, a))) {
+            gvi__copy((size_t)s, in->con.rho + a*R, in->con.g + a*C + 1);
+            in->con.doubt[3*a + 3] = 0;
+        }
     }
     in->con.made += 1;
     return status;
@@ -3949,15 +3962,18 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
                 all += GVI_ABS(h*(G[a*n + i]*d[i]));
             }
             const gvi_real missed = GVI_ABS(g[a] - left[a] - change/2), bend = GVI_ABS(change);
-            const int rounding = k > 0 && !gvi__beyond_rounding(missed/64, bend, all)
+            const int looks = gvi__looks_at_jacobian(st);
+            if (looks)
+                status = gvi__check_jacobian(st, a, missed, GVI_ABS(g[a] - left[a] + z[a]), bend,
+                                             all, terms);
+            if (status != GVI_OK) return status;
+            const int rounding = k > 0 && !(looks && gvi__doubted(st, a))
+                                 && !gvi__beyond_rounding(missed/64, bend, all)
                                  && GVI_ABS(g[a]) > (gvi_real)1.25*(GVI_ABS(left[a]) + bend);
             if (k == 0 || terms > unit[a]) unit[a] = terms;
             if (!rounding && GVI_ABS(g[a]) > size*GVI__EPS*unit[a])
                 size = GVI_ABS(g[a])/(GVI__EPS*unit[a]);
             finite &= gvi__finite(g[a]);
-            if (gvi__looks_at_jacobian(st))
-                status = gvi__check_jacobian(st, a, missed, bend, all, terms);
-            if (status != GVI_OK) return status;
         }
         if (finite && size <= GVI__GRAIN && k > 0 && !(size < before/2))
             return gvi__report_status(st, GVI_OK);
