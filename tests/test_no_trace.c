@@ -145,9 +145,10 @@ static void begin(twins *z, gvi_points_fn *points, gvi_desc desc, real x, real v
         desc.effects = z->effect + i;
         assert_true(gvi_size(&desc) > 0 && gvi_size(&desc) <= sizeof memory[i]);
         assert_ok(gvi_init(z->st + i, &desc, memory[i], sizeof memory[i]));
+        assert_ok(gvi_start(z->st + i, 0, q, v));       // its look at the callbacks is not counted
+        z->mood[i] = calm;
+        z->st[i].counters.mass = 0;
         assert_ok(gvi_start(z->st + i, 0, q, v));
-        z->mood[i].points = 0;                         // the look at the first start is not counted
-        z->mood[i].masses = z->st[i].counters.mass;
     }
 }
 
