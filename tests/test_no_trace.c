@@ -350,6 +350,20 @@ TEST(the_counters_count_what_is_evaluated)
     }
 }
 
+/* ... but not the look at each effect for the cause of a NaN, here at the first, which gives it */
+TEST(a_look_for_a_cause_is_not_counted)
+{
+    mood m[2] = { calm, calm };
+    const gvi_effect effects[] = { { .kind = GVI_POTENTIAL, .points = points_hh, .user = m },
+                                   { .kind = GVI_POTENTIAL, .points = points_hh, .user = m + 1 } };
+    const gvi_desc desc = { .n = 2, .degree = 4, .effects = effects, .effect_count = 2 };
+    gvi_stepper st = new_motion(&desc, 0, masses, masses);
+    m[0].edge = -100;
+    assert_status(gvi_step(&st, (real)0.1L), GVI_E_NON_FINITE);
+    assert_true(m[0].points > m[1].points);
+    assert_true(st.counters.effect[0] == st.counters.effect[1]);
+}
+
 /* Springs and soft quartic ones between them, in units: of force over length, and of 1/length^2 */
 static int springs(const gvi_points *x, void *user)
 {
