@@ -705,10 +705,11 @@ typedef struct gvi_desc {
     const gvi_effect *effects;
     int               effect_count;    /* 0 to GVI_EFFECTS                     */
     gvi_formulation   formulation;     /* pinned: no fall-back and no memory for one */
-    gvi_real          tolerance;       /* 0: iterate to rounding.  Else, below 1, the iteration
-                                          ends when the change yet to come, as the last two
-                                          changes predict it, is below tolerance*|q|: faster,
-                                          but the energy may drift.  No effect where explicit */
+    gvi_real          tolerance;       /* 0, or far below eps: iterate to rounding.  Else, below 1,
+                                          the iteration ends when the change yet to come, as the
+                                          last two changes predict it, is below tolerance*|q|:
+                                          faster, but the energy may drift.  No effect where
+                                          explicit                              */
     int               max_iterations;  /* to 1,000,000.  0: 60                 */
     int               iterations;      /* N: exactly N iterations in every step, for a loop with
                                           a deadline; never Newton.  A step fails unless its last
@@ -5223,7 +5224,7 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__des
     gvi_real ratio = 1, other = 1;
     if (before > 0) ratio = change/gvi__smaller(before, all);
     if (p->earlier > 0) other = before/gvi__smaller(p->earlier, all);
-    const gvi_real wanted = st->in.desc.tolerance, noise = GVI__GRAIN*p->grain*(gvi_real)size;
+    const gvi_real noise = GVI__GRAIN*p->grain*(gvi_real)size;
     if (!gvi__finite(change)) return GVI__NOT_FINITE;
     if (p->earlier > 0 && change > GVI__SURE*GVI__EPS) {
         const gvi_real contraction = GVI_SQRT(change/p->earlier);
@@ -5245,10 +5246,9 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__des
     const int rounding = p->left < GVI__MAX;
     if (rounding) p->left *= p->rho < quarter ? p->rho : quarter;
 
-    const gvi_real enough = wanted > 0 ? wanted : GVI__NEWTON_ENOUGH;
+    const gvi_real enough = gvi__larger(st->in.desc.tolerance, GVI__NEWTON_ENOUGH);
     const int confirmed = (fresh && p->holds) || change <= noise || change*other <= enough;
-    const int done = (p->each*ratio <= enough && confirmed) || p->left <= GVI__ENOUGH
-                     || p->left <= enough;
+    const int done = (p->each*ratio <= enough && confirmed) || p->left <= enough;
     if (done && (p->holds || p->rho < quarter)) return GVI__DONE;
     // rounding, by a matrix that has contracted here
     const int hidden = p->work < 0 && p->rho < quarter;
@@ -5739,8 +5739,7 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
                           const gvi__stage *stage, int stages)
 {
     const gvi_desc *d = &st->in.desc;
-    gvi_real wanted = GVI__ENOUGH;
-    if (d->tolerance > 0) wanted = d->tolerance;
+    const gvi_real wanted = gvi__larger(d->tolerance, GVI__ENOUGH);
     const gvi_real tolerance = wanted*wanted;
     const gvi_real eps2 = GVI__EPS*GVI__EPS, all = eps2*(gvi_real)(st->n*st->r),
                    rounding = GVI__PLACE*GVI__PLACE*all, sure = GVI__SURE*GVI__SURE*all;
