@@ -267,6 +267,34 @@ TEST(with_a_clock_the_step_may_pass_the_end)
     assert_close(q[0], at[0], R(1e-4));
 }
 
+/* On a circle without any force but that of the constraint: the angle is t */
+AT_POINTS(circle)
+{
+    for (int k = 0; k < x->count; ++k) {
+        const real X = x->q[k], Y = x->q[x->stride + k];
+        x->g[k] = (X*X + Y*Y - 1)/2;
+        x->jacobian[k] = X;
+        x->jacobian[x->stride + k] = Y;
+    }
+    return (void)user, 0;
+}
+
+TEST(a_force_of_constraint_is_seen)
+{
+    static const gvi_effect effects[] = { { .kind = GVI_CONSTRAINT, .points = circle, .rows = 1 } };
+    for (int degree = 3; degree < 9; ++degree) {
+        const real limit = KIND == 1 ? R(1e-3) : R(1e-6);
+        const gvi_desc desc = { .n = 2, .degree = degree, .effects = effects, .effect_count = 1, .resolution = limit };
+        gvi_stepper st = new_motion(&desc, 0, (const real[]){ 1, 0 }, (const real[]){ 0, 1 });
+        while (st.t < 10) {
+            const real was = atan2(st.q[1], st.q[0]);
+            assert_ok(gvi_advance(&st, 10));
+            const real turned = atan2(st.q[1], st.q[0]) - was, off = turned - (st.t - st.t0);
+            assert_between(0, fabs(sin(off/2)), 100*limit*st.h + 16*EPS);
+        }
+    }
+}
+
 typedef struct { int n; real m[3], k[3], cubic[3], pull, soft, drag, drive; } random_scene;
 
 static void push_of(const random_scene *a, real t, const real *q, const real *v, real *f)

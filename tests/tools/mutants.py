@@ -4,9 +4,9 @@
 Each entry: the tests that should see it, what stands in gvi.h, once, what stands there instead.  The
 library is compiled anew for each; tests are compiled once.  A mutant that no test sees survives; more than
 two survivors are a failure, and so is a text that does not stand in gvi.h once, which is named and left
-out.  An hour; not part of CI.  --texts: looks for the texts alone.
+out.  Half an hour of one core; not part of CI.  --texts: looks for the texts alone.
 """
-import os, subprocess, sys
+import os, resource, subprocess, sys
 
 MUTANTS = [
     # what survived once
@@ -17,9 +17,9 @@ MUTANTS = [
     ("identities order", "table->inv_gamma[s - 1] = 1/sum;", "table->inv_gamma[s - 1] = (1 + GVI_SQRT(GVI__EPS))/sum;"),
     ("mass regressions api", "m, at);\n    if (status == GVI_OK) return GVI_OK;\n    return gvi__report(st, status, GVI_FAULT_MASS, at[0], at[1]);",
               "m, at);\n    if (status == GVI_OK) return GVI_OK;\n    return gvi__report(st, status, GVI_FAULT_MASS, at[1], at[0]);"),
-    ("newton regressions structure", "k == 0 ? -(h*from->p_low[i]) : 0", "0"),
-    ("newton regressions structure", "from->q[i] + (from->q_low[i] + in->sized.h*Q[j])", "from->q[i] + in->sized.h*Q[j]"),
-    ("identities structure padding", "if (mirror == most || gvi__nonzero(b[mirror] - b[most])) sized->hb[most]", "if (mirror < r) sized->hb[most]"),
+    ("newton regressions structure", "const gvi_real now = -(gvi_real)(2*k + 1)*sum;", "const gvi_real now = -sum;"),
+    ("jumps newton", "from->q[i] + (from->q_low[i] + in->sized.h*Q[j])", "from->q[i] + in->sized.h*Q[j]"),
+    ("tangent identities", "if (mirror == most || gvi__nonzero(b[mirror] - b[most])) sized->hb[most]", "if (mirror < r) sized->hb[most]"),
     ("identities structure oracle", "gvi__grid(gvi__coupling(st, Phi, i), GVI__EPS/2)", "gvi__grid(gvi__coupling(st, Phi, i), GVI__EPS/4)"),
     ("kicks", "sized->hb[j] = gvi__grid(gvi__two_prod(b[j], mantissa), GVI__EPS/2);", "sized->hb[j] = b[j]*mantissa;"),
     # linear algebra, quadrature, interpolation
@@ -30,17 +30,17 @@ MUTANTS = [
     ("interpolation", "others += l[j];", "others += l[j]*(1 + 256*GVI__EPS);"),
     ("interpolation", "if (GVI_ABS(t - x[j]) < GVI_ABS(t - x[i])) i = j;", ""),
     # scene
-    ("api effects", "if (!GVI__READS_V || effect->kind == GVI_POTENTIAL) at->v = NULL;", ""),
-    ("api effects", "skip |= st->in.off | st->in.apart;", "skip |= st->in.apart;"),
+    ("convergence effects", "if (!GVI__READS_V || effect->kind == GVI_POTENTIAL) at->v = NULL;", ""),
+    ("kicks effects", "skip |= st->in.off | st->in.apart;", "skip |= st->in.apart;"),
     ("queries effects", "if (effect->kind == GVI_POTENTIAL) at.v = NULL;\n    at.f", "at.f"),
-    ("queries", "*energy = pv/2 + V;", "*energy = pv/2 - V;"),
-    ("api effects", "st->counters.effect[e] -= (unsigned long long)at->count;", ""),
+    ("resolution queries", "*energy = pv/2 + V;", "*energy = pv/2 - V;"),
+    ("no_trace", "st->counters.effect[e] -= (unsigned long long)at->count;", ""),
     ("domains", "if (k > 0 && beyond && halves < 400) {", "if (k > 0 && status == GVI_E_NON_FINITE && halves < 400) {"),
     # the step
     ("newton structure no_trace", "if (!gauss || i != j) T = gvi__T(st, i);", "T = gvi__T(st, i)*(1 + (i == j)*GVI__EPS*1024);"),
     ("uncoupled regressions jumps", "if (Di > 2*eps2 && Di*Di > tolerance*before_i) break;", "(void)before_i;"),
     ("regressions uncoupled jumps", "return noise/(GVI__NOISE*GVI__EPS*largest);", "return 0*noise*largest;"),
-    ("jumps newton", "for (int plain = !usable; plain < 2; ++plain) {", "for (int plain = !usable; plain < 1 + !usable; ++plain) {"),
+    ("convergence jumps", "for (int plain = !usable; plain < 2; ++plain) {", "for (int plain = !usable; plain < 1 + !usable; ++plain) {"),
     ("structure oracle regressions", "in->step.q_low[i] = gvi__low((q.lo + bend.lo) + (in->free.path_low[i] + from->q_low[i]));", "in->step.q_low[i] = gvi__low(q.lo + bend.lo + in->free.path_low[i]);"),
     ("structure oracle regressions", "in->free.path_low[i] = gvi__low(path.lo + h*v_low[i]);", "in->free.path_low[i] = gvi__low(path.lo);"),
     ("queries padding", "in->kept = 1 + (in->kept > 0 && !gvi__nonzero(h - st->h));", "in->kept = 2;"),
@@ -191,7 +191,8 @@ def main(build):
             return print("FAILED: mutant %d %s: %s" % (k, how, old)) or 1
         survivors += how is None
         print("%2d %-28s %s" % (k, how or "SURVIVES", old.split("\n")[0].strip()[:70]), flush=True)
-    print("mutants: %d of %d survive" % (survivors, len(MUTANTS) - len(lost)))
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    print("mutants: %d of %d survive; %.0f CPU minutes" % (survivors, len(MUTANTS) - len(lost), (used.ru_utime + used.ru_stime)/60))
     return survivors > 2 or bool(lost)
 
 
