@@ -2206,12 +2206,10 @@ GVI__BODY gvi_status gvi__effect(gvi_stepper *st, gvi_points *at, int e, gvi_rea
     return gvi__value(st, at, e, value);
 }
 
-// what an effect adds its value to, with a clock, which needs V (level) and L; NULL: nothing
+// what an effect, no force, adds its value to, with a clock, which needs V (level) and L; else NULL
 static gvi_real *gvi__value_row(const gvi_stepper *st, int e, gvi_real *level)
 {
-    const gvi_kind kind = st->in.desc.effects[e].kind;
-    if (!level || kind == GVI_FORCE) return NULL;
-    if (kind == GVI_LAGRANGIAN) return st->in.time.lagrangian;
+    if (level && st->in.desc.effects[e].kind == GVI_LAGRANGIAN) return st->in.time.lagrangian;
     return level;
 }
 
@@ -3584,7 +3582,7 @@ static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, con
             for (int k = 0; k < count; ++k) W[j*S + k] = -(g[k]*inverse);
         }
         if (full) gvi__over_inertia(st, W, S, count);
-        for (int j = from; j <= i; ++j) {
+        for (int j = from; ; ++j) {
             gvi_real *u = A + (j*m + i)*S;
             for (int k = 0; k < count; ++k) u[k] = 0;
             for (int l = gvi__column(st, j, 0); l < n; l = gvi__column(st, j, l + 1))
@@ -4429,7 +4427,7 @@ GVI__COLD gvi_real *gvi__take(gvi__arena *arena, size_t a, size_t b)
 {
     const size_t most = (size_t)-1/sizeof(gvi_real) - 64;      // more than anyone has, with slack
     const size_t at = arena->used;
-    if (a == 0 || b == 0) return NULL;
+    if (a == 0) return NULL;
     arena->used = most;
     if (b <= (most - at)/a) arena->used = at + a*b;
     if (!arena->base) return NULL;
@@ -5791,8 +5789,7 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
         // near a bifurcation it would be leaving the motion, perhaps for that of another branch
         const int m = st->in.con.m;
         gvi_real loss = 0;
-        if (st->in.con.made > 0)
-            for (int k = 0; k < st->s*m; ++k) loss = gvi__larger(gvi__loss(st, k % m, k/m), loss);
+        for (int k = 0; k < st->s*m; ++k) loss = gvi__larger(gvi__loss(st, k % m, k/m), loss);
         if (loss > GVI__LOST - 1 && D > grain*loss*loss*loss) return GVI__DIVERGES;
     }
     int allowed = GVI__FEW_POOR;
@@ -6456,10 +6453,9 @@ GVI__COLD gvi_status gvi__clock_energy(gvi_stepper *st, gvi_real t, const gvi_re
         gvi_points at = gvi__one_point(st, &t, q);
         at.v = v;
         if ((st->in.off >> e & 1u) || kind == GVI_FORCE || kind == GVI_CLOCK) continue;
-        gvi_status both = gvi__value(st, &at, e, &now);
+        (void)gvi__value(st, &at, e, &now);        // as it has just been
         at.t = &later;
-        if (both == GVI_OK) both = gvi__value(st, &at, e, &then);
-        if (both == GVI_OK && gvi__nonzero(then - now))
+        if (gvi__value(st, &at, e, &then) == GVI_OK && gvi__nonzero(then - now))
             return gvi__report_effect(st, GVI_E_FORMULATION, e);
     }
     return gvi__report_status(st, GVI_OK);
@@ -6742,7 +6738,7 @@ GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const 
     struct gvi__private *in = &st->in;
     if (!saved || !memory || !saved->in.memory || saved->n != st->n || saved->s != st->s
         || saved->r != st->r || saved->in.size != in->size || saved->in.facts != in->facts
-        || saved->in.chosen != in->chosen || saved->in.clock != in->clock
+        || saved->in.clock != in->clock
         || saved->in.con.bits != in->con.bits
         || saved->in.desc.effect_count != in->desc.effect_count
         || saved->in.desc.mass.kind != in->desc.mass.kind)

@@ -53,7 +53,7 @@ MUTANTS = [
     ("clock", "F[k] -= slope[k]*gvi__sure_level(", "F[k] += 0*slope[k]*gvi__sure_level("),
     ("clock", "in->began.H = in->time.H;", ""),
     ("clock", "for (int i = 0; i < st->n; ++i) V[i] /= rate;", ""),
-    ("domains", "if (both == GVI_OK && gvi__nonzero(then - now))", "if (0)"),
+    ("domains", "== GVI_OK && gvi__nonzero(then - now))", "== GVI_OK && 0)"),
     # set-up
     ("api regressions", "gvi_real sum = -1, error = 0;", "gvi_real sum = 0, error = 0;"),
     ("identities order", "if (*order < 2*s - 2) in->facts |= GVI__HAS_GAMMA;", ""),
@@ -114,7 +114,7 @@ MUTANTS = [
     # quadrature, time, queries
     ("structure regressions", "const gvi__two t = gvi__two_sum(st->t, in->dt + st->t_low);", "const gvi__two t = gvi__two_of(st->t + in->dt, 0);"),
     ("quadrature", "if (!(last > GVI__EPS*x.hi)) break;", "if (!(last > GVI_SQRT(GVI__EPS)*x.hi)) break;"),
-    ("quadrature", "if (2*j + 1 == n) start = (gvi_real)0.5;", "if (0) start = 1;"),
+    ("quadrature", "if (2*j + 1 == n) start = (gvi_real)0.5;", "if (2*j + 1 == n) start = (gvi_real)0.5*(1 - GVI__EPS);"),
     ("quadrature", "if (!(c[i] >= 0 && c[i] <= 1) || !gvi__finite(b[i])) return -1;", ""),
     ("quadrature", "size += GVI_ABS(b[i]);", "size += b[i];"),
     ("queries", "if (GVI_ABS(back) <= GVI_ABS(ahead)) {\n        from = end;", "if (0) {\n        from = end;"),
