@@ -126,7 +126,11 @@ TEST(each_refused_description_has_its_sentence)
     static const gvi_effect e[] = { { .points = spring, .value = spring } },
         reads[] = { { .kind = GVI_FORCE, .points = drag } },
         clock[] = { { .points = spring, .value = spring }, { .kind = GVI_CLOCK, .points = clock_1, .user = &one } },
-        held[] = { { .kind = GVI_CONSTRAINT, .points = wall, .rows = 1, .user = &rows } };
+        held[] = { { .kind = GVI_CONSTRAINT, .points = wall, .rows = 1, .user = &rows } },
+        crowd[] = { { .kind = GVI_CONSTRAINT, .points = wall, .rows = 16384, .user = &rows } };
+    /* Gauss's three points and two that say nothing, or next to nothing */
+    static const real five[] = { (real)0.112701665379258311482L, 0.5L, (real)0.887298334620741688518L, 0.25L, 0.75L },
+        three[] = { 5/(real)18, 4/(real)9, 5/(real)18, 0, 0 }, faint[] = { 5/(real)18, 4/(real)9, 5/(real)18, EPS, EPS };
     static const real not_finite[4] = { 1, 0, (real)NAN, 1 };
     static const gvi_effect slips[][2] = {
         { { .points = spring }, { .kind = GVI_FORCE } }, { { .points = spring }, { .kind = (gvi_kind)9, .points = nothing } },
@@ -149,6 +153,9 @@ TEST(each_refused_description_has_its_sentence)
         { { .n = 1, .degree = 3, .rule = { GVI_OWN, 3, mid, even } }, 1, GVI_E_ORDER, "below the degree" },
         { { .n = 1, .rule = { GVI_KICKS, 2, ends, twos } }, 1, GVI_E_ORDER, "do not sum to 1" },
         { { .n = 1, .degree = 3, .rule = { .points = 2 } }, 1, GVI_E_POINTS, "fewer points than the degree" },
+        { { .n = 1, .degree = 5, .rule = { GVI_OWN, 5, five, three } }, 1, GVI_E_POINTS, "does not see every mode" },
+        { { .n = 1, .degree = 5, .rule = { GVI_OWN, 5, five, faint } }, 1, GVI_E_POINTS, "does not see every mode" },
+        { { .n = 16384, .effects = crowd, .effect_count = 1 }, 1, GVI_E_ARGUMENT, "too large together" },
         { { .n = 1, .effects = reads, .effect_count = 1, .formulation = GVI_POSITIONS }, 1, GVI_E_FORMULATION,
           "pinned formulation" },
         { { .n = 1, .effects = reads, .effect_count = 1, .rule = { GVI_KICKS, 2, ends, half } }, 1, GVI_E_FORMULATION,
