@@ -6906,8 +6906,6 @@ static gvi_status gvi__partial_step(gvi_stepper *st, const gvi__origin *from, in
     gvi_real h = st->h*(dt/(st->t - st->t0)), rate, *q = in->result;
     gvi_real near_end = 0, far_end = st->h;
     if (query == GVI__FROM_END) far_end = -st->h;
-    // t did not move, or less than it should
-    if (!(GVI_ABS(h) <= GVI_ABS(far_end))) h = far_end/2;
     for (int k = 0; k < 60; ++k) {
         gvi_status status = gvi__solve(st, from, h, query);
         if (status != GVI_OK || GVI_ABS(in->dt - dt) <= 2*GVI__EPS*GVI_ABS(dt)) return status;

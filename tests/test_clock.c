@@ -508,6 +508,36 @@ TEST(the_state_at_a_time_that_stands_still)
     }
 }
 
+/* g = exp(q) of a free particle: q = t = -log(1 - tau), so steep at the end that Newton's method for tau leaves the step.
+   It refuses calls of `unwanted` points: those of a step, or the single one at the end of a part of it. */
+static int steep_clock(const gvi_points *x, void *user)
+{
+    if (x->count == *(int *)user) return 1;
+    for (int k = 0; k < x->count; ++k) x->value[k] += exp(x->q[k]), x->f[k] += exp(x->q[k]);
+    return 0;
+}
+
+TEST(the_state_at_a_time_of_a_steep_clock)
+{
+    int unwanted = 0;
+    const gvi_effect effects[] = { { .kind = GVI_CLOCK, .points = steep_clock, .user = &unwanted } };
+    const gvi_desc desc = { .n = 1, .degree = 16, .effects = effects, .effect_count = 1 };
+    gvi_stepper st;
+    real q = 7;
+    set_up(&st, &desc, memory);
+    assert_ok(gvi_start(&st, 0, (const real[]){ 0 }, (const real[]){ 1 }));
+    assert_ok(gvi_step(&st, (real)0.98));
+    for (int k = 1; k < 32; ++k) {
+        assert_ok(gvi_state_at(&st, st.t*k/32, &q, NULL, NULL));
+        assert_close(q, st.t*k/32, 16*EPS);
+    }
+    for (unwanted = 1; unwanted <= 16; unwanted += 15) {
+        assert_status(gvi_state_at(&st, st.t/3, &q, NULL, NULL), GVI_E_CALLBACK);
+        assert_int_equal(st.fault.effect, 0);
+    }
+    assert_close(q, st.t*31/32, 16*EPS);
+}
+
 /* g = q1, or what sick says */
 AT_POINTS(moody_clock)
 {
