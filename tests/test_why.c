@@ -299,6 +299,14 @@ TEST(each_call_that_fails_has_its_sentence)
     SET_UP(e, 1, 1, 3, .mass = { .kind = GVI_MASS_POSITION, .points = mass_nan, .gradient = nothing });
     gvi_start(&st, 0, q, v);
     says(&st, GVI_E_NON_FINITE, "of the mass gave NaN");
+    for (int k = 0; k < 2; ++k) {                          // the first coordinate, be it of q or of v
+        real none[2][2] = { { 0 }, { 0 } };
+        none[k][0] = none[1 - k][1] = (real)NAN;
+        SET_UP(e, 1, 2, 3, .tolerance = 0);
+        gvi_start(&st, 0, none[0], none[1]);
+        says(&st, GVI_E_ARGUMENT, "q, v or p is not finite");
+        assert_int_equal(st.fault.coordinate, 0);
+    }
     SET_UP(jumpy, 1, 1, 3, .mass = { .kind = GVI_MASS_NONE });
     if (gvi_start_momentum(&st, 0, q, two) == GVI_OK) gvi_velocity(&st, &E);
     says(&st, GVI_E_CONVERGENCE, "no velocity found");
