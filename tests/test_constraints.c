@@ -496,6 +496,34 @@ TEST(a_row_that_becomes_independent_is_named)
     }
 }
 
+/* x = 0 and x + (t - t*) y = 0: the second depends on the first at t*, the middle of a step but for 64 EPS.  That is no
+   matter of the start, so not singular: a shorter step is well. */
+static int scissors(const gvi_points *x, void *user)
+{
+    const int R = x->stride;
+    for (int k = 0; k < x->count; ++k) {
+        const real left = x->t[k] - *(const real *)user;
+        x->g[k] = x->q[k];
+        x->g[R + k] = x->q[k] + left*x->q[R + k];
+        x->rate[R + k] = x->q[R + k];
+        x->jacobian[k] = x->jacobian[2*R + k] = 1;
+        x->jacobian[3*R + k] = left;
+    }
+    return 0;
+}
+
+TEST(a_row_that_becomes_dependent_is_refused)
+{
+    real when = (real)0.5L + 64*EPS;
+    const gvi_effect effects[] = { { .kind = GVI_CONSTRAINT, .points = scissors, .rows = 2, .user = &when } };
+    for (int f = GVI_POSITIONS; f <= GVI_NEWTON; ++f) {
+        const gvi_desc desc = { .n = 2, .degree = 2, .effects = effects, .effect_count = 1, .formulation = (gvi_formulation)f };
+        gvi_stepper st = new_motion(&desc, 0, (const real[]){ 0, 0 }, (const real[]){ 0, 0 });
+        fails(&st, 1, GVI_E_CONVERGENCE);
+        assert_ok(gvi_step(&st, (real)0.25L));
+    }
+}
+
 /* A pendulum hung where its bob passes the origin: the terms of g are those of the joint, not of q.  theta is
    a cos(w t), w = 1 - a^2/16, to a^3/192; RATTLE at least does not leave the circle, or swing farther. */
 static int hung(const gvi_points *x, void *user)
