@@ -744,7 +744,7 @@ TEST(a_row_is_wrong_that_misses_a_512th_of_its_move)
         assert_int_equal(by_wrong_rows(&st, &a, s, newton, factors + 1), 64);
         memcpy(q, st.q, sizeof q);
         assert_int_equal(by_wrong_rows(&st, &a, s, newton, factors + 2), 64);
-        for (int i = 0; i < 2; ++i) assert_close(st.q[i], q[i], straight*near*near*(real)0.0032L + 64*EPS);
+        for (int i = 0; i < 2; ++i) assert_close(st.q[i], q[i], (real)straight*near*near*(real)0.0032L + 64*EPS);
     }
 }
 

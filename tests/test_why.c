@@ -41,6 +41,7 @@ AT_POINTS(wall)                                        /* the row twice, or none
 }
 AT_POINTS(without_gradient) { for (int k = 0; k < x->count; ++k) x->g[k] = 0; return 0; }
 AT_POINTS(velocity_nan) { FOR_EACH(x, a) x->velocity[a] = x->q[a] > (real)0.75L ? (real)NAN : x->p[a]; return 0; }
+AT_POINT(light) { return dldv[0] += v[0]/1024, 0; }
 AT_POINT(jumps) { return dldv[0] += v[0] + (v[0] > 1 ? 2 : 0), 0; }             /* never 2 */
 AT_POINTS(massless) { FOR_EACH(x, a) x->velocity[a] = 0; return 1; }
 AT_POINTS(no_mass) { for (int k = 0; k < x->count; ++k) x->mass[k] = 0; return 0; }
@@ -227,9 +228,10 @@ TEST(each_call_that_fails_has_its_sentence)
         back[] = { { .points = spring, .value = spring }, { .kind = GVI_CLOCK, .points = clock_1, .user = &minus } },
         late[] = { { .points = timed, .value = timed }, { .kind = GVI_CLOCK, .points = clock_1, .user = &one } },
         flat[] = { { .points = spring }, { .kind = GVI_CONSTRAINT, .points = without_gradient, .rows = 1 } },
+        slight[] = { { .kind = GVI_LAGRANGIAN, .point = light } },
         jumpy[] = { { .kind = GVI_LAGRANGIAN, .point = jumps } },
         held[] = { { .points = spring }, { .kind = GVI_CONSTRAINT, .points = wall, .rows = 1, .user = &one_row } };
-    const real q[2] = { 0.5L, 0 }, on[2] = { 1, 0 }, v[2] = { 0, 0 }, two[2] = { 2, 0 };
+    const real q[2] = { 0.5L, 0 }, on[2] = { 1, 0 }, v[2] = { 0, 0 }, two[2] = { 2, 0 }, most[2] = { MAX, 0 };
     real E;
     gvi_stepper st;
 #define SET_UP(list, count, coordinates, s, ...) do { const gvi_desc d_ = { .n = coordinates, .degree = s, \
@@ -309,6 +311,9 @@ TEST(each_call_that_fails_has_its_sentence)
     }
     SET_UP(jumpy, 1, 1, 3, .mass = { .kind = GVI_MASS_NONE });
     if (gvi_start_momentum(&st, 0, q, two) == GVI_OK) gvi_velocity(&st, &E);
+    says(&st, GVI_E_CONVERGENCE, "no velocity found");
+    SET_UP(slight, 1, 1, 3, .mass = { .kind = GVI_MASS_NONE });
+    if (gvi_start_momentum(&st, 0, q, most) == GVI_OK) gvi_velocity(&st, &E);
     says(&st, GVI_E_CONVERGENCE, "no velocity found");
     SET_UP(e, 1, 1, 3, .formulation = GVI_MOMENTA, .mass = { .velocity = velocity_nan });
     assert_ok(gvi_start_momentum(&st, 0, q, on));
