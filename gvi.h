@@ -3982,8 +3982,7 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
             return gvi__report_status(st, GVI_OK);
         if (size < least) least = size;
         if (!finite || k > 64 || size > 4*(least + 256))
-            return gvi__report_status(st, finite || in->diagnose ? GVI_E_CONVERGENCE
-                                                                : GVI_E_NON_FINITE);
+            return gvi__report_status(st, finite ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE);
         before = size;
         for (int a = 0; a < m; ++a) z[a] = -g[a]/h;
         gvi__solve_constraints(st, in->con.A1, 1, 1, z, 1);
