@@ -705,11 +705,10 @@ typedef struct gvi_desc {
     const gvi_effect *effects;
     int               effect_count;    /* 0 to GVI_EFFECTS                     */
     gvi_formulation   formulation;     /* pinned: no fall-back and no memory for one */
-    gvi_real          tolerance;       /* 0, or far below eps: iterate to rounding.  Else, below 1,
-                                          the iteration ends when the change yet to come, as the
-                                          last two changes predict it, is below tolerance*|q|:
-                                          faster, but the energy may drift.  No effect where
-                                          explicit                              */
+    gvi_real          tolerance;       /* 0 to eps/65536: iterate to rounding.  Else, below 1, the
+                                          iteration ends when the change yet to come, as the last
+                                          two changes predict it, is below tolerance*|q|: faster,
+                                          but the energy may drift.  No effect where explicit */
     int               max_iterations;  /* to 1,000,000.  0: 60                 */
     int               iterations;      /* N: exactly N iterations in every step, for a loop with
                                           a deadline; never Newton.  A step fails unless its last
@@ -3771,18 +3770,10 @@ GVI__CALLED gvi_status gvi__check_jacobian(gvi_stepper *st, int a, gvi_real miss
     was[0] = share;
     was[1] = size;
     // moves that are rounding alone may shrink a few times, to a share that is not small
-    const int often =
-        !(bend > GVI__EPS*size) && share*8 > 1 && st->formulation != GVI_NEWTON;
-    if (!(was[2] > (often ? 7 : 3))) return GVI_OK;
+    const int constant = bend <= GVI__EPS*size && st->formulation != GVI_NEWTON;
+    if (!(was[2] > (constant && share*8 > 1 ? 7 : 3))) return GVI_OK;
     if (wrong[0] < 0) wrong[0] = (gvi_real)a;
     return gvi__report_status(st, GVI_E_CONVERGENCE);
-}
-
-/* Is row a suspected of a wrong entry in this iteration, and, but for the first two, in the last?
-   Then what it misses does not pass for rounding.                                            */
-static int gvi__doubted(const gvi_stepper *st, int a)
-{
-    return st->in.con.doubt[3*a + 3] > (st->in.con.made > 2);
 }
 
 // in steps 1, 2, 3, 5, 9 .. after a start, and after 8 iterations: so it costs nothing
@@ -3790,6 +3781,12 @@ static int gvi__looks_at_jacobian(const gvi_stepper *st)
 {
     const int steps = st->in.con.settled;
     return st->in.con.made > 0 && (st->in.con.made > 8 || (steps & (steps - 1)) == 0);
+}
+
+// suspected now and, after the second iteration, in the last: what row a misses is no rounding
+static int gvi__doubted(const gvi_stepper *st, int a)
+{
+    return gvi__looks_at_jacobian(st) && st->in.con.doubt[3*a + 3] > (st->in.con.made > 2);
 }
 
 /* The constraints at D, padded with q0.  After a move along which G changed by less than EPS of it,
@@ -3843,7 +3840,7 @@ static gvi_status gvi__evaluate_at_D(gvi_stepper *st, const gvi__origin *from)
         }
         if (looks && status == GVI_OK)
             status = gvi__check_jacobian(st, a, missed, stirred, bend, all, terms);
-        if (linear && !(looks && gvi__doubted(st, a))) {
+        if (linear && !gvi__doubted(st, a)) {
             gvi__copy((size_t)s, in->con.rho + a*R, in->con.g + a*C + 1);
             in->con.doubt[3*a + 3] = 0;
         }
@@ -3965,12 +3962,11 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
                 all += GVI_ABS(h*(G[a*n + i]*d[i]));
             }
             const gvi_real missed = GVI_ABS(g[a] - left[a] - change/2), bend = GVI_ABS(change);
-            const int looks = gvi__looks_at_jacobian(st);
-            if (looks)
+            if (gvi__looks_at_jacobian(st))
                 status = gvi__check_jacobian(st, a, missed, GVI_ABS(g[a] - left[a] + z[a]), bend,
                                              all, terms);
             if (status != GVI_OK) return status;
-            const int rounding = k > 0 && !(looks && gvi__doubted(st, a))
+            const int rounding = k > 0 && !gvi__doubted(st, a)
                                  && !gvi__beyond_rounding(missed/64, bend, all)
                                  && GVI_ABS(g[a]) > (gvi_real)1.25*(GVI_ABS(left[a]) + bend);
             if (k == 0 || terms > unit[a]) unit[a] = terms;
@@ -5736,8 +5732,7 @@ static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_rea
                           const gvi__stage *stage, int stages)
 {
     const gvi_desc *d = &st->in.desc;
-    const gvi_real wanted = gvi__larger(d->tolerance, GVI__ENOUGH);
-    const gvi_real tolerance = wanted*wanted;
+    const gvi_real wanted = gvi__larger(d->tolerance, GVI__ENOUGH), tolerance = wanted*wanted;
     const gvi_real eps2 = GVI__EPS*GVI__EPS, all = eps2*(gvi_real)(st->n*st->r),
                    rounding = GVI__PLACE*GVI__PLACE*all, sure = GVI__SURE*GVI__SURE*all;
     const gvi_real before = p->before, earlier = p->earlier, worst = st->counters.worst_contraction;
@@ -6737,8 +6732,7 @@ GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const 
     struct gvi__private *in = &st->in;
     if (!saved || !memory || !saved->in.memory || saved->n != st->n || saved->s != st->s
         || saved->r != st->r || saved->in.size != in->size || saved->in.facts != in->facts
-        || saved->in.clock != in->clock
-        || saved->in.con.bits != in->con.bits
+        || saved->in.clock != in->clock || saved->in.con.bits != in->con.bits
         || saved->in.desc.effect_count != in->desc.effect_count
         || saved->in.desc.mass.kind != in->desc.mass.kind)
         return gvi__refuse_call(st, "saved or memory is NULL, not set up, or of another scene");

@@ -94,7 +94,7 @@ MUTANTS = [
     # constraints
     ("loops", "d[k] = drops[i] > 0 ? 0 : 1/rest;", "d[k] = 1/rest;"),
     ("constraints", "if (!gvi__finite(d[k]) || (depends && !(drops[i] > 0)))", "if (!gvi__finite(d[k]))"),
-    ("constraints", "if (!(was[2] > (often ? 7 : 3))) return GVI_OK;", "return GVI_OK;"),
+    ("constraints", "if (!(was[2] > (constant && share*8 > 1 ? 7 : 3))) return GVI_OK;", "return GVI_OK;"),
     ("constraints", "missed > size/GVI__WRONG &&", "missed > size &&"),
     ("constraints body", "if (full) gvi__over_inertia(st, W, S, count);", ""),
     ("constraints_newton", "for (int z = modes; z < size; ++z) in->newton.dy[z] *= J->unit[z - modes];", ""),
