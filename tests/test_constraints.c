@@ -520,6 +520,7 @@ TEST(a_row_that_becomes_dependent_is_refused)
         const gvi_desc desc = { .n = 2, .degree = 2, .effects = effects, .effect_count = 1, .formulation = (gvi_formulation)f };
         gvi_stepper st = new_motion(&desc, 0, (const real[]){ 0, 0 }, (const real[]){ 0, 0 });
         fails(&st, 1, GVI_E_CONVERGENCE);
+        assert_int_equal(st.fault.coordinate, 1);
         assert_ok(gvi_step(&st, (real)0.25L));
     }
 }
