@@ -6379,7 +6379,7 @@ static void gvi__set_next(gvi_stepper *st, gvi_status status, gvi_real h)
     if (room < 0) up = gvi__larger(room - 1, -GVI__FALL);
     if (status != GVI_OK && status != GVI_E_RESOLUTION) up = -GVI__FALL;
     const gvi_real next = gvi__length(at + up);
-    if ((up > 0 && h >= st->next) || (up < 0 && next < st->next)) st->next = next;
+    if (up < 0 || (up > 0 && h >= st->next)) st->next = next;
 }
 
 /* A first length: 1/16 of the time in which the forces would make the kinetic energy that there is;

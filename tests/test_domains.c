@@ -126,6 +126,23 @@ TEST(a_clock_refuses_a_potential_that_reads_t)
     assert_close(st.t, 0.5, EPS);
 }
 
+/* A value that is defined up to a time is looked at once */
+AT_POINTS(until_half)
+{
+    for (int k = 0; k < x->count; ++k) if (x->t[k] > R(0.5)) return 1;
+    return 0;
+}
+
+TEST(a_clock_takes_a_value_that_ends)
+{
+    const real one = 1;
+    const gvi_effect scene[] = { { .kind = GVI_CLOCK, .points = half }, { .points = until_half, .value = until_half } };
+    const gvi_desc desc = { .n = 1, .effects = scene, .effect_count = 2 };
+    gvi_stepper st = new_motion(&desc, 0, &one, &one);
+    assert_ok(gvi_step(&st, R(0.5)));
+    assert_status(gvi_step(&st, 2), GVI_E_CALLBACK);
+}
+
 /* g = 1 up to q = user, what it may not be beyond */
 static real stopped;
 GVI_EACH(stopping, 1, value) { x->value[0] += x->q[0] < *(real *)user ? 1 : stopped; }
