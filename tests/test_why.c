@@ -84,7 +84,7 @@ TEST(a_stepper_that_is_not_ready_says_what_comes_first)
     static gvi_stepper st;                             // zero
     const gvi_desc d = scene_of(e, 1);
     real x[3] = { 1, 1, 1 };
-    for (int k = 0; k < 7; ++k) {
+    for (int k = 0; k < 8; ++k) {
         memset(&st, 0, sizeof st);
         assert_string_equal(gvi_why(&st), "ok");
         assert_string_equal(gvi_formulation_text(&st), "not set up");
@@ -95,6 +95,7 @@ TEST(a_stepper_that_is_not_ready_says_what_comes_first)
         case 3: gvi_switch(&st, 0, 0); break;
         case 4: gvi_curve(&st, 0, x, x); break;
         case 5: gvi_state_at(&st, 0, x, x, x); break;
+        case 6: gvi_discrete_lagrangian(&st, 0, 1, x, x, &(gvi_discrete){ .p0 = x }); break;
         default: gvi_restore(&st, &st, memory); break;
         }
         says(&st, GVI_E_STATE, "not initialised");

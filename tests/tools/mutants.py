@@ -103,7 +103,7 @@ MUTANTS = [
     ("constraints loops", "if (!in->con.settled && gvi__find_columns(st, C, s + 1, in->con.G)) in->con.made = 0;", ""),
     ("loops constraints_newton", "if (loss > GVI__LOST - 1 && D > grain*loss*loss*loss) return GVI__DIVERGES;", ""),
     ("loops constraints_newton", "if (!(gvi__loss(st, j, e) > GVI__LOST*GVI__LOST - 1)) continue;", "continue;"),
-    ("constraints effects", "gvi__forget_columns(st);\n        if (in->started && (was", "if (in->started && (was"),
+    ("constraints effects", "gvi_status status = GVI_OK;\n        in->con.m = gvi__count_rows(in, gvi__constraints_on(st));", "gvi_status status = GVI_OK;"),
     # what a start looks at
     ("mass", "gvi__zero((size_t)(x->n*x->n)*(size_t)x->stride, at.mass);", ""),
     ("why", "if (gvi__mass_is(in, GVI_MASS_POSITION)) gvi__evaluate_mass(st, &at, NULL, NULL);", ""),
