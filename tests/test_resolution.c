@@ -306,6 +306,25 @@ TEST(with_a_clock_the_step_may_pass_the_end)
     assert_close(q[0], at[0], R(1e-4));
 }
 
+/* Two springs; the second, too stiff for the step, all but rests: it is judged with the first, whatever its units, q/u and m u^2 */
+GVI_EACH(two_springs, 2, f)
+{
+    const real *m = user;
+    for (int i = 0; i < 2; ++i) x->f[i] -= m[i]*(1 + 39*i)*x->q[i];
+}
+
+TEST(what_all_but_rests_does_so_in_any_units)
+{
+    for (int k = 0; k < 2; ++k) {
+        const real u = k ? 1/EPS : 1, tiny = EPS*EPS/u, m[2] = { 1, u*u };
+        const gvi_effect effects[] = { { .kind = GVI_POTENTIAL, .points = two_springs, .user = (void *)(uintptr_t)m } };
+        const gvi_desc desc = { .n = 2, .degree = 5, .effects = effects, .effect_count = 1, .resolution = R(1e-3),
+                                .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = m } };
+        gvi_stepper st = new_motion(&desc, 0, (const real[]){ R(0.25), tiny }, (const real[]){ R(0.5), tiny });
+        assert_ok(gvi_step(&st, R(0.5)));
+    }
+}
+
 /* On a circle without any force but that of the constraint: the angle is t */
 AT_POINTS(circle)
 {

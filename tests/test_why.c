@@ -240,8 +240,11 @@ TEST(each_call_that_fails_has_its_sentence)
 #define BEGIN(...) do { SET_UP(__VA_ARGS__); assert_ok(gvi_start(&st, 0, q, v)); } while (0)
     BEGIN(e, 2, 1, 3, .tolerance = 0);
     gvi_step(&st, 1);
-    says(&st, GVI_E_CALLBACK, "an effect (fault.effect) did not return 0");
-    assert_int_equal(st.fault.effect, 1);
+    for (int k = 0; k < 2; ++k) {                          // a query that succeeds does not hide it
+        says(&st, GVI_E_CALLBACK, "an effect (fault.effect) did not return 0");
+        assert_int_equal(st.fault.effect, 1);
+        assert_ok(gvi_velocity(&st, &E));
+    }
     BEGIN(flawed, 1, 1, 3, .formulation = GVI_NEWTON);
     gvi_step(&st, (real)0.25);
     says(&st, GVI_E_CALLBACK, "an effect (fault.effect) did not return 0");

@@ -79,7 +79,7 @@ MUTANTS = [
     ("resolution", "return (gvi_real)(s*s)*worst;", "return worst/(gvi_real)(s*s*s*s);"),
     ("resolution", "if (st->s < degree) degree = st->s;", "degree = st->s;"),
     ("resolution why", "if (GVI__COMPILED != 1 << GVI_EXPLICIT && in->desc.resolution > 0 && *order < 2*s)", "if (0)"),
-    ("resolution", "st->t_low += st->t - t_end;", ""),
+    ("resolution", "if (!clock && left < st->next*(gvi_real)1.0625) h = left;", ""),
     ("resolution", "if (!clock && left < h*2) h = left/2;", ""),
     ("resolution api", "if (st->resolution > st->counters.worst_resolution)", "if (0)"),
     ("resolution", "if (room > GVI__BAND) up = ", "if (room > -1) up = "),
@@ -87,10 +87,10 @@ MUTANTS = [
     # verdicts
     ("tolerance", "if (before > 0 && D > GVI__FAR*GVI__FAR) falls = 0;", ""),
     ("convergence", "settled = D*other <= tolerance;", ""),
-    ("convergence regressions", "alone = p->used == 1 || p->ratio > 1;", "alone = p->used == 1;"),
+    ("tolerance", "int settled = D*D <= tolerance*last && d->iterations == 0;", "int settled = D*D <= tolerance*last;"),
     ("tolerance api", "if (earlier > 0 && D > GVI__SURE*GVI__SURE*eps2 && D > worst*worst*worst*worst*earlier)", "if (0)"),
-    ("api no_trace", "in->failed.status = status;\n        in->failed.fault = st->fault;\n        gvi__count", "gvi__count"),
-    ("newton uncoupled", "if (slow && gvi__may_turn(st)) return GVI__DIVERGES;", ""),
+    ("why", "in->failed.status = status;\n        in->failed.fault = st->fault;\n        gvi__count", "gvi__count"),
+    ("newton uncoupled", "const int slow = p->used - p->stagnant >= GVI__SLOW;", "const int slow = 1;"),
     # constraints
     ("loops", "d[k] = drops[i] > 0 ? 0 : 1/rest;", "d[k] = 1/rest;"),
     ("loops constraints", "const int depends = !(GVI_ABS(rest) > least*was);", "const int depends = 0;"),
@@ -101,7 +101,7 @@ MUTANTS = [
     ("constraints_newton", "if (diagonal > 0 && column*GVI_SQRT(GVI__EPS) > diagonal)", "if (0)"),
     ("constraints", "size += GVI_ABS(G[(a*st->n + i)*S]*q[i*S]);", "size += 0*q[i*S];"),
     ("constraints loops", "if (!in->con.settled && gvi__find_columns(st, C, s + 1, in->con.G)) in->con.made = 0;", ""),
-    ("loops constraints_newton", "if (loss > GVI__LOST - 1 && D > grain*loss*loss*loss) return GVI__DIVERGES;", ""),
+    ("convergence constraints", "gvi__constrained(st) && D > 16*p->least && D > grain", "gvi__constrained(st) && D > grain"),
     ("loops constraints_newton", "if (!(gvi__loss(st, j, e) > GVI__LOST*GVI__LOST - 1)) continue;", "continue;"),
     ("constraints effects", "gvi_status status = GVI_OK;\n        in->con.m = gvi__count_rows(in, gvi__constraints_on(st));", "gvi_status status = GVI_OK;"),
     # what a start looks at
