@@ -184,7 +184,7 @@ $(BUILD)/cost/kicks $(BUILD)/cost/cost: %: %.o $(addprefix $(BUILD)/cost/,proble
 tolerances: | $(FIRST)
 	$(Q)sh tests/tools/tolerances.sh $(BUILD) $(NAME)
 
-#: mutants      53 slips put into gvi.h one by one: which of them no test sees (Python; an hour)
+#: mutants      slips put into gvi.h one by one: which of them no test sees (Python; half an hour of one core)
 mutants: | $(FIRST)
 	$(Q)mkdir -p $(BUILD) && python3 tests/tools/mutants.py $(BUILD)
 

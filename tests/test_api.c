@@ -990,6 +990,27 @@ TEST(a_checkpoint_of_another_description_is_refused)
         }
 }
 
+/* The same effects in another order: the same sizes, and another scene */
+AT_POINTS(ticks) { for (int k = 0; k < x->count; ++k) x->value[k] += 1; return 0; }
+AT_POINTS(holds) { for (int k = 0; k < x->count; ++k) x->g[k] = x->q[k], x->jacobian[k] = 1; return 0; }
+
+TEST(a_checkpoint_of_another_order_is_refused)
+{
+    static const gvi_effect special[] = { { .kind = GVI_CLOCK, .points = ticks }, { .kind = GVI_CONSTRAINT, .points = holds, .rows = 1 } };
+    static real memory[2][4000];
+    for (int k = 0; k < 4; ++k) {
+        const gvi_effect force = { .kind = GVI_FORCE, .points = nothing };
+        const gvi_effect lists[] = { force, special[k/2], force };
+        gvi_stepper st[2];
+        for (int i = 0; i < 2; ++i) {
+            const gvi_desc desc = { .n = 2, .degree = 3, .effects = lists + (i + k)%2, .effect_count = 2 };
+            assert_ok(gvi_init(st + i, &desc, memory[i], sizeof memory[i]));
+            assert_ok(gvi_start(st + i, 0, (const real[]){ 0, 1 }, (const real[]){ 0, 1 }));
+        }
+        REFUSED(gvi_restore(st, st + 1, memory[1]));
+    }
+}
+
 /* A stepper whose set-up failed last, at its mass, has the sizes of a checkpoint, but no state */
 TEST(a_checkpoint_of_a_failed_set_up_is_refused)
 {

@@ -72,6 +72,22 @@ TEST(a_guess_says_which_way_round)
         }
 }
 
+/* No guess is of use to a straight line; one at which dL/dv fails is the caller's */
+AT_POINT(no_momentum) { return v[0] > 1; }
+
+TEST(a_guess_may_be_of_no_use)
+{
+    const gvi_effect effects[] = { { .kind = GVI_LAGRANGIAN, .point = no_momentum } };
+    const real zero = 0, one = 1, fast = 2;
+    for (int s = 1; s <= 2; ++s) {
+        const gvi_desc desc = { .n = 1, .degree = s, .effects = effects, .effect_count = 1 };
+        gvi_stepper st = new_stepper(&desc);
+        const gvi_discrete out = { .guess = &fast };
+        assert_status(gvi_discrete_lagrangian(&st, 0, 1, &zero, &one, &out), s == 1 ? GVI_OK : GVI_E_CALLBACK);
+        assert_status(gvi_discrete_lagrangian(NULL, 0, 1, &zero, &one, &out), GVI_E_ARGUMENT);
+    }
+}
+
 /* Without a guess the short way round, prograde or not: it is the curve near the chord */
 TEST(near_the_chord_is_the_short_way_round)
 {

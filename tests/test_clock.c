@@ -340,6 +340,36 @@ TEST(time_is_added_up_with_compensation)
     assert_close(st.q[0], 100000*(long double)c, 2*EPS*st.t);
 }
 
+/* z'' = (i f - 1) z: z = exp(i t + f t/2) for small f, the angle is t.  Each step does the work EPS/4: without the
+   compensation of the energy none is added, and H - E at the end, 5000 EPS, has turned z by 3e6 EPS. */
+GVI_EACH(disk, 2, f, value)
+{
+    for (int i = 0; i < 2; ++i) x->f[i] -= x->q[i], x->value[0] += x->q[i]*x->q[i]/2;
+}
+GVI_EACH(disk_clock, 2, f, value)
+{
+    x->value[0] += (1 + x->q[0]*x->q[0] + x->q[1]*x->q[1])/4;
+    for (int i = 0; i < 2; ++i) x->f[i] += x->q[i]/2;
+}
+GVI_EACH(disk_push, 2, f)
+{
+    x->f[0] -= 2*EPS*x->q[1];
+    x->f[1] += 2*EPS*x->q[0];
+}
+
+TEST(work_is_added_up_with_compensation)
+{
+    const gvi_effect effects[] = { { .kind = GVI_POTENTIAL, .points = disk, .value = disk },
+                                   { .kind = GVI_CLOCK, .points = disk_clock }, { .kind = GVI_FORCE, .points = disk_push } };
+    const gvi_desc desc = { .n = 2, .degree = 8, .effects = effects, .effect_count = 3 };
+    gvi_stepper st;
+    set_up(&st, &desc, memory);
+    assert_ok(gvi_start(&st, 0, (const real[]){ 1, 0 }, (const real[]){ 0, 1 }));
+    for (int k = 0; k < 20000; ++k) assert_ok(gvi_step(&st, (real)0.25));
+    const long double turn = atan2l(st.q[1], st.q[0]) - (long double)st.t;
+    assert_close(remainderl(turn, 2*acosl(-1)), 0, 3e5L*EPS);
+}
+
 TEST(a_clock_that_is_off_is_as_if_it_were_not_listed)
 {
     for (int a = KEPLER; a < SCENES; ++a) {
@@ -406,18 +436,24 @@ GVI_EACH(value_without_number, 2, value)
     x->value[0] += x->q[0] < (real)0.6 ? (real)NAN : -1/hypot(x->q[0], x->q[1]);
 }
 
+AT_POINT(no_force) { return 0; }
+
 TEST(a_value_that_is_not_a_number_is_named)
 {
-    gvi_desc desc = describe(KEPLER, 4);
-    gvi_effect *const effects = own_effects(&desc);
-    gvi_stepper st;
-    effects[0].points = attraction_alone;
-    effects[0].value = value_without_number;
-    set_up(&st, &desc, memory);
-    assert_ok(gvi_start_momentum(&st, 0, start, start + 2));
-    while (gvi_step(&st, (real)0.03125) == GVI_OK) assert_true(st.t < 10);
-    assert_int_equal(st.status, GVI_E_NON_FINITE);
-    assert_int_equal(st.fault.effect, 0);
+    for (int later = 0; later < 3; ++later) {     // behind one that is good, the term of a Lagrangian too
+        gvi_desc desc = describe(KEPLER, 4);
+        gvi_effect effects[3] = { desc.effects[0], desc.effects[1],
+                                  { .kind = later > 1 ? GVI_LAGRANGIAN : GVI_POTENTIAL, .point = no_force, .value = value_without_number } };
+        gvi_stepper st;
+        desc.effects = effects;
+        desc.effect_count = later ? 3 : 2;
+        if (!later) effects[0].points = attraction_alone, effects[0].value = value_without_number;
+        set_up(&st, &desc, memory);
+        assert_ok(gvi_start(&st, 0, start, start + 2));
+        while (gvi_step(&st, (real)0.03125) == GVI_OK) assert_true(st.t < 10);
+        assert_int_equal(st.status, GVI_E_NON_FINITE);
+        assert_int_equal(st.fault.effect, later ? 2 : 0);
+    }
 }
 
 GVI_EACH(clock_without_number, 1, value) { x->value[0] += *(real *)user; }
@@ -456,33 +492,41 @@ TEST(the_state_at_a_time_that_stands_still)
     }
 }
 
+/* g = exp(q) of a free particle: q = t = -log(1 - tau), so steep at the end that Newton's method for tau leaves the step.
+   It refuses calls of `unwanted` points: those of a step, or the single one at the end of a part of it. */
+static int steep_clock(const gvi_points *x, void *user)
+{
+    if (x->count == *(int *)user) return 1;
+    for (int k = 0; k < x->count; ++k) x->value[k] += exp(x->q[k]), x->f[k] += exp(x->q[k]);
+    return 0;
+}
+
+TEST(the_state_at_a_time_of_a_steep_clock)
+{
+    int unwanted = 0;
+    const gvi_effect effects[] = { { .kind = GVI_CLOCK, .points = steep_clock, .user = &unwanted } };
+    const gvi_desc desc = { .n = 1, .degree = 16, .effects = effects, .effect_count = 1 };
+    gvi_stepper st;
+    real q = 7;
+    set_up(&st, &desc, memory);
+    assert_ok(gvi_start(&st, 0, (const real[]){ 0 }, (const real[]){ 1 }));
+    assert_ok(gvi_step(&st, (real)0.98));
+    for (int k = 1; k < 32; ++k) {
+        assert_ok(gvi_state_at(&st, st.t*k/32, &q, NULL, NULL));
+        assert_close(q, st.t*k/32, 16*EPS);
+    }
+    for (unwanted = 1; unwanted <= 16; unwanted += 15) {
+        assert_status(gvi_state_at(&st, st.t/3, &q, NULL, NULL), GVI_E_CALLBACK);
+        assert_int_equal(st.fault.effect, 0);
+    }
+    assert_close(q, st.t*31/32, 16*EPS);
+}
+
 /* g = q1, or what sick says */
 AT_POINTS(moody_clock)
 {
     for (int k = 0; k < x->count; ++k) x->value[k] += x->q[k] + *(const real *)user, x->f[k] += 1;
     return 0;
-}
-
-TEST(a_clock_that_is_not_positive_is_named_and_changes_nothing)
-{
-    const double ills[] = { -4, NAN, INFINITY };
-    const gvi_status wanted[] = { GVI_E_CLOCK, GVI_E_NON_FINITE, GVI_E_NON_FINITE };
-    for (int k = 0; k < COUNT(ills); ++k) {
-        real sick = 0;
-        const gvi_effect effects[] = { { .kind = GVI_POTENTIAL, .point = weights, .value = weights_value },
-                                       { .kind = GVI_CLOCK, .points = moody_clock, .user = &sick } };
-        const gvi_desc desc = { .n = 2, .degree = 4, .effects = effects, .effect_count = 2 };
-        gvi_stepper st;
-        set_up(&st, &desc, memory);
-        assert_ok(gvi_start(&st, 0, (const real[]){ 1, 0 }, (const real[]){ 0, 1 }));
-        assert_ok(gvi_step(&st, (real)0.125));
-        sick = (real)ills[k];
-        SAME_STATE(&st) assert_status(gvi_step(&st, (real)0.125), wanted[k]);
-        assert_int_equal(st.fault.effect, 1);
-        assert_true(st.fault.point >= 0);
-        sick = 0;
-        assert_ok(gvi_step(&st, (real)0.125));
-    }
 }
 
 /* In the middle of a step: the pendulum turns back before q1 = 0 is reached only if h is small */

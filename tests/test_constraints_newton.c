@@ -289,6 +289,17 @@ TEST(a_projection_is_the_nearest_point)
 }
 
 /* What cannot be: too far, dependent, not a number; q and v stay as they are, and so does a motion that is on */
+static int square(const gvi_points *x, void *user)
+{
+    const gvi_real *level = user;
+    for (int k = 0; k < x->count; ++k) {
+        if (fabs(x->q[k]) > level[1] && fabs(x->q[k]) < level[2]) return 1;
+        x->g[k] = x->q[k]*x->q[k] - level[0];
+        x->jacobian[k] = 2*x->q[k];
+    }
+    return 0;
+}
+
 TEST(projections_that_fail_change_nothing)
 {
     const gvi_effect hold = { .kind = GVI_CONSTRAINT, .points = circle, .rows = 1 };
@@ -311,6 +322,15 @@ TEST(projections_that_fail_change_nothing)
         v[0] = v[1] = 1;
         q[0] = (gvi_real)1.01L;
         for (int i = 0; i < 2; ++i) assert_true(st.q[i] == twin.q[i] && st.p[i] == twin.p[i]);
+    }
+    /* x^2 = -1 is met nowhere; and where Newton's method goes from 0.1 a callback may refuse: at 5.05, 2.62, -20.7 */
+    for (int k = 0; k < 4; ++k) {
+        gvi_real level[4][3] = { { -1, MAX, MAX }, { 1, 3, 9 }, { 1, 2, 3 }, { -1, 10, MAX } }, x = (gvi_real)0.1L, u = 0;
+        const gvi_effect parabola = { .kind = GVI_CONSTRAINT, .points = square, .rows = 1, .user = level[k] };
+        const gvi_desc line = { .n = 1, .degree = 3, .effects = &parabola, .effect_count = 1 };
+        st = new_stepper(&line);
+        assert_status(gvi_project(&st, 0, &x, &u, NULL), k ? GVI_E_CALLBACK : GVI_E_CONVERGENCE);
+        assert_true(x == (gvi_real)0.1L && u == 0);
     }
     const gvi_desc none = { .n = 2, .degree = 3 };              // without constraints: nothing to do
     gvi_real far[2] = { 1, 1 };

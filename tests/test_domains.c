@@ -126,23 +126,46 @@ TEST(a_clock_refuses_a_potential_that_reads_t)
     assert_close(st.t, 0.5, EPS);
 }
 
-/* g = 1 up to q = user, 0 beyond */
-GVI_EACH(stopping, 1, value) { x->value[0] += x->q[0] < *(real *)user ? 1 : 0; }
+/* A value that is defined up to a time is looked at once */
+AT_POINTS(until_half)
+{
+    for (int k = 0; k < x->count; ++k) if (x->t[k] > R(0.5)) return 1;
+    return 0;
+}
+
+TEST(a_clock_takes_a_value_that_ends)
+{
+    const real one = 1;
+    const gvi_effect scene[] = { { .kind = GVI_CLOCK, .points = half }, { .points = until_half, .value = until_half } };
+    const gvi_desc desc = { .n = 1, .effects = scene, .effect_count = 2 };
+    gvi_stepper st = new_motion(&desc, 0, &one, &one);
+    assert_ok(gvi_step(&st, R(0.5)));
+    assert_status(gvi_step(&st, 2), GVI_E_CALLBACK);
+}
+
+/* g = 1 up to q = user, what it may not be beyond */
+static real stopped;
+GVI_EACH(stopping, 1, value) { x->value[0] += x->q[0] < *(real *)user ? 1 : stopped; }
 
 /* A free particle at the points c_k h of its first iteration: the first beyond is the fault's */
 TEST(a_clock_that_stops_names_the_point)
 {
-    for (int k = 0; k < 5; ++k) {
+    static const real ills[] = { 0, -4, (real)NAN, (real)INFINITY };
+    for (int j = 0; j < 20; ++j) {
+        const int k = j % 5;
         real c[5], b[5], at;
+        stopped = ills[j/5];
         const gvi_effect scene[] = { { .kind = GVI_CLOCK, .points = stopping, .user = &at } };
         const gvi_desc desc = { .n = 1, .degree = 5, .effects = scene, .effect_count = 1 };
         const real q = 0, v = 1;
         assert_ok(gvi_gauss(5, c, b));
         at = (k ? c[k - 1] + c[k] : c[0])/2;
         gvi_stepper st = new_motion(&desc, 0, &q, &v);
-        assert_status(gvi_step(&st, 1), GVI_E_CLOCK);
+        SAME_STATE(&st) assert_status(gvi_step(&st, 1), j < 10 ? GVI_E_CLOCK : GVI_E_NON_FINITE);
         assert_int_equal(st.fault.effect, 0);
         assert_int_equal(st.fault.point, k);
+        at = 2;
+        assert_ok(gvi_step(&st, 1));
     }
 }
 

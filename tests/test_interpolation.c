@@ -384,6 +384,8 @@ TEST(coinciding_nodes_are_refused)
     gvi_real x[] = { 0, 1, 2, 1 }, zeros[] = { 0, -(gvi_real)0 }, w[4];
     assert_status(gvi_barycentric(4, x, w), GVI_E_NODES);
     assert_status(gvi_barycentric(2, zeros, w), GVI_E_NODES);
+    const gvi_real near = (gvi_real)sqrt(MIN)*EPS, clustered[] = { 0, near, 2*near, 1 };   // w_3/w_0 = 2 near^2 is no number
+    assert_status(gvi_barycentric(4, clustered, w), GVI_E_NODES);
     x[3] = next_after(1, 2);
     assert_ok(gvi_barycentric(4, x, w));
     check_weights(4, x, w);

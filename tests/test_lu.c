@@ -516,6 +516,10 @@ TEST(lu_refuses_numbers_that_are_not_finite)
                 a[i] = bad[k];
                 assert_status(factor(n), GVI_E_NON_FINITE);
             }
+    regular(0, 2);
+    assert_ok(factor(2));
+    f[0] = (gvi_real)NAN;
+    assert_true(gvi_lu_rcond(2, f, pivot, work) == 0);           /* nothing is known of such factors */
 }
 
 TEST(lu_refuses_faulty_arguments)

@@ -145,9 +145,10 @@ static void begin(twins *z, gvi_points_fn *points, gvi_desc desc, real x, real v
         desc.effects = z->effect + i;
         assert_true(gvi_size(&desc) > 0 && gvi_size(&desc) <= sizeof memory[i]);
         assert_ok(gvi_init(z->st + i, &desc, memory[i], sizeof memory[i]));
+        assert_ok(gvi_start(z->st + i, 0, q, v));       // its look at the callbacks is not counted
+        z->mood[i] = calm;
+        z->st[i].counters.mass = 0;
         assert_ok(gvi_start(z->st + i, 0, q, v));
-        z->mood[i].points = 0;                         // the look at the first start is not counted
-        z->mood[i].masses = z->st[i].counters.mass;
     }
 }
 
@@ -347,6 +348,20 @@ TEST(the_counters_count_what_is_evaluated)
         assert_int_equal(c->steps, 54);
         assert_int_equal(c->failures, 6);
     }
+}
+
+/* ... but not the look at each effect for the cause of a NaN, here at the first, which gives it */
+TEST(a_look_for_a_cause_is_not_counted)
+{
+    mood m[2] = { calm, calm };
+    const gvi_effect effects[] = { { .kind = GVI_POTENTIAL, .points = points_hh, .user = m },
+                                   { .kind = GVI_POTENTIAL, .points = points_hh, .user = m + 1 } };
+    const gvi_desc desc = { .n = 2, .degree = 4, .effects = effects, .effect_count = 2 };
+    gvi_stepper st = new_motion(&desc, 0, masses, masses);
+    m[0].edge = -100;
+    assert_status(gvi_step(&st, (real)0.1L), GVI_E_NON_FINITE);
+    assert_true(m[0].points > m[1].points);
+    assert_true(st.counters.effect[0] == st.counters.effect[1]);
 }
 
 /* Springs and soft quartic ones between them, in units: of force over length, and of 1/length^2 */

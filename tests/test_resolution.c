@@ -66,6 +66,41 @@ TEST(bad_limits_are_refused_with_a_sentence)
     }
     assert_status(gvi_advance(NULL, 1), GVI_E_ARGUMENT);
     assert_ok(gvi_advance(&st, 1));
+    for (int k = 0; k < 2; ++k) {                 // what is no length is not taken for the next
+        st.next = k ? (real)INFINITY : -1;
+        assert_ok(gvi_advance(&st, 10));
+        assert_between(0, st.h, 1);
+    }
+    st = new_stepper(&some);
+    assert_status(gvi_advance(&st, 1), GVI_E_STATE);
+}
+
+TEST(a_limit_below_eps_is_eps)
+{
+    const gvi_desc eps = of(16, EPS), less = of(16, EPS/64);
+    gvi_stepper a = started(&eps, room, 0), b = started(&less, spare, 0);
+    for (int k = 0; k < 20; ++k) assert_true(gvi_advance(&a, 10) == gvi_advance(&b, 10) && a.t == b.t && a.q[0] == b.q[0]);
+}
+
+/* The first length is looked for where M(q), or a force, refuses: that fails, and nothing moves; at rest it is any */
+static int refuses;
+static int unit_mass(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k) x->mass[k] = 1;
+    return (void)user, refuses == 1;
+}
+static int nothing(const gvi_points *x, void *user) { return (void)x, user && refuses == 2; }
+
+TEST(a_first_length_needs_no_force)
+{
+    const real none = 0;
+    const gvi_effect effects[] = { { .points = nothing, .user = &refuses } };
+    const gvi_desc desc = { .n = 1, .degree = 4, .effects = effects, .effect_count = 1, .resolution = R(1e-3),
+                            .mass = { .kind = GVI_MASS_POSITION, .points = unit_mass, .gradient = nothing } };
+    gvi_stepper st = new_motion(&desc, 0, &none, &none);
+    for (refuses = 1; refuses <= 2; ++refuses) SAME_STATE(&st) assert_status(gvi_advance(&st, 1), GVI_E_CALLBACK);
+    assert_ok(gvi_advance(&st, 1));
+    assert_true(st.resolution == 0);
 }
 
 TEST(a_step_that_is_refused_changes_nothing)
@@ -138,6 +173,10 @@ TEST(a_limit_that_no_step_meets_ends_in_a_status)
     assert_ok(gvi_start(&st, 0, (const real[]){ 0 }, (const real[]){ 0 }));   // at 0 no error is below an ulp of q
     SAME_STATE(&st) assert_true(gvi_advance(&st, 1) < 0);
     assert_true(st.counters.failures <= 64);
+    assert_ok(gvi_start(&st, 1/EPS, (const real[]){ 0 }, (const real[]){ 0 }));
+    st.next = 8;
+    SAME_STATE(&st) assert_true(gvi_advance(&st, 2/EPS) < 0);
+    assert_true(st.counters.failures <= 64 + 8);  // until t + h is t
 }
 
 /* q'' = -q to t = 100: at these degrees the modes of all steps that are short enough are rounding */
@@ -265,6 +304,53 @@ TEST(with_a_clock_the_step_may_pass_the_end)
     assert_true(st.t0 <= turn && turn <= st.t);
     assert_ok(gvi_state_at(&st, turn, q, NULL, NULL));
     assert_close(q[0], at[0], R(1e-4));
+}
+
+/* Two springs; the second, too stiff for the step, all but rests: it is judged with the first, whatever its units, q/u and m u^2 */
+GVI_EACH(two_springs, 2, f)
+{
+    const real *m = user;
+    for (int i = 0; i < 2; ++i) x->f[i] -= m[i]*(1 + 39*i)*x->q[i];
+}
+
+TEST(what_all_but_rests_does_so_in_any_units)
+{
+    for (int k = 0; k < 2; ++k) {
+        const real u = k ? 1/EPS : 1, tiny = EPS*EPS/u, m[2] = { 1, u*u };
+        const gvi_effect effects[] = { { .kind = GVI_POTENTIAL, .points = two_springs, .user = (void *)(uintptr_t)m } };
+        const gvi_desc desc = { .n = 2, .degree = 5, .effects = effects, .effect_count = 1, .resolution = R(1e-3),
+                                .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = m } };
+        gvi_stepper st = new_motion(&desc, 0, (const real[]){ R(0.25), tiny }, (const real[]){ R(0.5), tiny });
+        assert_ok(gvi_step(&st, R(0.5)));
+    }
+}
+
+/* On a circle without any force but that of the constraint: the angle is t */
+AT_POINTS(circle)
+{
+    for (int k = 0; k < x->count; ++k) {
+        const real X = x->q[k], Y = x->q[x->stride + k];
+        x->g[k] = (X*X + Y*Y - 1)/2;
+        x->jacobian[k] = X;
+        x->jacobian[x->stride + k] = Y;
+    }
+    return (void)user, 0;
+}
+
+TEST(a_force_of_constraint_is_seen)
+{
+    static const gvi_effect effects[] = { { .kind = GVI_CONSTRAINT, .points = circle, .rows = 1 } };
+    for (int degree = 3; degree < 9; ++degree) {
+        const real limit = KIND == 1 ? R(1e-3) : R(1e-6);
+        const gvi_desc desc = { .n = 2, .degree = degree, .effects = effects, .effect_count = 1, .resolution = limit };
+        gvi_stepper st = new_motion(&desc, 0, (const real[]){ 1, 0 }, (const real[]){ 0, 1 });
+        while (st.t < 10) {
+            const real was = atan2(st.q[1], st.q[0]);
+            assert_ok(gvi_advance(&st, 10));
+            const real turned = atan2(st.q[1], st.q[0]) - was, off = turned - (st.t - st.t0);
+            assert_between(0, fabs(sin(off/2)), 100*limit*st.h + 16*EPS);
+        }
+    }
 }
 
 typedef struct { int n; real m[3], k[3], cubic[3], pull, soft, drag, drive; } random_scene;

@@ -125,6 +125,8 @@ TEST(a_tolerance_below_rounding_changes_the_last_places_only)
                 assert_close(q[0][k], q[1][k], STEPS*EPS);
                 assert_close(inside[0][k], inside[1][k], STEPS*EPS);
             }
+            run(scenes + i, points[j], EPS*EPS, 0, q[1], inside[1]);
+            for (int k = 0; k < scenes[i].n; ++k) assert_true(q[0][k] == q[1][k] && inside[0][k] == inside[1][k]);
         }
 }
 

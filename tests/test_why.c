@@ -40,6 +40,9 @@ AT_POINTS(wall)                                        /* the row twice, or none
     return 0;
 }
 AT_POINTS(without_gradient) { for (int k = 0; k < x->count; ++k) x->g[k] = 0; return 0; }
+AT_POINTS(velocity_nan) { FOR_EACH(x, a) x->velocity[a] = x->q[a] > (real)0.75L ? (real)NAN : x->p[a]; return 0; }
+AT_POINT(light) { return dldv[0] += v[0]/1024, 0; }
+AT_POINT(jumps) { return dldv[0] += v[0] + (v[0] > 1 ? 2 : 0), 0; }             /* never 2 */
 AT_POINTS(massless) { FOR_EACH(x, a) x->velocity[a] = 0; return 1; }
 AT_POINTS(no_mass) { for (int k = 0; k < x->count; ++k) x->mass[k] = 0; return 0; }
 AT_POINTS(mass_nan) { for (int k = 0; k < x->count; ++k) x->mass[k] = (real)NAN; return 0; }
@@ -81,7 +84,7 @@ TEST(a_stepper_that_is_not_ready_says_what_comes_first)
     static gvi_stepper st;                             // zero
     const gvi_desc d = scene_of(e, 1);
     real x[3] = { 1, 1, 1 };
-    for (int k = 0; k < 7; ++k) {
+    for (int k = 0; k < 8; ++k) {
         memset(&st, 0, sizeof st);
         assert_string_equal(gvi_why(&st), "ok");
         assert_string_equal(gvi_formulation_text(&st), "not set up");
@@ -92,6 +95,7 @@ TEST(a_stepper_that_is_not_ready_says_what_comes_first)
         case 3: gvi_switch(&st, 0, 0); break;
         case 4: gvi_curve(&st, 0, x, x); break;
         case 5: gvi_state_at(&st, 0, x, x, x); break;
+        case 6: gvi_discrete_lagrangian(&st, 0, 1, x, x, &(gvi_discrete){ .p0 = x }); break;
         default: gvi_restore(&st, &st, memory); break;
         }
         says(&st, GVI_E_STATE, "not initialised");
@@ -126,7 +130,11 @@ TEST(each_refused_description_has_its_sentence)
     static const gvi_effect e[] = { { .points = spring, .value = spring } },
         reads[] = { { .kind = GVI_FORCE, .points = drag } },
         clock[] = { { .points = spring, .value = spring }, { .kind = GVI_CLOCK, .points = clock_1, .user = &one } },
-        held[] = { { .kind = GVI_CONSTRAINT, .points = wall, .rows = 1, .user = &rows } };
+        held[] = { { .kind = GVI_CONSTRAINT, .points = wall, .rows = 1, .user = &rows } },
+        crowd[] = { { .kind = GVI_CONSTRAINT, .points = wall, .rows = 16384, .user = &rows } };
+    /* Gauss's three points and two that say nothing, or next to nothing */
+    static const real five[] = { (real)0.112701665379258311482L, 0.5L, (real)0.887298334620741688518L, 0.25L, 0.75L },
+        three[] = { 5/(real)18, 4/(real)9, 5/(real)18, 0, 0 }, faint[] = { 5/(real)18, 4/(real)9, 5/(real)18, EPS, EPS };
     static const real not_finite[4] = { 1, 0, (real)NAN, 1 };
     static const gvi_effect slips[][2] = {
         { { .points = spring }, { .kind = GVI_FORCE } }, { { .points = spring }, { .kind = (gvi_kind)9, .points = nothing } },
@@ -149,6 +157,9 @@ TEST(each_refused_description_has_its_sentence)
         { { .n = 1, .degree = 3, .rule = { GVI_OWN, 3, mid, even } }, 1, GVI_E_ORDER, "below the degree" },
         { { .n = 1, .rule = { GVI_KICKS, 2, ends, twos } }, 1, GVI_E_ORDER, "do not sum to 1" },
         { { .n = 1, .degree = 3, .rule = { .points = 2 } }, 1, GVI_E_POINTS, "fewer points than the degree" },
+        { { .n = 1, .degree = 5, .rule = { GVI_OWN, 5, five, three } }, 1, GVI_E_POINTS, "does not see every mode" },
+        { { .n = 1, .degree = 5, .rule = { GVI_OWN, 5, five, faint } }, 1, GVI_E_POINTS, "does not see every mode" },
+        { { .n = 16384, .effects = crowd, .effect_count = 1 }, 1, GVI_E_ARGUMENT, "too large together" },
         { { .n = 1, .effects = reads, .effect_count = 1, .formulation = GVI_POSITIONS }, 1, GVI_E_FORMULATION,
           "pinned formulation" },
         { { .n = 1, .effects = reads, .effect_count = 1, .rule = { GVI_KICKS, 2, ends, half } }, 1, GVI_E_FORMULATION,
@@ -218,8 +229,10 @@ TEST(each_call_that_fails_has_its_sentence)
         back[] = { { .points = spring, .value = spring }, { .kind = GVI_CLOCK, .points = clock_1, .user = &minus } },
         late[] = { { .points = timed, .value = timed }, { .kind = GVI_CLOCK, .points = clock_1, .user = &one } },
         flat[] = { { .points = spring }, { .kind = GVI_CONSTRAINT, .points = without_gradient, .rows = 1 } },
+        slight[] = { { .kind = GVI_LAGRANGIAN, .point = light } },
+        jumpy[] = { { .kind = GVI_LAGRANGIAN, .point = jumps } },
         held[] = { { .points = spring }, { .kind = GVI_CONSTRAINT, .points = wall, .rows = 1, .user = &one_row } };
-    const real q[2] = { 0.5L, 0 }, on[2] = { 1, 0 }, v[2] = { 0, 0 };
+    const real q[2] = { 0.5L, 0 }, on[2] = { 1, 0 }, v[2] = { 0, 0 }, two[2] = { 2, 0 }, most[2] = { MAX, 0 };
     real E;
     gvi_stepper st;
 #define SET_UP(list, count, coordinates, s, ...) do { const gvi_desc d_ = { .n = coordinates, .degree = s, \
@@ -227,8 +240,11 @@ TEST(each_call_that_fails_has_its_sentence)
 #define BEGIN(...) do { SET_UP(__VA_ARGS__); assert_ok(gvi_start(&st, 0, q, v)); } while (0)
     BEGIN(e, 2, 1, 3, .tolerance = 0);
     gvi_step(&st, 1);
-    says(&st, GVI_E_CALLBACK, "an effect (fault.effect) did not return 0");
-    assert_int_equal(st.fault.effect, 1);
+    for (int k = 0; k < 2; ++k) {                          // a query that succeeds does not hide it
+        says(&st, GVI_E_CALLBACK, "an effect (fault.effect) did not return 0");
+        assert_int_equal(st.fault.effect, 1);
+        assert_ok(gvi_velocity(&st, &E));
+    }
     BEGIN(flawed, 1, 1, 3, .formulation = GVI_NEWTON);
     gvi_step(&st, (real)0.25);
     says(&st, GVI_E_CALLBACK, "an effect (fault.effect) did not return 0");
@@ -288,6 +304,24 @@ TEST(each_call_that_fails_has_its_sentence)
     says(&st, GVI_E_CALLBACK, "of the mass did not return 0");
     SET_UP(e, 1, 1, 3, .mass = { .kind = GVI_MASS_POSITION, .points = mass_nan, .gradient = nothing });
     gvi_start(&st, 0, q, v);
+    says(&st, GVI_E_NON_FINITE, "of the mass gave NaN");
+    for (int k = 0; k < 2; ++k) {                          // the first coordinate, be it of q or of v
+        real none[2][2] = { { 0 }, { 0 } };
+        none[k][0] = none[1 - k][1] = (real)NAN;
+        SET_UP(e, 1, 2, 3, .tolerance = 0);
+        gvi_start(&st, 0, none[0], none[1]);
+        says(&st, GVI_E_ARGUMENT, "q, v or p is not finite");
+        assert_int_equal(st.fault.coordinate, 0);
+    }
+    SET_UP(jumpy, 1, 1, 3, .mass = { .kind = GVI_MASS_NONE });
+    if (gvi_start_momentum(&st, 0, q, two) == GVI_OK) gvi_velocity(&st, &E);
+    says(&st, GVI_E_CONVERGENCE, "no velocity found");
+    SET_UP(slight, 1, 1, 3, .mass = { .kind = GVI_MASS_NONE });
+    if (gvi_start_momentum(&st, 0, q, most) == GVI_OK) gvi_velocity(&st, &E);
+    says(&st, GVI_E_CONVERGENCE, "no velocity found");
+    SET_UP(e, 1, 1, 3, .formulation = GVI_MOMENTA, .mass = { .velocity = velocity_nan });
+    assert_ok(gvi_start_momentum(&st, 0, q, on));
+    gvi_step(&st, 1);
     says(&st, GVI_E_NON_FINITE, "of the mass gave NaN");
     SET_UP(e, 1, 1, 3, .mass = { .velocity = massless });
     gvi_start_momentum(&st, 0, q, on);
