@@ -4252,10 +4252,11 @@ GVI__COLD const char *gvi__wrong_in_effect(const struct gvi__private *in, const 
     if (!effect->points && !effect->point) return "effect: points, or point, is missing";
     if (effect->points && effect->point) return "effect: points and point, one is too many";
     if (!holds && effect->rows != 0) return "effect: rows is for constraints";
-    if (holds && (effect->rows < 1 || effect->rows > in->desc.n - in->con.m))
+    if (GVI__CONSTRAINTS && holds && (effect->rows < 1 || effect->rows > in->desc.n - in->con.m))
         return "effect: rows is not 1 to what is left of n";
-    if ((clock || holds) && !effect->points) return "effect: this kind needs points, not point";
-    if (clock && in->clock >= 0) return "effect: a second clock";
+    if (!effect->points && ((GVI__CLOCK && clock) || (GVI__CONSTRAINTS && holds)))
+        return "effect: this kind needs points, not point";
+    if (GVI__CLOCK && clock && in->clock >= 0) return "effect: a second clock";
     return NULL;
 }
 
@@ -4662,7 +4663,7 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     if (!st) return GVI_E_ARGUMENT;
     struct gvi__private *in = &st->in;
     unsigned char *bytes = (unsigned char *)st;
-    static const gvi_real zeros[64] = { 0 };      // to be read after a failure
+    static const gvi_real zeros[GVI__SMALL ? 8 : 64] = { 0 };     // to be read after a failure
     int order = 0;
     for (size_t i = 0; i < sizeof *st; ++i) bytes[i] = 0;
     gvi__report_status(st, GVI_OK);
