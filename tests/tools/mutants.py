@@ -46,7 +46,7 @@ MUTANTS = [
     ("constraints queries", "in->kept = 1 + (in->kept > 0 && !gvi__nonzero(h - st->h));", "in->kept = 2;"),
     ("kicks api", "in->has_force = !gvi__has(in, GVI__ITERATES) && !gvi__nonzero(in->table.c[0])\n", "in->has_force = !gvi__has(in, GVI__ITERATES)\n"),
     ("kicks api", "in->has_force = 0;\n    in->newton.h = 0;", "in->newton.h = 0;"),
-    ("queries", "if (!query) in->newton.h = 0;              // the extrapolation may be to blame", ""),
+    ("jumps", "status = gvi__newton_step(st, from, GVI__HALVED, query);", ""),
     # the clock
     ("clock", "power[k] *= g[k];", ""),
     ("clock domains", "if (push <= limit) return level;", "return level;"),
