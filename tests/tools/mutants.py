@@ -90,7 +90,7 @@ MUTANTS = [
     ("tolerance", "int settled = D*D <= tolerance*last && d->iterations == 0;", "int settled = D*D <= tolerance*last;"),
     ("tolerance api", "if (earlier > 0 && D > GVI__SURE*GVI__SURE*eps2 && D > worst*worst*worst*worst*earlier)", "if (0)"),
     ("why", "in->failed.status = status;\n        in->failed.fault = st->fault;\n        gvi__count", "gvi__count"),
-    ("newton uncoupled", "const int slow = p->used - p->stagnant >= GVI__SLOW;", "const int slow = 1;"),
+    ("jumps", "if (slow && gvi__may_turn(st)) return GVI__DIVERGES;", ""),
     # constraints
     ("loops", "d[k] = drops[i] > 0 ? 0 : 1/rest;", "d[k] = 1/rest;"),
     ("loops constraints", "const int depends = !(GVI_ABS(rest) > least*was);", "const int depends = 0;"),
