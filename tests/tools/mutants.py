@@ -46,7 +46,7 @@ MUTANTS = [
     ("constraints queries", "in->kept = 1 + (in->kept > 0 && !gvi__nonzero(h - st->h));", "in->kept = 2;"),
     ("kicks api", "in->has_force = !gvi__has(in, GVI__ITERATES) && !gvi__nonzero(in->table.c[0])\n", "in->has_force = !gvi__has(in, GVI__ITERATES)\n"),
     ("kicks api", "in->has_force = 0;\n    in->newton.h = 0;", "in->newton.h = 0;"),
-    ("queries", "if (!query) in->newton.h = 0;              // the extrapolation may be to blame", ""),
+    ("jumps", "status = gvi__newton_step(st, from, GVI__HALVED, query);", ""),
     # the clock
     ("clock", "power[k] *= g[k];", ""),
     ("clock domains", "if (push <= limit) return level;", "return level;"),
@@ -90,7 +90,7 @@ MUTANTS = [
     ("tolerance", "int settled = D*D <= tolerance*last && d->iterations == 0;", "int settled = D*D <= tolerance*last;"),
     ("tolerance api", "if (earlier > 0 && D > GVI__SURE*GVI__SURE*eps2 && D > worst*worst*worst*worst*earlier)", "if (0)"),
     ("why", "in->failed.status = status;\n        in->failed.fault = st->fault;\n        gvi__count", "gvi__count"),
-    ("newton uncoupled", "const int slow = p->used - p->stagnant >= GVI__SLOW;", "const int slow = 1;"),
+    ("jumps", "if (slow && gvi__may_turn(st)) return GVI__DIVERGES;", ""),
     # constraints
     ("loops", "d[k] = drops[i] > 0 ? 0 : 1/rest;", "d[k] = 1/rest;"),
     ("loops constraints", "const int depends = !(GVI_ABS(rest) > least*was);", "const int depends = 0;"),
