@@ -47,6 +47,7 @@ row() {  # board, flash, RAM, prefix of the tools, flags
         fits=no                         # 512 bytes of RAM at least are the stack's
         [ "$1" -gt "$flash" ] || [ $(($2 + 512)) -gt "$ram" ] || fits='with the macros'
         [ "$plain" -gt "$flash" ] || [ $((plain_ram + 512)) -gt "$ram" ] || fits=yes
+        [ $f != 1:explicit ] || [ "$fits" != no ] || fail "$board: the explicit formulation does not fit, $1 and $2 bytes"
         echo "| $board | ${f#*:} | $1 | $2 | $plain | $plain_ram | $fits |"
         count=$((count + 1))
     done
