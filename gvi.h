@@ -3583,7 +3583,7 @@ static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, con
             for (int k = 0; k < count; ++k) W[j*S + k] = -(g[k]*inverse);
         }
         if (full) gvi__over_inertia(st, W, S, count);
-        for (int j = from; ; ++j) {
+        for (int j = from; j <= i; ++j) {
             gvi_real *u = A + (j*m + i)*S;
             for (int k = 0; k < count; ++k) u[k] = 0;
             for (int l = gvi__column(st, j, 0); l < n; l = gvi__column(st, j, l + 1))

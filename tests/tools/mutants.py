@@ -58,7 +58,7 @@ MUTANTS = [
     ("api regressions", "gvi_real sum = -1, error = 0;", "gvi_real sum = 0, error = 0;"),
     ("identities order", "if (*order < 2*s - 2) in->facts |= GVI__HAS_GAMMA;", ""),
     ("api", "in->newton.pivot = gvi__take(a, newton*2, N + 1);", "in->newton.pivot = gvi__take(a, newton, N + 1);"),
-    ("why", "if (desc->effects && !desc->effect_count)", "if (0)"),
+    ("why", "if (d->effects && !d->effect_count)", "if (0)"),
     ("api", "in->skip = skip;\n", ""),
     # Newton's method
     ("newton queries", "fv[j*n + i] : 0, 0);", "fv[i*n + j] : 0, 0);"),
