@@ -4,6 +4,8 @@
 #define GVI_STATIC              /* what is not called is not there                    */
 #define GVI_ONLY_VELOCITIES     /* the formulation that the scene needs, see below    */
 #define GVI_EFFECTS 3           /* three rows in effects[]                            */
+#define GVI_NO_RULES            /* Gauss's rule with as many points as degrees        */
+#define GVI_NO_CLOCK
 #include "gvi.h"
 #include <math.h>
 
