@@ -267,23 +267,6 @@ TEST(with_a_clock_the_step_may_pass_the_end)
     assert_close(q[0], at[0], R(1e-4));
 }
 
-/* Far too fast for the step, and heavy: in units of the way times sqrt(m) it is a quarter of EPS of the light one's, or above */
-GVI_EACH(shaken, 2, f) { x->f[1] += *(const real *)user*sin(20*x->t[0]); }
-
-TEST(a_heavy_body_is_judged_by_its_motion)
-{
-    static const real masses[] = { 1, R(1099511627776.) };                          /* 2^40 */
-    for (int degree = 3; degree < 6; ++degree)
-        for (int seen = 0; seen < 2; ++seen) {
-            const real force = ldexp(EPS, seen ? 48 : 18);
-            const gvi_effect e = { .points = shaken, .user = (void *)&force };
-            const gvi_desc desc = { .n = 2, .degree = degree, .effects = &e, .effect_count = 1, .resolution = R(1e-3),
-                                    .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = masses } };
-            gvi_stepper st = new_motion(&desc, 0, (const real[]){ 0, 0 }, (const real[]){ 1, 0 });
-            assert_status(gvi_step(&st, 1), seen ? GVI_E_RESOLUTION : GVI_OK);
-        }
-}
-
 typedef struct { int n; real m[3], k[3], cubic[3], pull, soft, drag, drive; } random_scene;
 
 static void push_of(const random_scene *a, real t, const real *q, const real *v, real *f)

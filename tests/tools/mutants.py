@@ -89,7 +89,7 @@ MUTANTS = [
     ("convergence", "settled = D*other <= tolerance;", ""),
     ("convergence regressions", "alone = p->used == 1 || p->ratio > 1;", "alone = p->used == 1;"),
     ("tolerance api", "if (earlier > 0 && D > GVI__SURE*GVI__SURE*eps2 && D > worst*worst*worst*worst*earlier)", "if (0)"),
-    ("convergence", "in->failed.status = status;\n        in->failed.fault = st->fault;\n        gvi__count", "gvi__count"),
+    ("api no_trace", "in->failed.status = status;\n        in->failed.fault = st->fault;\n        gvi__count", "gvi__count"),
     ("newton uncoupled", "if (slow && gvi__may_turn(st)) return GVI__DIVERGES;", ""),
     # constraints
     ("loops", "d[k] = drops[i] > 0 ? 0 : 1/rest;", "d[k] = 1/rest;"),
@@ -110,7 +110,7 @@ MUTANTS = [
     ("why", "if (set && !huge) slip", "if (0) slip"),
     ("why", "if (first && !others && count > 1)", "if (0)"),
     ("why newton", "if (start == GVI_E_SINGULAR || start == GVI_E_NON_FINITE) return start;", ""),
-    ("loops convergence", "if (status == GVI_E_SINGULAR) status = GVI_E_CONVERGENCE;", ""),
+    ("why newton constraints", "if (status == GVI_E_SINGULAR) status = GVI_E_CONVERGENCE;", ""),
     # quadrature, time, queries
     ("structure regressions", "const gvi__two t = gvi__two_sum(st->t, in->dt + st->t_low);", "const gvi__two t = gvi__two_of(st->t + in->dt, 0);"),
     ("quadrature", "if (!(last > GVI__EPS*x.hi)) break;", "if (!(last > GVI_SQRT(GVI__EPS)*x.hi)) break;"),
