@@ -122,6 +122,10 @@ TEST(singular_means_that_no_h_helps)
             assert_int_equal(st.fault.effect, GVI_FAULT_MASS);
             assert_int_equal(st.fault.coordinate, 1);
         }
+        assert_ok(gvi_start(&st, 0, (real[]){ 0.5, 0 }, (real[]){ -1, 0 }));    /* over the pole, the middle of its points there */
+        assert_status(gvi_step(&st, 1), GVI_E_CONVERGENCE);
+        assert_int_equal(st.fault.coordinate, 1);
+        assert_ok(gvi_step(&st, 0.25));
         assert_ok(gvi_start(&st, 0, (real[]){ 0.5, 0 }, (real[]){ -1, 1 }));
         for (int k = 0; gvi_step(&st, 100) != GVI_OK && k < 1; ++k) assert_status(st.status, GVI_E_CONVERGENCE);
         assert_ok(gvi_step(&st, 0.01));

@@ -131,6 +131,30 @@ TEST(rows_that_contradict_are_named)
     assert_int_equal(gvi_size(&desc), 0);
 }
 
+/* x = 0 and x + c y = 0, at rest, where c is 1 but for the middle: there the rows differ by rounding only */
+GVI_EACH(fading, 2, rows(2))
+{
+    const real c = fabs(x->t[0] - (real)0.5L) < (real)0.25L ? 2*sqrt(EPS) : 1;
+    for (int row = 0; row < 2; ++row) {
+        x->g[row] = x->q[0] + row*c*x->q[1];
+        x->jacobian[2*row] = 1;
+        x->jacobian[2*row + 1] = row*c;
+    }
+}
+
+TEST(a_row_that_depends_in_a_part_of_the_step_is_named)
+{
+    static const gvi_effect e = { .kind = GVI_CONSTRAINT, .points = fading, .rows = 2 };
+    for (int s = 2; s <= 8; ++s) {
+        const gvi_desc desc = { .n = 2, .degree = s, .effects = &e, .effect_count = 1, .formulation = GVI_MOMENTA };
+        gvi_stepper st = new_motion(&desc, 0, (real[]){ 0, 0 }, (real[]){ 0, 0 });
+        assert_status(gvi_step(&st, 1), GVI_E_CONVERGENCE);
+        assert_int_equal(st.fault.effect, 0);
+        assert_int_equal(st.fault.coordinate, 1);
+        assert_ok(gvi_step(&st, (real)0.125L));
+    }
+}
+
 /* Hanging at rest G = (0, y): then a side wind.  The same in a frame turned by 1 rad, where G is full */
 GVI_EACH(wind, 2, f)
 {
