@@ -39,7 +39,7 @@ static inline double bounded_sine(double x, double turns)
 #define EXPORT(name) name
 #endif
 
-enum { ARENA = 1 << 16,                /* numbers that a stepper may use: 512 KB           */
+enum { ARENA = 1 << 17,                /* numbers that a stepper may use: 1 MB             */
        WORLDS = 3 };
 enum { RULE_GAUSS, RULE_GAUSS_MORE, RULE_LOBATTO, RULE_VERLET, RULE_KICKS8, RULES };
 
