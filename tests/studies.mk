@@ -184,9 +184,9 @@ $(BUILD)/cost/kicks $(BUILD)/cost/cost: %: %.o $(addprefix $(BUILD)/cost/,proble
 tolerances: | $(FIRST)
 	$(Q)sh tests/tools/tolerances.sh $(BUILD) $(NAME)
 
-#: mutants      slips put into gvi.h one by one: which of them no test sees (Python; half an hour of one core)
+#: mutants      slips put into gvi.h one by one: which of them no test sees (Python; half an hour of one core); K="23 59": these alone
 mutants: | $(FIRST)
-	$(Q)mkdir -p $(BUILD) && python3 tests/tools/mutants.py $(BUILD)
+	$(Q)mkdir -p $(BUILD) && python3 tests/tools/mutants.py $(BUILD) $(K)
 
 # -- hard cases and theorems, measured
 
