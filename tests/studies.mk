@@ -184,7 +184,7 @@ $(BUILD)/cost/kicks $(BUILD)/cost/cost: %: %.o $(addprefix $(BUILD)/cost/,proble
 tolerances: | $(FIRST)
 	$(Q)sh tests/tools/tolerances.sh $(BUILD) $(NAME)
 
-#: mutants      slips put into gvi.h one by one: which of them no test sees (Python; half an hour of one core); K="23 59": these alone
+#: mutants      slips put into gvi.h one by one: which of them no test sees (Python; twenty minutes of one core); K="23 59": these alone
 mutants: | $(FIRST)
 	$(Q)mkdir -p $(BUILD) && python3 tests/tools/mutants.py $(BUILD) $(K)
 

@@ -4,7 +4,7 @@
 Each entry: the tests that should see it, what stands in gvi.h, once, what stands there instead.  The
 library is compiled anew for each; tests are compiled once.  A mutant that no test sees survives; more than
 two survivors are a failure, and so is a text that does not stand in gvi.h once, which is named and left
-out.  Half an hour of one core; not part of CI.  --texts: looks for the texts alone; K: those numbers alone.
+out.  Twenty minutes of one core; not part of CI.  --texts: looks for the texts alone; K: those numbers alone.
 """
 import os, resource, subprocess, sys
 
