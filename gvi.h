@@ -3758,7 +3758,7 @@ static int gvi__beyond_rounding(gvi_real missed, gvi_real bend, gvi_real size)
 }
 
 GVI__CALLED gvi_status gvi__check_jacobian(gvi_stepper *st, int a, gvi_real missed,
-                                           gvi_real stirred, gvi_real bend, gvi_real size,
+                                           gvi_real changed, gvi_real bend, gvi_real size,
                                            gvi_real terms)
 {
     gvi_real *wrong = st->in.con.doubt, *was = wrong + 1 + 3*a;   // a row or -1; share, size, times
@@ -3767,7 +3767,7 @@ GVI__CALLED gvi_status gvi__check_jacobian(gvi_stepper *st, int a, gvi_real miss
     else was[2] = 1;
     // where g has not changed at all, it was its rounding that hid the move
     if (!(missed > size/GVI__WRONG && missed > 2*bend && missed > GVI__GRAIN*GVI__EPS*terms)
-        || !(stirred*GVI__SURE > size)
+        || !(changed*GVI__SURE > size)
         || (bend > GVI__SOLVED*GVI__EPS*size && !gvi__beyond_rounding(missed, bend, size)))
         was[2] = 0;
     was[0] = share;
@@ -3822,7 +3822,7 @@ static gvi_status gvi__evaluate_at_D(gvi_stepper *st, const gvi__origin *from)
     if (!in->con.settled && gvi__find_columns(st, C, s + 1, in->con.G)) in->con.made = 0;
     in->con.linear = in->con.made > 0;
     for (int a = 0; a < rows; ++a) {
-        gvi_real missed = 0, stirred = 0, bend = 0, all = 0, terms = 0;
+        gvi_real missed = 0, changed = 0, bend = 0, all = 0, terms = 0;
         for (int k = 0; k < s; ++k) {
             gvi_real change = along[a*C + k], size = 0;
             if (!in->con.linear && !looks) break;
@@ -3834,7 +3834,7 @@ static gvi_status gvi__evaluate_at_D(gvi_stepper *st, const gvi__origin *from)
             if (!(GVI_ABS(change) <= GVI__EPS*size)) in->con.linear = 0;
             const gvi_real beyond = in->con.g[a*C + k + 1] - in->con.rho[a*R + k];
             missed += GVI_ABS(beyond + change/2);
-            stirred += GVI_ABS(beyond + along[a*C + k]);
+            changed += GVI_ABS(beyond + along[a*C + k]);
             bend += GVI_ABS(change);
             all += size;
             if (looks)
@@ -3842,7 +3842,7 @@ static gvi_status gvi__evaluate_at_D(gvi_stepper *st, const gvi__origin *from)
                                     in->con.g + m*C + k + 1, a);
         }
         if (looks && status == GVI_OK)
-            status = gvi__check_jacobian(st, a, missed, stirred, bend, all, terms);
+            status = gvi__check_jacobian(st, a, missed, changed, bend, all, terms);
         if (linear && !gvi__doubted(st, a)) {
             gvi__copy((size_t)s, in->con.rho + a*R, in->con.g + a*C + 1);
             in->con.doubt[3*a + 3] = 0;
@@ -4664,7 +4664,8 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
     if (!st) return GVI_E_ARGUMENT;
     struct gvi__private *in = &st->in;
     unsigned char *bytes = (unsigned char *)st;
-    static const gvi_real zeros[GVI__SMALL ? 8 : 64] = { 0 };     // to be read after a failure
+    // to be read after a failure; eight where an int has 16 bits, and RAM is short
+    static const gvi_real zeros[sizeof(int) > 2 ? 64 : 8] = { 0 };
     int order = 0;
     for (size_t i = 0; i < sizeof *st; ++i) bytes[i] = 0;
     gvi__report_status(st, GVI_OK);

@@ -738,6 +738,7 @@ TEST(a_wrong_jacobian_is_named)
         { PENDULUM, 0, 0 }, { PENDULUM, 0, 1 }, { RODS, 0, 0 }, { RODS, 1, 2 }, { RODS, 1, 3 }, { FOUR_BAR, 0, 1 },
         { FOUR_BAR, 1, 0 }, { FOUR_BAR, 1, 2 }, { FOUR_BAR, 2, 3 } };
     const int kinds = KIND == 1 ? 2 : 4;
+    int refused = 0, named = 0;
     for (int k = 0; k < COUNT(entries)*kinds; ++k)
         for (int s = 1; s <= 8; s *= 2)
             for (int newton = 0; newton < 2; ++newton) {
@@ -752,11 +753,15 @@ TEST(a_wrong_jacobian_is_named)
                 assert_status(st.status, k % kinds ? GVI_E_CONVERGENCE : GVI_OK);
                 if (k % kinds == 0) continue;
                 if (steps == 0) assert_memory_equal(st.q, a.q, sizeof(real)*(size_t)a.n);
+                ++refused;
                 if (k % kinds == 1 && !strstr(gvi_why(&st), "jacobian")) continue;
+                ++named;
                 assert_non_null(strstr(gvi_why(&st), "jacobian"));
                 assert_int_equal(st.fault.effect, 1);
                 assert_int_equal(st.fault.coordinate, wrong_row);
             }
+    // the iteration of some flips diverges at once, in float of one in three
+    assert_true(named >= (KIND > 1 ? refused - refused/16 : refused*2/3));
 }
 
 /* A line through the pendulum's start */
@@ -771,8 +776,9 @@ AT_POINTS(line)
 }
 
 /* All of a row times f: each correction misses |1 - f|/f of its move, and lambda/f is the same force.  At 4/512 (in
-   float at 1/2, which leaves four corrections above rounding, but not the eight on a line) it is named.  At 1/2048 the motion is that of f = 1; but on
-   a line RATTLE ends with the second correction, which leaves 2048^-2 of the way h^2/2 that the weight would fall. */
+   float at 1/2, which leaves four corrections above rounding, but not the eight on a line) it is named.  At 1/2048 the
+   motion is that of f = 1; but on a line RATTLE ends with the second correction, which leaves 2048^-2 of the way h^2/2
+   that the weight would fall. */
 TEST(a_row_is_wrong_that_misses_a_512th_of_its_move)
 {
     static const struct { int straight, s, newton; } ways[] = { { 0, 1, 0 }, { 1, 1, 0 }, { 0, 1, 1 }, { 0, 2, 1 } };
