@@ -75,23 +75,30 @@
      HOW IT WORKS         the method on a page, with the notation
      TYPES                effects, mass, rule, description, stepper
      FUNCTIONS            stepper first, then the building blocks
-     -- implementation, to be read as a course --
-     SUPPORT              what is compiled, lanes, double-word arithmetic
+     PART I: THE INTEGRATOR, to be read as a course
+     NUMBERS              lanes, sums, double-word arithmetic
      TOLERANCES           every constant of judgement
-     LINEAR ALGEBRA       dense LU, its condition; L D L' at many points
-     QUADRATURE           Gauss and Lobatto nodes, order of a rule
-     INTERPOLATION        barycentric
-     SCENE                what formulations differ in; effects, mass, Legendre transform
+     BLOCKS               LU and L D L'; Gauss and Lobatto; interpolation
+     PLACES               where the chapters of PART II plug in
+     SCENE                status and fault; effects at points; mass
      TABLES               what depends on rule, degree and h alone; predictor
-     ENGINE               free motion, stages, predictor; clock
-     CONSTRAINTS          multipliers, RATTLE, the hidden constraint, forces
      SET-UP               checks, choice of a formulation, memory
-     NEWTON'S METHOD      where the fixed point does not contract
-     STEP                 in seven parts, from the fixed point to gvi_step; kicks; the dial
-     STATE                start, switch, restore
-     QUERIES              velocity, energy, curve, state at a time, action
+     STEP                 in seven parts, from the stages to gvi_step
+     STATE                start, switch, restore; velocity, energy, curve
+     PART II: CHAPTERS, each by itself, any of which may be left out
+     LAGRANGIAN TERMS     what else depends on v; Legendre transform
+     MOMENTA              M(q), formulation (5)
+     CLOCK                time that runs fast and slow
+     KICKS                Stoermer-Verlet and splittings
+     NEWTON'S METHOD      where no fixed point contracts
+     CONSTRAINTS          multipliers, RATTLE, projection; by Newton's method
+     OWN RULES            other nodes and weights
+     OUTPUT               the state at any time, the action
+     THE DIAL             as accurate as asked for
      BOUNDARY VALUES      discrete Lagrangian, forces, conjugate points
-     TEXTS, LICENCE
+     DIAGNOSIS, SENTENCES which effect was it, and what to do
+     SWITCHBOARD          what happens at each place, in which order
+     LICENCE
 
 
    CONVENTIONS
@@ -139,17 +146,22 @@
      GVI_EFFECTS         [everywhere]  most effects a scene may list: 16, to 32
                                        (files that differ in these two do not link)
 
-   Less code, for small machines (docs/embedded.md), all in [that file]:
+   Less code, for small machines (docs/embedded.md), all in [that file].  Chapters:
 
-     GVI_ONLY_EXPLICIT, GVI_ONLY_POSITIONS, GVI_ONLY_VELOCITIES, GVI_ONLY_MOMENTA,
-     GVI_ONLY_NEWTON      these formulations and no others (see HOW IT WORKS)
-     GVI_NO_CLOCK         no effects of kind GVI_CLOCK
-     GVI_NO_CONSTRAINTS   none of kind GVI_CONSTRAINT; GVI_NO_RULES implies it
-     GVI_NO_RULES         no rule but Gauss with r = s, and those that GVI_EXPLICIT
-                          takes; no Lagrangian terms, no constraints
+     GVI_NO_LAGRANGIAN    effects of kind GVI_LAGRANGIAN       GVI_NO_MOMENTA  M(q), clocks
+     GVI_NO_CLOCK         of kind GVI_CLOCK                    GVI_NO_KICKS    explicit steps
+     GVI_NO_CONSTRAINTS   of kind GVI_CONSTRAINT               GVI_NO_RULES    GVI_OWN
+     GVI_NO_NEWTON        Newton's method, boundary values     GVI_NO_DIAL     gvi_advance
+     GVI_NO_OUTPUT        gvi_state_at, gvi_action, boundary values
+     GVI_NO_BOUNDARY      gvi_discrete_lagrangian, gvi_start_configurations
+     GVI_NO_RESTORE       gvi_restore
+     GVI_NO_EXPLAIN       the search for the effect that is at fault
+     GVI_NO_TEXTS         sentences: gvi_why and the like return ""
+     GVI_CORE             leaves out all of these
+     GVI_ONLY_EXPLICIT    kicks and Stoermer-Verlet alone: no iteration
 
-   A description that needs what was left out is refused: GVI_E_FORMULATION.
-   With GVI_STATIC, functions that are not called vanish as well.
+   A description that needs what was left out is refused: GVI_E_FORMULATION.  A function of it is
+   not there: a call does not link.  With GVI_STATIC, functions that are not called vanish as well.
 
      GVI_SQRT(x) GVI_ABS(x) GVI_FLOOR(x) GVI_LDEXP(x, e) GVI_FREXP(x, &e)
                           given all, in gvi_real: <math.h> is not included
@@ -394,6 +406,36 @@ GVI__MACROS(push_macro)
 #define gvi_lu_rcond GVI__LINKED(gvi_lu_rcond)
 #endif
 
+/* Chapters that are left out, and what needs them.                                            */
+#ifdef GVI_CORE
+#define GVI_NO_RULES
+#define GVI_NO_LAGRANGIAN
+#define GVI_NO_MOMENTA
+#define GVI_NO_KICKS
+#define GVI_NO_NEWTON
+#define GVI_NO_CONSTRAINTS
+#define GVI_NO_OUTPUT
+#define GVI_NO_DIAL
+#define GVI_NO_RESTORE
+#define GVI_NO_EXPLAIN
+#define GVI_NO_TEXTS
+#endif
+#ifdef GVI_ONLY_EXPLICIT
+#undef GVI_NO_KICKS
+#define GVI_NO_RULES
+#define GVI_NO_LAGRANGIAN
+#define GVI_NO_MOMENTA
+#define GVI_NO_NEWTON
+#define GVI_NO_CONSTRAINTS
+#define GVI_NO_DIAL
+#endif
+#if defined(GVI_NO_MOMENTA) && !defined(GVI_NO_CLOCK)
+#define GVI_NO_CLOCK
+#endif
+#if (defined(GVI_NO_NEWTON) || defined(GVI_NO_OUTPUT)) && !defined(GVI_NO_BOUNDARY)
+#define GVI_NO_BOUNDARY
+#endif
+
 // a body whose sizes are constants where it is called, copied there; arrays that do not overlap
 #if defined(__GNUC__)
 #define GVI__BODY static inline __attribute__((always_inline))
@@ -590,7 +632,7 @@ GVI__BODY int gvi__missing(const gvi_points *x, int wanted)
 {
     const gvi_real *const arrays[] = { x->v, x->p, x->f, x->dldv, x->value, x->mass, x->velocity };
     int missing = wanted >= GVI__ROWS && !x->g;
-    for (int k = 0; k < 7; ++k) missing |= (wanted >> k & 1) && !arrays[k];
+    GVI_UNROLL for (int k = 0; k < 7; ++k) missing |= (wanted >> k & 1) && !arrays[k];
     return missing;
 }
 
@@ -753,54 +795,126 @@ typedef struct gvi_counters {
     gvi_real           worst_resolution;  /* largest st.resolution of a step that succeeded */
 } gvi_counters;
 
-/* stage values, [n][R]; kicks: [n]; or NULL */
-struct gvi__values { gvi_real *Q, *F, *V, *P, *A; };
-struct gvi__phase { gvi_real *q, *q_low, *p, *p_low; }; /* [n] each                       */
+/* ---- private: the core's own.  What a chapter needs stands in a struct of its own ---- */
 
-struct gvi__tables {                  /* rule and degree; R = stride of rows        */
-    gvi_real *c, *b;                  /* [R] nodes on their grid, weights           */
-    gvi_real *phi, *Phi, *phi_low;    /* [s][R] modes at the nodes                  */
-    gvi_real *inv_gamma, *gamma;      /* [s] 1/Gamma_kk; LU of Gamma if full        */
-    gvi_real *K, *U, *T, *N;          /* [r][R] see gvi__make_tables                */
-    gvi_real *high;                   /* [r][4] sources to the highest modes, with a limit */
+struct gvi__phase { gvi_real *q, *q_low, *p, *p_low; };     /* [n] each                        */
+struct gvi__values { gvi_real *Q, *F, *V; };                /* stage values, [n][R]            */
+
+struct gvi__tables {                  /* rule and degree; R = stride of rows                   */
+    gvi_real *c, *b;                  /* [R] nodes on their grid, weights                      */
+    gvi_real *phi, *Phi;              /* [s][R] modes at the nodes                             */
+    gvi_real *phi_low, *Phi_low;      /* [s][R] their low words; Phi_low: during set-up alone  */
+    gvi_real *inv_gamma;              /* [s] 1/Gamma_kk                                        */
+    gvi_real *K, *U;                  /* [r][R] see gvi__make_tables                           */
 };
 
-struct gvi__sized {                   /* valid for a step of length h, the key      */
-    gvi_real  h, ratio;               /* h/h_last for which E holds                 */
-    gvi_real *hb, *drift, *E;         /* [R] h b; [r+1] between kicks; [2r][R] predictor */
-    int       steps, sums;            /* what E makes: see gvi__prepare_predictor   */
+struct gvi__sized {                   /* valid for a step of length h, the key                 */
+    gvi_real  h, ratio;               /* h/h_last for which E holds                            */
+    gvi_real *hb, *E;                 /* [R] h b; [2r][R] predictor                            */
+    int       steps, sums;            /* what E makes: see gvi__prepare_predictor              */
 };
 
-struct gvi__time {                    /* clock: at the points, and the state's      */
-    gvi_real *rate, *power, *level, *lagrangian, *slope;
-    gvi_real  H, H_low, dH;           /* energy, compensation, increment            */
+#ifndef GVI_NO_RULES
+struct gvi__rules {
+    gvi_real *gamma;                  /* [s*s + s + 1] LU of a full Gamma, or NULL             */
 };
+#endif
 
-struct gvi__newton {
-    gvi_real *y, *dy, *residual, *last;   /* [s*(n+m)] unknowns, change, rows, before */
-    gvi_real *found, *branch, *guess, *slope;  /* [s*(n+m)] see gvi__newton_connected */
-    gvi_real  bend;                   /* worst contraction on the way to the last solution */
-    gvi_real *J, *pivot;              /* two matrices of s*(n+m): of steps, of queries */
-    gvi_real *hessian, *column, *moved;   /* scratch                                */
-    gvi_real  h;                      /* for which J was made, 0: none              */
-    int       left;                   /* steps until the fixed point is tried       */
+#ifndef GVI_NO_LAGRANGIAN
+struct gvi__lagrangian {
+    gvi_real *A, *last_A, *older_A;   /* [n][R] dL/dv of the effects: stage values             */
+    gvi_real *T, *N;                  /* [r][R] tables of A, for velocities                    */
+    gvi_real *plus;                   /* [2n][R] what A adds to the stages                     */
+    gvi_real *hessian;                /* [n*n + n + 1] d2L/dv2 at one point, with its LU       */
+    gvi_real *column;                 /* [4n] scratch of the Legendre transform                */
 };
+#endif
 
-struct gvi__holonomic {               /* constraints; C = stride of D_0..D_s         */
-    gvi_real *d, *w, *hw, *t;         /* [R + C], [s+1] Lobatto's nodes, weights; [R] h w; [C] */
-    gvi_real *Phi, *Phi_low;          /* [s][R] modes at D_1..D_s                    */
-    gvi_real *K, *U, *by_force, *by_impulse, *lu, *X, *E; /* see gvi__set_constraints; predictor */
-    gvi_real *D, *free, *P;           /* [n][R] stage values, free motion; a trial's momenta */
-    gvi_real *force, *rho, *last;     /* [n+m][R] G' lambda, -lambda; residual; [n+m][C] last */
-    gvi_real *at, *g, *G, *A, *W, *y; /* [.][C] D, g and rate, G, its matrix; scratch; [m] */
-    gvi_real *G1, *A1;                /* [2][m][n], [m][m] at one point                 */
-    gvi_real *column, *first, *drops; /* see gvi__find_columns, gvi__factor_constraints */
-    int       m, C, made, kept, linear; /* rows on; kept: last for the curve, 2 to predict */
-    gvi_real *doubt;                  /* [1+3m] see gvi__check_jacobian                 */
-    gvi_real *unit;                   /* [2][s*m] of multipliers, see gvi__jacobian      */
-    int       settled, again;         /* steps since the start; see gvi__find_columns    */
-    unsigned  bits;                   /* the effects                                 */
+#ifndef GVI_NO_MOMENTA
+struct gvi__momenta {
+    gvi_real *P, *T;                  /* [n][R] stage values; [r][R] table of Q                */
+    gvi_real *ones;                   /* [n] rows of P and Q are over no mass                  */
+    gvi_real *was;                    /* [n] velocities of the iteration before                */
+    gvi_real *mass;                   /* [n*n][R] M(q) at the points, or its factors           */
+    int       has_factor;             /* mass is that of this iteration, factored              */
 };
+#endif
+
+#ifndef GVI_NO_CLOCK
+struct gvi__time {
+    gvi_real *rate, *slope;           /* [R], [n][R] g and dg/dq at the points                 */
+    gvi_real *power, *level;          /* [R] f'v g; H - E                                      */
+    gvi_real *lagrangian, *noise;     /* [R] values of Lagrangian terms; rounding of level     */
+    gvi_real  H, H_low, dH, began;    /* energy, compensation, increment; at the step's start  */
+    int       effect;                 /* that is the clock                                     */
+};
+#endif
+
+#ifndef GVI_NO_KICKS
+struct gvi__kicks {
+    gvi_real *drift;                  /* [r + 1] between the kicks, for a step of length h     */
+    gvi_real  h;
+    int       has_force;              /* last.F ends with the force at (t, q)                  */
+};
+#endif
+
+#ifndef GVI_NO_NEWTON
+struct gvi__newton {                  /* N = s (n + m) unknowns                                */
+    gvi_real *y, *dy, *residual;      /* [N] unknowns, change, rows of (1)                     */
+    gvi_real *last;                   /* [N] y before the change                               */
+    gvi_real *found, *branch;         /* [N] see gvi__newton_connected                         */
+    gvi_real *guess, *slope;          /* [N] the same                                          */
+    gvi_real *P;                      /* [n][R] stage values                                   */
+    gvi_real *J, *pivot;              /* two matrices of N: of steps, of queries               */
+    gvi_real *unit;                   /* [2][s*m] of multipliers, see gvi__jacobian            */
+    gvi_real *hessian;                /* [3 n*n] of one effect at one point                    */
+    gvi_real *moved;                  /* [4n][R] F and P, moved and not                        */
+    gvi_real  bend;                   /* worst contraction on the way to the last solution     */
+    gvi_real  h;                      /* for which J was made, 0: none                         */
+    int       covers;                 /* solves the scene, by itself or where others fail      */
+    int       left, next_left;        /* steps until the fixed point is tried; after this one  */
+};
+#endif
+
+#ifndef GVI_NO_CONSTRAINTS
+struct gvi__holonomic {               /* m rows on; C = stride of D_0..D_s                     */
+    gvi_real *d, *w, *hw;             /* [R + C], [s+1] Lobatto's nodes, weights; [R] h w      */
+    gvi_real *t;                      /* [C] times of D                                        */
+    gvi_real *Phi, *Phi_low;          /* [s][R] modes at D_1..D_s                              */
+    gvi_real *K, *U;                  /* [r][R] of the impulses, to Q and to V or P            */
+    gvi_real *by_force, *by_impulse;  /* [r][R] to D                                           */
+    gvi_real *lu, *X;                 /* K(d_a, d_e), its LU; [s][R] its inverse               */
+    gvi_real *E;                      /* [s][R] predictor                                      */
+    gvi_real *D, *free, *plus;        /* [n][R] stage values, free motion; [2n][R] to stages   */
+    gvi_real *P;                      /* [n][R] momenta of a trial                             */
+    gvi_real *force, *last;           /* [n+m][R] G' lambda, -lambda; [n+m][C] last step's     */
+    gvi_real *rho;                    /* [m][R + C] residual of the multipliers                */
+    gvi_real *at, *g, *G, *A;         /* [.][C] D; g and rate; G; its matrix                   */
+    gvi_real *W, *y;                  /* [n][C] scratch; [m]                                   */
+    gvi_real *G1, *A1;                /* [2][m][n], [m][m] at one point                        */
+    gvi_real *column, *first;         /* [m][n+1], [m] where G is not 0: gvi__find_columns     */
+    gvi_real *drops;                  /* [2][m] rows left out: gvi__factor_constraints         */
+    gvi_real *doubt;                  /* [1+3m] see gvi__check_jacobian                        */
+    int       m, C, made;             /* made: iterations                                      */
+    int       kept;                   /* last is there: for the curve; 2: to predict as well   */
+    int       linear;                 /* g is linearised from the last D                       */
+    int       settled, again;         /* steps since the start; see gvi__find_columns          */
+    unsigned  bits;                   /* the effects                                           */
+};
+#endif
+
+#ifndef GVI_NO_DIAL
+struct gvi__dial {
+    gvi_real *high;                   /* [r][4] sources to the highest modes                   */
+    gvi_real  reach;                  /* rung of the longest step that was allowed last        */
+};
+#endif
+
+#ifndef GVI_NO_EXPLAIN
+struct gvi__explain {
+    int looks, probed;                /* at what every effect returns; callbacks at a start    */
+};
+#endif
 
 struct gvi_stepper;
 struct gvi__stage;
@@ -808,36 +922,72 @@ typedef gvi_real gvi__kernel(const struct gvi_stepper *st, const struct gvi__sta
                              int rescale);
 
 struct gvi__private {
-    gvi_desc            desc;         /* with its defaults filled in                */
-    gvi_formulation     chosen;       /* by the scene, or pinned                    */
-    int                 R, facts;     /* stride of rows; see gvi__has               */
-    int                 clock;        /* effect that is one, or -1                  */
-    unsigned            off, apart;   /* effects switched off, one bit each; clock, constraints */
+    gvi_desc            desc;         /* with its defaults filled in                           */
+    gvi_formulation     chosen;       /* by the scene, or pinned                               */
+    int                 R;            /* stride of rows                                        */
+    int                 stages;       /* of an iteration: Q; Q and V; P and Q; 0: none         */
+    int                 reads_v;      /* an effect does                                        */
+    int                 adds_p;       /* an effect adds to dL/dv                               */
+    int                 turns;        /* where the fixed point fails, another solver follows   */
+    unsigned            parts;        /* chapters at work in this scene: bits GVI__IN_...      */
+    unsigned            off, apart;   /* effects switched off; those that a chapter evaluates  */
     struct gvi__tables  table;
     struct gvi__sized   sized;
-    struct gvi__values  work, last, older;  /* of the next step, the last two        */
-    struct gvi__phase   state, step;  /* now; increments of the step at work        */
-    struct { gvi_real *q, *p, H; } began;                  /* start of the last step */
-    struct { gvi_real *v, *v_low, *path, *path_low, *rows; } free; /* M^-1 p; h times it; stages' */
-    struct { gvi_real *matrix, *factor, *inverse, *at_points, *sums; } mass;
-    struct { gvi_real *scale, *change, *before;   /* [2n] of the rows of stages     */
-             gvi_real ratio, found; } watch;      /* contraction: last step, that at work */
-    struct gvi__time    time;
-    struct gvi__newton  newton;
-    struct gvi__holonomic con;
-    gvi_real           *t;            /* [R] times of the points                    */
-    gvi_real           *row, *point, *result;     /* scratch: [9R], [6n], [3n]           */
-    gvi_real           *zeros, *start;                     /* [n]; start: its velocity */
-    gvi_real            dt;           /* increment of t                             */
-    gvi_real            reach;        /* rung of the longest step that the dial allowed last */
-    gvi_real           *memory;       /* from its first aligned number on           */
-    size_t              size, skip;   /* numbers in use; left out for alignment     */
-    gvi__kernel        *kernel;       /* for n and r                                */
-    struct { gvi_status status; gvi_fault fault; } failed;  /* the last step, if it did  */
-    int started, stepped;             /* stepped: 2 by a clock                      */
-    int kept;                         /* valid steps in last and older, equally long */
-    int has_force, has_velocity;      /* last.F ends with the force at (t, q); last.V holds */
-    int has_factor, diagnose;         /* at_points is factored; look for what is not finite */
+    struct gvi__values  work, last, older;  /* of the next step, the last two                  */
+    struct gvi__phase   state, step;  /* now; increments of the step at work                   */
+    gvi_real            dt;           /* and that of t                                         */
+    struct { gvi_real *q, *p; } began;      /* start of the last step                          */
+    struct {                          /* M^-1 p; h times it; stages'                           */
+        gvi_real *v, *v_low, *path, *path_low, *rows;
+    } free;
+    struct { gvi_real *matrix, *factor, *inverse, *sums; } mass;
+    struct {                          /* changes of the rows of stages, [2n]; contraction      */
+        gvi_real *scale, *change, *before;
+        gvi_real  ratio, found;       /* of the last step, of that at work                     */
+    } watch;
+    gvi_real           *t;            /* [R] times of the points                               */
+    gvi_real           *set_up;       /* [9R] scratch of tables, predictor and curve           */
+    gvi_real           *weighted;     /* [R] sources times weights                             */
+    gvi_real           *point;        /* [6n] one point: q, v, -, -, f, dldv                   */
+    gvi_real           *answer;       /* [3n] what a call returns, until it succeeds           */
+    gvi_real           *zeros;        /* [n]                                                   */
+    gvi_real           *start;        /* [n] velocity of the start                             */
+    gvi_real           *memory;       /* from its first aligned number on                      */
+    size_t              size, skip;   /* numbers in use; left out for alignment                */
+    size_t              cleared;      /* numbers that gvi_init sets to 0: the first            */
+    gvi__kernel        *kernel;       /* for n and r                                           */
+    struct { gvi_status status; gvi_fault fault; } failed;  /* the last step, if it did        */
+    int                 started;
+    int                 stepped;      /* 2: by a clock                                         */
+    int                 kept;         /* valid steps in last and older, equally long           */
+    int                 has_velocity; /* last.V holds                                          */
+#ifndef GVI_NO_RULES
+    struct gvi__rules      rules;
+#endif
+#ifndef GVI_NO_LAGRANGIAN
+    struct gvi__lagrangian lagrangian;
+#endif
+#ifndef GVI_NO_MOMENTA
+    struct gvi__momenta    momenta;
+#endif
+#ifndef GVI_NO_CLOCK
+    struct gvi__time       time;
+#endif
+#ifndef GVI_NO_KICKS
+    struct gvi__kicks      kicks;
+#endif
+#ifndef GVI_NO_NEWTON
+    struct gvi__newton     newton;
+#endif
+#ifndef GVI_NO_CONSTRAINTS
+    struct gvi__holonomic  con;
+#endif
+#ifndef GVI_NO_DIAL
+    struct gvi__dial       dial;
+#endif
+#ifndef GVI_NO_EXPLAIN
+    struct gvi__explain    explain;
+#endif
 };
 
 /* The stepper, to be read; in is private.                                     */
@@ -1060,6 +1210,11 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #pragma clang fp reassociate(off)
 #endif
 
+/* ========================================================================== PART I: THE INTEGRATOR
+
+   For constant mass and effects that read t, q and v.  What a scene uses beyond that are chapters
+   of PART II, which plug in at the PLACES.                                                    */
+
 /* NAMES, their usual meaning in what follows:
 
      st, in        the stepper; its internals, st->in
@@ -1075,7 +1230,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
      z             a right-hand side on the way to a solution
      ..._low       compensation: what rounding took from the name before      */
 
-/* --------------------------------------------------------------- SUPPORT */
+/* --------------------------------------------------------------- NUMBERS */
 
 #include <float.h>
 #include <stdint.h>
@@ -1101,51 +1256,6 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI_LDEXP(x, e)  GVI__MATH(ldexp)(x, e)
 #define GVI_FREXP(x, pe) GVI__MATH(frexp)(x, pe)
 #endif
-
-/* What is compiled.  The formulations as bits, all of them where none is named; what is left out
-   stands behind a constant 0, so that no compiler keeps it.                                  */
-enum {
-    GVI__LISTED = 0
-#ifdef GVI_ONLY_EXPLICIT
-    | 1 << GVI_EXPLICIT
-#endif
-#ifdef GVI_ONLY_POSITIONS
-    | 1 << GVI_POSITIONS
-#endif
-#ifdef GVI_ONLY_VELOCITIES
-    | 1 << GVI_VELOCITIES
-#endif
-#ifdef GVI_ONLY_MOMENTA
-    | 1 << GVI_MOMENTA
-#endif
-#ifdef GVI_ONLY_NEWTON
-    | 1 << GVI_NEWTON
-#endif
-    , GVI__COMPILED = GVI__LISTED ? GVI__LISTED : (2 << GVI_NEWTON) - 2,
-#ifdef GVI_NO_RULES
-    GVI__RULES = 0,
-#else
-    GVI__RULES = 1,
-#endif
-#ifdef GVI_NO_CLOCK
-    GVI__CLOCK = 0,
-#else
-    GVI__CLOCK = GVI__COMPILED >> GVI_MOMENTA & 1,
-#endif
-#ifdef GVI_NO_CONSTRAINTS
-    GVI__CONSTRAINTS = 0,
-#else
-    GVI__CONSTRAINTS = GVI__RULES && GVI__COMPILED != 1 << GVI_NEWTON,
-#endif
-    GVI__EXPLICIT = GVI__COMPILED >> GVI_EXPLICIT & 1,
-    GVI__POSITIONS = GVI__COMPILED >> GVI_POSITIONS & 1,
-    GVI__VELOCITIES = GVI__COMPILED >> GVI_VELOCITIES & 1,
-    GVI__MOMENTA = GVI__COMPILED >> GVI_MOMENTA & 1,
-    GVI__NEWTON = GVI__COMPILED >> GVI_NEWTON & 1,
-    GVI__READS_V = GVI__VELOCITIES | GVI__MOMENTA | GVI__NEWTON,
-    GVI__LAGRANGIAN = GVI__READS_V & GVI__RULES,
-    GVI__VARIES = GVI__MOMENTA | GVI__NEWTON | GVI__LAGRANGIAN
-};
 #if GVI__KIND == 3 && LDBL_MANT_DIG == 106
 #error "gvi.h: long double must be one IEEE number, not two doubles"
 #endif
@@ -1155,13 +1265,16 @@ typedef char gvi__effects_fit_a_word[GVI_EFFECTS >= 1 && GVI_EFFECTS <= 32
 
 /* GVI__APART: where size counts, never a part of its caller, whose stack stays small.
    GVI__CALLED: never a part of its caller, whose registers are for scenes without it.
-   GVI__COLD: set-up and queries, compiled for size.                                          */
+   GVI__COLD: set-up and queries, compiled for size.
+   GVI__OFFERED: to other chapters, which may be left out.                                        */
 #if defined(__GNUC__)
 #define GVI__COLD static __attribute__((noinline, cold))
 #define GVI__CALLED static __attribute__((noinline))
+#define GVI__OFFERED static __attribute__((unused))
 #else
 #define GVI__COLD static
 #define GVI__CALLED static
+#define GVI__OFFERED static
 #endif
 #if defined(__GNUC__) && defined(__OPTIMIZE_SIZE__)
 #define GVI__APART GVI__CALLED
@@ -1234,7 +1347,8 @@ static int gvi__first_non_finite(int n, const gvi_real *x)
             typedef gvi__lane gvi__number;                                                      \
             __VA_ARGS__;                                                                        \
         }                                                                                       \
-        for (; gvi__at < (n); ++gvi__at) {                                                      \
+        for (int gvi__rest = GVI__LANES > 1 ? (n) % GVI__LANES : (n); gvi__rest > 0;            \
+             --gvi__rest, ++gvi__at) {                                                          \
             typedef gvi__rounded gvi__number;                                                   \
             __VA_ARGS__;                                                                        \
         }                                                                                       \
@@ -1416,7 +1530,6 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 #define GVI__FEW_POOR 2                    // iterations that are poor: diverges
 #define GVI__MANY_POOR 4                   // the same while changes are far: a cosine's terms grow
 #define GVI__STAGNANT 4                    // iterations without a new least: rounding
-#define GVI__STILL 3                       // iterations without less noise: that is its level
 #define GVI__NEARER 6                      // halvings, where a domain or Newton's residual wants it
 #define GVI__BY_NEWTON 64                  // steps until the fixed point is tried again
 
@@ -1440,7 +1553,9 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 #define GVI__PULLED 64                     // eps of the motion: rounding of forces of constraint
 #define GVI__DEEP (GVI__DIG/2)             // degree whose modes reach rounding
 
-/* -------------------------------------------------------- LINEAR ALGEBRA */
+/* ---------------------------------------------------------------- BLOCKS */
+
+/* ---- linear algebra ---- */
 
 // pivot[0..n-1]: row scales 1/max_j |a_ij|; pivot[n]: 1-norm of A
 GVI__COLD gvi_status gvi__lu_scales(int n, const gvi_real *a, gvi_real *pivot, int *at)
@@ -1664,54 +1779,7 @@ static void gvi__ldl_solve(int n, const gvi_real *m, int width, gvi_real *z, int
     }
 }
 
-/* The same for whole lanes of points.  Returns whether all pivots D are sure: the squares of
-   (diagonal entry before elimination)/D, and of what rounding leaves of D/D - 1, add up to less
-   than 1/(n eps)^2.  Otherwise gvi__ldl_factor has to decide, from the matrix made anew.     */
-GVI__BODY int gvi__ldl_factor_lane(int n, int R, gvi_real *m)
-{
-    const size_t N = (size_t)n, S = (size_t)R;
-    const gvi_real most = 1/((gvi_real)n*GVI__EPS);
-    gvi__lane sum = { 0 };
-    gvi_real all = 0;
-    for (size_t j = 0; j < N; ++j) {
-        gvi_real *d = m + (j*N + j)*S;
-        gvi__lane rest = GVI__LOAD(d);
-        for (size_t l = 0; l < j; ++l)
-            rest -= GVI__LOAD(m + (j*N + l)*S)*GVI__LOAD(m + (l*N + j)*S);
-        const gvi__lane inverse = 1/rest, loss = GVI__LOAD(d)*inverse, off = rest*inverse - 1;
-        sum += loss*loss + off*off;
-        GVI__STORE(d) = inverse;
-        for (size_t i = j + 1; i < N; ++i) {
-            gvi_real *a = m + (i*N + j)*S;
-            rest = GVI__LOAD(a);
-            for (size_t l = 0; l < j; ++l)
-                rest -= GVI__LOAD(m + (j*N + l)*S)*GVI__LOAD(m + (l*N + i)*S);
-            GVI__STORE(m + (j*N + i)*S) = rest;
-            GVI__STORE(a) = rest*inverse;
-        }
-    }
-    for (int k = 0; k < GVI__LANES; ++k) all += GVI__ENTRY(sum, k);
-    return all < most*most;
-}
-
-// z := M^-1 from, which may be z
-GVI__BODY void gvi__ldl_solve_lane(int n, int R, const gvi_real *m, const gvi_real *from,
-                                   gvi_real *z)
-{
-    const size_t N = (size_t)n, S = (size_t)R;
-    for (size_t i = 0; i < N; ++i) {
-        gvi__lane rest = GVI__LOAD(from + i*S);
-        for (size_t j = 0; j < i; ++j) rest -= GVI__LOAD(m + (i*N + j)*S)*GVI__LOAD(z + j*S);
-        GVI__STORE(z + i*S) = rest;
-    }
-    for (size_t i = N; i-- > 0; ) {
-        gvi__lane rest = GVI__LOAD(z + i*S)*GVI__LOAD(m + (i*N + i)*S);
-        for (size_t j = i + 1; j < N; ++j) rest -= GVI__LOAD(m + (j*N + i)*S)*GVI__LOAD(z + j*S);
-        GVI__STORE(z + i*S) = rest;
-    }
-}
-
-/* ------------------------------------------------------------ QUADRATURE */
+/* ---- quadrature ---- */
 
 /* Legendre polynomials by (k+1) P_(k+1) = (2k+1) x P_k - k P_(k-1), always at x = 1 - 2c for c in
    [0,1]: P_k and P_(k-1) become P_(k+1) and P_k.                                             */
@@ -1845,7 +1913,7 @@ GVI_DEF int gvi_rule_order(int n, const gvi_real *c, const gvi_real *b)
     return 2*n;
 }
 
-/* --------------------------------------------------------- INTERPOLATION */
+/* ---- interpolation ---- */
 
 /* w_j = 1/prod_(k != j) (x_j - x_k), common factors left out.  The product is
    kept as mantissa and exponent: it leaves the range of double at n = 1000.   */
@@ -1953,81 +2021,170 @@ GVI_DEF gvi_real gvi_interpolate_derivative(int n, const gvi_real *x, const gvi_
         if (j != i) value += gvi__slope(n, x, w, t, i, d, sum, j)*(f[j] - f[i]);
     return value;
 }
+/* ---------------------------------------------------------------- PLACES
 
-/* ----------------------------------------------------------------- SCENE */
+   Where the chapters of PART II plug in.  PART I calls these functions, the switchboard at the end
+   of the file asks the chapters.  Within a step they stand behind gvi__parts(in), a bit for each
+   chapter at work in this scene: one that is not compiled leaves nothing, and one that is compiled
+   but not used costs a test.                                                                  */
 
-/* Facts about a scene, found once by gvi_init, as bits: gvi__has(in, fact).  The first five are all
-   that the formulations differ in.                                                            */
+// what an iteration and a step start from
+typedef struct gvi__origin {
+    gvi_real t, t_low;
+    const gvi_real *q, *q_low, *p, *p_low;
+} gvi__origin;
+
+// what is solved: a step, or for a query a part of the last one, from its start or its end
+enum { GVI__STEP, GVI__FROM_START, GVI__FROM_END };
+
+/* The caller's memory: a base, or NULL to count only, and the numbers handed out so far.     */
+typedef struct gvi__arena { gvi_real *base; size_t used; } gvi__arena;
+
 enum {
-    GVI__ITERATES    = 1,         /* has stage values and tables; otherwise kicks and drifts  */
-    GVI__FIXED_POINT = 2,         /* finds the stage values by (3) to (5); Newton's does not  */
-    GVI__BY_FORCES   = 4,         /* has no V: the forces alone make the curve                */
-    GVI__TWO_STAGES  = 8,         /* Q and V by (3) and (4), or P and Q by (5)                */
-    GVI__BY_MOMENTA  = 16,        /* V from P = dL/dv, (5)                                    */
-
-    GVI__OF_EXPLICIT   = GVI__BY_FORCES,
-    GVI__OF_POSITIONS  = GVI__ITERATES | GVI__FIXED_POINT | GVI__BY_FORCES,
-    GVI__OF_VELOCITIES = GVI__ITERATES | GVI__FIXED_POINT | GVI__TWO_STAGES,
-    GVI__OF_MOMENTA    = GVI__ITERATES | GVI__FIXED_POINT | GVI__TWO_STAGES | GVI__BY_MOMENTA,
-    GVI__OF_NEWTON     = GVI__ITERATES,
-
-    GVI__HAS_VELOCITIES = 32,     /* an effect reads v                                        */
-    GVI__HAS_LAGRANGIAN = 64,     /* an effect adds to dL/dv                                  */
-    GVI__HAS_NEWTON     = 128,    /* Newton's method is used, or ready as the fall-back       */
-    GVI__HAS_GAMMA      = 256,    /* Gamma is a full matrix                                   */
-
-    // what is true of a formulation that is compiled; what is false of one
-    GVI__POSSIBLE = GVI__EXPLICIT*GVI__OF_EXPLICIT | GVI__POSITIONS*GVI__OF_POSITIONS
-                  | GVI__VELOCITIES*GVI__OF_VELOCITIES | GVI__MOMENTA*GVI__OF_MOMENTA
-                  | GVI__NEWTON*(GVI__OF_NEWTON | GVI__HAS_NEWTON)
-                  | GVI__LAGRANGIAN*GVI__HAS_LAGRANGIAN
-                  | GVI__RULES*GVI__HAS_GAMMA,
-    GVI__DOUBTFUL = GVI__EXPLICIT*~GVI__OF_EXPLICIT | GVI__POSITIONS*~GVI__OF_POSITIONS
-                  | GVI__VELOCITIES*~GVI__OF_VELOCITIES | GVI__MOMENTA*~GVI__OF_MOMENTA
-                  | GVI__NEWTON*~GVI__OF_NEWTON
+    GVI__IN_RULES = 1,                // Gamma is full
+    GVI__IN_LAGRANGIAN = 2,           // an effect adds to dL/dv
+    GVI__IN_MASS = 4,                 // the mass is not constant
+    GVI__IN_MOMENTA = 8,              // formulation (5)
+    GVI__IN_CLOCK = 16,
+    GVI__IN_KICKS = 32,
+    GVI__IN_NEWTON = 64,              // in place of the fixed point
+    GVI__IN_CONSTRAINTS = 128,
+    GVI__CHAPTERS = 0
+#ifndef GVI_NO_RULES
+    | GVI__IN_RULES
+#endif
+#ifndef GVI_NO_LAGRANGIAN
+    | GVI__IN_LAGRANGIAN
+#endif
+#ifndef GVI_NO_MOMENTA
+    | GVI__IN_MASS | GVI__IN_MOMENTA
+#endif
+#ifndef GVI_NO_CLOCK
+    | GVI__IN_CLOCK
+#endif
+#ifndef GVI_NO_KICKS
+    | GVI__IN_KICKS
+#endif
+#ifndef GVI_NO_NEWTON
+    | GVI__IN_NEWTON
+#endif
+#ifndef GVI_NO_CONSTRAINTS
+    | GVI__IN_CONSTRAINTS
+#endif
 };
 
-// a constant where all formulations that are compiled agree
-GVI__BODY int gvi__has(const struct gvi__private *in, int fact)
-{
-    return (fact & GVI__POSSIBLE & (in->facts | ~GVI__DOUBTFUL)) != 0;
-}
+// a constant 0 where GVI_ONLY_EXPLICIT leaves the iteration out
+#ifdef GVI_ONLY_EXPLICIT
+enum { GVI__ITERATION = 0 };
+#else
+enum { GVI__ITERATION = 1 };
+#endif
+static int gvi__iterates(const struct gvi__private *in) { return GVI__ITERATION && in->stages > 0; }
 
-GVI__BODY int gvi__mass_is(const struct gvi__private *in, gvi_mass_kind kind)
-{
-    if (kind == GVI_MASS_NONE && !GVI__LAGRANGIAN) return 0;
-    if (kind == GVI_MASS_POSITION && !GVI__VARIES) return 0;
-    return in->desc.mass.kind == kind;
-}
+// a constant 0 where no chapter is compiled
+GVI__BODY unsigned gvi__parts(const struct gvi__private *in) { return GVI__CHAPTERS & in->parts; }
 
-GVI__BODY int gvi__mass_is_constant(const struct gvi__private *in)
-{
-    return GVI__VARIES == 0 || in->desc.mass.kind <= GVI_MASS_DENSE;
-}
+struct gvi__progress;
 
-GVI__BODY int gvi__rule_is(const struct gvi__private *in, gvi_rule_kind kind)
-{
-    return (kind != GVI_OWN || GVI__RULES > 0) && (kind != GVI_KICKS || GVI__EXPLICIT > 0)
-           && in->desc.rule.kind == kind;
-}
+/* Set-up, in this order: an effect or a mass that PART I does not know, 1 if a chapter does, *wrong
+   what is missing; a rule that is not Gauss's or Lobatto's; may formulation f solve the scene?
+   What else may; or which effect none can.  Memory; nodes, 1 if they are made; what the modes need
+   before the tables, and behind them.                                                         */
+static int gvi__place_effect(struct gvi__private *in, int e, const char **wrong);
+static int gvi__place_mass(struct gvi__private *in, const char **wrong);
+static gvi_status gvi__place_rule(struct gvi__private *in, int *order, gvi_fault *fault);
+static int gvi__place_covers(struct gvi__private *in, gvi_formulation f);
+static gvi_status gvi__place_chosen(struct gvi__private *in, int order, gvi_fault *fault);
+static void gvi__place_unsolved(const struct gvi__private *in, gvi_fault *fault);
+static void gvi__place_layout(struct gvi__private *in, gvi__arena *a);
+static int gvi__place_nodes(gvi_stepper *st);
+static gvi_status gvi__place_modes(gvi_stepper *st);
+static gvi_status gvi__place_tables(gvi_stepper *st);
 
-// does M^-1 couple all coordinates?
-static int gvi__full_mass(const struct gvi__private *in)
-{
-    return in->desc.mass.kind == GVI_MASS_DENSE || !gvi__mass_is_constant(in)
-           || gvi__has(in, GVI__HAS_LAGRANGIAN);
-}
+/* Start, from q and p in in->step with velocity v, before they are taken.  A switch of effects from
+   `was`, which it restores if it fails.                                                       */
+static gvi_status gvi__place_start(gvi_stepper *st, gvi_real t, gvi_real *v);
+static void gvi__place_started(gvi_stepper *st);
+static gvi_status gvi__place_switch(gvi_stepper *st, unsigned was);
 
-// is a constraint on?
-GVI__BODY int gvi__constrained(const gvi_stepper *st)
-{
-    return GVI__CONSTRAINTS && st->in.con.m > 0;
-}
+/* Mass.  v from p, v a guess on entry; F and P of the kinetic energy at points; M_ii, for the noise
+   of the verdict; y := Gamma^-1 y, 1 if Gamma is full.                                        */
+static gvi_status gvi__place_velocity(gvi_stepper *st, gvi_real t, const gvi_real *q,
+                                      const gvi_real *p, gvi_real *v);
+static gvi_status gvi__place_kinetic(gvi_stepper *st, gvi_points *at);
+static gvi_real gvi__place_inertia(const gvi_stepper *st, int i);
+static int gvi__place_gamma(const gvi_stepper *st, gvi_real *y);
 
-static int gvi__clock_is_on(const gvi_stepper *st)
-{
-    return GVI__CLOCK && st->in.clock >= 0 && !(st->in.off >> st->in.clock & 1u);
-}
+/* Solve: in place of the fixed point, 1 if *status is the result; or where that has failed.   */
+static int gvi__place_solve(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query,
+                            gvi_status *status);
+static gvi_status gvi__place_turn(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query,
+                                  gvi_status status);
+
+/* In the fixed point.  1) stages; 2) tables of the predictor, at alpha + beta c; sources;
+   3) before, between and behind new rows, `between` adds a change; 4) F in place of the effects;
+   5) a verdict or GVI__GO_ON, and how long no new least is chance; a move of coordinate i that is
+   rounding.                                                                                   */
+static void gvi__place_stages(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                              struct gvi__stage *stage);
+static void gvi__place_predictor(gvi_stepper *st, gvi_real alpha, gvi_real beta);
+static gvi_status gvi__place_predict(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                                     int extrapolate);
+static void gvi__place_before_rows(gvi_stepper *st, const struct gvi__stage *stage);
+static gvi_real gvi__place_between(gvi_stepper *st);
+static void gvi__place_behind_rows(gvi_stepper *st, const struct gvi__stage *stage, gvi_real sum);
+static gvi_status gvi__place_evaluate(gvi_stepper *st, const gvi__origin *from, gvi_points *at);
+static void gvi__place_last(gvi_stepper *st, const gvi__origin *from,
+                            const struct gvi__stage *stage);
+static int gvi__place_judge(gvi_stepper *st, const struct gvi__progress *p, gvi_real D,
+                            int *patience);
+static gvi_real gvi__place_push(const gvi_stepper *st, gvi_real h, int i, gvi_real m);
+
+/* 6) Increments, 1 if dq is made; sum_j (1 - c_j) h b_j F_j and what else bends coordinate i; the
+   end of a step or partial step, by any solver.  7) Once more?  Is the step accepted?  Commit; it
+   failed; values of steps.                                                                    */
+static int gvi__place_increments(gvi_stepper *st, const gvi__origin *from);
+static gvi_real gvi__place_bow(const gvi_stepper *st, int i);
+static gvi_status gvi__place_finish(gvi_stepper *st, const gvi__origin *from);
+static gvi_status gvi__place_again(gvi_stepper *st, gvi_status status, int *again);
+static gvi_status gvi__place_accept(gvi_stepper *st);
+static void gvi__place_commit(gvi_stepper *st, gvi_real h);
+static void gvi__place_failed(gvi_stepper *st);
+static void gvi__place_rotate(gvi_stepper *st);
+
+/* The last step's curve: 1 if it is made here, what else bends it, and its v.                 */
+static int gvi__place_line(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v);
+static void gvi__place_held(const gvi_stepper *st, gvi_real tau, const gvi_real *phi,
+                            const gvi_real *Phi, gvi_real *q, gvi_real *v);
+static gvi_status gvi__place_curve(gvi_stepper *st, const gvi_real *q, gvi_real *v);
+
+// a clock changes what others do, too
+#ifndef GVI_NO_CLOCK
+static int gvi__clock_is_on(const gvi_stepper *st);
+static void gvi__clock_velocities(const gvi_stepper *st);
+#else
+#define gvi__clock_is_on(st) 0
+#define gvi__clock_velocities(st) ((void)0)
+#endif
+
+#ifndef GVI_NO_EXPLAIN
+// a step or its points that came to NaN or Inf, or failed; callbacks at a first start
+static gvi_status gvi__explain_failure(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                                       int query, gvi_status status);
+static gvi_status gvi__explain_effects(gvi_stepper *st, gvi_points *at, unsigned skip,
+                                       gvi_real *const *value);
+static gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v);
+#define GVI__LOOKS(st) ((st)->in.explain.looks)
+#define GVI__LOOK(st, on) ((st)->in.explain.looks = (on))
+#else
+#define gvi__explain_failure(st, from, h, query, status) (status)
+#define gvi__explain_effects(st, at, skip, value) GVI_OK
+#define gvi__probe(st, t, q, v) GVI_OK
+#define GVI__LOOKS(st) 0
+#define GVI__LOOK(st, on) ((void)0)
+#endif
+
+/* ----------------------------------------------------------------- SCENE */
 
 /* Status and fault of a call.  gvi__report_effect: an effect or the mass is at fault, but no
    one coordinate or point; gvi__report_status: none of them.                                  */
@@ -2045,14 +2202,6 @@ static gvi_status gvi__refuse(gvi_fault *fault, int effect, int coordinate, cons
     const gvi_fault found = { effect, coordinate, GVI_FAULT_NONE, argument };
     *fault = found;
     return GVI_E_ARGUMENT;
-}
-
-// constraints are there, on or off, and cannot be: the fault is the first of them
-GVI__COLD gvi_status gvi__refuse_constraints(gvi_stepper *st)
-{
-    int e = 0;
-    while (!(st->in.con.bits >> e & 1u)) ++e;
-    return gvi__report(st, GVI_E_FORMULATION, e, 0, GVI_FAULT_NONE);
 }
 
 GVI__APART gvi_status gvi__report_effect(gvi_stepper *st, gvi_status status, int effect)
@@ -2191,8 +2340,8 @@ GVI__BODY gvi_status gvi__effect(gvi_stepper *st, gvi_points *at, int e, gvi_rea
     gvi_real *dldv = at->dldv;
     const int both = value && effect->points && effect->value == effect->points;
     int failed;
-    if (!GVI__READS_V || effect->kind == GVI_POTENTIAL) at->v = NULL;
-    if (!GVI__LAGRANGIAN || effect->kind != GVI_LAGRANGIAN) at->dldv = NULL;
+    if (effect->kind == GVI_POTENTIAL) at->v = NULL;
+    if (effect->kind != GVI_LAGRANGIAN) at->dldv = NULL;
     if (both) at->value = value;
     gvi__count(&st->counters.effect[e], at->count);
     if (effect->points) failed = effect->points(at, effect->user);
@@ -2206,120 +2355,27 @@ GVI__BODY gvi_status gvi__effect(gvi_stepper *st, gvi_points *at, int e, gvi_rea
     return gvi__value(st, at, e, value);
 }
 
-// what an effect, no force, adds its value to, with a clock, which needs V (level) and L; else NULL
-static gvi_real *gvi__value_row(const gvi_stepper *st, int e, gvi_real *level)
+/* Every effect that is on, but those with a bit in `skip` or that a chapter evaluates itself: adds
+   to at->f and at->dldv, and its value to value[kind], if there is one.                       */
+GVI__BODY gvi_status gvi__each_effect(gvi_stepper *st, gvi_points *at, unsigned skip,
+                                      gvi_real *const *value)
 {
-    if (level && st->in.desc.effects[e].kind == GVI_LAGRANGIAN) return st->in.time.lagrangian;
-    return level;
-}
-
-// in the repetition of a step that came to NaN or Inf: each effect alone, which gave it?
-GVI__COLD gvi_status gvi__diagnose(gvi_stepper *st, gvi_points *at, unsigned skip, gvi_real *level)
-{
-    const size_t length = (size_t)at->n*(size_t)at->stride;
-    for (int e = 0; e < st->in.desc.effect_count; ++e) {
-        gvi_real *value = gvi__value_row(st, e, level);
-        if (skip >> e & 1u) continue;
-        gvi__zero(length, at->f);
-        if (at->dldv) gvi__zero(length, at->dldv);
-        if (value) gvi__zero((size_t)at->stride, value);
-        gvi_status status = gvi__effect(st, at, e, value);
-        // to look at it is no step's work
-        st->counters.effect[e] -= (unsigned long long)at->count;
-        if (status == GVI_OK) status = gvi__check_rows(st, at, at->f, e);
-        if (status == GVI_OK) status = gvi__check_rows(st, at, at->dldv, e);
-        if (status != GVI_OK) return status;
-        if (!value) continue;
-        const int k = gvi__first_non_finite(at->count, value);
-        if (k >= 0) return gvi__report(st, GVI_E_NON_FINITE, e, GVI_FAULT_NONE, k);
-    }
-    return gvi__report_status(st, GVI_E_NON_FINITE);
-}
-
-/* Every effect that is on, but clock, constraints and those with a bit in `skip`: adds to at->f and
-   at->dldv, and with a level (a clock) to the values.                                          */
-static gvi_status gvi__effects(gvi_stepper *st, gvi_points *at, unsigned skip, gvi_real *level)
-{
-    const int diagnose = st->in.diagnose;
+    const int count = st->in.desc.effect_count;
     skip |= st->in.off | st->in.apart;
-
-    // points that are not finite: the iteration has diverged, and no effect is to blame
-    if (diagnose
-        && (gvi__check_rows(st, at, at->q, 0) != GVI_OK
-            || gvi__check_rows(st, at, at->v, 0) != GVI_OK))
-        return gvi__report_status(st, GVI_E_CONVERGENCE);
-    for (int e = 0; e < st->in.desc.effect_count; ++e) {
+    for (int e = 0; e < count; ++e) {
         if (skip >> e & 1u) continue;
-        const gvi_status status = gvi__effect(st, at, e, gvi__value_row(st, e, level));
+        gvi_real *V = value ? value[st->in.desc.effects[e].kind] : NULL;
+        const gvi_status status = gvi__effect(st, at, e, V);
         if (status != GVI_OK) return status;
     }
-    if (!diagnose) return GVI_OK;
-    const int finite = gvi__check_rows(st, at, at->f, 0) == GVI_OK
-                       && gvi__check_rows(st, at, at->dldv, 0) == GVI_OK
-                       && (!level
-                           || (gvi__first_non_finite(at->count, level) < 0
-                               && gvi__first_non_finite(at->count, st->in.time.lagrangian) < 0));
-    if (finite) return gvi__report_status(st, GVI_OK);
-    return gvi__diagnose(st, at, skip, level);
-}
-
-/* Evaluates mass.points, or with `v` mass.velocity, which reads p.                           */
-static gvi_status gvi__evaluate_mass(gvi_stepper *st, const gvi_points *x, const gvi_real *p,
-                                     gvi_real *v)
-{
-    const gvi_mass *mass = &st->in.desc.mass;
-    gvi_points at = gvi__points_at(st, x->count, x->stride, x->t, x->q, NULL, NULL);
-    gvi_points_fn *callback = mass->velocity;
-    at.p = p;
-    at.velocity = v;
-    if (!v) {
-        at.mass = st->in.mass.at_points;
-        callback = mass->points;
-        gvi__zero((size_t)(x->n*x->n)*(size_t)x->stride, at.mass);
-    }
-    gvi__count(&st->counters.mass, x->count);
-    const int failed = callback(&at, mass->user);
-    if (failed) return gvi__report_callback(st, failed, GVI_FAULT_MASS);
     return GVI_OK;
 }
 
-/* M(q) at the points, factored.  In whole lanes, with the first point behind the last, unless a
-   pivot is doubtful: then once more, one by one.                                              */
-static gvi_status gvi__factor_mass(gvi_stepper *st, const gvi_points *x)
+static gvi_status gvi__effects(gvi_stepper *st, gvi_points *at, unsigned skip,
+                               gvi_real *const *value)
 {
-    const int n = st->n, R = x->stride;
-    gvi_real *m = st->in.mass.at_points;
-    gvi_status status = gvi__evaluate_mass(st, x, NULL, NULL);
-    if (status != GVI_OK) return status;
-    gvi__count(&st->counters.factorizations, x->count);
-    if (GVI__LANES > 1 && R % 8 == 0) {
-        int sure = 1;
-        for (size_t i = 0, S = (size_t)R; i < (size_t)n*(size_t)n; ++i)
-            for (size_t k = (size_t)x->count; k < S; ++k) m[i*S + k] = m[i*S];
-        for (int o = 0; o < R; o += GVI__LANES)
-            if (n == 2) sure &= gvi__ldl_factor_lane(2, R, m + o);
-            else sure &= gvi__ldl_factor_lane(n, R, m + o);
-        if (sure) return GVI_OK;
-        status = gvi__evaluate_mass(st, x, NULL, NULL);
-        st->counters.mass -= (unsigned long long)x->count;
-        if (status != GVI_OK) return status;
-    }
-    int at[2] = { 0, 0 };
-    status = gvi__ldl_factor(n, R, x->count, m, at);
-    if (status == GVI_OK) return GVI_OK;
-    return gvi__report(st, status, GVI_FAULT_MASS, at[0], at[1]);
-}
-
-// x->f += v' dM/dq v / 2
-static gvi_status gvi__mass_gradient(gvi_stepper *st, const gvi_points *x)
-{
-    const gvi_mass *mass = &st->in.desc.mass;
-    gvi_points at = *x;
-    at.dldv = NULL;
-    const int failed = mass->gradient(&at, mass->user);
-    if (failed) return gvi__report_callback(st, failed, GVI_FAULT_MASS);
-    if (!st->in.diagnose) return GVI_OK;
-    return gvi__check_rows(st, x, x->f, GVI_FAULT_MASS);
+    if (GVI__LOOKS(st)) return gvi__explain_effects(st, at, skip, value);
+    return gvi__each_effect(st, at, skip, value);
 }
 
 // where entry (i,j) of a symmetric matrix stands, of which only i >= j is there
@@ -2352,16 +2408,12 @@ static gvi_status gvi__evaluate(gvi_stepper *st, gvi_points *at, unsigned skip, 
     gvi_status status = GVI_OK;
     gvi__zero(length, at->f);
     gvi__zero(length, at->dldv);
-    if (!kinetic || gvi__mass_is(in, GVI_MASS_NONE)) return gvi__effects(st, at, skip, NULL);
-    if (gvi__mass_is(in, GVI_MASS_POSITION)) {
-        status = gvi__evaluate_mass(st, at, NULL, NULL);
-        if (status == GVI_OK) status = gvi__mass_gradient(st, at);
-        if (status == GVI_OK) gvi__add_momenta(at, in->mass.at_points, at->stride);
-    } else gvi__add_momenta(at, in->mass.matrix, in->desc.mass.kind == GVI_MASS_DENSE);
-    if (status == GVI_OK && in->diagnose)
+    if (kinetic && in->desc.mass.kind > GVI_MASS_DENSE) status = gvi__place_kinetic(st, at);
+    else if (kinetic)
+        gvi__add_momenta(at, in->mass.matrix, in->desc.mass.kind == GVI_MASS_DENSE);
+    if (status == GVI_OK && kinetic && GVI__LOOKS(st))
         status = gvi__check_rows(st, at, at->dldv, GVI_FAULT_MASS);
-    if (status != GVI_OK) return status;
-    return gvi__effects(st, at, skip, NULL);
+    return status == GVI_OK ? gvi__effects(st, at, skip, NULL) : status;
 }
 
 // rows z [n][R] := M^-1 z, M constant
@@ -2375,6 +2427,1675 @@ static void gvi__over_mass(const gvi_stepper *st, gvi_real *z, int R, int count)
         for (int k = 0; k < count; ++k) z[i*R + k] *= in->mass.inverse[i];
 }
 
+// a velocity near the present one: that at the end of the last step, or of the start
+static void gvi__velocity_guess(const gvi_stepper *st, gvi_real *v)
+{
+    const struct gvi__private *in = &st->in;
+    if (in->has_velocity) gvi__gather(st->n, in->R, in->last.V + st->r - 1, v);
+    else gvi__copy((size_t)st->n, in->start, v);
+}
+
+// v from p at one point; v holds a guess on entry
+static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *p,
+                                gvi_real *v)
+{
+    (void)t, (void)q;
+    if (gvi__parts(&st->in)) return gvi__place_velocity(st, t, q, p, v);
+    gvi__copy((size_t)st->n, p, v);
+    gvi__over_mass(st, v, 1, 1);
+    return GVI_OK;
+}
+
+/* At one point: V and L, the sums of the potentials and of the Lagrangian terms, and the kinetic
+   energy T = v'Mv/2.  Forces have no value.                                                  */
+GVI__COLD gvi_status gvi__value_sums(gvi_stepper *st, gvi_real t, const gvi_real *q,
+                                     const gvi_real *v, gvi_real *V, gvi_real *L, gvi_real *T)
+{
+    const gvi_desc *d = &st->in.desc;
+    gvi_points at = gvi__one_point(st, &t, q);
+    at.v = v;
+    *V = *L = *T = 0;
+    for (int e = 0; e < d->effect_count; ++e) {
+        const gvi_kind kind = d->effects[e].kind;
+        gvi_real *value = L;
+        if (kind == GVI_POTENTIAL) value = V;
+        if (((st->in.off | st->in.apart) >> e & 1u) || kind == GVI_FORCE) continue;
+        const gvi_status status = gvi__value(st, &at, e, value);
+        if (status != GVI_OK) return status;
+        if (!gvi__finite(*value)) return gvi__report_effect(st, GVI_E_NON_FINITE, e);
+    }
+    const gvi_status status = gvi__evaluate(st, &at, ~0u, 1);
+    *T = gvi__dot(st->n, at.dldv, v)/2;
+    return status;
+}
+
+/* H = p'v - L, v being a guess on entry and the velocity on return.  Without Lagrangian terms the
+   kinetic energy is p'v/2.                                                                   */
+GVI__COLD gvi_status gvi__hamiltonian(gvi_stepper *st, gvi_real t, const gvi_real *q,
+                                      const gvi_real *p, gvi_real *v, gvi_real *energy)
+{
+    gvi_real V, L, T;
+    gvi_status status = gvi__velocity(st, t, q, p, v);
+    if (status == GVI_OK) status = gvi__value_sums(st, t, q, v, &V, &L, &T);
+    if (status != GVI_OK) return status;
+    const gvi_real pv = gvi__dot(st->n, p, v);
+    *energy = pv/2 + V;
+    if (st->in.adds_p) *energy = (pv - T) - L + V;
+    return GVI_OK;
+}
+
+/* ---------------------------------------------------------------- TABLES */
+
+/* phi_k = P_k(x) and Phi_k = (P_(k-1) - P_(k+1))(x)/(2(2k+1)), P_(-1) = 1, at the nodes, x = 1
+   - 2c, in double-word arithmetic: [k*R + node].  Then the nodes go to the grid of S.         */
+GVI__COLD void gvi__modes_of(const gvi_stepper *st, int count, gvi_real *c, const gvi_real *c_low,
+                             gvi_real *phi, gvi_real *phi_low, gvi_real *Phi, gvi_real *Phi_low)
+{
+    for (int i = 0; i < count; ++i) {
+        const gvi__two X = gvi__argument2(gvi__two_of(c[i], c_low[i]));
+        gvi__two P = gvi__two_of(1, 0), before = P;
+        for (int k = 0, at = i; k < st->s; ++k, at += st->in.R) {
+            gvi__two z = before;
+            if (phi) {
+                phi[at] = P.hi;
+                phi_low[at] = P.lo;
+            }
+            gvi__legendre2(k, X, &P, &before);
+            z = gvi__div2_by(gvi__sub2(z, P), 4*k + 2);
+            Phi[at] = z.hi;
+            Phi_low[at] = z.lo;
+        }
+        c[i] = gvi__grid(gvi__two_sum(c[i], c_low[i]), GVI__EPS/2);
+    }
+}
+
+// y := Gamma^-1 y
+static void gvi__over_gamma(const gvi_stepper *st, gvi_real *y)
+{
+    if (gvi__parts(&st->in) && gvi__place_gamma(st, y)) return;
+    for (int k = 0; k < st->s; ++k) y[k] *= st->in.table.inv_gamma[k];
+}
+
+// w := Gamma^-1 b(c_j) as double words, low words s further, for gvi__coupling
+GVI__COLD void gvi__prepare_column(gvi_stepper *st, const gvi_real *b, const gvi_real *low, int j)
+{
+    const int s = st->s, R = st->in.R;
+    gvi_real *w = st->in.set_up;
+    gvi__zero((size_t)s, w + s);
+    for (int k = 0; k < s; ++k) w[k] = b[k*R + j];
+    if (gvi__parts(&st->in) && gvi__place_gamma(st, w)) return;
+    for (int k = 0; k < s; ++k) {
+        const gvi__two z = gvi__scale2(st->in.table.inv_gamma[k], gvi__two_of(w[k], low[k*R + j]));
+        w[k] = z.hi;
+        w[s + k] = z.lo;
+    }
+}
+
+// sum_k a_k(c_i) w_k; a: phi or Phi.  Products do not wait for the sum
+GVI__COLD gvi__two gvi__coupling(const gvi_stepper *st, const gvi_real *a, const gvi_real *low,
+                                 int i)
+{
+    const gvi_real *w = st->in.set_up;
+    gvi__two sum = gvi__two_of(0, 0);
+    for (int k = 0, at = i; k < st->s; ++k, at += st->in.R) {
+        const gvi__two z = gvi__mul2(gvi__two_of(a[at], low[at]), gvi__two_of(w[k], w[st->s + k]));
+        sum = gvi__add_low(sum.hi, sum.lo, z.hi, z.lo);
+    }
+    return gvi__two_sum(sum.hi, sum.lo);
+}
+
+// S_ij and T_ij of the column that was prepared last, on their grids
+GVI__COLD gvi_real gvi__S(const gvi_stepper *st, const gvi_real *Phi, const gvi_real *low, int i)
+{
+    return gvi__grid(gvi__coupling(st, Phi, low, i), GVI__EPS/2);
+}
+
+GVI__COLD gvi_real gvi__T(const gvi_stepper *st, int i)
+{
+    return gvi__grid(gvi__coupling(st, st->in.table.phi, st->in.table.phi_low, i), GVI__EPS);
+}
+
+/* S and T on grids of eps/2 and eps (|S| <= 1, |T| < 2): what they must fulfil for the step to
+   be symplectic then holds exactly in the rounded numbers, S_ij = S_ji, and for Gauss with r =
+   s T_ij + T_ji = 1.  Stored by columns, [j*R + i]: K = c_i - S_ij, U = 1 - T_ij.            */
+GVI__COLD void gvi__make_tables(gvi_stepper *st)
+{
+    const struct gvi__tables *table = &st->in.table;
+    const gvi_real *Phi_low = table->Phi_low;
+    const int r = st->r, R = st->in.R, gauss = st->in.desc.rule.kind == GVI_GAUSS && r == st->s;
+    for (int j = 0; j < r; ++j) {
+        gvi__prepare_column(st, table->Phi, Phi_low, j);
+        for (int i = 0; i <= j; ++i) {
+            const gvi_real S = gvi__S(st, table->Phi, Phi_low, i);
+            table->K[j*R + i] = table->c[i] - S;
+            table->K[i*R + j] = table->c[j] - S;
+        }
+        if (!table->U) continue;
+        for (int i = 0; i < (gauss ? j + 1 : r); ++i) {           // the others by T_ij + T_ji = 1
+            gvi_real T = (gvi_real)0.5;
+            if (!gauss || i != j) T = gvi__T(st, i);
+            table->U[j*R + i] = 1 - T;
+            if (gauss) table->U[i*R + j] = T;
+        }
+    }
+}
+
+// phi_k(tau) and Phi_k(tau), k < s, multiplied by Gamma^-1, at any tau
+static void gvi__modes(const gvi_stepper *st, gvi_real tau, gvi_real *phi, gvi_real *Phi)
+{
+    gvi_real P = 1, before = 1;
+    for (int k = 0; k < st->s; ++k) {
+        const gvi_real last = before;
+        phi[k] = P;
+        gvi__legendre(k, 1 - 2*tau, &P, &before);
+        Phi[k] = (last - P)/(gvi_real)(4*k + 2);
+    }
+    gvi__over_gamma(st, phi);
+    gvi__over_gamma(st, Phi);
+}
+
+/* What a step of length h needs, if it is not there already: weights h b_j whose sum is h exactly.
+   They are rounded to multiples of ulp(h); what is left over goes to the largest weight and its
+   mirror image.                                                                               */
+static void gvi__weights_for(gvi_stepper *st, gvi_real h)
+{
+    struct gvi__sized *sized = &st->in.sized;
+    const gvi_real *b = st->in.table.b;
+    const int r = st->r;
+    int e, most = 0;
+    if (!gvi__nonzero(sized->h - h)) return;
+    sized->h = h;
+    sized->ratio = 0;                                  // E may hold sums with the old weights
+
+    const gvi_real mantissa = GVI_FREXP(h, &e);
+    gvi_real rest = mantissa;
+    for (int j = 0; j < r; ++j) {
+        sized->hb[j] = gvi__grid(gvi__two_prod(b[j], mantissa), GVI__EPS/2);
+        rest -= sized->hb[j];
+        if (b[j] > b[most]) most = j;
+    }
+    const int mirror = r - 1 - most;
+    if (mirror == most || gvi__nonzero(b[mirror] - b[most])) sized->hb[most] += rest;
+    else {
+        sized->hb[most] += rest/2;
+        sized->hb[mirror] += rest/2;
+    }
+    for (int j = 0; j < r; ++j) sized->hb[j] = GVI_LDEXP(sized->hb[j], e);
+}
+
+/* The predictor: least squares through the stage values of the last step or the last two, by
+   polynomials p_k that are orthonormal on the nodes x_j = c, and c - 1 for the step before
+   (Forsythe 1957): E_ij = sum_k p_k(y_i) p_k(x_j) at the points y_i = alpha + beta c_i of the next.
+
+   Degree: for one step r - 1, through all values; for two, what `make cost` found best.  It stops
+   before rounding, amplified by about 5.8^degree at the end of the step, exceeds 1e-4 in double,
+   and before a polynomial that only distinguishes points that nearly coincide, as 0 and 1 - 1 do
+   in two steps of Lobatto's: its coupling is then small, elsewhere it is above 0.1.           */
+static void gvi__fit(gvi_stepper *st, int r, const gvi_real *c, const gvi_real *to, gvi_real alpha,
+                     gvi_real beta, int steps, gvi_real *E)
+{
+    struct gvi__private *in = &st->in;
+    const int R = in->R, nodes = steps*R, all = nodes + R, most = GVI__DIG*2/7;
+    int degree = r - 1;
+    if (steps == 2) degree = r + r/2 - r/8;
+    if (degree > most) degree = most;
+    gvi_real *p = in->set_up, *before = p + 3*R, *at = before + 3*R, coupling = 0;
+    const gvi_real norm = 1/GVI_SQRT((gvi_real)(steps*r));
+    gvi__zero(6*(size_t)R, p);                     // and before, which is behind it
+    for (int m = 0; m < R; ++m) {
+        at[m] = c[m];
+        at[R + m] = c[m] - 1;
+        at[nodes + m] = alpha + beta*to[m];
+        if (m < r) p[m] = p[R + m] = p[nodes + m] = norm;
+    }
+    gvi__zero((size_t)(steps*r*R), E);
+    for (int k = 0; k <= degree; ++k) {
+        for (int j = 0; j < r; ++j) {
+            gvi_real *last = E + j*R, *older = E + (r + j)*R;
+            gvi__add_scaled(R, p[j], p + nodes, last, last);
+            if (steps == 2) gvi__add_scaled(R, p[R + j], p + nodes, older, older);
+        }
+
+        // p_(k+1) ~ (x - <x p_k, p_k>) p_k - coupling p_(k-1), over its norm
+        const gvi_real middle = gvi__dot3(nodes, at, p, p);
+        gvi_real size = 0;
+        for (int m = 0; m < all; ++m) {
+            const gvi_real next = (at[m] - middle)*p[m] - coupling*before[m];
+            before[m] = p[m];
+            p[m] = next;
+            if (m < nodes) size += next*next;
+        }
+        coupling = GVI_SQRT(size);
+        if (coupling < GVI__SEEN) break;
+        for (int m = 0; m < all; ++m) p[m] /= coupling;
+    }
+}
+
+/* ---------------------------------------------------------------- SET-UP */
+
+// in long: an int may have 16 bits
+static int gvi__within(long x, long most) { return x >= 0 && x <= most; }
+
+// what is wrong with a description's own members, or NULL
+GVI__COLD const char *gvi__wrong_in_desc(const gvi_desc *d)
+{
+    if (!d) return "desc is NULL";
+    if (!gvi__within(d->n, 0x7FFFF) || d->n < 1) return "n is not 1 to 524,287";
+    if (!gvi__within(d->degree, 1024)) return "degree is not 0 to 1024";
+    if (!gvi__within(d->rule.points, 4000)) return "rule.points is not 0 to 4000";
+    if (!gvi__within(d->effect_count, GVI_EFFECTS)) return "effect_count is not 0 to GVI_EFFECTS";
+    if (d->effect_count && !d->effects) return "effect_count is given, effects is NULL";
+    if (d->effects && !d->effect_count) return "effects is given, effect_count is 0";
+    if (!gvi__within(d->max_iterations, 1000000)) return "max_iterations is not 0 to 1,000,000";
+    if (!gvi__within(d->iterations, 1000000)) return "iterations is not 0 to 1,000,000";
+    if ((unsigned)d->formulation > GVI_NEWTON) return "formulation is not in its enum";
+    if ((unsigned)d->mass.kind > GVI_MASS_NONE) return "mass.kind is not in its enum";
+    if ((unsigned)d->rule.kind > GVI_KICKS) return "rule.kind is not in its enum";
+    if (!(d->tolerance >= 0 && d->tolerance < 1)) return "tolerance is not 0 to 1";
+    if (!(d->resolution >= 0 && d->resolution < 1)) return "resolution is not 0 to 1";
+    if (d->rule.kind < GVI_OWN && d->rule.nodes) return "rule: this kind takes no nodes";
+    if (d->rule.kind < GVI_OWN) return NULL;
+    if (!d->rule.points || !d->rule.nodes || !d->rule.weights)
+        return "rule: this kind needs points, nodes and weights";
+    return NULL;
+}
+
+// what is wrong with an effect that PART I knows, or NULL
+GVI__COLD const char *gvi__wrong_in_effect(const gvi_effect *effect)
+{
+    if ((unsigned)effect->kind > GVI_CONSTRAINT) return "effect: kind is not in its enum";
+    if (!effect->points && !effect->point) return "effect: points, or point, is missing";
+    if (effect->points && effect->point) return "effect: points and point, one is too many";
+    if (effect->kind != GVI_CONSTRAINT && effect->rows != 0)
+        return "effect: rows is for constraints";
+    return NULL;
+}
+
+// what is wrong with a constant mass, or NULL
+GVI__COLD const char *gvi__wrong_in_mass(const gvi_mass *m)
+{
+    if (m->kind == GVI_MASS_UNIT && (m->matrix || m->points))
+        return "mass: matrix or points is given, kind is GVI_MASS_UNIT";
+    if ((m->kind == GVI_MASS_DIAGONAL || m->kind == GVI_MASS_DENSE) && !m->matrix)
+        return "mass: matrix is missing";
+    return NULL;
+}
+
+// do weights that are given sum to 1?  Their rounding must leave half of the sum's digits
+GVI__COLD int gvi__sums_to_1(const gvi_rule *rule)
+{
+    const int r = rule->points;
+    gvi_real sum = -1, error = 0;
+    for (int j = 0; j < r; ++j) {
+        sum += rule->weights[j];
+        error += 4*(gvi_real)(r + 2)*GVI__EPS*GVI_ABS(rule->weights[j]);
+    }
+    return GVI_ABS(sum) <= error && error < GVI_SQRT(GVI__EPS);
+}
+
+/* Are all sizes in range, is everything there that the kinds need, and nothing that suggests a
+   forgotten kind?  Fills in the defaults, and finds what the effects read.  `in` is all 0.    */
+GVI__COLD gvi_status gvi__check(struct gvi__private *in, const gvi_desc *desc, gvi_fault *fault)
+{
+    const char *wrong = gvi__wrong_in_desc(desc);
+    int unknown = 0;
+    if (wrong) return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE, wrong);
+    gvi_desc *d = &in->desc;
+    *d = *desc;
+    if (d->degree == 0) d->degree = d->rule.kind == GVI_KICKS ? 1 : 8;
+    if (d->rule.points == 0) d->rule.points = d->degree + (d->rule.kind == GVI_LOBATTO);
+    if (d->max_iterations == 0) d->max_iterations = 60;
+
+    for (int e = 0; e < d->effect_count; ++e) {
+        const gvi_kind kind = d->effects[e].kind;
+        wrong = gvi__wrong_in_effect(d->effects + e);
+        if (!wrong && kind > GVI_FORCE) unknown |= !gvi__place_effect(in, e, &wrong);
+        if (wrong) return gvi__refuse(fault, e, GVI_FAULT_NONE, wrong);
+        in->reads_v |= kind == GVI_FORCE || kind == GVI_LAGRANGIAN;
+        in->adds_p |= kind == GVI_LAGRANGIAN;
+    }
+
+    wrong = gvi__wrong_in_mass(&d->mass);
+    if (!wrong && (d->mass.kind > GVI_MASS_DENSE || d->mass.velocity))
+        unknown |= !gvi__place_mass(in, &wrong);
+    if (unknown) return GVI_E_FORMULATION;
+    if (wrong) return gvi__refuse(fault, GVI_FAULT_MASS, GVI_FAULT_NONE, wrong);
+    return GVI_OK;
+}
+
+// will the rule do?  r >= s points of Gauss or Lobatto are good enough
+GVI__COLD gvi_status gvi__check_rule(struct gvi__private *in, int *order, gvi_fault *fault)
+{
+    const gvi_rule *rule = &in->desc.rule;
+    const int s = in->desc.degree, r = rule->points, lobatto = rule->kind == GVI_LOBATTO;
+    if (rule->kind > GVI_LOBATTO) return gvi__place_rule(in, order, fault);
+    *order = 2*r - 2*lobatto;
+    if (lobatto && r < 2 && s == 1)
+        return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE,
+                           "rule.points: Lobatto's rule has 2 or more");
+    return r < s ? GVI_E_POINTS : GVI_OK;
+}
+
+// the first formulation that covers the scene, or the pinned one
+GVI__COLD gvi_status gvi__choose(struct gvi__private *in, int order, gvi_fault *fault)
+{
+    const gvi_desc *d = &in->desc;
+    const int pinned = d->formulation != GVI_AUTO;
+    int f = pinned ? (int)d->formulation : GVI_EXPLICIT;
+    while (!gvi__place_covers(in, (gvi_formulation)f))
+        if (pinned || f++ == GVI_NEWTON) return GVI_E_FORMULATION;
+    in->chosen = (gvi_formulation)f;
+    in->stages = 1 + (f > GVI_POSITIONS);
+    if (d->mass.kind >= GVI_MASS_DENSE && d->n > 0x7FFF)          // indices are int: n*n
+        return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE,
+                           "n is above 32,767, and matrices may be needed");
+    return gvi__place_chosen(in, order, fault);
+}
+
+GVI__COLD gvi_status gvi__resolve(struct gvi__private *in, const gvi_desc *desc, int *order,
+                                  gvi_fault *fault)
+{
+    gvi_status status = gvi__check(in, desc, fault);
+    if (status == GVI_OK) status = gvi__check_rule(in, order, fault);
+    if (status == GVI_OK) status = gvi__choose(in, *order, fault);
+    if (status == GVI_E_FORMULATION) gvi__place_unsolved(in, fault);
+    return status;
+}
+
+// of the caller's memory, or if base is NULL counted only
+GVI__COLD gvi_real *gvi__take(gvi__arena *arena, size_t a, size_t b)
+{
+    const size_t most = (size_t)-1/sizeof(gvi_real) - 64;      // more than anyone has, with slack
+    const size_t at = arena->used;
+    if (a == 0) return NULL;
+    arena->used = most;
+    if (b <= (most - at)/a) arena->used = at + a*b;
+    if (!arena->base) return NULL;
+    return arena->base + at;
+}
+
+/* The one layout: gvi_size counts with it, gvi_init hands out by it, and GVI_LENGTH is no less than
+   its sum with everything wanted.  Stage values of two steps back make the predictor better up to
+   nine points; with more of them, and in float, they would amplify rounding too much.  Rows first:
+   they start on a whole lane.                                                                 */
+GVI__COLD size_t gvi__layout(struct gvi__private *in, int order, gvi_real *base)
+{
+    const gvi_desc *d = &in->desc;
+    const size_t n = (size_t)d->n, s = (size_t)d->degree, r = (size_t)d->rule.points,
+                 R = (size_t)GVI__ROW(r);
+    const size_t it = in->stages > 0, V = in->stages == 2, two = it && r < 10 && GVI__DIG > 24,
+                 two_V = two && V, phi = it && (V || in->turns || order <= 2*d->degree - 2),
+                 dense = d->mass.kind == GVI_MASS_DENSE,
+                 sums = dense && it && in->chosen <= GVI_VELOCITIES;
+    const struct { gvi_real **to; size_t rows, width; } list[] = {
+        { &in->work.F, it*n, R },     { &in->work.Q, it*n, R },     { &in->work.V, V*n, R },
+        { &in->last.F, it*n, R },     { &in->last.V, V*n, R },
+        { &in->older.F, two*n, R },   { &in->older.V, two_V*n, R },
+        { &in->free.rows, (it + V)*n, R }, { &in->mass.sums, sums*n, R },
+        { &in->table.c, 1, R },       { &in->table.b, 1, R },
+        { &in->sized.hb, 1, R },      { &in->t, 1, R },
+        { &in->table.phi, phi*s, R }, { &in->table.phi_low, phi*s, R },
+        { &in->table.Phi, it*s, R },
+        { &in->table.K, it*r, R },    { &in->table.U, V*r, R },
+        { &in->sized.E, it*(1 + two)*r, R },
+        { &in->set_up, 9*it, R },     { &in->weighted, it, R },
+        { &in->table.inv_gamma, 1, s },
+        { &in->state.q, 1, n },       { &in->state.p, 1, n },
+        { &in->state.q_low, 1, n },   { &in->state.p_low, 1, n },
+        { &in->step.q, 1, n },        { &in->step.p, 1, n },
+        { &in->step.q_low, 1, n },    { &in->step.p_low, 1, n },
+        { &in->began.q, 1, n },       { &in->began.p, 1, n },
+        { &in->free.v, 1, n },        { &in->free.v_low, it, n },
+        { &in->free.path, it, n },    { &in->free.path_low, it, n },
+        { &in->zeros, 1, n },         { &in->start, 1, n },
+        { &in->mass.inverse, 1, n },  { &in->mass.factor, dense*n, n },
+        { &in->mass.matrix, dense ? n : 1, n },
+        { &in->watch.scale, 2*it, n }, { &in->watch.change, 2*it, n },
+        { &in->watch.before, 2*it, n },
+        { &in->point, 6, n },         { &in->answer, 3, n }
+    };
+    gvi__arena memory = { base, 0 }, *a = &memory;
+    for (size_t k = 0; k < sizeof list/sizeof *list; ++k)
+        *list[k].to = gvi__take(a, list[k].rows, list[k].width);
+    in->cleared = 0;
+    gvi__place_layout(in, a);
+    if (in->cleared == 0) in->cleared = memory.used;
+    return memory.used;
+}
+
+// pointers into the memory, also those of the state that the caller reads
+static void gvi__hand_out(gvi_stepper *st, gvi_real *memory)
+{
+    gvi__layout(&st->in, st->order, memory);
+    st->q = st->in.state.q;
+    st->p = st->in.state.p;
+    st->q_low = st->in.state.q_low;
+    st->p_low = st->in.state.p_low;
+}
+
+// stage values start where a cache line does: up to so many numbers are left out at the beginning
+static size_t gvi__slack(const gvi_desc *d) { return d->rule.points > 4 ? GVI__SLACK : 0; }
+
+static void gvi__blank(size_t size, void *at)
+{
+    unsigned char *bytes = (unsigned char *)at;
+    for (size_t i = 0; i < size; ++i) bytes[i] = 0;
+}
+
+GVI_DEF size_t gvi_size(const gvi_desc *desc)
+{
+    struct gvi__private x;
+    gvi_fault fault;
+    int order;
+    gvi__blank(sizeof x, &x);
+    if (gvi__resolve(&x, desc, &order, &fault) != GVI_OK) return 0;
+    return (gvi__layout(&x, order, NULL) + gvi__slack(&x.desc))*sizeof(gvi_real);
+}
+
+// mass matrix into the memory, factored; inverse is 1 where M is no diagonal
+GVI__COLD gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n, dense = mass->kind == GVI_MASS_DENSE;
+    const int given = dense || mass->kind == GVI_MASS_DIAGONAL;
+    gvi_real *m = in->mass.matrix;
+    int at[2] = { 0, 0 };
+    for (int i = 0; i < n; ++i) {
+        int first = i, width = 1;                 // of a diagonal; dense: of row i up to M_ii
+        if (dense) {
+            first = i*n;
+            width = i + 1;
+        }
+        gvi_real *row = m + first;
+        if (given) gvi__copy((size_t)width, mass->matrix + first, row);
+        else row[0] = 1;
+        if (gvi__first_non_finite(width, row) >= 0)
+            return gvi__refuse(&st->fault, GVI_FAULT_MASS, i, "mass.matrix is not finite");
+        if (dense) {
+            gvi__copy((size_t)width, row, in->mass.factor + first);
+            in->mass.inverse[i] = 1;
+            continue;
+        }
+        in->mass.inverse[i] = 1/row[0];
+        if (!gvi__finite(in->mass.inverse[i]))
+            return gvi__report(st, GVI_E_SINGULAR, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
+    }
+    if (!dense) return GVI_OK;
+    const gvi_status status =
+        gvi__ldl_factor(n, 1, 1, in->mass.factor, at);
+    if (status == GVI_OK) return GVI_OK;
+    return gvi__report(st, status, GVI_FAULT_MASS, at[0], at[1]);
+}
+
+/* The rule, the modes at its nodes as exactly as they can be had, then the tables.  1/Gamma_kk =
+   2k + 1 while the rule is exact for phi_k^2; Lobatto with r = s gives s - 1 for the last.    */
+GVI__COLD gvi_status gvi__set_rule(gvi_stepper *st)
+{
+    struct gvi__private *in = &st->in;
+    struct gvi__tables *table = &in->table;
+    const int s = st->s, lobatto = in->desc.rule.kind == GVI_LOBATTO;
+    gvi_real *c_low = in->t;
+    gvi_status status = GVI_OK;
+    table->Phi_low = in->sized.E;                  // not yet in use, as are the times
+    if (!gvi__place_nodes(st)) gvi__rule(lobatto, st->r, table->c, c_low, table->b);
+    if (gvi__iterates(in)) {
+        gvi__modes_of(st, st->r, table->c, c_low, table->phi, table->phi_low, table->Phi,
+                      table->Phi_low);
+        for (int k = 0; k < s; ++k) table->inv_gamma[k] = (gvi_real)(2*k + 1);
+        if (lobatto && st->r == s) table->inv_gamma[s - 1] = (gvi_real)(s - 1);
+        status = gvi__place_modes(st);
+        if (status == GVI_OK) gvi__make_tables(st);
+    }
+    if (status == GVI_OK) status = gvi__place_tables(st);
+    if (table->Phi) gvi__copy((size_t)st->r, table->c, table->Phi);        // Phi_0 = c on its grid
+    return status;
+}
+
+// where number stands: the alignment of a gvi_real
+typedef struct gvi__aligned { char byte; gvi_real number; } gvi__aligned;
+static gvi__kernel *gvi__kernel_for(const gvi_stepper *st);
+
+GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *memory, size_t size)
+{
+    if (!st) return GVI_E_ARGUMENT;
+    struct gvi__private *in = &st->in;
+    // to be read after a failure; eight where an int has 16 bits, and RAM is short
+    static const gvi_real zeros[sizeof(int) > 2 ? 64 : 8] = { 0 };
+    int order = 0;
+    gvi__blank(sizeof *st, st);
+    gvi__report_status(st, GVI_OK);
+    st->q = st->p = st->q_low = st->p_low = zeros;
+    gvi_status status = gvi__resolve(in, desc, &order, &st->fault);
+    st->order = order;
+    if (status != GVI_OK) return st->status = status;
+    if (!memory) return gvi__refuse_call(st, "memory is NULL");
+    if ((uintptr_t)memory % offsetof(gvi__aligned, number))
+        return gvi__refuse_call(st, "memory is not aligned");
+    st->n = in->desc.n;
+    st->s = in->desc.degree;
+    st->r = in->desc.rule.points;
+    st->formulation = in->chosen;
+    in->R = GVI__ROW(st->r);
+    in->size = gvi__layout(in, order, NULL);
+    const size_t slack = gvi__slack(&in->desc);
+    if (size < (in->size + slack)*sizeof(gvi_real)) {
+        if (size/sizeof(gvi_real) < (size_t)st->n) return st->status = GVI_E_MEMORY;
+        gvi__zero((size_t)st->n, memory);
+        st->q = st->p = st->q_low = st->p_low = memory;
+        return st->status = GVI_E_MEMORY;
+    }
+    if (slack) in->skip = (size_t)(-(uintptr_t)memory & 63)/sizeof(gvi_real);
+    memory += in->skip;
+    gvi__hand_out(st, memory);
+    gvi__zero(in->cleared, memory);
+    if (gvi__iterates(in)) in->kernel = gvi__kernel_for(st);
+    status = gvi__set_mass(st, &desc->mass);
+    if (status == GVI_OK) status = gvi__set_rule(st);
+    if (status != GVI_OK) return st->status = status;
+    in->memory = memory;                                      // from here on it can be used
+    return GVI_OK;
+}
+
+/* ------------------------------------------------------------------ STEP
+
+   A step of length h takes (q, p, t) to (q + dq, p + dp, t + dt), in double words.  In this order:
+
+     1) stages        what an iteration computes, as data: Q by (3), and V by (4); free motion
+     2) predict       F at the points, extrapolated from the last step; stage values of these
+     3) new rows      of the stages, from F
+     4) evaluate      F(Q, V), at all points in one call
+     5) verdict       again from 4), until all rows converge
+     6) increments    dp by (2), dq by (3) at tau = 1
+     7) commit        the state moves on
+
+   gvi__iterate is 1) to 5), gvi__fixed_point that from extrapolated values, then from plain ones,
+   gvi__attempt 1) to 6) by the fixed point or another solver, and gvi_step all of it.         */
+
+/* ---- 1) stages ---- */
+
+/* One stage of an iteration is data: rows of stage values, made of sums over sources,
+
+     row_i := base_i + (free_i + factor (z_i/m_i))
+     z_i    = sum_j table_j (h b_j source_ij) + plus_i
+
+   with free motion, the same in all iterations, in rows of its own.  factor and 1/m multiply one by
+   one: h/m, rounded once, would belong to another mass than v = p/m, and energy would drift.
+
+   Changes of rows are measured in squares, times scale_i: all of them are added up and returned,
+   and change_i := those of row i at the last point and the middle.  One point would not do: where
+   eigenvalues are complex, changes rotate and may be 0 at one, not at both.                   */
+enum { GVI__OF_Q, GVI__OF_V, GVI__OF_P };
+
+typedef struct gvi__stage {
+    const gvi_real *table, *source;    /* [r][R]; [n][R]                                       */
+    const gvi_real *base, *free;       /* [n]; [n][R]                                          */
+    const gvi_real *inverse;           /* [n] 1/m                                              */
+    gvi_real        factor, *rows;
+    gvi_real       *scale, *change;    /* [n]                                                  */
+    const gvi_real *plus;              /* [n][R] what chapters add to z, or NULL               */
+    int             of, quiet;         /* GVI__OF_...; not judged                              */
+} gvi__stage;
+
+// free motion v = M^-1 p and h v in double words, M constant
+static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real h)
+{
+    struct gvi__private *in = &st->in;
+    const gvi_real *GVI__RESTRICT p = from->p, *GVI__RESTRICT p_low = from->p_low;
+    const gvi_real *GVI__RESTRICT inverse = in->mass.inverse;
+    gvi_real *GVI__RESTRICT v = in->free.v, *GVI__RESTRICT v_low = in->free.v_low;
+    const int diagonal = in->desc.mass.kind == GVI_MASS_DIAGONAL;
+
+    for (int i = 0; i < st->n; ++i) {
+        const gvi__two z = diagonal ? gvi__two_prod(p[i], inverse[i]) : gvi__two_of(p[i], 0);
+        v[i] = z.hi;
+        v_low[i] = gvi__low(z.lo + p_low[i]*inverse[i]);
+    }
+    if (in->desc.mass.kind == GVI_MASS_DENSE) {
+        gvi__over_mass(st, v, 1, 1);
+        for (int i = 0; i < st->n; ++i) {         // p - M v
+            gvi__two left = gvi__two_of(p[i], p_low[i]);
+            for (int j = 0; j < st->n; ++j) {
+                const gvi__two z = gvi__two_prod(-in->mass.matrix[gvi__lower(st->n, i, j)], v[j]);
+                left = gvi__add_low(left.hi, left.lo, z.hi, z.lo);
+            }
+            v_low[i] = gvi__low(left.hi + left.lo);
+        }
+        gvi__over_mass(st, v_low, 1, 1);
+    }
+    for (int i = 0; i < st->n; ++i) {
+        const gvi__two path = gvi__two_prod(h, v[i]);
+        in->free.path[i] = path.hi;
+        in->free.path_low[i] = gvi__low(path.lo + h*v_low[i]);
+    }
+}
+
+/* GVI__FOR_ROW(R, body): GVI__ALONG for a row, unrolled where it is the most frequent one.    */
+#define GVI__FOR_ROW(R, ...)                                                                    \
+    if ((R) == 8) GVI__ALONG_BY(GVI__UNROLL, 8, __VA_ARGS__) else GVI__ALONG(R, __VA_ARGS__)
+
+// out := t + (t_low + c h)
+static void gvi__times(int R, gvi_real t, gvi_real t_low, gvi_real h, const gvi_real *c,
+                       gvi_real *out)
+{
+    GVI__FOR_ROW(R, GVI__TO(out) = t + (t_low + GVI__AT(c)*h))
+}
+
+// row := low + (c path_low + c path), one coordinate's free motion over its base
+GVI__BODY void gvi__free_row(int R, gvi_real low, gvi_real path, gvi_real path_low,
+                             const gvi_real *GVI__RESTRICT c, gvi_real *GVI__RESTRICT row)
+{
+    GVI__FOR_ROW(R, GVI__TO(row) = (low + GVI__AT(c)*path_low) + GVI__AT(c)*path)
+}
+
+static void gvi__stages(gvi_stepper *st, const gvi__origin *from, gvi_real h, gvi__stage *stage)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n, R = in->R, two = in->stages == 2;
+    gvi_real *free = in->free.rows;
+    const gvi_real *inverse = in->mass.inverse;
+    const gvi__stage Q = { in->table.K, in->work.F, from->q, free, inverse, h, in->work.Q,
+                           in->watch.scale, in->watch.change, NULL, GVI__OF_Q, 0 };
+    const gvi__stage V = { in->table.U, in->work.F, in->free.v, free + n*R, inverse, 1, in->work.V,
+                           in->watch.scale + n, in->watch.change + n, NULL, GVI__OF_V, 0 };
+    stage[0] = Q;
+    if (two) stage[1] = V;
+    gvi__free_motion(st, from, h);
+    for (int i = 0; i < n; ++i, free += R)
+        gvi__free_row(R, from->q_low[i], in->free.path[i], in->free.path_low[i], in->table.c, free);
+    for (int i = 0; i < two*n; ++i, free += R)
+        gvi__free_row(R, in->free.v_low[i], 0, 0, in->table.c, free);
+    if (gvi__parts(in)) gvi__place_stages(st, from, h, stage);
+}
+
+/* ---- 3) new rows ---- */
+
+// 1/(|base| and the last point's displacements, before and after); 0 where these have no sure digit
+GVI__BODY gvi_real gvi__scale_of(gvi_real base, gvi_real was, gvi_real is)
+{
+    const gvi_real size = GVI_ABS(base) + GVI_ABS(was - base) + GVI_ABS(is - base);
+    return size > GVI__NOTHING ? 1/size : 0;
+}
+
+// the squares at eight points, added up in one order everywhere
+GVI__BODY gvi_real gvi__sum_squares(const gvi_real *z)
+{
+    return ((z[0] + z[4]) + (z[1] + z[5])) + ((z[2] + z[6]) + (z[3] + z[7]));
+}
+
+/* sum_j table_j L_j at one point, in four chains: the order of gvi__row_sums                 */
+GVI__BODY gvi_real gvi__point_sum(int r, int R, const gvi_real *table, const gvi_real *L)
+{
+    gvi_real a = 0, b = 0, c = 0, d = 0;
+    for (int j = 0; j < r; j += 4) {
+        a += table[j*R]*L[j];
+        if (j + 1 < r) b += table[(j + 1)*R]*L[j + 1];
+        if (j + 2 < r) c += table[(j + 2)*R]*L[j + 2];
+        if (j + 3 < r) d += table[(j + 3)*R]*L[j + 3];
+    }
+    return (a + b) + (c + d);
+}
+
+// L := w source
+GVI__BODY void gvi__weigh(int R, const gvi_real *GVI__RESTRICT w,
+                          const gvi_real *GVI__RESTRICT source, gvi_real *GVI__RESTRICT L)
+{
+    GVI__ALONG_BY(GVI__UNROLL, R, GVI__TO(L) = GVI__AT(w)*GVI__AT(source))
+}
+
+// point by point; from the last on, where its unit is made
+static gvi_real gvi__rows_by_points(const gvi_stepper *st, const gvi__stage *y, int rescale)
+{
+    const int r = st->r, R = st->in.R, last = r - 1, middle = (r - 1)/2;
+    gvi_real square[8] = { 0, 0, 0, 0, 0, 0, 0, 0 }, *L = st->in.weighted;
+    for (int i = 0; i < st->n; ++i) {
+        gvi_real *GVI__RESTRICT row = y->rows + i*R, scale = y->scale[i], two = 0;
+        gvi__weigh(R, st->in.sized.hb, y->source + i*R, L);
+        for (int k = R - 1; k >= 0; --k) {
+            gvi_real sum = gvi__point_sum(r, R, y->table + k, L);
+            if (GVI__CHAPTERS != 0 && y->plus) sum += y->plus[i*R + k];
+            sum *= y->inverse[i];
+            const gvi_real z = y->base[i] + (y->free[i*R + k] + sum*y->factor);
+            if (rescale && k == last) scale = gvi__scale_of(y->base[i], row[k], z);
+            const gvi_real moved = (z - row[k])*scale;
+            square[k & 7] += moved*moved;
+            if (k == last) two += moved*moved;
+            if (k == middle) two += moved*moved;
+            row[k] = z;
+        }
+        y->scale[i] = scale;
+        y->change[i] = two;
+    }
+    return gvi__sum_squares(square);
+}
+
+enum { GVI__BLOCK = 8/GVI__LANES };                  // lanes that hold eight points
+
+/* z := sum_j table_j L_j at `lanes` lanes of points.  Four chains, so that no sum waits for
+   another, one chain after the other, so that registers suffice; one order for every width: the
+   same bits.  r > 3.                                                                          */
+GVI__BODY void gvi__row_sums(int r, int R, int lanes, const gvi_real *table, const gvi_real *L,
+                             gvi__lane *z)
+{
+    const gvi__lane none = { 0 };
+    gvi__lane sum[4][GVI__BLOCK] = { { none } };
+    GVI__UNROLL for (int m = 0; m < 4; ++m) {
+        GVI__UNROLL for (int v = 0; v < lanes; ++v) sum[m][v] =
+            GVI__LOAD(table + m*R + v*GVI__LANES)*L[m];
+        for (int j = m + 4; j < r; j += 4)
+            GVI__UNROLL for (int v = 0; v < lanes; ++v) sum[m][v] +=
+                GVI__LOAD(table + j*R + v*GVI__LANES)*L[j];
+        if (m & 1) GVI__UNROLL for (int v = 0; v < lanes; ++v) sum[m - 1][v] += sum[m][v];
+    }
+    GVI__UNROLL for (int v = 0; v < lanes; ++v) z[v] = sum[0][v] + sum[2][v];
+}
+
+// in lanes of points, R being 4 or a multiple of 8
+GVI__BODY gvi_real gvi__rows_by_lanes(const gvi_stepper *st, const gvi__stage *GVI__RESTRICT y,
+                                      int n, int r, int R, int rescale)
+{
+    const int block = R < 8 ? R : 8, lanes = block/GVI__LANES, last = r - 1, middle = (r - 1)/2;
+    const gvi__lane none = { 0 };
+    gvi_real few[16], *L = R <= 16 ? few : st->in.weighted, total[8];
+    gvi__lane square[GVI__BLOCK] = { none };
+    for (int i = 0; i < n; ++i) {
+        gvi_real *row = y->rows + i*R, scale = y->scale[i];
+        const gvi_real base = y->base[i], inverse = y->inverse[i], factor = y->factor;
+        const gvi_real was = row[last], half = row[middle];
+        gvi__weigh(R, st->in.sized.hb, y->source + i*R, L);
+        for (int o = R - block; o >= 0; o -= block) {
+            const gvi_real *free = y->free + i*R + o;
+            gvi__lane z[GVI__BLOCK] = { none };
+            gvi__row_sums(r, R, lanes, y->table + o, L, z);
+            if (GVI__CHAPTERS != 0 && y->plus)
+                GVI__UNROLL for (int v = 0; v < lanes; ++v)
+                    z[v] += GVI__LOAD(y->plus + i*R + o + v*GVI__LANES);
+            GVI__UNROLL for (int v = 0; v < lanes; ++v)
+                z[v] = base + (GVI__LOAD(free + v*GVI__LANES) + z[v]*inverse*factor);
+            if (rescale && last - o < block)
+                scale = gvi__scale_of(base, was, GVI__ENTRY(z[(last - o)/GVI__LANES],
+                                                            (last - o) % GVI__LANES));
+            GVI__UNROLL for (int v = 0; v < lanes; ++v) {
+                gvi_real *at = row + o + v*GVI__LANES;
+                const gvi__lane moved = (z[v] - GVI__LOAD(at))*scale;
+                square[v] += moved*moved;
+                GVI__STORE(at) = z[v];
+            }
+        }
+        const gvi_real a = (row[last] - was)*scale, b = (row[middle] - half)*scale;
+        y->scale[i] = scale;
+        y->change[i] = a*a + b*b;
+    }
+    GVI__UNROLL for (int v = 0; v < GVI__BLOCK; ++v) GVI__STORE(total + v*GVI__LANES) = square[v];
+    return gvi__sum_squares(total);
+}
+
+// where M is full: all sums first, then M^-1 of them
+static gvi_real gvi__rows_of_full_mass(const gvi_stepper *st, const gvi__stage *y, int rescale)
+{
+    const int n = st->n, r = st->r, R = st->in.R, last = r - 1, middle = (r - 1)/2;
+    gvi_real *sums = st->in.mass.sums, *L = st->in.weighted, square[8] = { 0, 0, 0, 0, 0, 0, 0, 0 };
+    for (int i = 0; i < n; ++i) {
+        gvi__weigh(R, st->in.sized.hb, y->source + i*R, L);
+        for (int k = 0; k < R; ++k) sums[i*R + k] = gvi__point_sum(r, R, y->table + k, L);
+        for (int k = 0; y->plus && k < R; ++k) sums[i*R + k] += y->plus[i*R + k];
+    }
+    gvi__over_mass(st, sums, R, R);
+    for (int i = 0; i < n; ++i) {
+        const gvi_real base = y->base[i], factor = y->factor;
+        gvi_real *row = y->rows + i*R, *z = sums + i*R;
+        const gvi_real *free = y->free + i*R;
+        GVI__ALONG(R, GVI__TO(z) = base + (GVI__AT(free) + GVI__AT(z)*factor))
+        if (rescale) y->scale[i] = gvi__scale_of(base, row[last], z[last]);
+        const gvi_real scale = y->scale[i], a = (z[last] - row[last])*scale,
+                       b = (z[middle] - row[middle])*scale;
+        y->change[i] = a*a + b*b;
+        for (int k = 0; k < R; ++k) {
+            const gvi_real moved = (z[k] - row[k])*scale;
+            square[k & 7] += moved*moved;
+            row[k] = z[k];
+        }
+    }
+    return gvi__sum_squares(square);
+}
+
+// the sizes that deserve a copy of their own
+#define GVI__KERNEL(name, n, r, R)                                                              \
+    static gvi_real name(const gvi_stepper *st, const gvi__stage *GVI__RESTRICT y, int rescale) \
+    {                                                                                           \
+        return gvi__rows_by_lanes(st, y, n, r, R, rescale);                                     \
+    }
+#if GVI__LANES > 1
+#if GVI__LANES < 8
+GVI__KERNEL(gvi__rows_4,     st->n, 4, 4)
+#else
+#define gvi__rows_4 gvi__rows_by_points
+#endif
+GVI__KERNEL(gvi__rows_6,     st->n, 6, 8)
+GVI__KERNEL(gvi__rows_2_8,   2, 8, 8)
+GVI__KERNEL(gvi__rows_8,     st->n, 8, 8)
+GVI__KERNEL(gvi__rows_to_8,  st->n, st->r, 8)
+GVI__KERNEL(gvi__rows_12,    st->n, 12, 16)
+GVI__KERNEL(gvi__rows_16,    st->n, 16, 16)
+GVI__KERNEL(gvi__rows_many,  st->n, st->r, st->in.R)
+#endif
+
+static gvi__kernel *gvi__kernel_for(const gvi_stepper *st)
+{
+    if (st->in.mass.sums) return gvi__rows_of_full_mass;
+#if GVI__LANES > 1
+    if (st->r == 4) return gvi__rows_4;
+    if (st->r == 8) return st->n == 2 ? gvi__rows_2_8 : gvi__rows_8;
+    if (st->r == 6) return gvi__rows_6;
+    if (st->r == 12) return gvi__rows_12;
+    if (st->r == 16) return gvi__rows_16;
+    if (st->r > 4) return st->r < 8 ? gvi__rows_to_8 : gvi__rows_many;
+#endif
+    return gvi__rows_by_points;
+}
+
+// all stages; returns the squares of their changes
+GVI__BODY gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *stage, int rescale)
+{
+    gvi__kernel *kernel = st->in.kernel;
+    const int parts = gvi__parts(&st->in) != 0;
+    if (parts) gvi__place_before_rows(st, stage);
+    gvi_real sum = kernel(st, stage, rescale && !stage[0].quiet);
+    if (st->in.stages == 2) {
+        if (parts) sum += gvi__place_between(st);
+        else gvi__count(&st->counters.velocities, st->r);
+        sum += kernel(st, stage + 1, rescale && !stage[1].quiet);
+    }
+    if (parts) gvi__place_behind_rows(st, stage, sum);
+    return sum;
+}
+
+/* ---- 2) predict ---- */
+
+/* E takes the stage values of the last step (of two, if they are as long as this one) to the nodes
+   of this step, at alpha + beta c in the last step's tau.  Where forces only serve to make
+   positions, E := K h b E does both, for steps as long as the last.  `plain`: one step's values,
+   as they are.                                                                                */
+static void gvi__prepare_predictor(gvi_stepper *st, gvi_real h, int query, int plain)
+{
+    struct gvi__private *in = &st->in;
+    const int r = st->r, R = in->R;
+    const int two = !query && !plain && in->kept == 2 && in->older.F && !gvi__nonzero(h - st->h);
+    const gvi_real beta = h/st->h;
+    const int sums = !plain && !gvi__nonzero(beta - 1) && in->stages == 1
+                     && in->desc.mass.kind != GVI_MASS_DENSE && !gvi__parts(in);
+    if (!query && !gvi__nonzero(beta - in->sized.ratio) && in->sized.steps == two + 1
+        && in->sized.sums == sums) return;
+
+    in->sized.ratio = beta;
+    if (query) in->sized.ratio = 0;                // another start: not to be used again
+    in->sized.steps = two + 1;
+    in->sized.sums = sums;
+    gvi__fit(st, r, in->table.c, in->table.c, query != GVI__FROM_START, beta, two + 1, in->sized.E);
+    if (gvi__parts(in)) gvi__place_predictor(st, query != GVI__FROM_START, beta);
+    if (!sums) return;
+
+    for (int m = 0; m < in->sized.steps*r; ++m) {
+        gvi_real *E = in->sized.E + m*R, *row = in->set_up;
+        gvi__weigh(R, in->sized.hb, E, in->weighted);
+        for (int k = 0; k < r; ++k) row[k] = gvi__point_sum(r, R, in->table.K + k, in->weighted);
+        gvi__copy((size_t)r, row, E);
+    }
+}
+
+// z := sum_j table_j source_j, or added to what is there, row by row
+GVI__BODY void gvi__sums_at(int n, int r, int R, const gvi_real *table, const gvi_real *source,
+                            gvi_real *rows, int add)
+{
+    const int block = R < 8 ? R : 8, lanes = block/GVI__LANES;
+    const gvi__lane none = { 0 };
+    for (int i = 0; i < n; ++i, source += R, rows += R)
+        for (int o = 0; o < R; o += block) {
+            gvi__lane z[GVI__BLOCK] = { none };
+            gvi__row_sums(r, R, lanes, table + o, source, z);
+            GVI__UNROLL for (int v = 0; v < lanes; ++v) {
+                gvi_real *at = rows + o + v*GVI__LANES;
+                if (add) z[v] += GVI__LOAD(at);
+                GVI__STORE(at) = z[v];
+            }
+        }
+}
+
+static void gvi__sums(const gvi_stepper *st, const gvi_real *table, const gvi_real *source,
+                      gvi_real *rows, int add)
+{
+    const int n = st->n, r = st->r, R = st->in.R;
+    if (GVI__LANES > 1 && r == 8) gvi__sums_at(n, 8, 8, table, source, rows, add);
+    else if (GVI__LANES > 1 && r > 4 && R == 8) gvi__sums_at(n, r, 8, table, source, rows, add);
+    else if (GVI__LANES > 1 && r > 4) gvi__sums_at(n, r, R, table, source, rows, add);
+    else for (int i = 0; i < n; ++i, source += R, rows += R)
+        for (int k = 0; k < R; ++k) {
+            const gvi_real z = gvi__point_sum(r, R, table + k, source);
+            rows[k] = add ? rows[k] + z : z;
+        }
+}
+
+// z := E last + E' older
+static void gvi__extrapolate(const gvi_stepper *st, const gvi_real *last, const gvi_real *older,
+                             gvi_real *rows)
+{
+    const gvi_real *E = st->in.sized.E;
+    gvi__sums(st, E, last, rows, 0);
+    if (st->in.sized.steps == 2) gvi__sums(st, E + st->r*st->in.R, older, rows, 1);
+}
+
+// stage values to begin with: of extrapolated sources, or of no force
+static gvi_status gvi__predict(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                               const gvi__stage *stage, int extrapolate)
+{
+    struct gvi__private *in = &st->in;
+    const int R = in->R;
+    if (extrapolate && in->sized.sums) {
+        const gvi__stage *y = stage;
+        gvi__extrapolate(st, in->last.F, in->older.F, y->rows);
+        for (int i = 0; i < st->n; ++i) {
+            const gvi_real *free = y->free + i*R, base = y->base[i], inverse = y->inverse[i],
+                           factor = y->factor;
+            gvi_real *row = y->rows + i*R;
+            GVI__FOR_ROW(R, GVI__TO(row) = base + (GVI__AT(free) + GVI__AT(row)*inverse*factor))
+        }
+        return GVI_OK;
+    }
+    if (extrapolate) gvi__extrapolate(st, in->last.F, in->older.F, in->work.F);
+    else gvi__zero((size_t)st->n*(size_t)R, in->work.F);
+    if (gvi__parts(in)) {
+        const gvi_status status = gvi__place_predict(st, from, h, extrapolate);
+        if (status != GVI_OK) return status;
+    }
+    gvi__new_rows(st, stage, 0);
+    return GVI_OK;
+}
+
+/* ---- 4) evaluate ---- */
+
+// x := zero, a 0 that the compiler does not know: it would call memset, and wait for it, every time
+static void gvi__clear(int n, int R, gvi_real zero, gvi_real *x)
+{
+    for (int i = 0; i < n; ++i, x += R)
+        GVI__FOR_ROW(R, const gvi__number none = { 0 }; GVI__TO(x) = none + zero)
+}
+
+static gvi_status gvi__evaluate_stages(gvi_stepper *st, const gvi__origin *from, gvi_points *at)
+{
+    gvi__clear(st->n, st->in.R, st->in.zeros[0], at->f);
+    if (gvi__parts(&st->in)) return gvi__place_evaluate(st, from, at);
+    if (GVI__LOOKS(st)) return gvi__effects(st, at, 0, NULL);
+    return gvi__each_effect(st, at, 0, NULL);
+}
+
+/* ---- 5) verdict ---- */
+
+enum { GVI__GO_ON, GVI__DONE, GVI__ONCE_MORE, GVI__DIVERGES, GVI__NOT_FINITE };
+
+/* Where an iteration stands, in squares: the changes of all rows in the last iterations, and the
+   least so far; the contraction of the last step, 1 if there is none, or 2 if no ratio counts;
+   gvi__noise when it was last made; how often no new least was seen, or no good contraction; are
+   units to be made anew?                                                                      */
+typedef struct gvi__progress {
+    gvi_real before, earlier, before_earlier, least, ratio, noise;
+    int      used, stagnant, growing, rescale;
+} gvi__progress;
+
+/* The largest change of a row that is beyond a few units of the last place of its largest
+   value, in units of 32 eps of the largest amplitude; 0: there is none.  An amplitude is |Q_i|
+   times sqrt(M_ii), with h V_i or h P_i/M_ii in place of Q_i for those rows.  Up to 1 a row
+   that does not settle is nothing but noise, where large forces cancel: a light body midway
+   between two heavy ones.                                                                     */
+GVI__CALLED gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *stage)
+{
+    const int R = st->in.R, n = st->n, dense = st->in.desc.mass.kind == GVI_MASS_DENSE,
+              parts = gvi__parts(&st->in) != 0;
+    gvi_real largest = 0, noise = 0;
+    for (int k = 0; k < st->in.stages; ++k)
+        for (int i = 0; i < n && !stage[k].quiet; ++i) {
+            const gvi_real *row = stage[k].rows + i*R,
+                           m = parts ? gvi__place_inertia(st, i)
+                                     : GVI_ABS(st->in.mass.matrix[dense ? i*(n + 1) : i]);
+            gvi_real size = GVI_ABS(stage[k].base[i]), unit = 1, change = 0;
+            if (stage[k].of != GVI__OF_Q) unit = GVI_ABS(h);
+            if (stage[k].of == GVI__OF_P) unit /= m;
+            unit *= GVI_SQRT(m);
+            for (int j = 0; j < st->r; ++j) size = gvi__larger(GVI_ABS(row[j]), size);
+            if (stage[k].scale[i] > 0) change = GVI_SQRT(stage[k].change[i])/stage[k].scale[i];
+            largest = gvi__larger(unit*size, largest);
+
+            const gvi_real push = parts ? gvi__place_push(st, h, i, m) : 0;
+            if (!(change > GVI__PLACE*GVI__EPS*size)) continue;
+            if (change <= push) change *= GVI__EPS;              // counts next to nothing
+            noise = gvi__larger(unit*change, noise);
+        }
+    return noise > 0 ? noise/(GVI__NOISE*GVI__EPS*largest) : 0;
+}
+
+/* Settled: the next change, D times the ratio of the last two, is within the tolerance: of all
+   rows, and of each, so that none hides behind a larger one.  One ratio may be luck: unless D is
+   rounding, the one before, or that of the last step, must agree; after an attempt that failed
+   there is none, and D itself must be within the tolerance.  All in squares, so that nothing
+   waits for a root.                                                                           */
+static int gvi__settled(gvi_stepper *st, const gvi__progress *p, gvi_real D, gvi_real rounding)
+{
+    const gvi_real wanted = gvi__larger(st->in.desc.tolerance, GVI__ENOUGH), limit = wanted*wanted;
+    const int alone = p->used == 1 || p->ratio > 1, rows = st->in.stages*st->n;
+    const gvi_real last = alone ? D : gvi__smaller(p->before, 1);
+    if (!(D*D <= limit*last)) return 0;           // NaN as well
+    if (!alone && D > rounding) {
+        const gvi_real other = p->earlier > 0 ? p->before/gvi__smaller(p->earlier, 1) : p->ratio;
+        if (!(D*other <= limit)) return 0;
+        st->in.watch.found = D/last;
+    }
+    for (int row = 0; row < rows; ++row) {
+        const gvi_real Di = st->in.watch.change[row];
+        const gvi_real was = alone ? Di : gvi__smaller(st->in.watch.before[row], 1);
+        if (Di > 2*GVI__EPS*GVI__EPS && Di*Di > limit*was) return 0;
+    }
+    return 1;
+}
+
+// what later verdicts ask of this change: does it grow, is it the least?
+static void gvi__note(gvi_stepper *st, gvi__progress *p, gvi_real D)
+{
+    const gvi_real worst = st->counters.worst_contraction, noise = GVI__SURE*GVI__EPS;
+    const int grows = p->before > 0 && D >= p->before*(GVI__POOR*GVI__POOR);
+    if (p->earlier > 0 && D > noise*noise && D > worst*worst*worst*worst*p->earlier)
+        st->counters.worst_contraction = GVI_SQRT(GVI_SQRT(D/p->earlier));
+    p->rescale = D > GVI__FAR*GVI__FAR || grows;  // those were the units of an overshoot
+    p->growing = grows ? p->growing + 1 : 0;
+    p->stagnant = D < GVI__LEAST*GVI__LEAST*p->least ? 0 : p->stagnant + 1;
+    p->least = gvi__smaller(p->least, D);
+    p->before_earlier = p->earlier;
+    p->earlier = p->before;
+    p->before = D;
+}
+
+// iterations given: done if D falls, or is rounding
+static int gvi__falls(const gvi__progress *p, gvi_real D)
+{
+    const gvi_real was = p->earlier, two = p->before_earlier;
+    if (was > 0 && D > GVI__FAR*GVI__FAR) return 0;             // its units may grow with it
+    if (two > 0) return D < two*(GVI__POOR*GVI__POOR);
+    return was <= 0 || D < was;
+}
+
+static int gvi__verdict(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_real h,
+                        const gvi__stage *stage)
+{
+    const gvi_desc *d = &st->in.desc;
+    const gvi_real all = GVI__EPS*GVI__EPS*(gvi_real)(st->n*st->r);
+    const int given = d->iterations > 0;
+    int patience = 1;                             // so many without a new least may be chance
+    if (!given && gvi__settled(st, p, D, GVI__PLACE*GVI__PLACE*all)) return GVI__DONE;
+    if (!gvi__finite(D))                          // far off already, it was on its way to infinity
+        return p->growing > 0 || p->before > (gvi_real)st->n || GVI__LOOKS(st) ? GVI__DIVERGES
+                                                                               : GVI__NOT_FINITE;
+    gvi__note(st, p, D);
+    if (p->used < d->iterations) return GVI__GO_ON;
+    if (given)
+        return gvi__falls(p, D) || gvi__noise(st, h, stage) <= 1 ? GVI__DONE : GVI__DIVERGES;
+    if (gvi__parts(&st->in)) {
+        const int verdict = gvi__place_judge(st, p, D, &patience);
+        if (verdict != GVI__GO_ON) return verdict;
+    }
+
+    // a poor contraction may be that of a row that tends to 0: it changes by its whole size
+    const int few = D > GVI__FAR*GVI__FAR ? GVI__MANY_POOR : GVI__FEW_POOR;
+    const int poor = st->in.turns && p->growing > few && D > GVI__SURE*GVI__SURE*all;
+    if (poor || p->stagnant > patience) {
+        const gvi_real noise = gvi__noise(st, h, stage);
+        const int slow = p->used - p->stagnant >= GVI__SLOW;     // errors grew first
+        const int rests = p->stagnant > (patience > 0 ? GVI__STAGNANT : 1);
+        if (p->stagnant > patience && (noise <= 0 || (noise <= 1 && rests)))
+            return slow && st->in.turns ? GVI__DIVERGES : GVI__ONCE_MORE;
+        if (poor && noise > 1 && noise > p->noise/2) return GVI__DIVERGES;
+        if (poor) p->noise = noise;
+    }
+    return p->used < d->max_iterations ? GVI__GO_ON : GVI__DIVERGES;
+}
+
+/* The iteration.  It ends where
+     - the next change is within the tolerance, or far below rounding: done;
+     - D stagnates at rounding: F once more, so that rows that go to and fro in their last places
+       end with their own F, not that of the side they came from, which is a bias: done;
+     - iterations are given and made: done if D falls, or is rounding;
+     - there is another solver, and D falls by less than GVI__POOR too often, or reached rounding
+       slowly, which lets errors grow before they shrink: no convergence;
+     - max_iterations are made, or D is not finite: no convergence.                            */
+GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                                   int extrapolate, gvi__progress *p)
+{
+    struct gvi__private *in = &st->in;
+    gvi__stage stage[2];
+    gvi_points at = gvi__points_at(st, st->r, in->R, in->t, in->work.Q, in->work.F, NULL);
+    at.v = in->work.V;
+    gvi__stages(st, from, h, stage);                                                         // 1)
+    gvi_status status = gvi__predict(st, from, h, stage, extrapolate);                       // 2)
+    if (status != GVI_OK) return status;
+    in->watch.found = gvi__smaller(p->ratio, 1);
+    for (int shorter = 0, last = 0; ; ) {
+        status = gvi__evaluate_stages(st, from, &at);                                        // 4)
+        // free motion may leave a callback's domain though the motion does not: halve the way
+        if (status == GVI_E_CALLBACK && p->used == 1 && !extrapolate && shorter++ < GVI__NEARER) {
+            for (int i = 0; i < st->n; ++i)
+                for (int k = 0; k < in->R; ++k)
+                    in->work.Q[i*in->R + k] = (in->work.Q[i*in->R + k] + from->q[i])/2;
+            continue;
+        }
+        if (last && status == GVI_OK && gvi__parts(in)) gvi__place_last(st, from, stage);
+        if (last || status != GVI_OK) return status;
+        const gvi_real change = gvi__new_rows(st, stage, p->rescale);                        // 3)
+        const int verdict = gvi__verdict(st, p, change, h, stage);                           // 5)
+        if (verdict == GVI__GO_ON) {
+            gvi_real *spare = in->watch.before;
+            in->watch.before = in->watch.change;
+            in->watch.change = spare;
+            for (int k = 0; k < in->stages; ++k) stage[k].change = spare + k*st->n;
+            p->used += 1;
+            continue;
+        }
+        if (verdict == GVI__NOT_FINITE) return gvi__report_status(st, GVI_E_NON_FINITE);
+        if (verdict == GVI__DIVERGES) return gvi__report_status(st, GVI_E_CONVERGENCE);
+        const gvi_real worst = st->counters.worst_change;
+        if (change > worst*worst) st->counters.worst_change = GVI_SQRT(change);
+        if (verdict == GVI__DONE) return GVI_OK;
+        last = 1;
+    }
+}
+
+/* ---- 6) increments ---- */
+
+// the sums k and k + half of double words, to k; a constant `half` makes vectors of it
+GVI__BODY void gvi__fold(int half, gvi_real *hi, gvi_real *lo)
+{
+    for (int k = 0; k < half; ++k) {
+        const gvi__two s = gvi__add_low(hi[k], lo[k], hi[k + half], lo[k + half]);
+        hi[k] = s.hi;
+        lo[k] = s.lo;
+    }
+}
+
+/* sum_j a_j b_j with its low word, since the errors of increments add up over the steps.  Eight
+   partial sums, then these by halves; past the last point the numbers are 0.                  */
+GVI__BODY gvi__two gvi__exact_dot(int R, const gvi_real *a, const gvi_real *b)
+{
+    gvi_real hi[8], lo[8];
+    for (int k = 0; k < 8; ++k) {
+        const gvi__two z = k < R ? gvi__two_prod(a[k], b[k]) : gvi__two_of(0, 0);
+        hi[k] = z.hi;
+        lo[k] = z.lo;
+    }
+    for (int o = 8; o < R; o += 8)
+        for (int k = 0; k < 8; ++k) {
+            const gvi__two z = gvi__two_prod(a[o + k], b[o + k]),
+                           s = gvi__add_low(hi[k], lo[k], z.hi, z.lo);
+            hi[k] = s.hi;
+            lo[k] = s.lo;
+        }
+    if (R >= 8) gvi__fold(4, hi, lo);
+    gvi__fold(2, hi, lo);
+    gvi__fold(1, hi, lo);
+    return gvi__two_of(hi[0], lo[0]);
+}
+
+// increments := sums of h b times rows, their low words with those of the start
+static void gvi__sum_rows(const gvi_stepper *st, gvi_real *rows, const gvi_real *low, gvi_real *sum,
+                          gvi_real *sum_low)
+{
+    const int R = st->in.R;
+    for (int i = 0; i < st->n; ++i, rows += R) {
+        // a callback may have left anything there
+        if (st->r < R) gvi__zero((size_t)(R - st->r), rows + st->r);
+        gvi__two z;
+        if (R == 8) z = gvi__exact_dot(8, st->in.sized.hb, rows);
+        else if (R == 4) z = gvi__exact_dot(4, st->in.sized.hb, rows);
+        else z = gvi__exact_dot(R, st->in.sized.hb, rows);
+        sum[i] = z.hi;
+        sum_low[i] = gvi__low(z.lo + low[i]);
+    }
+}
+
+// sum_j (1 - c_j) h b_j F_j
+GVI__BODY gvi_real gvi__bow(int R, const gvi_real *c, const gvi_real *hb, const gvi_real *F)
+{
+    gvi_real sum[4] = { 0, 0, 0, 0 };
+    GVI__UNROLL for (int o = 0; o + 3 < R; o += 4)
+        GVI__UNROLL for (int k = 0; k < 4; ++k) sum[k] += (1 - c[o + k])*(hb[o + k]*F[o + k]);
+    for (int k = R & ~3; k < R; ++k) sum[k & 3] += (1 - c[k])*(hb[k]*F[k]);
+    return (sum[0] + sum[2]) + (sum[1] + sum[3]);
+}
+
+/* Increments of q and p from the F at the end of the iteration, by (2) and by (3) at tau = 1,
+   where S_j = c_j: dq = h (v + M^-1 sum_j (1 - c_j) h b_j F_j).                               */
+static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h)
+{
+    struct gvi__private *in = &st->in;
+    const gvi_real *c = in->table.c, *hb = in->sized.hb, *F = in->work.F;
+    const int R = in->R;
+    gvi__sum_rows(st, in->work.F, from->p_low, in->step.p, in->step.p_low);
+    if (gvi__parts(in) && gvi__place_increments(st, from)) return;
+    for (int i = 0; i < st->n; ++i, F += R) {
+        in->step.q[i] = gvi__parts(in) ? gvi__place_bow(st, i)
+                                       : R == 8 ? gvi__bow(8, c, hb, F) : gvi__bow(R, c, hb, F);
+    }
+    gvi__over_mass(st, in->step.q, 1, 1);
+    for (int i = 0; i < st->n; ++i) {
+        const gvi__two bend = gvi__two_prod(h, in->step.q[i]),
+                       q = gvi__two_sum(in->free.path[i], bend.hi);
+        in->step.q[i] = q.hi;
+        in->step.q_low[i] = gvi__low((q.lo + bend.lo) + (in->free.path_low[i] + from->q_low[i]));
+    }
+}
+
+// are q + dq and p + dp finite?  0 x is 0 or NaN
+static int gvi__finite_end(const gvi_stepper *st, const gvi__origin *from)
+{
+    const struct gvi__phase *d = &st->in.step;
+    gvi_real none = 0;
+    for (int i = 0; i < st->n; ++i) {
+        // rounded, as the commit will store them
+        const gvi__rounded q = from->q[i] + d->q[i], p = from->p[i] + d->p[i];
+        none += 0*q + 0*p;
+    }
+    return none >= 0;
+}
+
+/* The fixed point, from extrapolated values, then from plain ones, to its increments.          */
+static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query)
+{
+    struct gvi__private *in = &st->in;
+    gvi_status status = GVI_E_CONVERGENCE;
+    // an extrapolation any farther is no better than no force
+    const int usable = in->kept > 0 && h/st->h > -GVI__BACK && h/st->h < GVI__AHEAD;
+    gvi_real ratio = usable && GVI_ABS(h) <= GVI_ABS(st->h) ? in->watch.ratio : 1;
+    if (usable) gvi__prepare_predictor(st, h, query, 0);
+    for (int plain = !usable; plain < 2; ++plain) {
+        gvi__progress p = { 0, 0, 0, GVI__MAX, ratio, GVI__MAX, 1, 0, 0, 1 };
+        status = gvi__iterate(st, from, h, !plain, &p);                               // 1) to 5)
+        gvi__count(&st->counters.iterations, p.used);
+        if (!query) st->iterations = p.used;
+        if (p.used > st->counters.most_iterations) st->counters.most_iterations = p.used;
+        // iterations given: only what failed in the first one is tried again
+        if (status == GVI_OK
+            || (in->desc.iterations > 0 && (p.used > 1 || status == GVI_E_CONVERGENCE))) break;
+        ratio = 2;                                 // the next attempt: no ratio counts
+    }
+    if (status == GVI_OK) gvi__increments(st, from, h);                                      // 6)
+    return status;
+}
+
+/* One attempt at a step or a partial step, to its increments; nothing of it is kept yet.  By the
+   fixed point; by another solver in its place, or after it.                                   */
+static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query)
+{
+    struct gvi__private *in = &st->in;
+    gvi_status status = GVI_OK;
+    in->dt = h;
+    st->formulation = in->chosen;
+    gvi__weights_for(st, h);
+    const int solved = gvi__parts(in) && gvi__place_solve(st, from, h, query, &status);
+    if (!solved && gvi__iterates(in)) {
+        gvi__times(in->R, from->t, from->t_low, h, in->table.c, in->t);
+        status = gvi__fixed_point(st, from, h, query);
+        if (status != GVI_OK && in->turns) status = gvi__place_turn(st, from, h, query, status);
+    }
+    if (status == GVI_OK && gvi__parts(in)) status = gvi__place_finish(st, from);
+    if (status != GVI_OK) return status;
+    return gvi__finite_end(st, from) ? GVI_OK : gvi__report_status(st, GVI_E_NON_FINITE);
+}
+
+/* Attempts until one needs no other; where the last fails, why.                               */
+static gvi_status gvi__solve(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query)
+{
+    gvi_status status;
+    int again = 0;
+    do {
+        status = gvi__attempt(st, from, h, query);
+        if (gvi__parts(&st->in)) status = gvi__place_again(st, status, &again);
+    } while (again);
+    return status == GVI_OK ? GVI_OK : gvi__explain_failure(st, from, h, query, status);
+}
+
+/* ---- 7) commit, and the step ---- */
+
+// work becomes last, last becomes older if two steps are kept, and the oldest is the next work
+static void gvi__rotate(gvi_real **older, gvi_real **last, gvi_real **work)
+{
+    gvi_real *spare = *last;
+    if (*older) {
+        spare = *older;
+        *older = *last;
+    }
+    *last = *work;
+    *work = spare;
+}
+
+static void gvi__rotate_values(gvi_stepper *st)
+{
+    struct gvi__values *older = &st->in.older, *last = &st->in.last, *work = &st->in.work;
+    gvi__rotate(&older->F, &last->F, &work->F);
+    gvi__rotate(&older->V, &last->V, &work->V);
+    if (gvi__parts(&st->in)) gvi__place_rotate(st);
+}
+
+// was := x, x + x_low := x + dx + dx_low
+static void gvi__move(int n, const gvi_real *GVI__RESTRICT dx, const gvi_real *GVI__RESTRICT dx_low,
+                      gvi_real *GVI__RESTRICT x, gvi_real *GVI__RESTRICT x_low,
+                      gvi_real *GVI__RESTRICT was)
+{
+    // gvi__two_sum, twice
+    GVI__ALONG(n,
+        const gvi__number a = GVI__AT(x), d = GVI__AT(dx), s = a + d, b = s - a;
+        const gvi__number da = s - b, e = ((a - da) + (d - b)) + GVI__AT(dx_low);
+        const gvi__number z = s + e, f = z - s, ds = z - f;
+        GVI__TO(was) = a;
+        GVI__TO(x) = z;
+        GVI__TO(x_low) = (s - ds) + (e - f))
+}
+
+static void gvi__commit(gvi_stepper *st, gvi_real h)
+{
+    struct gvi__private *in = &st->in;
+    const gvi__two t = gvi__two_sum(st->t, in->dt + st->t_low);
+    gvi__move(st->n, in->step.q, in->step.q_low, in->state.q, in->state.q_low, in->began.q);
+    gvi__move(st->n, in->step.p, in->step.p_low, in->state.p, in->state.p_low, in->began.p);
+    st->t0 = st->t;
+    st->t = t.hi;
+    st->t_low = t.lo;
+    in->kept = 1 + (in->kept > 0 && !gvi__nonzero(h - st->h));
+    st->h = h;
+    in->stepped = 1;
+    in->has_velocity = in->stages == 2;
+    in->watch.ratio = in->watch.found;
+    gvi__rotate_values(st);
+    if (gvi__parts(in)) gvi__place_commit(st, h);
+    gvi__count(&st->counters.steps, 1);
+}
+
+GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
+{
+    gvi_status status = gvi__ready(st, st && st->in.started);
+    if (status != GVI_OK) return status;
+    struct gvi__private *in = &st->in;
+    in->failed.status = GVI_OK;
+    if (!gvi__nonzero(h) || !gvi__finite(h))
+        return gvi__refuse_call(st, "h is 0, NaN or infinite");
+
+    const gvi_formulation was = st->formulation;
+    const gvi__origin from = { st->t, st->t_low, st->q, st->q_low, st->p, st->p_low };
+    st->resolution = 0;
+    status = gvi__solve(st, &from, h, GVI__STEP);                                     // 1) to 6)
+    if (status == GVI_OK && !gvi__finite(st->t + in->dt))
+        status = gvi__refuse_call(st, "t + h is not finite");
+    if (status == GVI_OK) status = gvi__place_accept(st);
+    if (status != GVI_OK) {
+        in->failed.status = status;
+        in->failed.fault = st->fault;
+        gvi__count(&st->counters.failures, 1);
+        gvi__place_failed(st);
+        st->formulation = was;
+        return st->status = status;
+    }
+    gvi__commit(st, h);                                                                      // 7)
+    return gvi__report_status(st, GVI_OK);
+}
+
+/* ----------------------------------------------------------------- STATE */
+
+// from q, p in in->step and a velocity v, all of them seen to be good
+GVI__COLD gvi_status gvi__begin_at(gvi_stepper *st, gvi_real t, gvi_real *v)
+{
+    struct gvi__private *in = &st->in;
+    const size_t n = (size_t)st->n;
+    gvi_status status = GVI_OK;
+    if (!in->started) status = gvi__probe(st, t, in->step.q, v);
+    if (status == GVI_OK) status = gvi__place_start(st, t, v);
+    if (status != GVI_OK) return status;
+
+    gvi__copy(n, v, in->start);
+    gvi__copy(n, in->step.q, in->state.q);
+    gvi__copy(n, in->step.p, in->state.p);
+    gvi__zero(n, in->state.q_low);
+    gvi__zero(n, in->state.p_low);
+    st->t = st->t0 = t;
+    st->h = st->t_low = st->resolution = st->next = 0;
+    in->started = 1;
+    in->stepped = in->kept = in->has_velocity = 0;
+    in->sized.ratio = 0;
+    in->watch.ratio = in->watch.found = 1;
+    st->formulation = in->chosen;
+    gvi__place_started(st);
+    return gvi__report_status(st, GVI_OK);
+}
+
+// is everything there that a start needs, and finite?
+GVI__COLD gvi_status gvi__check_start(gvi_stepper *st, gvi_real t, const gvi_real *q,
+                                      const gvi_real *w)
+{
+    const gvi_status ready = gvi__ready(st, st && st->in.memory);
+    if (ready != GVI_OK) return ready;
+    st->in.failed.status = GVI_OK;
+    if (!q || !w) return gvi__refuse_call(st, "q, v or p is NULL");
+    if (!gvi__finite(t)) return gvi__refuse_call(st, "t is not finite");
+    const int j = gvi__first_non_finite(st->n, w);
+    int i = gvi__first_non_finite(st->n, q);
+    if (i < 0 && j < 0) return GVI_OK;
+    if (i < 0 || (j >= 0 && j < i)) i = j;
+    return st->status = gvi__refuse(&st->fault, GVI_FAULT_NONE, i, "q, v or p is not finite");
+}
+
+// p = dL/dv, of the kinetic energy and of Lagrangian terms where there are any, to in->point + 5n
+static gvi_status gvi__momentum(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
+{
+    gvi_points at = gvi__one_point(st, &t, q);
+    unsigned skip = ~0u;
+    if (st->in.adds_p) skip = 0;
+    at.v = v;
+    return gvi__evaluate(st, &at, skip, 1);
+}
+
+GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
+{
+    gvi_status status = gvi__check_start(st, t, q, v);
+    if (status != GVI_OK) return status;
+    struct gvi__private *in = &st->in;
+    const size_t n = (size_t)st->n;
+
+    GVI__LOOK(st, 1);
+    status = gvi__momentum(st, t, q, v);
+    GVI__LOOK(st, 0);
+    if (status != GVI_OK) return status;
+    gvi_real *start = in->answer + n;              // v may be st->q or st->p, which change first
+    gvi__copy(n, v, start);
+    gvi__copy(n, in->point + 5*n, in->step.p);
+    gvi__copy(n, q, in->step.q);
+    return gvi__begin_at(st, t, start);
+}
+
+GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_real *q,
+                                      const gvi_real *p)
+{
+    gvi_status status = gvi__check_start(st, t, q, p);
+    if (status != GVI_OK) return status;
+    struct gvi__private *in = &st->in;
+    const size_t n = (size_t)st->n;
+    gvi_real *v = in->answer;
+    gvi__copy(n, p, in->step.p);                   // p may be in->step.q
+    gvi__copy(n, q, in->step.q);
+    // a velocity to start the first iteration from; where there is none, the step says so
+    gvi__zero(n, v);
+    status = gvi__velocity(st, t, in->step.q, in->step.p, v);
+    if (status == GVI_E_SINGULAR || status == GVI_E_CONVERGENCE) gvi__zero(n, v);
+    else if (status != GVI_OK) return status;
+    return gvi__begin_at(st, t, v);
+}
+
+GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
+{
+    gvi_status status = gvi__ready(st, st && st->in.memory);
+    if (status != GVI_OK) return status;
+    struct gvi__private *in = &st->in;
+    if (index < 0 || index >= in->desc.effect_count)
+        return gvi__refuse_call(st, "there is no such effect");
+    const unsigned bit = 1u << index, was = in->off;
+    in->off = was | bit;
+    if (on) in->off = was & ~bit;
+    status = gvi__place_switch(st, was);
+    if (status == GVI_OK) in->watch.ratio = 1;     // another scene may contract otherwise
+    return gvi__done(st, status);
+}
+
+#ifndef GVI_NO_RESTORE
+// pointers into the memory are those of st: the layout again, values rotated as they were saved
+GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const gvi_real *memory)
+{
+    const gvi_status ready = gvi__ready(st, st && st->in.memory);
+    if (ready != GVI_OK) return ready;
+    struct gvi__private *in = &st->in;
+    if (!saved || !memory || !saved->in.memory || saved->n != st->n || saved->s != st->s
+        || saved->r != st->r || saved->in.size != in->size || saved->in.chosen != in->chosen
+        || saved->in.reads_v != in->reads_v || saved->in.adds_p != in->adds_p
+        || saved->in.apart != in->apart || saved->in.desc.effect_count != in->desc.effect_count
+        || saved->in.desc.mass.kind != in->desc.mass.kind)
+        return gvi__refuse_call(st, "saved or memory is NULL, not set up, or of another scene");
+    const struct gvi__private own = *in;
+    const ptrdiff_t F = saved->in.work.F - saved->in.memory;
+    gvi__copy(in->size, memory + saved->in.skip, own.memory);
+    *st = *saved;
+    in->desc = own.desc;
+    in->memory = own.memory;
+    in->kernel = own.kernel;
+    in->skip = own.skip;
+    in->failed.status = GVI_OK;
+    gvi__hand_out(st, own.memory);
+    // it goes round in two or three, and V with it
+    while (in->work.F - in->memory != F) gvi__rotate_values(st);
+    return gvi__report_status(st, GVI_OK);
+}
+#endif
+
+GVI_DEF gvi_status gvi_velocity(gvi_stepper *st, gvi_real *v)
+{
+    gvi_status status = gvi__ready(st, st && st->in.started);
+    if (status != GVI_OK) return status;
+    if (!v) return gvi__refuse_call(st, "v is NULL");
+    gvi_real *V = st->in.answer;
+    gvi__velocity_guess(st, V);
+    status = gvi__velocity(st, st->t, st->q, st->p, V);
+    if (status == GVI_OK) gvi__copy((size_t)st->n, V, v);
+    return gvi__done(st, status);
+}
+
+GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy)
+{
+    gvi_status status = gvi__ready(st, st && st->in.started);
+    if (status != GVI_OK) return status;
+    if (!energy) return gvi__refuse_call(st, "energy is NULL");
+    gvi_real E, *v = st->in.answer + st->n;
+    gvi__velocity_guess(st, v);
+    status = gvi__hamiltonian(st, st->t, st->q, st->p, v, &E);
+    if (status == GVI_OK) *energy = E;
+    return gvi__done(st, status);
+}
+
+/* The last step's curve and velocity, by the formulas of its points with the table row of tau: from
+   F by (3) and its derivative where no V is kept, else from V.                                */
+static void gvi__curve_at(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v)
+{
+    const struct gvi__private *in = &st->in;
+    const int n = st->n, R = in->R, by_forces = in->stages == 1 && !in->has_velocity;
+    const gvi_real *modes = by_forces ? in->table.Phi : in->table.phi,
+                   *weight = by_forces ? in->sized.hb : in->table.b,
+                   *rows = by_forces ? in->last.F : in->last.V;
+    gvi_real *phi = in->set_up, *Phi = phi + R, *v0 = in->free.v;    // at tau, over Gamma
+    if (gvi__parts(in) && gvi__place_line(st, tau, q, v)) return;
+    if (!gvi__iterates(in)) return;
+    gvi__modes(st, tau, phi, Phi);
+    gvi__zero((size_t)n, q);
+    gvi__zero((size_t)n, v);
+    for (int j = 0; j < st->r; ++j) {
+        gvi_real S = 0, T = 0;
+        for (int k = 0; k < st->s; ++k) {
+            S += Phi[k]*modes[k*R + j];
+            T += phi[k]*modes[k*R + j];
+        }
+        if (by_forces) {
+            S = tau - S;
+            T = 1 - T;
+        }
+        for (int i = 0; i < n; ++i) {
+            const gvi_real L = weight[j]*rows[i*R + j];
+            q[i] += S*L;
+            v[i] += T*L;
+        }
+    }
+    if (gvi__parts(in)) gvi__place_held(st, tau, phi, Phi, q, v);
+    if (by_forces) {
+        gvi__over_mass(st, q, 1, 1);
+        gvi__over_mass(st, v, 1, 1);
+        gvi__copy((size_t)n, in->began.p, v0);
+        gvi__over_mass(st, v0, 1, 1);
+        for (int i = 0; i < n; ++i) {
+            q[i] += tau*v0[i];
+            v[i] += v0[i];
+        }
+    }
+    for (int i = 0; i < n; ++i) q[i] = in->began.q[i] + st->h*q[i];
+}
+
+// what was requested
+static void gvi__hand_over(int n, const gvi_real *from, gvi_real *to)
+{
+    if (to) gvi__copy((size_t)n, from, to);
+}
+
+// is there a last step to look into?
+static gvi_status gvi__stepped(gvi_stepper *st)
+{
+    const gvi_status status = gvi__ready(st, st && st->in.started);
+    if (status != GVI_OK) return status;
+    if (!st->in.stepped) return gvi__done(st, GVI_E_STATE);
+    return GVI_OK;
+}
+
+GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v)
+{
+    gvi_status status = gvi__stepped(st);
+    if (status != GVI_OK) return status;
+    if (!(tau >= 0 && tau <= 1)) return gvi__refuse_call(st, "tau is not in [0,1]");
+    if (st->in.desc.rule.kind == GVI_KICKS) return gvi__done(st, GVI_E_FORMULATION);
+    gvi_real *Q = st->in.answer, *V = Q + st->n;
+    gvi__weights_for(st, st->h);
+    gvi__curve_at(st, tau, Q, V);
+    if (gvi__parts(&st->in)) status = gvi__place_curve(st, Q, V);
+    if (status != GVI_OK) return gvi__done(st, status);
+    gvi__hand_over(st->n, Q, q);
+    gvi__hand_over(st->n, V, v);
+    return gvi__done(st, GVI_OK);
+}
+
+GVI_DEF size_t gvi_stepper_size(void) { return sizeof(gvi_stepper); }
+
+/* ========================================================================== PART II: CHAPTERS
+
+   Each by itself, behind the places that PART I calls: what it adds to the method, then how.  Any
+   of them can be left out, and then leaves nothing.                                           */
+
+#ifndef GVI_NO_LAGRANGIAN
+/* ------------------------------------------------------ LAGRANGIAN TERMS
+
+   L may have terms that depend on v in any way: they add dL/dq to F and A_i = dL/dv to P_i.
+
+   With a constant mass and V from (4), A is one more source of the stages:
+
+     Q_i -= h M^-1 sum_j T_ji b_j A_j        V_i -= M^-1 sum_j N_ij b_j A_j
+
+   With momenta (5), V_i = M^-1 (P_i - A_i).  In both, v from p at one point takes Newton's method:
+   the Legendre transform.                                                                     */
+
+GVI__OFFERED gvi_real *gvi__rows_of_A(const struct gvi__private *in) { return in->lagrangian.A; }
+
 /* d(dL/dv)/dv at one point, n*n, by differences of dL/dv, to `hessian`.  x has been evaluated, and
    x->v is v.  The difference is shortened where it leaves the domain of L, and made longer where
    P_j, which need not be 0 with v, hides it.                                                 */
@@ -2383,7 +4104,7 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_rea
 {
     const int n = st->n;
     const gvi_real root = GVI_SQRT(GVI__EPS);
-    gvi_real *base = st->in.newton.column;
+    gvi_real *base = st->in.lagrangian.column;
     gvi__copy((size_t)n, at->dldv, base);
     for (int j = 0; j < n; ++j) {
         const gvi_real was = v[j], push = GVI_ABS(st->in.sized.h*at->f[j])*root;
@@ -2422,7 +4143,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
                                        gvi_real *v)
 {
     const int n = st->n;
-    gvi_real *W = st->in.newton.hessian, *pivot = W + n*n, *dv = st->in.newton.column + n,
+    gvi_real *W = st->in.lagrangian.hessian, *pivot = W + n*n, *dv = st->in.lagrangian.column + n,
              last = GVI__MAX;
     int at;
     x->v = v;
@@ -2475,635 +4196,344 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
     return gvi__report_effect(st, GVI_E_CONVERGENCE, GVI_FAULT_MASS);
 }
 
-// a velocity near the present one: that at the end of the last step, or of the start
-static void gvi__velocity_guess(const gvi_stepper *st, gvi_real *v)
+// d2L/dv2 at one point and its LU, to lagrangian.hessian
+GVI__OFFERED gvi_status gvi__factor_hessian(gvi_stepper *st, gvi_points *at, gvi_real *v)
 {
-    const struct gvi__private *in = &st->in;
-    if (GVI__READS_V && in->has_velocity) gvi__gather(st->n, in->R, in->last.V + st->r - 1, v);
-    else gvi__copy((size_t)st->n, in->start, v);
+    const int n = st->n;
+    gvi_real *H = st->in.lagrangian.hessian;
+    at->v = v;
+    gvi_status status = gvi__evaluate(st, at, 0, 1);
+    if (status == GVI_OK) status = gvi__velocity_hessian(st, at, v, H);
+    if (status != GVI_OK) return status;
+    if (gvi_lu_factor(n, H, H + n*n) == GVI_OK) return GVI_OK;
+    return gvi__report_effect(st, GVI_E_SINGULAR, GVI_FAULT_MASS);
 }
 
-// v from p at one point; v holds a guess on entry
-static gvi_status gvi__velocity(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *p,
-                                gvi_real *v)
+#ifndef GVI_NO_NEWTON
+// is d2L/dv2 regular?  Where effects alone make the mass, it is known now, at rest as well
+static gvi_status gvi__check_hessian(gvi_stepper *st, gvi_points *at, gvi_real *v)
 {
-    gvi_points at = gvi__one_point(st, &t, q);
-    if (st->in.desc.mass.velocity) {
-        const gvi_status status = gvi__evaluate_mass(st, &at, p, v);
-        if (status != GVI_OK) return status;
-        return gvi__check_rows(st, &at, v, GVI_FAULT_MASS);
+    const int n = st->n;
+    gvi_real *H = st->in.lagrangian.hessian;
+    int column;
+    gvi_status status = gvi__evaluate(st, at, 0, 1);
+    if (status == GVI_OK) status = gvi__velocity_hessian(st, at, v, H);
+    if (status != GVI_OK) return status;
+    for (int i = 0; i < n; ++i)                    // p/v does not tell the mass
+        if (st->in.desc.mass.kind == GVI_MASS_NONE && !gvi__nonzero(v[i])
+            && gvi__nonzero(H[i*n + i]))
+            st->in.watch.scale[i] = 1/GVI_SQRT(GVI_ABS(H[i*n + i]));
+    status = gvi__lu_factor(n, H, H + n*n, &column);
+    if (status != GVI_E_SINGULAR) return GVI_OK;
+    return gvi__report(st, status, GVI_FAULT_MASS, column, GVI_FAULT_NONE);
+}
+#endif
+
+// z := (d2L/dv2)^-1 z
+GVI__OFFERED void gvi__over_hessian(const gvi_stepper *st, gvi_real *z)
+{
+    const gvi_real *lu = st->in.lagrangian.hessian;
+    gvi_lu_solve(st->n, lu, lu + st->n*st->n, z);
+}
+
+GVI__COLD void gvi__lagrangian_layout(struct gvi__private *in, gvi__arena *a)
+{
+    struct gvi__lagrangian *l = &in->lagrangian;
+    const size_t n = (size_t)in->desc.n, r = (size_t)in->desc.rule.points, R = (size_t)GVI__ROW(r),
+                 fixed = in->chosen != GVI_NEWTON, velocities = in->chosen == GVI_VELOCITIES,
+                 older = fixed && r < 10 && GVI__DIG > 24;
+    l->A = gvi__take(a, fixed*n, R);
+    l->last_A = gvi__take(a, fixed*n, R);
+    l->older_A = gvi__take(a, older*n, R);
+    l->T = gvi__take(a, velocities*r, R);
+    l->N = gvi__take(a, velocities*r, R);
+    l->plus = gvi__take(a, velocities*2*n, R);
+    l->hessian = gvi__take(a, 1, n*n + n + 1);
+    l->column = gvi__take(a, 4, n);
+}
+
+// -T_ji and -N_ij by columns
+GVI__COLD void gvi__lagrangian_tables(gvi_stepper *st)
+{
+    const struct gvi__private *in = &st->in;
+    const struct gvi__tables *table = &in->table;
+    const int r = st->r, R = in->R;
+    if (!in->lagrangian.T) return;
+    for (int j = 0; j < r; ++j) {
+        gvi__prepare_column(st, table->phi, table->phi_low, j);
+        for (int i = 0; i < r; ++i) {
+            in->lagrangian.T[i*R + j] = table->U[j*R + i] - 1;
+            in->lagrangian.N[j*R + i] = -gvi__coupling(st, table->phi, table->phi_low, i).hi;
+        }
     }
-    if (gvi__mass_is(&st->in, GVI_MASS_NONE) || gvi__has(&st->in, GVI__HAS_LAGRANGIAN))
-        return gvi__legendre_newton(st, &at, p, v);
-    gvi__copy((size_t)st->n, p, v);
-    if (gvi__mass_is(&st->in, GVI_MASS_POSITION)) {
-        const gvi_status status = gvi__factor_mass(st, &at);
-        if (status != GVI_OK) return status;
-        gvi__ldl_solve(st->n, st->in.mass.at_points, 1, v, 1, 1);
-        gvi__count(&st->counters.velocities, 1);
-    } else gvi__over_mass(st, v, 1, 1);
+}
+
+static void gvi__lagrangian_stages(const gvi_stepper *st, gvi__stage *stage)
+{
+    const struct gvi__private *in = &st->in;
+    if (!in->lagrangian.plus) return;
+    stage[0].plus = in->lagrangian.plus;
+    stage[1].plus = in->lagrangian.plus + st->n*in->R;
+}
+
+// A of the last step, extrapolated, or none
+static void gvi__lagrangian_predict(const gvi_stepper *st, int extrapolate)
+{
+    const struct gvi__lagrangian *l = &st->in.lagrangian;
+    if (extrapolate) gvi__extrapolate(st, l->last_A, l->older_A, l->A);
+    else gvi__zero((size_t)st->n*(size_t)st->in.R, l->A);
+}
+
+// what A adds to the stages
+static void gvi__lagrangian_before(const gvi_stepper *st)
+{
+    const struct gvi__private *in = &st->in;
+    const int n = st->n, R = in->R;
+    gvi_real *plus = in->lagrangian.plus, *weighted = in->lagrangian.plus + n*R;
+    if (!plus) return;
+    for (int i = 0; i < n; ++i)
+        gvi__weigh(R, in->table.b, in->lagrangian.A + i*R, weighted + i*R);
+    gvi__sums(st, in->lagrangian.T, weighted, plus, 0);
+    for (int i = 0; i < n; ++i) {
+        gvi__weigh(R, in->table.b, in->lagrangian.A + i*R, in->weighted);
+        for (int k = 0; k < R; ++k)
+            weighted[i*R + k] = gvi__point_sum(st->r, R, in->lagrangian.N + k, in->weighted);
+    }
+}
+
+// sum_j b_j A_j, which bends coordinate i back
+static gvi_real gvi__lagrangian_bow(const gvi_stepper *st, int i)
+{
+    const struct gvi__private *in = &st->in;
+    return gvi__dot(st->r, in->table.b, in->lagrangian.A + i*in->R);
+}
+#else
+#define gvi__check_hessian(st, at, v) GVI_OK
+#define gvi__factor_hessian(st, at, v) ((void)(at), (void)(v), GVI_OK)
+#define gvi__over_hessian(st, z) ((void)(z))
+#define gvi__rows_of_A(in) ((gvi_real *)0)
+#endif /* GVI_NO_LAGRANGIAN */
+
+#ifndef GVI_NO_MOMENTA
+/* --------------------------------------------------------------- MOMENTA
+
+   Formulation (5), for r = s: stages P and Q in place of Q and V, and V from dL/dv(Q, V) = P
+   between and behind them.  So M may depend on q, Lagrangian terms may be there, or the caller
+   makes the velocity from the momentum.                                                       */
+
+/* ---- the mass at the points ---- */
+
+/* The same for whole lanes of points.  Returns whether all pivots D are sure: the squares of
+   (diagonal entry before elimination)/D, and of what rounding leaves of D/D - 1, add up to less
+   than 1/(n eps)^2.  Otherwise gvi__ldl_factor has to decide, from the matrix made anew.     */
+GVI__BODY int gvi__ldl_factor_lane(int n, int R, gvi_real *m)
+{
+    const size_t N = (size_t)n, S = (size_t)R;
+    const gvi_real most = 1/((gvi_real)n*GVI__EPS);
+    gvi__lane sum = { 0 };
+    gvi_real all = 0;
+    for (size_t j = 0; j < N; ++j) {
+        gvi_real *d = m + (j*N + j)*S;
+        gvi__lane rest = GVI__LOAD(d);
+        for (size_t l = 0; l < j; ++l)
+            rest -= GVI__LOAD(m + (j*N + l)*S)*GVI__LOAD(m + (l*N + j)*S);
+        const gvi__lane inverse = 1/rest, loss = GVI__LOAD(d)*inverse, off = rest*inverse - 1;
+        sum += loss*loss + off*off;
+        GVI__STORE(d) = inverse;
+        for (size_t i = j + 1; i < N; ++i) {
+            gvi_real *a = m + (i*N + j)*S;
+            rest = GVI__LOAD(a);
+            for (size_t l = 0; l < j; ++l)
+                rest -= GVI__LOAD(m + (j*N + l)*S)*GVI__LOAD(m + (l*N + i)*S);
+            GVI__STORE(m + (j*N + i)*S) = rest;
+            GVI__STORE(a) = rest*inverse;
+        }
+    }
+    for (int k = 0; k < GVI__LANES; ++k) all += GVI__ENTRY(sum, k);
+    return all < most*most;
+}
+
+// z := M^-1 from, which may be z
+GVI__BODY void gvi__ldl_solve_lane(int n, int R, const gvi_real *m, const gvi_real *from,
+                                   gvi_real *z)
+{
+    const size_t N = (size_t)n, S = (size_t)R;
+    for (size_t i = 0; i < N; ++i) {
+        gvi__lane rest = GVI__LOAD(from + i*S);
+        for (size_t j = 0; j < i; ++j) rest -= GVI__LOAD(m + (i*N + j)*S)*GVI__LOAD(z + j*S);
+        GVI__STORE(z + i*S) = rest;
+    }
+    for (size_t i = N; i-- > 0; ) {
+        gvi__lane rest = GVI__LOAD(z + i*S)*GVI__LOAD(m + (i*N + i)*S);
+        for (size_t j = i + 1; j < N; ++j) rest -= GVI__LOAD(m + (j*N + i)*S)*GVI__LOAD(z + j*S);
+        GVI__STORE(z + i*S) = rest;
+    }
+}
+
+/* Evaluates mass.points, or with `v` mass.velocity, which reads p.                           */
+static gvi_status gvi__evaluate_mass(gvi_stepper *st, const gvi_points *x, const gvi_real *p,
+                                     gvi_real *v)
+{
+    const gvi_mass *mass = &st->in.desc.mass;
+    gvi_points at = gvi__points_at(st, x->count, x->stride, x->t, x->q, NULL, NULL);
+    gvi_points_fn *callback = mass->velocity;
+    at.p = p;
+    at.velocity = v;
+    if (!v) {
+        at.mass = st->in.momenta.mass;
+        callback = mass->points;
+        gvi__zero((size_t)(x->n*x->n)*(size_t)x->stride, at.mass);
+    }
+    gvi__count(&st->counters.mass, x->count);
+    const int failed = callback(&at, mass->user);
+    if (failed) return gvi__report_callback(st, failed, GVI_FAULT_MASS);
     return GVI_OK;
 }
 
-/* At one point: V and L, the sums of the potentials and of the Lagrangian terms, and the kinetic
-   energy T = v'Mv/2.  Forces have no value.                                                  */
-GVI__COLD gvi_status gvi__value_sums(gvi_stepper *st, gvi_real t, const gvi_real *q,
-                                     const gvi_real *v, gvi_real *V, gvi_real *L, gvi_real *T)
+/* M(q) at the points, factored.  In whole lanes, with the first point behind the last, unless a
+   pivot is doubtful: then once more, one by one.                                              */
+static gvi_status gvi__factor_mass(gvi_stepper *st, const gvi_points *x)
 {
-    const gvi_desc *d = &st->in.desc;
-    gvi_points at = gvi__one_point(st, &t, q);
-    at.v = v;
-    *V = *L = *T = 0;
-    for (int e = 0; e < d->effect_count; ++e) {
-        const gvi_kind kind = d->effects[e].kind;
-        gvi_real *value = L;
-        if (kind == GVI_POTENTIAL) value = V;
-        if (((st->in.off | st->in.apart) >> e & 1u) || kind == GVI_FORCE) continue;
-        const gvi_status status = gvi__value(st, &at, e, value);
+    const int n = st->n, R = x->stride;
+    gvi_real *m = st->in.momenta.mass;
+    gvi_status status = gvi__evaluate_mass(st, x, NULL, NULL);
+    if (status != GVI_OK) return status;
+    gvi__count(&st->counters.factorizations, x->count);
+    if (GVI__LANES > 1 && R % 8 == 0) {
+        int sure = 1;
+        for (size_t i = 0, S = (size_t)R; i < (size_t)n*(size_t)n; ++i)
+            for (size_t k = (size_t)x->count; k < S; ++k) m[i*S + k] = m[i*S];
+        for (int o = 0; o < R; o += GVI__LANES)
+            if (n == 2) sure &= gvi__ldl_factor_lane(2, R, m + o);
+            else sure &= gvi__ldl_factor_lane(n, R, m + o);
+        if (sure) return GVI_OK;
+        status = gvi__evaluate_mass(st, x, NULL, NULL);
+        st->counters.mass -= (unsigned long long)x->count;
         if (status != GVI_OK) return status;
-        if (!gvi__finite(*value)) return gvi__report_effect(st, GVI_E_NON_FINITE, e);
     }
-    const gvi_status status = gvi__evaluate(st, &at, ~0u, 1);
-    *T = gvi__dot(st->n, at.dldv, v)/2;
+    int at[2] = { 0, 0 };
+    status = gvi__ldl_factor(n, R, x->count, m, at);
+    if (status == GVI_OK) return GVI_OK;
+    return gvi__report(st, status, GVI_FAULT_MASS, at[0], at[1]);
+}
+
+// x->f += v' dM/dq v / 2
+static gvi_status gvi__mass_gradient(gvi_stepper *st, const gvi_points *x)
+{
+    const gvi_mass *mass = &st->in.desc.mass;
+    gvi_points at = *x;
+    at.dldv = NULL;
+    const int failed = mass->gradient(&at, mass->user);
+    if (failed) return gvi__report_callback(st, failed, GVI_FAULT_MASS);
+    if (!GVI__LOOKS(st)) return GVI_OK;
+    return gvi__check_rows(st, x, x->f, GVI_FAULT_MASS);
+}
+
+/* ---- Legendre transform at one point ---- */
+
+// v from p with M(q), or by the caller's own transform
+static gvi_status gvi__momenta_velocity(gvi_stepper *st, gvi_points *at, const gvi_real *p,
+                                        gvi_real *v)
+{
+    if (st->in.desc.mass.velocity) {
+        const gvi_status status = gvi__evaluate_mass(st, at, p, v);
+        return status == GVI_OK ? gvi__check_rows(st, at, v, GVI_FAULT_MASS) : status;
+    }
+    const gvi_status status = gvi__factor_mass(st, at);
+    if (status != GVI_OK) return status;
+    gvi__copy((size_t)st->n, p, v);
+    gvi__ldl_solve(st->n, st->in.momenta.mass, 1, v, 1, 1);
+    gvi__count(&st->counters.velocities, 1);
+    return GVI_OK;
+}
+
+// F and P of v'M(q)v/2
+static gvi_status gvi__momenta_kinetic(gvi_stepper *st, gvi_points *at)
+{
+    gvi_status status = gvi__evaluate_mass(st, at, NULL, NULL);
+    if (status == GVI_OK) status = gvi__mass_gradient(st, at);
+    if (status == GVI_OK) gvi__add_momenta(at, st->in.momenta.mass, at->stride);
     return status;
 }
 
-/* H = p'v - L, v being a guess on entry and the velocity on return.  Without Lagrangian terms the
-   kinetic energy is p'v/2.                                                                   */
-GVI__COLD gvi_status gvi__hamiltonian(gvi_stepper *st, gvi_real t, const gvi_real *q,
-                                      const gvi_real *p, gvi_real *v, gvi_real *energy)
+/* ---- set-up ---- */
+
+// what is missing of a mass that is not constant, or NULL
+GVI__COLD const char *gvi__wrong_in_varying_mass(const gvi_mass *m)
 {
-    gvi_real V, L, T;
-    gvi_status status = gvi__velocity(st, t, q, p, v);
-    if (status == GVI_OK) status = gvi__value_sums(st, t, q, v, &V, &L, &T);
-    if (status != GVI_OK) return status;
-    const gvi_real pv = gvi__dot(st->n, p, v);
-    if (gvi__has(&st->in, GVI__HAS_LAGRANGIAN)) *energy = (pv - T) - L + V;
-    else *energy = pv/2 + V;
-    return GVI_OK;
+    if (m->kind == GVI_MASS_POSITION && !m->points) return "mass: points is missing";
+    if (m->kind == GVI_MASS_POSITION && !m->gradient) return "mass: gradient is missing";
+    return NULL;
 }
 
-/* ---------------------------------------------------------------- TABLES */
-
-/* phi_k = P_k(x) and Phi_k = (P_(k-1) - P_(k+1))(x)/(2(2k+1)), P_(-1) = 1, at the nodes, x = 1
-   - 2c, in double-word arithmetic: [k*R + node].  Then the nodes go to the grid of S.         */
-GVI__COLD void gvi__modes_of(const gvi_stepper *st, int count, gvi_real *c, const gvi_real *c_low,
-                             gvi_real *phi, gvi_real *phi_low, gvi_real *Phi, gvi_real *Phi_low)
+GVI__COLD int gvi__momenta_cover(const struct gvi__private *in, int holds)
 {
-    for (int i = 0; i < count; ++i) {
-        const gvi__two X = gvi__argument2(gvi__two_of(c[i], c_low[i]));
-        gvi__two P = gvi__two_of(1, 0), before = P;
-        for (int k = 0, at = i; k < st->s; ++k, at += st->in.R) {
-            gvi__two z = before;
-            if (phi) {
-                phi[at] = P.hi;
-                phi_low[at] = P.lo;
-            }
-            gvi__legendre2(k, X, &P, &before);
-            z = gvi__div2_by(gvi__sub2(z, P), 4*k + 2);
-            Phi[at] = z.hi;
-            Phi_low[at] = z.lo;
-        }
-        c[i] = gvi__grid(gvi__two_sum(c[i], c_low[i]), GVI__EPS/2);
-    }
+    const gvi_desc *d = &in->desc;
+    if (d->rule.points != d->degree) return 0;
+    if (d->mass.velocity) return !holds;
+    return d->mass.kind != GVI_MASS_NONE;
 }
 
-// the low words of modes a: phi, Phi, or Phi at constraints' points
-static const gvi_real *gvi__low_words(const gvi_stepper *st, const gvi_real *a)
+GVI__COLD void gvi__momenta_layout(struct gvi__private *in, gvi__arena *a)
 {
-    if (a == st->in.table.phi) return st->in.table.phi_low;
-    if (a == st->in.con.Phi) return st->in.con.Phi_low;
-    return st->in.sized.E;                         // gvi__set_rule puts those of Phi there
+    struct gvi__momenta *m = &in->momenta;
+    const size_t n = (size_t)in->desc.n, r = (size_t)in->desc.rule.points, R = (size_t)GVI__ROW(r),
+                 on = in->chosen == GVI_MOMENTA, varies = in->desc.mass.kind == GVI_MASS_POSITION;
+    m->P = gvi__take(a, on*n, R);
+    m->T = gvi__take(a, on*r, R);
+    m->ones = gvi__take(a, on, n);
+    m->was = gvi__take(a, on, n);
+    m->mass = gvi__take(a, varies*n*n, R);
 }
 
-/* 1/Gamma_kk = 2k + 1 while the rule is exact for phi_k^2; Lobatto with r = s gives s - 1 for the
-   last.  A rule of order u < 2s - 2 makes Gamma full: its LU is kept.  Of a mode that the rule all
-   but misses, half of the digits would be left.                                               */
-GVI__COLD gvi_status gvi__make_gamma(gvi_stepper *st)
-{
-    const struct gvi__tables *table = &st->in.table;
-    const int s = st->s, r = st->r, R = st->in.R;
-    for (int k = 0; k < s; ++k) table->inv_gamma[k] = (gvi_real)(2*k + 1);
-    if (GVI__RULES && st->order == 2*s - 2) {
-        const gvi_real *last = table->phi + (s - 1)*R, sum = gvi__dot3(r, table->b, last, last);
-        if (!(GVI_ABS(sum) > GVI_SQRT(GVI__EPS))) return GVI_E_POINTS;
-        table->inv_gamma[s - 1] = 1/sum;
-        if (st->in.desc.rule.kind == GVI_LOBATTO) table->inv_gamma[s - 1] = (gvi_real)(s - 1);
-    }
-    if (!gvi__has(&st->in, GVI__HAS_GAMMA)) return GVI_OK;
-    for (int k = 0; k < s; ++k)
-        for (int l = 0; l < s; ++l)
-            table->gamma[k*s + l] = gvi__dot3(r, table->b, table->phi + k*R, table->phi + l*R);
-    if (gvi_lu_factor(s, table->gamma, table->gamma + s*s) != GVI_OK) return GVI_E_POINTS;
-    if (!(gvi_lu_rcond(s, table->gamma, table->gamma + s*s, st->in.row) > GVI_SQRT(GVI__EPS)))
-        return GVI_E_POINTS;
-    return GVI_OK;
-}
-
-// y := Gamma^-1 y
-static void gvi__over_gamma(const gvi_stepper *st, gvi_real *y)
-{
-    const struct gvi__tables *table = &st->in.table;
-    if (gvi__has(&st->in, GVI__HAS_GAMMA))
-        gvi_lu_solve(st->s, table->gamma, table->gamma + st->s*st->s, y);
-    else for (int k = 0; k < st->s; ++k) y[k] *= table->inv_gamma[k];
-}
-
-// w := Gamma^-1 b(c_j) as double words, low words s further, for gvi__coupling; b: phi or Phi
-GVI__COLD void gvi__prepare_column(gvi_stepper *st, const gvi_real *b, int j)
-{
-    const struct gvi__tables *table = &st->in.table;
-    const gvi_real *low = gvi__low_words(st, b);
-    const int s = st->s, R = st->in.R, full = gvi__has(&st->in, GVI__HAS_GAMMA);
-    gvi_real *w = st->in.row;
-    for (int k = 0; k < s; ++k) {
-        gvi__two z = gvi__two_of(b[k*R + j], 0);
-        if (!full) z = gvi__scale2(table->inv_gamma[k], gvi__two_of(z.hi, low[k*R + j]));
-        w[k] = z.hi;
-        w[s + k] = z.lo;
-    }
-    if (full) gvi__over_gamma(st, w);
-}
-
-// sum_k a_k(c_i) (Gamma^-1 b(c_j))_k; a: phi or Phi.  Products do not wait for the sum
-GVI__COLD gvi__two gvi__coupling(const gvi_stepper *st, const gvi_real *a, int i)
-{
-    const gvi_real *low = gvi__low_words(st, a), *w = st->in.row;
-    gvi__two sum = gvi__two_of(0, 0);
-    for (int k = 0, at = i; k < st->s; ++k, at += st->in.R) {
-        const gvi__two z = gvi__mul2(gvi__two_of(a[at], low[at]), gvi__two_of(w[k], w[st->s + k]));
-        sum = gvi__add_low(sum.hi, sum.lo, z.hi, z.lo);
-    }
-    return gvi__two_sum(sum.hi, sum.lo);
-}
-
-// S_ij and T_ij of the column that was prepared last; Phi: at the nodes i
-static gvi_real gvi__S(const gvi_stepper *st, const gvi_real *Phi, int i)
-{
-    return gvi__grid(gvi__coupling(st, Phi, i), GVI__EPS/2);
-}
-
-static gvi_real gvi__T(const gvi_stepper *st, int i)
-{
-    return gvi__grid(gvi__coupling(st, st->in.table.phi, i), GVI__EPS);
-}
-
-/* S and T on grids of eps/2 and eps (|S| <= 1, |T| < 2): what they must fulfil for the step to
-   be symplectic then holds exactly in the rounded numbers, S_ij = S_ji, and for Gauss with r =
-   s T_ij + T_ji = 1.  Stored by columns, [j*R + i]: K = c_i - S_ij, U = 1 - T_ij, T = T_ji, and
-   where Lagrangian terms are taken away, in the velocities formulation, -T_ji and -N_ij.      */
-GVI__COLD void gvi__make_tables(gvi_stepper *st)
-{
-    const struct gvi__tables *table = &st->in.table;
-    const int r = st->r, R = st->in.R;
-    const int gauss = !GVI__RULES || (st->in.desc.rule.kind == GVI_GAUSS && r == st->s);
-    gvi_real sign = 1;
-    if (!gvi__has(&st->in, GVI__BY_MOMENTA)) sign = -1;
-    for (int j = 0; j < r; ++j) {
-        int to = r;
-        gvi__prepare_column(st, table->Phi, j);
-        if (table->K)
-            for (int i = 0; i <= j; ++i) {
-                const gvi_real S = gvi__S(st, table->Phi, i);
-                table->K[j*R + i] = table->c[i] - S;
-                table->K[i*R + j] = table->c[j] - S;
-            }
-        if (!table->U) continue;
-        if (gauss) to = j + 1;                    // the others by T_ij + T_ji = 1
-        for (int i = 0; i < to; ++i) {
-            gvi_real T = (gvi_real)0.5;
-            if (!gauss || i != j) T = gvi__T(st, i);
-            table->U[j*R + i] = 1 - T;
-            if (gauss) table->U[i*R + j] = T;
-            if (table->T) table->T[i*R + j] = sign*T;
-            if (table->T && gauss) table->T[j*R + i] = sign*(1 - T);
-        }
-        if (!GVI__LAGRANGIAN || !table->N) continue;
-        gvi__prepare_column(st, table->phi, j);
-        for (int i = 0; i < r; ++i) table->N[j*R + i] = -gvi__coupling(st, table->phi, i).hi;
-    }
-}
-
-/* The tables of constraints, on the same grids, by columns: K = c_i - S(c_i, d_e), U = 1 - T(c_i,
-   d_e); for D d_a - S(d_a, c_j), or with momenta T(c_j, d_a), and d_a - S(d_a, d_e), with LU. */
-GVI__COLD gvi_status gvi__set_constraints(gvi_stepper *st)
+// T by columns: T_ji at [j*R + i], of U
+GVI__COLD void gvi__momenta_tables(gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
-    const int s = st->s, r = st->r, R = in->R, momenta = gvi__has(in, GVI__BY_MOMENTA);
-    gvi_real *d = in->con.d, *low = in->row, *lu = in->con.lu;
-    gvi__rule(1, s + 1, d, gvi__has(in, GVI__ITERATES) ? low : NULL, in->con.w);
-    if (!gvi__has(in, GVI__ITERATES)) return GVI_OK;
-    gvi__modes_of(st, s, d + 1, low + 1, NULL, NULL, in->con.Phi, in->con.Phi_low);
-    gvi__zero(2*(size_t)s, in->row);               // the column of d_0: Phi(d_0) = 0
-    for (int e = 0; e <= s; ++e) {
-        if (e > 0) gvi__prepare_column(st, in->con.Phi, e - 1);
-        for (int i = 0; i < r; ++i) {
-            const gvi_real S = gvi__S(st, in->table.Phi, i), T = in->con.U ? gvi__T(st, i) : 0;
-            if (e < s) in->con.K[e*R + i] = in->table.c[i] - S;
-            if (e < s && in->con.U) in->con.U[e*R + i] = 1 - T;
-            if (e > 0) in->con.by_force[i*R + e - 1] = momenta ? T : d[e] - S;
-        }
-        for (int a = e > 1 ? e : 1; a <= s; ++a) {
-            const gvi_real S = gvi__S(st, in->con.Phi, a - 1);
-            if (e < s) in->con.by_impulse[e*R + a - 1] = lu[(a - 1)*s + e] = d[a] - S;
-            if (a < s && e > 0) in->con.by_impulse[a*R + e - 1] = lu[(e - 1)*s + a] = d[e] - S;
-        }
-    }
-    if (gvi_lu_factor(s, lu, lu + s*s) != GVI_OK) return GVI_E_POINTS;
-    for (int a = 0; a < s; ++a) {
-        in->con.X[a*R + a] = 1;
-        gvi_lu_solve(s, lu, lu + s*s, in->con.X + a*R);
-    }
-    return GVI_OK;
+    if (in->chosen != GVI_MOMENTA) return;
+    for (int j = 0; j < st->r; ++j)
+        for (int i = 0; i < st->r; ++i)
+            in->momenta.T[i*in->R + j] = 1 - in->table.U[j*in->R + i];
+    for (int i = 0; i < st->n; ++i) in->momenta.ones[i] = 1;
 }
 
-// phi_k(tau) and Phi_k(tau), k < s, multiplied by Gamma^-1, at any tau
-static void gvi__modes(const gvi_stepper *st, gvi_real tau, gvi_real *phi, gvi_real *Phi)
-{
-    gvi_real P = 1, before = 1;
-    for (int k = 0; k < st->s; ++k) {
-        const gvi_real last = before;
-        phi[k] = P;
-        gvi__legendre(k, 1 - 2*tau, &P, &before);
-        Phi[k] = (last - P)/(gvi_real)(4*k + 2);
-    }
-    gvi__over_gamma(st, phi);
-    gvi__over_gamma(st, Phi);
-}
+/* ---- step ---- */
 
-/* What a step of length h needs, if it is not there already: weights h b_j whose sum is h exactly.
-   They are rounded to multiples of ulp(h); what is left over goes to the largest weight and its
-   mirror image.  Explicit, the drifts between the nodes sum to h as well.                    */
-static void gvi__weights_for(gvi_stepper *st, gvi_real h)
-{
-    struct gvi__sized *sized = &st->in.sized;
-    const gvi_real *b = st->in.table.b;
-    const int r = st->r;
-    int e, most = 0;
-    if (!gvi__nonzero(sized->h - h)) return;
-    sized->h = h;
-    sized->ratio = 0;                                  // E may hold sums with the old weights
-
-    gvi_real mantissa = GVI_FREXP(h, &e), rest = mantissa, at = 0;
-    for (int j = 0; j < r; ++j) {
-        sized->hb[j] = gvi__grid(gvi__two_prod(b[j], mantissa), GVI__EPS/2);
-        rest -= sized->hb[j];
-        if (b[j] > b[most]) most = j;
-    }
-    const int mirror = r - 1 - most;
-    if (mirror == most || gvi__nonzero(b[mirror] - b[most])) sized->hb[most] += rest;
-    else {
-        sized->hb[most] += rest/2;
-        sized->hb[mirror] += rest/2;
-    }
-    for (int j = 0; j < r; ++j) sized->hb[j] = GVI_LDEXP(sized->hb[j], e);
-    if (gvi__has(&st->in, GVI__ITERATES)) return;
-    for (int j = 0; j < r; ++j) {
-        const gvi_real next = gvi__grid(gvi__two_prod(st->in.table.c[j], mantissa), GVI__EPS/2);
-        sized->drift[j] = GVI_LDEXP(next - at, e);
-        at = next;
-    }
-    sized->drift[r] = GVI_LDEXP(mantissa - at, e);
-}
-
-/* The predictor: least squares through the stage values of the last step or the last two, by
-   polynomials p_k that are orthonormal on the nodes x_j = c, and c - 1 for the step before
-   (Forsythe 1957): E_ij = sum_k p_k(y_i) p_k(x_j) at the points y_i = alpha + beta c_i of the
-   next; those are `to`, which are the same nodes but for constraints.
-
-   Degree: for one step r - 1, through all values; for two, what `make cost` found best.  It stops
-   before rounding, amplified by about 5.8^degree at the end of the step, exceeds 1e-4 in double,
-   and before a polynomial that only distinguishes points that nearly coincide, as 0 and 1 - 1 do
-   in two steps of Lobatto's: its coupling is then small, elsewhere it is above 0.1.           */
-static void gvi__fit(gvi_stepper *st, int r, const gvi_real *from, const gvi_real *to,
-                     gvi_real alpha, gvi_real beta, int steps, gvi_real *E)
+// P := p0 + sum_j U_ij h b_j F_j,  Q := q0 + sum_j T_ji h b_j V_j
+static void gvi__momenta_stages(gvi_stepper *st, const gvi__origin *from, gvi__stage *stage)
 {
     struct gvi__private *in = &st->in;
-    const int R = in->R, nodes = steps*R, all = nodes + R, most = GVI__DIG*2/7;
-    int degree = r - 1;
-    if (steps == 2) degree = r + r/2 - r/8;
-    if (degree > most) degree = most;
-    gvi_real *p = in->row, *before = p + 3*R, *at = before + 3*R;
-    gvi_real coupling = 0;
-    const gvi_real norm = 1/GVI_SQRT((gvi_real)(steps*r));
-    gvi__zero(6*(size_t)R, p);                     // and before, which is behind it
-    for (int m = 0; m < R; ++m) {
-        at[m] = from[m];
-        at[R + m] = from[m] - 1;
-        at[nodes + m] = alpha + beta*to[m];
-        if (m < r) p[m] = p[R + m] = p[nodes + m] = norm;
-    }
-    gvi__zero((size_t)(steps*r*R), E);
-    for (int k = 0; k <= degree; ++k) {
-        for (int j = 0; j < r; ++j) {
-            gvi_real *last = E + j*R;
-            gvi__add_scaled(R, p[j], p + nodes, last, last);
-            if (steps == 1) continue;
-            gvi_real *older = E + (r + j)*R;
-            gvi__add_scaled(R, p[R + j], p + nodes, older, older);
-        }
-
-        // p_(k+1) ~ (x - <x p_k, p_k>) p_k - coupling p_(k-1), over its norm
-        const gvi_real middle = gvi__dot3(nodes, at, p, p);
-        gvi_real size = 0;
-        for (int m = 0; m < all; ++m) {
-            const gvi_real next = (at[m] - middle)*p[m] - coupling*before[m];
-            before[m] = p[m];
-            p[m] = next;
-            if (m < nodes) size += next*next;
-        }
-        coupling = GVI_SQRT(size);
-        if (coupling < GVI__SEEN) break;
-        for (int m = 0; m < all; ++m) p[m] /= coupling;
+    const int n = st->n, R = in->R;
+    stage[1].table = in->momenta.T;
+    stage[1].source = in->work.V;
+    stage[1].base = from->q;
+    stage[1].rows = in->work.Q;
+    stage[1].of = GVI__OF_Q;
+    stage[0].table = in->table.U;
+    stage[0].base = from->p;
+    stage[0].factor = 1;
+    stage[0].rows = in->momenta.P;
+    stage[0].of = GVI__OF_P;
+    stage[0].inverse = stage[1].inverse = in->momenta.ones;
+    in->momenta.has_factor = 0;
+    for (int i = 0; i < n; ++i) {
+        gvi__free_row(R, from->p_low[i], 0, 0, in->table.c, in->free.rows + i*R);
+        gvi__free_row(R, from->q_low[i], 0, 0, in->table.c, in->free.rows + (n + i)*R);
     }
 }
 
-/* ---------------------------------------------------------------- ENGINE */
-
-/* Where a step, or a query's partial step, starts; E: the energy, with a clock.              */
-typedef struct gvi__origin { gvi_real t, t_low; const gvi_real *q, *q_low, *p, *p_low; gvi_real E; }
-    gvi__origin;
-
-// Newton's method begins at: constant velocity; extrapolated modes; constant velocity, with halving
-enum { GVI__PLAIN, GVI__EXTRAPOLATED, GVI__HALVED };
-
-// what is solved: a step, or for a query a part of the last one, from its start or its end
-enum { GVI__STEP, GVI__FROM_START, GVI__FROM_END };
-
-/* ---- free motion ---- */
-
-// out := t + (t_low + c h)
-static void gvi__times(int count, gvi_real t, gvi_real t_low, gvi_real h, const gvi_real *c,
-                       gvi_real *out)
-{
-    GVI__ALONG(count, GVI__TO(out) = t + (t_low + GVI__AT(c)*h))
-}
-
-// 1) tables for h, times of the points; for a constant mass v = M^-1 p and h v in double words
-static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real h)
+// V of the last step, extrapolated, or constant; `rate`: of a clock, or 1
+static void gvi__momenta_predict(gvi_stepper *st, int extrapolate, gvi_real rate)
 {
     struct gvi__private *in = &st->in;
-    const gvi_real *GVI__RESTRICT p = from->p, *GVI__RESTRICT p_low = from->p_low;
-    const gvi_real *GVI__RESTRICT inverse = in->mass.inverse;
-    gvi_real *GVI__RESTRICT v = in->free.v, *GVI__RESTRICT v_low = in->free.v_low;
-    gvi__weights_for(st, h);
-    in->dt = h;
-    if (GVI__CLOCK) in->time.dH = 0;
-    if (!gvi__has(in, GVI__ITERATES)) return;
-    gvi__times(in->R, from->t, from->t_low, h, in->table.c, in->t);
-    if (!gvi__mass_is_constant(in)) return;
-    for (int i = 0; i < st->n; ++i) {
-        gvi__two z = gvi__two_of(p[i], 0);
-        if (in->desc.mass.kind == GVI_MASS_DIAGONAL) z = gvi__two_prod(p[i], inverse[i]);
-        v[i] = z.hi;
-        v_low[i] = gvi__low(z.lo + p_low[i]*inverse[i]);
+    const int n = st->n, R = in->R;
+    if (extrapolate) {
+        gvi__extrapolate(st, in->last.V, in->older.V, in->work.V);
+        return;
     }
-    if (in->desc.mass.kind == GVI_MASS_DENSE) {
-        gvi__over_mass(st, v, 1, 1);
-        for (int i = 0; i < st->n; ++i) {         // p - M v
-            gvi__two left = gvi__two_of(p[i], p_low[i]);
-            for (int j = 0; j < st->n; ++j) {
-                const gvi__two z = gvi__two_prod(-in->mass.matrix[gvi__lower(st->n, i, j)], v[j]);
-                left = gvi__add_low(left.hi, left.lo, z.hi, z.lo);
-            }
-            v_low[i] = gvi__low(left.hi + left.lo);
-        }
-        gvi__over_mass(st, v_low, 1, 1);
-    }
-    for (int i = 0; i < st->n; ++i) {
-        const gvi__two path = gvi__two_prod(h, v[i]);
-        in->free.path[i] = path.hi;
-        in->free.path_low[i] = gvi__low(path.lo + h*v_low[i]);
-    }
-}
-
-/* ---- stages ---- */
-
-/* One stage of an iteration is data: rows of stage values, made of sums over sources,
-
-     row_i := base_i + (free_i + factor (z_i/m_i))
-     z_i    = sum_j table_j (weight_j source_ij)       of one or two tables and sources
-
-   with free motion, the same in all iterations, in rows of its own.  factor and 1/m multiply one by
-   one: h/m, rounded once, would belong to another mass than v = p/m, and energy would drift.
-
-   A stage with a scale is measured, in squares of changes times scale_i: all of them are added
-   up and returned, and change_i := those of row i at the last point and the middle.  One point
-   would not do: where eigenvalues are complex, changes rotate and may be 0 at one, not at both. */
-typedef struct gvi__sum { const gvi_real *table, *weight, *source; } gvi__sum;
-
-typedef struct gvi__stage {
-    gvi__sum        sum[2];        /* [1] with table NULL: none; [0]: z is the source itself */
-    const gvi_real *base, *free;   /* [n] and [n][R]; free NULL: rows are z                  */
-    const gvi_real *inverse;       /* [n] 1/m, or NULL where it is 1                         */
-    gvi_real        factor, *rows;
-    gvi_real       *scale, *change;                             /* [n], or NULL             */
-    int             dense;         /* over the full M as well                               */
-} gvi__stage;
-
-// L := w source, or the source itself where there is no weight
-GVI__BODY const gvi_real *gvi__weighted(int R, const gvi_real *GVI__RESTRICT w,
-                                        const gvi_real *source, gvi_real *GVI__RESTRICT L)
-{
-    if (!w) return source;
-    GVI__ALONG_BY(GVI__UNROLL, R, GVI__TO(L) = GVI__AT(w)*GVI__AT(source))
-    return L;
-}
-
-// 1/(|base| and the last point's displacements, before and after); 0 where these have no sure digit
-GVI__BODY gvi_real gvi__scale_of(gvi_real base, gvi_real was, gvi_real is)
-{
-    const gvi_real size = GVI_ABS(base) + GVI_ABS(was - base) + GVI_ABS(is - base);
-    return size > GVI__NOTHING ? 1/size : 0;
-}
-
-// the squares at eight points, added up in one order everywhere
-GVI__BODY gvi_real gvi__sum_squares(const gvi_real *z)
-{
-    return ((z[0] + z[4]) + (z[1] + z[5])) + ((z[2] + z[6]) + (z[3] + z[7]));
-}
-
-/* sum_j table_j L_j at one point, in four chains: the order of gvi__row_sums                 */
-GVI__BODY gvi_real gvi__point_sum(int r, int R, const gvi_real *table, const gvi_real *L)
-{
-    gvi_real a = 0, b = 0, c = 0, d = 0;
-    for (int j = 0; j < r; j += 4) {
-        a += table[j*R]*L[j];
-        if (j + 1 < r) b += table[(j + 1)*R]*L[j + 1];
-        if (j + 2 < r) c += table[(j + 2)*R]*L[j + 2];
-        if (j + 3 < r) d += table[(j + 3)*R]*L[j + 3];
-    }
-    return (a + b) + (c + d);
-}
-
-/* A stage, point by point; from the last on, where its unit is made.                         */
-GVI__BODY gvi_real gvi__stage_by_points(const gvi_stepper *st, const gvi__stage *stage, int n,
-                                        int r, int R, int rescale)
-{
-    gvi_real square[8] = { 0, 0, 0, 0, 0, 0, 0, 0 };
-    for (int i = 0; i < n; ++i) {
-        const gvi_real *first =
-            gvi__weighted(R, stage->sum[0].weight, stage->sum[0].source + i*R, st->in.row);
-        const gvi_real *second = !stage->sum[1].table ? NULL
-            : gvi__weighted(R, stage->sum[1].weight, stage->sum[1].source + i*R, st->in.row + R);
-        gvi_real *GVI__RESTRICT row = stage->rows + i*R, scale = 0, two = 0;
-        if (stage->scale) scale = stage->scale[i];
-        for (int k = R - 1; k >= 0; --k) {
-            gvi_real z =
-                !stage->sum[0].table ? first[k]
-                                     : gvi__point_sum(r, R, stage->sum[0].table + k, first);
-            if (second) z += gvi__point_sum(r, R, stage->sum[1].table + k, second);
-            if (stage->inverse) z *= stage->inverse[i];
-            if (stage->free) z = stage->base[i] + (stage->free[i*R + k] + z*stage->factor);
-            if (rescale && k == r - 1) scale = gvi__scale_of(stage->base[i], row[k], z);
-            const gvi_real moved = (z - row[k])*scale;
-            square[k & 7] += moved*moved;
-            if (k == r - 1) two += moved*moved;
-            if (k == (r - 1)/2) two += moved*moved;
-            row[k] = z;
-        }
-        if (!stage->scale) continue;
-        stage->scale[i] = scale;
-        stage->change[i] = two;
-    }
-    return gvi__sum_squares(square);
-}
-
-enum { GVI__BLOCK = 8/GVI__LANES };                  // lanes that hold eight points
-
-/* z := sum_j table_j L_j at `lanes` lanes of points.  Four chains, so that no sum waits for
-   another, one chain after the other, so that registers suffice; one order for every width: the
-   same bits.  r > 3.                                                                          */
-GVI__BODY void gvi__row_sums(int r, int R, int lanes, const gvi_real *table, const gvi_real *L,
-                             gvi__lane *z)
-{
-    const gvi__lane none = { 0 };
-    gvi__lane sum[4][GVI__BLOCK] = { { none } };
-    GVI__UNROLL for (int m = 0; m < 4; ++m) {
-        GVI__UNROLL for (int v = 0; v < lanes; ++v) sum[m][v] =
-            GVI__LOAD(table + m*R + v*GVI__LANES)*L[m];
-        for (int j = m + 4; j < r; j += 4)
-            GVI__UNROLL for (int v = 0; v < lanes; ++v) sum[m][v] +=
-                GVI__LOAD(table + j*R + v*GVI__LANES)*L[j];
-        if (m & 1) GVI__UNROLL for (int v = 0; v < lanes; ++v) sum[m - 1][v] += sum[m][v];
-    }
-    GVI__UNROLL for (int v = 0; v < lanes; ++v) z[v] = sum[0][v] + sum[2][v];
-}
-
-// a stage in lanes of points, R being 4 or a multiple of 8; point by point where no lane fits
-GVI__BODY gvi_real gvi__stage_by_lanes(const gvi_stepper *st, const gvi__stage *GVI__RESTRICT stage,
-                                       int n, int r, int R, int rescale)
-{
-    const int block = R < 8 ? R : 8, lanes = block/GVI__LANES, last = r - 1, middle = (r - 1)/2;
-    const gvi__lane none = { 0 };
-    if (GVI__LANES == 1 || (GVI__LANES == 8 && R == 4))
-        return gvi__stage_by_points(st, stage, n, r, R, rescale);
-    gvi_real few[32], *L = R <= 16 ? few : st->in.row, total[8];
-    gvi__lane square[GVI__BLOCK] = { none };
-    for (int i = 0; i < n; ++i) {
-        const gvi_real *first =
-            gvi__weighted(R, stage->sum[0].weight, stage->sum[0].source + i*R, L);
-        const gvi_real *second = !stage->sum[1].table ? NULL
-            : gvi__weighted(R, stage->sum[1].weight, stage->sum[1].source + i*R, L + R);
-        gvi_real *row = stage->rows + i*R, scale = stage->scale ? stage->scale[i] : 0;
-        const gvi_real base = stage->base[i], was = row[last], half = row[middle];
-        for (int o = R - block; o >= 0; o -= block) {
-            const gvi_real *free = stage->free ? stage->free + i*R + o : NULL;
-            gvi__lane z[GVI__BLOCK] = { none }, w[GVI__BLOCK];
-            if (stage->sum[0].table) gvi__row_sums(r, R, lanes, stage->sum[0].table + o, first, z);
-            else
-                GVI__UNROLL for (int v = 0; v < lanes; ++v) z[v] =
-                    GVI__LOAD(first + o + v*GVI__LANES);
-            if (second) {
-                gvi__row_sums(r, R, lanes, stage->sum[1].table + o, second, w);
-                GVI__UNROLL for (int v = 0; v < lanes; ++v) z[v] += w[v];
-            }
-            if (stage->inverse)
-                GVI__UNROLL for (int v = 0; v < lanes; ++v) z[v] *= stage->inverse[i];
-            if (free) GVI__UNROLL for (int v = 0; v < lanes; ++v)
-                z[v] = base + (GVI__LOAD(free + v*GVI__LANES) + z[v]*stage->factor);
-            if (rescale && last - o < block)
-                scale = gvi__scale_of(base, was, GVI__ENTRY(z[(last - o)/GVI__LANES],
-                                                         (last - o) % GVI__LANES));
-            GVI__UNROLL for (int v = 0; v < lanes; ++v) {
-                gvi_real *at = row + o + v*GVI__LANES;
-                const gvi__lane moved = (z[v] - GVI__LOAD(at))*scale;
-                square[v] += moved*moved;
-                GVI__STORE(at) = z[v];
-            }
-        }
-        if (!stage->scale) continue;
-        const gvi_real a = (row[last] - was)*scale, b = (row[middle] - half)*scale;
-        stage->scale[i] = scale;
-        stage->change[i] = a*a + b*b;
-    }
-    GVI__UNROLL for (int v = 0; v < GVI__BLOCK; ++v) GVI__STORE(total + v*GVI__LANES) = square[v];
-    return gvi__sum_squares(total);
-}
-
-// the sizes that deserve a copy of their own (n = 2 also in gvi__factor_mass, gvi__velocity_rows)
-#define GVI__KERNEL(name, by, n, r, R)                                                          \
-    static gvi_real name(const gvi_stepper *st, const gvi__stage *GVI__RESTRICT y, int rescale) \
-    {                                                                                           \
-        return gvi__stage_##by(st, y, n, r, R, rescale);                                        \
-    }
-GVI__KERNEL(gvi__rows_any,   by_points, st->n, st->r, st->in.R)
-GVI__KERNEL(gvi__rows_2,     by_points, st->n, 2, 2)
-GVI__KERNEL(gvi__rows_3,     by_points, st->n, 3, 3)
-GVI__KERNEL(gvi__rows_4,     by_lanes,  st->n, 4, 4)
-GVI__KERNEL(gvi__rows_6,     by_lanes,  st->n, 6, 8)
-GVI__KERNEL(gvi__rows_2_8,   by_lanes,  2, 8, 8)
-GVI__KERNEL(gvi__rows_8,     by_lanes,  st->n, 8, 8)
-GVI__KERNEL(gvi__rows_to_8,  by_lanes,  st->n, st->r, 8)
-GVI__KERNEL(gvi__rows_12,    by_lanes,  st->n, 12, 16)
-GVI__KERNEL(gvi__rows_16,    by_lanes,  st->n, 16, 16)
-GVI__KERNEL(gvi__rows_to_16, by_lanes,  st->n, st->r, 16)
-GVI__KERNEL(gvi__rows_many,  by_lanes,  st->n, st->r, st->in.R)
-
-static gvi__kernel *gvi__kernel_for(int n, int r)
-{
-    if (GVI__SMALL || r == 1) return gvi__rows_any;
-    if (r == 2) return gvi__rows_2;
-    if (r == 3) return gvi__rows_3;
-    if (r == 4) return gvi__rows_4;
-    if (GVI__LANES == 1) return gvi__rows_any;
-    if (r == 8) return n == 2 ? gvi__rows_2_8 : gvi__rows_8;
-    if (r == 6) return gvi__rows_6;
-    if (r == 12) return gvi__rows_12;
-    if (r == 16) return gvi__rows_16;
-    if (r < 8) return gvi__rows_to_8;
-    return r < 16 ? gvi__rows_to_16 : gvi__rows_many;
-}
-
-// row := low + (c path_low + c path), one coordinate's free motion over its base
-GVI__BODY void gvi__free_row(int R, gvi_real low, gvi_real path, gvi_real path_low,
-                             const gvi_real *GVI__RESTRICT c, gvi_real *GVI__RESTRICT row)
-{
-    GVI__ALONG(R, GVI__TO(row) = (low + GVI__AT(c)*path_low) + GVI__AT(c)*path)
-}
-
-// a stage that is the sum over one table and nothing else
-GVI__BODY void gvi__set_stage(const gvi_stepper *st, gvi__stage *stage, gvi_real *rows,
-                              const gvi_real *table, const gvi_real *weight, const gvi_real *source)
-{
-    const gvi__stage sum = { { { table, weight, source }, { NULL, NULL, NULL } }, st->in.zeros,
-                             NULL,
-                             NULL, 1, rows, NULL, NULL, 0 };
-    *stage = sum;
-}
-
-/* The rows of a stage where M is full: all sums first, then M^-1 of them.                    */
-static gvi_real gvi__dense_rows(const gvi_stepper *st, const gvi__stage *stage, int rescale)
-{
-    const struct gvi__private *in = &st->in;
-    gvi__stage y = *stage, sums;
-    gvi__set_stage(st, &sums, in->mass.sums, y.sum[0].table, y.sum[0].weight, y.sum[0].source);
-    sums.sum[1] = y.sum[1];
-    in->kernel(st, &sums, 0);
-    gvi__over_mass(st, in->mass.sums, in->R, in->R);
-    y.sum[0].table = y.sum[0].weight = y.sum[1].table = NULL;
-    y.sum[0].source = in->mass.sums;
-    return in->kernel(st, &y, rescale);
+    gvi__velocity_guess(st, in->momenta.was);
+    for (int i = 0; i < n; ++i)
+        for (int k = 0; k < st->r; ++k) in->work.V[i*R + k] = rate*in->momenta.was[i];
 }
 
 /* V := M^-1 (P - A), with the constant mass or the factored M(Q)                             */
@@ -3111,86 +4541,117 @@ static void gvi__velocity_rows(const gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
     const int n = st->n, R = in->R;
-    const gvi_real *P = in->work.P, *A = in->work.A;
+    const gvi_real *P = in->momenta.P, *A = gvi__rows_of_A(in);
     gvi_real *V = in->work.V;
-    if (GVI__LAGRANGIAN && A) {
+    if (A) {
         for (int k = 0; k < n*R; ++k) V[k] = P[k] - A[k];
         P = V;
     }
-    if (GVI__LANES > 1 && R % 8 == 0 && !gvi__mass_is_constant(in)) {
+    if (GVI__LANES > 1 && R % 8 == 0 && in->momenta.mass) {
         for (int o = 0; o < R; o += GVI__LANES)
-            if (n == 2) gvi__ldl_solve_lane(2, R, in->mass.at_points + o, P + o, V + o);
-            else gvi__ldl_solve_lane(n, R, in->mass.at_points + o, P + o, V + o);
+            if (n == 2) gvi__ldl_solve_lane(2, R, in->momenta.mass + o, P + o, V + o);
+            else gvi__ldl_solve_lane(n, R, in->momenta.mass + o, P + o, V + o);
         return;
     }
     if (P != V) gvi__copy((size_t)(n*R), P, V);
-    if (gvi__mass_is_constant(in)) gvi__over_mass(st, V, R, st->r);
-    else gvi__ldl_solve(n, in->mass.at_points, R, V, R, st->r);
+    if (!in->momenta.mass) gvi__over_mass(st, V, R, st->r);
+    else gvi__ldl_solve(n, in->momenta.mass, R, V, R, st->r);
 }
 
-/* ---- predictor ---- */
-
-// in place of a stage's own sums: E over the values of one or two steps
-GVI__BODY void gvi__set_predictor(const gvi_stepper *st, gvi__stage *stage, const gvi_real *last,
-                                  const gvi_real *older)
-{
-    const gvi_real *E = st->in.sized.E;
-    const gvi__sum one = { E, NULL, last };
-    gvi__sum two = { NULL, NULL, older };
-    if (st->in.sized.steps == 2) two.table = E + st->r*st->in.R;
-    stage->sum[0] = one;
-    stage->sum[1] = two;
-    stage->scale = NULL;
-}
-
-/* E takes the stage values of the last step (of two, if they are as long as this one) to the nodes
-   of this step, at alpha + beta c in the last step's tau.  In the positions formulation forces only
-   serve to make positions: E := K h b E does both, for steps as long as the last.            */
-static void gvi__prepare_predictor(gvi_stepper *st, gvi_real h, int query)
+/* Momenta: V from the new P with the old M(Q) and dL/dv, so that an iteration contracts twice
+   as fast.  Where Lagrangian terms make V it can diverge while Q and P hardly change: returns its
+   squared relative change at the last point, times r as if summed over all.                   */
+static gvi_real gvi__velocities_again(gvi_stepper *st)
 {
     struct gvi__private *in = &st->in;
-    const int newton = GVI__NEWTON && st->formulation == GVI_NEWTON, r = st->r, R = in->R;
-    const int two = !query && !newton && in->kept == 2 && in->older.F && !gvi__nonzero(h - st->h);
-    const gvi_real beta = h/st->h;
-    const int sums = !gvi__nonzero(beta - 1) && gvi__has(in, GVI__BY_FORCES) && !newton
-                     && in->desc.mass.kind != GVI_MASS_DENSE && !gvi__constrained(st);
-    if (!query && !gvi__nonzero(beta - in->sized.ratio) && in->sized.steps == two + 1
-        && in->sized.sums == sums) return;
-    in->sized.ratio = beta;
-    if (query) in->sized.ratio = 0;                // another start: not to be used again
-    in->sized.steps = two + 1;
-    in->sized.sums = sums;
-    gvi__fit(st, r, in->table.c, in->table.c, query != GVI__FROM_START, beta, two + 1, in->sized.E);
-    if (gvi__constrained(st))
-        gvi__fit(st, st->s, in->con.d + 1, in->con.d, query != GVI__FROM_START, beta, 1, in->con.E);
-    if (!sums) return;
-    for (int m = 0; m < in->sized.steps*r; ++m) {
-        const gvi_real *L = gvi__weighted(R, in->sized.hb, in->sized.E + m*R, in->row);
-        for (int k = 0; k < r; ++k) in->row[R + k] = gvi__point_sum(r, R, in->table.K + k, L);
-        gvi__copy((size_t)r, in->row + R, in->sized.E + m*R);
+    const int n = st->n, R = in->R, clock = gvi__clock_is_on(st),
+              made = gvi__rows_of_A(in) != NULL;
+    const gvi_real *V = in->work.V + st->r - 1;
+    gvi_real *was = in->momenta.was, sum = 0;
+    // before the first evaluation Q, g and M(Q) are those of another step
+    if (!in->momenta.has_factor && (clock || in->desc.mass.velocity || in->momenta.mass))
+        return 0;
+    if (made) gvi__gather(n, R, V, was);
+    gvi__count(&st->counters.velocities, st->r);
+    const gvi_points at = gvi__points_at(st, st->r, R, in->t, in->work.Q, NULL, NULL);
+    // where that fails it does so again with the new Q
+    if (in->desc.mass.velocity) (void)gvi__evaluate_mass(st, &at, in->momenta.P, in->work.V);
+    else gvi__velocity_rows(st);
+    if (clock) gvi__clock_velocities(st);
+    if (!made) return 0;
+    for (int i = 0; i < n; ++i) {
+        const gvi_real moved = V[i*R] - was[i], size = GVI_ABS(V[i*R]) + GVI_ABS(was[i]);
+        if (size > GVI__NOTHING) sum += (moved/size)*(moved/size);
     }
+    return (gvi_real)st->r*sum;
 }
 
-/* ---- a clock ---- */
+// before the effects: V from dL/dv(Q, V) = P
+static gvi_status gvi__momenta_evaluate(gvi_stepper *st, gvi_points *at)
+{
+    struct gvi__private *in = &st->in;
+    gvi_status status = GVI_OK;
+    gvi__count(&st->counters.velocities, st->r);
+    if (in->desc.mass.velocity) status = gvi__evaluate_mass(st, at, in->momenta.P, in->work.V);
+    else if (in->momenta.mass) status = gvi__factor_mass(st, at);
+    if (status != GVI_OK) return status;
+    in->momenta.has_factor = 1;
+    if (!in->desc.mass.velocity) gvi__velocity_rows(st);
+    else if (GVI__LOOKS(st)) status = gvi__check_rows(st, at, in->work.V, GVI_FAULT_MASS);
+    return status;
+}
+
+// M_ii of M(q) where F was evaluated last: first point
+static gvi_real gvi__momenta_inertia(const gvi_stepper *st, int i)
+{
+    const struct gvi__private *in = &st->in;
+    const size_t ii = (size_t)i*((size_t)st->n + 1);
+    const gvi_real m = in->momenta.mass[ii*(size_t)in->R];
+    // the iteration factors M(q) in place: 1/D_i is there
+    const int factored = st->formulation == GVI_MOMENTA && in->momenta.has_factor
+                         && !in->desc.mass.velocity;
+    return factored && gvi__nonzero(m) ? 1/m : m;
+}
+
+GVI__OFFERED gvi_real *gvi__mass_at_points(const struct gvi__private *in)
+{
+    return in->momenta.mass;
+}
+#else
+#define gvi__mass_at_points(in) ((gvi_real *)0)
+#define gvi__factor_mass(st, x) ((void)(x), GVI_OK)
+#endif /* GVI_NO_MOMENTA */
+
+#ifndef GVI_NO_CLOCK
+/* ----------------------------------------------------------------- CLOCK
+
+   g(q) > 0 makes time run as dt = g dtau.  On top of MOMENTA: it changes what F, V and t are at the
+   points, and keeps the energy of the start with the work of forces.                         */
+
+static int gvi__clock_is_on(const gvi_stepper *st)
+{
+    return (gvi__parts(&st->in) & GVI__IN_CLOCK) && !(st->in.off >> st->in.time.effect & 1u);
+}
 
 // the clock's g and dg/dq at the points
 static gvi_status gvi__rate(gvi_stepper *st, const gvi_points *x, gvi_real *rate, gvi_real *slope)
 {
-    const gvi_effect *clock = st->in.desc.effects + st->in.clock;
+    const gvi_effect *clock = st->in.desc.effects + st->in.time.effect;
     gvi_points at = gvi__points_at(st, x->count, x->stride, x->t, x->q, slope, NULL);
     at.value = rate;
     gvi__zero((size_t)x->n*(size_t)x->stride, slope);
     gvi__zero((size_t)x->stride, rate);
-    gvi__count(&st->counters.effect[st->in.clock], x->count);
+    gvi__count(&st->counters.effect[st->in.time.effect], x->count);
     const int failed = clock->points(&at, clock->user);
-    if (failed) return gvi__report_callback(st, failed, st->in.clock);
+    if (failed) return gvi__report_callback(st, failed, st->in.time.effect);
     for (int k = 0; k < x->count; ++k) {
-        if (rate[k] <= 0) return gvi__report(st, GVI_E_CLOCK, st->in.clock, GVI_FAULT_NONE, k);
-        if (st->in.diagnose && !gvi__finite(rate[k]))
-            return gvi__report(st, GVI_E_NON_FINITE, st->in.clock, GVI_FAULT_NONE, k);
+        if (rate[k] <= 0)
+            return gvi__report(st, GVI_E_CLOCK, st->in.time.effect, GVI_FAULT_NONE, k);
+        if (GVI__LOOKS(st) && !gvi__finite(rate[k]))
+            return gvi__report(st, GVI_E_NON_FINITE, st->in.time.effect, GVI_FAULT_NONE, k);
     }
-    if (!st->in.diagnose) return GVI_OK;
-    return gvi__check_rows(st, x, slope, st->in.clock);
+    if (!GVI__LOOKS(st)) return GVI_OK;
+    return gvi__check_rows(st, x, slope, st->in.time.effect);
 }
 
 // g at one configuration; slope of length n gets dg/dq
@@ -3205,8 +4666,9 @@ static gvi_status gvi__clock_at(gvi_stepper *st, gvi_real t, const gvi_real *q, 
 static void gvi__time_sums(const gvi_stepper *st, const gvi_real *source, gvi_real *z)
 {
     const struct gvi__private *in = &st->in;
-    const gvi_real *L = gvi__weighted(in->R, in->sized.hb, source, in->row);
-    for (int k = 0; k < in->R; ++k) z[k] = gvi__point_sum(st->r, in->R, in->table.T + k, L);
+    const gvi_real *L = in->weighted;
+    gvi__weigh(in->R, in->sized.hb, source, in->weighted);
+    for (int k = 0; k < in->R; ++k) z[k] = gvi__point_sum(st->r, in->R, in->momenta.T + k, L);
 }
 
 /* H - E for a coordinate whose force is F: unchanged, unless its rounding, within `none`, would
@@ -3226,29 +4688,32 @@ static gvi_real gvi__sure_level(gvi_real level, gvi_real none, gvi_real slope, g
 /* With a clock: forces first, for their power f'v; then all else, with values.  What it makes
    of F and V: F := g F - dg/dq (H - E), V := g v, with H = (P + A)'v/2 + V_pot - L, and E, with
    the work of the forces, and the times by the rule of Q.                                     */
-static gvi_status gvi__evaluate_with_clock(gvi_stepper *st, const gvi__origin *from, gvi_points *y)
+static gvi_status gvi__clock_evaluate(gvi_stepper *st, const gvi__origin *from, gvi_points *y)
 {
     struct gvi__private *in = &st->in;
     const struct gvi__values *w = &in->work;
     const int n = st->n, r = st->r, R = in->R;
+    const gvi_real *A = gvi__rows_of_A(in);
     const unsigned forces = gvi__of_kind(in, GVI_FORCE);
+    const gvi_real E = from->q == st->q ? in->time.H + in->time.H_low : in->time.began;
     gvi_real *g = in->time.rate, *power = in->time.power, *level = in->time.level,
-             *L = in->time.lagrangian, *noise = in->row + R;
+             *L = in->time.lagrangian, *noise = in->time.noise;
+    gvi_real *const values[] = { level, NULL, L };         // by kind
     gvi_status status = gvi__effects(st, y, ~forces, NULL);
     gvi__zero((size_t)R, power);
     for (int i = 0; i < n; ++i)
         for (int k = 0; k < r; ++k) power[k] += w->F[i*R + k]*w->V[i*R + k];
     gvi__zero((size_t)R, level);
     gvi__zero((size_t)R, L);
-    if (status == GVI_OK && gvi__mass_is(in, GVI_MASS_POSITION)) status = gvi__mass_gradient(st, y);
-    if (status == GVI_OK) status = gvi__effects(st, y, forces, level);
+    if (status == GVI_OK && in->momenta.mass) status = gvi__mass_gradient(st, y);
+    if (status == GVI_OK) status = gvi__effects(st, y, forces, values);
     if (status == GVI_OK) status = gvi__rate(st, y, g, in->time.slope);
     if (status != GVI_OK) return status;
 
     // level := H - E; noise: what rounding makes of it
     for (int k = 0; k < R; ++k) {
-        noise[k] = GVI_ABS(level[k]) + GVI_ABS(L[k]) + GVI_ABS(from->E);
-        level[k] -= L[k] + from->E;
+        noise[k] = GVI_ABS(level[k]) + GVI_ABS(L[k]) + GVI_ABS(E);
+        level[k] -= L[k] + E;
         power[k] *= g[k];
     }
     if (forces & ~in->off) {
@@ -3258,8 +4723,8 @@ static gvi_status gvi__evaluate_with_clock(gvi_stepper *st, const gvi__origin *f
     for (int i = 0; i < n; ++i)
         for (int k = 0; k < R; ++k) {
             const int at = i*R + k;
-            gvi_real P = w->P[at];
-            if (w->A) P += w->A[at];
+            gvi_real P = in->momenta.P[at];
+            if (A) P += A[at];
             const gvi_real twice = P*w->V[at];
             level[k] += twice/2;
             noise[k] += GVI_ABS(twice)/2;
@@ -3283,136 +4748,1127 @@ static gvi_status gvi__evaluate_with_clock(gvi_stepper *st, const gvi__origin *f
     return GVI_OK;
 }
 
-/* ---- velocities, increments ---- */
+static void gvi__clock_velocities(const gvi_stepper *st)
+{
+    for (int i = 0; i < st->n; ++i)
+        for (int k = 0; k < st->in.R; ++k) st->in.work.V[i*st->in.R + k] *= st->in.time.rate[k];
+}
 
-/* Momenta: V from the new P with the old M(Q) and dL/dv, so that an iteration contracts twice
-   as fast.  Where Lagrangian terms make V it can diverge while Q and P hardly change: returns its
-   squared relative change at the last point, times r as if summed over all.                   */
-static gvi_real gvi__velocities_again(gvi_stepper *st)
+/* The energy for a clock, under which values may not change with t: they are looked at twice.  */
+GVI__COLD gvi_status gvi__clock_energy(gvi_stepper *st, gvi_real t, const gvi_real *q,
+                                       const gvi_real *p, gvi_real *v, gvi_real *E)
+{
+    const gvi_real later = t + (gvi_real)0.739085133215160642;
+    const gvi_status status = gvi__hamiltonian(st, t, q, p, v, E);
+    if (status != GVI_OK) return status;
+    for (int e = 0; e < st->in.desc.effect_count; ++e) {
+        const gvi_kind kind = st->in.desc.effects[e].kind;
+        gvi_real now = 0, then = 0;
+        gvi_points at = gvi__one_point(st, &t, q);
+        at.v = v;
+        if ((st->in.off >> e & 1u) || kind == GVI_FORCE || kind == GVI_CLOCK) continue;
+        (void)gvi__value(st, &at, e, &now);        // as it has just been
+        at.t = &later;
+        if (gvi__value(st, &at, e, &then) == GVI_OK && gvi__nonzero(then - now))
+            return gvi__report_effect(st, GVI_E_FORMULATION, e);
+    }
+    return gvi__report_status(st, GVI_OK);
+}
+
+GVI__COLD const char *gvi__wrong_in_clock(const struct gvi__private *in, int e)
+{
+    if (!in->desc.effects[e].points) return "effect: this kind needs points, not point";
+    return in->parts & GVI__IN_CLOCK ? "effect: a second clock" : NULL;
+}
+
+GVI__COLD void gvi__clock_layout(struct gvi__private *in, gvi__arena *a)
+{
+    struct gvi__time *t = &in->time;
+    const size_t n = (size_t)in->desc.n, R = (size_t)GVI__ROW(in->desc.rule.points);
+    gvi_real **const rows[] = { &t->rate, &t->power, &t->level, &t->lagrangian, &t->noise };
+    for (int k = 0; k < 5; ++k) *rows[k] = gvi__take(a, 1, R);
+    t->slope = gvi__take(a, n, R);
+}
+
+GVI__COLD gvi_status gvi__clock_start(gvi_stepper *st, gvi_real t, gvi_real *v)
 {
     struct gvi__private *in = &st->in;
-    const int n = st->n, R = in->R, clock = gvi__clock_is_on(st),
-              made = GVI__LAGRANGIAN && in->work.A;
-    const gvi_real *V = in->work.V + st->r - 1;
-    gvi_real *was = in->result, sum = 0;
-    // before the first evaluation Q, g and M(Q) are those of another step
-    if (!in->has_factor && (clock || in->desc.mass.velocity || !gvi__mass_is_constant(in)))
-        return 0;
-    if (made) gvi__gather(n, R, V, was);
-    gvi__count(&st->counters.velocities, st->r);
-    const gvi_points at = gvi__points_at(st, st->r, R, in->t, in->work.Q, NULL, NULL);
-    // where that fails it does so again with the new Q
-    if (in->desc.mass.velocity) (void)gvi__evaluate_mass(st, &at, in->work.P, in->work.V);
-    else gvi__velocity_rows(st);
-    if (clock)
-        for (int i = 0; i < n; ++i)
-            for (int k = 0; k < R; ++k) in->work.V[i*R + k] *= in->time.rate[k];
-    if (!made) return 0;
-    for (int i = 0; i < n; ++i) {
-        const gvi_real moved = V[i*R] - was[i], size = GVI_ABS(V[i*R]) + GVI_ABS(was[i]);
-        if (size > GVI__NOTHING) sum += (moved/size)*(moved/size);
-    }
-    return (gvi_real)st->r*sum;
+    gvi_real E, *V = in->answer;
+    if (!gvi__clock_is_on(st)) return GVI_OK;
+    if (V != v) gvi__copy((size_t)st->n, v, V);
+    const gvi_status status = gvi__clock_energy(st, t, in->step.q, in->step.p, V, &E);
+    in->time.H = E;
+    in->time.H_low = 0;
+    return status;
 }
 
-// the sums k and k + half of double words, to k; a constant `half` makes vectors of it
-GVI__BODY void gvi__fold(int half, gvi_real *hi, gvi_real *lo)
-{
-    for (int k = 0; k < half; ++k) {
-        const gvi__two s = gvi__add_low(hi[k], lo[k], hi[k + half], lo[k + half]);
-        hi[k] = s.hi;
-        lo[k] = s.lo;
-    }
-}
-
-/* sum_j a_j b_j with its low word, since the errors of increments add up over the steps.  Eight
-   partial sums, then these by halves; past the last point the numbers are 0.                  */
-GVI__BODY gvi__two gvi__exact_dot(int R, const gvi_real *a, const gvi_real *b)
-{
-    gvi_real hi[8] = { 0 }, lo[8] = { 0 };
-    for (int k = 0; k < 8 && k < R; ++k) {
-        const gvi__two z = gvi__two_prod(a[k], b[k]);
-        hi[k] = z.hi;
-        lo[k] = z.lo;
-    }
-    for (int o = 8; o < R; o += 8)
-        for (int k = 0; k < 8; ++k) {
-            const gvi__two z = gvi__two_prod(a[o + k], b[o + k]),
-                           s = gvi__add_low(hi[k], lo[k], z.hi, z.lo);
-            hi[k] = s.hi;
-            lo[k] = s.lo;
-        }
-    if (R >= 8) gvi__fold(4, hi, lo);
-    gvi__fold(2, hi, lo);
-    gvi__fold(1, hi, lo);
-    return gvi__two_of(hi[0], lo[0]);
-}
-
-// increments := sums of h b times rows, their low words with those of the start
-static void gvi__sum_rows(const gvi_stepper *st, gvi_real *rows, const gvi_real *low, gvi_real *sum,
-                          gvi_real *sum_low)
-{
-    const int R = st->in.R;
-    for (int i = 0; i < st->n; ++i, rows += R) {
-        // a callback may have left anything there
-        for (int k = st->r; k < R; ++k) rows[k] = 0;
-        gvi__two z;
-        if (R == 8) z = gvi__exact_dot(8, st->in.sized.hb, rows);
-        else if (R == 4) z = gvi__exact_dot(4, st->in.sized.hb, rows);
-        else z = gvi__exact_dot(R, st->in.sized.hb, rows);
-        sum[i] = z.hi;
-        sum_low[i] = gvi__low(z.lo + low[i]);
-    }
-}
-
-// sum_j (1 - c_j) w_j F_j with its low word
-GVI__CALLED gvi__two gvi__moment(int count, const gvi_real *c, const gvi_real *w, const gvi_real *F)
-{
-    gvi__two sum = gvi__two_of(0, 0);
-    for (int j = 0; j < count; ++j) {
-        const gvi__two push = gvi__two_prod(w[j], F[j]), z = gvi__two_prod(1 - c[j], push.hi);
-        sum = gvi__add_low(sum.hi, sum.lo, z.hi, z.lo + (1 - c[j])*push.lo);
-    }
-    return sum;
-}
-
-// dp from the F at the points and the forces of constraint at theirs
-static void gvi__momentum_increment(gvi_stepper *st, const gvi__origin *from)
+// another energy, also at the start of the last step
+GVI__COLD gvi_status gvi__clock_switch(gvi_stepper *st, unsigned was)
 {
     struct gvi__private *in = &st->in;
-    gvi__sum_rows(st, in->work.F, from->p_low, in->step.p, in->step.p_low);
-    if (!gvi__constrained(st)) return;
-    for (int i = 0; i < st->n; ++i) {
-        const gvi__two z = gvi__exact_dot(in->R, in->con.hw, in->con.force + i*in->R),
-                       p = gvi__add_low(in->step.p[i], in->step.p_low[i], z.hi, z.lo);
-        in->step.p[i] = p.hi;
-        in->step.p_low[i] = p.lo;
+    gvi_real E, E0 = in->time.began, *v = in->answer + st->n;
+    if (!gvi__clock_is_on(st)) return GVI_OK;
+    gvi__velocity_guess(st, v);
+    gvi_status status = gvi__clock_energy(st, st->t, st->q, st->p, v, &E);
+    if (status == GVI_OK && in->stepped)
+        status = gvi__hamiltonian(st, st->t0, in->began.q, in->began.p, v, &E0);
+    if (status != GVI_OK) {
+        in->off = was;
+        return status;
     }
+    in->time.H = E;
+    in->time.H_low = 0;
+    in->time.began = E0;
+    return GVI_OK;
 }
 
-enum { GVI__GO_ON, GVI__DONE, GVI__ONCE_MORE, GVI__DIVERGES, GVI__NOT_FINITE };
+// times of the points as if g stayed as it is
+static gvi_status gvi__clock_predict(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                                     gvi_real *rate)
+{
+    struct gvi__private *in = &st->in;
+    const gvi_status status = gvi__clock_at(st, from->t, from->q, rate, in->momenta.was);
+    if (status == GVI_OK) gvi__times(in->R, from->t, from->t_low, h**rate, in->table.c, in->t);
+    return status;
+}
 
-// M_ii, or p_i/v_i where the effects alone make the mass, where F was evaluated last: first point
-static gvi_real gvi__inertia(const gvi_stepper *st, int i)
+static void gvi__clock_increments(gvi_stepper *st)
+{
+    st->in.dt = gvi__dot(st->r, st->in.sized.hb, st->in.time.rate);
+    st->in.time.dH = gvi__dot(st->r, st->in.sized.hb, st->in.time.power);
+}
+
+static void gvi__clock_commit(gvi_stepper *st)
+{
+    struct gvi__time *time = &st->in.time;
+    const int on = gvi__clock_is_on(st);
+    const gvi__two H = gvi__two_sum(time->H, (on ? time->dH : 0) + time->H_low);
+    time->began = time->H;
+    time->H = H.hi;
+    time->H_low = H.lo;
+    st->in.stepped = 1 + on;
+}
+
+// v = q'/g on the last step's curve
+static gvi_status gvi__clock_curve(gvi_stepper *st, const gvi_real *q, gvi_real *v)
+{
+    gvi_real rate;
+    if (st->in.stepped != 2) return GVI_OK;
+    GVI__LOOK(st, 1);
+    const gvi_status status = gvi__clock_at(st, st->t, q, &rate, v + st->n);
+    GVI__LOOK(st, 0);
+    if (status == GVI_OK) for (int i = 0; i < st->n; ++i) v[i] /= rate;
+    return status;
+}
+#endif /* GVI_NO_CLOCK */
+
+#ifndef GVI_NO_KICKS
+/* ----------------------------------------------------------------- KICKS
+
+   Explicit steps: on a broken line with corners Q_j at t0 + c_j h the momentum jumps by h b_j F_j
+   at each corner, and the motion is free between two.  Stoermer-Verlet, Lobatto's rule with two
+   points and s = 1, is the simplest table; GVI_KICKS takes any.  It is a solver of its own, without
+   an iteration.                                                                               */
+
+GVI__COLD int gvi__kicks_cover(const struct gvi__private *in, int constant)
+{
+    const gvi_rule *rule = &in->desc.rule;
+    const int verlet = rule->kind == GVI_LOBATTO && rule->points == 2 && in->desc.degree == 1;
+    return constant && !in->reads_v && (verlet || rule->kind == GVI_KICKS);
+}
+
+GVI__COLD gvi_status gvi__check_kicks(const gvi_rule *rule)
+{
+    for (int j = 0; j < rule->points; ++j)
+        if (!gvi__finite(rule->nodes[j]) || !gvi__finite(rule->weights[j])) return GVI_E_NODES;
+    return GVI_OK;
+}
+
+GVI__COLD void gvi__kicks_layout(struct gvi__private *in, gvi__arena *a)
+{
+    const size_t n = (size_t)in->desc.n, r = (size_t)in->desc.rule.points, R = (size_t)GVI__ROW(r),
+                 lobatto = in->desc.rule.kind == GVI_LOBATTO, width = lobatto ? R : 1;
+    in->work.F = gvi__take(a, n, width);
+    in->work.Q = gvi__take(a, n, width);
+    in->last.F = gvi__take(a, n, width);
+    in->table.Phi = gvi__take(a, lobatto, R);
+    in->kicks.drift = gvi__take(a, 1, r + 1);
+}
+
+// c and b: the caller's, or Stoermer-Verlet's
+GVI__COLD void gvi__kicks_nodes(gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
-    const size_t n = (size_t)st->n, ii = (size_t)i*(n + 1);
-    const size_t iR = (size_t)i*(size_t)in->R;
-    gvi_real m;
-    if (in->desc.mass.kind == GVI_MASS_DENSE) m = in->mass.matrix[ii];
-    else if (gvi__mass_is(in, GVI_MASS_POSITION)) m = in->mass.at_points[ii*(size_t)in->R];
-    else if (gvi__mass_is(in, GVI_MASS_NONE)) m = in->work.P[iR]/in->work.V[iR];
-    else m = in->mass.matrix[i];
-    if (!gvi__nonzero(m) || !gvi__finite(m)) return 1;
-    // the momenta formulation factors M(q) in place: 1/D_i is there
-    if (gvi__mass_is(in, GVI_MASS_POSITION) && st->formulation == GVI_MOMENTA && in->has_factor
-        && !in->desc.mass.velocity) m = 1/m;
-    return GVI_ABS(m);
+    const gvi_rule *rule = &in->desc.rule;
+    if (rule->kind == GVI_KICKS) {
+        gvi__copy((size_t)st->r, rule->nodes, in->table.c);
+        gvi__copy((size_t)st->r, rule->weights, in->table.b);
+        return;
+    }
+    in->table.c[1] = 1;
+    in->table.b[0] = in->table.b[1] = (gvi_real)0.5;
 }
 
-/* ----------------------------------------------------------- CONSTRAINTS */
+// drifts between the nodes, whose sum is h
+static void gvi__drifts_for(gvi_stepper *st, gvi_real h)
+{
+    struct gvi__private *in = &st->in;
+    int e;
+    if (!gvi__nonzero(in->kicks.h - h)) return;
+    in->kicks.h = h;
+    const gvi_real mantissa = GVI_FREXP(h, &e);
+    gvi_real at = 0;
+    for (int j = 0; j < st->r; ++j) {
+        const gvi_real next = gvi__grid(gvi__two_prod(in->table.c[j], mantissa), GVI__EPS/2);
+        in->kicks.drift[j] = GVI_LDEXP(next - at, e);
+        at = next;
+    }
+    in->kicks.drift[st->r] = GVI_LDEXP(mantissa - at, e);
+}
 
-/* g(t,q) = 0 at Lobatto's points d_0 = 0 .. d_s = 1, weights w_e.  What makes h sum_i b_i L_i
+/* dp += b F, then the drift dq += a (v + M^-1 dp), Q = q + dq; F := 0 for the next force.  First
+   in a step, dp and dq are the low words of the state, and F is `first`.                      */
+GVI__BODY void gvi__drift(gvi_stepper *st, const gvi__origin *from, const gvi_real *GVI__RESTRICT v,
+                          const gvi_real *first, gvi_real b, gvi_real a)
+{
+    struct gvi__private *in = &st->in;
+    const gvi_real *GVI__RESTRICT q = from->q, *GVI__RESTRICT m = in->mass.inverse;
+    gvi_real *GVI__RESTRICT F = in->work.F, *GVI__RESTRICT Q = in->work.Q;
+    gvi_real *GVI__RESTRICT dp = in->step.p, *GVI__RESTRICT dq = in->step.q, *z = in->answer;
+    const gvi_real *p0 = dp, *q0 = dq, *f = F;
+    if (first) {
+        p0 = from->p_low;
+        q0 = from->q_low;
+        f = first;
+    }
+    const int n = st->n;
+    if (in->desc.mass.kind == GVI_MASS_DENSE) {
+        for (int i = 0; i < n; ++i) z[i] = dp[i] = p0[i] + b*f[i];
+        gvi__over_mass(st, z, 1, 1);
+        for (int i = 0; i < n; ++i) {
+            F[i] = 0;
+            dq[i] = q0[i] + a*(v[i] + z[i]);
+            Q[i] = q[i] + dq[i];
+        }
+        return;
+    }
+    GVI__ALONG(n,
+        const gvi__number p = GVI__AT(p0) + b*GVI__AT(f), none = { 0 };
+        const gvi__number d = GVI__AT(q0) + a*(GVI__AT(v) + p*GVI__AT(m));
+        GVI__TO(dp) = p;
+        GVI__TO(F) = none;
+        GVI__TO(dq) = d;
+        GVI__TO(Q) = GVI__AT(q) + d)
+}
+
+#ifndef GVI_NO_CONSTRAINTS
+static gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin *from, gvi_real h);
+#else
+#define gvi__constrained_drift(st, from, h) GVI_OK
+#endif
+
+/* Kicks h b_j F_j at the nodes, drifts between them: one evaluation a kick; none where a weight is
+   0, but for the last, whose F the next step may begin with.  `force`: F at the start, or NULL. */
+static gvi_status gvi__kick(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                             const gvi_real *force)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n, r = st->r, known = force && gvi__nonzero(in->sized.hb[0]);
+    const gvi_real *hb = in->sized.hb, *v = in->free.v;
+    if (in->desc.mass.kind == GVI_MASS_UNIT) v = from->p;
+    gvi_real t = from->t, b = 0;
+    gvi_points at = gvi__points_at(st, 1, 1, &t, in->work.Q, in->work.F, NULL);
+    if (v != from->p) {
+        gvi__copy((size_t)n, from->p, in->free.v);
+        gvi__over_mass(st, in->free.v, 1, 1);
+    }
+    if (known) b = hb[0];
+    for (int j = known; j < r; ++j) {
+        if (j == known) gvi__drift(st, from, v, known ? force : in->zeros, b, in->kicks.drift[j]);
+        else gvi__drift(st, from, v, NULL, b, in->kicks.drift[j]);
+        if (j == 1 && gvi__parts(in) & GVI__IN_CONSTRAINTS) {
+            const gvi_status status = gvi__constrained_drift(st, from, h);
+            if (status != GVI_OK) return status;
+        }
+        t = from->t + (from->t_low + in->table.c[j]*h);
+        b = hb[j];
+        if (j < r - 1 && !gvi__nonzero(b)) continue;
+        const gvi_status status = gvi__effects(st, &at, 0, NULL);
+        if (status != GVI_OK) return status;
+    }
+
+    // the last kick, and the drift behind it, if there is one
+    gvi_real *last = in->answer + n;
+    if (gvi__nonzero(in->kicks.drift[r])) {
+        gvi__copy((size_t)n, in->work.F, last);
+        gvi__drift(st, from, v, NULL, b, in->kicks.drift[r]);
+        gvi__copy((size_t)n, last, in->work.F);
+    } else gvi__add_scaled(n, b, in->work.F, in->step.p, in->step.p);
+    return GVI_OK;
+}
+
+static gvi_status gvi__kicks_solve(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query)
+{
+    const struct gvi__private *in = &st->in;
+    const gvi_real *force = NULL;                 // at the start, if it is known
+    gvi__drifts_for(st, h);
+    if (in->kicks.has_force && query != GVI__FROM_START) force = in->last.F;
+    return gvi__kick(st, from, h, force);
+}
+
+static void gvi__kicks_commit(gvi_stepper *st)
+{
+    const gvi_real *c = st->in.table.c;
+    st->in.kicks.has_force = !gvi__nonzero(c[0]) && !gvi__nonzero(c[st->r - 1] - 1);
+}
+
+// the last step's curve: a straight line
+static void gvi__kicks_line(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v)
+{
+    const struct gvi__private *in = &st->in;
+    for (int i = 0; i < st->n; ++i) {
+        const gvi_real path = (in->state.q[i] - in->began.q[i]) + in->state.q_low[i];
+        if (tau < (gvi_real)0.5) q[i] = in->began.q[i] + tau*path;
+        else q[i] = in->state.q[i] - (1 - tau)*path;
+        v[i] = path/st->h;
+    }
+}
+#endif /* GVI_NO_KICKS */
+
+#ifndef GVI_NO_NEWTON
+/* ------------------------------------------------------- NEWTON'S METHOD
+
+   Equations (1) by Newton's method: for scenes that no fixed point covers, and where one contracts
+   badly.  A solver of its own, with dense LU of size s n.                                     */
+
+/* Unknowns y[k*n + i]; the rows are those of (1) times 2k + 1, from k0 on:
+   k0 = 0 for a step, 1 for the boundary-value problem.  The matrix of the derivatives is kept while
+   the iteration contracts by 1/4 or better, over iterations and over steps.
+
+   Behind them stand the s m unknowns and rows of what is held: CONSTRAINTS BY NEWTON'S METHOD.  */
+typedef struct gvi__matrix {
+    gvi_real *square;      /* rows and columns k0..s-1, row-major, then its LU              */
+    gvi_real *pivot;
+    gvi_real *ends;        /* k0 = 1: columns y_0 and q0, 2n a row; or NULL                 */
+    int       k0;
+    int       scaled;      /* columns over sqrt M_ii, rows by their largest entry: the condition
+                              then has no units                                      */
+    int       halves;      /* are changes taken back that make the residual larger?         */
+    gvi_real *unit;        /* of the multipliers, in which the LU has their columns         */
+} gvi__matrix;
+
+/* Where Newton's method stands: the last changes and the least; rho, the contraction seen; what
+   is left of the error, once a change was rounding; the residual in units of its own terms, and
+   once its change is made the work that does in it, or -1 where either is rounding; the
+   residual's norm at the last y that stayed; the last change by each coordinate's size, and what
+   rounding makes of one, see gvi__newton_update; how often no change was less than half of the
+   least; is there a matrix that will do, is it new (1) and was the last one (2); how often was
+   the last change halved, or -1: none to take back; did that change move the residual by half of
+   itself, or is the residual rounding?                                                        */
+typedef struct gvi__descent {
+    gvi_real before, earlier, least, rho, left, work, norm, each, grain;
+    int      stagnant, have, fresh, halves, holds;
+} gvi__descent;
+
+/* What is held plugs in here: its count of unknowns; g and forces at y; what they add to row k of
+   coordinate i; its own rows; its part of the matrix; the row of it that is singular; unknowns to
+   begin with; the start of a step, its end, and the momenta that it brings.                   */
+#ifndef GVI_NO_CONSTRAINTS
+static size_t gvi__held(const gvi_stepper *st);
+static int gvi__held_rows(const struct gvi__private *in);        // on or off
+static void gvi__held_start(gvi_stepper *st);
+static gvi_status gvi__held_values(gvi_stepper *st, const gvi__origin *from);
+static void gvi__held_force(const gvi_stepper *st, int i, int k, gvi_real *force, gvi_real *size);
+static gvi_real gvi__held_residual(gvi_stepper *st, gvi__descent *p, gvi_real *moved,
+                                   gvi_real *before);
+static gvi_status gvi__held_matrix(gvi_stepper *st, const gvi__matrix *J);
+static gvi_status gvi__held_report(gvi_stepper *st, gvi_status status, int at);
+static void gvi__held_guess(const gvi_stepper *st, gvi_real *y);
+static gvi_status gvi__held_begin(gvi_stepper *st, const gvi__origin *from, gvi_real *v);
+static gvi_status gvi__held_end(gvi_stepper *st);
+static void gvi__held_momenta(gvi_stepper *st);
+#else
+#define gvi__held(st) ((size_t)0)
+#define gvi__held_rows(in) 0
+#define gvi__held_start(st) ((void)0)
+#define gvi__held_values(st, from) GVI_OK
+#define gvi__held_force(st, i, k, force, size) ((void)0)
+#define gvi__held_residual(st, p, moved, before) 0
+#define gvi__held_matrix(st, J) GVI_OK
+#define gvi__held_report(st, status, at) (status)
+#define gvi__held_guess(st, y) ((void)0)
+#define gvi__held_begin(st, from, v) GVI_OK
+#define gvi__held_end(st) GVI_OK
+#define gvi__held_momenta(st) ((void)0)
+#endif
+
+static size_t gvi__unknowns(const gvi_stepper *st, int k0)
+{
+    return (size_t)(st->s - k0)*(size_t)st->n + gvi__held(st);
+}
+
+// what a solution of length h needs: weights and times of the points
+static void gvi__newton_points(gvi_stepper *st, const gvi__origin *from, gvi_real h)
+{
+    gvi__weights_for(st, h);
+    gvi__times(st->in.R, from->t, from->t_low, h, st->in.table.c, st->in.t);
+}
+
+// Q and V from y; then F and P at these
+static gvi_status gvi__newton_values(gvi_stepper *st, const gvi__origin *from)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n, R = in->R;
+    for (int i = 0; i < n; ++i) {
+        gvi_real *GVI__RESTRICT V = in->work.V + i*R, *GVI__RESTRICT Q = in->work.Q + i*R;
+        gvi__zero((size_t)R, V);
+        gvi__zero((size_t)R, Q);
+        for (int k = 0; k < st->s; ++k) {
+            const gvi_real y = in->newton.y[k*n + i];
+            for (int j = 0; j < R; ++j) {
+                V[j] += in->table.phi[k*R + j]*y;
+                Q[j] += in->table.Phi[k*R + j]*y;
+            }
+        }
+        for (int j = 0; j < R; ++j) Q[j] = from->q[i] + (from->q_low[i] + in->sized.h*Q[j]);
+    }
+    gvi__count(&st->counters.velocities, st->r);
+    gvi_points at = gvi__points_at(st, st->r, R, in->t, in->work.Q, in->work.F, in->newton.P);
+    at.v = in->work.V;
+    const gvi_status status = gvi__evaluate(st, &at, 0, 1);
+    return status == GVI_OK && gvi__held(st) > 0 ? gvi__held_values(st, from) : status;
+}
+
+/* dy and residual := -(1).  The weights of P are h b_i/h, those that F has, and Phi_0 = c is on
+   its grid: then the rows are exactly those of a discrete action, also as rounded.  Returns the
+   norm, the sum of magnitudes over sqrt M_ii: rows of (1) are momenta, so that has one unit for
+   all coordinates.  M is that of the first y.                                                 */
+static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, gvi__descent *p)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n, R = in->R, first = !(p->norm < GVI__MAX),
+              held = gvi__held(st) > 0;
+    const gvi_real h = in->sized.h;
+    gvi_real norm = 0, moved = 0, before = 0;
+    p->work = 0;
+    for (int i = 0; i < n; ++i) {
+        const gvi_real *P = in->newton.P + i*R, *F = in->work.F + i*R;
+        gvi_real length = 0, change = 0, was = 0;
+        for (int k = k0; k < st->s; ++k) {
+            // P - p is summed where p occurs: the rounding of P then is not in the sum
+            const gvi_real base = k == 0 ? from->p[i] : 0;
+            gvi_real momentum = k == 0 ? -(h*from->p_low[i]) : 0, force = 0, size = 0;
+            for (int j = 0; j < st->r; ++j) {
+                const gvi_real phi = in->table.phi[k*R + j],
+                               W = (k == 0 ? 1 : 0) - in->table.Phi[k*R + j];
+                const gvi_real b = W*(in->sized.hb[j]*F[j]);
+                momentum += phi*(in->sized.hb[j]*(P[j] - base));
+                force += b;
+                size += GVI_ABS(phi*(in->table.b[j]*P[j])) + GVI_ABS(b);
+            }
+            if (held) gvi__held_force(st, i, k, &force, &size);
+            const gvi_real sum = momentum/h - force;
+            gvi_real *rest = in->newton.residual + (k - k0)*n + i;
+            const gvi_real now = -(gvi_real)(2*k + 1)*sum;
+            change += GVI_ABS(now - *rest);
+            was += GVI_ABS(*rest);
+            length += GVI_ABS(now);
+            in->newton.dy[(k - k0)*n + i] = *rest = now;
+            if (size > 0 && GVI_ABS(sum)/size > p->work) p->work = GVI_ABS(sum)/size;
+        }
+        if (first) in->watch.scale[i] = 1/GVI_SQRT(gvi__place_inertia(st, i));
+        norm += length*in->watch.scale[i];
+        moved += change*in->watch.scale[i];
+        before += was*in->watch.scale[i];
+    }
+    if (held) norm += gvi__held_residual(st, p, &moved, &before);
+    p->holds = p->work <= GVI__SOLVED*GVI__EPS || (!first && moved >= before/2);
+    return norm;
+}
+
+// adds dF_i/du_j = f and dP_i/du_j = p of one point, u = q or v: du = h Phi_l dy_l or phi_l dy_l
+static void gvi__add_derivative(const gvi_stepper *st, const gvi__matrix *J, int i, int j,
+                                int point, gvi_real f, gvi_real p, int by_v)
+{
+    const struct gvi__private *in = &st->in;
+    const int n = st->n, R = in->R, s = st->s, k0 = J->k0;
+    const size_t size = gvi__unknowns(st, k0);
+    const gvi_real *phi = in->table.phi + point, *Phi = in->table.Phi + point, *u = phi;
+    gvi_real unit = 1;
+    if (f <= 0 && f >= 0 && p <= 0 && p >= 0) return;
+    if (!by_v) {
+        u = Phi;
+        unit = in->sized.h;
+    }
+    for (int k = k0; k < s; ++k) {
+        const gvi_real W = (k == 0 ? 1 : 0) - Phi[k*R];
+        const gvi_real a = (gvi_real)(2*k + 1)
+                           * (in->table.b[point]*phi[k*R]*p - in->sized.hb[point]*W*f);
+        const size_t row = (size_t)((k - k0)*n + i);
+        gvi_real *square = J->square + row*size + j;
+        for (int l = k0; l < s; ++l, square += n) *square += a*(unit*u[l*R]);
+        if (!J->ends) continue;
+        gvi_real *ends = J->ends + row*2*(size_t)n + j;
+        ends[0] += a*(unit*u[0]);
+        if (!by_v) ends[n] += a;
+    }
+}
+
+// the bits of the effects that are on and bring a Hessian, or none
+static unsigned gvi__with_hessian(const struct gvi__private *in, int with)
+{
+    unsigned bits = 0;
+    for (int e = 0; e < in->desc.effect_count; ++e)
+        if ((in->desc.effects[e].hessian != NULL) == with) bits |= 1u << e;
+    return bits & ~in->off;
+}
+
+// derivatives of the constant mass, and of the effects that bring their Hessians
+static gvi_status gvi__jacobian_exact(gvi_stepper *st, const gvi__matrix *J)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n, R = in->R;
+    const size_t nn = (size_t)n*(size_t)n;
+    gvi_real *fq = in->newton.hessian, *fv = fq + nn, *pv = fv + nn, *q = in->point, *v = q + n;
+    for (int k = 0; k < st->r; ++k) {
+        gvi__gather(n, R, in->work.Q + k, q);
+        gvi__gather(n, R, in->work.V + k, v);
+        if ((in->desc.mass.kind <= GVI_MASS_DENSE))
+            for (int i = 0; i < n; ++i) {
+                if (in->desc.mass.kind != GVI_MASS_DENSE) {
+                    gvi__add_derivative(st, J, i, i, k, 0, in->mass.matrix[i], 1);
+                    continue;
+                }
+                for (int j = 0; j < n; ++j)
+                    gvi__add_derivative(st, J, i, j, k, 0, in->mass.matrix[gvi__lower(n, i, j)], 1);
+            }
+        for (int e = 0; e < in->desc.effect_count; ++e) {
+            const gvi_effect *effect = in->desc.effects + e;
+            if ((in->off >> e & 1u) || !effect->hessian) continue;
+            const int reads_v = effect->kind != GVI_POTENTIAL,
+                      term = effect->kind == GVI_LAGRANGIAN;
+            gvi__zero(3*nn, fq);
+            if (effect->hessian(in->t[k], q, reads_v ? v : NULL, fq, reads_v ? fv : NULL,
+                                term ? pv : NULL, effect->user))
+                return gvi__report(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, k);
+            for (int i = 0; i < n; ++i)
+                for (int j = 0; j < n; ++j) {       // d(dL/dv)/dq is the transpose of d(dL/dq)/dv
+                    gvi__add_derivative(st, J, i, j, k, fq[i*n + j], term ? fv[j*n + i] : 0, 0);
+                    gvi__add_derivative(st, J, i, j, k, fv[i*n + j], pv[i*n + j], 1);
+                }
+        }
+    }
+    return GVI_OK;
+}
+
+// F and P of what has no Hessian, one behind the other
+static gvi_status gvi__evaluate_plain(gvi_stepper *st, gvi_real *F)
+{
+    struct gvi__private *in = &st->in;
+    gvi_points at = gvi__points_at(st, st->r, in->R, in->t, in->work.Q, F, F + st->n*in->R);
+    at.v = in->work.V;
+    return gvi__evaluate(st, &at, ~gvi__with_hessian(in, 0), in->desc.mass.kind > GVI_MASS_DENSE);
+}
+
+/* What coordinate i moves in a step: h v, or eps^(1/4) of its position where that is more, or where
+   it is at rest at 0, h^2 f/M_ii.  For its velocity h v or h^2 f/M_ii, whichever is more.  (f
+   near a pole takes positions too far.)                                                       */
+static gvi_real gvi__reach(const gvi_stepper *st, int i, int by_v)
+{
+    const struct gvi__private *in = &st->in;
+    const gvi_real h = GVI_ABS(in->sized.h), small = by_v ? 0 : GVI_SQRT(GVI_SQRT(GVI__EPS)),
+                   hw = h*in->watch.scale[i];
+    gvi_real most = 0, push = 0;
+    for (int k = i*in->R; k < i*in->R + st->r; ++k) {
+        const gvi_real lengths[] = { h*GVI_ABS(in->work.V[k]), small*GVI_ABS(in->work.Q[k]) },
+                       f = hw*GVI_ABS(in->work.F[k])*hw;
+        for (int l = 0; l < 2; ++l) if (lengths[l] > most) most = lengths[l];
+        if (f > push && gvi__finite(f)) push = f;
+    }
+    return push > most && (by_v || !(most > GVI__MIN/GVI__EPS)) ? push : most;
+}
+
+/* The difference for coordinate j: sqrt(eps) of its reach, or of the largest where it has none,
+   each times sqrt(M_ii); or for its velocity, that over h.                                    */
+static gvi_real gvi__difference(const gvi_stepper *st, int j, int by_v)
+{
+    const struct gvi__private *in = &st->in;
+    const gvi_real root = GVI_SQRT(GVI__EPS), none = GVI__MIN/GVI__EPS, h = GVI_ABS(in->sized.h);
+    gvi_real step = root*gvi__reach(st, j, by_v);
+    if (!(step > none))
+        for (int i = 0; i < st->n; ++i) {
+            const gvi_real other = root*gvi__reach(st, i, by_v)
+                                   * (in->watch.scale[j]/in->watch.scale[i]);
+            if (other > step && gvi__finite(other)) step = other;
+        }
+    if (!(step > none)) step = root*gvi__smaller(h, 1);         // all of it is at rest at 0
+    if (by_v) return step/h;
+    return step;
+}
+
+// derivatives of what has no Hessian, by forward differences at all points at once
+static gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matrix *J)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n, R = in->R, nR = n*R, varies = in->desc.mass.kind > GVI_MASS_DENSE;
+    const unsigned plain = gvi__with_hessian(in, 0);
+    const int reads_v = varies || (plain & ~gvi__of_kind(in, GVI_POTENTIAL)) != 0;
+    gvi_real *F = in->newton.moved, *P = F + nR, *base_F = P + nR, *base_P = base_F + nR;
+    if (!varies && !plain) return GVI_OK;
+    gvi_status status = gvi__evaluate_plain(st, base_F);
+    if (status != GVI_OK) return status;
+    // of each coordinate q, then v
+    for (int k = 0; k < 2*n; k += 2 - reads_v) {
+        const int j = k/2, by_v = k % 2;
+        gvi_real *row = in->work.Q + j*R, *was = in->set_up;
+        if (by_v) row = in->work.V + j*R;
+        const gvi_real d = gvi__difference(st, j, by_v);
+        gvi__copy((size_t)R, row, was);
+        for (int m = 0; m < st->r; ++m) row[m] += d;
+        status = gvi__evaluate_plain(st, F);
+        if (status == GVI_OK)
+            for (int m = 0; m < st->r; ++m)
+                for (int i = 0, o = m; i < n; ++i, o += R)
+                    gvi__add_derivative(st, J, i, j, m, (F[o] - base_F[o])/(row[m] - was[m]),
+                                        (P[o] - base_P[o])/(row[m] - was[m]), by_v);
+        gvi__copy((size_t)R, was, row);
+        if (status != GVI_OK) return status;
+    }
+    return GVI_OK;
+}
+
+/* A Lagrangian whose d2L/dv2 is singular (linear in v, a coordinate without mass) would make (1)
+   solvable all the same, and its solution worthless.                                         */
+static gvi_status gvi__check_regular(gvi_stepper *st)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n;
+    gvi_real *q = in->answer, *v = q + n;
+    if (in->desc.mass.kind <= GVI_MASS_DENSE && !in->adds_p) return GVI_OK;
+    gvi__gather(n, in->R, in->work.Q, q);
+    gvi__gather(n, in->R, in->work.V, v);
+    gvi_points y = gvi__one_point(st, in->t, q);
+    y.v = v;
+    return in->adds_p ? gvi__check_hessian(st, &y, v) : gvi__factor_mass(st, &y);
+}
+
+static gvi_status gvi__jacobian_fill(gvi_stepper *st, const gvi__matrix *J)
+{
+    const size_t n = (size_t)st->n, size = gvi__unknowns(st, J->k0);
+    gvi__zero(size*(size + (J->ends ? 2*n : 0)), J->square);
+    gvi_status status = gvi__check_regular(st);
+    if (status == GVI_OK) status = gvi__jacobian_exact(st, J);
+    if (status == GVI_OK && gvi__held(st) > 0) status = gvi__held_matrix(st, J);
+    return status == GVI_OK ? gvi__jacobian_differences(st, J) : status;
+}
+
+static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J)
+{
+    const int n = st->n, size = (int)gvi__unknowns(st, J->k0), modes = (st->s - J->k0)*n;
+    int at;
+    gvi_status status = gvi__jacobian_fill(st, J);
+    if (status != GVI_OK) return status;
+    for (int row = 0; row < J->scaled*size; ++row) {
+        gvi_real *a = J->square + (size_t)row*(size_t)size,
+                 *ends = J->ends + (size_t)row*2*(size_t)n, big = 0;
+        for (int j = 0; j < size; ++j) {
+            a[j] *= st->in.watch.scale[j % n];
+            big = gvi__larger(GVI_ABS(a[j]), big);
+        }
+        if (!(big > 0)) continue;
+        for (int j = 0; j < size; ++j) a[j] /= big;
+        for (int j = 0; j < 2*n; ++j) ends[j] /= big;
+    }
+    // columns of multipliers that would hide the modes': in units that make them as large
+    for (int z = modes; z < size; ++z) {
+        gvi_real column = 0, diagonal = 0;
+        for (int i = 0; i < modes; ++i) {
+            column = gvi__larger(GVI_ABS(J->square[(size_t)i*(size_t)size + (size_t)z]), column);
+            diagonal = gvi__larger(GVI_ABS(J->square[(size_t)i*((size_t)size + 1)]), diagonal);
+        }
+        J->unit[z - modes] = 1;
+        if (diagonal > 0 && column*GVI_SQRT(GVI__EPS) > diagonal)
+            J->unit[z - modes] = diagonal/column;
+        for (int i = 0; i < size; ++i)
+            J->square[(size_t)i*(size_t)size + (size_t)z] *= J->unit[z - modes];
+    }
+    status = gvi__lu_factor(size, J->square, J->pivot, &at);
+    gvi__count(&st->counters.factorizations, 1);
+    if (status == GVI_OK) return GVI_OK;
+    if (at >= modes) return gvi__held_report(st, status, at - modes);
+    return gvi__report(st, status, GVI_FAULT_NONE, at < 0 ? GVI_FAULT_NONE : at % n,
+                       GVI_FAULT_NONE);
+}
+
+// y := modes of V as the predictor continues it; rows get that V
+static void gvi__newton_modes(gvi_stepper *st, const gvi_real *V, gvi_real *rows)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n, s = st->s, R = in->R;
+    gvi__sums(st, in->sized.E, V, rows, 0);
+    for (int i = 0; i < n; ++i) {
+        for (int k = 0; k < s; ++k)
+            in->set_up[k] = gvi__dot3(st->r, in->table.phi + k*R, in->table.b, rows + i*R);
+        gvi__over_gamma(st, in->set_up);
+        for (int k = 0; k < s; ++k) in->newton.y[k*n + i] = in->set_up[k];
+    }
+}
+
+// y := modes of the extrapolated V, and multipliers; or constant velocity
+static void gvi__newton_guess(gvi_stepper *st, int extrapolate)
+{
+    struct gvi__private *in = &st->in;
+    gvi_real *y = in->newton.y;
+    gvi__zero(gvi__unknowns(st, 0), y);
+    if (!extrapolate) {
+        gvi__velocity_guess(st, y);
+        return;
+    }
+    gvi__newton_modes(st, in->last.V, in->work.V);
+    if (gvi__held(st) > 0) gvi__held_guess(st, y + st->s*st->n);
+}
+
+/* y += dy from row k0 on; returns the sum of the coordinates' relative changes, to p->each as well;
+   but with constraints, which give each coordinate the rounding of all q, the sum of changes over
+   the largest coordinate, each times sqrt(M_ii), and to p->grain that rounding.  p->work: the work
+   of the change, or -1 where all of it is a few last places of q, or the residual was rounding. */
+static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, const gvi__matrix *J,
+                                   gvi__descent *p)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n, solved = p->work <= GVI__SOLVED*GVI__EPS,
+              sure = p->holds || p->rho < GVI__CONTRACTS;
+    const gvi_real h = GVI_ABS(in->sized.h), none = GVI__MIN/GVI__EPS;
+    gvi_real sum = 0, largest = 0, noise = 0, all = 0, length = 0;
+    p->work = 0;
+    for (int i = 0; i < n; ++i) {
+        gvi_real change = 0, size = 0, miss = 0;
+        const gvi_real q = GVI_ABS(from->q[i]), unit = in->watch.scale[i];
+        for (int k = 0; k < st->s; ++k) {
+            gvi_real *y = in->newton.y + k*n + i;
+            const int at = (k - J->k0)*n + i;
+            in->newton.last[k*n + i] = *y;
+            if (k >= J->k0) {
+                *y += in->newton.dy[at];
+                change += GVI_ABS(in->newton.dy[at]);
+                miss += GVI_ABS(in->newton.residual[at]);
+                p->work += GVI_ABS(in->newton.dy[at]*in->newton.residual[at]);
+            }
+            size += GVI_ABS(*y);
+        }
+        const gvi_real least = GVI__EPS*change;                       // y may land on 0
+        if (!(size <= none && change <= none)) sum += change/(size < least ? least : size);
+        all += change/unit;
+        if (size > length*unit) length = size/unit;
+        if (q + h*size > largest*unit) largest = (q + h*size)/unit;
+        // a wrong matrix may make the change small, not the residual
+        const gvi_real moved = change/unit > miss*unit ? change/unit : miss*unit;
+        if (!(h*change <= GVI__PLACE*GVI__EPS*q) && h*moved > noise) noise = h*moved;
+    }
+    for (size_t k = (size_t)(st->s*n); k < gvi__unknowns(st, 0); ++k) {   // multipliers
+        in->newton.last[k] = in->newton.y[k];
+        in->newton.y[k] += in->newton.dy[k];
+    }
+    // see gvi__noise
+    const gvi_real place = p->stagnant > 1 ? GVI__NOISE*GVI__EPS*largest : 0;
+    if ((noise <= place && sure) || solved) p->work = -1;
+    p->each = sum;
+    p->grain = GVI__EPS;
+    if (gvi__held(st) == 0 || !(length > none)) return sum;
+    if (largest > h*length) p->grain *= largest/(h*length);
+    return all/length;
+}
+
+/* The verdict on a change.  One that does not shrink is rounding if y, q or the residual is, or if
+   it is small and its matrix is new or has contracted here: an older one can repeat any change.  It
+   then hides no more of the error, p->left, than the change before, which shrinks on by the
+   contraction seen.  To shrink is to be at most half of the least so far: what is rounded to
+   a grid may circle among a few of its points, and fall in every iteration.  Nor is a fall from an
+   overshoot far beyond the size of y a contraction.  One ratio by an old matrix may
+   be luck: unless the change is rounding, the one before must agree.                          */
+static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__descent *p,
+                                 gvi_real change)
+{
+    const int size = (st->s - J->k0)*st->n;
+    const gvi_real before = p->before, all = (gvi_real)st->n, quarter = GVI__CONTRACTS;
+    gvi_real ratio = 1, other = 1;
+    if (before > 0) ratio = change/gvi__smaller(before, all);
+    if (p->earlier > 0) other = before/gvi__smaller(p->earlier, all);
+    const gvi_real noise = GVI__GRAIN*p->grain*(gvi_real)size;
+    if (!gvi__finite(change)) return GVI__NOT_FINITE;
+    if (p->earlier > 0 && change > GVI__SURE*GVI__EPS) {
+        const gvi_real contraction = GVI_SQRT(change/p->earlier);
+        if (contraction > st->counters.worst_contraction)
+            st->counters.worst_contraction = contraction;
+    }
+    const int stagnant = before > 0 && change > p->least/2;
+    p->stagnant = !stagnant ? 0 : p->stagnant + 1;
+    if (before > 0 && !stagnant && !(p->left < GVI__MAX)
+        && (change > noise || change < p->rho*p->least))
+        p->rho = change/p->least;
+    if (change < p->least) p->least = change;
+    const int felt = gvi__held(st) == 0 || p->work >= 0;   // not the rounding of g
+    if (before > 0 && change > noise && felt && change > st->in.newton.bend*before)
+        st->in.newton.bend = change/before;
+    const int fresh = p->fresh & 1, proven = (fresh && p->holds) || p->rho < quarter;
+    const int small = change <= noise || (fresh && change <= GVI_SQRT(GVI__EPS));
+    if (stagnant && !(p->left < GVI__MAX) && (p->work < 0 || (proven && small))) p->left = before;
+    const int rounding = p->left < GVI__MAX;
+    if (rounding) p->left *= p->rho < quarter ? p->rho : quarter;
+
+    const gvi_real enough = gvi__larger(st->in.desc.tolerance, GVI__NEWTON_ENOUGH);
+    const int confirmed = (fresh && p->holds) || change <= noise || change*other <= enough;
+    const int done = (p->each*ratio <= enough && confirmed) || p->left <= enough;
+    if (done && (p->holds || p->rho < quarter)) return GVI__DONE;
+    // rounding, by a matrix that has contracted here
+    const int hidden = p->work < 0 && p->rho < quarter;
+    if (!rounding && !hidden && before > 0 && ratio > quarter) p->have = 0;
+    p->earlier = before;
+    p->before = change;
+    return GVI__GO_ON;
+}
+
+/* Does y, whose residual has that norm, stay?  A change that is not small and has not reduced the
+   residual is taken back, for a new matrix; or halved, if the matrix was new.  Where six halvings
+   have not helped, the whole change stands: across a kink, or from one curve to the next, the way
+   down may lead up first.  And what seemed to be rounding but grows again was no rounding.    */
+static int gvi__newton_stays(gvi_stepper *st, const gvi__matrix *J, gvi__descent *p, gvi_real norm)
+{
+    enum { HALVES = GVI__NEARER };
+    const int rests = p->left < GVI__MAX, fresh = p->fresh & 1;
+    if (J->halves && p->halves >= 0 && p->halves <= HALVES && !(norm < p->norm) && !rests
+        && p->before > GVI_SQRT(GVI__EPS)) {
+        gvi_real *y = st->in.newton.y, *last = st->in.newton.last;
+        const gvi_real part = !fresh               ? 0
+                              : p->halves < HALVES ? (gvi_real)0.5
+                                                   : (gvi_real)(1 << HALVES);
+        for (size_t i = 0, all = gvi__unknowns(st, 0); i < all; ++i)
+            y[i] = last[i] + part*(y[i] - last[i]);
+        if (fresh) p->halves += 1;
+        else p->have = 0, p->halves = -1;
+        gvi__count(&st->counters.newton_iterations, 1);
+        return 0;
+    }
+    if (p->halves > 0) p->have = 0;                // another place: another matrix
+    if (rests && norm/16 > p->norm) {
+        p->before = 0;
+        p->least = p->left = GVI__MAX;
+        p->rho = GVI__CONTRACTS;
+    }
+    if (!(p->left < GVI__MAX)) p->norm = norm;
+    return 1;
+}
+
+/* Solves rows k0..s-1 of (1) from the y at hand and leaves F, P, Q, V at the solution.       */
+static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, const gvi__matrix *J)
+{
+    struct gvi__private *in = &st->in;
+    // that of steps, not of queries
+    const int size = (int)gvi__unknowns(st, J->k0), modes = (st->s - J->k0)*st->n,
+              kept = J->pivot == in->newton.pivot;
+    gvi__descent p = {
+        0, 0, GVI__MAX, GVI__CONTRACTS, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0, -1, 0
+    };
+    p.have = kept && !gvi__nonzero(in->newton.h - in->sized.h);
+    in->newton.bend = 0;
+    if (gvi__held(st) > 0) gvi__held_start(st);
+    for (int k = 0, made = 0, verdict = GVI__GO_ON; k <= in->desc.max_iterations; ++k) {
+        gvi_status status = gvi__newton_values(st, from);
+        // one more evaluation, then done
+        if (status != GVI_OK || verdict == GVI__DONE) return status;
+        if (!gvi__newton_stays(st, J, &p, gvi__residual(st, from, J->k0, &p))) continue;
+        p.fresh = (p.fresh & 1) << 1 | !p.have;
+        if (!p.have) {
+            if (++made > in->desc.max_iterations/4 + 2) break;
+            status = gvi__jacobian(st, J);
+            if (status != GVI_OK) return status;
+            p.have = 1;
+            // by the masses that are known now
+            if (k == 0 && in->desc.mass.kind == GVI_MASS_NONE)
+                p.norm = gvi__residual(st, from, J->k0, &p);
+            if (kept) in->newton.h = in->sized.h;
+        }
+        // a matrix of differences alone is right
+        if (made) p.holds |= !gvi__with_hessian(in, 1);
+        gvi_lu_solve(size, J->square, J->pivot, in->newton.dy);
+        for (int z = modes; z < size; ++z) in->newton.dy[z] *= J->unit[z - modes];
+        gvi__count(&st->counters.newton_iterations, 1);
+        verdict = gvi__newton_converged(st, J, &p, gvi__newton_update(st, from, J, &p));
+        if (verdict == GVI__NOT_FINITE)
+            return gvi__report_status(st, GVI__LOOKS(st) ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE);
+        p.halves = 0;
+    }
+    return gvi__report_status(st, GVI_E_CONVERGENCE);
+}
+
+/* The sign of the determinant of a matrix.  Where the iteration contracts, that of the solution
+   has the same sign; along a branch of solutions it changes where they turn back in h.       */
+static int gvi__orientation(const gvi__matrix *J, size_t size)
+{
+    int sign = 1;
+    for (size_t k = 0; k < size; ++k)
+        if ((J->square[k*(size + 1)] < 0) != (J->pivot[k] > (gvi_real)k)) sign = -sign;
+    return sign;
+}
+
+// y := modes of the first `part` of its curve, and `slope` times what that leaves out
+static void gvi__newton_shorten(gvi_stepper *st, gvi_real part, const gvi_real *slope)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n, s = st->s, R = in->R;
+    for (int i = 0; i < n; ++i) {
+        gvi__zero((size_t)s, in->set_up);
+        for (int j = 0; j < st->r; ++j) {
+            gvi_real V = 0, P = 1, before = 1;
+            for (int k = 0; k < s; ++k) {
+                V += in->newton.y[k*n + i]*P;
+                gvi__legendre(k, 1 - 2*part*in->table.c[j], &P, &before);
+            }
+            for (int k = 0; k < s; ++k) in->set_up[k] += in->table.phi[k*R + j]*(in->table.b[j]*V);
+        }
+        gvi__over_gamma(st, in->set_up);
+        for (int k = 0; k < s; ++k)
+            in->newton.y[k*n + i] = in->set_up[k] + (1 - part)*slope[k*n + i];
+    }
+}
+
+/* How far is y from `other`? The largest distance of a coordinate, in units of its own size there
+   and at h, but no less than 1/64 of the largest, each times sqrt(M_ii).                     */
+static gvi_real gvi__newton_apart(const gvi_stepper *st, const gvi_real *other)
+{
+    const struct gvi__private *in = &st->in;
+    gvi_real apart = 0, most = 0, *moved = in->answer, *size = moved + st->n;
+    for (int i = 0; i < st->n; ++i) {
+        moved[i] = size[i] = 0;
+        for (int k = i; k < st->s*st->n; k += st->n) {
+            moved[i] += GVI_ABS(in->newton.y[k] - other[k])/in->watch.scale[i];
+            size[i] += (GVI_ABS(in->newton.found[k]) + GVI_ABS(other[k]))/in->watch.scale[i];
+        }
+        most = gvi__larger(size[i], most);
+    }
+    if (!(most > 0)) return 0;
+    for (int i = 0; i < st->n; ++i)
+        if (!(moved[i]/(size[i] + most/64) <= apart)) apart = moved[i]/(size[i] + most/64);
+    return apart;
+}
+
+/* Is the solution y the motion's, the one that free motion turns into as h grows from 0? It is
+   followed back to shorter steps, from length to length by a prediction: the same curve, changed
+   as it changed last.  From a continuous branch the prediction is not far when the lengths are
+   close; where it is however close they are, the branch has turned back.  A length is enough
+   where the iteration contracts well from constant velocity, h/64 in any case.  If it then comes
+   to the same solution, or to none, y is accepted.                                           */
+static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from,
+                                        const gvi__matrix *J)
+{
+    struct gvi__newton *newton = &st->in.newton;
+    const size_t all = gvi__unknowns(st, 0), modes = (size_t)(st->s*st->n);
+    const gvi_real h = st->in.sized.h, close = GVI__CLOSE;
+    const unsigned count = (unsigned)st->counters.newton_iterations,
+                   enough = 32*(unsigned)st->in.desc.max_iterations;
+    const int sign = gvi__orientation(J, all);
+    // that of queries
+    gvi__matrix K = { newton->J + all*all, newton->pivot + all + 1, NULL, 0, 0, 0,
+                      newton->unit };
+    if (K.unit) K.unit += all - modes;
+    gvi_real part = 1, factor = (gvi_real)0.5;
+    int right = -1;                                                  // not known
+    gvi__copy(all, newton->y, newton->found);
+    gvi__copy(all, newton->y, newton->branch);
+    gvi__zero(all, newton->slope);
+    while (right < 0) {
+        if ((unsigned)st->counters.newton_iterations - count > enough) right = 0;
+        gvi__copy(all, newton->branch, newton->y);
+        gvi__newton_shorten(st, factor, newton->slope);
+        gvi__copy(all, newton->y, newton->guess);
+        gvi__newton_points(st, from, h*(part*factor));
+        const int found =
+            gvi__newton_solve(st, from, &K) == GVI_OK && gvi__orientation(&K, all) == sign;
+        const gvi_real apart = found ? gvi__newton_apart(st, newton->guess) : 1;
+        if (!(apart <= close)) {
+            factor = GVI_SQRT(factor);
+            if (factor > (gvi_real)0.9998) right = 0;
+            continue;
+        }
+        part *= factor;
+        gvi__copy(all, newton->y, newton->branch);
+        for (size_t k = 0; k < modes; ++k)
+            newton->slope[k] += (newton->y[k] - newton->guess[k])/(1 - factor);
+        if (factor > (gvi_real)0.5) {
+            if (apart < close/4) factor *= factor;
+            continue;
+        }
+        gvi__newton_guess(st, 0);
+        const int other = gvi__newton_solve(st, from, &K) == GVI_OK;
+        if ((other && newton->bend <= close) || part < 1/(gvi_real)GVI__SHORT)
+            right = !other || gvi__newton_apart(st, newton->branch) <= close;
+    }
+    gvi__newton_points(st, from, h);
+    gvi__copy(all, newton->found, newton->y);
+    return right ? gvi__newton_values(st, from) : gvi__report_status(st, GVI_E_CONVERGENCE);
+}
+
+// Newton's method begins at: constant velocity; extrapolated modes; constant velocity, with halving
+enum { GVI__PLAIN, GVI__EXTRAPOLATED, GVI__HALVED };
+
+/* Newton's method for a step.  A solution is taken for the motion's where the iteration contracts
+   well from its start and the orientation is that of free motion; or else it is followed back. */
+static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int how, int query)
+{
+    struct gvi__private *in = &st->in;
+    const size_t all = gvi__unknowns(st, 0);
+    gvi__matrix J = { in->newton.J + (query ? all*all : 0),
+                      in->newton.pivot + (query ? all + 1 : 0),
+                      NULL, 0, 0, how == GVI__HALVED, in->newton.unit };
+    if (query && J.unit) J.unit += all - (size_t)(st->s*st->n);
+    // few points see little of what is between
+    const gvi_real far = st->s > 2 ? GVI__CONTRACTS : GVI__LINEAR;
+    int old = !query && !gvi__nonzero(in->newton.h - in->sized.h);
+    gvi_real *v = in->answer + 2*st->n;
+    gvi_status status = GVI_OK;
+    gvi__velocity_guess(st, v);
+    if (gvi__held(st) > 0) status = gvi__held_begin(st, from, v);
+    if (status != GVI_OK) return status;
+    for (;;) {
+        gvi__newton_guess(st, how == GVI__EXTRAPOLATED);
+        status = gvi__newton_solve(st, from, &J);
+        if (!old || status != GVI_OK || !(in->newton.bend > far)) break;
+        in->newton.h = 0;                          // that may be the old matrix's fault
+        old = 0;
+    }
+    if (status == GVI_OK
+        && (J.halves || in->newton.bend > far || gvi__orientation(&J, all) < 0)) {
+        J.halves = 0;
+        status = gvi__newton_connected(st, from, &J);
+    }
+    if (status == GVI_OK && gvi__held(st) > 0) status = gvi__held_end(st);
+    if (status != GVI_OK) return status;
+    // it made none to go on from
+    if (gvi__rows_of_A(in)) gvi__zero((size_t)(st->n*in->R), gvi__rows_of_A(in));
+    for (int i = 0; i < st->n; ++i) {
+        const gvi__two q = gvi__two_prod(in->sized.h, in->newton.y[i]);
+        in->step.q[i] = q.hi;
+        in->step.q_low[i] = gvi__low(q.lo + from->q_low[i]);
+    }
+    gvi__sum_rows(st, in->work.F, from->p_low, in->step.p, in->step.p_low);
+    if (gvi__held(st) > 0) gvi__held_momenta(st);
+    return GVI_OK;
+}
+
+/* ---- as a solver ---- */
+
+// after a fixed point: only if its matrices are small, nothing is pinned, and there is no clock
+GVI__COLD int gvi__newton_follows(const struct gvi__private *in, int held)
+{
+    const gvi_desc *d = &in->desc;
+    return d->formulation == GVI_AUTO && in->chosen != GVI_EXPLICIT && in->chosen != GVI_NEWTON
+           && d->iterations == 0 && !gvi__of_kind(in, GVI_CLOCK)
+           && d->degree <= 1024/(d->n + held);
+}
+
+GVI__COLD void gvi__newton_layout(struct gvi__private *in, int held, gvi__arena *a)
+{
+    struct gvi__newton *newton = &in->newton;
+    const size_t n = (size_t)in->desc.n, s = (size_t)in->desc.degree,
+                 R = (size_t)GVI__ROW(in->desc.rule.points), sm = s*(size_t)held, N = s*n + sm;
+    gvi_real **const unknowns[] = {
+        &newton->y, &newton->dy, &newton->residual, &newton->last,
+        &newton->found, &newton->branch, &newton->guess, &newton->slope
+    };
+    if (in->stages == 1) {                        // V, from the modes
+        in->work.V = gvi__take(a, n, R);
+        in->last.V = gvi__take(a, n, R);
+        in->older.V = gvi__take(a, (in->desc.rule.points < 10 && GVI__DIG > 24)*n, R);
+    }
+    newton->P = gvi__take(a, n, R);
+    newton->moved = gvi__take(a, 4*n, R);
+    newton->hessian = gvi__take(a, 3*n, n);
+    for (int k = 0; k < 8; ++k) *unknowns[k] = gvi__take(a, 1, N);
+    newton->pivot = gvi__take(a, 2, N + 1);                      // twice: queries must not touch
+    newton->unit = gvi__take(a, 2, sm);                          // what the steps keep
+    in->cleared = a->used;                                       // J is written first
+    newton->J = gvi__take(a, 2*N, N);
+}
+
+// the scene's solver, extrapolated first; then from constant velocity with halving
+static gvi_status gvi__by_newton(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query)
+{
+    struct gvi__private *in = &st->in;
+    const unsigned count = (unsigned)st->counters.newton_iterations;
+    const int usable = in->kept > 0 && h/st->h > -GVI__BACK && h/st->h < GVI__AHEAD,
+              extrapolated = usable && in->has_velocity;
+    st->formulation = GVI_NEWTON;
+    gvi__newton_points(st, from, h);
+    if (usable) gvi__prepare_predictor(st, h, query, 1);
+    gvi_status status =
+        gvi__newton_step(st, from, extrapolated ? GVI__EXTRAPOLATED : GVI__PLAIN, query);
+    if (status == GVI_E_CONVERGENCE || status == GVI_E_SINGULAR
+        || (status == GVI_E_CALLBACK && extrapolated)
+        || (status == GVI_E_NON_FINITE && !GVI__LOOKS(st))) {
+        if (!query) in->newton.h = 0;              // the extrapolation may be to blame
+        status = gvi__newton_step(st, from, GVI__HALVED, query);
+    }
+    in->watch.found = in->watch.ratio;
+    if (!query) st->iterations += (int)((unsigned)st->counters.newton_iterations - count);
+    return status;
+}
+
+// in place of the fixed point, if it is the only solver or the fixed point has failed lately
+static int gvi__newton_instead(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query,
+                               gvi_status *status)
+{
+    struct gvi__newton *newton = &st->in.newton;
+    if (st->in.chosen != GVI_NEWTON) {
+        int left = newton->left;
+        if (query || (st->in.stepped && gvi__nonzero(h - st->h))) left = 0;
+        newton->next_left = left - (left > 0);
+        if (left == 0) return 0;
+    }
+    if (!query) st->iterations = 0;
+    *status = gvi__by_newton(st, from, h, query);
+    return 1;
+}
+
+// where the fixed point has failed: for this step, and some more if that was no callback's doing
+static gvi_status gvi__newton_turn(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query,
+                                   gvi_status status)
+{
+    if (!query) {
+        st->in.newton.next_left = 0;
+        if (status == GVI_E_CONVERGENCE || gvi__held(st) > 0)
+            st->in.newton.next_left = GVI__BY_NEWTON - 1;
+        st->in.parts |= GVI__IN_NEWTON;
+    }
+    return gvi__by_newton(st, from, h, query);
+}
+
+// is it to be asked in the next step?
+static void gvi__newton_listen(struct gvi__private *in)
+{
+    in->parts &= ~(unsigned)GVI__IN_NEWTON;
+    if (in->chosen == GVI_NEWTON || in->newton.left > 0) in->parts |= GVI__IN_NEWTON;
+}
+
+static void gvi__newton_commit(gvi_stepper *st)
+{
+    struct gvi__private *in = &st->in;
+    if (st->formulation == GVI_NEWTON) in->has_velocity = 1;
+    in->newton.left = in->newton.next_left;
+    gvi__newton_listen(in);
+}
+
+// a step failed, or the scene has changed
+static void gvi__newton_forget(gvi_stepper *st)
+{
+    st->in.newton.h = 0;
+    gvi__newton_listen(&st->in);
+}
+#endif /* GVI_NO_NEWTON */
+
+#ifndef GVI_NO_CONSTRAINTS
+/* ----------------------------------------------------------- CONSTRAINTS
+
+   g(t,q) = 0 at Lobatto's points d_0 = 0 .. d_s = 1, weights w_e.  What makes h sum_i b_i L_i
    + h sum_e w_e lambda_e . g(D_e) stationary acts by impulses at these points, one more source of
    the same tables, and D_a = q(d_a h) is one more stage (for P_i in (5) as for V_i in (4)):
 
@@ -3430,6 +5886,18 @@ static gvi_real gvi__inertia(const gvi_stepper *st, int i)
    Sources e = 0..s-1 and D_1..D_s are rows of R, as forces and stage values; what is evaluated at
    D_0..D_s, rows of C; at one point, numbers at the beginning of these.  Rows that are off are left
    out.                                                                                        */
+
+// is a constraint on?
+GVI__BODY int gvi__constrained(const gvi_stepper *st)
+{
+    return (gvi__parts(&st->in) & GVI__IN_CONSTRAINTS) && st->in.con.m > 0;
+}
+
+// does M^-1 couple all coordinates?
+static int gvi__full_mass(const struct gvi__private *in)
+{
+    return in->desc.mass.kind >= GVI_MASS_DENSE || in->adds_p;
+}
 
 static unsigned gvi__constraints_on(const gvi_stepper *st) { return st->in.con.bits & ~st->in.off; }
 
@@ -3449,6 +5917,14 @@ GVI__COLD gvi_status gvi__report_row(gvi_stepper *st, gvi_status status, int row
     for (; !(gvi__constraints_on(st) >> e & 1u) || row >= effects[e].rows; ++e)
         if (gvi__constraints_on(st) >> e & 1u) row -= effects[e].rows;
     return gvi__report(st, status, e, row, point);
+}
+
+// constraints are there, on or off, and cannot be: the fault is the first of them
+GVI__OFFERED gvi_status gvi__refuse_constraints(gvi_stepper *st)
+{
+    int e = 0;
+    while (!(st->in.con.bits >> e & 1u)) ++e;
+    return gvi__report(st, GVI_E_FORMULATION, e, 0, GVI_FAULT_NONE);
 }
 
 // of the columns of row a that are read and cleared, the first from i on; n: there is none
@@ -3472,7 +5948,7 @@ static gvi_status gvi__evaluate_constraints(gvi_stepper *st, int S, int count, c
             for (to = i + 1; gvi__column(st, a, to) == to && to < st->n; ++to) { }
             gvi__zero((size_t)((to - i)*S), G + (size_t)(a*st->n + i)*(size_t)S);
         }
-    if (st->in.diagnose && gvi__check_rows(st, &at, q, 0) != GVI_OK)
+    if (GVI__LOOKS(st) && gvi__check_rows(st, &at, q, 0) != GVI_OK)
         return gvi__report_status(st, GVI_E_CONVERGENCE);
     for (int e = 0; e < st->in.desc.effect_count; ++e) {
         const gvi_effect *effect = st->in.desc.effects + e;
@@ -3480,7 +5956,7 @@ static gvi_status gvi__evaluate_constraints(gvi_stepper *st, int S, int count, c
         gvi__count(&st->counters.effect[e], count);
         const int failed = effect->points(&at, effect->user);
         if (failed) return gvi__report_callback(st, failed, e);
-        if (st->in.diagnose) {
+        if (GVI__LOOKS(st)) {
             gvi_points rows = at;
             rows.n = effect->rows;
             status = gvi__check_rows(st, &rows, at.g, e);
@@ -3506,10 +5982,9 @@ static void gvi__over_inertia(const gvi_stepper *st, gvi_real *z, int S, int cou
 {
     const struct gvi__private *in = &st->in;
     const int n = st->n;
-    const gvi_real *lu = in->newton.hessian;
-    if (S == 1 && gvi__has(in, GVI__HAS_LAGRANGIAN)) gvi_lu_solve(n, lu, lu + n*n, z);
-    else if (!gvi__mass_is(in, GVI_MASS_POSITION)) gvi__over_mass(st, z, S, count);
-    else gvi__ldl_solve(n, in->mass.at_points, S > 1 ? in->R : 1, z, S, count);
+    if (S == 1 && in->adds_p) gvi__over_hessian(st, z);
+    else if (in->desc.mass.kind != GVI_MASS_POSITION) gvi__over_mass(st, z, S, count);
+    else gvi__ldl_solve(n, gvi__mass_at_points(in), S > 1 ? in->R : 1, z, S, count);
 }
 
 static int gvi__all_zero(const gvi_real *x)
@@ -3639,20 +6114,15 @@ static void gvi__solve_constraints(const gvi_stepper *st, const gvi_real *A, int
 static gvi_status gvi__constraints_at(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                       const gvi_real *p, gvi_real *v, gvi_real *drops)
 {
-    const int n = st->n;
-    gvi_real *G = st->in.con.G1, *H = st->in.newton.hessian;
+    gvi_real *G = st->in.con.G1;
     gvi_points at = gvi__one_point(st, &t, q);
     gvi_status status = gvi__evaluate_constraints(st, 1, 1, &t, q, G);
     if (status == GVI_OK && (drops != st->in.con.drops || !st->in.con.settled))
         st->in.con.again |= gvi__find_columns(st, 1, 1, G);
-    if (status == GVI_OK && gvi__has(&st->in, GVI__HAS_LAGRANGIAN)) {
+    if (status == GVI_OK && st->in.adds_p) {
         if (p) status = gvi__velocity(st, t, q, p, v);
-        at.v = v;
-        if (status == GVI_OK) status = gvi__evaluate(st, &at, 0, 1);
-        if (status == GVI_OK) status = gvi__velocity_hessian(st, &at, v, H);
-        if (status == GVI_OK && gvi_lu_factor(n, H, H + n*n) != GVI_OK)
-            return gvi__report_effect(st, GVI_E_SINGULAR, GVI_FAULT_MASS);
-    } else if (status == GVI_OK && gvi__mass_is(&st->in, GVI_MASS_POSITION))
+        if (status == GVI_OK) status = gvi__factor_hessian(st, &at, v);
+    } else if (status == GVI_OK && st->in.desc.mass.kind == GVI_MASS_POSITION)
         status = gvi__factor_mass(st, &at);
     return status == GVI_OK ? gvi__factor_constraints(st, 1, 1, G, st->in.con.A1, drops) : status;
 }
@@ -3685,42 +6155,50 @@ static void gvi__constraint_points(const gvi_stepper *st, const gvi__origin *fro
     gvi__times(in->con.C, from->t, from->t_low, h, in->con.d, in->con.t);
 }
 
-/* One more sum in the stages; free motion and times of D.  P or V is not judged: lambda turns the
-   rounding of D into X eps/h, across the constraints, where no motion feels it.              */
-GVI__CALLED void gvi__constraint_stages(const gvi_stepper *st, const gvi__origin *from, gvi_real h,
-                                   gvi__stage *stage, int stages)
+/* Free motion and times of D; what impulses add to the stages.  P or V is not judged: lambda turns
+   the rounding of D into X eps/h, across the constraints, where no motion feels it.           */
+GVI__CALLED void gvi__constraint_stages(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                                        gvi__stage *stage)
 {
-    const struct gvi__private *in = &st->in;
-    const int R = in->R, momenta = gvi__has(in, GVI__BY_MOMENTA);
+    struct gvi__private *in = &st->in;
+    const int n = st->n, R = in->R, momenta = in->chosen == GVI_MOMENTA;
+    in->con.made = in->con.linear = 0;
+    if (!gvi__constrained(st)) return;
     gvi__constraint_points(st, from, h);
-    for (int k = 0; k < (momenta ? 1 : stages); ++k) {
-        stage[k].sum[1].table = momenta || k == 1 ? in->con.U : in->con.K;
-        stage[k].sum[1].weight = in->con.hw;
-        stage[k].sum[1].source = in->con.force;
+    for (int k = 0; k < (momenta ? 1 : in->stages); ++k) stage[k].plus = in->con.plus + k*n*R;
+    if (in->stages == 2) {
+        gvi__stage *y = stage + !momenta;
+        y->quiet = 1;
+        gvi__zero((size_t)n, y->scale);
+        gvi__zero((size_t)n, y->change);
+        gvi__zero((size_t)n, in->watch.before + !momenta*n);
     }
-    if (stages == 2) {
-        stage[!momenta].scale = NULL;
-        gvi__zero((size_t)st->n, in->watch.change + !momenta*st->n);
-        gvi__zero((size_t)st->n, in->watch.before + !momenta*st->n);
-    }
-    for (int i = 0; i < st->n; ++i)
+    for (int i = 0; i < n; ++i)
         gvi__free_row(R, from->q_low[i], momenta ? 0 : in->free.path[i],
                       momenta ? 0 : in->free.path_low[i], in->con.d + 1, in->con.free + i*R);
+}
+
+// rows := sum over sources and their weights, or added to what is there
+static void gvi__weighted_sums(const gvi_stepper *st, const gvi_real *table, const gvi_real *weight,
+                               const gvi_real *source, gvi_real *scratch, gvi_real *rows, int add)
+{
+    const int R = st->in.R;
+    for (int i = 0; i < st->n; ++i) gvi__weigh(R, weight, source + i*R, scratch + i*R);
+    gvi__sums(st, table, scratch, rows, add);
 }
 
 // D, from the stage that makes Q
 GVI__CALLED void gvi__constraint_rows(const gvi_stepper *st, const gvi__stage *stage)
 {
     const struct gvi__private *in = &st->in;
-    gvi__stage z = stage[gvi__has(in, GVI__BY_MOMENTA)];
-    z.sum[0].table = in->con.by_force;
-    z.sum[1].table = gvi__has(in, GVI__BY_MOMENTA) ? NULL : in->con.by_impulse;
-    z.rows = in->con.D;
-    z.base = in->zeros;
-    z.free = in->con.free;
-    z.scale = z.change = NULL;
-    if (z.dense) gvi__dense_rows(st, &z, 0);
-    else in->kernel(st, &z, 0);
+    const int n = st->n, R = in->R, momenta = in->chosen == GVI_MOMENTA;
+    gvi_real *D = in->con.D, *scratch = in->con.plus;
+    gvi__weighted_sums(st, in->con.by_force, in->sized.hb, stage[momenta].source, scratch, D, 0);
+    if (!momenta) {
+        gvi__weighted_sums(st, in->con.by_impulse, in->con.hw, in->con.force, scratch, D, 1);
+        gvi__over_mass(st, D, R, R);
+    }
+    for (int i = 0; i < n*R; ++i) D[i] = in->con.free[i] + D[i]*stage[momenta].factor;
 }
 
 // G' lambda at the sources; the rows behind the forces hold -lambda
@@ -3861,6 +6339,25 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
                                    st->in.con.drops);
 }
 
+// V of a trial: the P that the new F and the old lambda make
+static void gvi__trial_velocities(gvi_stepper *st, const gvi__stage *stage)
+{
+#ifndef GVI_NO_MOMENTA
+    struct gvi__private *in = &st->in;
+    const int n = st->n, R = in->R;
+    gvi_real *const P = in->momenta.P, *trial = in->con.P, *scratch = in->con.plus;
+    gvi__weighted_sums(st, stage->table, in->sized.hb, stage->source, scratch, trial, 0);
+    gvi__weighted_sums(st, in->con.U, in->con.hw, in->con.force, scratch, trial, 1);
+    for (int i = 0; i < n; ++i)
+        for (int k = i*R; k < i*R + R; ++k) trial[k] = stage->base[i] + (stage->free[k] + trial[k]);
+    in->momenta.P = trial;
+    gvi__velocities_again(st);
+    in->momenta.P = P;
+#else
+    (void)st, (void)stage;
+#endif
+}
+
 // the new lambda, and forces.  With momenta D' needs the P and V of the new F
 GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *stage, const gvi_real *q0)
 {
@@ -3868,15 +6365,7 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *stage, const 
     const int n = st->n, m = in->con.m, s = st->s, R = in->R, C = in->con.C;
     gvi_real *lambda = in->con.force + n*R, *rho = in->con.rho, *moved = in->con.W;
     gvi__constraint_forces(st);
-    if (gvi__has(in, GVI__BY_MOMENTA)) {
-        gvi_real *const P = in->work.P;
-        gvi__stage z = stage[0];
-        z.rows = in->work.P = in->con.P;
-        z.scale = z.change = NULL;
-        in->kernel(st, &z, 0);
-        gvi__velocities_again(st);
-        in->work.P = P;
-    }
+    if (in->chosen == GVI_MOMENTA) gvi__trial_velocities(st, stage);
     gvi__constraint_rows(st, stage);
     for (int i = 0; i < n; ++i) {                 // D - D'
         gvi_real *GVI__RESTRICT z = moved + i*C;
@@ -3895,6 +6384,26 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *stage, const 
     for (int a = 0; a < m; ++a)
         for (int e = 0; e < s; ++e) lambda[a*R + e] += rho[a*R + e]/(in->sized.h*in->con.hw[e]);
     gvi__constraint_forces(st);
+}
+
+// before the rows: lambda, and what the impulses add to them
+static void gvi__constraint_before(gvi_stepper *st, const gvi__stage *stage)
+{
+    struct gvi__private *in = &st->in;
+    const int momenta = in->chosen == GVI_MOMENTA, nR = st->n*in->R;
+    gvi_real *plus = in->con.plus, *scratch = in->con.D;
+    if (in->con.made > 0) gvi__constrain(st, stage, stage[momenta].base);
+    gvi__weighted_sums(st, momenta ? in->con.U : in->con.K, in->con.hw, in->con.force, scratch,
+                       plus, 0);
+    if (in->stages == 2 && !momenta)
+        gvi__weighted_sums(st, in->con.U, in->con.hw, in->con.force, scratch, plus + nR, 0);
+}
+
+static void gvi__constraint_behind(gvi_stepper *st, const gvi__stage *stage, gvi_real sum)
+{
+    st->in.con.linear |=
+        GVI__DIG > FLT_MANT_DIG && st->in.con.made > 0 && sum < GVI__EPS*GVI_SQRT(GVI__EPS);
+    gvi__constraint_rows(st, stage);
 }
 
 // |G|'|rho| of lambda's last change, or 0 if that was not all rounding, 8 eps of the known terms
@@ -3936,6 +6445,66 @@ GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int row, int point)
     return lost*A[(row*m + row)*C];
 }
 
+// is rank being lost?  Near a bifurcation it would be leaving the motion for that of another branch
+GVI__CALLED int gvi__constraint_judge(const gvi_stepper *st, const gvi__progress *p, gvi_real D)
+{
+    const gvi_real grain = GVI__GRAIN*GVI__GRAIN*GVI__EPS*GVI__EPS*(gvi_real)(st->n*st->r);
+    const int m = st->in.con.m;
+    gvi_real loss = 0;
+    if (!(D > 16*p->least && D > grain)) return GVI__GO_ON;
+    for (int k = 0; k < st->s*m; ++k) loss = gvi__larger(gvi__loss(st, k % m, k/m), loss);
+    return loss > GVI__LOST - 1 && D > grain*loss*loss*loss ? GVI__DIVERGES : GVI__GO_ON;
+}
+
+/* A move of coordinate i that is rounding, whatever its amplitude: of a force of constraint, 32 eps
+   of it, or its last change where that came from the rounding of g, which nearly dependent rows
+   make large.                                                                                 */
+static gvi_real gvi__constraint_push(const gvi_stepper *st, gvi_real h, int i, gvi_real m)
+{
+    const struct gvi__private *in = &st->in;
+    gvi_real push = 0;
+    if (i == 0) gvi__constraints_moved(st, in->con.W);
+    for (int e = 0; e < st->s; ++e) {
+        const gvi_real force = GVI__NOISE*GVI__EPS*GVI_ABS(h*in->con.force[i*in->R + e])
+                               + in->con.W[i*in->con.C + e]/GVI_ABS(in->con.hw[e]);
+        push = gvi__larger(GVI_ABS(h)*force/m, push);
+    }
+    return push;
+}
+
+// dp of the forces of constraint
+static void gvi__constraint_momenta(gvi_stepper *st)
+{
+    struct gvi__private *in = &st->in;
+    for (int i = 0; i < st->n; ++i) {
+        const gvi__two z = gvi__exact_dot(in->R, in->con.hw, in->con.force + i*in->R),
+                       p = gvi__add_low(in->step.p[i], in->step.p_low[i], z.hi, z.lo);
+        in->step.p[i] = p.hi;
+        in->step.p_low[i] = p.lo;
+    }
+}
+
+// sum_j (1 - c_j) w_j F_j with its low word
+GVI__CALLED gvi__two gvi__moment(int count, const gvi_real *c, const gvi_real *w, const gvi_real *F)
+{
+    gvi__two sum = gvi__two_of(0, 0);
+    for (int j = 0; j < count; ++j) {
+        const gvi__two push = gvi__two_prod(w[j], F[j]), z = gvi__two_prod(1 - c[j], push.hi);
+        sum = gvi__add_low(sum.hi, sum.lo, z.hi, z.lo + (1 - c[j])*push.lo);
+    }
+    return sum;
+}
+
+// sum_j (1 - c_j) h b_j F_j and that of the impulses, in double words: large forces may cancel
+static gvi_real gvi__constraint_bow(const gvi_stepper *st, int i)
+{
+    const struct gvi__private *in = &st->in;
+    const gvi__two a = gvi__moment(st->r, in->table.c, in->sized.hb, in->work.F + i*in->R),
+                   z = gvi__moment(st->s, in->con.d, in->con.hw, in->con.force + i*in->R);
+    return (a.hi + z.hi) + (a.lo + z.lo);
+}
+
+#ifndef GVI_NO_KICKS
 /* RATTLE: the drift from p to g(q1) = 0 by impulses G0' mu, from a simplified Newton iteration.  A
    row is rounding if it exceeds by a quarter what its last correction, and the change of G along
    it, should have left.  An error four times the least so far is divergence.                  */
@@ -3943,6 +6512,7 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
+    if (!gvi__constrained(st)) return GVI_OK;
     gvi_real before = 0, least = GVI__MAX, *Q = in->work.Q, *z = in->con.rho, *left = in->con.y,
              *d = in->con.W, *unit = d + n, *g = in->con.g,
              *G = in->con.G1 + m*n;                  // G0 is before it
@@ -3981,7 +6551,7 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
             return gvi__report_status(st, GVI_OK);
         if (size < least) least = size;
         // far off already, it was on its way to infinity
-        if (!finite && !in->diagnose && before*GVI__EPS < (gvi_real)0.125)
+        if (!finite && !GVI__LOOKS(st) && before*GVI__EPS < (gvi_real)0.125)
             return gvi__report_status(st, GVI_E_NON_FINITE);
         if (!finite || k > 64 || size > 4*(least + 256))
             return gvi__report_status(st, GVI_E_CONVERGENCE);
@@ -3997,6 +6567,7 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
         for (int a = 0; a < m; ++a) z[a] = h*gvi__row_dot(st, G, a, d), left[a] = g[a] + z[a];
     }
 }
+#endif
 
 /* ---- at the end of a step, and at the start ---- */
 
@@ -4043,9 +6614,9 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
 GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, int start)
 {
     struct gvi__private *in = &st->in;
-    const int n = st->n, m = in->con.m, passes = gvi__has(in, GVI__HAS_LAGRANGIAN) ? 40 : 2;
+    const int n = st->n, m = in->con.m, passes = in->adds_p ? 40 : 2;
     const gvi_real t = from->t + (from->t_low + in->dt), far = GVI__HELD*GVI__EPS;
-    gvi_real *q = in->result, *p = q + n, *v = p + n, *r = in->con.g, *z = in->con.rho,
+    gvi_real *q = in->answer, *p = q + n, *v = p + n, *r = in->con.g, *z = in->con.rho,
              *drops = in->con.drops + m, energy = 0, size = 0, before = GVI__MAX;
     int redundant = 0;
     for (int i = 0; i < n; ++i) {
@@ -4053,9 +6624,9 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
         p[i] = from->p[i] + (in->step.p[i] + in->step.p_low[i]);
     }
     gvi__velocity_guess(st, v);
-    in->diagnose |= start;
+    if (start) GVI__LOOK(st, 1);
     gvi_status status = gvi__constraints_at(st, t, q, p, v, drops);
-    if (start) in->diagnose = 0;
+    if (start) GVI__LOOK(st, 0);
     for (int a = 0; a < m; ++a) {
         redundant |= drops[a] > 0;
         if (!start && status == GVI_OK && (drops[a] > 0) != (in->con.drops[a] > 0))
@@ -4118,7 +6689,7 @@ GVI__COLD gvi_status gvi__project_start(gvi_stepper *st, gvi_real t, const gvi_r
                                         const gvi_real *p)
 {
     struct gvi__private *in = &st->in;
-    const gvi__origin from = { t, 0, in->zeros, in->zeros, in->zeros, in->zeros, 0 };
+    const gvi__origin from = { t, 0, in->zeros, in->zeros, in->zeros, in->zeros };
     const size_t n = (size_t)st->n;
     if (q != in->step.q) gvi__copy(n, q, in->step.q);
     if (p != in->step.p) gvi__copy(n, p, in->step.p);
@@ -4134,16 +6705,183 @@ GVI__CALLED void gvi__commit_constraints(gvi_stepper *st, gvi_real h)
     struct gvi__private *in = &st->in;
     const int n = st->n, s = st->s, C = in->con.C, rows = n + in->con.m;
     if (in->con.settled < 0x4001) in->con.settled += 1;
-    in->con.kept = gvi__constrained(st) && gvi__has(in, GVI__ITERATES) ? 2 : 0;
+    in->con.kept = gvi__constrained(st) && in->stages > 0 ? 2 : 0;
     if (in->con.kept == 0) return;
     for (int a = n; a < rows; ++a) in->con.y[a - n] /= h*in->con.w[s];
-    gvi__zero((size_t)n, in->result);
-    gvi__add_force(st, in->con.y, in->result);
+    gvi__zero((size_t)n, in->answer);
+    gvi__add_force(st, in->con.y, in->answer);
     for (int i = 0; i < rows; ++i) {
         gvi__copy((size_t)s, in->con.force + i*in->R, in->con.last + i*C);
-        in->con.last[i*C + s] = i < n ? in->result[i] : -in->con.y[i - n];
+        in->con.last[i*C + s] = i < n ? in->answer[i] : -in->con.y[i - n];
     }
 }
+
+// what the forces of constraint add to the last step's curve, made of forces
+static void gvi__constraint_held(const gvi_stepper *st, gvi_real tau, const gvi_real *phi,
+                                 const gvi_real *Phi, gvi_real *q, gvi_real *v)
+{
+    const struct gvi__private *in = &st->in;
+    for (int e = 0; e < st->s; ++e) {
+        gvi_real S = 0, T = 0;                     // Phi(d_0) = 0
+        for (int k = 0; e > 0 && k < st->s; ++k) {
+            S += Phi[k]*in->con.Phi[k*in->R + e - 1];
+            T += phi[k]*in->con.Phi[k*in->R + e - 1];
+        }
+        for (int i = 0; i < st->n; ++i) {
+            const gvi_real L = st->h*in->con.w[e]*in->con.last[i*in->con.C + e];
+            q[i] += (tau - S)*L;
+            v[i] += (1 - T)*L;
+        }
+    }
+}
+
+// mode k of what the forces of constraint do to coordinate i
+GVI__OFFERED gvi_real gvi__constraint_mode(const gvi_stepper *st, int i, int k)
+{
+    const struct gvi__private *in = &st->in;
+    gvi_real sum = 0;
+    for (int e = 1; e < st->s; ++e)
+        sum += in->con.Phi[k*in->R + e - 1]*(in->con.w[e]*in->con.force[i*in->R + e]);
+    return sum;
+}
+
+/* ---- set-up, start and switch ---- */
+
+GVI__COLD const char *gvi__wrong_in_constraint(const struct gvi__private *in, int e)
+{
+    const gvi_effect *effect = in->desc.effects + e;
+    if (effect->rows < 1 || effect->rows > in->desc.n - in->con.m)
+        return "effect: rows is not 1 to what is left of n";
+    if (!effect->points) return "effect: this kind needs points, not point";
+    return NULL;
+}
+
+/* The tables of constraints, on the same grids, by columns: K = c_i - S(c_i, d_e), U = 1 - T(c_i,
+   d_e); for D d_a - S(d_a, c_j), or with momenta T(c_j, d_a), and d_a - S(d_a, d_e), with LU. */
+GVI__COLD gvi_status gvi__set_constraints(gvi_stepper *st)
+{
+    const struct gvi__private *in = &st->in;
+    const int s = st->s, r = st->r, R = in->R, momenta = in->chosen == GVI_MOMENTA;
+    gvi_real *d = in->con.d, *low = in->stages > 0 ? in->set_up : NULL, *lu = in->con.lu;
+    gvi__rule(1, s + 1, d, low, in->con.w);
+    if (in->stages == 0) return GVI_OK;
+    gvi__modes_of(st, s, d + 1, low + 1, NULL, NULL, in->con.Phi, in->con.Phi_low);
+    gvi__zero(2*(size_t)s, in->set_up);               // the column of d_0: Phi(d_0) = 0
+    for (int e = 0; e <= s; ++e) {
+        if (e > 0) gvi__prepare_column(st, in->con.Phi, in->con.Phi_low, e - 1);
+        for (int i = 0; i < r; ++i) {
+            const gvi_real S = gvi__S(st, in->table.Phi, in->table.Phi_low, i),
+                           T = in->con.U ? gvi__T(st, i) : 0;
+            if (e < s) in->con.K[e*R + i] = in->table.c[i] - S;
+            if (e < s && in->con.U) in->con.U[e*R + i] = 1 - T;
+            if (e > 0) in->con.by_force[i*R + e - 1] = momenta ? T : d[e] - S;
+        }
+        for (int a = e > 1 ? e : 1; a <= s; ++a) {
+            const gvi_real S = gvi__S(st, in->con.Phi, in->con.Phi_low, a - 1);
+            if (e < s) in->con.by_impulse[e*R + a - 1] = lu[(a - 1)*s + e] = d[a] - S;
+            if (a < s && e > 0) in->con.by_impulse[a*R + e - 1] = lu[(e - 1)*s + a] = d[e] - S;
+        }
+    }
+    if (gvi_lu_factor(s, lu, lu + s*s) != GVI_OK) return GVI_E_POINTS;
+    for (int a = 0; a < s; ++a) {
+        in->con.X[a*R + a] = 1;
+        gvi_lu_solve(s, lu, lu + s*s, in->con.X + a*R);
+    }
+    return GVI_OK;
+}
+
+// that of constraints: rows of R, then of C
+GVI__COLD void gvi__layout_constraints(struct gvi__private *in, gvi__arena *a)
+{
+    struct gvi__holonomic *con = &in->con;
+    const size_t n = (size_t)in->desc.n, s = (size_t)in->desc.degree,
+                 r = (size_t)in->desc.rule.points,
+                 R = (size_t)GVI__ROW(r), C = (size_t)GVI__ROW(s + 1),
+                 m = (size_t)gvi__count_rows(in, con->bits),
+                 on = m > 0, i = on && in->stages > 0,
+                 u = in->stages == 2;
+    const struct { gvi_real **to; size_t rows, width; } list[] = {
+        { &con->D, i*n, R }, { &con->free, i*n, R }, { &con->P, on*u*n, R },
+        { &con->plus, i*(1 + u)*n, R }, { &con->force, i*(n + m), R },
+        { &con->K, i*r, R }, { &con->U, on*u*r, R }, { &con->by_force, i*r, R },
+        { &con->by_impulse, i*r, R },
+        { &con->X, i*s, R },
+        { &con->E, i*s, R }, { &con->Phi, i*s, R }, { &con->Phi_low, i*s, R }, { &con->hw, on, R },
+        { &con->last, i*(n + m), C }, { &con->at, i*n, C }, { &con->t, i, C }, { &con->W, on*n, C },
+        { &con->g, 2*m, C }, { &con->G, i*m*n, C }, { &con->A, i*m*m, C }, { &con->d, on, R + C },
+        { &con->w, on, s + 1 }, { &con->rho, m, R + C }, { &con->lu, i*(s + 1), s + 1 },
+        { &con->y, on, m },
+        { &con->G1, 2*m, n }, { &con->A1, m, m }, { &con->column, m, n + 1 },
+        { &con->first, on, m }, { &con->drops, 2*on, m }, { &con->doubt, on, 3*m + 1 }
+    };
+    con->C = (int)C;
+    for (size_t k = 0; k < sizeof list/sizeof *list; ++k)
+        *list[k].to = gvi__take(a, list[k].rows, list[k].width);
+}
+
+GVI__COLD gvi_status gvi__constraint_start(gvi_stepper *st, gvi_real t, gvi_real *v)
+{
+    struct gvi__private *in = &st->in;
+    in->con.kept = 0;
+    in->con.doubt[0] = -1;
+    if (!gvi__constrained(st)) return GVI_OK;
+    gvi__forget_columns(st);
+    const gvi_status status = gvi__project_start(st, t, in->step.q, in->step.p);
+    if (status == GVI_OK) gvi__copy((size_t)st->n, in->answer + 2*st->n, v);
+    in->con.again = 0;
+    return status;
+}
+
+// constraints that are switched on have to hold
+GVI__COLD gvi_status gvi__constraint_switch(gvi_stepper *st, unsigned was)
+{
+    struct gvi__private *in = &st->in;
+    gvi_status status = GVI_OK;
+    if (!(in->con.bits & (in->off ^ was))) return GVI_OK;
+    in->con.m = gvi__count_rows(in, gvi__constraints_on(st));
+    gvi__forget_columns(st);
+    if (in->started && (was & ~in->off)) status = gvi__project_start(st, st->t, st->q, st->p);
+    in->con.again = 0;
+    if (status != GVI_OK) {
+        in->off = was;
+        in->con.m = gvi__count_rows(in, gvi__constraints_on(st));
+        gvi__forget_columns(st);
+        return status;
+    }
+    in->con.kept = in->con.kept > 0;
+    in->sized.ratio = 0;
+    return GVI_OK;
+}
+
+// once more, with columns that were found, or with a jacobian that is wrong
+static gvi_status gvi__constraint_again(gvi_stepper *st, gvi_status status, int *again)
+{
+    struct gvi__holonomic *con = &st->in.con;
+    *again = con->again;
+    con->again = 0;
+    if (!(con->doubt[0] >= 0)) return status;
+    const int row = (int)con->doubt[0];
+    con->doubt[0] = -1;
+    *again = 0;
+    status = gvi__report_row(st, GVI_E_CONVERGENCE, row, GVI_FAULT_NONE);
+    st->fault.argument = "a jacobian is not the derivative of g, in fault.coordinate's row";
+    return status;
+}
+
+// a step failed: is a row wrong already where it starts, or left out there, and cannot be?
+GVI__OFFERED int gvi__constraint_explain(gvi_stepper *st, gvi_status status, gvi_real *v,
+                                      gvi_status *start)
+{
+    gvi_real *drops = st->in.con.drops + st->in.con.m;
+    if (!gvi__constrained(st)) return 0;
+    *start = gvi__constraints_at(st, st->t, st->q, st->p, v, drops);
+    if (*start != GVI_OK || status != GVI_E_SINGULAR) return 0;
+    for (int a = 0; a < st->in.con.m; ++a)
+        if (drops[a] > 0) return 1;
+    return 0;
+}
+
+/* ---- multipliers and projection, for the caller ---- */
 
 /* Newton's method for the lambda with which G v + dg/dt stays 0 along the motion, its matrix A.
    d/de at (t + e, q + e v, p + e (F + G' lambda)) by differences of order 8, which are halved in
@@ -4156,10 +6894,10 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
     gvi_status trial = GVI_OK, status = gvi__ready(st, st && st->in.started);
     if (status != GVI_OK) return status;
     if (!lambda) return gvi__refuse_call(st, "lambda is NULL");
-    if (!GVI__CONSTRAINTS || !st->in.con.bits) return gvi__done(st, GVI_E_FORMULATION);
+    if (!st->in.con.bits) return gvi__done(st, GVI_E_FORMULATION);
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
-    gvi_real *q = in->result, *p = q + n, *u = p + n, *v = in->con.W, *force = v + n;
+    gvi_real *q = in->answer, *p = q + n, *u = p + n, *v = in->con.W, *force = v + n;
     gvi_real *z = in->con.rho, *rate = z + m, *sum = in->con.y, *best = in->con.g + 2*m;
     gvi_real *F = in->step.p, least = GVI__MAX, size = 0, delta = 1;
     gvi_points at = gvi__one_point(st, &st->t, st->q);
@@ -4216,522 +6954,103 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
     return gvi__done(st, GVI_OK);
 }
 
-/* ---------------------------------------------------------------- SET-UP */
-
-// in long: an int may have 16 bits
-static int gvi__within(long x, long most) { return x >= 0 && x <= most; }
-
-// what is wrong with a description's own members, or NULL
-GVI__COLD const char *gvi__wrong_in_desc(const gvi_desc *d)
+/* The iteration q' = q + e, e = M^-1 G'z with g + G(e_new - e) = 0: (G M^-1 G') z = G e - g at the
+   last q'.  So e is normal to the constraints where it ends, and e'M e is z'(G e - g).  What moves
+   along the constraints is damped, by `share`, where changes grow; g is taken to 0 in any case. */
+GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_real *v,
+                               gvi_real *moved)
 {
-    if (!d) return "desc is NULL";
-    if (!gvi__within(d->n, 0x7FFFF) || d->n < 1) return "n is not 1 to 524,287";
-    if (!gvi__within(d->degree, 1024)) return "degree is not 0 to 1024";
-    if (!gvi__within(d->rule.points, 4000)) return "rule.points is not 0 to 4000";
-    if (!gvi__within(d->effect_count, GVI_EFFECTS)) return "effect_count is not 0 to GVI_EFFECTS";
-    if (d->effect_count && !d->effects) return "effect_count is given, effects is NULL";
-    if (d->effects && !d->effect_count) return "effects is given, effect_count is 0";
-    if (!gvi__within(d->max_iterations, 1000000)) return "max_iterations is not 0 to 1,000,000";
-    if (!gvi__within(d->iterations, 1000000)) return "iterations is not 0 to 1,000,000";
-    if ((unsigned)d->formulation > GVI_NEWTON) return "formulation is not in its enum";
-    if ((unsigned)d->mass.kind > GVI_MASS_NONE) return "mass.kind is not in its enum";
-    if ((unsigned)d->rule.kind > GVI_KICKS) return "rule.kind is not in its enum";
-    if (!(d->tolerance >= 0 && d->tolerance < 1)) return "tolerance is not 0 to 1";
-    if (!(d->resolution >= 0 && d->resolution < 1)) return "resolution is not 0 to 1";
-    if (d->rule.kind < GVI_OWN && d->rule.nodes) return "rule: this kind takes no nodes";
-    if (d->rule.kind < GVI_OWN) return NULL;
-    if (!d->rule.points || !d->rule.nodes || !d->rule.weights)
-        return "rule: this kind needs points, nodes and weights";
-    return NULL;
-}
-
-// what is wrong with an effect, or NULL; `in` knows those before it
-GVI__COLD const char *gvi__wrong_in_effect(const struct gvi__private *in, const gvi_effect *effect)
-{
-    const int holds = effect->kind == GVI_CONSTRAINT, clock = effect->kind == GVI_CLOCK;
-    if ((unsigned)effect->kind > GVI_CONSTRAINT) return "effect: kind is not in its enum";
-    if (!effect->points && !effect->point) return "effect: points, or point, is missing";
-    if (effect->points && effect->point) return "effect: points and point, one is too many";
-    if (!holds && effect->rows != 0) return "effect: rows is for constraints";
-    if (GVI__CONSTRAINTS && holds && (effect->rows < 1 || effect->rows > in->desc.n - in->con.m))
-        return "effect: rows is not 1 to what is left of n";
-    if (!effect->points && ((GVI__CLOCK && clock) || (GVI__CONSTRAINTS && holds)))
-        return "effect: this kind needs points, not point";
-    if (GVI__CLOCK && clock && in->clock >= 0) return "effect: a second clock";
-    return NULL;
-}
-
-// what is wrong with the mass, or NULL
-GVI__COLD const char *gvi__wrong_in_mass(const struct gvi__private *in)
-{
-    const gvi_mass *m = &in->desc.mass;
-    if (m->kind == GVI_MASS_UNIT && (m->matrix || m->points))
-        return "mass: matrix or points is given, kind is GVI_MASS_UNIT";
-    if (m->kind == GVI_MASS_POSITION && !m->points) return "mass: points is missing";
-    if (m->kind == GVI_MASS_POSITION && !m->gradient) return "mass: gradient is missing";
-    if (m->kind == GVI_MASS_NONE && !(in->facts & GVI__HAS_LAGRANGIAN))
-        return "mass: none, and no Lagrangian term";
-    if ((m->kind == GVI_MASS_DIAGONAL || m->kind == GVI_MASS_DENSE) && !m->matrix)
-        return "mass: matrix is missing";
-    return NULL;
-}
-
-/* Are all sizes in range, is everything there that the kinds need, and nothing that suggests a
-   forgotten kind?  Fills in the defaults, and finds the clock and what the effects read.      */
-GVI__COLD gvi_status gvi__check(struct gvi__private *in, const gvi_desc *desc, gvi_fault *fault)
-{
-    enum { V = GVI__HAS_VELOCITIES, L = GVI__HAS_LAGRANGIAN };
-    // potential, force, Lagrangian, clock, constraint
-    static const unsigned char reads[] = { 0, V, V | L, 0, 0 };
-    const char *wrong = gvi__wrong_in_desc(desc);
-    if (wrong) return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE, wrong);
-    gvi_desc *d = &in->desc;
-    *d = *desc;
-    const gvi_rule_kind rule = d->rule.kind;
-    if (d->degree == 0) {
-        d->degree = 8;
-        if (rule == GVI_KICKS) d->degree = 1;
-    }
-    if (d->rule.points == 0) d->rule.points = d->degree + (rule == GVI_LOBATTO);
-    if (d->max_iterations == 0) d->max_iterations = 60;
-    if (d->resolution > 0 && d->degree < 3)
-        return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE, "resolution: degree is below 3");
-    if (d->resolution > 0 && d->resolution < GVI__EPS) d->resolution = GVI__EPS;
-
-    in->facts = 0;
-    in->clock = -1;
-    in->apart = in->con.bits = 0;
-    in->con.m = 0;
-    for (int e = 0; e < d->effect_count; ++e) {
-        const gvi_effect *effect = d->effects + e;
-        wrong = gvi__wrong_in_effect(in, effect);
-        if (wrong) return gvi__refuse(fault, e, GVI_FAULT_NONE, wrong);
-        in->facts |= reads[effect->kind];
-        if (effect->kind < GVI_CLOCK) continue;
-        in->apart |= 1u << e;
-        in->con.m += effect->rows;
-        if (effect->kind == GVI_CONSTRAINT) in->con.bits |= 1u << e;
-        else in->clock = e;
-    }
-    const gvi_mass *m = &d->mass;
-    if ((in->facts & L && !GVI__LAGRANGIAN) || (in->clock >= 0 && !GVI__CLOCK)
-        || (in->con.bits && (!GVI__CONSTRAINTS || in->clock >= 0 || rule == GVI_KICKS))
-        || (m->kind > GVI_MASS_DENSE && !gvi__mass_is(in, m->kind)) || !gvi__rule_is(in, rule))
-        return GVI_E_FORMULATION;
-    wrong = gvi__wrong_in_mass(in);
-    if (wrong) return gvi__refuse(fault, GVI_FAULT_MASS, GVI_FAULT_NONE, wrong);
-    return GVI_OK;
-}
-
-/* The order of the rule: will it do? Weights given must be finite and sum to 1, and their rounding
-   must leave half of the sum's digits.                                                        */
-GVI__COLD gvi_status gvi__check_rule(struct gvi__private *in, int *order, gvi_fault *fault)
-{
-    const gvi_rule *rule = &in->desc.rule;
-    const int s = in->desc.degree, r = rule->points;
-    gvi_real sum = -1, error = 0;
-    *order = 2*r;
-    if (rule->kind == GVI_LOBATTO) *order = 2*r - 2;
-    if (rule->weights)
-        for (int j = 0; j < r; ++j) {
-            sum += rule->weights[j];
-            error += 4*(gvi_real)(r + 2)*GVI__EPS*GVI_ABS(rule->weights[j]);
-        }
-    const int sums = GVI_ABS(sum) <= error && error < GVI_SQRT(GVI__EPS);
-    if (gvi__rule_is(in, GVI_KICKS)) {
-        *order = 0;
-        if (s != 1)
-            return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE, "degree: kicks have 1");
-        for (int j = 0; j < r; ++j)
-            if (!gvi__finite(rule->nodes[j]) || !gvi__finite(rule->weights[j])) return GVI_E_NODES;
-        if (!sums) return GVI_E_ORDER;
-        return GVI_OK;
-    }
-    if (rule->kind == GVI_LOBATTO && r < 2 && s == 1)
-        return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE,
-                           "rule.points: Lobatto's rule has 2 or more");
-    if (gvi__rule_is(in, GVI_OWN)) {
-        *order = gvi_rule_order(r, rule->nodes, rule->weights);
-        if (*order < 0) return GVI_E_NODES;
-        if (r >= s && (*order < s || !sums)) return GVI_E_ORDER;
-        if (*order < 2*s - 2) in->facts |= GVI__HAS_GAMMA;
-    }
-    // r >= s points of Gauss or Lobatto are good enough
-    if (r < s) return GVI_E_POINTS;
-    if (GVI__COMPILED != 1 << GVI_EXPLICIT && in->desc.resolution > 0 && *order < 2*s)
-        return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE,
-                           "resolution: the order of the rule is below twice the degree");
-    return GVI_OK;
-}
-
-// the first formulation that covers the scene, or the pinned one; Newton's method as a fall-back
-GVI__COLD gvi_status gvi__choose(struct gvi__private *in, gvi_fault *fault)
-{
-    enum { READS = 1, TIMED = 2, KICKED = 4, NOT_KICKED = 8, MORE_POINTS = 16, VARIES = 32,
-          NO_VELOCITY = 64 };
-    static const unsigned char cannot[] = {
-        255,                                            // GVI_AUTO
-        READS | TIMED | NOT_KICKED | VARIES,            // GVI_EXPLICIT
-        READS | TIMED | KICKED | VARIES,                // GVI_POSITIONS
-        TIMED | KICKED | VARIES,                        // GVI_VELOCITIES
-        KICKED | MORE_POINTS | NO_VELOCITY,             // GVI_MOMENTA
-        TIMED | KICKED                                  // GVI_NEWTON
-    };
-    static const unsigned char facts[] = { 0, GVI__OF_EXPLICIT, GVI__OF_POSITIONS,
-                                           GVI__OF_VELOCITIES, GVI__OF_MOMENTA, GVI__OF_NEWTON };
-    const gvi_desc *d = &in->desc;
-    const int s = d->degree, r = d->rule.points, kicks = d->rule.kind == GVI_KICKS;
-    const int verlet = s == 1 && r == 2 && d->rule.kind == GVI_LOBATTO,
-              constant = gvi__mass_is_constant(in), holds = in->con.bits != 0,
-              lacks = !constant && d->mass.kind != GVI_MASS_POSITION;   // M, if it is wanted
-    const int pinned = d->formulation != GVI_AUTO, given = d->iterations > 0;
-    int scene = 0, f = GVI_EXPLICIT;
-    if (in->facts & GVI__HAS_VELOCITIES) scene |= READS;
-    if (in->clock >= 0) scene |= TIMED;
-    if (kicks) scene |= KICKED;
-    if (!kicks && !verlet) scene |= NOT_KICKED;
-    if (r != s) scene |= MORE_POINTS;
-    if (!constant || (holds && in->facts & GVI__HAS_LAGRANGIAN)) scene |= VARIES;
-    if ((d->mass.velocity && holds) || (!d->mass.velocity && lacks)) scene |= NO_VELOCITY;
-    if (pinned) f = (int)d->formulation;
-    while (!(GVI__COMPILED >> f & 1) || (scene & cannot[f]))
-        if (pinned || f++ == GVI_NEWTON) return GVI_E_FORMULATION;
-    in->chosen = (gvi_formulation)f;
-    in->facts |= facts[f];
-    if (f == GVI_NEWTON && given) return GVI_E_FORMULATION;
-    if (!GVI__RULES && f != GVI_EXPLICIT && (d->rule.kind != GVI_GAUSS || r != s))
-        return GVI_E_FORMULATION;
-    // as a fall-back only where its matrices are small
-    if (f == GVI_NEWTON
-        || (GVI__NEWTON && !pinned && f != GVI_EXPLICIT && in->clock < 0 && !given
-            && s <= 1024/(d->n + in->con.m)))
-        in->facts |= GVI__HAS_NEWTON;
-    const int matrices =
-        gvi__has(in, GVI__HAS_NEWTON | GVI__HAS_LAGRANGIAN) || d->mass.kind >= GVI_MASS_DENSE;
-    if (matrices && d->n > 0x7FFF)                // indices are int: n*n and s*n
-        return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE,
-                           "n is above 32,767, and matrices may be needed");
-    if (GVI__CONSTRAINTS && in->con.m > 0x7FFFFFFF/(GVI__ROW(s + 1)*d->n))        // of G
-        return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE,
-                           "n, degree and rows of constraints are too large together");
-    return GVI_OK;
-}
-
-GVI__COLD gvi_status gvi__resolve(struct gvi__private *in, const gvi_desc *desc, int *order,
-                                  gvi_fault *fault)
-{
-    gvi_status status = gvi__check(in, desc, fault);
-    if (status == GVI_OK) status = gvi__check_rule(in, order, fault);
-    if (status == GVI_OK) status = gvi__choose(in, fault);
-    return status;
-}
-
-/* The caller's memory: a base, or NULL to count only, and the numbers handed out so far.     */
-typedef struct gvi__arena { gvi_real *base; size_t used; } gvi__arena;
-
-GVI__COLD gvi_real *gvi__take(gvi__arena *arena, size_t a, size_t b)
-{
-    const size_t most = (size_t)-1/sizeof(gvi_real) - 64;      // more than anyone has, with slack
-    const size_t at = arena->used;
-    if (a == 0) return NULL;
-    arena->used = most;
-    if (b <= (most - at)/a) arena->used = at + a*b;
-    if (!arena->base) return NULL;
-    return arena->base + at;
-}
-
-// that of constraints: rows of R, then of C
-GVI__COLD void gvi__layout_constraints(struct gvi__private *in, gvi__arena *a)
-{
-    struct gvi__holonomic *con = &in->con;
-    const size_t n = (size_t)in->desc.n, s = (size_t)in->desc.degree,
-                 r = (size_t)in->desc.rule.points,
-                 R = (size_t)GVI__ROW(r), C = (size_t)GVI__ROW(s + 1),
-                 m = (size_t)gvi__count_rows(in, con->bits),
-                 on = m > 0, i = on && gvi__has(in, GVI__ITERATES),
-                 newton = on && gvi__has(in, GVI__HAS_NEWTON),
-                 u = i && !gvi__has(in, GVI__BY_FORCES);
-    const struct { gvi_real **to; size_t rows, width; } list[] = {
-        { &con->D, i*n, R }, { &con->free, i*n, R }, { &con->P, u*n, R },
-        { &con->force, i*(n + m), R },
-        { &con->K, i*r, R }, { &con->U, u*r, R }, { &con->by_force, i*r, R },
-        { &con->by_impulse, i*r, R },
-        { &con->X, i*s, R },
-        { &con->E, i*s, R }, { &con->Phi, i*s, R }, { &con->Phi_low, i*s, R }, { &con->hw, on, R },
-        { &con->last, i*(n + m), C }, { &con->at, i*n, C }, { &con->t, i, C }, { &con->W, on*n, C },
-        { &con->g, 2*m, C }, { &con->G, i*m*n, C }, { &con->A, i*m*m, C }, { &con->d, on, R + C },
-        { &con->w, on, s + 1 }, { &con->rho, m, R + C }, { &con->lu, i*(s + 1), s + 1 },
-        { &con->y, on, m },
-        { &con->G1, 2*m, n }, { &con->A1, m, m }, { &con->column, m, n + 1 },
-        { &con->first, on, m }, { &con->drops, 2*on, m }, { &con->doubt, on, 3*m + 1 },
-        { &con->unit, 2*newton, s*m }
-    };
-    con->C = (int)C;
-    for (size_t k = 0; k < sizeof list/sizeof *list; ++k)
-        *list[k].to = gvi__take(a, list[k].rows, list[k].width);
-}
-
-/* The one layout: gvi_size counts with it, gvi_init hands out by it, and GVI_LENGTH is no less than
-   its sum with everything wanted.  Stage values of two steps back make the predictor better up to
-   nine points; with more of them, and in float, they would amplify rounding too much.         */
-GVI__COLD size_t gvi__layout(struct gvi__private *in, int order, gvi_real *base)
-{
-    const gvi_desc *d = &in->desc;
-    const size_t n = (size_t)d->n, s = (size_t)d->degree, r = (size_t)d->rule.points,
-                 R = (size_t)GVI__ROW(r);
-    const size_t iterates = gvi__has(in, GVI__ITERATES) != 0,
-                 fixed = gvi__has(in, GVI__FIXED_POINT) != 0,
-                 stages = gvi__has(in, GVI__TWO_STAGES) != 0,
-                 momenta = gvi__has(in, GVI__BY_MOMENTA) != 0,
-                 newton = gvi__has(in, GVI__HAS_NEWTON) != 0,
-                 lagrangian = gvi__has(in, GVI__HAS_LAGRANGIAN) != 0,
-                 full = gvi__has(in, GVI__HAS_GAMMA) != 0,
-                 kicks = gvi__rule_is(in, GVI_KICKS) != 0,
-                 velocities = stages && !momenta, reads_v = stages || newton,
-                 legendre = newton || lagrangian, A = lagrangian && fixed,
-                 two = fixed && r < 10 && GVI__DIG > 24,
-                 modes = iterates && (reads_v || order <= 2*d->degree - 2),
-                 clock = GVI__CLOCK && in->clock >= 0, dense = d->mass.kind == GVI_MASS_DENSE,
-                 limited = d->resolution > 0;
-    const size_t rows = kicks ? n : n*R, nn = n*n,
-                 N = s*(n + (size_t)gvi__count_rows(in, in->con.bits));
-    gvi__arena memory = { base, 0 }, *a = &memory;
-    struct gvi__values *const values[] = { &in->work, &in->last, &in->older };
-    gvi_real **const rows_of_R[] = {
-        &in->table.c, &in->table.b, &in->sized.hb, &in->t,
-        &in->time.rate, &in->time.power, &in->time.level, &in->time.lagrangian
-    };
-    gvi_real **const vectors[] = {
-        &in->state.q, &in->state.p, &in->state.q_low, &in->state.p_low, &in->step.q, &in->step.p,
-        &in->step.q_low, &in->step.p_low, &in->began.q, &in->began.p, &in->free.v, &in->zeros,
-        &in->start,
-        &in->mass.inverse, &in->free.v_low, &in->free.path, &in->free.path_low
-    };
-    gvi_real **const modes_of_newton[] = {
-        &in->newton.y, &in->newton.dy, &in->newton.residual, &in->newton.last,
-        &in->newton.found, &in->newton.branch, &in->newton.guess, &in->newton.slope
-    };
-
-    // rows first: they start on a whole lane
-    for (int k = 0; k < 3; ++k) {
-        struct gvi__values *v = values[k];
-        const size_t kept = k < 2 || two, at_work = k == 0;
-        v->F = gvi__take(a, kept, rows);
-        v->V = gvi__take(a, kept && reads_v && (k < 2 || momenta), n*R);
-        v->A = gvi__take(a, kept && A, n*R);
-        v->Q = gvi__take(a, at_work, rows);
-        v->P = gvi__take(a, at_work && (momenta || newton), n*R);
-    }
-    for (int k = 0; k < 8; ++k) *rows_of_R[k] = gvi__take(a, k < 4 || clock, R);
-    in->free.rows = gvi__take(a, fixed + stages, n*R);
-    in->table.Phi = gvi__take(a, (1 - kicks)*s, R);
-    in->table.phi = gvi__take(a, modes*s, R);
-    in->table.phi_low = gvi__take(a, modes*s, R);
-    in->table.high = gvi__take(a, 4*limited, R);
-    in->table.K = gvi__take(a, (fixed && !momenta)*r, R);
-    in->table.U = gvi__take(a, stages*r, R);
-    in->table.T = gvi__take(a, (momenta || (velocities && lagrangian))*r, R);
-    in->table.N = gvi__take(a, (velocities && lagrangian)*r, R);
-    in->sized.E = gvi__take(a, iterates*(1 + two)*r, R);
-    in->row = gvi__take(a, 9*iterates, R);
-    in->mass.at_points = gvi__take(a, (d->mass.kind == GVI_MASS_POSITION)*nn, R);
-    in->mass.sums = gvi__take(a, (dense && fixed && !momenta)*n, R);
-    in->time.slope = gvi__take(a, clock, n*R);
-    in->table.inv_gamma = gvi__take(a, 1, s);
-    in->table.gamma = gvi__take(a, full, s*s + s + 1);
-    in->sized.drift = gvi__take(a, 1 - iterates, r + 1);
-    for (size_t k = 0; k < sizeof vectors/sizeof *vectors; ++k)
-        *vectors[k] = gvi__take(a, k < 14 || iterates, n);
-
-    in->mass.matrix = gvi__take(a, 1 - dense + dense*n, n);
-    in->mass.factor = gvi__take(a, dense*n, n);
-    in->watch.scale = gvi__take(a, 2*iterates, n);
-    in->watch.change = gvi__take(a, 2*iterates, n);
-    in->watch.before = gvi__take(a, 2*iterates, n);
-    in->point = gvi__take(a, 6, n);
-    in->result = gvi__take(a, 3, n);
-    in->newton.column = gvi__take(a, 4*legendre, n);
-    in->newton.hessian = gvi__take(a, legendre, (1 + 3*newton)*nn + n + 1);
-    for (int k = 0; k < 8; ++k) *modes_of_newton[k] = gvi__take(a, newton, N);
-    in->newton.pivot = gvi__take(a, newton*2, N + 1);            // twice: queries must not touch
-    in->newton.moved = gvi__take(a, newton*4*n, R);
-    if (GVI__CONSTRAINTS) gvi__layout_constraints(in, a);
-    // what the steps keep.  J comes last
-    in->newton.J = gvi__take(a, newton*2*N, N);
-    return memory.used;
-}
-
-// pointers into the memory, also those of the state that the caller reads
-static void gvi__hand_out(gvi_stepper *st, gvi_real *memory)
-{
-    gvi__layout(&st->in, st->order, memory);
-    st->q = st->in.state.q;
-    st->p = st->in.state.p;
-    st->q_low = st->in.state.q_low;
-    st->p_low = st->in.state.p_low;
-}
-
-// stage values start where a cache line does: up to so many numbers are left out at the beginning
-static size_t gvi__slack(const gvi_desc *d) { return d->rule.points > 4 ? GVI__SLACK : 0; }
-
-GVI_DEF size_t gvi_size(const gvi_desc *desc)
-{
-    struct gvi__private x;
-    gvi_fault fault;
-    int order;
-    if (gvi__resolve(&x, desc, &order, &fault) != GVI_OK) return 0;
-    return (gvi__layout(&x, order, NULL) + gvi__slack(&x.desc))*sizeof(gvi_real);
-}
-
-// mass matrix into the memory, factored; inverse is 1 where M is no diagonal
-GVI__COLD gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
-{
+    gvi_status status = gvi__check_start(st, t, q, v);
+    if (status != GVI_OK) return status;
     struct gvi__private *in = &st->in;
-    const int n = st->n, dense = mass->kind == GVI_MASS_DENSE;
-    const int given = dense || mass->kind == GVI_MASS_DIAGONAL;
-    gvi_real *m = in->mass.matrix;
-    int at[2] = { 0, 0 };
-    for (int i = 0; i < n; ++i) {
-        int first = i, width = 1;                 // of a diagonal; dense: of row i up to M_ii
-        if (dense) {
-            first = i*n;
-            width = i + 1;
+    const int n = st->n, m = in->con.m;
+    gvi_real *e = in->step.q, *f = in->step.p, *next = in->answer, *d = next + n, *u = d + n,
+             *push = in->point, *z = in->con.rho, *r = z + m, *back = r + m,
+             *drops = in->con.drops + m, far[2] = { 0, 0 }, change = GVI__MAX, before, share = 1;
+    if (!moved) moved = far;
+    moved[0] = moved[1] = 0;
+    if (!gvi__constrained(st)) return gvi__report_status(st, GVI_OK);
+    gvi__zero((size_t)n, e);
+    gvi__zero((size_t)n, f);
+    gvi__copy((size_t)n, q, next);
+    gvi__copy((size_t)n, v, u);
+    gvi__forget_columns(st);
+    GVI__LOOK(st, 1);
+    for (int k = 0; ; ++k) {
+        status = gvi__constraints_at(st, t, next, NULL, u, drops);
+        if (k > 1 && !(change < before*(gvi_real)0.9) && status == GVI_OK) {
+            if (gvi__fulfilled(st, t, next, NULL, u) == GVI_OK) break;
+            status = k > 100 ? GVI_E_CONVERGENCE
+                             : gvi__constraints_at(st, t, next, NULL, u, drops);
         }
-        gvi_real *row = m + first;
-        if (given) gvi__copy((size_t)width, mass->matrix + first, row);
-        else row[0] = 1;
-        if (gvi__first_non_finite(width, row) >= 0)
-            return gvi__refuse(&st->fault, GVI_FAULT_MASS, i, "mass.matrix is not finite");
-        if (dense) {
-            gvi__copy((size_t)width, row, in->mass.factor + first);
-            in->mass.inverse[i] = 1;
-            continue;
+        if (status != GVI_OK) break;
+        for (int a = 0; a < m; ++a) {
+            back[a] = -in->con.g[a];
+            z[a] = r[a] = gvi__row_dot(st, in->con.G1, a, e) - in->con.g[a];
         }
-        in->mass.inverse[i] = 1/row[0];
-        if (!gvi__finite(in->mass.inverse[i]))
-            return gvi__report(st, GVI_E_SINGULAR, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
-    }
-    if (!dense) return GVI_OK;
-    const gvi_status status =
-        gvi__ldl_factor(n, 1, 1, in->mass.factor, at);
-    if (status == GVI_OK) return GVI_OK;
-    return gvi__report(st, status, GVI_FAULT_MASS, at[0], at[1]);
-}
-
-// the rule, the modes at its nodes as exactly as they can be had, then the tables
-GVI__COLD gvi_status gvi__set_rule(gvi_stepper *st, const gvi_rule *rule)
-{
-    struct gvi__private *in = &st->in;
-    if (gvi__rule_is(in, GVI_OWN) || gvi__rule_is(in, GVI_KICKS)) {
-        gvi__copy((size_t)st->r, rule->nodes, in->table.c);
-        gvi__copy((size_t)st->r, rule->weights, in->table.b);
-    } else if (!gvi__has(in, GVI__ITERATES)) {                 // Stoermer-Verlet: c = 0, 1
-        in->table.c[1] = 1;
-        in->table.b[0] = in->table.b[1] = (gvi_real)0.5;
-    }
-    else gvi__rule(GVI__RULES && rule->kind == GVI_LOBATTO, st->r, in->table.c, in->t, in->table.b);
-    if (gvi__has(in, GVI__ITERATES)) {
-        // the low words of Phi go to E, which is not yet in use
-        gvi__modes_of(st, st->r, in->table.c, in->t, in->table.phi, in->table.phi_low,
-                      in->table.Phi,
-                      in->sized.E);
-        const gvi_status status = gvi__make_gamma(st);
-        if (status != GVI_OK) return status;
-        gvi__make_tables(st);
-    }
-    if (in->table.high) {                                     // see gvi__resolution
-        const int pair = 1 + (st->s > 4);
-        const gvi_real *modes = in->table.phi;
-        if (gvi__has(in, GVI__BY_FORCES)) modes = in->table.Phi;
-        for (int m = 0; m < 2*pair; ++m) {
-            const int k = st->s - 1 - m;
-            for (int j = 0; j < st->r; ++j)
-                in->table.high[4*j + m*2/pair] =
-                    in->table.inv_gamma[k]*modes[k*in->R + j]*in->table.b[j];
+        gvi__solve_constraints(st, in->con.A1, 1, 1, z, 1);
+        gvi__solve_constraints(st, in->con.A1, 1, 1, back, 1);
+        far[0] = gvi__dot(m, r, z);
+        for (int a = 0; a < m; ++a) z[a] = share*z[a] + (1 - share)*back[a];
+        gvi__zero((size_t)n, push);
+        gvi__add_force(st, z, push);
+        gvi__copy((size_t)n, push, d);
+        gvi__over_inertia(st, d, 1, 1);
+        before = change;
+        change = 0;
+        for (int i = 0; i < n; ++i) {
+            change += (push[i] - share*f[i])*(d[i] - share*e[i]);
+            f[i] = push[i] + (1 - share)*f[i];
+            e[i] = d[i] + (1 - share)*e[i];
+            next[i] = q[i] + e[i];
         }
+        change = GVI_SQRT(GVI_ABS(change));
+        if (change > before && share > (gvi_real)0.02) share /= 2;
     }
-    if (GVI__CONSTRAINTS && in->con.bits && gvi__set_constraints(st) != GVI_OK) return GVI_E_POINTS;
-    // Phi_0 = c on its grid
-    if (in->table.Phi) gvi__copy((size_t)st->r, in->table.c, in->table.Phi);
-    return GVI_OK;
-}
-
-// where number stands: the alignment of a gvi_real
-typedef struct gvi__aligned { char byte; gvi_real number; } gvi__aligned;
-
-GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *memory, size_t size)
-{
-    if (!st) return GVI_E_ARGUMENT;
-    struct gvi__private *in = &st->in;
-    unsigned char *bytes = (unsigned char *)st;
-    // to be read after a failure; eight where an int has 16 bits, and RAM is short
-    static const gvi_real zeros[sizeof(int) > 2 ? 64 : 8] = { 0 };
-    int order = 0;
-    for (size_t i = 0; i < sizeof *st; ++i) bytes[i] = 0;
-    gvi__report_status(st, GVI_OK);
-    st->q = st->p = st->q_low = st->p_low = zeros;
-    gvi_status status = gvi__resolve(in, desc, &order, &st->fault);
-    st->order = order;
-    if (GVI__CONSTRAINTS && status == GVI_E_FORMULATION && in->con.bits)
-        return gvi__refuse_constraints(st);
+    GVI__LOOK(st, 0);
+    const int passes = 2*(status == GVI_OK);
+    for (int pass = 0; pass < passes; ++pass) {
+        for (int a = 0; a < m; ++a)
+            z[a] = r[a] = -(in->con.g[m + a] + gvi__row_dot(st, in->con.G1, a, u));
+        gvi__solve_constraints(st, in->con.A1, 1, 1, z, 1);
+        gvi__zero((size_t)n, d);
+        gvi__add_force(st, z, d);
+        gvi__over_inertia(st, d, 1, 1);
+        gvi__add_scaled(n, 1, d, u, u);
+        if (pass == 0) far[1] = gvi__dot(m, r, z);
+    }
+    gvi__forget_columns(st);
     if (status != GVI_OK) return st->status = status;
-    if (!memory) return gvi__refuse_call(st, "memory is NULL");
-    if ((uintptr_t)memory % offsetof(gvi__aligned, number))
-        return gvi__refuse_call(st, "memory is not aligned");
-    st->n = in->desc.n;
-    st->s = in->desc.degree;
-    st->r = in->desc.rule.points;
-    st->formulation = in->chosen;
-    in->R = GVI__ROW(st->r);
-    in->size = gvi__layout(in, order, NULL);
-    const size_t slack = gvi__slack(&in->desc);
-    if (size < (in->size + slack)*sizeof(gvi_real)) {
-        if (size/sizeof(gvi_real) < (size_t)st->n) return st->status = GVI_E_MEMORY;
-        gvi__zero((size_t)st->n, memory);
-        st->q = st->p = st->q_low = st->p_low = memory;
-        return st->status = GVI_E_MEMORY;
-    }
-    if (slack) in->skip = (size_t)(-(uintptr_t)memory & 63)/sizeof(gvi_real);
-    memory += in->skip;
-    gvi__hand_out(st, memory);
-    size_t cleared = in->size;
-    if (in->newton.J) cleared = (size_t)(in->newton.J - memory);      // J is written first
-    gvi__zero(cleared, memory);
-    in->kernel = gvi__kernel_for(st->n, st->r);
-    status = gvi__set_mass(st, &desc->mass);
-    if (status == GVI_OK) status = gvi__set_rule(st, &desc->rule);
-    if (status != GVI_OK) return st->status = status;
-    in->memory = memory;                                      // from here on it can be used
-    return GVI_OK;
+    gvi__copy((size_t)n, next, q);
+    gvi__copy((size_t)n, u, v);
+    for (int k = 0; k < 2; ++k) moved[k] = GVI_SQRT(GVI_ABS(far[k]));
+    return gvi__report_status(st, GVI_OK);
 }
+#else
+#define gvi__constrained(st) 0
+#define gvi__constraint_mode(st, i, k) ((void)(k), (gvi_real)0)
+#endif /* GVI_NO_CONSTRAINTS */
 
-/* ------------------------------------------------------ NEWTON'S METHOD */
+#if !defined(GVI_NO_NEWTON) && !defined(GVI_NO_CONSTRAINTS)
+/* --------------------------------------- CONSTRAINTS BY NEWTON'S METHOD
 
-/* Newton's method on (1).  Unknowns y[k*n + i]; the rows are those of (1) times 2k + 1, from k0 on:
-   k0 = 0 for a step, 1 for the boundary-value problem.  The matrix of the derivatives is kept while
-   the iteration contracts by 1/4 or better, over iterations and over steps.
+   Unknown y[s*n + e*m + a] is -lambda_a at D_e, e = 0..s-1, and the rows behind those of (1) are
+   -g_a at D_(e+1).  So signed, the determinant of free motion is positive.                    */
 
-   With constraints, y[s*n + e*m + a] is -lambda_a at D_e, e = 0..s-1, and the rows behind those of
-   (1) are -g_a at D_(e+1).  So signed, the determinant of free motion is positive.           */
-typedef struct gvi__matrix {
-    gvi_real *square;      /* rows and columns k0..s-1, row-major, then its LU              */
-    gvi_real *pivot;
-    gvi_real *ends;        /* k0 = 1: columns y_0 and q0, 2n a row; or NULL                 */
-    int       k0;
-    int       scaled;      /* columns over sqrt M_ii, rows by their largest entry: the condition
-                              then has no units                                      */
-    int       halves;      /* are changes taken back that make the residual larger?         */
-    gvi_real *unit;        /* of the multipliers, in which the LU has their columns         */
-} gvi__matrix;
-
-static size_t gvi__unknowns(const gvi_stepper *st, int k0)
+static size_t gvi__held(const gvi_stepper *st)
 {
-    return (size_t)(st->s - k0)*(size_t)st->n
-           + (gvi__constrained(st) ? (size_t)st->s*(size_t)st->in.con.m : 0);
+    return gvi__constrained(st) ? (size_t)st->s*(size_t)st->in.con.m : 0;
 }
+
+static int gvi__held_rows(const struct gvi__private *in)
+{
+    return gvi__count_rows(in, in->con.bits);
+}
+
+static void gvi__held_start(gvi_stepper *st) { st->in.con.made = 0; }
 
 // g and G at the D that y makes, and the forces of its multipliers
-GVI__CALLED gvi_status gvi__newton_constraints(gvi_stepper *st, const gvi__origin *from)
+GVI__CALLED gvi_status gvi__held_values(gvi_stepper *st, const gvi__origin *from)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m, s = st->s, R = in->R;
@@ -4750,92 +7069,26 @@ GVI__CALLED gvi_status gvi__newton_constraints(gvi_stepper *st, const gvi__origi
     return status;
 }
 
-// Q and V from y; then F and P at these
-static gvi_status gvi__newton_values(gvi_stepper *st, const gvi__origin *from)
+static void gvi__held_force(const gvi_stepper *st, int i, int k, gvi_real *force, gvi_real *size)
 {
-    struct gvi__private *in = &st->in;
-    const int n = st->n, R = in->R;
-    for (int i = 0; i < n; ++i) {
-        gvi_real *GVI__RESTRICT V = in->work.V + i*R, *GVI__RESTRICT Q = in->work.Q + i*R;
-        gvi__zero((size_t)R, V);
-        gvi__zero((size_t)R, Q);
-        for (int k = 0; k < st->s; ++k) {
-            const gvi_real y = in->newton.y[k*n + i];
-            for (int j = 0; j < R; ++j) {
-                V[j] += in->table.phi[k*R + j]*y;
-                Q[j] += in->table.Phi[k*R + j]*y;
-            }
-        }
-        for (int j = 0; j < R; ++j) Q[j] = from->q[i] + (from->q_low[i] + in->sized.h*Q[j]);
+    const struct gvi__private *in = &st->in;
+    const int R = in->R;
+    for (int e = 0; e < st->s; ++e) {
+        const gvi_real W = (k == 0 ? 1 : 0) - (e > 0 ? in->con.Phi[k*R + e - 1] : 0);
+        *force += W*(in->con.hw[e]*in->con.force[i*R + e]);
+        *size += GVI_ABS(W*(in->con.hw[e]*in->con.D[i*R + e]));
     }
-    gvi__count(&st->counters.velocities, st->r);
-    gvi_points at = gvi__points_at(st, st->r, R, in->t, in->work.Q, in->work.F, in->work.P);
-    at.v = in->work.V;
-    const gvi_status status = gvi__evaluate(st, &at, 0, 1);
-    return status == GVI_OK && gvi__constrained(st) ? gvi__newton_constraints(st, from) : status;
 }
 
-/* Where Newton's method stands: the last changes and the least; rho, the contraction seen; what
-   is left of the error, once a change was rounding; the residual in units of its own terms, and
-   once its change is made the work that does in it, or -1 where either is rounding; the
-   residual's norm at the last y that stayed; the last change by each coordinate's size, and what
-   rounding makes of one, see gvi__newton_update; how often no change was less than half of the
-   least; is there a matrix that will do, is it new (1) and was the last one (2); how often was
-   the last change halved, or -1: none to take back; did that change move the residual by half of
-   itself, or is the residual rounding?                                                        */
-typedef struct gvi__descent {
-    gvi_real before, earlier, least, rho, left, work, norm, each, grain;
-    int      stagnant, have, fresh, halves, holds;
-} gvi__descent;
-
-/* dy and residual := -(1).  The weights of P are h b_i/h, those that F has, and Phi_0 = c is on
-   its grid: then the rows are exactly those of a discrete action, also as rounded.  Returns the
-   norm, the sum of magnitudes over sqrt M_ii: rows of (1) are momenta, so that has one unit for
-   all coordinates.  M is that of the first y.                                                 */
-static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, gvi__descent *p)
+// g, as the momentum that would undo it: its norm, what has moved of it, and what was there
+static gvi_real gvi__held_residual(gvi_stepper *st, gvi__descent *p, gvi_real *moved,
+                                   gvi_real *before)
 {
-    struct gvi__private *in = &st->in;
-    const int n = st->n, R = in->R, first = !(p->norm < GVI__MAX),
-              held = gvi__constrained(st) ? st->s : 0;
-    const gvi_real h = in->sized.h;
-    gvi_real norm = 0, moved = 0, before = 0;
-    p->work = 0;
-    for (int i = 0; i < n; ++i) {
-        const gvi_real *P = in->work.P + i*R, *F = in->work.F + i*R;
-        gvi_real length = 0, change = 0, was = 0;
-        for (int k = k0; k < st->s; ++k) {
-            // P - p is summed where p occurs: the rounding of P then is not in the sum
-            const gvi_real base = k == 0 ? from->p[i] : 0;
-            gvi_real momentum = k == 0 ? -(h*from->p_low[i]) : 0, force = 0, size = 0;
-            for (int j = 0; j < st->r; ++j) {
-                const gvi_real phi = in->table.phi[k*R + j],
-                               W = (k == 0 ? 1 : 0) - in->table.Phi[k*R + j];
-                const gvi_real b = W*(in->sized.hb[j]*F[j]);
-                momentum += phi*(in->sized.hb[j]*(P[j] - base));
-                force += b;
-                size += GVI_ABS(phi*(in->table.b[j]*P[j])) + GVI_ABS(b);
-            }
-            for (int e = 0; e < held; ++e) {
-                const gvi_real W = (k == 0 ? 1 : 0) - (e > 0 ? in->con.Phi[k*R + e - 1] : 0);
-                force += W*(in->con.hw[e]*in->con.force[i*R + e]);
-                size += GVI_ABS(W*(in->con.hw[e]*in->con.D[i*R + e]));
-            }
-            const gvi_real sum = momentum/h - force;
-            gvi_real *rest = in->newton.residual + (k - k0)*n + i;
-            const gvi_real now = -(gvi_real)(2*k + 1)*sum;
-            change += GVI_ABS(now - *rest);
-            was += GVI_ABS(*rest);
-            length += GVI_ABS(now);
-            in->newton.dy[(k - k0)*n + i] = *rest = now;
-            if (size > 0 && GVI_ABS(sum)/size > p->work) p->work = GVI_ABS(sum)/size;
-        }
-        if (first) in->watch.scale[i] = 1/GVI_SQRT(gvi__inertia(st, i));
-        norm += length*in->watch.scale[i];
-        moved += change*in->watch.scale[i];
-        before += was*in->watch.scale[i];
-    }
-    for (int k = 0; k < held*in->con.m; ++k) {     // g, as the momentum that would undo it
-        const int a = k % in->con.m, e = k/in->con.m + 1, C = in->con.C;
+    const struct gvi__private *in = &st->in;
+    const int n = st->n, C = in->con.C;
+    gvi_real norm = 0;
+    for (int k = 0; k < st->s*in->con.m; ++k) {
+        const int a = k % in->con.m, e = k/in->con.m + 1;
         const gvi_real now = in->con.g[a*C + e];
         gvi_real *rest = in->newton.residual + st->s*n + k, size = 0, inertia = 0;
         if (in->con.drops[a] > 0) {
@@ -4847,176 +7100,24 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, 
             size += GVI_ABS(G*in->con.at[i*C + e]);
             inertia += G*in->watch.scale[i]*(G*in->watch.scale[i]);
         }
-        const gvi_real unit = GVI_ABS(h)*GVI_SQRT(inertia);
+        const gvi_real unit = GVI_ABS(in->sized.h)*GVI_SQRT(inertia);
         norm += GVI_ABS(now)/unit;
-        moved += GVI_ABS(now - *rest)/unit;
-        before += GVI_ABS(*rest)/unit;
+        *moved += GVI_ABS(now - *rest)/unit;
+        *before += GVI_ABS(*rest)/unit;
         in->newton.dy[st->s*n + k] = *rest = now;
         if (size > 0 && GVI_ABS(now)/size > p->work) p->work = GVI_ABS(now)/size;
     }
-    p->holds = p->work <= GVI__SOLVED*GVI__EPS || (!first && moved >= before/2);
     return norm;
 }
 
-// adds dF_i/du_j = f and dP_i/du_j = p of one point, u = q or v: du = h Phi_l dy_l or phi_l dy_l
-static void gvi__add_derivative(const gvi_stepper *st, const gvi__matrix *J, int i, int j,
-                                int point, gvi_real f, gvi_real p, int by_v)
-{
-    const struct gvi__private *in = &st->in;
-    const int n = st->n, R = in->R, s = st->s, k0 = J->k0;
-    const size_t size = gvi__unknowns(st, k0);
-    const gvi_real *phi = in->table.phi + point, *Phi = in->table.Phi + point, *u = phi;
-    gvi_real unit = 1;
-    if (f <= 0 && f >= 0 && p <= 0 && p >= 0) return;
-    if (!by_v) {
-        u = Phi;
-        unit = in->sized.h;
-    }
-    for (int k = k0; k < s; ++k) {
-        const gvi_real W = (k == 0 ? 1 : 0) - Phi[k*R];
-        const gvi_real a = (gvi_real)(2*k + 1)
-                           * (in->table.b[point]*phi[k*R]*p - in->sized.hb[point]*W*f);
-        const size_t row = (size_t)((k - k0)*n + i);
-        gvi_real *square = J->square + row*size + j;
-        for (int l = k0; l < s; ++l, square += n) *square += a*(unit*u[l*R]);
-        if (!J->ends) continue;
-        gvi_real *ends = J->ends + row*2*(size_t)n + j;
-        ends[0] += a*(unit*u[0]);
-        if (!by_v) ends[n] += a;
-    }
-}
-
-// the bits of the effects that are on and bring a Hessian, or none
-static unsigned gvi__with_hessian(const struct gvi__private *in, int with)
-{
-    unsigned bits = 0;
-    for (int e = 0; e < in->desc.effect_count; ++e)
-        if ((in->desc.effects[e].hessian != NULL) == with) bits |= 1u << e;
-    return bits & ~in->off;
-}
-
-// derivatives of the constant mass, and of the effects that bring their Hessians
-static gvi_status gvi__jacobian_exact(gvi_stepper *st, const gvi__matrix *J)
-{
-    struct gvi__private *in = &st->in;
-    const int n = st->n, R = in->R;
-    const size_t nn = (size_t)n*(size_t)n;
-    gvi_real *fq = in->newton.hessian, *fv = fq + nn, *pv = fv + nn, *q = in->point, *v = q + n;
-    for (int k = 0; k < st->r; ++k) {
-        gvi__gather(n, R, in->work.Q + k, q);
-        gvi__gather(n, R, in->work.V + k, v);
-        if (gvi__mass_is_constant(in))
-            for (int i = 0; i < n; ++i) {
-                if (in->desc.mass.kind != GVI_MASS_DENSE) {
-                    gvi__add_derivative(st, J, i, i, k, 0, in->mass.matrix[i], 1);
-                    continue;
-                }
-                for (int j = 0; j < n; ++j)
-                    gvi__add_derivative(st, J, i, j, k, 0, in->mass.matrix[gvi__lower(n, i, j)], 1);
-            }
-        for (int e = 0; e < in->desc.effect_count; ++e) {
-            const gvi_effect *effect = in->desc.effects + e;
-            if ((in->off >> e & 1u) || !effect->hessian) continue;
-            const int reads_v = effect->kind != GVI_POTENTIAL,
-                      term = effect->kind == GVI_LAGRANGIAN;
-            gvi__zero(3*nn, fq);
-            if (effect->hessian(in->t[k], q, reads_v ? v : NULL, fq, reads_v ? fv : NULL,
-                                term ? pv : NULL, effect->user))
-                return gvi__report(st, GVI_E_CALLBACK, e, GVI_FAULT_NONE, k);
-            for (int i = 0; i < n; ++i)
-                for (int j = 0; j < n; ++j) {       // d(dL/dv)/dq is the transpose of d(dL/dq)/dv
-                    gvi__add_derivative(st, J, i, j, k, fq[i*n + j], term ? fv[j*n + i] : 0, 0);
-                    gvi__add_derivative(st, J, i, j, k, fv[i*n + j], pv[i*n + j], 1);
-                }
-        }
-    }
-    return GVI_OK;
-}
-
-// F and P of what has no Hessian, one behind the other
-static gvi_status gvi__evaluate_plain(gvi_stepper *st, gvi_real *F)
-{
-    struct gvi__private *in = &st->in;
-    gvi_points at = gvi__points_at(st, st->r, in->R, in->t, in->work.Q, F, F + st->n*in->R);
-    at.v = in->work.V;
-    return gvi__evaluate(st, &at, ~gvi__with_hessian(in, 0), !gvi__mass_is_constant(in));
-}
-
-/* What coordinate i moves in a step: h v, or eps^(1/4) of its position where that is more, or where
-   it is at rest at 0, h^2 f/M_ii.  For its velocity h v or h^2 f/M_ii, whichever is more.  (f
-   near a pole takes positions too far.)                                                       */
-static gvi_real gvi__reach(const gvi_stepper *st, int i, int by_v)
-{
-    const struct gvi__private *in = &st->in;
-    const gvi_real h = GVI_ABS(in->sized.h), small = by_v ? 0 : GVI_SQRT(GVI_SQRT(GVI__EPS)),
-                   hw = h*in->watch.scale[i];
-    gvi_real most = 0, push = 0;
-    for (int k = i*in->R; k < i*in->R + st->r; ++k) {
-        const gvi_real lengths[] = { h*GVI_ABS(in->work.V[k]), small*GVI_ABS(in->work.Q[k]) },
-                       f = hw*GVI_ABS(in->work.F[k])*hw;
-        for (int l = 0; l < 2; ++l) if (lengths[l] > most) most = lengths[l];
-        if (f > push && gvi__finite(f)) push = f;
-    }
-    return push > most && (by_v || !(most > GVI__MIN/GVI__EPS)) ? push : most;
-}
-
-/* The difference for coordinate j: sqrt(eps) of its reach, or of the largest where it has none,
-   each times sqrt(M_ii); or for its velocity, that over h.                                    */
-static gvi_real gvi__difference(const gvi_stepper *st, int j, int by_v)
-{
-    const struct gvi__private *in = &st->in;
-    const gvi_real root = GVI_SQRT(GVI__EPS), none = GVI__MIN/GVI__EPS, h = GVI_ABS(in->sized.h);
-    gvi_real step = root*gvi__reach(st, j, by_v);
-    if (!(step > none))
-        for (int i = 0; i < st->n; ++i) {
-            const gvi_real other = root*gvi__reach(st, i, by_v)
-                                   * (in->watch.scale[j]/in->watch.scale[i]);
-            if (other > step && gvi__finite(other)) step = other;
-        }
-    if (!(step > none)) step = root*gvi__smaller(h, 1);         // all of it is at rest at 0
-    if (by_v) return step/h;
-    return step;
-}
-
-// derivatives of what has no Hessian, by forward differences at all points at once
-static gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matrix *J)
-{
-    struct gvi__private *in = &st->in;
-    const int n = st->n, R = in->R, nR = n*R, varies = !gvi__mass_is_constant(in);
-    const unsigned plain = gvi__with_hessian(in, 0);
-    const int reads_v = varies || (plain & ~gvi__of_kind(in, GVI_POTENTIAL)) != 0;
-    gvi_real *F = in->newton.moved, *P = F + nR, *base_F = P + nR, *base_P = base_F + nR;
-    if (!varies && !plain) return GVI_OK;
-    gvi_status status = gvi__evaluate_plain(st, base_F);
-    if (status != GVI_OK) return status;
-    // of each coordinate q, then v
-    for (int k = 0; k < 2*n; k += 2 - reads_v) {
-        const int j = k/2, by_v = k % 2;
-        gvi_real *row = in->work.Q + j*R, *was = in->row;
-        if (by_v) row = in->work.V + j*R;
-        const gvi_real d = gvi__difference(st, j, by_v);
-        gvi__copy((size_t)R, row, was);
-        for (int m = 0; m < st->r; ++m) row[m] += d;
-        status = gvi__evaluate_plain(st, F);
-        if (status == GVI_OK)
-            for (int m = 0; m < st->r; ++m)
-                for (int i = 0, o = m; i < n; ++i, o += R)
-                    gvi__add_derivative(st, J, i, j, m, (F[o] - base_F[o])/(row[m] - was[m]),
-                                        (P[o] - base_P[o])/(row[m] - was[m]), by_v);
-        gvi__copy((size_t)R, was, row);
-        if (status != GVI_OK) return status;
-    }
-    return GVI_OK;
-}
-
 // multipliers, constraints, and by differences of G the forces G' lambda, which move with D
-GVI__CALLED gvi_status gvi__jacobian_constraints(gvi_stepper *st, const gvi__matrix *J)
+GVI__CALLED gvi_status gvi__held_matrix(gvi_stepper *st, const gvi__matrix *J)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m, s = st->s, R = in->R, C = in->con.C, moves = s > 1 ? n : 0;
     const gvi_real *const Phi = in->con.Phi - 1, *const t = in->con.t;      // at D_e: [e]
     const gvi_real h = in->sized.h;
-    gvi_real *force = in->con.force, *base = in->con.free, *at = in->con.at, *was = in->row;
+    gvi_real *force = in->con.force, *base = in->con.free, *at = in->con.at, *was = in->set_up;
     const size_t size = gvi__unknowns(st, 0), sn = (size_t)(s*n);
     gvi_status status = GVI_OK;
     for (int l = 0; l < s*m; ++l) {
@@ -5059,406 +7160,38 @@ GVI__CALLED gvi_status gvi__jacobian_constraints(gvi_stepper *st, const gvi__mat
     return status;
 }
 
-/* A Lagrangian whose d2L/dv2 is singular (linear in v, a coordinate without mass) would make (1)
-   solvable all the same, and its solution worthless.                                         */
-static gvi_status gvi__check_regular(gvi_stepper *st)
+static gvi_status gvi__held_report(gvi_stepper *st, gvi_status status, int at)
 {
-    struct gvi__private *in = &st->in;
-    const int n = st->n;
-    gvi_real *q = in->newton.column + 2*n, *v = q + n, *W = in->newton.hessian;
-    if (gvi__mass_is_constant(in) && !gvi__has(in, GVI__HAS_LAGRANGIAN)) return GVI_OK;
-    gvi__gather(n, in->R, in->work.Q, q);
-    gvi__gather(n, in->R, in->work.V, v);
-    gvi_points y = gvi__one_point(st, in->t, q);
-    y.v = v;
-    if (!gvi__has(in, GVI__HAS_LAGRANGIAN)) return gvi__factor_mass(st, &y);
-    gvi_status status = gvi__evaluate(st, &y, 0, 1);
-    if (status == GVI_OK) status = gvi__velocity_hessian(st, &y, v, W);
-    if (status != GVI_OK) return status;
-    for (int i = 0; i < n; ++i)                                      // p/v does not tell the mass
-        if (gvi__mass_is(&st->in, GVI_MASS_NONE) && !gvi__nonzero(v[i]) && gvi__nonzero(W[i*n + i]))
-            st->in.watch.scale[i] = 1/GVI_SQRT(GVI_ABS(W[i*n + i]));
-    int at;
-    status = gvi__lu_factor(n, W, W + n*n, &at);
-    return status == GVI_E_SINGULAR ? gvi__report(st, status, GVI_FAULT_MASS, at, GVI_FAULT_NONE)
-                                    : GVI_OK;
+    return gvi__report_row(st, status, at % st->in.con.m, GVI_FAULT_NONE);
 }
 
-static gvi_status gvi__jacobian_fill(gvi_stepper *st, const gvi__matrix *J)
-{
-    const size_t n = (size_t)st->n, size = gvi__unknowns(st, J->k0);
-    gvi__zero(size*(size + (J->ends ? 2*n : 0)), J->square);
-    gvi_status status = gvi__check_regular(st);
-    if (status == GVI_OK) status = gvi__jacobian_exact(st, J);
-    if (status == GVI_OK && gvi__constrained(st)) status = gvi__jacobian_constraints(st, J);
-    return status == GVI_OK ? gvi__jacobian_differences(st, J) : status;
-}
-
-static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J)
-{
-    const int n = st->n, size = (int)gvi__unknowns(st, J->k0), modes = (st->s - J->k0)*n;
-    int at;
-    gvi_status status = gvi__jacobian_fill(st, J);
-    if (status != GVI_OK) return status;
-    for (int row = 0; row < J->scaled*size; ++row) {
-        gvi_real *a = J->square + (size_t)row*(size_t)size,
-                 *ends = J->ends + (size_t)row*2*(size_t)n, big = 0;
-        for (int j = 0; j < size; ++j) {
-            a[j] *= st->in.watch.scale[j % n];
-            big = gvi__larger(GVI_ABS(a[j]), big);
-        }
-        if (!(big > 0)) continue;
-        for (int j = 0; j < size; ++j) a[j] /= big;
-        for (int j = 0; j < 2*n; ++j) ends[j] /= big;
-    }
-    // columns of multipliers that would hide the modes': in units that make them as large
-    for (int z = modes; z < size; ++z) {
-        gvi_real column = 0, diagonal = 0;
-        for (int i = 0; i < modes; ++i) {
-            column = gvi__larger(GVI_ABS(J->square[(size_t)i*(size_t)size + (size_t)z]), column);
-            diagonal = gvi__larger(GVI_ABS(J->square[(size_t)i*((size_t)size + 1)]), diagonal);
-        }
-        J->unit[z - modes] = 1;
-        if (diagonal > 0 && column*GVI_SQRT(GVI__EPS) > diagonal)
-            J->unit[z - modes] = diagonal/column;
-        for (int i = 0; i < size; ++i)
-            J->square[(size_t)i*(size_t)size + (size_t)z] *= J->unit[z - modes];
-    }
-    status = gvi__lu_factor(size, J->square, J->pivot, &at);
-    gvi__count(&st->counters.factorizations, 1);
-    if (status == GVI_OK) return GVI_OK;
-    if (GVI__CONSTRAINTS && at >= modes)
-        return gvi__report_row(st, status, (at - modes) % st->in.con.m, GVI_FAULT_NONE);
-    return gvi__report(st, status, GVI_FAULT_NONE, at < 0 ? GVI_FAULT_NONE : at % n,
-                       GVI_FAULT_NONE);
-}
-
-// y := modes of V as the predictor continues it; rows get that V
-static void gvi__newton_modes(gvi_stepper *st, const gvi_real *V, gvi_real *rows)
-{
-    struct gvi__private *in = &st->in;
-    const int n = st->n, s = st->s, R = in->R;
-    gvi__stage stage;
-    gvi__set_stage(st, &stage, rows, NULL, NULL, NULL);
-    gvi__set_predictor(st, &stage, V, NULL);
-    in->kernel(st, &stage, 0);
-    for (int i = 0; i < n; ++i) {
-        for (int k = 0; k < s; ++k)
-            in->row[k] = gvi__dot3(st->r, in->table.phi + k*R, in->table.b, rows + i*R);
-        gvi__over_gamma(st, in->row);
-        for (int k = 0; k < s; ++k) in->newton.y[k*n + i] = in->row[k];
-    }
-}
-
-// y := modes of the extrapolated V, and multipliers; or constant velocity
-static void gvi__newton_guess(gvi_stepper *st, int extrapolate)
-{
-    struct gvi__private *in = &st->in;
-    gvi_real *y = in->newton.y;
-    gvi__zero(gvi__unknowns(st, 0), y);
-    if (!extrapolate) {
-        gvi__velocity_guess(st, y);
-        return;
-    }
-    gvi__newton_modes(st, in->last.V, in->work.V);
-    if (!gvi__constrained(st)) return;
-    gvi__predict_constraints(st, 1);
-    for (int k = 0, m = in->con.m; k < st->s*m; ++k)
-        y[st->s*st->n + k] = in->con.force[(st->n + k % m)*in->R + k/m];
-}
-
-/* y += dy from row k0 on; returns the sum of the coordinates' relative changes, to p->each as well;
-   but with constraints, which give each coordinate the rounding of all q, the sum of changes over
-   the largest coordinate, each times sqrt(M_ii), and to p->grain that rounding.  p->work: the work
-   of the change, or -1 where all of it is a few last places of q, or the residual was rounding. */
-static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, const gvi__matrix *J,
-                                   gvi__descent *p)
-{
-    struct gvi__private *in = &st->in;
-    const int n = st->n, solved = p->work <= GVI__SOLVED*GVI__EPS,
-              sure = p->holds || p->rho < GVI__CONTRACTS;
-    const gvi_real h = GVI_ABS(in->sized.h), none = GVI__MIN/GVI__EPS;
-    gvi_real sum = 0, largest = 0, noise = 0, all = 0, length = 0;
-    p->work = 0;
-    for (int i = 0; i < n; ++i) {
-        gvi_real change = 0, size = 0, miss = 0;
-        const gvi_real q = GVI_ABS(from->q[i]), unit = in->watch.scale[i];
-        for (int k = 0; k < st->s; ++k) {
-            gvi_real *y = in->newton.y + k*n + i;
-            const int at = (k - J->k0)*n + i;
-            in->newton.last[k*n + i] = *y;
-            if (k >= J->k0) {
-                *y += in->newton.dy[at];
-                change += GVI_ABS(in->newton.dy[at]);
-                miss += GVI_ABS(in->newton.residual[at]);
-                p->work += GVI_ABS(in->newton.dy[at]*in->newton.residual[at]);
-            }
-            size += GVI_ABS(*y);
-        }
-        const gvi_real least = GVI__EPS*change;                       // y may land on 0
-        if (!(size <= none && change <= none)) sum += change/(size < least ? least : size);
-        all += change/unit;
-        if (size > length*unit) length = size/unit;
-        if (q + h*size > largest*unit) largest = (q + h*size)/unit;
-        // a wrong matrix may make the change small, not the residual
-        const gvi_real moved = change/unit > miss*unit ? change/unit : miss*unit;
-        if (!(h*change <= GVI__PLACE*GVI__EPS*q) && h*moved > noise) noise = h*moved;
-    }
-    for (size_t k = (size_t)(st->s*n); k < gvi__unknowns(st, 0); ++k) {   // multipliers
-        in->newton.last[k] = in->newton.y[k];
-        in->newton.y[k] += in->newton.dy[k];
-    }
-    // see gvi__noise
-    const gvi_real place = p->stagnant > 1 ? GVI__NOISE*GVI__EPS*largest : 0;
-    if ((noise <= place && sure) || solved) p->work = -1;
-    p->each = sum;
-    p->grain = GVI__EPS;
-    if (!gvi__constrained(st) || !(length > none)) return sum;
-    if (largest > h*length) p->grain *= largest/(h*length);
-    return all/length;
-}
-
-/* The verdict on a change.  One that does not shrink is rounding if y, q or the residual is, or if
-   it is small and its matrix is new or has contracted here: an older one can repeat any change.  It
-   then hides no more of the error, p->left, than the change before, which shrinks on by the
-   contraction seen.  To shrink is to be at most half of the least so far: what is rounded to
-   a grid may circle among a few of its points, and fall in every iteration.  Nor is a fall from an
-   overshoot far beyond the size of y a contraction.  One ratio by an old matrix may
-   be luck: unless the change is rounding, the one before must agree.                          */
-static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__descent *p,
-                                 gvi_real change)
-{
-    const int size = (st->s - J->k0)*st->n;
-    const gvi_real before = p->before, all = (gvi_real)st->n, quarter = GVI__CONTRACTS;
-    gvi_real ratio = 1, other = 1;
-    if (before > 0) ratio = change/gvi__smaller(before, all);
-    if (p->earlier > 0) other = before/gvi__smaller(p->earlier, all);
-    const gvi_real noise = GVI__GRAIN*p->grain*(gvi_real)size;
-    if (!gvi__finite(change)) return GVI__NOT_FINITE;
-    if (p->earlier > 0 && change > GVI__SURE*GVI__EPS) {
-        const gvi_real contraction = GVI_SQRT(change/p->earlier);
-        if (contraction > st->counters.worst_contraction)
-            st->counters.worst_contraction = contraction;
-    }
-    const int stagnant = before > 0 && change > p->least/2;
-    p->stagnant = !stagnant ? 0 : p->stagnant + 1;
-    if (before > 0 && !stagnant && !(p->left < GVI__MAX)
-        && (change > noise || change < p->rho*p->least))
-        p->rho = change/p->least;
-    if (change < p->least) p->least = change;
-    const int felt = !gvi__constrained(st) || p->work >= 0;   // not the rounding of g
-    if (before > 0 && change > noise && felt && change > st->in.newton.bend*before)
-        st->in.newton.bend = change/before;
-    const int fresh = p->fresh & 1, proven = (fresh && p->holds) || p->rho < quarter;
-    const int small = change <= noise || (fresh && change <= GVI_SQRT(GVI__EPS));
-    if (stagnant && !(p->left < GVI__MAX) && (p->work < 0 || (proven && small))) p->left = before;
-    const int rounding = p->left < GVI__MAX;
-    if (rounding) p->left *= p->rho < quarter ? p->rho : quarter;
-
-    const gvi_real enough = gvi__larger(st->in.desc.tolerance, GVI__NEWTON_ENOUGH);
-    const int confirmed = (fresh && p->holds) || change <= noise || change*other <= enough;
-    const int done = (p->each*ratio <= enough && confirmed) || p->left <= enough;
-    if (done && (p->holds || p->rho < quarter)) return GVI__DONE;
-    // rounding, by a matrix that has contracted here
-    const int hidden = p->work < 0 && p->rho < quarter;
-    if (!rounding && !hidden && before > 0 && ratio > quarter) p->have = 0;
-    p->earlier = before;
-    p->before = change;
-    return GVI__GO_ON;
-}
-
-/* Does y, whose residual has that norm, stay?  A change that is not small and has not reduced the
-   residual is taken back, for a new matrix; or halved, if the matrix was new.  Where six halvings
-   have not helped, the whole change stands: across a kink, or from one curve to the next, the way
-   down may lead up first.  And what seemed to be rounding but grows again was no rounding.    */
-static int gvi__newton_stays(gvi_stepper *st, const gvi__matrix *J, gvi__descent *p, gvi_real norm)
-{
-    enum { HALVES = GVI__NEARER };
-    const int rests = p->left < GVI__MAX, fresh = p->fresh & 1;
-    if (J->halves && p->halves >= 0 && p->halves <= HALVES && !(norm < p->norm) && !rests
-        && p->before > GVI_SQRT(GVI__EPS)) {
-        gvi_real *y = st->in.newton.y, *last = st->in.newton.last;
-        const gvi_real part = !fresh               ? 0
-                              : p->halves < HALVES ? (gvi_real)0.5
-                                                   : (gvi_real)(1 << HALVES);
-        for (size_t i = 0, all = gvi__unknowns(st, 0); i < all; ++i)
-            y[i] = last[i] + part*(y[i] - last[i]);
-        if (fresh) p->halves += 1;
-        else p->have = 0, p->halves = -1;
-        gvi__count(&st->counters.newton_iterations, 1);
-        return 0;
-    }
-    if (p->halves > 0) p->have = 0;                // another place: another matrix
-    if (rests && norm/16 > p->norm) {
-        p->before = 0;
-        p->least = p->left = GVI__MAX;
-        p->rho = GVI__CONTRACTS;
-    }
-    if (!(p->left < GVI__MAX)) p->norm = norm;
-    return 1;
-}
-
-/* Solves rows k0..s-1 of (1) from the y at hand and leaves F, P, Q, V at the solution.       */
-static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, const gvi__matrix *J)
-{
-    struct gvi__private *in = &st->in;
-    // that of steps, not of queries
-    const int size = (int)gvi__unknowns(st, J->k0), modes = (st->s - J->k0)*st->n,
-              kept = J->pivot == in->newton.pivot;
-    gvi__descent p = {
-        0, 0, GVI__MAX, GVI__CONTRACTS, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0, -1, 0
-    };
-    p.have = kept && !gvi__nonzero(in->newton.h - in->sized.h);
-    in->newton.bend = 0;
-    in->con.made = 0;
-    for (int k = 0, made = 0, verdict = GVI__GO_ON; k <= in->desc.max_iterations; ++k) {
-        gvi_status status = gvi__newton_values(st, from);
-        // one more evaluation, then done
-        if (status != GVI_OK || verdict == GVI__DONE) return status;
-        if (!gvi__newton_stays(st, J, &p, gvi__residual(st, from, J->k0, &p))) continue;
-        p.fresh = (p.fresh & 1) << 1 | !p.have;
-        if (!p.have) {
-            if (++made > in->desc.max_iterations/4 + 2) break;
-            status = gvi__jacobian(st, J);
-            if (status != GVI_OK) return status;
-            p.have = 1;
-            // by the masses that are known now
-            if (k == 0 && gvi__mass_is(in, GVI_MASS_NONE))
-                p.norm = gvi__residual(st, from, J->k0, &p);
-            if (kept) in->newton.h = in->sized.h;
-        }
-        // a matrix of differences alone is right
-        if (made) p.holds |= !gvi__with_hessian(in, 1);
-        gvi_lu_solve(size, J->square, J->pivot, in->newton.dy);
-        for (int z = modes; z < size; ++z) in->newton.dy[z] *= J->unit[z - modes];
-        gvi__count(&st->counters.newton_iterations, 1);
-        verdict = gvi__newton_converged(st, J, &p, gvi__newton_update(st, from, J, &p));
-        if (verdict == GVI__NOT_FINITE)
-            return gvi__report_status(st, st->in.diagnose ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE);
-        p.halves = 0;
-    }
-    return gvi__report_status(st, GVI_E_CONVERGENCE);
-}
-
-/* The sign of the determinant of a matrix.  Where the iteration contracts, that of the solution
-   has the same sign; along a branch of solutions it changes where they turn back in h.       */
-static int gvi__orientation(const gvi__matrix *J, size_t size)
-{
-    int sign = 1;
-    for (size_t k = 0; k < size; ++k)
-        if ((J->square[k*(size + 1)] < 0) != (J->pivot[k] > (gvi_real)k)) sign = -sign;
-    return sign;
-}
-
-// y := modes of the first `part` of its curve, and `slope` times what that leaves out
-static void gvi__newton_shorten(gvi_stepper *st, gvi_real part, const gvi_real *slope)
-{
-    struct gvi__private *in = &st->in;
-    const int n = st->n, s = st->s, R = in->R;
-    for (int i = 0; i < n; ++i) {
-        gvi__zero((size_t)s, in->row);
-        for (int j = 0; j < st->r; ++j) {
-            gvi_real V = 0, P = 1, before = 1;
-            for (int k = 0; k < s; ++k) {
-                V += in->newton.y[k*n + i]*P;
-                gvi__legendre(k, 1 - 2*part*in->table.c[j], &P, &before);
-            }
-            for (int k = 0; k < s; ++k) in->row[k] += in->table.phi[k*R + j]*(in->table.b[j]*V);
-        }
-        gvi__over_gamma(st, in->row);
-        for (int k = 0; k < s; ++k)
-            in->newton.y[k*n + i] = in->row[k] + (1 - part)*slope[k*n + i];
-    }
-}
-
-/* How far is y from `other`? The largest distance of a coordinate, in units of its own size there
-   and at h, but no less than 1/64 of the largest, each times sqrt(M_ii).                     */
-static gvi_real gvi__newton_apart(const gvi_stepper *st, const gvi_real *other)
+// multipliers, extrapolated
+static void gvi__held_guess(const gvi_stepper *st, gvi_real *y)
 {
     const struct gvi__private *in = &st->in;
-    gvi_real apart = 0, most = 0, *moved = in->result, *size = moved + st->n;
-    for (int i = 0; i < st->n; ++i) {
-        moved[i] = size[i] = 0;
-        for (int k = i; k < st->s*st->n; k += st->n) {
-            moved[i] += GVI_ABS(in->newton.y[k] - other[k])/in->watch.scale[i];
-            size[i] += (GVI_ABS(in->newton.found[k]) + GVI_ABS(other[k]))/in->watch.scale[i];
-        }
-        most = gvi__larger(size[i], most);
-    }
-    if (!(most > 0)) return 0;
-    for (int i = 0; i < st->n; ++i)
-        if (!(moved[i]/(size[i] + most/64) <= apart)) apart = moved[i]/(size[i] + most/64);
-    return apart;
+    gvi__predict_constraints(st, 1);
+    for (int k = 0, m = in->con.m; k < st->s*m; ++k)
+        y[k] = in->con.force[(st->n + k % m)*in->R + k/m];
 }
 
-/* Is the solution y the motion's, the one that free motion turns into as h grows from 0? It is
-   followed back to shorter steps, from length to length by a prediction: the same curve, changed
-   as it changed last.  From a continuous branch the prediction is not far when the lengths are
-   close; where it is however close they are, the branch has turned back.  A length is enough
-   where the iteration contracts well from constant velocity, h/64 in any case.  If it then comes
-   to the same solution, or to none, y is accepted.                                           */
-static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from,
-                                        const gvi__matrix *J)
+// which rows depend on others at the start?
+static gvi_status gvi__held_begin(gvi_stepper *st, const gvi__origin *from, gvi_real *v)
 {
-    struct gvi__newton *newton = &st->in.newton;
-    const size_t all = gvi__unknowns(st, 0), modes = (size_t)(st->s*st->n);
-    const gvi_real h = st->in.sized.h, close = GVI__CLOSE;
-    const unsigned count = (unsigned)st->counters.newton_iterations,
-                   enough = 32*(unsigned)st->in.desc.max_iterations;
-    const int sign = gvi__orientation(J, all);
-    // that of queries
-    gvi__matrix K = { newton->J + all*all, newton->pivot + all + 1, NULL, 0, 0, 0,
-                      st->in.con.unit };
-    if (K.unit) K.unit += all - modes;
-    gvi_real part = 1, factor = (gvi_real)0.5;
-    int right = -1;                                                  // not known
-    gvi__copy(all, newton->y, newton->found);
-    gvi__copy(all, newton->y, newton->branch);
-    gvi__zero(all, newton->slope);
-    while (right < 0) {
-        if ((unsigned)st->counters.newton_iterations - count > enough) right = 0;
-        gvi__copy(all, newton->branch, newton->y);
-        gvi__newton_shorten(st, factor, newton->slope);
-        gvi__copy(all, newton->y, newton->guess);
-        gvi__free_motion(st, from, h*(part*factor));
-        const int found =
-            gvi__newton_solve(st, from, &K) == GVI_OK && gvi__orientation(&K, all) == sign;
-        const gvi_real apart = found ? gvi__newton_apart(st, newton->guess) : 1;
-        if (!(apart <= close)) {
-            factor = GVI_SQRT(factor);
-            if (factor > (gvi_real)0.9998) right = 0;
-            continue;
-        }
-        part *= factor;
-        gvi__copy(all, newton->y, newton->branch);
-        for (size_t k = 0; k < modes; ++k)
-            newton->slope[k] += (newton->y[k] - newton->guess[k])/(1 - factor);
-        if (factor > (gvi_real)0.5) {
-            if (apart < close/4) factor *= factor;
-            continue;
-        }
-        gvi__newton_guess(st, 0);
-        const int other = gvi__newton_solve(st, from, &K) == GVI_OK;
-        if ((other && newton->bend <= close) || part < 1/(gvi_real)GVI__SHORT)
-            right = !other || gvi__newton_apart(st, newton->branch) <= close;
-    }
-    gvi__free_motion(st, from, h);
-    gvi__copy(all, newton->found, newton->y);
-    return right ? gvi__newton_values(st, from) : gvi__report_status(st, GVI_E_CONVERGENCE);
+    return gvi__constraints_at(st, from->t, from->q, NULL, v, st->in.con.drops);
 }
 
 /* Did the rank of G change between two points of the step?  What those before row j leave of it is
    c G, c the row of L^-1: where that is a small part of row j at a point, has it turned by more
    than 25 degrees at the next, or almost vanished?  It passes 0 where the motion branches,
    and has another direction on each branch: the step must not choose.                        */
-GVI__CALLED gvi_status gvi__newton_crossing(gvi_stepper *st)
+GVI__CALLED gvi_status gvi__held_end(gvi_stepper *st)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m, C = in->con.C;
-    gvi_real *c = in->con.y, *now = in->result, *next = now + n;
+    gvi_real *c = in->con.y, *now = in->answer, *next = now + n;
     const gvi_points at = gvi__points_at(st, st->r, in->R, in->t, in->work.Q, NULL, NULL);
     gvi_status status = GVI_OK;
-    if (gvi__mass_is(in, GVI_MASS_POSITION)) status = gvi__factor_mass(st, &at);
+    if (in->desc.mass.kind == GVI_MASS_POSITION) status = gvi__factor_mass(st, &at);
     if (status == GVI_OK)
         status = gvi__factor_constraints(st, C, st->s, in->con.G, in->con.A, in->con.drops);
     if (status != GVI_OK) return status;
@@ -5487,707 +7220,205 @@ GVI__CALLED gvi_status gvi__newton_crossing(gvi_stepper *st)
     return GVI_OK;
 }
 
-/* Newton's method for a step.  A solution is taken for the motion's where the iteration contracts
-   well from its start and the orientation is that of free motion; or else it is followed back. */
-static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int how, int query)
+static void gvi__held_momenta(gvi_stepper *st) { gvi__constraint_momenta(st); }
+#endif
+
+#ifndef GVI_NO_RULES
+/* ------------------------------------------------------------- OWN RULES
+
+   Nodes and weights of the caller.  A rule of order u < 2s - 1 is not exact for phi_k^2: the last
+   1/Gamma_kk is another (u = 2s - 2), or Gamma is full, and its LU is kept.                    */
+
+GVI__COLD gvi_status gvi__check_own_rule(const struct gvi__private *in, int *order)
 {
+    const gvi_rule *rule = &in->desc.rule;
+    *order = gvi_rule_order(rule->points, rule->nodes, rule->weights);
+    if (*order < 0) return GVI_E_NODES;
+    if (rule->points < in->desc.degree) return GVI_E_POINTS;
+    return *order < in->desc.degree ? GVI_E_ORDER : GVI_OK;
+}
+
+/* Of a mode that the rule all but misses, half of the digits would be left: refused.           */
+GVI__COLD gvi_status gvi__make_gamma(gvi_stepper *st)
+{
+    const struct gvi__tables *table = &st->in.table;
+    const int s = st->s, r = st->r, R = st->in.R;
+    gvi_real *gamma = st->in.rules.gamma;
+    if (st->order == 2*s - 2) {
+        const gvi_real *last = table->phi + (s - 1)*R, sum = gvi__dot3(r, table->b, last, last);
+        if (!(GVI_ABS(sum) > GVI_SQRT(GVI__EPS))) return GVI_E_POINTS;
+        table->inv_gamma[s - 1] = 1/sum;
+    }
+    if (!gamma) return GVI_OK;
+    for (int k = 0; k < s; ++k)
+        for (int l = 0; l < s; ++l)
+            gamma[k*s + l] = gvi__dot3(r, table->b, table->phi + k*R, table->phi + l*R);
+    if (gvi_lu_factor(s, gamma, gamma + s*s) != GVI_OK) return GVI_E_POINTS;
+    if (!(gvi_lu_rcond(s, gamma, gamma + s*s, st->in.set_up) > GVI_SQRT(GVI__EPS)))
+        return GVI_E_POINTS;
+    return GVI_OK;
+}
+#endif /* GVI_NO_RULES */
+
+#ifndef GVI_NO_OUTPUT
+/* ---------------------------------------------------------------- OUTPUT
+
+   The state at any time within the last step, by a partial step from its nearer end, as exact as a
+   step; and the action along its curve.                                                       */
+
+/* Increments of a partial step for a time dt from one end of the last step.  With a clock its h is
+   found by Newton's method, the derivative being g, kept inside the step by bisection.       */
+static gvi_status gvi__partial_step(gvi_stepper *st, const gvi__origin *from, int query,
+                                    gvi_real dt)
+{
+#ifdef GVI_NO_CLOCK
+    return gvi__solve(st, from, dt, query);
+#else
+    if (!gvi__clock_is_on(st)) return gvi__solve(st, from, dt, query);
     struct gvi__private *in = &st->in;
-    const size_t all = gvi__unknowns(st, 0);
-    gvi__matrix J = { in->newton.J + (query ? all*all : 0),
-                      in->newton.pivot + (query ? all + 1 : 0),
-                      NULL, 0, 0, how == GVI__HALVED, in->con.unit };
-    if (query && J.unit) J.unit += all - (size_t)(st->s*st->n);
-    // few points see little of what is between
-    const gvi_real far = st->s > 2 ? GVI__CONTRACTS : GVI__LINEAR;
-    int old = !query && !gvi__nonzero(in->newton.h - in->sized.h);
-    gvi_real *v = in->result + 2*st->n;
-    gvi_status status = GVI_OK;
-    gvi__velocity_guess(st, v);
-    if (gvi__constrained(st))                     // which rows depend on others at the start?
-        status = gvi__constraints_at(st, from->t, from->q, NULL, v, in->con.drops);
+    gvi_real h = st->h*(dt/(st->t - st->t0)), rate, *q = in->answer;
+    gvi_real near_end = 0, far_end = st->h;
+    if (query == GVI__FROM_END) far_end = -st->h;
+    for (int k = 0; k < 60; ++k) {
+        gvi_status status = gvi__solve(st, from, h, query);
+        if (status != GVI_OK || GVI_ABS(in->dt - dt) <= 2*GVI__EPS*GVI_ABS(dt)) return status;
+        if (GVI_ABS(in->dt) > GVI_ABS(dt)) far_end = h;
+        else near_end = h;
+        for (int i = 0; i < st->n; ++i) q[i] = from->q[i] + in->step.q[i];
+        status = gvi__clock_at(st, from->t, q, &rate, q + st->n);
+        if (status != GVI_OK) return status;
+        gvi_real next = h - (in->dt - dt)/rate;
+        if (!((next - near_end)*(far_end - next) > 0)) next = near_end + (far_end - near_end)/2;
+        if (!gvi__nonzero(next) || GVI_ABS(next - h) <= GVI__EPS*GVI_ABS(st->h)) return GVI_OK;
+        h = next;
+    }
+    return gvi__report_status(st, GVI_E_CONVERGENCE);
+#endif
+}
+
+GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_real *v, gvi_real *p)
+{
+    gvi_status status = gvi__stepped(st);
     if (status != GVI_OK) return status;
-    for (;;) {
-        gvi__newton_guess(st, how == GVI__EXTRAPOLATED);
-        status = gvi__newton_solve(st, from, &J);
-        if (!old || status != GVI_OK || !(in->newton.bend > far)) break;
-        in->newton.h = 0;                          // that may be the old matrix's fault
-        old = 0;
+    struct gvi__private *in = &st->in;
+    const size_t n = (size_t)st->n;
+    if (!gvi__finite(t)) return gvi__refuse_call(st, "t is not finite");
+    gvi_real ahead = t - st->t0, back = t - st->t;        // one of each sign, or 0
+    const gvi_real edge = 2*GVI__EPS*gvi__larger(GVI_ABS(st->t), GVI_ABS(st->t0));
+    if ((ahead > 0) == (back > 0) && gvi__nonzero(ahead) && gvi__nonzero(back)) {
+        // outside by rounding, as st.t - st.h may be
+        if (GVI_ABS(ahead) <= edge) t = st->t0;
+        else if (GVI_ABS(back) <= edge) t = st->t;
+        else return gvi__done(st, GVI_E_STATE);
+        ahead = t - st->t0;
+        back = t - st->t;
     }
-    if (status == GVI_OK
-        && (J.halves || in->newton.bend > far || gvi__orientation(&J, all) < 0)) {
-        J.halves = 0;
-        status = gvi__newton_connected(st, from, &J);
+#ifndef GVI_NO_CLOCK
+    if (gvi__clock_is_on(st) && in->stepped != 2) return gvi__done(st, GVI_E_STATE);
+#endif
+
+    // partial step of length h from the nearer end, or none for a rounding of the whole
+    const gvi__origin end = { st->t, st->t_low, st->q, st->q_low, st->p, st->p_low };
+    gvi__origin from = { st->t0, 0, in->began.q, in->zeros, in->began.p, in->zeros };
+    gvi_real h = ahead;
+    int query = GVI__FROM_START;
+    if (GVI_ABS(back) <= GVI_ABS(ahead)) {
+        from = end;
+        query = GVI__FROM_END;
+        h = 0;
+        if (gvi__nonzero(back)) h = back - st->t_low;
     }
-    if (status == GVI_OK && gvi__constrained(st)) status = gvi__newton_crossing(st);
+    const gvi_formulation was = st->formulation;
+    if (GVI_ABS(h) > GVI__EPS*(GVI_ABS(ahead) + GVI_ABS(back)))
+        status = gvi__partial_step(st, &from, query, h);
+    else {
+        gvi__copy(n, from.q_low, in->step.q);
+        gvi__copy(n, from.p_low, in->step.p);
+        gvi__zero(n, in->step.q_low);
+        gvi__zero(n, in->step.p_low);
+    }
+    st->formulation = was;
+    if (status != GVI_OK) return gvi__done(st, status);
+    gvi_real *Q = in->answer, *P = Q + n, *V = P + n;
+    for (size_t i = 0; i < n; ++i) {
+        Q[i] = from.q[i] + (in->step.q[i] + in->step.q_low[i]);
+        P[i] = from.p[i] + (in->step.p[i] + in->step.p_low[i]);
+    }
+    gvi__velocity_guess(st, V);
+    if (v) status = gvi__velocity(st, t, Q, P, V);
+    if (status != GVI_OK) return gvi__done(st, status);
+    gvi__hand_over(st->n, Q, q);
+    gvi__hand_over(st->n, V, v);
+    gvi__hand_over(st->n, P, p);
+    return gvi__done(st, GVI_OK);
+}
+
+// the action along the last step's curve, `from` NULL; or between boundary values, at stage values
+GVI__COLD gvi_status gvi__curve_action(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                                    const gvi_real *q1, gvi_real *action)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n, R = in->R;
+    gvi_real V, L, T, *q = in->answer, *v = q + n;
+    *action = 0;
+    for (int j = 0; j < st->r; ++j) {
+        gvi_real t = st->t0 + in->table.c[j]*st->h;
+        if (from) {
+            t = in->t[j];
+            for (int i = 0; i < n; ++i) {
+                q[i] = in->work.Q[i*R + j];
+                if (in->work.V) v[i] = in->work.V[i*R + j];
+                else v[i] = (q1[i] - from->q[i])/h;           // a chord
+            }
+        } else gvi__curve_at(st, in->table.c[j], q, v);
+        const gvi_status status = gvi__value_sums(st, t, q, v, &V, &L, &T);
+        if (status != GVI_OK) return status;
+        *action += in->sized.hb[j]*(T - V + L);
+    }
+    return GVI_OK;
+}
+
+GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action)
+{
+    gvi_status status = gvi__stepped(st);
     if (status != GVI_OK) return status;
-    // it made none to go on from
-    if (GVI__LAGRANGIAN && in->work.A) gvi__zero((size_t)(st->n*in->R), in->work.A);
-    for (int i = 0; i < st->n; ++i) {
-        const gvi__two q = gvi__two_prod(in->sized.h, in->newton.y[i]);
-        in->step.q[i] = q.hi;
-        in->step.q_low[i] = gvi__low(q.lo + from->q_low[i]);
-    }
-    gvi__momentum_increment(st, from);
-    return GVI_OK;
+    if (!action) return gvi__refuse_call(st, "action is NULL");
+    if ((st->in.desc.rule.kind == GVI_KICKS) || st->in.stepped == 2)
+        return gvi__done(st, GVI_E_FORMULATION);
+    gvi_real sum;
+    gvi__weights_for(st, st->h);
+    status = gvi__curve_action(st, NULL, 0, NULL, &sum);
+    if (status == GVI_OK) *action = sum;
+    return gvi__done(st, status);
 }
+#endif /* GVI_NO_OUTPUT */
 
-/* ------------------------------------------------------------------ STEP
+#ifndef GVI_NO_DIAL
+/* -------------------------------------------------------------- THE DIAL
 
-   A step of length h takes (q, p, t) to (q + dq, p + dp, t + dt), in double words.  In this order:
+   desc.resolution: how accurate each step has to be.  A step is measured by the modes of its curve,
+   and gvi_advance chooses h so that the measure stays within the limit.                      */
 
-     1) free motion   v = M^-1 p and h c_i v, the terms of (3) and (4) without forces
-     2) predictor     F (V, A) at the points, extrapolated from the last step
-     3) stages        Q by (3) from F; V by (4), or P and Q by (5)
-     4) effects       F(Q), at all points in one call
-     5) verdict       3) once more, then again from 4), until all rows converge: gvi__iterate
-     6) increments    dp by (2), dq by (3) at tau = 1 or by (5); then G v + dg/dt = 0
-     7) commit        the state moves on
-
-   gvi__iterate is 2) to 5), gvi__attempt 1) to 6), with Newton's method (1) where the fixed point
-   fails, gvi__solve one attempt and a second that names the effect where NaN came up, and gvi_step
-   all of it.  Where explicit, gvi__kicks stands for 2) to 6).                                 */
-
-/* What an iteration computes, in this order: positions (3); or these, and velocities (4); or
-   momenta and positions (5).  Returns the number of stages.                                  */
-static int gvi__stages(const gvi_stepper *st, const gvi__origin *from, gvi_real h,
-                       gvi__stage *stage)
+GVI__COLD const char *gvi__wrong_in_resolution(const gvi_desc *d, int order)
 {
-    const struct gvi__private *in = &st->in;
-    const struct gvi__values *w = &in->work;
-    const gvi_real *low[2], *hb = in->sized.hb;
-    const int n = st->n, R = in->R, momenta = gvi__has(in, GVI__BY_MOMENTA);
-    const int count = 1 + gvi__has(in, GVI__TWO_STAGES);
-    if (momenta) {
-        gvi__set_stage(st, stage, w->P, in->table.U, hb, w->F);
-        gvi__set_stage(st, stage + 1, w->Q, in->table.T, hb, w->V);
-        stage[0].base = from->p;
-        stage[1].base = from->q;
-        low[0] = from->p_low;
-        low[1] = from->q_low;
-    } else {
-        gvi__set_stage(st, stage, w->Q, in->table.K, hb, w->F);
-        stage[0].base = from->q;
-        low[0] = from->q_low;
-        stage[0].factor = h;
-        if (count == 2) {
-            gvi__set_stage(st, stage + 1, w->V, in->table.U, hb, w->F);
-            stage[1].base = in->free.v;
-            low[1] = in->free.v_low;
-        }
-        for (int k = 0; k < count; ++k) {
-            gvi__sum A = { in->table.T, in->table.b, w->A };
-            if (k == 1) A.table = in->table.N;
-            if (GVI__LAGRANGIAN && w->A) stage[k].sum[1] = A;
-            if (in->desc.mass.kind == GVI_MASS_DIAGONAL) stage[k].inverse = in->mass.inverse;
-            stage[k].dense = in->desc.mass.kind == GVI_MASS_DENSE;
-        }
-    }
-    for (int k = 0; k < count; ++k) {
-        gvi_real *free = in->free.rows + k*n*R;
-        const int moves = !momenta && k == 0;
-        stage[k].free = free;
-        stage[k].scale = in->watch.scale + k*n;
-        stage[k].change = in->watch.change + k*n;
-        for (int i = 0; i < n; ++i, free += R) {
-            gvi_real path = 0, path_low = 0;
-            if (moves) {
-                path = in->free.path[i];
-                path_low = in->free.path_low[i];
-            }
-            gvi__free_row(R, low[k][i], path, path_low, in->table.c, free);
-        }
-    }
-    return count;
+    if (d->degree < 3) return "resolution: degree is below 3";
+    if (order < 2*d->degree) return "resolution: the order of the rule is below twice the degree";
+    return NULL;
 }
 
-// 2) F (V, A) of the last step, extrapolated; or no force and constant velocity
-static gvi_status gvi__predict_sources(gvi_stepper *st, const gvi__origin *from, gvi_real h,
-                                       int extrapolate)
+// b_j phi_k(c_j) or b_j Phi_k(c_j), over Gamma_kk, of the highest modes: see gvi__resolution
+GVI__COLD void gvi__dial_tables(gvi_stepper *st)
 {
     struct gvi__private *in = &st->in;
-    struct gvi__values *w = &in->work;
-    const int momenta = gvi__has(in, GVI__BY_MOMENTA);
-    gvi_real *to[3] = { w->F, NULL, NULL };
-    if (momenta) to[1] = w->V;
-    if (GVI__LAGRANGIAN) to[2] = w->A;
-    const gvi_real *const last[3] = { in->last.F, in->last.V, in->last.A };
-    const gvi_real *const older[3] = { in->older.F, in->older.V, in->older.A };
-    gvi_real rate = 1;
-    if (gvi__clock_is_on(st)) {                   // times of the points as if g stayed as it is
-        const gvi_status status = gvi__clock_at(st, from->t, from->q, &rate, in->result);
-        if (status != GVI_OK) return status;
-        gvi__times(st->r, from->t, from->t_low, h*rate, in->table.c, in->t);
-    }
-    if (gvi__constrained(st)) gvi__predict_constraints(st, extrapolate);
-    for (int k = 0; k < 3; ++k) {
-        gvi__stage stage;
-        if (!to[k]) continue;
-        gvi__set_stage(st, &stage, to[k], NULL, NULL, NULL);
-        gvi__set_predictor(st, &stage, last[k], older[k]);
-        if (extrapolate) in->kernel(st, &stage, 0);
-        else gvi__zero((size_t)st->n*(size_t)in->R, to[k]);
-    }
-    if (!momenta || extrapolate) return GVI_OK;
-    gvi__velocity_guess(st, in->result);
-    for (int i = 0; i < st->n; ++i)
-        for (int k = 0; k < st->r; ++k) w->V[i*in->R + k] = rate*in->result[i];
-    return GVI_OK;
-}
-
-// x := zero, a 0 that the compiler does not know: it would call memset, and wait for it, every time
-static void gvi__clear(int n, gvi_real zero, gvi_real *x)
-{
-    GVI__ALONG(n, const gvi__number none = { 0 }; GVI__TO(x) = none + zero)
-}
-
-// 4) F (and A, V) at the stage values, all points in one call an effect
-static gvi_status gvi__evaluate_stages(gvi_stepper *st, const gvi__origin *from, gvi_points *at)
-{
-    struct gvi__private *in = &st->in;
-    const int length = st->n*in->R, momenta = gvi__has(in, GVI__BY_MOMENTA);
-    gvi_status status = GVI_OK;
-    gvi__clear(length, in->zeros[0], at->f);
-    if (momenta) {                                // V from dL/dv(Q, V) = P
-        gvi__count(&st->counters.velocities, st->r);
-        if (in->desc.mass.velocity) status = gvi__evaluate_mass(st, at, in->work.P, in->work.V);
-        else if (!gvi__mass_is_constant(in)) status = gvi__factor_mass(st, at);
-        if (status != GVI_OK) return status;
-        in->has_factor = 1;
-        if (!in->desc.mass.velocity) gvi__velocity_rows(st);
-        else if (in->diagnose) status = gvi__check_rows(st, at, in->work.V, GVI_FAULT_MASS);
-        if (status != GVI_OK) return status;
-    }
-    if (GVI__LAGRANGIAN && at->dldv) gvi__clear(length, in->zeros[0], at->dldv);
-    if (gvi__clock_is_on(st)) return gvi__evaluate_with_clock(st, from, at);
-    status = gvi__effects(st, at, 0, NULL);
-    if (status == GVI_OK && gvi__constrained(st)) status = gvi__constraint_values(st, from);
-    if (status == GVI_OK && momenta && gvi__mass_is(in, GVI_MASS_POSITION))
-        status = gvi__mass_gradient(st, at);
-    return status;
-}
-
-// 3) new stage values from F, V, A; returns the squares of their changes
-GVI__BODY gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *stage, int stages, int rescale)
-{
-    const struct gvi__private *in = &st->in;
-    gvi_real sum = 0;
-    if (gvi__constrained(st) && in->con.made > 0)
-        gvi__constrain(st, stage, stage[gvi__has(in, GVI__BY_MOMENTA)].base);
-    for (int k = 0; k < stages; ++k) {
-        if (k == 1 && gvi__has(in, GVI__BY_MOMENTA)) sum += gvi__velocities_again(st);
-        if (stage[k].dense) sum += gvi__dense_rows(st, stage + k, rescale);
-        else sum += in->kernel(st, stage + k, rescale);
-    }
-    if (gvi__constrained(st)) {
-        st->in.con.linear |=
-            GVI__DIG > FLT_MANT_DIG && in->con.made > 0 && sum < GVI__EPS*GVI_SQRT(GVI__EPS);
-        gvi__constraint_rows(st, stage);
-    }
-    if (stages == 2 && !gvi__has(in, GVI__BY_MOMENTA)) gvi__count(&st->counters.velocities, st->r);
-    return sum;
-}
-
-// may a step that does not converge turn to Newton's method?
-static int gvi__may_turn(const gvi_stepper *st)
-{
-    return st->in.desc.formulation == GVI_AUTO && gvi__has(&st->in, GVI__HAS_NEWTON);
-}
-
-/* Where an iteration stands, in squares: the changes of the last two iterations, of all rows,
-   and the least so far; the contraction of the last step, 1 if there is none, or 2 if no ratio
-   counts; gvi__noise when it was last made, and its least; how often no new least was seen, of
-   change or noise, or no good contraction; are units to be made anew?                         */
-typedef struct gvi__progress {
-    gvi_real before, earlier, least, ratio, noise, quiet;
-    int      used, stagnant, still, growing, rescale;
-} gvi__progress;
-
-/* The largest change of a row that is beyond a few units of the last place of its largest
-   value, in units of 32 eps of the largest amplitude; 0: there is none.  An amplitude is |Q_i|
-   times sqrt(M_ii), with h V_i or h P_i/M_ii in place of Q_i for those rows.  Up to 1 a row
-   that does not settle is nothing but noise, where large forces cancel: a light body midway
-   between two heavy ones.  So, whatever the amplitude, is a move due to the rounding of a force of
-   constraint, 32 eps of it, or to its last change where that came from the rounding of g, which
-   nearly dependent rows make large: such a move counts next to nothing.                        */
-static gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__stage *stage, int stages)
-{
-    const int R = st->in.R, C = st->in.con.C, held = gvi__constrained(st)*st->s,
-              momenta = gvi__has(&st->in, GVI__BY_MOMENTA);
-    gvi_real largest = 0, noise = 0, *moved = st->in.con.W;       // n sums for each source
-    if (held) gvi__constraints_moved(st, moved);
-    for (int k = 0; k < stages; ++k) {
-        if (!stage[k].scale) continue;
-        for (int i = 0; i < st->n; ++i) {
-            const gvi_real m = gvi__inertia(st, i), *row = stage[k].rows + i*R;
-            gvi_real size = GVI_ABS(stage[k].base[i]), push = 0, unit = 1, change = 0;
-            if (stages == 2 && k != momenta) unit = GVI_ABS(h);                  // V or P
-            if (momenta && k == 0) unit /= m;                                    // P
-            unit *= GVI_SQRT(m);
-            for (int j = 0; j < st->r; ++j) size = gvi__larger(GVI_ABS(row[j]), size);
-            for (int e = 0; e < held; ++e) {
-                const gvi_real force = GVI__NOISE*GVI__EPS*GVI_ABS(h*st->in.con.force[i*R + e])
-                                       + moved[i*C + e]/GVI_ABS(st->in.con.hw[e]);
-                push = gvi__larger(GVI_ABS(h)*force/m, push);
-            }
-            if (stage[k].scale[i] > 0) change = GVI_SQRT(stage[k].change[i])/stage[k].scale[i];
-            largest = gvi__larger(unit*size, largest);
-            if (!(change > GVI__PLACE*GVI__EPS*size)) continue;
-            if (change <= push) change *= GVI__EPS;
-            noise = gvi__larger(unit*change, noise);
-        }
-    }
-    if (!(noise > 0)) return 0;
-    return noise/(GVI__NOISE*GVI__EPS*largest);
-}
-
-/* 5) The verdict on a change D of all rows; what ends an iteration is listed at gvi__iterate.  One
-   ratio may be luck: unless D is rounding, the one before, or that of the last step, must agree;
-   after an attempt that failed D itself must be within the tolerance.  All in squares, so that
-   nothing waits for a root.                                                                   */
-static int gvi__converged(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_real h,
-                          const gvi__stage *stage, int stages)
-{
-    const gvi_desc *d = &st->in.desc;
-    const gvi_real wanted = gvi__larger(d->tolerance, GVI__ENOUGH), tolerance = wanted*wanted;
-    const gvi_real eps2 = GVI__EPS*GVI__EPS, all = eps2*(gvi_real)(st->n*st->r),
-                   rounding = GVI__PLACE*GVI__PLACE*all, sure = GVI__SURE*GVI__SURE*all;
-    const gvi_real before = p->before, earlier = p->earlier, worst = st->counters.worst_contraction;
-    const int grows = before > 0 && D >= before*(GVI__POOR*GVI__POOR);
-    const int alone = p->used == 1 || p->ratio > 1;
-    gvi_real last = D;
-    if (!alone) last = gvi__smaller(before, 1);
-    int settled = D*D <= tolerance*last && d->iterations == 0;
-    if (settled && !alone && D > rounding) {
-        gvi_real other = p->ratio;
-        if (earlier > 0) other = before/gvi__smaller(earlier, 1);
-        settled = D*other <= tolerance;
-        if (settled) st->in.watch.found = D/last;
-    }
-    if (settled) {
-        int rows = 0;                             // no row hides behind a larger one
-        for (; rows < stages*st->n; ++rows) {
-            const gvi_real Di = st->in.watch.change[rows];
-            gvi_real before_i = Di;
-            if (!alone) before_i = gvi__smaller(st->in.watch.before[rows], 1);
-            if (Di > 2*eps2 && Di*Di > tolerance*before_i) break;
-        }
-        if (rows == stages*st->n) return GVI__DONE;
-    }
-    if (!gvi__finite(D)) return GVI__NOT_FINITE;
-
-    // contraction over two iterations, as long as it is not about rounding
-    if (earlier > 0 && D > GVI__SURE*GVI__SURE*eps2 && D > worst*worst*worst*worst*earlier)
-        st->counters.worst_contraction = GVI_SQRT(GVI_SQRT(D/earlier));
-    p->rescale = D > GVI__FAR*GVI__FAR || grows;  // those were the units of an overshoot
-    p->earlier = before;
-    p->before = D;
-    if (d->iterations > 0) {
-        if (p->used < d->iterations) return GVI__GO_ON;
-        int falls = before <= 0 || D < before;
-        if (earlier > 0) falls = D < earlier*(GVI__POOR*GVI__POOR);
-        if (before > 0 && D > GVI__FAR*GVI__FAR) falls = 0;         // its units may grow with it
-        if (falls || D <= sure || gvi__noise(st, h, stage, stages) <= 1) return GVI__DONE;
-        return GVI__DIVERGES;
-    }
-    p->growing += 1;
-    if (!grows) p->growing = 0;
-    p->stagnant += 1;
-    if (D < GVI__LEAST*GVI__LEAST*p->least) p->stagnant = 0;
-    p->least = gvi__smaller(p->least, D);
-    const gvi_real grain = GVI__GRAIN*GVI__GRAIN*all;
-    if (gvi__constrained(st) && D > 16*p->least && D > grain) {
-        // near a bifurcation it would be leaving the motion, perhaps for that of another branch
-        const int m = st->in.con.m;
-        gvi_real loss = 0;
-        for (int k = 0; k < st->s*m; ++k) loss = gvi__larger(gvi__loss(st, k % m, k/m), loss);
-        if (loss > GVI__LOST - 1 && D > grain*loss*loss*loss) return GVI__DIVERGES;
-    }
-    int allowed = GVI__FEW_POOR;
-    if (D > GVI__FAR*GVI__FAR) allowed = GVI__MANY_POOR;
-    const int poor = p->growing > allowed && D > sure;
-    const int wait = !gvi__constrained(st);                  // the rounding of g is in every D
-    if (p->stagnant > wait || poor) {
-        const gvi_real noise = gvi__noise(st, h, stage, stages);
-        p->still += 1;
-        if (noise < p->quiet) p->still = 0;       // a new minimum still converges, perhaps to 0
-        const int level = noise <= GVI__EPS || (p->still > GVI__STILL && noise <= p->noise);
-        int rests = p->stagnant > 1;
-        if (wait) rests = p->stagnant > GVI__STAGNANT && level;
-        if (p->stagnant > wait && (noise <= 0 || (noise <= 1 && rests))) {
-            const int slow = p->used - p->stagnant >= GVI__SLOW;
-            if (slow && gvi__may_turn(st)) return GVI__DIVERGES;
-            return GVI__ONCE_MORE;
-        }
-        // a row that tends to 0 changes by its whole size: does its amplitude fall?
-        if (poor && noise > 1 && noise > p->noise/2 && gvi__may_turn(st)) return GVI__DIVERGES;
-        p->noise = noise;
-        if (p->still == 0) p->quiet = noise;
-    }
-    if (p->used < d->max_iterations) return GVI__GO_ON;
-    return GVI__DIVERGES;
-}
-
-/* The fixed point.  It ends where
-     - the next change, D times the ratio of the last two, is within the tolerance, or far below
-       rounding, of all rows and of each whose own D is not in its last place: done;
-     - D stagnates at rounding: F once more, so that rows that go to and fro in their last places
-       end with their own F, not that of the side they came from, which is a bias: done;
-     - iterations are given and made: done if D falls, or is rounding;
-     - D falls by less than GVI__POOR too often, or reached rounding slowly, which lets errors grow
-       before they shrink; constraints lose rank; max_iterations are made: no convergence, and
-       gvi__attempt goes on from plain values or by Newton's method;
-     - D is not finite: no convergence, or an effect's fault.                                  */
-GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi_real h,
-                                   int extrapolate, int *used)
-{
-    struct gvi__private *in = &st->in;
-    gvi__stage stage[2], first;
-    gvi__progress p = { 0, 0, GVI__MAX, 1, GVI__MAX, GVI__MAX, 0, 0, 0, 0, 1 };
-    gvi_points at = gvi__points_at(st, st->r, in->R, in->t, in->work.Q, in->work.F,
-                                   GVI__LAGRANGIAN ? in->work.A : NULL);
-    const int stages = gvi__stages(st, from, h, stage);
-    gvi_status status = GVI_OK;
-    if (gvi__constrained(st)) gvi__constraint_stages(st, from, h, stage, stages);
-    if (GVI__CONSTRAINTS) in->con.made = in->con.linear = 0;
-    at.v = in->work.V;
-    if (*used > 0) p.ratio = 2;                   // the attempt before this one failed
-    else if (extrapolate && GVI_ABS(h) <= GVI_ABS(st->h)) p.ratio = in->watch.ratio;
-    in->watch.found = gvi__smaller(p.ratio, 1);
-    *used = 0;
-    in->has_factor = 0;
-
-    // 2) what the predictor makes: stage values at once, or F (V, A), and of these stage values
-    if (extrapolate && in->sized.sums) {
-        first = stage[0];
-        gvi__set_predictor(st, &first, in->last.F, in->older.F);
-        in->kernel(st, &first, 0);
-    } else {
-        status = gvi__predict_sources(st, from, h, extrapolate);
-        if (status != GVI_OK) return status;
-        gvi__new_rows(st, stage, stages, 0);
-    }
-    p.used = *used = 1;
-    for (int shorter = 0, last = 0; ; ) {
-        status = gvi__evaluate_stages(st, from, &at);                                        // 4)
-        // free motion may leave a callback's domain though the motion does not: halve the way
-        if (status == GVI_E_CALLBACK && p.used == 1 && !extrapolate && shorter++ < GVI__NEARER) {
-            for (int i = 0; i < st->n; ++i)
-                for (int k = 0; k < in->R; ++k)
-                    in->work.Q[i*in->R + k] = (in->work.Q[i*in->R + k] + from->q[i])/2;
-            continue;
-        }
-        if (last && status == GVI_OK && gvi__constrained(st)) gvi__constrain(st, stage, from->q);
-        if (last || status != GVI_OK) return status;
-        const int diverged = p.growing > 0 || p.before > (gvi_real)st->n;
-        const gvi_real change = gvi__new_rows(st, stage, stages, p.rescale);                  // 3)
-        const int verdict = gvi__converged(st, &p, change, h, stage, stages);                 // 5)
-        if (verdict == GVI__GO_ON) {
-            gvi_real *spare = in->watch.before;
-            in->watch.before = in->watch.change;
-            in->watch.change = spare;
-            for (int k = 0; k < stages; ++k) stage[k].change = spare + k*st->n;
-            p.used = *used += 1;
-            continue;
-        }
-        if (verdict == GVI__NOT_FINITE && !diverged && !in->diagnose)  // the effects are looked at
-            return gvi__report_status(st, GVI_E_NON_FINITE);
-        if (verdict == GVI__NOT_FINITE || verdict == GVI__DIVERGES)
-            return gvi__report_status(st, GVI_E_CONVERGENCE);
-        const gvi_real worst = st->counters.worst_change;
-        if (change > worst*worst) st->counters.worst_change = GVI_SQRT(change);
-        if (verdict == GVI__DONE) return GVI_OK;
-        last = 1;
+    const int pair = 1 + (st->s > 4);
+    const gvi_real *modes = in->stages == 1 ? in->table.Phi : in->table.phi;
+    for (int m = 0; m < 2*pair; ++m) {
+        const int k = st->s - 1 - m;
+        for (int j = 0; j < st->r; ++j)
+            in->dial.high[4*j + m*2/pair] =
+                in->table.inv_gamma[k]*modes[k*in->R + j]*in->table.b[j];
     }
 }
-
-/* 6) Increments of q and p from the F, V and A at the end of the iteration, by (2) and by (3) at
-   tau = 1, where S_j = c_j: dq = h (v + M^-1 (sum_j (1 - c_j) h b_j F_j - sum_j b_j A_j)).    */
-static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h)
-{
-    struct gvi__private *in = &st->in;
-    struct gvi__values *w = &in->work;
-    const gvi_real *c = in->table.c, *hb = in->sized.hb;
-    const int R = in->R, r = st->r;
-    if (gvi__clock_is_on(st)) {
-        in->dt = gvi__dot(r, hb, in->time.rate);
-        in->time.dH = gvi__dot(r, hb, in->time.power);
-    }
-    gvi__momentum_increment(st, from);
-    if (gvi__has(in, GVI__BY_MOMENTA)) {
-        gvi__sum_rows(st, w->V, from->q_low, in->step.q, in->step.q_low);
-        return;
-    }
-    for (int i = 0; i < st->n; ++i) {
-        const gvi_real *F = w->F + i*R;
-        gvi_real sum[4] = { 0, 0, 0, 0 };
-        for (int o = 0; o + 3 < R; o += 4)
-            for (int k = 0; k < 4; ++k) sum[k] += (1 - c[o + k])*(hb[o + k]*F[o + k]);
-        for (int k = R & ~3; k < R; ++k) sum[k & 3] += (1 - c[k])*(hb[k]*F[k]);
-        in->step.q[i] = (sum[0] + sum[2]) + (sum[1] + sum[3]);
-        if (gvi__constrained(st)) {
-            const gvi__two a = gvi__moment(r, c, hb, F),
-                           z = gvi__moment(st->s, in->con.d, in->con.hw, in->con.force + i*R);
-            in->step.q[i] = (a.hi + z.hi) + (a.lo + z.lo);
-        }
-        if (GVI__LAGRANGIAN && w->A) in->step.q[i] -= gvi__dot(r, in->table.b, w->A + i*R);
-    }
-    gvi__over_mass(st, in->step.q, 1, 1);
-    for (int i = 0; i < st->n; ++i) {
-        const gvi__two bend = gvi__two_prod(h, in->step.q[i]),
-                       q = gvi__two_sum(in->free.path[i], bend.hi);
-        in->step.q[i] = q.hi;
-        in->step.q_low[i] = gvi__low((q.lo + bend.lo) + (in->free.path_low[i] + from->q_low[i]));
-    }
-}
-
-/* ---- kicks ---- */
-
-/* dp += b F, then the drift dq += a (v + M^-1 dp), Q = q + dq; F := 0 for the next force.  First
-   in a step, dp and dq are the low words of the state, and F is `first`.                      */
-GVI__BODY void gvi__drift(gvi_stepper *st, const gvi__origin *from, const gvi_real *GVI__RESTRICT v,
-                          const gvi_real *first, gvi_real b, gvi_real a)
-{
-    struct gvi__private *in = &st->in;
-    const gvi_real *GVI__RESTRICT q = from->q, *GVI__RESTRICT m = in->mass.inverse;
-    gvi_real *GVI__RESTRICT F = in->work.F, *GVI__RESTRICT Q = in->work.Q;
-    gvi_real *GVI__RESTRICT dp = in->step.p, *GVI__RESTRICT dq = in->step.q, *z = in->result;
-    const gvi_real *p0 = dp, *q0 = dq, *f = F;
-    if (first) {
-        p0 = from->p_low;
-        q0 = from->q_low;
-        f = first;
-    }
-    const int n = st->n;
-    if (in->desc.mass.kind == GVI_MASS_DENSE) {
-        for (int i = 0; i < n; ++i) z[i] = dp[i] = p0[i] + b*f[i];
-        gvi__over_mass(st, z, 1, 1);
-        for (int i = 0; i < n; ++i) {
-            F[i] = 0;
-            dq[i] = q0[i] + a*(v[i] + z[i]);
-            Q[i] = q[i] + dq[i];
-        }
-        return;
-    }
-    GVI__ALONG(n,
-        const gvi__number p = GVI__AT(p0) + b*GVI__AT(f), none = { 0 };
-        const gvi__number d = GVI__AT(q0) + a*(GVI__AT(v) + p*GVI__AT(m));
-        GVI__TO(dp) = p;
-        GVI__TO(F) = none;
-        GVI__TO(dq) = d;
-        GVI__TO(Q) = GVI__AT(q) + d)
-}
-
-/* Kicks h b_j F_j at the nodes, drifts between them: one evaluation a kick; none where a weight is
-   0, but for the last, whose F the next step may begin with.  `force`: F at the start, or NULL. */
-static gvi_status gvi__kicks(gvi_stepper *st, const gvi__origin *from, gvi_real h,
-                             const gvi_real *force)
-{
-    struct gvi__private *in = &st->in;
-    const int n = st->n, r = st->r, known = force && gvi__nonzero(in->sized.hb[0]);
-    const int held = gvi__constrained(st) ? 1 : -1;
-    const gvi_real *hb = in->sized.hb, *v = in->free.v;
-    if (in->desc.mass.kind == GVI_MASS_UNIT) v = from->p;
-    gvi_real t = from->t, b = 0;
-    gvi_points at = gvi__points_at(st, 1, 1, &t, in->work.Q, in->work.F, NULL);
-    if (v != from->p) {
-        gvi__copy((size_t)n, from->p, in->free.v);
-        gvi__over_mass(st, in->free.v, 1, 1);
-    }
-    if (known) b = hb[0];
-    for (int j = known; j < r; ++j) {
-        if (j == known) gvi__drift(st, from, v, known ? force : in->zeros, b, in->sized.drift[j]);
-        else gvi__drift(st, from, v, NULL, b, in->sized.drift[j]);
-        if (j == held) {
-            const gvi_status status = gvi__constrained_drift(st, from, h);
-            if (status != GVI_OK) return status;
-        }
-        t = from->t + (from->t_low + in->table.c[j]*h);
-        b = hb[j];
-        if (j < r - 1 && !gvi__nonzero(b)) continue;
-        const gvi_status status = gvi__effects(st, &at, 0, NULL);
-        if (status != GVI_OK) return status;
-    }
-
-    // the last kick, and the drift behind it, if there is one
-    gvi_real *last = in->result + n;
-    if (gvi__nonzero(in->sized.drift[r])) {
-        gvi__copy((size_t)n, in->work.F, last);
-        gvi__drift(st, from, v, NULL, b, in->sized.drift[r]);
-        gvi__copy((size_t)n, last, in->work.F);
-    } else gvi__add_scaled(n, b, in->work.F, in->step.p, in->step.p);
-    return GVI_OK;
-}
-
-/* ---- an attempt, and the step ---- */
-
-/* One attempt at a step or a partial step, to its increments; nothing of it is kept yet.  The
-   fixed point from extrapolated values, then from plain ones, then Newton's method, likewise.  */
-static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query)
-{
-    struct gvi__private *in = &st->in;
-    gvi__free_motion(st, from, h);                                                           // 1)
-    st->formulation = in->chosen;
-    if (!gvi__has(in, GVI__ITERATES)) {
-        const gvi_real *F = NULL;                 // the force at the start, if it is known
-        if (in->has_force && query != GVI__FROM_START) F = in->last.F;
-        const gvi_status status = gvi__kicks(st, from, h, F);
-        if (status != GVI_OK || !gvi__constrained(st)) return status;
-        return gvi__project(st, from, 0);
-    }
-
-    // an extrapolation any farther is no better than no force
-    const int usable = in->kept > 0 && h/st->h > -GVI__BACK && h/st->h < GVI__AHEAD;
-    int used = 0;
-    gvi_status status = GVI_E_CONVERGENCE;
-    if (gvi__has(in, GVI__FIXED_POINT) && (in->newton.left == 0 || query)) {
-        if (usable) gvi__prepare_predictor(st, h, query);
-        for (int plain = !usable; plain < 2; ++plain) {
-            status = gvi__iterate(st, from, h, !plain, &used);                           // 2) to 5)
-            gvi__count(&st->counters.iterations, used);
-            if (!query) st->iterations = used;
-            if (used > st->counters.most_iterations) st->counters.most_iterations = used;
-            // iterations given: only what failed in the first one is tried again
-            if (status == GVI_OK
-                || (in->desc.iterations > 0 && (used > 1 || status == GVI_E_CONVERGENCE)))
-                break;
-        }
-        if (status == GVI_OK) gvi__increments(st, from, h);                                  // 6)
-        if (status == GVI_OK && gvi__constrained(st)) status = gvi__project(st, from, 0);
-        if (status == GVI_OK || !gvi__may_turn(st)) return status;
-        if (!query && (status == GVI_E_CONVERGENCE || gvi__constrained(st)))
-            in->newton.left = GVI__BY_NEWTON;
-    }
-    if (!GVI__NEWTON) return status;
-    const unsigned count = (unsigned)st->counters.newton_iterations;
-    st->formulation = GVI_NEWTON;
-    if (usable) gvi__prepare_predictor(st, h, query);
-    const int extrapolated = usable && in->has_velocity;
-    int how = GVI__PLAIN;
-    if (extrapolated) how = GVI__EXTRAPOLATED;
-    status = gvi__newton_step(st, from, how, query);
-    if (status == GVI_E_CONVERGENCE || status == GVI_E_SINGULAR
-        || (status == GVI_E_CALLBACK && extrapolated)
-        || (status == GVI_E_NON_FINITE && !in->diagnose)) {
-        if (!query) in->newton.h = 0;              // the extrapolation may be to blame
-        status = gvi__newton_step(st, from, GVI__HALVED, query);
-    }
-    if (!query) st->iterations = used + (int)((unsigned)st->counters.newton_iterations - count);
-    return status == GVI_OK && gvi__constrained(st) ? gvi__project(st, from, 0) : status;
-}
-
-// are q + dq and p + dp finite?  0 x is 0 or NaN
-static int gvi__finite_end(const gvi_stepper *st, const gvi__origin *from)
-{
-    const struct gvi__phase *d = &st->in.step;
-    gvi_real none = 0;
-    for (int i = 0; i < st->n; ++i) {
-        // rounded, as the commit will store them
-        const gvi__rounded q = from->q[i] + d->q[i], p = from->p[i] + d->p[i];
-        none += 0*q + 0*p;
-    }
-    return none >= 0;
-}
-
-/* One attempt.  If it met NaN or Inf, the same once more, now looking at what every effect
-   returns: that names the effect.  If none is to blame, the iteration diverged.               */
-static gvi_status gvi__solve(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query)
-{
-    struct gvi__private *in = &st->in;
-    if (gvi__constrained(st)) in->con.doubt[0] = -1;
-    for (int look = 0; ; look = 1) {
-        in->diagnose = look;
-        gvi_status status;
-        do {
-            if (GVI__CONSTRAINTS) in->con.again = 0;
-            status = gvi__attempt(st, from, h, query);
-        } while (GVI__CONSTRAINTS && in->con.again);
-        if (gvi__constrained(st) && in->con.doubt[0] >= 0) {
-            const int row = (int)in->con.doubt[0];
-            status = gvi__report_row(st, GVI_E_CONVERGENCE, row, GVI_FAULT_NONE);
-            st->fault.argument = "a jacobian is not the derivative of g, in fault.coordinate's row";
-            return status;
-        }
-        in->diagnose = 0;
-        if (status == GVI_OK && !look && !gvi__finite_end(st, from))
-            status = gvi__report_status(st, GVI_E_NON_FINITE);
-        const int explained = status != GVI_E_NON_FINITE || st->fault.effect != GVI_FAULT_NONE;
-        if (look && (status == GVI_OK || !explained))
-            return gvi__report_status(st, GVI_E_CONVERGENCE);
-        if (look || explained) return status;
-        if (!query) in->newton.h = 0;
-    }
-}
-
-// work becomes last, last becomes older if two steps are kept, and the oldest is the next work
-static void gvi__rotate_values(gvi_stepper *st)
-{
-    struct gvi__values *a = &st->in.older, *b = &st->in.last, *c = &st->in.work;
-    gvi_real **const rows[3][3] = { { &a->F, &b->F, &c->F }, { &a->V, &b->V, &c->V },
-                                    { &a->A, &b->A, &c->A } };
-    GVI__UNROLL for (int k = 0; k < 1 + (GVI__READS_V > 0) + (GVI__LAGRANGIAN > 0); ++k) {
-        gvi_real **older = rows[k][0], **last = rows[k][1], **work = rows[k][2];
-        gvi_real *spare = *last;
-        if (*older) {
-            spare = *older;
-            *older = *last;
-        }
-        *last = *work;
-        *work = spare;
-    }
-}
-
-// was := x, x + x_low := x + dx + dx_low; dx_low NULL: 0
-static void gvi__move(int n, const gvi_real *GVI__RESTRICT dx, const gvi_real *GVI__RESTRICT dx_low,
-                      gvi_real *GVI__RESTRICT x, gvi_real *GVI__RESTRICT x_low,
-                      gvi_real *GVI__RESTRICT was)
-{
-    // gvi__two_sum, twice
-    GVI__ALONG(n,
-        const gvi__number a = GVI__AT(x), d = GVI__AT(dx), s = a + d, b = s - a;
-        const gvi__number da = s - b, e = (a - da) + (d - b);
-        GVI__TO(was) = a;
-        GVI__TO(x) = s;
-        GVI__TO(x_low) = e)
-    if (!dx_low) return;
-    GVI__ALONG(n,
-        const gvi__number s = GVI__AT(x), e = GVI__AT(x_low) + GVI__AT(dx_low), t = s + e;
-        const gvi__number f = t - s, ds = t - f;
-        GVI__TO(x) = t;
-        GVI__TO(x_low) = (s - ds) + (e - f))
-}
-
-// 7) the state moves on, and work's stage values become those of the last step
-static void gvi__commit(gvi_stepper *st, gvi_real h)
-{
-    struct gvi__private *in = &st->in;
-    const gvi__two t = gvi__two_sum(st->t, in->dt + st->t_low);
-    const gvi_real *dq_low = in->step.q_low, *dp_low = in->step.p_low;
-    if (!gvi__has(in, GVI__ITERATES)) dq_low = dp_low = NULL;   // kicks make no low words
-    gvi__move(st->n, in->step.q, dq_low, in->state.q, in->state.q_low, in->began.q);
-    gvi__move(st->n, in->step.p, dp_low, in->state.p, in->state.p_low, in->began.p);
-    st->t0 = st->t;
-    st->t = t.hi;
-    st->t_low = t.lo;
-    if (GVI__CLOCK) {
-        const gvi__two H = gvi__two_sum(in->time.H, in->time.dH + in->time.H_low);
-        in->began.H = in->time.H;
-        in->time.H = H.hi;
-        in->time.H_low = H.lo;
-    }
-    if (GVI__CONSTRAINTS && in->con.bits) gvi__commit_constraints(st, h);
-    in->kept = 1 + (in->kept > 0 && !gvi__nonzero(h - st->h));
-    st->h = h;
-    gvi__rotate_values(st);
-    in->stepped = 1 + gvi__clock_is_on(st);
-    in->has_force = !gvi__has(in, GVI__ITERATES) && !gvi__nonzero(in->table.c[0])
-                   && !gvi__nonzero(in->table.c[st->r - 1] - 1);
-    in->has_velocity = st->formulation == GVI_NEWTON || !gvi__has(in, GVI__BY_FORCES);
-    if (st->formulation != GVI_NEWTON) in->watch.ratio = in->watch.found;
-    if (in->newton.left > 0) in->newton.left -= 1;
-    gvi__count(&st->counters.steps, 1);
-}
-
-/* ---- resolution ---- */
 
 /* The error of a step relative to the motion, as Legendre modes y_k of its velocity tell it.  Of a
    coordinate, with two modes each (at degrees 3 and 4 with one),
@@ -6204,27 +7435,23 @@ static void gvi__commit(gvi_stepper *st, gvi_real h)
 static gvi_real gvi__resolution(const gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
-    const int s = st->s, R = in->R, forces = gvi__has(in, GVI__BY_FORCES), pair = 1 + (s > 4),
+    const int s = st->s, R = in->R, forces = in->stages == 1, pair = 1 + (s > 4),
               held = forces && gvi__constrained(st);
     const gvi_real *row = in->work.V;
     const gvi_real h = GVI_ABS(in->sized.h);
-    gvi_real *missed = in->result, *size = missed + st->n, unit = 1;
+    gvi_real *missed = in->answer, *size = missed + st->n, unit = 1;
     gvi_real fastest = 0, farthest = 0, worst = 0;
     if (forces) {
         row = in->work.F;
         unit = h;
     }
     for (int i = 0; i < st->n; ++i, row += R) {
-        const gvi_real *a = in->table.high, *force = in->con.force + i*R;
+        const gvi_real *a = in->dial.high;
         gvi_real y[4] = { 0, 0, 0, 0 }, start = row[0], end = row[st->r - 1];
         for (int j = 0; j < st->r; ++j, a += 4)
             GVI__UNROLL for (int m = 0; m < 4; ++m) y[m] += a[m]*row[j];
-        for (int m = 0; m < held*2*pair; ++m) {
-            const int k = s - 1 - m;
-            for (int e = 1; e < s; ++e)
-                y[m*2/pair] +=
-                    in->table.inv_gamma[k]*in->con.Phi[k*R + e - 1]*(in->con.w[e]*force[e]);
-        }
+        for (int m = 0; m < held*2*pair; ++m)
+            y[m*2/pair] += in->table.inv_gamma[s - 1 - m]*gvi__constraint_mode(st, i, s - 1 - m);
         if (forces) {
             start = in->state.p[i];
             end = start + in->step.p[i];
@@ -6236,7 +7463,7 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
         // one mode alone may pass 0; one that is rounding is 0: a force as simple as the curve
         if (pair == 1 && high > GVI__SURE*GVI__EPS*low) high += low*(low/all)/4;
         const gvi_real most = gvi__larger(high, low);
-        const gvi_real mass = GVI_SQRT(gvi__inertia(st, i));
+        const gvi_real mass = GVI_SQRT(gvi__place_inertia(st, i));
         gvi_real share = 0, scale = mass;
         if (most > 0) share = high/(push + GVI__NOISE*GVI__EPS*all)*(high/most);
         if (forces) scale = 1/mass;               // p over M
@@ -6256,109 +7483,16 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
     return (gvi_real)(s*s)*worst;
 }
 
-/* All points of a step at one state, at rows [n][R] for f and, behind them, dldv; of kicks one.  */
-GVI__COLD gvi_points gvi__all_points_at(gvi_stepper *st, gvi_real t, const gvi_real *q,
-                                        const gvi_real *v)
+static gvi_status gvi__dial_accept(gvi_stepper *st)
 {
-    struct gvi__private *in = &st->in;
-    const int n = st->n;
-    int R = in->R, count = st->r;
-    gvi_real *rows = in->work.F;
-    if (gvi__rule_is(in, GVI_KICKS)) R = count = 1;
-    if (in->newton.moved) rows = in->newton.moved;
-    if (in->free.rows) rows = in->free.rows;
-    gvi_points at = gvi__points_at(st, count, R, in->t, in->work.Q, rows, rows + n*R);
-    at.v = in->work.V;
-    for (int k = 0; k < R; ++k) in->t[k] = t;
-    for (int i = 0; i < n*R; ++i) {
-        in->work.Q[i] = q[i/R];
-        if (in->work.V) in->work.V[i] = v[i/R];
-    }
-    return at;
+    st->resolution = gvi__resolution(st);
+    if (st->resolution > st->in.desc.resolution)
+        return gvi__report_status(st, GVI_E_RESOLUTION);
+    st->counters.worst_resolution = gvi__larger(st->resolution, st->counters.worst_resolution);
+    return GVI_OK;
 }
 
-/* Why did a step fail?  What is singular, NaN or infinite already where it starts is reported as
-   that: no h helps.  All else is the step's own, and a shorter one may do.                    */
-GVI__COLD gvi_status gvi__explain(gvi_stepper *st, gvi_status status)
-{
-    struct gvi__private *in = &st->in;
-    const gvi_counters counters = st->counters;
-    const gvi_fault fault = st->fault;
-    gvi_real *v = in->result;
-    gvi_status start = GVI_OK;
-    gvi__velocity_guess(st, v);
-    if (gvi__has(in, GVI__ITERATES) && !in->desc.mass.velocity)
-        start = gvi__velocity(st, st->t, st->q, st->p, v);
-    if (start == GVI_OK && gvi__constrained(st)) {
-        gvi_real *drops = in->con.drops + in->con.m;
-        start = gvi__constraints_at(st, st->t, st->q, st->p, v, drops);
-        if (start == GVI_OK && status == GVI_E_SINGULAR)
-            for (int a = 0; a < in->con.m; ++a)           // left out at the start, and cannot be
-                if (drops[a] > 0) return status;
-    }
-    if (start == GVI_OK) {
-        gvi_points at = gvi__all_points_at(st, st->t, st->q, v);
-        gvi__zero((size_t)(st->n*at.stride), at.f);
-        if (gvi__has(in, GVI__HAS_LAGRANGIAN)) gvi__zero((size_t)(st->n*at.stride), at.dldv);
-        else at.dldv = NULL;
-        in->diagnose = 1;
-        start = gvi__effects(st, &at, 0, NULL);
-        in->diagnose = 0;
-        if (start == GVI_E_NON_FINITE) {                 // of the state, if it is so at all points
-            const int row = st->fault.coordinate*at.stride;
-            for (int k = row; k < row + at.count; ++k)
-                if (gvi__finite(at.f[k]) && (!at.dldv || gvi__finite(at.dldv[k]))) start = GVI_OK;
-            st->fault.point = GVI_FAULT_NONE;
-        }
-    }
-    st->counters = counters;
-    if (start == GVI_E_SINGULAR || start == GVI_E_NON_FINITE) return start;
-    st->fault = fault;
-    if (status == GVI_E_SINGULAR) status = GVI_E_CONVERGENCE;
-    return st->status = status;
-}
-
-GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
-{
-    const gvi_status ready = gvi__ready(st, st && st->in.started);
-    if (ready != GVI_OK) return ready;
-    st->in.failed.status = GVI_OK;
-    if (!gvi__nonzero(h) || !gvi__finite(h))
-        return gvi__refuse_call(st, "h is 0, NaN or infinite");
-    struct gvi__private *in = &st->in;
-    const gvi_formulation was = st->formulation;
-    const int left = in->newton.left;
-    const gvi__origin from = {
-        st->t, st->t_low, st->q, st->q_low, st->p, st->p_low, in->time.H + in->time.H_low
-    };
-    if (in->stepped && gvi__nonzero(h - st->h)) in->newton.left = 0;
-    gvi_status status = gvi__solve(st, &from, h, GVI__STEP);
-    if (status == GVI_OK && !gvi__finite(st->t + in->dt))
-        status = gvi__refuse_call(st, "t + h is not finite");
-    st->resolution = 0;
-    if (status == GVI_E_CONVERGENCE || status == GVI_E_SINGULAR || status == GVI_E_NON_FINITE)
-        status = gvi__explain(st, status);
-    if (status == GVI_OK && in->desc.resolution > 0) {
-        st->resolution = gvi__resolution(st);
-        if (st->resolution > in->desc.resolution)
-            status = gvi__report_status(st, GVI_E_RESOLUTION);
-    }
-    if (status != GVI_OK) {
-        in->failed.status = status;
-        in->failed.fault = st->fault;
-        gvi__count(&st->counters.failures, 1);
-        st->formulation = was;
-        in->newton.left = left;
-        in->newton.h = 0;
-        return st->status = status;
-    }
-    if (st->resolution > st->counters.worst_resolution)
-        st->counters.worst_resolution = st->resolution;
-    gvi__commit(st, h);                                                                      // 7)
-    return gvi__report_status(st, GVI_OK);
-}
-
-/* ---- the dial ---- */
+/* ---- the length of the next step ---- */
 
 /* Lengths have a ladder of four rungs an octave, at 4, 5, 6 and 7 eighths of a power of two: where
    x stands on it, linear between these; and the rung below k.                                 */
@@ -6387,8 +7521,8 @@ static void gvi__set_next(gvi_stepper *st, gvi_status status, gvi_real h)
     if (st->s < degree) degree = st->s;
     gvi_real room = most/(gvi_real)(2*degree - 1), up = 0;
     if (status == GVI_OK && room < 2*GVI__BAND) {
-        const gvi_real loss = st->in.reach - (at + room);
-        st->in.reach = at + room;
+        const gvi_real loss = st->in.dial.reach - (at + room);
+        st->in.dial.reach = at + room;
         if (loss > 0) room -= loss;
     }
     if (room > GVI__BAND) up = gvi__smaller(room - (gvi_real)1.5, GVI__BAND);
@@ -6402,7 +7536,7 @@ static void gvi__set_next(gvi_stepper *st, gvi_status status, gvi_real h)
    1/1024 of the way where that is less, or from rest.                                         */
 GVI__COLD gvi_real gvi__first_length(gvi_stepper *st, gvi_real left)
 {
-    gvi_real *v = st->in.result, *a = v + st->n;
+    gvi_real *v = st->in.answer, *a = v + st->n;
     gvi_points at = gvi__one_point(st, &st->t, st->q);
     gvi__velocity_guess(st, v);
     gvi_status status = gvi__velocity(st, st->t, st->q, st->p, v);
@@ -6445,588 +7579,13 @@ GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end)
             return status;
     }
 }
+#endif /* GVI_NO_DIAL */
 
-/* ----------------------------------------------------------------- STATE */
+#ifndef GVI_NO_BOUNDARY
+/* ------------------------------------------------------- BOUNDARY VALUES
 
-/* ---- starting ---- */
-
-/* The energy for a clock, under which values may not change with t: they are looked at twice.  */
-GVI__COLD gvi_status gvi__clock_energy(gvi_stepper *st, gvi_real t, const gvi_real *q,
-                                       const gvi_real *p, gvi_real *v, gvi_real *E)
-{
-    const gvi_real later = t + (gvi_real)0.739085133215160642;
-    const gvi_status status = gvi__hamiltonian(st, t, q, p, v, E);
-    if (status != GVI_OK) return status;
-    for (int e = 0; e < st->in.desc.effect_count; ++e) {
-        const gvi_kind kind = st->in.desc.effects[e].kind;
-        gvi_real now = 0, then = 0;
-        gvi_points at = gvi__one_point(st, &t, q);
-        at.v = v;
-        if ((st->in.off >> e & 1u) || kind == GVI_FORCE || kind == GVI_CLOCK) continue;
-        (void)gvi__value(st, &at, e, &now);        // as it has just been
-        at.t = &later;
-        if (gvi__value(st, &at, e, &then) == GVI_OK && gvi__nonzero(then - now))
-            return gvi__report_effect(st, GVI_E_FORMULATION, e);
-    }
-    return gvi__report_status(st, GVI_OK);
-}
-
-/* At a first start, finds callbacks that fill only their first point, or set f and dldv with =
-   instead of adding to them.  All points are a little past q, where a force 0 at the start is not.
-   From 0 an effect shows which points it fills; from the largest number, whether it adds.     */
-GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
-{
-    struct gvi__private *in = &st->in;
-    const gvi_counters counters = st->counters;          // a probe is no step's work
-    gvi_points at = gvi__all_points_at(st, t, q, v);
-    const int n = st->n, R = at.stride, count = at.count;
-    gvi_real *rows = at.f;
-    for (int i = 0; i < n*R; ++i)
-        if (i % R < count) in->work.Q[i] += GVI_SQRT(GVI__EPS)*v[i/R];
-    // effects may use what M(q) has computed: it comes first, as in a step
-    if (gvi__mass_is(in, GVI_MASS_POSITION)) gvi__evaluate_mass(st, &at, NULL, NULL);
-    const char *slip = NULL;
-    for (int e = 0; e < in->desc.effect_count; ++e) {
-        int all = n*R, first = 0, others = 0, huge = 0, set = 0;
-        if ((in->off | in->apart) >> e & 1u) continue;
-        if (in->desc.effects[e].kind == GVI_LAGRANGIAN) all = 2*n*R;
-        gvi__zero((size_t)all, rows);
-        if (gvi__effect(st, &at, e, NULL) != GVI_OK) continue;
-        for (int i = 0; i < all; ++i) {
-            const int k = i % R, filled = k < count && gvi__nonzero(rows[i]);
-            first |= filled && k == 0;
-            others |= filled && k > 0;
-            huge |= filled && GVI_ABS(rows[i]) > GVI__MAX/4;
-        }
-        if (first && !others && count > 1)
-            slip = "effect: fills its first point alone, not x->count of them";
-        for (int i = 0; i < all; ++i) rows[i] = GVI__MAX;
-        if (gvi__effect(st, &at, e, NULL) != GVI_OK) continue;
-        for (int i = 0; i < all; ++i) set |= i % R < count && GVI_ABS(rows[i]) < GVI__MAX/2;
-        if (set && !huge) slip = "effect: sets f or dldv with =, where it has to add with +=";
-        if (!slip) continue;
-        st->counters = counters;
-        return st->status = gvi__refuse(&st->fault, e, GVI_FAULT_NONE, slip);
-    }
-    st->counters = counters;
-    return gvi__report_status(st, GVI_OK);
-}
-
-// from q, p in in->step and a velocity v, all of them seen to be good
-GVI__COLD gvi_status gvi__begin_at(gvi_stepper *st, gvi_real t, const gvi_real *v)
-{
-    struct gvi__private *in = &st->in;
-    const size_t n = (size_t)st->n;
-    if (!in->started && gvi__probe(st, t, in->step.q, v) != GVI_OK)
-        return st->status;
-    if (gvi__constrained(st)) {
-        gvi__forget_columns(st);
-        const gvi_status status = gvi__project_start(st, t, in->step.q, in->step.p);
-        if (status != GVI_OK) return status;
-        v = in->result + 2*n;
-    }
-    if (gvi__clock_is_on(st)) {                   // its energy
-        gvi_real E, *V = in->result;
-        gvi__copy(n, v, V);
-        const gvi_status status = gvi__clock_energy(st, t, in->step.q, in->step.p, V, &E);
-        if (status != GVI_OK) return status;
-        in->time.H = E;
-        in->time.H_low = 0;
-    }
-    gvi__copy(n, v, in->start);
-    gvi__copy(n, in->step.q, in->state.q);
-    gvi__copy(n, in->step.p, in->state.p);
-    gvi__zero(n, in->state.q_low);
-    gvi__zero(n, in->state.p_low);
-    st->t = st->t0 = t;
-    st->h = st->t_low = st->resolution = st->next = 0;
-    in->reach = -GVI__MAX;
-    in->started = 1;
-    in->stepped = in->kept = in->con.kept = in->has_force = in->has_velocity = in->newton.left = 0;
-    in->newton.h = in->sized.ratio = 0;
-    in->watch.ratio = in->watch.found = 1;
-    st->formulation = in->chosen;
-    return gvi__report_status(st, GVI_OK);
-}
-
-// is everything there that a start needs, and finite?
-GVI__COLD gvi_status gvi__check_start(gvi_stepper *st, gvi_real t, const gvi_real *q,
-                                      const gvi_real *w)
-{
-    const gvi_status ready = gvi__ready(st, st && st->in.memory);
-    if (ready != GVI_OK) return ready;
-    st->in.failed.status = GVI_OK;
-    if (!q || !w) return gvi__refuse_call(st, "q, v or p is NULL");
-    if (!gvi__finite(t)) return gvi__refuse_call(st, "t is not finite");
-    const int j = gvi__first_non_finite(st->n, w);
-    int i = gvi__first_non_finite(st->n, q);
-    if (i < 0 && j < 0) return GVI_OK;
-    if (i < 0 || (j >= 0 && j < i)) i = j;
-    return st->status = gvi__refuse(&st->fault, GVI_FAULT_NONE, i, "q, v or p is not finite");
-}
-
-// p = dL/dv, of the kinetic energy and of Lagrangian terms where there are any, to in->point + 5n
-static gvi_status gvi__momentum(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
-{
-    gvi_points at = gvi__one_point(st, &t, q);
-    unsigned skip = ~0u;
-    if (gvi__has(&st->in, GVI__HAS_LAGRANGIAN)) skip = 0;
-    at.v = v;
-    return gvi__evaluate(st, &at, skip, 1);
-}
-
-GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
-{
-    gvi_status status = gvi__check_start(st, t, q, v);
-    if (status != GVI_OK) return status;
-    struct gvi__private *in = &st->in;
-    const size_t n = (size_t)st->n;
-
-    in->diagnose = 1;
-    status = gvi__momentum(st, t, q, v);
-    in->diagnose = 0;
-    if (status != GVI_OK) return status;
-    gvi_real *start = in->result + n;              // v may be st->q or st->p, which change first
-    gvi__copy(n, v, start);
-    gvi__copy(n, in->point + 5*n, in->step.p);
-    gvi__copy(n, q, in->step.q);
-    return gvi__begin_at(st, t, start);
-}
-
-GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_real *q,
-                                      const gvi_real *p)
-{
-    gvi_status status = gvi__check_start(st, t, q, p);
-    if (status != GVI_OK) return status;
-    struct gvi__private *in = &st->in;
-    const size_t n = (size_t)st->n;
-    gvi_real *v = in->result;
-    gvi__copy(n, p, in->step.p);                   // p may be in->step.q
-    gvi__copy(n, q, in->step.q);
-    // a velocity to start the first iteration from; where there is none, the step says so
-    gvi__zero(n, v);
-    status = gvi__velocity(st, t, in->step.q, in->step.p, v);
-    if (status == GVI_E_SINGULAR || status == GVI_E_CONVERGENCE) gvi__zero(n, v);
-    else if (status != GVI_OK) return status;
-    return gvi__begin_at(st, t, v);
-}
-
-GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_real h,
-                                            const gvi_real *q0, const gvi_real *q1)
-{
-    static const gvi_discrete out = { NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL };
-    gvi_status status = gvi__check_start(st, t, q0, q1);
-    // p0 is in step.q then
-    if (status == GVI_OK) status = gvi_discrete_lagrangian(st, t, h, q0, q1, &out);
-    if (status != GVI_OK) return status;
-    return gvi_start_momentum(st, t, q0, st->in.step.q);
-}
-
-/* The iteration q' = q + e, e = M^-1 G'z with g + G(e_new - e) = 0: (G M^-1 G') z = G e - g at the
-   last q'.  So e is normal to the constraints where it ends, and e'M e is z'(G e - g).  What moves
-   along the constraints is damped, by `share`, where changes grow; g is taken to 0 in any case. */
-GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_real *v,
-                               gvi_real *moved)
-{
-    gvi_status status = gvi__check_start(st, t, q, v);
-    if (status != GVI_OK) return status;
-    struct gvi__private *in = &st->in;
-    const int n = st->n, m = in->con.m;
-    gvi_real *e = in->step.q, *f = in->step.p, *next = in->result, *d = next + n, *u = d + n,
-             *push = in->point, *z = in->con.rho, *r = z + m, *back = r + m,
-             *drops = in->con.drops + m, far[2] = { 0, 0 }, change = GVI__MAX, before, share = 1;
-    if (!moved) moved = far;
-    moved[0] = moved[1] = 0;
-    if (!gvi__constrained(st)) return gvi__report_status(st, GVI_OK);
-    gvi__zero((size_t)n, e);
-    gvi__zero((size_t)n, f);
-    gvi__copy((size_t)n, q, next);
-    gvi__copy((size_t)n, v, u);
-    gvi__forget_columns(st);
-    in->diagnose = 1;
-    for (int k = 0; ; ++k) {
-        status = gvi__constraints_at(st, t, next, NULL, u, drops);
-        if (k > 1 && !(change < before*(gvi_real)0.9) && status == GVI_OK) {
-            if (gvi__fulfilled(st, t, next, NULL, u) == GVI_OK) break;
-            status = k > 100 ? GVI_E_CONVERGENCE
-                             : gvi__constraints_at(st, t, next, NULL, u, drops);
-        }
-        if (status != GVI_OK) break;
-        for (int a = 0; a < m; ++a) {
-            back[a] = -in->con.g[a];
-            z[a] = r[a] = gvi__row_dot(st, in->con.G1, a, e) - in->con.g[a];
-        }
-        gvi__solve_constraints(st, in->con.A1, 1, 1, z, 1);
-        gvi__solve_constraints(st, in->con.A1, 1, 1, back, 1);
-        far[0] = gvi__dot(m, r, z);
-        for (int a = 0; a < m; ++a) z[a] = share*z[a] + (1 - share)*back[a];
-        gvi__zero((size_t)n, push);
-        gvi__add_force(st, z, push);
-        gvi__copy((size_t)n, push, d);
-        gvi__over_inertia(st, d, 1, 1);
-        before = change;
-        change = 0;
-        for (int i = 0; i < n; ++i) {
-            change += (push[i] - share*f[i])*(d[i] - share*e[i]);
-            f[i] = push[i] + (1 - share)*f[i];
-            e[i] = d[i] + (1 - share)*e[i];
-            next[i] = q[i] + e[i];
-        }
-        change = GVI_SQRT(GVI_ABS(change));
-        if (change > before && share > (gvi_real)0.02) share /= 2;
-    }
-    in->diagnose = 0;
-    const int passes = 2*(status == GVI_OK);
-    for (int pass = 0; pass < passes; ++pass) {
-        for (int a = 0; a < m; ++a)
-            z[a] = r[a] = -(in->con.g[m + a] + gvi__row_dot(st, in->con.G1, a, u));
-        gvi__solve_constraints(st, in->con.A1, 1, 1, z, 1);
-        gvi__zero((size_t)n, d);
-        gvi__add_force(st, z, d);
-        gvi__over_inertia(st, d, 1, 1);
-        gvi__add_scaled(n, 1, d, u, u);
-        if (pass == 0) far[1] = gvi__dot(m, r, z);
-    }
-    gvi__forget_columns(st);
-    if (status != GVI_OK) return st->status = status;
-    gvi__copy((size_t)n, next, q);
-    gvi__copy((size_t)n, u, v);
-    for (int k = 0; k < 2; ++k) moved[k] = GVI_SQRT(GVI_ABS(far[k]));
-    return gvi__report_status(st, GVI_OK);
-}
-
-GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on)
-{
-    const gvi_status ready = gvi__ready(st, st && st->in.memory);
-    if (ready != GVI_OK) return ready;
-    struct gvi__private *in = &st->in;
-    if (index < 0 || index >= in->desc.effect_count)
-        return gvi__refuse_call(st, "there is no such effect");
-    const unsigned bit = 1u << index, was = in->off;
-    in->off = was | bit;
-    if (on) in->off = was & ~bit;
-    // another energy, also at the start
-    if (gvi__clock_is_on(st) && in->started && in->off != was) {
-        gvi_real E, E0 = in->began.H, *v = in->result + st->n;
-        gvi__velocity_guess(st, v);
-        gvi_status status = gvi__clock_energy(st, st->t, st->q, st->p, v, &E);
-        if (status == GVI_OK && in->stepped)
-            status = gvi__hamiltonian(st, st->t0, in->began.q, in->began.p, v, &E0);
-        if (status != GVI_OK) {
-            in->off = was;
-            return gvi__done(st, status);
-        }
-        in->time.H = E;
-        in->time.H_low = 0;
-        in->began.H = E0;
-    }
-    if (GVI__CONSTRAINTS && (in->con.bits >> index & 1u)) {
-        gvi_status status = GVI_OK;
-        in->con.m = gvi__count_rows(in, gvi__constraints_on(st));
-        gvi__forget_columns(st);
-        if (in->started && (was & ~in->off)) status = gvi__project_start(st, st->t, st->q, st->p);
-        if (status != GVI_OK) {
-            in->off = was;
-            in->con.m = gvi__count_rows(in, gvi__constraints_on(st));
-            gvi__forget_columns(st);
-            return gvi__done(st, status);
-        }
-        in->con.kept = in->con.kept > 0;
-        in->sized.ratio = 0;
-    }
-    in->has_force = 0;
-    in->newton.h = 0;
-    in->watch.ratio = 1;                           // another scene may contract otherwise
-    return gvi__done(st, GVI_OK);
-}
-
-// pointers into the memory are those of st: the layout again, values rotated as they were saved
-GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const gvi_real *memory)
-{
-    const gvi_status ready = gvi__ready(st, st && st->in.memory);
-    if (ready != GVI_OK) return ready;
-    struct gvi__private *in = &st->in;
-    if (!saved || !memory || !saved->in.memory || saved->n != st->n || saved->s != st->s
-        || saved->r != st->r || saved->in.size != in->size || saved->in.facts != in->facts
-        || saved->in.clock != in->clock || saved->in.con.bits != in->con.bits
-        || saved->in.desc.effect_count != in->desc.effect_count
-        || saved->in.desc.mass.kind != in->desc.mass.kind)
-        return gvi__refuse_call(st, "saved or memory is NULL, not set up, or of another scene");
-    const gvi_desc desc = in->desc;
-    gvi_real *const own = in->memory;
-    gvi__kernel *const kernel = in->kernel;
-    const size_t skip = in->skip;
-    const uintptr_t base = (uintptr_t)saved->in.memory;
-    const uintptr_t F = (uintptr_t)saved->in.work.F - base, V = (uintptr_t)saved->in.work.V - base;
-    gvi__copy(in->size, memory + saved->in.skip, own);
-    *st = *saved;
-    in->desc = desc;
-    in->memory = own;
-    in->kernel = kernel;
-    in->skip = skip;
-    in->failed.status = GVI_OK;
-    gvi__hand_out(st, own);
-    for (int k = 0; k < 6; ++k) {                 // each goes round in 2 or 3
-        const int F_fits = (uintptr_t)in->work.F - (uintptr_t)own == F,
-                  V_fits = !in->work.V || (uintptr_t)in->work.V - (uintptr_t)own == V;
-        if (F_fits && V_fits) break;
-        gvi__rotate_values(st);
-    }
-    return gvi__report_status(st, GVI_OK);
-}
-
-/* --------------------------------------------------------------- QUERIES */
-
-GVI_DEF gvi_status gvi_velocity(gvi_stepper *st, gvi_real *v)
-{
-    gvi_status status = gvi__ready(st, st && st->in.started);
-    if (status != GVI_OK) return status;
-    if (!v) return gvi__refuse_call(st, "v is NULL");
-    gvi_real *V = st->in.result;
-    gvi__velocity_guess(st, V);
-    status = gvi__velocity(st, st->t, st->q, st->p, V);
-    if (status == GVI_OK) gvi__copy((size_t)st->n, V, v);
-    return gvi__done(st, status);
-}
-
-GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy)
-{
-    gvi_status status = gvi__ready(st, st && st->in.started);
-    if (status != GVI_OK) return status;
-    if (!energy) return gvi__refuse_call(st, "energy is NULL");
-    gvi_real E, *v = st->in.result + st->n;
-    gvi__velocity_guess(st, v);
-    status = gvi__hamiltonian(st, st->t, st->q, st->p, v, &E);
-    if (status == GVI_OK) *energy = E;
-    return gvi__done(st, status);
-}
-
-// the last step's curve and velocity, by the formulas of its points with the table row of tau
-static void gvi__curve_at(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v)
-{
-    const struct gvi__private *in = &st->in;
-    const int n = st->n, R = in->R;
-    const int by_forces = gvi__has(in, GVI__BY_FORCES) && st->formulation != GVI_NEWTON;
-    if (!gvi__has(in, GVI__ITERATES)) {               // a straight line
-        for (int i = 0; i < n; ++i) {
-            const gvi_real path = (in->state.q[i] - in->began.q[i]) + in->state.q_low[i];
-            if (tau < (gvi_real)0.5) q[i] = in->began.q[i] + tau*path;
-            else q[i] = in->state.q[i] - (1 - tau)*path;
-            v[i] = path/st->h;
-        }
-        return;
-    }
-    gvi_real *a = in->row, *b = a + R;               // at tau: phi, Phi over Gamma
-    gvi__modes(st, tau, a, b);
-    gvi__zero((size_t)n, q);
-    gvi__zero((size_t)n, v);
-    const gvi_real *modes = in->table.phi, *weight = in->table.b, *rows = in->last.V;
-    int held = 0;                                   // sources of constraints, behind the points
-    if (by_forces) {
-        modes = in->table.Phi;
-        weight = in->sized.hb;
-        rows = in->last.F;
-        if (GVI__CONSTRAINTS && in->con.kept) held = st->s;
-    }
-    for (int j = 0; j < st->r + held; ++j) {
-        const gvi_real *Phi = modes + j, *source = rows + j;
-        gvi_real S = 0, T = 0, w = 0;
-        int stride = R;
-        if (j < st->r) w = weight[j];
-        else {
-            const int e = j - st->r;
-            Phi = in->con.Phi + e - 1;
-            source = in->con.last + e;
-            stride = in->con.C;
-            w = st->h*in->con.w[e];
-        }
-        if (j != st->r)                             // Phi(d_0) = 0
-            for (int k = 0; k < st->s; ++k) {
-                S += b[k]*Phi[k*R];
-                T += a[k]*Phi[k*R];
-            }
-        if (by_forces) {
-            S = tau - S;
-            T = 1 - T;
-        }
-        for (int i = 0; i < n; ++i) {
-            const gvi_real L = w*source[i*stride];
-            q[i] += S*L;
-            v[i] += T*L;
-        }
-    }
-    if (by_forces) {
-        gvi_real *v0 = in->free.v;
-        gvi__over_mass(st, q, 1, 1);
-        gvi__over_mass(st, v, 1, 1);
-        gvi__copy((size_t)n, in->began.p, v0);
-        gvi__over_mass(st, v0, 1, 1);
-        for (int i = 0; i < n; ++i) {
-            q[i] += tau*v0[i];
-            v[i] += v0[i];
-        }
-    }
-    for (int i = 0; i < n; ++i) q[i] = in->began.q[i] + st->h*q[i];
-}
-
-// what was requested
-static void gvi__hand_over(int n, const gvi_real *from, gvi_real *to)
-{
-    if (to) gvi__copy((size_t)n, from, to);
-}
-
-// is there a last step to look into?
-static gvi_status gvi__stepped(gvi_stepper *st)
-{
-    const gvi_status status = gvi__ready(st, st && st->in.started);
-    if (status != GVI_OK) return status;
-    if (!st->in.stepped) return gvi__done(st, GVI_E_STATE);
-    return GVI_OK;
-}
-
-GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v)
-{
-    gvi_status status = gvi__stepped(st);
-    if (status != GVI_OK) return status;
-    if (!(tau >= 0 && tau <= 1)) return gvi__refuse_call(st, "tau is not in [0,1]");
-    if (gvi__rule_is(&st->in, GVI_KICKS)) return gvi__done(st, GVI_E_FORMULATION);
-    gvi_real *Q = st->in.result, *V = Q + st->n, rate;
-    gvi__weights_for(st, st->h);
-    gvi__curve_at(st, tau, Q, V);
-    if (GVI__CLOCK && st->in.stepped == 2) {       // v = q'/g
-        st->in.diagnose = 1;
-        status = gvi__clock_at(st, st->t, Q, &rate, V + st->n);
-        st->in.diagnose = 0;
-        if (status != GVI_OK) return gvi__done(st, status);
-        for (int i = 0; i < st->n; ++i) V[i] /= rate;
-    }
-    gvi__hand_over(st->n, Q, q);
-    gvi__hand_over(st->n, V, v);
-    return gvi__done(st, GVI_OK);
-}
-
-/* Increments of a partial step for a time dt from one end of the last step.  With a clock its h is
-   found by Newton's method, the derivative being g, kept inside the step by bisection.       */
-static gvi_status gvi__partial_step(gvi_stepper *st, const gvi__origin *from, int query,
-                                    gvi_real dt)
-{
-    if (!gvi__clock_is_on(st)) return gvi__solve(st, from, dt, query);
-    struct gvi__private *in = &st->in;
-    gvi_real h = st->h*(dt/(st->t - st->t0)), rate, *q = in->result;
-    gvi_real near_end = 0, far_end = st->h;
-    if (query == GVI__FROM_END) far_end = -st->h;
-    for (int k = 0; k < 60; ++k) {
-        gvi_status status = gvi__solve(st, from, h, query);
-        if (status != GVI_OK || GVI_ABS(in->dt - dt) <= 2*GVI__EPS*GVI_ABS(dt)) return status;
-        if (GVI_ABS(in->dt) > GVI_ABS(dt)) far_end = h;
-        else near_end = h;
-        for (int i = 0; i < st->n; ++i) q[i] = from->q[i] + in->step.q[i];
-        status = gvi__clock_at(st, from->t, q, &rate, q + st->n);
-        if (status != GVI_OK) return status;
-        gvi_real next = h - (in->dt - dt)/rate;
-        if (!((next - near_end)*(far_end - next) > 0)) next = near_end + (far_end - near_end)/2;
-        if (!gvi__nonzero(next) || GVI_ABS(next - h) <= GVI__EPS*GVI_ABS(st->h)) return GVI_OK;
-        h = next;
-    }
-    return gvi__report_status(st, GVI_E_CONVERGENCE);
-}
-
-GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_real *v, gvi_real *p)
-{
-    gvi_status status = gvi__stepped(st);
-    if (status != GVI_OK) return status;
-    struct gvi__private *in = &st->in;
-    const size_t n = (size_t)st->n;
-    if (!gvi__finite(t)) return gvi__refuse_call(st, "t is not finite");
-    gvi_real ahead = t - st->t0, back = t - st->t;        // one of each sign, or 0
-    const gvi_real edge = 2*GVI__EPS*gvi__larger(GVI_ABS(st->t), GVI_ABS(st->t0));
-    if ((ahead > 0) == (back > 0) && gvi__nonzero(ahead) && gvi__nonzero(back)) {
-        // outside by rounding, as st.t - st.h may be
-        if (GVI_ABS(ahead) <= edge) t = st->t0;
-        else if (GVI_ABS(back) <= edge) t = st->t;
-        else return gvi__done(st, GVI_E_STATE);
-        ahead = t - st->t0;
-        back = t - st->t;
-    }
-    if (gvi__clock_is_on(st) && in->stepped != 2) return gvi__done(st, GVI_E_STATE);
-
-    // partial step of length h from the nearer end, or none for a rounding of the whole
-    const gvi__origin end = { st->t, st->t_low, st->q, st->q_low, st->p, st->p_low,
-                              in->time.H + in->time.H_low };
-    gvi__origin from = { st->t0, 0, in->began.q, in->zeros, in->began.p, in->zeros, in->began.H };
-    gvi_real h = ahead;
-    int query = GVI__FROM_START;
-    if (GVI_ABS(back) <= GVI_ABS(ahead)) {
-        from = end;
-        query = GVI__FROM_END;
-        h = 0;
-        if (gvi__nonzero(back)) h = back - st->t_low;
-    }
-    const gvi_formulation was = st->formulation;
-    if (GVI_ABS(h) > GVI__EPS*(GVI_ABS(ahead) + GVI_ABS(back)))
-        status = gvi__partial_step(st, &from, query, h);
-    else {
-        gvi__copy(n, from.q_low, in->step.q);
-        gvi__copy(n, from.p_low, in->step.p);
-        gvi__zero(n, in->step.q_low);
-        gvi__zero(n, in->step.p_low);
-    }
-    st->formulation = was;
-    if (status != GVI_OK) return gvi__done(st, status);
-    gvi_real *Q = in->result, *P = Q + n, *V = P + n;
-    for (size_t i = 0; i < n; ++i) {
-        Q[i] = from.q[i] + (in->step.q[i] + in->step.q_low[i]);
-        P[i] = from.p[i] + (in->step.p[i] + in->step.p_low[i]);
-    }
-    gvi__velocity_guess(st, V);
-    if (v) status = gvi__velocity(st, t, Q, P, V);
-    if (status != GVI_OK) return gvi__done(st, status);
-    gvi__hand_over(st->n, Q, q);
-    gvi__hand_over(st->n, V, v);
-    gvi__hand_over(st->n, P, p);
-    return gvi__done(st, GVI_OK);
-}
-
-// the action along the last step's curve, `from` NULL; or between boundary values, at stage values
-GVI__COLD gvi_status gvi__curve_action(gvi_stepper *st, const gvi__origin *from, gvi_real h,
-                                    const gvi_real *q1, gvi_real *action)
-{
-    struct gvi__private *in = &st->in;
-    const int n = st->n, R = in->R;
-    gvi_real V, L, T, *q = in->result, *v = q + n;
-    *action = 0;
-    for (int j = 0; j < st->r; ++j) {
-        gvi_real t = st->t0 + in->table.c[j]*st->h;
-        if (from) {
-            t = in->t[j];
-            for (int i = 0; i < n; ++i) {
-                q[i] = in->work.Q[i*R + j];
-                if (in->work.V) v[i] = in->work.V[i*R + j];
-                else v[i] = (q1[i] - from->q[i])/h;           // a chord
-            }
-        } else gvi__curve_at(st, in->table.c[j], q, v);
-        const gvi_status status = gvi__value_sums(st, t, q, v, &V, &L, &T);
-        if (status != GVI_OK) return status;
-        *action += in->sized.hb[j]*(T - V + L);
-    }
-    return GVI_OK;
-}
-
-GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action)
-{
-    gvi_status status = gvi__stepped(st);
-    if (status != GVI_OK) return status;
-    if (!action) return gvi__refuse_call(st, "action is NULL");
-    if (gvi__rule_is(&st->in, GVI_KICKS) || st->in.stepped == 2)
-        return gvi__done(st, GVI_E_FORMULATION);
-    gvi_real sum;
-    gvi__weights_for(st, st->h);
-    status = gvi__curve_action(st, NULL, 0, NULL, &sum);
-    if (status == GVI_OK) *action = sum;
-    return gvi__done(st, status);
-}
-
-/* ------------------------------------------------------- BOUNDARY VALUES */
+   The discrete Lagrangian L_d(q0, q1): the curve between two configurations, rows k >= 1 of (1) by
+   Newton's method, with its derivatives, discrete forces and conjugate points.                */
 
 /* The curve between the boundary values by degree 1: a chord, point by point, nothing to solve.
    F at its points goes to work.F, and the sum of b_i P_i to p.                                */
@@ -7035,7 +7594,7 @@ GVI__COLD gvi_status gvi__chord(gvi_stepper *st, const gvi__origin *from, gvi_re
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, R = in->R;
-    gvi_real *q = in->result, *v = q + n;
+    gvi_real *q = in->answer, *v = q + n;
     gvi__zero((size_t)n, p);
     for (int j = 0; j < R; ++j) {
         for (int i = 0; i < n; ++i) {
@@ -7046,9 +7605,9 @@ GVI__COLD gvi_status gvi__chord(gvi_stepper *st, const gvi__origin *from, gvi_re
         if (j >= st->r) continue;
         gvi_points at = gvi__one_point(st, in->t + j, q);
         at.v = v;
-        in->diagnose = 1;
+        GVI__LOOK(st, 1);
         const gvi_status status = gvi__evaluate(st, &at, 0, 1);
-        in->diagnose = 0;
+        GVI__LOOK(st, 0);
         if (status != GVI_OK) return status;
         for (int i = 0; i < n; ++i) {
             in->work.F[i*R + j] = at.f[i];
@@ -7075,7 +7634,7 @@ GVI__COLD gvi_status gvi__bend(gvi_stepper *st, const gvi__origin *from, gvi_rea
         in->sized.ratio = 0;
         in->sized.steps = 1;
         gvi__fit(st, st->r, in->table.c, in->table.c, 0, grow, 1, in->sized.E);
-        gvi__newton_modes(st, in->work.V, in->work.P);
+        gvi__newton_modes(st, in->work.V, in->newton.P);
     }
     if (J->k0)
         for (int k = n; k < st->s*n; ++k) y[k] *= grow;
@@ -7181,7 +7740,7 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
         }
         if (*status == GVI_OK && (!linear || bent < GVI__LINEAR)) return linear;
         if (linear) bowed = *status;
-        if ((*status == GVI_E_NON_FINITE && in->diagnose) || left <= 0) break;
+        if ((*status == GVI_E_NON_FINITE && GVI__LOOKS(st)) || left <= 0) break;
     }
     // there is nothing wrong with the effects, but with the chord
     if (*status == GVI_E_NON_FINITE && bowed != GVI_E_NON_FINITE) *status = GVI_E_CONJUGATE;
@@ -7260,9 +7819,9 @@ GVI__COLD gvi_status gvi__interior(gvi_stepper *st, const gvi__origin *from, gvi
     int linear = 0;
     gvi_status status = GVI_OK;
     for (int look = 0; look < 2; ++look) {        // once more to see why, as in gvi__solve
-        in->diagnose = look;
+        GVI__LOOK(st, look);
         linear = gvi__follow(st, from, h, q1, out->guess, out->negative != NULL, J, &status);
-        in->diagnose = 0;
+        GVI__LOOK(st, 0);
         if (status != GVI_E_NON_FINITE) break;
     }
     if (status == GVI_E_NON_FINITE && st->fault.effect == GVI_FAULT_NONE)      // h, q1 - q0 or M
@@ -7277,9 +7836,10 @@ GVI__COLD gvi_status gvi__interior(gvi_stepper *st, const gvi__origin *from, gvi
     const gvi_status second = gvi__jacobian(st, J);
     if (second != GVI_OK) return second;
     gvi_real error = GVI__SOLVED*GVI_SQRT(GVI__EPS);       // that of differences
-    if (gvi__mass_is_constant(in) && !gvi__with_hessian(in, 0)) error = GVI__SOLVED*GVI__EPS;
+    if (in->desc.mass.kind <= GVI_MASS_DENSE && !gvi__with_hessian(in, 0))
+        error = GVI__SOLVED*GVI__EPS;
     if (gvi_lu_rcond(size, J->square, J->pivot, in->newton.moved) < error) status = GVI_E_CONJUGATE;
-    for (int i = 0; i < n; ++i) p[i] = gvi__dot(st->r, in->table.b, in->work.P + i*in->R);
+    for (int i = 0; i < n; ++i) p[i] = gvi__dot(st->r, in->table.b, in->newton.P + i*in->R);
     return status;
 }
 
@@ -7325,6 +7885,9 @@ GVI__COLD gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__matrix *J,
     return GVI_OK;
 }
 
+// constraints and clocks have no discrete Lagrangian here
+static gvi_status gvi__place_no_boundary(gvi_stepper *st);
+
 GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real h,
                                            const gvi_real *q0, const gvi_real *q1,
                                            const gvi_discrete *out)
@@ -7340,10 +7903,10 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
         return gvi__refuse_call(st, "t, q0, q1 or the guess is not finite");
     if (!gvi__finite(h) || !gvi__nonzero(h))
         return gvi__refuse_call(st, "h is 0, NaN or infinite");
-    if (GVI__CONSTRAINTS && in->con.bits) return gvi__done(st, gvi__refuse_constraints(st));
-    if ((s > 1 && !gvi__has(in, GVI__HAS_NEWTON)) || gvi__rule_is(in, GVI_KICKS) || in->clock >= 0)
+    if (in->apart) return gvi__done(st, gvi__place_no_boundary(st));
+    if ((s > 1 && !in->newton.covers) || in->desc.rule.kind == GVI_KICKS)
         return gvi__done(st, GVI_E_FORMULATION);
-    gvi__origin from = { t, 0, q0, in->zeros, in->zeros, in->zeros, 0 };
+    gvi__origin from = { t, 0, q0, in->zeros, in->zeros, in->zeros };
     gvi__matrix J = { NULL, NULL, NULL, 1, 0, 0, NULL };
     if (out->guess && s > 1) {
         status = gvi__momentum(st, t, q0, out->guess);
@@ -7356,10 +7919,9 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
         J.ends = J.square + size*size;
         J.pivot = in->newton.pivot + sn + 1;
     }
-    gvi__free_motion(st, &from, h);
-    gvi__times(st->r, t, 0, h, in->table.c, in->t);     // explicit steps need none
+    gvi__newton_points(st, &from, h);
 
-    gvi_real *p0 = in->step.q, *p1 = in->step.p, *minus = in->result, *plus = minus + n, action = 0;
+    gvi_real *p0 = in->step.q, *p1 = in->step.p, *minus = in->answer, *plus = minus + n, action = 0;
     const gvi_real *F = in->work.F, *hb = in->sized.hb;
     int negative = 0;
     status = gvi__interior(st, &from, h, q1, out, &J, p0, &negative);
@@ -7389,8 +7951,193 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
     return gvi__done(st, GVI_OK);
 }
 
-/* ----------------------------------------------------------------- TEXTS */
+GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_real h,
+                                            const gvi_real *q0, const gvi_real *q1)
+{
+    static const gvi_discrete out = { NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL };
+    gvi_status status = gvi__check_start(st, t, q0, q1);
+    // p0 is in step.q then
+    if (status == GVI_OK) status = gvi_discrete_lagrangian(st, t, h, q0, q1, &out);
+    if (status != GVI_OK) return status;
+    return gvi_start_momentum(st, t, q0, st->in.step.q);
+}
+#endif /* GVI_NO_BOUNDARY */
 
+#ifndef GVI_NO_EXPLAIN
+/* ------------------------------------------------------------- DIAGNOSIS
+
+   Which effect was it?  A step that came to NaN or Inf is done once more, looking at what every
+   effect returns; what is wrong already at its start is told from what a shorter step may mend;
+   and a first start probes the callbacks.                                                     */
+
+/* All points of a step at one state, at rows [n][R] for f and, behind them, dldv; of kicks one.  */
+GVI__COLD gvi_points gvi__all_points_at(gvi_stepper *st, gvi_real t, const gvi_real *q,
+                                        const gvi_real *v)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n;
+    int R = in->R, count = st->r;
+    gvi_real *rows = in->work.F;
+    if (in->desc.rule.kind == GVI_KICKS) R = count = 1;
+    if (in->free.rows) rows = in->free.rows;
+    gvi_points at = gvi__points_at(st, count, R, in->t, in->work.Q, rows, rows + n*R);
+    at.v = in->work.V;
+    for (int k = 0; k < R; ++k) in->t[k] = t;
+    for (int i = 0; i < n*R; ++i) {
+        in->work.Q[i] = q[i/R];
+        if (in->work.V) in->work.V[i] = v[i/R];
+    }
+    return at;
+}
+
+// in the repetition of a step that came to NaN or Inf: each effect alone, which gave it?
+GVI__COLD gvi_status gvi__diagnose(gvi_stepper *st, gvi_points *at, unsigned skip,
+                                   gvi_real *const *values)
+{
+    const size_t length = (size_t)at->n*(size_t)at->stride;
+    for (int e = 0; e < st->in.desc.effect_count; ++e) {
+        gvi_real *value = values ? values[st->in.desc.effects[e].kind] : NULL;
+        if (skip >> e & 1u) continue;
+        gvi__zero(length, at->f);
+        if (at->dldv) gvi__zero(length, at->dldv);
+        if (value) gvi__zero((size_t)at->stride, value);
+        gvi_status status = gvi__effect(st, at, e, value);
+        // to look at it is no step's work
+        st->counters.effect[e] -= (unsigned long long)at->count;
+        if (status == GVI_OK) status = gvi__check_rows(st, at, at->f, e);
+        if (status == GVI_OK) status = gvi__check_rows(st, at, at->dldv, e);
+        if (status != GVI_OK) return status;
+        if (!value) continue;
+        const int k = gvi__first_non_finite(at->count, value);
+        if (k >= 0) return gvi__report(st, GVI_E_NON_FINITE, e, GVI_FAULT_NONE, k);
+    }
+    return gvi__report_status(st, GVI_E_NON_FINITE);
+}
+
+// every effect that is on, in place of gvi__effects, while it is looked
+static gvi_status gvi__explain_effects(gvi_stepper *st, gvi_points *at, unsigned skip,
+                                       gvi_real *const *value)
+{
+    // points that are not finite: the iteration has diverged, and no effect is to blame
+    if (gvi__check_rows(st, at, at->q, 0) != GVI_OK || gvi__check_rows(st, at, at->v, 0) != GVI_OK)
+        return gvi__report_status(st, GVI_E_CONVERGENCE);
+    const gvi_status status = gvi__each_effect(st, at, skip, value);
+    if (status != GVI_OK) return status;
+    int finite = gvi__check_rows(st, at, at->f, 0) == GVI_OK
+                 && gvi__check_rows(st, at, at->dldv, 0) == GVI_OK;
+    for (int kind = 0; value && kind <= GVI_LAGRANGIAN; ++kind)
+        finite &= !value[kind] || gvi__first_non_finite(at->count, value[kind]) < 0;
+    if (finite) return gvi__report_status(st, GVI_OK);
+    return gvi__diagnose(st, at, skip | st->in.off | st->in.apart, value);
+}
+
+/* Why did a step fail?  What is singular, NaN or infinite already where it starts is reported as
+   that: no h helps.  All else is the step's own, and a shorter one may do.                    */
+// what chapters know: 1 if `status` stands; *start: what is wrong where the step starts; M(q)
+static int gvi__place_explain(gvi_stepper *st, gvi_status status, gvi_real *v, gvi_status *start);
+static void gvi__place_probe(gvi_stepper *st, const gvi_points *at);
+
+GVI__COLD gvi_status gvi__explain_step(gvi_stepper *st, gvi_status status)
+{
+    struct gvi__private *in = &st->in;
+    const gvi_counters counters = st->counters;
+    const gvi_fault fault = st->fault;
+    gvi_real *v = in->answer;
+    gvi_status start = GVI_OK;
+    gvi__velocity_guess(st, v);
+    if (in->stages > 0 && !in->desc.mass.velocity)
+        start = gvi__velocity(st, st->t, st->q, st->p, v);
+    if (start == GVI_OK && gvi__place_explain(st, status, v, &start)) {
+        st->counters = counters;
+        return status;
+    }
+    if (start == GVI_OK) {
+        gvi_points at = gvi__all_points_at(st, st->t, st->q, v);
+        gvi__zero((size_t)(st->n*at.stride), at.f);
+        if (in->adds_p) gvi__zero((size_t)(st->n*at.stride), at.dldv);
+        else at.dldv = NULL;
+        GVI__LOOK(st, 1);
+        start = gvi__effects(st, &at, 0, NULL);
+        GVI__LOOK(st, 0);
+        if (start == GVI_E_NON_FINITE) {                 // of the state, if it is so at all points
+            const int row = st->fault.coordinate*at.stride;
+            for (int k = row; k < row + at.count; ++k)
+                if (gvi__finite(at.f[k]) && (!at.dldv || gvi__finite(at.dldv[k]))) start = GVI_OK;
+            st->fault.point = GVI_FAULT_NONE;
+        }
+    }
+    st->counters = counters;
+    if (start == GVI_E_SINGULAR || start == GVI_E_NON_FINITE) return start;
+    st->fault = fault;
+    if (status == GVI_E_SINGULAR) status = GVI_E_CONVERGENCE;
+    return st->status = status;
+}
+
+static gvi_status gvi__explain_failure(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                                       int query, gvi_status status)
+{
+    if (status == GVI_E_NON_FINITE && st->fault.effect == GVI_FAULT_NONE) {
+        int again = 0;
+        GVI__LOOK(st, 1);
+        do {
+            status = gvi__attempt(st, from, h, query);
+            if (gvi__parts(&st->in)) status = gvi__place_again(st, status, &again);
+        } while (again);
+        GVI__LOOK(st, 0);
+        if (status == GVI_OK || (status == GVI_E_NON_FINITE && st->fault.effect == GVI_FAULT_NONE))
+            status = gvi__report_status(st, GVI_E_CONVERGENCE);
+    }
+    if (query != GVI__STEP) return status;
+    if (status == GVI_E_CONVERGENCE || status == GVI_E_SINGULAR || status == GVI_E_NON_FINITE)
+        status = gvi__explain_step(st, status);
+    return status;
+}
+
+/* At a first start, finds callbacks that fill only their first point, or set f and dldv with =
+   instead of adding to them.  All points are a little past q, where a force 0 at the start is not.
+   From 0 an effect shows which points it fills; from the largest number, whether it adds.     */
+GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
+{
+    struct gvi__private *in = &st->in;
+    const gvi_counters counters = st->counters;          // a probe is no step's work
+    gvi_points at = gvi__all_points_at(st, t, q, v);
+    const int n = st->n, R = at.stride, count = at.count;
+    gvi_real *rows = at.f;
+    for (int i = 0; i < n*R; ++i)
+        if (i % R < count) in->work.Q[i] += GVI_SQRT(GVI__EPS)*v[i/R];
+    // effects may use what M(q) has computed: it comes first, as in a step
+    if (in->desc.mass.kind == GVI_MASS_POSITION) gvi__place_probe(st, &at);
+    const char *slip = NULL;
+    for (int e = 0; e < in->desc.effect_count; ++e) {
+        int all = n*R, first = 0, others = 0, huge = 0, set = 0;
+        if ((in->off | in->apart) >> e & 1u) continue;
+        if (in->desc.effects[e].kind == GVI_LAGRANGIAN) all = 2*n*R;
+        gvi__zero((size_t)all, rows);
+        if (gvi__effect(st, &at, e, NULL) != GVI_OK) continue;
+        for (int i = 0; i < all; ++i) {
+            const int k = i % R, filled = k < count && gvi__nonzero(rows[i]);
+            first |= filled && k == 0;
+            others |= filled && k > 0;
+            huge |= filled && GVI_ABS(rows[i]) > GVI__MAX/4;
+        }
+        if (first && !others && count > 1)
+            slip = "effect: fills its first point alone, not x->count of them";
+        for (int i = 0; i < all; ++i) rows[i] = GVI__MAX;
+        if (gvi__effect(st, &at, e, NULL) != GVI_OK) continue;
+        for (int i = 0; i < all; ++i) set |= i % R < count && GVI_ABS(rows[i]) < GVI__MAX/2;
+        if (set && !huge) slip = "effect: sets f or dldv with =, where it has to add with +=";
+        if (!slip) continue;
+        st->counters = counters;
+        return st->status = gvi__refuse(&st->fault, e, GVI_FAULT_NONE, slip);
+    }
+    st->counters = counters;
+    return gvi__report_status(st, GVI_OK);
+}
+#endif /* GVI_NO_EXPLAIN */
+
+/* ------------------------------------------------------------- SENTENCES */
+
+#ifndef GVI_NO_TEXTS
 GVI_DEF const char *gvi_status_text(gvi_status status)
 {
     switch (status) {
@@ -7422,9 +8169,9 @@ GVI_DEF const char *gvi_status_text(gvi_status status)
 GVI__COLD const char *gvi__why_no_formulation(const gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
-    const int kicks = gvi__rule_is(in, GVI_KICKS), clock = GVI__CLOCK && in->clock >= 0,
+    const int kicks = (in->desc.rule.kind == GVI_KICKS), clock = gvi__of_kind(in, GVI_CLOCK) != 0,
               ready = in->memory != 0;
-    if (GVI__CONSTRAINTS && in->con.bits)
+    if (gvi__of_kind(in, GVI_CONSTRAINT))
         return "constraints go with no clock, kicks or boundary values; with a formulation "
                "pinned or iterations given, what that covers (GVI_NEWTON: all)";
     if (ready && st->fault.effect >= 0)
@@ -7436,7 +8183,7 @@ GVI__COLD const char *gvi__why_no_formulation(const gvi_stepper *st)
     if (clock) return "a clock needs r = s, and a mass or mass.velocity";
     if (in->desc.formulation != GVI_AUTO) 
         return "the pinned formulation does not cover this scene, or a macro leaves it out";
-    return "what this scene needs is left out by a macro GVI_ONLY_... or GVI_NO_...";
+    return "what this scene needs is left out by a macro GVI_NO_...";
 }
 
 GVI_DEF const char *gvi_why(const gvi_stepper *st)
@@ -7464,8 +8211,6 @@ GVI_DEF const char *gvi_why(const gvi_stepper *st)
     return gvi_status_text(st->status);
 }
 
-GVI_DEF size_t gvi_stepper_size(void) { return sizeof(gvi_stepper); }
-
 GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st)
 {
     if (!st) return "no stepper";
@@ -7482,6 +8227,579 @@ GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st)
     case GVI_AUTO: default: return "not set up";
     }
 }
+#else
+GVI_DEF const char *gvi_status_text(gvi_status status) { return (void)status, ""; }
+GVI_DEF const char *gvi_why(const gvi_stepper *st) { return (void)st, ""; }
+GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st) { return (void)st, ""; }
+#endif /* GVI_NO_TEXTS */
+
+/* ----------------------------------------------------------- SWITCHBOARD
+
+   What happens at each place, in which order: the only part that knows more than one chapter.
+   GVI__CLOCK(what): done if the scene uses that chapter; GVI__CLOCK_ON, GVI__CONSTRAINTS_ON: if
+   the clock, a constraint, is on.                                                             */
+
+#define GVI__IF(chapter, ...) if (gvi__parts(&st->in) & GVI__IN_##chapter) { __VA_ARGS__; }
+#ifdef GVI_NO_RULES
+#define GVI__RULES(...)
+#else
+#define GVI__RULES(...) GVI__IF(RULES, __VA_ARGS__)
+#endif
+#ifdef GVI_NO_LAGRANGIAN
+#define GVI__LAGRANGIAN(...)
+#else
+#define GVI__LAGRANGIAN(...) GVI__IF(LAGRANGIAN, __VA_ARGS__)
+#endif
+#ifdef GVI_NO_MOMENTA
+#define GVI__MASS(...)
+#define GVI__MOMENTA(...)
+#else
+#define GVI__MASS(...) GVI__IF(MASS, __VA_ARGS__)
+#define GVI__MOMENTA(...) GVI__IF(MOMENTA, __VA_ARGS__)
+#endif
+#ifdef GVI_NO_CLOCK
+#define GVI__CLOCK(...)
+#define GVI__CLOCK_ON(...)
+#else
+#define GVI__CLOCK(...) GVI__IF(CLOCK, __VA_ARGS__)
+#define GVI__CLOCK_ON(...) if (gvi__clock_is_on(st)) { __VA_ARGS__; }
+#endif
+#ifdef GVI_NO_KICKS
+#define GVI__KICKS(...)
+#else
+#define GVI__KICKS(...) GVI__IF(KICKS, __VA_ARGS__)
+#endif
+#ifdef GVI_NO_NEWTON
+#define GVI__NEWTON(...)
+#else
+#define GVI__NEWTON(...) GVI__IF(NEWTON, __VA_ARGS__)
+#endif
+#ifdef GVI_NO_CONSTRAINTS
+#define GVI__CONSTRAINTS(...)
+#define GVI__CONSTRAINTS_ON(...)
+#else
+#define GVI__CONSTRAINTS(...) GVI__IF(CONSTRAINTS, __VA_ARGS__)
+#define GVI__CONSTRAINTS_ON(...) if (gvi__constrained(st)) { __VA_ARGS__; }
+#endif
+
+/* ---- set-up ---- */
+
+GVI__COLD int gvi__place_effect(struct gvi__private *in, int e, const char **wrong)
+{
+    const gvi_kind kind = in->desc.effects[e].kind;
+    (void)kind, (void)wrong;
+#ifndef GVI_NO_LAGRANGIAN
+    if (kind == GVI_LAGRANGIAN) {
+        in->parts |= GVI__IN_LAGRANGIAN;
+        return 1;
+    }
+#endif
+#ifndef GVI_NO_CLOCK
+    if (kind == GVI_CLOCK) {
+        *wrong = gvi__wrong_in_clock(in, e);
+        in->parts |= GVI__IN_CLOCK;
+        in->apart |= 1u << e;
+        in->time.effect = e;
+        return 1;
+    }
+#endif
+#ifndef GVI_NO_CONSTRAINTS
+    if (kind == GVI_CONSTRAINT) {
+        *wrong = gvi__wrong_in_constraint(in, e);
+        in->parts |= GVI__IN_CONSTRAINTS;
+        in->apart |= 1u << e;
+        in->con.bits |= 1u << e;
+        in->con.m += in->desc.effects[e].rows;
+        return 1;
+    }
+#endif
+    return 0;
+}
+
+GVI__COLD int gvi__place_mass(struct gvi__private *in, const char **wrong)
+{
+    (void)wrong;
+    in->parts |= GVI__IN_MASS;
+#ifndef GVI_NO_MOMENTA
+    *wrong = gvi__wrong_in_varying_mass(&in->desc.mass);
+#else
+    if (in->desc.mass.kind == GVI_MASS_POSITION || in->desc.mass.velocity) return 0;
+#endif
+#ifdef GVI_NO_LAGRANGIAN
+    if (in->desc.mass.kind == GVI_MASS_NONE) return 0;
+#else
+    if (in->desc.mass.kind == GVI_MASS_NONE && !in->adds_p)
+        *wrong = "mass: none, and no Lagrangian term";
+#endif
+    return 1;
+}
+
+GVI__COLD gvi_status gvi__place_rule(struct gvi__private *in, int *order, gvi_fault *fault)
+{
+    const gvi_rule *rule = &in->desc.rule;
+    gvi_status status = GVI_E_FORMULATION;
+    *order = 0;
+#ifndef GVI_NO_KICKS
+    if (rule->kind == GVI_KICKS) {
+        if (in->desc.degree != 1)
+            return gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE, "degree: kicks have 1");
+        status = gvi__check_kicks(rule);
+    }
+#endif
+#ifndef GVI_NO_RULES
+    if (rule->kind == GVI_OWN) status = gvi__check_own_rule(in, order);
+    if (status == GVI_OK && *order > 0 && *order < 2*in->desc.degree - 2)
+        in->parts |= GVI__IN_RULES;
+#endif
+    (void)rule, (void)fault;
+    return status == GVI_OK && !gvi__sums_to_1(rule) ? GVI_E_ORDER : status;
+}
+
+// what PART I cannot do, and which formulations are chapters
+GVI__COLD int gvi__place_covers(struct gvi__private *in, gvi_formulation f)
+{
+    const gvi_desc *d = &in->desc;
+    const int clock = gvi__of_kind(in, GVI_CLOCK) != 0,
+              holds = gvi__of_kind(in, GVI_CONSTRAINT) != 0,
+              kicks = d->rule.kind == GVI_KICKS,
+              constant = d->mass.kind <= GVI_MASS_DENSE && !clock && !(holds && in->adds_p);
+    if (holds && (clock || kicks)) return 0;
+    switch (f) {
+    case GVI_POSITIONS:  return GVI__ITERATION && constant && !kicks && !in->reads_v;
+    case GVI_VELOCITIES: return GVI__ITERATION && constant && !kicks;
+#ifndef GVI_NO_KICKS
+    case GVI_EXPLICIT:   return gvi__kicks_cover(in, constant);
+#endif
+#ifndef GVI_NO_MOMENTA
+    case GVI_MOMENTA:    return !kicks && gvi__momenta_cover(in, holds);
+#endif
+#ifndef GVI_NO_NEWTON
+    case GVI_NEWTON:     return !kicks && !clock;
+#endif
+    default: return 0;
+    }
+}
+
+GVI__COLD gvi_status gvi__place_chosen(struct gvi__private *in, int order, gvi_fault *fault)
+{
+    const gvi_desc *d = &in->desc;
+    const char *wrong = NULL;
+    int matrices = in->adds_p;
+    if (in->chosen == GVI_MOMENTA) in->parts |= GVI__IN_MOMENTA;
+    if (in->chosen == GVI_EXPLICIT) in->parts |= GVI__IN_KICKS;
+    if (in->chosen == GVI_EXPLICIT) in->stages = 0;
+#ifndef GVI_NO_NEWTON
+    if (in->chosen == GVI_NEWTON && d->iterations > 0) return GVI_E_FORMULATION;
+    in->turns = gvi__newton_follows(in, gvi__held_rows(in));
+    in->newton.covers = in->chosen == GVI_NEWTON || in->turns;
+    matrices |= in->newton.covers;
+    if (in->chosen == GVI_NEWTON) in->parts |= GVI__IN_NEWTON;
+#endif
+    if (matrices && d->n > 0x7FFF) wrong = "n is above 32,767, and matrices may be needed";
+#ifndef GVI_NO_CONSTRAINTS
+    if (in->con.m > 0x7FFFFFFF/(GVI__ROW(d->degree + 1)*d->n))                   // of G
+        wrong = "n, degree and rows of constraints are too large together";
+#endif
+    (void)order;
+    if (d->resolution > 0) {
+#ifdef GVI_NO_DIAL
+        return GVI_E_FORMULATION;
+#else
+        wrong = gvi__wrong_in_resolution(d, order);
+        in->desc.resolution = gvi__larger(d->resolution, GVI__EPS);
+#endif
+    }
+    return wrong ? gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE, wrong) : GVI_OK;
+}
+
+// constraints are there, on or off, and cannot be: the fault is the first of them
+GVI__COLD void gvi__place_unsolved(const struct gvi__private *in, gvi_fault *fault)
+{
+    for (int e = in->desc.effect_count - 1; e >= 0; --e) {
+        const gvi_fault found = { e, 0, GVI_FAULT_NONE, NULL };
+        if (in->desc.effects[e].kind == GVI_CONSTRAINT) *fault = found;
+    }
+}
+
+GVI__COLD void gvi__place_layout(struct gvi__private *in, gvi__arena *a)
+{
+    (void)in, (void)a;
+#ifndef GVI_NO_RULES
+    const size_t s = (size_t)in->desc.degree, full = (in->parts & GVI__IN_RULES) != 0;
+    in->rules.gamma = gvi__take(a, full, s*s + s + 1);
+#endif
+#ifndef GVI_NO_LAGRANGIAN
+    if (in->adds_p) gvi__lagrangian_layout(in, a);
+#endif
+#ifndef GVI_NO_MOMENTA
+    gvi__momenta_layout(in, a);
+#endif
+#ifndef GVI_NO_CLOCK
+    if (in->parts & GVI__IN_CLOCK) gvi__clock_layout(in, a);
+#endif
+#ifndef GVI_NO_KICKS
+    if (in->parts & GVI__IN_KICKS) gvi__kicks_layout(in, a);
+#endif
+#ifndef GVI_NO_CONSTRAINTS
+    if (in->con.bits) gvi__layout_constraints(in, a);
+#endif
+#ifndef GVI_NO_DIAL
+    const size_t R = (size_t)GVI__ROW(in->desc.rule.points);
+    in->dial.high = gvi__take(a, in->desc.resolution > 0 ? 4 : 0, R);
+#endif
+#ifndef GVI_NO_NEWTON
+    if (in->newton.covers) gvi__newton_layout(in, gvi__held_rows(in), a);        // J comes last
+#endif
+}
+
+GVI__COLD int gvi__place_nodes(gvi_stepper *st)
+{
+    const gvi_rule *rule = &st->in.desc.rule;
+    GVI__KICKS(gvi__kicks_nodes(st); return 1)
+    if (rule->kind != GVI_OWN) return 0;
+    gvi__copy((size_t)st->r, rule->nodes, st->in.table.c);
+    gvi__copy((size_t)st->r, rule->weights, st->in.table.b);
+    return 1;
+}
+
+GVI__COLD gvi_status gvi__place_modes(gvi_stepper *st)
+{
+#ifndef GVI_NO_RULES
+    if (st->in.desc.rule.kind == GVI_OWN) return gvi__make_gamma(st);
+#endif
+    return (void)st, GVI_OK;
+}
+
+GVI__COLD gvi_status gvi__place_tables(gvi_stepper *st)
+{
+    gvi_status status = GVI_OK;
+    GVI__LAGRANGIAN(gvi__lagrangian_tables(st))
+    GVI__MOMENTA(gvi__momenta_tables(st))
+    GVI__CONSTRAINTS(status = gvi__set_constraints(st))
+#ifndef GVI_NO_DIAL
+    if (st->in.dial.high) gvi__dial_tables(st);
+#endif
+    return (void)st, status;
+}
+
+/* ---- start ---- */
+
+GVI__COLD gvi_status gvi__place_start(gvi_stepper *st, gvi_real t, gvi_real *v)
+{
+    GVI__CLOCK(return gvi__clock_start(st, t, v))
+    GVI__CONSTRAINTS(return gvi__constraint_start(st, t, v))
+    return (void)st, (void)t, (void)v, GVI_OK;
+}
+
+GVI__COLD void gvi__place_started(gvi_stepper *st)
+{
+    (void)st;
+#ifndef GVI_NO_KICKS
+    st->in.kicks.has_force = 0;
+#endif
+#ifndef GVI_NO_NEWTON
+    st->in.newton.left = 0;
+    gvi__newton_forget(st);
+#endif
+#ifndef GVI_NO_DIAL
+    st->in.dial.reach = -GVI__MAX;
+#endif
+}
+
+GVI__COLD gvi_status gvi__place_switch(gvi_stepper *st, unsigned was)
+{
+    gvi_status status = GVI_OK;
+    (void)st;
+    GVI__CLOCK(if (st->in.started && st->in.off != was) status = gvi__clock_switch(st, was))
+    GVI__CONSTRAINTS(if (status == GVI_OK) status = gvi__constraint_switch(st, was))
+    if (status != GVI_OK) return status;
+#ifndef GVI_NO_KICKS
+    st->in.kicks.has_force = 0;
+#endif
+#ifndef GVI_NO_NEWTON
+    gvi__newton_forget(st);
+#endif
+    return (void)was, GVI_OK;
+}
+
+/* ---- mass ---- */
+
+static gvi_status gvi__place_velocity(gvi_stepper *st, gvi_real t, const gvi_real *q,
+                                      const gvi_real *p, gvi_real *v)
+{
+    gvi_points at = gvi__one_point(st, &t, q);
+    (void)at;
+    GVI__MASS(if (st->in.desc.mass.velocity) return gvi__momenta_velocity(st, &at, p, v))
+    GVI__LAGRANGIAN(return gvi__legendre_newton(st, &at, p, v))
+    GVI__MASS(return gvi__momenta_velocity(st, &at, p, v))
+    gvi__copy((size_t)st->n, p, v);
+    gvi__over_mass(st, v, 1, 1);
+    return GVI_OK;
+}
+
+static gvi_status gvi__place_kinetic(gvi_stepper *st, gvi_points *at)
+{
+    GVI__MASS(if (st->in.desc.mass.kind == GVI_MASS_POSITION) return gvi__momenta_kinetic(st, at))
+    return (void)st, (void)at, GVI_OK;
+}
+
+// M_ii, or p_i/v_i where the effects alone make the mass
+static gvi_real gvi__place_inertia(const gvi_stepper *st, int i)
+{
+    const struct gvi__private *in = &st->in;
+    const gvi_mass_kind kind = in->desc.mass.kind;
+    gvi_real m = 1;
+    if (kind <= GVI_MASS_DENSE) m = in->mass.matrix[kind == GVI_MASS_DENSE ? i*(st->n + 1) : i];
+    GVI__MASS(if (kind == GVI_MASS_POSITION) m = gvi__momenta_inertia(st, i))
+    if (kind == GVI_MASS_NONE) {
+        const gvi_real *P = NULL;
+        GVI__MOMENTA(P = in->momenta.P)
+#ifndef GVI_NO_NEWTON
+        if (st->formulation == GVI_NEWTON || !P) P = in->newton.P;
+#endif
+        if (P) m = P[i*in->R]/in->work.V[i*in->R];
+    }
+    return gvi__nonzero(m) && gvi__finite(m) ? GVI_ABS(m) : 1;
+}
+
+static int gvi__place_gamma(const gvi_stepper *st, gvi_real *y)
+{
+    GVI__RULES(
+        const gvi_real *gamma = st->in.rules.gamma;
+        gvi_lu_solve(st->s, gamma, gamma + st->s*st->s, y);
+        return 1)
+    return (void)st, (void)y, 0;
+}
+
+/* ---- solve ---- */
+
+static int gvi__place_solve(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query,
+                            gvi_status *status)
+{
+    (void)from, (void)h, (void)query, (void)status;
+    GVI__KICKS(*status = gvi__kicks_solve(st, from, h, query); return 1)
+    GVI__NEWTON(return gvi__newton_instead(st, from, h, query, status))
+    return (void)st, 0;
+}
+
+static gvi_status gvi__place_turn(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query,
+                                  gvi_status status)
+{
+#ifndef GVI_NO_NEWTON
+    return gvi__newton_turn(st, from, h, query, status);
+#else
+    return (void)st, (void)from, (void)h, (void)query, status;
+#endif
+}
+
+/* ---- the fixed point ---- */
+
+static void gvi__place_stages(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                              struct gvi__stage *stage)
+{
+    (void)st, (void)from, (void)h, (void)stage;
+    GVI__MOMENTA(gvi__momenta_stages(st, from, stage))
+    GVI__LAGRANGIAN(gvi__lagrangian_stages(st, stage))
+    GVI__CONSTRAINTS(gvi__constraint_stages(st, from, h, stage))
+}
+
+static void gvi__place_predictor(gvi_stepper *st, gvi_real alpha, gvi_real beta)
+{
+    (void)st, (void)alpha, (void)beta;
+    GVI__CONSTRAINTS_ON(
+        gvi__fit(st, st->s, st->in.con.d + 1, st->in.con.d, alpha, beta, 1, st->in.con.E))
+}
+
+static gvi_status gvi__place_predict(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                                     int extrapolate)
+{
+    gvi_real rate = 1;
+    (void)st, (void)from, (void)h, (void)rate, (void)extrapolate;
+    GVI__CLOCK_ON(
+        const gvi_status status = gvi__clock_predict(st, from, h, &rate);
+        if (status != GVI_OK) return status)
+    GVI__CONSTRAINTS_ON(gvi__predict_constraints(st, extrapolate))
+    GVI__LAGRANGIAN(gvi__lagrangian_predict(st, extrapolate))
+    GVI__MOMENTA(gvi__momenta_predict(st, extrapolate, rate))
+    return GVI_OK;
+}
+
+static void gvi__place_before_rows(gvi_stepper *st, const gvi__stage *stage)
+{
+    (void)st, (void)stage;
+    GVI__LAGRANGIAN(gvi__lagrangian_before(st))
+    GVI__CONSTRAINTS_ON(gvi__constraint_before(st, stage))
+}
+
+static gvi_real gvi__place_between(gvi_stepper *st)
+{
+    GVI__MOMENTA(return gvi__velocities_again(st))
+    gvi__count(&st->counters.velocities, st->r);
+    return 0;
+}
+
+static void gvi__place_behind_rows(gvi_stepper *st, const gvi__stage *stage, gvi_real sum)
+{
+    (void)st, (void)stage, (void)sum;
+    GVI__CONSTRAINTS_ON(gvi__constraint_behind(st, stage, sum))
+}
+
+static gvi_status gvi__place_evaluate(gvi_stepper *st, const gvi__origin *from, gvi_points *at)
+{
+    gvi_status status = GVI_OK;
+    (void)from;
+    GVI__MOMENTA(status = gvi__momenta_evaluate(st, at))
+    if (status != GVI_OK) return status;
+    GVI__LAGRANGIAN(
+        at->dldv = st->in.lagrangian.A;
+        gvi__clear(st->n, st->in.R, st->in.zeros[0], at->dldv))
+    GVI__CLOCK_ON(return gvi__clock_evaluate(st, from, at))
+    status = gvi__effects(st, at, 0, NULL);
+    GVI__CONSTRAINTS_ON(if (status == GVI_OK) status = gvi__constraint_values(st, from))
+    GVI__MASS(if (status == GVI_OK && st->in.momenta.mass) status = gvi__mass_gradient(st, at))
+    return status;
+}
+
+static void gvi__place_last(gvi_stepper *st, const gvi__origin *from, const gvi__stage *stage)
+{
+    (void)st, (void)from, (void)stage;
+    GVI__CONSTRAINTS_ON(gvi__constrain(st, stage, from->q))
+}
+
+static int gvi__place_judge(gvi_stepper *st, const struct gvi__progress *p, gvi_real D,
+                            int *patience)
+{
+    (void)st, (void)p, (void)D, (void)patience;
+    GVI__CONSTRAINTS_ON(
+        *patience = 0;                             // the rounding of g is in every D
+        return gvi__constraint_judge(st, p, D))
+    return GVI__GO_ON;
+}
+
+static gvi_real gvi__place_push(const gvi_stepper *st, gvi_real h, int i, gvi_real m)
+{
+    (void)st, (void)h, (void)i, (void)m;
+    GVI__CONSTRAINTS_ON(return gvi__constraint_push(st, h, i, m))
+    return 0;
+}
+
+/* ---- the end of a step ---- */
+
+static int gvi__place_increments(gvi_stepper *st, const gvi__origin *from)
+{
+    (void)st, (void)from;
+    GVI__CLOCK_ON(gvi__clock_increments(st))
+    GVI__CONSTRAINTS_ON(gvi__constraint_momenta(st))
+    GVI__MOMENTA(
+        gvi__sum_rows(st, st->in.work.V, from->q_low, st->in.step.q, st->in.step.q_low);
+        return 1)
+    return 0;
+}
+
+static gvi_real gvi__place_bow(const gvi_stepper *st, int i)
+{
+    const struct gvi__private *in = &st->in;
+    const int R = in->R;
+    GVI__CONSTRAINTS_ON(return gvi__constraint_bow(st, i))
+    gvi_real bow = gvi__bow(R, in->table.c, in->sized.hb, in->work.F + i*R);
+    GVI__LAGRANGIAN(bow -= gvi__lagrangian_bow(st, i))
+    return bow;
+}
+
+static gvi_status gvi__place_finish(gvi_stepper *st, const gvi__origin *from)
+{
+    (void)st, (void)from;
+    GVI__CONSTRAINTS_ON(return gvi__project(st, from, 0))
+    return GVI_OK;
+}
+
+static gvi_status gvi__place_again(gvi_stepper *st, gvi_status status, int *again)
+{
+    (void)st;
+    *again = 0;
+    GVI__CONSTRAINTS(return gvi__constraint_again(st, status, again))
+    return status;
+}
+
+static gvi_status gvi__place_accept(gvi_stepper *st)
+{
+#ifndef GVI_NO_DIAL
+    if (st->in.desc.resolution > 0) return gvi__dial_accept(st);
+#endif
+    return (void)st, GVI_OK;
+}
+
+static void gvi__place_commit(gvi_stepper *st, gvi_real h)
+{
+    (void)st, (void)h;
+    GVI__CLOCK(gvi__clock_commit(st))
+    GVI__CONSTRAINTS(gvi__commit_constraints(st, h))
+    GVI__KICKS(gvi__kicks_commit(st))
+    GVI__NEWTON(gvi__newton_commit(st))
+}
+
+GVI__COLD void gvi__place_failed(gvi_stepper *st)
+{
+#ifndef GVI_NO_NEWTON
+    gvi__newton_forget(st);
+#endif
+    (void)st;
+}
+
+static void gvi__place_rotate(gvi_stepper *st)
+{
+    (void)st;
+    GVI__LAGRANGIAN(
+        struct gvi__lagrangian *l = &st->in.lagrangian;
+        gvi__rotate(&l->older_A, &l->last_A, &l->A))
+}
+
+/* ---- queries ---- */
+
+static int gvi__place_line(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v)
+{
+    (void)st, (void)tau, (void)q, (void)v;
+    GVI__KICKS(gvi__kicks_line(st, tau, q, v); return 1)
+    return 0;
+}
+
+static void gvi__place_held(const gvi_stepper *st, gvi_real tau, const gvi_real *phi,
+                            const gvi_real *Phi, gvi_real *q, gvi_real *v)
+{
+    (void)st, (void)tau, (void)phi, (void)Phi, (void)q, (void)v;
+    GVI__CONSTRAINTS(if (st->in.stages == 1 && !st->in.has_velocity && st->in.con.kept)
+        gvi__constraint_held(st, tau, phi, Phi, q, v))
+}
+
+static gvi_status gvi__place_curve(gvi_stepper *st, const gvi_real *q, gvi_real *v)
+{
+    (void)st, (void)q, (void)v;
+    GVI__CLOCK(return gvi__clock_curve(st, q, v))
+    return GVI_OK;
+}
+
+#ifndef GVI_NO_BOUNDARY
+GVI__COLD gvi_status gvi__place_no_boundary(gvi_stepper *st)
+{
+    GVI__CONSTRAINTS(return gvi__refuse_constraints(st))
+    return (void)st, GVI_E_FORMULATION;
+}
+#endif
+
+#ifndef GVI_NO_EXPLAIN
+GVI__COLD int gvi__place_explain(gvi_stepper *st, gvi_status status, gvi_real *v, gvi_status *start)
+{
+    (void)st, (void)status, (void)v, (void)start;
+    GVI__CONSTRAINTS(return gvi__constraint_explain(st, status, v, start))
+    return 0;
+}
+
+GVI__COLD void gvi__place_probe(gvi_stepper *st, const gvi_points *at)
+{
+    (void)st, (void)at;
+    GVI__MASS((void)gvi__evaluate_mass(st, at, NULL, NULL))
+}
+#endif
 
 #endif /* GVI_IMPLEMENTATION */
 

@@ -12,7 +12,7 @@
    prints
 
      explicit, 480 steps: the threads evaluated 480 times
-     implicit, the same steps and order: 17 times as often
+     implicit, the same steps and order: 16 times as often
      after half a second both are within a millimetre: yes
      steps of half the length leave 0.25 of the error
      in 5 s the air takes 1.08 J; what is left is right to 1e-05 of that
