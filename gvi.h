@@ -497,8 +497,7 @@ typedef enum gvi_status {
                                 (fault.coordinate), or a constraint (fault.effect, its row in
                                 fault.coordinate) that depends on the others in a part of the
                                 step, or has G = 0                                  */
-    GVI_E_CONVERGENCE = -8,  /* no solution found: halve h; or a jacobian is not the derivative
-                                of its g (fault.effect, its row in fault.coordinate) */
+    GVI_E_CONVERGENCE = -8,  /* no solution found: halve h                          */
     GVI_E_CALLBACK    = -9,  /* a callback did not return 0 (fault.effect): halve h     */
     GVI_E_NON_FINITE  = -10, /* NaN or Inf came out of an effect (fault.effect); fault.point
                                 is GVI_FAULT_NONE: already where the step starts    */
@@ -774,8 +773,7 @@ typedef struct gvi_fault {             /* where the last failure came from      
     int coordinate;                    /* or GVI_FAULT_NONE                     */
     int point;                         /* quadrature point, or GVI_FAULT_NONE   */
     const char *argument;              /* GVI_E_ARGUMENT, GVI_E_CALLBACK of a GVI_POINTS that
-                                          lists too much, GVI_E_CONVERGENCE by a wrong
-                                          jacobian: a sentence, else NULL       */
+                                          lists too much: a sentence, else NULL */
 } gvi_fault;
 
 /* Work of steps and queries since gvi_init.  The caller may set any of it to 0. */
@@ -894,12 +892,12 @@ struct gvi__holonomic {               /* m rows on; C = stride of D_0..D_s      
     gvi_real *G1, *A1;                /* [2][m][n], [m][m] at one point                        */
     gvi_real *column, *first;         /* [m][n+1], [m] where G is not 0: gvi__find_columns     */
     gvi_real *drops;                  /* [2][m] rows left out: gvi__factor_constraints         */
-    gvi_real *doubt;                  /* [1+3m] see gvi__check_jacobian                        */
     int       m, C, made;             /* made: iterations                                      */
     int       kept;                   /* last is there: for the curve; 2: to predict as well   */
     int       linear;                 /* g is linearised from the last D                       */
     int       settled, again;         /* steps since the start; see gvi__find_columns          */
     unsigned  bits;                   /* the effects                                           */
+    unsigned  checked;                /* those with derivatives that were seen to be right     */
 };
 #endif
 
@@ -912,7 +910,7 @@ struct gvi__dial {
 
 #ifndef GVI_NO_EXPLAIN
 struct gvi__explain {
-    int looks, probed;                /* at what every effect returns; callbacks at a start    */
+    int looks;                        /* at what every effect returns                          */
 };
 #endif
 
@@ -1041,6 +1039,10 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
 
 /* Start at time t from velocities, momenta, or two configurations: q0 at t and
    q1 at t + h (solves the boundary-value problem; conjugate points: below; no constraints).
+   The first start with a constraint, and gvi_project before it, compare its jacobian and rate with
+   differences of g next to (t, q).  An entry that is off by more than 1/512 of itself, and more
+   than rounding hides (in float most of 1 %), is refused: GVI_E_ARGUMENT, its row in
+   fault.coordinate.  Later steps do not look again.
    GVI_E_CONSTRAINT where q or v is off a constraint: q by more than 4096 roundings of g, v if the
    part that G v + dg/dt = 0 removes has more than (4096 eps)^2 of the kinetic energy.         */
 GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v);
@@ -1544,7 +1546,7 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 #define GVI__CLOSE ((gvi_real)0.03125)     // of a curve, from its prediction: on the same branch
 #define GVI__SHORT 64                      // h over this: free motion leads to the motion
 #define GVI__LOST 4                        // of a pivot's entry what is left: rank may be changing
-#define GVI__WRONG 512                     // of a move, what g misses times this: G is wrong
+#define GVI__WRONG 512                     // of an entry of G, what it is off times this: wrong
 
 // the dial, in rungs, four an octave
 #define GVI__BAND 4                        // room at which h stays; and the most that it grows
@@ -2146,7 +2148,7 @@ static gvi_real gvi__place_push(const gvi_stepper *st, gvi_real h, int i, gvi_re
 static int gvi__place_increments(gvi_stepper *st, const gvi__origin *from);
 static gvi_real gvi__place_bow(const gvi_stepper *st, int i);
 static gvi_status gvi__place_finish(gvi_stepper *st, const gvi__origin *from);
-static gvi_status gvi__place_again(gvi_stepper *st, gvi_status status, int *again);
+static int gvi__place_again(gvi_stepper *st);
 static gvi_status gvi__place_accept(gvi_stepper *st);
 static void gvi__place_commit(gvi_stepper *st, gvi_real h);
 static void gvi__place_failed(gvi_stepper *st);
@@ -3749,11 +3751,8 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_rea
 static gvi_status gvi__solve(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query)
 {
     gvi_status status;
-    int again = 0;
-    do {
-        status = gvi__attempt(st, from, h, query);
-        if (gvi__parts(&st->in)) status = gvi__place_again(st, status, &again);
-    } while (again);
+    do status = gvi__attempt(st, from, h, query);
+    while (gvi__parts(&st->in) && gvi__place_again(st));
     return status == GVI_OK ? GVI_OK : gvi__explain_failure(st, from, h, query, status);
 }
 
@@ -6224,52 +6223,6 @@ static void gvi__force_sizes(const gvi_stepper *st, const gvi_real *z, int S, gv
                 sum[i*S + e] += GVI_ABS(st->in.con.G[(a*n + i)*C + e]*z[e]);
 }
 
-/* Is row a of G the derivative of g?  A move dD of D changes g by (G + G') dD/2, from both ends,
-   to third order.  Any further change of g, `missed`, shows a wrong entry where it is above
-   1/512 of size = sum |G' dD| and above twice bend = |(G' - G) dD|, and keeps its share of size in
-   four iterations in a row that each move less; eight, but by Newton's method, where G is
-   constant and that share is above 1/8.  Rounding does not: it is at most EPS terms from known
-   terms, and about EPS size^2/bend from those that G q does not show.                         */
-static int gvi__beyond_rounding(gvi_real missed, gvi_real bend, gvi_real size)
-{
-    return bend > GVI__SOLVED*GVI__EPS*size && missed*bend > GVI__GRAIN*GVI__EPS*size*size;
-}
-
-GVI__CALLED gvi_status gvi__check_jacobian(gvi_stepper *st, int a, gvi_real missed,
-                                           gvi_real changed, gvi_real bend, gvi_real size,
-                                           gvi_real terms)
-{
-    gvi_real *wrong = st->in.con.doubt, *was = wrong + 1 + 3*a;   // a row or -1; share, size, times
-    const gvi_real share = missed/size;
-    if (size < was[1] && share < 2*was[0] && was[0] < 2*share) was[2] += 1;
-    else was[2] = 1;
-    // where g has not changed at all, it was its rounding that hid the move
-    if (!(missed > size/GVI__WRONG && missed > 2*bend && missed > GVI__GRAIN*GVI__EPS*terms)
-        || !(changed*GVI__SURE > size)
-        || (bend > GVI__SOLVED*GVI__EPS*size && !gvi__beyond_rounding(missed, bend, size)))
-        was[2] = 0;
-    was[0] = share;
-    was[1] = size;
-    // moves that are rounding alone may shrink a few times, to a share that is not small
-    const int constant = bend <= GVI__EPS*size && st->formulation != GVI_NEWTON;
-    if (!(was[2] > (constant && share*8 > 1 ? 7 : 3))) return GVI_OK;
-    if (wrong[0] < 0) wrong[0] = (gvi_real)a;
-    return gvi__report_status(st, GVI_E_CONVERGENCE);
-}
-
-// in steps 1, 2, 3, 5, 9 .. after a start, and after 8 iterations: so it costs nothing
-static int gvi__looks_at_jacobian(const gvi_stepper *st)
-{
-    const int steps = st->in.con.settled;
-    return st->in.con.made > 0 && (st->in.con.made > 8 || (steps & (steps - 1)) == 0);
-}
-
-// suspected now and, after the second iteration, in the last: what row a misses is no rounding
-static int gvi__doubted(const gvi_stepper *st, int a)
-{
-    return gvi__looks_at_jacobian(st) && st->in.con.doubt[3*a + 3] > (st->in.con.made > 2);
-}
-
 /* The constraints at D, padded with q0.  After a move along which G changed by less than EPS of it,
    or one of EPS^(3/4) (not in float, where a step across a bifurcation would end on the wrong
    branch), g is linearised from the last D: its rounding would change lambda for ever, and is not
@@ -6278,8 +6231,7 @@ static gvi_status gvi__evaluate_at_D(gvi_stepper *st, const gvi__origin *from)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m, s = st->s, R = in->R, C = in->con.C;
-    const int linear = in->con.linear, looks = gvi__looks_at_jacobian(st),
-              rows = looks || st->formulation != GVI_NEWTON ? m : 0;         // to compare
+    const int linear = in->con.linear, rows = st->formulation != GVI_NEWTON ? m : 0;
     const gvi_real *G = in->con.G + 1, *moved = in->con.W;
     gvi_real *along = in->con.rho + m*R;
     for (int i = 0; i < n; ++i)
@@ -6295,36 +6247,21 @@ static gvi_status gvi__evaluate_at_D(gvi_stepper *st, const gvi__origin *from)
             gvi__subtract_at(C, s, G + (a*n + i)*C, moved + i*C, along + a*C);
         for (int k = 0; k < s; ++k) in->con.rho[a*R + k] = in->con.g[a*C + k + 1] + along[a*C + k];
     }
-    gvi_status status =
+    const gvi_status status =
         gvi__evaluate_constraints(st, C, s + 1, in->con.t, in->con.at, in->con.G);
     if (!in->con.settled && gvi__find_columns(st, C, s + 1, in->con.G)) in->con.made = 0;
     in->con.linear = in->con.made > 0;
     for (int a = 0; a < rows; ++a) {
-        gvi_real missed = 0, changed = 0, bend = 0, all = 0, terms = 0;
-        for (int k = 0; k < s; ++k) {
+        for (int k = 0; k < s && in->con.linear; ++k) {
             gvi_real change = along[a*C + k], size = 0;
-            if (!in->con.linear && !looks) break;
             for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1)) {
                 const gvi_real z = G[(a*n + i)*C + k]*moved[i*C + k];
                 change += z;
                 size += GVI_ABS(z);
             }
             if (!(GVI_ABS(change) <= GVI__EPS*size)) in->con.linear = 0;
-            const gvi_real beyond = in->con.g[a*C + k + 1] - in->con.rho[a*R + k];
-            missed += GVI_ABS(beyond + change/2);
-            changed += GVI_ABS(beyond + along[a*C + k]);
-            bend += GVI_ABS(change);
-            all += size;
-            if (looks)
-                terms += gvi__terms(st, C, in->con.t[k + 1], in->con.at + k + 1, G + k,
-                                    in->con.g + m*C + k + 1, a);
         }
-        if (looks && status == GVI_OK)
-            status = gvi__check_jacobian(st, a, missed, changed, bend, all, terms);
-        if (linear && !gvi__doubted(st, a)) {
-            gvi__copy((size_t)s, in->con.rho + a*R, in->con.g + a*C + 1);
-            in->con.doubt[3*a + 3] = 0;
-        }
+        if (linear) gvi__copy((size_t)s, in->con.rho + a*R, in->con.g + a*C + 1);
     }
     in->con.made += 1;
     return status;
@@ -6505,6 +6442,12 @@ static gvi_real gvi__constraint_bow(const gvi_stepper *st, int i)
 }
 
 #ifndef GVI_NO_KICKS
+// what g missed, for G changed by `bend` along a move of terms of that size: is it no rounding?
+static int gvi__beyond_rounding(gvi_real missed, gvi_real bend, gvi_real size)
+{
+    return bend > GVI__SOLVED*GVI__EPS*size && missed*bend > GVI__GRAIN*GVI__EPS*size*size;
+}
+
 /* RATTLE: the drift from p to g(q1) = 0 by impulses G0' mu, from a simplified Newton iteration.  A
    row is rounding if it exceeds by a quarter what its last correction, and the change of G along
    it, should have left.  An error four times the least so far is divergence.                  */
@@ -6535,12 +6478,7 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
                 all += GVI_ABS(h*(G[a*n + i]*d[i]));
             }
             const gvi_real missed = GVI_ABS(g[a] - left[a] - change/2), bend = GVI_ABS(change);
-            if (gvi__looks_at_jacobian(st))
-                status = gvi__check_jacobian(st, a, missed, GVI_ABS(g[a] - left[a] + z[a]), bend,
-                                             all, terms);
-            if (status != GVI_OK) return status;
-            const int rounding = k > 0 && !gvi__doubted(st, a)
-                                 && !gvi__beyond_rounding(missed/64, bend, all)
+            const int rounding = k > 0 && !gvi__beyond_rounding(missed/64, bend, all)
                                  && GVI_ABS(g[a]) > (gvi_real)1.25*(GVI_ABS(left[a]) + bend);
             if (k == 0 || terms > unit[a]) unit[a] = terms;
             if (!rounding && GVI_ABS(g[a]) > size*GVI__EPS*unit[a])
@@ -6684,6 +6622,84 @@ GVI__COLD void gvi__forget_columns(gvi_stepper *st)
     in->con.settled = 0;
 }
 
+// the size of a coordinate, or of t; of the largest, or 1, where it is next to nothing
+static gvi_real gvi__size_of(gvi_real x, gvi_real largest)
+{
+    if (GVI_ABS(x)*GVI__SURE > largest) return GVI_ABS(x);
+    return largest > 0 ? largest : 1;
+}
+
+/* Are G and dg/dt the derivatives of g?  When a constraint is first started with, they are compared
+   with differences of g along each coordinate and along t, to both sides by d, d/8, d/64 ... until
+   all rows agree; next to the state, where an entry that is 0 there is not.  An entry is wrong
+   where, twice in a row, the slopes to both sides and their mean at the last d agree to 1/64, and
+   the entry misses them by four times that, the rounding of g's known terms, and 1/512: so kinks,
+   noise, waves shorter than d, and moves that the rounding of g hides prove nothing.          */
+GVI__COLD gvi_status gvi__check_derivatives(gvi_stepper *st, gvi_real t, const gvi_real *q)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n, m = in->con.m;
+    const gvi_counters counters = st->counters;          // no step's work
+    gvi_real *g = in->con.g, *G = in->con.G1, *at = in->con.W, *from = at + n, *was = in->con.rho,
+             *rate = was + m, *mean = rate + m, *ahead = in->con.y, largest = 0, from_t = t;
+    gvi_status status = GVI_OK;
+    for (int i = 0; i < n; ++i) largest = gvi__larger(GVI_ABS(q[i]), largest);
+    for (gvi_real part = 1/(gvi_real)64; ; part = 0) {           // at the state, if not next to it
+        from_t = t + part*gvi__size_of(t, 1);
+        for (int i = 0; i < n; ++i)
+            from[i] = q[i] + part*gvi__size_of(q[i], largest)*(1 + (gvi_real)i/(gvi_real)n);
+        status = gvi__evaluate_constraints(st, 1, 1, &from_t, from, G);
+        if (!(part > 0) || (status == GVI_OK && gvi__first_non_finite(m, g) < 0)) break;
+    }
+    (void)gvi__find_columns(st, 1, 1, G);
+    gvi__copy((size_t)m, g, was);
+    gvi__copy((size_t)m, g + m, rate);
+    gvi__copy((size_t)n, from, at);
+    for (int i = 0; i <= n && status == GVI_OK; ++i) {
+        const gvi_real x = i < n ? from[i] : from_t, *entries = i < n ? G + i : rate,
+                       least = GVI__SURE*GVI__EPS*GVI_ABS(x);
+        gvi_real now = from_t, *moved = i < n ? at + i : &now,
+                 d = GVI_SQRT(GVI_SQRT(GVI__EPS))*gvi__size_of(x, i < n ? largest : 1);
+        for (int k = 0, agree = 0, known = 0, suspect = -1; k < 40 && d > least && !agree;
+             ++k, d /= 8) {
+            int wrong = -1;
+            *moved = x + d;
+            status = gvi__evaluate_constraints(st, 1, 1, &now, at, G + m*n);
+            for (int a = 0; a < m; ++a) ahead[a] = (g[a] - was[a])/(*moved - x);
+            *moved = x - d;
+            if (status == GVI_OK) status = gvi__evaluate_constraints(st, 1, 1, &now, at, G + m*n);
+            agree = status == GVI_OK;
+            for (int a = 0; a < m && status == GVI_OK; ++a) {
+                const gvi_real entry = entries[i < n ? a*n : a], back = (g[a] - was[a])/(*moved - x),
+                    middle = ahead[a]/2 + back/2, miss = GVI_ABS(entry - middle),
+                    apart = GVI_ABS(ahead[a] - back) + GVI_ABS(middle - mean[a]),
+                    terms = gvi__terms(st, 1, from_t, from, G, rate, a) + GVI_ABS(was[a]),
+                    none = (GVI_ABS(entry)/2 + GVI_ABS(middle)/2)/GVI__WRONG
+                           + GVI__SOLVED*GVI__EPS*(terms/d);
+                if (!(miss <= none)) agree = 0;
+                if (known && wrong < 0 && 64*apart < GVI_ABS(middle) && miss > none + 4*apart)
+                    wrong = a;
+                mean[a] = middle;
+            }
+            if (wrong >= 0 && wrong == suspect) {
+                st->counters = counters;
+                gvi__report_row(st, GVI_E_ARGUMENT, wrong, GVI_FAULT_NONE);
+                st->fault.argument =
+                    i < n ? "constraint: a jacobian is not dg/dq, in fault.coordinate's row"
+                          : "constraint: a rate is not dg/dt, in fault.coordinate's row";
+                return GVI_E_ARGUMENT;
+            }
+            suspect = wrong;
+            known = status == GVI_OK;
+        }
+        *moved = x;
+        status = GVI_OK;
+    }
+    st->counters = counters;
+    gvi__forget_columns(st);
+    return gvi__report_status(st, GVI_OK);
+}
+
 // are q and p, which may be those of the state, on the constraints?  Then in step.q, step.p
 GVI__COLD gvi_status gvi__project_start(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                         const gvi_real *p)
@@ -6696,7 +6712,13 @@ GVI__COLD gvi_status gvi__project_start(gvi_stepper *st, gvi_real t, const gvi_r
     gvi__zero(n, in->step.q_low);
     gvi__zero(n, in->step.p_low);
     in->dt = 0;
-    return gvi__project(st, &from, 1);
+    if (gvi__constraints_on(st) & ~in->con.checked) {
+        const gvi_status status = gvi__check_derivatives(st, t, in->step.q);
+        if (status != GVI_OK) return status;
+    }
+    const gvi_status status = gvi__project(st, &from, 1);
+    if (status == GVI_OK) in->con.checked |= gvi__constraints_on(st);
+    return status;
 }
 
 // forces and lambda of the step, with those at its end, for the curve and the next prediction
@@ -6812,7 +6834,7 @@ GVI__COLD void gvi__layout_constraints(struct gvi__private *in, gvi__arena *a)
         { &con->w, on, s + 1 }, { &con->rho, m, R + C }, { &con->lu, i*(s + 1), s + 1 },
         { &con->y, on, m },
         { &con->G1, 2*m, n }, { &con->A1, m, m }, { &con->column, m, n + 1 },
-        { &con->first, on, m }, { &con->drops, 2*on, m }, { &con->doubt, on, 3*m + 1 }
+        { &con->first, on, m }, { &con->drops, 2*on, m }
     };
     con->C = (int)C;
     for (size_t k = 0; k < sizeof list/sizeof *list; ++k)
@@ -6823,7 +6845,6 @@ GVI__COLD gvi_status gvi__constraint_start(gvi_stepper *st, gvi_real t, gvi_real
 {
     struct gvi__private *in = &st->in;
     in->con.kept = 0;
-    in->con.doubt[0] = -1;
     if (!gvi__constrained(st)) return GVI_OK;
     gvi__forget_columns(st);
     const gvi_status status = gvi__project_start(st, t, in->step.q, in->step.p);
@@ -6851,21 +6872,6 @@ GVI__COLD gvi_status gvi__constraint_switch(gvi_stepper *st, unsigned was)
     in->con.kept = in->con.kept > 0;
     in->sized.ratio = 0;
     return GVI_OK;
-}
-
-// once more, with columns that were found, or with a jacobian that is wrong
-static gvi_status gvi__constraint_again(gvi_stepper *st, gvi_status status, int *again)
-{
-    struct gvi__holonomic *con = &st->in.con;
-    *again = con->again;
-    con->again = 0;
-    if (!(con->doubt[0] >= 0)) return status;
-    const int row = (int)con->doubt[0];
-    con->doubt[0] = -1;
-    *again = 0;
-    status = gvi__report_row(st, GVI_E_CONVERGENCE, row, GVI_FAULT_NONE);
-    st->fault.argument = "a jacobian is not the derivative of g, in fault.coordinate's row";
-    return status;
 }
 
 // a step failed: is a row wrong already where it starts, or left out there, and cannot be?
@@ -6975,6 +6981,8 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
     gvi__copy((size_t)n, q, next);
     gvi__copy((size_t)n, v, u);
     gvi__forget_columns(st);
+    if (gvi__constraints_on(st) & ~in->con.checked) status = gvi__check_derivatives(st, t, q);
+    if (status != GVI_OK) return status;
     GVI__LOOK(st, 1);
     for (int k = 0; ; ++k) {
         status = gvi__constraints_at(st, t, next, NULL, u, drops);
@@ -8077,12 +8085,9 @@ static gvi_status gvi__explain_failure(gvi_stepper *st, const gvi__origin *from,
                                        int query, gvi_status status)
 {
     if (status == GVI_E_NON_FINITE && st->fault.effect == GVI_FAULT_NONE) {
-        int again = 0;
         GVI__LOOK(st, 1);
-        do {
-            status = gvi__attempt(st, from, h, query);
-            if (gvi__parts(&st->in)) status = gvi__place_again(st, status, &again);
-        } while (again);
+        do status = gvi__attempt(st, from, h, query);
+        while (gvi__parts(&st->in) && gvi__place_again(st));
         GVI__LOOK(st, 0);
         if (status == GVI_OK || (status == GVI_E_NON_FINITE && st->fault.effect == GVI_FAULT_NONE))
             status = gvi__report_status(st, GVI_E_CONVERGENCE);
@@ -8713,12 +8718,14 @@ static gvi_status gvi__place_finish(gvi_stepper *st, const gvi__origin *from)
     return GVI_OK;
 }
 
-static gvi_status gvi__place_again(gvi_stepper *st, gvi_status status, int *again)
+static int gvi__place_again(gvi_stepper *st)
 {
     (void)st;
-    *again = 0;
-    GVI__CONSTRAINTS(return gvi__constraint_again(st, status, again))
-    return status;
+    GVI__CONSTRAINTS(
+        const int again = st->in.con.again;        // with columns that were found
+        st->in.con.again = 0;
+        return again)
+    return 0;
 }
 
 static gvi_status gvi__place_accept(gvi_stepper *st)

@@ -95,7 +95,7 @@ MUTANTS = [
     ("loops", "d[k] = drops[i] > 0 ? 0 : 1/rest;", "d[k] = 1/rest;"),
     ("loops constraints", "if (!gvi__finite(d[k]) || (depends && !(drops[i] > 0)))", "if (!gvi__finite(d[k]))"),
     ("constraints", "if (!(was[2] > (constant && share*8 > 1 ? 7 : 3))) return GVI_OK;", "return GVI_OK;"),
-    ("constraints", "missed > size/GVI__WRONG &&", "missed > size &&"),
+    ("constraints", "/2 + GVI_ABS(middle)/2)/GVI__WRONG", "/2 + GVI_ABS(middle)/2)"),
     ("constraints body", "if (full) gvi__over_inertia(st, W, S, count);", ""),
     ("constraints_newton", "for (int z = modes; z < size; ++z) in->newton.dy[z] *= J->unit[z - modes];", ""),
     ("constraints_newton", "if (diagonal > 0 && column*GVI_SQRT(GVI__EPS) > diagonal)", "if (0)"),
