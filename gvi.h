@@ -887,12 +887,15 @@ struct gvi__holonomic {               /* m rows on; C = stride of D_0..D_s      
     gvi_real *P;                      /* [n][R] momenta of a trial                             */
     gvi_real *force, *last;           /* [n+m][R] G' lambda, -lambda; [n+m][C] last step's     */
     gvi_real *rho;                    /* [m][R + C] residual of the multipliers                */
-    gvi_real *at, *g, *G, *A;         /* [.][C] D; g and rate; G; its matrix                   */
+    gvi_real *at, *g, *G;             /* [n][C] D; [2m][C] g and rate; [m][n][C]               */
+    gvi_real *gram;                   /* [m][m][C] G M^-1 G', factored                         */
     gvi_real *W, *y;                  /* [n][C] scratch; [m]                                   */
-    gvi_real *G1, *A1;                /* [2][m][n], [m][m] at one point                        */
+    gvi_real *G1, *gram1;              /* [2][m][n], [m][m] at one point                        */
     gvi_real *column, *first;         /* [m][n+1], [m] where G is not 0: gvi__find_columns     */
     gvi_real *drops;                  /* [2][m] rows left out: gvi__factor_constraints         */
-    int       m, C, made;             /* made: iterations                                      */
+    int       m, C;
+    int       Q;                      /* the stage that makes Q                                */
+    int       made;                   /* iterations                                            */
     int       kept;                   /* last is there: for the curve; 2: to predict as well   */
     int       linear;                 /* g is linearised from the last D                       */
     int       settled, again;         /* steps since the start; see gvi__find_columns          */
@@ -1104,6 +1107,9 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda);
      gvi_state_at   the state at time t (a time, not tau), at the full order, by a partial step from
                     the nearer end; up to 2 ulp outside the step, t counts as its end
      gvi_action     the quadrature of L; like gvi_state_at with the effects that are on now   */
+// kicks' broken line has none of degree s
+static int gvi__has_curve(const gvi_stepper *st) { return st->in.desc.rule.kind != GVI_KICKS; }
+
 GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v);
 GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_real *v, gvi_real *p);
 GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action);
@@ -2385,7 +2391,7 @@ static int gvi__lower(int n, int i, int j) { return i >= j ? i*n + j : j*n + i; 
 
 /* at->dldv += M v.  Entry (i,j) is `width` numbers: one for each point, one for all, or, 0, only
    those of the diagonal are there.                                                            */
-static void gvi__add_momenta(const gvi_points *at, const gvi_real *m, int width)
+static void gvi__add_kinetic(const gvi_points *at, const gvi_real *m, int width)
 {
     const int n = at->n, R = at->stride, each = width > 1;
     for (int i = 0; i < n; ++i) {
@@ -2412,7 +2418,7 @@ static gvi_status gvi__evaluate(gvi_stepper *st, gvi_points *at, unsigned skip, 
     gvi__zero(length, at->dldv);
     if (kinetic && in->desc.mass.kind > GVI_MASS_DENSE) status = gvi__place_kinetic(st, at);
     else if (kinetic)
-        gvi__add_momenta(at, in->mass.matrix, in->desc.mass.kind == GVI_MASS_DENSE);
+        gvi__add_kinetic(at, in->mass.matrix, in->desc.mass.kind == GVI_MASS_DENSE);
     if (status == GVI_OK && kinetic && GVI__LOOKS(st))
         status = gvi__check_rows(st, at, at->dldv, GVI_FAULT_MASS);
     return status == GVI_OK ? gvi__effects(st, at, skip, NULL) : status;
@@ -2678,13 +2684,22 @@ static void gvi__fit(gvi_stepper *st, int r, const gvi_real *c, const gvi_real *
 // in long: an int may have 16 bits
 static int gvi__within(long x, long most) { return x >= 0 && x <= most; }
 
+GVI__COLD const char *gvi__wrong_in_rule(const gvi_rule *rule)
+{
+    if (!gvi__within(rule->points, 4000)) return "rule.points is not 0 to 4000";
+    if ((unsigned)rule->kind > GVI_KICKS) return "rule.kind is not in its enum";
+    if (rule->kind < GVI_OWN) return rule->nodes ? "rule: this kind takes no nodes" : NULL;
+    if (!rule->points || !rule->nodes || !rule->weights)
+        return "rule: this kind needs points, nodes and weights";
+    return NULL;
+}
+
 // what is wrong with a description's own members, or NULL
 GVI__COLD const char *gvi__wrong_in_desc(const gvi_desc *d)
 {
     if (!d) return "desc is NULL";
     if (!gvi__within(d->n, 0x7FFFF) || d->n < 1) return "n is not 1 to 524,287";
     if (!gvi__within(d->degree, 1024)) return "degree is not 0 to 1024";
-    if (!gvi__within(d->rule.points, 4000)) return "rule.points is not 0 to 4000";
     if (!gvi__within(d->effect_count, GVI_EFFECTS)) return "effect_count is not 0 to GVI_EFFECTS";
     if (d->effect_count && !d->effects) return "effect_count is given, effects is NULL";
     if (d->effects && !d->effect_count) return "effects is given, effect_count is 0";
@@ -2692,14 +2707,9 @@ GVI__COLD const char *gvi__wrong_in_desc(const gvi_desc *d)
     if (!gvi__within(d->iterations, 1000000)) return "iterations is not 0 to 1,000,000";
     if ((unsigned)d->formulation > GVI_NEWTON) return "formulation is not in its enum";
     if ((unsigned)d->mass.kind > GVI_MASS_NONE) return "mass.kind is not in its enum";
-    if ((unsigned)d->rule.kind > GVI_KICKS) return "rule.kind is not in its enum";
     if (!(d->tolerance >= 0 && d->tolerance < 1)) return "tolerance is not 0 to 1";
     if (!(d->resolution >= 0 && d->resolution < 1)) return "resolution is not 0 to 1";
-    if (d->rule.kind < GVI_OWN && d->rule.nodes) return "rule: this kind takes no nodes";
-    if (d->rule.kind < GVI_OWN) return NULL;
-    if (!d->rule.points || !d->rule.nodes || !d->rule.weights)
-        return "rule: this kind needs points, nodes and weights";
-    return NULL;
+    return gvi__wrong_in_rule(&d->rule);
 }
 
 // what is wrong with an effect that PART I knows, or NULL
@@ -2783,7 +2793,7 @@ GVI__COLD gvi_status gvi__choose(struct gvi__private *in, int order, gvi_fault *
 {
     const gvi_desc *d = &in->desc;
     const int pinned = d->formulation != GVI_AUTO;
-    int f = pinned ? (int)d->formulation : GVI_EXPLICIT;
+    int f = pinned ? (int)d->formulation : GVI_AUTO + 1;
     while (!gvi__place_covers(in, (gvi_formulation)f))
         if (pinned || f++ == GVI_NEWTON) return GVI_E_FORMULATION;
     in->chosen = (gvi_formulation)f;
@@ -3522,39 +3532,49 @@ static int gvi__falls(const gvi__progress *p, gvi_real D)
     return was <= 0 || D < was;
 }
 
+// may the iteration end here, or should another solver go on?  Else GVI__GO_ON
+static int gvi__rests(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_real h,
+                      const gvi__stage *stage, int patience)
+{
+    const gvi_real sure = GVI__SURE*GVI__EPS;
+    const int turns = st->in.turns, few = D > GVI__FAR*GVI__FAR ? GVI__MANY_POOR : GVI__FEW_POOR;
+    const int poor = turns && p->growing > few && D > sure*sure*(gvi_real)(st->n*st->r),
+              least = p->stagnant <= patience;
+    if (least && !poor) return GVI__GO_ON;
+
+    const gvi_real noise = gvi__noise(st, h, stage);
+    const int long_since = p->stagnant > (patience > 0 ? GVI__STAGNANT : 1),
+              slow = p->used - p->stagnant >= GVI__SLOW;         // errors grew first
+    if (!least && (noise <= 0 || (noise <= 1 && long_since)))
+        return slow && turns ? GVI__DIVERGES : GVI__ONCE_MORE;
+
+    // a row that tends to 0 changes by its whole size: does its amplitude fall?
+    if (poor && noise > 1 && noise > p->noise/2) return GVI__DIVERGES;
+    if (poor) p->noise = noise;
+    return GVI__GO_ON;
+}
+
 static int gvi__verdict(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_real h,
                         const gvi__stage *stage)
 {
     const gvi_desc *d = &st->in.desc;
-    const gvi_real all = GVI__EPS*GVI__EPS*(gvi_real)(st->n*st->r);
+    const gvi_real place = GVI__PLACE*GVI__EPS;
     const int given = d->iterations > 0;
-    int patience = 1;                             // so many without a new least may be chance
-    if (!given && gvi__settled(st, p, D, GVI__PLACE*GVI__PLACE*all)) return GVI__DONE;
-    if (!gvi__finite(D))                          // far off already, it was on its way to infinity
-        return p->growing > 0 || p->before > (gvi_real)st->n || GVI__LOOKS(st) ? GVI__DIVERGES
-                                                                               : GVI__NOT_FINITE;
+    int verdict = GVI__GO_ON, patience = 1;       // so many without a new least may be chance
+    if (!given && gvi__settled(st, p, D, place*place*(gvi_real)(st->n*st->r))) return GVI__DONE;
+    if (!gvi__finite(D)) {                        // far off already, it was on its way to infinity
+        const int far = p->growing > 0 || p->before > (gvi_real)st->n || GVI__LOOKS(st);
+        return far ? GVI__DIVERGES : GVI__NOT_FINITE;
+    }
+
     gvi__note(st, p, D);
     if (p->used < d->iterations) return GVI__GO_ON;
     if (given)
         return gvi__falls(p, D) || gvi__noise(st, h, stage) <= 1 ? GVI__DONE : GVI__DIVERGES;
-    if (gvi__parts(&st->in)) {
-        const int verdict = gvi__place_judge(st, p, D, &patience);
-        if (verdict != GVI__GO_ON) return verdict;
-    }
-
-    // a poor contraction may be that of a row that tends to 0: it changes by its whole size
-    const int few = D > GVI__FAR*GVI__FAR ? GVI__MANY_POOR : GVI__FEW_POOR;
-    const int poor = st->in.turns && p->growing > few && D > GVI__SURE*GVI__SURE*all;
-    if (poor || p->stagnant > patience) {
-        const gvi_real noise = gvi__noise(st, h, stage);
-        const int slow = p->used - p->stagnant >= GVI__SLOW;     // errors grew first
-        const int rests = p->stagnant > (patience > 0 ? GVI__STAGNANT : 1);
-        if (p->stagnant > patience && (noise <= 0 || (noise <= 1 && rests)))
-            return slow && st->in.turns ? GVI__DIVERGES : GVI__ONCE_MORE;
-        if (poor && noise > 1 && noise > p->noise/2) return GVI__DIVERGES;
-        if (poor) p->noise = noise;
-    }
-    return p->used < d->max_iterations ? GVI__GO_ON : GVI__DIVERGES;
+    if (gvi__parts(&st->in)) verdict = gvi__place_judge(st, p, D, &patience);
+    if (verdict == GVI__GO_ON) verdict = gvi__rests(st, p, D, h, stage, patience);
+    if (verdict == GVI__GO_ON && p->used >= d->max_iterations) verdict = GVI__DIVERGES;
+    return verdict;
 }
 
 /* The iteration.  It ends where
@@ -4063,7 +4083,7 @@ GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_rea
     gvi_status status = gvi__stepped(st);
     if (status != GVI_OK) return status;
     if (!(tau >= 0 && tau <= 1)) return gvi__refuse_call(st, "tau is not in [0,1]");
-    if (st->in.desc.rule.kind == GVI_KICKS) return gvi__done(st, GVI_E_FORMULATION);
+    if (!gvi__has_curve(st)) return gvi__done(st, GVI_E_FORMULATION);
     gvi_real *Q = st->in.answer, *V = Q + st->n;
     gvi__weights_for(st, st->h);
     gvi__curve_at(st, tau, Q, V);
@@ -4135,6 +4155,22 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_rea
     return GVI_OK;
 }
 
+// left := p - dL/dv; returns the largest, over what rounding of v makes of it.  *almost: all small
+static gvi_real gvi__legendre_miss(int n, const gvi_real *W, const gvi_real *v, const gvi_real *p,
+                                   const gvi_real *P, gvi_real *left, int *almost)
+{
+    gvi_real miss = 0;
+    *almost = 1;
+    for (int i = 0; i < n; ++i) {
+        gvi_real rounding = GVI_ABS(p[i]);
+        for (int j = 0; j < n; ++j) rounding += GVI_ABS(W[i*n + j]*v[j]);
+        left[i] = p[i] - P[i];
+        *almost &= GVI_ABS(left[i]) <= GVI_SQRT(GVI__EPS)*GVI_ABS(p[i]);
+        if (GVI_ABS(left[i]) > miss*rounding) miss = GVI_ABS(left[i])/rounding;
+    }
+    return miss;
+}
+
 /* General Legendre transform at one point: Newton's method for dL/dv(v) = p from the v given.  Ends
    when the correction stops shrinking and dL/dv misses p by no more than rounding of v explains.
    A correction out of the domain of L (faster than light), refused or not a number, is halved. */
@@ -4154,13 +4190,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
         if (status == GVI_OK && gvi__first_non_finite(n, x->dldv) >= 0) status = GVI_E_NON_FINITE;
         if (status == GVI_OK) status = gvi__velocity_hessian(st, x, v, W);
         if (status == GVI_OK) {
-            for (int i = 0; i < n; ++i) {
-                gvi_real rounding = GVI_ABS(p[i]);
-                for (int j = 0; j < n; ++j) rounding += GVI_ABS(W[i*n + j]*v[j]);
-                dv[n + i] = p[i] - x->dldv[i];
-                almost &= GVI_ABS(dv[n + i]) <= GVI_SQRT(GVI__EPS)*GVI_ABS(p[i]);
-                if (GVI_ABS(dv[n + i]) > miss*rounding) miss = GVI_ABS(dv[n + i])/rounding;
-            }
+            miss = gvi__legendre_miss(n, W, v, p, x->dldv, dv + n, &almost);
             status = gvi__lu_factor(n, W, pivot, &at);
             gvi__count(&st->counters.factorizations, 1);
             if (status == GVI_E_SINGULAR)
@@ -4451,7 +4481,7 @@ static gvi_status gvi__momenta_kinetic(gvi_stepper *st, gvi_points *at)
 {
     gvi_status status = gvi__evaluate_mass(st, at, NULL, NULL);
     if (status == GVI_OK) status = gvi__mass_gradient(st, at);
-    if (status == GVI_OK) gvi__add_momenta(at, st->in.momenta.mass, at->stride);
+    if (status == GVI_OK) gvi__add_kinetic(at, st->in.momenta.mass, at->stride);
     return status;
 }
 
@@ -5085,7 +5115,7 @@ static gvi_status gvi__held_report(gvi_stepper *st, gvi_status status, int at);
 static void gvi__held_guess(const gvi_stepper *st, gvi_real *y);
 static gvi_status gvi__held_begin(gvi_stepper *st, const gvi__origin *from, gvi_real *v);
 static gvi_status gvi__held_end(gvi_stepper *st);
-static void gvi__held_momenta(gvi_stepper *st);
+static void gvi__held_impulse(gvi_stepper *st);
 #else
 #define gvi__held(st) ((size_t)0)
 #define gvi__held_rows(in) 0
@@ -5098,7 +5128,7 @@ static void gvi__held_momenta(gvi_stepper *st);
 #define gvi__held_guess(st, y) ((void)0)
 #define gvi__held_begin(st, from, v) GVI_OK
 #define gvi__held_end(st) GVI_OK
-#define gvi__held_momenta(st) ((void)0)
+#define gvi__held_impulse(st) ((void)0)
 #endif
 
 static size_t gvi__unknowns(const gvi_stepper *st, int k0)
@@ -5272,7 +5302,7 @@ static gvi_status gvi__evaluate_plain(gvi_stepper *st, gvi_real *F)
 /* What coordinate i moves in a step: h v, or eps^(1/4) of its position where that is more, or where
    it is at rest at 0, h^2 f/M_ii.  For its velocity h v or h^2 f/M_ii, whichever is more.  (f
    near a pole takes positions too far.)                                                       */
-static gvi_real gvi__reach(const gvi_stepper *st, int i, int by_v)
+static gvi_real gvi__move_of(const gvi_stepper *st, int i, int by_v)
 {
     const struct gvi__private *in = &st->in;
     const gvi_real h = GVI_ABS(in->sized.h), small = by_v ? 0 : GVI_SQRT(GVI_SQRT(GVI__EPS)),
@@ -5293,10 +5323,10 @@ static gvi_real gvi__difference(const gvi_stepper *st, int j, int by_v)
 {
     const struct gvi__private *in = &st->in;
     const gvi_real root = GVI_SQRT(GVI__EPS), none = GVI__MIN/GVI__EPS, h = GVI_ABS(in->sized.h);
-    gvi_real step = root*gvi__reach(st, j, by_v);
+    gvi_real step = root*gvi__move_of(st, j, by_v);
     if (!(step > none))
         for (int i = 0; i < st->n; ++i) {
-            const gvi_real other = root*gvi__reach(st, i, by_v)
+            const gvi_real other = root*gvi__move_of(st, i, by_v)
                                    * (in->watch.scale[j]/in->watch.scale[i]);
             if (other > step && gvi__finite(other)) step = other;
         }
@@ -5478,51 +5508,65 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
     return all/length;
 }
 
-/* The verdict on a change.  One that does not shrink is rounding if y, q or the residual is, or if
-   it is small and its matrix is new or has contracted here: an older one can repeat any change.  It
-   then hides no more of the error, p->left, than the change before, which shrinks on by the
-   contraction seen.  To shrink is to be at most half of the least so far: what is rounded to
+// what later verdicts ask of this change: the contraction, and whether it still shrinks
+static void gvi__newton_note(gvi_stepper *st, gvi__descent *p, gvi_real change, gvi_real noise)
+{
+    const gvi_real before = p->before;
+    if (p->earlier > 0 && change > GVI__SURE*GVI__EPS) {
+        const gvi_real contraction = GVI_SQRT(change/p->earlier);
+        st->counters.worst_contraction = gvi__larger(contraction, st->counters.worst_contraction);
+    }
+
+    const int stagnant = before > 0 && change > p->least/2, rests = p->left < GVI__MAX;
+    p->stagnant = stagnant ? p->stagnant + 1 : 0;
+    if (before > 0 && !stagnant && !rests && (change > noise || change < p->rho*p->least))
+        p->rho = change/p->least;
+    p->least = gvi__smaller(change, p->least);
+
+    const int felt = gvi__held(st) == 0 || p->work >= 0;   // not the rounding of g
+    if (before > 0 && change > noise && felt)
+        st->in.newton.bend = gvi__larger(change/before, st->in.newton.bend);
+}
+
+/* Is it rounding?  One that does not shrink is, if y, q or the residual is, or if it is small and its
+   matrix is new or has contracted here: an older one can repeat any change.  It then hides no more
+   of the error, p->left, than the change before, which shrinks on by the contraction seen.    */
+static int gvi__newton_rests(gvi__descent *p, gvi_real change, gvi_real noise)
+{
+    const gvi_real quarter = GVI__CONTRACTS;
+    const int fresh = p->fresh & 1, proven = (fresh && p->holds) || p->rho < quarter;
+    const int small = change <= noise || (fresh && change <= GVI_SQRT(GVI__EPS));
+    if (p->stagnant > 0 && !(p->left < GVI__MAX) && (p->work < 0 || (proven && small)))
+        p->left = p->before;
+    if (!(p->left < GVI__MAX)) return 0;
+    p->left *= gvi__smaller(p->rho, quarter);
+    return 1;
+}
+
+/* The verdict on a change.  To shrink is to be at most half of the least so far: what is rounded to
    a grid may circle among a few of its points, and fall in every iteration.  Nor is a fall from an
    overshoot far beyond the size of y a contraction.  One ratio by an old matrix may
    be luck: unless the change is rounding, the one before must agree.                          */
 static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__descent *p,
                                  gvi_real change)
 {
-    const int size = (st->s - J->k0)*st->n;
-    const gvi_real before = p->before, all = (gvi_real)st->n, quarter = GVI__CONTRACTS;
+    const gvi_real all = (gvi_real)st->n, quarter = GVI__CONTRACTS,
+                   noise = GVI__GRAIN*p->grain*(gvi_real)((st->s - J->k0)*st->n),
+                   enough = gvi__larger(st->in.desc.tolerance, GVI__NEWTON_ENOUGH);
     gvi_real ratio = 1, other = 1;
-    if (before > 0) ratio = change/gvi__smaller(before, all);
-    if (p->earlier > 0) other = before/gvi__smaller(p->earlier, all);
-    const gvi_real noise = GVI__GRAIN*p->grain*(gvi_real)size;
     if (!gvi__finite(change)) return GVI__NOT_FINITE;
-    if (p->earlier > 0 && change > GVI__SURE*GVI__EPS) {
-        const gvi_real contraction = GVI_SQRT(change/p->earlier);
-        if (contraction > st->counters.worst_contraction)
-            st->counters.worst_contraction = contraction;
-    }
-    const int stagnant = before > 0 && change > p->least/2;
-    p->stagnant = !stagnant ? 0 : p->stagnant + 1;
-    if (before > 0 && !stagnant && !(p->left < GVI__MAX)
-        && (change > noise || change < p->rho*p->least))
-        p->rho = change/p->least;
-    if (change < p->least) p->least = change;
-    const int felt = gvi__held(st) == 0 || p->work >= 0;   // not the rounding of g
-    if (before > 0 && change > noise && felt && change > st->in.newton.bend*before)
-        st->in.newton.bend = change/before;
-    const int fresh = p->fresh & 1, proven = (fresh && p->holds) || p->rho < quarter;
-    const int small = change <= noise || (fresh && change <= GVI_SQRT(GVI__EPS));
-    if (stagnant && !(p->left < GVI__MAX) && (p->work < 0 || (proven && small))) p->left = before;
-    const int rounding = p->left < GVI__MAX;
-    if (rounding) p->left *= p->rho < quarter ? p->rho : quarter;
+    if (p->before > 0) ratio = change/gvi__smaller(p->before, all);
+    if (p->earlier > 0) other = p->before/gvi__smaller(p->earlier, all);
+    gvi__newton_note(st, p, change, noise);
+    const int rests = gvi__newton_rests(p, change, noise), contracts = p->rho < quarter;
 
-    const gvi_real enough = gvi__larger(st->in.desc.tolerance, GVI__NEWTON_ENOUGH);
-    const int confirmed = (fresh && p->holds) || change <= noise || change*other <= enough;
+    const int confirmed = (p->fresh & 1 && p->holds) || change <= noise || change*other <= enough;
     const int done = (p->each*ratio <= enough && confirmed) || p->left <= enough;
-    if (done && (p->holds || p->rho < quarter)) return GVI__DONE;
-    // rounding, by a matrix that has contracted here
-    const int hidden = p->work < 0 && p->rho < quarter;
-    if (!rounding && !hidden && before > 0 && ratio > quarter) p->have = 0;
-    p->earlier = before;
+    if (done && (p->holds || contracts)) return GVI__DONE;
+
+    // rounding by a matrix that has contracted here asks for no other
+    if (!rests && !(p->work < 0 && contracts) && p->before > 0 && ratio > quarter) p->have = 0;
+    p->earlier = p->before;
     p->before = change;
     return GVI__GO_ON;
 }
@@ -5750,7 +5794,7 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
         in->step.q_low[i] = gvi__low(q.lo + from->q_low[i]);
     }
     gvi__sum_rows(st, in->work.F, from->p_low, in->step.p, in->step.p_low);
-    if (gvi__held(st) > 0) gvi__held_momenta(st);
+    if (gvi__held(st) > 0) gvi__held_impulse(st);
     return GVI_OK;
 }
 
@@ -5760,7 +5804,7 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
 GVI__COLD int gvi__newton_follows(const struct gvi__private *in, int held)
 {
     const gvi_desc *d = &in->desc;
-    return d->formulation == GVI_AUTO && in->chosen != GVI_EXPLICIT && in->chosen != GVI_NEWTON
+    return d->formulation == GVI_AUTO && in->stages > 0 && in->chosen != GVI_NEWTON
            && d->iterations == 0 && !gvi__of_kind(in, GVI_CLOCK)
            && d->degree <= 1024/(d->n + held);
 }
@@ -6123,7 +6167,7 @@ static gvi_status gvi__constraints_at(gvi_stepper *st, gvi_real t, const gvi_rea
         if (status == GVI_OK) status = gvi__factor_hessian(st, &at, v);
     } else if (status == GVI_OK && st->in.desc.mass.kind == GVI_MASS_POSITION)
         status = gvi__factor_mass(st, &at);
-    return status == GVI_OK ? gvi__factor_constraints(st, 1, 1, G, st->in.con.A1, drops) : status;
+    return status == GVI_OK ? gvi__factor_constraints(st, 1, 1, G, st->in.con.gram1, drops) : status;
 }
 
 // z += G' y at one point
@@ -6160,21 +6204,21 @@ GVI__CALLED void gvi__constraint_stages(gvi_stepper *st, const gvi__origin *from
                                         gvi__stage *stage)
 {
     struct gvi__private *in = &st->in;
-    const int n = st->n, R = in->R, momenta = in->chosen == GVI_MOMENTA;
+    const int n = st->n, R = in->R, Q = in->con.Q;
     in->con.made = in->con.linear = 0;
     if (!gvi__constrained(st)) return;
     gvi__constraint_points(st, from, h);
-    for (int k = 0; k < (momenta ? 1 : in->stages); ++k) stage[k].plus = in->con.plus + k*n*R;
+    for (int k = 0; k < in->stages - Q; ++k) stage[k].plus = in->con.plus + k*n*R;
     if (in->stages == 2) {
-        gvi__stage *y = stage + !momenta;
+        gvi__stage *y = stage + !Q;
         y->quiet = 1;
         gvi__zero((size_t)n, y->scale);
         gvi__zero((size_t)n, y->change);
-        gvi__zero((size_t)n, in->watch.before + !momenta*n);
+        gvi__zero((size_t)n, in->watch.before + !Q*n);
     }
-    for (int i = 0; i < n; ++i)
-        gvi__free_row(R, from->q_low[i], momenta ? 0 : in->free.path[i],
-                      momenta ? 0 : in->free.path_low[i], in->con.d + 1, in->con.free + i*R);
+    for (int i = 0; i < n; ++i)                   // the path is in V, where Q is made of that
+        gvi__free_row(R, from->q_low[i], Q ? 0 : in->free.path[i], Q ? 0 : in->free.path_low[i],
+                      in->con.d + 1, in->con.free + i*R);
 }
 
 // rows := sum over sources and their weights, or added to what is there
@@ -6190,14 +6234,15 @@ static void gvi__weighted_sums(const gvi_stepper *st, const gvi_real *table, con
 GVI__CALLED void gvi__constraint_rows(const gvi_stepper *st, const gvi__stage *stage)
 {
     const struct gvi__private *in = &st->in;
-    const int n = st->n, R = in->R, momenta = in->chosen == GVI_MOMENTA;
+    const int n = st->n, R = in->R;
+    const gvi__stage *y = stage + in->con.Q;
     gvi_real *D = in->con.D, *scratch = in->con.plus;
-    gvi__weighted_sums(st, in->con.by_force, in->sized.hb, stage[momenta].source, scratch, D, 0);
-    if (!momenta) {
+    gvi__weighted_sums(st, in->con.by_force, in->sized.hb, y->source, scratch, D, 0);
+    if (in->con.Q == 0) {
         gvi__weighted_sums(st, in->con.by_impulse, in->con.hw, in->con.force, scratch, D, 1);
         gvi__over_mass(st, D, R, R);
     }
-    for (int i = 0; i < n*R; ++i) D[i] = in->con.free[i] + D[i]*stage[momenta].factor;
+    for (int i = 0; i < n*R; ++i) D[i] = in->con.free[i] + D[i]*y->factor;
 }
 
 // G' lambda at the sources; the rows behind the forces hold -lambda
@@ -6272,7 +6317,7 @@ GVI__CALLED gvi_status gvi__constraint_values(gvi_stepper *st, const gvi__origin
 {
     const gvi_status status = gvi__evaluate_at_D(st, from);
     if (status != GVI_OK || st->in.con.made > 1) return status;
-    return gvi__factor_constraints(st, st->in.con.C, st->s, st->in.con.G, st->in.con.A,
+    return gvi__factor_constraints(st, st->in.con.C, st->s, st->in.con.G, st->in.con.gram,
                                    st->in.con.drops);
 }
 
@@ -6302,7 +6347,7 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *stage, const 
     const int n = st->n, m = in->con.m, s = st->s, R = in->R, C = in->con.C;
     gvi_real *lambda = in->con.force + n*R, *rho = in->con.rho, *moved = in->con.W;
     gvi__constraint_forces(st);
-    if (in->chosen == GVI_MOMENTA) gvi__trial_velocities(st, stage);
+    if (in->con.Q > 0) gvi__trial_velocities(st, stage);
     gvi__constraint_rows(st, stage);
     for (int i = 0; i < n; ++i) {                 // D - D'
         gvi_real *GVI__RESTRICT z = moved + i*C;
@@ -6317,7 +6362,7 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *stage, const 
             gvi__subtract_at(C, s, in->con.G + (a*n + i)*C + 1, moved + i*C, g);
         for (int b = 0; b < s; ++b) gvi__subtract_row((size_t)R, -g[b], in->con.X + b*R, rho + a*R);
     }
-    gvi__solve_constraints(st, in->con.A, C, s, rho, R);
+    gvi__solve_constraints(st, in->con.gram, C, s, rho, R);
     for (int a = 0; a < m; ++a)
         for (int e = 0; e < s; ++e) lambda[a*R + e] += rho[a*R + e]/(in->sized.h*in->con.hw[e]);
     gvi__constraint_forces(st);
@@ -6327,12 +6372,12 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *stage, const 
 static void gvi__constraint_before(gvi_stepper *st, const gvi__stage *stage)
 {
     struct gvi__private *in = &st->in;
-    const int momenta = in->chosen == GVI_MOMENTA, nR = st->n*in->R;
+    const int Q = in->con.Q, nR = st->n*in->R;
     gvi_real *plus = in->con.plus, *scratch = in->con.D;
-    if (in->con.made > 0) gvi__constrain(st, stage, stage[momenta].base);
-    gvi__weighted_sums(st, momenta ? in->con.U : in->con.K, in->con.hw, in->con.force, scratch,
+    if (in->con.made > 0) gvi__constrain(st, stage, stage[Q].base);
+    gvi__weighted_sums(st, Q ? in->con.U : in->con.K, in->con.hw, in->con.force, scratch,
                        plus, 0);
-    if (in->stages == 2 && !momenta)
+    if (in->stages - Q == 2)
         gvi__weighted_sums(st, in->con.U, in->con.hw, in->con.force, scratch, plus + nR, 0);
 }
 
@@ -6375,7 +6420,7 @@ GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate
 GVI__COLD gvi_real gvi__loss(const gvi_stepper *st, int row, int point)
 {
     const int m = st->in.con.m, C = st->in.con.C;
-    const gvi_real *A = st->in.con.A + point;
+    const gvi_real *A = st->in.con.gram + point;
     gvi_real lost = 0;
     for (int l = (int)st->in.con.first[row]; l < row; ++l)
         lost += A[(row*m + l)*C]*A[(l*m + row)*C];
@@ -6495,7 +6540,7 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
             return gvi__report_status(st, GVI_E_CONVERGENCE);
         before = size;
         for (int a = 0; a < m; ++a) z[a] = -g[a]/h;
-        gvi__solve_constraints(st, in->con.A1, 1, 1, z, 1);
+        gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
         gvi__zero((size_t)n, d);
         gvi__add_force(st, z, d);
         gvi__add_scaled(n, 1, d, in->step.p, in->step.p);
@@ -6528,7 +6573,7 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
         z[a] = -part*g[a];
     }
     if (off < 0) return GVI_OK;
-    gvi__solve_constraints(st, in->con.A1, 1, 1, z, 1);
+    gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
     gvi__zero((size_t)n, d);
     gvi__add_force(st, z, d);
     gvi__over_inertia(st, d, 1, 1);
@@ -6581,7 +6626,7 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
         if (status != GVI_OK) return status;
         energy = GVI_ABS(gvi__dot(n, p, v));
         for (int a = 0; a < m; ++a) r[a] = z[a] = -(r[m + a] + gvi__row_dot(st, in->con.G1, a, v));
-        gvi__solve_constraints(st, in->con.A1, 1, 1, z, 1);
+        gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
         for (int a = 0; a < m; ++a) {
             size += r[a]*z[a];
             if (r[a]*z[a] > r[row]*z[row]) row = a;
@@ -6616,9 +6661,9 @@ GVI__COLD void gvi__forget_columns(gvi_stepper *st)
     const size_t m = (size_t)gvi__count_rows(in, in->con.bits), C = (size_t)in->con.C;
     for (size_t k = 0; k < m*(size_t)(st->n + 1); ++k) in->con.column[k] = (gvi_real)st->n;
     gvi__zero(2*m*(size_t)st->n, in->con.G1);
-    gvi__zero(m*m, in->con.A1);
+    gvi__zero(m*m, in->con.gram1);
     if (in->con.G) gvi__zero(m*(size_t)st->n*C, in->con.G);
-    if (in->con.A) gvi__zero(m*m*C, in->con.A);
+    if (in->con.gram) gvi__zero(m*m*C, in->con.gram);
     in->con.settled = 0;
 }
 
@@ -6783,7 +6828,7 @@ GVI__COLD const char *gvi__wrong_in_constraint(const struct gvi__private *in, in
 GVI__COLD gvi_status gvi__set_constraints(gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
-    const int s = st->s, r = st->r, R = in->R, momenta = in->chosen == GVI_MOMENTA;
+    const int s = st->s, r = st->r, R = in->R, Q = in->con.Q;
     gvi_real *d = in->con.d, *low = in->stages > 0 ? in->set_up : NULL, *lu = in->con.lu;
     gvi__rule(1, s + 1, d, low, in->con.w);
     if (in->stages == 0) return GVI_OK;
@@ -6796,7 +6841,7 @@ GVI__COLD gvi_status gvi__set_constraints(gvi_stepper *st)
                            T = in->con.U ? gvi__T(st, i) : 0;
             if (e < s) in->con.K[e*R + i] = in->table.c[i] - S;
             if (e < s && in->con.U) in->con.U[e*R + i] = 1 - T;
-            if (e > 0) in->con.by_force[i*R + e - 1] = momenta ? T : d[e] - S;
+            if (e > 0) in->con.by_force[i*R + e - 1] = Q ? T : d[e] - S;
         }
         for (int a = e > 1 ? e : 1; a <= s; ++a) {
             const gvi_real S = gvi__S(st, in->con.Phi, in->con.Phi_low, a - 1);
@@ -6830,13 +6875,14 @@ GVI__COLD void gvi__layout_constraints(struct gvi__private *in, gvi__arena *a)
         { &con->X, i*s, R },
         { &con->E, i*s, R }, { &con->Phi, i*s, R }, { &con->Phi_low, i*s, R }, { &con->hw, on, R },
         { &con->last, i*(n + m), C }, { &con->at, i*n, C }, { &con->t, i, C }, { &con->W, on*n, C },
-        { &con->g, 2*m, C }, { &con->G, i*m*n, C }, { &con->A, i*m*m, C }, { &con->d, on, R + C },
+        { &con->g, 2*m, C }, { &con->G, i*m*n, C }, { &con->gram, i*m*m, C }, { &con->d, on, R + C },
         { &con->w, on, s + 1 }, { &con->rho, m, R + C }, { &con->lu, i*(s + 1), s + 1 },
         { &con->y, on, m },
-        { &con->G1, 2*m, n }, { &con->A1, m, m }, { &con->column, m, n + 1 },
+        { &con->G1, 2*m, n }, { &con->gram1, m, m }, { &con->column, m, n + 1 },
         { &con->first, on, m }, { &con->drops, 2*on, m }
     };
     con->C = (int)C;
+    con->Q = in->chosen == GVI_MOMENTA;
     for (size_t k = 0; k < sizeof list/sizeof *list; ++k)
         *list[k].to = gvi__take(a, list[k].rows, list[k].width);
 }
@@ -6944,7 +6990,7 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
                            *(sign*weight[j/2]/delta);
         }
         for (int a = 0; a < m; ++a) z[a] = -rate[a];
-        gvi__solve_constraints(st, in->con.A1, 1, 1, z, 1);
+        gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
         size = -gvi__dot(m, rate, z);
         if (trial != GVI_OK || !gvi__finite(size)) continue;      // beyond a domain: nearer
         if (!(size < least) && size <= GVI__EPS*whole) break;
@@ -6996,8 +7042,8 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
             back[a] = -in->con.g[a];
             z[a] = r[a] = gvi__row_dot(st, in->con.G1, a, e) - in->con.g[a];
         }
-        gvi__solve_constraints(st, in->con.A1, 1, 1, z, 1);
-        gvi__solve_constraints(st, in->con.A1, 1, 1, back, 1);
+        gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
+        gvi__solve_constraints(st, in->con.gram1, 1, 1, back, 1);
         far[0] = gvi__dot(m, r, z);
         for (int a = 0; a < m; ++a) z[a] = share*z[a] + (1 - share)*back[a];
         gvi__zero((size_t)n, push);
@@ -7020,7 +7066,7 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
     for (int pass = 0; pass < passes; ++pass) {
         for (int a = 0; a < m; ++a)
             z[a] = r[a] = -(in->con.g[m + a] + gvi__row_dot(st, in->con.G1, a, u));
-        gvi__solve_constraints(st, in->con.A1, 1, 1, z, 1);
+        gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
         gvi__zero((size_t)n, d);
         gvi__add_force(st, z, d);
         gvi__over_inertia(st, d, 1, 1);
@@ -7201,11 +7247,11 @@ GVI__CALLED gvi_status gvi__held_end(gvi_stepper *st)
     gvi_status status = GVI_OK;
     if (in->desc.mass.kind == GVI_MASS_POSITION) status = gvi__factor_mass(st, &at);
     if (status == GVI_OK)
-        status = gvi__factor_constraints(st, C, st->s, in->con.G, in->con.A, in->con.drops);
+        status = gvi__factor_constraints(st, C, st->s, in->con.G, in->con.gram, in->con.drops);
     if (status != GVI_OK) return status;
     for (int ej = 0; ej < st->s*m; ++ej) {
         const int e = ej/m, j = ej % m;
-        const gvi_real *A = in->con.A + e;
+        const gvi_real *A = in->con.gram + e;
         gvi_real all = 0;
         if (!(gvi__loss(st, j, e) > GVI__LOST*GVI__LOST - 1)) continue;
         gvi__zero(2*(size_t)n, now);
@@ -7228,7 +7274,7 @@ GVI__CALLED gvi_status gvi__held_end(gvi_stepper *st)
     return GVI_OK;
 }
 
-static void gvi__held_momenta(gvi_stepper *st) { gvi__constraint_momenta(st); }
+static void gvi__held_impulse(gvi_stepper *st) { gvi__constraint_momenta(st); }
 #endif
 
 #ifndef GVI_NO_RULES
@@ -7391,7 +7437,7 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action)
     gvi_status status = gvi__stepped(st);
     if (status != GVI_OK) return status;
     if (!action) return gvi__refuse_call(st, "action is NULL");
-    if ((st->in.desc.rule.kind == GVI_KICKS) || st->in.stepped == 2)
+    if (!gvi__has_curve(st) || st->in.stepped == 2)
         return gvi__done(st, GVI_E_FORMULATION);
     gvi_real sum;
     gvi__weights_for(st, st->h);
@@ -7695,6 +7741,23 @@ GVI__COLD gvi_real gvi__aim(gvi_stepper *st, const gvi__origin *from, gvi_real h
     return at;
 }
 
+// straight from the chord, then with halving
+GVI__COLD gvi_status gvi__from_chord(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                                     const gvi_real *q1, const gvi__matrix *J)
+{
+    const int n = st->n;
+    gvi_real *y = st->in.newton.y;
+    gvi_status status = GVI_OK;
+    for (int halves = 0; halves < 2; ++halves) {
+        const gvi__matrix plain = { J->square, J->pivot, J->ends, 1, 0, halves, NULL };
+        gvi__zero((size_t)(st->s*n), y);
+        for (int i = 0; i < n; ++i) y[i] = (q1[i] - from->q[i])/h;
+        status = gvi__newton_solve(st, from, &plain);
+        if (status == GVI_OK) break;
+    }
+    return status;
+}
+
 /* A curve of degree 2 or more, followed from where it is known, in as many pieces as it takes: from
    h = 0, where it is the chord, run through in no time; or, with a guess v, from the motion that v
    starts, where between h/2 and 3h/2 it begins to leave q1.  Linear equations need none of that:
@@ -7711,15 +7774,8 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
     if (v) {
         first = 4;
         left = 1000;
-    } else if (any) {
-        // whoever wants the index judges for himself: straight from the chord, then with halving
-        for (int halves = 0; halves < 2; ++halves) {
-            const gvi__matrix plain = { J->square, J->pivot, J->ends, 1, 0, halves, NULL };
-            gvi__zero((size_t)(st->s*n), y);
-            for (int i = 0; i < n; ++i) y[i] = (q1[i] - from->q[i])/h;
-            *status = gvi__newton_solve(st, from, &plain);
-            if (*status == GVI_OK) break;
-        }
+    } else if (any) {                             // whoever wants the index judges for himself
+        *status = gvi__from_chord(st, from, h, q1, J);
         return 0;
     }
     for (int attempt = first; attempt < 9; ++attempt) {
@@ -7896,6 +7952,25 @@ GVI__COLD gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__matrix *J,
 // constraints and clocks have no discrete Lagrangian here
 static gvi_status gvi__place_no_boundary(gvi_stepper *st);
 
+// what is wrong with boundary values, or no formulation covers them
+GVI__COLD gvi_status gvi__check_boundary(gvi_stepper *st, gvi_real t, gvi_real h,
+                                         const gvi_real *q0, const gvi_real *q1,
+                                         const gvi_discrete *out)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n;
+    if (!q0 || !q1 || !out) return gvi__refuse_call(st, "q0, q1 or out is NULL");
+    if (gvi__first_non_finite(n, q0) >= 0 || gvi__first_non_finite(n, q1) >= 0 || !gvi__finite(t)
+        || (out->guess && gvi__first_non_finite(n, out->guess) >= 0))
+        return gvi__refuse_call(st, "t, q0, q1 or the guess is not finite");
+    if (!gvi__finite(h) || !gvi__nonzero(h))
+        return gvi__refuse_call(st, "h is 0, NaN or infinite");
+    if (in->apart) return gvi__done(st, gvi__place_no_boundary(st));
+    if ((st->s > 1 && !in->newton.covers) || !gvi__has_curve(st))
+        return gvi__done(st, GVI_E_FORMULATION);
+    return GVI_OK;
+}
+
 GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real h,
                                            const gvi_real *q0, const gvi_real *q1,
                                            const gvi_discrete *out)
@@ -7905,15 +7980,8 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
     struct gvi__private *in = &st->in;
     const int n = st->n, s = st->s, R = in->R;
     const size_t size = (size_t)(s - 1)*(size_t)n, sn = (size_t)s*(size_t)n;
-    if (!q0 || !q1 || !out) return gvi__refuse_call(st, "q0, q1 or out is NULL");
-    if (gvi__first_non_finite(n, q0) >= 0 || gvi__first_non_finite(n, q1) >= 0 || !gvi__finite(t)
-        || (out->guess && gvi__first_non_finite(n, out->guess) >= 0))
-        return gvi__refuse_call(st, "t, q0, q1 or the guess is not finite");
-    if (!gvi__finite(h) || !gvi__nonzero(h))
-        return gvi__refuse_call(st, "h is 0, NaN or infinite");
-    if (in->apart) return gvi__done(st, gvi__place_no_boundary(st));
-    if ((s > 1 && !in->newton.covers) || in->desc.rule.kind == GVI_KICKS)
-        return gvi__done(st, GVI_E_FORMULATION);
+    status = gvi__check_boundary(st, t, h, q0, q1, out);
+    if (status != GVI_OK) return status;
     gvi__origin from = { t, 0, q0, in->zeros, in->zeros, in->zeros };
     gvi__matrix J = { NULL, NULL, NULL, 1, 0, 0, NULL };
     if (out->guess && s > 1) {
@@ -7986,7 +8054,7 @@ GVI__COLD gvi_points gvi__all_points_at(gvi_stepper *st, gvi_real t, const gvi_r
     const int n = st->n;
     int R = in->R, count = st->r;
     gvi_real *rows = in->work.F;
-    if (in->desc.rule.kind == GVI_KICKS) R = count = 1;
+    if (!gvi__has_curve(st)) R = count = 1;
     if (in->free.rows) rows = in->free.rows;
     gvi_points at = gvi__points_at(st, count, R, in->t, in->work.Q, rows, rows + n*R);
     at.v = in->work.V;
