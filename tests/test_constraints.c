@@ -369,7 +369,7 @@ TEST(a_rod_breaks_and_holds_again)
     assert_memory_equal(q, st.q, sizeof q);
     assert_memory_equal(p, st.p, sizeof p);
     assert_ok(gvi_step(&st, (real)0.1L));               // it is still off
-    assert_int_equal(st.counters.effect[2], calls + 2);       // a look, and one beside it
+    assert_int_equal(st.counters.effect[2], calls + 3);       // a look, and one to each side
     assert_ok(gvi_switch(&st, 1, 0));             // free of all constraints
     for (int k = 0; k < 3; ++k) assert_ok(gvi_step(&st, (real)0.1L));
     assert_ok(gvi_multipliers(&st, lambda));
@@ -836,6 +836,54 @@ TEST(a_right_jacobian_is_not_blamed)
         gvi_project(&st, 0, q, v, NULL);
         assert_true(st.status != GVI_E_ARGUMENT);
     }
+}
+
+/* A four-bar linkage in the angles of its bars 1, 2 and 3, joints 2 apart */
+static int bars_in_angles(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k)
+        for (int a = 0; a < 2; ++a) {
+            x->g[a*x->stride + k] = a ? 0 : -2;
+            for (int i = 0; i < 3; ++i) {
+                const real length = (real)(i < 2 ? i + 1 : -3), C = length*cos(x->q[i*x->stride + k]),
+                           S = length*sin(x->q[i*x->stride + k]);
+                x->g[a*x->stride + k] += a ? S : C;
+                x->jacobian[(3*a + i)*x->stride + k] = a ? C : -S;
+            }
+        }
+    return (void)user, 0;
+}
+
+/* Random states, masses over eight decades: refused where one is off, taken where one is on it; gvi_project ends on it */
+TEST(a_state_off_its_constraint_is_refused)
+{
+    int kind, on = 0;
+    for (int k = 0; k < 1200; ++k) {
+        linkage a = make_linkage(PENDULUM);
+        const int bars = k % 4 == 3;
+        real q[3], v[3] = { 0 }, g[2], slope[6], mass[3];
+        gvi_stepper st;
+        kind = k % 4*2;
+        for (int i = 0; i < 3; ++i) mass[i] = k % 3 ? pow((real)10, 4*random_unit()) : 1, q[i] = 3*random_unit();
+        a.n = bars ? 3 : 2;
+        a.effects[0] = (gvi_effect){ .kind = GVI_CONSTRAINT, .points = bars ? bars_in_angles : curves, .user = &kind,
+                                     .rows = 1 + bars };
+        a.count = 1;
+        gvi_desc desc = linkage_desc(&a, 3);
+        desc.mass = (gvi_mass){ .kind = GVI_MASS_DIAGONAL, .matrix = mass };
+        const gvi_points at = { .n = a.n, .count = 1, .stride = 1, .q = q, .g = g, .jacobian = slope };
+        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+        g[1] = 0;
+        a.effects[0].points(&at, &kind);
+        if (fmax(fabs(g[0]), fabs(g[1])) > (KIND == 1 ? (real)0.02L : (real)1e-6L))
+            assert_true(gvi_start(&st, 0, q, v) == GVI_E_CONSTRAINT || st.status == GVI_E_SINGULAR);
+        if (gvi_project(&st, 0, q, v, NULL) != GVI_OK) continue;
+        ++on;
+        a.effects[0].points(&at, &kind);
+        for (int row = 0; row <= bars; ++row) assert_close(g[row], 0, 1000000*EPS);
+        assert_ok(gvi_start(&st, 0, q, v));
+    }
+    assert_true(on > 600);
 }
 
 RUN_TESTS(NULL, NULL)
