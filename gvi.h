@@ -807,9 +807,16 @@ struct gvi__tables {                  /* rule and degree; R = stride of rows    
 };
 
 struct gvi__sized {                   /* valid for a step of length h, the key                 */
-    gvi_real  h, ratio;               /* h/h_last for which E holds                            */
-    gvi_real *hb, *E;                 /* [R] h b; [2r][R] predictor                            */
-    int       steps, sums;            /* what E makes: see gvi__prepare_predictor              */
+    gvi_real  h;
+    gvi_real *hb;                     /* [R] h b                                               */
+};
+
+struct gvi__predictor {               /* see gvi__prepare_predictor                            */
+    gvi_real *two, *one;              /* [2r][R] by two equal steps; [r][R] by the last        */
+    gvi_real *weights;                /* [R] barycentric, of the nodes                         */
+    gvi_real  ratio;                  /* h/h_last for which `one` holds                        */
+    int       made;                   /* `two` is: 1, or 2 with K and b in it                  */
+    int       steps, sums;            /* what serves this step: steps; with K and b in it?     */
 };
 
 #ifndef GVI_NO_RULES
@@ -882,7 +889,7 @@ struct gvi__holonomic {               /* m rows on; C = stride of D_0..D_s      
     gvi_real *K, *U;                  /* [r][R] of the impulses, to Q and to V or P            */
     gvi_real *by_force, *by_impulse;  /* [r][R] to D                                           */
     gvi_real *lu, *X;                 /* K(d_a, d_e), its LU; [s][R] its inverse               */
-    gvi_real *E;                      /* [s][R] predictor                                      */
+    gvi_real *E, alpha, beta;         /* [s][R] predictor, for times alpha + beta d_e          */
     gvi_real *D, *free, *plus;        /* [n][R] stage values, free motion; [2n][R] to stages   */
     gvi_real *P;                      /* [n][R] momenta of a trial                             */
     gvi_real *force, *last;           /* [n+m][R] G' lambda, -lambda; [n+m][C] last step's     */
@@ -934,6 +941,7 @@ struct gvi__private {
     unsigned            off, apart;   /* effects switched off; those that a chapter evaluates  */
     struct gvi__tables  table;
     struct gvi__sized   sized;
+    struct gvi__predictor predictor;
     struct gvi__values  work, last, older;  /* of the next step, the last two                  */
     struct gvi__phase   state, step;  /* now; increments of the step at work                   */
     gvi_real            dt;           /* and that of t                                         */
@@ -1192,7 +1200,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI_LENGTH(n, s, r) (                                                    \
     (42 + 10*GVI__SIZE(s) + 20*GVI__SIZE(GVI__ROW(r))                             \
      + (6 + GVI__SIZE(GVI__ROW(r)) + 2*GVI__SIZE(s)*GVI__SIZE(s))*GVI__SIZE(n))*GVI__SIZE(n) \
-    + (22 + 7*GVI__SIZE(r) + 3*GVI__SIZE(s))*GVI__SIZE(GVI__ROW(r))              \
+    + (24 + 8*GVI__SIZE(r) + 3*GVI__SIZE(s))*GVI__SIZE(GVI__ROW(r))              \
     + (GVI__SIZE(s) + 2)*GVI__SIZE(s) + GVI__SIZE(r) + 5 + GVI__SLACK)
 
 /*  The same with constraints, m rows in all.                                  */
@@ -1544,6 +1552,7 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 // predictor: how many last steps, ahead or back, an extrapolation is still better than nothing
 #define GVI__AHEAD 8
 #define GVI__BACK 2
+#define GVI__DEGREE (GVI__DIG*2/7)         // its polynomials'; more would amplify rounding
 #define GVI__SEEN ((gvi_real)0.015625)     // coupling of a polynomial that its nodes see
 
 // Newton's method: contraction
@@ -2613,7 +2622,6 @@ static void gvi__weights_for(gvi_stepper *st, gvi_real h)
     int e, most = 0;
     if (!gvi__nonzero(sized->h - h)) return;
     sized->h = h;
-    sized->ratio = 0;                                  // E may hold sums with the old weights
 
     const gvi_real mantissa = GVI_FREXP(h, &e);
     gvi_real rest = mantissa;
@@ -2628,7 +2636,8 @@ static void gvi__weights_for(gvi_stepper *st, gvi_real h)
         sized->hb[most] += rest/2;
         sized->hb[mirror] += rest/2;
     }
-    for (int j = 0; j < r; ++j) sized->hb[j] = GVI_LDEXP(sized->hb[j], e);
+    const gvi_real half = GVI_LDEXP(1, e - 1);     // 2^e may be too large
+    for (int j = 0; j < r; ++j) sized->hb[j] = 2*sized->hb[j]*half;
 }
 
 /* The predictor: least squares through the stage values of the last step or the last two, by
@@ -2643,10 +2652,10 @@ static void gvi__fit(gvi_stepper *st, int r, const gvi_real *c, const gvi_real *
                      gvi_real beta, int steps, gvi_real *E)
 {
     struct gvi__private *in = &st->in;
-    const int R = in->R, nodes = steps*R, all = nodes + R, most = GVI__DIG*2/7;
+    const int R = in->R, nodes = steps*R, all = nodes + R;
     int degree = r - 1;
     if (steps == 2) degree = r + r/2 - r/8;
-    if (degree > most) degree = most;
+    if (degree > GVI__DEGREE) degree = GVI__DEGREE;
     gvi_real *p = in->set_up, *before = p + 3*R, *at = before + 3*R, coupling = 0;
     const gvi_real norm = 1/GVI_SQRT((gvi_real)(steps*r));
     gvi__zero(6*(size_t)R, p);                     // and before, which is behind it
@@ -2676,6 +2685,43 @@ static void gvi__fit(gvi_stepper *st, int r, const gvi_real *c, const gvi_real *
         coupling = GVI_SQRT(size);
         if (coupling < GVI__SEEN) break;
         for (int m = 0; m < all; ++m) p[m] /= coupling;
+    }
+}
+
+// barycentric weights of the nodes, for gvi__lagrange
+GVI__COLD void gvi__set_predictor(const gvi_stepper *st)
+{
+    const gvi_real *c = st->in.table.c;
+    for (int j = 0; j < st->r; ++j) {
+        gvi_real product = 1;
+        for (int m = 0; m < st->r; ++m)
+            if (m != j) product *= c[j] - c[m];
+        st->in.predictor.weights[j] = 1/product;
+    }
+}
+
+/* gvi__fit for one step of degree r - 1: Lagrange's polynomials at y = alpha + beta c, as products of
+   what stands before and behind, all points y in lanes.                                       */
+static void gvi__lagrange(const gvi_stepper *st, gvi_real alpha, gvi_real beta, gvi_real *E)
+{
+    const int R = st->in.R, r = st->r;
+    const gvi_real *c = st->in.table.c, *weights = st->in.predictor.weights;
+    gvi_real *y = st->in.set_up, *behind = y + R;
+    for (int k = 0; k < R; ++k) {
+        y[k] = alpha + beta*c[k];
+        behind[k] = E[k] = 1;
+    }
+    for (int j = 1; j < r; ++j) {
+        const gvi_real *before = E + (j - 1)*R, at = c[j - 1];
+        gvi_real *to = E + j*R;
+        GVI__ALONG(R, GVI__TO(to) = GVI__AT(before)*(GVI__AT(y) - at))
+    }
+    for (int j = r - 1; j >= 0; --j) {
+        const gvi_real at = c[j], weight = weights[j];
+        gvi_real *to = E + j*R;
+        GVI__ALONG(R,
+            GVI__TO(to) = GVI__AT(to)*(GVI__AT(behind)*weight);
+            GVI__TO(behind) = GVI__AT(behind)*(GVI__AT(y) - at))
     }
 }
 
@@ -2849,7 +2895,8 @@ GVI__COLD size_t gvi__layout(struct gvi__private *in, int order, gvi_real *base)
         { &in->table.phi, phi*s, R }, { &in->table.phi_low, phi*s, R },
         { &in->table.Phi, it*s, R },
         { &in->table.K, it*r, R },    { &in->table.U, V*r, R },
-        { &in->sized.E, it*(1 + two)*r, R },
+        { &in->predictor.two, 2*two*r, R }, { &in->predictor.one, it*r, R },
+        { &in->predictor.weights, it, R },
         { &in->set_up, 9*it, R },     { &in->weighted, it, R },
         { &in->table.inv_gamma, 1, s },
         { &in->state.q, 1, n },       { &in->state.p, 1, n },
@@ -2948,7 +2995,7 @@ GVI__COLD gvi_status gvi__set_rule(gvi_stepper *st)
     const int s = st->s, lobatto = in->desc.rule.kind == GVI_LOBATTO;
     gvi_real *c_low = in->t;
     gvi_status status = GVI_OK;
-    table->Phi_low = in->sized.E;                  // not yet in use, as are the times
+    table->Phi_low = in->predictor.one;            // not yet in use, as are the times
     if (!gvi__place_nodes(st)) gvi__rule(lobatto, st->r, table->c, c_low, table->b);
     if (gvi__iterates(in)) {
         gvi__modes_of(st, st->r, table->c, c_low, table->phi, table->phi_low, table->Phi,
@@ -2957,6 +3004,7 @@ GVI__COLD gvi_status gvi__set_rule(gvi_stepper *st)
         if (lobatto && st->r == s) table->inv_gamma[s - 1] = (gvi_real)(s - 1);
         status = gvi__place_modes(st);
         if (status == GVI_OK) gvi__make_tables(st);
+        gvi__set_predictor(st);
     }
     if (status == GVI_OK) status = gvi__place_tables(st);
     if (table->Phi) gvi__copy((size_t)st->r, table->c, table->Phi);        // Phi_0 = c on its grid
@@ -3323,32 +3371,36 @@ GVI__BODY gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *stage, int r
 
 /* ---- 2) predict ---- */
 
-/* E takes the stage values of the last step (of two, if they are as long as this one) to the nodes
-   of this step, at alpha + beta c in the last step's tau.  Where forces only serve to make
-   positions, E := K h b E does both, for steps as long as the last.  `plain`: one step's values,
-   as they are.                                                                                */
+/* The stage values of the last step, or of two that are as long as this one, go to the nodes of this
+   step, at alpha + beta c in the last step's tau.  For two that table never changes; where forces
+   only serve to make positions, it has K and b in it, and makes both at once.  `plain`: by one
+   step, whatever its length.                                                                  */
 static void gvi__prepare_predictor(gvi_stepper *st, gvi_real h, int query, int plain)
 {
     struct gvi__private *in = &st->in;
+    struct gvi__predictor *predictor = &in->predictor;
     const int r = st->r, R = in->R;
-    const int two = !query && !plain && in->kept == 2 && in->older.F && !gvi__nonzero(h - st->h);
-    const gvi_real beta = h/st->h;
-    const int sums = !plain && !gvi__nonzero(beta - 1) && in->stages == 1
-                     && in->desc.mass.kind != GVI_MASS_DENSE && !gvi__parts(in);
-    if (!query && !gvi__nonzero(beta - in->sized.ratio) && in->sized.steps == two + 1
-        && in->sized.sums == sums) return;
+    const int two = !query && !plain && in->kept == 2 && predictor->two && !gvi__nonzero(h - st->h);
+    const int sums = two && in->stages == 1 && in->desc.mass.kind != GVI_MASS_DENSE
+                     && !gvi__parts(in);
+    const gvi_real alpha = query != GVI__FROM_START, beta = h/st->h, ratio = query ? 0 : beta;
+    if (gvi__parts(in)) gvi__place_predictor(st, alpha, beta);
+    predictor->steps = two + 1;
+    predictor->sums = sums;
+    if (!two) {
+        if (!query && !gvi__nonzero(ratio - predictor->ratio)) return;
+        predictor->ratio = ratio;                  // a query has another start
+        if (r - 1 <= GVI__DEGREE) gvi__lagrange(st, alpha, beta, predictor->one);
+        else gvi__fit(st, r, in->table.c, in->table.c, alpha, beta, 1, predictor->one);
+        return;
+    }
 
-    in->sized.ratio = beta;
-    if (query) in->sized.ratio = 0;                // another start: not to be used again
-    in->sized.steps = two + 1;
-    in->sized.sums = sums;
-    gvi__fit(st, r, in->table.c, in->table.c, query != GVI__FROM_START, beta, two + 1, in->sized.E);
-    if (gvi__parts(in)) gvi__place_predictor(st, query != GVI__FROM_START, beta);
-    if (!sums) return;
-
-    for (int m = 0; m < in->sized.steps*r; ++m) {
-        gvi_real *E = in->sized.E + m*R, *row = in->set_up;
-        gvi__weigh(R, in->sized.hb, E, in->weighted);
+    if (predictor->made == 1 + sums) return;
+    predictor->made = 1 + sums;
+    gvi__fit(st, r, in->table.c, in->table.c, 1, 1, 2, predictor->two);
+    for (int m = 0; m < sums*2*r; ++m) {
+        gvi_real *E = predictor->two + m*R, *row = in->set_up;
+        gvi__weigh(R, in->table.b, E, in->weighted);
         for (int k = 0; k < r; ++k) row[k] = gvi__point_sum(r, R, in->table.K + k, in->weighted);
         gvi__copy((size_t)r, row, E);
     }
@@ -3386,13 +3438,18 @@ static void gvi__sums(const gvi_stepper *st, const gvi_real *table, const gvi_re
         }
 }
 
-// z := E last + E' older
+// stage values by the predictor
 static void gvi__extrapolate(const gvi_stepper *st, const gvi_real *last, const gvi_real *older,
                              gvi_real *rows)
 {
-    const gvi_real *E = st->in.sized.E;
-    gvi__sums(st, E, last, rows, 0);
-    if (st->in.sized.steps == 2) gvi__sums(st, E + st->r*st->in.R, older, rows, 1);
+    const struct gvi__predictor *predictor = &st->in.predictor;
+    const gvi_real *two = predictor->two;
+    if (predictor->steps < 2) {
+        gvi__sums(st, predictor->one, last, rows, 0);
+        return;
+    }
+    gvi__sums(st, two, last, rows, 0);
+    gvi__sums(st, two + st->r*st->in.R, older, rows, 1);
 }
 
 // stage values to begin with: of extrapolated sources, or of no force
@@ -3401,12 +3458,12 @@ static gvi_status gvi__predict(gvi_stepper *st, const gvi__origin *from, gvi_rea
 {
     struct gvi__private *in = &st->in;
     const int R = in->R;
-    if (extrapolate && in->sized.sums) {
+    if (extrapolate && in->predictor.sums) {
         const gvi__stage *y = stage;
         gvi__extrapolate(st, in->last.F, in->older.F, y->rows);
         for (int i = 0; i < st->n; ++i) {
             const gvi_real *free = y->free + i*R, base = y->base[i], inverse = y->inverse[i],
-                           factor = y->factor;
+                           factor = h*y->factor;
             gvi_real *row = y->rows + i*R;
             GVI__FOR_ROW(R, GVI__TO(row) = base + (GVI__AT(free) + GVI__AT(row)*inverse*factor))
         }
@@ -3881,7 +3938,7 @@ GVI__COLD gvi_status gvi__begin_at(gvi_stepper *st, gvi_real t, gvi_real *v)
     st->h = st->t_low = st->resolution = st->next = 0;
     in->started = 1;
     in->stepped = in->kept = in->has_velocity = 0;
-    in->sized.ratio = 0;
+    in->predictor.ratio = 0;
     in->watch.ratio = in->watch.found = 1;
     st->formulation = in->chosen;
     gvi__place_started(st);
@@ -5434,7 +5491,7 @@ static void gvi__newton_modes(gvi_stepper *st, const gvi_real *V, gvi_real *rows
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, s = st->s, R = in->R;
-    gvi__sums(st, in->sized.E, V, rows, 0);
+    gvi__sums(st, in->predictor.one, V, rows, 0);
     for (int i = 0; i < n; ++i) {
         for (int k = 0; k < s; ++k)
             in->set_up[k] = gvi__dot3(st->r, in->table.phi + k*R, in->table.b, rows + i*R);
@@ -6403,6 +6460,16 @@ GVI__CALLED void gvi__constraints_moved(const gvi_stepper *st, gvi_real *moved)
     gvi__force_sizes(st, in->con.rho, C, moved);
 }
 
+// E takes forces and lambda of the last step to alpha + beta d_e
+static void gvi__constraint_predictor(gvi_stepper *st, gvi_real alpha, gvi_real beta)
+{
+    struct gvi__holonomic *con = &st->in.con;
+    if (!gvi__nonzero(alpha - con->alpha) && !gvi__nonzero(beta - con->beta)) return;
+    con->alpha = alpha;
+    con->beta = beta;
+    gvi__fit(st, st->s, con->d + 1, con->d, alpha, beta, 1, con->E);
+}
+
 // forces and lambda to begin with: those of the last step, extrapolated, or none
 GVI__CALLED void gvi__predict_constraints(const gvi_stepper *st, int extrapolate)
 {
@@ -6925,7 +6992,7 @@ GVI__COLD gvi_status gvi__constraint_switch(gvi_stepper *st, unsigned was)
         return status;
     }
     in->con.kept = in->con.kept > 0;
-    in->sized.ratio = 0;
+    in->predictor.ratio = 0;
     return GVI_OK;
 }
 
@@ -7694,9 +7761,8 @@ GVI__COLD gvi_status gvi__bend(gvi_stepper *st, const gvi__origin *from, gvi_rea
     gvi__descent p = { 0, 0, GVI__MAX, 0, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0, 0, 0 };
     gvi_real *y = in->newton.y, before = 0, length = 0;
     if (grow > 1 && J->k0 == 0) {
-        in->sized.ratio = 0;
-        in->sized.steps = 1;
-        gvi__fit(st, st->r, in->table.c, in->table.c, 0, grow, 1, in->sized.E);
+        in->predictor.ratio = 0;
+        gvi__fit(st, st->r, in->table.c, in->table.c, 0, grow, 1, in->predictor.one);
         gvi__newton_modes(st, in->work.V, in->newton.P);
     }
     if (J->k0)
@@ -8688,8 +8754,7 @@ static void gvi__place_stages(gvi_stepper *st, const gvi__origin *from, gvi_real
 static void gvi__place_predictor(gvi_stepper *st, gvi_real alpha, gvi_real beta)
 {
     (void)st, (void)alpha, (void)beta;
-    GVI__CONSTRAINTS_ON(
-        gvi__fit(st, st->s, st->in.con.d + 1, st->in.con.d, alpha, beta, 1, st->in.con.E))
+    GVI__CONSTRAINTS_ON(gvi__constraint_predictor(st, alpha, beta))
 }
 
 static gvi_status gvi__place_predict(gvi_stepper *st, const gvi__origin *from, gvi_real h,
