@@ -1115,9 +1115,6 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda);
      gvi_state_at   the state at time t (a time, not tau), at the full order, by a partial step from
                     the nearer end; up to 2 ulp outside the step, t counts as its end
      gvi_action     the quadrature of L; like gvi_state_at with the effects that are on now   */
-// kicks' broken line has none of degree s
-static int gvi__has_curve(const gvi_stepper *st) { return st->in.desc.rule.kind != GVI_KICKS; }
-
 GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v);
 GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_real *v, gvi_real *p);
 GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action);
@@ -4134,6 +4131,9 @@ static gvi_status gvi__stepped(gvi_stepper *st)
     if (!st->in.stepped) return gvi__done(st, GVI_E_STATE);
     return GVI_OK;
 }
+
+// kicks' broken line has none of degree s
+static int gvi__has_curve(const gvi_stepper *st) { return st->in.desc.rule.kind != GVI_KICKS; }
 
 GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v)
 {
