@@ -183,7 +183,7 @@
                   F_i = dL/dq + f     P_i = dL/dv        at (t_i, Q_i, V_i)
 
    The curve is a polynomial of degree s through q0, given by its velocity's Legendre
-   modes y_k: the same curves as with control points [2, sec. 2.2], but well conditioned
+   modes y_k: the same curves as with control points [2, sec. 2.4], but well conditioned
    at any degree, and with ends that are simply q0 and q1 = q0 + h y_0.  The
    action h sum_i b_i L(t_i, Q_i, V_i) is stationary, with the forces acting
    by the Lagrange-d'Alembert principle, when for k = 0..s-1
@@ -261,13 +261,10 @@
    on t: list what does as a force (a value that changes with t is refused at the
    start, GVI_E_FORMULATION).  Without a mass, a clock needs mass.velocity.
 
-   Order.  |q1 - exact| = O(h^(min(2s,u)+1)) a step: twice the degree, which
-   is the superconvergence theorem [2, thm. 4.1].  It needs u >= 2s - 2: a weaker
-   rule does not see its highest modes properly, and their error enters squared,
-   which leaves order min(u, 2(u-s+1)) (docs/theory.md).  The curve in between is
-   less exact, min(s, u - s + 1) + 1 in the maximum norm [2, sec. 5].  r < s and
-   u < s are refused: with too few points one mode has no kinetic energy, and with
-   too low an order not even free motion is exact.
+   Order.  min(2s, u, 2(u - s + 1)) for a rule of order u, forces included: twice the degree if
+   u >= 2s - 2, which [2, thm. 4.1] does not ask for (docs/theory.md: proof, constant).  L_d is
+   exact to one power more; the curve in between has order min(s, u - s + 1) + 1.  Refused: r < s
+   and a singular Gamma (a mode without kinetic energy), u < s (free motion is not exact).
 
    NOTATION       n degrees of freedom   s degree   r points   h step
                   q, v, p, t, F, P, V, Q, c, b, S, T, N   as above
@@ -378,6 +375,7 @@ GVI__MACROS(push_macro)
 #define gvi_start_momentum GVI__LINKED(gvi_start_momentum)
 #define gvi_start_configurations GVI__LINKED(gvi_start_configurations)
 #define gvi_step GVI__LINKED(gvi_step)
+#define gvi_steps GVI__LINKED(gvi_steps)
 #define gvi_advance GVI__LINKED(gvi_advance)
 #define gvi_project GVI__LINKED(gvi_project)
 #define gvi_switch GVI__LINKED(gvi_switch)
@@ -1077,6 +1075,10 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
    force jumps in time.  If what an effect reads through `user` changes between steps, call
    gvi_switch(st, i, 1): the explicit formulation reuses the force at the end of a step.       */
 GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h);
+
+/* `count` steps of h, or as many as succeed: st.counters.steps tells.  What st and its queries say
+   is of the last one; 0 steps do nothing.  Explicit steps in a row cost less than by gvi_step. */
+GVI_DEF gvi_status gvi_steps(gvi_stepper *st, gvi_real h, int count);
 
 /* One step towards t_end, which may be before or after t: as long as desc.resolution allows, but
    never past t_end, and the last one ends on it to the bit:
@@ -2154,6 +2156,9 @@ static int gvi__place_judge(gvi_stepper *st, const struct gvi__progress *p, gvi_
                             int *patience);
 static gvi_real gvi__place_push(const gvi_stepper *st, gvi_real h, int i, gvi_real m);
 
+/* As many of `count` steps as a solver makes in a row, 0 if none does.                        */
+static int gvi__place_steps(gvi_stepper *st, gvi_real h, int count);
+
 /* 6) Increments, 1 if dq is made; sum_j (1 - c_j) h b_j F_j and what else bends coordinate i; the
    end of a step or partial step, by any solver.  7) Once more?  Is the step accepted?  Commit; it
    failed; values of steps.                                                                    */
@@ -2697,8 +2702,8 @@ GVI__COLD void gvi__set_predictor(const gvi_stepper *st)
     }
 }
 
-/* gvi__fit for one step of degree r - 1: Lagrange's polynomials at y = alpha + beta c, as products of
-   what stands before and behind, all points y in lanes.                                       */
+/* gvi__fit for one step of degree r - 1: Lagrange's polynomials at y = alpha + beta c, as products
+   of what stands before and behind, all points y in lanes.                                    */
 static void gvi__lagrange(const gvi_stepper *st, gvi_real alpha, gvi_real beta, gvi_real *E)
 {
     const int R = st->in.R, r = st->r;
@@ -2861,8 +2866,9 @@ GVI__COLD gvi_status gvi__resolve(struct gvi__private *in, const gvi_desc *desc,
 GVI__COLD gvi_real *gvi__take(gvi__arena *arena, size_t a, size_t b)
 {
     const size_t most = (size_t)-1/sizeof(gvi_real) - 64;      // more than anyone has, with slack
-    const size_t at = arena->used;
+    size_t at = arena->used;
     if (a == 0) return NULL;
+    if (b >= 16 && at < most) at = (at + GVI__LANES - 1)/GVI__LANES*GVI__LANES;   // whole lanes
     arena->used = most;
     if (b <= (most - at)/a) arena->used = at + a*b;
     if (!arena->base) return NULL;
@@ -3368,10 +3374,10 @@ GVI__BODY gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *stage, int r
 
 /* ---- 2) predict ---- */
 
-/* The stage values of the last step, or of two that are as long as this one, go to the nodes of this
-   step, at alpha + beta c in the last step's tau.  For two that table never changes; where forces
-   only serve to make positions, it has K and b in it, and makes both at once.  `plain`: by one
-   step, whatever its length.                                                                  */
+/* The stage values of the last step, or of two that are as long as this one, go to the nodes of
+   this step, at alpha + beta c in the last step's tau.  For two that table never changes; where
+   forces only serve to make positions, it has K and b in it, and makes both at once.  `plain`: by
+   one step, whatever its length.                                                              */
 static void gvi__prepare_predictor(gvi_stepper *st, gvi_real h, int query, int plain)
 {
     struct gvi__private *in = &st->in;
@@ -3768,13 +3774,14 @@ static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h
 static int gvi__finite_end(const gvi_stepper *st, const gvi__origin *from)
 {
     const struct gvi__phase *d = &st->in.step;
-    gvi_real none = 0;
-    for (int i = 0; i < st->n; ++i) {
+    const gvi_real *q = from->q, *p = from->p, *dq = d->q, *dp = d->p;
+    gvi_real none[GVI__LANES] = { 0 }, all = 0;
+    GVI__ALONG(st->n,
         // rounded, as the commit will store them
-        const gvi__rounded q = from->q[i] + d->q[i], p = from->p[i] + d->p[i];
-        none += 0*q + 0*p;
-    }
-    return none >= 0;
+        const gvi__number x = GVI__AT(q) + GVI__AT(dq), y = GVI__AT(p) + GVI__AT(dp);
+        *(gvi__number *)none += 0*x + 0*y)
+    for (int k = 0; k < GVI__LANES; ++k) all += none[k];
+    return all >= 0;
 }
 
 /* The fixed point, from extrapolated values, then from plain ones, to its increments.          */
@@ -3894,6 +3901,7 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
     in->failed.status = GVI_OK;
     if (!gvi__nonzero(h) || !gvi__finite(h))
         return gvi__refuse_call(st, "h is 0, NaN or infinite");
+    if (gvi__parts(in) && gvi__place_steps(st, h, 1)) return GVI_OK;
 
     const gvi_formulation was = st->formulation;
     const gvi__origin from = { st->t, st->t_low, st->q, st->q_low, st->p, st->p_low };
@@ -3912,6 +3920,20 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
     }
     gvi__commit(st, h);                                                                      // 7)
     return gvi__report_status(st, GVI_OK);
+}
+
+GVI_DEF gvi_status gvi_steps(gvi_stepper *st, gvi_real h, int count)
+{
+    gvi_status status = gvi__ready(st, st && st->in.started);
+    if (status != GVI_OK) return status;
+    if (count < 0) return gvi__refuse_call(st, "count is negative");
+    const int known = gvi__parts(&st->in) && gvi__nonzero(h) && gvi__finite(h);
+    while (status == GVI_OK && count > 0) {
+        if (known) count -= gvi__place_steps(st, h, count);
+        if (count > 0) status = gvi_step(st, h);
+        count -= 1;
+    }
+    return status;
 }
 
 /* ----------------------------------------------------------------- STATE */
@@ -5079,7 +5101,8 @@ static gvi_status gvi__kick(gvi_stepper *st, const gvi__origin *from, gvi_real h
         t = from->t + (from->t_low + in->table.c[j]*h);
         b = hb[j];
         if (j < r - 1 && !gvi__nonzero(b)) continue;
-        const gvi_status status = gvi__effects(st, &at, 0, NULL);
+        const gvi_status status = GVI__LOOKS(st) ? gvi__effects(st, &at, 0, NULL)
+                                                 : gvi__each_effect(st, &at, 0, NULL);
         if (status != GVI_OK) return status;
     }
 
@@ -5106,6 +5129,63 @@ static void gvi__kicks_commit(gvi_stepper *st)
 {
     const gvi_real *c = st->in.table.c;
     st->in.kicks.has_force = !gvi__nonzero(c[0]) && !gvi__nonzero(c[st->r - 1] - 1);
+}
+
+// gvi__move for q and p, whose increments have no low words
+static void gvi__kicks_move(struct gvi__private *in)
+{
+    gvi_real *GVI__RESTRICT q = in->state.q, *GVI__RESTRICT p = in->state.p;
+    gvi_real *GVI__RESTRICT q_low = in->state.q_low, *GVI__RESTRICT p_low = in->state.p_low;
+    gvi_real *GVI__RESTRICT q_was = in->began.q, *GVI__RESTRICT p_was = in->began.p;
+    const gvi_real *GVI__RESTRICT dq = in->step.q, *GVI__RESTRICT dp = in->step.p;
+    GVI__ALONG(in->desc.n,
+        const gvi__number a = GVI__AT(q), d = GVI__AT(dq), s = a + d, b = s - a, da = s - b;
+        const gvi__number u = GVI__AT(p), w = GVI__AT(dp), z = u + w, y = z - u, du = z - y;
+        GVI__TO(q_was) = a;
+        GVI__TO(p_was) = u;
+        GVI__TO(q) = s;
+        GVI__TO(p) = z;
+        GVI__TO(q_low) = (a - da) + (d - b);
+        GVI__TO(p_low) = (u - du) + (w - y))
+}
+
+/* As many steps as kicks alone can make: up to `count`, or to one that fails, which gvi_step then
+   looks at.  What only iterations and queries need is done once, behind them all.             */
+static int gvi__kick_steps(gvi_stepper *st, gvi_real h, int count)
+{
+    struct gvi__private *in = &st->in;
+    const gvi__origin from = { 0, 0, st->q, st->q_low, st->p, st->p_low };
+    gvi_real t0 = st->t0;
+    int made = 0;
+    if (in->apart) return 0;                       // constraints
+    gvi__weights_for(st, h);
+    gvi__drifts_for(st, h);
+    for (; made < count; ++made) {
+        gvi__origin now = from;
+        now.t = st->t;
+        now.t_low = st->t_low;
+        const gvi__two t = gvi__two_sum(st->t, h + st->t_low);
+        const gvi_real *force = in->kicks.has_force ? in->last.F : NULL;
+        if (gvi__kick(st, &now, h, force) != GVI_OK) break;
+        if (!gvi__finite(t.hi) || !gvi__finite_end(st, &now)) break;
+        gvi__kicks_move(in);
+        gvi__rotate(&in->older.F, &in->last.F, &in->work.F);
+        gvi__kicks_commit(st);
+        t0 = st->t;
+        st->t = t.hi;
+        st->t_low = t.lo;
+    }
+    if (made == 0) return 0;
+    st->t0 = t0;
+    st->h = in->dt = h;
+    st->resolution = 0;
+    st->iterations = 0;
+    st->formulation = in->chosen;
+    in->stepped = 1;
+    in->failed.status = GVI_OK;
+    gvi__count(&st->counters.steps, made);
+    gvi__report_status(st, GVI_OK);
+    return made;
 }
 
 // the last step's curve: a straight line
@@ -5585,9 +5665,9 @@ static void gvi__newton_note(gvi_stepper *st, gvi__descent *p, gvi_real change, 
         st->in.newton.bend = gvi__larger(change/before, st->in.newton.bend);
 }
 
-/* Is it rounding?  One that does not shrink is, if y, q or the residual is, or if it is small and its
-   matrix is new or has contracted here: an older one can repeat any change.  It then hides no more
-   of the error, p->left, than the change before, which shrinks on by the contraction seen.    */
+/* Is it rounding?  One that does not shrink is, if y, q or the residual is, or if it is small and
+   its matrix is new or has contracted here: an older one can repeat any change.  It then hides no
+   more of the error, p->left, than the change before, which shrinks on by the contraction seen. */
 static int gvi__newton_rests(gvi__descent *p, gvi_real change, gvi_real noise)
 {
     const gvi_real quarter = GVI__CONTRACTS;
@@ -6224,7 +6304,8 @@ static gvi_status gvi__constraints_at(gvi_stepper *st, gvi_real t, const gvi_rea
         if (status == GVI_OK) status = gvi__factor_hessian(st, &at, v);
     } else if (status == GVI_OK && st->in.desc.mass.kind == GVI_MASS_POSITION)
         status = gvi__factor_mass(st, &at);
-    return status == GVI_OK ? gvi__factor_constraints(st, 1, 1, G, st->in.con.gram1, drops) : status;
+    if (status != GVI_OK) return status;
+    return gvi__factor_constraints(st, 1, 1, G, st->in.con.gram1, drops);
 }
 
 // z += G' y at one point
@@ -6791,7 +6872,8 @@ GVI__COLD gvi_status gvi__check_derivatives(gvi_stepper *st, gvi_real t, const g
             if (status == GVI_OK) status = gvi__evaluate_constraints(st, 1, 1, &now, at, G + m*n);
             agree = status == GVI_OK;
             for (int a = 0; a < m && status == GVI_OK; ++a) {
-                const gvi_real entry = entries[i < n ? a*n : a], back = (g[a] - was[a])/(*moved - x),
+                const gvi_real entry = entries[i < n ? a*n : a],
+                    back = (g[a] - was[a])/(*moved - x),
                     middle = ahead[a]/2 + back/2, miss = GVI_ABS(entry - middle),
                     apart = GVI_ABS(ahead[a] - back) + GVI_ABS(middle - mean[a]),
                     terms = gvi__terms(st, 1, from_t, from, G, rate, a) + GVI_ABS(was[a]),
@@ -6951,7 +7033,8 @@ GVI__COLD void gvi__layout_constraints(struct gvi__private *in, gvi__arena *a)
         { &con->X, i*s, R },
         { &con->E, i*s, R }, { &con->Phi, i*s, R }, { &con->Phi_low, i*s, R }, { &con->hw, on, R },
         { &con->last, i*(n + m), C }, { &con->at, i*n, C }, { &con->t, i, C }, { &con->W, on*n, C },
-        { &con->g, 2*m, C }, { &con->G, i*m*n, C }, { &con->gram, i*m*m, C }, { &con->d, on, R + C },
+        { &con->g, 2*m, C }, { &con->G, i*m*n, C }, { &con->gram, i*m*m, C },
+        { &con->d, on, R + C },
         { &con->w, on, s + 1 }, { &con->rho, m, R + C }, { &con->lu, i*(s + 1), s + 1 },
         { &con->y, on, m },
         { &con->G1, 2*m, n }, { &con->gram1, m, m }, { &con->column, m, n + 1 },
@@ -8738,6 +8821,13 @@ static gvi_status gvi__place_turn(gvi_stepper *st, const gvi__origin *from, gvi_
 #else
     return (void)st, (void)from, (void)h, (void)query, status;
 #endif
+}
+
+static int gvi__place_steps(gvi_stepper *st, gvi_real h, int count)
+{
+    (void)h, (void)count;
+    GVI__KICKS(return gvi__kick_steps(st, h, count))
+    return (void)st, 0;
 }
 
 /* ---- the fixed point ---- */

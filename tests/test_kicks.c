@@ -340,4 +340,93 @@ TEST(a_switched_effect_is_in_the_next_kick)
     }
 }
 
+/* gvi_steps: what a loop of gvi_step does, to the bit; forth and back, with what st says of the last step */
+static void expect_alike(gvi_stepper *a, gvi_stepper *b)
+{
+    const test_state last = state_now(a);
+    assert_true(a->t == b->t && a->t_low == b->t_low && a->t0 == b->t0 && a->h == b->h);
+    for (int i = 0; i < 2; ++i)
+        assert_true(last.q[i] == b->q[i] && last.p[i] == b->p[i] && a->q_low[i] == b->q_low[i] && a->p_low[i] == b->p_low[i]);
+    assert_true(a->counters.steps == b->counters.steps && a->counters.effect[0] == b->counters.effect[0]);
+    assert_true(a->status == b->status && a->iterations == b->iterations && a->formulation == b->formulation);
+}
+
+static void steps_alike(const gvi_desc *desc)
+{
+    static const struct { int count; real h; } runs[] = { { 7, 0.125L }, { 1, 0.125L }, { 0, 0.125L }, { 5, -0.0625L }, { 3, 0.1L } };
+    gvi_stepper a, b;
+    set_up(&a, desc, start, memory);
+    set_up(&b, desc, start, more);
+    for (int k = 0; k < COUNT(runs); ++k) {
+        for (int i = 0; i < runs[k].count; ++i) assert_ok(gvi_step(&a, runs[k].h));
+        assert_ok(gvi_steps(&b, runs[k].h, runs[k].count));
+        expect_alike(&a, &b);
+        assert_ok(gvi_switch(&a, 0, 1));
+        assert_ok(gvi_switch(&b, 0, 1));
+    }
+    real q[2][2], p[2][2];
+    assert_ok(gvi_state_at(&a, a.t0 + (a.t - a.t0)/4, q[0], NULL, p[0]));
+    assert_ok(gvi_state_at(&b, b.t0 + (b.t - b.t0)/4, q[1], NULL, p[1]));
+    for (int i = 0; i < 2; ++i) assert_true(q[0][i] == q[1][i] && p[0][i] == p[1][i]);
+}
+
+TEST(steps_in_a_row_are_those_one_by_one)
+{
+    EACH_TABLE(method)
+        for (int mass = GVI_MASS_UNIT; mass <= GVI_MASS_DENSE; ++mass) {
+            const gvi_desc desc = describe(method, (gvi_mass_kind)mass);
+            steps_alike(&desc);
+        }
+    const gvi_desc others[] = { { .n = 2, .degree = 1, .rule = { .kind = GVI_LOBATTO }, .effects = scene, .effect_count = 1 },
+                                { .n = 2, .degree = 4, .effects = scene, .effect_count = 1 },
+                                { .n = 2, .degree = 3, .effects = scene, .effect_count = 1, .formulation = GVI_MOMENTA },
+                                { .n = 2, .degree = 3, .effects = scene, .effect_count = 1, .formulation = GVI_NEWTON } };
+    for (int k = 0; k < COUNT(others); ++k) steps_alike(others + k);
+}
+
+/* From t = 1 on the force is not defined: the state is that after the last step that succeeded */
+static int until_one(const gvi_points *x, void *user)
+{
+    (void)user;
+    for (int k = 0; k < x->count; ++k) {
+        if (x->t[k] >= 1) return 1;
+        x->f[k] -= x->q[k];
+    }
+    return 0;
+}
+
+TEST(steps_in_a_row_end_at_the_first_that_fails)
+{
+    static const gvi_effect effects[] = { { .points = until_one } };
+    const gvi_desc desc = { .n = 1, .degree = 1, .rule = { .kind = GVI_LOBATTO }, .effects = effects, .effect_count = 1 };
+    gvi_stepper a, b;
+    assert_ok(gvi_init(&a, &desc, memory, sizeof memory));
+    assert_ok(gvi_init(&b, &desc, more, sizeof more));
+    assert_int_equal(gvi_steps(&a, 0.125L, 3), GVI_E_STATE);
+    assert_ok(gvi_start(&a, 0, start, start + 2));
+    assert_ok(gvi_start(&b, 0, start, start + 2));
+    for (int k = 0; k < 7; ++k) assert_ok(gvi_step(&b, 0.125L));
+    assert_int_equal(gvi_steps(&a, 0.125L, 20), GVI_E_CALLBACK);
+    assert_true(a.t == 0.875L && a.q[0] == b.q[0] && a.p[0] == b.p[0] && a.counters.steps == 7 && a.counters.failures == 1);
+    assert_int_equal(a.fault.effect, 0);
+    SAME_STATE(&a) assert_int_equal(gvi_steps(&a, 0.125L, 2), GVI_E_CALLBACK);
+    assert_ok(gvi_steps(&a, -0.125L, 2));
+
+    // a checkpoint between goes on to the bit
+    const gvi_stepper saved = b;
+    memcpy(memory, more, sizeof more);
+    assert_ok(gvi_steps(&b, -0.125L, 3));
+    gvi_stepper c;
+    static real third[4000];
+    assert_ok(gvi_init(&c, &desc, third, sizeof third));
+    assert_ok(gvi_restore(&c, &saved, memory));
+    assert_ok(gvi_steps(&c, -0.125L, 3));
+    assert_true(c.q[0] == b.q[0] && c.p[0] == b.p[0] && c.t == b.t);
+    SAME_STATE(&b) {
+        assert_int_equal(gvi_steps(&b, 0.125L, -1), GVI_E_ARGUMENT);
+        assert_int_equal(gvi_steps(&b, 0, 1), GVI_E_ARGUMENT);
+        assert_ok(gvi_steps(&b, 0.125L, 0));
+    }
+}
+
 RUN_TESTS(NULL, NULL)

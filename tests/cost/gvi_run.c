@@ -63,9 +63,13 @@ static void run_clock(const problem *p, const gvi_setting *g, long steps, gvi_st
     gvi_state_at(st, p->end, r->q, NULL, r->p);
 }
 
-static void run_steps(const problem *p, long steps, gvi_stepper *st, watch *w)
+static void run_steps(const problem *p, const gvi_setting *g, long steps, gvi_stepper *st, watch *w)
 {
     const double h = p->end/(double)steps;
+    if (g->in_a_row && !w) {
+        gvi_steps(st, h, (int)steps);
+        return;
+    }
     for (long k = 0; k < steps && st->status == GVI_OK; ++k) {
         gvi_step(st, h);
         if (watch_due(w) && st->status == GVI_OK) look(p, st, w);
@@ -98,7 +102,7 @@ void gvi_run(const problem *p, const gvi_setting *g, double parameter, double *m
     else gvi_start(&st, 0, p->q, p->v);
     if (g->power > 0) run_clock(p, g, (long)parameter, &st, w, r);
     else if (g->dial) run_dial(p, &st, w);
-    else run_steps(p, (long)parameter, &st, w);
+    else run_steps(p, g, (long)parameter, &st, w);
     if (!(g->power > 0)) end_state(p, &st, r);
     r->status = st.status;
     r->steps = (long long)st.counters.steps;

@@ -14,6 +14,7 @@ typedef struct gvi_setting {
     const char     *name;              /* GVI_KICKS: of the splitting, and its table           */
     const double   *nodes, *weights;
     const gvi_effect *scene;           /* not NULL: two effects, the second a clock            */
+    int             in_a_row;          /* by gvi_steps, where nothing is looked at on the way  */
     int             dial;              /* its parameter is desc.resolution, not a number of steps */
     double          power;             /* of the distance, the clock; 0: there is none         */
     double          tau;               /* of the whole way                                     */

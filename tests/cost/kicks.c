@@ -3,8 +3,8 @@
    The problems of `make cost` where forces depend on positions only, five splittings each.  CPU time of
    a run from set-up to the last step, the smallest of 15, taken in turn with the loop of baselines.c,
    which knows n when it is compiled.
-   Printed: time over the number of evaluations; ratios to the loop by hand; and what gvi.h takes more than
-   that, a step.                                                                                 */
+   Printed: time over the number of evaluations, of gvi_step and of gvi_steps; their ratios to the loop by
+   hand; and what gvi_steps takes more than that, a step.                                                                                 */
 #include "baselines.h"
 #include "gvi_run.h"
 
@@ -45,9 +45,10 @@ static double run_by_hand(job *j)
     return time;
 }
 
-static double run_gvi(job *j)
+static double run_gvi(job *j, int in_a_row)
 {
     static gvi_result r;
+    j->setting.in_a_row = in_a_row;
     const clock_t from = clock();
     gvi_run(j->p, &j->setting, (double)j->steps, j->memory, NULL, &r);
     const double time = (double)(clock() - from)/CLOCKS_PER_SEC;
@@ -58,14 +59,16 @@ static double run_gvi(job *j)
 
 static void compare(job *j)
 {
-    double hand = HUGE_VAL, ours = HUGE_VAL;
+    double hand = HUGE_VAL, single = HUGE_VAL, row = HUGE_VAL;
     for (int k = 0; k < RUNS; ++k) {
         hand = fmin(hand, run_by_hand(j));
-        ours = fmin(ours, run_gvi(j));
+        single = fmin(single, run_gvi(j, 0));
+        row = fmin(row, run_gvi(j, 1));
     }
     const double evaluations = (double)j->evaluations, steps = (double)j->steps;
-    printf("%-4s %3d  %-22s %7.1f %8.1f %7.2f %6.0f\n", j->p->key, j->p->n, j->by_hand->name,
-           1e9*hand/evaluations, 1e9*ours/evaluations, ours/hand, 1e9*(ours - hand)/steps);
+    printf("%-4s %3d  %-22s %7.1f %8.1f %6.2f %8.1f %6.2f %6.0f\n", j->p->key, j->p->n, j->by_hand->name,
+           1e9*hand/evaluations, 1e9*single/evaluations, single/hand, 1e9*row/evaluations, row/hand,
+           1e9*(row - hand)/steps);
     fflush(stdout);
 }
 
@@ -87,8 +90,8 @@ int main(void)
 {
     problems_begin();
     baselines_begin();
-    printf("%31s %7s %23s\n%-4s %3s  %-22s %6s %8s %7s %6s\n", "", "by hand", "gvi.h", "", "n",
-           "ns a kick, ns a step:", "kick", "kick", "ratio", "more");
+    printf("%31s %7s %15s %15s\n%-4s %3s  %-22s %6s %8s %6s %8s %6s %6s\n", "", "by hand", "gvi_step", "gvi_steps",
+           "", "n", "ns a kick, ns a step:", "kick", "kick", "ratio", "kick", "ratio", "more");
     for (int i = 0; i < problem_count; ++i)
         for (int k = 0; k < COUNT(names) && !problems[i].slope; ++k) study(problems + i, names[k]);
     return 0;
