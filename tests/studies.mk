@@ -191,7 +191,7 @@ mutants: | $(FIRST)
 # -- hard cases and theorems, measured
 
 HARD     = dial lucky constraints constraints-float eccentric flyby roots eccentric-float pythagorean corners corners-float stiff long long-float brouwer brouwer-float walk drift
-ORDERS   = order counterexample lagrangian curve forced
+ORDERS   = order rules constant counterexample lagrangian curve forced
 THEOREMS = spectral inertia stability modified
 # Orders need more digits than long double has on x86.
 $(BUILD)/theorems/orders: TESTFLAGS += $(shell CC='$(CC)' sh tests/theorems/quad.sh)

@@ -14,12 +14,14 @@
 #define frexpl frexpf128
 #define sinl   sinf128
 #define cosl   cosf128
+#define acosl  acosf128
 #define powl   powf128
 #define logl   logf128
 #define log2l  log2f128
 #define fabsl  fabsf128
 #define cbrtl  cbrtf128
 #define fminl  fminf128
+#define fmaxl  fmaxf128
 #define atanl  atanf128
 #define expl   expf128
 #include <math.h>
