@@ -73,8 +73,13 @@ static MAYBE real step_error(const problem *pb, const method *m, real h)
     return sqrt(sum/STARTS);
 }
 
-/* L_d between q0 and q1 less `exact`; v: the velocity at q0 of the solution between them.  The curve is found from it:
-   what is a saddle is refused without.                                       */
+/* A velocity to find the curve between two configurations by, where it is a saddle: refused without */
+static MAYBE const real *guess_for(const problem *pb, const real *v)
+{
+    return pb->lagrangian == saddle_lagrangian || pb->lagrangian == mixed_lagrangian ? v : NULL;
+}
+
+/* L_d between q0 and q1 less `exact`; v: the velocity at q0 of the solution between them */
 static MAYBE real lagrangian_less(const problem *pb, const method *m, real h, const real *q0, const real *v,
                                   const real *q1, real exact)
 {
@@ -83,7 +88,7 @@ static MAYBE real lagrangian_less(const problem *pb, const method *m, real h, co
     memcpy(y, q0, (size_t)pb->n*sizeof *y);
     gradient(pb, t, q0, v, unused, y + pb->n);
     gvi_stepper *st = bench(pb, m, t, y);
-    const gvi_discrete out = { .lagrangian = &Ld, .guess = v };
+    const gvi_discrete out = { .lagrangian = &Ld, .guess = guess_for(pb, v) };
     if (st->status != GVI_OK || gvi_discrete_lagrangian(st, t, h, q0, q1, &out) != GVI_OK) return (real)NAN;
     return Ld - exact;
 }
@@ -123,27 +128,28 @@ static MAYBE real any_lagrangian_error(const problem *pb, const method *m, real 
 
 /* d1, d2, F- and F+ at the two ends of an exact solution, against those of the solution, and so d1 + d2 and F- + F+;
    root mean square over the starts                                           */
-enum { ALL_PARTS = PARTS + 2 };
+enum { PARTS_AND_SUMS = PARTS + 2 };
 
 static MAYBE void force_errors(const problem *pb, const method *m, real h, real *error)
 {
     const real t = step_time(pb, h);
-    for (int k = 0; k < ALL_PARTS; ++k) error[k] = 0;
+    for (int k = 0; k < PARTS_AND_SUMS; ++k) error[k] = 0;
     for (int start = 0; start < STARTS; ++start) {
         const real *want = kept(exact_parts, pb, start, h);
-        real y0[MAX_Y], y1[MAX_Y], v[MAX_N], off[ALL_PARTS][MAX_N];
+        real y0[MAX_Y], y1[MAX_Y], v[MAX_N], off[PARTS_AND_SUMS][MAX_N];
         exact_step(pb, start, h, y0, y1);
         pb->velocity(t, y0, y0 + pb->n, v);
         gvi_stepper *st = bench(pb, m, t, y0);
-        const gvi_discrete out = { .d1 = off[0], .d2 = off[1], .minus = off[2], .plus = off[3], .guess = v };
+        const gvi_discrete out = { .d1 = off[0], .d2 = off[1], .minus = off[2], .plus = off[3],
+                                    .guess = guess_for(pb, v) };
         if (st->status == GVI_OK) gvi_discrete_lagrangian(st, t, h, y0, y1, &out);
         for (int i = 0; i < pb->n; ++i) {
             for (int k = 0; k < PARTS; ++k) off[k][i] = st->status == GVI_OK ? off[k][i] - want[k*MAX_N + i] : (real)NAN;
             for (int k = 0; k < 2; ++k) off[PARTS + k][i] = off[2*k][i] + off[2*k + 1][i];
-            for (int k = 0; k < ALL_PARTS; ++k) error[k] += off[k][i]*off[k][i]/STARTS;
+            for (int k = 0; k < PARTS_AND_SUMS; ++k) error[k] += off[k][i]*off[k][i]/STARTS;
         }
     }
-    for (int k = 0; k < ALL_PARTS; ++k) error[k] = sqrt(error[k]);
+    for (int k = 0; k < PARTS_AND_SUMS; ++k) error[k] = sqrt(error[k]);
 }
 
 /* ------------------------------------------------------- inside one exact step

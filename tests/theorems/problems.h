@@ -452,7 +452,7 @@ static const MAYBE problem oscillator = {
     { { 0.7L }, { -0.4L }, { 1.1L } }, { { 0.5L }, { 1 }, { -0.2L } }, 2
 };
 
-static const MAYBE problem uniform = {
+static const MAYBE problem uniform_field = {
     "uniform field", 1, { .kind = GVI_MASS_UNIT }, { FALL }, 1, 0,
     uniform_lagrangian, unit_1, momentum_is_velocity_1,
     { { 0.7L }, { -0.4L }, { 1.1L } }, { { 0.5L }, { 1 }, { -0.2L } }, 2

@@ -16,11 +16,11 @@ static double degree[S];
 
 /* -------------------------------------------------------------- four problems */
 
-static const real step_of[PROBLEMS] = { 0.5L, 0.5L, 1, 1 };
+static const real step_of[PROBLEMS] = { 0.5L, 0.5L, 1, 1, 0.5L, 0.5L };
 
 static void four_problems(const char *folder)
 {
-    static const char *const names[PROBLEMS] = { "Kepler", "pendulum", "magnetic", "length" };
+    static const char *const names[PROBLEMS] = { "Kepler", "pendulum", "magnetic", "length", "saddle", "mixed" };
     static double error[PROBLEMS][S];
     svg_line lines[PROBLEMS];
     for (int k = 0; k < PROBLEMS; ++k) {
