@@ -146,7 +146,7 @@ static const study studies[] = {
         { SWIRL, plus_error, STEP, 0, "F+" }, { SWIRL, sum_error, STEP, 1, "F- + F+" },
         { SWIRL, q_most, VELOCITY, 1, "curve" }, { SWIRL, v_most, VELOCITY, 0, "its velocity" } } },
     { "lagrangian", "theorem_lagrangian_order", "Exponent of h in |L_d - L_exact|",
-      "blue: within 0.25 of min(2s, u) + 1, for the last row of min(u, 2(u - s + 1)) + 1", few, 5, 8, 96, 96, 1, 0.25,
+      "blue: within 0.25 of min(2s, u) + 1, for the last row of min(u, 2(u - s + 1)) + 1", few, 5, 8, 96, 96, 3, 0.25,
       { { &oscillator, lagrangian_error, STEP, 1, NULL }, { KEPLER, lagrangian_error, STEP, 1, NULL },
         { PENDULUM, lagrangian_error, STEP, 1, NULL }, { MAGNETIC, lagrangian_error, STEP, 1, NULL },
         { LENGTH, lagrangian_error, STEP, 1, NULL }, { SADDLE, lagrangian_error, STEP, 1, NULL },
