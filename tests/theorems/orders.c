@@ -335,10 +335,10 @@ static void counterexample(void)
         const method m = { a->s, rule_or_own(GVI_OWN, a->rule.r, &a->rule) };
         const int order = order_expected(a->s, a->rule.u);
         const real c = coercivity(&a->rule, a->s);
-        printf("%-9s %2d %2d  %9d  %7d  %7.2f  %5.2f  %6.2g  %7.4f  %10.4f  %2d of %d\n", a->name, a->s, a->rule.u,
+        printf("%-9s %2d %2d  %9d  %7d  %7.2f  %5.2f  %6.3g  %7.4f  %10.4f  %2d of %d\n", a->name, a->s, a->rule.u,
                least(2*a->s, a->rule.u), order, (double)slope(own_step_error, KEPLER, &m, order + 1, 6400) - 1,
                (double)slope(own_lagrangian_error, KEPLER, &m, order + 1, 1600), (double)last_of_inverse(&a->rule, a->s),
-               (double)c, c > 0 ? (double)coercivity_seen(PENDULUM, &a->rule, a->s) : NAN,
+               (double)c, c > 0.001L ? (double)coercivity_seen(PENDULUM, &a->rule, a->s) : NAN,
                most_negative(KEPLER, &m), 2*(a->s - 1));
     }
 
