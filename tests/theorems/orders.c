@@ -239,7 +239,9 @@ static int    marks;
 static void mark(double x, double y)
 {
     const double xs[] = { x - 0.09, x + 0.09, NAN, x, x, NAN }, ys[] = { y, y, NAN, y - 0.13, y + 0.13, NAN };
-    for (int i = 0; i < 6; ++i, ++marks) mark_x[marks] = xs[i], mark_y[marks] = ys[i];
+    memcpy(mark_x + marks, xs, sizeof xs);
+    memcpy(mark_y + marks, ys, sizeof ys);
+    marks += 6;
 }
 
 static int exponents(const char *folder)
@@ -324,8 +326,8 @@ static void counterexample(void)
     const weak_case cases[] = {
         { "smallest", 3, smallest }, { "3/8", 3, newton_cotes(4) }, { "3/8", 4, newton_cotes(4) },
         { "Boole", 4, newton_cotes(5) }, { "Boole", 5, newton_cotes(5) }, { "Milne", 3, milne },
-        { "X = 0", 4, rule_without_phi_2(6) }, { "outside", 3, random_rule(3, 3, 1.4L) }, { "outside", 4, random_rule(5, 5, 1.4L) },
-        { "singular", 3, rule_without_phi_2(5) }, { "u < s", 4, random_rule(5, 3, 1) },
+        { "X = 0", 4, rule_without_phi_2(6) }, { "outside", 3, random_rule(3, 3, 1.4L) },
+        { "outside", 4, random_rule(5, 5, 1.4L) }, { "singular", 3, rule_without_phi_2(5) }, { "u < s", 4, random_rule(5, 3, 1) },
     };
     printf("\nKepler's problem: exponents of h; least ratio of the action's second variation to the integral of |w'|^2,\n"
            "of the rule, and of h <= 1/8 on the double pendulum over the least eigenvalue of M(q); negative directions\n"
