@@ -10,8 +10,10 @@
    contracts no products).
 
    It is never a minimum: what the first copy gains, the second loses. Half of the curve's interior directions lower
-   the action, at any step length, while the curve of the undamped satellite is a minimum. docs/theory.md says what
-   follows for the theory; to compute, take the force.
+   the action, at any step length, while the curve of the undamped satellite is a minimum. The order needs none: the
+   second derivative by (x', y') is regular at x = y, the action changes sign as x and y change places, so curves with
+   equal ends stay equal, and the theorem of docs/theory.md gives forces the order min(2s, u, 2(u - s + 1)) that
+   Lagrangians have. To compute, take the force.
 
    prints
 

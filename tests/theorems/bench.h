@@ -73,41 +73,83 @@ static MAYBE real step_error(const problem *pb, const method *m, real h)
     return sqrt(sum/STARTS);
 }
 
-/* L_d of the two ends of an exact solution against its action, root mean square
-   over the starts.  The oscillator: against its closed form.                  */
+/* A velocity to find the curve between two configurations by, where it is a saddle: refused without */
+static MAYBE const real *guess_for(const problem *pb, const real *v)
+{
+    return pb->lagrangian == saddle_lagrangian || pb->lagrangian == mixed_lagrangian ? v : NULL;
+}
+
+/* L_d between q0 and q1 less `exact`; v: the velocity at q0 of the solution between them */
+static MAYBE real lagrangian_less(const problem *pb, const method *m, real h, const real *q0, const real *v,
+                                  const real *q1, real exact)
+{
+    const real t = step_time(pb, h);
+    real y[MAX_Y], unused[MAX_N], Ld;
+    memcpy(y, q0, (size_t)pb->n*sizeof *y);
+    gradient(pb, t, q0, v, unused, y + pb->n);
+    gvi_stepper *st = bench(pb, m, t, y);
+    const gvi_discrete out = { .lagrangian = &Ld, .guess = guess_for(pb, v) };
+    if (st->status != GVI_OK || gvi_discrete_lagrangian(st, t, h, q0, q1, &out) != GVI_OK) return (real)NAN;
+    return Ld - exact;
+}
+
+/* Of the two ends of an exact solution, against its action.  The oscillator: against its closed form. */
+static MAYBE real lagrangian_excess(const problem *pb, const method *m, int start, real h)
+{
+    real y0[MAX_Y], y1[MAX_Y], v[MAX_N];
+    exact_step(pb, start, h, y0, y1);
+    real exact = y1[2*pb->n];
+    if (pb == &oscillator) exact = ((y0[0]*y0[0] + y1[0]*y1[0])*cos(h) - 2*y0[0]*y1[0])/(2*sin(h));
+    pb->velocity(step_time(pb, h), y0, y0 + pb->n, v);
+    return lagrangian_less(pb, m, h, y0, v, y1, exact);
+}
+
+/* Root mean squares over the starts: between the ends of a solution; between those of a curve that is none */
 static MAYBE real lagrangian_error(const problem *pb, const method *m, real h)
 {
     real sum = 0;
     for (int start = 0; start < STARTS; ++start) {
-        real y0[MAX_Y], y1[MAX_Y], Ld, exact;
-        exact_step(pb, start, h, y0, y1);
-        exact = y1[2*pb->n];
-        if (pb == &oscillator) exact = ((y0[0]*y0[0] + y1[0]*y1[0])*cos(h) - 2*y0[0]*y1[0])/(2*sin(h));
-        gvi_stepper *st = bench(pb, m, step_time(pb, h), y0);
-        if (st->status != GVI_OK || gvi_discrete_lagrangian(st, st->t, h, y0, y1,
-                                        &(gvi_discrete){ .lagrangian = &Ld }) != GVI_OK) return (real)NAN;
-        sum += (Ld - exact)*(Ld - exact);
+        const real e = lagrangian_excess(pb, m, start, h);
+        sum += e*e/STARTS;
     }
-    return sqrt(sum/STARTS);
+    return sqrt(sum);
 }
 
-/* d1, d2, F- and F+ at the two ends of an exact solution, against those of the solution; root mean square over the
-   starts                                                                     */
+static MAYBE real any_lagrangian_error(const problem *pb, const method *m, real h)
+{
+    real sum = 0;
+    for (int start = 0; start < STARTS; ++start) {
+        const real *ends = kept(any_ends, pb, start, h);
+        const real e = lagrangian_less(pb, m, h, ends, ends + 2*MAX_N, ends + MAX_N, ends[3*MAX_N]);
+        sum += e*e/STARTS;
+    }
+    return sqrt(sum);
+}
+
+/* d1, d2, F- and F+ at the two ends of an exact solution, against those of the solution, and so d1 + d2 and F- + F+;
+   root mean square over the starts                                           */
+enum { PARTS_AND_SUMS = PARTS + 2 };
+
 static MAYBE void force_errors(const problem *pb, const method *m, real h, real *error)
 {
     const real t = step_time(pb, h);
-    for (int k = 0; k < PARTS; ++k) error[k] = 0;
+    for (int k = 0; k < PARTS_AND_SUMS; ++k) error[k] = 0;
     for (int start = 0; start < STARTS; ++start) {
         const real *want = kept(exact_parts, pb, start, h);
-        real y0[MAX_Y], y1[MAX_Y], got[PARTS][MAX_N];
+        real y0[MAX_Y], y1[MAX_Y], v[MAX_N], off[PARTS_AND_SUMS][MAX_N];
         exact_step(pb, start, h, y0, y1);
+        pb->velocity(t, y0, y0 + pb->n, v);
         gvi_stepper *st = bench(pb, m, t, y0);
-        const gvi_discrete out = { .d1 = got[0], .d2 = got[1], .minus = got[2], .plus = got[3] };
+        const gvi_discrete out = { .d1 = off[0], .d2 = off[1], .minus = off[2], .plus = off[3],
+                                    .guess = guess_for(pb, v) };
         if (st->status == GVI_OK) gvi_discrete_lagrangian(st, t, h, y0, y1, &out);
-        for (int k = 0; k < PARTS; ++k)
-            error[k] += st->status == GVI_OK ? square_distance(pb->n, got[k], want + k*MAX_N)/STARTS : (real)NAN;
+        for (int i = 0; i < pb->n; ++i) {
+            for (int k = 0; k < PARTS; ++k) off[k][i] = st->status == GVI_OK ? off[k][i] - want[k*MAX_N + i] : (real)NAN;
+            for (int k = 0; k < 2; ++k) off[PARTS + k][i] = off[2*k][i] + off[2*k + 1][i];
+            for (int k = 0; k < PARTS_AND_SUMS; ++k) error[k] += off[k][i]*off[k][i]/STARTS;
+        }
     }
-    for (int k = 0; k < PARTS; ++k) error[k] = sqrt(error[k]);
+    for (int k = 0; k < PARTS_AND_SUMS; ++k) error[k] = sqrt(error[k]);
 }
 
 /* ------------------------------------------------------- inside one exact step
@@ -152,6 +194,16 @@ static MAYBE void interpolant(const problem *pb, const own_rule *at, real h, rea
     }
 }
 
+/* The solution at the nodes of `at` in one exact step */
+static MAYBE void nodes_of_step(const problem *pb, int start, real h, const own_rule *at, real y[MAX_R][MAX_Y])
+{
+    real end[MAX_Y];
+    for (int e = 0; e < at->r; ++e) {
+        exact_step(pb, start, h, y[e], end);
+        flow_of(pb, step_time(pb, h), step_time(pb, h) + at->c[e]*h, y[e]);
+    }
+}
+
 /* |position| and |velocity| of the difference at tau = k/INSIDE, in one step */
 static MAYBE int curve_errors(const problem *pb, const method *m, int start, real h, curve_kind kind,
                               real *of_q, real *of_v)
@@ -161,10 +213,7 @@ static MAYBE int curve_errors(const problem *pb, const method *m, int start, rea
     real at_nodes[MAX_R][MAX_Y], dy[MAX_Y], q[MAX_N], v[MAX_N];
     gvi_stepper *st = stepped(pb, m, t0, h, exact, end, kind);
     if (kind == INTERPOLANT) at = lobatto(m->s + 1);
-    for (int e = 0; e < at.r; ++e) {
-        memcpy(at_nodes[e], exact, sizeof at_nodes[e]);
-        flow_of(pb, t0, t0 + at.c[e]*h, at_nodes[e]);
-    }
+    nodes_of_step(pb, start, h, &at, at_nodes);
     for (int k = 0; k <= INSIDE && st->status == GVI_OK; ++k) {
         const real tau = (real)k/INSIDE, t = k < INSIDE ? t0 + tau*h : st->t, *y = exact + k*MAX_Y;
         rates(pb, t, y, dy);
@@ -193,26 +242,6 @@ static MAYBE void curve_norms(const problem *pb, const method *m, real h, curve_
         }
     }
     for (int i = 0; i < NORMS; ++i) norm[i] = sqrt(norm[i]);
-}
-
-/* Size of d^s q/dt^s, the highest derivative of the discrete curve of one exact step: its s-th difference over
-   h/s, root mean square over the starts                                      */
-static MAYBE real top_derivative(const problem *pb, const method *m, real h)
-{
-    const int n = pb->n, s = m->s;
-    real sum = 0;
-    for (int start = 0; start < STARTS; ++start) {
-        real y0[MAX_Y], y1[MAX_Y], d[MAX_N] = { 0 }, q[MAX_N], v[MAX_N], w = pow(s/h, (real)s);
-        exact_step(pb, start, h, y0, y1);
-        gvi_stepper *st = stepped(pb, m, step_time(pb, h), h, y0, y1, OF_THE_STEP);
-        for (int k = 0; k <= s; ++k) {
-            if (gvi_curve(st, (real)k/s, q, v) != GVI_OK) return (real)NAN;
-            for (int i = 0; i < n; ++i) d[i] += w*q[i];
-            w *= -(real)(s - k)/(k + 1);
-        }
-        for (int i = 0; i < n; ++i) sum += d[i]*d[i];
-    }
-    return sqrt(sum/STARTS);
 }
 
 /* ----------------------------------------------------------------------- slopes

@@ -12,13 +12,15 @@ enum { REVOLUTIONS = 3, STEPS = 400 };
 static void perihelion(void)
 {
     static const double e[4] = { 0.1, 0.3, 0.5, 0.7 };
-    printf("Perihelion's turn in a revolution, in degrees: measured, predicted to h^2, their ratio\n");
+    printf("Perihelion's turn in a revolution, in degrees: measured, predicted to h^2, their ratio; per time 2 pi\n");
     for (int i = 0; i < 4; ++i)
         for (int N = 500; N <= 2000; N *= 2) {
             const real h = TAU/N;
-            const double seen = (double)(360/TAU*shift_measured(e[i], h));
+            real revolution;
+            const double seen = (double)(360/TAU*shift_measured(e[i], h, &revolution));
             const double said = (double)(360/TAU*shift_predicted(e[i], h));
-            printf("e = %.1f, %4d steps: %9.5f  %9.5f  %7.5f\n", e[i], N, seen, said, seen/said);
+            const double in_time = seen/said*(double)(TAU/revolution);
+            printf("e = %.1f, %4d steps: %9.5f  %9.5f  %7.5f  %7.5f\n", e[i], N, seen, said, seen/said, in_time);
         }
 }
 

@@ -113,25 +113,30 @@ static MAYBE real shift_predicted(real e, real h)
     return -TAU/2*h*h*(4 + e*e)/(8*k*k*k);
 }
 
-/* The angle of the next perihelion after one at angle 0: where q'p = 0, by interpolation of the angle over q'p
+/* The angle of the next perihelion after one at angle 0, and its time: where q'p = 0, by interpolation over q'p
    (Neville), from as many nodes before as after                              */
-static MAYBE real shift_measured(real e, real h)
+static MAYBE real shift_measured(real e, real h, real *revolution)
 {
     enum { NODES = 12 };
-    real y[MAX_Y] = { 1 - e, 0, 0, sqrt((1 + e)/(1 - e)) }, angle[NODES] = { 0 }, w[NODES] = { 0 };
+    real y[MAX_Y] = { 1 - e, 0, 0, sqrt((1 + e)/(1 - e)) }, angle[NODES] = { 0 }, time[NODES] = { 0 }, w[NODES] = { 0 };
     gvi_stepper *st = bench(&problems[0], &verlet, 0, y);
     while (st->status == GVI_OK && !(st->t > TAU/2 && w[NODES/2 - 1] < 0 && w[NODES/2] >= 0)) {
         gvi_step(st, h);
         for (int k = 0; k + 1 < NODES; ++k) {
             w[k] = w[k + 1];
             angle[k] = angle[k + 1];
+            time[k] = time[k + 1];
         }
         w[NODES - 1] = st->q[0]*st->p[0] + st->q[1]*st->p[1];
         angle[NODES - 1] = atan(st->q[1]/st->q[0]);
+        time[NODES - 1] = st->t;
     }
     for (int m = 1; m < NODES; ++m)
-        for (int k = 0; k + m < NODES; ++k)
+        for (int k = 0; k + m < NODES; ++k) {
             angle[k] = (w[k + m]*angle[k] - w[k]*angle[k + 1])/(w[k + m] - w[k]);
+            time[k] = (w[k + m]*time[k] - w[k]*time[k + 1])/(w[k + m] - w[k]);
+        }
+    *revolution = time[0];
     return st->status == GVI_OK ? angle[0] : (real)NAN;
 }
 

@@ -172,6 +172,82 @@ static MAYBE void exact_inside(const problem *pb, int start, real h, real *y)
     }
 }
 
+/* The ends of a smooth curve that is no solution, a cubic around the middle of a run, and the action of the solution
+   between them, by Newton's method for its momentum: q0, q1, its velocity at q0, S  */
+static MAYBE void any_ends(const problem *pb, int start, real h, real *ends)
+{
+    real y0[MAX_Y], y1[MAX_Y], v[MAX_N], unused[MAX_N], J[MAX_N*MAX_N], off[MAX_N];
+    const int n = pb->n;
+    for (int end = 0; end < 2; ++end)
+        for (int i = 0; i < n; ++i) {
+            const real t = end ? h/2 : -h/2;
+            ends[end*MAX_N + i] = pb->q[start][i] + t*(pb->v[start][i] + t*(0.5L*i - 0.7L + t*(0.4L - 0.9L*i)));
+        }
+    for (int i = 0; i < n; ++i) {
+        y0[i] = ends[i];
+        v[i] = (ends[MAX_N + i] - ends[i])/h;
+    }
+    gradient(pb, pb->time/2 - h/2, y0, v, unused, y0 + n);
+    for (int it = 0; it < 8; ++it) {
+        y0[2*n] = 0;
+        memcpy(y1, y0, sizeof y1);
+        flow_of(pb, pb->time/2 - h/2, pb->time/2 + h/2, y1);
+        jacobi(pb, pb->time/2 - h/2, h, y0, J);
+        for (int i = 0; i < n; ++i) off[i] = ends[MAX_N + i] - y1[i];
+        solve(n, J, off);
+        for (int i = 0; i < n; ++i) y0[n + i] += off[i];
+    }
+    pb->velocity(pb->time/2 - h/2, y0, y0 + n, ends + 2*MAX_N);
+    ends[3*MAX_N] = y1[2*n];
+}
+
+/* d^k/dt^k of the solution's (q, p) in the middle of a run, by the differences of 13 points that are exact for
+   polynomials                                                                */
+static MAYBE void derivative_in_time(const problem *pb, int start, int k, real *d)
+{
+    enum { POINTS = 13, HALF = POINTS/2 };
+    const real delta = 1/64.0L;
+    real A[POINTS*POINTS], w[POINTS] = { 0 };
+    for (int i = 0; i < POINTS; ++i)
+        for (int j = 0; j < POINTS; ++j) A[i*POINTS + j] = i ? A[(i - 1)*POINTS + j]*(j - HALF) : 1;
+    w[k] = 1;
+    for (int i = 1; i <= k; ++i) w[k] *= i/delta;
+    solve(POINTS, A, w);
+    for (int i = 0; i < 2*pb->n; ++i) d[i] = 0;
+    for (int j = 0; j < POINTS; ++j) {
+        real y[MAX_Y];
+        memcpy(y, run_state(pb, start, 0), sizeof y);
+        flow_of(pb, pb->time/2, pb->time/2 + (j - HALF)*delta, y);
+        for (int i = 0; i < 2*pb->n; ++i) d[i] += w[j]*y[i];
+    }
+}
+
+/* x'M^-1 x and x'M x in the middle of a run, M = d^2L/dv^2: M^-1 = dv/dp     */
+static MAYBE real inverse_mass_of(const problem *pb, int start, const real *x)
+{
+    const real *y = run_state(pb, start, 0), delta = cbrt(UNIT);
+    real p[2][MAX_N], v[2][MAX_N], sum = 0;
+    for (int k = 0; k < 2; ++k) {
+        for (int i = 0; i < pb->n; ++i) p[k][i] = y[pb->n + i] + (k ? delta : -delta)*x[i];
+        pb->velocity(pb->time/2, y, p[k], v[k]);
+    }
+    for (int i = 0; i < pb->n; ++i) sum += x[i]*(v[1][i] - v[0][i])/(2*delta);
+    return sum;
+}
+
+static MAYBE real mass_of(const problem *pb, int start, const real *x)
+{
+    const real *y = run_state(pb, start, 0), delta = cbrt(UNIT);
+    real v[MAX_N], w[MAX_N], unused[MAX_N], p[2][MAX_N], sum = 0;
+    pb->velocity(pb->time/2, y, y + pb->n, v);
+    for (int k = 0; k < 2; ++k) {
+        for (int i = 0; i < pb->n; ++i) w[i] = v[i] + (k ? delta : -delta)*x[i];
+        gradient(pb, pb->time/2, y, w, unused, p[k]);
+    }
+    for (int i = 0; i < pb->n; ++i) sum += x[i]*(p[1][i] - p[0][i])/(2*delta);
+    return sum;
+}
+
 /* A stretch of the flow as a map (q, p) -> (q, p, S) */
 typedef struct flow_span { const problem *pb; real t, h; } flow_span;
 

@@ -16,11 +16,11 @@ static double degree[S];
 
 /* -------------------------------------------------------------- four problems */
 
-static const real step_of[PROBLEMS] = { 0.5L, 0.5L, 1, 1 };
+static const real step_of[PROBLEMS] = { 0.5L, 0.5L, 1, 1, 0.5L, 0.5L };
 
 static void four_problems(const char *folder)
 {
-    static const char *const names[PROBLEMS] = { "Kepler", "pendulum", "magnetic", "length" };
+    static const char *const names[PROBLEMS] = { "Kepler", "pendulum", "magnetic", "length", "saddle", "mixed" };
     static double error[PROBLEMS][S];
     svg_line lines[PROBLEMS];
     for (int k = 0; k < PROBLEMS; ++k) {
@@ -35,7 +35,7 @@ static void four_problems(const char *folder)
         for (int k = 0; k < PROBLEMS; ++k) printf("  %9.2e", error[k][s - 1]);
         printf("\n");
     }
-    const svg_plot plot = { .title = "Error of one step: h = 1/2 (Kepler, pendulum), h = 1",
+    const svg_plot plot = { .title = "Error of one step: h = 1 (magnetic, length), else 1/2",
                             .x_label = "degree s", .y_label = "error of (q, p)", .log_y = 1,
                             .lines = lines, .line_count = PROBLEMS };
     draw(folder, "theorem_spectral", &plot);
