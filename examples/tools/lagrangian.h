@@ -18,7 +18,7 @@
 
    Functions: sqrt exp log pow sin cos tan fabs, in C also the others of <tgmath.h> that take complex
    numbers.  The same text compiles as C and as C++.  There is no `if (q[0] < 0)`: L has to be
-   smooth, and a step over a kink is of order 2 (check.h finds kinks).
+   smooth: a step over a kink, as of fabs at 0, is of order 2 at most.
 
    First derivatives of L are exact to rounding.  In C, number is complex, and the imaginary part
    carries the derivative by one coordinate (complex step); in C++ a dual number carries those by
@@ -224,11 +224,11 @@ template <int N> struct lagrangian_dual {
     friend number operator*(gvi_real a, const number &b) { return of(a*b.x, a, b); }
     friend number operator/(const number &a, const number &b)
     {
-        const gvi_real y = a.x/b.x;
-        return of(y, 1/b.x, a, -y/b.x, b);
+        const gvi_real y = a.x/b.x, r = 1/b.x;
+        return of(y, r, a, -y*r, b);
     }
     friend number operator/(const number &a, gvi_real b) { return of(a.x/b, 1/b, a); }
-    friend number operator/(gvi_real a, const number &b) { return of(a/b.x, -(a/b.x)/b.x, b); }
+    friend number operator/(gvi_real a, const number &b) { return of(a/b.x, -(a/b.x)*(1/b.x), b); }
     friend number &operator+=(number &a, const number &b) { return a = a + b; }
     friend number &operator-=(number &a, const number &b) { return a = a - b; }
     friend number &operator*=(number &a, const number &b) { return a = a*b; }
@@ -260,38 +260,43 @@ template <int N> struct lagrangian_dual {
     }
 };
 
-/* Derivatives by all of q, by all of w, or both, in one evaluation. */
-template <class F, int n, int N> inline void lagrangian_add(const lagrangian_wanted *a, int q_at, int w_at)
+/* Derivatives in one evaluation: by q at rest, by q, by w, by both; the value in any case. */
+enum { LAGRANGIAN__REST, LAGRANGIAN__Q, LAGRANGIAN__W, LAGRANGIAN__BOTH };
+
+template <class F, int n, int what> inline void lagrangian_add(const lagrangian_wanted *a)
 {
-    typedef lagrangian_dual<N> number;
+    enum { by_q = what != LAGRANGIAN__W, by_w = what >= LAGRANGIAN__W, w_at = by_q ? n : 0 };
+    typedef lagrangian_dual<by_q && by_w ? 2*n : n> number;
     const gvi_points *x = a->x;
     const int R = x->stride;
     for (int k = 0; k < x->count; ++k) {
         number q[n], w[n];
         for (int i = 0; i < n; ++i) {
             q[i].x = x->q[i*R + k];
-            w[i].x = a->w ? a->w[i*R + k] : i == a->one;
-            if (a->by_q) q[i].d[q_at + i] = 1;
-            if (a->by_w) w[i].d[w_at + i] = 1;
+            if (what != LAGRANGIAN__REST) w[i].x = a->w ? a->w[i*R + k] : i == a->one;
+            if (by_q) q[i].d[i] = 1;
+            if (by_w) w[i].d[w_at + i] = 1;
         }
         const number L = F().template at<number>(number(x->t[k]), q, w, a->user);
-        for (int i = 0; i < n && a->by_q; ++i) a->by_q[i*R + k] += a->scale*L.d[q_at + i];
-        for (int i = a->first; i < n && a->by_w; ++i) a->by_w[i*a->apart + k] += a->scale*L.d[w_at + i];
+        for (int i = 0; i < n && by_q && a->by_q; ++i) a->by_q[i*R + k] += a->scale*L.d[i];
+        for (int i = a->first; i < n && by_w; ++i) a->by_w[i*a->apart + k] += a->scale*L.d[w_at + i];
         if (a->value) a->value[k] += a->scale*L.x;
     }
 }
 
-template <class F, int n> inline void lagrangian_either(const lagrangian_wanted *a)
+template <class F, int n> inline void lagrangian_any(const lagrangian_wanted *a)
 {
-    if (a->by_q && a->by_w) lagrangian_add<F, n, 2*n>(a, 0, n);
-    else lagrangian_add<F, n, n>(a, 0, 0);
+    if (a->by_q && a->by_w) lagrangian_add<F, n, LAGRANGIAN__BOTH>(a);
+    else if (a->by_w) lagrangian_add<F, n, LAGRANGIAN__W>(a);
+    else if (a->w || a->one >= 0) lagrangian_add<F, n, LAGRANGIAN__Q>(a);
+    else lagrangian_add<F, n, LAGRANGIAN__REST>(a);
 }
 
 #define LAGRANGIAN__FUNCTION(name, n, w)                                                        \
     struct name##_body {                                                                        \
         template <class number> number at(number t, const number *q, const number *w, const void *user) const; \
     };                                                                                          \
-    static void name##_add(const lagrangian_wanted *wanted) { lagrangian_either<name##_body, n>(wanted); } \
+    static void name##_add(const lagrangian_wanted *wanted) { lagrangian_any<name##_body, n>(wanted); } \
     static const lagrangian_function name = { n, name##_add };                                  \
     template <class number>                                                                     \
     inline number name##_body::at(LAGRANGIAN__UNUSED number t, LAGRANGIAN__UNUSED const number *q, \
@@ -303,6 +308,8 @@ template <class F, int n> inline void lagrangian_either(const lagrangian_wanted 
 
 /* ------------------------------------------------------------- L at one point */
 
+enum { LAGRANGIAN__KEPT = 16*LAGRANGIAN_MOST };
+
 typedef enum lagrangian_kind {
     LAGRANGIAN_REFUSED, LAGRANGIAN_POTENTIAL, LAGRANGIAN_LINEAR, LAGRANGIAN_MASS, LAGRANGIAN_GENERAL
 } lagrangian_kind;
@@ -312,6 +319,8 @@ typedef struct lagrangian {
     lagrangian_function function;
     const void         *user;
     gvi_real            M[LAGRANGIAN_MOST*LAGRANGIAN_MOST], diagonal[LAGRANGIAN_MOST];
+    int                 kept;         /* MASS: numbers in q and rest; 0: none   */
+    gvi_real            t, q[LAGRANGIAN__KEPT], rest[LAGRANGIAN__KEPT];  /* dL/dq at v = 0, at these q */
     char                why[240];
 } lagrangian;
 
@@ -366,6 +375,13 @@ static inline gvi_real lagrangian_eps(void)
          : sizeof(gvi_real) == sizeof(double) ? (gvi_real)DBL_EPSILON : (gvi_real)LDBL_EPSILON;
 }
 
+/* The same numbers on every machine, in (-1, 1). */
+static inline gvi_real lagrangian_random(unsigned *seed)
+{
+    *seed = *seed*1664525u + 1013904223u;
+    return (gvi_real)((double)(*seed >> 8 & 0xFFFFFF)/8388608.0 - 1);
+}
+
 /* dL/dx by central differences, x one of the numbers of q or w, left as it was.  Richardson's
    extrapolation of 20 widths, each half the one before; the entry where neighbours agree best. */
 static inline gvi_real lagrangian_difference(const lagrangian_function *f, const void *user, gvi_real t, const gvi_real *q,
@@ -396,19 +412,20 @@ static inline gvi_real lagrangian_difference(const lagrangian_function *f, const
 
 /* ----------------------------------------------------------- what kind is it? */
 
-static inline const char *lagrangian_refuse(lagrangian *L, const char *text, int i, double found, double right)
+static inline const char *lagrangian_refuse(lagrangian *L, const char *text, const char *name, const char *of, int i)
 {
-    snprintf(L->why, sizeof L->why, text, i, found, right);
+    snprintf(L->why, sizeof L->why, text, name, of, i);
     L->kind = LAGRANGIAN_REFUSED;
     return L->why;
 }
 
-/* Are the derivatives those that differences show?                             */
-static inline const char *lagrangian_compare(lagrangian *L, gvi_real t, gvi_real *q, gvi_real *w, const char *of_q,
-                                             const char *of_w)
+/* Are the derivatives at (q, w) those that differences show?                   */
+static inline const char *lagrangian_compare(lagrangian *L, gvi_real t, gvi_real *q, gvi_real *w, const char *name,
+                                             const char *of)
 {
     const int n = L->function.n;
-    gvi_real g[2*LAGRANGIAN_MOST], eps = lagrangian_eps();
+    const gvi_real eps = lagrangian_eps();
+    gvi_real g[2*LAGRANGIAN_MOST];
     lagrangian_at(&L->function, L->user, t, q, w, g, g + n);
     if (!lagrangian_finite(2*n, g)) return NULL;
     for (int d = 0; d < 2*n; ++d) {
@@ -418,7 +435,43 @@ static inline const char *lagrangian_compare(lagrangian *L, gvi_real t, gvi_real
         const gvi_real right = lagrangian_difference(&L->function, L->user, t, q, w, z + d%n, size, &error);
         const gvi_real bound = 20*error + GVI_SQRT(eps)/16*lagrangian_abs_of(right) + 64*eps*lagrangian_largest(2*n, g);
         if (error < 0 || lagrangian_abs_of(g[d] - right) <= bound) continue;
-        return lagrangian_refuse(L, d < n ? of_q : of_w, d%n, (double)g[d], (double)right);
+        snprintf(L->why, sizeof L->why,
+                 "d%s/d%s[%d] is %.6g by numbers, %.6g by differences: is a variable in %s a double that has to be a number?",
+                 name, d < n ? "q" : of, d%n, (double)g[d], (double)right, name);
+        L->kind = LAGRANGIAN_REFUSED;
+        return L->why;
+    }
+    return NULL;
+}
+
+/* What L(t,q,v) and H(t,q,p) have to be: of a size there is room for, finite with its derivatives at the start,
+   and with derivatives that are right, there and at two states near it.      */
+static inline const char *lagrangian_begin(lagrangian *L, lagrangian_function function, const void *user, gvi_real t,
+                                           const gvi_real *q, const gvi_real *w, const char *name, const char *of)
+{
+    const int n = function.n;
+    gvi_real at[2*LAGRANGIAN_MOST], g[2*LAGRANGIAN_MOST];
+    unsigned seed = 7;
+    memset(L, 0, sizeof *L);
+    L->function = function;
+    L->user = user;
+    if (n < 1 || n > LAGRANGIAN_MOST) {
+        snprintf(L->why, sizeof L->why, "n is %d, there is room for %d: define LAGRANGIAN_MOST before lagrangian.h", n,
+                 LAGRANGIAN_MOST);
+        return L->why;
+    }
+    gvi_real value = lagrangian_at(&function, user, t, q, w, g, g + n);
+    if (!lagrangian_finite(1, &value)) return lagrangian_refuse(L, "%s is not finite at the start", name, of, 0);
+    for (int i = 0; i < 2*n; ++i)
+        if (!lagrangian_finite(1, g + i))
+            return lagrangian_refuse(L, "d%s/d%s[%d] is not finite at the start", name, i < n ? "q" : of, i%n);
+    for (int sample = 0; sample < 3; ++sample) {
+        const gvi_real reach = (gvi_real)(sample ? 0.05 : 0);
+        for (int d = 0; d < 2*n; ++d) {
+            const gvi_real *z = d < n ? q : w, size = lagrangian_largest(n, z);
+            at[d] = z[d%n] + reach*(size > 0 ? size : 1)*lagrangian_random(&seed);
+        }
+        if (lagrangian_compare(L, t + reach, at, at + n, name, of)) return L->why;
     }
     return NULL;
 }
@@ -472,25 +525,18 @@ static inline int lagrangian_learn(lagrangian *L, struct lagrangian__found *foun
     return 1;
 }
 
-/* The same numbers on every machine, in (-1, 1). */
-static inline gvi_real lagrangian_random(unsigned *seed)
-{
-    *seed = *seed*1664525u + 1013904223u;
-    return (gvi_real)((double)(*seed >> 8 & 0xFFFFFF)/8388608.0 - 1);
-}
-
 /* Is there kinetic energy in all directions?                                  */
 static inline const char *lagrangian_check_mass(lagrangian *L, struct lagrangian__found *found)
 {
     const int n = L->function.n;
     gvi_real pivot[LAGRANGIAN_MOST + 1];
     if (lagrangian_largest(n*n, found->here) <= 0)
-        return lagrangian_refuse(L, "L is linear in v: its equations of motion are of first order; give H(q,p) by HAMILTONIAN", 0, 0, 0);
+        return lagrangian_refuse(L, "%s is linear in %s: its equations are of first order; give H(t,q,p) by HAMILTONIAN", "L", "v", 0);
     for (int i = 0; i < n; ++i)
         if (lagrangian_largest(n, found->here + i*n) <= 0)
-            return lagrangian_refuse(L, "L has no kinetic energy in q[%d]: at the start its v is not in L, or linear", i, 0, 0);
+            return lagrangian_refuse(L, "%s has no kinetic energy in q%s[%d] at the start", "L", "", i);
     if (gvi_lu_factor(n, found->here, pivot) != GVI_OK)
-        return lagrangian_refuse(L, "L has no kinetic energy in some direction: d2L/dv2 is singular at the start", 0, 0, 0);
+        return lagrangian_refuse(L, "%s has no kinetic energy in some direction: d2L/d%s2 is singular at the start", "L", "v", 0);
     return NULL;
 }
 
@@ -499,22 +545,11 @@ static inline const char *lagrangian_check_mass(lagrangian *L, struct lagrangian
 static inline const char *lagrangian_init(lagrangian *L, lagrangian_function function, const void *user, gvi_real t,
                                           const gvi_real *q, const gvi_real *v)
 {
-    static const char *const of_q = "dL/dq[%d] of L is %.6g, differences give %.6g: does L have a double where it needs a number?";
-    static const char *const of_v = "dL/dv[%d] of L is %.6g, differences give %.6g: does L have a double where it needs a number?";
     const int n = function.n;
-    gvi_real x[LAGRANGIAN_MOST], w[LAGRANGIAN_MOST], g[2*LAGRANGIAN_MOST];
+    gvi_real x[LAGRANGIAN_MOST], w[LAGRANGIAN_MOST];
     struct lagrangian__found found = { 0, { 0 }, 1, 1, 0 };
     unsigned seed = 1;
-    memset(L, 0, sizeof *L);
-    L->function = function;
-    L->user = user;
-    if (n < 1 || n > LAGRANGIAN_MOST)
-        return lagrangian_refuse(L, "n is %d, LAGRANGIAN_MOST %g: define it larger before lagrangian.h", n, LAGRANGIAN_MOST, 0);
-    gvi_real value = lagrangian_at(&function, user, t, q, v, g, g + n);
-    if (!lagrangian_finite(1, &value)) return lagrangian_refuse(L, "L is not finite at the start", 0, 0, 0);
-    for (int i = 0; i < 2*n; ++i)
-        if (!lagrangian_finite(1, g + i))
-            return lagrangian_refuse(L, i < n ? "dL/dq[%d] is not finite at the start" : "dL/dv[%d] is not finite at the start", i%n, 0, 0);
+    if (lagrangian_begin(L, function, user, t, q, v, "L", "v")) return L->why;
 
     gvi_real size = lagrangian_largest(n, q), speed = lagrangian_largest(n, v);
     if (size <= 0) size = 1;
@@ -526,7 +561,6 @@ static inline const char *lagrangian_init(lagrangian *L, lagrangian_function fun
             w[i] = v[i] + (reach > 0)*speed*lagrangian_random(&seed)/2;
         }
         const gvi_real time = t + reach*lagrangian_random(&seed);
-        if (sample < 3 && lagrangian_compare(L, time, x, w, of_q, of_v)) return L->why;
         for (gvi_real part = 1; part > (gvi_real)1e-4; part /= 4) {  // slower where L is not defined: speed of light
             if (lagrangian_learn(L, &found, time, x, w, part*speed, sample == 0)) break;
             if (sample > 0) for (int i = 0; i < n; ++i) w[i] = v[i] + (w[i] - v[i])/4;
@@ -555,17 +589,31 @@ static inline lagrangian_wanted lagrangian_want(const lagrangian *L, const gvi_p
     return a;
 }
 
+/* f += dL/dq at v = 0, kept for lagrangian_gradient, which the library asks for next, at the same points. */
+static inline void lagrangian_rest(lagrangian *L, const gvi_points *x)
+{
+    lagrangian_wanted a = lagrangian_want(L, x, NULL, 1);
+    const int length = x->n*x->stride;
+    if (L->kind == LAGRANGIAN_MASS && length <= LAGRANGIAN__KEPT) {
+        a.by_q = L->rest;
+        memset(L->rest, 0, (size_t)length*sizeof *L->rest);
+        memcpy(L->q, x->q, (size_t)length*sizeof *L->q);
+        L->t = x->t[x->count - 1];
+        L->kept = length;
+    }
+    L->function.add(&a);
+    for (int i = 0; i < length && a.by_q == L->rest; ++i) x->f[i] += L->rest[i];
+}
+
 /* POTENTIAL, MASS: V = -L(t,q,0) */
 static inline int lagrangian_potential(const gvi_points *x, void *user)
 {
-    const lagrangian *L = (const lagrangian *)user;
-    lagrangian_wanted a = lagrangian_want(L, x, NULL, 1);
-    if (x->f) L->function.add(&a);
-    if (!x->value) return 0;
+    lagrangian *L = (lagrangian *)user;
+    lagrangian_wanted a = lagrangian_want(L, x, NULL, -1);
+    if (x->f) lagrangian_rest(L, x);
     a.by_q = NULL;
     a.value = x->value;
-    a.scale = -1;
-    L->function.add(&a);
+    if (x->value) L->function.add(&a);
     return 0;
 }
 
@@ -611,7 +659,13 @@ static inline int lagrangian_gradient(const gvi_points *x, void *user)
 {
     const lagrangian *L = (const lagrangian *)user;
     lagrangian_wanted a = lagrangian_want(L, x, x->v, 1);
+    const int length = x->n*x->stride;
     L->function.add(&a);
+    if (L->kept == length && !memcmp(&L->t, x->t + x->count - 1, sizeof L->t)
+        && !memcmp(L->q, x->q, (size_t)length*sizeof *L->q)) {
+        for (int i = 0; i < length; ++i) x->f[i] -= L->rest[i];
+        return 0;
+    }
     a = lagrangian_want(L, x, NULL, -1);
     L->function.add(&a);
     return 0;
@@ -651,6 +705,81 @@ static inline gvi_mass lagrangian_mass(lagrangian *L)
     for (int i = 0; i < n && diagonal; ++i) L->diagonal[i] = L->M[i*n + i];
     mass.kind = diagonal ? unit ? GVI_MASS_UNIT : GVI_MASS_DIAGONAL : GVI_MASS_DENSE;
     mass.matrix = !diagonal ? L->M : unit ? NULL : L->diagonal;
+    return mass;
+}
+
+/* ------------------------------------------------------------------- H(t,q,p)
+
+   v = dH/dp as mass.velocity, and f = -dH/dq, dL/dv = p, L = p'v - H as a Lagrangian term.  The term
+   gets q and v, not p: it takes p from the call of mass.velocity before it, where q and v are the
+   same arrays, and fails where they are not (gvi_start; Newton's method).      */
+
+typedef struct hamiltonian {
+    lagrangian_function function;
+    const void         *user;
+    const gvi_real     *q, *p, *v;    /* of the last call of mass.velocity     */
+    lagrangian          look;         /* kind, why                             */
+} hamiltonian;
+
+/* Returns NULL, or a sentence that says why H is refused.                     */
+static inline const char *hamiltonian_init(hamiltonian *H, lagrangian_function function, const void *user, gvi_real t,
+                                           const gvi_real *q, const gvi_real *p)
+{
+    memset(H, 0, sizeof *H);
+    H->function = function;
+    H->user = user;
+    const char *why = lagrangian_begin(&H->look, function, user, t, q, p, "H", "p");
+    if (why) H->function.add = NULL;
+    return why;
+}
+
+static inline int hamiltonian_velocity(const gvi_points *x, void *user)
+{
+    hamiltonian *H = (hamiltonian *)user;
+    lagrangian_wanted a = lagrangian_want(&H->look, x, x->p, 1);
+    a.by_q = NULL;
+    a.by_w = x->velocity;
+    memset(x->velocity, 0, (size_t)(x->n*x->stride)*sizeof *x->velocity);
+    H->function.add(&a);
+    H->q = x->q;
+    H->p = x->p;
+    H->v = x->velocity;
+    return 0;
+}
+
+static inline int hamiltonian_term(const gvi_points *x, void *user)
+{
+    const hamiltonian *H = (const hamiltonian *)user;
+    const int n = x->n, R = x->stride;
+    if (!H->p || x->q != H->q || x->v != H->v) return 1;
+    lagrangian_wanted a = lagrangian_want(&H->look, x, H->p, -1);
+    a.value = x->value;
+    if (a.by_q || a.value) H->function.add(&a);
+    for (int i = 0; i < n; ++i)
+        for (int k = 0; k < x->count; ++k) {
+            if (x->dldv) x->dldv[i*R + k] += H->p[i*R + k];
+            if (x->value) x->value[k] += H->p[i*R + k]*x->v[i*R + k];
+        }
+    return 0;
+}
+
+static inline gvi_effect hamiltonian_effect(hamiltonian *H)
+{
+    gvi_effect effect;
+    memset(&effect, 0, sizeof effect);
+    effect.kind = GVI_LAGRANGIAN;
+    if (H->function.add) effect.points = effect.value = hamiltonian_term;
+    effect.user = H;
+    return effect;
+}
+
+static inline gvi_mass hamiltonian_mass(hamiltonian *H)
+{
+    gvi_mass mass;
+    memset(&mass, 0, sizeof mass);
+    mass.kind = GVI_MASS_NONE;
+    mass.velocity = hamiltonian_velocity;
+    mass.user = H;
     return mass;
 }
 #endif
