@@ -129,9 +129,10 @@ LAGRANGIAN__INLINE number lagrangian_pow(number z, number exponent)
     return lagrangian_number(y, slope);
 }
 
-/* of a number these, of anything else what <math.h> has */
+/* of complex numbers these, of anything else what <math.h> has */
 #define LAGRANGIAN__EITHER(x, of_number, name)                                                  \
-    (__extension__ _Generic((x), number: of_number, float: name##f, long double: name##l, default: name))
+    (__extension__ _Generic((x), float complex: of_number, double complex: of_number,           \
+                            long double complex: of_number, float: name##f, long double: name##l, default: name))
 #undef sqrt
 #undef exp
 #undef log
