@@ -573,6 +573,17 @@ static inline const char *lagrangian_init(lagrangian *L, lagrangian_function fun
     return NULL;
 }
 
+static inline const char *lagrangian_text(const lagrangian *L)
+{
+    switch (L->kind) {
+    case LAGRANGIAN_POTENTIAL: return "v'Mv/2 - V(t,q)";
+    case LAGRANGIAN_LINEAR:    return "v'Mv/2 + a(t,q)'v - V(t,q)";
+    case LAGRANGIAN_MASS:      return "v'M(t,q)v/2 - V(t,q)";
+    case LAGRANGIAN_GENERAL:   return "of no special form";
+    default:                   return "refused";
+    }
+}
+
 /* -------------------------------------------------------------- effect and mass */
 
 /* What lagrangian_add is asked for most: derivatives by q at v, or with v NULL at rest. */
