@@ -57,7 +57,7 @@ int main(int argc, char **argv)
     const char *wrong = lagrangian_init(&L, pendulum, NULL, 0, q, v);
     if (wrong) return puts(wrong), 1;
     const gvi_effect scene[] = { lagrangian_effect(&L), { .kind = GVI_FORCE, .points = joints } };
-    const gvi_desc desc = { .n = 2, .degree = 8, .effects = scene, .effect_count = 2, .mass = lagrangian_mass(&L) };
+    const gvi_desc desc = { .n = 2, .degree = 8, .mass = lagrangian_mass(&L), .effects = scene, .effect_count = 2 };
     double start = 0, off = 0, worst = 0;
     gvi_stepper st;
     gvi_init(&st, &desc, memory, sizeof memory);

@@ -66,7 +66,7 @@ int main(void)
     const char *wrong = lagrangian_init(&L, leaning, &s, 0, q, v);
     if (wrong) return puts(wrong), 1;
     const gvi_effect scene[] = { lagrangian_effect(&L), { .kind = GVI_FORCE, .points = motor, .user = &s } };
-    const gvi_desc desc = { .n = 2, .degree = 4, .effects = scene, .effect_count = 2, .mass = lagrangian_mass(&L) };
+    const gvi_desc desc = { .n = 2, .degree = 4, .mass = lagrangian_mass(&L), .effects = scene, .effect_count = 2 };
     double start, end, work, most;
     gvi_stepper st;
     gvi_init(&st, &desc, memory, sizeof memory);

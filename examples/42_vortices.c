@@ -87,7 +87,7 @@ int main(int argc, char **argv)
         const char *wrong = hamiltonian_init(H + k, vortices, NULL, 0, q, p);
         if (wrong) return puts(wrong), 1;
         effect[k] = hamiltonian_effect(H + k);
-        const gvi_desc desc = { .n = N, .degree = 8, .effects = effect + k, .effect_count = 1, .mass = hamiltonian_mass(H + k),
+        const gvi_desc desc = { .n = N, .degree = 8, .mass = hamiltonian_mass(H + k), .effects = effect + k, .effect_count = 1,
                                 .formulation = GVI_MOMENTA };
         gvi_init(st + k, &desc, memory[k], sizeof memory[k]);
         gvi_start_momentum(st + k, 0, q, p);

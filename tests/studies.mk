@@ -2,7 +2,7 @@
 
 .PHONY: headers-quick headers symbols parts docs-check bound float instructions prices usable languages boards sanitize sanitized any_processor \
         ensemble deps-ensemble tolerances firmware deps-firmware fuzz fuzz-short size stats compare everywhere deps-everywhere \
-        cost-dial cost-horizon cost-constraints kicks points cost-embedded hard theorems mutants coverage covered
+        cost-dial cost-horizon cost-constraints kicks points from-l cost-embedded hard theorems mutants coverage covered
 
 # -- steps of `make test` and `make check`; each can be run alone
 
@@ -162,6 +162,14 @@ cost-horizon: $(BUILD)/cost/cost
 
 #: kicks        splittings as tables of kicks against the same written by hand (ten seconds)
 #: points       callbacks by GVI_POINTS against loops by hand and .point (ten seconds); COST_CFLAGS="-O2 -fno-math-errno"
+#: from-l       what it costs to give L alone, in C and in C++, against derivatives by hand (half a minute)
+from-l: tests/cost/from_l.c $(BUILD)/gvi-double.o
+	@mkdir -p $(BUILD)/cost
+	$(Q)$(CC) -std=c99 $(FLAGS) -O2 -Iexamples -DGVI_IMPLEMENTED $^ -o $(BUILD)/cost/from_l $(LDLIBS)
+	$(Q)echo C && $(BUILD)/cost/from_l
+	$(Q)$(CXX) -std=c++11 $(FLAGS) -O2 -Iexamples -DGVI_IMPLEMENTED -xc++ $< -xnone $(BUILD)/gvi-double.o -o $(BUILD)/cost/from_l $(LDLIBS)
+	$(Q)echo C++ && $(BUILD)/cost/from_l
+
 #: cost-constraints rods and a top with constraints, against RATTLE's compositions and DOP853; chains to 500 rods, 216 molecules (two minutes)
 kicks points: %: $(BUILD)/cost/%
 	$(Q)$< $(COST_ARGS)

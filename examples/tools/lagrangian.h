@@ -10,7 +10,7 @@
      const char *wrong = lagrangian_init(&L, pendulum, NULL, 0, q, v);   // user, and the start: t, q, v
      if (wrong) return puts(wrong), 1;
      const gvi_effect scene[] = { lagrangian_effect(&L) };               // friction, rods: more rows
-     const gvi_desc desc = { .n = 2, .effects = scene, .effect_count = 1, .mass = lagrangian_mass(&L) };
+     const gvi_desc desc = { .n = 2, .mass = lagrangian_mass(&L), .effects = scene, .effect_count = 1 };
 
    The type of t, q, v is `number`.  Every variable that depends on q or v is a number, too:
 
@@ -150,6 +150,13 @@ LAGRANGIAN__INLINE number lagrangian_pow(number z, number exponent)
 #define fabs(x) LAGRANGIAN__EITHER(x, lagrangian_abs, fabs)(x)
 #define pow(x, y) LAGRANGIAN__EITHER((x) + (y), lagrangian_pow, pow)(x, y)
 
+/* gcc: products and quotients in line, without the rescue of infinite ones (of squares in a quotient, at 1e154) */
+#if defined(__GNUC__) && !defined(__clang__) && GVI__KIND != 1
+#define LAGRANGIAN__PLAIN __attribute__((optimize("cx-limited-range")))
+#else
+#define LAGRANGIAN__PLAIN
+#endif
+
 /* One coordinate after the other; z[2n]: q and w. */
 typedef number lagrangian_body(number t, const number *q, const number *w, const void *user);
 
@@ -180,7 +187,7 @@ LAGRANGIAN__INLINE void lagrangian_add(lagrangian_body *F, int n, number *z, con
 
 #define LAGRANGIAN__FUNCTION(name, n, w)                                                        \
     LAGRANGIAN__INLINE number name##_at(number t, const number *q, const number *w, const void *user); \
-    static void name##_add(const lagrangian_wanted *wanted)                                     \
+    LAGRANGIAN__PLAIN static void name##_add(const lagrangian_wanted *wanted)                  \
     {                                                                                           \
         number z[2*(n)];                                                                        \
         lagrangian_add(name##_at, n, z, wanted);                                                \
