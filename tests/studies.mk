@@ -2,7 +2,7 @@
 
 .PHONY: headers-quick headers symbols parts docs-check bound float instructions prices usable languages boards sanitize sanitized any_processor \
         ensemble deps-ensemble tolerances firmware deps-firmware fuzz fuzz-short size stats compare everywhere deps-everywhere \
-        cost-dial cost-horizon cost-constraints kicks points from-l cost-embedded hard theorems mutants coverage covered
+        cost-dial cost-horizon cost-constraints kicks points from-l mycost cost-embedded hard theorems mutants coverage covered
 
 # -- steps of `make test` and `make check`; each can be run alone
 
@@ -133,6 +133,13 @@ endif
 $(BUILD)/examples/advise: examples/tools/advise.c $(BUILD)/cost/problems.o $(BUILD)/cost/baselines.o
 	@mkdir -p $(@D)
 	$(Q)$(COMPILE) -Iexamples $< $(filter %.o,$^) -o $@ $(LDLIBS)
+
+## mycost       what accuracy costs for a scene of your own, FILE=mine.c: a table and build/mycost.svg
+mycost: | $(FIRST)
+	$(Q)$(if $(FILE),,echo 'make mycost FILE=mine.c: what the file defines is said in examples/tools/mycost.c'; exit 1)
+	$(Q)mkdir -p $(BUILD)
+	$(Q)$(CC) -std=gnu11 -O2 -I. -Iexamples '-DMYCOST_FILE="$(abspath $(FILE))"' examples/tools/mycost.c -o $(BUILD)/mycost $(LDLIBS)
+	$(Q)$(BUILD)/mycost $(BUILD)/mycost.svg
 
 # -- what accuracy costs: optimised as a user in a hurry would; make cost RECORD=--record puts tables and
 #    pictures into docs
