@@ -139,6 +139,35 @@ TEST(kinds_are_found)
     }
 }
 
+/* of another kind by a term that the start does not show, or only at the second look; not defined at rest */
+LAGRANGIAN(far_mass, 1) { return v[0]*v[0]/2*(1 + pow(q[0], 16)) - q[0]*q[0]/2; }
+LAGRANGIAN(quartic, 1) { return v[0]*v[0]/2 + v[0]*v[0]*v[0]*v[0]/1000 - q[0]*q[0]/2; }
+LAGRANGIAN(cubic, 2) { return (v[0]*v[0] + v[1]*v[1])/2 + v[0]*v[1]*q[0]*v[1]/100 - q[0]*q[0]/2; }
+LAGRANGIAN(constant_term, 2) { return (v[0]*v[0] + v[1]*v[1])/2 + q[1]*v[0]/1000 - q[0]*q[0]/2; }
+LAGRANGIAN(no_rest, 1) { return v[0]*log(v[0]) - q[0]*q[0]/2; }
+LAGRANGIAN(dense, 2) { return (v[0]*v[0] + v[0]*v[1] + v[1]*v[1])/3 - q[0]*q[0]/2; }
+
+TEST(kinds_are_found_far_from_the_start)
+{
+    const real small[] = { R(0.01) }, rest[] = { 0 };
+    const struct { const lagrangian_function *L; lagrangian_kind kind; real q[2], v[2]; } cases[] = {
+        { &far_mass, LAGRANGIAN_MASS, { 0 }, { 0 } },
+        { &quartic, LAGRANGIAN_GENERAL, { R(0.01) }, { 0 } },       { &cubic, LAGRANGIAN_GENERAL, { 0, 0 }, { 0, 0 } },
+        { &constant_term, LAGRANGIAN_LINEAR, { 0, 0 }, { 0, 0 } },  { &no_rest, LAGRANGIAN_GENERAL, { 1 }, { 1 } },
+        { &dense, LAGRANGIAN_POTENTIAL, { R(0.1), R(0.2) }, { 0, 1 } },
+    };
+    for (int k = 0; k < COUNT(cases); ++k) {
+        assert_null(lagrangian_init(lagrangians, *cases[k].L, NULL, 0, cases[k].q, cases[k].v));
+        assert_int_equal(lagrangians[0].kind, cases[k].kind);
+    }
+    assert_int_equal(lagrangian_mass(lagrangians).kind, GVI_MASS_DENSE);
+    /* what cannot be known is for the user to say */
+    assert_null(lagrangian_init(lagrangians, far_mass, NULL, 0, small, rest));
+    assert_int_equal(lagrangians[0].kind, LAGRANGIAN_POTENTIAL);
+    lagrangians[0].kind = LAGRANGIAN_GENERAL;
+    assert_int_equal(lagrangian_mass(lagrangians).kind, GVI_MASS_NONE);
+}
+
 static long double error(const struct system *s, int degree, int steps, const long double *z)
 {
     gvi_stepper st = from_l(s->L, 0, degree, s->q, s->v);

@@ -20,6 +20,8 @@
    numbers.  The same text compiles as C and as C++.  There is no `if (q[0] < 0)`: L has to be
    smooth: a step over a kink, as of fabs at 0, is of order 2 at most.
 
+   C99 with gcc or clang, C11 with any compiler, or C++11.
+
    First derivatives of L are exact to rounding.  In C, number is complex, and the imaginary part
    carries the derivative by one coordinate (complex step); in C++ a dual number carries those by
    all of them.  lagrangian_init looks at L near the start, and near it on wider scales, for what it is:
@@ -557,6 +559,7 @@ static inline const char *lagrangian_init(lagrangian *L, lagrangian_function fun
     gvi_real x[LAGRANGIAN_MOST], w[LAGRANGIAN_MOST];
     struct lagrangian__found found = { 0, { 0 }, 1, 1, 0 };
     unsigned seed = 1;
+    int known = 0;                    /* is L defined at rest, where the start is? */
     if (lagrangian_begin(L, function, user, t, q, v, "L", "v")) return L->why;
 
     gvi_real size = lagrangian_largest(n, q), speed = lagrangian_largest(n, v);
@@ -570,12 +573,14 @@ static inline const char *lagrangian_init(lagrangian *L, lagrangian_function fun
         }
         const gvi_real time = t + reach*lagrangian_random(&seed);
         for (gvi_real part = 1; part > (gvi_real)1e-4; part /= 4) {  // slower where L is not defined: speed of light
-            if (lagrangian_learn(L, &found, time, x, w, part*speed, sample == 0)) break;
-            if (sample > 0) for (int i = 0; i < n; ++i) w[i] = v[i] + (w[i] - v[i])/4;
+            const int learned = lagrangian_learn(L, &found, time, x, w, part*speed, sample == 0);
+            if (sample == 0) known |= learned;
+            if (learned) break;
+            for (int i = 0; i < n; ++i) w[i] = v[i] + (w[i] - v[i])/4;
         }
     }
-    if (lagrangian_check_mass(L, &found)) return L->why;
-    L->kind = !found.quadratic || (found.linear && !found.constant) ? LAGRANGIAN_GENERAL
+    if (known && lagrangian_check_mass(L, &found)) return L->why;
+    L->kind = !known || !found.quadratic || (found.linear && !found.constant) ? LAGRANGIAN_GENERAL
             : !found.constant ? LAGRANGIAN_MASS : found.linear ? LAGRANGIAN_LINEAR : LAGRANGIAN_POTENTIAL;
     return NULL;
 }
