@@ -147,6 +147,10 @@ LAGRANGIAN(constant_term, 2) { return (v[0]*v[0] + v[1]*v[1])/2 + q[1]*v[0]/1000
 LAGRANGIAN(no_rest, 1) { return v[0]*log(v[0]) - q[0]*q[0]/2; }
 LAGRANGIAN(dense, 2) { return (v[0]*v[0] + v[0]*v[1] + v[1]*v[1])/3 - q[0]*q[0]/2; }
 
+LAGRANGIAN(sun_and_sail, 2) { return R(1e30)*v[0]*v[0]/2 + v[1]*v[1]/2 + q[0]*v[1]/1000; }
+LAGRANGIAN(sun_and_turning, 2) { return R(1e30)*v[0]*v[0]/2 + (2 + cos(q[1]))*v[1]*v[1]/2; }
+LAGRANGIAN(coupled, 2) { return R(1e30)*v[0]*v[0]/2 + R(1e14)*v[0]*v[1] + v[1]*v[1]/2; }
+
 TEST(kinds_are_found_far_from_the_start)
 {
     const real small[] = { R(0.01) }, rest[] = { 0 };
@@ -161,6 +165,15 @@ TEST(kinds_are_found_far_from_the_start)
         assert_int_equal(lagrangians[0].kind, cases[k].kind);
     }
     assert_int_equal(lagrangian_mass(lagrangians).kind, GVI_MASS_DENSE);
+    /* masses that differ by 30 orders of magnitude, the heavy one in motion */
+    const real far[] = { 1, 2 }, both[] = { 3, 4 };
+    assert_null(lagrangian_init(lagrangians, sun_and_sail, NULL, 0, far, both));
+    assert_int_equal(lagrangians[0].kind, LAGRANGIAN_LINEAR);
+    assert_null(lagrangian_init(lagrangians, sun_and_turning, NULL, 0, far, both));
+    assert_int_equal(lagrangians[0].kind, LAGRANGIAN_MASS);
+    assert_null(lagrangian_init(lagrangians, coupled, NULL, 0, far, both));
+    assert_int_equal(lagrangians[0].kind, LAGRANGIAN_POTENTIAL);
+    assert_close(lagrangians[0].M[2], R(1e14), R(1e14)*EPS);
     /* what cannot be known is for the user to say */
     assert_null(lagrangian_init(lagrangians, far_mass, NULL, 0, small, rest));
     assert_int_equal(lagrangians[0].kind, LAGRANGIAN_POTENTIAL);

@@ -17,10 +17,10 @@
      number r2 = q[0]*q[0] + q[1]*q[1];         // `double r2` would lose its derivative
 
    Functions: sqrt exp log pow sin cos tan fabs, in C also the others of <tgmath.h> that take complex
-   numbers.  The same text compiles as C and as C++.  There is no `if (q[0] < 0)`: L has to be
-   smooth: a step over a kink, as of fabs at 0, is of order 2 at most.
+   numbers.  The same text compiles as C and as C++.  There is no `if (q[0] < 0)`, because L has
+   to be smooth: a step over a kink, as of fabs at 0, is of order 2 at most.
 
-   C99 with gcc or clang, C11 with any compiler, or C++11.
+   C99 with gcc or clang, or C++11.
 
    First derivatives of L are exact to rounding.  In C, number is complex, and the imaginary part
    carries the derivative by one coordinate (complex step); in C++ a dual number carries those by
@@ -486,52 +486,60 @@ static inline const char *lagrangian_begin(lagrangian *L, lagrangian_function fu
     return NULL;
 }
 
-/* Column j of d2L/dw2 at (q, w), from dL/dw at w_j - d and w_j + d; returns the rounding of an entry. */
-static inline gvi_real lagrangian_column(const lagrangian *L, gvi_real t, const gvi_real *q, gvi_real *w, int j, gvi_real d,
-                                         gvi_real *column)
+/* H [n*n]: d2L/dw2 at (q, w), from dL/dw at w_j - d and w_j + d; and how far rounding may be off. */
+static inline void lagrangian_hessian(const lagrangian *L, gvi_real t, const gvi_real *q, gvi_real *w, gvi_real d, gvi_real *H,
+                                      gvi_real *rounding)
 {
     const int n = L->function.n;
-    const gvi_real was = w[j];
-    gvi_real down[LAGRANGIAN_MOST];
-    w[j] = was - d;
-    const gvi_real from = w[j];
-    lagrangian_at(&L->function, L->user, t, q, w, NULL, down);
-    w[j] = was + d;
-    const gvi_real width = w[j] - from;
-    lagrangian_at(&L->function, L->user, t, q, w, NULL, column);
-    w[j] = was;
-    const gvi_real size = lagrangian_largest(n, down) + lagrangian_largest(n, column);
-    for (int i = 0; i < n; ++i) column[i] = (column[i] - down[i])/width;
-    return 1024*lagrangian_eps()*size/width;
+    gvi_real down[LAGRANGIAN_MOST], up[LAGRANGIAN_MOST];
+    for (int j = 0; j < n; ++j) {
+        const gvi_real was = w[j];
+        w[j] = was - d;
+        const gvi_real from = w[j];
+        lagrangian_at(&L->function, L->user, t, q, w, NULL, down);
+        w[j] = was + d;
+        const gvi_real width = w[j] - from;
+        lagrangian_at(&L->function, L->user, t, q, w, NULL, up);
+        w[j] = was;
+        for (int i = 0; i < n; ++i) {
+            H[i*n + j] = (up[i] - down[i])/width;
+            rounding[i*n + j] = 2048*lagrangian_eps()*(lagrangian_abs_of(up[i]) + lagrangian_abs_of(down[i]))/width;
+        }
+    }
 }
 
-/* What is known of L after some states: M at the start, by v = 0; at the start itself; what holds everywhere. */
-struct lagrangian__found { gvi_real scale, here[LAGRANGIAN_MOST*LAGRANGIAN_MOST]; int quadratic, constant, linear; };
+enum { LAGRANGIAN__MATRIX = LAGRANGIAN_MOST*LAGRANGIAN_MOST };
 
-/* One more state.  Nothing is learned where L is not finite.                    */
+/* What is known of L after some states; L->M is M at the start, by v around 0, here d2L/dv2 at the start itself. */
+struct lagrangian__found { gvi_real here[LAGRANGIAN__MATRIX]; int quadratic, constant, linear; };
+
+/* One more state.  Nothing is learned where L is not finite.  Each entry counts by its own size: masses may
+   differ by any factor.                                                       */
 static inline int lagrangian_learn(lagrangian *L, struct lagrangian__found *found, gvi_real t, const gvi_real *q, gvi_real *w,
                                    gvi_real speed, int first)
 {
     const int n = L->function.n;
-    gvi_real zero[LAGRANGIAN_MOST], a[LAGRANGIAN_MOST], M[LAGRANGIAN_MOST], H[LAGRANGIAN_MOST];
+    gvi_real zero[LAGRANGIAN_MOST], a[LAGRANGIAN_MOST], M[LAGRANGIAN__MATRIX], H[LAGRANGIAN__MATRIX],
+             of_M[LAGRANGIAN__MATRIX], of_H[LAGRANGIAN__MATRIX];          /* rounding */
     for (int i = 0; i < n; ++i) zero[i] = 0;
     lagrangian_at(&L->function, L->user, t, q, zero, NULL, a);
-    if (!lagrangian_finite(n, a)) return 0;
-    for (int j = 0; j < n; ++j) {
-        const gvi_real rounding = lagrangian_column(L, t, q, zero, j, speed, M)
-                                  + lagrangian_column(L, t, q, w, j, speed/4, H);
-        if (!lagrangian_finite(n, M) || !lagrangian_finite(n, H)) return 0;
-        for (int i = 0; i < n; ++i) {
-            gvi_real *m = L->M + i*n + j;
-            const gvi_real small = lagrangian_abs_of(M[i]) <= rounding ? 0 : M[i];
-            if (first) *m = small;
-            if (first) found->here[i*n + j] = lagrangian_abs_of(H[i]) <= rounding ? 0 : H[i];
-            if (lagrangian_abs_of(M[i] - H[i]) > 2*rounding) found->quadratic = 0;
-            if (lagrangian_abs_of(M[i] - *m) > 2*rounding) found->constant = 0;
+    lagrangian_hessian(L, t, q, zero, speed, M, of_M);
+    lagrangian_hessian(L, t, q, w, speed/4, H, of_H);
+    if (!lagrangian_finite(n, a) || !lagrangian_finite(n*n, M) || !lagrangian_finite(n*n, H)) return 0;
+    for (int i = 0; i < n; ++i) {
+        const gvi_real mass = lagrangian_abs_of(M[i*n + i]);
+        if (lagrangian_abs_of(a[i]) > 16*lagrangian_eps()*mass*speed) found->linear = 1;
+        for (int j = 0; j < n; ++j) {
+            const int at = i*n + j;
+            const gvi_real size = 256*lagrangian_eps()*GVI_SQRT(mass)*GVI_SQRT(lagrangian_abs_of(M[j*n + j]));
+            if (first) {
+                L->M[at] = lagrangian_abs_of(M[at]) <= of_M[at] + size ? 0 : M[at];
+                found->here[at] = lagrangian_abs_of(H[at]) <= of_H[at] + size ? 0 : H[at];
+            }
+            if (lagrangian_abs_of(M[at] - H[at]) > of_M[at] + of_H[at] + size) found->quadratic = 0;
+            if (lagrangian_abs_of(M[at] - L->M[at]) > of_M[at] + size) found->constant = 0;
         }
-        if (first && found->scale < lagrangian_largest(n, M)) found->scale = lagrangian_largest(n, M);
     }
-    if (lagrangian_largest(n, a) > 16*lagrangian_eps()*found->scale*speed) found->linear = 1;
     return 1;
 }
 
@@ -540,11 +548,19 @@ static inline const char *lagrangian_check_mass(lagrangian *L, struct lagrangian
 {
     const int n = L->function.n;
     gvi_real pivot[LAGRANGIAN_MOST + 1];
+    if (found->quadratic) memcpy(found->here, L->M, sizeof found->here);     // the same, and v adds no rounding
     if (lagrangian_largest(n*n, found->here) <= 0)
         return lagrangian_refuse(L, "%s is linear in %s: its equations are of first order; give H(t,q,p) by HAMILTONIAN", "L", "v", 0);
     for (int i = 0; i < n; ++i)
         if (lagrangian_largest(n, found->here + i*n) <= 0)
             return lagrangian_refuse(L, "%s has no kinetic energy in q%s[%d] at the start", "L", "", i);
+    for (int i = 0; i < n; ++i) {                  // each coordinate in units that make its own mass 1
+        const gvi_real own = lagrangian_abs_of(found->here[i*n + i]), unit = own > 0 ? GVI_SQRT(own) : 1;
+        for (int j = 0; j < n; ++j) {
+            found->here[i*n + j] /= unit;
+            found->here[j*n + i] /= unit;
+        }
+    }
     if (gvi_lu_factor(n, found->here, pivot) != GVI_OK)
         return lagrangian_refuse(L, "%s has no kinetic energy in some direction: d2L/d%s2 is singular at the start", "L", "v", 0);
     return NULL;
@@ -557,7 +573,7 @@ static inline const char *lagrangian_init(lagrangian *L, lagrangian_function fun
 {
     const int n = function.n;
     gvi_real x[LAGRANGIAN_MOST], w[LAGRANGIAN_MOST];
-    struct lagrangian__found found = { 0, { 0 }, 1, 1, 0 };
+    struct lagrangian__found found = { { 0 }, 1, 1, 0 };
     unsigned seed = 1;
     int known = 0;                    /* is L defined at rest, where the start is? */
     if (lagrangian_begin(L, function, user, t, q, v, "L", "v")) return L->why;
