@@ -1130,8 +1130,9 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action);
    GVI_AUTO with s n <= 1024 and no given iterations, if s > 1; not for kicks, a clock or
    constraints.  Forced systems: d1, d2 are total derivatives, and F-, F+ are
    h sum b_i f_i dQ_i/dq0, dQ_i/dq1 with the curve's own dependence on its ends, as the exact
-   discrete forces are [1, sec. 3.2]; how they share p0 and p1 is as exact as the Hessians
-   (sqrt(eps), where these are differences), p0 and p1 themselves are exact.  State untouched. */
+   discrete forces are [1, sec. 3.2] (at fixed control points, as (dLdA3) of [2] is printed, they
+   would act as another force); how they share p0 and p1 is as exact as the Hessians (sqrt(eps),
+   where these are differences), p0 and p1 themselves are exact.  State untouched.             */
 GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real h,
                                            const gvi_real *q0, const gvi_real *q1,
                                            const gvi_discrete *out);

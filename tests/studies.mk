@@ -2,7 +2,7 @@
 
 .PHONY: headers-quick headers symbols parts docs-check bound float instructions prices usable languages boards sanitize sanitized any_processor \
         ensemble deps-ensemble tolerances firmware deps-firmware fuzz fuzz-short size stats compare everywhere deps-everywhere \
-        cost-dial cost-horizon cost-constraints kicks points cost-embedded hard theorems mutants coverage covered
+        cost-dial cost-horizon cost-constraints kicks points from-l mycost cost-embedded hard theorems mutants coverage covered
 
 # -- steps of `make test` and `make check`; each can be run alone
 
@@ -134,6 +134,13 @@ $(BUILD)/examples/advise: examples/tools/advise.c $(BUILD)/cost/problems.o $(BUI
 	@mkdir -p $(@D)
 	$(Q)$(COMPILE) -Iexamples $< $(filter %.o,$^) -o $@ $(LDLIBS)
 
+## mycost       what accuracy costs for a scene of your own, FILE=mine.c: a table and build/mycost.svg
+mycost: | $(FIRST)
+	$(Q)$(if $(FILE),,echo 'make mycost FILE=mine.c: what the file defines is said in examples/tools/mycost.c'; exit 1)
+	$(Q)mkdir -p $(BUILD)
+	$(Q)$(CC) -std=gnu11 -O2 -I. -Iexamples '-DMYCOST_FILE="$(abspath $(FILE))"' examples/tools/mycost.c -o $(BUILD)/mycost $(LDLIBS)
+	$(Q)$(BUILD)/mycost $(BUILD)/mycost.svg
+
 # -- what accuracy costs: optimised as a user in a hurry would; make cost RECORD=--record puts tables and
 #    pictures into docs
 
@@ -162,6 +169,14 @@ cost-horizon: $(BUILD)/cost/cost
 
 #: kicks        splittings as tables of kicks against the same written by hand (ten seconds)
 #: points       callbacks by GVI_POINTS against loops by hand and .point (ten seconds); COST_CFLAGS="-O2 -fno-math-errno"
+#: from-l       what it costs to give L alone, in C and in C++, against derivatives by hand (half a minute)
+from-l: tests/cost/from_l.c $(BUILD)/gvi-double.o
+	@mkdir -p $(BUILD)/cost
+	$(Q)$(CC) -std=c99 $(FLAGS) -O2 -Iexamples -DGVI_IMPLEMENTED $^ -o $(BUILD)/cost/from_l $(LDLIBS)
+	$(Q)echo C && $(BUILD)/cost/from_l
+	$(Q)$(CXX) -std=c++11 $(FLAGS) -O2 -Iexamples -DGVI_IMPLEMENTED -xc++ $< -xnone $(BUILD)/gvi-double.o -o $(BUILD)/cost/from_l $(LDLIBS)
+	$(Q)echo C++ && $(BUILD)/cost/from_l
+
 #: cost-constraints rods and a top with constraints, against RATTLE's compositions and DOP853; chains to 500 rods, 216 molecules (two minutes)
 kicks points: %: $(BUILD)/cost/%
 	$(Q)$< $(COST_ARGS)

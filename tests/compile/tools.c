@@ -10,6 +10,7 @@
 #include <gvi/effects.h>
 #include <gvi/ensemble.h>
 #include <gvi/event.h>
+#include <gvi/lagrangian.h>
 #include <gvi/shooting.h>
 #include <gvi/svg.h>
 #include <gvi/adjoint.h>
@@ -29,6 +30,43 @@ static int checked(const gvi_desc *desc, const double *q, const double *v)
     check_scene(desc, 0, q, v, &report);
     for (int i = 0; i < report.count && i < 10; ++i) puts(check_line(&list[i], line, sizeof line));
     return report.count;
+}
+
+LAGRANGIAN(by_l, 2) { return (v[0]*v[0] + v[1]*v[1])/2 + 1/sqrt(q[0]*q[0] + q[1]*q[1]); }
+HAMILTONIAN(by_h, 2) { return (p[0]*p[0] + p[1]*p[1])/2 - 1/sqrt(q[0]*q[0] + q[1]*q[1]); }
+LAGRANGIAN(free_arm, 2)
+{
+    const number a = q[0], b = q[1];
+    return v[0]*v[0] + v[1]*v[1]/2 + v[0]*v[1]*cos(a - b) + exp(sin(a)) - log(2 + b*b) - tan(b/4) - pow(2 + a, 1.5) + fabs(a + 3)
+           - pow(2 + b, 2 + a) - 0.25*a/(2 + b) - 3/(2 + a) + (-a)*2 - b/3 + (1 - a) + (a - 1);
+}
+LAGRANGIAN(first_order, 2) { return q[0]*v[1] - q[0]*q[0]; }
+
+// the planet from L and from H, after 10 units of time; how far from the ellipse x = 2.06 and more
+static int typed(const double *q, const double *v)
+{
+    static double room[2][GVI_LENGTH(2, 8, 8)];
+    static lagrangian L;
+    static hamiltonian H;
+    gvi_stepper a, b;
+    double energy = 0;
+    if (lagrangian_init(&L, by_l, NULL, 0, q, v) || hamiltonian_init(&H, by_h, NULL, 0, q, v)) return 0;
+    const gvi_effect from_l = lagrangian_effect(&L), from_h = hamiltonian_effect(&H);
+    gvi_desc desc = { .n = 2, .mass = lagrangian_mass(&L), .effects = &from_l, .effect_count = 1 };
+    if (L.kind != LAGRANGIAN_POTENTIAL || checked(&desc, q, v)) return 0;
+    gvi_init(&a, &desc, room[0], sizeof room[0]);
+    gvi_start(&a, 0, q, v);
+    desc.effects = &from_h;
+    desc.mass = hamiltonian_mass(&H);
+    desc.formulation = GVI_MOMENTA;
+    gvi_init(&b, &desc, room[1], sizeof room[1]);
+    gvi_start_momentum(&b, 0, q, v);
+    for (int k = 0; k < 100; ++k) gvi_step(&a, 0.1), gvi_step(&b, 0.1);
+    if (a.status || b.status || !(fabs(a.q[0] - b.q[0]) < 1e-11)) return 0;
+    if (gvi_energy(&b, &energy) || !(fabs(energy + 0.5) < 1e-14)) return 0;
+    // numbers of this language, and both kinds of refusal
+    return !lagrangian_init(&L, free_arm, NULL, 0, q, v) && L.kind == LAGRANGIAN_MASS
+           && strstr(lagrangian_init(&L, first_order, NULL, 0, q, v), "HAMILTONIAN");
 }
 
 static double height(double t, const double *q, const double *v, void *user) { return (void)t, (void)v, (void)user, q[1]; }
@@ -57,6 +95,7 @@ int main(void)
     int found = 0;
 
     if (checked(&desc, q, v)) return 1;
+    if (!typed(q, v)) return 5;
     gvi_init(&st, &desc, memory, sizeof memory);
     gvi_start(&st, 0, q, v);
     for (int k = 0; k < 100 && st.status == GVI_OK; ++k) {

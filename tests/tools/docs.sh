@@ -39,7 +39,7 @@ for block in "$dir"/*-[0-9][0-9].c "$dir"/*-[0-9][0-9].cpp; do
     [ -f "$block" ] || continue
     if grep -q 'int main' "$block"; then
         [ -f "$block.out" ] || fail "$(basename "$block"): a program without its output"
-        $CC -std=c99 -O2 -I. -DGVI_IMPLEMENTED "$block" "$object" -o "$block.run" -lm && "$block.run" >"$block.real" || fail "$block does not run"
+        $CC -std=c99 -O2 -I. -Iexamples -DGVI_IMPLEMENTED "$block" "$object" -o "$block.run" -lm && "$block.run" >"$block.real" || fail "$block does not run"
         diff -u "$block.out" "$block.real" || fail "$block prints something else"
     else
         sed 's/^ *//; s/ *$//' "$block" | grep -v '^$' >"$block.flat"

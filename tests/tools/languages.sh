@@ -30,6 +30,12 @@ if [ -n "$python" ]; then
     count=$((count + 1))
     prints "Python, numpy" "$($python $from/planet.py "$dir/libgvi.so")"
     case $($python $from/planet.py "$dir/libgvi.so") in *True*) ;; *) fail "planet.py: energy" ;; esac
+    $CC -O2 -shared -fPIC -I. -Iexamples $from/lagrangian.c -o "$dir/libgvi_l.so" -lm || fail "lagrangian.c"
+    $python $from/lagrangian.py "$dir/libgvi_l.so" >"$dir/lagrangian.out" &&
+        awk '/^prints$/ { on = 1; getline; next } /^"""$/ { exit } on' $from/lagrangian.py | diff - "$dir/lagrangian.out" ||
+        fail "lagrangian.py"
+    echo "  Python, a Lagrangian"
+    count=$((count + 1))
     if $python -c 'import matplotlib' 2>/dev/null; then
         $python $from/planet.py "$dir/libgvi.so" "$dir/planet.png" >/dev/null && [ -s "$dir/planet.png" ] || fail "planet.png"
         count=$((count + 1))

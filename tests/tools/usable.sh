@@ -21,6 +21,9 @@ for compile in "${CC:-cc} -std=c99 -Wall -Wextra -Wpedantic -Werror -xc" "${CXX:
     $compile -O1 -I"$dir/stage/opt/include" tests/compile/tools.c -o "$dir/tools" -lm && "$dir/tools" || fail "tools: $compile"
     count=$((count + 1))
 done
+make -s mycost BUILD="$dir" FILE=tests/compile/mine.c >"$dir/mycost.out" && grep -q '^degree 8 ' "$dir/mycost.out" &&
+    grep -q '^the dial ' "$dir/mycost.out" && [ -s "$dir/mycost.svg" ] || fail "make mycost"
+count=$((count + 1))
 if have pkg-config; then
     export PKG_CONFIG_PATH="$dir/stage/opt/share/pkgconfig"
     [ "$(pkg-config --modversion gvi)" = "$(sed -n 's/^#define GVI_VERSION "\(.*\)"/\1/p' gvi.h)" ] || fail "version in gvi.pc"

@@ -1,0 +1,109 @@
+"""lagrangian.py - a Lagrangian typed in Python, and nothing else: complex numbers carry the derivatives
+
+    cc -O2 -shared -fPIC -I. -Iexamples examples/languages/lagrangian.c -o libgvi_l.so -lm
+    python3 lagrangian.py ./libgvi_l.so
+
+L gets t, q and v, arrays of complex numbers: q[0] is the first coordinate at all points of a step, so that one call of
+L computes them all.  Functions are those of numpy that take complex numbers; not abs, not comparisons.
+lagrangian_init looks at L and finds out what it is, as in C.
+
+prints
+
+ok: q = 0.631257632 0.436538384
+L is v'M(t,q)v/2 - V(t,q), energy within 1e-12: True
+refused: dL/dq[0] is 0 by numbers, -22.238 by differences: is a variable in L a double that has to be a number?
+"""
+import ctypes as C
+import sys
+
+import numpy as np
+
+from planet import Desc, Effect, Mass, Points, Run, Stepper, pointer, real
+
+
+class Wanted(C.Structure):
+    _fields_ = [("x", C.POINTER(Points)), ("w", pointer), ("one", C.c_int), ("scale", real), ("value", pointer),
+                ("by_q", pointer), ("by_w", pointer), ("first", C.c_int), ("apart", C.c_int), ("user", C.c_void_p)]
+
+
+add_fn = C.CFUNCTYPE(None, C.POINTER(Wanted))
+STEP = 2.0**-332
+
+
+def adds(L):
+    """what lagrangian.h asks for, from a function L(t, q, v)"""
+    def add(wanted):
+        a = wanted.contents
+        x = a.x.contents
+        n, count, stride = x.n, x.count, x.stride
+        z = np.zeros((2*n, count), dtype=complex)
+        z[:n] = x.rows("q")
+        if a.w:
+            z[n:] = np.ctypeslib.as_array(a.w, (n, stride))[:, :count]
+        elif a.one >= 0:
+            z[n + a.one] = 1
+        t = np.ctypeslib.as_array(x.t, (count,))
+        directions = [(i, a.by_q, i*stride) for i in range(n) if a.by_q]
+        directions += [(n + i, a.by_w, i*a.apart) for i in range(a.first, n) if a.by_w]
+        value = None
+        for d, out, at in directions:
+            z[d] += 1j*STEP
+            value = L(t, z[:n], z[n:])
+            z[d] = z[d].real
+            np.ctypeslib.as_array(out, (at + count,))[at:] += a.scale*(np.imag(value)/STEP)
+        if a.value:
+            value = L(t, z[:n], z[n:]) if value is None else value
+            np.ctypeslib.as_array(a.value, (count,))[:] += a.scale*np.real(value)
+    return add_fn(add)
+
+
+class Typed(Run):
+    """a run from L(t, q, v) alone; ValueError says why L is refused"""
+
+    def __init__(self, library, n, L, t, q, v, degree=8):
+        lib = self.lib = C.CDLL(library)
+        lib.gvi_size.restype = lib.gvi_stepper_size.restype = lib.typed_size.restype = C.c_size_t
+        lib.gvi_why.restype = lib.typed_init.restype = lib.typed_text.restype = C.c_char_p
+        at = [np.ascontiguousarray(z, dtype=float) for z in (q, v)]
+        self.L, add = C.create_string_buffer(lib.typed_size()), adds(L)
+        wrong = lib.typed_init(self.L, n, add, real(t), *(z.ctypes.data_as(pointer) for z in at))
+        if wrong:
+            raise ValueError(wrong.decode())
+        effect, mass = (Effect*1)(), Mass()
+        lib.typed_scene(self.L, effect, C.byref(mass))
+        desc = Desc(n=n, degree=degree, mass=mass, effects=effect, effect_count=1)
+        size = lib.gvi_size(C.byref(desc))
+        self.memory = np.zeros(max(size//8, 1))
+        self.bytes = C.create_string_buffer(lib.gvi_stepper_size())
+        self.st = Stepper.from_buffer(self.bytes)
+        self.kept = add, effect
+        lib.gvi_init(self.bytes, C.byref(desc), self.memory.ctypes.data_as(pointer), C.c_size_t(size))
+        self.start(t, q, v)
+
+
+def pendulum(t, q, v):
+    g = 9.81
+    return v[0]**2 + v[1]**2/2 + v[0]*v[1]*np.cos(q[0] - q[1]) + 2*g*np.cos(q[0]) + g*np.cos(q[1])
+
+
+def trap(t, q, v):
+    return v[0]**2/2 + v[1]**2/2 + 31*np.cos(q[0].real)
+
+
+def main(library):
+    run = Typed(library, 2, pendulum, 0, [0.8, 0.5], [0, 0])
+    energy = run.energy()
+    for _ in range(1600):
+        if run.st.status:
+            break
+        run.step(1/16)
+    print(f"{run.why()}: q = {run.q[0]:.9f} {run.q[1]:.9f}")
+    print(f"L is {run.lib.typed_text(run.L).decode()}, energy within 1e-12:", abs(run.energy() - energy) < 1e-12)
+    try:
+        Typed(library, 2, trap, 0, [0.8, 0.5], [0, 0])
+    except ValueError as why:
+        print("refused:", why)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -1,0 +1,562 @@
+/* examples/tools/lagrangian.h: L alone, or H, and nothing else.  What is expected: equations of motion derived by
+   hand and integrated by another method, closed forms, and the same scenes with derivatives by hand. */
+#include "gvi_test.h"
+#include "tools/lagrangian.h"
+#include "tools/check.h"
+
+static const real g = R(9.81);
+
+/* -- as on paper; beside each the accelerations by hand */
+
+/* Henon-Heiles, driven */
+LAGRANGIAN(driven, 2)
+{
+    return (v[0]*v[0] + v[1]*v[1])/2 - (q[0]*q[0] + q[1]*q[1])/2*(1 + cos(3*t)/10) - q[0]*q[0]*q[1] + q[1]*q[1]*q[1]/3;
+}
+static void driven_by_hand(long double t, const long double *q, const long double *v, long double *a)
+{
+    const long double k = 1 + cosl(3*t)/10;
+    a[0] = -k*q[0] - 2*q[0]*q[1];
+    a[1] = -k*q[1] - q[0]*q[0] + q[1]*q[1];
+}
+
+LAGRANGIAN(charge, 2)
+{
+    const number x = q[0], y = q[1];
+    return (v[0]*v[0] + v[1]*v[1])/2 - y/2*v[0] + (x/2 + x*x*x/12)*v[1] - (x*x + 4*y*y)/2;
+}
+static void charge_by_hand(long double t, const long double *q, const long double *v, long double *a)
+{
+    const long double B = 1 + q[0]*q[0]/4;
+    a[0] = B*v[1] - q[0];
+    a[1] = -B*v[0] - 4*q[1];
+}
+
+LAGRANGIAN(pendulum, 2)
+{
+    return v[0]*v[0] + v[1]*v[1]/2 + v[0]*v[1]*cos(q[0] - q[1]) + 2*g*cos(q[0]) + g*cos(q[1]);
+}
+static void pendulum_by_hand(long double t, const long double *q, const long double *v, long double *a)
+{
+    const long double G = 9.81L, c = cosl(q[0] - q[1]), s = sinl(q[0] - q[1]);
+    const long double x = -s*v[1]*v[1] - 2*G*sinl(q[0]), y = s*v[0]*v[0] - G*sinl(q[1]);
+    a[0] = (x - c*y)/(2 - c*c);
+    a[1] = (2*y - c*x)/(2 - c*c);
+}
+
+/* growing mass: friction as a Lagrangian (Caldirola, Kanai) */
+LAGRANGIAN(growing, 2)
+{
+    return exp(t/2)*(v[0]*v[0] + v[1]*v[1] - q[0]*q[0] - q[1]*q[1] - pow(q[0], 4)/2)/2;
+}
+static void growing_by_hand(long double t, const long double *q, const long double *v, long double *a)
+{
+    a[0] = -q[0] - q[0]*q[0]*q[0] - v[0]/2;
+    a[1] = -q[1] - v[1]/2;
+}
+
+LAGRANGIAN(fast, 2) { return -25*sqrt(1 - (v[0]*v[0] + v[1]*v[1])/25) + 1/sqrt(q[0]*q[0] + q[1]*q[1]); }
+static void fast_by_hand(long double t, const long double *q, const long double *v, long double *a)
+{
+    const long double d = hypotl(q[0], q[1]), f[] = { -q[0]/(d*d*d), -q[1]/(d*d*d) },
+                      root = sqrtl(1 - (v[0]*v[0] + v[1]*v[1])/25), power = (f[0]*v[0] + f[1]*v[1])/25;
+    for (int i = 0; i < 2; ++i) a[i] = root*(f[i] - power*v[i]);
+}
+
+/* a pendulum on a spring in polar coordinates, its support moved: speed w = -sin(2t)/5 */
+LAGRANGIAN(moved, 2)
+{
+    const number w = -sin(2*t)/5;
+    return (v[0]*v[0] + q[0]*q[0]*v[1]*v[1])/2 + w*(v[0]*sin(q[1]) + q[0]*v[1]*cos(q[1])) + g*q[0]*cos(q[1])
+           - 20*(q[0] - 1)*(q[0] - 1);
+}
+static void moved_by_hand(long double t, const long double *q, const long double *v, long double *a)
+{
+    const long double dw = -cosl(2*t)*0.4L;
+    a[0] = q[0]*v[1]*v[1] + 9.81L*cosl(q[1]) - 40*(q[0] - 1) - dw*sinl(q[1]);
+    a[1] = (-2*v[0]*v[1] - 9.81L*sinl(q[1]) - dw*cosl(q[1]))/q[0];
+}
+
+typedef void motion(long double t, const long double *q, const long double *v, long double *a);
+static const struct system {
+    const lagrangian_function *L;
+    motion                    *by_hand;
+    lagrangian_kind            kind;
+    gvi_formulation            formulation;
+    int                        timed;
+    real                       q[2], v[2], h;
+} systems[] = {
+    { &driven, driven_by_hand, LAGRANGIAN_POTENTIAL, GVI_POSITIONS, 1, { R(0.3), R(0.1) }, { 0, R(0.4) }, R(0.1) },
+    { &charge, charge_by_hand, LAGRANGIAN_LINEAR, GVI_VELOCITIES, 0, { R(0.8), R(0.4) }, { 0, R(0.5) }, R(0.2) },
+    { &pendulum, pendulum_by_hand, LAGRANGIAN_MASS, GVI_MOMENTA, 0, { R(0.8), R(0.4) }, { 0, 0 }, R(0.05) },
+    { &growing, growing_by_hand, LAGRANGIAN_MASS, GVI_MOMENTA, 1, { R(0.8), R(0.4) }, { 0, R(0.3) }, R(0.1) },
+    { &fast, fast_by_hand, LAGRANGIAN_GENERAL, GVI_NEWTON, 0, { R(0.8), 0 }, { R(0.1), 1 }, R(0.1) },
+    { &moved, moved_by_hand, LAGRANGIAN_GENERAL, GVI_NEWTON, 1, { R(1.1), R(0.5) }, { 0, R(0.1) }, R(0.05) },
+};
+
+/* The state at t = 1: the classical Runge-Kutta method, 8,000 steps */
+static void reference(const struct system *s, long double *z)
+{
+    const long double h = 1/8000.0L;
+    for (int i = 0; i < 2; ++i) {
+        z[i] = s->q[i];
+        z[2 + i] = s->v[i];
+    }
+    for (int k = 0; k < 8000; ++k) {
+        long double slope[4][4], at[4], t = k*h;
+        for (int j = 0; j < 4; ++j) {
+            const long double part = j == 3 ? 1 : 0.5L;
+            for (int i = 0; i < 4; ++i) at[i] = z[i] + (j ? part*h*slope[j-1][i] : 0);
+            slope[j][0] = at[2];
+            slope[j][1] = at[3];
+            s->by_hand(j ? t + part*h : t, at, at + 2, slope[j] + 2);
+        }
+        for (int i = 0; i < 4; ++i) z[i] += h*(slope[0][i] + 2*slope[1][i] + 2*slope[2][i] + slope[3][i])/6;
+    }
+}
+
+static lagrangian lagrangians[2];
+static gvi_effect effects[2];
+
+/* A stepper from L alone, started */
+static gvi_stepper from_l(const lagrangian_function *function, int which, int degree, const real *q, const real *v)
+{
+    lagrangian *L = lagrangians + which;
+    const char *wrong = lagrangian_init(L, *function, NULL, 0, q, v);
+    if (wrong) print_error("%s\n", wrong);
+    assert_null(wrong);
+    effects[which] = lagrangian_effect(L);
+    const gvi_desc desc = { .n = function->n, .degree = degree, .effects = effects + which, .effect_count = 1, .mass = lagrangian_mass(L) };
+    return new_motion(&desc, 0, q, v);
+}
+
+TEST(kinds_are_found)
+{
+    for (int k = 0; k < COUNT(systems); ++k) {
+        gvi_stepper st = from_l(systems[k].L, 0, 4, systems[k].q, systems[k].v);
+        assert_int_equal(lagrangians[0].kind, systems[k].kind);
+        assert_int_equal(st.formulation, systems[k].formulation);
+    }
+}
+
+/* of another kind by a term that the start does not show, or only at the second look; not defined at rest */
+LAGRANGIAN(far_mass, 1) { return v[0]*v[0]/2*(1 + pow(q[0], 16)) - q[0]*q[0]/2; }
+LAGRANGIAN(quartic, 1) { return v[0]*v[0]/2 + v[0]*v[0]*v[0]*v[0]/1000 - q[0]*q[0]/2; }
+LAGRANGIAN(cubic, 2) { return (v[0]*v[0] + v[1]*v[1])/2 + v[0]*v[1]*q[0]*v[1]/100 - q[0]*q[0]/2; }
+LAGRANGIAN(constant_term, 2) { return (v[0]*v[0] + v[1]*v[1])/2 + q[1]*v[0]/1000 - q[0]*q[0]/2; }
+LAGRANGIAN(no_rest, 1) { return v[0]*log(v[0]) - q[0]*q[0]/2; }
+LAGRANGIAN(dense, 2) { return (v[0]*v[0] + v[0]*v[1] + v[1]*v[1])/3 - q[0]*q[0]/2; }
+
+LAGRANGIAN(sun_and_sail, 2) { return R(1e30)*v[0]*v[0]/2 + v[1]*v[1]/2 + q[0]*v[1]/1000; }
+LAGRANGIAN(sun_and_turning, 2) { return R(1e30)*v[0]*v[0]/2 + (2 + cos(q[1]))*v[1]*v[1]/2; }
+LAGRANGIAN(coupled, 2) { return R(1e30)*v[0]*v[0]/2 + R(1e14)*v[0]*v[1] + v[1]*v[1]/2; }
+
+TEST(kinds_are_found_far_from_the_start)
+{
+    const real small[] = { R(0.01) }, rest[] = { 0 };
+    const struct { const lagrangian_function *L; lagrangian_kind kind; real q[2], v[2]; } cases[] = {
+        { &far_mass, LAGRANGIAN_MASS, { 0 }, { 0 } },
+        { &quartic, LAGRANGIAN_GENERAL, { R(0.01) }, { 0 } },       { &cubic, LAGRANGIAN_GENERAL, { 0, 0 }, { 0, 0 } },
+        { &constant_term, LAGRANGIAN_LINEAR, { 0, 0 }, { 0, 0 } },  { &no_rest, LAGRANGIAN_GENERAL, { 1 }, { 1 } },
+        { &dense, LAGRANGIAN_POTENTIAL, { R(0.1), R(0.2) }, { 0, 1 } },
+    };
+    for (int k = 0; k < COUNT(cases); ++k) {
+        assert_null(lagrangian_init(lagrangians, *cases[k].L, NULL, 0, cases[k].q, cases[k].v));
+        assert_int_equal(lagrangians[0].kind, cases[k].kind);
+    }
+    assert_int_equal(lagrangian_mass(lagrangians).kind, GVI_MASS_DENSE);
+    /* masses that differ by 30 orders of magnitude, the heavy one in motion */
+    const real far[] = { 1, 2 }, both[] = { 3, 4 };
+    assert_null(lagrangian_init(lagrangians, sun_and_sail, NULL, 0, far, both));
+    assert_int_equal(lagrangians[0].kind, LAGRANGIAN_LINEAR);
+    assert_null(lagrangian_init(lagrangians, sun_and_turning, NULL, 0, far, both));
+    assert_int_equal(lagrangians[0].kind, LAGRANGIAN_MASS);
+    assert_null(lagrangian_init(lagrangians, coupled, NULL, 0, far, both));
+    assert_int_equal(lagrangians[0].kind, LAGRANGIAN_POTENTIAL);
+    assert_close(lagrangians[0].M[2], R(1e14), R(1e14)*EPS);
+    /* what cannot be known is for the user to say */
+    assert_null(lagrangian_init(lagrangians, far_mass, NULL, 0, small, rest));
+    assert_int_equal(lagrangians[0].kind, LAGRANGIAN_POTENTIAL);
+    lagrangians[0].kind = LAGRANGIAN_GENERAL;
+    assert_int_equal(lagrangian_mass(lagrangians).kind, GVI_MASS_NONE);
+}
+
+static long double error(const struct system *s, int degree, int steps, const long double *z)
+{
+    gvi_stepper st = from_l(s->L, 0, degree, s->q, s->v);
+    real v[2];
+    long double worst = 0;
+    for (int k = 0; k < steps; ++k) assert_ok(gvi_step(&st, 1/(real)steps));
+    assert_ok(gvi_velocity(&st, v));
+    for (int i = 0; i < 2; ++i) worst = fmaxl(worst, fmaxl(fabsl(st.q[i] - z[i]), fabsl(v[i] - z[2 + i])));
+    return worst;
+}
+
+TEST(order_is_2s)
+{
+    for (int k = 0; k < COUNT(systems); ++k) {
+        long double z[4];
+        reference(systems + k, z);
+        for (int s = 1; s <= (KIND == 1 ? 1 : 3); ++s) {
+            const int steps = s == 1 ? 60 : s == 2 ? 30 : 16;
+            const long double coarse = error(systems + k, s, steps, z), fine = error(systems + k, s, steps*3/2, z);
+            assert_between(2*s - 0.3L, logl(coarse/fine)/logl(1.5L), 2*s + 0.3L);
+        }
+    }
+}
+
+TEST(energy_stays)
+{
+    for (int k = 0; k < COUNT(systems); ++k) {
+        if (systems[k].timed) continue;
+        gvi_stepper st = from_l(systems[k].L, 0, 8, systems[k].q, systems[k].v);
+        real start, now;
+        long double worst = 0;
+        assert_ok(gvi_energy(&st, &start));
+        for (int i = 0; i < 3000; ++i) {
+            assert_ok(gvi_step(&st, systems[k].h));
+            assert_ok(gvi_energy(&st, &now));
+            worst = fmaxl(worst, fabsl((long double)now/(long double)start - 1));
+        }
+        assert_between(0, worst, 45*EPS);             /* 1e-14 in double */
+    }
+}
+
+/* -- against derivatives by hand */
+
+LAGRANGIAN(planet, 2) { return (v[0]*v[0] + v[1]*v[1])/2 + 1/sqrt(q[0]*q[0] + q[1]*q[1]); }
+
+GVI_EACH(attraction, 2, f)
+{
+    const real d2 = x->q[0]*x->q[0] + x->q[1]*x->q[1], w = -1/(d2*GVI_SQRT(d2));
+    x->f[0] += w*x->q[0];
+    x->f[1] += w*x->q[1];
+}
+
+GVI_EACH(magnetic, 2, v, f, dldv)
+{
+    const real X = x->q[0], Y = x->q[1];
+    x->dldv[0] -= Y/2;
+    x->dldv[1] += X/2 + X*X*X/12;
+    x->f[0] += (R(0.5) + X*X/4)*x->v[1] - X;
+    x->f[1] += -x->v[0]/2 - 4*Y;
+}
+
+GVI_EACH(links, 2, mass)
+{
+    x->mass[0] = 2;
+    x->mass[2] = cos(x->q[0] - x->q[1]);
+    x->mass[3] = 1;
+}
+
+GVI_EACH(links_gradient, 2, v, f)
+{
+    const real s = sin(x->q[0] - x->q[1])*x->v[0]*x->v[1];
+    x->f[0] -= s;
+    x->f[1] += s;
+}
+
+GVI_EACH(weight, 2, f)
+{
+    x->f[0] -= 2*g*sin(x->q[0]);
+    x->f[1] -= g*sin(x->q[1]);
+}
+
+GVI_EACH(relativistic, 2, v, f, dldv)
+{
+    const real d2 = x->q[0]*x->q[0] + x->q[1]*x->q[1], w = -1/(d2*GVI_SQRT(d2)),
+               gamma = 1/GVI_SQRT(1 - (x->v[0]*x->v[0] + x->v[1]*x->v[1])/25);
+    x->f[0] += w*x->q[0];
+    x->f[1] += w*x->q[1];
+    x->dldv[0] += gamma*x->v[0];
+    x->dldv[1] += gamma*x->v[1];
+}
+
+TEST(agrees_with_derivatives_by_hand)
+{
+    const struct { const lagrangian_function *L; gvi_effect effect; gvi_mass mass; real q[2], v[2], h; } cases[] = {
+        { &planet, { .kind = GVI_POTENTIAL, .points = attraction }, { .kind = GVI_MASS_UNIT }, { R(0.4), 0 }, { 0, 2 }, R(0.1) },
+        { &charge, { .kind = GVI_LAGRANGIAN, .points = magnetic }, { .kind = GVI_MASS_UNIT }, { R(0.8), R(0.4) }, { 0, R(0.5) }, R(0.2) },
+        { &pendulum, { .kind = GVI_POTENTIAL, .points = weight },
+          { .kind = GVI_MASS_POSITION, .points = links, .gradient = links_gradient }, { R(0.8), R(0.4) }, { 0, 0 }, R(0.05) },
+        { &fast, { .kind = GVI_LAGRANGIAN, .points = relativistic }, { .kind = GVI_MASS_NONE }, { R(0.8), 0 }, { R(0.1), 1 }, R(0.1) },
+    };
+    const int steps = KIND == 2 ? 20000 : 200;
+    for (int k = 0; k < COUNT(cases); ++k) {
+        const gvi_desc desc = { .n = 2, .degree = 8, .effects = &cases[k].effect, .effect_count = 1, .mass = cases[k].mass };
+        gvi_stepper hand = new_motion(&desc, 0, cases[k].q, cases[k].v), st = from_l(cases[k].L, 0, 8, cases[k].q, cases[k].v);
+        for (int i = 0; i < steps; ++i) {
+            assert_ok(gvi_step(&hand, cases[k].h));
+            assert_ok(gvi_step(&st, cases[k].h));
+        }
+        for (int i = 0; i < 2; ++i) assert_close(hand.q[i], st.q[i], 45000*EPS);      /* 1e-11 in double */
+    }
+}
+
+/* -- the trap, in each kind: a variable that keeps the value alone.  `real r = q[0]` does the same, with a warning */
+
+LAGRANGIAN(trap_potential, 2)
+{
+    const real r2 = creal(q[0]*q[0] + q[1]*q[1]);
+    return (v[0]*v[0] + v[1]*v[1])/2 + 1/sqrt(r2);
+}
+LAGRANGIAN(trap_linear, 2)
+{
+    const real x = creal(q[0]);
+    return (v[0]*v[0] + v[1]*v[1])/2 - q[1]/2*v[0] + (x/2 + x*x*x/12)*v[1] - (q[0]*q[0] + 4*q[1]*q[1])/2;
+}
+LAGRANGIAN(trap_mass, 2)
+{
+    const real c = cos(creal(q[0] - q[1]));
+    return v[0]*v[0] + v[1]*v[1]/2 + v[0]*v[1]*c + 2*g*cos(q[0]) + g*cos(q[1]);
+}
+LAGRANGIAN(trap_general, 2)
+{
+    const real v2 = creal(v[0]*v[0] + v[1]*v[1]);
+    return -25*sqrt(1 - v2/25) + 1/sqrt(q[0]*q[0] + q[1]*q[1]);
+}
+/* at rest, at a place where the derivative that is lost is 0 */
+LAGRANGIAN(trap_at_rest, 1)
+{
+    const real c = cos(creal(q[0]));
+    return v[0]*v[0]/2 + c;
+}
+
+static void assert_refused(const lagrangian_function *function, const real *q, const real *v, const char *sentence)
+{
+    static lagrangian L;
+    const char *wrong = lagrangian_init(&L, *function, NULL, 0, q, v);
+    assert_non_null(wrong);
+    if (!strstr(wrong, sentence)) print_error("\"%s\" is not \"%s\"\n", wrong, sentence);
+    assert_non_null(strstr(wrong, sentence));
+    /* and nothing runs with it */
+    const gvi_effect effect = lagrangian_effect(&L);
+    const gvi_desc desc = { .n = 2, .degree = 2, .effects = &effect, .effect_count = 1, .mass = lagrangian_mass(&L) };
+    assert_int_equal(gvi_size(&desc), 0);
+}
+
+static const real some_q[] = { R(0.8), R(0.4) }, some_v[] = { R(0.2), R(0.5) }, zeros[2];
+
+TEST(lost_derivatives_are_refused)
+{
+    const char *question = "is a variable in L a double that has to be a number?";
+    assert_refused(&trap_potential, some_q, some_v, question);
+    assert_refused(&trap_linear, some_q, some_v, question);
+    assert_refused(&trap_mass, some_q, some_v, question);
+    assert_refused(&trap_general, some_q, some_v, question);
+    assert_refused(&trap_potential, some_q, some_v, "dL/dq[0] is 0 by numbers, -1.11");     /* -0.8/0.8^(3/2) */
+    assert_refused(&trap_general, some_q, some_v, "dL/dv[0] is 0 by numbers, 0.20");
+    assert_refused(&trap_at_rest, zeros, zeros, question);
+}
+
+LAGRANGIAN(first_order, 2) { return q[0]*v[1] - q[0]*q[0] - q[1]*q[1]; }
+LAGRANGIAN(massless, 2) { return v[0]*v[0]/2 + v[1] - q[0]*q[0] - q[1]*q[1]; }
+LAGRANGIAN(one_direction, 2) { return (v[0] + v[1])*(v[0] + v[1])/2 - q[0]*q[0] - q[1]*q[1]; }
+LAGRANGIAN(not_there, 2) { return (v[0]*v[0] + v[1]*v[1])/2 + log(q[0] - 5); }
+LAGRANGIAN(steep, 2) { return (v[0]*v[0] + v[1]*v[1])/2 + sqrt(q[1]); }
+LAGRANGIAN(large, LAGRANGIAN_MOST + 1) { return v[0]*v[0]; }
+
+TEST(refusals_say_why)
+{
+    assert_refused(&first_order, some_q, some_v, "L is linear in v: its equations are of first order; give H(t,q,p) by HAMILTONIAN");
+    assert_refused(&massless, some_q, some_v, "L has no kinetic energy in q[1]");
+    assert_refused(&one_direction, some_q, some_v, "L has no kinetic energy in some direction");
+    assert_refused(&not_there, some_q, some_v, "L is not finite at the start");
+    assert_refused(&steep, zeros, some_v, "dL/dq[1] is not finite at the start");
+    assert_refused(&large, some_q, some_v, "n is 33, there is room for 32: define LAGRANGIAN_MOST before lagrangian.h");
+}
+
+/* -- functions, against their derivatives */
+
+LAGRANGIAN(functions, 8)
+{
+    return sqrt(q[0]) + 2*exp(q[1]) + 3*log(q[2]) + 4*sin(q[3]) + 5*cos(q[4]) + 6*tan(q[5]) + 7*fabs(q[6] - 1) + 8*tanh(q[7])
+           + pow(v[0], 3) + pow(v[1], R(-1.5)) + pow(2, v[2]) + pow(v[3], v[4]);
+}
+
+TEST(functions_have_their_derivatives)
+{
+    real q[8], v[8], by_q[8], by_v[8];
+    for (int i = 0; i < 8; ++i) q[i] = v[i] = R(0.5) + (real)i/64;
+    const real value = lagrangian_at(&functions, NULL, 0, q, v, by_q, by_v);
+    const long double x[8] = { q[0], q[1], q[2], q[3], q[4], q[5], q[6], q[7] };
+    const long double right[8] = { 0.5L/sqrtl(x[0]), 2*expl(x[1]), 3/x[2], 4*cosl(x[3]), -5*sinl(x[4]), 6/(cosl(x[5])*cosl(x[5])),
+                                   -7, 8/(coshl(x[7])*coshl(x[7])) };
+    const long double power = powl(x[3], x[4]), right_v[5] = { 3*x[0]*x[0], -1.5L*powl(x[1], -2.5L), powl(2, x[2])*logl(2),
+                                                             x[4]*power/x[3], power*logl(x[3]) };
+    for (int i = 0; i < 8; ++i) assert_close(by_q[i], right[i], 32*EPS);
+    for (int i = 0; i < 5; ++i) assert_close(by_v[i], right_v[i], 32*EPS);
+    assert_close(value, sqrtl(x[0]) + 2*expl(x[1]) + 3*logl(x[2]) + 4*sinl(x[3]) + 5*cosl(x[4]) + 6*tanl(x[5]) + 7*fabsl(x[6] - 1)
+                 + 8*tanhl(x[7]) + powl(x[0], 3) + powl(x[1], -1.5L) + powl(2, x[2]) + power, 128*EPS);
+}
+
+/* -- beside other effects */
+
+LAGRANGIAN(oscillator, 1) { return v[0]*v[0]/2 - R(1.25)*q[0]*q[0]/2; }
+GVI_EACH(friction, 1, v, f) { x->f[0] -= x->v[0]/2; }
+
+TEST(friction_is_a_row)                    /* q = e^(-t/4) (cos wt + sin wt/(4w)), w^2 = 5/4 - 1/16 */
+{
+    static lagrangian L;
+    const real q[] = { 1 }, v[] = { 0 };
+    assert_null(lagrangian_init(&L, oscillator, NULL, 0, q, v));
+    const gvi_effect scene[] = { lagrangian_effect(&L), { .kind = GVI_FORCE, .points = friction } };
+    const gvi_desc desc = { .n = 1, .degree = 8, .effects = scene, .effect_count = 2, .mass = lagrangian_mass(&L) };
+    gvi_stepper st = new_motion(&desc, 0, q, v);
+    for (int i = 0; i < 8; ++i) assert_ok(gvi_step(&st, R(0.25)));
+    const long double w = sqrtl(1.1875L);
+    assert_close(st.q[0], expl(-0.5L)*(cosl(2*w) + sinl(2*w)/(4*w)), 8*EPS);
+}
+
+LAGRANGIAN(falling, 2) { return (v[0]*v[0] + v[1]*v[1])/2 - g*q[1]; }
+LAGRANGIAN(swinging, 1) { return v[0]*v[0]/2 + g*cos(q[0]); }
+GVI_EACH(rod, 2, rows(1))
+{
+    x->g[0] = (x->q[0]*x->q[0] + x->q[1]*x->q[1] - 1)/2;
+    x->jacobian[0] = x->q[0];
+    x->jacobian[1] = x->q[1];
+}
+
+TEST(constraints_are_rows)                 /* a pendulum by its rod, and by its angle */
+{
+    static lagrangian L;
+    const real q[] = { 1, 0 }, v[] = { 0, 0 }, angle[] = { R(1.57079632679489661923) }, rest[] = { 0 };
+    assert_null(lagrangian_init(&L, falling, NULL, 0, q, v));
+    const gvi_effect scene[] = { lagrangian_effect(&L), { .kind = GVI_CONSTRAINT, .points = rod, .rows = 1 } };
+    const gvi_desc desc = { .n = 2, .degree = 8, .effects = scene, .effect_count = 2, .mass = lagrangian_mass(&L) };
+    gvi_stepper st = new_motion(&desc, 0, q, v), other = from_l(&swinging, 1, 8, angle, rest);
+    for (int i = 0; i < 32; ++i) {
+        assert_ok(gvi_step(&st, R(0.0625)));
+        assert_ok(gvi_step(&other, R(0.0625)));
+    }
+    assert_close(st.q[0], sin(other.q[0]), 4096*EPS);
+    assert_close(st.q[1], -cos(other.q[0]), 4096*EPS);
+}
+
+LAGRANGIAN(on_spring, 1)
+{
+    const real *k = (const real *)user;
+    return v[0]*v[0]/2 - *k*q[0]*q[0]/2;
+}
+
+TEST(parameters_come_by_user)
+{
+    static lagrangian L;
+    const real k = 4, q[] = { 1 }, v[] = { 0 };
+    assert_null(lagrangian_init(&L, on_spring, &k, 0, q, v));
+    const gvi_effect scene[] = { lagrangian_effect(&L) };
+    const gvi_desc desc = { .n = 1, .degree = 8, .effects = scene, .effect_count = 1, .mass = lagrangian_mass(&L) };
+    gvi_stepper st = new_motion(&desc, 0, q, v);
+    for (int i = 0; i < 8; ++i) assert_ok(gvi_step(&st, R(0.125)));
+    assert_close(st.q[0], cosl(2), 8*EPS);
+}
+
+/* what the tool makes of L is a scene in which check.h finds nothing wrong */
+TEST(check_finds_nothing)
+{
+    for (int k = 0; k < COUNT(systems) && KIND == 2; ++k) {
+        check_finding list[4];
+        check_report report = { .list = list, .room = 4 };
+        char line[300];
+        from_l(systems[k].L, 0, 2, systems[k].q, systems[k].v);
+        const gvi_desc desc = { .n = 2, .effects = effects, .effect_count = 1, .mass = lagrangian_mass(lagrangians) };
+        check_scene(&desc, 0, systems[k].q, systems[k].v, &report);
+        for (int i = 0; i < report.count && i < 4; ++i) print_error("%s\n", check_line(&list[i], line, sizeof line));
+        assert_int_equal(report.count, 0);
+        assert_true(report.checked > 0);
+    }
+}
+
+/* -- H(q,p) */
+
+/* two vortices of strength 1, q = x, p = y, at a distance d: they turn about their middle with 1/(pi d^2) */
+HAMILTONIAN(vortices, 2)
+{
+    const number x = q[0] - q[1], y = p[0] - p[1];
+    return -log(x*x + y*y)/R(12.5663706143591729538505735331180115);
+}
+
+static hamiltonian hamiltonians[1];
+
+static gvi_stepper from_h(const lagrangian_function *function, int degree, const real *q, const real *p)
+{
+    assert_null(hamiltonian_init(hamiltonians, *function, NULL, 0, q, p));
+    effects[0] = hamiltonian_effect(hamiltonians);
+    const gvi_desc desc = { .n = function->n, .degree = degree, .effects = effects, .effect_count = 1,
+                            .mass = hamiltonian_mass(hamiltonians), .formulation = GVI_MOMENTA };
+    gvi_stepper st = new_stepper(&desc);
+    assert_ok(gvi_start_momentum(&st, 0, q, p));
+    return st;
+}
+
+TEST(vortices_have_order_2s)
+{
+    const real q[] = { R(0.5), R(-0.5) }, p[] = { 0, 0 };
+    for (int s = 1; s <= (KIND == 1 ? 2 : 4); ++s) {
+        long double off[2];
+        for (int k = 0; k < 2; ++k) {
+            const int steps = k ? 6 : 4;
+            gvi_stepper st = from_h(&vortices, s, q, p);
+            for (int i = 0; i < steps; ++i) assert_ok(gvi_step(&st, 6/(real)steps));
+            const long double angle = 6/3.14159265358979323846264338327950288L;
+            off[k] = hypotl(st.q[0] - cosl(angle)/2, st.p[0] - sinl(angle)/2);
+        }
+        assert_between(2*s - 0.3L, logl(off[0]/off[1])/logl(1.5L), 2*s + 0.3L);
+    }
+}
+
+TEST(energy_of_h_stays)
+{
+    const real q[] = { R(0.5), R(-0.25) }, p[] = { R(0.125), 0 };
+    gvi_stepper st = from_h(&vortices, 8, q, p);
+    real start, now;
+    long double worst = 0;
+    assert_ok(gvi_energy(&st, &start));
+    assert_close(start, -logl(0.578125L)/12.5663706143591729538505735331180115L, 8*EPS);
+    for (int i = 0; i < 3000; ++i) {
+        assert_ok(gvi_step(&st, R(0.25)));
+        assert_ok(gvi_energy(&st, &now));
+        worst = fmaxl(worst, fabsl((long double)(now - start)));
+    }
+    assert_between(0, worst, 45*EPS);
+}
+
+/* p of the Lagrangian: the same steps from L and from H, to rounding */
+HAMILTONIAN(planet_by_h, 2) { return (p[0]*p[0] + p[1]*p[1])/2 - 1/sqrt(q[0]*q[0] + q[1]*q[1]); }
+
+TEST(h_and_l_are_one_motion)
+{
+    const real q[] = { R(0.4), 0 }, v[] = { 0, 2 };
+    gvi_stepper a = from_l(&planet, 1, 8, q, v), b = from_h(&planet_by_h, 8, q, v);
+    for (int i = 0; i < 60; ++i) {
+        assert_ok(gvi_step(&a, R(0.1)));
+        assert_ok(gvi_step(&b, R(0.1)));
+    }
+    for (int i = 0; i < 2; ++i) assert_close(a.q[i], b.q[i], 4096*EPS);
+}
+
+HAMILTONIAN(trap_of_h, 1)
+{
+    const real r = creal(p[0]);
+    return r*r/2 + q[0]*q[0];
+}
+
+TEST(h_refuses)
+{
+    static hamiltonian H;
+    const real q[] = { R(0.5), R(-0.5) }, p[] = { R(0.1), 0 };
+    const char *wrong = hamiltonian_init(&H, trap_of_h, NULL, 0, q, p);
+    assert_non_null(wrong);
+    assert_non_null(strstr(wrong, "dH/dp[0] is 0 by numbers, "));
+    gvi_effect effect = hamiltonian_effect(&H);
+    gvi_desc desc = { .n = 1, .degree = 2, .effects = &effect, .effect_count = 1, .mass = hamiltonian_mass(&H) };
+    assert_int_equal(gvi_size(&desc), 0);
+    /* a velocity is not where it starts from */
+    assert_null(hamiltonian_init(&H, vortices, NULL, 0, q, p));
+    effect = hamiltonian_effect(&H);
+    desc = (gvi_desc){ .n = 2, .degree = 2, .effects = &effect, .effect_count = 1, .mass = hamiltonian_mass(&H), .formulation = GVI_MOMENTA };
+    gvi_stepper st = new_stepper(&desc);
+    assert_status(gvi_start(&st, 0, q, p), GVI_E_CALLBACK);
+}
+
+RUN_TESTS(NULL, NULL)
