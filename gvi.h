@@ -542,7 +542,8 @@ typedef int gvi_points_fn(const gvi_points *x, void *user);
    n is a constant.  The list names the arrays that the body uses (t and q are always there): v, p,
    f, dldv, and one of value, mass, velocity; or rows(m), m a constant, for the g, jacobian and
    rate of m constraints.  With f and value, `name` serves as points and as value.  Listing an array
-   that the effect's kind does not have gives GVI_E_CALLBACK, with a fault.argument.
+   that the effect's kind does not have, or an n larger than the scene's, gives GVI_E_CALLBACK, with
+   a fault.argument.
 
      GVI_POINTS(drag, 2, v, f)(const gvi_points *x, void *user)
      {
@@ -566,7 +567,7 @@ typedef int gvi_points_fn(const gvi_points *x, void *user);
     (GVI__USES_##a | GVI__USES_##b | GVI__USES_##c | GVI__USES_##d)
 enum { GVI__USES_, GVI__USES_v, GVI__USES_p, GVI__USES_f = 4, GVI__USES_dldv = 8,
        GVI__USES_value = 16, GVI__USES_mass = 32, GVI__USES_velocity = 64, GVI__ROWS = 128,
-       GVI__MISSING = 0x7656 };
+       GVI__MISSING = 0x7656, GVI__OTHER_N };
 #define GVI__USES_rows(m) (m)*GVI__ROWS
 #define GVI__POINTS(name, n, uses)                                                              \
     GVI__BODY int gvi__at_##name(const gvi_points *x, void *user);                              \
@@ -585,10 +586,10 @@ enum { GVI__USES_, GVI__USES_v, GVI__USES_p, GVI__USES_f = 4, GVI__USES_dldv = 8
     GVI__BODY int gvi__at_##name
 
 #define GVI_EACH(name, n, ...)                                                                  \
-    GVI__BODY void gvi__each_##name(const gvi_points *x, void *user);                           \
+    GVI__BODY void gvi__body_##name(const gvi_points *x, void *user);                           \
     GVI_POINTS(name, n, __VA_ARGS__)(const gvi_points *x, void *user)                           \
-    { return gvi__each_##name(x, user), 0; }                                                    \
-    GVI__BODY void gvi__each_##name(GVI__UNUSED const gvi_points *x, GVI__UNUSED void *user)
+    { return gvi__body_##name(x, user), 0; }                                                    \
+    GVI__BODY void gvi__body_##name(GVI__UNUSED const gvi_points *x, GVI__UNUSED void *user)
 
 // points k..to-1: a column of what is wanted to a, the body, and back
 GVI__BODY int gvi__each_point(gvi_points_fn *at, const gvi_points *x, void *user, int n, int uses,
@@ -637,6 +638,8 @@ GVI__BODY int gvi__in_chunks(gvi_points_fn *at, const gvi_points *x, void *user,
                              int wanted, gvi_real *a)
 {
     int failed = 0, k = 0;
+    // of fewer coordinates, the first ones
+    if (x->n < n || (x->n > n && (uses & GVI__USES_mass || uses >= GVI__ROWS))) return GVI__OTHER_N;
     if (gvi__missing(x, wanted)) return GVI__MISSING;
     for (; GVI__CHUNK && k + GVI__CHUNK <= x->stride; k += GVI__CHUNK)
         failed |= gvi__each_point(at, x, user, n, uses, wanted, a, k, k + GVI__CHUNK, x->f);
@@ -771,7 +774,8 @@ typedef struct gvi_fault {             /* where the last failure came from      
     int coordinate;                    /* or GVI_FAULT_NONE                     */
     int point;                         /* quadrature point, or GVI_FAULT_NONE   */
     const char *argument;              /* GVI_E_ARGUMENT, GVI_E_CALLBACK of a GVI_POINTS that
-                                          lists too much: a sentence, else NULL */
+                                          lists too much, and where a call knows
+                                          more than its status: a sentence, else NULL */
 } gvi_fault;
 
 /* Work of steps and queries since gvi_init.  The caller may set any of it to 0. */
@@ -2257,6 +2261,8 @@ GVI__COLD gvi_status gvi__report_callback(gvi_stepper *st, int failed, int effec
     gvi__report_effect(st, GVI_E_CALLBACK, effect);
     if (failed == GVI__MISSING)
         st->fault.argument = "GVI_POINTS lists what this kind does not have, as v: is .kind set?";
+    if (failed == GVI__OTHER_N)
+        st->fault.argument = "GVI_POINTS or GVI_EACH is written for a larger n than the scene's";
     return GVI_E_CALLBACK;
 }
 
@@ -6705,8 +6711,8 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
 
 /* Is each g_a within 4096 roundings, of its known terms or as measured?  To measure, take 1/4096 of
    Newton's correction, forwards and back, and less: if g_a follows both, to a quarter of the
-   change that G tells, its rounding is below that change, and g_a is none.  What is left of a
-   row that is left out may be a contradiction, which no move shows.                           */
+   change that G at both ends tells, its rounding is below that, and g_a is none.  What is left of
+   a row that is left out may be a contradiction, which no move shows.                         */
 GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                     const gvi_real *p, gvi_real *v)
 {
@@ -6738,7 +6744,8 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
         if (gvi__evaluate_constraints(st, 1, 1, &t, next, G + m*n) != GVI_OK) continue;
         gvi__add_scaled(n, -1, q, next, next);     // as rounded
         for (int a = 0; a < m; ++a) {
-            const gvi_real told = gvi__row_dot(st, G, a, next);
+            const gvi_real told =
+                (gvi__row_dot(st, G, a, next) + gvi__row_dot(st, G + m*n, a, next))/2;
             const int follows = gvi__nonzero(told)
                                 && GVI_ABS((g[a] - was[a]) - told) <= GVI_ABS(told)/4;
             if (follows && ahead[a] > 0 && doubt[a] > 0) refused = a;
@@ -7106,7 +7113,11 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
     gvi_status trial = GVI_OK, status = gvi__ready(st, st && st->in.started);
     if (status != GVI_OK) return status;
     if (!lambda) return gvi__refuse_call(st, "lambda is NULL");
-    if (!st->in.con.bits) return gvi__done(st, GVI_E_FORMULATION);
+    if (!st->in.con.bits) {
+        gvi__report_status(st, GVI_E_FORMULATION);
+        st->fault.argument = "gvi_multipliers: no constraint is in the scene";
+        return gvi__done(st, GVI_E_FORMULATION);
+    }
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
     gvi_real *q = in->answer, *p = q + n, *u = p + n, *v = in->con.W, *force = v + n;
@@ -7178,7 +7189,8 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
     const int n = st->n, m = in->con.m;
     gvi_real *e = in->step.q, *f = in->step.p, *next = in->answer, *d = next + n, *u = d + n,
              *push = in->point, *z = in->con.rho, *r = z + m, *back = r + m,
-             *drops = in->con.drops + m, far[2] = { 0, 0 }, change = GVI__MAX, before, share = 1;
+             *drops = in->con.drops + m, far[2] = { 0, 0 }, change = GVI__MAX, before = 0, size = 0,
+             share = 1;
     if (!moved) moved = far;
     moved[0] = moved[1] = 0;
     if (!gvi__constrained(st)) return gvi__report_status(st, GVI_OK);
@@ -7192,11 +7204,17 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
     GVI__LOOK(st, 1);
     for (int k = 0; ; ++k) {
         status = gvi__constraints_at(st, t, next, NULL, u, drops);
-        if (k > 1 && !(change < before*(gvi_real)0.9) && status == GVI_OK) {
+        gvi_real noise = 0;                        // the work that the rounding of g does
+        for (int a = 0; a < m && k > 0 && status == GVI_OK; ++a)
+            noise += GVI__GRAIN*GVI_ABS(z[a])
+                     *(GVI_ABS(in->con.g[a])
+                       + GVI__EPS*gvi__terms(st, 1, t, next, in->con.G1, in->con.g + m, a));
+        if (k > 1 && !(change < before*(gvi_real)0.9) && status == GVI_OK
+            && change <= GVI_SQRT(GVI__EPS*GVI_SQRT(GVI__EPS))*size + noise) {
             if (gvi__fulfilled(st, t, next, NULL, u) == GVI_OK) break;
-            status = k > 100 ? GVI_E_CONVERGENCE
-                             : gvi__constraints_at(st, t, next, NULL, u, drops);
+            status = gvi__constraints_at(st, t, next, NULL, u, drops);
         }
+        if (k > 1000 && status == GVI_OK) status = GVI_E_CONVERGENCE;
         if (status != GVI_OK) break;
         for (int a = 0; a < m; ++a) {
             back[a] = -in->con.g[a];
@@ -7211,14 +7229,15 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
         gvi__copy((size_t)n, push, d);
         gvi__over_inertia(st, d, 1, 1);
         before = change;
-        change = 0;
+        change = size = 0;
         for (int i = 0; i < n; ++i) {
-            change += (push[i] - share*f[i])*(d[i] - share*e[i]);
+            // by the force's work, which has one unit, and is not 0 where M alone changes
+            change += (GVI_ABS(push[i]) + GVI_ABS(f[i]))*GVI_ABS(d[i] - share*e[i]);
+            size += (GVI_ABS(push[i]) + GVI_ABS(f[i]))*(GVI_ABS(d[i]) + GVI_ABS(e[i]));
             f[i] = push[i] + (1 - share)*f[i];
             e[i] = d[i] + (1 - share)*e[i];
             next[i] = q[i] + e[i];
         }
-        change = GVI_SQRT(GVI_ABS(change));
         if (change > before && share > (gvi_real)0.02) share /= 2;
     }
     GVI__LOOK(st, 0);
@@ -7230,12 +7249,21 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
         gvi__zero((size_t)n, d);
         gvi__add_force(st, z, d);
         gvi__over_inertia(st, d, 1, 1);
-        gvi__add_scaled(n, 1, d, u, u);
-        if (pass == 0) far[1] = gvi__dot(m, r, z);
+        if (pass == 0) {
+            gvi__copy((size_t)n, u, next);         // the velocity given
+            far[1] = gvi__dot(m, r, z);
+        }
+        for (int i = 0; i < n; ++i) {
+            u[i] += d[i];
+            // all of it was across the constraints: what is left is rounding
+            if (GVI_ABS(u[i]) <= GVI__SOLVED*GVI__EPS*GVI_ABS(next[i])) u[i] = 0;
+        }
     }
     gvi__forget_columns(st);
+    if (status == GVI_E_CONVERGENCE)
+        st->fault.argument = "gvi_project: no state on the constraints found, too far off";
     if (status != GVI_OK) return st->status = status;
-    gvi__copy((size_t)n, next, q);
+    gvi__add_scaled(n, 1, e, q, q);
     gvi__copy((size_t)n, u, v);
     for (int k = 0; k < 2; ++k) moved[k] = GVI_SQRT(GVI_ABS(far[k]));
     return gvi__report_status(st, GVI_OK);
@@ -7329,7 +7357,7 @@ GVI__CALLED gvi_status gvi__held_matrix(gvi_stepper *st, const gvi__matrix *J)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m, s = st->s, R = in->R, C = in->con.C, moves = s > 1 ? n : 0;
-    const gvi_real *const Phi = in->con.Phi - 1, *const t = in->con.t;      // at D_e: [e]
+    const gvi_real *const Phi = in->con.Phi, *const t = in->con.t;          // at D_e: [e - 1]
     const gvi_real h = in->sized.h;
     gvi_real *force = in->con.force, *base = in->con.free, *at = in->con.at, *was = in->set_up;
     const size_t size = gvi__unknowns(st, 0), sn = (size_t)(s*n);
@@ -7344,10 +7372,10 @@ GVI__CALLED gvi_status gvi__held_matrix(gvi_stepper *st, const gvi__matrix *J)
         for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1))
             for (int k = 0; k < s; ++k) {
                 const gvi_real *G = in->con.G + (a*n + i)*C + e,
-                    W = (k == 0 ? 1 : 0) - (e > 0 ? Phi[k*R + e] : 0);
+                    W = (k == 0 ? 1 : 0) - (e > 0 ? Phi[k*R + e - 1] : 0);
                 const size_t y = (size_t)(k*n + i);
                 J->square[y*size + z] = (gvi_real)(2*k + 1)*W*(in->con.hw[e]*G[0]);
-                J->square[z*size + y] = -h*Phi[k*R + e + 1]*G[1];
+                J->square[z*size + y] = -h*Phi[k*R + e]*G[1];
             }
     }
     gvi__copy((size_t)(n*R), force, base);
@@ -7362,9 +7390,9 @@ GVI__CALLED gvi_status gvi__held_matrix(gvi_stepper *st, const gvi__matrix *J)
                 d = in->con.hw[e]*(force[i*R + e] - base[i*R + e])/(row[e] - was[e]);
                 for (int kl = 0; kl < s*s; ++kl) {
                     const int k = kl/s, l = kl % s;
-                    const gvi_real W = (k == 0 ? 1 : 0) - Phi[k*R + e];
+                    const gvi_real W = (k == 0 ? 1 : 0) - Phi[k*R + e - 1];
                     J->square[(size_t)(k*n + i)*size + (size_t)(l*n + j)] -=
-                        (gvi_real)(2*k + 1)*W*d*(h*Phi[l*R + e]);
+                        (gvi_real)(2*k + 1)*W*d*(h*Phi[l*R + e - 1]);
                 }
             }
         gvi__copy((size_t)C, was, row);
@@ -7771,9 +7799,10 @@ GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end)
     if (ready != GVI_OK) return ready;
     if (!(st->in.desc.resolution > 0))
         return gvi__refuse_call(st, "gvi_advance needs desc.resolution");
+    st->in.failed.status = GVI_OK;                // as in gvi_step
     if (!gvi__finite(t_end) || !gvi__nonzero(t_end - st->t))
         return gvi__refuse_call(st, "t_end is t, NaN or infinite");
-    const gvi_real way = (t_end - st->t) - st->t_low, left = GVI_ABS(way);
+    const gvi_real way = (t_end - st->t) - st->t_low, left = gvi__smaller(GVI_ABS(way), GVI__MAX);
     const int clock = gvi__clock_is_on(st);
     if (!(st->next > 0) || !gvi__finite(st->next)) st->next = gvi__first_length(st, left);
     for (int tries = 1; ; ++tries) {
@@ -8325,35 +8354,54 @@ static gvi_status gvi__explain_failure(gvi_stepper *st, const gvi__origin *from,
     return status;
 }
 
-/* At a first start, finds callbacks that fill only their first point, or set f and dldv with =
-   instead of adding to them.  All points are a little past q, where a force 0 at the start is not.
-   From 0 an effect shows which points it fills; from the largest number, whether it adds.     */
+/* At a first start, finds callbacks whose loop over points is missing or wrong, or that set f and
+   dldv with = instead of adding to them.  All points are one state, a little past q, where a force
+   0 at the start is not: each row's entries have to be what one point alone gives, to 1/1024 of
+   the largest.  From the largest number an effect shows whether it adds.                      */
 GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
 {
     struct gvi__private *in = &st->in;
     const gvi_counters counters = st->counters;          // a probe is no step's work
     gvi_points at = gvi__all_points_at(st, t, q, v);
     const int n = st->n, R = at.stride, count = at.count;
-    gvi_real *rows = at.f;
+    gvi_real *rows = at.f, *past = in->answer + 2*n;
+    for (int i = 0; i < n; ++i) past[i] = q[i] + GVI_SQRT(GVI__EPS)*v[i];
     for (int i = 0; i < n*R; ++i)
-        if (i % R < count) in->work.Q[i] += GVI_SQRT(GVI__EPS)*v[i/R];
-    // effects may use what M(q) has computed: it comes first, as in a step
-    if (in->desc.mass.kind == GVI_MASS_POSITION) gvi__place_probe(st, &at);
+        if (i % R < count) in->work.Q[i] = past[i/R];
+    gvi_points one = gvi__one_point(st, &t, past);
+    one.v = v;
     const char *slip = NULL;
     for (int e = 0; e < in->desc.effect_count; ++e) {
-        int all = n*R, first = 0, others = 0, huge = 0, set = 0;
+        int all = n*R, unlike = 0, huge = 0, set = 0;
+        gvi_real largest = 0;
         if ((in->off | in->apart) >> e & 1u) continue;
         if (in->desc.effects[e].kind == GVI_LAGRANGIAN) all = 2*n*R;
         gvi__zero((size_t)all, rows);
-        if (gvi__effect(st, &at, e, NULL) != GVI_OK) continue;
-        for (int i = 0; i < all; ++i) {
-            const int k = i % R, filled = k < count && gvi__nonzero(rows[i]);
-            first |= filled && k == 0;
-            others |= filled && k > 0;
-            huge |= filled && GVI_ABS(rows[i]) > GVI__MAX/4;
+        // effects may use what M(q) has computed: it comes first, as in a step
+        const int varies = in->desc.mass.kind == GVI_MASS_POSITION;
+        if (varies) gvi__place_probe(st, &one);
+        gvi_real before = 0, sum = 0;
+        int known = 1;
+        for (int twice = 0; twice < 2 && known; ++twice) {        // noise is not to be judged
+            gvi__zero(2*(size_t)n, one.f);
+            known = gvi__effect(st, &one, e, NULL) == GVI_OK;
+            before = sum;
+            sum = gvi__norm1(2*n, one.f);
         }
-        if (first && !others && count > 1)
-            slip = "effect: fills its first point alone, not x->count of them";
+        if (gvi__nonzero(sum - before)) known = 0;
+        if (varies) gvi__place_probe(st, &at);
+        if (gvi__effect(st, &at, e, NULL) != GVI_OK) continue;
+        for (int i = 0; i < all; ++i)
+            if (i % R < count) {
+                largest = gvi__larger(GVI_ABS(rows[i]), largest);
+                largest = gvi__larger(GVI_ABS(one.f[i/R]), largest);
+            }
+        huge = largest > GVI__MAX/4;
+        for (int i = 0; i < all; ++i)
+            unlike |= i % R < count && GVI_ABS(rows[i] - one.f[i/R]) > largest/GVI__SURE;
+        if (unlike && known)
+            slip = "effect: fills not all points: coordinate i of point k < x->count is at "
+                   "[i*x->stride + k]";
         for (int i = 0; i < all; ++i) rows[i] = GVI__MAX;
         if (gvi__effect(st, &at, e, NULL) != GVI_OK) continue;
         for (int i = 0; i < all; ++i) set |= i % R < count && GVI_ABS(rows[i]) < GVI__MAX/2;
@@ -8390,7 +8438,8 @@ GVI_DEF const char *gvi_status_text(gvi_status status)
     case GVI_E_STATE:       return "too early, outside the last step, or a clock is on since";
     case GVI_E_CONJUGATE:   return "conjugate points: the ends do not determine the curve";
     case GVI_E_CLOCK:       return "a clock (fault.effect) must be positive: g <= 0";
-    case GVI_E_CONSTRAINT:  return "the state is not on a constraint: g(t,q) or its rate is not 0";
+    case GVI_E_CONSTRAINT:  return "the state is not on a constraint (fault.effect, its row in "
+                                   "fault.coordinate): g(t,q) or its rate is not 0";
     case GVI_E_RESOLUTION:  return "the step is not as accurate as desc.resolution wants it: "
                                    "halve h";
     default:                return "unknown status";
@@ -8429,7 +8478,11 @@ GVI_DEF const char *gvi_why(const gvi_stepper *st)
     if (why == GVI_E_POINTS && in->desc.rule.points < in->desc.degree)
         return "rule: fewer points than the degree";
     if (why == GVI_E_SINGULAR && st->fault.effect >= 0)
-        return "a constraint (fault.effect) depends on the others, or has no gradient";
+        return "a constraint (fault.effect, its row in fault.coordinate) depends on the others, or "
+               "has no gradient";
+    if (why == GVI_E_CONSTRAINT && in->failed.status == why)
+        return "a row (fault.coordinate of fault.effect) that counts as dependent on others is not "
+               "fulfilled: they contradict, or masses differ by more than 1e13";
     if (why == GVI_E_CONVERGENCE && mass) return "no velocity found that has this momentum";
     if (why == GVI_E_CONVERGENCE && in->desc.iterations > 0)
         return "desc.iterations are too few: halve h, or give more";
