@@ -1061,8 +1061,10 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
 GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v);
 GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                       const gvi_real *p);
+#ifndef GVI_NO_BOUNDARY
 GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_real h,
                                             const gvi_real *q0, const gvi_real *q1);
+#endif
 
 /* q and v [n], in place, to the nearest that fulfil the constraints that are on, at t, to rounding:
    q such that (q' - q)'M(q' - q) is least, then v likewise, M that there (with Lagrangian terms
@@ -1071,8 +1073,10 @@ GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_rea
    places of later steps may not): for a constraint to come, where the state is off it, gvi_init,
    this, gvi_start.  GVI_E_CONVERGENCE: too far off (an effect and row that is left, if any); q and
    v are then as they were.                                                                    */
+#ifndef GVI_NO_CONSTRAINTS
 GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_real *v,
                                gvi_real *moved);
+#endif
 
 /* One step to t + h (with a clock: to tau + h); h < 0 steps back; h may differ from step to step
    (which keeps the map symplectic but not the energy's long-time bound).  Let a step end where a
@@ -1094,7 +1098,9 @@ GVI_DEF gvi_status gvi_steps(gvi_stepper *st, gvi_real h, int count);
    that fails is tried again, shorter, 64 times at most or until t would not move: then its status
    is returned.  With
    a clock the length is in tau, and the step may pass t_end: gvi_state_at has the state there. */
+#ifndef GVI_NO_DIAL
 GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end);
+#endif
 
 /* Switches effect `index` off (on = 0) or on again, between steps.  An effect that is off is
    not evaluated; the formulation stays that of the whole list.  gvi_start leaves the switches
@@ -1112,7 +1118,9 @@ GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy);
    keeps G v + dg/dt = 0, so they are as exact as the state; second derivatives of g are differences
    along v, good to some 100 eps.  Of rows that depend on each other the first ones carry the
    force, the last have 0.                                                     */
+#ifndef GVI_NO_CONSTRAINTS
 GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda);
+#endif
 
 /* In the last step; q, v, p of length n, or NULL.  What later steps compute stays the same, to the
    bit.  A broken line has neither curve nor action, a clock no action: GVI_E_FORMULATION.
@@ -1122,8 +1130,10 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda);
                     the nearer end; up to 2 ulp outside the step, t counts as its end
      gvi_action     the quadrature of L; like gvi_state_at with the effects that are on now   */
 GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v);
+#ifndef GVI_NO_OUTPUT
 GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_real *v, gvi_real *p);
 GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action);
+#endif
 
 /* L_d(q0, q1; t, h): boundary values given, rows k >= 1 of (1) solved by Newton's method.
    The curve is the one near the chord, followed from short h; or, with a guess, the one near the
@@ -1137,16 +1147,20 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action);
    discrete forces are [1, sec. 3.2] (at fixed control points, as (dLdA3) of [2] is printed, they
    would act as another force); how they share p0 and p1 is as exact as the Hessians (sqrt(eps),
    where these are differences), p0 and p1 themselves are exact.  State untouched.             */
+#ifndef GVI_NO_BOUNDARY
 GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real h,
                                            const gvi_real *q0, const gvi_real *q1,
                                            const gvi_discrete *out);
+#endif
 
 /* Restart from a checkpoint, a copy of a stepper and of its memory, in a stepper that gvi_init set
    up for the same description, in this process or another.  What follows is the same to the bit.
    GVI_E_ARGUMENT if sizes, the number of effects, what they read together, the kind of mass or the
    formulation differ.  Rules of equally many points are not compared: the saved one is used;
    callbacks, tolerance and limits are those of st.                                            */
+#ifndef GVI_NO_RESTORE
 GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const gvi_real *memory);
+#endif
 
 /* In this order: what went wrong in the last call, "ok" if nothing; the same, as far as a status
    alone can say; why st uses its formulation; sizeof(gvi_stepper), for other languages.       */
@@ -1196,16 +1210,60 @@ GVI_DEF gvi_status gvi_lu_factor(int n, gvi_real *a, gvi_real *pivot);
 GVI_DEF void       gvi_lu_solve(int n, const gvi_real *lu, const gvi_real *pivot, gvi_real *x);
 GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot, gvi_real *work);
 
-/* Rows are padded to a multiple of 8 from 5 points on, for vector registers.
-   Terms: vectors, stage values, mass and Newton; tables; what exceeds n.      */
+/* Rows are padded to a multiple of 8 from 5 points on, for vector registers.                  */
 #define GVI__ROW(r) ((r) < 5 ? (r) : ((r) + 7)/8*8)
 #define GVI__SIZE(a) ((size_t)(a))
 #define GVI__SLACK (63/sizeof(gvi_real))
-#define GVI_LENGTH(n, s, r) (                                                    \
-    (42 + 10*GVI__SIZE(s) + 20*GVI__SIZE(GVI__ROW(r))                             \
-     + (6 + GVI__SIZE(GVI__ROW(r)) + 2*GVI__SIZE(s)*GVI__SIZE(s))*GVI__SIZE(n))*GVI__SIZE(n) \
-    + (24 + 8*GVI__SIZE(r) + 3*GVI__SIZE(s))*GVI__SIZE(GVI__ROW(r))              \
-    + (GVI__SIZE(s) + 2)*GVI__SIZE(s) + GVI__SIZE(r) + 5 + GVI__SLACK)
+
+/* The numbers that the core takes at most, and each chapter that is compiled: see their layouts. */
+#define GVI_LENGTH(n, s, r)                                                                     \
+    GVI__LENGTH(GVI__SIZE(n), GVI__SIZE(s), GVI__SIZE(r), GVI__SIZE(GVI__ROW(r)))
+#define GVI__LENGTH(n, s, r, R) (GVI__CORE_LENGTH(n, s, r, R) + GVI__RULES_LENGTH(s)            \
+    + GVI__LAGRANGIAN_LENGTH(n, r, R) + GVI__MOMENTA_LENGTH(n, r, R) + GVI__CLOCK_LENGTH(n, R)  \
+    + GVI__KICKS_LENGTH(r) + GVI__NEWTON_LENGTH(n, s, R) + GVI__DIAL_LENGTH(R)                  \
+    + ((r) > 4 ? GVI__SLACK : 0))
+
+#ifdef GVI_ONLY_EXPLICIT
+#define GVI__CORE_LENGTH(n, s, r, R) ((29 + 2*(n))*(n) + 5*(R) + (s))
+#else
+#define GVI__CORE_LENGTH(n, s, r, R)                                                            \
+    ((32 + 10*(R) + 2*(n))*(n) + (15 + 3*(s) + 5*(r))*(R) + (s))
+#endif
+#ifdef GVI_NO_RULES
+#define GVI__RULES_LENGTH(s) 0
+#else
+#define GVI__RULES_LENGTH(s) (((s) + 1)*(s) + 1)
+#endif
+#ifdef GVI_NO_LAGRANGIAN
+#define GVI__LAGRANGIAN_LENGTH(n, r, R) 0
+#else
+#define GVI__LAGRANGIAN_LENGTH(n, r, R) ((5 + 5*(R) + (n))*(n) + 2*(r)*(R) + 1)
+#endif
+#ifdef GVI_NO_MOMENTA
+#define GVI__MOMENTA_LENGTH(n, r, R) 0
+#else
+#define GVI__MOMENTA_LENGTH(n, r, R) ((2 + (1 + (n))*(R))*(n) + (r)*(R))
+#endif
+#ifdef GVI_NO_CLOCK
+#define GVI__CLOCK_LENGTH(n, R) 0
+#else
+#define GVI__CLOCK_LENGTH(n, R) ((5 + (n))*(R))
+#endif
+#ifdef GVI_NO_KICKS
+#define GVI__KICKS_LENGTH(r) 0
+#else
+#define GVI__KICKS_LENGTH(r) ((r) + 1)
+#endif
+#ifdef GVI_NO_NEWTON
+#define GVI__NEWTON_LENGTH(n, s, R) 0
+#else
+#define GVI__NEWTON_LENGTH(n, s, R) ((10*(s) + 5*(R) + (3 + 2*(s)*(s))*(n))*(n) + 2)
+#endif
+#ifdef GVI_NO_DIAL
+#define GVI__DIAL_LENGTH(R) 0
+#else
+#define GVI__DIAL_LENGTH(R) (4*(R))
+#endif
 
 /*  The same with constraints, m rows in all.                                  */
 #define GVI_CONSTRAINED_LENGTH(n, s, r, m) (GVI_LENGTH(n, s, r)                  \
@@ -2873,9 +2931,8 @@ GVI__COLD gvi_status gvi__resolve(struct gvi__private *in, const gvi_desc *desc,
 GVI__COLD gvi_real *gvi__take(gvi__arena *arena, size_t a, size_t b)
 {
     const size_t most = (size_t)-1/sizeof(gvi_real) - 64;      // more than anyone has, with slack
-    size_t at = arena->used;
+    const size_t at = arena->used;
     if (a == 0) return NULL;
-    if (b >= 16 && at < most) at = (at + GVI__LANES - 1)/GVI__LANES*GVI__LANES;   // whole lanes
     arena->used = most;
     if (b <= (most - at)/a) arena->used = at + a*b;
     if (!arena->base) return NULL;
@@ -3006,7 +3063,8 @@ GVI__COLD gvi_status gvi__set_rule(gvi_stepper *st)
     gvi_real *c_low = in->t;
     gvi_status status = GVI_OK;
     table->Phi_low = in->predictor.one;            // not yet in use, as are the times
-    if (!gvi__place_nodes(st)) gvi__rule(lobatto, st->r, table->c, c_low, table->b);
+    if (!gvi__place_nodes(st) && GVI__ITERATION)
+        gvi__rule(lobatto, st->r, table->c, c_low, table->b);
     if (gvi__iterates(in)) {
         gvi__modes_of(st, st->r, table->c, c_low, table->phi, table->phi_low, table->Phi,
                       table->Phi_low);
