@@ -1348,12 +1348,11 @@ typedef char gvi__effects_fit_a_word[GVI_EFFECTS >= 1 && GVI_EFFECTS <= 32
 #if defined(__GNUC__)
 #define GVI__COLD static __attribute__((noinline, cold))
 #define GVI__CALLED static __attribute__((noinline))
-#define GVI__OFFERED static __attribute__((unused))
 #else
 #define GVI__COLD static
 #define GVI__CALLED static
-#define GVI__OFFERED static
 #endif
+#define GVI__OFFERED static inline          // no warning where nobody asks
 #if defined(__GNUC__) && defined(__OPTIMIZE_SIZE__)
 #define GVI__APART GVI__CALLED
 #define GVI__SMALL 1
@@ -8707,20 +8706,18 @@ GVI__COLD int gvi__place_covers(struct gvi__private *in, gvi_formulation f)
               kicks = d->rule.kind == GVI_KICKS,
               constant = d->mass.kind <= GVI_MASS_DENSE && !clock && !(holds && in->adds_p);
     if (holds && (clock || kicks)) return 0;
-    switch (f) {
-    case GVI_POSITIONS:  return GVI__ITERATION && constant && !kicks && !in->reads_v;
-    case GVI_VELOCITIES: return GVI__ITERATION && constant && !kicks;
+    if (f == GVI_POSITIONS) return GVI__ITERATION && constant && !kicks && !in->reads_v;
+    if (f == GVI_VELOCITIES) return GVI__ITERATION && constant && !kicks;
 #ifndef GVI_NO_KICKS
-    case GVI_EXPLICIT:   return gvi__kicks_cover(in, constant);
+    if (f == GVI_EXPLICIT) return gvi__kicks_cover(in, constant);
 #endif
 #ifndef GVI_NO_MOMENTA
-    case GVI_MOMENTA:    return !kicks && gvi__momenta_cover(in, holds);
+    if (f == GVI_MOMENTA) return !kicks && gvi__momenta_cover(in, holds);
 #endif
 #ifndef GVI_NO_NEWTON
-    case GVI_NEWTON:     return !kicks && !clock;
+    if (f == GVI_NEWTON) return !kicks && !clock;
 #endif
-    default: return 0;
-    }
+    return 0;
 }
 
 GVI__COLD gvi_status gvi__place_chosen(struct gvi__private *in, int order, gvi_fault *fault)
