@@ -4461,8 +4461,9 @@ static void gvi__lagrangian_before(const gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
     const int n = st->n, R = in->R;
-    gvi_real *plus = in->lagrangian.plus, *weighted = in->lagrangian.plus + n*R;
+    gvi_real *plus = in->lagrangian.plus;
     if (!plus) return;
+    gvi_real *weighted = plus + n*R;               // what V gets is there first
     for (int i = 0; i < n; ++i)
         gvi__weigh(R, in->table.b, in->lagrangian.A + i*R, weighted + i*R);
     gvi__sums(st, in->lagrangian.T, weighted, plus, 0);
