@@ -3164,7 +3164,18 @@ typedef struct gvi__stage {
     int             of, quiet;         /* GVI__OF_...; not judged                              */
 } gvi__stage;
 
-// free motion v = M^-1 p and h v in double words, M constant
+/* GVI__FOR_ROW(R, body): GVI__ALONG for a row, unrolled where it is the most frequent one.    */
+#define GVI__FOR_ROW(R, ...)                                                                    \
+    if ((R) == 8) GVI__ALONG_BY(GVI__UNROLL, 8, __VA_ARGS__) else GVI__ALONG(R, __VA_ARGS__)
+
+// row := low + (c path_low + c path), one coordinate's free motion over its base
+GVI__BODY void gvi__free_row(int R, gvi_real low, gvi_real path, gvi_real path_low,
+                             const gvi_real *GVI__RESTRICT c, gvi_real *GVI__RESTRICT row)
+{
+    GVI__FOR_ROW(R, GVI__TO(row) = (low + GVI__AT(c)*path_low) + GVI__AT(c)*path)
+}
+
+// free motion v = M^-1 p and h v in double words, M constant, and its rows
 static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real h)
 {
     struct gvi__private *in = &st->in;
@@ -3195,24 +3206,20 @@ static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real 
         in->free.path[i] = path.hi;
         in->free.path_low[i] = gvi__low(path.lo + h*v_low[i]);
     }
-}
 
-/* GVI__FOR_ROW(R, body): GVI__ALONG for a row, unrolled where it is the most frequent one.    */
-#define GVI__FOR_ROW(R, ...)                                                                    \
-    if ((R) == 8) GVI__ALONG_BY(GVI__UNROLL, 8, __VA_ARGS__) else GVI__ALONG(R, __VA_ARGS__)
+    const int R = in->R;
+    gvi_real *rows = in->free.rows;
+    for (int i = 0; i < st->n; ++i, rows += R)
+        gvi__free_row(R, from->q_low[i], in->free.path[i], in->free.path_low[i], in->table.c, rows);
+    for (int i = 0; in->stages == 2 && i < st->n; ++i, rows += R)
+        gvi__free_row(R, v_low[i], 0, 0, in->table.c, rows);
+}
 
 // out := t + (t_low + c h)
 static void gvi__times(int R, gvi_real t, gvi_real t_low, gvi_real h, const gvi_real *c,
                        gvi_real *out)
 {
     GVI__FOR_ROW(R, GVI__TO(out) = t + (t_low + GVI__AT(c)*h))
-}
-
-// row := low + (c path_low + c path), one coordinate's free motion over its base
-GVI__BODY void gvi__free_row(int R, gvi_real low, gvi_real path, gvi_real path_low,
-                             const gvi_real *GVI__RESTRICT c, gvi_real *GVI__RESTRICT row)
-{
-    GVI__FOR_ROW(R, GVI__TO(row) = (low + GVI__AT(c)*path_low) + GVI__AT(c)*path)
 }
 
 static void gvi__stages(gvi_stepper *st, const gvi__origin *from, gvi_real h, gvi__stage *stage)
@@ -3228,10 +3235,6 @@ static void gvi__stages(gvi_stepper *st, const gvi__origin *from, gvi_real h, gv
     stage[0] = Q;
     if (two) stage[1] = V;
     gvi__free_motion(st, from, h);
-    for (int i = 0; i < n; ++i, free += R)
-        gvi__free_row(R, from->q_low[i], in->free.path[i], in->free.path_low[i], in->table.c, free);
-    for (int i = 0; i < two*n; ++i, free += R)
-        gvi__free_row(R, in->free.v_low[i], 0, 0, in->table.c, free);
     if (gvi__parts(in)) gvi__place_stages(st, from, h, stage);
 }
 
@@ -4441,10 +4444,37 @@ GVI__COLD void gvi__lagrangian_tables(gvi_stepper *st)
     }
 }
 
-static void gvi__lagrangian_stages(const gvi_stepper *st, gvi__stage *stage)
+// a dL/dv near this step's: the last step's at its last point, or that of the start
+static gvi_real *gvi__level(const gvi_stepper *st, int i)
+{
+    return st->in.lagrangian.last_A + (i*st->in.R + st->r - 1);
+}
+
+GVI__COLD void gvi__lagrangian_started(gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
+    gvi_points at = gvi__one_point(st, &st->t, in->state.q);
     if (!in->lagrangian.plus) return;
+    at.v = in->start;
+    (void)gvi__evaluate(st, &at, ~0u, 1);          // M v alone, which cannot fail
+    for (int i = 0; i < st->n; ++i) *gvi__level(st, i) = in->state.p[i] - at.dldv[i];
+}
+
+/* Where p is large and cancels dL/dv, neither may enter V whole: their rounding would make F belong
+   to another motion than Q.  So free motion is that of p less the level, and A is above it.   */
+static void gvi__lagrangian_stages(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                                   gvi__stage *stage)
+{
+    const struct gvi__private *in = &st->in;
+    gvi_real *p = in->lagrangian.column, *p_low = p + st->n;
+    if (!in->lagrangian.plus) return;
+    for (int i = 0; i < st->n; ++i) {
+        const gvi__two z = gvi__two_sum(from->p[i], -*gvi__level(st, i));
+        p[i] = z.hi;
+        p_low[i] = gvi__low(z.lo + from->p_low[i]);
+    }
+    const gvi__origin less = { from->t, from->t_low, from->q, from->q_low, p, p_low };
+    gvi__free_motion(st, &less, h);
     stage[0].plus = in->lagrangian.plus;
     stage[1].plus = in->lagrangian.plus + st->n*in->R;
 }
@@ -4457,6 +4487,34 @@ static void gvi__lagrangian_predict(const gvi_stepper *st, int extrapolate)
     else gvi__zero((size_t)st->n*(size_t)st->in.R, l->A);
 }
 
+/* Rounding of A, divided by M, is in V, and times d2L/dqdv again in F: by so much as A moves over M V
+   it grows.  Newton's method, whose V is Q' to rounding, has no such loss.                     */
+static gvi_status gvi__lagrangian_verdict(gvi_stepper *st)
+{
+    const struct gvi__private *in = &st->in;
+    const int R = in->R, step = in->desc.mass.kind == GVI_MASS_DENSE ? st->n + 1 : 1;
+    if (!in->lagrangian.plus || !in->turns) return GVI_OK;
+    for (int i = 0; i < st->n; ++i) {
+        const gvi_real *A = in->lagrangian.A + i*R, *V = in->work.V + i*R, level = *gvi__level(st, i);
+        gvi_real moves = 0, v = 0;
+        for (int k = 0; k < st->r; ++k) {
+            moves = gvi__larger(GVI_ABS(A[k] - level), moves);
+            v = gvi__larger(GVI_ABS(V[k]), v);
+        }
+        const gvi_real most = GVI__PLACE*GVI_ABS(in->mass.matrix[i*step])*v;
+        if (moves > most && moves > GVI__SURE*GVI__EPS*GVI_ABS(level))
+            return gvi__report_status(st, GVI_E_CONVERGENCE);
+    }
+    return GVI_OK;
+}
+
+// b A_i above the level
+static void gvi__above(const gvi_stepper *st, int i, gvi_real *out)
+{
+    const gvi_real *A = st->in.lagrangian.A + i*st->in.R, level = *gvi__level(st, i);
+    for (int k = 0; k < st->r; ++k) out[k] = st->in.table.b[k]*(A[k] - level);
+}
+
 // what A adds to the stages
 static void gvi__lagrangian_before(const gvi_stepper *st)
 {
@@ -4465,10 +4523,10 @@ static void gvi__lagrangian_before(const gvi_stepper *st)
     gvi_real *plus = in->lagrangian.plus, *weighted = in->lagrangian.plus + n*R;
     if (!plus) return;
     for (int i = 0; i < n; ++i)
-        gvi__weigh(R, in->table.b, in->lagrangian.A + i*R, weighted + i*R);
+        gvi__above(st, i, weighted + i*R);
     gvi__sums(st, in->lagrangian.T, weighted, plus, 0);
     for (int i = 0; i < n; ++i) {
-        gvi__weigh(R, in->table.b, in->lagrangian.A + i*R, in->weighted);
+        gvi__above(st, i, in->weighted);
         for (int k = 0; k < R; ++k)
             weighted[i*R + k] = gvi__point_sum(st->r, R, in->lagrangian.N + k, in->weighted);
     }
@@ -4478,7 +4536,10 @@ static void gvi__lagrangian_before(const gvi_stepper *st)
 static gvi_real gvi__lagrangian_bow(const gvi_stepper *st, int i)
 {
     const struct gvi__private *in = &st->in;
-    return gvi__dot(st->r, in->table.b, in->lagrangian.A + i*in->R);
+    gvi_real sum = 0;
+    gvi__above(st, i, in->weighted);
+    for (int k = 0; k < st->r; ++k) sum += in->weighted[k];
+    return sum;
 }
 #else
 #define gvi__check_hessian(st, at, v) GVI_OK
@@ -8837,6 +8898,7 @@ GVI__COLD gvi_status gvi__place_start(gvi_stepper *st, gvi_real t, gvi_real *v)
 GVI__COLD void gvi__place_started(gvi_stepper *st)
 {
     (void)st;
+    GVI__LAGRANGIAN(gvi__lagrangian_started(st))
 #ifndef GVI_NO_KICKS
     st->in.kicks.has_force = 0;
 #endif
@@ -8949,7 +9011,7 @@ static void gvi__place_stages(gvi_stepper *st, const gvi__origin *from, gvi_real
 {
     (void)st, (void)from, (void)h, (void)stage;
     GVI__MOMENTA(gvi__momenta_stages(st, from, stage))
-    GVI__LAGRANGIAN(gvi__lagrangian_stages(st, stage))
+    GVI__LAGRANGIAN(gvi__lagrangian_stages(st, from, h, stage))
     GVI__CONSTRAINTS(gvi__constraint_stages(st, from, h, stage))
 }
 
@@ -9004,6 +9066,7 @@ static gvi_status gvi__place_evaluate(gvi_stepper *st, const gvi__origin *from, 
         gvi__clear(st->n, st->in.R, st->in.zeros[0], at->dldv))
     GVI__CLOCK_ON(return gvi__clock_evaluate(st, from, at))
     status = gvi__effects(st, at, 0, NULL);
+    GVI__LAGRANGIAN(if (status == GVI_OK) status = gvi__lagrangian_verdict(st))
     GVI__CONSTRAINTS_ON(if (status == GVI_OK) status = gvi__constraint_values(st, from))
     GVI__MASS(if (status == GVI_OK && st->in.momenta.mass) status = gvi__mass_gradient(st, at))
     return status;
