@@ -1622,6 +1622,7 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 #define GVI__LINEAR ((gvi_real)0.015625)   // the equations are all but linear
 #define GVI__CLOSE ((gvi_real)0.03125)     // of a curve, from its prediction: on the same branch
 #define GVI__SHORT 64                      // h over this: free motion leads to the motion
+#define GVI__FADES 64                      // of a row, where a step failed: how much earlier it ends
 #define GVI__LOST 4                        // of a pivot's entry what is left: rank may be changing
 #define GVI__WRONG 512                     // of an entry of G, what it is off times this: wrong
 
@@ -6875,6 +6876,22 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
                        : gvi__report_row(st, GVI_E_CONSTRAINT, refused, GVI_FAULT_NONE);
 }
 
+/* A row of which the rows before it leave less than half of the digits, and more than rounding, is
+   about to depend on them: the rank changes, a change point of a linkage.  Its multiplier is noise
+   over what is left, more of it the shorter a step is, so no h mends it.  From gram1; `margin`:
+   where a step has failed, that much earlier.                                                 */
+GVI__CALLED gvi_status gvi__check_rank(gvi_stepper *st, int margin)
+{
+    const int m = st->in.con.m;
+    const gvi_real *A = st->in.con.gram1, most = 1/(GVI_SQRT(GVI__EPS)*(gvi_real)margin);
+    for (int a = 0; a < m; ++a) {
+        gvi_real lost = 0;
+        for (int l = (int)st->in.con.first[a]; l < a; ++l) lost += A[a*m + l]*A[l*m + a];
+        if (lost*A[a*m + a] > most) return gvi__report_row(st, GVI_E_SINGULAR, a, GVI_FAULT_NONE);
+    }
+    return GVI_OK;
+}
+
 /* step.p += G' y such that G v + dg/dt = 0 at the end: once, and once more for the rounding of
    that, or with Lagrangian terms until that is left.  At a start, what is farther off than
    rounding is refused; for v by the kinetic energy in it, r' A^-1 r/2, r = G v + dg/dt.      */
@@ -6899,6 +6916,7 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
         if (!start && status == GVI_OK && (drops[a] > 0) != (in->con.drops[a] > 0))
             status = gvi__report_row(st, GVI_E_SINGULAR, a, GVI_FAULT_NONE);
     }
+    if (!start && status == GVI_OK) status = gvi__check_rank(st, 1);
     if ((start || redundant) && status == GVI_OK) status = gvi__fulfilled(st, t, q, p, v);
     if (status != GVI_OK) return status;
     gvi__zero((size_t)m, in->con.y);
@@ -7213,6 +7231,7 @@ GVI__OFFERED int gvi__constraint_explain(gvi_stepper *st, gvi_status status, gvi
     gvi_real *drops = st->in.con.drops + st->in.con.m;
     if (!gvi__constrained(st)) return 0;
     *start = gvi__constraints_at(st, st->t, st->q, st->p, v, drops);
+    if (*start == GVI_OK) *start = gvi__check_rank(st, GVI__FADES);
     if (*start != GVI_OK || status != GVI_E_SINGULAR) return 0;
     for (int a = 0; a < st->in.con.m; ++a)
         if (drops[a] > 0) return 1;
@@ -7937,8 +7956,8 @@ GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end)
             }
             return status;
         }
-        if (status == GVI_E_ARGUMENT || tries == 64 || !gvi__nonzero(st->t + st->next - st->t))
-            return status;
+        if (status == GVI_E_ARGUMENT || status == GVI_E_SINGULAR || tries == 64
+            || !gvi__nonzero(st->t + st->next - st->t)) return status;
     }
 }
 #endif /* GVI_NO_DIAL */
@@ -9137,10 +9156,17 @@ static int gvi__place_again(gvi_stepper *st)
 
 static gvi_status gvi__place_accept(gvi_stepper *st)
 {
+    gvi_status status = GVI_OK;
 #ifndef GVI_NO_DIAL
-    if (st->in.desc.resolution > 0) return gvi__dial_accept(st);
+    if (st->in.desc.resolution > 0) status = gvi__dial_accept(st);
+    // a shorter step would be noisier
+    GVI__CONSTRAINTS_ON(
+        const gvi_fault fault = st->fault;
+        if (status == GVI_E_RESOLUTION && gvi__check_rank(st, GVI__FADES) != GVI_OK)
+            return GVI_E_SINGULAR;
+        st->fault = fault)
 #endif
-    return (void)st, GVI_OK;
+    return (void)st, status;
 }
 
 static void gvi__place_commit(gvi_stepper *st, gvi_real h)
