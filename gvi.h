@@ -494,7 +494,7 @@ typedef enum gvi_status {
     GVI_E_SINGULAR    = -7,  /* singular matrix, and no h helps: massless coordinate
                                 (fault.coordinate), or a constraint (fault.effect, its row in
                                 fault.coordinate) that depends on the others in a part of the
-                                step, or has G = 0                                  */
+                                step, or is about to, or has G = 0                  */
     GVI_E_CONVERGENCE = -8,  /* no solution found: halve h                          */
     GVI_E_CALLBACK    = -9,  /* a callback did not return 0 (fault.effect): halve h     */
     GVI_E_NON_FINITE  = -10, /* NaN or Inf came out of an effect (fault.effect); fault.point
@@ -6344,9 +6344,20 @@ static gvi_real gvi__row_dot(const gvi_stepper *st, const gvi_real *G, int a, co
     return sum;
 }
 
+/* What the rounding of row j adds to that of row i's pivot: l_ij^2 G_j M^-1 G_j'                */
+static gvi_real gvi__share(const gvi_stepper *st, int S, int i, int j, const gvi_real *A)
+{
+    const int m = st->in.con.m;
+    const gvi_real l = A[(i*m + j)*S], inverse = A[(j*m + j)*S];
+    if (!gvi__nonzero(inverse)) return 0;
+    gvi_real entry = 1/inverse;
+    for (int k = (int)st->in.con.first[j]; k < j; ++k) entry += A[(j*m + k)*S]*A[(k*m + j)*S];
+    return l*l*entry;
+}
+
 /* A := L D L' of G M^-1 G' in its envelope, L below the diagonal, 1/D on it and D L' above it; M(q)
-   is that of the stage values, one for one, or of the one point.  A pivot of 64 m roundings says
-   that a row depends on those before it.  At the first point it is then left out: 1/D and its L
+   is that of the stage values, one for one, or of the one point.  A pivot of 64 m roundings, its own
+   and those of the rows that it is made of, says that the row depends on those before it.  At the first point it is then left out: 1/D and its L
    are 0, and so is its multiplier; drops[a] is what the diagonal entry was, or 0 for a row that is
    kept.  At the other points the same rows are left out, and the rest has to have full rank.    */
 static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, const gvi_real *G,
@@ -6381,13 +6392,15 @@ static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, con
             for (int k = 0; k < count; ++k) W[j*S + k] = 0;
         for (int k = 0; k < count; ++k) {
             const gvi_real was = GVI_ABS(d[k]);
-            gvi_real rest = d[k];
+            gvi_real rest = d[k], size = was;
             for (int j = from; j < i; ++j) {
                 const gvi_real u = A[(j*m + i)*S + k], l = u*A[(j*m + j)*S + k];
                 A[(i*m + j)*S + k] = l;
                 rest -= l*u;
             }
-            const int depends = !(GVI_ABS(rest) > least*was);
+            if (GVI_ABS(rest) < GVI_SQRT(GVI__EPS)*was)
+                for (int j = from; j < i; ++j) size += gvi__share(st, S, i, j, A + k);
+            const int depends = !(GVI_ABS(rest) > least*size);
             if (!(was <= GVI__MAX) || !gvi__finite(rest))
                 return gvi__report_status(st, GVI_E_NON_FINITE);
             if (k == 0) drops[i] = depends ? was : 0;
@@ -8616,8 +8629,8 @@ GVI_DEF const char *gvi_why(const gvi_stepper *st)
     if (why == GVI_E_POINTS && in->desc.rule.points < in->desc.degree)
         return "rule: fewer points than the degree";
     if (why == GVI_E_SINGULAR && st->fault.effect >= 0)
-        return "a constraint (fault.effect, its row in fault.coordinate) depends on the others, or "
-               "has no gradient";
+        return "a constraint (fault.effect, its row in fault.coordinate) depends on the others, is "
+               "about to, or has no gradient: no h helps";
     if (why == GVI_E_CONSTRAINT && in->failed.status == why)
         return "a row (fault.coordinate of fault.effect) that counts as dependent on others is not "
                "fulfilled: they contradict, or masses differ by more than 1e13";
