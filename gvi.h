@@ -494,7 +494,7 @@ typedef enum gvi_status {
     GVI_E_SINGULAR    = -7,  /* singular matrix, and no h helps: massless coordinate
                                 (fault.coordinate), or a constraint (fault.effect, its row in
                                 fault.coordinate) that depends on the others in a part of the
-                                step, or has G = 0                                  */
+                                step, or is about to, or has G = 0                  */
     GVI_E_CONVERGENCE = -8,  /* no solution found: halve h                          */
     GVI_E_CALLBACK    = -9,  /* a callback did not return 0 (fault.effect): halve h     */
     GVI_E_NON_FINITE  = -10, /* NaN or Inf came out of an effect (fault.effect); fault.point
@@ -1621,6 +1621,7 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 #define GVI__LINEAR ((gvi_real)0.015625)   // the equations are all but linear
 #define GVI__CLOSE ((gvi_real)0.03125)     // of a curve, from its prediction: on the same branch
 #define GVI__SHORT 64                      // h over this: free motion leads to the motion
+#define GVI__FADES 64                      // of a row, where a step failed: how much earlier it ends
 #define GVI__LOST 4                        // of a pivot's entry what is left: rank may be changing
 #define GVI__WRONG 512                     // of an entry of G, what it is off times this: wrong
 
@@ -3163,7 +3164,18 @@ typedef struct gvi__stage {
     int             of, quiet;         /* GVI__OF_...; not judged                              */
 } gvi__stage;
 
-// free motion v = M^-1 p and h v in double words, M constant
+/* GVI__FOR_ROW(R, body): GVI__ALONG for a row, unrolled where it is the most frequent one.    */
+#define GVI__FOR_ROW(R, ...)                                                                    \
+    if ((R) == 8) GVI__ALONG_BY(GVI__UNROLL, 8, __VA_ARGS__) else GVI__ALONG(R, __VA_ARGS__)
+
+// row := low + (c path_low + c path), one coordinate's free motion over its base
+GVI__BODY void gvi__free_row(int R, gvi_real low, gvi_real path, gvi_real path_low,
+                             const gvi_real *GVI__RESTRICT c, gvi_real *GVI__RESTRICT row)
+{
+    GVI__FOR_ROW(R, GVI__TO(row) = (low + GVI__AT(c)*path_low) + GVI__AT(c)*path)
+}
+
+// free motion v = M^-1 p and h v in double words, M constant, and its rows
 static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real h)
 {
     struct gvi__private *in = &st->in;
@@ -3194,24 +3206,20 @@ static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real 
         in->free.path[i] = path.hi;
         in->free.path_low[i] = gvi__low(path.lo + h*v_low[i]);
     }
-}
 
-/* GVI__FOR_ROW(R, body): GVI__ALONG for a row, unrolled where it is the most frequent one.    */
-#define GVI__FOR_ROW(R, ...)                                                                    \
-    if ((R) == 8) GVI__ALONG_BY(GVI__UNROLL, 8, __VA_ARGS__) else GVI__ALONG(R, __VA_ARGS__)
+    const int R = in->R;
+    gvi_real *rows = in->free.rows;
+    for (int i = 0; i < st->n; ++i, rows += R)
+        gvi__free_row(R, from->q_low[i], in->free.path[i], in->free.path_low[i], in->table.c, rows);
+    for (int i = 0; in->stages == 2 && i < st->n; ++i, rows += R)
+        gvi__free_row(R, v_low[i], 0, 0, in->table.c, rows);
+}
 
 // out := t + (t_low + c h)
 static void gvi__times(int R, gvi_real t, gvi_real t_low, gvi_real h, const gvi_real *c,
                        gvi_real *out)
 {
     GVI__FOR_ROW(R, GVI__TO(out) = t + (t_low + GVI__AT(c)*h))
-}
-
-// row := low + (c path_low + c path), one coordinate's free motion over its base
-GVI__BODY void gvi__free_row(int R, gvi_real low, gvi_real path, gvi_real path_low,
-                             const gvi_real *GVI__RESTRICT c, gvi_real *GVI__RESTRICT row)
-{
-    GVI__FOR_ROW(R, GVI__TO(row) = (low + GVI__AT(c)*path_low) + GVI__AT(c)*path)
 }
 
 static void gvi__stages(gvi_stepper *st, const gvi__origin *from, gvi_real h, gvi__stage *stage)
@@ -3227,10 +3235,6 @@ static void gvi__stages(gvi_stepper *st, const gvi__origin *from, gvi_real h, gv
     stage[0] = Q;
     if (two) stage[1] = V;
     gvi__free_motion(st, from, h);
-    for (int i = 0; i < n; ++i, free += R)
-        gvi__free_row(R, from->q_low[i], in->free.path[i], in->free.path_low[i], in->table.c, free);
-    for (int i = 0; i < two*n; ++i, free += R)
-        gvi__free_row(R, in->free.v_low[i], 0, 0, in->table.c, free);
     if (gvi__parts(in)) gvi__place_stages(st, from, h, stage);
 }
 
@@ -4440,10 +4444,37 @@ GVI__COLD void gvi__lagrangian_tables(gvi_stepper *st)
     }
 }
 
-static void gvi__lagrangian_stages(const gvi_stepper *st, gvi__stage *stage)
+// a dL/dv near this step's: the last step's at its last point, or that of the start
+static gvi_real *gvi__level(const gvi_stepper *st, int i)
+{
+    return st->in.lagrangian.last_A + (i*st->in.R + st->r - 1);
+}
+
+GVI__COLD void gvi__lagrangian_started(gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
+    gvi_points at = gvi__one_point(st, &st->t, in->state.q);
     if (!in->lagrangian.plus) return;
+    at.v = in->start;
+    (void)gvi__evaluate(st, &at, ~0u, 1);          // M v alone, which cannot fail
+    for (int i = 0; i < st->n; ++i) *gvi__level(st, i) = in->state.p[i] - at.dldv[i];
+}
+
+/* Where p is large and cancels dL/dv, neither may enter V whole: their rounding would make F belong
+   to another motion than Q.  So free motion is that of p less the level, and A is above it.   */
+static void gvi__lagrangian_stages(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                                   gvi__stage *stage)
+{
+    const struct gvi__private *in = &st->in;
+    gvi_real *p = in->lagrangian.column, *p_low = p + st->n;
+    if (!in->lagrangian.plus) return;
+    for (int i = 0; i < st->n; ++i) {
+        const gvi__two z = gvi__two_sum(from->p[i], -*gvi__level(st, i));
+        p[i] = z.hi;
+        p_low[i] = gvi__low(z.lo + from->p_low[i]);
+    }
+    const gvi__origin less = { from->t, from->t_low, from->q, from->q_low, p, p_low };
+    gvi__free_motion(st, &less, h);
     stage[0].plus = in->lagrangian.plus;
     stage[1].plus = in->lagrangian.plus + st->n*in->R;
 }
@@ -4456,6 +4487,34 @@ static void gvi__lagrangian_predict(const gvi_stepper *st, int extrapolate)
     else gvi__zero((size_t)st->n*(size_t)st->in.R, l->A);
 }
 
+/* Rounding of A, divided by M, is in V, and times d2L/dqdv again in F: by so much as A moves over M V
+   it grows.  Newton's method, whose V is Q' to rounding, has no such loss.                     */
+static gvi_status gvi__lagrangian_verdict(gvi_stepper *st)
+{
+    const struct gvi__private *in = &st->in;
+    const int R = in->R, step = in->desc.mass.kind == GVI_MASS_DENSE ? st->n + 1 : 1;
+    if (!in->lagrangian.plus || !in->turns) return GVI_OK;
+    for (int i = 0; i < st->n; ++i) {
+        const gvi_real *A = in->lagrangian.A + i*R, *V = in->work.V + i*R, level = *gvi__level(st, i);
+        gvi_real moves = 0, v = 0;
+        for (int k = 0; k < st->r; ++k) {
+            moves = gvi__larger(GVI_ABS(A[k] - level), moves);
+            v = gvi__larger(GVI_ABS(V[k]), v);
+        }
+        const gvi_real most = GVI__PLACE*GVI_ABS(in->mass.matrix[i*step])*v;
+        if (moves > most && moves > GVI__SURE*GVI__EPS*GVI_ABS(level))
+            return gvi__report_status(st, GVI_E_CONVERGENCE);
+    }
+    return GVI_OK;
+}
+
+// b A_i above the level
+static void gvi__above(const gvi_stepper *st, int i, gvi_real *out)
+{
+    const gvi_real *A = st->in.lagrangian.A + i*st->in.R, level = *gvi__level(st, i);
+    for (int k = 0; k < st->r; ++k) out[k] = st->in.table.b[k]*(A[k] - level);
+}
+
 // what A adds to the stages
 static void gvi__lagrangian_before(const gvi_stepper *st)
 {
@@ -4465,10 +4524,10 @@ static void gvi__lagrangian_before(const gvi_stepper *st)
     if (!plus) return;
     gvi_real *weighted = plus + n*R;               // what V gets is there first
     for (int i = 0; i < n; ++i)
-        gvi__weigh(R, in->table.b, in->lagrangian.A + i*R, weighted + i*R);
+        gvi__above(st, i, weighted + i*R);
     gvi__sums(st, in->lagrangian.T, weighted, plus, 0);
     for (int i = 0; i < n; ++i) {
-        gvi__weigh(R, in->table.b, in->lagrangian.A + i*R, in->weighted);
+        gvi__above(st, i, in->weighted);
         for (int k = 0; k < R; ++k)
             weighted[i*R + k] = gvi__point_sum(st->r, R, in->lagrangian.N + k, in->weighted);
     }
@@ -4478,7 +4537,10 @@ static void gvi__lagrangian_before(const gvi_stepper *st)
 static gvi_real gvi__lagrangian_bow(const gvi_stepper *st, int i)
 {
     const struct gvi__private *in = &st->in;
-    return gvi__dot(st->r, in->table.b, in->lagrangian.A + i*in->R);
+    gvi_real sum = 0;
+    gvi__above(st, i, in->weighted);
+    for (int k = 0; k < st->r; ++k) sum += in->weighted[k];
+    return sum;
 }
 #else
 #define gvi__check_hessian(st, at, v) GVI_OK
@@ -6282,9 +6344,20 @@ static gvi_real gvi__row_dot(const gvi_stepper *st, const gvi_real *G, int a, co
     return sum;
 }
 
+/* What the rounding of row j adds to that of row i's pivot: l_ij^2 G_j M^-1 G_j'                */
+static gvi_real gvi__share(const gvi_stepper *st, int S, int i, int j, const gvi_real *A)
+{
+    const int m = st->in.con.m;
+    const gvi_real l = A[(i*m + j)*S], inverse = A[(j*m + j)*S];
+    if (!gvi__nonzero(inverse)) return 0;
+    gvi_real entry = 1/inverse;
+    for (int k = (int)st->in.con.first[j]; k < j; ++k) entry += A[(j*m + k)*S]*A[(k*m + j)*S];
+    return l*l*entry;
+}
+
 /* A := L D L' of G M^-1 G' in its envelope, L below the diagonal, 1/D on it and D L' above it; M(q)
-   is that of the stage values, one for one, or of the one point.  A pivot of 64 m roundings says
-   that a row depends on those before it.  At the first point it is then left out: 1/D and its L
+   is that of the stage values, one for one, or of the one point.  A pivot of 64 m roundings, its own
+   and those of the rows that it is made of, says that the row depends on those before it.  At the first point it is then left out: 1/D and its L
    are 0, and so is its multiplier; drops[a] is what the diagonal entry was, or 0 for a row that is
    kept.  At the other points the same rows are left out, and the rest has to have full rank.    */
 static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, const gvi_real *G,
@@ -6319,13 +6392,15 @@ static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, con
             for (int k = 0; k < count; ++k) W[j*S + k] = 0;
         for (int k = 0; k < count; ++k) {
             const gvi_real was = GVI_ABS(d[k]);
-            gvi_real rest = d[k];
+            gvi_real rest = d[k], size = was;
             for (int j = from; j < i; ++j) {
                 const gvi_real u = A[(j*m + i)*S + k], l = u*A[(j*m + j)*S + k];
                 A[(i*m + j)*S + k] = l;
                 rest -= l*u;
             }
-            const int depends = !(GVI_ABS(rest) > least*was);
+            if (GVI_ABS(rest) < GVI_SQRT(GVI__EPS)*was)
+                for (int j = from; j < i; ++j) size += gvi__share(st, S, i, j, A + k);
+            const int depends = !(GVI_ABS(rest) > least*size);
             if (!(was <= GVI__MAX) || !gvi__finite(rest))
                 return gvi__report_status(st, GVI_E_NON_FINITE);
             if (k == 0) drops[i] = depends ? was : 0;
@@ -6814,6 +6889,22 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
                        : gvi__report_row(st, GVI_E_CONSTRAINT, refused, GVI_FAULT_NONE);
 }
 
+/* A row of which the rows before it leave less than half of the digits, and more than rounding, is
+   about to depend on them: the rank changes, a change point of a linkage.  Its multiplier is noise
+   over what is left, more of it the shorter a step is, so no h mends it.  From gram1; `margin`:
+   where a step has failed, that much earlier.                                                 */
+GVI__CALLED gvi_status gvi__check_rank(gvi_stepper *st, int margin)
+{
+    const int m = st->in.con.m;
+    const gvi_real *A = st->in.con.gram1, most = 1/(GVI_SQRT(GVI__EPS)*(gvi_real)margin);
+    for (int a = 0; a < m; ++a) {
+        gvi_real lost = 0;
+        for (int l = (int)st->in.con.first[a]; l < a; ++l) lost += A[a*m + l]*A[l*m + a];
+        if (lost*A[a*m + a] > most) return gvi__report_row(st, GVI_E_SINGULAR, a, GVI_FAULT_NONE);
+    }
+    return GVI_OK;
+}
+
 /* step.p += G' y such that G v + dg/dt = 0 at the end: once, and once more for the rounding of
    that, or with Lagrangian terms until that is left.  At a start, what is farther off than
    rounding is refused; for v by the kinetic energy in it, r' A^-1 r/2, r = G v + dg/dt.      */
@@ -6838,6 +6929,7 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
         if (!start && status == GVI_OK && (drops[a] > 0) != (in->con.drops[a] > 0))
             status = gvi__report_row(st, GVI_E_SINGULAR, a, GVI_FAULT_NONE);
     }
+    if (!start && status == GVI_OK) status = gvi__check_rank(st, 1);
     if ((start || redundant) && status == GVI_OK) status = gvi__fulfilled(st, t, q, p, v);
     if (status != GVI_OK) return status;
     gvi__zero((size_t)m, in->con.y);
@@ -7152,6 +7244,7 @@ GVI__OFFERED int gvi__constraint_explain(gvi_stepper *st, gvi_status status, gvi
     gvi_real *drops = st->in.con.drops + st->in.con.m;
     if (!gvi__constrained(st)) return 0;
     *start = gvi__constraints_at(st, st->t, st->q, st->p, v, drops);
+    if (*start == GVI_OK) *start = gvi__check_rank(st, GVI__FADES);
     if (*start != GVI_OK || status != GVI_E_SINGULAR) return 0;
     for (int a = 0; a < st->in.con.m; ++a)
         if (drops[a] > 0) return 1;
@@ -7876,8 +7969,8 @@ GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end)
             }
             return status;
         }
-        if (status == GVI_E_ARGUMENT || tries == 64 || !gvi__nonzero(st->t + st->next - st->t))
-            return status;
+        if (status == GVI_E_ARGUMENT || status == GVI_E_SINGULAR || tries == 64
+            || !gvi__nonzero(st->t + st->next - st->t)) return status;
     }
 }
 #endif /* GVI_NO_DIAL */
@@ -8536,8 +8629,8 @@ GVI_DEF const char *gvi_why(const gvi_stepper *st)
     if (why == GVI_E_POINTS && in->desc.rule.points < in->desc.degree)
         return "rule: fewer points than the degree";
     if (why == GVI_E_SINGULAR && st->fault.effect >= 0)
-        return "a constraint (fault.effect, its row in fault.coordinate) depends on the others, or "
-               "has no gradient";
+        return "a constraint (fault.effect, its row in fault.coordinate) depends on the others, is "
+               "about to, or has no gradient: no h helps";
     if (why == GVI_E_CONSTRAINT && in->failed.status == why)
         return "a row (fault.coordinate of fault.effect) that counts as dependent on others is not "
                "fulfilled: they contradict, or masses differ by more than 1e13";
@@ -8835,6 +8928,7 @@ GVI__COLD gvi_status gvi__place_start(gvi_stepper *st, gvi_real t, gvi_real *v)
 GVI__COLD void gvi__place_started(gvi_stepper *st)
 {
     (void)st;
+    GVI__LAGRANGIAN(gvi__lagrangian_started(st))
 #ifndef GVI_NO_KICKS
     st->in.kicks.has_force = 0;
 #endif
@@ -8947,7 +9041,7 @@ static void gvi__place_stages(gvi_stepper *st, const gvi__origin *from, gvi_real
 {
     (void)st, (void)from, (void)h, (void)stage;
     GVI__MOMENTA(gvi__momenta_stages(st, from, stage))
-    GVI__LAGRANGIAN(gvi__lagrangian_stages(st, stage))
+    GVI__LAGRANGIAN(gvi__lagrangian_stages(st, from, h, stage))
     GVI__CONSTRAINTS(gvi__constraint_stages(st, from, h, stage))
 }
 
@@ -9002,6 +9096,7 @@ static gvi_status gvi__place_evaluate(gvi_stepper *st, const gvi__origin *from, 
         gvi__clear(st->n, st->in.R, st->in.zeros[0], at->dldv))
     GVI__CLOCK_ON(return gvi__clock_evaluate(st, from, at))
     status = gvi__effects(st, at, 0, NULL);
+    GVI__LAGRANGIAN(if (status == GVI_OK) status = gvi__lagrangian_verdict(st))
     GVI__CONSTRAINTS_ON(if (status == GVI_OK) status = gvi__constraint_values(st, from))
     GVI__MASS(if (status == GVI_OK && st->in.momenta.mass) status = gvi__mass_gradient(st, at))
     return status;
@@ -9072,10 +9167,17 @@ static int gvi__place_again(gvi_stepper *st)
 
 static gvi_status gvi__place_accept(gvi_stepper *st)
 {
+    gvi_status status = GVI_OK;
 #ifndef GVI_NO_DIAL
-    if (st->in.desc.resolution > 0) return gvi__dial_accept(st);
+    if (st->in.desc.resolution > 0) status = gvi__dial_accept(st);
+    // a shorter step would be noisier
+    GVI__CONSTRAINTS_ON(
+        const gvi_fault fault = st->fault;
+        if (status == GVI_E_RESOLUTION && gvi__check_rank(st, GVI__FADES) != GVI_OK)
+            return GVI_E_SINGULAR;
+        st->fault = fault)
 #endif
-    return (void)st, GVI_OK;
+    return (void)st, status;
 }
 
 static void gvi__place_commit(gvi_stepper *st, gvi_real h)
