@@ -7284,13 +7284,20 @@ static gvi_status gvi__roll(gvi_stepper *st, gvi_points *at, int e, int a)
 {
     struct gvi__private *in = &st->in;
     const gvi_effect *effect = in->desc.effects + e;
-    const int n = st->n, s = st->s, R = in->R;
+    const int n = st->n, s = st->s, R = in->R, C = in->con.C,
+              rounded = st->formulation != GVI_NEWTON ? n : 0;
     gvi__count(&st->counters.effect[e], st->r);
     const int failed = effect->points(at, effect->user);
     if (failed) return gvi__report_callback(st, failed, e);
     for (int row = 0; row < effect->rows; ++row, ++a) {
-        gvi_real *psi = in->con.g + a*in->con.C + 1;
+        gvi_real *psi = in->con.g + a*C + 1;
         gvi__zero((size_t)s, psi);
+        // gvi__constrain subtracts D as rounded to q0 + D, which g(D) has in it, psi has not
+        for (int i = gvi__column(st, a, 0); i < rounded; i = gvi__column(st, a, i + 1)) {
+            const gvi_real *G = in->con.G + (a*n + i)*C + 1, *q = in->con.at + i*C;
+            for (int k = 0; k < s; ++k)
+                psi[k] += G[k]*((q[k + 1] - q[0]) - in->con.D[i*R + k]);
+        }
         for (int j = 0; j < st->r; ++j) {
             gvi_real slip = at->rate[row*R + j];
             for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1))
