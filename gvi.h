@@ -3617,7 +3617,8 @@ static int gvi__rests(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_real h,
     const gvi_real noise = gvi__noise(st, h, stage);
     const int long_since = p->stagnant > (patience > 0 ? GVI__STAGNANT : 1),
               slow = p->used - p->stagnant >= GVI__SLOW;         // errors grew first
-    if (!least && (noise <= 0 || (noise <= 1 && long_since)))
+    const gvi_real none = patience < 0 ? GVI__ENOUGH/GVI__EPS : 0;
+    if (!least && (noise <= none || (noise <= 1 && long_since)))
         return slow && turns ? GVI__DIVERGES : GVI__ONCE_MORE;
 
     // a row that tends to 0 changes by its whole size: does its amplitude fall?
@@ -6603,6 +6604,13 @@ GVI__CALLED int gvi__constraint_judge(const gvi_stepper *st, const gvi__progress
     return loss > GVI__LOST - 1 && D > grain*loss*loss*loss ? GVI__DIVERGES : GVI__GO_ON;
 }
 
+/* The rounding of g is in every D.  A light coordinate under rows that roll: the rounding of others
+   hides most of each correction, and what it does to this one fades slowly, far below it.     */
+static int gvi__patience(const gvi_stepper *st, const gvi__progress *p)
+{
+    return gvi__rolls(st) && p->used > 8 ? -1 : 0;
+}
+
 /* A move of coordinate i that is rounding, whatever its amplitude: of a force of constraint, 32 eps
    of it, or its last change where that came from the rounding of g, which nearly dependent rows
    make large.                                                                                 */
@@ -9009,7 +9017,7 @@ static int gvi__place_judge(gvi_stepper *st, const struct gvi__progress *p, gvi_
 {
     (void)st, (void)p, (void)D, (void)patience;
     GVI__CONSTRAINTS_ON(
-        *patience = 0;                             // the rounding of g is in every D
+        *patience = gvi__patience(st, p);
         return gvi__constraint_judge(st, p, D))
     return GVI__GO_ON;
 }
