@@ -613,7 +613,7 @@ GVI__BODY int gvi__each_point(gvi_points_fn *at, const gvi_points *x, void *user
         GVI__MOVE(GVI__USES_f, n, a[3*n + i], f[i*s + k]);
         GVI__MOVE(GVI__USES_dldv, n, a[4*n + i], x->dldv[i*s + k]);
         GVI__MOVE(last, m, if (!mass || i%n <= i/n) a[5*n + i], other[i*s + k]);  // of M, i >= j
-        GVI__MOVE(any, rows*(n + 1), G[i], 0);                                 // and dg
+        GVI__MOVE(any, rows*(n + 2), g[i], 0);                          // and G and dg
         failed |= (at(&y, user) != 0) & (k < x->count);
         GVI__MOVE(any, rows, x->g[i*s + k], g[i]);
         GVI__MOVE(any, rows*n, x->jacobian[i*s + k], G[i]);
