@@ -530,7 +530,8 @@ typedef struct gvi_points {
     gvi_real       *velocity;  /* [n][stride] write v                          */
     gvi_real       *g;         /* [rows][stride] write g(t,q); constraints only */
     gvi_real       *jacobian;  /* [rows*n][stride] write dg_a/dq_i, row a*n + i: what is not 0 */
-    gvi_real       *rate;      /* [rows][stride] write dg_a/dt where g reads t; it is 0 before */
+    gvi_real       *rate;      /* [rows][stride] write dg_a/dt where g reads t; it is 0 before;
+                                  nonholonomic: A to jacobian, a to rate, g stays as it is */
 } gvi_points;
 
 /* All points at once.  Returns 0, or anything else if it cannot be evaluated
@@ -613,7 +614,7 @@ GVI__BODY int gvi__each_point(gvi_points_fn *at, const gvi_points *x, void *user
         GVI__MOVE(GVI__USES_f, n, a[3*n + i], f[i*s + k]);
         GVI__MOVE(GVI__USES_dldv, n, a[4*n + i], x->dldv[i*s + k]);
         GVI__MOVE(last, m, if (!mass || i%n <= i/n) a[5*n + i], other[i*s + k]);  // of M, i >= j
-        GVI__MOVE(any, rows*(n + 1), G[i], 0);                                 // and dg
+        GVI__MOVE(any, rows*(n + 2), g[i], 0);                          // and G and dg
         failed |= (at(&y, user) != 0) & (k < x->count);
         GVI__MOVE(any, rows, x->g[i*s + k], g[i]);
         GVI__MOVE(any, rows*n, x->jacobian[i*s + k], G[i]);
@@ -663,7 +664,8 @@ typedef enum gvi_kind {
     GVI_FORCE      = 1,  /* f(t,q,v): reads t, q, v; adds f to f                   */
     GVI_LAGRANGIAN = 2,  /* L(t,q,v): reads t, q, v; adds dL/dq to f, dL/dv to dldv */
     GVI_CLOCK      = 3,  /* g(q) > 0: adds g to value and dg/dq to f; at most one   */
-    GVI_CONSTRAINT = 4   /* g(t,q) = 0, `rows` of them: writes g, jacobian, rate     */
+    GVI_CONSTRAINT = 4,  /* g(t,q) = 0, `rows` of them: writes g, jacobian, rate     */
+    GVI_NONHOLONOMIC = 5 /* A(t,q) v + a(t,q) = 0, `rows` of them: writes A to jacobian, a to rate */
 } gvi_kind;
 
 /* One thing that acts in a scene.  Give exactly one of points and point; for a clock or a
@@ -677,7 +679,7 @@ typedef struct gvi_effect {
     gvi_hessian_fn *hessian;  /* for Newton; NULL: differences of f and dldv, which must
                                  then be exact nearly to rounding               */
     void           *user;     /* handed to the callbacks                        */
-    int             rows;     /* of a constraint; all together at most n        */
+    int             rows;     /* of constraints of both kinds; all together at most n */
 } gvi_effect;
 
 typedef enum gvi_mass_kind {
@@ -913,6 +915,14 @@ struct gvi__holonomic {               /* m rows on; C = stride of D_0..D_s      
 };
 #endif
 
+#ifndef GVI_NO_CONSTRAINTS
+struct gvi__rolling {                 /* rows of GVI_NONHOLONOMIC, of m in all                 */
+    gvi_real *A, *a;                  /* [m*n][R] at the points; [2m][R] g, not used, and a    */
+    gvi_real *T;                      /* [r][R] T(c_j, d_a)                                    */
+    unsigned  bits;                   /* the effects                                           */
+};
+#endif
+
 #ifndef GVI_NO_DIAL
 struct gvi__dial {
     gvi_real *high;                   /* [r][4] sources to the highest modes                   */
@@ -992,6 +1002,7 @@ struct gvi__private {
 #endif
 #ifndef GVI_NO_CONSTRAINTS
     struct gvi__holonomic  con;
+    struct gvi__rolling    rolling;
 #endif
 #ifndef GVI_NO_DIAL
     struct gvi__dial       dial;
@@ -2828,10 +2839,10 @@ GVI__COLD const char *gvi__wrong_in_desc(const gvi_desc *d)
 // what is wrong with an effect that PART I knows, or NULL
 GVI__COLD const char *gvi__wrong_in_effect(const gvi_effect *effect)
 {
-    if ((unsigned)effect->kind > GVI_CONSTRAINT) return "effect: kind is not in its enum";
+    if ((unsigned)effect->kind > GVI_NONHOLONOMIC) return "effect: kind is not in its enum";
     if (!effect->points && !effect->point) return "effect: points, or point, is missing";
     if (effect->points && effect->point) return "effect: points and point, one is too many";
-    if (effect->kind != GVI_CONSTRAINT && effect->rows != 0)
+    if (effect->kind < GVI_CONSTRAINT && effect->rows != 0)
         return "effect: rows is for constraints";
     return NULL;
 }
@@ -2876,7 +2887,7 @@ GVI__COLD gvi_status gvi__check(struct gvi__private *in, const gvi_desc *desc, g
         wrong = gvi__wrong_in_effect(d->effects + e);
         if (!wrong && kind > GVI_FORCE) unknown |= !gvi__place_effect(in, e, &wrong);
         if (wrong) return gvi__refuse(fault, e, GVI_FAULT_NONE, wrong);
-        in->reads_v |= kind == GVI_FORCE || kind == GVI_LAGRANGIAN;
+        in->reads_v |= kind == GVI_FORCE || kind == GVI_LAGRANGIAN || kind == GVI_NONHOLONOMIC;
         in->adds_p |= kind == GVI_LAGRANGIAN;
     }
 
@@ -3673,7 +3684,8 @@ static int gvi__rests(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_real h,
     const gvi_real noise = gvi__noise(st, h, stage);
     const int long_since = p->stagnant > (patience > 0 ? GVI__STAGNANT : 1),
               slow = p->used - p->stagnant >= GVI__SLOW;         // errors grew first
-    if (!least && (noise <= 0 || (noise <= 1 && long_since)))
+    const gvi_real none = patience < 0 ? GVI__ENOUGH/GVI__EPS : 0;
+    if (!least && (noise <= none || (noise <= 1 && long_since)))
         return slow && turns ? GVI__DIVERGES : GVI__ONCE_MORE;
 
     // a row that tends to 0 changes by its whole size: does its amplitude fall?
@@ -6208,6 +6220,10 @@ static int gvi__full_mass(const struct gvi__private *in)
 
 static unsigned gvi__constraints_on(const gvi_stepper *st) { return st->in.con.bits & ~st->in.off; }
 
+// ROLLING plugs in here: does a row roll?  Its residual in place of g(D)
+static int gvi__rolls(const gvi_stepper *st) { return st->in.rolling.bits != 0; }
+static gvi_status gvi__rolling_values(gvi_stepper *st);
+
 static int gvi__count_rows(const struct gvi__private *in, unsigned bits)
 {
     int rows = 0;
@@ -6250,6 +6266,7 @@ static gvi_status gvi__evaluate_constraints(gvi_stepper *st, int S, int count, c
     at.rate = at.g + st->in.con.m*S;
     at.jacobian = G;
     gvi__zero((size_t)(st->in.con.m*S), at.rate);
+    if (gvi__rolls(st)) gvi__zero((size_t)(st->in.con.m*S), at.g);
     for (int a = 0; a < st->in.con.m; ++a)
         for (int i = gvi__column(st, a, 0), to; i < st->n; i = gvi__column(st, a, to)) {
             for (to = i + 1; gvi__column(st, a, to) == to && to < st->n; ++to) { }
@@ -6487,7 +6504,7 @@ GVI__CALLED void gvi__constraint_stages(gvi_stepper *st, const gvi__origin *from
     if (!gvi__constrained(st)) return;
     gvi__constraint_points(st, from, h);
     for (int k = 0; k < in->stages - Q; ++k) stage[k].plus = in->con.plus + k*n*R;
-    if (in->stages == 2) {
+    if (in->stages == 2 && !gvi__rolls(st)) {
         gvi__stage *y = stage + !Q;
         y->quiet = 1;
         gvi__zero((size_t)n, y->scale);
@@ -6587,7 +6604,7 @@ static gvi_status gvi__evaluate_at_D(gvi_stepper *st, const gvi__origin *from)
         if (linear) gvi__copy((size_t)s, in->con.rho + a*R, in->con.g + a*C + 1);
     }
     in->con.made += 1;
-    return status;
+    return status == GVI_OK && gvi__rolls(st) ? gvi__rolling_values(st) : status;
 }
 
 // the same, and A in the first iteration
@@ -6724,6 +6741,13 @@ GVI__CALLED int gvi__constraint_judge(const gvi_stepper *st, const gvi__progress
     if (!(D > 16*p->least && D > grain)) return GVI__GO_ON;
     for (int k = 0; k < st->s*m; ++k) loss = gvi__larger(gvi__loss(st, k % m, k/m), loss);
     return loss > GVI__LOST - 1 && D > grain*loss*loss*loss ? GVI__DIVERGES : GVI__GO_ON;
+}
+
+/* The rounding of g is in every D.  A light coordinate under rows that roll: the rounding of others
+   hides most of each correction, and what it does to this one fades slowly, far below it.     */
+static int gvi__patience(const gvi_stepper *st, const gvi__progress *p)
+{
+    return gvi__rolls(st) && p->used > 8 ? -1 : 0;
 }
 
 /* A move of coordinate i that is rounding, whatever its amplitude: of a force of constraint, 32 eps
@@ -7158,6 +7182,7 @@ GVI__COLD gvi_status gvi__set_constraints(gvi_stepper *st)
             if (e < s) in->con.K[e*R + i] = in->table.c[i] - S;
             if (e < s && in->con.U) in->con.U[e*R + i] = 1 - T;
             if (e > 0) in->con.by_force[i*R + e - 1] = Q ? T : d[e] - S;
+            if (e > 0 && gvi__rolls(st)) in->rolling.T[i*R + e - 1] = T;
         }
         for (int a = e > 1 ? e : 1; a <= s; ++a) {
             const gvi_real S = gvi__S(st, in->con.Phi, in->con.Phi_low, a - 1);
@@ -7418,6 +7443,87 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
     gvi__copy((size_t)n, u, v);
     for (int k = 0; k < 2; ++k) moved[k] = GVI_SQRT(GVI_ABS(far[k]));
     return gvi__report_status(st, GVI_OK);
+}
+
+/* ---- ROLLING: nonholonomic constraints ----
+
+   Rows A(t,q) v + a(t,q) = 0 that no g(t,q) = 0 expresses: wheels, blades, balls.  By the principle
+   of Lagrange and d'Alembert the forces are A' lambda, virtual displacements have A dq = 0; that is
+   not the stationary action under these rows (vakonomic), whose motion is another.  Multipliers,
+   tables and factors are those above, with A for G.  In place of g(D_a) stands what g would have
+   gained along the curve,
+
+     psi_a = h sum_j b_j T(c_j, d_a) (A(Q_j) V_j + a(t_j, Q_j))                a = 1..s
+
+   and the step ends on A v + a = 0.  Order 2s as measured (docs/theory.md).  The map is reversible,
+   but not symplectic.  Unlike g(D), psi has rounding of the size of h V alone, so V or P is judged
+   as in free motion; and psi is never linearised, since it turns with all of Q.                 */
+
+// there is no g that its rows could be the derivatives of
+GVI__COLD void gvi__rolling_effect(struct gvi__private *in, int e)
+{
+    in->rolling.bits |= 1u << e;
+    in->con.checked |= 1u << e;
+}
+
+// rows of an effect that rolls, on at rows a.. of all: A and a at the points, psi to g
+static gvi_status gvi__roll(gvi_stepper *st, gvi_points *at, int e, int a)
+{
+    struct gvi__private *in = &st->in;
+    const gvi_effect *effect = in->desc.effects + e;
+    const int n = st->n, s = st->s, R = in->R, C = in->con.C,
+              rounded = st->formulation != GVI_NEWTON ? n : 0;
+    gvi__count(&st->counters.effect[e], st->r);
+    const int failed = effect->points(at, effect->user);
+    if (failed) return gvi__report_callback(st, failed, e);
+    for (int row = 0; row < effect->rows; ++row, ++a) {
+        gvi_real *psi = in->con.g + a*C + 1;
+        gvi__zero((size_t)s, psi);
+        // gvi__constrain subtracts D as rounded to q0 + D, which g(D) has in it, psi has not
+        for (int i = gvi__column(st, a, 0); i < rounded; i = gvi__column(st, a, i + 1)) {
+            const gvi_real *G = in->con.G + (a*n + i)*C + 1, *q = in->con.at + i*C;
+            for (int k = 0; k < s; ++k)
+                psi[k] += G[k]*((q[k + 1] - q[0]) - in->con.D[i*R + k]);
+        }
+        for (int j = 0; j < st->r; ++j) {
+            gvi_real slip = at->rate[row*R + j];
+            for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1))
+                slip += at->jacobian[(row*n + i)*R + j]*in->work.V[i*R + j];
+            gvi__subtract_row((size_t)s, -in->sized.hb[j]*slip, in->rolling.T + j*R, psi);
+        }
+    }
+    at->g += effect->rows*R;
+    at->rate += effect->rows*R;
+    at->jacobian += effect->rows*n*R;
+    return GVI_OK;
+}
+
+GVI__CALLED gvi_status gvi__rolling_values(gvi_stepper *st)
+{
+    struct gvi__private *in = &st->in;
+    const int R = in->R, m = gvi__count_rows(in, in->rolling.bits & ~in->off);
+    gvi_points at = gvi__points_at(st, st->r, R, in->t, in->work.Q, NULL, NULL);
+    gvi_status status = GVI_OK;
+    at.jacobian = in->rolling.A;
+    at.g = in->rolling.a;
+    at.rate = at.g + m*R;
+    gvi__zero((size_t)(m*st->n*R), at.jacobian);
+    gvi__zero((size_t)(m*R), at.rate);
+    for (int e = 0, a = 0; e < in->desc.effect_count && status == GVI_OK; ++e) {
+        if (!(gvi__constraints_on(st) >> e & 1u)) continue;
+        if (in->rolling.bits >> e & 1u) status = gvi__roll(st, &at, e, a);
+        a += in->desc.effects[e].rows;
+    }
+    return status;
+}
+
+// with the layout of constraints
+GVI__COLD void gvi__rolling_layout(struct gvi__private *in, gvi__arena *a)
+{
+    const size_t R = (size_t)GVI__ROW(in->desc.rule.points), m = (size_t)gvi__count_rows(in, in->rolling.bits);
+    in->rolling.A = gvi__take(a, m*(size_t)in->desc.n, R);
+    in->rolling.a = gvi__take(a, 2*m, R);
+    in->rolling.T = gvi__take(a, m > 0 ? (size_t)in->desc.rule.points : 0, R);
 }
 #else
 #define gvi__constrained(st) 0
@@ -8603,7 +8709,7 @@ GVI__COLD const char *gvi__why_no_formulation(const gvi_stepper *st)
     const struct gvi__private *in = &st->in;
     const int kicks = (in->desc.rule.kind == GVI_KICKS), clock = gvi__of_kind(in, GVI_CLOCK) != 0,
               ready = in->memory != 0;
-    if (gvi__of_kind(in, GVI_CONSTRAINT))
+    if (gvi__of_kind(in, GVI_CONSTRAINT) | gvi__of_kind(in, GVI_NONHOLONOMIC))
         return "constraints go with no clock, kicks or boundary values; with a formulation "
                "pinned or iterations given, what that covers (GVI_NEWTON: all)";
     if (ready && st->fault.effect >= 0)
@@ -8740,12 +8846,13 @@ GVI__COLD int gvi__place_effect(struct gvi__private *in, int e, const char **wro
     }
 #endif
 #ifndef GVI_NO_CONSTRAINTS
-    if (kind == GVI_CONSTRAINT) {
+    if (kind >= GVI_CONSTRAINT) {
         *wrong = gvi__wrong_in_constraint(in, e);
         in->parts |= GVI__IN_CONSTRAINTS;
         in->apart |= 1u << e;
         in->con.bits |= 1u << e;
         in->con.m += in->desc.effects[e].rows;
+        if (kind == GVI_NONHOLONOMIC) gvi__rolling_effect(in, e);
         return 1;
     }
 #endif
@@ -8796,7 +8903,7 @@ GVI__COLD int gvi__place_covers(struct gvi__private *in, gvi_formulation f)
 {
     const gvi_desc *d = &in->desc;
     const int clock = gvi__of_kind(in, GVI_CLOCK) != 0,
-              holds = gvi__of_kind(in, GVI_CONSTRAINT) != 0,
+              holds = (gvi__of_kind(in, GVI_CONSTRAINT) | gvi__of_kind(in, GVI_NONHOLONOMIC)) != 0,
               kicks = d->rule.kind == GVI_KICKS,
               constant = d->mass.kind <= GVI_MASS_DENSE && !clock && !(holds && in->adds_p);
     if (holds && (clock || kicks)) return 0;
@@ -8851,7 +8958,7 @@ GVI__COLD void gvi__place_unsolved(const struct gvi__private *in, gvi_fault *fau
 {
     for (int e = in->desc.effect_count - 1; e >= 0; --e) {
         const gvi_fault found = { e, 0, GVI_FAULT_NONE, NULL };
-        if (in->desc.effects[e].kind == GVI_CONSTRAINT) *fault = found;
+        if (in->desc.effects[e].kind >= GVI_CONSTRAINT) *fault = found;
     }
 }
 
@@ -8876,6 +8983,7 @@ GVI__COLD void gvi__place_layout(struct gvi__private *in, gvi__arena *a)
 #endif
 #ifndef GVI_NO_CONSTRAINTS
     if (in->con.bits) gvi__layout_constraints(in, a);
+    if (in->rolling.bits) gvi__rolling_layout(in, a);
 #endif
 #ifndef GVI_NO_DIAL
     const size_t R = (size_t)GVI__ROW(in->desc.rule.points);
@@ -9113,7 +9221,7 @@ static int gvi__place_judge(gvi_stepper *st, const struct gvi__progress *p, gvi_
 {
     (void)st, (void)p, (void)D, (void)patience;
     GVI__CONSTRAINTS_ON(
-        *patience = 0;                             // the rounding of g is in every D
+        *patience = gvi__patience(st, p);
         return gvi__constraint_judge(st, p, D))
     return GVI__GO_ON;
 }
