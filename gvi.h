@@ -543,8 +543,8 @@ typedef int gvi_points_fn(const gvi_points *x, void *user);
    n is a constant.  The list names the arrays that the body uses (t and q are always there): v, p,
    f, dldv, and one of value, mass, velocity; or rows(m), m a constant, for the g, jacobian and
    rate of m constraints.  With f and value, `name` serves as points and as value.  Listing an array
-   that the effect's kind does not have, or an n larger than the scene's, gives GVI_E_CALLBACK, with
-   a fault.argument.
+   that the effect's kind does not have, an n larger than the scene's, and filling an array that is
+   not listed give GVI_E_CALLBACK, with a fault.argument; an input that is not listed is NaN.
 
      GVI_POINTS(drag, 2, v, f)(const gvi_points *x, void *user)
      {
@@ -568,7 +568,12 @@ typedef int gvi_points_fn(const gvi_points *x, void *user);
     (GVI__USES_##a | GVI__USES_##b | GVI__USES_##c | GVI__USES_##d)
 enum { GVI__USES_, GVI__USES_v, GVI__USES_p, GVI__USES_f = 4, GVI__USES_dldv = 8,
        GVI__USES_value = 16, GVI__USES_mass = 32, GVI__USES_velocity = 64, GVI__ROWS = 128,
-       GVI__MISSING = 0x7656, GVI__OTHER_N };
+       GVI__MISSING = 0x7656, GVI__OTHER_N, GVI__UNLISTED };
+#ifdef __GNUC__
+#define GVI__NAN ((gvi_real)__builtin_nanf(""))
+#else
+#define GVI__NAN ((gvi_real)3e38f)                     // as far off as NaN, and known everywhere
+#endif
 #define GVI__USES_rows(m) (m)*GVI__ROWS
 #define GVI__POINTS(name, n, uses)                                                              \
     GVI__BODY int gvi__at_##name(const gvi_points *x, void *user);                              \
@@ -600,13 +605,21 @@ GVI__BODY int gvi__each_point(gvi_points_fn *at, const gvi_points *x, void *user
     const int m = value ? 1 : mass ? n*n : n, any = ~0, last = 112, rows = uses/GVI__ROWS;
     gvi_real *other = value ? x->value : mass ? x->mass : x->velocity;
     gvi_real *g = rows ? a + 6*n : NULL, *G = g ? g + rows : NULL, *dg = g ? G + m*rows : NULL;
+    const int single = !(mass || uses & GVI__USES_velocity), from = (value ? 5*n + 1 : 5*n);
     int failed = 0;
+    // what is not listed: inputs are NaN, and outputs are seen to be 0 behind the loop
+    GVI__LOOP(GCC unroll 64) for (int i = 0; i < n; ++i) {
+        if (!(uses & GVI__USES_v)) a[n + i] = GVI__NAN;
+        if (!(uses & GVI__USES_p)) a[2*n + i] = GVI__NAN;
+        if (!(uses & GVI__USES_f)) a[3*n + i] = 0;
+        if (!(uses & GVI__USES_dldv)) a[4*n + i] = 0;
+        if (single && 5*n + i >= from) a[5*n + i] = 0;
+    }
 #define GVI__COLUMN(name, o) uses & GVI__USES_##name ? a + (o)*n : NULL
 #define GVI__MOVE(mask, m, to, from)                                                            \
     if (wanted & (mask)) GVI__LOOP(GCC unroll 64) for (int i = 0; i < (m); ++i) to = from
     GVI__INDEPENDENT for (; k < to; ++k) {
-        gvi_points y = { n, 1, 1, x->t + k, a, GVI__COLUMN(v, 1), GVI__COLUMN(p, 2),
-                         GVI__COLUMN(f, 3), GVI__COLUMN(dldv, 4), GVI__COLUMN(value, 5),
+        gvi_points y = { n, 1, 1, x->t + k, a, a + n, a + 2*n, a + 3*n, a + 4*n, single ? a + 5*n : NULL,
                          GVI__COLUMN(mass, 5), GVI__COLUMN(velocity, 5), g, G, dg };
         GVI__MOVE(any, n, a[i], x->q[i*s + k]);
         GVI__MOVE(GVI__USES_v, n, a[n + i], x->v[i*s + k]);
@@ -623,6 +636,13 @@ GVI__BODY int gvi__each_point(gvi_points_fn *at, const gvi_points *x, void *user
         GVI__MOVE(GVI__USES_dldv, n, x->dldv[i*s + k], a[4*n + i]);
         GVI__MOVE(last, m, if (!mass || i%n <= i/n) other[i*s + k], a[5*n + i]);
     }
+    int unlisted = 0;
+    GVI__LOOP(GCC unroll 64) for (int i = 0; i < n; ++i) {
+        if (!(uses & GVI__USES_f)) unlisted |= !(a[3*n + i] >= 0 && a[3*n + i] <= 0);
+        if (!(uses & GVI__USES_dldv)) unlisted |= !(a[4*n + i] >= 0 && a[4*n + i] <= 0);
+        if (single && 5*n + i >= from) unlisted |= !(a[5*n + i] >= 0 && a[5*n + i] <= 0);
+    }
+    if (unlisted) return GVI__UNLISTED;
     return failed;
 }
 
@@ -2332,6 +2352,9 @@ GVI__COLD gvi_status gvi__report_callback(gvi_stepper *st, int failed, int effec
         st->fault.argument = "GVI_POINTS lists what this kind does not have, as v: is .kind set?";
     if (failed == GVI__OTHER_N)
         st->fault.argument = "GVI_POINTS or GVI_EACH is written for a larger n than the scene's";
+    if (failed == GVI__UNLISTED)
+        st->fault.argument = "GVI_POINTS or GVI_EACH fills an array that is not in its list, or "
+                             "beyond its n";
     return GVI_E_CALLBACK;
 }
 
@@ -8639,6 +8662,18 @@ GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, 
         if (varies) gvi__place_probe(st, &one);
         gvi_real before = 0, sum = 0;
         int known = 1;
+        // what is wrong at the very start no step mends
+        one.q = q;
+        gvi__zero(2*(size_t)n, one.f);
+        gvi_status status = gvi__effect(st, &one, e, NULL);
+        if (status == GVI_OK) status = gvi__check_rows(st, &one, one.f, e);
+        if (status == GVI_OK && all > n*R) status = gvi__check_rows(st, &one, one.dldv, e);
+        if (status != GVI_OK) {
+            st->counters = counters;
+            st->fault.point = GVI_FAULT_NONE;
+            return st->status = status;
+        }
+        one.q = past;
         for (int twice = 0; twice < 2 && known; ++twice) {        // noise is not to be judged
             gvi__zero(2*(size_t)n, one.f);
             known = gvi__effect(st, &one, e, NULL) == GVI_OK;
