@@ -6785,7 +6785,9 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
              *drops = in->con.drops + m, energy = 0, size = 0, before = GVI__MAX;
     int redundant = 0;
     for (int i = 0; i < n; ++i) {
-        q[i] = from->q[i] + (in->step.q[i] + in->step.q_low[i]);
+        // rounded as the commit will: A v is to be 0 there
+        const gvi__two end = gvi__add_low(from->q[i], 0, in->step.q[i], in->step.q_low[i]);
+        q[i] = end.hi + end.lo;
         p[i] = from->p[i] + (in->step.p[i] + in->step.p_low[i]);
     }
     gvi__velocity_guess(st, v);
