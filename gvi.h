@@ -57,7 +57,8 @@
      describe    gvi_desc: n and the effects; all else has a default, degree 8
      effect      one row for each thing that acts.  GVI_POTENTIAL reads t and q,
                  GVI_FORCE also v (friction, motors), GVI_LAGRANGIAN adds to L
-                 (magnetic fields), GVI_CONSTRAINT holds g = 0 (rods, joints)
+                 (magnetic fields), GVI_CONSTRAINT holds g = 0 (rods, joints),
+                 GVI_NONHOLONOMIC A v + a = 0 (wheels, blades)
      memory      gvi_size(&desc) bytes, or an array of GVI_LENGTH(n, s, r) numbers
      run         gvi_init once; gvi_start with q and v; gvi_step(&st, h) as often
                  as you like: an eighth of the fastest period is a good first h
@@ -1216,6 +1217,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 
 /*  The same with constraints, m rows in all.                                  */
 #define GVI_CONSTRAINED_LENGTH(n, s, r, m) (GVI_LENGTH(n, s, r)                  \
+    + (GVI__SIZE(m)*(GVI__SIZE(n) + 2) + GVI__SIZE(r))*GVI__SIZE(GVI__ROW(r))     \
     + (6*GVI__SIZE(n) + 3*GVI__SIZE(m) + 2*GVI__SIZE(r) + 5*GVI__SIZE(s) + 4 + (4 + GVI__SIZE(m)) \
        *(GVI__SIZE(n) + GVI__SIZE(m)))*(GVI__SIZE(GVI__ROW(r)) + GVI__SIZE(GVI__ROW((s) + 1)))    \
     + (GVI__SIZE(s) + 3)*(GVI__SIZE(s) + 1) + (2*GVI__SIZE(n) + 9)*GVI__SIZE(m) \
