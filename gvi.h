@@ -92,7 +92,7 @@
      CLOCK                time that runs fast and slow
      KICKS                Stoermer-Verlet and splittings
      NEWTON'S METHOD      where no fixed point contracts
-     CONSTRAINTS          multipliers, RATTLE, projection; by Newton's method
+     CONSTRAINTS          multipliers, RATTLE, projection; rolling; by Newton's method
      OWN RULES            other nodes and weights
      OUTPUT               the state at any time, the action
      THE DIAL             as accurate as asked for
@@ -7280,7 +7280,7 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
 
      psi_a = h sum_j b_j T(c_j, d_a) (A(Q_j) V_j + a(t_j, Q_j))                a = 1..s
 
-   and the step ends on A v + a = 0.  Order 2s as measured (docs/theory.md).  The map is reversible,
+   and the step ends on A v + a = 0.  Order 2s, as measured (tests/test_rolling.c).  The map is reversible,
    but not symplectic.  Unlike g(D), psi has rounding of the size of h V alone, so V or P is judged
    as in free motion; and psi is never linearised, since it turns with all of Q.                 */
 
