@@ -57,7 +57,8 @@
      describe    gvi_desc: n and the effects; all else has a default, degree 8
      effect      one row for each thing that acts.  GVI_POTENTIAL reads t and q,
                  GVI_FORCE also v (friction, motors), GVI_LAGRANGIAN adds to L
-                 (magnetic fields), GVI_CONSTRAINT holds g = 0 (rods, joints)
+                 (magnetic fields), GVI_CONSTRAINT holds g = 0 (rods, joints),
+                 GVI_NONHOLONOMIC A v + a = 0 (wheels, blades)
      memory      gvi_size(&desc) bytes, or an array of GVI_LENGTH(n, s, r) numbers
      run         gvi_init once; gvi_start with q and v; gvi_step(&st, h) as often
                  as you like: an eighth of the fastest period is a good first h
@@ -91,7 +92,7 @@
      CLOCK                time that runs fast and slow
      KICKS                Stoermer-Verlet and splittings
      NEWTON'S METHOD      where no fixed point contracts
-     CONSTRAINTS          multipliers, RATTLE, projection; by Newton's method
+     CONSTRAINTS          multipliers, RATTLE, projection; rolling; by Newton's method
      OWN RULES            other nodes and weights
      OUTPUT               the state at any time, the action
      THE DIAL             as accurate as asked for
@@ -1298,6 +1299,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 
 /*  The same with constraints, m rows in all.                                  */
 #define GVI_CONSTRAINED_LENGTH(n, s, r, m) (GVI_LENGTH(n, s, r)                  \
+    + (GVI__SIZE(m)*(GVI__SIZE(n) + 2) + GVI__SIZE(r))*GVI__SIZE(GVI__ROW(r))     \
     + (6*GVI__SIZE(n) + 3*GVI__SIZE(m) + 2*GVI__SIZE(r) + 5*GVI__SIZE(s) + 4 + (4 + GVI__SIZE(m)) \
        *(GVI__SIZE(n) + GVI__SIZE(m)))*(GVI__SIZE(GVI__ROW(r)) + GVI__SIZE(GVI__ROW((s) + 1)))    \
     + (GVI__SIZE(s) + 3)*(GVI__SIZE(s) + 1) + (2*GVI__SIZE(n) + 9)*GVI__SIZE(m) \
@@ -6964,7 +6966,9 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
              *drops = in->con.drops + m, energy = 0, size = 0, before = GVI__MAX;
     int redundant = 0;
     for (int i = 0; i < n; ++i) {
-        q[i] = from->q[i] + (in->step.q[i] + in->step.q_low[i]);
+        // rounded as the commit will: A v is to be 0 there
+        const gvi__two end = gvi__add_low(from->q[i], 0, in->step.q[i], in->step.q_low[i]);
+        q[i] = end.hi + end.lo;
         p[i] = from->p[i] + (in->step.p[i] + in->step.p_low[i]);
     }
     gvi__velocity_guess(st, v);
@@ -7478,7 +7482,7 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
 
      psi_a = h sum_j b_j T(c_j, d_a) (A(Q_j) V_j + a(t_j, Q_j))                a = 1..s
 
-   and the step ends on A v + a = 0.  Order 2s as measured (docs/theory.md).  The map is reversible,
+   and the step ends on A v + a = 0.  Order 2s, as measured (tests/test_rolling.c).  The map is reversible,
    but not symplectic.  Unlike g(D), psi has rounding of the size of h V alone, so V or P is judged
    as in free motion; and psi is never linearised, since it turns with all of Q.                 */
 

@@ -122,7 +122,8 @@ static void load_start(real *q, real *v)
     memcpy(v, v0, sizeof v0);
 }
 
-/* ---- index-1 reference: M v' - A' lambda = F - M' v, A v' = -A' v (by hand), Runge and Kutta's method */
+/* ---- index-1 reference: M v' - A' lambda = F - M' v, A v' = -A' v (by hand), Runge and Kutta's method.  Steps are powers
+   of 2: others round the same way every time */
 
 typedef void accelerations(const long double *q, const long double *v, long double *matrix, long double *right);
 
@@ -219,7 +220,7 @@ static long double error_of(gvi_desc desc, int s, int steps, const real *q, cons
 
 static void check_orders(const gvi_desc *desc, const int *steps, const real *q, const real *v, const long double *z)
 {
-    for (int s = 1; s <= (KIND == 1 ? 1 : KIND == 2 ? 4 : 5); ++s) {
+    for (int s = 1; s <= (KIND == 1 ? 1 : KIND == 2 ? 4 : 5) && steps[s] > 0; ++s) {
         const long double a = error_of(*desc, s, 2*steps[s], q, v, z), b = error_of(*desc, s, 3*steps[s], q, v, z);
         const double order = (double)(log(a/b)/log(1.5L));
         if (!(fabs(order - 2*s) < 0.1)) print_message("s = %d: order %.3f, errors %Lg %Lg\n", s, order, a, b);
@@ -262,8 +263,8 @@ TEST(falling_disc_has_order_2s_against_the_index_1_equations)
     real q[5], v[5];
     disc_start(q, v);
     for (int i = 0; i < 5; ++i) z[i] = finer[i] = q[i], z[5 + i] = finer[5 + i] = v[i];
-    reference(disc_accelerations, 10000, z);
-    reference(disc_accelerations, 20000, finer);
+    reference(disc_accelerations, 16384, z);
+    reference(disc_accelerations, 32768, finer);
     for (int i = 0; i < 10; ++i) assert_true(fabs(z[i] - finer[i]) < 1e-13L);
     for (int f = 0; f < 2; ++f) {
         gvi_desc desc = disc_desc;
@@ -274,12 +275,12 @@ TEST(falling_disc_has_order_2s_against_the_index_1_equations)
 
 TEST(beside_a_rod_the_order_is_the_same)
 {
-    static const int steps[] = { 0, 96, 24, 12, 6, 6 };
+    static const int steps[] = { 0, 96, 24, 12, DIG > 53 ? 7 : 6, 0 };     // beyond, the reference is no better
     long double z[10];
     real q[5], v[5];
     load_start(q, v);
     for (int i = 0; i < 5; ++i) z[i] = q[i], z[5 + i] = v[i];
-    reference(load_accelerations, 20000, z);
+    reference(load_accelerations, 131072, z);
     check_orders(&load_desc, steps, q, v, z);
 }
 
