@@ -4524,15 +4524,16 @@ static void gvi__lagrangian_predict(const gvi_stepper *st, int extrapolate)
     else gvi__zero((size_t)st->n*(size_t)st->in.R, l->A);
 }
 
-/* Rounding of A, divided by M, is in V, and times d2L/dqdv again in F: by so much as A moves over M V
-   it grows.  Newton's method, whose V is Q' to rounding, has no such loss.                     */
+/* Rounding of A, divided by M, is in V, and times d2L/dqdv again in F: by so much as A moves over
+   M V it grows.  Newton's method, whose V is Q' to rounding, has no such loss.                     */
 static gvi_status gvi__lagrangian_verdict(gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
     const int R = in->R, step = in->desc.mass.kind == GVI_MASS_DENSE ? st->n + 1 : 1;
     if (!in->lagrangian.plus || !in->turns) return GVI_OK;
     for (int i = 0; i < st->n; ++i) {
-        const gvi_real *A = in->lagrangian.A + i*R, *V = in->work.V + i*R, level = *gvi__level(st, i);
+        const gvi_real *A = in->lagrangian.A + i*R, *V = in->work.V + i*R,
+                       level = *gvi__level(st, i);
         gvi_real moves = 0, v = 0;
         for (int k = 0; k < st->r; ++k) {
             moves = gvi__larger(GVI_ABS(A[k] - level), moves);
@@ -6399,9 +6400,10 @@ static gvi_real gvi__share(const gvi_stepper *st, int S, int i, int j, const gvi
 
 /* A := L D L' of G M^-1 G' in its envelope, L below the diagonal, 1/D on it and D L' above it; M(q)
    is that of the stage values, one for one, or of the one point.  A pivot of 64 m roundings, its own
-   and those of the rows that it is made of, says that the row depends on those before it.  At the first point it is then left out: 1/D and its L
-   are 0, and so is its multiplier; drops[a] is what the diagonal entry was, or 0 for a row that is
-   kept.  At the other points the same rows are left out, and the rest has to have full rank.    */
+   and those of the rows that it is made of, says that the row depends on those before it.  At the
+   first point it is then left out: 1/D and its L are 0, and so is its multiplier; drops[a] is what
+   the diagonal entry was, or 0 for a row that is kept.  At the other points the same rows are left
+   out, and the rest has to have full rank.                                                    */
 static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, const gvi_real *G,
                                           gvi_real *A, gvi_real *drops)
 {
@@ -7547,7 +7549,8 @@ GVI__CALLED gvi_status gvi__rolling_values(gvi_stepper *st)
 // with the layout of constraints
 GVI__COLD void gvi__rolling_layout(struct gvi__private *in, gvi__arena *a)
 {
-    const size_t R = (size_t)GVI__ROW(in->desc.rule.points), m = (size_t)gvi__count_rows(in, in->rolling.bits);
+    const size_t R = (size_t)GVI__ROW(in->desc.rule.points),
+                 m = (size_t)gvi__count_rows(in, in->rolling.bits);
     in->rolling.A = gvi__take(a, m*(size_t)in->desc.n, R);
     in->rolling.a = gvi__take(a, 2*m, R);
     in->rolling.T = gvi__take(a, m > 0 ? (size_t)in->desc.rule.points : 0, R);
