@@ -620,7 +620,8 @@ GVI__BODY int gvi__each_point(gvi_points_fn *at, const gvi_points *x, void *user
 #define GVI__MOVE(mask, m, to, from)                                                            \
     if (wanted & (mask)) GVI__LOOP(GCC unroll 64) for (int i = 0; i < (m); ++i) to = from
     GVI__INDEPENDENT for (; k < to; ++k) {
-        gvi_points y = { n, 1, 1, x->t + k, a, a + n, a + 2*n, a + 3*n, a + 4*n, single ? a + 5*n : NULL,
+        gvi_points y = { n, 1, 1, x->t + k, a, a + n, a + 2*n, a + 3*n, a + 4*n,
+                         single ? a + 5*n : NULL,
                          GVI__COLUMN(mass, 5), GVI__COLUMN(velocity, 5), g, G, dg };
         GVI__MOVE(any, n, a[i], x->q[i*s + k]);
         GVI__MOVE(GVI__USES_v, n, a[n + i], x->v[i*s + k]);
@@ -686,7 +687,8 @@ typedef enum gvi_kind {
     GVI_LAGRANGIAN = 2,  /* L(t,q,v): reads t, q, v; adds dL/dq to f, dL/dv to dldv */
     GVI_CLOCK      = 3,  /* g(q) > 0: adds g to value and dg/dq to f; at most one   */
     GVI_CONSTRAINT = 4,  /* g(t,q) = 0, `rows` of them: writes g, jacobian, rate     */
-    GVI_NONHOLONOMIC = 5 /* A(t,q) v + a(t,q) = 0, `rows` of them: writes A to jacobian, a to rate */
+    GVI_NONHOLONOMIC = 5 /* A(t,q) v + a(t,q) = 0, `rows` of them: writes A to jacobian, a to
+                            rate */
 } gvi_kind;
 
 /* One thing that acts in a scene.  Give exactly one of points and point; for a clock or a
@@ -1654,7 +1656,7 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 #define GVI__LINEAR ((gvi_real)0.015625)   // the equations are all but linear
 #define GVI__CLOSE ((gvi_real)0.03125)     // of a curve, from its prediction: on the same branch
 #define GVI__SHORT 64                      // h over this: free motion leads to the motion
-#define GVI__FADES 64                      // of a row, where a step failed: how much earlier it ends
+#define GVI__FADES 64                      // of a row where a step failed: so much earlier it ends
 #define GVI__LOST 4                        // of a pivot's entry what is left: rank may be changing
 #define GVI__WRONG 512                     // of an entry of G, what it is off times this: wrong
 
@@ -4525,7 +4527,7 @@ static void gvi__lagrangian_predict(const gvi_stepper *st, int extrapolate)
 }
 
 /* Rounding of A, divided by M, is in V, and times d2L/dqdv again in F: by so much as A moves over
-   M V it grows.  Newton's method, whose V is Q' to rounding, has no such loss.                     */
+   M V it grows.  Newton's method, whose V is Q' to rounding, has no such loss.                */
 static gvi_status gvi__lagrangian_verdict(gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
@@ -6399,11 +6401,11 @@ static gvi_real gvi__share(const gvi_stepper *st, int S, int i, int j, const gvi
 }
 
 /* A := L D L' of G M^-1 G' in its envelope, L below the diagonal, 1/D on it and D L' above it; M(q)
-   is that of the stage values, one for one, or of the one point.  A pivot of 64 m roundings, its own
-   and those of the rows that it is made of, says that the row depends on those before it.  At the
-   first point it is then left out: 1/D and its L are 0, and so is its multiplier; drops[a] is what
-   the diagonal entry was, or 0 for a row that is kept.  At the other points the same rows are left
-   out, and the rest has to have full rank.                                                    */
+   is that of the stage values, one for one, or of the one point.  A pivot of 64 m roundings, its
+   own and those of the rows that it is made of, says that the row depends on those before it.  At
+   the first point it is then left out: 1/D and its L are 0, and so is its multiplier; drops[a] is
+   what the diagonal entry was, or 0 for a row that is kept.  At the other points the same rows are
+   left out, and the rest has to have full rank.                                               */
 static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, const gvi_real *G,
                                           gvi_real *A, gvi_real *drops)
 {
@@ -7484,9 +7486,9 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
 
      psi_a = h sum_j b_j T(c_j, d_a) (A(Q_j) V_j + a(t_j, Q_j))                a = 1..s
 
-   and the step ends on A v + a = 0.  Order 2s, as measured (tests/test_rolling.c).  The map is reversible,
-   but not symplectic.  Unlike g(D), psi has rounding of the size of h V alone, so V or P is judged
-   as in free motion; and psi is never linearised, since it turns with all of Q.                 */
+   and the step ends on A v + a = 0.  Order 2s, as measured (tests/test_rolling.c).  The map is
+   reversible, but not symplectic.  Unlike g(D), psi has rounding of the size of h V alone, so V or P
+   is judged as in free motion; and psi is never linearised, since it turns with all of Q.       */
 
 // there is no g that its rows could be the derivatives of
 GVI__COLD void gvi__rolling_effect(struct gvi__private *in, int e)
