@@ -1,4 +1,4 @@
-/* gvi.h - v0.2.0 - Galerkin variational integrators for mechanical systems
+/* gvi.h - v0.3.0 - Galerkin variational integrators for mechanical systems
    SPDX-License-Identifier: MIT OR Unlicense              (texts at the end)
 
    Computes how mechanical systems move: M q'' = -dV/dq + f, or any Lagrangian
@@ -326,7 +326,7 @@ GVI__MACROS(push_macro)
 #include <math.h>
 #endif
 
-#define GVI_VERSION "0.2.0"
+#define GVI_VERSION "0.3.0"
 
 #ifndef GVI_REAL
 #define GVI_REAL double
@@ -1692,12 +1692,14 @@ GVI__COLD gvi_status gvi__lu_scales(int n, const gvi_real *a, gvi_real *pivot, i
             *at = (int)i;
         }
     }
+
     pivot[n] = 0;
     for (size_t j = 0; j < N; ++j) {
         gvi_real sum = 0;
         for (size_t i = 0; i < N; ++i) sum += GVI_ABS(a[i*N + j]);
         if (sum > pivot[n]) pivot[n] = sum;
     }
+
     return status;
 }
 
@@ -1757,6 +1759,7 @@ static gvi_status gvi__lu_factor(int n, gvi_real *a, gvi_real *pivot, int *at)
                 gvi__subtract_row(N - k - 1, row[0], a + k*N + k + 1, row + 1);
         }
     }
+
     return GVI_OK;
 }
 
@@ -1834,6 +1837,7 @@ GVI_DEF gvi_real gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot, 
         sign = -sign;
         x[i] = sign*(1 + (gvi_real)i/(gvi_real)(n - 1));
     }
+
     gvi_lu_solve(n, lu, pivot, x);
     best = gvi__larger(best, 2*gvi__norm1(n, x)/(3*(gvi_real)n));
     if (!(best > 0)) return 0;
@@ -1873,6 +1877,7 @@ static gvi_status gvi__ldl_factor(int n, int R, int count, gvi_real *m, int *at)
             }
         }
     }
+
     return GVI_OK;
 }
 
@@ -1936,6 +1941,7 @@ GVI__COLD gvi__two gvi__node_correction(int lobatto, int m, gvi__two c, gvi_real
         *b = gvi__div2_by(gvi__div2_by(gvi__mul2(P, P), m), m + 1).hi;
         return gvi__div2_by(gvi__mul2(d, P), -2*(m + 1));
     }
+
     d = gvi__scale2((gvi_real)m, d);
     c = gvi__div2(gvi__mul2(c, gvi__sub2(one, c)), d);
     *b = 4*gvi__div2(c, d).hi;
@@ -1988,6 +1994,7 @@ GVI__COLD gvi_status gvi__rule(int lobatto, int n, gvi_real *c, gvi_real *c_low,
         c_low[j] = x.lo;
         c_low[n - 1 - j] = mirror.lo;
     }
+
     return GVI_OK;
 }
 
@@ -2024,6 +2031,7 @@ GVI_DEF int gvi_rule_order(int n, const gvi_real *c, const gvi_real *b)
         if (GVI_ABS(sum) > 4*(gvi_real)(u + 2)*GVI__EPS*size) return u;
         sum = 0;
     }
+
     return 2*n;
 }
 
@@ -2061,6 +2069,7 @@ GVI_DEF gvi_status gvi_barycentric(int n, const gvi_real *x, gvi_real *w)
         w[j] /= big;
         if (!gvi__nonzero(w[j])) return GVI_E_NODES;
     }
+
     return GVI_OK;
 }
 
@@ -2450,6 +2459,7 @@ static int gvi__point_by_point(gvi_stepper *st, const gvi_effect *e, const gvi_p
             if (dldv) at->dldv[i*at->stride + k] += dldv[i];
         }
     }
+
     return 0;
 }
 
@@ -2462,6 +2472,7 @@ GVI__BODY gvi_status gvi__effect(gvi_stepper *st, gvi_points *at, int e, gvi_rea
     gvi_real *dldv = at->dldv;
     const int both = value && effect->points && effect->value == effect->points;
     int failed;
+
     if (effect->kind == GVI_POTENTIAL) at->v = NULL;
     if (effect->kind != GVI_LAGRANGIAN) at->dldv = NULL;
     if (both) at->value = value;
@@ -2586,6 +2597,7 @@ GVI__COLD gvi_status gvi__value_sums(gvi_stepper *st, gvi_real t, const gvi_real
         if (status != GVI_OK) return status;
         if (!gvi__finite(*value)) return gvi__report_effect(st, GVI_E_NON_FINITE, e);
     }
+
     const gvi_status status = gvi__evaluate(st, &at, ~0u, 1);
     *T = gvi__dot(st->n, at.dldv, v)/2;
     return status;
@@ -2685,6 +2697,7 @@ GVI__COLD void gvi__make_tables(gvi_stepper *st)
     const struct gvi__tables *table = &st->in.table;
     const gvi_real *Phi_low = table->Phi_low;
     const int r = st->r, R = st->in.R, gauss = st->in.desc.rule.kind == GVI_GAUSS && r == st->s;
+
     for (int j = 0; j < r; ++j) {
         gvi__prepare_column(st, table->Phi, Phi_low, j);
         for (int i = 0; i <= j; ++i) {
@@ -2725,6 +2738,7 @@ static void gvi__weights_for(gvi_stepper *st, gvi_real h)
     const gvi_real *b = st->in.table.b;
     const int r = st->r;
     int e, most = 0;
+
     if (!gvi__nonzero(sized->h - h)) return;
     sized->h = h;
 
@@ -2735,12 +2749,14 @@ static void gvi__weights_for(gvi_stepper *st, gvi_real h)
         rest -= sized->hb[j];
         if (b[j] > b[most]) most = j;
     }
+
     const int mirror = r - 1 - most;
     if (mirror == most || gvi__nonzero(b[mirror] - b[most])) sized->hb[most] += rest;
     else {
         sized->hb[most] += rest/2;
         sized->hb[mirror] += rest/2;
     }
+
     const gvi_real half = GVI_LDEXP(1, e - 1);     // 2^e may be too large
     for (int j = 0; j < r; ++j) sized->hb[j] = 2*sized->hb[j]*half;
 }
@@ -2759,6 +2775,7 @@ static void gvi__fit(gvi_stepper *st, int r, const gvi_real *c, const gvi_real *
     struct gvi__private *in = &st->in;
     const int R = in->R, nodes = steps*R, all = nodes + R;
     int degree = r - 1;
+
     if (steps == 2) degree = r + r/2 - r/8;
     if (degree > GVI__DEGREE) degree = GVI__DEGREE;
     gvi_real *p = in->set_up, *before = p + 3*R, *at = before + 3*R, coupling = 0;
@@ -2770,6 +2787,7 @@ static void gvi__fit(gvi_stepper *st, int r, const gvi_real *c, const gvi_real *
         at[nodes + m] = alpha + beta*to[m];
         if (m < r) p[m] = p[R + m] = p[nodes + m] = norm;
     }
+
     gvi__zero((size_t)(steps*r*R), E);
     for (int k = 0; k <= degree; ++k) {
         for (int j = 0; j < r; ++j) {
@@ -2812,15 +2830,18 @@ static void gvi__lagrange(const gvi_stepper *st, gvi_real alpha, gvi_real beta, 
     const int R = st->in.R, r = st->r;
     const gvi_real *c = st->in.table.c, *weights = st->in.predictor.weights;
     gvi_real *y = st->in.set_up, *behind = y + R;
+
     for (int k = 0; k < R; ++k) {
         y[k] = alpha + beta*c[k];
         behind[k] = E[k] = 1;
     }
+
     for (int j = 1; j < r; ++j) {
         const gvi_real *before = E + (j - 1)*R, at = c[j - 1];
         gvi_real *to = E + j*R;
         GVI__ALONG(R, GVI__TO(to) = GVI__AT(before)*(GVI__AT(y) - at))
     }
+
     for (int j = r - 1; j >= 0; --j) {
         const gvi_real at = c[j], weight = weights[j];
         gvi_real *to = E + j*R;
@@ -3017,6 +3038,7 @@ GVI__COLD size_t gvi__layout(struct gvi__private *in, int order, gvi_real *base)
         { &in->watch.scale, 2*it, n }, { &in->watch.change, 2*it, n },
         { &in->watch.before, 2*it, n },
         { &in->point, 6, n },         { &in->answer, 3, n }
+
     };
     gvi__arena memory = { base, 0 }, *a = &memory;
     for (size_t k = 0; k < sizeof list/sizeof *list; ++k)
@@ -3064,6 +3086,7 @@ GVI__COLD gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
     const int given = dense || mass->kind == GVI_MASS_DIAGONAL;
     gvi_real *m = in->mass.matrix;
     int at[2] = { 0, 0 };
+
     for (int i = 0; i < n; ++i) {
         int first = i, width = 1;                 // of a diagonal; dense: of row i up to M_ii
         if (dense) {
@@ -3084,6 +3107,7 @@ GVI__COLD gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
         if (!gvi__finite(in->mass.inverse[i]))
             return gvi__report(st, GVI_E_SINGULAR, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
     }
+
     if (!dense) return GVI_OK;
     const gvi_status status =
         gvi__ldl_factor(n, 1, 1, in->mass.factor, at);
@@ -3100,6 +3124,7 @@ GVI__COLD gvi_status gvi__set_rule(gvi_stepper *st)
     const int s = st->s, lobatto = in->desc.rule.kind == GVI_LOBATTO;
     gvi_real *c_low = in->t;
     gvi_status status = GVI_OK;
+
     table->Phi_low = in->predictor.one;            // not yet in use, as are the times
     if (!gvi__place_nodes(st) && GVI__ITERATION)
         gvi__rule(lobatto, st->r, table->c, c_low, table->b);
@@ -3112,6 +3137,7 @@ GVI__COLD gvi_status gvi__set_rule(gvi_stepper *st)
         if (status == GVI_OK) gvi__make_tables(st);
         gvi__set_predictor(st);
     }
+
     if (status == GVI_OK) status = gvi__place_tables(st);
     if (table->Phi) gvi__copy((size_t)st->r, table->c, table->Phi);        // Phi_0 = c on its grid
     return status;
@@ -3125,6 +3151,7 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
 {
     if (!st) return GVI_E_ARGUMENT;
     struct gvi__private *in = &st->in;
+
     // to be read after a failure; eight where an int has 16 bits, and RAM is short
     static const gvi_real zeros[sizeof(int) > 2 ? 64 : 8] = { 0 };
     int order = 0;
@@ -3150,6 +3177,7 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
         st->q = st->p = st->q_low = st->p_low = memory;
         return st->status = GVI_E_MEMORY;
     }
+
     if (slack) in->skip = (size_t)(-(uintptr_t)memory & 63)/sizeof(gvi_real);
     memory += in->skip;
     gvi__hand_out(st, memory);
@@ -3227,6 +3255,7 @@ static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real 
         v[i] = z.hi;
         v_low[i] = gvi__low(z.lo + p_low[i]*inverse[i]);
     }
+
     if (in->desc.mass.kind == GVI_MASS_DENSE) {
         gvi__over_mass(st, v, 1, 1);
         for (int i = 0; i < st->n; ++i) {         // p - M v
@@ -3239,6 +3268,7 @@ static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real 
         }
         gvi__over_mass(st, v_low, 1, 1);
     }
+
     for (int i = 0; i < st->n; ++i) {
         const gvi__two path = gvi__two_prod(h, v[i]);
         in->free.path[i] = path.hi;
@@ -3334,6 +3364,7 @@ static gvi_real gvi__rows_by_points(const gvi_stepper *st, const gvi__stage *y, 
         y->scale[i] = scale;
         y->change[i] = two;
     }
+
     return gvi__sum_squares(square);
 }
 
@@ -3366,6 +3397,7 @@ GVI__BODY gvi_real gvi__rows_by_lanes(const gvi_stepper *st, const gvi__stage *G
     const gvi__lane none = { 0 };
     gvi_real few[16], *L = R <= 16 ? few : st->in.weighted, total[8];
     gvi__lane square[GVI__BLOCK] = { none };
+
     for (int i = 0; i < n; ++i) {
         gvi_real *row = y->rows + i*R, scale = y->scale[i];
         const gvi_real base = y->base[i], inverse = y->inverse[i], factor = y->factor;
@@ -3394,6 +3426,7 @@ GVI__BODY gvi_real gvi__rows_by_lanes(const gvi_stepper *st, const gvi__stage *G
         y->scale[i] = scale;
         y->change[i] = a*a + b*b;
     }
+
     GVI__UNROLL for (int v = 0; v < GVI__BLOCK; ++v) GVI__STORE(total + v*GVI__LANES) = square[v];
     return gvi__sum_squares(total);
 }
@@ -3408,6 +3441,7 @@ static gvi_real gvi__rows_of_full_mass(const gvi_stepper *st, const gvi__stage *
         for (int k = 0; k < R; ++k) sums[i*R + k] = gvi__point_sum(r, R, y->table + k, L);
         for (int k = 0; y->plus && k < R; ++k) sums[i*R + k] += y->plus[i*R + k];
     }
+
     gvi__over_mass(st, sums, R, R);
     for (int i = 0; i < n; ++i) {
         const gvi_real base = y->base[i], factor = y->factor;
@@ -3424,6 +3458,7 @@ static gvi_real gvi__rows_of_full_mass(const gvi_stepper *st, const gvi__stage *
             row[k] = z[k];
         }
     }
+
     return gvi__sum_squares(square);
 }
 
@@ -3493,6 +3528,7 @@ static void gvi__prepare_predictor(gvi_stepper *st, gvi_real h, int query, int p
     const int sums = two && in->stages == 1 && in->desc.mass.kind != GVI_MASS_DENSE
                      && !gvi__parts(in);
     const gvi_real alpha = query != GVI__FROM_START, beta = h/st->h, ratio = query ? 0 : beta;
+
     if (gvi__parts(in)) gvi__place_predictor(st, alpha, beta);
     predictor->steps = two + 1;
     predictor->sums = sums;
@@ -3578,12 +3614,14 @@ static gvi_status gvi__predict(gvi_stepper *st, const gvi__origin *from, gvi_rea
         }
         return GVI_OK;
     }
+
     if (extrapolate) gvi__extrapolate(st, in->last.F, in->older.F, in->work.F);
     else gvi__zero((size_t)st->n*(size_t)R, in->work.F);
     if (gvi__parts(in)) {
         const gvi_status status = gvi__place_predict(st, from, h, extrapolate);
         if (status != GVI_OK) return status;
     }
+
     gvi__new_rows(st, stage, 0);
     return GVI_OK;
 }
@@ -3628,6 +3666,7 @@ GVI__CALLED gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__st
     const int R = st->in.R, n = st->n, dense = st->in.desc.mass.kind == GVI_MASS_DENSE,
               parts = gvi__parts(&st->in) != 0;
     gvi_real largest = 0, noise = 0;
+
     for (int k = 0; k < st->in.stages; ++k)
         for (int i = 0; i < n && !stage[k].quiet; ++i) {
             const gvi_real *row = stage[k].rows + i*R,
@@ -3659,17 +3698,20 @@ static int gvi__settled(gvi_stepper *st, const gvi__progress *p, gvi_real D, gvi
     const gvi_real wanted = gvi__larger(st->in.desc.tolerance, GVI__ENOUGH), limit = wanted*wanted;
     const int alone = p->used == 1 || p->ratio > 1, rows = st->in.stages*st->n;
     const gvi_real last = alone ? D : gvi__smaller(p->before, 1);
+
     if (!(D*D <= limit*last)) return 0;           // NaN as well
     if (!alone && D > rounding) {
         const gvi_real other = p->earlier > 0 ? p->before/gvi__smaller(p->earlier, 1) : p->ratio;
         if (!(D*other <= limit)) return 0;
         st->in.watch.found = D/last;
     }
+
     for (int row = 0; row < rows; ++row) {
         const gvi_real Di = st->in.watch.change[row];
         const gvi_real was = alone ? Di : gvi__smaller(st->in.watch.before[row], 1);
         if (Di > 2*GVI__EPS*GVI__EPS && Di*Di > limit*was) return 0;
     }
+
     return 1;
 }
 
@@ -3706,6 +3748,7 @@ static int gvi__rests(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_real h,
     const int turns = st->in.turns, few = D > GVI__FAR*GVI__FAR ? GVI__MANY_POOR : GVI__FEW_POOR;
     const int poor = turns && p->growing > few && D > sure*sure*(gvi_real)(st->n*st->r),
               least = p->stagnant <= patience;
+
     if (least && !poor) return GVI__GO_ON;
 
     const gvi_real noise = gvi__noise(st, h, stage);
@@ -3728,6 +3771,7 @@ static int gvi__verdict(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_real 
     const gvi_real place = GVI__PLACE*GVI__EPS;
     const int given = d->iterations > 0;
     int verdict = GVI__GO_ON, patience = 1;       // so many without a new least may be chance
+
     if (!given && gvi__settled(st, p, D, place*place*(gvi_real)(st->n*st->r))) return GVI__DONE;
     if (!gvi__finite(D)) {                        // far off already, it was on its way to infinity
         const int far = p->growing > 0 || p->before > (gvi_real)st->n || GVI__LOOKS(st);
@@ -3758,6 +3802,7 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
     struct gvi__private *in = &st->in;
     gvi__stage stage[2];
     gvi_points at = gvi__points_at(st, st->r, in->R, in->t, in->work.Q, in->work.F, NULL);
+
     at.v = in->work.V;
     gvi__stages(st, from, h, stage);                                                         // 1)
     gvi_status status = gvi__predict(st, from, h, stage, extrapolate);                       // 2)
@@ -3815,6 +3860,7 @@ GVI__BODY gvi__two gvi__exact_dot(int R, const gvi_real *a, const gvi_real *b)
         hi[k] = z.hi;
         lo[k] = z.lo;
     }
+
     for (int o = 8; o < R; o += 8)
         for (int k = 0; k < 8; ++k) {
             const gvi__two z = gvi__two_prod(a[o + k], b[o + k]),
@@ -3862,12 +3908,14 @@ static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h
     struct gvi__private *in = &st->in;
     const gvi_real *c = in->table.c, *hb = in->sized.hb, *F = in->work.F;
     const int R = in->R;
+
     gvi__sum_rows(st, in->work.F, from->p_low, in->step.p, in->step.p_low);
     if (gvi__parts(in) && gvi__place_increments(st, from)) return;
     for (int i = 0; i < st->n; ++i, F += R) {
         in->step.q[i] = gvi__parts(in) ? gvi__place_bow(st, i)
                                        : R == 8 ? gvi__bow(8, c, hb, F) : gvi__bow(R, c, hb, F);
     }
+
     gvi__over_mass(st, in->step.q, 1, 1);
     for (int i = 0; i < st->n; ++i) {
         const gvi__two bend = gvi__two_prod(h, in->step.q[i]),
@@ -3899,6 +3947,7 @@ static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__origin *from, gvi
     // an extrapolation any farther is no better than no force
     const int usable = in->kept > 0 && h/st->h > -GVI__BACK && h/st->h < GVI__AHEAD;
     gvi_real ratio = usable && GVI_ABS(h) <= GVI_ABS(st->h) ? in->watch.ratio : 1;
+
     if (usable) gvi__prepare_predictor(st, h, query, 0);
     for (int plain = !usable; plain < 2; ++plain) {
         gvi__progress p = { 0, 0, 0, GVI__MAX, ratio, GVI__MAX, 1, 0, 0, 1 };
@@ -3911,6 +3960,7 @@ static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__origin *from, gvi
             || (in->desc.iterations > 0 && (p.used > 1 || status == GVI_E_CONVERGENCE))) break;
         ratio = 2;                                 // the next attempt: no ratio counts
     }
+
     if (status == GVI_OK) gvi__increments(st, from, h);                                      // 6)
     return status;
 }
@@ -3930,6 +3980,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_rea
         status = gvi__fixed_point(st, from, h, query);
         if (status != GVI_OK && in->turns) status = gvi__place_turn(st, from, h, query, status);
     }
+
     if (status == GVI_OK && gvi__parts(in)) status = gvi__place_finish(st, from);
     if (status != GVI_OK) return status;
     return gvi__finite_end(st, from) ? GVI_OK : gvi__report_status(st, GVI_E_NON_FINITE);
@@ -4025,6 +4076,7 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
         st->formulation = was;
         return st->status = status;
     }
+
     gvi__commit(st, h);                                                                      // 7)
     return gvi__report_status(st, GVI_OK);
 }
@@ -4051,6 +4103,7 @@ GVI__COLD gvi_status gvi__begin_at(gvi_stepper *st, gvi_real t, gvi_real *v)
     struct gvi__private *in = &st->in;
     const size_t n = (size_t)st->n;
     gvi_status status = GVI_OK;
+
     if (!in->started) status = gvi__probe(st, t, in->step.q, v);
     if (status == GVI_OK) status = gvi__place_start(st, t, v);
     if (status != GVI_OK) return status;
@@ -4171,6 +4224,7 @@ GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const 
     in->skip = own.skip;
     in->failed.status = GVI_OK;
     gvi__hand_out(st, own.memory);
+
     // it goes round in two or three, and V with it
     while (in->work.F - in->memory != F) gvi__rotate_values(st);
     return gvi__report_status(st, GVI_OK);
@@ -4211,6 +4265,7 @@ static void gvi__curve_at(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_
                    *weight = by_forces ? in->sized.hb : in->table.b,
                    *rows = by_forces ? in->last.F : in->last.V;
     gvi_real *phi = in->set_up, *Phi = phi + R, *v0 = in->free.v;    // at tau, over Gamma
+
     if (gvi__parts(in) && gvi__place_line(st, tau, q, v)) return;
     if (!gvi__iterates(in)) return;
     gvi__modes(st, tau, phi, Phi);
@@ -4232,6 +4287,7 @@ static void gvi__curve_at(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_
             v[i] += T*L;
         }
     }
+
     if (gvi__parts(in)) gvi__place_held(st, tau, phi, Phi, q, v);
     if (by_forces) {
         gvi__over_mass(st, q, 1, 1);
@@ -4243,6 +4299,7 @@ static void gvi__curve_at(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_
             v[i] += v0[i];
         }
     }
+
     for (int i = 0; i < n; ++i) q[i] = in->began.q[i] + st->h*q[i];
 }
 
@@ -4310,6 +4367,7 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_rea
     const int n = st->n;
     const gvi_real root = GVI_SQRT(GVI__EPS);
     gvi_real *base = st->in.lagrangian.column;
+
     gvi__copy((size_t)n, at->dldv, base);
     for (int j = 0; j < n; ++j) {
         const gvi_real was = v[j], push = GVI_ABS(st->in.sized.h*at->f[j])*root;
@@ -4337,6 +4395,7 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_rea
         }
         for (int i = 0; i < n; ++i) hessian[i*n + j] = (at->dldv[i] - base[i])/d;
     }
+
     gvi__copy((size_t)n, base, at->dldv);
     return GVI_OK;
 }
@@ -4367,6 +4426,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
     gvi_real *W = st->in.lagrangian.hessian, *pivot = W + n*n, *dv = st->in.lagrangian.column + n,
              last = GVI__MAX;
     int at;
+
     x->v = v;
     gvi__count(&st->counters.velocities, 1);
     for (int k = 0, halves = 0; k < 60; ++k) {
@@ -4408,6 +4468,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
         if (miss <= 2*GVI__PLACE*GVI__EPS*(gvi_real)n && (rests || still)) return GVI_OK;
         last = change;
     }
+
     return gvi__report_effect(st, GVI_E_CONVERGENCE, GVI_FAULT_MASS);
 }
 
@@ -4545,6 +4606,7 @@ static gvi_status gvi__lagrangian_verdict(gvi_stepper *st)
         if (moves > most && moves > GVI__SURE*GVI__EPS*GVI_ABS(level))
             return gvi__report_status(st, GVI_E_CONVERGENCE);
     }
+
     return GVI_OK;
 }
 
@@ -4607,6 +4669,7 @@ GVI__BODY int gvi__ldl_factor_lane(int n, int R, gvi_real *m)
     const gvi_real most = 1/((gvi_real)n*GVI__EPS);
     gvi__lane sum = { 0 };
     gvi_real all = 0;
+
     for (size_t j = 0; j < N; ++j) {
         gvi_real *d = m + (j*N + j)*S;
         gvi__lane rest = GVI__LOAD(d);
@@ -4624,6 +4687,7 @@ GVI__BODY int gvi__ldl_factor_lane(int n, int R, gvi_real *m)
             GVI__STORE(a) = rest*inverse;
         }
     }
+
     for (int k = 0; k < GVI__LANES; ++k) all += GVI__ENTRY(sum, k);
     return all < most*most;
 }
@@ -4652,6 +4716,7 @@ static gvi_status gvi__evaluate_mass(gvi_stepper *st, const gvi_points *x, const
     const gvi_mass *mass = &st->in.desc.mass;
     gvi_points at = gvi__points_at(st, x->count, x->stride, x->t, x->q, NULL, NULL);
     gvi_points_fn *callback = mass->velocity;
+
     at.p = p;
     at.velocity = v;
     if (!v) {
@@ -4659,6 +4724,7 @@ static gvi_status gvi__evaluate_mass(gvi_stepper *st, const gvi_points *x, const
         callback = mass->points;
         gvi__zero((size_t)(x->n*x->n)*(size_t)x->stride, at.mass);
     }
+
     gvi__count(&st->counters.mass, x->count);
     const int failed = callback(&at, mass->user);
     if (failed) return gvi__report_callback(st, failed, GVI_FAULT_MASS);
@@ -4672,6 +4738,7 @@ static gvi_status gvi__factor_mass(gvi_stepper *st, const gvi_points *x)
     const int n = st->n, R = x->stride;
     gvi_real *m = st->in.momenta.mass;
     gvi_status status = gvi__evaluate_mass(st, x, NULL, NULL);
+
     if (status != GVI_OK) return status;
     gvi__count(&st->counters.factorizations, x->count);
     if (GVI__LANES > 1 && R % 8 == 0) {
@@ -4686,6 +4753,7 @@ static gvi_status gvi__factor_mass(gvi_stepper *st, const gvi_points *x)
         st->counters.mass -= (unsigned long long)x->count;
         if (status != GVI_OK) return status;
     }
+
     int at[2] = { 0, 0 };
     status = gvi__ldl_factor(n, R, x->count, m, at);
     if (status == GVI_OK) return GVI_OK;
@@ -4818,16 +4886,19 @@ static void gvi__velocity_rows(const gvi_stepper *st)
     const int n = st->n, R = in->R;
     const gvi_real *P = in->momenta.P, *A = gvi__rows_of_A(in);
     gvi_real *V = in->work.V;
+
     if (A) {
         for (int k = 0; k < n*R; ++k) V[k] = P[k] - A[k];
         P = V;
     }
+
     if (GVI__LANES > 1 && R % 8 == 0 && in->momenta.mass) {
         for (int o = 0; o < R; o += GVI__LANES)
             if (n == 2) gvi__ldl_solve_lane(2, R, in->momenta.mass + o, P + o, V + o);
             else gvi__ldl_solve_lane(n, R, in->momenta.mass + o, P + o, V + o);
         return;
     }
+
     if (P != V) gvi__copy((size_t)(n*R), P, V);
     if (!in->momenta.mass) gvi__over_mass(st, V, R, st->r);
     else gvi__ldl_solve(n, in->momenta.mass, R, V, R, st->r);
@@ -4844,11 +4915,13 @@ static gvi_real gvi__velocities_again(gvi_stepper *st)
     const gvi_real *V = in->work.V + st->r - 1;
     gvi_real *was = in->momenta.was, sum = 0;
     // before the first evaluation Q, g and M(Q) are those of another step
+
     if (!in->momenta.has_factor && (clock || in->desc.mass.velocity || in->momenta.mass))
         return 0;
     if (made) gvi__gather(n, R, V, was);
     gvi__count(&st->counters.velocities, st->r);
     const gvi_points at = gvi__points_at(st, st->r, R, in->t, in->work.Q, NULL, NULL);
+
     // where that fails it does so again with the new Q
     if (in->desc.mass.velocity) (void)gvi__evaluate_mass(st, &at, in->momenta.P, in->work.V);
     else gvi__velocity_rows(st);
@@ -4858,6 +4931,7 @@ static gvi_real gvi__velocities_again(gvi_stepper *st)
         const gvi_real moved = V[i*R] - was[i], size = GVI_ABS(V[i*R]) + GVI_ABS(was[i]);
         if (size > GVI__NOTHING) sum += (moved/size)*(moved/size);
     }
+
     return (gvi_real)st->r*sum;
 }
 
@@ -4925,6 +4999,7 @@ static gvi_status gvi__rate(gvi_stepper *st, const gvi_points *x, gvi_real *rate
         if (GVI__LOOKS(st) && !gvi__finite(rate[k]))
             return gvi__report(st, GVI_E_NON_FINITE, st->in.time.effect, GVI_FAULT_NONE, k);
     }
+
     if (!GVI__LOOKS(st)) return GVI_OK;
     return gvi__check_rows(st, x, slope, st->in.time.effect);
 }
@@ -4975,6 +5050,7 @@ static gvi_status gvi__clock_evaluate(gvi_stepper *st, const gvi__origin *from, 
              *L = in->time.lagrangian, *noise = in->time.noise;
     gvi_real *const values[] = { level, NULL, L };         // by kind
     gvi_status status = gvi__effects(st, y, ~forces, NULL);
+
     gvi__zero((size_t)R, power);
     for (int i = 0; i < n; ++i)
         for (int k = 0; k < r; ++k) power[k] += w->F[i*R + k]*w->V[i*R + k];
@@ -4991,10 +5067,12 @@ static gvi_status gvi__clock_evaluate(gvi_stepper *st, const gvi__origin *from, 
         level[k] -= L[k] + E;
         power[k] *= g[k];
     }
+
     if (forces & ~in->off) {
         gvi__time_sums(st, power, L);
         for (int k = 0; k < R; ++k) level[k] -= L[k];
     }
+
     for (int i = 0; i < n; ++i)
         for (int k = 0; k < R; ++k) {
             const int at = i*R + k;
@@ -5018,6 +5096,7 @@ static gvi_status gvi__clock_evaluate(gvi_stepper *st, const gvi__origin *from, 
             F[k] -= slope[k]*gvi__sure_level(level[k], none, slope[k], largest);
         }
     }
+
     gvi__time_sums(st, g, L);
     for (int k = 0; k < R; ++k) in->t[k] = from->t + (from->t_low + L[k]);
     return GVI_OK;
@@ -5047,6 +5126,7 @@ GVI__COLD gvi_status gvi__clock_energy(gvi_stepper *st, gvi_real t, const gvi_re
         if (gvi__value(st, &at, e, &then) == GVI_OK && gvi__nonzero(then - now))
             return gvi__report_effect(st, GVI_E_FORMULATION, e);
     }
+
     return gvi__report_status(st, GVI_OK);
 }
 
@@ -5091,6 +5171,7 @@ GVI__COLD gvi_status gvi__clock_switch(gvi_stepper *st, unsigned was)
         in->off = was;
         return status;
     }
+
     in->time.H = E;
     in->time.H_low = 0;
     in->time.began = E0;
@@ -5211,11 +5292,13 @@ GVI__BODY void gvi__drift(gvi_stepper *st, const gvi__origin *from, const gvi_re
     gvi_real *GVI__RESTRICT F = in->work.F, *GVI__RESTRICT Q = in->work.Q;
     gvi_real *GVI__RESTRICT dp = in->step.p, *GVI__RESTRICT dq = in->step.q, *z = in->answer;
     const gvi_real *p0 = dp, *q0 = dq, *f = F;
+
     if (first) {
         p0 = from->p_low;
         q0 = from->q_low;
         f = first;
     }
+
     const int n = st->n;
     if (in->desc.mass.kind == GVI_MASS_DENSE) {
         for (int i = 0; i < n; ++i) z[i] = dp[i] = p0[i] + b*f[i];
@@ -5227,6 +5310,7 @@ GVI__BODY void gvi__drift(gvi_stepper *st, const gvi__origin *from, const gvi_re
         }
         return;
     }
+
     GVI__ALONG(n,
         const gvi__number p = GVI__AT(p0) + b*GVI__AT(f), none = { 0 };
         const gvi__number d = GVI__AT(q0) + a*(GVI__AT(v) + p*GVI__AT(m));
@@ -5250,6 +5334,7 @@ static gvi_status gvi__kick(gvi_stepper *st, const gvi__origin *from, gvi_real h
     struct gvi__private *in = &st->in;
     const int n = st->n, r = st->r, known = force && gvi__nonzero(in->sized.hb[0]);
     const gvi_real *hb = in->sized.hb, *v = in->free.v;
+
     if (in->desc.mass.kind == GVI_MASS_UNIT) v = from->p;
     gvi_real t = from->t, b = 0;
     gvi_points at = gvi__points_at(st, 1, 1, &t, in->work.Q, in->work.F, NULL);
@@ -5257,6 +5342,7 @@ static gvi_status gvi__kick(gvi_stepper *st, const gvi__origin *from, gvi_real h
         gvi__copy((size_t)n, from->p, in->free.v);
         gvi__over_mass(st, in->free.v, 1, 1);
     }
+
     if (known) b = hb[0];
     for (int j = known; j < r; ++j) {
         if (j == known) gvi__drift(st, from, v, known ? force : in->zeros, b, in->kicks.drift[j]);
@@ -5324,6 +5410,7 @@ static int gvi__kick_steps(gvi_stepper *st, gvi_real h, int count)
     const gvi__origin from = { 0, 0, st->q, st->q_low, st->p, st->p_low };
     gvi_real t0 = st->t0;
     int made = 0;
+
     if (in->apart) return 0;                       // constraints
     gvi__weights_for(st, h);
     gvi__drifts_for(st, h);
@@ -5342,6 +5429,7 @@ static int gvi__kick_steps(gvi_stepper *st, gvi_real h, int count)
         st->t = t.hi;
         st->t_low = t.lo;
     }
+
     if (made == 0) return 0;
     st->t0 = t0;
     st->h = in->dt = h;
@@ -5465,6 +5553,7 @@ static gvi_status gvi__newton_values(gvi_stepper *st, const gvi__origin *from)
         }
         for (int j = 0; j < R; ++j) Q[j] = from->q[i] + (from->q_low[i] + in->sized.h*Q[j]);
     }
+
     gvi__count(&st->counters.velocities, st->r);
     gvi_points at = gvi__points_at(st, st->r, R, in->t, in->work.Q, in->work.F, in->newton.P);
     at.v = in->work.V;
@@ -5483,6 +5572,7 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, 
               held = gvi__held(st) > 0;
     const gvi_real h = in->sized.h;
     gvi_real norm = 0, moved = 0, before = 0;
+
     p->work = 0;
     for (int i = 0; i < n; ++i) {
         const gvi_real *P = in->newton.P + i*R, *F = in->work.F + i*R;
@@ -5514,6 +5604,7 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, 
         moved += change*in->watch.scale[i];
         before += was*in->watch.scale[i];
     }
+
     if (held) norm += gvi__held_residual(st, p, &moved, &before);
     p->holds = p->work <= GVI__SOLVED*GVI__EPS || (!first && moved >= before/2);
     return norm;
@@ -5528,11 +5619,13 @@ static void gvi__add_derivative(const gvi_stepper *st, const gvi__matrix *J, int
     const size_t size = gvi__unknowns(st, k0);
     const gvi_real *phi = in->table.phi + point, *Phi = in->table.Phi + point, *u = phi;
     gvi_real unit = 1;
+
     if (f <= 0 && f >= 0 && p <= 0 && p >= 0) return;
     if (!by_v) {
         u = Phi;
         unit = in->sized.h;
     }
+
     for (int k = k0; k < s; ++k) {
         const gvi_real W = (k == 0 ? 1 : 0) - Phi[k*R];
         const gvi_real a = (gvi_real)(2*k + 1)
@@ -5563,6 +5656,7 @@ static gvi_status gvi__jacobian_exact(gvi_stepper *st, const gvi__matrix *J)
     const int n = st->n, R = in->R;
     const size_t nn = (size_t)n*(size_t)n;
     gvi_real *fq = in->newton.hessian, *fv = fq + nn, *pv = fv + nn, *q = in->point, *v = q + n;
+
     for (int k = 0; k < st->r; ++k) {
         gvi__gather(n, R, in->work.Q + k, q);
         gvi__gather(n, R, in->work.V + k, v);
@@ -5591,6 +5685,7 @@ static gvi_status gvi__jacobian_exact(gvi_stepper *st, const gvi__matrix *J)
                 }
         }
     }
+
     return GVI_OK;
 }
 
@@ -5647,9 +5742,11 @@ static gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matrix *
     const unsigned plain = gvi__with_hessian(in, 0);
     const int reads_v = varies || (plain & ~gvi__of_kind(in, GVI_POTENTIAL)) != 0;
     gvi_real *F = in->newton.moved, *P = F + nR, *base_F = P + nR, *base_P = base_F + nR;
+
     if (!varies && !plain) return GVI_OK;
     gvi_status status = gvi__evaluate_plain(st, base_F);
     if (status != GVI_OK) return status;
+
     // of each coordinate q, then v
     for (int k = 0; k < 2*n; k += 2 - reads_v) {
         const int j = k/2, by_v = k % 2;
@@ -5667,6 +5764,7 @@ static gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matrix *
         gvi__copy((size_t)R, was, row);
         if (status != GVI_OK) return status;
     }
+
     return GVI_OK;
 }
 
@@ -5700,6 +5798,7 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J)
     const int n = st->n, size = (int)gvi__unknowns(st, J->k0), modes = (st->s - J->k0)*n;
     int at;
     gvi_status status = gvi__jacobian_fill(st, J);
+
     if (status != GVI_OK) return status;
     for (int row = 0; row < J->scaled*size; ++row) {
         gvi_real *a = J->square + (size_t)row*(size_t)size,
@@ -5712,6 +5811,7 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J)
         for (int j = 0; j < size; ++j) a[j] /= big;
         for (int j = 0; j < 2*n; ++j) ends[j] /= big;
     }
+
     // columns of multipliers that would hide the modes': in units that make them as large
     for (int z = modes; z < size; ++z) {
         gvi_real column = 0, diagonal = 0;
@@ -5725,6 +5825,7 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J)
         for (int i = 0; i < size; ++i)
             J->square[(size_t)i*(size_t)size + (size_t)z] *= J->unit[z - modes];
     }
+
     status = gvi__lu_factor(size, J->square, J->pivot, &at);
     gvi__count(&st->counters.factorizations, 1);
     if (status == GVI_OK) return GVI_OK;
@@ -5773,6 +5874,7 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
               sure = p->holds || p->rho < GVI__CONTRACTS;
     const gvi_real h = GVI_ABS(in->sized.h), none = GVI__MIN/GVI__EPS;
     gvi_real sum = 0, largest = 0, noise = 0, all = 0, length = 0;
+
     p->work = 0;
     for (int i = 0; i < n; ++i) {
         gvi_real change = 0, size = 0, miss = 0;
@@ -5798,10 +5900,12 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
         const gvi_real moved = change/unit > miss*unit ? change/unit : miss*unit;
         if (!(h*change <= GVI__PLACE*GVI__EPS*q) && h*moved > noise) noise = h*moved;
     }
+
     for (size_t k = (size_t)(st->s*n); k < gvi__unknowns(st, 0); ++k) {   // multipliers
         in->newton.last[k] = in->newton.y[k];
         in->newton.y[k] += in->newton.dy[k];
     }
+
     // see gvi__noise
     const gvi_real place = p->stagnant > 1 ? GVI__NOISE*GVI__EPS*largest : 0;
     if ((noise <= place && sure) || solved) p->work = -1;
@@ -5858,6 +5962,7 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__des
                    noise = GVI__GRAIN*p->grain*(gvi_real)((st->s - J->k0)*st->n),
                    enough = gvi__larger(st->in.desc.tolerance, GVI__NEWTON_ENOUGH);
     gvi_real ratio = 1, other = 1;
+
     if (!gvi__finite(change)) return GVI__NOT_FINITE;
     if (p->before > 0) ratio = change/gvi__smaller(p->before, all);
     if (p->earlier > 0) other = p->before/gvi__smaller(p->earlier, all);
@@ -5896,12 +6001,14 @@ static int gvi__newton_stays(gvi_stepper *st, const gvi__matrix *J, gvi__descent
         gvi__count(&st->counters.newton_iterations, 1);
         return 0;
     }
+
     if (p->halves > 0) p->have = 0;                // another place: another matrix
     if (rests && norm/16 > p->norm) {
         p->before = 0;
         p->least = p->left = GVI__MAX;
         p->rho = GVI__CONTRACTS;
     }
+
     if (!(p->left < GVI__MAX)) p->norm = norm;
     return 1;
 }
@@ -5915,6 +6022,7 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
               kept = J->pivot == in->newton.pivot;
     gvi__descent p = {
         0, 0, GVI__MAX, GVI__CONTRACTS, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0, -1, 0
+
     };
     p.have = kept && !gvi__nonzero(in->newton.h - in->sized.h);
     in->newton.bend = 0;
@@ -5945,6 +6053,7 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
             return gvi__report_status(st, GVI__LOOKS(st) ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE);
         p.halves = 0;
     }
+
     return gvi__report_status(st, GVI_E_CONVERGENCE);
 }
 
@@ -5993,6 +6102,7 @@ static gvi_real gvi__newton_apart(const gvi_stepper *st, const gvi_real *other)
         }
         most = gvi__larger(size[i], most);
     }
+
     if (!(most > 0)) return 0;
     for (int i = 0; i < st->n; ++i)
         if (!(moved[i]/(size[i] + most/64) <= apart)) apart = moved[i]/(size[i] + most/64);
@@ -6017,6 +6127,7 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
     // that of queries
     gvi__matrix K = { newton->J + all*all, newton->pivot + all + 1, NULL, 0, 0, 0,
                       newton->unit };
+
     if (K.unit) K.unit += all - modes;
     gvi_real part = 1, factor = (gvi_real)0.5;
     int right = -1;                                                  // not known
@@ -6050,6 +6161,7 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
         if ((other && newton->bend <= close) || part < 1/(gvi_real)GVI__SHORT)
             right = !other || gvi__newton_apart(st, newton->branch) <= close;
     }
+
     gvi__newton_points(st, from, h);
     gvi__copy(all, newton->found, newton->y);
     return right ? gvi__newton_values(st, from) : gvi__report_status(st, GVI_E_CONVERGENCE);
@@ -6067,7 +6179,9 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
     gvi__matrix J = { in->newton.J + (query ? all*all : 0),
                       in->newton.pivot + (query ? all + 1 : 0),
                       NULL, 0, 0, how == GVI__HALVED, in->newton.unit };
+
     if (query && J.unit) J.unit += all - (size_t)(st->s*st->n);
+
     // few points see little of what is between
     const gvi_real far = st->s > 2 ? GVI__CONTRACTS : GVI__LINEAR;
     int old = !query && !gvi__nonzero(in->newton.h - in->sized.h);
@@ -6083,13 +6197,16 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
         in->newton.h = 0;                          // that may be the old matrix's fault
         old = 0;
     }
+
     if (status == GVI_OK
         && (J.halves || in->newton.bend > far || gvi__orientation(&J, all) < 0)) {
         J.halves = 0;
         status = gvi__newton_connected(st, from, &J);
     }
+
     if (status == GVI_OK && gvi__held(st) > 0) status = gvi__held_end(st);
     if (status != GVI_OK) return status;
+
     // it made none to go on from
     if (gvi__rows_of_A(in)) gvi__zero((size_t)(st->n*in->R), gvi__rows_of_A(in));
     for (int i = 0; i < st->n; ++i) {
@@ -6097,6 +6214,7 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
         in->step.q[i] = q.hi;
         in->step.q_low[i] = gvi__low(q.lo + from->q_low[i]);
     }
+
     gvi__sum_rows(st, in->work.F, from->p_low, in->step.p, in->step.p_low);
     if (gvi__held(st) > 0) gvi__held_impulse(st);
     return GVI_OK;
@@ -6121,12 +6239,14 @@ GVI__COLD void gvi__newton_layout(struct gvi__private *in, int held, gvi__arena 
     gvi_real **const unknowns[] = {
         &newton->y, &newton->dy, &newton->residual, &newton->last,
         &newton->found, &newton->branch, &newton->guess, &newton->slope
+
     };
     if (in->stages == 1) {                        // V, from the modes
         in->work.V = gvi__take(a, n, R);
         in->last.V = gvi__take(a, n, R);
         in->older.V = gvi__take(a, (in->desc.rule.points < 10 && GVI__DIG > 24)*n, R);
     }
+
     newton->P = gvi__take(a, n, R);
     newton->moved = gvi__take(a, 4*n, R);
     newton->hessian = gvi__take(a, 3*n, n);
@@ -6144,6 +6264,7 @@ static gvi_status gvi__by_newton(gvi_stepper *st, const gvi__origin *from, gvi_r
     const unsigned count = (unsigned)st->counters.newton_iterations;
     const int usable = in->kept > 0 && h/st->h > -GVI__BACK && h/st->h < GVI__AHEAD,
               extrapolated = usable && in->has_velocity;
+
     st->formulation = GVI_NEWTON;
     gvi__newton_points(st, from, h);
     if (usable) gvi__prepare_predictor(st, h, query, 1);
@@ -6155,6 +6276,7 @@ static gvi_status gvi__by_newton(gvi_stepper *st, const gvi__origin *from, gvi_r
         if (!query) in->newton.h = 0;              // the extrapolation may be to blame
         status = gvi__newton_step(st, from, GVI__HALVED, query);
     }
+
     in->watch.found = in->watch.ratio;
     if (!query) st->iterations += (int)((unsigned)st->counters.newton_iterations - count);
     return status;
@@ -6325,6 +6447,7 @@ static gvi_status gvi__evaluate_constraints(gvi_stepper *st, int S, int count, c
         at.rate += effect->rows*S;
         at.jacobian += effect->rows*st->n*S;
     }
+
     return GVI_OK;
 }
 
@@ -6357,6 +6480,7 @@ static int gvi__find_columns(gvi_stepper *st, int S, int count, const gvi_real *
     const int n = st->n, m = in->con.m;
     gvi_real *const top = in->point;
     int grown = 0;
+
     for (int a = 0; a < m; ++a) {
         gvi_real *column = in->con.column + a*(n + 1);
         const gvi_real *row = G + (size_t)(a*n)*(size_t)S;
@@ -6367,6 +6491,7 @@ static int gvi__find_columns(gvi_stepper *st, int S, int count, const gvi_real *
             grown = 1;
         }
     }
+
     if (!grown) return 0;
     for (int i = 0; i < n; ++i) top[i] = (gvi_real)m;
     for (int a = 0; a < m; ++a) {
@@ -6377,6 +6502,7 @@ static int gvi__find_columns(gvi_stepper *st, int S, int count, const gvi_real *
         }
         in->con.first[a] = first;
     }
+
     return 1;
 }
 
@@ -6413,6 +6539,7 @@ static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, con
     const int n = st->n, m = in->con.m, full = gvi__full_mass(in);
     const gvi_real *first = in->con.first, least = GVI__GRAIN*(gvi_real)m*GVI__EPS;
     gvi_real *W = in->con.W;
+
     gvi__zero((size_t)(n*S), W);
     for (int i = 0; i < m; ++i) {
         const int from = (int)first[i];
@@ -6455,6 +6582,7 @@ static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, con
                 return gvi__report_row(st, GVI_E_SINGULAR, i, k);
         }
     }
+
     return GVI_OK;
 }
 
@@ -6540,6 +6668,7 @@ GVI__CALLED void gvi__constraint_stages(gvi_stepper *st, const gvi__origin *from
         gvi__zero((size_t)n, y->change);
         gvi__zero((size_t)n, in->watch.before + !Q*n);
     }
+
     for (int i = 0; i < n; ++i)                   // the path is in V, where Q is made of that
         gvi__free_row(R, from->q_low[i], Q ? 0 : in->free.path[i], Q ? 0 : in->free.path_low[i],
                       in->con.d + 1, in->con.free + i*R);
@@ -6603,6 +6732,7 @@ static gvi_status gvi__evaluate_at_D(gvi_stepper *st, const gvi__origin *from)
     const int linear = in->con.linear, rows = st->formulation != GVI_NEWTON ? m : 0;
     const gvi_real *G = in->con.G + 1, *moved = in->con.W;
     gvi_real *along = in->con.rho + m*R;
+
     for (int i = 0; i < n; ++i)
         for (int k = 0; k < C; ++k) {
             gvi_real *at = in->con.at + i*C + k;
@@ -6616,6 +6746,7 @@ static gvi_status gvi__evaluate_at_D(gvi_stepper *st, const gvi__origin *from)
             gvi__subtract_at(C, s, G + (a*n + i)*C, moved + i*C, along + a*C);
         for (int k = 0; k < s; ++k) in->con.rho[a*R + k] = in->con.g[a*C + k + 1] + along[a*C + k];
     }
+
     const gvi_status status =
         gvi__evaluate_constraints(st, C, s + 1, in->con.t, in->con.at, in->con.G);
     if (!in->con.settled && gvi__find_columns(st, C, s + 1, in->con.G)) in->con.made = 0;
@@ -6632,6 +6763,7 @@ static gvi_status gvi__evaluate_at_D(gvi_stepper *st, const gvi__origin *from)
         }
         if (linear) gvi__copy((size_t)s, in->con.rho + a*R, in->con.g + a*C + 1);
     }
+
     in->con.made += 1;
     return status == GVI_OK && gvi__rolls(st) ? gvi__rolling_values(st) : status;
 }
@@ -6652,6 +6784,7 @@ static void gvi__trial_velocities(gvi_stepper *st, const gvi__stage *stage)
     struct gvi__private *in = &st->in;
     const int n = st->n, R = in->R;
     gvi_real *const P = in->momenta.P, *trial = in->con.P, *scratch = in->con.plus;
+
     gvi__weighted_sums(st, stage->table, in->sized.hb, stage->source, scratch, trial, 0);
     gvi__weighted_sums(st, in->con.U, in->con.hw, in->con.force, scratch, trial, 1);
     for (int i = 0; i < n; ++i)
@@ -6670,6 +6803,7 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *stage, const 
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m, s = st->s, R = in->R, C = in->con.C;
     gvi_real *lambda = in->con.force + n*R, *rho = in->con.rho, *moved = in->con.W;
+
     gvi__constraint_forces(st);
     if (in->con.Q > 0) gvi__trial_velocities(st, stage);
     gvi__constraint_rows(st, stage);
@@ -6678,6 +6812,7 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *stage, const 
         const gvi_real *at = in->con.at + i*C + 1, *D = in->con.D + i*R;
         for (int e = 0; e < s; ++e) z[e] = (at[e] - q0[i]) - D[e];
     }
+
     gvi__zero((size_t)(m*R), rho);
     for (int a = 0; a < m; ++a) {
         gvi_real *g = rho + m*R + a*C;             // gvi__constraints_moved reads it
@@ -6686,6 +6821,7 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *stage, const 
             gvi__subtract_at(C, s, in->con.G + (a*n + i)*C + 1, moved + i*C, g);
         for (int b = 0; b < s; ++b) gvi__subtract_row((size_t)R, -g[b], in->con.X + b*R, rho + a*R);
     }
+
     gvi__solve_constraints(st, in->con.gram, C, s, rho, R);
     for (int a = 0; a < m; ++a)
         for (int e = 0; e < s; ++e) lambda[a*R + e] += rho[a*R + e]/(in->sized.h*in->con.hw[e]);
@@ -6907,6 +7043,7 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
     gvi_real *g = in->con.g, *was = in->con.rho, *doubt = was + m, *ahead = in->con.y,
              *d = in->con.W, *next = d + n, *G = in->con.G1;
     int off = -1, refused = -1;
+
     for (int a = 0; a < m; ++a) {
         const gvi_real rounding = GVI__EPS*gvi__terms(st, 1, t, q, G, g + m, a);
         was[a] = g[a];
@@ -6915,6 +7052,7 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
         if (doubt[a] > 0) off = a;
         if (doubt[a] > 0 && in->con.drops[m + a] > 0) refused = a;
     }
+
     if (off < 0) return GVI_OK;
     gvi__solve_constraints(st, in->con.gram1, 1, 1, ahead, 1);
     gvi__zero((size_t)n, d);
@@ -6938,6 +7076,7 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
             ahead[a] = (gvi_real)follows;
         }
     }
+
     return refused < 0 ? gvi__constraints_at(st, t, q, p, v, in->con.drops + m)
                        : gvi__report_row(st, GVI_E_CONSTRAINT, refused, GVI_FAULT_NONE);
 }
@@ -6969,12 +7108,14 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
     gvi_real *q = in->answer, *p = q + n, *v = p + n, *r = in->con.g, *z = in->con.rho,
              *drops = in->con.drops + m, energy = 0, size = 0, before = GVI__MAX;
     int redundant = 0;
+
     for (int i = 0; i < n; ++i) {
         // rounded as the commit will: A v is to be 0 there
         const gvi__two end = gvi__add_low(from->q[i], 0, in->step.q[i], in->step.q_low[i]);
         q[i] = end.hi + end.lo;
         p[i] = from->p[i] + (in->step.p[i] + in->step.p_low[i]);
     }
+
     gvi__velocity_guess(st, v);
     if (start) GVI__LOOK(st, 1);
     gvi_status status = gvi__constraints_at(st, t, q, p, v, drops);
@@ -6984,6 +7125,7 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
         if (!start && status == GVI_OK && (drops[a] > 0) != (in->con.drops[a] > 0))
             status = gvi__report_row(st, GVI_E_SINGULAR, a, GVI_FAULT_NONE);
     }
+
     if (!start && status == GVI_OK) status = gvi__check_rank(st, 1);
     if ((start || redundant) && status == GVI_OK) status = gvi__fulfilled(st, t, q, p, v);
     if (status != GVI_OK) return status;
@@ -7014,8 +7156,10 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
         if (pass > 0 && !(size < before/4)) break;
         before = size;
     }
+
     if (passes > 2 && !(size <= far*far*energy))
         return gvi__report_status(st, GVI_E_CONVERGENCE);
+
     // rows that are left out had no part in this; later their g shows what is wrong
     if (!start) return GVI_OK;
     for (int a = 0; a < m; ++a)
@@ -7058,6 +7202,7 @@ GVI__COLD gvi_status gvi__check_derivatives(gvi_stepper *st, gvi_real t, const g
     gvi_real *g = in->con.g, *G = in->con.G1, *at = in->con.W, *from = at + n, *was = in->con.rho,
              *rate = was + m, *mean = rate + m, *ahead = in->con.y, largest = 0, from_t = t;
     gvi_status status = GVI_OK;
+
     for (int i = 0; i < n; ++i) largest = gvi__larger(GVI_ABS(q[i]), largest);
     for (gvi_real part = 1/(gvi_real)64; ; part = 0) {           // at the state, if not next to it
         from_t = t + part*gvi__size_of(t, 1);
@@ -7066,6 +7211,7 @@ GVI__COLD gvi_status gvi__check_derivatives(gvi_stepper *st, gvi_real t, const g
         status = gvi__evaluate_constraints(st, 1, 1, &from_t, from, G);
         if (!(part > 0) || (status == GVI_OK && gvi__first_non_finite(m, g) < 0)) break;
     }
+
     (void)gvi__find_columns(st, 1, 1, G);
     gvi__copy((size_t)m, g, was);
     gvi__copy((size_t)m, g + m, rate);
@@ -7111,6 +7257,7 @@ GVI__COLD gvi_status gvi__check_derivatives(gvi_stepper *st, gvi_real t, const g
         *moved = x;
         status = GVI_OK;
     }
+
     st->counters = counters;
     gvi__forget_columns(st);
     return gvi__report_status(st, GVI_OK);
@@ -7123,6 +7270,7 @@ GVI__COLD gvi_status gvi__project_start(gvi_stepper *st, gvi_real t, const gvi_r
     struct gvi__private *in = &st->in;
     const gvi__origin from = { t, 0, in->zeros, in->zeros, in->zeros, in->zeros };
     const size_t n = (size_t)st->n;
+
     if (q != in->step.q) gvi__copy(n, q, in->step.q);
     if (p != in->step.p) gvi__copy(n, p, in->step.p);
     gvi__zero(n, in->step.q_low);
@@ -7132,6 +7280,7 @@ GVI__COLD gvi_status gvi__project_start(gvi_stepper *st, gvi_real t, const gvi_r
         const gvi_status status = gvi__check_derivatives(st, t, in->step.q);
         if (status != GVI_OK) return status;
     }
+
     const gvi_status status = gvi__project(st, &from, 1);
     if (status == GVI_OK) in->con.checked |= gvi__constraints_on(st);
     return status;
@@ -7201,6 +7350,7 @@ GVI__COLD gvi_status gvi__set_constraints(gvi_stepper *st)
     const struct gvi__private *in = &st->in;
     const int s = st->s, r = st->r, R = in->R, Q = in->con.Q;
     gvi_real *d = in->con.d, *low = in->stages > 0 ? in->set_up : NULL, *lu = in->con.lu;
+
     gvi__rule(1, s + 1, d, low, in->con.w);
     if (in->stages == 0) return GVI_OK;
     gvi__modes_of(st, s, d + 1, low + 1, NULL, NULL, in->con.Phi, in->con.Phi_low);
@@ -7221,11 +7371,13 @@ GVI__COLD gvi_status gvi__set_constraints(gvi_stepper *st)
             if (a < s && e > 0) in->con.by_impulse[a*R + e - 1] = lu[(e - 1)*s + a] = d[e] - S;
         }
     }
+
     if (gvi_lu_factor(s, lu, lu + s*s) != GVI_OK) return GVI_E_POINTS;
     for (int a = 0; a < s; ++a) {
         in->con.X[a*R + a] = 1;
         gvi_lu_solve(s, lu, lu + s*s, in->con.X + a*R);
     }
+
     return GVI_OK;
 }
 
@@ -7253,6 +7405,7 @@ GVI__COLD void gvi__layout_constraints(struct gvi__private *in, gvi__arena *a)
         { &con->y, on, m },
         { &con->G1, 2*m, n }, { &con->gram1, m, m }, { &con->column, m, n + 1 },
         { &con->first, on, m }, { &con->drops, 2*on, m }
+
     };
     con->C = (int)C;
     con->Q = in->chosen == GVI_MOMENTA;
@@ -7288,6 +7441,7 @@ GVI__COLD gvi_status gvi__constraint_switch(gvi_stepper *st, unsigned was)
         gvi__forget_columns(st);
         return status;
     }
+
     in->con.kept = in->con.kept > 0;
     in->predictor.ratio = 0;
     return GVI_OK;
@@ -7325,6 +7479,7 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
         st->fault.argument = "gvi_multipliers: no constraint is in the scene";
         return gvi__done(st, GVI_E_FORMULATION);
     }
+
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
     gvi_real *q = in->answer, *p = q + n, *u = p + n, *v = in->con.W, *force = v + n;
@@ -7375,6 +7530,7 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
         gvi__add_scaled(m, 1, z, sum, sum);
         if (size < least) least = size, gvi__copy((size_t)m, sum, best);
     }
+
     if (status == GVI_OK && m > 0 && !(least < GVI__MAX))
         status = trial != GVI_OK ? trial : gvi__report_status(st, GVI_E_NON_FINITE);
     if (status != GVI_OK) return gvi__done(st, status);
@@ -7447,6 +7603,7 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
         }
         if (change > before && share > (gvi_real)0.02) share /= 2;
     }
+
     GVI__LOOK(st, 0);
     const int passes = 2*(status == GVI_OK);
     for (int pass = 0; pass < passes; ++pass) {
@@ -7466,6 +7623,7 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
             if (GVI_ABS(u[i]) <= GVI__SOLVED*GVI__EPS*GVI_ABS(next[i])) u[i] = 0;
         }
     }
+
     gvi__forget_columns(st);
     if (status == GVI_E_CONVERGENCE)
         st->fault.argument = "gvi_project: no state on the constraints found, too far off";
@@ -7487,8 +7645,8 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
      psi_a = h sum_j b_j T(c_j, d_a) (A(Q_j) V_j + a(t_j, Q_j))                a = 1..s
 
    and the step ends on A v + a = 0.  Order 2s, as measured (tests/test_rolling.c).  The map is
-   reversible, but not symplectic.  Unlike g(D), psi has rounding of the size of h V alone, so V or P
-   is judged as in free motion; and psi is never linearised, since it turns with all of Q.       */
+   reversible, but not symplectic.  Unlike g(D), psi has rounding of the size of h V alone, so V or
+   P is judged as in free motion; and psi is never linearised, since it turns with all of Q.     */
 
 // there is no g that its rows could be the derivatives of
 GVI__COLD void gvi__rolling_effect(struct gvi__private *in, int e)
@@ -7504,6 +7662,7 @@ static gvi_status gvi__roll(gvi_stepper *st, gvi_points *at, int e, int a)
     const gvi_effect *effect = in->desc.effects + e;
     const int n = st->n, s = st->s, R = in->R, C = in->con.C,
               rounded = st->formulation != GVI_NEWTON ? n : 0;
+
     gvi__count(&st->counters.effect[e], st->r);
     const int failed = effect->points(at, effect->user);
     if (failed) return gvi__report_callback(st, failed, e);
@@ -7523,6 +7682,7 @@ static gvi_status gvi__roll(gvi_stepper *st, gvi_points *at, int e, int a)
             gvi__subtract_row((size_t)s, -in->sized.hb[j]*slip, in->rolling.T + j*R, psi);
         }
     }
+
     at->g += effect->rows*R;
     at->rate += effect->rows*R;
     at->jacobian += effect->rows*n*R;
@@ -7535,6 +7695,7 @@ GVI__CALLED gvi_status gvi__rolling_values(gvi_stepper *st)
     const int R = in->R, m = gvi__count_rows(in, in->rolling.bits & ~in->off);
     gvi_points at = gvi__points_at(st, st->r, R, in->t, in->work.Q, NULL, NULL);
     gvi_status status = GVI_OK;
+
     at.jacobian = in->rolling.A;
     at.g = in->rolling.a;
     at.rate = at.g + m*R;
@@ -7545,6 +7706,7 @@ GVI__CALLED gvi_status gvi__rolling_values(gvi_stepper *st)
         if (in->rolling.bits >> e & 1u) status = gvi__roll(st, &at, e, a);
         a += in->desc.effects[e].rows;
     }
+
     return status;
 }
 
@@ -7618,6 +7780,7 @@ static gvi_real gvi__held_residual(gvi_stepper *st, gvi__descent *p, gvi_real *m
     const struct gvi__private *in = &st->in;
     const int n = st->n, C = in->con.C;
     gvi_real norm = 0;
+
     for (int k = 0; k < st->s*in->con.m; ++k) {
         const int a = k % in->con.m, e = k/in->con.m + 1;
         const gvi_real now = in->con.g[a*C + e];
@@ -7638,6 +7801,7 @@ static gvi_real gvi__held_residual(gvi_stepper *st, gvi__descent *p, gvi_real *m
         in->newton.dy[st->s*n + k] = *rest = now;
         if (size > 0 && GVI_ABS(now)/size > p->work) p->work = GVI_ABS(now)/size;
     }
+
     return norm;
 }
 
@@ -7651,6 +7815,7 @@ GVI__CALLED gvi_status gvi__held_matrix(gvi_stepper *st, const gvi__matrix *J)
     gvi_real *force = in->con.force, *base = in->con.free, *at = in->con.at, *was = in->set_up;
     const size_t size = gvi__unknowns(st, 0), sn = (size_t)(s*n);
     gvi_status status = GVI_OK;
+
     for (int l = 0; l < s*m; ++l) {
         const int a = l % m, e = l/m;
         const size_t z = sn + (size_t)l;
@@ -7667,6 +7832,7 @@ GVI__CALLED gvi_status gvi__held_matrix(gvi_stepper *st, const gvi__matrix *J)
                 J->square[z*size + y] = -h*Phi[k*R + e]*G[1];
             }
     }
+
     gvi__copy((size_t)(n*R), force, base);
     for (int j = 0; j < moves && status == GVI_OK; ++j) {
         gvi_real *row = at + j*C, d = gvi__difference(st, j, 0);
@@ -7686,6 +7852,7 @@ GVI__CALLED gvi_status gvi__held_matrix(gvi_stepper *st, const gvi__matrix *J)
             }
         gvi__copy((size_t)C, was, row);
     }
+
     if (status == GVI_OK) status = gvi__evaluate_constraints(st, C, s + 1, t, at, in->con.G);
     gvi__constraint_forces(st);
     return status;
@@ -7722,6 +7889,7 @@ GVI__CALLED gvi_status gvi__held_end(gvi_stepper *st)
     gvi_real *c = in->con.y, *now = in->answer, *next = now + n;
     const gvi_points at = gvi__points_at(st, st->r, in->R, in->t, in->work.Q, NULL, NULL);
     gvi_status status = GVI_OK;
+
     if (in->desc.mass.kind == GVI_MASS_POSITION) status = gvi__factor_mass(st, &at);
     if (status == GVI_OK)
         status = gvi__factor_constraints(st, C, st->s, in->con.G, in->con.gram, in->con.drops);
@@ -7748,6 +7916,7 @@ GVI__CALLED gvi_status gvi__held_end(gvi_stepper *st)
         if (GVI__LOST*GVI__LOST*part < all && !goes_on)
             return gvi__report_row(st, GVI_E_SINGULAR, j, e);
     }
+
     return GVI_OK;
 }
 
@@ -7775,11 +7944,13 @@ GVI__COLD gvi_status gvi__make_gamma(gvi_stepper *st)
     const struct gvi__tables *table = &st->in.table;
     const int s = st->s, r = st->r, R = st->in.R;
     gvi_real *gamma = st->in.rules.gamma;
+
     if (st->order == 2*s - 2) {
         const gvi_real *last = table->phi + (s - 1)*R, sum = gvi__dot3(r, table->b, last, last);
         if (!(GVI_ABS(sum) > GVI_SQRT(GVI__EPS))) return GVI_E_POINTS;
         table->inv_gamma[s - 1] = 1/sum;
     }
+
     if (!gamma) return GVI_OK;
     for (int k = 0; k < s; ++k)
         for (int l = 0; l < s; ++l)
@@ -7823,6 +7994,7 @@ static gvi_status gvi__partial_step(gvi_stepper *st, const gvi__origin *from, in
         if (!gvi__nonzero(next) || GVI_ABS(next - h) <= GVI__EPS*GVI_ABS(st->h)) return GVI_OK;
         h = next;
     }
+
     return gvi__report_status(st, GVI_E_CONVERGENCE);
 #endif
 }
@@ -7859,6 +8031,7 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
         h = 0;
         if (gvi__nonzero(back)) h = back - st->t_low;
     }
+
     const gvi_formulation was = st->formulation;
     if (GVI_ABS(h) > GVI__EPS*(GVI_ABS(ahead) + GVI_ABS(back)))
         status = gvi__partial_step(st, &from, query, h);
@@ -7868,6 +8041,7 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
         gvi__zero(n, in->step.q_low);
         gvi__zero(n, in->step.p_low);
     }
+
     st->formulation = was;
     if (status != GVI_OK) return gvi__done(st, status);
     gvi_real *Q = in->answer, *P = Q + n, *V = P + n;
@@ -7875,6 +8049,7 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
         Q[i] = from.q[i] + (in->step.q[i] + in->step.q_low[i]);
         P[i] = from.p[i] + (in->step.p[i] + in->step.p_low[i]);
     }
+
     gvi__velocity_guess(st, V);
     if (v) status = gvi__velocity(st, t, Q, P, V);
     if (status != GVI_OK) return gvi__done(st, status);
@@ -7891,6 +8066,7 @@ GVI__COLD gvi_status gvi__curve_action(gvi_stepper *st, const gvi__origin *from,
     struct gvi__private *in = &st->in;
     const int n = st->n, R = in->R;
     gvi_real V, L, T, *q = in->answer, *v = q + n;
+
     *action = 0;
     for (int j = 0; j < st->r; ++j) {
         gvi_real t = st->t0 + in->table.c[j]*st->h;
@@ -7906,6 +8082,7 @@ GVI__COLD gvi_status gvi__curve_action(gvi_stepper *st, const gvi__origin *from,
         if (status != GVI_OK) return status;
         *action += in->sized.hb[j]*(T - V + L);
     }
+
     return GVI_OK;
 }
 
@@ -7972,10 +8149,12 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
     const gvi_real h = GVI_ABS(in->sized.h);
     gvi_real *missed = in->answer, *size = missed + st->n, unit = 1;
     gvi_real fastest = 0, farthest = 0, worst = 0;
+
     if (forces) {
         row = in->work.F;
         unit = h;
     }
+
     for (int i = 0; i < st->n; ++i, row += R) {
         const gvi_real *a = in->dial.high;
         gvi_real y[4] = { 0, 0, 0, 0 }, start = row[0], end = row[st->r - 1];
@@ -8003,6 +8182,7 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
         fastest = gvi__larger(size[i], fastest);
         farthest = gvi__larger(GVI_ABS(in->state.q[i])*mass, farthest);
     }
+
     const gvi_real whole = fastest + farthest/h;
     if (!(whole > 0)) return 0;
     for (int i = 0; i < st->n; ++i) {
@@ -8011,6 +8191,7 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
         if (missed[i] <= GVI__EPS*whole && size[i] < whole/GVI__RESTS) size[i] = whole;
         worst = gvi__larger(missed[i]/size[i], worst);
     }
+
     return (gvi_real)(s*s)*worst;
 }
 
@@ -8049,6 +8230,7 @@ static void gvi__set_next(gvi_stepper *st, gvi_status status, gvi_real h)
     const gvi_real most = gvi__rungs(st->in.desc.resolution) - gvi__rungs(seen);
     // the modes end at rounding: above GVI__DEEP the resolution falls no faster than there
     int degree = GVI__DEEP;
+
     if (st->s < degree) degree = st->s;
     gvi_real room = most/(gvi_real)(2*degree - 1), up = 0;
     if (status == GVI_OK && room < 2*GVI__BAND) {
@@ -8056,6 +8238,7 @@ static void gvi__set_next(gvi_stepper *st, gvi_status status, gvi_real h)
         st->in.dial.reach = at + room;
         if (loss > 0) room -= loss;
     }
+
     if (room > GVI__BAND) up = gvi__smaller(room - (gvi_real)1.5, GVI__BAND);
     if (room < 0) up = gvi__larger(room - 1, -GVI__FALL);
     if (status != GVI_OK && status != GVI_E_RESOLUTION) up = -GVI__FALL;
@@ -8127,6 +8310,7 @@ GVI__COLD gvi_status gvi__chord(gvi_stepper *st, const gvi__origin *from, gvi_re
     struct gvi__private *in = &st->in;
     const int n = st->n, R = in->R;
     gvi_real *q = in->answer, *v = q + n;
+
     gvi__zero((size_t)n, p);
     for (int j = 0; j < R; ++j) {
         for (int i = 0; i < n; ++i) {
@@ -8146,6 +8330,7 @@ GVI__COLD gvi_status gvi__chord(gvi_stepper *st, const gvi__origin *from, gvi_re
             p[i] += in->table.b[j]*at.dldv[i];
         }
     }
+
     return GVI_OK;
 }
 
@@ -8162,11 +8347,13 @@ GVI__COLD gvi_status gvi__bend(gvi_stepper *st, const gvi__origin *from, gvi_rea
     const int n = st->n, size = (st->s - J->k0)*n;
     gvi__descent p = { 0, 0, GVI__MAX, 0, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0, 0, 0 };
     gvi_real *y = in->newton.y, before = 0, length = 0;
+
     if (grow > 1 && J->k0 == 0) {
         in->predictor.ratio = 0;
         gvi__fit(st, st->r, in->table.c, in->table.c, 0, grow, 1, in->predictor.one);
         gvi__newton_modes(st, in->work.V, in->newton.P);
     }
+
     if (J->k0)
         for (int k = n; k < st->s*n; ++k) y[k] *= grow;
     gvi__weights_for(st, h);
@@ -8189,6 +8376,7 @@ GVI__COLD gvi_status gvi__bend(gvi_stepper *st, const gvi__origin *from, gvi_rea
             *bent = change/before;
         before = change;
     }
+
     if (*bent > GVI__CONTRACTS) return gvi__report_status(st, GVI_E_CONVERGENCE);
     if (!last) return GVI_OK;
     return gvi__newton_solve(st, from, J);
@@ -8215,6 +8403,7 @@ GVI__COLD gvi_real gvi__aim(gvi_stepper *st, const gvi__origin *from, gvi_real h
         if (*status != GVI_OK || (k > pieces/2 && miss > last)) break;
         last = miss;
     }
+
     return at;
 }
 
@@ -8248,6 +8437,7 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
     gvi_real *y = in->newton.y, *end = in->step.q_low;
     gvi_status bowed = GVI_E_NON_FINITE;
     int first = 0, left = 2 + in->desc.max_iterations*2/3;         // pieces, in all
+
     if (v) {
         first = 4;
         left = 1000;
@@ -8255,6 +8445,7 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
         *status = gvi__from_chord(st, from, h, q1, J);
         return 0;
     }
+
     for (int attempt = first; attempt < 9; ++attempt) {
         const int pieces = 1 << attempt >> (attempt > 0), linear = attempt == 0;
         gvi_real bent = 0, at = 0;
@@ -8283,6 +8474,7 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
         if (linear) bowed = *status;
         if ((*status == GVI_E_NON_FINITE && GVI__LOOKS(st)) || left <= 0) break;
     }
+
     // there is nothing wrong with the effects, but with the chord
     if (*status == GVI_E_NON_FINITE && bowed != GVI_E_NON_FINITE) *status = GVI_E_CONJUGATE;
     return 0;
@@ -8320,6 +8512,7 @@ GVI__COLD int gvi__count_negative(int n, gvi_real *a, gvi_real *v)
             gvi__subtract_row((size_t)m, z[i], v, rest);
         }
     }
+
     return count;
 }
 
@@ -8330,6 +8523,7 @@ GVI__COLD gvi_status gvi__morse_index(gvi_stepper *st, const gvi__matrix *J, int
     struct gvi__private *in = &st->in;
     const size_t n = (size_t)st->n, size = (size_t)(st->s - 1)*n;
     const unsigned off = in->off;
+
     *negative = 0;
     in->off |= gvi__of_kind(in, GVI_FORCE);
     const gvi_status status = gvi__jacobian_fill(st, J);
@@ -8365,6 +8559,7 @@ GVI__COLD gvi_status gvi__interior(gvi_stepper *st, const gvi__origin *from, gvi
         GVI__LOOK(st, 0);
         if (status != GVI_E_NON_FINITE) break;
     }
+
     if (status == GVI_E_NON_FINITE && st->fault.effect == GVI_FAULT_NONE)      // h, q1 - q0 or M
         return gvi__report_status(st, GVI_E_CONVERGENCE);
     if (status != GVI_OK && status != GVI_E_CONVERGENCE) return status;
@@ -8373,6 +8568,7 @@ GVI__COLD gvi_status gvi__interior(gvi_stepper *st, const gvi__origin *from, gvi
         if (index != GVI_OK) return index;
         if (*negative && !out->negative) return GVI_E_CONJUGATE;
     }
+
     J->scaled = 1;
     const gvi_status second = gvi__jacobian(st, J);
     if (second != GVI_OK) return second;
@@ -8398,6 +8594,7 @@ GVI__COLD gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__matrix *J,
 
     // the forces alone, at the points of the curve
     gvi_points at = gvi__points_at(st, st->r, R, in->t, in->work.Q, f, NULL);
+
     at.v = in->work.V;
     gvi__zero((size_t)n*(size_t)R, f);
     const gvi_status status = gvi__effects(st, &at, ~forces, NULL);
@@ -8408,6 +8605,7 @@ GVI__COLD gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__matrix *J,
         minus[i] = 0;
         for (int j = 0; j < st->r; ++j) minus[i] += hb[j]*(1 - Phi[j])*f[i*R + j];
     }
+
     if (status != GVI_OK || size == 0 || !(forces & ~in->off)) return status;
 
     // the interior: J is that of the solution, with the columns of both ends
@@ -8467,11 +8665,13 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
         gvi__copy((size_t)n, in->point + 5*n, in->step.p);
         from.p = in->step.p;
     }
+
     if (s > 1) {
         J.square = in->newton.J + sn*sn;
         J.ends = J.square + size*size;
         J.pivot = in->newton.pivot + sn + 1;
     }
+
     gvi__newton_points(st, &from, h);
 
     gvi_real *p0 = in->step.q, *p1 = in->step.p, *minus = in->answer, *plus = minus + n, action = 0;
@@ -8489,6 +8689,7 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
         for (int j = 0; j < st->r; ++j) p0[i] -= hb[j]*(1 - in->table.Phi[j])*F[i*R + j];
         p1[i] = p0[i] + gvi__dot(st->r, hb, F + i*R);
     }
+
     status = gvi__discrete_forces(st, &J, minus, plus);
     if (status != GVI_OK) return gvi__done(st, status);
     if (out->negative) *out->negative = negative;
@@ -8497,6 +8698,7 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
         if (out->d1) out->d1[i] = -p0[i] - minus[i];
         if (out->d2) out->d2[i] = p1[i] - plus[i];
     }
+
     gvi__hand_over(n, minus, out->minus);
     gvi__hand_over(n, plus, out->plus);
     gvi__hand_over(n, p0, out->p0);
@@ -8531,6 +8733,7 @@ GVI__COLD gvi_points gvi__all_points_at(gvi_stepper *st, gvi_real t, const gvi_r
     const int n = st->n;
     int R = in->R, count = st->r;
     gvi_real *rows = in->work.F;
+
     if (!gvi__has_curve(st)) R = count = 1;
     if (in->free.rows) rows = in->free.rows;
     gvi_points at = gvi__points_at(st, count, R, in->t, in->work.Q, rows, rows + n*R);
@@ -8540,6 +8743,7 @@ GVI__COLD gvi_points gvi__all_points_at(gvi_stepper *st, gvi_real t, const gvi_r
         in->work.Q[i] = q[i/R];
         if (in->work.V) in->work.V[i] = v[i/R];
     }
+
     return at;
 }
 
@@ -8564,6 +8768,7 @@ GVI__COLD gvi_status gvi__diagnose(gvi_stepper *st, gvi_points *at, unsigned ski
         const int k = gvi__first_non_finite(at->count, value);
         if (k >= 0) return gvi__report(st, GVI_E_NON_FINITE, e, GVI_FAULT_NONE, k);
     }
+
     return gvi__report_status(st, GVI_E_NON_FINITE);
 }
 
@@ -8597,6 +8802,7 @@ GVI__COLD gvi_status gvi__explain_step(gvi_stepper *st, gvi_status status)
     const gvi_fault fault = st->fault;
     gvi_real *v = in->answer;
     gvi_status start = GVI_OK;
+
     gvi__velocity_guess(st, v);
     if (in->stages > 0 && !in->desc.mass.velocity)
         start = gvi__velocity(st, st->t, st->q, st->p, v);
@@ -8604,6 +8810,7 @@ GVI__COLD gvi_status gvi__explain_step(gvi_stepper *st, gvi_status status)
         st->counters = counters;
         return status;
     }
+
     if (start == GVI_OK) {
         gvi_points at = gvi__all_points_at(st, st->t, st->q, v);
         gvi__zero((size_t)(st->n*at.stride), at.f);
@@ -8619,6 +8826,7 @@ GVI__COLD gvi_status gvi__explain_step(gvi_stepper *st, gvi_status status)
             st->fault.point = GVI_FAULT_NONE;
         }
     }
+
     st->counters = counters;
     if (start == GVI_E_SINGULAR || start == GVI_E_NON_FINITE) return start;
     st->fault = fault;
@@ -8654,6 +8862,7 @@ GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, 
     gvi_points at = gvi__all_points_at(st, t, q, v);
     const int n = st->n, R = at.stride, count = at.count;
     gvi_real *rows = at.f, *past = in->answer + 2*n;
+
     for (int i = 0; i < n; ++i) past[i] = q[i] + GVI_SQRT(GVI__EPS)*v[i];
     for (int i = 0; i < n*R; ++i)
         if (i % R < count) in->work.Q[i] = past[i/R];
@@ -8711,6 +8920,7 @@ GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, 
         st->counters = counters;
         return st->status = gvi__refuse(&st->fault, e, GVI_FAULT_NONE, slip);
     }
+
     st->counters = counters;
     return gvi__report_status(st, GVI_OK);
 }
@@ -8753,6 +8963,7 @@ GVI__COLD const char *gvi__why_no_formulation(const gvi_stepper *st)
     const struct gvi__private *in = &st->in;
     const int kicks = (in->desc.rule.kind == GVI_KICKS), clock = gvi__of_kind(in, GVI_CLOCK) != 0,
               ready = in->memory != 0;
+
     if (gvi__of_kind(in, GVI_CONSTRAINT) | gvi__of_kind(in, GVI_NONHOLONOMIC))
         return "constraints go with no clock, kicks or boundary values; with a formulation "
                "pinned or iterations given, what that covers (GVI_NEWTON: all)";
@@ -8950,6 +9161,7 @@ GVI__COLD int gvi__place_covers(struct gvi__private *in, gvi_formulation f)
               holds = (gvi__of_kind(in, GVI_CONSTRAINT) | gvi__of_kind(in, GVI_NONHOLONOMIC)) != 0,
               kicks = d->rule.kind == GVI_KICKS,
               constant = d->mass.kind <= GVI_MASS_DENSE && !clock && !(holds && in->adds_p);
+
     if (holds && (clock || kicks)) return 0;
     if (f == GVI_POSITIONS) return GVI__ITERATION && constant && !kicks && !in->reads_v;
     if (f == GVI_VELOCITIES) return GVI__ITERATION && constant && !kicks;
@@ -8970,6 +9182,7 @@ GVI__COLD gvi_status gvi__place_chosen(struct gvi__private *in, int order, gvi_f
     const gvi_desc *d = &in->desc;
     const char *wrong = NULL;
     int matrices = in->adds_p;
+
     if (in->chosen == GVI_MOMENTA) in->parts |= GVI__IN_MOMENTA;
     if (in->chosen == GVI_EXPLICIT) in->parts |= GVI__IN_KICKS;
     if (in->chosen == GVI_EXPLICIT) in->stages = 0;
@@ -8994,6 +9207,7 @@ GVI__COLD gvi_status gvi__place_chosen(struct gvi__private *in, int order, gvi_f
         in->desc.resolution = gvi__larger(d->resolution, GVI__EPS);
 #endif
     }
+
     return wrong ? gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE, wrong) : GVI_OK;
 }
 
@@ -9136,6 +9350,7 @@ static gvi_real gvi__place_inertia(const gvi_stepper *st, int i)
     const struct gvi__private *in = &st->in;
     const gvi_mass_kind kind = in->desc.mass.kind;
     gvi_real m = 1;
+
     if (kind <= GVI_MASS_DENSE) m = in->mass.matrix[kind == GVI_MASS_DENSE ? i*(st->n + 1) : i];
     GVI__MASS(if (kind == GVI_MASS_POSITION) m = gvi__momenta_inertia(st, i))
     if (kind == GVI_MASS_NONE) {
@@ -9146,6 +9361,7 @@ static gvi_real gvi__place_inertia(const gvi_stepper *st, int i)
 #endif
         if (P) m = P[i*in->R]/in->work.V[i*in->R];
     }
+
     return gvi__nonzero(m) && gvi__finite(m) ? GVI_ABS(m) : 1;
 }
 

@@ -10,9 +10,9 @@ import os, resource, subprocess, sys
 
 MUTANTS = [
     # what survived once
-    ("clock domains", "GVI_FAULT_NONE, k);\n    }\n    if (!GVI__LOOKS(st)) return GVI_OK;\n    return gvi__check_rows(st, x, slope",
-              "GVI_FAULT_NONE, k + 1);\n    }\n    if (!GVI__LOOKS(st)) return GVI_OK;\n    return gvi__check_rows(st, x, slope"),
-    ("clock domains", "    if (status != GVI_OK) {\n        in->off = was;\n        return status;\n    }\n    in->time.H = E;", "    if (status != GVI_OK) return status;\n    in->time.H = E;"),
+    ("clock domains", "GVI_FAULT_NONE, k);\n    }\n\n    if (!GVI__LOOKS(st)) return GVI_OK;\n    return gvi__check_rows(st, x, slope",
+              "GVI_FAULT_NONE, k + 1);\n    }\n\n    if (!GVI__LOOKS(st)) return GVI_OK;\n    return gvi__check_rows(st, x, slope"),
+    ("clock domains", "    if (status != GVI_OK) {\n        in->off = was;\n        return status;\n    }\n\n    in->time.H = E;", "    if (status != GVI_OK) return status;\n    in->time.H = E;"),
     ("boundary", "in->off |= gvi__of_kind(in, GVI_FORCE);", ""),
     ("identities order", "table->inv_gamma[s - 1] = 1/sum;", "table->inv_gamma[s - 1] = (1 + GVI_SQRT(GVI__EPS))/sum;"),
     ("mass regressions api", "m, at);\n    if (status == GVI_OK) return GVI_OK;\n    return gvi__report(st, status, GVI_FAULT_MASS, at[0], at[1]);",
@@ -30,7 +30,7 @@ MUTANTS = [
     ("interpolation", "others += l[j];", "others += l[j]*(1 + 256*GVI__EPS);"),
     ("interpolation", "if (GVI_ABS(t - x[j]) < GVI_ABS(t - x[i])) i = j;", ""),
     # scene
-    ("convergence effects", "    int failed;\n    if (effect->kind == GVI_POTENTIAL) at->v = NULL;", "    int failed;"),
+    ("convergence effects", "    int failed;\n\n    if (effect->kind == GVI_POTENTIAL) at->v = NULL;", "    int failed;"),
     ("kicks effects", "skip |= st->in.off | st->in.apart;", "skip |= st->in.apart;"),
     ("queries effects", "if (effect->kind == GVI_POTENTIAL) at.v = NULL;\n    at.f", "at.f"),
     ("resolution queries", "*energy = pv/2 + V;", "*energy = pv/2 - V;"),
