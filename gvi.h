@@ -932,6 +932,7 @@ struct gvi__holonomic {               /* m rows on; C = stride of D_0..D_s      
     int       made;                   /* iterations                                            */
     int       kept;                   /* last is there: for the curve; 2: to predict as well   */
     int       linear;                 /* g is linearised from the last D                       */
+    gvi_real  near_start;             /* see gvi__check_rank                                   */
     int       settled, again;         /* steps since the start; see gvi__find_columns          */
     unsigned  bits;                   /* the effects                                           */
     unsigned  checked;                /* those with derivatives that were seen to be right     */
@@ -7083,17 +7084,23 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
 
 /* A row of which the rows before it leave less than half of the digits, and more than rounding, is
    about to depend on them: the rank changes, a change point of a linkage.  Its multiplier is noise
-   over what is left, more of it the shorter a step is, so no h mends it.  From gram1; `margin`:
-   where a step has failed, that much earlier.                                                 */
+   over what is left, more of it the shorter a step is, so no h mends it.  Rows that were that near
+   where the motion started may stay so.  From gram1; `margin`: where a step has failed, that much
+   earlier; 0: a start, to be remembered.                                                      */
 GVI__CALLED gvi_status gvi__check_rank(gvi_stepper *st, int margin)
 {
     const int m = st->in.con.m;
-    const gvi_real *A = st->in.con.gram1, most = 1/(GVI_SQRT(GVI__EPS)*(gvi_real)margin);
+    const gvi_real *A = st->in.con.gram1, root = GVI_SQRT(GVI__EPS)*(gvi_real)margin;
+    gvi_real most = 0;
+    if (margin > 0) most = gvi__larger(1/root, GVI__FADES*st->in.con.near_start);
     for (int a = 0; a < m; ++a) {
         gvi_real lost = 0;
         for (int l = (int)st->in.con.first[a]; l < a; ++l) lost += A[a*m + l]*A[l*m + a];
-        if (lost*A[a*m + a] > most) return gvi__report_row(st, GVI_E_SINGULAR, a, GVI_FAULT_NONE);
+        if (!(lost*A[a*m + a] > most)) continue;
+        if (margin > 0) return gvi__report_row(st, GVI_E_SINGULAR, a, GVI_FAULT_NONE);
+        most = lost*A[a*m + a];
     }
+    if (margin == 0) st->in.con.near_start = most;
     return GVI_OK;
 }
 
@@ -7126,7 +7133,7 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
             status = gvi__report_row(st, GVI_E_SINGULAR, a, GVI_FAULT_NONE);
     }
 
-    if (!start && status == GVI_OK) status = gvi__check_rank(st, 1);
+    if (status == GVI_OK) status = gvi__check_rank(st, !start);
     if ((start || redundant) && status == GVI_OK) status = gvi__fulfilled(st, t, q, p, v);
     if (status != GVI_OK) return status;
     gvi__zero((size_t)m, in->con.y);
