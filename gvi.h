@@ -4265,10 +4265,11 @@ static void gvi__curve_at(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_
     const gvi_real *modes = by_forces ? in->table.Phi : in->table.phi,
                    *weight = by_forces ? in->sized.hb : in->table.b,
                    *rows = by_forces ? in->last.F : in->last.V;
-    gvi_real *phi = in->set_up, *Phi = phi + R, *v0 = in->free.v;    // at tau, over Gamma
+    gvi_real *v0 = in->free.v;
 
     if (gvi__parts(in) && gvi__place_line(st, tau, q, v)) return;
     if (!gvi__iterates(in)) return;
+    gvi_real *phi = in->set_up, *Phi = phi + R;                      // at tau, over Gamma
     gvi__modes(st, tau, phi, Phi);
     gvi__zero((size_t)n, q);
     gvi__zero((size_t)n, v);
@@ -7555,15 +7556,16 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
 {
     gvi_status status = gvi__check_start(st, t, q, v);
     if (status != GVI_OK) return status;
+    gvi_real far[2] = { 0, 0 };
+    if (!moved) moved = far;
+    moved[0] = moved[1] = 0;
+    if (!gvi__constrained(st)) return gvi__report_status(st, GVI_OK);
+
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
     gvi_real *e = in->step.q, *f = in->step.p, *next = in->answer, *d = next + n, *u = d + n,
              *push = in->point, *z = in->con.rho, *r = z + m, *back = r + m,
-             *drops = in->con.drops + m, far[2] = { 0, 0 }, change = GVI__MAX, before = 0, size = 0,
-             share = 1;
-    if (!moved) moved = far;
-    moved[0] = moved[1] = 0;
-    if (!gvi__constrained(st)) return gvi__report_status(st, GVI_OK);
+             *drops = in->con.drops + m, change = GVI__MAX, before = 0, size = 0, share = 1;
     gvi__zero((size_t)n, e);
     gvi__zero((size_t)n, f);
     gvi__copy((size_t)n, q, next);
@@ -8760,8 +8762,8 @@ GVI__COLD gvi_status gvi__diagnose(gvi_stepper *st, gvi_points *at, unsigned ski
 {
     const size_t length = (size_t)at->n*(size_t)at->stride;
     for (int e = 0; e < st->in.desc.effect_count; ++e) {
-        gvi_real *value = values ? values[st->in.desc.effects[e].kind] : NULL;
         if (skip >> e & 1u) continue;
+        gvi_real *value = values ? values[st->in.desc.effects[e].kind] : NULL;
         gvi__zero(length, at->f);
         if (at->dldv) gvi__zero(length, at->dldv);
         if (value) gvi__zero((size_t)at->stride, value);
