@@ -2145,6 +2145,7 @@ GVI_DEF gvi_real gvi_interpolate_derivative(int n, const gvi_real *x, const gvi_
         if (j != i) value += gvi__slope(n, x, w, t, i, d, sum, j)*(f[j] - f[i]);
     return value;
 }
+
 /* ---------------------------------------------------------------- PLACES
 
    Where the chapters of PART II plug in.  PART I calls these functions, the switchboard at the end
@@ -6313,7 +6314,7 @@ static gvi_status gvi__newton_turn(gvi_stepper *st, const gvi__origin *from, gvi
     return gvi__by_newton(st, from, h, query);
 }
 
-// is it to be asked in the next step?
+// is it evaluated in the next step?
 static void gvi__newton_listen(struct gvi__private *in)
 {
     in->parts &= ~(unsigned)GVI__IN_NEWTON;
@@ -7070,10 +7071,10 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
         if (gvi__evaluate_constraints(st, 1, 1, &t, next, G + m*n) != GVI_OK) continue;
         gvi__add_scaled(n, -1, q, next, next);     // as rounded
         for (int a = 0; a < m; ++a) {
-            const gvi_real told =
+            const gvi_real predicted =
                 (gvi__row_dot(st, G, a, next) + gvi__row_dot(st, G + m*n, a, next))/2;
-            const int follows = gvi__nonzero(told)
-                                && GVI_ABS((g[a] - was[a]) - told) <= GVI_ABS(told)/4;
+            const int follows = gvi__nonzero(predicted)
+                                && GVI_ABS((g[a] - was[a]) - predicted) <= GVI_ABS(predicted)/4;
             if (follows && ahead[a] > 0 && doubt[a] > 0) refused = a;
             ahead[a] = (gvi_real)follows;
         }
@@ -8731,8 +8732,8 @@ GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_rea
 /* ------------------------------------------------------------- DIAGNOSIS
 
    Which effect was it?  A step that came to NaN or Inf is done once more, looking at what every
-   effect returns; what is wrong already at its start is told from what a shorter step may mend;
-   and a first start probes the callbacks.                                                     */
+   effect returns; what is wrong already at its start is kept apart from what a shorter step may
+   mend; and a first start probes the callbacks.                                               */
 
 /* All points of a step at one state, at rows [n][R] for f and, behind them, dldv; of kicks one.  */
 GVI__COLD gvi_points gvi__all_points_at(gvi_stepper *st, gvi_real t, const gvi_real *q,
