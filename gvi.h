@@ -7549,6 +7549,34 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
     return gvi__done(st, GVI_OK);
 }
 
+/* v := v + M^-1 G'z such that G v + dg/dt = 0, with the last G; once more for the rounding of that.
+   Returns z'(G v + dg/dt), which is the square of the way by M.                               */
+static gvi_real gvi__project_velocity(gvi_stepper *st, gvi_real *v)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n, m = in->con.m;
+    gvi_real *given = in->answer, *d = given + n, *z = in->con.rho, *r = z + m, way = 0;
+    gvi__copy((size_t)n, v, given);
+
+    for (int pass = 0; pass < 2; ++pass) {
+        for (int a = 0; a < m; ++a)
+            z[a] = r[a] = -(in->con.g[m + a] + gvi__row_dot(st, in->con.G1, a, v));
+        gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
+        if (pass == 0) way = gvi__dot(m, r, z);
+
+        gvi__zero((size_t)n, d);
+        gvi__add_force(st, z, d);
+        gvi__over_inertia(st, d, 1, 1);
+        for (int i = 0; i < n; ++i) {
+            v[i] += d[i];
+            // all of it was across the constraints: what is left is rounding
+            if (GVI_ABS(v[i]) <= GVI__SOLVED*GVI__EPS*GVI_ABS(given[i])) v[i] = 0;
+        }
+    }
+
+    return way;
+}
+
 /* The iteration q' = q + e, e = M^-1 G'z with g + G(e_new - e) = 0: (G M^-1 G') z = G e - g at the
    last q'.  So e is normal to the constraints where it ends, and e'M e is z'(G e - g).  What moves
    along the constraints is damped, by `share`, where changes grow; g is taken to 0 in any case. */
@@ -7582,6 +7610,7 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
             noise += GVI__GRAIN*GVI_ABS(z[a])
                      *(GVI_ABS(in->con.g[a])
                        + GVI__EPS*gvi__terms(st, 1, t, next, in->con.G1, in->con.g + m, a));
+
         if (k > 1 && !(change < before*(gvi_real)0.9) && status == GVI_OK
             && change <= GVI_SQRT(GVI__EPS*GVI_SQRT(GVI__EPS))*size + noise) {
             if (gvi__fulfilled(st, t, next, NULL, u) == GVI_OK) break;
@@ -7589,6 +7618,7 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
         }
         if (k > 1000 && status == GVI_OK) status = GVI_E_CONVERGENCE;
         if (status != GVI_OK) break;
+
         for (int a = 0; a < m; ++a) {
             back[a] = -in->con.g[a];
             z[a] = r[a] = gvi__row_dot(st, in->con.G1, a, e) - in->con.g[a];
@@ -7597,10 +7627,12 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
         gvi__solve_constraints(st, in->con.gram1, 1, 1, back, 1);
         far[0] = gvi__dot(m, r, z);
         for (int a = 0; a < m; ++a) z[a] = share*z[a] + (1 - share)*back[a];
+
         gvi__zero((size_t)n, push);
         gvi__add_force(st, z, push);
         gvi__copy((size_t)n, push, d);
         gvi__over_inertia(st, d, 1, 1);
+
         before = change;
         change = size = 0;
         for (int i = 0; i < n; ++i) {
@@ -7615,25 +7647,7 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
     }
 
     GVI__LOOK(st, 0);
-    const int passes = 2*(status == GVI_OK);
-    for (int pass = 0; pass < passes; ++pass) {
-        for (int a = 0; a < m; ++a)
-            z[a] = r[a] = -(in->con.g[m + a] + gvi__row_dot(st, in->con.G1, a, u));
-        gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
-        gvi__zero((size_t)n, d);
-        gvi__add_force(st, z, d);
-        gvi__over_inertia(st, d, 1, 1);
-        if (pass == 0) {
-            gvi__copy((size_t)n, u, next);         // the velocity given
-            far[1] = gvi__dot(m, r, z);
-        }
-        for (int i = 0; i < n; ++i) {
-            u[i] += d[i];
-            // all of it was across the constraints: what is left is rounding
-            if (GVI_ABS(u[i]) <= GVI__SOLVED*GVI__EPS*GVI_ABS(next[i])) u[i] = 0;
-        }
-    }
-
+    if (status == GVI_OK) far[1] = gvi__project_velocity(st, u);
     gvi__forget_columns(st);
     if (status == GVI_E_CONVERGENCE)
         st->fault.argument = "gvi_project: no state on the constraints found, too far off";
@@ -8890,6 +8904,7 @@ GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, 
         if (varies) gvi__place_probe(st, &one);
         gvi_real before = 0, sum = 0;
         int known = 1;
+
         // what is wrong at the very start no step mends
         one.q = q;
         gvi__zero(2*(size_t)n, one.f);
@@ -8901,6 +8916,7 @@ GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, 
             st->fault.point = GVI_FAULT_NONE;
             return st->status = status;
         }
+
         one.q = past;
         for (int twice = 0; twice < 2 && known; ++twice) {        // noise is not to be judged
             gvi__zero(2*(size_t)n, one.f);
@@ -8909,6 +8925,7 @@ GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, 
             sum = gvi__norm1(2*n, one.f);
         }
         if (gvi__nonzero(sum - before)) known = 0;
+
         if (varies) gvi__place_probe(st, &at);
         if (gvi__effect(st, &at, e, NULL) != GVI_OK) continue;
         for (int i = 0; i < all; ++i)
@@ -8922,6 +8939,7 @@ GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, 
         if (unlike && known)
             slip = "effect: fills not all points: coordinate i of point k < x->count is at "
                    "[i*x->stride + k]";
+
         for (int i = 0; i < all; ++i) rows[i] = GVI__MAX;
         if (gvi__effect(st, &at, e, NULL) != GVI_OK) continue;
         for (int i = 0; i < all; ++i) set |= i % R < count && GVI_ABS(rows[i]) < GVI__MAX/2;
