@@ -598,6 +598,26 @@ enum { GVI__USES_, GVI__USES_v, GVI__USES_p, GVI__USES_f = 4, GVI__USES_dldv = 8
     { return gvi__body_##name(x, user), 0; }                                                    \
     GVI__BODY void gvi__body_##name(GVI__UNUSED const gvi_points *x, GVI__UNUSED void *user)
 
+/* Many coordinates under one law: GVI_ROWS(x, from, to, j, body) runs body for each place j of the
+   rows `from` to `to` - 1.  Coordinate i has its points at j = i*stride, i*stride + 1, ...; at the
+   same point, coordinate i + 1 is at j + stride.  A chain of springs, without its ends:
+
+     const int d = x->stride;
+     GVI_ROWS(x, 1, n - 1, j, f[j] += q[j + d] - 2*q[j] + q[j - d];)
+
+   gcc and clang vectorise it from -O2 on, by points or, where a step has one, as kicks have, by
+   coordinates.  No j may write what the body for another j reads or writes.                  */
+#define GVI_ROWS(x, from, to, j, ...)                                                           \
+    GVI__WARNINGS(push) GVI__WARNINGS(ignored "-Wpass-failed")                                  \
+    {                                                                                           \
+        int gvi__j = (from)*(x)->stride;                                                        \
+        const int gvi__end = (to)*(x)->stride;                                                  \
+        for (; gvi__end - gvi__j >= 8; gvi__j += 8)                                             \
+            GVI__INDEPENDENT for (int j = gvi__j; j < gvi__j + 8; ++j) { __VA_ARGS__ }          \
+        for (; gvi__j < gvi__end; ++gvi__j) { const int j = gvi__j; __VA_ARGS__ }               \
+    }                                                                                           \
+    GVI__WARNINGS(pop)
+
 // points k..to-1: a column of what is wanted to a, the body, and back
 GVI__BODY int gvi__each_point(gvi_points_fn *at, const gvi_points *x, void *user, int n, int uses,
                               int wanted, gvi_real *a, int k, int to, gvi_real *GVI__RESTRICT f)

@@ -1,7 +1,7 @@
 /* points.h - callbacks written twice: with GVI_POINTS, and as the loop over points that it stands for
 
    Kepler's problem, a pendulum, an arm of three links in absolute angles, a uniform magnetic field,
-   and a relativistic particle; for test_points.c and cost/points.c, after gvi.h. */
+   a relativistic particle, and a chain by GVI_ROWS; for test_points.c and cost/points.c, after gvi.h. */
 #ifndef TESTS_POINTS_H
 #define TESTS_POINTS_H
 
@@ -214,6 +214,32 @@ static int rods_loop(const gvi_points *x, void *user)
         G[4*s] = -a, G[5*s] = -b, G[6*s] = a, G[7*s] = b;
         x->rate[s + k] = -length;
     }
+    return (void)user, 0;
+}
+
+/* A chain of n springs d + d^3 between walls */
+static inline gvi_real spring(gvi_real d) { return d + d*d*d; }
+
+static int chain(const gvi_points *x, void *user)
+{
+    const gvi_real *q = x->q;
+    gvi_real *f = x->f;
+    const int n = x->n, d = x->stride;
+    GVI_ROWS(x, 0, 1, j, f[j] += spring(q[j + d] - q[j]) - spring(q[j]);)
+    GVI_ROWS(x, 1, n - 1, j, f[j] += spring(q[j + d] - q[j]) - spring(q[j] - q[j - d]);)
+    GVI_ROWS(x, n - 1, n, j, f[j] += spring(-q[j]) - spring(q[j] - q[j - d]);)
+    return (void)user, 0;
+}
+
+static int chain_loop(const gvi_points *x, void *user)
+{
+    const int n = x->n, s = x->stride;
+    for (int i = 0; i < n; ++i)
+        for (int k = 0; k < x->count; ++k) {
+            const gvi_real at = x->q[i*s + k], left = i > 0 ? at - x->q[(i - 1)*s + k] : at,
+                           right = i < n - 1 ? x->q[(i + 1)*s + k] - at : -at;
+            x->f[i*s + k] += spring(right) - spring(left);
+        }
     return (void)user, 0;
 }
 

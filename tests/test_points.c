@@ -89,6 +89,12 @@ TEST(every_kind_of_callback_has_the_bits_of_a_loop)
     assert_same(4, rods, rods_loop, "g");
 }
 
+TEST(rows_have_the_bits_of_a_loop_over_coordinates)
+{
+    assert_same(N, chain, chain_loop, "f");
+    assert_same(3, chain, chain_loop, "f");
+}
+
 /* A failure counts where there is a point, and not in the padding */
 TEST(a_failure_counts_at_points_alone)
 {

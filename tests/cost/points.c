@@ -28,6 +28,7 @@ static const callback callbacks[] = {
     { "three links, gradient", 3, arm_gradient, arm_gradient_loop },
     { "relativistic, velocity", 2, relativistic, relativistic_loop },
     { "two rods, g", 4, rods, rods_loop },
+    { "chain of 18, force", 18, chain, chain_loop },
 };
 
 static double now(void)
@@ -58,6 +59,31 @@ static void compare(const callback *c)
         loop = fmin(loop, time_of(c->loop, &x));
     }
     printf("%-24s %8.1f %8.1f %8.2f\n", c->name, loop, made, made/loop);
+}
+
+/* One point a call, as kicks have: the loop that most people write, which is not one over points */
+static int chain_by_hand(const gvi_points *x, void *user)
+{
+    const double *q = x->q;
+    double *f = x->f;
+    const int n = x->n;
+    f[0] += spring(q[1] - q[0]) - spring(q[0]);
+    for (int i = 1; i < n - 1; ++i) f[i] += spring(q[i + 1] - q[i]) - spring(q[i] - q[i - 1]);
+    f[n - 1] += spring(-q[n - 1]) - spring(q[n - 1] - q[n - 2]);
+    return 0;
+}
+
+static void compare_one_point(void)
+{
+    static double q[100], f[100];
+    const gvi_points x = { .n = 100, .count = 1, .stride = 1, .q = q, .f = f };
+    double made = HUGE_VAL, loop = HUGE_VAL;
+    for (int i = 0; i < 100; ++i) q[i] = sin(1.3*i);
+    for (int k = 0; k < RUNS; ++k) {
+        made = fmin(made, time_of(chain, &x));
+        loop = fmin(loop, time_of(chain_by_hand, &x));
+    }
+    printf("%-24s %8.1f %8.1f %8.2f\n", "chain of 100, one point", loop, made, made/loop);
 }
 
 static int kepler_point(double t, const double *q, const double *v, double *f, double *dldv, void *user)
@@ -99,6 +125,7 @@ int main(void)
 {
     printf("%-24s %8s %8s %8s\n", "ns a call", "by hand", "made", "ratio");
     for (int i = 0; i < COUNT(callbacks); ++i) compare(callbacks + i);
+    compare_one_point();
     printf("%-24s %8s %8s %8s %8s %8s\n", "ns a step, degree 8", "by hand", "made", "ratio", ".point", "ratio");
     steps("Kepler, e = 0.6", 2, 0.1, kepler_loop, kepler, kepler_point);
     steps("pendulum", 1, 0.3, pendulum_loop, pendulum, pendulum_point);
