@@ -644,6 +644,7 @@ function drawCost() {
   const left = (p.todo ? p.todo.length : 40) + wanted.length, none = [1, 2, 3].filter(m => p.points.some(q => q.method === m && q.status === -6));
   $('cost-caption').textContent = p.note || `A run to t = ${short(s.span, 3)}${s.time ? ' ' + s.time : ''}. ` + (left ? `Measuring, ${left} runs to go.` : none.length ? `${none.map(m => METHODS[m]).join(', ')} cannot: ${s.mass && !s.mass.includes('MASS_DIAGONAL') ? 'the mass depends on q' : held() ? 'a constraint acts (degree 1 with Lobatto is RATTLE)' : 'a force reads v'}.` : 'All measured here, now.');
   svg.dataset.left = left;
+  svg.dataset.height = a.H;
   /* the cheapest for the wanted error */
   const fit = m => good.filter(q => (m ? q.method > 0 : q.method === 0) && q.error <= 10 ** set.want).sort((b, c) => costOf(b) - costOf(c))[0];
   cheapest = fit(0);
