@@ -1,4 +1,4 @@
-/* 43 - C++ callables with a state, and exceptions
+/* 44 - C++ callables with a state, and exceptions
 
    A struct with operator(), or a lambda that captures, cannot be a callback of a C
    library: it is handed over through the user pointer, and a function without a
