@@ -238,7 +238,13 @@ TEST(each_call_that_fails_has_its_sentence)
 #define SET_UP(list, count, coordinates, s, ...) do { const gvi_desc d_ = { .n = coordinates, .degree = s, \
         .effects = list, .effect_count = count, __VA_ARGS__ }; st = new_stepper(&d_); } while (0)
 #define BEGIN(...) do { SET_UP(__VA_ARGS__); assert_ok(gvi_start(&st, 0, q, v)); } while (0)
-    BEGIN(e, 2, 1, 3, .tolerance = 0);
+    SET_UP(e, 2, 1, 3, .tolerance = 0);                    // told by a first start; after it, by the step
+    gvi_start(&st, 0, q, v);
+    says(&st, GVI_E_CALLBACK, "an effect (fault.effect) did not return 0");
+    assert_int_equal(st.fault.effect, 1);
+    assert_ok(gvi_switch(&st, 1, 0));
+    assert_ok(gvi_start(&st, 0, q, v));
+    assert_ok(gvi_switch(&st, 1, 1));
     gvi_step(&st, 1);
     for (int k = 0; k < 2; ++k) {                          // a query that succeeds does not hide it
         says(&st, GVI_E_CALLBACK, "an effect (fault.effect) did not return 0");
@@ -338,7 +344,13 @@ TEST(a_force_that_is_infinite_at_the_start_is_told)
             gvi_desc d = { .n = 2, .degree = 3, .effects = e, .effect_count = f == GVI_VELOCITIES ? 3 : 2,
                            .formulation = (gvi_formulation)f };
             if (f == GVI_EXPLICIT) d.degree = 1, d.rule.kind = GVI_LOBATTO;
-            gvi_stepper st = new_motion(&d, 0, q, v);
+            gvi_stepper st = new_stepper(&d);
+            gvi_start(&st, 0, q, v);                       // by a first start, and by the step after another
+            says(&st, GVI_E_NON_FINITE, "where the step starts");
+            assert_int_equal(st.fault.effect, 1);
+            assert_int_equal(st.fault.coordinate, 1);
+            assert_ok(gvi_start(&st, 0, near, v));
+            assert_ok(gvi_start(&st, 0, q, v));
             SAME_STATE(&st) gvi_step(&st, (real)0.1);
             says(&st, GVI_E_NON_FINITE, "where the step starts");
             assert_int_equal(st.fault.effect, 1);
@@ -406,11 +418,36 @@ TEST(a_loop_over_points_that_is_missing_is_found)
         const gvi_effect e = { .points = of_three };
         const gvi_desc d = { .n = n, .effects = &e, .effect_count = 1 };
         gvi_stepper st = new_stepper(&d);
-        assert_ok(gvi_start(&st, 0, q, v));
-        gvi_step(&st, (real)0.1);
+        gvi_start(&st, 0, q, v);
         if (n < 3) says(&st, GVI_E_CALLBACK, "larger n");
-        else assert_ok(st.status);
+        else assert_ok(gvi_step(&st, (real)0.1));
     }
+}
+
+GVI_EACH(lists_no_f, 2, v) { x->f[0] -= x->v[0]; }
+GVI_EACH(lists_no_v, 2, f) { x->f[0] -= x->v[0]; }
+GVI_EACH(lists_no_value, 2, f) { x->f[0] -= x->q[0]; x->value[0] += 1; }
+GVI_EACH(beyond_2, 2, f) { x->f[2] -= x->q[2]; }
+GVI_EACH(lists_no_dldv, 2, v, f) { x->dldv[1] += x->q[0]; }
+
+TEST(what_a_macro_does_not_list_is_told_by_the_start)
+{
+    static const struct { gvi_effect e; gvi_status status; } cases[] = {
+        { { .kind = GVI_FORCE, .points = lists_no_f }, GVI_E_CALLBACK },
+        { { .kind = GVI_FORCE, .points = lists_no_v }, GVI_E_NON_FINITE },
+        { { .kind = GVI_POTENTIAL, .points = lists_no_value }, GVI_E_CALLBACK },
+        { { .kind = GVI_POTENTIAL, .points = beyond_2 }, GVI_E_CALLBACK },
+        { { .kind = GVI_LAGRANGIAN, .points = lists_no_dldv }, GVI_E_CALLBACK } };
+    static const real q[3] = { 1, 0, 2 }, v[3] = { 1, 1, 0 };
+    for (int k = 0; k < COUNT(cases); ++k)
+        for (int n = 2; n <= 3; ++n)
+            for (int degree = 1; degree <= 9; degree += 4) {
+                const gvi_desc d = { .n = n, .degree = degree, .effects = &cases[k].e, .effect_count = 1 };
+                gvi_stepper st = new_stepper(&d);
+                assert_int_equal(gvi_start(&st, 0, q, v), cases[k].status);
+                assert_int_equal(st.fault.effect, 0);
+                if (cases[k].status == GVI_E_CALLBACK) says(&st, GVI_E_CALLBACK, "not in its list");
+            }
 }
 
 /* The reason is this call's, not an older one's, nor one that speaks of an h where there is none */
@@ -457,7 +494,7 @@ TEST(sound_effects_pass_and_are_looked_at_once)
             gvi_stepper st = new_stepper(&d);
             calls = 0;
             assert_ok(gvi_start(&st, 0, rest, v));
-            assert_int_equal(calls, (count ? 4 : 0) + (count == 4));              // the last for dL/dv
+            assert_int_equal(calls, (count ? 5 : 0) + (count == 4));              // the last for dL/dv
             assert_int_equal(st.counters.effect[0], count == 4);
             calls = 0;
             assert_ok(gvi_start(&st, 0, rest, v));

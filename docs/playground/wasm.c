@@ -28,6 +28,9 @@ static inline double bounded_sine(double x, double turns)
 #define sin(x) bounded_sine(x, 0)
 #define cos(x) bounded_sine(x, 1)
 
+#define GVI_NO_RULES
+#define GVI_NO_BOUNDARY
+#define GVI_NO_RESTORE
 #define GVI_IMPLEMENTATION
 #define GVI_STATIC
 #include "gvi.h"

@@ -48,9 +48,7 @@ static const gvi_desc desc = { .n = 1, .degree = FORMULATION == 1 ? 1 : 2,
                                .mass = { .kind = GVI_MASS_POSITION, .points = mass, .gradient = gradient },
 #endif
                                .formulation = (gvi_formulation)FORMULATION, .iterations = FORMULATION == 1 ? 0 : 3 };
-// with LEAST as gvi_size says
-static float memory[LEAST == 0 ? GVI_LENGTH(1, 2, 2) : FORMULATION == 1 ? 44 : FORMULATION == 2 ? 83
-                    : FORMULATION == 3 ? 101 : 111];
+static float memory[FORMULATION == 1 && LEAST ? GVI_LENGTH(1, 1, 2) : GVI_LENGTH(1, 2, 2)];
 static gvi_stepper st;
 volatile float angle;
 
