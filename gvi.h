@@ -2145,6 +2145,7 @@ GVI_DEF gvi_real gvi_interpolate_derivative(int n, const gvi_real *x, const gvi_
         if (j != i) value += gvi__slope(n, x, w, t, i, d, sum, j)*(f[j] - f[i]);
     return value;
 }
+
 /* ---------------------------------------------------------------- PLACES
 
    Where the chapters of PART II plug in.  PART I calls these functions, the switchboard at the end
@@ -4265,10 +4266,11 @@ static void gvi__curve_at(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_
     const gvi_real *modes = by_forces ? in->table.Phi : in->table.phi,
                    *weight = by_forces ? in->sized.hb : in->table.b,
                    *rows = by_forces ? in->last.F : in->last.V;
-    gvi_real *phi = in->set_up, *Phi = phi + R, *v0 = in->free.v;    // at tau, over Gamma
+    gvi_real *v0 = in->free.v;
 
     if (gvi__parts(in) && gvi__place_line(st, tau, q, v)) return;
     if (!gvi__iterates(in)) return;
+    gvi_real *phi = in->set_up, *Phi = phi + R;                      // at tau, over Gamma
     gvi__modes(st, tau, phi, Phi);
     gvi__zero((size_t)n, q);
     gvi__zero((size_t)n, v);
@@ -6312,7 +6314,7 @@ static gvi_status gvi__newton_turn(gvi_stepper *st, const gvi__origin *from, gvi
     return gvi__by_newton(st, from, h, query);
 }
 
-// is it to be asked in the next step?
+// is it evaluated in the next step?
 static void gvi__newton_listen(struct gvi__private *in)
 {
     in->parts &= ~(unsigned)GVI__IN_NEWTON;
@@ -7069,10 +7071,10 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
         if (gvi__evaluate_constraints(st, 1, 1, &t, next, G + m*n) != GVI_OK) continue;
         gvi__add_scaled(n, -1, q, next, next);     // as rounded
         for (int a = 0; a < m; ++a) {
-            const gvi_real told =
+            const gvi_real predicted =
                 (gvi__row_dot(st, G, a, next) + gvi__row_dot(st, G + m*n, a, next))/2;
-            const int follows = gvi__nonzero(told)
-                                && GVI_ABS((g[a] - was[a]) - told) <= GVI_ABS(told)/4;
+            const int follows = gvi__nonzero(predicted)
+                                && GVI_ABS((g[a] - was[a]) - predicted) <= GVI_ABS(predicted)/4;
             if (follows && ahead[a] > 0 && doubt[a] > 0) refused = a;
             ahead[a] = (gvi_real)follows;
         }
@@ -7547,6 +7549,34 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
     return gvi__done(st, GVI_OK);
 }
 
+/* v := v + M^-1 G'z such that G v + dg/dt = 0, with the last G; once more for the rounding of that.
+   Returns z'(G v + dg/dt), which is the square of the way by M.                               */
+static gvi_real gvi__project_velocity(gvi_stepper *st, gvi_real *v)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n, m = in->con.m;
+    gvi_real *given = in->answer, *d = given + n, *z = in->con.rho, *r = z + m, way = 0;
+    gvi__copy((size_t)n, v, given);
+
+    for (int pass = 0; pass < 2; ++pass) {
+        for (int a = 0; a < m; ++a)
+            z[a] = r[a] = -(in->con.g[m + a] + gvi__row_dot(st, in->con.G1, a, v));
+        gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
+        if (pass == 0) way = gvi__dot(m, r, z);
+
+        gvi__zero((size_t)n, d);
+        gvi__add_force(st, z, d);
+        gvi__over_inertia(st, d, 1, 1);
+        for (int i = 0; i < n; ++i) {
+            v[i] += d[i];
+            // all of it was across the constraints: what is left is rounding
+            if (GVI_ABS(v[i]) <= GVI__SOLVED*GVI__EPS*GVI_ABS(given[i])) v[i] = 0;
+        }
+    }
+
+    return way;
+}
+
 /* The iteration q' = q + e, e = M^-1 G'z with g + G(e_new - e) = 0: (G M^-1 G') z = G e - g at the
    last q'.  So e is normal to the constraints where it ends, and e'M e is z'(G e - g).  What moves
    along the constraints is damped, by `share`, where changes grow; g is taken to 0 in any case. */
@@ -7555,15 +7585,16 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
 {
     gvi_status status = gvi__check_start(st, t, q, v);
     if (status != GVI_OK) return status;
+    gvi_real far[2] = { 0, 0 };
+    if (!moved) moved = far;
+    moved[0] = moved[1] = 0;
+    if (!gvi__constrained(st)) return gvi__report_status(st, GVI_OK);
+
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
     gvi_real *e = in->step.q, *f = in->step.p, *next = in->answer, *d = next + n, *u = d + n,
              *push = in->point, *z = in->con.rho, *r = z + m, *back = r + m,
-             *drops = in->con.drops + m, far[2] = { 0, 0 }, change = GVI__MAX, before = 0, size = 0,
-             share = 1;
-    if (!moved) moved = far;
-    moved[0] = moved[1] = 0;
-    if (!gvi__constrained(st)) return gvi__report_status(st, GVI_OK);
+             *drops = in->con.drops + m, change = GVI__MAX, before = 0, size = 0, share = 1;
     gvi__zero((size_t)n, e);
     gvi__zero((size_t)n, f);
     gvi__copy((size_t)n, q, next);
@@ -7579,6 +7610,7 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
             noise += GVI__GRAIN*GVI_ABS(z[a])
                      *(GVI_ABS(in->con.g[a])
                        + GVI__EPS*gvi__terms(st, 1, t, next, in->con.G1, in->con.g + m, a));
+
         if (k > 1 && !(change < before*(gvi_real)0.9) && status == GVI_OK
             && change <= GVI_SQRT(GVI__EPS*GVI_SQRT(GVI__EPS))*size + noise) {
             if (gvi__fulfilled(st, t, next, NULL, u) == GVI_OK) break;
@@ -7586,6 +7618,7 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
         }
         if (k > 1000 && status == GVI_OK) status = GVI_E_CONVERGENCE;
         if (status != GVI_OK) break;
+
         for (int a = 0; a < m; ++a) {
             back[a] = -in->con.g[a];
             z[a] = r[a] = gvi__row_dot(st, in->con.G1, a, e) - in->con.g[a];
@@ -7594,10 +7627,12 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
         gvi__solve_constraints(st, in->con.gram1, 1, 1, back, 1);
         far[0] = gvi__dot(m, r, z);
         for (int a = 0; a < m; ++a) z[a] = share*z[a] + (1 - share)*back[a];
+
         gvi__zero((size_t)n, push);
         gvi__add_force(st, z, push);
         gvi__copy((size_t)n, push, d);
         gvi__over_inertia(st, d, 1, 1);
+
         before = change;
         change = size = 0;
         for (int i = 0; i < n; ++i) {
@@ -7612,25 +7647,7 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
     }
 
     GVI__LOOK(st, 0);
-    const int passes = 2*(status == GVI_OK);
-    for (int pass = 0; pass < passes; ++pass) {
-        for (int a = 0; a < m; ++a)
-            z[a] = r[a] = -(in->con.g[m + a] + gvi__row_dot(st, in->con.G1, a, u));
-        gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
-        gvi__zero((size_t)n, d);
-        gvi__add_force(st, z, d);
-        gvi__over_inertia(st, d, 1, 1);
-        if (pass == 0) {
-            gvi__copy((size_t)n, u, next);         // the velocity given
-            far[1] = gvi__dot(m, r, z);
-        }
-        for (int i = 0; i < n; ++i) {
-            u[i] += d[i];
-            // all of it was across the constraints: what is left is rounding
-            if (GVI_ABS(u[i]) <= GVI__SOLVED*GVI__EPS*GVI_ABS(next[i])) u[i] = 0;
-        }
-    }
-
+    if (status == GVI_OK) far[1] = gvi__project_velocity(st, u);
     gvi__forget_columns(st);
     if (status == GVI_E_CONVERGENCE)
         st->fault.argument = "gvi_project: no state on the constraints found, too far off";
@@ -8729,8 +8746,8 @@ GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_rea
 /* ------------------------------------------------------------- DIAGNOSIS
 
    Which effect was it?  A step that came to NaN or Inf is done once more, looking at what every
-   effect returns; what is wrong already at its start is told from what a shorter step may mend;
-   and a first start probes the callbacks.                                                     */
+   effect returns; what is wrong already at its start is kept apart from what a shorter step may
+   mend; and a first start probes the callbacks.                                               */
 
 /* All points of a step at one state, at rows [n][R] for f and, behind them, dldv; of kicks one.  */
 GVI__COLD gvi_points gvi__all_points_at(gvi_stepper *st, gvi_real t, const gvi_real *q,
@@ -8760,8 +8777,8 @@ GVI__COLD gvi_status gvi__diagnose(gvi_stepper *st, gvi_points *at, unsigned ski
 {
     const size_t length = (size_t)at->n*(size_t)at->stride;
     for (int e = 0; e < st->in.desc.effect_count; ++e) {
-        gvi_real *value = values ? values[st->in.desc.effects[e].kind] : NULL;
         if (skip >> e & 1u) continue;
+        gvi_real *value = values ? values[st->in.desc.effects[e].kind] : NULL;
         gvi__zero(length, at->f);
         if (at->dldv) gvi__zero(length, at->dldv);
         if (value) gvi__zero((size_t)at->stride, value);
@@ -8887,6 +8904,7 @@ GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, 
         if (varies) gvi__place_probe(st, &one);
         gvi_real before = 0, sum = 0;
         int known = 1;
+
         // what is wrong at the very start no step mends
         one.q = q;
         gvi__zero(2*(size_t)n, one.f);
@@ -8898,6 +8916,7 @@ GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, 
             st->fault.point = GVI_FAULT_NONE;
             return st->status = status;
         }
+
         one.q = past;
         for (int twice = 0; twice < 2 && known; ++twice) {        // noise is not to be judged
             gvi__zero(2*(size_t)n, one.f);
@@ -8906,6 +8925,7 @@ GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, 
             sum = gvi__norm1(2*n, one.f);
         }
         if (gvi__nonzero(sum - before)) known = 0;
+
         if (varies) gvi__place_probe(st, &at);
         if (gvi__effect(st, &at, e, NULL) != GVI_OK) continue;
         for (int i = 0; i < all; ++i)
@@ -8919,6 +8939,7 @@ GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, 
         if (unlike && known)
             slip = "effect: fills not all points: coordinate i of point k < x->count is at "
                    "[i*x->stride + k]";
+
         for (int i = 0; i < all; ++i) rows[i] = GVI__MAX;
         if (gvi__effect(st, &at, e, NULL) != GVI_OK) continue;
         for (int i = 0; i < all; ++i) set |= i % R < count && GVI_ABS(rows[i]) < GVI__MAX/2;

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """places.py [gvi.h] >places.svg: which chapter of gvi.h plugs in at which place, read off the declarations in
-PLACES and the functions of the SWITCHBOARD.  A dot: what this place does is asked of that chapter."""
+PLACES and the functions of the SWITCHBOARD.  A dot: that chapter acts at this place; below, at how many."""
 import re, sys
 
 text = open(sys.argv[1] if len(sys.argv) > 1 else "gvi.h").read()
@@ -30,7 +30,7 @@ def body(name):
 chapters = [c for c in chapters if any(re.search(c[1], body(n)) for n in names)]
 rows = [(group, name) for group in groups for name in group[2]]
 left, top, width, line = 190, 92, 62, 17
-wide, high = left + width*len(chapters) + 20, top + line*len(rows) + 10*len(groups) + 12
+wide, high = left + width*len(chapters) + 20, top + line*len(rows) + 10*len(groups) + 34
 print('<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 %d %d" font-family="sans-serif" font-size="12">' % (wide, high))
 print('<rect width="%d" height="%d" fill="#fff"/>' % (wide, high))
 for k, (name, _) in enumerate(chapters):
@@ -49,4 +49,8 @@ for group, name in rows:
         if re.search(words, body(name)):
             print('<circle cx="%g" cy="%g" r="4.5" fill="#2166ac"/>' % (left + width*k + width/2, y + 8))
     y += line
+print('<text x="%d" y="%g" text-anchor="end" font-weight="bold">of %d places</text>' % (left - 10, y + 17, len(rows)))
+for k, (_, words) in enumerate(chapters):
+    count = sum(bool(re.search(words, body(name))) for _, name in rows)
+    print('<text x="%g" y="%g" text-anchor="middle">%d</text>' % (left + width*k + width/2, y + 17, count))
 print("</svg>")
