@@ -150,8 +150,8 @@
    Less code, for small machines (docs/embedded.md), all in [that file].  Chapters:
 
      GVI_NO_LAGRANGIAN    effects of kind GVI_LAGRANGIAN       GVI_NO_MOMENTA  M(q), clocks
-     GVI_NO_CLOCK         of kind GVI_CLOCK                    GVI_NO_KICKS    explicit steps
-     GVI_NO_CONSTRAINTS   of kind GVI_CONSTRAINT               GVI_NO_RULES    GVI_OWN
+     GVI_NO_CLOCK         effects of kind GVI_CLOCK            GVI_NO_KICKS    explicit steps
+     GVI_NO_CONSTRAINTS   constraints of both kinds            GVI_NO_RULES    GVI_OWN
      GVI_NO_NEWTON        Newton's method, boundary values     GVI_NO_DIAL     gvi_advance
      GVI_NO_OUTPUT        gvi_state_at, gvi_action, boundary values
      GVI_NO_BOUNDARY      gvi_discrete_lagrangian, gvi_start_configurations
@@ -474,7 +474,7 @@ extern "C" {
 
 typedef GVI_REAL gvi_real;
 
-/* GVI_SQRT(x): the same bits as sqrt, but errno is never set.  A compiler that must set it does not
+/* The bits of sqrt, but errno is never set.  A compiler that must set it does not
    vectorise square roots unless given -fno-math-errno.                                        */
 #if defined(__GNUC__) && !defined(GVI_SQRT)
 gvi_real GVI__MATH(__builtin_sqrt)(gvi_real x) __attribute__((const));
@@ -540,7 +540,7 @@ typedef struct gvi_points {
    start, and by Newton's method; if all fail, it ends with GVI_E_CALLBACK.    */
 typedef int gvi_points_fn(const gvi_points *x, void *user);
 
-/* The same, written for one point.  GVI_POINTS(name, n, ...) stands for `static int name`;
+/* A gvi_points_fn written for one point.  GVI_POINTS(name, n, ...) means `static int name`;
    n is a constant.  The list names the arrays that the body uses (t and q are always there): v, p,
    f, dldv, and one of value, mass, velocity; or rows(m), m a constant, for the g, jacobian and
    rate of m constraints.  With f and value, `name` serves as points and as value.  Listing an array
@@ -791,7 +791,7 @@ typedef struct gvi_desc {
                                           explicit.  0: none is refused, nothing is measured    */
 } gvi_desc;
 
-#define GVI_FAULT_NONE (-1)
+#define GVI_FAULT_NONE (-1)            /* no effect, coordinate or point        */
 #define GVI_FAULT_MASS (-2)            /* the callbacks of desc.mass            */
 
 typedef struct gvi_fault {             /* where the last failure came from      */
@@ -1143,8 +1143,10 @@ GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end);
    GVI_E_CONSTRAINT elsewhere.                                                                 */
 GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on);
 
-/* At the present state: velocity (inverse Legendre transform), v[n];
-   energy p'v - L, which needs the value of each potential and Lagrangian term that is on. */
+/* At the present state:
+     gvi_velocity   v[n], by the inverse Legendre transform
+     gvi_energy     p'v - L, which needs the value of each potential and Lagrangian term
+                    that is on                                                               */
 GVI_DEF gvi_status gvi_velocity(gvi_stepper *st, gvi_real *v);
 GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy);
 
@@ -1197,8 +1199,11 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
 GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const gvi_real *memory);
 #endif
 
-/* In this order: what went wrong in the last call, "ok" if nothing; the same, as far as a status
-   alone can say; why st uses its formulation; sizeof(gvi_stepper), for other languages.       */
+/* Sentences; do not free them.
+     gvi_why                what went wrong in the last call and what to do, "ok" if nothing did
+     gvi_status_text        the same, as far as a status alone can say
+     gvi_formulation_text   why st uses its formulation
+     gvi_stepper_size       sizeof(gvi_stepper), for other languages                           */
 GVI_DEF const char *gvi_why(const gvi_stepper *st);
 GVI_DEF const char *gvi_status_text(gvi_status status);
 GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st);
@@ -1250,7 +1255,8 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__SIZE(a) ((size_t)(a))
 #define GVI__SLACK (63/sizeof(gvi_real))
 
-/* The numbers that the core takes at most, and each chapter that is compiled: see their layouts. */
+/* Numbers that suffice for any scene without constraints: what the core takes at most, and each
+   chapter that is compiled; see their layouts.                                                */
 #define GVI_LENGTH(n, s, r)                                                                     \
     GVI__LENGTH(GVI__SIZE(n), GVI__SIZE(s), GVI__SIZE(r), GVI__SIZE(GVI__ROW(r)))
 #define GVI__LENGTH(n, s, r, R) (GVI__CORE_LENGTH(n, s, r, R) + GVI__RULES_LENGTH(s)            \
@@ -1300,7 +1306,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__DIAL_LENGTH(R) (4*(R))
 #endif
 
-/*  The same with constraints, m rows in all.                                  */
+/* The same with constraints, m rows in all.                                   */
 #define GVI_CONSTRAINED_LENGTH(n, s, r, m) (GVI_LENGTH(n, s, r)                  \
     + (GVI__SIZE(m)*(GVI__SIZE(n) + 2) + GVI__SIZE(r))*GVI__SIZE(GVI__ROW(r))     \
     + (6*GVI__SIZE(n) + 3*GVI__SIZE(m) + 2*GVI__SIZE(r) + 5*GVI__SIZE(s) + 4 + (4 + GVI__SIZE(m)) \

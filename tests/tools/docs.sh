@@ -5,6 +5,8 @@
 #   3  every other piece of C in them stands in an example or in tests/compile
 #   4  the version: first line and macro of gvi.h, first entry of the changelog
 #   5  every relative link leads to a file, and its #anchor to a heading
+#   6  the drawing of places is that of the source
+#   7  docs/reference.md is what gvi.h says; docs/sheet.md names all that is public
 build=$1 object=$2
 CC=${CC:-cc}
 dir=$build/docs
@@ -83,6 +85,15 @@ if command -v python3 >/dev/null 2>&1; then
     python3 tests/tools/places.py | cmp -s - docs/img/places.svg ||
         fail "docs/img/places.svg is not what gvi.h says: python3 tests/tools/places.py >docs/img/places.svg"
     count=$((count + 1))
+fi
+
+# -- 7; the reference is what the header says, and the sheet names each function, status and option
+if command -v python3 >/dev/null 2>&1; then
+    python3 tests/tools/reference.py | cmp -s - docs/reference.md || fail "docs/reference.md is not what gvi.h says: make reference"
+    for name in $(python3 tests/tools/reference.py --names); do
+        grep -q "$name" docs/sheet.md || fail "docs/sheet.md does not name $name"
+        count=$((count + 1))
+    done
 fi
 
 echo "docs-check: $count passed, 0 failed"
