@@ -13,7 +13,7 @@ count=1
 make -s install DESTDIR="$dir/stage" PREFIX=/opt >/dev/null && cmp gvi.h "$dir/stage/opt/include/gvi.h" || fail "gvi.h"
 for tool in examples/tools/*.h; do
     cmp "$tool" "$dir/stage/opt/include/gvi/$(basename "$tool")" || fail "$tool"
-    grep -q "^\*\*.*$(basename "$tool")\|^| \[$(basename "$tool")\]" docs/guide.md || fail "the guide does not list $tool"
+    grep -q "^\*\*.*$(basename "$tool")\|^| \[$(basename "$tool")\]" docs/tools.md || fail "docs/tools.md does not list $tool"
     count=$((count + 1))
 done
 licence=$dir/stage/opt/share/doc/gvi/LICENSE
