@@ -1,7 +1,7 @@
 /* scenes.h - the scenes of the playground: to add one, write thirty lines here
 
    A scene is a list of effects (examples/tools/effects.h), initial values, and what to draw; add it to
-   scenes[] at the end, then `make playground`.  docs/guide.md goes through an example.
+   scenes[] at the end, then `make playground`.  elastic_pendulum is the shortest; docs/scenes.md has a table.
 
    SHOWN(name, text)    the text as C and, for the program that the page writes, as a string
    ADD(s, name, what, on, effect)    a switch on the page; on = 1: on at first
@@ -676,7 +676,7 @@ static const scene robot_arm = {
     .trails = 4, .fixed = 1,
 };
 
-/* -- a pendulum on a spring: the example of docs/guide.md */
+/* -- a pendulum on a spring: the shortest */
 
 SHOWN(elastic_text,
 static const gvi_real bob_mass[] = { 1 };
