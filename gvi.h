@@ -839,11 +839,12 @@ struct gvi__sized {                   /* valid for a step of length h, the key  
 };
 
 struct gvi__predictor {               /* see gvi__prepare_predictor                            */
-    gvi_real *two, *one;              /* [2r][R] by two equal steps; [r][R] by the last        */
+    gvi_real *equal, *one;            /* [steps r][R] by steps as long; [r][R] by the last     */
     gvi_real *weights;                /* [R] barycentric, of the nodes                         */
     gvi_real  ratio;                  /* h/h_last for which `one` holds                        */
-    int       made;                   /* `two` is: 1, or 2 with K and b in it                  */
-    int       steps, sums;            /* what serves this step: steps; with K and b in it?     */
+    int       made;                   /* `equal` is: 1, or 2 with K and b in it                */
+    int       steps, sums;            /* what serves this step: steps kept in `equal`, or 0    */
+                                      /* for `one`; with K and b in it?                        */
 };
 
 #ifndef GVI_NO_RULES
@@ -3029,7 +3030,7 @@ GVI__COLD size_t gvi__layout(struct gvi__private *in, int order, gvi_real *base)
         { &in->table.phi, phi*s, R }, { &in->table.phi_low, phi*s, R },
         { &in->table.Phi, it*s, R },
         { &in->table.K, it*r, R },    { &in->table.U, V*r, R },
-        { &in->predictor.two, 2*two*r, R }, { &in->predictor.one, it*r, R },
+        { &in->predictor.equal, (it + two)*r, R }, { &in->predictor.one, it*r, R },
         { &in->predictor.weights, it, R },
         { &in->set_up, 9*it, R },     { &in->weighted, it, R },
         { &in->table.inv_gamma, 1, s },
@@ -3523,24 +3524,24 @@ GVI__BODY gvi_real gvi__new_rows(gvi_stepper *st, const gvi__stage *stage, int r
 
 /* ---- 2) predict ---- */
 
-/* The stage values of the last step, or of two that are as long as this one, go to the nodes of
-   this step, at alpha + beta c in the last step's tau.  For two that table never changes; where
-   forces only serve to make positions, it has K and b in it, and makes both at once.  `plain`: by
-   one step, whatever its length.                                                              */
+/* The stage values of the last step go to the nodes of this step, at alpha + beta c in the last
+   step's tau; where steps are as long as the last, by a table that never changes, from two steps
+   where two are kept.  Where forces only serve to make positions, that table has K and b in it,
+   and makes both at once.  `plain`: by one step's values as they are, whatever its length.    */
 static void gvi__prepare_predictor(gvi_stepper *st, gvi_real h, int query, int plain)
 {
     struct gvi__private *in = &st->in;
     struct gvi__predictor *predictor = &in->predictor;
-    const int r = st->r, R = in->R;
-    const int two = !query && !plain && in->kept == 2 && predictor->two && !gvi__nonzero(h - st->h);
-    const int sums = two && in->stages == 1 && in->desc.mass.kind != GVI_MASS_DENSE
+    const int r = st->r, R = in->R, steps = in->older.F ? 2 : 1;
+    const int equal = !query && !plain && in->kept >= steps && !gvi__nonzero(h - st->h);
+    const int sums = equal && in->stages == 1 && in->desc.mass.kind != GVI_MASS_DENSE
                      && !gvi__parts(in);
     const gvi_real alpha = query != GVI__FROM_START, beta = h/st->h, ratio = query ? 0 : beta;
 
     if (gvi__parts(in)) gvi__place_predictor(st, alpha, beta);
-    predictor->steps = two + 1;
+    predictor->steps = equal ? steps : 0;
     predictor->sums = sums;
-    if (!two) {
+    if (!equal) {
         if (!query && !gvi__nonzero(ratio - predictor->ratio)) return;
         predictor->ratio = ratio;                  // a query has another start
         if (r - 1 <= GVI__DEGREE) gvi__lagrange(st, alpha, beta, predictor->one);
@@ -3550,9 +3551,9 @@ static void gvi__prepare_predictor(gvi_stepper *st, gvi_real h, int query, int p
 
     if (predictor->made == 1 + sums) return;
     predictor->made = 1 + sums;
-    gvi__fit(st, r, in->table.c, in->table.c, 1, 1, 2, predictor->two);
-    for (int m = 0; m < sums*2*r; ++m) {
-        gvi_real *E = predictor->two + m*R, *row = in->set_up;
+    gvi__fit(st, r, in->table.c, in->table.c, 1, 1, steps, predictor->equal);
+    for (int m = 0; m < sums*steps*r; ++m) {
+        gvi_real *E = predictor->equal + m*R, *row = in->set_up;
         gvi__weigh(R, in->table.b, E, in->weighted);
         for (int k = 0; k < r; ++k) row[k] = gvi__point_sum(r, R, in->table.K + k, in->weighted);
         gvi__copy((size_t)r, row, E);
@@ -3596,13 +3597,9 @@ static void gvi__extrapolate(const gvi_stepper *st, const gvi_real *last, const 
                              gvi_real *rows)
 {
     const struct gvi__predictor *predictor = &st->in.predictor;
-    const gvi_real *two = predictor->two;
-    if (predictor->steps < 2) {
-        gvi__sums(st, predictor->one, last, rows, 0);
-        return;
-    }
-    gvi__sums(st, two, last, rows, 0);
-    gvi__sums(st, two + st->r*st->in.R, older, rows, 1);
+    const gvi_real *E = predictor->steps ? predictor->equal : predictor->one;
+    gvi__sums(st, E, last, rows, 0);
+    if (predictor->steps == 2) gvi__sums(st, E + st->r*st->in.R, older, rows, 1);
 }
 
 // stage values to begin with: of extrapolated sources, or of no force

@@ -1,7 +1,7 @@
 # studies.mk - what Makefile includes: long checks, measurements, pictures.  `make help-all` lists them.
 
 .PHONY: headers-quick headers symbols chapters docs-check reference bound float instructions prices usable languages boards sanitize sanitized any_processor \
-        ensemble deps-ensemble tolerances firmware deps-firmware fuzz fuzz-short size stats compare everywhere deps-everywhere \
+        ensemble deps-ensemble embedded-page tolerances firmware deps-firmware fuzz fuzz-short size stats compare everywhere deps-everywhere \
         cost-dial cost-horizon cost-constraints kicks points from-l mycost cost-embedded hard theorems mutants coverage covered
 
 # -- steps of `make test` and `make check`; each can be run alone
@@ -107,7 +107,7 @@ size: | $(FIRST)
 	$(Q)sh tests/tools/size.sh $(BUILD) $(DETAIL)
 
 #: everywhere   every machine that can be compiled for and imitated here: warnings, tests, bits (half an hour)
-#:              RECORD=--record puts its tables into docs/embedded.md; ONLY="armhf tcc": these alone
+#:              RECORD=--record puts its tables into tests/README.md; ONLY="armhf tcc": these alone
 everywhere:
 	$(Q)ONLY='$(ONLY)' sh tests/tools/everywhere.sh $(BUILD) $(RECORD)
 
@@ -193,6 +193,14 @@ cost-constraints: cost-%: $(BUILD)/cost/%
 #: cost-embedded instructions of a step on Cortex-M4F and Cortex-M3 and what they buy (qemu-system-arm; 4 minutes)
 cost-embedded:
 	$(Q)sh tests/tools/embedded_cost.sh $(BUILD)
+
+#: embedded-page docs/embedded.md against what boards, firmware, size, chapters and cost-embedded print (ten minutes); RECORD=--record
+#:              puts it there
+embedded-page:
+	@mkdir -p $(BUILD)/page
+	$(Q)for i in boards firmware size chapters; do $(MAKE) --no-print-directory $$i >$(BUILD)/page/$$i.txt || exit 1; done
+	$(Q)$(MAKE) --no-print-directory cost-embedded >$(BUILD)/page/cost.txt
+	$(Q)python3 tests/tools/embedded_page.py $(BUILD)/page $(RECORD)
 
 $(BUILD)/cost/%.o: tests/cost/%.c
 	@mkdir -p $(@D)

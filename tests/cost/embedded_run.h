@@ -31,7 +31,7 @@ typedef struct run {
     real           h;
     long           k;                              /* steps done                                       */
     gvi_desc       desc;
-    real           memory[GVI_LENGTH(2, 4, 4)];
+    real           memory[GVI_LENGTH(2, 4, 6)];    /* six points: Suzuki's kicks                      */
 } run;
 
 /* Suzuki's five steps of Stoermer-Verlet in one, gamma = 1/(4 - 4^(1/3)): order 4 [Hairer, Lubich,
