@@ -485,7 +485,7 @@ gvi_real GVI__MATH(__builtin_sqrt)(gvi_real x) __attribute__((const));
 
 typedef enum gvi_status {
     GVI_OK            =  0,
-    GVI_E_ARGUMENT    = -1,  /* of a call, in desc, or an effect's callback: gvi_why    */
+    GVI_E_ARGUMENT    = -1,  /* an argument of a call, desc, or a callback: gvi_why      */
     GVI_E_MEMORY      = -2,  /* the memory is smaller than gvi_size(desc)               */
     GVI_E_NODES       = -3,  /* own rule: a node outside [0,1], or two that coincide;
                                 kicks: not finite                                   */
@@ -1078,16 +1078,20 @@ typedef struct gvi_discrete {
 
 /* ------------------------------------------------------------- FUNCTIONS */
 
-/* Set-up.  Bytes of memory that desc needs; 0 if its sizes, kinds or callbacks are refused:
-   gvi_init, even with a NULL memory, then returns why.  A chain of calls after a failure keeps
-   its first status; st.q and st.p then point at zeros, n of them or 64 where there is no memory
-   for them.  GVI_LENGTH: array length, a constant expression, that is enough for every scene
-   without constraints of n degrees of freedom, degree s, r points.                            */
+/* Set-up.
+     gvi_size   bytes of memory that desc needs; 0 if its sizes, kinds or callbacks are refused:
+                gvi_init, even with a NULL memory, then returns why
+     gvi_init   makes st a stepper for desc that works in memory, size bytes of the caller's
+   A chain of calls after a failure keeps its first status; st.q and st.p then point at zeros, n of
+   them or 64 where there is no memory for them.                                               */
 GVI_DEF size_t     gvi_size(const gvi_desc *desc);
 GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *memory, size_t size);
 
-/* Start at time t from velocities, momenta, or two configurations: q0 at t and
-   q1 at t + h (solves the boundary-value problem; conjugate points: below; no constraints).
+/* Start at time t.
+     gvi_start                  starts from configuration and velocity
+     gvi_start_momentum         starts from configuration and momentum
+     gvi_start_configurations   starts from q0 at t and q1 at t + h (solves the boundary-value
+                                problem; conjugate points: below; no constraints)
    The first start with a constraint, and gvi_project before it, compare its jacobian and rate with
    differences of g next to (t, q).  An entry that is off by more than 1/512 of itself, and more
    than rounding hides (in float most of 1 %), is refused: GVI_E_ARGUMENT, its row in
@@ -1211,8 +1215,9 @@ GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st);
 GVI_DEF size_t      gvi_stepper_size(void);
 
 /* Rules on [0,1]:  integral_0^1 f  =  sum_i b[i] f(c[i]).  c ascending, c and b of length n,
-   c[i] + c[n-1-i] = 1, relative errors a few eps (tests/test_quadrature.c).  Gauss: n >= 1, exact
-   to degree 2n - 1.  Lobatto: n >= 2, c[0] = 0, c[n-1] = 1, exact to degree 2n - 3.           */
+   c[i] + c[n-1-i] = 1, relative errors a few eps (tests/test_quadrature.c).
+     gvi_gauss     n >= 1, exact to degree 2n - 1
+     gvi_lobatto   n >= 2, c[0] = 0, c[n-1] = 1, exact to degree 2n - 3                        */
 GVI_DEF gvi_status gvi_gauss(int n, gvi_real *c, gvi_real *b);
 GVI_DEF gvi_status gvi_lobatto(int n, gvi_real *c, gvi_real *b);
 
@@ -1256,8 +1261,8 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__SIZE(a) ((size_t)(a))
 #define GVI__SLACK (63/sizeof(gvi_real))
 
-/* Numbers that suffice for any scene without constraints: what the core takes at most, and each
-   chapter that is compiled; see their layouts.                                                */
+/* Length of an array, a constant expression, that suffices for every scene without constraints of
+   n degrees of freedom, degree s, r points: what the core takes, and each chapter compiled.   */
 #define GVI_LENGTH(n, s, r)                                                                     \
     GVI__LENGTH(GVI__SIZE(n), GVI__SIZE(s), GVI__SIZE(r), GVI__SIZE(GVI__ROW(r)))
 #define GVI__LENGTH(n, s, r, R) (GVI__CORE_LENGTH(n, s, r, R) + GVI__RULES_LENGTH(s)            \
