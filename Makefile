@@ -79,17 +79,31 @@ check: $(CHECK_STEPS)
 examples: $(EXAMPLES)
 	$(SUM) examples $(EXAMPLES)
 
-## install      copies gvi.h, the whole library, to $(DESTDIR)$(PREFIX)/include, its tools to include/gvi, gvi.pc to share/pkgconfig
+## install      copies gvi.h, the whole library, to $(DESTDIR)$(PREFIX)/include, its tools to include/gvi; gvi.pc, CMake's gvi-config, the licence
 TOOLS     = $(notdir $(wildcard examples/tools/*.h))
+VERSION   = $(shell sed -n 's/^.define GVI_VERSION "\(.*\)"/\1/p' gvi.h)
+CMAKE_DIR = $(DESTDIR)$(PREFIX)/lib/cmake/gvi
 INSTALLED = '$(DESTDIR)$(PREFIX)/include/gvi.h' '$(DESTDIR)$(PREFIX)/share/pkgconfig/gvi.pc' \
+            '$(CMAKE_DIR)/gvi-config.cmake' '$(CMAKE_DIR)/gvi-config-version.cmake' '$(DESTDIR)$(PREFIX)/share/doc/gvi/LICENSE' \
             $(TOOLS:%='$(DESTDIR)$(PREFIX)/include/gvi/%')
 install:
-	mkdir -p '$(DESTDIR)$(PREFIX)/include/gvi' '$(DESTDIR)$(PREFIX)/share/pkgconfig'
+	mkdir -p '$(DESTDIR)$(PREFIX)/include/gvi' '$(DESTDIR)$(PREFIX)/share/pkgconfig' '$(CMAKE_DIR)' \
+	    '$(DESTDIR)$(PREFIX)/share/doc/gvi'
 	cp gvi.h '$(DESTDIR)$(PREFIX)/include/gvi.h'
 	cp $(TOOLS:%=examples/tools/%) '$(DESTDIR)$(PREFIX)/include/gvi'
-	printf '%s\n' 'prefix=$(PREFIX)' '' 'Name: gvi' 'Version: $(shell sed -n 's/^.define GVI_VERSION "\(.*\)"/\1/p' gvi.h)' \
+	printf '%s\n' 'prefix=$(PREFIX)' '' 'Name: gvi' 'Version: $(VERSION)' \
 	    'Description: Galerkin variational integrators for mechanical systems' 'Cflags: -I$${prefix}/include' 'Libs: -lm' \
 	    >'$(DESTDIR)$(PREFIX)/share/pkgconfig/gvi.pc'
+	printf '%s\n' 'get_filename_component(gvi_prefix "$${CMAKE_CURRENT_LIST_DIR}/../../.." ABSOLUTE)' 'if(NOT TARGET gvi::gvi)' \
+	    '  add_library(gvi::gvi INTERFACE IMPORTED)' '  set_target_properties(gvi::gvi PROPERTIES' \
+	    '    INTERFACE_INCLUDE_DIRECTORIES "$${gvi_prefix}/include"' \
+	    '    INTERFACE_LINK_LIBRARIES "$$<$$<NOT:$$<BOOL:$${MSVC}>>:m>")' 'endif()' >'$(CMAKE_DIR)/gvi-config.cmake'
+	printf '%s\n' 'set(PACKAGE_VERSION $(VERSION))' \
+	    '# before 1.0 a new minor version may break what the last one had' \
+	    'if(PACKAGE_FIND_VERSION STREQUAL PACKAGE_VERSION)' '  set(PACKAGE_VERSION_EXACT TRUE)' 'endif()' \
+	    'if(NOT PACKAGE_FIND_VERSION VERSION_GREATER PACKAGE_VERSION AND NOT PACKAGE_FIND_VERSION VERSION_LESS $(basename $(VERSION)))' \
+	    '  set(PACKAGE_VERSION_COMPATIBLE TRUE)' 'endif()' >'$(CMAKE_DIR)/gvi-config-version.cmake'
+	sed '1,/^\/\*.* LICENCE$$/d' gvi.h | sed '1d; s/^   //; s/ *\*\/$$//' >'$(DESTDIR)$(PREFIX)/share/doc/gvi/LICENSE'
 	chmod 644 $(INSTALLED)
 
 ## clean        removes build/

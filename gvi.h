@@ -150,8 +150,8 @@
    Less code, for small machines (docs/embedded.md), all in [that file].  Chapters:
 
      GVI_NO_LAGRANGIAN    effects of kind GVI_LAGRANGIAN       GVI_NO_MOMENTA  M(q), clocks
-     GVI_NO_CLOCK         of kind GVI_CLOCK                    GVI_NO_KICKS    explicit steps
-     GVI_NO_CONSTRAINTS   of kind GVI_CONSTRAINT               GVI_NO_RULES    GVI_OWN
+     GVI_NO_CLOCK         effects of kind GVI_CLOCK            GVI_NO_KICKS    explicit steps
+     GVI_NO_CONSTRAINTS   constraints of both kinds            GVI_NO_RULES    GVI_OWN
      GVI_NO_NEWTON        Newton's method, boundary values     GVI_NO_DIAL     gvi_advance
      GVI_NO_OUTPUT        gvi_state_at, gvi_action, boundary values
      GVI_NO_BOUNDARY      gvi_discrete_lagrangian, gvi_start_configurations
@@ -474,7 +474,7 @@ extern "C" {
 
 typedef GVI_REAL gvi_real;
 
-/* GVI_SQRT(x): the same bits as sqrt, but errno is never set.  A compiler that must set it does not
+/* The bits of sqrt, but errno is never set.  A compiler that must set it does not
    vectorise square roots unless given -fno-math-errno.                                        */
 #if defined(__GNUC__) && !defined(GVI_SQRT)
 gvi_real GVI__MATH(__builtin_sqrt)(gvi_real x) __attribute__((const));
@@ -485,7 +485,7 @@ gvi_real GVI__MATH(__builtin_sqrt)(gvi_real x) __attribute__((const));
 
 typedef enum gvi_status {
     GVI_OK            =  0,
-    GVI_E_ARGUMENT    = -1,  /* of a call, in desc, or an effect's callback: gvi_why    */
+    GVI_E_ARGUMENT    = -1,  /* an argument of a call, desc, or a callback: gvi_why      */
     GVI_E_MEMORY      = -2,  /* the memory is smaller than gvi_size(desc)               */
     GVI_E_NODES       = -3,  /* own rule: a node outside [0,1], or two that coincide;
                                 kicks: not finite                                   */
@@ -540,7 +540,7 @@ typedef struct gvi_points {
    start, and by Newton's method; if all fail, it ends with GVI_E_CALLBACK.    */
 typedef int gvi_points_fn(const gvi_points *x, void *user);
 
-/* The same, written for one point.  GVI_POINTS(name, n, ...) stands for `static int name`;
+/* A gvi_points_fn written for one point.  GVI_POINTS(name, n, ...) means `static int name`;
    n is a constant.  The list names the arrays that the body uses (t and q are always there): v, p,
    f, dldv, and one of value, mass, velocity; or rows(m), m a constant, for the g, jacobian and
    rate of m constraints.  With f and value, `name` serves as points and as value.  Listing an array
@@ -811,7 +811,7 @@ typedef struct gvi_desc {
                                           explicit.  0: none is refused, nothing is measured    */
 } gvi_desc;
 
-#define GVI_FAULT_NONE (-1)
+#define GVI_FAULT_NONE (-1)            /* no effect, coordinate or point        */
 #define GVI_FAULT_MASS (-2)            /* the callbacks of desc.mass            */
 
 typedef struct gvi_fault {             /* where the last failure came from      */
@@ -1098,16 +1098,20 @@ typedef struct gvi_discrete {
 
 /* ------------------------------------------------------------- FUNCTIONS */
 
-/* Set-up.  Bytes of memory that desc needs; 0 if its sizes, kinds or callbacks are refused:
-   gvi_init, even with a NULL memory, then returns why.  A chain of calls after a failure keeps
-   its first status; st.q and st.p then point at zeros, n of them or 64 where there is no memory
-   for them.  GVI_LENGTH: array length, a constant expression, that is enough for every scene
-   without constraints of n degrees of freedom, degree s, r points.                            */
+/* Set-up.
+     gvi_size   bytes of memory that desc needs; 0 if its sizes, kinds or callbacks are refused:
+                gvi_init, even with a NULL memory, then returns why
+     gvi_init   makes st a stepper for desc that works in memory, size bytes of the caller's
+   A chain of calls after a failure keeps its first status; st.q and st.p then point at zeros, n of
+   them or 64 where there is no memory for them.                                               */
 GVI_DEF size_t     gvi_size(const gvi_desc *desc);
 GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *memory, size_t size);
 
-/* Start at time t from velocities, momenta, or two configurations: q0 at t and
-   q1 at t + h (solves the boundary-value problem; conjugate points: below; no constraints).
+/* Start at time t.
+     gvi_start                  starts from configuration and velocity
+     gvi_start_momentum         starts from configuration and momentum
+     gvi_start_configurations   starts from q0 at t and q1 at t + h (solves the boundary-value
+                                problem; conjugate points: below; no constraints)
    The first start with a constraint, and gvi_project before it, compare its jacobian and rate with
    differences of g next to (t, q).  An entry that is off by more than 1/512 of itself, and more
    than rounding hides (in float most of 1 %), is refused: GVI_E_ARGUMENT, its row in
@@ -1164,8 +1168,10 @@ GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end);
    GVI_E_CONSTRAINT elsewhere.                                                                 */
 GVI_DEF gvi_status gvi_switch(gvi_stepper *st, int index, int on);
 
-/* At the present state: velocity (inverse Legendre transform), v[n];
-   energy p'v - L, which needs the value of each potential and Lagrangian term that is on. */
+/* At the present state:
+     gvi_velocity   v[n], by the inverse Legendre transform
+     gvi_energy     p'v - L, which needs the value of each potential and Lagrangian term
+                    that is on                                                               */
 GVI_DEF gvi_status gvi_velocity(gvi_stepper *st, gvi_real *v);
 GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy);
 
@@ -1218,16 +1224,20 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
 GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const gvi_real *memory);
 #endif
 
-/* In this order: what went wrong in the last call, "ok" if nothing; the same, as far as a status
-   alone can say; why st uses its formulation; sizeof(gvi_stepper), for other languages.       */
+/* Sentences; do not free them.
+     gvi_why                what went wrong in the last call and what to do, "ok" if nothing did
+     gvi_status_text        the same, as far as a status alone can say
+     gvi_formulation_text   why st uses its formulation
+     gvi_stepper_size       sizeof(gvi_stepper), for other languages                           */
 GVI_DEF const char *gvi_why(const gvi_stepper *st);
 GVI_DEF const char *gvi_status_text(gvi_status status);
 GVI_DEF const char *gvi_formulation_text(const gvi_stepper *st);
 GVI_DEF size_t      gvi_stepper_size(void);
 
 /* Rules on [0,1]:  integral_0^1 f  =  sum_i b[i] f(c[i]).  c ascending, c and b of length n,
-   c[i] + c[n-1-i] = 1, relative errors a few eps (tests/test_quadrature.c).  Gauss: n >= 1, exact
-   to degree 2n - 1.  Lobatto: n >= 2, c[0] = 0, c[n-1] = 1, exact to degree 2n - 3.           */
+   c[i] + c[n-1-i] = 1, relative errors a few eps (tests/test_quadrature.c).
+     gvi_gauss     n >= 1, exact to degree 2n - 1
+     gvi_lobatto   n >= 2, c[0] = 0, c[n-1] = 1, exact to degree 2n - 3                        */
 GVI_DEF gvi_status gvi_gauss(int n, gvi_real *c, gvi_real *b);
 GVI_DEF gvi_status gvi_lobatto(int n, gvi_real *c, gvi_real *b);
 
@@ -1271,7 +1281,8 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__SIZE(a) ((size_t)(a))
 #define GVI__SLACK (63/sizeof(gvi_real))
 
-/* The numbers that the core takes at most, and each chapter that is compiled: see their layouts. */
+/* Length of an array, a constant expression, that suffices for every scene without constraints of
+   n degrees of freedom, degree s, r points: what the core takes, and each chapter compiled.   */
 #define GVI_LENGTH(n, s, r)                                                                     \
     GVI__LENGTH(GVI__SIZE(n), GVI__SIZE(s), GVI__SIZE(r), GVI__SIZE(GVI__ROW(r)))
 #define GVI__LENGTH(n, s, r, R) (GVI__CORE_LENGTH(n, s, r, R) + GVI__RULES_LENGTH(s)            \
@@ -1321,7 +1332,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI__DIAL_LENGTH(R) (4*(R))
 #endif
 
-/*  The same with constraints, m rows in all.                                  */
+/* The same with constraints, m rows in all.                                   */
 #define GVI_CONSTRAINED_LENGTH(n, s, r, m) (GVI_LENGTH(n, s, r)                  \
     + (GVI__SIZE(m)*(GVI__SIZE(n) + 2) + GVI__SIZE(r))*GVI__SIZE(GVI__ROW(r))     \
     + (6*GVI__SIZE(n) + 3*GVI__SIZE(m) + 2*GVI__SIZE(r) + 5*GVI__SIZE(s) + 4 + (4 + GVI__SIZE(m)) \

@@ -107,11 +107,11 @@ int main(int argc, char **argv)
     static trace out[RUNS];
     const double days = argc > 1 ? atof(argv[1]) : 200000, h = argc > 2 ? atof(argv[2]) : 200;
     const int top = argc > 3 ? atoi(argv[3]) : 8, degree[RUNS] = { (top + 3)/4, (top + 1)/2, top };
-    char path[2][256], name[RUNS][16];
+    char path[2][256], name[RUNS][16], title[64];
     double q[3*BODIES], miss = 0;
     const char *colours[BODIES] = { NULL };
     svg_line orbit[BODIES], level[RUNS];
-    svg_plot orbits = { .title = "Outer solar system", .x_label = "AU", .y_label = "AU", .equal = 1,
+    svg_plot orbits = { .title = title, .x_label = "AU", .y_label = "AU", .equal = 1,
                         .lines = orbit, .colours = colours };
     const svg_plot energy = { .title = "Error of the energy", .x_label = "years", .y_label = "|E - E(0)| / |E(0)|",
                               .log_y = 1, .lines = level, .line_count = RUNS };
@@ -129,6 +129,8 @@ int main(int argc, char **argv)
     }
     for (int i = 1; i < b.n; ++i)
         orbit[orbits.line_count++] = (svg_line){ b.name[i], out[RUNS-1].x[i], out[RUNS-1].y[i], out[RUNS-1].orbit };
+    snprintf(title, sizeof title, "Outer solar system over %.0f years", days/365.25);
+    colours[orbits.line_count - 1] = "#444444";                 // Pluto, unlike the Sun
     colours[orbits.line_count] = "#e69f00";
     orbit[orbits.line_count++] = (svg_line){ b.name[0], out[RUNS-1].x[0], out[RUNS-1].y[0], 1 };
     snprintf(path[0], sizeof path[0], "%s/orbits.svg", argc > 4 ? argv[4] : "build");

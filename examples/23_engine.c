@@ -73,7 +73,7 @@ static int draw(const char *path)
     const svg_line lines[] = { { "crank", angle, force[0], DRAWN }, { "rod", angle, force[1], DRAWN },
                                { "cylinder wall", angle, force[2], DRAWN } };
     const svg_plot plot = { .title = "Forces in the joints of a crank drive at 3000 turns a minute", .x_label = "angle of the crank, degrees",
-                            .y_label = "N, push", .lines = lines, .line_count = 3 };
+                            .y_label = "N, push", .lines = lines, .line_count = 3, .x_step = 90 };
     return svg_write(path, &plot);
 }
 

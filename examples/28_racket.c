@@ -79,7 +79,7 @@ static int draw(const char *path)
     static double x[2][FRAMES*OUTLINE], y[2][FRAMES*OUTLINE];
     const svg_line lines[] = { { "front", x[0], y[0], FRAMES*OUTLINE }, { "back", x[1], y[1], FRAMES*OUTLINE } };
     const svg_plot plot = { .title = "A racket thrown so that it turns across its handle",
-                            .x_label = "eighths of a turn", .y_label = "turns, downwards", .lines = lines, .line_count = 2 };
+                            .x_label = "eighths of a turn", .y_label = "turns", .lines = lines, .line_count = 2 };
     double w[3];
     gvi_stepper st;
     throw_it(&st, 1, w);
@@ -94,7 +94,7 @@ static int draw(const char *path)
             for (int side = 0; side < 2; ++side) {
                 const int shown = (normal[2] < 0) == side && k < OUTLINE - 1, i = frame*OUTLINE + k;
                 x[side][i] = shown ? frame % 8 + z[1] : HUGE_VAL;    // seen from above, the handle upwards
-                y[side][i] = -(double)(frame/8) + z[0];
+                y[side][i] = (double)(frame/8) + z[0];
             }
         }
         if (gvi_step(&st, pi/4/rate)) return -1;

@@ -1,6 +1,6 @@
 # studies.mk - what Makefile includes: long checks, measurements, pictures.  `make help-all` lists them.
 
-.PHONY: headers-quick headers symbols chapters docs-check bound float instructions prices usable languages boards sanitize sanitized any_processor \
+.PHONY: headers-quick headers symbols chapters docs-check reference bound float instructions prices usable languages boards sanitize sanitized any_processor \
         ensemble deps-ensemble embedded-page tolerances firmware deps-firmware fuzz fuzz-short size stats compare everywhere deps-everywhere \
         cost-dial cost-horizon cost-constraints kicks points from-l mycost cost-embedded hard theorems mutants coverage covered
 
@@ -17,6 +17,10 @@ symbols: $(addprefix $(BUILD)/gvi-,float.o double.o long.o)
 #: docs-check   the code in README, guide and header is compiled and its output compared
 docs-check: $(BUILD)/gvi-double.o
 	$(STEP) $@ sh tests/tools/docs.sh $(BUILD) $<
+
+#: reference    writes docs/reference.md from gvi.h
+reference:
+	$(Q)python3 tests/tools/reference.py >docs/reference.md
 
 #: chapters     gvi.h without each chapter, each alone on the core, pairs: warnings, bits, programs, symbols, sizes (four minutes)
 #: bound        operations of a step, counted one by one, against the bound that gvi.h states (C++)
@@ -103,7 +107,7 @@ size: | $(FIRST)
 	$(Q)sh tests/tools/size.sh $(BUILD) $(DETAIL)
 
 #: everywhere   every machine that can be compiled for and imitated here: warnings, tests, bits (half an hour)
-#:              RECORD=--record puts its tables into docs/embedded.md; ONLY="armhf tcc": these alone
+#:              RECORD=--record puts its tables into tests/README.md; ONLY="armhf tcc": these alone
 everywhere:
 	$(Q)ONLY='$(ONLY)' sh tests/tools/everywhere.sh $(BUILD) $(RECORD)
 

@@ -5,7 +5,9 @@ import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 const here = dirname(fileURLToPath(import.meta.url)), read = name => readFileSync(join(here, name), 'utf8');
-const bare = name => read(name).replace(/^ *\/\*.*\*\/\n/gm, '').trim();     // without comments of a line
+/* Without comments of a line and indentation, but for that of the program which the page writes. */
+const bare = name => read(name).replace(/^ *\/\*.*\*\/\n/gm, '').split(/(return `\/\*[^]*?\n`;)/)
+  .map((part, i) => i % 2 ? part : part.replace(/^ +/gm, '')).join('').trim();
 const [wasm, out] = process.argv.slice(2);
 const packed = gzipSync(readFileSync(wasm), { level: 9 });
 packed[9] = 255;                                         // "operating system": the same on all

@@ -49,7 +49,7 @@ const duration = ms => ms >= 1000 ? (ms / 1000).toPrecision(3) + ' s' : ms >= 1 
 const html = s => String(s).replace(/[&<>"]/g, c => ({ '&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;' }[c]));
 
 /* ---- the state that the address holds ---- */
-const set = { scene: 0, on: 0, p: [], degree: 8, rule: 'gauss', h: 0.1, tol: 0, dial: 0, want: -8, by: 'time' };
+const set = { scene: 0, on: 0, p: [], degree: 8, rule: 'gauss', h: 0.1, tol: 0, dial: 0, want: -8, by: 'evaluations' };
 const scene = () => scenes[set.scene];
 const slug = s => s.replace(/ /g, '-');
 const defaults = i => Object.assign(set, { scene: i, on: scenes[i].first, p: scenes[i].parameters.map(p => p.value), degree: scenes[i].degree, rule: 'gauss', h: scenes[i].h, tol: 0, dial: 0 });
@@ -77,7 +77,7 @@ function recall() {
   }
   const i = a.scene === undefined ? 0 : scenes.findIndex(s => s.name === a.scene);
   defaults(Math.max(i, 0));
-  if (i < 0) return { call: `scene "${a.scene}": world_open`, status: x.world_open(2, -1, 0, 1, 0, 0, 0) };
+  if (i < 0) return { call: `scene "${a.scene}"`, status: -1, why: 'it is not one of the scenes' };
   if (a.on !== undefined) set.on = scene().effects.reduce((m, e, k) => m | a.on.split(',').includes(slug(e.name)) << k, 0);
   if (a.p !== undefined) a.p.split(',').slice(0, set.p.length).forEach((v, k) => { set.p[k] = Number(v); });
   for (const k of ['degree', 'h', 'tol', 'dial']) if (a[k] !== undefined) set[k] = Number(a[k]);
@@ -100,14 +100,14 @@ let E0 = 0, Escale = 1, kept0 = [], trails = [], dots = [], view = 1;
 const turn = { yaw: 0.6, pitch: 0.5 };
 let dirty = true, plotDirty = true;
 
-function complain(call, status, more = '', world = 0) {
+function complain(call, status, more = '', world = 0, why = '') {
   const a = $('alert');
   a.hidden = !status;
   if (!status) return;
   const e = status === -9 || status === -10 || status === -11 || status < -13 ? x.world_number(world, 11, 0) : -1;
-  $('alert-text').textContent = `${call}: ${text(x.status_text(world, status))}${e >= 0 ? ` (${scene().effects[e].name})` : ''}. ${more}`;
+  $('alert-text').textContent = `${call}: ${why || text(x.status_text(world, status))}${e >= 0 ? ` (${scene().effects[e].name})` : ''}. ${more}`;
   $('alert').dataset.status = status;
-  $('halve').hidden = set.dial || !(set.h > 0 || set.h < 0);
+  $('halve').hidden = set.dial || !/^-(8|9|10|14)$/.test(status);
   $('alert-clock').hidden = scene().clock < 0 || clocked();
   pause();
 }
@@ -123,7 +123,7 @@ function apply(keep, first) {
   if (!status) { call = 'gvi_step'; world = 2; status = probe(); }
   live.ok = !status;
   complain(call, status, status === -15 ? 'What was held has moved away: restart to mount it again.' : 'Change the setting to go on.', world);
-  if (first) complain(first.call, first.status, 'Here is another scene.', 2), live.playing = !calm.matches;
+  if (first) complain(first.call, first.status, 'Here is another scene.', 2, first.why), live.playing = !calm.matches;
   Object.assign(live, { k: 0, t: x.world_number(0, 0, 0), from: x.world_number(0, 0, 0), elapsed: 0, origin: s.effects && [...Array(s.n)].map((_, i) => x.world_number(0, 30, i)) });
   if (!keep) live.target = live.t, live.dir = 1;
   if (Math.abs(live.target - live.t) > 2 * Math.abs(set.h) || !keep) live.target = live.t;
@@ -590,7 +590,7 @@ function measure(budget) {
   while (race && now() < end) { const r = race.next(); if (r.done || r.value === 'idle') break; }
 }
 
-const costOf = a => set.by === 'time' ? a.time : a.work;
+const costOf = a => set.by === 'time' ? a.time : Math.max(a.work, 1);    // 0: drawn at 1
 const priceOf = a => set.by === 'time' ? duration(a.time) : many(a.work) + ' evaluations';
 const power = v => '10' + sup(Math.round(Math.log10(v))), plainly = v => v >= 1e-4 ? String(+v.toPrecision(4)) : short(v, 3);
 const describe = a => a.method === 0 ? `degree ${a.degree}, ${RULE_SHORT[RULES.indexOf(a.rule)] ?? a.rule}, ${a.dial ? `the dial at ${power(a.dial)}` : `h = ${plainly(a.h)}`}${a.tol ? `, iterated to ${power(a.tol)}` : ''}`
@@ -626,7 +626,7 @@ function drawCost() {
       if (q.id === here) out += `<circle id="here" cx="${at[i][0]}" cy="${at[i][1]}" r="9" fill="none" stroke="${colour}" stroke-width="2.2" pointer-events="none"/>`;
     });
     if (!list[0].method && at.length) {
-      const end = at[at.length - 1], name = list[0].dial ? 'dial' : list[0].rule === 'gauss' && !list[0].tol ? list[0].degree : '';
+      const end = at[at.length - 1], name = !byTime && !list[0].work ? '' : list[0].dial ? 'dial' : list[0].rule === 'gauss' && !list[0].tol ? list[0].degree : '';
       const places = [[8, 4], [-8, 4], [8, -9], [8, 17], [-8, -9], [-8, 17]].map(([dx, dy]) => [end[0] + dx, end[1] + dy, dx < 0]);
       const free = ([X, Y, left]) => (left || X < a.W - 32) && !placed.some(o => Math.abs(o[0] - X - (left ? -12 : 12)) < 24 && Math.abs(o[1] - Y) < 13);
       const [X, Y, left] = places.find(free) || places[0];
@@ -644,22 +644,22 @@ function drawCost() {
   const left = (p.todo ? p.todo.length : 40) + wanted.length, none = [1, 2, 3].filter(m => p.points.some(q => q.method === m && q.status === -6));
   $('cost-caption').textContent = p.note || `A run to t = ${short(s.span, 3)}${s.time ? ' ' + s.time : ''}. ` + (left ? `Measuring, ${left} runs to go.` : none.length ? `${none.map(m => METHODS[m]).join(', ')} cannot: ${s.mass && !s.mass.includes('MASS_DIAGONAL') ? 'the mass depends on q' : held() ? 'a constraint acts (degree 1 with Lobatto is RATTLE)' : 'a force reads v'}.` : 'All measured here, now.');
   svg.dataset.left = left;
+  svg.dataset.height = a.H;
   /* the cheapest for the wanted error */
   const fit = m => good.filter(q => (m ? q.method > 0 : q.method === 0) && q.error <= 10 ** set.want).sort((b, c) => costOf(b) - costOf(c))[0];
   cheapest = fit(0);
   const rival = fit(1), goal = `an error of 10${sup(set.want)}${s.unit ? ' ' + html(s.unit) : ''}`;
   const current = good.find(q => q.id === here);
   let words = cheapest ? `Cheapest setting so far for ${goal}: <b>${describe(cheapest)}</b>, ${priceOf(cheapest)}. ` : `No setting so far reaches ${goal}. `;
-  if (rival && cheapest) { const r = costOf(rival) / costOf(cheapest); words += `The best rival, ${describe(rival)}, takes ${priceOf(rival)}: ${r > 1.05 ? short(r, 1) + ' times as much.' : r < 0.95 ? short(r, 1) + ' of that.' : 'about the same.'}`; }
-  else if (rival) words += `${describe(rival)} does, in ${priceOf(rival)}.`;
+  if (rival && cheapest && (byTime || cheapest.work)) { const r = costOf(rival) / costOf(cheapest); words += `The best rival, ${describe(rival)}, takes ${priceOf(rival)}: ${r > 1.05 ? short(r, 1) + ' times as much.' : r < 0.95 ? short(r, 1) + ' of that.' : 'about the same.'}`; }
+  else if (rival) words += cheapest ? 'Nothing acts, so nothing is evaluated.' : `${describe(rival)} does, in ${priceOf(rival)}.`;
   else if (left === 0) words += 'No rival here reaches it.';
   if (cheapest && cheapest.id !== here) words += '<br><button type="button" id="use">Use it</button>';
   else if (cheapest) words += '<br>';
   if (cheapest) words += '<button type="button" id="copy-too">Copy the C</button>';
   if ($('cheapest').dataset.is !== words) { $('cheapest').innerHTML = words; $('cheapest').dataset.is = words; }
   svg.setAttribute('aria-label', `Error at the end of the run against ${byTime ? 'time' : 'evaluations'}; ${good.length} points. ${$('cheapest').textContent.replace(/(Use it)?(Copy the C)?$/, '')}`);
-  if (!pointed && current) tell(current, 'As set now: ');
-  else if (!pointed) $('point').textContent = '';
+  if (!pointed) current ? tell(current, 'As set now: ') : $('point').textContent = 'Each setting that you try leaves a point. Click one to go back to it.';
   $('dial-out').textContent = set.dial && current ? `${many(current.steps)} steps in ${duration(current.time)} a run` : '';
   $('code').textContent = program(cheapest || current || setting());
   $('points').innerHTML = '<thead><tr><th>setting</th><th>error</th><th>time</th><th>evaluations</th><th>steps</th></tr></thead><tbody>' + p.points.filter(q => q.time).sort((b, c) => b.method - c.method || b.degree - c.degree || c.h - b.h).map(q => `<tr><td>${describe(q)}</td><td>${short(q.error)}</td><td>${duration(q.time)}</td><td>${many(q.work)}</td><td>${many(q.steps)}</td></tr>`).join('') + '</tbody>';
@@ -718,8 +718,8 @@ int main(void)
 ${on.length ? `    const gvi_effect effects[] = {
 ${on.map(e => `        ${e.code},`).join('\n')}
     };
-` : ''}${kicks && j.rule === 'verlet' ? '    const double nodes[] = { 0, 1 }, weights[] = { 0.5, 0.5 };\n' : kicks ? kicks8() : ''}    gvi_desc desc = { .n = ${s.n}, .degree = ${j.degree},${kicks ? ` .rule = { GVI_KICKS, ${j.rule === 'verlet' ? 2 : 18}, nodes, weights },` : rule}${j.tol ? ` .tolerance = ${j.tol.toExponential(0)},` : ''}${j.dial ? ` .resolution = ${j.dial.toExponential(0)},` : ''}
-                      .effects = ${on.length ? 'effects' : 'NULL'}, .effect_count = ${on.length} };
+` : ''}${kicks && j.rule === 'verlet' ? '    const double nodes[] = { 0, 1 }, weights[] = { 0.5, 0.5 };\n' : kicks ? kicks8() : ''}    gvi_desc desc = { .n = ${s.n}, .degree = ${j.degree},${kicks ? ` .rule = { GVI_KICKS, ${j.rule === 'verlet' ? 2 : 18}, nodes, weights },` : rule}${j.tol ? ` .tolerance = ${j.tol.toExponential(0)},` : ''}${j.dial ? ` .resolution = ${j.dial.toExponential(0)},` : ''}${on.length ? `
+                      .effects = effects, .effect_count = ${on.length}` : ''} };
     gvi_stepper st;
 ${s.make ? `    ${s.make}\n` : ''}${s.mass ? `    desc.mass = ${s.mass.replace(/^\((\(.*)\)$/, '$1')};\n${held() ? '    desc.mass.velocity = NULL;                  // with constraints gvi.h solves for it\n' : ''}` : ''}    double *memory = malloc(gvi_size(&desc));
     if (gvi_init(&st, &desc, memory, gvi_size(&desc)) == GVI_OK) gvi_start(&st, 0, q, v);
@@ -783,7 +783,7 @@ const clockOn = () => { change({ on: set.on | 1 << scene().clock, rule: 'gauss' 
 $('clock').onclick = $('alert-clock').onclick = clockOn;
 $('break').onclick = () => {
   const s = scene();
-  const o = s.name === 'kepler' ? { on: 1, p: [0.97, set.p[1]], h: 0.125, degree: 8 } : { on: set.on & ~(1 << s.clock), h: s.name === 'pythagoras' ? 0.05 : 0.4, degree: 8, p: s.name === 'eight' ? [-0.1] : set.p };
+  const o = s.name === 'kepler' ? { on: 1, p: [0.97, set.p[1]], h: 0.02, degree: 8 } : { on: set.on & ~(1 << s.clock), h: s.name === 'pythagoras' ? 0.05 : 0.4, degree: 8, p: s.name === 'eight' ? [-0.1] : set.p };
   change({ ...o, rule: 'gauss', tol: 0, dial: 0 }, false);
   play();
   $('encounter').textContent = `A fixed step of ${set.h} is far too long where the bodies meet, and nothing adapts it: watch the energy at each encounter. Then turn the clock on.`;

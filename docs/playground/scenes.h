@@ -1,7 +1,7 @@
 /* scenes.h - the scenes of the playground: to add one, write thirty lines here
 
    A scene is a list of effects (examples/tools/effects.h), initial values, and what to draw; add it to
-   scenes[] at the end, then `make playground`.  docs/guide.md goes through an example.
+   scenes[] at the end, then `make playground`.  elastic_pendulum is the shortest; docs/scenes.md has a table.
 
    SHOWN(name, text)    the text as C and, for the program that the page writes, as a string
    ADD(s, name, what, on, effect)    a switch on the page; on = 1: on at first
@@ -106,21 +106,22 @@ static inline double scene_angular(int count, int dim, const double *q, const do
 
 SHOWN(kepler_text,
 static const gvi_real planet_mass[] = { 1 };
-static const struct central_gravity sun = { { 0, 1, 3 }, planet_mass, 1, { 0, 0, 0 } };
-static const struct oblateness bulge = { { 0, 1, 3 }, planet_mass, 1, 0.2, 0.1 };
-static const struct central_gravity star = { { 0, 1, 3 }, planet_mass, 0.05, { -1.8, 1, 0 } };
-static const struct magnetic planet_field = { { 0, 1, 3 }, planet_mass, { 0, 0, 0.1 } };
-static const struct linear_drag dust = { 0, 3, 0.002, 3 };
-static const struct motor push = { { -1, 0 }, 0, 0.01, 1.3, 0 };
+static const struct central_gravity sun = { { 0, 1, 3 }, planet_mass, 39.4784176, { 0, 0, 0 } };
+static const struct oblateness bulge = { { 0, 1, 3 }, planet_mass, 39.4784176, 0.2, 0.1 };
+static const struct central_gravity star = { { 0, 1, 3 }, planet_mass, 2, { -1.8, 1, 0 } };
+static const struct magnetic planet_field = { { 0, 1, 3 }, planet_mass, { 0, 0, 0.6 } };
+static const struct linear_drag dust = { 0, 3, 0.012, 3 };
+static const struct motor push = { { -1, 0 }, 0, 0.4, 8, 0 };
 static const struct distance_clock planet_clock = { { 0, 1, 3 } };
 )
 
 static void kepler_build(scene_setup *s)
 {
     const double e = s->value[0], i = s->value[1]/57.29577951308232;
+    const double v = sqrt(39.4784176*(1 + e)/(1 - e));
     s->q[0] = 1 - e;
-    s->v[1] = sqrt((1 + e)/(1 - e))*cos(i);
-    s->v[2] = sqrt((1 + e)/(1 - e))*sin(i);
+    s->v[1] = v*cos(i);
+    s->v[2] = v*sin(i);
     ADD(s, "gravity", "potential of the star", 1, central_gravity(&sun));
     ADD(s, "oblateness", "the star is flattened", 1, oblateness(&bulge));
     ADD(s, "third body", "a dwarf star, fixed", 0, central_gravity(&star));
@@ -147,9 +148,9 @@ static void kepler_quantities(const double *q, const double *v, const double *p,
 static const double kepler_radius[] = { 11, 6, 7 };
 
 static const scene kepler = {
-    .name = "kepler", .title = "Planet", .about = "A planet on an ellipse about a star. Distances in AU, "
-    "2\xcf\x80 of time is a year.", .n = 3, .degree = 8, .h = 0.25, .span = 62.83185307179586, .speed = 2,
-    .time_unit = "yr/2\xcf\x80", .error_unit = "AU", .length_unit = "AU",
+    .name = "kepler", .title = "Planet", .about = "A planet on an ellipse of 1 AU about a star like the "
+    "Sun: it goes round in a year.", .n = 3, .degree = 8, .h = 0.02, .span = 10, .speed = 0.32,
+    .time_unit = "yr", .error_unit = "AU", .length_unit = "AU",
     .parameter = { { "eccentricity", "", 0, 0.99, 0.01, 0.6 }, { "inclination", "\xc2\xb0", 0, 85, 5, 25 } },
     .quantity = { { "angular momentum", "third body,drag,drive" } }, .text = kepler_text,
     .build = kepler_build, .quantities = kepler_quantities,
@@ -230,7 +231,7 @@ static const double pythagoras_radius[] = { 6, 7.5, 9 };
 static const scene pythagoras = {
     .name = "pythagoras", .title = "Pythagorean", .about = "Masses 3, 4, 5 fall from rest in the corners of "
     "a triangle; near encounters throw one out. A clock lets the step shrink there.", .n = 6, .degree = 8,
-    .h = 0.05, .span = 10, .speed = 1, .time_unit = "", .error_unit = "length units",
+    .h = 0.025, .span = 10, .speed = 1, .time_unit = "", .error_unit = "length units",
     .quantity = { { "angular momentum", "drag" }, { "momentum x", "drag" } },
     .text = pythagoras_text, .build = pythagoras_build, .quantities = eight_quantities,
     .bodies = 3, .view = 4, .place = three_place, .radius = pythagoras_radius, .trails = 7,
@@ -280,7 +281,7 @@ static const double pendulum_radius[] = { 4, 8, 8 };
 
 static const scene double_pendulum = {
     .name = "pendulum", .title = "Double pendulum", .about = "Two rods of 1 m with 1 kg at each end, in "
-    "angles: the mass matrix depends on the position. Chaotic.", .n = 2, .degree = 8, .h = 0.08, .span = 10,
+    "angles: the mass matrix depends on the position. Chaotic.", .n = 2, .degree = 8, .h = 0.04, .span = 10,
     .speed = 1, .time_unit = "s", .error_unit = "rad", .length_unit = "m",
     .parameter = { { "upper angle", "\xc2\xb0", -180, 180, 5, 90 }, { "lower angle", "\xc2\xb0", -180, 180, 5, 120 } },
     .quantity = { { "angular momentum", "gravity,friction,drive" } },
@@ -334,7 +335,7 @@ static const double rods_radius[] = { 4, 8, 8, 0, 0 };
 
 static const scene pendulum_rods = {
     .name = "rods", .title = "Pendulum of rods", .about = "The double pendulum again, in x and y: each rod "
-    "is a constraint. Break one, and the bob flies off.", .n = 4, .degree = 8, .h = 0.08, .span = 10,
+    "is a constraint. Break one, and the bob flies off.", .n = 4, .degree = 8, .h = 0.04, .span = 10,
     .speed = 1, .time_unit = "s", .error_unit = "m", .length_unit = "m",
     .parameter = { { "upper angle", "\xc2\xb0", -180, 180, 5, 90 }, { "lower angle", "\xc2\xb0", -180, 180, 5, 120 } },
     .quantity = { { "angular momentum", "gravity,drag" }, { "momentum x", "upper rod,drag" } },
@@ -395,7 +396,7 @@ static const double frame_radius[13] = { 4, 7, 7, 7, 7 };
 static const scene braced_frame = {
     .name = "frame", .title = "Braced frame", .about = "One diagonal keeps the frame in shape, the second is "
     "redundant. Switch it off: the motion stays the same. Switch both off: the frame folds.",
-    .n = 8, .degree = 8, .h = 0.04, .span = 10, .speed = 1, .time_unit = "s", .error_unit = "m", .length_unit = "m",
+    .n = 8, .degree = 8, .h = 0.02, .span = 10, .speed = 1, .time_unit = "s", .error_unit = "m", .length_unit = "m",
     .parameter = { { "hanger", "\xc2\xb0", -180, 180, 5, 90 }, { "frame", "\xc2\xb0", -180, 180, 5, 0 } },
     .text = frame_text, .build = frame_build,
     .bodies = 13, .view = 1.9, .centre = { 0, -0.4, 0 }, .place = frame_place,
@@ -579,7 +580,7 @@ static const double net_radius[KNOTS] = { 5, 2.5, 2.5, 2.5, 5, 2.5, 2.5, 2.5, 2.
 
 static const scene spring_net = {
     .name = "net", .title = "Net of springs", .about = "25 knots of 10 g on threads of 100 N/m, hung by the "
-    "corners. 75 coordinates. Drag the picture to turn it.", .n = 3*KNOTS, .degree = 6, .h = 0.01, .span = 0.4,
+    "corners. 75 coordinates. Drag the picture to turn it.", .n = 3*KNOTS, .degree = 6, .h = 0.005, .span = 0.4,
     .speed = 0.25, .time_unit = "s", .error_unit = "m", .length_unit = "m",
     .parameter = { { "dome", " m", -0.3, 0.3, 0.02, 0.1 } },
     .text = net_text, .make = "net_make();", .build = net_build,
@@ -623,7 +624,7 @@ static const double charge_radius[] = { 8, 6 };
 
 static const scene charged_particle = {
     .name = "charge", .title = "Charged particle", .about = "A charge in a magnetic field along the vertical. "
-    "Units in which charge, mass and field are 1.", .n = 3, .degree = 8, .h = 0.5, .span = 100, .speed = 2,
+    "Units in which charge, mass and field are 1.", .n = 3, .degree = 8, .h = 0.25, .span = 100, .speed = 2,
     .time_unit = "", .error_unit = "gyroradii",
     .parameter = { { "speed across", "", 0.1, 2, 0.05, 1.1 }, { "speed along", "", 0, 0.5, 0.05, 0.1 } },
     .quantity = { { "angular momentum", "electric field,drag,drive" } },
@@ -675,7 +676,7 @@ static const scene robot_arm = {
     .trails = 4, .fixed = 1,
 };
 
-/* -- a pendulum on a spring: the example of docs/guide.md */
+/* -- a pendulum on a spring: the shortest */
 
 SHOWN(elastic_text,
 static const gvi_real bob_mass[] = { 1 };

@@ -55,7 +55,7 @@ typedef struct world {
     gvi_desc     desc;
     gvi_stepper  st;
     int          open, pinned, chosen[2];             /* degree and rule given to world_open */
-    const char  *call;                               /* that world_open made last          */
+    const char  *call, *wrong;                       /* that world_open made last; what it refused itself */
     double       dial, from;                         /* desc.resolution; where world_open began */
     double       t, q[SCENE_MOST], v[SCENE_MOST], p[SCENE_MOST], before[SCENE_MOST];
     double       total[SCENE_EFFECTS], steps, iterations, evaluations;
@@ -209,6 +209,7 @@ int EXPORT(world_open)(int which, int index, unsigned on, int degree, int rule, 
     world *w = &worlds[(unsigned)which%WORLDS];
     const scene *a = scene_at(index);
     int reads = 0;
+    w->wrong = NULL;
     if (!a) return GVI_E_ARGUMENT;
     if (w->open && keep) world_remember(w);
     keep = keep && w->scene == a;
@@ -235,16 +236,17 @@ int EXPORT(world_open)(int which, int index, unsigned on, int degree, int rule, 
         memcpy(w->q, w->setup.q, sizeof w->q);
         memcpy(w->v, w->setup.v, sizeof w->v);
     }
-    if (rule < 0 || rule >= RULES || degree < 1) return GVI_E_ARGUMENT;
-    w->desc = (gvi_desc){ .n = a->n, .mass = w->setup.mass, .effects = w->effects, .tolerance = tolerance,
-                          .resolution = dial };
+    if (degree < 1) w->wrong = "degree is not 1 or more";
+    if (rule < 0 || rule >= RULES) w->wrong = "rule is not one of the list";
+    if (w->wrong) return GVI_E_ARGUMENT;
+    w->desc = (gvi_desc){ .n = a->n, .mass = w->setup.mass, .tolerance = tolerance, .resolution = dial };
     for (int i = 0; i < w->setup.rows; ++i) {
         if (!(on >> i & 1)) continue;
         reads |= w->setup.row[i].effect.kind;
         w->listed[w->desc.effect_count] = i;
         w->effects[w->desc.effect_count++] = w->setup.row[i].effect;
     }
-    if (w->desc.effect_count == 0) w->desc.effects = NULL;        /* free motion */
+    if (w->desc.effect_count > 0) w->desc.effects = w->effects;
     world_rule(&w->desc, degree, rule);
     if (reads & GVI_CONSTRAINT) w->desc.mass.velocity = NULL;
     /* Newton's method needs the square of s n: for a large scene the formulation is pinned */
@@ -270,6 +272,16 @@ static int one_step(world *w, double h, double end)
     return w->dial > 0 ? gvi_advance(&w->st, end) : gvi_step(&w->st, h);
 }
 
+/* Points at which effects were evaluated; without any, the mass matrix.                    */
+static double world_points(const world *w)
+{
+    const gvi_counters *c = &w->st.counters;
+    double most = w->desc.effect_count > 0 ? 0 : (double)c->mass;
+    for (int e = 0; e < w->desc.effect_count; ++e)
+        if ((double)c->effect[e] > most) most = (double)c->effect[e];
+    return most;
+}
+
 /* Steps, counted for what they are: queries leave no mark.                                */
 static int world_step(world *w, double h)
 {
@@ -277,13 +289,8 @@ static int world_step(world *w, double h)
     memset(c, 0, sizeof *c);
     memcpy(w->before, w->st.q, sizeof(double)*(size_t)w->st.n);
     const int status = one_step(w, h, h < 0 ? w->from : w->st.t + w->scene->span);
-    double most = 0;
-    for (int e = 0; e < w->desc.effect_count; ++e) {
-        const double points = (double)c->effect[e];
-        w->total[w->listed[e]] += points;
-        if (points > most) most = points;
-    }
-    w->evaluations += most;
+    for (int e = 0; e < w->desc.effect_count; ++e) w->total[w->listed[e]] += (double)c->effect[e];
+    w->evaluations += world_points(w);
     w->iterations += (double)(c->iterations + c->newton_iterations);
     w->steps += status == GVI_OK;
     return status;
@@ -355,6 +362,7 @@ const char *EXPORT(world_formulation)(int which) { return gvi_formulation_text(&
 const char *EXPORT(status_text)(int which, int status)
 {
     const gvi_stepper *st = &worlds[(unsigned)which%WORLDS].st;
+    if (status == GVI_E_ARGUMENT && worlds[(unsigned)which%WORLDS].wrong) return worlds[(unsigned)which%WORLDS].wrong;
     return (int)st->status == status ? gvi_why(st) : gvi_status_text((gvi_status)status);
 }
 
@@ -495,13 +503,9 @@ double EXPORT(race_number)(int which, int field)
 {
     world *w = &worlds[(unsigned)which%WORLDS];
     const gvi_counters *c = &w->st.counters;
-    double most = 0;
     switch (field) {
     case 0: return w->done;
-    case 1:
-        for (int e = 0; e < w->desc.effect_count; ++e)
-            if ((double)c->effect[e] > most) most = (double)c->effect[e];
-        return w->method ? w->rival.evaluations : most;
+    case 1: return w->method ? w->rival.evaluations : world_points(w);
     case 2: return w->step;
     case 3: return (double)(c->iterations + c->newton_iterations);
     default: return 0;

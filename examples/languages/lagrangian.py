@@ -18,11 +18,12 @@ import sys
 
 import numpy as np
 
-from planet import Desc, Effect, Mass, Points, Run, Stepper, pointer, real
+import gvi
+from gvi import pointer, real, view
 
 
 class Wanted(C.Structure):
-    _fields_ = [("x", C.POINTER(Points)), ("w", pointer), ("one", C.c_int), ("scale", real), ("value", pointer),
+    _fields_ = [("x", C.POINTER(gvi.gvi_points)), ("w", pointer), ("one", C.c_int), ("scale", real), ("value", pointer),
                 ("by_q", pointer), ("by_w", pointer), ("first", C.c_int), ("apart", C.c_int), ("user", C.c_void_p)]
 
 
@@ -37,12 +38,12 @@ def adds(L):
         x = a.x.contents
         n, count, stride = x.n, x.count, x.stride
         z = np.zeros((2*n, count), dtype=complex)
-        z[:n] = x.rows("q")
+        z[:n] = view(x.q, (n, count), stride)
         if a.w:
-            z[n:] = np.ctypeslib.as_array(a.w, (n, stride))[:, :count]
+            z[n:] = view(a.w, (n, count), stride)
         elif a.one >= 0:
             z[n + a.one] = 1
-        t = np.ctypeslib.as_array(x.t, (count,))
+        t = view(x.t, (count,))
         directions = [(i, a.by_q, i*stride) for i in range(n) if a.by_q]
         directions += [(n + i, a.by_w, i*a.apart) for i in range(a.first, n) if a.by_w]
         value = None
@@ -50,34 +51,31 @@ def adds(L):
             z[d] += 1j*STEP
             value = L(t, z[:n], z[n:])
             z[d] = z[d].real
-            np.ctypeslib.as_array(out, (at + count,))[at:] += a.scale*(np.imag(value)/STEP)
+            view(out, (at + count,))[at:] += a.scale*(np.imag(value)/STEP)
         if a.value:
             value = L(t, z[:n], z[n:]) if value is None else value
-            np.ctypeslib.as_array(a.value, (count,))[:] += a.scale*np.real(value)
-    return add_fn(add)
+            view(a.value, (count,))[:] += a.scale*np.real(value)
+    return add
 
 
-class Typed(Run):
-    """a run from L(t, q, v) alone; ValueError says why L is refused"""
+class Typed(gvi.Stepper):
+    """a stepper from L(t, q, v) alone; ValueError says why L is refused"""
 
     def __init__(self, library, n, L, t, q, v, degree=8):
-        lib = self.lib = C.CDLL(library)
-        lib.gvi_size.restype = lib.gvi_stepper_size.restype = lib.typed_size.restype = C.c_size_t
-        lib.gvi_why.restype = lib.typed_init.restype = lib.typed_text.restype = C.c_char_p
-        at = [np.ascontiguousarray(z, dtype=float) for z in (q, v)]
-        self.L, add = C.create_string_buffer(lib.typed_size()), adds(L)
-        wrong = lib.typed_init(self.L, n, add, real(t), *(z.ctypes.data_as(pointer) for z in at))
+        lib = self.lib = gvi.load(library)
+        lib.typed_size.restype = C.c_size_t
+        lib.typed_init.restype = lib.typed_text.restype = C.c_char_p
+        at = [gvi.numbers(z, (n,)) for z in (q, v)]
+        self.error, self.views, self.rows = None, {}, 0
+        self.L, self.add = C.create_string_buffer(lib.typed_size()), add_fn(self.guard(adds(L)))
+        wrong = lib.typed_init(self.L, n, self.add, real(t), *map(gvi.given, at))
+        if self.error:
+            raise self.error
         if wrong:
             raise ValueError(wrong.decode())
-        effect, mass = (Effect*1)(), Mass()
-        lib.typed_scene(self.L, effect, C.byref(mass))
-        desc = Desc(n=n, degree=degree, mass=mass, effects=effect, effect_count=1)
-        size = lib.gvi_size(C.byref(desc))
-        self.memory = np.zeros(max(size//8, 1))
-        self.bytes = C.create_string_buffer(lib.gvi_stepper_size())
-        self.st = Stepper.from_buffer(self.bytes)
-        self.kept = add, effect
-        lib.gvi_init(self.bytes, C.byref(desc), self.memory.ctypes.data_as(pointer), C.c_size_t(size))
+        self.effect, mass = (gvi.gvi_effect*1)(), gvi.gvi_mass()
+        lib.typed_scene(self.L, self.effect, C.byref(mass))
+        self.open(gvi.gvi_desc(n=n, degree=degree, mass=mass, effects=self.effect, effect_count=1))
         self.start(t, q, v)
 
 
@@ -94,8 +92,6 @@ def main(library):
     run = Typed(library, 2, pendulum, 0, [0.8, 0.5], [0, 0])
     energy = run.energy()
     for _ in range(1600):
-        if run.st.status:
-            break
         run.step(1/16)
     print(f"{run.why()}: q = {run.q[0]:.9f} {run.q[1]:.9f}")
     print(f"L is {run.lib.typed_text(run.L).decode()}, energy within 1e-12:", abs(run.energy() - energy) < 1e-12)

@@ -187,7 +187,7 @@ static inline void animate_scale(FILE *f, const animation *a, const svg_axis *x)
 /* One of the two plots, `top` pixels down, and the mark that runs along.      */
 static inline void animate_plot(FILE *f, const animation *a, const svg_plot *plot, double top)
 {
-    svg_axis x = { 0, a->t[0], a->t[a->samples-1], 590, 880, 5 }, y = { 0, 0, 1, top + 150, top, 5 };
+    svg_axis x = { 0, a->t[0], a->t[a->samples-1], 590, 880, 5, 0 }, y = { 0, 0, 1, top + 150, top, 5, 0 };
     svg_fit(&y, plot, 1);
     svg_ticks(f, &x, &y, 0);
     svg_ticks(f, &y, &x, 1);
@@ -209,7 +209,7 @@ static inline void animate_plot(FILE *f, const animation *a, const svg_plot *plo
 /* Writes the film.  Returns 0, or -1 if the file cannot be written.           */
 static inline int animate_write(const char *path, const animation *a)
 {
-    svg_axis x = { 0, 0, 1, 20, 480, 6 }, y = { 0, 0, 1, 480, 40, 6 };
+    svg_axis x = { 0, 0, 1, 20, 480, 6, 0 }, y = { 0, 0, 1, 480, 40, 6, 0 };
     FILE *f = fopen(path, "w");
     if (!f) return -1;
     animate_fit(a, &x, &y);

@@ -26,11 +26,12 @@ typedef struct svg_plot {
     int             from_zero;          /* a linear y axis that begins at 0    */
     unsigned        thick, dashed, faint; /* lines drawn so, one bit each; faint: thin and grey */
     const char *const *colours;         /* of the lines; NULL, also for one: by its place */
+    double          x_step;             /* between the ticks of x; 0: a round number */
 } svg_plot;
 
 /* An axis shows the numbers lo..hi (or their logarithms) at pixels a..b, with at
-   most `most` ticks.                                                         */
-typedef struct svg_axis { int log; double lo, hi, a, b; int most; } svg_axis;
+   most `most` ticks, or one every `step`.                                           */
+typedef struct svg_axis { int log; double lo, hi, a, b; int most; double step; } svg_axis;
 
 static inline double svg_value(const svg_axis *axis, double x) { return axis->log ? x > 0 ? log10(x) : -HUGE_VAL : x; }
 
@@ -50,7 +51,7 @@ static inline double svg_round(double x, int up)
 /* Of a logarithmic axis: whole decades.                                       */
 static inline double svg_tick(const svg_axis *axis)
 {
-    const double step = svg_round((axis->hi - axis->lo)/axis->most, 1);
+    const double step = axis->step > 0 ? axis->step : svg_round((axis->hi - axis->lo)/axis->most, 1);
     return axis->log && step < 1 ? 1 : step;
 }
 
@@ -189,7 +190,7 @@ static inline const char *svg_dashes(const svg_plot *plot, int i)
 /* One plot between left and right; the first line on top, the faint ones behind the others.  */
 static inline void svg_panel(FILE *f, const svg_plot *plot, double left, double right)
 {
-    svg_axis x = { plot->log_x, 0, 1, left, right, 8 }, y = { plot->log_y, 0, 1, 400, 50, 8 };
+    svg_axis x = { plot->log_x, 0, 1, left, right, 8, plot->x_step }, y = { plot->log_y, 0, 1, 400, 50, 8, 0 };
     svg_fit(&x, plot, 0);
     svg_fit(&y, plot, 1);
     if (plot->equal) svg_square(&x, &y);

@@ -1,4 +1,4 @@
-/* The pieces of docs/guide.md that stand in no example, compiled. */
+/* The pieces of docs/guide.md and docs/tools.md that stand in no example, compiled. */
 #define GVI_IMPLEMENTATION
 #include "gvi.h"
 #include <math.h>
@@ -47,29 +47,13 @@ GVI_POINTS(gravity, 18, f)(const gvi_points *x, void *user)
     return (void)user, 0;
 }
 
-enum { N = 18 };
-static double spring(double d) { return d + 0.3*d*d*d; }
-
-static int chain(const gvi_points *x, void *user)             // springs d + 0.3 d^3 between walls
-{
-    double pull[N + 1];
-    const double *restrict q = x->q;
-    double *restrict f = x->f;
-    pull[0] = spring(q[0]);
-    for (int i = 1; i < N; ++i) pull[i] = spring(q[i] - q[i-1]);
-    pull[N] = spring(-q[N-1]);
-    for (int i = 0; i < N; ++i) f[i] += pull[i+1] - pull[i];
-    return (void)user, 0;
-}
-
-// at rest everywhere but q_0 = 1: two springs pull the first mass back, one the second; six bodies push none
+// forces of six bodies on each other have no sum
 static int bodies(void)
 {
-    double t = 0, q[18] = { 1 }, f[18] = { 0 }, sum = 0;
+    double t = 0, q[18], f[18] = { 0 }, sum = 0;
     const gvi_points x = { .n = 18, .count = 1, .stride = 1, .t = &t, .q = q, .f = f };
-    int failed = chain(&x, NULL) || fabs(f[0] + 2.6) > 1e-15 || fabs(f[1] - 1.3) > 1e-15;
-    for (int i = 0; i < 18; ++i) q[i] = sin(i + 1), f[i] = 0;
-    failed |= gravity(&x, NULL) || !(fabs(f[0]) > 0.1);
+    for (int i = 0; i < 18; ++i) q[i] = sin(i + 1);
+    const int failed = gravity(&x, NULL) || !(fabs(f[0]) > 0.1);
     for (int i = 0; i < 18; i += 3) sum += f[i];
     return failed || fabs(sum) > 1e-12;
 }

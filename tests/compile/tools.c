@@ -1,4 +1,4 @@
-/* tools.c - the smallest use of each tool, as docs/guide.md shows it, with the headers that `make install` puts under
+/* tools.c - the smallest use of each tool, as docs/tools.md shows it, with the headers that `make install` puts under
    gvi/.  C99 and C++20.  Runs: a planet on an ellipse; returns the number of the tool that fails. */
 #define GVI_IMPLEMENTATION
 #include <gvi.h>

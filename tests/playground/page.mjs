@@ -59,7 +59,7 @@ async function here(page) {
   const found = await page.waitForFunction(() => {
     const ring = document.querySelector('#here'), { set } = window.gvi, kicks = /verlet|kicks/.test(set.rule);
     const p = [...document.querySelectorAll('.point')].find(q => q.dataset.id === [0, kicks ? 1 : set.degree, set.rule, set.tol, set.h].join(' '));
-    if (!ring || !p || document.querySelector('#cost').dataset.left === undefined) return null;
+    if (!ring || !p || document.querySelector('#cost').dataset.left === undefined || +document.querySelector('#cost').dataset.height !== document.querySelector('#cost').clientHeight) return null;
     return { ...p.dataset, x: +ring.getAttribute('cx'), y: +ring.getAttribute('cy'), width: document.querySelector('#cost').clientWidth, height: document.querySelector('#cost').clientHeight };
   });
   return found.jsonValue();
@@ -125,7 +125,7 @@ for (const degree of [8, 4, 3]) {
   const p = await here(page);
   const error = await page.evaluate(degree => {                /* the same by hand, in a world of its own */
     const { x, set, problems } = window.gvi, numbers = new Float64Array(x.memory.buffer), n = x.scene_number(set.scene, 0, 0);
-    set.p.forEach((v, i) => { numbers[x.parameters() / 8 + i] = v; });
+    [...set.p, 0, 0, 0, 0].slice(0, 4).forEach((v, i) => { numbers[x.parameters() / 8 + i] = v; });
     x.world_open(2, set.scene, set.on, degree, 0, 0, 0);
     x.race_begin(2, 0, set.h, x.scene_number(set.scene, 3, 0));
     while (!x.race_steps(2, 1000));
@@ -137,16 +137,17 @@ for (const degree of [8, 4, 3]) {
   check(`degree ${degree}: its height in the plot`, Math.abs(p.y - y) < 0.6, [p.y, y]);
   check(`degree ${degree}: inside the plot`, p.x >= 50 && p.x <= p.width - 14, p.x);
 }
-check('each position left a point', (await page.evaluate(() => [3, 4, 8].every(d => document.querySelector(`.point[data-degree="${d}"][data-h="0.25"]`)))));
+check('each position left a point', (await page.evaluate(() => [3, 4, 8].every(d => document.querySelector(`.point[data-degree="${d}"][data-h="0.02"]`)))));
 check('rivals are there', await page.evaluate(() => [1, 2, 3].every(m => document.querySelectorAll(`.point[data-method="${m}"]`).length >= 4)));
 await put(page, '#want', -10);
 check('a cheapest setting is named', await soon(page, () => /Cheapest setting so far for an error of 10⁻¹⁰ AU: degree \d+/.test(document.querySelector('#cheapest').textContent)), await page.textContent('#cheapest'));
-await page.click('#by-work');
-check('cost in evaluations, too', await soon(page, () => /evaluations/.test(document.querySelector('#cost').textContent)));
+check('cost in evaluations', await soon(page, () => /evaluations/.test(document.querySelector('#cost').textContent)));
 await page.click('#by-time');
+check('in time, too', await soon(page, () => /time of the run/.test(document.querySelector('#cost').textContent)));
+await page.click('#by-work');
 
 /* ---- bad input ---- */
-for (const [selector, bad, words, good] of [['#degree-n', 99, /memory too small|is not|bad argument/, 8], ['#h-n', 0, /h is 0/, 0.25], ['#h-n', 'nonsense', /h is 0|bad argument/, 0.25], ['#degree-n', 0, /is not|bad argument/, 8]]) {
+for (const [selector, bad, words, good] of [['#degree-n', 99, /memory too small|is not|bad argument/, 8], ['#h-n', 0, /h is 0/, 0.02], ['#h-n', 'nonsense', /h is 0|bad argument/, 0.02], ['#degree-n', 0, /degree is not 1 or more/, 8]]) {
   await put(page, selector, bad);
   check(`${selector} ${bad}: the library's words`, words.test(await page.textContent('#alert-text')) && await page.isVisible('#alert'), await page.textContent('#alert-text'));
   await put(page, selector, good);
@@ -195,13 +196,13 @@ check('a drag turns the picture', await soon(page, seen => seen !== document.que
 /* ---- stability ---- */
 await page.click('#break');
 await put(page, '#speed', 4);
-await page.waitForFunction(() => window.gvi.live.t > 20 || !document.querySelector('#alert').hidden);
+await page.waitForFunction(() => window.gvi.live.t > 4 || !document.querySelector('#alert').hidden);
 const lost = () => page.evaluate(() => { const m = /gvi.h ([^ ,]+)/.exec(document.querySelector('#stability').getAttribute('aria-label')); return Number(m[1].replace('−', '-')); });
-if (!(await page.isVisible('#alert'))) await plotted(page, 20);
+if (!(await page.isVisible('#alert'))) await plotted(page, 4);
 check('a fixed step breaks at the encounter', (await page.isVisible('#alert')) || (await lost()) > 1e-3, await lost());
 await page.click('#clock');
 await page.click('#fast');
-await plotted(page, 200);
+await plotted(page, 32);
 check('the clock keeps the energy', (await lost()) < 1e-11, await lost());
 
 /* ---- a constraint that breaks ---- */
@@ -262,7 +263,7 @@ for (const hash of ['#scene=nonsense', '#degree=99', '#h=0', '#h=-1e999&degree=x
 
 page = await visit('#scene=eight');
 await page.evaluate(() => { location.hash = '#scene=no-such-scene'; });
-check('an address typed later is read, too', await soon(page, () => /no-such-scene.*(bad argument|is not)/.test(document.querySelector('#alert-text').textContent)), await page.textContent('#alert-text'));
+check('an address typed later is read, too', await soon(page, () => /no-such-scene.*is not one of the scenes/.test(document.querySelector('#alert-text').textContent)), await page.textContent('#alert-text'));
 await page.evaluate(() => { location.hash = '#scene=arm&degree=5'; });
 check('and another', (await soon(page, () => window.gvi.set.degree === 5)) && (await page.textContent('#scene-title')) === 'Robot arm');
 await leave(page);
@@ -288,6 +289,79 @@ for (const name of ['kepler', 'pendulum', 'rods', 'frame', 'quaternion', 'net', 
   } catch (e) { check(`${name}: the C compiles`, false, e.message); }
 }
 
+/* ---- every change of scene: what is said is of this scene ---- */
+const names = await page.evaluate(() => [...document.querySelectorAll('#scenes button')].map(b => b.dataset.scene));
+for (const from of names) for (const to of names) {
+  if (from === to) continue;
+  const said = await page.evaluate(async ([from, to]) => {
+    const frames = n => new Promise(done => { const f = () => n-- > 0 ? requestAnimationFrame(f) : done(); f(); });
+    const $ = s => document.querySelector(s);
+    $(`#scenes button[data-scene=${from}]`).click();
+    await frames(2);
+    $(`#scenes button[data-scene=${to}]`).click();
+    if (to !== 'net') $('#h-n').value = window.gvi.set.h * (1 + 0.01 * Math.random()), $('#h-n').dispatchEvent(new Event('change'));
+    delete $('#cost').dataset.left;                        // until it is drawn again
+    while ($('#cost').dataset.left === undefined) await frames(1);
+    const here = $('#here') && [...document.querySelectorAll('.point')].find(p => p.getAttribute('cx') === $('#here').getAttribute('cx') && p.getAttribute('cy') === $('#here').getAttribute('cy'));
+    return { title: $('#scene-title').textContent, button: $(`#scenes button[data-scene=${to}]`).textContent, alert: !$('#alert').hidden, words: $('#point').textContent, h: window.gvi.set.h, here: !!here };
+  }, [from, to]);
+  const now = said.words.startsWith('As set now'), h = /h = (\S+?)[,:]/.exec(said.words)?.[1].replace('−', '-');
+  check(`${from} to ${to}: its own words`, said.title === said.button && !said.alert && now === said.here && (!now || Math.abs(h/said.h - 1) < 1e-3), said);
+}
+
+/* ---- all scenes: each effect off, and all together ---- */
+for (const name of names) {
+  await page.click(`#scenes button[data-scene=${name}]`);
+  const effects = await page.evaluate(() => [...document.querySelectorAll('#rows tr')].map(r => [r.dataset.effect, r.querySelector('input').checked]));
+  for (const [effect, on] of effects) {
+    if (!on) continue;
+    await page.click(`#scenes button[data-scene=${name}]`);
+    await page.click(`tr[data-effect=${effect}] input`);
+    check(`${name} without ${effect}: it goes on`, !(await page.isVisible('#alert')) && await soon(page, t => window.gvi.live.t > t, await page.evaluate(() => window.gvi.live.t)), await page.textContent('#alert-text'));
+  }
+  await page.click(`#scenes button[data-scene=${name}]`);
+  for (const [effect, on] of effects) if (on) await page.click(`tr[data-effect=${effect}] input`);
+  await page.click('#restart');
+  check(`${name} with nothing on: it goes on`, !(await page.isVisible('#alert')) && await soon(page, () => window.gvi.live.t > 0), await page.textContent('#alert-text'));
+  check(`${name} with nothing on: no evaluations`, (await page.evaluate(() => document.querySelectorAll('#rows tr.off').length)) === effects.length && (await page.evaluate(k => [...Array(k)].every((_, e) => window.gvi.x.world_number(0, 3, e) === 0), effects.length)));
+  /* by hand: with a constant mass the motion is straight */
+  const off = await page.evaluate(() => {
+    const { x, set } = window.gvi, n = x.scene_number(set.scene, 0, 0), h = set.h;
+    new Float64Array(x.memory.buffer).set([...set.p, 0, 0, 0, 0].slice(0, 4), x.parameters()/8);
+    if (x.world_open(2, set.scene, 0, set.degree, 0, 0, 0) || x.world_advance(2, h, 10)) return NaN;
+    return Math.max(...[...Array(n)].map((_, i) => Math.abs(x.world_number(2, 30, i) - x.world_number(2, 32, i) - 10*h*x.world_number(2, 33, i))));
+  });
+  check(`${name} with nothing on: ${/pendulum|top|arm|quaternion/.test(name) ? 'it turns' : 'straight on'}`, /pendulum|top|arm|quaternion/.test(name) ? off === off : off < 1e-13, off);
+}
+await page.click('#scenes button[data-scene=kepler]');
+for (const effect of ['gravity', 'oblateness']) await page.click(`tr[data-effect=${effect}] input`);
+await measured(page);
+check('free: its cost is none', await soon(page, () => /As set now: .*, 0 evaluations/.test(document.querySelector('#point').textContent)) && /nothing is evaluated/.test(await page.textContent('#cheapest')), await page.textContent('#point'));
+writeFileSync(join(build, 'free.c'), await page.textContent('#code'));
+try {
+  execFileSync(process.env.CC || 'cc', ['-O0', '-Wall', '-Werror', '-I.', '-Iexamples', '-Idocs/playground', join(build, 'free.c'), '-o', join(build, 'free'), '-lm'], { stdio: ['ignore', 'inherit', 'inherit'] });
+  check('free: the C runs', /^ok/.test(execFileSync(join(build, 'free'), { encoding: 'utf8' })));
+} catch (e) { check('free: the C compiles', false, e.message); }
+
+/* ---- the settings one meets first keep the energy level.  N steps, each off by eps (T + |V|) at most and
+   independent of the others, are off by sqrt(N) of that.  |V| is what E = T + V leaves: E itself may be near 0. ---- */
+for (const name of names.filter(n => !/pythagoras|pendulum|rods|arm|net/.test(n))) {           // chaotic or driven
+  const { most, bound } = await page.evaluate(async name => {
+    document.querySelector(`#scenes button[data-scene=${name}]`).click();
+    const { x, set } = window.gvi, span = x.scene_number(set.scene, 3, 0), n = x.scene_number(set.scene, 0, 0);
+    new Float64Array(x.memory.buffer).set([...set.p, 0, 0, 0, 0].slice(0, 4), x.parameters()/8);
+    x.world_open(2, set.scene, set.on, set.degree, 0, 0, 0);
+    const E = x.world_number(2, 20, 0), T = [...Array(n)].reduce((sum, _, i) => sum + x.world_number(2, 33, i)*x.world_number(2, 31, i)/2, 0);
+    let most = 0, steps = 0;
+    for (; x.world_number(2, 0, 0) < 16*span; steps++) {
+      if (x.world_advance(2, set.h, 1)) return { most: NaN };
+      most = Math.max(most, Math.abs(x.world_number(2, 20, 0) - E));
+    }
+    return { most, bound: Number.EPSILON*Math.sqrt(steps)*(Math.abs(T) + Math.abs(E - T)) };
+  }, name);
+  check(`${name}: its energy is level`, most < bound, [most, bound]);
+}
+
 /* ---- for all ---- */
 const nameless = await page.evaluate(() => [...document.querySelectorAll('button, input, select, canvas, svg[role=img]')].filter(e => !(e.getAttribute('aria-label') || e.textContent.trim() || (e.labels && e.labels.length))).map(e => e.id || e.outerHTML.slice(0, 60)));
 check('everything has a name', nameless.length === 0, nameless);
@@ -303,6 +377,22 @@ page = await visit('', { reducedMotion: 'reduce' });
 const at = await page.evaluate(() => window.gvi.live.t);
 await page.waitForTimeout(600);
 check('less motion: it waits', at === await page.evaluate(() => window.gvi.live.t) && await page.evaluate(() => !window.gvi.live.playing));
+await leave(page);
+/* The picture, what it costs and the buttons at first sight */
+for (const [width, height] of [[1280, 720], [1366, 768], [1920, 1080]]) {
+  page = await visit('', { viewport: { width, height } });
+  await measured(page);
+  await page.waitForTimeout(500);
+  const low = await page.evaluate(() => Object.fromEntries(['#canvas', '#play', '#speed', '#cost', '#by-time', '#point', '#cheapest'].map(s => [s, document.querySelector(s).getBoundingClientRect().bottom])));
+  check(`${width} x ${height}: seen at first sight`, Object.values(low).every(y => y <= height), low);
+  check(`${width} x ${height}: large enough`, await page.evaluate(() => document.querySelector('#canvas').clientHeight >= 340 && document.querySelector('#cost').clientHeight >= 190));
+  check(`${width} x ${height}: nothing sticks out`, await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+  await page.screenshot({ path: join(build, `first-${width}.png`) });
+  await leave(page);
+}
+page = await visit('', { viewport: { width: 320, height: 640 } });
+const narrow = await page.evaluate(() => ['#speed', '#speed-out', '#step'].map(s => document.querySelector(s).getBoundingClientRect()).map(r => [r.left, r.right, r.width]));
+check('320 pixels: the speed control is whole', narrow.every(([l, r, w]) => l >= 0 && r <= 308 && w > 20) && narrow[0][2] >= 100, narrow);
 await leave(page);
 for (const [name, hash, options] of [['light', '', { colorScheme: 'light', viewport: { width: 1280, height: 1500 } }], ['dark', '#scene=eight', { colorScheme: 'dark', viewport: { width: 1280, height: 1500 } }], ['rods-dark', '#scene=rods', { colorScheme: 'dark', viewport: { width: 1280, height: 1500 } }], ['phone-rods', '#scene=rods', { colorScheme: 'light', viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true }], ['phone', '#scene=top', { colorScheme: 'light', viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true }], ['phone-dark', '#scene=pendulum', { colorScheme: 'dark', viewport: { width: 360, height: 740 }, isMobile: true, hasTouch: true }]]) {
   page = await visit(hash, options);

@@ -1,10 +1,12 @@
 #!/bin/sh
 # docs.sh BUILD OBJECT: what the documents show is what the files are.
 #   1  gvi.h's SYNOPSIS, examples/01_kepler.c and the README: the same program, the same output
-#   2  every complete program in README and guide: compiled, run, compared with the output below it
+#   2  every complete program in README, guide, tools, scenes and embedded: compiled, run, compared with the output below it
 #   3  every other piece of C in them stands in an example or in tests/compile
 #   4  the version: first line and macro of gvi.h, first entry of the changelog
 #   5  every relative link leads to a file, and its #anchor to a heading
+#   6  the drawing of places is that of the source
+#   7  docs/reference.md is what gvi.h says; docs/sheet.md names all that is public
 build=$1 object=$2
 CC=${CC:-cc}
 dir=$build/docs
@@ -23,7 +25,7 @@ awk '/^```c$/ { on = 1; next } on && /^```/ { exit } on' README.md | diff -u "$d
 count=$((count + 3))
 
 # -- 2 and 3: blocks as files, NAME-k.c and the block after it as NAME-k.out
-for page in README.md docs/guide.md docs/embedded.md; do
+for page in README.md docs/guide.md docs/tools.md docs/scenes.md docs/embedded.md; do
     name=$(basename "$page" .md)
     awk -v base="$dir/$name" '
         /^```/ && !on { on = 1; language = substr($0, 4); file = ""
@@ -34,7 +36,7 @@ for page in README.md docs/guide.md docs/embedded.md; do
         /^```/ && on  { on = 0; if (file ~ /\.out$/) open = ""; next }
         on && file != "" { print >file }' "$page"
 done
-cat examples/*.c examples/*.cpp examples/tools/*.h docs/playground/*.h tests/compile/*.c | sed 's/^ *//; s/ *$//' | grep -v '^$' >"$dir/all-code"
+cat examples/*.c examples/*.cpp examples/scenes/*.c examples/tools/*.h docs/playground/*.h tests/compile/*.c | sed 's/^ *//; s/ *$//' | grep -v '^$' >"$dir/all-code"
 for block in "$dir"/*-[0-9][0-9].c "$dir"/*-[0-9][0-9].cpp; do
     [ -f "$block" ] || continue
     if grep -q 'int main' "$block"; then
@@ -83,6 +85,15 @@ if command -v python3 >/dev/null 2>&1; then
     python3 tests/tools/places.py | cmp -s - docs/img/places.svg ||
         fail "docs/img/places.svg is not what gvi.h says: python3 tests/tools/places.py >docs/img/places.svg"
     count=$((count + 1))
+fi
+
+# -- 7; the reference is what the header says, and the sheet names each function, status and option
+if command -v python3 >/dev/null 2>&1; then
+    python3 tests/tools/reference.py | cmp -s - docs/reference.md || fail "docs/reference.md is not what gvi.h says: make reference"
+    for name in $(python3 tests/tools/reference.py --names); do
+        grep -q "$name" docs/sheet.md || fail "docs/sheet.md does not name $name"
+        count=$((count + 1))
+    done
 fi
 
 echo "docs-check: $count passed, 0 failed"

@@ -2,7 +2,7 @@
 # everywhere.sh BUILD [--record [FILE]]: gvi.h on every machine that this one can compile for and
 # imitate.  On each: compiled without a warning (-O0, -O2; float, double, long double), its own tests,
 # and the bits of tests/everywhere/bits.c against those of the native compiler.  Prints two tables;
-# --record puts them into FILE (docs/embedded.md) between its two marks.
+# --record puts them into FILE (tests/README.md) between its two marks.
 # everywhere.sh --deps installs the compilers and emulators (Debian 12).
 # JOBS=n: so many at a time.  ONLY="armhf tcc": these targets alone, nothing recorded.
 # What has passed since its sources were changed is not run again, so a run goes on where it was broken
@@ -400,7 +400,7 @@ for name in $chosen; do
 done
 
 if [ "$2" = --record ] && [ -z "$ONLY" ]; then
-    file=${3:-docs/embedded.md}
+    file=${3:-tests/README.md}
     grep -q '^<!-- everywhere: begin -->$' "$file" && grep -q '^<!-- everywhere: end -->$' "$file" ||
         { echo "FAILED: everywhere: $file has no marks"; exit 1; }
     awk -v table="$base/table.md" '

@@ -13,9 +13,13 @@ count=1
 make -s install DESTDIR="$dir/stage" PREFIX=/opt >/dev/null && cmp gvi.h "$dir/stage/opt/include/gvi.h" || fail "gvi.h"
 for tool in examples/tools/*.h; do
     cmp "$tool" "$dir/stage/opt/include/gvi/$(basename "$tool")" || fail "$tool"
-    grep -q "^\*\*.*$(basename "$tool")\|^| \[$(basename "$tool")\]" docs/guide.md || fail "the guide does not list $tool"
+    grep -q "^\*\*.*$(basename "$tool")\|^| \[$(basename "$tool")\]" docs/tools.md || fail "docs/tools.md does not list $tool"
     count=$((count + 1))
 done
+licence=$dir/stage/opt/share/doc/gvi/LICENSE
+[ "$(sed -n 1p "$licence")" = 'This software is available under two licences: choose the one you prefer.' ] && grep -q '^A. MIT$' "$licence" &&
+    grep -q '^B. Public domain (unlicense.org)$' "$licence" && sed -n '$p' "$licence" | grep -q 'DEALINGS IN THE SOFTWARE\.$' || fail "the licence"
+count=$((count + 1))
 for compile in "${CC:-cc} -std=c99 -Wall -Wextra -Wpedantic -Werror -xc" "${CXX:-c++} -std=c++20 -Wall -Werror -xc++"; do
     have "${compile%% *}" || { echo "  skipped: no ${compile%% *}"; continue; }
     $compile -O1 -I"$dir/stage/opt/include" tests/compile/tools.c -o "$dir/tools" -lm && "$dir/tools" || fail "tools: $compile"
@@ -44,6 +48,29 @@ if have cmake; then
     { cmake -S "$dir/cmake" -B "$dir/cmake/build" && cmake --build "$dir/cmake/build"; } >"$dir/cmake.log" 2>&1 ||
         { cat "$dir/cmake.log"; fail "cmake"; }
     runs "$dir/cmake/build/app"
+    # as installed, and as fetched: the guide's lines
+    app() {  # name lines options...
+        name=$1 lines=$2
+        shift 2
+        mkdir -p "$dir/$name"
+        sed 's/#include "gvi.h"/#include <gvi.h>/' examples/01_kepler.c >"$dir/$name/kepler.c"
+        { echo 'cmake_minimum_required(VERSION 3.14)'
+          echo 'project(app C)'
+          echo 'add_executable(app kepler.c)'
+          printf '%s\n' "$lines"; } >"$dir/$name/CMakeLists.txt"
+        { cmake -S "$dir/$name" -B "$dir/$name/build" "$@" && cmake --build "$dir/$name/build"; } >"$dir/$name.log" 2>&1 &&
+            runs "$dir/$name/build/app"
+    }
+    found=$(sed -n '/^    find_package/,/^$/p' docs/guide.md)
+    version=$(sed -n 's/^#define GVI_VERSION "\(.*\)"/\1/p' gvi.h)
+    app found "$found" "-DCMAKE_PREFIX_PATH=$(pwd)/$dir/stage/opt" || { cat "$dir/found.log"; fail "find_package"; }
+    app version "$(echo "$found" | sed "s/gvi REQ/gvi $version REQ/")" "-DCMAKE_PREFIX_PATH=$(pwd)/$dir/stage/opt" || fail "find_package(gvi $version)"
+    for other in 0.1 99; do
+        ! app "other$other" "$(echo "$found" | sed "s/gvi REQ/gvi $other REQ/")" "-DCMAKE_PREFIX_PATH=$(pwd)/$dir/stage/opt" ||
+            fail "find_package(gvi $other) finds $version"
+    done
+    app fetched "$(sed -n '/^    include(FetchContent)/,/^$/p' docs/guide.md; echo 'target_link_libraries(app PRIVATE gvi m)')" \
+        "-DFETCHCONTENT_SOURCE_DIR_GVI=$(pwd)" || { cat "$dir/fetched.log"; fail "FetchContent"; }
 else echo "  skipped: no cmake"; fi
 
 if have "${CXX:-c++}"; then
