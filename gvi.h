@@ -6911,11 +6911,17 @@ GVI__CALLED int gvi__constraint_judge(const gvi_stepper *st, const gvi__progress
     return loss > GVI__LOST - 1 && D > grain*loss*loss*loss ? GVI__DIVERGES : GVI__GO_ON;
 }
 
-/* The rounding of g is in every D.  A light coordinate under rows that roll: the rounding of others
-   hides most of each correction, and what it does to this one fades slowly, far below it.     */
+/* The rounding of g is in every D.  Under rows that roll a P or V that is nothing but rounding is in
+   it too: while another row still falls to a quarter, go on.  A light coordinate: the rounding of
+   others hides most of each correction, and what it does to this one fades slowly, far below it. */
 static int gvi__patience(const gvi_stepper *st, const gvi__progress *p)
 {
-    return gvi__rolls(st) && p->used > 8 ? -1 : 0;
+    const gvi_real *change = st->in.watch.change, *before = st->in.watch.before,
+                   place = GVI__PLACE*GVI__EPS;
+    if (!gvi__rolls(st)) return 0;
+    for (int row = 0; row < st->in.stages*st->n; ++row)
+        if (change[row] > place*place && change[row] < before[row]/16) return p->used;
+    return p->used > 8 ? -1 : 0;
 }
 
 /* A move of coordinate i that is rounding, whatever its amplitude: of a force of constraint, 32 eps

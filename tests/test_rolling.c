@@ -256,6 +256,27 @@ TEST(knife_edge_has_order_2s_against_its_closed_form)
     }
 }
 
+/* docs/theory.md: 2s where the rule's order u is 2s or more; below, as for holonomic rows, u = 2s - 2 is measured */
+TEST(the_order_is_2s_by_rules_of_order_2s_and_less_by_lesser_ones)
+{
+    static const struct { int kind, more, less; } rules[] = { { GVI_GAUSS, 1, 0 }, { GVI_LOBATTO, 1, 0 }, { GVI_LOBATTO, 0, 2 } };
+    long double z[6], lambda;
+    real q[3], v[3];
+    knife_start(q, v);
+    knife_exact(1, z, &lambda);
+    for (int k = 0; k < COUNT(rules); ++k)
+        for (int s = KIND == 1 ? 1 : 2; s <= (KIND == 1 ? 1 : 3) && s + rules[k].more > 1; ++s) {
+            gvi_desc desc = knife_desc;
+            desc.rule.kind = (gvi_rule_kind)rules[k].kind;
+            desc.rule.points = s + rules[k].more;
+            const int steps = s == 1 ? 32 : s == 2 ? 8 : 4, order = 2*s - rules[k].less;
+            const long double a = error_of(desc, s, 2*steps, q, v, z), b = error_of(desc, s, 3*steps, q, v, z);
+            const double seen = (double)(log(a/b)/log(1.5L));
+            if (!(fabs(seen - order) < 0.1)) print_message("rule %d, s = %d: order %.3f\n", k, s, seen);
+            assert_true(fabs(seen - order) < 0.1);
+        }
+}
+
 TEST(falling_disc_has_order_2s_against_the_index_1_equations)
 {
     static const int steps[] = { 0, 64, 16, 8, 6, 5 };
