@@ -7175,8 +7175,8 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
     if (passes > 2 && !(size <= far*far*energy))
         return gvi__report_status(st, GVI_E_CONVERGENCE);
 
-    // rows that are left out had no part in this; later their g shows what is wrong
-    if (!start) return GVI_OK;
+    // rows that are left out had no part in this; later g shows what is wrong, where they have one
+    if (!start && !gvi__rolls(st)) return GVI_OK;
     for (int a = 0; a < m; ++a)
         if (drops[a] > 0 && !(r[a]*r[a] <= far*far*drops[a]*energy))
             return gvi__report_row(st, GVI_E_CONSTRAINT, a, GVI_FAULT_NONE);

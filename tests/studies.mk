@@ -1,7 +1,7 @@
 # studies.mk - what Makefile includes: long checks, measurements, pictures.  `make help-all` lists them.
 
 .PHONY: headers-quick headers symbols chapters docs-check bound float instructions prices usable languages boards sanitize sanitized any_processor \
-        ensemble deps-ensemble tolerances firmware deps-firmware fuzz fuzz-short size stats compare everywhere deps-everywhere \
+        ensemble deps-ensemble tolerances firmware deps-firmware fuzz fuzz-short fuzz-rolling fuzz-rolling-short size stats compare everywhere deps-everywhere \
         cost-dial cost-horizon cost-constraints kicks points from-l mycost cost-embedded hard theorems mutants coverage covered
 
 # -- steps of `make test` and `make check`; each can be run alone
@@ -72,6 +72,10 @@ any_processor: $(BUILD)/alone/any_processor
 FUZZ_SECONDS = $(if $(filter fuzz,$(MAKECMDGOALS)),60,12)
 fuzz fuzz-short: | $(FIRST)
 	$(STEP) $@ sh tests/tools/under.sh fuzz $(BUILD) $(FUZZ_SECONDS)
+
+#: fuzz-rolling 200,000 random rolling scenes against an index-1 reference (a quarter of an hour); SEED=2: others
+fuzz-rolling fuzz-rolling-short: $(BUILD)/hard/rolling_scenes
+	$(STEP) $@ $< $(if $(findstring short,$@),2000,200000) $(SEED)
 
 #: deps-firmware installs what firmware, size and boards need: compilers for Arm, RISC-V and AVR, qemu, simavr
 deps-firmware: | $(filter deps deps-check,$(MAKECMDGOALS))

@@ -358,6 +358,33 @@ TEST(rows_that_say_the_same_are_left_out)
     for (int i = 0; i < 3; ++i) assert_close(st.q[i], z[i], 100*EPS);
 }
 
+/* The second knife edge says the same at t = 0, and later that the first one slips */
+GVI_EACH(quarrel, 3, rows(1))
+{
+    x->jacobian[0] = 2*sin(x->q[2]);
+    x->jacobian[1] = -2*cos(x->q[2]);
+    x->rate[0] = x->t[0]/8;
+}
+
+TEST(rows_that_come_to_contradict_each_other_are_named)
+{
+    const gvi_effect scene[] = { knife_scene[0], knife_scene[1], { .kind = GVI_NONHOLONOMIC, .points = quarrel, .rows = 1 } };
+    for (int f = 0; f < 2; ++f) {
+        gvi_desc desc = knife_desc;
+        gvi_stepper st;
+        real q[3], v[3];
+        knife_start(q, v);
+        desc.effects = scene;
+        desc.effect_count = 3;
+        desc.formulation = f ? GVI_NEWTON : GVI_AUTO;
+        assert_ok(begin(&st, &desc, q, v));
+        assert_int_equal(gvi_step(&st, R(0.05)), GVI_E_CONSTRAINT);
+        assert_int_equal(st.fault.effect, 2);
+        assert_int_equal(st.fault.coordinate, 0);
+        assert_memory_equal(q, st.q, sizeof q);
+    }
+}
+
 TEST(multipliers_curve_checkpoint_and_dial)
 {
     gvi_stepper st, saved;
