@@ -2,7 +2,7 @@
 
 .PHONY: headers-quick headers symbols chapters docs-check bound float instructions prices usable languages boards sanitize sanitized any_processor \
         ensemble deps-ensemble tolerances firmware deps-firmware fuzz fuzz-short fuzz-rolling fuzz-rolling-short size stats compare everywhere deps-everywhere \
-        cost-dial cost-horizon cost-constraints kicks points from-l mycost cost-embedded hard theorems mutants coverage covered
+        cost-dial cost-horizon cost-constraints cost-rolling kicks points from-l mycost cost-embedded hard theorems mutants coverage covered
 
 # -- steps of `make test` and `make check`; each can be run alone
 
@@ -185,8 +185,11 @@ from-l: tests/cost/from_l.c $(BUILD)/gvi-double.o
 	$(Q)echo C++ && $(BUILD)/cost/from_l
 
 #: cost-constraints rods and a top with constraints, against RATTLE's compositions and DOP853; chains to 500 rods, 216 molecules (two minutes)
+#: cost-rolling a rolling disc: gvi.h, DOP853 and the midpoint rule on reduced equations (half a minute)
 kicks points: %: $(BUILD)/cost/%
 	$(Q)$< $(COST_ARGS)
+cost-rolling: $(BUILD)/cost/rolling
+	$(Q)$<
 cost-constraints: cost-%: $(BUILD)/cost/%
 	$(Q)$< --out $(BUILD)/cost $(COST_ARGS)
 
@@ -197,7 +200,7 @@ cost-embedded:
 $(BUILD)/cost/%.o: tests/cost/%.c
 	@mkdir -p $(@D)
 	$(Q)$(CC) -std=c99 $(WARNINGS) -Wno-double-promotion -Wno-unused-parameter -I. -Iexamples -Itests $(CPPFLAGS) -MMD -MP -MF $@.d -MT $@ $(COST_CFLAGS) -c $< -o $@
-$(BUILD)/cost/constraints $(BUILD)/cost/points: %: %.o
+$(BUILD)/cost/constraints $(BUILD)/cost/rolling $(BUILD)/cost/points: %: %.o
 	$(Q)$(CC) $< -o $@ $(LDLIBS)
 $(BUILD)/cost/kicks $(BUILD)/cost/cost: %: %.o $(addprefix $(BUILD)/cost/,problems.o baselines.o gvi_run.o)
 	$(Q)$(CC) $^ -o $@ $(LDLIBS)
