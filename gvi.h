@@ -7674,9 +7674,10 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
 
      psi_a = h sum_j b_j T(c_j, d_a) (A(Q_j) V_j + a(t_j, Q_j))                a = 1..s
 
-   and the step ends on A v + a = 0.  With r = s the row holds at every point.  Order 2s, reversible,
-   not symplectic; what is kept, and why the energy is not: docs/theory.md, Rolling.  Unlike g(D), psi has rounding of the size of h V alone, so V or
-   P is judged as in free motion; and psi is never linearised, since it turns with all of Q.     */
+   and the step ends on A v + a = 0.  With r = s the row holds at every point.  The order is 2s; the
+   map is reversible, not symplectic (docs/theory.md).  Unlike g(D), psi has rounding of the size of
+   h V alone, so V or P is judged as in free motion; and psi is never linearised, since it turns
+   with all of Q.                                                                              */
 
 // there is no g that its rows could be the derivatives of
 GVI__COLD void gvi__rolling_effect(struct gvi__private *in, int e)
