@@ -6911,9 +6911,9 @@ GVI__CALLED int gvi__constraint_judge(const gvi_stepper *st, const gvi__progress
     return loss > GVI__LOST - 1 && D > grain*loss*loss*loss ? GVI__DIVERGES : GVI__GO_ON;
 }
 
-/* The rounding of g is in every D.  Under rows that roll, a P or V that is nothing but rounding is in
-   it too: while another row still falls to a quarter, go on.  A light coordinate: the rounding of
-   others hides most of each correction, and what it does to this one fades slowly, far below it.  */
+/* The rounding of g is in every D.  Under rows that roll, a P or V that is nothing but rounding is
+   in it too: while another row still falls to a quarter, go on.  A light coordinate: the rounding
+   of others hides most of each correction, and what it does to this one fades slowly, far below. */
 static int gvi__patience(const gvi_stepper *st, const gvi__progress *p)
 {
     const gvi_real *change = st->in.watch.change, *before = st->in.watch.before,
