@@ -6939,11 +6939,17 @@ GVI__CALLED int gvi__constraint_judge(const gvi_stepper *st, const gvi__progress
     return loss > GVI__LOST - 1 && D > grain*loss*loss*loss ? GVI__DIVERGES : GVI__GO_ON;
 }
 
-/* The rounding of g is in every D.  A light coordinate under rows that roll: the rounding of others
-   hides most of each correction, and what it does to this one fades slowly, far below it.     */
+/* The rounding of g is in every D.  Under rows that roll, a P or V that is nothing but rounding is
+   in it too: while another row still falls to a quarter, go on.  A light coordinate: the rounding
+   of others hides most of each correction, and what it does to this one fades slowly, far below. */
 static int gvi__patience(const gvi_stepper *st, const gvi__progress *p)
 {
-    return gvi__rolls(st) && p->used > 8 ? -1 : 0;
+    const gvi_real *change = st->in.watch.change, *before = st->in.watch.before,
+                   place = GVI__PLACE*GVI__EPS;
+    if (!gvi__rolls(st)) return 0;
+    for (int row = 0; row < st->in.stages*st->n; ++row)
+        if (change[row] > place*place && change[row] < before[row]/16) return p->used;
+    return p->used > 8 ? -1 : 0;
 }
 
 /* A move of coordinate i that is rounding, whatever its amplitude: of a force of constraint, 32 eps
@@ -7197,8 +7203,8 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
     if (passes > 2 && !(size <= far*far*energy))
         return gvi__report_status(st, GVI_E_CONVERGENCE);
 
-    // rows that are left out had no part in this; later their g shows what is wrong
-    if (!start) return GVI_OK;
+    // rows that are left out had no part in this; later g shows what is wrong, where they have one
+    if (!start && !gvi__rolls(st)) return GVI_OK;
     for (int a = 0; a < m; ++a)
         if (drops[a] > 0 && !(r[a]*r[a] <= far*far*drops[a]*energy))
             return gvi__report_row(st, GVI_E_CONSTRAINT, a, GVI_FAULT_NONE);
@@ -7696,9 +7702,10 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
 
      psi_a = h sum_j b_j T(c_j, d_a) (A(Q_j) V_j + a(t_j, Q_j))                a = 1..s
 
-   and the step ends on A v + a = 0.  Order 2s, as measured (tests/test_rolling.c).  The map is
-   reversible, but not symplectic.  Unlike g(D), psi has rounding of the size of h V alone, so V or
-   P is judged as in free motion; and psi is never linearised, since it turns with all of Q.     */
+   and the step ends on A v + a = 0.  With r = s the row holds at every point.  The order is 2s; the
+   map is reversible, not symplectic (docs/theory.md).  Unlike g(D), psi has rounding of the size of
+   h V alone, so V or P is judged as in free motion; and psi is never linearised, since it turns
+   with all of Q.                                                                              */
 
 // there is no g that its rows could be the derivatives of
 GVI__COLD void gvi__rolling_effect(struct gvi__private *in, int e)

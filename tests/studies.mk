@@ -1,8 +1,8 @@
 # studies.mk - what Makefile includes: long checks, measurements, pictures.  `make help-all` lists them.
 
 .PHONY: headers-quick headers symbols chapters docs-check reference bound float instructions prices usable languages boards sanitize sanitized any_processor \
-        ensemble deps-ensemble embedded-page tolerances firmware deps-firmware fuzz fuzz-short size stats compare everywhere deps-everywhere \
-        cost-dial cost-horizon cost-constraints kicks points from-l mycost cost-embedded hard theorems mutants coverage covered
+        ensemble deps-ensemble embedded-page tolerances firmware deps-firmware fuzz fuzz-short fuzz-rolling fuzz-rolling-short size stats compare everywhere deps-everywhere \
+        cost-dial cost-horizon cost-constraints cost-rolling kicks points from-l mycost cost-embedded hard theorems mutants coverage covered
 
 # -- steps of `make test` and `make check`; each can be run alone
 

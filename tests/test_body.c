@@ -366,4 +366,166 @@ TEST(two_bodies_on_a_joint_keep_momentum_and_energy)
     }
 }
 
+/* ---- Chaplygin's ball, whose inertias differ, on a plane.  Its angular momentum M about the point on the ground is
+   fixed in space: in body axes M' = M x w, up' = up x w, M = I w + m r^2 up x (w x up) */
+
+static const body ball = { 2, { R(0.5), R(0.75), 1 } };
+static const bodies balls = { &ball, 1 };
+static const body_round rolling_ball = { .at = 0, .radius = R(1.5) };
+enum { MRR = 9 };                                                /* halves: m r^2 = 4.5 */
+
+static void ball_spin(const exact *M, const exact *up, exact *w)
+{
+    exact a[3], b[3], c = MRR/2.0L, along = 0, square = 0;
+    for (int i = 0; i < 3; ++i) {
+        a[i] = M[i]/(ball.inertia[i] + c), b[i] = up[i]/(ball.inertia[i] + c);
+        along += up[i]*a[i], square += up[i]*b[i];
+    }
+    for (int i = 0; i < 3; ++i) w[i] = a[i] + c*along/(1 - c*square)*b[i];
+}
+
+static void ball_momentum(const exact *w, const exact *up, exact *M)
+{
+    const exact along = w[0]*up[0] + w[1]*up[1] + w[2]*up[2];
+    for (int i = 0; i < 3; ++i) M[i] = ball.inertia[i]*w[i] + MRR/2.0L*(w[i] - along*up[i]);
+}
+
+static void ball_reference(exact T, exact *w)
+{
+    const int steps = 4096;
+    const exact h = T/steps;
+    exact y[6] = { 0, 0, 0, 0, 0, 1 };
+    ball_momentum(w, y + 3, y);
+    for (int n = 0; n < steps; ++n) {
+        exact k[4][6], z[6];
+        for (int j = 0; j < 4; ++j) {
+            for (int i = 0; i < 6; ++i) z[i] = y[i] + (j ? h*(j == 3 ? 1 : 0.5L)*k[j-1][i] : 0);
+            ball_spin(z, z + 3, w);
+            for (int i = 0; i < 6; ++i) {
+                const exact *a = z + i/3*3;
+                k[j][i] = a[(i + 1)%3]*w[(i + 2)%3] - a[(i + 2)%3]*w[(i + 1)%3];
+            }
+        }
+        for (int i = 0; i < 6; ++i) y[i] += h/6*(k[0][i] + 2*k[1][i] + 2*k[2][i] + k[3][i]);
+    }
+    ball_spin(y, y + 3, w);
+}
+
+static const real ball_w[] = { 1, R(-0.5), R(0.75) };
+
+static gvi_stepper roll_ball(int s, int held, real far)
+{
+    static gvi_effect scene[3];
+    gvi_desc desc = { .n = 7, .degree = s, .effects = scene, .effect_count = 2, .mass = body_mass(&balls) };
+    real q[7] = { far, far, rolling_ball.radius, 1, 0, 0, 0 }, v[7] = { 0 };
+    scene[0] = body_touches(&rolling_ball);
+    scene[1] = body_rolls(&rolling_ball);
+    desc.mass.velocity = NULL;
+    if (held) hold(&desc, scene, &balls);
+    v[0] = ball_w[1]*rolling_ball.radius;
+    v[1] = -ball_w[0]*rolling_ball.radius;
+    body_turn(q + 3, ball_w, v + 3);
+    return new_motion(&desc, 0, q, v);
+}
+
+TEST(a_rolling_ball_has_order_2s_against_chaplygins_equations)
+{
+    exact known[3] = { ball_w[0], ball_w[1], ball_w[2] };
+    ball_reference(2, known);
+    for (int held = 0; held < 2; ++held)
+        for (int s = 1; s <= (KIND == 1 ? 1 : 4); ++s) {
+            static const int steps[] = { 0, 32, 10, 6, 5 };
+            real error[2];
+            for (int j = 0; j < 2; ++j) {
+                const int count = (2 + j)*steps[s];
+                gvi_stepper st = roll_ball(s, held, 0);
+                real v[7], w[3];
+                for (int k = 0; k < count; ++k) assert_ok(gvi_step(&st, 2/(real)count));
+                assert_ok(gvi_velocity(&st, v));
+                body_spin(st.q + 3, v + 3, w);
+                error[j] = worst_of(3, w, known);
+            }
+            assert_between(2*s - 0.15, log(error[0]/error[1])/log(1.5L), 2*s + 0.15);
+        }
+}
+
+/* docs/theory.md, Rolling: turning about the contact is a linear symmetry that every row allows.  So M is constant at any
+   degree and step, and the energy is not. */
+TEST(a_rolling_ball_keeps_its_angular_momentum_about_the_ground_at_any_degree)
+{
+    for (int s = 1; s <= 3; ++s) {
+        gvi_stepper st = roll_ball(s, 1, 0);
+        real E[2], M[2][3], off = 0;
+        for (int k = 0; k <= 400; ++k) {
+            real v[7], w[3], from[3] = { 0, 0, rolling_ball.radius }, L[3];
+            assert_ok(gvi_velocity(&st, v));
+            assert_ok(gvi_energy(&st, E + (k > 0)));
+            body_spin(st.q + 3, v + 3, w);
+            for (int i = 0; i < 3; ++i) w[i] *= ball.inertia[i];
+            body_rotate(st.q + 3, 0, w, L);
+            body_cross(from, v, M[k > 0]);
+            for (int i = 0; i < 3; ++i) M[k > 0][i] = L[i] + ball.mass*M[k > 0][i];
+            for (int i = 0; i < 3 && k; ++i) assert_close(M[1][i], M[0][i], 100*EPS*10);
+            if (k) off = fmax(off, fabs(E[1]/E[0] - 1));
+            assert_close(st.q[2], rolling_ball.radius, 8*EPS);
+            assert_ok(gvi_step(&st, R(0.25)));
+        }
+        if (KIND > 1) assert_between(s == 1 ? 1e-4L : s == 2 ? 1e-6L : 1e-9L, off, 0.05L);
+    }
+}
+
+/* The rounding of a place far away, and of p_z, which is 0, hides the convergence of what turns. */
+TEST(a_ball_far_away_keeps_its_energy)
+{
+    gvi_stepper st = roll_ball(8, 1, KIND == 1 ? 100 : R(1e6));
+    real E[2];
+    assert_ok(gvi_energy(&st, E));
+    for (int k = 0; k < 200; ++k) assert_ok(gvi_step(&st, R(0.125)));
+    assert_ok(gvi_energy(&st, E + 1));
+    assert_close(E[1], E[0], 64*EPS*E[0]);
+}
+
+/* Steady: centre on a circle, the tilt what gravity asks for */
+static const body disc = { 1, { R(0.25), R(0.25), R(0.5) } };
+static const bodies discs = { &disc, 1 };
+static const body_round wheel = { .at = 0, .radius = 1, .axis = { 0, 0, 1 } };
+
+GVI_EACH(disc_weight, 7, f, value)
+{
+    x->f[2] -= R(9.81);
+    x->value[0] += R(9.81)*x->q[2];
+}
+
+TEST(a_wheel_that_leans_rolls_in_a_circle)
+{
+    static const gvi_effect weight = { .kind = GVI_POTENTIAL, .points = disc_weight, .value = disc_weight };
+    const gvi_effect scene[] = { weight, body_touches(&wheel), body_rolls(&wheel) };
+    gvi_desc desc = { .n = 7, .degree = KIND == 3 ? 8 : 6, .effects = scene, .effect_count = 3, .mass = body_mass(&discs) };
+    const real a = R(1.1), c = cos(a), s = sin(a), W = R(1.5), along = (W*W*s*c/4 - R(9.81)*c)/(R(1.5)*s*W);
+    /* turned about y by -a: its axis is (-s, 0, c), its lowest point at (-c, 0, -s) */
+    real q[7] = { 0, 0, s, cos(a/2), 0, -sin(a/2), 0 }, v[7] = { 0 }, w[3], own[3], axis[3], from[3], lambda[3];
+    body_rotate(q + 3, 0, wheel.axis, axis);
+    for (int i = 0; i < 3; ++i) w[i] = (along - W*axis[2])*axis[i] + W*(i == 2);
+    body_lowest(&wheel, q, from);
+    assert_close(from[2], -s, 4*EPS);
+    body_cross(from, w, v);                                      /* -w x from */
+    body_rotate(q + 3, 1, w, own);
+    body_turn(q + 3, own, v + 3);
+    desc.mass.velocity = NULL;
+    gvi_stepper st = new_motion(&desc, 0, q, v);
+    const real radius = fabs(along)/W;
+    for (int k = 0; k < 200; ++k) {
+        assert_ok(gvi_step(&st, R(0.025)));
+        body_rotate(st.q + 3, 0, wheel.axis, axis);
+        assert_close(axis[2], c, 4000*EPS);
+        assert_close(st.q[2], s, 4000*EPS);
+    }
+    const real turn = W*st.t, side = v[1]/fabs(v[1]);            /* counterclockwise: the centre is to its left */
+    assert_close(st.q[0], -side*radius*(1 - cos(turn)), 20000*EPS);
+    assert_close(st.q[1], side*radius*sin(turn), 20000*EPS);
+    assert_ok(gvi_multipliers(&st, lambda));
+    assert_close(lambda[0], R(9.81), 20000*EPS);                 /* its weight is on the ground */
+    assert_close(sqrt(lambda[1]*lambda[1] + lambda[2]*lambda[2]), fabs(along)*W, 20000*EPS);
+}
+
 RUN_TESTS(NULL, NULL)

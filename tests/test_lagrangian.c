@@ -395,6 +395,33 @@ TEST(functions_have_their_derivatives)
 LAGRANGIAN(oscillator, 1) { return v[0]*v[0]/2 - R(1.25)*q[0]*q[0]/2; }
 GVI_EACH(friction, 1, v, f) { x->f[0] -= x->v[0]/2; }
 
+/* Which entries of M vary is found once; the others are those of the start. */
+LAGRANGIAN(patched, 4)
+{
+    const number a = q[0], c = q[2];
+    return (3*v[0]*v[0] + (2 + sin(a))*v[1]*v[1] + 2*v[2]*v[2] + v[3]*v[3])/2 + cos(c)*v[2]*v[0]/4 + v[1]*v[0]/8
+           + cos(t)*v[3]*v[1]/4 + v[3]*v[2]/16 - a*a;
+}
+
+TEST(entries_of_the_mass_are_right_whichever_vary)
+{
+    static lagrangian L;
+    const real q0[] = { R(0.3), R(0.2), R(0.1), 0 }, v0[] = { R(0.1), R(0.2), R(0.3), R(0.4) };
+    real q[4*3], M[16*3] = { 0 }, t[3];
+    assert_null(lagrangian_init(&L, patched, NULL, 0, q0, v0));
+    assert_int_equal(L.kind, LAGRANGIAN_MASS);
+    for (int k = 0; k < 3; ++k)
+        for (int i = 0; i < 4; ++i) q[i*3 + k] = R(0.7)*(real)(i + 1) - (real)k, t[k] = 1 + (real)k;
+    const gvi_points x = { .n = 4, .count = 3, .stride = 3, .t = t, .q = q, .mass = M };
+    const gvi_mass mass = lagrangian_mass(&L);
+    assert_int_equal(mass.points(&x, mass.user), 0);
+    for (int k = 0; k < 3; ++k) {
+        const real known[4][4] = { { 3 }, { R(0.125), 2 + sin(q[k]) }, { cos(q[6 + k])/4, 0, 2 }, { 0, cos(t[k])/4, R(0.0625), 1 } };
+        for (int i = 0; i < 4; ++i)
+            for (int j = 0; j <= i; ++j) assert_close(M[(i*4 + j)*3 + k], known[i][j], 16*EPS);
+    }
+}
+
 TEST(friction_is_a_row)                    /* q = e^(-t/4) (cos wt + sin wt/(4w)), w^2 = 5/4 - 1/16 */
 {
     static lagrangian L;

@@ -256,6 +256,27 @@ TEST(knife_edge_has_order_2s_against_its_closed_form)
     }
 }
 
+/* docs/theory.md: 2s where the rule's order u is 2s or more; below, as for holonomic rows, u = 2s - 2 is measured */
+TEST(the_order_is_2s_by_rules_of_order_2s_and_less_by_lesser_ones)
+{
+    static const struct { int kind, more, less; } rules[] = { { GVI_GAUSS, 1, 0 }, { GVI_LOBATTO, 1, 0 }, { GVI_LOBATTO, 0, 2 } };
+    long double z[6], lambda;
+    real q[3], v[3];
+    knife_start(q, v);
+    knife_exact(1, z, &lambda);
+    for (int k = 0; k < COUNT(rules); ++k)
+        for (int s = KIND == 1 ? 1 : 2; s <= (KIND == 1 ? 1 : 3) && s + rules[k].more > 1; ++s) {
+            gvi_desc desc = knife_desc;
+            desc.rule.kind = (gvi_rule_kind)rules[k].kind;
+            desc.rule.points = s + rules[k].more;
+            const int steps = s == 1 ? 32 : s == 2 ? 8 : 4, order = 2*s - rules[k].less;
+            const long double a = error_of(desc, s, 2*steps, q, v, z), b = error_of(desc, s, 3*steps, q, v, z);
+            const double seen = (double)(log(a/b)/log(1.5L));
+            if (!(fabs(seen - order) < 0.1)) print_message("rule %d, s = %d: order %.3f\n", k, s, seen);
+            assert_true(fabs(seen - order) < 0.1);
+        }
+}
+
 TEST(falling_disc_has_order_2s_against_the_index_1_equations)
 {
     static const int steps[] = { 0, 64, 16, 8, 6, 5 };
@@ -335,6 +356,33 @@ TEST(rows_that_say_the_same_are_left_out)
     for (int k = 0; k < 20; ++k) assert_ok(gvi_step(&st, R(0.05)));
     knife_exact(1, z, &lambda);
     for (int i = 0; i < 3; ++i) assert_close(st.q[i], z[i], 100*EPS);
+}
+
+/* The second knife edge says the same at t = 0, and later that the first one slips */
+GVI_EACH(quarrel, 3, rows(1))
+{
+    x->jacobian[0] = 2*sin(x->q[2]);
+    x->jacobian[1] = -2*cos(x->q[2]);
+    x->rate[0] = x->t[0]/8;
+}
+
+TEST(rows_that_come_to_contradict_each_other_are_named)
+{
+    const gvi_effect scene[] = { knife_scene[0], knife_scene[1], { .kind = GVI_NONHOLONOMIC, .points = quarrel, .rows = 1 } };
+    for (int f = 0; f < 2; ++f) {
+        gvi_desc desc = knife_desc;
+        gvi_stepper st;
+        real q[3], v[3];
+        knife_start(q, v);
+        desc.effects = scene;
+        desc.effect_count = 3;
+        desc.formulation = f ? GVI_NEWTON : GVI_AUTO;
+        assert_ok(begin(&st, &desc, q, v));
+        assert_int_equal(gvi_step(&st, R(0.05)), GVI_E_CONSTRAINT);
+        assert_int_equal(st.fault.effect, 2);
+        assert_int_equal(st.fault.coordinate, 0);
+        for (int i = 0; i < 3; ++i) assert_true(st.q[i] == q[i]);
+    }
 }
 
 TEST(multipliers_curve_checkpoint_and_dial)

@@ -16,6 +16,7 @@
                    mass = 0: e (4) alone.  Bodies one after the other; n is their sum
      |e| = 1       held to rounding by one more row of the scene, body_unit(&scene); then with
                    .mass.velocity = NULL.  The same curves: each row here serves both ways
+     rolling       balls and wheels: body_rolls(&round) and body_touches(&round), at the end of this file
      joints        a row dg/dq of a place held in space, of a body with mass, is what
                    body_force_in_space makes of a unit force there, in zeros
      body axes     principal axes through the centre of mass, or through the fixed point
@@ -251,6 +252,73 @@ static inline gvi_mass body_mass(const bodies *all)
 {
     return (gvi_mass){ .kind = GVI_MASS_POSITION, .points = body_mass_points, .gradient = body_mass_rows,
                        .velocity = body_mass_rows, .user = (void *)all };
+}
+
+/* ------------------------------------------------------- balls and wheels on the plane z = 0
+
+   body_touches: the lowest point is at height 0; body_rolls: it does not slip.  Both, or with its z
+   left to steps' error the second alone, are rows of the velocity of a point of the body:
+   body_contact_row, for ground of any shape and bodies of any other.                          */
+
+/* `at` is the body's first coordinate, of 7; axis, in body axes, that of a wheel, 0 of a ball      */
+typedef struct body_round { int at; gvi_real radius, axis[3]; } body_round;
+
+/* The velocity along `direction` of the body's point at `from` off the centre, both in space, is row . q':
+   added to the 7 of row.                                                                  */
+static inline void body_contact_row(const gvi_real *q, const gvi_real *from, const gvi_real *direction, gvi_real *row)
+{
+    gvi_real own[3];
+    body_rotate(q + 3, 1, from, own);
+    body_force_in_space(q, own, direction, row);
+}
+
+/* The lowest point, off the centre.  A wheel that lies flat has none: NaN.                          */
+static inline void body_lowest(const body_round *a, const gvi_real *q, gvi_real *from)
+{
+    gvi_real axis[3];
+    body_rotate(q + 3, 0, a->axis, axis);
+    const gvi_real square = axis[0]*axis[0] + axis[1]*axis[1] + axis[2]*axis[2], along = square > 0 ? axis[2]/square : 0;
+    for (int i = 0; i < 3; ++i) from[i] = along*axis[i];
+    from[2] -= 1;
+    const gvi_real size = a->radius/GVI_SQRT(from[0]*from[0] + from[1]*from[1] + from[2]*from[2]);
+    for (int i = 0; i < 3; ++i) from[i] *= size;
+}
+
+static inline int body_contact_points(const gvi_points *x, const body_round *a, int rolls)
+{
+    for (int k = 0; k < x->count; ++k) {
+        gvi_real q[7], from[3];
+        body_take(x, x->q, a->at, 7, k, q);
+        body_lowest(a, q, from);
+        if (!rolls) x->g[k] = q[2] + from[2];
+        for (int j = 0; j < (rolls ? 2 : 1); ++j) {
+            const gvi_real direction[3] = { (gvi_real)(rolls && j == 0), (gvi_real)(j == 1), (gvi_real)!rolls };
+            gvi_real row[7] = { 0, 0, 0, 0, 0, 0, 0 };
+            body_contact_row(q, from, direction, row);
+            for (int i = 0; i < 7; ++i) x->jacobian[(j*x->n + a->at + i)*x->stride + k] = row[i];
+        }
+    }
+    return 0;
+}
+
+static inline int body_rolls_points(const gvi_points *x, void *user)
+{
+    return body_contact_points(x, (const body_round *)user, 1);
+}
+
+static inline int body_touches_points(const gvi_points *x, void *user)
+{
+    return body_contact_points(x, (const body_round *)user, 0);
+}
+
+static inline gvi_effect body_rolls(const body_round *a)
+{
+    return (gvi_effect){ .kind = GVI_NONHOLONOMIC, .points = body_rolls_points, .user = (void *)a, .rows = 2 };
+}
+
+static inline gvi_effect body_touches(const body_round *a)
+{
+    return (gvi_effect){ .kind = GVI_CONSTRAINT, .points = body_touches_points, .user = (void *)a, .rows = 1 };
 }
 
 #endif

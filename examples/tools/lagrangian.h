@@ -32,7 +32,8 @@
      LAGRANGIAN_GENERAL    anything else            Newton's method
 
    L.kind says which.  An L that is of one kind near the start and of another far away cannot be
-   known: set L.kind = LAGRANGIAN_GENERAL after lagrangian_init, which covers all.
+   known: set L.kind = LAGRANGIAN_GENERAL after lagrangian_init, which covers all.  So it is with
+   the entries of M that vary.  Of the first kind, with many coordinates, -dV/dq by hand saves most.
 
    Refused, with a sentence: derivatives lost to a `double`; L not finite at the start; no kinetic
    energy in a coordinate; n above LAGRANGIAN_MOST (32; define it before the header).
@@ -61,9 +62,11 @@
 #endif
 
 #if defined(__GNUC__)
-#define LAGRANGIAN__INLINE static inline __attribute__((always_inline))
+#define LAGRANGIAN__ALWAYS __attribute__((always_inline))
+#define LAGRANGIAN__INLINE static inline LAGRANGIAN__ALWAYS
 #define LAGRANGIAN__UNUSED __attribute__((unused))
 #else
+#define LAGRANGIAN__ALWAYS
 #define LAGRANGIAN__INLINE static inline
 #define LAGRANGIAN__UNUSED
 #endif
@@ -75,7 +78,7 @@ typedef struct lagrangian_wanted {
     const gvi_real   *w;              /* [n][stride] v or p; NULL: 0, but       */
     int               one;            /* w[one] = 1; -1: nowhere                */
     gvi_real          scale, *value, *by_q, *by_w;
-    int               first, apart;   /* of by_w: from this coordinate on, [.][apart] */
+    int               first, end, apart;  /* of by_w: these coordinates, [.][apart] */
     const void       *user;
 } lagrangian_wanted;
 
@@ -165,7 +168,7 @@ typedef number lagrangian_body(number t, const number *q, const number *w, const
 LAGRANGIAN__INLINE void lagrangian_add(lagrangian_body *F, int n, number *z, const lagrangian_wanted *a)
 {
     const gvi_points *x = a->x;
-    const int from = a->by_q ? 0 : n + a->first, to = a->by_w ? 2*n : n, R = x->stride;
+    const int from = a->by_q ? 0 : n + a->first, to = a->by_w ? n + a->end : n, R = x->stride;
     const gvi_real step = LAGRANGIAN__STEP, by = a->scale/step;
     for (int k = 0; k < x->count; ++k) {
         for (int i = 0; i < n; ++i) {
@@ -234,11 +237,15 @@ template <int N> struct lagrangian_dual {
     friend number operator*(gvi_real a, const number &b) { return of(a*b.x, a, b); }
     friend number operator/(const number &a, const number &b)
     {
-        const gvi_real y = a.x/b.x, r = 1/b.x;
+        const gvi_real r = 1/b.x, y = a.x*r;
         return of(y, r, a, -y*r, b);
     }
     friend number operator/(const number &a, gvi_real b) { return of(a.x/b, 1/b, a); }
-    friend number operator/(gvi_real a, const number &b) { return of(a/b.x, -(a/b.x)*(1/b.x), b); }
+    friend number operator/(gvi_real a, const number &b)
+    {
+        const gvi_real r = 1/b.x, y = a*r;
+        return of(y, -y*r, b);
+    }
     friend number &operator+=(number &a, const number &b) { return a = a + b; }
     friend number &operator-=(number &a, const number &b) { return a = a - b; }
     friend number &operator*=(number &a, const number &b) { return a = a*b; }
@@ -273,7 +280,14 @@ template <int N> struct lagrangian_dual {
 /* Derivatives in one evaluation: by q at rest, by q, by w, by both; the value in any case. */
 enum { LAGRANGIAN__REST, LAGRANGIAN__Q, LAGRANGIAN__W, LAGRANGIAN__BOTH };
 
-template <class F, int n, int what> inline void lagrangian_add(const lagrangian_wanted *a)
+/* gcc: loops over derivatives in line, as with -O3 */
+#if defined(__GNUC__) && !defined(__clang__)
+#define LAGRANGIAN__UNROLLED __attribute__((optimize("O3")))
+#else
+#define LAGRANGIAN__UNROLLED
+#endif
+
+template <class F, int n, int what> LAGRANGIAN__UNROLLED inline void lagrangian_add(const lagrangian_wanted *a)
 {
     enum { by_q = what != LAGRANGIAN__W, by_w = what >= LAGRANGIAN__W, w_at = by_q ? n : 0 };
     typedef lagrangian_dual<by_q && by_w ? 2*n : n> number;
@@ -289,7 +303,7 @@ template <class F, int n, int what> inline void lagrangian_add(const lagrangian_
         }
         const number L = F().template at<number>(number(x->t[k]), q, w, a->user);
         for (int i = 0; i < n && by_q && a->by_q; ++i) a->by_q[i*R + k] += a->scale*L.d[i];
-        for (int i = a->first; i < n && by_w; ++i) a->by_w[i*a->apart + k] += a->scale*L.d[w_at + i];
+        for (int i = a->first; i < a->end && by_w; ++i) a->by_w[i*a->apart + k] += a->scale*L.d[w_at + i];
         if (a->value) a->value[k] += a->scale*L.x;
     }
 }
@@ -309,7 +323,7 @@ template <class F, int n> inline void lagrangian_any(const lagrangian_wanted *a)
     static void name##_add(const lagrangian_wanted *wanted) { lagrangian_any<name##_body, n>(wanted); } \
     static const lagrangian_function name = { n, name##_add };                                  \
     template <class number>                                                                     \
-    inline number name##_body::at(LAGRANGIAN__UNUSED number t, LAGRANGIAN__UNUSED const number *q, \
+    LAGRANGIAN__UNROLLED LAGRANGIAN__ALWAYS inline number name##_body::at(LAGRANGIAN__UNUSED number t, LAGRANGIAN__UNUSED const number *q, \
                                   LAGRANGIAN__UNUSED const number *w, LAGRANGIAN__UNUSED const void *user) const
 #endif
 
@@ -329,6 +343,7 @@ typedef struct lagrangian {
     lagrangian_function function;
     const void         *user;
     gvi_real            M[LAGRANGIAN_MOST*LAGRANGIAN_MOST], diagonal[LAGRANGIAN_MOST];
+    unsigned char       varies[LAGRANGIAN_MOST*LAGRANGIAN_MOST];        /* does M_ij?        */
     int                 kept;         /* MASS: numbers in q and rest; 0: none   */
     gvi_real            t, q[LAGRANGIAN__KEPT], rest[LAGRANGIAN__KEPT];  /* dL/dq at v = 0, at these q */
     char                why[240];
@@ -344,7 +359,7 @@ static inline gvi_real lagrangian_at(const lagrangian_function *f, const void *u
     lagrangian_wanted a;
     memset(&x, 0, sizeof x);
     memset(&a, 0, sizeof a);
-    x.n = n;
+    x.n = a.end = n;
     x.count = x.stride = a.apart = 1;
     x.t = &t;
     x.q = q;
@@ -537,7 +552,10 @@ static inline int lagrangian_learn(lagrangian *L, struct lagrangian__found *foun
                 found->here[at] = lagrangian_abs_of(H[at]) <= of_H[at] + size ? 0 : H[at];
             }
             if (lagrangian_abs_of(M[at] - H[at]) > of_M[at] + of_H[at] + size) found->quadratic = 0;
-            if (lagrangian_abs_of(M[at] - L->M[at]) > of_M[at] + size) found->constant = 0;
+            if (lagrangian_abs_of(M[at] - L->M[at]) > of_M[at] + size) {
+                L->varies[at] = 1;
+                found->constant = 0;
+            }
         }
     }
     return 1;
@@ -624,6 +642,7 @@ static inline lagrangian_wanted lagrangian_want(const lagrangian *L, const gvi_p
     a.one = -1;
     a.scale = scale;
     a.by_q = x->f;
+    a.end = x->n;
     a.apart = x->stride;
     a.user = L->user;
     return a;
@@ -679,17 +698,22 @@ static inline int lagrangian_term(const gvi_points *x, void *user)
     return 0;
 }
 
-/* MASS: column j of M(q) is dL/dv at v = e_j */
+/* MASS: column j of M(q) is dL/dv at v = e_j, from the first to the last entry that varies */
 static inline int lagrangian_matrix(const gvi_points *x, void *user)
 {
     const lagrangian *L = (const lagrangian *)user;
-    for (int j = 0; j < x->n; ++j) {
+    const int n = x->n, R = x->stride;
+    for (int j = 0; j < n; ++j) {
         lagrangian_wanted a = lagrangian_want(L, x, NULL, 1);
         a.one = a.first = j;
+        while (a.first < n && !L->varies[a.first*n + j]) ++a.first;
+        while (a.end > a.first && !L->varies[(a.end - 1)*n + j]) --a.end;
+        for (int i = j; i < n; ++i)
+            for (int k = 0; k < x->count && (i < a.first || i >= a.end); ++k) x->mass[(i*n + j)*R + k] = L->M[i*n + j];
         a.by_q = NULL;
-        a.by_w = x->mass + j*x->stride;
-        a.apart = x->n*x->stride;
-        L->function.add(&a);
+        a.by_w = x->mass + j*R;
+        a.apart = n*R;
+        if (a.first < a.end) L->function.add(&a);
     }
     return 0;
 }

@@ -69,6 +69,26 @@ static int typed(const double *q, const double *v)
            && strstr(lagrangian_init(&L, first_order, NULL, 0, q, v), "HAMILTONIAN");
 }
 
+// a wheel that rolls upright and straight on
+static int rolled(void)
+{
+    static const body disc = { 2, { 0.045, 0.045, 0.09 } };
+    static const bodies bicycle = { &disc, 1 };
+    static const body_round tyre = { .at = 0, .radius = 0.3, .axis = { 0, 0, 1 } };         // no axis: a ball
+    const gvi_effect scene[] = { body_touches(&tyre), body_rolls(&tyre) };
+    static double room[GVI_CONSTRAINED_LENGTH(7, 8, 8, 3)];
+    gvi_desc desc = { .n = 7, .mass = body_mass(&bicycle), .effects = scene, .effect_count = 2 };
+    const double half = sqrt(0.5), q[7] = { 0, 0, 0.3, half, half, 0, 0 }, w[3] = { 0, 0, 2 };
+    double v[7] = { -0.6, 0, 0, 0, 0, 0, 0 };                                // its axis is -y
+    gvi_stepper st;
+    desc.mass.velocity = NULL;
+    body_turn(q + 3, w, v + 3);
+    if (gvi_init(&st, &desc, room, sizeof room)) return 0;
+    gvi_start(&st, 0, q, v);
+    for (int k = 0; k < 10 && st.status == GVI_OK; ++k) gvi_step(&st, 0.1);
+    return st.status == GVI_OK && fabs(st.q[0] + 0.6) < 1e-13 && fabs(st.q[1]) < 1e-13;
+}
+
 static double height(double t, const double *q, const double *v, void *user) { return (void)t, (void)v, (void)user, q[1]; }
 
 // one run of many: k revolutions of a step each
@@ -96,6 +116,7 @@ int main(void)
 
     if (checked(&desc, q, v)) return 1;
     if (!typed(q, v)) return 5;
+    if (!rolled()) return 6;
     gvi_init(&st, &desc, memory, sizeof memory);
     gvi_start(&st, 0, q, v);
     for (int k = 0; k < 100 && st.status == GVI_OK; ++k) {
