@@ -4475,7 +4475,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
     return gvi__report_effect(st, GVI_E_CONVERGENCE, GVI_FAULT_MASS);
 }
 
-// d2L/dv2 at one point and its LU, to lagrangian.hessian
+// d2L/dv2 at one point and its LU, to lagrangian.hessian; symmetric, which its differences are not
 GVI__OFFERED gvi_status gvi__factor_hessian(gvi_stepper *st, gvi_points *at, gvi_real *v)
 {
     const int n = st->n;
@@ -4484,6 +4484,8 @@ GVI__OFFERED gvi_status gvi__factor_hessian(gvi_stepper *st, gvi_points *at, gvi
     gvi_status status = gvi__evaluate(st, at, 0, 1);
     if (status == GVI_OK) status = gvi__velocity_hessian(st, at, v, H);
     if (status != GVI_OK) return status;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < i; ++j) H[i*n + j] = H[j*n + i] = H[i*n + j]/2 + H[j*n + i]/2;
     if (gvi_lu_factor(n, H, H + n*n) == GVI_OK) return GVI_OK;
     return gvi__report_effect(st, GVI_E_SINGULAR, GVI_FAULT_MASS);
 }
@@ -7595,6 +7597,8 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
     gvi_real *e = in->step.q, *f = in->step.p, *next = in->answer, *d = next + n, *u = d + n,
              *push = in->point, *z = in->con.rho, *r = z + m, *back = r + m,
              *drops = in->con.drops + m, change = GVI__MAX, before = 0, size = 0, share = 1;
+    // what a d2L/dv2 by differences leaves of a change
+    const gvi_real root = GVI_SQRT(GVI__EPS), least = in->adds_p ? 16*root : GVI_SQRT(GVI__EPS*root);
     gvi__zero((size_t)n, e);
     gvi__zero((size_t)n, f);
     gvi__copy((size_t)n, q, next);
@@ -7612,7 +7616,7 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
                        + GVI__EPS*gvi__terms(st, 1, t, next, in->con.G1, in->con.g + m, a));
 
         if (k > 1 && !(change < before*(gvi_real)0.9) && status == GVI_OK
-            && change <= GVI_SQRT(GVI__EPS*GVI_SQRT(GVI__EPS))*size + noise) {
+            && change <= least*size + noise) {
             if (gvi__fulfilled(st, t, next, NULL, u) == GVI_OK) break;
             status = gvi__constraints_at(st, t, next, NULL, u, drops);
         }

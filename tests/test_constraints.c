@@ -947,4 +947,52 @@ TEST(where_nothing_can_move_v_is_0)
     }
 }
 
+GVI_EACH(curl, 4, v, f, dldv)                     /* L = 2 q_1 v_0 - q_0 v_3 */
+{
+    x->dldv[0] += 2*x->q[1];
+    x->dldv[3] -= x->q[0];
+    x->f[1] += 2*x->v[0];
+    x->f[0] -= x->v[3];
+}
+
+GVI_EACH(two_planes, 4, rows(2))
+{
+    const real *a = user;
+    for (int i = 0; i < 4; ++i) {
+        x->g[0] += a[i]*x->q[i];
+        x->g[1] += a[4 + i]*x->q[i];
+        x->jacobian[i] = a[i];
+        x->jacobian[4 + i] = a[4 + i];
+    }
+}
+
+/* Rows that a light coordinate makes nearly one, d2L/dv2 by differences */
+TEST(a_projected_velocity_can_be_started_with)
+{
+    static const real M[] = { 16, 0, 0, 0, (real)0.1L, 4, 0, 0, (real)-0.2L, (real)0.3L, 30, 0, (real)0.01L, 0, (real)0.02L, (real)0.05L };
+    int ok = 0;
+    for (int k = 0; k < 200; ++k) {
+        real a[8], q[4], v[4];
+        const gvi_effect scene[] = { { .kind = GVI_LAGRANGIAN, .points = curl },
+                                     { .kind = GVI_CONSTRAINT, .points = two_planes, .rows = 2, .user = a } };
+        const gvi_desc desc = { .n = 4, .degree = 3, .effects = scene, .effect_count = 2,
+                                .mass = { .kind = GVI_MASS_DENSE, .matrix = M } };
+        for (int i = 0; i < 4; ++i) q[i] = random_unit(), v[i] = random_unit();
+        for (int i = 0; i < 8; ++i) a[i] = (i % 4 == 3 ? 2 : 1)*random_unit();
+        gvi_stepper st;
+        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+        if (gvi_project(&st, 0, q, v, NULL) != GVI_OK) continue;
+        for (int row = 0; row < 2; ++row) {
+            long double slip = 0, size = 0;
+            for (int i = 0; i < 4; ++i) {
+                slip += (long double)a[4*row + i]*v[i];
+                size += fabsl((long double)a[4*row + i]*v[i]);
+            }
+            assert_close(slip, 0, 64*EPS*size);
+        }
+        ok += gvi_start(&st, 0, q, v) == GVI_OK;
+    }
+    assert_true(ok > 195);
+}
+
 RUN_TESTS(NULL, NULL)
