@@ -869,6 +869,7 @@ struct gvi__momenta {
     gvi_real *was;                    /* [n] velocities of the iteration before                */
     gvi_real *mass;                   /* [n*n][R] M(q) at the points, or its factors           */
     int       has_factor;             /* mass is that of this iteration, factored              */
+    int       moves;                  /* V still does: see gvi__velocities_again               */
 };
 #endif
 
@@ -4911,7 +4912,8 @@ static void gvi__velocity_rows(const gvi_stepper *st)
 
 /* Momenta: V from the new P with the old M(Q) and dL/dv, so that an iteration contracts twice
    as fast.  Where Lagrangian terms make V it can diverge while Q and P hardly change: returns its
-   squared relative change at the last point, times r as if summed over all.                   */
+   squared relative change at the last point, times r as if summed over all.  V moves as long as
+   that is more than half of the digits of what M V is the difference of: no noise ends then.  */
 static gvi_real gvi__velocities_again(gvi_stepper *st)
 {
     struct gvi__private *in = &st->in;
@@ -4919,6 +4921,7 @@ static gvi_real gvi__velocities_again(gvi_stepper *st)
               made = gvi__rows_of_A(in) != NULL;
     const gvi_real *V = in->work.V + st->r - 1;
     gvi_real *was = in->momenta.was, sum = 0;
+    in->momenta.moves = 0;
     // before the first evaluation Q, g and M(Q) are those of another step
 
     if (!in->momenta.has_factor && (clock || in->desc.mass.velocity || in->momenta.mass))
@@ -4934,7 +4937,11 @@ static gvi_real gvi__velocities_again(gvi_stepper *st)
     if (!made) return 0;
     for (int i = 0; i < n; ++i) {
         const gvi_real moved = V[i*R] - was[i], size = GVI_ABS(V[i*R]) + GVI_ABS(was[i]);
+        const int last = i*R + st->r - 1;
+        const gvi_real terms = GVI_ABS(in->momenta.P[last]) + GVI_ABS(gvi__rows_of_A(in)[last]),
+                       half = GVI_SQRT(GVI__EPS), M = gvi__place_inertia(st, i);
         if (size > GVI__NOTHING) sum += (moved/size)*(moved/size);
+        in->momenta.moves |= GVI_ABS(moved) > half*size && GVI_ABS(moved)*M > half*terms;
     }
 
     return (gvi_real)st->r*sum;
@@ -7476,7 +7483,8 @@ GVI__OFFERED int gvi__constraint_explain(gvi_stepper *st, gvi_status status, gvi
 
 /* Newton's method for the lambda with which G v + dg/dt stays 0 along the motion, its matrix A.
    d/de at (t + e, q + e v, p + e (F + G' lambda)) by differences of order 8, which are halved in
-   every iteration: the least change is where truncation and rounding meet.                   */
+   every iteration: truncation and rounding meet where the changes to lambda and from it are least;
+   one alone may be small by chance.                                                           */
 GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
 {
     static const gvi_real weight[] = {
@@ -7495,7 +7503,7 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
     const int n = st->n, m = in->con.m;
     gvi_real *q = in->answer, *p = q + n, *u = p + n, *v = in->con.W, *force = v + n;
     gvi_real *z = in->con.rho, *rate = z + m, *sum = in->con.y, *best = in->con.g + 2*m;
-    gvi_real *F = in->step.p, least = GVI__MAX, size = 0, delta = 1;
+    gvi_real *F = in->step.p, least = GVI__MAX, last = GVI__MAX, size = 0, delta = 1;
     gvi_points at = gvi__one_point(st, &st->t, st->q);
     gvi__velocity_guess(st, u);
     if (m > 0) status = gvi__constraints_at(st, st->t, st->q, st->p, u, in->con.drops + m);
@@ -7537,12 +7545,16 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
         gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
         size = -gvi__dot(m, rate, z);
         if (trial != GVI_OK || !gvi__finite(size)) continue;      // beyond a domain: nearer
-        if (!(size < least) && size <= GVI__EPS*whole) break;
+        const gvi_real both = gvi__larger(size, last);
+        last = size;
+        if (!(both < 16*least) && both <= GVI__EPS*whole) break;
+        if (!gvi__nonzero(both)) break;            // e is rounded away
+        if (both < least/256 || !(least < GVI__MAX)) least = both, gvi__copy((size_t)m, sum, best);
         gvi__add_scaled(m, 1, z, sum, sum);
-        if (size < least) least = size, gvi__copy((size_t)m, sum, best);
     }
 
-    if (status == GVI_OK && m > 0 && !(least < GVI__MAX))
+    if (!(least < GVI__MAX)) gvi__copy((size_t)m, sum, best);
+    if (status == GVI_OK && m > 0 && !(last < GVI__MAX))
         status = trial != GVI_OK ? trial : gvi__report_status(st, GVI_E_NON_FINITE);
     if (status != GVI_OK) return gvi__done(st, status);
     for (int e = 0; e < in->desc.effect_count; ++e)
@@ -9515,6 +9527,7 @@ static int gvi__place_judge(gvi_stepper *st, const struct gvi__progress *p, gvi_
     GVI__CONSTRAINTS_ON(
         *patience = gvi__patience(st, p);
         return gvi__constraint_judge(st, p, D))
+    GVI__MOMENTA(if (st->in.momenta.moves) *patience = st->in.desc.max_iterations)
     return GVI__GO_ON;
 }
 

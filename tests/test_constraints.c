@@ -995,4 +995,31 @@ TEST(a_projected_velocity_can_be_started_with)
     assert_true(ok > 195);
 }
 
+GVI_EACH(dune, 3, rows(1))                        /* q_1 = a sin(q_0) - c q_2^2/2 */
+{
+    const real *a = user;
+    x->g[0] = x->q[1] - a[0]*sin(x->q[0]) + a[1]*x->q[2]*x->q[2]/2;
+    x->jacobian[0] = -a[0]*cos(x->q[0]);
+    x->jacobian[1] = 1;
+    x->jacobian[2] = a[1]*x->q[2];
+}
+
+/* No force: lambda = -v'g''v/|G|^2.  One change of the differences that is small by chance ends nothing */
+TEST(multipliers_of_random_states)
+{
+    for (int k = 0; k < 6000; ++k) {
+        real a[] = { 3*random_unit(), random_unit() }, q[] = { 6 + 4*random_unit(), 0, 3 + 3*random_unit() }, lambda;
+        const gvi_effect scene = { .kind = GVI_CONSTRAINT, .points = dune, .rows = 1, .user = a };
+        const gvi_desc desc = { .n = 3, .degree = 2, .effects = &scene, .effect_count = 1 };
+        q[1] = a[0]*sin(q[0]) - a[1]*q[2]*q[2]/2;
+        const real G[] = { -a[0]*cos(q[0]), 1, a[1]*q[2] };
+        real v[] = { random_unit(), 0, random_unit() };
+        v[1] = -G[0]*v[0] - G[2]*v[2];
+        gvi_stepper st = new_motion(&desc, 0, q, v);
+        assert_ok(gvi_multipliers(&st, &lambda));
+        const real bend[] = { a[0]*sin(q[0])*v[0]*v[0], a[1]*v[2]*v[2] }, size = G[0]*G[0] + 1 + G[2]*G[2];
+        assert_close(lambda, -(bend[0] + bend[1])/size, 4000*EPS*(fabs(bend[0]) + fabs(bend[1]) + fabs(v[1]))/size);
+    }
+}
+
 RUN_TESTS(NULL, NULL)

@@ -233,7 +233,15 @@ static void ask_queries(gvi_stepper *st, const scene *z, const L *y0, L t0, cons
     if (rows_of(z)) {
         L g[2*M], G[2*M*N], rate[2*M], lam[2*M], off = 0, big = 1;
         rows_at(z, (L)st->t + st->t_low, y1, g, G, rate);
-        const L rank = multipliers_of(z, (L)st->t + st->t_low, y1, y1 + n, V, s.f, G, lam);
+        L least = 1e300L, rank = 1;
+        for (int k = 0; k < 8; ++k) {              /* truncation and rounding meet where they change least */
+            L one[2*M], two[2*M];
+            rank = multipliers_of(z, (L)st->t + st->t_low, y1, y1 + n, V, s.f, G, k, one);
+            multipliers_of(z, (L)st->t + st->t_low, y1, y1 + n, V, s.f, G, k + 1, two);
+            if (far_off(rows_of(z), one, two) > least) continue;
+            least = far_off(rows_of(z), one, two);
+            memcpy(lam, two, sizeof lam);
+        }
         if (gvi_multipliers(st, lambda) != GVI_OK) report(MOTION, NAN, gvi_why(st), st, z);
         for (int a = 0; a < rows_of(z); ++a) {
             off = fmaxl(off, fabsl(lambda[a] - lam[a]));

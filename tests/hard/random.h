@@ -262,7 +262,7 @@ static void velocity_of(const scene *z, L t, const L *q, const L *p, L *v)
 {
     const int nonlinear = z->terms && fabs(z->u[0]) > 0;
     for (int i = 0; i < z->n; ++i) v[i] = 0;
-    for (int pass = 0; pass < (nonlinear ? 30 : 2); ++pass) {
+    for (int pass = 0; pass < (nonlinear ? 200 : 2); ++pass) {
         L H[N*N], d[N], moved = 0, size = 0;
         sums s;
         all_sums(z, t, q, v, &s);
@@ -289,25 +289,25 @@ static void slip_of(const scene *z, L t, const L *q, const L *p, L *slip)       
     }
 }
 
-/* The multipliers that keep the slip: its derivative along (1, v, F) by differences of order 8, and G (d2L/dv2)^-1 G' */
-static L multipliers_of(const scene *z, L t, const L *q, const L *p, const L *v, const L *F, const L *G, L *lambda)
+/* The multipliers that keep the slip: its derivative along (1, v, F) by differences of order 8, and G (d2L/dv2)^-1 G'.
+   `finer`: by how many halvings they are shorter than 1/64 of the time in which v would change by 1          */
+static L multipliers_of(const scene *z, L t, const L *q, const L *p, const L *v, const L *F, const L *G, int finer, L *lambda)
 {
     static const L weight[] = { 4/5.0L, -1/5.0L, 4/105.0L, -1/280.0L };
     const int n = z->n, m = rows_of(z);
-    L fast = 1, H[N*N], a0[N];
-    inertia_at(z, q, v, H);
-    memcpy(a0, F, sizeof a0);
-    solve(n, H, 1, a0);
-    for (int i = 0; i < n; ++i) fast = fmaxl(fast, fmaxl(fabsl(v[i]), fabsl(a0[i])));
-    const L step = 1/256.0L/fast;
-    L X[2*M*N], gram[4*M*M], change[2*M] = { 0 };
+    L Q[N] = { 0 }, P[N] = { 0 }, V[N], fast = 1, step = 1/1024.0L, H[N*N], X[2*M*N], gram[4*M*M], change[2*M] = { 0 };
+    for (int i = 0; i < n; ++i) { Q[i] = q[i] + step*v[i]; P[i] = p[i] + step*F[i]; fast = fmaxl(fast, fabsl(v[i])); }
+    velocity_of(z, t + step, Q, P, V);
+    for (int i = 0; i < n; ++i) fast = fmaxl(fast, fabsl(V[i] - v[i])/step);
+    step = ldexpl(1, -6 - finer)/fast;
     for (int k = 1; k <= 4; ++k)
         for (int side = -1; side <= 1; side += 2) {
-            L Q[N], P[N], slip[2*M];
+            L slip[2*M];
             for (int i = 0; i < n; ++i) { Q[i] = q[i] + side*k*step*v[i]; P[i] = p[i] + side*k*step*F[i]; }
             slip_of(z, t + side*k*step, Q, P, slip);
             for (int a = 0; a < m; ++a) change[a] += side*weight[k - 1]*slip[a]/step;
         }
+    inertia_at(z, q, v, H);
     memcpy(X, G, sizeof *X*(size_t)(m*n));
     solve(n, H, m, X);
     for (int a = 0; a < m; ++a) {
@@ -340,7 +340,7 @@ static void rates_of(L t, const L *y, L *dy, void *user)
     if (!m) return;
     L g[2*M], G[2*M*N], rate[2*M], lambda[2*M];
     rows_at(z, t, q, g, G, rate);
-    worst_rank = fminl(worst_rank, multipliers_of(z, t, q, p, dy, s.f, G, lambda));
+    worst_rank = fminl(worst_rank, multipliers_of(z, t, q, p, dy, s.f, G, 2, lambda));
     for (int a = 0; a < m; ++a)
         for (int i = 0; i < n; ++i) dy[n + i] += G[a*n + i]*lambda[a];
 }
