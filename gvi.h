@@ -1176,7 +1176,8 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action);
    motion that the guess starts; gvi_start_momentum(st, t, q0, p0) starts it.  If `negative` is
    wanted without a guess, it is whatever Newton's method finds from the chord.  GVI_E_CONJUGATE
    where the ends do not determine the curve (oscillator: h omega = k pi; a half circle about the
-   Sun, whose chord goes through it, or past another conjugate point).  Needs GVI_NEWTON, or
+   Sun, whose chord goes through it, or past another conjugate point), GVI_E_RESOLUTION where it is
+   not as accurate as desc.resolution wants it.  Needs GVI_NEWTON, or
    GVI_AUTO with s n <= 1024 and no given iterations, if s > 1; not for kicks, a clock or
    constraints.  Forced systems: d1, d2 are total derivatives, and F-, F+ are
    h sum b_i f_i dQ_i/dq0, dQ_i/dq1 with the curve's own dependence on its ends, as the exact
@@ -7610,7 +7611,8 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
              *push = in->point, *z = in->con.rho, *r = z + m, *back = r + m,
              *drops = in->con.drops + m, change = GVI__MAX, before = 0, size = 0, share = 1;
     // what a d2L/dv2 by differences leaves of a change
-    const gvi_real root = GVI_SQRT(GVI__EPS), least = in->adds_p ? 16*root : GVI_SQRT(GVI__EPS*root);
+    const gvi_real root = GVI_SQRT(GVI__EPS),
+                   least = in->adds_p ? 16*root : GVI_SQRT(GVI__EPS*root);
     gvi__zero((size_t)n, e);
     gvi__zero((size_t)n, f);
     gvi__copy((size_t)n, q, next);
@@ -8714,7 +8716,8 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
 
     gvi__newton_points(st, &from, h);
 
-    gvi_real *p0 = in->step.q, *p1 = in->step.p, *minus = in->answer, *plus = minus + n, action = 0;
+    gvi_real *p0 = in->step.q, *p1 = in->step.p_low, *minus = in->answer, *plus = minus + n,
+             action = 0;
     const gvi_real *F = in->work.F, *hb = in->sized.hb;
     int negative = 0;
     status = gvi__interior(st, &from, h, q1, out, &J, p0, &negative);
@@ -8727,10 +8730,18 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
     // row 0 of (1) for p0, then (2)
     for (int i = 0; i < n; ++i) {
         for (int j = 0; j < st->r; ++j) p0[i] -= hb[j]*(1 - in->table.Phi[j])*F[i*R + j];
-        p1[i] = p0[i] + gvi__dot(st->r, hb, F + i*R);
+        in->step.p[i] = gvi__dot(st->r, hb, F + i*R);
+        p1[i] = p0[i] + in->step.p[i];
     }
 
-    status = gvi__discrete_forces(st, &J, minus, plus);
+    // as accurate as a step from (q0, p0) has to be
+    const struct gvi__phase state = in->state;
+    gvi__copy((size_t)n, q0, in->step.q_low);
+    in->state.q = in->step.q_low;
+    in->state.p = p0;
+    status = gvi__place_accept(st);
+    in->state = state;
+    if (status == GVI_OK) status = gvi__discrete_forces(st, &J, minus, plus);
     if (status != GVI_OK) return gvi__done(st, status);
     if (out->negative) *out->negative = negative;
     if (out->lagrangian) *out->lagrangian = action;
