@@ -1088,10 +1088,10 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
 
 /* Start at time t from velocities, momenta, or two configurations: q0 at t and
    q1 at t + h (solves the boundary-value problem; conjugate points: below; no constraints).
-   The first start with a constraint, and gvi_project before it, compare its jacobian and rate with
-   differences of g next to (t, q).  An entry that is off by more than 1/512 of itself, and more
-   than rounding hides (in float most of 1 %), is refused: GVI_E_ARGUMENT, its row in
-   fault.coordinate.  Later steps do not look again.
+   The first start with a constraint, and gvi_project before it, see that it fills all points, and
+   compare its jacobian and rate with differences of g next to (t, q).  An entry that is off by more
+   than 1/512 of itself, and more than rounding hides (in float most of 1 %), is refused:
+   GVI_E_ARGUMENT, its row in fault.coordinate.  Later steps do not look again.
    GVI_E_CONSTRAINT where q or v is off a constraint: q by more than 4096 roundings of g, v if the
    part that G v + dg/dt = 0 removes has more than (4096 eps)^2 of the kinetic energy.         */
 GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v);
@@ -1107,8 +1107,8 @@ GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_rea
    d2L/dv2).  For coordinates from a file; then gvi_start takes them.  moved, or NULL: the lengths
    sqrt(dq'M dq), sqrt(dv'M dv) of what was added to q and v.  The state and the switches stay (last
    places of later steps may not): for a constraint to come, where the state is off it, gvi_init,
-   this, gvi_start.  GVI_E_CONVERGENCE: too far off (an effect and row that is left, if any); q and
-   v are then as they were.                                                                    */
+   this, gvi_start.  GVI_E_CONVERGENCE: too far off (an effect and row that is left, if any);
+   GVI_E_CONSTRAINT: rows contradict each other; q and v are then as they were.                 */
 #ifndef GVI_NO_CONSTRAINTS
 GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_real *v,
                                gvi_real *moved);
@@ -7207,6 +7207,39 @@ static gvi_real gvi__size_of(gvi_real x, gvi_real largest)
     return largest > 0 ? largest : 1;
 }
 
+/* Does a callback fill all points?  At s + 1 that are one state, which has to be where con.G1 is,
+   each row is, to 1/1024 of its terms, that of the one.  Explicit steps have one point.  Returns a
+   row that is not so, or -1.                                                                  */
+GVI__COLD int gvi__unfilled_row(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *g,
+                                const gvi_real *rate)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n, m = in->con.m, C = in->con.C, count = st->s + 1;
+    const gvi_real *G = in->con.G1;
+    int wrong = -1;
+    if (!in->con.G) return -1;
+    for (int k = 0; k < C; ++k) in->con.t[k] = t;
+    for (int k = 0; k < n*C; ++k) in->con.at[k] = q[k/C];
+    for (int k = 0; k < m*C; ++k) in->con.g[k] = GVI__MAX;
+    if (gvi__evaluate_constraints(st, C, count, in->con.t, in->con.at, in->con.G) != GVI_OK)
+        return -1;
+
+    for (int a = m; a-- > 0; ) {
+        const gvi_real terms = gvi__terms(st, 1, t, q, G, rate, a) + GVI_ABS(g[a]),
+                       steepest = gvi__norm1(n, G + a*n);
+        for (int k = 0; k < count; ++k) {
+            const gvi_real slope = in->con.g[(m + a)*C + k];
+            int unlike = GVI_ABS(in->con.g[a*C + k] - g[a]) > terms/GVI__SURE
+                         || GVI_ABS(slope - rate[a])*GVI__SURE > GVI_ABS(slope) + GVI_ABS(rate[a]);
+            for (int i = 0; i < n; ++i)
+                unlike |= GVI_ABS(in->con.G[(a*n + i)*C + k] - G[a*n + i]) > steepest/GVI__SURE;
+            if (unlike) wrong = a;
+        }
+    }
+
+    return wrong;
+}
+
 /* Are G and dg/dt the derivatives of g?  When a constraint is first started with, they are compared
    with differences of g along each coordinate and along t, to both sides by d, d/8, d/64 ... until
    all rows agree; next to the state, where an entry that is 0 there is not.  An entry is wrong
@@ -7234,6 +7267,17 @@ GVI__COLD gvi_status gvi__check_derivatives(gvi_stepper *st, gvi_real t, const g
     (void)gvi__find_columns(st, 1, 1, G);
     gvi__copy((size_t)m, g, was);
     gvi__copy((size_t)m, g + m, rate);
+    if (status == GVI_OK) {
+        const int row = gvi__unfilled_row(st, from_t, from, was, rate);
+        st->counters = counters;
+        if (row >= 0) {
+            gvi__report_row(st, GVI_E_ARGUMENT, row, GVI_FAULT_NONE);
+            st->fault.argument = "constraint: fills not all points: row a of point k < x->count is "
+                                 "at [a*x->stride + k]";
+            return GVI_E_ARGUMENT;
+        }
+    }
+
     gvi__copy((size_t)n, from, at);
     for (int i = 0; i <= n && status == GVI_OK; ++i) {
         const gvi_real x = i < n ? from[i] : from_t, *entries = i < n ? G + i : rate,
@@ -7666,9 +7710,21 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
 
     GVI__LOOK(st, 0);
     if (status == GVI_OK) far[1] = gvi__project_velocity(st, u);
+    // rows that are left out had no part in this
+    for (int a = 0; a < m && status == GVI_OK; ++a) {
+        const gvi_real slip = in->con.g[m + a] + gvi__row_dot(st, in->con.G1, a, u);
+        gvi_real terms = GVI_ABS(in->con.g[m + a]);
+        for (int i = 0; i < n; ++i)
+            terms += GVI_ABS(in->con.G1[a*n + i])*(GVI_ABS(u[i]) + GVI_ABS(v[i]));
+        if (drops[a] > 0 && GVI_ABS(slip) > GVI__HELD*GVI__EPS*terms)
+            status = gvi__report_row(st, GVI_E_CONSTRAINT, a, GVI_FAULT_NONE);
+    }
     gvi__forget_columns(st);
     if (status == GVI_E_CONVERGENCE)
         st->fault.argument = "gvi_project: no state on the constraints found, too far off";
+    if (status == GVI_E_CONSTRAINT)
+        st->fault.argument = "gvi_project: a row (fault.coordinate of fault.effect) contradicts "
+                             "others";
     if (status != GVI_OK) return st->status = status;
     gvi__add_scaled(n, 1, e, q, q);
     gvi__copy((size_t)n, u, v);

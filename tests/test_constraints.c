@@ -1022,4 +1022,30 @@ TEST(multipliers_of_random_states)
     }
 }
 
+GVI_EACH(two_belts, 2, rows(2))                   /* q_0 = t and q_0 = c t: one place at t = 0 */
+{
+    const real c = *(const real *)user;
+    x->g[0] = x->q[0] - x->t[0];
+    x->g[1] = x->q[0] - c*x->t[0];
+    x->jacobian[0] = x->jacobian[2] = 1;
+    x->rate[0] = -1;
+    x->rate[1] = -c;
+}
+
+TEST(velocities_that_contradict_are_not_projected)
+{
+    for (int k = 0; k < 2; ++k) {
+        real c = k ? 2 : 1, q[] = { (real)0.25L, 3 }, v[] = { 5, 4 };
+        const gvi_effect scene = { .kind = GVI_CONSTRAINT, .points = two_belts, .rows = 2, .user = &c };
+        const gvi_desc desc = { .n = 2, .degree = 2, .effects = &scene, .effect_count = 1 };
+        gvi_stepper st;
+        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+        const gvi_status status = gvi_project(&st, 0, q, v, NULL);
+        assert_status(status, k ? GVI_E_CONSTRAINT : GVI_OK);
+        assert_true(v[0] == (k ? 5 : 1) && v[1] == 4);
+        if (k) assert_int_equal(st.fault.coordinate, 1);
+        else assert_ok(gvi_start(&st, 0, q, v));
+    }
+}
+
 RUN_TESTS(NULL, NULL)
