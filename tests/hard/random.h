@@ -497,7 +497,7 @@ static int solve_step(const step *a, L *y, outcome *end)
             large = fmaxl(large, fabsl(y[j]));
         }
         moved = shift/(large + 1e-300L);
-        if (moved <= 1e-9L && !(moved < last/2)) break;      /* rounding is left */
+        if (!(moved < last/2) && moved <= (pass < 20 ? 1e-12L : 1e-9L)) break;       /* rounding is left */
         last = moved;
         if (pass == 39) return 0;
     }
