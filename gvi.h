@@ -890,6 +890,7 @@ struct gvi__momenta {
     gvi_real *was;                    /* [n] velocities of the iteration before                */
     gvi_real *mass;                   /* [n*n][R] M(q) at the points, or its factors           */
     int       has_factor;             /* mass is that of this iteration, factored              */
+    int       moves;                  /* V still does: see gvi__velocities_again               */
 };
 #endif
 
@@ -1112,10 +1113,10 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
      gvi_start_momentum         starts from configuration and momentum
      gvi_start_configurations   starts from q0 at t and q1 at t + h (solves the boundary-value
                                 problem; conjugate points: below; no constraints)
-   The first start with a constraint, and gvi_project before it, compare its jacobian and rate with
-   differences of g next to (t, q).  An entry that is off by more than 1/512 of itself, and more
-   than rounding hides (in float most of 1 %), is refused: GVI_E_ARGUMENT, its row in
-   fault.coordinate.  Later steps do not look again.
+   The first start with a constraint, and gvi_project before it, see that it fills all points, and
+   compare its jacobian and rate with differences of g next to (t, q).  An entry that is off by more
+   than 1/512 of itself, and more than rounding hides (in float most of 1 %), is refused:
+   GVI_E_ARGUMENT, its row in fault.coordinate.  Later steps do not look again.
    GVI_E_CONSTRAINT where q or v is off a constraint: q by more than 4096 roundings of g, v if the
    part that G v + dg/dt = 0 removes has more than (4096 eps)^2 of the kinetic energy.         */
 GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v);
@@ -1131,8 +1132,8 @@ GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_rea
    d2L/dv2).  For coordinates from a file; then gvi_start takes them.  moved, or NULL: the lengths
    sqrt(dq'M dq), sqrt(dv'M dv) of what was added to q and v.  The state and the switches stay (last
    places of later steps may not): for a constraint to come, where the state is off it, gvi_init,
-   this, gvi_start.  GVI_E_CONVERGENCE: too far off (an effect and row that is left, if any); q and
-   v are then as they were.                                                                    */
+   this, gvi_start.  GVI_E_CONVERGENCE: too far off (an effect and row that is left, if any);
+   GVI_E_CONSTRAINT: rows contradict each other; q and v are then as they were.                 */
 #ifndef GVI_NO_CONSTRAINTS
 GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_real *v,
                                gvi_real *moved);
@@ -1202,7 +1203,8 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action);
    motion that the guess starts; gvi_start_momentum(st, t, q0, p0) starts it.  If `negative` is
    wanted without a guess, it is whatever Newton's method finds from the chord.  GVI_E_CONJUGATE
    where the ends do not determine the curve (oscillator: h omega = k pi; a half circle about the
-   Sun, whose chord goes through it, or past another conjugate point).  Needs GVI_NEWTON, or
+   Sun, whose chord goes through it, or past another conjugate point), GVI_E_RESOLUTION where it is
+   not as accurate as desc.resolution wants it.  Needs GVI_NEWTON, or
    GVI_AUTO with s n <= 1024 and no given iterations, if s > 1; not for kicks, a clock or
    constraints.  Forced systems: d1, d2 are total derivatives, and F-, F+ are
    h sum b_i f_i dQ_i/dq0, dQ_i/dq1 with the curve's own dependence on its ends, as the exact
@@ -4503,7 +4505,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
     return gvi__report_effect(st, GVI_E_CONVERGENCE, GVI_FAULT_MASS);
 }
 
-// d2L/dv2 at one point and its LU, to lagrangian.hessian
+// d2L/dv2 at one point and its LU, to lagrangian.hessian; symmetric, which its differences are not
 GVI__OFFERED gvi_status gvi__factor_hessian(gvi_stepper *st, gvi_points *at, gvi_real *v)
 {
     const int n = st->n;
@@ -4512,6 +4514,8 @@ GVI__OFFERED gvi_status gvi__factor_hessian(gvi_stepper *st, gvi_points *at, gvi
     gvi_status status = gvi__evaluate(st, at, 0, 1);
     if (status == GVI_OK) status = gvi__velocity_hessian(st, at, v, H);
     if (status != GVI_OK) return status;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < i; ++j) H[i*n + j] = H[j*n + i] = H[i*n + j]/2 + H[j*n + i]/2;
     if (gvi_lu_factor(n, H, H + n*n) == GVI_OK) return GVI_OK;
     return gvi__report_effect(st, GVI_E_SINGULAR, GVI_FAULT_MASS);
 }
@@ -4937,7 +4941,8 @@ static void gvi__velocity_rows(const gvi_stepper *st)
 
 /* Momenta: V from the new P with the old M(Q) and dL/dv, so that an iteration contracts twice
    as fast.  Where Lagrangian terms make V it can diverge while Q and P hardly change: returns its
-   squared relative change at the last point, times r as if summed over all.                   */
+   squared relative change at the last point, times r as if summed over all.  V moves as long as
+   that is more than half of the digits of what M V is the difference of: no noise ends then.  */
 static gvi_real gvi__velocities_again(gvi_stepper *st)
 {
     struct gvi__private *in = &st->in;
@@ -4945,6 +4950,7 @@ static gvi_real gvi__velocities_again(gvi_stepper *st)
               made = gvi__rows_of_A(in) != NULL;
     const gvi_real *V = in->work.V + st->r - 1;
     gvi_real *was = in->momenta.was, sum = 0;
+    in->momenta.moves = 0;
     // before the first evaluation Q, g and M(Q) are those of another step
 
     if (!in->momenta.has_factor && (clock || in->desc.mass.velocity || in->momenta.mass))
@@ -4960,7 +4966,11 @@ static gvi_real gvi__velocities_again(gvi_stepper *st)
     if (!made) return 0;
     for (int i = 0; i < n; ++i) {
         const gvi_real moved = V[i*R] - was[i], size = GVI_ABS(V[i*R]) + GVI_ABS(was[i]);
+        const int last = i*R + st->r - 1;
+        const gvi_real terms = GVI_ABS(in->momenta.P[last]) + GVI_ABS(gvi__rows_of_A(in)[last]),
+                       half = GVI_SQRT(GVI__EPS), M = gvi__place_inertia(st, i);
         if (size > GVI__NOTHING) sum += (moved/size)*(moved/size);
+        in->momenta.moves |= GVI_ABS(moved) > half*size && GVI_ABS(moved)*M > half*terms;
     }
 
     return (gvi_real)st->r*sum;
@@ -7231,6 +7241,39 @@ static gvi_real gvi__size_of(gvi_real x, gvi_real largest)
     return largest > 0 ? largest : 1;
 }
 
+/* Does a callback fill all points?  At s + 1 that are one state, which has to be where con.G1 is,
+   each row is, to 1/1024 of its terms, that of the one.  Explicit steps have one point.  Returns a
+   row that is not so, or -1.                                                                  */
+GVI__COLD int gvi__unfilled_row(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *g,
+                                const gvi_real *rate)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n, m = in->con.m, C = in->con.C, count = st->s + 1;
+    const gvi_real *G = in->con.G1;
+    int wrong = -1;
+    if (!in->con.G) return -1;
+    for (int k = 0; k < C; ++k) in->con.t[k] = t;
+    for (int k = 0; k < n*C; ++k) in->con.at[k] = q[k/C];
+    for (int k = 0; k < m*C; ++k) in->con.g[k] = GVI__MAX;
+    if (gvi__evaluate_constraints(st, C, count, in->con.t, in->con.at, in->con.G) != GVI_OK)
+        return -1;
+
+    for (int a = m; a-- > 0; ) {
+        const gvi_real terms = gvi__terms(st, 1, t, q, G, rate, a) + GVI_ABS(g[a]),
+                       steepest = gvi__norm1(n, G + a*n);
+        for (int k = 0; k < count; ++k) {
+            const gvi_real slope = in->con.g[(m + a)*C + k];
+            int unlike = GVI_ABS(in->con.g[a*C + k] - g[a]) > terms/GVI__SURE
+                         || GVI_ABS(slope - rate[a])*GVI__SURE > GVI_ABS(slope) + GVI_ABS(rate[a]);
+            for (int i = 0; i < n; ++i)
+                unlike |= GVI_ABS(in->con.G[(a*n + i)*C + k] - G[a*n + i]) > steepest/GVI__SURE;
+            if (unlike) wrong = a;
+        }
+    }
+
+    return wrong;
+}
+
 /* Are G and dg/dt the derivatives of g?  When a constraint is first started with, they are compared
    with differences of g along each coordinate and along t, to both sides by d, d/8, d/64 ... until
    all rows agree; next to the state, where an entry that is 0 there is not.  An entry is wrong
@@ -7258,6 +7301,17 @@ GVI__COLD gvi_status gvi__check_derivatives(gvi_stepper *st, gvi_real t, const g
     (void)gvi__find_columns(st, 1, 1, G);
     gvi__copy((size_t)m, g, was);
     gvi__copy((size_t)m, g + m, rate);
+    if (status == GVI_OK) {
+        const int row = gvi__unfilled_row(st, from_t, from, was, rate);
+        st->counters = counters;
+        if (row >= 0) {
+            gvi__report_row(st, GVI_E_ARGUMENT, row, GVI_FAULT_NONE);
+            st->fault.argument = "constraint: fills not all points: row a of point k < x->count is "
+                                 "at [a*x->stride + k]";
+            return GVI_E_ARGUMENT;
+        }
+    }
+
     gvi__copy((size_t)n, from, at);
     for (int i = 0; i <= n && status == GVI_OK; ++i) {
         const gvi_real x = i < n ? from[i] : from_t, *entries = i < n ? G + i : rate,
@@ -7508,7 +7562,8 @@ GVI__OFFERED int gvi__constraint_explain(gvi_stepper *st, gvi_status status, gvi
 
 /* Newton's method for the lambda with which G v + dg/dt stays 0 along the motion, its matrix A.
    d/de at (t + e, q + e v, p + e (F + G' lambda)) by differences of order 8, which are halved in
-   every iteration: the least change is where truncation and rounding meet.                   */
+   every iteration: truncation and rounding meet where the changes to lambda and from it are least;
+   one alone may be small by chance.                                                           */
 GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
 {
     static const gvi_real weight[] = {
@@ -7527,7 +7582,7 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
     const int n = st->n, m = in->con.m;
     gvi_real *q = in->answer, *p = q + n, *u = p + n, *v = in->con.W, *force = v + n;
     gvi_real *z = in->con.rho, *rate = z + m, *sum = in->con.y, *best = in->con.g + 2*m;
-    gvi_real *F = in->step.p, least = GVI__MAX, size = 0, delta = 1;
+    gvi_real *F = in->step.p, least = GVI__MAX, last = GVI__MAX, size = 0, delta = 1;
     gvi_points at = gvi__one_point(st, &st->t, st->q);
     gvi__velocity_guess(st, u);
     if (m > 0) status = gvi__constraints_at(st, st->t, st->q, st->p, u, in->con.drops + m);
@@ -7569,12 +7624,16 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
         gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
         size = -gvi__dot(m, rate, z);
         if (trial != GVI_OK || !gvi__finite(size)) continue;      // beyond a domain: nearer
-        if (!(size < least) && size <= GVI__EPS*whole) break;
+        const gvi_real both = gvi__larger(size, last);
+        last = size;
+        if (!(both < 16*least) && both <= GVI__EPS*whole) break;
+        if (!gvi__nonzero(both)) break;            // e is rounded away
+        if (both < least/256 || !(least < GVI__MAX)) least = both, gvi__copy((size_t)m, sum, best);
         gvi__add_scaled(m, 1, z, sum, sum);
-        if (size < least) least = size, gvi__copy((size_t)m, sum, best);
     }
 
-    if (status == GVI_OK && m > 0 && !(least < GVI__MAX))
+    if (!(least < GVI__MAX)) gvi__copy((size_t)m, sum, best);
+    if (status == GVI_OK && m > 0 && !(last < GVI__MAX))
         status = trial != GVI_OK ? trial : gvi__report_status(st, GVI_E_NON_FINITE);
     if (status != GVI_OK) return gvi__done(st, status);
     for (int e = 0; e < in->desc.effect_count; ++e)
@@ -7629,6 +7688,9 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
     gvi_real *e = in->step.q, *f = in->step.p, *next = in->answer, *d = next + n, *u = d + n,
              *push = in->point, *z = in->con.rho, *r = z + m, *back = r + m,
              *drops = in->con.drops + m, change = GVI__MAX, before = 0, size = 0, share = 1;
+    // what a d2L/dv2 by differences leaves of a change
+    const gvi_real root = GVI_SQRT(GVI__EPS),
+                   least = in->adds_p ? 16*root : GVI_SQRT(GVI__EPS*root);
     gvi__zero((size_t)n, e);
     gvi__zero((size_t)n, f);
     gvi__copy((size_t)n, q, next);
@@ -7646,7 +7708,7 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
                        + GVI__EPS*gvi__terms(st, 1, t, next, in->con.G1, in->con.g + m, a));
 
         if (k > 1 && !(change < before*(gvi_real)0.9) && status == GVI_OK
-            && change <= GVI_SQRT(GVI__EPS*GVI_SQRT(GVI__EPS))*size + noise) {
+            && change <= least*size + noise) {
             if (gvi__fulfilled(st, t, next, NULL, u) == GVI_OK) break;
             status = gvi__constraints_at(st, t, next, NULL, u, drops);
         }
@@ -7682,9 +7744,21 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
 
     GVI__LOOK(st, 0);
     if (status == GVI_OK) far[1] = gvi__project_velocity(st, u);
+    // rows that are left out had no part in this
+    for (int a = 0; a < m && status == GVI_OK; ++a) {
+        const gvi_real slip = in->con.g[m + a] + gvi__row_dot(st, in->con.G1, a, u);
+        gvi_real terms = GVI_ABS(in->con.g[m + a]);
+        for (int i = 0; i < n; ++i)
+            terms += GVI_ABS(in->con.G1[a*n + i])*(GVI_ABS(u[i]) + GVI_ABS(v[i]));
+        if (drops[a] > 0 && GVI_ABS(slip) > GVI__HELD*GVI__EPS*terms)
+            status = gvi__report_row(st, GVI_E_CONSTRAINT, a, GVI_FAULT_NONE);
+    }
     gvi__forget_columns(st);
     if (status == GVI_E_CONVERGENCE)
         st->fault.argument = "gvi_project: no state on the constraints found, too far off";
+    if (status == GVI_E_CONSTRAINT)
+        st->fault.argument = "gvi_project: a row (fault.coordinate of fault.effect) contradicts "
+                             "others";
     if (status != GVI_OK) return st->status = status;
     gvi__add_scaled(n, 1, e, q, q);
     gvi__copy((size_t)n, u, v);
@@ -8733,7 +8807,8 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
 
     gvi__newton_points(st, &from, h);
 
-    gvi_real *p0 = in->step.q, *p1 = in->step.p, *minus = in->answer, *plus = minus + n, action = 0;
+    gvi_real *p0 = in->step.q, *p1 = in->step.p_low, *minus = in->answer, *plus = minus + n,
+             action = 0;
     const gvi_real *F = in->work.F, *hb = in->sized.hb;
     int negative = 0;
     status = gvi__interior(st, &from, h, q1, out, &J, p0, &negative);
@@ -8746,10 +8821,18 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
     // row 0 of (1) for p0, then (2)
     for (int i = 0; i < n; ++i) {
         for (int j = 0; j < st->r; ++j) p0[i] -= hb[j]*(1 - in->table.Phi[j])*F[i*R + j];
-        p1[i] = p0[i] + gvi__dot(st->r, hb, F + i*R);
+        in->step.p[i] = gvi__dot(st->r, hb, F + i*R);
+        p1[i] = p0[i] + in->step.p[i];
     }
 
-    status = gvi__discrete_forces(st, &J, minus, plus);
+    // as accurate as a step from (q0, p0) has to be
+    const struct gvi__phase state = in->state;
+    gvi__copy((size_t)n, q0, in->step.q_low);
+    in->state.q = in->step.q_low;
+    in->state.p = p0;
+    status = gvi__place_accept(st);
+    in->state = state;
+    if (status == GVI_OK) status = gvi__discrete_forces(st, &J, minus, plus);
     if (status != GVI_OK) return gvi__done(st, status);
     if (out->negative) *out->negative = negative;
     if (out->lagrangian) *out->lagrangian = action;
@@ -9546,6 +9629,7 @@ static int gvi__place_judge(gvi_stepper *st, const struct gvi__progress *p, gvi_
     GVI__CONSTRAINTS_ON(
         *patience = gvi__patience(st, p);
         return gvi__constraint_judge(st, p, D))
+    GVI__MOMENTA(if (st->in.momenta.moves) *patience = st->in.desc.max_iterations)
     return GVI__GO_ON;
 }
 

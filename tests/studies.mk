@@ -220,12 +220,13 @@ mutants: | $(FIRST)
 
 # -- hard cases and theorems, measured
 
-HARD     = dial lucky constraints constraints-float eccentric flyby roots eccentric-float pythagorean corners corners-float stiff long long-float brouwer brouwer-float walk drift
+HARD     = random dial lucky constraints constraints-float eccentric flyby roots eccentric-float pythagorean corners corners-float stiff long long-float brouwer brouwer-float walk drift
 ORDERS   = order rules constant counterexample lagrangian curve forced
 THEOREMS = spectral inertia stability modified
 # Orders need more digits than long double has on x86.
 $(BUILD)/theorems/orders: TESTFLAGS += $(shell CC='$(CC)' sh tests/theorems/quad.sh)
 SEED =
+RANDOM_SECONDS = 60
 .PHONY: $(HARD:%=hard-%) $(ORDERS:%=theorem-%) $(THEOREMS:%=theorem-%)
 
 $(BUILD)/hard/%-float: tests/hard/%.c
@@ -235,11 +236,12 @@ $(BUILD)/hard/% $(BUILD)/theorems/%: tests/$$(notdir $$(@D))/$$*.c | $(FIRST)
 	@mkdir -p $(@D)
 	$(Q)$(COMPILE) $(TESTFLAGS) $< -o $@ $(LDLIBS)
 
-#: hard         hard cases at length, docs/hard-cases.md (seven minutes); one: make hard-drift; SEED=11: other random numbers
+#: hard         hard cases at length, docs/hard-cases.md (eight minutes); one: make hard-drift; SEED=11: other random numbers;
+#:              make hard-random RANDOM_SECONDS=3600: random scenes of all kinds for an hour
 hard: $(HARD:%=hard-%)
 $(HARD:%=hard-%): hard-%: $(BUILD)/hard/%
 	$(Q)mkdir -p $(PICTURES)
-	$(STEP) $@ $< $(if $(filter stiff,$*),$(PICTURES)) $(if $(filter brouwer% drift,$*),$(SEED))
+	$(STEP) $@ $< $(if $(filter stiff,$*),$(PICTURES)) $(if $(filter brouwer% drift,$*),$(SEED)) $(if $(filter random,$*),$(RANDOM_SECONDS) $(SEED))
 
 #: theorems     docs/theory.md measured again, with its pictures (six minutes); one: make theorem-curve, ten seconds, in make check
 theorems: $(ORDERS:%=theorem-%) $(THEOREMS:%=theorem-%)

@@ -193,4 +193,38 @@ TEST(a_length_beyond_the_range_is_no_effects_fault)
     }
 }
 
+/* As accurate as a step from (q0, p0) has to be: else refused, and nothing is written */
+TEST(the_dial_is_for_boundary_values_too)
+{
+    static const real dials[] = { (real)1e-4, (real)1e-6, (real)1e-8 };
+    for (int d = 0; d < COUNT(dials); ++d) {
+        const gvi_desc desc = { .n = 2, .degree = 8, .effects = sun, .effect_count = 1, .resolution = dials[d] };
+        gvi_stepper st = new_stepper(&desc);
+        int ok = 0, refused = 0;
+        for (int k = 0; k < 300; ++k) {
+            const real r = (real)(1.25L + 0.75L*random_unit()), span = (real)(1.55L + 1.25L*random_unit()),
+                       h = (real)(1.9L + 1.6L*random_unit());
+            const real q0[] = { 1, 0 }, q1[] = { r*cos(span), r*sin(span) };
+            long double v[2];
+            real p0[2] = { 7, 7 };
+            const gvi_discrete out = { .p0 = p0 };
+            const gvi_status status = gvi_start_configurations(&st, 0, h, q0, q1);
+            assert_status(gvi_discrete_lagrangian(&st, 0, h, q0, q1, &out), status);
+            if (status == GVI_E_RESOLUTION) {
+                assert_true(p0[0] == 7 && st.resolution > dials[d]);
+                ++refused;
+            }
+            if (status != GVI_OK) continue;
+            lambert(r, span, h, v);
+            const long double speed = hypotl(v[0], v[1]);
+            for (int i = 0; i < 2; ++i) {
+                assert_close(st.p[i], v[i], 20*dials[d]*speed);
+                assert_close(p0[i], v[i], 20*dials[d]*speed);
+            }
+            ++ok;
+        }
+        assert_true(ok > 20 && refused > 20);
+    }
+}
+
 RUN_TESTS(NULL, NULL)

@@ -947,4 +947,105 @@ TEST(where_nothing_can_move_v_is_0)
     }
 }
 
+GVI_EACH(curl, 4, v, f, dldv)                     /* L = 2 q_1 v_0 - q_0 v_3 */
+{
+    x->dldv[0] += 2*x->q[1];
+    x->dldv[3] -= x->q[0];
+    x->f[1] += 2*x->v[0];
+    x->f[0] -= x->v[3];
+}
+
+GVI_EACH(two_planes, 4, rows(2))
+{
+    const real *a = user;
+    for (int i = 0; i < 4; ++i) {
+        x->g[0] += a[i]*x->q[i];
+        x->g[1] += a[4 + i]*x->q[i];
+        x->jacobian[i] = a[i];
+        x->jacobian[4 + i] = a[4 + i];
+    }
+}
+
+/* Rows that a light coordinate makes nearly one, d2L/dv2 by differences */
+TEST(a_projected_velocity_can_be_started_with)
+{
+    static const real M[] = { 16, 0, 0, 0, (real)0.1L, 4, 0, 0, (real)-0.2L, (real)0.3L, 30, 0, (real)0.01L, 0, (real)0.02L, (real)0.05L };
+    int ok = 0;
+    for (int k = 0; k < 200; ++k) {
+        real a[8], q[4], v[4];
+        const gvi_effect scene[] = { { .kind = GVI_LAGRANGIAN, .points = curl },
+                                     { .kind = GVI_CONSTRAINT, .points = two_planes, .rows = 2, .user = a } };
+        const gvi_desc desc = { .n = 4, .degree = 3, .effects = scene, .effect_count = 2,
+                                .mass = { .kind = GVI_MASS_DENSE, .matrix = M } };
+        for (int i = 0; i < 4; ++i) q[i] = random_unit(), v[i] = random_unit();
+        for (int i = 0; i < 8; ++i) a[i] = (i % 4 == 3 ? 2 : 1)*random_unit();
+        gvi_stepper st;
+        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+        if (gvi_project(&st, 0, q, v, NULL) != GVI_OK) continue;
+        for (int row = 0; row < 2; ++row) {
+            long double slip = 0, size = 0;
+            for (int i = 0; i < 4; ++i) {
+                slip += (long double)a[4*row + i]*v[i];
+                size += fabsl((long double)a[4*row + i]*v[i]);
+            }
+            assert_close(slip, 0, 64*EPS*size);
+        }
+        ok += gvi_start(&st, 0, q, v) == GVI_OK;
+    }
+    assert_true(ok > 195);
+}
+
+GVI_EACH(dune, 3, rows(1))                        /* q_1 = a sin(q_0) - c q_2^2/2 */
+{
+    const real *a = user;
+    x->g[0] = x->q[1] - a[0]*sin(x->q[0]) + a[1]*x->q[2]*x->q[2]/2;
+    x->jacobian[0] = -a[0]*cos(x->q[0]);
+    x->jacobian[1] = 1;
+    x->jacobian[2] = a[1]*x->q[2];
+}
+
+/* No force: lambda = -v'g''v/|G|^2.  One change of the differences that is small by chance ends nothing */
+TEST(multipliers_of_random_states)
+{
+    for (int k = 0; k < 6000; ++k) {
+        real a[] = { 3*random_unit(), random_unit() }, q[] = { 6 + 4*random_unit(), 0, 3 + 3*random_unit() }, lambda;
+        const gvi_effect scene = { .kind = GVI_CONSTRAINT, .points = dune, .rows = 1, .user = a };
+        const gvi_desc desc = { .n = 3, .degree = 2, .effects = &scene, .effect_count = 1 };
+        q[1] = a[0]*sin(q[0]) - a[1]*q[2]*q[2]/2;
+        const real G[] = { -a[0]*cos(q[0]), 1, a[1]*q[2] };
+        real v[] = { random_unit(), 0, random_unit() };
+        v[1] = -G[0]*v[0] - G[2]*v[2];
+        gvi_stepper st = new_motion(&desc, 0, q, v);
+        assert_ok(gvi_multipliers(&st, &lambda));
+        const real bend[] = { a[0]*sin(q[0])*v[0]*v[0], a[1]*v[2]*v[2] }, size = G[0]*G[0] + 1 + G[2]*G[2];
+        assert_close(lambda, -(bend[0] + bend[1])/size, 4000*EPS*(fabs(bend[0]) + fabs(bend[1]) + fabs(v[1]))/size);
+    }
+}
+
+GVI_EACH(two_belts, 2, rows(2))                   /* q_0 = t and q_0 = c t: one place at t = 0 */
+{
+    const real c = *(const real *)user;
+    x->g[0] = x->q[0] - x->t[0];
+    x->g[1] = x->q[0] - c*x->t[0];
+    x->jacobian[0] = x->jacobian[2] = 1;
+    x->rate[0] = -1;
+    x->rate[1] = -c;
+}
+
+TEST(velocities_that_contradict_are_not_projected)
+{
+    for (int k = 0; k < 2; ++k) {
+        real c = k ? 2 : 1, q[] = { (real)0.25L, 3 }, v[] = { 5, 4 };
+        const gvi_effect scene = { .kind = GVI_CONSTRAINT, .points = two_belts, .rows = 2, .user = &c };
+        const gvi_desc desc = { .n = 2, .degree = 2, .effects = &scene, .effect_count = 1 };
+        gvi_stepper st;
+        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+        const gvi_status status = gvi_project(&st, 0, q, v, NULL);
+        assert_status(status, k ? GVI_E_CONSTRAINT : GVI_OK);
+        assert_true(v[0] == (k ? 5 : 1) && v[1] == 4);
+        if (k) assert_int_equal(st.fault.coordinate, 1);
+        else assert_ok(gvi_start(&st, 0, q, v));
+    }
+}
+
 RUN_TESTS(NULL, NULL)

@@ -221,4 +221,51 @@ TEST(a_failed_step_stays_in_sight)
     assert_int_equal(st.fault.effect, GVI_FAULT_NONE);
 }
 
+GVI_EACH(heavier, 1, v, f, dldv) { x->dldv[0] += *(const real *)user*x->v[0]; x->f[0] -= x->q[0]; }
+GVI_EACH(steeper, 1, v, f, dldv, value)           /* v^4/4 */
+{
+    const real v = x->v[0];
+    if (x->f) x->dldv[0] += v*v*v;
+    if (x->value) x->value[0] += v*v*v*v/4;
+}
+GVI_EACH(slower, 1, f, value) { x->f[0] += cos(x->q[0])/4; x->value[0] += (real)0.5L + sin(x->q[0])/4; }
+
+/* L = (1 + a) v^2/2 - q^2/2 by V = P - a V: in a short step q and p hardly change, whatever becomes of V */
+TEST(a_velocity_that_does_not_converge_is_none)
+{
+    static const real parts[] = { (real)-0.95L, (real)-0.5L, (real)0.5L, (real)0.9L, (real)0.99L, (real)1.01L, 3, 30 };
+    int ok = 0;
+    for (int i = 0; i < COUNT(parts); ++i)
+        for (int e = 1; e < 40; ++e) {
+            real a = parts[i], q = 1, v = 1;
+            const gvi_effect scene = { .kind = GVI_LAGRANGIAN, .points = heavier, .user = &a };
+            const gvi_desc desc = { .n = 1, .degree = 3, .effects = &scene, .effect_count = 1, .formulation = GVI_MOMENTA };
+            gvi_stepper st = new_motion(&desc, 0, &q, &v);
+            const real h = ldexp((real)1, -2*e), p = st.p[0];
+            if (gvi_step(&st, h) != GVI_OK) continue;
+            ++ok;
+            const real w = 1/sqrt(1 + a);
+            assert_close((st.q[0] - q) + st.q_low[0], -2*sin(w*h/2)*sin(w*h/2) + sin(w*h)/w, sqrt(EPS)*h + pow(w*h, (real)7));
+            assert_close((st.p[0] - p) + st.p_low[0], -sin(w*h)/w + p*(cos(w*h) - 1), sqrt(EPS)*h + pow(w*h, (real)7));
+        }
+    assert_true(ok > 2*39 - 8);                    /* the two halves contract */
+}
+
+/* The same with a clock, which Newton's method does not take */
+TEST(nor_is_it_with_a_clock)
+{
+    const gvi_effect scene[] = { { .kind = GVI_LAGRANGIAN, .points = steeper, .value = steeper },
+                                 { .kind = GVI_CLOCK, .points = slower, .value = slower } };
+    const gvi_desc desc = { .n = 1, .degree = 3, .effects = scene, .effect_count = 2 };
+    for (int e = 1; e < 80; ++e) {
+        const real q = 1, v = 2, h = ldexp((real)1, -2*e), g = (real)0.5L + sin(q)/4;
+        gvi_stepper st = new_motion(&desc, 0, &q, &v);
+        if (gvi_step(&st, h) == GVI_OK) {
+            assert_close((st.q[0] - q) + st.q_low[0], v*(st.t + st.t_low), sqrt(EPS)*h);        // free motion
+            assert_close(st.p[0], v + v*v*v, 64*EPS);
+            assert_close(st.t, h*g, h*h);
+        }
+    }
+}
+
 RUN_TESTS(NULL, NULL)

@@ -400,6 +400,57 @@ static int one_short(const gvi_points *x, void *user)
     return (void)user, 0;
 }
 
+/* Rods from the origin and from body to body, written as if for one point, or with a loop one short */
+static int rod_alone(const gvi_points *x, void *user)
+{
+    const real *q = x->q;
+    x->g[0] = (q[0]*q[0] + q[1]*q[1] - 1)/2;
+    x->jacobian[0] = q[0];
+    x->jacobian[1] = q[1];
+    return (void)user, 0;
+}
+
+static int rod_loop(const gvi_points *x, void *user)
+{
+    const int s = x->stride;
+    for (int k = 0; k < x->count - *(const int *)user*(x->count > 1); ++k) {
+        const real X = x->q[k], Y = x->q[s + k];
+        x->g[k] = (X*X + Y*Y - 1)/2;
+        x->jacobian[k] = X;
+        x->jacobian[s + k] = Y;
+    }
+    return 0;
+}
+
+TEST(a_constraint_without_its_loop_is_found)
+{
+    int fewer[] = { 1, 0 };
+    const gvi_effect slips[] = { { .kind = GVI_CONSTRAINT, .points = rod_alone, .rows = 1 },
+                                 { .kind = GVI_CONSTRAINT, .points = rod_loop, .rows = 1, .user = fewer },
+                                 { .kind = GVI_CONSTRAINT, .points = rod_loop, .rows = 1, .user = fewer + 1 } };
+    for (int k = 0; k < 3; ++k)
+        for (int degree = 2; degree <= 9; ++degree)
+            for (int start = 0; start < 3; ++start) {
+                const gvi_desc d = { .n = 2, .degree = degree, .effects = slips + k, .effect_count = 1 };
+                gvi_stepper st = new_stepper(&d);
+                real q[] = { 0, 1 }, v[] = { 1, 0 };
+                if (start == 0) gvi_start(&st, 0, q, v);
+                if (start == 1) gvi_project(&st, 0, q, v, NULL);
+                if (start == 2) {
+                    assert_ok(gvi_switch(&st, 0, 0));
+                    assert_ok(gvi_start(&st, 0, q, v));
+                    gvi_switch(&st, 0, 1);
+                }
+                if (k == 2) {
+                    assert_ok(st.status);
+                    continue;
+                }
+                says(&st, GVI_E_ARGUMENT, "constraint: fills not all points");
+                assert_int_equal(st.fault.effect, 0);
+                assert_int_equal(st.fault.coordinate, 0);
+            }
+}
+
 GVI_EACH(of_three, 3, f) { x->f[2] -= x->q[2]; }
 
 TEST(a_loop_over_points_that_is_missing_is_found)

@@ -126,6 +126,14 @@ MUTANTS = [
     ("constraints constraints_order", "in->con.y[a - n] /= h*in->con.w[s];", "in->con.y[a - n] /= h;"),
     ("newton", "p.have = kept && !gvi__nonzero(in->newton.h - in->sized.h);", "p.have = kept;"),
     ("newton constraints_newton", "if ((J->square[k*(size + 1)] < 0) != (J->pivot[k] > (gvi_real)k)) sign = -sign;", "if (J->square[k*(size + 1)] < 0) sign = -sign;"),
+    # boundary values by the dial, velocities that terms make, projection, multipliers
+    ("boundary", "    status = gvi__place_accept(st);\n    in->state = state;", "    in->state = state;"),
+    ("convergence", "GVI__MOMENTA(if (st->in.momenta.moves) *patience = st->in.desc.max_iterations)", ""),
+    ("constraints", "H[i*n + j] = H[j*n + i] = H[i*n + j]/2 + H[j*n + i]/2;", "{ }"),
+    ("constraints", "least = in->adds_p ? 16*root : GVI_SQRT(GVI__EPS*root);", "least = GVI_SQRT(GVI__EPS*root);"),
+    ("constraints", "const gvi_real both = gvi__larger(size, last);", "const gvi_real both = size;"),
+    ("constraints", "if (drops[a] > 0 && GVI_ABS(slip) > GVI__HELD*GVI__EPS*terms)", "if (0)"),
+    ("why", "if (unlike) wrong = a;", ""),
 ]
 
 # What the tests that are named do not see meets all of these.
