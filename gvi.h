@@ -912,7 +912,11 @@ struct gvi__holonomic {               /* m rows on; C = stride of D_0..D_s      
 #ifndef GVI_NO_DIAL
 struct gvi__dial {
     gvi_real *high;                   /* [r][4] sources to the highest modes                   */
-    gvi_real  reach;                  /* rung of the longest step that was allowed last        */
+    gvi_real  reach, barrier;         /* rungs: of the longest step that was allowed last; of
+                                         the last length that failed                           */
+    int       wait, again;            /* steps below that; failures near it, one after another */
+    int       shorter, put_off;       /* lengths to try before Newton's method; is it put off? */
+    int       slow;                   /* steps that were shorter for the iteration's sake      */
 };
 #endif
 
@@ -1565,6 +1569,12 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 
 // the dial, in rungs, four an octave
 #define GVI__BAND 4                        // room at which h stays; and the most that it grows
+#define GVI__MARGIN ((gvi_real)0.5)        // of it, kept back
+#define GVI__TREND ((gvi_real)1.25)        // of what was lost since the last step: lost by the next
+#define GVI__MANY 12                       // iterations from which on a longer step does not pay
+#define GVI__WAIT 4                        // steps until a length that failed is tried again
+#define GVI__SHORTER 3                     // lengths tried before Newton's method, 3 rungs apart
+#define GVI__PATIENT 16                    // slow steps until Newton's method is tried
 #define GVI__FALL 8                        // the most that it shrinks, and after a failure
 #define GVI__RESTS 4096                    // times slower than the fastest: judged with it
 #define GVI__PULLED 64                     // eps of the motion: rounding of forces of constraint
@@ -7723,25 +7733,58 @@ static gvi_real gvi__length(gvi_real k)
     return GVI_LDEXP((GVI_FLOOR(k) - 4*octave)/8, (int)octave);
 }
 
-/* st.next after a step of length h.  `room`: how many rungs up the resolution, of order 2s - 1 in
-   h, would reach its limit, by this step, less what was lost since the last.  From 0 to 4 rungs
-   h stays as it is.                                                                           */
+/* How many rungs up, after a step that succeeded.  `room`: up to where the resolution, of order
+   2s - 1 in h, reaches its limit, less a margin.  What was lost of it since the last step will be
+   lost again.  From 0 to 4 rungs h stays as it is.  Work over time is iterations/h: above
+   GVI__MANY of them h does not grow, above 4/3 of that it shrinks a little.                   */
+static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
+{
+    struct gvi__dial *dial = &st->in.dial;
+    // by velocities the iteration contracts with h, not h^2
+    const int many = st->in.stages == 2 ? GVI__MANY*3/2 : GVI__MANY,
+              newton = st->formulation == GVI_NEWTON;
+    gvi_real left = room, up = 0;
+    if (room < 2*GVI__BAND) {
+        const gvi_real loss = dial->reach - (at + room);
+        dial->reach = at + room;
+        if (loss > 0) left -= loss*GVI__TREND;
+    }
+    if (left > GVI__BAND) up = gvi__smaller(left - (gvi_real)1.5, GVI__BAND);
+    if (left < 0) up = gvi__larger(left - 1, -GVI__FALL);
+
+    dial->shorter = newton ? 0 : GVI__SHORTER;
+    if (!newton && st->iterations >= many) up = gvi__smaller(up, 0);
+    if (!newton && st->iterations >= many*4/3) up = gvi__smaller(up, -1);
+    dial->wait -= dial->wait > 0;
+    if (dial->wait > 0 && up > 0)
+        up = gvi__larger(gvi__smaller(up, dial->barrier - 1 - at), 0);
+    return up;
+}
+
+/* The same after a failure.  The length is barred for a while, longer each time.  Where the fixed
+   point failed, shorter steps come first; Newton's method is for where they fail, too.        */
+static gvi_real gvi__rungs_down(gvi_stepper *st, gvi_status status, gvi_real at, gvi_real room)
+{
+    struct gvi__dial *dial = &st->in.dial;
+    dial->again = GVI_ABS(at - dial->barrier) > 2 ? 0 : dial->again + (dial->again < 4);
+    dial->wait = GVI__WAIT << dial->again;
+    dial->barrier = at;
+    if (status == GVI_E_RESOLUTION) return gvi__larger(gvi__smaller(room, 0) - 1, -GVI__FALL);
+    if (dial->shorter == 0) return -GVI__FALL;
+    dial->shorter -= 1;
+    return -3;
+}
+
+// st.next after a step of length h
 static void gvi__set_next(gvi_stepper *st, gvi_status status, gvi_real h)
 {
-    const gvi_real seen = st->resolution > GVI__MIN ? st->resolution : GVI__MIN, at = gvi__rungs(h);
+    const gvi_real seen = gvi__larger(st->resolution, GVI__MIN), at = gvi__rungs(h);
     const gvi_real most = gvi__rungs(st->in.desc.resolution) - gvi__rungs(seen);
     // the modes end at rounding: above GVI__DEEP the resolution falls no faster than there
-    int degree = GVI__DEEP;
-    if (st->s < degree) degree = st->s;
-    gvi_real room = most/(gvi_real)(2*degree - 1), up = 0;
-    if (status == GVI_OK && room < 2*GVI__BAND) {
-        const gvi_real loss = st->in.dial.reach - (at + room);
-        st->in.dial.reach = at + room;
-        if (loss > 0) room -= loss;
-    }
-    if (room > GVI__BAND) up = gvi__smaller(room - (gvi_real)1.5, GVI__BAND);
-    if (room < 0) up = gvi__larger(room - 1, -GVI__FALL);
-    if (status != GVI_OK && status != GVI_E_RESOLUTION) up = -GVI__FALL;
+    const int degree = st->s < GVI__DEEP ? st->s : GVI__DEEP;
+    const gvi_real room = most/(gvi_real)(2*degree - 1) - GVI__MARGIN,
+                   up = status == GVI_OK ? gvi__rungs_up(st, at, room)
+                                         : gvi__rungs_down(st, status, at, room);
     const gvi_real next = gvi__length(at + up);
     if (up < 0 || (up > 0 && h >= st->next)) st->next = next;
 }
@@ -7780,7 +7823,9 @@ GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end)
         gvi_real h = st->next;
         if (!clock && left < h*2) h = left/2;
         if (!clock && left < st->next*(gvi_real)1.0625) h = left;
+        st->in.dial.put_off = st->in.dial.shorter > 0;
         const gvi_status status = gvi_step(st, way > 0 ? h : -h);
+        st->in.dial.put_off = 0;
         gvi__set_next(st, status, h);
         if (status == GVI_OK) {
             if (!clock && h >= left) {
@@ -8734,7 +8779,9 @@ GVI__COLD void gvi__place_started(gvi_stepper *st)
     gvi__newton_forget(st);
 #endif
 #ifndef GVI_NO_DIAL
-    st->in.dial.reach = -GVI__MAX;
+    st->in.dial.reach = st->in.dial.barrier = -GVI__MAX;
+    st->in.dial.wait = st->in.dial.again = st->in.dial.slow = 0;
+    st->in.dial.shorter = GVI__SHORTER;
 #endif
 }
 
@@ -8817,6 +8864,9 @@ static int gvi__place_solve(gvi_stepper *st, const gvi__origin *from, gvi_real h
 static gvi_status gvi__place_turn(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query,
                                   gvi_status status)
 {
+#ifndef GVI_NO_DIAL
+    if (st->in.dial.put_off && status == GVI_E_CONVERGENCE) return status;
+#endif
 #ifndef GVI_NO_NEWTON
     return gvi__newton_turn(st, from, h, query, status);
 #else
