@@ -911,7 +911,8 @@ struct gvi__holonomic {               /* m rows on; C = stride of D_0..D_s      
 
 #ifndef GVI_NO_DIAL
 struct gvi__dial {
-    gvi_real *high;                   /* [r][4] sources to the highest modes                   */
+    gvi_real *high;                   /* [r][6] sources to the highest modes                   */
+    int       top;                    /* the highest of them: K of gvi__resolution             */
     gvi_real  reach, barrier;         /* rungs: of the longest step that was allowed last; of
                                          the last length that failed                           */
     int       wait, again;            /* steps below that; failures near it, one after another */
@@ -955,6 +956,7 @@ struct gvi__private {
     struct {                          /* changes of the rows of stages, [2n]; contraction      */
         gvi_real *scale, *change, *before;
         gvi_real  ratio, found;       /* of the last step, of that at work                     */
+        gvi_real  over_two;           /* the last above rounding, over two iterations; 0: none */
     } watch;
     gvi_real           *t;            /* [R] times of the points                               */
     gvi_real           *set_up;       /* [9R] scratch of tables, predictor and curve           */
@@ -1204,7 +1206,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #define GVI_LENGTH(n, s, r) (                                                    \
     (42 + 10*GVI__SIZE(s) + 20*GVI__SIZE(GVI__ROW(r))                             \
      + (6 + GVI__SIZE(GVI__ROW(r)) + 2*GVI__SIZE(s)*GVI__SIZE(s))*GVI__SIZE(n))*GVI__SIZE(n) \
-    + (24 + 8*GVI__SIZE(r) + 3*GVI__SIZE(s))*GVI__SIZE(GVI__ROW(r))              \
+    + (26 + 8*GVI__SIZE(r) + 3*GVI__SIZE(s))*GVI__SIZE(GVI__ROW(r))              \
     + (GVI__SIZE(s) + 2)*GVI__SIZE(s) + GVI__SIZE(r) + 5 + GVI__SLACK)
 
 /*  The same with constraints, m rows in all.                                  */
@@ -1575,6 +1577,8 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 #define GVI__WAIT 4                        // steps until a length that failed is tried again
 #define GVI__SHORTER 3                     // lengths tried before Newton's method, 3 rungs apart
 #define GVI__PATIENT 16                    // slow steps until Newton's method is tried
+#define GVI__STEADY ((gvi_real)0.64)       // of a fall of modes, squared, that one pair alone shows
+#define GVI__CANCELS 16                   // s^2 eps: rounding of forces that cancel
 #define GVI__FALL 8                        // the most that it shrinks, and after a failure
 #define GVI__RESTS 4096                    // times slower than the fastest: judged with it
 #define GVI__PULLED 64                     // eps of the motion: rounding of forces of constraint
@@ -3583,8 +3587,11 @@ static void gvi__note(gvi_stepper *st, gvi__progress *p, gvi_real D)
 {
     const gvi_real worst = st->counters.worst_contraction, noise = GVI__SURE*GVI__EPS;
     const int grows = p->before > 0 && D >= p->before*(GVI__POOR*GVI__POOR);
-    if (p->earlier > 0 && D > noise*noise && D > worst*worst*worst*worst*p->earlier)
-        st->counters.worst_contraction = GVI_SQRT(GVI_SQRT(D/p->earlier));
+    if (p->earlier > 0 && D > noise*noise) {
+        st->in.watch.over_two = D/p->earlier;
+        if (D > worst*worst*worst*worst*p->earlier)
+            st->counters.worst_contraction = GVI_SQRT(GVI_SQRT(D/p->earlier));
+    }
     p->rescale = D > GVI__FAR*GVI__FAR || grows;  // those were the units of an overshoot
     p->growing = grows ? p->growing + 1 : 0;
     p->stagnant = D < GVI__LEAST*GVI__LEAST*p->least ? 0 : p->stagnant + 1;
@@ -3667,6 +3674,7 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
     gvi_status status = gvi__predict(st, from, h, stage, extrapolate);                       // 2)
     if (status != GVI_OK) return status;
     in->watch.found = gvi__smaller(p->ratio, 1);
+    in->watch.over_two = 0;
     for (int shorter = 0, last = 0; ; ) {
         status = gvi__evaluate_stages(st, from, &at);                                        // 4)
         // free motion may leave a callback's domain though the motion does not: halve the way
@@ -7630,69 +7638,115 @@ GVI__COLD const char *gvi__wrong_in_resolution(const gvi_desc *d, int order)
     return NULL;
 }
 
-// b_j phi_k(c_j) or b_j Phi_k(c_j), over Gamma_kk, of the highest modes: see gvi__resolution
+// what the point j gives to the modes K, K - 1 ..: see gvi__resolution
 GVI__COLD void gvi__dial_tables(gvi_stepper *st)
 {
     struct gvi__private *in = &st->in;
-    const int pair = 1 + (st->s > 4);
-    const gvi_real *modes = in->stages == 1 ? in->table.Phi : in->table.phi;
-    for (int m = 0; m < 2*pair; ++m) {
-        const int k = st->s - 1 - m;
-        for (int j = 0; j < st->r; ++j)
-            in->dial.high[4*j + m*2/pair] =
-                in->table.inv_gamma[k]*modes[k*in->R + j]*in->table.b[j];
-    }
+    const int forces = in->stages == 1, s = st->s, R = in->R;
+    const gvi_real *modes = forces ? in->table.Phi : in->table.phi;
+    in->dial.top = s - !(forces && !gvi__of_kind(in, GVI_CONSTRAINT));
+    for (int m = 0; m < 6; ++m)
+        for (int j = 0; j < st->r; ++j) {
+            const int k = in->dial.top - m;
+            gvi_real *to = in->dial.high + 6*j + m;
+            *to = 0;
+            if (k == s) *to = in->table.phi[(s - 1)*R + j]*in->table.b[j]/2;
+            else if (k > 0) *to = in->table.inv_gamma[k]*modes[k*R + j]*in->table.b[j];
+        }
 }
 
-/* The error of a step relative to the motion, as Legendre modes y_k of its velocity tell it.  Of a
-   coordinate, with two modes each (at degrees 3 and 4 with one),
+static gvi_real gvi__power(gvi_real x, int k)
+{
+    gvi_real y = 1;
+    for (; k > 0; k >>= 1, x *= x)
+        if (k & 1) y *= x;
+    return y;
+}
 
-     high = |y_(s-1)| + |y_(s-2)|                    push = |change of v| + high + low
-     low  = |y_(s-3)| + |y_(s-4)|                    all  = |v| at both ends + high + low
-     (s high/push high/max(high, low))^2 push/all
+/* What part of its high modes a step lacks where forces are stiff: contraction^(s/2)/10, ^s by
+   velocities, since that is of first order in h.  Contraction is that of the last two changes, or
+   of earlier ones where these are rounding.  Where the fixed point fails, all.                */
+static gvi_real gvi__stiffness(const gvi_stepper *st)
+{
+    const struct gvi__private *in = &st->in;
+    if (st->formulation == GVI_NEWTON) return (gvi_real)(in->chosen != GVI_NEWTON);
+    if (in->stages == 0) return 0;
+    const gvi_real noise = GVI__SURE*GVI__EPS;
+    gvi_real last = 0, before = 0, contraction = GVI_SQRT(in->watch.over_two);   // squares
+    for (int row = 0; row < in->stages*st->n; ++row) {
+        last += in->watch.change[row];
+        before += in->watch.before[row];
+    }
+    if (st->iterations > 1 && last > noise*noise) contraction = last/before;
+    contraction = gvi__smaller(contraction, 1);
+    if (in->stages == 1) contraction = GVI_SQRT(contraction);
+    return gvi__power(contraction, st->s/2)/10;
+}
 
-   high^2/low is about the pair that the curve lacks.  Of push, the forces' doing, the step lacks
-   the square of that share, since with a rule of order u >= 2s its error is of second order in the
-   curve's [2, thm. 4.1].  In positions the modes are those of M v, from the forces.  Where
-   motion is far below max |v| + max |q|/h, each times sqrt(M_ii), an error below s^2 eps of that
-   sum is rounding, and relative to it.                                                        */
+/* What a coordinate lacks of its velocity, of which y are the modes K, K - 1 .., `ends` at both
+   ends and `turn` from end to end.  all: its size.                                            */
+static gvi_real gvi__missed(const gvi_stepper *st, const gvi_real *y, gvi_real ends, gvi_real turn,
+                            gvi_real stiff, gvi_real *all)
+{
+    const int top = st->in.dial.top, e = 2*st->s - top;
+    gvi_real high = y[0] + y[1], low = y[2] + y[3], fall = 1;                    // fall: rho^2
+    *all = ends + high + low;
+    if (top < 4) {
+        low = top == 3 ? y[1] + y[2] : turn;
+        high = y[0];
+        if (y[1] > 0) high += y[1]*(y[1]/ *all)/4;               // one mode alone may pass 0
+    }
+    // rounding: a force as simple as the curve
+    if (high <= 4*GVI__EPS*(st->in.stages == 1 ? turn + low : *all)) return high*GVI__EPS;
+    if (low > high) fall = high/low;
+    if (top >= 6) {
+        const gvi_real lower = y[4] + y[5], before = lower > low ? low/lower : 1;
+        fall = GVI__STEADY*gvi__larger(before, fall);
+        fall = lower > high ? gvi__larger(GVI_SQRT(high/lower), fall) : 1;
+    }
+    gvi_real lacks = gvi__power(fall, e/2)*10;
+    if (e & 1) lacks *= GVI_SQRT(fall);
+    return high*gvi__larger(gvi__smaller(lacks, 1), stiff);
+}
+
+/* The error of a step relative to the motion, as Legendre modes y_k of its velocity tell it: k up
+   to K = s where forces make the curve, which lacks that mode, else K = s - 1.  Of a coordinate
+
+     high = |y_K| + |y_(K-1)|     low = |y_(K-2)| + |y_(K-3)|     lower = |y_(K-4)| + |y_(K-5)|
+     rho = max((high/lower)^(1/4), 0.8 (high/low)^(1/2), 0.8 (low/lower)^(1/2)), at most 1
+     high max(min(1, 10 rho^e), stiff)                            e = 2 s - K
+
+   rho is the fall from mode to mode.  The step lacks about y_2s, which its points take for modes
+   that they see: high rho^e; ten times that, since a short tail may be flatter than it looks.  It
+   also lacks what y_s, as a change of the force, does to velocity within the step: `stiff`.
+   Below K = 4 single modes count, below 6 two pairs.  In positions the modes are those of M v,
+   from the forces.  Where motion is far below max |v| + max |q|/h, each times sqrt(M_ii), an
+   error of some s^2 eps of that sum is rounding, and relative to it.                          */
 static gvi_real gvi__resolution(const gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
-    const int s = st->s, R = in->R, forces = in->stages == 1, pair = 1 + (s > 4),
+    const int s = st->s, R = in->R, top = in->dial.top, forces = in->stages == 1,
               held = forces && gvi__constrained(st);
-    const gvi_real *row = in->work.V;
-    const gvi_real h = GVI_ABS(in->sized.h);
-    gvi_real *missed = in->answer, *size = missed + st->n, unit = 1;
-    gvi_real fastest = 0, farthest = 0, worst = 0;
-    if (forces) {
-        row = in->work.F;
-        unit = h;
-    }
+    const gvi_real *row = forces ? in->work.F : in->work.V;
+    const gvi_real h = GVI_ABS(in->sized.h), unit = forces ? h : 1, stiff = gvi__stiffness(st),
+                   rounding = (gvi_real)(s*s)*GVI__EPS;
+    gvi_real *missed = in->answer, *size = missed + st->n, fastest = 0, farthest = 0, worst = 0;
     for (int i = 0; i < st->n; ++i, row += R) {
         const gvi_real *a = in->dial.high;
-        gvi_real y[4] = { 0, 0, 0, 0 }, start = row[0], end = row[st->r - 1];
-        for (int j = 0; j < st->r; ++j, a += 4)
-            GVI__UNROLL for (int m = 0; m < 4; ++m) y[m] += a[m]*row[j];
-        for (int m = 0; m < held*2*pair; ++m)
-            y[m*2/pair] += in->table.inv_gamma[s - 1 - m]*gvi__constraint_mode(st, i, s - 1 - m);
+        gvi_real y[6] = { 0, 0, 0, 0, 0, 0 }, start = row[0], end = row[st->r - 1];
+        for (int j = 0; j < st->r; ++j, a += 6)
+            GVI__UNROLL for (int m = 0; m < 6; ++m) y[m] += a[m]*row[j];
+        for (int m = 0; held && m < 6 && m < top; ++m)
+            y[m] += in->table.inv_gamma[top - m]*gvi__constraint_mode(st, i, top - m);
+        GVI__UNROLL for (int m = 0; m < 6; ++m) y[m] = unit*GVI_ABS(y[m]);
         if (forces) {
             start = in->state.p[i];
             end = start + in->step.p[i];
         }
-        gvi_real high = unit*(GVI_ABS(y[0]) + GVI_ABS(y[1])),
-                 low = unit*(GVI_ABS(y[2]) + GVI_ABS(y[3]));
-        const gvi_real all = GVI_ABS(start) + GVI_ABS(end) + high + low,
-                       push = GVI_ABS(end - start) + high + low;
-        // one mode alone may pass 0; one that is rounding is 0: a force as simple as the curve
-        if (pair == 1 && high > GVI__SURE*GVI__EPS*low) high += low*(low/all)/4;
-        const gvi_real most = gvi__larger(high, low);
-        const gvi_real mass = GVI_SQRT(gvi__place_inertia(st, i));
-        gvi_real share = 0, scale = mass;
-        if (most > 0) share = high/(push + GVI__NOISE*GVI__EPS*all)*(high/most);
-        if (forces) scale = 1/mass;               // p over M
-        missed[i] = share*share*push*scale;
-        size[i] = all*scale;
+        const gvi_real mass = GVI_SQRT(gvi__place_inertia(st, i)), scale = forces ? 1/mass : mass;
+        missed[i] = scale*gvi__missed(st, y, GVI_ABS(start) + GVI_ABS(end), GVI_ABS(end - start),
+                                      stiff, size + i);
+        size[i] *= scale;                         // p over M
         fastest = gvi__larger(size[i], fastest);
         farthest = gvi__larger(GVI_ABS(in->state.q[i])*mass, farthest);
     }
@@ -7700,11 +7754,11 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
     if (!(whole > 0)) return 0;
     for (int i = 0; i < st->n; ++i) {
         // forces of constraint bring more of it, to every coordinate, and no h makes it smaller
-        if (held && missed[i] <= GVI__PULLED*GVI__EPS*whole) continue;
-        if (missed[i] <= GVI__EPS*whole && size[i] < whole/GVI__RESTS) size[i] = whole;
+        if (held && missed[i] <= GVI__PULLED*rounding*whole) continue;
+        if (missed[i] <= GVI__CANCELS*rounding*whole && size[i] < whole/GVI__RESTS) size[i] = whole;
         worst = gvi__larger(missed[i]/size[i], worst);
     }
-    return (gvi_real)(s*s)*worst;
+    return worst;
 }
 
 static gvi_status gvi__dial_accept(gvi_stepper *st)
@@ -8722,7 +8776,7 @@ GVI__COLD void gvi__place_layout(struct gvi__private *in, gvi__arena *a)
 #endif
 #ifndef GVI_NO_DIAL
     const size_t R = (size_t)GVI__ROW(in->desc.rule.points);
-    in->dial.high = gvi__take(a, in->desc.resolution > 0 ? 4 : 0, R);
+    in->dial.high = gvi__take(a, in->desc.resolution > 0 ? 6 : 0, R);
 #endif
 #ifndef GVI_NO_NEWTON
     if (in->newton.covers) gvi__newton_layout(in, gvi__held_rows(in), a);        // J comes last
