@@ -915,6 +915,7 @@ struct gvi__dial {
     int       top;                    /* the highest of them: K of gvi__resolution             */
     gvi_real  reach, barrier;         /* rungs: of the longest step that was allowed last; of
                                          the last length that failed                           */
+    gvi_real  loss;                   /* of reach, by the last step                            */
     int       wait, again;            /* steps below that; failures near it, one after another */
     int       shorter, put_off;       /* lengths to try before Newton's method; is it put off? */
     int       slow;                   /* steps that were shorter for the iteration's sake      */
@@ -1573,7 +1574,9 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 #define GVI__BAND 4                        // room at which h stays; and the most that it grows
 #define GVI__MARGIN ((gvi_real)0.5)        // of it, kept back
 #define GVI__TREND ((gvi_real)1.25)        // of what was lost since the last step: lost by the next
-#define GVI__MANY 12                       // iterations from which on a longer step does not pay
+#define GVI__DOUBT ((gvi_real)1.5)         // rungs below 0: by a loss that is the first
+#define GVI__SHY 3                         // rungs of room kept back by a step that grows
+#define GVI__MANY (5 + GVI__DIG/8)          // iterations from which on a longer step does not pay
 #define GVI__WAIT 4                        // steps until a length that failed is tried again
 #define GVI__SHORTER 3                     // lengths tried before Newton's method, 3 rungs apart
 #define GVI__PATIENT 16                    // slow steps until Newton's method is tried
@@ -7802,8 +7805,10 @@ static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
         const gvi_real loss = dial->reach - (at + room);
         dial->reach = at + room;
         if (loss > 0) left -= loss*GVI__TREND;
+        if (room > 0 && dial->loss <= 0) left = gvi__larger(left, -GVI__DOUBT);
+        dial->loss = loss;
     }
-    if (left > GVI__BAND) up = gvi__smaller(left - (gvi_real)1.5, GVI__BAND);
+    if (left > GVI__BAND) up = gvi__smaller(left - GVI__SHY, GVI__BAND);
     if (left < 0) up = gvi__larger(left - 1, -GVI__FALL);
 
     dial->shorter = newton ? 0 : GVI__SHORTER;
@@ -8834,6 +8839,7 @@ GVI__COLD void gvi__place_started(gvi_stepper *st)
 #endif
 #ifndef GVI_NO_DIAL
     st->in.dial.reach = st->in.dial.barrier = -GVI__MAX;
+    st->in.dial.loss = 0;
     st->in.dial.wait = st->in.dial.again = st->in.dial.slow = 0;
     st->in.dial.shorter = GVI__SHORTER;
 #endif
