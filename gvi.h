@@ -957,7 +957,6 @@ struct gvi__private {
     struct {                          /* changes of the rows of stages, [2n]; contraction      */
         gvi_real *scale, *change, *before;
         gvi_real  ratio, found;       /* of the last step, of that at work                     */
-        gvi_real  over_two;           /* the last above rounding, over two iterations; 0: none */
     } watch;
     gvi_real           *t;            /* [R] times of the points                               */
     gvi_real           *set_up;       /* [9R] scratch of tables, predictor and curve           */
@@ -1576,7 +1575,7 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 #define GVI__TREND ((gvi_real)1.25)        // of what was lost since the last step: lost by the next
 #define GVI__DOUBT ((gvi_real)1.5)         // rungs below 0: by a loss that is the first
 #define GVI__SHY 3                         // rungs of room kept back by a step that grows
-#define GVI__MANY (5 + GVI__DIG/8)          // iterations from which on a longer step does not pay
+#define GVI__MANY (3 + GVI__DIG/4)           // iterations from which on a longer step does not pay
 #define GVI__WAIT 4                        // steps until a length that failed is tried again
 #define GVI__SHORTER 3                     // lengths tried before Newton's method, 3 rungs apart
 #define GVI__PATIENT 16                    // slow steps until Newton's method is tried
@@ -3590,11 +3589,8 @@ static void gvi__note(gvi_stepper *st, gvi__progress *p, gvi_real D)
 {
     const gvi_real worst = st->counters.worst_contraction, noise = GVI__SURE*GVI__EPS;
     const int grows = p->before > 0 && D >= p->before*(GVI__POOR*GVI__POOR);
-    if (p->earlier > 0 && D > noise*noise) {
-        st->in.watch.over_two = D/p->earlier;
-        if (D > worst*worst*worst*worst*p->earlier)
-            st->counters.worst_contraction = GVI_SQRT(GVI_SQRT(D/p->earlier));
-    }
+    if (p->earlier > 0 && D > noise*noise && D > worst*worst*worst*worst*p->earlier)
+        st->counters.worst_contraction = GVI_SQRT(GVI_SQRT(D/p->earlier));
     p->rescale = D > GVI__FAR*GVI__FAR || grows;  // those were the units of an overshoot
     p->growing = grows ? p->growing + 1 : 0;
     p->stagnant = D < GVI__LEAST*GVI__LEAST*p->least ? 0 : p->stagnant + 1;
@@ -3677,7 +3673,6 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
     gvi_status status = gvi__predict(st, from, h, stage, extrapolate);                       // 2)
     if (status != GVI_OK) return status;
     in->watch.found = gvi__smaller(p->ratio, 1);
-    in->watch.over_two = 0;
     for (int shorter = 0, last = 0; ; ) {
         status = gvi__evaluate_stages(st, from, &at);                                        // 4)
         // free motion may leave a callback's domain though the motion does not: halve the way
@@ -7666,21 +7661,20 @@ static gvi_real gvi__power(gvi_real x, int k)
     return y;
 }
 
-/* What part of its high modes a step lacks where forces are stiff: contraction^(s/2)/10, ^s by
-   velocities, since that is of first order in h.  Contraction is that of the last two changes, or
-   of earlier ones where these are rounding.  Where the fixed point fails, all.                */
-static gvi_real gvi__stiffness(const gvi_stepper *st)
+/* What part of its high modes coordinate i lacks where forces are stiff: contraction^(s/2)/10, ^s
+   by velocities, since that is of first order in h.  Contraction is that of the last change of
+   its row; with constraints it is their multipliers' and tells nothing.  Where the fixed point
+   fails, all.                                                                                 */
+static gvi_real gvi__stiffness(const gvi_stepper *st, int i)
 {
     const struct gvi__private *in = &st->in;
     if (st->formulation == GVI_NEWTON) return (gvi_real)(in->chosen != GVI_NEWTON);
-    if (in->stages == 0) return 0;
-    const gvi_real noise = GVI__SURE*GVI__EPS;
-    gvi_real last = 0, before = 0, contraction = GVI_SQRT(in->watch.over_two);   // squares
-    for (int row = 0; row < in->stages*st->n; ++row) {
-        last += in->watch.change[row];
-        before += in->watch.before[row];
-    }
-    if (st->iterations > 1 && last > noise*noise) contraction = last/before;
+    if (st->iterations < 2 || gvi__constrained(st)) return 0;
+    const gvi_real *last = in->watch.change, *before = in->watch.before;
+    gvi_real contraction = 0;                                    // a square
+    for (int row = i; row < in->stages*st->n; row += st->n)
+        if (last[row] > GVI__EPS*GVI__EPS*(gvi_real)st->r)
+            contraction = gvi__larger(last[row]/before[row], contraction);
     contraction = gvi__smaller(contraction, 1);
     if (in->stages == 1) contraction = GVI_SQRT(contraction);
     return gvi__power(contraction, st->s/2)/10;
@@ -7731,7 +7725,7 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
     const int s = st->s, R = in->R, top = in->dial.top, forces = in->stages == 1,
               held = forces && gvi__constrained(st);
     const gvi_real *row = forces ? in->work.F : in->work.V;
-    const gvi_real h = GVI_ABS(in->sized.h), unit = forces ? h : 1, stiff = gvi__stiffness(st),
+    const gvi_real h = GVI_ABS(in->sized.h), unit = forces ? h : 1,
                    rounding = (gvi_real)(s*s)*GVI__EPS;
     gvi_real *missed = in->answer, *size = missed + st->n, fastest = 0, farthest = 0, worst = 0;
     for (int i = 0; i < st->n; ++i, row += R) {
@@ -7748,7 +7742,7 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
         }
         const gvi_real mass = GVI_SQRT(gvi__place_inertia(st, i)), scale = forces ? 1/mass : mass;
         missed[i] = scale*gvi__missed(st, y, GVI_ABS(start) + GVI_ABS(end), GVI_ABS(end - start),
-                                      stiff, size + i);
+                                      gvi__stiffness(st, i), size + i);
         size[i] *= scale;                         // p over M
         fastest = gvi__larger(size[i], fastest);
         farthest = gvi__larger(GVI_ABS(in->state.q[i])*mass, farthest);
