@@ -918,7 +918,6 @@ struct gvi__dial {
     gvi_real  loss;                   /* of reach, by the last step                            */
     int       wait, again;            /* steps below that; failures near it, one after another */
     int       shorter, put_off;       /* lengths to try before Newton's method; is it put off? */
-    int       slow;                   /* steps that were shorter for the iteration's sake      */
 };
 #endif
 
@@ -1571,16 +1570,14 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 
 // the dial, in rungs, four an octave
 #define GVI__BAND 4                        // room at which h stays; and the most that it grows
-#define GVI__MARGIN ((gvi_real)0.5)        // of it, kept back
-#define GVI__TREND ((gvi_real)1.25)        // of what was lost since the last step: lost by the next
-#define GVI__DOUBT ((gvi_real)1.5)         // rungs below 0: by a loss that is the first
+#define GVI__MARGIN 1                      // of it, kept back
+#define GVI__DOUBT ((gvi_real)0.5)         // rungs below 0: by a loss that is the first
 #define GVI__SHY 3                         // rungs of room kept back by a step that grows
-#define GVI__MANY (3 + GVI__DIG/4)           // iterations from which on a longer step does not pay
+#define GVI__MANY (3 + GVI__DIG/4)         // iterations from which on a longer step does not pay
 #define GVI__WAIT 4                        // steps until a length that failed is tried again
 #define GVI__SHORTER 3                     // lengths tried before Newton's method, 3 rungs apart
-#define GVI__PATIENT 16                    // slow steps until Newton's method is tried
 #define GVI__STEADY ((gvi_real)0.64)       // of a fall of modes, squared, that one pair alone shows
-#define GVI__CANCELS 16                   // s^2 eps: rounding of forces that cancel
+#define GVI__CANCELS 16                    // s^2 eps: rounding of forces that cancel
 #define GVI__FALL 8                        // the most that it shrinks, and after a failure
 #define GVI__RESTS 4096                    // times slower than the fastest: judged with it
 #define GVI__PULLED 64                     // eps of the motion: rounding of forces of constraint
@@ -7693,8 +7690,9 @@ static gvi_real gvi__missed(const gvi_stepper *st, const gvi_real *y, gvi_real e
         high = y[0];
         if (y[1] > 0) high += y[1]*(y[1]/ *all)/4;               // one mode alone may pass 0
     }
-    // rounding: a force as simple as the curve
-    if (high <= 4*GVI__EPS*(st->in.stages == 1 ? turn + low : *all)) return high*GVI__EPS;
+    // rounding, a force as simple as the curve: next to nothing, whatever h
+    if (high <= 4*GVI__EPS*(st->in.stages == 1 ? turn + low : *all))
+        return high*GVI__EPS*GVI__EPS;
     if (low > high) fall = high/low;
     if (top >= 6) {
         const gvi_real lower = y[4] + y[5], before = lower > low ? low/lower : 1;
@@ -7798,7 +7796,7 @@ static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
     if (room < 2*GVI__BAND) {
         const gvi_real loss = dial->reach - (at + room);
         dial->reach = at + room;
-        if (loss > 0) left -= loss*GVI__TREND;
+        if (loss > 0) left -= loss;
         if (room > 0 && dial->loss <= 0) left = gvi__larger(left, -GVI__DOUBT);
         dial->loss = loss;
     }
@@ -8834,7 +8832,7 @@ GVI__COLD void gvi__place_started(gvi_stepper *st)
 #ifndef GVI_NO_DIAL
     st->in.dial.reach = st->in.dial.barrier = -GVI__MAX;
     st->in.dial.loss = 0;
-    st->in.dial.wait = st->in.dial.again = st->in.dial.slow = 0;
+    st->in.dial.wait = st->in.dial.again = 0;
     st->in.dial.shorter = GVI__SHORTER;
 #endif
 }
