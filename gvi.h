@@ -7721,7 +7721,7 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
     const int s = st->s, R = in->R, top = in->dial.top, forces = in->stages == 1,
-              held = forces && gvi__constrained(st);
+              constrained = gvi__constrained(st);
     const gvi_real *row = forces ? in->work.F : in->work.V;
     const gvi_real h = GVI_ABS(in->sized.h), unit = forces ? h : 1,
                    rounding = (gvi_real)(s*s)*GVI__EPS;
@@ -7731,7 +7731,7 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
         gvi_real y[6] = { 0, 0, 0, 0, 0, 0 }, start = row[0], end = row[st->r - 1];
         for (int j = 0; j < st->r; ++j, a += 6)
             GVI__UNROLL for (int m = 0; m < 6; ++m) y[m] += a[m]*row[j];
-        for (int m = 0; held && m < 6 && m < top; ++m)
+        for (int m = 0; forces && constrained && m < 6 && m < top; ++m)
             y[m] += in->table.inv_gamma[top - m]*gvi__constraint_mode(st, i, top - m);
         GVI__UNROLL for (int m = 0; m < 6; ++m) y[m] = unit*GVI_ABS(y[m]);
         if (forces) {
@@ -7749,7 +7749,7 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
     if (!(whole > 0)) return 0;
     for (int i = 0; i < st->n; ++i) {
         // forces of constraint bring more of it, to every coordinate, and no h makes it smaller
-        if (held && missed[i] <= GVI__PULLED*rounding*whole) continue;
+        if (constrained && missed[i] <= GVI__PULLED*GVI__EPS*whole) continue;
         if (missed[i] <= GVI__CANCELS*rounding*whole && size[i] < whole/GVI__RESTS) size[i] = whole;
         worst = gvi__larger(missed[i]/size[i], worst);
     }
