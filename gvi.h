@@ -7784,8 +7784,9 @@ static gvi_real gvi__length(gvi_real k)
 
 /* How many rungs up, after a step that succeeded.  `room`: up to where the resolution, of order
    2s - 1 in h, reaches its limit, less a margin.  What was lost of it since the last step will be
-   lost again.  From 0 to 4 rungs h stays as it is.  Work over time is iterations/h: above
-   GVI__MANY of them h does not grow, above 4/3 of that it shrinks a little.                   */
+   lost again; a first loss may be chance, and shrinks h by little.  From 0 to 4 rungs h stays as
+   it is.  Work over time is iterations/h: from GVI__MANY of them on h does not grow, from 4/3 of
+   that on it shrinks a little.                                                                */
 static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
 {
     struct gvi__dial *dial = &st->in.dial;
