@@ -7686,9 +7686,10 @@ static gvi_real gvi__missed(const gvi_stepper *st, const gvi_real *y, gvi_real e
     gvi_real high = y[0] + y[1], low = y[2] + y[3], fall = 1;                    // fall: rho^2
     *all = ends + high + low;
     if (top < 4) {
-        low = top == 3 ? y[1] + y[2] : turn;
+        const gvi_real one = y[1];                               // alone, a mode may pass 0
+        low = top == 3 ? one + y[2] : turn;
         high = y[0];
-        if (y[1] > 0) high += y[1]*(y[1]/ *all)/4;               // one mode alone may pass 0
+        if (one > 0) high += one*(one/(top == 3 ? low : *all))/4;
     }
     // rounding, a force as simple as the curve: next to nothing, whatever h
     if (high <= 4*GVI__EPS*(st->in.stages == 1 ? turn + low : *all))
