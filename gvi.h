@@ -7638,15 +7638,18 @@ GVI__COLD void gvi__dial_tables(gvi_stepper *st)
 {
     struct gvi__private *in = &st->in;
     const int forces = in->stages == 1, s = st->s, R = in->R;
-    const gvi_real *modes = forces ? in->table.Phi : in->table.phi;
+    const gvi_real *modes = forces ? in->table.Phi : in->table.phi;       // not always both
     in->dial.top = s - !(forces && !gvi__of_kind(in, GVI_CONSTRAINT));
     for (int m = 0; m < 6; ++m)
         for (int j = 0; j < st->r; ++j) {
             const int k = in->dial.top - m;
             gvi_real *to = in->dial.high + 6*j + m;
             *to = 0;
-            if (k == s) *to = in->table.phi[(s - 1)*R + j]*in->table.b[j]/2;
-            else if (k > 0) *to = in->table.inv_gamma[k]*modes[k*R + j]*in->table.b[j];
+            if (k > 0 && k < s) *to = in->table.inv_gamma[k]*modes[k*R + j]*in->table.b[j];
+            if (k < s) continue;
+            gvi_real P = 1, before = 1;
+            for (int p = 0; p < s - 1; ++p) gvi__legendre(p, 1 - 2*in->table.c[j], &P, &before);
+            *to = P*in->table.b[j]/2;
         }
 }
 

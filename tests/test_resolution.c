@@ -122,6 +122,23 @@ TEST(a_step_that_is_refused_changes_nothing)
     assert_true(worst > 0 && a.counters.worst_resolution == worst);     // of those that succeeded
 }
 
+/* One that is pinned has fewer tables: what it measures is the same */
+TEST(pinned_formulations_are_measured)
+{
+    static const gvi_formulation how[] = { GVI_AUTO, GVI_POSITIONS, GVI_VELOCITIES };
+    real seen[COUNT(how)];
+    for (int k = 0; k < COUNT(how); ++k) {
+        gvi_desc desc = of(6, R(0.5));
+        desc.formulation = how[k];
+        gvi_stepper st = started(&desc, room, 0);
+        assert_ok(gvi_step(&st, R(0.25)));
+        assert_true(st.resolution > 0);
+        seen[k] = st.resolution;
+        assert_ok(gvi_advance(&st, 100));
+    }
+    assert_close(seen[1], seen[0], R(1e-3)*seen[0]);
+}
+
 TEST(it_lands_on_the_end_to_the_bit)
 {
     for (int k = 0; k < 400; ++k) {
