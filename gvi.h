@@ -1573,7 +1573,7 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 #define GVI__MARGIN 1                      // of it, kept back
 #define GVI__DOUBT ((gvi_real)0.5)         // rungs below 0: by a loss that is the first
 #define GVI__SHY 3                         // rungs of room kept back by a step that grows
-#define GVI__MANY (3 + GVI__DIG/4)         // iterations from which on a longer step does not pay
+#define GVI__MANY (4 + GVI__DIG/4)         // iterations from which on a longer step does not pay
 #define GVI__WAIT 4                        // steps until a length that failed is tried again
 #define GVI__SHORTER 3                     // lengths tried before Newton's method, 3 rungs apart
 #define GVI__STEADY ((gvi_real)0.64)       // of a fall of modes, squared, that one pair alone shows
@@ -7789,7 +7789,7 @@ static gvi_real gvi__length(gvi_real k)
 /* How many rungs up, after a step that succeeded.  `room`: up to where the resolution, of order
    2s - 1 in h, reaches its limit, less a margin.  What was lost of it since the last step will be
    lost again; a first loss may be chance, and shrinks h by little.  From 0 to 4 rungs h stays as
-   it is.  Work over time is iterations/h: from GVI__MANY of them on h does not grow, from 4/3 of
+   it is.  Work over time is iterations/h: from GVI__MANY of them on h does not grow, from 5/3 of
    that on it shrinks a little.                                                                */
 static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
 {
@@ -7810,7 +7810,7 @@ static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
 
     dial->shorter = newton ? 0 : GVI__SHORTER;
     if (!newton && st->iterations >= many) up = gvi__smaller(up, 0);
-    if (!newton && st->iterations >= many*4/3) up = gvi__smaller(up, -1);
+    if (!newton && st->iterations >= many*5/3) up = gvi__smaller(up, -1);
     dial->wait -= dial->wait > 0;
     if (dial->wait > 0 && up > 0)
         up = gvi__larger(gvi__smaller(up, dial->barrier - 1 - at), 0);
