@@ -24,7 +24,7 @@ CMOCKA_LIBS   = $$(pkg-config --libs cmocka 2>/dev/null || echo -lcmocka)
 
 TESTS = $(sort $(basename $(notdir $(wildcard tests/test_*.c))))
 # These in float and in long double as well, and these compiled for size.
-TYPED = $(filter $(addprefix test_,constraints constraints_newton loops resolution regressions effects interpolation jumps lu uncoupled mass newton oracle points quadrature padding tangent adjoint event body damped lagrangian tolerance no_trace why),$(TESTS))
+TYPED = $(filter $(addprefix test_,constraints constraints_newton rolling loops resolution regressions effects interpolation jumps lu uncoupled mass newton oracle points quadrature padding tangent adjoint event body damped lagrangian tolerance no_trace why),$(TESTS))
 SMALL = $(filter $(addprefix test_,constraints loops regressions uncoupled mass newton points padding tolerance no_trace why),$(TESTS))
 # Left out: test_constraints in long double, whose code test_constraints_newton and test_loops run in it too; for size in
 # float, which changes no loop that size or float alone does not, all but rows and states that must not change.
@@ -42,7 +42,7 @@ VALGRIND     = test_api test_lu test_interpolation 07_driven_damped 36_building_
 
 # `make test` is for a person, two minutes; `make check` is the rest, twenty.
 TEST_STEPS  = $(TESTS) $(EXAMPLES) docs-check symbols headers-quick
-CHECK_STEPS = headers $(VARIANTS) $(EXAMPLES:%=alone-%) any_processor parts bound float instructions prices ensemble usable languages boards \
+CHECK_STEPS = headers $(VARIANTS) $(EXAMPLES:%=alone-%) any_processor chapters bound float instructions prices ensemble usable languages boards \
               $(VALGRIND:%=valgrind-%) sanitize hard-long-float hard-corners-float theorem-curve firmware fuzz-short
 
 STEP = $(Q)sh tests/tools/step.sh $(BUILD)

@@ -1,4 +1,4 @@
-/* gvi.h - v0.2.0 - Galerkin variational integrators for mechanical systems
+/* gvi.h - v0.3.0 - Galerkin variational integrators for mechanical systems
    SPDX-License-Identifier: MIT OR Unlicense              (texts at the end)
 
    Computes how mechanical systems move: M q'' = -dV/dq + f, or any Lagrangian
@@ -57,7 +57,8 @@
      describe    gvi_desc: n and the effects; all else has a default, degree 8
      effect      one row for each thing that acts.  GVI_POTENTIAL reads t and q,
                  GVI_FORCE also v (friction, motors), GVI_LAGRANGIAN adds to L
-                 (magnetic fields), GVI_CONSTRAINT holds g = 0 (rods, joints)
+                 (magnetic fields), GVI_CONSTRAINT holds g = 0 (rods, joints),
+                 GVI_NONHOLONOMIC A v + a = 0 (wheels, blades)
      memory      gvi_size(&desc) bytes, or an array of GVI_LENGTH(n, s, r) numbers
      run         gvi_init once; gvi_start with q and v; gvi_step(&st, h) as often
                  as you like: an eighth of the fastest period is a good first h
@@ -91,7 +92,7 @@
      CLOCK                time that runs fast and slow
      KICKS                Stoermer-Verlet and splittings
      NEWTON'S METHOD      where no fixed point contracts
-     CONSTRAINTS          multipliers, RATTLE, projection; by Newton's method
+     CONSTRAINTS          multipliers, RATTLE, projection; rolling; by Newton's method
      OWN RULES            other nodes and weights
      OUTPUT               the state at any time, the action
      THE DIAL             as accurate as asked for
@@ -325,7 +326,7 @@ GVI__MACROS(push_macro)
 #include <math.h>
 #endif
 
-#define GVI_VERSION "0.2.0"
+#define GVI_VERSION "0.3.0"
 
 #ifndef GVI_REAL
 #define GVI_REAL double
@@ -494,7 +495,7 @@ typedef enum gvi_status {
     GVI_E_SINGULAR    = -7,  /* singular matrix, and no h helps: massless coordinate
                                 (fault.coordinate), or a constraint (fault.effect, its row in
                                 fault.coordinate) that depends on the others in a part of the
-                                step, or has G = 0                                  */
+                                step, or is about to, or has G = 0                  */
     GVI_E_CONVERGENCE = -8,  /* no solution found: halve h                          */
     GVI_E_CALLBACK    = -9,  /* a callback did not return 0 (fault.effect): halve h     */
     GVI_E_NON_FINITE  = -10, /* NaN or Inf came out of an effect (fault.effect); fault.point
@@ -530,7 +531,8 @@ typedef struct gvi_points {
     gvi_real       *velocity;  /* [n][stride] write v                          */
     gvi_real       *g;         /* [rows][stride] write g(t,q); constraints only */
     gvi_real       *jacobian;  /* [rows*n][stride] write dg_a/dq_i, row a*n + i: what is not 0 */
-    gvi_real       *rate;      /* [rows][stride] write dg_a/dt where g reads t; it is 0 before */
+    gvi_real       *rate;      /* [rows][stride] write dg_a/dt where g reads t; it is 0 before;
+                                  nonholonomic: A to jacobian, a to rate, g stays as it is */
 } gvi_points;
 
 /* All points at once.  Returns 0, or anything else if it cannot be evaluated
@@ -542,7 +544,8 @@ typedef int gvi_points_fn(const gvi_points *x, void *user);
    n is a constant.  The list names the arrays that the body uses (t and q are always there): v, p,
    f, dldv, and one of value, mass, velocity; or rows(m), m a constant, for the g, jacobian and
    rate of m constraints.  With f and value, `name` serves as points and as value.  Listing an array
-   that the effect's kind does not have gives GVI_E_CALLBACK, with a fault.argument.
+   that the effect's kind does not have, an n larger than the scene's, and filling an array that is
+   not listed give GVI_E_CALLBACK, with a fault.argument; an input that is not listed is NaN.
 
      GVI_POINTS(drag, 2, v, f)(const gvi_points *x, void *user)
      {
@@ -566,7 +569,12 @@ typedef int gvi_points_fn(const gvi_points *x, void *user);
     (GVI__USES_##a | GVI__USES_##b | GVI__USES_##c | GVI__USES_##d)
 enum { GVI__USES_, GVI__USES_v, GVI__USES_p, GVI__USES_f = 4, GVI__USES_dldv = 8,
        GVI__USES_value = 16, GVI__USES_mass = 32, GVI__USES_velocity = 64, GVI__ROWS = 128,
-       GVI__MISSING = 0x7656 };
+       GVI__MISSING = 0x7656, GVI__OTHER_N, GVI__UNLISTED };
+#ifdef __GNUC__
+#define GVI__NAN ((gvi_real)__builtin_nanf(""))
+#else
+#define GVI__NAN ((gvi_real)3e38f)                     // as far off as NaN, and known everywhere
+#endif
 #define GVI__USES_rows(m) (m)*GVI__ROWS
 #define GVI__POINTS(name, n, uses)                                                              \
     GVI__BODY int gvi__at_##name(const gvi_points *x, void *user);                              \
@@ -585,10 +593,10 @@ enum { GVI__USES_, GVI__USES_v, GVI__USES_p, GVI__USES_f = 4, GVI__USES_dldv = 8
     GVI__BODY int gvi__at_##name
 
 #define GVI_EACH(name, n, ...)                                                                  \
-    GVI__BODY void gvi__each_##name(const gvi_points *x, void *user);                           \
+    GVI__BODY void gvi__body_##name(const gvi_points *x, void *user);                           \
     GVI_POINTS(name, n, __VA_ARGS__)(const gvi_points *x, void *user)                           \
-    { return gvi__each_##name(x, user), 0; }                                                    \
-    GVI__BODY void gvi__each_##name(GVI__UNUSED const gvi_points *x, GVI__UNUSED void *user)
+    { return gvi__body_##name(x, user), 0; }                                                    \
+    GVI__BODY void gvi__body_##name(GVI__UNUSED const gvi_points *x, GVI__UNUSED void *user)
 
 // points k..to-1: a column of what is wanted to a, the body, and back
 GVI__BODY int gvi__each_point(gvi_points_fn *at, const gvi_points *x, void *user, int n, int uses,
@@ -598,13 +606,22 @@ GVI__BODY int gvi__each_point(gvi_points_fn *at, const gvi_points *x, void *user
     const int m = value ? 1 : mass ? n*n : n, any = ~0, last = 112, rows = uses/GVI__ROWS;
     gvi_real *other = value ? x->value : mass ? x->mass : x->velocity;
     gvi_real *g = rows ? a + 6*n : NULL, *G = g ? g + rows : NULL, *dg = g ? G + m*rows : NULL;
+    const int single = !(mass || uses & GVI__USES_velocity), from = (value ? 5*n + 1 : 5*n);
     int failed = 0;
+    // what is not listed: inputs are NaN, and outputs are seen to be 0 behind the loop
+    GVI__LOOP(GCC unroll 64) for (int i = 0; i < n; ++i) {
+        if (!(uses & GVI__USES_v)) a[n + i] = GVI__NAN;
+        if (!(uses & GVI__USES_p)) a[2*n + i] = GVI__NAN;
+        if (!(uses & GVI__USES_f)) a[3*n + i] = 0;
+        if (!(uses & GVI__USES_dldv)) a[4*n + i] = 0;
+        if (single && 5*n + i >= from) a[5*n + i] = 0;
+    }
 #define GVI__COLUMN(name, o) uses & GVI__USES_##name ? a + (o)*n : NULL
 #define GVI__MOVE(mask, m, to, from)                                                            \
     if (wanted & (mask)) GVI__LOOP(GCC unroll 64) for (int i = 0; i < (m); ++i) to = from
     GVI__INDEPENDENT for (; k < to; ++k) {
-        gvi_points y = { n, 1, 1, x->t + k, a, GVI__COLUMN(v, 1), GVI__COLUMN(p, 2),
-                         GVI__COLUMN(f, 3), GVI__COLUMN(dldv, 4), GVI__COLUMN(value, 5),
+        gvi_points y = { n, 1, 1, x->t + k, a, a + n, a + 2*n, a + 3*n, a + 4*n,
+                         single ? a + 5*n : NULL,
                          GVI__COLUMN(mass, 5), GVI__COLUMN(velocity, 5), g, G, dg };
         GVI__MOVE(any, n, a[i], x->q[i*s + k]);
         GVI__MOVE(GVI__USES_v, n, a[n + i], x->v[i*s + k]);
@@ -612,7 +629,7 @@ GVI__BODY int gvi__each_point(gvi_points_fn *at, const gvi_points *x, void *user
         GVI__MOVE(GVI__USES_f, n, a[3*n + i], f[i*s + k]);
         GVI__MOVE(GVI__USES_dldv, n, a[4*n + i], x->dldv[i*s + k]);
         GVI__MOVE(last, m, if (!mass || i%n <= i/n) a[5*n + i], other[i*s + k]);  // of M, i >= j
-        GVI__MOVE(any, rows*(n + 1), G[i], 0);                                 // and dg
+        GVI__MOVE(any, rows*(n + 2), g[i], 0);                          // and G and dg
         failed |= (at(&y, user) != 0) & (k < x->count);
         GVI__MOVE(any, rows, x->g[i*s + k], g[i]);
         GVI__MOVE(any, rows*n, x->jacobian[i*s + k], G[i]);
@@ -621,6 +638,13 @@ GVI__BODY int gvi__each_point(gvi_points_fn *at, const gvi_points *x, void *user
         GVI__MOVE(GVI__USES_dldv, n, x->dldv[i*s + k], a[4*n + i]);
         GVI__MOVE(last, m, if (!mass || i%n <= i/n) other[i*s + k], a[5*n + i]);
     }
+    int unlisted = 0;
+    GVI__LOOP(GCC unroll 64) for (int i = 0; i < n; ++i) {
+        if (!(uses & GVI__USES_f)) unlisted |= !(a[3*n + i] >= 0 && a[3*n + i] <= 0);
+        if (!(uses & GVI__USES_dldv)) unlisted |= !(a[4*n + i] >= 0 && a[4*n + i] <= 0);
+        if (single && 5*n + i >= from) unlisted |= !(a[5*n + i] >= 0 && a[5*n + i] <= 0);
+    }
+    if (unlisted) return GVI__UNLISTED;
     return failed;
 }
 
@@ -637,6 +661,8 @@ GVI__BODY int gvi__in_chunks(gvi_points_fn *at, const gvi_points *x, void *user,
                              int wanted, gvi_real *a)
 {
     int failed = 0, k = 0;
+    // of fewer coordinates, the first ones
+    if (x->n < n || (x->n > n && (uses & GVI__USES_mass || uses >= GVI__ROWS))) return GVI__OTHER_N;
     if (gvi__missing(x, wanted)) return GVI__MISSING;
     for (; GVI__CHUNK && k + GVI__CHUNK <= x->stride; k += GVI__CHUNK)
         failed |= gvi__each_point(at, x, user, n, uses, wanted, a, k, k + GVI__CHUNK, x->f);
@@ -660,7 +686,9 @@ typedef enum gvi_kind {
     GVI_FORCE      = 1,  /* f(t,q,v): reads t, q, v; adds f to f                   */
     GVI_LAGRANGIAN = 2,  /* L(t,q,v): reads t, q, v; adds dL/dq to f, dL/dv to dldv */
     GVI_CLOCK      = 3,  /* g(q) > 0: adds g to value and dg/dq to f; at most one   */
-    GVI_CONSTRAINT = 4   /* g(t,q) = 0, `rows` of them: writes g, jacobian, rate     */
+    GVI_CONSTRAINT = 4,  /* g(t,q) = 0, `rows` of them: writes g, jacobian, rate     */
+    GVI_NONHOLONOMIC = 5 /* A(t,q) v + a(t,q) = 0, `rows` of them: writes A to jacobian, a to
+                            rate */
 } gvi_kind;
 
 /* One thing that acts in a scene.  Give exactly one of points and point; for a clock or a
@@ -674,7 +702,7 @@ typedef struct gvi_effect {
     gvi_hessian_fn *hessian;  /* for Newton; NULL: differences of f and dldv, which must
                                  then be exact nearly to rounding               */
     void           *user;     /* handed to the callbacks                        */
-    int             rows;     /* of a constraint; all together at most n        */
+    int             rows;     /* of constraints of both kinds; all together at most n */
 } gvi_effect;
 
 typedef enum gvi_mass_kind {
@@ -771,7 +799,8 @@ typedef struct gvi_fault {             /* where the last failure came from      
     int coordinate;                    /* or GVI_FAULT_NONE                     */
     int point;                         /* quadrature point, or GVI_FAULT_NONE   */
     const char *argument;              /* GVI_E_ARGUMENT, GVI_E_CALLBACK of a GVI_POINTS that
-                                          lists too much: a sentence, else NULL */
+                                          lists too much, and where a call knows
+                                          more than its status: a sentence, else NULL */
 } gvi_fault;
 
 /* Work of steps and queries since gvi_init.  The caller may set any of it to 0. */
@@ -903,9 +932,18 @@ struct gvi__holonomic {               /* m rows on; C = stride of D_0..D_s      
     int       made;                   /* iterations                                            */
     int       kept;                   /* last is there: for the curve; 2: to predict as well   */
     int       linear;                 /* g is linearised from the last D                       */
+    gvi_real  near_start;             /* see gvi__check_rank                                   */
     int       settled, again;         /* steps since the start; see gvi__find_columns          */
     unsigned  bits;                   /* the effects                                           */
     unsigned  checked;                /* those with derivatives that were seen to be right     */
+};
+#endif
+
+#ifndef GVI_NO_CONSTRAINTS
+struct gvi__rolling {                 /* rows of GVI_NONHOLONOMIC, of m in all                 */
+    gvi_real *A, *a;                  /* [m*n][R] at the points; [2m][R] g, not used, and a    */
+    gvi_real *T;                      /* [r][R] T(c_j, d_a)                                    */
+    unsigned  bits;                   /* the effects                                           */
 };
 #endif
 
@@ -993,6 +1031,7 @@ struct gvi__private {
 #endif
 #ifndef GVI_NO_CONSTRAINTS
     struct gvi__holonomic  con;
+    struct gvi__rolling    rolling;
 #endif
 #ifndef GVI_NO_DIAL
     struct gvi__dial       dial;
@@ -1062,8 +1101,10 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
 GVI_DEF gvi_status gvi_start(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v);
 GVI_DEF gvi_status gvi_start_momentum(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                       const gvi_real *p);
+#ifndef GVI_NO_BOUNDARY
 GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_real h,
                                             const gvi_real *q0, const gvi_real *q1);
+#endif
 
 /* q and v [n], in place, to the nearest that fulfil the constraints that are on, at t, to rounding:
    q such that (q' - q)'M(q' - q) is least, then v likewise, M that there (with Lagrangian terms
@@ -1072,8 +1113,10 @@ GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_rea
    places of later steps may not): for a constraint to come, where the state is off it, gvi_init,
    this, gvi_start.  GVI_E_CONVERGENCE: too far off (an effect and row that is left, if any); q and
    v are then as they were.                                                                    */
+#ifndef GVI_NO_CONSTRAINTS
 GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_real *v,
                                gvi_real *moved);
+#endif
 
 /* One step to t + h (with a clock: to tau + h); h < 0 steps back; h may differ from step to step
    (which keeps the map symplectic but not the energy's long-time bound).  Let a step end where a
@@ -1095,7 +1138,9 @@ GVI_DEF gvi_status gvi_steps(gvi_stepper *st, gvi_real h, int count);
    that fails is tried again, shorter, 64 times at most or until t would not move: then its status
    is returned.  With
    a clock the length is in tau, and the step may pass t_end: gvi_state_at has the state there. */
+#ifndef GVI_NO_DIAL
 GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end);
+#endif
 
 /* Switches effect `index` off (on = 0) or on again, between steps.  An effect that is off is
    not evaluated; the formulation stays that of the whole list.  gvi_start leaves the switches
@@ -1113,7 +1158,9 @@ GVI_DEF gvi_status gvi_energy(gvi_stepper *st, gvi_real *energy);
    keeps G v + dg/dt = 0, so they are as exact as the state; second derivatives of g are differences
    along v, good to some 100 eps.  Of rows that depend on each other the first ones carry the
    force, the last have 0.                                                     */
+#ifndef GVI_NO_CONSTRAINTS
 GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda);
+#endif
 
 /* In the last step; q, v, p of length n, or NULL.  What later steps compute stays the same, to the
    bit.  A broken line has neither curve nor action, a clock no action: GVI_E_FORMULATION.
@@ -1123,8 +1170,10 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda);
                     the nearer end; up to 2 ulp outside the step, t counts as its end
      gvi_action     the quadrature of L; like gvi_state_at with the effects that are on now   */
 GVI_DEF gvi_status gvi_curve(gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_real *v);
+#ifndef GVI_NO_OUTPUT
 GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_real *v, gvi_real *p);
 GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action);
+#endif
 
 /* L_d(q0, q1; t, h): boundary values given, rows k >= 1 of (1) solved by Newton's method.
    The curve is the one near the chord, followed from short h; or, with a guess, the one near the
@@ -1138,16 +1187,20 @@ GVI_DEF gvi_status gvi_action(gvi_stepper *st, gvi_real *action);
    discrete forces are [1, sec. 3.2] (at fixed control points, as (dLdA3) of [2] is printed, they
    would act as another force); how they share p0 and p1 is as exact as the Hessians (sqrt(eps),
    where these are differences), p0 and p1 themselves are exact.  State untouched.             */
+#ifndef GVI_NO_BOUNDARY
 GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real h,
                                            const gvi_real *q0, const gvi_real *q1,
                                            const gvi_discrete *out);
+#endif
 
 /* Restart from a checkpoint, a copy of a stepper and of its memory, in a stepper that gvi_init set
    up for the same description, in this process or another.  What follows is the same to the bit.
    GVI_E_ARGUMENT if sizes, the number of effects, what they read together, the kind of mass or the
    formulation differ.  Rules of equally many points are not compared: the saved one is used;
    callbacks, tolerance and limits are those of st.                                            */
+#ifndef GVI_NO_RESTORE
 GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const gvi_real *memory);
+#endif
 
 /* In this order: what went wrong in the last call, "ok" if nothing; the same, as far as a status
    alone can say; why st uses its formulation; sizeof(gvi_stepper), for other languages.       */
@@ -1197,19 +1250,64 @@ GVI_DEF gvi_status gvi_lu_factor(int n, gvi_real *a, gvi_real *pivot);
 GVI_DEF void       gvi_lu_solve(int n, const gvi_real *lu, const gvi_real *pivot, gvi_real *x);
 GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot, gvi_real *work);
 
-/* Rows are padded to a multiple of 8 from 5 points on, for vector registers.
-   Terms: vectors, stage values, mass and Newton; tables; what exceeds n.      */
+/* Rows are padded to a multiple of 8 from 5 points on, for vector registers.                  */
 #define GVI__ROW(r) ((r) < 5 ? (r) : ((r) + 7)/8*8)
 #define GVI__SIZE(a) ((size_t)(a))
 #define GVI__SLACK (63/sizeof(gvi_real))
-#define GVI_LENGTH(n, s, r) (                                                    \
-    (42 + 10*GVI__SIZE(s) + 20*GVI__SIZE(GVI__ROW(r))                             \
-     + (6 + GVI__SIZE(GVI__ROW(r)) + 2*GVI__SIZE(s)*GVI__SIZE(s))*GVI__SIZE(n))*GVI__SIZE(n) \
-    + (26 + 8*GVI__SIZE(r) + 3*GVI__SIZE(s))*GVI__SIZE(GVI__ROW(r))              \
-    + (GVI__SIZE(s) + 2)*GVI__SIZE(s) + GVI__SIZE(r) + 5 + GVI__SLACK)
+
+/* The numbers that the core takes at most, and each chapter that is compiled: see their layouts. */
+#define GVI_LENGTH(n, s, r)                                                                     \
+    GVI__LENGTH(GVI__SIZE(n), GVI__SIZE(s), GVI__SIZE(r), GVI__SIZE(GVI__ROW(r)))
+#define GVI__LENGTH(n, s, r, R) (GVI__CORE_LENGTH(n, s, r, R) + GVI__RULES_LENGTH(s)            \
+    + GVI__LAGRANGIAN_LENGTH(n, r, R) + GVI__MOMENTA_LENGTH(n, r, R) + GVI__CLOCK_LENGTH(n, R)  \
+    + GVI__KICKS_LENGTH(r) + GVI__NEWTON_LENGTH(n, s, R) + GVI__DIAL_LENGTH(R)                  \
+    + ((r) > 4 ? GVI__SLACK : 0))
+
+#ifdef GVI_ONLY_EXPLICIT
+#define GVI__CORE_LENGTH(n, s, r, R) ((29 + 2*(n))*(n) + 5*(R) + (s))
+#else
+#define GVI__CORE_LENGTH(n, s, r, R)                                                            \
+    ((32 + 10*(R) + 2*(n))*(n) + (15 + 3*(s) + 5*(r))*(R) + (s))
+#endif
+#ifdef GVI_NO_RULES
+#define GVI__RULES_LENGTH(s) 0
+#else
+#define GVI__RULES_LENGTH(s) (((s) + 1)*(s) + 1)
+#endif
+#ifdef GVI_NO_LAGRANGIAN
+#define GVI__LAGRANGIAN_LENGTH(n, r, R) 0
+#else
+#define GVI__LAGRANGIAN_LENGTH(n, r, R) ((5 + 5*(R) + (n))*(n) + 2*(r)*(R) + 1)
+#endif
+#ifdef GVI_NO_MOMENTA
+#define GVI__MOMENTA_LENGTH(n, r, R) 0
+#else
+#define GVI__MOMENTA_LENGTH(n, r, R) ((2 + (1 + (n))*(R))*(n) + (r)*(R))
+#endif
+#ifdef GVI_NO_CLOCK
+#define GVI__CLOCK_LENGTH(n, R) 0
+#else
+#define GVI__CLOCK_LENGTH(n, R) ((5 + (n))*(R))
+#endif
+#ifdef GVI_NO_KICKS
+#define GVI__KICKS_LENGTH(r) 0
+#else
+#define GVI__KICKS_LENGTH(r) ((r) + 1)
+#endif
+#ifdef GVI_NO_NEWTON
+#define GVI__NEWTON_LENGTH(n, s, R) 0
+#else
+#define GVI__NEWTON_LENGTH(n, s, R) ((10*(s) + 5*(R) + (3 + 2*(s)*(s))*(n))*(n) + 2)
+#endif
+#ifdef GVI_NO_DIAL
+#define GVI__DIAL_LENGTH(R) 0
+#else
+#define GVI__DIAL_LENGTH(R) (6*(R))
+#endif
 
 /*  The same with constraints, m rows in all.                                  */
 #define GVI_CONSTRAINED_LENGTH(n, s, r, m) (GVI_LENGTH(n, s, r)                  \
+    + (GVI__SIZE(m)*(GVI__SIZE(n) + 2) + GVI__SIZE(r))*GVI__SIZE(GVI__ROW(r))     \
     + (6*GVI__SIZE(n) + 3*GVI__SIZE(m) + 2*GVI__SIZE(r) + 5*GVI__SIZE(s) + 4 + (4 + GVI__SIZE(m)) \
        *(GVI__SIZE(n) + GVI__SIZE(m)))*(GVI__SIZE(GVI__ROW(r)) + GVI__SIZE(GVI__ROW((s) + 1)))    \
     + (GVI__SIZE(s) + 3)*(GVI__SIZE(s) + 1) + (2*GVI__SIZE(n) + 9)*GVI__SIZE(m) \
@@ -1291,12 +1389,11 @@ typedef char gvi__effects_fit_a_word[GVI_EFFECTS >= 1 && GVI_EFFECTS <= 32
 #if defined(__GNUC__)
 #define GVI__COLD static __attribute__((noinline, cold))
 #define GVI__CALLED static __attribute__((noinline))
-#define GVI__OFFERED static __attribute__((unused))
 #else
 #define GVI__COLD static
 #define GVI__CALLED static
-#define GVI__OFFERED static
 #endif
+#define GVI__OFFERED static inline          // no warning where nobody asks
 #if defined(__GNUC__) && defined(__OPTIMIZE_SIZE__)
 #define GVI__APART GVI__CALLED
 #define GVI__SMALL 1
@@ -1565,6 +1662,7 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 #define GVI__LINEAR ((gvi_real)0.015625)   // the equations are all but linear
 #define GVI__CLOSE ((gvi_real)0.03125)     // of a curve, from its prediction: on the same branch
 #define GVI__SHORT 64                      // h over this: free motion leads to the motion
+#define GVI__FADES 64                      // of a row where a step failed: so much earlier it ends
 #define GVI__LOST 4                        // of a pivot's entry what is left: rank may be changing
 #define GVI__WRONG 512                     // of an entry of G, what it is off times this: wrong
 
@@ -1608,12 +1706,14 @@ GVI__COLD gvi_status gvi__lu_scales(int n, const gvi_real *a, gvi_real *pivot, i
             *at = (int)i;
         }
     }
+
     pivot[n] = 0;
     for (size_t j = 0; j < N; ++j) {
         gvi_real sum = 0;
         for (size_t i = 0; i < N; ++i) sum += GVI_ABS(a[i*N + j]);
         if (sum > pivot[n]) pivot[n] = sum;
     }
+
     return status;
 }
 
@@ -1673,6 +1773,7 @@ static gvi_status gvi__lu_factor(int n, gvi_real *a, gvi_real *pivot, int *at)
                 gvi__subtract_row(N - k - 1, row[0], a + k*N + k + 1, row + 1);
         }
     }
+
     return GVI_OK;
 }
 
@@ -1750,6 +1851,7 @@ GVI_DEF gvi_real gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot, 
         sign = -sign;
         x[i] = sign*(1 + (gvi_real)i/(gvi_real)(n - 1));
     }
+
     gvi_lu_solve(n, lu, pivot, x);
     best = gvi__larger(best, 2*gvi__norm1(n, x)/(3*(gvi_real)n));
     if (!(best > 0)) return 0;
@@ -1789,6 +1891,7 @@ static gvi_status gvi__ldl_factor(int n, int R, int count, gvi_real *m, int *at)
             }
         }
     }
+
     return GVI_OK;
 }
 
@@ -1852,6 +1955,7 @@ GVI__COLD gvi__two gvi__node_correction(int lobatto, int m, gvi__two c, gvi_real
         *b = gvi__div2_by(gvi__div2_by(gvi__mul2(P, P), m), m + 1).hi;
         return gvi__div2_by(gvi__mul2(d, P), -2*(m + 1));
     }
+
     d = gvi__scale2((gvi_real)m, d);
     c = gvi__div2(gvi__mul2(c, gvi__sub2(one, c)), d);
     *b = 4*gvi__div2(c, d).hi;
@@ -1904,6 +2008,7 @@ GVI__COLD gvi_status gvi__rule(int lobatto, int n, gvi_real *c, gvi_real *c_low,
         c_low[j] = x.lo;
         c_low[n - 1 - j] = mirror.lo;
     }
+
     return GVI_OK;
 }
 
@@ -1940,6 +2045,7 @@ GVI_DEF int gvi_rule_order(int n, const gvi_real *c, const gvi_real *b)
         if (GVI_ABS(sum) > 4*(gvi_real)(u + 2)*GVI__EPS*size) return u;
         sum = 0;
     }
+
     return 2*n;
 }
 
@@ -1977,6 +2083,7 @@ GVI_DEF gvi_status gvi_barycentric(int n, const gvi_real *x, gvi_real *w)
         w[j] /= big;
         if (!gvi__nonzero(w[j])) return GVI_E_NODES;
     }
+
     return GVI_OK;
 }
 
@@ -2051,6 +2158,7 @@ GVI_DEF gvi_real gvi_interpolate_derivative(int n, const gvi_real *x, const gvi_
         if (j != i) value += gvi__slope(n, x, w, t, i, d, sum, j)*(f[j] - f[i]);
     return value;
 }
+
 /* ---------------------------------------------------------------- PLACES
 
    Where the chapters of PART II plug in.  PART I calls these functions, the switchboard at the end
@@ -2270,6 +2378,11 @@ GVI__COLD gvi_status gvi__report_callback(gvi_stepper *st, int failed, int effec
     gvi__report_effect(st, GVI_E_CALLBACK, effect);
     if (failed == GVI__MISSING)
         st->fault.argument = "GVI_POINTS lists what this kind does not have, as v: is .kind set?";
+    if (failed == GVI__OTHER_N)
+        st->fault.argument = "GVI_POINTS or GVI_EACH is written for a larger n than the scene's";
+    if (failed == GVI__UNLISTED)
+        st->fault.argument = "GVI_POINTS or GVI_EACH fills an array that is not in its list, or "
+                             "beyond its n";
     return GVI_E_CALLBACK;
 }
 
@@ -2361,6 +2474,7 @@ static int gvi__point_by_point(gvi_stepper *st, const gvi_effect *e, const gvi_p
             if (dldv) at->dldv[i*at->stride + k] += dldv[i];
         }
     }
+
     return 0;
 }
 
@@ -2373,6 +2487,7 @@ GVI__BODY gvi_status gvi__effect(gvi_stepper *st, gvi_points *at, int e, gvi_rea
     gvi_real *dldv = at->dldv;
     const int both = value && effect->points && effect->value == effect->points;
     int failed;
+
     if (effect->kind == GVI_POTENTIAL) at->v = NULL;
     if (effect->kind != GVI_LAGRANGIAN) at->dldv = NULL;
     if (both) at->value = value;
@@ -2497,6 +2612,7 @@ GVI__COLD gvi_status gvi__value_sums(gvi_stepper *st, gvi_real t, const gvi_real
         if (status != GVI_OK) return status;
         if (!gvi__finite(*value)) return gvi__report_effect(st, GVI_E_NON_FINITE, e);
     }
+
     const gvi_status status = gvi__evaluate(st, &at, ~0u, 1);
     *T = gvi__dot(st->n, at.dldv, v)/2;
     return status;
@@ -2596,6 +2712,7 @@ GVI__COLD void gvi__make_tables(gvi_stepper *st)
     const struct gvi__tables *table = &st->in.table;
     const gvi_real *Phi_low = table->Phi_low;
     const int r = st->r, R = st->in.R, gauss = st->in.desc.rule.kind == GVI_GAUSS && r == st->s;
+
     for (int j = 0; j < r; ++j) {
         gvi__prepare_column(st, table->Phi, Phi_low, j);
         for (int i = 0; i <= j; ++i) {
@@ -2636,6 +2753,7 @@ static void gvi__weights_for(gvi_stepper *st, gvi_real h)
     const gvi_real *b = st->in.table.b;
     const int r = st->r;
     int e, most = 0;
+
     if (!gvi__nonzero(sized->h - h)) return;
     sized->h = h;
 
@@ -2646,12 +2764,14 @@ static void gvi__weights_for(gvi_stepper *st, gvi_real h)
         rest -= sized->hb[j];
         if (b[j] > b[most]) most = j;
     }
+
     const int mirror = r - 1 - most;
     if (mirror == most || gvi__nonzero(b[mirror] - b[most])) sized->hb[most] += rest;
     else {
         sized->hb[most] += rest/2;
         sized->hb[mirror] += rest/2;
     }
+
     const gvi_real half = GVI_LDEXP(1, e - 1);     // 2^e may be too large
     for (int j = 0; j < r; ++j) sized->hb[j] = 2*sized->hb[j]*half;
 }
@@ -2670,6 +2790,7 @@ static void gvi__fit(gvi_stepper *st, int r, const gvi_real *c, const gvi_real *
     struct gvi__private *in = &st->in;
     const int R = in->R, nodes = steps*R, all = nodes + R;
     int degree = r - 1;
+
     if (steps == 2) degree = r + r/2 - r/8;
     if (degree > GVI__DEGREE) degree = GVI__DEGREE;
     gvi_real *p = in->set_up, *before = p + 3*R, *at = before + 3*R, coupling = 0;
@@ -2681,6 +2802,7 @@ static void gvi__fit(gvi_stepper *st, int r, const gvi_real *c, const gvi_real *
         at[nodes + m] = alpha + beta*to[m];
         if (m < r) p[m] = p[R + m] = p[nodes + m] = norm;
     }
+
     gvi__zero((size_t)(steps*r*R), E);
     for (int k = 0; k <= degree; ++k) {
         for (int j = 0; j < r; ++j) {
@@ -2723,15 +2845,18 @@ static void gvi__lagrange(const gvi_stepper *st, gvi_real alpha, gvi_real beta, 
     const int R = st->in.R, r = st->r;
     const gvi_real *c = st->in.table.c, *weights = st->in.predictor.weights;
     gvi_real *y = st->in.set_up, *behind = y + R;
+
     for (int k = 0; k < R; ++k) {
         y[k] = alpha + beta*c[k];
         behind[k] = E[k] = 1;
     }
+
     for (int j = 1; j < r; ++j) {
         const gvi_real *before = E + (j - 1)*R, at = c[j - 1];
         gvi_real *to = E + j*R;
         GVI__ALONG(R, GVI__TO(to) = GVI__AT(before)*(GVI__AT(y) - at))
     }
+
     for (int j = r - 1; j >= 0; --j) {
         const gvi_real at = c[j], weight = weights[j];
         gvi_real *to = E + j*R;
@@ -2777,10 +2902,10 @@ GVI__COLD const char *gvi__wrong_in_desc(const gvi_desc *d)
 // what is wrong with an effect that PART I knows, or NULL
 GVI__COLD const char *gvi__wrong_in_effect(const gvi_effect *effect)
 {
-    if ((unsigned)effect->kind > GVI_CONSTRAINT) return "effect: kind is not in its enum";
+    if ((unsigned)effect->kind > GVI_NONHOLONOMIC) return "effect: kind is not in its enum";
     if (!effect->points && !effect->point) return "effect: points, or point, is missing";
     if (effect->points && effect->point) return "effect: points and point, one is too many";
-    if (effect->kind != GVI_CONSTRAINT && effect->rows != 0)
+    if (effect->kind < GVI_CONSTRAINT && effect->rows != 0)
         return "effect: rows is for constraints";
     return NULL;
 }
@@ -2825,7 +2950,7 @@ GVI__COLD gvi_status gvi__check(struct gvi__private *in, const gvi_desc *desc, g
         wrong = gvi__wrong_in_effect(d->effects + e);
         if (!wrong && kind > GVI_FORCE) unknown |= !gvi__place_effect(in, e, &wrong);
         if (wrong) return gvi__refuse(fault, e, GVI_FAULT_NONE, wrong);
-        in->reads_v |= kind == GVI_FORCE || kind == GVI_LAGRANGIAN;
+        in->reads_v |= kind == GVI_FORCE || kind == GVI_LAGRANGIAN || kind == GVI_NONHOLONOMIC;
         in->adds_p |= kind == GVI_LAGRANGIAN;
     }
 
@@ -2880,9 +3005,8 @@ GVI__COLD gvi_status gvi__resolve(struct gvi__private *in, const gvi_desc *desc,
 GVI__COLD gvi_real *gvi__take(gvi__arena *arena, size_t a, size_t b)
 {
     const size_t most = (size_t)-1/sizeof(gvi_real) - 64;      // more than anyone has, with slack
-    size_t at = arena->used;
+    const size_t at = arena->used;
     if (a == 0) return NULL;
-    if (b >= 16 && at < most) at = (at + GVI__LANES - 1)/GVI__LANES*GVI__LANES;   // whole lanes
     arena->used = most;
     if (b <= (most - at)/a) arena->used = at + a*b;
     if (!arena->base) return NULL;
@@ -2929,6 +3053,7 @@ GVI__COLD size_t gvi__layout(struct gvi__private *in, int order, gvi_real *base)
         { &in->watch.scale, 2*it, n }, { &in->watch.change, 2*it, n },
         { &in->watch.before, 2*it, n },
         { &in->point, 6, n },         { &in->answer, 3, n }
+
     };
     gvi__arena memory = { base, 0 }, *a = &memory;
     for (size_t k = 0; k < sizeof list/sizeof *list; ++k)
@@ -2976,6 +3101,7 @@ GVI__COLD gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
     const int given = dense || mass->kind == GVI_MASS_DIAGONAL;
     gvi_real *m = in->mass.matrix;
     int at[2] = { 0, 0 };
+
     for (int i = 0; i < n; ++i) {
         int first = i, width = 1;                 // of a diagonal; dense: of row i up to M_ii
         if (dense) {
@@ -2996,6 +3122,7 @@ GVI__COLD gvi_status gvi__set_mass(gvi_stepper *st, const gvi_mass *mass)
         if (!gvi__finite(in->mass.inverse[i]))
             return gvi__report(st, GVI_E_SINGULAR, GVI_FAULT_MASS, i, GVI_FAULT_NONE);
     }
+
     if (!dense) return GVI_OK;
     const gvi_status status =
         gvi__ldl_factor(n, 1, 1, in->mass.factor, at);
@@ -3012,8 +3139,10 @@ GVI__COLD gvi_status gvi__set_rule(gvi_stepper *st)
     const int s = st->s, lobatto = in->desc.rule.kind == GVI_LOBATTO;
     gvi_real *c_low = in->t;
     gvi_status status = GVI_OK;
+
     table->Phi_low = in->predictor.one;            // not yet in use, as are the times
-    if (!gvi__place_nodes(st)) gvi__rule(lobatto, st->r, table->c, c_low, table->b);
+    if (!gvi__place_nodes(st) && GVI__ITERATION)
+        gvi__rule(lobatto, st->r, table->c, c_low, table->b);
     if (gvi__iterates(in)) {
         gvi__modes_of(st, st->r, table->c, c_low, table->phi, table->phi_low, table->Phi,
                       table->Phi_low);
@@ -3023,6 +3152,7 @@ GVI__COLD gvi_status gvi__set_rule(gvi_stepper *st)
         if (status == GVI_OK) gvi__make_tables(st);
         gvi__set_predictor(st);
     }
+
     if (status == GVI_OK) status = gvi__place_tables(st);
     if (table->Phi) gvi__copy((size_t)st->r, table->c, table->Phi);        // Phi_0 = c on its grid
     return status;
@@ -3036,6 +3166,7 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
 {
     if (!st) return GVI_E_ARGUMENT;
     struct gvi__private *in = &st->in;
+
     // to be read after a failure; eight where an int has 16 bits, and RAM is short
     static const gvi_real zeros[sizeof(int) > 2 ? 64 : 8] = { 0 };
     int order = 0;
@@ -3061,6 +3192,7 @@ GVI_DEF gvi_status gvi_init(gvi_stepper *st, const gvi_desc *desc, gvi_real *mem
         st->q = st->p = st->q_low = st->p_low = memory;
         return st->status = GVI_E_MEMORY;
     }
+
     if (slack) in->skip = (size_t)(-(uintptr_t)memory & 63)/sizeof(gvi_real);
     memory += in->skip;
     gvi__hand_out(st, memory);
@@ -3113,7 +3245,18 @@ typedef struct gvi__stage {
     int             of, quiet;         /* GVI__OF_...; not judged                              */
 } gvi__stage;
 
-// free motion v = M^-1 p and h v in double words, M constant
+/* GVI__FOR_ROW(R, body): GVI__ALONG for a row, unrolled where it is the most frequent one.    */
+#define GVI__FOR_ROW(R, ...)                                                                    \
+    if ((R) == 8) GVI__ALONG_BY(GVI__UNROLL, 8, __VA_ARGS__) else GVI__ALONG(R, __VA_ARGS__)
+
+// row := low + (c path_low + c path), one coordinate's free motion over its base
+GVI__BODY void gvi__free_row(int R, gvi_real low, gvi_real path, gvi_real path_low,
+                             const gvi_real *GVI__RESTRICT c, gvi_real *GVI__RESTRICT row)
+{
+    GVI__FOR_ROW(R, GVI__TO(row) = (low + GVI__AT(c)*path_low) + GVI__AT(c)*path)
+}
+
+// free motion v = M^-1 p and h v in double words, M constant, and its rows
 static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real h)
 {
     struct gvi__private *in = &st->in;
@@ -3127,6 +3270,7 @@ static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real 
         v[i] = z.hi;
         v_low[i] = gvi__low(z.lo + p_low[i]*inverse[i]);
     }
+
     if (in->desc.mass.kind == GVI_MASS_DENSE) {
         gvi__over_mass(st, v, 1, 1);
         for (int i = 0; i < st->n; ++i) {         // p - M v
@@ -3139,29 +3283,26 @@ static void gvi__free_motion(gvi_stepper *st, const gvi__origin *from, gvi_real 
         }
         gvi__over_mass(st, v_low, 1, 1);
     }
+
     for (int i = 0; i < st->n; ++i) {
         const gvi__two path = gvi__two_prod(h, v[i]);
         in->free.path[i] = path.hi;
         in->free.path_low[i] = gvi__low(path.lo + h*v_low[i]);
     }
-}
 
-/* GVI__FOR_ROW(R, body): GVI__ALONG for a row, unrolled where it is the most frequent one.    */
-#define GVI__FOR_ROW(R, ...)                                                                    \
-    if ((R) == 8) GVI__ALONG_BY(GVI__UNROLL, 8, __VA_ARGS__) else GVI__ALONG(R, __VA_ARGS__)
+    const int R = in->R;
+    gvi_real *rows = in->free.rows;
+    for (int i = 0; i < st->n; ++i, rows += R)
+        gvi__free_row(R, from->q_low[i], in->free.path[i], in->free.path_low[i], in->table.c, rows);
+    for (int i = 0; in->stages == 2 && i < st->n; ++i, rows += R)
+        gvi__free_row(R, v_low[i], 0, 0, in->table.c, rows);
+}
 
 // out := t + (t_low + c h)
 static void gvi__times(int R, gvi_real t, gvi_real t_low, gvi_real h, const gvi_real *c,
                        gvi_real *out)
 {
     GVI__FOR_ROW(R, GVI__TO(out) = t + (t_low + GVI__AT(c)*h))
-}
-
-// row := low + (c path_low + c path), one coordinate's free motion over its base
-GVI__BODY void gvi__free_row(int R, gvi_real low, gvi_real path, gvi_real path_low,
-                             const gvi_real *GVI__RESTRICT c, gvi_real *GVI__RESTRICT row)
-{
-    GVI__FOR_ROW(R, GVI__TO(row) = (low + GVI__AT(c)*path_low) + GVI__AT(c)*path)
 }
 
 static void gvi__stages(gvi_stepper *st, const gvi__origin *from, gvi_real h, gvi__stage *stage)
@@ -3177,10 +3318,6 @@ static void gvi__stages(gvi_stepper *st, const gvi__origin *from, gvi_real h, gv
     stage[0] = Q;
     if (two) stage[1] = V;
     gvi__free_motion(st, from, h);
-    for (int i = 0; i < n; ++i, free += R)
-        gvi__free_row(R, from->q_low[i], in->free.path[i], in->free.path_low[i], in->table.c, free);
-    for (int i = 0; i < two*n; ++i, free += R)
-        gvi__free_row(R, in->free.v_low[i], 0, 0, in->table.c, free);
     if (gvi__parts(in)) gvi__place_stages(st, from, h, stage);
 }
 
@@ -3242,6 +3379,7 @@ static gvi_real gvi__rows_by_points(const gvi_stepper *st, const gvi__stage *y, 
         y->scale[i] = scale;
         y->change[i] = two;
     }
+
     return gvi__sum_squares(square);
 }
 
@@ -3274,6 +3412,7 @@ GVI__BODY gvi_real gvi__rows_by_lanes(const gvi_stepper *st, const gvi__stage *G
     const gvi__lane none = { 0 };
     gvi_real few[16], *L = R <= 16 ? few : st->in.weighted, total[8];
     gvi__lane square[GVI__BLOCK] = { none };
+
     for (int i = 0; i < n; ++i) {
         gvi_real *row = y->rows + i*R, scale = y->scale[i];
         const gvi_real base = y->base[i], inverse = y->inverse[i], factor = y->factor;
@@ -3302,6 +3441,7 @@ GVI__BODY gvi_real gvi__rows_by_lanes(const gvi_stepper *st, const gvi__stage *G
         y->scale[i] = scale;
         y->change[i] = a*a + b*b;
     }
+
     GVI__UNROLL for (int v = 0; v < GVI__BLOCK; ++v) GVI__STORE(total + v*GVI__LANES) = square[v];
     return gvi__sum_squares(total);
 }
@@ -3316,6 +3456,7 @@ static gvi_real gvi__rows_of_full_mass(const gvi_stepper *st, const gvi__stage *
         for (int k = 0; k < R; ++k) sums[i*R + k] = gvi__point_sum(r, R, y->table + k, L);
         for (int k = 0; y->plus && k < R; ++k) sums[i*R + k] += y->plus[i*R + k];
     }
+
     gvi__over_mass(st, sums, R, R);
     for (int i = 0; i < n; ++i) {
         const gvi_real base = y->base[i], factor = y->factor;
@@ -3332,6 +3473,7 @@ static gvi_real gvi__rows_of_full_mass(const gvi_stepper *st, const gvi__stage *
             row[k] = z[k];
         }
     }
+
     return gvi__sum_squares(square);
 }
 
@@ -3401,6 +3543,7 @@ static void gvi__prepare_predictor(gvi_stepper *st, gvi_real h, int query, int p
     const int sums = two && in->stages == 1 && in->desc.mass.kind != GVI_MASS_DENSE
                      && !gvi__parts(in);
     const gvi_real alpha = query != GVI__FROM_START, beta = h/st->h, ratio = query ? 0 : beta;
+
     if (gvi__parts(in)) gvi__place_predictor(st, alpha, beta);
     predictor->steps = two + 1;
     predictor->sums = sums;
@@ -3486,12 +3629,14 @@ static gvi_status gvi__predict(gvi_stepper *st, const gvi__origin *from, gvi_rea
         }
         return GVI_OK;
     }
+
     if (extrapolate) gvi__extrapolate(st, in->last.F, in->older.F, in->work.F);
     else gvi__zero((size_t)st->n*(size_t)R, in->work.F);
     if (gvi__parts(in)) {
         const gvi_status status = gvi__place_predict(st, from, h, extrapolate);
         if (status != GVI_OK) return status;
     }
+
     gvi__new_rows(st, stage, 0);
     return GVI_OK;
 }
@@ -3536,6 +3681,7 @@ GVI__CALLED gvi_real gvi__noise(const gvi_stepper *st, gvi_real h, const gvi__st
     const int R = st->in.R, n = st->n, dense = st->in.desc.mass.kind == GVI_MASS_DENSE,
               parts = gvi__parts(&st->in) != 0;
     gvi_real largest = 0, noise = 0;
+
     for (int k = 0; k < st->in.stages; ++k)
         for (int i = 0; i < n && !stage[k].quiet; ++i) {
             const gvi_real *row = stage[k].rows + i*R,
@@ -3567,17 +3713,20 @@ static int gvi__settled(gvi_stepper *st, const gvi__progress *p, gvi_real D, gvi
     const gvi_real wanted = gvi__larger(st->in.desc.tolerance, GVI__ENOUGH), limit = wanted*wanted;
     const int alone = p->used == 1 || p->ratio > 1, rows = st->in.stages*st->n;
     const gvi_real last = alone ? D : gvi__smaller(p->before, 1);
+
     if (!(D*D <= limit*last)) return 0;           // NaN as well
     if (!alone && D > rounding) {
         const gvi_real other = p->earlier > 0 ? p->before/gvi__smaller(p->earlier, 1) : p->ratio;
         if (!(D*other <= limit)) return 0;
         st->in.watch.found = D/last;
     }
+
     for (int row = 0; row < rows; ++row) {
         const gvi_real Di = st->in.watch.change[row];
         const gvi_real was = alone ? Di : gvi__smaller(st->in.watch.before[row], 1);
         if (Di > 2*GVI__EPS*GVI__EPS && Di*Di > limit*was) return 0;
     }
+
     return 1;
 }
 
@@ -3614,12 +3763,14 @@ static int gvi__rests(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_real h,
     const int turns = st->in.turns, few = D > GVI__FAR*GVI__FAR ? GVI__MANY_POOR : GVI__FEW_POOR;
     const int poor = turns && p->growing > few && D > sure*sure*(gvi_real)(st->n*st->r),
               least = p->stagnant <= patience;
+
     if (least && !poor) return GVI__GO_ON;
 
     const gvi_real noise = gvi__noise(st, h, stage);
     const int long_since = p->stagnant > (patience > 0 ? GVI__STAGNANT : 1),
               slow = p->used - p->stagnant >= GVI__SLOW;         // errors grew first
-    if (!least && (noise <= 0 || (noise <= 1 && long_since)))
+    const gvi_real none = patience < 0 ? GVI__ENOUGH/GVI__EPS : 0;
+    if (!least && (noise <= none || (noise <= 1 && long_since)))
         return slow && turns ? GVI__DIVERGES : GVI__ONCE_MORE;
 
     // a row that tends to 0 changes by its whole size: does its amplitude fall?
@@ -3635,6 +3786,7 @@ static int gvi__verdict(gvi_stepper *st, gvi__progress *p, gvi_real D, gvi_real 
     const gvi_real place = GVI__PLACE*GVI__EPS;
     const int given = d->iterations > 0;
     int verdict = GVI__GO_ON, patience = 1;       // so many without a new least may be chance
+
     if (!given && gvi__settled(st, p, D, place*place*(gvi_real)(st->n*st->r))) return GVI__DONE;
     if (!gvi__finite(D)) {                        // far off already, it was on its way to infinity
         const int far = p->growing > 0 || p->before > (gvi_real)st->n || GVI__LOOKS(st);
@@ -3665,6 +3817,7 @@ GVI__APART gvi_status gvi__iterate(gvi_stepper *st, const gvi__origin *from, gvi
     struct gvi__private *in = &st->in;
     gvi__stage stage[2];
     gvi_points at = gvi__points_at(st, st->r, in->R, in->t, in->work.Q, in->work.F, NULL);
+
     at.v = in->work.V;
     gvi__stages(st, from, h, stage);                                                         // 1)
     gvi_status status = gvi__predict(st, from, h, stage, extrapolate);                       // 2)
@@ -3722,6 +3875,7 @@ GVI__BODY gvi__two gvi__exact_dot(int R, const gvi_real *a, const gvi_real *b)
         hi[k] = z.hi;
         lo[k] = z.lo;
     }
+
     for (int o = 8; o < R; o += 8)
         for (int k = 0; k < 8; ++k) {
             const gvi__two z = gvi__two_prod(a[o + k], b[o + k]),
@@ -3769,12 +3923,14 @@ static void gvi__increments(gvi_stepper *st, const gvi__origin *from, gvi_real h
     struct gvi__private *in = &st->in;
     const gvi_real *c = in->table.c, *hb = in->sized.hb, *F = in->work.F;
     const int R = in->R;
+
     gvi__sum_rows(st, in->work.F, from->p_low, in->step.p, in->step.p_low);
     if (gvi__parts(in) && gvi__place_increments(st, from)) return;
     for (int i = 0; i < st->n; ++i, F += R) {
         in->step.q[i] = gvi__parts(in) ? gvi__place_bow(st, i)
                                        : R == 8 ? gvi__bow(8, c, hb, F) : gvi__bow(R, c, hb, F);
     }
+
     gvi__over_mass(st, in->step.q, 1, 1);
     for (int i = 0; i < st->n; ++i) {
         const gvi__two bend = gvi__two_prod(h, in->step.q[i]),
@@ -3806,6 +3962,7 @@ static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__origin *from, gvi
     // an extrapolation any farther is no better than no force
     const int usable = in->kept > 0 && h/st->h > -GVI__BACK && h/st->h < GVI__AHEAD;
     gvi_real ratio = usable && GVI_ABS(h) <= GVI_ABS(st->h) ? in->watch.ratio : 1;
+
     if (usable) gvi__prepare_predictor(st, h, query, 0);
     for (int plain = !usable; plain < 2; ++plain) {
         gvi__progress p = { 0, 0, 0, GVI__MAX, ratio, GVI__MAX, 1, 0, 0, 1 };
@@ -3818,6 +3975,7 @@ static gvi_status gvi__fixed_point(gvi_stepper *st, const gvi__origin *from, gvi
             || (in->desc.iterations > 0 && (p.used > 1 || status == GVI_E_CONVERGENCE))) break;
         ratio = 2;                                 // the next attempt: no ratio counts
     }
+
     if (status == GVI_OK) gvi__increments(st, from, h);                                      // 6)
     return status;
 }
@@ -3837,6 +3995,7 @@ static gvi_status gvi__attempt(gvi_stepper *st, const gvi__origin *from, gvi_rea
         status = gvi__fixed_point(st, from, h, query);
         if (status != GVI_OK && in->turns) status = gvi__place_turn(st, from, h, query, status);
     }
+
     if (status == GVI_OK && gvi__parts(in)) status = gvi__place_finish(st, from);
     if (status != GVI_OK) return status;
     return gvi__finite_end(st, from) ? GVI_OK : gvi__report_status(st, GVI_E_NON_FINITE);
@@ -3932,6 +4091,7 @@ GVI_DEF gvi_status gvi_step(gvi_stepper *st, gvi_real h)
         st->formulation = was;
         return st->status = status;
     }
+
     gvi__commit(st, h);                                                                      // 7)
     return gvi__report_status(st, GVI_OK);
 }
@@ -3958,6 +4118,7 @@ GVI__COLD gvi_status gvi__begin_at(gvi_stepper *st, gvi_real t, gvi_real *v)
     struct gvi__private *in = &st->in;
     const size_t n = (size_t)st->n;
     gvi_status status = GVI_OK;
+
     if (!in->started) status = gvi__probe(st, t, in->step.q, v);
     if (status == GVI_OK) status = gvi__place_start(st, t, v);
     if (status != GVI_OK) return status;
@@ -4078,6 +4239,7 @@ GVI_DEF gvi_status gvi_restore(gvi_stepper *st, const gvi_stepper *saved, const 
     in->skip = own.skip;
     in->failed.status = GVI_OK;
     gvi__hand_out(st, own.memory);
+
     // it goes round in two or three, and V with it
     while (in->work.F - in->memory != F) gvi__rotate_values(st);
     return gvi__report_status(st, GVI_OK);
@@ -4117,9 +4279,11 @@ static void gvi__curve_at(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_
     const gvi_real *modes = by_forces ? in->table.Phi : in->table.phi,
                    *weight = by_forces ? in->sized.hb : in->table.b,
                    *rows = by_forces ? in->last.F : in->last.V;
-    gvi_real *phi = in->set_up, *Phi = phi + R, *v0 = in->free.v;    // at tau, over Gamma
+    gvi_real *v0 = in->free.v;
+
     if (gvi__parts(in) && gvi__place_line(st, tau, q, v)) return;
     if (!gvi__iterates(in)) return;
+    gvi_real *phi = in->set_up, *Phi = phi + R;                      // at tau, over Gamma
     gvi__modes(st, tau, phi, Phi);
     gvi__zero((size_t)n, q);
     gvi__zero((size_t)n, v);
@@ -4139,6 +4303,7 @@ static void gvi__curve_at(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_
             v[i] += T*L;
         }
     }
+
     if (gvi__parts(in)) gvi__place_held(st, tau, phi, Phi, q, v);
     if (by_forces) {
         gvi__over_mass(st, q, 1, 1);
@@ -4150,6 +4315,7 @@ static void gvi__curve_at(const gvi_stepper *st, gvi_real tau, gvi_real *q, gvi_
             v[i] += v0[i];
         }
     }
+
     for (int i = 0; i < n; ++i) q[i] = in->began.q[i] + st->h*q[i];
 }
 
@@ -4217,6 +4383,7 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_rea
     const int n = st->n;
     const gvi_real root = GVI_SQRT(GVI__EPS);
     gvi_real *base = st->in.lagrangian.column;
+
     gvi__copy((size_t)n, at->dldv, base);
     for (int j = 0; j < n; ++j) {
         const gvi_real was = v[j], push = GVI_ABS(st->in.sized.h*at->f[j])*root;
@@ -4244,6 +4411,7 @@ static gvi_status gvi__velocity_hessian(gvi_stepper *st, gvi_points *at, gvi_rea
         }
         for (int i = 0; i < n; ++i) hessian[i*n + j] = (at->dldv[i] - base[i])/d;
     }
+
     gvi__copy((size_t)n, base, at->dldv);
     return GVI_OK;
 }
@@ -4274,6 +4442,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
     gvi_real *W = st->in.lagrangian.hessian, *pivot = W + n*n, *dv = st->in.lagrangian.column + n,
              last = GVI__MAX;
     int at;
+
     x->v = v;
     gvi__count(&st->counters.velocities, 1);
     for (int k = 0, halves = 0; k < 60; ++k) {
@@ -4315,6 +4484,7 @@ static gvi_status gvi__legendre_newton(gvi_stepper *st, gvi_points *x, const gvi
         if (miss <= 2*GVI__PLACE*GVI__EPS*(gvi_real)n && (rests || still)) return GVI_OK;
         last = change;
     }
+
     return gvi__report_effect(st, GVI_E_CONVERGENCE, GVI_FAULT_MASS);
 }
 
@@ -4390,10 +4560,37 @@ GVI__COLD void gvi__lagrangian_tables(gvi_stepper *st)
     }
 }
 
-static void gvi__lagrangian_stages(const gvi_stepper *st, gvi__stage *stage)
+// a dL/dv near this step's: the last step's at its last point, or that of the start
+static gvi_real *gvi__level(const gvi_stepper *st, int i)
+{
+    return st->in.lagrangian.last_A + (i*st->in.R + st->r - 1);
+}
+
+GVI__COLD void gvi__lagrangian_started(gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
+    gvi_points at = gvi__one_point(st, &st->t, in->state.q);
     if (!in->lagrangian.plus) return;
+    at.v = in->start;
+    (void)gvi__evaluate(st, &at, ~0u, 1);          // M v alone, which cannot fail
+    for (int i = 0; i < st->n; ++i) *gvi__level(st, i) = in->state.p[i] - at.dldv[i];
+}
+
+/* Where p is large and cancels dL/dv, neither may enter V whole: their rounding would make F belong
+   to another motion than Q.  So free motion is that of p less the level, and A is above it.   */
+static void gvi__lagrangian_stages(gvi_stepper *st, const gvi__origin *from, gvi_real h,
+                                   gvi__stage *stage)
+{
+    const struct gvi__private *in = &st->in;
+    gvi_real *p = in->lagrangian.column, *p_low = p + st->n;
+    if (!in->lagrangian.plus) return;
+    for (int i = 0; i < st->n; ++i) {
+        const gvi__two z = gvi__two_sum(from->p[i], -*gvi__level(st, i));
+        p[i] = z.hi;
+        p_low[i] = gvi__low(z.lo + from->p_low[i]);
+    }
+    const gvi__origin less = { from->t, from->t_low, from->q, from->q_low, p, p_low };
+    gvi__free_motion(st, &less, h);
     stage[0].plus = in->lagrangian.plus;
     stage[1].plus = in->lagrangian.plus + st->n*in->R;
 }
@@ -4406,18 +4603,49 @@ static void gvi__lagrangian_predict(const gvi_stepper *st, int extrapolate)
     else gvi__zero((size_t)st->n*(size_t)st->in.R, l->A);
 }
 
+/* Rounding of A, divided by M, is in V, and times d2L/dqdv again in F: by so much as A moves over
+   M V it grows.  Newton's method, whose V is Q' to rounding, has no such loss.                */
+static gvi_status gvi__lagrangian_verdict(gvi_stepper *st)
+{
+    const struct gvi__private *in = &st->in;
+    const int R = in->R, step = in->desc.mass.kind == GVI_MASS_DENSE ? st->n + 1 : 1;
+    if (!in->lagrangian.plus || !in->turns) return GVI_OK;
+    for (int i = 0; i < st->n; ++i) {
+        const gvi_real *A = in->lagrangian.A + i*R, *V = in->work.V + i*R,
+                       level = *gvi__level(st, i);
+        gvi_real moves = 0, v = 0;
+        for (int k = 0; k < st->r; ++k) {
+            moves = gvi__larger(GVI_ABS(A[k] - level), moves);
+            v = gvi__larger(GVI_ABS(V[k]), v);
+        }
+        const gvi_real most = GVI__PLACE*GVI_ABS(in->mass.matrix[i*step])*v;
+        if (moves > most && moves > GVI__SURE*GVI__EPS*GVI_ABS(level))
+            return gvi__report_status(st, GVI_E_CONVERGENCE);
+    }
+
+    return GVI_OK;
+}
+
+// b A_i above the level
+static void gvi__above(const gvi_stepper *st, int i, gvi_real *out)
+{
+    const gvi_real *A = st->in.lagrangian.A + i*st->in.R, level = *gvi__level(st, i);
+    for (int k = 0; k < st->r; ++k) out[k] = st->in.table.b[k]*(A[k] - level);
+}
+
 // what A adds to the stages
 static void gvi__lagrangian_before(const gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
     const int n = st->n, R = in->R;
-    gvi_real *plus = in->lagrangian.plus, *weighted = in->lagrangian.plus + n*R;
+    gvi_real *plus = in->lagrangian.plus;
     if (!plus) return;
+    gvi_real *weighted = plus + n*R;               // what V gets is there first
     for (int i = 0; i < n; ++i)
-        gvi__weigh(R, in->table.b, in->lagrangian.A + i*R, weighted + i*R);
+        gvi__above(st, i, weighted + i*R);
     gvi__sums(st, in->lagrangian.T, weighted, plus, 0);
     for (int i = 0; i < n; ++i) {
-        gvi__weigh(R, in->table.b, in->lagrangian.A + i*R, in->weighted);
+        gvi__above(st, i, in->weighted);
         for (int k = 0; k < R; ++k)
             weighted[i*R + k] = gvi__point_sum(st->r, R, in->lagrangian.N + k, in->weighted);
     }
@@ -4427,7 +4655,10 @@ static void gvi__lagrangian_before(const gvi_stepper *st)
 static gvi_real gvi__lagrangian_bow(const gvi_stepper *st, int i)
 {
     const struct gvi__private *in = &st->in;
-    return gvi__dot(st->r, in->table.b, in->lagrangian.A + i*in->R);
+    gvi_real sum = 0;
+    gvi__above(st, i, in->weighted);
+    for (int k = 0; k < st->r; ++k) sum += in->weighted[k];
+    return sum;
 }
 #else
 #define gvi__check_hessian(st, at, v) GVI_OK
@@ -4454,6 +4685,7 @@ GVI__BODY int gvi__ldl_factor_lane(int n, int R, gvi_real *m)
     const gvi_real most = 1/((gvi_real)n*GVI__EPS);
     gvi__lane sum = { 0 };
     gvi_real all = 0;
+
     for (size_t j = 0; j < N; ++j) {
         gvi_real *d = m + (j*N + j)*S;
         gvi__lane rest = GVI__LOAD(d);
@@ -4471,6 +4703,7 @@ GVI__BODY int gvi__ldl_factor_lane(int n, int R, gvi_real *m)
             GVI__STORE(a) = rest*inverse;
         }
     }
+
     for (int k = 0; k < GVI__LANES; ++k) all += GVI__ENTRY(sum, k);
     return all < most*most;
 }
@@ -4499,6 +4732,7 @@ static gvi_status gvi__evaluate_mass(gvi_stepper *st, const gvi_points *x, const
     const gvi_mass *mass = &st->in.desc.mass;
     gvi_points at = gvi__points_at(st, x->count, x->stride, x->t, x->q, NULL, NULL);
     gvi_points_fn *callback = mass->velocity;
+
     at.p = p;
     at.velocity = v;
     if (!v) {
@@ -4506,6 +4740,7 @@ static gvi_status gvi__evaluate_mass(gvi_stepper *st, const gvi_points *x, const
         callback = mass->points;
         gvi__zero((size_t)(x->n*x->n)*(size_t)x->stride, at.mass);
     }
+
     gvi__count(&st->counters.mass, x->count);
     const int failed = callback(&at, mass->user);
     if (failed) return gvi__report_callback(st, failed, GVI_FAULT_MASS);
@@ -4519,6 +4754,7 @@ static gvi_status gvi__factor_mass(gvi_stepper *st, const gvi_points *x)
     const int n = st->n, R = x->stride;
     gvi_real *m = st->in.momenta.mass;
     gvi_status status = gvi__evaluate_mass(st, x, NULL, NULL);
+
     if (status != GVI_OK) return status;
     gvi__count(&st->counters.factorizations, x->count);
     if (GVI__LANES > 1 && R % 8 == 0) {
@@ -4533,6 +4769,7 @@ static gvi_status gvi__factor_mass(gvi_stepper *st, const gvi_points *x)
         st->counters.mass -= (unsigned long long)x->count;
         if (status != GVI_OK) return status;
     }
+
     int at[2] = { 0, 0 };
     status = gvi__ldl_factor(n, R, x->count, m, at);
     if (status == GVI_OK) return GVI_OK;
@@ -4665,16 +4902,19 @@ static void gvi__velocity_rows(const gvi_stepper *st)
     const int n = st->n, R = in->R;
     const gvi_real *P = in->momenta.P, *A = gvi__rows_of_A(in);
     gvi_real *V = in->work.V;
+
     if (A) {
         for (int k = 0; k < n*R; ++k) V[k] = P[k] - A[k];
         P = V;
     }
+
     if (GVI__LANES > 1 && R % 8 == 0 && in->momenta.mass) {
         for (int o = 0; o < R; o += GVI__LANES)
             if (n == 2) gvi__ldl_solve_lane(2, R, in->momenta.mass + o, P + o, V + o);
             else gvi__ldl_solve_lane(n, R, in->momenta.mass + o, P + o, V + o);
         return;
     }
+
     if (P != V) gvi__copy((size_t)(n*R), P, V);
     if (!in->momenta.mass) gvi__over_mass(st, V, R, st->r);
     else gvi__ldl_solve(n, in->momenta.mass, R, V, R, st->r);
@@ -4691,11 +4931,13 @@ static gvi_real gvi__velocities_again(gvi_stepper *st)
     const gvi_real *V = in->work.V + st->r - 1;
     gvi_real *was = in->momenta.was, sum = 0;
     // before the first evaluation Q, g and M(Q) are those of another step
+
     if (!in->momenta.has_factor && (clock || in->desc.mass.velocity || in->momenta.mass))
         return 0;
     if (made) gvi__gather(n, R, V, was);
     gvi__count(&st->counters.velocities, st->r);
     const gvi_points at = gvi__points_at(st, st->r, R, in->t, in->work.Q, NULL, NULL);
+
     // where that fails it does so again with the new Q
     if (in->desc.mass.velocity) (void)gvi__evaluate_mass(st, &at, in->momenta.P, in->work.V);
     else gvi__velocity_rows(st);
@@ -4705,6 +4947,7 @@ static gvi_real gvi__velocities_again(gvi_stepper *st)
         const gvi_real moved = V[i*R] - was[i], size = GVI_ABS(V[i*R]) + GVI_ABS(was[i]);
         if (size > GVI__NOTHING) sum += (moved/size)*(moved/size);
     }
+
     return (gvi_real)st->r*sum;
 }
 
@@ -4772,6 +5015,7 @@ static gvi_status gvi__rate(gvi_stepper *st, const gvi_points *x, gvi_real *rate
         if (GVI__LOOKS(st) && !gvi__finite(rate[k]))
             return gvi__report(st, GVI_E_NON_FINITE, st->in.time.effect, GVI_FAULT_NONE, k);
     }
+
     if (!GVI__LOOKS(st)) return GVI_OK;
     return gvi__check_rows(st, x, slope, st->in.time.effect);
 }
@@ -4822,6 +5066,7 @@ static gvi_status gvi__clock_evaluate(gvi_stepper *st, const gvi__origin *from, 
              *L = in->time.lagrangian, *noise = in->time.noise;
     gvi_real *const values[] = { level, NULL, L };         // by kind
     gvi_status status = gvi__effects(st, y, ~forces, NULL);
+
     gvi__zero((size_t)R, power);
     for (int i = 0; i < n; ++i)
         for (int k = 0; k < r; ++k) power[k] += w->F[i*R + k]*w->V[i*R + k];
@@ -4838,10 +5083,12 @@ static gvi_status gvi__clock_evaluate(gvi_stepper *st, const gvi__origin *from, 
         level[k] -= L[k] + E;
         power[k] *= g[k];
     }
+
     if (forces & ~in->off) {
         gvi__time_sums(st, power, L);
         for (int k = 0; k < R; ++k) level[k] -= L[k];
     }
+
     for (int i = 0; i < n; ++i)
         for (int k = 0; k < R; ++k) {
             const int at = i*R + k;
@@ -4865,6 +5112,7 @@ static gvi_status gvi__clock_evaluate(gvi_stepper *st, const gvi__origin *from, 
             F[k] -= slope[k]*gvi__sure_level(level[k], none, slope[k], largest);
         }
     }
+
     gvi__time_sums(st, g, L);
     for (int k = 0; k < R; ++k) in->t[k] = from->t + (from->t_low + L[k]);
     return GVI_OK;
@@ -4894,6 +5142,7 @@ GVI__COLD gvi_status gvi__clock_energy(gvi_stepper *st, gvi_real t, const gvi_re
         if (gvi__value(st, &at, e, &then) == GVI_OK && gvi__nonzero(then - now))
             return gvi__report_effect(st, GVI_E_FORMULATION, e);
     }
+
     return gvi__report_status(st, GVI_OK);
 }
 
@@ -4938,6 +5187,7 @@ GVI__COLD gvi_status gvi__clock_switch(gvi_stepper *st, unsigned was)
         in->off = was;
         return status;
     }
+
     in->time.H = E;
     in->time.H_low = 0;
     in->time.began = E0;
@@ -5058,11 +5308,13 @@ GVI__BODY void gvi__drift(gvi_stepper *st, const gvi__origin *from, const gvi_re
     gvi_real *GVI__RESTRICT F = in->work.F, *GVI__RESTRICT Q = in->work.Q;
     gvi_real *GVI__RESTRICT dp = in->step.p, *GVI__RESTRICT dq = in->step.q, *z = in->answer;
     const gvi_real *p0 = dp, *q0 = dq, *f = F;
+
     if (first) {
         p0 = from->p_low;
         q0 = from->q_low;
         f = first;
     }
+
     const int n = st->n;
     if (in->desc.mass.kind == GVI_MASS_DENSE) {
         for (int i = 0; i < n; ++i) z[i] = dp[i] = p0[i] + b*f[i];
@@ -5074,6 +5326,7 @@ GVI__BODY void gvi__drift(gvi_stepper *st, const gvi__origin *from, const gvi_re
         }
         return;
     }
+
     GVI__ALONG(n,
         const gvi__number p = GVI__AT(p0) + b*GVI__AT(f), none = { 0 };
         const gvi__number d = GVI__AT(q0) + a*(GVI__AT(v) + p*GVI__AT(m));
@@ -5097,6 +5350,7 @@ static gvi_status gvi__kick(gvi_stepper *st, const gvi__origin *from, gvi_real h
     struct gvi__private *in = &st->in;
     const int n = st->n, r = st->r, known = force && gvi__nonzero(in->sized.hb[0]);
     const gvi_real *hb = in->sized.hb, *v = in->free.v;
+
     if (in->desc.mass.kind == GVI_MASS_UNIT) v = from->p;
     gvi_real t = from->t, b = 0;
     gvi_points at = gvi__points_at(st, 1, 1, &t, in->work.Q, in->work.F, NULL);
@@ -5104,6 +5358,7 @@ static gvi_status gvi__kick(gvi_stepper *st, const gvi__origin *from, gvi_real h
         gvi__copy((size_t)n, from->p, in->free.v);
         gvi__over_mass(st, in->free.v, 1, 1);
     }
+
     if (known) b = hb[0];
     for (int j = known; j < r; ++j) {
         if (j == known) gvi__drift(st, from, v, known ? force : in->zeros, b, in->kicks.drift[j]);
@@ -5171,6 +5426,7 @@ static int gvi__kick_steps(gvi_stepper *st, gvi_real h, int count)
     const gvi__origin from = { 0, 0, st->q, st->q_low, st->p, st->p_low };
     gvi_real t0 = st->t0;
     int made = 0;
+
     if (in->apart) return 0;                       // constraints
     gvi__weights_for(st, h);
     gvi__drifts_for(st, h);
@@ -5189,6 +5445,7 @@ static int gvi__kick_steps(gvi_stepper *st, gvi_real h, int count)
         st->t = t.hi;
         st->t_low = t.lo;
     }
+
     if (made == 0) return 0;
     st->t0 = t0;
     st->h = in->dt = h;
@@ -5312,6 +5569,7 @@ static gvi_status gvi__newton_values(gvi_stepper *st, const gvi__origin *from)
         }
         for (int j = 0; j < R; ++j) Q[j] = from->q[i] + (from->q_low[i] + in->sized.h*Q[j]);
     }
+
     gvi__count(&st->counters.velocities, st->r);
     gvi_points at = gvi__points_at(st, st->r, R, in->t, in->work.Q, in->work.F, in->newton.P);
     at.v = in->work.V;
@@ -5330,6 +5588,7 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, 
               held = gvi__held(st) > 0;
     const gvi_real h = in->sized.h;
     gvi_real norm = 0, moved = 0, before = 0;
+
     p->work = 0;
     for (int i = 0; i < n; ++i) {
         const gvi_real *P = in->newton.P + i*R, *F = in->work.F + i*R;
@@ -5361,6 +5620,7 @@ static gvi_real gvi__residual(gvi_stepper *st, const gvi__origin *from, int k0, 
         moved += change*in->watch.scale[i];
         before += was*in->watch.scale[i];
     }
+
     if (held) norm += gvi__held_residual(st, p, &moved, &before);
     p->holds = p->work <= GVI__SOLVED*GVI__EPS || (!first && moved >= before/2);
     return norm;
@@ -5375,11 +5635,13 @@ static void gvi__add_derivative(const gvi_stepper *st, const gvi__matrix *J, int
     const size_t size = gvi__unknowns(st, k0);
     const gvi_real *phi = in->table.phi + point, *Phi = in->table.Phi + point, *u = phi;
     gvi_real unit = 1;
+
     if (f <= 0 && f >= 0 && p <= 0 && p >= 0) return;
     if (!by_v) {
         u = Phi;
         unit = in->sized.h;
     }
+
     for (int k = k0; k < s; ++k) {
         const gvi_real W = (k == 0 ? 1 : 0) - Phi[k*R];
         const gvi_real a = (gvi_real)(2*k + 1)
@@ -5410,6 +5672,7 @@ static gvi_status gvi__jacobian_exact(gvi_stepper *st, const gvi__matrix *J)
     const int n = st->n, R = in->R;
     const size_t nn = (size_t)n*(size_t)n;
     gvi_real *fq = in->newton.hessian, *fv = fq + nn, *pv = fv + nn, *q = in->point, *v = q + n;
+
     for (int k = 0; k < st->r; ++k) {
         gvi__gather(n, R, in->work.Q + k, q);
         gvi__gather(n, R, in->work.V + k, v);
@@ -5438,6 +5701,7 @@ static gvi_status gvi__jacobian_exact(gvi_stepper *st, const gvi__matrix *J)
                 }
         }
     }
+
     return GVI_OK;
 }
 
@@ -5494,9 +5758,11 @@ static gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matrix *
     const unsigned plain = gvi__with_hessian(in, 0);
     const int reads_v = varies || (plain & ~gvi__of_kind(in, GVI_POTENTIAL)) != 0;
     gvi_real *F = in->newton.moved, *P = F + nR, *base_F = P + nR, *base_P = base_F + nR;
+
     if (!varies && !plain) return GVI_OK;
     gvi_status status = gvi__evaluate_plain(st, base_F);
     if (status != GVI_OK) return status;
+
     // of each coordinate q, then v
     for (int k = 0; k < 2*n; k += 2 - reads_v) {
         const int j = k/2, by_v = k % 2;
@@ -5514,6 +5780,7 @@ static gvi_status gvi__jacobian_differences(gvi_stepper *st, const gvi__matrix *
         gvi__copy((size_t)R, was, row);
         if (status != GVI_OK) return status;
     }
+
     return GVI_OK;
 }
 
@@ -5547,6 +5814,7 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J)
     const int n = st->n, size = (int)gvi__unknowns(st, J->k0), modes = (st->s - J->k0)*n;
     int at;
     gvi_status status = gvi__jacobian_fill(st, J);
+
     if (status != GVI_OK) return status;
     for (int row = 0; row < J->scaled*size; ++row) {
         gvi_real *a = J->square + (size_t)row*(size_t)size,
@@ -5559,6 +5827,7 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J)
         for (int j = 0; j < size; ++j) a[j] /= big;
         for (int j = 0; j < 2*n; ++j) ends[j] /= big;
     }
+
     // columns of multipliers that would hide the modes': in units that make them as large
     for (int z = modes; z < size; ++z) {
         gvi_real column = 0, diagonal = 0;
@@ -5572,6 +5841,7 @@ static gvi_status gvi__jacobian(gvi_stepper *st, const gvi__matrix *J)
         for (int i = 0; i < size; ++i)
             J->square[(size_t)i*(size_t)size + (size_t)z] *= J->unit[z - modes];
     }
+
     status = gvi__lu_factor(size, J->square, J->pivot, &at);
     gvi__count(&st->counters.factorizations, 1);
     if (status == GVI_OK) return GVI_OK;
@@ -5620,6 +5890,7 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
               sure = p->holds || p->rho < GVI__CONTRACTS;
     const gvi_real h = GVI_ABS(in->sized.h), none = GVI__MIN/GVI__EPS;
     gvi_real sum = 0, largest = 0, noise = 0, all = 0, length = 0;
+
     p->work = 0;
     for (int i = 0; i < n; ++i) {
         gvi_real change = 0, size = 0, miss = 0;
@@ -5645,10 +5916,12 @@ static gvi_real gvi__newton_update(gvi_stepper *st, const gvi__origin *from, con
         const gvi_real moved = change/unit > miss*unit ? change/unit : miss*unit;
         if (!(h*change <= GVI__PLACE*GVI__EPS*q) && h*moved > noise) noise = h*moved;
     }
+
     for (size_t k = (size_t)(st->s*n); k < gvi__unknowns(st, 0); ++k) {   // multipliers
         in->newton.last[k] = in->newton.y[k];
         in->newton.y[k] += in->newton.dy[k];
     }
+
     // see gvi__noise
     const gvi_real place = p->stagnant > 1 ? GVI__NOISE*GVI__EPS*largest : 0;
     if ((noise <= place && sure) || solved) p->work = -1;
@@ -5705,6 +5978,7 @@ static int gvi__newton_converged(gvi_stepper *st, const gvi__matrix *J, gvi__des
                    noise = GVI__GRAIN*p->grain*(gvi_real)((st->s - J->k0)*st->n),
                    enough = gvi__larger(st->in.desc.tolerance, GVI__NEWTON_ENOUGH);
     gvi_real ratio = 1, other = 1;
+
     if (!gvi__finite(change)) return GVI__NOT_FINITE;
     if (p->before > 0) ratio = change/gvi__smaller(p->before, all);
     if (p->earlier > 0) other = p->before/gvi__smaller(p->earlier, all);
@@ -5743,12 +6017,14 @@ static int gvi__newton_stays(gvi_stepper *st, const gvi__matrix *J, gvi__descent
         gvi__count(&st->counters.newton_iterations, 1);
         return 0;
     }
+
     if (p->halves > 0) p->have = 0;                // another place: another matrix
     if (rests && norm/16 > p->norm) {
         p->before = 0;
         p->least = p->left = GVI__MAX;
         p->rho = GVI__CONTRACTS;
     }
+
     if (!(p->left < GVI__MAX)) p->norm = norm;
     return 1;
 }
@@ -5762,6 +6038,7 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
               kept = J->pivot == in->newton.pivot;
     gvi__descent p = {
         0, 0, GVI__MAX, GVI__CONTRACTS, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0, -1, 0
+
     };
     p.have = kept && !gvi__nonzero(in->newton.h - in->sized.h);
     in->newton.bend = 0;
@@ -5792,6 +6069,7 @@ static gvi_status gvi__newton_solve(gvi_stepper *st, const gvi__origin *from, co
             return gvi__report_status(st, GVI__LOOKS(st) ? GVI_E_CONVERGENCE : GVI_E_NON_FINITE);
         p.halves = 0;
     }
+
     return gvi__report_status(st, GVI_E_CONVERGENCE);
 }
 
@@ -5840,6 +6118,7 @@ static gvi_real gvi__newton_apart(const gvi_stepper *st, const gvi_real *other)
         }
         most = gvi__larger(size[i], most);
     }
+
     if (!(most > 0)) return 0;
     for (int i = 0; i < st->n; ++i)
         if (!(moved[i]/(size[i] + most/64) <= apart)) apart = moved[i]/(size[i] + most/64);
@@ -5864,6 +6143,7 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
     // that of queries
     gvi__matrix K = { newton->J + all*all, newton->pivot + all + 1, NULL, 0, 0, 0,
                       newton->unit };
+
     if (K.unit) K.unit += all - modes;
     gvi_real part = 1, factor = (gvi_real)0.5;
     int right = -1;                                                  // not known
@@ -5897,6 +6177,7 @@ static gvi_status gvi__newton_connected(gvi_stepper *st, const gvi__origin *from
         if ((other && newton->bend <= close) || part < 1/(gvi_real)GVI__SHORT)
             right = !other || gvi__newton_apart(st, newton->branch) <= close;
     }
+
     gvi__newton_points(st, from, h);
     gvi__copy(all, newton->found, newton->y);
     return right ? gvi__newton_values(st, from) : gvi__report_status(st, GVI_E_CONVERGENCE);
@@ -5914,7 +6195,9 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
     gvi__matrix J = { in->newton.J + (query ? all*all : 0),
                       in->newton.pivot + (query ? all + 1 : 0),
                       NULL, 0, 0, how == GVI__HALVED, in->newton.unit };
+
     if (query && J.unit) J.unit += all - (size_t)(st->s*st->n);
+
     // few points see little of what is between
     const gvi_real far = st->s > 2 ? GVI__CONTRACTS : GVI__LINEAR;
     int old = !query && !gvi__nonzero(in->newton.h - in->sized.h);
@@ -5930,13 +6213,16 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
         in->newton.h = 0;                          // that may be the old matrix's fault
         old = 0;
     }
+
     if (status == GVI_OK
         && (J.halves || in->newton.bend > far || gvi__orientation(&J, all) < 0)) {
         J.halves = 0;
         status = gvi__newton_connected(st, from, &J);
     }
+
     if (status == GVI_OK && gvi__held(st) > 0) status = gvi__held_end(st);
     if (status != GVI_OK) return status;
+
     // it made none to go on from
     if (gvi__rows_of_A(in)) gvi__zero((size_t)(st->n*in->R), gvi__rows_of_A(in));
     for (int i = 0; i < st->n; ++i) {
@@ -5944,6 +6230,7 @@ static gvi_status gvi__newton_step(gvi_stepper *st, const gvi__origin *from, int
         in->step.q[i] = q.hi;
         in->step.q_low[i] = gvi__low(q.lo + from->q_low[i]);
     }
+
     gvi__sum_rows(st, in->work.F, from->p_low, in->step.p, in->step.p_low);
     if (gvi__held(st) > 0) gvi__held_impulse(st);
     return GVI_OK;
@@ -5968,12 +6255,14 @@ GVI__COLD void gvi__newton_layout(struct gvi__private *in, int held, gvi__arena 
     gvi_real **const unknowns[] = {
         &newton->y, &newton->dy, &newton->residual, &newton->last,
         &newton->found, &newton->branch, &newton->guess, &newton->slope
+
     };
     if (in->stages == 1) {                        // V, from the modes
         in->work.V = gvi__take(a, n, R);
         in->last.V = gvi__take(a, n, R);
         in->older.V = gvi__take(a, (in->desc.rule.points < 10 && GVI__DIG > 24)*n, R);
     }
+
     newton->P = gvi__take(a, n, R);
     newton->moved = gvi__take(a, 4*n, R);
     newton->hessian = gvi__take(a, 3*n, n);
@@ -5991,6 +6280,7 @@ static gvi_status gvi__by_newton(gvi_stepper *st, const gvi__origin *from, gvi_r
     const unsigned count = (unsigned)st->counters.newton_iterations;
     const int usable = in->kept > 0 && h/st->h > -GVI__BACK && h/st->h < GVI__AHEAD,
               extrapolated = usable && in->has_velocity;
+
     st->formulation = GVI_NEWTON;
     gvi__newton_points(st, from, h);
     if (usable) gvi__prepare_predictor(st, h, query, 1);
@@ -6002,6 +6292,7 @@ static gvi_status gvi__by_newton(gvi_stepper *st, const gvi__origin *from, gvi_r
         if (!query) in->newton.h = 0;              // the extrapolation may be to blame
         status = gvi__newton_step(st, from, GVI__HALVED, query);
     }
+
     in->watch.found = in->watch.ratio;
     if (!query) st->iterations += (int)((unsigned)st->counters.newton_iterations - count);
     return status;
@@ -6036,7 +6327,7 @@ static gvi_status gvi__newton_turn(gvi_stepper *st, const gvi__origin *from, gvi
     return gvi__by_newton(st, from, h, query);
 }
 
-// is it to be asked in the next step?
+// is it evaluated in the next step?
 static void gvi__newton_listen(struct gvi__private *in)
 {
     in->parts &= ~(unsigned)GVI__IN_NEWTON;
@@ -6095,6 +6386,10 @@ static int gvi__full_mass(const struct gvi__private *in)
 
 static unsigned gvi__constraints_on(const gvi_stepper *st) { return st->in.con.bits & ~st->in.off; }
 
+// ROLLING plugs in here: does a row roll?  Its residual in place of g(D)
+static int gvi__rolls(const gvi_stepper *st) { return st->in.rolling.bits != 0; }
+static gvi_status gvi__rolling_values(gvi_stepper *st);
+
 static int gvi__count_rows(const struct gvi__private *in, unsigned bits)
 {
     int rows = 0;
@@ -6137,6 +6432,7 @@ static gvi_status gvi__evaluate_constraints(gvi_stepper *st, int S, int count, c
     at.rate = at.g + st->in.con.m*S;
     at.jacobian = G;
     gvi__zero((size_t)(st->in.con.m*S), at.rate);
+    if (gvi__rolls(st)) gvi__zero((size_t)(st->in.con.m*S), at.g);
     for (int a = 0; a < st->in.con.m; ++a)
         for (int i = gvi__column(st, a, 0), to; i < st->n; i = gvi__column(st, a, to)) {
             for (to = i + 1; gvi__column(st, a, to) == to && to < st->n; ++to) { }
@@ -6167,6 +6463,7 @@ static gvi_status gvi__evaluate_constraints(gvi_stepper *st, int S, int count, c
         at.rate += effect->rows*S;
         at.jacobian += effect->rows*st->n*S;
     }
+
     return GVI_OK;
 }
 
@@ -6199,6 +6496,7 @@ static int gvi__find_columns(gvi_stepper *st, int S, int count, const gvi_real *
     const int n = st->n, m = in->con.m;
     gvi_real *const top = in->point;
     int grown = 0;
+
     for (int a = 0; a < m; ++a) {
         gvi_real *column = in->con.column + a*(n + 1);
         const gvi_real *row = G + (size_t)(a*n)*(size_t)S;
@@ -6209,6 +6507,7 @@ static int gvi__find_columns(gvi_stepper *st, int S, int count, const gvi_real *
             grown = 1;
         }
     }
+
     if (!grown) return 0;
     for (int i = 0; i < n; ++i) top[i] = (gvi_real)m;
     for (int a = 0; a < m; ++a) {
@@ -6219,6 +6518,7 @@ static int gvi__find_columns(gvi_stepper *st, int S, int count, const gvi_real *
         }
         in->con.first[a] = first;
     }
+
     return 1;
 }
 
@@ -6231,11 +6531,23 @@ static gvi_real gvi__row_dot(const gvi_stepper *st, const gvi_real *G, int a, co
     return sum;
 }
 
+/* What the rounding of row j adds to that of row i's pivot: l_ij^2 G_j M^-1 G_j'                */
+static gvi_real gvi__share(const gvi_stepper *st, int S, int i, int j, const gvi_real *A)
+{
+    const int m = st->in.con.m;
+    const gvi_real l = A[(i*m + j)*S], inverse = A[(j*m + j)*S];
+    if (!gvi__nonzero(inverse)) return 0;
+    gvi_real entry = 1/inverse;
+    for (int k = (int)st->in.con.first[j]; k < j; ++k) entry += A[(j*m + k)*S]*A[(k*m + j)*S];
+    return l*l*entry;
+}
+
 /* A := L D L' of G M^-1 G' in its envelope, L below the diagonal, 1/D on it and D L' above it; M(q)
-   is that of the stage values, one for one, or of the one point.  A pivot of 64 m roundings says
-   that a row depends on those before it.  At the first point it is then left out: 1/D and its L
-   are 0, and so is its multiplier; drops[a] is what the diagonal entry was, or 0 for a row that is
-   kept.  At the other points the same rows are left out, and the rest has to have full rank.    */
+   is that of the stage values, one for one, or of the one point.  A pivot of 64 m roundings, its
+   own and those of the rows that it is made of, says that the row depends on those before it.  At
+   the first point it is then left out: 1/D and its L are 0, and so is its multiplier; drops[a] is
+   what the diagonal entry was, or 0 for a row that is kept.  At the other points the same rows are
+   left out, and the rest has to have full rank.                                               */
 static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, const gvi_real *G,
                                           gvi_real *A, gvi_real *drops)
 {
@@ -6243,6 +6555,7 @@ static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, con
     const int n = st->n, m = in->con.m, full = gvi__full_mass(in);
     const gvi_real *first = in->con.first, least = GVI__GRAIN*(gvi_real)m*GVI__EPS;
     gvi_real *W = in->con.W;
+
     gvi__zero((size_t)(n*S), W);
     for (int i = 0; i < m; ++i) {
         const int from = (int)first[i];
@@ -6268,13 +6581,15 @@ static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, con
             for (int k = 0; k < count; ++k) W[j*S + k] = 0;
         for (int k = 0; k < count; ++k) {
             const gvi_real was = GVI_ABS(d[k]);
-            gvi_real rest = d[k];
+            gvi_real rest = d[k], size = was;
             for (int j = from; j < i; ++j) {
                 const gvi_real u = A[(j*m + i)*S + k], l = u*A[(j*m + j)*S + k];
                 A[(i*m + j)*S + k] = l;
                 rest -= l*u;
             }
-            const int depends = !(GVI_ABS(rest) > least*was);
+            if (GVI_ABS(rest) < GVI_SQRT(GVI__EPS)*was)
+                for (int j = from; j < i; ++j) size += gvi__share(st, S, i, j, A + k);
+            const int depends = !(GVI_ABS(rest) > least*size);
             if (!(was <= GVI__MAX) || !gvi__finite(rest))
                 return gvi__report_status(st, GVI_E_NON_FINITE);
             if (k == 0) drops[i] = depends ? was : 0;
@@ -6283,6 +6598,7 @@ static gvi_status gvi__factor_constraints(gvi_stepper *st, int S, int count, con
                 return gvi__report_row(st, GVI_E_SINGULAR, i, k);
         }
     }
+
     return GVI_OK;
 }
 
@@ -6361,13 +6677,14 @@ GVI__CALLED void gvi__constraint_stages(gvi_stepper *st, const gvi__origin *from
     if (!gvi__constrained(st)) return;
     gvi__constraint_points(st, from, h);
     for (int k = 0; k < in->stages - Q; ++k) stage[k].plus = in->con.plus + k*n*R;
-    if (in->stages == 2) {
+    if (in->stages == 2 && !gvi__rolls(st)) {
         gvi__stage *y = stage + !Q;
         y->quiet = 1;
         gvi__zero((size_t)n, y->scale);
         gvi__zero((size_t)n, y->change);
         gvi__zero((size_t)n, in->watch.before + !Q*n);
     }
+
     for (int i = 0; i < n; ++i)                   // the path is in V, where Q is made of that
         gvi__free_row(R, from->q_low[i], Q ? 0 : in->free.path[i], Q ? 0 : in->free.path_low[i],
                       in->con.d + 1, in->con.free + i*R);
@@ -6431,6 +6748,7 @@ static gvi_status gvi__evaluate_at_D(gvi_stepper *st, const gvi__origin *from)
     const int linear = in->con.linear, rows = st->formulation != GVI_NEWTON ? m : 0;
     const gvi_real *G = in->con.G + 1, *moved = in->con.W;
     gvi_real *along = in->con.rho + m*R;
+
     for (int i = 0; i < n; ++i)
         for (int k = 0; k < C; ++k) {
             gvi_real *at = in->con.at + i*C + k;
@@ -6444,6 +6762,7 @@ static gvi_status gvi__evaluate_at_D(gvi_stepper *st, const gvi__origin *from)
             gvi__subtract_at(C, s, G + (a*n + i)*C, moved + i*C, along + a*C);
         for (int k = 0; k < s; ++k) in->con.rho[a*R + k] = in->con.g[a*C + k + 1] + along[a*C + k];
     }
+
     const gvi_status status =
         gvi__evaluate_constraints(st, C, s + 1, in->con.t, in->con.at, in->con.G);
     if (!in->con.settled && gvi__find_columns(st, C, s + 1, in->con.G)) in->con.made = 0;
@@ -6460,8 +6779,9 @@ static gvi_status gvi__evaluate_at_D(gvi_stepper *st, const gvi__origin *from)
         }
         if (linear) gvi__copy((size_t)s, in->con.rho + a*R, in->con.g + a*C + 1);
     }
+
     in->con.made += 1;
-    return status;
+    return status == GVI_OK && gvi__rolls(st) ? gvi__rolling_values(st) : status;
 }
 
 // the same, and A in the first iteration
@@ -6480,6 +6800,7 @@ static void gvi__trial_velocities(gvi_stepper *st, const gvi__stage *stage)
     struct gvi__private *in = &st->in;
     const int n = st->n, R = in->R;
     gvi_real *const P = in->momenta.P, *trial = in->con.P, *scratch = in->con.plus;
+
     gvi__weighted_sums(st, stage->table, in->sized.hb, stage->source, scratch, trial, 0);
     gvi__weighted_sums(st, in->con.U, in->con.hw, in->con.force, scratch, trial, 1);
     for (int i = 0; i < n; ++i)
@@ -6498,6 +6819,7 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *stage, const 
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m, s = st->s, R = in->R, C = in->con.C;
     gvi_real *lambda = in->con.force + n*R, *rho = in->con.rho, *moved = in->con.W;
+
     gvi__constraint_forces(st);
     if (in->con.Q > 0) gvi__trial_velocities(st, stage);
     gvi__constraint_rows(st, stage);
@@ -6506,6 +6828,7 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *stage, const 
         const gvi_real *at = in->con.at + i*C + 1, *D = in->con.D + i*R;
         for (int e = 0; e < s; ++e) z[e] = (at[e] - q0[i]) - D[e];
     }
+
     gvi__zero((size_t)(m*R), rho);
     for (int a = 0; a < m; ++a) {
         gvi_real *g = rho + m*R + a*C;             // gvi__constraints_moved reads it
@@ -6514,6 +6837,7 @@ GVI__CALLED void gvi__constrain(gvi_stepper *st, const gvi__stage *stage, const 
             gvi__subtract_at(C, s, in->con.G + (a*n + i)*C + 1, moved + i*C, g);
         for (int b = 0; b < s; ++b) gvi__subtract_row((size_t)R, -g[b], in->con.X + b*R, rho + a*R);
     }
+
     gvi__solve_constraints(st, in->con.gram, C, s, rho, R);
     for (int a = 0; a < m; ++a)
         for (int e = 0; e < s; ++e) lambda[a*R + e] += rho[a*R + e]/(in->sized.h*in->con.hw[e]);
@@ -6598,6 +6922,13 @@ GVI__CALLED int gvi__constraint_judge(const gvi_stepper *st, const gvi__progress
     if (!(D > 16*p->least && D > grain)) return GVI__GO_ON;
     for (int k = 0; k < st->s*m; ++k) loss = gvi__larger(gvi__loss(st, k % m, k/m), loss);
     return loss > GVI__LOST - 1 && D > grain*loss*loss*loss ? GVI__DIVERGES : GVI__GO_ON;
+}
+
+/* The rounding of g is in every D.  A light coordinate under rows that roll: the rounding of others
+   hides most of each correction, and what it does to this one fades slowly, far below it.     */
+static int gvi__patience(const gvi_stepper *st, const gvi__progress *p)
+{
+    return gvi__rolls(st) && p->used > 8 ? -1 : 0;
 }
 
 /* A move of coordinate i that is rounding, whatever its amplitude: of a force of constraint, 32 eps
@@ -6718,8 +7049,8 @@ GVI__CALLED gvi_status gvi__constrained_drift(gvi_stepper *st, const gvi__origin
 
 /* Is each g_a within 4096 roundings, of its known terms or as measured?  To measure, take 1/4096 of
    Newton's correction, forwards and back, and less: if g_a follows both, to a quarter of the
-   change that G tells, its rounding is below that change, and g_a is none.  What is left of a
-   row that is left out may be a contradiction, which no move shows.                           */
+   change that G at both ends tells, its rounding is below that, and g_a is none.  What is left of
+   a row that is left out may be a contradiction, which no move shows.                         */
 GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real *q,
                                     const gvi_real *p, gvi_real *v)
 {
@@ -6728,6 +7059,7 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
     gvi_real *g = in->con.g, *was = in->con.rho, *doubt = was + m, *ahead = in->con.y,
              *d = in->con.W, *next = d + n, *G = in->con.G1;
     int off = -1, refused = -1;
+
     for (int a = 0; a < m; ++a) {
         const gvi_real rounding = GVI__EPS*gvi__terms(st, 1, t, q, G, g + m, a);
         was[a] = g[a];
@@ -6736,6 +7068,7 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
         if (doubt[a] > 0) off = a;
         if (doubt[a] > 0 && in->con.drops[m + a] > 0) refused = a;
     }
+
     if (off < 0) return GVI_OK;
     gvi__solve_constraints(st, in->con.gram1, 1, 1, ahead, 1);
     gvi__zero((size_t)n, d);
@@ -6751,15 +7084,39 @@ GVI__COLD gvi_status gvi__fulfilled(gvi_stepper *st, gvi_real t, const gvi_real 
         if (gvi__evaluate_constraints(st, 1, 1, &t, next, G + m*n) != GVI_OK) continue;
         gvi__add_scaled(n, -1, q, next, next);     // as rounded
         for (int a = 0; a < m; ++a) {
-            const gvi_real told = gvi__row_dot(st, G, a, next);
-            const int follows = gvi__nonzero(told)
-                                && GVI_ABS((g[a] - was[a]) - told) <= GVI_ABS(told)/4;
+            const gvi_real predicted =
+                (gvi__row_dot(st, G, a, next) + gvi__row_dot(st, G + m*n, a, next))/2;
+            const int follows = gvi__nonzero(predicted)
+                                && GVI_ABS((g[a] - was[a]) - predicted) <= GVI_ABS(predicted)/4;
             if (follows && ahead[a] > 0 && doubt[a] > 0) refused = a;
             ahead[a] = (gvi_real)follows;
         }
     }
+
     return refused < 0 ? gvi__constraints_at(st, t, q, p, v, in->con.drops + m)
                        : gvi__report_row(st, GVI_E_CONSTRAINT, refused, GVI_FAULT_NONE);
+}
+
+/* A row of which the rows before it leave less than half of the digits, and more than rounding, is
+   about to depend on them: the rank changes, a change point of a linkage.  Its multiplier is noise
+   over what is left, more of it the shorter a step is, so no h mends it.  Rows that were that near
+   where the motion started may stay so.  From gram1; `margin`: where a step has failed, that much
+   earlier; 0: a start, to be remembered.                                                      */
+GVI__CALLED gvi_status gvi__check_rank(gvi_stepper *st, int margin)
+{
+    const int m = st->in.con.m;
+    const gvi_real *A = st->in.con.gram1, root = GVI_SQRT(GVI__EPS)*(gvi_real)margin;
+    gvi_real most = 0;
+    if (margin > 0) most = gvi__larger(1/root, GVI__FADES*st->in.con.near_start);
+    for (int a = 0; a < m; ++a) {
+        gvi_real lost = 0;
+        for (int l = (int)st->in.con.first[a]; l < a; ++l) lost += A[a*m + l]*A[l*m + a];
+        if (!(lost*A[a*m + a] > most)) continue;
+        if (margin > 0) return gvi__report_row(st, GVI_E_SINGULAR, a, GVI_FAULT_NONE);
+        most = lost*A[a*m + a];
+    }
+    if (margin == 0) st->in.con.near_start = most;
+    return GVI_OK;
 }
 
 /* step.p += G' y such that G v + dg/dt = 0 at the end: once, and once more for the rounding of
@@ -6773,10 +7130,14 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
     gvi_real *q = in->answer, *p = q + n, *v = p + n, *r = in->con.g, *z = in->con.rho,
              *drops = in->con.drops + m, energy = 0, size = 0, before = GVI__MAX;
     int redundant = 0;
+
     for (int i = 0; i < n; ++i) {
-        q[i] = from->q[i] + (in->step.q[i] + in->step.q_low[i]);
+        // rounded as the commit will: A v is to be 0 there
+        const gvi__two end = gvi__add_low(from->q[i], 0, in->step.q[i], in->step.q_low[i]);
+        q[i] = end.hi + end.lo;
         p[i] = from->p[i] + (in->step.p[i] + in->step.p_low[i]);
     }
+
     gvi__velocity_guess(st, v);
     if (start) GVI__LOOK(st, 1);
     gvi_status status = gvi__constraints_at(st, t, q, p, v, drops);
@@ -6786,6 +7147,8 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
         if (!start && status == GVI_OK && (drops[a] > 0) != (in->con.drops[a] > 0))
             status = gvi__report_row(st, GVI_E_SINGULAR, a, GVI_FAULT_NONE);
     }
+
+    if (status == GVI_OK) status = gvi__check_rank(st, !start);
     if ((start || redundant) && status == GVI_OK) status = gvi__fulfilled(st, t, q, p, v);
     if (status != GVI_OK) return status;
     gvi__zero((size_t)m, in->con.y);
@@ -6815,8 +7178,10 @@ GVI__CALLED gvi_status gvi__project(gvi_stepper *st, const gvi__origin *from, in
         if (pass > 0 && !(size < before/4)) break;
         before = size;
     }
+
     if (passes > 2 && !(size <= far*far*energy))
         return gvi__report_status(st, GVI_E_CONVERGENCE);
+
     // rows that are left out had no part in this; later their g shows what is wrong
     if (!start) return GVI_OK;
     for (int a = 0; a < m; ++a)
@@ -6859,6 +7224,7 @@ GVI__COLD gvi_status gvi__check_derivatives(gvi_stepper *st, gvi_real t, const g
     gvi_real *g = in->con.g, *G = in->con.G1, *at = in->con.W, *from = at + n, *was = in->con.rho,
              *rate = was + m, *mean = rate + m, *ahead = in->con.y, largest = 0, from_t = t;
     gvi_status status = GVI_OK;
+
     for (int i = 0; i < n; ++i) largest = gvi__larger(GVI_ABS(q[i]), largest);
     for (gvi_real part = 1/(gvi_real)64; ; part = 0) {           // at the state, if not next to it
         from_t = t + part*gvi__size_of(t, 1);
@@ -6867,6 +7233,7 @@ GVI__COLD gvi_status gvi__check_derivatives(gvi_stepper *st, gvi_real t, const g
         status = gvi__evaluate_constraints(st, 1, 1, &from_t, from, G);
         if (!(part > 0) || (status == GVI_OK && gvi__first_non_finite(m, g) < 0)) break;
     }
+
     (void)gvi__find_columns(st, 1, 1, G);
     gvi__copy((size_t)m, g, was);
     gvi__copy((size_t)m, g + m, rate);
@@ -6912,6 +7279,7 @@ GVI__COLD gvi_status gvi__check_derivatives(gvi_stepper *st, gvi_real t, const g
         *moved = x;
         status = GVI_OK;
     }
+
     st->counters = counters;
     gvi__forget_columns(st);
     return gvi__report_status(st, GVI_OK);
@@ -6924,6 +7292,7 @@ GVI__COLD gvi_status gvi__project_start(gvi_stepper *st, gvi_real t, const gvi_r
     struct gvi__private *in = &st->in;
     const gvi__origin from = { t, 0, in->zeros, in->zeros, in->zeros, in->zeros };
     const size_t n = (size_t)st->n;
+
     if (q != in->step.q) gvi__copy(n, q, in->step.q);
     if (p != in->step.p) gvi__copy(n, p, in->step.p);
     gvi__zero(n, in->step.q_low);
@@ -6933,6 +7302,7 @@ GVI__COLD gvi_status gvi__project_start(gvi_stepper *st, gvi_real t, const gvi_r
         const gvi_status status = gvi__check_derivatives(st, t, in->step.q);
         if (status != GVI_OK) return status;
     }
+
     const gvi_status status = gvi__project(st, &from, 1);
     if (status == GVI_OK) in->con.checked |= gvi__constraints_on(st);
     return status;
@@ -7002,6 +7372,7 @@ GVI__COLD gvi_status gvi__set_constraints(gvi_stepper *st)
     const struct gvi__private *in = &st->in;
     const int s = st->s, r = st->r, R = in->R, Q = in->con.Q;
     gvi_real *d = in->con.d, *low = in->stages > 0 ? in->set_up : NULL, *lu = in->con.lu;
+
     gvi__rule(1, s + 1, d, low, in->con.w);
     if (in->stages == 0) return GVI_OK;
     gvi__modes_of(st, s, d + 1, low + 1, NULL, NULL, in->con.Phi, in->con.Phi_low);
@@ -7014,6 +7385,7 @@ GVI__COLD gvi_status gvi__set_constraints(gvi_stepper *st)
             if (e < s) in->con.K[e*R + i] = in->table.c[i] - S;
             if (e < s && in->con.U) in->con.U[e*R + i] = 1 - T;
             if (e > 0) in->con.by_force[i*R + e - 1] = Q ? T : d[e] - S;
+            if (e > 0 && gvi__rolls(st)) in->rolling.T[i*R + e - 1] = T;
         }
         for (int a = e > 1 ? e : 1; a <= s; ++a) {
             const gvi_real S = gvi__S(st, in->con.Phi, in->con.Phi_low, a - 1);
@@ -7021,11 +7393,13 @@ GVI__COLD gvi_status gvi__set_constraints(gvi_stepper *st)
             if (a < s && e > 0) in->con.by_impulse[a*R + e - 1] = lu[(e - 1)*s + a] = d[e] - S;
         }
     }
+
     if (gvi_lu_factor(s, lu, lu + s*s) != GVI_OK) return GVI_E_POINTS;
     for (int a = 0; a < s; ++a) {
         in->con.X[a*R + a] = 1;
         gvi_lu_solve(s, lu, lu + s*s, in->con.X + a*R);
     }
+
     return GVI_OK;
 }
 
@@ -7053,6 +7427,7 @@ GVI__COLD void gvi__layout_constraints(struct gvi__private *in, gvi__arena *a)
         { &con->y, on, m },
         { &con->G1, 2*m, n }, { &con->gram1, m, m }, { &con->column, m, n + 1 },
         { &con->first, on, m }, { &con->drops, 2*on, m }
+
     };
     con->C = (int)C;
     con->Q = in->chosen == GVI_MOMENTA;
@@ -7088,6 +7463,7 @@ GVI__COLD gvi_status gvi__constraint_switch(gvi_stepper *st, unsigned was)
         gvi__forget_columns(st);
         return status;
     }
+
     in->con.kept = in->con.kept > 0;
     in->predictor.ratio = 0;
     return GVI_OK;
@@ -7100,6 +7476,7 @@ GVI__OFFERED int gvi__constraint_explain(gvi_stepper *st, gvi_status status, gvi
     gvi_real *drops = st->in.con.drops + st->in.con.m;
     if (!gvi__constrained(st)) return 0;
     *start = gvi__constraints_at(st, st->t, st->q, st->p, v, drops);
+    if (*start == GVI_OK) *start = gvi__check_rank(st, GVI__FADES);
     if (*start != GVI_OK || status != GVI_E_SINGULAR) return 0;
     for (int a = 0; a < st->in.con.m; ++a)
         if (drops[a] > 0) return 1;
@@ -7119,7 +7496,12 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
     gvi_status trial = GVI_OK, status = gvi__ready(st, st && st->in.started);
     if (status != GVI_OK) return status;
     if (!lambda) return gvi__refuse_call(st, "lambda is NULL");
-    if (!st->in.con.bits) return gvi__done(st, GVI_E_FORMULATION);
+    if (!st->in.con.bits) {
+        gvi__report_status(st, GVI_E_FORMULATION);
+        st->fault.argument = "gvi_multipliers: no constraint is in the scene";
+        return gvi__done(st, GVI_E_FORMULATION);
+    }
+
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
     gvi_real *q = in->answer, *p = q + n, *u = p + n, *v = in->con.W, *force = v + n;
@@ -7170,6 +7552,7 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
         gvi__add_scaled(m, 1, z, sum, sum);
         if (size < least) least = size, gvi__copy((size_t)m, sum, best);
     }
+
     if (status == GVI_OK && m > 0 && !(least < GVI__MAX))
         status = trial != GVI_OK ? trial : gvi__report_status(st, GVI_E_NON_FINITE);
     if (status != GVI_OK) return gvi__done(st, status);
@@ -7177,6 +7560,34 @@ GVI_DEF gvi_status gvi_multipliers(gvi_stepper *st, gvi_real *lambda)
         for (int a = 0; a < in->desc.effects[e].rows; ++a)
             *lambda++ = gvi__constraints_on(st) >> e & 1u ? *best++ : 0;
     return gvi__done(st, GVI_OK);
+}
+
+/* v := v + M^-1 G'z such that G v + dg/dt = 0, with the last G; once more for the rounding of that.
+   Returns z'(G v + dg/dt), which is the square of the way by M.                               */
+static gvi_real gvi__project_velocity(gvi_stepper *st, gvi_real *v)
+{
+    struct gvi__private *in = &st->in;
+    const int n = st->n, m = in->con.m;
+    gvi_real *given = in->answer, *d = given + n, *z = in->con.rho, *r = z + m, way = 0;
+    gvi__copy((size_t)n, v, given);
+
+    for (int pass = 0; pass < 2; ++pass) {
+        for (int a = 0; a < m; ++a)
+            z[a] = r[a] = -(in->con.g[m + a] + gvi__row_dot(st, in->con.G1, a, v));
+        gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
+        if (pass == 0) way = gvi__dot(m, r, z);
+
+        gvi__zero((size_t)n, d);
+        gvi__add_force(st, z, d);
+        gvi__over_inertia(st, d, 1, 1);
+        for (int i = 0; i < n; ++i) {
+            v[i] += d[i];
+            // all of it was across the constraints: what is left is rounding
+            if (GVI_ABS(v[i]) <= GVI__SOLVED*GVI__EPS*GVI_ABS(given[i])) v[i] = 0;
+        }
+    }
+
+    return way;
 }
 
 /* The iteration q' = q + e, e = M^-1 G'z with g + G(e_new - e) = 0: (G M^-1 G') z = G e - g at the
@@ -7187,14 +7598,16 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
 {
     gvi_status status = gvi__check_start(st, t, q, v);
     if (status != GVI_OK) return status;
+    gvi_real far[2] = { 0, 0 };
+    if (!moved) moved = far;
+    moved[0] = moved[1] = 0;
+    if (!gvi__constrained(st)) return gvi__report_status(st, GVI_OK);
+
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m;
     gvi_real *e = in->step.q, *f = in->step.p, *next = in->answer, *d = next + n, *u = d + n,
              *push = in->point, *z = in->con.rho, *r = z + m, *back = r + m,
-             *drops = in->con.drops + m, far[2] = { 0, 0 }, change = GVI__MAX, before, share = 1;
-    if (!moved) moved = far;
-    moved[0] = moved[1] = 0;
-    if (!gvi__constrained(st)) return gvi__report_status(st, GVI_OK);
+             *drops = in->con.drops + m, change = GVI__MAX, before = 0, size = 0, share = 1;
     gvi__zero((size_t)n, e);
     gvi__zero((size_t)n, f);
     gvi__copy((size_t)n, q, next);
@@ -7205,12 +7618,20 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
     GVI__LOOK(st, 1);
     for (int k = 0; ; ++k) {
         status = gvi__constraints_at(st, t, next, NULL, u, drops);
-        if (k > 1 && !(change < before*(gvi_real)0.9) && status == GVI_OK) {
+        gvi_real noise = 0;                        // the work that the rounding of g does
+        for (int a = 0; a < m && k > 0 && status == GVI_OK; ++a)
+            noise += GVI__GRAIN*GVI_ABS(z[a])
+                     *(GVI_ABS(in->con.g[a])
+                       + GVI__EPS*gvi__terms(st, 1, t, next, in->con.G1, in->con.g + m, a));
+
+        if (k > 1 && !(change < before*(gvi_real)0.9) && status == GVI_OK
+            && change <= GVI_SQRT(GVI__EPS*GVI_SQRT(GVI__EPS))*size + noise) {
             if (gvi__fulfilled(st, t, next, NULL, u) == GVI_OK) break;
-            status = k > 100 ? GVI_E_CONVERGENCE
-                             : gvi__constraints_at(st, t, next, NULL, u, drops);
+            status = gvi__constraints_at(st, t, next, NULL, u, drops);
         }
+        if (k > 1000 && status == GVI_OK) status = GVI_E_CONVERGENCE;
         if (status != GVI_OK) break;
+
         for (int a = 0; a < m; ++a) {
             back[a] = -in->con.g[a];
             z[a] = r[a] = gvi__row_dot(st, in->con.G1, a, e) - in->con.g[a];
@@ -7219,39 +7640,121 @@ GVI_DEF gvi_status gvi_project(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_rea
         gvi__solve_constraints(st, in->con.gram1, 1, 1, back, 1);
         far[0] = gvi__dot(m, r, z);
         for (int a = 0; a < m; ++a) z[a] = share*z[a] + (1 - share)*back[a];
+
         gvi__zero((size_t)n, push);
         gvi__add_force(st, z, push);
         gvi__copy((size_t)n, push, d);
         gvi__over_inertia(st, d, 1, 1);
+
         before = change;
-        change = 0;
+        change = size = 0;
         for (int i = 0; i < n; ++i) {
-            change += (push[i] - share*f[i])*(d[i] - share*e[i]);
+            // by the force's work, which has one unit, and is not 0 where M alone changes
+            change += (GVI_ABS(push[i]) + GVI_ABS(f[i]))*GVI_ABS(d[i] - share*e[i]);
+            size += (GVI_ABS(push[i]) + GVI_ABS(f[i]))*(GVI_ABS(d[i]) + GVI_ABS(e[i]));
             f[i] = push[i] + (1 - share)*f[i];
             e[i] = d[i] + (1 - share)*e[i];
             next[i] = q[i] + e[i];
         }
-        change = GVI_SQRT(GVI_ABS(change));
         if (change > before && share > (gvi_real)0.02) share /= 2;
     }
+
     GVI__LOOK(st, 0);
-    const int passes = 2*(status == GVI_OK);
-    for (int pass = 0; pass < passes; ++pass) {
-        for (int a = 0; a < m; ++a)
-            z[a] = r[a] = -(in->con.g[m + a] + gvi__row_dot(st, in->con.G1, a, u));
-        gvi__solve_constraints(st, in->con.gram1, 1, 1, z, 1);
-        gvi__zero((size_t)n, d);
-        gvi__add_force(st, z, d);
-        gvi__over_inertia(st, d, 1, 1);
-        gvi__add_scaled(n, 1, d, u, u);
-        if (pass == 0) far[1] = gvi__dot(m, r, z);
-    }
+    if (status == GVI_OK) far[1] = gvi__project_velocity(st, u);
     gvi__forget_columns(st);
+    if (status == GVI_E_CONVERGENCE)
+        st->fault.argument = "gvi_project: no state on the constraints found, too far off";
     if (status != GVI_OK) return st->status = status;
-    gvi__copy((size_t)n, next, q);
+    gvi__add_scaled(n, 1, e, q, q);
     gvi__copy((size_t)n, u, v);
     for (int k = 0; k < 2; ++k) moved[k] = GVI_SQRT(GVI_ABS(far[k]));
     return gvi__report_status(st, GVI_OK);
+}
+
+/* ---- ROLLING: nonholonomic constraints ----
+
+   Rows A(t,q) v + a(t,q) = 0 that no g(t,q) = 0 expresses: wheels, blades, balls.  By the principle
+   of Lagrange and d'Alembert the forces are A' lambda, virtual displacements have A dq = 0; that is
+   not the stationary action under these rows (vakonomic), whose motion is another.  Multipliers,
+   tables and factors are those above, with A for G.  In place of g(D_a) stands what g would have
+   gained along the curve,
+
+     psi_a = h sum_j b_j T(c_j, d_a) (A(Q_j) V_j + a(t_j, Q_j))                a = 1..s
+
+   and the step ends on A v + a = 0.  Order 2s, as measured (tests/test_rolling.c).  The map is
+   reversible, but not symplectic.  Unlike g(D), psi has rounding of the size of h V alone, so V or
+   P is judged as in free motion; and psi is never linearised, since it turns with all of Q.     */
+
+// there is no g that its rows could be the derivatives of
+GVI__COLD void gvi__rolling_effect(struct gvi__private *in, int e)
+{
+    in->rolling.bits |= 1u << e;
+    in->con.checked |= 1u << e;
+}
+
+// rows of an effect that rolls, on at rows a.. of all: A and a at the points, psi to g
+static gvi_status gvi__roll(gvi_stepper *st, gvi_points *at, int e, int a)
+{
+    struct gvi__private *in = &st->in;
+    const gvi_effect *effect = in->desc.effects + e;
+    const int n = st->n, s = st->s, R = in->R, C = in->con.C,
+              rounded = st->formulation != GVI_NEWTON ? n : 0;
+
+    gvi__count(&st->counters.effect[e], st->r);
+    const int failed = effect->points(at, effect->user);
+    if (failed) return gvi__report_callback(st, failed, e);
+    for (int row = 0; row < effect->rows; ++row, ++a) {
+        gvi_real *psi = in->con.g + a*C + 1;
+        gvi__zero((size_t)s, psi);
+        // gvi__constrain subtracts D as rounded to q0 + D, which g(D) has in it, psi has not
+        for (int i = gvi__column(st, a, 0); i < rounded; i = gvi__column(st, a, i + 1)) {
+            const gvi_real *G = in->con.G + (a*n + i)*C + 1, *q = in->con.at + i*C;
+            for (int k = 0; k < s; ++k)
+                psi[k] += G[k]*((q[k + 1] - q[0]) - in->con.D[i*R + k]);
+        }
+        for (int j = 0; j < st->r; ++j) {
+            gvi_real slip = at->rate[row*R + j];
+            for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1))
+                slip += at->jacobian[(row*n + i)*R + j]*in->work.V[i*R + j];
+            gvi__subtract_row((size_t)s, -in->sized.hb[j]*slip, in->rolling.T + j*R, psi);
+        }
+    }
+
+    at->g += effect->rows*R;
+    at->rate += effect->rows*R;
+    at->jacobian += effect->rows*n*R;
+    return GVI_OK;
+}
+
+GVI__CALLED gvi_status gvi__rolling_values(gvi_stepper *st)
+{
+    struct gvi__private *in = &st->in;
+    const int R = in->R, m = gvi__count_rows(in, in->rolling.bits & ~in->off);
+    gvi_points at = gvi__points_at(st, st->r, R, in->t, in->work.Q, NULL, NULL);
+    gvi_status status = GVI_OK;
+
+    at.jacobian = in->rolling.A;
+    at.g = in->rolling.a;
+    at.rate = at.g + m*R;
+    gvi__zero((size_t)(m*st->n*R), at.jacobian);
+    gvi__zero((size_t)(m*R), at.rate);
+    for (int e = 0, a = 0; e < in->desc.effect_count && status == GVI_OK; ++e) {
+        if (!(gvi__constraints_on(st) >> e & 1u)) continue;
+        if (in->rolling.bits >> e & 1u) status = gvi__roll(st, &at, e, a);
+        a += in->desc.effects[e].rows;
+    }
+
+    return status;
+}
+
+// with the layout of constraints
+GVI__COLD void gvi__rolling_layout(struct gvi__private *in, gvi__arena *a)
+{
+    const size_t R = (size_t)GVI__ROW(in->desc.rule.points),
+                 m = (size_t)gvi__count_rows(in, in->rolling.bits);
+    in->rolling.A = gvi__take(a, m*(size_t)in->desc.n, R);
+    in->rolling.a = gvi__take(a, 2*m, R);
+    in->rolling.T = gvi__take(a, m > 0 ? (size_t)in->desc.rule.points : 0, R);
 }
 #else
 #define gvi__constrained(st) 0
@@ -7314,6 +7817,7 @@ static gvi_real gvi__held_residual(gvi_stepper *st, gvi__descent *p, gvi_real *m
     const struct gvi__private *in = &st->in;
     const int n = st->n, C = in->con.C;
     gvi_real norm = 0;
+
     for (int k = 0; k < st->s*in->con.m; ++k) {
         const int a = k % in->con.m, e = k/in->con.m + 1;
         const gvi_real now = in->con.g[a*C + e];
@@ -7334,6 +7838,7 @@ static gvi_real gvi__held_residual(gvi_stepper *st, gvi__descent *p, gvi_real *m
         in->newton.dy[st->s*n + k] = *rest = now;
         if (size > 0 && GVI_ABS(now)/size > p->work) p->work = GVI_ABS(now)/size;
     }
+
     return norm;
 }
 
@@ -7342,11 +7847,12 @@ GVI__CALLED gvi_status gvi__held_matrix(gvi_stepper *st, const gvi__matrix *J)
 {
     struct gvi__private *in = &st->in;
     const int n = st->n, m = in->con.m, s = st->s, R = in->R, C = in->con.C, moves = s > 1 ? n : 0;
-    const gvi_real *const Phi = in->con.Phi - 1, *const t = in->con.t;      // at D_e: [e]
+    const gvi_real *const Phi = in->con.Phi, *const t = in->con.t;          // at D_e: [e - 1]
     const gvi_real h = in->sized.h;
     gvi_real *force = in->con.force, *base = in->con.free, *at = in->con.at, *was = in->set_up;
     const size_t size = gvi__unknowns(st, 0), sn = (size_t)(s*n);
     gvi_status status = GVI_OK;
+
     for (int l = 0; l < s*m; ++l) {
         const int a = l % m, e = l/m;
         const size_t z = sn + (size_t)l;
@@ -7357,12 +7863,13 @@ GVI__CALLED gvi_status gvi__held_matrix(gvi_stepper *st, const gvi__matrix *J)
         for (int i = gvi__column(st, a, 0); i < n; i = gvi__column(st, a, i + 1))
             for (int k = 0; k < s; ++k) {
                 const gvi_real *G = in->con.G + (a*n + i)*C + e,
-                    W = (k == 0 ? 1 : 0) - (e > 0 ? Phi[k*R + e] : 0);
+                    W = (k == 0 ? 1 : 0) - (e > 0 ? Phi[k*R + e - 1] : 0);
                 const size_t y = (size_t)(k*n + i);
                 J->square[y*size + z] = (gvi_real)(2*k + 1)*W*(in->con.hw[e]*G[0]);
-                J->square[z*size + y] = -h*Phi[k*R + e + 1]*G[1];
+                J->square[z*size + y] = -h*Phi[k*R + e]*G[1];
             }
     }
+
     gvi__copy((size_t)(n*R), force, base);
     for (int j = 0; j < moves && status == GVI_OK; ++j) {
         gvi_real *row = at + j*C, d = gvi__difference(st, j, 0);
@@ -7375,13 +7882,14 @@ GVI__CALLED gvi_status gvi__held_matrix(gvi_stepper *st, const gvi__matrix *J)
                 d = in->con.hw[e]*(force[i*R + e] - base[i*R + e])/(row[e] - was[e]);
                 for (int kl = 0; kl < s*s; ++kl) {
                     const int k = kl/s, l = kl % s;
-                    const gvi_real W = (k == 0 ? 1 : 0) - Phi[k*R + e];
+                    const gvi_real W = (k == 0 ? 1 : 0) - Phi[k*R + e - 1];
                     J->square[(size_t)(k*n + i)*size + (size_t)(l*n + j)] -=
-                        (gvi_real)(2*k + 1)*W*d*(h*Phi[l*R + e]);
+                        (gvi_real)(2*k + 1)*W*d*(h*Phi[l*R + e - 1]);
                 }
             }
         gvi__copy((size_t)C, was, row);
     }
+
     if (status == GVI_OK) status = gvi__evaluate_constraints(st, C, s + 1, t, at, in->con.G);
     gvi__constraint_forces(st);
     return status;
@@ -7418,6 +7926,7 @@ GVI__CALLED gvi_status gvi__held_end(gvi_stepper *st)
     gvi_real *c = in->con.y, *now = in->answer, *next = now + n;
     const gvi_points at = gvi__points_at(st, st->r, in->R, in->t, in->work.Q, NULL, NULL);
     gvi_status status = GVI_OK;
+
     if (in->desc.mass.kind == GVI_MASS_POSITION) status = gvi__factor_mass(st, &at);
     if (status == GVI_OK)
         status = gvi__factor_constraints(st, C, st->s, in->con.G, in->con.gram, in->con.drops);
@@ -7444,6 +7953,7 @@ GVI__CALLED gvi_status gvi__held_end(gvi_stepper *st)
         if (GVI__LOST*GVI__LOST*part < all && !goes_on)
             return gvi__report_row(st, GVI_E_SINGULAR, j, e);
     }
+
     return GVI_OK;
 }
 
@@ -7471,11 +7981,13 @@ GVI__COLD gvi_status gvi__make_gamma(gvi_stepper *st)
     const struct gvi__tables *table = &st->in.table;
     const int s = st->s, r = st->r, R = st->in.R;
     gvi_real *gamma = st->in.rules.gamma;
+
     if (st->order == 2*s - 2) {
         const gvi_real *last = table->phi + (s - 1)*R, sum = gvi__dot3(r, table->b, last, last);
         if (!(GVI_ABS(sum) > GVI_SQRT(GVI__EPS))) return GVI_E_POINTS;
         table->inv_gamma[s - 1] = 1/sum;
     }
+
     if (!gamma) return GVI_OK;
     for (int k = 0; k < s; ++k)
         for (int l = 0; l < s; ++l)
@@ -7519,6 +8031,7 @@ static gvi_status gvi__partial_step(gvi_stepper *st, const gvi__origin *from, in
         if (!gvi__nonzero(next) || GVI_ABS(next - h) <= GVI__EPS*GVI_ABS(st->h)) return GVI_OK;
         h = next;
     }
+
     return gvi__report_status(st, GVI_E_CONVERGENCE);
 #endif
 }
@@ -7555,6 +8068,7 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
         h = 0;
         if (gvi__nonzero(back)) h = back - st->t_low;
     }
+
     const gvi_formulation was = st->formulation;
     if (GVI_ABS(h) > GVI__EPS*(GVI_ABS(ahead) + GVI_ABS(back)))
         status = gvi__partial_step(st, &from, query, h);
@@ -7564,6 +8078,7 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
         gvi__zero(n, in->step.q_low);
         gvi__zero(n, in->step.p_low);
     }
+
     st->formulation = was;
     if (status != GVI_OK) return gvi__done(st, status);
     gvi_real *Q = in->answer, *P = Q + n, *V = P + n;
@@ -7571,6 +8086,7 @@ GVI_DEF gvi_status gvi_state_at(gvi_stepper *st, gvi_real t, gvi_real *q, gvi_re
         Q[i] = from.q[i] + (in->step.q[i] + in->step.q_low[i]);
         P[i] = from.p[i] + (in->step.p[i] + in->step.p_low[i]);
     }
+
     gvi__velocity_guess(st, V);
     if (v) status = gvi__velocity(st, t, Q, P, V);
     if (status != GVI_OK) return gvi__done(st, status);
@@ -7587,6 +8103,7 @@ GVI__COLD gvi_status gvi__curve_action(gvi_stepper *st, const gvi__origin *from,
     struct gvi__private *in = &st->in;
     const int n = st->n, R = in->R;
     gvi_real V, L, T, *q = in->answer, *v = q + n;
+
     *action = 0;
     for (int j = 0; j < st->r; ++j) {
         gvi_real t = st->t0 + in->table.c[j]*st->h;
@@ -7602,6 +8119,7 @@ GVI__COLD gvi_status gvi__curve_action(gvi_stepper *st, const gvi__origin *from,
         if (status != GVI_OK) return status;
         *action += in->sized.hb[j]*(T - V + L);
     }
+
     return GVI_OK;
 }
 
@@ -7749,6 +8267,7 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
         fastest = gvi__larger(size[i], fastest);
         farthest = gvi__larger(GVI_ABS(in->state.q[i])*mass, farthest);
     }
+
     const gvi_real whole = fastest + farthest/h;
     if (!(whole > 0)) return 0;
     for (int i = 0; i < st->n; ++i) {
@@ -7870,9 +8389,10 @@ GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end)
     if (ready != GVI_OK) return ready;
     if (!(st->in.desc.resolution > 0))
         return gvi__refuse_call(st, "gvi_advance needs desc.resolution");
+    st->in.failed.status = GVI_OK;                // as in gvi_step
     if (!gvi__finite(t_end) || !gvi__nonzero(t_end - st->t))
         return gvi__refuse_call(st, "t_end is t, NaN or infinite");
-    const gvi_real way = (t_end - st->t) - st->t_low, left = GVI_ABS(way);
+    const gvi_real way = (t_end - st->t) - st->t_low, left = gvi__smaller(GVI_ABS(way), GVI__MAX);
     const int clock = gvi__clock_is_on(st);
     if (!(st->next > 0) || !gvi__finite(st->next)) st->next = gvi__first_length(st, left);
     for (int tries = 1; ; ++tries) {
@@ -7890,8 +8410,8 @@ GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end)
             }
             return status;
         }
-        if (status == GVI_E_ARGUMENT || tries == 64 || !gvi__nonzero(st->t + st->next - st->t))
-            return status;
+        if (status == GVI_E_ARGUMENT || status == GVI_E_SINGULAR || tries == 64
+            || !gvi__nonzero(st->t + st->next - st->t)) return status;
     }
 }
 #endif /* GVI_NO_DIAL */
@@ -7910,6 +8430,7 @@ GVI__COLD gvi_status gvi__chord(gvi_stepper *st, const gvi__origin *from, gvi_re
     struct gvi__private *in = &st->in;
     const int n = st->n, R = in->R;
     gvi_real *q = in->answer, *v = q + n;
+
     gvi__zero((size_t)n, p);
     for (int j = 0; j < R; ++j) {
         for (int i = 0; i < n; ++i) {
@@ -7929,6 +8450,7 @@ GVI__COLD gvi_status gvi__chord(gvi_stepper *st, const gvi__origin *from, gvi_re
             p[i] += in->table.b[j]*at.dldv[i];
         }
     }
+
     return GVI_OK;
 }
 
@@ -7945,11 +8467,13 @@ GVI__COLD gvi_status gvi__bend(gvi_stepper *st, const gvi__origin *from, gvi_rea
     const int n = st->n, size = (st->s - J->k0)*n;
     gvi__descent p = { 0, 0, GVI__MAX, 0, GVI__MAX, 0, GVI__MAX, 0, 0, 0, 0, 0, 0, 0 };
     gvi_real *y = in->newton.y, before = 0, length = 0;
+
     if (grow > 1 && J->k0 == 0) {
         in->predictor.ratio = 0;
         gvi__fit(st, st->r, in->table.c, in->table.c, 0, grow, 1, in->predictor.one);
         gvi__newton_modes(st, in->work.V, in->newton.P);
     }
+
     if (J->k0)
         for (int k = n; k < st->s*n; ++k) y[k] *= grow;
     gvi__weights_for(st, h);
@@ -7972,6 +8496,7 @@ GVI__COLD gvi_status gvi__bend(gvi_stepper *st, const gvi__origin *from, gvi_rea
             *bent = change/before;
         before = change;
     }
+
     if (*bent > GVI__CONTRACTS) return gvi__report_status(st, GVI_E_CONVERGENCE);
     if (!last) return GVI_OK;
     return gvi__newton_solve(st, from, J);
@@ -7998,6 +8523,7 @@ GVI__COLD gvi_real gvi__aim(gvi_stepper *st, const gvi__origin *from, gvi_real h
         if (*status != GVI_OK || (k > pieces/2 && miss > last)) break;
         last = miss;
     }
+
     return at;
 }
 
@@ -8031,6 +8557,7 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
     gvi_real *y = in->newton.y, *end = in->step.q_low;
     gvi_status bowed = GVI_E_NON_FINITE;
     int first = 0, left = 2 + in->desc.max_iterations*2/3;         // pieces, in all
+
     if (v) {
         first = 4;
         left = 1000;
@@ -8038,6 +8565,7 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
         *status = gvi__from_chord(st, from, h, q1, J);
         return 0;
     }
+
     for (int attempt = first; attempt < 9; ++attempt) {
         const int pieces = 1 << attempt >> (attempt > 0), linear = attempt == 0;
         gvi_real bent = 0, at = 0;
@@ -8066,6 +8594,7 @@ GVI__COLD int gvi__follow(gvi_stepper *st, const gvi__origin *from, gvi_real h, 
         if (linear) bowed = *status;
         if ((*status == GVI_E_NON_FINITE && GVI__LOOKS(st)) || left <= 0) break;
     }
+
     // there is nothing wrong with the effects, but with the chord
     if (*status == GVI_E_NON_FINITE && bowed != GVI_E_NON_FINITE) *status = GVI_E_CONJUGATE;
     return 0;
@@ -8103,6 +8632,7 @@ GVI__COLD int gvi__count_negative(int n, gvi_real *a, gvi_real *v)
             gvi__subtract_row((size_t)m, z[i], v, rest);
         }
     }
+
     return count;
 }
 
@@ -8113,6 +8643,7 @@ GVI__COLD gvi_status gvi__morse_index(gvi_stepper *st, const gvi__matrix *J, int
     struct gvi__private *in = &st->in;
     const size_t n = (size_t)st->n, size = (size_t)(st->s - 1)*n;
     const unsigned off = in->off;
+
     *negative = 0;
     in->off |= gvi__of_kind(in, GVI_FORCE);
     const gvi_status status = gvi__jacobian_fill(st, J);
@@ -8148,6 +8679,7 @@ GVI__COLD gvi_status gvi__interior(gvi_stepper *st, const gvi__origin *from, gvi
         GVI__LOOK(st, 0);
         if (status != GVI_E_NON_FINITE) break;
     }
+
     if (status == GVI_E_NON_FINITE && st->fault.effect == GVI_FAULT_NONE)      // h, q1 - q0 or M
         return gvi__report_status(st, GVI_E_CONVERGENCE);
     if (status != GVI_OK && status != GVI_E_CONVERGENCE) return status;
@@ -8156,6 +8688,7 @@ GVI__COLD gvi_status gvi__interior(gvi_stepper *st, const gvi__origin *from, gvi
         if (index != GVI_OK) return index;
         if (*negative && !out->negative) return GVI_E_CONJUGATE;
     }
+
     J->scaled = 1;
     const gvi_status second = gvi__jacobian(st, J);
     if (second != GVI_OK) return second;
@@ -8181,6 +8714,7 @@ GVI__COLD gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__matrix *J,
 
     // the forces alone, at the points of the curve
     gvi_points at = gvi__points_at(st, st->r, R, in->t, in->work.Q, f, NULL);
+
     at.v = in->work.V;
     gvi__zero((size_t)n*(size_t)R, f);
     const gvi_status status = gvi__effects(st, &at, ~forces, NULL);
@@ -8191,6 +8725,7 @@ GVI__COLD gvi_status gvi__discrete_forces(gvi_stepper *st, const gvi__matrix *J,
         minus[i] = 0;
         for (int j = 0; j < st->r; ++j) minus[i] += hb[j]*(1 - Phi[j])*f[i*R + j];
     }
+
     if (status != GVI_OK || size == 0 || !(forces & ~in->off)) return status;
 
     // the interior: J is that of the solution, with the columns of both ends
@@ -8250,11 +8785,13 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
         gvi__copy((size_t)n, in->point + 5*n, in->step.p);
         from.p = in->step.p;
     }
+
     if (s > 1) {
         J.square = in->newton.J + sn*sn;
         J.ends = J.square + size*size;
         J.pivot = in->newton.pivot + sn + 1;
     }
+
     gvi__newton_points(st, &from, h);
 
     gvi_real *p0 = in->step.q, *p1 = in->step.p, *minus = in->answer, *plus = minus + n, action = 0;
@@ -8272,6 +8809,7 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
         for (int j = 0; j < st->r; ++j) p0[i] -= hb[j]*(1 - in->table.Phi[j])*F[i*R + j];
         p1[i] = p0[i] + gvi__dot(st->r, hb, F + i*R);
     }
+
     status = gvi__discrete_forces(st, &J, minus, plus);
     if (status != GVI_OK) return gvi__done(st, status);
     if (out->negative) *out->negative = negative;
@@ -8280,6 +8818,7 @@ GVI_DEF gvi_status gvi_discrete_lagrangian(gvi_stepper *st, gvi_real t, gvi_real
         if (out->d1) out->d1[i] = -p0[i] - minus[i];
         if (out->d2) out->d2[i] = p1[i] - plus[i];
     }
+
     gvi__hand_over(n, minus, out->minus);
     gvi__hand_over(n, plus, out->plus);
     gvi__hand_over(n, p0, out->p0);
@@ -8303,8 +8842,8 @@ GVI_DEF gvi_status gvi_start_configurations(gvi_stepper *st, gvi_real t, gvi_rea
 /* ------------------------------------------------------------- DIAGNOSIS
 
    Which effect was it?  A step that came to NaN or Inf is done once more, looking at what every
-   effect returns; what is wrong already at its start is told from what a shorter step may mend;
-   and a first start probes the callbacks.                                                     */
+   effect returns; what is wrong already at its start is kept apart from what a shorter step may
+   mend; and a first start probes the callbacks.                                               */
 
 /* All points of a step at one state, at rows [n][R] for f and, behind them, dldv; of kicks one.  */
 GVI__COLD gvi_points gvi__all_points_at(gvi_stepper *st, gvi_real t, const gvi_real *q,
@@ -8314,6 +8853,7 @@ GVI__COLD gvi_points gvi__all_points_at(gvi_stepper *st, gvi_real t, const gvi_r
     const int n = st->n;
     int R = in->R, count = st->r;
     gvi_real *rows = in->work.F;
+
     if (!gvi__has_curve(st)) R = count = 1;
     if (in->free.rows) rows = in->free.rows;
     gvi_points at = gvi__points_at(st, count, R, in->t, in->work.Q, rows, rows + n*R);
@@ -8323,6 +8863,7 @@ GVI__COLD gvi_points gvi__all_points_at(gvi_stepper *st, gvi_real t, const gvi_r
         in->work.Q[i] = q[i/R];
         if (in->work.V) in->work.V[i] = v[i/R];
     }
+
     return at;
 }
 
@@ -8332,8 +8873,8 @@ GVI__COLD gvi_status gvi__diagnose(gvi_stepper *st, gvi_points *at, unsigned ski
 {
     const size_t length = (size_t)at->n*(size_t)at->stride;
     for (int e = 0; e < st->in.desc.effect_count; ++e) {
-        gvi_real *value = values ? values[st->in.desc.effects[e].kind] : NULL;
         if (skip >> e & 1u) continue;
+        gvi_real *value = values ? values[st->in.desc.effects[e].kind] : NULL;
         gvi__zero(length, at->f);
         if (at->dldv) gvi__zero(length, at->dldv);
         if (value) gvi__zero((size_t)at->stride, value);
@@ -8347,6 +8888,7 @@ GVI__COLD gvi_status gvi__diagnose(gvi_stepper *st, gvi_points *at, unsigned ski
         const int k = gvi__first_non_finite(at->count, value);
         if (k >= 0) return gvi__report(st, GVI_E_NON_FINITE, e, GVI_FAULT_NONE, k);
     }
+
     return gvi__report_status(st, GVI_E_NON_FINITE);
 }
 
@@ -8380,6 +8922,7 @@ GVI__COLD gvi_status gvi__explain_step(gvi_stepper *st, gvi_status status)
     const gvi_fault fault = st->fault;
     gvi_real *v = in->answer;
     gvi_status start = GVI_OK;
+
     gvi__velocity_guess(st, v);
     if (in->stages > 0 && !in->desc.mass.velocity)
         start = gvi__velocity(st, st->t, st->q, st->p, v);
@@ -8387,6 +8930,7 @@ GVI__COLD gvi_status gvi__explain_step(gvi_stepper *st, gvi_status status)
         st->counters = counters;
         return status;
     }
+
     if (start == GVI_OK) {
         gvi_points at = gvi__all_points_at(st, st->t, st->q, v);
         gvi__zero((size_t)(st->n*at.stride), at.f);
@@ -8402,6 +8946,7 @@ GVI__COLD gvi_status gvi__explain_step(gvi_stepper *st, gvi_status status)
             st->fault.point = GVI_FAULT_NONE;
         }
     }
+
     st->counters = counters;
     if (start == GVI_E_SINGULAR || start == GVI_E_NON_FINITE) return start;
     st->fault = fault;
@@ -8426,35 +8971,71 @@ static gvi_status gvi__explain_failure(gvi_stepper *st, const gvi__origin *from,
     return status;
 }
 
-/* At a first start, finds callbacks that fill only their first point, or set f and dldv with =
-   instead of adding to them.  All points are a little past q, where a force 0 at the start is not.
-   From 0 an effect shows which points it fills; from the largest number, whether it adds.     */
+/* At a first start, finds callbacks whose loop over points is missing or wrong, or that set f and
+   dldv with = instead of adding to them.  All points are one state, a little past q, where a force
+   0 at the start is not: each row's entries have to be what one point alone gives, to 1/1024 of
+   the largest.  From the largest number an effect shows whether it adds.                      */
 GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, const gvi_real *v)
 {
     struct gvi__private *in = &st->in;
     const gvi_counters counters = st->counters;          // a probe is no step's work
     gvi_points at = gvi__all_points_at(st, t, q, v);
     const int n = st->n, R = at.stride, count = at.count;
-    gvi_real *rows = at.f;
+    gvi_real *rows = at.f, *past = in->answer + 2*n;
+
+    for (int i = 0; i < n; ++i) past[i] = q[i] + GVI_SQRT(GVI__EPS)*v[i];
     for (int i = 0; i < n*R; ++i)
-        if (i % R < count) in->work.Q[i] += GVI_SQRT(GVI__EPS)*v[i/R];
-    // effects may use what M(q) has computed: it comes first, as in a step
-    if (in->desc.mass.kind == GVI_MASS_POSITION) gvi__place_probe(st, &at);
+        if (i % R < count) in->work.Q[i] = past[i/R];
+    gvi_points one = gvi__one_point(st, &t, past);
+    one.v = v;
     const char *slip = NULL;
     for (int e = 0; e < in->desc.effect_count; ++e) {
-        int all = n*R, first = 0, others = 0, huge = 0, set = 0;
+        int all = n*R, unlike = 0, huge = 0, set = 0;
+        gvi_real largest = 0;
         if ((in->off | in->apart) >> e & 1u) continue;
         if (in->desc.effects[e].kind == GVI_LAGRANGIAN) all = 2*n*R;
         gvi__zero((size_t)all, rows);
-        if (gvi__effect(st, &at, e, NULL) != GVI_OK) continue;
-        for (int i = 0; i < all; ++i) {
-            const int k = i % R, filled = k < count && gvi__nonzero(rows[i]);
-            first |= filled && k == 0;
-            others |= filled && k > 0;
-            huge |= filled && GVI_ABS(rows[i]) > GVI__MAX/4;
+        // effects may use what M(q) has computed: it comes first, as in a step
+        const int varies = in->desc.mass.kind == GVI_MASS_POSITION;
+        if (varies) gvi__place_probe(st, &one);
+        gvi_real before = 0, sum = 0;
+        int known = 1;
+
+        // what is wrong at the very start no step mends
+        one.q = q;
+        gvi__zero(2*(size_t)n, one.f);
+        gvi_status status = gvi__effect(st, &one, e, NULL);
+        if (status == GVI_OK) status = gvi__check_rows(st, &one, one.f, e);
+        if (status == GVI_OK && all > n*R) status = gvi__check_rows(st, &one, one.dldv, e);
+        if (status != GVI_OK) {
+            st->counters = counters;
+            st->fault.point = GVI_FAULT_NONE;
+            return st->status = status;
         }
-        if (first && !others && count > 1)
-            slip = "effect: fills its first point alone, not x->count of them";
+
+        one.q = past;
+        for (int twice = 0; twice < 2 && known; ++twice) {        // noise is not to be judged
+            gvi__zero(2*(size_t)n, one.f);
+            known = gvi__effect(st, &one, e, NULL) == GVI_OK;
+            before = sum;
+            sum = gvi__norm1(2*n, one.f);
+        }
+        if (gvi__nonzero(sum - before)) known = 0;
+
+        if (varies) gvi__place_probe(st, &at);
+        if (gvi__effect(st, &at, e, NULL) != GVI_OK) continue;
+        for (int i = 0; i < all; ++i)
+            if (i % R < count) {
+                largest = gvi__larger(GVI_ABS(rows[i]), largest);
+                largest = gvi__larger(GVI_ABS(one.f[i/R]), largest);
+            }
+        huge = largest > GVI__MAX/4;
+        for (int i = 0; i < all; ++i)
+            unlike |= i % R < count && GVI_ABS(rows[i] - one.f[i/R]) > largest/GVI__SURE;
+        if (unlike && known)
+            slip = "effect: fills not all points: coordinate i of point k < x->count is at "
+                   "[i*x->stride + k]";
+
         for (int i = 0; i < all; ++i) rows[i] = GVI__MAX;
         if (gvi__effect(st, &at, e, NULL) != GVI_OK) continue;
         for (int i = 0; i < all; ++i) set |= i % R < count && GVI_ABS(rows[i]) < GVI__MAX/2;
@@ -8463,6 +9044,7 @@ GVI__COLD gvi_status gvi__probe(gvi_stepper *st, gvi_real t, const gvi_real *q, 
         st->counters = counters;
         return st->status = gvi__refuse(&st->fault, e, GVI_FAULT_NONE, slip);
     }
+
     st->counters = counters;
     return gvi__report_status(st, GVI_OK);
 }
@@ -8491,7 +9073,8 @@ GVI_DEF const char *gvi_status_text(gvi_status status)
     case GVI_E_STATE:       return "too early, outside the last step, or a clock is on since";
     case GVI_E_CONJUGATE:   return "conjugate points: the ends do not determine the curve";
     case GVI_E_CLOCK:       return "a clock (fault.effect) must be positive: g <= 0";
-    case GVI_E_CONSTRAINT:  return "the state is not on a constraint: g(t,q) or its rate is not 0";
+    case GVI_E_CONSTRAINT:  return "the state is not on a constraint (fault.effect, its row in "
+                                   "fault.coordinate): g(t,q) or its rate is not 0";
     case GVI_E_RESOLUTION:  return "the step is not as accurate as desc.resolution wants it: "
                                    "halve h";
     default:                return "unknown status";
@@ -8504,7 +9087,8 @@ GVI__COLD const char *gvi__why_no_formulation(const gvi_stepper *st)
     const struct gvi__private *in = &st->in;
     const int kicks = (in->desc.rule.kind == GVI_KICKS), clock = gvi__of_kind(in, GVI_CLOCK) != 0,
               ready = in->memory != 0;
-    if (gvi__of_kind(in, GVI_CONSTRAINT))
+
+    if (gvi__of_kind(in, GVI_CONSTRAINT) | gvi__of_kind(in, GVI_NONHOLONOMIC))
         return "constraints go with no clock, kicks or boundary values; with a formulation "
                "pinned or iterations given, what that covers (GVI_NEWTON: all)";
     if (ready && st->fault.effect >= 0)
@@ -8530,7 +9114,11 @@ GVI_DEF const char *gvi_why(const gvi_stepper *st)
     if (why == GVI_E_POINTS && in->desc.rule.points < in->desc.degree)
         return "rule: fewer points than the degree";
     if (why == GVI_E_SINGULAR && st->fault.effect >= 0)
-        return "a constraint (fault.effect) depends on the others, or has no gradient";
+        return "a constraint (fault.effect, its row in fault.coordinate) depends on the others, is "
+               "about to, or has no gradient: no h helps";
+    if (why == GVI_E_CONSTRAINT && in->failed.status == why)
+        return "a row (fault.coordinate of fault.effect) that counts as dependent on others is not "
+               "fulfilled: they contradict, or masses differ by more than 1e13";
     if (why == GVI_E_CONVERGENCE && mass) return "no velocity found that has this momentum";
     if (why == GVI_E_CONVERGENCE && in->desc.iterations > 0)
         return "desc.iterations are too few: halve h, or give more";
@@ -8637,12 +9225,13 @@ GVI__COLD int gvi__place_effect(struct gvi__private *in, int e, const char **wro
     }
 #endif
 #ifndef GVI_NO_CONSTRAINTS
-    if (kind == GVI_CONSTRAINT) {
+    if (kind >= GVI_CONSTRAINT) {
         *wrong = gvi__wrong_in_constraint(in, e);
         in->parts |= GVI__IN_CONSTRAINTS;
         in->apart |= 1u << e;
         in->con.bits |= 1u << e;
         in->con.m += in->desc.effects[e].rows;
+        if (kind == GVI_NONHOLONOMIC) gvi__rolling_effect(in, e);
         return 1;
     }
 #endif
@@ -8693,24 +9282,23 @@ GVI__COLD int gvi__place_covers(struct gvi__private *in, gvi_formulation f)
 {
     const gvi_desc *d = &in->desc;
     const int clock = gvi__of_kind(in, GVI_CLOCK) != 0,
-              holds = gvi__of_kind(in, GVI_CONSTRAINT) != 0,
+              holds = (gvi__of_kind(in, GVI_CONSTRAINT) | gvi__of_kind(in, GVI_NONHOLONOMIC)) != 0,
               kicks = d->rule.kind == GVI_KICKS,
               constant = d->mass.kind <= GVI_MASS_DENSE && !clock && !(holds && in->adds_p);
+
     if (holds && (clock || kicks)) return 0;
-    switch (f) {
-    case GVI_POSITIONS:  return GVI__ITERATION && constant && !kicks && !in->reads_v;
-    case GVI_VELOCITIES: return GVI__ITERATION && constant && !kicks;
+    if (f == GVI_POSITIONS) return GVI__ITERATION && constant && !kicks && !in->reads_v;
+    if (f == GVI_VELOCITIES) return GVI__ITERATION && constant && !kicks;
 #ifndef GVI_NO_KICKS
-    case GVI_EXPLICIT:   return gvi__kicks_cover(in, constant);
+    if (f == GVI_EXPLICIT) return gvi__kicks_cover(in, constant);
 #endif
 #ifndef GVI_NO_MOMENTA
-    case GVI_MOMENTA:    return !kicks && gvi__momenta_cover(in, holds);
+    if (f == GVI_MOMENTA) return !kicks && gvi__momenta_cover(in, holds);
 #endif
 #ifndef GVI_NO_NEWTON
-    case GVI_NEWTON:     return !kicks && !clock;
+    if (f == GVI_NEWTON) return !kicks && !clock;
 #endif
-    default: return 0;
-    }
+    return 0;
 }
 
 GVI__COLD gvi_status gvi__place_chosen(struct gvi__private *in, int order, gvi_fault *fault)
@@ -8718,6 +9306,7 @@ GVI__COLD gvi_status gvi__place_chosen(struct gvi__private *in, int order, gvi_f
     const gvi_desc *d = &in->desc;
     const char *wrong = NULL;
     int matrices = in->adds_p;
+
     if (in->chosen == GVI_MOMENTA) in->parts |= GVI__IN_MOMENTA;
     if (in->chosen == GVI_EXPLICIT) in->parts |= GVI__IN_KICKS;
     if (in->chosen == GVI_EXPLICIT) in->stages = 0;
@@ -8742,6 +9331,7 @@ GVI__COLD gvi_status gvi__place_chosen(struct gvi__private *in, int order, gvi_f
         in->desc.resolution = gvi__larger(d->resolution, GVI__EPS);
 #endif
     }
+
     return wrong ? gvi__refuse(fault, GVI_FAULT_NONE, GVI_FAULT_NONE, wrong) : GVI_OK;
 }
 
@@ -8750,7 +9340,7 @@ GVI__COLD void gvi__place_unsolved(const struct gvi__private *in, gvi_fault *fau
 {
     for (int e = in->desc.effect_count - 1; e >= 0; --e) {
         const gvi_fault found = { e, 0, GVI_FAULT_NONE, NULL };
-        if (in->desc.effects[e].kind == GVI_CONSTRAINT) *fault = found;
+        if (in->desc.effects[e].kind >= GVI_CONSTRAINT) *fault = found;
     }
 }
 
@@ -8775,6 +9365,7 @@ GVI__COLD void gvi__place_layout(struct gvi__private *in, gvi__arena *a)
 #endif
 #ifndef GVI_NO_CONSTRAINTS
     if (in->con.bits) gvi__layout_constraints(in, a);
+    if (in->rolling.bits) gvi__rolling_layout(in, a);
 #endif
 #ifndef GVI_NO_DIAL
     const size_t R = (size_t)GVI__ROW(in->desc.rule.points);
@@ -8827,6 +9418,7 @@ GVI__COLD gvi_status gvi__place_start(gvi_stepper *st, gvi_real t, gvi_real *v)
 GVI__COLD void gvi__place_started(gvi_stepper *st)
 {
     (void)st;
+    GVI__LAGRANGIAN(gvi__lagrangian_started(st))
 #ifndef GVI_NO_KICKS
     st->in.kicks.has_force = 0;
 #endif
@@ -8885,6 +9477,7 @@ static gvi_real gvi__place_inertia(const gvi_stepper *st, int i)
     const struct gvi__private *in = &st->in;
     const gvi_mass_kind kind = in->desc.mass.kind;
     gvi_real m = 1;
+
     if (kind <= GVI_MASS_DENSE) m = in->mass.matrix[kind == GVI_MASS_DENSE ? i*(st->n + 1) : i];
     GVI__MASS(if (kind == GVI_MASS_POSITION) m = gvi__momenta_inertia(st, i))
     if (kind == GVI_MASS_NONE) {
@@ -8895,6 +9488,7 @@ static gvi_real gvi__place_inertia(const gvi_stepper *st, int i)
 #endif
         if (P) m = P[i*in->R]/in->work.V[i*in->R];
     }
+
     return gvi__nonzero(m) && gvi__finite(m) ? GVI_ABS(m) : 1;
 }
 
@@ -8945,7 +9539,7 @@ static void gvi__place_stages(gvi_stepper *st, const gvi__origin *from, gvi_real
 {
     (void)st, (void)from, (void)h, (void)stage;
     GVI__MOMENTA(gvi__momenta_stages(st, from, stage))
-    GVI__LAGRANGIAN(gvi__lagrangian_stages(st, stage))
+    GVI__LAGRANGIAN(gvi__lagrangian_stages(st, from, h, stage))
     GVI__CONSTRAINTS(gvi__constraint_stages(st, from, h, stage))
 }
 
@@ -9000,6 +9594,7 @@ static gvi_status gvi__place_evaluate(gvi_stepper *st, const gvi__origin *from, 
         gvi__clear(st->n, st->in.R, st->in.zeros[0], at->dldv))
     GVI__CLOCK_ON(return gvi__clock_evaluate(st, from, at))
     status = gvi__effects(st, at, 0, NULL);
+    GVI__LAGRANGIAN(if (status == GVI_OK) status = gvi__lagrangian_verdict(st))
     GVI__CONSTRAINTS_ON(if (status == GVI_OK) status = gvi__constraint_values(st, from))
     GVI__MASS(if (status == GVI_OK && st->in.momenta.mass) status = gvi__mass_gradient(st, at))
     return status;
@@ -9016,7 +9611,7 @@ static int gvi__place_judge(gvi_stepper *st, const struct gvi__progress *p, gvi_
 {
     (void)st, (void)p, (void)D, (void)patience;
     GVI__CONSTRAINTS_ON(
-        *patience = 0;                             // the rounding of g is in every D
+        *patience = gvi__patience(st, p);
         return gvi__constraint_judge(st, p, D))
     return GVI__GO_ON;
 }
@@ -9070,10 +9665,17 @@ static int gvi__place_again(gvi_stepper *st)
 
 static gvi_status gvi__place_accept(gvi_stepper *st)
 {
+    gvi_status status = GVI_OK;
 #ifndef GVI_NO_DIAL
-    if (st->in.desc.resolution > 0) return gvi__dial_accept(st);
+    if (st->in.desc.resolution > 0) status = gvi__dial_accept(st);
+    // a shorter step would be noisier
+    GVI__CONSTRAINTS_ON(
+        const gvi_fault fault = st->fault;
+        if (status == GVI_E_RESOLUTION && gvi__check_rank(st, GVI__FADES) != GVI_OK)
+            return GVI_E_SINGULAR;
+        st->fault = fault)
 #endif
-    return (void)st, GVI_OK;
+    return (void)st, status;
 }
 
 static void gvi__place_commit(gvi_stepper *st, gvi_real h)

@@ -64,7 +64,7 @@ static int revolve(const char *name, gvi_rule rule, int steps)
     gvi_stepper st;
     gvi_init(&st, &desc, memory, sizeof memory);
     gvi_start(&st, 0, (double[]){ 0.5, 0 }, (double[]){ 0, sqrt(3) });
-    for (int k = 0; k < steps && st.status == GVI_OK; ++k) gvi_step(&st, 20*acos(-1)/steps);
+    gvi_steps(&st, 20*acos(-1)/steps, steps);
     if (st.status != GVI_OK) return puts(gvi_why(&st)), 1;
     const double error = hypot(st.q[0] - 0.5, st.q[1]);
     printf("%-15s  kicks a step %2llu   error of q below %.0e\n", name,

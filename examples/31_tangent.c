@@ -111,7 +111,7 @@ int main(void)
 
     // A longer step ends later on the same orbit, but for the error of a step.
     const gvi_real end[] = { st.q[0], st.q[1] };
-    const gvi_points x = { .n = 2, .count = 1, .stride = 1, .q = end, .f = force };
+    const gvi_points x = { .n = 2, .count = 1, .stride = 1, .t = &st.t, .q = end, .f = force };
     potential(&x, NULL);
     for (int i = 0; i < 2; ++i) off = fmax(off, fmax(fabs(d[4][i] - st.p[i]), fabs(d[4][2 + i] - force[i])));
     printf("its derivative by h is (v, F) at its end, to 1e-12: %s\n", off < 1e-12 ? "yes" : "no");

@@ -1,4 +1,4 @@
-/* 41 - A motor beside a Lagrangian: a segway that stands up
+/* 41 - A motor and a Lagrangian: a segway that stands up
 
    A wheel of radius r rolls, a body leans on its axle: x is how far the axle has gone, a the lean of the body.
    L is one line. The motor acts between body and wheel: its torque pushes the axle by torque/r and

@@ -1,6 +1,6 @@
 # studies.mk - what Makefile includes: long checks, measurements, pictures.  `make help-all` lists them.
 
-.PHONY: headers-quick headers symbols parts docs-check bound float instructions prices usable languages boards sanitize sanitized any_processor \
+.PHONY: headers-quick headers symbols chapters docs-check bound float instructions prices usable languages boards sanitize sanitized any_processor \
         ensemble deps-ensemble tolerances firmware deps-firmware fuzz fuzz-short size stats compare everywhere deps-everywhere \
         cost-dial cost-horizon cost-constraints kicks points from-l mycost cost-embedded hard theorems mutants coverage covered
 
@@ -18,7 +18,7 @@ symbols: $(addprefix $(BUILD)/gvi-,float.o double.o long.o)
 docs-check: $(BUILD)/gvi-double.o
 	$(STEP) $@ sh tests/tools/docs.sh $(BUILD) $<
 
-#: parts        every macro that leaves code out: refusals, the same bits, less code
+#: chapters     gvi.h without each chapter, each alone on the core, pairs: warnings, bits, programs, symbols, sizes (four minutes)
 #: bound        operations of a step, counted one by one, against the bound that gvi.h states (C++)
 #: float        the object code of a float build: nothing is computed in double
 #: instructions points, iterations and instructions of fixed runs; RECORD=--record writes them anew
@@ -30,17 +30,20 @@ docs-check: $(BUILD)/gvi-double.o
 #: firmware     three programs without an operating system, run as Cortex-M3 and M4F by qemu, against this machine
 prices: | $(FIRST)
 	$(STEP) $@ sh tests/tools/instructions.sh $(BUILD) --prices
-parts bound float instructions ensemble usable languages boards firmware: | $(FIRST)
+chapters bound float instructions ensemble usable languages boards firmware: | $(FIRST)
 	$(STEP) $@ sh tests/tools/$@.sh $(BUILD) $(RECORD)
 
 #: sanitize     tests and examples under the address and undefined behaviour sanitizers
+# By clang where there is one: it alone sees arithmetic on NULL.
 # Not test_advise: its sweeps are minutes of calls that the others make too.
 SANITIZED = $(filter-out test_advise,$(TESTS)) $(TYPED:%=%-float) $(EXAMPLES)
 sanitize: | $(FIRST)
 	$(Q)mkdir -p $(BUILD)/result; echo 0 0 1 >$(BUILD)/result/$@
-	$(Q)if sh tests/tools/under.sh sanitizer '$(CC)' -xc && sh tests/tools/under.sh sanitizer '$(CXX)' -xc++; then \
-	    $(MAKE) --no-print-directory BUILD=$(BUILD)/sanitize sanitized \
-	    CPPFLAGS=-DTHINNED=8 CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all' && \
+	$(Q)if [ '$(CC)' = cc ] && sh tests/tools/under.sh sanitizer clang -xc >/dev/null && command -v clang >/dev/null; \
+	then cc=clang cxx=clang++; else cc='$(CC)' cxx='$(CXX)'; fi; \
+	if sh tests/tools/under.sh sanitizer "$$cc" -xc && sh tests/tools/under.sh sanitizer "$$cxx" -xc++; then \
+	    $(MAKE) --no-print-directory CC="$$cc" CXX="$$cxx" BUILD=$(BUILD)/sanitize sanitized CPPFLAGS=-DTHINNED=8 \
+	    CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all' && \
 	    cp $(BUILD)/sanitize/result/sanitized $(BUILD)/result/$@; fi
 sanitized: $(SANITIZED)
 	$(SUM) sanitized $(SANITIZED)

@@ -880,10 +880,71 @@ TEST(a_state_off_its_constraint_is_refused)
         if (gvi_project(&st, 0, q, v, NULL) != GVI_OK) continue;
         ++on;
         a.effects[0].points(&at, &kind);
-        for (int row = 0; row <= bars; ++row) assert_close(g[row], 0, 1000000*EPS);
+        for (int row = 0; row <= bars; ++row) assert_close(g[row], 0, 1000000*EPS*(1 + fabs(q[0])));
         assert_ok(gvi_start(&st, 0, q, v));
     }
     assert_true(on > 600);
+}
+
+/* M(q) = diag(1 + c x^2, 1) and a line: the nearest state by M there has M(q')(q' - q) along the line's normal, though no step
+   changes g once it is 0.  And with as many rows as coordinates all of v goes, to the last bit. */
+GVI_EACH(heavier_aside, 2, mass)
+{
+    x->mass[0] = 1 + *(const real *)user*x->q[0]*x->q[0];
+    x->mass[3] = 1;
+}
+
+GVI_EACH(heavier_gradient, 2, v, f) { x->f[0] += *(const real *)user*x->q[0]*x->v[0]*x->v[0]; }
+
+GVI_EACH(one_line, 2, rows(1))
+{
+    x->g[0] = x->q[0] + x->q[1] - 1;
+    x->jacobian[0] = x->jacobian[1] = 1;
+}
+
+GVI_EACH(one_point, 2, rows(2))
+{
+    x->g[0] = (x->q[0]*x->q[0] + x->q[1]*x->q[1] - 1)/2;
+    x->jacobian[0] = x->q[0];
+    x->jacobian[1] = x->q[1];
+    x->g[1] = x->q[0] - x->q[1]/2;
+    x->jacobian[2] = 1;
+    x->jacobian[3] = -(real)0.5L;
+}
+
+TEST(the_nearest_state_is_nearest_by_the_mass_there)
+{
+    int found = 0;
+    for (int k = 0; k < 300; ++k) {
+        real c = pow((real)4, (real)(k % 6 - 2)), q[2] = { 2*random_unit(), 2*random_unit() }, v[2] = { 1, 2 }, to[2];
+        const gvi_effect line = { .kind = GVI_CONSTRAINT, .points = one_line, .rows = 1 };
+        const gvi_desc desc = { .n = 2, .degree = 2, .effects = &line, .effect_count = 1,
+            .mass = { .kind = GVI_MASS_POSITION, .points = heavier_aside, .gradient = heavier_gradient, .user = &c } };
+        gvi_stepper st;
+        memcpy(to, q, sizeof to);
+        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+        if (gvi_project(&st, 0, to, v, NULL) != GVI_OK) continue;
+        ++found;
+        const real push = (1 + c*to[0]*to[0])*(to[0] - q[0]), other = to[1] - q[1];
+        assert_close(push, other, (fabs(push) + fabs(other))*32*sqrt(EPS) + 64*EPS);
+        assert_close((1 + c*to[0]*to[0])*(v[0] - 1), v[1] - 2, 1000*EPS*(1 + c));
+    }
+    assert_true(found > 280);
+}
+
+TEST(where_nothing_can_move_v_is_0)
+{
+    const gvi_effect point = { .kind = GVI_CONSTRAINT, .points = one_point, .rows = 2 };
+    const gvi_desc desc = { .n = 2, .degree = 2, .effects = &point, .effect_count = 1 };
+    for (int k = 0; k < 200; ++k) {
+        real q[2] = { (real)0.4L + random_unit()/10, (real)0.9L + random_unit()/10 }, v[2] = { random_unit(), random_unit() };
+        gvi_stepper st;
+        assert_ok(gvi_init(&st, &desc, memory, sizeof memory));
+        assert_ok(gvi_project(&st, 0, q, v, NULL));
+        assert_true(v[0] == 0 && v[1] == 0);
+        assert_ok(gvi_start(&st, 0, q, v));
+        assert_ok(gvi_step(&st, 1));
+    }
 }
 
 RUN_TESTS(NULL, NULL)

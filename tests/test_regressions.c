@@ -182,4 +182,36 @@ TEST(coordinates_alike_move_alike)
                 }
 }
 
+GVI_EACH(square, 1, v, f, dldv)
+{
+    const real c = *(const real *)user;
+    x->f[0] += 2*c*x->q[0]*x->v[0];
+    x->dldv[0] += c*x->q[0]*x->q[0];
+}
+
+/* L = m v^2/2 + c q^2 v is free motion and p = m v + c q^2, whatever v rounding makes of it */
+TEST(p_is_as_good_as_q_where_it_cancels_dldv)
+{
+    int steps = 0;
+    for (int run = 0; run < 3*3*4*4*7; ++run) {
+        gvi_stepper st;
+        real c = (real[]){ (real)0.03L, (real)0.3L, 1 }[run % 3], m = (real[]){ (real)0.01L, (real)0.2L, 30 }[run/3 % 3],
+             q = (real[]){ (real)-3.7L, (real)-0.6L, (real)1.9L, (real)3.3L }[run/9 % 4],
+             v = (real[]){ (real)-2.9L, (real)0.07L, (real)0.5L, (real)3.6L }[run/36 % 4];
+        const gvi_effect scene[] = { { .kind = GVI_LAGRANGIAN, .points = square, .user = &c } };
+        set_up(&st, (gvi_desc){ .n = 1, .degree = 2 + run/144, .effects = scene, .effect_count = 1,
+                                .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = &m } }, memory);
+        assert_ok(gvi_start(&st, 0, &q, &v));
+        for (int k = 0; k < 6; ++k) {
+            const long double h = 0.1L + 0.3L*(run % 5), q0 = (long double)st.q[0] + st.q_low[0], p0 = (long double)st.p[0] + st.p_low[0];
+            if (gvi_step(&st, (real)h) != GVI_OK) break;                  // h too long, and said so
+            const long double q1 = (long double)st.q[0] + st.q_low[0], p1 = (long double)st.p[0] + st.p_low[0], mv = p0 - c*q0*q0;
+            const long double terms = fabsl(mv) + c*fmaxl(q0*q0, q1*q1) + 2*c*h*fabsl(mv/m)*fmaxl(fabsl(q0), fabsl(q1));
+            assert_between(0, fabsl(p1 - (mv + c*q1*q1)), 10*EPS*terms);
+            steps += 1;
+        }
+    }
+    assert_between(5000, steps, 6048);
+}
+
 RUN_TESTS(NULL, NULL)

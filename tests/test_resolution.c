@@ -440,4 +440,19 @@ TEST(no_step_of_random_scenes_is_worse_than_100_times_the_limit)
     assert_true(steps == 8000 && refused < 4000);
 }
 
+/* No conversion overflows (make sanitize); and a callback may be named like anything of the library's */
+GVI_EACH(point, 1, f) { x->f[0] -= x->q[0]; }
+
+TEST(the_longest_way_of_all_is_no_accident)
+{
+    const gvi_effect spring = { .points = point };
+    const gvi_desc desc = { .n = 1, .degree = 4, .effects = &spring, .effect_count = 1, .resolution = (gvi_real)1e-3L };
+    const gvi_real q = 0, v = 0;
+    gvi_stepper st;
+    assert_ok(gvi_init(&st, &desc, room, sizeof room));
+    assert_ok(gvi_start(&st, -MAX, &q, &v));
+    for (int k = 0; k < 4; ++k) (void)gvi_advance(&st, MAX);
+    assert_true(st.q[0] == 0);
+}
+
 RUN_TESTS(NULL, NULL)

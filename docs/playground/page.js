@@ -658,7 +658,8 @@ function drawCost() {
   if (cheapest) words += '<button type="button" id="copy-too">Copy the C</button>';
   if ($('cheapest').dataset.is !== words) { $('cheapest').innerHTML = words; $('cheapest').dataset.is = words; }
   svg.setAttribute('aria-label', `Error at the end of the run against ${byTime ? 'time' : 'evaluations'}; ${good.length} points. ${$('cheapest').textContent.replace(/(Use it)?(Copy the C)?$/, '')}`);
-  if (current && !pointed) tell(current, 'As set now: ');
+  if (!pointed && current) tell(current, 'As set now: ');
+  else if (!pointed) $('point').textContent = '';
   $('dial-out').textContent = set.dial && current ? `${many(current.steps)} steps in ${duration(current.time)} a run` : '';
   $('code').textContent = program(cheapest || current || setting());
   $('points').innerHTML = '<thead><tr><th>setting</th><th>error</th><th>time</th><th>evaluations</th><th>steps</th></tr></thead><tbody>' + p.points.filter(q => q.time).sort((b, c) => b.method - c.method || b.degree - c.degree || c.h - b.h).map(q => `<tr><td>${describe(q)}</td><td>${short(q.error)}</td><td>${duration(q.time)}</td><td>${many(q.work)}</td><td>${many(q.steps)}</td></tr>`).join('') + '</tbody>';
@@ -714,11 +715,11 @@ int main(void)
 {
     const double q[] = { ${state(32)} };
     const double v[] = { ${state(33)} };
-    const gvi_effect effects[] = {
-${on.map(e => `        ${e.code},`).join('\n') || '        { .kind = GVI_POTENTIAL }'}
+${on.length ? `    const gvi_effect effects[] = {
+${on.map(e => `        ${e.code},`).join('\n')}
     };
-${kicks && j.rule === 'verlet' ? '    const double nodes[] = { 0, 1 }, weights[] = { 0.5, 0.5 };\n' : kicks ? kicks8() : ''}    gvi_desc desc = { .n = ${s.n}, .degree = ${j.degree},${kicks ? ` .rule = { GVI_KICKS, ${j.rule === 'verlet' ? 2 : 18}, nodes, weights },` : rule}${j.tol ? ` .tolerance = ${j.tol.toExponential(0)},` : ''}${j.dial ? ` .resolution = ${j.dial.toExponential(0)},` : ''}
-                      .effects = effects, .effect_count = ${on.length} };
+` : ''}${kicks && j.rule === 'verlet' ? '    const double nodes[] = { 0, 1 }, weights[] = { 0.5, 0.5 };\n' : kicks ? kicks8() : ''}    gvi_desc desc = { .n = ${s.n}, .degree = ${j.degree},${kicks ? ` .rule = { GVI_KICKS, ${j.rule === 'verlet' ? 2 : 18}, nodes, weights },` : rule}${j.tol ? ` .tolerance = ${j.tol.toExponential(0)},` : ''}${j.dial ? ` .resolution = ${j.dial.toExponential(0)},` : ''}
+                      .effects = ${on.length ? 'effects' : 'NULL'}, .effect_count = ${on.length} };
     gvi_stepper st;
 ${s.make ? `    ${s.make}\n` : ''}${s.mass ? `    desc.mass = ${s.mass.replace(/^\((\(.*)\)$/, '$1')};\n${held() ? '    desc.mass.velocity = NULL;                  // with constraints gvi.h solves for it\n' : ''}` : ''}    double *memory = malloc(gvi_size(&desc));
     if (gvi_init(&st, &desc, memory, gvi_size(&desc)) == GVI_OK) gvi_start(&st, 0, q, v);

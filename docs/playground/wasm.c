@@ -28,6 +28,9 @@ static inline double bounded_sine(double x, double turns)
 #define sin(x) bounded_sine(x, 0)
 #define cos(x) bounded_sine(x, 1)
 
+#define GVI_NO_RULES
+#define GVI_NO_BOUNDARY
+#define GVI_NO_RESTORE
 #define GVI_IMPLEMENTATION
 #define GVI_STATIC
 #include "gvi.h"
@@ -241,6 +244,7 @@ int EXPORT(world_open)(int which, int index, unsigned on, int degree, int rule, 
         w->listed[w->desc.effect_count] = i;
         w->effects[w->desc.effect_count++] = w->setup.row[i].effect;
     }
+    if (w->desc.effect_count == 0) w->desc.effects = NULL;        /* free motion */
     world_rule(&w->desc, degree, rule);
     if (reads & GVI_CONSTRAINT) w->desc.mass.velocity = NULL;
     /* Newton's method needs the square of s n: for a large scene the formulation is pinned */

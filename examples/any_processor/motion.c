@@ -11,18 +11,24 @@
 
 enum { S = 8 };                                       // points: rows of degree 8 have no others behind them
 
-static int halo(const gvi_points *x, void *user)
+// inlined, so that a length known at compile time reaches the loop
+static inline void halo_rows(const gvi_points *x, int length)
 {
     const double y2 = 1/(flat_y*flat_y), z2 = 1/(flat_z*flat_z), *restrict q = x->q;
     double *restrict f = x->f;
-    if (x->stride != S) return 1;
-    for (int k = 0; k < S; ++k) {
-        const double X = q[k], Y = y2*q[S + k], Z = z2*q[2*S + k];
-        const double w = -speed*speed/(core*core + X*X + Y*q[S + k] + Z*q[2*S + k]);
+    for (int k = 0; k < length; ++k) {
+        const double X = q[k], Y = y2*q[length + k], Z = z2*q[2*length + k];
+        const double w = -speed*speed/(core*core + X*X + Y*q[length + k] + Z*q[2*length + k]);
         f[k] += w*X;
-        f[S + k] += w*Y;
-        f[2*S + k] += w*Z;
+        f[length + k] += w*Y;
+        f[2*length + k] += w*Z;
     }
+}
+
+static int halo(const gvi_points *x, void *user)
+{
+    if (x->stride == S) halo_rows(x, S);
+    else halo_rows(x, x->stride);                     // the one point of a start
     return (void)user, 0;
 }
 

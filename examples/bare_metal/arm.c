@@ -7,8 +7,15 @@
    as decimals, then how many periods ended before their work was done.          */
 #define GVI_IMPLEMENTATION
 #define GVI_STATIC
-#define GVI_ONLY_MOMENTA
+#define GVI_NO_RULES            /* of all chapters M(q) alone is wanted */
+#define GVI_NO_LAGRANGIAN
 #define GVI_NO_CLOCK
+#define GVI_NO_KICKS
+#define GVI_NO_NEWTON
+#define GVI_NO_CONSTRAINTS
+#define GVI_NO_DIAL
+#define GVI_NO_EXPLAIN
+#define GVI_NO_TEXTS
 #define GVI_EFFECTS 3
 #include "gvi.h"
 #include "board.h"
@@ -95,10 +102,10 @@ int main(void)
     static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = arm_weight },
                                         { .kind = GVI_FORCE, .points = friction },
                                         { .kind = GVI_FORCE, .points = drive, .user = &m } };
-    const gvi_desc desc = { .n = 2, .degree = 2, .effects = scene, .effect_count = 3,
-                            .mass = { .kind = GVI_MASS_POSITION, .points = arm_mass,
-                                      .gradient = arm_gradient },
-                            .formulation = GVI_MOMENTA, .iterations = 4 };
+    static const gvi_desc desc = { .n = 2, .degree = 2, .effects = scene, .effect_count = 3,
+                                   .mass = { .kind = GVI_MASS_POSITION, .points = arm_mass,
+                                             .gradient = arm_gradient },
+                                   .formulation = GVI_MOMENTA, .iterations = 4 };
     static gvi_real memory[GVI_LENGTH(2, 2, 2)];
     static const gvi_real rest[2] = { 0, 0 };
     static gvi_stepper st;

@@ -7,7 +7,7 @@
    each as bits and as decimals.                                                 */
 #define GVI_IMPLEMENTATION
 #define GVI_STATIC
-#define GVI_ONLY_VELOCITIES
+#define GVI_CORE
 #define GVI_EFFECTS 3
 #include "gvi.h"
 #include "board.h"
@@ -47,8 +47,8 @@ int main(void)
     static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = weight },
                                         { .kind = GVI_POTENTIAL, .points = drive },
                                         { .kind = GVI_FORCE, .points = friction } };
-    const gvi_desc desc = { .n = 1, .degree = 3, .effects = scene, .effect_count = 3,
-                            .formulation = GVI_VELOCITIES, .iterations = 3 };
+    static const gvi_desc desc = { .n = 1, .degree = 3, .effects = scene, .effect_count = 3,
+                                   .formulation = GVI_VELOCITIES, .iterations = 3 };
     static gvi_real memory[GVI_LENGTH(1, 3, 3)];
     static gvi_stepper st;
     static const gvi_real angle[1] = { 1 }, rest[1] = { 0 };

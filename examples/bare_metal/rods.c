@@ -7,8 +7,14 @@
    times a second, each as bits and as decimals.                                  */
 #define GVI_IMPLEMENTATION
 #define GVI_STATIC
-#define GVI_ONLY_VELOCITIES
-#define GVI_NO_CLOCK
+#define GVI_NO_RULES            /* of all chapters constraints alone are wanted */
+#define GVI_NO_LAGRANGIAN
+#define GVI_NO_MOMENTA          /* and the clock with it */
+#define GVI_NO_KICKS
+#define GVI_NO_NEWTON
+#define GVI_NO_DIAL
+#define GVI_NO_EXPLAIN
+#define GVI_NO_TEXTS
 #define GVI_EFFECTS 4
 #include "gvi.h"
 #include "board.h"
@@ -67,9 +73,9 @@ int main(void)
                                         { .kind = GVI_FORCE, .points = air },
                                         { .kind = GVI_POTENTIAL, .points = shoulder, .user = &torque },
                                         { .kind = GVI_CONSTRAINT, .points = rods, .rows = 2 } };
-    const gvi_desc desc = { .n = 4, .degree = 2, .effects = scene, .effect_count = 4,
-                            .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = mass },
-                            .formulation = GVI_VELOCITIES };
+    static const gvi_desc desc = { .n = 4, .degree = 2, .effects = scene, .effect_count = 4,
+                                   .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = mass },
+                                   .formulation = GVI_VELOCITIES };
     static gvi_real memory[GVI_CONSTRAINED_LENGTH(4, 2, 2, 2)];
     static const gvi_real hanging[4] = { 0, -0.5, 0, -0.75 }, rest[4] = { 0, 0, 0, 0 };
     static gvi_stepper st;

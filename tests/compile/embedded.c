@@ -2,10 +2,8 @@
 #define GVI_REAL float          /* what the processor computes with                   */
 #define GVI_IMPLEMENTATION
 #define GVI_STATIC              /* what is not called is not there                    */
-#define GVI_ONLY_VELOCITIES     /* the formulation that the scene needs, see below    */
+#define GVI_CORE                /* no chapter: this scene needs none, see below       */
 #define GVI_EFFECTS 3           /* three rows in effects[]                            */
-#define GVI_NO_RULES            /* Gauss's rule with as many points as degrees        */
-#define GVI_NO_CLOCK
 #include "gvi.h"
 #include <math.h>
 
@@ -30,13 +28,13 @@ static int drive(const gvi_points *x, void *user)
 static const gvi_effect scene[] = { { .kind = GVI_POTENTIAL, .points = weight },
                                     { .kind = GVI_POTENTIAL, .points = drive },
                                     { .kind = GVI_FORCE, .points = friction } };
+static const gvi_desc desc = { .n = 1, .degree = 3, .effects = scene, .effect_count = 3,
+                               .formulation = GVI_VELOCITIES, .iterations = 3 };
 static float memory[GVI_LENGTH(1, 3, 3)];
 static gvi_stepper pendulum;
 
 int pendulum_start(void)
 {
-    const gvi_desc desc = { .n = 1, .degree = 3, .effects = scene, .effect_count = 3,
-                            .formulation = GVI_VELOCITIES, .iterations = 3 };
     static const float angle[1] = { 1 }, rest[1] = { 0 };
     gvi_init(&pendulum, &desc, memory, sizeof memory);
     return gvi_start(&pendulum, 0, angle, rest);      /* the first failure of the two */

@@ -4,16 +4,23 @@
 #define GVI_STATIC
 #if LEAST
 #define GVI_EFFECTS 2
-#define GVI_NO_CLOCK
-#define GVI_NO_RULES
+#if FORMULATION < 4
+#define GVI_CORE
 #if FORMULATION == 1
 #define GVI_ONLY_EXPLICIT
-#elif FORMULATION == 2
-#define GVI_ONLY_POSITIONS
-#elif FORMULATION == 3
-#define GVI_ONLY_VELOCITIES
-#else
-#define GVI_ONLY_MOMENTA
+#endif
+#else                                   // all but M(q)
+#define GVI_NO_RULES
+#define GVI_NO_LAGRANGIAN
+#define GVI_NO_CLOCK
+#define GVI_NO_KICKS
+#define GVI_NO_NEWTON
+#define GVI_NO_CONSTRAINTS
+#define GVI_NO_OUTPUT
+#define GVI_NO_DIAL
+#define GVI_NO_RESTORE
+#define GVI_NO_EXPLAIN
+#define GVI_NO_TEXTS
 #endif
 #endif
 #define GVI_IMPLEMENTATION
@@ -41,7 +48,7 @@ static const gvi_desc desc = { .n = 1, .degree = FORMULATION == 1 ? 1 : 2,
                                .mass = { .kind = GVI_MASS_POSITION, .points = mass, .gradient = gradient },
 #endif
                                .formulation = (gvi_formulation)FORMULATION, .iterations = FORMULATION == 1 ? 0 : 3 };
-static float memory[LEAST == 0 ? GVI_LENGTH(1, 2, 2) : FORMULATION == 1 ? 48 : 110];     // as gvi_size says
+static float memory[FORMULATION == 1 && LEAST ? GVI_LENGTH(1, 1, 2) : GVI_LENGTH(1, 2, 2)];
 static gvi_stepper st;
 volatile float angle;
 

@@ -1,7 +1,7 @@
 #!/bin/sh
 # boards.sh BUILD: gvi.h where its users compile it, each where the compiler is there:
 #   Windows   a program with <windows.h> before and after, by mingw; clang's parser in the dialect of MSVC, /W4
-#   boards    flash and RAM of the least program of each formulation, as one writes it and with what leaves code out;
+#   boards    flash and RAM of the least program of each formulation, as one writes it and with GVI_CORE and what the scene needs;
 #             on AVR the latter run by simavr: the bits are those of this machine.  A C++ sketch beside a C file.
 # The table is that of docs/embedded.md.
 build=$1
@@ -73,6 +73,7 @@ if have avr-gcc; then
             $CC $flags tests/compile/flash_run.c -o "$dir/run" -lm || fail "flash_run.c, $f"
         there=$(timeout 60 simavr -m ${f#*:} -f 16000000 "$dir/run.elf" 2>&1 | grep -o '[0-9a-f]\{8\}[.!]' | head -1) here=$("$dir/run")
         [ "$there" = "$here" ] || fail "${f#*:}, formulation ${f%:*}: $there there, $here here"
+        case $here in *.) ;; *) fail "formulation ${f%:*}: a step fails" ;; esac
         echo "  ${f#*:} runs formulation ${f%:*}: $there, the same bits as here"
         count=$((count + 1))
     done

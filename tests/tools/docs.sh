@@ -78,4 +78,11 @@ for page in README.md docs/*.md; do
     done
 done
 
+# -- 6; the drawing of places is that of the source
+if command -v python3 >/dev/null 2>&1; then
+    python3 tests/tools/places.py | cmp -s - docs/img/places.svg ||
+        fail "docs/img/places.svg is not what gvi.h says: python3 tests/tools/places.py >docs/img/places.svg"
+    count=$((count + 1))
+fi
+
 echo "docs-check: $count passed, 0 failed"

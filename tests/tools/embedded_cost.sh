@@ -27,12 +27,20 @@ m3='-mcpu=cortex-m3 -DGVI_REAL=double -DSTEPS_COUNTED=100'
 # scene, formulation
 images='0-POSITIONS 0-EXPLICIT 1-VELOCITIES 2-POSITIONS 2-EXPLICIT 3-MOMENTA 4-MOMENTA'
 
+chapters() {  # formulation: what is compiled
+    case $1 in
+    EXPLICIT) echo -DGVI_CORE -DGVI_ONLY_EXPLICIT ;;
+    MOMENTA) for c in RULES LAGRANGIAN CLOCK KICKS NEWTON CONSTRAINTS OUTPUT DIAL RESTORE EXPLAIN TEXTS; do echo -DGVI_NO_$c; done ;;
+    *) echo -DGVI_CORE ;;
+    esac
+}
+
 # NAME SCENE-FORMULATION MACHINE FLAGS: an instruction takes 1 ns; the call and what is loaded before a loop of
 # known length are up to 8 instructions
 count() {
     name=$1 where=$2 machine=$3
     shift 3
-    ${cross}gcc $strict -I. $bare -DGVI_NO_CLOCK -DEMBEDDED_SCENE=${where%-*} -DGVI_ONLY_${where#*-} "$@" \
+    ${cross}gcc $strict -I. $bare $(chapters ${where#*-}) -DEMBEDDED_SCENE=${where%-*} "$@" \
         tests/cost/embedded_count.c $board/board_mps2.c $board/print.c -o "$dir/$name.elf" -lm ||
         fail "$name: compilation"
     timeout 300 qemu-system-arm -M "$machine" -nographic -monitor none -serial none -icount shift=0 \

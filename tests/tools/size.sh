@@ -1,16 +1,16 @@
 #!/bin/sh
 # size.sh BUILD [--detail]: how large gvi.h is on small machines, with GVI_REAL float and -Os:
 # code and constants of gvi.h alone, what it takes of libm and libgcc, the deepest stack; then
-# RAM.  Rows: every function, then gvi_init, gvi_start and gvi_step with one formulation
-# (GVI_ONLY_...), whole and without a clock and with Gauss's rule alone (GVI_NO_CLOCK,
-# GVI_NO_RULES, "least").  --detail: also the largest functions and the deepest chain of calls.
+# RAM.  Rows: every function; then gvi_init, gvi_start and gvi_step with all chapters, with none (core), with the
+# explicit formulation alone, and with chapters on top of the core.  --detail: also the largest functions and the deepest
+# chain of calls.
 build=$1 detail=$2
 CC=${CC:-cc}
 dir=$build/size
 mkdir -p "$dir"
 rm -f "$dir"/*
 fail() { echo "FAILED: size: $*"; exit 1; }
-least='-DGVI_NO_CLOCK -DGVI_NO_RULES'
+explicit='-DGVI_CORE -DGVI_ONLY_EXPLICIT'
 entries='size_init size_start size_step'
 cc_flags='-std=c99 -Os -fno-math-errno -ffp-contract=off -ffunction-sections -fdata-sections
           -DGVI_REAL=float -I.'
@@ -72,8 +72,15 @@ row() {  # name source roots flags...
         awk '$3 ~ /[tT]/ { print $4, $2 + 0 }' | tail -10)
 }
 
+# all that leaves out but these chapters; a clock needs momenta
+on_core() {
+    for c in RULES LAGRANGIAN MOMENTA CLOCK KICKS NEWTON CONSTRAINTS OUTPUT DIAL BOUNDARY RESTORE EXPLAIN TEXTS; do
+        case "$1 $c" in "$c $c" | 'CLOCK MOMENTA') ;; *) echo -DGVI_NO_$c ;; esac
+    done
+}
+
 stepper() {  # flags: bytes of a gvi_stepper
-    $compiler $cc_flags -DGVI_ONLY_EXPLICIT "$@" -c tests/tools/size.c -o "$dir/stepper.o" ||
+    $compiler $cc_flags "$@" -c tests/tools/size.c -o "$dir/stepper.o" ||
         fail "$target: stepper"
     ${prefix}nm -S -t d "$dir/stepper.o" | awk '$NF == "size_stepper" { print $2 + 0 }'
 }
@@ -88,24 +95,24 @@ table() {  # target title prefix flags link-flags
     echo "$2, gcc $(${prefix}gcc -dumpfullversion -dumpversion), bytes"
     printf '  %-22s %7s %7s %10s %7s %9s %8s\n' '' code const libraries stack callback library
     row everything "$dir/everything.c" ''
-    for f in explicit positions velocities momenta newton; do
-        only=-DGVI_ONLY_$(echo $f | tr a-z A-Z)
-        row $f tests/tools/size.c "$entries" $only
-        row "$f, least" tests/tools/size.c "$entries" $only $least
+    row 'step, all chapters' tests/tools/size.c "$entries"
+    row explicit tests/tools/size.c "$entries" $explicit
+    row core tests/tools/size.c "$entries" -DGVI_CORE
+    for c in KICKS RULES LAGRANGIAN MOMENTA CLOCK NEWTON CONSTRAINTS DIAL; do
+        row "core, $(echo $c | tr A-Z a-z)" tests/tools/size.c "$entries" $(on_core $c)
     done
-    echo "$target $(stepper) $(stepper -DGVI_EFFECTS=4)" >>"$dir/steppers"
+    echo "$target $(stepper) $(stepper -DGVI_CORE) $(stepper $explicit -DGVI_EFFECTS=4)" >>"$dir/steppers"
 }
 
 # a scene needs as many numbers on every machine; the stepper is pointers and counters
 ram() {
     $CC -std=c99 -DSIZE_SCENES -DGVI_REAL=float -I. tests/tools/size.c -o "$dir/scenes" -lm &&
         "$dir/scenes" >"$dir/scenes.txt" || fail 'scenes'
-    echo 'RAM, bytes: gvi_size of a scene, in brackets the bound for any scene of that size;'
-    echo 'with the stepper; the same with GVI_EFFECTS 4'
-    while read -r target full small; do
-        echo "  $target: stepper $full ($small)"
-        awk -F'|' -v full="$full" -v small="$small" '{
-            printf "    %-36s %5d (%5d) %6d %6d\n", $1, 4*$2, 4*$3, 4*$2 + full, 4*$2 + small }' "$dir/scenes.txt"
+    echo 'RAM, bytes: gvi_size of a scene, in brackets the bound for any scene of that size, with all chapters;'
+    echo 'then the bytes of a gvi_stepper: with all chapters, with the core, explicit with GVI_EFFECTS 4'
+    awk -F'|' '{ printf "    %-36s %5d (%5d)\n", $1, 4*$2, 4*$3 }' "$dir/scenes.txt"
+    while read -r target full core small; do
+        echo "  $target: stepper $full, $core, $small"
     done <"$dir/steppers"
 }
 
