@@ -953,7 +953,6 @@ struct gvi__dial {
     int       top;                    /* the highest of them: K of gvi__resolution             */
     gvi_real  reach, barrier;         /* rungs: of the longest step that was allowed last; of
                                          the last length that failed                           */
-    gvi_real  loss;                   /* of reach, by the last step                            */
     int       wait, again;            /* steps below that; failures near it, one after another */
     int       shorter, put_off;       /* lengths to try before Newton's method; is it put off? */
 };
@@ -1668,13 +1667,12 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 
 // the dial, in rungs, four an octave
 #define GVI__BAND 4                        // room at which h stays; and the most that it grows
-#define GVI__MARGIN 1                      // of it, kept back
-#define GVI__DOUBT ((gvi_real)0.5)         // rungs below 0: by a loss that is the first
-#define GVI__SHY 3                         // rungs of room kept back by a step that grows
+#define GVI__MARGIN ((gvi_real)0.75)       // of it, kept back
+#define GVI__SHY ((gvi_real)2.5)           // rungs of room kept back by a step that grows
 #define GVI__MANY (4 + GVI__DIG/4)         // iterations from which on a longer step does not pay
 #define GVI__WAIT 4                        // steps until a length that failed is tried again
 #define GVI__SHORTER 3                     // lengths tried before Newton's method, 3 rungs apart
-#define GVI__STEADY ((gvi_real)0.64)       // of a fall of modes, squared, that one pair alone shows
+#define GVI__STEADY ((gvi_real)0.81)       // of a fall of modes, squared, that one pair alone shows
 #define GVI__CANCELS 16                    // s^2 eps: rounding of forces that cancel
 #define GVI__FALL 8                        // the most that it shrinks, and after a failure
 #define GVI__RESTS 4096                    // times slower than the fastest: judged with it
@@ -8179,32 +8177,16 @@ static gvi_real gvi__power(gvi_real x, int k)
     return y;
 }
 
-/* What part of its high modes coordinate i lacks where forces are stiff: contraction^(s/2)/10, ^s
-   by velocities, since that is of first order in h.  Contraction is that of the last change of
-   its row; with constraints it is their multipliers' and tells nothing.  Where the fixed point
-   fails, all.                                                                                 */
-static gvi_real gvi__stiffness(const gvi_stepper *st, int i)
-{
-    const struct gvi__private *in = &st->in;
-    if (st->formulation == GVI_NEWTON) return (gvi_real)(in->chosen != GVI_NEWTON);
-    if (st->iterations < 2 || gvi__constrained(st)) return 0;
-    const gvi_real *last = in->watch.change, *before = in->watch.before;
-    gvi_real contraction = 0;                                    // a square
-    for (int row = i; row < in->stages*st->n; row += st->n)
-        if (last[row] > GVI__EPS*GVI__EPS*(gvi_real)st->r)
-            contraction = gvi__larger(last[row]/before[row], contraction);
-    contraction = gvi__smaller(contraction, 1);
-    if (in->stages == 1) contraction = GVI_SQRT(contraction);
-    return gvi__power(contraction, st->s/2)/10;
-}
-
 /* What a coordinate lacks of its velocity, of which y are the modes K, K - 1 .., `ends` at both
    ends and `turn` from end to end.  all: its size.                                            */
 static gvi_real gvi__missed(const gvi_stepper *st, const gvi_real *y, gvi_real ends, gvi_real turn,
-                            gvi_real stiff, gvi_real *all)
+                            gvi_real *all)
 {
-    const int top = st->in.dial.top, e = 2*st->s - top;
+    const int top = st->in.dial.top, left = 2*st->s - top, e = left + left/8,
+              stiff = st->formulation == GVI_NEWTON && st->in.chosen != GVI_NEWTON
+                      && !gvi__constrained(st);
     gvi_real high = y[0] + y[1], low = y[2] + y[3], fall = 1;                    // fall: rho^2
+
     *all = ends + high + low;
     if (top < 4) {
         const gvi_real one = y[1];                               // alone, a mode may pass 0
@@ -8215,7 +8197,10 @@ static gvi_real gvi__missed(const gvi_stepper *st, const gvi_real *y, gvi_real e
     // rounding, a force as simple as the curve: next to nothing, whatever h
     if (high <= 4*GVI__EPS*(st->in.stages == 1 ? turn + low : *all))
         return high*GVI__EPS*GVI__EPS;
+    if (stiff) return high;
+
     if (low > high) fall = high/low;
+    if (top == 2) fall *= GVI_SQRT(fall);                        // from y_1, or nearly
     if (top >= 6) {
         const gvi_real lower = y[4] + y[5], before = lower > low ? low/lower : 1;
         fall = GVI__STEADY*gvi__larger(before, fall);
@@ -8223,20 +8208,22 @@ static gvi_real gvi__missed(const gvi_stepper *st, const gvi_real *y, gvi_real e
     }
     gvi_real lacks = gvi__power(fall, e/2)*10;
     if (e & 1) lacks *= GVI_SQRT(fall);
-    return high*gvi__larger(gvi__smaller(lacks, 1), stiff);
+    return high*gvi__smaller(lacks, 1);
 }
 
 /* The error of a step relative to the motion, as Legendre modes y_k of its velocity tell it: k up
    to K = s where forces make the curve, which lacks that mode, else K = s - 1.  Of a coordinate
 
      high = |y_K| + |y_(K-1)|     low = |y_(K-2)| + |y_(K-3)|     lower = |y_(K-4)| + |y_(K-5)|
-     rho = max((high/lower)^(1/4), 0.8 (high/low)^(1/2), 0.8 (low/lower)^(1/2)), at most 1
-     high max(min(1, 10 rho^e), stiff)                            e = 2 s - K
+     rho = max((high/lower)^(1/4), 0.9 (high/low)^(1/2), 0.9 (low/lower)^(1/2)), at most 1
+     high min(1, 10 rho^e)                                e = 2 s - K, and an eighth of that
 
    rho is the fall from mode to mode.  The step lacks about y_2s, which its points take for modes
-   that they see: high rho^e; ten times that, since a short tail may be flatter than it looks.  It
-   also lacks what y_s, as a change of the force, does to velocity within the step: `stiff`.
-   Below K = 4 single modes count, below 6 two pairs.  In positions the modes are those of M v,
+   that they see: high rho^(2s - K); falls grow steeper on the way there, but a short tail may be
+   flatter than it looks: hence the eighth, and ten times that.
+   Stiff forces, for which Newton's method had to take over, turn all of y_s into an error: high.
+   (With constraints it takes over for other reasons.)  Below K = 4 single modes count, below 6
+   two pairs.  In positions the modes are those of M v,
    from the forces.  Where motion is far below max |v| + max |q|/h, each times sqrt(M_ii), an
    error of some s^2 eps of that sum is rounding, and relative to it.                          */
 static gvi_real gvi__resolution(const gvi_stepper *st)
@@ -8262,7 +8249,7 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
         }
         const gvi_real mass = GVI_SQRT(gvi__place_inertia(st, i)), scale = forces ? 1/mass : mass;
         missed[i] = scale*gvi__missed(st, y, GVI_ABS(start) + GVI_ABS(end), GVI_ABS(end - start),
-                                      gvi__stiffness(st, i), size + i);
+                                      size + i);
         size[i] *= scale;                         // p over M
         fastest = gvi__larger(size[i], fastest);
         farthest = gvi__larger(GVI_ABS(in->state.q[i])*mass, farthest);
@@ -8307,9 +8294,8 @@ static gvi_real gvi__length(gvi_real k)
 
 /* How many rungs up, after a step that succeeded.  `room`: up to where the resolution, of order
    2s - 1 in h, reaches its limit, less a margin.  What was lost of it since the last step will be
-   lost again; a first loss may be chance, and shrinks h by little.  From 0 to 4 rungs h stays as
-   it is.  Work over time is iterations/h: from GVI__MANY of them on h does not grow, from 5/3 of
-   that on it shrinks a little.                                                                */
+   lost again.  From 0 to 4 rungs h stays as it is.  Work over time is iterations/h: from
+   GVI__MANY of them on h does not grow, from 5/3 of that on it shrinks a little.              */
 static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
 {
     struct gvi__dial *dial = &st->in.dial;
@@ -8317,12 +8303,10 @@ static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
     const int many = st->in.stages == 2 ? GVI__MANY*3/2 : GVI__MANY,
               newton = st->formulation == GVI_NEWTON;
     gvi_real left = room, up = 0;
+
     if (room < 2*GVI__BAND) {
-        const gvi_real loss = dial->reach - (at + room);
+        left -= gvi__larger(dial->reach - (at + room), 0);
         dial->reach = at + room;
-        if (loss > 0) left -= loss;
-        if (room > 0 && dial->loss <= 0) left = gvi__larger(left, -GVI__DOUBT);
-        dial->loss = loss;
     }
     if (left > GVI__BAND) up = gvi__smaller(left - GVI__SHY, GVI__BAND);
     if (left < 0) up = gvi__larger(left - 1, -GVI__FALL);
@@ -8341,11 +8325,13 @@ static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
 static gvi_real gvi__rungs_down(gvi_stepper *st, gvi_status status, gvi_real at, gvi_real room)
 {
     struct gvi__dial *dial = &st->in.dial;
+
     dial->again = GVI_ABS(at - dial->barrier) > 2 ? 0 : dial->again + (dial->again < 4);
     dial->wait = GVI__WAIT << dial->again;
     dial->barrier = at;
     if (status == GVI_E_RESOLUTION) return gvi__larger(gvi__smaller(room, 0) - 1, -GVI__FALL);
     if (dial->shorter == 0) return -GVI__FALL;
+
     dial->shorter -= 1;
     return -3;
 }
@@ -9428,7 +9414,6 @@ GVI__COLD void gvi__place_started(gvi_stepper *st)
 #endif
 #ifndef GVI_NO_DIAL
     st->in.dial.reach = st->in.dial.barrier = -GVI__MAX;
-    st->in.dial.loss = 0;
     st->in.dial.wait = st->in.dial.again = 0;
     st->in.dial.shorter = GVI__SHORTER;
 #endif
