@@ -951,8 +951,8 @@ struct gvi__rolling {                 /* rows of GVI_NONHOLONOMIC, of m in all  
 struct gvi__dial {
     gvi_real *high;                   /* [r][6] sources to the highest modes                   */
     int       top;                    /* the highest of them: K of gvi__resolution             */
-    gvi_real  reach, barrier;         /* rungs: of the longest step that was allowed last; of
-                                         the last length that failed                           */
+    gvi_real  reach, loss;            /* rungs: longest step allowed last, and by how much less */
+    gvi_real  barrier;                /* rung of the last length that failed                   */
     int       wait, again;            /* steps below that; failures near it, one after another */
     int       shorter, put_off;       /* lengths to try before Newton's method; is it put off? */
 };
@@ -1667,12 +1667,13 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 
 // the dial, in rungs, four an octave
 #define GVI__BAND 4                        // room at which h stays; and the most that it grows
-#define GVI__MARGIN ((gvi_real)0.75)       // of it, kept back
-#define GVI__SHY ((gvi_real)2.5)           // rungs of room kept back by a step that grows
+#define GVI__MARGIN ((gvi_real)0.5)        // of it, kept back
+#define GVI__DOUBT ((gvi_real)0.5)         // rungs below 0: by a loss that is the first
+#define GVI__SHY 2                         // rungs of room kept back by a step that grows
 #define GVI__MANY (4 + GVI__DIG/4)         // iterations from which on a longer step does not pay
 #define GVI__WAIT 4                        // steps until a length that failed is tried again
 #define GVI__SHORTER 3                     // lengths tried before Newton's method, 3 rungs apart
-#define GVI__STEADY ((gvi_real)0.81)       // of a fall of modes, squared, that one pair alone shows
+#define GVI__STEADY ((gvi_real)0.64)       // of a fall of modes, squared, that one pair alone shows
 #define GVI__CANCELS 16                    // s^2 eps: rounding of forces that cancel
 #define GVI__FALL 8                        // the most that it shrinks, and after a failure
 #define GVI__RESTS 4096                    // times slower than the fastest: judged with it
@@ -8182,7 +8183,7 @@ static gvi_real gvi__power(gvi_real x, int k)
 static gvi_real gvi__missed(const gvi_stepper *st, const gvi_real *y, gvi_real ends, gvi_real turn,
                             gvi_real *all)
 {
-    const int top = st->in.dial.top, left = 2*st->s - top, e = left + left/8,
+    const int top = st->in.dial.top, e = 2*st->s - top,
               stiff = st->formulation == GVI_NEWTON && st->in.chosen != GVI_NEWTON
                       && !gvi__constrained(st);
     gvi_real high = y[0] + y[1], low = y[2] + y[3], fall = 1;                    // fall: rho^2
@@ -8215,12 +8216,11 @@ static gvi_real gvi__missed(const gvi_stepper *st, const gvi_real *y, gvi_real e
    to K = s where forces make the curve, which lacks that mode, else K = s - 1.  Of a coordinate
 
      high = |y_K| + |y_(K-1)|     low = |y_(K-2)| + |y_(K-3)|     lower = |y_(K-4)| + |y_(K-5)|
-     rho = max((high/lower)^(1/4), 0.9 (high/low)^(1/2), 0.9 (low/lower)^(1/2)), at most 1
-     high min(1, 10 rho^e)                                e = 2 s - K, and an eighth of that
+     rho = max((high/lower)^(1/4), 0.8 (high/low)^(1/2), 0.8 (low/lower)^(1/2)), at most 1
+     high min(1, 10 rho^e)                                        e = 2 s - K
 
    rho is the fall from mode to mode.  The step lacks about y_2s, which its points take for modes
-   that they see: high rho^(2s - K); falls grow steeper on the way there, but a short tail may be
-   flatter than it looks: hence the eighth, and ten times that.
+   that they see: high rho^e; ten times that, since a short tail may be flatter than it looks.
    Stiff forces, for which Newton's method had to take over, turn all of y_s into an error: high.
    (With constraints it takes over for other reasons.)  Below K = 4 single modes count, below 6
    two pairs.  In positions the modes are those of M v,
@@ -8294,8 +8294,9 @@ static gvi_real gvi__length(gvi_real k)
 
 /* How many rungs up, after a step that succeeded.  `room`: up to where the resolution, of order
    2s - 1 in h, reaches its limit, less a margin.  What was lost of it since the last step will be
-   lost again.  From 0 to 4 rungs h stays as it is.  Work over time is iterations/h: from
-   GVI__MANY of them on h does not grow, from 5/3 of that on it shrinks a little.              */
+   lost again; a first loss may be chance, and shrinks h by little.  From 0 to 4 rungs h stays as
+   it is.  Work over time is iterations/h: from GVI__MANY of them on h does not grow, from 5/3 of
+   that on it shrinks a little.                                                                */
 static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
 {
     struct gvi__dial *dial = &st->in.dial;
@@ -8305,7 +8306,10 @@ static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
     gvi_real left = room, up = 0;
 
     if (room < 2*GVI__BAND) {
-        left -= gvi__larger(dial->reach - (at + room), 0);
+        const gvi_real loss = dial->reach - (at + room);
+        if (loss > 0) left -= loss;
+        if (room > 0 && dial->loss <= 0) left = gvi__larger(left, -GVI__DOUBT);
+        dial->loss = loss;
         dial->reach = at + room;
     }
     if (left > GVI__BAND) up = gvi__smaller(left - GVI__SHY, GVI__BAND);
@@ -9414,6 +9418,7 @@ GVI__COLD void gvi__place_started(gvi_stepper *st)
 #endif
 #ifndef GVI_NO_DIAL
     st->in.dial.reach = st->in.dial.barrier = -GVI__MAX;
+    st->in.dial.loss = 0;
     st->in.dial.wait = st->in.dial.again = 0;
     st->in.dial.shorter = GVI__SHORTER;
 #endif
