@@ -8258,9 +8258,10 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
     const gvi_real whole = fastest + farthest/h;
     if (!(whole > 0)) return 0;
     for (int i = 0; i < st->n; ++i) {
+        const int rests = size[i] < whole/GVI__RESTS;
         // forces of constraint bring more of it, to every coordinate, and no h makes it smaller
-        if (constrained && missed[i] <= GVI__PULLED*GVI__EPS*whole) continue;
-        if (missed[i] <= GVI__CANCELS*rounding*whole && size[i] < whole/GVI__RESTS) size[i] = whole;
+        if (constrained && (forces || rests) && missed[i] <= GVI__PULLED*GVI__EPS*whole) continue;
+        if (rests && missed[i] <= GVI__CANCELS*rounding*whole) size[i] = whole;
         worst = gvi__larger(missed[i]/size[i], worst);
     }
     return worst;
