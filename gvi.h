@@ -971,8 +971,12 @@ struct gvi__rolling {                 /* rows of GVI_NONHOLONOMIC, of m in all  
 
 #ifndef GVI_NO_DIAL
 struct gvi__dial {
-    gvi_real *high;                   /* [r][4] sources to the highest modes                   */
-    gvi_real  reach;                  /* rung of the longest step that was allowed last        */
+    gvi_real *high;                   /* [r][6] sources to the highest modes                   */
+    int       top;                    /* the highest of them: K of gvi__resolution             */
+    gvi_real  reach, loss;            /* rungs: longest step allowed last, and by how much less */
+    gvi_real  barrier;                /* rung of the last length that failed                   */
+    int       wait, again;            /* steps below that; failures near it, one after another */
+    int       shorter, put_off;       /* lengths to try before Newton's method; is it put off? */
 };
 #endif
 
@@ -1331,7 +1335,7 @@ GVI_DEF gvi_real   gvi_lu_rcond(int n, const gvi_real *lu, const gvi_real *pivot
 #ifdef GVI_NO_DIAL
 #define GVI__DIAL_LENGTH(R) 0
 #else
-#define GVI__DIAL_LENGTH(R) (4*(R))
+#define GVI__DIAL_LENGTH(R) (6*(R))
 #endif
 
 /* The same with constraints, m rows in all.                                   */
@@ -1697,6 +1701,14 @@ static gvi_real gvi__grid(gvi__two a, gvi_real unit)
 
 // the dial, in rungs, four an octave
 #define GVI__BAND 4                        // room at which h stays; and the most that it grows
+#define GVI__MARGIN ((gvi_real)0.5)        // of it, kept back
+#define GVI__DOUBT ((gvi_real)0.5)         // rungs below 0: by a loss that is the first
+#define GVI__SHY 2                         // rungs of room kept back by a step that grows
+#define GVI__MANY (4 + GVI__DIG/4)         // iterations from which on a longer step does not pay
+#define GVI__WAIT 4                        // steps until a length that failed is tried again
+#define GVI__SHORTER 3                     // lengths tried before Newton's method, 3 rungs apart
+#define GVI__STEADY ((gvi_real)0.64)       // of a fall of modes, squared, that one pair alone shows
+#define GVI__CANCELS 16                    // s^2 eps: rounding of forces that cancel
 #define GVI__FALL 8                        // the most that it shrinks, and after a failure
 #define GVI__RESTS 4096                    // times slower than the fastest: judged with it
 #define GVI__PULLED 64                     // eps of the motion: rounding of forces of constraint
@@ -4951,8 +4963,8 @@ static gvi_real gvi__velocities_again(gvi_stepper *st)
     const gvi_real *V = in->work.V + st->r - 1;
     gvi_real *was = in->momenta.was, sum = 0;
     in->momenta.moves = 0;
-    // before the first evaluation Q, g and M(Q) are those of another step
 
+    // before the first evaluation Q, g and M(Q) are those of another step
     if (!in->momenta.has_factor && (clock || in->desc.mass.velocity || in->momenta.mass))
         return 0;
     if (made) gvi__gather(n, R, V, was);
@@ -4968,11 +4980,10 @@ static gvi_real gvi__velocities_again(gvi_stepper *st)
         const gvi_real moved = V[i*R] - was[i], size = GVI_ABS(V[i*R]) + GVI_ABS(was[i]);
         const int last = i*R + st->r - 1;
         const gvi_real terms = GVI_ABS(in->momenta.P[last]) + GVI_ABS(gvi__rows_of_A(in)[last]),
-                       half = GVI_SQRT(GVI__EPS), M = gvi__place_inertia(st, i);
+                       half = GVI_SQRT(GVI__EPS), inertia = gvi__place_inertia(st, i);
         if (size > GVI__NOTHING) sum += (moved/size)*(moved/size);
-        in->momenta.moves |= GVI_ABS(moved) > half*size && GVI_ABS(moved)*M > half*terms;
+        in->momenta.moves |= GVI_ABS(moved) > half*size && GVI_ABS(moved)*inertia > half*terms;
     }
-
     return (gvi_real)st->r*sum;
 }
 
@@ -8247,71 +8258,107 @@ GVI__COLD const char *gvi__wrong_in_resolution(const gvi_desc *d, int order)
     return NULL;
 }
 
-// b_j phi_k(c_j) or b_j Phi_k(c_j), over Gamma_kk, of the highest modes: see gvi__resolution
+// what the point j gives to the modes K, K - 1 ..: see gvi__resolution
 GVI__COLD void gvi__dial_tables(gvi_stepper *st)
 {
     struct gvi__private *in = &st->in;
-    const int pair = 1 + (st->s > 4);
-    const gvi_real *modes = in->stages == 1 ? in->table.Phi : in->table.phi;
-    for (int m = 0; m < 2*pair; ++m) {
-        const int k = st->s - 1 - m;
-        for (int j = 0; j < st->r; ++j)
-            in->dial.high[4*j + m*2/pair] =
-                in->table.inv_gamma[k]*modes[k*in->R + j]*in->table.b[j];
-    }
+    const int forces = in->stages == 1, s = st->s, R = in->R;
+    const gvi_real *modes = forces ? in->table.Phi : in->table.phi;       // not always both
+    in->dial.top = s - !(forces && !gvi__of_kind(in, GVI_CONSTRAINT));
+    for (int m = 0; m < 6; ++m)
+        for (int j = 0; j < st->r; ++j) {
+            const int k = in->dial.top - m;
+            gvi_real *to = in->dial.high + 6*j + m;
+            *to = 0;
+            if (k > 0 && k < s) *to = in->table.inv_gamma[k]*modes[k*R + j]*in->table.b[j];
+            if (k < s) continue;
+            gvi_real P = 1, before = 1;
+            for (int p = 0; p < s - 1; ++p) gvi__legendre(p, 1 - 2*in->table.c[j], &P, &before);
+            *to = P*in->table.b[j]/2;
+        }
 }
 
-/* The error of a step relative to the motion, as Legendre modes y_k of its velocity tell it.  Of a
-   coordinate, with two modes each (at degrees 3 and 4 with one),
+static gvi_real gvi__power(gvi_real x, int k)
+{
+    gvi_real y = 1;
+    for (; k > 0; k >>= 1, x *= x)
+        if (k & 1) y *= x;
+    return y;
+}
 
-     high = |y_(s-1)| + |y_(s-2)|                    push = |change of v| + high + low
-     low  = |y_(s-3)| + |y_(s-4)|                    all  = |v| at both ends + high + low
-     (s high/push high/max(high, low))^2 push/all
+/* What a coordinate lacks of its velocity, of which y are the modes K, K - 1 .., `ends` at both
+   ends and `turn` from end to end.  all: its size.                                            */
+static gvi_real gvi__missed(const gvi_stepper *st, const gvi_real *y, gvi_real ends, gvi_real turn,
+                            gvi_real *all)
+{
+    const int top = st->in.dial.top, e = 2*st->s - top,
+              stiff = st->formulation == GVI_NEWTON && st->in.chosen != GVI_NEWTON
+                      && !gvi__constrained(st);
+    gvi_real high = y[0] + y[1], low = y[2] + y[3], fall = 1;                    // fall: rho^2
 
-   high^2/low is about the pair that the curve lacks.  Of push, the forces' doing, the step lacks
-   the square of that share, since with a rule of order u >= 2s its error is of second order in the
-   curve's [2, thm. 4.1].  In positions the modes are those of M v, from the forces.  Where
-   motion is far below max |v| + max |q|/h, each times sqrt(M_ii), an error below s^2 eps of that
-   sum is rounding, and relative to it.                                                        */
+    *all = ends + high + low;
+    if (top < 4) {
+        const gvi_real one = y[1];                               // alone, a mode may pass 0
+        low = top == 3 ? one + y[2] : turn;
+        high = y[0];
+        if (one > 0) high += one*(one/(top == 3 ? low : *all))/4;
+    }
+    // rounding, a force as simple as the curve: next to nothing, whatever h
+    if (high <= 4*GVI__EPS*(st->in.stages == 1 ? turn + low : *all))
+        return high*GVI__EPS*GVI__EPS;
+    if (stiff) return high;
+
+    if (low > high) fall = high/low;
+    if (top == 2) fall *= GVI_SQRT(fall);                        // from y_1, or nearly
+    if (top >= 6) {
+        const gvi_real lower = y[4] + y[5], before = lower > low ? low/lower : 1;
+        fall = GVI__STEADY*gvi__larger(before, fall);
+        fall = lower > high ? gvi__larger(GVI_SQRT(high/lower), fall) : 1;
+    }
+    gvi_real lacks = gvi__power(fall, e/2)*10;
+    if (e & 1) lacks *= GVI_SQRT(fall);
+    return high*gvi__smaller(lacks, 1);
+}
+
+/* The error of a step relative to the motion, as Legendre modes y_k of its velocity tell it: k up
+   to K = s where forces make the curve, which lacks that mode, else K = s - 1.  Of a coordinate
+
+     high = |y_K| + |y_(K-1)|     low = |y_(K-2)| + |y_(K-3)|     lower = |y_(K-4)| + |y_(K-5)|
+     rho = max((high/lower)^(1/4), 0.8 (high/low)^(1/2), 0.8 (low/lower)^(1/2)), at most 1
+     high min(1, 10 rho^e)                                        e = 2 s - K
+
+   rho is the fall from mode to mode.  The step lacks about y_2s, which its points take for modes
+   that they see: high rho^e; ten times that, since a short tail may be flatter than it looks.
+   Stiff forces, for which Newton's method had to take over, turn all of y_s into an error: high.
+   (With constraints it takes over for other reasons.)  Below K = 4 single modes count, below 6
+   two pairs.  In positions the modes are those of M v,
+   from the forces.  Where motion is far below max |v| + max |q|/h, each times sqrt(M_ii), an
+   error of some s^2 eps of that sum is rounding, and relative to it.                          */
 static gvi_real gvi__resolution(const gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
-    const int s = st->s, R = in->R, forces = in->stages == 1, pair = 1 + (s > 4),
-              held = forces && gvi__constrained(st);
-    const gvi_real *row = in->work.V;
-    const gvi_real h = GVI_ABS(in->sized.h);
-    gvi_real *missed = in->answer, *size = missed + st->n, unit = 1;
-    gvi_real fastest = 0, farthest = 0, worst = 0;
-
-    if (forces) {
-        row = in->work.F;
-        unit = h;
-    }
-
+    const int s = st->s, R = in->R, top = in->dial.top, forces = in->stages == 1,
+              constrained = gvi__constrained(st);
+    const gvi_real *row = forces ? in->work.F : in->work.V;
+    const gvi_real h = GVI_ABS(in->sized.h), unit = forces ? h : 1,
+                   rounding = (gvi_real)(s*s)*GVI__EPS;
+    gvi_real *missed = in->answer, *size = missed + st->n, fastest = 0, farthest = 0, worst = 0;
     for (int i = 0; i < st->n; ++i, row += R) {
         const gvi_real *a = in->dial.high;
-        gvi_real y[4] = { 0, 0, 0, 0 }, start = row[0], end = row[st->r - 1];
-        for (int j = 0; j < st->r; ++j, a += 4)
-            GVI__UNROLL for (int m = 0; m < 4; ++m) y[m] += a[m]*row[j];
-        for (int m = 0; m < held*2*pair; ++m)
-            y[m*2/pair] += in->table.inv_gamma[s - 1 - m]*gvi__constraint_mode(st, i, s - 1 - m);
+        gvi_real y[6] = { 0, 0, 0, 0, 0, 0 }, start = row[0], end = row[st->r - 1];
+        for (int j = 0; j < st->r; ++j, a += 6)
+            GVI__UNROLL for (int m = 0; m < 6; ++m) y[m] += a[m]*row[j];
+        for (int m = 0; forces && constrained && m < 6 && m < top; ++m)
+            y[m] += in->table.inv_gamma[top - m]*gvi__constraint_mode(st, i, top - m);
+        GVI__UNROLL for (int m = 0; m < 6; ++m) y[m] = unit*GVI_ABS(y[m]);
         if (forces) {
             start = in->state.p[i];
             end = start + in->step.p[i];
         }
-        gvi_real high = unit*(GVI_ABS(y[0]) + GVI_ABS(y[1])),
-                 low = unit*(GVI_ABS(y[2]) + GVI_ABS(y[3]));
-        const gvi_real all = GVI_ABS(start) + GVI_ABS(end) + high + low,
-                       push = GVI_ABS(end - start) + high + low;
-        // one mode alone may pass 0; one that is rounding is 0: a force as simple as the curve
-        if (pair == 1 && high > GVI__SURE*GVI__EPS*low) high += low*(low/all)/4;
-        const gvi_real most = gvi__larger(high, low);
-        const gvi_real mass = GVI_SQRT(gvi__place_inertia(st, i));
-        gvi_real share = 0, scale = mass;
-        if (most > 0) share = high/(push + GVI__NOISE*GVI__EPS*all)*(high/most);
-        if (forces) scale = 1/mass;               // p over M
-        missed[i] = share*share*push*scale;
-        size[i] = all*scale;
+        const gvi_real mass = GVI_SQRT(gvi__place_inertia(st, i)), scale = forces ? 1/mass : mass;
+        missed[i] = scale*gvi__missed(st, y, GVI_ABS(start) + GVI_ABS(end), GVI_ABS(end - start),
+                                      size + i);
+        size[i] *= scale;                         // p over M
         fastest = gvi__larger(size[i], fastest);
         farthest = gvi__larger(GVI_ABS(in->state.q[i])*mass, farthest);
     }
@@ -8319,13 +8366,13 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
     const gvi_real whole = fastest + farthest/h;
     if (!(whole > 0)) return 0;
     for (int i = 0; i < st->n; ++i) {
+        const int rests = size[i] < whole/GVI__RESTS;
         // forces of constraint bring more of it, to every coordinate, and no h makes it smaller
-        if (held && missed[i] <= GVI__PULLED*GVI__EPS*whole) continue;
-        if (missed[i] <= GVI__EPS*whole && size[i] < whole/GVI__RESTS) size[i] = whole;
+        if (constrained && (forces || rests) && missed[i] <= GVI__PULLED*GVI__EPS*whole) continue;
+        if (rests && missed[i] <= GVI__CANCELS*rounding*whole) size[i] = whole;
         worst = gvi__larger(missed[i]/size[i], worst);
     }
-
-    return (gvi_real)(s*s)*worst;
+    return worst;
 }
 
 static gvi_status gvi__dial_accept(gvi_stepper *st)
@@ -8354,27 +8401,64 @@ static gvi_real gvi__length(gvi_real k)
     return GVI_LDEXP((GVI_FLOOR(k) - 4*octave)/8, (int)octave);
 }
 
-/* st.next after a step of length h.  `room`: how many rungs up the resolution, of order 2s - 1 in
-   h, would reach its limit, by this step, less what was lost since the last.  From 0 to 4 rungs
-   h stays as it is.                                                                           */
+/* How many rungs up, after a step that succeeded.  `room`: up to where the resolution, of order
+   2s - 1 in h, reaches its limit, less a margin.  What was lost of it since the last step will be
+   lost again; a first loss may be chance, and shrinks h by little.  From 0 to 4 rungs h stays as
+   it is.  Work over time is iterations/h: from GVI__MANY of them on h does not grow, from 5/3 of
+   that on it shrinks a little.                                                                */
+static gvi_real gvi__rungs_up(gvi_stepper *st, gvi_real at, gvi_real room)
+{
+    struct gvi__dial *dial = &st->in.dial;
+    // by velocities the iteration contracts with h, not h^2
+    const int many = st->in.stages == 2 ? GVI__MANY*3/2 : GVI__MANY,
+              newton = st->formulation == GVI_NEWTON;
+    gvi_real left = room, up = 0;
+
+    if (room < 2*GVI__BAND) {
+        const gvi_real loss = dial->reach - (at + room);
+        if (loss > 0) left -= loss;
+        if (room > 0 && dial->loss <= 0) left = gvi__larger(left, -GVI__DOUBT);
+        dial->loss = loss;
+        dial->reach = at + room;
+    }
+    if (left > GVI__BAND) up = gvi__smaller(left - GVI__SHY, GVI__BAND);
+    if (left < 0) up = gvi__larger(left - 1, -GVI__FALL);
+
+    dial->shorter = newton ? 0 : GVI__SHORTER;
+    if (!newton && st->iterations >= many) up = gvi__smaller(up, 0);
+    if (!newton && st->iterations >= many*5/3) up = gvi__smaller(up, -1);
+    dial->wait -= dial->wait > 0;
+    if (dial->wait > 0 && up > 0)
+        up = gvi__larger(gvi__smaller(up, dial->barrier - 1 - at), 0);
+    return up;
+}
+
+/* The same after a failure.  The length is barred for a while, longer each time.  Where the fixed
+   point failed, shorter steps come first; Newton's method is for where they fail, too.        */
+static gvi_real gvi__rungs_down(gvi_stepper *st, gvi_status status, gvi_real at, gvi_real room)
+{
+    struct gvi__dial *dial = &st->in.dial;
+
+    dial->again = GVI_ABS(at - dial->barrier) > 2 ? 0 : dial->again + (dial->again < 4);
+    dial->wait = GVI__WAIT << dial->again;
+    dial->barrier = at;
+    if (status == GVI_E_RESOLUTION) return gvi__larger(gvi__smaller(room, 0) - 1, -GVI__FALL);
+    if (dial->shorter == 0) return -GVI__FALL;
+
+    dial->shorter -= 1;
+    return -3;
+}
+
+// st.next after a step of length h
 static void gvi__set_next(gvi_stepper *st, gvi_status status, gvi_real h)
 {
-    const gvi_real seen = st->resolution > GVI__MIN ? st->resolution : GVI__MIN, at = gvi__rungs(h);
+    const gvi_real seen = gvi__larger(st->resolution, GVI__MIN), at = gvi__rungs(h);
     const gvi_real most = gvi__rungs(st->in.desc.resolution) - gvi__rungs(seen);
     // the modes end at rounding: above GVI__DEEP the resolution falls no faster than there
-    int degree = GVI__DEEP;
-
-    if (st->s < degree) degree = st->s;
-    gvi_real room = most/(gvi_real)(2*degree - 1), up = 0;
-    if (status == GVI_OK && room < 2*GVI__BAND) {
-        const gvi_real loss = st->in.dial.reach - (at + room);
-        st->in.dial.reach = at + room;
-        if (loss > 0) room -= loss;
-    }
-
-    if (room > GVI__BAND) up = gvi__smaller(room - (gvi_real)1.5, GVI__BAND);
-    if (room < 0) up = gvi__larger(room - 1, -GVI__FALL);
-    if (status != GVI_OK && status != GVI_E_RESOLUTION) up = -GVI__FALL;
+    const int degree = st->s < GVI__DEEP ? st->s : GVI__DEEP;
+    const gvi_real room = most/(gvi_real)(2*degree - 1) - GVI__MARGIN,
+                   up = status == GVI_OK ? gvi__rungs_up(st, at, room)
+                                         : gvi__rungs_down(st, status, at, room);
     const gvi_real next = gvi__length(at + up);
     if (up < 0 || (up > 0 && h >= st->next)) st->next = next;
 }
@@ -8414,7 +8498,9 @@ GVI_DEF gvi_status gvi_advance(gvi_stepper *st, gvi_real t_end)
         gvi_real h = st->next;
         if (!clock && left < h*2) h = left/2;
         if (!clock && left < st->next*(gvi_real)1.0625) h = left;
+        st->in.dial.put_off = st->in.dial.shorter > 0;
         const gvi_status status = gvi_step(st, way > 0 ? h : -h);
+        st->in.dial.put_off = 0;
         gvi__set_next(st, status, h);
         if (status == GVI_OK) {
             if (!clock && h >= left) {
@@ -9391,7 +9477,7 @@ GVI__COLD void gvi__place_layout(struct gvi__private *in, gvi__arena *a)
 #endif
 #ifndef GVI_NO_DIAL
     const size_t R = (size_t)GVI__ROW(in->desc.rule.points);
-    in->dial.high = gvi__take(a, in->desc.resolution > 0 ? 4 : 0, R);
+    in->dial.high = gvi__take(a, in->desc.resolution > 0 ? 6 : 0, R);
 #endif
 #ifndef GVI_NO_NEWTON
     if (in->newton.covers) gvi__newton_layout(in, gvi__held_rows(in), a);        // J comes last
@@ -9449,7 +9535,10 @@ GVI__COLD void gvi__place_started(gvi_stepper *st)
     gvi__newton_forget(st);
 #endif
 #ifndef GVI_NO_DIAL
-    st->in.dial.reach = -GVI__MAX;
+    st->in.dial.reach = st->in.dial.barrier = -GVI__MAX;
+    st->in.dial.loss = 0;
+    st->in.dial.wait = st->in.dial.again = 0;
+    st->in.dial.shorter = GVI__SHORTER;
 #endif
 }
 
@@ -9534,6 +9623,9 @@ static int gvi__place_solve(gvi_stepper *st, const gvi__origin *from, gvi_real h
 static gvi_status gvi__place_turn(gvi_stepper *st, const gvi__origin *from, gvi_real h, int query,
                                   gvi_status status)
 {
+#ifndef GVI_NO_DIAL
+    if (st->in.dial.put_off && status == GVI_E_CONVERGENCE) return status;
+#endif
 #ifndef GVI_NO_NEWTON
     return gvi__newton_turn(st, from, h, query, status);
 #else

@@ -2,7 +2,7 @@
 
 .PHONY: headers-quick headers symbols chapters docs-check reference bound float instructions prices usable languages boards sanitize sanitized any_processor \
         ensemble deps-ensemble embedded-page tolerances firmware deps-firmware fuzz fuzz-short fuzz-rolling fuzz-rolling-short size stats compare everywhere deps-everywhere \
-        cost-dial cost-horizon cost-constraints cost-rolling kicks points from-l mycost cost-embedded hard theorems mutants coverage covered
+        cost-dial cost-rebound cost-horizon cost-constraints cost-rolling kicks points from-l mycost cost-embedded hard theorems mutants coverage covered
 
 # -- steps of `make test` and `make check`; each can be run alone
 
@@ -169,6 +169,14 @@ cost-dial:
 	$(Q)$(MAKE) --no-print-directory BUILD=$(BUILD)/dial COST_CFLAGS=-O2 $(BUILD)/dial/cost/cost
 	$(Q)$(BUILD)/dial/cost/cost --dial --out $(BUILD)/dial/cost $(COST_ARGS) | tee $(BUILD)/dial/cost/table.txt
 	$(Q)sh tests/tools/cost_record.sh $(BUILD)/dial '$(RECORD)' dial
+
+#: cost-rebound REBOUND=folder: gvi.h by its dial against the IAS15 of the REBOUND that is there, compiled by its own Makefile in
+#:              a copy (a minute); RECORD=--record puts the table into docs/cost.md
+cost-rebound:
+	$(Q)$(if $(REBOUND),,echo 'make cost-rebound REBOUND=folder: that of a clone of REBOUND'; exit 1)
+	$(Q)$(MAKE) --no-print-directory BUILD=$(BUILD)/dial COST_CFLAGS=-O2 $(BUILD)/dial/cost/problems.o
+	$(Q)sh tests/tools/cost_rebound.sh $(BUILD)/dial '$(REBOUND)'
+	$(Q)sh tests/tools/cost_record.sh $(BUILD)/dial '$(RECORD)' rebound
 
 #: cost-horizon the outer solar system at 1, 10 and 100 times its length
 cost-horizon: $(BUILD)/cost/cost
