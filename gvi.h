@@ -8331,14 +8331,15 @@ static gvi_real gvi__missed(const gvi_stepper *st, const gvi_real *y, gvi_real e
    that they see: high rho^e; ten times that, since a short tail may be flatter than it looks.
    Stiff forces, for which Newton's method had to take over, turn all of y_s into an error: high.
    (With constraints it takes over for other reasons.)  Below K = 4 single modes count, below 6
-   two pairs.  In positions the modes are those of M v,
-   from the forces.  Where motion is far below max |v| + max |q|/h, each times sqrt(M_ii), an
-   error of some s^2 eps of that sum is rounding, and relative to it.                          */
+   two pairs.  In positions the modes are those of M v, from the forces.  Where motion is far below
+   max |v| + max |q|/h, each times sqrt(M_ii), an error of some s^2 eps of that sum is rounding,
+   and relative to it.                                                                         */
 static gvi_real gvi__resolution(const gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
     const int s = st->s, R = in->R, top = in->dial.top, forces = in->stages == 1,
-              constrained = gvi__constrained(st);
+              constrained = gvi__constrained(st),
+              pulled = forces & constrained ? top < 6 ? top : 6 : 0;
     const gvi_real *row = forces ? in->work.F : in->work.V;
     const gvi_real h = GVI_ABS(in->sized.h), unit = forces ? h : 1,
                    rounding = (gvi_real)(s*s)*GVI__EPS;
@@ -8348,7 +8349,7 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
         gvi_real y[6] = { 0, 0, 0, 0, 0, 0 }, start = row[0], end = row[st->r - 1];
         for (int j = 0; j < st->r; ++j, a += 6)
             GVI__UNROLL for (int m = 0; m < 6; ++m) y[m] += a[m]*row[j];
-        for (int m = 0; forces && constrained && m < 6 && m < top; ++m)
+        for (int m = 0; m < pulled; ++m)
             y[m] += in->table.inv_gamma[top - m]*gvi__constraint_mode(st, i, top - m);
         GVI__UNROLL for (int m = 0; m < 6; ++m) y[m] = unit*GVI_ABS(y[m]);
         if (forces) {
