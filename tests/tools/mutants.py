@@ -122,7 +122,7 @@ MUTANTS = [
     ("effects constraints why", "        in->off = was;\n        in->con.m = gvi__count_rows(in, gvi__constraints_on(st));\n", "        in->off = was;\n"),
     ("api", "if (index < 0 || index >= in->desc.effect_count)", "if (index < 0)"),
     ("clock", "time->H_low = H.lo;", "time->H_low = 0;"),
-    ("resolution", "for (int m = 0; forces && constrained && m < 6 && m < top; ++m)", "for (int m = 0; m < 0; ++m)"),
+    ("resolution", "for (int m = 0; m < pulled; ++m)", "for (int m = 0; m < 0; ++m)"),
     ("constraints constraints_order", "in->con.y[a - n] /= h*in->con.w[s];", "in->con.y[a - n] /= h;"),
     ("newton", "p.have = kept && !gvi__nonzero(in->newton.h - in->sized.h);", "p.have = kept;"),
     ("newton constraints_newton", "if ((J->square[k*(size + 1)] < 0) != (J->pivot[k] > (gvi_real)k)) sign = -sign;", "if (J->square[k*(size + 1)] < 0) sign = -sign;"),
