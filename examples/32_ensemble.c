@@ -27,7 +27,7 @@
 
 enum { MOST = 1000, STEPS = 5000 };
 static const double h = 0.4, chaotic = 4;
-static const svg_axis along_y = { 0, -0.45, 0.68, 80, 610, 8 }, along_w = { 0, -0.5, 0.5, 400, 50, 8 };
+static const svg_axis along_y = { 0, -0.45, 0.68, 80, 610, 8, 0 }, along_w = { 0, -0.5, 0.5, 400, 50, 8, 0 };
 
 typedef struct result { double y, w, megno; int steps, status; } result;
 

@@ -1,10 +1,10 @@
 /* flyby.c - what desc.resolution refuses (docs/hard-cases.md)
 
    A probe passes the Earth at 8 km/s: b = 8,000 to 150,000 km, steps of 1 min to 10 d,
-   degrees 6, 8, 12, 96 flybys, each with the pericentre at five places of a step.  Every
+   degrees 3 to 12, 192 flybys, each with the pericentre at five places of a step.  Every
    step starts on the exact hyperbola and is compared with it: no step that is wrong by
-   more than 1e-6 may be below a limit of 1e-5, and fewer than one in a hundred right ones
-   above it.                                                             */
+   more than a limit of 1e-5 may be below it, and fewer than one in a hundred right ones
+   above it, at degree 3, which has two modes alone, one in fifty.        */
 #include "hard.h"
 
 static const long double mu = 398600.4418L, v_far = 8;             /* km, s */
@@ -34,6 +34,7 @@ static void exact(long double b, long double t, real *q, real *v)
     v[1] = (real)(a*root*coshl(H)*rate);
 }
 
+static const double limit = 1e-5;
 static long wrong, missed, right, alarms;
 
 static void look(int degree, double b, double t, double h)
@@ -51,8 +52,8 @@ static void look(int degree, double b, double t, double h)
     if (gvi_step(&st, h) != GVI_OK) return;       /* refused: nothing to be missed */
     const double error = hypot(st.q[0] - to[0], st.q[1] - to[1])/((double)v_far*h)
                          + hypot(st.p[0] - u[0], st.p[1] - u[1])/(double)v_far;
-    const int seen = st.resolution > 1e-5;
-    if (error > 1e-6) wrong += 1, missed += !seen;
+    const int seen = st.resolution > limit;
+    if (error > limit) wrong += 1, missed += !seen;
     else right += 1, alarms += seen;
 }
 
@@ -60,7 +61,7 @@ int main(void)
 {
     static const double steps[] = { 60, 600, 3600, 14400, 43200, 172800, 432000, 864000 };
     static const double distances[] = { 8000, 20000, 60000, 150000 }, places[] = { 0.5, 0.3, 0.11, 0.03, 0 };
-    static const int degrees[] = { 6, 8, 12 };
+    static const int degrees[] = { 3, 4, 5, 6, 8, 12 };
     for (int d = 0; d < COUNT(degrees); ++d) {
         const int degree = degrees[d];
         wrong = missed = right = alarms = 0;
@@ -71,10 +72,10 @@ int main(void)
                     const int count = far > 3 ? (int)far + 1 : 3;
                     for (int k = -count; k <= count; ++k) look(degree, distances[j], (k - places[m])*h, h);
                 }
-        printf("degree %d: %ld steps wrong by more than 1e-6, %ld right\n", degree, wrong, right);
+        printf("degree %d: %ld steps wrong by more than 1e-5, %ld right\n", degree, wrong, right);
         expect("wrong steps", 50, (double)wrong, 1e6);
         expect("of these below the limit", 0, (double)missed, 0);
-        expect("right steps above it, their share", 0, (double)alarms/(double)right, 0.01);
+        expect("right steps above it, their share", 0, (double)alarms/(double)right, degree > 3 ? 0.01 : 0.02);
     }
     return verdict("flyby");
 }
