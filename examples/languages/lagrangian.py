@@ -24,7 +24,7 @@ from gvi import pointer, real, view
 
 class Wanted(C.Structure):
     _fields_ = [("x", C.POINTER(gvi.gvi_points)), ("w", pointer), ("one", C.c_int), ("scale", real), ("value", pointer),
-                ("by_q", pointer), ("by_w", pointer), ("first", C.c_int), ("apart", C.c_int), ("user", C.c_void_p)]
+                ("by_q", pointer), ("by_w", pointer), ("first", C.c_int), ("end", C.c_int), ("apart", C.c_int), ("user", C.c_void_p)]
 
 
 add_fn = C.CFUNCTYPE(None, C.POINTER(Wanted))
@@ -45,7 +45,7 @@ def adds(L):
             z[n + a.one] = 1
         t = view(x.t, (count,))
         directions = [(i, a.by_q, i*stride) for i in range(n) if a.by_q]
-        directions += [(n + i, a.by_w, i*a.apart) for i in range(a.first, n) if a.by_w]
+        directions += [(n + i, a.by_w, i*a.apart) for i in range(a.first, a.end) if a.by_w]
         value = None
         for d, out, at in directions:
             z[d] += 1j*STEP

@@ -323,8 +323,9 @@ template <class F, int n> inline void lagrangian_any(const lagrangian_wanted *a)
     static void name##_add(const lagrangian_wanted *wanted) { lagrangian_any<name##_body, n>(wanted); } \
     static const lagrangian_function name = { n, name##_add };                                  \
     template <class number>                                                                     \
-    LAGRANGIAN__UNROLLED LAGRANGIAN__ALWAYS inline number name##_body::at(LAGRANGIAN__UNUSED number t, LAGRANGIAN__UNUSED const number *q, \
-                                  LAGRANGIAN__UNUSED const number *w, LAGRANGIAN__UNUSED const void *user) const
+    LAGRANGIAN__UNROLLED LAGRANGIAN__ALWAYS inline number name##_body::at(                      \
+        LAGRANGIAN__UNUSED number t, LAGRANGIAN__UNUSED const number *q,                        \
+        LAGRANGIAN__UNUSED const number *w, LAGRANGIAN__UNUSED const void *user) const
 #endif
 
 #define LAGRANGIAN(name, n) LAGRANGIAN__FUNCTION(name, n, v)
