@@ -8332,8 +8332,9 @@ static gvi_real gvi__missed(const gvi_stepper *st, const gvi_real *y, gvi_real e
    Stiff forces, for which Newton's method had to take over, turn all of y_s into an error: high.
    (With constraints it takes over for other reasons.)  Below K = 4 single modes count, below 6
    two pairs.  In positions the modes are those of M v, from the forces.  Where motion is far below
-   max |v| + max |q|/h, each times sqrt(M_ii), an error of some s^2 eps of that sum is rounding,
-   and relative to it.                                                                         */
+   max |v| + max |q|/h, each times sqrt(M_ii), and below max |v| + |q_i|/h, so that neither a light
+   body nor one near the origin counts as at rest, an error of some s^2 eps of the smaller of these
+   is rounding, and relative to it.                                                            */
 static gvi_real gvi__resolution(const gvi_stepper *st)
 {
     const struct gvi__private *in = &st->in;
@@ -8343,7 +8344,8 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
     const gvi_real *row = forces ? in->work.F : in->work.V;
     const gvi_real h = GVI_ABS(in->sized.h), unit = forces ? h : 1,
                    rounding = (gvi_real)(s*s)*GVI__EPS;
-    gvi_real *missed = in->answer, *size = missed + st->n, fastest = 0, farthest = 0, worst = 0;
+    gvi_real *missed = in->answer, *size = missed + st->n, *mass = size + st->n;
+    gvi_real fastest = 0, farthest = 0, v = 0, worst = 0;
     for (int i = 0; i < st->n; ++i, row += R) {
         const gvi_real *a = in->dial.high;
         gvi_real y[6] = { 0, 0, 0, 0, 0, 0 }, start = row[0], end = row[st->r - 1];
@@ -8356,21 +8358,26 @@ static gvi_real gvi__resolution(const gvi_stepper *st)
             start = in->state.p[i];
             end = start + in->step.p[i];
         }
-        const gvi_real mass = GVI_SQRT(gvi__place_inertia(st, i)), scale = forces ? 1/mass : mass;
+        mass[i] = GVI_SQRT(gvi__place_inertia(st, i));
+        const gvi_real scale = forces ? 1/mass[i] : mass[i];
         missed[i] = scale*gvi__missed(st, y, GVI_ABS(start) + GVI_ABS(end), GVI_ABS(end - start),
                                       size + i);
         size[i] *= scale;                         // p over M
         fastest = gvi__larger(size[i], fastest);
-        farthest = gvi__larger(GVI_ABS(in->state.q[i])*mass, farthest);
+        farthest = gvi__larger(GVI_ABS(in->state.q[i])*mass[i], farthest);
+        v = gvi__larger(size[i]/mass[i], v);
     }
 
     const gvi_real whole = fastest + farthest/h;
     if (!(whole > 0)) return 0;
     for (int i = 0; i < st->n; ++i) {
-        const int rests = size[i] < whole/GVI__RESTS;
+        const gvi_real own = mass[i]*(v + GVI_ABS(in->state.q[i])/h),
+                       around = gvi__smaller(own, whole);
+        const int rests = size[i] < around/GVI__RESTS;
+
         // forces of constraint bring more of it, to every coordinate, and no h makes it smaller
         if (constrained && (forces || rests) && missed[i] <= GVI__PULLED*GVI__EPS*whole) continue;
-        if (rests && missed[i] <= GVI__CANCELS*rounding*whole) size[i] = whole;
+        if (rests && missed[i] <= GVI__CANCELS*rounding*around) size[i] = around;
         worst = gvi__larger(missed[i]/size[i], worst);
     }
     return worst;

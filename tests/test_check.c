@@ -633,4 +633,30 @@ TEST(clocks_are_checked)
     clock_sign = 1;
 }
 
+/* A skate: the row of velocities is no derivative, so that only numbers are to be wanted */
+static gvi_real edge = 1;
+static int skate(const gvi_points *x, void *user)
+{
+    for (int k = 0; k < x->count; ++k) {
+        x->jacobian[k] = -sin(x->q[2*x->stride + k])*edge;
+        x->jacobian[x->stride + k] = cos(x->q[2*x->stride + k]);
+        x->rate[k] = x->t[k];
+    }
+    return (void)user, 0;
+}
+
+TEST(rows_of_velocities_have_to_be_numbers)
+{
+    const gvi_effect scene[] = { { .kind = GVI_NONHOLONOMIC, .points = skate, .rows = 1 } };
+    const gvi_desc desc = { .n = 3, .effects = scene, .effect_count = 1 };
+    const gvi_real q[3] = { 1, 2, 0.5 }, v[3] = { cos(0.5), sin(0.5), 1 };
+    check_finding list[9];
+    check_report report = { .list = list, .room = 9 };
+    assert_int_equal(check_scene(&desc, 0, q, v, &report), 0);
+    edge = NAN;
+    assert_true(check_scene(&desc, 0, q, v, &report) > 0);
+    assert_int_equal(list[0].what, CHECK_REFUSED);
+    edge = 1;
+}
+
 RUN_TESTS(NULL, NULL)

@@ -164,6 +164,40 @@ TEST(the_unit_of_mass_changes_nothing)
     }
 }
 
+/* Two planets about suns of their own that do not act on each other, each with its mass: user is those of x and y */
+static int two_planets(const gvi_points *x, void *user)
+{
+    const real *m = user;
+    for (int k = 0; k < x->count; ++k)
+        for (int i = 0; i < 4; i += 2) {
+            const int at = i*x->stride + k;
+            const real X = x->q[at], Y = x->q[at + x->stride], d2 = X*X + Y*Y, w = -m[i]/(d2*sqrt(d2));
+            x->f[at] += w*X;
+            x->f[at + x->stride] += w*Y;
+        }
+    return 0;
+}
+
+/* A heavy planet, or one far away, does not hide the error of the other, which comes back where it began */
+TEST(a_light_body_and_a_near_one_are_resolved)
+{
+    static const double masses[] = { 1, 1e-6, 1e-12, 1e-18, 1, 1, 1 }, places[] = { 30, 30, 30, 30, 1e3, 1e6, 1e9 };
+    static real memory[GVI_LENGTH(4, 8, 8)];
+    const real dial = sizeof(real) == 4 ? R(1e-4) : R(1e-11), end = 10*acos(-R(1.0));
+    for (int k = 0; k < COUNT(masses); ++k) {
+        real mass[4] = { 1, 1, (real)masses[k], (real)masses[k] };
+        const real q[4] = { (real)places[k], 0, R(0.4), 0 }, v[4] = { 0, 1/sqrt((real)places[k]), 0, 2 };
+        const gvi_effect suns = { .kind = GVI_POTENTIAL, .points = two_planets, .user = mass };
+        const gvi_desc desc = { .n = 4, .effects = &suns, .effect_count = 1, .resolution = dial,
+                                .mass = { .kind = GVI_MASS_DIAGONAL, .matrix = mass } };
+        gvi_stepper st;
+        assert_status(gvi_init(&st, &desc, memory, sizeof memory), GVI_OK);
+        assert_status(gvi_start(&st, 0, q, v), GVI_OK);
+        while (st.t < end) assert_status(gvi_advance(&st, end), GVI_OK);
+        assert_true(hypot(st.q[2] - R(0.4), st.q[3]) < 1000*dial);
+    }
+}
+
 TEST(it_lands_on_the_end_to_the_bit)
 {
     for (int k = 0; k < 400; ++k) {

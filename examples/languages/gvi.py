@@ -28,7 +28,7 @@ GAUSS, LOBATTO, OWN, KICKS = range(4)
 AUTO, EXPLICIT, POSITIONS, VELOCITIES, MOMENTA, NEWTON = range(6)
 real, pointer, whole, address, text = C.c_double, C.POINTER(C.c_double), C.c_int, C.c_void_p, C.c_char_p
 
-def structure(name, fields): return type(name, (C.Structure,), {"_fields_": fields})
+def structure(name, fields): return type(name, (C.Structure,), {"_fields_": fields, "__slots__": ()})    # no other names
 
 ARRAYS = {"t": "", "q": "n", "v": "n", "p": "n", "f": "n", "dldv": "n", "value": "", "mass": "nn", "velocity": "n", "g": "m",
           "jacobian": "mn", "rate": "m"}

@@ -618,6 +618,20 @@ static inline void check_constraint(struct check_run *c, int index)
         }
 }
 
+/* Rows A v + a = 0 are no derivatives: A and a have to be numbers              */
+static inline void check_rolling(struct check_run *c, int index)
+{
+    const int rows = c->desc->effects[index].rows;
+    gvi_real g;
+    c->effect = index;
+    c->row = 1;
+    for (int k = 0; k < CHECK_POINTS; ++k) {
+        check_go_to(c, k);
+        if (check_g(c, &g) || !check_finite(rows*c->n, c->found) || !check_finite(rows, c->two))
+            check_note(c, CHECK_REFUSED, "A or a", -1, -1);
+    }
+}
+
 static inline void check_one_effect(struct check_run *c, int index)
 {
     const gvi_effect *e = c->desc->effects + index;
@@ -952,6 +966,7 @@ static inline int check_scene(const gvi_desc *desc, gvi_real t, const gvi_real *
     check_whole_mass(&c);
     for (int e = 0; e < desc->effect_count; ++e)
         if (desc->effects[e].kind == GVI_CONSTRAINT) check_constraint(&c, e);
+        else if (desc->effects[e].kind == GVI_NONHOLONOMIC) check_rolling(&c, e);
         else check_one_effect(&c, e);
     free(memory);
     return report->count;

@@ -22,12 +22,12 @@ static const double one[1] = { 1 };
 static const struct central_gravity sun = { { 0, 1, 2 }, one, 1, { 0, 0, 0 } };
 static double memory[GVI_LENGTH(4, 8, 8)];
 
-static int checked(const gvi_desc *desc, const double *q, const double *v)
+static int checked(gvi_desc desc, const double *q, const double *v)
 {
     check_finding list[10];
     check_report report = { .list = list, .room = 10 };
     char line[300];
-    check_scene(desc, 0, q, v, &report);
+    check_scene(&desc, 0, q, v, &report);
     for (int i = 0; i < report.count && i < 10; ++i) puts(check_line(&list[i], line, sizeof line));
     return report.count;
 }
@@ -53,7 +53,7 @@ static int typed(const double *q, const double *v)
     if (lagrangian_init(&L, by_l, NULL, 0, q, v) || hamiltonian_init(&H, by_h, NULL, 0, q, v)) return 0;
     const gvi_effect from_l = lagrangian_effect(&L), from_h = hamiltonian_effect(&H);
     gvi_desc desc = { .n = 2, .mass = lagrangian_mass(&L), .effects = &from_l, .effect_count = 1 };
-    if (L.kind != LAGRANGIAN_POTENTIAL || checked(&desc, q, v)) return 0;
+    if (L.kind != LAGRANGIAN_POTENTIAL || checked(desc, q, v)) return 0;
     gvi_init(&a, &desc, room[0], sizeof room[0]);
     gvi_start(&a, 0, q, v);
     desc.effects = &from_h;
@@ -114,7 +114,7 @@ int main(void)
     gvi_stepper st;
     int found = 0;
 
-    if (checked(&desc, q, v)) return 1;
+    if (checked(desc, q, v)) return 1;
     if (!typed(q, v)) return 5;
     if (!rolled()) return 6;
     gvi_init(&st, &desc, memory, sizeof memory);

@@ -83,7 +83,7 @@ MUTANTS = [
     ("resolution", "if (!clock && left < h*2) h = left/2;", ""),
     ("resolution api", "st->counters.worst_resolution = gvi__larger(st->resolution, st->counters.worst_resolution);", ""),
     ("resolution", "if (left > GVI__BAND) up = ", "if (left > -1) up = "),
-    ("resolution", "scale = forces ? 1/mass : mass;", "scale = mass;"),
+    ("resolution", "scale = forces ? 1/mass[i] : mass[i];", "scale = mass[i];"),
     # verdicts
     ("tolerance", "if (was > 0 && D > GVI__FAR*GVI__FAR) return 0;", ""),
     ("convergence", "if (!(D*other <= limit)) return 0;", ""),

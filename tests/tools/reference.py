@@ -71,6 +71,8 @@ while k < len(lines):
         (functions if line.startswith("GVI_DEF") else types).append(
             Entry(name, [b.replace("GVI_DEF ", "", 1) if i == 0 else b[8:] if line.startswith("GVI_DEF") else b
                          for i, b in enumerate(block)], comment))
+        if types and types[-1].comment is comment:
+            comment = []
     elif re.match(r"#define GVI_(?!_|NO_|DEF|REAL|EFFECTS|UNROLL|VERSION)[A-Z_]+", line):
         name = re.match(r"#define (GVI_\w+)", line).group(1)
         if name not in [m.name for m in macros]:
