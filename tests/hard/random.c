@@ -130,6 +130,7 @@ static L motion_of(const scene *z, L t0, L h, const L *y0, L *y1, L *stretch, in
     const L H = fminl(0.5L/(L)frequency(z, (double)norm(n, y0), (double)norm(n, V)), fabsl(h)/1.5L)/finer;
     L z1[2*N], size = norm(n, y0) + norm(n, y0 + n);
     worst_rank = 1;
+    finer_by = 3 + finer;
     memcpy(y1, y0, sizeof *y1*(size_t)(2*n));
     flow(&a, t0, t0 + h, H, y1);
     if (finer > 1) return 0;

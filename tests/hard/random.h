@@ -327,6 +327,7 @@ typedef L real_;
 #undef real
 
 static L worst_rank;                               /* smallest pivot of G M^-1 G' over the largest, since it was set to 1 */
+static int finer_by = 4;                           /* how fine the differences are that give the multipliers */
 
 static void rates_of(L t, const L *y, L *dy, void *user)
 {
@@ -340,7 +341,7 @@ static void rates_of(L t, const L *y, L *dy, void *user)
     if (!m) return;
     L g[2*M], G[2*M*N], rate[2*M], lambda[2*M];
     rows_at(z, t, q, g, G, rate);
-    worst_rank = fminl(worst_rank, multipliers_of(z, t, q, p, dy, s.f, G, 2, lambda));
+    worst_rank = fminl(worst_rank, multipliers_of(z, t, q, p, dy, s.f, G, finer_by, lambda));
     for (int a = 0; a < m; ++a)
         for (int i = 0; i < n; ++i) dy[n + i] += G[a*n + i]*lambda[a];
 }
